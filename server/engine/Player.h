@@ -1,0 +1,59 @@
+// A person (or bot) at a terminal. Games that know players read and set these; games that do not never
+// meet one and hear everybody's keys.
+//
+// A Player exists from its EventJoin until just after its EventLeave; `WM.getPlayer(id)` is null outside
+// that. Ids count up from 1 and are not used again in a world. All calls on the thread that runs the tick.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "Object.h"
+#include "Vector.h"
+#include "WorldView.h"
+
+namespace df {
+
+class Player {
+ public:
+  Player(std::uint32_t id, std::string name, Color color);
+
+  std::uint32_t getId() const { return m_id; }
+  const std::string& getName() const { return m_name; }
+  /// The player's colour: seven take turns, so that the first seven players differ.
+  Color getColor() const { return m_color; }
+
+  /// The Object this player steers; null after its deletion. The view follows it (see setViewFollowing).
+  /// Passing null leaves the view where it is. Return 0, or -1 for an Object of another world.
+  int setObject(Object* p_o);
+  Object* getObject() const;
+
+  /// Points, shown in the client's player list.
+  void setScore(int score) { m_score = score; }
+  int getScore() const { return m_score; }
+
+  /// Show `text` to this player only, at cell `position` of the player's view, under number `id`
+  /// (0 to 15); an empty text removes it. Characters that no terminal draws in one cell become '?'.
+  /// Return 0, or -1 for an id, position or colour out of range (nothing changes).
+  int setText(std::uint32_t id, Vector position, const std::string& text, Color color = COLOR_DEFAULT);
+
+  /// Upper left corner of this player's view, in world coordinates.
+  Vector getViewCorner() const { return Vector::fromFixed(m_view_corner); }
+
+  /// The plain-data form, for the host.
+  PlayerFacts facts() const;
+
+ private:
+  friend class World;
+  std::uint32_t m_id;
+  std::string m_name;
+  Color m_color;
+  int m_score = 0;
+  World* m_p_world = nullptr;
+  ObjectKey m_object;
+  FixedVector m_view_corner;
+  std::map<std::uint32_t, PlayerText> m_texts;
+};
+
+}  // namespace df

@@ -1,0 +1,16 @@
+// The seam through which somebody else may run a game's loop: GM.run() hands its world to the installed
+// Runner. The host implements one (sockets, a clock, players); without any, GM.run() steps headless.
+#pragma once
+
+namespace df {
+
+class World;
+
+class Runner {
+ public:
+  virtual ~Runner() = default;
+  /// Call `world.tick()` until the game is over (World::isGameOver) or the runner has a reason to stop.
+  virtual void run(World& world) = 0;
+};
+
+}  // namespace df

@@ -1,0 +1,86 @@
+// What a tick changed, as plain data: the one window through which a host looks at a world.
+//
+// The engine fills a WorldView at the end of every tick while somebody watches (World::setWatched) and
+// spends nothing on it otherwise. It holds no pointers into the world, so it could cross a process
+// boundary. The engine knows nothing of who reads it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "Color.h"
+#include "Fixed.h"
+#include "Solidness.h"
+
+namespace df {
+
+/// A slot of the world store and the generation that occupies it. Two objects never share both.
+struct ObjectKey {
+  std::uint32_t slot = 0;
+  std::uint32_t generation = 0;  ///< 0 is nobody
+  friend bool operator==(ObjectKey, ObjectKey) = default;
+};
+
+/// State of one object that appeared or changed (moved, turned, resized …) in the tick.
+struct ObjectFacts {
+  ObjectKey key;
+  std::uint64_t order = 0;    ///< creation order in the world: a total order, never reused
+  FixedVector position;       ///< at the end of the tick
+  FixedVector velocity;       ///< what update() will add next tick; zero if the last move was blocked
+  FixedVector acceleration;   ///< added to the velocity after each move; zero if blocked
+  FixedBox box;               ///< relative to the position
+  Solidness solidness = HARD;
+  bool no_soft = false;
+  bool shown = true;          ///< active and visible: false means it must not be drawn
+  int altitude = 2;
+};
+
+/// One character put on the screen, in world coordinates.
+struct DrawCommand {
+  FixedVector position;
+  char32_t ch = U' ';
+  Color color = COLOR_DEFAULT;
+};
+
+/// The characters one object's draw() put on the screen this tick: commands[first, first + count).
+struct DrawnObject {
+  ObjectKey key;              ///< key.generation 0: drawn outside any object's draw()
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+/// A text that one player sees, in cells of that player's view. Empty text: removed.
+struct PlayerText {
+  std::uint32_t id = 0;
+  int x = 0;
+  int y = 0;
+  Color color = COLOR_DEFAULT;
+  std::string text;  ///< UTF-8, drawable characters only
+  friend bool operator==(const PlayerText&, const PlayerText&) = default;
+};
+
+/// A player as seen from outside the world.
+struct PlayerFacts {
+  std::uint32_t id = 0;
+  std::string name;
+  Color color = COLOR_DEFAULT;
+  int score = 0;
+  ObjectKey followed;         ///< generation 0: the view follows nobody
+  FixedVector view_corner;    ///< upper left corner of the view, world coordinates
+  std::vector<PlayerText> texts;  ///< non-empty ones, by id
+};
+
+struct WorldView {
+  std::uint32_t tick = 0;               ///< ticks done since the world began
+  FixedBox boundary;                    ///< of the world
+  int view_width = 80;                  ///< size of every view, in cells
+  int view_height = 24;
+  std::vector<ObjectFacts> changed;     ///< appeared or changed, by creation order
+  std::vector<ObjectKey> vanished;      ///< deleted or removed; never in `changed` of the same tick
+  std::vector<DrawnObject> drawn;       ///< objects whose draw() ran this tick, in drawing order
+  std::vector<DrawCommand> commands;    ///< what they drew, in drawing order
+  std::vector<PlayerFacts> players;     ///< by id
+};
+
+}  // namespace df

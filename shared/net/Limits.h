@@ -1,0 +1,38 @@
+// Sizes and counts that both ends hold each other to. PROTOCOL.md lists them; a test compares.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace naiad {
+
+inline constexpr std::uint32_t kProtocolVersion = 1;
+inline constexpr std::uint32_t kHelloMagic = 0x6e616961;
+inline constexpr std::uint16_t kDefaultPort = 9876;
+
+/// Largest frame payload, in bytes: server to client; client to server; before login.
+inline constexpr std::size_t kMaxServerFrame = 16 * 1024;
+inline constexpr std::size_t kMaxClientFrame = 4 * 1024;
+inline constexpr std::size_t kMaxHelloFrame = 1024;
+
+/// Largest records part of one snapshot, in bytes (leaves room for the message around it).
+inline constexpr std::size_t kMaxSnapshotRecords = 15 * 1024;
+
+/// Names and chat, in characters.
+inline constexpr std::size_t kMaxNameLength = 16;
+inline constexpr std::size_t kMaxChatLength = 200;
+
+/// Slots of the replica; a server with more Objects in one world replicates the first ones and says so.
+inline constexpr std::uint32_t kMaxSlots = 1u << 20;
+/// Characters of one appearance.
+inline constexpr std::size_t kMaxGlyphs = 1024;
+/// Player texts ("a text shown to one player only").
+inline constexpr std::uint32_t kMaxTexts = 16;
+
+/// The view a server grants, in cells.
+inline constexpr int kMinViewWidth = 20;
+inline constexpr int kMinViewHeight = 10;
+inline constexpr int kMaxViewWidth = 400;
+inline constexpr int kMaxViewHeight = 150;
+
+}  // namespace naiad

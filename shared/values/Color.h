@@ -1,0 +1,22 @@
+// The eight colours of a Dragonfly character (book, Listing 4.66).
+#pragma once
+
+namespace df {
+
+/// Values are fixed: they travel on the wire.
+enum Color {
+  UNDEFINED_COLOR = -1,
+  BLACK = 0,
+  RED,
+  GREEN,
+  YELLOW,
+  BLUE,
+  MAGENTA,
+  CYAN,
+  WHITE,
+};
+
+inline constexpr Color COLOR_DEFAULT = WHITE;
+inline constexpr int kColorCount = 8;
+
+}  // namespace df

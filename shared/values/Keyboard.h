@@ -1,0 +1,126 @@
+// Keys and mouse buttons: names the game reads and numbers the wire carries (book, Listings 4.84 to 4.88).
+#pragma once
+
+namespace df {
+
+namespace Keyboard {
+
+/// Keys by name. Values are fixed: they travel on the wire; new ones are added at the end.
+enum Key {
+  UNDEFINED_KEY = -1,
+  SPACE = 0,
+  RETURN,
+  ESCAPE,
+  TAB,
+  LEFTARROW,
+  RIGHTARROW,
+  UPARROW,
+  DOWNARROW,
+  PAUSE,
+  MINUS,
+  PLUS,
+  TILDE,
+  PERIOD,
+  COMMA,
+  SLASH,
+  LEFTCONTROL,
+  RIGHTCONTROL,
+  LEFTSHIFT,
+  RIGHTSHIFT,
+  F1,
+  F2,
+  F3,
+  F4,
+  F5,
+  F6,
+  F7,
+  F8,
+  F9,
+  F10,
+  F11,
+  F12,
+  A,
+  B,
+  C,
+  D,
+  E,
+  F,
+  G,
+  H,
+  I,
+  J,
+  K,
+  L,
+  M,
+  N,
+  O,
+  P,
+  Q,
+  R,
+  S,
+  T,
+  U,
+  V,
+  W,
+  X,
+  Y,
+  Z,
+  NUM1,
+  NUM2,
+  NUM3,
+  NUM4,
+  NUM5,
+  NUM6,
+  NUM7,
+  NUM8,
+  NUM9,
+  NUM0,
+  BACKSPACE,
+  QUOTE,
+  SEMICOLON,
+  LEFTBRACKET,
+  RIGHTBRACKET,
+  BACKSLASH,
+  EQUAL,
+  LEFTALT,
+  RIGHTALT,
+  INSERT,
+  DELETE,
+  HOME,
+  END,
+  PAGEUP,
+  PAGEDOWN,
+};
+
+inline constexpr int kKeyCount = PAGEDOWN + 1;
+
+}  // namespace Keyboard
+
+/// What happened to a key.
+enum EventKeyboardAction {
+  UNDEFINED_KEYBOARD_ACTION = -1,
+  KEY_PRESSED = 0,  ///< The key went down.
+  KEY_RELEASED,     ///< The key went up.
+  KEY_DOWN,         ///< The key is being held (once per tick or key repeat).
+};
+
+namespace Mouse {
+
+enum Button {
+  UNDEFINED_MOUSE_BUTTON = -1,
+  LEFT = 0,
+  RIGHT,
+  MIDDLE,
+};
+
+}  // namespace Mouse
+
+/// What the mouse did.
+enum EventMouseAction {
+  UNDEFINED_MOUSE_ACTION = -1,
+  CLICKED = 0,  ///< A button went down.
+  PRESSED,      ///< A button is being held.
+  MOVED,        ///< The pointer moved to another cell.
+};
+
+}  // namespace df

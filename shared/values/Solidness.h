@@ -1,0 +1,13 @@
+// How an Object takes part in collisions (book, Listing 4.103).
+#pragma once
+
+namespace df {
+
+/// Values are fixed: they travel on the wire.
+enum Solidness {
+  HARD,      ///< Object causes collisions and impedes.
+  SOFT,      ///< Object causes collisions, but doesn't impede.
+  SPECTRAL,  ///< Object doesn't cause collisions.
+};
+
+}  // namespace df

@@ -1,0 +1,58 @@
+// A 2d vector in cells: positions, directions, velocities (book, Listing 4.26 and following).
+//
+// The components are doubles; getX() and getY() return float, as the book prints them, and x() and y()
+// return all digits. y grows downward. The World stores positions in fixed point (Fixed.h), so what a
+// Vector carries into the world is rounded to 2^-32 cell there.
+#pragma once
+
+#include <string>
+
+#include "Fixed.h"
+
+namespace df {
+
+class Vector {
+ public:
+  /// (0, 0).
+  constexpr Vector() = default;
+  constexpr Vector(double x, double y) : m_x(x), m_y(y) {}
+  /// The exact value of a fixed-point vector (rounded beyond 2^21 cells, see Fixed.h).
+  static constexpr Vector fromFixed(FixedVector v) { return {toCells(v.x), toCells(v.y)}; }
+
+  void setX(double x) { m_x = x; }
+  void setY(double y) { m_y = y; }
+  void setXY(double x, double y) {
+    m_x = x;
+    m_y = y;
+  }
+  float getX() const { return static_cast<float>(m_x); }
+  float getY() const { return static_cast<float>(m_y); }
+  /// All digits, where the book's float is too short (positions beyond about 10,000 cells).
+  constexpr double x() const { return m_x; }
+  constexpr double y() const { return m_y; }
+
+  /// Length, in the unit of the components. 0 for the zero vector.
+  float getMagnitude() const;
+  /// Multiply both components by `s`.
+  void scale(double s);
+  /// Make the length 1, keeping the direction. The zero vector stays as it is.
+  void normalize();
+
+  Vector& operator+=(const Vector& other);
+  Vector& operator-=(const Vector& other);
+  friend Vector operator+(Vector a, const Vector& b) { return a += b; }
+  friend Vector operator-(Vector a, const Vector& b) { return a -= b; }
+  friend constexpr bool operator==(const Vector& a, const Vector& b) = default;
+
+  /// "(x,y)", for log lines.
+  std::string toString() const;
+
+ private:
+  double m_x = 0;
+  double m_y = 0;
+};
+
+/// Both components in fixed point; nothing if either is not finite or beyond `limit` cells.
+std::optional<FixedVector> toFixed(const Vector& v, double limit = kMaxCells);
+
+}  // namespace df
