@@ -46,6 +46,7 @@ class Player {
 
  private:
   friend class World;
+  friend class Views;
   std::uint32_t m_id;
   std::string m_name;
   Color m_color;
@@ -53,6 +54,7 @@ class Player {
   World* m_p_world = nullptr;
   ObjectKey m_object;
   FixedVector m_view_corner;
+  bool m_has_view = false;  // since its first Object; before that it shares the world's view
   std::map<std::uint32_t, PlayerText> m_texts;
 };
 

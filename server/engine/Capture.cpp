@@ -1,0 +1,138 @@
+#include "Capture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <typeinfo>
+
+#include "Views.h"
+#include "World.h"
+#include "WorldStore.h"
+
+namespace df {
+
+namespace {
+
+bool isNear(FixedVector a, FixedVector b) {
+  constexpr double kCells = 1e6;
+  return std::fabs(toCells(a.x) - toCells(b.x)) <= kCells && std::fabs(toCells(a.y) - toCells(b.y)) <= kCells;
+}
+
+}  // namespace
+
+void Capture::begin() {
+  m_view.drawn.clear();
+  m_view.commands.clear();
+  m_view.changed.clear();
+  m_view.vanished.clear();
+  m_view.players.clear();
+}
+
+bool Capture::mayDraw(std::uint32_t slot) {
+  WorldStore& store = m_world.store();
+  if (!store.has(slot, WorldStore::kActive) || !store.has(slot, WorldStore::kVisible)) return false;
+  if (!store.has(slot, WorldStore::kTyped)) {  // the constructor could not know
+    const Object& object = *store.object(slot);
+    store.set(slot, WorldStore::kTyped, true);
+    store.set(slot, WorldStore::kNeverDraws, typeid(object) == typeid(Object));
+  }
+  return !store.has(slot, WorldStore::kNeverDraws);
+}
+
+void Capture::sortByAltitude() {
+  const WorldStore& store = m_world.store();
+  const std::vector<FixedBox> views = m_world.views().boxes();
+  for (auto& keys : m_by_altitude) keys.clear();
+  const WorldStore::Walk walk(store);
+  for (std::size_t i = 0; i < walk.size(); ++i) {
+    const WorldStore::Slot s = walk[i];
+    if (s == WorldStore::kNoSlot || !mayDraw(s)) continue;
+    const FixedBox box = store.worldBox(s, store.position(s));
+    const bool in_view = std::any_of(views.begin(), views.end(),
+                                     [&box](const FixedBox& view) { return intersects(box, view); });
+    if (in_view) m_by_altitude[store.altitude(s)].push_back(store.key(s));
+  }
+}
+
+void Capture::drawAll() {
+  sortByAltitude();
+  for (const auto& keys : m_by_altitude) {
+    for (const ObjectKey key : keys) {
+      if (m_world.store().isCurrent(key) && mayDraw(key.slot)) drawOne(key);
+    }
+  }
+}
+
+void Capture::drawOne(ObjectKey key) {
+  WorldStore& store = m_world.store();
+  const FixedVector position = store.position(key.slot);
+  const auto first = static_cast<std::uint32_t>(m_view.commands.size());
+  const std::size_t entry = m_view.drawn.size();
+  m_view.drawn.push_back({key, first, 0});
+
+  const auto look = m_looks.find(key.slot);
+  if (look != m_looks.end()) {
+    for (const DrawCommand& c : look->second)
+      m_view.commands.push_back({position + c.position, c.ch, c.color});
+    m_view.drawn[entry].count = static_cast<std::uint32_t>(look->second.size());
+    return;
+  }
+
+  m_drawing = key;
+  try {
+    store.object(key.slot)->draw();
+  } catch (const std::exception& e) {
+    m_world.quarantine(key, e.what());
+  } catch (...) {
+    m_world.quarantine(key, "an exception in draw()");
+  }
+  m_drawing = {};
+  const auto count = static_cast<std::uint32_t>(m_view.commands.size()) - first;
+  m_view.drawn[entry].count = count;
+  if (!store.isCurrent(key) || !store.has(key.slot, WorldStore::kStaticLook)) return;
+  auto& relative = m_looks[key.slot];
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const DrawCommand& c = m_view.commands[i];
+    // Far from the Object the sum might leave the number range when the Object moves.
+    if (!isNear(c.position, position)) continue;
+    relative.push_back({c.position - position, c.ch, c.color});
+  }
+}
+
+void Capture::add(FixedVector position, char32_t ch, Color color) {
+  if (m_drawing == ObjectKey{}) {
+    const auto first = static_cast<std::uint32_t>(m_view.commands.size());
+    if (m_view.drawn.empty() || m_view.drawn.back().key != ObjectKey{})
+      m_view.drawn.push_back({{}, first, 0});
+    ++m_view.drawn.back().count;
+  }
+  m_view.commands.push_back({position, isDrawable(ch) ? ch : U'?', color});
+}
+
+void Capture::finish() {
+  WorldStore& store = m_world.store();
+  if (!store.isWatched()) return;
+  const Views& views = m_world.views();
+  m_view.tick = static_cast<std::uint32_t>(m_world.getStepCount());
+  m_view.boundary = views.boundary();
+  m_view.view_width = views.width();
+  m_view.view_height = views.height();
+  store.report(m_view);
+  for (const auto& [id, p_player] : views.players()) m_view.players.push_back(p_player->facts());
+}
+
+Canvas Capture::render(FixedVector corner) const {
+  const Views& views = m_world.views();
+  Canvas canvas(views.width(), views.height());
+  const std::int64_t left = cellOf(corner.x);
+  const std::int64_t top = cellOf(corner.y);
+  for (const DrawCommand& c : m_view.commands) {
+    const std::int64_t x = cellOf(c.position.x) - left;
+    const std::int64_t y = cellOf(c.position.y) - top;
+    if (x < 0 || y < 0 || x >= canvas.width() || y >= canvas.height()) continue;
+    canvas.put(static_cast<int>(x), static_cast<int>(y), {c.ch, c.color});
+  }
+  return canvas;
+}
+
+}  // namespace df

@@ -1,0 +1,42 @@
+// Sent to both Objects when a solid one moves onto another solid one (book, Listing 4.105).
+//
+// It goes to the mover first, then to the other; no interest needs to be registered. Either handler may
+// delete either Object by hand: then the other is not told, so the pointers are good in every handler
+// that sees them.
+#pragma once
+
+#include "Event.h"
+#include "Vector.h"
+
+namespace df {
+
+class Object;
+
+inline const std::string COLLISION_EVENT = "df-collision";
+
+class EventCollision : public Event {
+ public:
+  /// A collision at (0,0) between nobody and nobody.
+  EventCollision() : EventCollision(nullptr, nullptr, Vector()) {}
+  /// `p_o1` caused the collision by moving onto `p_o2`; `p` is the position p_o1 wanted to move to.
+  EventCollision(Object* p_o1, Object* p_o2, Vector p) : m_pos(p), m_p_obj1(p_o1), m_p_obj2(p_o2) {
+    setType(COLLISION_EVENT);
+  }
+
+  /// The Object that moved, and so caused the collision.
+  void setObject1(Object* p_new_o1) { m_p_obj1 = p_new_o1; }
+  Object* getObject1() const { return m_p_obj1; }
+  /// The Object that was collided with.
+  void setObject2(Object* p_new_o2) { m_p_obj2 = p_new_o2; }
+  Object* getObject2() const { return m_p_obj2; }
+  /// Where: the target of the move, not a point of contact.
+  void setPosition(Vector new_pos) { m_pos = new_pos; }
+  Vector getPosition() const { return m_pos; }
+
+ private:
+  Vector m_pos;
+  Object* m_p_obj1;
+  Object* m_p_obj2;
+};
+
+}  // namespace df

@@ -1,0 +1,33 @@
+// Sent to interested Objects when a player uses a key (book, Listing 4.86).
+#pragma once
+
+#include <cstdint>
+
+#include "Event.h"
+#include "Keyboard.h"
+
+namespace df {
+
+inline const std::string KEYBOARD_EVENT = "df-keyboard";
+
+class EventKeyboard : public Event {
+ public:
+  EventKeyboard() { setType(KEYBOARD_EVENT); }
+
+  void setKey(Keyboard::Key key) { m_key = key; }
+  Keyboard::Key getKey() const { return m_key; }
+  void setKeyboardAction(EventKeyboardAction action) { m_action = action; }
+  EventKeyboardAction getKeyboardAction() const { return m_action; }
+
+  /// Whose key: a player id for `WM.getPlayer()`; 0 if no player sent it (an event a game made itself).
+  /// A game that ignores this hears everybody's keys.
+  void setPlayer(std::uint32_t player) { m_player = player; }
+  std::uint32_t getPlayer() const { return m_player; }
+
+ private:
+  Keyboard::Key m_key = Keyboard::UNDEFINED_KEY;
+  EventKeyboardAction m_action = UNDEFINED_KEYBOARD_ACTION;
+  std::uint32_t m_player = 0;
+};
+
+}  // namespace df

@@ -1,0 +1,39 @@
+// Sent to interested Objects when a player moves or clicks the mouse (book, Listing 4.88).
+#pragma once
+
+#include <cstdint>
+
+#include "Event.h"
+#include "Keyboard.h"
+#include "Vector.h"
+
+namespace df {
+
+inline const std::string MSE_EVENT = "df-mouse";
+
+class EventMouse : public Event {
+ public:
+  EventMouse() { setType(MSE_EVENT); }
+
+  void setMouseAction(EventMouseAction action) { m_action = action; }
+  EventMouseAction getMouseAction() const { return m_action; }
+  /// UNDEFINED_MOUSE_BUTTON for an event of type MOVED.
+  void setMouseButton(Mouse::Button button) { m_button = button; }
+  Mouse::Button getMouseButton() const { return m_button; }
+  /// The cell under the pointer, in world coordinates (whole numbers): comparable with positions of
+  /// Objects as it is, however far the player's view is from the world's corner.
+  void setMousePosition(Vector position) { m_position = position; }
+  Vector getMousePosition() const { return m_position; }
+
+  /// Whose mouse: a player id for `WM.getPlayer()`; 0 if no player sent it.
+  void setPlayer(std::uint32_t player) { m_player = player; }
+  std::uint32_t getPlayer() const { return m_player; }
+
+ private:
+  EventMouseAction m_action = UNDEFINED_MOUSE_ACTION;
+  Mouse::Button m_button = Mouse::UNDEFINED_MOUSE_BUTTON;
+  Vector m_position;
+  std::uint32_t m_player = 0;
+};
+
+}  // namespace df

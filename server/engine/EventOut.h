@@ -1,0 +1,18 @@
+// Sent to an Object whose move took it from inside the world boundary to outside (book, Listing 4.112).
+//
+// Once: an Object that stays outside, or was placed there, is not told again. No interest needs to be
+// registered. The Object has already moved when it is told.
+#pragma once
+
+#include "Event.h"
+
+namespace df {
+
+inline const std::string OUT_EVENT = "df-out";
+
+class EventOut : public Event {
+ public:
+  EventOut() { setType(OUT_EVENT); }
+};
+
+}  // namespace df

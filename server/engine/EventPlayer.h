@@ -1,0 +1,40 @@
+// A player joined, or is about to go. Sent to Objects that registered interest in JOIN_EVENT or
+// LEAVE_EVENT, in the input stage of a tick. A game that registers neither has players all the same: they
+// watch, and their keys are heard.
+#pragma once
+
+#include <cstdint>
+
+#include "Event.h"
+
+namespace df {
+
+inline const std::string JOIN_EVENT = "df-join";
+inline const std::string LEAVE_EVENT = "df-leave";
+
+/// `WM.getPlayer(getPlayer())` exists from this event on.
+class EventJoin : public Event {
+ public:
+  explicit EventJoin(std::uint32_t player = 0) : m_player(player) { setType(JOIN_EVENT); }
+  /// Id of the player who joined.
+  void setPlayer(std::uint32_t player) { m_player = player; }
+  std::uint32_t getPlayer() const { return m_player; }
+
+ private:
+  std::uint32_t m_player;
+};
+
+/// The last event in which `WM.getPlayer(getPlayer())` exists. The player's Object is the game's to
+/// delete.
+class EventLeave : public Event {
+ public:
+  explicit EventLeave(std::uint32_t player = 0) : m_player(player) { setType(LEAVE_EVENT); }
+  /// Id of the player who leaves.
+  void setPlayer(std::uint32_t player) { m_player = player; }
+  std::uint32_t getPlayer() const { return m_player; }
+
+ private:
+  std::uint32_t m_player;
+};
+
+}  // namespace df

@@ -1,0 +1,25 @@
+// Sent once per tick, before anything else happens in it (book, Listing 4.53).
+#pragma once
+
+#include "Event.h"
+
+namespace df {
+
+inline const std::string STEP_EVENT = "df-step";
+
+class EventStep : public Event {
+ public:
+  /// A step event with count 0.
+  EventStep() : EventStep(0) {}
+  /// A step event of tick number `step_count`.
+  explicit EventStep(int step_count) : m_step_count(step_count) { setType(STEP_EVENT); }
+
+  /// Ticks begun since the world began, this one included: 1 in the first tick.
+  void setStepCount(int step_count) { m_step_count = step_count; }
+  int getStepCount() const { return m_step_count; }
+
+ private:
+  int m_step_count;
+};
+
+}  // namespace df

@@ -1,0 +1,74 @@
+#include "GameManager.h"
+
+#include <utility>
+
+#include "DisplayManager.h"
+#include "InputManager.h"
+#include "LogManager.h"
+#include "Started.h"
+#include "World.h"
+#include "WorldManager.h"
+
+namespace df {
+
+GameManager& GameManager::getInstance() {
+  static GameManager* p_instance = new GameManager;
+  return *p_instance;
+}
+
+int GameManager::startUp() {
+  LM.startUp();
+  DM.startUp();
+  IM.startUp();
+  WM.startUp();
+  World& world = World::current();
+  world.setGameOver(false);
+  world.setStarted(kGameStarted, true);
+  return 0;
+}
+
+void GameManager::shutDown() {
+  World::current().shutDown();
+}
+
+bool GameManager::isStarted() const {
+  return World::current().isStarted(kGameStarted);
+}
+
+void GameManager::run() {
+  World::current().run();
+}
+
+void GameManager::tick() {
+  World::current().tick();
+}
+
+void GameManager::setGameOver(bool new_game_over) {
+  World::current().setGameOver(new_game_over);
+}
+
+bool GameManager::getGameOver() const {
+  return World::current().isGameOver();
+}
+
+int GameManager::getStepCount() const {
+  return World::current().getStepCount();
+}
+
+void GameManager::setRunner(Runner* p_runner) {
+  World::current().setRunner(p_runner);
+}
+
+void GameManager::setSeed(std::uint64_t seed) {
+  World::current().setSeed(seed);
+}
+
+void GameManager::setHelp(std::vector<std::string> lines) {
+  World::current().setHelp(std::move(lines));
+}
+
+const std::vector<std::string>& GameManager::getHelp() const {
+  return World::current().getHelp();
+}
+
+}  // namespace df

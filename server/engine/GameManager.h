@@ -1,0 +1,61 @@
+// Runs the game loop of the current world (book, Listing 4.17).
+//
+//     int main() {
+//       if (GM.startUp()) return 1;
+//       new Hero;
+//       GM.run();
+//       GM.shutDown();
+//     }
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "Manager.h"
+#include "Runner.h"
+
+#define GM df::GameManager::getInstance()
+
+namespace df {
+
+/// Length of a tick, in milliseconds, rounded; exactly it is 1/30 s.
+inline constexpr int FRAME_TIME_DEFAULT = 33;
+
+class GameManager : public Manager {
+ public:
+  static GameManager& getInstance();
+
+  /// Start all managers. Return 0.
+  int startUp() override;
+  /// Stop all managers and set the world back (WorldManager::shutDown).
+  void shutDown() override;
+  bool isStarted() const override;
+
+  /// Run until the game is over: through the installed Runner, which may wait for clocks and players; without
+  /// one, tick after tick as fast as they go.
+  void run();
+  /// One full tick: step event; joins, leaves, keys and mouse; WM.update(); WM.draw().
+  void tick();
+  /// End run() after the present tick; `false` takes it back.
+  void setGameOver(bool new_game_over = true);
+  bool getGameOver() const;
+
+  /// Ticks begun since the world began.
+  int getStepCount() const;
+  /// Length of a tick, in milliseconds.
+  int getFrameTime() const { return FRAME_TIME_DEFAULT; }
+
+  /// Who runs the loop; not owned; null for nobody.
+  void setRunner(Runner* p_runner);
+  /// Begin the world's random sequence (WM.randomInt) anew.
+  void setSeed(std::uint64_t seed);
+  /// A few lines about the game and its keys, for the help screen of the clients.
+  void setHelp(std::vector<std::string> lines);
+  const std::vector<std::string>& getHelp() const;
+
+ private:
+  GameManager() { setType("GameManager"); }
+};
+
+}  // namespace df

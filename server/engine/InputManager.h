@@ -1,0 +1,28 @@
+// Hands on what players do (book, Listing 4.91). Keys and mouse come from the host through World::key()
+// and World::mouse(); Objects hear of them as EventKeyboard and EventMouse.
+#pragma once
+
+#include "EventKeyboard.h"
+#include "EventMouse.h"
+#include "Manager.h"
+
+#define IM df::InputManager::getInstance()
+
+namespace df {
+
+class InputManager : public Manager {
+ public:
+  static InputManager& getInstance();
+
+  int startUp() override;
+  void shutDown() override;
+  bool isStarted() const override;
+
+  /// Send the events of all input that waits. GM.tick() does it, after the step event.
+  void getInput() const;
+
+ private:
+  InputManager() { setType("InputManager"); }
+};
+
+}  // namespace df

@@ -1,0 +1,59 @@
+#include "InputQueue.h"
+
+#include <utility>
+
+#include "EventKeyboard.h"
+#include "EventMouse.h"
+#include "EventPlayer.h"
+#include "Views.h"
+#include "World.h"
+
+namespace df {
+
+void InputQueue::drain() {
+  std::vector<Input> inputs;
+  inputs.swap(m_inputs);
+  for (const Input& input : inputs) {
+    const std::uint32_t before = std::exchange(m_world.m_input_player, input.player);
+    handle(input);
+    m_world.m_input_player = before;
+  }
+}
+
+void InputQueue::handle(const Input& input) {
+  if (input.kind == kJoin) {
+    m_world.views().addPlayer(input.player, input.name, input.color);
+    const EventJoin event(input.player);
+    m_world.onEvent(&event);
+    return;
+  }
+  if (m_world.getPlayer(input.player) == nullptr) return;  // has left, or never joined
+  if (input.kind == kKey) sendKey(input);
+  if (input.kind == kMouse) sendMouse(input);
+  if (input.kind == kLeave) {
+    const EventLeave event(input.player);
+    m_world.onEvent(&event);
+    m_world.views().removePlayer(input.player);
+  }
+}
+
+void InputQueue::sendKey(const Input& input) {
+  EventKeyboard event;
+  event.setKey(input.key);
+  event.setKeyboardAction(input.key_action);
+  event.setPlayer(input.player);
+  m_world.onEvent(&event);
+}
+
+void InputQueue::sendMouse(const Input& input) {
+  const FixedVector corner = m_world.views().cornerOf(m_world.getPlayer(input.player));
+  EventMouse event;
+  event.setMouseAction(input.mouse_action);
+  event.setMouseButton(input.button);
+  event.setMousePosition(Vector(static_cast<double>(cellOf(corner.x)) + input.x,
+                                static_cast<double>(cellOf(corner.y)) + input.y));
+  event.setPlayer(input.player);
+  m_world.onEvent(&event);
+}
+
+}  // namespace df

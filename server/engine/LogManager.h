@@ -1,0 +1,41 @@
+// Writes log lines (book, Listing 4.6).
+//
+// Lines go to the current world's sink; without one, to the file dragonfly.log in the working directory,
+// which is opened, and emptied, by the first line that a process writes there.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "Manager.h"
+
+#define LM df::LogManager::getInstance()
+
+namespace df {
+
+class LogManager : public Manager {
+ public:
+  static LogManager& getInstance();
+
+  int startUp() override;
+  void shutDown() override;
+  bool isStarted() const override;
+
+  /// Write one line, formatted as by printf; a newline at its end may be given or left out. Return the
+  /// number of characters, or -1 for a bad format.
+  int writeLog(const char* fmt, ...) const __attribute__((format(printf, 2, 3)));
+  /// The same, if `log_level` is not above the level set; else return 0.
+  int writeLog(int log_level, const char* fmt, ...) const __attribute__((format(printf, 3, 4)));
+  /// Default 0: writeLog(1, …) and above write nothing.
+  void setLogLevel(int new_log_level);
+  int getLogLevel() const;
+  /// Flush the file after each line, so that nothing is lost in a crash. Default: no.
+  void setFlush(bool do_flush = true);
+  /// Where the current world's lines go, without newline; an empty function: back to the file.
+  void setSink(std::function<void(const std::string&)> sink);
+
+ private:
+  LogManager() { setType("LogManager"); }
+};
+
+}  // namespace df

@@ -1,0 +1,43 @@
+// Base of the engine's managers, and of managers that a game adds (book, Listing 4.2).
+//
+// The engine's own managers hold no state: each call goes to the calling thread's current World. A
+// reference to one may be kept for ever.
+#pragma once
+
+#include <string>
+
+#include "Event.h"
+
+namespace df {
+
+class Manager {
+ public:
+  Manager() = default;
+  Manager(const Manager&) = delete;
+  Manager& operator=(const Manager&) = delete;
+  virtual ~Manager() = default;
+
+  /// A name, for log lines.
+  const std::string& getType() const { return m_type; }
+
+  /// Get ready. Return 0 if ok, else -1.
+  virtual int startUp();
+  /// Give up what startUp() got.
+  virtual void shutDown();
+  /// True between startUp() and shutDown().
+  virtual bool isStarted() const { return m_is_started; }
+
+  /// Send `p_event` to the Objects that registered interest in its type, in the order they registered.
+  /// Return how many were told; 0 for null. See World::onEvent for what happens to Objects that come,
+  /// go or fall asleep meanwhile.
+  int onEvent(const Event* p_event) const;
+
+ protected:
+  void setType(std::string type) { m_type = std::move(type); }
+
+ private:
+  std::string m_type = "Manager";
+  bool m_is_started = false;
+};
+
+}  // namespace df

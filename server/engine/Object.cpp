@@ -1,0 +1,282 @@
+#include "Object.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "Interests.h"
+#include "World.h"
+#include "WorldStore.h"
+
+namespace df {
+
+namespace {
+
+// Blocks that operator new has handed out and in which no Object has been constructed yet. The constructor
+// finds itself in one of them, or was not made with `new`. More than one at a time: `new A(new B)`.
+struct PendingBlocks {
+  struct Block {
+    const std::byte* begin;
+    std::size_t size;
+  };
+  std::array<Block, 64> blocks;
+  std::size_t count = 0;
+
+  void push(const void* p, std::size_t size) {
+    if (count < blocks.size()) blocks[count++] = {static_cast<const std::byte*>(p), size};
+  }
+  bool erase(std::size_t i) {
+    for (--count; i < count; ++i) blocks[i] = blocks[i + 1];
+    return true;
+  }
+  bool claim(const void* p) {
+    const auto* address = static_cast<const std::byte*>(p);
+    for (std::size_t i = count; i-- > 0;) {
+      if (address >= blocks[i].begin && address < blocks[i].begin + blocks[i].size) return erase(i);
+    }
+    return false;
+  }
+  void cancel(const void* p) {  // the constructor threw before it got to Object
+    for (std::size_t i = count; i-- > 0;) {
+      if (blocks[i].begin == p) erase(i);
+    }
+  }
+};
+
+thread_local PendingBlocks t_pending;
+
+bool isFiniteFloat(double x) {
+  return std::isfinite(static_cast<float>(x));
+}
+
+}  // namespace
+
+void* Object::operator new(std::size_t size) {
+  void* p = ::operator new(size);
+  t_pending.push(p, size);
+  return p;
+}
+
+void* Object::operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept {
+  void* p = ::operator new(size, nothrow);
+  if (p != nullptr) t_pending.push(p, size);
+  return p;
+}
+
+void* Object::operator new(std::size_t size, std::align_val_t align) {
+  void* p = ::operator new(size, align);
+  t_pending.push(p, size);
+  return p;
+}
+
+void Object::operator delete(void* p) noexcept {
+  t_pending.cancel(p);
+  ::operator delete(p);
+}
+
+void Object::operator delete(void* p, std::align_val_t align) noexcept {
+  t_pending.cancel(p);
+  ::operator delete(p, align);
+}
+
+Object::Object() : m_p_store(nullptr), m_slot(0) {
+  World& world = World::current();
+  m_p_store = &world.store();
+  m_slot = m_p_store->take(this, t_pending.claim(this));
+  world.insertObject(this);
+}
+
+Object::~Object() {
+  if (World* p_world = getWorld()) p_world->forget(this);
+  m_p_store->give(m_slot);
+}
+
+ObjectKey Object::key() const {
+  return m_p_store->key(m_slot);
+}
+
+World* Object::getWorld() const {
+  return m_p_store->world();
+}
+
+int Object::refuse(const char* what) const {
+  if (World* p_world = getWorld()) p_world->refuse(m_type, what);
+  return -1;
+}
+
+void Object::setType(std::string new_type) {
+  m_type = std::move(new_type);
+}
+
+int Object::getId() const {
+  return static_cast<int>(m_p_store->order(m_slot));
+}
+
+int Object::setPosition(Vector new_pos) {
+  const auto position = toFixed(new_pos);
+  if (!position) return refuse("setPosition");
+  m_p_store->setPosition(m_slot, *position);
+  return 0;
+}
+
+Vector Object::getPosition() const {
+  return Vector::fromFixed(m_p_store->position(m_slot));
+}
+
+int Object::setAltitude(int new_altitude) {
+  if (new_altitude < 0 || new_altitude > MAX_ALTITUDE) return refuse("setAltitude");
+  m_p_store->setAltitude(m_slot, new_altitude);
+  return 0;
+}
+
+int Object::getAltitude() const {
+  return m_p_store->altitude(m_slot);
+}
+
+int Object::setBox(Box new_box) {
+  const auto box = toFixed(new_box);
+  if (!box) return refuse("setBox");
+  m_p_store->setBox(m_slot, *box);
+  return 0;
+}
+
+Box Object::getBox() const {
+  return fromFixed(m_p_store->box(m_slot));
+}
+
+void Object::deriveKinematics() const {
+  if (!m_p_store->has(m_slot, WorldStore::kDerive)) return;
+  m_p_store->set(m_slot, WorldStore::kDerive, false);
+  m_direction = getVelocity();
+  m_speed = std::sqrt(m_direction.x() * m_direction.x() + m_direction.y() * m_direction.y());
+  m_direction.normalize();
+}
+
+int Object::applyVelocity(double speed, Vector direction) {
+  if (!isFiniteFloat(speed) || !isFiniteFloat(direction.x()) || !isFiniteFloat(direction.y())) return -1;
+  const auto velocity = toFixed(Vector(direction.x() * speed, direction.y() * speed), kMaxVelocityCells);
+  if (!velocity) return -1;
+  m_speed = speed;
+  m_direction = direction;
+  m_p_store->setVelocity(m_slot, *velocity);
+  return 0;
+}
+
+int Object::setSpeed(double speed) {
+  deriveKinematics();
+  return applyVelocity(speed, m_direction) == 0 ? 0 : refuse("setSpeed");
+}
+
+float Object::getSpeed() const {
+  deriveKinematics();
+  return static_cast<float>(m_speed);
+}
+
+int Object::setDirection(Vector new_direction) {
+  deriveKinematics();
+  return applyVelocity(m_speed, new_direction) == 0 ? 0 : refuse("setDirection");
+}
+
+Vector Object::getDirection() const {
+  deriveKinematics();
+  return m_direction;
+}
+
+// The product of length and normalised vector is the vector itself, so it is rounded as it is: that way
+// what was set is what getVelocity() returns, at any size.
+int Object::setVelocity(Vector new_velocity) {
+  const auto velocity = toFixed(new_velocity, kMaxVelocityCells);
+  if (!velocity) return refuse("setVelocity");
+  m_speed = std::sqrt(new_velocity.x() * new_velocity.x() + new_velocity.y() * new_velocity.y());
+  m_direction = new_velocity;
+  m_direction.normalize();
+  m_p_store->set(m_slot, WorldStore::kDerive, false);
+  m_p_store->setVelocity(m_slot, *velocity);
+  return 0;
+}
+
+Vector Object::getVelocity() const {
+  return Vector::fromFixed(m_p_store->velocity(m_slot));
+}
+
+int Object::setAcceleration(Vector new_acceleration) {
+  const auto acceleration = toFixed(new_acceleration, kMaxVelocityCells);
+  if (!acceleration) return refuse("setAcceleration");
+  m_p_store->setAcceleration(m_slot, *acceleration);
+  return 0;
+}
+
+Vector Object::getAcceleration() const {
+  return Vector::fromFixed(m_p_store->acceleration(m_slot));
+}
+
+Vector Object::predictPosition() const {
+  return Vector::fromFixed(m_p_store->position(m_slot) + m_p_store->velocity(m_slot));
+}
+
+int Object::setSolidness(Solidness new_solid) {
+  if (new_solid != HARD && new_solid != SOFT && new_solid != SPECTRAL) return refuse("setSolidness");
+  m_p_store->setSolidness(m_slot, new_solid);
+  return 0;
+}
+
+Solidness Object::getSolidness() const {
+  return m_p_store->solidness(m_slot);
+}
+
+bool Object::isSolid() const {
+  return getSolidness() != SPECTRAL;
+}
+
+void Object::setNoSoft(bool new_no_soft) {
+  m_p_store->set(m_slot, WorldStore::kNoSoft, new_no_soft);
+}
+
+bool Object::getNoSoft() const {
+  return m_p_store->has(m_slot, WorldStore::kNoSoft);
+}
+
+void Object::setActive(bool active) {
+  m_p_store->set(m_slot, WorldStore::kActive, active);
+}
+
+bool Object::isActive() const {
+  return m_p_store->has(m_slot, WorldStore::kActive);
+}
+
+void Object::setVisible(bool visible) {
+  m_p_store->set(m_slot, WorldStore::kVisible, visible);
+}
+
+bool Object::isVisible() const {
+  return m_p_store->has(m_slot, WorldStore::kVisible);
+}
+
+int Object::registerInterest(const std::string& event_type) {
+  World* p_world = getWorld();
+  return p_world != nullptr ? p_world->interests().add(*this, event_type) : -1;
+}
+
+int Object::unregisterInterest(const std::string& event_type) {
+  World* p_world = getWorld();
+  return p_world != nullptr ? p_world->interests().remove(*this, event_type) : -1;
+}
+
+int Object::eventHandler(const Event* /*p_e*/) {
+  return 0;
+}
+
+int Object::draw() {
+  return 0;
+}
+
+void Object::setStaticLook(bool static_look) {
+  m_p_store->set(m_slot, WorldStore::kStaticLook, static_look);
+  if (World* p_world = getWorld()) p_world->forgetLook(m_slot);
+}
+
+bool Object::hasStaticLook() const {
+  return m_p_store->has(m_slot, WorldStore::kStaticLook);
+}
+
+}  // namespace df

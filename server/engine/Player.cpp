@@ -1,0 +1,67 @@
+#include "Player.h"
+
+#include <utility>
+
+#include "Canvas.h"
+#include "Views.h"
+#include "World.h"
+
+namespace df {
+
+namespace {
+
+constexpr std::uint32_t kTexts = 16;
+
+}  // namespace
+
+Player::Player(std::uint32_t id, std::string name, Color color)
+    : m_id(id), m_name(std::move(name)), m_color(color) {}
+
+int Player::setObject(Object* p_o) {
+  return m_p_world != nullptr ? m_p_world->views().setObject(*this, p_o) : -1;
+}
+
+Object* Player::getObject() const {
+  return m_p_world != nullptr ? m_p_world->find(m_object) : nullptr;
+}
+
+int Player::setText(std::uint32_t id, Vector position, const std::string& text, Color color) {
+  const auto where = toFixed(position);
+  if (m_p_world == nullptr || id >= kTexts || !where || color < BLACK || color > WHITE) return -1;
+  const int x = cellOf(where->x);
+  const int y = cellOf(where->y);
+  const int width = m_p_world->getWindowWidth();
+  if (x < 0 || y < 0 || x >= width || y >= m_p_world->getWindowHeight()) return -1;
+
+  std::string shown;
+  int room = width - x;
+  for (const char32_t ch : decodeUtf8(text)) {
+    if (room-- == 0) break;
+    appendUtf8(shown, isDrawable(ch) ? ch : U'?');
+  }
+  if (shown.empty()) {
+    m_texts.erase(id);
+  } else {
+    m_texts[id] = PlayerText{id, x, y, color, std::move(shown)};
+  }
+  return 0;
+}
+
+PlayerFacts Player::facts() const {
+  PlayerFacts f;
+  f.id = m_id;
+  f.name = m_name;
+  f.color = m_color;
+  f.score = m_score;
+  // A player without a view of his own shares the world's, and with it whom that follows.
+  if (getObject() != nullptr) {
+    f.followed = m_object;
+  } else if (m_p_world != nullptr && !m_has_view) {
+    f.followed = m_p_world->views().followed();
+  }
+  f.view_corner = m_view_corner;
+  for (const auto& [id, text] : m_texts) f.texts.push_back(text);
+  return f;
+}
+
+}  // namespace df

@@ -1,0 +1,24 @@
+// The world's random numbers: the same sequence for the same seed on every machine.
+//
+// xoshiro256** (Blackman and Vigna, 2018), seeded through splitmix64.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace df {
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed = 1);
+
+  /// 64 random bits.
+  std::uint64_t next();
+  /// 0 to n-1, each equally likely; 0 if n < 1.
+  int below(int n);
+
+ private:
+  std::array<std::uint64_t, 4> m_state;
+};
+
+}  // namespace df

@@ -1,0 +1,14 @@
+// Which bit of World::isStarted belongs to which manager.
+#pragma once
+
+namespace df {
+
+enum Started : unsigned {
+  kGameStarted = 1,
+  kWorldStarted = 2,
+  kLogStarted = 4,
+  kDisplayStarted = 8,
+  kInputStarted = 16,
+};
+
+}  // namespace df

@@ -1,0 +1,110 @@
+#include "WorldManager.h"
+
+#include "Started.h"
+#include "World.h"
+
+namespace df {
+
+WorldManager& WorldManager::getInstance() {
+  static WorldManager* p_instance = new WorldManager;  // never destroyed: static Objects may still call it
+  return *p_instance;
+}
+
+int WorldManager::startUp() {
+  World::current().setStarted(kWorldStarted, true);
+  return 0;
+}
+
+void WorldManager::shutDown() {
+  World::current().shutDown();
+}
+
+bool WorldManager::isStarted() const {
+  return World::current().isStarted(kWorldStarted);
+}
+
+int WorldManager::insertObject(Object* p_o) {
+  return World::current().insertObject(p_o);
+}
+
+int WorldManager::removeObject(Object* p_o) {
+  return World::current().removeObject(p_o);
+}
+
+int WorldManager::markForDelete(Object* p_o) {
+  return World::current().markForDelete(p_o);
+}
+
+ObjectList WorldManager::getAllObjects(bool inactive) const {
+  return World::current().getAllObjects(inactive);
+}
+
+ObjectList WorldManager::objectsOfType(const std::string& type) const {
+  return World::current().objectsOfType(type);
+}
+
+ObjectList WorldManager::solidObjects() const {
+  return World::current().solidObjects();
+}
+
+Object* WorldManager::objectWithId(int id) const {
+  return World::current().objectWithId(id);
+}
+
+ObjectList WorldManager::getCollisions(const Object* p_o, Vector where) const {
+  return World::current().getCollisions(p_o, where);
+}
+
+bool WorldManager::isCollision(const Object* p_o, Vector where) const {
+  return !getCollisions(p_o, where).isEmpty();
+}
+
+int WorldManager::moveObject(Object* p_o, Vector where) {
+  return World::current().moveObject(p_o, where);
+}
+
+void WorldManager::update() {
+  World::current().update();
+}
+
+void WorldManager::draw() {
+  World::current().draw();
+}
+
+int WorldManager::setBoundary(Box new_boundary) {
+  return World::current().setBoundary(new_boundary);
+}
+
+Box WorldManager::getBoundary() const {
+  return World::current().getBoundary();
+}
+
+Box WorldManager::getView() const {
+  return World::current().getView();
+}
+
+int WorldManager::setView(Box new_view) {
+  return World::current().setView(new_view);
+}
+
+int WorldManager::setViewPosition(Vector view_pos) {
+  return World::current().setViewPosition(view_pos);
+}
+
+int WorldManager::setViewFollowing(Object* p_new_view_following) {
+  return World::current().setViewFollowing(p_new_view_following);
+}
+
+std::vector<Player*> WorldManager::getPlayers() const {
+  return World::current().getPlayers();
+}
+
+Player* WorldManager::getPlayer(std::uint32_t id) const {
+  return World::current().getPlayer(id);
+}
+
+int WorldManager::randomInt(int n) {
+  return World::current().randomInt(n);
+}
+
+}  // namespace df

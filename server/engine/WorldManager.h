@@ -1,0 +1,106 @@
+// Manages the Objects of the current world: who is in it, how they move, what they bump into (book,
+// Listings 4.54, 4.101, 4.106, 4.130).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "Box.h"
+#include "Manager.h"
+#include "Object.h"
+#include "ObjectList.h"
+#include "ObjectListIterator.h"
+#include "Player.h"
+#include "Vector.h"
+
+#define WM df::WorldManager::getInstance()
+
+namespace df {
+
+class WorldManager : public Manager {
+ public:
+  static WorldManager& getInstance();
+
+  /// Return 0. The world works without it, too.
+  int startUp() override;
+  /// Delete the Objects that are alive and were made with `new`, take out the others, and set everything
+  /// back, so that the world can be started again. Inside a tick: at its end.
+  void shutDown() override;
+  bool isStarted() const override;
+
+  // Who is in the world.
+
+  /// Put a removed Object back, as the last in creation order. (The constructor does the first insertion;
+  /// for an Object that is in the world nothing happens.) Return 0, or -1 for null or an Object of another
+  /// world.
+  int insertObject(Object* p_o);
+  /// Take an Object out without deleting it; lists and interests forget it at once. Return 0, or -1 if
+  /// it is not in the world.
+  int removeObject(Object* p_o);
+  /// Delete at the end of the present or next update(), in order of the marks; until then it moves,
+  /// collides and hears as before. Twice is once. An Object not made with `new` is only taken out. Return
+  /// 0, or -1 if it is not in the world.
+  int markForDelete(Object* p_o);
+  /// All active Objects (and the inactive ones, if asked) in creation order.
+  ObjectList getAllObjects(bool inactive = false) const;
+  /// All active Objects of this type, in creation order.
+  ObjectList objectsOfType(const std::string& type) const;
+  /// All active HARD and SOFT Objects, in creation order.
+  ObjectList solidObjects() const;
+  /// The Object with this id (Object::getId); null if there is none.
+  Object* objectWithId(int id) const;
+
+  // How they move.
+
+  /// The active solid Objects whose boxes touch p_o's box if p_o were at `where`, in creation order,
+  /// without p_o itself. Whether p_o is solid does not matter (Listing 4.108). Empty for null and for a
+  /// position out of range.
+  ObjectList getCollisions(const Object* p_o, Vector where) const;
+  /// Would p_o collide at `where`?
+  bool isCollision(const Object* p_o, Vector where) const;
+  /// Move p_o to `where` (Listings 4.109, 4.111, 4.113): solid Objects it touches there and itself get
+  /// collision events; if none blocks, it moves, and hears of it if it left the world. Return 0 if it moved;
+  /// -1 if blocked, deleted by a handler, out of range, or nested more than 32 deep in handlers. An inactive
+  /// Object is placed without collisions or events. Mover.h has the details.
+  int moveObject(Object* p_o, Vector where);
+  /// Move every active Object by its velocity, once, then delete what is marked. Nothing else of a tick
+  /// happens; see GM.tick().
+  void update();
+  /// Draw all Objects in view. GM.tick() does it.
+  void draw();
+
+  // What is seen of it.
+
+  /// The limits of the world, for out events and views; the window, if never set. Corner and size up to
+  /// 1e6 cells. Return 0, else -1.
+  int setBoundary(Box new_boundary);
+  Box getBoundary() const;
+  /// The view: that of the player whose input is being handled, if he has one of his own, else the world's,
+  /// which all other players share. Its size is the window's (DM.setSize).
+  Box getView() const;
+  /// Move the view to the box's corner, clamped inside the boundary; the box's size is ignored. Return
+  /// 0, or -1 if not finite.
+  int setView(Box new_view);
+  /// Centre the view on this position, clamped inside the boundary. Return 0, or -1 if not finite.
+  int setViewPosition(Vector view_pos);
+  /// Centre the view on this Object and move it along when moveObject() or update() take the Object out of
+  /// the view's inner third. Null: stay. Return 0, or -1 if the Object is not in the world.
+  int setViewFollowing(Object* p_new_view_following);
+
+  // Players.
+
+  /// All players, by id. The pointers are good until the players leave.
+  std::vector<Player*> getPlayers() const;
+  /// The player with this id; null before its EventJoin and after its EventLeave.
+  Player* getPlayer(std::uint32_t id) const;
+
+  /// 0 to n-1, each equally likely, from the world's seed (GM.setSeed); 0 if n < 1. Unlike rand(), the same
+  /// for everybody who plays the same inputs.
+  int randomInt(int n);
+
+ private:
+  WorldManager() { setType("WorldManager"); }
+};
+
+}  // namespace df

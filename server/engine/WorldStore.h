@@ -1,0 +1,199 @@
+// The hot state of a world's Objects: arrays by slot, behind handles with generations.
+//
+// An Object owns one slot from construction to destruction. It is "in the world" in between; entering puts
+// it last in the creation order, leaving (or dying) ends its generation, so that old handles find nobody.
+// Slots of the dead rest before they are used again, so that whoever watches from afar has heard of the
+// death when the next one moves in.
+//
+// Everybody who changes an Object's state goes through the setters here: they keep the grid of solid boxes
+// and the list of changes up to date. Arguments are in range; Object checks what games pass in.
+//
+// The store is counted: by its world, by each Object and by each list. It outlives the world, if need be.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "Fixed.h"
+#include "Grid.h"
+#include "Solidness.h"
+#include "WorldView.h"
+
+namespace df {
+
+class Object;
+class World;
+
+class WorldStore {
+ public:
+  using Slot = std::uint32_t;
+  static constexpr Slot kNoSlot = UINT32_MAX;
+  /// Updates for which a freed slot rests: two seconds, longer than any playable round trip.
+  static constexpr std::uint64_t kRest = 64;
+
+  /// What is true of an Object, beyond numbers.
+  enum Flag : std::uint16_t {
+    kInWorld = 1 << 0,
+    kActive = 1 << 1,
+    kVisible = 1 << 2,
+    kNoSoft = 1 << 3,
+    kHeap = 1 << 4,      ///< made with `new`: the world's to delete
+    kMarked = 1 << 5,    ///< to be deleted after update
+    kBlocked = 1 << 6,   ///< its last move in update did not happen
+    kDirty = 1 << 7,     ///< in the list of changes
+    kReported = 1 << 8,  ///< the watcher knows it
+    kDerive = 1 << 9,    ///< speed and direction follow from the velocity
+    kStaticLook = 1 << 10,
+    kNeverDraws = 1 << 11,  ///< its dynamic type is Object itself
+    kTyped = 1 << 12,       ///< kNeverDraws has been found out
+    kFollowed = 1 << 13,    ///< a view follows it
+  };
+
+  explicit WorldStore(World* p_world) : m_p_world(p_world) {}
+  WorldStore(const WorldStore&) = delete;
+  WorldStore& operator=(const WorldStore&) = delete;
+  void retain() { ++m_references; }
+  void release() {
+    if (--m_references == 0) delete this;
+  }
+  /// Null once the world is gone.
+  World* world() const { return m_p_world; }
+  void orphan() { m_p_world = nullptr; }
+
+  // Life.
+
+  /// A slot with an Object's default state, not in the world.
+  Slot take(Object* p_o, bool heap);
+  /// Give the slot of a destroyed Object back. It must have left the world. It rests for kRest updates.
+  void give(Slot s);
+  /// An update has passed.
+  void age() { ++m_updates; }
+  /// Into the world, last in order.
+  void enter(Slot s);
+  /// Out of it.
+  void leave(Slot s);
+
+  // Reading.
+
+  ObjectKey key(Slot s) const { return {s, m_generations[s]}; }
+  bool isCurrent(ObjectKey k) const {
+    return k.slot < m_generations.size() && m_generations[k.slot] == k.generation;
+  }
+  Object* find(ObjectKey k) const { return isCurrent(k) ? m_objects[k.slot] : nullptr; }
+  Object* object(Slot s) const { return m_objects[s]; }
+  FixedVector position(Slot s) const { return m_positions[s]; }
+  FixedVector velocity(Slot s) const { return m_velocities[s]; }
+  FixedVector acceleration(Slot s) const { return m_accelerations[s]; }
+  FixedBox box(Slot s) const { return m_boxes[s]; }
+  FixedBox worldBox(Slot s, FixedVector at) const { return translate(m_boxes[s], at); }
+  Solidness solidness(Slot s) const { return m_solidness[s]; }
+  int altitude(Slot s) const { return m_altitudes[s]; }
+  std::uint64_t order(Slot s) const { return m_orders[s]; }
+  bool has(Slot s, Flag flag) const { return (m_flags[s] & flag) != 0; }
+  bool collides(Slot s) const {
+    return (m_flags[s] & (kInWorld | kActive)) == (kInWorld | kActive) && m_solidness[s] != SPECTRAL;
+  }
+  int countInWorld() const { return m_in_world; }
+
+  // Changing.
+
+  void setPosition(Slot s, FixedVector position);
+  void setVelocity(Slot s, FixedVector velocity);
+  void setAcceleration(Slot s, FixedVector acceleration);
+  void setBox(Slot s, FixedBox box);
+  void setSolidness(Slot s, Solidness solidness);
+  void setAltitude(Slot s, int altitude);
+  /// The end of an Object's turn in update: its velocity from now on, and whether its move was blocked.
+  void settle(Slot s, FixedVector velocity, bool blocked);
+  /// Flags that the watcher sees (active, visible, no-soft, blocked) are noted as changes.
+  void set(Slot s, Flag flag, bool on);
+
+  /// Is this a legal position, a legal velocity?
+  static bool isPosition(FixedVector p) { return within(p, kMaxCells); }
+  static bool isVelocity(FixedVector v) { return within(v, kMaxVelocityCells); }
+
+  // Walking.
+
+  /// The creation order as it is now: entries [0, size()), which a walk may read while Objects come and
+  /// go. Those that come are appended behind the end; those that go leave a gap, kNoSlot.
+  class Walk {
+   public:
+    explicit Walk(const WorldStore& store) : m_store(store), m_size(store.m_order_list.size()) {
+      ++store.m_walks;
+    }
+    ~Walk() { --m_store.m_walks; }
+    Walk(const Walk&) = delete;
+    Walk& operator=(const Walk&) = delete;
+    std::size_t size() const { return m_size; }
+    Slot operator[](std::size_t i) const { return m_store.m_order_list[i]; }
+
+   private:
+    const WorldStore& m_store;
+    std::size_t m_size;
+  };
+
+  /// Drop the gaps from the order, if they are many and nobody walks. leave() does it when it may; call it
+  /// when a walk has ended.
+  void closeGaps();
+
+  /// The Objects that collide with `box`, except `self`, in creation order, appended to `out`.
+  void touching(const FixedBox& box, Slot self, std::vector<ObjectKey>& out) const;
+
+  // Changes, for the watcher.
+
+  /// Note changes from now on, beginning with everybody.
+  void setWatched(bool watched);
+  bool isWatched() const { return m_watched; }
+  /// Move what has changed since the last call into `view`.
+  void report(WorldView& view);
+  ObjectFacts facts(Slot s) const;
+
+ private:
+  struct Freed {
+    Slot slot;
+    std::uint64_t since;  ///< m_updates when it was freed
+  };
+
+  ~WorldStore() = default;
+  static bool within(FixedVector v, double cells) {
+    const auto limit = static_cast<Fixed>(cells * static_cast<double>(kFixedOne));
+    return v.x >= -limit && v.x <= limit && v.y >= -limit && v.y <= limit;
+  }
+  void touch(Slot s) {
+    if (m_watched) note(s);
+  }
+  void note(Slot s);
+  void file(Slot s);
+
+  World* m_p_world;
+  std::uint32_t m_references = 1;
+
+  std::vector<FixedVector> m_positions;
+  std::vector<FixedVector> m_velocities;
+  std::vector<FixedVector> m_accelerations;
+  std::vector<std::uint16_t> m_flags;
+  std::vector<Solidness> m_solidness;
+  std::vector<FixedBox> m_boxes;
+  std::vector<std::uint8_t> m_altitudes;
+  std::vector<std::uint32_t> m_generations;
+  std::vector<std::uint64_t> m_orders;         // place in creation order, never reused
+  std::vector<std::uint32_t> m_order_indices;  // where in m_order_list
+  std::vector<Object*> m_objects;
+
+  Grid m_grid;                     // everybody who collides
+  std::deque<Freed> m_free;        // longest free first
+  std::uint64_t m_updates = 0;
+  std::vector<Slot> m_order_list;  // those in the world by creation order, with gaps
+  std::size_t m_gaps = 0;
+  mutable int m_walks = 0;  // no gap is closed while somebody walks
+  int m_in_world = 0;
+  std::uint64_t m_next_order = 1;
+
+  bool m_watched = false;
+  std::vector<Slot> m_dirty;
+  std::vector<ObjectKey> m_vanished;
+  mutable std::vector<Slot> m_candidates;  // scratch of touching()
+};
+
+}  // namespace df

@@ -1,0 +1,79 @@
+// What the engine's tests share: a world of one's own, and an Object that tells what it hears.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "EventCollision.h"
+#include "EventOut.h"
+#include "GameManager.h"
+#include "Object.h"
+#include "World.h"
+#include "WorldManager.h"
+
+namespace df::test {
+
+/// A world that is current during a test, and what it logged.
+class WorldTest : public ::testing::Test {
+ protected:
+  WorldTest() : scope(world) {
+    world.setLogSink([this](const std::string& line) { lines.push_back(line); });
+  }
+  ~WorldTest() override { world.shutDown(); }
+
+  /// How many log lines contain `text`.
+  int logged(const std::string& text) const {
+    int count = 0;
+    for (const std::string& line : lines) count += line.find(text) != std::string::npos ? 1 : 0;
+    return count;
+  }
+
+  std::vector<std::string> lines;
+  std::vector<std::string> heard;  // "name:event", for Probes that are given this list
+  World world;
+  World::Scope scope;
+};
+
+/// An Object that writes "name:event" to a list, then does what it was told to do.
+class Probe : public Object {
+ public:
+  using Handler = std::function<void(Probe&, const Event&)>;
+
+  explicit Probe(std::string name = "probe", std::vector<std::string>* p_heard = nullptr, Vector at = {})
+      : m_p_heard(p_heard) {
+    setType(std::move(name));
+    setPosition(at);
+  }
+
+  int eventHandler(const Event* p_e) override {
+    if (m_p_heard != nullptr) m_p_heard->push_back(getType() + ":" + p_e->getType());
+    const Handler handler = on_event;  // it may delete this
+    if (handler) handler(*this, *p_e);
+    return 1;
+  }
+
+  int draw() override {
+    if (on_draw) on_draw(*this);
+    return 0;
+  }
+
+  Handler on_event;
+  std::function<void(Probe&)> on_draw;
+
+ private:
+  std::vector<std::string>* m_p_heard;
+};
+
+inline bool isCollision(const Event& e) {
+  return e.getType() == COLLISION_EVENT;
+}
+
+inline void expectAt(const Object& o, double x, double y) {
+  EXPECT_EQ(o.getPosition(), Vector(x, y));
+}
+
+}  // namespace df::test
