@@ -1,0 +1,51 @@
+// A random world in the engine.
+#pragma once
+
+#include "Actor.h"
+#include "Object.h"
+#include "Script.h"
+#include "World.h"
+
+namespace oracle {
+
+class EngineDriver : public Actor {
+ public:
+  /// `world` must outlive the driver.
+  explicit EngineDriver(const RandomWorld& world);
+  ~EngineDriver() override;
+
+  Script& script() { return m_script; }
+  /// Calls that the engine refused for their numbers: the script makes none.
+  std::uint64_t refusals() const { return m_world.getRefusals(); }
+
+  void create(int id, const Spec& spec) override;
+  void markForDelete(int id) override;
+  void deleteByHand(int id) override;
+  void remove(int id) override;
+  void insert(int id) override;
+  int moveObject(int id, FixedVector where) override;
+  void setPosition(int id, FixedVector position) override;
+  void setVelocity(int id, FixedVector velocity) override;
+  void setAcceleration(int id, FixedVector acceleration) override;
+  void setSolidness(int id, Solidness solidness) override;
+  void setBox(int id, FixedBox box) override;
+  void setNoSoft(int id, bool no_soft) override;
+  void setActive(int id, bool active) override;
+  FixedVector getPosition(int id) const override;
+  FixedVector getVelocity(int id) const override;
+  Solidness getSolidness(int id) const override;
+  void tick() override;
+  std::vector<Snapshot> snapshot() const override;
+
+ private:
+  class Scripted;
+
+  Scripted* object(int id) const { return m_objects[static_cast<std::size_t>(id)]; }
+
+  df::World m_world;
+  df::World::Scope m_scope;
+  Script m_script;
+  std::vector<Scripted*> m_objects;  ///< by number; null once destroyed
+};
+
+}  // namespace oracle

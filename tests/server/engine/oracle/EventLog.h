@@ -1,0 +1,61 @@
+// What happened in a world, in order: a running hash, and every entry too if somebody wants to read them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "Fixed.h"
+#include "Rng.h"
+
+namespace oracle {
+
+enum class Happening { STEP, COLLISION, OUT, MOVED, DESTROYED };
+
+struct Entry {
+  Happening what = Happening::STEP;
+  int who = 0;                 ///< the receiver; of MOVED the mover
+  int object1 = 0;             ///< of a collision: who caused it
+  int object2 = 0;             ///< of a collision: who was hit
+  df::FixedVector where = {};  ///< of a collision: its position; of MOVED the target
+  int result = 0;              ///< of MOVED: what moveObject returned
+
+  friend bool operator==(const Entry&, const Entry&) = default;
+};
+
+/// "collision to 3: 3 onto 7 at (1.5, 2)".
+std::string toString(const Entry& entry);
+
+class EventLog {
+ public:
+  /// Keep the entries, not only their hash.
+  void keepEntries() { m_keep = true; }
+
+  void add(const Entry& entry) {
+    ++m_count;
+    if (m_keep) m_entries.push_back(entry);
+    take(static_cast<std::uint64_t>(entry.what) ^ static_cast<std::uint64_t>(entry.who) << 8);
+    if (entry.what == Happening::STEP || entry.what == Happening::OUT) return;
+    take(static_cast<std::uint64_t>(entry.object1) << 32 ^ static_cast<std::uint64_t>(entry.object2));
+    take(static_cast<std::uint64_t>(entry.where.x));
+    take(static_cast<std::uint64_t>(entry.where.y));
+    take(static_cast<std::uint64_t>(entry.result));
+  }
+
+  std::uint64_t hash() const { return m_hash; }
+  std::int64_t count() const { return m_count; }
+  const std::vector<Entry>& entries() const { return m_entries; }
+
+ private:
+  void take(std::uint64_t value) { m_hash = mix(m_hash ^ value); }
+
+  std::uint64_t m_hash = 0;
+  std::int64_t m_count = 0;
+  bool m_keep = false;
+  std::vector<Entry> m_entries;
+};
+
+/// The first entry in which the logs differ, with the few before it, for a person to read. Empty if none.
+std::string firstDifference(const EventLog& engine, const EventLog& oracle);
+
+}  // namespace oracle

@@ -1,0 +1,54 @@
+// A random world in the oracle.
+#pragma once
+
+#include "Actor.h"
+#include "Oracle.h"
+#include "Script.h"
+
+namespace oracle {
+
+class OracleDriver : public Actor, private Handlers {
+ public:
+  /// `world` must outlive the driver.
+  explicit OracleDriver(const RandomWorld& world);
+
+  Script& script() { return m_script; }
+  const Counters& counters() const { return m_world.counters(); }
+
+  void create(int id, const Spec& spec) override;
+  void markForDelete(int id) override { m_world.markForDelete(object(id)); }
+  void deleteByHand(int id) override { m_world.destroy(object(id)); }
+  void remove(int id) override { m_world.remove(object(id)); }
+  void insert(int id) override { m_objects[static_cast<std::size_t>(id)] = m_world.insert(object(id)); }
+  int moveObject(int id, FixedVector where) override { return m_world.moveObject(object(id), where); }
+  void setPosition(int id, FixedVector position) override { object(id)->position = position; }
+  void setVelocity(int id, FixedVector velocity) override {
+    object(id)->setVelocity(df::toCells(velocity.x), df::toCells(velocity.y));
+  }
+  void setAcceleration(int id, FixedVector acceleration) override { object(id)->acceleration = acceleration; }
+  void setSolidness(int id, Solidness solidness) override { object(id)->solidness = solidness; }
+  void setBox(int id, FixedBox box) override { object(id)->box = box; }
+  void setNoSoft(int id, bool no_soft) override { object(id)->no_soft = no_soft; }
+  void setActive(int id, bool active) override { object(id)->active = active; }
+  FixedVector getPosition(int id) const override { return object(id)->position; }
+  FixedVector getVelocity(int id) const override { return object(id)->velocity; }
+  Solidness getSolidness(int id) const override { return object(id)->solidness; }
+  void tick() override;
+  std::vector<Snapshot> snapshot() const override;
+
+ private:
+  void step(Object* p_receiver) override { m_script.onStep(p_receiver->id); }
+  void collision(Object* p_receiver, Object* p_obj1, Object* p_obj2, FixedVector where) override {
+    m_script.onCollision(p_receiver->id, p_obj1->id, p_obj2->id, where);
+  }
+  void out(Object* p_receiver) override { m_script.onOut(p_receiver->id); }
+  void destroyed(Object* p_o) override { m_script.onDestroyed(p_o->id); }
+
+  Object* object(int id) const { return m_objects[static_cast<std::size_t>(id)]; }
+
+  World m_world;
+  Script m_script;
+  std::vector<Object*> m_objects;  ///< by number
+};
+
+}  // namespace oracle

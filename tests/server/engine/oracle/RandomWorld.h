@@ -1,0 +1,70 @@
+// A world to try, drawn from a seed: how large, how crowded, and what Objects there are at first. The same
+// seed gives the same world on every machine. What its handlers do is in Script.h.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Fixed.h"
+#include "Rng.h"
+#include "Solidness.h"
+
+namespace oracle {
+
+using df::Fixed;
+using df::FixedBox;
+using df::FixedVector;
+using df::Solidness;
+
+/// How an Object's handler behaves.
+enum class Temper {
+  QUIET,     ///< Hardly ever does anything.
+  LIVELY,    ///< Does something, anything, at every second event.
+  BULLET,    ///< Dies at a collision, often by its own hand.
+  PARENT,    ///< Makes others.
+  STUBBORN,  ///< Tries the refused move again from its handler, and again.
+};
+
+/// Everything about an Object when it is made.
+struct Spec {
+  FixedVector position;
+  FixedVector velocity;
+  FixedVector acceleration;
+  FixedBox box;
+  Solidness solidness = df::HARD;
+  bool no_soft = false;
+  bool active = true;
+  Temper temper = Temper::QUIET;
+};
+
+struct RandomWorld {
+  std::uint64_t seed = 0;
+  int ticks = 100;
+  FixedBox boundary;
+  FixedBox area;          ///< where Objects are put; may reach over the boundary
+  Fixed grain = 1;        ///< positions and sizes are multiples of this: coarse ones make edges touch
+  Fixed speed_limit = 1;  ///< of the fast ones; per axis and tick
+  int moving_percent = 70;
+  int solid_mix = 0;  ///< which Solidness is frequent
+  int no_soft_percent = 10;
+  int large_percent = 10;
+  int accelerated_percent = 10;
+  int population_limit = 300;
+  int moves_per_tick = 40;  ///< moveObject by handlers; more are not tried
+  std::vector<Spec> objects;
+
+  explicit RandomWorld(std::uint64_t world_seed);
+
+  /// Parts of a Spec, for those that scripts change or make later.
+  Spec randomSpec(Rng& rng) const;
+  FixedVector randomPosition(Rng& rng) const;
+  FixedVector randomVelocity(Rng& rng) const;
+  FixedVector randomAcceleration(Rng& rng) const;
+  FixedBox randomBox(Rng& rng) const;
+  Solidness randomSolidness(Rng& rng) const;
+
+ private:
+  Fixed onGrain(std::int64_t value) const { return value - value % grain; }
+};
+
+}  // namespace oracle
