@@ -11,12 +11,12 @@ inline constexpr std::uint32_t kHelloMagic = 0x6e616961;
 inline constexpr std::uint16_t kDefaultPort = 9876;
 
 /// Largest frame payload, in bytes: server to client; client to server; before login.
-inline constexpr std::size_t kMaxServerFrame = 16 * 1024;
-inline constexpr std::size_t kMaxClientFrame = 4 * 1024;
+inline constexpr std::size_t kMaxServerFrame = std::size_t{16} * 1024;
+inline constexpr std::size_t kMaxClientFrame = std::size_t{4} * 1024;
 inline constexpr std::size_t kMaxHelloFrame = 1024;
 
 /// Largest records part of one snapshot, in bytes (leaves room for the message around it).
-inline constexpr std::size_t kMaxSnapshotRecords = 15 * 1024;
+inline constexpr std::size_t kMaxSnapshotRecords = std::size_t{15} * 1024;
 
 /// Names and chat, in characters.
 inline constexpr std::size_t kMaxNameLength = 16;
@@ -24,8 +24,9 @@ inline constexpr std::size_t kMaxChatLength = 200;
 
 /// Slots of the replica; a server with more Objects in one world replicates the first ones and says so.
 inline constexpr std::uint32_t kMaxSlots = 1u << 20;
-/// Characters of one appearance.
-inline constexpr std::size_t kMaxGlyphs = 1024;
+/// Characters of one appearance, and the bytes its encoding may take (so that a birth fits a snapshot).
+inline constexpr std::size_t kMaxGlyphs = 8192;
+inline constexpr std::size_t kMaxLookBytes = std::size_t{14} * 1024;
 /// Player texts ("a text shown to one player only").
 inline constexpr std::uint32_t kMaxTexts = 16;
 

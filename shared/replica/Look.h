@@ -21,6 +21,8 @@ struct Glyph {
 };
 
 inline constexpr int kGlyphUnitBits = 8;  ///< 2^8 glyph units are one cell
+/// Farthest from its object that a glyph may be drawn, in glyph units (8192 cells).
+inline constexpr std::int64_t kMaxGlyphOffset = std::int64_t{1} << (13 + kGlyphUnitBits);
 
 /// The cell, in world cells, in which a glyph of an object at `position` is drawn.
 struct CellPosition {

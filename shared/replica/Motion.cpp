@@ -14,4 +14,15 @@ df::FixedVector positionAt(const Motion& m, std::uint32_t tick) {
           extrapolate(m.position.y, m.velocity.y, m.acceleration.y, n)};
 }
 
+Motion rebase(const Motion& m, std::uint32_t tick) {
+  const auto n = static_cast<std::uint64_t>(std::int64_t{static_cast<std::int32_t>(tick - m.tick)});
+  const auto velocity = [n](df::Fixed w, df::Fixed a) {
+    return static_cast<df::Fixed>(static_cast<std::uint64_t>(w) + n * static_cast<std::uint64_t>(a));
+  };
+  return {tick,
+          positionAt(m, tick),
+          {velocity(m.velocity.x, m.acceleration.x), velocity(m.velocity.y, m.acceleration.y)},
+          m.acceleration};
+}
+
 }  // namespace naiad

@@ -24,4 +24,12 @@ struct Motion {
 /// numbers may come from a hostile server.
 df::FixedVector positionAt(const Motion& motion, std::uint32_t tick);
 
+/// The same motion with its base at `tick`: position and velocity are what they will be then.
+Motion rebase(const Motion& motion, std::uint32_t tick);
+
+/// Does the motion ever change position?
+constexpr bool isMoving(const Motion& m) {
+  return m.velocity != df::FixedVector{} || m.acceleration != df::FixedVector{};
+}
+
 }  // namespace naiad

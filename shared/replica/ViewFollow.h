@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Fixed.h"
+#include "Motion.h"
 
 namespace naiad {
 
@@ -19,5 +20,12 @@ df::FixedVector followView(const ViewFrame& frame, df::FixedVector target);
 
 /// The corner clamped inside the boundary, as above.
 df::FixedVector clampView(const ViewFrame& frame, df::FixedVector corner);
+
+/// The published model of a following view: its corner at `tick`, if it was `frame.corner` at `known` and
+/// the followed object moves by `motion` (null: nobody is followed, the view stays). It depends on the two
+/// newest records alone, not on when they arrived, so a client that lost some draws the same view; where
+/// the true view differs (a path that turned in between), the server sends a new record.
+df::FixedVector viewCornerAt(const ViewFrame& frame, std::uint32_t known, const Motion* motion,
+                             std::uint32_t tick);
 
 }  // namespace naiad

@@ -1,0 +1,78 @@
+// Frames on a byte stream: where one message ends and the next begins.
+//
+//   +----------------+----------------+---------------------+
+//   | length, low 8  | length, high 8 | payload, length B   |   length = 1 … 65535, little-endian
+//   +----------------+----------------+---------------------+
+//
+// Two bytes, because the largest frame either end may send (Limits.h) is 16 KiB. There is no frame of
+// length zero. The writing side treats a wrong size as a bug of the caller; the reading side believes
+// nothing: it checks the length before it keeps a byte of the payload, and keeps only bytes that came.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace naiad {
+
+/// Bytes in front of each payload.
+inline constexpr std::size_t kFrameHeaderSize = 2;
+/// The largest payload that the length prefix can express, in bytes.
+inline constexpr std::size_t kMaxFramePayload = 0xffff;
+
+/// Append header and payload to `out`.
+/// Throws std::length_error if the payload is empty or longer than kMaxFramePayload; `out` is unchanged.
+void appendFrame(std::string& out, std::string_view payload);
+
+/// What made a FrameReader give up.
+enum class FrameError {
+  kNone,
+  kEmpty,     ///< a frame of length zero
+  kTooLarge,  ///< a frame longer than the limit
+};
+
+/// Cuts a stream of bytes, arriving in any pieces, back into frames.
+///
+///   reader.feed(bytes);
+///   while (auto frame = reader.next()) use(*frame);
+///   if (reader.error() != FrameError::kNone) hangUp();
+///
+/// Memory: frames that arrive whole are not copied; of an incomplete one, the bytes received so far are
+/// kept, never more than header + limit. A peer that only claims a large frame costs nothing.
+/// Errors are final: after one, next() yields nothing and feed() ignores its argument.
+class FrameReader {
+ public:
+  /// `limit`: the largest payload accepted, in bytes (values above kMaxFramePayload mean kMaxFramePayload).
+  explicit FrameReader(std::size_t limit);
+
+  /// A new limit. Counts from the next call of next() on, also for frames fed already and for one that is
+  /// incomplete, so a handler may change it between two frames of one piece.
+  void setLimit(std::size_t limit);
+
+  /// Hand over the next piece of the stream. The bytes must stay where they are until next() returned
+  /// nothing: drain before feeding again (throws std::logic_error otherwise).
+  void feed(std::string_view bytes);
+
+  /// The next whole payload, or nothing. The view is valid until the next call of next() or feed(), and no
+  /// longer than the bytes it was fed from.
+  std::optional<std::string_view> next();
+
+  FrameError error() const { return error_; }
+  /// True if the stream may not end here: a part of a frame was received.
+  bool midFrame() const { return !partial_.empty() && !yielded_; }
+  /// Bytes of an incomplete frame kept in memory.
+  std::size_t buffered() const { return partial_.size(); }
+
+ private:
+  void keep(std::size_t wanted);
+  bool accept(std::size_t length);
+
+  std::size_t limit_;
+  std::string partial_;       // header and payload of a frame that arrives in pieces
+  std::string_view pending_;  // the rest of the piece fed last
+  bool yielded_ = false;      // partial_ is whole and was handed out; the next call forgets it
+  FrameError error_ = FrameError::kNone;
+};
+
+}  // namespace naiad

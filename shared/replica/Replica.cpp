@@ -1,0 +1,131 @@
+#include "Replica.h"
+
+#include <algorithm>
+
+namespace naiad {
+
+namespace {
+
+// The first record of a group is always applied; 0 is never a snapshot number.
+bool supersedes(std::uint32_t number, std::uint32_t newest) { return newest == 0 || isNewer(number, newest); }
+
+ViewFrame frameOf(const WorldRecord& world, df::FixedVector corner) {
+  return {corner, {df::fromCells(world.view_width), df::fromCells(world.view_height)}, world.boundary};
+}
+
+}  // namespace
+
+void Replica::apply(std::uint32_t number, std::uint32_t tick, const Records& records) {
+  for (const WorldRecord& world : records.worlds) {
+    if (!supersedes(number, m_world_newest)) continue;
+    m_world_newest = number;
+    m_world = world;
+  }
+  for (const ViewRecord& view : records.views) {
+    if (!supersedes(number, m_view_newest)) continue;
+    m_view_newest = number;
+    m_view = view;
+    m_view_tick = tick;
+  }
+  for (const TextRecord& text : records.texts) {
+    std::uint32_t& newest = m_text_newest[text.id];
+    if (!supersedes(number, newest)) continue;
+    newest = number;
+    m_texts[text.id] = text;
+  }
+  for (const ObjectRecord& object : records.objects) applyObject(number, object);
+}
+
+void Replica::applyObject(std::uint32_t number, const ObjectRecord& record) {
+  auto found = m_entries.find(record.slot);
+  if (found == m_entries.end()) {
+    if (m_entries.size() >= kMaxReplicaObjects) {
+      ++m_overflows;
+      return;
+    }
+    found = m_entries.emplace(record.slot, Entry{}).first;
+  }
+  Entry& entry = found->second;
+  const bool newer = entry.generation == 0 || isNewer(record.generation, entry.generation);
+  if (!newer && record.generation != entry.generation) return;  // about an object long gone
+
+  if (record.groups == 0) {  // dead
+    m_alive -= entry.alive ? 1 : 0;
+    entry = Entry{record.generation, false, {}, {}};
+    return;
+  }
+  if (newer) {
+    if ((record.groups & kLife) == 0) return;  // only a birth can introduce an object
+    m_alive += entry.alive ? 0 : 1;
+    entry = Entry{record.generation, true, {}, {}};
+    entry.state.order = record.state.order;
+  }
+  if (!entry.alive) return;  // a late record about a dead object
+
+  for (int i = 0; i < kGroupCount; ++i) {
+    const int group = 1 << i;
+    if ((record.groups & group) == 0 || !supersedes(number, entry.newest[i])) continue;
+    entry.newest[i] = number;
+    if (group == kMotion) entry.state.motion = record.state.motion;
+    if (group == kLook) entry.state.look = record.state.look;
+    if (group == kBody) entry.state.body = record.state.body;
+  }
+}
+
+const Replica::Entry* Replica::find(std::uint32_t slot) const {
+  const auto found = m_entries.find(slot);
+  return found != m_entries.end() && found->second.alive ? &found->second : nullptr;
+}
+
+const Motion* Replica::followedMotion() const {
+  const Entry* entry = m_view.generation != 0 ? find(m_view.slot) : nullptr;
+  return entry != nullptr && entry->generation == m_view.generation ? &entry->state.motion : nullptr;
+}
+
+CellPosition Replica::viewCorner(std::uint32_t tick) const {
+  const df::FixedVector corner = viewCornerAt(frameOf(m_world, m_view.corner), m_view_tick, followedMotion(), tick);
+  return {df::cellOf(corner.x), df::cellOf(corner.y)};
+}
+
+CellPosition Replica::focus(std::uint32_t tick) const {
+  const Motion* motion = followedMotion();
+  if (motion == nullptr) return {viewWidth() / 2, viewHeight() / 2};
+  const CellPosition corner = viewCorner(tick);
+  const df::FixedVector at = positionAt(*motion, tick);
+  const auto inView = [](std::int32_t cell, std::int32_t low, int extent) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(std::int64_t{cell} - low, 0, extent - 1));
+  };
+  return {inView(df::cellOf(at.x), corner.x, viewWidth()), inView(df::cellOf(at.y), corner.y, viewHeight())};
+}
+
+df::Canvas Replica::render(std::uint32_t tick) const {
+  df::Canvas canvas(viewWidth(), viewHeight());
+  const CellPosition corner = viewCorner(tick);
+
+  std::vector<const ObjectState*> shown;
+  shown.reserve(m_alive);
+  for (const auto& [slot, entry] : m_entries) {
+    if (entry.alive && entry.state.look.select(tick) != nullptr) shown.push_back(&entry.state);
+  }
+  std::sort(shown.begin(), shown.end(), [](const ObjectState* a, const ObjectState* b) {
+    return a->look.altitude != b->look.altitude ? a->look.altitude < b->look.altitude : a->order < b->order;
+  });
+  for (const ObjectState* state : shown) {
+    const df::FixedVector at = positionAt(state->motion, tick);
+    for (const Glyph& glyph : *state->look.select(tick)) {
+      const CellPosition cell = glyphCell(at, glyph);
+      const std::int64_t x = std::int64_t{cell.x} - corner.x;
+      const std::int64_t y = std::int64_t{cell.y} - corner.y;
+      if (x >= 0 && y >= 0 && x < canvas.width() && y < canvas.height()) {
+        canvas.put(static_cast<int>(x), static_cast<int>(y), {glyph.ch, glyph.color});
+      }
+    }
+  }
+  for (const auto& [id, text] : m_texts) {
+    int x = text.x;
+    for (const char32_t ch : df::decodeUtf8(text.text)) canvas.put(x++, text.y, {ch, text.color});
+  }
+  return canvas;
+}
+
+}  // namespace naiad

@@ -1,0 +1,70 @@
+// The client's copy of the world: records go in, a picture of any tick comes out.
+//
+// Not thread-safe. Bounded: a hostile server can make it hold at most kMaxReplicaObjects objects.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <unordered_map>
+#include <vector>
+
+#include "Acks.h"
+#include "Canvas.h"
+#include "Records.h"
+#include "ViewFollow.h"
+
+namespace naiad {
+
+/// Objects, dead ones included, that a replica remembers; records for more are ignored and counted.
+inline constexpr std::size_t kMaxReplicaObjects = 1u << 17;
+
+class Replica {
+ public:
+  /// One remembered object. The newest number applied is kept per group; a dead object is remembered by
+  /// its generation, so that a late birth cannot bring it back.
+  struct Entry {
+    std::uint32_t generation = 0;
+    bool alive = false;
+    std::array<std::uint32_t, kGroupCount> newest{};
+    ObjectState state;
+  };
+
+  /// Apply the records of snapshot `number`, which hold at `tick`. Order of arrival does not matter.
+  void apply(std::uint32_t number, std::uint32_t tick, const Records& records);
+
+  /// Draw the player's view as it is at `tick`: objects by altitude, then creation order, then texts.
+  /// The canvas has the size of the view.
+  df::Canvas render(std::uint32_t tick) const;
+
+  /// Where the view's upper left corner is at `tick`, in whole world cells.
+  CellPosition viewCorner(std::uint32_t tick) const;
+  /// Where the followed object is drawn at `tick`, in view cells; the view's centre if there is none.
+  CellPosition focus(std::uint32_t tick) const;
+
+  int viewWidth() const { return m_world.view_width; }
+  int viewHeight() const { return m_world.view_height; }
+  std::size_t aliveCount() const { return m_alive; }
+  /// The live object in `slot`; null if there is none.
+  const Entry* find(std::uint32_t slot) const;
+  const std::unordered_map<std::uint32_t, Entry>& entries() const { return m_entries; }
+  /// Records left out because the replica was full.
+  std::uint64_t overflowCount() const { return m_overflows; }
+
+ private:
+  void applyObject(std::uint32_t number, const ObjectRecord& record);
+  const Motion* followedMotion() const;
+
+  std::unordered_map<std::uint32_t, Entry> m_entries;
+  std::map<std::uint32_t, TextRecord> m_texts;
+  std::map<std::uint32_t, std::uint32_t> m_text_newest;
+  WorldRecord m_world;
+  ViewRecord m_view;
+  std::uint32_t m_world_newest = 0;
+  std::uint32_t m_view_newest = 0;
+  std::uint32_t m_view_tick = 0;  ///< the tick at which m_view holds
+  std::size_t m_alive = 0;
+  std::uint64_t m_overflows = 0;
+};
+
+}  // namespace naiad

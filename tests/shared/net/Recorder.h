@@ -1,0 +1,27 @@
+// What a channel told its owner, for tests to look at.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Channel.h"
+
+namespace naiad::test {
+
+/// Must outlive the channel it listens to.
+struct Recorder {
+  std::vector<std::string> frames;
+  std::optional<CloseReason> closed;
+  int closings = 0;
+
+  ReliableChannel::Callbacks callbacks() {
+    return {[this](std::string_view frame) { frames.emplace_back(frame); },
+            [this](CloseReason reason) {
+              closed = reason;
+              ++closings;
+            }};
+  }
+};
+
+}  // namespace naiad::test
