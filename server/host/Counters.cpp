@@ -1,0 +1,38 @@
+#include "Counters.h"
+
+#include <utility>
+
+namespace naiad {
+
+std::string Counters::summary() const {
+  const std::pair<const char*, std::uint64_t> all[] = {
+      {"ticks", ticks},
+      {"connections", connections},
+      {"joined", joined},
+      {"refused_version", refused_version},
+      {"refused_full", refused_full},
+      {"refused_game", refused_game},
+      {"refused_name", refused_name},
+      {"malformed_frames", malformed_frames},
+      {"malformed_messages", malformed_messages},
+      {"login_timeouts", login_timeouts},
+      {"idle_timeouts", idle_timeouts},
+      {"input_floods", input_floods},
+      {"repeated_inputs", repeated_inputs},
+      {"chat_dropped", chat_dropped},
+      {"snapshots", snapshots},
+      {"snapshot_bytes", snapshot_bytes},
+      {"skipped_ticks", skipped_ticks},
+      {"late_ticks", late_ticks},
+      {"rebased_ticks", rebased_ticks},
+  };
+  std::string text;
+  for (const auto& [name, value] : all) {
+    if (value == 0) continue;
+    if (!text.empty()) text += ' ';
+    text += std::string(name) + '=' + std::to_string(value);
+  }
+  return text;
+}
+
+}  // namespace naiad

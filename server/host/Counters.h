@@ -1,0 +1,34 @@
+// What the host counts: every rejection has a number, so that nothing is dropped in silence.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace naiad {
+
+struct Counters {
+  std::uint64_t connections = 0;         ///< accepted by the listener
+  std::uint64_t joined = 0;              ///< welcomed
+  std::uint64_t refused_version = 0;     ///< wrong protocol version
+  std::uint64_t refused_full = 0;        ///< no place left
+  std::uint64_t refused_game = 0;        ///< asked for another game
+  std::uint64_t refused_name = 0;        ///< no usable name
+  std::uint64_t malformed_frames = 0;    ///< oversized or empty frames: the connection ended
+  std::uint64_t malformed_messages = 0;  ///< bytes that are no message, or a value out of range: ended
+  std::uint64_t login_timeouts = 0;      ///< no hello in time: ended
+  std::uint64_t idle_timeouts = 0;       ///< silent too long: ended
+  std::uint64_t input_floods = 0;        ///< more inputs queued than allowed: ended
+  std::uint64_t repeated_inputs = 0;     ///< applied before: ignored
+  std::uint64_t chat_dropped = 0;        ///< faster than three lines a second: ignored
+  std::uint64_t snapshots = 0;           ///< sent
+  std::uint64_t snapshot_bytes = 0;      ///< of their frames
+  std::uint64_t skipped_ticks = 0;       ///< a client had unsent bytes, so it got no snapshot in a tick
+  std::uint64_t ticks = 0;
+  std::uint64_t late_ticks = 0;          ///< began more than 5 ms after their deadline
+  std::uint64_t rebased_ticks = 0;       ///< a whole tick late: the schedule starts anew
+
+  /// "connections=3 joined=2 …", only what is not zero.
+  std::string summary() const;
+};
+
+}  // namespace naiad

@@ -1,0 +1,269 @@
+#include "Host.h"
+
+#include <algorithm>
+#include <asio/post.hpp>
+#include <csignal>
+#include <stdexcept>
+
+#include "Names.h"
+#include "Player.h"
+#include "TickClock.h"
+#include "Version.h"
+#include "World.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLate{5};
+constexpr std::chrono::seconds kDrainTime{1};
+constexpr std::chrono::seconds kLonely{60};  ///< --exit-when-empty, if nobody ever came
+constexpr std::uint32_t kPlayerListEvery = 15;  ///< ticks
+
+/// The colours players get, in turn; black would not be seen.
+constexpr df::Color kPlayerColors[] = {df::CYAN, df::GREEN, df::MAGENTA, df::YELLOW, df::RED, df::BLUE, df::WHITE};
+
+df::Color colorOf(std::uint64_t nth) { return kPlayerColors[nth % std::size(kPlayerColors)]; }
+
+TcpOptions channelOptions() {
+  TcpOptions options;
+  options.receive_limit = kMaxHelloFrame;
+  return options;
+}
+
+}  // namespace
+
+Host::Host(HostOptions options, std::string game, Log log)
+    : m_options(std::move(options)),
+      m_game(std::move(game)),
+      m_log(std::move(log)),
+      m_listener(
+          m_io, m_options.address, static_cast<std::uint16_t>(m_options.port),
+          [this](std::unique_ptr<ReliableChannel> channel) { accept(std::move(channel)); }, channelOptions()),
+      m_empty_since(Clock::now()) {
+  if (m_options.truth_file.empty()) return;
+  m_truth.emplace(m_options.truth_file);
+  if (!m_truth->isGood()) throw std::runtime_error("The truth file " + m_options.truth_file + " cannot be written.");
+}
+
+Host::~Host() = default;
+
+// The server's loop: serve sockets until the next tick is due, then tick.
+void Host::run(df::World& world) {
+  m_p_world = &world;
+  waitForSignal();
+  TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
+  m_empty_since = Clock::now();
+  while (!isOver(world)) {
+    m_io.restart();
+    m_io.poll();  // also when the deadline has passed already: an overloaded server must not turn deaf
+    m_io.run_until(schedule.deadline());
+    sweep();
+    const Clock::time_point now = Clock::now();
+    if (now < schedule.deadline()) continue;
+    m_counters.late_ticks += now - schedule.deadline() > kLate ? 1 : 0;
+    m_counters.rebased_ticks += schedule.begin(now) ? 1 : 0;
+    tick(world);
+  }
+  drain();
+  m_p_world = nullptr;
+}
+
+// One tick: input -> world (step, input events, update, draw) -> published models -> snapshots.
+void Host::tick(df::World& world) {
+  const bool watched = playing() > 0;
+  if (watched && !world.isWatched()) m_publisher = Publisher();
+  world.setWatched(watched);
+  for (const auto& session : m_sessions) session->checkDeadlines(Clock::now());
+
+  applyInputs(world);
+  world.tick();
+  ++m_counters.ticks;
+  if (watched) {
+    m_publisher.update(world.view());
+    sendSnapshots(world);
+    sendPlayers(world);
+  }
+  if (m_observer) m_observer(world);
+}
+
+template <class Visit>
+void Host::forEachPlaying(Visit visit) {
+  for (const auto& session : m_sessions) {
+    if (session->state() == Session::State::kPlaying) visit(*session);
+  }
+}
+
+void Host::applyInputs(df::World& world) {
+  forEachPlaying([&world](Session& session) {
+    session.takeInputs([&](const wire::Input& input) {
+      if (input.has_key()) {
+        world.key(session.player(), static_cast<df::Keyboard::Key>(input.key().key()),
+                  static_cast<df::EventKeyboardAction>(input.key().action()));
+      } else {
+        const wire::Mouse& mouse = input.mouse();
+        world.mouse(session.player(), static_cast<df::EventMouseAction>(mouse.action()),
+                    static_cast<df::Mouse::Button>(static_cast<int>(mouse.button()) - 1), mouse.x(), mouse.y());
+      }
+    });
+  });
+}
+
+void Host::sendSnapshots(df::World& world) {
+  const std::vector<df::PlayerFacts>& players = world.view().players;
+  forEachPlaying([&](Session& session) {
+    const auto found = std::find_if(players.begin(), players.end(), [&](const df::PlayerFacts& player) {
+      return player.id == session.player();
+    });
+    if (found == players.end()) return;  // joins with the next tick
+    // The truth first: whoever compares must find it once the snapshot has arrived.
+    if (m_truth) m_truth->write(m_publisher.tick(), found->id, world.renderPlayer(found->id));
+    session.sendTick(m_publisher, *found);
+  });
+}
+
+void Host::sendPlayers(const df::World& world) {
+  if (m_publisher.tick() % kPlayerListEvery != 0) return;
+  wire::ServerMessage message;
+  for (const df::PlayerFacts& player : world.view().players) {
+    wire::PlayerEntry& entry = *message.mutable_players()->add_players();
+    entry.set_player(player.id);
+    entry.set_name(player.name);
+    entry.set_color(static_cast<std::uint32_t>(player.color));
+    entry.set_score(player.score);
+    forEachPlaying([&](const Session& session) {
+      if (session.player() == player.id) entry.set_rtt_millis(session.rttMillis());
+    });
+  }
+  std::string bytes = message.SerializeAsString();
+  if (bytes == m_players_told || bytes.size() > kMaxServerFrame) return;
+  m_players_told = std::move(bytes);
+  forEachPlaying([&](Session& session) { session.send(message); });
+}
+
+void Host::accept(std::unique_ptr<ReliableChannel> channel) {
+  ++m_counters.connections;
+  // Half-open connections count too: they must not be a way round the limit.
+  if (m_sessions.size() >= static_cast<std::size_t>(m_options.max_players) * 2 + 16) return;
+  m_sessions.push_back(std::make_unique<Session>(std::move(channel), m_counters, Clock::now()));
+  m_sessions.back()->start({[this](Session& session, const wire::Hello& hello) { greet(session, hello); },
+                            [this](Session& session, const std::string& text) { chat(session, text); },
+                            [this](Session& session) { leave(session); }});
+}
+
+void Host::greet(Session& session, const wire::Hello& hello) {
+  if (hello.protocol() != kProtocolVersion) {
+    ++m_counters.refused_version;
+    const bool older = hello.protocol() < kProtocolVersion;
+    session.refuse(wire::Refused::VERSION, "This server speaks version " + std::to_string(kProtocolVersion) +
+                                               " of the protocol, your client version " +
+                                               std::to_string(hello.protocol()) + ". Please update the " +
+                                               (older ? "client." : "server."));
+    return;
+  }
+  if (!hello.game().empty() && hello.game() != m_game) {
+    ++m_counters.refused_game;
+    session.refuse(wire::Refused::GAME, "This server plays \"" + m_game + "\", not \"" + cleanName(hello.game()) + "\".");
+    return;
+  }
+  if (playing() >= static_cast<std::size_t>(m_options.max_players)) {
+    ++m_counters.refused_full;
+    session.refuse(wire::Refused::FULL,
+                   "The server is full (" + std::to_string(m_options.max_players) + " players). Try again later.");
+    return;
+  }
+  const std::string wanted = cleanName(hello.player_name());
+  if (wanted.empty()) {
+    ++m_counters.refused_name;
+    session.refuse(wire::Refused::NAME, "A player needs a name of 1 to 16 printable characters.");
+    return;
+  }
+  std::vector<std::string> taken;
+  forEachPlaying([&](const Session& other) { taken.push_back(other.name()); });
+  const std::string name = uniqueName(wanted, taken);
+
+  const df::Color color = colorOf(m_counters.joined++);
+  wire::Welcome welcome;
+  welcome.set_player(m_p_world->join(name, color));
+  welcome.set_name(name);
+  welcome.set_game(m_game);
+  welcome.set_tick_micros(static_cast<std::uint32_t>(
+      TickLength::fromMicros(m_options.frame_micros).times(1) / std::chrono::microseconds(1)));
+  welcome.set_view_width(static_cast<std::uint32_t>(m_p_world->getWindowWidth()));
+  welcome.set_view_height(static_cast<std::uint32_t>(m_p_world->getWindowHeight()));
+  welcome.set_color(static_cast<std::uint32_t>(color));
+  welcome.set_server(m_options.name + " (dfserver " + kVersion + ")");
+  for (const std::string& line : m_p_world->getHelp()) welcome.add_help(line);
+  session.welcome(welcome);
+  m_players_told.clear();
+  m_ever_joined = true;
+  m_log(name + " joined from " + session.address());
+}
+
+void Host::chat(const Session& session, const std::string& text) {
+  wire::ServerMessage message;
+  message.mutable_chat()->set_player(session.player());
+  message.mutable_chat()->set_text(text);
+  forEachPlaying([&](Session& other) { other.send(message); });
+}
+
+void Host::leave(Session& session) {
+  if (session.player() == 0) return;
+  if (m_p_world != nullptr) m_p_world->leave(session.player());
+  m_log(session.name() + " left");
+}
+
+// Sessions are destroyed here and nowhere else: their callbacks run inside them.
+void Host::sweep() {
+  std::erase_if(m_sessions, [](const auto& session) { return session->state() == Session::State::kGone; });
+  if (playing() > 0) m_empty_since = Clock::now();
+}
+
+std::size_t Host::playing() const {
+  return static_cast<std::size_t>(std::count_if(m_sessions.begin(), m_sessions.end(), [](const auto& session) {
+    return session->state() == Session::State::kPlaying;
+  }));
+}
+
+bool Host::isDeserted(Clock::time_point now) const {
+  if (m_options.exit_when_empty <= 0 || playing() > 0) return false;
+  const std::chrono::duration<double> patience(m_options.exit_when_empty);
+  return now - m_empty_since > (m_ever_joined ? patience : std::max<std::chrono::duration<double>>(patience, kLonely));
+}
+
+bool Host::isOver(const df::World& world) const {
+  const bool counted_out = m_options.ticks > 0 && m_counters.ticks >= static_cast<std::uint64_t>(m_options.ticks);
+  return world.isGameOver() || !m_stop_sentence.empty() || counted_out || isDeserted(Clock::now());
+}
+
+void Host::drain() {
+  m_listener.close();
+  const std::string sentence = m_stop_sentence.empty() ? "The game is over." : m_stop_sentence;
+  for (const auto& session : m_sessions) session->goodbye(sentence);
+  const Clock::time_point end = Clock::now() + kDrainTime;
+  m_signals.cancel();
+  while (!m_sessions.empty() && Clock::now() < end) {
+    m_io.restart();
+    m_io.run_one_until(end);
+    sweep();
+  }
+  m_log("stopped: " + m_counters.summary());
+}
+
+void Host::stop(const std::string& sentence) {
+  asio::post(m_io, [this, sentence] { m_stop_sentence = sentence; });
+}
+
+void Host::post(std::function<void(df::World&)> job) {
+  asio::post(m_io, [this, job = std::move(job)] { job(*m_p_world); });
+}
+
+void Host::waitForSignal() {
+  m_signals.add(SIGINT);
+  m_signals.add(SIGTERM);
+  m_signals.async_wait([this](const asio::error_code& error, int) {
+    if (!error) m_stop_sentence = "The server is shutting down.";
+  });
+}
+
+}  // namespace naiad

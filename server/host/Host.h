@@ -1,0 +1,90 @@
+// Hosts a game: the Runner behind GM.run() in dfserver.
+//
+// One thread does everything: between two ticks it serves sockets, at the deadline it runs the tick, then it
+// sends. `run` is the loop, `tick` one turn of it.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <asio/signal_set.hpp>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Counters.h"
+#include "HostOptions.h"
+#include "Publisher.h"
+#include "Runner.h"
+#include "Session.h"
+#include "TcpListener.h"
+#include "TruthFile.h"
+
+namespace naiad {
+
+class Host : public df::Runner {
+ public:
+  using Log = std::function<void(const std::string& line)>;
+
+  /// Listens from now on (clients wait until run()). Throws ListenError, or std::runtime_error for a truth
+  /// file that cannot be written.
+  Host(HostOptions options, std::string game, Log log);
+  ~Host() override;
+
+  /// The port listened on.
+  std::uint16_t port() const { return m_listener.port(); }
+  /// "127.0.0.1:9876".
+  std::string address() const { return m_listener.address(); }
+  const Counters& counters() const { return m_counters; }
+
+  /// Tick the world 30 times a second until the game is over, a signal comes or an option says so; then tell
+  /// the players and let what is queued drain.
+  void run(df::World& world) override;
+  /// End run() after the present tick; players are told `sentence`. Callable from another thread.
+  void stop(const std::string& sentence);
+  /// Call `job` on the host's thread, between two ticks. Callable from another thread (tests look at a
+  /// running world this way).
+  void post(std::function<void(df::World&)> job);
+  /// Called after every tick, on the host's thread.
+  void setObserver(std::function<void(df::World&)> observer) { m_observer = std::move(observer); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void accept(std::unique_ptr<ReliableChannel> channel);
+  void greet(Session& session, const wire::Hello& hello);
+  void chat(const Session& session, const std::string& text);
+  void leave(Session& session);
+  void tick(df::World& world);
+  void applyInputs(df::World& world);
+  void sendSnapshots(df::World& world);
+  void sendPlayers(const df::World& world);
+  void sweep();
+  void drain();
+  bool isOver(const df::World& world) const;
+  bool isDeserted(Clock::time_point now) const;
+  std::size_t playing() const;
+  void waitForSignal();
+  template <class Visit>
+  void forEachPlaying(Visit visit);
+
+  HostOptions m_options;
+  std::string m_game;
+  Log m_log;
+  Counters m_counters;
+  asio::io_context m_io{1};
+  asio::signal_set m_signals{m_io};
+  TcpListener m_listener;
+  std::vector<std::unique_ptr<Session>> m_sessions;
+  Publisher m_publisher;
+  std::optional<TruthWriter> m_truth;
+  std::function<void(df::World&)> m_observer;
+  df::World* m_p_world = nullptr;
+  std::string m_stop_sentence;
+  std::string m_players_told;   ///< the player list as last sent, serialised
+  Clock::time_point m_empty_since;
+  bool m_ever_joined = false;
+};
+
+}  // namespace naiad

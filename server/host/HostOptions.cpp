@@ -1,0 +1,114 @@
+#include "HostOptions.h"
+
+#include <CLI/CLI.hpp>
+#include <sstream>
+#include <variant>
+#include <vector>
+
+#include "Version.h"
+
+namespace naiad {
+
+namespace {
+
+using Member = std::variant<std::string HostOptions::*, int HostOptions::*, std::int64_t HostOptions::*,
+                            double HostOptions::*>;
+
+struct Row {
+  const char* flag;
+  const char* environment;
+  Member member;
+  double least;  ///< range of a number
+  double most;
+  const char* help;
+};
+
+const std::vector<Row>& table() {
+  static const std::vector<Row> rows = {
+      {"--game", "NAIAD_GAME", &HostOptions::game, 0, 0,
+       "Game to host: the name of a shipped one (see --list-games) or the path of a module (.so)"},
+      {"--address", "NAIAD_ADDRESS", &HostOptions::address, 0, 0,
+       "Numeric address to listen on; loopback only, since the stream is not encrypted"},
+      {"--port", "NAIAD_PORT", &HostOptions::port, 0, 65535, "TCP port to listen on; 0 takes any free one"},
+      {"--max-players", "NAIAD_MAX_PLAYERS", &HostOptions::max_players, 1, 1000, "Players at a time"},
+      {"--server-name", "NAIAD_SERVER_NAME", &HostOptions::name, 0, 0, "Name shown to players"},
+      {"--seed", "NAIAD_SEED", &HostOptions::seed, 0, 9e15,
+       "Seed of the world's random numbers; 0 takes a new one and logs it"},
+      {"--frame-time", "NAIAD_FRAME_TIME", &HostOptions::frame_micros, 0, 1e6,
+       "Length of a tick in microseconds; 0 is exactly 1/30 s"},
+      {"--ticks", "NAIAD_TICKS", &HostOptions::ticks, 0, 2e9, "Stop after this many ticks; 0 never"},
+      {"--exit-when-empty", "NAIAD_EXIT_WHEN_EMPTY", &HostOptions::exit_when_empty, 0, 1e6,
+       "Stop this many seconds after the last player left (a minute if nobody ever comes); 0 never"},
+      {"--truth", "NAIAD_TRUTH", &HostOptions::truth_file, 0, 0,
+       "Write what each player ought to see, tick by tick, to this file (for tests; large)"},
+      {"--port-file", "NAIAD_PORT_FILE", &HostOptions::port_file, 0, 0,
+       "Write the port number to this file once listening"},
+      {"--log", "NAIAD_LOG", &HostOptions::log_file, 0, 0, "Append log lines to this file instead of stderr"},
+  };
+  return rows;
+}
+
+const char* const kExitCodes =
+    "Exit codes:\n"
+    "  0  ended in order (game over, --ticks, --exit-when-empty, SIGINT or SIGTERM)\n"
+    "  1  the game's main() returned an error\n"
+    "  2  wrong usage\n"
+    "  3  no such game, or its module cannot be loaded\n"
+    "  4  cannot listen on that address and port\n"
+    "  5  a file cannot be written\n";
+
+std::string defaultText(const Row& row) {
+  const HostOptions defaults;
+  return std::visit(
+      [&](auto member) {
+        std::ostringstream text;
+        text << defaults.*member;
+        return text.str();
+      },
+      row.member);
+}
+
+}  // namespace
+
+CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options) {
+  CLI::App app("Hosts a Dragonfly game for terminals to join.", "dfserver");
+  app.set_version_flag("--version", std::string("dfserver ") + kVersion);
+  app.set_config("--config", "", "Read options from this file (lines like: port = 9876)");
+  app.footer(std::string("Every option can also be set in the environment.\n\n") + kExitCodes);
+  bool list_games = false;
+  bool markdown = false;
+  for (const Row& row : table()) {
+    std::visit(
+        [&](auto member) {
+          CLI::Option* option = app.add_option(row.flag, options.*member, row.help);
+          option->envname(row.environment)->capture_default_str();
+          if (row.most > row.least) option->check(CLI::Range(row.least, row.most));
+        },
+        row.member);
+  }
+  app.add_flag("--list-games", list_games, "Print the games that can be named, and exit");
+  app.add_flag("--markdown", markdown, "Print the options as a Markdown table, and exit")->group("");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? CommandLine::kDone : CommandLine::kUsageError;
+  }
+  if (markdown) {
+    std::cout << hostOptionsMarkdown();
+    return CommandLine::kDone;
+  }
+  return list_games ? CommandLine::kListGames : CommandLine::kRun;
+}
+
+std::string hostOptionsMarkdown() {
+  std::string text =
+      "# Options of dfserver\n\nMade by `dfserver --markdown`; a test keeps it true.\n\n"
+      "| option | environment | default | meaning |\n|---|---|---|---|\n";
+  for (const Row& row : table()) {
+    text += std::string("| `") + row.flag + "` | `" + row.environment + "` | " + defaultText(row) + " | " +
+            row.help + " |\n";
+  }
+  return text + "\n" + kExitCodes;
+}
+
+}  // namespace naiad

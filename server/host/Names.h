@@ -1,0 +1,20 @@
+// Player names and chat: what a stranger may put on other people's screens.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace naiad {
+
+/// `wanted` with blanks trimmed and collapsed, without characters that no terminal draws in one cell, cut to
+/// kMaxNameLength characters. Empty if nothing is left.
+std::string cleanName(const std::string& wanted);
+
+/// `name`, or where it is taken (upper and lower case count as the same), `name` with the lowest number from
+/// 2 on that is free, cut so that it still fits.
+std::string uniqueName(const std::string& name, const std::vector<std::string>& taken);
+
+/// A line of chat, cleaned as a name is and cut to kMaxChatLength characters.
+std::string cleanChat(const std::string& text);
+
+}  // namespace naiad

@@ -1,0 +1,85 @@
+// The published models: what every client is told about every object, one model for all of them.
+//
+// Clients extrapolate a model exactly as the publisher does, so the publisher knows what is on their
+// screens. After each tick it compares that with the world and changes a model only where it would draw
+// something in a wrong cell, or where a look or a body changed. Objects in straight flight cost nothing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Limits.h"
+#include "Records.h"
+#include "WorldView.h"
+
+namespace naiad {
+
+/// The slot under which characters drawn outside any object's draw() are published.
+inline constexpr std::uint32_t kLooseSlot = kMaxSlots - 1;
+
+class Publisher {
+ public:
+  /// One slot of the published world.
+  struct Model {
+    std::uint32_t generation = 0;
+    bool alive = false;
+    ObjectState state;
+  };
+  /// What an update changed about a slot; groups 0: the object is gone.
+  struct Change {
+    std::uint32_t slot = 0;
+    std::uint8_t groups = 0;
+  };
+
+  /// Take in one tick of the world. `changes()` then lists what clients have to be told.
+  void update(const df::WorldView& view);
+
+  std::uint32_t tick() const { return m_tick; }
+  const std::vector<Change>& changes() const { return m_changes; }
+  /// The model in `slot`; null if nothing lives there.
+  const Model* find(std::uint32_t slot) const;
+  /// Call `visit(slot, model)` for every live model, in slot order.
+  template <class Visit>
+  void forEach(Visit visit) const {
+    for (std::uint32_t slot = 0; slot < m_models.size(); ++slot) {
+      if (m_models[slot].model.alive) visit(slot, m_models[slot].model);
+    }
+    if (m_loose.model.alive) visit(kLooseSlot, m_loose.model);
+  }
+  const WorldRecord& world() const { return m_world; }
+
+  /// Models corrected because they would have drawn a wrong cell, since the start.
+  std::uint64_t correctionCount() const { return m_corrections; }
+  /// Objects left out because their slot is beyond kMaxSlots.
+  std::uint64_t refusedCount() const { return m_refused; }
+
+ private:
+  struct Tracked {
+    Model model;
+    Motion truth;             ///< where the object was last reported, and how it went on from there
+    bool shown = true;
+    std::uint32_t drawn = 0;  ///< newest tick in which its draw() ran
+    std::uint8_t changed = 0;
+    bool touched = false;     ///< in m_changes already
+  };
+
+  Tracked* track(std::uint32_t slot);
+  Motion truthNow(const Tracked& tracked) const;
+  void mark(std::uint32_t slot, Tracked& tracked, std::uint8_t groups);
+  void bury(df::ObjectKey key);
+  void takeFacts(const df::ObjectFacts& facts);
+  void takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn);
+  void takeLoose(const df::WorldView& view);
+  void correctLook(std::uint32_t slot, Tracked& tracked, const df::DrawCommand* commands, std::size_t count);
+  void correctUndrawn(const df::WorldView& view);
+
+  std::vector<Tracked> m_models;
+  Tracked m_loose;
+  std::vector<Change> m_changes;
+  WorldRecord m_world;
+  std::uint32_t m_tick = 0;
+  std::uint64_t m_corrections = 0;
+  std::uint64_t m_refused = 0;
+};
+
+}  // namespace naiad

@@ -1,0 +1,188 @@
+#include "Session.h"
+
+#include <algorithm>
+
+#include "Keyboard.h"
+#include "Names.h"
+
+namespace naiad {
+
+namespace {
+
+bool isValid(const wire::Key& key) {
+  return key.key() < df::Keyboard::kKeyCount && key.action() <= df::KEY_DOWN;
+}
+
+bool isValid(const wire::Mouse& mouse) {
+  return mouse.action() <= df::MOVED && mouse.button() <= df::Mouse::MIDDLE + 1 && mouse.x() >= 0 &&
+         mouse.y() >= 0 && mouse.x() < kMaxViewWidth && mouse.y() < kMaxViewHeight;
+}
+
+}  // namespace
+
+Session::Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now)
+    : m_channel(std::move(channel)), m_counters(counters), m_heard(now), m_chat_refill(now) {}
+
+void Session::start(Events events) {
+  m_events = std::move(events);
+  m_channel->setReceiveLimit(kMaxHelloFrame);
+  m_channel->start({[this](std::string_view frame) { onFrame(frame); },
+                    [this](CloseReason reason) {
+                      if (reason == CloseReason::kProtocol) ++m_counters.malformed_frames;
+                      m_state = State::kGone;
+                      m_events.on_gone(*this);
+                    }});
+}
+
+void Session::onFrame(std::string_view frame) {
+  if (m_state == State::kEnding || m_state == State::kGone) return;
+  m_spoke = true;
+  wire::ClientMessage message;
+  if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size())) || !dispatch(message)) malformed();
+}
+
+// False if the message breaks a rule: then the connection ends, and nothing else happens.
+bool Session::dispatch(const wire::ClientMessage& message) {
+  using What = wire::ClientMessage::WhatCase;
+  const bool greeting = m_state == State::kGreeting;
+  if (greeting != (message.what_case() == What::kHello)) return false;
+  switch (message.what_case()) {
+    case What::kHello:
+      if (message.hello().magic() != kHelloMagic) return false;
+      m_events.on_hello(*this, message.hello());
+      return true;
+    case What::kInput:
+      return takeInput(message.input());
+    case What::kAck:
+      m_sender.acknowledge({message.ack().newest(), message.ack().mask()});
+      return true;
+    case What::kChat:
+      takeChat(message.chat().text());
+      return true;
+    case What::kPing: {
+      m_rtt_millis = std::min<std::uint32_t>(message.ping().rtt_millis(), 99'999);
+      wire::ServerMessage answer;
+      answer.mutable_pong()->set_token(message.ping().token());
+      send(answer);
+      return true;
+    }
+    case What::kLeave:
+      goodbye("You left the game.");
+      return true;
+    case What::kResize:
+      return true;  // the game decides how much of the world a player sees, the client how to show it
+    case What::WHAT_NOT_SET:
+      break;
+  }
+  return false;
+}
+
+bool Session::takeInput(const wire::Input& input) {
+  const bool valid = input.has_key()     ? isValid(input.key())
+                     : input.has_mouse() ? isValid(input.mouse())
+                                         : false;
+  if (!valid || input.id() == 0) return false;
+  if (!isNewer(input.id(), m_input_received) && m_input_received != 0) {
+    ++m_counters.repeated_inputs;
+    return true;
+  }
+  if (m_inputs.size() >= kMaxQueuedInputs) {
+    ++m_counters.input_floods;
+    goodbye("Too many keys at once.");
+    return true;
+  }
+  m_input_received = input.id();
+  m_inputs.push_back(input);
+  return true;
+}
+
+void Session::takeChat(const std::string& text) {
+  const std::string line = cleanChat(text);
+  if (line.empty()) return;
+  if (m_chat_budget <= 0) {
+    ++m_counters.chat_dropped;
+    return;
+  }
+  --m_chat_budget;
+  m_events.on_chat(*this, line);
+}
+
+void Session::malformed() {
+  ++m_counters.malformed_messages;
+  end();
+}
+
+void Session::end() {
+  if (m_state == State::kGone) return;
+  m_state = State::kEnding;
+  m_channel->close();
+}
+
+void Session::refuse(wire::Refused::Reason reason, const std::string& sentence) {
+  wire::ServerMessage message;
+  message.mutable_refused()->set_reason(reason);
+  message.mutable_refused()->set_sentence(sentence);
+  send(message);
+  end();
+}
+
+void Session::welcome(const wire::Welcome& welcome) {
+  m_player = welcome.player();
+  m_name = welcome.name();
+  m_state = State::kPlaying;
+  m_channel->setReceiveLimit(kMaxClientFrame);
+  wire::ServerMessage message;
+  *message.mutable_welcome() = welcome;
+  send(message);
+}
+
+void Session::goodbye(const std::string& sentence) {
+  if (m_state == State::kEnding || m_state == State::kGone) return;
+  wire::ServerMessage message;
+  message.mutable_goodbye()->set_sentence(sentence);
+  send(message);
+  end();
+}
+
+void Session::checkDeadlines(Clock::time_point now) {
+  if (m_spoke) m_heard = now;
+  m_spoke = false;
+  if (now - m_chat_refill >= std::chrono::seconds(1)) {
+    m_chat_refill = now;
+    m_chat_budget = kChatPerSecond;
+  }
+  if (m_state == State::kGreeting && now - m_heard > kLoginTimeout) {
+    ++m_counters.login_timeouts;
+    refuse(wire::Refused::BAD_REQUEST, "The server heard no greeting in time.");
+  } else if (m_state == State::kPlaying && now - m_heard > kIdleTimeout) {
+    ++m_counters.idle_timeouts;
+    goodbye("The server has not heard from you for a while.");
+  }
+}
+
+void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player) {
+  m_sender.note(publisher);
+  m_sender.setPlayer(player);
+  if (m_channel->unsentBytes() > 0) {
+    ++m_counters.skipped_ticks;
+    return;
+  }
+  for (SnapshotSender::Snapshot& snapshot : m_sender.build(publisher)) {
+    wire::ServerMessage message;
+    wire::Snapshot& body = *message.mutable_snapshot();
+    body.set_number(snapshot.number);
+    body.set_tick(snapshot.tick);
+    body.set_records(std::move(snapshot.records));
+    body.set_input_applied(m_input_applied);
+    ++m_counters.snapshots;
+    m_counters.snapshot_bytes += message.ByteSizeLong();
+    send(message);
+  }
+}
+
+void Session::send(const wire::ServerMessage& message) {
+  if (m_state == State::kGone) return;
+  m_channel->send(message.SerializeAsString());
+}
+
+}  // namespace naiad

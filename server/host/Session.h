@@ -1,0 +1,99 @@
+// One client on the server's side: its channel, where it is in its life (STATES.md), what it has been told.
+//
+// Everything the client sends is checked here and counted where it is refused; a session that breaks a rule
+// ends alone. Time is passed in. Single-threaded: the host's event loop and tick share a thread.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "Channel.h"
+#include "Counters.h"
+#include "SnapshotSender.h"
+#include "naiad.pb.h"
+
+namespace naiad {
+
+class Session {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// What a session asks of the host. Called from the event loop; the callee may refuse() or welcome().
+  struct Events {
+    std::function<void(Session&, const wire::Hello&)> on_hello;
+    std::function<void(Session&, const std::string& text)> on_chat;
+    std::function<void(Session&)> on_gone;  ///< the connection is over; called once
+  };
+
+  enum class State { kGreeting, kPlaying, kEnding, kGone };
+
+  static constexpr std::chrono::seconds kLoginTimeout{5};
+  static constexpr std::chrono::seconds kIdleTimeout{15};
+  static constexpr std::size_t kMaxQueuedInputs = 64;
+  static constexpr int kInputsPerTick = 16;
+  static constexpr int kChatPerSecond = 3;
+
+  Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now);
+  /// Begin to receive. Not in the constructor, so that callbacks find a finished session.
+  void start(Events events);
+
+  /// Answer the hello with a refusal; the connection ends.
+  void refuse(wire::Refused::Reason reason, const std::string& sentence);
+  /// Answer the hello: the client plays from now on.
+  void welcome(const wire::Welcome& welcome);
+  /// Tell the client why it is over, and end.
+  void goodbye(const std::string& sentence);
+
+  /// Enforce deadlines.
+  void checkDeadlines(Clock::time_point now);
+  /// Take up to kInputsPerTick inputs out of the queue, in order, each id once.
+  template <class Apply>
+  void takeInputs(Apply apply) {
+    for (int i = 0; i < kInputsPerTick && !m_inputs.empty(); ++i) {
+      apply(m_inputs.front());
+      m_input_applied = m_inputs.front().id();
+      m_inputs.pop_front();
+    }
+  }
+
+  /// Note a published tick, and send what is owed unless the client is still busy with earlier bytes.
+  void sendTick(const Publisher& publisher, const df::PlayerFacts& player);
+  void send(const wire::ServerMessage& message);
+
+  State state() const { return m_state; }
+  std::uint32_t player() const { return m_player; }
+  const std::string& name() const { return m_name; }
+  std::string address() const { return m_channel->peerAddress(); }
+  /// The round trip the client measured last, in milliseconds; 0: not yet.
+  std::uint32_t rttMillis() const { return m_rtt_millis; }
+
+ private:
+  void onFrame(std::string_view frame);
+  bool dispatch(const wire::ClientMessage& message);
+  bool takeInput(const wire::Input& input);
+  void takeChat(const std::string& text);
+  void malformed();
+  void end();
+
+  std::unique_ptr<ReliableChannel> m_channel;
+  Counters& m_counters;
+  Events m_events;
+  State m_state = State::kGreeting;
+  Clock::time_point m_heard;   ///< when the client last sent a frame
+  bool m_spoke = false;        ///< a frame came since then
+  std::uint32_t m_player = 0;
+  std::string m_name;
+  std::uint32_t m_rtt_millis = 0;
+  std::deque<wire::Input> m_inputs;
+  std::uint32_t m_input_received = 0;
+  std::uint32_t m_input_applied = 0;
+  int m_chat_budget = kChatPerSecond;
+  Clock::time_point m_chat_refill;
+  SnapshotSender m_sender;
+};
+
+}  // namespace naiad

@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "Canvas.h"
+#include "Limits.h"
+#include "Names.h"
+#include "SplitMix64.h"
+
+namespace naiad {
+namespace {
+
+TEST(Names, BlanksAreTrimmedAndCollapsed) {
+  EXPECT_EQ(cleanName("  Ann \t  Bee\u00a0 "), "Ann Bee");
+  EXPECT_EQ(cleanName(" \t "), "");
+  EXPECT_EQ(cleanName(""), "");
+}
+
+TEST(Names, WhatDisturbsATerminalIsLeftOut) {
+  EXPECT_EQ(cleanName("A\x1b[31mn\nn"), "A[31mnn");
+  EXPECT_EQ(cleanName("\u202eevil\u200b"), "evil");
+  EXPECT_EQ(cleanName("\xff\xfe\xc3"), "");
+  EXPECT_EQ(cleanName("Zoë"), "Zoë");
+}
+
+TEST(Names, AreCutByCharactersNotBytes) {
+  EXPECT_EQ(cleanName("ééééééééééééééééé"), "éééééééééééééééé");
+  EXPECT_EQ(cleanName("123456789012345 x"), "123456789012345") << "no blank at the end after the cut";
+}
+
+TEST(Names, AnyBytesGiveADrawableNameThatFits) {
+  SplitMix64 rng(1);
+  for (int i = 0; i < 5000; ++i) {
+    std::string bytes(rng.below(60), '\0');
+    for (char& byte : bytes) byte = static_cast<char>(rng.next());
+    const std::string name = cleanName(bytes);
+    const std::u32string characters = df::decodeUtf8(name);
+    ASSERT_LE(characters.size(), kMaxNameLength);
+    for (const char32_t ch : characters) ASSERT_TRUE(df::isDrawable(ch));
+    ASSERT_EQ(cleanName(name), name);
+  }
+}
+
+TEST(Names, ATakenNameGetsTheLowestFreeNumber) {
+  EXPECT_EQ(uniqueName("Ann", {}), "Ann");
+  EXPECT_EQ(uniqueName("Ann", {"ann"}), "Ann2");
+  EXPECT_EQ(uniqueName("Ann", {"Ann", "ANN2", "Ann4"}), "Ann3");
+}
+
+TEST(Names, NumbersDoNotMakeANameTooLong) {
+  const std::string longest(kMaxNameLength, 'x');
+  std::vector<std::string> taken = {longest};
+  for (int i = 0; i < 12; ++i) {
+    taken.push_back(uniqueName(longest, taken));
+    EXPECT_LE(taken.back().size(), kMaxNameLength);
+  }
+  EXPECT_EQ(taken[1], std::string(kMaxNameLength - 1, 'x') + "2");
+  EXPECT_EQ(taken[9], std::string(kMaxNameLength - 2, 'x') + "10");
+}
+
+TEST(Names, ChatIsCleanedAndCutToo) {
+  EXPECT_EQ(cleanChat("  hello\x1b  there "), "hello there");
+  EXPECT_EQ(df::decodeUtf8(cleanChat(std::string(500, 'a'))).size(), kMaxChatLength);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "Acks.h"
+#include "SplitMix64.h"
+
+namespace naiad {
+namespace {
+
+TEST(Acks, KnowNothingAtFirst) {
+  const AckWindow acks;
+  EXPECT_FALSE(acks.has(0));
+  EXPECT_FALSE(acks.has(1));
+  EXPECT_FALSE(acks.has(0xFFFFFFFF));
+}
+
+TEST(Acks, BitIOfTheMaskIsNewestMinusOneMinusI) {
+  AckWindow acks;
+  for (const std::uint32_t number : {1u, 2u, 5u, 4u}) acks.note(number);
+  EXPECT_EQ(acks.newest, 5u);
+  EXPECT_EQ(acks.mask, 0b1101u);
+}
+
+TEST(Acks, AgreeWithASetOfTheLast65Numbers) {
+  SplitMix64 rng(4);
+  for (int run = 0; run < 50; ++run) {
+    AckWindow acks;
+    std::set<std::uint32_t> heard;
+    std::uint32_t newest = 0;
+    std::uint32_t next = 1;
+    for (int i = 0; i < 400; ++i) {
+      next += 1 + static_cast<std::uint32_t>(rng.below(5) == 0 ? rng.below(80) : rng.below(2));
+      const auto late = static_cast<std::uint32_t>(rng.below(90));
+      const std::uint32_t number = next > late ? next - late : next;
+      acks.note(number);
+      if (number >= newest || newest - number <= 64) heard.insert(number);
+      newest = std::max(newest, number);
+      ASSERT_EQ(acks.newest, newest);
+      for (std::uint32_t back = 0; back < 70 && back < newest; ++back) {
+        const bool expected = back <= 64 && heard.count(newest - back) != 0;
+        ASSERT_EQ(acks.has(newest - back), expected) << newest << " - " << back;
+      }
+      ASSERT_FALSE(acks.has(newest + 1));
+    }
+  }
+}
+
+TEST(Acks, DuplicatesChangeNothing) {
+  AckWindow acks;
+  for (const std::uint32_t number : {1u, 3u, 3u, 1u}) acks.note(number);
+  EXPECT_EQ(acks.newest, 3u);
+  EXPECT_EQ(acks.mask, 0b10u);
+}
+
+TEST(Acks, RememberAcrossTheWrap) {
+  AckWindow acks;
+  acks.newest = 0xFFFFFFFE;
+  acks.mask = 1;
+  acks.note(0xFFFFFFFF);
+  acks.note(2);  // 0 is never used
+  EXPECT_EQ(acks.newest, 2u);
+  EXPECT_TRUE(acks.has(0xFFFFFFFF));
+  EXPECT_TRUE(acks.has(0xFFFFFFFE));
+  EXPECT_TRUE(acks.has(0xFFFFFFFD));
+  EXPECT_FALSE(acks.has(1));
+  EXPECT_TRUE(isNewer(2, 0xFFFFFFFF));
+  EXPECT_FALSE(isNewer(0xFFFFFFFF, 2));
+}
+
+TEST(Acks, AJumpOfTheWholeWindowKeepsTheLastBit) {
+  AckWindow acks;
+  acks.note(1);
+  acks.note(65);
+  EXPECT_TRUE(acks.has(1));
+  acks.note(66);
+  EXPECT_FALSE(acks.has(1));
+  EXPECT_TRUE(acks.has(65));
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,113 @@
+// Random records, all of them legal, with small and with extreme numbers.
+#pragma once
+
+#include <string>
+
+#include "Limits.h"
+#include "Records.h"
+#include "SplitMix64.h"
+
+namespace naiad::test {
+
+class RandomRecords {
+ public:
+  explicit RandomRecords(std::uint64_t seed) : m_rng(seed) {}
+
+  SplitMix64& rng() { return m_rng; }
+  bool chance(double p) { return m_rng.unit() < p; }
+  /// Uniform in -most … most.
+  std::int64_t within(std::int64_t most) {
+    const auto span = static_cast<std::uint64_t>(most);
+    return static_cast<std::int64_t>(m_rng.below(2 * span + 1) - span);
+  }
+  df::Fixed coordinate(std::int64_t most_cells) {
+    if (chance(0.1)) return (chance(0.5) ? 1 : -1) * (most_cells << df::kFixedBits);
+    return within((chance(0.5) ? most_cells : 100) << df::kFixedBits);
+  }
+  df::FixedVector vector(std::int64_t most_cells) {
+    const df::Fixed x = coordinate(most_cells);
+    return {x, coordinate(most_cells)};
+  }
+  df::FixedVector size(std::int64_t most_cells) {
+    const df::FixedVector v = vector(most_cells);
+    return {std::abs(v.x), std::abs(v.y)};
+  }
+  df::Color color() { return static_cast<df::Color>(m_rng.below(df::kColorCount)); }
+  char32_t character() {
+    static constexpr char32_t kSome[] = {U' ', U'~', U'é', U'Ω', U'─', U'█', U'⠿'};
+    return chance(0.3) ? kSome[m_rng.below(std::size(kSome))] : U'a' + static_cast<char32_t>(m_rng.below(26));
+  }
+
+  Motion motion(std::uint32_t tick) {
+    Motion m{tick, vector(2'000'000'000), {}, {}};
+    if (chance(0.6)) m.velocity = vector(1 << 24);
+    if (chance(0.3)) m.acceleration = vector(1 << 24);
+    return m;
+  }
+  Look look() {
+    Look look{{}, static_cast<std::int32_t>(m_rng.below(256))};
+    if (chance(0.2)) return look;
+    Appearance& glyphs = look.sequence.emplace_back();
+    const auto count = m_rng.below(chance(0.1) ? 300 : 12);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const bool next = i > 0 && chance(0.7);
+      const auto dx =
+          next ? glyphs.back().dx + 256 : within(chance(0.2) ? kMaxGlyphOffset - 256 * 300 : 2000);
+      const auto dy = next ? glyphs.back().dy : within(chance(0.2) ? kMaxGlyphOffset : 2000);
+      glyphs.push_back({static_cast<std::int32_t>(dx), static_cast<std::int32_t>(dy), character(),
+                        next && chance(0.8) ? glyphs.back().color : color()});
+    }
+    return look;
+  }
+  Body body() {
+    return {{vector(1'000'000), size(1'000'000)}, static_cast<df::Solidness>(m_rng.below(3)), chance(0.5)};
+  }
+  ObjectState state(std::uint32_t tick) {
+    return {chance(0.2) ? m_rng.next() : m_rng.below(5000), motion(tick), look(), body()};
+  }
+  /// Only the groups that are named carry something.
+  ObjectRecord object(std::uint32_t tick) {
+    ObjectRecord record;
+    record.slot = static_cast<std::uint32_t>(m_rng.below(chance(0.2) ? kMaxSlots : 300));
+    record.generation = chance(0.1) ? 0xFFFFFFFF : 1 + static_cast<std::uint32_t>(m_rng.below(9));
+    record.groups = chance(0.3) ? kAllGroups : static_cast<std::uint8_t>(m_rng.below(8) << 1);
+    const ObjectState all = state(tick);
+    if ((record.groups & kLife) != 0) record.state.order = all.order;
+    if ((record.groups & kMotion) != 0) record.state.motion = all.motion;
+    if ((record.groups & kLook) != 0) record.state.look = all.look;
+    if ((record.groups & kBody) != 0) record.state.body = all.body;
+    return record;
+  }
+  WorldRecord world() {
+    return {{vector(1'000'000), size(1'000'000)},
+            static_cast<std::int32_t>(20 + m_rng.below(381)),
+            static_cast<std::int32_t>(10 + m_rng.below(141))};
+  }
+  ViewRecord view() {
+    ViewRecord record{vector(2'000'000'000), 0, 0};
+    if (chance(0.3)) return record;
+    record.slot = static_cast<std::uint32_t>(m_rng.below(kMaxSlots));
+    record.generation = 1 + static_cast<std::uint32_t>(m_rng.below(0xFFFFFFFF));
+    return record;
+  }
+  TextRecord text() {
+    TextRecord record{static_cast<std::uint32_t>(m_rng.below(kMaxTexts)),
+                      static_cast<std::int32_t>(within(400)), static_cast<std::int32_t>(within(150)), color(),
+                      ""};
+    for (auto n = m_rng.below(30); n > 0; --n) df::appendUtf8(record.text, character());
+    return record;
+  }
+  Records records(std::uint32_t tick) {
+    Records all;
+    if (chance(0.3)) all.worlds.push_back(world());
+    if (chance(0.3)) all.views.push_back(view());
+    for (auto n = m_rng.below(3); n > 0; --n) all.texts.push_back(text());
+    for (auto n = m_rng.below(6); n > 0; --n) all.objects.push_back(object(tick));
+    return all;
+  }
+
+ private:
+  SplitMix64 m_rng;
+};
+
+}  // namespace naiad::test
