@@ -1,0 +1,160 @@
+// One session with a server, as the client sees it: the protocol's state machine (proto/STATES.md).
+//
+//   kGreeting --Welcome--> kPlaying --Goodbye--> kEnded
+//       |                     +--channel closed, 15 s of silence--> kLost
+//       +--Refused--> kRefused          (a bad message ends any state in kEnded; leave() in kLeft)
+//
+// The session knows no socket and no clock: the owner hands it every frame and every time (Connection does
+// for the programs, the tests do it by hand). Everything received passes readServerMessage() first.
+// Not thread-safe. Memory is bounded whatever the server sends.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "Acks.h"
+#include "Channel.h"
+#include "DisplayClock.h"
+#include "InputBudget.h"
+#include "Keyboard.h"
+#include "Replica.h"
+#include "ServerMessages.h"
+
+namespace naiad {
+namespace wire {
+class ClientMessage;
+}
+
+/// What the Hello says.
+struct SessionOptions {
+  std::string name = "player";  ///< wanted name, 1 to 16 characters
+  std::string game;             ///< game to play; empty: whatever runs
+  std::string program;          ///< "dfclient 0.1.0", for the server's log
+  int columns = 80;             ///< terminal size in cells
+  int rows = 24;
+};
+
+/// A line of chat and when it came.
+struct ChatEntry {
+  std::string name;  ///< of the speaker; empty: the server
+  df::Color color = df::COLOR_DEFAULT;
+  std::string text;
+  std::chrono::steady_clock::time_point at;
+};
+
+/// What went over the wire so far. Bytes are frame payloads plus two bytes of header each.
+struct SessionCounters {
+  std::uint64_t bytes_in = 0;
+  std::uint64_t bytes_out = 0;
+  std::uint64_t snapshots = 0;
+  std::uint64_t inputs = 0;
+  std::uint64_t inputs_dropped = 0;  ///< kept back by InputBudget
+  std::uint64_t chat_lines = 0;
+  std::uint64_t bad_messages = 0;
+};
+
+class ClientSession {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  enum class State { kGreeting, kPlaying, kRefused, kEnded, kLost, kLeft };
+
+  static constexpr std::chrono::seconds kGreetingTimeout{5};
+  static constexpr std::chrono::seconds kIdleTimeout{15};
+  static constexpr std::chrono::seconds kPingInterval{1};
+  static constexpr std::size_t kMaxChatLog = 100;
+
+  /// Takes the connected channel and says Hello. The owner starts the channel and passes what it delivers
+  /// to receive() and closed().
+  ClientSession(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options, Time now);
+  ClientSession(const ClientSession&) = delete;
+  ClientSession& operator=(const ClientSession&) = delete;
+
+  /// A frame from the server.
+  void receive(std::string_view frame, Time now);
+  /// The channel ended by itself.
+  void closed(CloseReason reason);
+  /// Pings and time-outs. Call about ten times a second.
+  void update(Time now);
+
+  /// Send a key or mouse action of the player, at once. False if it was not sent: not playing, or too many.
+  bool sendKey(df::Keyboard::Key key, df::EventKeyboardAction action, Time now);
+  /// `x`, `y`: cell of the view.
+  bool sendMouse(df::EventMouseAction action, df::Mouse::Button button, int x, int y, Time now);
+  /// Say something to all players; nothing if no drawable character is left of it.
+  void sendChat(const std::string& text);
+  void sendResize(int columns, int rows);
+  /// Leave on purpose: the server is told, the channel closes after what is queued.
+  void leave();
+
+  State state() const { return m_state; }
+  /// Neither waiting for the server nor playing any more.
+  bool isOver() const { return m_state != State::kGreeting && m_state != State::kPlaying; }
+  /// Why the session is over, for people. Empty while it is not, or after leave().
+  const std::string& sentence() const { return m_sentence; }
+  /// Playing, and at least one snapshot came: there is something to show.
+  bool hasPicture() const { return m_counters.snapshots > 0; }
+
+  const WelcomeMessage& welcome() const { return m_welcome; }
+  const Replica& replica() const { return m_replica; }
+  const std::vector<PlayerLine>& players() const { return m_players; }
+  const std::deque<ChatEntry>& chat() const { return m_chat; }
+  const SessionCounters& counters() const { return m_counters; }
+  /// Points of this player, from the newest player list.
+  std::int32_t score() const;
+
+  /// The tick to draw now, whether the line is silent, the newest tick known.
+  std::uint32_t displayTick(Time now) { return m_clock.displayTick(now); }
+  const DisplayClock& clock() const { return m_clock; }
+  bool isSilent(Time now) const { return m_state == State::kPlaying && m_clock.isSilent(now); }
+  /// Smoothed round trip; zero before the first measurement.
+  std::chrono::milliseconds roundTrip() const;
+  /// Counts up with every change that can be seen on a screen.
+  std::uint64_t revision() const { return m_revision; }
+
+  /// Called before a snapshot of `tick` is applied: the replica is still as it was. For recorders.
+  void onBeforeSnapshot(std::function<void(std::uint32_t tick)> observer) {
+    m_observer = std::move(observer);
+  }
+
+ private:
+  void handle(WelcomeMessage&& message, Time now);
+  void handle(RefusedMessage&& message, Time now);
+  void handle(GoodbyeMessage&& message, Time now);
+  void handle(SnapshotMessage&& message, Time now);
+  void handle(PlayersMessage&& message, Time now);
+  void handle(ChatMessage&& message, Time now);
+  void handle(const PongMessage& message, Time now);
+  void reject(const std::string& what);
+  void finish(State state, std::string sentence);
+  void send(const wire::ClientMessage& message);
+  bool sendInput(wire::ClientMessage& message, bool urgent, Time now);
+
+  std::unique_ptr<ReliableChannel> m_channel;
+  State m_state = State::kGreeting;
+  std::string m_sentence;
+  WelcomeMessage m_welcome;
+  Replica m_replica;
+  AckWindow m_acks;
+  DisplayClock m_clock{std::chrono::microseconds(33333)};
+  InputBudget m_budget;
+  std::vector<PlayerLine> m_players;
+  std::deque<ChatEntry> m_chat;
+  SessionCounters m_counters;
+  std::function<void(std::uint32_t)> m_observer;
+  std::uint32_t m_next_input = 1;
+  std::map<std::uint64_t, Time> m_pings;  ///< unanswered, by token
+  std::uint64_t m_next_token = 1;
+  Time m_last_ping;
+  Time m_last_heard;
+  std::chrono::duration<double, std::milli> m_round_trip{0};
+  std::uint64_t m_revision = 0;
+};
+
+}  // namespace naiad

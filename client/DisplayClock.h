@@ -1,0 +1,53 @@
+// Which tick belongs on the screen now.
+//
+// Snapshots tell what the world was like at a tick; between them the replica extrapolates. This clock
+// estimates when each tick should arrive (the earliest arrivals count, later ones pull it back gently, so
+// that jitter does not shake the picture) and counts on from there, at most 250 ms beyond the newest
+// snapshot. After 500 ms without one the picture stands still and the player is told.
+//
+// Ticks are compared as serial numbers. Time is a parameter.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace naiad {
+
+class DisplayClock {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  using Duration = std::chrono::steady_clock::duration;
+
+  /// How far the picture may run ahead of the newest snapshot.
+  static constexpr std::chrono::milliseconds kMaxAhead{250};
+  /// Silence that counts as a broken line.
+  static constexpr std::chrono::milliseconds kSilence{500};
+
+  explicit DisplayClock(Duration tick_length) : m_length(tick_length) {}
+
+  /// A snapshot of `tick` arrived.
+  void note(std::uint32_t tick, Time now);
+  /// The tick to draw. Never lower than the last answer, unless that lies beyond the allowed lead.
+  std::uint32_t displayTick(Time now);
+  /// The newest tick of any snapshot; 0 before the first.
+  std::uint32_t newestTick() const { return m_newest; }
+  /// No snapshot for kSilence (never before the first).
+  bool isSilent(Time now) const { return m_started && now - m_last_arrival >= kSilence; }
+  /// How long ago the last snapshot came; zero before the first.
+  Duration silence(Time now) const { return m_started ? now - m_last_arrival : Duration::zero(); }
+  /// When displayTick() will next give another answer, for a timer.
+  Time nextTick(Time now) const;
+
+ private:
+  Duration due(std::uint32_t tick) const;
+
+  Duration m_length;
+  bool m_started = false;
+  std::uint32_t m_newest = 0;
+  std::uint32_t m_shown = 0;
+  std::uint32_t m_anchor = 0;  ///< a tick and when it should have arrived
+  Time m_anchor_time{};
+  Time m_last_arrival{};
+};
+
+}  // namespace naiad

@@ -1,0 +1,22 @@
+// How dfclient and dfbot end. The numbers are documented in --help and used by scripts.
+#pragma once
+
+namespace naiad {
+
+enum ExitCode {
+  kExitLeft = 0,         ///< the player left, or the bot did what it should
+  kExitUsage = 1,        ///< wrong command line or script
+  kExitUnreachable = 2,  ///< no connection to the server
+  kExitRefused = 3,      ///< the server refused; its sentence is on stderr
+  kExitEnded = 4,        ///< the server ended the game, or was lost for good
+  kExitNoTerminal = 5,   ///< standard input or output is no terminal that can be drawn on
+};
+
+/// The part of --help that both programs share.
+inline constexpr const char* kExitCodeHelp =
+    "Exit codes:\n"
+    "  0  left                      3  refused by the server (its sentence is on stderr)\n"
+    "  1  wrong usage               4  the server ended the game, or was lost for good\n"
+    "  2  cannot connect            5  no terminal (dfclient)\n";
+
+}  // namespace naiad

@@ -1,0 +1,89 @@
+#include "ServerMessages.h"
+
+#include <google/protobuf/stubs/logging.h>
+
+#include <algorithm>
+
+#include "Limits.h"
+#include "RecordCodec.h"
+#include "SafeText.h"
+#include "naiad.pb.h"
+
+namespace naiad {
+namespace {
+
+constexpr std::size_t kMaxProgramLength = 40;
+constexpr std::uint32_t kMaxRttMillis = 99999;
+
+bool isColor(std::uint32_t color) {
+  return color < static_cast<std::uint32_t>(df::kColorCount);
+}
+
+std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
+  WelcomeMessage message;
+  const bool good = wire.player() != 0 && wire.tick_micros() >= 1000 && wire.tick_micros() <= 1000000 &&
+                    wire.view_width() >= 1 && wire.view_width() <= static_cast<unsigned>(kMaxViewWidth) &&
+                    wire.view_height() >= 1 && wire.view_height() <= static_cast<unsigned>(kMaxViewHeight) &&
+                    isColor(wire.color());
+  if (!good || wire.help_size() > static_cast<int>(kMaxHelpLines)) return std::nullopt;
+  message.player = wire.player();
+  message.name = safeName(wire.name());
+  message.game = safeText(wire.game(), kMaxProgramLength);
+  message.server = safeText(wire.server(), kMaxProgramLength);
+  message.tick = std::chrono::microseconds(wire.tick_micros());
+  message.view_width = static_cast<int>(wire.view_width());
+  message.view_height = static_cast<int>(wire.view_height());
+  message.color = static_cast<df::Color>(wire.color());
+  for (const std::string& line : wire.help()) message.help.push_back(safeText(line, kMaxHelpLength));
+  return message;
+}
+
+std::optional<ServerMessageValue> check(const wire::Snapshot& wire) {
+  if (wire.number() == 0 || wire.records().size() > kMaxSnapshotRecords) return std::nullopt;
+  auto records = readRecords(wire.records(), wire.tick());
+  if (!records) return std::nullopt;
+  return SnapshotMessage{wire.number(), wire.tick(), wire.input_applied(), std::move(*records)};
+}
+
+std::optional<ServerMessageValue> check(const wire::PlayerList& wire) {
+  if (wire.players_size() > static_cast<int>(kMaxPlayers)) return std::nullopt;
+  PlayersMessage message;
+  for (const wire::PlayerEntry& entry : wire.players()) {
+    if (entry.player() == 0 || !isColor(entry.color())) return std::nullopt;
+    message.players.push_back({entry.player(), safeName(entry.name()), static_cast<df::Color>(entry.color()),
+                               entry.score(), std::min(entry.rtt_millis(), kMaxRttMillis)});
+  }
+  return message;
+}
+
+}  // namespace
+
+std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
+  // protobuf reports malformed text on stderr: a server could scribble on the player's screen.
+  static const auto previous_handler = google::protobuf::SetLogHandler(nullptr);
+  (void)previous_handler;
+  if (frame.size() > kMaxServerFrame) return std::nullopt;
+  wire::ServerMessage wire;
+  if (!wire.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return std::nullopt;
+  switch (wire.what_case()) {
+    case wire::ServerMessage::kWelcome:
+      return check(wire.welcome());
+    case wire::ServerMessage::kSnapshot:
+      return check(wire.snapshot());
+    case wire::ServerMessage::kPlayers:
+      return check(wire.players());
+    case wire::ServerMessage::kRefused:
+      return RefusedMessage{safeText(wire.refused().sentence(), kMaxSentenceLength)};
+    case wire::ServerMessage::kGoodbye:
+      return GoodbyeMessage{safeText(wire.goodbye().sentence(), kMaxSentenceLength)};
+    case wire::ServerMessage::kChat:
+      return ChatMessage{wire.chat().player(), safeText(wire.chat().text(), kMaxChatLength)};
+    case wire::ServerMessage::kPong:
+      return PongMessage{wire.pong().token()};
+    case wire::ServerMessage::WHAT_NOT_SET:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace naiad

@@ -1,0 +1,83 @@
+// What a server may say, after everything in it was checked.
+//
+// A server may be hostile or broken. readServerMessage() is the only place where bytes from the network
+// become values: numbers out of range, too many entries or malformed records make the whole message bad;
+// texts are made fit for a terminal (SafeText.h), never refused, for a strange name is no reason to leave.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "Color.h"
+#include "Records.h"
+
+namespace naiad {
+
+/// Caps on what a server may make the client keep.
+inline constexpr std::size_t kMaxPlayers = 1024;
+inline constexpr std::size_t kMaxHelpLines = 24;
+inline constexpr std::size_t kMaxHelpLength = 76;
+inline constexpr std::size_t kMaxSentenceLength = 300;
+
+/// The join was granted.
+struct WelcomeMessage {
+  std::uint32_t player = 0;  ///< this player's id, never 0
+  std::string name;          ///< as granted
+  std::string game;
+  std::string server;                     ///< program and version
+  std::chrono::microseconds tick{33333};  ///< 1 ms to 1 s
+  int view_width = 80;
+  int view_height = 24;
+  df::Color color = df::COLOR_DEFAULT;
+  std::vector<std::string> help;  ///< the game's own lines
+};
+
+struct RefusedMessage {
+  std::string sentence;
+};
+
+struct GoodbyeMessage {
+  std::string sentence;
+};
+
+/// Records that hold at `tick`, decoded and checked.
+struct SnapshotMessage {
+  std::uint32_t number = 0;  ///< never 0
+  std::uint32_t tick = 0;
+  std::uint32_t input_applied = 0;
+  Records records;
+};
+
+struct PlayerLine {
+  std::uint32_t player = 0;
+  std::string name;
+  df::Color color = df::COLOR_DEFAULT;
+  std::int32_t score = 0;
+  std::uint32_t rtt_millis = 0;
+};
+
+struct PlayersMessage {
+  std::vector<PlayerLine> players;
+};
+
+struct ChatMessage {
+  std::uint32_t player = 0;  ///< 0: the server itself
+  std::string text;
+};
+
+struct PongMessage {
+  std::uint64_t token = 0;
+};
+
+using ServerMessageValue = std::variant<WelcomeMessage, RefusedMessage, GoodbyeMessage, SnapshotMessage,
+                                        PlayersMessage, ChatMessage, PongMessage>;
+
+/// The message in a frame; nothing if it is not one that this version of the protocol allows.
+std::optional<ServerMessageValue> readServerMessage(std::string_view frame);
+
+}  // namespace naiad

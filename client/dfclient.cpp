@@ -1,0 +1,110 @@
+// dfclient: play a game that a dfserver hosts, in this terminal.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+#include "ClientApp.h"
+#include "SafeText.h"
+#include "TerminalGuard.h"
+#include "Version.h"
+
+namespace {
+
+std::string footer() {
+  std::string text = "Keys of the client (every other key is the game's):\n";
+  for (const char* line : naiad::kClientKeyHelp) text += std::string("  ") + line + "\n";
+  text += "\n";
+  text += naiad::kExitCodeHelp;
+  text += "\nNO_COLOR in the environment switches colours off.";
+  return text;
+}
+
+std::string defaultName() {
+  const char* user = std::getenv("USER");
+  return naiad::safeName(user != nullptr ? user : "");
+}
+
+int complain(naiad::ExitCode code, const std::string& sentence) {
+  std::fprintf(stderr, "dfclient: %s\n", sentence.c_str());
+  return code;
+}
+
+int play(const naiad::ClientApp::Options& options) {
+  if (!naiad::TerminalGuard::isTerminal()) {
+    return complain(naiad::kExitNoTerminal,
+                    "standard input and output must be a terminal (dfbot needs none).");
+  }
+  const char* term = std::getenv("TERM");
+  if (term == nullptr || *term == '\0') {
+    return complain(naiad::kExitNoTerminal, "TERM is not set: what kind of terminal is this?");
+  }
+  naiad::ClientApp::Outcome outcome;
+  {
+    naiad::ClientApp app(options);
+    outcome = app.run();
+  }
+  if (outcome.signal != 0) {
+    // The terminal is restored; now die of the signal, so that the parent process sees it.
+    std::signal(outcome.signal, SIG_DFL);
+    std::raise(outcome.signal);
+  }
+  if (!outcome.sentence.empty()) std::fprintf(stderr, "dfclient: %s\n", outcome.sentence.c_str());
+  return outcome.code;
+}
+
+int start(int argc, char** argv) {
+  naiad::ClientApp::Options options;
+  std::string server;
+  options.session.name = defaultName();
+  options.session.program = std::string("dfclient ") + naiad::kVersion;
+  bool no_mouse = false;
+
+  CLI::App app("Play a Dragonfly game on a Naiad server.", "dfclient");
+  app.set_version_flag("--version", std::string("dfclient ") + naiad::kVersion);
+  app.add_option("server", server, "Where the server is: HOST[:PORT], [::1]:PORT (port 9876 by default)")
+      ->required()
+      ->type_name("HOST[:PORT]")
+      ->envname("NAIAD_SERVER");
+  app.add_option("--name", options.session.name, "Your name in the game, 1 to 16 characters (default: $USER)")
+      ->envname("NAIAD_NAME");
+  app.add_option("--game", options.session.game, "The game you want; refused if another one runs")
+      ->envname("NAIAD_GAME");
+  app.add_flag("--ascii", options.ascii, "Draw with ASCII characters only")->envname("NAIAD_ASCII");
+  app.add_flag("--no-mouse", no_mouse, "Leave the mouse to the terminal")->envname("NAIAD_NO_MOUSE");
+  app.footer(footer());
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? naiad::kExitLeft : naiad::kExitUsage;
+  }
+
+  const auto address = naiad::ServerAddress::parse(server);
+  if (!address) {
+    return complain(naiad::kExitUsage,
+                    "\"" + naiad::safeText(server, 100) + "\" is no server: HOST[:PORT] is wanted.");
+  }
+  options.address = *address;
+  options.mouse = !no_mouse;
+  const char* no_color = std::getenv("NO_COLOR");
+  options.colors = no_color == nullptr || *no_color == '\0';
+  try {
+    return play(options);
+  } catch (const std::runtime_error& error) {
+    return complain(naiad::kExitNoTerminal, error.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return start(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "dfclient: %s\n", error.what());
+    return naiad::kExitUsage;
+  }
+}

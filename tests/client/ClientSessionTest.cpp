@@ -1,0 +1,199 @@
+#include "ClientSession.h"
+#include "ClientSessionFixture.h"
+#include "Limits.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using State = ClientSession::State;
+
+class ClientSessionTest : public test::ClientSessionFixture {};
+
+TEST_F(ClientSessionTest, SaysHelloFirst) {
+  ASSERT_EQ(log->sent.size(), 1u);
+  ASSERT_TRUE(log->sent[0].has_hello());
+  const wire::Hello& hello = log->sent[0].hello();
+  EXPECT_EQ(hello.magic(), kHelloMagic);
+  EXPECT_EQ(hello.protocol(), kProtocolVersion);
+  EXPECT_EQ(hello.player_name(), "Ada");
+  EXPECT_EQ(hello.game(), "saucershoot");
+  EXPECT_EQ(hello.program(), "test 1");
+  EXPECT_EQ(hello.columns(), 100u);
+  EXPECT_EQ(hello.rows(), 40u);
+  EXPECT_EQ(log->receive_limit, kMaxServerFrame);
+  EXPECT_EQ(session->state(), State::kGreeting);
+}
+
+TEST_F(ClientSessionTest, PlaysAfterTheWelcome) {
+  join();
+  EXPECT_EQ(session->state(), State::kPlaying);
+  EXPECT_EQ(session->welcome().player, 3u);
+  EXPECT_EQ(session->welcome().tick, 33333us);
+  EXPECT_EQ(session->welcome().help, std::vector<std::string>{"Space fires."});
+  EXPECT_TRUE(last().has_ping()) << "the round trip is measured from the start";
+}
+
+TEST_F(ClientSessionTest, RefusalKeepsItsSentence) {
+  wire::ServerMessage message;
+  message.mutable_refused()->set_reason(wire::Refused::FULL);
+  message.mutable_refused()->set_sentence("The server is full (4 players).");
+  receive(message);
+  EXPECT_EQ(session->state(), State::kRefused);
+  EXPECT_EQ(session->sentence(), "The server is full (4 players).");
+  EXPECT_TRUE(log->closed);
+}
+
+TEST_F(ClientSessionTest, GoodbyeKeepsItsSentence) {
+  join();
+  wire::ServerMessage message;
+  message.mutable_goodbye()->set_sentence("Maintenance\033[31m at nine.");
+  receive(message);
+  EXPECT_EQ(session->state(), State::kEnded);
+  EXPECT_EQ(session->sentence(), "Maintenance?[31m at nine.") << "no escape sequence reaches a terminal";
+  EXPECT_EQ(session->counters().bad_messages, 0u);
+}
+
+TEST_F(ClientSessionTest, AppliesAndAcknowledgesSnapshots) {
+  join();
+  snapshot(1, 100);
+  ASSERT_TRUE(last().has_ack());
+  EXPECT_EQ(last().ack().newest(), 1u);
+  EXPECT_EQ(last().ack().mask(), 0u);
+  snapshot(2, 101);
+  snapshot(4, 103);
+  EXPECT_EQ(last().ack().newest(), 4u);
+  EXPECT_EQ(last().ack().mask(), 0b110u) << "3 is missing";
+  EXPECT_EQ(session->replica().aliveCount(), 1u);
+  EXPECT_EQ(session->replica().render(103).at(10, 4), (df::Cell{U'@', df::RED}));
+  EXPECT_EQ(session->counters().snapshots, 3u);
+  EXPECT_TRUE(session->hasPicture());
+}
+
+TEST_F(ClientSessionTest, ObserverSeesTheReplicaBeforeTheSnapshot) {
+  join();
+  std::vector<std::pair<std::uint32_t, std::size_t>> seen;
+  session->onBeforeSnapshot(
+      [&](std::uint32_t tick) { seen.emplace_back(tick, session->replica().aliveCount()); });
+  snapshot(1, 100);
+  snapshot(2, 101);
+  EXPECT_EQ(seen, (std::vector<std::pair<std::uint32_t, std::size_t>>{{100, 0}, {101, 1}}));
+}
+
+TEST_F(ClientSessionTest, InputsAreNumberedFromOneAndNameWhatWasSeen) {
+  join();
+  snapshot(7, 100);
+  EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
+  ASSERT_TRUE(last().has_input());
+  EXPECT_EQ(last().input().id(), 1u);
+  EXPECT_EQ(last().input().drawn_tick(), 100u);
+  EXPECT_EQ(last().input().snapshot_number(), 7u);
+  EXPECT_EQ(last().input().key().key(), static_cast<unsigned>(df::Keyboard::SPACE));
+  EXPECT_EQ(last().input().key().action(), static_cast<unsigned>(df::KEY_PRESSED));
+  EXPECT_TRUE(session->sendMouse(df::CLICKED, df::Mouse::RIGHT, 12, 5, now));
+  EXPECT_EQ(last().input().id(), 2u);
+  EXPECT_EQ(last().input().mouse().button(), 2u);
+  EXPECT_EQ(last().input().mouse().x(), 12);
+  EXPECT_EQ(last().input().mouse().y(), 5);
+}
+
+TEST_F(ClientSessionTest, SendsNoInputBeforeTheWelcomeNorKeysThatAreNone) {
+  EXPECT_FALSE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
+  join();
+  EXPECT_FALSE(session->sendKey(df::Keyboard::UNDEFINED_KEY, df::KEY_PRESSED, now));
+  EXPECT_FALSE(session->sendKey(static_cast<df::Keyboard::Key>(999), df::KEY_PRESSED, now));
+  EXPECT_EQ(session->counters().inputs, 0u);
+}
+
+TEST_F(ClientSessionTest, NeverSendsMoreThanAServerTolerates) {
+  join();
+  int sent = 0;
+  for (int i = 0; i < 1000; ++i)
+    sent += session->sendMouse(df::MOVED, df::Mouse::LEFT, i % 80, 1, now) ? 1 : 0;
+  EXPECT_LE(sent, 32);
+  EXPECT_TRUE(session->sendKey(df::Keyboard::A, df::KEY_RELEASED, now)) << "a release is never lost";
+  sent = 0;
+  for (int tick = 0; tick < 300; ++tick) {
+    now += 33333us;
+    for (int i = 0; i < 100; ++i)
+      sent += session->sendMouse(df::MOVED, df::Mouse::LEFT, i % 80, 1, now) ? 1 : 0;
+  }
+  EXPECT_LE(sent, 300 * 16);
+  EXPECT_GE(sent, 300 * 8);
+}
+
+TEST_F(ClientSessionTest, MeasuresTheRoundTrip) {
+  join();
+  const auto answer = [this](std::chrono::milliseconds after) {
+    const auto token = last().ping().token();
+    now += after;
+    wire::ServerMessage message;
+    message.mutable_pong()->set_token(token);
+    receive(message);
+  };
+  answer(40ms);
+  EXPECT_EQ(session->roundTrip(), 40ms);
+  now += 960ms;
+  session->update(now);
+  ASSERT_TRUE(last().has_ping());
+  EXPECT_EQ(last().ping().rtt_millis(), 40u);
+  answer(120ms);
+  EXPECT_EQ(session->roundTrip(), 50ms) << "smoothed by an eighth";
+  wire::ServerMessage made_up;
+  made_up.mutable_pong()->set_token(12345);
+  receive(made_up);
+  EXPECT_EQ(session->roundTrip(), 50ms);
+}
+
+TEST_F(ClientSessionTest, SendsOnePingASecond) {
+  join();
+  const std::size_t before = log->sent.size();
+  for (int i = 0; i < 50; ++i) session->update(now += 100ms);
+  EXPECT_EQ(log->sent.size() - before, 5u);
+}
+
+TEST_F(ClientSessionTest, GivesUpASilentServer) {
+  session->update(now + 4s);
+  EXPECT_EQ(session->state(), State::kGreeting);
+  session->update(now + 5s);
+  EXPECT_EQ(session->state(), State::kLost);
+  EXPECT_FALSE(session->sentence().empty());
+}
+
+TEST_F(ClientSessionTest, GivesUpASilentGame) {
+  join();
+  session->update(now + 14s);
+  EXPECT_EQ(session->state(), State::kPlaying);
+  session->update(now + 15s);
+  EXPECT_EQ(session->state(), State::kLost);
+}
+
+TEST_F(ClientSessionTest, ClosedChannelIsALostServer) {
+  join();
+  session->closed(CloseReason::kPeer);
+  EXPECT_EQ(session->state(), State::kLost);
+}
+
+TEST_F(ClientSessionTest, LeavingTellsTheServer) {
+  join();
+  session->leave();
+  EXPECT_TRUE(last().has_leave());
+  EXPECT_TRUE(log->closed);
+  EXPECT_EQ(session->state(), State::kLeft);
+  session->closed(CloseReason::kLocal);
+  EXPECT_EQ(session->state(), State::kLeft);
+}
+
+TEST_F(ClientSessionTest, LostLineIsSilentAfterHalfASecond) {
+  join();
+  EXPECT_FALSE(session->isSilent(now + 1h)) << "before the first snapshot there is nothing to miss";
+  snapshot(1, 100);
+  EXPECT_FALSE(session->isSilent(now + 499ms));
+  EXPECT_TRUE(session->isSilent(now + 500ms));
+  now += 600ms;
+  snapshot(2, 118);
+  EXPECT_FALSE(session->isSilent(now));
+}
+
+}  // namespace
+}  // namespace naiad

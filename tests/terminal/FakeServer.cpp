@@ -1,0 +1,112 @@
+#include "FakeServer.h"
+
+#include <asio/post.hpp>
+#include <chrono>
+
+#include "Color.h"
+#include "Limits.h"
+#include "RecordCodec.h"
+#include "TcpChannel.h"
+
+namespace naiad::test {
+
+using asio::ip::tcp;
+
+FakeServer::FakeServer()
+    : m_acceptor(m_context, tcp::endpoint(asio::ip::address_v4::loopback(), 0)),
+      m_port(m_acceptor.local_endpoint().port()) {
+  accept();
+  m_thread = std::thread([this] { m_context.run(); });
+}
+
+FakeServer::~FakeServer() {
+  m_context.stop();
+  m_thread.join();
+}
+
+void FakeServer::accept() {
+  m_acceptor.async_accept([this](const std::error_code& error, tcp::socket socket) {
+    if (error) return;
+    m_channel = makeTcpChannel(std::move(socket), TcpOptions{.receive_limit = kMaxClientFrame});
+    m_channel->start({[this](std::string_view frame) { onFrame(frame); }, [](CloseReason) {}});
+    accept();
+  });
+}
+
+void FakeServer::onFrame(std::string_view frame) {
+  wire::ClientMessage message;
+  if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return;
+  if (message.has_hello()) welcome();
+  if (message.has_ping()) {
+    wire::ServerMessage pong;
+    pong.mutable_pong()->set_token(message.ping().token());
+    m_channel->send(pong.SerializeAsString());
+  }
+  const std::lock_guard lock(m_mutex);
+  m_messages.push_back(message);
+  m_changed.notify_all();
+}
+
+void FakeServer::welcome() {
+  wire::ServerMessage message;
+  wire::Welcome& welcome = *message.mutable_welcome();
+  welcome.set_player(1);
+  welcome.set_name("Ada");
+  welcome.set_game("still life");
+  welcome.set_tick_micros(33333);
+  welcome.set_view_width(80);
+  welcome.set_view_height(24);
+  welcome.set_color(df::CYAN);
+  welcome.set_server("fake 1");
+  welcome.add_help("There is nothing to do.");
+  m_channel->send(message.SerializeAsString());
+
+  RecordWriter records;
+  WorldRecord world;
+  world.boundary = {{}, df::fromCells(80), df::fromCells(24)};
+  records.write(world);
+  ObjectRecord object;
+  object.slot = 1;
+  object.generation = 1;
+  object.groups = kAllGroups;
+  object.state.motion = {100, {df::fromCells(20), df::fromCells(10)}, {}, {}};
+  Appearance look;
+  int x = 0;
+  for (const char32_t ch : std::u32string(U"NAIAD-HERE"))
+    look.push_back({x++ << kGlyphUnitBits, 0, ch, df::GREEN});
+  object.state.look.sequence = {look};
+  records.write(object);
+  wire::ServerMessage snapshot;
+  snapshot.mutable_snapshot()->set_number(1);
+  snapshot.mutable_snapshot()->set_tick(100);
+  snapshot.mutable_snapshot()->set_records(records.bytes());
+  m_channel->send(snapshot.SerializeAsString());
+}
+
+bool FakeServer::heard(const std::function<bool(const wire::ClientMessage&)>& wanted) {
+  std::unique_lock lock(m_mutex);
+  return m_changed.wait_for(lock, std::chrono::seconds(10), [this, &wanted] {
+    for (const wire::ClientMessage& message : m_messages) {
+      if (wanted(message)) return true;
+    }
+    return false;
+  });
+}
+
+bool FakeServer::heardKey(int key, int action) {
+  return heard([key, action](const wire::ClientMessage& message) {
+    return message.has_input() && message.input().has_key() &&
+           static_cast<int>(message.input().key().key()) == key &&
+           static_cast<int>(message.input().key().action()) == action;
+  });
+}
+
+void FakeServer::send(const wire::ServerMessage& message) {
+  asio::post(m_context, [this, bytes = message.SerializeAsString()] { m_channel->send(bytes); });
+}
+
+void FakeServer::drop() {
+  asio::post(m_context, [this] { m_channel.reset(); });
+}
+
+}  // namespace naiad::test

@@ -1,0 +1,53 @@
+// A server of one picture, for tests of the client's terminal: says Welcome, sends one object and keeps
+// count of what it hears. Runs in its own thread.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "Channel.h"
+#include "naiad.pb.h"
+
+namespace naiad::test {
+
+class FakeServer {
+ public:
+  FakeServer();
+  ~FakeServer();
+
+  std::uint16_t port() const { return m_port; }
+  std::string address() const { return "127.0.0.1:" + std::to_string(m_port); }
+
+  /// Wait until the client sent a message for which `wanted` holds; false after 10 s.
+  bool heard(const std::function<bool(const wire::ClientMessage&)>& wanted);
+  /// Wait until a key action arrived.
+  bool heardKey(int key, int action);
+  /// Send the client a message.
+  void send(const wire::ServerMessage& message);
+  /// Hang up without a word.
+  void drop();
+
+ private:
+  void accept();
+  void onFrame(std::string_view frame);
+  void welcome();
+
+  asio::io_context m_context;
+  asio::ip::tcp::acceptor m_acceptor;
+  std::uint16_t m_port;
+  std::unique_ptr<ReliableChannel> m_channel;
+  std::mutex m_mutex;
+  std::condition_variable m_changed;
+  std::vector<wire::ClientMessage> m_messages;
+  std::thread m_thread;
+};
+
+}  // namespace naiad::test

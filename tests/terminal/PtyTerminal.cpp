@@ -1,0 +1,143 @@
+#include "PtyTerminal.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <pty.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <utmp.h>
+
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace naiad::test {
+namespace {
+
+constexpr std::chrono::seconds kPatience{10};
+using Clock = std::chrono::steady_clock;
+
+[[noreturn]] void runChild(int slave, const PtyTerminal::Options& options) {
+  login_tty(slave);
+  setenv("TERM", "xterm-256color", 1);
+  setenv("LC_ALL", "C.UTF-8", 1);
+  unsetenv("NO_COLOR");
+  for (const auto& [name, value] : options.environment) {
+    if (value.empty()) {
+      unsetenv(name.c_str());
+    } else {
+      setenv(name.c_str(), value.c_str(), 1);
+    }
+  }
+  std::vector<char*> arguments;
+  for (const std::string& argument : options.command)
+    arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  execv(arguments[0], arguments.data());
+  _exit(127);
+}
+
+}  // namespace
+
+PtyTerminal::PtyTerminal(const Options& options) : m_answer_kitty(options.answer_kitty) {
+  winsize size{};
+  size.ws_col = static_cast<unsigned short>(options.columns);
+  size.ws_row = static_cast<unsigned short>(options.rows);
+  if (openpty(&m_master, &m_slave, nullptr, nullptr, &size) != 0) throw std::runtime_error("openpty failed");
+  fcntl(m_master, F_SETFD, FD_CLOEXEC);
+  tcgetattr(m_slave, &m_original);
+  m_pid = fork();
+  if (m_pid < 0) throw std::runtime_error("fork failed");
+  if (m_pid == 0) runChild(m_slave, options);
+}
+
+PtyTerminal::~PtyTerminal() {
+  if (!m_reaped) {
+    kill(m_pid, SIGKILL);
+    waitpid(m_pid, nullptr, 0);
+  }
+  close(m_slave);
+  close(m_master);
+}
+
+void PtyTerminal::type(const std::string& bytes) {
+  [[maybe_unused]] const ssize_t written = ::write(m_master, bytes.data(), bytes.size());
+}
+
+void PtyTerminal::resize(int columns, int rows) {
+  winsize size{};
+  size.ws_col = static_cast<unsigned short>(columns);
+  size.ws_row = static_cast<unsigned short>(rows);
+  ioctl(m_master, TIOCSWINSZ, &size);
+}
+
+void PtyTerminal::signal(int number) {
+  kill(m_pid, number);
+}
+
+bool PtyTerminal::readOnce(std::chrono::milliseconds timeout) {
+  pollfd waiting{m_master, POLLIN, 0};
+  if (poll(&waiting, 1, static_cast<int>(timeout.count())) <= 0) return false;
+  std::array<char, 65536> bytes{};
+  const ssize_t count = ::read(m_master, bytes.data(), bytes.size());
+  if (count <= 0) return false;
+  m_output.append(bytes.data(), static_cast<std::size_t>(count));
+  static const std::string query = "\033[?u";
+  for (auto at = m_output.find(query, m_answered); at != std::string::npos;
+       at = m_output.find(query, m_answered)) {
+    m_answered = at + query.size();
+    if (m_answer_kitty) type("\033[?0u");
+  }
+  return true;
+}
+
+bool PtyTerminal::waitFor(const std::string& text) {
+  const auto end = Clock::now() + kPatience;
+  while (m_output.find(text, m_mark) == std::string::npos) {
+    if (Clock::now() > end) return false;
+    const bool more = readOnce(std::chrono::milliseconds(50));
+    if (!more && !m_reaped && waitpid(m_pid, &m_status, WNOHANG) == m_pid) m_reaped = true;
+    if (!more && m_reaped) return m_output.find(text, m_mark) != std::string::npos;
+  }
+  return true;
+}
+
+void PtyTerminal::read(std::chrono::milliseconds time) {
+  for (const auto end = Clock::now() + time; Clock::now() < end;) readOnce(std::chrono::milliseconds(10));
+}
+
+int PtyTerminal::waitForExit() {
+  const auto end = Clock::now() + kPatience;
+  while (!m_reaped) {
+    if (Clock::now() > end) return -1;
+    readOnce(std::chrono::milliseconds(20));
+    if (waitpid(m_pid, &m_status, WNOHANG) == m_pid) m_reaped = true;
+  }
+  while (readOnce(std::chrono::milliseconds(0))) {
+  }
+  return m_status;
+}
+
+termios PtyTerminal::currentModes() const {
+  termios modes{};
+  tcgetattr(m_slave, &modes);
+  return modes;
+}
+
+bool sameModes(const termios& a, const termios& b) {
+  return a.c_iflag == b.c_iflag && a.c_oflag == b.c_oflag && a.c_cflag == b.c_cflag &&
+         a.c_lflag == b.c_lflag && a.c_cc[VMIN] == b.c_cc[VMIN] && a.c_cc[VTIME] == b.c_cc[VTIME];
+}
+
+std::string programPath(const std::string& name) {
+  std::string variable;
+  for (const char c : name)
+    variable.push_back(static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
+  if (const char* path = std::getenv(variable.c_str())) return path;
+  return std::string(NAIAD_BINARY_DIR) + "/" + name;
+}
+
+}  // namespace naiad::test

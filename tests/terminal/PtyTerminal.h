@@ -1,0 +1,77 @@
+// A scripted terminal: runs a real program on a pseudo-terminal, types into it and reads what it draws.
+//
+// It can answer the kitty keyboard protocol's query, which the usual terminal multiplexers do not.
+#pragma once
+
+#include <sys/types.h>
+#include <termios.h>
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace naiad::test {
+
+class PtyTerminal {
+ public:
+  struct Options {
+    std::vector<std::string> command;                ///< program and arguments
+    std::map<std::string, std::string> environment;  ///< set over the test's own; an empty value unsets
+    int columns = 100;
+    int rows = 30;
+    bool answer_kitty = false;  ///< speak the kitty keyboard protocol
+  };
+
+  /// Starts the program. TERM is xterm-256color and the locale C.UTF-8 unless `environment` says otherwise.
+  explicit PtyTerminal(const Options& options);
+  /// Kills the program if it still runs.
+  ~PtyTerminal();
+  PtyTerminal(const PtyTerminal&) = delete;
+  PtyTerminal& operator=(const PtyTerminal&) = delete;
+
+  /// Bytes as if typed.
+  void type(const std::string& bytes);
+  void resize(int columns, int rows);
+  /// Send the program a signal.
+  void signal(int number);
+
+  /// Read until everything read so far contains `text`; false after 10 s or when the program is gone.
+  bool waitFor(const std::string& text);
+  /// The same for what comes after the last forget().
+  void forget() { m_mark = m_output.size(); }
+  /// Read for a while, whatever comes.
+  void read(std::chrono::milliseconds time);
+  /// Read until the program has ended; its wait status. -1 if it has not within 10 s.
+  int waitForExit();
+
+  /// Everything the program wrote since the start, and since the last forget().
+  const std::string& output() const { return m_output; }
+  std::string newOutput() const { return m_output.substr(m_mark); }
+  /// The terminal's modes before the program began and now.
+  const termios& originalModes() const { return m_original; }
+  termios currentModes() const;
+  pid_t pid() const { return m_pid; }
+
+ private:
+  bool readOnce(std::chrono::milliseconds timeout);
+
+  int m_master = -1;
+  int m_slave = -1;  ///< kept open, so that modes and late output survive the program
+  pid_t m_pid = -1;
+  bool m_answer_kitty;
+  bool m_reaped = false;
+  int m_status = 0;
+  termios m_original{};
+  std::string m_output;
+  std::size_t m_mark = 0;
+  std::size_t m_answered = 0;  ///< output searched for queries
+};
+
+/// Do two sets of modes make a terminal behave alike?
+bool sameModes(const termios& a, const termios& b);
+
+/// Path of a built program: the environment variable named like the program in upper case, else the build.
+std::string programPath(const std::string& name);
+
+}  // namespace naiad::test

@@ -1,0 +1,192 @@
+// The real dfclient on a scripted terminal: what it does to the terminal, and that it undoes it.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include "FakeServer.h"
+#include "Keyboard.h"
+#include "PtyTerminal.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class TerminalRestoreTest : public testing::Test {
+ protected:
+  PtyTerminal::Options options() const {
+    PtyTerminal::Options options;
+    options.command = {programPath("dfclient"), server.address(), "--name", "Ada"};
+    return options;
+  }
+
+  /// Join, and wait until the picture is on the screen and the modes are set.
+  static void join(PtyTerminal& terminal) {
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+    ASSERT_TRUE(terminal.waitFor("\033[?u")) << terminal.output();
+    EXPECT_NE(terminal.output().find("\033[?1049h"), std::string::npos);
+    EXPECT_NE(terminal.output().find("\033[?1003h"), std::string::npos);
+    EXPECT_FALSE(sameModes(terminal.originalModes(), terminal.currentModes())) << "raw mode is on";
+    terminal.forget();
+  }
+
+  static void expectRestored(PtyTerminal& terminal) {
+    const std::string after = terminal.newOutput();
+    EXPECT_NE(after.find("\033[?1049l"), std::string::npos) << "the alternate screen was left";
+    EXPECT_NE(after.find("\033[?1003l"), std::string::npos) << "mouse reports are off";
+    EXPECT_NE(after.find("\033[?1006l"), std::string::npos);
+    EXPECT_NE(after.find("\033[?2004l"), std::string::npos) << "bracketed paste is off";
+    EXPECT_TRUE(sameModes(terminal.originalModes(), terminal.currentModes())) << "termios is as before";
+  }
+
+  FakeServer server;
+};
+
+TEST_F(TerminalRestoreTest, AfterLeaving) {
+  PtyTerminal terminal(options());
+  join(terminal);
+  terminal.type("\x1d");
+  ASSERT_TRUE(terminal.waitFor("q leave"));
+  terminal.type("q");
+  const int status = terminal.waitForExit();
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_TRUE(server.heard([](const wire::ClientMessage& m) { return m.has_leave(); }));
+  expectRestored(terminal);
+}
+
+TEST_F(TerminalRestoreTest, AfterControlC) {
+  PtyTerminal terminal(options());
+  join(terminal);
+  terminal.type("\x03");
+  const int status = terminal.waitForExit();
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  expectRestored(terminal);
+}
+
+TEST_F(TerminalRestoreTest, AfterSignalsThatEndIt) {
+  for (const int number : {SIGTERM, SIGHUP}) {
+    PtyTerminal terminal(options());
+    join(terminal);
+    terminal.signal(number);
+    const int status = terminal.waitForExit();
+    EXPECT_TRUE(WIFSIGNALED(status)) << "the parent sees the signal";
+    EXPECT_EQ(WTERMSIG(status), number);
+    expectRestored(terminal);
+  }
+}
+
+TEST_F(TerminalRestoreTest, AfterACrash) {
+  for (const int number : {SIGSEGV, SIGABRT, SIGBUS}) {
+    PtyTerminal::Options with = options();
+    with.answer_kitty = true;
+    // A sanitizer's own handler would come first.
+    with.environment["ASAN_OPTIONS"] = "handle_segv=0:handle_abort=0:handle_sigbus=0";
+    PtyTerminal terminal(with);
+    join(terminal);
+    terminal.read(200ms);
+    terminal.signal(number);
+    const int status = terminal.waitForExit();
+    EXPECT_TRUE(WIFSIGNALED(status)) << "it still dies of it";
+    EXPECT_EQ(WTERMSIG(status), number);
+    expectRestored(terminal);
+    const std::string after = terminal.newOutput();
+    EXPECT_LT(after.find("\033[<u"), after.find("\033[?1049l"))
+        << "the keyboard mode of the alternate screen";
+  }
+}
+
+TEST_F(TerminalRestoreTest, AfterTheServersGoodbye) {
+  PtyTerminal terminal(options());
+  join(terminal);
+  wire::ServerMessage goodbye;
+  goodbye.mutable_goodbye()->set_sentence("Closing time.");
+  server.send(goodbye);
+  const int status = terminal.waitForExit();
+  EXPECT_EQ(WEXITSTATUS(status), 4);
+  expectRestored(terminal);
+  const std::string after = terminal.newOutput();
+  EXPECT_LT(after.rfind("\033[?1049l"), after.find("Closing time.")) << "said on the normal screen";
+}
+
+TEST_F(TerminalRestoreTest, KittyKeysHaveRealReleases) {
+  PtyTerminal::Options with = options();
+  with.answer_kitty = true;
+  PtyTerminal terminal(with);
+  ASSERT_TRUE(terminal.waitFor("\033[>31u")) << "pushed after the answer";
+  terminal.type("\033[97u");
+  EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_PRESSED));
+  EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_DOWN));
+  terminal.type("\033[97;1:3u");
+  EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_RELEASED));
+
+  terminal.forget();
+  terminal.type("\033[93;5u\033[93;5:3u\033[116u");  // Ctrl-] t
+  ASSERT_TRUE(terminal.waitFor("\033[<u")) << "text needs the terminal's own keyboard layout";
+  terminal.type("hi\r");
+  EXPECT_TRUE(
+      server.heard([](const wire::ClientMessage& m) { return m.has_chat() && m.chat().text() == "hi"; }));
+  EXPECT_TRUE(terminal.waitFor("\033[>31u"));
+  terminal.type("\033[99;5u");
+  EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 0);
+}
+
+TEST_F(TerminalRestoreTest, PlainKeysMouseAndResize) {
+  PtyTerminal terminal(options());
+  join(terminal);
+  terminal.type("\033[C");
+  EXPECT_TRUE(server.heardKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED));
+  EXPECT_TRUE(server.heardKey(df::Keyboard::RIGHTARROW, df::KEY_RELEASED));
+  // 100 x 30: the view lies at (10, 2); terminals count from 1.
+  terminal.type("\033[<0;13;6M\033[<0;13;6m");
+  EXPECT_TRUE(server.heard([](const wire::ClientMessage& m) {
+    const auto& mouse = m.input().mouse();
+    return m.input().has_mouse() && mouse.action() == df::CLICKED && mouse.button() == 1 && mouse.x() == 2 &&
+           mouse.y() == 3;
+  }));
+  terminal.resize(15, 5);
+  EXPECT_TRUE(terminal.waitFor("too small"));
+  EXPECT_TRUE(server.heard(
+      [](const wire::ClientMessage& m) { return m.has_resize() && m.resize().columns() == 15; }));
+  terminal.forget();
+  terminal.resize(90, 28);
+  EXPECT_TRUE(terminal.waitFor("NAIAD-HERE"));
+}
+
+TEST_F(TerminalRestoreTest, FindsALostServerAgain) {
+  PtyTerminal terminal(options());
+  join(terminal);
+  server.drop();
+  EXPECT_TRUE(terminal.waitFor("looking for it"));
+  EXPECT_TRUE(server.heard(
+      [hellos = 0](const wire::ClientMessage& m) mutable { return m.has_hello() && ++hellos == 2; }));
+  terminal.type("\x03");
+  EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 0);
+  expectRestored(terminal);
+}
+
+TEST_F(TerminalRestoreTest, WithoutATerminalTypeItSaysSo) {
+  PtyTerminal::Options with = options();
+  with.environment["TERM"] = "";
+  PtyTerminal unset(with);
+  EXPECT_EQ(WEXITSTATUS(unset.waitForExit()), 5);
+  EXPECT_NE(unset.output().find("TERM is not set"), std::string::npos);
+  with.environment["TERM"] = "no-such-terminal";
+  with.environment["ASAN_OPTIONS"] = "detect_leaks=0";  // a newterm() that fails keeps some of its memory
+  PtyTerminal unknown(with);
+  EXPECT_EQ(WEXITSTATUS(unknown.waitForExit()), 5) << unknown.output();
+  EXPECT_NE(unknown.output().find("TERM=no-such-terminal"), std::string::npos) << unknown.output();
+  EXPECT_TRUE(sameModes(unknown.originalModes(), unknown.currentModes()));
+}
+
+TEST_F(TerminalRestoreTest, NobodyThere) {
+  PtyTerminal::Options with = options();
+  with.command[1] = "127.0.0.1:1";
+  PtyTerminal terminal(with);
+  EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 2);
+  EXPECT_EQ(terminal.output().find("\033"), std::string::npos) << "the terminal was not touched";
+}
+
+}  // namespace
+}  // namespace naiad::test
