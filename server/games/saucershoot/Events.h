@@ -1,0 +1,47 @@
+// The game's own events. They let the parts of the game work together without knowing each other: whoever
+// cares registers interest, exactly as for the engine's events.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "Event.h"
+
+inline const std::string NUKE_EVENT = "nuke";
+inline const std::string SHOT_DOWN_EVENT = "shot-down";
+inline const std::string SHIP_LOST_EVENT = "ship-lost";
+
+/// Somebody set off a nuke: nothing that flies against us survives.
+class EventNuke : public df::Event {
+ public:
+  EventNuke() { setType(NUKE_EVENT); }
+};
+
+/// A bullet of `player` hit a saucer worth `points`.
+class EventShotDown : public df::Event {
+ public:
+  EventShotDown(std::uint32_t player, int points) : m_player(player), m_points(points) {
+    setType(SHOT_DOWN_EVENT);
+  }
+  std::uint32_t getPlayer() const { return m_player; }
+  int getPoints() const { return m_points; }
+
+ private:
+  std::uint32_t m_player;
+  int m_points;
+};
+
+/// A ship was lost. Its pilot `name` made `points` since it was launched.
+class EventShipLost : public df::Event {
+ public:
+  EventShipLost(std::string name, int points) : m_name(std::move(name)), m_points(points) {
+    setType(SHIP_LOST_EVENT);
+  }
+  const std::string& getName() const { return m_name; }
+  int getPoints() const { return m_points; }
+
+ private:
+  std::string m_name;
+  int m_points;
+};

@@ -1,0 +1,236 @@
+#include "Hero.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "Bullet.h"
+#include "DisplayManager.h"
+#include "EventCollision.h"
+#include "EventMouse.h"
+#include "EventPlayer.h"
+#include "EventStep.h"
+#include "Events.h"
+#include "Explosion.h"
+#include "Field.h"
+#include "Saucer.h"
+#include "WorldManager.h"
+
+namespace {
+
+// Cells per tick. A cell is about twice as high as wide.
+constexpr double kSpeedAcross = 1;
+constexpr double kSpeedDown = 0.5;
+
+constexpr int kShieldTicks = 60;
+constexpr int kLostTicks = 60;
+constexpr int kHintTicks = 240;
+constexpr int kGunTicks = 6;
+constexpr int kMostBullets = 128;  // of all ships together
+constexpr int kMostNukes = 3;
+constexpr int kHitsPerNuke = 20;
+constexpr double kAimRows = 2;  // how far the gun turns by itself
+
+/// The velocity along one axis: full speed while a key asks for it, then on to the next whole cell, so that
+/// a tap of a key is a step of one cell. It ends at `low` and `high`.
+double glide(int wanted, double speed, double position, double velocity, double low, double high) {
+  const bool arrived = position == std::floor(position);
+  const double next = wanted != 0 ? wanted * speed : arrived ? 0 : velocity;
+  return position + next < low || position + next > high ? 0 : next;
+}
+
+}  // namespace
+
+Hero::Hero(df::Player& player)
+    : m_player(player.getId()),
+      m_name(player.getName()),
+      m_color(player.getColor()),
+      m_hint_wait(kHintTicks) {
+  setType("Hero");
+  setAltitude(3);
+  setBox(df::Box(df::Vector(-0.4, -0.4), 0.8, 0.8));  // a saucer in the next row is close, but not a hit
+  registerInterest(df::STEP_EVENT);
+  registerInterest(df::KEYBOARD_EVENT);
+  registerInterest(df::MSE_EVENT);
+  registerInterest(df::LEAVE_EVENT);
+  registerInterest(SHOT_DOWN_EVENT);
+  player.setObject(this);
+  launch();
+}
+
+int Hero::eventHandler(const df::Event* p_e) {
+  const std::string& type = p_e->getType();
+  if (type == df::STEP_EVENT) {
+    step();
+  } else if (type == df::KEYBOARD_EVENT) {
+    const auto& event = *static_cast<const df::EventKeyboard*>(p_e);
+    if (event.getPlayer() == m_player) keyboard(event);
+  } else if (type == df::MSE_EVENT) {
+    const auto& event = *static_cast<const df::EventMouse*>(p_e);
+    if (event.getPlayer() == m_player) mouse(event);
+  } else if (type == df::COLLISION_EVENT) {
+    const auto* p_collision = static_cast<const df::EventCollision*>(p_e);
+    for (df::Object* p_o : {p_collision->getObject1(), p_collision->getObject2()}) {
+      if (p_o->getType() != "Saucer" || m_lost) continue;
+      if (static_cast<Saucer*>(p_o)->explode()) lose();
+    }
+  } else if (type == SHOT_DOWN_EVENT) {
+    const bool mine = static_cast<const EventShotDown*>(p_e)->getPlayer() == m_player;
+    if (mine && m_nukes < kMostNukes && ++m_hits == kHitsPerNuke) {
+      m_hits = 0;
+      ++m_nukes;
+    }
+  } else if (type == df::LEAVE_EVENT) {
+    if (static_cast<const df::EventLeave*>(p_e)->getPlayer() == m_player) WM.markForDelete(this);
+  } else {
+    return 0;
+  }
+  return 1;
+}
+
+void Hero::step() {
+  df::Player* p_player = WM.getPlayer(m_player);
+  if (p_player == nullptr) return;
+
+  m_controls.step();
+  if (m_gun_wait > 0) --m_gun_wait;
+  if (m_hint_wait > 0) --m_hint_wait;
+  if (m_wait > 0 && --m_wait == 0) {
+    if (m_lost) {
+      launch();
+    } else {
+      setSolidness(df::SOFT);  // the shield is down
+    }
+  }
+  if (!m_lost) {
+    steer();
+    if (m_controls.isFiring()) fire(aimAhead());
+  }
+  showStatus(*p_player);
+  showMessage(*p_player);
+}
+
+// --- what the player does
+
+void Hero::keyboard(const df::EventKeyboard& event) {
+  m_controls.key(event);
+  if (m_lost || event.getKeyboardAction() != df::KEY_PRESSED) return;
+  // At once, not in the next step: one tick less between finger and screen.
+  steer();
+  if (event.getKey() == df::Keyboard::SPACE) fire(aimAhead());
+  if (event.getKey() == df::Keyboard::N || event.getKey() == df::Keyboard::RETURN) fireNuke();
+}
+
+void Hero::mouse(const df::EventMouse& event) {
+  const bool pulls_trigger = event.getMouseAction() != df::MOVED && event.getMouseButton() == df::Mouse::LEFT;
+  if (pulls_trigger && !m_lost) fire(event.getMousePosition() - getPosition());
+}
+
+void Hero::steer() {
+  const df::Vector at = getPosition();
+  const df::Vector velocity = getVelocity();
+  setVelocity(
+      df::Vector(glide(m_controls.horizontal(), kSpeedAcross, at.x(), velocity.x(), 1, fieldWidth() - 2),
+                 glide(m_controls.vertical(), kSpeedDown, at.y(), velocity.y(), topRow(), bottomRow())));
+}
+
+void Hero::fire(df::Vector direction) {
+  if (m_gun_wait > 0 || WM.objectsOfType("Bullet").getCount() >= kMostBullets) return;
+  if (direction == df::Vector()) direction = df::Vector(1, 0);  // clicked on the ship itself
+  m_gun_wait = kGunTicks;
+  new Bullet(m_player, m_color, getPosition(), direction);
+}
+
+df::Vector Hero::aimAhead() const {
+  df::Vector direction(1, 0);
+  double nearest = fieldWidth() - getPosition().x();  // what is not on the screen yet is not shot at
+  const df::ObjectList saucers = WM.objectsOfType("Saucer");
+  df::ObjectListIterator li(&saucers);
+  for (li.first(); !li.isDone(); li.next()) {
+    const df::Vector way = li.currentObject()->getPosition() - getPosition();
+    if (way.x() <= 0 || way.x() >= nearest || std::abs(way.y()) > kAimRows) continue;
+    nearest = way.x();
+    // Not where it is, but where it will be when the bullet is there.
+    df::Vector saucer_moves = li.currentObject()->getVelocity();
+    saucer_moves.scale(way.x() / (Bullet::kSpeed - saucer_moves.x()));
+    direction = way + saucer_moves;
+  }
+  return direction;
+}
+
+void Hero::fireNuke() {
+  if (m_nukes == 0) return;
+  --m_nukes;
+  const EventNuke nuke;
+  WM.onEvent(&nuke);
+}
+
+// --- life and death
+
+void Hero::launch() {
+  m_lost = false;
+  m_wait = kShieldTicks;
+  m_nukes = std::max(1, m_nukes);
+  m_first_score = WM.getPlayer(m_player)->getScore();
+  setPosition(freePlace());
+  setSolidness(df::SPECTRAL);  // nothing touches a shielded ship
+  setVisible(true);
+}
+
+df::Vector Hero::freePlace() {
+  // Ask for more room than the ship needs, most of it in front; the sky may be too full for that, so take
+  // the last place after some attempts: there is the shield, after all.
+  const df::Box ship = getBox();
+  setBox(df::Box(df::Vector(-3, -1.5), 16, 3));
+  df::Vector place;
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    const int rows = static_cast<int>(bottomRow() - topRow()) - 3;
+    place = df::Vector(4 + WM.randomInt(8), topRow() + 2 + WM.randomInt(rows));
+    if (!WM.isCollision(this, place)) break;
+  }
+  setBox(ship);
+  return place;
+}
+
+void Hero::lose() {
+  df::Player* p_player = WM.getPlayer(m_player);
+  if (p_player == nullptr) return;  // leaving in this very tick
+  m_lost = true;
+  m_wait = kLostTicks;
+  m_hint_wait = 0;
+  m_life_score = p_player->getScore() - m_first_score;
+  setVelocity(df::Vector());
+  setSolidness(df::SPECTRAL);
+  setVisible(false);
+  explodeShip(getPosition());
+  showMessage(*p_player);
+  const EventShipLost ship_lost(m_name, m_life_score);
+  WM.onEvent(&ship_lost);
+}
+
+// --- what is seen
+
+int Hero::draw() {
+  const df::Vector at = getPosition();
+  if (m_wait > 0) {  // a new ship: whose it is, and a flickering shield
+    DM.drawString(at + df::Vector(0, -1), m_name, df::LEFT_JUSTIFIED, m_color);
+    if (m_wait / 4 % 2 == 0) DM.drawCh(at + df::Vector(1, 0), ')', m_color);
+  }
+  return DM.drawCh(at, '>', m_color);
+}
+
+void Hero::showStatus(df::Player& player) const {
+  std::string text = std::to_string(player.getScore()) + " points   nukes " + std::to_string(m_nukes);
+  if (m_nukes < kMostNukes) text += "   next in " + std::to_string(kHitsPerNuke - m_hits) + " hits";
+  player.setText(STATUS_TEXT, df::Vector(1, 0), text, m_color);
+}
+
+void Hero::showMessage(df::Player& player) const {
+  std::string text;
+  if (m_lost) {
+    text = "Hit! " + std::to_string(m_life_score) + " points in that life. Next ship is on its way";
+  } else if (m_hint_wait > 0) {
+    text = "arrows or WASD: fly   space: shoot   click: aim   N: nuke";
+  }
+  const double left = (fieldWidth() - static_cast<double>(text.size())) / 2;
+  player.setText(MESSAGE_TEXT, df::Vector(left, fieldHeight() - 2), text);
+}

@@ -1,0 +1,105 @@
+#include "Saucer.h"
+
+#include "DisplayManager.h"
+#include "EventCollision.h"
+#include "EventOut.h"
+#include "EventStep.h"
+#include "Events.h"
+#include "Explosion.h"
+#include "Field.h"
+#include "WorldManager.h"
+
+const Saucer::Kind Saucer::kDrone = {'o', df::GREEN, 0.30, 0.04, 10};
+const Saucer::Kind Saucer::kWeaver = {'8', df::CYAN, 0.40, 0.16, 20};
+const Saucer::Kind Saucer::kRaider = {'<', df::RED, 0.70, 0.02, 30};
+
+const Saucer::Kind& Saucer::anyKind() {
+  const int dice = WM.randomInt(10);
+  return dice < 6 ? kDrone : dice < 9 ? kWeaver : kRaider;
+}
+
+Saucer::Saucer() : m_kind(anyKind()) {
+  setType("Saucer");
+  // SOFT, so that none gets stuck behind or inside another one. They see to their distance themselves.
+  setSolidness(df::SOFT);
+  setStaticLook();
+  registerInterest(df::STEP_EVENT);
+  registerInterest(NUKE_EVENT);
+  enter();
+}
+
+void Saucer::enter() {
+  int row = static_cast<int>(topRow()) + WM.randomInt(static_cast<int>(bottomRow() - topRow()) + 1);
+  // Every third one has picked a ship and comes in right in front of it: no corner is safe, and nobody has
+  // to wait for something to shoot at.
+  const df::ObjectList heroes = WM.objectsOfType("Hero");
+  if (!heroes.isEmpty() && WM.randomInt(3) == 0) {
+    row = static_cast<int>(heroes[WM.randomInt(heroes.getCount())]->getPosition().y());
+  }
+  setPosition(df::Vector(fieldWidth() + WM.randomInt(12), row));
+  setDrift(WM.randomInt(3) - 1);
+}
+
+void Saucer::setDrift(int direction) {
+  setVelocity(df::Vector(-m_kind.speed, direction * m_kind.drift));
+}
+
+int Saucer::eventHandler(const df::Event* p_e) {
+  if (p_e->getType() == df::STEP_EVENT) {
+    steer();
+    return 1;
+  }
+  if (p_e->getType() == df::OUT_EVENT) {
+    enter();
+    return 1;
+  }
+  if (p_e->getType() == df::COLLISION_EVENT) {
+    const auto* p_collision = static_cast<const df::EventCollision*>(p_e);
+    const bool is_mover = p_collision->getObject1() == this;
+    swerve(is_mover ? p_collision->getObject2() : p_collision->getObject1());
+    return 1;
+  }
+  if (p_e->getType() == NUKE_EVENT) {
+    // Those that wait outside do not see the flash.
+    if (getPosition().x() < fieldWidth()) explode();
+    return 1;
+  }
+  return 0;
+}
+
+void Saucer::steer() {
+  const double row = getPosition().y();
+  if (row <= topRow()) {
+    if (getVelocity().y() < 0) setDrift(1);
+  } else if (row >= bottomRow()) {
+    if (getVelocity().y() > 0) setDrift(-1);
+  } else if (WM.randomInt(60) == 0) {
+    setDrift(WM.randomInt(3) - 1);
+  }
+}
+
+void Saucer::swerve(const df::Object* p_other) {
+  if (p_other->getType() != "Saucer") return;  // ships and bullets know themselves what happens now
+  const double distance = getPosition().y() - p_other->getPosition().y();
+  const bool down = distance == 0 ? getId() > p_other->getId() : distance > 0;
+  setDrift(down ? 1 : -1);
+}
+
+bool Saucer::shotBy(std::uint32_t player) {
+  if (!explode()) return false;
+  const EventShotDown shot_down(player, m_kind.points);
+  WM.onEvent(&shot_down);
+  return true;
+}
+
+bool Saucer::explode() {
+  if (m_exploded) return false;
+  m_exploded = true;
+  new Explosion(getPosition());
+  WM.markForDelete(this);  // until the tick is over it goes on colliding, hence m_exploded
+  return true;
+}
+
+int Saucer::draw() {
+  return DM.drawCh(getPosition(), m_kind.ch, m_kind.color);
+}

@@ -1,0 +1,93 @@
+#include "Scoreboard.h"
+
+#include <algorithm>
+
+#include "EventStep.h"
+#include "Events.h"
+#include "Field.h"
+#include "GameManager.h"
+#include "WorldManager.h"
+
+namespace {
+
+constexpr int kTeamTicks = 90;         // how long a hit counts for the team
+constexpr int kBiggestTeam = 4;        // more do not make more of it
+constexpr int kShowTicks = 150;        // how long the best lives stay on the screen
+constexpr int kShowEveryTicks = 1800;  // even if nobody dies
+constexpr std::size_t kBestCount = 3;
+
+}  // namespace
+
+Scoreboard::Scoreboard() {
+  setType("Scoreboard");
+  setSolidness(df::SPECTRAL);
+  setVisible(false);
+  registerInterest(df::STEP_EVENT);
+  registerInterest(SHOT_DOWN_EVENT);
+  registerInterest(SHIP_LOST_EVENT);
+}
+
+int Scoreboard::eventHandler(const df::Event* p_e) {
+  if (p_e->getType() == df::STEP_EVENT) {
+    step(static_cast<const df::EventStep*>(p_e)->getStepCount());
+    return 1;
+  }
+  if (p_e->getType() == SHOT_DOWN_EVENT) {
+    credit(*static_cast<const EventShotDown*>(p_e));
+    return 1;
+  }
+  if (p_e->getType() == SHIP_LOST_EVENT) {
+    enter(*static_cast<const EventShipLost*>(p_e));
+    return 1;
+  }
+  return 0;
+}
+
+void Scoreboard::step(int tick) {
+  std::erase_if(m_last_hit, [tick](const auto& hit) { return hit.second + kTeamTicks < tick; });
+  if (tick % kShowEveryTicks == 0) m_show_best = kShowTicks;
+  if (m_show_best > 0) --m_show_best;
+
+  const std::string team = teamFactor() < 2 ? "" : "team x" + std::to_string(teamFactor());
+  const std::string best = m_show_best > 0 ? bestLives() : "";
+  for (df::Player* p_player : WM.getPlayers()) {
+    p_player->setText(TEAM_TEXT, df::Vector(fieldWidth() - 10, 0), team, df::YELLOW);
+    p_player->setText(BEST_TEXT, df::Vector(1, fieldHeight() - 1), best, df::YELLOW);
+  }
+}
+
+void Scoreboard::credit(const EventShotDown& shot_down) {
+  df::Player* p_player = WM.getPlayer(shot_down.getPlayer());
+  if (p_player == nullptr) return;  // left while the bullet was still on its way
+  m_last_hit[shot_down.getPlayer()] = GM.getStepCount();
+  p_player->setScore(p_player->getScore() + shot_down.getPoints() * teamFactor());
+}
+
+int Scoreboard::teamFactor() const {
+  return std::min(static_cast<int>(m_last_hit.size()), kBiggestTeam);
+}
+
+void Scoreboard::enter(const EventShipLost& ship_lost) {
+  if (ship_lost.getPoints() == 0) return;
+  const Life life = {ship_lost.getName(), ship_lost.getPoints()};
+  const auto by_name = [&](const Life& other) { return other.name == life.name; };
+  const auto old = std::find_if(m_best.begin(), m_best.end(), by_name);
+  if (old == m_best.end()) {
+    m_best.push_back(life);
+  } else {
+    old->points = std::max(old->points, life.points);
+  }
+  const auto better = [](const Life& a, const Life& b) { return a.points > b.points; };
+  std::stable_sort(m_best.begin(), m_best.end(), better);
+  if (m_best.size() > kBestCount) m_best.resize(kBestCount);
+  m_show_best = kShowTicks;
+}
+
+std::string Scoreboard::bestLives() const {
+  std::string text;
+  for (const Life& life : m_best) {
+    text += text.empty() ? "Best lives: " : ", ";
+    text += life.name + " " + std::to_string(life.points);
+  }
+  return text;
+}

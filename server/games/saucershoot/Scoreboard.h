@@ -1,0 +1,37 @@
+// Counts the points, and knows who flew best.
+//
+// A saucer is worth its points times the number of pilots (up to four) who hit something in the last three
+// seconds, so it pays to keep friends in the game.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "Object.h"
+
+class EventShipLost;
+class EventShotDown;
+
+class Scoreboard : public df::Object {
+ public:
+  Scoreboard();
+  int eventHandler(const df::Event* p_e) override;
+
+ private:
+  struct Life {
+    std::string name;
+    int points;
+  };
+
+  void step(int tick);
+  void credit(const EventShotDown& shot_down);
+  void enter(const EventShipLost& ship_lost);
+  int teamFactor() const;
+  std::string bestLives() const;
+
+  std::map<std::uint32_t, int> m_last_hit;  // player -> tick
+  std::vector<Life> m_best;                 // one life per name, best first
+  int m_show_best = 0;                      // ticks to go
+};

@@ -1,0 +1,75 @@
+#include "Spawner.h"
+
+#include <algorithm>
+
+#include "EventStep.h"
+#include "Events.h"
+#include "Field.h"
+#include "Saucer.h"
+#include "WorldManager.h"
+
+namespace {
+
+constexpr int kMostSaucers = 60;
+constexpr int kSaucersAtRest = 10;  // when nobody plays
+constexpr int kSaucersPerPlayer = 4;
+constexpr int kLevelsPerPlayer = 14;
+constexpr int kTicksPerLevel = 90;
+constexpr int kTicksPerWave = 4;  // after a nuke the sky fills again in a few seconds, not at once
+constexpr int kRelief = 2;        // levels that a lost ship takes back: it got too hard too fast
+
+int playerCount() {
+  return static_cast<int>(WM.getPlayers().size());
+}
+
+}  // namespace
+
+Spawner::Spawner() {
+  setType("Spawner");
+  setSolidness(df::SPECTRAL);
+  setVisible(false);
+  registerInterest(df::STEP_EVENT);
+  registerInterest(SHIP_LOST_EVENT);
+
+  for (int i = 0; i < kSaucersAtRest; ++i) {
+    auto* p_saucer = new Saucer;
+    const double left = fieldWidth() / 3;  // the first ship gets a little time to look round
+    p_saucer->setPosition(
+        df::Vector(left + WM.randomInt(static_cast<int>(fieldWidth() - left)), p_saucer->getPosition().y()));
+  }
+}
+
+int Spawner::eventHandler(const df::Event* p_e) {
+  if (p_e->getType() == df::STEP_EVENT) {
+    step(static_cast<const df::EventStep*>(p_e)->getStepCount());
+    return 1;
+  }
+  if (p_e->getType() == SHIP_LOST_EVENT) {
+    m_level = std::max(0, m_level - kRelief);
+    return 1;
+  }
+  return 0;
+}
+
+void Spawner::step(int tick) {
+  const int players = playerCount();
+  if (tick % kTicksPerLevel == 0) ++m_level;
+  m_level = std::min(m_level, kLevelsPerPlayer * players);
+  if (tick % kTicksPerWave != 0) return;
+
+  const df::ObjectList saucers = WM.objectsOfType("Saucer");
+  const int wanted = std::min(kSaucersAtRest + kSaucersPerPlayer * players + m_level, kMostSaucers);
+  const int missing = wanted - saucers.getCount();
+  const int wave = std::min(missing, 1 + players / 2);  // many pilots shoot many
+  for (int i = 0; i < wave; ++i) new Saucer;
+  if (missing < 0) retireOne(saucers);
+}
+
+void Spawner::retireOne(const df::ObjectList& saucers) {
+  df::ObjectListIterator li(&saucers);
+  for (li.first(); !li.isDone(); li.next()) {
+    if (li.currentObject()->getPosition().x() < fieldWidth()) continue;
+    WM.markForDelete(li.currentObject());
+    return;
+  }
+}

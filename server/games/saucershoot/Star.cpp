@@ -1,0 +1,28 @@
+#include "Star.h"
+
+#include "DisplayManager.h"
+#include "EventOut.h"
+#include "Field.h"
+#include "WorldManager.h"
+
+Star::Star() : m_near(WM.randomInt(3) == 0) {
+  setType("Star");
+  setSolidness(df::SPECTRAL);
+  setAltitude(0);
+  setStaticLook();
+
+  setPosition(df::Vector(WM.randomInt(DM.getHorizontal()), WM.randomInt(DM.getVertical())));
+  const double speed = m_near ? 0.15 : 0.05;
+  setVelocity(df::Vector(-speed - 0.01 * WM.randomInt(5), 0));
+}
+
+int Star::eventHandler(const df::Event* p_e) {
+  if (p_e->getType() != df::OUT_EVENT) return 0;
+  // It left on the left; the next one like it comes in on the right.
+  setPosition(df::Vector(fieldWidth(), WM.randomInt(DM.getVertical())));
+  return 1;
+}
+
+int Star::draw() {
+  return m_near ? DM.drawCh(getPosition(), '.', df::WHITE) : DM.drawCh(getPosition(), '.', df::BLUE);
+}

@@ -1,0 +1,34 @@
+// Saucer Shoot for everybody who comes: the game of the Dragonfly tutorial, with as many ships as players.
+//
+// Start reading here, then go on with Hero. dfserver loads this game, runs main() and shows it to the
+// players: nothing in it knows about networks.
+#include "GameManager.h"
+#include "Hangar.h"
+#include "Scoreboard.h"
+#include "Spawner.h"
+#include "Star.h"
+
+int main() {
+  if (GM.startUp()) return 1;
+  GM.setHelp({
+      "Saucer Shoot: shoot the saucers, do not touch them.",
+      "",
+      "arrows, WASD   fly",
+      "space          shoot ahead; the gun aims a little by itself",
+      "mouse button   shoot where you click",
+      "N, Enter       nuke: clears the sky, earns nothing",
+      "",
+      "20 hits earn a nuke. The more pilots have hit something in the",
+      "last three seconds, the more a saucer is worth: up to four times.",
+  });
+
+  // Objects are made with new and never deleted here: the world looks after them.
+  for (int i = 0; i < 30; ++i) new Star;
+  new Spawner;
+  new Hangar;
+  new Scoreboard;
+
+  GM.run();  // until the server ends
+  GM.shutDown();
+  return 0;
+}

@@ -1,0 +1,47 @@
+// Runs a game's main() in a world of its own, as dfserver does, and lets a test play it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "GameManager.h"
+#include "Runner.h"
+#include "World.h"
+#include "WorldManager.h"
+
+namespace naiad {
+
+/// Calls `play` where GM.run() would wait for players.
+class TestRunner : public df::Runner {
+ public:
+  explicit TestRunner(std::function<void(df::World&)> play) : m_play(std::move(play)) {}
+  void run(df::World& world) override { m_play(world); }
+
+ private:
+  std::function<void(df::World&)> m_play;
+};
+
+/// From the start of the game to its shutDown(), with this seed.
+inline void hostGame(int (*game_main)(), std::uint64_t seed, std::function<void(df::World&)> play) {
+  df::World world;
+  const df::World::Scope scope(world);
+  world.setLogSink([](const std::string&) {});
+  world.setSeed(seed);
+  TestRunner runner(std::move(play));
+  world.setRunner(&runner);
+  game_main();
+}
+
+inline void tick(df::World& world, int count) {
+  for (int i = 0; i < count; ++i) world.tick();
+}
+
+/// Down and up again before the next tick.
+inline void tap(df::World& world, std::uint32_t player, df::Keyboard::Key key) {
+  world.key(player, key, df::KEY_PRESSED);
+  world.key(player, key, df::KEY_RELEASED);
+}
+
+}  // namespace naiad

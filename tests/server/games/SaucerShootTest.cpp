@@ -1,0 +1,189 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "HostedGame.h"
+
+/// The game's main(), compiled into this test under another name.
+int saucershoot_main();
+
+namespace naiad {
+namespace {
+
+using df::Keyboard::Key;
+
+constexpr int kShieldTicks = 60;
+constexpr int kRelaunchTicks = 65;
+
+int score(df::World& world, std::uint32_t player) {
+  return world.getPlayer(player)->getScore();
+}
+
+/// Joins, and waits until the new ship can be hit.
+std::uint32_t joinAndWait(df::World& world) {
+  const std::uint32_t player = world.join("ann", df::RED);
+  tick(world, kShieldTicks + 2);
+  return player;
+}
+
+/// Presses a random key or uses the mouse at random, now and then.
+void playAtRandom(df::World& world, df::Random& random, std::uint32_t player) {
+  static constexpr Key kKeys[] = {df::Keyboard::SPACE, df::Keyboard::W, df::Keyboard::A, df::Keyboard::S,
+                                  df::Keyboard::D,     df::Keyboard::N, df::Keyboard::Z};
+  if (random.below(5) == 0) {
+    world.key(player, kKeys[random.below(7)], static_cast<df::EventKeyboardAction>(random.below(3)));
+  }
+  if (random.below(8) == 0) {
+    world.mouse(player, df::CLICKED, df::Mouse::LEFT, random.below(80), random.below(24));
+  }
+}
+
+/// All of what the first player saw while four played at random, as one number.
+std::uint64_t hashOfARandomGame(std::uint64_t seed, int ticks) {
+  std::uint64_t hash = 14695981039346656037u;
+  hostGame(saucershoot_main, seed, [&](df::World& world) {
+    df::Random random(seed);
+    std::vector<std::uint32_t> players;
+    for (int i = 0; i < 4; ++i) players.push_back(world.join("pilot", df::RED));
+    for (int t = 0; t < ticks; ++t) {
+      for (const std::uint32_t player : players) playAtRandom(world, random, player);
+      world.tick();
+      for (const char ch : world.renderPlayer(players[0]).text()) {
+        hash = (hash ^ static_cast<unsigned char>(ch)) * 1099511628211u;
+      }
+    }
+  });
+  return hash;
+}
+
+TEST(SaucerShoot, SimplestPlayHitsASaucerWithinFiveSecondsForAnySeed) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    hostGame(saucershoot_main, seed, [&](df::World& world) {
+      const std::uint32_t player = world.join("bot", df::RED);
+      world.tick();
+      for (int t = 0; t < 149; ++t) {
+        if (t % 10 == 0) tap(world, player, df::Keyboard::SPACE);
+        if (t % 10 == 5) tap(world, player, t % 100 < 50 ? df::Keyboard::DOWNARROW : df::Keyboard::UPARROW);
+        world.tick();
+      }
+      EXPECT_GT(score(world, player), 0) << "seed " << seed;
+    });
+  }
+}
+
+TEST(SaucerShoot, AtLeastTwentyObjectsMoveOnTheScreen) {
+  hostGame(saucershoot_main, 1, [](df::World& world) {
+    for (int t = 0; t < 600; ++t) {
+      world.tick();
+      int moving = 0;
+      const df::ObjectList all = world.getAllObjects();
+      for (int i = 0; i < all.getCount(); ++i) {
+        moving += all[i]->getVelocity() != df::Vector() && all[i]->getPosition().x() < 79.5;
+      }
+      ASSERT_GE(moving, 20) << "tick " << t;
+    }
+  });
+}
+
+TEST(SaucerShoot, SameSeedAndInputsShowTheSameGame) {
+  EXPECT_EQ(hashOfARandomGame(7, 600), hashOfARandomGame(7, 600));
+  EXPECT_NE(hashOfARandomGame(7, 600), hashOfARandomGame(8, 600));
+}
+
+TEST(SaucerShoot, ObjectsStayBoundedWhateverFourPlayersDo) {
+  hostGame(saucershoot_main, 3, [](df::World& world) {
+    df::Random random(3);
+    std::vector<std::uint32_t> players;
+    for (int i = 0; i < 4; ++i) players.push_back(world.join("pilot", df::RED));
+    for (int t = 0; t < 5000; ++t) {
+      for (const std::uint32_t player : players) playAtRandom(world, random, player);
+      world.tick();
+      ASSERT_LE(world.getObjectCount(), 350);
+      ASSERT_LE(world.objectsOfType("Saucer").getCount(), 60);
+      ASSERT_EQ(world.objectsOfType("Hero").getCount(), 4);
+    }
+    EXPECT_EQ(world.getRefusals(), 0u);
+  });
+}
+
+TEST(SaucerShoot, APlayerWhoLeavesTakesTheShipAlong) {
+  hostGame(saucershoot_main, 1, [](df::World& world) {
+    const std::uint32_t ann = world.join("ann", df::RED);
+    const std::uint32_t bob = world.join("bob", df::GREEN);
+    tick(world, 20);
+    EXPECT_EQ(world.objectsOfType("Hero").getCount(), 2);
+    tap(world, ann, df::Keyboard::SPACE);  // the bullet outlives its ship
+    world.leave(ann);
+    tick(world, 100);
+    ASSERT_EQ(world.objectsOfType("Hero").getCount(), 1);
+    EXPECT_EQ(world.objectsOfType("Hero")[0], world.getPlayer(bob)->getObject());
+  });
+}
+
+TEST(SaucerShoot, TapMovesOneCellAndAHeldKeyMovesUntilReleased) {
+  hostGame(saucershoot_main, 1, [](df::World& world) {
+    const std::uint32_t player = world.join("ann", df::RED);
+    world.tick();
+    const df::Object* p_hero = world.getPlayer(player)->getObject();
+    const df::Vector start = p_hero->getPosition();
+    tap(world, player, df::Keyboard::RIGHTARROW);
+    tap(world, player, df::Keyboard::S);
+    tick(world, 5);
+    EXPECT_EQ(p_hero->getPosition(), start + df::Vector(1, 1));
+
+    world.key(player, df::Keyboard::D, df::KEY_PRESSED);
+    tick(world, 10);
+    world.key(player, df::Keyboard::D, df::KEY_RELEASED);
+    tick(world, 10);
+    EXPECT_GE(p_hero->getPosition().x(), start.x() + 11);
+    EXPECT_EQ(p_hero->getVelocity(), df::Vector());
+  });
+}
+
+TEST(SaucerShoot, ShipWhoseReleaseGotLostStopsByItself) {
+  hostGame(saucershoot_main, 1, [](df::World& world) {
+    const std::uint32_t player = world.join("ann", df::RED);
+    world.tick();
+    world.key(player, df::Keyboard::D, df::KEY_PRESSED);
+    tick(world, 2);
+    const df::Object* p_hero = world.getPlayer(player)->getObject();
+    EXPECT_NE(p_hero->getVelocity(), df::Vector());
+    tick(world, 48);
+    EXPECT_EQ(p_hero->getVelocity(), df::Vector());
+    EXPECT_LT(p_hero->getPosition().x(), 70);
+  });
+}
+
+TEST(SaucerShoot, LostShipIsLaunchedAnewInAFreePlace) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    hostGame(saucershoot_main, seed, [](df::World& world) {
+      const std::uint32_t player = joinAndWait(world);
+      df::Object* p_hero = world.getPlayer(player)->getObject();
+      if (p_hero->isVisible()) {  // else a saucer was faster
+        world.objectsOfType("Saucer")[0]->setPosition(p_hero->getPosition() + df::Vector(1, 0));
+        world.tick();
+      }
+      ASSERT_FALSE(p_hero->isVisible());
+      EXPECT_NE(world.renderPlayer(player).text().find("Hit!"), std::string::npos);
+
+      tick(world, kRelaunchTicks);
+      EXPECT_TRUE(p_hero->isVisible());
+      EXPECT_EQ(p_hero->getSolidness(), df::SPECTRAL);  // shielded
+    });
+  }
+}
+
+TEST(SaucerShoot, NukeClearsTheSkyAndEarnsNothing) {
+  hostGame(saucershoot_main, 1, [](df::World& world) {
+    const std::uint32_t player = world.join("ann", df::RED);
+    tick(world, 10);
+    tap(world, player, df::Keyboard::RETURN);
+    world.tick();
+    const df::ObjectList saucers = world.objectsOfType("Saucer");
+    for (int i = 0; i < saucers.getCount(); ++i) EXPECT_GE(saucers[i]->getPosition().x(), 79);
+    EXPECT_EQ(score(world, player), 0);
+  });
+}
+
+}  // namespace
+}  // namespace naiad
