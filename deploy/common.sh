@@ -1,0 +1,75 @@
+# Shared by the scripts beside it: where things are, and how packages are installed.
+# Sourced by bash with `set -euo pipefail` in force.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+say() { printf '%s\n' "-- $*" >&2; }
+fail() {
+  printf '%s\n' "$(basename "$0"): $1" >&2
+  exit "${2:-1}"
+}
+
+# What it takes to build and run, and what the tests need on top of it (Debian 12 names).
+build_packages="g++ cmake ninja-build libasio-dev libprotobuf-dev protobuf-compiler libncurses-dev libcli11-dev"
+check_packages="$build_packages ccache libgtest-dev tmux python3 clang clang-format clang-tidy libclang-rt-14-dev ncurses-term"
+
+# need_packages "a b c": install those that are missing, and only then call apt.
+need_packages() {
+  local package missing=""
+  for package in $1; do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing="$missing $package"
+  done
+  [ -z "$missing" ] && return 0
+  local apt="apt-get install -y --no-install-recommends$missing" sudo=""
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null || ! { sudo -n true 2>/dev/null || { [ -t 0 ] && sudo true; }; }; then
+      echo "Some packages are missing and this user may not install them. Please run:" >&2
+      echo "  $apt" >&2
+      exit 2
+    fi
+    sudo=sudo
+  fi
+  say "installing$missing"
+  local log
+  log=$(mktemp)
+  export DEBIAN_FRONTEND=noninteractive
+  # Package lists may be missing or old: refresh them, but let the install decide whether that matters.
+  $sudo apt-get update -qq >"$log" 2>&1 || true
+  if ! $sudo env DEBIAN_FRONTEND=noninteractive $apt >>"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    rm -f "$log"
+    fail "the packages could not be installed; the command was: $apt" 2
+  fi
+  rm -f "$log"
+}
+
+# build PRESET TARGET...: configure and build, quietly unless something goes wrong. No target: all.
+build() {
+  local preset=$1 log launcher=()
+  shift
+  command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  log=$(mktemp)
+  say "building ($preset)"
+  if ! { (cd "$root" && cmake --preset "$preset" "${launcher[@]}" ${CMAKE_EXTRA:-}) >"$log" 2>&1 &&
+         build_targets "$preset" "$@" >>"$log" 2>&1; }; then
+    grep -vE '^\[[0-9]+/[0-9]+\] (Building|Linking|Generating|Running)' "$log" | tail -n 60 >&2
+    rm -f "$log"
+    fail "the build failed ($preset)"
+  fi
+  rm -f "$log"
+}
+
+# On a terminal, ninja's own progress line shows how far it is.
+build_targets() {
+  local preset=$1
+  shift
+  local targets=()
+  [ $# -gt 0 ] && targets=(--target "$@")
+  if [ -t 2 ]; then
+    cmake --build "$root/build/$preset" "${targets[@]}" 2>&1 | tee >(grep --line-buffered -oE '^\[[0-9]+/[0-9]+\]' | while read -r step; do printf '\r-- %s ' "$step" >&2; done)
+    local status=${PIPESTATUS[0]}
+    printf '\r            \r' >&2
+    return "$status"
+  fi
+  cmake --build "$root/build/$preset" "${targets[@]}"
+}

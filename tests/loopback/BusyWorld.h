@@ -1,0 +1,12 @@
+// A world in which everything happens that can be seen: objects fly, bounce, turn, are blocked, change their
+// look, die and are born, and every player steers a ship.
+#pragma once
+
+#include "World.h"
+
+namespace naiad::test {
+
+/// Fill the world with `count` creatures and the object that welcomes players.
+void populateBusyWorld(df::World& world, int count);
+
+}  // namespace naiad::test

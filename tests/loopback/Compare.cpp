@@ -1,0 +1,49 @@
+#include "Compare.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+namespace naiad::test {
+
+namespace {
+
+std::string describe(std::uint32_t tick, const df::Canvas& seen, const df::Canvas& truth) {
+  std::string text = "tick " + std::to_string(tick) + ", wrong cells:";
+  for (int y = 0; y < truth.height(); ++y) {
+    for (int x = 0; x < truth.width(); ++x) {
+      if (seen.at(x, y) == truth.at(x, y)) continue;
+      text += " (" + std::to_string(x) + "," + std::to_string(y) + ") seen '";
+      df::appendUtf8(text, seen.at(x, y).ch);
+      text += "' colour " + std::to_string(seen.at(x, y).color) + ", true '";
+      df::appendUtf8(text, truth.at(x, y).ch);
+      text += "' colour " + std::to_string(truth.at(x, y).color) + ";";
+    }
+  }
+  return text + "\nseen:\n" + seen.text() + "true:\n" + truth.text();
+}
+
+}  // namespace
+
+Comparison compare(TestClient& client, const TestServer& server) {
+  Comparison result;
+  for (const auto& [tick, picture] : client.pictures()) {
+    const auto truth = server.truth(tick, client.player());
+    if (!truth) continue;
+    ++result.ticks;
+    result.cells += picture.width() * picture.height();
+    const int wrong = countDifferences(picture, *truth);
+    if (wrong > 0 && result.wrong == 0) result.first_difference = describe(tick, picture, *truth);
+    result.wrong += wrong;
+  }
+  return result;
+}
+
+void expectSame(TestClient& client, const TestServer& server, int least_ticks) {
+  const Comparison result = compare(client, server);
+  EXPECT_GE(result.ticks, least_ticks);
+  EXPECT_EQ(result.wrong, 0) << result.first_difference;
+  std::printf("compared ticks=%d cells=%d wrong=%d\n", result.ticks, result.cells, result.wrong);
+}
+
+}  // namespace naiad::test

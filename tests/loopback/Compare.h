@@ -1,0 +1,24 @@
+// Holding a client's pictures against what the server drew.
+#pragma once
+
+#include <string>
+
+#include "TestClient.h"
+#include "TestServer.h"
+
+namespace naiad::test {
+
+struct Comparison {
+  int ticks = 0;  ///< compared
+  int cells = 0;
+  int wrong = 0;
+  std::string first_difference;  ///< for people: the tick, its wrong cells, both pictures
+};
+
+/// Compare every picture that `client` kept with the server's truth for its player.
+Comparison compare(TestClient& client, const TestServer& server);
+
+/// Expect `least_ticks` pictures and no wrong cell; print what was compared.
+void expectSame(TestClient& client, const TestServer& server, int least_ticks);
+
+}  // namespace naiad::test

@@ -1,0 +1,149 @@
+// Hostile bytes end the connection they came on, are counted, and change nothing for anybody else.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "BusyWorld.h"
+#include "Compare.h"
+#include "Framing.h"
+#include "RawClient.h"
+#include "SplitMix64.h"
+#include "TestClient.h"
+#include "TestServer.h"
+
+namespace naiad::test {
+namespace {
+
+std::string randomBytes(SplitMix64& random, std::size_t count) {
+  std::string bytes;
+  for (std::size_t i = 0; i < count; ++i) bytes.push_back(static_cast<char>(random.below(256)));
+  return bytes;
+}
+
+wire::ClientMessage validMessage(SplitMix64& random) {
+  wire::ClientMessage message;
+  switch (random.below(4)) {
+    case 0:
+      message.mutable_input()->set_id(1 + static_cast<std::uint32_t>(random.below(5)));
+      message.mutable_input()->mutable_key()->set_key(static_cast<std::uint32_t>(random.below(80)));
+      break;
+    case 1:
+      message.mutable_ack()->set_newest(static_cast<std::uint32_t>(random.next()));
+      message.mutable_ack()->set_mask(random.next());
+      break;
+    case 2:
+      message.mutable_chat()->set_text(randomBytes(random, 20));
+      break;
+    default:
+      message.mutable_ping()->set_token(random.next());
+      break;
+  }
+  return message;
+}
+
+/// One attack: malformed, truncated, oversized, out of range or plain random bytes.
+void attack(SplitMix64& random, RawClient& client) {
+  const std::uint64_t kind = random.below(7);
+  if (kind != 0) client.send(RawClient::hello("evil"));
+  switch (kind) {
+    case 0:  // no greeting, just noise
+      client.sendBytes(randomBytes(random, 1 + random.below(300)));
+      break;
+    case 1:  // noise in a frame
+      client.sendFrame(randomBytes(random, 1 + random.below(300)));
+      break;
+    case 2:  // a frame over the limit
+      client.sendBytes(std::string("\xff\xff", 2) + randomBytes(random, 100));
+      break;
+    case 3:  // an empty frame
+      client.sendBytes(std::string(2, '\0'));
+      break;
+    case 4: {  // a message cut short, and the end of the stream in the middle of a frame
+      std::string bytes;
+      appendFrame(bytes, validMessage(random).SerializeAsString());
+      client.sendBytes(bytes.substr(0, 1 + random.below(bytes.size())));
+      break;
+    }
+    case 5: {  // a message with bits flipped
+      std::string payload = validMessage(random).SerializeAsString();
+      for (int i = 0; i < 3; ++i) payload[random.below(payload.size())] ^= static_cast<char>(1 << random.below(8));
+      client.sendFrame(payload);
+      break;
+    }
+    default: {  // well-formed, out of range
+      wire::ClientMessage message;
+      message.mutable_input()->set_id(1);
+      message.mutable_input()->mutable_key()->set_key(100'000 + static_cast<std::uint32_t>(random.next() % 1000));
+      client.send(message);
+      break;
+    }
+  }
+}
+
+TEST(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
+  TestServer server([](df::World& world) { populateBusyWorld(world, 50); });
+  asio::io_context context;
+  TestClient ann(context, server.port(), "ann");
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+
+  SplitMix64 random(42);
+  for (int i = 0; i < 1000; ++i) {
+    RawClient evil(server.port());
+    attack(random, evil);
+    // A reset may take the bytes with it, so most attackers stay until all of theirs were read.
+    if (i % 10 == 0) {
+      evil.reset();
+    } else {
+      ASSERT_TRUE(evil.finish()) << "attack " << i;
+    }
+    if (i % 20 != 0) continue;
+    const std::uint32_t tick = ann.newestTick();
+    ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick; })) << "after attack " << i;
+  }
+  // Once the last attacker is swept away, Ann plays alone and undisturbed.
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+    return ann.pictures().size() >= 100 &&
+           server.inWorld([](df::World& world) { return world.getPlayers().size(); }) == 1;
+  }));
+  expectSame(ann, server, 100);
+  EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
+  const Counters counters = server.counters();
+  EXPECT_GT(counters.malformed_frames, 200u);
+  EXPECT_GT(counters.malformed_messages, 200u);
+  std::printf("counted: %s\n", counters.summary().c_str());
+}
+
+TEST(Hostile, OffendersAreDisconnected) {
+  TestServer server([](df::World& world) { populateBusyWorld(world, 5); });
+  const auto hangsUp = [&](const std::string& after_hello) {
+    RawClient evil(server.port());
+    evil.send(RawClient::hello("evil"));
+    evil.sendBytes(after_hello);
+    return evil.waitForHangup();
+  };
+  EXPECT_TRUE(hangsUp(std::string(2, '\0')));
+  EXPECT_TRUE(hangsUp("\xff\xff"));
+  EXPECT_TRUE(hangsUp(std::string("\x03\x00\xff\xff\xff", 5)));
+  const Counters counters = server.counters();
+  EXPECT_EQ(counters.malformed_frames, 2u);
+  EXPECT_EQ(counters.malformed_messages, 1u);
+}
+
+TEST(Hostile, KeyFloodEndsTheSession) {
+  HostOptions options = fastOptions();
+  options.frame_micros = 200'000;
+  TestServer server([](df::World& world) { populateBusyWorld(world, 5); }, options);
+  RawClient flood(server.port());
+  flood.send(RawClient::hello("flood"));
+  for (std::uint32_t id = 1; id <= 500; ++id) {
+    wire::ClientMessage message;
+    message.mutable_input()->set_id(id);
+    message.mutable_input()->mutable_key()->set_key(df::Keyboard::SPACE);
+    flood.send(message);
+  }
+  EXPECT_TRUE(flood.waitForHangup());
+  EXPECT_EQ(server.counters().input_floods, 1u);
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,64 @@
+// What clients see is what the server's own display shows, cell for cell, over real sockets.
+#include <gtest/gtest.h>
+
+#include "BusyWorld.h"
+#include "Compare.h"
+#include "TestClient.h"
+#include "TestServer.h"
+
+namespace naiad::test {
+namespace {
+
+TEST(Loopback, ClientSeesWhatTheServerHasForAThousandTicks) {
+  TestServer server([](df::World& world) { populateBusyWorld(world, 200); });
+  asio::io_context context;
+  TestClient client(context, server.port(), "ann");
+  std::uint32_t pressed = 0;
+  ASSERT_TRUE(serveUntil(context, {&client}, [&] {
+    // Steer as well, so that the player's own text and ship change.
+    if (client.joined() && client.newestTick() > pressed + 10) {
+      pressed = client.newestTick();
+      const auto key = pressed % 3 == 0 ? df::Keyboard::LEFTARROW : df::Keyboard::RIGHTARROW;
+      client.session().sendKey(key, df::KEY_PRESSED, std::chrono::steady_clock::now());
+    }
+    return client.pictures().size() >= 1000;
+  }));
+  expectSame(client, server, 1000);
+  const std::string last = client.pictures().rbegin()->second.text();
+  EXPECT_NE(last.find("keys "), std::string::npos) << last;
+  EXPECT_NE(last.find('@'), std::string::npos) << last;
+}
+
+TEST(Loopback, TwoClientsSeeTheSameWorldAndALateOneCatchesUp) {
+  TestServer server([](df::World& world) { populateBusyWorld(world, 60); });
+  asio::io_context context;
+  TestClient ann(context, server.port(), "ann");
+  TestClient bob(context, server.port(), "bob");
+  ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return ann.pictures().size() > 150 && bob.pictures().size() > 150; }));
+  TestClient cal(context, server.port(), "cal");
+  ASSERT_TRUE(serveUntil(context, {&ann, &bob, &cal}, [&] { return cal.pictures().size() > 150; }));
+  expectSame(ann, server, 150);
+  expectSame(bob, server, 150);
+  expectSame(cal, server, 150);
+  // No player has a text of his own yet, so all see exactly the same.
+  int shared = 0;
+  for (const auto& [tick, picture] : cal.pictures()) {
+    const auto found = ann.pictures().find(tick);
+    if (found == ann.pictures().end()) continue;
+    ++shared;
+    EXPECT_EQ(countDifferences(picture, found->second), 0) << "tick " << tick;
+  }
+  EXPECT_GT(shared, 50);
+}
+
+TEST(Loopback, AThousandObjectsArriveWhole) {
+  TestServer server([](df::World& world) { populateBusyWorld(world, 1000); });
+  asio::io_context context;
+  TestClient client(context, server.port(), "ann");
+  ASSERT_TRUE(serveUntil(context, {&client}, [&] { return client.pictures().size() >= 60; }));
+  expectSame(client, server, 60);
+  EXPECT_GE(client.session().replica().aliveCount(), 1000u);
+}
+
+}  // namespace
+}  // namespace naiad::test

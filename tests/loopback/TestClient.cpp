@@ -1,0 +1,46 @@
+#include "TestClient.h"
+
+namespace naiad::test {
+
+namespace {
+
+SessionOptions named(const std::string& name) {
+  SessionOptions options;
+  options.name = name;
+  options.program = "test";
+  return options;
+}
+
+}  // namespace
+
+TestClient::TestClient(asio::io_context& context, std::uint16_t port, const std::string& name)
+    : m_connection(context, ServerAddress{"127.0.0.1", port}, named(name), false) {
+  m_connection.onSession([this](ClientSession& session) {
+    session.onBeforeSnapshot([this, &session](std::uint32_t tick) { record(session, tick); });
+  });
+  m_connection.start();
+}
+
+// Before a snapshot of a new tick is applied, all ticks since the last one are final: what no snapshot
+// corrected is what the replica extrapolates.
+void TestClient::record(ClientSession& session, std::uint32_t tick) {
+  const std::uint32_t known = session.clock().newestTick();
+  if (!m_keep || known == 0 || tick == known) return;
+  for (std::uint32_t t = std::max(m_recorded + 1, known); t < tick; ++t) m_pictures[t] = session.replica().render(t);
+  m_recorded = tick - 1;
+}
+
+bool serveUntil(asio::io_context& context, std::initializer_list<TestClient*> clients,
+                const std::function<bool()>& done) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!done()) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now > end) return false;
+    for (TestClient* client : clients) client->connection().update(now);
+    context.restart();
+    context.run_one_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+}  // namespace naiad::test

@@ -1,0 +1,44 @@
+// A client without a screen, driven by the test's thread: the same library as dfclient and dfbot.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "Connection.h"
+
+namespace naiad::test {
+
+/// Long enough for a loaded machine under a sanitizer; a test that needs it has failed anyway.
+inline constexpr std::chrono::seconds kPatience{30};
+
+class TestClient {
+ public:
+  TestClient(asio::io_context& context, std::uint16_t port, const std::string& name);
+
+  Connection& connection() { return m_connection; }
+  /// The session being played; must be joined.
+  ClientSession& session() { return *m_connection.session(); }
+  bool joined() const { return m_connection.state() == Connection::State::kJoined; }
+  std::uint32_t player() { return session().welcome().player; }
+  std::uint32_t newestTick() { return session().clock().newestTick(); }
+  /// What the client's replica shows at each tick that can no longer change, by tick.
+  const std::map<std::uint32_t, df::Canvas>& pictures() const { return m_pictures; }
+  void keepPictures(bool keep) { m_keep = keep; }
+
+ private:
+  void record(ClientSession& session, std::uint32_t tick);
+
+  Connection m_connection;
+  std::map<std::uint32_t, df::Canvas> m_pictures;
+  std::uint32_t m_recorded = 0;  ///< newest tick recorded
+  bool m_keep = true;
+};
+
+/// Serve the clients' sockets until `done`, or give up after kPatience and return false.
+bool serveUntil(asio::io_context& context, std::initializer_list<TestClient*> clients,
+                const std::function<bool()>& done);
+
+}  // namespace naiad::test

@@ -1,0 +1,52 @@
+#include "TestServer.h"
+
+#include "Player.h"
+
+namespace naiad::test {
+
+HostOptions fastOptions() {
+  HostOptions options;
+  options.port = 0;
+  options.frame_micros = 3000;
+  return options;
+}
+
+TestServer::TestServer(std::function<void(df::World&)> populate, HostOptions options)
+    : m_host(std::make_unique<Host>(std::move(options), "test", [](const std::string&) {})) {
+  m_host->setObserver([this](df::World& world) { record(world); });
+  std::promise<void> populated;
+  m_thread = std::thread([this, populate = std::move(populate), &populated] {
+    df::World world;
+    world.setLogSink([](const std::string&) {});
+    const df::World::Scope scope(world);
+    populate(world);
+    populated.set_value();
+    m_host->run(world);
+    world.shutDown();
+  });
+  populated.get_future().wait();
+}
+
+TestServer::~TestServer() { stop("The test is over."); }
+
+void TestServer::stop(const std::string& sentence) {
+  if (!m_thread.joinable()) return;
+  m_host->stop(sentence);
+  m_thread.join();
+}
+
+void TestServer::record(df::World& world) {
+  const std::lock_guard lock(m_mutex);
+  for (const df::Player* player : world.getPlayers()) {
+    m_truth[{static_cast<std::uint32_t>(world.getStepCount()), player->getId()}] = world.renderPlayer(player->getId());
+  }
+}
+
+std::optional<df::Canvas> TestServer::truth(std::uint32_t tick, std::uint32_t player) const {
+  const std::lock_guard lock(m_mutex);
+  const auto found = m_truth.find({tick, player});
+  if (found == m_truth.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace naiad::test

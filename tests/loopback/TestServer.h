@@ -1,0 +1,55 @@
+// A real server on a real loopback port, in a thread of this process, with a world made for the test.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "Canvas.h"
+#include "Host.h"
+#include "HostOptions.h"
+#include "World.h"
+
+namespace naiad::test {
+
+/// Options for tests: any free port, short ticks so that a thousand of them take seconds.
+HostOptions fastOptions();
+
+class TestServer {
+ public:
+  /// `populate` runs in the server's thread, in the new world, before the first tick.
+  explicit TestServer(std::function<void(df::World&)> populate, HostOptions options = fastOptions());
+  ~TestServer();
+
+  std::uint16_t port() const { return m_host->port(); }
+  /// Run `look` on the server's thread between two ticks and return what it returns.
+  template <class Look>
+  auto inWorld(Look look) {
+    std::promise<decltype(look(std::declval<df::World&>()))> answer;
+    m_host->post([&](df::World& world) { answer.set_value(look(world)); });
+    return answer.get_future().get();
+  }
+  Counters counters() {
+    return inWorld([this](df::World&) { return m_host->counters(); });
+  }
+  /// What the book's draw path shows `player` at the end of `tick`, if that tick happened with him.
+  std::optional<df::Canvas> truth(std::uint32_t tick, std::uint32_t player) const;
+  /// End the server and wait for it; players are told `sentence`.
+  void stop(const std::string& sentence);
+
+ private:
+  void record(df::World& world);
+
+  std::unique_ptr<Host> m_host;
+  mutable std::mutex m_mutex;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, df::Canvas> m_truth;  ///< by tick and player
+  std::thread m_thread;
+};
+
+}  // namespace naiad::test
