@@ -12,7 +12,6 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kMaxProgramLength = 40;
 constexpr std::uint32_t kMaxRttMillis = 99999;
 
 bool isColor(std::uint32_t color) {

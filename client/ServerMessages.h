@@ -19,10 +19,6 @@
 namespace naiad {
 
 /// Caps on what a server may make the client keep.
-inline constexpr std::size_t kMaxPlayers = 1024;
-inline constexpr std::size_t kMaxHelpLines = 24;
-inline constexpr std::size_t kMaxHelpLength = 76;
-inline constexpr std::size_t kMaxSentenceLength = 300;
 
 /// The join was granted.
 struct WelcomeMessage {

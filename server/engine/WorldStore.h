@@ -181,8 +181,8 @@ class WorldStore {
   std::vector<std::uint32_t> m_order_indices;  // where in m_order_list
   std::vector<Object*> m_objects;
 
-  Grid m_grid;                     // everybody who collides
-  std::deque<Freed> m_free;        // longest free first
+  Grid m_grid;               // everybody who collides
+  std::deque<Freed> m_free;  // longest free first
   std::uint64_t m_updates = 0;
   std::vector<Slot> m_order_list;  // those in the world by creation order, with gaps
   std::size_t m_gaps = 0;

@@ -25,14 +25,14 @@ struct ObjectKey {
 /// State of one object that appeared or changed (moved, turned, resized …) in the tick.
 struct ObjectFacts {
   ObjectKey key;
-  std::uint64_t order = 0;    ///< creation order in the world: a total order, never reused
-  FixedVector position;       ///< at the end of the tick
-  FixedVector velocity;       ///< what update() will add next tick; zero if the last move was blocked
-  FixedVector acceleration;   ///< added to the velocity after each move; zero if blocked
-  FixedBox box;               ///< relative to the position
+  std::uint64_t order = 0;   ///< creation order in the world: a total order, never reused
+  FixedVector position;      ///< at the end of the tick
+  FixedVector velocity;      ///< what update() will add next tick; zero if the last move was blocked
+  FixedVector acceleration;  ///< added to the velocity after each move; zero if blocked
+  FixedBox box;              ///< relative to the position
   Solidness solidness = HARD;
   bool no_soft = false;
-  bool shown = true;          ///< active and visible: false means it must not be drawn
+  bool shown = true;  ///< active and visible: false means it must not be drawn
   int altitude = 2;
 };
 
@@ -45,7 +45,7 @@ struct DrawCommand {
 
 /// The characters one object's draw() put on the screen this tick: commands[first, first + count).
 struct DrawnObject {
-  ObjectKey key;              ///< key.generation 0: drawn outside any object's draw()
+  ObjectKey key;  ///< key.generation 0: drawn outside any object's draw()
   std::uint32_t first = 0;
   std::uint32_t count = 0;
 };
@@ -66,21 +66,21 @@ struct PlayerFacts {
   std::string name;
   Color color = COLOR_DEFAULT;
   int score = 0;
-  ObjectKey followed;         ///< generation 0: the view follows nobody
-  FixedVector view_corner;    ///< upper left corner of the view, world coordinates
+  ObjectKey followed;             ///< generation 0: the view follows nobody
+  FixedVector view_corner;        ///< upper left corner of the view, world coordinates
   std::vector<PlayerText> texts;  ///< non-empty ones, by id
 };
 
 struct WorldView {
-  std::uint32_t tick = 0;               ///< ticks done since the world began
-  FixedBox boundary;                    ///< of the world
-  int view_width = 80;                  ///< size of every view, in cells
+  std::uint32_t tick = 0;  ///< ticks done since the world began
+  FixedBox boundary;       ///< of the world
+  int view_width = 80;     ///< size of every view, in cells
   int view_height = 24;
-  std::vector<ObjectFacts> changed;     ///< appeared or changed, by creation order
-  std::vector<ObjectKey> vanished;      ///< deleted or removed; never in `changed` of the same tick
-  std::vector<DrawnObject> drawn;       ///< objects whose draw() ran this tick, in drawing order
-  std::vector<DrawCommand> commands;    ///< what they drew, in drawing order
-  std::vector<PlayerFacts> players;     ///< by id
+  std::vector<ObjectFacts> changed;   ///< appeared or changed, by creation order
+  std::vector<ObjectKey> vanished;    ///< deleted or removed; never in `changed` of the same tick
+  std::vector<DrawnObject> drawn;     ///< objects whose draw() ran this tick, in drawing order
+  std::vector<DrawCommand> commands;  ///< what they drew, in drawing order
+  std::vector<PlayerFacts> players;   ///< by id
 };
 
 }  // namespace df

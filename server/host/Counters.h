@@ -24,8 +24,8 @@ struct Counters {
   std::uint64_t snapshot_bytes = 0;      ///< of their frames
   std::uint64_t skipped_ticks = 0;       ///< a client had unsent bytes, so it got no snapshot in a tick
   std::uint64_t ticks = 0;
-  std::uint64_t late_ticks = 0;          ///< began more than 5 ms after their deadline
-  std::uint64_t rebased_ticks = 0;       ///< a whole tick late: the schedule starts anew
+  std::uint64_t late_ticks = 0;     ///< began more than 5 ms after their deadline
+  std::uint64_t rebased_ticks = 0;  ///< a whole tick late: the schedule starts anew
 
   /// "connections=3 joined=2 …", only what is not zero.
   std::string summary() const;

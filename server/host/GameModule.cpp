@@ -28,7 +28,7 @@ std::vector<fs::path> folders() {
 fs::path locate(const std::string& game) {
   if (game.find('/') != std::string::npos) return game;
   for (const fs::path& folder : folders()) {
-    const fs::path candidate = folder / (game + ".so");
+    fs::path candidate = folder / (game + ".so");
     if (fs::exists(candidate)) return candidate;
   }
   std::string known;

@@ -7,6 +7,7 @@
 
 #include "Names.h"
 #include "Player.h"
+#include "SafeText.h"
 #include "TickClock.h"
 #include "Version.h"
 #include "World.h"
@@ -17,13 +18,16 @@ namespace {
 
 constexpr std::chrono::milliseconds kLate{5};
 constexpr std::chrono::seconds kDrainTime{1};
-constexpr std::chrono::seconds kLonely{60};  ///< --exit-when-empty, if nobody ever came
+constexpr std::chrono::seconds kLonely{60};     ///< --exit-when-empty, if nobody ever came
 constexpr std::uint32_t kPlayerListEvery = 15;  ///< ticks
 
 /// The colours players get, in turn; black would not be seen.
-constexpr df::Color kPlayerColors[] = {df::CYAN, df::GREEN, df::MAGENTA, df::YELLOW, df::RED, df::BLUE, df::WHITE};
+constexpr df::Color kPlayerColors[] = {df::CYAN, df::GREEN, df::MAGENTA, df::YELLOW,
+                                       df::RED,  df::BLUE,  df::WHITE};
 
-df::Color colorOf(std::uint64_t nth) { return kPlayerColors[nth % std::size(kPlayerColors)]; }
+df::Color colorOf(std::uint64_t nth) {
+  return kPlayerColors[nth % std::size(kPlayerColors)];
+}
 
 TcpOptions channelOptions() {
   TcpOptions options;
@@ -43,7 +47,8 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_empty_since(Clock::now()) {
   if (m_options.truth_file.empty()) return;
   m_truth.emplace(m_options.truth_file);
-  if (!m_truth->isGood()) throw std::runtime_error("The truth file " + m_options.truth_file + " cannot be written.");
+  if (!m_truth->isGood())
+    throw std::runtime_error("The truth file " + m_options.truth_file + " cannot be written.");
 }
 
 Host::~Host() = default;
@@ -103,7 +108,8 @@ void Host::applyInputs(df::World& world) {
       } else {
         const wire::Mouse& mouse = input.mouse();
         world.mouse(session.player(), static_cast<df::EventMouseAction>(mouse.action()),
-                    static_cast<df::Mouse::Button>(static_cast<int>(mouse.button()) - 1), mouse.x(), mouse.y());
+                    static_cast<df::Mouse::Button>(static_cast<int>(mouse.button()) - 1), mouse.x(),
+                    mouse.y());
       }
     });
   });
@@ -136,7 +142,7 @@ void Host::sendPlayers(const df::World& world) {
     });
   }
   std::string bytes = message.SerializeAsString();
-  if (bytes == m_players_told || bytes.size() > kMaxServerFrame) return;
+  if (bytes == m_players_told) return;
   m_players_told = std::move(bytes);
   forEachPlaying([&](Session& session) { session.send(message); });
 }
@@ -163,13 +169,14 @@ void Host::greet(Session& session, const wire::Hello& hello) {
   }
   if (!hello.game().empty() && hello.game() != m_game) {
     ++m_counters.refused_game;
-    session.refuse(wire::Refused::GAME, "This server plays \"" + m_game + "\", not \"" + cleanName(hello.game()) + "\".");
+    session.refuse(wire::Refused::GAME,
+                   "This server plays \"" + m_game + "\", not \"" + cleanName(hello.game()) + "\".");
     return;
   }
   if (playing() >= static_cast<std::size_t>(m_options.max_players)) {
     ++m_counters.refused_full;
-    session.refuse(wire::Refused::FULL,
-                   "The server is full (" + std::to_string(m_options.max_players) + " players). Try again later.");
+    session.refuse(wire::Refused::FULL, "The server is full (" + std::to_string(m_options.max_players) +
+                                            " players). Try again later.");
     return;
   }
   const std::string wanted = cleanName(hello.player_name());
@@ -187,13 +194,17 @@ void Host::greet(Session& session, const wire::Hello& hello) {
   welcome.set_player(m_p_world->join(name, color));
   welcome.set_name(name);
   welcome.set_game(m_game);
-  welcome.set_tick_micros(static_cast<std::uint32_t>(
-      TickLength::fromMicros(m_options.frame_micros).times(1) / std::chrono::microseconds(1)));
+  welcome.set_tick_micros(static_cast<std::uint32_t>(TickLength::fromMicros(m_options.frame_micros).times(1) /
+                                                     std::chrono::microseconds(1)));
   welcome.set_view_width(static_cast<std::uint32_t>(m_p_world->getWindowWidth()));
   welcome.set_view_height(static_cast<std::uint32_t>(m_p_world->getWindowHeight()));
   welcome.set_color(static_cast<std::uint32_t>(color));
-  welcome.set_server(m_options.name + " (dfserver " + kVersion + ")");
-  for (const std::string& line : m_p_world->getHelp()) welcome.add_help(line);
+  welcome.set_server(safeText(m_options.name, kMaxProgramLength - 20) + " (dfserver " + kVersion + ")");
+  for (const std::string& line : m_p_world->getHelp()) {
+    if (welcome.help_size() < static_cast<int>(kMaxHelpLines)) {
+      welcome.add_help(safeText(line, kMaxHelpLength));
+    }
+  }
   session.welcome(welcome);
   m_players_told.clear();
   m_ever_joined = true;
@@ -220,19 +231,21 @@ void Host::sweep() {
 }
 
 std::size_t Host::playing() const {
-  return static_cast<std::size_t>(std::count_if(m_sessions.begin(), m_sessions.end(), [](const auto& session) {
-    return session->state() == Session::State::kPlaying;
-  }));
+  return static_cast<std::size_t>(
+      std::count_if(m_sessions.begin(), m_sessions.end(),
+                    [](const auto& session) { return session->state() == Session::State::kPlaying; }));
 }
 
 bool Host::isDeserted(Clock::time_point now) const {
   if (m_options.exit_when_empty <= 0 || playing() > 0) return false;
   const std::chrono::duration<double> patience(m_options.exit_when_empty);
-  return now - m_empty_since > (m_ever_joined ? patience : std::max<std::chrono::duration<double>>(patience, kLonely));
+  return now - m_empty_since >
+         (m_ever_joined ? patience : std::max<std::chrono::duration<double>>(patience, kLonely));
 }
 
 bool Host::isOver(const df::World& world) const {
-  const bool counted_out = m_options.ticks > 0 && m_counters.ticks >= static_cast<std::uint64_t>(m_options.ticks);
+  const bool counted_out =
+      m_options.ticks > 0 && m_counters.ticks >= static_cast<std::uint64_t>(m_options.ticks);
   return world.isGameOver() || !m_stop_sentence.empty() || counted_out || isDeserted(Clock::now());
 }
 

@@ -82,7 +82,7 @@ class Host : public df::Runner {
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;
   std::string m_stop_sentence;
-  std::string m_players_told;   ///< the player list as last sent, serialised
+  std::string m_players_told;  ///< the player list as last sent, serialised
   Clock::time_point m_empty_since;
   bool m_ever_joined = false;
 };

@@ -33,7 +33,9 @@ std::string lower(std::string text) {
 
 }  // namespace
 
-std::string cleanName(const std::string& wanted) { return clean(wanted, kMaxNameLength); }
+std::string cleanName(const std::string& wanted) {
+  return clean(wanted, kMaxNameLength);
+}
 
 std::string uniqueName(const std::string& name, const std::vector<std::string>& taken) {
   const auto isTaken = [&taken](const std::string& candidate) {
@@ -48,6 +50,8 @@ std::string uniqueName(const std::string& name, const std::vector<std::string>& 
   return candidate;
 }
 
-std::string cleanChat(const std::string& text) { return clean(text, kMaxChatLength); }
+std::string cleanChat(const std::string& text) {
+  return clean(text, kMaxChatLength);
+}
 
 }  // namespace naiad

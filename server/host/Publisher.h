@@ -56,11 +56,11 @@ class Publisher {
  private:
   struct Tracked {
     Model model;
-    Motion truth;             ///< where the object was last reported, and how it went on from there
+    Motion truth;  ///< where the object was last reported, and how it went on from there
     bool shown = true;
     std::uint32_t drawn = 0;  ///< newest tick in which its draw() ran
     std::uint8_t changed = 0;
-    bool touched = false;     ///< in m_changes already
+    bool touched = false;  ///< in m_changes already
   };
 
   Tracked* track(std::uint32_t slot);

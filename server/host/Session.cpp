@@ -30,7 +30,7 @@ void Session::start(Events events) {
                     [this](CloseReason reason) {
                       if (reason == CloseReason::kProtocol) ++m_counters.malformed_frames;
                       m_state = State::kGone;
-                      m_events.on_gone(*this);
+                      tellGone();
                     }});
 }
 
@@ -38,7 +38,8 @@ void Session::onFrame(std::string_view frame) {
   if (m_state == State::kEnding || m_state == State::kGone) return;
   m_spoke = true;
   wire::ClientMessage message;
-  if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size())) || !dispatch(message)) malformed();
+  if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size())) || !dispatch(message))
+    malformed();
 }
 
 // False if the message breaks a rule: then the connection ends, and nothing else happens.
@@ -107,6 +108,12 @@ void Session::takeChat(const std::string& text) {
   m_events.on_chat(*this, line);
 }
 
+void Session::tellGone() {
+  if (m_told_gone) return;
+  m_told_gone = true;
+  m_events.on_gone(*this);
+}
+
 void Session::malformed() {
   ++m_counters.malformed_messages;
   end();
@@ -116,6 +123,7 @@ void Session::end() {
   if (m_state == State::kGone) return;
   m_state = State::kEnding;
   m_channel->close();
+  tellGone();  // the ship must not wait for the last bytes to get through
 }
 
 void Session::refuse(wire::Refused::Reason reason, const std::string& sentence) {

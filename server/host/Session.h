@@ -26,7 +26,7 @@ class Session {
   struct Events {
     std::function<void(Session&, const wire::Hello&)> on_hello;
     std::function<void(Session&, const std::string& text)> on_chat;
-    std::function<void(Session&)> on_gone;  ///< the connection is over; called once
+    std::function<void(Session&)> on_gone;  ///< the session is ending; called once
   };
 
   enum class State { kGreeting, kPlaying, kEnding, kGone };
@@ -77,14 +77,16 @@ class Session {
   bool takeInput(const wire::Input& input);
   void takeChat(const std::string& text);
   void malformed();
+  void tellGone();
   void end();
 
   std::unique_ptr<ReliableChannel> m_channel;
   Counters& m_counters;
   Events m_events;
   State m_state = State::kGreeting;
-  Clock::time_point m_heard;   ///< when the client last sent a frame
-  bool m_spoke = false;        ///< a frame came since then
+  Clock::time_point m_heard;  ///< when the client last sent a frame
+  bool m_told_gone = false;
+  bool m_spoke = false;  ///< a frame came since then
   std::uint32_t m_player = 0;
   std::string m_name;
   std::uint32_t m_rtt_millis = 0;

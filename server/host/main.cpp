@@ -57,8 +57,8 @@ int serve(naiad::HostOptions options) {
   LM.setSink([&log](const std::string& line) { log(line); });
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
   GM.setRunner(&host);
-  log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + " on " + host.address() + ", seed " +
-      std::to_string(options.seed));
+  log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + " on " + host.address() +
+      ", seed " + std::to_string(options.seed));
   std::cout << "Join with: dfclient " << host.address() << std::endl;
   const int result = game.main();
   GM.setRunner(nullptr);

@@ -21,6 +21,14 @@ inline constexpr std::size_t kMaxSnapshotRecords = std::size_t{15} * 1024;
 /// Names and chat, in characters.
 inline constexpr std::size_t kMaxNameLength = 16;
 inline constexpr std::size_t kMaxChatLength = 200;
+/// Sentences for people (refusals, goodbyes), names of games and programs, in characters.
+inline constexpr std::size_t kMaxSentenceLength = 300;
+inline constexpr std::size_t kMaxProgramLength = 40;
+/// The game's lines for the help screen.
+inline constexpr std::size_t kMaxHelpLines = 24;
+inline constexpr std::size_t kMaxHelpLength = 76;
+/// Entries of a player list (so that it fits a frame).
+inline constexpr std::size_t kMaxPlayers = 200;
 
 /// Slots of the replica; a server with more Objects in one world replicates the first ones and says so.
 inline constexpr std::uint32_t kMaxSlots = 1u << 20;

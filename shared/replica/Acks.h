@@ -9,7 +9,9 @@
 namespace naiad {
 
 /// Is `a` newer than `b`?
-constexpr bool isNewer(std::uint32_t a, std::uint32_t b) { return static_cast<std::int32_t>(a - b) > 0; }
+constexpr bool isNewer(std::uint32_t a, std::uint32_t b) {
+  return static_cast<std::int32_t>(a - b) > 0;
+}
 
 /// The newest number received and the 64 before it (bit i: newest − 1 − i).
 struct AckWindow {

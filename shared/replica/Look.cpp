@@ -5,7 +5,8 @@ namespace naiad {
 CellPosition glyphCell(df::FixedVector position, const Glyph& glyph) {
   constexpr int kShift = df::kFixedBits - kGlyphUnitBits;
   const auto cell = [](df::Fixed base, std::int32_t units) {
-    const auto sum = static_cast<std::uint64_t>(base) + (static_cast<std::uint64_t>(std::int64_t{units}) << kShift);
+    const auto sum =
+        static_cast<std::uint64_t>(base) + (static_cast<std::uint64_t>(std::int64_t{units}) << kShift);
     return df::cellOf(static_cast<df::Fixed>(sum));
   };
   return {cell(position.x, glyph.dx), cell(position.y, glyph.dy)};

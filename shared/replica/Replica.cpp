@@ -7,7 +7,9 @@ namespace naiad {
 namespace {
 
 // The first record of a group is always applied; 0 is never a snapshot number.
-bool supersedes(std::uint32_t number, std::uint32_t newest) { return newest == 0 || isNewer(number, newest); }
+bool supersedes(std::uint32_t number, std::uint32_t newest) {
+  return newest == 0 || isNewer(number, newest);
+}
 
 ViewFrame frameOf(const WorldRecord& world, df::FixedVector corner) {
   return {corner, {df::fromCells(world.view_width), df::fromCells(world.view_height)}, world.boundary};
@@ -83,7 +85,8 @@ const Motion* Replica::followedMotion() const {
 }
 
 CellPosition Replica::viewCorner(std::uint32_t tick) const {
-  const df::FixedVector corner = viewCornerAt(frameOf(m_world, m_view.corner), m_view_tick, followedMotion(), tick);
+  const df::FixedVector corner =
+      viewCornerAt(frameOf(m_world, m_view.corner), m_view_tick, followedMotion(), tick);
   return {df::cellOf(corner.x), df::cellOf(corner.y)};
 }
 

@@ -35,7 +35,8 @@ df::FixedVector clampView(const ViewFrame& f, df::FixedVector corner) {
 }
 
 df::FixedVector followView(const ViewFrame& f, df::FixedVector target) {
-  return clampView(f, {followAxis(f.corner.x, f.size.x, target.x), followAxis(f.corner.y, f.size.y, target.y)});
+  return clampView(f,
+                   {followAxis(f.corner.x, f.size.x, target.x), followAxis(f.corner.y, f.size.y, target.y)});
 }
 
 df::FixedVector viewCornerAt(const ViewFrame& frame, std::uint32_t known, const Motion* motion,
@@ -45,7 +46,8 @@ df::FixedVector viewCornerAt(const ViewFrame& frame, std::uint32_t known, const 
   const std::uint32_t from = static_cast<std::int32_t>(motion->tick - known) > 0 ? motion->tick : known + 1;
   ViewFrame moved = frame;
   moved.corner = followView(moved, positionAt(*motion, from));
-  return static_cast<std::int32_t>(tick - from) > 0 ? followView(moved, positionAt(*motion, tick)) : moved.corner;
+  return static_cast<std::int32_t>(tick - from) > 0 ? followView(moved, positionAt(*motion, tick))
+                                                    : moved.corner;
 }
 
 }  // namespace naiad

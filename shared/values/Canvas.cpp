@@ -10,7 +10,9 @@ Canvas::Canvas(int width, int height)
       m_height(std::max(height, 0)),
       m_cells(static_cast<std::size_t>(m_width) * static_cast<std::size_t>(m_height)) {}
 
-void Canvas::clear() { std::fill(m_cells.begin(), m_cells.end(), Cell{}); }
+void Canvas::clear() {
+  std::fill(m_cells.begin(), m_cells.end(), Cell{});
+}
 
 void Canvas::put(int x, int y, Cell cell) {
   if (x < 0 || y < 0 || x >= m_width || y >= m_height) return;
@@ -71,9 +73,11 @@ std::u32string decodeUtf8(const std::string& text) {
   std::u32string out;
   for (std::size_t i = 0; i < text.size();) {
     const auto lead = static_cast<unsigned char>(text[i]);
-    const int extra = lead < 0x80 ? 0 : lead >= 0xF0 && lead < 0xF5 ? 3 : lead >= 0xE0 && lead < 0xF0 ? 2
-                                    : lead >= 0xC2 && lead < 0xE0   ? 1
-                                                                    : -1;
+    const int extra = lead < 0x80                   ? 0
+                      : lead >= 0xF0 && lead < 0xF5 ? 3
+                      : lead >= 0xE0 && lead < 0xF0 ? 2
+                      : lead >= 0xC2 && lead < 0xE0 ? 1
+                                                    : -1;
     if (extra < 0 || i + static_cast<std::size_t>(extra) >= text.size()) {
       out.push_back(kBad);
       ++i;
@@ -102,13 +106,13 @@ bool isDrawable(char32_t ch) {
     char32_t last;
   };
   static constexpr std::array<Range, 9> kNarrow = {{{0x20, 0x7E},
-                                                    {0xA0, 0xAC},      // Latin-1, without the soft hyphen
-                                                    {0xAE, 0x2FF},     // to the modifier letters
-                                                    {0x370, 0x373},    // Greek
-                                                    {0x384, 0x482},    // Greek, Cyrillic
-                                                    {0x2010, 0x2027},  // dashes, quotes, dots
-                                                    {0x2190, 0x22FF},  // arrows, mathematics
-                                                    {0x2500, 0x25FC},  // box drawing, blocks, shapes
+                                                    {0xA0, 0xAC},        // Latin-1, without the soft hyphen
+                                                    {0xAE, 0x2FF},       // to the modifier letters
+                                                    {0x370, 0x373},      // Greek
+                                                    {0x384, 0x482},      // Greek, Cyrillic
+                                                    {0x2010, 0x2027},    // dashes, quotes, dots
+                                                    {0x2190, 0x22FF},    // arrows, mathematics
+                                                    {0x2500, 0x25FC},    // box drawing, blocks, shapes
                                                     {0x2800, 0x28FF}}};  // Braille patterns
   return std::any_of(kNarrow.begin(), kNarrow.end(),
                      [ch](Range range) { return ch >= range.first && ch <= range.last; });

@@ -74,6 +74,8 @@ constexpr std::int32_t cellOf(Fixed value) {
 }
 
 /// A whole number of cells as a coordinate.
-constexpr Fixed fromCells(std::int32_t cells) { return static_cast<Fixed>(cells) * kFixedOne; }
+constexpr Fixed fromCells(std::int32_t cells) {
+  return static_cast<Fixed>(cells) * kFixedOne;
+}
 
 }  // namespace df

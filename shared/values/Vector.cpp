@@ -5,9 +5,13 @@
 namespace df {
 
 // sqrt is correctly rounded by IEEE 754, hypot is not: only the former is the same on every machine.
-static double length(double x, double y) { return std::sqrt(x * x + y * y); }
+static double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
 
-float Vector::getMagnitude() const { return static_cast<float>(length(m_x, m_y)); }
+float Vector::getMagnitude() const {
+  return static_cast<float>(length(m_x, m_y));
+}
 
 void Vector::scale(double s) {
   m_x *= s;
@@ -34,7 +38,9 @@ Vector& Vector::operator-=(const Vector& other) {
   return *this;
 }
 
-std::string Vector::toString() const { return "(" + std::to_string(m_x) + "," + std::to_string(m_y) + ")"; }
+std::string Vector::toString() const {
+  return "(" + std::to_string(m_x) + "," + std::to_string(m_y) + ")";
+}
 
 std::optional<FixedVector> toFixed(const Vector& v, double limit) {
   const auto x = toFixed(v.x(), limit);

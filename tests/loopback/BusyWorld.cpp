@@ -20,7 +20,8 @@ df::Vector somewhere() {
 }
 
 df::Vector somehow() {
-  return {static_cast<double>(WM.randomInt(200) - 100) / 120.0, static_cast<double>(WM.randomInt(200) - 100) / 240.0};
+  return {static_cast<double>(WM.randomInt(200) - 100) / 120.0,
+          static_cast<double>(WM.randomInt(200) - 100) / 240.0};
 }
 
 /// One to five characters, sometimes a 2x2 sprite; lives for a while, turns now and then.
@@ -135,7 +136,8 @@ class Harbour : public df::Object {
     }
     if (p_e->getType() == df::LEAVE_EVENT) {
       const df::Player* p_player = WM.getPlayer(dynamic_cast<const df::EventLeave*>(p_e)->getPlayer());
-      if (df::Object* p_ship = p_player != nullptr ? p_player->getObject() : nullptr) WM.markForDelete(p_ship);
+      if (df::Object* p_ship = p_player != nullptr ? p_player->getObject() : nullptr)
+        WM.markForDelete(p_ship);
       return 1;
     }
     return 0;

@@ -18,12 +18,15 @@ using Reason = wire::Refused;
 /// Ticks in five seconds of real play.
 constexpr std::uint32_t kFiveSeconds = 150;
 
-int countShips(df::World& world) { return world.objectsOfType("Ship").getCount(); }
+int countShips(df::World& world) {
+  return world.objectsOfType("Ship").getCount();
+}
 
 bool lists(TestClient& client, const std::string& name) {
   if (!client.joined()) return false;
   const auto& players = client.session().players();
-  return std::any_of(players.begin(), players.end(), [&](const PlayerLine& line) { return line.name == name; });
+  return std::any_of(players.begin(), players.end(),
+                     [&](const PlayerLine& line) { return line.name == name; });
 }
 
 TEST(Company, KilledClientIsShownAsGone) {
@@ -74,7 +77,8 @@ TEST(Company, StalledClientCatchesUpWhenItReadsAgain) {
   TestClient mud(asleep, server.port(), "mud");
   ASSERT_TRUE(serveUntil(asleep, {&mud}, [&] { return mud.joined(); }));
   const std::uint32_t begin = mud.newestTick();
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined() && ann.newestTick() > begin + kFiveSeconds; }));
+  ASSERT_TRUE(
+      serveUntil(context, {&ann}, [&] { return ann.joined() && ann.newestTick() > begin + kFiveSeconds; }));
   const std::uint32_t stalled_until = ann.newestTick();
   ASSERT_TRUE(serveUntil(asleep, {&mud}, [&] { return mud.newestTick() > stalled_until + 50; }));
   const auto& [tick, picture] = *mud.pictures().rbegin();
@@ -91,7 +95,8 @@ TEST(Company, ChatReachesEveryoneCleaned) {
   TestClient bob(context, server.port(), "bob");
   ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return lists(ann, "bob") && lists(bob, "ann"); }));
   ann.session().sendChat("hi \x1b[2Jthere");
-  ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return !bob.session().chat().empty() && !ann.session().chat().empty(); }));
+  ASSERT_TRUE(serveUntil(context, {&ann, &bob},
+                         [&] { return !bob.session().chat().empty() && !ann.session().chat().empty(); }));
   EXPECT_EQ(bob.session().chat().back().name, "ann");
   EXPECT_EQ(bob.session().chat().back().text, "hi ?[2Jthere");
 }

@@ -66,14 +66,16 @@ void attack(SplitMix64& random, RawClient& client) {
     }
     case 5: {  // a message with bits flipped
       std::string payload = validMessage(random).SerializeAsString();
-      for (int i = 0; i < 3; ++i) payload[random.below(payload.size())] ^= static_cast<char>(1 << random.below(8));
+      for (int i = 0; i < 3; ++i)
+        payload[random.below(payload.size())] ^= static_cast<char>(1 << random.below(8));
       client.sendFrame(payload);
       break;
     }
     default: {  // well-formed, out of range
       wire::ClientMessage message;
       message.mutable_input()->set_id(1);
-      message.mutable_input()->mutable_key()->set_key(100'000 + static_cast<std::uint32_t>(random.next() % 1000));
+      message.mutable_input()->mutable_key()->set_key(100'000 +
+                                                      static_cast<std::uint32_t>(random.next() % 1000));
       client.send(message);
       break;
     }

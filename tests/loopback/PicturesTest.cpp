@@ -34,7 +34,8 @@ TEST(Loopback, TwoClientsSeeTheSameWorldAndALateOneCatchesUp) {
   asio::io_context context;
   TestClient ann(context, server.port(), "ann");
   TestClient bob(context, server.port(), "bob");
-  ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return ann.pictures().size() > 150 && bob.pictures().size() > 150; }));
+  ASSERT_TRUE(serveUntil(context, {&ann, &bob},
+                         [&] { return ann.pictures().size() > 150 && bob.pictures().size() > 150; }));
   TestClient cal(context, server.port(), "cal");
   ASSERT_TRUE(serveUntil(context, {&ann, &bob, &cal}, [&] { return cal.pictures().size() > 150; }));
   expectSame(ann, server, 150);

@@ -35,7 +35,8 @@ wire::ClientMessage RawClient::hello(const std::string& name) {
 std::optional<std::string> RawClient::readExactly(std::size_t count) {
   std::string bytes(count, '\0');
   std::optional<asio::error_code> result;
-  asio::async_read(m_socket, asio::buffer(bytes), [&](const asio::error_code& error, std::size_t) { result = error; });
+  asio::async_read(m_socket, asio::buffer(bytes),
+                   [&](const asio::error_code& error, std::size_t) { result = error; });
   m_context.restart();
   m_context.run_for(std::chrono::seconds(30));
   if (!result) {  // let go of the buffer before it goes

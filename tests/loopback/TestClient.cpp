@@ -26,7 +26,8 @@ TestClient::TestClient(asio::io_context& context, std::uint16_t port, const std:
 void TestClient::record(ClientSession& session, std::uint32_t tick) {
   const std::uint32_t known = session.clock().newestTick();
   if (!m_keep || known == 0 || tick == known) return;
-  for (std::uint32_t t = std::max(m_recorded + 1, known); t < tick; ++t) m_pictures[t] = session.replica().render(t);
+  for (std::uint32_t t = std::max(m_recorded + 1, known); t < tick; ++t)
+    m_pictures[t] = session.replica().render(t);
   m_recorded = tick - 1;
 }
 

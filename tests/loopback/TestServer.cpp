@@ -27,7 +27,9 @@ TestServer::TestServer(std::function<void(df::World&)> populate, HostOptions opt
   populated.get_future().wait();
 }
 
-TestServer::~TestServer() { stop("The test is over."); }
+TestServer::~TestServer() {
+  stop("The test is over.");
+}
 
 void TestServer::stop(const std::string& sentence) {
   if (!m_thread.joinable()) return;
@@ -38,7 +40,8 @@ void TestServer::stop(const std::string& sentence) {
 void TestServer::record(df::World& world) {
   const std::lock_guard lock(m_mutex);
   for (const df::Player* player : world.getPlayers()) {
-    m_truth[{static_cast<std::uint32_t>(world.getStepCount()), player->getId()}] = world.renderPlayer(player->getId());
+    m_truth[{static_cast<std::uint32_t>(world.getStepCount()), player->getId()}] =
+        world.renderPlayer(player->getId());
   }
 }
 

@@ -1,5 +1,3 @@
-#include "WorldStore.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include "Object.h"
 #include "World.h"
 #include "WorldManager.h"
+#include "WorldStore.h"
 
 namespace df::test {
 namespace {

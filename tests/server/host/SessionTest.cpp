@@ -280,7 +280,7 @@ TEST_F(SessionTest, LeavingIsAnsweredAndEnds) {
   hear(leave);
   EXPECT_TRUE(ended());
   EXPECT_EQ(lastSent().goodbye().sentence(), "You left the game.");
-  EXPECT_EQ(gone, 0) << "not before the channel is closed";
+  EXPECT_EQ(gone, 1) << "at once";
   line.callbacks.on_closed(CloseReason::kLocal);
   EXPECT_EQ(gone, 1);
 }

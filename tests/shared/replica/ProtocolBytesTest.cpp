@@ -1,9 +1,14 @@
-// The worked example of PROTOCOL.md ("A snapshot, byte by byte"), so that document and code stay one.
+// PROTOCOL.md and the code say the same: its worked examples are made here, its table of limits is read.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
 #include <string>
 
 #include "Framing.h"
+#include "Keyboard.h"
 #include "Limits.h"
 #include "RecordCodec.h"
 #include "Vector.h"
@@ -46,7 +51,60 @@ std::string exampleRecords() {
   return out.bytes();
 }
 
+std::string document() {
+  std::ifstream file(NAIAD_SOURCE_DIR "/proto/PROTOCOL.md");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// The bytes of the `nth` block of the section "Worked examples", without the comments.
+std::string example(std::size_t nth) {
+  const std::string text = document();
+  std::istringstream lines(text.substr(std::min(text.find("## Worked examples"), text.size())));
+  std::string bytes;
+  std::size_t fences = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("```", 0) == 0) {
+      ++fences;
+      continue;
+    }
+    if (fences != 2 * nth + 1) continue;
+    std::istringstream words(line.substr(0, line.find('#')));
+    for (std::string word; words >> word;) bytes += (bytes.empty() ? "" : " ") + word;
+  }
+  return bytes;
+}
+
+TEST(ProtocolBytes, HelloIsAsTheDocumentSays) {
+  wire::ClientMessage message;
+  message.mutable_hello()->set_magic(kHelloMagic);
+  message.mutable_hello()->set_protocol(kProtocolVersion);
+  message.mutable_hello()->set_player_name("Ann");
+  std::string frame;
+  appendFrame(frame, message.SerializeAsString());
+  EXPECT_EQ(hex(frame), example(0));
+}
+
 TEST(ProtocolBytes, RecordsAreAsTheDocumentSays) {
+  EXPECT_EQ(hex(exampleRecords()), example(1));
+}
+
+TEST(ProtocolBytes, FrameIsAsTheDocumentSays) {
+  wire::ServerMessage message;
+  message.mutable_snapshot()->set_number(3);
+  message.mutable_snapshot()->set_tick(100);
+  message.mutable_snapshot()->set_records(std::string("\x10\x09\x03", 3));
+  message.mutable_snapshot()->set_input_applied(2);
+  std::string frame;
+  appendFrame(frame, message.SerializeAsString());
+  EXPECT_EQ(hex(frame), example(2));
+}
+
+// The same bytes once more, so that a change of document and code together is noticed as a change of
+// protocol.
+TEST(ProtocolBytes, Version1StaysAsItIs) {
+  EXPECT_EQ(kProtocolVersion, 1u);
   EXPECT_EQ(hex(exampleRecords()),
             "01 00 00 80 80 80 80 80 0a 80 80 80 80 80 03 50 18 "
             "02 00 00 06 01 "
@@ -59,25 +117,45 @@ TEST(ProtocolBytes, RecordsAreAsTheDocumentSays) {
             "10 09 03");
 }
 
-TEST(ProtocolBytes, FrameIsAsTheDocumentSays) {
-  wire::ServerMessage message;
-  message.mutable_snapshot()->set_number(3);
-  message.mutable_snapshot()->set_tick(100);
-  message.mutable_snapshot()->set_records(std::string("\x10\x09\x03", 3));
-  message.mutable_snapshot()->set_input_applied(2);
-  std::string frame;
-  appendFrame(frame, message.SerializeAsString());
-  EXPECT_EQ(hex(frame), "13 00 1a 11 0d 03 00 00 00 15 64 00 00 00 1a 03 10 09 03 20 02");
+TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
+  const std::map<std::string, std::uint64_t> limits = {
+      {"kProtocolVersion", kProtocolVersion},
+      {"kHelloMagic", kHelloMagic},
+      {"kDefaultPort", kDefaultPort},
+      {"kMaxServerFrame", kMaxServerFrame},
+      {"kMaxClientFrame", kMaxClientFrame},
+      {"kMaxHelloFrame", kMaxHelloFrame},
+      {"kMaxSnapshotRecords", kMaxSnapshotRecords},
+      {"kMaxNameLength", kMaxNameLength},
+      {"kMaxChatLength", kMaxChatLength},
+      {"kMaxSentenceLength", kMaxSentenceLength},
+      {"kMaxProgramLength", kMaxProgramLength},
+      {"kMaxHelpLines", kMaxHelpLines},
+      {"kMaxHelpLength", kMaxHelpLength},
+      {"kMaxPlayers", kMaxPlayers},
+      {"kMaxSlots", kMaxSlots},
+      {"kMaxGlyphs", kMaxGlyphs},
+      {"kMaxLookBytes", kMaxLookBytes},
+      {"kMaxTexts", kMaxTexts},
+      {"kMinViewWidth", kMinViewWidth},
+      {"kMinViewHeight", kMinViewHeight},
+      {"kMaxViewWidth", kMaxViewWidth},
+      {"kMaxViewHeight", kMaxViewHeight},
+  };
+  const std::string text = document();
+  std::map<std::string, std::uint64_t> listed;
+  std::istringstream lines(text.substr(std::min(text.find("## Limits"), text.size())));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("| `k", 0) != 0) continue;
+    const std::size_t end = line.find('`', 3);
+    listed[line.substr(3, end - 3)] = std::stoull(line.substr(line.find('|', end) + 1));
+  }
+  EXPECT_EQ(listed, limits);
 }
 
-TEST(ProtocolBytes, HelloIsAsTheDocumentSays) {
-  wire::ClientMessage message;
-  message.mutable_hello()->set_magic(kHelloMagic);
-  message.mutable_hello()->set_protocol(kProtocolVersion);
-  message.mutable_hello()->set_player_name("Ann");
-  std::string frame;
-  appendFrame(frame, message.SerializeAsString());
-  EXPECT_EQ(hex(frame), "0e 00 0a 0c 0d 61 69 61 6e 10 01 1a 03 41 6e 6e");
+TEST(ProtocolBytes, LastKeyIsAsTheDocumentSays) {
+  EXPECT_NE(document().find("`key`: 0 … " + std::to_string(df::Keyboard::PAGEDOWN) + ","), std::string::npos);
+  EXPECT_EQ(df::Keyboard::kKeyCount, df::Keyboard::PAGEDOWN + 1);
 }
 
 TEST(ProtocolBytes, TheLargestSnapshotFitsItsFrame) {
