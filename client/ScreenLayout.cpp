@@ -54,7 +54,7 @@ void drawStatusRow(Picture& picture, const ScreenModel& model) {
   int x = 1;
   for (const std::string& part : parts) {
     if (part.empty()) continue;
-    if (end - x < 8) break;
+    if (end - x < columnCount(part)) break;
     x = picture.write(x, y, part, end - x, df::COLOR_DEFAULT, Style::kReverse) + 3;
   }
   if (room_for_help) picture.write(help_at, y, help, columnCount(help), df::COLOR_DEFAULT, Style::kReverse);

@@ -22,7 +22,8 @@ struct Counters {
   std::uint64_t chat_dropped = 0;        ///< faster than three lines a second: ignored
   std::uint64_t snapshots = 0;           ///< sent
   std::uint64_t snapshot_bytes = 0;      ///< of their frames
-  std::uint64_t skipped_ticks = 0;       ///< a client had unsent bytes, so it got no snapshot in a tick
+  std::uint64_t skipped_ticks =
+      0;  ///< a client with unsent or unacknowledged bytes was not brought up to date
   std::uint64_t ticks = 0;
   std::uint64_t late_ticks = 0;     ///< began more than 5 ms after their deadline
   std::uint64_t rebased_ticks = 0;  ///< a whole tick late: the schedule starts anew

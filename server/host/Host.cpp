@@ -236,6 +236,12 @@ std::size_t Host::playing() const {
                     [](const auto& session) { return session->state() == Session::State::kPlaying; }));
 }
 
+std::uint64_t Host::skippedTicks(std::uint32_t player) const {
+  const auto found = std::find_if(m_sessions.begin(), m_sessions.end(),
+                                  [player](const auto& session) { return session->player() == player; });
+  return found != m_sessions.end() ? (*found)->skippedTicks() : 0;
+}
+
 bool Host::isDeserted(Clock::time_point now) const {
   if (m_options.exit_when_empty <= 0 || playing() > 0) return false;
   const std::chrono::duration<double> patience(m_options.exit_when_empty);

@@ -37,6 +37,8 @@ class Host : public df::Runner {
   /// "127.0.0.1:9876".
   std::string address() const { return m_listener.address(); }
   const Counters& counters() const { return m_counters; }
+  /// Ticks that were skipped for a player who is here (Session::skippedTicks); 0 for anybody else.
+  std::uint64_t skippedTicks(std::uint32_t player) const;
 
   /// Tick the world 30 times a second until the game is over, a signal comes or an option says so; then tell
   /// the players and let what is queued drain.

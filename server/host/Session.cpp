@@ -172,7 +172,7 @@ void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player
   m_sender.note(publisher);
   m_sender.setPlayer(player);
   if (m_channel->unsentBytes() > 0) {
-    ++m_counters.skipped_ticks;
+    skipTick();
     return;
   }
   for (SnapshotSender::Snapshot& snapshot : m_sender.build(publisher)) {
@@ -186,6 +186,12 @@ void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player
     m_counters.snapshot_bytes += message.ByteSizeLong();
     send(message);
   }
+  if (m_sender.isThrottled()) skipTick();
+}
+
+void Session::skipTick() {
+  ++m_skipped_ticks;
+  ++m_counters.skipped_ticks;
 }
 
 void Session::send(const wire::ServerMessage& message) {

@@ -68,6 +68,8 @@ class Session {
   std::uint32_t player() const { return m_player; }
   const std::string& name() const { return m_name; }
   std::string address() const { return m_channel->peerAddress(); }
+  /// Ticks at whose end this client was not up to date, since it was busy with earlier bytes.
+  std::uint64_t skippedTicks() const { return m_skipped_ticks; }
   /// The round trip the client measured last, in milliseconds; 0: not yet.
   std::uint32_t rttMillis() const { return m_rtt_millis; }
 
@@ -78,6 +80,7 @@ class Session {
   void takeChat(const std::string& text);
   void malformed();
   void tellGone();
+  void skipTick();
   void end();
 
   std::unique_ptr<ReliableChannel> m_channel;
@@ -90,6 +93,7 @@ class Session {
   std::uint32_t m_player = 0;
   std::string m_name;
   std::uint32_t m_rtt_millis = 0;
+  std::uint64_t m_skipped_ticks = 0;
   std::deque<wire::Input> m_inputs;
   std::uint32_t m_input_received = 0;
   std::uint32_t m_input_applied = 0;

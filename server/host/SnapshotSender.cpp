@@ -170,6 +170,7 @@ std::vector<SnapshotSender::Snapshot> SnapshotSender::build(const Publisher& pub
       lost(oldest);
     }
   }
+  m_throttled = isOwing();
   if (!snapshots.empty()) m_last_tick = publisher.tick();
   return snapshots;
 }

@@ -46,6 +46,8 @@ class SnapshotSender {
   /// taken for lost.
   void acknowledge(const AckWindow& acks);
 
+  /// Something was owed at the last build() that could not be sent, because too much is unacknowledged.
+  bool isThrottled() const { return m_throttled; }
   /// Nothing is owed and nothing unacknowledged.
   bool isSettled() const;
   /// Records sent again because a snapshot was lost.
@@ -102,6 +104,7 @@ class SnapshotSender {
   std::uint32_t m_next_number = 1;
   std::uint32_t m_last_tick = 0;  ///< of the last snapshot built
   bool m_began = false;
+  bool m_throttled = false;
   std::vector<std::uint32_t> m_freed;  ///< slots whose death was acknowledged since the last build
 
   Single m_world_debt;

@@ -29,7 +29,7 @@ constexpr df::Fixed kMaxVelocity = df::Fixed{1} << (25 + df::kFixedBits);
 constexpr df::Fixed kMaxBoxCorner = df::Fixed{1'000'001} << df::kFixedBits;
 constexpr df::Fixed kMaxExtent = INT64_MAX;
 constexpr std::uint64_t kMaxAltitude = 255;
-constexpr std::size_t kMaxTextBytes = 4 * kMaxViewWidth;
+constexpr std::size_t kMaxTextBytes = std::size_t{4} * kMaxViewWidth;
 constexpr std::int64_t kGlyphStep = 1 << kGlyphUnitBits;
 
 void writeVector(ByteWriter& out, df::FixedVector v) {

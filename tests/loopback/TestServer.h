@@ -38,6 +38,10 @@ class TestServer {
   Counters counters() {
     return inWorld([this](df::World&) { return m_host->counters(); });
   }
+  /// Ticks at whose end the server knew that this player was not up to date.
+  std::uint64_t skippedTicks(std::uint32_t player) {
+    return inWorld([this, player](df::World&) { return m_host->skippedTicks(player); });
+  }
   /// What the book's draw path shows `player` at the end of `tick`, if that tick happened with him.
   std::optional<df::Canvas> truth(std::uint32_t tick, std::uint32_t player) const;
   /// End the server and wait for it; players are told `sentence`.
