@@ -13,7 +13,7 @@ struct Comparison {
   int cells = 0;
   int wrong = 0;
   std::uint64_t wrong_ticks = 0;  ///< with at least one wrong cell
-  std::string first_difference;  ///< for people: the tick, its wrong cells, both pictures
+  std::string first_difference;   ///< for people: the tick, its wrong cells, both pictures
 };
 
 /// Compare every picture that `client` kept with the server's truth for its player.
