@@ -73,6 +73,8 @@ void ClientSession::handle(SnapshotMessage&& message, Time now) {
   m_replica.apply(message.number, message.tick, message.records);
   m_acks.note(message.number);
   m_clock.note(message.tick, now);
+  const bool sent = !isNewer(message.input_applied, m_next_input - 1);
+  if (sent && isNewer(message.input_applied, m_input_applied)) m_input_applied = message.input_applied;
   ++m_counters.snapshots;
   wire::ClientMessage ack;
   ack.mutable_ack()->set_newest(m_acks.newest);
@@ -106,6 +108,8 @@ void ClientSession::handle(ChatMessage&& message, Time now) {
 }
 
 void ClientSession::handle(const PongMessage& message, Time now) {
+  // Else a server could put off the time-out of the greeting for ever.
+  if (m_state != State::kPlaying) return reject("a pong before the welcome");
   const auto ping = m_pings.find(message.token);
   if (ping == m_pings.end()) return;  // answered twice, or made up
   const std::chrono::duration<double, std::milli> sample = now - ping->second;
@@ -168,7 +172,8 @@ bool ClientSession::sendMouse(df::EventMouseAction action, df::Mouse::Button but
 
 bool ClientSession::sendInput(wire::ClientMessage& message, bool urgent, Time now) {
   if (m_state != State::kPlaying) return false;
-  if (!m_budget.spend(now, urgent) || m_channel->unsentBytes() > kMaxUnsent) {
+  const bool stalled = !urgent && m_next_input - 1 - m_input_applied >= kMaxUnapplied;
+  if (stalled || !m_budget.spend(now, urgent) || m_channel->unsentBytes() > kMaxUnsent) {
     ++m_counters.inputs_dropped;
     return false;
   }

@@ -55,7 +55,7 @@ struct SessionCounters {
   std::uint64_t bytes_out = 0;
   std::uint64_t snapshots = 0;
   std::uint64_t inputs = 0;
-  std::uint64_t inputs_dropped = 0;  ///< kept back by InputBudget
+  std::uint64_t inputs_dropped = 0;  ///< kept back: too many, or the line is stuck
   std::uint64_t chat_lines = 0;
   std::uint64_t bad_messages = 0;
 };
@@ -69,6 +69,9 @@ class ClientSession {
   static constexpr std::chrono::seconds kIdleTimeout{15};
   static constexpr std::chrono::seconds kPingInterval{1};
   static constexpr std::size_t kMaxChatLog = 100;
+  /// Inputs that the game has not heard of yet, at most; more are dropped here. Below the 64 that a server
+  /// lets wait, so that who holds a key through a stall is not thrown out as a flooder afterwards.
+  static constexpr std::uint32_t kMaxUnapplied = 48;
 
   /// Takes the connected channel and says Hello. The owner starts the channel and passes what it delivers
   /// to receive() and closed().
@@ -149,6 +152,7 @@ class ClientSession {
   SessionCounters m_counters;
   std::function<void(std::uint32_t)> m_observer;
   std::uint32_t m_next_input = 1;
+  std::uint32_t m_input_applied = 0;
   std::map<std::uint64_t, Time> m_pings;  ///< unanswered, by token
   std::uint64_t m_next_token = 1;
   Time m_last_ping;

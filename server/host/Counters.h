@@ -9,6 +9,7 @@ namespace naiad {
 struct Counters {
   std::uint64_t connections = 0;         ///< accepted by the listener
   std::uint64_t joined = 0;              ///< welcomed
+  std::uint64_t turned_away = 0;         ///< hung up without a word: too many connections
   std::uint64_t refused_version = 0;     ///< wrong protocol version
   std::uint64_t refused_full = 0;        ///< no place left
   std::uint64_t refused_game = 0;        ///< asked for another game
@@ -18,6 +19,7 @@ struct Counters {
   std::uint64_t login_timeouts = 0;      ///< no hello in time: ended
   std::uint64_t idle_timeouts = 0;       ///< silent too long: ended
   std::uint64_t input_floods = 0;        ///< more inputs queued than allowed: ended
+  std::uint64_t message_floods = 0;      ///< more messages between two ticks than allowed: ended
   std::uint64_t repeated_inputs = 0;     ///< applied before: ignored
   std::uint64_t chat_dropped = 0;        ///< faster than three lines a second: ignored
   std::uint64_t snapshots = 0;           ///< sent

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <asio/post.hpp>
-#include <csignal>
 #include <stdexcept>
 
 #include "Names.h"
 #include "Player.h"
 #include "SafeText.h"
+#include "StopSignals.h"
 #include "TickClock.h"
 #include "Version.h"
 #include "World.h"
@@ -17,6 +17,7 @@ namespace naiad {
 namespace {
 
 constexpr std::chrono::milliseconds kLate{5};
+constexpr std::chrono::milliseconds kLeastService{5};  ///< for sockets, however late the tick is
 constexpr std::chrono::seconds kDrainTime{1};
 constexpr std::chrono::seconds kLonely{60};     ///< --exit-when-empty, if nobody ever came
 constexpr std::uint32_t kPlayerListEvery = 15;  ///< ticks
@@ -56,14 +57,18 @@ Host::~Host() = default;
 // The server's loop: serve sockets until the next tick is due, then tick.
 void Host::run(df::World& world) {
   m_p_world = &world;
-  waitForSignal();
+  const StopSignals signals;
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   m_empty_since = Clock::now();
   while (!isOver(world)) {
     m_io.restart();
-    m_io.poll();  // also when the deadline has passed already: an overloaded server must not turn deaf
+    // Also when the deadline has passed already: an overloaded server must not turn deaf. Not until nothing
+    // is ready any more, though: one client that floods would stop the world.
+    for (const auto enough = Clock::now() + kLeastService; Clock::now() < enough && m_io.poll_one() > 0;) {
+    }
     m_io.run_until(schedule.deadline());
     sweep();
+    if (signals.isAsked()) m_stop_sentence = "The server is shutting down.";
     const Clock::time_point now = Clock::now();
     if (now < schedule.deadline()) continue;
     m_counters.late_ticks += now - schedule.deadline() > kLate ? 1 : 0;
@@ -149,8 +154,19 @@ void Host::sendPlayers(const df::World& world) {
 
 void Host::accept(std::unique_ptr<ReliableChannel> channel) {
   ++m_counters.connections;
-  // Half-open connections count too: they must not be a way round the limit.
-  if (m_sessions.size() >= static_cast<std::size_t>(m_options.max_players) * 2 + 16) return;
+  // Half-open connections count too: they must not be a way round the limit. The oldest that plays no part
+  // makes room, so that a crowd of silent connections does not lock out players, who greet at once. This is
+  // the listener's callback, none of a session's, so sessions may go.
+  const std::size_t most = static_cast<std::size_t>(m_options.max_players) * 2 + 16;
+  if (m_sessions.size() >= most) sweep();
+  if (m_sessions.size() >= most) {
+    ++m_counters.turned_away;
+    const auto idle = std::find_if(m_sessions.begin(), m_sessions.end(), [](const auto& session) {
+      return session->state() != Session::State::kPlaying;
+    });
+    if (idle == m_sessions.end()) return;
+    m_sessions.erase(idle);
+  }
   m_sessions.push_back(std::make_unique<Session>(std::move(channel), m_counters, Clock::now()));
   m_sessions.back()->start({[this](Session& session, const wire::Hello& hello) { greet(session, hello); },
                             [this](Session& session, const std::string& text) { chat(session, text); },
@@ -224,7 +240,8 @@ void Host::leave(Session& session) {
   m_log(session.name() + " left");
 }
 
-// Sessions are destroyed here and nowhere else: their callbacks run inside them.
+// Players' sessions are destroyed here and nowhere else: their callbacks run inside them. To be called from
+// outside of those.
 void Host::sweep() {
   std::erase_if(m_sessions, [](const auto& session) { return session->state() == Session::State::kGone; });
   if (playing() > 0) m_empty_since = Clock::now();
@@ -260,7 +277,6 @@ void Host::drain() {
   const std::string sentence = m_stop_sentence.empty() ? "The game is over." : m_stop_sentence;
   for (const auto& session : m_sessions) session->goodbye(sentence);
   const Clock::time_point end = Clock::now() + kDrainTime;
-  m_signals.cancel();
   while (!m_sessions.empty() && Clock::now() < end) {
     m_io.restart();
     m_io.run_one_until(end);
@@ -275,14 +291,6 @@ void Host::stop(const std::string& sentence) {
 
 void Host::post(std::function<void(df::World&)> job) {
   asio::post(m_io, [this, job = std::move(job)] { job(*m_p_world); });
-}
-
-void Host::waitForSignal() {
-  m_signals.add(SIGINT);
-  m_signals.add(SIGTERM);
-  m_signals.async_wait([this](const asio::error_code& error, int) {
-    if (!error) m_stop_sentence = "The server is shutting down.";
-  });
 }
 
 }  // namespace naiad

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <asio/io_context.hpp>
-#include <asio/signal_set.hpp>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -67,7 +66,6 @@ class Host : public df::Runner {
   bool isOver(const df::World& world) const;
   bool isDeserted(Clock::time_point now) const;
   std::size_t playing() const;
-  void waitForSignal();
   template <class Visit>
   void forEachPlaying(Visit visit);
 
@@ -76,7 +74,6 @@ class Host : public df::Runner {
   Log m_log;
   Counters m_counters;
   asio::io_context m_io{1};
-  asio::signal_set m_signals{m_io};
   TcpListener m_listener;
   std::vector<std::unique_ptr<Session>> m_sessions;
   Publisher m_publisher;

@@ -36,7 +36,7 @@ const std::vector<Row>& table() {
       {"--seed", "NAIAD_SEED", &HostOptions::seed, 0, 9e15,
        "Seed of the world's random numbers; 0 takes a new one and logs it"},
       {"--frame-time", "NAIAD_FRAME_TIME", &HostOptions::frame_micros, 0, 1e6,
-       "Length of a tick in microseconds; 0 is exactly 1/30 s"},
+       "Length of a tick in microseconds, 1000 or more; 0 is exactly 1/30 s"},
       {"--ticks", "NAIAD_TICKS", &HostOptions::ticks, 0, 2e9, "Stop after this many ticks; 0 never"},
       {"--exit-when-empty", "NAIAD_EXIT_WHEN_EMPTY", &HostOptions::exit_when_empty, 0, 1e6,
        "Stop this many seconds after the last player left (a minute if nobody ever comes); 0 never"},
@@ -49,10 +49,13 @@ const std::vector<Row>& table() {
   return rows;
 }
 
+constexpr int kMinFrameMicros = 1000;  // clients believe no shorter one
+
 const char* const kExitCodes =
     "Exit codes:\n"
-    "  0  ended in order (game over, --ticks, --exit-when-empty, SIGINT or SIGTERM)\n"
-    "  1  the game's main() returned an error\n"
+    "  0  ended in order (game over, --ticks, --exit-when-empty, SIGINT or SIGTERM;\n"
+    "     a second signal of the kind ends it at once)\n"
+    "  1  the game's main() returned an error or threw an exception\n"
     "  2  wrong usage\n"
     "  3  no such game, or its module cannot be loaded\n"
     "  4  cannot listen on that address and port\n"
@@ -75,6 +78,7 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   CLI::App app("Hosts a Dragonfly game for terminals to join.", "dfserver");
   app.set_version_flag("--version", std::string("dfserver ") + kVersion);
   app.set_config("--config", "", "Read options from this file (lines like: port = 9876)");
+  app.allow_config_extras(CLI::config_extras_mode::error);  // a misspelt option must not be passed over
   app.footer(std::string("Every option can also be set in the environment.\n\n") + kExitCodes);
   bool list_games = false;
   bool markdown = false;
@@ -93,6 +97,11 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? CommandLine::kDone : CommandLine::kUsageError;
+  }
+  if (options.frame_micros != 0 && options.frame_micros < kMinFrameMicros) {
+    std::cerr << "--frame-time: " << options.frame_micros << " is neither 0 nor " << kMinFrameMicros
+              << " or more\nRun with --help for more information.\n";
+    return CommandLine::kUsageError;
   }
   if (markdown) {
     std::cout << hostOptionsMarkdown();

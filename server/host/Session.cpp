@@ -37,6 +37,11 @@ void Session::start(Events events) {
 void Session::onFrame(std::string_view frame) {
   if (m_state == State::kEnding || m_state == State::kGone) return;
   m_spoke = true;
+  if (++m_messages > kMessagesPerTick) {
+    ++m_counters.message_floods;
+    goodbye("Too many messages at once.");
+    return;
+  }
   wire::ClientMessage message;
   if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size())) || !dispatch(message))
     malformed();
@@ -155,6 +160,7 @@ void Session::goodbye(const std::string& sentence) {
 void Session::checkDeadlines(Clock::time_point now) {
   if (m_spoke) m_heard = now;
   m_spoke = false;
+  m_messages = 0;
   if (now - m_chat_refill >= std::chrono::seconds(1)) {
     m_chat_refill = now;
     m_chat_budget = kChatPerSecond;

@@ -36,6 +36,8 @@ class Session {
   static constexpr std::size_t kMaxQueuedInputs = 64;
   static constexpr int kInputsPerTick = 16;
   static constexpr int kChatPerSecond = 3;
+  /// An honest client that catches up after a stall sends fewer: every reply is bounded by what it got.
+  static constexpr int kMessagesPerTick = 1024;
 
   Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now);
   /// Begin to receive. Not in the constructor, so that callbacks find a finished session.
@@ -97,6 +99,7 @@ class Session {
   std::deque<wire::Input> m_inputs;
   std::uint32_t m_input_received = 0;
   std::uint32_t m_input_applied = 0;
+  int m_messages = 0;  ///< since the last tick
   int m_chat_budget = kChatPerSecond;
   Clock::time_point m_chat_refill;
   SnapshotSender m_sender;

@@ -38,6 +38,34 @@ class LineLog {
   std::ofstream m_file;
 };
 
+/// What games reach the host by; taken back however the game ends, for their statics outlive the host.
+struct Installed {
+  Installed(naiad::Host& host, const naiad::Host::Log& log) {
+    LM.setSink(log);
+    GM.setRunner(&host);
+  }
+  ~Installed() {
+    GM.setRunner(nullptr);
+    LM.setSink({});
+  }
+  Installed(const Installed&) = delete;
+  Installed& operator=(const Installed&) = delete;
+};
+
+/// Play. A game that throws failed; its exception is none of ours.
+ExitCode play(const naiad::GameModule& game) {
+  try {
+    const int result = game.main();
+    if (result == 0) return kOk;
+    std::cerr << "dfserver: the game ended with code " << result << "\n";
+  } catch (const std::exception& error) {
+    std::cerr << "dfserver: the game failed: " << error.what() << "\n";
+  } catch (...) {
+    std::cerr << "dfserver: the game failed\n";
+  }
+  return kGameFailed;
+}
+
 std::uint64_t newSeed() {
   std::random_device device;
   return 1 + ((static_cast<std::uint64_t>(device()) << 21) ^ device()) % 9'000'000'000'000'000;
@@ -54,17 +82,12 @@ int serve(naiad::HostOptions options) {
     }
   }
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(newSeed());
-  LM.setSink([&log](const std::string& line) { log(line); });
+  const Installed installed(host, [&log](const std::string& line) { log(line); });
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
-  GM.setRunner(&host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + " on " + host.address() +
       ", seed " + std::to_string(options.seed));
   std::cout << "Join with: dfclient " << host.address() << std::endl;
-  const int result = game.main();
-  GM.setRunner(nullptr);
-  LM.setSink({});
-  if (result != 0) std::cerr << "dfserver: the game ended with code " << result << "\n";
-  return result == 0 ? kOk : kGameFailed;
+  return play(game);
 }
 
 }  // namespace

@@ -11,6 +11,12 @@ bool supersedes(std::uint32_t number, std::uint32_t newest) {
   return newest == 0 || isNewer(number, newest);
 }
 
+std::size_t glyphCount(const Look& look) {
+  std::size_t count = 0;
+  for (const Appearance& appearance : look.sequence) count += appearance.size();
+  return count;
+}
+
 ViewFrame frameOf(const WorldRecord& world, df::FixedVector corner) {
   return {corner, {df::fromCells(world.view_width), df::fromCells(world.view_height)}, world.boundary};
 }
@@ -53,12 +59,14 @@ void Replica::applyObject(std::uint32_t number, const ObjectRecord& record) {
 
   if (record.groups == 0) {  // dead
     m_alive -= entry.alive ? 1 : 0;
+    m_glyphs -= glyphCount(entry.state.look);
     entry = Entry{record.generation, false, {}, {}};
     return;
   }
   if (newer) {
     if ((record.groups & kLife) == 0) return;  // only a birth can introduce an object
     m_alive += entry.alive ? 0 : 1;
+    m_glyphs -= glyphCount(entry.state.look);
     entry = Entry{record.generation, true, {}, {}};
     entry.state.order = record.state.order;
   }
@@ -69,9 +77,19 @@ void Replica::applyObject(std::uint32_t number, const ObjectRecord& record) {
     if ((record.groups & group) == 0 || !supersedes(number, entry.newest[i])) continue;
     entry.newest[i] = number;
     if (group == kMotion) entry.state.motion = record.state.motion;
-    if (group == kLook) entry.state.look = record.state.look;
+    if (group == kLook) setLook(entry, record.state.look);
     if (group == kBody) entry.state.body = record.state.body;
   }
+}
+
+void Replica::setLook(Entry& entry, const Look& look) {
+  const std::size_t others = m_glyphs - glyphCount(entry.state.look);
+  if (others + glyphCount(look) > kMaxReplicaGlyphs) {
+    ++m_overflows;
+    return;
+  }
+  m_glyphs = others + glyphCount(look);
+  entry.state.look = look;
 }
 
 const Replica::Entry* Replica::find(std::uint32_t slot) const {

@@ -1,6 +1,7 @@
 // The client's copy of the world: records go in, a picture of any tick comes out.
 //
-// Not thread-safe. Bounded: a hostile server can make it hold at most kMaxReplicaObjects objects.
+// Not thread-safe. Bounded: a hostile server can make it hold at most kMaxReplicaObjects objects with
+// kMaxReplicaGlyphs glyphs.
 #pragma once
 
 #include <array>
@@ -18,6 +19,8 @@ namespace naiad {
 
 /// Objects, dead ones included, that a replica remembers; records for more are ignored and counted.
 inline constexpr std::size_t kMaxReplicaObjects = 1u << 17;
+/// Glyphs in all looks together (16 bytes each); a look beyond that is ignored and counted.
+inline constexpr std::size_t kMaxReplicaGlyphs = 1u << 21;
 
 class Replica {
  public:
@@ -53,6 +56,7 @@ class Replica {
 
  private:
   void applyObject(std::uint32_t number, const ObjectRecord& record);
+  void setLook(Entry& entry, const Look& look);
   const Motion* followedMotion() const;
 
   std::unordered_map<std::uint32_t, Entry> m_entries;
@@ -64,6 +68,7 @@ class Replica {
   std::uint32_t m_view_newest = 0;
   std::uint32_t m_view_tick = 0;  ///< the tick at which m_view holds
   std::size_t m_alive = 0;
+  std::size_t m_glyphs = 0;  ///< in all looks
   std::uint64_t m_overflows = 0;
 };
 

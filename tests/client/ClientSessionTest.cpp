@@ -113,8 +113,11 @@ TEST_F(ClientSessionTest, NeverSendsMoreThanAServerTolerates) {
   EXPECT_LE(sent, 32);
   EXPECT_TRUE(session->sendKey(df::Keyboard::A, df::KEY_RELEASED, now)) << "a release is never lost";
   sent = 0;
-  for (int tick = 0; tick < 300; ++tick) {
+  for (std::uint32_t tick = 1; tick <= 300; ++tick) {
     now += 33333us;
+    wire::ServerMessage heard = snapshotMessage(tick, tick);
+    if (tick > 1) heard.mutable_snapshot()->set_input_applied(last().input().id());
+    receive(heard);
     for (int i = 0; i < 100; ++i)
       sent += session->sendMouse(df::MOVED, df::Mouse::LEFT, i % 80, 1, now) ? 1 : 0;
   }
@@ -193,6 +196,26 @@ TEST_F(ClientSessionTest, LostLineIsSilentAfterHalfASecond) {
   now += 600ms;
   snapshot(2, 118);
   EXPECT_FALSE(session->isSilent(now));
+}
+
+TEST_F(ClientSessionTest, AHeldKeyIsNoFloodAfterTheServerStalled) {
+  join();
+  snapshot(1, 100);
+  for (int tick = 0; tick < 300; ++tick) {
+    session->sendKey(df::Keyboard::SPACE, df::KEY_DOWN, now);
+    now += 33ms;
+  }
+  EXPECT_EQ(session->counters().inputs, ClientSession::kMaxUnapplied) << "a server lets no more than 64 wait";
+  EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_RELEASED, now)) << "or it would stay down";
+  const std::uint32_t newest = last().input().id();
+  wire::ServerMessage lie = snapshotMessage(2, 101);
+  lie.mutable_snapshot()->set_input_applied(newest + 1);
+  receive(lie);
+  EXPECT_FALSE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now)) << "that one was never sent";
+  wire::ServerMessage heard = snapshotMessage(3, 102);
+  heard.mutable_snapshot()->set_input_applied(newest);
+  receive(heard);
+  EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
 }
 
 }  // namespace

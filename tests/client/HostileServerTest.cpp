@@ -78,6 +78,13 @@ TEST_F(HostileServerTest, EndsOnASnapshotBeforeTheWelcome) {
   expectRejected();
 }
 
+TEST_F(HostileServerTest, EndsOnAPongBeforeTheWelcome) {
+  wire::ServerMessage message;
+  message.mutable_pong()->set_token(1);
+  receive(message);
+  expectRejected();
+}
+
 TEST_F(HostileServerTest, EndsOnASecondWelcome) {
   join();
   join();

@@ -1,7 +1,10 @@
 // Hostile bytes end the connection they came on, are counted, and change nothing for anybody else.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdio>
+#include <thread>
+#include <vector>
 
 #include "BusyWorld.h"
 #include "Compare.h"
@@ -145,6 +148,43 @@ TEST(Hostile, KeyFloodEndsTheSession) {
   }
   EXPECT_TRUE(flood.waitForHangup());
   EXPECT_EQ(server.counters().input_floods, 1u);
+}
+
+TEST(Hostile, AFloodOfMessagesEndsItsSessionAndStopsNobodyElsesWorld) {
+  TestServer server([](df::World& world) { populateBusyWorld(world, 5); });
+  asio::io_context context;
+  TestClient ann(context, server.port(), "ann");
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+
+  std::atomic<bool> done = false;
+  std::vector<std::thread> floods;
+  for (int i = 0; i < 2; ++i) {
+    floods.emplace_back([&] {
+      std::string many;  // empty acknowledgements: valid, small, and never a reason to hang up by themselves
+      for (int k = 0; k < 20'000; ++k) many += std::string("\x02\0\x1a\0", 4);
+      RawClient flood(server.port());
+      flood.send(RawClient::hello("flood"));
+      while (!done) flood.sendBytes(many);
+    });
+  }
+  const std::uint32_t tick = ann.newestTick();
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() - tick > 300; }));
+  done = true;
+  for (std::thread& flood : floods) flood.join();
+  EXPECT_EQ(server.counters().message_floods, 2u);
+  EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
+}
+
+TEST(Hostile, ACrowdOfSilentConnectionsDoesNotLockPlayersOut) {
+  HostOptions options = fastOptions();
+  options.max_players = 1;
+  TestServer server([](df::World& world) { populateBusyWorld(world, 5); }, options);
+  std::vector<std::unique_ptr<RawClient>> crowd;
+  for (int i = 0; i < 30; ++i) crowd.push_back(std::make_unique<RawClient>(server.port()));
+  asio::io_context context;
+  TestClient ann(context, server.port(), "ann");
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  EXPECT_EQ(server.counters().turned_away, 13u) << "18 fit; 31 came";
 }
 
 }  // namespace

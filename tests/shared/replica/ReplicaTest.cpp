@@ -146,6 +146,27 @@ TEST(Replica, IsBoundedWhateverItIsSent) {
   EXPECT_EQ(replica.overflowCount(), 10u);
 }
 
+TEST(Replica, LooksAreBoundedInAll) {
+  Replica replica;
+  ObjectState huge = character(1, 1, U'x');
+  huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})};
+  const std::uint32_t fits = kMaxReplicaGlyphs / 8192;
+  std::uint32_t number = 0;
+  for (std::uint32_t slot = 0; slot < fits + 10; ++slot) replica.apply(++number, 0, birth(slot, 1, huge));
+  EXPECT_EQ(replica.overflowCount(), 10u);
+  EXPECT_EQ(replica.find(fits - 1)->state.look, huge.look);
+  EXPECT_TRUE(replica.find(fits)->state.look.sequence.empty());
+  // Deaths, other births in the same slot and other looks give room back.
+  replica.apply(++number, 0, death(0, 1));
+  replica.apply(++number, 0, birth(1, 2, character(1, 1, U'x')));
+  Records look;
+  look.objects.push_back({2, 1, kLook, character(1, 1, U'x')});
+  replica.apply(++number, 0, look);
+  for (std::uint32_t slot = fits; slot < fits + 3; ++slot) replica.apply(++number, 0, birth(slot, 2, huge));
+  EXPECT_EQ(replica.overflowCount(), 11u) << "three large looks went, two small ones came";
+  EXPECT_EQ(replica.find(fits + 1)->state.look, huge.look);
+}
+
 // A server's history as the rules allow it: births are complete, partial records name only objects whose
 // birth was acknowledged, a slot is taken again after its death was sent. `settled` says which snapshots must
 // have been applied before: those that were acknowledged when it was sent.
