@@ -52,7 +52,10 @@ int DisplayManager::drawString(Vector world_pos, const std::string& str, Justifi
 }
 
 int DisplayManager::setSize(int horizontal, int vertical) {
-  return World::current().setWindow(horizontal, vertical);
+  World& world = World::current();
+  if (world.setWindow(horizontal, vertical) == 0) return 0;
+  world.refuse("DisplayManager", "setSize");
+  return -1;
 }
 
 int DisplayManager::getHorizontal() const {

@@ -6,11 +6,10 @@
 #pragma once
 
 #include "Event.h"
+#include "Object.h"
 #include "Vector.h"
 
 namespace df {
-
-class Object;
 
 inline const std::string COLLISION_EVENT = "df-collision";
 

@@ -33,7 +33,7 @@ class GameManager : public Manager {
   bool isStarted() const override;
 
   /// Run until the game is over: through the installed Runner, which may wait for clocks and players; without
-  /// one, tick after tick as fast as they go.
+  /// one, tick after tick as fast as they go. Nothing happens inside a tick.
   void run();
   /// One full tick: step event; joins, leaves, keys and mouse; WM.update(); WM.draw().
   void tick();

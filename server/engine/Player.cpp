@@ -26,12 +26,17 @@ Object* Player::getObject() const {
 }
 
 int Player::setText(std::uint32_t id, Vector position, const std::string& text, Color color) {
+  if (m_p_world == nullptr) return -1;
+  const auto refuse = [this] {
+    m_p_world->refuse("Player", "setText");
+    return -1;
+  };
   const auto where = toFixed(position);
-  if (m_p_world == nullptr || id >= kTexts || !where || color < BLACK || color > WHITE) return -1;
+  if (id >= kTexts || !where || color < BLACK || color > WHITE) return refuse();
   const int x = cellOf(where->x);
   const int y = cellOf(where->y);
   const int width = m_p_world->getWindowWidth();
-  if (x < 0 || y < 0 || x >= width || y >= m_p_world->getWindowHeight()) return -1;
+  if (x < 0 || y < 0 || x >= width || y >= m_p_world->getWindowHeight()) return refuse();
 
   std::string shown;
   int room = width - x;
@@ -54,11 +59,7 @@ PlayerFacts Player::facts() const {
   f.color = m_color;
   f.score = m_score;
   // A player without a view of his own shares the world's, and with it whom that follows.
-  if (getObject() != nullptr) {
-    f.followed = m_object;
-  } else if (m_p_world != nullptr && !m_has_view) {
-    f.followed = m_p_world->views().followed();
-  }
+  if (m_p_world != nullptr) f.followed = m_p_world->views().followed(*this);
   f.view_corner = m_view_corner;
   for (const auto& [id, text] : m_texts) f.texts.push_back(text);
   return f;

@@ -24,7 +24,8 @@ class Player {
   /// The player's colour: seven take turns, so that the first seven players differ.
   Color getColor() const { return m_color; }
 
-  /// The Object this player steers; null after its deletion. The view follows it (see setViewFollowing).
+  /// The Object this player steers; null after its deletion. The view follows it from now on
+  /// (WM.setViewFollowing, while the player's input is handled, lets it follow another).
   /// Passing null leaves the view where it is. Return 0, or -1 for an Object of another world.
   int setObject(Object* p_o);
   Object* getObject() const;
@@ -52,7 +53,8 @@ class Player {
   Color m_color;
   int m_score = 0;
   World* m_p_world = nullptr;
-  ObjectKey m_object;
+  ObjectKey m_object;    // steered
+  ObjectKey m_followed;  // by the view, once it is the player's own
   FixedVector m_view_corner;
   bool m_has_view = false;  // since its first Object; before that it shares the world's view
   std::map<std::uint32_t, PlayerText> m_texts;

@@ -85,7 +85,7 @@ int Views::follow(Player* p_player, Object* p_o) {
     store.set(key.slot, WorldStore::kFollowed, true);
   }
   const bool own = p_player != nullptr && p_player->m_has_view;
-  (own ? p_player->m_object : m_followed) = key;
+  (own ? p_player->m_followed : m_followed) = key;
   if (p_o != nullptr) centre(p_player, m_world.store().position(key.slot));
   return 0;
 }
@@ -93,10 +93,14 @@ int Views::follow(Player* p_player, Object* p_o) {
 int Views::setObject(Player& player, Object* p_o) {
   if (p_o == nullptr) {
     player.m_object = {};
+    player.m_followed = {};
     return 0;
   }
   const bool had_view = std::exchange(player.m_has_view, true);
-  if (follow(&player, p_o) == 0) return 0;
+  if (follow(&player, p_o) == 0) {
+    player.m_object = player.m_followed;
+    return 0;
+  }
   player.m_has_view = had_view;
   return -1;
 }
@@ -104,13 +108,14 @@ int Views::setObject(Player& player, Object* p_o) {
 void Views::moved(ObjectKey key, FixedVector position) {
   if (m_followed == key) setCorner(nullptr, naiad::followView({m_corner, size(), m_boundary}, position));
   for (const auto& [id, p_player] : m_players) {
-    if (!p_player->m_has_view || p_player->m_object != key) continue;
+    if (!p_player->m_has_view || p_player->m_followed != key) continue;
     p_player->m_view_corner = naiad::followView({p_player->m_view_corner, size(), m_boundary}, position);
   }
 }
 
-ObjectKey Views::followed() const {
-  return m_world.find(m_followed) != nullptr ? m_followed : ObjectKey{};
+ObjectKey Views::followed(const Player& player) const {
+  const ObjectKey key = player.m_has_view ? player.m_followed : m_followed;
+  return m_world.find(key) != nullptr ? key : ObjectKey{};
 }
 
 std::vector<FixedBox> Views::boxes() const {

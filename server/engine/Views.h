@@ -63,8 +63,8 @@ class Views {
   int setObject(Player& player, Object* p_o);
   /// A followed Object was moved.
   void moved(ObjectKey key, FixedVector position);
-  /// Whom the world's view follows; generation 0 if nobody.
-  ObjectKey followed() const;
+  /// Whom the player's view follows, be it his own or the world's; generation 0 if nobody.
+  ObjectKey followed(const Player& player) const;
   /// All different views, as boxes in whole cells: what shows on the screens.
   std::vector<FixedBox> boxes() const;
 

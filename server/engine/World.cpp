@@ -113,6 +113,8 @@ void World::drawObjects() {
 }
 
 void World::run() {
+  // A handler that ran the game would wait for ticks that cannot begin before it returns.
+  if (m_in_tick || m_in_update || m_in_draw) return;
   const Scope scope(*this);
   if (m_p_runner != nullptr) {
     m_p_runner->run(*this);
@@ -139,6 +141,7 @@ bool World::deliver(ObjectKey key, const Event& event) {
   if (p_o == nullptr) return false;
   if (!m_p_store->has(key.slot, WorldStore::kActive) || !m_p_store->has(key.slot, WorldStore::kInWorld))
     return false;
+  ++m_handlers;
   try {
     p_o->eventHandler(&event);
   } catch (const std::exception& e) {
@@ -146,6 +149,8 @@ bool World::deliver(ObjectKey key, const Event& event) {
   } catch (...) {
     quarantine(key, "an exception of unknown type");
   }
+  --m_handlers;
+  if (m_shutdown_pending) finishShutDown();
   return true;
 }
 

@@ -65,8 +65,8 @@ class World {
 
   /// Delete what is alive and was made with `new`, take the rest out, and forget players, inputs,
   /// interests, boundary, views, ticks and game over. The world can be started again; seed, sink and runner
-  /// stay. Called inside a tick, update or draw, it happens at its end, and the game is over until
-  /// GM.startUp().
+  /// stay. Called inside a tick, update, draw or event handler, it happens at its end, and the game
+  /// is over until GM.startUp().
   void shutDown();
   /// Which managers are started: bits of their own choosing. (The world itself works without.)
   void setStarted(unsigned manager, bool started);
@@ -84,6 +84,7 @@ class World {
   /// happens inside a tick, which does it at its end.
   void draw();
   /// Run the game: through the Runner if one is set, else tick() after tick() until the game is over.
+  /// Nothing happens inside a tick, update or draw.
   void run();
   /// Ticks begun since the world began.
   int getStepCount() const { return m_step_count; }
@@ -217,6 +218,8 @@ class World {
   template <class Wanted>
   ObjectList collect(Wanted wanted) const;
   bool owns(const Object* p_o) const;
+  /// Is code of an Object running that has to come to its end first?
+  bool isBusy() const { return m_in_tick || m_in_update || m_in_draw || m_handlers > 0; }
 
   WorldStore* m_p_store;  // counted: outlives the world if Objects or lists do
   std::unique_ptr<Interests> m_interests;
@@ -243,6 +246,7 @@ class World {
   bool m_in_tick = false;
   bool m_in_update = false;
   bool m_in_draw = false;
+  int m_handlers = 0;  // eventHandler()s that are running, one inside the other
   bool m_shutdown_pending = false;
 };
 

@@ -25,7 +25,7 @@ class WorldManager : public Manager {
   /// Return 0. The world works without it, too.
   int startUp() override;
   /// Delete the Objects that are alive and were made with `new`, take out the others, and set everything
-  /// back, so that the world can be started again. Inside a tick: at its end.
+  /// back, so that the world can be started again. Inside a tick or an event handler: at its end.
   void shutDown() override;
   bool isStarted() const override;
 
@@ -61,8 +61,8 @@ class WorldManager : public Manager {
   bool isCollision(const Object* p_o, Vector where) const;
   /// Move p_o to `where` (Listings 4.109, 4.111, 4.113): solid Objects it touches there and itself get
   /// collision events; if none blocks, it moves, and hears of it if it left the world. Return 0 if it moved;
-  /// -1 if blocked, deleted by a handler, out of range, or nested more than 32 deep in handlers. An inactive
-  /// Object is placed without collisions or events. Mover.h has the details.
+  /// -1 if blocked, deleted by a handler, not in the world, out of range, or nested more than 32 deep in
+  /// handlers. An inactive Object is placed without collisions or events. Mover.h has the details.
   int moveObject(Object* p_o, Vector where);
   /// Move every active Object by its velocity, once, then delete what is marked. Nothing else of a tick
   /// happens; see GM.tick().

@@ -83,7 +83,7 @@ void World::deleteAll() {
 }
 
 void World::shutDown() {
-  if (m_in_tick || m_in_update || m_in_draw) {
+  if (isBusy()) {
     m_shutdown_pending = true;
     m_game_over = true;
     return;
@@ -104,7 +104,7 @@ void World::shutDown() {
 }
 
 void World::finishShutDown() {
-  if (m_in_tick || m_in_update || m_in_draw || !std::exchange(m_shutdown_pending, false)) return;
+  if (isBusy() || !std::exchange(m_shutdown_pending, false)) return;
   shutDown();
   m_game_over = true;  // for whoever runs the loop; GM.startUp() begins anew
 }

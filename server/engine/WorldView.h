@@ -78,7 +78,7 @@ struct WorldView {
   int view_height = 24;
   std::vector<ObjectFacts> changed;   ///< appeared or changed, by creation order
   std::vector<ObjectKey> vanished;    ///< deleted or removed; never in `changed` of the same tick
-  std::vector<DrawnObject> drawn;     ///< objects whose draw() ran this tick, in drawing order
+  std::vector<DrawnObject> drawn;     ///< what was drawn, in drawing order; a drawer may have vanished since
   std::vector<DrawCommand> commands;  ///< what they drew, in drawing order
   std::vector<PlayerFacts> players;   ///< by id
 };

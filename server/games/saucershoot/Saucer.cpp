@@ -1,5 +1,7 @@
 #include "Saucer.h"
 
+#include <cstdlib>
+
 #include "DisplayManager.h"
 #include "EventCollision.h"
 #include "EventOut.h"
@@ -41,6 +43,10 @@ void Saucer::enter() {
 }
 
 void Saucer::setDrift(int direction) {
+  // Never off the field, whoever is in the way there.
+  const double row = getPosition().y();
+  if (row <= topRow()) direction = std::abs(direction);
+  if (row >= bottomRow()) direction = -std::abs(direction);
   setVelocity(df::Vector(-m_kind.speed, direction * m_kind.drift));
 }
 

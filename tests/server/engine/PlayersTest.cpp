@@ -235,5 +235,33 @@ TEST_F(Players, WindowSizeHasLimits) {
   EXPECT_EQ(WM.setBoundary(Box(Vector(0, 0), -1, 50)), -1);
 }
 
+TEST_F(Players, ViewThatFollowsAnotherLeavesThePlayersObjectAlone) {
+  const std::uint32_t id = joined("ann");
+  Player& player = *WM.getPlayer(id);
+  Object ship;
+  Object sight;
+  WM.setBoundary(Box(Vector(0, 0), 500, 500));
+  sight.setPosition(Vector(250, 250));
+  player.setObject(&ship);
+  listener.on_event = [&](Probe&, const Event&) { WM.setViewFollowing(&sight); };
+  world.key(id, Keyboard::F, KEY_PRESSED);
+  GM.tick();
+  EXPECT_EQ(player.getObject(), &ship);
+  EXPECT_EQ(player.facts().followed, sight.key());
+  EXPECT_EQ(player.getViewCorner(), Vector(210, 238));
+}
+
+TEST_F(Players, RefusedTextsAndSizesAreCountedAndLoggedOnce) {
+  Player& player = *WM.getPlayer(joined("ann"));
+  EXPECT_EQ(player.setText(16, Vector(2, 1), "x"), -1);
+  EXPECT_EQ(player.setText(1, Vector(80, 1), "x"), -1);
+  EXPECT_EQ(world.getRefusals(), 2u);
+  EXPECT_EQ(logged("setText"), 1);
+  EXPECT_EQ(DM.setSize(19, 24), -1);
+  EXPECT_EQ(DM.setSize(80, 151), -1);
+  EXPECT_EQ(world.getRefusals(), 4u);
+  EXPECT_EQ(logged("setSize"), 1);
+}
+
 }  // namespace
 }  // namespace df::test

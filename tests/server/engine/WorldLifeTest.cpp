@@ -103,6 +103,21 @@ TEST_F(WorldLife, ShutDownInsideATickWaitsForItsEnd) {
   EXPECT_FALSE(GM.getGameOver());
 }
 
+TEST_F(WorldLife, ShutDownInsideAHandlerOutsideATickWaitsForTheHandler) {
+  auto* p_quitter = new Probe("quitter", nullptr, Vector(10, 10));
+  auto* p_wall = new Probe("wall", nullptr, Vector(20, 20));
+  bool alive_after = false;
+  p_quitter->on_event = [&](Probe& self, const Event&) {
+    GM.shutDown();
+    alive_after = world.getObjectCount() == 2 && self.getType() == "quitter";
+  };
+  const Vector there = p_wall->getPosition();
+  EXPECT_EQ(WM.moveObject(p_quitter, there), -1);
+  EXPECT_TRUE(alive_after);
+  EXPECT_TRUE(GM.getGameOver());
+  EXPECT_EQ(world.getObjectCount(), 0);
+}
+
 TEST_F(WorldLife, RunWithoutRunnerTicksUntilGameOver) {
   Probe p("p");
   p.registerInterest(STEP_EVENT);
@@ -111,6 +126,19 @@ TEST_F(WorldLife, RunWithoutRunnerTicksUntilGameOver) {
   };
   GM.run();
   EXPECT_EQ(GM.getStepCount(), 7);
+}
+
+TEST_F(WorldLife, RunInsideAHandlerReturnsAtOnce) {
+  Probe p("p");
+  p.registerInterest(STEP_EVENT);
+  int handled = 0;
+  p.on_event = [&](Probe&, const Event&) {
+    if (++handled == 3) GM.setGameOver();
+    GM.run();
+  };
+  GM.run();
+  EXPECT_EQ(handled, 3);
+  EXPECT_EQ(GM.getStepCount(), 3);
 }
 
 TEST_F(WorldLife, RunGoesThroughTheRunner) {

@@ -56,6 +56,22 @@ std::uint64_t hashOfARandomGame(std::uint64_t seed, int ticks) {
   return hash;
 }
 
+TEST(SaucerShoot, SaucersKeepOffTheRowsOfTheTexts) {
+  hostGame(saucershoot_main, 1, [](df::World& world) {
+    for (int i = 0; i < 12; ++i) world.join("pilot", df::RED);  // many pilots, many saucers
+    int outside = 0;
+    for (int t = 0; t < 6000; ++t) {
+      world.tick();
+      const df::ObjectList saucers = WM.objectsOfType("Saucer");
+      for (int i = 0; i < saucers.getCount(); ++i) {
+        const double y = saucers[i]->getPosition().y();
+        if (y < 0.5 || y >= 21.5) ++outside;
+      }
+    }
+    EXPECT_EQ(outside, 0);
+  });
+}
+
 TEST(SaucerShoot, SimplestPlayHitsASaucerWithinFiveSecondsForAnySeed) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     hostGame(saucershoot_main, seed, [&](df::World& world) {
