@@ -128,9 +128,16 @@ void Host::sendSnapshots(df::World& world) {
     });
     if (found == players.end()) return;  // joins with the next tick
     // The truth first: whoever compares must find it once the snapshot has arrived.
-    if (m_truth) m_truth->write(m_publisher.tick(), found->id, world.renderPlayer(found->id));
+    if (m_truth) writeTruth(*found, world);
     session.sendTick(m_publisher, *found);
   });
+}
+
+void Host::writeTruth(const df::PlayerFacts& player, const df::World& world) {
+  m_truth->write(m_publisher.tick(), player.id, world.renderPlayer(player.id));
+  if (m_truth->isGood()) return;
+  m_log("the truth file " + m_options.truth_file + " cannot be written any more; it ends here");
+  m_truth.reset();
 }
 
 void Host::sendPlayers(const df::World& world) {
@@ -224,7 +231,7 @@ void Host::greet(Session& session, const wire::Hello& hello) {
   session.welcome(welcome);
   m_players_told.clear();
   m_ever_joined = true;
-  m_log(name + " joined from " + session.address());
+  m_log(name + " joined from " + session.address() + " with " + safeText(hello.program(), kMaxProgramLength));
 }
 
 void Host::chat(const Session& session, const std::string& text) {

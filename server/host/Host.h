@@ -60,6 +60,7 @@ class Host : public df::Runner {
   void tick(df::World& world);
   void applyInputs(df::World& world);
   void sendSnapshots(df::World& world);
+  void writeTruth(const df::PlayerFacts& player, const df::World& world);
   void sendPlayers(const df::World& world);
   void sweep();
   void drain();

@@ -72,6 +72,8 @@ TEST_F(WorldLife, ShutDownDeletesWhatNewMadeAndStartsOver) {
   new Counted(&dead);
   GM.tick();
   EXPECT_EQ(world.getObjectCount(), 1);
+  GM.shutDown();
+  EXPECT_EQ(dead, 2);
 }
 
 TEST_F(WorldLife, ObjectsMadeByDestructorsAreShutDownToo) {
