@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLate{5};
 constexpr std::chrono::milliseconds kLeastService{5};  ///< for sockets, however late the tick is
+constexpr int kLeastHandlers = 1000;                   ///< of theirs, ditto
 constexpr std::chrono::seconds kDrainTime{1};
 constexpr std::chrono::seconds kLonely{60};     ///< --exit-when-empty, if nobody ever came
 constexpr std::uint32_t kPlayerListEvery = 15;  ///< ticks
@@ -61,11 +62,7 @@ void Host::run(df::World& world) {
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   m_empty_since = Clock::now();
   while (!isOver(world)) {
-    m_io.restart();
-    // Also when the deadline has passed already: an overloaded server must not turn deaf. Not until nothing
-    // is ready any more, though: one client that floods would stop the world.
-    for (const auto enough = Clock::now() + kLeastService; Clock::now() < enough && m_io.poll_one() > 0;) {
-    }
+    serveSockets();
     m_io.run_until(schedule.deadline());
     sweep();
     if (signals.isAsked()) m_stop_sentence = "The server is shutting down.";
@@ -77,6 +74,17 @@ void Host::run(df::World& world) {
   }
   drain();
   m_p_world = nullptr;
+}
+
+// Also when the deadline has passed already: an overloaded server must not turn deaf, so there is a least
+// number of handlers whatever the clock says. Not until nothing is ready any more, though: one client that
+// floods would stop the world.
+void Host::serveSockets() {
+  m_io.restart();
+  const auto enough = Clock::now() + kLeastService;
+  for (int served = 0; m_io.poll_one() > 0; ++served) {
+    if (served >= kLeastHandlers && Clock::now() >= enough) break;
+  }
 }
 
 // One tick: input -> world (step, input events, update, draw) -> published models -> snapshots.

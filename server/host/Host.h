@@ -57,6 +57,7 @@ class Host : public df::Runner {
   void greet(Session& session, const wire::Hello& hello);
   void chat(const Session& session, const std::string& text);
   void leave(Session& session);
+  void serveSockets();
   void tick(df::World& world);
   void applyInputs(df::World& world);
   void sendSnapshots(df::World& world);
