@@ -25,7 +25,8 @@ class EventJoin : public Event {
 };
 
 /// The last event in which `WM.getPlayer(getPlayer())` exists. The player's Object is the game's to
-/// delete.
+/// delete. Marked for deletion, it still hears what comes later in the same tick, when the Player is gone:
+/// keep the id in it, not the pointer.
 class EventLeave : public Event {
  public:
   explicit EventLeave(std::uint32_t player = 0) : m_player(player) { setType(LEAVE_EVENT); }

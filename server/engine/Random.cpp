@@ -2,16 +2,13 @@
 
 #include <bit>
 
+#include "SplitMix64.h"
+
 namespace df {
 
 Random::Random(std::uint64_t seed) {
-  for (std::uint64_t& word : m_state) {  // splitmix64
-    seed += 0x9E3779B97F4A7C15ull;
-    std::uint64_t z = seed;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    word = z ^ (z >> 31);
-  }
+  naiad::SplitMix64 seeder(seed);
+  for (std::uint64_t& word : m_state) word = seeder.next();
 }
 
 std::uint64_t Random::next() {
