@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <typeinfo>
 
 #include "Views.h"
 #include "World.h"
@@ -31,11 +30,7 @@ void Capture::begin() {
 bool Capture::mayDraw(std::uint32_t slot) {
   WorldStore& store = m_world.store();
   if (!store.has(slot, WorldStore::kActive) || !store.has(slot, WorldStore::kVisible)) return false;
-  if (!store.has(slot, WorldStore::kTyped)) {  // the constructor could not know
-    const Object& object = *store.object(slot);
-    store.set(slot, WorldStore::kTyped, true);
-    store.set(slot, WorldStore::kNeverDraws, typeid(object) == typeid(Object));
-  }
+  if (!store.has(slot, WorldStore::kTyped)) m_world.learnType(slot);
   return !store.has(slot, WorldStore::kNeverDraws);
 }
 

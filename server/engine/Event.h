@@ -18,11 +18,19 @@ class Event {
 
   /// The name by which Objects register interest and tell events apart. Names that begin with "df-"
   /// belong to the engine.
-  void setType(std::string new_type) { m_type = std::move(new_type); }
-  const std::string& getType() const { return m_type; }
+  void setType(std::string new_type) {
+    m_type = std::move(new_type);
+    m_p_known_type = nullptr;
+  }
+  const std::string& getType() const { return m_p_known_type != nullptr ? *m_p_known_type : m_type; }
+
+ protected:
+  /// An event of one of the engine's own types, a constant that lives for ever: nothing is copied.
+  explicit Event(const std::string* p_known_type) : m_p_known_type(p_known_type) {}
 
  private:
-  std::string m_type = UNDEFINED_EVENT;
+  const std::string* m_p_known_type = &UNDEFINED_EVENT;
+  std::string m_type;
 };
 
 }  // namespace df

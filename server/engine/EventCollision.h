@@ -18,9 +18,8 @@ class EventCollision : public Event {
   /// A collision at (0,0) between nobody and nobody.
   EventCollision() : EventCollision(nullptr, nullptr, Vector()) {}
   /// `p_o1` caused the collision by moving onto `p_o2`; `p` is the position p_o1 wanted to move to.
-  EventCollision(Object* p_o1, Object* p_o2, Vector p) : m_pos(p), m_p_obj1(p_o1), m_p_obj2(p_o2) {
-    setType(COLLISION_EVENT);
-  }
+  EventCollision(Object* p_o1, Object* p_o2, Vector p)
+      : Event(&COLLISION_EVENT), m_pos(p), m_p_obj1(p_o1), m_p_obj2(p_o2) {}
 
   /// The Object that moved, and so caused the collision.
   void setObject1(Object* p_new_o1) { m_p_obj1 = p_new_o1; }

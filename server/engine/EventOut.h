@@ -12,7 +12,7 @@ inline const std::string OUT_EVENT = "df-out";
 
 class EventOut : public Event {
  public:
-  EventOut() { setType(OUT_EVENT); }
+  EventOut() : Event(&OUT_EVENT) {}
 };
 
 }  // namespace df

@@ -1,66 +1,377 @@
-// Finds the solid boxes near a box: a hierarchy of uniform grids, hashed.
+// The broad phase: finds the solid boxes that may touch a box.
 //
-// A box is filed once, under the grid cell of its corner, in the level whose cell size is the least power
-// of two (from 2 cells up) that is not smaller than the box. So a query at one level looks at the cells it
-// covers and one more to the left and above, and neither huge boxes nor far-flung worlds cost memory: a
-// bucket array about as long as there are boxes, plus a fixed record per slot. Boxes in a bucket are
-// chained through those records; nothing is allocated when something moves.
+// Boxes are filed by their upper left corner, once each, in levels of cells that are as large as the largest
+// box of the level. Level 0 is for single characters: cells of 1 by 1, so that a query looks at nine of them.
+// Above it the cells grow by four from 16 by 4 on, four times as wide as high, as text is. Where characters
+// are few among sprites, they are filed in level 1 with them, and there is one level less to look through.
+//
+// A level is two arrays: a bit per cell that says whether it is occupied, 64 cells of a row to a word, the
+// words of the rows below following; and per cell the first of its slots. Nine cells are looked at in three
+// neighbouring words. Cells are mapped onto the arrays as onto a torus: the part of the world that the boxes
+// of a level are spread over lies flat, what is a whole turn away falls onto the same cells, shifted by a
+// hash, and is told apart by the exact test. So the arrays are about as long as there are boxes, wherever
+// these are: 64 to 128 cells for each. Only what is occupied is touched. Nothing is allocated when something
+// moves.
+//
+// The grid reads positions and boxes from the store's arrays; a slot is filed under what they say when
+// file() or refile() is called.
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "Fixed.h"
 
 namespace df {
 
+/// A single character: one cell, centred on the position.
+inline constexpr FixedBox kCharacterBox{{-kFixedOne / 2, -kFixedOne / 2}, {kFixedOne, kFixedOne}};
+
 class Grid {
+  struct Level;
+  struct Record;
+
  public:
   using Slot = std::uint32_t;
+  static constexpr int kLevels = 12;
+  class Steps;
 
-  /// File `box` (world coordinates) under `slot`, in place of what was filed there before.
-  void put(Slot slot, const FixedBox& box);
+  /// Both must outlive the grid; slots index them.
+  Grid(const std::vector<FixedVector>& positions, const std::vector<FixedBox>& boxes);
+
+  /// File `slot` under its position and box, wherever it was filed before.
+  void file(Slot slot);
+  /// Its position has changed, and nothing else: file it anew. It must be filed.
+  void refile(Slot slot) { refile(slot, m_levels[static_cast<std::size_t>(m_records[slot].level)]); }
   /// Forget `slot`, if it was filed.
   void remove(Slot slot);
   bool contains(Slot slot) const { return slot < m_records.size() && m_records[slot].level >= 0; }
-  int size() const { return m_count; }
+  int size() const;
+  /// Memory of the levels, in bytes.
+  std::size_t bytes() const;
 
-  /// Append to `out`, in no particular order and each once, every slot whose box may touch `box`: all that
-  /// do, and some that do not.
-  void query(const FixedBox& box, std::vector<Slot>& out) const;
+  /// Append to `out` the slots whose boxes touch `box`, except `self`; in no particular order, and a slot may
+  /// come twice.
+  void touching(const FixedBox& box, Slot self, std::vector<Slot>& out) const;
+  /// Call `visit(slot)` for every slot of a level in `levels` whose corner may lie in [from, to]; some may
+  /// come twice.
+  template <class Visit>
+  void visitCorners(int level, FixedVector from, FixedVector to, Visit visit) const;
+  /// Bit per level that holds something.
+  std::uint32_t levels() const { return m_occupied; }
+  /// Upper bound of the sizes of boxes in a level.
+  static FixedVector largest(int level);
 
  private:
-  static constexpr int kLevels = 21;  // up to 2^21 cells: boxes are at most 1e6 cells wide
-  static constexpr Slot kNone = UINT32_MAX;
+  static constexpr Slot kNone = 0x7FFFFFFF;
+  static constexpr Slot kMore = 0x80000000;   // in a cell's first slot: others follow
+  static constexpr std::int64_t kBlock = 64;  // cells per side of the squares that lie flat
+  static constexpr std::size_t kLeastWords = 256;
+  static constexpr std::size_t kBoxesPerWord = 1;  // at most, on average
 
-  /// A cell of one level.
-  struct Place {
-    std::int32_t level = -1;
-    std::int32_t x = 0;
-    std::int32_t y = 0;
-    friend bool operator==(const Place&, const Place&) = default;
-  };
   struct Record {
-    std::int32_t level = -1;  // not filed
-    std::int32_t x = 0;
-    std::int32_t y = 0;
-    Slot previous = kNone;
+    std::uint32_t cell = 0;
     Slot next = kNone;
+    Slot previous = kNone;
+    std::int16_t level = -1;  // not filed
+    bool character = false;
   };
 
-  static Place placeOf(const FixedBox& box);
-  std::size_t bucketOf(Place place) const;
-  void link(Slot slot);
-  void unlink(Slot slot);
-  void grow();
-  void scan(std::uint32_t levels, std::vector<Slot>& out) const;
+  struct Level {
+    int x_shift = kFixedBits;
+    int y_shift = kFixedBits;
+    std::int64_t base_x = 0;  // block from which the torus is unrolled
+    std::int64_t base_y = 0;
+    int x_bits = 0;  // blocks of one turn, as powers of two
+    int y_bits = 0;
+    std::int64_t x_mask = 0;
+    std::uint32_t word_mask = 0;
+    int count = 0;
+    std::vector<std::uint64_t> words;  // bit per cell
+    std::unique_ptr<Slot[]> heads;     // first slot of each occupied cell; of others nothing sensible
 
-  std::vector<Slot> m_buckets;  // first slot of each chain; a power of two of them
+    std::uint32_t wordOf(std::int64_t x, std::int64_t y) const;
+    std::uint32_t cellOf(FixedVector anchor) const;
+    void shape(std::size_t word_count, std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1);
+  };
+
+  int levelOf(const FixedBox& box) const;
+  void count(const Record& record, int by);
+  void drop(Slot slot);
+  void weigh();
+  void fileAt(Slot slot, int number);
+  void refile(Slot slot, Level& level);
+  void link(Slot slot, Level& level, std::uint32_t cell);
+  void unlink(Slot slot, Level& level);
+  void rebuild(int level, std::size_t word_count);
+  /// The point by which a box is filed: its corner; of a character its position.
+  FixedVector anchor(Slot slot, int level) const {
+    return level == 0 ? m_positions[slot] : m_positions[slot] + m_boxes[slot].corner;
+  }
+  FixedBox worldBox(Slot slot) const { return translate(m_boxes[slot], m_positions[slot]); }
+
+  const std::vector<FixedVector>& m_positions;
+  const std::vector<FixedBox>& m_boxes;
+  std::array<Level, kLevels> m_levels;
   std::vector<Record> m_records;
-  std::array<int, kLevels> m_level_counts{};
-  std::uint32_t m_levels = 0;  // bit per level that has boxes
-  int m_count = 0;
+  std::uint32_t m_occupied = 0;
+  int m_characters = 0;
+  int m_small_boxes = 0;           // of level 1, without characters
+  bool m_characters_apart = true;  // in level 0; else they are in level 1
+  std::vector<Slot> m_found;       // of Steps, when they are many
 };
+
+/// Steps of boxes, one after another, while nothing else touches the grid and the store's arrays
+/// stay where they are: the pointers are held at hand.
+class Grid::Steps {
+ public:
+  explicit Steps(Grid& grid);
+  /// Does `s`, which is filed, touch nobody at `where`? If it does, found() has them.
+  bool isFree(Slot s, FixedVector where) {
+    return m_p_records[s].level == 0 ? isCharacterFree(s, where) : isBoxFree(s, m_p_records[s], where);
+  }
+  /// Whom it touches; in no particular order, and one may come twice.
+  std::span<const Slot> found() const {
+    return {m_count <= kFew ? m_few.data() : m_grid.m_found.data(), m_count};
+  }
+  /// File `s`, for which isFree() was asked last, where it wanted to go. Its position must be set.
+  void take(Slot s);
+
+ private:
+  static constexpr std::size_t kFew = 32;
+  bool isCharacterFree(Slot s, FixedVector where);
+  bool isBoxFree(Slot s, const Record& own, FixedVector where);
+  bool lookAround(Slot s, FixedVector where);
+  void lookAtOthers(Slot s, FixedVector where);
+  void visit(int level, Slot s, const FixedBox& box);
+  void test(Slot t, Slot self, FixedVector low, FixedVector high);
+  bool touches(Slot t, FixedVector corner) const;
+  void putBack(const Record& own);
+  void found(Slot t);
+
+  Grid& m_grid;
+  Level& m_level;
+  const FixedVector* m_p_positions;
+  const FixedBox* m_p_boxes;
+  std::uint64_t* m_p_words;
+  Record* m_p_records;
+  Slot* m_p_heads;
+  std::uint32_t m_word_mask;
+  std::uint32_t m_cell_mask;
+  std::uint32_t m_others;
+  // Of the last isFree().
+  std::uint32_t m_cell = 0;
+  bool m_lifted = false;  // its own cell, which nobody shares, is marked empty while it goes
+  bool m_plain = false;   // ... and the cell it goes to is empty, too
+  std::size_t m_count = 0;
+  std::array<Slot, kFew> m_few;
+};
+
+// The word that holds cell (x,y), and the 63 others of its row in its block.
+inline std::uint32_t Grid::Level::wordOf(std::int64_t x, std::int64_t y) const {
+  const std::int64_t bx = (x >> 6) - base_x;
+  const std::int64_t by = (y >> 6) - base_y;
+  const auto flat = static_cast<std::uint32_t>(((by << x_bits | (bx & x_mask)) << 6) | (y & 63));
+  const std::int64_t turn_x = bx >> x_bits;
+  const std::int64_t turn_y = by >> y_bits;
+  if ((turn_x | turn_y) == 0) return flat & word_mask;
+  const std::uint64_t hash = static_cast<std::uint64_t>(turn_x) * 0x9E3779B97F4A7C15ull +
+                             static_cast<std::uint64_t>(turn_y) * 0xD1B54A32D192ED03ull;
+  return (flat + static_cast<std::uint32_t>(hash >> 32)) & word_mask;
+}
+
+inline std::uint32_t Grid::Level::cellOf(FixedVector anchor) const {
+  const std::int64_t x = anchor.x >> x_shift;
+  return wordOf(x, anchor.y >> y_shift) << 6 | static_cast<std::uint32_t>(x & 63);
+}
+
+inline void Grid::link(Slot slot, Level& level, std::uint32_t cell) {
+  std::uint64_t& word = level.words[cell >> 6];
+  const std::uint64_t bit = std::uint64_t{1} << (cell & 63);
+  Slot& head = level.heads[cell];
+  Record& record = m_records[slot];
+  record.cell = cell;
+  record.previous = kNone;
+  if ((word & bit) == 0) {
+    word |= bit;
+    record.next = kNone;
+    head = slot;
+    return;
+  }
+  record.next = head & ~kMore;
+  m_records[record.next].previous = slot;
+  head = slot | kMore;
+}
+
+inline void Grid::unlink(Slot slot, Level& level) {
+  const Record& record = m_records[slot];
+  if (record.next == kNone && record.previous == kNone) {
+    level.words[record.cell >> 6] &= ~(std::uint64_t{1} << (record.cell & 63));
+    return;
+  }
+  if (record.next != kNone) m_records[record.next].previous = record.previous;
+  if (record.previous != kNone) {
+    Record& previous = m_records[record.previous];
+    previous.next = record.next;
+    if (previous.next == kNone && previous.previous == kNone) level.heads[record.cell] &= ~kMore;
+  } else {
+    const bool more = m_records[record.next].next != kNone;
+    level.heads[record.cell] = record.next | (more ? kMore : 0);
+  }
+}
+
+inline void Grid::refile(Slot slot, Level& level) {
+  const std::uint32_t cell = level.cellOf(anchor(slot, m_records[slot].level));
+  if (cell == m_records[slot].cell) return;
+  unlink(slot, level);
+  link(slot, level, cell);
+}
+
+template <class Visit>
+void Grid::visitCorners(int number, FixedVector from, FixedVector to, Visit visit) const {
+  const Level& level = m_levels[static_cast<std::size_t>(number)];
+  const auto visitWord = [&](std::uint32_t index, std::uint64_t bits) {
+    for (; bits != 0; bits &= bits - 1) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
+      const Slot head = level.heads[index << 6 | bit];
+      visit(head & ~kMore);
+      if ((head & kMore) == 0) continue;
+      for (Slot s = m_records[head & ~kMore].next; s != kNone; s = m_records[s].next) visit(s);
+    }
+  };
+  if (number == 0) {
+    from = from - kCharacterBox.corner;
+    to = to - kCharacterBox.corner;
+  }
+  const std::int64_t x0 = from.x >> level.x_shift;
+  const std::int64_t y0 = from.y >> level.y_shift;
+  const std::int64_t x1 = to.x >> level.x_shift;
+  const std::int64_t y1 = to.y >> level.y_shift;
+  const std::int64_t strips = (x1 >> 6) - (x0 >> 6) + 1;
+  if (strips * (y1 - y0 + 1) > static_cast<std::int64_t>(level.words.size())) {
+    for (std::uint32_t index = 0; index < level.words.size(); ++index) visitWord(index, level.words[index]);
+    return;
+  }
+  for (std::int64_t strip = x0 >> 6; strip <= x1 >> 6; ++strip) {
+    std::uint64_t mask = ~std::uint64_t{0};
+    if (strip == x0 >> 6) mask &= ~std::uint64_t{0} << (x0 & 63);
+    if (strip == x1 >> 6) mask &= ~std::uint64_t{0} >> (63 - (x1 & 63));
+    std::uint32_t index = level.wordOf(strip * kBlock, y0);
+    for (std::int64_t y = y0;;) {
+      const std::uint64_t bits = level.words[index] & mask;
+      if (bits != 0) visitWord(index, bits);
+      if (++y > y1) break;
+      index = (y & 63) == 0 ? level.wordOf(strip * kBlock, y) : (index + 1) & level.word_mask;
+    }
+  }
+}
+
+inline Grid::Steps::Steps(Grid& grid)
+    : m_grid(grid),
+      m_level(grid.m_levels[0]),
+      m_p_positions(grid.m_positions.data()),
+      m_p_boxes(grid.m_boxes.data()),
+      m_p_words(m_level.words.data()),
+      m_p_records(grid.m_records.data()),
+      m_p_heads(m_level.heads.get()),
+      m_word_mask(m_level.word_mask),
+      m_cell_mask(m_level.word_mask << 6 | 63),
+      m_others(grid.m_occupied & ~1u) {}
+
+// A character touches another if the positions are at most one apart on both axes: nine cells. In the inner
+// part of the block it comes from, their numbers follow from its own.
+inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
+  const FixedVector from = m_p_positions[s];
+  const std::int64_t x = where.x >> kFixedBits;
+  const std::int64_t y = where.y >> kFixedBits;
+  const std::int64_t own_x = from.x >> kFixedBits;
+  const std::int64_t own_y = from.y >> kFixedBits;
+  const Record& own = m_p_records[s];
+  m_count = 0;
+  const bool same_block = (((x ^ own_x) | (y ^ own_y)) & ~std::int64_t{63}) == 0;
+  const bool inner = (((x - 1) & 63) <= 61) & (((y - 1) & 63) <= 61);
+  if (!(same_block & inner)) {
+    m_lifted = m_plain = false;
+    return lookAround(s, where);
+  }
+  const auto step = static_cast<std::uint32_t>((x - own_x) + (y - own_y) * 64);
+  m_cell = (own.cell + step) & m_cell_mask;
+  const bool alone = (own.next & own.previous) == kNone;
+  m_lifted = alone;
+  if (alone) m_p_words[own.cell >> 6] &= ~(std::uint64_t{1} << (own.cell & 63));
+  const auto middle = m_cell >> 6;
+  const unsigned column = (m_cell & 63) - 1;
+  const unsigned above = static_cast<unsigned>(m_p_words[(middle - 1) & m_word_mask] >> column) & 7;
+  const unsigned level = static_cast<unsigned>(m_p_words[middle] >> column) & 7;
+  const unsigned below = static_cast<unsigned>(m_p_words[(middle + 1) & m_word_mask] >> column) & 7;
+  unsigned seen = above | level << 3 | below << 6;
+  m_plain = alone & ((seen & 16) == 0);
+  if (seen != 0) {
+    // What touches lies within 2 of the corner that is one up and one to the left.
+    const FixedVector corner = where - FixedVector{kFixedOne, kFixedOne};
+    std::size_t count = 0;
+    for (; seen != 0; seen &= seen - 1) {
+      static constexpr std::array<std::int32_t, 9> kNeighbours{-65, -64, -63, -1, 0, 1, 63, 64, 65};
+      const auto neighbour =
+          static_cast<std::uint32_t>(kNeighbours[static_cast<std::size_t>(std::countr_zero(seen))]);
+      const Slot head = m_p_heads[(m_cell + neighbour) & m_cell_mask];
+      // Counted, not asked: nobody can foresee the answer.
+      const Slot first = head & ~kMore;
+      m_few[count] = first;
+      count += touches(first, corner) & (first != s) ? 1 : 0;
+      if ((head & kMore) == 0) continue;
+      for (Slot t = m_p_records[first].next; t != kNone; t = m_p_records[t].next) {
+        if (count >= kFew - 9) {
+          putBack(own);
+          return lookAround(s, where);
+        }
+        m_few[count] = t;
+        count += touches(t, corner) & (t != s) ? 1 : 0;
+      }
+    }
+    m_count = count;
+  }
+  if (m_others != 0) lookAtOthers(s, where);
+  if (m_count == 0) return true;
+  putBack(own);
+  return false;
+}
+
+inline void Grid::Steps::putBack(const Record& own) {
+  if (m_lifted) m_p_words[own.cell >> 6] |= std::uint64_t{1} << (own.cell & 63);
+  m_lifted = m_plain = false;
+}
+
+inline bool Grid::Steps::touches(Slot t, FixedVector corner) const {
+  const FixedVector d = m_p_positions[t] - corner;
+  constexpr auto kTwo = static_cast<std::uint64_t>(2 * kFixedOne);
+  return (static_cast<std::uint64_t>(d.x) <= kTwo) & (static_cast<std::uint64_t>(d.y) <= kTwo);
+}
+
+inline void Grid::Steps::found(Slot t) {
+  if (m_count < kFew) {
+    m_few[m_count] = t;
+  } else {
+    if (m_count == kFew) m_grid.m_found.assign(m_few.begin(), m_few.end());
+    m_grid.m_found.push_back(t);
+  }
+  ++m_count;
+}
+
+inline void Grid::Steps::take(Slot s) {
+  if (m_plain) {  // from a cell of its own, which isFree() has emptied, to a free one
+    m_p_records[s].cell = m_cell;
+    m_p_words[m_cell >> 6] |= std::uint64_t{1} << (m_cell & 63);
+    m_p_heads[m_cell] = s;
+    return;
+  }
+  putBack(m_p_records[s]);
+  m_grid.refile(s);
+}
 
 }  // namespace df

@@ -1,8 +1,11 @@
 #include "Mover.h"
 
+#include <bit>
+
 #include "EventCollision.h"
 #include "EventOut.h"
 #include "Object.h"
+#include "Pair.h"
 #include "Views.h"
 #include "World.h"
 #include "WorldStore.h"
@@ -12,12 +15,73 @@ namespace df {
 void Mover::moveAll() {
   WorldStore& store = m_world.store();
   const WorldStore::Walk walk(store);
-  for (std::size_t i = 0; i < walk.size(); ++i) {
-    const WorldStore::Slot s = walk[i];
-    if (s == WorldStore::kNoSlot) continue;
-    if (store.velocity(s) == FixedVector{} && store.acceleration(s) == FixedVector{}) continue;
-    if (store.has(s, WorldStore::kActive)) takeTurn(store.key(s));
+  for (std::size_t word = 0; word * 64 < walk.size(); ++word) {
+    // Those who come during the update wait for the next one.
+    const std::size_t left = walk.size() - word * 64;
+    std::uint64_t waiting = left < 64 ? (std::uint64_t{1} << left) - 1 : ~std::uint64_t{0};
+    for (std::uint64_t turns = 0; (turns = store.turns(word) & waiting) != 0;) {
+      const int bit = std::countr_zero(turns);
+      int next = bit + 1;
+      if ((store.walkers(word) >> bit & 1) != 0 && m_depth < kMaxDepth) {
+        next = walkOn(word, turns);
+      } else if ((store.fliers(word) >> bit & 1) != 0) {
+        next = bit + flyOn(walk[word * 64 + static_cast<std::size_t>(bit)], store.fliers(word) & waiting,
+                           store.sequels(word), bit);
+      } else {
+        takeTurn(store.key(walk[word * 64 + static_cast<std::size_t>(bit)]));
+      }
+      waiting &= next < 64 ? ~std::uint64_t{0} << next : 0;
+    }
   }
+}
+
+// All walkers until somebody else's turn comes, or one of them meets somebody, who takes his turn, too.
+// Return the bit after that of the last one.
+int Mover::walkOn(std::size_t word, std::uint64_t turns) {
+  WorldStore& store = m_world.store();
+  const std::uint64_t others = turns & ~store.walkers(word);
+  const std::uint64_t run = turns & ((others & -others) - 1);
+  const int last = 63 - std::countl_zero(run);
+  std::vector<ObjectKey>& met = m_lists[m_depth];
+  met.clear();
+  const std::uint64_t left = store.walk(word, run, m_world.views().boundary(), met);
+  if (left == 0) return last + 1;
+  const int bit = std::countr_zero(left);
+  const ObjectKey key = store.key(store.entry(word * 64 + static_cast<std::size_t>(bit)));
+  if (!met.empty()) {
+    keepMet(store, key.slot, store.worldBox(key.slot, store.position(key.slot) + store.velocity(key.slot)),
+            met);
+  }
+  if (met.empty()) {
+    takeTurn(key);
+  } else {
+    meet(key, met);
+  }
+  return bit + 1;
+}
+
+// A walker's turn, when it is known whom it touches at its target.
+void Mover::meet(ObjectKey key, std::vector<ObjectKey>& others) {
+  WorldStore& store = m_world.store();
+  const FixedVector velocity = store.velocity(key.slot);
+  const FixedVector where = store.position(key.slot) + velocity;
+  ++m_depth;
+  const bool free = collide(key, where, others);
+  if (free) place(key, where);
+  --m_depth;
+  if (store.isCurrent(key)) endTurn(key, velocity, !free);
+}
+
+// As many fliers as lie side by side. Return how many turns were taken.
+int Mover::flyOn(WorldStore::Slot first, std::uint64_t fliers, std::uint64_t sequels, int bit) {
+  const std::uint64_t run = (fliers >> bit) & (sequels >> bit | 1);
+  const int count = std::countr_one(run);
+  WorldStore& store = m_world.store();
+  const auto done =
+      static_cast<int>(store.fly(first, static_cast<std::size_t>(count), m_world.views().boundary()));
+  if (done == count) return count;
+  takeTurn(store.key(first + static_cast<WorldStore::Slot>(done)));
+  return done + 1;
 }
 
 void Mover::takeTurn(ObjectKey key) {
@@ -25,7 +89,7 @@ void Mover::takeTurn(ObjectKey key) {
   const WorldStore::Slot s = key.slot;
   const FixedVector velocity = store.velocity(s);
   bool blocked = false;
-  if (velocity != FixedVector{}) {
+  if (velocity != FixedVector{} || store.has(s, WorldStore::kRestContacts)) {
     const FixedVector where = store.position(s) + velocity;
     if (WorldStore::isPosition(where)) {
       blocked = move(key, where) != 0;
@@ -34,10 +98,16 @@ void Mover::takeTurn(ObjectKey key) {
       blocked = true;
     }
     if (!store.isCurrent(key)) return;
-    // Whether a velocity that a handler has just set will be blocked, nobody knows yet.
-    if (store.velocity(s) != velocity) blocked = false;
   }
+  endTurn(key, velocity, blocked);
+}
+
+void Mover::endTurn(ObjectKey key, FixedVector velocity, bool blocked) {
+  WorldStore& store = m_world.store();
+  const WorldStore::Slot s = key.slot;
   FixedVector next = store.velocity(s);
+  // Whether a velocity that a handler has just set will be blocked, nobody knows yet.
+  if (next != velocity) blocked = false;
   const FixedVector acceleration = store.acceleration(s);
   if (acceleration != FixedVector{} && WorldStore::isVelocity(next + acceleration)) {
     next = next + acceleration;
@@ -48,38 +118,54 @@ void Mover::takeTurn(ObjectKey key) {
 
 int Mover::move(ObjectKey mover, FixedVector where) {
   if (m_depth >= kMaxDepth) return -1;
-  std::vector<ObjectKey>& others = m_lists[m_depth];
-  ++m_depth;
+  const int depth = m_depth++;
   bool free = true;
   const WorldStore& store = m_world.store();
   if (store.collides(mover.slot)) {
-    others.clear();
-    store.touching(store.worldBox(mover.slot, where), mover.slot, others);
-    if (!others.empty()) free = collide(mover, where, others);
+    const bool swept = store.isAllSwept() || store.has(mover.slot, WorldStore::kSwept);
+    free = swept ? m_swept[depth].run(*this, m_world, mover, where) : meetAt(mover, where, m_lists[depth]);
   }
   if (free) place(mover, where);
   --m_depth;
   return free ? 0 : -1;
 }
 
-// Return whether the mover may move.
-bool Mover::collide(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others) {
+// Return whether the mover may move. Where it is going is all that is looked at.
+bool Mover::meetAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others) {
   const WorldStore& store = m_world.store();
+  const FixedBox box = store.worldBox(mover.slot, where);
+  others.clear();
+  store.touching(box, mover.slot, others);
+  keepMet(store, mover.slot, box, others);
+  return others.empty() || collide(mover, where, others);
+}
+
+bool Mover::collide(ObjectKey mover, FixedVector where, const std::vector<ObjectKey>& others) {
+  const WorldStore& store = m_world.store();
+  const FixedVector from = store.position(mover.slot);
   bool free = true;
+  EventCollision event(store.object(mover.slot), nullptr, Vector::fromFixed(where));
   for (const ObjectKey other : others) {
     if (!store.isCurrent(other)) continue;
-    const EventCollision event(store.find(mover), store.find(other), Vector::fromFixed(where));
-    m_world.deliver(mover, event);
-    if (!store.isCurrent(mover)) return false;
-    m_world.deliver(other, event);
-    if (!store.isCurrent(mover)) return false;
+    event.setObject2(store.object(other.slot));
+    if (!tell(mover, other, event)) return false;
     if (!store.isCurrent(other)) continue;
-    const Solidness own = store.solidness(mover.slot);
-    const Solidness its = store.solidness(other.slot);
-    if (own == HARD && its == HARD) free = false;
-    if (its == SOFT && store.has(mover.slot, WorldStore::kNoSoft)) free = false;
+    if (Pair(store, mover.slot, other.slot).blocks(from, where)) free = false;
   }
   return free;
+}
+
+bool Mover::tell(ObjectKey mover, ObjectKey other, const EventCollision& event) {
+  const WorldStore& store = m_world.store();
+  if (store.listens(mover.slot)) {
+    m_world.deliver(mover, event);
+    if (!store.isCurrent(mover)) return false;
+  }
+  if (store.listens(other.slot)) {
+    m_world.deliver(other, event);
+    if (!store.isCurrent(mover)) return false;
+  }
+  return true;
 }
 
 void Mover::place(ObjectKey mover, FixedVector where) {

@@ -14,15 +14,22 @@
 //  - make either inactive: it hears nothing from then on, the move goes on;
 //  - make either SPECTRAL: it still hears of the listed pairs, which then do not block;
 //  - mark for deletion, move, create, resize: the list stays as it is, the move goes on.
+//
+// That is the book's move. Beyond it there are moves that are tested along the way (SweptMove.h) and pairs
+// whose characters are tested, or that do not block (Pair.h).
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "SweptMove.h"
 #include "WorldView.h"
 
 namespace df {
 
+class EventCollision;
 class World;
 
 class Mover {
@@ -38,14 +45,26 @@ class Mover {
   /// Move one Object. Return 0 if it moved, else -1.
   int move(ObjectKey mover, FixedVector where);
 
- private:
-  void takeTurn(ObjectKey key);
-  bool collide(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others);
+  // Parts of a move.
+
+  /// Send the event to the mover, then to the other. Return whether the mover is still in the world.
+  bool tell(ObjectKey mover, ObjectKey other, const EventCollision& event);
+  /// Put the mover there, with the views that follow it, and let it hear if it leaves the world.
   void place(ObjectKey mover, FixedVector where);
+
+ private:
+  int walkOn(std::size_t word, std::uint64_t turns);
+  int flyOn(std::uint32_t first, std::uint64_t fliers, std::uint64_t sequels, int bit);
+  void meet(ObjectKey key, std::vector<ObjectKey>& others);
+  void takeTurn(ObjectKey key);
+  void endTurn(ObjectKey key, FixedVector velocity, bool blocked);
+  bool meetAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others);
+  bool collide(ObjectKey mover, FixedVector where, const std::vector<ObjectKey>& others);
 
   World& m_world;
   int m_depth = 0;
   std::array<std::vector<ObjectKey>, kMaxDepth> m_lists;  // one per depth, kept for their memory
+  std::array<SweptMove, kMaxDepth> m_swept;               // likewise
 };
 
 }  // namespace df

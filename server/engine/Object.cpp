@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "Interests.h"
+#include "Mask.h"
 #include "World.h"
 #include "WorldStore.h"
 
@@ -45,6 +47,28 @@ struct PendingBlocks {
 
 thread_local PendingBlocks t_pending;
 
+// The function that eventHandler() of this Object is, to find out whether its class has one of its own. By
+// the Itanium C++ ABI, which GCC and Clang follow: an Object begins with the address of its vtable, and on
+// x86-64 a pointer to a virtual member function begins with 1 + the function's offset there. Null where that
+// does not hold.
+const void* handlerOf(const Object& object) {
+#if defined(__x86_64__) && defined(__GXX_ABI_VERSION)
+  int (Object::*const p_member)(const Event*) = &Object::eventHandler;
+  std::ptrdiff_t offset = 0;
+  std::memcpy(&offset, &p_member, sizeof offset);
+  const std::byte* p_table = nullptr;
+  std::memcpy(&p_table, static_cast<const void*>(&object), sizeof p_table);
+  const void* p_function = nullptr;
+  std::memcpy(&p_function, p_table + offset - 1, sizeof p_function);
+  return p_function;
+#else
+  (void)object;
+  return nullptr;
+#endif
+}
+
+const void* g_p_base_handler = nullptr;
+
 bool isFiniteFloat(double x) {
   return std::isfinite(static_cast<float>(x));
 }
@@ -83,6 +107,8 @@ Object::Object() : m_p_store(nullptr), m_slot(0) {
   World& world = World::current();
   m_p_store = &world.store();
   m_slot = m_p_store->take(this, t_pending.claim(this));
+  // Here it is still nothing but an Object.
+  if (g_p_base_handler == nullptr) g_p_base_handler = handlerOf(*this);
   world.insertObject(this);
 }
 
@@ -145,9 +171,11 @@ Box Object::getBox() const {
 }
 
 void Object::deriveKinematics() const {
-  if (!m_p_store->has(m_slot, WorldStore::kDerive)) return;
+  const bool accelerated = m_p_store->has(m_slot, WorldStore::kDerive);
+  if (!accelerated && !m_direction_is_velocity) return;
+  if (accelerated) m_direction = getVelocity();
   m_p_store->set(m_slot, WorldStore::kDerive, false);
-  m_direction = getVelocity();
+  m_direction_is_velocity = false;
   m_speed = std::sqrt(m_direction.x() * m_direction.x() + m_direction.y() * m_direction.y());
   m_direction.normalize();
 }
@@ -158,6 +186,7 @@ int Object::applyVelocity(double speed, Vector direction) {
   if (!velocity) return -1;
   m_speed = speed;
   m_direction = direction;
+  m_direction_is_velocity = false;
   m_p_store->setVelocity(m_slot, *velocity);
   return 0;
 }
@@ -187,9 +216,8 @@ Vector Object::getDirection() const {
 int Object::setVelocity(Vector new_velocity) {
   const auto velocity = toFixed(new_velocity, kMaxVelocityCells);
   if (!velocity) return refuse("setVelocity");
-  m_speed = std::sqrt(new_velocity.x() * new_velocity.x() + new_velocity.y() * new_velocity.y());
   m_direction = new_velocity;
-  m_direction.normalize();
+  m_direction_is_velocity = true;
   m_p_store->set(m_slot, WorldStore::kDerive, false);
   m_p_store->setVelocity(m_slot, *velocity);
   return 0;
@@ -236,6 +264,49 @@ bool Object::getNoSoft() const {
   return m_p_store->has(m_slot, WorldStore::kNoSoft);
 }
 
+void Object::setSwept(bool swept) {
+  m_p_store->set(m_slot, WorldStore::kSwept, swept);
+}
+
+bool Object::isSwept() const {
+  return m_p_store->has(m_slot, WorldStore::kSwept);
+}
+
+void Object::setPrecise(bool precise) {
+  m_p_store->set(m_slot, WorldStore::kPrecise, precise);
+}
+
+bool Object::isPrecise() const {
+  return m_p_store->has(m_slot, WorldStore::kPrecise);
+}
+
+int Object::setMask(const std::vector<std::string>& rows) {
+  if (rows.empty()) {
+    m_p_store->setMask(m_slot, std::nullopt);
+    return 0;
+  }
+  auto mask = Mask::fromRows(rows);
+  if (!mask) return refuse("setMask");
+  m_p_store->setMask(m_slot, std::move(mask));
+  return 0;
+}
+
+void Object::setRestContacts(bool rest_contacts) {
+  m_p_store->set(m_slot, WorldStore::kRestContacts, rest_contacts);
+}
+
+bool Object::hasRestContacts() const {
+  return m_p_store->has(m_slot, WorldStore::kRestContacts);
+}
+
+void Object::setMayMoveOut(bool may_move_out) {
+  m_p_store->set(m_slot, WorldStore::kMayMoveOut, may_move_out);
+}
+
+bool Object::getMayMoveOut() const {
+  return m_p_store->has(m_slot, WorldStore::kMayMoveOut);
+}
+
 void Object::setActive(bool active) {
   m_p_store->set(m_slot, WorldStore::kActive, active);
 }
@@ -260,6 +331,10 @@ int Object::registerInterest(const std::string& event_type) {
 int Object::unregisterInterest(const std::string& event_type) {
   World* p_world = getWorld();
   return p_world != nullptr ? p_world->interests().remove(*this, event_type) : -1;
+}
+
+bool Object::isDeaf() const {
+  return g_p_base_handler != nullptr && handlerOf(*this) == g_p_base_handler;
 }
 
 int Object::eventHandler(const Event* /*p_e*/) {

@@ -97,6 +97,26 @@ class Object {
   /// If set, this Object does not move onto SOFT ones either (both still get the collision event).
   void setNoSoft(bool new_no_soft = true);
   bool getNoSoft() const;
+  /// Test for collisions all along the way of each move, not only where it ends: for what is fast. Off by
+  /// default, as in the book. WM.setSweptCollisions() does it for all. docs/collisions.md has the rules.
+  void setSwept(bool swept = true);
+  bool isSwept() const;
+  /// Where the boxes touch, also compare the characters: two set ones must share a drawn cell. A pair is
+  /// tested so if either of the two is precise. Off by default.
+  void setPrecise(bool precise = true);
+  bool isPrecise() const;
+  /// Which characters of the Object are set, a string (UTF-8) per row from the box's upper left cell on;
+  /// blanks are holes. No rows: the whole box counts, as by default. What draw() does is never looked at.
+  /// Return 0, or -1 (and no change) for rows without any character or a side above 1024.
+  int setMask(const std::vector<std::string>& rows);
+  /// At rest, test for collisions at each turn as if it had moved to where it stands: to hear of what
+  /// touches it. Off by default.
+  void setRestContacts(bool rest_contacts = true);
+  bool hasRestContacts() const;
+  /// What the Object touches where a move begins does not block it if the gap is larger at the end: it
+  /// may leave a wall in which it was placed. Both still hear. Off by default.
+  void setMayMoveOut(bool may_move_out = true);
+  bool getMayMoveOut() const;
 
   /// An inactive Object gets no events, is not moved by update(), takes no part in collisions and is not
   /// drawn. It stays in the world.
@@ -155,14 +175,16 @@ class Object {
   int applyVelocity(double speed, Vector direction);
   void deriveKinematics() const;
   int refuse(const char* what) const;
+  bool isDeaf() const;  // does its class leave eventHandler() as it is here?
 
   WorldStore* m_p_store;  // never null: a store lives as long as its last Object
   std::uint32_t m_slot;
   std::string m_type = "Object";
-  // What setSpeed and setDirection said. After an acceleration these are out of date (a flag in the store)
-  // and derived from the velocity when somebody asks.
+  // What setSpeed and setDirection said. After an acceleration (a flag in the store) or setVelocity, which
+  // leaves the vector it got in the direction, they are derived when somebody asks.
   mutable double m_speed = 0;
   mutable Vector m_direction;
+  mutable bool m_direction_is_velocity = false;
   std::vector<std::uint32_t> m_interests;  // numbers of event types, see Interests.h
 };
 

@@ -1,6 +1,7 @@
 #include "World.h"
 
 #include <exception>
+#include <typeinfo>
 #include <utility>
 
 #include "Capture.h"
@@ -91,6 +92,9 @@ void World::update() {
   const Scope scope(*this);
   {
     const During during(m_in_update);
+    for (const ObjectKey key : m_p_store->takeNewcomers()) {
+      if (m_p_store->isCurrent(key)) learnType(key.slot);
+    }
     m_mover->moveAll();
     deleteMarked();
     m_p_store->closeGaps();
@@ -137,13 +141,14 @@ int World::onEvent(const Event* p_event) {
 }
 
 bool World::deliver(ObjectKey key, const Event& event) {
-  Object* p_o = m_p_store->find(key);
-  if (p_o == nullptr) return false;
-  if (!m_p_store->has(key.slot, WorldStore::kActive) || !m_p_store->has(key.slot, WorldStore::kInWorld))
-    return false;
+  constexpr std::uint32_t kHears = WorldStore::kActive | WorldStore::kInWorld;
+  const WorldStore& store = *m_p_store;
+  if (!store.isCurrent(key)) return false;
+  const std::uint32_t flags = store.flags(key.slot) & (kHears | WorldStore::kDeaf);
+  if (flags != kHears) return (flags & kHears) == kHears;
   ++m_handlers;
   try {
-    p_o->eventHandler(&event);
+    store.object(key.slot)->eventHandler(&event);
   } catch (const std::exception& e) {
     quarantine(key, e.what());
   } catch (...) {
@@ -152,6 +157,14 @@ bool World::deliver(ObjectKey key, const Event& event) {
   --m_handlers;
   if (m_shutdown_pending) finishShutDown();
   return true;
+}
+
+// The constructors of Object could not know what is derived from it.
+void World::learnType(std::uint32_t slot) {
+  const Object& object = *m_p_store->object(slot);
+  m_p_store->set(slot, WorldStore::kTyped, true);
+  m_p_store->set(slot, WorldStore::kNeverDraws, typeid(object) == typeid(Object));
+  m_p_store->set(slot, WorldStore::kDeaf, object.isDeaf());
 }
 
 void World::quarantine(ObjectKey key, const std::string& why) {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "Box.h"
 #include "Canvas.h"
 #include "Color.h"
+#include "Contact.h"
 #include "Event.h"
 #include "Keyboard.h"
 #include "ObjectList.h"
@@ -109,6 +111,10 @@ class World {
   Object* objectWithId(int id) const;
   ObjectList getCollisions(const Object* p_o, Vector where) const;
   int moveObject(Object* p_o, Vector where);
+  void setSweptCollisions(bool swept = true);
+  bool getSweptCollisions() const;
+  Contact firstContact(const Object* p_o, Vector where) const;
+  std::optional<Vector> findFree(Box box, Vector near);
   /// The Object of a handle; null if it is gone.
   Object* find(ObjectKey key) const;
   /// Objects in the world, inactive ones included.
@@ -201,6 +207,8 @@ class World {
   const WorldStore& store() const { return *m_p_store; }
   Interests& interests() { return *m_interests; }
   Views& views() { return *m_views; }
+  /// Note what the Object's class overrides.
+  void learnType(std::uint32_t slot);
   /// Have a static look drawn anew.
   void forgetLook(std::uint32_t slot);
   /// Make an Object that failed inactive, mark it for deletion, and say why in the log.

@@ -59,6 +59,22 @@ bool WorldManager::isCollision(const Object* p_o, Vector where) const {
   return !getCollisions(p_o, where).isEmpty();
 }
 
+Contact WorldManager::firstContact(const Object* p_o, Vector where) const {
+  return World::current().firstContact(p_o, where);
+}
+
+std::optional<Vector> WorldManager::findFree(Box box, Vector near) const {
+  return World::current().findFree(box, near);
+}
+
+void WorldManager::setSweptCollisions(bool swept) {
+  World::current().setSweptCollisions(swept);
+}
+
+bool WorldManager::getSweptCollisions() const {
+  return World::current().getSweptCollisions();
+}
+
 int WorldManager::moveObject(Object* p_o, Vector where) {
   return World::current().moveObject(p_o, where);
 }

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "Box.h"
+#include "Contact.h"
 #include "Manager.h"
 #include "Object.h"
 #include "ObjectList.h"
@@ -64,6 +66,19 @@ class WorldManager : public Manager {
   /// -1 if blocked, deleted by a handler, not in the world, out of range, or nested more than 32 deep in
   /// handlers. An inactive Object is placed without collisions or events. Mover.h has the details.
   int moveObject(Object* p_o, Vector where);
+  /// Whom p_o, if it is solid, would meet first on the straight way to `where`, by the rules of swept moves
+  /// and whether or not p_o is swept (docs/collisions.md): nothing moves, nobody hears. Nobody for null, for
+  /// an Object that is SPECTRAL, inactive or in no world, and for a position out of range.
+  Contact firstContact(const Object* p_o, Vector where) const;
+  /// The position nearest to `near`, a whole number of cells from it on each axis, at which `box` (relative
+  /// to the position, as in Object::setBox) touches no solid Object and lies inside the boundary; of equally
+  /// near ones the one with the least y, then x. Nothing if there is none within 1000 cells, or if an
+  /// argument is out of range.
+  std::optional<Vector> findFree(Box box, Vector near) const;
+  /// All moves of all Objects are swept from now on (Object::setSwept), or only those of the Objects that
+  /// ask for it: the default.
+  void setSweptCollisions(bool swept = true);
+  bool getSweptCollisions() const;
   /// Move every active Object by its velocity, once, then delete what is marked. Nothing else of a tick
   /// happens; see GM.tick().
   void update();

@@ -7,6 +7,7 @@
 #include "Interests.h"
 #include "Mover.h"
 #include "Object.h"
+#include "Pair.h"
 #include "Views.h"
 #include "World.h"
 #include "WorldStore.h"
@@ -156,9 +157,19 @@ ObjectList World::getCollisions(const Object* p_o, Vector where) const {
   const auto target = toFixed(where);
   if (p_o == nullptr || p_o->m_p_store != m_p_store || !target) return list;
   std::vector<ObjectKey> keys;
-  m_p_store->touching(m_p_store->worldBox(p_o->m_slot, *target), p_o->m_slot, keys);
+  const FixedBox box = m_p_store->worldBox(p_o->m_slot, *target);
+  m_p_store->touching(box, p_o->m_slot, keys);
+  keepMet(*m_p_store, p_o->m_slot, box, keys);
   for (const ObjectKey key : keys) list.append(m_p_store, key);
   return list;
+}
+
+void World::setSweptCollisions(bool swept) {
+  m_p_store->setAllSwept(swept);
+}
+
+bool World::getSweptCollisions() const {
+  return m_p_store->isAllSwept();
 }
 
 int World::moveObject(Object* p_o, Vector where) {

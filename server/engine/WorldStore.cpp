@@ -1,32 +1,37 @@
 #include "WorldStore.h"
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 namespace df {
 
 namespace {
 
-constexpr FixedBox kCharacterBox{{-kFixedOne / 2, -kFixedOne / 2}, {kFixedOne, kFixedOne}};
-constexpr std::uint16_t kWhileInWorld = WorldStore::kInWorld | WorldStore::kMarked | WorldStore::kBlocked |
-                                        WorldStore::kReported | WorldStore::kFollowed;
+constexpr std::uint32_t kWhileInWorld =
+    WorldStore::kInWorld | WorldStore::kMarked | WorldStore::kReported | WorldStore::kFollowed;
+constexpr std::size_t kManyFound = 12;  // too many to sort them one by one
+// A turn with one of these has more to it than position += velocity.
+constexpr std::uint32_t kSpecial = WorldStore::kFollowed | WorldStore::kSwept | WorldStore::kPrecise |
+                                   WorldStore::kRestContacts | WorldStore::kMayMoveOut;
+
+void setBit(std::vector<std::uint64_t>& bits, std::size_t i, bool on) {
+  const std::uint64_t bit = std::uint64_t{1} << (i % 64);
+  std::uint64_t& word = bits[i / 64];
+  word = on ? word | bit : word & ~bit;
+}
 
 }  // namespace
 
 WorldStore::Slot WorldStore::take(Object* p_o, bool heap) {
   Slot s = 0;
   if (m_free.empty() || m_updates - m_free.front().since < kRest) {
-    s = static_cast<Slot>(m_objects.size());
+    s = static_cast<Slot>(m_cards.size());
     m_positions.emplace_back();
     m_velocities.emplace_back();
     m_accelerations.emplace_back();
-    m_flags.push_back(0);
-    m_solidness.push_back(HARD);
     m_boxes.push_back(kCharacterBox);
-    m_altitudes.push_back(0);
-    m_generations.push_back(1);
-    m_orders.push_back(0);
-    m_order_indices.push_back(0);
-    m_objects.push_back(nullptr);
+    m_cards.emplace_back();
   } else {
     s = m_free.front().slot;
     m_free.pop_front();
@@ -35,29 +40,39 @@ WorldStore::Slot WorldStore::take(Object* p_o, bool heap) {
   m_velocities[s] = {};
   m_accelerations[s] = {};
   // A slot that changed hands within a tick is in the list of changes already.
-  m_flags[s] = static_cast<std::uint16_t>((m_flags[s] & kDirty) | kActive | kVisible | (heap ? kHeap : 0));
-  m_solidness[s] = HARD;
+  m_cards[s].flags =
+      static_cast<std::uint32_t>((m_cards[s].flags & kDirty) | kActive | kVisible | (heap ? kHeap : 0u));
+  m_cards[s].solidness = HARD;
   m_boxes[s] = kCharacterBox;
-  m_altitudes[s] = 2;
-  m_objects[s] = p_o;
+  m_cards[s].altitude = 2;
+  m_cards[s].p_object = p_o;
   retain();
   return s;
 }
 
 void WorldStore::give(Slot s) {
-  if (++m_generations[s] == 0) m_generations[s] = 1;
-  m_objects[s] = nullptr;
-  m_flags[s] &= kDirty;
+  if (++m_cards[s].generation == 0) m_cards[s].generation = 1;
+  m_cards[s].p_object = nullptr;
+  if (has(s, kPrecise)) --m_precise;
+  m_cards[s].flags &= kDirty;
+  if (!m_masks.empty()) m_masks.erase(s);
   m_free.push_back({s, m_updates});
   release();
 }
 
 void WorldStore::enter(Slot s) {
-  m_flags[s] |= kInWorld;
-  m_orders[s] = m_next_order++;
-  m_order_indices[s] = static_cast<std::uint32_t>(m_order_list.size());
+  m_cards[s].flags |= kInWorld;
+  m_cards[s].order = m_next_order++;
+  const std::size_t index = m_order_list.size();
+  m_cards[s].index = static_cast<std::uint32_t>(index);
   m_order_list.push_back(s);
+  if (index % 64 == 0) {
+    for (auto* p_bits : {&m_turns, &m_fliers, &m_walkers, &m_sequels, &m_blocked})
+      p_bits->resize(index / 64 + 1);
+  }
+  setBit(m_sequels, index, index > 0 && m_order_list[index - 1] + 1 == s);
   ++m_in_world;
+  m_newcomers.push_back(key(s));
   file(s);
   touch(s);
 }
@@ -65,10 +80,11 @@ void WorldStore::enter(Slot s) {
 void WorldStore::leave(Slot s) {
   if (!has(s, kInWorld)) return;
   if (m_watched && has(s, kReported)) m_vanished.push_back(key(s));
-  m_flags[s] &= static_cast<std::uint16_t>(~kWhileInWorld);
+  m_cards[s].flags &= static_cast<std::uint32_t>(~kWhileInWorld);
   m_grid.remove(s);
-  if (++m_generations[s] == 0) m_generations[s] = 1;
-  m_order_list[m_order_indices[s]] = kNoSlot;
+  if (++m_cards[s].generation == 0) m_cards[s].generation = 1;
+  m_order_list[m_cards[s].index] = kNoSlot;
+  for (auto* p_bits : {&m_turns, &m_fliers, &m_walkers, &m_blocked}) setBit(*p_bits, m_cards[s].index, false);
   ++m_gaps;
   --m_in_world;
   closeGaps();
@@ -76,38 +92,78 @@ void WorldStore::leave(Slot s) {
 
 void WorldStore::closeGaps() {
   if (m_walks > 0 || m_gaps < 32 || m_gaps * 2 < m_order_list.size()) return;
+  const std::size_t size = m_order_list.size();
   std::erase(m_order_list, kNoSlot);
   for (std::size_t i = 0; i < m_order_list.size(); ++i) {
-    m_order_indices[m_order_list[i]] = static_cast<std::uint32_t>(i);
+    // Entries move towards the front only, so that what is read here has not been written yet.
+    const Slot s = m_order_list[i];
+    const bool blocked = isBlocked(s);
+    m_cards[s].index = static_cast<std::uint32_t>(i);
+    setBit(m_blocked, i, blocked);
+    setBit(m_sequels, i, i > 0 && m_order_list[i - 1] + 1 == s);
+    classify(s);
+  }
+  for (std::size_t i = m_order_list.size(); i < size; ++i) {
+    for (auto* p_bits : {&m_turns, &m_fliers, &m_walkers, &m_sequels, &m_blocked}) setBit(*p_bits, i, false);
   }
   m_gaps = 0;
 }
 
+// What kind of turn the Object takes, from all that decides it.
+void WorldStore::classify(Slot s) {
+  const std::uint32_t flags = m_cards[s].flags;
+  if ((flags & kInWorld) == 0) return;
+  const bool moves = m_velocities[s] != FixedVector{};
+  const bool accelerates = m_accelerations[s] != FixedVector{};
+  const bool turns = (flags & kActive) != 0 && (moves || accelerates || (flags & kRestContacts) != 0);
+  const bool plain = turns && moves && !accelerates && (flags & kSpecial) == 0;
+  const bool spectral = m_cards[s].solidness == SPECTRAL;
+  const std::size_t i = m_cards[s].index;
+  setBit(m_turns, i, turns);
+  // Its next turn has to take the mark of a blocked move back.
+  setBit(m_fliers, i, plain && spectral && !isBlocked(s));
+  setBit(m_walkers, i, plain && !spectral && !m_all_swept);
+}
+
+void WorldStore::setAllSwept(bool all_swept) {
+  if (m_all_swept == all_swept) return;
+  m_all_swept = all_swept;
+  for (Slot s : m_order_list) {
+    if (s != kNoSlot) classify(s);
+  }
+}
+
 void WorldStore::file(Slot s) {
   if (collides(s)) {
-    m_grid.put(s, worldBox(s, m_positions[s]));
+    m_grid.file(s);
   } else {
     m_grid.remove(s);
   }
+  classify(s);
 }
 
 void WorldStore::setPosition(Slot s, FixedVector position) {
   if (m_positions[s] == position) return;
   m_positions[s] = position;
-  if (collides(s)) m_grid.put(s, worldBox(s, position));
+  if (m_grid.contains(s)) m_grid.refile(s);
   touch(s);
 }
 
 void WorldStore::setVelocity(Slot s, FixedVector velocity) {
-  if (m_velocities[s] == velocity) return;
+  const FixedVector before = m_velocities[s];
+  if (before == velocity) return;
   m_velocities[s] = velocity;
-  m_flags[s] &= static_cast<std::uint16_t>(~kBlocked);  // whether the new one is blocked is not known yet
+  if ((m_cards[s].flags & kInWorld) != 0) {
+    setBit(m_blocked, m_cards[s].index, false);  // whether the new one is blocked is not known yet
+  }
+  if (before == FixedVector{} || velocity == FixedVector{}) classify(s);
   touch(s);
 }
 
 void WorldStore::setAcceleration(Slot s, FixedVector acceleration) {
   if (m_accelerations[s] == acceleration) return;
   m_accelerations[s] = acceleration;
+  classify(s);
   touch(s);
 }
 
@@ -119,68 +175,139 @@ void WorldStore::setBox(Slot s, FixedBox box) {
 }
 
 void WorldStore::setSolidness(Slot s, Solidness solidness) {
-  if (m_solidness[s] == solidness) return;
-  m_solidness[s] = solidness;
+  if (m_cards[s].solidness == solidness) return;
+  m_cards[s].solidness = solidness;
   file(s);
   touch(s);
 }
 
 void WorldStore::setAltitude(Slot s, int altitude) {
-  if (m_altitudes[s] == altitude) return;
-  m_altitudes[s] = static_cast<std::uint8_t>(altitude);
+  if (m_cards[s].altitude == altitude) return;
+  m_cards[s].altitude = static_cast<std::uint8_t>(altitude);
   touch(s);
 }
 
-void WorldStore::settle(Slot s, FixedVector velocity, bool blocked) {
-  const bool was_blocked = has(s, kBlocked);
+void WorldStore::setMask(Slot s, std::optional<Mask> mask) {
+  m_masks.erase(s);
+  if (mask) m_masks.emplace(s, std::move(*mask));
+}
+
+void WorldStore::settleAnew(Slot s, FixedVector velocity, bool blocked) {
+  const bool was_blocked = isBlocked(s);
   // The velocity of a blocked Object shows nowhere: gravity on something that lies still is no change.
   const bool shows = was_blocked != blocked || (!blocked && m_velocities[s] != velocity);
   m_velocities[s] = velocity;
-  if (was_blocked != blocked) m_flags[s] ^= kBlocked;
+  if (was_blocked != blocked) {
+    setBit(m_blocked, m_cards[s].index, blocked);
+    if (m_cards[s].solidness == SPECTRAL) classify(s);
+  }
   if (shows) touch(s);
 }
 
 void WorldStore::set(Slot s, Flag flag, bool on) {
   if (has(s, flag) == on) return;
-  m_flags[s] ^= flag;
+  m_cards[s].flags ^= flag;
   if (flag == kActive) file(s);
-  if ((flag & (kActive | kVisible | kNoSoft | kBlocked)) != 0) touch(s);
+  if (flag == kPrecise) m_precise += on ? 1 : -1;
+  if ((flag & kSpecial) != 0) classify(s);
+  if ((flag & (kActive | kVisible | kNoSoft)) != 0) touch(s);
+}
+
+std::size_t WorldStore::fly(Slot first, std::size_t count, const FixedBox& boundary) {
+  const FixedVector low = boundary.corner;
+  const FixedVector high = boundary.corner + boundary.size - FixedVector{1, 1};
+  FixedVector* p_positions = &m_positions[first];
+  const FixedVector* p_velocities = &m_velocities[first];
+  std::size_t done = 0;
+  for (; done < count; ++done) {
+    const FixedVector p = p_positions[done] + p_velocities[done];
+    if (((p.x - low.x) | (high.x - p.x) | (p.y - low.y) | (high.y - p.y)) < 0) break;
+    p_positions[done] = p;
+  }
+  if (m_watched) {
+    for (std::size_t i = 0; i < done; ++i) note(first + static_cast<Slot>(i));
+  }
+  return done;
+}
+
+std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const FixedBox& boundary,
+                               std::vector<ObjectKey>& met) {
+  const FixedVector low = boundary.corner;
+  const FixedVector high = boundary.corner + boundary.size - FixedVector{1, 1};
+  const Slot* p_order = &m_order_list[word * 64];
+  FixedVector* p_positions = m_positions.data();
+  const FixedVector* p_velocities = m_velocities.data();
+  Grid::Steps steps(m_grid);
+  std::uint64_t left = walkers;
+  for (; left != 0; left &= left - 1) {
+    const Slot s = p_order[std::countr_zero(left)];
+    const FixedVector where = p_positions[s] + p_velocities[s];
+    if (((where.x - low.x) | (high.x - where.x) | (where.y - low.y) | (high.y - where.y)) < 0) break;
+    if (!steps.isFree(s, where)) {
+      list(steps.found(), met);
+      break;
+    }
+    p_positions[s] = where;
+    steps.take(s);
+  }
+  m_blocked[word] &= ~(walkers & ~left);
+  if (m_watched) {
+    for (std::uint64_t done = walkers & ~left; done != 0; done &= done - 1)
+      note(p_order[std::countr_zero(done)]);
+  }
+  return left;
 }
 
 void WorldStore::touching(const FixedBox& box, Slot self, std::vector<ObjectKey>& out) const {
   m_candidates.clear();
-  m_grid.query(box, m_candidates);
-  std::erase_if(m_candidates,
-                [&](Slot s) { return s == self || !intersects(worldBox(s, m_positions[s]), box); });
-  std::sort(m_candidates.begin(), m_candidates.end(),
-            [this](Slot a, Slot b) { return m_orders[a] < m_orders[b]; });
-  for (Slot s : m_candidates) out.push_back(key(s));
+  m_grid.touching(box, self, m_candidates);
+  list(m_candidates, out);
+}
+
+// In creation order, each once. They are few, mostly one or two.
+void WorldStore::list(std::span<const Slot> found, std::vector<ObjectKey>& out) const {
+  const std::size_t begin = out.size();
+  for (const Slot s : found) {
+    const Card& card = m_cards[s];
+    out.push_back({s, card.generation});
+    std::size_t i = out.size() - 1;
+    for (; i > begin && i < begin + kManyFound && m_cards[out[i - 1].slot].order > card.order; --i) {
+      out[i] = out[i - 1];
+    }
+    out[i] = {s, card.generation};
+  }
+  const auto first = out.begin() + static_cast<std::ptrdiff_t>(begin);
+  if (found.size() > kManyFound) {
+    std::sort(first, out.end(),
+              [this](ObjectKey a, ObjectKey b) { return m_cards[a.slot].order < m_cards[b.slot].order; });
+  }
+  if (found.size() > 1) out.erase(std::unique(first, out.end()), out.end());
 }
 
 void WorldStore::setWatched(bool watched) {
   if (m_watched == watched) return;
   m_watched = watched;
-  for (Slot s : m_dirty) m_flags[s] &= static_cast<std::uint16_t>(~kDirty);
+  for (Slot s : m_dirty) m_cards[s].flags &= static_cast<std::uint32_t>(~kDirty);
   m_dirty.clear();
   m_vanished.clear();
   for (Slot s : m_order_list) {
     if (s == kNoSlot) continue;
-    m_flags[s] &= static_cast<std::uint16_t>(~kReported);
+    m_cards[s].flags &= static_cast<std::uint32_t>(~kReported);
     touch(s);
   }
 }
 
 void WorldStore::note(Slot s) {
   if (has(s, kDirty)) return;
-  m_flags[s] |= kDirty;
+  m_cards[s].flags |= kDirty;
   m_dirty.push_back(s);
 }
 
 void WorldStore::report(WorldView& view) {
   for (Slot s : m_dirty) {
-    m_flags[s] &= static_cast<std::uint16_t>(~kDirty);
+    m_cards[s].flags &= static_cast<std::uint32_t>(~kDirty);
     if (!has(s, kInWorld)) continue;
-    m_flags[s] |= kReported;
+    m_cards[s].flags |= kReported;
     view.changed.push_back(facts(s));
   }
   m_dirty.clear();
@@ -193,18 +320,18 @@ void WorldStore::report(WorldView& view) {
 ObjectFacts WorldStore::facts(Slot s) const {
   ObjectFacts f;
   f.key = key(s);
-  f.order = m_orders[s];
+  f.order = m_cards[s].order;
   f.position = m_positions[s];
   // An inactive Object stands, whatever its velocity.
-  if (has(s, kActive) && !has(s, kBlocked)) {
+  if (has(s, kActive) && !isBlocked(s)) {
     f.velocity = m_velocities[s];
     if (isVelocity(f.velocity + m_accelerations[s])) f.acceleration = m_accelerations[s];
   }
   f.box = m_boxes[s];
-  f.solidness = m_solidness[s];
+  f.solidness = m_cards[s].solidness;
   f.no_soft = has(s, kNoSoft);
   f.shown = has(s, kActive) && has(s, kVisible);
-  f.altitude = m_altitudes[s];
+  f.altitude = m_cards[s].altitude;
   return f;
 }
 

@@ -13,10 +13,15 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "Fixed.h"
 #include "Grid.h"
+#include "Mask.h"
 #include "Solidness.h"
 #include "WorldView.h"
 
@@ -33,21 +38,25 @@ class WorldStore {
   static constexpr std::uint64_t kRest = 64;
 
   /// What is true of an Object, beyond numbers.
-  enum Flag : std::uint16_t {
+  enum Flag : std::uint32_t {
     kInWorld = 1 << 0,
     kActive = 1 << 1,
     kVisible = 1 << 2,
     kNoSoft = 1 << 3,
     kHeap = 1 << 4,      ///< made with `new`: the world's to delete
     kMarked = 1 << 5,    ///< to be deleted after update
-    kBlocked = 1 << 6,   ///< its last move in update did not happen
     kDirty = 1 << 7,     ///< in the list of changes
     kReported = 1 << 8,  ///< the watcher knows it
     kDerive = 1 << 9,    ///< speed and direction follow from the velocity
     kStaticLook = 1 << 10,
     kNeverDraws = 1 << 11,  ///< its dynamic type is Object itself
-    kTyped = 1 << 12,       ///< kNeverDraws has been found out
+    kTyped = 1 << 12,       ///< kNeverDraws and kDeaf have been found out
     kFollowed = 1 << 13,    ///< a view follows it
+    kDeaf = 1 << 14,        ///< its class has no eventHandler() of its own
+    kSwept = 1 << 15,
+    kPrecise = 1 << 16,
+    kRestContacts = 1 << 17,
+    kMayMoveOut = 1 << 18,
   };
 
   explicit WorldStore(World* p_world) : m_p_world(p_world) {}
@@ -71,29 +80,44 @@ class WorldStore {
   void age() { ++m_updates; }
   /// Into the world, last in order.
   void enter(Slot s);
+  /// Those who have entered since the last call.
+  std::vector<ObjectKey> takeNewcomers() { return std::exchange(m_newcomers, {}); }
   /// Out of it.
   void leave(Slot s);
 
   // Reading.
 
-  ObjectKey key(Slot s) const { return {s, m_generations[s]}; }
+  ObjectKey key(Slot s) const { return {s, m_cards[s].generation}; }
   bool isCurrent(ObjectKey k) const {
-    return k.slot < m_generations.size() && m_generations[k.slot] == k.generation;
+    return k.slot < m_cards.size() && m_cards[k.slot].generation == k.generation;
   }
-  Object* find(ObjectKey k) const { return isCurrent(k) ? m_objects[k.slot] : nullptr; }
-  Object* object(Slot s) const { return m_objects[s]; }
+  Object* find(ObjectKey k) const { return isCurrent(k) ? m_cards[k.slot].p_object : nullptr; }
+  Object* object(Slot s) const { return m_cards[s].p_object; }
   FixedVector position(Slot s) const { return m_positions[s]; }
   FixedVector velocity(Slot s) const { return m_velocities[s]; }
   FixedVector acceleration(Slot s) const { return m_accelerations[s]; }
   FixedBox box(Slot s) const { return m_boxes[s]; }
   FixedBox worldBox(Slot s, FixedVector at) const { return translate(m_boxes[s], at); }
-  Solidness solidness(Slot s) const { return m_solidness[s]; }
-  int altitude(Slot s) const { return m_altitudes[s]; }
-  std::uint64_t order(Slot s) const { return m_orders[s]; }
-  bool has(Slot s, Flag flag) const { return (m_flags[s] & flag) != 0; }
-  bool collides(Slot s) const {
-    return (m_flags[s] & (kInWorld | kActive)) == (kInWorld | kActive) && m_solidness[s] != SPECTRAL;
+  Solidness solidness(Slot s) const { return m_cards[s].solidness; }
+  /// Null for the whole box.
+  const Mask* mask(Slot s) const {
+    const auto it = m_masks.find(s);
+    return it == m_masks.end() ? nullptr : &it->second;
   }
+  int altitude(Slot s) const { return m_cards[s].altitude; }
+  std::uint64_t order(Slot s) const { return m_cards[s].order; }
+  std::uint32_t flags(Slot s) const { return m_cards[s].flags; }
+  bool has(Slot s, Flag flag) const { return (m_cards[s].flags & flag) != 0; }
+  bool collides(Slot s) const {
+    return (m_cards[s].flags & (kInWorld | kActive)) == (kInWorld | kActive) &&
+           m_cards[s].solidness != SPECTRAL;
+  }
+  /// Did its last move in update not happen?
+  bool isBlocked(Slot s) const {
+    return (m_blocked[m_cards[s].index / 64] >> (m_cards[s].index % 64) & 1) != 0;
+  }
+  /// Could its eventHandler() do anything? False only if its class has none of its own.
+  bool listens(Slot s) const { return (m_cards[s].flags & kDeaf) == 0; }
   int countInWorld() const { return m_in_world; }
 
   // Changing.
@@ -104,9 +128,13 @@ class WorldStore {
   void setBox(Slot s, FixedBox box);
   void setSolidness(Slot s, Solidness solidness);
   void setAltitude(Slot s, int altitude);
+  /// Nothing: the whole box.
+  void setMask(Slot s, std::optional<Mask> mask);
   /// The end of an Object's turn in update: its velocity from now on, and whether its move was blocked.
-  void settle(Slot s, FixedVector velocity, bool blocked);
-  /// Flags that the watcher sees (active, visible, no-soft, blocked) are noted as changes.
+  void settle(Slot s, FixedVector velocity, bool blocked) {
+    if (velocity != m_velocities[s] || blocked != isBlocked(s)) settleAnew(s, velocity, blocked);
+  }
+  /// Flags that the watcher sees (active, visible, no-soft) are noted as changes.
   void set(Slot s, Flag flag, bool on);
 
   /// Is this a legal position, a legal velocity?
@@ -133,12 +161,41 @@ class WorldStore {
     std::size_t m_size;
   };
 
+  // Whose turn it is: 64 Objects of the order to a word, bit i % 64 of word i / 64 for entry i.
+
+  /// Entry i; kNoSlot for a gap.
+  Slot entry(std::size_t i) const { return m_order_list[i]; }
+  /// Those that move in update(): active, with a velocity, an acceleration or contacts at rest.
+  std::uint64_t turns(std::size_t word) const { return m_turns[word]; }
+  /// Those of them that only fly on: SPECTRAL, and nothing to do but to add the velocity.
+  std::uint64_t fliers(std::size_t word) const { return m_fliers[word]; }
+  /// Those that walk: solid, and use nothing beyond the book's test of where a move ends.
+  std::uint64_t walkers(std::size_t word) const { return m_walkers[word]; }
+  /// Those whose slot is the one after that of the entry before.
+  std::uint64_t sequels(std::size_t word) const { return m_sequels[word]; }
+  /// Sweep the moves of all, or only of those that ask for it.
+  void setAllSwept(bool all_swept);
+  bool isAllSwept() const { return m_all_swept; }
+  /// Is there anybody whose characters are tested?
+  bool hasPrecise() const { return m_precise > 0; }
+
+  /// Move up to `count` fliers, from slot `first` on, by their velocities; stop at the first that would
+  /// leave `boundary`. Return how many were moved.
+  std::size_t fly(Slot first, std::size_t count, const FixedBox& boundary);
+  /// Let walkers take their steps, as long as they stay inside `boundary` and touch nobody: entry
+  /// 64 * word + i of the order for each bit i of `walkers`, lowest first. Return the bits of those that
+  /// have not; of the first of them, whom it would touch at its target is in `met`, in creation order.
+  /// (Nobody, if it would leave the boundary.)
+  std::uint64_t walk(std::size_t word, std::uint64_t walkers, const FixedBox& boundary,
+                     std::vector<ObjectKey>& met);
+
   /// Drop the gaps from the order, if they are many and nobody walks. leave() does it when it may; call it
   /// when a walk has ended.
   void closeGaps();
 
   /// The Objects that collide with `box`, except `self`, in creation order, appended to `out`.
   void touching(const FixedBox& box, Slot self, std::vector<ObjectKey>& out) const;
+  const Grid& grid() const { return m_grid; }
 
   // Changes, for the watcher.
 
@@ -155,6 +212,17 @@ class WorldStore {
     std::uint64_t since;  ///< m_updates when it was freed
   };
 
+  // What a collision asks of the other, in half a cache line.
+  struct Card {
+    Object* p_object = nullptr;
+    std::uint64_t order = 0;  ///< place in creation order, never reused
+    std::uint32_t generation = 1;
+    std::uint32_t flags = 0;
+    std::uint32_t index = 0;  ///< in m_order_list
+    Solidness solidness = HARD;
+    std::uint8_t altitude = 0;
+  };
+
   ~WorldStore() = default;
   static bool within(FixedVector v, double cells) {
     const auto limit = static_cast<Fixed>(cells * static_cast<double>(kFixedOne));
@@ -164,7 +232,10 @@ class WorldStore {
     if (m_watched) note(s);
   }
   void note(Slot s);
+  void settleAnew(Slot s, FixedVector velocity, bool blocked);
   void file(Slot s);
+  void classify(Slot s);
+  void list(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
 
   World* m_p_world;
   std::uint32_t m_references = 1;
@@ -172,27 +243,30 @@ class WorldStore {
   std::vector<FixedVector> m_positions;
   std::vector<FixedVector> m_velocities;
   std::vector<FixedVector> m_accelerations;
-  std::vector<std::uint16_t> m_flags;
-  std::vector<Solidness> m_solidness;
   std::vector<FixedBox> m_boxes;
-  std::vector<std::uint8_t> m_altitudes;
-  std::vector<std::uint32_t> m_generations;
-  std::vector<std::uint64_t> m_orders;         // place in creation order, never reused
-  std::vector<std::uint32_t> m_order_indices;  // where in m_order_list
-  std::vector<Object*> m_objects;
+  std::vector<Card> m_cards;
 
-  Grid m_grid;               // everybody who collides
-  std::deque<Freed> m_free;  // longest free first
+  Grid m_grid{m_positions, m_boxes};  // everybody who collides
+  std::deque<Freed> m_free;           // longest free first
   std::uint64_t m_updates = 0;
-  std::vector<Slot> m_order_list;  // those in the world by creation order, with gaps
+  std::vector<Slot> m_order_list;      // those in the world by creation order, with gaps
+  std::vector<std::uint64_t> m_turns;  // bits by place in m_order_list
+  std::vector<std::uint64_t> m_fliers;
+  std::vector<std::uint64_t> m_walkers;
+  std::vector<std::uint64_t> m_sequels;
+  std::vector<std::uint64_t> m_blocked;  // the last move in update did not happen
   std::size_t m_gaps = 0;
   mutable int m_walks = 0;  // no gap is closed while somebody walks
   int m_in_world = 0;
   std::uint64_t m_next_order = 1;
+  std::vector<ObjectKey> m_newcomers;
 
   bool m_watched = false;
   std::vector<Slot> m_dirty;
   std::vector<ObjectKey> m_vanished;
+  std::unordered_map<Slot, Mask> m_masks;  // of the few that have one
+  bool m_all_swept = false;
+  int m_precise = 0;                       // Objects that are
   mutable std::vector<Slot> m_candidates;  // scratch of touching()
 };
 

@@ -58,7 +58,7 @@ constexpr bool intersects(const FixedBox& a, const FixedBox& b) {
 /// `limit` in magnitude.
 inline std::optional<Fixed> toFixed(double cells, double limit = kMaxCells) {
   if (!(cells >= -limit && cells <= limit)) return std::nullopt;  // catches NaN as well
-  return static_cast<Fixed>(std::nearbyint(cells * static_cast<double>(kFixedOne)));
+  return static_cast<Fixed>(std::llrint(cells * static_cast<double>(kFixedOne)));
 }
 
 /// Fixed point -> cells. Exact up to 2^21 cells; beyond that rounded to the nearest double.

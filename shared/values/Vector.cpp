@@ -42,11 +42,4 @@ std::string Vector::toString() const {
   return "(" + std::to_string(m_x) + "," + std::to_string(m_y) + ")";
 }
 
-std::optional<FixedVector> toFixed(const Vector& v, double limit) {
-  const auto x = toFixed(v.x(), limit);
-  const auto y = toFixed(v.y(), limit);
-  if (!x || !y) return std::nullopt;
-  return FixedVector{*x, *y};
-}
-
 }  // namespace df

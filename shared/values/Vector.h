@@ -5,6 +5,7 @@
 // Vector carries into the world is rounded to 2^-32 cell there.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "Fixed.h"
@@ -53,6 +54,11 @@ class Vector {
 };
 
 /// Both components in fixed point; nothing if either is not finite or beyond `limit` cells.
-std::optional<FixedVector> toFixed(const Vector& v, double limit = kMaxCells);
+inline std::optional<FixedVector> toFixed(const Vector& v, double limit = kMaxCells) {
+  const auto x = toFixed(v.x(), limit);
+  const auto y = toFixed(v.y(), limit);
+  if (!x || !y) return std::nullopt;
+  return FixedVector{*x, *y};
+}
 
 }  // namespace df

@@ -2,8 +2,7 @@
 // engine and once over the oracle. Objects are named by numbers, in the order of their creation.
 #pragma once
 
-#include <cstdint>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "Fixed.h"
@@ -21,8 +20,16 @@ struct Snapshot {
   Solidness solidness = df::HARD;
   bool no_soft = false;
   bool active = true;
+  Options options;
 
   friend bool operator==(const Snapshot&, const Snapshot&) = default;
+};
+
+/// What firstContact() found.
+struct Meeting {
+  int id = -1;      ///< nobody
+  double time = 1;  ///< rounded, perhaps not in the same way by both
+  FixedVector position;
 };
 
 class Actor {
@@ -44,10 +51,17 @@ class Actor {
   virtual void setBox(int id, FixedBox box) = 0;
   virtual void setNoSoft(int id, bool no_soft) = 0;
   virtual void setActive(int id, bool active) = 0;
+  virtual void setOptions(int id, Options options) = 0;
+  virtual void setMask(int id, const Mask& mask) = 0;
+  /// Of all Objects: the world's switch.
+  virtual void setSweptCollisions(bool swept) = 0;
 
   virtual FixedVector getPosition(int id) const = 0;
   virtual FixedVector getVelocity(int id) const = 0;
   virtual Solidness getSolidness(int id) const = 0;
+  virtual bool getSweptCollisions() const = 0;
+  virtual Meeting firstContact(int id, FixedVector where) = 0;
+  virtual std::optional<FixedVector> findFree(FixedBox box, FixedVector near) = 0;
 
   /// One tick: the step event, then all moves, then all deletions.
   virtual void tick() = 0;

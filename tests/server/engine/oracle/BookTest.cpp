@@ -1,48 +1,15 @@
 // The oracle itself, held against sentences of the book's section 4.10, so that it is not only believed.
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-
-#include "Oracle.h"
+#include "BookWorld.h"
 
 namespace oracle {
 namespace {
 
-FixedVector cells(double x, double y) {
-  return {*df::toFixed(x), *df::toFixed(y)};
-}
-
-class BookTest : public testing::Test, protected Handlers {
- protected:
-  Object* make(double x, double y, Solidness solidness = df::HARD) {
-    Object* p_o = m_world.create(m_next++);
-    p_o->position = cells(x, y);
-    p_o->solidness = solidness;
-    return p_o;
-  }
-
-  void step(Object*) override {}
-  void collision(Object* p_receiver, Object* p_obj1, Object* p_obj2, FixedVector where) override {
-    m_events += std::to_string(p_receiver->id) + ":" + std::to_string(p_obj1->id) + ">" +
-                std::to_string(p_obj2->id) + " ";
-    m_where = where;
-    if (m_on_collision) m_on_collision(p_receiver);
-  }
-  void out(Object* p_receiver) override { m_events += "out:" + std::to_string(p_receiver->id) + " "; }
-  void destroyed(Object* p_o) override { m_events += "gone:" + std::to_string(p_o->id) + " "; }
-
-  World m_world{FixedBox{{}, cells(80, 24)}, *this};
-  std::string m_events;
-  FixedVector m_where;
-  std::function<void(Object*)> m_on_collision;
-  int m_next = 0;
-};
+using BookTest = BookWorld;
 
 // "the game programmer can just set the speed and direction" - 0.25 spaces to the left every step.
 TEST_F(BookTest, UpdateAddsVelocityToPosition) {
   Object* p_saucer = make(40, 12);
-  p_saucer->setVelocity(-0.25, 0);
+  p_saucer->velocity = cells(-0.25, 0);
   for (int i = 0; i < 4; ++i) m_world.update();
   EXPECT_EQ(p_saucer->position, cells(39, 12));
 }

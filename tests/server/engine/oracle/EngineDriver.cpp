@@ -13,16 +13,28 @@ static FixedVector fixed(Vector v) {
   return *df::toFixed(v);
 }
 
-/// An Object whose handler is the script. The handler may destroy it, so nothing of it is used afterwards.
-class EngineDriver::Scripted : public df::Object {
+/// An Object without a handler.
+class EngineDriver::Numbered : public df::Object {
  public:
-  Scripted(EngineDriver& driver, int number) : m_driver(driver), m_number(number) {
+  Numbered(EngineDriver& driver, int number) : m_driver(driver), m_number(number) {
     registerInterest(df::STEP_EVENT);
   }
-  ~Scripted() override {
+  ~Numbered() override {
     m_driver.m_objects[static_cast<std::size_t>(m_number)] = nullptr;
     m_driver.m_script.onDestroyed(m_number);
   }
+
+  static int number(const df::Object* p_o) { return static_cast<const Numbered*>(p_o)->m_number; }
+
+ protected:
+  EngineDriver& m_driver;
+  int m_number;
+};
+
+/// One whose handler is the script. The handler may destroy it, so nothing of it is used afterwards.
+class EngineDriver::Scripted : public Numbered {
+ public:
+  using Numbered::Numbered;
 
   int eventHandler(const df::Event* p_e) override {
     Script& script = m_driver.m_script;
@@ -36,12 +48,6 @@ class EngineDriver::Scripted : public df::Object {
     }
     return 1;
   }
-
-  static int number(const df::Object* p_o) { return static_cast<const Scripted*>(p_o)->m_number; }
-
- private:
-  EngineDriver& m_driver;
-  int m_number;
 };
 
 EngineDriver::EngineDriver(const RandomWorld& world) : m_scope(m_world), m_script(world, *this) {
@@ -51,12 +57,12 @@ EngineDriver::EngineDriver(const RandomWorld& world) : m_scope(m_world), m_scrip
 }
 
 EngineDriver::~EngineDriver() {
-  for (const Scripted* p_o : m_objects) delete p_o;
+  for (const Numbered* p_o : m_objects) delete p_o;
 }
 
 void EngineDriver::create(int id, const Spec& spec) {
   m_objects.push_back(nullptr);
-  auto* p_o = new Scripted(*this, id);
+  Numbered* p_o = spec.temper == Temper::DEAF ? new Numbered(*this, id) : new Scripted(*this, id);
   m_objects.back() = p_o;
   p_o->setPosition(Vector::fromFixed(spec.position));
   p_o->setVelocity(Vector::fromFixed(spec.velocity));
@@ -65,6 +71,8 @@ void EngineDriver::create(int id, const Spec& spec) {
   p_o->setSolidness(spec.solidness);
   p_o->setNoSoft(spec.no_soft);
   p_o->setActive(spec.active);
+  setOptions(id, spec.options);
+  if (!spec.mask.empty()) setMask(id, spec.mask);
 }
 
 void EngineDriver::markForDelete(int id) {
@@ -105,6 +113,25 @@ void EngineDriver::setActive(int id, bool active) {
   object(id)->setActive(active);
 }
 
+void EngineDriver::setOptions(int id, Options options) {
+  Numbered* p_o = object(id);
+  p_o->setSwept(options.swept);
+  p_o->setPrecise(options.precise);
+  p_o->setRestContacts(options.rest_contacts);
+  p_o->setMayMoveOut(options.may_move_out);
+}
+void EngineDriver::setMask(int id, const Mask& mask) {
+  std::vector<std::string> rows = mask;
+  for (std::string& row : rows) {  // as in UTF-8, in which a character may be several bytes
+    const std::size_t set = row.find('#');
+    if (set != std::string::npos) row.replace(set, 1, "█");
+  }
+  object(id)->setMask(rows);
+}
+void EngineDriver::setSweptCollisions(bool swept) {
+  WM.setSweptCollisions(swept);
+}
+
 FixedVector EngineDriver::getPosition(int id) const {
   return fixed(object(id)->getPosition());
 }
@@ -113,6 +140,19 @@ FixedVector EngineDriver::getVelocity(int id) const {
 }
 Solidness EngineDriver::getSolidness(int id) const {
   return object(id)->getSolidness();
+}
+
+bool EngineDriver::getSweptCollisions() const {
+  return WM.getSweptCollisions();
+}
+Meeting EngineDriver::firstContact(int id, FixedVector where) {
+  const df::Contact contact = WM.firstContact(object(id), Vector::fromFixed(where));
+  return {contact.p_object != nullptr ? Numbered::number(contact.p_object) : -1, contact.time,
+          fixed(contact.position)};
+}
+std::optional<FixedVector> EngineDriver::findFree(FixedBox box, FixedVector near) {
+  const auto found = WM.findFree(df::fromFixed(box), Vector::fromFixed(near));
+  return found ? std::optional(fixed(*found)) : std::nullopt;
 }
 
 void EngineDriver::tick() {
@@ -125,8 +165,10 @@ std::vector<Snapshot> EngineDriver::snapshot() const {
   const df::ObjectList all = WM.getAllObjects(true);
   for (int i = 0; i < all.getCount(); ++i) {
     const df::Object* p_o = all[i];
-    result.push_back({Scripted::number(p_o), fixed(p_o->getPosition()), fixed(p_o->getVelocity()),
-                      *df::toFixed(p_o->getBox()), p_o->getSolidness(), p_o->getNoSoft(), p_o->isActive()});
+    const Options options{p_o->isSwept(), p_o->isPrecise(), p_o->hasRestContacts(), p_o->getMayMoveOut()};
+    result.push_back({Numbered::number(p_o), fixed(p_o->getPosition()), fixed(p_o->getVelocity()),
+                      *df::toFixed(p_o->getBox()), p_o->getSolidness(), p_o->getNoSoft(), p_o->isActive(),
+                      options});
   }
   return result;
 }

@@ -31,21 +31,28 @@ class EngineDriver : public Actor {
   void setBox(int id, FixedBox box) override;
   void setNoSoft(int id, bool no_soft) override;
   void setActive(int id, bool active) override;
+  void setOptions(int id, Options options) override;
+  void setMask(int id, const Mask& mask) override;
+  void setSweptCollisions(bool swept) override;
   FixedVector getPosition(int id) const override;
   FixedVector getVelocity(int id) const override;
   Solidness getSolidness(int id) const override;
+  bool getSweptCollisions() const override;
+  Meeting firstContact(int id, FixedVector where) override;
+  std::optional<FixedVector> findFree(FixedBox box, FixedVector near) override;
   void tick() override;
   std::vector<Snapshot> snapshot() const override;
 
  private:
+  class Numbered;
   class Scripted;
 
-  Scripted* object(int id) const { return m_objects[static_cast<std::size_t>(id)]; }
+  Numbered* object(int id) const { return m_objects[static_cast<std::size_t>(id)]; }
 
   df::World m_world;
   df::World::Scope m_scope;
   Script m_script;
-  std::vector<Scripted*> m_objects;  ///< by number; null once destroyed
+  std::vector<Numbered*> m_objects;  ///< by number; null once destroyed
 };
 
 }  // namespace oracle

@@ -1,27 +1,8 @@
 #include "Oracle.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace oracle {
-
-bool boxIntersectsBox(const FixedBox& a, const FixedBox& b) {
-  const bool x_overlap = b.corner.x <= a.corner.x + a.size.x && a.corner.x <= b.corner.x + b.size.x;
-  const bool y_overlap = b.corner.y <= a.corner.y + a.size.y && a.corner.y <= b.corner.y + b.size.y;
-  return x_overlap && y_overlap;
-}
-
-/// The Object's box if it were at `where` (section 4.13, getWorldBox).
-static FixedBox getWorldBox(const Object* p_o, FixedVector where) {
-  return {p_o->box.corner + where, p_o->box.size};
-}
-
-void Object::setVelocity(double x, double y) {
-  const double speed = std::sqrt(x * x + y * y);
-  const double direction_x = speed > 0 ? x / speed : 0;
-  const double direction_y = speed > 0 ? y / speed : 0;
-  velocity = {*df::toFixed(direction_x * speed), *df::toFixed(direction_y * speed)};
-}
 
 Object* World::create(int id) {
   m_memory.push_back(std::make_unique<Object>());
@@ -67,7 +48,13 @@ void World::update() {
 
     // Add velocity to position. If the Object should change position, then move.
     const FixedVector new_pos = p_o->predictPosition();
-    if (new_pos != p_o->position) moveObject(p_o, new_pos);
+    const std::int64_t collisions_before = m_counters.collisions;
+    const bool rests = new_pos == p_o->position;
+    if (!rests || p_o->rest_contacts) moveObject(p_o, new_pos);
+    if (rests && p_o->rest_contacts) {
+      ++m_counters.rest_moves;
+      if (m_counters.collisions > collisions_before) ++m_counters.rest_contacts;
+    }
 
     if (!p_o->gone) p_o->velocity = p_o->velocity + p_o->acceleration;
   }
@@ -76,20 +63,6 @@ void World::update() {
     if (!p_o->gone) destroy(p_o);
   }
   m_deletions.clear();
-}
-
-// Listing 4.108.
-ObjectList World::getCollisions(const Object* p_o, FixedVector where) const {
-  ObjectList collision_list;
-  const FixedBox box = getWorldBox(p_o, where);
-  for (Object* p_temp_o : m_updates) {
-    if (p_temp_o == p_o) continue;  // not with itself
-    if (p_temp_o->active && p_temp_o->isSolid() &&
-        boxIntersectsBox(getWorldBox(p_temp_o, p_temp_o->position), box)) {
-      collision_list.push_back(p_temp_o);
-    }
-  }
-  return collision_list;
 }
 
 // A handler that moves on every collision would never come back, so there is a deepest move.
@@ -106,48 +79,8 @@ int World::moveObject(Object* p_o, FixedVector where) {
   return result;
 }
 
-// Listings 4.109, 4.111 and 4.113.
-int World::moveNow(Object* p_o, FixedVector where) {
-  if (!p_o->active) {  // takes no part in collisions and hears nothing, so it is only placed
-    p_o->position = where;
-    return 0;
-  }
-  if (p_o->isSolid()) {
-    const ObjectList list = getCollisions(p_o, where);
-    bool hard_block = false;
-    bool soft_block = false;
-    bool met_soft = false;
-
-    for (Object* p_temp_o : list) {
-      if (p_temp_o->gone) continue;
-      ++m_counters.collisions;
-      if (!met_soft && (p_o->solidness == df::SOFT || p_temp_o->solidness == df::SOFT)) {
-        met_soft = true;
-        ++m_counters.met_soft;
-      }
-
-      // Send to both objects; either handler may delete either of them.
-      if (p_o->active) m_handlers.collision(p_o, p_o, p_temp_o, where);
-      if (p_o->gone) return -1;
-      if (p_temp_o->gone) continue;
-      if (p_temp_o->active) m_handlers.collision(p_temp_o, p_o, p_temp_o, where);
-      if (p_o->gone) return -1;
-      if (p_temp_o->gone) continue;
-
-      // If both HARD, then cannot move.
-      if (p_o->solidness == df::HARD && p_temp_o->solidness == df::HARD) hard_block = true;
-      // If object does not want to move onto soft objects, don't move.
-      if (p_o->no_soft && p_temp_o->solidness == df::SOFT) soft_block = true;
-    }
-
-    if (hard_block || soft_block) {
-      if (hard_block) ++m_counters.blocked_hard;
-      if (soft_block) ++m_counters.blocked_soft;
-      return -1;  // move not allowed
-    }
-  }
-
-  // If here, no collision that impedes, so allow the move.
+/// Put the Object where its move ends (Listing 4.113).
+void World::place(Object* p_o, FixedVector where) {
   const bool was_inside = isInside(p_o->position);
   p_o->position = where;
 
@@ -156,12 +89,62 @@ int World::moveNow(Object* p_o, FixedVector where) {
     ++m_counters.outs;
     if (p_o->active) m_handlers.out(p_o);
   }
-  return 0;
 }
 
 bool World::isInside(FixedVector position) const {
   const FixedVector p = position - m_boundary.corner;
   return p.x >= 0 && p.x < m_boundary.size.x && p.y >= 0 && p.y < m_boundary.size.y;
+}
+
+// Finding room.
+
+/// Does `box`, in world coordinates, touch nobody?
+bool World::isFree(const FixedBox& box) const {
+  return std::none_of(m_updates.begin(), m_updates.end(), [&](const Object* p_o) {
+    return p_o->active && p_o->isSolid() && boxIntersectsBox(p_o->getWorldBox(p_o->position), box);
+  });
+}
+
+/// The whole numbers of cells by which something of this `size` at `low` may be moved so that it lies between
+/// `least` and `most`, edges included; the smallest ones first, of two that are equally small the negative
+/// one.
+static std::vector<int> offsets(Fixed low, Fixed size, Fixed least, Fixed most) {
+  std::vector<int> result;
+  for (int distance = 0; distance <= World::kFarthestFree; ++distance) {
+    for (const int cells : {-distance, distance}) {
+      const Fixed moved = low + df::fromCells(cells);
+      if (cells == 0 && !result.empty()) continue;
+      if (moved >= least && moved + size <= most) result.push_back(cells);
+    }
+  }
+  return result;
+}
+
+std::optional<FixedVector> World::findFree(const FixedBox& box, FixedVector near) const {
+  const FixedVector low = box.corner + near;
+  const FixedVector end = m_boundary.corner + m_boundary.size;
+  const std::vector<int> columns = offsets(low.x, box.size.x, m_boundary.corner.x, end.x);
+  const std::vector<int> rows = offsets(low.y, box.size.y, m_boundary.corner.y, end.y);
+
+  struct Place {
+    int distance;  ///< squared
+    int y;
+    int x;
+    auto operator<=>(const Place&) const = default;
+  };
+  std::optional<Place> best;
+  for (const int y : rows) {
+    if (best && y * y > best->distance) break;
+    for (const int x : columns) {
+      const Place candidate{x * x + y * y, y, x};
+      if (best && candidate.distance > best->distance) break;
+      if (best && *best < candidate) continue;
+      const FixedVector offset{df::fromCells(x), df::fromCells(y)};
+      if (isFree(translate(box, near + offset))) best = candidate;
+    }
+  }
+  if (!best) return std::nullopt;
+  return near + FixedVector{df::fromCells(best->x), df::fromCells(best->y)};
 }
 
 }  // namespace oracle

@@ -1,5 +1,6 @@
-// The book's world, written as plainly as the book prints it: the loop over all Objects against which the
-// engine is compared, bit for bit. Nothing of the engine is used here but its number type.
+// The book's world, written as plainly as the book prints it, and docs/collisions.md as plainly as it is
+// written there: the loop over all Objects against which the engine is compared, bit for bit. Nothing of the
+// engine is used here but its number type.
 //
 // Listing 4.100 predictPosition, 4.101 update, 4.104 isSolid, 4.107 positionsIntersect (with boxes, section
 // 4.13), 4.108 getCollisions, 4.109 moveObject, 4.111 no soft, 4.113 out of bounds; and two things that the
@@ -9,16 +10,17 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "Counters.h"
 #include "Fixed.h"
+#include "OracleGeometry.h"
+#include "OracleMask.h"
 #include "Solidness.h"
 
 namespace oracle {
 
-using df::Fixed;
-using df::FixedBox;
-using df::FixedVector;
 using df::Solidness;
 
 /// A single character: one cell, centred on the position.
@@ -37,46 +39,46 @@ struct Object {
   bool active = true;
   bool gone = false;  ///< deleted or removed from the world; only lists made before still point here
 
+  // Beyond the book (docs/collisions.md).
+  bool swept = false;
+  bool precise = false;
+  Mask mask;
+  bool rest_contacts = false;
+  bool may_move_out = false;
+
   bool isSolid() const { return solidness == df::HARD || solidness == df::SOFT; }
   FixedVector predictPosition() const { return position + velocity; }
-  /// In cells per tick: the direction is the normalised vector, the speed its length, the velocity their
-  /// product.
-  void setVelocity(double x, double y);
+  /// The box if the Object were at `where` (section 4.13).
+  FixedBox getWorldBox(FixedVector where) const { return {box.corner + where, box.size}; }
 };
 
 using ObjectList = std::vector<Object*>;
-
-/// Do the two boxes, in world coordinates, overlap or touch? (Listing 4.107, for boxes.)
-bool boxIntersectsBox(const FixedBox& a, const FixedBox& b);
 
 /// What the Objects of a world do about events: their eventHandler()s.
 class Handlers {
  public:
   virtual ~Handlers() = default;
   virtual void step(Object* p_receiver) = 0;
-  /// `p_obj1` caused the collision by moving to `where`, onto `p_obj2`.
+  /// `p_obj1` caused the collision by moving to `where` (or, if swept, further), onto `p_obj2`.
   virtual void collision(Object* p_receiver, Object* p_obj1, Object* p_obj2, FixedVector where) = 0;
   virtual void out(Object* p_receiver) = 0;
   /// The Object is going: its destructor.
   virtual void destroyed(Object* p_o) = 0;
 };
 
-/// What happened so far, to show that a test met every case.
-struct Counters {
-  std::int64_t moves = 0;         ///< calls of moveObject, by update and by handlers
-  std::int64_t nested_moves = 0;  ///< of those: from a handler of another move
-  std::int64_t too_deep = 0;      ///< of those: refused for the depth
-  std::int64_t blocked_hard = 0;  ///< of those: refused, HARD onto HARD
-  std::int64_t blocked_soft = 0;  ///< of those: refused, no soft onto SOFT
-  std::int64_t met_soft = 0;      ///< of those: met with SOFT, as mover or as other
-  std::int64_t outs = 0;          ///< of those: sent an out event
-  std::int64_t collisions = 0;    ///< pairs of mover and other that were sent collision events
+/// Whom a move would meet first.
+struct Contact {
+  Object* p_object = nullptr;  ///< null: nobody
+  Time time{1, 1};
+  FixedVector position;  ///< of the mover just before; the target if it meets nobody
 };
 
 class World {
  public:
   /// At most this many moveObject()s at once, one within a handler of the other.
   static constexpr int kDeepestMove = 32;
+  /// findFree() looks at most this many cells far on each axis.
+  static constexpr int kFarthestFree = 1000;
 
   /// `handlers` must outlive the world.
   World(const FixedBox& boundary, Handlers& handlers) : m_boundary(boundary), m_handlers(handlers) {}
@@ -97,18 +99,44 @@ class World {
   /// All moves, then all deletions.
   void update();
   int moveObject(Object* p_o, FixedVector where);
-  ObjectList getCollisions(const Object* p_o, FixedVector where) const;
+  /// Whom p_o touches if it is at `where`; if one of the two is precise, by their masks, too.
+  ObjectList getCollisions(const Object* p_o, FixedVector where);
+  /// All moves that begin from now on are swept.
+  void setSweptCollisions(bool swept) { m_swept_collisions = swept; }
+  bool getSweptCollisions() const { return m_swept_collisions; }
+  Contact firstContact(const Object* p_o, FixedVector where);
+  std::optional<FixedVector> findFree(const FixedBox& box, FixedVector near) const;
 
   /// In creation order.
   const ObjectList& getAllObjects() const { return m_updates; }
   const Counters& counters() const { return m_counters; }
 
  private:
+  /// One whom a move meets.
+  struct Hit {
+    Object* p_other;
+    Time time;
+  };
+  using HitList = std::vector<Hit>;
+  enum class Verdict { PASSES, HARD_BLOCK, SOFT_BLOCK, MOVES_OUT };
+
   int moveNow(Object* p_o, FixedVector where);
+  bool moveAtOnce(Object* p_o, const Way& way);
+  int moveSwept(Object* p_o, const Way& way);
+  HitList getHits(const Object* p_o, const Way& way);
+  std::optional<Time> hitTime(const Object* p_o, const Way& way, const Object* p_other);
+  bool isPrecise(const Object* p_o, const Object* p_other) const;
+  bool shareCellAt(const Object* p_o, FixedVector where, const Object* p_other);
+  void tellBoth(Object* p_o, Object* p_other, FixedVector where);
+  Verdict judge(const Object* p_o, const Object* p_other, const Way& way) const;
+  bool cutAtFirstBlock(HitList& hits, const Object* p_o, const Way& way) const;
+  void place(Object* p_o, FixedVector where);
   bool isInside(FixedVector position) const;
+  bool isFree(const FixedBox& box) const;
 
   FixedBox m_boundary;
   Handlers& m_handlers;
+  bool m_swept_collisions = false;
   ObjectList m_updates;
   ObjectList m_deletions;
   int m_depth = 0;

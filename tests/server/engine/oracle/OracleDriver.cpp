@@ -2,6 +2,12 @@
 
 namespace oracle {
 
+// Games say and hear positions in doubles, which are too short beyond 2^21 cells. So is what scripts are
+// told.
+static FixedVector inDoubles(FixedVector position) {
+  return {*df::toFixed(df::toCells(position.x)), *df::toFixed(df::toCells(position.y))};
+}
+
 OracleDriver::OracleDriver(const RandomWorld& world)
     : m_world(world.boundary, static_cast<Handlers&>(*this)), m_script(world, *this) {
   m_script.begin();
@@ -10,13 +16,59 @@ OracleDriver::OracleDriver(const RandomWorld& world)
 void OracleDriver::create(int id, const Spec& spec) {
   Object* p_o = m_world.create(id);
   m_objects.push_back(p_o);
-  p_o->position = spec.position;
-  setVelocity(id, spec.velocity);
+  m_deaf.push_back(spec.temper == Temper::DEAF);
+  p_o->position = inDoubles(spec.position);
+  p_o->velocity = spec.velocity;
   p_o->acceleration = spec.acceleration;
   p_o->box = spec.box;
   p_o->solidness = spec.solidness;
   p_o->no_soft = spec.no_soft;
   p_o->active = spec.active;
+  p_o->mask = spec.mask;
+  setOptions(id, spec.options);
+}
+
+int OracleDriver::moveObject(int id, FixedVector where) {
+  return m_world.moveObject(object(id), inDoubles(where));
+}
+
+void OracleDriver::setPosition(int id, FixedVector position) {
+  object(id)->position = inDoubles(position);
+}
+
+void OracleDriver::setOptions(int id, Options options) {
+  Object* p_o = object(id);
+  p_o->swept = options.swept;
+  p_o->precise = options.precise;
+  p_o->rest_contacts = options.rest_contacts;
+  p_o->may_move_out = options.may_move_out;
+}
+
+FixedVector OracleDriver::getPosition(int id) const {
+  return inDoubles(object(id)->position);
+}
+
+Meeting OracleDriver::firstContact(int id, FixedVector where) {
+  const Contact contact = m_world.firstContact(object(id), inDoubles(where));
+  return {contact.p_object != nullptr ? contact.p_object->id : -1, contact.time.toDouble(),
+          inDoubles(contact.position)};
+}
+
+std::optional<FixedVector> OracleDriver::findFree(FixedBox box, FixedVector near) {
+  const auto found = m_world.findFree(box, inDoubles(near));
+  return found ? std::optional(inDoubles(*found)) : std::nullopt;
+}
+
+void OracleDriver::step(Object* p_receiver) {
+  if (!isDeaf(p_receiver->id)) m_script.onStep(p_receiver->id);
+}
+
+void OracleDriver::collision(Object* p_receiver, Object* p_obj1, Object* p_obj2, FixedVector where) {
+  if (!isDeaf(p_receiver->id)) m_script.onCollision(p_receiver->id, p_obj1->id, p_obj2->id, inDoubles(where));
+}
+
+void OracleDriver::out(Object* p_receiver) {
+  if (!isDeaf(p_receiver->id)) m_script.onOut(p_receiver->id);
 }
 
 void OracleDriver::tick() {
@@ -28,8 +80,9 @@ void OracleDriver::tick() {
 std::vector<Snapshot> OracleDriver::snapshot() const {
   std::vector<Snapshot> result;
   for (const Object* p_o : m_world.getAllObjects()) {
-    result.push_back(
-        {p_o->id, p_o->position, p_o->velocity, p_o->box, p_o->solidness, p_o->no_soft, p_o->active});
+    const Options options{p_o->swept, p_o->precise, p_o->rest_contacts, p_o->may_move_out};
+    result.push_back({p_o->id, inDoubles(p_o->position), p_o->velocity, p_o->box, p_o->solidness,
+                      p_o->no_soft, p_o->active, options});
   }
   return result;
 }

@@ -1,8 +1,11 @@
 // The property: in random worlds whose handlers create, delete, move and resize, the engine's positions and
-// events equal those of the book's loop, bit for bit.
+// events equal those of the book's loop, bit for bit; and in half of these worlds, where Objects ask for what
+// is beyond the book, those of docs/collisions.md.
 //
 // NAIAD_ORACLE_WORLDS sets the number of worlds, NAIAD_ORACLE_SEED the seed of the first; each next world has
-// the next seed, so a failing one runs alone with NAIAD_ORACLE_SEED=its seed and NAIAD_ORACLE_WORLDS=1.
+// the next seed, so a failing one runs alone with NAIAD_ORACLE_SEED=its seed and NAIAD_ORACLE_WORLDS=1. With
+// NAIAD_ORACLE_OPTIONS=0 the same worlds keep to the book: if one fails only without that, it is an option's
+// doing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,47 +26,42 @@ constexpr std::int64_t kWorlds = 1'000;
 #else
 constexpr std::int64_t kWorlds = 10'000;
 #endif
+/// Fewer than these need not meet every case.
+constexpr std::int64_t kEnough = 200;
 
 std::int64_t setting(const char* name, std::int64_t otherwise) {
   const char* value = std::getenv(name);
   return value == nullptr ? otherwise : std::strtoll(value, nullptr, 10);
 }
 
-void add(Comparison& sum, const Comparison& one) {
-  sum.hash = mix(sum.hash ^ one.hash);
-  sum.ticks += one.ticks;
-  sum.objects += one.objects;
-  sum.largest = std::max(sum.largest, one.largest);
-  sum.handled += one.handled;
-  sum.births += one.births;
-  sum.deaths += one.deaths;
-  sum.counters.moves += one.counters.moves;
-  sum.counters.nested_moves += one.counters.nested_moves;
-  sum.counters.too_deep += one.counters.too_deep;
-  sum.counters.blocked_hard += one.counters.blocked_hard;
-  sum.counters.blocked_soft += one.counters.blocked_soft;
-  sum.counters.outs += one.counters.outs;
-  sum.counters.collisions += one.counters.collisions;
-  sum.counters.met_soft += one.counters.met_soft;
-}
+/// Of all worlds together.
+struct Sum : Comparison {
+  std::int64_t worlds = 0;
+  std::int64_t worlds_with_options = 0;
+
+  void add(const Comparison& one) {
+    ++worlds;
+    worlds_with_options += one.with_options ? 1 : 0;
+    hash = mix(hash ^ one.hash);
+    ticks += one.ticks;
+    objects += one.objects;
+    largest = std::max(largest, one.largest);
+    handled += one.handled;
+    births += one.births;
+    deaths += one.deaths;
+    contacts_asked += one.contacts_asked;
+    contacts_found += one.contacts_found;
+    rooms_asked += one.rooms_asked;
+    rooms_found += one.rooms_found;
+    counters += one.counters;
+  }
+};
 
 double percent(std::int64_t part, std::int64_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-TEST(OracleTest, EngineEqualsTheBooksLoopInRandomWorlds) {
-  const std::int64_t worlds = setting("NAIAD_ORACLE_WORLDS", kWorlds);
-  const std::int64_t first_seed = setting("NAIAD_ORACLE_SEED", 1);
-  const auto begin = std::chrono::steady_clock::now();
-
-  Comparison sum;
-  for (std::int64_t i = 0; i < worlds; ++i) {
-    const Comparison one = compareWorld(static_cast<std::uint64_t>(first_seed + i));
-    ASSERT_TRUE(one.difference.empty())
-        << "engine and oracle differ after " << i + 1 << " worlds: " << one.difference;
-    add(sum, one);
-  }
-
+void reportBook(const Sum& sum, double seconds) {
   // Of all calls of moveObject, by update and by handlers: refused because HARD met HARD, met with SOFT as
   // mover or as other, refused because no soft met SOFT, sent an out event, made by a handler within another.
   const Counters& n = sum.counters;
@@ -75,24 +73,73 @@ TEST(OracleTest, EngineEqualsTheBooksLoopInRandomWorlds) {
   // Of all collision and out events that handlers got: Objects made, and Objects condemned, within them.
   const double birth = percent(sum.births, sum.handled);
   const double death = percent(sum.deaths, sum.handled);
-
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   std::printf("oracle worlds=%" PRId64 " ticks=%" PRId64 " objects=%" PRId64 " largest=%d moves=%" PRId64
               " collisions=%" PRId64 " events=%" PRId64
               " blocked=%.1f%% soft=%.1f%% nosoft=%.1f%% out=%.1f%% nested=%.1f%% birth=%.1f%% death=%.1f%%"
               " too_deep=%" PRId64 " hash=%016" PRIx64 " seconds=%.1f\n",
-              worlds, sum.ticks, sum.objects, sum.largest, n.moves, n.collisions, sum.handled, blocked, soft,
-              no_soft, out, nested, birth, death, n.too_deep, sum.hash, seconds.count());
+              sum.worlds, sum.ticks, sum.objects, sum.largest, n.moves, n.collisions, sum.handled, blocked,
+              soft, no_soft, out, nested, birth, death, n.too_deep, sum.hash, seconds);
 
-  EXPECT_GE(sum.ticks, worlds * 100);
-  EXPECT_GE(blocked, 1);
-  EXPECT_GE(soft, 1);
-  EXPECT_GE(no_soft, 1);
-  EXPECT_GE(out, 1);
-  EXPECT_GE(nested, 1);
-  EXPECT_GE(birth, 1);
-  EXPECT_GE(death, 1);
+  EXPECT_GE(sum.ticks, sum.worlds * 100);
+  if (sum.worlds < kEnough) return;
+  for (const double share : {blocked, soft, no_soft, out, nested, birth, death}) EXPECT_GE(share, 1);
   EXPECT_GE(n.too_deep, 1);
+}
+
+void reportOptions(const Sum& sum) {
+  // Of all moves: swept, and those of Objects at rest. Of swept ones: refused, refused and yet further on
+  // than before, searched again because what blocked gave way. Of pairs whose masks were compared: shared no
+  // cell. Of moves of Objects at rest: touched somebody. Of all pairs: did not block one that moves out.
+  const Counters& n = sum.counters;
+  const double swept = percent(n.swept_moves, n.moves);
+  const double blocked = percent(n.swept_blocked, n.swept_moves);
+  const double stopped = percent(n.swept_stopped, n.swept_moves);
+  const double passed = percent(n.swept_passed_on, n.swept_moves);
+  const double rejected = percent(n.precise_rejected, n.precise_pairs);
+  const double rest = percent(n.rest_moves, n.moves);
+  const double rest_met = percent(n.rest_contacts, n.rest_moves);
+  const double moved_out = percent(n.moved_out, n.collisions);
+  const double contact = percent(sum.contacts_found, sum.contacts_asked);
+  const double room = percent(sum.rooms_found, sum.rooms_asked);
+  std::printf("oracle worlds with options=%" PRId64
+              " swept=%.1f%% blocked=%.1f%% stopped=%.1f%% passed=%.2f%%"
+              " precise=%" PRId64
+              " rejected=%.1f%% rest=%.1f%% rest_met=%.1f%% moved_out=%.2f%%"
+              " contacts=%" PRId64 " found=%.1f%% rooms=%" PRId64 " found=%.1f%%\n",
+              sum.worlds_with_options, swept, blocked, stopped, passed, n.precise_pairs, rejected, rest,
+              rest_met, moved_out, sum.contacts_asked, contact, sum.rooms_asked, room);
+
+  if (sum.worlds < kEnough) return;
+  for (const double share : {swept, blocked, stopped, rejected, rest, rest_met, contact, room})
+    EXPECT_GE(share, 1);
+  EXPECT_GE(passed, 0.1);
+  EXPECT_GE(moved_out, 0.1);
+  EXPECT_GE(n.precise_pairs, 1000);
+}
+
+/// Which of the engine's paths the worlds took, so that none goes untested.
+void reportPaths(const Sum& /*sum*/) {
+  // Here go the counters of World::paths(), once there are some: printed by name, and each at least 1.
+}
+
+TEST(OracleTest, EngineEqualsTheBooksLoopInRandomWorlds) {
+  const std::int64_t worlds = setting("NAIAD_ORACLE_WORLDS", kWorlds);
+  const std::int64_t first_seed = setting("NAIAD_ORACLE_SEED", 1);
+  const bool with_options = setting("NAIAD_ORACLE_OPTIONS", 1) != 0;
+  const auto begin = std::chrono::steady_clock::now();
+
+  Sum sum;
+  for (std::int64_t i = 0; i < worlds; ++i) {
+    const Comparison one = compareWorld(static_cast<std::uint64_t>(first_seed + i), with_options);
+    ASSERT_TRUE(one.difference.empty())
+        << "engine and oracle differ after " << i + 1 << " worlds: " << one.difference;
+    sum.add(one);
+  }
+
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  reportBook(sum, seconds.count());
+  if (with_options) reportOptions(sum);
+  reportPaths(sum);
 }
 
 }  // namespace

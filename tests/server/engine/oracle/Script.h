@@ -36,12 +36,14 @@ class Script {
   std::int64_t deaths() const { return m_deaths; }
   /// The most Objects in the world at one time; the fewest at the start of a tick is 2.
   int largest() const { return m_largest; }
+  /// Those in the world, in its order.
+  const std::vector<int>& present() const { return m_present; }
   /// All Objects that ever were.
   int created() const { return static_cast<int>(m_cast.size()); }
 
  private:
   struct Role {
-    Temper temper;
+    Temper temper = Temper::QUIET;
     int events = 0;
     bool present = true;  ///< neither destroyed nor removed
     bool marked = false;
@@ -49,7 +51,9 @@ class Script {
 
   Rng draw(int id);
   int someone(Rng& rng, int self, int other) const;
+  void comeHome(Rng& rng, int id);
   void act(Rng& rng, int self, int other);
+  void give(Rng& rng, int id);
   void create(const Spec& spec);
   void bear(Rng& rng, FixedVector near);
   void die(int id, bool by_hand);

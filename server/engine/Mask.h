@@ -1,0 +1,56 @@
+// Which characters of an Object are set: rows of bits, for the precise collision test (docs/collisions.md,
+// "Precise").
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Fixed.h"
+
+namespace df {
+
+class Mask {
+ public:
+  /// Largest width and height in characters.
+  static constexpr int kMaxSide = 1024;
+
+  /// One string per row, UTF-8; a character is set unless it is a blank or `hole`. Shorter rows are padded
+  /// with holes. Nothing if there is no row, no character at all, or a side is longer than kMaxSide.
+  static std::optional<Mask> fromRows(const std::vector<std::string>& rows, char32_t hole = U' ');
+
+  int width() const { return m_width; }
+  int height() const { return m_height; }
+  /// Is character (x,y) set? False outside.
+  bool isSet(int x, int y) const;
+
+ private:
+  friend bool shareCell(const Mask* p_a, const FixedBox& a, const Mask* p_b, const FixedBox& b);
+
+  std::uint64_t bitsFrom(std::int64_t x, std::int64_t y) const;
+
+  int m_width = 0;
+  int m_height = 0;
+  int m_words = 0;                    // per row
+  std::vector<std::uint64_t> m_bits;  // row by row, character x of a row in bit x % 64 of word x / 64
+};
+
+/// A rectangle of cells; neither side is 0.
+struct CellBox {
+  std::int64_t x;
+  std::int64_t y;
+  std::int64_t width;
+  std::int64_t height;
+};
+
+/// The cells over which an Object's mask lies, holes included. Null is a full mask; `box` is in world
+/// coordinates: character (i,j) is drawn in cell (⌊corner.x⌋ + 1 + i, ⌊corner.y⌋ + 1 + j). A full mask has
+/// max(1, ⌈width⌉) by max(1, ⌈height⌉) characters.
+CellBox drawnCells(const Mask* p_mask, const FixedBox& box);
+
+/// Do two Objects share a drawn cell? Each has a mask, null for a full one, and its box in world coordinates.
+/// The boxes themselves are not tested.
+bool shareCell(const Mask* p_a, const FixedBox& a, const Mask* p_b, const FixedBox& b);
+
+}  // namespace df

@@ -1,0 +1,57 @@
+#include "SweptMove.h"
+
+#include "EventCollision.h"
+#include "Mover.h"
+#include "Pair.h"
+#include "World.h"
+#include "WorldStore.h"
+
+namespace df {
+
+bool SweptMove::run(Mover& moves, World& world, ObjectKey mover, FixedVector where) {
+  const WorldStore& store = world.store();
+  const FixedVector from = store.position(mover.slot);
+  m_met.clear();
+  Moment since;
+  for (int stage = 1; store.collides(mover.slot); ++stage) {
+    const Way way(store.box(mover.slot), from, where);
+    m_list.fill(store, mover.slot, way, HitList::kBlock, since, &m_met);
+    if (m_list.hits().empty()) return true;
+
+    const Verdict verdict = meetAll(moves, world, mover, way);
+    if (verdict.outcome == Outcome::kGone) return false;
+    const bool is_blocked = verdict.outcome == Outcome::kBlocked;
+    if (!is_blocked && !m_list.end()) return true;
+    if (is_blocked || stage == kMaxStages) {
+      const FixedVector stop = way.sweep().before(is_blocked ? verdict.moment : *m_list.end());
+      if (stop != from && store.position(mover.slot) == from) moves.place(mover, stop);
+      return false;
+    }
+    since = *m_list.end();
+    for (const Hit& hit : m_list.hits()) m_met.insert(hit.key);
+  }
+  return true;
+}
+
+// A handler may begin moves of its own, but those have lists of their own.
+SweptMove::Verdict SweptMove::meetAll(Mover& moves, World& world, ObjectKey mover, const Way& way) {
+  const WorldStore& store = world.store();
+  Verdict verdict{Outcome::kFree, {}};
+  EventCollision event(store.object(mover.slot), nullptr, Vector());
+  for (const Hit& hit : m_list.hits()) {
+    if (verdict.outcome == Outcome::kBlocked && hit.moment > verdict.moment) break;
+    if (!store.isCurrent(hit.key)) continue;
+    if (store.listens(mover.slot) || store.listens(hit.key.slot)) {
+      event.setObject2(store.object(hit.key.slot));
+      event.setPosition(Vector::fromFixed(way.sweep().before(hit.moment)));
+      if (!moves.tell(mover, hit.key, event)) return {Outcome::kGone, {}};
+      if (!store.isCurrent(hit.key)) continue;
+    }
+    if (verdict.outcome == Outcome::kBlocked) continue;
+    const Pair pair(store, mover.slot, hit.key.slot);
+    if (pair.blocks(way.from(), way.to())) verdict = {Outcome::kBlocked, hit.moment};
+  }
+  return verdict;
+}
+
+}  // namespace df

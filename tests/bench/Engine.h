@@ -1,0 +1,41 @@
+// A world that runs a Scene: ours, or a peer's.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+
+#include "Tally.h"
+
+namespace bench {
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  /// Everybody with a velocity takes a turn, in id order.
+  virtual void tick() = 0;
+  virtual const Tally& tally() const = 0;
+  /// Of all positions and velocities, in id order: equal in two engines if those are.
+  virtual std::uint64_t stateHash() const = 0;
+  /// 1 if tick() is a whole tick; less if it is only that part of one, because a whole one takes too long.
+  /// Such an engine is not compared with others.
+  virtual double partOfTick() const { return 1; }
+};
+
+using EnginePtr = std::unique_ptr<Engine>;
+
+/// For stateHash(): coordinates are whole multiples of 2^-10 cell.
+class StateHash {
+ public:
+  void add(double coordinate) {
+    m_hash ^= static_cast<std::uint64_t>(std::llround(coordinate * 1024));
+    m_hash *= 0x100000001b3u;  // FNV-1a, a word at a time
+  }
+  std::uint64_t value() const { return m_hash; }
+
+ private:
+  std::uint64_t m_hash = 0xcbf29ce484222325u;
+};
+
+}  // namespace bench

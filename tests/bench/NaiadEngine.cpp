@@ -1,0 +1,90 @@
+#include "NaiadEngine.h"
+
+#include "EventCollision.h"
+#include "EventOut.h"
+#include "Object.h"
+#include "WorldManager.h"
+
+namespace bench {
+
+/// The workload's handlers, written as a game writes them.
+class Ball : public df::Object {
+ public:
+  Ball(const Body& body, std::uint64_t number, double side, Tally& tally)
+      : m_tally(tally), m_number(number), m_side(side) {
+    setType("Ball");
+    setSolidness(body.solidness);
+    if (body.width != 1 || body.height != 1) {
+      setBox(df::Box(df::Vector(-body.width / 2.0, -body.height / 2.0), body.width, body.height));
+    }
+    setPosition(df::Vector(body.x, body.y));
+    setVelocity(df::Vector(body.vx, body.vy));
+  }
+
+  int eventHandler(const df::Event* p_e) override {
+    if (p_e->getType() == df::COLLISION_EVENT) return hit(static_cast<const df::EventCollision*>(p_e));
+    if (p_e->getType() == df::OUT_EVENT) return out();
+    return 0;
+  }
+
+ private:
+  int hit(const df::EventCollision* p_e) {
+    m_tally.event(m_number);
+    const bool is_mover = p_e->getObject1() == this;
+    if (!is_mover || getSolidness() != df::HARD || p_e->getObject2()->getSolidness() != df::HARD) return 1;
+    if (m_turned == m_tally.tick) return 1;  // it met several
+    m_turned = m_tally.tick;
+    ++m_tally.blocked;
+    const df::Vector v = getVelocity();
+    setVelocity(df::Vector(-v.x(), -v.y()));
+    return 1;
+  }
+
+  int out() {
+    const df::Vector p = getPosition();
+    const df::Vector v = getVelocity();
+    const bool left_x = p.x() < 0 || p.x() >= m_side;
+    const bool left_y = p.y() < 0 || p.y() >= m_side;
+    setPosition(p - v);
+    setVelocity(df::Vector(left_x ? -v.x() : v.x(), left_y ? -v.y() : v.y()));
+    return 1;
+  }
+
+  Tally& m_tally;
+  std::uint64_t m_number;
+  std::uint64_t m_turned = 0;  // the tick in which it was blocked last
+  double m_side;
+};
+
+NaiadEngine::NaiadEngine(const Scene& scene) {
+  const df::World::Scope scope(m_world);
+  m_world.setLogSink([](const std::string& /*line*/) {});
+  WM.setBoundary(df::Box(df::Vector(), scene.side, scene.side));
+  m_balls.reserve(scene.bodies.size());
+  for (const Body& body : scene.bodies) {
+    m_balls.push_back(new Ball(body, m_balls.size(), scene.side, m_tally));
+  }
+}
+
+NaiadEngine::~NaiadEngine() {
+  m_world.shutDown();
+}
+
+void NaiadEngine::tick() {
+  const df::World::Scope scope(m_world);
+  ++m_tally.tick;
+  WM.update();
+}
+
+std::uint64_t NaiadEngine::stateHash() const {
+  StateHash hash;
+  for (const Ball* ball : m_balls) {
+    hash.add(ball->getPosition().x());
+    hash.add(ball->getPosition().y());
+    hash.add(ball->getVelocity().x());
+    hash.add(ball->getVelocity().y());
+  }
+  return hash.value();
+}
+
+}  // namespace bench

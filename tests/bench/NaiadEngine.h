@@ -1,0 +1,30 @@
+// A Scene in this project's engine, through nothing but what a game has: Objects, their handlers,
+// WM.update().
+#pragma once
+
+#include <vector>
+
+#include "Engine.h"
+#include "Scene.h"
+#include "World.h"
+
+namespace bench {
+
+class Ball;
+
+class NaiadEngine : public Engine {
+ public:
+  explicit NaiadEngine(const Scene& scene);
+  ~NaiadEngine() override;
+
+  void tick() override;
+  const Tally& tally() const override { return m_tally; }
+  std::uint64_t stateHash() const override;
+
+ private:
+  df::World m_world;
+  Tally m_tally;
+  std::vector<Ball*> m_balls;  // the world's, by id
+};
+
+}  // namespace bench

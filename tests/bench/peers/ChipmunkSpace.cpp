@@ -1,0 +1,83 @@
+#include <chipmunk/chipmunk.h>
+
+#include "PeerWorld.h"
+#include "Peers.h"
+
+namespace bench {
+
+namespace {
+
+// Static bodies: they have positions and boxes, and the space never moves or pairs them by itself, which is
+// the least work for it. (With kinematic ones the tree takes 1.3 times as long, because it keeps their pairs
+// up to date.)
+class ChipmunkSpace {
+ public:
+  using Real = cpFloat;
+  using Object = PeerBody<Real>;
+
+  /// A table of length 0 means the trees.
+  ChipmunkSpace(const Scene& /*scene*/, double cell, int table) : m_space(cpSpaceNew()) {
+    if (table > 0) cpSpaceUseSpatialHash(m_space, cell, table);
+  }
+  ChipmunkSpace(const ChipmunkSpace&) = delete;
+  ChipmunkSpace& operator=(const ChipmunkSpace&) = delete;
+  ~ChipmunkSpace() {
+    std::vector<cpShape*> shapes;
+    cpSpaceEachShape(
+        m_space,
+        [](cpShape* shape, void* list) { static_cast<std::vector<cpShape*>*>(list)->push_back(shape); },
+        &shapes);
+    cpSpaceFree(m_space);
+    for (cpShape* shape : shapes) {
+      cpBodyFree(cpShapeGetBody(shape));
+      cpShapeFree(shape);
+    }
+  }
+
+  void add(Object& object) {
+    cpBody* body = cpBodyNewStatic();
+    cpBodySetPosition(body, cpv(object.x, object.y));
+    cpShape* shape = cpBoxShapeNew(body, 2 * object.half_width, 2 * object.half_height, 0);
+    cpShapeSetUserData(shape, &object);
+    object.shape = cpSpaceAddShape(m_space, shape);
+  }
+
+  void touching(Object& mover, Real x, Real y, std::vector<Object*>& out) {
+    const cpBB box = cpBBNewForExtents(cpv(x, y), mover.half_width, mover.half_height);
+    Query query{mover, out};
+    cpSpaceBBQuery(m_space, box, CP_SHAPE_FILTER_ALL, &found, &query);
+  }
+
+  void moved(Object& object) {
+    auto* shape = static_cast<cpShape*>(object.shape);
+    cpBodySetPosition(cpShapeGetBody(shape), cpv(object.x, object.y));
+    cpSpaceReindexShape(m_space, shape);
+  }
+
+ private:
+  struct Query {
+    const Object& mover;
+    std::vector<Object*>& out;
+  };
+
+  // The space has compared the boxes, edges included, and these doubles are exact.
+  static void found(cpShape* shape, void* p_query) {
+    auto* query = static_cast<Query*>(p_query);
+    auto* other = static_cast<Object*>(cpShapeGetUserData(shape));
+    if (other != &query->mover) query->out.push_back(other);
+  }
+
+  cpSpace* m_space;
+};
+
+}  // namespace
+
+EnginePtr makeChipmunkSpace(const Scene& scene, double cell, int table) {
+  return std::make_unique<PeerWorld<ChipmunkSpace>>(scene, scene.count(), cell, table);
+}
+
+EnginePtr makeChipmunkTree(const Scene& scene) {
+  return std::make_unique<PeerWorld<ChipmunkSpace>>(scene, scene.count(), 0.0, 0);
+}
+
+}  // namespace bench

@@ -1,0 +1,66 @@
+// What a game on top of a peer's library keeps per object: its own position and velocity in the library's
+// number type, and a virtual handler that is told of collisions as an Object's eventHandler is.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "Scene.h"
+#include "Tally.h"
+
+namespace bench {
+
+template <class Real>
+struct PeerBody {
+  struct Collision {
+    PeerBody* mover;
+    PeerBody* other;
+    Real x;  ///< where the mover wanted to go
+    Real y;
+  };
+
+  PeerBody(const Body& body, std::uint32_t its_id, Tally& its_tally)
+      : x(static_cast<Real>(body.x)),
+        y(static_cast<Real>(body.y)),
+        vx(static_cast<Real>(body.vx)),
+        vy(static_cast<Real>(body.vy)),
+        half_width(static_cast<Real>(body.width) / 2),
+        half_height(static_cast<Real>(body.height) / 2),
+        id(its_id),
+        solidness(body.solidness),
+        tally(its_tally) {}
+  virtual ~PeerBody() = default;
+
+  virtual void onCollision(const Collision& collision) {
+    tally.event(id);
+    if (collision.mover != this || !blocks(*collision.other) || turned == tally.tick) return;
+    turned = tally.tick;
+    ++tally.blocked;
+    vx = -vx;
+    vy = -vy;
+  }
+
+  bool isSolid() const { return solidness != df::SPECTRAL; }
+  bool blocks(const PeerBody& other) const { return solidness == df::HARD && other.solidness == df::HARD; }
+  /// Would the two boxes touch if this one were at (at_x, at_y)?
+  bool touches(const PeerBody& other, Real at_x, Real at_y) const {
+    return std::abs(other.x - at_x) <= half_width + other.half_width &&
+           std::abs(other.y - at_y) <= half_height + other.half_height;
+  }
+
+  Real x;
+  Real y;
+  Real vx;
+  Real vy;
+  Real half_width;
+  Real half_height;
+  std::uint32_t id;
+  std::int32_t handle = 0;  ///< the library's, where it has numbers
+  void* shape = nullptr;    ///< the library's, where it has pointers
+  df::Solidness solidness;
+  std::uint64_t turned = 0;  ///< the tick in which it was blocked last
+  Tally& tally;
+};
+
+}  // namespace bench

@@ -1,0 +1,114 @@
+// The tick of the workload over a peer's spatial index: the same turns in the same order as in WM.update(),
+// with what a careful programmer would leave out left out (objects at rest are not looked at, the list of
+// hits is reused, and who would leave the world is not moved out and back).
+//
+// An Index has a number type `Real`, a constructor from Scene&, and
+//   void add(PeerBody<Real>&)            a solid body enters;
+//   void touching(const PeerBody<Real>& mover, Real x, Real y, std::vector<PeerBody<Real>*>& out)
+//                                        all solid bodies but the mover that touch it at (x, y), in any
+//                                        order;
+//   void moved(PeerBody<Real>&)          its x and y have changed.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "Engine.h"
+#include "PeerBody.h"
+
+namespace bench {
+
+template <class Index>
+class PeerWorld : public Engine {
+ public:
+  using Real = typename Index::Real;
+  using Object = PeerBody<Real>;
+
+  /// `turns`: how many objects, at equal distances, take a turn per tick(), if that is less than all.
+  template <class... Arguments>
+  explicit PeerWorld(const Scene& scene, int turns, Arguments... arguments)
+      : m_index(scene, arguments...),
+        m_side(static_cast<Real>(scene.side)),
+        m_turns(static_cast<std::size_t>(turns)) {
+    m_objects.reserve(scene.bodies.size());
+    for (const Body& body : scene.bodies) {
+      const auto id = static_cast<std::uint32_t>(m_objects.size());
+      Object& object = *m_objects.emplace_back(std::make_unique<Object>(body, id, m_tally));
+      if (object.isSolid()) m_index.add(object);
+      if (body.moves()) m_movers.push_back(&object);
+    }
+  }
+
+  void tick() override {
+    ++m_tally.tick;
+    if (m_turns >= m_movers.size()) {
+      for (Object* object : m_movers) turn(*object);
+      return;
+    }
+    const std::size_t distance = m_movers.size() / m_turns;
+    const std::size_t first = m_tally.tick % distance;
+    for (std::size_t i = 0; i < m_turns; ++i) turn(*m_movers[first + i * distance]);
+  }
+
+  const Tally& tally() const override { return m_tally; }
+  double partOfTick() const override {
+    return m_turns >= m_movers.size() ? 1
+                                      : static_cast<double>(m_turns) / static_cast<double>(m_movers.size());
+  }
+
+  std::uint64_t stateHash() const override {
+    StateHash hash;
+    for (const auto& object : m_objects) {
+      for (const Real number : {object->x, object->y, object->vx, object->vy}) hash.add(number);
+    }
+    return hash.value();
+  }
+
+ private:
+  void turn(Object& mover) {
+    const Real x = mover.x + mover.vx;
+    const Real y = mover.y + mover.vy;
+    if (mover.isSolid()) {
+      m_hits.clear();
+      m_index.touching(mover, x, y, m_hits);
+      if (!m_hits.empty() && !collide(mover, x, y)) return;
+    }
+    const bool leaves_x = !(x >= 0 && x < m_side);
+    const bool leaves_y = !(y >= 0 && y < m_side);
+    if (leaves_x || leaves_y) {
+      if (leaves_x) mover.vx = -mover.vx;
+      if (leaves_y) mover.vy = -mover.vy;
+      return;
+    }
+    mover.x = x;
+    mover.y = y;
+    if (mover.isSolid()) m_index.moved(mover);
+  }
+
+  // Return whether the mover may move.
+  bool collide(Object& mover, Real x, Real y) {
+    if (m_hits.size() > 1) {
+      std::sort(m_hits.begin(), m_hits.end(), [](const Object* a, const Object* b) { return a->id < b->id; });
+    }
+    bool free = true;
+    for (Object* other : m_hits) {
+      const typename Object::Collision collision{&mover, other, x, y};
+      mover.onCollision(collision);
+      other->onCollision(collision);
+      if (mover.blocks(*other)) free = false;
+    }
+    return free;
+  }
+
+  Tally m_tally;
+  std::vector<std::unique_ptr<Object>> m_objects;  // by id; the index, which knows them, goes first
+  std::vector<Object*> m_movers;
+  std::vector<Object*> m_hits;
+  Index m_index;
+  Real m_side;
+  std::size_t m_turns;
+};
+
+}  // namespace bench

@@ -1,0 +1,30 @@
+// Book, Listing 4.105.
+#pragma once
+
+#include "Event.h"
+#include "Object.h"
+#include "Vector.h"
+
+namespace textbook {
+
+const std::string COLLISION_EVENT = "df::collision";
+
+class EventCollision : public Event {
+ private:
+  Vector m_pos;      // Where collision occurred.
+  Object* m_p_obj1;  // Object moving, causing collision.
+  Object* m_p_obj2;  // Object being collided with.
+
+ public:
+  EventCollision();
+  EventCollision(Object* p_o1, Object* p_o2, Vector p);
+
+  void setObject1(Object* p_new_o1);
+  Object* getObject1() const;
+  void setObject2(Object* p_new_o2);
+  Object* getObject2() const;
+  void setPosition(Vector new_pos);
+  Vector getPosition() const;
+};
+
+}  // namespace textbook

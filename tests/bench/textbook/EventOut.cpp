@@ -1,0 +1,9 @@
+#include "EventOut.h"
+
+namespace textbook {
+
+EventOut::EventOut() {
+  setType(OUT_EVENT);
+}
+
+}  // namespace textbook

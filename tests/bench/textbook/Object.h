@@ -1,0 +1,64 @@
+// Book, Listings 4.34, 4.99, 4.103, 4.104, 4.110.
+#pragma once
+
+#include <string>
+
+#include "Event.h"
+#include "Vector.h"
+
+namespace textbook {
+
+enum Solidness {
+  HARD,      // Object causes collisions and impedes.
+  SOFT,      // Object causes collisions, but doesn't impede.
+  SPECTRAL,  // Object doesn't cause collisions.
+};
+
+class Object {
+ private:
+  int m_id;               // Unique game engine defined identifier.
+  std::string m_type;     // Game programmer defined type.
+  Vector m_position;      // Position in game world.
+  int m_altitude;         // 0 to MAX_ALTITUDE supported.
+  Vector m_direction;     // Direction vector.
+  float m_speed;          // Object speed in direction.
+  Solidness m_solidness;  // Solidness of object.
+  bool m_no_soft;         // True if won't move onto soft objects.
+
+ public:
+  // Construct Object. Set default parameters and add to game world (WorldManager).
+  Object();
+  // Destroy Object. Remove from game world (WorldManager).
+  virtual ~Object();
+
+  void setId(int new_id);
+  int getId() const;
+  void setType(std::string new_type);
+  std::string getType() const;
+  void setPosition(Vector new_pos);
+  Vector getPosition() const;
+  void setAltitude(int new_altitude);
+  int getAltitude() const;
+
+  void setSpeed(float speed);
+  float getSpeed() const;
+  void setDirection(Vector new_direction);
+  Vector getDirection() const;
+  // Set direction and speed of Object.
+  void setVelocity(Vector new_velocity);
+  // Get velocity of Object based on direction and speed.
+  Vector getVelocity() const;
+  // Predict Object position based on speed and direction.
+  Vector predictPosition();
+
+  bool isSolid() const;
+  int setSolidness(Solidness new_solid);
+  Solidness getSolidness() const;
+  void setNoSoft(bool new_no_soft = true);
+  bool getNoSoft() const;
+
+  // Handle event. Return 0 if ignored, else 1.
+  virtual int eventHandler(const Event* p_e);
+};
+
+}  // namespace textbook

@@ -1,0 +1,32 @@
+// Book, Listing 4.26 and following.
+#pragma once
+
+namespace textbook {
+
+class Vector {
+ private:
+  float m_x;  // Horizontal component.
+  float m_y;  // Vertical component.
+
+ public:
+  Vector();
+  Vector(float init_x, float init_y);
+
+  void setX(float new_x);
+  float getX() const;
+  void setY(float new_y);
+  float getY() const;
+
+  // Return magnitude of vector.
+  float getMagnitude() const;
+  // Resize vector to have magnitude of 1.
+  void normalize();
+  // Scale vector.
+  void scale(float s);
+
+  Vector operator+(const Vector& other) const;
+  Vector operator-(const Vector& other) const;
+  bool operator!=(const Vector& other) const;
+};
+
+}  // namespace textbook

@@ -1,0 +1,11 @@
+// Book, Listing 4.107.
+#pragma once
+
+#include "Vector.h"
+
+namespace textbook {
+
+// Return true if two positions intersect, else false.
+bool positionsIntersect(Vector p1, Vector p2);
+
+}  // namespace textbook

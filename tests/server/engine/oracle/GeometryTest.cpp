@@ -1,0 +1,182 @@
+// The oracle's geometry, held against looking at every position of a way.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <ostream>
+
+#include "OracleGeometry.h"
+#include "Rng.h"
+
+namespace oracle {
+
+static void PrintTo(Time time, std::ostream* p_out) {
+  *p_out << time.numerator << '/' << time.denominator;
+}
+
+namespace {
+
+bool isEqual(Time a, Time b) {
+  return !(a < b) && !(b < a);
+}
+
+/// A way, what moves along it and what it may meet.
+struct Case {
+  Way way;
+  FixedBox box;
+  Mask mask;
+  FixedBox other;
+  Mask others_mask;
+
+  bool touches(FixedVector where) const { return boxIntersectsBox(translate(box, where), other); }
+  bool shares(FixedVector where) const {
+    return touches(where) && shareCell(translate(box, where), mask, other, others_mask);
+  }
+};
+
+/// The first of `times`, sorted and from 0 to 1, at which `meets` is true, by the rule for the start.
+std::optional<Time> look(const Case& c, const std::vector<Time>& times,
+                         const std::function<bool(FixedVector)>& meets) {
+  std::size_t i = 0;
+  if (meets(c.way.from)) {
+    if (closesGap(c.box, c.way, c.other) || meets(c.way.to)) return Time{0, 1};
+    while (i < times.size() && meets(c.way.at(times[i]))) ++i;
+  }
+  while (i < times.size() && !meets(c.way.at(times[i]))) ++i;
+  return i < times.size() ? std::optional(times[i]) : std::nullopt;
+}
+
+void expectEqual(const std::optional<Time>& found, const std::optional<Time>& expected, int number) {
+  ASSERT_EQ(found.has_value(), expected.has_value()) << "case " << number;
+  if (!found) return;
+  EXPECT_TRUE(isEqual(*found, *expected)) << "case " << number << ": " << testing::PrintToString(*found)
+                                          << " for " << testing::PrintToString(*expected);
+}
+
+/// A case in which all is a multiple of `unit`, within `way` units and with boxes up to `size` units.
+Case randomCase(Rng& rng, Fixed unit, int way, int size) {
+  const auto vector = [&](int least, int most) {
+    const Fixed x = unit * rng.between(least, most);
+    return FixedVector{x, unit * rng.between(least, most)};
+  };
+  Case c;
+  c.way.from = vector(-way, way);
+  c.way.to = c.way.from + vector(-way, way);
+  if (rng.chance(20)) c.way.to.x = c.way.from.x;
+  if (rng.chance(20)) c.way.to.y = c.way.from.y;
+  c.box.corner = vector(-size, size);
+  c.box.size = vector(0, size);
+  c.other.corner = vector(-way, way);
+  c.other.size = vector(0, size);
+  return c;
+}
+
+TEST(GeometryTest, FirstTouchIsTheFirstOfAllPositions) {
+  Rng rng(1);
+  int met = 0;
+  int at_start = 0;
+  for (int number = 0; number < 20'000; ++number) {
+    const Case c = randomCase(rng, 1, 9, 6);
+    const auto length_x = static_cast<std::uint64_t>(std::abs(c.way.to.x - c.way.from.x));
+    const auto length_y = static_cast<std::uint64_t>(std::abs(c.way.to.y - c.way.from.y));
+    const std::uint64_t steps = std::max<std::uint64_t>(length_x, 1) * std::max<std::uint64_t>(length_y, 1);
+    std::vector<Time> times;
+    for (std::uint64_t i = 0; i <= steps; ++i) times.push_back({i, steps});
+
+    const auto found = firstTouch(c.way, c.box, c.other);
+    expectEqual(found, look(c, times, [&](FixedVector where) { return c.touches(where); }), number);
+    if (!found) continue;
+    ++met;
+    if (found->numerator == 0) {
+      ++at_start;
+      EXPECT_EQ(c.way.before(*found), c.way.from);
+      continue;
+    }
+    // The position before is that of the step before, and there is no touch there yet.
+    std::uint64_t i = 0;
+    while (!isEqual(times[i], *found)) ++i;
+    EXPECT_EQ(c.way.before(*found), c.way.at(times[i - 1]));
+    EXPECT_FALSE(c.touches(c.way.before(*found)));
+    EXPECT_TRUE(c.touches(c.way.at(*found)));
+  }
+  EXPECT_GT(met, 2'000);
+  EXPECT_GT(at_start, 500);
+}
+
+// All that can change, changes where a coordinate becomes a multiple of the unit, or leaves it.
+TEST(GeometryTest, FirstShareIsTheFirstOfAllPositions) {
+  const Fixed unit = df::kFixedOne / 4;
+  Rng rng(2);
+  int met = 0;
+  int met_again = 0;
+  int passed = 0;
+  for (int number = 0; number < 100'000; ++number) {
+    Case c = randomCase(rng, unit, 20, 16);
+    const auto mask = [&] {
+      Mask rows(static_cast<std::size_t>(rng.below(5)));
+      for (std::string& row : rows) {
+        for (int i = rng.below(5); i >= 0; --i) row += rng.chance(40) ? '#' : ' ';
+      }
+      return rows;
+    };
+    c.mask = mask();
+    c.others_mask = mask();
+
+    std::vector<Time> times{{0, 1}, {1, 1}};
+    for (const Fixed distance : {c.way.to.x - c.way.from.x, c.way.to.y - c.way.from.y}) {
+      const auto length = static_cast<std::uint64_t>(std::abs(distance));
+      for (std::uint64_t gone = 0; gone < length; gone += static_cast<std::uint64_t>(unit)) {
+        times.push_back({gone, length});
+        times.push_back({gone + 1, length});
+      }
+    }
+    std::sort(times.begin(), times.end());
+
+    const auto found = firstShare(c.way, c.box, c.mask, c.other, c.others_mask);
+    expectEqual(found, look(c, times, [&](FixedVector where) { return c.shares(where); }), number);
+    const auto touched = firstTouch(c.way, c.box, c.other);
+    if (found) ++met;
+    if (found && found->numerator != 0 && c.shares(c.way.from)) ++met_again;
+    if (touched && !found) ++passed;
+  }
+  EXPECT_GT(met, 2'000);
+  EXPECT_GT(met_again, 10);
+  EXPECT_GT(passed, 500);
+}
+
+// As soon as the move begins: after so small a part of it that no other side comes to be the farther one.
+TEST(GeometryTest, TheGapClosesIfItIsSmallerAMomentLater) {
+  constexpr Fixed kMoment = 1000;
+  Rng rng(3);
+  const auto scaled = [](FixedBox box) {
+    return FixedBox{{box.corner.x * kMoment, box.corner.y * kMoment},
+                    {box.size.x * kMoment, box.size.y * kMoment}};
+  };
+  int closing = 0;
+  for (int number = 0; number < 20'000; ++number) {
+    const Case c = randomCase(rng, 1, 9, 6);
+    const FixedBox at_start = scaled(translate(c.box, c.way.from));
+    const FixedBox a_moment_later = translate(at_start, c.way.to - c.way.from);
+    const bool closes = gap(a_moment_later, scaled(c.other)) < gap(at_start, scaled(c.other));
+    EXPECT_EQ(closesGap(c.box, c.way, c.other), closes) << "case " << number;
+    if (closes) ++closing;
+  }
+  EXPECT_GT(closing, 2'000);
+}
+
+// From one end of the number range to the other the distance does not fit a signed number.
+TEST(GeometryTest, WaysAreAsLongAsTheWorldIsWide) {
+  const Fixed end = df::fromCells(2'000'000'000);
+  const FixedBox character{{-df::kFixedOne / 2, -df::kFixedOne / 2}, {df::kFixedOne, df::kFixedOne}};
+  const Way way{{-end, -end}, {end, end}};
+  const auto time = firstTouch(
+      way, character, translate(character, {end - 10 * df::kFixedOne, end - 10 * df::kFixedOne - 5}));
+  ASSERT_TRUE(time);
+  EXPECT_EQ(way.before(*time), (FixedVector{end - 11 * df::kFixedOne - 1, end - 11 * df::kFixedOne - 1}));
+  EXPECT_EQ(way.at({1, 1}), way.to);
+  EXPECT_EQ(gap(translate(character, way.from), translate(character, way.to)),
+            2 * static_cast<Wide>(end) - df::kFixedOne);
+}
+
+}  // namespace
+}  // namespace oracle

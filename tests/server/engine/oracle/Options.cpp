@@ -1,0 +1,90 @@
+#include "Options.h"
+
+#include <array>
+
+namespace oracle {
+
+OptionMix OptionMix::random(Rng& rng) {
+  OptionMix mix;
+  mix.any = rng.chance(50);
+  constexpr std::array<int, 4> percents{10, 30, 60, 100};
+  const auto percent = [&] { return percents[static_cast<std::size_t>(rng.below(4))]; };
+  const int which = rng.below(8);
+  if (!mix.any) return mix;
+  switch (which) {
+    case 0:  // the arrow among those that are as in the book
+      mix.swept = percent();
+      break;
+    case 1:
+      mix.sweep_all = true;
+      mix.scripts_sweep = rng.chance(20);
+      break;
+    case 2:
+      mix.precise = percent();
+      mix.masked = percent();
+      break;
+    case 3:
+      mix.swept = percent();
+      mix.precise = percent();
+      mix.masked = percent();
+      break;
+    case 4:
+      mix.rest_contacts = percent();
+      mix.may_move_out = percent();
+      break;
+    case 5:  // a little of everything
+      mix.swept = mix.precise = mix.rest_contacts = mix.may_move_out = 5;
+      mix.masked = 20;
+      mix.scripts_sweep = true;
+      break;
+    case 6:
+      mix.swept = percent();
+      mix.may_move_out = percent();
+      break;
+    default:  // much of everything
+      mix.swept = percent();
+      mix.precise = percent();
+      mix.masked = percent();
+      mix.rest_contacts = percent();
+      mix.may_move_out = percent();
+      mix.scripts_sweep = rng.chance(50);
+      break;
+  }
+  return mix;
+}
+
+Options OptionMix::randomOptions(Rng& rng) const {
+  Options options;
+  options.swept = rng.chance(swept);
+  options.precise = rng.chance(precise);
+  options.rest_contacts = rng.chance(rest_contacts);
+  options.may_move_out = rng.chance(may_move_out);
+  return options;
+}
+
+Mask OptionMix::randomMask(Rng& rng) const {
+  Mask mask;
+  Rng own(rng.next());
+  if (!own.chance(masked)) return mask;
+  const int size = own.below(20);
+  auto width = static_cast<int>(own.between(1, 6));
+  auto height = static_cast<int>(own.between(1, 4));
+  if (size >= 17) {  // larger than most boxes
+    width = static_cast<int>(own.between(1, 14));
+    height = static_cast<int>(own.between(1, 8));
+  }
+  if (size == 19) width = static_cast<int>(own.between(60, 140));
+  constexpr std::array<int, 5> fillings{100, 80, 50, 25, 3};
+  const int filling = fillings[static_cast<std::size_t>(own.below(5))];
+
+  for (int y = 0; y < height; ++y) {
+    std::string row;
+    for (int x = 0; x < width; ++x) row += own.chance(filling) ? '#' : ' ';
+    mask.push_back(row);
+  }
+  // Rows need not be of one length, but one must not be empty.
+  if (height > 1 && own.chance(30)) mask.back().resize(static_cast<std::size_t>(own.below(width)));
+  return mask;
+}
+
+}  // namespace oracle

@@ -1,0 +1,103 @@
+// How Objects of the oracle move: the book's moveObject, and what blocks it.
+#include "Oracle.h"
+
+namespace oracle {
+
+// Listings 4.109, 4.111 and 4.113.
+int World::moveNow(Object* p_o, FixedVector where) {
+  if (!p_o->active) {  // takes no part in collisions and hears nothing, so it is only placed
+    p_o->position = where;
+    return 0;
+  }
+  const Way way{p_o->position, where};
+  if (p_o->isSolid()) {
+    if (p_o->swept || m_swept_collisions) return moveSwept(p_o, way);
+    if (!moveAtOnce(p_o, way)) return -1;
+  }
+  place(p_o, where);  // no collision that impedes, so allow the move
+  return 0;
+}
+
+// What a pair is.
+
+/// Send to both objects; either handler may delete either of them.
+void World::tellBoth(Object* p_o, Object* p_other, FixedVector where) {
+  ++m_counters.collisions;
+  if (p_o->active) m_handlers.collision(p_o, p_o, p_other, where);
+  if (p_o->gone || p_other->gone) return;
+  if (p_other->active) m_handlers.collision(p_other, p_o, p_other, where);
+}
+
+/// Does the other block the mover, as they are now?
+World::Verdict World::judge(const Object* p_o, const Object* p_other, const Way& way) const {
+  // If both HARD, then cannot move.
+  const bool hard_block = p_o->solidness == df::HARD && p_other->solidness == df::HARD;
+  // If object does not want to move onto soft objects, don't move.
+  const bool soft_block = p_o->no_soft && p_other->solidness == df::SOFT;
+  if (!hard_block && !soft_block) return Verdict::PASSES;
+
+  if (p_o->may_move_out) {
+    const FixedBox at_start = p_o->getWorldBox(way.from);
+    const FixedBox at_end = p_o->getWorldBox(way.to);
+    const FixedBox others = p_other->getWorldBox(p_other->position);
+    if (boxIntersectsBox(at_start, others) && gap(at_end, others) > gap(at_start, others))
+      return Verdict::MOVES_OUT;
+  }
+  return hard_block ? Verdict::HARD_BLOCK : Verdict::SOFT_BLOCK;
+}
+
+bool World::isPrecise(const Object* p_o, const Object* p_other) const {
+  return p_o->precise || p_other->precise;
+}
+
+bool World::shareCellAt(const Object* p_o, FixedVector where, const Object* p_other) {
+  const bool share =
+      shareCell(p_o->getWorldBox(where), p_o->mask, p_other->getWorldBox(p_other->position), p_other->mask);
+  ++m_counters.precise_pairs;
+  if (!share) ++m_counters.precise_rejected;
+  return share;
+}
+
+// At the target, as in the book.
+
+// Listing 4.108.
+ObjectList World::getCollisions(const Object* p_o, FixedVector where) {
+  ObjectList collision_list;
+  const FixedBox box = p_o->getWorldBox(where);
+  for (Object* p_temp_o : m_updates) {
+    if (!boxIntersectsBox(p_temp_o->getWorldBox(p_temp_o->position), box)) continue;
+    if (p_temp_o == p_o) continue;  // not with itself
+    if (p_temp_o->active && p_temp_o->isSolid() &&
+        (!isPrecise(p_o, p_temp_o) || shareCellAt(p_o, where, p_temp_o))) {
+      collision_list.push_back(p_temp_o);
+    }
+  }
+  return collision_list;
+}
+
+/// Return whether the move is allowed.
+bool World::moveAtOnce(Object* p_o, const Way& way) {
+  const ObjectList list = getCollisions(p_o, way.to);
+  bool hard_block = false;
+  bool soft_block = false;
+  bool met_soft = false;
+  for (Object* p_temp_o : list) {
+    if (p_temp_o->gone) continue;
+    if (p_o->solidness == df::SOFT || p_temp_o->solidness == df::SOFT) met_soft = true;
+    tellBoth(p_o, p_temp_o, way.to);
+    if (p_o->gone) break;
+    if (p_temp_o->gone) continue;
+
+    const Verdict verdict = judge(p_o, p_temp_o, way);
+    if (verdict == Verdict::HARD_BLOCK) hard_block = true;
+    if (verdict == Verdict::SOFT_BLOCK) soft_block = true;
+    if (verdict == Verdict::MOVES_OUT) ++m_counters.moved_out;
+  }
+  if (met_soft) ++m_counters.met_soft;
+  if (p_o->gone) return false;
+  if (hard_block) ++m_counters.blocked_hard;
+  if (soft_block) ++m_counters.blocked_soft;
+  return !hard_block && !soft_block;
+}
+
+}  // namespace oracle

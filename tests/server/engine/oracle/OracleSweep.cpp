@@ -1,0 +1,108 @@
+// Swept moves of the oracle (docs/collisions.md): tested all along the way.
+#include <algorithm>
+
+#include "Oracle.h"
+
+namespace oracle {
+
+/// When does the move meet the other, if it does?
+std::optional<Time> World::hitTime(const Object* p_o, const Way& way, const Object* p_other) {
+  const FixedBox others = p_other->getWorldBox(p_other->position);
+  // Most are nowhere near.
+  const FixedBox& box = p_o->box;
+  if (others.corner.x > std::max(way.from.x, way.to.x) + box.corner.x + box.size.x ||
+      others.corner.y > std::max(way.from.y, way.to.y) + box.corner.y + box.size.y ||
+      others.corner.x + others.size.x < std::min(way.from.x, way.to.x) + box.corner.x ||
+      others.corner.y + others.size.y < std::min(way.from.y, way.to.y) + box.corner.y) {
+    return std::nullopt;
+  }
+  if (!isPrecise(p_o, p_other)) return firstTouch(way, box, others);
+
+  const auto time = firstShare(way, box, p_o->mask, others, p_other->mask);
+  ++m_counters.precise_pairs;
+  if (!time) ++m_counters.precise_rejected;
+  return time;
+}
+
+/// All whom the move meets, first those that it meets first, in creation order if that is at one time.
+World::HitList World::getHits(const Object* p_o, const Way& way) {
+  HitList hits;
+  if (!p_o->active || !p_o->isSolid()) return hits;
+  for (Object* p_other : m_updates) {
+    if (p_other == p_o || !p_other->active || !p_other->isSolid()) continue;
+    if (const auto time = hitTime(p_o, way, p_other)) hits.push_back({p_other, *time});
+  }
+  std::stable_sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.time < b.time; });
+  return hits;
+}
+
+/// Drop what comes later than the first time at which a pair blocks as things stand. Return whether one does.
+bool World::cutAtFirstBlock(HitList& hits, const Object* p_o, const Way& way) const {
+  const auto blocks = [&](const Hit& hit) {
+    const Verdict verdict = judge(p_o, hit.p_other, way);
+    return verdict == Verdict::HARD_BLOCK || verdict == Verdict::SOFT_BLOCK;
+  };
+  const auto first = std::find_if(hits.begin(), hits.end(), blocks);
+  if (first == hits.end()) return false;
+  const Time time = first->time;
+  std::erase_if(hits, [&](const Hit& hit) { return time < hit.time; });
+  return true;
+}
+
+int World::moveSwept(Object* p_o, const Way& way) {
+  ++m_counters.swept_moves;
+  ObjectList met;
+  Time begin;
+  bool met_soft = false;
+  for (bool last_stage = false; !last_stage;) {
+    // The list is fixed before the first event.
+    HitList hits = getHits(p_o, way);
+    std::erase_if(hits, [&](const Hit& hit) {
+      return hit.time < begin || std::find(met.begin(), met.end(), hit.p_other) != met.end();
+    });
+    last_stage = !cutAtFirstBlock(hits, p_o, way);
+    if (!last_stage) begin = hits.back().time;
+
+    std::optional<Time> blocked;
+    for (const Hit& hit : hits) {
+      if (blocked && *blocked < hit.time) break;  // does not get that far
+      if (hit.p_other->gone) continue;
+      met.push_back(hit.p_other);
+      if (!met_soft && (p_o->solidness == df::SOFT || hit.p_other->solidness == df::SOFT)) {
+        met_soft = true;
+        ++m_counters.met_soft;
+      }
+      tellBoth(p_o, hit.p_other, way.before(hit.time));
+      if (p_o->gone) return -1;
+      if (hit.p_other->gone) continue;
+
+      const Verdict verdict = judge(p_o, hit.p_other, way);
+      if (verdict == Verdict::MOVES_OUT) ++m_counters.moved_out;
+      if (verdict != Verdict::HARD_BLOCK && verdict != Verdict::SOFT_BLOCK) continue;
+      if (!blocked) ++(verdict == Verdict::HARD_BLOCK ? m_counters.blocked_hard : m_counters.blocked_soft);
+      if (!blocked) blocked = hit.time;
+    }
+
+    if (blocked) {  // stops just before, if it is still where it began
+      ++m_counters.swept_blocked;
+      if (p_o->position != way.from) return -1;
+      if (way.before(*blocked) != way.from) ++m_counters.swept_stopped;
+      place(p_o, way.before(*blocked));
+      return -1;
+    }
+    // What blocked has given way, if anything did: search the rest of the way, in the world as it is now.
+    if (!last_stage) ++m_counters.swept_passed_on;
+  }
+  place(p_o, way.to);
+  return 0;
+}
+
+/// Whom would the first search of a swept move find first?
+Contact World::firstContact(const Object* p_o, FixedVector where) {
+  const Way way{p_o->position, where};
+  const HitList hits = getHits(p_o, way);
+  if (hits.empty()) return {nullptr, {1, 1}, where};
+  return {hits.front().p_other, hits.front().time, way.before(hits.front().time)};
+}
+
+}  // namespace oracle

@@ -1,0 +1,220 @@
+// The oracle's swept moves, held against sentences of docs/collisions.md.
+#include "BookWorld.h"
+
+namespace oracle {
+namespace {
+
+class SweptMovesTest : public BookWorld {
+ protected:
+  Object* makeSwept(double x, double y, Solidness solidness = df::HARD) {
+    Object* p_o = make(x, y, solidness);
+    p_o->swept = true;
+    return p_o;
+  }
+  /// A window from top to bottom of the world.
+  Object* makeGlass(double x, Solidness solidness = df::HARD) {
+    Object* p_o = make(x, 12, solidness);
+    p_o->box = boxOf(1, 24);
+    return p_o;
+  }
+
+  static constexpr FixedVector kUnit{1, 0};
+};
+
+// "An arrow four characters long that flies 15 cells a tick misses the window", but not if it is swept.
+TEST_F(SweptMovesTest, TheArrowIsStoppedAtTheLastPositionBeforeTheGlass) {
+  for (const bool swept : {false, true}) {
+    Object* p_arrow = make(10, swept ? 10 : 20);
+    p_arrow->box = boxOf(4, 1);
+    p_arrow->velocity = cells(15, 0);
+    p_arrow->swept = swept;
+    if (!swept) makeGlass(33);
+  }
+  for (int i = 0; i < 3; ++i) m_world.update();
+  EXPECT_EQ(m_world.getAllObjects()[0]->position, cells(55, 20));
+  EXPECT_EQ(m_world.getAllObjects()[2]->position, cells(30.5, 10) - kUnit);
+  EXPECT_EQ(m_where, cells(30.5, 10) - kUnit);
+  EXPECT_EQ(m_events, "2:2>1 1:2>1 2:2>1 1:2>1 ");  // hits it in flight, and again when it stands before it
+}
+
+TEST_F(SweptMovesTest, TheSwitchOfTheWorldSweepsAll) {
+  Object* p_arrow = make(10, 10);
+  makeGlass(17);
+  m_world.setSweptCollisions(true);
+  EXPECT_EQ(m_world.moveObject(p_arrow, cells(25, 10)), -1);
+  EXPECT_EQ(p_arrow->position, cells(16, 10) - kUnit);
+  m_world.setSweptCollisions(false);
+  EXPECT_EQ(m_world.moveObject(p_arrow, cells(25, 10)), 0);
+}
+
+// "All solid Objects whose boxes touch the mover's somewhere on the way, in the order of (time, creation)."
+TEST_F(SweptMovesTest, WhatIsHitComesInTheOrderOfTimeThenOfCreation) {
+  Object* p_mover = makeSwept(10, 10);
+  make(30, 10, df::SOFT);
+  make(20, 10.5, df::SOFT);
+  make(20, 9.5, df::SOFT);
+  make(25, 12, df::SOFT);  // beside the way
+  make(22, 10, df::SPECTRAL);
+  EXPECT_EQ(m_world.moveObject(p_mover, cells(40, 10)), 0);
+  EXPECT_EQ(p_mover->position, cells(40, 10));
+  EXPECT_EQ(m_events, "0:0>2 2:0>2 0:0>3 3:0>3 0:0>1 1:0>1 ");
+}
+
+// "it ends with the first time at which a pair blocks", and "everyone else hit at that very time still
+// hears".
+TEST_F(SweptMovesTest, WhatIsHitLaterThanWhatBlocksHearsNothing) {
+  Object* p_mover = makeSwept(10, 10);
+  make(25, 10, df::SOFT);
+  make(20, 10, df::HARD);
+  make(20, 9, df::SOFT);
+  make(15, 10, df::SOFT);
+  EXPECT_EQ(m_world.moveObject(p_mover, cells(40, 10)), -1);
+  EXPECT_EQ(m_events, "0:0>4 4:0>4 0:0>2 2:0>2 0:0>3 3:0>3 ");
+  EXPECT_EQ(p_mover->position, cells(19, 10) - kUnit);
+}
+
+TEST_F(SweptMovesTest, NoSoftStopsBeforeSoft) {
+  Object* p_mover = makeSwept(10, 10, df::SOFT);
+  p_mover->no_soft = true;
+  make(20, 10, df::SOFT);
+  EXPECT_EQ(m_world.moveObject(p_mover, cells(40, 10)), -1);
+  EXPECT_EQ(p_mover->position, cells(19, 10) - kUnit);
+}
+
+// "the last position before that time": of both axes, and it need not be before the other box on both.
+TEST_F(SweptMovesTest, BothAxesAreWhereTheyWereJustBefore) {
+  Object* p_mover = makeSwept(0, 0);
+  make(20, 10);
+  EXPECT_EQ(m_world.moveObject(p_mover, cells(40, 20)), -1);
+  // Touches in x at 19, when y is 9.5 and touched for long; one unit before, y is half a unit back: one.
+  EXPECT_EQ(p_mover->position, cells(19, 9.5) - (FixedVector{1, 1}));
+}
+
+// "counts, at time 0, only if the move closes the gap or the boxes touch at the end, too".
+TEST_F(SweptMovesTest, WhoLeavesAWallIsFreeAndWhoSlidesAlongItIsNot) {
+  Object* p_o = makeSwept(10, 10);
+  make(11, 10)->box = boxOf(1, 6);
+  EXPECT_EQ(m_world.moveObject(p_o, cells(9, 10)), 0);    // away
+  EXPECT_EQ(m_world.moveObject(p_o, cells(10, 10)), -1);  // back: stopped one unit before
+  EXPECT_EQ(p_o->position, cells(10, 10) - kUnit);
+  p_o->position = cells(10, 10);
+  m_events.clear();
+  EXPECT_EQ(m_world.moveObject(p_o, cells(10, 12)), -1);  // along it
+  EXPECT_EQ(m_world.moveObject(p_o, cells(14, 10)), -1);  // into it
+  EXPECT_EQ(p_o->position, cells(10, 10));
+  EXPECT_EQ(m_where, cells(10, 10));
+  EXPECT_EQ(m_events, "0:0>1 1:0>1 0:0>1 1:0>1 ");
+  EXPECT_EQ(m_world.moveObject(p_o, cells(10, 14)), 0);  // off its end
+  EXPECT_EQ(m_events, "0:0>1 1:0>1 0:0>1 1:0>1 ");
+}
+
+// "one inside another may leave by the shortest way", if it does it in one move.
+TEST_F(SweptMovesTest, WhoIsInsideMayLeaveByTheShortestWay) {
+  Object* p_o = makeSwept(12, 10);
+  make(10, 10)->box = boxOf(6, 6);
+  EXPECT_EQ(m_world.moveObject(p_o, cells(13.25, 10)), -1);  // not out yet
+  EXPECT_EQ(m_world.moveObject(p_o, cells(5, 10)), -1);      // the long way: deeper at first
+  EXPECT_EQ(p_o->position, cells(12, 10));
+  EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10)), 0);
+}
+
+// "If none does in the end (the handler broke the glass), the mover passes on".
+TEST_F(SweptMovesTest, BrokenGlassLetsTheArrowThroughToTheNext) {
+  Object* p_arrow = makeSwept(10, 10);
+  Object* p_glass = makeGlass(20);
+  makeGlass(30, df::SOFT);
+  makeGlass(40);
+  m_on_collision = [&](Object* p_receiver) {
+    if (p_receiver == p_glass) m_world.destroy(p_glass);
+  };
+  EXPECT_EQ(m_world.moveObject(p_arrow, cells(50, 10)), -1);
+  EXPECT_EQ(m_events, "0:0>1 1:0>1 gone:1 0:0>2 2:0>2 0:0>3 3:0>3 ");
+  EXPECT_EQ(p_arrow->position, cells(39, 10) - kUnit);
+  EXPECT_EQ(m_world.counters().swept_passed_on, 1);
+}
+
+// "in the world as it is then, for Objects not yet met in this move".
+TEST_F(SweptMovesTest, TheRestOfTheWayIsSearchedInTheWorldAsItIsThen) {
+  Object* p_arrow = makeSwept(10, 10);
+  Object* p_glass = makeGlass(20);
+  Object* p_met = makeGlass(15, df::SOFT);
+  Object* p_late = makeGlass(70);
+  Object* p_behind = makeGlass(5);
+  m_on_collision = [&](Object* p_receiver) {
+    if (p_receiver != p_glass) return;
+    p_glass->solidness = df::SOFT;  // still there, but met
+    p_met->position = cells(30, 12);
+    p_met->solidness = df::HARD;
+    p_late->position = cells(40, 12);
+    p_behind->position = cells(17, 12);  // the mover has passed there
+  };
+  EXPECT_EQ(m_world.moveObject(p_arrow, cells(50, 10)), -1);
+  EXPECT_EQ(m_events, "0:0>2 2:0>2 0:0>1 1:0>1 0:0>3 3:0>3 ");
+  EXPECT_EQ(p_arrow->position, cells(39, 10) - kUnit);
+}
+
+// A list that nothing ends is all there is: what appears on the way meanwhile is not met.
+TEST_F(SweptMovesTest, WithoutABlockThereIsOneSearch) {
+  Object* p_arrow = makeSwept(10, 10);
+  makeGlass(20, df::SOFT);
+  Object* p_late = makeGlass(70);
+  m_on_collision = [&](Object*) { p_late->position = cells(40, 12); };
+  EXPECT_EQ(m_world.moveObject(p_arrow, cells(50, 10)), 0);
+  EXPECT_EQ(p_arrow->position, cells(50, 10));
+}
+
+// "Both sides of each pair hear, as in the book, and the pair is judged afterwards."
+TEST_F(SweptMovesTest, APairThatBlocksOnlyAfterItsHandlersEndsTheMove) {
+  Object* p_arrow = makeSwept(10, 10);
+  Object* p_foam = makeGlass(20, df::SOFT);
+  makeGlass(30);
+  m_on_collision = [&](Object*) { p_foam->solidness = df::HARD; };
+  EXPECT_EQ(m_world.moveObject(p_arrow, cells(50, 10)), -1);
+  EXPECT_EQ(m_events, "0:0>1 1:0>1 ");
+  EXPECT_EQ(p_arrow->position, cells(19, 10) - kUnit);
+}
+
+// "if it still stands where it began; where a handler put it, it stays".
+TEST_F(SweptMovesTest, WhereAHandlerPutABlockedMoverItStays) {
+  Object* p_arrow = makeSwept(10, 10);
+  makeGlass(20);
+  m_on_collision = [&](Object*) { p_arrow->position = cells(3, 3); };
+  EXPECT_EQ(m_world.moveObject(p_arrow, cells(50, 10)), -1);
+  EXPECT_EQ(p_arrow->position, cells(3, 3));
+}
+
+TEST_F(SweptMovesTest, AMoverThatNoLongerCollidesPassesOnToTheTarget) {
+  Object* p_ghost = makeSwept(10, 10);
+  makeGlass(20);
+  makeGlass(30);
+  m_on_collision = [&](Object*) { p_ghost->solidness = df::SPECTRAL; };
+  EXPECT_EQ(m_world.moveObject(p_ghost, cells(50, 10)), 0);
+  EXPECT_EQ(m_events, "0:0>1 1:0>1 ");
+  EXPECT_EQ(p_ghost->position, cells(50, 10));
+}
+
+TEST_F(SweptMovesTest, ABlockedMoverThatIsPlacedOutsideTheWorldHearsIt) {
+  Object* p_o = makeSwept(70, 10);
+  make(90, 10);
+  EXPECT_EQ(m_world.moveObject(p_o, cells(100, 10)), -1);
+  EXPECT_EQ(m_events, "0:0>1 1:0>1 out:0 ");
+}
+
+// "nothing moves, nobody hears": the first that is hit, whether or not it blocks.
+TEST_F(SweptMovesTest, FirstContactTellsWhomWhenAndWhere) {
+  Object* p_o = make(10, 10);
+  makeGlass(40);
+  Object* p_foam = makeGlass(21, df::SOFT);
+  Contact contact = m_world.firstContact(p_o, cells(30, 10));
+  EXPECT_EQ(contact.p_object, p_foam);
+  EXPECT_EQ(contact.time.toDouble(), 0.5);
+  EXPECT_EQ(contact.position, cells(20, 10) - kUnit);
+  contact = m_world.firstContact(p_o, cells(19, 20));
+  EXPECT_EQ(contact.p_object, nullptr);
+  EXPECT_EQ(contact.time.toDouble(), 1);
+  EXPECT_EQ(contact.position, cells(19, 20));
+  EXPECT_EQ(m_events, "");
+}
+
+}  // namespace
+}  // namespace oracle
