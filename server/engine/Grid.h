@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "Fixed.h"
+#include "Paths.h"
 
 namespace df {
 
@@ -52,6 +53,9 @@ class Grid {
   void remove(Slot slot);
   bool contains(Slot slot) const { return slot < m_records.size() && m_records[slot].level >= 0; }
   int size() const;
+  /// What has been done, here and by those who use the grid.
+  Paths& paths() { return m_paths; }
+  const Paths& paths() const { return m_paths; }
   /// Memory of the levels, in bytes.
   std::size_t bytes() const;
 
@@ -123,7 +127,8 @@ class Grid {
   int m_characters = 0;
   int m_small_boxes = 0;           // of level 1, without characters
   bool m_characters_apart = true;  // in level 0; else they are in level 1
-  std::vector<Slot> m_found;       // of Steps, when they are many
+  Paths m_paths;
+  std::vector<Slot> m_found;  // of Steps, when they are many
 };
 
 /// Steps of boxes, one after another, while nothing else touches the grid and the store's arrays
@@ -131,6 +136,9 @@ class Grid {
 class Grid::Steps {
  public:
   explicit Steps(Grid& grid);
+  ~Steps() { m_grid.m_paths.nine_cells += m_nine_cells; }
+  Steps(const Steps&) = delete;
+  Steps& operator=(const Steps&) = delete;
   /// Does `s`, which is filed, touch nobody at `where`? If it does, found() has them.
   bool isFree(Slot s, FixedVector where) {
     return m_p_records[s].level == 0 ? isCharacterFree(s, where) : isBoxFree(s, m_p_records[s], where);
@@ -164,6 +172,7 @@ class Grid::Steps {
   std::uint32_t m_word_mask;
   std::uint32_t m_cell_mask;
   std::uint32_t m_others;
+  std::uint64_t m_nine_cells = 0;
   // Of the last isFree().
   std::uint32_t m_cell = 0;
   bool m_lifted = false;  // its own cell, which nobody shares, is marked empty while it goes
@@ -295,6 +304,7 @@ inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
   m_count = 0;
   const bool same_block = (((x ^ own_x) | (y ^ own_y)) & ~std::int64_t{63}) == 0;
   const bool inner = (((x - 1) & 63) <= 61) & (((y - 1) & 63) <= 61);
+  ++m_nine_cells;
   if (!(same_block & inner)) {
     m_lifted = m_plain = false;
     return lookAround(s, where);

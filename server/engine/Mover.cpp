@@ -4,6 +4,7 @@
 
 #include "EventCollision.h"
 #include "EventOut.h"
+#include "Hearing.h"
 #include "Object.h"
 #include "Pair.h"
 #include "Views.h"
@@ -28,6 +29,7 @@ void Mover::moveAll() {
         next = bit + flyOn(walk[word * 64 + static_cast<std::size_t>(bit)], store.fliers(word) & waiting,
                            store.sequels(word), bit);
       } else {
+        ++store.paths().special;
         takeTurn(store.key(walk[word * 64 + static_cast<std::size_t>(bit)]));
       }
       waiting &= next < 64 ? ~std::uint64_t{0} << next : 0;
@@ -48,13 +50,15 @@ int Mover::walkOn(std::size_t word, std::uint64_t turns) {
   if (left == 0) return last + 1;
   const int bit = std::countr_zero(left);
   const ObjectKey key = store.key(store.entry(word * 64 + static_cast<std::size_t>(bit)));
-  if (!met.empty()) {
+  if (store.hasPrecise()) {
     keepMet(store, key.slot, store.worldBox(key.slot, store.position(key.slot) + store.velocity(key.slot)),
             met);
   }
   if (met.empty()) {
+    ++store.paths().deferred;
     takeTurn(key);
   } else {
+    ++store.paths().met;
     meet(key, met);
   }
   return bit + 1;
@@ -79,7 +83,9 @@ int Mover::flyOn(WorldStore::Slot first, std::uint64_t fliers, std::uint64_t seq
   WorldStore& store = m_world.store();
   const auto done =
       static_cast<int>(store.fly(first, static_cast<std::size_t>(count), m_world.views().boundary()));
+  store.paths().flown += static_cast<std::uint64_t>(done);
   if (done == count) return count;
+  ++store.paths().deferred;
   takeTurn(store.key(first + static_cast<WorldStore::Slot>(done)));
   return done + 1;
 }
@@ -89,7 +95,7 @@ void Mover::takeTurn(ObjectKey key) {
   const WorldStore::Slot s = key.slot;
   const FixedVector velocity = store.velocity(s);
   bool blocked = false;
-  if (velocity != FixedVector{} || store.has(s, WorldStore::kRestContacts)) {
+  if (velocity != FixedVector{} || store.testsAtRest(s)) {
     const FixedVector where = store.position(s) + velocity;
     if (WorldStore::isPosition(where)) {
       blocked = move(key, where) != 0;
@@ -122,8 +128,8 @@ int Mover::move(ObjectKey mover, FixedVector where) {
   bool free = true;
   const WorldStore& store = m_world.store();
   if (store.collides(mover.slot)) {
-    const bool swept = store.isAllSwept() || store.has(mover.slot, WorldStore::kSwept);
-    free = swept ? m_swept[depth].run(*this, m_world, mover, where) : meetAt(mover, where, m_lists[depth]);
+    free = store.isSwept(mover.slot) ? m_swept[depth].run(*this, m_world, mover, where)
+                                     : meetAt(mover, where, m_lists[depth]);
   }
   if (free) place(mover, where);
   --m_depth;
@@ -148,24 +154,11 @@ bool Mover::collide(ObjectKey mover, FixedVector where, const std::vector<Object
   for (const ObjectKey other : others) {
     if (!store.isCurrent(other)) continue;
     event.setObject2(store.object(other.slot));
-    if (!tell(mover, other, event)) return false;
+    if (!tellBoth(m_world, mover, other, event)) return false;
     if (!store.isCurrent(other)) continue;
     if (Pair(store, mover.slot, other.slot).blocks(from, where)) free = false;
   }
   return free;
-}
-
-bool Mover::tell(ObjectKey mover, ObjectKey other, const EventCollision& event) {
-  const WorldStore& store = m_world.store();
-  if (store.listens(mover.slot)) {
-    m_world.deliver(mover, event);
-    if (!store.isCurrent(mover)) return false;
-  }
-  if (store.listens(other.slot)) {
-    m_world.deliver(other, event);
-    if (!store.isCurrent(mover)) return false;
-  }
-  return true;
 }
 
 void Mover::place(ObjectKey mover, FixedVector where) {

@@ -47,8 +47,6 @@ class Mover {
 
   // Parts of a move.
 
-  /// Send the event to the mover, then to the other. Return whether the mover is still in the world.
-  bool tell(ObjectKey mover, ObjectKey other, const EventCollision& event);
   /// Put the mover there, with the views that follow it, and let it hear if it leaves the world.
   void place(ObjectKey mover, FixedVector where);
 

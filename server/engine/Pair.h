@@ -40,8 +40,7 @@ class Pair {
     return ((m_store.flags(m_mover) | m_store.flags(m_other)) & WorldStore::kPrecise) != 0;
   }
   bool movesOut(FixedVector from, FixedVector to) const {
-    return m_store.has(m_mover, WorldStore::kMayMoveOut) &&
-           Sweep(m_store.box(m_mover), from, to).movesOutOf(otherBox());
+    return m_store.mayMoveOut(m_mover) && Sweep(m_store.box(m_mover), from, to).movesOutOf(otherBox());
   }
   FixedBox otherBox() const { return m_store.worldBox(m_other, m_store.position(m_other)); }
 

@@ -1,6 +1,7 @@
 #include "SweptMove.h"
 
 #include "EventCollision.h"
+#include "Hearing.h"
 #include "Mover.h"
 #include "Pair.h"
 #include "World.h"
@@ -15,10 +16,11 @@ bool SweptMove::run(Mover& moves, World& world, ObjectKey mover, FixedVector whe
   Moment since;
   for (int stage = 1; store.collides(mover.slot); ++stage) {
     const Way way(store.box(mover.slot), from, where);
+    ++(stage == 1 ? world.store().paths().swept : world.store().paths().swept_again);
     m_list.fill(store, mover.slot, way, HitList::kBlock, since, &m_met);
     if (m_list.hits().empty()) return true;
 
-    const Verdict verdict = meetAll(moves, world, mover, way);
+    const Verdict verdict = meetAll(world, mover, way);
     if (verdict.outcome == Outcome::kGone) return false;
     const bool is_blocked = verdict.outcome == Outcome::kBlocked;
     if (!is_blocked && !m_list.end()) return true;
@@ -34,17 +36,17 @@ bool SweptMove::run(Mover& moves, World& world, ObjectKey mover, FixedVector whe
 }
 
 // A handler may begin moves of its own, but those have lists of their own.
-SweptMove::Verdict SweptMove::meetAll(Mover& moves, World& world, ObjectKey mover, const Way& way) {
+SweptMove::Verdict SweptMove::meetAll(World& world, ObjectKey mover, const Way& way) {
   const WorldStore& store = world.store();
   Verdict verdict{Outcome::kFree, {}};
   EventCollision event(store.object(mover.slot), nullptr, Vector());
   for (const Hit& hit : m_list.hits()) {
     if (verdict.outcome == Outcome::kBlocked && hit.moment > verdict.moment) break;
     if (!store.isCurrent(hit.key)) continue;
-    if (store.listens(mover.slot) || store.listens(hit.key.slot)) {
+    if (store.hears(mover.slot) || store.hears(hit.key.slot)) {
       event.setObject2(store.object(hit.key.slot));
       event.setPosition(Vector::fromFixed(way.sweep().before(hit.moment)));
-      if (!moves.tell(mover, hit.key, event)) return {Outcome::kGone, {}};
+      if (!tellBoth(world, mover, hit.key, event)) return {Outcome::kGone, {}};
       if (!store.isCurrent(hit.key)) continue;
     }
     if (verdict.outcome == Outcome::kBlocked) continue;

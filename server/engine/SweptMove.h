@@ -32,7 +32,7 @@ class SweptMove {
     Moment moment;  // of the block
   };
 
-  Verdict meetAll(Mover& moves, World& world, ObjectKey mover, const Way& way);
+  Verdict meetAll(World& world, ObjectKey mover, const Way& way);
 
   HitList m_list;
   KeySet m_met;  // in the stages before this one

@@ -1,11 +1,11 @@
 #include "World.h"
 
-#include <exception>
 #include <typeinfo>
 #include <utility>
 
 #include "Capture.h"
 #include "EventStep.h"
+#include "Hearing.h"
 #include "InputQueue.h"
 #include "Interests.h"
 #include "LogFile.h"
@@ -141,21 +141,10 @@ int World::onEvent(const Event* p_event) {
 }
 
 bool World::deliver(ObjectKey key, const Event& event) {
-  constexpr std::uint32_t kHears = WorldStore::kActive | WorldStore::kInWorld;
   const WorldStore& store = *m_p_store;
-  if (!store.isCurrent(key)) return false;
-  const std::uint32_t flags = store.flags(key.slot) & (kHears | WorldStore::kDeaf);
-  if (flags != kHears) return (flags & kHears) == kHears;
-  ++m_handlers;
-  try {
-    store.object(key.slot)->eventHandler(&event);
-  } catch (const std::exception& e) {
-    quarantine(key, e.what());
-  } catch (...) {
-    quarantine(key, "an exception of unknown type");
-  }
-  --m_handlers;
-  if (m_shutdown_pending) finishShutDown();
+  constexpr std::uint32_t kThere = WorldStore::kInWorld | WorldStore::kActive;
+  if (!store.isCurrent(key) || (store.flags(key.slot) & kThere) != kThere) return false;
+  if (store.hears(key.slot)) hear(key, *store.object(key.slot), event);
   return true;
 }
 

@@ -22,6 +22,7 @@
 #include "Event.h"
 #include "Keyboard.h"
 #include "ObjectList.h"
+#include "Paths.h"
 #include "Random.h"
 #include "Vector.h"
 #include "WorldView.h"
@@ -117,6 +118,8 @@ class World {
   std::optional<Vector> findFree(Box box, Vector near);
   /// The Object of a handle; null if it is gone.
   Object* find(ObjectKey key) const;
+  /// Which ways through the engine the moves have taken so far.
+  const Paths& paths() const;
   /// Objects in the world, inactive ones included.
   int getObjectCount() const;
 
@@ -207,6 +210,8 @@ class World {
   const WorldStore& store() const { return *m_p_store; }
   Interests& interests() { return *m_interests; }
   Views& views() { return *m_views; }
+  /// Run the eventHandler() of an Object in the world; see deliver(). Defined in Hearing.h.
+  inline void hear(ObjectKey key, Object& object, const Event& event);
   /// Note what the Object's class overrides.
   void learnType(std::uint32_t slot);
   /// Have a static look drawn anew.

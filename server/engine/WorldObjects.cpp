@@ -116,6 +116,10 @@ Object* World::find(ObjectKey key) const {
   return m_p_store->find(key);
 }
 
+const Paths& World::paths() const {
+  return m_p_store->grid().paths();
+}
+
 int World::getObjectCount() const {
   return m_p_store->countInWorld();
 }

@@ -12,8 +12,9 @@ constexpr std::uint32_t kWhileInWorld =
     WorldStore::kInWorld | WorldStore::kMarked | WorldStore::kReported | WorldStore::kFollowed;
 constexpr std::size_t kManyFound = 12;  // too many to sort them one by one
 // A turn with one of these has more to it than position += velocity.
-constexpr std::uint32_t kSpecial = WorldStore::kFollowed | WorldStore::kSwept | WorldStore::kPrecise |
-                                   WorldStore::kRestContacts | WorldStore::kMayMoveOut;
+constexpr std::uint32_t kOptions =
+    WorldStore::kSwept | WorldStore::kPrecise | WorldStore::kRestContacts | WorldStore::kMayMoveOut;
+constexpr std::uint32_t kSpecial = WorldStore::kFollowed | (WorldStore::kLayers ? kOptions : 0);
 
 void setBit(std::vector<std::uint64_t>& bits, std::size_t i, bool on) {
   const std::uint64_t bit = std::uint64_t{1} << (i % 64);
@@ -115,14 +116,14 @@ void WorldStore::classify(Slot s) {
   if ((flags & kInWorld) == 0) return;
   const bool moves = m_velocities[s] != FixedVector{};
   const bool accelerates = m_accelerations[s] != FixedVector{};
-  const bool turns = (flags & kActive) != 0 && (moves || accelerates || (flags & kRestContacts) != 0);
+  const bool turns = (flags & kActive) != 0 && (moves || accelerates || testsAtRest(s));
   const bool plain = turns && moves && !accelerates && (flags & kSpecial) == 0;
   const bool spectral = m_cards[s].solidness == SPECTRAL;
   const std::size_t i = m_cards[s].index;
   setBit(m_turns, i, turns);
   // Its next turn has to take the mark of a blocked move back.
   setBit(m_fliers, i, plain && spectral && !isBlocked(s));
-  setBit(m_walkers, i, plain && !spectral && !m_all_swept);
+  setBit(m_walkers, i, plain && !spectral && !(kLayers && m_all_swept));
 }
 
 void WorldStore::setAllSwept(bool all_swept) {
@@ -251,6 +252,7 @@ std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const Fi
     steps.take(s);
   }
   m_blocked[word] &= ~(walkers & ~left);
+  paths().walked += static_cast<std::uint64_t>(std::popcount(walkers & ~left));
   if (m_watched) {
     for (std::uint64_t done = walkers & ~left; done != 0; done &= done - 1)
       note(p_order[std::countr_zero(done)]);
@@ -266,6 +268,10 @@ void WorldStore::touching(const FixedBox& box, Slot self, std::vector<ObjectKey>
 
 // In creation order, each once. They are few, mostly one or two.
 void WorldStore::list(std::span<const Slot> found, std::vector<ObjectKey>& out) const {
+  if (found.size() == 1) {
+    out.push_back(key(found[0]));
+    return;
+  }
   const std::size_t begin = out.size();
   for (const Slot s : found) {
     const Card& card = m_cards[s];
@@ -281,7 +287,7 @@ void WorldStore::list(std::span<const Slot> found, std::vector<ObjectKey>& out) 
     std::sort(first, out.end(),
               [this](ObjectKey a, ObjectKey b) { return m_cards[a.slot].order < m_cards[b.slot].order; });
   }
-  if (found.size() > 1) out.erase(std::unique(first, out.end()), out.end());
+  out.erase(std::unique(first, out.end()), out.end());
 }
 
 void WorldStore::setWatched(bool watched) {

@@ -22,6 +22,7 @@
 #include "Fixed.h"
 #include "Grid.h"
 #include "Mask.h"
+#include "Paths.h"
 #include "Solidness.h"
 #include "WorldView.h"
 
@@ -116,8 +117,10 @@ class WorldStore {
   bool isBlocked(Slot s) const {
     return (m_blocked[m_cards[s].index / 64] >> (m_cards[s].index % 64) & 1) != 0;
   }
-  /// Could its eventHandler() do anything? False only if its class has none of its own.
-  bool listens(Slot s) const { return (m_cards[s].flags & kDeaf) == 0; }
+  /// Does it get events: in the world, active, and of a class with an eventHandler() of its own?
+  bool hears(Slot s) const {
+    return (m_cards[s].flags & (kInWorld | kActive | kDeaf)) == (kInWorld | kActive);
+  }
   int countInWorld() const { return m_in_world; }
 
   // Changing.
@@ -176,8 +179,28 @@ class WorldStore {
   /// Sweep the moves of all, or only of those that ask for it.
   void setAllSwept(bool all_swept);
   bool isAllSwept() const { return m_all_swept; }
+
+  // The options beyond the book, as they count: an engine that is built without them (NAIAD_WITHOUT_LAYERS)
+  // has the setters, but nothing of this.
+
+#if defined(NAIAD_WITHOUT_LAYERS)
+  static constexpr bool kLayers = false;
+#else
+  static constexpr bool kLayers = true;
+#endif
+  bool isSwept(Slot s) const {
+    return kLayers && (m_all_swept || has(s, kSwept));
+  }
+  bool testsAtRest(Slot s) const {
+    return kLayers && has(s, kRestContacts);
+  }
+  bool mayMoveOut(Slot s) const {
+    return kLayers && has(s, kMayMoveOut);
+  }
   /// Is there anybody whose characters are tested?
-  bool hasPrecise() const { return m_precise > 0; }
+  bool hasPrecise() const {
+    return kLayers && m_precise > 0;
+  }
 
   /// Move up to `count` fliers, from slot `first` on, by their velocities; stop at the first that would
   /// leave `boundary`. Return how many were moved.
@@ -195,13 +218,21 @@ class WorldStore {
 
   /// The Objects that collide with `box`, except `self`, in creation order, appended to `out`.
   void touching(const FixedBox& box, Slot self, std::vector<ObjectKey>& out) const;
-  const Grid& grid() const { return m_grid; }
+  const Grid& grid() const {
+    return m_grid;
+  }
+  /// What has been done so far.
+  Paths& paths() {
+    return m_grid.paths();
+  }
 
   // Changes, for the watcher.
 
   /// Note changes from now on, beginning with everybody.
   void setWatched(bool watched);
-  bool isWatched() const { return m_watched; }
+  bool isWatched() const {
+    return m_watched;
+  }
   /// Move what has changed since the last call into `view`.
   void report(WorldView& view);
   ObjectFacts facts(Slot s) const;

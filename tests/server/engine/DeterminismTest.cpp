@@ -17,7 +17,7 @@ namespace df::test {
 namespace {
 
 constexpr int kTicks = 3000;
-constexpr std::uint64_t kHash = 0;
+constexpr std::uint64_t kHash = 0xc9f0513200cb8afc;
 
 class Recording {
  public:
