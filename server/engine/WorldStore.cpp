@@ -240,6 +240,7 @@ std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const Fi
   const FixedVector* p_velocities = m_velocities.data();
   Grid::Steps steps(m_grid);
   std::uint64_t left = walkers;
+  std::uint64_t walked = 0;
   for (; left != 0; left &= left - 1) {
     const Slot s = p_order[std::countr_zero(left)];
     const FixedVector where = p_positions[s] + p_velocities[s];
@@ -250,9 +251,10 @@ std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const Fi
     }
     p_positions[s] = where;
     steps.take(s);
+    ++walked;
   }
   m_blocked[word] &= ~(walkers & ~left);
-  paths().walked += static_cast<std::uint64_t>(std::popcount(walkers & ~left));
+  paths().walked += walked;
   if (m_watched) {
     for (std::uint64_t done = walkers & ~left; done != 0; done &= done - 1)
       note(p_order[std::countr_zero(done)]);

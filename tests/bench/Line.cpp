@@ -52,6 +52,11 @@ Line& Line::addEqual(bool equal) {
   return add("equal", equal ? 1 : 0);
 }
 
+Line& Line::addZero(const std::string& key, long long errors) {
+  if (errors != 0) s_all_equal = false;
+  return add(key, errors);
+}
+
 void reserveStdout() {
   const int out = dup(STDOUT_FILENO);
   if (out < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0)

@@ -21,6 +21,8 @@ class Line {
   Line& add(const std::string& key, double value);
   /// `equal=1` if all engines that ran agree, else `equal=0`; then the program fails in the end.
   Line& addEqual(bool equal);
+  /// A number of errors: if it is not 0, the program fails in the end.
+  Line& addZero(const std::string& key, long long errors);
 
  private:
   std::string m_text;
@@ -30,7 +32,7 @@ class Line {
 /// to stderr (Chipmunk introduces itself).
 void reserveStdout();
 
-/// Has every line so far that compared engines found them equal?
+/// Has every line so far that compared engines found them equal, and no errors?
 bool allEqual();
 
 /// A word to whoever waits, on stderr.

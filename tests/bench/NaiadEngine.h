@@ -20,6 +20,7 @@ class NaiadEngine : public Engine {
   void tick() override;
   const Tally& tally() const override { return m_tally; }
   std::uint64_t stateHash() const override;
+  const df::Paths& paths() const { return m_world.paths(); }
 
  private:
   df::World m_world;

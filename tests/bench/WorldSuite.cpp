@@ -70,7 +70,18 @@ void addChipmunk(Line& line, const Contest& contest, const ChipmunkTuning& tunin
   line.add("chipmunk_cell", tuning.cell).add("chipmunk_table_per_object", tuning.table_per_object);
 }
 
-void report(const Case& c, const Scene& scene, const Contest& contest, const ChipmunkTuning& tuning) {
+// Of all turns: how they were taken. (Looks of the broad phase are fewer: who flies does not look.)
+void addPaths(Line& line, const df::Paths& paths) {
+  const auto turns =
+      static_cast<double>(paths.flown + paths.walked + paths.met + paths.deferred + paths.special);
+  for (const df::NamedPath& path : df::kPaths) {
+    line.add("path_" + std::string(path.name) + "_percent",
+             100 * static_cast<double>(paths.*path.count) / turns);
+  }
+}
+
+void report(const Case& c, const Scene& scene, const Contest& contest, const ChipmunkTuning& tuning,
+            const df::Paths& paths) {
   const double ours = contest.nanosecondsPerTick("naiad");
   Line line("world");
   line.add("n", c.n).add("density", c.density).add("mix", nameOf(c.mix)).add("ns_per_object", ours / c.n);
@@ -85,6 +96,7 @@ void report(const Case& c, const Scene& scene, const Contest& contest, const Chi
   addRatio(line, contest, "box2d_tree_ratio", "box2d_tree");
   if (contest.has("textbook")) line.add("textbook_ns", contest.nanosecondsPerTick("textbook") / c.n);
   addRatio(line, contest, "textbook_inlined_ratio", "textbook_inlined");
+  addPaths(line, paths);
   line.addEqual(contest.equal());
 }
 
@@ -98,7 +110,9 @@ void measure(const Case& c, const Options& options) {
     rules.warm_up_ticks = std::min(rules.warm_up_ticks, kLonelyTicks);
   }
   Contest contest(rules);
-  contest.add("naiad", std::make_unique<NaiadEngine>(scene));
+  auto p_ours = std::make_unique<NaiadEngine>(scene);
+  const df::Paths& paths = p_ours->paths();  // the contest keeps what it is given
+  contest.add("naiad", std::move(p_ours));
   ChipmunkTuning tuning;
   if (c.isMotionOnly()) {
     contest.add("box2d", makeBox2dMotion(scene));
@@ -112,7 +126,7 @@ void measure(const Case& c, const Options& options) {
   }
   addTextbook(contest, scene);
   contest.run();
-  report(c, scene, contest, tuning);
+  report(c, scene, contest, tuning, paths);
 }
 
 std::vector<Case> cases(const Options& options) {

@@ -17,7 +17,7 @@ constexpr const char* kUsage =
     "  --quick  small worlds only, to see that it works\n"
     "  --list   the suites there are\n"
     "\n"
-    "Exit codes: 0 measured, 1 engines disagree or a suite failed, 2 wrong usage.\n";
+    "Exit codes: 0 measured, 1 engines disagree, are wrong, or a suite failed, 2 wrong usage.\n";
 
 int usage(std::FILE* out, int code) {
   std::fputs(kUsage, out);
@@ -41,7 +41,10 @@ int run(const std::vector<std::string>& names, const bench::Options& options) {
     }
   }
   if (bench::allEqual()) return 0;
-  std::fputs("naiad_bench: equal=0: engines that should do the same did not\n", stderr);
+  std::fputs(
+      "naiad_bench: something that should be right or the same is not: see equal=0, mismatches, through, "
+      "ghosts\n",
+      stderr);
   return 1;
 }
 

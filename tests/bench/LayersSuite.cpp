@@ -1,0 +1,128 @@
+// What a scene pays for what it does not use, by counts that no other program on the machine can disturb:
+// valgrind's of instructions, and the heap's.
+//
+// layer=motion, motion_hard: nothing but motion, here and in a build that has no layers (-DNAIAD_LAYERS=OFF).
+// The others: the everyday workload of HARD boxes, in which one Object far from all others uses the layer or
+// does not; bytes_extra and allocations_per_tick are of a world in which all use it.
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "Line.h"
+#include "Suite.h"
+
+namespace bench {
+
+namespace {
+
+constexpr double kObjects = 10'000;
+
+std::filesystem::path besideThis(const std::string& name) {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+}
+
+std::filesystem::path fullProgram() {
+  return besideThis("naiad_layers");
+}
+
+// Where deploy/bench puts it.
+std::filesystem::path bareProgram() {
+  return besideThis("../../bench-bare/bin/naiad_layers").lexically_normal();
+}
+
+// Everything that it prints, stderr too.
+std::string outputOf(const std::string& command) {
+  std::FILE* p_pipe = popen((command + " 2>&1").c_str(), "r");
+  if (p_pipe == nullptr) throw std::runtime_error("cannot run " + command);
+  std::string output;
+  std::array<char, 4096> buffer;
+  while (std::fgets(buffer.data(), buffer.size(), p_pipe) != nullptr) output += buffer.data();
+  const int status = pclose(p_pipe);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(command + ": " + output);
+  return output;
+}
+
+double numberAfter(const std::string& text, const std::string& label) {
+  const std::size_t at = text.find(label);
+  if (at == std::string::npos) throw std::runtime_error("no '" + label + "' in: " + text);
+  return std::stod(text.substr(at + label.size()));
+}
+
+/// A scene as naiad_layers runs it.
+struct Setting {
+  std::filesystem::path program;
+  std::string scene;
+  std::string layer = "none";
+  std::string who = "one";
+
+  std::string command(int ticks) const {
+    return "'" + program.string() + "' " + scene + " " + layer + " " + who + " " + std::to_string(ticks);
+  }
+};
+
+double instructions(const Setting& setting, int ticks) {
+  return numberAfter(
+      outputOf("valgrind --tool=callgrind --callgrind-out-file=/dev/null " + setting.command(ticks)),
+      "Collected :");
+}
+
+// Building the scene costs the same in a run that is twice as long.
+double instructionsPerObject(const Setting& setting, int ticks) {
+  return (instructions(setting, 2 * ticks) - instructions(setting, ticks)) / ticks / kObjects;
+}
+
+struct Heap {
+  double bytes_per_object;
+  double allocations_per_tick;
+};
+
+Heap heapOf(const Setting& setting, int ticks) {
+  const std::string output = outputOf(setting.command(ticks));
+  return {numberAfter(output, "bytes_per_object="), numberAfter(output, "allocations_per_tick=")};
+}
+
+void report(const std::string& layer, const Setting& with, const Setting& without,
+            double without_instructions, int ticks) {
+  const double instructions = instructionsPerObject(with, ticks);
+  Setting all = with;
+  all.who = "all";
+  const Heap heap = heapOf(all, ticks);
+  Line("layers")
+      .add("layer", layer)
+      .add("instructions_extra_percent", 100 * (instructions / without_instructions - 1))
+      .add("bytes_extra", heap.bytes_per_object - heapOf(without, ticks).bytes_per_object)
+      .add("allocations_per_tick", heap.allocations_per_tick)
+      .add("n", static_cast<long long>(kObjects))
+      .add("scene", with.scene)
+      .add("instructions_per_object", instructions)
+      .add("bytes_per_object", heap.bytes_per_object);
+}
+
+void run(const Options& options) {
+  const int ticks = options.quick ? 5 : 20;
+  if (!std::filesystem::exists(bareProgram()))
+    throw std::runtime_error("no " + bareProgram().string() + "; deploy/bench builds it");
+  for (const auto& [layer, scene] : {std::pair{"motion", "moving"}, {"motion_hard", "moving_hard"}}) {
+    progress(std::string("layers: ") + layer);
+    const Setting bare{bareProgram(), scene};
+    report(layer, {fullProgram(), scene}, bare, instructionsPerObject(bare, ticks), ticks);
+  }
+  const Setting without{fullProgram(), "hard"};
+  const double instructions = instructionsPerObject(without, ticks);
+  for (const std::string layer : {"swept", "precise", "masks", "rest_contacts", "may_move_out"}) {
+    progress("layers: " + layer);
+    report(layer, {fullProgram(), "hard", layer}, without, instructions, ticks);
+  }
+}
+
+const Suite s_suite("layers", "what scenes pay for what they do not use: instructions, bytes, allocations",
+                    run);
+
+}  // namespace
+
+}  // namespace bench

@@ -1,0 +1,198 @@
+// What it costs to compare characters, and whether the answers are right.
+//
+// Precise Objects with masks fly about (WM.update) and turn around when they are blocked. Where they are
+// then, each is asked whom it touches (WM.getCollisions), once as it is and once with only the boxes
+// compared; the difference, divided by the pairs whose boxes touch, is a test. All lists are compared with a
+// plain loop over all characters.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "Bins.h"
+#include "Clock.h"
+#include "Contest.h"
+#include "EventCollision.h"
+#include "EventOut.h"
+#include "Glyphs.h"
+#include "Line.h"
+#include "Object.h"
+#include "SplitMix64.h"
+#include "Suite.h"
+#include "World.h"
+#include "WorldManager.h"
+
+namespace bench {
+
+namespace {
+
+constexpr double kDensity = 0.5;
+constexpr double kBin = 8;
+constexpr double kLargest = 12;
+
+class Sprite : public df::Object {
+ public:
+  Sprite(const Glyphs& its_glyphs, df::Vector corner, df::Vector velocity) : glyphs(its_glyphs) {
+    setBox(df::Box(df::Vector(), glyphs.width(), glyphs.height()));
+    setMask(glyphs.rows());
+    setPrecise();
+    setPosition(corner);
+    setVelocity(velocity);
+  }
+
+  int eventHandler(const df::Event* p_e) override {
+    if (p_e->getType() == df::OUT_EVENT) {
+      setPosition(getPosition() - getVelocity());
+      turn();
+    } else if (p_e->getType() == df::COLLISION_EVENT) {
+      if (static_cast<const df::EventCollision*>(p_e)->getObject1() == this) turn();
+    }
+    return 1;
+  }
+
+  df::FixedBox box() const {
+    const df::FixedVector corner = df::toFixed(getPosition()).value_or(df::FixedVector{});
+    return {corner, {glyphs.width() * df::kFixedOne, glyphs.height() * df::kFixedOne}};
+  }
+
+  const Glyphs glyphs;
+
+ private:
+  void turn() {
+    const df::Vector v = getVelocity();
+    setVelocity(df::Vector(-v.x(), -v.y()));
+  }
+};
+
+// Of one arrangement.
+struct Verdict {
+  long pairs = 0;  ///< whose boxes touch
+  long mismatches = 0;
+};
+
+class Crowd {
+ public:
+  explicit Crowd(int n) : m_scope(m_world) {
+    m_world.setLogSink([](const std::string& /*line*/) {});
+    naiad::SplitMix64 random(20240607);
+    std::vector<Glyphs> looks;
+    double area = 0;
+    for (int i = 0; i < n; ++i) {
+      looks.push_back(Glyphs::random(random));
+      area += looks.back().width() * looks.back().height();
+    }
+    m_side = std::ceil(std::sqrt(area / kDensity));
+    WM.setBoundary(df::Box(df::Vector(), m_side, m_side));
+    const auto between = [&random](double least, double most) {
+      return least + (most - least) * random.unit();
+    };
+    for (const Glyphs& look : looks) {
+      const double x = between(0, m_side);
+      const double y = between(0, m_side);
+      const double speed_x = between(-1, 1);
+      const double speed_y = between(-1, 1);
+      m_sprites.push_back(new Sprite(look, df::Vector(x, y), df::Vector(speed_x, speed_y)));
+    }
+  }
+  ~Crowd() { m_world.shutDown(); }
+  Crowd(const Crowd&) = delete;
+  Crowd& operator=(const Crowd&) = delete;
+
+  /// Move everybody for a tick. Return the time per Object.
+  double tick() {
+    return timePerObject([] { WM.update(); });
+  }
+
+  /// The time to ask everybody whom it touches, per Object.
+  double askAll(bool precise) {
+    for (Sprite* p_sprite : m_sprites) p_sprite->setPrecise(precise);
+    const double time = timePerObject([this] {
+      for (const Sprite* p_sprite : m_sprites)
+        m_found += WM.getCollisions(p_sprite, p_sprite->getPosition()).getCount();
+    });
+    for (Sprite* p_sprite : m_sprites) p_sprite->setPrecise();
+    return time;
+  }
+
+  Verdict judge() const {
+    std::vector<df::FixedBox> boxes;
+    for (const Sprite* p_sprite : m_sprites) boxes.push_back(p_sprite->box());
+    const Bins bins(boxes, m_side, kBin, kLargest);
+    Verdict verdict;
+    for (std::size_t i = 0; i < m_sprites.size(); ++i) judge(i, boxes, bins, verdict);
+    return verdict;
+  }
+
+ private:
+  template <class Do>
+  double timePerObject(Do run) const {
+    const double begin = cpuNanoseconds();
+    run();
+    return (cpuNanoseconds() - begin) / static_cast<double>(m_sprites.size());
+  }
+
+  // A pair is wrong if it should be in the list and is not, or the other way round.
+  void judge(std::size_t i, const std::vector<df::FixedBox>& boxes, const Bins& bins,
+             Verdict& verdict) const {
+    std::vector<const df::Object*> right;
+    bins.near(boxes[i], [&](std::uint32_t other) {
+      if (other == i || !areTouching(boxes[i], boxes[other])) return;
+      ++verdict.pairs;
+      if (shareCell(m_sprites[i]->glyphs, boxes[i], m_sprites[other]->glyphs, boxes[other]))
+        right.push_back(m_sprites[other]);
+    });
+    std::vector<const df::Object*> ours;
+    const df::ObjectList list = WM.getCollisions(m_sprites[i], m_sprites[i]->getPosition());
+    for (df::ObjectListIterator it(&list); !it.isDone(); it.next()) ours.push_back(it.currentObject());
+    std::sort(right.begin(), right.end());
+    std::sort(ours.begin(), ours.end());
+    std::vector<const df::Object*> wrong;
+    std::set_symmetric_difference(right.begin(), right.end(), ours.begin(), ours.end(),
+                                  std::back_inserter(wrong));
+    verdict.mismatches += static_cast<long>(wrong.size());
+  }
+
+  df::World m_world;
+  df::World::Scope m_scope;
+  double m_side = 0;
+  std::vector<Sprite*> m_sprites;  // the world's
+  long m_found = 0;
+};
+
+void measure(int n, const Options& options) {
+  progress("precise: " + std::to_string(n));
+  const long pairs = options.quick ? 20'000 : 600'000;
+  Crowd crowd(n);
+  for (int i = 0; i < 10; ++i) crowd.tick();
+  Verdict all;
+  std::vector<double> tests;
+  std::vector<double> queries;
+  std::vector<double> ticks;
+  while (all.pairs < pairs || ticks.size() < 5) {
+    ticks.push_back(crowd.tick());
+    const Verdict verdict = crowd.judge();
+    all.pairs += verdict.pairs;
+    all.mismatches += verdict.mismatches;
+    const double boxes_only = crowd.askAll(false);
+    queries.push_back(crowd.askAll(true));
+    tests.push_back((queries.back() - boxes_only) * n / static_cast<double>(verdict.pairs));
+  }
+  Line("precise")
+      .add("n", n)
+      .add("ns_per_test", median(tests))
+      .addZero("mismatches", all.mismatches)
+      .add("pairs", static_cast<long long>(all.pairs))
+      .add("pairs_per_object", static_cast<double>(all.pairs) / static_cast<double>(ticks.size()) / n)
+      .add("ns_per_query", median(queries))
+      .add("ns_per_object", median(ticks));
+}
+
+const Suite s_suite("precise", "comparing characters: cost of a test, and is it right?",
+                    [](const Options& options) {
+                      for (const int n : {1000, 10'000}) measure(n, options);
+                    });
+
+}  // namespace
+
+}  // namespace bench

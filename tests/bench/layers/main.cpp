@@ -1,0 +1,102 @@
+// naiad_layers: runs a scene whose Objects use a layer of the engine, or do not; the suite `layers` runs it,
+// alone and in valgrind, and counts.
+//
+//     naiad_layers SCENE LAYER one|all TICKS
+//
+// In a scene of 10,000 there is one Object more, far from all others, under way. It alone uses the layer, or
+// all do. Nobody comes to a border. Prints `allocations_per_tick=… bytes_per_object=…`.
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+#include "EventCollision.h"
+#include "Heap.h"
+#include "Object.h"
+#include "Scene.h"
+#include "World.h"
+#include "WorldManager.h"
+
+namespace bench {
+
+namespace {
+
+constexpr int kObjects = 10'000;
+constexpr int kWarmUpTicks = 8;
+
+using Use = void (*)(df::Object&);
+
+// They turn around when they are blocked.
+class Walker : public df::Object {
+ public:
+  explicit Walker(const Body& body) {
+    setSolidness(body.solidness);
+    setPosition(df::Vector(body.x, body.y));
+    setVelocity(df::Vector(body.vx, body.vy));
+  }
+
+  int eventHandler(const df::Event* p_e) override {
+    if (p_e->getType() != df::COLLISION_EVENT) return 0;
+    if (static_cast<const df::EventCollision*>(p_e)->getObject1() != this) return 1;
+    const df::Vector v = getVelocity();
+    setVelocity(df::Vector(-v.x(), -v.y()));
+    return 1;
+  }
+};
+
+const std::map<std::string, Use> kLayers = {
+    {"none", [](df::Object&) {}},
+    {"swept", [](df::Object& o) { o.setSwept(); }},
+    {"precise", [](df::Object& o) { o.setPrecise(); }},
+    {"masks",
+     [](df::Object& o) {
+       o.setMask({"  ########  ", " ##  ##  ## ", "############", "##   ##   ##"});
+       o.setPrecise();
+     }},
+    {"rest_contacts", [](df::Object& o) { o.setRestContacts(); }},
+    {"may_move_out", [](df::Object& o) { o.setMayMoveOut(); }},
+};
+
+const std::map<std::string, Scene (*)()> kScenes = {
+    {"moving", [] { return Scene(Mix::MOVING, kObjects, 0.1); }},
+    {"moving_hard", [] { return Scene(Mix::MOVING_HARD, kObjects, 0.0001); }},
+    {"hard", [] { return Scene(Mix::HARD_ONLY, kObjects, 0.1); }},
+};
+
+void run(const Scene& scene, Use use, bool all, int ticks) {
+  const long bytes = heapBytes();
+  df::World world;
+  const df::World::Scope scope(world);
+  WM.setBoundary(df::Box(df::Vector(-1e5, -1e5), 5e5, 5e5));
+  for (const Body& body : scene.bodies) {
+    auto* p_walker = new Walker(body);
+    if (all) use(*p_walker);
+  }
+  Body far = scene.bodies.front();
+  far.x = far.y = -1000;
+  far.vx = far.vy = -0.25;
+  use(*new Walker(far));
+
+  for (int i = 0; i < kWarmUpTicks; ++i) WM.update();
+  const long bytes_per_object = (heapBytes() - bytes) / kObjects;
+  const long allocations = heapAllocations();
+  for (int i = 0; i < ticks; ++i) WM.update();
+  const double per_tick = static_cast<double>(heapAllocations() - allocations) / ticks;
+  std::printf("allocations_per_tick=%g bytes_per_object=%ld\n", per_tick, bytes_per_object);
+  world.shutDown();
+}
+
+}  // namespace
+
+}  // namespace bench
+
+int main(int argc, char** argv) {
+  const int ticks = argc == 5 ? std::atoi(argv[4]) : 0;
+  if (ticks < 1 || !bench::kScenes.contains(argv[1]) || !bench::kLayers.contains(argv[2])) {
+    std::fputs("usage: naiad_layers SCENE LAYER one|all TICKS\n", stderr);
+    return 2;
+  }
+  const bench::Scene scene = bench::kScenes.at(argv[1])();
+  bench::run(scene, bench::kLayers.at(argv[2]), std::string(argv[3]) == "all", ticks);
+  return 0;
+}
