@@ -29,12 +29,12 @@ inline bool tellBoth(World& world, ObjectKey mover, ObjectKey other, const Event
   const WorldStore& store = world.store();
   if (store.hears(mover.slot)) {
     world.hear(mover, *event.getObject1(), event);
-    if (!store.isCurrent(mover)) return false;
-    if (!store.isCurrent(other)) return true;
+    if (!store.isStill(mover)) return false;
+    if (!store.isStill(other)) return true;
   }
   if (store.hears(other.slot)) {
     world.hear(other, *event.getObject2(), event);
-    if (!store.isCurrent(mover)) return false;
+    if (!store.isStill(mover)) return false;
   }
   return true;
 }

@@ -36,7 +36,7 @@ class HitList {
   std::optional<Moment> end() const { return m_end; }
 
  private:
-  struct Search;
+  class Search;
 
   std::vector<Hit> m_hits;
   std::optional<Moment> m_end;

@@ -152,10 +152,10 @@ bool Mover::collide(ObjectKey mover, FixedVector where, const std::vector<Object
   bool free = true;
   EventCollision event(store.object(mover.slot), nullptr, Vector::fromFixed(where));
   for (const ObjectKey other : others) {
-    if (!store.isCurrent(other)) continue;
+    if (!store.isStill(other)) continue;
     event.setObject2(store.object(other.slot));
     if (!tellBoth(m_world, mover, other, event)) return false;
-    if (!store.isCurrent(other)) continue;
+    if (!store.isStill(other)) continue;
     if (Pair(store, mover.slot, other.slot).blocks(from, where)) free = false;
   }
   return free;
@@ -164,10 +164,10 @@ bool Mover::collide(ObjectKey mover, FixedVector where, const std::vector<Object
 void Mover::place(ObjectKey mover, FixedVector where) {
   WorldStore& store = m_world.store();
   const Views& views = m_world.views();
-  const bool was_inside = views.isInside(store.position(mover.slot));
+  const bool leaves = !views.isInside(where) && views.isInside(store.position(mover.slot));
   store.setPosition(mover.slot, where);
   if (store.has(mover.slot, WorldStore::kFollowed)) m_world.views().moved(mover, where);
-  if (was_inside && !views.isInside(where)) m_world.deliver(mover, EventOut());
+  if (leaves) m_world.deliver(mover, EventOut());
 }
 
 }  // namespace df

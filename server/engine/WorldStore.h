@@ -92,9 +92,16 @@ class WorldStore {
   bool isCurrent(ObjectKey k) const {
     return k.slot < m_cards.size() && m_cards[k.slot].generation == k.generation;
   }
+  /// The same for a key that was current in this store once.
+  bool isStill(ObjectKey k) const { return m_cards[k.slot].generation == k.generation; }
   Object* find(ObjectKey k) const { return isCurrent(k) ? m_cards[k.slot].p_object : nullptr; }
   Object* object(Slot s) const { return m_cards[s].p_object; }
   FixedVector position(Slot s) const { return m_positions[s]; }
+  /// It will be asked for its position, and perhaps for the rest.
+  void prefetch(Slot s) const {
+    __builtin_prefetch(&m_positions[s]);
+    __builtin_prefetch(&m_cards[s]);
+  }
   FixedVector velocity(Slot s) const { return m_velocities[s]; }
   FixedVector acceleration(Slot s) const { return m_accelerations[s]; }
   FixedBox box(Slot s) const { return m_boxes[s]; }

@@ -112,8 +112,8 @@ TEST_F(Reference, CopiesAndMovesAndForgets) {
 
 TEST_F(Reference, MayBeConstAndInAList) {
   std::vector<Ref<const Object>> refs;
-  std::vector<Probe*> probes;
-  for (int i = 0; i < 10; ++i) probes.push_back(new Probe);
+  std::vector<Probe*> probes(10);
+  for (Probe*& p : probes) p = new Probe;
   refs.assign(probes.begin(), probes.end());
   delete probes[3];
   for (std::size_t i = 0; i < refs.size(); ++i) EXPECT_EQ(static_cast<bool>(refs[i]), i != 3);

@@ -1,45 +1,9 @@
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "Player.h"
-#include "Probe.h"
+#include "SweptWorld.h"
 
 namespace df::test {
 namespace {
 
-using Heard = std::vector<std::string>;
-
-constexpr double kUnit = 1 / 4294967296.0;  // the distance of neighbouring positions
-
-class SweptMoves : public WorldTest {
- protected:
-  Probe* make(const std::string& name, double x, double y, Solidness solidness = HARD) {
-    auto* p = new Probe(name, &heard, Vector(x, y));
-    p->setSolidness(solidness);
-    return p;
-  }
-  Probe* makeSwept(const std::string& name, double x, double y, Solidness solidness = HARD) {
-    Probe* p = make(name, x, y, solidness);
-    p->setSwept();
-    return p;
-  }
-  /// One column of cells, from row 0 to row 23.
-  Probe* makeWall(const std::string& name, double x, Solidness solidness = HARD) {
-    Probe* p = make(name, x, 0, solidness);
-    p->setBox(Box(Vector(-0.5, -0.5), 1, 24));
-    return p;
-  }
-  static Heard pairs(const std::string& mover, const std::vector<std::string>& others) {
-    Heard list;
-    for (const std::string& other : others) {
-      list.push_back(mover + ":df-collision");
-      list.push_back(other + ":df-collision");
-    }
-    return list;
-  }
-};
+class SweptMoves : public SweptWorld {};
 
 TEST_F(SweptMoves, ArrowDoesNotFlyThroughTheWindow) {
   makeWall("window", 40);
@@ -119,140 +83,12 @@ TEST_F(SweptMoves, BlockedMoverIsNotToldOfWhatLiesBehind) {
   expectAt(*a, 24 - kUnit, 10);
 }
 
-TEST_F(SweptMoves, HardenedOneBlocksAndLaterOnesAreNotTold) {
-  Probe* b = make("b", 15, 10, SOFT);
-  make("also", 15, 10, SOFT);
-  make("c", 20, 10, SOFT);
-  Probe* a = makeSwept("a", 10, 10);
-  b->on_event = [](Probe& self, const Event&) { self.setSolidness(HARD); };
-  EXPECT_EQ(WM.moveObject(a, Vector(30, 10)), -1);
-  EXPECT_EQ(heard, pairs("a", {"b", "also"}));
-  expectAt(*a, 14 - kUnit, 10);
-}
-
 TEST_F(SweptMoves, NoSoftMoverIsBlockedOnTheWay) {
   Probe* a = makeSwept("a", 10, 10);
   a->setNoSoft();
   make("b", 20, 10, SOFT);
   EXPECT_EQ(WM.moveObject(a, Vector(30, 10)), -1);
   expectAt(*a, 19 - kUnit, 10);
-}
-
-TEST_F(SweptMoves, PassesOnWhenTheGlassIsDeleted) {
-  Probe* a = makeSwept("a", 10, 10);
-  Probe* glass = make("glass", 20, 10);
-  make("near", 22, 10, SOFT);
-  make("wall", 30, 10);
-  glass->on_event = [](Probe& self, const Event&) { delete &self; };
-  EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
-  EXPECT_EQ(heard, pairs("a", {"glass", "near", "wall"}));
-  expectAt(*a, 29 - kUnit, 10);
-}
-
-TEST_F(SweptMoves, PassesOnWhenTheGlassTurnsSoftAndMeetsItOnce) {
-  Probe* a = makeSwept("a", 10, 10);
-  Probe* glass = make("glass", 20, 10);
-  make("soft", 15, 10, SOFT);
-  glass->on_event = [](Probe& self, const Event&) { self.setSolidness(SOFT); };
-  EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), 0);
-  EXPECT_EQ(heard, pairs("a", {"soft", "glass"}));
-  expectAt(*a, 50, 10);
-}
-
-TEST_F(SweptMoves, BreaksAsManyGlassesAsStandInItsWay) {
-  Probe* a = makeSwept("a", 10, 10);
-  for (int i = 0; i < 60; ++i) {
-    make("glass", 20 + 0.5 * i, 10)->on_event = [](Probe& self, const Event&) { WM.removeObject(&self); };
-  }
-  EXPECT_EQ(WM.moveObject(a, Vector(70, 10)), 0);
-  EXPECT_EQ(heard.size(), 120u);
-  expectAt(*a, 70, 10);
-}
-
-TEST_F(SweptMoves, SearchesTheRestOfTheWayInTheWorldAsItIsThen) {
-  Probe* a = makeSwept("a", 10, 10);
-  Probe* glass = make("glass", 20, 10);
-  Probe* aside = make("aside", 30, 20);
-  Probe* away = make("away", 25, 10);
-  glass->on_event = [&](Probe& self, const Event&) {
-    aside->setPosition(Vector(40, 10));
-    away->setPosition(Vector(25, 20));
-    make("new", 35, 10, SOFT);
-    make("behind", 15, 10);  // the mover has passed there
-    delete &self;
-  };
-  EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
-  EXPECT_EQ(heard, pairs("a", {"glass", "new", "aside"}));
-  expectAt(*a, 39 - kUnit, 10);
-}
-
-TEST_F(SweptMoves, OneThatWasMetIsNotMetAgainFurtherOn) {
-  Probe* a = makeSwept("a", 10, 10);
-  Probe* glass = make("glass", 20, 10);
-  glass->on_event = [](Probe& self, const Event&) { self.setPosition(Vector(40, 10)); };
-  EXPECT_EQ(WM.moveObject(a, Vector(60, 10)), -1);  // as judged right then: HARD onto HARD
-  expectAt(*a, 19 - kUnit, 10);
-  glass->setPosition(Vector(30, 10));
-  glass->on_event = [](Probe& self, const Event&) {
-    self.setPosition(Vector(40, 10));
-    self.setSolidness(SOFT);
-  };
-  heard.clear();
-  EXPECT_EQ(WM.moveObject(a, Vector(60, 10)), 0);
-  EXPECT_EQ(heard, pairs("a", {"glass"}));
-}
-
-TEST_F(SweptMoves, MoverThatTurnsSpectralPassesToItsTarget) {
-  Probe* a = makeSwept("a", 10, 10);
-  make("glass", 20, 10);
-  make("wall", 30, 10);
-  a->on_event = [](Probe& self, const Event&) { self.setSolidness(SPECTRAL); };
-  EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), 0);
-  EXPECT_EQ(heard, pairs("a", {"glass"}));
-  expectAt(*a, 50, 10);
-}
-
-TEST_F(SweptMoves, MoverThatGrowsHasItsNewBoxOnTheRestOfTheWay) {
-  Probe* a = makeSwept("a", 10, 10);
-  Probe* glass = make("glass", 20, 10);
-  make("wall", 30, 14);
-  glass->on_event = [&](Probe& self, const Event&) {
-    a->setBox(Box(Vector(-4, -4), 8, 8));
-    delete &self;
-  };
-  EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
-  expectAt(*a, 25.5 - kUnit, 10);
-}
-
-TEST_F(SweptMoves, GlassThatIsAlwaysPutUpAnewStopsTheMoverInTheEnd) {
-  Probe* a = makeSwept("a", 10, 10);
-  make("glass", 20, 10);
-  int glasses = 0;
-  a->on_event = [&](Probe&, const Event& e) {
-    ++glasses;
-    delete dynamic_cast<const EventCollision&>(e).getObject2();
-    make("glass", 20, 10);
-  };
-  EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
-  EXPECT_EQ(glasses, 1000);
-  expectAt(*a, 19 - kUnit, 10);
-}
-
-TEST_F(SweptMoves, DeletedMoverEndsTheMove) {
-  Probe* a = makeSwept("a", 10, 10);
-  make("b", 20, 10, SOFT);
-  make("c", 30, 10, SOFT);
-  a->on_event = [](Probe& self, const Event&) { delete &self; };
-  EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
-  EXPECT_EQ(heard, (Heard{"a:df-collision"}));
-}
-
-TEST_F(SweptMoves, BlockedMoverStaysWhereAHandlerPutIt) {
-  Probe* a = makeSwept("a", 10, 10);
-  make("b", 20, 10);
-  a->on_event = [](Probe& self, const Event&) { self.setPosition(Vector(5, 5)); };
-  EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
-  expectAt(*a, 5, 5);
 }
 
 TEST_F(SweptMoves, MaySlideAlongAWallAndLeaveIt) {
@@ -317,15 +153,6 @@ TEST_F(SweptMoves, SwitchOfTheWorldSweepsEverybody) {
   WM.setSweptCollisions(false);
   WM.update();
   expectAt(*a, 59 - kUnit, 10);
-}
-
-TEST_F(SweptMoves, IsDecidedWhenTheMoveBegins) {
-  Probe* a = makeSwept("a", 10, 10);
-  make("glass", 20, 10, SOFT);
-  make("wall", 30, 10);
-  a->on_event = [](Probe& self, const Event&) { self.setSwept(false); };
-  EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
-  expectAt(*a, 29 - kUnit, 10);
 }
 
 TEST_F(SweptMoves, BlockedMoverGoesOnTryingAndIsBlocked) {
@@ -401,74 +228,6 @@ TEST_F(SweptMoves, ViewFollowsToWhereItStops) {
   const double left = WM.getView().getCorner().x();
   EXPECT_GT(left, 100);
   EXPECT_LT(left, 200);
-}
-
-TEST_F(SweptMoves, NestedMovesHaveListsOfTheirOwn) {
-  Probe* a = makeSwept("a", 10, 10, SOFT);
-  Probe* b = makeSwept("b", 20, 10, SOFT);
-  make("on both ways", 30, 10, SOFT);
-  b->on_event = [](Probe& self, const Event&) {
-    self.on_event = nullptr;
-    WM.moveObject(&self, Vector(40, 10));
-  };
-  EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision", "b:df-collision", "on both ways:df-collision",
-                          "a:df-collision", "on both ways:df-collision"}));
-}
-
-TEST_F(SweptMoves, NestedDeeperThan32IsRefused) {
-  Probe* a = makeSwept("a", 10, 10, SOFT);
-  make("b", 20, 10, SOFT);
-  int deepest = 0;
-  int depth = 0;
-  a->on_event = [&](Probe& self, const Event&) {
-    deepest = std::max(deepest, ++depth);
-    WM.moveObject(&self, Vector(30, 10));
-    --depth;
-  };
-  EXPECT_EQ(WM.moveObject(a, Vector(30, 10)), 0);
-  EXPECT_EQ(deepest, 32);
-}
-
-TEST_F(SweptMoves, FirstContactLooksAheadAndMovesNobody) {
-  Probe* a = make("a", 10, 10);
-  make("beside", 12, 12, SOFT);
-  Probe* b = make("b", 20, 10, SOFT);
-  make("c", 20, 10.5);
-  const Contact contact = WM.firstContact(a, Vector(50, 10));
-  EXPECT_EQ(contact.p_object, b);
-  EXPECT_EQ(contact.time, 9.0 / 40);
-  EXPECT_EQ(contact.position, Vector(19 - kUnit, 10));
-  expectAt(*a, 10, 10);
-  EXPECT_TRUE(heard.empty());
-}
-
-TEST_F(SweptMoves, FirstContactWithNobodyIsTheTarget) {
-  Probe* a = make("a", 10, 10);
-  Probe* b = make("b", 20, 10);
-  const auto expectNobody = [&](const Object* p_o, Vector where) {
-    const Contact contact = WM.firstContact(p_o, where);
-    EXPECT_EQ(contact.p_object, nullptr);
-    EXPECT_EQ(contact.time, 1);
-    EXPECT_EQ(contact.position, where);
-  };
-  expectNobody(a, Vector(10, 50));
-  expectNobody(a, Vector(18.5, 10));
-  expectNobody(nullptr, Vector(50, 10));
-  expectNobody(a, Vector(3e9, 10));
-  b->setActive(false);
-  expectNobody(a, Vector(50, 10));
-  b->setActive(true);
-  a->setSolidness(SPECTRAL);
-  expectNobody(a, Vector(50, 10));
-  a->setSolidness(HARD);
-  a->setActive(false);
-  expectNobody(a, Vector(50, 10));
-  a->setActive(true);
-  WM.removeObject(a);
-  expectNobody(a, Vector(50, 10));
-  WM.insertObject(a);
-  EXPECT_EQ(WM.firstContact(a, Vector(50, 10)).p_object, b);
 }
 
 }  // namespace
