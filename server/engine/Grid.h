@@ -10,7 +10,7 @@
 // neighbouring words. Cells are mapped onto the arrays as onto a torus: the part of the world that the boxes
 // of a level are spread over lies flat, what is a whole turn away falls onto the same cells, shifted by a
 // hash, and is told apart by the exact test. So the arrays are about as long as there are boxes, wherever
-// these are: 64 to 128 cells for each. Only what is occupied is touched. Nothing is allocated when something
+// these are: 32 to 64 cells for each. Only what is occupied is touched. Nothing is allocated when something
 // moves.
 //
 // The grid reads positions and boxes from the store's arrays; a slot is filed under what they say when
@@ -76,7 +76,7 @@ class Grid {
   static constexpr Slot kMore = 0x80000000;   // in a cell's first slot: others follow
   static constexpr std::int64_t kBlock = 64;  // cells per side of the squares that lie flat
   static constexpr std::size_t kLeastWords = 256;
-  static constexpr std::size_t kBoxesPerWord = 1;  // at most, on average
+  static constexpr std::size_t kBoxesPerWord = 2;  // at most, on average
 
   struct Record {
     std::uint32_t cell = 0;

@@ -164,7 +164,7 @@ TEST(Grid, MemoryFollowsTheNumberOfBoxesNotTheSizeOfTheWorld) {
   Random random(10);
   Filed it(10000);
   for (Grid::Slot s = 0; s < 10000; ++s) it.put(s, randomPosition(random, 4000000), kCharacterBox);
-  EXPECT_LE(it.grid.bytes(), 5u << 20);
+  EXPECT_LE(it.grid.bytes(), 3u << 20);
   for (Grid::Slot s = 100; s < 10000; ++s) it.remove(s);
   EXPECT_LE(it.grid.bytes(), 768u << 10);
 }
