@@ -42,7 +42,7 @@ TEST_F(SweptHandlers, PassesOnWhenTheGlassTurnsSoftAndMeetsItOnce) {
 TEST_F(SweptHandlers, BreaksAsManyGlassesAsStandInItsWay) {
   Probe* a = makeSwept("a", 10, 10);
   for (int i = 0; i < 60; ++i) {
-    make("glass", 20 + 0.5 * i, 10)->on_event = [](Probe& self, const Event&) { WM.removeObject(&self); };
+    make("glass", 20 + 0.5 * i, 10)->on_event = [](Probe& self, const Event&) { delete &self; };
   }
   EXPECT_EQ(WM.moveObject(a, Vector(70, 10)), 0);
   EXPECT_EQ(heard.size(), 120u);
