@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "Grid.h"
+#include "GridSteps.h"
 #include "Random.h"
 
 namespace df::test {
