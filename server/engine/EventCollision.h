@@ -17,7 +17,8 @@ class EventCollision : public Event {
  public:
   /// A collision at (0,0) between nobody and nobody.
   EventCollision() : EventCollision(nullptr, nullptr, Vector()) {}
-  /// `p_o1` caused the collision by moving onto `p_o2`; `p` is the position p_o1 wanted to move to.
+  /// `p_o1` caused the collision by moving onto `p_o2`; `p` is the position p_o1 wanted to move to (swept:
+  /// just before the contact).
   EventCollision(Object* p_o1, Object* p_o2, Vector p)
       : Event(&COLLISION_EVENT), m_pos(p), m_p_obj1(p_o1), m_p_obj2(p_o2) {}
 
@@ -27,7 +28,8 @@ class EventCollision : public Event {
   /// The Object that was collided with.
   void setObject2(Object* p_new_o2) { m_p_obj2 = p_new_o2; }
   Object* getObject2() const { return m_p_obj2; }
-  /// Where: the target of the move, not a point of contact.
+  /// Where: the target of the move, not a point of contact; of a swept move the mover's position just before
+  /// the contact.
   void setPosition(Vector new_pos) { m_pos = new_pos; }
   Vector getPosition() const { return m_pos; }
 
