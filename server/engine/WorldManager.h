@@ -56,9 +56,8 @@ class WorldManager : public Manager {
   // How they move.
 
   /// The active solid Objects whose boxes touch p_o's box if p_o were at `where`, in creation order,
-  /// without p_o itself; where one of the two is precise, the characters must meet, too. Whether p_o is solid does
-  /// not matter (Listing 4.108). Empty for null and for a
-  /// position out of range.
+  /// without p_o itself; where one of the two is precise, the characters must meet, too. Whether p_o is solid
+  /// does not matter (Listing 4.108). Empty for null and for a position out of range.
   ObjectList getCollisions(const Object* p_o, Vector where) const;
   /// Would p_o collide at `where`?
   bool isCollision(const Object* p_o, Vector where) const;
