@@ -17,7 +17,7 @@ namespace df::test {
 namespace {
 
 constexpr int kTicks = 3000;
-constexpr std::uint64_t kHash = 0xc9f0513200cb8afc;
+constexpr std::uint64_t kHash = 0xbbf0e9000aa30fba;
 
 class Recording {
  public:
@@ -36,6 +36,11 @@ class Recording {
     take(static_cast<std::uint64_t>(fixed.y));
   }
   double number(double low, double high) { return low + (high - low) * WM.randomInt(1 << 20) / (1 << 20); }
+  /// One draw after the other: the order in which arguments are evaluated is the compiler's to choose.
+  Vector within(double left, double right, double top, double bottom) {
+    const double x = number(left, right);
+    return Vector(x, number(top, bottom));
+  }
   void spawn();
 
   World world;
@@ -47,14 +52,14 @@ class Wanderer : public Object {
  public:
   explicit Wanderer(Recording& run) : m_run(run) {
     registerInterest(STEP_EVENT);
-    setPosition(Vector(run.number(-40, 120), run.number(-20, 40)));
-    setVelocity(Vector(run.number(-2, 2), run.number(-1, 1)));
+    setPosition(run.within(-40, 120, -20, 40));
+    setVelocity(run.within(-2, 2, -1, 1));
     const int kind = WM.randomInt(20);
     setSolidness(kind < 9 ? HARD : kind < 16 ? SOFT : SPECTRAL);
     if (kind % 5 == 0) setBox(Box(Vector(-3, -1), 6, 2));
     if (kind % 7 == 0) setAcceleration(Vector(0, 0.02));
     if (kind == 3 || kind == 8) setSwept();
-    if (kind == 3) setVelocity(Vector(run.number(-40, 40), run.number(-40, 40)));
+    if (kind == 3) setVelocity(run.within(-40, 40, -40, 40));
     if (kind == 5 || kind == 8) setMask({"#  # #", " ## # "});
     if (kind == 5 || kind == 11) setPrecise();
     if (kind == 12) setRestContacts();
@@ -74,13 +79,12 @@ class Wanderer : public Object {
       if (what == 0) WM.markForDelete(this);
       if (what == 1) m_run.spawn();
       if (what == 2) WM.moveObject(this, getPosition() + Vector(1, 0.5));
-      if (what < 8 && p_c->getObject1() == this)
-        setVelocity(Vector(m_run.number(-2, 2), m_run.number(-1, 1)));
+      if (what < 8 && p_c->getObject1() == this) setVelocity(m_run.within(-2, 2, -1, 1));
       if (what == 9) setDirection(Vector(1, 1));
       if (what == 10) setSpeed(m_run.number(0, 3));
     } else if (p_e->getType() == OUT_EVENT) {
-      setPosition(Vector(m_run.number(-40, 120), m_run.number(-20, 40)));
-      setVelocity(Vector(m_run.number(-2, 2), m_run.number(-1, 1)));
+      setPosition(m_run.within(-40, 120, -20, 40));
+      setVelocity(m_run.within(-2, 2, -1, 1));
     } else if (WM.getAllObjects().getCount() < 200 && WM.randomInt(50) == 0) {
       m_run.spawn();
     }
