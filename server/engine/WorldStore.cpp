@@ -165,10 +165,10 @@ void WorldStore::setVelocity(Slot s, FixedVector velocity) {
   const FixedVector before = m_velocities[s];
   if (before == velocity) return;
   m_velocities[s] = velocity;
-  if ((m_cards[s].flags & kInWorld) != 0) {
-    setBit(m_blocked, m_cards[s].index, false);  // whether the new one is blocked is not known yet
-  }
-  if (before == FixedVector{} || velocity == FixedVector{}) classify(s);
+  // Whether the new one is blocked is not known yet.
+  const bool was_blocked = has(s, kInWorld) && isBlocked(s);
+  if (was_blocked) setBit(m_blocked, m_cards[s].index, false);
+  if (was_blocked || before == FixedVector{} || velocity == FixedVector{}) classify(s);
   touch(s);
 }
 
