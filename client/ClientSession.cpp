@@ -51,6 +51,7 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
   if (m_state != State::kGreeting) return reject("a second welcome");
   m_welcome = std::move(message);
   m_clock = DisplayClock(m_welcome.tick);
+  m_replica = Replica(m_welcome.tick_now);
   m_budget.setTick(m_welcome.tick);
   m_state = State::kPlaying;
   m_last_ping = now - kPingInterval;
@@ -69,17 +70,26 @@ void ClientSession::handle(GoodbyeMessage&& message, Time) {
 
 void ClientSession::handle(SnapshotMessage&& message, Time now) {
   if (m_state != State::kPlaying) return reject("a snapshot before the welcome");
-  if (m_observer) m_observer(message.tick);
-  m_replica.apply(message.number, message.tick, message.records);
-  m_acks.note(message.number);
-  m_clock.note(message.tick, now);
-  const bool sent = !isNewer(message.input_applied, m_next_input - 1);
-  if (sent && isNewer(message.input_applied, m_input_applied)) m_input_applied = message.input_applied;
+  takeSnapshot(message.bytes, now);
+}
+
+void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
+  Snapshot snapshot;
+  switch (m_replica.read(bytes, snapshot)) {
+    case ReadResult::kOk:
+      break;
+    case ReadResult::kStale:
+      ++m_counters.stale_snapshots;
+      return;
+    case ReadResult::kMalformed:
+      return reject("a malformed snapshot");
+  }
+  if (m_observer) m_observer(snapshot.header.tick);
+  m_replica.apply(snapshot);
+  m_acks.note(snapshot.header.number);
+  m_clock.note(snapshot.header.tick, now);
   ++m_counters.snapshots;
-  wire::ClientMessage ack;
-  ack.mutable_ack()->set_newest(m_acks.newest);
-  ack.mutable_ack()->set_mask(m_acks.mask);
-  send(ack);
+  sendUpdate();
 }
 
 void ClientSession::handle(PlayersMessage&& message, Time) {
@@ -152,38 +162,47 @@ void ClientSession::update(Time now) {
 
 bool ClientSession::sendKey(df::Keyboard::Key key, df::EventKeyboardAction action, Time now) {
   if (key < 0 || key >= df::Keyboard::kKeyCount || action < 0) return false;
-  wire::ClientMessage message;
-  wire::Key& wire_key = *message.mutable_input()->mutable_key();
-  wire_key.set_key(static_cast<std::uint32_t>(key));
-  wire_key.set_action(static_cast<std::uint32_t>(action));
-  return sendInput(message, action == df::KEY_RELEASED, now);
+  Input input;
+  input.key = static_cast<std::uint8_t>(key);
+  input.action = static_cast<std::uint8_t>(action);
+  return sendInput(input, action == df::KEY_RELEASED, now);
 }
 
 bool ClientSession::sendMouse(df::EventMouseAction action, df::Mouse::Button button, int x, int y, Time now) {
-  if (action < 0) return false;
-  wire::ClientMessage message;
-  wire::Mouse& mouse = *message.mutable_input()->mutable_mouse();
-  mouse.set_action(static_cast<std::uint32_t>(action));
-  mouse.set_button(static_cast<std::uint32_t>(button + 1));
-  mouse.set_x(x);
-  mouse.set_y(y);
-  return sendInput(message, false, now);
+  if (action < 0 || x < 0 || y < 0 || x >= kMaxViewWidth || y >= kMaxViewHeight) return false;
+  Input input;
+  input.is_mouse = true;
+  input.action = static_cast<std::uint8_t>(action);
+  input.button = static_cast<std::uint8_t>(button + 1);
+  input.x = static_cast<std::uint16_t>(x);
+  input.y = static_cast<std::uint16_t>(y);
+  return sendInput(input, false, now);
 }
 
-bool ClientSession::sendInput(wire::ClientMessage& message, bool urgent, Time now) {
+bool ClientSession::sendInput(Input input, bool urgent, Time now) {
   if (m_state != State::kPlaying) return false;
-  const bool stalled = !urgent && m_next_input - 1 - m_input_applied >= kMaxUnapplied;
+  const bool stalled = !urgent && m_next_input - 1 - m_replica.newest().input >= kMaxUnapplied;
   if (stalled || !m_budget.spend(now, urgent) || m_channel->unsentBytes() > kMaxUnsent) {
     ++m_counters.inputs_dropped;
     return false;
   }
-  wire::Input& input = *message.mutable_input();
-  input.set_id(m_next_input++);
-  input.set_drawn_tick(m_clock.displayTick(now));
-  input.set_snapshot_number(m_acks.newest);
+  input.id = m_next_input++;
+  input.tick = m_clock.displayTick(now);
+  input.snapshot = m_acks.newest;
   ++m_counters.inputs;
-  send(message);
+  m_unsent_inputs.push_back(input);
+  sendUpdate();
   return true;
+}
+
+void ClientSession::sendUpdate() {
+  ClientUpdate update;
+  update.acks = m_acks;
+  update.inputs.assign(m_unsent_inputs.begin(), m_unsent_inputs.end());
+  m_unsent_inputs.clear();
+  wire::ClientMessage message;
+  message.set_update(writeUpdate(update));
+  send(message);
 }
 
 void ClientSession::sendChat(const std::string& text) {

@@ -26,6 +26,7 @@
 #include "Keyboard.h"
 #include "Replica.h"
 #include "ServerMessages.h"
+#include "UpdateCodec.h"
 
 namespace naiad {
 namespace wire {
@@ -54,6 +55,7 @@ struct SessionCounters {
   std::uint64_t bytes_in = 0;
   std::uint64_t bytes_out = 0;
   std::uint64_t snapshots = 0;
+  std::uint64_t stale_snapshots = 0;  ///< they named what newer ones had replaced: dropped
   std::uint64_t inputs = 0;
   std::uint64_t inputs_dropped = 0;  ///< kept back: too many, or the line is stuck
   std::uint64_t chat_lines = 0;
@@ -137,7 +139,9 @@ class ClientSession {
   void reject(const std::string& what);
   void finish(State state, std::string sentence);
   void send(const wire::ClientMessage& message);
-  bool sendInput(wire::ClientMessage& message, bool urgent, Time now);
+  bool sendInput(Input input, bool urgent, Time now);
+  void sendUpdate();
+  void takeSnapshot(std::string_view bytes, Time now);
 
   std::unique_ptr<ReliableChannel> m_channel;
   State m_state = State::kGreeting;
@@ -152,7 +156,7 @@ class ClientSession {
   SessionCounters m_counters;
   std::function<void(std::uint32_t)> m_observer;
   std::uint32_t m_next_input = 1;
-  std::uint32_t m_input_applied = 0;
+  std::deque<Input> m_unsent_inputs;
   std::map<std::uint64_t, Time> m_pings;  ///< unanswered, by token
   std::uint64_t m_next_token = 1;
   Time m_last_ping;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "Limits.h"
-#include "RecordCodec.h"
 #include "SafeText.h"
 #include "naiad.pb.h"
 
@@ -29,19 +28,13 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
   message.name = safeName(wire.name());
   message.game = safeText(wire.game(), kMaxProgramLength);
   message.server = safeText(wire.server(), kMaxProgramLength);
+  message.tick_now = wire.tick();
   message.tick = std::chrono::microseconds(wire.tick_micros());
   message.view_width = static_cast<int>(wire.view_width());
   message.view_height = static_cast<int>(wire.view_height());
   message.color = static_cast<df::Color>(wire.color());
   for (const std::string& line : wire.help()) message.help.push_back(safeText(line, kMaxHelpLength));
   return message;
-}
-
-std::optional<ServerMessageValue> check(const wire::Snapshot& wire) {
-  if (wire.number() == 0 || wire.records().size() > kMaxSnapshotRecords) return std::nullopt;
-  auto records = readRecords(wire.records(), wire.tick());
-  if (!records) return std::nullopt;
-  return SnapshotMessage{wire.number(), wire.tick(), wire.input_applied(), std::move(*records)};
 }
 
 std::optional<ServerMessageValue> check(const wire::PlayerList& wire) {
@@ -68,7 +61,7 @@ std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
     case wire::ServerMessage::kWelcome:
       return check(wire.welcome());
     case wire::ServerMessage::kSnapshot:
-      return check(wire.snapshot());
+      return SnapshotMessage{std::move(*wire.mutable_snapshot())};
     case wire::ServerMessage::kPlayers:
       return check(wire.players());
     case wire::ServerMessage::kRefused:

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "Color.h"
-#include "Records.h"
 
 namespace naiad {
 
@@ -31,6 +30,7 @@ struct WelcomeMessage {
   int view_height = 24;
   df::Color color = df::COLOR_DEFAULT;
   std::vector<std::string> help;  ///< the game's own lines
+  std::uint32_t tick_now = 0;     ///< the world's tick, about now
 };
 
 struct RefusedMessage {
@@ -41,12 +41,9 @@ struct GoodbyeMessage {
   std::string sentence;
 };
 
-/// Records that hold at `tick`, decoded and checked.
+/// The bytes of a snapshot; only the replica can read them.
 struct SnapshotMessage {
-  std::uint32_t number = 0;  ///< never 0
-  std::uint32_t tick = 0;
-  std::uint32_t input_applied = 0;
-  Records records;
+  std::string bytes;
 };
 
 struct PlayerLine {

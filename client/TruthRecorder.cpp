@@ -24,10 +24,10 @@ void TruthRecorder::record(const Replica& replica, std::uint32_t tick) {
   m_full = m_pictures.size() >= kMaxTicks || m_cells > m_max_cells;
   if (m_full) return;
   m_pictures[tick] = std::move(picture);
-  for (const auto& [slot, entry] : replica.entries()) {
+  for (const auto& [id, entry] : replica.entries()) {
     if (!entry.alive) continue;
     const CellPosition cell = glyphCell(positionAt(entry.state.motion, tick), Glyph{});
-    const auto [found, fresh] = m_tracks.try_emplace(slot, Track{entry.generation, cell, false});
+    const auto [found, fresh] = m_tracks.try_emplace(id, Track{entry.generation, cell, false});
     Track& track = found->second;
     if (!fresh && track.generation != entry.generation) {
       m_gone_moved += track.moved ? 1 : 0;

@@ -113,16 +113,15 @@ void Host::forEachPlaying(Visit visit) {
 }
 
 void Host::applyInputs(df::World& world) {
-  forEachPlaying([&world](Session& session) {
-    session.takeInputs([&](const wire::Input& input) {
-      if (input.has_key()) {
-        world.key(session.player(), static_cast<df::Keyboard::Key>(input.key().key()),
-                  static_cast<df::EventKeyboardAction>(input.key().action()));
+  const std::uint32_t next = world.view().tick + 1;
+  forEachPlaying([&world, next](Session& session) {
+    session.takeInputs(next, [&](const Input& input) {
+      if (input.is_mouse) {
+        world.mouse(session.player(), static_cast<df::EventMouseAction>(input.action),
+                    static_cast<df::Mouse::Button>(int{input.button} - 1), input.x, input.y);
       } else {
-        const wire::Mouse& mouse = input.mouse();
-        world.mouse(session.player(), static_cast<df::EventMouseAction>(mouse.action()),
-                    static_cast<df::Mouse::Button>(static_cast<int>(mouse.button()) - 1), mouse.x(),
-                    mouse.y());
+        world.key(session.player(), static_cast<df::Keyboard::Key>(input.key),
+                  static_cast<df::EventKeyboardAction>(input.action));
       }
     });
   });
@@ -230,6 +229,7 @@ void Host::greet(Session& session, const wire::Hello& hello) {
   welcome.set_view_width(static_cast<std::uint32_t>(m_p_world->getWindowWidth()));
   welcome.set_view_height(static_cast<std::uint32_t>(m_p_world->getWindowHeight()));
   welcome.set_color(static_cast<std::uint32_t>(color));
+  welcome.set_tick(m_publisher.tick());
   welcome.set_server(safeText(m_options.name, kMaxProgramLength - 20) + " (dfserver " + kVersion + ")");
   for (const std::string& line : m_p_world->getHelp()) {
     if (welcome.help_size() < static_cast<int>(kMaxHelpLines)) {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "Limits.h"
-#include "RecordCodec.h"
+#include "LookCodec.h"
 
 namespace naiad {
 
@@ -63,7 +63,7 @@ Appearance captureCells(df::FixedVector position, std::span<const df::DrawComman
 
 std::size_t fitToRecord(Look& look) {
   std::size_t cut = 0;
-  while (!look.sequence.empty() && encodedSize(look) > kMaxLookBytes) {
+  while (!look.sequence.empty() && encodedBits(look.sequence.front()) > 8 * kMaxLookBytes) {
     Appearance& glyphs = look.sequence.front();
     const std::size_t less = glyphs.size() / 8 + 1;
     glyphs.resize(glyphs.size() - less);

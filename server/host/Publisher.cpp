@@ -1,9 +1,14 @@
 #include "Publisher.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <utility>
 
+#include "Checksum.h"
 #include "LookCapture.h"
+#include "LookCodec.h"
+#include "MotionFit.h"
 
 namespace naiad {
 
@@ -25,6 +30,26 @@ bool landsInAView(const Appearance& appearance, df::FixedVector position, const 
     });
   });
 }
+
+/// Cells from the object's own that its look reaches, rounded up.
+std::int32_t reachOf(const Look& look) {
+  std::int32_t most = 0;
+  for (const Appearance& appearance : look.sequence) {
+    for (const Glyph& glyph : appearance) most = std::max({most, std::abs(glyph.dx), std::abs(glyph.dy)});
+  }
+  return (most >> kGlyphUnitBits) + (most == 0 ? 0 : 1);
+}
+
+/// Paths are fitted for at least so many ticks, and after a turn for at most so many.
+constexpr std::uint32_t kShortestHorizon = 64;
+constexpr std::uint32_t kHorizonAfterTurn = 512;
+/// A path that outlives its model's horizon gets one for so many times its age.
+constexpr std::uint32_t kPatience = 8;
+/// Appearances remembered, to tell those that recur; with so many, those not taken on for so many ticks go.
+constexpr std::size_t kMaxKnownAppearances = 16'384;
+constexpr std::uint32_t kForgetAfter = 9'000;
+/// More distinct offsets than this make a fit slow and coarse numbers unlikely.
+constexpr std::size_t kMaxOffsets = 6;
 
 }  // namespace
 
@@ -59,16 +84,25 @@ void Publisher::update(const df::WorldView& view) {
   m_tick = view.tick;
   m_world = {view.boundary, view.view_width, view.view_height};
   m_changes.clear();
+  m_exact.clear();
+  for (const df::PlayerFacts& player : view.players) {
+    if (player.followed.generation != 0) m_exact.push_back(player.followed);
+  }
+  std::sort(m_exact.begin(), m_exact.end(), [](auto a, auto b) { return a.slot < b.slot; });
 
   for (const df::ObjectKey key : view.vanished) bury(key);
   for (const df::ObjectFacts& facts : view.changed) takeFacts(facts);
   for (const df::DrawnObject& drawn : view.drawn) takeDrawing(view, drawn);
   takeLoose(view);
   correctUndrawn(view);
+  for (const df::ObjectKey key : m_exact) keepExact(key);
 
   for (Change& change : m_changes) {
     Tracked& tracked = change.slot == kLooseSlot ? m_loose : m_models[change.slot];
     change.groups = tracked.model.alive ? tracked.changed : 0;
+    if ((change.groups & (kMotion | kLook)) != 0) file(change.slot, tracked);
+    if ((change.groups & kMotion) != 0) fit(tracked);
+    if ((change.groups & kLook) != 0) meet(tracked.model);
     tracked.changed = 0;
     tracked.touched = false;
   }
@@ -79,7 +113,93 @@ void Publisher::bury(df::ObjectKey key) {
   Tracked& tracked = m_models[key.slot];
   if (!tracked.model.alive || tracked.model.generation != key.generation) return;
   tracked.model.alive = false;
+  file(key.slot, tracked);
   mark(key.slot, tracked, 0);
+}
+
+void Publisher::takePath(Tracked& tracked, const Motion& truth) {
+  if (rebase(tracked.path, m_tick) == truth) return;
+  tracked.run = m_tick - tracked.path.tick;
+  tracked.path = truth;
+}
+
+bool Publisher::isExact(const Tracked& tracked) const {
+  const Model& model = tracked.model;
+  if (m_exact_solids && model.state.body.solidness != df::SPECTRAL && !isMoving(tracked.truth)) return true;
+  const auto slot = static_cast<std::uint32_t>(&tracked - m_models.data());
+  const auto found = std::lower_bound(m_exact.begin(), m_exact.end(), slot,
+                                      [](df::ObjectKey key, std::uint32_t s) { return key.slot < s; });
+  return found != m_exact.end() && found->slot == slot && found->generation == model.generation;
+}
+
+// Whom a player follows may have had a coarse model until now.
+void Publisher::keepExact(df::ObjectKey key) {
+  if (key.slot >= m_models.size()) return;
+  Tracked& tracked = m_models[key.slot];
+  if (!tracked.model.alive || tracked.model.generation != key.generation) return;
+  const Motion truth = truthNow(tracked);
+  if (rebase(tracked.model.state.motion, m_tick) == truth) return;
+  tracked.model.state.motion = truth;
+  mark(key.slot, tracked, kMotion);
+}
+
+// Coarser numbers for a motion that was just taken over from the world.
+void Publisher::fit(Tracked& tracked) {
+  if (&tracked == &m_loose || isExact(tracked)) return;
+  const Look& look = tracked.model.state.look;
+  std::array<df::FixedVector, kMaxOffsets> offsets{};  // the position's own cell, first of all
+  std::size_t count = 1;
+  for (const Appearance& appearance : look.sequence) {
+    for (const Glyph& glyph : appearance) {
+      constexpr int kShift = df::kFixedBits - kGlyphUnitBits;
+      constexpr df::Fixed kMask = df::kFixedOne - 1;
+      const df::FixedVector offset{(df::Fixed{glyph.dx} * (df::Fixed{1} << kShift)) & kMask,
+                                   (df::Fixed{glyph.dy} * (df::Fixed{1} << kShift)) & kMask};
+      const auto end = offsets.begin() + static_cast<std::ptrdiff_t>(count);
+      if (std::find(offsets.begin(), end, offset) != end) continue;
+      if (count == kMaxOffsets) return;
+      offsets[count++] = offset;
+    }
+  }
+  const std::uint32_t age = m_tick - tracked.path.tick;
+  const std::uint32_t horizon = age == 0 ? std::clamp(2 * tracked.run, kShortestHorizon, kHorizonAfterTurn)
+                                         : std::max(kPatience * age, kShortestHorizon);
+  tracked.model.state.motion =
+      fitMotion(tracked.model.state.motion, std::span(offsets).first(count), horizon);
+}
+
+// Has this appearance been seen before? Texts that change all the time never have.
+void Publisher::meet(Model& model) {
+  const Look& look = model.state.look;
+  model.look_sum = 0;
+  model.recurs = false;
+  if (look.sequence.empty() || isSingleCharacter(look.sequence.front())) return;
+  model.look_sum = lookSum(0, {look.sequence, 0});
+  const auto [known, fresh] = m_appearances.try_emplace(model.look_sum, m_tick);
+  model.recurs = !fresh;
+  known->second = m_tick;
+  if (m_appearances.size() <= kMaxKnownAppearances) return;
+  std::erase_if(m_appearances, [this](const auto& a) { return m_tick - a.second > kForgetAfter; });
+  if (m_appearances.size() > kMaxKnownAppearances) m_appearances.clear();
+}
+
+// Keep track of how far the object's characters reach and where it is.
+void Publisher::file(std::uint32_t slot, Tracked& tracked) {
+  Model& model = tracked.model;
+  model.reach = model.alive ? reachOf(model.state.look) : 0;
+  const bool wide = model.alive && (slot == kLooseSlot || model.reach > kWide);
+  if (wide != tracked.wide) {
+    tracked.wide = wide;
+    if (wide) {
+      m_wide.push_back(slot);
+    } else {
+      m_wide.erase(std::find(m_wide.begin(), m_wide.end(), slot));
+    }
+  }
+  if (slot == kLooseSlot) return;
+  if (wide || !model.alive) return m_grid.remove(slot);
+  m_reach = std::max(m_reach, model.reach);
+  m_grid.put(slot, {df::cellOf(tracked.truth.position.x), df::cellOf(tracked.truth.position.y)});
 }
 
 void Publisher::takeFacts(const df::ObjectFacts& facts) {
@@ -90,12 +210,19 @@ void Publisher::takeFacts(const df::ObjectFacts& facts) {
   const Body body{facts.box, facts.solidness, facts.no_soft};
   tracked->truth = truth;
   tracked->shown = facts.shown;
+  takePath(*tracked, truth);
 
   if (!model.alive || model.generation != facts.key.generation) {
     model = {facts.key.generation, true, {facts.order, truth, {{}, facts.altitude}, body}};
+    m_newest_order = std::max(m_newest_order, facts.order);
+    tracked->path = truth;
+    tracked->run = 0;
+    file(facts.key.slot, *tracked);
     mark(facts.key.slot, *tracked, kAllGroups);
     return;
   }
+  if (!tracked->wide)
+    m_grid.put(facts.key.slot, {df::cellOf(truth.position.x), df::cellOf(truth.position.y)});
   if (model.state.body != body) {
     model.state.body = body;
     mark(facts.key.slot, *tracked, kBody);
@@ -134,6 +261,11 @@ void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, const df::Draw
   const std::vector<Appearance> before = std::exchange(state.look.sequence, {});
   if (count > 0) {
     state.look.sequence.push_back(captureAppearance(truth, drawn));
+    if (modelled != truth && !drawsTheSame(state.look, modelled, drawn)) {
+      state.motion = truthNow(tracked);  // fitted anew, for the new look
+      modelled = truth;
+      mark(slot, tracked, kMotion);
+    }
     if (!drawsTheSame(state.look, modelled, drawn))
       state.look.sequence.front() = captureCells(modelled, drawn);
     fitToRecord(state.look);

@@ -3,11 +3,16 @@
 // Clients extrapolate a model exactly as the publisher does, so the publisher knows what is on their
 // screens. After each tick it compares that with the world and changes a model only where it would draw
 // something in a wrong cell, or where a look or a body changed. Objects in straight flight cost nothing.
+//
+// A model says what an object draws, not where it is to the last bit: MotionFit finds numbers that take few
+// bits and draw the same cells for as long as the path may be expected to last.
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
+#include "InterestGrid.h"
 #include "Limits.h"
 #include "Records.h"
 #include "WorldView.h"
@@ -24,6 +29,9 @@ class Publisher {
     std::uint32_t generation = 0;
     bool alive = false;
     ObjectState state;
+    std::uint64_t look_sum = 0;  ///< of the appearance; 0 if it is one character or none
+    bool recurs = false;         ///< the appearance has been seen before: worth a name
+    std::int32_t reach = 0;      ///< cells from its own that its characters may be drawn in, at most
   };
   /// What an update changed about a slot; groups 0: the object is gone.
   struct Change {
@@ -47,6 +55,23 @@ class Publisher {
     if (m_loose.model.alive) visit(kLooseSlot, m_loose.model);
   }
   const WorldRecord& world() const { return m_world; }
+  /// Call `visit(slot, model)` for every live model of which something may be drawn in `rect`, and for some
+  /// around it.
+  template <class Visit>
+  void forEachNear(const CellRect& rect, Visit visit) const {
+    m_grid.forEachNear(rect.grownBy(m_reach), [&](std::uint32_t slot) { visit(slot, m_models[slot].model); });
+    for (const std::uint32_t slot : m_wide)
+      visit(slot, slot == kLooseSlot ? m_loose.model : m_models[slot].model);
+  }
+
+  /// The highest creation order published so far.
+  std::uint64_t newestOrder() const { return m_newest_order; }
+
+  /// Positions of solid objects that stand still are to be exact, since clients predict moves among them.
+  void setExactSolids(bool exact) { m_exact_solids = exact; }
+
+  /// Models that reach more cells than this are in everybody's interest.
+  static constexpr std::int32_t kWide = 24;
 
   /// Models corrected because they would have drawn a wrong cell, since the start.
   std::uint64_t correctionCount() const { return m_corrections; }
@@ -56,7 +81,10 @@ class Publisher {
  private:
   struct Tracked {
     Model model;
-    Motion truth;  ///< where the object was last reported, and how it went on from there
+    Motion truth;           ///< where the object was last reported, and how it went on from there
+    Motion path;            ///< where its present straight path began
+    std::uint32_t run = 0;  ///< ticks that the path before lasted
+    bool wide = false;      ///< in m_wide
     bool shown = true;
     std::uint32_t drawn = 0;  ///< newest tick in which its draw() ran
     std::uint8_t changed = 0;
@@ -72,10 +100,24 @@ class Publisher {
   void takeLoose(const df::WorldView& view);
   void correctLook(std::uint32_t slot, Tracked& tracked, const df::DrawCommand* commands, std::size_t count);
   void correctUndrawn(const df::WorldView& view);
+  void takePath(Tracked& tracked, const Motion& truth);
+  void keepExact(df::ObjectKey key);
+  void fit(Tracked& tracked);
+  void file(std::uint32_t slot, Tracked& tracked);
+  void meet(Model& model);
+  bool isExact(const Tracked& tracked) const;
 
   std::vector<Tracked> m_models;
   Tracked m_loose;
   std::vector<Change> m_changes;
+  std::unordered_map<std::uint64_t, std::uint32_t>
+      m_appearances;  ///< by sum: the tick they were last taken on
+  InterestGrid m_grid;
+  std::vector<std::uint32_t> m_wide;   ///< models that reach farther than kWide, and the loose one
+  std::int32_t m_reach = 0;            ///< of the others, the farthest so far
+  std::vector<df::ObjectKey> m_exact;  ///< followed by a player: their views and predictions need them exact
+  bool m_exact_solids = false;
+  std::uint64_t m_newest_order = 0;
   WorldRecord m_world;
   std::uint32_t m_tick = 0;
   std::uint64_t m_corrections = 0;

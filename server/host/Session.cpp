@@ -9,14 +9,7 @@ namespace naiad {
 
 namespace {
 
-bool isValid(const wire::Key& key) {
-  return key.key() < df::Keyboard::kKeyCount && key.action() <= df::KEY_DOWN;
-}
-
-bool isValid(const wire::Mouse& mouse) {
-  return mouse.action() <= df::MOVED && mouse.button() <= df::Mouse::MIDDLE + 1 && mouse.x() >= 0 &&
-         mouse.y() >= 0 && mouse.x() < kMaxViewWidth && mouse.y() < kMaxViewHeight;
-}
+constexpr SnapshotSender::Room kStreamRoom{64, kMaxSnapshot, false};
 
 }  // namespace
 
@@ -57,11 +50,8 @@ bool Session::dispatch(const wire::ClientMessage& message) {
       if (message.hello().magic() != kHelloMagic) return false;
       m_events.on_hello(*this, message.hello());
       return true;
-    case What::kInput:
-      return takeInput(message.input());
-    case What::kAck:
-      m_sender.acknowledge({message.ack().newest(), message.ack().mask()});
-      return true;
+    case What::kUpdate:
+      return takeUpdate(message.update());
     case What::kChat:
       takeChat(message.chat().text());
       return true;
@@ -83,12 +73,18 @@ bool Session::dispatch(const wire::ClientMessage& message) {
   return false;
 }
 
-bool Session::takeInput(const wire::Input& input) {
-  const bool valid = input.has_key()     ? isValid(input.key())
-                     : input.has_mouse() ? isValid(input.mouse())
-                                         : false;
-  if (!valid || input.id() == 0) return false;
-  if (!isNewer(input.id(), m_input_received) && m_input_received != 0) {
+bool Session::takeUpdate(std::string_view bytes) {
+  const auto update = readUpdate(bytes, {m_sender.newestNumber(), m_tick, m_input_received});
+  if (!update) return false;
+  if (update->acks.newest != 0) m_sender.acknowledge(update->acks);
+  return std::all_of(update->inputs.begin(), update->inputs.end(),
+                     [this](const Input& input) { return takeInput(input); });
+}
+
+// False if the session has ended of it.
+bool Session::takeInput(const Input& input) {
+  if (m_state != State::kPlaying) return true;
+  if (!isNewer(input.id, m_input_received)) {
     ++m_counters.repeated_inputs;
     return true;
   }
@@ -97,7 +93,7 @@ bool Session::takeInput(const wire::Input& input) {
     goodbye("Too many keys at once.");
     return true;
   }
-  m_input_received = input.id();
+  m_input_received = input.id;
   m_inputs.push_back(input);
   return true;
 }
@@ -175,19 +171,15 @@ void Session::checkDeadlines(Clock::time_point now) {
 }
 
 void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player) {
-  m_sender.note(publisher);
-  m_sender.setPlayer(player);
+  m_tick = publisher.tick();
+  m_sender.note(publisher, player);
   if (m_channel->unsentBytes() > 0) {
     skipTick();
     return;
   }
-  for (SnapshotSender::Snapshot& snapshot : m_sender.build(publisher)) {
+  for (const SnapshotSender::Packet& packet : m_sender.build(publisher, kStreamRoom)) {
     wire::ServerMessage message;
-    wire::Snapshot& body = *message.mutable_snapshot();
-    body.set_number(snapshot.number);
-    body.set_tick(snapshot.tick);
-    body.set_records(std::move(snapshot.records));
-    body.set_input_applied(m_input_applied);
+    message.set_snapshot(packet.bytes);
     ++m_counters.snapshots;
     m_counters.snapshot_bytes += message.ByteSizeLong();
     send(message);

@@ -14,6 +14,7 @@
 #include "Channel.h"
 #include "Counters.h"
 #include "SnapshotSender.h"
+#include "UpdateCodec.h"
 #include "naiad.pb.h"
 
 namespace naiad {
@@ -52,12 +53,12 @@ class Session {
 
   /// Enforce deadlines.
   void checkDeadlines(Clock::time_point now);
-  /// Take up to kInputsPerTick inputs out of the queue, in order, each id once.
+  /// Take up to kInputsPerTick inputs out of the queue, in order, each id once, into the world's next tick.
   template <class Apply>
-  void takeInputs(Apply apply) {
+  void takeInputs(std::uint32_t tick, Apply apply) {
     for (int i = 0; i < kInputsPerTick && !m_inputs.empty(); ++i) {
       apply(m_inputs.front());
-      m_input_applied = m_inputs.front().id();
+      m_sender.noteInput(m_inputs.front().id, tick);
       m_inputs.pop_front();
     }
   }
@@ -78,7 +79,8 @@ class Session {
  private:
   void onFrame(std::string_view frame);
   bool dispatch(const wire::ClientMessage& message);
-  bool takeInput(const wire::Input& input);
+  bool takeUpdate(std::string_view bytes);
+  bool takeInput(const Input& input);
   void takeChat(const std::string& text);
   void malformed();
   void tellGone();
@@ -96,9 +98,9 @@ class Session {
   std::string m_name;
   std::uint32_t m_rtt_millis = 0;
   std::uint64_t m_skipped_ticks = 0;
-  std::deque<wire::Input> m_inputs;
+  std::deque<Input> m_inputs;
   std::uint32_t m_input_received = 0;
-  std::uint32_t m_input_applied = 0;
+  std::uint32_t m_tick = 0;  ///< newest published
   int m_messages = 0;  ///< since the last tick
   int m_chat_budget = kChatPerSecond;
   Clock::time_point m_chat_refill;

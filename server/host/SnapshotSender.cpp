@@ -1,6 +1,8 @@
 #include "SnapshotSender.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "ViewFollow.h"
 
@@ -8,91 +10,130 @@ namespace naiad {
 
 namespace {
 
-constexpr int kLifeIndex = 0;
-constexpr std::uint8_t kDeath = 0;
-
 bool sameCell(df::FixedVector a, df::FixedVector b) {
   return df::cellOf(a.x) == df::cellOf(b.x) && df::cellOf(a.y) == df::cellOf(b.y);
 }
 
+CellPosition cellAt(const Motion& motion, std::uint32_t tick) {
+  return glyphCell(positionAt(motion, tick), Glyph{});
+}
+
+bool meets(const CellRect& rect, CellPosition a, CellPosition b) {
+  return std::max(a.x, b.x) >= rect.left && std::min(a.x, b.x) < rect.right &&
+         std::max(a.y, b.y) >= rect.top && std::min(a.y, b.y) < rect.bottom;
+}
+
+/// An object that left the view is forgotten only this many cells outside, lest it come and go at the edge.
+constexpr std::int64_t kHysteresis = 2;
+/// Weight of the newest snapshot in the loss.
+constexpr double kLossWeight = 1.0 / 64;
+/// With less loss than this nothing is repeated ahead.
+constexpr double kAheadLoss = 0.003;
+constexpr std::size_t kMaxMoments = 128;
+/// What a snapshot of one record takes beside it, at most.
+constexpr std::size_t kMostOverheadBits = 256;
+/// Cells by which an origin's window exceeds the view, at least.
+constexpr std::int64_t kOriginMargin = 8;
+/// Orders farther than this from the origin's take too many bits.
+constexpr std::uint64_t kFarOrder = 1 << 14;
+
 }  // namespace
 
-SnapshotSender::Slot& SnapshotSender::slotAt(std::uint32_t slot) {
-  if (slot == kLooseSlot) return m_loose;
-  if (slot >= m_slots.size()) m_slots.resize(std::size_t{slot} + 1);
-  return m_slots[slot];
+// ---- whom the client knows --------------------------------------------------------------------------------
+
+// The cells that the player sees now or, as the view follows an object, is about to see.
+CellRect SnapshotSender::windowOf(const Publisher& publisher) const {
+  const WorldRecord& world = publisher.world();
+  const std::int64_t left = df::cellOf(m_player.view_corner.x);
+  const std::int64_t top = df::cellOf(m_player.view_corner.y);
+  CellRect window{left, top, left + world.view_width, top + world.view_height};
+  const Publisher::Model* followed = publisher.find(m_player.followed.slot);
+  if (m_player.followed.generation == 0 || followed == nullptr) return window;
+  const ViewFrame frame{m_player.view_corner,
+                        {df::fromCells(world.view_width), df::fromCells(world.view_height)},
+                        world.boundary};
+  const df::FixedVector later =
+      followView(frame, positionAt(followed->state.motion, publisher.tick() + m_look_ahead));
+  const std::int64_t dx =
+      std::clamp<std::int64_t>(df::cellOf(later.x) - left, -world.view_width, world.view_width);
+  const std::int64_t dy =
+      std::clamp<std::int64_t>(df::cellOf(later.y) - top, -world.view_height, world.view_height);
+  (dx < 0 ? window.left : window.right) += dx;
+  (dy < 0 ? window.top : window.bottom) += dy;
+  return window;
 }
 
-// The debts that are not objects, by number: the world, the view, then the texts.
-constexpr std::size_t kSingles = 2 + kMaxTexts;
-
-SnapshotSender::Single& SnapshotSender::single(std::size_t i) {
-  return i == 0 ? m_world_debt : i == 1 ? m_view_debt : m_text_debt[i - 2];
+bool SnapshotSender::isVisible(const Publisher::Model& model, std::uint32_t tick,
+                               const CellRect& window) const {
+  if (model.reach > Publisher::kWide) return true;
+  const Motion& motion = model.state.motion;
+  return meets(window.grownBy(model.reach), cellAt(motion, tick), cellAt(motion, tick + m_look_ahead));
 }
 
-bool SnapshotSender::carriesSingle(std::uint32_t number) const {
-  return m_world_debt.sent == number || m_view_debt.sent == number ||
-         std::any_of(m_text_debt.begin(), m_text_debt.end(),
-                     [number](const Single& text) { return text.sent == number; });
-}
-
-void SnapshotSender::owe(std::uint32_t index, std::uint8_t groups) {
-  Slot& slot = slotAt(index);
-  slot.owed |= groups;
-  if (slot.queued || slot.owed == 0) return;
-  slot.queued = true;
-  m_queue.push_back(index);
-}
-
-// Bring a slot's life in line with the published one: what is owed follows from what the client knows.
-void SnapshotSender::follow(std::uint32_t index, const Publisher::Model* model, std::uint8_t groups) {
-  Slot& slot = slotAt(index);
-  const bool same = model != nullptr && model->generation == slot.generation;
-  switch (slot.life) {
-    case Life::kUnknown:
-      if (model == nullptr) break;
-      slot = {model->generation, Life::kBorn, 0, slot.queued, {}};
-      owe(index, kAllGroups);
-      break;
-    case Life::kBorn:
-    case Life::kAlive:
-      if (same) {
-        owe(index, groups);
-      } else if (slot.life == Life::kBorn && slot.sent[kLifeIndex] == 0) {
-        slot.life = Life::kUnknown;  // the client never heard of it
-        slot.owed = 0;
-        follow(index, model, groups);
-      } else {
-        slot.life = Life::kDying;
-        slot.owed = kLife;
-        owe(index, kLife);
-      }
-      break;
-    case Life::kDying:
-      break;  // the next object waits until the death is acknowledged
+void SnapshotSender::note(const Publisher& publisher, const df::PlayerFacts& player) {
+  m_tick = publisher.tick();
+  m_player = player;
+  if (!m_began) m_last_tick = m_tick - kKeepAlive;
+  m_began = true;
+  const CellRect window = windowOf(publisher);
+  noteChanges(publisher);
+  noteLeaving(publisher, window);
+  noteEntering(publisher, window);
+  noteTexts();
+  Single& world = m_singles[kWorld];
+  if (m_world != publisher.world() || (world.sent == 0 && !world.owed)) {
+    m_world = publisher.world();
+    world.owed = true;
   }
+  chooseOrigin(publisher);
 }
 
-void SnapshotSender::note(const Publisher& publisher) {
-  if (!m_began) {
-    m_began = true;
-    m_last_tick = publisher.tick() - kKeepAlive;
-    publisher.forEach(
-        [this](std::uint32_t slot, const Publisher::Model& model) { follow(slot, &model, kAllGroups); });
-  } else {
-    for (const Publisher::Change& change : publisher.changes()) {
-      follow(change.slot, publisher.find(change.slot), change.groups);
+void SnapshotSender::noteChanges(const Publisher& publisher) {
+  for (const Publisher::Change& change : publisher.changes()) {
+    const std::uint32_t id = m_known.find(change.slot);
+    if (id == KnownObjects::kNobody) continue;
+    const Publisher::Model* model = publisher.find(change.slot);
+    if (model == nullptr || model->generation != m_known.at(id).generation) {
+      m_known.forget(id, m_tick);
+    } else {
+      m_known.owe(id, change.groups, m_tick);
     }
   }
-  if (m_world != publisher.world() || (m_world_debt.sent == 0 && !m_world_debt.owed)) {
-    m_world = publisher.world();
-    m_world_debt.owed = true;
-  }
 }
 
-void SnapshotSender::setPlayer(const df::PlayerFacts& player) {
+void SnapshotSender::noteLeaving(const Publisher& publisher, const CellRect& window) {
+  const CellRect outer = window.grownBy(kHysteresis);
+  m_leaving.clear();
+  m_known.forEachAlive([&](std::uint32_t id, const KnownObjects::Known& known) {
+    const Publisher::Model* model = publisher.find(known.slot);
+    if (!isVisible(*model, m_tick, outer) && !isFollowed(known.slot, known.generation))
+      m_leaving.push_back(id);
+  });
+  for (const std::uint32_t id : m_leaving) m_known.forget(id, m_tick);
+}
+
+void SnapshotSender::noteEntering(const Publisher& publisher, const CellRect& window) {
+  const auto consider = [&](std::uint32_t slot, const Publisher::Model& model) {
+    if (m_known.find(slot) != KnownObjects::kNobody) return;
+    if (isVisible(model, m_tick, window) || isFollowed(slot, model.generation)) {
+      m_known.learn(slot, model.generation, m_tick);
+    }
+  };
+  publisher.forEachNear(window, consider);
+  const df::ObjectKey followed = m_player.followed;
+  const Publisher::Model* model = followed.generation != 0 ? publisher.find(followed.slot) : nullptr;
+  if (model != nullptr) consider(followed.slot, *model);
+}
+
+bool SnapshotSender::isFollowed(std::uint32_t slot, std::uint32_t generation) const {
+  return m_player.followed == df::ObjectKey{slot, generation};
+}
+
+// ---- what is no object ------------------------------------------------------------------------------------
+
+void SnapshotSender::noteTexts() {
   std::array<df::PlayerText, kMaxTexts> texts;
-  for (const df::PlayerText& text : player.texts) {
+  for (const df::PlayerText& text : m_player.texts) {
     if (text.id < kMaxTexts) texts[text.id] = text;
   }
   for (std::uint32_t i = 0; i < kMaxTexts; ++i) {
@@ -100,30 +141,68 @@ void SnapshotSender::setPlayer(const df::PlayerFacts& player) {
     const bool silent = texts[i].text.empty() && m_texts[i].text.empty();
     if (silent || texts[i] == m_texts[i]) continue;
     m_texts[i] = texts[i];
-    m_text_debt[i].owed = true;
+    m_singles[kTexts + i].owed = true;
   }
-  m_player = player;
+}
+
+void SnapshotSender::noteInput(std::uint32_t id, std::uint32_t tick) {
+  if (id == m_input) return;
+  m_input = id;
+  m_input_tick = tick;
+  m_singles[kInput] = {true, 0, false};
+}
+
+// Count positions from a window around the view; once the client has confirmed it, snapshots name it.
+void SnapshotSender::chooseOrigin(const Publisher& publisher) {
+  const WorldRecord& world = publisher.world();
+  const CellPosition corner{df::cellOf(m_player.view_corner.x), df::cellOf(m_player.view_corner.y)};
+  const Origin& newest = m_origins[m_newest_origin];
+  const auto covers = [](std::int32_t from, std::int32_t bits, std::int32_t low, std::int32_t extent) {
+    return low >= from && std::int64_t{low} + extent <= std::int64_t{from} + (std::int64_t{1} << bits);
+  };
+  if (m_newest_origin != 0 && covers(newest.corner.x, newest.x_bits, corner.x, world.view_width) &&
+      covers(newest.corner.y, newest.y_bits, corner.y, world.view_height) &&
+      publisher.newestOrder() - newest.order < kFarOrder) {
+    return;
+  }
+  // A slot that is still on its way may be set anew, since no snapshot names it yet.
+  const bool pending = m_newest_origin != m_origin;
+  if (!pending) m_newest_origin = m_newest_origin % kOriginSlots + 1;
+  const auto bitsFor = [](std::int32_t extent) {
+    return static_cast<std::int32_t>(std::bit_width(static_cast<std::uint32_t>(extent + kOriginMargin - 1)));
+  };
+  Origin& origin = m_origins[m_newest_origin];
+  origin.x_bits = bitsFor(world.view_width);
+  origin.y_bits = bitsFor(world.view_height);
+  origin.corner.x = corner.x - ((1 << origin.x_bits) - world.view_width) / 2;
+  origin.corner.y = corner.y - ((1 << origin.y_bits) - world.view_height) / 2;
+  origin.order = publisher.newestOrder();
+  m_singles[kOrigins + m_newest_origin - 1] = {true, 0, false};
 }
 
 // The followed object's model, if the client was told of the object.
-const Motion* SnapshotSender::followedMotion(const Publisher& publisher) {
+const Motion* SnapshotSender::followedMotion(const Publisher& publisher) const {
   const df::ObjectKey followed = m_player.followed;
-  if (followed.generation == 0 || slotAt(followed.slot).generation != followed.generation) return nullptr;
-  const Publisher::Model* model = publisher.find(followed.slot);
-  return model != nullptr && model->generation == followed.generation ? &model->state.motion : nullptr;
+  const std::uint32_t id = followed.generation != 0 ? m_known.find(followed.slot) : KnownObjects::kNobody;
+  if (id == KnownObjects::kNobody || m_known.at(id).generation != followed.generation) return nullptr;
+  return &publisher.find(followed.slot)->state.motion;
 }
 
 // The view is a model too: it is sent where following the published object would show the wrong cells.
 void SnapshotSender::checkView(const Publisher& publisher) {
-  const df::ObjectKey followed = m_player.followed;
-  const ViewRecord truth{m_player.view_corner, followed.generation != 0 ? followed.slot : 0,
-                         followed.generation};
-  bool right = m_view_debt.sent != 0 && truth.slot == m_view.slot && truth.generation == m_view.generation;
   const Motion* motion = followedMotion(publisher);
+  ViewRecord truth{m_player.view_corner, motion != nullptr, 0, 0};
+  const std::uint32_t id = truth.follows ? m_known.find(m_player.followed.slot) : 0;
+  if (truth.follows) {
+    truth.id = id;
+    truth.generation = KnownObjects::generationOf(m_known.at(id));
+  }
+  Single& single = m_singles[kView];
+  bool right = single.sent != 0 && truth.follows == m_view.follows && truth.id == m_view.id &&
+               truth.generation == m_view.generation;
   if (right && motion != nullptr && motion->tick != publisher.tick()) {
     // A motion that is sent late gets a new base, and following it from there may lead elsewhere.
-    const Slot& slot = slotAt(truth.slot);
-    right = slot.life == Life::kBorn ? slot.owed == 0 : (slot.owed & kMotion) == 0;
+    right = (m_known.at(id).owed & kMotion) == 0;
   }
   if (right) {
     const ViewFrame frame{m_view.corner,
@@ -131,165 +210,317 @@ void SnapshotSender::checkView(const Publisher& publisher) {
                           m_world.boundary};
     right = sameCell(viewCornerAt(frame, m_view_tick, motion, publisher.tick()), truth.corner);
   }
-  if (right && !m_view_debt.owed) return;
+  if (right && !single.owed) return;
   m_view = truth;
   m_view_tick = publisher.tick();
-  m_view_debt.owed = true;
+  single.owed = true;
 }
+
+void SnapshotSender::writeSingles(const Publisher& publisher, std::size_t limit) {
+  for (std::size_t i = 0; i < kSingles; ++i) {
+    Single& single = m_singles[i];
+    if (!single.owed || i == kInput) continue;
+    if (!m_writer.hasRoom(kMostSingleBits, 0, limit)) return;
+    if (i == kWorld) m_writer.write(publisher.world());
+    if (i == kView) m_writer.write(m_view);
+    if (i >= kOrigins && i < kTexts) {
+      const auto slot = static_cast<std::uint32_t>(i - kOrigins + 1);
+      m_writer.write(OriginRecord{slot, m_origins[slot]});
+    }
+    if (i >= kTexts) {
+      const df::PlayerText& text = m_texts[i - kTexts];
+      m_writer.write(TextRecord{text.id, text.x, text.y, text.color, text.text});
+    }
+    single = {false, m_next_number, false};
+    m_flight.back().empty = false;
+  }
+}
+
+// ---- building
+// ----------------------------------------------------------------------------------------------
 
 bool SnapshotSender::isOwing() const {
-  return !m_queue.empty() || m_world_debt.owed || m_view_debt.owed ||
-         std::any_of(m_text_debt.begin(), m_text_debt.end(), [](const Single& text) { return text.owed; });
+  return !m_known.owing().empty() ||
+         std::any_of(m_singles.begin(), m_singles.end(), [](const Single& single) { return single.owed; });
 }
 
-std::vector<SnapshotSender::Snapshot> SnapshotSender::build(const Publisher& publisher, std::size_t most) {
-  for (const std::uint32_t slot : m_freed) follow(slot, publisher.find(slot), kAllGroups);
-  m_freed.clear();
+// Deaths first, for they are short and hide ghosts; then what the player looks at, what is near and what has
+// waited long.
+double SnapshotSender::urgency(std::uint32_t id, const Publisher& publisher) const {
+  const KnownObjects::Known& known = m_known.at(id);
+  if (known.life == KnownObjects::Life::kDying) return 1e6;
+  if (isFollowed(known.slot, known.generation)) return 1e5;
+  const df::FixedVector at = positionAt(publisher.find(known.slot)->state.motion, m_tick);
+  const df::FixedVector focus{m_player.view_corner.x + df::fromCells(m_world.view_width) / 2,
+                              m_player.view_corner.y + df::fromCells(m_world.view_height) / 2};
+  const double dx = df::toCells(at.x) - df::toCells(focus.x);
+  const double dy = 2 * (df::toCells(at.y) - df::toCells(focus.y));  // cells are twice as high as wide
+  return 8.0 * (m_tick - known.since) - std::sqrt(dx * dx + dy * dy);
+}
+
+std::vector<std::uint32_t> SnapshotSender::byUrgency(const Publisher& publisher) const {
+  std::vector<std::pair<double, std::uint32_t>> ranked;
+  ranked.reserve(m_known.owing().size());
+  for (const std::uint32_t id : m_known.owing()) {
+    if (m_known.at(id).owed != 0) ranked.emplace_back(urgency(id, publisher), id);
+  }
+  // Equal urgency: by id, so that a run is the same everywhere. The most urgent comes last, to be popped.
+  std::sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : a.second > b.second;
+  });
+  std::vector<std::uint32_t> ids;
+  ids.reserve(ranked.size());
+  for (const auto& [rank, id] : ranked) ids.push_back(id);
+  return ids;
+}
+
+std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publisher, Room room) {
+  if (m_resend == Resend::kEveryTick) m_known.oweUnconfirmed(m_tick);
+  repeatAhead();
+  m_known.sweepOwing();
   checkView(publisher);
-  const bool due =
-      static_cast<std::int32_t>(publisher.tick() - m_last_tick) >= static_cast<std::int32_t>(kKeepAlive);
+  const bool due = static_cast<std::int32_t>(m_tick - m_last_tick) >= static_cast<std::int32_t>(kKeepAlive);
   // With the window full only the keep-alive goes out, lest what is still under way be taken for lost.
   const std::size_t window = m_flight.size() < kMaxInFlight ? kMaxInFlight - m_flight.size() : due ? 1 : 0;
-  most = std::min(most, window);
+  room.packets = std::min(room.packets, window);
 
-  std::vector<Snapshot> snapshots;
-  RecordWriter out;
-  while (snapshots.size() < most && (isOwing() || (due && snapshots.empty()))) {
-    m_flight.push_back({m_next_number, {}});
-    out.clear();
-    bool room = paySingles(publisher, out);
-    while (room && !m_queue.empty()) {
-      room = payObject(m_queue.front(), publisher, out);
-      if (room) m_queue.pop_front();
-    }
-    snapshots.push_back({m_next_number, publisher.tick(), out.bytes()});
-    if (++m_next_number == 0) m_next_number = 1;
-    if (m_flight.size() > kMaxInFlight) {
-      const InFlight oldest = std::move(m_flight.front());
-      m_flight.pop_front();
-      lost(oldest);
-    }
+  std::vector<Packet> packets;
+  std::vector<std::uint32_t> queue = byUrgency(publisher);
+  bool more = true;
+  while (packets.size() < room.packets && more && (isOwing() || (due && packets.empty()))) {
+    more = write(publisher, room, queue, packets.emplace_back());
+    room.large = room.large && !packets.back().large;
+    if (more || (due && packets.size() == 1)) continue;
+    takeBack();
+    packets.pop_back();
   }
   m_throttled = isOwing();
-  if (!snapshots.empty()) m_last_tick = publisher.tick();
-  return snapshots;
+  if (!packets.empty()) m_last_tick = m_tick;
+  return packets;
 }
 
-// A snapshot takes at least one record, whatever its size: looks are bounded so that any birth fits.
-bool SnapshotSender::hasRoom(const RecordWriter& out, const RecordWriter& more) const {
-  return out.size() == 0 || out.size() + more.size() <= m_record_limit;
-}
-
-// Write the owed records that are no objects. False if the snapshot has no room left.
-bool SnapshotSender::paySingles(const Publisher& publisher, RecordWriter& out) {
-  for (std::size_t i = 0; i < kSingles; ++i) {
-    if (!single(i).owed) continue;
-    RecordWriter record;
-    if (i == 0) record.write(publisher.world());
-    if (i == 1) record.write(m_view);
-    if (i >= 2) {
-      const df::PlayerText& text = m_texts[i - 2];
-      record.write(TextRecord{text.id, text.x, text.y, text.color, text.text});
-    }
-    if (!hasRoom(out, record)) return false;
-    out.append(record);
-    single(i) = {false, m_next_number};
+SnapshotHeader SnapshotSender::header() const {
+  SnapshotHeader header{m_next_number, m_tick, m_epoch, false, false, 0, 0};
+  const Single& input = m_singles[kInput];
+  if (input.owed || (input.sent != 0 && !input.arrived)) {
+    header.tells_input = true;
+    header.input = m_input;
+    header.input_tick = m_input_tick;
   }
-  return true;
+  return header;
 }
 
-// Write the records that an object owes. False if the snapshot has no room left for them.
-bool SnapshotSender::payObject(std::uint32_t index, const Publisher& publisher, RecordWriter& out) {
-  Slot& slot = slotAt(index);
-  if (slot.owed != 0) {
-    ObjectRecord record{index, slot.generation, kDeath, {}};
-    if (slot.life != Life::kDying) {
-      record.groups = slot.life == Life::kBorn ? kAllGroups : slot.owed;
-      record.state = publisher.find(index)->state;
-      record.state.motion = rebase(record.state.motion, publisher.tick());
-    }
-    RecordWriter bytes;
-    bytes.write(record);
-    if (!hasRoom(out, bytes)) return false;
-    out.append(bytes);
-    m_flight.back().objects.push_back({index, slot.generation, record.groups});
-    const int carried = record.groups == kDeath ? +kLife : +record.groups;
-    for (int i = 0; i < kGroupCount; ++i) {
-      if ((carried & (1 << i)) != 0) slot.sent[i] = m_next_number;
-    }
+// Fill one snapshot. False if it took nothing that was owed, so that another one would not either.
+bool SnapshotSender::write(const Publisher& publisher, const Room& room, std::vector<std::uint32_t>& queue,
+                           Packet& packet) {
+  m_flight.push_back({m_next_number, false, true, {}, {}});
+  const SnapshotHeader head = header();
+  m_writer.begin(head, m_origin, m_origins[m_origin]);
+  if (head.tells_input) {
+    m_flight.back().empty = !m_singles[kInput].owed;
+    m_singles[kInput] = {false, m_next_number, false};
   }
-  slot.owed = 0;
-  slot.queued = false;
-  return true;
+  writeSingles(publisher, room.bytes);
+  const auto last_id = static_cast<std::uint32_t>(m_known.idCount());
+  std::vector<std::uint32_t> later;
+  while (!queue.empty()) {
+    const std::uint32_t id = queue.back();
+    if (m_known.at(id).owed == 0) {  // paid by a packet before
+      queue.pop_back();
+      continue;
+    }
+    Written written = encode(id, publisher);
+    const std::size_t bits = written.bits.bitCount();
+    if (!m_writer.hasRoom(bits, last_id, room.bytes)) {
+      if (!isTooLarge(bits, room.bytes)) break;
+      queue.pop_back();
+      // Alone in a snapshot of its own, on the stream.
+      if (!room.large || !m_writer.isEmpty()) {
+        later.push_back(id);
+        if (room.large) break;
+        continue;
+      }
+      packet.large = m_flight.back().large = true;
+    } else {
+      queue.pop_back();
+    }
+    pay(id, publisher, std::move(written));
+    if (packet.large) break;
+  }
+  queue.insert(queue.end(), later.rbegin(), later.rend());
+  m_known.sweepOwing();
+  const bool complete = !isOwing();
+  if (complete && m_repairing) {
+    m_clean_from = m_next_number;
+    m_repairing = false;
+  }
+  m_writer.setComplete(complete);
+  packet.number = m_next_number;
+  packet.tick = m_tick;
+  packet.bytes = m_writer.finish();
+  m_moments.push_back({m_next_number, m_known.checksum(), Moment::kUnknown});
+  if (m_moments.size() > kMaxMoments) m_moments.pop_front();
+  if (++m_next_number == 0) m_next_number = 1;
+  const bool took = !m_flight.back().empty;
+  if (m_flight.size() > kMaxInFlight) {
+    const InFlight oldest = std::move(m_flight.front());
+    m_flight.pop_front();
+    lost(oldest);
+  }
+  return took;
 }
+
+// The snapshot just written says nothing: it never was.
+void SnapshotSender::takeBack() {
+  m_next_number = m_flight.back().number;
+  m_flight.pop_back();
+  m_moments.pop_back();
+}
+
+// Would it exceed the limit even alone?
+bool SnapshotSender::isTooLarge(std::size_t bits, std::size_t bytes) {
+  return bits + kMostOverheadBits > 8 * bytes;
+}
+
+SnapshotSender::Written SnapshotSender::encode(std::uint32_t id, const Publisher& publisher) {
+  const KnownObjects::Known& known = m_known.at(id);
+  const std::uint8_t groups = m_known.due(id);
+  Written written;
+  if (groups == kDeath) {
+    m_writer.encode(written.bits, groups, 0, {}, {});
+    return written;
+  }
+  const Publisher::Model& model = *publisher.find(known.slot);
+  if ((groups & kLook) != 0 && model.recurs) {
+    written.form = m_names.formOf(model.look_sum, model.state.look.sequence.front().size(), m_next_number);
+  }
+  m_writer.encode(written.bits, groups, KnownObjects::generationOf(known), model.state,
+                  rebase(model.state.motion, m_tick), written.form);
+  return written;
+}
+
+void SnapshotSender::pay(std::uint32_t id, const Publisher& publisher, Written written) {
+  const Publisher::Model* model = publisher.find(m_known.at(id).slot);
+  InFlight& flight = m_flight.back();
+  flight.empty = false;
+  const std::uint8_t groups = m_known.due(id);
+  if (written.form.kind != LookForm::kSpelled) {
+    m_names.wrote(model->look_sum, m_next_number);
+    if (written.form.kind == LookForm::kDefined) flight.names.emplace_back(written.form.id, model->look_sum);
+  }
+  static const ObjectState kNothing;
+  flight.objects.push_back(m_known.paid(id, m_next_number, groups == kDeath ? kNothing : model->state));
+  m_writer.object(id, std::move(written.bits));
+  const bool again = std::find(m_repeated.begin(), m_repeated.end(), id) != m_repeated.end();
+  if (m_resend == Resend::kAhead && m_loss > kAheadLoss && !again) m_ahead.push_back(flight.objects.back());
+}
+
+// Once more, although nobody knows yet whether the first time was enough.
+void SnapshotSender::repeatAhead() {
+  m_repeated.clear();
+  for (const KnownObjects::Sent& sent : m_ahead) {
+    if (m_known.at(sent.id).birth != sent.birth || m_known.at(sent.id).unconfirmed == 0) continue;
+    m_known.owe(sent.id, m_known.at(sent.id).unconfirmed & (sent.groups == kDeath ? +kLife : +sent.groups),
+                m_tick);
+    m_repeated.push_back(sent.id);
+  }
+  m_ahead.clear();
+}
+
+// ---- what arrived
+// ------------------------------------------------------------------------------------------
 
 void SnapshotSender::acknowledge(const AckWindow& acks) {
   // A number that was never sent is a lie; believing it would drop debts that are still open.
   if (isNewer(acks.newest, m_next_number - 1)) return;
-  while (!m_flight.empty()) {
-    const std::int32_t behind = static_cast<std::int32_t>(acks.newest - m_flight.front().number);
-    const bool has = acks.has(m_flight.front().number);
-    if (!has && behind < kReorder) break;
-    const InFlight snapshot = std::move(m_flight.front());
-    m_flight.pop_front();
-    has ? arrived(snapshot) : lost(snapshot);
-  }
-  // Later ones may have arrived although an earlier one is still in doubt.
   for (auto it = m_flight.begin(); it != m_flight.end();) {
-    if (!acks.has(it->number)) {
+    const std::int32_t behind = static_cast<std::int32_t>(acks.newest - it->number);
+    const bool has = acks.has(it->number);
+    // The stream loses nothing, but it may be late.
+    if (!has && (behind < kReorder || (it->large && behind < static_cast<std::int32_t>(kMaxInFlight)))) {
       ++it;
       continue;
     }
     const InFlight snapshot = std::move(*it);
     it = m_flight.erase(it);
-    arrived(snapshot);
+    has ? arrived(snapshot) : lost(snapshot);
+    noteLoss(!has);
   }
+}
+
+void SnapshotSender::noteLoss(bool was_lost) {
+  m_loss += ((was_lost ? 1.0 : 0.0) - m_loss) * kLossWeight;
 }
 
 void SnapshotSender::arrived(const InFlight& snapshot) {
-  for (const SentObject& object : snapshot.objects) {
-    Slot& slot = slotAt(object.slot);
-    if (slot.generation != object.generation) continue;
-    if (object.groups == kDeath) {
-      if (slot.life != Life::kDying) continue;
-      slot = {0, Life::kUnknown, 0, slot.queued, {}};
-      m_freed.push_back(object.slot);
-    } else if ((object.groups & kLife) != 0 && slot.life == Life::kBorn) {
-      slot.life = Life::kAlive;
-    }
+  for (std::size_t i = 0; i < kSingles; ++i) {
+    if (m_singles[i].sent != snapshot.number || m_singles[i].owed) continue;
+    m_singles[i].arrived = true;
+    if (i >= kOrigins && i < kTexts && i - kOrigins + 1 == m_newest_origin) m_origin = m_newest_origin;
   }
+  for (const KnownObjects::Sent& sent : snapshot.objects) m_known.arrived(sent, snapshot.number);
+  for (const auto& [id, sum] : snapshot.names) m_names.arrived(id, sum);
 }
 
 void SnapshotSender::lost(const InFlight& snapshot) {
-  for (std::size_t i = 0; i < kSingles; ++i) {
-    if (single(i).sent != snapshot.number) continue;
-    single(i).owed = true;
-    ++m_resent;
+  bool missing = false;
+  for (Single& single : m_singles) {
+    if (single.sent != snapshot.number || single.owed) continue;
+    single.owed = missing = true;
   }
-  for (const SentObject& object : snapshot.objects) {
-    Slot& slot = slotAt(object.slot);
-    if (slot.generation != object.generation) continue;
-    std::uint8_t missing = 0;
-    if (object.groups == kDeath) {
-      if (slot.life == Life::kDying && slot.sent[kLifeIndex] == snapshot.number) missing = kLife;
-    } else if (slot.life != Life::kDying) {
-      for (int i = 0; i < kGroupCount; ++i) {
-        const bool carried = (object.groups & (1 << i)) != 0;
-        if (carried && slot.sent[i] == snapshot.number) missing |= 1 << i;
-      }
-      missing &= slot.life == Life::kAlive ? ~kLife : 0xFF;
-    }
-    if (missing == 0) continue;
+  for (const KnownObjects::Sent& sent : snapshot.objects) {
+    if (!m_known.lost(sent, snapshot.number, m_tick)) continue;
     ++m_resent;
-    owe(object.slot, missing);
+    missing = true;
+  }
+  m_repairing = m_repairing || missing;
+  // Where nothing is missing, newer snapshots have said what this one said.
+  if (!snapshot.empty && isNewer(newestNumber(), m_clean_from)) m_clean_from = newestNumber();
+  for (Moment& moment : m_moments) {
+    if (moment.number == snapshot.number)
+      moment.fate = snapshot.empty ? Moment::kNotMissed : Moment::kRepaired;
+  }
+}
+
+void SnapshotSender::loseLarge() {
+  for (auto it = m_flight.begin(); it != m_flight.end();) {
+    if (!it->large) {
+      ++it;
+      continue;
+    }
+    const InFlight snapshot = std::move(*it);
+    it = m_flight.erase(it);
+    lost(snapshot);
   }
 }
 
 bool SnapshotSender::isSettled() const {
-  return m_freed.empty() && !isOwing() &&
-         std::all_of(m_flight.begin(), m_flight.end(), [this](const InFlight& snapshot) {
-           return snapshot.objects.empty() && !carriesSingle(snapshot.number);
-         });
+  return !isOwing() && std::all_of(m_flight.begin(), m_flight.end(),
+                                   [](const InFlight& snapshot) { return snapshot.empty; });
+}
+
+std::optional<bool> SnapshotSender::isRight(const AckWindow& acks, std::uint64_t checksum) const {
+  const std::uint32_t number = acks.newest;
+  if (m_repairing || isNewer(m_clean_from, number)) return std::nullopt;
+  // What is missing must have been found lost, and sent again since. (What is older than the window has
+  // been.)
+  const Moment* then = nullptr;
+  for (const Moment& moment : m_moments) {
+    const std::uint32_t behind = number - moment.number;
+    if (behind == 0) then = &moment;
+    if (behind == 0 || behind > kMaxInFlight || acks.has(moment.number)) continue;
+    if (moment.fate == Moment::kNotMissed) continue;
+    if (moment.fate != Moment::kRepaired || !isNewer(m_clean_from, moment.number)) return std::nullopt;
+  }
+  if (then == nullptr) return std::nullopt;
+  return then->checksum == checksum;
+}
+
+void SnapshotSender::reset() {
+  const std::uint32_t number = m_next_number;
+  *this = SnapshotSender(m_resend, m_look_ahead, static_cast<std::uint8_t>((m_epoch + 1) & 3));
+  m_next_number = number;
+  m_clean_from = number;
 }
 
 }  // namespace naiad

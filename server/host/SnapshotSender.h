@@ -1,9 +1,9 @@
 // What one client still has to be told, and the snapshots that tell it.
 //
-// The sender owes a client groups of records. Writing a group into a snapshot pays the debt until that
-// snapshot turns out to be lost (a gap in the acknowledgements); then the group is owed again, in its newest
-// state. An object is owed as a whole birth until a birth was acknowledged, and a slot is not used again for
-// a client before it acknowledged the death of the last object in it. Nothing here knows the channel.
+// A client is told of what it can see: objects in its view, those that are about to enter it, and whom the
+// view follows. KnownObjects keeps what is owed of each; this class decides whom the client knows, writes
+// what is owed into snapshots, most urgent first, and learns from acknowledgements what arrived. Nothing here
+// knows the channel, except that a snapshot may be too large for a datagram.
 #pragma once
 
 #include <array>
@@ -14,44 +14,74 @@
 #include <vector>
 
 #include "Acks.h"
+#include "AppearanceNames.h"
+#include "KnownObjects.h"
 #include "Publisher.h"
-#include "RecordCodec.h"
+#include "SnapshotCodec.h"
 
 namespace naiad {
 
+/// When records that were not acknowledged are sent again.
+enum class Resend {
+  kEveryTick,  ///< with every snapshot, until they are
+  kOnGap,      ///< when later snapshots are acknowledged and theirs is not
+  kAhead,      ///< as kOnGap; what matters now is also repeated once in the next snapshot, if the line loses
+};
+
 class SnapshotSender {
  public:
-  struct Snapshot {
+  struct Packet {
     std::uint32_t number = 0;
     std::uint32_t tick = 0;
-    std::string records;
+    bool large = false;  ///< exceeds the datagram's limit: for the stream
+    std::string bytes;
+  };
+  /// What may be sent in a tick.
+  struct Room {
+    std::size_t packets = 64;                  ///< at most so many
+    std::size_t bytes = kMaxDatagramSnapshot;  ///< of each
+    bool large = true;  ///< one that exceeds `bytes` may be among them, up to kMaxSnapshot
   };
 
-  /// `record_limit`: largest records part of a snapshot, in bytes.
-  explicit SnapshotSender(std::size_t record_limit = kMaxSnapshotRecords) : m_record_limit(record_limit) {}
+  explicit SnapshotSender(Resend resend = Resend::kOnGap) : m_resend(resend) {}
 
-  /// Note one published tick. To be called after every Publisher::update while the client is connected;
-  /// the first call owes the client the whole world.
-  void note(const Publisher& publisher);
+  /// Note one published tick and what this player sees of it. To be called after every Publisher::update
+  /// while the client is connected; the first call owes the client all it sees.
+  void note(const Publisher& publisher, const df::PlayerFacts& player);
+  /// The newest input that the game has had, and in which tick.
+  void noteInput(std::uint32_t id, std::uint32_t tick);
+  /// How many ticks from now on an object may enter the view before the next one is due.
+  void setLookAhead(std::uint32_t ticks) { m_look_ahead = ticks; }
 
-  /// Set what this player sees beside the objects; what differs from before is owed.
-  void setPlayer(const df::PlayerFacts& player);
-
-  /// Write what is owed at the publisher's tick, oldest debts first: as many snapshots as it takes, at most
-  /// `most`, and none beyond kMaxInFlight unacknowledged. Where nothing is owed or that window is full: one
-  /// snapshot every kKeepAlive ticks, else none.
-  std::vector<Snapshot> build(const Publisher& publisher, std::size_t most = 64);
+  /// Write what is owed at the publisher's tick, most urgent first, and none beyond kMaxInFlight
+  /// unacknowledged. Where nothing is owed or that window is full: one snapshot every kKeepAlive ticks, else
+  /// none.
+  std::vector<Packet> build(const Publisher& publisher, Room room);
+  std::vector<Packet> build(const Publisher& publisher) { return build(publisher, Room{}); }
 
   /// The client acknowledged. A number more than kReorder behind the newest one that it never mentions is
   /// taken for lost.
   void acknowledge(const AckWindow& acks);
+  /// What was sent on the stream is gone with it.
+  void loseLarge();
 
-  /// Something was owed at the last build() that could not be sent, because too much is unacknowledged.
+  /// Is this the checksum of a client that has received what `acks` says? Nothing if too little is known of
+  /// that moment to compare. To be called after acknowledge().
+  std::optional<bool> isRight(const AckWindow& acks, std::uint64_t checksum) const;
+  /// Start anew: the client forgets the world and is owed all of it.
+  void reset();
+
+  /// Something was owed at the last build() that could not be sent.
   bool isThrottled() const { return m_throttled; }
   /// Nothing is owed and nothing unacknowledged.
   bool isSettled() const;
-  /// Records sent again because a snapshot was lost.
+  /// Share of the last snapshots that were lost, 0 … 1, smoothed.
+  double loss() const { return m_loss; }
+  /// Objects sent again because a snapshot was lost.
   std::uint64_t resentCount() const { return m_resent; }
+  std::size_t knownCount() const { return m_known.aliveCount(); }
+  const KnownObjects& known() const { return m_known; }
+  std::uint32_t newestNumber() const { return m_next_number - 1; }
 
   static constexpr std::uint32_t kKeepAlive = 5;
   static constexpr int kReorder = 3;
@@ -59,61 +89,103 @@ class SnapshotSender {
   static constexpr std::size_t kMaxInFlight = 64;
 
  private:
-  enum class Life : std::uint8_t { kUnknown, kBorn, kAlive, kDying };
-  struct Slot {
-    std::uint32_t generation = 0;  ///< the object the client was told about
-    Life life = Life::kUnknown;
-    std::uint8_t owed = 0;                          ///< groups; when dying, kLife is the death
-    bool queued = false;                            ///< in m_queue
-    std::array<std::uint32_t, kGroupCount> sent{};  ///< newest snapshot that carried the group
-  };
   /// Anything that is not an object: owed or sent as a whole.
   struct Single {
     bool owed = false;
     std::uint32_t sent = 0;
-  };
-  struct SentObject {
-    std::uint32_t slot;
-    std::uint32_t generation;
-    std::uint8_t groups;  ///< 0: the death
+    bool arrived = false;  ///< of the newest sending
   };
   struct InFlight {
     std::uint32_t number = 0;
-    std::vector<SentObject> objects;
+    bool large = false;
+    bool empty = true;
+    std::vector<KnownObjects::Sent> objects;
+    std::vector<std::pair<std::uint32_t, std::uint64_t>> names;  ///< ids of appearances defined, their sums
+  };
+  /// The client's state after a snapshot, for isRight().
+  struct Moment {
+    std::uint32_t number = 0;
+    std::uint64_t checksum = 0;
+    enum : std::uint8_t {
+      kUnknown,
+      kNotMissed,
+      kRepaired
+    } fate = kUnknown;  ///< of the snapshot, if it was lost
+  };
+  enum SingleIndex : std::size_t {
+    kWorld,
+    kView,
+    kInput,
+    kOrigins,
+    kTexts = kOrigins + kOriginSlots,
+    kSingles = kTexts + kMaxTexts
   };
 
-  Slot& slotAt(std::uint32_t slot);
-  void owe(std::uint32_t slot, std::uint8_t groups);
-  void follow(std::uint32_t slot, const Publisher::Model* model, std::uint8_t groups);
-  const Motion* followedMotion(const Publisher& publisher);
+  /// An encoded record, and how its look was written.
+  struct Written {
+    BitWriter bits;
+    LookForm form;
+  };
+  /// No single takes more: a text of kMaxViewWidth characters.
+  static constexpr std::size_t kMostSingleBits = 15 * kMaxViewWidth + 64;
+
+  SnapshotSender(Resend resend, std::uint32_t look_ahead, std::uint8_t epoch)
+      : m_resend(resend), m_epoch(epoch), m_look_ahead(look_ahead) {}
+  CellRect windowOf(const Publisher& publisher) const;
+  bool isVisible(const Publisher::Model& model, std::uint32_t tick, const CellRect& window) const;
+  bool isFollowed(std::uint32_t slot, std::uint32_t generation) const;
+  void noteChanges(const Publisher& publisher);
+  void noteEntering(const Publisher& publisher, const CellRect& window);
+  void noteLeaving(const Publisher& publisher, const CellRect& window);
+  void noteTexts();
+  void chooseOrigin(const Publisher& publisher);
+  const Motion* followedMotion(const Publisher& publisher) const;
   void checkView(const Publisher& publisher);
-  bool payObject(std::uint32_t slot, const Publisher& publisher, RecordWriter& out);
-  bool paySingles(const Publisher& publisher, RecordWriter& out);
+  void writeSingles(const Publisher& publisher, std::size_t limit);
   bool isOwing() const;
-  bool hasRoom(const RecordWriter& out, const RecordWriter& more) const;
+  double urgency(std::uint32_t id, const Publisher& publisher) const;
+  std::vector<std::uint32_t> byUrgency(const Publisher& publisher) const;
+  SnapshotHeader header() const;
+  bool write(const Publisher& publisher, const Room& room, std::vector<std::uint32_t>& queue, Packet& packet);
+  void takeBack();
+  static bool isTooLarge(std::size_t bits, std::size_t bytes);
+  Written encode(std::uint32_t id, const Publisher& publisher);
+  void pay(std::uint32_t id, const Publisher& publisher, Written written);
+  void repeatAhead();
   void arrived(const InFlight& snapshot);
   void lost(const InFlight& snapshot);
-  Single& single(std::size_t i);
-  bool carriesSingle(std::uint32_t number) const;
+  void noteLoss(bool was_lost);
 
-  std::size_t m_record_limit;
-  std::vector<Slot> m_slots;
-  Slot m_loose;
-  std::deque<std::uint32_t> m_queue;  ///< slots that owe something, oldest debt first
+  Resend m_resend;
+  KnownObjects m_known;
+  AppearanceNames m_names;
+  SnapshotWriter m_writer;
   std::deque<InFlight> m_flight;
+  std::deque<Moment> m_moments;
   std::uint32_t m_next_number = 1;
   std::uint32_t m_last_tick = 0;  ///< of the last snapshot built
+  std::uint32_t m_tick = 0;
+  std::uint32_t m_clean_from = 1;  ///< from this snapshot on all that was lost before has been sent again
+  bool m_repairing = false;
   bool m_began = false;
   bool m_throttled = false;
-  std::vector<std::uint32_t> m_freed;  ///< slots whose death was acknowledged since the last build
+  std::uint8_t m_epoch = 0;
+  std::uint32_t m_look_ahead = 4;
+  double m_loss = 0;
+  std::vector<KnownObjects::Sent> m_ahead;  ///< to be repeated in the next tick
+  std::vector<std::uint32_t> m_repeated;    ///< ids that this tick repeats
+  std::vector<std::uint32_t> m_leaving;     ///< kept for its memory
 
-  Single m_world_debt;
+  std::array<Single, kSingles> m_singles;
   WorldRecord m_world;
-  Single m_view_debt;
   ViewRecord m_view;              ///< as last sent
   std::uint32_t m_view_tick = 0;  ///< the tick at which m_view holds
+  std::array<Origin, kOriginSlots + 1> m_origins;
+  std::uint32_t m_origin = 0;         ///< the slot in use
+  std::uint32_t m_newest_origin = 0;  ///< the slot set last
+  std::uint32_t m_input = 0;
+  std::uint32_t m_input_tick = 0;
   df::PlayerFacts m_player;
-  std::array<Single, kMaxTexts> m_text_debt;
   std::array<df::PlayerText, kMaxTexts> m_texts;
   std::uint64_t m_resent = 0;
 };

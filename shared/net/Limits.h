@@ -6,7 +6,7 @@
 
 namespace naiad {
 
-inline constexpr std::uint32_t kProtocolVersion = 1;
+inline constexpr std::uint32_t kProtocolVersion = 2;
 inline constexpr std::uint32_t kHelloMagic = 0x6e616961;
 inline constexpr std::uint16_t kDefaultPort = 9876;
 
@@ -15,8 +15,9 @@ inline constexpr std::size_t kMaxServerFrame = std::size_t{16} * 1024;
 inline constexpr std::size_t kMaxClientFrame = std::size_t{4} * 1024;
 inline constexpr std::size_t kMaxHelloFrame = 1024;
 
-/// Largest records part of one snapshot, in bytes (leaves room for the message around it).
-inline constexpr std::size_t kMaxSnapshotRecords = std::size_t{15} * 1024;
+/// Largest snapshot, in bytes: on the stream (leaves room for the message around it); in a datagram.
+inline constexpr std::size_t kMaxSnapshot = std::size_t{15} * 1024;
+inline constexpr std::size_t kMaxDatagramSnapshot = 1150;
 
 /// Names and chat, in characters.
 inline constexpr std::size_t kMaxNameLength = 16;

@@ -1,8 +1,11 @@
-// The records that the world replicates by. PROTOCOL.md ("Records") gives the bytes.
+// The records that the world replicates by. PROTOCOL.md ("Records") gives the bits.
 //
 // Every record is absolute (it says what is, never what changed), holds at its snapshot's tick and is
 // applied idempotently: for each object and each group the receiver keeps the newest snapshot number it
 // applied and ignores older ones. So loss, duplication and reordering are harmless.
+//
+// Objects are named by ids that are the client's own: small, and given to another object only when the
+// client has confirmed the death of the one before.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +26,12 @@ enum Group : std::uint8_t {
   kBody = 8,    ///< its box and solidness
 };
 inline constexpr std::uint8_t kAllGroups = kLife | kMotion | kLook | kBody;
+inline constexpr std::uint8_t kDeath = 0;  ///< the groups of a record of an object that is dead
 inline constexpr int kGroupCount = 4;
 
-/// Box, solidness and no-soft: what prediction needs to know.
+/// Box, solidness and no-soft: what prediction needs to know. The default is a single hard character.
 struct Body {
-  df::FixedBox box;
+  df::FixedBox box{{-df::kFixedOne / 2, -df::kFixedOne / 2}, {df::kFixedOne, df::kFixedOne}};
   df::Solidness solidness = df::HARD;
   bool no_soft = false;
   friend bool operator==(const Body&, const Body&) = default;
@@ -35,7 +39,7 @@ struct Body {
 
 /// The replicated state of one object. With kLife among the groups it is a birth and carries all groups.
 struct ObjectState {
-  std::uint64_t order = 0;  ///< creation order: drawn later among equal altitudes
+  std::uint64_t order = 0;  ///< creation order: drawn later among equal altitudes; below 2^48
   Motion motion;
   Look look;
   Body body;
@@ -43,9 +47,9 @@ struct ObjectState {
 };
 
 struct ObjectRecord {
-  std::uint32_t slot = 0;
-  std::uint32_t generation = 0;
-  std::uint8_t groups = 0;  ///< which parts of `state` are meant; 0: the object is dead
+  std::uint32_t id = 0;
+  std::uint8_t generation = 0;  ///< of a birth: the how-manieth object under this id, modulo 4
+  std::uint8_t groups = 0;      ///< which parts of `state` are meant; kDeath: the object is dead
   ObjectState state;
 };
 
@@ -57,11 +61,12 @@ struct WorldRecord {
   friend bool operator==(const WorldRecord&, const WorldRecord&) = default;
 };
 
-/// Where this client's view is, and whom it follows (generation 0: nobody).
+/// Where this client's view is, and whom it follows.
 struct ViewRecord {
   df::FixedVector corner;
-  std::uint32_t slot = 0;
-  std::uint32_t generation = 0;
+  bool follows = false;         ///< else `id` and `generation` are 0
+  std::uint32_t id = 0;         ///< of the followed object
+  std::uint8_t generation = 0;  ///< as in its birth
   friend bool operator==(const ViewRecord&, const ViewRecord&) = default;
 };
 
@@ -75,12 +80,37 @@ struct TextRecord {
   friend bool operator==(const TextRecord&, const TextRecord&) = default;
 };
 
+/// What positions and orders are counted from, so that near ones are short. A snapshot names the origin it
+/// uses by slot; the sender names only what the client has confirmed.
+struct Origin {
+  CellPosition corner;      ///< upper left corner of the window
+  std::int32_t x_bits = 0;  ///< the window is 2^x_bits cells wide, 0 … 16
+  std::int32_t y_bits = 0;
+  std::uint64_t order = 0;  ///< below 2^48
+  friend bool operator==(const Origin&, const Origin&) = default;
+};
+inline constexpr std::uint32_t kOriginSlots = 3;  ///< slots 1 … 3; slot 0 is Origin{} for ever
+struct OriginRecord {
+  std::uint32_t slot = 1;
+  Origin origin;
+  friend bool operator==(const OriginRecord&, const OriginRecord&) = default;
+};
+
+/// An appearance that later looks may name by `id`; it came with a look of the same snapshot.
+struct AppearanceRecord {
+  std::uint32_t id = 0;
+  Appearance appearance;
+  friend bool operator==(const AppearanceRecord&, const AppearanceRecord&) = default;
+};
+
 /// The decoded records of one snapshot.
 struct Records {
   std::vector<WorldRecord> worlds;  ///< at most one is sent
   std::vector<ViewRecord> views;    ///< at most one is sent
+  std::vector<OriginRecord> origins;
   std::vector<TextRecord> texts;
-  std::vector<ObjectRecord> objects;
+  std::vector<AppearanceRecord> appearances;
+  std::vector<ObjectRecord> objects;  ///< by ascending id
 };
 
 }  // namespace naiad

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 
+#include "Checksum.h"
+
 namespace naiad {
 
 namespace {
+
+constexpr int kLifeIndex = 0;
 
 // The first record of a group is always applied; 0 is never a snapshot number.
 bool supersedes(std::uint32_t number, std::uint32_t newest) {
@@ -23,7 +27,17 @@ ViewFrame frameOf(const WorldRecord& world, df::FixedVector corner) {
 
 }  // namespace
 
-void Replica::apply(std::uint32_t number, std::uint32_t tick, const Records& records) {
+void Replica::apply(const Snapshot& snapshot) {
+  const std::uint32_t number = snapshot.header.number;
+  const std::uint32_t tick = snapshot.header.tick;
+  const Records& records = snapshot.records;
+  if (supersedes(number, m_context.number)) {
+    m_context.number = number;
+    if (isNewer(tick, m_context.tick)) m_context.tick = tick;
+  }
+  if (snapshot.header.tells_input && isNewer(snapshot.header.input, m_context.input)) {
+    m_context.input = snapshot.header.input;
+  }
   for (const WorldRecord& world : records.worlds) {
     if (!supersedes(number, m_world_newest)) continue;
     m_world_newest = number;
@@ -35,42 +49,42 @@ void Replica::apply(std::uint32_t number, std::uint32_t tick, const Records& rec
     m_view = view;
     m_view_tick = tick;
   }
+  for (const OriginRecord& origin : records.origins) m_vocabulary.define(number, origin);
   for (const TextRecord& text : records.texts) {
     std::uint32_t& newest = m_text_newest[text.id];
     if (!supersedes(number, newest)) continue;
     newest = number;
     m_texts[text.id] = text;
   }
+  for (const AppearanceRecord& appearance : records.appearances) {
+    if (!m_vocabulary.define(number, appearance)) ++m_overflows;
+  }
   for (const ObjectRecord& object : records.objects) applyObject(number, object);
 }
 
 void Replica::applyObject(std::uint32_t number, const ObjectRecord& record) {
-  auto found = m_entries.find(record.slot);
+  auto found = m_entries.find(record.id);
   if (found == m_entries.end()) {
     if (m_entries.size() >= kMaxReplicaObjects) {
       ++m_overflows;
       return;
     }
-    found = m_entries.emplace(record.slot, Entry{}).first;
+    found = m_entries.emplace(record.id, Entry{}).first;
   }
   Entry& entry = found->second;
-  const bool newer = entry.generation == 0 || isNewer(record.generation, entry.generation);
-  if (!newer && record.generation != entry.generation) return;  // about an object long gone
-
-  if (record.groups == 0) {  // dead
-    m_alive -= entry.alive ? 1 : 0;
-    m_glyphs -= glyphCount(entry.state.look);
-    entry = Entry{record.generation, false, {}, {}};
+  const bool fresh = supersedes(number, entry.newest[kLifeIndex]);
+  if (record.groups == kDeath) {
+    if (fresh) end(entry, number);
     return;
   }
-  if (newer) {
-    if ((record.groups & kLife) == 0) return;  // only a birth can introduce an object
-    m_alive += entry.alive ? 0 : 1;
-    m_glyphs -= glyphCount(entry.state.look);
-    entry = Entry{record.generation, true, {}, {}};
+  if ((record.groups & kLife) != 0 && fresh && !(entry.alive && entry.generation == record.generation)) {
+    end(entry, entry.newest[kLifeIndex]);
+    entry.alive = true;
+    entry.generation = record.generation;
     entry.state.order = record.state.order;
+    ++m_alive;
   }
-  if (!entry.alive) return;  // a late record about a dead object
+  if (!entry.alive) return;  // of an object that was not born yet, or is dead
 
   for (int i = 0; i < kGroupCount; ++i) {
     const int group = 1 << i;
@@ -80,6 +94,15 @@ void Replica::applyObject(std::uint32_t number, const ObjectRecord& record) {
     if (group == kLook) setLook(entry, record.state.look);
     if (group == kBody) entry.state.body = record.state.body;
   }
+}
+
+// The object is dead since snapshot `number`.
+void Replica::end(Entry& entry, std::uint32_t number) {
+  m_alive -= entry.alive ? 1 : 0;
+  m_glyphs -= glyphCount(entry.state.look);
+  entry.alive = false;
+  entry.state = {};
+  entry.newest.fill(number);
 }
 
 void Replica::setLook(Entry& entry, const Look& look) {
@@ -92,13 +115,13 @@ void Replica::setLook(Entry& entry, const Look& look) {
   entry.state.look = look;
 }
 
-const Replica::Entry* Replica::find(std::uint32_t slot) const {
-  const auto found = m_entries.find(slot);
+const Replica::Entry* Replica::find(std::uint32_t id) const {
+  const auto found = m_entries.find(id);
   return found != m_entries.end() && found->second.alive ? &found->second : nullptr;
 }
 
 const Motion* Replica::followedMotion() const {
-  const Entry* entry = m_view.generation != 0 ? find(m_view.slot) : nullptr;
+  const Entry* entry = m_view.follows ? find(m_view.id) : nullptr;
   return entry != nullptr && entry->generation == m_view.generation ? &entry->state.motion : nullptr;
 }
 
@@ -125,7 +148,7 @@ df::Canvas Replica::render(std::uint32_t tick) const {
 
   std::vector<const ObjectState*> shown;
   shown.reserve(m_alive);
-  for (const auto& [slot, entry] : m_entries) {
+  for (const auto& [id, entry] : m_entries) {
     if (entry.alive && entry.state.look.select(tick) != nullptr) shown.push_back(&entry.state);
   }
   std::sort(shown.begin(), shown.end(), [](const ObjectState* a, const ObjectState* b) {
@@ -147,6 +170,16 @@ df::Canvas Replica::render(std::uint32_t tick) const {
     for (const char32_t ch : df::decodeUtf8(text.text)) canvas.put(x++, text.y, {ch, text.color});
   }
   return canvas;
+}
+
+std::uint64_t Replica::checksum() const {
+  std::uint64_t sum = 0;
+  for (const auto& [id, entry] : m_entries) {
+    if (!entry.alive) continue;
+    sum += lifeSum(id, entry.generation, entry.state.order) + motionSum(id, entry.state.motion) +
+           lookSum(id, entry.state.look) + bodySum(id, entry.state.body);
+  }
+  return sum;
 }
 
 }  // namespace naiad

@@ -12,8 +12,9 @@
 
 #include "Acks.h"
 #include "Canvas.h"
-#include "Records.h"
+#include "SnapshotCodec.h"
 #include "ViewFollow.h"
+#include "Vocabulary.h"
 
 namespace naiad {
 
@@ -24,17 +25,24 @@ inline constexpr std::size_t kMaxReplicaGlyphs = 1u << 21;
 
 class Replica {
  public:
-  /// One remembered object. The newest number applied is kept per group; a dead object is remembered by
-  /// its generation, so that a late birth cannot bring it back.
+  /// One remembered object. The newest number applied is kept per group; a death counts for all of them,
+  /// so that a late birth cannot bring back the dead.
   struct Entry {
-    std::uint32_t generation = 0;
+    std::uint8_t generation = 0;
     bool alive = false;
     std::array<std::uint32_t, kGroupCount> newest{};
     ObjectState state;
   };
 
-  /// Apply the records of snapshot `number`, which hold at `tick`. Order of arrival does not matter.
-  void apply(std::uint32_t number, std::uint32_t tick, const Records& records);
+  /// `tick`: one near those of the snapshots to come (the welcome names it).
+  explicit Replica(std::uint32_t tick = 0) : m_context{0, tick, 0} {}
+
+  /// Read a snapshot of this replica's epoch, without applying it.
+  ReadResult read(std::string_view bytes, Snapshot& out) const {
+    return readSnapshot(bytes, m_context, m_vocabulary, out);
+  }
+  /// Apply what was read. Order of arrival does not matter, nor does a second time.
+  void apply(const Snapshot& snapshot);
 
   /// Draw the player's view as it is at `tick`: objects by altitude, then creation order, then texts.
   /// The canvas has the size of the view.
@@ -48,17 +56,26 @@ class Replica {
   int viewWidth() const { return m_world.view_width; }
   int viewHeight() const { return m_world.view_height; }
   std::size_t aliveCount() const { return m_alive; }
-  /// The live object in `slot`; null if there is none.
-  const Entry* find(std::uint32_t slot) const;
+  /// The newest snapshot, tick and input that were applied.
+  const SnapshotContext& newest() const { return m_context; }
+  /// The live object with this id; null if there is none.
+  const Entry* find(std::uint32_t id) const;
+  /// By id; those that are not alive are remembered only to ignore what comes late.
   const std::unordered_map<std::uint32_t, Entry>& entries() const { return m_entries; }
+  /// A sum over everything the replica holds, the same whatever the order in which it came. PROTOCOL.md
+  /// ("Checksum") says of what.
+  std::uint64_t checksum() const;
   /// Records left out because the replica was full.
   std::uint64_t overflowCount() const { return m_overflows; }
 
  private:
   void applyObject(std::uint32_t number, const ObjectRecord& record);
+  void end(Entry& entry, std::uint32_t number);
   void setLook(Entry& entry, const Look& look);
   const Motion* followedMotion() const;
 
+  SnapshotContext m_context;
+  Vocabulary m_vocabulary;
   std::unordered_map<std::uint32_t, Entry> m_entries;
   std::map<std::uint32_t, TextRecord> m_texts;
   std::map<std::uint32_t, std::uint32_t> m_text_newest;

@@ -4,7 +4,7 @@
 
 #include "Limits.h"
 #include "LookCapture.h"
-#include "RecordCodec.h"
+#include "LookCodec.h"
 #include "SplitMix64.h"
 #include "Vector.h"
 
@@ -90,10 +90,10 @@ TEST(LookCapture, FitsALookIntoARecordByCuttingItsEnd) {
              static_cast<df::Color>(rng.below(8))};
   }
   const Appearance whole = look.sequence[0];
-  ASSERT_GT(encodedSize(look), kMaxLookBytes);
+  ASSERT_GT(encodedBits(look.sequence[0]), 8 * kMaxLookBytes);
   const std::size_t cut = fitToRecord(look);
-  EXPECT_LE(encodedSize(look), kMaxLookBytes);
-  EXPECT_GT(encodedSize(look), kMaxLookBytes / 2);
+  EXPECT_LE(encodedBits(look.sequence[0]), 8 * kMaxLookBytes);
+  EXPECT_GT(encodedBits(look.sequence[0]), 4 * kMaxLookBytes);
   ASSERT_EQ(look.sequence[0].size() + cut, whole.size());
   EXPECT_TRUE(std::equal(look.sequence[0].begin(), look.sequence[0].end(), whole.begin()));
   EXPECT_EQ(fitToRecord(look), 0u);

@@ -111,15 +111,18 @@ TEST(Publisher, ATurnIsCorrectedExactlyWhenTheCellWouldBeWrong) {
     const df::FixedVector expected = positionAt(modelled, tick);
     const bool wrong =
         df::cellOf(expected.x) != df::cellOf(position.x) || df::cellOf(expected.y) != df::cellOf(position.y);
+    if (i == 0) modelled = scene.publisher.find(0)->state.motion;
     if (i > 0) {
       ASSERT_EQ(changes.size(), wrong ? 1u : 0u) << "tick " << i;
     }
     if (wrong) {
       EXPECT_EQ(changes[0].groups, kMotion);
-      modelled = {tick, position, velocity, {}};
+      modelled = scene.publisher.find(0)->state.motion;
       ++corrections;
     }
-    ASSERT_EQ(positionAt(scene.publisher.find(0)->state.motion, tick), positionAt(modelled, tick));
+    const df::FixedVector published = positionAt(scene.publisher.find(0)->state.motion, tick);
+    ASSERT_EQ(df::cellOf(published.x), df::cellOf(position.x));
+    ASSERT_EQ(df::cellOf(published.y), df::cellOf(position.y));
     position = position + velocity;
   }
   EXPECT_EQ(scene.publisher.correctionCount(), static_cast<std::uint64_t>(corrections));
@@ -196,14 +199,20 @@ TEST(Publisher, AHalfCellSpriteFliesFree) {
   Scene scene;
   df::FixedVector position = at(5.3, 5.1);
   const df::FixedVector velocity = at(0.37, 0.11);
-  for (int i = 0; i < 100; ++i) {
+  std::size_t corrections = 0;
+  for (int i = 0; i < 1000; ++i) {
     scene.changed(0, position, velocity);
     std::vector<df::DrawCommand> sprite;
     for (int k = 0; k < 4; ++k) sprite.push_back({position + at(k - 1.5, -0.5), U'#', df::RED});
     scene.drew({0, 1}, sprite);
-    ASSERT_EQ(scene.publish().size(), i == 0 ? 1u : 0u) << "tick " << i;
+    const std::size_t changes = scene.publish().size();
+    ASSERT_TRUE(i == 0 || changes == 0 || i >= 64) << "tick " << i;
+    corrections += i > 0 ? changes : 0;
     position = position + velocity;
   }
+  // Coarse numbers were good for as long as paths last at first; then ones that are good for eight times as
+  // long.
+  EXPECT_LE(corrections, 2u);
 }
 
 TEST(Publisher, AHiddenObjectLosesItsLookAndGetsItBack) {
@@ -301,15 +310,13 @@ void expectSamePictures(const test::WorldConfig& config, std::uint64_t seed, int
     for (std::size_t p = 0; p < clients.size(); ++p) {
       Client& client = clients[p];
       if (i < static_cast<int>(p) * 30) continue;  // joins late
-      client.sender.note(publisher);
-      client.sender.setPlayer(world.view().players[p]);
-      // A slot that was taken again in the tick of the death waits for the acknowledgement.
+      client.sender.note(publisher, world.view().players[p]);
       for (int round = 0; round < 3 && (round == 0 || !client.sender.isSettled()); ++round) {
-        for (const SnapshotSender::Snapshot& snapshot : client.sender.build(publisher)) {
-          const auto records = readRecords(snapshot.records, snapshot.tick);
-          ASSERT_TRUE(records);
-          client.replica.apply(snapshot.number, snapshot.tick, *records);
-          client.acks.note(snapshot.number);
+        for (const SnapshotSender::Packet& packet : client.sender.build(publisher)) {
+          Snapshot snapshot;
+          ASSERT_EQ(client.replica.read(packet.bytes, snapshot), ReadResult::kOk);
+          client.replica.apply(snapshot);
+          client.acks.note(packet.number);
         }
         client.sender.acknowledge(client.acks);
       }

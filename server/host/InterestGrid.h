@@ -1,0 +1,74 @@
+// Where the published objects are, coarsely: who could be seen in a rectangle of cells?
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "Look.h"
+
+namespace naiad {
+
+/// Cells left … right − 1, top … bottom − 1.
+struct CellRect {
+  std::int64_t left = 0;
+  std::int64_t top = 0;
+  std::int64_t right = 0;
+  std::int64_t bottom = 0;
+
+  bool contains(CellPosition cell) const {
+    return cell.x >= left && cell.x < right && cell.y >= top && cell.y < bottom;
+  }
+  CellRect grownBy(std::int64_t cells) const {
+    return {left - cells, top - cells, right + cells, bottom + cells};
+  }
+};
+
+/// Slots filed by their cell, in blocks of 32 by 16 cells. Memory follows the number of slots.
+class InterestGrid {
+ public:
+  /// File `slot` where it is now; cheap if it has not left its block.
+  void put(std::uint32_t slot, CellPosition cell);
+  void remove(std::uint32_t slot);
+
+  /// Call `visit(slot)` for every slot in a block that meets `rect`: all in the rectangle, and some around
+  /// it.
+  template <class Visit>
+  void forEachNear(const CellRect& rect, Visit visit) const {
+    // A rectangle of more blocks than there are is answered by all of them.
+    const auto columns =
+        static_cast<std::uint64_t>((rect.right >> kColumnShift) - (rect.left >> kColumnShift) + 1);
+    const auto rows = static_cast<std::uint64_t>((rect.bottom >> kRowShift) - (rect.top >> kRowShift) + 1);
+    if (columns * rows >= m_blocks.size()) {
+      for (const auto& [key, block] : m_blocks) {
+        for (const std::uint32_t slot : block) visit(slot);
+      }
+      return;
+    }
+    for (std::int64_t y = rect.top >> kRowShift; y <= rect.bottom >> kRowShift; ++y) {
+      for (std::int64_t x = rect.left >> kColumnShift; x <= rect.right >> kColumnShift; ++x) {
+        const auto found = m_blocks.find(keyOf(x, y));
+        if (found == m_blocks.end()) continue;
+        for (const std::uint32_t slot : found->second) visit(slot);
+      }
+    }
+  }
+
+ private:
+  static constexpr int kColumnShift = 5;
+  static constexpr int kRowShift = 4;
+  struct Place {
+    std::uint64_t key = 0;
+    std::uint32_t index = 0;  ///< in the block
+    bool filed = false;
+  };
+
+  static std::uint64_t keyOf(std::int64_t x, std::int64_t y) {
+    return (static_cast<std::uint64_t>(x) << 32) | (static_cast<std::uint64_t>(y) & 0xFFFFFFFF);
+  }
+
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> m_blocks;
+  std::vector<Place> m_places;  ///< by slot
+};
+
+}  // namespace naiad

@@ -1,0 +1,146 @@
+#include "KnownObjects.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "Checksum.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr int kLifeIndex = 0;
+
+}  // namespace
+
+void KnownObjects::enqueue(std::uint32_t id, std::uint32_t tick) {
+  Known& known = m_known[id];
+  if (known.owed == 0) known.since = tick;
+  if (known.queued) return;
+  known.queued = true;
+  m_owing.push_back(id);
+}
+
+void KnownObjects::learn(std::uint32_t slot, std::uint32_t generation, std::uint32_t tick) {
+  auto id = static_cast<std::uint32_t>(m_known.size());
+  if (m_free.empty()) {
+    if (id >= kMaxSlots) return;
+    m_known.emplace_back();
+  } else {
+    id = m_free.top();
+    m_free.pop();
+  }
+  Known& known = m_known[id];
+  known.slot = slot;
+  known.generation = generation;
+  ++known.birth;
+  known.life = Life::kBorn;
+  m_ids.insert(slot, id);
+  ++m_alive;
+  enqueue(id, tick);
+  known.owed = kAllGroups;
+}
+
+void KnownObjects::owe(std::uint32_t id, std::uint8_t groups, std::uint32_t tick) {
+  if (groups == 0) return;
+  enqueue(id, tick);
+  m_known[id].owed |= groups;
+}
+
+void KnownObjects::forget(std::uint32_t id, std::uint32_t tick) {
+  Known& known = m_known[id];
+  m_ids.erase(known.slot);
+  --m_alive;
+  if (known.life == Life::kBorn && known.sent[kLifeIndex] == 0) return release(id);  // it never heard of it
+  known.life = Life::kDying;
+  known.owed = 0;
+  known.unconfirmed = 0;
+  enqueue(id, tick);
+  known.owed = kLife;
+}
+
+void KnownObjects::release(std::uint32_t id) {
+  Known& known = m_known[id];
+  known.life = Life::kFree;
+  known.owed = 0;
+  known.unconfirmed = 0;
+  known.sent = {};
+  m_free.push(id);
+}
+
+void KnownObjects::oweUnconfirmed(std::uint32_t tick) {
+  for (std::uint32_t id = 0; id < m_known.size(); ++id) {
+    if (m_known[id].unconfirmed != 0) owe(id, m_known[id].unconfirmed, tick);
+  }
+}
+
+std::uint8_t KnownObjects::due(std::uint32_t id) const {
+  const Known& known = m_known[id];
+  if (known.life == Life::kDying) return kDeath;
+  return known.life == Life::kBorn ? kAllGroups : known.owed;
+}
+
+KnownObjects::Sent KnownObjects::paid(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state) {
+  Known& known = m_known[id];
+  const std::uint8_t groups = due(id);
+  const std::uint8_t carried = groups == kDeath ? +kLife : groups;
+  for (int i = 0; i < kGroupCount; ++i) {
+    if ((carried & (1 << i)) == 0) continue;
+    known.sent[i] = snapshot;
+    m_checksum -= known.sums[i];
+    known.sums[i] = 0;
+  }
+  if (groups == kDeath) {
+    for (std::uint64_t& sum : known.sums) m_checksum -= std::exchange(sum, 0);
+  } else {
+    if ((groups & kLife) != 0) known.sums[0] = lifeSum(id, generationOf(known), state.order);
+    if ((groups & kMotion) != 0) known.sums[1] = motionSum(id, state.motion);
+    if ((groups & kLook) != 0) known.sums[2] = lookSum(id, state.look);
+    if ((groups & kBody) != 0) known.sums[3] = bodySum(id, state.body);
+    for (int i = 0; i < kGroupCount; ++i) m_checksum += (carried & (1 << i)) != 0 ? known.sums[i] : 0;
+  }
+  known.unconfirmed |= carried;
+  known.owed = 0;
+  return {id, known.birth, groups};
+}
+
+void KnownObjects::sweepOwing() {
+  std::erase_if(m_owing, [this](std::uint32_t id) {
+    Known& known = m_known[id];
+    if (known.owed != 0) return false;
+    known.queued = false;
+    return true;
+  });
+}
+
+void KnownObjects::arrived(const Sent& sent, std::uint32_t snapshot) {
+  Known& known = m_known[sent.id];
+  if (known.birth != sent.birth || known.life == Life::kFree) return;
+  if (sent.groups == kDeath) {
+    if (known.life == Life::kDying) release(sent.id);
+    return;
+  }
+  if (known.life == Life::kDying) return;
+  for (int i = 0; i < kGroupCount; ++i) {
+    if (known.sent[i] == snapshot) known.unconfirmed &= ~(1 << i);
+  }
+  if ((sent.groups & kLife) != 0) known.life = Life::kAlive;
+}
+
+bool KnownObjects::lost(const Sent& sent, std::uint32_t snapshot, std::uint32_t tick) {
+  Known& known = m_known[sent.id];
+  if (known.birth != sent.birth || known.life == Life::kFree) return false;
+  const bool dying = known.life == Life::kDying;
+  if (dying != (sent.groups == kDeath)) return false;
+  std::uint8_t missing = 0;
+  for (int i = 0; i < kGroupCount; ++i) {
+    const bool carried = dying ? i == kLifeIndex : (sent.groups & (1 << i)) != 0;
+    if (carried && known.sent[i] == snapshot) missing |= 1 << i;
+  }
+  // A birth that was lost after another one arrived leaves its other groups, if they are the newest.
+  if (known.life == Life::kAlive) missing &= ~kLife;
+  owe(sent.id, missing, tick);
+  return missing != 0;
+}
+
+}  // namespace naiad

@@ -1,0 +1,96 @@
+// What one client knows of the objects, and what of each it still has to be told.
+//
+// An object that becomes interesting gets the lowest free id of this client and is owed as a whole birth
+// until a birth was acknowledged; after that only the groups that change. When it vanishes or loses interest,
+// its death is owed, and the id is free again when the client has acknowledged it. Writing a group into a
+// snapshot pays the debt until that snapshot turns out to be lost; then the group is owed again, in its
+// newest state.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <queue>
+#include <vector>
+
+#include "Publisher.h"
+#include "SlotMap.h"
+
+namespace naiad {
+
+class KnownObjects {
+ public:
+  enum class Life : std::uint8_t { kFree, kBorn, kAlive, kDying };
+  struct Known {
+    std::uint32_t slot = 0;
+    std::uint32_t generation = 0;  ///< of the world's slot
+    std::uint32_t birth = 0;       ///< the how-manieth object under this id
+    Life life = Life::kFree;
+    std::uint8_t owed = 0;         ///< groups; when dying, kLife is the death
+    std::uint8_t unconfirmed = 0;  ///< groups that were sent, and of whose newest sending nothing is known
+    bool queued = false;           ///< among owing()
+    std::uint32_t since = 0;       ///< the tick from which on it has owed something
+    std::array<std::uint32_t, kGroupCount> sent{};  ///< newest snapshot that carried the group
+    std::array<std::uint64_t, kGroupCount> sums{};  ///< of what it carried
+  };
+  /// One object's part of a snapshot.
+  struct Sent {
+    std::uint32_t id = 0;
+    std::uint32_t birth = 0;
+    std::uint8_t groups = 0;  ///< kDeath: the death
+  };
+  static constexpr std::uint32_t kNobody = SlotMap::kNone;
+  /// As births carry it.
+  static std::uint8_t generationOf(const Known& known) { return known.birth & 3; }
+
+  /// The id under which the client knows, or is about to be told of, the object in `slot`; kNobody if none.
+  std::uint32_t find(std::uint32_t slot) const { return m_ids.find(slot); }
+  const Known& at(std::uint32_t id) const { return m_known[id]; }
+  std::size_t idCount() const { return m_known.size(); }
+  std::size_t aliveCount() const { return m_alive; }
+
+  /// Owe the birth of an object that the client does not know.
+  void learn(std::uint32_t slot, std::uint32_t generation, std::uint32_t tick);
+  /// Owe groups of a known one.
+  void owe(std::uint32_t id, std::uint8_t groups, std::uint32_t tick);
+  /// Owe its death, or nothing if the client never heard of it.
+  void forget(std::uint32_t id, std::uint32_t tick);
+  /// Owe again all that was sent and is unconfirmed.
+  void oweUnconfirmed(std::uint32_t tick);
+
+  /// The ids that owe something, in no order.
+  const std::vector<std::uint32_t>& owing() const { return m_owing; }
+  /// The groups to write for an id: kDeath, kAllGroups or some.
+  std::uint8_t due(std::uint32_t id) const;
+  /// They were written into `snapshot`. `state`: what was written (not looked at for a death).
+  Sent paid(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state);
+  /// Take those that were paid off the list.
+  void sweepOwing();
+
+  void arrived(const Sent& sent, std::uint32_t snapshot);
+  /// How many objects owe something again because of it.
+  bool lost(const Sent& sent, std::uint32_t snapshot, std::uint32_t tick);
+
+  /// The checksum of a client that has received everything that was sent.
+  std::uint64_t checksum() const { return m_checksum; }
+
+  /// Call `visit(id, known)` for all that are born or alive.
+  template <class Visit>
+  void forEachAlive(Visit visit) const {
+    for (std::uint32_t id = 0; id < m_known.size(); ++id) {
+      if (m_known[id].life == Life::kBorn || m_known[id].life == Life::kAlive) visit(id, m_known[id]);
+    }
+  }
+
+ private:
+  void enqueue(std::uint32_t id, std::uint32_t tick);
+  void release(std::uint32_t id);
+
+  std::vector<Known> m_known;  ///< by id
+  SlotMap m_ids;
+  std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> m_free;
+  std::vector<std::uint32_t> m_owing;
+  std::size_t m_alive = 0;
+  std::uint64_t m_checksum = 0;
+};
+
+}  // namespace naiad

@@ -1,0 +1,65 @@
+// A small map from world slots to a client's ids: open addressing, no allocation per entry.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace naiad {
+
+class SlotMap {
+ public:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+  /// The id filed under `slot`; kNone if there is none.
+  std::uint32_t find(std::uint32_t slot) const {
+    if (m_entries.empty()) return kNone;
+    for (std::size_t i = home(slot);; i = next(i)) {
+      if (m_entries[i].slot == slot) return m_entries[i].id;
+      if (m_entries[i].slot == kNone) return kNone;
+    }
+  }
+  /// `slot` must not be filed.
+  void insert(std::uint32_t slot, std::uint32_t id) {
+    if (2 * (m_count + 1) > m_entries.size()) grow();
+    std::size_t i = home(slot);
+    while (m_entries[i].slot != kNone) i = next(i);
+    m_entries[i] = {slot, id};
+    ++m_count;
+  }
+  /// `slot` must be filed.
+  void erase(std::uint32_t slot) {
+    std::size_t hole = home(slot);
+    while (m_entries[hole].slot != slot) hole = next(hole);
+    // Close the gap: whoever lies behind it and could not be found any more moves up.
+    for (std::size_t i = next(hole); m_entries[i].slot != kNone; i = next(i)) {
+      const std::size_t wanted = home(m_entries[i].slot);
+      const bool reachable = hole < i ? wanted > hole && wanted <= i : wanted > hole || wanted <= i;
+      if (reachable) continue;
+      m_entries[hole] = m_entries[i];
+      hole = i;
+    }
+    m_entries[hole] = {};
+    --m_count;
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t slot = kNone;
+    std::uint32_t id = kNone;
+  };
+  std::size_t home(std::uint32_t slot) const { return (slot * 0x9E3779B1u >> 7) & (m_entries.size() - 1); }
+  std::size_t next(std::size_t i) const { return (i + 1) & (m_entries.size() - 1); }
+  void grow() {
+    std::vector<Entry> old(m_entries.empty() ? 16 : 2 * m_entries.size());
+    old.swap(m_entries);
+    m_count = 0;
+    for (const Entry& entry : old) {
+      if (entry.slot != kNone) insert(entry.slot, entry.id);
+    }
+  }
+
+  std::vector<Entry> m_entries;
+  std::size_t m_count = 0;
+};
+
+}  // namespace naiad

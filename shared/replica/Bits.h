@@ -1,0 +1,147 @@
+// Writing and reading numbers of any width as a string of bits, for records that must be small.
+//
+// Bits fill each byte from its low end; a number is written low bit first. The codes beside plain fields:
+//
+//   exp-Golomb of order k   v + 2^k in binary takes n bits: n − 1 − k zeros, a one, then the n − 1 lower
+//   bits.
+//                           Small numbers are short, none is impossible (ITU-T H.264, 9.1).
+//   zig-zag                 0, −1, 1, −2 … as 0, 1, 2, 3 …
+#pragma once
+
+#include <bit>
+#include <cassert>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace naiad {
+
+class BitWriter {
+ public:
+  /// The `count` low bits of `value`; the others must be zero. count: 0 … 64.
+  void bits(std::uint64_t value, int count) {
+    assert(count >= 0 && count <= 64 && (count == 64 || value >> count == 0));
+    if (count > 32) {
+      bits(value & 0xFFFFFFFF, 32);
+      return bits(value >> 32, count - 32);
+    }
+    m_pending |= value << m_pending_count;
+    m_pending_count += count;
+    for (; m_pending_count >= 8; m_pending_count -= 8, m_pending >>= 8) {
+      m_bytes.push_back(static_cast<char>(m_pending & 0xFF));
+    }
+  }
+  void flag(bool value) { bits(value ? 1 : 0, 1); }
+  /// The `count` low bits of a two's complement number that fits them.
+  void signedBits(std::int64_t value, int count) {
+    assert(count == 64 ||
+           (value >= -(std::int64_t{1} << count) / 2 && value < (std::int64_t{1} << count) / 2) ||
+           (count == 0 && value == 0));
+    bits(count == 64 ? static_cast<std::uint64_t>(value)
+                     : static_cast<std::uint64_t>(value) & ((std::uint64_t{1} << count) - 1),
+         count);
+  }
+  /// Exp-Golomb; value + 2^order must not reach 2^64.
+  void golomb(std::uint64_t value, int order) {
+    const std::uint64_t shifted = value + (std::uint64_t{1} << order);
+    const int length = std::bit_width(shifted);
+    const int zeros = length - 1 - order;
+    bits(0, zeros);
+    bits(1, 1);
+    bits(shifted & ~(std::uint64_t{1} << (length - 1)), length - 1);
+  }
+  void signedGolomb(std::int64_t value, int order) {
+    golomb((static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63), order);
+  }
+  void append(const BitWriter& other);
+
+  std::size_t bitCount() const { return m_bytes.size() * 8 + static_cast<std::size_t>(m_pending_count); }
+  std::size_t byteCount() const { return (bitCount() + 7) / 8; }
+  void clear() {
+    m_bytes.clear();
+    m_pending = 0;
+    m_pending_count = 0;
+  }
+  /// All bits, the last byte filled up with zeros.
+  std::string bytes() const {
+    std::string all = m_bytes;
+    if (m_pending_count > 0) all.push_back(static_cast<char>(m_pending & 0xFF));
+    return all;
+  }
+
+ private:
+  std::string m_bytes;
+  std::uint64_t m_pending = 0;
+  int m_pending_count = 0;  ///< below 8 between calls
+};
+
+inline void BitWriter::append(const BitWriter& other) {
+  for (const char c : other.m_bytes) bits(static_cast<unsigned char>(c), 8);
+  bits(other.m_pending, other.m_pending_count);
+}
+
+/// Reads what a BitWriter wrote. The first thing that is missing or out of range makes the reader fail; it
+/// stays failed and yields zeros.
+class BitReader {
+ public:
+  explicit BitReader(std::string_view bytes) : m_bytes(bytes) {}
+
+  bool ok() const { return m_ok; }
+  void fail() { m_ok = false; }
+  std::size_t bitsLeft() const { return m_bytes.size() * 8 - m_at; }
+  /// Nothing is left but the zeros that fill the last byte.
+  bool atEnd() {
+    const int left = static_cast<int>(bitsLeft());
+    return m_ok && bitsLeft() < 8 && bits(left) == 0;
+  }
+
+  std::uint64_t bits(int count) {
+    if (!m_ok || static_cast<std::size_t>(count) > bitsLeft()) {
+      m_ok = false;
+      return 0;
+    }
+    std::uint64_t value = 0;
+    for (int have = 0; have < count;) {
+      const int offset = static_cast<int>(m_at & 7);
+      const int take = count - have < 8 - offset ? count - have : 8 - offset;
+      const std::uint64_t part =
+          (static_cast<unsigned char>(m_bytes[m_at >> 3]) >> offset) & ((1u << take) - 1);
+      value |= part << have;
+      have += take;
+      m_at += static_cast<std::size_t>(take);
+    }
+    return value;
+  }
+  bool flag() { return bits(1) != 0; }
+  std::int64_t signedBits(int count) {
+    const std::uint64_t value = bits(count);
+    if (count == 0 || count == 64) return static_cast<std::int64_t>(value);
+    const std::uint64_t sign = std::uint64_t{1} << (count - 1);
+    return static_cast<std::int64_t>((value ^ sign) - sign);
+  }
+  /// Exp-Golomb, at most `most`.
+  std::uint64_t golomb(int order, std::uint64_t most) {
+    int length = order;
+    while (m_ok && bits(1) == 0) {
+      if (++length > 63) m_ok = false;
+    }
+    const std::uint64_t shifted = bits(m_ok ? length : 0) | (std::uint64_t{1} << length % 64);
+    const std::uint64_t value = shifted - (std::uint64_t{1} << order);
+    if (value > most) m_ok = false;
+    return m_ok ? value : 0;
+  }
+  /// Zig-zag and exp-Golomb, within ±`most`.
+  std::int64_t signedGolomb(int order, std::int64_t most) {
+    const std::uint64_t code = golomb(order, UINT64_MAX);
+    const std::int64_t value = static_cast<std::int64_t>(code >> 1) ^ -static_cast<std::int64_t>(code & 1);
+    if (value < -most || value > most) m_ok = false;
+    return m_ok ? value : 0;
+  }
+
+ private:
+  std::string_view m_bytes;
+  std::size_t m_at = 0;  ///< bit
+  bool m_ok = true;
+};
+
+}  // namespace naiad

@@ -1,0 +1,389 @@
+#include "SnapshotCodec.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "Canvas.h"
+#include "Limits.h"
+#include "MotionCodec.h"
+
+namespace naiad {
+
+// The layout, drawn out in PROTOCOL.md:
+//
+//   snapshot  number 16 | tick 16 | epoch 2 | complete 1 | tells input 1 (input 16, age 6) | origin slot 2
+//             | extras 1 (world 1, view 1, origins 2, texts 5, then those) | objects: exp-Golomb(3)
+//             | order of ids 4, if any | each object
+//   object    id − last id − 1: exp-Golomb(order) | kind | parts
+//   kind      00 motion, 01 look, 10 birth, 110 death, 111 and a bit each for motion, look, body
+//   birth     generation 2 | order − origin's: signed exp-Golomb(10) | motion | look | body
+namespace {
+
+constexpr int kLowBits = 16;
+constexpr int kAgeBits = 6;
+constexpr int kObjectCountOrder = 3;
+constexpr int kIdOrderBits = 4;
+constexpr int kOrderOrder = 10;
+constexpr std::int64_t kMostOrder = std::int64_t{1} << 48;
+constexpr int kTextXOrder = 6;
+constexpr int kTextYOrder = 4;
+constexpr int kTextLengthOrder = 5;
+constexpr std::size_t kMaxTextCharacters = kMaxViewWidth;
+
+/// The first two bits of an object's record, the first one low.
+enum Prefix : std::uint8_t { kJustMotion = 0b00, kJustLook = 0b10, kBirth = 0b01, kElse = 0b11 };
+
+std::uint32_t restored(std::uint64_t low, std::uint32_t near) {
+  const auto difference =
+      static_cast<std::int16_t>(static_cast<std::uint16_t>(low) - static_cast<std::uint16_t>(near));
+  return near + static_cast<std::uint32_t>(std::int32_t{difference});
+}
+
+int idOrder(std::uint32_t last_id, std::size_t count) {
+  const auto gap = static_cast<std::uint32_t>(last_id / std::max<std::size_t>(count, 1));
+  return std::clamp(static_cast<int>(std::bit_width(gap)) - 1, 0, (1 << kIdOrderBits) - 1);
+}
+
+/// The size of a boundary may exceed what a position can be.
+void writeBox(BitWriter& out, const df::FixedBox& box) {
+  writeVector(out, box.corner);
+  out.bits(static_cast<std::uint64_t>(box.size.x), 64);
+  out.bits(static_cast<std::uint64_t>(box.size.y), 64);
+}
+
+df::FixedBox readBox(BitReader& in) {
+  df::FixedBox box;
+  box.corner = readVector(in, kMaxWirePosition);
+  box.size.x = static_cast<df::Fixed>(in.bits(64));
+  box.size.y = static_cast<df::Fixed>(in.bits(64));
+  if (box.size.x < 0 || box.size.y < 0) in.fail();
+  return box;
+}
+
+WorldRecord readWorld(BitReader& in) {
+  WorldRecord record;
+  record.boundary = readBox(in);
+  record.view_width = static_cast<std::int32_t>(in.bits(9));
+  record.view_height = static_cast<std::int32_t>(in.bits(9));
+  if (record.view_width < kMinViewWidth || record.view_height < kMinViewHeight ||
+      record.view_width > kMaxViewWidth || record.view_height > kMaxViewHeight) {
+    in.fail();
+  }
+  return record;
+}
+
+constexpr int kIdOrder = 6;
+
+ViewRecord readView(BitReader& in) {
+  ViewRecord record;
+  record.corner = readVector(in, kMaxWirePosition);
+  record.follows = in.flag();
+  if (!record.follows) return record;
+  record.id = static_cast<std::uint32_t>(in.golomb(kIdOrder, kMaxSlots - 1));
+  record.generation = static_cast<std::uint8_t>(in.bits(2));
+  return record;
+}
+
+OriginRecord readOrigin(BitReader& in) {
+  OriginRecord record;
+  record.slot = static_cast<std::uint32_t>(in.bits(2));
+  if (record.slot == 0) in.fail();
+  record.origin.corner.x = static_cast<std::int32_t>(in.signedBits(32));
+  record.origin.corner.y = static_cast<std::int32_t>(in.signedBits(32));
+  record.origin.x_bits = static_cast<std::int32_t>(in.bits(4));
+  record.origin.y_bits = static_cast<std::int32_t>(in.bits(4));
+  record.origin.order = in.bits(48);
+  return record;
+}
+
+TextRecord readText(BitReader& in) {
+  TextRecord record;
+  record.id = static_cast<std::uint32_t>(in.bits(4));
+  record.x = static_cast<std::int32_t>(in.signedGolomb(kTextXOrder, kMaxViewWidth));
+  record.y = static_cast<std::int32_t>(in.signedGolomb(kTextYOrder, kMaxViewHeight));
+  record.color = readColor(in);
+  const std::uint64_t length = in.golomb(kTextLengthOrder, kMaxTextCharacters);
+  for (std::uint64_t i = 0; i < length && in.ok(); ++i) df::appendUtf8(record.text, readCharacter(in));
+  return record;
+}
+
+/// Reads the objects of one snapshot; appearances defined in it may be named in it.
+class ObjectReader {
+ public:
+  ObjectReader(BitReader& in, const SnapshotHeader& header, const Origin& origin,
+               const Vocabulary& vocabulary, Records& records)
+      : m_in(in), m_header(header), m_origin(origin), m_vocabulary(vocabulary), m_records(records) {}
+
+  void read() {
+    const std::uint64_t count = m_in.golomb(kObjectCountOrder, m_in.bitsLeft());
+    const int order = count > 0 ? static_cast<int>(m_in.bits(kIdOrderBits)) : 0;
+    std::uint64_t next = 0;
+    for (std::uint64_t i = 0; i < count && m_in.ok(); ++i) {
+      const std::uint64_t id = next + m_in.golomb(order, kMaxSlots);
+      if (id >= kMaxSlots) return m_in.fail();
+      next = id + 1;
+      ObjectRecord& record = m_records.objects.emplace_back();
+      record.id = static_cast<std::uint32_t>(id);
+      readParts(record);
+    }
+    if (m_in.ok()) resolve();
+  }
+  bool isStale() const { return m_stale; }
+
+ private:
+  void readParts(ObjectRecord& record) {
+    record.groups = readGroups();
+    if ((record.groups & kLife) != 0) {
+      record.generation = static_cast<std::uint8_t>(m_in.bits(2));
+      const std::int64_t order =
+          static_cast<std::int64_t>(m_origin.order) + m_in.signedGolomb(kOrderOrder, kMostOrder);
+      if (order < 0 || order >= kMostOrder) m_in.fail();
+      record.state.order = static_cast<std::uint64_t>(order);
+    }
+    if ((record.groups & kMotion) != 0) record.state.motion = readMotion(m_in, m_header.tick, m_origin);
+    if ((record.groups & kLook) != 0) record.state.look = readNamedLook();
+    if ((record.groups & kBody) != 0) record.state.body = readBody(m_in);
+  }
+
+  std::uint8_t readGroups() {
+    switch (m_in.bits(2)) {
+      case kJustMotion:
+        return kMotion;
+      case kJustLook:
+        return kLook;
+      case kBirth:
+        return kAllGroups;
+      default:
+        break;
+    }
+    if (!m_in.flag()) return kDeath;
+    const auto groups = static_cast<std::uint8_t>(m_in.bits(3) << 1);
+    if (groups == 0) m_in.fail();
+    return groups;
+  }
+
+  Look readNamedLook() {
+    return readLook(
+        m_in,
+        [this](std::uint32_t id, const Appearance& a) {
+          m_records.appearances.push_back({id, a});
+        },
+        [this](std::uint32_t id) {
+          m_named.push_back({m_records.objects.size() - 1, id});
+          return nullptr;
+        });
+  }
+
+  // A name may be explained behind its use, since objects come by id.
+  void resolve() {
+    for (const auto& [object, id] : m_named) {
+      const Appearance* appearance = find(id);
+      if (appearance != nullptr) m_records.objects[object].state.look.sequence.push_back(*appearance);
+    }
+  }
+
+  const Appearance* find(std::uint32_t id) {
+    for (const AppearanceRecord& defined : m_records.appearances) {
+      if (defined.id == id) return &defined.appearance;
+    }
+    const Appearance* appearance = nullptr;
+    const Vocabulary::Find found = m_vocabulary.find(m_header.number, id, appearance);
+    if (found == Vocabulary::Find::kStale) m_stale = true;
+    if (found == Vocabulary::Find::kUnknown) m_in.fail();
+    return found == Vocabulary::Find::kFound ? appearance : nullptr;
+  }
+
+  BitReader& m_in;
+  const SnapshotHeader& m_header;
+  const Origin& m_origin;
+  const Vocabulary& m_vocabulary;
+  Records& m_records;
+  std::vector<std::pair<std::size_t, std::uint32_t>> m_named;  ///< objects, and the ids of their appearances
+  bool m_stale = false;
+};
+
+SnapshotHeader readHeader(BitReader& in, const SnapshotContext& context) {
+  SnapshotHeader header;
+  header.number = restored(in.bits(kLowBits), context.number);
+  header.tick = restored(in.bits(kLowBits), context.tick);
+  header.epoch = static_cast<std::uint8_t>(in.bits(2));
+  header.complete = in.flag();
+  header.tells_input = in.flag();
+  if (header.tells_input) {
+    header.input = restored(in.bits(kLowBits), context.input);
+    header.input_tick = header.tick - static_cast<std::uint32_t>(in.bits(kAgeBits));
+  }
+  if (header.number == 0) in.fail();
+  return header;
+}
+
+void readExtras(BitReader& in, Records& records) {
+  const bool world = in.flag();
+  const bool view = in.flag();
+  const std::uint64_t origins = in.bits(2);
+  const std::uint64_t texts = in.bits(5);
+  if (texts > kMaxTexts) in.fail();
+  if (world) records.worlds.push_back(readWorld(in));
+  if (view) records.views.push_back(readView(in));
+  for (std::uint64_t i = 0; i < origins && in.ok(); ++i) records.origins.push_back(readOrigin(in));
+  for (std::uint64_t i = 0; i < texts && in.ok(); ++i) records.texts.push_back(readText(in));
+}
+
+}  // namespace
+
+ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context, const Vocabulary& vocabulary,
+                        Snapshot& out) {
+  out = {};
+  BitReader in(bytes);
+  out.header = readHeader(in, context);
+  Origin origin;
+  const auto known = vocabulary.find(out.header.number, static_cast<std::uint32_t>(in.bits(2)), origin);
+  if (known == Vocabulary::Find::kUnknown || !in.ok()) return ReadResult::kMalformed;
+  if (known == Vocabulary::Find::kStale) return ReadResult::kStale;
+  if (in.flag()) readExtras(in, out.records);
+  ObjectReader objects(in, out.header, origin, vocabulary, out.records);
+  objects.read();
+  if (!in.atEnd()) return ReadResult::kMalformed;
+  return objects.isStale() ? ReadResult::kStale : ReadResult::kOk;
+}
+
+std::optional<std::uint8_t> peekEpoch(std::string_view bytes) {
+  BitReader in(bytes);
+  in.bits(2 * kLowBits);
+  const auto epoch = static_cast<std::uint8_t>(in.bits(2));
+  if (!in.ok()) return std::nullopt;
+  return epoch;
+}
+
+void SnapshotWriter::begin(const SnapshotHeader& header, std::uint32_t slot, const Origin& origin) {
+  m_header = header;
+  m_origin_slot = slot;
+  m_origin = origin;
+  for (BitWriter* part : {&m_world, &m_view, &m_origins, &m_texts}) part->clear();
+  m_origin_count = m_text_count = 0;
+  m_objects.clear();
+  m_bits = kHeaderBits;
+}
+
+void SnapshotWriter::write(const WorldRecord& record) {
+  assert(m_world.bitCount() == 0);
+  writeBox(m_world, record.boundary);
+  m_world.bits(static_cast<std::uint64_t>(record.view_width), 9);
+  m_world.bits(static_cast<std::uint64_t>(record.view_height), 9);
+  m_bits += m_world.bitCount();
+}
+
+void SnapshotWriter::write(const ViewRecord& record) {
+  assert(m_view.bitCount() == 0);
+  writeVector(m_view, record.corner);
+  m_view.flag(record.follows);
+  if (record.follows) {
+    m_view.golomb(record.id, kIdOrder);
+    m_view.bits(record.generation, 2);
+  }
+  m_bits += m_view.bitCount();
+}
+
+void SnapshotWriter::write(const OriginRecord& record) {
+  const std::size_t before = m_origins.bitCount();
+  ++m_origin_count;
+  m_origins.bits(record.slot, 2);
+  m_origins.signedBits(record.origin.corner.x, 32);
+  m_origins.signedBits(record.origin.corner.y, 32);
+  m_origins.bits(static_cast<std::uint64_t>(record.origin.x_bits), 4);
+  m_origins.bits(static_cast<std::uint64_t>(record.origin.y_bits), 4);
+  m_origins.bits(record.origin.order, 48);
+  m_bits += m_origins.bitCount() - before;
+}
+
+void SnapshotWriter::write(const TextRecord& record) {
+  const std::size_t before = m_texts.bitCount();
+  ++m_text_count;
+  m_texts.bits(record.id, 4);
+  m_texts.signedGolomb(record.x, kTextXOrder);
+  m_texts.signedGolomb(record.y, kTextYOrder);
+  writeColor(m_texts, record.color);
+  const std::u32string characters = df::decodeUtf8(record.text).substr(0, kMaxTextCharacters);
+  m_texts.golomb(characters.size(), kTextLengthOrder);
+  for (const char32_t ch : characters) writeCharacter(m_texts, ch);
+  m_bits += m_texts.bitCount() - before;
+}
+
+void SnapshotWriter::encode(BitWriter& out, std::uint8_t groups, std::uint8_t generation,
+                            const ObjectState& state, const Motion& motion, LookForm form) const {
+  assert((groups & kLife) == 0 || groups == kAllGroups);
+  switch (groups) {
+    case kMotion:
+      out.bits(kJustMotion, 2);
+      break;
+    case kLook:
+      out.bits(kJustLook, 2);
+      break;
+    case kAllGroups:
+      out.bits(kBirth, 2);
+      break;
+    default:
+      out.bits(kElse, 2);
+      out.flag(groups != kDeath);
+      if (groups != kDeath) out.bits(groups >> 1, 3);
+  }
+  if ((groups & kLife) != 0) {
+    out.bits(generation, 2);
+    out.signedGolomb(static_cast<std::int64_t>(state.order) - static_cast<std::int64_t>(m_origin.order),
+                     kOrderOrder);
+  }
+  assert((groups & kMotion) == 0 || motion.tick == m_header.tick);
+  if ((groups & kMotion) != 0) writeMotion(out, motion, m_origin);
+  if ((groups & kLook) != 0) writeLook(out, state.look, form);
+  if ((groups & kBody) != 0) writeBody(out, state.body);
+}
+
+void SnapshotWriter::object(std::uint32_t id, BitWriter bits) {
+  m_bits += bits.bitCount();
+  m_objects.push_back({id, std::move(bits)});
+}
+
+// n ids up to M in exp-Golomb codes of order k, which is about log2(M/n): k + 1 bits each, and two more for
+// each doubling of a gap beyond 2^k; the gaps add up to M, so there are fewer than 2n such doublings.
+bool SnapshotWriter::hasRoom(std::size_t more, std::uint32_t last_id, std::size_t bytes) const {
+  const std::size_t count = m_objects.size() + 1;
+  const auto order = static_cast<std::size_t>(std::bit_width(last_id / count));
+  return m_bits + more + count * (order + 5) <= 8 * bytes;
+}
+
+std::string SnapshotWriter::finish() {
+  BitWriter out;
+  out.bits(m_header.number & 0xFFFF, kLowBits);
+  out.bits(m_header.tick & 0xFFFF, kLowBits);
+  out.bits(m_header.epoch, 2);
+  out.flag(m_header.complete);
+  out.flag(m_header.tells_input);
+  if (m_header.tells_input) {
+    constexpr std::uint32_t kMaxAge = (1u << kAgeBits) - 1;
+    out.bits(m_header.input & 0xFFFF, kLowBits);
+    out.bits(std::min(m_header.tick - m_header.input_tick, kMaxAge), kAgeBits);
+  }
+  out.bits(m_origin_slot, 2);
+  const bool extras = m_world.bitCount() + m_view.bitCount() + m_origins.bitCount() + m_texts.bitCount() > 0;
+  out.flag(extras);
+  if (extras) {
+    out.flag(m_world.bitCount() > 0);
+    out.flag(m_view.bitCount() > 0);
+    out.bits(m_origin_count, 2);
+    out.bits(m_text_count, 5);
+    for (const BitWriter* part : {&m_world, &m_view, &m_origins, &m_texts}) out.append(*part);
+  }
+  std::sort(m_objects.begin(), m_objects.end(), [](const Object& a, const Object& b) { return a.id < b.id; });
+  out.golomb(m_objects.size(), kObjectCountOrder);
+  const int order = m_objects.empty() ? 0 : idOrder(m_objects.back().id, m_objects.size());
+  if (!m_objects.empty()) out.bits(static_cast<std::uint64_t>(order), kIdOrderBits);
+  std::uint32_t next = 0;
+  for (const Object& object : m_objects) {
+    out.golomb(object.id - next, order);
+    out.append(object.bits);
+    next = object.id + 1;
+  }
+  return out.bytes();
+}
+
+}  // namespace naiad

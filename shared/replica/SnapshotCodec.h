@@ -1,0 +1,96 @@
+// Snapshots <-> bytes. The writing side asserts, the reading side checks everything.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "LookCodec.h"
+#include "Records.h"
+#include "Vocabulary.h"
+
+namespace naiad {
+
+/// What a snapshot says of itself. On the wire numbers, ticks and inputs have their 16 low bits only; the
+/// reader restores them near those it knows, so it must not fall behind by 2^15.
+struct SnapshotHeader {
+  std::uint32_t number = 0;      ///< never 0
+  std::uint32_t tick = 0;        ///< the records hold at its end
+  std::uint8_t epoch = 0;        ///< 0 … 3; another one than before: forget the world, it comes anew
+  bool complete = true;          ///< the sender owes nothing that this snapshot does not carry
+  bool tells_input = false;      ///< the next two are set
+  std::uint32_t input = 0;       ///< newest input that reached the game
+  std::uint32_t input_tick = 0;  ///< the tick that it was applied in, at most 63 before `tick`, else that
+};
+
+/// What restores the numbers: the newest ones known.
+struct SnapshotContext {
+  std::uint32_t number = 0;
+  std::uint32_t tick = 0;
+  std::uint32_t input = 0;
+};
+
+struct Snapshot {
+  SnapshotHeader header;
+  Records records;
+};
+
+enum class ReadResult {
+  kOk,
+  kStale,      ///< names what a newer snapshot has replaced: drop it, do not acknowledge it
+  kMalformed,  ///< bytes that no honest server sends; `out` is unspecified
+};
+
+/// Read a snapshot. `vocabulary` must be that of the epoch of the snapshot; it is not changed.
+ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context, const Vocabulary& vocabulary,
+                        Snapshot& out);
+/// The epoch of a snapshot, before it is read; nothing if the bytes are too few.
+std::optional<std::uint8_t> peekEpoch(std::string_view bytes);
+
+/// Puts a snapshot together, in any order.
+class SnapshotWriter {
+ public:
+  /// Positions and orders are counted from `origin`, which the client knows under `slot` (0: Origin{}).
+  void begin(const SnapshotHeader& header, std::uint32_t slot, const Origin& origin);
+  void write(const WorldRecord& record);
+  void write(const ViewRecord& record);
+  void write(const OriginRecord& record);
+  void write(const TextRecord& record);
+
+  /// The bits of an object's record but for its id. `motion` must hold at the header's tick; that of `state`
+  /// is not looked at.
+  void encode(BitWriter& out, std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
+              const Motion& motion, LookForm form = {}) const;
+  /// Add an encoded record. Each id at most once.
+  void object(std::uint32_t id, BitWriter bits);
+  /// Would the snapshot stay within `bytes` with `more` bits for one more object, whatever its id up to
+  /// `last_id`?
+  bool hasRoom(std::size_t more, std::uint32_t last_id, std::size_t bytes) const;
+  bool isEmpty() const { return m_objects.empty() && m_bits == kHeaderBits; }
+  /// The last word on SnapshotHeader::complete.
+  void setComplete(bool complete) { m_header.complete = complete; }
+  std::string finish();
+
+ private:
+  /// Header, counts and the bits that fill the last byte, at most.
+  static constexpr std::size_t kHeaderBits = 112;
+  struct Object {
+    std::uint32_t id;
+    BitWriter bits;
+  };
+  SnapshotHeader m_header;
+  std::uint32_t m_origin_slot = 0;
+  Origin m_origin;
+  BitWriter m_world;
+  BitWriter m_view;
+  BitWriter m_origins;
+  BitWriter m_texts;
+  unsigned m_origin_count = 0;
+  unsigned m_text_count = 0;
+  std::vector<Object> m_objects;
+  std::size_t m_bits = 0;  ///< without ids
+};
+
+}  // namespace naiad

@@ -1,0 +1,41 @@
+#include "Vocabulary.h"
+
+#include "Acks.h"
+
+namespace naiad {
+
+template <class Value>
+Vocabulary::Find Vocabulary::judge(const Named<Value>& named, std::uint32_t number) {
+  if (named.number == 0) return Find::kUnknown;
+  return isNewer(number, named.number) ? Find::kFound : Find::kStale;
+}
+
+Vocabulary::Find Vocabulary::find(std::uint32_t number, std::uint32_t slot, Origin& out) const {
+  if (slot > kOriginSlots) return Find::kUnknown;
+  out = m_origins[slot].value;
+  return slot == 0 ? Find::kFound : judge(m_origins[slot], number);
+}
+
+Vocabulary::Find Vocabulary::find(std::uint32_t number, std::uint32_t id, const Appearance*& out) const {
+  const auto found = m_appearances.find(id);
+  if (found == m_appearances.end()) return Find::kUnknown;
+  out = &found->second.value;
+  return judge(found->second, number);
+}
+
+void Vocabulary::define(std::uint32_t number, const OriginRecord& record) {
+  Named<Origin>& origin = m_origins.at(record.slot);
+  if (origin.number == 0 || isNewer(number, origin.number)) origin = {number, record.origin};
+}
+
+bool Vocabulary::define(std::uint32_t number, const AppearanceRecord& record) {
+  Named<Appearance>& named = m_appearances[record.id];
+  if (named.number != 0 && !isNewer(number, named.number)) return true;
+  const std::size_t glyphs = m_glyphs - named.value.size() + record.appearance.size();
+  if (glyphs > kMaxVocabularyGlyphs) return false;
+  m_glyphs = glyphs;
+  named = {number, record.appearance};
+  return true;
+}
+
+}  // namespace naiad
