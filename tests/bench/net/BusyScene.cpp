@@ -1,0 +1,143 @@
+#include "BusyScene.h"
+
+#include <string>
+
+#include "DisplayManager.h"
+#include "EventPlayer.h"
+#include "EventStep.h"
+#include "Object.h"
+#include "Player.h"
+#include "WorldManager.h"
+
+namespace bench {
+
+namespace {
+
+constexpr int kFine = 1'000'000;
+
+/// Uniform in -most … most.
+double within(double most) {
+  return most * (2.0 * WM.randomInt(kFine) / kFine - 1.0);
+}
+
+class Walker : public df::Object {
+ public:
+  explicit Walker(BusyScene::Kind kind) : m_kind(kind) {
+    setType("Walker");
+    setSolidness(df::SPECTRAL);
+    const double margin = kind == BusyScene::Kind::kStraight ? 100.0 / kBusyWidth : 0.0;
+    setPosition(df::Vector(kBusyWidth * (margin + (1 - 2 * margin) * WM.randomInt(kFine) / kFine),
+                           kBusyHeight * (margin + (1 - 2 * margin) * WM.randomInt(kFine) / kFine)));
+    m_gait = WM.randomInt(10);
+    turn();
+    restyle();
+    m_color = static_cast<df::Color>(1 + WM.randomInt(df::kColorCount - 1));
+    if (kind == BusyScene::Kind::kBusy) registerInterest(df::STEP_EVENT);
+  }
+
+  int eventHandler(const df::Event* p_e) override {
+    if (p_e->getType() != df::STEP_EVENT) return 0;
+    if (WM.randomInt(1000) < 2) {
+      WM.markForDelete(this);
+      new Walker(m_kind);
+      return 1;
+    }
+    if (WM.randomInt(100) < 1) turn();
+    if (WM.randomInt(100) < 2) restyle();
+    bounce();
+    return 1;
+  }
+
+  int draw() override { return DM.drawCh(getPosition(), m_ch, m_color); }
+
+ private:
+  void turn() {
+    // One who runs stands still in a straight scene: it would be off the map in no time.
+    const double slow = m_kind == BusyScene::Kind::kStraight ? 0.1 : 1.0;
+    if (m_kind == BusyScene::Kind::kStill || m_gait == 0) return;
+    if (m_gait == 1 && m_kind == BusyScene::Kind::kBusy) {
+      setVelocity(df::Vector(WM.randomInt(2) == 0 ? 1 : -1, 0));
+    } else {
+      const double x = slow * within(0.5);
+      setVelocity(df::Vector(x, slow * within(0.25)));
+    }
+  }
+  void restyle() { m_ch = static_cast<char>('A' + WM.randomInt(26)); }
+  void bounce() {
+    df::Vector v = getVelocity();
+    const df::Vector next = getPosition() + v;
+    const bool across = next.getX() < 0 || next.getX() > kBusyWidth - 1;
+    const bool down = next.getY() < 0 || next.getY() > kBusyHeight - 1;
+    if (!across && !down) return;
+    setVelocity(df::Vector(across ? -v.getX() : v.getX(), down ? -v.getY() : v.getY()));
+  }
+
+  BusyScene::Kind m_kind;
+  int m_gait = 0;
+  char m_ch = '?';
+  df::Color m_color = df::WHITE;
+};
+
+/// What a player's view looks at.
+class Eye : public df::Object {
+ public:
+  Eye(int x, int y) {
+    setType("Eye");
+    setSolidness(df::SPECTRAL);
+    setVisible(false);
+    setPosition(df::Vector(x, y));
+  }
+};
+
+/// Gives each player a part of the world to look at.
+class Usher : public df::Object {
+ public:
+  Usher() {
+    setType("Usher");
+    setSolidness(df::SPECTRAL);
+    setVisible(false);
+    registerInterest(df::JOIN_EVENT);
+  }
+  int eventHandler(const df::Event* p_e) override {
+    const auto* p_join = dynamic_cast<const df::EventJoin*>(p_e);
+    if (p_join == nullptr) return 0;
+    const int width = static_cast<int>(WM.getView().getHorizontal());
+    const int height = static_cast<int>(WM.getView().getVertical());
+    const int columns = std::max(1, kBusyWidth / width);
+    const int rows = std::max(1, kBusyHeight / height);
+    const int part = m_count++ % (columns * rows);
+    WM.getPlayer(p_join->getPlayer())
+        ->setObject(new Eye(width / 2 + width * (part % columns), height / 2 + height * (part / columns)));
+    return 1;
+  }
+
+ private:
+  int m_count = 0;
+};
+
+}  // namespace
+
+BusyScene::BusyScene(Kind kind, int objects, int width, int height, int players, std::uint64_t seed) {
+  const df::World::Scope scope(m_world);
+  m_world.setSeed(seed);
+  m_world.setWatched(true);
+  WM.setBoundary(df::Box(df::Vector(0, 0), kBusyWidth, kBusyHeight));
+  m_world.setWindow(width, height);
+  new Usher;
+  for (int i = 0; i < objects; ++i) new Walker(kind);
+  for (int i = 0; i < players; ++i) {
+    m_players.push_back(m_world.join("bot" + std::to_string(i), df::WHITE));
+  }
+}
+
+BusyScene::~BusyScene() {
+  const df::World::Scope scope(m_world);
+  m_world.shutDown();
+}
+
+void BusyScene::tick() {
+  const df::World::Scope scope(m_world);
+  m_world.tick();
+}
+
+}  // namespace bench
