@@ -24,7 +24,7 @@ void DatagramGate::remove(ConnectionId id) {
 
 void DatagramGate::receive(const Path& path, std::string_view packet, Time now) {
   SealedHeader header;
-  switch (readSealedHeader(Direction::kClientToServer, packet, header)) {
+  switch (readSealedHeader(SealDirection::kClientToServer, packet, header)) {
     case HeaderFault::kTooShort:
       ++counters_.too_short;
       return;
@@ -65,7 +65,7 @@ bool DatagramGate::allowed(Door& door, const Path& path, Time now) {
     ++counters_.session_flood;
   } else if (!door.claimed.take(rates_.claimed, now)) {
     ++counters_.claimed_flood;
-  } else if (!prefixes_.take(prefixOf(path.remote), now)) {
+  } else if (!prefixes_.take(prefixKeyOf(path.remote), now)) {
     ++counters_.prefix_flood;
   } else if (!strangers_.take(rates_.strangers, now)) {
     ++counters_.stranger_flood;

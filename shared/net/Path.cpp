@@ -55,7 +55,7 @@ std::string toString(const Endpoint& endpoint) {
   return "[" + six.to_string() + "]" + port;
 }
 
-AddressPrefix prefixOf(const Endpoint& endpoint) {
+PrefixKey prefixKeyOf(const Endpoint& endpoint) {
   // The lower half of a mapped address is no network that anybody has (0::/8 is reserved).
   return {half(endpoint, endpoint.isIPv4() ? 1 : 0)};
 }

@@ -32,11 +32,11 @@ std::optional<Endpoint> makeEndpoint(std::string_view address, std::uint16_t por
 std::string toString(const Endpoint& endpoint);
 
 /// What a host can be expected to own as a whole: an IPv4 address, or an IPv6 network of 64 bits.
-struct AddressPrefix {
+struct PrefixKey {
   std::uint64_t bits = 0;
-  friend auto operator<=>(const AddressPrefix&, const AddressPrefix&) = default;
+  friend auto operator<=>(const PrefixKey&, const PrefixKey&) = default;
 };
-AddressPrefix prefixOf(const Endpoint& endpoint);
+PrefixKey prefixKeyOf(const Endpoint& endpoint);
 
 /// Both ends of a datagram, as this side sees them. A reply goes along the path its cause came by, so it
 /// leaves from the address that was addressed.

@@ -9,7 +9,7 @@ namespace naiad {
 PrefixBuckets::PrefixBuckets(BucketRate rate, std::uint64_t seed)
     : rate_(rate), seed_(seed), sets_(std::make_unique<std::array<Set, kEntries / kWays>>()) {}
 
-bool PrefixBuckets::take(const AddressPrefix& prefix, Time now) {
+bool PrefixBuckets::take(const PrefixKey& prefix, Time now) {
   const std::uint64_t hash = SplitMix64(SplitMix64(prefix.bits ^ seed_).next() + seed_).next();
   Set& set = (*sets_)[hash % sets_->size()];
   const auto found = std::find_if(set.begin(), set.end(),

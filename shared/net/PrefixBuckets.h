@@ -24,11 +24,11 @@ class PrefixBuckets {
   /// `seed` should be unpredictable, so that nobody can choose whose place to take.
   PrefixBuckets(BucketRate rate, std::uint64_t seed);
 
-  bool take(const AddressPrefix& prefix, Time now);
+  bool take(const PrefixKey& prefix, Time now);
 
  private:
   struct Entry {
-    AddressPrefix prefix;
+    PrefixKey prefix;
     bool used = false;
     TokenBucket bucket;
   };

@@ -72,8 +72,8 @@ enum class OpenResult : std::uint8_t {
   kExhausted,  ///< too many forgeries: this key opens nothing any more
 };
 
-/// Opens what the Sealer with the same key sealed, each packet once. When 2¹⁵ packets in a row are lost, 16 bits
-/// of sequence number are too few to go on, and it takes a new epoch. Not thread-safe.
+/// Opens what the Sealer with the same key sealed, each packet once. When 2¹⁵ packets in a row are lost, 16
+/// bits of sequence number are too few to go on, and it takes a new epoch. Not thread-safe.
 class Opener {
  public:
   /// Throws std::bad_alloc.

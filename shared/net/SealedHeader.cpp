@@ -6,28 +6,28 @@ namespace naiad {
 namespace {
 
 // All other values are reserved.
-constexpr unsigned kindOf(Direction direction) {
-  return direction == Direction::kClientToServer ? 1 : 2;
+constexpr unsigned kindOf(SealDirection direction) {
+  return direction == SealDirection::kClientToServer ? 1 : 2;
 }
 
 }  // namespace
 
-HeaderFault readSealedHeader(Direction direction, std::string_view packet, SealedHeader& header) {
+HeaderFault readSealedHeader(SealDirection direction, std::string_view packet, SealedHeader& header) {
   if (packet.size() < smallestSealedPacket(direction)) return HeaderFault::kTooShort;
   if (packet.size() > kMaxDatagram) return HeaderFault::kTooLong;
   const auto first = static_cast<unsigned char>(packet[0]);
   if (first >> kEpochBits != kindOf(direction)) return HeaderFault::kKind;
   header.epoch_bits = first & kEpochMask;
-  if (direction == Direction::kClientToServer) {
+  if (direction == SealDirection::kClientToServer) {
     header.id.value = loadLittleEndian<std::uint64_t>(packet.data() + 1);
   }
   header.sequence = loadLittleEndian<std::uint16_t>(packet.data() + sealedHeaderSize(direction) - 2);
   return HeaderFault::kNone;
 }
 
-std::size_t writeSealedPrefix(Direction direction, Epoch epoch, ConnectionId id, char* out) {
+std::size_t writeSealedPrefix(SealDirection direction, Epoch epoch, ConnectionId id, char* out) {
   out[0] = static_cast<char>(kindOf(direction) << kEpochBits | (epoch & kEpochMask));
-  if (direction == Direction::kClientToServer) storeLittleEndian(id.value, out + 1);
+  if (direction == SealDirection::kClientToServer) storeLittleEndian(id.value, out + 1);
   return sealedHeaderSize(direction) - 2;
 }
 

@@ -34,13 +34,13 @@ inline constexpr unsigned kEpochBits = 4;
 inline constexpr Epoch kEpochMask = (1u << kEpochBits) - 1;
 
 /// The sender of a packet.
-enum class Direction : std::uint8_t { kClientToServer, kServerToClient };
+enum class SealDirection : std::uint8_t { kClientToServer, kServerToClient };
 
 /// Header bytes, and the shortest packet that can be one: header, one byte of flags, tag.
-constexpr std::size_t sealedHeaderSize(Direction direction) {
-  return direction == Direction::kClientToServer ? 11 : 3;
+constexpr std::size_t sealedHeaderSize(SealDirection direction) {
+  return direction == SealDirection::kClientToServer ? 11 : 3;
 }
-constexpr std::size_t smallestSealedPacket(Direction direction) {
+constexpr std::size_t smallestSealedPacket(SealDirection direction) {
   return sealedHeaderSize(direction) + 1 + kSealTagSize;
 }
 
@@ -54,11 +54,11 @@ struct SealedHeader {
 enum class HeaderFault : std::uint8_t { kNone, kTooShort, kTooLong, kKind };
 
 /// Read the header of a packet that travels in `direction`.
-HeaderFault readSealedHeader(Direction direction, std::string_view packet, SealedHeader& header);
+HeaderFault readSealedHeader(SealDirection direction, std::string_view packet, SealedHeader& header);
 
 /// Write all of a header but its two bytes of sequence number, which the Sealer adds. Returns the bytes
 /// written.
-std::size_t writeSealedPrefix(Direction direction, Epoch epoch, ConnectionId id, char* out);
+std::size_t writeSealedPrefix(SealDirection direction, Epoch epoch, ConnectionId id, char* out);
 
 }  // namespace naiad
 

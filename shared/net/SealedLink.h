@@ -122,8 +122,12 @@ class SealedLink {
   };
 
   bool isServer() const { return options_.role == Role::kServer; }
-  Direction sends() const { return isServer() ? Direction::kServerToClient : Direction::kClientToServer; }
-  Direction receives() const { return isServer() ? Direction::kClientToServer : Direction::kServerToClient; }
+  SealDirection sends() const {
+    return isServer() ? SealDirection::kServerToClient : SealDirection::kClientToServer;
+  }
+  SealDirection receives() const {
+    return isServer() ? SealDirection::kClientToServer : SealDirection::kServerToClient;
+  }
   void expire(Time now);
   Keys* sendingKeys();
   const Keys* sendingKeys() const { return const_cast<SealedLink*>(this)->sendingKeys(); }

@@ -52,7 +52,7 @@ struct Guest {
 std::string forgedFor(ConnectionId id, SplitMix64& rng) {
   std::string packet(40, '\0');
   for (char& byte : packet) byte = static_cast<char>(rng.next());
-  writeSealedPrefix(Direction::kClientToServer, 0, id, packet.data());
+  writeSealedPrefix(SealDirection::kClientToServer, 0, id, packet.data());
   packet[9] = static_cast<char>(rng.next());
   packet[10] = 0x20;  // a number that the window lets through
   return packet;

@@ -19,7 +19,7 @@ using namespace std::string_literals;
 constexpr ConnectionId kId{0x0123456789abcdef};
 constexpr std::size_t kHeader = 11;
 
-std::string sealWith(Sealer& sealer, std::string_view payload, Direction direction) {
+std::string sealWith(Sealer& sealer, std::string_view payload, SealDirection direction) {
   std::string packet(kMaxDatagram, '\0');
   const std::size_t prefix = writeSealedPrefix(direction, 0x13, kId, packet.data());
   packet.replace(prefix + 2, payload.size(), payload);
@@ -28,7 +28,7 @@ std::string sealWith(Sealer& sealer, std::string_view payload, Direction directi
 }
 
 std::string sealWith(Sealer& sealer, std::string_view payload) {
-  return sealWith(sealer, payload, Direction::kClientToServer);
+  return sealWith(sealer, payload, SealDirection::kClientToServer);
 }
 
 OpenResult openWith(Opener& opener, std::string_view packet, std::string* payload = nullptr,
@@ -65,28 +65,28 @@ std::string openPlainly(const SealKey& key, std::uint64_t sequence, std::string_
 
 struct KnownAnswer {
   AeadId aead;
-  Direction direction;
+  SealDirection direction;
   std::vector<std::string> packets;  // numbers 0, 1, 258: "hello", "", "\0world"
 };
 
 // Made with Python's "cryptography", by a program that knows only the page.
 const KnownAnswer kKnownAnswers[] = {
     {AeadId::kAes128Gcm,
-     Direction::kClientToServer,
+     SealDirection::kClientToServer,
      {"13efcdab896745230100003c0af571139d3f280e5787d0a1f0b5fdbc574d7024",
       "13efcdab8967452301010020111a56589638576372bb7d4b6ab35e",
       "13efcdab896745230102011b353f13b4e6bbdf74986dba8da8e465850ea82d43d7"}},
     {AeadId::kAes128Gcm,
-     Direction::kServerToClient,
+     SealDirection::kServerToClient,
      {"230000febff431915b339414b4aaa3c3ddfe61070ea44721", "23010020bfd9d0624fe4f2dcb4e597f73c22b2",
       "23020126bcbfeaf98eaa4cd266f7d05e1b7defae17294261db"}},
     {AeadId::kChaCha20Poly1305,
-     Direction::kClientToServer,
+     SealDirection::kClientToServer,
      {"13efcdab89674523010000cf2192ca48c226432ee00ffd6517633c71a1f2c4d3",
       "13efcdab89674523010100e992cb1b63085195626c333673ba1a75",
       "13efcdab89674523010201b1089270843b2d284956d1500b8bf063cd90c5fffeb9"}},
     {AeadId::kChaCha20Poly1305,
-     Direction::kServerToClient,
+     SealDirection::kServerToClient,
      {"230000452991e49c7e3b28ecd3957737dd42f3bccd2db269", "23010014f577a3d74e60103b78feb1cc595e49",
       "2302014e364856f37144921cf123634331aa1054e34cdb7065"}},
 };
@@ -94,7 +94,7 @@ const KnownAnswer kKnownAnswers[] = {
 TEST(Seal, KnownAnswers) {
   for (const KnownAnswer& known : kKnownAnswers) {
     const DatagramKeys keys = knownKeys(known.aead, kId, 0x13);
-    Sealer sealer(known.direction == Direction::kClientToServer ? keys.client : keys.server);
+    Sealer sealer(known.direction == SealDirection::kClientToServer ? keys.client : keys.server);
     std::vector<std::string> packets;
     for (int number = 0; number <= 258; ++number) {
       const std::string payload = number == 0 ? "hello"s : number == 258 ? "\0world"s : ""s;
@@ -275,7 +275,7 @@ TEST(Seal, PacketsCostNoAllocation) {
     Opener opener(keys.client);
     char packet[kMaxDatagram] = {}, payload[kMaxDatagram];
     const auto one = [&](bool forge) {
-      const std::size_t prefix = writeSealedPrefix(Direction::kClientToServer, 0, kId, packet);
+      const std::size_t prefix = writeSealedPrefix(SealDirection::kClientToServer, 0, kId, packet);
       const std::size_t size = sealer.seal(packet, prefix, 100);
       packet[50] = static_cast<char>(packet[50] ^ (forge ? 1 : 0));
       std::uint64_t sequence = 0;
