@@ -121,6 +121,20 @@ TEST(SealedLinkPath, AnswerToAnotherAddressProvesNothing) {
   EXPECT_EQ(pair.server.counters().wrong_answers, 1u);
 }
 
+TEST(SealedLinkPath, OnlyTheAnswerToItsOwnChallengeProvesAnAddress) {
+  LinkPair pair;
+  const Path victim = pathFrom("203.0.113.1");
+  pair.toServer(pair.fromClient(std::string(200, 'x')));
+  const std::string move = pair.fromClient(std::string(200, 'x'));
+  pair.toClient(pair.fromServer("challenge for home"));
+  const std::string answer = pair.fromClient("");
+  pair.toServer(move, victim);
+  pair.fromServer("challenge that the victim gets");
+  EXPECT_EQ(pair.toServer(answer, victim), "");
+  EXPECT_FALSE(pair.server.isValidated(victim));
+  EXPECT_EQ(pair.server.counters().wrong_answers, 1u);
+}
+
 TEST(SealedLinkPath, ComingBackToTheProvenAddressCostsNothing) {
   LinkPair pair;
   pair.settle(pair.home);
