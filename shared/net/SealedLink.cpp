@@ -27,14 +27,15 @@ SealedLink::SealedLink(Options options) : options_(std::move(options)) {
 
 // Epochs.
 
-void SealedLink::startEpoch(Epoch epoch, const DatagramKeys& keys, Time now) {
-  assert(!newest_ || (epoch > newest_->epoch && epoch - newest_->epoch <= kEpochMask));
+bool SealedLink::startEpoch(Epoch epoch, const DatagramKeys& keys, Time now) {
+  if (newest_ && (epoch <= newest_->epoch || epoch - newest_->epoch > kEpochMask)) return false;
   const SealKey& own = isServer() ? keys.server : keys.client;
   const SealKey& other = isServer() ? keys.client : keys.server;
   previous_ = std::move(newest_);
   previous_until_ = now + kPreviousEpoch;
   newest_.emplace(Keys{epoch, Sealer(own, options_.limits), Opener(other)});
   confirmed_ = isServer();
+  return true;
 }
 
 std::optional<Epoch> SealedLink::epoch() const {

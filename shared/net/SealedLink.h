@@ -70,13 +70,15 @@ class SealedLink {
   SealedLink(const SealedLink&) = delete;
   SealedLink& operator=(const SealedLink&) = delete;
 
-  /// New keys; `epoch` must be newer than the last by 1 … 15. The keys before the last are forgotten at once.
-  void startEpoch(Epoch epoch, const DatagramKeys& keys, Time now);
+  /// New keys. The keys before the last are forgotten at once. False, and nothing changes, unless `epoch` is
+  /// newer than the last by 1 … 15; the first may be any.
+  bool startEpoch(Epoch epoch, const DatagramKeys& keys, Time now);
   /// Clients only: where the server is. Servers learn their path from what arrives.
   void setServerPath(const Path& path);
 
   /// The payload of an authentic packet, valid until the next open(); nothing if it was refused. An empty
-  /// payload is one, too: a probe, or a challenge by itself.
+  /// payload is one, too: a probe, or a challenge by itself. A server follows the path of the newest packet;
+  /// a client takes what is authentic from wherever it comes.
   std::optional<std::string_view> open(const Path& path, std::string_view packet, Time now);
   /// Whether open() would get as far as decrypting. If not, the refusal is counted.
   bool plausible(std::string_view packet, Time now);
