@@ -1,32 +1,22 @@
-#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "LossyLine.h"
 #include "LossyLink.h"
-#include "SplitMix64.h"
+#include "SealedHeader.h"
 
 namespace naiad {
 namespace {
 
-using std::chrono::nanoseconds;
-using Time = VirtualClock::Time;
 using Receiver = std::function<void(std::string_view)>;
 
-constexpr std::size_t kMaxPacket = 1200;  // bytes, see DatagramChannel::send
+struct Way {
+  Way(const LinkConditions& conditions, std::uint64_t seed) : line(conditions, seed) {}
 
-struct Direction {
-  explicit Direction(std::uint64_t seed) : rng(seed) {}
-
-  LinkConditions conditions;
-  LinkCounters counters;
-  SplitMix64 rng;  // one for each direction: traffic one way changes nothing the other way
-  nanoseconds line_free{0};
-  Time last_arrival{0};
-  std::uint64_t newest_delivered = 0;  // number of the packet, counted from 1
-
+  LossyLine line;
   std::shared_ptr<Receiver> receiver;  // shared with the call that is running
   bool taken = false;                  // the sending end
 };
@@ -35,80 +25,35 @@ std::size_t indexOf(LinkEnd end) {
   return end == LinkEnd::kClient ? 0 : 1;
 }
 
-Time jitterOf(Direction& direction) {
-  const auto jitter = std::max<Time::rep>(direction.conditions.jitter.count(), 0);
-  return Time(static_cast<Time::rep>(direction.rng.below(static_cast<std::uint64_t>(jitter) + 1)));
-}
-
-/// When the last byte has left, or nothing if the queue in front of the line is full.
-bool leave(Direction& direction, Time now, std::size_t size, Time& departure) {
-  departure = now;
-  const LinkConditions& conditions = direction.conditions;
-  if (conditions.rate == 0) return true;
-  const nanoseconds start = std::max<nanoseconds>(now, direction.line_free);
-  const double waiting =
-      std::chrono::duration<double>(start - now).count() * static_cast<double>(conditions.rate);
-  if (waiting + static_cast<double>(size) > static_cast<double>(conditions.queue)) return false;
-  direction.line_free = start + nanoseconds(size * 1'000'000'000 / conditions.rate);
-  departure = std::chrono::ceil<Time>(direction.line_free);
-  return true;
-}
-
 }  // namespace
 
 struct LossyDatagramLink::State : std::enable_shared_from_this<State> {
-  State(VirtualClock& virtual_clock, std::uint64_t seed)
-      : clock(virtual_clock), directions{Direction(seed), Direction(~seed)} {}
+  State(VirtualClock& virtual_clock, const LinkConditions& conditions, std::uint64_t seed)
+      : clock(virtual_clock), ways{Way(conditions, seed), Way(conditions, ~seed)} {}
 
   void send(LinkEnd from, std::string_view packet);
-  void scheduleArrival(Direction& direction, Time when, std::uint64_t number, std::string packet);
-  void arrive(Direction& direction, std::uint64_t number, std::string_view packet);
-  Direction& from(LinkEnd end) { return directions[indexOf(end)]; }
-  Direction& to(LinkEnd end) { return directions[1 - indexOf(end)]; }
+  void arrive(Way& way, std::uint64_t number, std::string_view packet);
+  Way& from(LinkEnd end) { return ways[indexOf(end)]; }
+  Way& to(LinkEnd end) { return ways[1 - indexOf(end)]; }
 
   VirtualClock& clock;
-  std::array<Direction, 2> directions;  // by sending end
+  std::array<Way, 2> ways;  // by sending end
 };
 
 void LossyDatagramLink::State::send(LinkEnd end, std::string_view packet) {
-  if (packet.size() > kMaxPacket) throw std::length_error("a packet may not exceed 1200 bytes");
-  Direction& direction = from(end);
-  const LinkConditions& conditions = direction.conditions;
-  const std::uint64_t number = ++direction.counters.sent;
-  // Always the same four draws, so that another loss rate leaves the other packets' fates alone.
-  const bool lost = direction.rng.unit() < conditions.loss;
-  const bool twice = direction.rng.unit() < conditions.duplicate;
-  const Time delays[] = {conditions.delay + jitterOf(direction), conditions.delay + jitterOf(direction)};
-
-  Time departure;
-  if (!leave(direction, clock.now(), packet.size(), departure) || lost) {
-    ++direction.counters.dropped;
-    return;
+  if (packet.size() > kMaxDatagram) throw std::length_error("a packet may not exceed 1200 bytes");
+  Way& way = from(end);
+  const LossyLine::Fate fate = way.line.send(clock.now(), packet.size());
+  for (int i = 0; i < fate.copies; ++i) {
+    clock.schedule(fate.arrivals[i], [self = shared_from_this(), &way, number = fate.number,
+                                      copy = std::string(packet)] { self->arrive(way, number, copy); });
   }
-  scheduleArrival(direction, departure + delays[0], number, std::string(packet));
-  if (!twice) return;
-  ++direction.counters.duplicated;
-  scheduleArrival(direction, departure + delays[1], number, std::string(packet));
 }
 
-void LossyDatagramLink::State::scheduleArrival(Direction& direction, Time when, std::uint64_t number,
-                                               std::string packet) {
-  if (!direction.conditions.reorder) when = std::max(when, direction.last_arrival);
-  direction.last_arrival = std::max(when, direction.last_arrival);
-  clock.schedule(when, [self = shared_from_this(), &direction, number, packet = std::move(packet)] {
-    self->arrive(direction, number, packet);
-  });
-}
-
-void LossyDatagramLink::State::arrive(Direction& direction, std::uint64_t number, std::string_view packet) {
-  const auto receiver = direction.receiver;  // the call may destroy the end
-  if (!receiver) {
-    ++direction.counters.dropped;
-    return;
-  }
-  ++direction.counters.delivered;
-  if (number < direction.newest_delivered) ++direction.counters.reordered;
-  direction.newest_delivered = std::max(direction.newest_delivered, number);
+void LossyDatagramLink::State::arrive(Way& way, std::uint64_t number, std::string_view packet) {
+  const auto receiver = way.receiver;  // the call may destroy the end
+  if (!receiver) return way.line.dropped();
+  way.line.delivered(number);
   if (*receiver) (*receiver)(packet);
 }
 
@@ -132,9 +77,7 @@ class LossyDatagramLink::End : public DatagramChannel {
 
 LossyDatagramLink::LossyDatagramLink(VirtualClock& clock, const LinkConditions& conditions,
                                      std::uint64_t seed)
-    : state_(std::make_shared<State>(clock, seed)) {
-  for (Direction& direction : state_->directions) direction.conditions = conditions;
-}
+    : state_(std::make_shared<State>(clock, conditions, seed)) {}
 
 LossyDatagramLink::~LossyDatagramLink() = default;
 
@@ -144,11 +87,11 @@ std::unique_ptr<DatagramChannel> LossyDatagramLink::takeEnd(LinkEnd end) {
 }
 
 void LossyDatagramLink::setConditions(LinkEnd from, const LinkConditions& conditions) {
-  state_->from(from).conditions = conditions;
+  state_->from(from).line.setConditions(conditions);
 }
 
 const LinkCounters& LossyDatagramLink::counters(LinkEnd from) const {
-  return state_->from(from).counters;
+  return state_->from(from).line.counters();
 }
 
 }  // namespace naiad

@@ -1,0 +1,62 @@
+// Where datagrams come from and go to.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace naiad {
+
+/// An IP address and a UDP port. IPv4 addresses are kept as IPv6 ones (::ffff:a.b.c.d), so that an address is
+/// the same whichever kind of socket saw it.
+struct Endpoint {
+  std::array<std::uint8_t, 16> address{};  ///< network order; all zero: any
+  std::uint32_t scope = 0;                 ///< interface of a link-local IPv6 address, else 0
+  std::uint16_t port = 0;
+
+  friend auto operator<=>(const Endpoint&, const Endpoint&) = default;
+
+  bool isIPv4() const;
+  /// No particular address: :: or 0.0.0.0.
+  bool isAny() const;
+};
+
+/// From a numeric address ("127.0.0.1", "::1", "fe80::1%2"); nothing if it is none.
+std::optional<Endpoint> makeEndpoint(std::string_view address, std::uint16_t port);
+/// "127.0.0.1:40000" or "[::1]:40000", for logs.
+std::string toString(const Endpoint& endpoint);
+
+/// What a host can be expected to own as a whole: an IPv4 address, or an IPv6 network of 64 bits.
+struct PrefixKey {
+  std::uint64_t bits = 0;
+  friend auto operator<=>(const PrefixKey&, const PrefixKey&) = default;
+};
+PrefixKey prefixKeyOf(const Endpoint& endpoint);
+
+/// Both ends of a datagram, as this side sees them. A reply goes along the path its cause came by, so it
+/// leaves from the address that was addressed.
+struct Path {
+  Endpoint local;  ///< any address: let the system choose
+  Endpoint remote;
+  friend auto operator<=>(const Path&, const Path&) = default;
+};
+
+/// "127.0.0.1:9876 <- 127.0.0.1:40000", for logs.
+std::string toString(const Path& path);
+
+}  // namespace naiad
+
+template <>
+struct std::hash<naiad::Endpoint> {
+  std::size_t operator()(const naiad::Endpoint& endpoint) const noexcept;
+};
+
+template <>
+struct std::hash<naiad::Path> {
+  std::size_t operator()(const naiad::Path& path) const noexcept;
+};
