@@ -123,7 +123,7 @@ ByteStream::Outcome TlsStream::end() {
 }
 
 bool TlsStream::holdsInput() const {
-  return SSL_has_pending(ssl_.get()) == 1;
+  return SSL_pending(ssl_.get()) > 0;  // not SSL_has_pending(): a record that came in part can wait
 }
 
 std::string TlsStream::exportSecret(std::string_view label, std::string_view context,
