@@ -15,7 +15,7 @@ namespace naiad {
 /// One handshake, one use. Make it with std::make_shared; it keeps itself alive while it runs.
 ///
 /// Thread: the one that runs the socket's io_context, which must outlive it. A step of it never waits; the
-/// longest, which signs or verifies, takes about a tenth of a millisecond.
+/// longest, which signs or verifies, takes about a quarter of a millisecond.
 class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
  public:
   enum class End {

@@ -126,6 +126,14 @@ TEST_F(KnownServersTest, FileIsForItsOwnerAlone) {
   EXPECT_EQ(facts.st_mode & 0777U, 0600U);
 }
 
+TEST_F(KnownServersTest, WhatIsKnownNeedsNoWriting) {
+  admit(selfSigned('a'));
+  fs::remove(path.string() + ".lock");
+  EXPECT_EQ(admit(selfSigned('a')), Trust::kPinned);
+  EXPECT_EQ(admit(selfSigned('b')), Trust::kChanged);
+  EXPECT_FALSE(fs::exists(path.string() + ".lock"));
+}
+
 TEST_F(KnownServersTest, UnusableFileGivesASentence) {
   fs::create_directories(path);  // a directory where the file should be
   EXPECT_THROW(admit(selfSigned('a')), KnownServersError);
