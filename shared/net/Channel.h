@@ -48,6 +48,10 @@ class ReliableChannel {
   virtual std::string peerAddress() const = 0;
   /// The largest frame accepted from the peer from now on, in bytes.
   virtual void setReceiveLimit(std::size_t bytes) = 0;
+  /// `bytes` secret bytes for `label` and `context` that only the two ends of this connection know: the same
+  /// at both, others for any other label, context, length or connection (the TLS exporter, RFC 8446 7.5).
+  /// Empty where the channel is not encrypted, and after it ended.
+  virtual std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
 };
 
 class DatagramChannel {

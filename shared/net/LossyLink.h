@@ -52,7 +52,7 @@ class LossyDatagramLink {
 /// or not wholly on the line.
 ///
 /// Ends behave as TcpChannel.h describes: limits, sending cap (1 MiB), close() and reasons. Frames that
-/// arrive before start() wait for it.
+/// arrive before start() wait for it. exportSecret() gives both ends the same bytes, made from the seed.
 class VirtualStreamLink {
  public:
   VirtualStreamLink(VirtualClock& clock, const LinkConditions& conditions, std::uint64_t seed);

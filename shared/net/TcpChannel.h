@@ -1,16 +1,18 @@
-// A ReliableChannel over TCP: frames (Framing.h) on a connected socket.
+// A ReliableChannel over TCP: frames (Framing.h) on a connected socket, in TLS (TlsStream.h) or as they are.
 //
 // The socket has TCP_NODELAY, so that a frame leaves at once, and TCP_NOTSENT_LOWAT of 4 KiB, so that
 // what cannot leave yet waits in the channel's queue, where unsentBytes() counts it and a server can skip
 // a snapshot instead of piling up old ones. Frames sent in one turn of the event loop share a segment.
 //
-// TcpConnector.h and TcpListener.h make channels from addresses; this header is for who has a socket.
+// TcpConnector.h and TcpListener.h make channels from addresses; this header is for who has a socket. What is
+// said here holds for both kinds of channel; the tests run over both.
 #pragma once
 
 #include <asio/ip/address.hpp>
 #include <asio/ip/tcp.hpp>
 #include <memory>
 
+#include "ByteStream.h"
 #include "Channel.h"
 #include "TcpOptions.h"
 
@@ -30,15 +32,24 @@ namespace naiad {
 ///               the peer has closed as well; all within TcpOptions::close_timeout, or the connection is cut.
 ///               Frames that arrive after close() are dropped.
 ///  - kPeer      the peer ended the stream between two frames. What was queued here is dropped.
-///  - kProtocol  an empty frame, one over the limit, or the stream ended within a frame.
-///  - kError     reset, unreachable. Frames that came before it are delivered first.
+///  - kProtocol  an empty frame, one over the limit, or the stream ended within a frame; with TLS also what
+///  is
+///               no TLS, or was tampered with.
+///  - kError     reset, unreachable; with TLS also an alert from the peer, and a connection that ended
+///  between two
+///               frames without close_notify (RFC 8446 6.1). Frames that came before it are delivered first.
 ///  - kOverflow  send() exceeded TcpOptions::send_cap.
+///
+/// With TLS, unsentBytes() counts payload while it waits here, and whole records (22 bytes more each) in the
+/// kernel.
 ///
 /// send() throws std::length_error for an empty frame or one above kMaxFramePayload.
 std::unique_ptr<ReliableChannel> makeTcpChannel(asio::ip::tcp::socket socket, TcpOptions options = {});
+/// The same on a stream that is ready for bytes both ways: a TlsStream after its handshake.
+std::unique_ptr<ReliableChannel> makeTcpChannel(std::unique_ptr<ByteStream> stream, TcpOptions options = {});
 
-/// True for 127.0.0.0/8, ::1, and 127.0.0.0/8 mapped into IPv6. The stream is not encrypted, so connector
-/// and listener refuse every other address.
+/// True for 127.0.0.0/8, ::1, and 127.0.0.0/8 mapped into IPv6. Without TLS, connector and listener refuse
+/// every other address.
 bool isLoopback(const asio::ip::address& address);
 
 }  // namespace naiad

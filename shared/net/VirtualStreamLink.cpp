@@ -1,3 +1,5 @@
+#include <openssl/evp.h>
+
 #include <algorithm>
 #include <array>
 #include <deque>
@@ -37,6 +39,22 @@ struct Item {
   std::size_t size() const { return kind == Kind::kFrame ? kFrameHeaderSize + frame.size() : 0; }
 };
 
+/// Blocks of SHA-256 over everything that must make a difference: as a TLS exporter behaves, but no secret.
+std::string secretFrom(std::uint64_t seed, std::string_view label, std::string_view context,
+                       std::size_t bytes) {
+  std::string secret;
+  const std::string front = std::to_string(seed) + ' ' + std::to_string(bytes) + ' ' +
+                            std::to_string(label.size()) + ' ' + std::string(label) + std::string(context);
+  for (int block = 0; secret.size() < bytes; ++block) {
+    const std::string text = std::to_string(block) + ' ' + front;
+    std::array<unsigned char, 32> hash{};
+    if (EVP_Digest(text.data(), text.size(), hash.data(), nullptr, EVP_sha256(), nullptr) != 1) return {};
+    secret.append(hash.begin(), hash.end());
+  }
+  secret.resize(bytes);
+  return secret;
+}
+
 }  // namespace
 
 /// One end and the direction that starts at it.
@@ -67,8 +85,8 @@ struct VirtualStreamLink::Side {
 };
 
 struct VirtualStreamLink::State : std::enable_shared_from_this<State> {
-  State(VirtualClock& virtual_clock, std::uint64_t seed)
-      : clock(virtual_clock), sides{Side(seed), Side(~seed)} {}
+  State(VirtualClock& virtual_clock, std::uint64_t link_seed)
+      : clock(virtual_clock), seed(link_seed), sides{Side(link_seed), Side(~link_seed)} {}
 
   void start(Side& side, Callbacks callbacks);
   void send(Side& side, std::string_view frame);
@@ -92,6 +110,7 @@ struct VirtualStreamLink::State : std::enable_shared_from_this<State> {
   Side& opposite(const Side& side) { return sides[&side == &sides[0] ? 1 : 0]; }
 
   VirtualClock& clock;
+  std::uint64_t seed;
   std::array<Side, 2> sides;
 };
 
@@ -261,6 +280,10 @@ class VirtualStreamLink::Channel : public ReliableChannel {
     return end_ == LinkEnd::kClient ? "virtual:server" : "virtual:client";
   }
   void setReceiveLimit(std::size_t bytes) override { side_.receive_limit = bytes; }
+  std::string exportSecret(std::string_view label, std::string_view context,
+                           std::size_t bytes) const override {
+    return side_.phase == Phase::kClosed ? std::string() : secretFrom(state_->seed, label, context, bytes);
+  }
 
  private:
   std::shared_ptr<State> state_;

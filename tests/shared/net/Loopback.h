@@ -7,10 +7,15 @@
 #include <asio/ip/tcp.hpp>
 #include <asio/ip/v6_only.hpp>
 #include <chrono>
+#include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "Limits.h"
+#include "PlainStream.h"
 #include "TcpChannel.h"
+#include "TestIdentity.h"
+#include "TlsStream.h"
 
 namespace naiad::test {
 
@@ -47,13 +52,48 @@ inline SocketPair connectedSockets(asio::io_context& context, const std::string&
   return {std::move(near), acceptor.accept()};
 }
 
+/// What is under the frames.
+enum class Kind { kPlain, kTls };
+
+inline std::string nameOf(const testing::TestParamInfo<Kind>& info) {
+  return info.param == Kind::kTls ? "Tls" : "Plain";
+}
+
+/// Two streams that are ready for bytes.
+struct StreamPair {
+  std::unique_ptr<ByteStream> near;
+  std::unique_ptr<ByteStream> far;
+};
+
+inline StreamPair connectedStreams(asio::io_context& context, Kind kind,
+                                   const std::string& address = "127.0.0.1") {
+  SocketPair sockets = connectedSockets(context, address);
+  if (kind == Kind::kPlain) {
+    return {std::make_unique<PlainStream>(std::move(sockets.near)),
+            std::make_unique<PlainStream>(std::move(sockets.far))};
+  }
+  auto client = std::make_unique<TlsStream>(std::move(sockets.near), testClientContext(), "naiad.test");
+  auto server = std::make_unique<TlsStream>(std::move(sockets.far), testServerContext());
+  bool client_done = false, server_done = false;
+  while (!client_done || !server_done) {
+    const auto step = [](TlsStream& stream) {
+      const auto outcome = stream.handshake();
+      if (outcome >= ByteStream::Outcome::kEnd) throw std::runtime_error(stream.problem());
+      return outcome == ByteStream::Outcome::kDone;
+    };
+    client_done = client_done || step(*client);
+    server_done = server_done || step(*server);
+  }
+  return {std::move(client), std::move(server)};
+}
+
 /// Two ends as client and server see them after login.
 struct ChannelPair {
-  explicit ChannelPair(asio::io_context& context, TcpOptions options = generous(),
+  explicit ChannelPair(asio::io_context& context, Kind kind, TcpOptions options = generous(),
                        const std::string& address = "127.0.0.1") {
-    SocketPair sockets = connectedSockets(context, address);
-    near = makeTcpChannel(std::move(sockets.near), options);
-    far = makeTcpChannel(std::move(sockets.far), options);
+    StreamPair streams = connectedStreams(context, kind, address);
+    near = makeTcpChannel(std::move(streams.near), options);
+    far = makeTcpChannel(std::move(streams.far), options);
   }
   static TcpOptions generous() { return {.receive_limit = 0xffff}; }
 

@@ -14,9 +14,10 @@ using namespace std::chrono_literals;
 using namespace std::string_literals;
 
 using TcpChannelEndTest = TcpFixture;
+INSTANTIATE_TEST_SUITE_P(Channel, TcpChannelEndTest, testing::Values(Kind::kPlain, Kind::kTls), nameOf);
 
-TEST_F(TcpChannelEndTest, CloseFlushesWhatIsQueued) {
-  ChannelPair pair(context);
+TEST_P(TcpChannelEndTest, CloseFlushesWhatIsQueued) {
+  ChannelPair pair(context, GetParam());
   Recorder closer;
   pair.near->start(closer.callbacks());
   pair.far->start(recorder.callbacks());
@@ -29,8 +30,8 @@ TEST_F(TcpChannelEndTest, CloseFlushesWhatIsQueued) {
   EXPECT_EQ(closer.closed, CloseReason::kLocal);
 }
 
-TEST_F(TcpChannelEndTest, DestroyedAfterCloseItStillFlushes) {
-  ChannelPair pair(context);
+TEST_P(TcpChannelEndTest, DestroyedAfterCloseItStillFlushes) {
+  ChannelPair pair(context, GetParam());
   pair.far->start(recorder.callbacks());
   for (int i = 0; i < 50; ++i) pair.near->send(std::string(10'000, 'x'));
   pair.near->close();
@@ -40,8 +41,8 @@ TEST_F(TcpChannelEndTest, DestroyedAfterCloseItStillFlushes) {
   EXPECT_EQ(recorder.closed, CloseReason::kPeer);
 }
 
-TEST_F(TcpChannelEndTest, LastWordsSurviveAPeerThatWasStillTalking) {
-  ChannelPair pair(context);
+TEST_P(TcpChannelEndTest, LastWordsSurviveAPeerThatWasStillTalking) {
+  ChannelPair pair(context, GetParam());
   pair.near->start({nullptr, nullptr});
   pair.far->start(recorder.callbacks());
   for (int i = 0; i < 20; ++i) pair.far->send(std::string(10'000, 'x'));
@@ -52,31 +53,28 @@ TEST_F(TcpChannelEndTest, LastWordsSurviveAPeerThatWasStillTalking) {
   EXPECT_EQ(recorder.closed, CloseReason::kPeer);
 }
 
-TEST_F(TcpChannelEndTest, CloseGivesUpOnAPeerThatDoesNotRead) {
+TEST_P(TcpChannelEndTest, CloseGivesUpOnAPeerThatDoesNotRead) {
   connect({.close_timeout = 30ms});
   fillUp();
   channel->close();
   EXPECT_FALSE(recorder.closed);
   EXPECT_TRUE(runUntilClosed());
   EXPECT_EQ(recorder.closed, CloseReason::kLocal);
-  std::vector<char> sink(1 << 20);
-  std::error_code error;
-  while (!error) peer.read_some(asio::buffer(sink), error);
-  EXPECT_EQ(error, asio::error::connection_reset);  // and the kernel keeps nothing for it
+  EXPECT_EQ(peerReads(), ByteStream::Outcome::kBroken);  // a reset: the kernel keeps nothing for it
 }
 
-TEST_F(TcpChannelEndTest, DestroyingWithoutCloseHangsUp) {
-  ChannelPair pair(context);
+TEST_P(TcpChannelEndTest, DestroyingWithoutCloseHangsUp) {
+  ChannelPair pair(context, GetParam());
   pair.far->start(recorder.callbacks());
   pair.near.reset();
   EXPECT_TRUE(runUntilClosed());
   EXPECT_EQ(recorder.closed, CloseReason::kPeer);
 }
 
-TEST_F(TcpChannelEndTest, OrderlyEndOfThePeerIsReportedOnce) {
+TEST_P(TcpChannelEndTest, OrderlyEndOfThePeerIsReportedOnce) {
   connect({});
   peerSends("\x05\0hello"s);
-  peer.close();
+  peerEnds();
   EXPECT_TRUE(runUntilClosed());
   channel->close();
   runReady(context);
@@ -85,46 +83,43 @@ TEST_F(TcpChannelEndTest, OrderlyEndOfThePeerIsReportedOnce) {
   EXPECT_EQ(recorder.closings, 1);
 }
 
-TEST_F(TcpChannelEndTest, ResetByThePeerIsAnError) {
+TEST_P(TcpChannelEndTest, ResetByThePeerIsAnError) {
   connect({});
-  peer.set_option(tcp::socket::linger(true, 0));
-  peer.close();
+  peerResets();
   EXPECT_TRUE(runUntilClosed());
   EXPECT_EQ(recorder.closed, CloseReason::kError);
 }
 
-TEST_F(TcpChannelEndTest, FramesFromBeforeAResetAreStillDelivered) {
+TEST_P(TcpChannelEndTest, FramesFromBeforeAResetAreStillDelivered) {
   connect({});
   peerSends("\x05\0hello"s);
-  peer.set_option(tcp::socket::linger(true, 0));
-  peer.close();
+  peerResets();
   channel->send("anyone?");  // fails before the frame is read
   EXPECT_TRUE(runUntilClosed());
   EXPECT_EQ(recorder.frames, std::vector{"hello"s});
   EXPECT_EQ(recorder.closed, CloseReason::kError);
 }
 
-TEST_F(TcpChannelEndTest, SendingToAPeerThatWentAwayEndsTheChannel) {
+TEST_P(TcpChannelEndTest, SendingToAPeerThatWentAwayEndsTheChannel) {
   connect({});
-  peer.set_option(tcp::socket::linger(true, 0));
-  peer.close();
+  peerResets();
   for (int i = 0; i < 10; ++i) channel->send("hello?");
   EXPECT_TRUE(runUntilClosed());
   EXPECT_EQ(recorder.closed, CloseReason::kError);
   EXPECT_EQ(channel->unsentBytes(), 0u);
 }
 
-TEST_F(TcpChannelEndTest, StreamThatEndsWithinAFrameBreaksTheProtocol) {
+TEST_P(TcpChannelEndTest, StreamThatEndsWithinAFrameBreaksTheProtocol) {
   connect({});
   peerSends("\x05\0hel"s);
-  peer.close();
+  peerEnds();
   EXPECT_TRUE(runUntilClosed());
   EXPECT_TRUE(recorder.frames.empty());
   EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
 }
 
-TEST_F(TcpChannelEndTest, MayBeDestroyedInItsFrameCallback) {
-  ChannelPair pair(context);
+TEST_P(TcpChannelEndTest, MayBeDestroyedInItsFrameCallback) {
+  ChannelPair pair(context, GetParam());
   int frames = 0;
   pair.far->start({[&, marker = std::string(100, 'm')](std::string_view) {
                      ++frames;
@@ -139,9 +134,9 @@ TEST_F(TcpChannelEndTest, MayBeDestroyedInItsFrameCallback) {
   EXPECT_EQ(frames, 1);
 }
 
-TEST_F(TcpChannelEndTest, MayBeDestroyedInItsClosedCallback) {
+TEST_P(TcpChannelEndTest, MayBeDestroyedInItsClosedCallback) {
   connect({});
-  ChannelPair pair(context);
+  ChannelPair pair(context, GetParam());
   bool closed = false;
   pair.far->start({nullptr, [&, marker = std::string(100, 'm')](CloseReason) {
                      pair.far.reset();
@@ -151,8 +146,8 @@ TEST_F(TcpChannelEndTest, MayBeDestroyedInItsClosedCallback) {
   EXPECT_TRUE(runUntil(context, [&] { return closed; }));
 }
 
-TEST_F(TcpChannelEndTest, NoFrameComesAfterTheHandlerClosed) {
-  ChannelPair pair(context);
+TEST_P(TcpChannelEndTest, NoFrameComesAfterTheHandlerClosed) {
+  ChannelPair pair(context, GetParam());
   Recorder closer;
   pair.far->start({[&](std::string_view frame) {
                      closer.frames.emplace_back(frame);
@@ -168,11 +163,10 @@ TEST_F(TcpChannelEndTest, NoFrameComesAfterTheHandlerClosed) {
   EXPECT_EQ(closer.closed, CloseReason::kLocal);
 }
 
-TEST_F(TcpChannelEndTest, EndBeforeStartIsReportedAfterStart) {
-  SocketPair sockets = connectedSockets(context);
-  channel = makeTcpChannel(std::move(sockets.near), {.close_timeout = 1h});
+TEST_P(TcpChannelEndTest, EndBeforeStartIsReportedAfterStart) {
+  makeChannel({.close_timeout = 1h});
   channel->close();
-  sockets.far.close();
+  peerEnds();
   runReady(context);
   channel->start(recorder.callbacks());
   EXPECT_FALSE(recorder.closed);
@@ -180,22 +174,38 @@ TEST_F(TcpChannelEndTest, EndBeforeStartIsReportedAfterStart) {
   EXPECT_EQ(recorder.closed, CloseReason::kLocal);
 }
 
-TEST_F(TcpChannelEndTest, ClosedBeforeStartItIsGoneWhenThePeerIs) {
-  SocketPair sockets = connectedSockets(context);
-  channel = makeTcpChannel(std::move(sockets.near), {.close_timeout = 1h});
+TEST_P(TcpChannelEndTest, ClosedBeforeStartItIsGoneWhenThePeerIs) {
+  makeChannel({.close_timeout = 1h});
   channel->close();
   channel.reset();
-  sockets.far.close();
+  peerEnds();
   EXPECT_TRUE(runUntil(context, [&] { return context.stopped(); }));  // nothing left to wait for
 }
 
-TEST_F(TcpChannelEndTest, KnowsItsPeersAddressAfterTheEndToo) {
+TEST_P(TcpChannelEndTest, KnowsItsPeersAddressAfterTheEndToo) {
   connect({});
-  const std::string expected = "127.0.0.1:" + std::to_string(peer.local_endpoint().port());
+  const std::string expected = "127.0.0.1:" + std::to_string(peer->socket().local_endpoint().port());
   EXPECT_EQ(channel->peerAddress(), expected);
-  peer.close();
+  peerEnds();
   EXPECT_TRUE(runUntilClosed());
   EXPECT_EQ(channel->peerAddress(), expected);
+}
+
+TEST_P(TcpChannelEndTest, EndWithoutAWordBetweenFramesIsAnErrorInTls) {
+  connect({});
+  peerSends("\x05\0hello"s);
+  peerVanishes();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.frames, std::vector{"hello"s});
+  EXPECT_EQ(recorder.closed, encrypted() ? CloseReason::kError : CloseReason::kPeer);
+}
+
+TEST_P(TcpChannelEndTest, EndWithoutAWordWithinAFrameBreaksTheProtocol) {
+  connect({});
+  peerSends("\x05\0hel"s);
+  peerVanishes();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
 }
 
 }  // namespace

@@ -17,9 +17,10 @@ namespace {
 using namespace std::string_literals;
 
 using TcpChannelTest = TcpFixture;
+INSTANTIATE_TEST_SUITE_P(Channel, TcpChannelTest, testing::Values(Kind::kPlain, Kind::kTls), nameOf);
 
-TEST_F(TcpChannelTest, EchoedFramesComeBackWholeAndInOrder) {
-  ChannelPair pair(context);
+TEST_P(TcpChannelTest, EchoedFramesComeBackWholeAndInOrder) {
+  ChannelPair pair(context, GetParam());
   pair.far->start({[&](std::string_view frame) { pair.far->send(frame); }, nullptr});
   pair.near->start(recorder.callbacks());
   std::vector<std::string> sent;
@@ -31,8 +32,8 @@ TEST_F(TcpChannelTest, EchoedFramesComeBackWholeAndInOrder) {
   EXPECT_FALSE(recorder.closed);
 }
 
-TEST_F(TcpChannelTest, MegabytesOfLargeFramesArriveUnchanged) {
-  ChannelPair pair(context, {.send_cap = 64u << 20, .receive_limit = kMaxFramePayload});
+TEST_P(TcpChannelTest, MegabytesOfLargeFramesArriveUnchanged) {
+  ChannelPair pair(context, GetParam(), {.send_cap = 64u << 20, .receive_limit = kMaxFramePayload});
   pair.far->start(recorder.callbacks());
   SplitMix64 rng(3);
   std::vector<std::string> sent;
@@ -46,19 +47,19 @@ TEST_F(TcpChannelTest, MegabytesOfLargeFramesArriveUnchanged) {
   EXPECT_EQ(pair.near->unsentBytes(), 0u);
 }
 
-TEST_F(TcpChannelTest, WorksOverIPv6) {
+TEST_P(TcpChannelTest, WorksOverIPv6) {
   if (!haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 loopback on this machine";
-  ChannelPair pair(context, ChannelPair::generous(), "::1");
+  ChannelPair pair(context, GetParam(), ChannelPair::generous(), "::1");
   pair.far->start(recorder.callbacks());
   pair.near->send("six");
   EXPECT_TRUE(runUntil(context, [&] { return !recorder.frames.empty(); }));
   EXPECT_EQ(pair.near->peerAddress().substr(0, 6), "[::1]:");
 }
 
-TEST_F(TcpChannelTest, SendsAtOnceAndKeepsTheKernelsQueueShort) {
-  SocketPair sockets = connectedSockets(context);
-  const int handle = sockets.near.native_handle();
-  channel = makeTcpChannel(std::move(sockets.near), {});
+TEST_P(TcpChannelTest, SendsAtOnceAndKeepsTheKernelsQueueShort) {
+  StreamPair streams = connectedStreams(context, GetParam());
+  const int handle = streams.near->socket().native_handle();
+  channel = makeTcpChannel(std::move(streams.near), {});
   int value = 0;
   socklen_t size = sizeof value;
   ASSERT_EQ(getsockopt(handle, IPPROTO_TCP, TCP_NODELAY, &value, &size), 0);
@@ -69,7 +70,7 @@ TEST_F(TcpChannelTest, SendsAtOnceAndKeepsTheKernelsQueueShort) {
   EXPECT_EQ(value, 4096);
 }
 
-TEST_F(TcpChannelTest, SlowReaderMakesUnsentBytesGrowAndThenOverflows) {
+TEST_P(TcpChannelTest, SlowReaderMakesUnsentBytesGrowAndThenOverflows) {
   constexpr std::size_t kCap = 300'000;
   connect({.send_cap = kCap});
   fillUp();
@@ -86,20 +87,17 @@ TEST_F(TcpChannelTest, SlowReaderMakesUnsentBytesGrowAndThenOverflows) {
   EXPECT_EQ(recorder.closed, CloseReason::kOverflow);
 }
 
-TEST_F(TcpChannelTest, UnsentBytesFallToZeroWhenTheReaderWakesUp) {
+TEST_P(TcpChannelTest, UnsentBytesFallToZeroWhenTheReaderWakesUp) {
   connect({});
   fillUp();
-  std::vector<char> sink(1 << 20);
-  peer.non_blocking(true);
   EXPECT_TRUE(runUntil(context, [&] {
-    std::error_code ignored;
-    peer.read_some(asio::buffer(sink), ignored);
+    peerReads();
     return channel->unsentBytes() == 0;
   }));
   EXPECT_FALSE(recorder.closed);
 }
 
-TEST_F(TcpChannelTest, FrameOverTheReceiveLimitBreaksTheProtocol) {
+TEST_P(TcpChannelTest, FrameOverTheReceiveLimitBreaksTheProtocol) {
   connect({.receive_limit = 4});
   peerSends("\x04\0four\x05\0fives"s);
   EXPECT_TRUE(runUntilClosed());
@@ -107,26 +105,25 @@ TEST_F(TcpChannelTest, FrameOverTheReceiveLimitBreaksTheProtocol) {
   EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
 }
 
-TEST_F(TcpChannelTest, EmptyFrameBreaksTheProtocol) {
+TEST_P(TcpChannelTest, EmptyFrameBreaksTheProtocol) {
   connect({});
   peerSends("\0\0"s);
   EXPECT_TRUE(runUntilClosed());
   EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
 }
 
-TEST_F(TcpChannelTest, HandlerRaisesTheLimitForTheNextFrame) {
-  SocketPair sockets = connectedSockets(context);
-  channel = makeTcpChannel(std::move(sockets.near), {.receive_limit = 4});
+TEST_P(TcpChannelTest, HandlerRaisesTheLimitForTheNextFrame) {
+  makeChannel({.receive_limit = 4});
   channel->start({[&](std::string_view frame) {
                     recorder.frames.emplace_back(frame);
                     channel->setReceiveLimit(100);
                   },
                   nullptr});
-  asio::write(sockets.far, asio::buffer("\x04\0four\x05\0fives"s));
+  peerSends("\x04\0four\x05\0fives"s);
   EXPECT_TRUE(runUntil(context, [&] { return recorder.frames.size() == 2; }));
 }
 
-TEST_F(TcpChannelTest, SendRefusesSizesThatAreNoFrame) {
+TEST_P(TcpChannelTest, SendRefusesSizesThatAreNoFrame) {
   connect({});
   EXPECT_THROW(channel->send(""), std::length_error);
   EXPECT_THROW(channel->send(std::string(kMaxFramePayload + 1, 'x')), std::length_error);

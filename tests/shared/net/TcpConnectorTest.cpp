@@ -76,9 +76,7 @@ TEST_F(TcpConnectorTest, OtherMachinesAreRefused) {
     connector.connect(host, 9876, 10s, done());
     ASSERT_TRUE(runUntilDone());
     EXPECT_FALSE(channel);
-    EXPECT_EQ(error, host +
-                         " is another machine: connections are not encrypted yet, so only loopback "
-                         "addresses are allowed.");
+    EXPECT_EQ(error, host + " is another machine: without encryption only loopback addresses are allowed.");
   }
 }
 

@@ -1,9 +1,9 @@
-// A channel whose peer is a bare socket that the test plays by hand.
+// A channel whose peer is a bare stream that the test plays by hand, plain or in TLS.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include <asio/write.hpp>
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,14 +13,45 @@
 
 namespace naiad::test {
 
-struct TcpFixture : testing::Test {
+struct TcpFixture : testing::TestWithParam<Kind> {
   void connect(TcpOptions options) {
-    SocketPair sockets = connectedSockets(context);
-    peer = std::move(sockets.far);
-    channel = makeTcpChannel(std::move(sockets.near), options);
+    makeChannel(options);
     channel->start(recorder.callbacks());
   }
-  void peerSends(std::string_view bytes) { asio::write(peer, asio::buffer(bytes)); }
+  /// Not started.
+  void makeChannel(TcpOptions options) {
+    StreamPair streams = connectedStreams(context, GetParam());
+    peer = std::move(streams.far);
+    channel = makeTcpChannel(std::move(streams.near), options);
+  }
+  bool encrypted() const { return GetParam() == Kind::kTls; }
+
+  void peerSends(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const auto [outcome, size] = peer->write(bytes);
+      ASSERT_TRUE(outcome == ByteStream::Outcome::kDone || outcome == ByteStream::Outcome::kWantsWrite);
+      bytes.remove_prefix(size);
+    }
+  }
+  /// What has come for the peer goes nowhere. The outcome that ended it.
+  ByteStream::Outcome peerReads() {
+    std::array<char, 16384> sink;
+    for (;;) {
+      const auto outcome = peer->read(sink).outcome;
+      if (outcome != ByteStream::Outcome::kDone) return outcome;
+    }
+  }
+  /// In order: says that this was all (with TLS: close_notify), then closes.
+  void peerEnds() {
+    ASSERT_EQ(peer->end(), ByteStream::Outcome::kDone);
+    peer->socket().close();
+  }
+  /// Like a program that was killed: closes, and says nothing (with TLS: no close_notify).
+  void peerVanishes() { peer->socket().close(); }
+  void peerResets() {
+    peer->socket().set_option(tcp::socket::linger(true, 0));
+    peer->socket().close();
+  }
   bool runUntilClosed() {
     return runUntil(context, [&] { return recorder.closed.has_value(); });
   }
@@ -36,7 +67,7 @@ struct TcpFixture : testing::Test {
   }
 
   asio::io_context context;
-  tcp::socket peer{context};
+  std::unique_ptr<ByteStream> peer;
   Recorder recorder;
   std::unique_ptr<ReliableChannel> channel;
 };

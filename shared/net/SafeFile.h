@@ -1,0 +1,39 @@
+// Small files that matter: whole or not there, and, if wanted, for their owner alone.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace naiad {
+
+/// Throws std::system_error, as all of these, where the system refuses. Nothing if there is no such file.
+/// Also throws if it has more than `most` bytes.
+std::optional<std::string> readSmallFile(const std::filesystem::path& path, std::size_t most);
+
+/// Replace or make the file, mode 0600, so that it is either the old or the new one whenever one looks, after
+/// a crash too.
+void replaceFile(const std::filesystem::path& path, std::string_view content);
+
+/// The same, but false, and nothing changed, if there is one already.
+bool makeFile(const std::filesystem::path& path, std::string_view content);
+
+/// True if group or others may read or write it.
+bool openToOthers(const std::filesystem::path& path);
+
+/// While it lives, no other process or thread holds one on the same path (made if missing, 0600). Waits for
+/// it.
+class FileLock {
+ public:
+  explicit FileLock(const std::filesystem::path& path);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  int file_;
+};
+
+}  // namespace naiad

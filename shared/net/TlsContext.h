@@ -1,0 +1,52 @@
+// What all TLS connections of one end share: protocol settings, a server's key, a client's trust store.
+//
+// TLS 1.3 (RFC 8446) and nothing older, ALPN "naiad/1" (RFC 7301) required at both ends. No session tickets,
+// no resumption, no early data, no client certificates. Made for many quiet connections: no read-ahead, and
+// buffers are given back while they are empty.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+struct ssl_ctx_st;
+
+namespace naiad {
+
+/// The protocol that both ends must agree on.
+inline constexpr std::string_view kAlpn = "naiad/1";
+
+/// Key, certificate or trust store cannot be used. what() is one sentence for people.
+class TlsError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Immutable; connections keep it alive. All on one thread.
+class TlsContext {
+ public:
+  /// `certificate_pem`: the server's certificate, then those above it, if any. `key_pem`: its private key,
+  /// without a password. Throws TlsError if they cannot be read or do not belong together.
+  static std::shared_ptr<const TlsContext> forServer(const std::string& certificate_pem,
+                                                     const std::string& key_pem);
+  /// Takes any server, and finds out about it (PeerFacts.h). Chains are checked against the system's trust
+  /// store, or the PEM file `trust_file`. Throws TlsError if that file cannot be used.
+  static std::shared_ptr<const TlsContext> forClient(const std::string& trust_file = {});
+
+  bool isServer() const { return is_server_; }
+  ssl_ctx_st* get() const { return context_.get(); }
+
+ private:
+  struct Free {
+    void operator()(ssl_ctx_st* context) const;
+  };
+  explicit TlsContext(bool is_server);
+  void useCertificate(const std::string& pem);
+  void useKey(const std::string& pem);
+
+  std::unique_ptr<ssl_ctx_st, Free> context_;
+  bool is_server_;
+};
+
+}  // namespace naiad

@@ -1,0 +1,145 @@
+// What a client with TLS learns about a server, and which servers it gives up on.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "TlsFixture.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct TlsConnectorTest : TlsFixture {
+  /// As if `host` were the name of this machine.
+  void joinAs(const std::string& host, TcpConnector& by) {
+    calls = 0;
+    by.connect(host, {{asio::ip::make_address("127.0.0.1"), listener->port()}}, 20s, done());
+    EXPECT_TRUE(runUntilDone());
+  }
+  std::string inFile(const std::string& content) {
+    const std::string path = testing::TempDir() + "trusted-" + std::to_string(getpid()) + ".pem";
+    std::ofstream(path) << content;
+    return path;
+  }
+};
+
+TEST_F(TlsConnectorTest, LearnsTheKeyOfAServerThatSignedForItself) {
+  listen();
+  join();
+  ASSERT_TRUE(connector.peerFacts());
+  EXPECT_FALSE(connector.peerFacts()->chain_verifies);
+  EXPECT_EQ(connector.peerFacts()->chain_problem, "self-signed certificate");
+  const auto facts = connector.peerFacts();
+  join();
+  EXPECT_EQ(connector.peerFacts()->key, facts->key);
+  connector.cancel();
+  EXPECT_FALSE(connector.peerFacts());
+}
+
+TEST_F(TlsConnectorTest, ChainVerifiesForTheNameItWasMadeFor) {
+  const TestIdentity authority = TestIdentity::make("authority.test");
+  const TestIdentity server = TestIdentity::make("game.test", &authority);
+  tls.context = TlsContext::forServer(server.certificate, server.key);
+  listen();
+  const std::string trusted = inFile(authority.certificate);
+  TcpConnector trusting(context, {}, TlsContext::forClient(trusted));
+  std::remove(trusted.c_str());
+  for (const auto& [host, verifies] : {std::pair("game.test", true), std::pair("GAME.test.", true),
+                                       std::pair("other.test", false), std::pair("127.0.0.1", false)}) {
+    joinAs(host, trusting);
+    ASSERT_TRUE(trusting.peerFacts()) << error;
+    EXPECT_EQ(trusting.peerFacts()->chain_verifies, verifies) << host;
+    EXPECT_EQ(trusting.peerFacts()->chain_problem.empty(), verifies) << host;
+  }
+  joinAs("game.test", connector);  // who does not trust that authority
+  EXPECT_FALSE(connector.peerFacts()->chain_verifies);
+}
+
+TEST_F(TlsConnectorTest, SendsTheNameOfTheServerButNoAddress) {
+  auto context_with_ears = TlsContext::forServer(testIdentity().certificate, testIdentity().key);
+  std::string heard;
+  SSL_CTX_set_tlsext_servername_arg(context_with_ears->get(), &heard);
+  SSL_CTX_set_tlsext_servername_callback(
+      context_with_ears->get(), +[](SSL* ssl, int*, void* ears) {
+        const char* name = SSL_get_servername(ssl, TLSEXT_NAMETYPE_host_name);
+        *static_cast<std::string*>(ears) = name ? name : "nothing";
+        return SSL_TLSEXT_ERR_OK;
+      });
+  tls.context = context_with_ears;
+  listen();
+  joinAs("game.test", connector);
+  EXPECT_EQ(heard, "game.test");
+  joinAs("127.0.0.1", connector);
+  EXPECT_EQ(heard, "nothing");
+}
+
+TEST_F(TlsConnectorTest, ServerThatSpeaksPlainGivesASentence) {
+  TcpListener plain(context, "127.0.0.1", 0, [&](auto made) {
+    made->send("hello, this is plain");
+    accepted.push_back(std::move(made));
+  });
+  connector.connect("127.0.0.1", plain.port(), 10s, done());
+  ASSERT_TRUE(runUntilDone());
+  EXPECT_FALSE(channel);
+  EXPECT_EQ(error, "127.0.0.1:" + std::to_string(plain.port()) +
+                       " does not answer as a Naiad server (it does not speak TLS).");
+  EXPECT_FALSE(connector.peerFacts());
+}
+
+TEST_F(TlsConnectorTest, ServerWithoutTheProtocolIsRefused) {
+  auto forgetful = TlsContext::forServer(testIdentity().certificate, testIdentity().key);
+  SSL_CTX_set_alpn_select_cb(
+      forgetful->get(),
+      +[](SSL*, const unsigned char**, unsigned char*, const unsigned char*, unsigned, void*) {
+        return SSL_TLSEXT_ERR_NOACK;
+      },
+      nullptr);
+  tls.context = forgetful;
+  listen();
+  connector.connect("127.0.0.1", listener->port(), 10s, done());
+  ASSERT_TRUE(runUntilDone());
+  EXPECT_FALSE(channel);
+  EXPECT_NE(error.find("(it does not speak naiad/1)"), std::string::npos) << error;
+}
+
+TEST_F(TlsConnectorTest, SilentServerEndsInATimeout) {
+  const tcp::acceptor silent(context, {asio::ip::address_v4::loopback(), 0});
+  const std::uint16_t port = silent.local_endpoint().port();
+  connector.connect("127.0.0.1", port, 100ms, done());
+  ASSERT_TRUE(runUntilDone());
+  EXPECT_EQ(error, "No answer from 127.0.0.1:" + std::to_string(port) + " within 100 ms.");
+}
+
+TEST_F(TlsConnectorTest, SilentAddressCostsItsShareAndThenTheNextIsTried) {
+  listen();
+  const tcp::acceptor silent(context, {asio::ip::address_v4::loopback(), 0});
+  const tcp::endpoint good(asio::ip::address_v4::loopback(), listener->port());
+  std::vector<tcp::endpoint> addresses(10, good);
+  addresses[0] = silent.local_endpoint();
+  connector.connect("game.test", addresses, 3s, done());
+  ASSERT_TRUE(runUntilDone());
+  EXPECT_TRUE(channel) << error;
+}
+
+TEST_F(TlsConnectorTest, AddressThatRefusesIsPassedOver) {
+  const std::uint16_t closed = TcpListener(context, "127.0.0.1", 0, [](auto) {}).port();
+  listen();
+  const auto here = asio::ip::address_v4::loopback();
+  connector.connect("game.test", {{here, closed}, {here, listener->port()}}, 20s, done());
+  ASSERT_TRUE(runUntilDone());
+  EXPECT_TRUE(channel) << error;
+}
+
+TEST_F(TlsConnectorTest, CancelledWithinAHandshakeItStaysSilent) {
+  const tcp::acceptor silent(context, {asio::ip::address_v4::loopback(), 0});
+  connector.connect("127.0.0.1", silent.local_endpoint().port(), 1h,
+                    [](auto, const auto&) { FAIL() << "cancelled"; });
+  runReady(context);
+  runReady(context);
+  connector.cancel();
+  EXPECT_TRUE(runUntil(context, [&] { return context.stopped(); }));
+}
+
+}  // namespace
+}  // namespace naiad::test

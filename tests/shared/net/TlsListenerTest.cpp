@@ -1,0 +1,240 @@
+// What a listener with TLS takes, refuses and survives.
+#include <gtest/gtest.h>
+#include <openssl/err.h>
+
+#include <asio/write.hpp>
+#include <vector>
+
+#include "TlsFixture.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace std::string_literals;
+
+using TlsListenerTest = TlsFixture;
+
+/// Frames both ways over the newest pair of channels.
+void expectConversation(TlsFixture& t) {
+  Recorder here, there;
+  t.channel->start(here.callbacks());
+  t.accepted.back()->start(there.callbacks());
+  t.channel->send("up");
+  t.accepted.back()->send(std::string(kMaxServerFrame, 'd'));
+  EXPECT_TRUE(runUntil(t.context, [&] { return !here.frames.empty() && !there.frames.empty(); }));
+  EXPECT_EQ(there.frames, std::vector{"up"s});
+  EXPECT_EQ(here.frames, std::vector{std::string(kMaxServerFrame, 'd')});
+  t.channel.reset();
+  t.accepted.pop_back();
+}
+
+TEST_F(TlsListenerTest, FramesPassBothWays) {
+  listen();
+  join();
+  expectConversation(*this);
+  EXPECT_EQ(counters().handshakes, 1u);
+  EXPECT_EQ(listener->halfOpen(), 0u);
+}
+
+TEST_F(TlsListenerTest, WorksOverIPv6) {
+  if (!haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 loopback on this machine";
+  listen("::1");
+  join("::1");
+  expectConversation(*this);
+}
+
+TEST_F(TlsListenerTest, UnspecifiedIPv6AddressTakesBothFamilies) {
+  if (!haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 loopback on this machine";
+  listen("::");
+  join("::1");
+  EXPECT_EQ(accepted.back()->peerAddress().substr(0, 6), "[::1]:");
+  expectConversation(*this);
+  join("127.0.0.1");
+  EXPECT_EQ(accepted.back()->peerAddress().substr(0, 10), "127.0.0.1:");
+  expectConversation(*this);
+}
+
+TEST_F(TlsListenerTest, ListensBeyondLoopback) {
+  listen("0.0.0.0");
+  join();
+  expectConversation(*this);
+}
+
+TEST_F(TlsListenerTest, NegotiatesNothingButTls13) {
+  listen();
+  tcp::socket socket = knock();
+  RawTls client;
+  client.shakeHands(context, socket);
+  ASSERT_TRUE(client.done());
+  EXPECT_EQ(SSL_version(client.ssl()), TLS1_3_VERSION);
+  EXPECT_TRUE(runUntil(context, [&] { return accepted.size() == 1; }));
+}
+
+TEST_F(TlsListenerTest, RefusesTls12) {
+  listen();
+  tcp::socket socket = knock();
+  RawTls client([](SSL_CTX* c) { SSL_CTX_set_max_proto_version(c, TLS1_2_VERSION); });
+  client.shakeHands(context, socket);
+  EXPECT_FALSE(client.done());
+  EXPECT_TRUE(runUntil(context, [&] { return counters().handshakes_failed == 1; }));
+  EXPECT_TRUE(accepted.empty());
+}
+
+TEST_F(TlsListenerTest, RefusesOtherProtocolsAndNone) {
+  listen();
+  for (const std::string alpn : {"", "h2", "naiad/2", "naiad/11", "naiad/"}) {
+    const std::uint64_t before = counters().handshakes_failed;
+    tcp::socket socket = knock();
+    RawTls client([&](SSL_CTX* c) { offerAlpn(c, alpn); });
+    client.shakeHands(context, socket);
+    EXPECT_FALSE(client.done()) << alpn;
+    EXPECT_TRUE(runUntil(context, [&] { return counters().handshakes_failed == before + 1; })) << alpn;
+  }
+  EXPECT_TRUE(accepted.empty());
+  EXPECT_EQ(listener->halfOpen(), 0u);
+}
+
+TEST_F(TlsListenerTest, RefusesWhatIsNoTls) {
+  listen();
+  for (const std::string& words :
+       {"\x05\0hello"s, "GET / HTTP/1.1\r\n\r\n"s, std::string(70'000, '\xff'), "\x16\x03"s}) {
+    const std::uint64_t before = counters().handshakes_failed;
+    tcp::socket socket = knock();
+    std::error_code ignored;
+    asio::write(socket, asio::buffer(words), ignored);
+    socket.shutdown(tcp::socket::shutdown_send, ignored);
+    EXPECT_TRUE(runUntil(context, [&] { return counters().handshakes_failed == before + 1; }));
+  }
+  EXPECT_TRUE(accepted.empty());
+  EXPECT_EQ(listener->halfOpen(), 0u);
+}
+
+TEST_F(TlsListenerTest, RefusesAHelloThatAnnouncesToBeLong) {
+  listen();
+  tcp::socket socket = knock();
+  asio::write(socket,
+              asio::buffer("\x16\x03\x01\x40\x00\x01\x02\x00\x00"s));  // 131,072 bytes; nothing follows
+  EXPECT_TRUE(runUntil(context, [&] { return counters().handshakes_failed == 1; }));
+}
+
+TEST_F(TlsListenerTest, GivesNoTicketsToResumeWith) {
+  listen();
+  tcp::socket socket = knock();
+  RawTls client;
+  client.shakeHands(context, socket);
+  ASSERT_TRUE(runUntil(context, [&] { return accepted.size() == 1; }));
+  accepted[0]->send("after the handshake");  // tickets would have come before this
+  char byte = 0;
+  EXPECT_TRUE(runUntil(context, [&] {
+    std::array<char, 4096> in;
+    std::error_code ignored;
+    client.feed({in.data(), socket.read_some(asio::buffer(in), ignored)});
+    return SSL_read(client.ssl(), &byte, 1) == 1;
+  }));
+  EXPECT_EQ(SSL_SESSION_is_resumable(SSL_get0_session(client.ssl())), 0);
+}
+
+TEST_F(TlsListenerTest, HandshakeMayComeByteByByte) {
+  listen();
+  tcp::socket socket = knock();
+  socket.set_option(tcp::no_delay(true));
+  socket.non_blocking(true);
+  RawTls client;
+  for (int flights = 0; !client.done() && flights < 5; ++flights) {
+    const std::string flight = client.advance();
+    for (const char& byte : flight) {
+      asio::write(socket, asio::buffer(&byte, 1));
+      runReady(context);
+    }
+    if (client.done()) break;
+    std::array<char, 4096> in;
+    std::size_t size = 0;
+    std::error_code ignored;
+    ASSERT_TRUE(runUntil(context, [&] { return (size = socket.read_some(asio::buffer(in), ignored)) > 0; }));
+    client.feed({in.data(), size});
+  }
+  EXPECT_TRUE(client.done());
+  EXPECT_TRUE(runUntil(context, [&] { return accepted.size() == 1; }));
+}
+
+TEST_F(TlsListenerTest, HandshakeThatStopsHalfwayIsEndedByTheDeadline) {
+  tls.handshake_timeout = 50ms;
+  listen();
+  tcp::socket socket = knock();
+  RawTls client;
+  asio::write(socket, asio::buffer(client.advance().substr(0, 100)));
+  EXPECT_TRUE(runUntil(context, [&] { return counters().handshakes_late == 1; }));
+  EXPECT_EQ(listener->halfOpen(), 0u);
+  std::error_code end;
+  char byte = 0;
+  socket.read_some(asio::buffer(&byte, 1), end);
+  EXPECT_TRUE(end);  // hung up
+}
+
+TEST_F(TlsListenerTest, IdleConnectionsFromOnePlaceAreLimited) {
+  tls.max_half_open_per_prefix = 5;
+  tls.handshake_timeout = 1h;
+  listen();
+  std::vector<tcp::socket> flood;
+  for (int i = 0; i < 20; ++i) flood.push_back(knock());
+  EXPECT_TRUE(runUntil(context, [&] { return counters().refused_from_prefix == 15; }));
+  EXPECT_EQ(listener->halfOpen(), 5u);
+  flood.clear();  // they hang up: place again
+  EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 0; }));
+  join();
+}
+
+TEST_F(TlsListenerTest, IdleConnectionsInAllAreLimitedAndTimeOut) {
+  tls.max_half_open = 8;
+  tls.handshake_timeout = 100ms;
+  listen();
+  std::vector<tcp::socket> flood;
+  for (int i = 0; i < 20; ++i) flood.push_back(knock());
+  EXPECT_TRUE(
+      runUntil(context, [&] { return counters().handshakes_late + counters().refused_half_open == 20; }));
+  EXPECT_GE(counters().handshakes_late, 8u);
+  EXPECT_GT(counters().refused_half_open, 0u);
+  join();
+}
+
+TEST_F(TlsListenerTest, SlowHandshakesHoldUpNobody) {
+  tls.handshake_timeout = 1h;
+  listen();
+  std::vector<tcp::socket> slow;
+  for (int i = 0; i < 50; ++i) slow.push_back(knock());
+  EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 50; }));
+  join();
+  expectConversation(*this);
+  EXPECT_EQ(listener->halfOpen(), 50u);
+}
+
+TEST_F(TlsListenerTest, ClosingItBreaksHandshakesOff) {
+  tls.handshake_timeout = 1h;
+  listen();
+  tcp::socket socket = knock();
+  EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 1; }));
+  listener.reset();
+  std::error_code end;
+  char byte = 0;
+  socket.read_some(asio::buffer(&byte, 1), end);
+  EXPECT_TRUE(end);
+  EXPECT_TRUE(runUntil(context, [&] { return context.stopped(); }));  // nothing left to wait for
+}
+
+TEST_F(TlsListenerTest, MayBeDestroyedInItsCallback) {
+  tls.context = testServerContext();
+  int made = 0;
+  listener = std::make_unique<TcpListener>(
+      context, "127.0.0.1", 0,
+      [&](auto) {
+        listener.reset();
+        ++made;
+      },
+      TcpOptions{}, tls);
+  connector.connect("127.0.0.1", listener->port(), 10s, done());
+  EXPECT_TRUE(runUntil(context, [&] { return made == 1; }));
+}
+
+}  // namespace
+}  // namespace naiad::test
