@@ -5,6 +5,7 @@
 #include "EventKeyboard.h"
 #include "EventMouse.h"
 #include "EventPlayer.h"
+#include "Helm.h"
 #include "Views.h"
 #include "World.h"
 
@@ -42,6 +43,7 @@ void InputQueue::sendKey(const Input& input) {
   event.setKey(input.key);
   event.setKeyboardAction(input.key_action);
   event.setPlayer(input.player);
+  event.setHandled(handleKey(m_world, *m_world.getPlayer(input.player), input.key, input.key_action));
   m_world.onEvent(&event);
 }
 

@@ -5,6 +5,7 @@
 
 #include "Capture.h"
 #include "EventStep.h"
+#include "Helm.h"
 #include "Hearing.h"
 #include "InputQueue.h"
 #include "Interests.h"
@@ -79,6 +80,7 @@ void World::tick() {
     m_capture->begin();
     const EventStep step(m_step_count);
     onEvent(&step);
+    beginControlTick(*this);
     drainInput();
     update();
     drawObjects();
