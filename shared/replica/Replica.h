@@ -12,6 +12,7 @@
 
 #include "Acks.h"
 #include "Canvas.h"
+#include "Placement.h"
 #include "Records.h"
 #include "ViewFollow.h"
 
@@ -37,13 +38,17 @@ class Replica {
   void apply(std::uint32_t number, std::uint32_t tick, const Records& records);
 
   /// Draw the player's view as it is at `tick`: objects by altitude, then creation order, then texts.
-  /// The canvas has the size of the view.
-  df::Canvas render(std::uint32_t tick) const;
+  /// The canvas has the size of the view. With a placement, things are drawn where it says.
+  df::Canvas render(std::uint32_t tick, const Placement* p_placement = nullptr) const;
 
   /// Where the view's upper left corner is at `tick`, in whole world cells.
-  CellPosition viewCorner(std::uint32_t tick) const;
+  CellPosition viewCorner(std::uint32_t tick, const Placement* p_placement = nullptr) const;
   /// Where the followed object is drawn at `tick`, in view cells; the view's centre if there is none.
-  CellPosition focus(std::uint32_t tick) const;
+  CellPosition focus(std::uint32_t tick, const Placement* p_placement = nullptr) const;
+  /// The view at `tick` by its record, and the world it looks into.
+  ViewFrame viewFrame(std::uint32_t tick) const;
+  /// The object that the view follows; null if there is none.
+  const ObjectState* followed() const;
 
   int viewWidth() const { return m_world.view_width; }
   int viewHeight() const { return m_world.view_height; }
@@ -57,7 +62,6 @@ class Replica {
  private:
   void applyObject(std::uint32_t number, const ObjectRecord& record);
   void setLook(Entry& entry, const Look& look);
-  const Motion* followedMotion() const;
 
   std::unordered_map<std::uint32_t, Entry> m_entries;
   std::map<std::uint32_t, TextRecord> m_texts;
