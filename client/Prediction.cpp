@@ -90,7 +90,7 @@ df::FixedVector Prediction::reach(std::uint32_t ticks) const {
     const auto steps = static_cast<df::Fixed>(m_inputs.size() * df::kMaxControlRows);
     constexpr df::Fixed kFar = df::fromCells(40'000'000);  // so that no sum of these overflows
     return std::min(
-        n * std::min(fast, kFar / 128) + n * n * std::min(std::abs(gain), kFar / 16384) + steps * step, kFar);
+        n * std::min(fast, kFar / 128) + n * n * std::min(std::abs(gain), kFar / 32768) + steps * step, kFar);
   };
   return {far(fastest.x, m_known->acceleration.x, longest.x),
           far(fastest.y, m_known->acceleration.y, longest.y)};

@@ -22,13 +22,14 @@
 
 #include "ControlCodec.h"
 #include "Replica.h"
+#include "SteeredCopy.h"
 
 namespace naiad {
 
 class Prediction {
  public:
-  /// Ticks that are replayed at most.
-  static constexpr std::uint32_t kMaxAhead = 60;
+  /// Ticks that are replayed at most: kMostCoasting and two seconds' way there and back.
+  static constexpr std::uint32_t kMaxAhead = 90;
   /// Inputs without an answer that are kept at most; further ones are not predicted.
   static constexpr std::size_t kMaxInputs = 64;
 

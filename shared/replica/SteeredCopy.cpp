@@ -4,8 +4,6 @@ namespace naiad {
 
 namespace {
 
-constexpr int kMostTicks = 60;
-
 bool isWithin(df::FixedVector v, double cells) {
   const auto most = static_cast<df::Fixed>(cells) * df::kFixedOne;
   return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most;
@@ -41,7 +39,7 @@ void SteeredCopy::move(df::FixedVector to, bool in_update) {
 
 ControlRecord coast(const ControlRecord& known, const df::ControlTable& table, std::uint32_t tick) {
   SteeredCopy copy(known, table);
-  for (int i = 0; i < kMostTicks && copy.now().tick != tick; ++i) {
+  for (int i = 0; i < kMostCoasting && copy.now().tick != tick; ++i) {
     copy.begin();
     copy.finish();
   }

@@ -52,8 +52,11 @@ class SteeredCopy : public Steered {
   std::vector<df::FixedVector> m_trail;
 };
 
-/// What a client that knows `known` and hears no more takes for true at `tick`, at most 60 ticks later,
-/// where nothing is in the way. A server need not send a record that equals it.
+/// Ticks after which a state that still changes by itself is sent anew.
+inline constexpr int kMostCoasting = 30;
+
+/// What a client that knows `known` and hears no more takes for true at `tick`, where nothing is in the way;
+/// after kMostCoasting ticks: that nothing changes any more. A server need not send a state that equals it.
 ControlRecord coast(const ControlRecord& known, const df::ControlTable& table, std::uint32_t tick);
 
 }  // namespace naiad
