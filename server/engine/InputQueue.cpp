@@ -16,8 +16,10 @@ void InputQueue::drain() {
   inputs.swap(m_inputs);
   for (const Input& input : inputs) {
     const std::uint32_t before = std::exchange(m_world.m_input_player, input.player);
+    const Seen seen_before = std::exchange(m_world.m_input_seen, input.seen);
     handle(input);
     m_world.m_input_player = before;
+    m_world.m_input_seen = seen_before;
   }
 }
 
