@@ -28,19 +28,30 @@ class ExtrapolationClamp {
   df::FixedVector positionOf(const ObjectState& object) const;
 
  private:
+  /// Cells of the index, edges included.
+  struct Range {
+    std::int64_t left, top, right, bottom;
+    std::int64_t count() const { return (right - left + 1) * (bottom - top + 1); }
+  };
   struct Solid {
-    const ObjectState* p_object;
+    std::uint64_t order;
     df::FixedBox along;  ///< around all its places from known to drawn
+    Range range;
+    std::size_t places;  ///< where its boxes begin in m_places, one for each tick from known to drawn
   };
   using Cell = std::uint64_t;
 
+  static Range cellsOf(const df::FixedBox& box);
   void sort(const Solid& solid, std::uint32_t index);
   template <class Visit>
   void forEachNear(const df::FixedBox& box, Visit visit) const;
-  bool enters(const ObjectState& mover, const ObjectState& other, std::uint32_t tick) const;
+  std::uint32_t firstTouch(const std::vector<df::FixedBox>& mover, std::uint64_t order, const Solid& other,
+                           std::uint32_t before) const;
 
   std::uint32_t m_known;
   std::uint32_t m_drawn;
+  std::uint32_t m_ticks = 0;  ///< from known to drawn; 0: nothing is clamped
+  std::vector<df::FixedBox> m_places;
   std::vector<Solid> m_solids;
   std::vector<std::pair<Cell, std::uint32_t>> m_cells;  ///< sorted; the number is an index into m_solids
   std::vector<std::uint32_t> m_large;                   ///< indices of those in too many cells
