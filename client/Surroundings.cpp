@@ -21,8 +21,8 @@ df::FixedBox unite(const df::FixedBox& a, const df::FixedBox& b) {
 }  // namespace
 
 std::optional<df::FixedBox> boxAt(const Body& body, df::FixedVector position) {
-  // Boxes are within 10^6 cells (RecordCodec), so what is within this cannot overflow.
-  constexpr df::Fixed kFar = df::fromCells(2'100'000'000);
+  // Boxes are within 10^6 cells (RecordCodec), so nothing overflows that spans two places within this.
+  constexpr df::Fixed kFar = df::fromCells(1'000'000'000);
   if (position.x < -kFar || position.x > kFar || position.y < -kFar || position.y > kFar) return std::nullopt;
   return df::translate(body.box, position);
 }

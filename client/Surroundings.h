@@ -10,8 +10,8 @@
 
 namespace naiad {
 
-/// The box of an object at this position, in world coordinates; nothing for a position that no object of an
-/// honest server has.
+/// The box of an object at this position, in world coordinates; nothing beyond 10^9 cells, where nothing is
+/// in anybody's way.
 std::optional<df::FixedBox> boxAt(const Body& body, df::FixedVector position);
 
 /// The smallest box around where the object is in the ticks from `first` to `last`, both included; nothing

@@ -40,7 +40,7 @@ void writeRow(ByteWriter& out, const ControlRow& row) {
 
 ControlRow readRow(ByteReader& in) {
   ControlRow row;
-  row.key = static_cast<df::Keyboard::Key>(in.byte());
+  row.key = static_cast<df::Keyboard::Key>(in.upTo(df::Keyboard::kKeyCount - 1));
   const std::uint8_t what = in.byte();
   if (what > 63 || (what & 3) > df::KEY_DOWN || (what >> 2 & 3) > static_cast<int>(ControlEffect::kDrive)) {
     in.fail();

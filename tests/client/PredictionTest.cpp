@@ -195,6 +195,10 @@ TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
   prediction.run(replica, kTick + 90);
   EXPECT_EQ(prediction.position(), (FixedVector{kFar, -kFar}));
   EXPECT_EQ(prediction.velocity(), record.velocity);
+  const ExtrapolationClamp clamp(replica, kTick, kTick + 8);
+  for (const auto& [slot, entry] : replica.entries()) {
+    EXPECT_EQ(clamp.positionOf(entry.state), positionAt(entry.state.motion, kTick + 8));
+  }
 }
 
 TEST_F(PredictionTest, ThePictureShowsTheShipAndTheViewWhereTheyWillBe) {

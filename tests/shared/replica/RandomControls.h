@@ -9,7 +9,8 @@ namespace naiad::test {
 /// Somewhere in ±most, small and whole numbers not seldom.
 inline df::Fixed randomFixed(SplitMix64& rng, df::Fixed most) {
   const df::Fixed far = rng.below(3) == 0 ? most : std::min(most, df::fromCells(3));
-  const auto value = static_cast<df::Fixed>(rng.below(2 * static_cast<std::uint64_t>(far) + 1)) - far;
+  const auto span = static_cast<std::uint64_t>(far);
+  const auto value = static_cast<df::Fixed>(rng.below(2 * span + 1) - span);
   return rng.below(2) == 0 ? value : value & ~(df::kFixedOne - 1);
 }
 
