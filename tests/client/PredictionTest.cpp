@@ -88,6 +88,14 @@ TEST_F(PredictionTest, AnInputCountsFromItsTickOn) {
   EXPECT_EQ(at(kTick + 9), cells(11, 10));
 }
 
+TEST_F(PredictionTest, NoInputComesBeforeOneThatWasSentEarlier) {
+  prediction.press(1, D, KEY_PRESSED, kTick + 5);
+  prediction.press(2, S, KEY_PRESSED, kTick + 3);
+  prediction.take(answer(kTick + 1, 1, cells(10, 10)));
+  EXPECT_EQ(at(kTick + 4), cells(10, 10));
+  EXPECT_EQ(at(kTick + 5), cells(10, 11));
+}
+
 TEST_F(PredictionTest, AnswersTakeTheirInputsAway) {
   prediction.press(1, D, KEY_PRESSED, kTick + 2);
   prediction.press(2, S, KEY_PRESSED, kTick + 6);
