@@ -24,10 +24,16 @@ class EventKeyboard : public Event {
   void setPlayer(std::uint32_t player) { m_player = player; }
   std::uint32_t getPlayer() const { return m_player; }
 
+  /// The player's declared controls (Player::setControls) have done something about it, or would have but
+  /// for a wait or a wall: to move the Object is no longer the handler's business.
+  void setHandled(bool handled) { m_handled = handled; }
+  bool isHandled() const { return m_handled; }
+
  private:
   Keyboard::Key m_key = Keyboard::UNDEFINED_KEY;
   EventKeyboardAction m_action = UNDEFINED_KEYBOARD_ACTION;
   std::uint32_t m_player = 0;
+  bool m_handled = false;
 };
 
 }  // namespace df

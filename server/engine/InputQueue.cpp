@@ -5,6 +5,7 @@
 #include "EventKeyboard.h"
 #include "EventMouse.h"
 #include "EventPlayer.h"
+#include "Helm.h"
 #include "Views.h"
 #include "World.h"
 
@@ -15,8 +16,10 @@ void InputQueue::drain() {
   inputs.swap(m_inputs);
   for (const Input& input : inputs) {
     const std::uint32_t before = std::exchange(m_world.m_input_player, input.player);
+    const Seen seen_before = std::exchange(m_world.m_input_seen, input.seen);
     handle(input);
     m_world.m_input_player = before;
+    m_world.m_input_seen = seen_before;
   }
 }
 
@@ -42,6 +45,7 @@ void InputQueue::sendKey(const Input& input) {
   event.setKey(input.key);
   event.setKeyboardAction(input.key_action);
   event.setPlayer(input.player);
+  event.setHandled(handleKey(m_world, *m_world.getPlayer(input.player), input.key, input.key_action));
   m_world.onEvent(&event);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Color.h"
+#include "Hindsight.h"
 #include "Keyboard.h"
 
 namespace df {
@@ -20,6 +21,7 @@ class InputQueue {
   struct Input {
     Kind kind;
     std::uint32_t player;
+    Seen seen = {};
     std::string name = {};
     Color color = COLOR_DEFAULT;
     Keyboard::Key key = Keyboard::UNDEFINED_KEY;

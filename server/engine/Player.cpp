@@ -3,8 +3,10 @@
 #include <utility>
 
 #include "Canvas.h"
+#include "Controls.h"
 #include "Views.h"
 #include "World.h"
+#include "WorldStore.h"
 
 namespace df {
 
@@ -23,6 +25,17 @@ int Player::setObject(Object* p_o) {
 
 Object* Player::getObject() const {
   return m_p_world != nullptr ? m_p_world->find(m_object) : nullptr;
+}
+
+int Player::setControls(const Controls& controls) {
+  auto table = controls.table();
+  if (!table) {
+    if (m_p_world != nullptr) m_p_world->refuse("Player", "setControls");
+    return -1;
+  }
+  m_p_controls = table->rows.empty() ? nullptr : std::make_shared<const ControlTable>(*std::move(table));
+  m_control_state = {};
+  return 0;
 }
 
 int Player::setText(std::uint32_t id, Vector position, const std::string& text, Color color) {
@@ -62,6 +75,21 @@ PlayerFacts Player::facts() const {
   if (m_p_world != nullptr) f.followed = m_p_world->views().followed(*this);
   f.view_corner = m_view_corner;
   for (const auto& [id, text] : m_texts) f.texts.push_back(text);
+  if (m_p_controls != nullptr) f.steering = steeringFacts();
+  return f;
+}
+
+SteeringFacts Player::steeringFacts() const {
+  SteeringFacts f{m_p_controls, {}, m_control_state, {}, {}, {}};
+  f.state.steering = false;
+  const Object* p_o = getObject();
+  if (p_o == nullptr) return f;
+  f.object = m_object;
+  f.state.steering = m_steers && p_o->isActive();
+  const WorldStore& store = m_p_world->store();
+  f.position = store.position(m_object.slot);
+  f.velocity = store.velocity(m_object.slot);
+  f.acceleration = store.acceleration(m_object.slot);
   return f;
 }
 

@@ -7,13 +7,17 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 
+#include "ControlTable.h"
 #include "Object.h"
 #include "Vector.h"
 #include "WorldView.h"
 
 namespace df {
+
+class Controls;
 
 class Player {
  public:
@@ -29,6 +33,15 @@ class Player {
   /// Passing null leaves the view where it is. Return 0, or -1 for an Object of another world.
   int setObject(Object* p_o);
   Object* getObject() const;
+
+  /// From now on these keys move getObject(), whichever that is at the time (Controls.h); a table without
+  /// rows ends it. Keys held down and waits are forgotten. Return 0, or -1 for controls with a number that
+  /// is not finite or out of range (nothing changes).
+  int setControls(const Controls& controls);
+  /// Whether the controls have effects (default), or only remember which keys are down: while a ship is
+  /// lost, say. An Object that is inactive is not moved either.
+  void setSteering(bool steering = true) { m_steers = steering; }
+  bool isSteering() const { return m_steers; }
 
   /// Points, shown in the client's player list.
   void setScore(int score) { m_score = score; }
@@ -46,8 +59,12 @@ class Player {
   PlayerFacts facts() const;
 
  private:
+  SteeringFacts steeringFacts() const;
+
   friend class World;
   friend class Views;
+  friend void beginControlTick(World& world);
+  friend bool handleKey(World& world, Player& player, Keyboard::Key key, EventKeyboardAction action);
   std::uint32_t m_id;
   std::string m_name;
   Color m_color;
@@ -58,6 +75,9 @@ class Player {
   FixedVector m_view_corner;
   bool m_has_view = false;  // since its first Object; before that it shares the world's view
   std::map<std::uint32_t, PlayerText> m_texts;
+  std::shared_ptr<const ControlTable> m_p_controls;  // null: none declared
+  ControlState m_control_state;
+  bool m_steers = true;
 };
 
 }  // namespace df

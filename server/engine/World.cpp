@@ -6,6 +6,7 @@
 #include "Capture.h"
 #include "EventStep.h"
 #include "Hearing.h"
+#include "Helm.h"
 #include "InputQueue.h"
 #include "Interests.h"
 #include "LogFile.h"
@@ -79,6 +80,7 @@ void World::tick() {
     m_capture->begin();
     const EventStep step(m_step_count);
     onEvent(&step);
+    beginControlTick(*this);
     drainInput();
     update();
     drawObjects();
@@ -177,17 +179,19 @@ void World::leave(std::uint32_t player) {
   m_input->push({.kind = InputQueue::kLeave, .player = player});
 }
 
-void World::key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action) {
+void World::key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const Seen& seen) {
   if (key < 0 || key >= Keyboard::kKeyCount || action < KEY_PRESSED || action > KEY_DOWN) return;
-  m_input->push({.kind = InputQueue::kKey, .player = player, .key = key, .key_action = action});
+  m_input->push({.kind = InputQueue::kKey, .player = player, .seen = seen, .key = key, .key_action = action});
 }
 
-void World::mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y) {
+void World::mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y,
+                  const Seen& seen) {
   if (action < CLICKED || action > MOVED) return;
   if (button < Mouse::UNDEFINED_MOUSE_BUTTON || button > Mouse::MIDDLE) return;
   if (x < 0 || y < 0 || x >= getWindowWidth() || y >= getWindowHeight()) return;
   m_input->push({.kind = InputQueue::kMouse,
                  .player = player,
+                 .seen = seen,
                  .button = button,
                  .mouse_action = action,
                  .x = x,

@@ -20,6 +20,7 @@
 #include "Color.h"
 #include "Contact.h"
 #include "Event.h"
+#include "Hindsight.h"
 #include "Keyboard.h"
 #include "ObjectList.h"
 #include "Paths.h"
@@ -120,6 +121,7 @@ class World {
   Object* find(ObjectKey key) const;
   /// Which ways through the engine the moves have taken so far.
   const Paths& paths() const;
+  ObjectList objectsSeenAt(Vector cell) const;
   /// Objects in the world, inactive ones included.
   int getObjectCount() const;
 
@@ -159,13 +161,19 @@ class World {
   std::uint32_t join(const std::string& name, Color color);
   /// A player goes, in the next tick. An unknown id is ignored then.
   void leave(std::uint32_t player);
-  /// A key. Unknown keys, actions and players are ignored.
-  void key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action);
+  /// A key. Unknown keys, actions and players are ignored. `seen`: what was on the player's screen then.
+  void key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const Seen& seen = {});
   /// The mouse, at cell (x,y) of the player's view; ignored outside it. The event's position is in world
   /// coordinates, by the view as it is when the event is handled.
-  void mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y);
+  void mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y,
+             const Seen& seen = {});
   /// Hand on what waits. tick() does this.
   void drainInput();
+  /// Does the game look back? Then the host should say how; it need not remember anything otherwise.
+  void setLookingBack(bool looking_back) { m_looking_back = looking_back; }
+  bool isLookingBack() const { return m_looking_back; }
+  /// Who knows what players saw. Not owned; null for nobody.
+  void setHindsight(const Hindsight* p_hindsight) { m_p_hindsight = p_hindsight; }
 
   // What a tick looks like.
 
@@ -251,6 +259,9 @@ class World {
   std::uint64_t m_refusals = 0;
   std::uint32_t m_next_player = 1;
   std::uint32_t m_input_player = 0;
+  Seen m_input_seen;  // by that player
+  const Hindsight* m_p_hindsight = nullptr;
+  bool m_looking_back = false;
   int m_step_count = 0;
   int m_log_level = 0;
   unsigned m_started = 0;

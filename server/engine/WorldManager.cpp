@@ -51,6 +51,18 @@ Object* WorldManager::objectWithId(int id) const {
   return World::current().objectWithId(id);
 }
 
+ObjectList WorldManager::objectsSeenAt(Vector cell) const {
+  return World::current().objectsSeenAt(cell);
+}
+
+void WorldManager::setLookingBack(bool looking_back) {
+  World::current().setLookingBack(looking_back);
+}
+
+bool WorldManager::isLookingBack() const {
+  return World::current().isLookingBack();
+}
+
 ObjectList WorldManager::getCollisions(const Object* p_o, Vector where) const {
   return World::current().getCollisions(p_o, where);
 }

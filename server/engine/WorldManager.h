@@ -52,6 +52,14 @@ class WorldManager : public Manager {
   ObjectList solidObjects() const;
   /// The Object with this id (Object::getId); null if there is none.
   Object* objectWithId(int id) const;
+  /// The active visible Objects whose boxes covered this cell (a world position, as of EventMouse) on the
+  /// screen of the player whose input is being handled, at the moment he did it, in creation order. For
+  /// games in which a click must hit what was clicked on, however far the player and however fast the target.
+  /// Outside a player's input, and without setLookingBack(): those that cover it now.
+  ObjectList objectsSeenAt(Vector cell) const;
+  /// Have the host remember where Objects were drawn, for objectsSeenAt(). Off by default.
+  void setLookingBack(bool looking_back = true);
+  bool isLookingBack() const;
 
   // How they move.
 

@@ -101,6 +101,7 @@ void World::shutDown() {
   m_refusals = 0;
   m_step_count = 0;
   m_started = 0;
+  m_looking_back = false;
   m_game_over = false;
 }
 
@@ -152,6 +153,28 @@ ObjectList World::solidObjects() const {
 Object* World::objectWithId(int id) const {
   const ObjectList found = collect([&](auto s) { return m_p_store->object(s)->getId() == id; });
   return found[0];
+}
+
+// The cells that a box of an Object at `position` is drawn in; what is smaller than a cell is drawn in one.
+static bool coversCell(Fixed position, Fixed corner, Fixed extent, std::int32_t cell) {
+  if (extent < kFixedOne) return cellOf(position + corner + extent / 2) == cell;
+  return cellOf(position + corner + kFixedOne / 2) <= cell &&
+         cell <= cellOf(position + corner + extent - kFixedOne / 2);
+}
+
+ObjectList World::objectsSeenAt(Vector cell) const {
+  const auto where = toFixed(cell);
+  if (!where) return {};
+  return collect([&](auto s) {
+    if (!m_p_store->has(s, WorldStore::kActive) || !m_p_store->has(s, WorldStore::kVisible)) return false;
+    std::optional<FixedVector> p = m_p_store->position(s);
+    if (m_p_hindsight != nullptr && m_input_seen.known) {
+      p = m_p_hindsight->positionOf(m_p_store->key(s), m_input_seen);
+    }
+    const FixedBox box = m_p_store->box(s);
+    return p && coversCell(p->x, box.corner.x, box.size.x, cellOf(where->x)) &&
+           coversCell(p->y, box.corner.y, box.size.y, cellOf(where->y));
+  });
 }
 
 // Moving.

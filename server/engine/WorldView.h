@@ -6,10 +6,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "Color.h"
+#include "ControlTable.h"
 #include "Fixed.h"
 #include "Solidness.h"
 
@@ -60,6 +62,16 @@ struct PlayerText {
   friend bool operator==(const PlayerText&, const PlayerText&) = default;
 };
 
+/// What a player steers by declared controls, exactly, at the end of the tick.
+struct SteeringFacts {
+  std::shared_ptr<const ControlTable> p_table;  ///< null: no controls declared, and nothing below is set
+  ObjectKey object;  ///< generation 0: nobody is steered, nothing but `state` below
+  ControlState state;
+  FixedVector position;
+  FixedVector velocity;  ///< what update() will try to add next tick, even if the last move was blocked
+  FixedVector acceleration;
+};
+
 /// A player as seen from outside the world.
 struct PlayerFacts {
   std::uint32_t id = 0;
@@ -69,6 +81,7 @@ struct PlayerFacts {
   ObjectKey followed;             ///< generation 0: the view follows nobody
   FixedVector view_corner;        ///< upper left corner of the view, world coordinates
   std::vector<PlayerText> texts;  ///< non-empty ones, by id
+  SteeringFacts steering;
 };
 
 struct WorldView {

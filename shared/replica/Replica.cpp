@@ -25,6 +25,10 @@ ViewFrame frameOf(const WorldRecord& world, df::FixedVector corner) {
   return {corner, {df::fromCells(world.view_width), df::fromCells(world.view_height)}, world.boundary};
 }
 
+df::FixedVector placed(const ObjectState& object, std::uint32_t tick, const Placement* p_placement) {
+  return p_placement != nullptr ? p_placement->positionOf(object, tick) : positionAt(object.motion, tick);
+}
+
 }  // namespace
 
 void Replica::apply(const Snapshot& snapshot) {
@@ -120,31 +124,38 @@ const Replica::Entry* Replica::find(std::uint32_t id) const {
   return found != m_entries.end() && found->second.alive ? &found->second : nullptr;
 }
 
-const Motion* Replica::followedMotion() const {
+const ObjectState* Replica::followed() const {
   const Entry* entry = m_view.follows ? find(m_view.id) : nullptr;
-  return entry != nullptr && entry->generation == m_view.generation ? &entry->state.motion : nullptr;
+  return entry != nullptr && entry->generation == m_view.generation ? &entry->state : nullptr;
 }
 
-CellPosition Replica::viewCorner(std::uint32_t tick) const {
-  const df::FixedVector corner =
-      viewCornerAt(frameOf(m_world, m_view.corner), m_view_tick, followedMotion(), tick);
+ViewFrame Replica::viewFrame(std::uint32_t tick) const {
+  const ObjectState* object = followed();
+  ViewFrame frame = frameOf(m_world, m_view.corner);
+  frame.corner = viewCornerAt(frame, m_view_tick, object != nullptr ? &object->motion : nullptr, tick);
+  return frame;
+}
+
+CellPosition Replica::viewCorner(std::uint32_t tick, const Placement* p_placement) const {
+  df::FixedVector corner = viewFrame(tick).corner;
+  if (p_placement != nullptr) corner = p_placement->viewCorner(corner);
   return {df::cellOf(corner.x), df::cellOf(corner.y)};
 }
 
-CellPosition Replica::focus(std::uint32_t tick) const {
-  const Motion* motion = followedMotion();
-  if (motion == nullptr) return {viewWidth() / 2, viewHeight() / 2};
-  const CellPosition corner = viewCorner(tick);
-  const df::FixedVector at = positionAt(*motion, tick);
+CellPosition Replica::focus(std::uint32_t tick, const Placement* p_placement) const {
+  const ObjectState* object = followed();
+  if (object == nullptr) return {viewWidth() / 2, viewHeight() / 2};
+  const CellPosition corner = viewCorner(tick, p_placement);
+  const df::FixedVector at = placed(*object, tick, p_placement);
   const auto inView = [](std::int32_t cell, std::int32_t low, int extent) {
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(std::int64_t{cell} - low, 0, extent - 1));
   };
   return {inView(df::cellOf(at.x), corner.x, viewWidth()), inView(df::cellOf(at.y), corner.y, viewHeight())};
 }
 
-df::Canvas Replica::render(std::uint32_t tick) const {
+df::Canvas Replica::render(std::uint32_t tick, const Placement* p_placement) const {
   df::Canvas canvas(viewWidth(), viewHeight());
-  const CellPosition corner = viewCorner(tick);
+  const CellPosition corner = viewCorner(tick, p_placement);
 
   std::vector<const ObjectState*> shown;
   shown.reserve(m_alive);
@@ -155,7 +166,7 @@ df::Canvas Replica::render(std::uint32_t tick) const {
     return a->look.altitude != b->look.altitude ? a->look.altitude < b->look.altitude : a->order < b->order;
   });
   for (const ObjectState* state : shown) {
-    const df::FixedVector at = positionAt(state->motion, tick);
+    const df::FixedVector at = placed(*state, tick, p_placement);
     for (const Glyph& glyph : *state->look.select(tick)) {
       const CellPosition cell = glyphCell(at, glyph);
       const std::int64_t x = std::int64_t{cell.x} - corner.x;

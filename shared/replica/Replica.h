@@ -12,6 +12,7 @@
 
 #include "Acks.h"
 #include "Canvas.h"
+#include "Placement.h"
 #include "SnapshotCodec.h"
 #include "ViewFollow.h"
 #include "Vocabulary.h"
@@ -45,13 +46,17 @@ class Replica {
   void apply(const Snapshot& snapshot);
 
   /// Draw the player's view as it is at `tick`: objects by altitude, then creation order, then texts.
-  /// The canvas has the size of the view.
-  df::Canvas render(std::uint32_t tick) const;
+  /// The canvas has the size of the view. With a placement, things are drawn where it says.
+  df::Canvas render(std::uint32_t tick, const Placement* p_placement = nullptr) const;
 
   /// Where the view's upper left corner is at `tick`, in whole world cells.
-  CellPosition viewCorner(std::uint32_t tick) const;
+  CellPosition viewCorner(std::uint32_t tick, const Placement* p_placement = nullptr) const;
   /// Where the followed object is drawn at `tick`, in view cells; the view's centre if there is none.
-  CellPosition focus(std::uint32_t tick) const;
+  CellPosition focus(std::uint32_t tick, const Placement* p_placement = nullptr) const;
+  /// The view at `tick` by its record, and the world it looks into.
+  ViewFrame viewFrame(std::uint32_t tick) const;
+  /// The object that the view follows; null if there is none.
+  const ObjectState* followed() const;
 
   int viewWidth() const { return m_world.view_width; }
   int viewHeight() const { return m_world.view_height; }
@@ -72,7 +77,6 @@ class Replica {
   void applyObject(std::uint32_t number, const ObjectRecord& record);
   void end(Entry& entry, std::uint32_t number);
   void setLook(Entry& entry, const Look& look);
-  const Motion* followedMotion() const;
 
   SnapshotContext m_context;
   Vocabulary m_vocabulary;

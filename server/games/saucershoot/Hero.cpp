@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "Bullet.h"
+#include "Controls.h"
 #include "DisplayManager.h"
 #include "EventCollision.h"
 #include "EventMouse.h"
@@ -30,12 +31,18 @@ constexpr int kMostNukes = 3;
 constexpr int kHitsPerNuke = 20;
 constexpr double kAimRows = 2;  // how far the gun turns by itself
 
-/// The velocity along one axis: full speed while a key asks for it, then on to the next whole cell, so that
-/// a tap of a key is a step of one cell. It ends at `low` and `high`.
-double glide(int wanted, double speed, double position, double velocity, double low, double high) {
-  const bool arrived = position == std::floor(position);
-  const double next = wanted != 0 ? wanted * speed : arrived ? 0 : velocity;
-  return position + next < low || position + next > high ? 0 : next;
+/// Full speed while a key is down, then on to the next whole cell, so that a tap of a key is a step of one
+/// cell. Declared, so that a pilot far away sees the ship obey at once.
+df::Controls flightControls() {
+  using namespace df::Keyboard;
+  df::Controls controls;
+  for (const Key key : {LEFTARROW, A}) controls.onKey(key).drive(-kSpeedAcross, 0);
+  for (const Key key : {RIGHTARROW, D}) controls.onKey(key).drive(kSpeedAcross, 0);
+  for (const Key key : {UPARROW, W}) controls.onKey(key).drive(0, -kSpeedDown);
+  for (const Key key : {DOWNARROW, S}) controls.onKey(key).drive(0, kSpeedDown);
+  return controls.toWholeCells()
+      .within(df::Box(df::Vector(1, topRow()), fieldWidth() - 3, bottomRow() - topRow()))
+      .patience(Trigger::kPatience);
 }
 
 }  // namespace
@@ -54,6 +61,7 @@ Hero::Hero(df::Player& player)
   registerInterest(df::LEAVE_EVENT);
   registerInterest(SHOT_DOWN_EVENT);
   player.setObject(this);
+  player.setControls(flightControls());
   launch();
 }
 
@@ -91,7 +99,7 @@ void Hero::step() {
   df::Player* p_player = WM.getPlayer(m_player);
   if (p_player == nullptr) return;
 
-  m_controls.step();
+  m_trigger.step();
   if (m_gun_wait > 0) --m_gun_wait;
   if (m_hint_wait > 0) --m_hint_wait;
   if (m_wait > 0 && --m_wait == 0) {
@@ -101,10 +109,7 @@ void Hero::step() {
       setSolidness(df::SOFT);  // the shield is down
     }
   }
-  if (!m_lost) {
-    steer();
-    if (m_controls.isFiring()) fire(aimAhead());
-  }
+  if (!m_lost && m_trigger.isPulled()) fire(aimAhead());
   showStatus(*p_player);
   showMessage(*p_player);
 }
@@ -112,10 +117,8 @@ void Hero::step() {
 // --- what the player does
 
 void Hero::keyboard(const df::EventKeyboard& event) {
-  m_controls.key(event);
+  m_trigger.key(event);
   if (m_lost || event.getKeyboardAction() != df::KEY_PRESSED) return;
-  // At once, not in the next step: one tick less between finger and screen.
-  steer();
   if (event.getKey() == df::Keyboard::SPACE) fire(aimAhead());
   if (event.getKey() == df::Keyboard::N || event.getKey() == df::Keyboard::RETURN) fireNuke();
 }
@@ -123,14 +126,6 @@ void Hero::keyboard(const df::EventKeyboard& event) {
 void Hero::mouse(const df::EventMouse& event) {
   const bool pulls_trigger = event.getMouseAction() != df::MOVED && event.getMouseButton() == df::Mouse::LEFT;
   if (pulls_trigger && !m_lost) fire(event.getMousePosition() - getPosition());
-}
-
-void Hero::steer() {
-  const df::Vector at = getPosition();
-  const df::Vector velocity = getVelocity();
-  setVelocity(
-      df::Vector(glide(m_controls.horizontal(), kSpeedAcross, at.x(), velocity.x(), 1, fieldWidth() - 2),
-                 glide(m_controls.vertical(), kSpeedDown, at.y(), velocity.y(), topRow(), bottomRow())));
 }
 
 void Hero::fire(df::Vector direction) {
@@ -171,6 +166,7 @@ void Hero::launch() {
   m_wait = kShieldTicks;
   m_nukes = std::max(1, m_nukes);
   m_first_score = WM.getPlayer(m_player)->getScore();
+  WM.getPlayer(m_player)->setSteering();
   setPosition(freePlace());
   setSolidness(df::SPECTRAL);  // nothing touches a shielded ship
   setVisible(true);
@@ -198,6 +194,7 @@ void Hero::lose() {
   m_wait = kLostTicks;
   m_hint_wait = 0;
   m_life_score = p_player->getScore() - m_first_score;
+  p_player->setSteering(false);
   setVelocity(df::Vector());
   setSolidness(df::SPECTRAL);
   setVisible(false);

@@ -6,10 +6,11 @@
 #include <string>
 
 #include "Color.h"
-#include "Controls.h"
 #include "Object.h"
+#include "Trigger.h"
 
 namespace df {
+class EventKeyboard;
 class EventMouse;
 class Player;
 }  // namespace df
@@ -29,7 +30,6 @@ class Hero : public df::Object {
   void launch();
   void lose();
   df::Vector freePlace();
-  void steer();
   void fire(df::Vector direction);
   void fireNuke();
   df::Vector aimAhead() const;
@@ -40,7 +40,7 @@ class Hero : public df::Object {
   std::uint32_t m_player;  // id: the Player itself is gone some day
   std::string m_name;
   df::Color m_color;
-  Controls m_controls;
+  Trigger m_trigger;
   bool m_lost = false;
   int m_wait = 0;       // ticks: of the shield while flying, to the next launch while lost
   int m_gun_wait = 0;   // ticks until the gun is ready

@@ -3,6 +3,9 @@
 #include <vector>
 
 #include "HostedGame.h"
+#include "Player.h"
+#include "SteeredCopy.h"
+#include "WorldView.h"
 
 /// The game's main(), compiled into this test under another name.
 int saucershoot_main();
@@ -168,6 +171,50 @@ TEST(SaucerShoot, ShipWhoseReleaseGotLostStopsByItself) {
     EXPECT_EQ(p_hero->getVelocity(), df::Vector());
     EXPECT_LT(p_hero->getPosition().x(), 70);
   });
+}
+
+ControlRecord recordOf(df::World& world, std::uint32_t player) {
+  const df::SteeringFacts f = world.getPlayer(player)->facts().steering;
+  return {static_cast<std::uint32_t>(world.getStepCount()),
+          f.object.slot,
+          f.object.generation,
+          0,
+          f.position,
+          f.velocity,
+          f.acceleration,
+          f.state};
+}
+
+/// What a client is told is enough to know where the ship flies, until it is hit.
+TEST(SaucerShoot, AShipsControlsForetellItsPath) {
+  int foretold = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    hostGame(saucershoot_main, seed, [&](df::World& world) {
+      df::Random random(seed);
+      const std::uint32_t player = joinAndWait(world);
+      const df::ControlTable table = *world.getPlayer(player)->facts().steering.p_table;
+      for (int t = 0; t < 500; ++t) {
+        SteeredCopy copy(recordOf(world, player), table);
+        copy.begin();
+        for (int k = random.below(3); k > 0; --k) {
+          static constexpr Key kKeys[] = {df::Keyboard::W, df::Keyboard::LEFTARROW, df::Keyboard::S,
+                                          df::Keyboard::D, df::Keyboard::SPACE};
+          const Key key = kKeys[random.below(5)];
+          const auto action = static_cast<df::EventKeyboardAction>(random.below(3));
+          world.key(player, key, action);
+          copy.key(key, action);
+        }
+        copy.finish();
+        const bool could_steer = copy.now().state.steering;
+        world.tick();
+        const ControlRecord now = recordOf(world, player);
+        if (could_steer != now.state.steering) continue;  // hit, or launched
+        EXPECT_EQ(now, copy.now());
+        ++foretold;
+      }
+    });
+  }
+  EXPECT_GT(foretold, 9000);
 }
 
 TEST(SaucerShoot, LostShipIsLaunchedAnewInAFreePlace) {
