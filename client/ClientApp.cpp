@@ -290,7 +290,9 @@ std::string ClientApp::banner(Time now) {
   if (m_controls.prefixed()) return "Ctrl-]: t chat  p players  h help  s status  q leave";
   ClientSession* session = m_connection.session();
   const bool searching = m_connection.state() == Connection::State::kSearching;
-  if (session == nullptr || (!searching && !session->isSilent(now))) return "";
+  // A session may go on by datagrams while its stream is sought again: nobody need know.
+  if (session == nullptr || !(session->isSilent(now) || (searching && !session->hasDatagrams(now))))
+    return "";
   const auto tenths =
       std::chrono::floor<std::chrono::milliseconds>(session->clock().silence(now)).count() / 100;
   char text[96];
@@ -334,6 +336,8 @@ ClientApp::Time ClientApp::nextDeadline(Time now) {
   Time next = std::min(now + kHousekeeping, m_held.deadline());
   if (const auto due = m_decoder.deadline()) next = std::min(next, *due);
   next = std::min(next, m_next_key_tick);
+  if (m_connection.session() != nullptr)
+    next = std::min(next, m_connection.session()->nextWake().value_or(next));
   if (m_move) next = std::min(next, m_last_move + kFrame);
   if (m_dirty) next = std::min(next, m_last_frame + kFrame);
   // A tick that passes without news can still change the picture.

@@ -30,6 +30,7 @@ class ClientApp {
   struct Options {
     ServerAddress address;
     SessionOptions session;  ///< the terminal's size is filled in here
+    ServerTrust trust;
     bool ascii = false;
     bool mouse = true;
     bool colors = true;

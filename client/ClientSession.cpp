@@ -23,7 +23,7 @@ std::uint32_t clampedCells(int cells) {
 
 ClientSession::ClientSession(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
                              Time now)
-    : m_channel(std::move(channel)), m_last_ping(now), m_last_heard(now) {
+    : m_channel(std::move(channel)), m_options(options), m_last_ping(now), m_last_heard(now) {
   m_channel->setReceiveLimit(kMaxServerFrame);
   wire::ClientMessage message;
   wire::Hello& hello = *message.mutable_hello();
@@ -34,6 +34,12 @@ ClientSession::ClientSession(std::unique_ptr<ReliableChannel> channel, const Ses
   hello.set_program(options.program);
   hello.set_columns(clampedCells(options.columns));
   hello.set_rows(clampedCells(options.rows));
+  hello.set_password(options.password);
+  hello.set_resume_token(options.resume_token);
+  if (options.open_socket) {
+    hello.add_aeads(static_cast<std::uint32_t>(AeadId::kAes128Gcm));
+    hello.add_aeads(static_cast<std::uint32_t>(AeadId::kChaCha20Poly1305));
+  }
   send(message);
 }
 
@@ -55,11 +61,70 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
   m_budget.setTick(m_welcome.tick);
   m_state = State::kPlaying;
   m_last_ping = now - kPingInterval;
+  m_attached = now;
+  if (!m_welcome.resumed) openDatagrams(now);
   update(now);
+}
+
+KeyExporter ClientSession::exporter() const {
+  return [this](std::string_view label, std::string_view context, std::size_t bytes) {
+    return m_channel != nullptr ? m_channel->exportSecret(label, context, bytes) : std::string();
+  };
+}
+
+// Datagrams go to the port that the stream goes to.
+void ClientSession::openDatagrams(Time now) {
+  const auto aead = aeadFromWire(m_welcome.aead);
+  const std::string peer = m_channel->peerAddress();
+  const auto server = endpointFromText(peer);
+  if (!aead || !m_options.open_socket || !server) return;
+  std::unique_ptr<DatagramSocket> socket = m_options.open_socket(*server);
+  if (socket == nullptr) return;
+  m_datagrams =
+      std::make_unique<SealedDatagrams>(std::move(socket), *server, ConnectionId{m_welcome.connection_id},
+                                        [] { return std::chrono::steady_clock::now(); });
+  if (!m_datagrams->startEpoch(exporter(), *aead, m_welcome.epoch)) return m_datagrams.reset();
+  m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes, std::chrono::steady_clock::now()); });
+  probe(now);
+}
+
+void ClientSession::adopt(ClientSession& other, Time now) {
+  m_channel = std::move(other.m_channel);
+  other.m_state = State::kLeft;
+  m_welcome.resume_token = other.m_welcome.resume_token;
+  m_last_heard = m_attached = now;
+  m_newest_on_stream = 0;
+  m_pings.clear();
+  m_last_ping = now - kPingInterval;
+  const auto aead = aeadFromWire(other.m_welcome.aead);
+  if (m_datagrams && aead) {
+    m_datagrams->startEpoch(exporter(), *aead, other.m_welcome.epoch);
+    m_datagrams->reopen();
+  }
+  ++m_revision;
+  sendUpdate(now);
+  update(now);
+}
+
+void ClientSession::onDatagram(std::string_view bytes, Time now) {
+  if (m_state != State::kPlaying) return;
+  m_last_heard = m_last_datagram = now;
+  m_counters.bytes_in += bytes.size();
+  ++m_counters.datagrams_in;
+  takeSnapshot(bytes, now);
+  ++m_revision;
+}
+
+void ClientSession::probe(Time now) {
+  m_last_probe = now;
+  const std::string bytes = writeUpdate(nextUpdate(false, now));
+  m_counters.bytes_out += bytes.size();
+  m_datagrams->send(bytes);
 }
 
 void ClientSession::handle(RefusedMessage&& message, Time) {
   if (m_state != State::kGreeting) return reject("a refusal in the middle of the game");
+  m_refused_for_now = message.for_now;
   finish(State::kRefused, message.sentence.empty() ? "The server refused." : std::move(message.sentence));
 }
 
@@ -73,9 +138,24 @@ void ClientSession::handle(SnapshotMessage&& message, Time now) {
   takeSnapshot(message.bytes, now);
 }
 
+// A snapshot of another epoch belongs to a world that comes anew; the old one is shown until it has come.
+Replica* ClientSession::replicaFor(std::string_view bytes, Time now) {
+  const auto epoch = peekEpoch(bytes);
+  if (!epoch || *epoch == m_epoch) return &m_replica;
+  if (*epoch != ((m_epoch + 1) & 3)) return nullptr;  // a late one of the epoch before
+  if (!m_next_replica) {
+    m_next_replica.emplace(m_replica.newest().tick);
+    m_reset_at = now;
+    ++m_counters.resets;
+  }
+  return &*m_next_replica;
+}
+
 void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
+  Replica* replica = replicaFor(bytes, now);
+  if (replica == nullptr) return;
   Snapshot snapshot;
-  switch (m_replica.read(bytes, snapshot)) {
+  switch (replica->read(bytes, snapshot)) {
     case ReadResult::kOk:
       break;
     case ReadResult::kStale:
@@ -85,11 +165,19 @@ void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
       return reject("a malformed snapshot");
   }
   if (m_observer) m_observer(snapshot.header.tick);
-  m_replica.apply(snapshot);
+  replica->apply(snapshot);
+  if (replica != &m_replica && (snapshot.header.complete || now - m_reset_at >= kResetPatience)) {
+    m_replica = std::move(*m_next_replica);
+    m_next_replica.reset();
+    m_epoch = (m_epoch + 1) & 3;
+  }
   m_acks.note(snapshot.header.number);
   m_clock.note(snapshot.header.tick, now);
+  if (snapshot.header.tells_input) {
+    while (!m_inputs.empty() && !isNewer(m_inputs.front().id, snapshot.header.input)) m_inputs.pop_front();
+  }
   ++m_counters.snapshots;
-  sendUpdate();
+  sendUpdate(now);
 }
 
 void ClientSession::handle(PlayersMessage&& message, Time) {
@@ -125,6 +213,8 @@ void ClientSession::handle(const PongMessage& message, Time now) {
   const std::chrono::duration<double, std::milli> sample = now - ping->second;
   m_pings.erase(m_pings.begin(), std::next(ping));
   m_round_trip = m_round_trip.count() == 0 ? sample : m_round_trip + (sample - m_round_trip) / 8;
+  m_shortest_round_trip = std::min(m_shortest_round_trip, sample);
+  m_clock.setLead(std::chrono::duration_cast<DisplayClock::Duration>(m_shortest_round_trip / 2));
 }
 
 void ClientSession::closed(CloseReason reason) {
@@ -136,6 +226,11 @@ void ClientSession::closed(CloseReason reason) {
       return finish(State::kLost, "The connection to the server is too slow.");
     default:
       break;
+  }
+  if (m_state == State::kPlaying && !m_welcome.resume_token.empty()) {
+    m_channel.reset();
+    ++m_revision;
+    return;
   }
   finish(State::kLost, m_state == State::kGreeting ? "The server hung up before it answered."
                                                    : "The connection to the server was lost.");
@@ -149,8 +244,20 @@ void ClientSession::update(Time now) {
     }
     return;
   }
+  if (m_repeat_at && now >= *m_repeat_at) {
+    m_repeat_at.reset();
+    if (!m_inputs.empty() && hasDatagrams(now)) sendUpdate(now);
+  }
+  const auto between = now - m_attached < kPassing ? kFirstProbes : kProbeEvery;
+  if (m_datagrams != nullptr && !hasDatagrams(now) && now - m_last_probe >= between) probe(now);
+  if (m_channel == nullptr) return;
+  if (hasDatagrams(now) && !m_pings.empty() && now - m_pings.begin()->second >= kStreamSilence) {
+    m_pings.clear();
+    return closed(CloseReason::kError);  // an address that changed takes datagrams with it, not a stream
+  }
   if (now - m_last_heard >= kIdleTimeout) return finish(State::kLost, "The server fell silent.");
-  if (now - m_last_ping < kPingInterval) return;
+  if (now - m_last_ping < (hasDatagrams(now) && m_round_trip.count() > 0 ? kSeldomPing : kPingInterval))
+    return;
   m_last_ping = now;
   if (m_pings.size() >= kMaxOpenPings) m_pings.erase(m_pings.begin());
   m_pings.emplace(m_next_token, now);
@@ -181,8 +288,9 @@ bool ClientSession::sendMouse(df::EventMouseAction action, df::Mouse::Button but
 
 bool ClientSession::sendInput(Input input, bool urgent, Time now) {
   if (m_state != State::kPlaying) return false;
-  const bool stalled = !urgent && m_next_input - 1 - m_replica.newest().input >= kMaxUnapplied;
-  if (stalled || !m_budget.spend(now, urgent) || m_channel->unsentBytes() > kMaxUnsent) {
+  const bool stuck = m_channel != nullptr && m_channel->unsentBytes() > kMaxUnsent;
+  const bool stalled = !urgent && m_inputs.size() >= kMaxUnapplied;
+  if (stalled || stuck || m_inputs.size() >= kMaxUpdateInputs || !m_budget.spend(now, urgent)) {
     ++m_counters.inputs_dropped;
     return false;
   }
@@ -190,18 +298,32 @@ bool ClientSession::sendInput(Input input, bool urgent, Time now) {
   input.tick = m_clock.displayTick(now);
   input.snapshot = m_acks.newest;
   ++m_counters.inputs;
-  m_unsent_inputs.push_back(input);
-  sendUpdate();
+  m_inputs.push_back(input);
+  m_repeat_at = now + kRepeatInput;
+  sendUpdate(now);
   return true;
 }
 
-void ClientSession::sendUpdate() {
+ClientUpdate ClientSession::nextUpdate(bool on_stream, Time now) {
   ClientUpdate update;
   update.acks = m_acks;
-  update.inputs.assign(m_unsent_inputs.begin(), m_unsent_inputs.end());
-  m_unsent_inputs.clear();
+  // What is lost is sent again with everything until it is acknowledged; the stream loses nothing.
+  for (const Input& input : m_inputs) {
+    if (!on_stream || isNewer(input.id, m_newest_on_stream)) update.inputs.push_back(input);
+  }
+  if (on_stream && !m_inputs.empty()) m_newest_on_stream = m_inputs.back().id;
+  if (now >= m_next_checksum && m_acks.newest != 0 && !m_next_replica) {
+    m_next_checksum = now + kChecksumEvery;
+    update.checksum = m_replica.checksum();
+  }
+  return update;
+}
+
+void ClientSession::sendUpdate(Time now) {
+  if (hasDatagrams(now)) return probe(now);
+  if (m_channel == nullptr) return;
   wire::ClientMessage message;
-  message.set_update(writeUpdate(update));
+  message.set_update(writeUpdate(nextUpdate(true, now)));
   send(message);
 }
 
@@ -251,10 +373,11 @@ void ClientSession::finish(State state, std::string sentence) {
   m_state = state;
   m_sentence = std::move(sentence);
   ++m_revision;
-  m_channel->close();
+  if (m_channel != nullptr) m_channel->close();
 }
 
 void ClientSession::send(const wire::ClientMessage& message) {
+  if (m_channel == nullptr) return;
   const std::string bytes = message.SerializeAsString();
   m_counters.bytes_out += bytes.size() + kFrameHeaderSize;
   m_channel->send(bytes);

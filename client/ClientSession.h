@@ -25,6 +25,7 @@
 #include "InputBudget.h"
 #include "Keyboard.h"
 #include "Replica.h"
+#include "SealedDatagrams.h"
 #include "ServerMessages.h"
 #include "UpdateCodec.h"
 
@@ -40,6 +41,10 @@ struct SessionOptions {
   std::string program;          ///< "dfclient 0.1.0", for the server's log
   int columns = 80;             ///< terminal size in cells
   int rows = 24;
+  std::string password;      ///< of the server, if it wants one
+  std::string resume_token;  ///< of an earlier welcome: go on with that session
+  /// Makes a socket for datagrams to an endpoint; empty: no datagrams. May return null.
+  std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> open_socket;
 };
 
 /// A line of chat and when it came.
@@ -59,6 +64,8 @@ struct SessionCounters {
   std::uint64_t inputs = 0;
   std::uint64_t inputs_dropped = 0;  ///< kept back: too many, or the line is stuck
   std::uint64_t chat_lines = 0;
+  std::uint64_t datagrams_in = 0;  ///< with a snapshot; their bytes are in bytes_in, headers not counted
+  std::uint64_t resets = 0;        ///< the world came anew
   std::uint64_t bad_messages = 0;
 };
 
@@ -70,6 +77,17 @@ class ClientSession {
   static constexpr std::chrono::seconds kGreetingTimeout{5};
   static constexpr std::chrono::seconds kIdleTimeout{15};
   static constexpr std::chrono::seconds kPingInterval{1};
+  /// Pings while datagrams pass: these say most of what a ping would.
+  static constexpr std::chrono::seconds kSeldomPing{5};
+  /// A stream on which a ping stays unanswered for so long is taken to be dead.
+  static constexpr std::chrono::seconds kStreamSilence{10};
+  static constexpr std::chrono::milliseconds kPassing{1000};     ///< without a datagram: they do not pass
+  static constexpr std::chrono::milliseconds kProbeEvery{1000};  ///< then
+  static constexpr std::chrono::milliseconds kFirstProbes{100};  ///< in the first second
+  static constexpr std::chrono::milliseconds kRepeatInput{10};   ///< a new input is sent again after this
+  static constexpr std::chrono::seconds kChecksumEvery{1};
+  static constexpr std::chrono::milliseconds kResetPatience{
+      500};  ///< then a world that is not complete is shown
   static constexpr std::size_t kMaxChatLog = 100;
   /// Inputs that the game has not heard of yet, at most; more are dropped here. Below the 64 that a server
   /// lets wait, so that who holds a key through a stall is not thrown out as a flooder afterwards.
@@ -80,6 +98,16 @@ class ClientSession {
   ClientSession(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options, Time now);
   ClientSession(const ClientSession&) = delete;
   ClientSession& operator=(const ClientSession&) = delete;
+
+  /// Without a stream, and waiting for another one: adopt().
+  bool isDetached() const { return m_state == State::kPlaying && m_channel == nullptr; }
+  /// The server said that an earlier session goes on here.
+  bool isResumed() const { return m_state == State::kPlaying && m_welcome.resumed; }
+  bool owns(const ReliableChannel* channel) const { return m_channel.get() == channel; }
+  /// Go on with the stream on which `other` was welcomed back (welcome().resumed).
+  void adopt(ClientSession& other, Time now);
+  /// Do datagrams come from the server?
+  bool hasDatagrams(Time now) const { return m_datagrams != nullptr && now - m_last_datagram < kPassing; }
 
   /// A frame from the server.
   void receive(std::string_view frame, Time now);
@@ -99,6 +127,8 @@ class ClientSession {
   void leave();
 
   State state() const { return m_state; }
+  /// Refused, but another try in a moment may do.
+  bool isRefusedForNow() const { return m_refused_for_now; }
   /// Neither waiting for the server nor playing any more.
   bool isOver() const { return m_state != State::kGreeting && m_state != State::kPlaying; }
   /// Why the session is over, for people. Empty while it is not, or after leave().
@@ -123,6 +153,9 @@ class ClientSession {
   /// Counts up with every change that can be seen on a screen.
   std::uint64_t revision() const { return m_revision; }
 
+  /// When update() has something to do before its usual time; nothing if it has not.
+  std::optional<Time> nextWake() const { return m_repeat_at; }
+
   /// Called before a snapshot of `tick` is applied: the replica is still as it was. For recorders.
   void onBeforeSnapshot(std::function<void(std::uint32_t tick)> observer) {
     m_observer = std::move(observer);
@@ -140,12 +173,19 @@ class ClientSession {
   void finish(State state, std::string sentence);
   void send(const wire::ClientMessage& message);
   bool sendInput(Input input, bool urgent, Time now);
-  void sendUpdate();
+  void sendUpdate(Time now);
   void takeSnapshot(std::string_view bytes, Time now);
+  Replica* replicaFor(std::string_view bytes, Time now);
+  void openDatagrams(Time now);
+  void onDatagram(std::string_view bytes, Time now);
+  ClientUpdate nextUpdate(bool on_stream, Time now);
+  void probe(Time now);
+  KeyExporter exporter() const;
 
   std::unique_ptr<ReliableChannel> m_channel;
   State m_state = State::kGreeting;
   std::string m_sentence;
+  bool m_refused_for_now = false;
   WelcomeMessage m_welcome;
   Replica m_replica;
   AckWindow m_acks;
@@ -156,7 +196,19 @@ class ClientSession {
   SessionCounters m_counters;
   std::function<void(std::uint32_t)> m_observer;
   std::uint32_t m_next_input = 1;
-  std::deque<Input> m_unsent_inputs;
+  std::deque<Input> m_inputs;            ///< that no snapshot has acknowledged
+  std::uint32_t m_newest_on_stream = 0;  ///< newest input sent on this stream
+  std::optional<Time> m_repeat_at;
+  Time m_next_checksum{};
+  std::unique_ptr<SealedDatagrams> m_datagrams;
+  SessionOptions m_options;
+  Time m_last_datagram{};
+  Time m_last_probe{};
+  Time m_attached{};
+  std::optional<Replica> m_next_replica;  ///< of the next epoch, until it is complete
+  Time m_reset_at{};
+  std::uint8_t m_epoch = 0;
+  std::chrono::duration<double, std::milli> m_shortest_round_trip{1e9};
   std::map<std::uint64_t, Time> m_pings;  ///< unanswered, by token
   std::uint64_t m_next_token = 1;
   Time m_last_ping;

@@ -4,14 +4,30 @@
 #include <utility>
 
 #include "Limits.h"
+#include "UdpSocket.h"
 
 namespace naiad {
 
-Connection::Connection(asio::io_context& context, ServerAddress address, SessionOptions options, bool rejoin)
-    : m_connector(context, TcpOptions{.receive_limit = kMaxServerFrame}),
+Connection::Connection(asio::io_context& context, ServerAddress address, SessionOptions options, bool rejoin,
+                       ServerTrust trust)
+    : m_context(context),
+      m_trust(std::move(trust)),
+      m_connector(context, TcpOptions{.receive_limit = kMaxServerFrame},
+                  m_trust.insecure ? nullptr : TlsContext::forClient()),
       m_address(std::move(address)),
       m_options(std::move(options)),
-      m_rejoin(rejoin) {}
+      m_rejoin(rejoin) {
+  if (m_trust.insecure) return;
+  m_options.open_socket = [&context](const Endpoint& server) -> std::unique_ptr<DatagramSocket> {
+    UdpOptions udp;
+    udp.address = server.isIPv4() ? "0.0.0.0" : "::";
+    try {
+      return std::make_unique<UdpSocket>(context, udp);
+    } catch (const ListenError&) {
+      return nullptr;  // the stream will do
+    }
+  };
+}
 
 void Connection::start() {
   attempt();
@@ -21,27 +37,55 @@ void Connection::attempt() {
   m_next_attempt = Time::max();
   m_connector.connect(m_address.host, m_address.port, kConnectTimeout,
                       [this](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
-                        if (channel) {
-                          attach(std::move(channel));
-                        } else {
-                          attemptFailed(error);
-                        }
+                        if (!channel) return attemptFailed(error);
+                        const std::string refusal = judge();
+                        if (refusal.empty()) return attach(std::move(channel));
+                        finish(State::kRefused, refusal);
                       });
+}
+
+// Whom did we reach? A sentence if that is not who it should be: then nothing is sent there.
+std::string Connection::judge() const {
+  if (m_trust.insecure || !m_connector.peerFacts()) return {};
+  try {
+    const KnownServers known(m_trust.known_servers.empty() ? KnownServers::defaultPath()
+                                                           : m_trust.known_servers);
+    const Verdict verdict =
+        known.admit(m_address.host, m_address.port, *m_connector.peerFacts(), m_trust.fingerprint);
+    return verdict.accepted() ? std::string() : verdict.sentence;
+  } catch (const KnownServersError& error) {
+    return error.what();
+  }
 }
 
 void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
   ReliableChannel& started = *channel;
-  m_pending = std::make_unique<ClientSession>(std::move(channel), m_options, Clock::now());
+  const ReliableChannel* p_channel = channel.get();
+  SessionOptions options = m_options;
+  if (m_session && m_session->isDetached()) options.resume_token = m_session->welcome().resume_token;
+  m_pending = std::make_unique<ClientSession>(std::move(channel), options, Clock::now());
   if (m_observer) m_observer(*m_pending);
-  // The session owns the channel, so it outlives every callback of the channel.
-  ClientSession* session = m_pending.get();
-  started.start({[session](std::string_view frame) { session->receive(frame, Clock::now()); },
-                 [session](CloseReason reason) { session->closed(reason); }});
+  // A stream may change hands: what it says is for the session that owns it.
+  const auto owner = [this, p_channel]() -> ClientSession* {
+    if (m_pending && m_pending->owns(p_channel)) return m_pending.get();
+    return m_session && m_session->owns(p_channel) ? m_session.get() : nullptr;
+  };
+  started.start({[this, owner](std::string_view frame) {
+                   ClientSession* session = owner();
+                   if (session == nullptr) return;
+                   session->receive(frame, Clock::now());
+                   // What follows on a stream that resumes is for the session that goes on.
+                   if (session == m_pending.get() && session->isResumed()) checkPending();
+                 },
+                 [owner](CloseReason reason) {
+                   if (ClientSession* session = owner()) session->closed(reason);
+                 }});
 }
 
 void Connection::attemptFailed(const std::string& sentence) {
   const Time now = Clock::now();
   if (m_state == State::kJoining) return finish(State::kUnreachable, sentence);
+  if (m_state == State::kLeft) return;
   if (now - m_lost_at >= kGiveUp) return finish(State::kLost, m_sentence);
   m_next_attempt = now + m_backoff;
   m_backoff = std::min(m_backoff * 2, kLastBackoff);
@@ -53,6 +97,14 @@ void Connection::update(Time now) {
   if (m_pending) {
     m_pending->update(now);
     checkPending();
+  }
+  if (m_state == State::kJoined && m_session->isDetached() && m_rejoin) {
+    m_state = State::kSearching;
+    m_sentence = "The connection to the server was lost.";
+    m_lost_at = now;
+    m_backoff = kFirstBackoff;
+    m_next_attempt = now;
+    ++m_revision;
   }
   if (m_state == State::kJoined && m_session->isOver()) {
     using S = ClientSession::State;
@@ -70,6 +122,16 @@ void Connection::update(Time now) {
 
 void Connection::checkPending() {
   using S = ClientSession::State;
+  if (m_pending->state() == S::kPlaying && m_pending->welcome().resumed && m_session &&
+      m_session->isDetached()) {
+    m_session->adopt(*m_pending, Clock::now());
+    m_pending.reset();
+    m_state = State::kJoined;
+    m_sentence.clear();
+    if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
+    ++m_revision;
+    return;
+  }
   if (m_pending->state() == S::kPlaying && m_pending->hasPicture()) {
     m_session = std::move(m_pending);
     m_state = State::kJoined;

@@ -5,7 +5,9 @@
 //   kSearching --60 s in vain--> kLost
 //
 // While searching, session() is still the lost one, so that its last picture can stay on the screen under a
-// banner. The waiting time between attempts doubles from 0.25 s to 2 s. A refusal is never argued with.
+// banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another stream is
+// sought behind its back, and where the server knows it still, nobody notices. The waiting time between
+// attempts doubles from 0.25 s to 2 s. A refusal is never argued with.
 //
 // Thread: the one that runs the io_context, which must outlive the Connection.
 #pragma once
@@ -17,10 +19,18 @@
 #include <string>
 
 #include "ClientSession.h"
+#include "KnownServers.h"
 #include "ServerAddress.h"
 #include "TcpConnector.h"
 
 namespace naiad {
+
+/// How a client makes sure whom it talks to.
+struct ServerTrust {
+  bool insecure = false;                   ///< plain TCP, loopback only, no datagrams: for tests
+  std::optional<Fingerprint> fingerprint;  ///< the server's key, if the player knows it
+  std::filesystem::path known_servers;     ///< pins; empty: the user's file
+};
 
 class Connection {
  public:
@@ -34,7 +44,8 @@ class Connection {
   static constexpr std::chrono::seconds kGiveUp{60};
 
   /// `rejoin`: look for a lost server again. Nothing happens before start().
-  Connection(asio::io_context& context, ServerAddress address, SessionOptions options, bool rejoin);
+  Connection(asio::io_context& context, ServerAddress address, SessionOptions options, bool rejoin,
+             ServerTrust trust = {});
 
   void start();
   /// Time-outs, pings, the next attempt. Call about ten times a second, and after every event.
@@ -60,11 +71,14 @@ class Connection {
 
  private:
   void attempt();
+  std::string judge() const;
   void attach(std::unique_ptr<ReliableChannel> channel);
   void attemptFailed(const std::string& sentence);
   void checkPending();
   void finish(State state, const std::string& sentence);
 
+  asio::io_context& m_context;
+  ServerTrust m_trust;
   TcpConnector m_connector;
   ServerAddress m_address;
   SessionOptions m_options;

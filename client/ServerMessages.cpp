@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "DatagramKeys.h"
 #include "Limits.h"
 #include "SafeText.h"
 #include "naiad.pb.h"
@@ -12,6 +13,7 @@ namespace naiad {
 namespace {
 
 constexpr std::uint32_t kMaxRttMillis = 99999;
+constexpr std::size_t kMaxTokenLength = 64;
 
 bool isColor(std::uint32_t color) {
   return color < static_cast<std::uint32_t>(df::kColorCount);
@@ -29,6 +31,12 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
   message.game = safeText(wire.game(), kMaxProgramLength);
   message.server = safeText(wire.server(), kMaxProgramLength);
   message.tick_now = wire.tick();
+  message.connection_id = wire.connection_id();
+  message.aead = aeadFromWire(wire.aead()) ? wire.aead() : 0;
+  message.epoch = wire.epoch();
+  if (wire.resume_token().size() > kMaxTokenLength) return std::nullopt;
+  message.resume_token = wire.resume_token();
+  message.resumed = wire.resumed();
   message.tick = std::chrono::microseconds(wire.tick_micros());
   message.view_width = static_cast<int>(wire.view_width());
   message.view_height = static_cast<int>(wire.view_height());
@@ -65,7 +73,8 @@ std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
     case wire::ServerMessage::kPlayers:
       return check(wire.players());
     case wire::ServerMessage::kRefused:
-      return RefusedMessage{safeText(wire.refused().sentence(), kMaxSentenceLength)};
+      return RefusedMessage{wire.refused().reason() == wire::Refused::BUSY,
+                            safeText(wire.refused().sentence(), kMaxSentenceLength)};
     case wire::ServerMessage::kGoodbye:
       return GoodbyeMessage{safeText(wire.goodbye().sentence(), kMaxSentenceLength)};
     case wire::ServerMessage::kChat:

@@ -29,11 +29,17 @@ struct WelcomeMessage {
   int view_width = 80;
   int view_height = 24;
   df::Color color = df::COLOR_DEFAULT;
-  std::vector<std::string> help;  ///< the game's own lines
-  std::uint32_t tick_now = 0;     ///< the world's tick, about now
+  std::vector<std::string> help;    ///< the game's own lines
+  std::uint32_t tick_now = 0;       ///< the world's tick, about now
+  std::uint64_t connection_id = 0;  ///< of the session's datagrams
+  std::uint32_t aead = 0;           ///< their cipher; 0: no datagrams
+  std::uint32_t epoch = 0;          ///< of their keys
+  std::string resume_token;         ///< empty: the session ends with its stream
+  bool resumed = false;             ///< an earlier session goes on
 };
 
 struct RefusedMessage {
+  bool for_now = false;  ///< another try in a moment may do
   std::string sentence;
 };
 

@@ -15,6 +15,7 @@
 #include "Connection.h"
 #include "ExitCode.h"
 #include "SafeText.h"
+#include "TrustOptions.h"
 #include "TruthRecorder.h"
 #include "Version.h"
 
@@ -33,6 +34,8 @@ constexpr const char* kScriptHelp =
 
 struct BotOptions {
   naiad::ServerAddress address;
+  naiad::ServerTrust trust;
+  naiad::SessionOptions session;
   std::string name = "bot";
   std::string game;
   int clients = 1;
@@ -50,7 +53,7 @@ class Bot {
   Bot(asio::io_context& context, const BotOptions& options, int index)
       : m_options(options),
         m_index(index),
-        m_connection(context, options.address, sessionOptions(options, index), false),
+        m_connection(context, options.address, sessionOptions(options, index), false, options.trust),
         m_recorder(naiad::TruthRecorder::kMaxCells / static_cast<std::size_t>(options.clients)) {
     m_connection.onSession([this](naiad::ClientSession& session) {
       session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
@@ -88,7 +91,7 @@ class Bot {
 
  private:
   static naiad::SessionOptions sessionOptions(const BotOptions& options, int index) {
-    naiad::SessionOptions session;
+    naiad::SessionOptions session = options.session;
     session.name = options.clients == 1 ? options.name : options.name + std::to_string(index + 1);
     session.game = options.game;
     session.program = std::string("dfbot ") + naiad::kVersion;
@@ -245,6 +248,7 @@ int start(int argc, char** argv) {
       ->excludes(script_option);
   app.add_option("--name", options.name, "Name in the game (with several clients: numbered)")
       ->envname("NAIAD_NAME");
+  naiad::addTrustOptions(app, options.trust, options.session);
   app.add_option("--game", options.game, "The game wanted; refused if another one runs")
       ->envname("NAIAD_GAME");
   app.add_option("--truth", options.truth_file,

@@ -10,6 +10,7 @@
 #include "ClientApp.h"
 #include "SafeText.h"
 #include "TerminalGuard.h"
+#include "TrustOptions.h"
 #include "Version.h"
 
 namespace {
@@ -73,6 +74,7 @@ int start(int argc, char** argv) {
       ->envname("NAIAD_NAME");
   app.add_option("--game", options.session.game, "The game you want; refused if another one runs")
       ->envname("NAIAD_GAME");
+  naiad::addTrustOptions(app, options.trust, options.session);
   app.add_flag("--ascii", options.ascii, "Draw with ASCII characters only")->envname("NAIAD_ASCII");
   app.add_flag("--no-mouse", no_mouse, "Leave the mouse to the terminal")->envname("NAIAD_NO_MOUSE");
   app.footer(footer());

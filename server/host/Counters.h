@@ -20,6 +20,11 @@ struct Counters {
   std::uint64_t idle_timeouts = 0;       ///< silent too long: ended
   std::uint64_t input_floods = 0;        ///< more inputs queued than allowed: ended
   std::uint64_t message_floods = 0;      ///< more messages between two ticks than allowed: ended
+  std::uint64_t detached = 0;            ///< streams that broke while their session goes on
+  std::uint64_t resumed = 0;             ///< sessions that went on with another stream
+  std::uint64_t graces_expired = 0;      ///< clients that did not come back in time
+  std::uint64_t refused_password = 0;    ///< missing or wrong
+  std::uint64_t divergences = 0;         ///< a client held another world than it was sent: sent anew
   std::uint64_t repeated_inputs = 0;     ///< applied before: ignored
   std::uint64_t chat_dropped = 0;        ///< faster than three lines a second: ignored
   std::uint64_t snapshots = 0;           ///< sent

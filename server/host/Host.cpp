@@ -37,20 +37,46 @@ TcpOptions channelOptions() {
   return options;
 }
 
+/// The key that TLS proves; nothing without encryption.
+std::optional<ServerIdentity> identityOf(const HostOptions& options) {
+  if (options.insecure) return std::nullopt;
+  if (!options.certificate.empty()) return ServerIdentity::load(options.certificate, options.key);
+  const auto directory =
+      options.identity.empty() ? ServerIdentity::defaultDirectory() : std::filesystem::path(options.identity);
+  return ServerIdentity::loadOrMake(directory, std::chrono::system_clock::now());
+}
+
 }  // namespace
 
 Host::Host(HostOptions options, std::string game, Log log)
     : m_options(std::move(options)),
       m_game(std::move(game)),
       m_log(std::move(log)),
-      m_listener(
+      m_identity(identityOf(m_options)),
+      m_port(openServerPort(
           m_io, m_options.address, static_cast<std::uint16_t>(m_options.port),
-          [this](std::unique_ptr<ReliableChannel> channel) { accept(std::move(channel)); }, channelOptions()),
+          [this](std::unique_ptr<ReliableChannel> channel) { accept(std::move(channel)); }, channelOptions(),
+          m_identity ? TlsListening{m_identity->tls()} : TlsListening{})),
       m_empty_since(Clock::now()) {
+  if (!m_options.password.empty()) {
+    m_password =
+        std::make_unique<PasswordCheck>(m_io.get_executor(), PasswordHash::fromText(m_options.password));
+  }
   if (m_options.truth_file.empty()) return;
   m_truth.emplace(m_options.truth_file);
   if (!m_truth->isGood())
     throw std::runtime_error("The truth file " + m_options.truth_file + " cannot be written.");
+}
+
+std::optional<Fingerprint> Host::fingerprint() const {
+  return m_identity ? std::optional(m_identity->fingerprint()) : std::nullopt;
+}
+
+std::string Host::joinArguments() const {
+  const std::string port = std::to_string(m_port.streams->port());
+  const bool any = m_options.address == "::" || m_options.address == "0.0.0.0";
+  const std::string where = any ? "127.0.0.1:" + port : m_port.streams->address();
+  return where + (m_identity ? " --fingerprint " + m_identity->fingerprint().text() : " --insecure");
 }
 
 Host::~Host() = default;
@@ -102,6 +128,7 @@ void Host::tick(df::World& world) {
     sendSnapshots(world);
     sendPlayers(world);
   }
+  if (m_port.datagrams) m_port.datagrams->flush();
   if (m_observer) m_observer(world);
 }
 
@@ -182,12 +209,21 @@ void Host::accept(std::unique_ptr<ReliableChannel> channel) {
     m_sessions.erase(idle);
   }
   m_sessions.push_back(std::make_unique<Session>(std::move(channel), m_counters, Clock::now()));
+  m_sessions.back()->setId(m_next_session++);
   m_sessions.back()->start({[this](Session& session, const wire::Hello& hello) { greet(session, hello); },
                             [this](Session& session, const std::string& text) { chat(session, text); },
-                            [this](Session& session) { leave(session); }});
+                            [this](Session& session) { leave(session); },
+                            {}});
 }
 
+// A session may go on with another stream at once; a new player may have to prove that he knows the password.
 void Host::greet(Session& session, const wire::Hello& hello) {
+  if (!checkHello(session, hello) || resume(session, hello)) return;
+  if (m_password) return checkPassword(session, hello);
+  admit(session, hello);
+}
+
+bool Host::checkHello(Session& session, const wire::Hello& hello) {
   if (hello.protocol() != kProtocolVersion) {
     ++m_counters.refused_version;
     const bool older = hello.protocol() < kProtocolVersion;
@@ -195,14 +231,66 @@ void Host::greet(Session& session, const wire::Hello& hello) {
                                                " of the protocol, your client version " +
                                                std::to_string(hello.protocol()) + ". Please update the " +
                                                (older ? "client." : "server."));
-    return;
+    return false;
   }
   if (!hello.game().empty() && hello.game() != m_game) {
     ++m_counters.refused_game;
     session.refuse(wire::Refused::GAME,
                    "This server plays \"" + m_game + "\", not \"" + cleanName(hello.game()) + "\".");
-    return;
+    return false;
   }
+  return true;
+}
+
+void Host::checkPassword(Session& session, const wire::Hello& hello) {
+  const auto judge = [this, id = session.id(), hello](PasswordCheck::Answer answer) {
+    Session* waiting = find(id);
+    if (waiting == nullptr || waiting->state() != Session::State::kGreeting) return;
+    switch (answer) {
+      case PasswordCheck::Answer::kRight:
+        return admit(*waiting, hello);
+      case PasswordCheck::Answer::kWrong:
+        ++m_counters.refused_password;
+        return waiting->refuse(wire::Refused::PASSWORD, hello.password().empty()
+                                                            ? "This server wants a password."
+                                                            : "That is not this server's password.");
+      case PasswordCheck::Answer::kTooMany:
+        ++m_counters.refused_password;
+        return waiting->refuse(wire::Refused::PASSWORD, "Too many wrong passwords. Try again in a minute.");
+      case PasswordCheck::Answer::kBusy:
+        return waiting->refuse(wire::Refused::BUSY, "The server is busy. Try again in a moment.");
+    }
+  };
+  const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
+  m_password->check(prefix, hello.password(), Clock::now(), judge);
+}
+
+// Does the hello name a session that may go on? Then it does, on this stream.
+bool Host::resume(Session& session, const wire::Hello& hello) {
+  const auto id = hello.resume_token().empty() ? std::nullopt : m_tokens.redeem(hello.resume_token());
+  Session* before = id ? find(*id) : nullptr;
+  if (before == nullptr || before->state() != Session::State::kPlaying) return false;
+  wire::Welcome welcome = before->welcomed();
+  welcome.set_resumed(true);
+  welcome.set_tick(m_publisher.tick());
+  welcome.set_resume_token(m_tokens.issue(before->id()));
+  welcome.set_aead(0);
+  if (DatagramService::Channel* datagrams = before->datagrams()) {
+    const Epoch epoch = datagrams->epoch() + 1;
+    const auto exporter = [&session](std::string_view label, std::string_view context, std::size_t bytes) {
+      return session.exportSecret(label, context, bytes);
+    };
+    if (datagrams->renew(exporter, epoch)) {
+      welcome.set_aead(static_cast<std::uint32_t>(datagrams->aead()));
+      welcome.set_epoch(epoch);
+    }
+  }
+  before->adopt(session, welcome);
+  m_log(before->name() + " is back from " + before->address());
+  return true;
+}
+
+void Host::admit(Session& session, const wire::Hello& hello) {
   if (playing() >= static_cast<std::size_t>(m_options.max_players)) {
     ++m_counters.refused_full;
     session.refuse(wire::Refused::FULL, "The server is full (" + std::to_string(m_options.max_players) +
@@ -236,10 +324,41 @@ void Host::greet(Session& session, const wire::Hello& hello) {
       welcome.add_help(safeText(line, kMaxHelpLength));
     }
   }
-  session.welcome(welcome);
+  std::unique_ptr<DatagramService::Channel> datagrams = openDatagrams(session, hello);
+  if (datagrams) {
+    welcome.set_connection_id(datagrams->id());
+    welcome.set_aead(static_cast<std::uint32_t>(datagrams->aead()));
+    welcome.set_epoch(datagrams->epoch());
+  }
+  const auto grace = std::chrono::duration<double>(m_options.grace);
+  session.setGrace(std::chrono::duration_cast<std::chrono::milliseconds>(grace));
+  if (m_options.grace > 0) welcome.set_resume_token(m_tokens.issue(session.id()));
+  session.welcome(welcome, std::move(datagrams));
   m_players_told.clear();
   m_ever_joined = true;
   m_log(name + " joined from " + session.address() + " with " + safeText(hello.program(), kMaxProgramLength));
+}
+
+// The first cipher of the client's list that there is.
+std::unique_ptr<DatagramService::Channel> Host::openDatagrams(const Session& session,
+                                                              const wire::Hello& hello) {
+  if (!m_port.datagrams) return nullptr;
+  for (const std::uint32_t wanted : hello.aeads()) {
+    const auto aead = aeadFromWire(wanted);
+    if (!aead) continue;
+    return m_port.datagrams->open(
+        [&session](std::string_view label, std::string_view context, std::size_t bytes) {
+          return session.exportSecret(label, context, bytes);
+        },
+        *aead);
+  }
+  return nullptr;
+}
+
+Session* Host::find(std::uint64_t id) {
+  const auto found = std::find_if(m_sessions.begin(), m_sessions.end(),
+                                  [id](const auto& session) { return session->id() == id; });
+  return found != m_sessions.end() ? found->get() : nullptr;
 }
 
 void Host::chat(const Session& session, const std::string& text) {
@@ -250,6 +369,7 @@ void Host::chat(const Session& session, const std::string& text) {
 }
 
 void Host::leave(Session& session) {
+  m_tokens.forget(session.id());
   if (session.player() == 0) return;
   if (m_p_world != nullptr) m_p_world->leave(session.player());
   m_log(session.name() + " left");
@@ -259,13 +379,21 @@ void Host::leave(Session& session) {
 // outside of those.
 void Host::sweep() {
   std::erase_if(m_sessions, [](const auto& session) { return session->state() == Session::State::kGone; });
-  if (playing() > 0) m_empty_since = Clock::now();
+  if (connected() > 0) m_empty_since = Clock::now();
 }
 
 std::size_t Host::playing() const {
   return static_cast<std::size_t>(
       std::count_if(m_sessions.begin(), m_sessions.end(),
                     [](const auto& session) { return session->state() == Session::State::kPlaying; }));
+}
+
+// Those that play and are there.
+std::size_t Host::connected() const {
+  return static_cast<std::size_t>(
+      std::count_if(m_sessions.begin(), m_sessions.end(), [](const auto& session) {
+        return session->state() == Session::State::kPlaying && !session->isDetached();
+      }));
 }
 
 std::uint64_t Host::skippedTicks(std::uint32_t player) const {
@@ -275,7 +403,7 @@ std::uint64_t Host::skippedTicks(std::uint32_t player) const {
 }
 
 bool Host::isDeserted(Clock::time_point now) const {
-  if (m_options.exit_when_empty <= 0 || playing() > 0) return false;
+  if (m_options.exit_when_empty <= 0 || connected() > 0) return false;
   const std::chrono::duration<double> patience(m_options.exit_when_empty);
   return now - m_empty_since >
          (m_ever_joined ? patience : std::max<std::chrono::duration<double>>(patience, kLonely));
@@ -288,7 +416,7 @@ bool Host::isOver(const df::World& world) const {
 }
 
 void Host::drain() {
-  m_listener.close();
+  m_port.streams->close();
   const std::string sentence = m_stop_sentence.empty() ? "The game is over." : m_stop_sentence;
   for (const auto& session : m_sessions) session->goodbye(sentence);
   const Clock::time_point end = Clock::now() + kDrainTime;

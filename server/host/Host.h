@@ -12,12 +12,16 @@
 #include <string>
 #include <vector>
 
+#include "AddressPrefix.h"
 #include "Counters.h"
 #include "HostOptions.h"
+#include "PasswordCheck.h"
 #include "Publisher.h"
+#include "ResumeTokens.h"
 #include "Runner.h"
+#include "ServerIdentity.h"
+#include "ServerPort.h"
 #include "Session.h"
-#include "TcpListener.h"
 #include "TruthFile.h"
 
 namespace naiad {
@@ -26,15 +30,19 @@ class Host : public df::Runner {
  public:
   using Log = std::function<void(const std::string& line)>;
 
-  /// Listens from now on (clients wait until run()). Throws ListenError, or std::runtime_error for a truth
-  /// file that cannot be written.
+  /// Listens from now on (clients wait until run()). Throws ListenError, TlsError for keys that cannot be
+  /// used, or std::runtime_error for a truth file that cannot be written.
   Host(HostOptions options, std::string game, Log log);
   ~Host() override;
 
   /// The port listened on.
-  std::uint16_t port() const { return m_listener.port(); }
+  std::uint16_t port() const { return m_port.streams->port(); }
   /// "127.0.0.1:9876".
-  std::string address() const { return m_listener.address(); }
+  std::string address() const { return m_port.streams->address(); }
+  /// What players compare; nothing without encryption.
+  std::optional<Fingerprint> fingerprint() const;
+  /// What dfclient needs on its command line to join from this machine: "127.0.0.1:9876 --fingerprint …".
+  std::string joinArguments() const;
   const Counters& counters() const { return m_counters; }
   /// Ticks that were skipped for a player who is here (Session::skippedTicks); 0 for anybody else.
   std::uint64_t skippedTicks(std::uint32_t player) const;
@@ -55,6 +63,12 @@ class Host : public df::Runner {
 
   void accept(std::unique_ptr<ReliableChannel> channel);
   void greet(Session& session, const wire::Hello& hello);
+  bool checkHello(Session& session, const wire::Hello& hello);
+  void checkPassword(Session& session, const wire::Hello& hello);
+  bool resume(Session& session, const wire::Hello& hello);
+  void admit(Session& session, const wire::Hello& hello);
+  std::unique_ptr<DatagramService::Channel> openDatagrams(const Session& session, const wire::Hello& hello);
+  Session* find(std::uint64_t session);
   void chat(const Session& session, const std::string& text);
   void leave(Session& session);
   void serveSockets();
@@ -68,6 +82,7 @@ class Host : public df::Runner {
   bool isOver(const df::World& world) const;
   bool isDeserted(Clock::time_point now) const;
   std::size_t playing() const;
+  std::size_t connected() const;
   template <class Visit>
   void forEachPlaying(Visit visit);
 
@@ -76,7 +91,11 @@ class Host : public df::Runner {
   Log m_log;
   Counters m_counters;
   asio::io_context m_io{1};
-  TcpListener m_listener;
+  std::optional<ServerIdentity> m_identity;
+  ServerPort m_port;
+  std::unique_ptr<PasswordCheck> m_password;
+  ResumeTokens m_tokens;
+  std::uint64_t m_next_session = 1;
   std::vector<std::unique_ptr<Session>> m_sessions;
   Publisher m_publisher;
   std::optional<TruthWriter> m_truth;

@@ -11,8 +11,8 @@ namespace naiad {
 
 namespace {
 
-using Member = std::variant<std::string HostOptions::*, int HostOptions::*, std::int64_t HostOptions::*,
-                            double HostOptions::*>;
+using Member = std::variant<bool HostOptions::*, std::string HostOptions::*, int HostOptions::*,
+                            std::int64_t HostOptions::*, double HostOptions::*>;
 
 struct Row {
   const char* flag;
@@ -28,8 +28,9 @@ const std::vector<Row>& table() {
       {"--game", "NAIAD_GAME", &HostOptions::game, 0, 0,
        "Game to host: the name of a shipped one (see --list-games) or the path of a module (.so)"},
       {"--address", "NAIAD_ADDRESS", &HostOptions::address, 0, 0,
-       "Numeric address to listen on; loopback only, since the stream is not encrypted"},
-      {"--port", "NAIAD_PORT", &HostOptions::port, 0, 65535, "TCP port to listen on; 0 takes any free one"},
+       "Numeric address to listen on; :: is every address of this machine, IPv4 too"},
+      {"--port", "NAIAD_PORT", &HostOptions::port, 0, 65535,
+       "Port to listen on, TCP and UDP; 0 takes any free one"},
       {"--max-players", "NAIAD_MAX_PLAYERS", &HostOptions::max_players, 1, static_cast<double>(kMaxPlayers),
        "Players at a time"},
       {"--server-name", "NAIAD_SERVER_NAME", &HostOptions::name, 0, 0, "Name shown to players"},
@@ -40,6 +41,22 @@ const std::vector<Row>& table() {
       {"--ticks", "NAIAD_TICKS", &HostOptions::ticks, 0, 2e9, "Stop after this many ticks; 0 never"},
       {"--exit-when-empty", "NAIAD_EXIT_WHEN_EMPTY", &HostOptions::exit_when_empty, 0, 1e6,
        "Stop this many seconds after the last player left (a minute if nobody ever comes); 0 never"},
+      {"--insecure", "NAIAD_INSECURE", &HostOptions::insecure, 0, 0,
+       "Without encryption or datagrams, on loopback only (for tests)"},
+      {"--certificate", "NAIAD_CERTIFICATE", &HostOptions::certificate, 0, 0,
+       "Certificate chain (PEM), with --key; default: self-signed, made on the first start"},
+      {"--key", "NAIAD_KEY", &HostOptions::key, 0, 0,
+       "Private key (PEM) of --certificate, readable by you alone"},
+      {"--identity", "NAIAD_IDENTITY", &HostOptions::identity, 0, 0,
+       "Directory of the self-made key; default: naiad in your configuration directory"},
+      {"--password", "NAIAD_PASSWORD", &HostOptions::password, 0, 0,
+       "Password that players need, or its $argon2id$ hash (other users see the command line: rather set it "
+       "in the "
+       "environment or in --config)"},
+      {"--grace", "NAIAD_GRACE", &HostOptions::grace, 0, 3600,
+       "Seconds that a player whose connection broke may take to come back; 0: none"},
+      {"--join-file", "NAIAD_JOIN_FILE", &HostOptions::join_file, 0, 0,
+       "Write address and fingerprint, as dfclient takes them, to this file once listening"},
       {"--truth", "NAIAD_TRUTH", &HostOptions::truth_file, 0, 0,
        "Write what each player ought to see, tick by tick, to this file (for tests; large)"},
       {"--port-file", "NAIAD_PORT_FILE", &HostOptions::port_file, 0, 0,
@@ -59,14 +76,14 @@ const char* const kExitCodes =
     "  2  wrong usage\n"
     "  3  no such game, or its module cannot be loaded\n"
     "  4  cannot listen on that address and port\n"
-    "  5  a file cannot be written\n";
+    "  5  a file cannot be written, or a key, certificate or password not be used\n";
 
 std::string defaultText(const Row& row) {
   const HostOptions defaults;
   return std::visit(
       [&](auto member) {
         std::ostringstream text;
-        text << defaults.*member;
+        text << std::boolalpha << defaults.*member;
         return text.str();
       },
       row.member);
@@ -85,8 +102,13 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   for (const Row& row : table()) {
     std::visit(
         [&](auto member) {
-          CLI::Option* option = app.add_option(row.flag, options.*member, row.help);
-          option->envname(row.environment)->capture_default_str();
+          CLI::Option* option = nullptr;
+          if constexpr (std::is_same_v<decltype(member), bool HostOptions::*>) {
+            option = app.add_flag(row.flag, options.*member, row.help);
+          } else {
+            option = app.add_option(row.flag, options.*member, row.help)->capture_default_str();
+          }
+          option->envname(row.environment);
           if (row.most > row.least) option->check(CLI::Range(row.least, row.most));
         },
         row.member);
@@ -103,6 +125,11 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
               << " or more\nRun with --help for more information.\n";
     return CommandLine::kUsageError;
   }
+  if (options.certificate.empty() != options.key.empty()) {
+    std::cerr << "--certificate and --key come together\nRun with --help for more information.\n";
+    return CommandLine::kUsageError;
+  }
+  if (options.insecure && options.address == HostOptions().address) options.address = "127.0.0.1";
   if (markdown) {
     std::cout << hostOptionsMarkdown();
     return CommandLine::kDone;

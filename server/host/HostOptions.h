@@ -11,15 +11,22 @@
 namespace naiad {
 
 struct HostOptions {
-  std::string game = "saucershoot";   ///< name of a shipped game, or path of a module
-  std::string address = "127.0.0.1";  ///< numeric address to listen on; loopback only
-  int port = kDefaultPort;            ///< 0: any free port
+  std::string game = "saucershoot";  ///< name of a shipped game, or path of a module
+  std::string address = "::";        ///< numeric address to listen on; "::" is all of them, IPv4 too
+  int port = kDefaultPort;           ///< 0: any free port
   int max_players = 64;
   std::string name = "naiad";  ///< shown in the clients' status line
   std::int64_t seed = 0;       ///< of the world; 0: a new one each time, logged
   int frame_micros = 0;        ///< length of a tick in microseconds; 0: exactly 1/30 s
   int ticks = 0;               ///< stop after so many; 0: never
   double exit_when_empty = 0;  ///< seconds after the last player left; 0: never
+  bool insecure = false;       ///< plain TCP, loopback only, no datagrams: for tests
+  std::string certificate;     ///< PEM file; with `key`. Empty: a key of its own, made on the first start
+  std::string key;             ///< PEM file
+  std::string identity;        ///< directory of the key of its own; empty: the user's
+  std::string password;        ///< that players need: itself, or its Argon2id hash; empty: none
+  double grace = 60;           ///< seconds that a player whose connection broke may take to come back
+  std::string join_file;       ///< write what to pass to dfclient here once listening
   std::string truth_file;      ///< write what each player should see, tick by tick
   std::string port_file;       ///< write the port number here once listening
   std::string log_file;        ///< append log lines here instead of stderr

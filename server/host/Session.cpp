@@ -10,34 +10,56 @@ namespace naiad {
 namespace {
 
 constexpr SnapshotSender::Room kStreamRoom{64, kMaxSnapshot, false};
+/// At 30 Hz more than a megabit per second.
+constexpr std::size_t kDatagramsPerTick = 4;
 
 }  // namespace
 
 Session::Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now)
-    : m_channel(std::move(channel)), m_counters(counters), m_heard(now), m_chat_refill(now) {}
+    : m_channel(std::move(channel)), m_counters(counters), m_heard(now), m_chat_refill(now), m_passage(now) {
+  m_reception->session = this;
+}
 
 void Session::start(Events events) {
   m_events = std::move(events);
   m_channel->setReceiveLimit(kMaxHelloFrame);
-  m_channel->start({[this](std::string_view frame) { onFrame(frame); },
-                    [this](CloseReason reason) {
-                      if (reason == CloseReason::kProtocol) ++m_counters.malformed_frames;
-                      m_state = State::kGone;
-                      tellGone();
-                    }});
+  m_channel->start({[to = m_reception](std::string_view frame) { to->session->onFrame(frame); },
+                    [to = m_reception](CloseReason reason) { to->session->onClosed(reason); }});
+}
+
+void Session::onClosed(CloseReason reason) {
+  if (reason == CloseReason::kProtocol) ++m_counters.malformed_frames;
+  const bool lost = reason == CloseReason::kPeer || reason == CloseReason::kError;
+  if (m_state == State::kPlaying && lost && m_grace.count() > 0) {
+    ++m_counters.detached;
+    m_address = m_channel->peerAddress();
+    m_channel.reset();
+    m_sender.loseLarge();
+    return;
+  }
+  m_state = State::kGone;
+  tellGone();
+}
+
+// Within what a client may send between two ticks? If not, the session has ended.
+bool Session::mayHear() {
+  if (m_state == State::kEnding || m_state == State::kGone) return false;
+  m_spoke = true;
+  if (++m_messages <= kMessagesPerTick) return true;
+  ++m_counters.message_floods;
+  goodbye("Too many messages at once.");
+  return false;
 }
 
 void Session::onFrame(std::string_view frame) {
-  if (m_state == State::kEnding || m_state == State::kGone) return;
-  m_spoke = true;
-  if (++m_messages > kMessagesPerTick) {
-    ++m_counters.message_floods;
-    goodbye("Too many messages at once.");
-    return;
-  }
+  if (!mayHear()) return;
   wire::ClientMessage message;
   if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size())) || !dispatch(message))
     malformed();
+}
+
+void Session::onDatagram(std::string_view bytes) {
+  if (mayHear() && !takeUpdate(bytes)) malformed();
 }
 
 // False if the message breaks a rule: then the connection ends, and nothing else happens.
@@ -76,7 +98,14 @@ bool Session::dispatch(const wire::ClientMessage& message) {
 bool Session::takeUpdate(std::string_view bytes) {
   const auto update = readUpdate(bytes, {m_sender.newestNumber(), m_tick, m_input_received});
   if (!update) return false;
-  if (update->acks.newest != 0) m_sender.acknowledge(update->acks);
+  if (update->acks.newest != 0) {
+    m_sender.acknowledge(update->acks);
+    m_passage.acknowledged(update->acks, now());
+  }
+  if (update->checksum && m_sender.isRight(update->acks, *update->checksum) == false) {
+    ++m_counters.divergences;
+    m_sender.reset();
+  }
   return std::all_of(update->inputs.begin(), update->inputs.end(),
                      [this](const Input& input) { return takeInput(input); });
 }
@@ -122,8 +151,8 @@ void Session::malformed() {
 
 void Session::end() {
   if (m_state == State::kGone) return;
-  m_state = State::kEnding;
-  m_channel->close();
+  m_state = m_channel != nullptr ? State::kEnding : State::kGone;
+  if (m_channel != nullptr) m_channel->close();
   tellGone();  // the ship must not wait for the last bytes to get through
 }
 
@@ -135,7 +164,12 @@ void Session::refuse(wire::Refused::Reason reason, const std::string& sentence) 
   end();
 }
 
-void Session::welcome(const wire::Welcome& welcome) {
+std::string Session::exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const {
+  return m_channel != nullptr ? m_channel->exportSecret(label, context, bytes) : std::string();
+}
+
+void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<DatagramService::Channel> datagrams) {
+  m_welcome = welcome;
   m_player = welcome.player();
   m_name = welcome.name();
   m_state = State::kPlaying;
@@ -143,6 +177,33 @@ void Session::welcome(const wire::Welcome& welcome) {
   wire::ServerMessage message;
   *message.mutable_welcome() = welcome;
   send(message);
+  m_datagrams = std::move(datagrams);
+  if (m_datagrams) m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes); });
+  m_passage.renewed(now());
+}
+
+void Session::adopt(Session& other, const wire::Welcome& welcome) {
+  if (m_channel != nullptr) {  // the old stream has not noticed yet that nobody is there
+    m_reception->session = &other;
+    std::swap(m_reception, other.m_reception);
+    std::swap(m_channel, other.m_channel);
+  } else {
+    m_reception = std::move(other.m_reception);
+    m_channel = std::move(other.m_channel);
+    other.m_reception = std::make_shared<Reception>();
+  }
+  m_reception->session = this;
+  other.m_reception->session = &other;
+  other.m_state = State::kGone;
+  other.m_told_gone = true;
+  m_heard = now();
+  m_channel->setReceiveLimit(kMaxClientFrame);
+  m_sender.loseLarge();
+  wire::ServerMessage message;
+  *message.mutable_welcome() = welcome;
+  send(message);
+  m_passage.renewed(now());
+  ++m_counters.resumed;
 }
 
 void Session::goodbye(const std::string& sentence) {
@@ -164,7 +225,10 @@ void Session::checkDeadlines(Clock::time_point now) {
   if (m_state == State::kGreeting && now - m_heard > kLoginTimeout) {
     ++m_counters.login_timeouts;
     refuse(wire::Refused::BAD_REQUEST, "The server heard no greeting in time.");
-  } else if (m_state == State::kPlaying && now - m_heard > kIdleTimeout) {
+  } else if (isDetached() && now - m_heard > m_grace) {
+    ++m_counters.graces_expired;
+    end();
+  } else if (m_state == State::kPlaying && !isDetached() && now - m_heard > kIdleTimeout) {
     ++m_counters.idle_timeouts;
     goodbye("The server has not heard from you for a while.");
   }
@@ -173,18 +237,54 @@ void Session::checkDeadlines(Clock::time_point now) {
 void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player) {
   m_tick = publisher.tick();
   m_sender.note(publisher, player);
-  if (m_channel->unsentBytes() > 0) {
-    skipTick();
-    return;
+  const Clock::time_point present = now();
+  if (m_datagrams != nullptr && m_passage.isOpen(present)) return sendDatagrams(publisher, present);
+  if (m_datagrams != nullptr && m_datagrams->room() && m_passage.wantsProbe(present)) {
+    const SnapshotSender::Packet probe = m_sender.probe(publisher);
+    m_passage.sent(probe.number, true, present);
+    m_datagrams->send(probe.bytes);
   }
-  for (const SnapshotSender::Packet& packet : m_sender.build(publisher, kStreamRoom)) {
-    wire::ServerMessage message;
-    message.set_snapshot(packet.bytes);
-    ++m_counters.snapshots;
-    m_counters.snapshot_bytes += message.ByteSizeLong();
-    send(message);
+  sendOnStream(publisher, present);
+}
+
+void Session::sendDatagrams(const Publisher& publisher, Clock::time_point present) {
+  const std::uint32_t interval = m_passage.interval(m_sender.loss(), present);
+  const auto room = m_datagrams->room();
+  if (publisher.tick() % interval != 0 || !room) return;
+  const bool stream_idle = m_channel != nullptr && m_channel->unsentBytes() == 0;
+  const std::size_t bytes = std::min(*room, kMaxDatagramSnapshot);
+  for (const auto& packet : m_sender.build(publisher, {kDatagramsPerTick, bytes, stream_idle})) {
+    m_passage.sent(packet.number, !packet.large, present);
+    count(packet);
+    if (packet.large) {
+      sendSnapshot(packet);
+    } else {
+      m_datagrams->send(packet.bytes);
+    }
   }
   if (m_sender.isThrottled()) skipTick();
+}
+
+void Session::sendOnStream(const Publisher& publisher, Clock::time_point present) {
+  if (m_channel == nullptr) return;
+  if (m_channel->unsentBytes() > 0) return skipTick();
+  for (const SnapshotSender::Packet& packet : m_sender.build(publisher, kStreamRoom)) {
+    m_passage.sent(packet.number, false, present);
+    count(packet);
+    sendSnapshot(packet);
+  }
+  if (m_sender.isThrottled()) skipTick();
+}
+
+void Session::sendSnapshot(const SnapshotSender::Packet& packet) {
+  wire::ServerMessage message;
+  message.set_snapshot(packet.bytes);
+  send(message);
+}
+
+void Session::count(const SnapshotSender::Packet& packet) {
+  ++m_counters.snapshots;
+  m_counters.snapshot_bytes += packet.bytes.size();
 }
 
 void Session::skipTick() {
@@ -193,7 +293,7 @@ void Session::skipTick() {
 }
 
 void Session::send(const wire::ServerMessage& message) {
-  if (m_state == State::kGone) return;
+  if (m_state == State::kGone || m_channel == nullptr) return;
   m_channel->send(message.SerializeAsString());
 }
 

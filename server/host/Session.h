@@ -1,4 +1,7 @@
-// One client on the server's side: its channel, where it is in its life (STATES.md), what it has been told.
+// One client on the server's side: its channels, where it is in its life (STATES.md), what it has been told.
+//
+// A session is more than its stream: when that breaks, the session goes on over datagrams, or waits, until
+// the client comes back on another stream and adopt() gives it to the session, or the grace time is over.
 //
 // Everything the client sends is checked here and counted where it is refused; a session that breaks a rule
 // ends alone. Time is passed in. Single-threaded: the host's event loop and tick share a thread.
@@ -13,6 +16,8 @@
 
 #include "Channel.h"
 #include "Counters.h"
+#include "DatagramService.h"
+#include "Passage.h"
 #include "SnapshotSender.h"
 #include "UpdateCodec.h"
 #include "naiad.pb.h"
@@ -27,7 +32,8 @@ class Session {
   struct Events {
     std::function<void(Session&, const wire::Hello&)> on_hello;
     std::function<void(Session&, const std::string& text)> on_chat;
-    std::function<void(Session&)> on_gone;  ///< the session is ending; called once
+    std::function<void(Session&)> on_gone;   ///< the session is ending; called once
+    std::function<Clock::time_point()> now;  ///< empty: std::chrono::steady_clock
   };
 
   enum class State { kGreeting, kPlaying, kEnding, kGone };
@@ -41,13 +47,28 @@ class Session {
   static constexpr int kMessagesPerTick = 1024;
 
   Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now);
+  /// Names the session for as long as the host runs.
+  void setId(std::uint64_t id) { m_id = id; }
+  std::uint64_t id() const { return m_id; }
   /// Begin to receive. Not in the constructor, so that callbacks find a finished session.
   void start(Events events);
 
   /// Answer the hello with a refusal; the connection ends.
   void refuse(wire::Refused::Reason reason, const std::string& sentence);
-  /// Answer the hello: the client plays from now on.
-  void welcome(const wire::Welcome& welcome);
+  /// Answer the hello: the client plays from now on. With `datagrams` if there are to be any.
+  void welcome(const wire::Welcome& welcome, std::unique_ptr<DatagramService::Channel> datagrams = nullptr);
+  /// The client is back: take over the stream on which `other` heard its hello, and answer that. `other` is
+  /// Gone afterwards.
+  void adopt(Session& other, const wire::Welcome& welcome);
+  /// Wait this long for a client whose stream broke. 0: do not.
+  void setGrace(std::chrono::milliseconds grace) { m_grace = grace; }
+  /// The stream is broken; the client may come back.
+  bool isDetached() const { return m_state == State::kPlaying && m_channel == nullptr; }
+  /// As it was sent.
+  const wire::Welcome& welcomed() const { return m_welcome; }
+  DatagramService::Channel* datagrams() { return m_datagrams.get(); }
+  /// Keying material of the stream (Channel.h).
+  std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
   /// Tell the client why it is over, and end.
   void goodbye(const std::string& sentence);
 
@@ -70,14 +91,28 @@ class Session {
   State state() const { return m_state; }
   std::uint32_t player() const { return m_player; }
   const std::string& name() const { return m_name; }
-  std::string address() const { return m_channel->peerAddress(); }
+  std::string address() const { return m_channel != nullptr ? m_channel->peerAddress() : m_address; }
   /// Ticks at whose end this client was not up to date, since it was busy with earlier bytes.
   std::uint64_t skippedTicks() const { return m_skipped_ticks; }
   /// The round trip the client measured last, in milliseconds; 0: not yet.
   std::uint32_t rttMillis() const { return m_rtt_millis; }
+  const Passage& passage() const { return m_passage; }
 
  private:
+  /// Where the callbacks of a stream lead: its session may change.
+  struct Reception {
+    Session* session = nullptr;
+  };
+
   void onFrame(std::string_view frame);
+  void onDatagram(std::string_view bytes);
+  void onClosed(CloseReason reason);
+  bool mayHear();
+  Clock::time_point now() const { return m_events.now ? m_events.now() : Clock::now(); }
+  void sendDatagrams(const Publisher& publisher, Clock::time_point present);
+  void sendOnStream(const Publisher& publisher, Clock::time_point present);
+  void sendSnapshot(const SnapshotSender::Packet& packet);
+  void count(const SnapshotSender::Packet& packet);
   bool dispatch(const wire::ClientMessage& message);
   bool takeUpdate(std::string_view bytes);
   bool takeInput(const Input& input);
@@ -87,24 +122,31 @@ class Session {
   void skipTick();
   void end();
 
-  std::unique_ptr<ReliableChannel> m_channel;
+  std::shared_ptr<Reception> m_reception = std::make_shared<Reception>();
+  std::unique_ptr<ReliableChannel> m_channel;  ///< null while detached
+  std::unique_ptr<DatagramService::Channel> m_datagrams;
+  std::chrono::milliseconds m_grace{0};
+  std::string m_address;
   Counters& m_counters;
   Events m_events;
+  std::uint64_t m_id = 0;
   State m_state = State::kGreeting;
   Clock::time_point m_heard;  ///< when the client last sent a frame
   bool m_told_gone = false;
   bool m_spoke = false;  ///< a frame came since then
   std::uint32_t m_player = 0;
   std::string m_name;
+  wire::Welcome m_welcome;
   std::uint32_t m_rtt_millis = 0;
   std::uint64_t m_skipped_ticks = 0;
   std::deque<Input> m_inputs;
   std::uint32_t m_input_received = 0;
   std::uint32_t m_tick = 0;  ///< newest published
-  int m_messages = 0;  ///< since the last tick
+  int m_messages = 0;        ///< since the last tick
   int m_chat_budget = kChatPerSecond;
   Clock::time_point m_chat_refill;
   SnapshotSender m_sender;
+  Passage m_passage;
 };
 
 }  // namespace naiad

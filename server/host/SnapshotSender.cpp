@@ -370,6 +370,13 @@ bool SnapshotSender::write(const Publisher& publisher, const Room& room, std::ve
   return took;
 }
 
+SnapshotSender::Packet SnapshotSender::probe(const Publisher& publisher) {
+  Packet packet;
+  std::vector<std::uint32_t> nobody;
+  write(publisher, {1, 0, false}, nobody, packet);
+  return packet;
+}
+
 // The snapshot just written says nothing: it never was.
 void SnapshotSender::takeBack() {
   m_next_number = m_flight.back().number;

@@ -59,6 +59,8 @@ class SnapshotSender {
   std::vector<Packet> build(const Publisher& publisher, Room room);
   std::vector<Packet> build(const Publisher& publisher) { return build(publisher, Room{}); }
 
+  /// A snapshot that says nothing, to find out whether a way is open.
+  Packet probe(const Publisher& publisher);
   /// The client acknowledged. A number more than kReorder behind the newest one that it never mentions is
   /// taken for lost.
   void acknowledge(const AckWindow& acks);

@@ -86,7 +86,16 @@ int serve(naiad::HostOptions options) {
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + " on " + host.address() +
       ", seed " + std::to_string(options.seed));
-  std::cout << "Join with: dfclient " << host.address() << std::endl;
+  if (!options.join_file.empty()) {
+    std::ofstream file(options.join_file);
+    if (!(file << host.joinArguments() << std::endl)) {
+      throw std::runtime_error("The join file " + options.join_file + " cannot be written.");
+    }
+  }
+  std::cout << "Join from this machine with: dfclient " << host.joinArguments() << std::endl;
+  if (const auto fingerprint = host.fingerprint()) {
+    std::cout << "From elsewhere with its name or address; its key is " << fingerprint->text() << std::endl;
+  }
   return play(game);
 }
 

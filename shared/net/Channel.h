@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -62,6 +63,8 @@ class DatagramChannel {
   virtual void start(std::function<void(std::string_view packet)> on_packet) = 0;
   /// Send one packet (<= 1200 bytes); it may never arrive.
   virtual void send(std::string_view packet) = 0;
+  /// The largest packet that may be sent now; nothing if none may (the other end's address is not known).
+  virtual std::optional<std::size_t> room() const { return 1200; }
   /// "127.0.0.1:40000", for logs.
   virtual std::string peerAddress() const = 0;
 };

@@ -28,8 +28,10 @@ struct Endpoint {
 
 /// From a numeric address ("127.0.0.1", "::1", "fe80::1%2"); nothing if it is none.
 std::optional<Endpoint> makeEndpoint(std::string_view address, std::uint16_t port);
-/// "127.0.0.1:40000" or "[::1]:40000", for logs.
+/// "127.0.0.1:40000" or "[::1]:40000".
 std::string toString(const Endpoint& endpoint);
+/// The inverse; nothing if the text is none.
+std::optional<Endpoint> endpointFromText(std::string_view text);
 
 /// What a host can be expected to own as a whole: an IPv4 address, or an IPv6 network of 64 bits.
 struct PrefixKey {

@@ -1,0 +1,74 @@
+// All datagrams of a server: one socket, a gate against floods, and a sealed channel for each session.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "Channel.h"
+#include "DatagramGate.h"
+#include "DatagramSocket.h"
+#include "SealedLink.h"
+
+namespace naiad {
+
+/// Not thread-safe. Must outlive the channels it gives out.
+class DatagramService {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  using Now = std::function<Time()>;
+  using Random = std::function<std::uint64_t()>;
+
+  /// `random`: 64 unpredictable bits.
+  DatagramService(std::unique_ptr<DatagramSocket> socket, Now now, Random random);
+  ~DatagramService();
+  DatagramService(const DatagramService&) = delete;
+  DatagramService& operator=(const DatagramService&) = delete;
+
+  /// One session's datagrams, opened and sealed. They go to wherever the newest authentic one came from.
+  class Channel : public DatagramChannel {
+   public:
+    ~Channel() override;
+    void start(std::function<void(std::string_view packet)> on_packet) override;
+    void send(std::string_view packet) override;
+    std::optional<std::size_t> room() const override { return m_link.path() ? m_link.room() : std::nullopt; }
+    std::string peerAddress() const override;
+
+    /// New keys, from another stream of the session. False for an epoch that is not newer.
+    bool renew(const KeyExporter& exporter, Epoch epoch);
+    std::uint64_t id() const;
+    AeadId aead() const { return m_aead; }
+    Epoch epoch() const { return *m_link.epoch(); }
+    const SealedLinkCounters& counters() const { return m_link.counters(); }
+
+   private:
+    friend class DatagramService;
+    Channel(DatagramService& service, ConnectionId id, AeadId aead);
+    void answerChallenges();
+
+    DatagramService& m_service;
+    AeadId m_aead;
+    SealedLink m_link;
+    std::function<void(std::string_view)> m_on_packet;
+  };
+
+  /// Keys come from the stream's exporter (DatagramKeys.h). Null if it has none to give.
+  std::unique_ptr<Channel> open(const KeyExporter& exporter, AeadId aead);
+  /// Let go what was sent since the last call, and the link's own packets.
+  void flush();
+  /// The port bound to.
+  std::uint16_t port() const { return m_socket->localEndpoint().port; }
+  const DatagramGateCounters& counters() const { return m_gate.counters(); }
+
+ private:
+  std::unique_ptr<DatagramSocket> m_socket;
+  Now m_now;
+  Random m_random;
+  DatagramGate m_gate;
+  std::vector<Channel*> m_channels;
+};
+
+}  // namespace naiad
