@@ -1,0 +1,118 @@
+// What people at terminals get across a bad network: dfclient, and what they use today.
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "Line.h"
+#include "Suite.h"
+#include "path/suite/Measurement.h"
+#include "path/suite/Peers.h"
+
+namespace bench {
+namespace {
+
+using path::Condition;
+using path::Effort;
+using path::Figures;
+
+// What ssh is known to need for this scene in the first condition; if it does not, then the scene or the link is
+// not the one that others have measured.
+constexpr double kSshKbitS = 713;
+constexpr double kSshTolerance = 0.25;
+// A link that is later than this does not do what it says.
+constexpr double kLateMs = 2;
+
+const Condition kUsual{100, 2, 0};
+const std::vector<Condition> kConditions = {kUsual, {200, 2, 0}, {100, 0, 512}};
+const Condition kLoopback{0, 0, 0};
+
+/// In the order in which they are printed; a program that lacks one has no such key.
+const std::vector<std::string> kKeys = {
+    "kbit_s_down", "kbit_s_up",  "fps",        "staleness_p50_ms",     "staleness_p99_ms",
+    "freeze_ms",   "key_p50_ms", "key_p99_ms", "predicted_key_p99_ms", "refused_frames",
+    "keys_lost",   "link_late_p99_ms"};
+
+std::string congestionControl() {
+  std::ifstream file("/proc/sys/net/ipv4/tcp_congestion_control");
+  std::string name;
+  file >> name;
+  return name.empty() ? "unknown" : name;
+}
+
+/// NAIAD_PATH_PROGRAMS, names with commas between them, or all.
+std::vector<std::string> wantedPrograms() {
+  const char* wanted = std::getenv("NAIAD_PATH_PROGRAMS");
+  if (wanted == nullptr) return path::peerNames();
+  std::vector<std::string> names;
+  std::istringstream text(wanted);
+  for (std::string name; std::getline(text, name, ',');) names.push_back(name);
+  return names;
+}
+
+class Run {
+ public:
+  explicit Run(const Options& options) {
+    if (options.quick) m_effort = {2, 10, 1};
+  }
+
+  void measure(const std::string& program, const Condition& condition) {
+    progress("path: " + program + ", RTT " + std::to_string(std::lround(condition.rtt_ms)) + " ms");
+    const Figures figures = path::measure(program, condition, m_effort);
+    if (program == "ssh" && condition == kUsual) {
+      m_as_known = std::abs(figures.at("kbit_s_down") / kSshKbitS - 1) <= kSshTolerance;
+    }
+    Line line("path");
+    addCondition(line, program, condition);
+    for (const std::string& key : kKeys) {
+      if (figures.contains(key)) line.add(key, figures.at(key));
+    }
+    line.add("seeds", m_effort.seeds).add("tcp", congestionControl());
+    const bool punctual = !figures.contains("link_late_p99_ms") || figures.at("link_late_p99_ms") <= kLateMs;
+    line.add("valid", m_as_known && punctual ? 1 : 0);
+  }
+
+  static void skip(const std::string& program, const Condition& condition, const std::string& reason) {
+    Line line("path");
+    addCondition(line, program, condition);
+    line.add("skipped", reason);
+  }
+
+ private:
+  static void addCondition(Line& line, const std::string& program, const Condition& condition) {
+    line.add("program", program).add("rtt_ms", condition.rtt_ms);
+    line.add("loss_percent", condition.loss_percent).add("rate_kbit_s", condition.rate_kbit_s);
+  }
+
+  Effort m_effort;
+  bool m_as_known = true;  // until ssh shows the contrary
+};
+
+void run(const Options& options) {
+  if (const auto reason = path::notAllowedBecause()) {
+    Line("path").add("skipped", *reason);
+    return;
+  }
+  Run run(options);
+  const std::vector<std::string> programs = wantedPrograms();
+  const bool far = path::servesOthers();
+  for (const Condition& condition : options.quick ? std::vector<Condition>{kUsual} : kConditions) {
+    for (const std::string& program : programs) {
+      if (path::isOurs(program) && !far) {
+        Run::skip(program, condition, "dfserver-serves-loopback-only");
+      } else {
+        run.measure(program, condition);
+      }
+    }
+  }
+  for (const std::string& program : programs) {
+    if (program == "dfclient" && !far) run.measure(program, kLoopback);
+  }
+}
+
+const Suite suite("path", "a game across a bad network: dfclient, ssh and mosh", run);
+
+}  // namespace
+}  // namespace bench
