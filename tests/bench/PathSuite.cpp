@@ -1,6 +1,7 @@
 // What people at terminals get across a bad network: dfclient, and what they use today.
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -18,8 +19,8 @@ using path::Condition;
 using path::Effort;
 using path::Figures;
 
-// What ssh is known to need for this scene in the first condition; if it does not, then the scene or the link is
-// not the one that others have measured.
+// What ssh is known to need for this scene in the first condition; if it does not, then the scene or the link
+// is not the one that others have measured.
 constexpr double kSshKbitS = 713;
 constexpr double kSshTolerance = 0.25;
 // A link that is later than this does not do what it says.
@@ -27,13 +28,12 @@ constexpr double kLateMs = 2;
 
 const Condition kUsual{100, 2, 0};
 const std::vector<Condition> kConditions = {kUsual, {200, 2, 0}, {100, 0, 512}};
-const Condition kLoopback{0, 0, 0};
 
 /// In the order in which they are printed; a program that lacks one has no such key.
-const std::vector<std::string> kKeys = {
-    "kbit_s_down", "kbit_s_up",  "fps",        "staleness_p50_ms",     "staleness_p99_ms",
-    "freeze_ms",   "key_p50_ms", "key_p99_ms", "predicted_key_p99_ms", "refused_frames",
-    "keys_lost",   "link_late_p99_ms"};
+const std::vector<std::string> kKeys = {"kbit_s_down",      "kbit_s_up",        "fps",
+                                        "staleness_p50_ms", "staleness_p99_ms", "freeze_ms",
+                                        "key_p50_ms",       "key_p99_ms",       "predicted_key_p99_ms",
+                                        "refused_frames",   "keys_lost",        "link_late_p99_ms"};
 
 std::string congestionControl() {
   std::ifstream file("/proc/sys/net/ipv4/tcp_congestion_control");
@@ -60,7 +60,16 @@ class Run {
 
   void measure(const std::string& program, const Condition& condition) {
     progress("path: " + program + ", RTT " + std::to_string(std::lround(condition.rtt_ms)) + " ms");
-    const Figures figures = path::measure(program, condition, m_effort);
+    Figures figures;
+    try {
+      figures = path::measure(program, condition, m_effort);
+    } catch (const std::exception& error) {
+      progress(std::string("path: ") + error.what());
+      Line line("path");
+      addCondition(line, program, condition);
+      line.addZero("failed", 1);
+      return;
+    }
     if (program == "ssh" && condition == kUsual) {
       m_as_known = std::abs(figures.at("kbit_s_down") / kSshKbitS - 1) <= kSshTolerance;
     }
@@ -70,14 +79,8 @@ class Run {
       if (figures.contains(key)) line.add(key, figures.at(key));
     }
     line.add("seeds", m_effort.seeds).add("tcp", congestionControl());
-    const bool punctual = !figures.contains("link_late_p99_ms") || figures.at("link_late_p99_ms") <= kLateMs;
-    line.add("valid", m_as_known && punctual ? 1 : 0);
-  }
-
-  static void skip(const std::string& program, const Condition& condition, const std::string& reason) {
-    Line line("path");
-    addCondition(line, program, condition);
-    line.add("skipped", reason);
+    if (path::isOurs(program) && !path::servesOthers()) line.add("encrypted", 0);
+    line.add("valid", m_as_known && figures.at("link_late_p99_ms") <= kLateMs ? 1 : 0);
   }
 
  private:
@@ -97,18 +100,8 @@ void run(const Options& options) {
   }
   Run run(options);
   const std::vector<std::string> programs = wantedPrograms();
-  const bool far = path::servesOthers();
   for (const Condition& condition : options.quick ? std::vector<Condition>{kUsual} : kConditions) {
-    for (const std::string& program : programs) {
-      if (path::isOurs(program) && !far) {
-        Run::skip(program, condition, "dfserver-serves-loopback-only");
-      } else {
-        run.measure(program, condition);
-      }
-    }
-  }
-  for (const std::string& program : programs) {
-    if (program == "dfclient" && !far) run.measure(program, kLoopback);
+    for (const std::string& program : programs) run.measure(program, condition);
   }
 }
 

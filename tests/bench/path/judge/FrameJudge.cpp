@@ -48,7 +48,8 @@ Fluency fluencyOf(const std::vector<Shown>& shown, Nanoseconds from, Nanoseconds
     staleness.push_back(milliseconds(now - std::prev(next)->start));
   }
   result.freeze_ms = milliseconds(std::max(freeze, to - increased));
-  result.frames_per_second = static_cast<double>(next - first) / std::chrono::duration<double>(to - from).count();
+  result.frames_per_second =
+      static_cast<double>(next - first) / std::chrono::duration<double>(to - from).count();
   result.staleness_p50_ms = quantile(staleness, 0.5);
   result.staleness_p99_ms = quantile(staleness, 0.99);
   return result;

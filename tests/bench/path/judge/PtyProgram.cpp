@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <stdexcept>
 
+#include "../Argv.h"
 #include "../scene/Picture.h"
 
 namespace bench::path {
@@ -23,9 +24,7 @@ constexpr int kCannotRun = 127;
 [[noreturn]] void becomeCommand(const std::vector<std::string>& command) {
   setenv("TERM", "xterm-256color", 1);
   setenv("LC_ALL", "C.UTF-8", 1);
-  std::vector<char*> argv;
-  for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
+  std::vector<char*> argv = argvOf(command);
   execvp(argv[0], argv.data());
   _exit(kCannotRun);
 }

@@ -17,8 +17,8 @@ class Terminal {
  public:
   Terminal();
 
-  /// The program wrote these bytes: take in all up to one that changes the counter's row left of the echo, or all
-  /// of them. Returns what is left.
+  /// The program wrote these bytes: take in all up to one that changes the counter's row left of the echo, or
+  /// all of them. Returns what is left.
   std::string_view feed(std::string_view bytes);
   /// A character that is no ASCII becomes '?'; the default colour counts as white.
   Picture picture() const;

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <exception>
 
+#include "../Argv.h"
+
 namespace bench::path {
 
 namespace {
@@ -27,9 +29,7 @@ void redirect(const std::string& log) {
   }
   setsid();
   if (!log.empty()) redirect(log);
-  std::vector<char*> argv;
-  for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
+  std::vector<char*> argv = argvOf(command);
   execvp(argv[0], argv.data());
   std::fprintf(stderr, "naiad_link: %s cannot be run\n", argv[0]);
   _exit(kCannotRun);

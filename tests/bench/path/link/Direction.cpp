@@ -36,7 +36,8 @@ void Direction::take(std::span<const std::uint8_t> packet, Nanoseconds now) {
     ++m_counters.overflowed;
     return;
   }
-  const Nanoseconds jitter(static_cast<std::int64_t>(random() * static_cast<double>(m_options.jitter.count())));
+  const Nanoseconds jitter(
+      static_cast<std::int64_t>(random() * static_cast<double>(m_options.jitter.count())));
   Nanoseconds due = *left + m_options.delay + jitter;
   if (!m_flying.empty()) due = std::max(due, m_flying.back().due);
   m_flying.push_back({{packet.begin(), packet.end()}, due});

@@ -17,11 +17,11 @@
 namespace bench::path {
 
 struct DirectionOptions {
-  Nanoseconds delay{};                   ///< of each packet
-  Nanoseconds jitter{};                  ///< up to so much more, evenly distributed; packets keep their order
-  double loss = 0;                       ///< chance of each packet to be lost, independently; 0 to 1
-  std::int64_t rate_bit_s = 0;           ///< of IP packets; 0: no limit, and no queue
-  std::size_t queue_bytes = 64 * 1024;   ///< what may wait to be sent
+  Nanoseconds delay{};                  ///< of each packet
+  Nanoseconds jitter{};                 ///< up to so much more, evenly distributed; packets keep their order
+  double loss = 0;                      ///< chance of each packet to be lost, independently; 0 to 1
+  std::int64_t rate_bit_s = 0;          ///< of IP packets; 0: no limit, and no queue
+  std::size_t queue_bytes = 64 * 1024;  ///< what may wait to be sent
   bool block_udp = false;
   std::uint64_t seed = 1;
 };

@@ -23,7 +23,8 @@ struct LinkCounters {
 
   static constexpr std::size_t kLateSteps = 1000;
   static constexpr std::int64_t kLateStepNanos = 100'000;
-  /// How many packets were handed over so many tenths of a millisecond after their time; the last one: or more.
+  /// How many packets were handed over so many tenths of a millisecond after their time; the last one: or
+  /// more.
   std::array<std::atomic<std::uint64_t>, kLateSteps> late{};
 };
 

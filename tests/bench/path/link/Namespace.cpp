@@ -32,6 +32,15 @@ ifreq request(const char* device) {
   return result;
 }
 
+ifreq withAddress(const char* name, const std::string& text) {
+  ifreq device = request(name);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  if (inet_pton(AF_INET, text.c_str(), &address.sin_addr) != 1) throw NotAllowed("address-is-not-IPv4");
+  std::memcpy(&device.ifr_addr, &address, sizeof address);
+  return device;
+}
+
 int openTun() {
   const int fd = open("/dev/net/tun", O_RDWR | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) throw NotAllowed("dev-net-tun-cannot-be-opened");
@@ -53,6 +62,7 @@ class Configuration {
   void apply(unsigned long what, ifreq device) const {
     if (ioctl(m_socket, what, &device) != 0) throw NotAllowed("network-device-cannot-be-configured");
   }
+  void keepOnlyOwnLoopbackAddress() const { apply(SIOCSIFNETMASK, withAddress("lo", "255.255.255.255")); }
   void bringUp(const char* name) const {
     ifreq device = request(name);
     device.ifr_flags = IFF_UP | IFF_RUNNING;
@@ -62,15 +72,6 @@ class Configuration {
  private:
   int m_socket;
 };
-
-ifreq withAddress(const std::string& text) {
-  ifreq device = request(kDevice);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  if (inet_pton(AF_INET, text.c_str(), &address.sin_addr) != 1) throw NotAllowed("address-is-not-IPv4");
-  std::memcpy(&device.ifr_addr, &address, sizeof address);
-  return device;
-}
 
 }  // namespace
 
@@ -106,8 +107,14 @@ NetworkNamespace::~NetworkNamespace() {
 void NetworkNamespace::configure(const std::string& address, const std::string& peer) const {
   const Configuration configuration;
   configuration.bringUp("lo");
-  configuration.apply(SIOCSIFADDR, withAddress(address));
-  configuration.apply(SIOCSIFDSTADDR, withAddress(peer));
+  if (address.starts_with("127.")) {
+    configuration.keepOnlyOwnLoopbackAddress();
+    if (!writeText(("/proc/sys/net/ipv4/conf/" + std::string(kDevice) + "/route_localnet").c_str(), "1")) {
+      throw NotAllowed("loopback-addresses-cannot-be-routed");
+    }
+  }
+  configuration.apply(SIOCSIFADDR, withAddress(kDevice, address));
+  configuration.apply(SIOCSIFDSTADDR, withAddress(kDevice, peer));
   ifreq mtu = request(kDevice);
   mtu.ifr_mtu = kMtu;
   configuration.apply(SIOCSIFMTU, mtu);

@@ -20,8 +20,9 @@ void unshareProcesses();
 /// A network with a loopback device and a tun device, MTU 1500.
 class NetworkNamespace {
  public:
-  /// Makes it, and moves the calling process into it. TCP's congestion control is the machine's: a namespace
-  /// may not choose. Throws NotAllowed.
+  /// Makes it, and moves the calling process into it. The addresses may be loopback ones (127/8, but
+  /// 127.0.0.1): then those lie on the link, for servers that serve no others. TCP's congestion control is
+  /// the machine's: a namespace may not choose. Throws NotAllowed.
   NetworkNamespace(const std::string& address, const std::string& peer);
   ~NetworkNamespace();
   NetworkNamespace(const NetworkNamespace&) = delete;

@@ -8,7 +8,8 @@
 // Three processes of this program: the one that was called waits; its child is the first process of a process
 // namespace and carries the packets, so that everything ends with it; the server's and client's ancestors
 // move into their network and become the command.
-#include <sched.h>
+#include "Link.h"
+
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -21,9 +22,9 @@
 #include <string>
 #include <vector>
 
+#include "../Punctual.h"
 #include "../SharedFile.h"
 #include "Child.h"
-#include "Link.h"
 #include "Namespace.h"
 
 namespace {
@@ -32,15 +33,14 @@ using namespace bench::path;
 
 constexpr int kFailed = 1;
 constexpr int kNotAllowed = 77;
-constexpr const char* kServerAddress = "10.77.0.1";
-constexpr const char* kClientAddress = "10.77.0.2";
 const std::string kSeparator = ":::";
 constexpr Nanoseconds kRound{10'000'000};  // between two looks at the children
 constexpr Nanoseconds kServerStarts{15'000'000'000};
 
 struct Options {
   bool check = false;
-  bool together = false;
+  std::string server_address = "10.77.0.1";
+  std::string client_address = "10.77.0.2";
   double delay_ms = 0;
   double jitter_ms = 0;
   double loss_percent = 0;
@@ -65,13 +65,6 @@ DirectionOptions direction(const Options& options, const char* name, std::uint64
   return result;
 }
 
-void hurry() {
-  prctl(PR_SET_TIMERSLACK, 1UL);
-  sched_param priority{};
-  priority.sched_priority = 1;
-  sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &priority);  // a wish: not everybody may
-}
-
 /// Take in everybody who ended. The exit code of this child, if it was among them.
 std::optional<int> reap(pid_t child) {
   std::optional<int> code;
@@ -87,13 +80,13 @@ bool isThere(const std::string& file) {
 }
 
 int carry(const Options& options) {
-  const NetworkNamespace client_network(kClientAddress, kServerAddress);
-  const NetworkNamespace server_network(kServerAddress, kClientAddress);
+  const NetworkNamespace client_network(options.client_address, options.server_address);
+  const NetworkNamespace server_network(options.server_address, options.client_address);
   if (options.check) return 0;
   const auto counters = SharedFile<LinkCounters>::create(options.counters);
   Link link(server_network.tun(), client_network.tun(), direction(options, "down", options.seed * 2),
             direction(options, "up", options.seed * 2 + 1), *counters);
-  hurry();
+  becomePunctual();
   const pid_t server = startIn(server_network, options.server, options.server_log);
   const Nanoseconds late = monotonicNow() + kServerStarts;
   while (!isThere(options.ready_file)) {
@@ -102,7 +95,7 @@ int carry(const Options& options) {
     if (failed || monotonicNow() > late) throw std::runtime_error("the server did not start");
     link.run(kRound);
   }
-  const pid_t client = startIn(options.together ? server_network : client_network, options.client, "");
+  const pid_t client = startIn(client_network, options.client, "");
   for (;;) {
     link.run(kRound);
     if (const auto code = reap(client)) return *code;
@@ -156,14 +149,18 @@ std::vector<std::vector<std::string>> cut(int argc, char** argv) {
 
 int start(int argc, char** argv) {
   Options options;
-  CLI::App app("Runs a server and a client with a bad network between them:\n"
-               "naiad_link [OPTIONS] ::: SERVER [ARGUMENT...] ::: CLIENT [ARGUMENT...]",
-               "naiad_link");
+  CLI::App app(
+      "Runs a server and a client with a bad network between them:\n"
+      "naiad_link [OPTIONS] ::: SERVER [ARGUMENT...] ::: CLIENT [ARGUMENT...]",
+      "naiad_link");
   app.add_flag("--check", options.check, "Only see whether this machine allows it; prints why not");
-  app.add_flag("--together", options.together, "Client in the server's network: loopback instead of the link");
-  app.add_option("--delay-ms", options.delay_ms, "One way, in both directions")->check(CLI::Range(0.0, 10000.0));
+  app.add_option("--server-address", options.server_address, "IPv4 address of the server's end");
+  app.add_option("--client-address", options.client_address, "IPv4 address of the client's end");
+  app.add_option("--delay-ms", options.delay_ms, "One way, in both directions")
+      ->check(CLI::Range(0.0, 10000.0));
   app.add_option("--jitter-ms", options.jitter_ms, "Up to so much more")->check(CLI::Range(0.0, 10000.0));
-  app.add_option("--loss-percent", options.loss_percent, "Each way, of each packet")->check(CLI::Range(0.0, 100.0));
+  app.add_option("--loss-percent", options.loss_percent, "Each way, of each packet")
+      ->check(CLI::Range(0.0, 100.0));
   app.add_option("--rate-kbit", options.rate_kbit_s, "Each way, with a 64 KiB drop-tail queue; 0: no limit")
       ->check(CLI::Range(0.0, 1e7));
   app.add_option("--seed", options.seed, "Of loss and jitter");
@@ -180,7 +177,8 @@ int start(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  const bool complete = parts.size() == 3 && !parts[1].empty() && !parts[2].empty() && !options.counters.empty();
+  const bool complete =
+      parts.size() == 3 && !parts[1].empty() && !parts[2].empty() && !options.counters.empty();
   if (!options.check && !complete) {
     std::fputs(app.help().c_str(), stderr);
     return 2;

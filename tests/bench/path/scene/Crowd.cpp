@@ -24,7 +24,8 @@ Crowd::Crowd(std::uint64_t seed) : m_state(seed * 0x9E3779B97F4A7C15u + 1) {
 
 void Crowd::tick() {
   ++m_ticks;
-  const auto dead = std::remove_if(m_walkers.begin(), m_walkers.end(), [this](Walker& w) { return !decide(w); });
+  const auto dead =
+      std::remove_if(m_walkers.begin(), m_walkers.end(), [this](Walker& w) { return !decide(w); });
   m_walkers.erase(dead, m_walkers.end());
   while (m_walkers.size() < kCrowd) m_walkers.push_back(newborn());
   for (Walker& walker : m_walkers) {

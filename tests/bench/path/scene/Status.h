@@ -31,8 +31,8 @@ struct MarkerCell {
   int y = kMarkerRow;
 };
 MarkerCell markerAfter(std::uint32_t arrows);
-/// 0 to 3: how many arrows, modulo 4, have been obeyed in this picture. Nothing if there is no marker, or more
-/// than one, as there is while it is being painted.
+/// 0 to 3: how many arrows, modulo 4, have been obeyed in this picture. Nothing if there is no marker, or
+/// more than one, as there is while it is being painted.
 std::optional<std::uint32_t> markerIn(const Picture& picture);
 
 /// "tick=0001234:"
@@ -45,7 +45,8 @@ Picture drawScene(const Crowd& crowd);
 
 /// The part of the screen that says the same in every program at a tick: all but counter, echo and marker.
 bool isJudged(int x, int y);
-/// Of the judged cells that are not blank in either picture, how many percent are equal. 100 if all are blank.
+/// Of the judged cells that are not blank in either picture, how many percent are equal. 100 if all are
+/// blank.
 double likeness(const Picture& a, const Picture& b);
 
 }  // namespace bench::path

@@ -20,6 +20,9 @@
 #include "Status.h"
 #include "Truth.h"
 #include "WorldManager.h"
+#if __has_include("Controls.h")
+#include "Controls.h"
+#endif
 
 namespace {
 
@@ -60,27 +63,38 @@ class Figure : public df::Object {
   Walker m_walker;
 };
 
-/// What a player moves with the arrow keys.
+/// What a player moves with the arrow keys: right, down, left, up, and so on.
 class Marker : public df::Object {
  public:
   Marker() {
     setSolidness(df::SPECTRAL);
     setAltitude(df::MAX_ALTITUDE);
-    place();
+    setPosition(df::Vector(kMarkerColumn, kMarkerRow));
   }
-  void step() {
-    ++m_arrows;
-    place();
+  void step(df::Keyboard::Key key) {
+    using namespace df::Keyboard;
+    const int x = (key == RIGHTARROW) - (key == LEFTARROW);
+    const int y = (key == DOWNARROW) - (key == UPARROW);
+    WM.moveObject(this, getPosition() + df::Vector(x, y));
   }
   int draw() override { return DM.drawCh(getPosition(), '@', df::WHITE); }
-
- private:
-  void place() {
-    const MarkerCell cell = markerAfter(m_arrows);
-    setPosition(df::Vector(cell.x, cell.y));
-  }
-  std::uint32_t m_arrows = 0;
 };
+
+#if __has_include("Controls.h")
+/// Marker::step as a table: a client that knows it need not wait for the server.
+df::Controls markerControls() {
+  using namespace df::Keyboard;
+  return df::Controls()
+      .onKey(RIGHTARROW)
+      .step(1, 0)
+      .onKey(DOWNARROW)
+      .step(0, 1)
+      .onKey(LEFTARROW)
+      .step(-1, 0)
+      .onKey(UPARROW)
+      .step(0, -1);
+}
+#endif
 
 /// Runs the crowd, and answers keys.
 class Director : public df::Object {
@@ -131,6 +145,9 @@ class Director : public df::Object {
 
   static void join(df::Player* p_player) {
     p_player->setObject(new Marker);
+#if __has_include("Controls.h")
+    p_player->setControls(markerControls());
+#endif
     p_player->setText(kEchoText, df::Vector(kEchoColumn, kStatusRow), std::string(1, kNoKey));
   }
 
@@ -141,9 +158,12 @@ class Director : public df::Object {
     if (key.getKey() >= A && key.getKey() <= Z) {
       const char letter = static_cast<char>('a' + (key.getKey() - A));
       p_player->setText(kEchoText, df::Vector(kEchoColumn, kStatusRow), std::string(1, letter));
-    } else if (key.getKey() >= LEFTARROW && key.getKey() <= DOWNARROW) {
-      if (auto* p_marker = dynamic_cast<Marker*>(p_player->getObject())) p_marker->step();
+      return;
     }
+#if __has_include("Controls.h")
+    if (key.isHandled()) return;
+#endif
+    if (auto* p_marker = dynamic_cast<Marker*>(p_player->getObject())) p_marker->step(key.getKey());
   }
 
   Truth& m_truth;

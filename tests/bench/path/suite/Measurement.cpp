@@ -19,6 +19,8 @@ using Words = std::vector<std::string>;
 const std::string kBin = NAIAD_BINARY_DIR "/bin";
 constexpr const char* kSeparator = ":::";
 constexpr int kNotAllowed = 77;
+constexpr const char* kAddress = "10.77.0.1";
+constexpr const char* kLoopbackAddress = "127.77.0.1";  // the link can carry it, too
 
 /// A folder that goes when the run is over.
 class Folder {
@@ -44,14 +46,20 @@ void append(Words& words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
 }
 
+/// The address beside it: 10.77.0.2 for 10.77.0.1.
+std::string clientOf(const std::string& server_address) {
+  return server_address.substr(0, server_address.rfind('.')) + ".2";
+}
+
 Words linkCommand(const Place& place, const Peer& peer, const Condition& condition) {
-  Words words = {kBin + "/naiad_link", "--counters", place.file("counters"), "--server-log", place.file("log")};
+  Words words = {kBin + "/naiad_link", "--counters", place.file("counters"), "--server-log",
+                 place.file("log")};
+  append(words, {"--server-address", place.address, "--client-address", clientOf(place.address)});
   append(words, {"--ready-file", peer.ready_file, "--seed", std::to_string(place.seed)});
   append(words, {"--delay-ms", std::to_string(condition.rtt_ms / 2)});
   append(words, {"--loss-percent", std::to_string(condition.loss_percent)});
   append(words, {"--rate-kbit", std::to_string(condition.rate_kbit_s)});
   if (!peer.udp) append(words, {"--block-udp", "both"});
-  if (condition.rtt_ms == 0) words.emplace_back("--together");
   words.emplace_back(kSeparator);
   append(words, peer.server);
   words.emplace_back(kSeparator);
@@ -82,18 +90,14 @@ Figures parse(const std::string& line) {
 Figures runOnce(const std::string& program, const Condition& condition, const Effort& effort,
                 std::uint64_t seed) {
   const Folder folder;
-  const std::string address = condition.rtt_ms == 0 ? "127.0.0.1" : "10.77.0.1";
+  const std::string address = isOurs(program) && !servesOthers() ? kLoopbackAddress : kAddress;
   const Place place{kBin, folder.name(), address, seed};
   const Peer peer = preparePeer(program, place);
   Words command = linkCommand(place, peer, condition);
   append(command, judgeCommand(place, peer, effort));
   const Finished finished = runProgram(command);
   if (finished.code != 0) throw std::runtime_error(program + " could not be measured");
-  Figures figures = parse(finished.output);
-  if (condition.rtt_ms == 0) {  // nothing passed the link, which is where bytes are counted
-    for (const char* key : {"kbit_s_down", "kbit_s_up", "link_late_p99_ms"}) figures.erase(key);
-  }
-  return figures;
+  return parse(finished.output);
 }
 
 }  // namespace
@@ -106,12 +110,14 @@ std::optional<std::string> notAllowedBecause() {
 }
 
 bool servesOthers() {
-  const Folder folder;
-  const Place place{kBin, folder.name(), "10.77.0.1", 1};
-  const Peer peer = preparePeer("dfclient", place);
-  Words command = linkCommand(place, peer, {1, 0, 0});
-  command.emplace_back("true");
-  return runProgram(command).code == 0;
+  static const bool s_serves = [] {
+    const Folder folder;
+    const Place place{kBin, folder.name(), kAddress, 1};
+    Words command = linkCommand(place, preparePeer("dfclient", place), {});
+    command.emplace_back("true");
+    return runProgram(command).code == 0;
+  }();
+  return s_serves;
 }
 
 Figures measure(const std::string& program, const Condition& condition, const Effort& effort) {

@@ -8,7 +8,7 @@
 
 namespace bench::path {
 
-/// The link. With an `rtt_ms` of 0 both ends are on one machine's loopback.
+/// The link.
 struct Condition {
   double rtt_ms = 0;
   double loss_percent = 0;
@@ -27,7 +27,8 @@ using Figures = std::map<std::string, double>;
 
 /// Why this machine allows no measurement; nothing if it does.
 std::optional<std::string> notAllowedBecause();
-/// Can dfserver be reached from another machine?
+/// Does dfserver listen on addresses that are not loopback ones? Where it does not, the link joins two
+/// loopback addresses instead, and what it carries is not encrypted.
 bool servesOthers();
 /// Measure; all seeds at the same time. Throws std::runtime_error if a run failed.
 Figures measure(const std::string& program, const Condition& condition, const Effort& effort);

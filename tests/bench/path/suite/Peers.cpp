@@ -47,7 +47,7 @@ Words fromEnvironment(const char* name) {
 }
 
 Words sceneCommand(const Place& place) {
-  return {"env",         "LC_ALL=C.UTF-8", place.bin + "/naiad_scene_curses", place.truth(),
+  return {"env", "LC_ALL=C.UTF-8", place.bin + "/naiad_scene_curses", place.truth(),
           std::to_string(place.seed)};
 }
 
@@ -65,7 +65,8 @@ Words sshServer(const Place& place) {
             "[" + place.address + "]:" + kSshPort + " " + readFile(place.file("host_key.pub")));
   writeFile(place.file("sshd_config"), std::string("Port ") + kSshPort + "\nListenAddress " + place.address +
                                            "\nHostKey " + place.file("host_key") + "\nAuthorizedKeysFile " +
-                                           place.file("user_key.pub") + "\nPidFile " + place.file("sshd.pid") +
+                                           place.file("user_key.pub") + "\nPidFile " +
+                                           place.file("sshd.pid") +
                                            "\nUsePAM no\nStrictModes no\nPermitRootLogin yes\n"
                                            "PasswordAuthentication no\nPrintMotd no\nPrintLastLog no\n");
   if (geteuid() == 0) mkdir("/run/sshd", 0755);  // where a root's sshd locks up its unprivileged half
@@ -75,7 +76,8 @@ Words sshServer(const Place& place) {
 Words sshClient(const Place& place, bool compressed) {
   const passwd* user = getpwuid(geteuid());
   if (user == nullptr) throw std::runtime_error("this user has no name");
-  Words words = {"ssh", "-F", "none", "-tt", "-e", "none", "-q", "-p", kSshPort, "-i", place.file("user_key")};
+  Words words = {
+      "ssh", "-F", "none", "-tt", "-e", "none", "-q", "-p", kSshPort, "-i", place.file("user_key")};
   append(words, {"-o", "IdentitiesOnly=yes", "-o", "StrictHostKeyChecking=yes"});
   append(words, {"-o", "UserKnownHostsFile=" + place.file("known_hosts"), "-o", "BatchMode=yes"});
   if (compressed) words.emplace_back("-C");
@@ -102,9 +104,10 @@ Peer mosh(const Place& place) {
   append(peer.server, {"env", "LC_ALL=C.UTF-8", "mosh-server", "new", "-i", place.address, "-p", kMoshPort});
   append(peer.server, {"-c", "256", "--"});
   append(peer.server, sceneCommand(place));
-  peer.client = {"sh", "-c",
-                 R"(MOSH_KEY=$(sed -n 's/^MOSH CONNECT [0-9]* //p' "$1") exec mosh-client "$2" "$3")", "sh",
-                 answer, place.address, kMoshPort};
+  peer.client = {
+      "sh",     "-c",   R"(MOSH_KEY=$(sed -n 's/^MOSH CONNECT [0-9]* //p' "$1") exec mosh-client "$2" "$3")",
+      "sh",     answer, place.address,
+      kMoshPort};
   return peer;
 }
 
