@@ -115,6 +115,7 @@ int guarded(const Options& options) {
 }
 
 int run(const Options& options) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // of whoever wanted it
   try {
     unshareProcesses();
   } catch (const NotAllowed& reason) {

@@ -3,6 +3,8 @@
 // It draws 30 times a second, and at once when a key comes. It writes what it shows to a Truth.
 #include <curses.h>
 #include <poll.h>
+#include <termios.h>
+#include <unistd.h>
 
 #include <clocale>
 #include <cstdint>
@@ -30,13 +32,14 @@ class Screen {
     initscr();
     cbreak();
     noecho();
+    writeWhole();
     nodelay(stdscr, TRUE);
     keypad(stdscr, TRUE);
     set_escdelay(20);
     curs_set(0);
     start_color();
-    use_default_colors();
-    for (short color = 1; color <= 7; ++color) init_pair(color, color, -1);
+    // On black, as curses programs are unless they ask for the terminal's own background.
+    for (short color = 1; color <= 7; ++color) init_pair(color, color, COLOR_BLACK);
   }
   ~Screen() { endwin(); }
   Screen(const Screen&) = delete;
@@ -53,6 +56,15 @@ class Screen {
   }
 
  private:
+  /// Have the terminal driver pass on what curses writes in one piece. Otherwise it is cut at every line feed
+  /// and backspace, and how many packets ssh makes of a frame depends on how fast the machine wakes it.
+  static void writeWhole() {
+    nonl();
+    termios modes{};
+    tcgetattr(STDOUT_FILENO, &modes);
+    modes.c_oflag &= ~static_cast<tcflag_t>(OPOST);
+    tcsetattr(STDOUT_FILENO, TCSANOW, &modes);
+  }
   static void put(int x, int y, Cell cell) {
     // The last cell of all would scroll the screen; insch() does not.
     const chtype ch = static_cast<chtype>(static_cast<unsigned char>(cell.ch)) | COLOR_PAIR(cell.color);
