@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <exception>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -59,6 +60,7 @@ class Run {
   }
 
   void measure(const std::string& program, const Condition& condition) {
+    if (const auto reason = path::notPossibleBecause(program)) return skip(program, condition, *reason);
     progress("path: " + program + ", RTT " + std::to_string(std::lround(condition.rtt_ms)) + " ms");
     Figures figures;
     try {
@@ -80,7 +82,8 @@ class Run {
     }
     line.add("seeds", m_effort.seeds).add("tcp", congestionControl());
     if (path::isOurs(program) && !path::servesOthers()) line.add("encrypted", 0);
-    line.add("valid", m_as_known && figures.at("link_late_p99_ms") <= kLateMs ? 1 : 0);
+    const bool punctual = figures.at("link_late_p99_ms") <= kLateMs;
+    if (m_as_known || !punctual) line.add("valid", punctual && m_as_known.value_or(false) ? 1 : 0);
   }
 
  private:
@@ -89,8 +92,14 @@ class Run {
     line.add("loss_percent", condition.loss_percent).add("rate_kbit_s", condition.rate_kbit_s);
   }
 
+  static void skip(const std::string& program, const Condition& condition, const std::string& reason) {
+    Line line("path");
+    addCondition(line, program, condition);
+    line.add("skipped", reason);
+  }
+
   Effort m_effort;
-  bool m_as_known = true;  // until ssh shows the contrary
+  std::optional<bool> m_as_known;  // once ssh has been measured
 };
 
 void run(const Options& options) {

@@ -18,7 +18,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -79,6 +81,12 @@ bool isThere(const std::string& file) {
   return file.empty() || access(file.c_str(), F_OK) == 0;
 }
 
+std::string textOf(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
 int carry(const Options& options) {
   const NetworkNamespace client_network(options.client_address, options.server_address);
   const NetworkNamespace server_network(options.server_address, options.client_address);
@@ -92,7 +100,9 @@ int carry(const Options& options) {
   while (!isThere(options.ready_file)) {
     // One that ends well has left something behind that serves.
     const bool failed = reap(server).value_or(0) != 0;
-    if (failed || monotonicNow() > late) throw std::runtime_error("the server did not start");
+    if (failed || monotonicNow() > late) {
+      throw std::runtime_error("the server did not start: " + textOf(options.server_log));
+    }
     link.run(kRound);
   }
   const pid_t client = startIn(client_network, options.client, "");

@@ -140,6 +140,12 @@ bool isOurs(const std::string& program) {
   return program.starts_with("dfclient");
 }
 
+// An sshd that is not root's takes its own user's account for a locked one (OpenSSH 9.2).
+std::optional<std::string> notPossibleBecause(const std::string& program) {
+  if (program.starts_with("ssh") && geteuid() != 0) return "sshd-needs-root";
+  return std::nullopt;
+}
+
 Peer preparePeer(const std::string& program, const Place& place) {
   if (program == "ssh") return ssh(place, false);
   if (program == "ssh-C") return ssh(place, true);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct Peer {
 const std::vector<std::string>& peerNames();
 /// Is it one of ours?
 bool isOurs(const std::string& program);
+/// Why it cannot be measured here, without blanks; nothing if it can.
+std::optional<std::string> notPossibleBecause(const std::string& program);
 /// Write what the program needs into the folder, and tell how to start it. Throws std::runtime_error.
 Peer preparePeer(const std::string& program, const Place& place);
 
