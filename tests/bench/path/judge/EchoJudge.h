@@ -12,8 +12,8 @@ namespace bench::path {
 
 class EchoJudge {
  public:
-  /// The screen shows the number of the last key modulo `period`; keys that are on their way at the same time
-  /// must be fewer than that.
+  /// The screen shows the number of the last key modulo `period`; of the keys that come onto it at the same
+  /// time there must be fewer than that.
   explicit EchoJudge(std::uint32_t period) : m_period(period) {}
 
   /// A key goes into the terminal; its number, from 0 on.

@@ -38,8 +38,9 @@ class Screen {
     set_escdelay(20);
     curs_set(0);
     start_color();
-    // On black, as curses programs are unless they ask for the terminal's own background.
-    for (short color = 1; color <= 7; ++color) init_pair(color, color, COLOR_BLACK);
+    // On black, as curses programs are unless they ask for the terminal's own background; white (7) is pair
+    // 0.
+    for (short color = 1; color < 7; ++color) init_pair(color, color, COLOR_BLACK);
   }
   ~Screen() { endwin(); }
   Screen(const Screen&) = delete;
@@ -67,7 +68,7 @@ class Screen {
   }
   static void put(int x, int y, Cell cell) {
     // The last cell of all would scroll the screen; insch() does not.
-    const chtype ch = static_cast<chtype>(static_cast<unsigned char>(cell.ch)) | COLOR_PAIR(cell.color);
+    const chtype ch = static_cast<chtype>(static_cast<unsigned char>(cell.ch)) | COLOR_PAIR(cell.color % 7);
     if (x == kWidth - 1 && y == kHeight - 1) {
       mvinsch(y, x, ch);
     } else {
