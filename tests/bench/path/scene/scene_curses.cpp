@@ -57,8 +57,8 @@ class Screen {
   }
 
  private:
-  /// Have the terminal driver pass on what curses writes in one piece. Otherwise it is cut at every line feed
-  /// and backspace, and how many packets ssh makes of a frame depends on how fast the machine wakes it.
+  /// Keep the terminal driver from cutting what curses writes at every line feed and backspace: each piece
+  /// may become a packet of its own.
   static void writeWhole() {
     nonl();
     termios modes{};
