@@ -14,7 +14,7 @@ build_packages="g++ cmake ninja-build libasio-dev libprotobuf-dev protobuf-compi
 check_packages="$build_packages ccache libgtest-dev tmux python3 clang clang-format clang-tidy libclang-rt-14-dev ncurses-term"
 
 # What the benchmarks need on top of building, the libraries that they compare with among it.
-bench_packages="$build_packages libbox2d-dev libchipmunk-dev valgrind python3"
+bench_packages="$build_packages libbox2d-dev libchipmunk-dev valgrind python3 libvterm-dev openssh-client openssh-server mosh"
 
 # need_packages "a b c": install those that are missing, and only then call apt.
 need_packages() {

@@ -1,0 +1,27 @@
+// The clock that all processes of a measurement share.
+#pragma once
+
+#include <chrono>
+#include <ctime>
+
+namespace bench::path {
+
+using Nanoseconds = std::chrono::nanoseconds;
+
+/// CLOCK_MONOTONIC, the same in all namespaces.
+inline Nanoseconds monotonicNow() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::chrono::seconds(now.tv_sec) + Nanoseconds(now.tv_nsec);
+}
+
+inline double milliseconds(Nanoseconds time) {
+  return std::chrono::duration<double, std::milli>(time).count();
+}
+
+inline timespec toTimespec(Nanoseconds time) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time);
+  return {static_cast<time_t>(seconds.count()), static_cast<long>((time - seconds).count())};
+}
+
+}  // namespace bench::path

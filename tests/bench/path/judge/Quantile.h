@@ -1,0 +1,20 @@
+// Quantiles of samples.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace bench::path {
+
+/// The smallest sample that is not less than `share` (0 to 1) of all of them; NaN without samples.
+inline double quantile(std::vector<double> samples, double share) {
+  if (samples.empty()) return NAN;
+  const double rank = std::ceil(share * static_cast<double>(samples.size())) - 1;
+  const auto index = static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
+  std::nth_element(samples.begin(), samples.begin() + index, samples.end());
+  return samples[static_cast<std::size_t>(index)];
+}
+
+}  // namespace bench::path

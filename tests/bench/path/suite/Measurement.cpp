@@ -1,0 +1,138 @@
+#include "Measurement.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <future>
+#include <sstream>
+#include <stdexcept>
+
+#include "../judge/Quantile.h"
+#include "Peers.h"
+#include "Subprocess.h"
+
+namespace bench::path {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+const std::string kBin = NAIAD_BINARY_DIR "/bin";
+constexpr const char* kSeparator = ":::";
+constexpr int kNotAllowed = 77;
+constexpr const char* kAddress = "10.77.0.1";
+constexpr const char* kLoopbackAddress = "127.77.0.1";  // the link can carry it, too
+
+/// A folder that goes when the run is over.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "naiad-path-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder can be made for a run");
+    m_name = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(m_name, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const std::string& name() const { return m_name; }
+
+ private:
+  std::string m_name;
+};
+
+void append(Words& words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+}
+
+/// The address beside it: 10.77.0.2 for 10.77.0.1.
+std::string clientOf(const std::string& server_address) {
+  return server_address.substr(0, server_address.rfind('.')) + ".2";
+}
+
+Words linkCommand(const Place& place, const Peer& peer, const Condition& condition) {
+  Words words = {kBin + "/naiad_link", "--counters", place.file("counters"), "--server-log",
+                 place.file("log")};
+  append(words, {"--server-address", place.address, "--client-address", clientOf(place.address)});
+  append(words, {"--ready-file", peer.ready_file, "--seed", std::to_string(place.seed)});
+  append(words, {"--delay-ms", std::to_string(condition.rtt_ms / 2)});
+  append(words, {"--loss-percent", std::to_string(condition.loss_percent)});
+  append(words, {"--rate-kbit", std::to_string(condition.rate_kbit_s)});
+  if (!peer.udp) append(words, {"--block-udp", "both"});
+  words.emplace_back(kSeparator);
+  append(words, peer.server);
+  words.emplace_back(kSeparator);
+  return words;
+}
+
+Words judgeCommand(const Place& place, const Peer& peer, const Effort& effort) {
+  Words words = {kBin + "/naiad_pty_judge", "--truth", place.truth(), "--counters", place.file("counters")};
+  append(words, {"--warm-up", std::to_string(effort.warm_up_s)});
+  append(words, {"--measure", std::to_string(effort.measure_s), "--seed", std::to_string(place.seed)});
+  if (!peer.first_keys.empty()) append(words, {"--first-keys", peer.first_keys});
+  if (peer.arrows) words.emplace_back("--arrows");
+  words.emplace_back("--");
+  append(words, peer.client);
+  return words;
+}
+
+Figures parse(const std::string& line) {
+  Figures figures;
+  std::istringstream text(line);
+  for (std::string word; text >> word;) {
+    const std::size_t sign = word.find('=');
+    if (sign != std::string::npos) figures[word.substr(0, sign)] = std::stod(word.substr(sign + 1));
+  }
+  return figures;
+}
+
+Figures runOnce(const std::string& program, const Condition& condition, const Effort& effort,
+                std::uint64_t seed) {
+  const Folder folder;
+  const std::string address = isOurs(program) && !servesOthers() ? kLoopbackAddress : kAddress;
+  const Place place{kBin, folder.name(), address, seed};
+  const Peer peer = preparePeer(program, place);
+  Words command = linkCommand(place, peer, condition);
+  append(command, judgeCommand(place, peer, effort));
+  const Finished finished = runProgram(command);
+  if (finished.code != 0) throw std::runtime_error(program + " could not be measured");
+  return parse(finished.output);
+}
+
+}  // namespace
+
+std::optional<std::string> notAllowedBecause() {
+  const Finished finished = runProgram({kBin + "/naiad_link", "--check"});
+  if (finished.code == 0) return std::nullopt;
+  if (finished.code != kNotAllowed) return "naiad_link-failed";
+  return finished.output.substr(0, finished.output.find('\n'));
+}
+
+bool servesOthers() {
+  static const bool s_serves = [] {
+    const Folder folder;
+    const Place place{kBin, folder.name(), kAddress, 1};
+    Words command = linkCommand(place, preparePeer("dfclient", place), {});
+    command.emplace_back("true");
+    return runProgram(command).code == 0;
+  }();
+  return s_serves;
+}
+
+Figures measure(const std::string& program, const Condition& condition, const Effort& effort) {
+  std::vector<std::future<Figures>> runs;
+  for (int seed = 1; seed <= effort.seeds; ++seed) {
+    runs.push_back(std::async(std::launch::async, runOnce, program, condition, effort,
+                              static_cast<std::uint64_t>(seed)));
+  }
+  std::map<std::string, std::vector<double>> samples;
+  for (auto& run : runs) {
+    for (const auto& [key, value] : run.get()) samples[key].push_back(value);
+  }
+  Figures medians;
+  for (const auto& [key, values] : samples) medians[key] = quantile(values, 0.5);
+  return medians;
+}
+
+}  // namespace bench::path

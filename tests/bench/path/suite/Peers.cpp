@@ -1,0 +1,158 @@
+#include "Peers.h"
+
+#include <pwd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "Subprocess.h"
+
+namespace bench::path {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+constexpr const char* kSshPort = "2222";
+constexpr const char* kMoshPort = "60001";
+constexpr const char* kGamePort = "9876";
+
+void writeFile(const std::string& name, const std::string& text) {
+  std::ofstream file(name);
+  if (!(file << text << std::flush)) throw std::runtime_error(name + " cannot be written");
+}
+
+std::string readFile(const std::string& name) {
+  std::ifstream file(name);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void append(Words& words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+}
+
+/// Options from the environment, divided at blanks.
+Words fromEnvironment(const char* name) {
+  const char* value = std::getenv(name);
+  std::istringstream text(value != nullptr ? value : "");
+  Words words;
+  for (std::string word; text >> word;) words.push_back(word);
+  return words;
+}
+
+Words sceneCommand(const Place& place) {
+  return {"env", "LC_ALL=C.UTF-8", place.bin + "/naiad_scene_curses", place.truth(),
+          std::to_string(place.seed)};
+}
+
+void makeKey(const std::string& file) {
+  if (runProgram({"ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", file}).code != 0) {
+    throw std::runtime_error("ssh-keygen failed");
+  }
+}
+
+/// An sshd of this user's own, with keys that live as long as the run.
+Words sshServer(const Place& place) {
+  makeKey(place.file("host_key"));
+  makeKey(place.file("user_key"));
+  writeFile(place.file("known_hosts"),
+            "[" + place.address + "]:" + kSshPort + " " + readFile(place.file("host_key.pub")));
+  writeFile(place.file("sshd_config"), std::string("Port ") + kSshPort + "\nListenAddress " + place.address +
+                                           "\nHostKey " + place.file("host_key") + "\nAuthorizedKeysFile " +
+                                           place.file("user_key.pub") + "\nPidFile " +
+                                           place.file("sshd.pid") +
+                                           "\nUsePAM no\nStrictModes no\nPermitRootLogin yes\n"
+                                           "PasswordAuthentication no\nPrintMotd no\nPrintLastLog no\n");
+  if (geteuid() == 0) mkdir("/run/sshd", 0755);  // where a root's sshd locks up its unprivileged half
+  return {"/usr/sbin/sshd", "-D", "-e", "-f", place.file("sshd_config")};
+}
+
+Words sshClient(const Place& place, bool compressed) {
+  const passwd* user = getpwuid(geteuid());
+  if (user == nullptr) throw std::runtime_error("this user has no name");
+  Words words = {
+      "ssh", "-F", "none", "-tt", "-e", "none", "-q", "-p", kSshPort, "-i", place.file("user_key")};
+  append(words, {"-o", "IdentitiesOnly=yes", "-o", "StrictHostKeyChecking=yes"});
+  append(words, {"-o", "UserKnownHostsFile=" + place.file("known_hosts"), "-o", "BatchMode=yes"});
+  if (compressed) words.emplace_back("-C");
+  words.push_back(std::string(user->pw_name) + "@" + place.address);
+  append(words, sceneCommand(place));
+  return words;
+}
+
+Peer ssh(const Place& place, bool compressed) {
+  Peer peer;
+  peer.server = sshServer(place);
+  peer.ready_file = place.file("sshd.pid");
+  peer.client = sshClient(place, compressed);
+  return peer;
+}
+
+/// mosh-server leaves a server behind and prints the key for mosh-client; no ssh is needed to start it.
+Peer mosh(const Place& place) {
+  Peer peer;
+  const std::string answer = place.file("mosh");
+  peer.ready_file = answer;
+  peer.server = {"sh", "-c", R"(answer=$1; shift; "$@" >"$answer.part" 2>&1 && mv "$answer.part" "$answer")",
+                 "sh", answer};
+  append(peer.server, {"env", "LC_ALL=C.UTF-8", "mosh-server", "new", "-i", place.address, "-p", kMoshPort});
+  append(peer.server, {"-c", "256", "--"});
+  append(peer.server, sceneCommand(place));
+  peer.client = {
+      "sh",     "-c",   R"(MOSH_KEY=$(sed -n 's/^MOSH CONNECT [0-9]* //p' "$1") exec mosh-client "$2" "$3")",
+      "sh",     answer, place.address,
+      kMoshPort};
+  return peer;
+}
+
+/// A home of their own keeps certificates and pins of a run out of the user's.
+Peer dfclient(const Place& place, bool udp) {
+  Peer peer;
+  peer.ready_file = place.file("port");
+  peer.server = {"env", "HOME=" + place.folder, "NAIAD_SCENE_TRUTH=" + place.truth(),
+                 "NAIAD_SCENE_SEED=" + std::to_string(place.seed)};
+  append(peer.server, {place.bin + "/dfserver", "--game", place.bin + "/../lib/naiad_scene_game.so"});
+  append(peer.server, {"--address", place.address, "--port", kGamePort, "--port-file", peer.ready_file});
+  append(peer.server, fromEnvironment("NAIAD_PATH_DFSERVER"));
+  peer.client = {"env", "HOME=" + place.folder, place.bin + "/dfclient", place.address + ":" + kGamePort};
+  append(peer.client, {"--name", "judge"});
+  append(peer.client, fromEnvironment("NAIAD_PATH_DFCLIENT"));
+  peer.first_keys = "\x1ds";  // Ctrl-] s: without the client's own status, which would hide some of the scene
+  peer.arrows = true;
+  peer.udp = udp;
+  return peer;
+}
+
+}  // namespace
+
+const std::vector<std::string>& peerNames() {
+  static const std::vector<std::string> names = {"ssh", "ssh-C", "mosh", "dfclient", "dfclient-stream"};
+  return names;
+}
+
+bool isOurs(const std::string& program) {
+  return program.starts_with("dfclient");
+}
+
+// An sshd that is not root's takes its own user's account for a locked one (OpenSSH 9.2).
+std::optional<std::string> notPossibleBecause(const std::string& program) {
+  if (program.starts_with("ssh") && geteuid() != 0) return "sshd-needs-root";
+  return std::nullopt;
+}
+
+Peer preparePeer(const std::string& program, const Place& place) {
+  if (program == "ssh") return ssh(place, false);
+  if (program == "ssh-C") return ssh(place, true);
+  if (program == "mosh") return mosh(place);
+  if (program == "dfclient") return dfclient(place, true);
+  if (program == "dfclient-stream") return dfclient(place, false);
+  throw std::runtime_error("there is no program " + program);
+}
+
+}  // namespace bench::path

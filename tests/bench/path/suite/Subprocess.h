@@ -1,0 +1,17 @@
+// Runs programs and listens to them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace bench::path {
+
+struct Finished {
+  int code = 0;        ///< exit code; 128 and the signal, if that ended it
+  std::string output;  ///< its stdout
+};
+
+/// Run a command to its end. Its stderr is ours. Throws std::runtime_error if it cannot be started.
+Finished runProgram(const std::vector<std::string>& command);
+
+}  // namespace bench::path
