@@ -177,7 +177,16 @@ void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
     while (!m_inputs.empty() && !isNewer(m_inputs.front().id, snapshot.header.input)) m_inputs.pop_front();
   }
   ++m_counters.snapshots;
-  sendUpdate(now);
+  // Every second one is enough, unless something is missing.
+  ++m_unacknowledged;
+  const bool gap = (m_acks.mask & 1) == 0 && m_counters.snapshots > 1;
+  if (!hasDatagrams(now) || m_unacknowledged >= kAckEvery || gap) return sendUpdate(now);
+  m_acknowledge_at = now + kAckDelay;
+}
+
+std::optional<ClientSession::Time> ClientSession::nextWake() const {
+  if (!m_repeat_at || !m_acknowledge_at) return m_repeat_at ? m_repeat_at : m_acknowledge_at;
+  return std::min(*m_repeat_at, *m_acknowledge_at);
 }
 
 void ClientSession::handle(PlayersMessage&& message, Time) {
@@ -213,8 +222,6 @@ void ClientSession::handle(const PongMessage& message, Time now) {
   const std::chrono::duration<double, std::milli> sample = now - ping->second;
   m_pings.erase(m_pings.begin(), std::next(ping));
   m_round_trip = m_round_trip.count() == 0 ? sample : m_round_trip + (sample - m_round_trip) / 8;
-  m_shortest_round_trip = std::min(m_shortest_round_trip, sample);
-  m_clock.setLead(std::chrono::duration_cast<DisplayClock::Duration>(m_shortest_round_trip / 2));
 }
 
 void ClientSession::closed(CloseReason reason) {
@@ -248,6 +255,7 @@ void ClientSession::update(Time now) {
     m_repeat_at.reset();
     if (!m_inputs.empty() && hasDatagrams(now)) sendUpdate(now);
   }
+  if (m_acknowledge_at && now >= *m_acknowledge_at) sendUpdate(now);
   const auto between = now - m_attached < kPassing ? kFirstProbes : kProbeEvery;
   if (m_datagrams != nullptr && !hasDatagrams(now) && now - m_last_probe >= between) probe(now);
   if (m_channel == nullptr) return;
@@ -305,6 +313,8 @@ bool ClientSession::sendInput(Input input, bool urgent, Time now) {
 }
 
 ClientUpdate ClientSession::nextUpdate(bool on_stream, Time now) {
+  m_unacknowledged = 0;
+  m_acknowledge_at.reset();
   ClientUpdate update;
   update.acks = m_acks;
   // What is lost is sent again with everything until it is acknowledged; the stream loses nothing.

@@ -85,6 +85,8 @@ class ClientSession {
   static constexpr std::chrono::milliseconds kProbeEvery{1000};  ///< then
   static constexpr std::chrono::milliseconds kFirstProbes{100};  ///< in the first second
   static constexpr std::chrono::milliseconds kRepeatInput{10};   ///< a new input is sent again after this
+  static constexpr int kAckEvery = 2;                            ///< snapshots that come as datagrams
+  static constexpr std::chrono::milliseconds kAckDelay{50};      ///< of the last one, at most
   static constexpr std::chrono::seconds kChecksumEvery{1};
   static constexpr std::chrono::milliseconds kResetPatience{
       500};  ///< then a world that is not complete is shown
@@ -154,7 +156,7 @@ class ClientSession {
   std::uint64_t revision() const { return m_revision; }
 
   /// When update() has something to do before its usual time; nothing if it has not.
-  std::optional<Time> nextWake() const { return m_repeat_at; }
+  std::optional<Time> nextWake() const;
 
   /// Called before a snapshot of `tick` is applied: the replica is still as it was. For recorders.
   void onBeforeSnapshot(std::function<void(std::uint32_t tick)> observer) {
@@ -208,7 +210,8 @@ class ClientSession {
   std::optional<Replica> m_next_replica;  ///< of the next epoch, until it is complete
   Time m_reset_at{};
   std::uint8_t m_epoch = 0;
-  std::chrono::duration<double, std::milli> m_shortest_round_trip{1e9};
+  int m_unacknowledged = 0;  ///< snapshots that no update has acknowledged
+  std::optional<Time> m_acknowledge_at;
   std::map<std::uint64_t, Time> m_pings;  ///< unanswered, by token
   std::uint64_t m_next_token = 1;
   Time m_last_ping;

@@ -2,8 +2,8 @@
 //
 // Snapshots tell what the world was like at a tick; between them the replica extrapolates. This clock
 // estimates when each tick should arrive (the earliest arrivals count, later ones pull it back gently, so
-// that jitter does not shake the picture) and counts on from there, adding how old the news is, at most
-// 250 ms beyond the newest snapshot. After 500 ms without one the picture stands still and the player is
+// that jitter does not shake the picture) and counts on from there, at most 250 ms beyond the newest
+// snapshot. After 500 ms without one the picture stands still and the player is
 // told.
 //
 // Ticks are compared as serial numbers. Time is a parameter.
@@ -26,8 +26,6 @@ class DisplayClock {
 
   explicit DisplayClock(Duration tick_length) : m_length(tick_length) {}
 
-  /// How old what arrives is: half the shortest round trip. The picture is that much ahead.
-  void setLead(Duration lead) { m_lead = lead; }
   /// A snapshot of `tick` arrived.
   void note(std::uint32_t tick, Time now);
   /// The tick to draw. Never lower than the last answer, unless that lies beyond the allowed lead.
@@ -45,7 +43,6 @@ class DisplayClock {
   Duration due(std::uint32_t tick) const;
 
   Duration m_length;
-  Duration m_lead{0};
   bool m_started = false;
   std::uint32_t m_newest = 0;
   std::uint32_t m_shown = 0;

@@ -145,7 +145,7 @@ class Session {
   int m_messages = 0;        ///< since the last tick
   int m_chat_budget = kChatPerSecond;
   Clock::time_point m_chat_refill;
-  SnapshotSender m_sender;
+  SnapshotSender m_sender{Resend::kAhead};
   Passage m_passage;
 };
 

@@ -9,13 +9,15 @@ namespace naiad {
 
 // The layout, drawn out in PROTOCOL.md:
 //
-//   update  acks 1 (newest 16, all 1, mask 64 if not all) | ping 1 (token 8) | checksum 1 (64 bits)
+//   update  acks 1 (newest 16, many missing 1, then the mask 64, or how many: exp-Golomb(0), and 6 each) |
+//   ping 1 (token 8) | checksum 1 (64 bits)
 //           | reset 1 | inputs: exp-Golomb(0) | id of the first 16, if any | each input
 //   input   tick 16, or for later ones signed exp-Golomb(2) from the one before | snapshots before the newest
 //           acknowledged: exp-Golomb(3) | mouse 1 | key 7, action 2, or action 2, button 2, x 9, y 8
 namespace {
 
 constexpr int kLowBits = 16;
+constexpr int kMostNamed = 8;  ///< snapshots that have not arrived
 constexpr int kKeyBits = 7;
 constexpr int kTickOrder = 2;
 constexpr int kSnapshotOrder = 3;
@@ -28,6 +30,26 @@ std::uint32_t restored(std::uint64_t low, std::uint32_t near) {
   const auto apart =
       static_cast<std::int16_t>(static_cast<std::uint16_t>(low) - static_cast<std::uint16_t>(near));
   return near + static_cast<std::uint32_t>(std::int32_t{apart});
+}
+
+// Mostly all have arrived but a few: those are named.
+void writeMask(BitWriter& out, std::uint64_t mask) {
+  const int missing = std::popcount(~mask);
+  out.flag(missing > kMostNamed);
+  if (missing > kMostNamed) return out.bits(mask, 64);
+  out.golomb(static_cast<std::uint64_t>(missing), 0);
+  for (std::uint64_t left = ~mask; left != 0; left &= left - 1) {
+    out.bits(static_cast<std::uint64_t>(std::countr_zero(left)), 6);
+  }
+}
+
+std::uint64_t readMask(BitReader& in) {
+  if (in.flag()) return in.bits(64);
+  std::uint64_t mask = ~std::uint64_t{0};
+  for (std::uint64_t missing = in.golomb(0, kMostNamed); missing > 0; --missing) {
+    mask &= ~(std::uint64_t{1} << in.bits(6));
+  }
+  return mask;
 }
 
 void writeWhat(BitWriter& out, const Input& input) {
@@ -80,10 +102,8 @@ std::string writeUpdate(const ClientUpdate& update) {
   BitWriter out;
   out.flag(update.acks.newest != 0);
   if (update.acks.newest != 0) {
-    const bool all = update.acks.mask == ~std::uint64_t{0};
     out.bits(update.acks.newest & 0xFFFF, kLowBits);
-    out.flag(all);
-    if (!all) out.bits(update.acks.mask, 64);
+    writeMask(out, update.acks.mask);
   }
   out.flag(update.ping.has_value());
   if (update.ping) out.bits(*update.ping, 8);
@@ -115,7 +135,7 @@ std::optional<ClientUpdate> readUpdate(std::string_view bytes, const UpdateConte
   ClientUpdate update;
   if (in.flag()) {
     update.acks.newest = restored(in.bits(kLowBits), context.snapshot);
-    update.acks.mask = in.flag() ? ~std::uint64_t{0} : in.bits(64);
+    update.acks.mask = readMask(in);
     if (update.acks.newest == 0) in.fail();
   }
   if (in.flag()) update.ping = static_cast<std::uint8_t>(in.bits(8));
