@@ -11,7 +11,7 @@ LookForm AppearanceNames::formOf(std::uint64_t hash, std::size_t glyphs, std::ui
   auto found = m_names.find(hash);
   if (found == m_names.end()) {
     while (!m_names.empty() && (m_glyphs + glyphs > kMaxGlyphs || m_names.size() == kMaxAppearances)) {
-      retireOldest();
+      if (!retireOldest(snapshot)) return {};
     }
     std::uint32_t id = m_next_id;
     if (m_free.empty()) {
@@ -33,13 +33,16 @@ void AppearanceNames::wrote(std::uint64_t hash, std::uint32_t snapshot) {
   if (found != m_names.end()) found->second.used = snapshot;
 }
 
-void AppearanceNames::retireOldest() {
+// Within one snapshot an id has one meaning: what is used in it keeps its id.
+bool AppearanceNames::retireOldest(std::uint32_t snapshot) {
   const auto oldest = std::min_element(m_names.begin(), m_names.end(), [](const auto& a, const auto& b) {
     return isNewer(b.second.used, a.second.used);
   });
+  if (oldest->second.used == snapshot) return false;
   m_free.push_back(oldest->second.id);
   m_glyphs -= oldest->second.glyphs;
   m_names.erase(oldest);
+  return true;
 }
 
 void AppearanceNames::arrived(std::uint32_t id, std::uint64_t hash) {

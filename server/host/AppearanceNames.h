@@ -32,7 +32,8 @@ class AppearanceNames {
     std::uint32_t used = 0;  ///< the newest snapshot that meant it; 0: none yet
     bool confirmed = false;
   };
-  void retireOldest();
+  /// False if `snapshot` itself uses all that there are.
+  bool retireOldest(std::uint32_t snapshot);
 
   std::unordered_map<std::uint64_t, Name> m_names;  ///< by hash
   std::vector<std::uint32_t> m_free;

@@ -34,9 +34,7 @@ class BitWriter {
   void flag(bool value) { bits(value ? 1 : 0, 1); }
   /// The `count` low bits of a two's complement number that fits them.
   void signedBits(std::int64_t value, int count) {
-    assert(count == 64 ||
-           (value >= -(std::int64_t{1} << count) / 2 && value < (std::int64_t{1} << count) / 2) ||
-           (count == 0 && value == 0));
+    assert(count == 0 ? value == 0 : value >> (count - 1) == 0 || value >> (count - 1) == -1);
     bits(count == 64 ? static_cast<std::uint64_t>(value)
                      : static_cast<std::uint64_t>(value) & ((std::uint64_t{1} << count) - 1),
          count);

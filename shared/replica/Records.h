@@ -84,7 +84,7 @@ struct TextRecord {
 /// uses by slot; the sender names only what the client has confirmed.
 struct Origin {
   CellPosition corner;      ///< upper left corner of the window
-  std::int32_t x_bits = 0;  ///< the window is 2^x_bits cells wide, 0 … 16
+  std::int32_t x_bits = 0;  ///< the window is 2^x_bits cells wide, 0 … 15
   std::int32_t y_bits = 0;
   std::uint64_t order = 0;  ///< below 2^48
   friend bool operator==(const Origin&, const Origin&) = default;

@@ -176,9 +176,13 @@ class ObjectReader {
 
   // A name may be explained behind its use, since objects come by id.
   void resolve() {
+    std::size_t glyphs = 0;
     for (const auto& [object, id] : m_named) {
       const Appearance* appearance = find(id);
-      if (appearance != nullptr) m_records.objects[object].state.look.sequence.push_back(*appearance);
+      if (appearance == nullptr) continue;
+      glyphs += appearance->size();
+      if (glyphs > kMaxSnapshotGlyphs) return m_in.fail();
+      m_records.objects[object].state.look.sequence.push_back(*appearance);
     }
   }
 

@@ -43,6 +43,10 @@ enum class ReadResult {
   kMalformed,  ///< bytes that no honest server sends; `out` is unspecified
 };
 
+/// Glyphs that the named looks of one snapshot unfold to, at most; one that names more is malformed. As many
+/// as a replica holds.
+inline constexpr std::size_t kMaxSnapshotGlyphs = 1u << 21;
+
 /// Read a snapshot. `vocabulary` must be that of the epoch of the snapshot; it is not changed.
 ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context, const Vocabulary& vocabulary,
                         Snapshot& out);

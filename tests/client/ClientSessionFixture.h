@@ -8,7 +8,8 @@
 
 #include "ClientSession.h"
 #include "FakeChannel.h"
-#include "RecordCodec.h"
+#include "SnapshotCodec.h"
+#include "UpdateCodec.h"
 
 namespace naiad::test {
 
@@ -42,19 +43,25 @@ class ClientSessionFixture : public testing::Test {
   }
   void join() { receive(welcomeMessage()); }
 
-  static wire::ServerMessage snapshotMessage(std::uint32_t number, std::uint32_t tick) {
-    RecordWriter records;
-    ObjectRecord object;
-    object.slot = 5;
-    object.generation = 1;
-    object.groups = kAllGroups;
-    object.state.motion = {tick, {df::fromCells(10), df::fromCells(4)}, {}, {}};
-    object.state.look.sequence = {{Glyph{0, 0, U'@', df::RED}}};
-    records.write(object);
+  /// Object 5 at (10, 4), and the newest input that the game has had, if any.
+  static wire::ServerMessage snapshotMessage(std::uint32_t number, std::uint32_t tick,
+                                             std::uint32_t input = 0) {
+    SnapshotHeader header;
+    header.number = number;
+    header.tick = tick;
+    header.tells_input = input != 0;
+    header.input = input;
+    header.input_tick = tick;
+    SnapshotWriter out;
+    out.begin(header, 0, {});
+    ObjectState state;
+    state.motion = {tick, {df::fromCells(10), df::fromCells(4)}, {}, {}};
+    state.look.sequence = {{Glyph{0, 0, U'@', df::RED}}};
+    BitWriter bits;
+    out.encode(bits, kAllGroups, 1, state, state.motion);
+    out.object(5, std::move(bits));
     wire::ServerMessage message;
-    message.mutable_snapshot()->set_number(number);
-    message.mutable_snapshot()->set_tick(tick);
-    message.mutable_snapshot()->set_records(records.bytes());
+    message.set_snapshot(out.finish());
     return message;
   }
   void snapshot(std::uint32_t number, std::uint32_t tick) { receive(snapshotMessage(number, tick)); }
@@ -67,6 +74,19 @@ class ClientSessionFixture : public testing::Test {
   }
 
   const wire::ClientMessage& last() const { return log->sent.back(); }
+  /// The last message, which must be an update.
+  ClientUpdate lastUpdate() const {
+    EXPECT_EQ(last().what_case(), wire::ClientMessage::kUpdate);
+    const SnapshotContext& newest = session->replica().newest();
+    const auto update = readUpdate(last().update(), {newest.number, newest.tick, newest.input});
+    EXPECT_TRUE(update);
+    return update.value_or(ClientUpdate{});
+  }
+  Input lastInput() const {
+    const ClientUpdate update = lastUpdate();
+    EXPECT_FALSE(update.inputs.empty());
+    return update.inputs.empty() ? Input{} : update.inputs.back();
+  }
 
   std::shared_ptr<FakeChannel::Log> log = std::make_shared<FakeChannel::Log>();
   ClientSession::Time now = ClientSession::Time{} + std::chrono::hours(1);

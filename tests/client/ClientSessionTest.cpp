@@ -57,13 +57,12 @@ TEST_F(ClientSessionTest, GoodbyeKeepsItsSentence) {
 TEST_F(ClientSessionTest, AppliesAndAcknowledgesSnapshots) {
   join();
   snapshot(1, 100);
-  ASSERT_TRUE(last().has_ack());
-  EXPECT_EQ(last().ack().newest(), 1u);
-  EXPECT_EQ(last().ack().mask(), 0u);
+  EXPECT_EQ(lastUpdate().acks.newest, 1u);
+  EXPECT_EQ(lastUpdate().acks.mask, 0u);
   snapshot(2, 101);
   snapshot(4, 103);
-  EXPECT_EQ(last().ack().newest(), 4u);
-  EXPECT_EQ(last().ack().mask(), 0b110u) << "3 is missing";
+  EXPECT_EQ(lastUpdate().acks.newest, 4u);
+  EXPECT_EQ(lastUpdate().acks.mask, 0b110u) << "3 is missing";
   EXPECT_EQ(session->replica().aliveCount(), 1u);
   EXPECT_EQ(session->replica().render(103).at(10, 4), (df::Cell{U'@', df::RED}));
   EXPECT_EQ(session->counters().snapshots, 3u);
@@ -84,17 +83,56 @@ TEST_F(ClientSessionTest, InputsAreNumberedFromOneAndNameWhatWasSeen) {
   join();
   snapshot(7, 100);
   EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
-  ASSERT_TRUE(last().has_input());
-  EXPECT_EQ(last().input().id(), 1u);
-  EXPECT_EQ(last().input().drawn_tick(), 100u);
-  EXPECT_EQ(last().input().snapshot_number(), 7u);
-  EXPECT_EQ(last().input().key().key(), static_cast<unsigned>(df::Keyboard::SPACE));
-  EXPECT_EQ(last().input().key().action(), static_cast<unsigned>(df::KEY_PRESSED));
+  const Input key = lastInput();
+  EXPECT_EQ(key.id, 1u);
+  EXPECT_EQ(key.tick, 100u);
+  EXPECT_EQ(key.snapshot, 7u);
+  EXPECT_FALSE(key.is_mouse);
+  EXPECT_EQ(key.key, df::Keyboard::SPACE);
+  EXPECT_EQ(key.action, df::KEY_PRESSED);
   EXPECT_TRUE(session->sendMouse(df::CLICKED, df::Mouse::RIGHT, 12, 5, now));
-  EXPECT_EQ(last().input().id(), 2u);
-  EXPECT_EQ(last().input().mouse().button(), 2u);
-  EXPECT_EQ(last().input().mouse().x(), 12);
-  EXPECT_EQ(last().input().mouse().y(), 5);
+  const Input click = lastInput();
+  EXPECT_EQ(click.id, 2u);
+  EXPECT_TRUE(click.is_mouse);
+  EXPECT_EQ(click.button, 2u);
+  EXPECT_EQ(click.x, 12);
+  EXPECT_EQ(click.y, 5);
+}
+
+TEST_F(ClientSessionTest, NumbersAreRestoredNearTheTickOfTheWelcome) {
+  wire::ServerMessage welcome = welcomeMessage();
+  welcome.mutable_welcome()->set_tick(3'000'000'000);
+  receive(welcome);
+  snapshot(1, 3'000'000'123);
+  EXPECT_EQ(session->replica().newest().tick, 3'000'000'123u);
+  EXPECT_EQ(session->clock().newestTick(), 3'000'000'123u);
+}
+
+// It named what a newer one had replaced: as if it were lost.
+TEST_F(ClientSessionTest, AStaleSnapshotIsDroppedAndNotAcknowledged) {
+  join();
+  const auto bare = [](std::uint32_t number, std::uint32_t slot, bool sets) {
+    SnapshotHeader header;
+    header.number = number;
+    header.tick = 100;
+    SnapshotWriter out;
+    out.begin(header, slot, {});
+    if (sets) out.write(OriginRecord{1, {}});
+    wire::ServerMessage message;
+    message.set_snapshot(out.finish());
+    return message;
+  };
+  receive(bare(1, 0, true));
+  receive(bare(3, 0, true));
+  const std::size_t sent = log->sent.size();
+  receive(bare(2, 1, false));
+  EXPECT_EQ(session->state(), State::kPlaying);
+  EXPECT_EQ(session->counters().stale_snapshots, 1u);
+  EXPECT_EQ(session->counters().snapshots, 2u);
+  EXPECT_EQ(log->sent.size(), sent);
+  receive(bare(4, 1, false));
+  EXPECT_EQ(lastUpdate().acks.newest, 4u);
+  EXPECT_EQ(lastUpdate().acks.mask, 0b101u);
 }
 
 TEST_F(ClientSessionTest, SendsNoInputBeforeTheWelcomeNorKeysThatAreNone) {
@@ -113,13 +151,13 @@ TEST_F(ClientSessionTest, NeverSendsMoreThanAServerTolerates) {
   EXPECT_LE(sent, 32);
   EXPECT_TRUE(session->sendKey(df::Keyboard::A, df::KEY_RELEASED, now)) << "a release is never lost";
   sent = 0;
+  std::uint32_t newest = 0;
   for (std::uint32_t tick = 1; tick <= 300; ++tick) {
     now += 33333us;
-    wire::ServerMessage heard = snapshotMessage(tick, tick);
-    if (tick > 1) heard.mutable_snapshot()->set_input_applied(last().input().id());
-    receive(heard);
+    receive(snapshotMessage(tick, tick, newest));
     for (int i = 0; i < 100; ++i)
       sent += session->sendMouse(df::MOVED, df::Mouse::LEFT, i % 80, 1, now) ? 1 : 0;
+    newest = lastInput().id;
   }
   EXPECT_LE(sent, 300 * 16);
   EXPECT_GE(sent, 300 * 8);
@@ -207,15 +245,12 @@ TEST_F(ClientSessionTest, AHeldKeyIsNoFloodAfterTheServerStalled) {
   }
   EXPECT_EQ(session->counters().inputs, ClientSession::kMaxUnapplied) << "a server lets no more than 64 wait";
   EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_RELEASED, now)) << "or it would stay down";
-  const std::uint32_t newest = last().input().id();
-  wire::ServerMessage lie = snapshotMessage(2, 101);
-  lie.mutable_snapshot()->set_input_applied(newest + 1);
-  receive(lie);
-  EXPECT_FALSE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now)) << "that one was never sent";
-  wire::ServerMessage heard = snapshotMessage(3, 102);
-  heard.mutable_snapshot()->set_input_applied(newest);
-  receive(heard);
+  const std::uint32_t newest = lastInput().id;
+  EXPECT_FALSE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
+  receive(snapshotMessage(2, 101, newest));
   EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
+  receive(snapshotMessage(3, 102, newest + 2));
+  EXPECT_FALSE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now)) << "that one was never sent";
 }
 
 }  // namespace

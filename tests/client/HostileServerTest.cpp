@@ -91,10 +91,10 @@ TEST_F(HostileServerTest, EndsOnASecondWelcome) {
   expectRejected();
 }
 
-TEST_F(HostileServerTest, EndsOnMalformedRecords) {
+TEST_F(HostileServerTest, EndsOnAMalformedSnapshot) {
   join();
   wire::ServerMessage message = snapshotMessage(1, 100);
-  message.mutable_snapshot()->mutable_records()->append("\xee\xee\xee");
+  message.mutable_snapshot()->append("\xee\xee\xee");
   receive(message);
   expectRejected();
   EXPECT_EQ(session->replica().aliveCount(), 0u) << "no record of a bad snapshot is applied";

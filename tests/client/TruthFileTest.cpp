@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "RecordCodec.h"
+#include "Replica.h"
 #include "TruthFile.h"
 #include "TruthRecorder.h"
 
@@ -83,7 +83,7 @@ TEST_F(TruthFileTest, RefusesWhatIsNoTruthFile) {
 
 ObjectRecord star(std::uint32_t tick, int x, int velocity) {
   ObjectRecord object;
-  object.slot = 1;
+  object.id = 1;
   object.generation = 1;
   object.groups = kAllGroups;
   object.state.motion = {tick, {df::fromCells(x), df::fromCells(2)}, {df::fromCells(velocity), 0}, {}};
@@ -101,15 +101,17 @@ TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
   Replica replica;
   TruthRecorder recorder;
   std::uint32_t number = 0;
-  const auto snapshot = [&](std::uint32_t tick, std::vector<ObjectRecord> objects) {
+  const auto take = [&](std::uint32_t tick, std::vector<ObjectRecord> objects) {
     recorder.beforeSnapshot(replica, tick);
-    Records records;
-    records.objects = std::move(objects);
-    replica.apply(++number, tick, records);
+    Snapshot snapshot;
+    snapshot.header.number = ++number;
+    snapshot.header.tick = tick;
+    snapshot.records.objects = std::move(objects);
+    replica.apply(snapshot);
   };
-  snapshot(10, {});
-  snapshot(10, {star(10, 5, 1)});   // a second part of tick 10
-  snapshot(13, {star(13, 20, 0)});  // 11 and 12 had none: extrapolated
+  take(10, {});
+  take(10, {star(10, 5, 1)});   // a second part of tick 10
+  take(13, {star(13, 20, 0)});  // 11 and 12 had none: extrapolated
   recorder.finish(replica);
   EXPECT_EQ(recorder.tickCount(), 4u);
   EXPECT_EQ(recorder.movingCount(), 1u);

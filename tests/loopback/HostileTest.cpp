@@ -13,6 +13,7 @@
 #include "SplitMix64.h"
 #include "TestClient.h"
 #include "TestServer.h"
+#include "UpdateCodec.h"
 
 namespace naiad::test {
 namespace {
@@ -23,17 +24,26 @@ std::string randomBytes(SplitMix64& random, std::size_t count) {
   return bytes;
 }
 
+std::string keyUpdate(std::uint32_t id, std::uint64_t key) {
+  ClientUpdate update;
+  update.inputs.resize(1);
+  update.inputs[0].id = id;
+  update.inputs[0].key = static_cast<std::uint8_t>(key);
+  return writeUpdate(update);
+}
+
 wire::ClientMessage validMessage(SplitMix64& random) {
   wire::ClientMessage message;
   switch (random.below(4)) {
     case 0:
-      message.mutable_input()->set_id(1 + static_cast<std::uint32_t>(random.below(5)));
-      message.mutable_input()->mutable_key()->set_key(static_cast<std::uint32_t>(random.below(80)));
+      message.set_update(keyUpdate(1 + static_cast<std::uint32_t>(random.below(5)), random.below(80)));
       break;
-    case 1:
-      message.mutable_ack()->set_newest(static_cast<std::uint32_t>(random.next()));
-      message.mutable_ack()->set_mask(random.next());
+    case 1: {
+      ClientUpdate update;
+      update.acks = {static_cast<std::uint32_t>(random.next()), random.next()};
+      message.set_update(writeUpdate(update));
       break;
+    }
     case 2:
       message.mutable_chat()->set_text(randomBytes(random, 20));
       break;
@@ -76,9 +86,7 @@ void attack(SplitMix64& random, RawClient& client) {
     }
     default: {  // well-formed, out of range
       wire::ClientMessage message;
-      message.mutable_input()->set_id(1);
-      message.mutable_input()->mutable_key()->set_key(100'000 +
-                                                      static_cast<std::uint32_t>(random.next() % 1000));
+      message.set_update(keyUpdate(1, df::Keyboard::kKeyCount + random.below(40)));
       client.send(message);
       break;
     }
@@ -142,8 +150,7 @@ TEST(Hostile, KeyFloodEndsTheSession) {
   flood.send(RawClient::hello("flood"));
   for (std::uint32_t id = 1; id <= 500; ++id) {
     wire::ClientMessage message;
-    message.mutable_input()->set_id(id);
-    message.mutable_input()->mutable_key()->set_key(df::Keyboard::SPACE);
+    message.set_update(keyUpdate(id, df::Keyboard::SPACE));
     flood.send(message);
   }
   EXPECT_TRUE(flood.waitForHangup());
@@ -160,8 +167,10 @@ TEST(Hostile, AFloodOfMessagesEndsItsSessionAndStopsNobodyElsesWorld) {
   std::vector<std::thread> floods;
   for (int i = 0; i < 2; ++i) {
     floods.emplace_back([&] {
-      std::string many;  // empty acknowledgements: valid, small, and never a reason to hang up by themselves
-      for (int k = 0; k < 20'000; ++k) many += std::string("\x02\0\x1a\0", 4);
+      wire::ClientMessage nothing;  // valid, small, and never a reason to hang up by itself
+      nothing.set_update(writeUpdate({}));
+      std::string many;
+      for (int k = 0; k < 20'000; ++k) appendFrame(many, nothing.SerializeAsString());
       RawClient flood(server.port());
       flood.send(RawClient::hello("flood"));
       while (!done) flood.sendBytes(many);

@@ -1,11 +1,12 @@
 #include "FakeServer.h"
 
+#include <algorithm>
 #include <asio/post.hpp>
 #include <chrono>
 
 #include "Color.h"
 #include "Limits.h"
-#include "RecordCodec.h"
+#include "SnapshotCodec.h"
 #include "TcpChannel.h"
 
 namespace naiad::test {
@@ -54,6 +55,7 @@ void FakeServer::welcome() {
   welcome.set_name("Ada");
   welcome.set_game("still life");
   welcome.set_tick_micros(33333);
+  welcome.set_tick(100);
   welcome.set_view_width(80);
   welcome.set_view_height(24);
   welcome.set_color(df::CYAN);
@@ -61,25 +63,26 @@ void FakeServer::welcome() {
   welcome.add_help("There is nothing to do.");
   m_channel->send(message.SerializeAsString());
 
-  RecordWriter records;
+  SnapshotHeader header;
+  header.number = 1;
+  header.tick = 100;
+  SnapshotWriter out;
+  out.begin(header, 0, {});
   WorldRecord world;
-  world.boundary = {{}, df::fromCells(80), df::fromCells(24)};
-  records.write(world);
-  ObjectRecord object;
-  object.slot = 1;
-  object.generation = 1;
-  object.groups = kAllGroups;
-  object.state.motion = {100, {df::fromCells(20), df::fromCells(10)}, {}, {}};
+  world.boundary = {{}, {df::fromCells(80), df::fromCells(24)}};
+  out.write(world);
+  ObjectState object;
+  object.motion = {100, {df::fromCells(20), df::fromCells(10)}, {}, {}};
   Appearance look;
   int x = 0;
   for (const char32_t ch : std::u32string(U"NAIAD-HERE"))
     look.push_back({x++ << kGlyphUnitBits, 0, ch, df::GREEN});
-  object.state.look.sequence = {look};
-  records.write(object);
+  object.look.sequence = {look};
+  BitWriter bits;
+  out.encode(bits, kAllGroups, 1, object, object.motion);
+  out.object(1, std::move(bits));
   wire::ServerMessage snapshot;
-  snapshot.mutable_snapshot()->set_number(1);
-  snapshot.mutable_snapshot()->set_tick(100);
-  snapshot.mutable_snapshot()->set_records(records.bytes());
+  snapshot.set_snapshot(out.finish());
   m_channel->send(snapshot.SerializeAsString());
 }
 
@@ -93,12 +96,17 @@ bool FakeServer::heard(const std::function<bool(const wire::ClientMessage&)>& wa
   });
 }
 
-bool FakeServer::heardKey(int key, int action) {
-  return heard([key, action](const wire::ClientMessage& message) {
-    return message.has_input() && message.input().has_key() &&
-           static_cast<int>(message.input().key().key()) == key &&
-           static_cast<int>(message.input().key().action()) == action;
+bool FakeServer::heardInput(const std::function<bool(const Input&)>& wanted) {
+  return heard([&wanted](const wire::ClientMessage& message) {
+    const auto update =
+        message.what_case() == wire::ClientMessage::kUpdate ? readUpdate(message.update(), {}) : std::nullopt;
+    return update && std::any_of(update->inputs.begin(), update->inputs.end(), wanted);
   });
+}
+
+bool FakeServer::heardKey(int key, int action) {
+  return heardInput(
+      [=](const Input& input) { return !input.is_mouse && input.key == key && input.action == action; });
 }
 
 void FakeServer::send(const wire::ServerMessage& message) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "Channel.h"
+#include "UpdateCodec.h"
 #include "naiad.pb.h"
 
 namespace naiad::test {
@@ -28,6 +29,8 @@ class FakeServer {
 
   /// Wait until the client sent a message for which `wanted` holds; false after 10 s.
   bool heard(const std::function<bool(const wire::ClientMessage&)>& wanted);
+  /// Wait until an input arrived for which `wanted` holds.
+  bool heardInput(const std::function<bool(const Input&)>& wanted);
   /// Wait until a key action arrived.
   bool heardKey(int key, int action);
   /// Send the client a message.

@@ -140,10 +140,8 @@ TEST_F(TerminalRestoreTest, PlainKeysMouseAndResize) {
   EXPECT_TRUE(server.heardKey(df::Keyboard::RIGHTARROW, df::KEY_RELEASED));
   // 100 x 30: the view lies at (10, 2); terminals count from 1.
   terminal.type("\033[<0;13;6M\033[<0;13;6m");
-  EXPECT_TRUE(server.heard([](const wire::ClientMessage& m) {
-    const auto& mouse = m.input().mouse();
-    return m.input().has_mouse() && mouse.action() == df::CLICKED && mouse.button() == 1 && mouse.x() == 2 &&
-           mouse.y() == 3;
+  EXPECT_TRUE(server.heardInput([](const Input& input) {
+    return input.is_mouse && input.action == df::CLICKED && input.button == 1 && input.x == 2 && input.y == 3;
   }));
   terminal.resize(15, 5);
   EXPECT_TRUE(terminal.waitFor("too small"));

@@ -9,6 +9,7 @@
 #include "Replica.h"
 #include "Session.h"
 #include "SimulatedWorld.h"
+#include "UpdateCodec.h"
 
 namespace naiad {
 namespace {
@@ -66,30 +67,42 @@ class SessionTest : public testing::Test {
     message.mutable_hello()->set_player_name("Ann");
     hear(message);
   }
-  static wire::ClientMessage key(std::uint32_t id, std::uint32_t which = 0, std::uint32_t action = 0) {
+  static wire::ClientMessage updateOf(const ClientUpdate& update) {
     wire::ClientMessage message;
-    message.mutable_input()->set_id(id);
-    message.mutable_input()->mutable_key()->set_key(which);
-    message.mutable_input()->mutable_key()->set_action(action);
+    message.set_update(writeUpdate(update));
     return message;
   }
-  static wire::ClientMessage mouse(std::uint32_t action, std::uint32_t button, int x, int y) {
-    wire::ClientMessage message;
-    message.mutable_input()->set_id(1);
-    message.mutable_input()->mutable_mouse()->set_action(action);
-    message.mutable_input()->mutable_mouse()->set_button(button);
-    message.mutable_input()->mutable_mouse()->set_x(x);
-    message.mutable_input()->mutable_mouse()->set_y(y);
-    return message;
+  static wire::ClientMessage inputs(std::vector<Input> inputs) {
+    ClientUpdate update;
+    update.inputs = std::move(inputs);
+    return updateOf(update);
+  }
+  static Input keyInput(std::uint32_t id, int which = 0, int action = 0) {
+    Input input;
+    input.id = id;
+    input.key = static_cast<std::uint8_t>(which);
+    input.action = static_cast<std::uint8_t>(action);
+    return input;
+  }
+  static Input mouseInput(std::uint32_t id, int action, int button, int x, int y) {
+    Input input = keyInput(id, 0, action);
+    input.is_mouse = true;
+    input.button = static_cast<std::uint8_t>(button);
+    input.x = static_cast<std::uint16_t>(x);
+    input.y = static_cast<std::uint16_t>(y);
+    return input;
+  }
+  static wire::ClientMessage key(std::uint32_t id, int which = 0, int action = 0) {
+    return inputs({keyInput(id, which, action)});
   }
   static wire::ClientMessage says(const std::string& text) {
     wire::ClientMessage message;
     message.mutable_chat()->set_text(text);
     return message;
   }
-  std::vector<std::uint32_t> takeInputs() {
+  std::vector<std::uint32_t> takeInputs(std::uint32_t tick = 1) {
     std::vector<std::uint32_t> ids;
-    session.takeInputs([&ids](const wire::Input& input) { ids.push_back(input.id()); });
+    session.takeInputs(tick, [&ids](const Input& input) { ids.push_back(input.id); });
     return ids;
   }
   wire::ServerMessage lastSent() const {
@@ -205,31 +218,50 @@ TEST_F(SessionTest, EndsAtMoreInputsThanTheQueueHolds) {
 
 TEST_F(SessionTest, InputsOfEveryKindAreTaken) {
   greet();
-  hear(key(1, df::Keyboard::kKeyCount - 1, df::KEY_DOWN));
-  wire::ClientMessage click = mouse(df::MOVED, df::Mouse::MIDDLE + 1, kMaxViewWidth - 1, kMaxViewHeight - 1);
-  click.mutable_input()->set_id(2);
-  hear(click);
+  hear(inputs({keyInput(1, df::Keyboard::kKeyCount - 1, df::KEY_DOWN),
+               mouseInput(2, df::MOVED, df::Mouse::MIDDLE + 1, kMaxViewWidth - 1, kMaxViewHeight - 1)}));
   EXPECT_EQ(takeInputs().size(), 2u);
+}
+
+TEST_F(SessionTest, InputsThatComeAgainWithLaterOnesAreTakenOnce) {
+  greet();
+  hear(inputs({keyInput(1), keyInput(2)}));
+  hear(inputs({keyInput(1), keyInput(2), keyInput(3)}));
+  EXPECT_EQ(takeInputs(), (std::vector<std::uint32_t>{1, 2, 3}));
+  EXPECT_EQ(counters.repeated_inputs, 2u);
+}
+
+TEST_F(SessionTest, AnUpdateThatIsBadInPartIsBadAsAWhole) {
+  greet();
+  hear(inputs({keyInput(1), keyInput(2, 127)}));
+  EXPECT_TRUE(ended());
+  EXPECT_TRUE(takeInputs().empty());
 }
 
 class BadInput : public SessionTest, public testing::WithParamInterface<int> {};
 
 TEST_P(BadInput, EndsTheSession) {
   greet();
-  wire::ClientMessage neither;
-  neither.mutable_input()->set_id(1);
+  wire::ClientMessage nothing;
+  nothing.set_update("");
+  wire::ClientMessage cut = key(1);
+  cut.mutable_update()->pop_back();
+  wire::ClientMessage longer = key(1);
+  longer.mutable_update()->push_back('\0');
+  wire::ClientMessage large;
+  large.set_update(std::string(kMaxUpdate + 1, '\0'));
   const wire::ClientMessage bad[] = {
       key(0),
       key(1, df::Keyboard::kKeyCount),
-      key(1, 0xFFFFFFFF),
+      key(1, 127),
       key(1, 0, df::KEY_DOWN + 1),
-      mouse(df::MOVED + 1, 0, 0, 0),
-      mouse(0, df::Mouse::MIDDLE + 2, 0, 0),
-      mouse(0, 0, -1, 0),
-      mouse(0, 0, 0, -1),
-      mouse(0, 0, kMaxViewWidth, 0),
-      mouse(0, 0, 0, kMaxViewHeight),
-      neither,
+      inputs({mouseInput(1, df::MOVED + 1, 0, 0, 0)}),
+      inputs({mouseInput(1, 0, 0, kMaxViewWidth, 0)}),
+      inputs({mouseInput(1, 0, 0, 0, kMaxViewHeight)}),
+      nothing,
+      cut,
+      longer,
+      large,
   };
   ASSERT_EQ(std::size(bad), 11u);
   hear(bad[GetParam()]);
@@ -335,17 +367,15 @@ TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentAndCatchesUpAfter) {
     for (; read < line.sent.size(); ++read) {
       wire::ServerMessage message;
       ASSERT_TRUE(message.ParseFromString(line.sent[read]));
-      ASSERT_TRUE(message.has_snapshot());
-      const wire::Snapshot& snapshot = message.snapshot();
-      const auto records = readRecords(snapshot.records(), snapshot.tick());
-      ASSERT_TRUE(records);
-      replica.apply(snapshot.number(), snapshot.tick(), *records);
-      acks.note(snapshot.number());
+      ASSERT_EQ(message.what_case(), wire::ServerMessage::kSnapshot);
+      Snapshot snapshot;
+      ASSERT_EQ(replica.read(message.snapshot(), snapshot), ReadResult::kOk);
+      replica.apply(snapshot);
+      acks.note(snapshot.header.number);
     }
-    wire::ClientMessage ack;
-    ack.mutable_ack()->set_newest(acks.newest);
-    ack.mutable_ack()->set_mask(acks.mask);
-    hear(ack);
+    ClientUpdate update;
+    update.acks = acks;
+    hear(updateOf(update));
   };
 
   for (int round = 0; round < 20; ++round) {
@@ -376,12 +406,16 @@ TEST_F(SessionTest, SnapshotsNameTheNewestInputThatReachedTheGame) {
   Publisher publisher;
   hear(key(1));
   hear(key(4));
-  takeInputs();
+  takeInputs(world.tickNumber() + 1);
   hear(key(5));
   world.tick();
   publisher.update(world.view());
   session.sendTick(publisher, world.view().players[0]);
-  EXPECT_EQ(lastSent().snapshot().input_applied(), 4u);
+  Snapshot snapshot;
+  ASSERT_EQ(Replica(world.tickNumber()).read(lastSent().snapshot(), snapshot), ReadResult::kOk);
+  EXPECT_TRUE(snapshot.header.tells_input);
+  EXPECT_EQ(snapshot.header.input, 4u);
+  EXPECT_EQ(snapshot.header.input_tick, world.tickNumber());
 }
 
 }  // namespace

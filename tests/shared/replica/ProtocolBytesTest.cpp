@@ -7,10 +7,12 @@
 #include <sstream>
 #include <string>
 
+#include "Bits.h"
 #include "Framing.h"
 #include "Keyboard.h"
 #include "Limits.h"
-#include "RecordCodec.h"
+#include "Replica.h"
+#include "UpdateCodec.h"
 #include "Vector.h"
 #include "naiad.pb.h"
 
@@ -33,22 +35,48 @@ df::FixedVector at(double x, double y) {
   return *df::toFixed(df::Vector(x, y));
 }
 
-std::string exampleRecords() {
-  RecordWriter out;
+const Origin kConfirmed{{-10, 0}, 7, 5, 4};
+
+std::string exampleSnapshot() {
+  SnapshotWriter out;
+  SnapshotHeader header;
+  header.number = 3;
+  header.tick = 100;
+  header.tells_input = true;
+  header.input = 2;
+  header.input_tick = 99;
+  out.begin(header, 1, kConfirmed);
   out.write(WorldRecord{{at(0, 0), at(80, 24)}, 80, 24});
-  out.write(ViewRecord{at(0, 0), 5, 1});
+  out.write(ViewRecord{at(0, 0), true, 5, 1});
+  out.write(OriginRecord{2, {{-30, -10}, 8, 6, 7}});
   out.write(TextRecord{0, 1, 0, df::GREEN, "Hi"});
-  ObjectRecord born{5, 1, kAllGroups, {}};
-  born.state.order = 7;
-  born.state.motion = {100, at(10, 12), at(-0.5, 0), {}};
-  born.state.look = {{{{0, 0, U'@', df::CYAN}, {256, 0, U'>', df::CYAN}}}, 2};
-  born.state.body = {{at(-0.5, -0.5), at(1, 1)}, df::HARD, false};
-  out.write(born);
-  ObjectRecord turned{6, 2, kMotion, {}};
-  turned.state.motion = {100, at(3, 4), {}, {}};
-  out.write(turned);
-  out.write(ObjectRecord{9, 3, 0, {}});
-  return out.bytes();
+  const auto object = [&](std::uint32_t id, std::uint8_t groups, const ObjectState& state, LookForm form) {
+    BitWriter bits;
+    out.encode(bits, groups, 1, state, state.motion, form);
+    out.object(id, std::move(bits));
+  };
+  ObjectState saucer;
+  saucer.order = 7;
+  saucer.motion = {100, at(10, 12), at(-0.5, 0), {}};
+  saucer.look = {{{{0, 0, U'@', df::CYAN}, {256, 0, U'>', df::CYAN}}}, 2};
+  object(5, kAllGroups, saucer, {LookForm::kDefined, 9});
+  ObjectState turned;
+  turned.motion = {100, at(123.25, 4.75), {}, {}};
+  object(6, kMotion, turned, {});
+  saucer.look.altitude = 4;
+  object(8, kLook, saucer, {LookForm::kNamed, 9});
+  object(9, kDeath, {}, {});
+  return out.finish();
+}
+
+ClientUpdate exampleUpdate() {
+  ClientUpdate update;
+  update.acks = {3, 0b10};
+  update.ping = 42;
+  Input key{3, 101, 3, false, df::KEY_RELEASED, df::Keyboard::SPACE, 0, 0, 0};
+  Input click{4, 103, 3, true, df::CLICKED, 0, df::Mouse::LEFT + 1, 12, 5};
+  update.inputs = {key, click};
+  return update;
 }
 
 std::string document() {
@@ -58,11 +86,16 @@ std::string document() {
   return text.str();
 }
 
-/// The bytes of the `nth` block of the section "Worked examples", without the comments.
-std::string example(std::size_t nth) {
+/// A block of the section "Worked examples".
+struct Example {
+  std::string bytes;  ///< in hex, without the comments
+  std::string bits;   ///< of the lines that begin with bits behind their `#`, in the order of writing
+};
+
+Example example(std::size_t nth) {
   const std::string text = document();
   std::istringstream lines(text.substr(std::min(text.find("## Worked examples"), text.size())));
-  std::string bytes;
+  Example found;
   std::size_t fences = 0;
   for (std::string line; std::getline(lines, line);) {
     if (line.rfind("```", 0) == 0) {
@@ -71,9 +104,16 @@ std::string example(std::size_t nth) {
     }
     if (fences != 2 * nth + 1) continue;
     std::istringstream words(line.substr(0, line.find('#')));
-    for (std::string word; words >> word;) bytes += (bytes.empty() ? "" : " ") + word;
+    for (std::string word; words >> word;) found.bytes += (found.bytes.empty() ? "" : " ") + word;
+    if (line.rfind("# ", 0) == 0) found.bits += line.substr(2, line.find_first_not_of("01", 2) - 2);
   }
-  return bytes;
+  return found;
+}
+
+std::string hexOfBits(const std::string& bits) {
+  BitWriter out;
+  for (const char bit : bits) out.flag(bit == '1');
+  return hex(out.bytes());
 }
 
 TEST(ProtocolBytes, HelloIsAsTheDocumentSays) {
@@ -83,38 +123,57 @@ TEST(ProtocolBytes, HelloIsAsTheDocumentSays) {
   message.mutable_hello()->set_player_name("Ann");
   std::string frame;
   appendFrame(frame, message.SerializeAsString());
-  EXPECT_EQ(hex(frame), example(0));
+  EXPECT_EQ(hex(frame), example(0).bytes);
 }
 
-TEST(ProtocolBytes, RecordsAreAsTheDocumentSays) {
-  EXPECT_EQ(hex(exampleRecords()), example(1));
+TEST(ProtocolBytes, SnapshotIsAsTheDocumentSays) {
+  EXPECT_EQ(hex(exampleSnapshot()), example(1).bytes);
+  EXPECT_EQ(hexOfBits(example(1).bits), example(1).bytes);
+}
+
+TEST(ProtocolBytes, UpdateIsAsTheDocumentSays) {
+  EXPECT_EQ(hex(writeUpdate(exampleUpdate())), example(2).bytes);
+  EXPECT_EQ(hexOfBits(example(2).bits), example(2).bytes);
 }
 
 TEST(ProtocolBytes, FrameIsAsTheDocumentSays) {
+  SnapshotWriter out;
+  SnapshotHeader header;
+  header.number = 4;
+  header.tick = 105;
+  out.begin(header, 0, {});
   wire::ServerMessage message;
-  message.mutable_snapshot()->set_number(3);
-  message.mutable_snapshot()->set_tick(100);
-  message.mutable_snapshot()->set_records(std::string("\x10\x09\x03", 3));
-  message.mutable_snapshot()->set_input_applied(2);
+  message.set_snapshot(out.finish());
+  EXPECT_EQ(hexOfBits(example(3).bits), hex(message.snapshot()));
   std::string frame;
   appendFrame(frame, message.SerializeAsString());
-  EXPECT_EQ(hex(frame), example(2));
+  EXPECT_EQ(hex(frame), example(3).bytes);
 }
 
 // The same bytes once more, so that a change of document and code together is noticed as a change of
 // protocol.
-TEST(ProtocolBytes, Version1StaysAsItIs) {
-  EXPECT_EQ(kProtocolVersion, 1u);
-  EXPECT_EQ(hex(exampleRecords()),
-            "01 00 00 80 80 80 80 80 0a 80 80 80 80 80 03 50 18 "
-            "02 00 00 06 01 "
-            "03 00 02 00 02 02 48 69 "
-            "1f 05 01 07 "
-            "01 80 80 80 80 c0 02 80 80 80 80 80 03 ff ff ff ff 0f 00 "
-            "02 01 02 81 02 06 f8 01 "
-            "00 ff ff ff ff 0f ff ff ff ff 0f 80 80 80 80 10 80 80 80 80 10 "
-            "12 06 02 00 80 80 80 80 60 80 80 80 80 80 01 "
-            "10 09 03");
+TEST(ProtocolBytes, Version2StaysAsItIs) {
+  EXPECT_EQ(kProtocolVersion, 2u);
+  EXPECT_EQ(hex(exampleSnapshot()),
+            "03 00 64 00 2c 00 10 f4 42 00 00 00 00 80 02 00 00 00 00 00 00 c0 00 00 "
+            "00 80 82 21 5c a4 f8 ff ff bf fd ff ff 3f da 01 00 00 00 00 00 14 82 0a "
+            "48 e9 0c af 06 a4 b0 20 aa 13 a0 04 34 7c 11 2a 54 01 a4 17 c1 09 d0 00");
+  EXPECT_EQ(hex(writeUpdate(exampleUpdate())),
+            "07 00 08 00 00 00 00 00 00 00 54 c1 03 00 65 00 01 90 88 c4 a0 00");
+}
+
+// What is frozen must also be read as what it was.
+TEST(ProtocolBytes, TheExamplesAreReadAsTheyWereMeant) {
+  Vocabulary vocabulary;
+  vocabulary.define(2, OriginRecord{1, kConfirmed});
+  Snapshot snapshot;
+  ASSERT_EQ(readSnapshot(exampleSnapshot(), {2, 99, 1}, vocabulary, snapshot), ReadResult::kOk);
+  ASSERT_EQ(snapshot.records.objects.size(), 4u);
+  EXPECT_EQ(snapshot.records.objects[1].state.motion.position, at(123.25, 4.75));
+  EXPECT_EQ(snapshot.records.objects[2].state.look.sequence, snapshot.records.objects[0].state.look.sequence);
+  const auto update = readUpdate(writeUpdate(exampleUpdate()), {3, 100, 2});
+  ASSERT_TRUE(update);
+  EXPECT_EQ(update->inputs, exampleUpdate().inputs);
 }
 
 TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
@@ -125,7 +184,8 @@ TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
       {"kMaxServerFrame", kMaxServerFrame},
       {"kMaxClientFrame", kMaxClientFrame},
       {"kMaxHelloFrame", kMaxHelloFrame},
-      {"kMaxSnapshotRecords", kMaxSnapshotRecords},
+      {"kMaxSnapshot", kMaxSnapshot},
+      {"kMaxDatagramSnapshot", kMaxDatagramSnapshot},
       {"kMaxNameLength", kMaxNameLength},
       {"kMaxChatLength", kMaxChatLength},
       {"kMaxSentenceLength", kMaxSentenceLength},
@@ -141,6 +201,14 @@ TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
       {"kMinViewHeight", kMinViewHeight},
       {"kMaxViewWidth", kMaxViewWidth},
       {"kMaxViewHeight", kMaxViewHeight},
+      {"kMaxUpdateInputs", kMaxUpdateInputs},
+      {"kMaxUpdate", kMaxUpdate},
+      {"kOriginSlots", kOriginSlots},
+      {"kMaxAppearances", kMaxAppearances},
+      {"kMaxVocabularyGlyphs", kMaxVocabularyGlyphs},
+      {"kMaxSnapshotGlyphs", kMaxSnapshotGlyphs},
+      {"kMaxReplicaObjects", kMaxReplicaObjects},
+      {"kMaxReplicaGlyphs", kMaxReplicaGlyphs},
   };
   const std::string text = document();
   std::map<std::string, std::uint64_t> listed;
@@ -160,11 +228,14 @@ TEST(ProtocolBytes, LastKeyIsAsTheDocumentSays) {
 
 TEST(ProtocolBytes, TheLargestSnapshotFitsItsFrame) {
   wire::ServerMessage message;
-  message.mutable_snapshot()->set_number(0xFFFFFFFF);
-  message.mutable_snapshot()->set_tick(0xFFFFFFFF);
-  message.mutable_snapshot()->set_input_applied(0xFFFFFFFF);
-  message.mutable_snapshot()->set_records(std::string(kMaxSnapshotRecords, 'x'));
+  message.set_snapshot(std::string(kMaxSnapshot, 'x'));
   EXPECT_LE(message.ByteSizeLong(), kMaxServerFrame);
+}
+
+TEST(ProtocolBytes, TheLargestUpdateFitsItsFrame) {
+  wire::ClientMessage message;
+  message.set_update(std::string(kMaxUpdate, 'x'));
+  EXPECT_LE(message.ByteSizeLong(), kMaxClientFrame);
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 // Random records, all of them legal, with small and with extreme numbers.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "Limits.h"
-#include "Records.h"
+#include "SnapshotCodec.h"
 #include "SplitMix64.h"
 
 namespace naiad::test {
@@ -20,9 +21,11 @@ class RandomRecords {
     const auto span = static_cast<std::uint64_t>(most);
     return static_cast<std::int64_t>(m_rng.below(2 * span + 1) - span);
   }
+  /// With any number of bits behind the point.
   df::Fixed coordinate(std::int64_t most_cells) {
     if (chance(0.1)) return (chance(0.5) ? 1 : -1) * (most_cells << df::kFixedBits);
-    return within((chance(0.5) ? most_cells : 100) << df::kFixedBits);
+    const df::Fixed exact = within((chance(0.5) ? most_cells : 100) << df::kFixedBits);
+    return chance(0.3) ? exact : exact & -(df::Fixed{1} << m_rng.below(df::kFixedBits + 1));
   }
   df::FixedVector vector(std::int64_t most_cells) {
     const df::Fixed x = coordinate(most_cells);
@@ -63,16 +66,18 @@ class RandomRecords {
     return {{vector(1'000'000), size(1'000'000)}, static_cast<df::Solidness>(m_rng.below(3)), chance(0.5)};
   }
   ObjectState state(std::uint32_t tick) {
-    return {chance(0.2) ? m_rng.next() : m_rng.below(5000), motion(tick), look(), body()};
+    return {chance(0.2) ? m_rng.next() >> 16 : m_rng.below(5000), motion(tick), look(), body()};
   }
   /// Only the groups that are named carry something.
   ObjectRecord object(std::uint32_t tick) {
     ObjectRecord record;
-    record.slot = static_cast<std::uint32_t>(m_rng.below(chance(0.2) ? kMaxSlots : 300));
-    record.generation = chance(0.1) ? 0xFFFFFFFF : 1 + static_cast<std::uint32_t>(m_rng.below(9));
+    record.id = static_cast<std::uint32_t>(m_rng.below(chance(0.2) ? kMaxSlots : 300));
     record.groups = chance(0.3) ? kAllGroups : static_cast<std::uint8_t>(m_rng.below(8) << 1);
     const ObjectState all = state(tick);
-    if ((record.groups & kLife) != 0) record.state.order = all.order;
+    if ((record.groups & kLife) != 0) {
+      record.generation = static_cast<std::uint8_t>(m_rng.below(4));
+      record.state.order = all.order;
+    }
     if ((record.groups & kMotion) != 0) record.state.motion = all.motion;
     if ((record.groups & kLook) != 0) record.state.look = all.look;
     if ((record.groups & kBody) != 0) record.state.body = all.body;
@@ -84,11 +89,21 @@ class RandomRecords {
             static_cast<std::int32_t>(10 + m_rng.below(141))};
   }
   ViewRecord view() {
-    ViewRecord record{vector(2'000'000'000), 0, 0};
-    if (chance(0.3)) return record;
-    record.slot = static_cast<std::uint32_t>(m_rng.below(kMaxSlots));
-    record.generation = 1 + static_cast<std::uint32_t>(m_rng.below(0xFFFFFFFF));
+    ViewRecord record{vector(2'000'000'000), chance(0.7), 0, 0};
+    if (!record.follows) return record;
+    record.id = static_cast<std::uint32_t>(m_rng.below(chance(0.5) ? kMaxSlots : 100));
+    record.generation = static_cast<std::uint8_t>(m_rng.below(4));
     return record;
+  }
+  Origin origin() {
+    return {{static_cast<std::int32_t>(within(chance(0.2) ? 2'000'000'000 : 100)),
+             static_cast<std::int32_t>(within(chance(0.2) ? 2'000'000'000 : 100))},
+            static_cast<std::int32_t>(m_rng.below(16)),
+            static_cast<std::int32_t>(m_rng.below(16)),
+            chance(0.5) ? m_rng.next() >> 16 : m_rng.below(5000)};
+  }
+  OriginRecord originRecord() {
+    return {1 + static_cast<std::uint32_t>(m_rng.below(kOriginSlots)), origin()};
   }
   TextRecord text() {
     TextRecord record{static_cast<std::uint32_t>(m_rng.below(kMaxTexts)),
@@ -97,12 +112,31 @@ class RandomRecords {
     for (auto n = m_rng.below(30); n > 0; --n) df::appendUtf8(record.text, character());
     return record;
   }
+  SnapshotHeader header() {
+    SnapshotHeader header;
+    header.number = static_cast<std::uint32_t>(m_rng.next()) | 1;
+    header.tick = static_cast<std::uint32_t>(m_rng.next());
+    header.epoch = static_cast<std::uint8_t>(m_rng.below(4));
+    header.complete = chance(0.5);
+    header.tells_input = chance(0.5);
+    if (!header.tells_input) return header;
+    header.input = static_cast<std::uint32_t>(m_rng.next());
+    header.input_tick = header.tick - static_cast<std::uint32_t>(m_rng.below(64));
+    return header;
+  }
+  /// All objects by ascending id; no appearance has a name.
   Records records(std::uint32_t tick) {
     Records all;
     if (chance(0.3)) all.worlds.push_back(world());
     if (chance(0.3)) all.views.push_back(view());
+    for (auto n = chance(0.2) ? m_rng.below(4) : 0; n > 0; --n) all.origins.push_back(originRecord());
     for (auto n = m_rng.below(3); n > 0; --n) all.texts.push_back(text());
-    for (auto n = m_rng.below(6); n > 0; --n) all.objects.push_back(object(tick));
+    std::map<std::uint32_t, ObjectRecord> by_id;
+    for (auto n = m_rng.below(6); n > 0; --n) {
+      ObjectRecord record = object(tick);
+      by_id[record.id] = std::move(record);
+    }
+    for (auto& [id, record] : by_id) all.objects.push_back(std::move(record));
     return all;
   }
 

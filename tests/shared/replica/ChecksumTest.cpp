@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "Checksum.h"
+#include "RandomRecords.h"
+
+namespace naiad {
+namespace {
+
+using test::RandomRecords;
+
+std::uint64_t sumOf(std::uint32_t id, std::uint8_t generation, const ObjectState& state) {
+  return lifeSum(id, generation, state.order) + motionSum(id, state.motion) + lookSum(id, state.look) +
+         bodySum(id, state.body);
+}
+
+TEST(Checksum, AnyBaseOfAPathGivesTheSameSum) {
+  RandomRecords random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const auto tick = static_cast<std::uint32_t>(random.rng().below(1u << 30));
+    const Motion motion = random.motion(tick);
+    const Motion later = rebase(motion, tick + static_cast<std::uint32_t>(random.rng().below(1u << 20)));
+    ASSERT_EQ(motionSum(5, motion), motionSum(5, later));
+    Motion moved = later;
+    moved.position.x += 1;
+    ASSERT_NE(motionSum(5, motion), motionSum(5, moved));
+  }
+}
+
+TEST(Checksum, EveryFieldMatters) {
+  ObjectState state{7,
+                    {100, {df::fromCells(10), 5}, {3, 4}, {1, 2}},
+                    {{{{0, 0, U'@', df::CYAN}, {256, 0, U'>', df::CYAN}}}, 2},
+                    {}};
+  const std::function<void(ObjectState&)> changes[] = {
+      [](ObjectState&) {},
+      [](ObjectState& s) { s.order = 8; },
+      [](ObjectState& s) { s.motion.tick = 101; },
+      [](ObjectState& s) { s.motion.position.x += 1; },
+      [](ObjectState& s) { s.motion.position.y += 1; },
+      [](ObjectState& s) { std::swap(s.motion.position.x, s.motion.position.y); },
+      [](ObjectState& s) { s.motion.velocity.x += 1; },
+      [](ObjectState& s) { s.motion.velocity.y += 1; },
+      [](ObjectState& s) { s.motion.acceleration.x += 1; },
+      [](ObjectState& s) { s.motion.acceleration.y += 1; },
+      [](ObjectState& s) { s.look.altitude = 3; },
+      [](ObjectState& s) { s.look.sequence.clear(); },
+      [](ObjectState& s) { s.look.sequence[0].clear(); },
+      [](ObjectState& s) { s.look.sequence[0].pop_back(); },
+      [](ObjectState& s) { std::swap(s.look.sequence[0][0], s.look.sequence[0][1]); },
+      [](ObjectState& s) { s.look.sequence[0][0].dx = 1; },
+      [](ObjectState& s) { s.look.sequence[0][0].dy = 1; },
+      [](ObjectState& s) { s.look.sequence[0][0].ch = U'A'; },
+      [](ObjectState& s) { s.look.sequence[0][0].color = df::RED; },
+      [](ObjectState& s) { s.look.sequence[0][1].color = df::RED; },
+      [](ObjectState& s) { s.body.box.corner.x += 1; },
+      [](ObjectState& s) { s.body.box.corner.y += 1; },
+      [](ObjectState& s) { s.body.box.size.x += 1; },
+      [](ObjectState& s) { s.body.box.size.y += 1; },
+      [](ObjectState& s) { s.body.solidness = df::SOFT; },
+      [](ObjectState& s) { s.body.solidness = df::SPECTRAL; },
+      [](ObjectState& s) { s.body.no_soft = true; },
+  };
+  std::set<std::uint64_t> sums;
+  for (const auto& change : changes) {
+    ObjectState changed = state;
+    change(changed);
+    sums.insert(sumOf(5, 1, changed));
+  }
+  EXPECT_EQ(sums.size(), std::size(changes));
+  sums.insert(sumOf(6, 1, state));
+  sums.insert(sumOf(5, 2, state));
+  EXPECT_EQ(sums.size(), std::size(changes) + 2);
+}
+
+TEST(Checksum, IdsMatterInEveryGroup) {
+  const ObjectState state;
+  EXPECT_NE(lifeSum(1, 0, 0), lifeSum(2, 0, 0));
+  EXPECT_NE(motionSum(1, state.motion), motionSum(2, state.motion));
+  EXPECT_NE(lookSum(1, state.look), lookSum(2, state.look));
+  EXPECT_NE(bodySum(1, state.body), bodySum(2, state.body));
+}
+
+// Else two objects that exchanged a group would not be noticed.
+TEST(Checksum, ObjectsThatExchangeAGroupChangeTheSum) {
+  RandomRecords random(2);
+  for (int i = 0; i < 500; ++i) {
+    ObjectState a = random.state(9);
+    ObjectState b = random.state(9);
+    const std::uint64_t before = sumOf(1, 0, a) + sumOf(2, 0, b);
+    if (a.motion == b.motion) continue;
+    std::swap(a.motion, b.motion);
+    ASSERT_NE(sumOf(1, 0, a) + sumOf(2, 0, b), before);
+  }
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,178 @@
+#include <gtest/gtest.h>
+
+#include "LegalRecords.h"
+#include "MotionCodec.h"
+#include "RandomRecords.h"
+#include "Vector.h"
+
+namespace naiad {
+namespace {
+
+using test::RandomRecords;
+
+df::FixedVector at(double x, double y) {
+  return *df::toFixed(df::Vector(x, y));
+}
+
+std::size_t bitsOf(const Motion& motion, const Origin& origin) {
+  BitWriter out;
+  writeMotion(out, motion, origin);
+  return out.bitCount();
+}
+
+void expectExact(const Motion& motion, const Origin& origin) {
+  BitWriter out;
+  writeMotion(out, motion, origin);
+  const std::string bytes = out.bytes();
+  BitReader in(bytes);
+  const Motion read = readMotion(in, motion.tick, origin);
+  ASSERT_TRUE(in.atEnd());
+  ASSERT_EQ(read, motion);
+}
+
+/// Bits behind the point that are really there.
+int exactBits(df::FixedVector v) {
+  const auto all = static_cast<std::uint64_t>(v.x) | static_cast<std::uint64_t>(v.y);
+  return std::max(0, df::kFixedBits - std::countr_zero(all));
+}
+
+TEST(MotionCodec, RandomMotionsAreExactWhateverTheOrigin) {
+  RandomRecords random(1);
+  for (int i = 0; i < 20'000; ++i) {
+    expectExact(random.motion(static_cast<std::uint32_t>(i)), random.origin());
+    if (HasFatalFailure()) FAIL() << "round " << i;
+  }
+}
+
+TEST(MotionCodec, MotionsNearTheOriginAreExact) {
+  RandomRecords random(2);
+  for (int i = 0; i < 20'000; ++i) {
+    const Origin origin = random.origin();
+    Motion motion = random.motion(7);
+    motion.position = {(df::Fixed{origin.corner.x} << df::kFixedBits) + random.coordinate(300),
+                       (df::Fixed{origin.corner.y} << df::kFixedBits) + random.coordinate(300)};
+    expectExact(motion, origin);
+    if (HasFatalFailure()) FAIL() << "round " << i;
+  }
+}
+
+TEST(MotionCodec, EveryMagnitudeAndEveryFractionIsExact) {
+  const Origin origin{{-40, 12}, 7, 5, 0};
+  for (int bit = 0; bit < 63; ++bit) {
+    for (const df::Fixed value : {df::Fixed{1} << bit, -(df::Fixed{1} << bit), (df::Fixed{1} << bit) - 1}) {
+      if (value > kMaxWirePosition || value < -kMaxWirePosition) continue;
+      expectExact({3, {value, 0}, {}, {}}, origin);
+      expectExact({3, {value, -value}, {}, {}}, {});
+      if (value > kMaxWireVelocity || value < -kMaxWireVelocity) continue;
+      expectExact({3, {}, {value, 0}, {}}, origin);
+      expectExact({3, {}, {0, value}, {-value, 1}}, origin);
+    }
+  }
+  for (const df::Fixed most : {kMaxWirePosition, -kMaxWirePosition}) {
+    const df::Fixed fastest = most > 0 ? kMaxWireVelocity : -kMaxWireVelocity;
+    expectExact({3, {most, -most}, {fastest, -fastest}, {-fastest, fastest}}, origin);
+  }
+}
+
+TEST(MotionCodec, AModelThatWasAcceleratedOnceTooOftenFits) {
+  const df::Fixed most = *df::toFixed(df::kMaxVelocityCells);
+  const Motion fastest{8, {}, {most, -most}, {most, -most}};
+  expectExact(rebase(fastest, 9), {});
+}
+
+TEST(MotionCodec, NumbersBeyondTheirRangeAreRefused) {
+  const auto isRead = [](const Motion& motion) {
+    BitWriter out;
+    writeMotion(out, motion, {});
+    const std::string bytes = out.bytes();
+    BitReader in(bytes);
+    readMotion(in, motion.tick, {});
+    return in.ok();
+  };
+  EXPECT_TRUE(isRead({0, {kMaxWirePosition, 0}, {}, {}}));
+  EXPECT_FALSE(isRead({0, {kMaxWirePosition + 1, 0}, {}, {}}));
+  EXPECT_FALSE(isRead({0, {0, -kMaxWirePosition - 1}, {}, {}}));
+  EXPECT_FALSE(isRead({0, {}, {kMaxWireVelocity + 1, 0}, {}}));
+  EXPECT_FALSE(isRead({0, {}, {1, 0}, {0, -kMaxWireVelocity - 1}}));
+}
+
+TEST(MotionCodec, WhatLiesInTheWindowOnAWholeCellIsShort) {
+  const Origin window{{-10, 5}, 7, 5, 0};
+  for (const double x : {-10.0, 0.0, 117.0}) {
+    EXPECT_EQ(bitsOf({0, at(x, 5), {}, {}}, window), 1u + 7 + 5 + 2 + 4);
+    EXPECT_EQ(bitsOf({0, at(x, 36), {}, {}}, window), 1u + 7 + 5 + 2 + 4);
+  }
+  EXPECT_GT(bitsOf({0, at(118, 5), {}, {}}, window), 24u) << "the window ends";
+  EXPECT_GT(bitsOf({0, at(0, 37), {}, {}}, window), 24u);
+  EXPECT_GT(bitsOf({0, at(-11, 5), {}, {}}, window), 24u);
+  // A quarter of a cell a tick: 2 bits behind the point, and a sign.
+  EXPECT_LE(bitsOf({0, at(0, 5), at(-0.25, 0), {}}, window), 32u);
+}
+
+TEST(MotionCodec, AFractionTakesAtLeastTheBitsItHas) {
+  RandomRecords random(3);
+  for (int bits = 0; bits <= df::kFixedBits; ++bits) {
+    const df::Fixed step = df::Fixed{1} << (df::kFixedBits - bits);
+    const df::FixedVector v{step, random.within(1000) * 2 * step};
+    EXPECT_GE(fractionBits(v), bits);
+    if (bits <= 11) {
+      EXPECT_EQ(fractionBits(v), bits);
+    }
+    EXPECT_EQ(exactBits(v), bits);
+  }
+  EXPECT_EQ(fractionBits({}), 0);
+}
+
+TEST(MotionCodec, TruncatedMotionsAreRefused) {
+  RandomRecords random(4);
+  for (int i = 0; i < 300; ++i) {
+    BitWriter out;
+    const Origin origin = random.origin();
+    writeMotion(out, random.motion(5), origin);
+    const std::string bytes = out.bytes();
+    for (std::size_t length = 0; length + 1 < bytes.size(); ++length) {
+      BitReader in(std::string_view(bytes).substr(0, length));
+      readMotion(in, 5, origin);
+      ASSERT_FALSE(in.ok()) << i << ", " << length << " bytes";
+    }
+  }
+}
+
+TEST(MotionCodec, HostileBytesAreRefusedOrLegal) {
+  RandomRecords random(5);
+  int accepted = 0;
+  int refused = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    std::string bytes(random.rng().below(48), '\0');
+    const int mask = i % 3 == 0 ? 0xFF : i % 3 == 1 ? 0x11 : 0xEE;
+    for (char& byte : bytes) byte = static_cast<char>(random.rng().next() & static_cast<unsigned>(mask));
+    const Origin origin = random.origin();
+    BitReader in(bytes);
+    const Motion motion = readMotion(in, 8, origin);
+    ASSERT_TRUE(!in.ok() || test::isLegal(motion, 8)) << i;
+    ++(in.ok() ? accepted : refused);
+  }
+  EXPECT_GT(accepted, 1000);
+  EXPECT_GT(refused, 1000);
+}
+
+TEST(MotionCodec, VectorsAreExactAndHeldToTheirLimit) {
+  RandomRecords random(6);
+  for (int i = 0; i < 5000; ++i) {
+    const df::FixedVector v = random.vector(1'000'000);
+    BitWriter out;
+    writeVector(out, v);
+    const std::string bytes = out.bytes();
+    BitReader in(bytes);
+    ASSERT_EQ(readVector(in, df::fromCells(1'000'000)), v);
+    ASSERT_TRUE(in.atEnd());
+    const df::Fixed most = std::max(std::abs(v.x), std::abs(v.y));
+    if (most == 0) continue;
+    BitReader strict(bytes);
+    readVector(strict, most - 1);
+    ASSERT_FALSE(strict.ok());
+  }
+}
+
+}  // namespace
+}  // namespace naiad

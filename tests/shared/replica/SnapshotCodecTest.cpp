@@ -1,0 +1,358 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "LegalRecords.h"
+#include "Limits.h"
+#include "RandomRecords.h"
+#include "SnapshotCodec.h"
+#include "WriteSnapshot.h"
+
+namespace naiad {
+namespace {
+
+using test::RandomRecords;
+using test::writeSnapshot;
+
+ReadResult read(std::string_view bytes, const SnapshotContext& context, Snapshot& out) {
+  return readSnapshot(bytes, context, Vocabulary{}, out);
+}
+
+SnapshotHeader header(std::uint32_t number, std::uint32_t tick) {
+  SnapshotHeader header;
+  header.number = number;
+  header.tick = tick;
+  return header;
+}
+
+void expectSame(const SnapshotHeader& a, const SnapshotHeader& b) {
+  ASSERT_EQ(a.number, b.number);
+  ASSERT_EQ(a.tick, b.tick);
+  ASSERT_EQ(a.epoch, b.epoch);
+  ASSERT_EQ(a.complete, b.complete);
+  ASSERT_EQ(a.tells_input, b.tells_input);
+  ASSERT_EQ(a.input, b.input);
+  ASSERT_EQ(a.input_tick, b.input_tick);
+}
+
+void expectSame(const Records& a, const Records& b) {
+  ASSERT_EQ(a.worlds, b.worlds);
+  ASSERT_EQ(a.views, b.views);
+  ASSERT_EQ(a.origins, b.origins);
+  ASSERT_EQ(a.texts, b.texts);
+  ASSERT_EQ(a.appearances, b.appearances);
+  ASSERT_EQ(a.objects.size(), b.objects.size());
+  for (std::size_t i = 0; i < a.objects.size(); ++i) {
+    ASSERT_EQ(a.objects[i].id, b.objects[i].id);
+    ASSERT_EQ(a.objects[i].generation, b.objects[i].generation);
+    ASSERT_EQ(a.objects[i].groups, b.objects[i].groups);
+    ASSERT_TRUE(a.objects[i].state == b.objects[i].state) << "object " << i;
+  }
+}
+
+TEST(SnapshotCodec, RandomSnapshotsSurviveTheRoundTrip) {
+  RandomRecords random(11);
+  for (int i = 0; i < 5000; ++i) {
+    const SnapshotHeader head = random.header();
+    const Records records = random.records(head.tick);
+    Snapshot out;
+    ASSERT_EQ(read(writeSnapshot(head, records), test::near(head), out), ReadResult::kOk) << "round " << i;
+    expectSame(head, out.header);
+    expectSame(records, out.records);
+    if (HasFatalFailure()) FAIL() << "round " << i;
+  }
+}
+
+TEST(SnapshotCodec, PositionsAndOrdersAreCountedFromAnOrigin) {
+  RandomRecords random(12);
+  for (int i = 0; i < 2000; ++i) {
+    const SnapshotHeader head = random.header();
+    const OriginRecord origin = random.originRecord();
+    const Records records = random.records(head.tick);
+    Vocabulary vocabulary;
+    vocabulary.define(head.number - 1 == 0 ? 0xFFFFFFFF : head.number - 1, origin);
+    const std::string bytes = writeSnapshot(head, records, origin.slot, origin.origin);
+    Snapshot out;
+    ASSERT_EQ(readSnapshot(bytes, test::near(head), vocabulary, out), ReadResult::kOk);
+    expectSame(records, out.records);
+    if (HasFatalFailure()) FAIL() << "round " << i;
+    ASSERT_EQ(read(bytes, test::near(head), out), ReadResult::kMalformed) << "an origin that nobody set";
+  }
+}
+
+TEST(SnapshotCodec, NumbersAreRestoredNearThoseKnown) {
+  for (const std::uint32_t known : {5u, 0x8000u, 0xFFFFu, 0x10000u, 0xFFFFFFFFu}) {
+    for (const std::int32_t apart : {-32768, -1, 1, 32767}) {
+      SnapshotHeader head = header(known + static_cast<std::uint32_t>(apart), known - 1);
+      if (head.number == 0) continue;
+      head.tells_input = true;
+      head.input = known + 9;
+      head.input_tick = head.tick - 63;
+      Snapshot out;
+      ASSERT_EQ(read(writeSnapshot(head, {}), {known, known, known}, out), ReadResult::kOk);
+      expectSame(head, out.header);
+    }
+  }
+}
+
+TEST(SnapshotCodec, AnInputLongAgoIsSaidToBe63TicksOld) {
+  SnapshotHeader head = header(3, 1000);
+  head.tells_input = true;
+  head.input = 7;
+  head.input_tick = 900;
+  Snapshot out;
+  ASSERT_EQ(read(writeSnapshot(head, {}), {2, 999, 7}, out), ReadResult::kOk);
+  EXPECT_EQ(out.header.input_tick, 1000u - 63);
+}
+
+TEST(SnapshotCodec, NumberZeroIsRefused) {
+  Snapshot out;
+  const std::string bytes = writeSnapshot(header(0x10000, 5), {});
+  EXPECT_EQ(read(bytes, {0, 5, 0}, out), ReadResult::kMalformed);
+  EXPECT_EQ(read(bytes, {0x10000, 5, 0}, out), ReadResult::kOk);
+}
+
+TEST(SnapshotCodec, ASignOfLifeTakesSixBytes) {
+  EXPECT_EQ(writeSnapshot(header(3, 100), {}).size(), 6u);
+}
+
+TEST(SnapshotCodec, TheEpochCanBeReadFirst) {
+  for (std::uint8_t epoch = 0; epoch < 4; ++epoch) {
+    SnapshotHeader head = header(0xABCD, 0x1234);
+    head.epoch = epoch;
+    const std::string bytes = writeSnapshot(head, {});
+    EXPECT_EQ(peekEpoch(bytes), epoch);
+    EXPECT_EQ(peekEpoch(bytes.substr(0, 5)), epoch);
+    EXPECT_EQ(peekEpoch(bytes.substr(0, 4)), std::nullopt);
+  }
+}
+
+TEST(SnapshotCodec, EveryTruncationIsRefused) {
+  RandomRecords random(13);
+  for (int i = 0; i < 400; ++i) {
+    const SnapshotHeader head = random.header();
+    const std::string bytes = writeSnapshot(head, random.records(head.tick));
+    Snapshot out;
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+      ASSERT_EQ(read(std::string_view(bytes).substr(0, length), test::near(head), out),
+                ReadResult::kMalformed)
+          << i << ", " << length << " bytes";
+    }
+    ASSERT_EQ(read(bytes + '\0', test::near(head), out), ReadResult::kMalformed);
+  }
+}
+
+TEST(SnapshotCodec, EverySingleBitFlipIsRefusedOrLegal) {
+  RandomRecords random(14);
+  int refused = 0;
+  int accepted = 0;
+  for (int i = 0; i < 150; ++i) {
+    const SnapshotHeader head = random.header();
+    std::string bytes = writeSnapshot(head, random.records(head.tick));
+    for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
+      bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
+      Snapshot out;
+      const bool ok = read(bytes, test::near(head), out) == ReadResult::kOk;
+      ASSERT_TRUE(!ok || test::isLegal(out.records, out.header.tick)) << "round " << i << ", bit " << bit;
+      ++(ok ? accepted : refused);
+      bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
+    }
+  }
+  EXPECT_GT(refused, 1000);
+  EXPECT_GT(accepted, 1000);
+}
+
+TEST(SnapshotCodec, RandomBytesAreRefusedOrLegal) {
+  RandomRecords random(15);
+  Vocabulary vocabulary;
+  vocabulary.define(1, OriginRecord{1, random.origin()});
+  vocabulary.define(1, AppearanceRecord{0, Appearance(3, Glyph{0, 0, U'x', df::RED})});
+  int accepted = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    std::string bytes(random.rng().below(60), '\0');
+    if (i % 2 == 0) bytes = writeSnapshot(header(9, 9), random.records(9));
+    for (char& byte : bytes) {
+      if (i % 2 == 1 || random.chance(0.05)) byte = static_cast<char>(random.rng().next());
+    }
+    Snapshot out;
+    const ReadResult result = readSnapshot(bytes, {1, 1, 1}, vocabulary, out);
+    ASSERT_TRUE(result != ReadResult::kOk || test::isLegal(out.records, out.header.tick));
+    accepted += result == ReadResult::kOk ? 1 : 0;
+  }
+  EXPECT_GT(accepted, 1000);
+}
+
+TEST(SnapshotCodec, TheLongestTextOfTheWidestViewFits) {
+  Records records;
+  records.texts.push_back({3, 0, 7, df::GREEN, ""});
+  for (int i = 0; i < kMaxViewWidth; ++i) df::appendUtf8(records.texts[0].text, U'█');
+  Snapshot out;
+  ASSERT_EQ(read(writeSnapshot(header(1, 1), records), {}, out), ReadResult::kOk);
+  expectSame(records, out.records);
+  Records longer = records;
+  df::appendUtf8(longer.texts[0].text, U'x');
+  ASSERT_EQ(read(writeSnapshot(header(1, 1), longer), {}, out), ReadResult::kOk);
+  expectSame(records, out.records);
+}
+
+TEST(SnapshotCodec, CharactersThatDisturbATerminalAreRefused) {
+  for (const char32_t ch : {U'\x1b', U'\n', U'\u202e', U'\u200b', U'\x7f'}) {
+    Records glyph;
+    glyph.objects.push_back({1, 0, kLook, {}});
+    glyph.objects[0].state.look.sequence.push_back({{0, 0, ch, df::RED}});
+    Snapshot out;
+    EXPECT_EQ(read(writeSnapshot(header(1, 1), glyph), {}, out), ReadResult::kMalformed);
+    glyph.objects[0].state.look.sequence[0].push_back({0, 0, U'a', df::RED});
+    EXPECT_EQ(read(writeSnapshot(header(1, 1), glyph), {}, out), ReadResult::kMalformed);
+    Records text;
+    text.texts.push_back({0, 0, 0, df::RED, "a"});
+    df::appendUtf8(text.texts[0].text, ch);
+    EXPECT_EQ(read(writeSnapshot(header(1, 1), text), {}, out), ReadResult::kMalformed);
+  }
+}
+
+TEST(SnapshotCodec, IdsBeyondTheLastAreRefused) {
+  const auto isRead = [](std::uint32_t first, std::uint32_t second) {
+    Records records;
+    records.objects.push_back({first, 0, kDeath, {}});
+    records.objects.push_back({second, 0, kDeath, {}});
+    Snapshot out;
+    return read(writeSnapshot(header(1, 1), records), {}, out) == ReadResult::kOk;
+  };
+  EXPECT_TRUE(isRead(0, kMaxSlots - 1));
+  EXPECT_TRUE(isRead(kMaxSlots - 2, kMaxSlots - 1));
+  EXPECT_FALSE(isRead(0, kMaxSlots));
+  EXPECT_FALSE(isRead(kMaxSlots - 1, kMaxSlots));
+}
+
+TEST(SnapshotCodec, AViewThatFollowsAnIdBeyondTheLastIsRefused) {
+  for (const std::uint32_t id : {kMaxSlots - 1, kMaxSlots}) {
+    Records records;
+    records.views.push_back({{}, true, id, 3});
+    Snapshot out;
+    EXPECT_EQ(read(writeSnapshot(header(1, 1), records), {}, out),
+              id < kMaxSlots ? ReadResult::kOk : ReadResult::kMalformed);
+  }
+}
+
+TEST(SnapshotCodec, OrdersOutOfRangeAreRefused) {
+  const auto isRead = [](std::uint64_t order, std::uint64_t written_from) {
+    Records records;
+    records.objects.push_back({1, 0, kAllGroups, {}});
+    records.objects[0].state.order = order;
+    records.objects[0].state.motion.tick = 5;
+    Vocabulary vocabulary;
+    vocabulary.define(1, OriginRecord{1, {{}, 0, 0, 10}});
+    Snapshot out;
+    const std::string bytes = writeSnapshot(header(2, 5), records, 1, {{}, 0, 0, written_from});
+    return readSnapshot(bytes, {1, 5, 0}, vocabulary, out) == ReadResult::kOk;
+  };
+  const std::uint64_t last = (std::uint64_t{1} << 48) - 1;
+  EXPECT_TRUE(isRead(0, 10));
+  EXPECT_FALSE(isRead(0, 11)) << "reads as -1";
+  EXPECT_TRUE(isRead(last, 10));
+  EXPECT_FALSE(isRead(last, 9)) << "reads as 2^48";
+}
+
+TEST(SnapshotCodec, WorldsOutOfRangeAreRefused) {
+  const auto isRead = [](const WorldRecord& world) {
+    Records records;
+    records.worlds.push_back(world);
+    Snapshot out;
+    return read(writeSnapshot(header(1, 1), records), {}, out) == ReadResult::kOk;
+  };
+  const df::FixedBox box{{}, {INT64_MAX, INT64_MAX}};
+  EXPECT_TRUE(isRead({box, kMaxViewWidth, kMaxViewHeight}));
+  EXPECT_TRUE(isRead({box, kMinViewWidth, kMinViewHeight}));
+  EXPECT_FALSE(isRead({box, kMinViewWidth - 1, kMinViewHeight}));
+  EXPECT_FALSE(isRead({box, kMinViewWidth, kMinViewHeight - 1}));
+  EXPECT_FALSE(isRead({box, kMaxViewWidth + 1, kMinViewHeight}));
+  EXPECT_FALSE(isRead({box, kMinViewWidth, kMaxViewHeight + 1}));
+  EXPECT_FALSE(isRead({{{}, {-1, 0}}, 80, 24}));
+  EXPECT_FALSE(isRead({{{}, {0, -1}}, 80, 24}));
+}
+
+TEST(SnapshotCodec, ObjectsThatAreOnlyClaimedCostNothing) {
+  BitWriter out;
+  out.bits(1, 16);
+  out.bits(1, 16);
+  out.bits(0, 2 + 1 + 1 + 2 + 1);
+  out.golomb(1'000'000'000, 3);
+  out.bits(0, 4);
+  Snapshot snapshot;
+  EXPECT_EQ(read(out.bytes(), {}, snapshot), ReadResult::kMalformed);
+  EXPECT_LE(snapshot.records.objects.capacity(), 64u);
+}
+
+TEST(SnapshotCodec, ARecordWithoutGroupsIsRefused) {
+  BitWriter out;
+  out.bits(1, 16);
+  out.bits(1, 16);
+  out.bits(0, 2 + 1 + 1 + 2 + 1);
+  out.golomb(1, 3);
+  out.bits(0, 4);
+  out.golomb(0, 0);
+  out.bits(0b111, 3);
+  BitWriter none = out;
+  none.bits(0, 3);
+  Snapshot snapshot;
+  EXPECT_EQ(read(none.bytes(), {}, snapshot), ReadResult::kMalformed);
+  out.bits(0b100, 3);  // a body
+  writeBody(out, {});
+  EXPECT_EQ(read(out.bytes(), {}, snapshot), ReadResult::kOk);
+  EXPECT_EQ(snapshot.records.objects.at(0).groups, kBody);
+}
+
+/// Up to `count` different ids, close together or far apart.
+std::set<std::uint32_t> someIds(RandomRecords& random, std::size_t count) {
+  std::set<std::uint32_t> ids;
+  const std::uint64_t span = std::uint64_t{1} << random.rng().below(21);
+  const bool clusters = random.chance(0.3);
+  while (ids.size() < std::min<std::uint64_t>(count, span)) {
+    const std::uint64_t id = random.rng().below(span);
+    for (std::uint64_t i = id; i < span && i < id + (clusters ? 20 : 1); ++i)
+      ids.insert(static_cast<std::uint32_t>(i));
+  }
+  return ids;
+}
+
+TEST(SnapshotCodec, WhatHasRoomFits) {
+  RandomRecords random(16);
+  double filled = 0;
+  int full = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const std::size_t bytes = 30 + random.rng().below(random.chance(0.2) ? kMaxSnapshot : 1200);
+    std::vector<std::uint32_t> ids;
+    for (const std::uint32_t id : someIds(random, 1 + random.rng().below(random.chance(0.1) ? 3000 : 200)))
+      ids.insert(ids.begin() + static_cast<std::ptrdiff_t>(random.rng().below(ids.size() + 1)), id);
+    const std::uint32_t last = random.chance(0.5) ? kMaxSlots - 1 : *std::max_element(ids.begin(), ids.end());
+    SnapshotWriter out;
+    const SnapshotHeader head = random.header();
+    out.begin(head, 0, {});
+    if (random.chance(0.3)) out.write(random.view());
+    if (random.chance(0.3)) out.write(random.text());
+    if (!out.hasRoom(0, last, bytes)) continue;
+    bool refused = false;
+    for (std::size_t i = 0; i < ids.size() && !refused; ++i) {
+      BitWriter bits;
+      const std::uint8_t groups = random.chance(0.5) ? kDeath : +kBody;
+      out.encode(bits, groups, 0, random.state(head.tick), {});
+      refused = !out.hasRoom(bits.bitCount(), last, bytes);
+      if (!refused) out.object(ids[i], std::move(bits));
+    }
+    const std::string snapshot = out.finish();
+    ASSERT_LE(snapshot.size(), bytes) << "round " << round;
+    Snapshot back;
+    ASSERT_EQ(read(snapshot, test::near(head), back), ReadResult::kOk);
+    if (!refused || bytes < 300) continue;
+    filled += static_cast<double>(snapshot.size()) / static_cast<double>(bytes);
+    ++full;
+  }
+  ASSERT_GT(full, 100);
+  EXPECT_GT(filled / full, 0.6) << "the estimate leaves too much unused";
+}
+
+}  // namespace
+}  // namespace naiad

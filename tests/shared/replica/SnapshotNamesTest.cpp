@@ -1,0 +1,171 @@
+// Appearances and origins that snapshots name: known, defined in the same snapshot, replaced since, unknown.
+#include <gtest/gtest.h>
+
+#include "RandomRecords.h"
+#include "SnapshotCodec.h"
+#include "WriteSnapshot.h"
+
+namespace naiad {
+namespace {
+
+constexpr LookForm::Kind kNamed = LookForm::kNamed;
+constexpr LookForm::Kind kDefined = LookForm::kDefined;
+
+ObjectState drawnAs(const char* text) {
+  ObjectState state;
+  Appearance& glyphs = state.look.sequence.emplace_back();
+  for (int x = 0; *text != '\0'; ++text, x += 256)
+    glyphs.push_back({x, 0, static_cast<char32_t>(*text), df::GREEN});
+  return state;
+}
+
+class SnapshotNames : public testing::Test {
+ protected:
+  void SetUp() override { start(50); }
+  void start(std::uint32_t number) {
+    m_header = {};
+    m_header.number = number;
+    m_header.tick = 100;
+    writer.begin(m_header, 0, {});
+  }
+  void look(std::uint32_t id, const char* text, LookForm form) {
+    BitWriter bits;
+    writer.encode(bits, kLook, 0, drawnAs(text), {}, form);
+    writer.object(id, std::move(bits));
+  }
+  ReadResult read() { return readSnapshot(writer.finish(), {m_header.number, 100, 0}, vocabulary, snapshot); }
+  const Look& lookOf(std::size_t object) const { return snapshot.records.objects.at(object).state.look; }
+  void know(std::uint32_t number, std::uint32_t id, const char* text) {
+    vocabulary.define(number, AppearanceRecord{id, drawnAs(text).look.sequence[0]});
+  }
+
+  SnapshotWriter writer;
+  Vocabulary vocabulary;
+  Snapshot snapshot;
+
+ private:
+  SnapshotHeader m_header;
+};
+
+TEST_F(SnapshotNames, AKnownNameStandsForItsAppearance) {
+  know(49, 7, "saucer");
+  look(3, "saucer", {kNamed, 7});
+  ASSERT_EQ(read(), ReadResult::kOk);
+  EXPECT_EQ(lookOf(0), drawnAs("saucer").look);
+  EXPECT_TRUE(snapshot.records.appearances.empty());
+}
+
+TEST_F(SnapshotNames, ADefinitionIsReported) {
+  look(3, "saucer", {kDefined, 7});
+  ASSERT_EQ(read(), ReadResult::kOk);
+  EXPECT_EQ(lookOf(0), drawnAs("saucer").look);
+  EXPECT_EQ(snapshot.records.appearances,
+            (std::vector<AppearanceRecord>{{7, drawnAs("saucer").look.sequence[0]}}));
+}
+
+TEST_F(SnapshotNames, ANameMayBeDefinedBehindItsUse) {
+  look(9, "saucer", {kDefined, 7});
+  look(3, "saucer", {kNamed, 7});
+  look(12, "saucer", {kNamed, 7});
+  ASSERT_EQ(read(), ReadResult::kOk);
+  for (const std::size_t object : {0u, 1u, 2u}) EXPECT_EQ(lookOf(object), drawnAs("saucer").look);
+}
+
+TEST_F(SnapshotNames, TheDefinitionOfTheSnapshotItselfComesFirst) {
+  know(40, 7, "old");
+  look(9, "new", {kDefined, 7});
+  look(3, "new", {kNamed, 7});
+  ASSERT_EQ(read(), ReadResult::kOk);
+  EXPECT_EQ(lookOf(0), drawnAs("new").look);
+  know(60, 7, "newer still");  // it came before
+  ASSERT_EQ(read(), ReadResult::kOk);
+  EXPECT_EQ(lookOf(0), drawnAs("new").look);
+}
+
+TEST_F(SnapshotNames, ANameThatWasGivenAwaySinceIsStale) {
+  know(51, 7, "another");
+  look(3, "saucer", {kNamed, 7});
+  EXPECT_EQ(read(), ReadResult::kStale);
+}
+
+TEST_F(SnapshotNames, ANameThatNobodyDefinedIsMalformed) {
+  know(49, 7, "saucer");
+  look(3, "saucer", {kNamed, 6});
+  EXPECT_EQ(read(), ReadResult::kMalformed);
+}
+
+TEST_F(SnapshotNames, WhatIsBothStaleAndUnknownIsMalformed) {
+  know(51, 7, "another");
+  look(3, "saucer", {kNamed, 7});
+  look(4, "saucer", {kNamed, 6});
+  EXPECT_EQ(read(), ReadResult::kMalformed);
+}
+
+TEST_F(SnapshotNames, ATruncatedSnapshotIsMalformedEvenIfStale) {
+  know(51, 7, "another");
+  look(3, "saucer", {kNamed, 7});
+  const std::string bytes = writer.finish();
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    EXPECT_EQ(readSnapshot(std::string_view(bytes).substr(0, length), {50, 100, 0}, vocabulary, snapshot),
+              ReadResult::kMalformed);
+  }
+}
+
+TEST_F(SnapshotNames, OriginsAreKnownStaleOrUnknown) {
+  SnapshotHeader head;
+  head.number = 50;
+  const Origin there{{10, 10}, 6, 4, 3};
+  const std::string bytes = test::writeSnapshot(head, {}, 2, there);
+  const auto readAfter = [&](std::uint32_t defined_by) {
+    Vocabulary origins;
+    if (defined_by != 0) origins.define(defined_by, OriginRecord{2, there});
+    return readSnapshot(bytes, {50, 0, 0}, origins, snapshot);
+  };
+  EXPECT_EQ(readAfter(49), ReadResult::kOk);
+  EXPECT_EQ(readAfter(50), ReadResult::kStale);
+  EXPECT_EQ(readAfter(51), ReadResult::kStale);
+  EXPECT_EQ(readAfter(0), ReadResult::kMalformed);
+}
+
+// Few bytes name much: what a snapshot unfolds to is bounded.
+TEST_F(SnapshotNames, ASnapshotDoesNotUnfoldWithoutBounds) {
+  vocabulary.define(49, AppearanceRecord{7, Appearance(kMaxGlyphs, Glyph{0, 0, U'#', df::RED})});
+  const std::size_t most = kMaxSnapshotGlyphs / kMaxGlyphs;
+  for (std::uint32_t id = 0; id < most; ++id) look(id, "saucer", {kNamed, 7});
+  EXPECT_EQ(read(), ReadResult::kOk);
+  look(static_cast<std::uint32_t>(most), "saucer", {kNamed, 7});
+  EXPECT_EQ(read(), ReadResult::kMalformed);
+}
+
+TEST_F(SnapshotNames, RandomDefinitionsAndUsesUnfoldAsTheyWere) {
+  test::RandomRecords random(5);
+  for (std::uint32_t round = 0; round < 300; ++round) {
+    start(50 + round);
+    std::vector<ObjectState> states(4);
+    for (ObjectState& state : states) {
+      state.look = drawnAs("two").look;
+      for (auto n = random.rng().below(20); n > 0; --n)
+        state.look.sequence[0].push_back(
+            {0, static_cast<std::int32_t>(n), random.character(), random.color()});
+    }
+    std::vector<std::size_t> used;
+    std::vector<bool> defined(states.size(), false);
+    for (std::uint32_t i = 0; i < 12; ++i) {
+      const std::size_t which = random.rng().below(states.size());
+      BitWriter bits;
+      writer.encode(bits, kLook, 0, states[which], {},
+                    {defined[which] ? kNamed : kDefined, static_cast<std::uint32_t>(which)});
+      defined[which] = true;
+      const std::uint32_t id = 100 - i;  // so that every definition comes behind its uses
+      writer.object(id, std::move(bits));
+      used.insert(used.begin(), which);
+    }
+    ASSERT_EQ(read(), ReadResult::kOk);
+    for (std::size_t i = 0; i < used.size(); ++i) ASSERT_EQ(lookOf(i), states[used[i]].look);
+    for (const AppearanceRecord& record : snapshot.records.appearances)
+      ASSERT_TRUE(vocabulary.define(50 + round, record));
+  }
+}
+
+}  // namespace
+}  // namespace naiad
