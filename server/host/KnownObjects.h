@@ -39,8 +39,10 @@ class KnownObjects {
     std::uint8_t groups = 0;  ///< kDeath: the death
   };
   static constexpr std::uint32_t kNobody = SlotMap::kNone;
-  /// As births carry it.
-  static std::uint8_t generationOf(const Known& known) { return known.birth & 3; }
+  /// As births carry it: never 0, which elsewhere means nobody.
+  static std::uint8_t generationOf(const Known& known) {
+    return static_cast<std::uint8_t>(known.birth % 3 + 1);
+  }
 
   /// The id under which the client knows, or is about to be told of, the object in `slot`; kNobody if none.
   std::uint32_t find(std::uint32_t slot) const { return m_ids.find(slot); }

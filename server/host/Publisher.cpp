@@ -85,8 +85,11 @@ void Publisher::update(const df::WorldView& view) {
   m_world = {view.boundary, view.view_width, view.view_height};
   m_changes.clear();
   m_exact.clear();
+  bool controls = false;
   for (const df::PlayerFacts& player : view.players) {
     if (player.followed.generation != 0) m_exact.push_back(player.followed);
+    if (player.steering.object.generation != 0) m_exact.push_back(player.steering.object);
+    controls = controls || player.steering.p_table != nullptr;
   }
   std::sort(m_exact.begin(), m_exact.end(), [](auto a, auto b) { return a.slot < b.slot; });
 
@@ -95,6 +98,8 @@ void Publisher::update(const df::WorldView& view) {
   for (const df::DrawnObject& drawn : view.drawn) takeDrawing(view, drawn);
   takeLoose(view);
   correctUndrawn(view);
+  if (controls) setExactSolids(true);
+  if (std::exchange(m_solids_are_coarse, false)) keepSolidsExact();
   for (const df::ObjectKey key : m_exact) keepExact(key);
 
   for (Change& change : m_changes) {
@@ -127,9 +132,12 @@ bool Publisher::isExact(const Tracked& tracked) const {
   const Model& model = tracked.model;
   if (m_exact_solids && model.state.body.solidness != df::SPECTRAL && !isMoving(tracked.truth)) return true;
   const auto slot = static_cast<std::uint32_t>(&tracked - m_models.data());
-  const auto found = std::lower_bound(m_exact.begin(), m_exact.end(), slot,
-                                      [](df::ObjectKey key, std::uint32_t s) { return key.slot < s; });
-  return found != m_exact.end() && found->slot == slot && found->generation == model.generation;
+  auto found = std::lower_bound(m_exact.begin(), m_exact.end(), slot,
+                                [](df::ObjectKey key, std::uint32_t s) { return key.slot < s; });
+  for (; found != m_exact.end() && found->slot == slot; ++found) {
+    if (found->generation == model.generation) return true;
+  }
+  return false;
 }
 
 // Whom a player follows may have had a coarse model until now.
@@ -141,6 +149,14 @@ void Publisher::keepExact(df::ObjectKey key) {
   if (rebase(tracked.model.state.motion, m_tick) == truth) return;
   tracked.model.state.motion = truth;
   mark(key.slot, tracked, kMotion);
+}
+
+// Those published before anybody predicted.
+void Publisher::keepSolidsExact() {
+  for (std::uint32_t slot = 0; slot < m_models.size(); ++slot) {
+    const Tracked& tracked = m_models[slot];
+    if (tracked.model.alive && isExact(tracked)) keepExact({slot, tracked.model.generation});
+  }
 }
 
 // Coarser numbers for a motion that was just taken over from the world.
@@ -231,6 +247,7 @@ void Publisher::takeFacts(const df::ObjectFacts& facts) {
     model.state.look.altitude = facts.altitude;
     mark(facts.key.slot, *tracked, kLook);
   }
+  if (m_exact_solids && isExact(*tracked)) keepExact(facts.key);
 }
 
 void Publisher::takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn) {

@@ -67,8 +67,12 @@ class Publisher {
   /// The highest creation order published so far.
   std::uint64_t newestOrder() const { return m_newest_order; }
 
-  /// Positions of solid objects that stand still are to be exact, since clients predict moves among them.
-  void setExactSolids(bool exact) { m_exact_solids = exact; }
+  /// Positions of solid objects that stand still are to be exact, since clients predict moves among them. On
+  /// from the first player with controls on.
+  void setExactSolids(bool exact) {
+    m_solids_are_coarse = m_solids_are_coarse || (exact && !m_exact_solids);
+    m_exact_solids = exact;
+  }
 
   /// Models that reach more cells than this are in everybody's interest.
   static constexpr std::int32_t kWide = 24;
@@ -101,6 +105,7 @@ class Publisher {
   void correctLook(std::uint32_t slot, Tracked& tracked, const df::DrawCommand* commands, std::size_t count);
   void correctUndrawn(const df::WorldView& view);
   void takePath(Tracked& tracked, const Motion& truth);
+  void keepSolidsExact();
   void keepExact(df::ObjectKey key);
   void fit(Tracked& tracked);
   void file(std::uint32_t slot, Tracked& tracked);
@@ -117,6 +122,7 @@ class Publisher {
   std::int32_t m_reach = 0;            ///< of the others, the farthest so far
   std::vector<df::ObjectKey> m_exact;  ///< followed by a player: their views and predictions need them exact
   bool m_exact_solids = false;
+  bool m_solids_are_coarse = false;  ///< exactness was asked for since the last update
   std::uint64_t m_newest_order = 0;
   WorldRecord m_world;
   std::uint32_t m_tick = 0;

@@ -80,6 +80,7 @@ void SnapshotSender::note(const Publisher& publisher, const df::PlayerFacts& pla
   noteLeaving(publisher, window);
   noteEntering(publisher, window);
   noteTexts();
+  noteTable();
   Single& world = m_singles[kWorld];
   if (m_world != publisher.world() || (world.sent == 0 && !world.owed)) {
     m_world = publisher.world();
@@ -106,8 +107,7 @@ void SnapshotSender::noteLeaving(const Publisher& publisher, const CellRect& win
   m_leaving.clear();
   m_known.forEachAlive([&](std::uint32_t id, const KnownObjects::Known& known) {
     const Publisher::Model* model = publisher.find(known.slot);
-    if (!isVisible(*model, m_tick, outer) && !isFollowed(known.slot, known.generation))
-      m_leaving.push_back(id);
+    if (!isVisible(*model, m_tick, outer) && !isOwn(known.slot, known.generation)) m_leaving.push_back(id);
   });
   for (const std::uint32_t id : m_leaving) m_known.forget(id, m_tick);
 }
@@ -115,18 +115,21 @@ void SnapshotSender::noteLeaving(const Publisher& publisher, const CellRect& win
 void SnapshotSender::noteEntering(const Publisher& publisher, const CellRect& window) {
   const auto consider = [&](std::uint32_t slot, const Publisher::Model& model) {
     if (m_known.find(slot) != KnownObjects::kNobody) return;
-    if (isVisible(model, m_tick, window) || isFollowed(slot, model.generation)) {
+    if (isVisible(model, m_tick, window) || isOwn(slot, model.generation)) {
       m_known.learn(slot, model.generation, m_tick);
     }
   };
   publisher.forEachNear(window, consider);
-  const df::ObjectKey followed = m_player.followed;
-  const Publisher::Model* model = followed.generation != 0 ? publisher.find(followed.slot) : nullptr;
-  if (model != nullptr) consider(followed.slot, *model);
+  for (const df::ObjectKey own : {m_player.followed, m_player.steering.object}) {
+    const Publisher::Model* model = own.generation != 0 ? publisher.find(own.slot) : nullptr;
+    if (model != nullptr) consider(own.slot, *model);
+  }
 }
 
-bool SnapshotSender::isFollowed(std::uint32_t slot, std::uint32_t generation) const {
-  return m_player.followed == df::ObjectKey{slot, generation};
+// Whom the view follows and whom the player steers are of interest wherever they are.
+bool SnapshotSender::isOwn(std::uint32_t slot, std::uint32_t generation) const {
+  const df::ObjectKey key{slot, generation};
+  return m_player.followed == key || m_player.steering.object == key;
 }
 
 // ---- what is no object ------------------------------------------------------------------------------------
@@ -143,6 +146,19 @@ void SnapshotSender::noteTexts() {
     m_texts[i] = texts[i];
     m_singles[kTexts + i].owed = true;
   }
+}
+
+// One who never had controls need not be told of none.
+void SnapshotSender::noteTable() {
+  const std::shared_ptr<const df::ControlTable>& p_table = m_player.steering.p_table;
+  if (p_table == m_p_table) return;
+  m_p_table = p_table;
+  std::string bytes;
+  writeControlTable(bytes, p_table != nullptr ? *p_table : df::ControlTable{});
+  if (bytes == m_table) return;
+  m_table = bytes;
+  m_singles[kTable].owed = true;
+  m_singles[kControl].owed = p_table != nullptr;
 }
 
 void SnapshotSender::noteInput(std::uint32_t id, std::uint32_t tick) {
@@ -216,11 +232,45 @@ void SnapshotSender::checkView(const Publisher& publisher) {
   single.owed = true;
 }
 
+ControlRecord SnapshotSender::controlNow() const {
+  const df::SteeringFacts& facts = m_player.steering;
+  ControlRecord now;
+  now.tick = m_tick;
+  now.newest_input = m_input;
+  now.state = facts.state;
+  const std::uint32_t id =
+      facts.object.generation != 0 ? m_known.find(facts.object.slot) : KnownObjects::kNobody;
+  if (id == KnownObjects::kNobody || m_known.at(id).generation != facts.object.generation) return now;
+  now.slot = id;
+  now.generation = KnownObjects::generationOf(m_known.at(id));
+  now.position = facts.position;
+  now.velocity = facts.velocity;
+  now.acceleration = facts.acceleration;
+  return now;
+}
+
+// What is steered is sent where the client could not have worked it out.
+void SnapshotSender::checkControl() {
+  Single& single = m_singles[kControl];
+  if (m_p_table == nullptr) {
+    single.owed = false;
+    return;
+  }
+  m_control = controlNow();
+  single.owed = single.owed || !m_told_control.implies(m_control, *m_p_table);
+}
+
 void SnapshotSender::writeSingles(const Publisher& publisher, std::size_t limit) {
   for (std::size_t i = 0; i < kSingles; ++i) {
     Single& single = m_singles[i];
     if (!single.owed || i == kInput) continue;
-    if (!m_writer.hasRoom(kMostSingleBits, 0, limit)) return;
+    const std::size_t most = i == kTable ? 8 * m_table.size() + 16 : kMostSingleBits;
+    if (!m_writer.hasRoom(most, 0, limit)) continue;
+    if (i == kTable) m_writer.writeTable(m_table);
+    if (i == kControl) {
+      m_writer.write(m_control);
+      m_told_control.tell(m_control);
+    }
     if (i == kWorld) m_writer.write(publisher.world());
     if (i == kView) m_writer.write(m_view);
     if (i >= kOrigins && i < kTexts) {
@@ -249,7 +299,7 @@ bool SnapshotSender::isOwing() const {
 double SnapshotSender::urgency(std::uint32_t id, const Publisher& publisher) const {
   const KnownObjects::Known& known = m_known.at(id);
   if (known.life == KnownObjects::Life::kDying) return 1e6;
-  if (isFollowed(known.slot, known.generation)) return 1e5;
+  if (isOwn(known.slot, known.generation)) return 1e5;
   const df::FixedVector at = positionAt(publisher.find(known.slot)->state.motion, m_tick);
   const df::FixedVector focus{m_player.view_corner.x + df::fromCells(m_world.view_width) / 2,
                               m_player.view_corner.y + df::fromCells(m_world.view_height) / 2};
@@ -279,6 +329,7 @@ std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publi
   repeatAhead();
   m_known.sweepOwing();
   checkView(publisher);
+  checkControl();
   const bool due = static_cast<std::int32_t>(m_tick - m_last_tick) >= static_cast<std::int32_t>(kKeepAlive);
   // With the window full only the keep-alive goes out, lest what is still under way be taken for lost.
   const std::size_t window = m_flight.size() < kMaxInFlight ? kMaxInFlight - m_flight.size() : due ? 1 : 0;
@@ -313,7 +364,7 @@ SnapshotHeader SnapshotSender::header() const {
 // Fill one snapshot. False if it took nothing that was owed, so that another one would not either.
 bool SnapshotSender::write(const Publisher& publisher, const Room& room, std::vector<std::uint32_t>& queue,
                            Packet& packet) {
-  m_flight.push_back({m_next_number, false, true, {}, {}});
+  m_flight.push_back({m_next_number, false, true, false, {}, {}});
   const SnapshotHeader head = header();
   m_writer.begin(head, m_origin, m_origins[m_origin]);
   if (head.tells_input) {
@@ -355,25 +406,35 @@ bool SnapshotSender::write(const Publisher& publisher, const Room& room, std::ve
     m_repairing = false;
   }
   m_writer.setComplete(complete);
+  finish(packet);
+  const bool took = !m_flight.back().empty;
+  forgetOldest();
+  return took;
+}
+
+void SnapshotSender::finish(Packet& packet) {
   packet.number = m_next_number;
   packet.tick = m_tick;
   packet.bytes = m_writer.finish();
   m_moments.push_back({m_next_number, m_known.checksum(), Moment::kUnknown});
   if (m_moments.size() > kMaxMoments) m_moments.pop_front();
   if (++m_next_number == 0) m_next_number = 1;
-  const bool took = !m_flight.back().empty;
-  if (m_flight.size() > kMaxInFlight) {
-    const InFlight oldest = std::move(m_flight.front());
-    m_flight.pop_front();
-    lost(oldest);
-  }
-  return took;
+}
+
+void SnapshotSender::forgetOldest() {
+  if (m_flight.size() <= kMaxInFlight) return;
+  const InFlight oldest = std::move(m_flight.front());
+  m_flight.pop_front();
+  lost(oldest);
 }
 
 SnapshotSender::Packet SnapshotSender::probe(const Publisher& publisher) {
+  m_tick = publisher.tick();
+  m_flight.push_back({m_next_number, false, true, true, {}, {}});
+  m_writer.begin({m_next_number, m_tick, m_epoch, !isOwing(), false, 0, 0}, m_origin, m_origins[m_origin]);
   Packet packet;
-  std::vector<std::uint32_t> nobody;
-  write(publisher, {1, 0, false}, nobody, packet);
+  finish(packet);
+  forgetOldest();
   return packet;
 }
 
@@ -451,7 +512,7 @@ void SnapshotSender::acknowledge(const AckWindow& acks) {
     const InFlight snapshot = std::move(*it);
     it = m_flight.erase(it);
     has ? arrived(snapshot) : lost(snapshot);
-    noteLoss(!has);
+    if (!snapshot.probe) noteLoss(!has);
   }
 }
 

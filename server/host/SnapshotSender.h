@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "KnownObjects.h"
 #include "Publisher.h"
 #include "SnapshotCodec.h"
+#include "ToldControl.h"
 
 namespace naiad {
 
@@ -48,7 +50,7 @@ class SnapshotSender {
   /// Note one published tick and what this player sees of it. To be called after every Publisher::update
   /// while the client is connected; the first call owes the client all it sees.
   void note(const Publisher& publisher, const df::PlayerFacts& player);
-  /// The newest input that the game has had, and in which tick.
+  /// The newest input that the game has had, and in which tick. To be called before the build() of that tick.
   void noteInput(std::uint32_t id, std::uint32_t tick);
   /// How many ticks from now on an object may enter the view before the next one is due.
   void setLookAhead(std::uint32_t ticks) { m_look_ahead = ticks; }
@@ -59,8 +61,10 @@ class SnapshotSender {
   std::vector<Packet> build(const Publisher& publisher, Room room);
   std::vector<Packet> build(const Publisher& publisher) { return build(publisher, Room{}); }
 
-  /// A snapshot that says nothing, to find out whether a way is open.
+  /// A snapshot at the publisher's tick that carries nothing, to find out whether datagrams pass. Its loss
+  /// says nothing of the line.
   Packet probe(const Publisher& publisher);
+
   /// The client acknowledged. A number more than kReorder behind the newest one that it never mentions is
   /// taken for lost.
   void acknowledge(const AckWindow& acks);
@@ -101,6 +105,7 @@ class SnapshotSender {
     std::uint32_t number = 0;
     bool large = false;
     bool empty = true;
+    bool probe = false;
     std::vector<KnownObjects::Sent> objects;
     std::vector<std::pair<std::uint32_t, std::uint64_t>> names;  ///< ids of appearances defined, their sums
   };
@@ -118,6 +123,8 @@ class SnapshotSender {
     kWorld,
     kView,
     kInput,
+    kTable,
+    kControl,
     kOrigins,
     kTexts = kOrigins + kOriginSlots,
     kSingles = kTexts + kMaxTexts
@@ -135,20 +142,25 @@ class SnapshotSender {
       : m_resend(resend), m_epoch(epoch), m_look_ahead(look_ahead) {}
   CellRect windowOf(const Publisher& publisher) const;
   bool isVisible(const Publisher::Model& model, std::uint32_t tick, const CellRect& window) const;
-  bool isFollowed(std::uint32_t slot, std::uint32_t generation) const;
+  bool isOwn(std::uint32_t slot, std::uint32_t generation) const;
   void noteChanges(const Publisher& publisher);
   void noteEntering(const Publisher& publisher, const CellRect& window);
   void noteLeaving(const Publisher& publisher, const CellRect& window);
   void noteTexts();
+  void noteTable();
   void chooseOrigin(const Publisher& publisher);
   const Motion* followedMotion(const Publisher& publisher) const;
   void checkView(const Publisher& publisher);
+  ControlRecord controlNow() const;
+  void checkControl();
   void writeSingles(const Publisher& publisher, std::size_t limit);
   bool isOwing() const;
   double urgency(std::uint32_t id, const Publisher& publisher) const;
   std::vector<std::uint32_t> byUrgency(const Publisher& publisher) const;
   SnapshotHeader header() const;
   bool write(const Publisher& publisher, const Room& room, std::vector<std::uint32_t>& queue, Packet& packet);
+  void finish(Packet& packet);
+  void forgetOldest();
   void takeBack();
   static bool isTooLarge(std::size_t bits, std::size_t bytes);
   Written encode(std::uint32_t id, const Publisher& publisher);
@@ -189,6 +201,10 @@ class SnapshotSender {
   std::uint32_t m_input_tick = 0;
   df::PlayerFacts m_player;
   std::array<df::PlayerText, kMaxTexts> m_texts;
+  std::shared_ptr<const df::ControlTable> m_p_table;
+  std::string m_table;      ///< the player's controls as last told, encoded; empty: none
+  ControlRecord m_control;  ///< to be told, if owed
+  ToldControl m_told_control;
   std::uint64_t m_resent = 0;
 };
 

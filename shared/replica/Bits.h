@@ -13,23 +13,23 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace naiad {
 
+/// Keeps its memory when cleared, so that one that is used again and again allocates nothing.
 class BitWriter {
  public:
   /// The `count` low bits of `value`; the others must be zero. count: 0 … 64.
   void bits(std::uint64_t value, int count) {
     assert(count >= 0 && count <= 64 && (count == 64 || value >> count == 0));
-    if (count > 32) {
-      bits(value & 0xFFFFFFFF, 32);
-      return bits(value >> 32, count - 32);
-    }
     m_pending |= value << m_pending_count;
     m_pending_count += count;
-    for (; m_pending_count >= 8; m_pending_count -= 8, m_pending >>= 8) {
-      m_bytes.push_back(static_cast<char>(m_pending & 0xFF));
-    }
+    if (m_pending_count < 64) return;
+    m_words.push_back(m_pending);
+    m_pending_count -= 64;
+    // What did not fit: the upper bits of the value, if any. (A shift by 64 is undefined.)
+    m_pending = m_pending_count == 0 ? 0 : value >> (count - m_pending_count);
   }
   void flag(bool value) { bits(value ? 1 : 0, 1); }
   /// The `count` low bits of a two's complement number that fits them.
@@ -51,32 +51,48 @@ class BitWriter {
   void signedGolomb(std::int64_t value, int order) {
     golomb((static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63), order);
   }
-  void append(const BitWriter& other);
+  void append(const BitWriter& other) { append(other, 0, other.bitCount()); }
+  /// `count` bits of another writer, from bit `from` on.
+  void append(const BitWriter& other, std::size_t from, std::size_t count) {
+    for (; count > 64; from += 64, count -= 64) bits(other.word(from), 64);
+    if (count == 64) return bits(other.word(from), 64);
+    bits(other.word(from) & ((std::uint64_t{1} << count) - 1), static_cast<int>(count));
+  }
 
-  std::size_t bitCount() const { return m_bytes.size() * 8 + static_cast<std::size_t>(m_pending_count); }
+  std::size_t bitCount() const { return m_words.size() * 64 + static_cast<std::size_t>(m_pending_count); }
   std::size_t byteCount() const { return (bitCount() + 7) / 8; }
   void clear() {
-    m_bytes.clear();
+    m_words.clear();
     m_pending = 0;
     m_pending_count = 0;
   }
   /// All bits, the last byte filled up with zeros.
   std::string bytes() const {
-    std::string all = m_bytes;
-    if (m_pending_count > 0) all.push_back(static_cast<char>(m_pending & 0xFF));
+    std::string all(byteCount(), '\0');
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::uint64_t word = i / 8 < m_words.size() ? m_words[i / 8] : m_pending;
+      all[i] = static_cast<char>(word >> (8 * (i % 8)) & 0xFF);
+    }
     return all;
   }
 
  private:
-  std::string m_bytes;
-  std::uint64_t m_pending = 0;
-  int m_pending_count = 0;  ///< below 8 between calls
-};
+  /// The 64 bits from `from` on, zeros where there are none.
+  std::uint64_t word(std::size_t from) const {
+    const std::size_t index = from / 64;
+    const int shift = static_cast<int>(from % 64);
+    const std::uint64_t low = wordAt(index) >> shift;
+    return shift == 0 ? low : low | wordAt(index + 1) << (64 - shift);
+  }
+  std::uint64_t wordAt(std::size_t index) const {
+    if (index < m_words.size()) return m_words[index];
+    return index == m_words.size() ? m_pending : 0;
+  }
 
-inline void BitWriter::append(const BitWriter& other) {
-  for (const char c : other.m_bytes) bits(static_cast<unsigned char>(c), 8);
-  bits(other.m_pending, other.m_pending_count);
-}
+  std::vector<std::uint64_t> m_words;  ///< full ones
+  std::uint64_t m_pending = 0;
+  int m_pending_count = 0;  ///< below 64 between calls
+};
 
 /// Reads what a BitWriter wrote. The first thing that is missing or out of range makes the reader fail; it
 /// stays failed and yields zeros.

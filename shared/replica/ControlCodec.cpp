@@ -2,8 +2,10 @@
 
 #include <cassert>
 
+#include "Bits.h"
 #include "Bytes.h"
 #include "Limits.h"
+#include "MotionCodec.h"
 
 namespace naiad {
 
@@ -17,7 +19,12 @@ constexpr df::Fixed kMaxPosition = static_cast<df::Fixed>(df::kMaxCells) * df::k
 constexpr df::Fixed kMaxVelocity = static_cast<df::Fixed>(df::kMaxVelocityCells) * df::kFixedOne;
 
 enum TableFlag : std::uint8_t { kBounded = 1, kWholeCells = 2 };
-enum StateFlag : std::uint8_t { kSteering = 1, kLetGoX = 2, kLetGoY = 4 };
+
+constexpr int kGenerationOrder = 1;
+constexpr int kIdOrder = 6;
+constexpr int kPullOrder = 33;
+constexpr int kSilenceOrder = 2;
+constexpr int kWaitOrder = 3;
 
 void writeVector(ByteWriter& out, df::FixedVector v) {
   out.zigzag(v.x);
@@ -56,18 +63,57 @@ ControlRow readRow(ByteReader& in) {
   return row;
 }
 
-df::ControlState readState(ByteReader& in, std::uint8_t flags) {
+// Mostly a lever pulls with just the velocity that the object has.
+void writeLever(BitWriter& out, const df::ControlLever& lever, df::Fixed velocity) {
+  out.flag(lever.let_go);
+  out.flag(lever.pull != 0);
+  if (lever.pull == 0) return;
+  out.flag(lever.pull == velocity);
+  if (lever.pull != velocity) out.signedGolomb(lever.pull, kPullOrder);
+}
+
+df::ControlLever readLever(BitReader& in, df::Fixed velocity) {
+  df::ControlLever lever;
+  lever.let_go = in.flag();
+  if (!in.flag()) return lever;
+  lever.pull = in.flag() ? velocity : in.signedGolomb(kPullOrder, df::kMaxControlReach);
+  if (lever.pull > df::kMaxControlReach || lever.pull < -df::kMaxControlReach) in.fail();
+  return lever;
+}
+
+void writeState(BitWriter& out, const df::ControlState& state, df::FixedVector velocity) {
+  out.flag(state.steering);
+  writeLever(out, state.x, velocity.x);
+  writeLever(out, state.y, velocity.y);
+  out.golomb(state.silence, kSilenceOrder);
+  std::uint64_t waiting = 0;
+  for (std::size_t i = 0; i < df::kControlGroups; ++i) waiting |= (state.wait[i] > 0 ? 1u : 0u) << i;
+  out.flag(waiting != 0);
+  if (waiting == 0) return;
+  out.bits(waiting, df::kControlGroups);
+  for (const std::uint16_t wait : state.wait) {
+    if (wait > 0) out.golomb(wait, kWaitOrder);
+  }
+}
+
+df::ControlState readState(BitReader& in, df::FixedVector velocity) {
   df::ControlState state;
-  state.steering = (flags & kSteering) != 0;
-  const df::FixedVector pulls = readVector(in, df::kMaxControlReach);
-  state.x = {pulls.x, (flags & kLetGoX) != 0};
-  state.y = {pulls.y, (flags & kLetGoY) != 0};
-  state.silence = static_cast<std::uint16_t>(in.upTo(df::kMaxControlTicks));
-  const std::uint8_t waiting = in.byte();
+  state.steering = in.flag();
+  state.x = readLever(in, velocity.x);
+  state.y = readLever(in, velocity.y);
+  state.silence = static_cast<std::uint16_t>(in.golomb(kSilenceOrder, df::kMaxControlTicks));
+  if (!in.flag()) return state;
+  const std::uint64_t waiting = in.bits(df::kControlGroups);
   for (std::size_t i = 0; i < df::kControlGroups; ++i) {
-    if ((waiting >> i & 1) != 0) state.wait[i] = static_cast<std::uint16_t>(in.upTo(df::kMaxControlTicks));
+    if ((waiting >> i & 1) != 0) {
+      state.wait[i] = static_cast<std::uint16_t>(in.golomb(kWaitOrder, df::kMaxControlTicks));
+    }
   }
   return state;
+}
+
+bool isWithin(df::FixedVector v, df::Fixed most) {
+  return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most;
 }
 
 }  // namespace
@@ -106,42 +152,44 @@ std::optional<ControlTable> readControlTable(std::string_view bytes) {
   return table;
 }
 
-void writeControlRecord(std::string& out, const ControlRecord& record) {
-  const df::ControlState& state = record.state;
-  ByteWriter to(out);
-  to.byte(static_cast<std::uint8_t>((state.steering ? kSteering : 0) | (state.x.let_go ? kLetGoX : 0) |
-                                    (state.y.let_go ? kLetGoY : 0)));
-  to.varint(record.slot);
-  to.varint(record.generation);
-  to.varint(record.newest_input);
-  writeVector(to, record.position);
-  writeVector(to, record.velocity);
-  writeVector(to, record.acceleration);
-  writeVector(to, {state.x.pull, state.y.pull});
-  to.varint(state.silence);
-  std::uint8_t waiting = 0;
-  for (std::size_t i = 0; i < df::kControlGroups; ++i) waiting |= state.wait[i] > 0 ? 1 << i : 0;
-  to.byte(waiting);
-  for (const std::uint16_t wait : state.wait) {
-    if (wait > 0) to.varint(wait);
+void writeControlRecord(BitWriter& out, const ControlRecord& record, const Origin& origin) {
+  out.golomb(record.generation, kGenerationOrder);
+  out.golomb(record.slot, kIdOrder);
+  writeMotion(out, {record.tick, record.position, record.velocity, record.acceleration}, origin);
+  writeState(out, record.state, record.velocity);
+}
+
+ControlRecord readControlRecord(BitReader& in, std::uint32_t tick, const Origin& origin) {
+  ControlRecord record;
+  record.tick = tick;
+  record.generation = static_cast<std::uint32_t>(in.golomb(kGenerationOrder, UINT32_MAX));
+  record.slot = static_cast<std::uint32_t>(in.golomb(kIdOrder, kMaxSlots - 1));
+  const Motion motion = readMotion(in, tick, origin);
+  record.position = motion.position;
+  record.velocity = motion.velocity;
+  record.acceleration = motion.acceleration;
+  if (!isWithin(record.position, kMaxPosition) || !isWithin(record.velocity, kMaxVelocity) ||
+      !isWithin(record.acceleration, kMaxVelocity)) {
+    in.fail();
   }
+  record.state = readState(in, record.velocity);
+  return record;
+}
+
+void writeControlRecord(std::string& out, const ControlRecord& record) {
+  BitWriter bits;
+  bits.bits(record.newest_input, 32);
+  writeControlRecord(bits, record, Origin{});
+  out += bits.bytes();
 }
 
 std::optional<ControlRecord> readControlRecord(std::string_view bytes, std::uint32_t tick) {
   if (bytes.size() > kMaxControlRecordBytes) return std::nullopt;
-  ByteReader in(bytes);
-  ControlRecord record;
-  record.tick = tick;
-  const std::uint8_t flags = in.byte();
-  if (flags > (kSteering | kLetGoX | kLetGoY)) return std::nullopt;
-  record.slot = static_cast<std::uint32_t>(in.upTo(kMaxSlots - 1));
-  record.generation = static_cast<std::uint32_t>(in.upTo(UINT32_MAX));
-  record.newest_input = static_cast<std::uint32_t>(in.upTo(UINT32_MAX));
-  record.position = readVector(in, kMaxPosition);
-  record.velocity = readVector(in, kMaxVelocity);
-  record.acceleration = readVector(in, kMaxVelocity);
-  record.state = readState(in, flags);
-  if (!in.ok() || !in.atEnd()) return std::nullopt;
+  BitReader in(bytes);
+  const auto newest_input = static_cast<std::uint32_t>(in.bits(32));
+  ControlRecord record = readControlRecord(in, tick, Origin{});
+  record.newest_input = newest_input;
+  if (!in.atEnd()) return std::nullopt;
   return record;
 }
 

@@ -1,15 +1,19 @@
-// Controls <-> bytes: the table a game declares for a player, and the exact state of what he steers. The
-// writing side asserts, the reading side checks everything.
+// Controls <-> bytes and bits: the table a game declares for a player, and the exact state of what he steers.
+// The writing side asserts, the reading side checks everything.
 //
-// Numbers are varints, signed ones zig-zag, as everywhere in the records (Bytes.h):
+// A table is rare, so it is bytes; numbers are varints, signed ones zig-zag (Bytes.h):
 //
 //   table   rows (1, at most 32) | flags (1): 1 bounded, 2 whole cells | patience (v)
 //           bounded? corner x y (zz zz), size (v v)
 //           each row: key (1) | what (1): action + 4·effect + 16·x + 32·y | value x y (zz zz) | wait (v) |
 //           group (1)
-//   state   flags (1): 1 steering, 2 x let go, 4 y let go | slot, generation (v v) | newest input (v)
-//           position, velocity, acceleration (zz zz each) | pull of x, of y (zz zz) | silence (v)
-//           groups that wait (1, a bit each) | each: ticks (v)
+//
+// A state may come with every snapshot, so it is bits (Bits.h):
+//
+//   state   generation: exp-Golomb(1) | slot: exp-Golomb(6) | position, velocity, acceleration: a motion
+//           (MotionCodec.h) | steering 1 | lever x | lever y | silence: exp-Golomb(2) | groups that wait 1
+//           (a bit each 8 | each that does: ticks: exp-Golomb(3))
+//   lever   let go 1 | pulled 1 (as the velocity 1, else signed exp-Golomb(33))
 #pragma once
 
 #include <cstddef>
@@ -22,6 +26,10 @@
 
 namespace naiad {
 
+class BitReader;
+class BitWriter;
+struct Origin;
+
 /// No table is longer, and no longer one is read.
 inline constexpr std::size_t kMaxControlTableBytes = 800;
 /// Likewise for a state.
@@ -31,8 +39,8 @@ inline constexpr std::size_t kMaxControlRecordBytes = 160;
 /// what is predicted must begin with the true numbers.)
 struct ControlRecord {
   std::uint32_t tick = 0;
-  std::uint32_t slot = 0;
-  std::uint32_t generation = 0;    ///< 0: he steers nothing
+  std::uint32_t slot = 0;          ///< of the world; on the wire and from there on the client's id
+  std::uint32_t generation = 0;    ///< likewise; 0: he steers nothing
   std::uint32_t newest_input = 0;  ///< the newest input of this player that has reached the game; 0: none
   df::FixedVector position;
   df::FixedVector velocity;  ///< what the next tick tries to add, blocked or not
@@ -47,8 +55,15 @@ void writeControlTable(std::string& out, const df::ControlTable& table);
 /// Nothing if anything is missing, out of range or left over.
 std::optional<df::ControlTable> readControlTable(std::string_view bytes);
 
-/// Append the state; its tick is the snapshot's and is not written.
+/// Append the state. Its tick and newest input are the snapshot's business and not written; its position is
+/// counted from `origin`.
+void writeControlRecord(BitWriter& out, const ControlRecord& record, const Origin& origin);
+/// The reader fails where a number is out of range.
+ControlRecord readControlRecord(BitReader& in, std::uint32_t tick, const Origin& origin);
+
+/// The same by itself: its newest input, 32 bits, then the state, counted from nowhere.
 void writeControlRecord(std::string& out, const ControlRecord& record);
+/// Nothing if anything is missing, out of range or left over.
 std::optional<ControlRecord> readControlRecord(std::string_view bytes, std::uint32_t tick);
 
 }  // namespace naiad

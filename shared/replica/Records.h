@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "ControlCodec.h"
 #include "Look.h"
 #include "Motion.h"
 #include "Solidness.h"
@@ -48,7 +49,7 @@ struct ObjectState {
 
 struct ObjectRecord {
   std::uint32_t id = 0;
-  std::uint8_t generation = 0;  ///< of a birth: the how-manieth object under this id, modulo 4
+  std::uint8_t generation = 0;  ///< of a birth: 1, 2, 3, 1 … for one object after the other under this id
   std::uint8_t groups = 0;      ///< which parts of `state` are meant; kDeath: the object is dead
   ObjectState state;
 };
@@ -109,6 +110,8 @@ struct Records {
   std::vector<ViewRecord> views;    ///< at most one is sent
   std::vector<OriginRecord> origins;
   std::vector<TextRecord> texts;
+  std::vector<df::ControlTable> tables;  ///< the player's own controls; at most one is sent
+  std::vector<ControlRecord> controls;   ///< and what he steers; at most one is sent
   std::vector<AppearanceRecord> appearances;
   std::vector<ObjectRecord> objects;  ///< by ascending id
 };

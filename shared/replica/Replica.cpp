@@ -53,6 +53,16 @@ void Replica::apply(const Snapshot& snapshot) {
     m_view = view;
     m_view_tick = tick;
   }
+  for (const df::ControlTable& table : records.tables) {
+    if (!supersedes(number, m_table_newest)) continue;
+    m_table_newest = number;
+    m_table = table;
+  }
+  for (const ControlRecord& control : records.controls) {
+    if (!supersedes(number, m_control_newest)) continue;
+    m_control_newest = number;
+    m_control = control;
+  }
   for (const OriginRecord& origin : records.origins) m_vocabulary.define(number, origin);
   for (const TextRecord& text : records.texts) {
     std::uint32_t& newest = m_text_newest[text.id];

@@ -58,6 +58,13 @@ class Replica {
   /// The object that the view follows; null if there is none.
   const ObjectState* followed() const;
 
+  /// The player's own controls, and the newest number that told them; 0: none has yet.
+  const df::ControlTable& controlTable() const { return m_table; }
+  std::uint32_t controlTableNumber() const { return m_table_newest; }
+  /// What the player steers, by the client's ids, and the newest number that told it; 0: none has yet.
+  const ControlRecord& control() const { return m_control; }
+  std::uint32_t controlNumber() const { return m_control_newest; }
+
   int viewWidth() const { return m_world.view_width; }
   int viewHeight() const { return m_world.view_height; }
   std::size_t aliveCount() const { return m_alive; }
@@ -85,6 +92,10 @@ class Replica {
   std::map<std::uint32_t, std::uint32_t> m_text_newest;
   WorldRecord m_world;
   ViewRecord m_view;
+  df::ControlTable m_table;
+  ControlRecord m_control;
+  std::uint32_t m_table_newest = 0;
+  std::uint32_t m_control_newest = 0;
   std::uint32_t m_world_newest = 0;
   std::uint32_t m_view_newest = 0;
   std::uint32_t m_view_tick = 0;  ///< the tick at which m_view holds

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "Canvas.h"
+#include "ControlCodec.h"
 #include "Limits.h"
 #include "MotionCodec.h"
 
@@ -12,8 +13,10 @@ namespace naiad {
 // The layout, drawn out in PROTOCOL.md:
 //
 //   snapshot  number 16 | tick 16 | epoch 2 | complete 1 | tells input 1 (input 16, age 6) | origin slot 2
-//             | extras 1 (world 1, view 1, origins 2, texts 5, then those) | objects: exp-Golomb(3)
-//             | order of ids 4, if any | each object
+//             | extras 1 | objects: exp-Golomb(3) | order of ids 4, if any | each object
+//   extras    rare ones 1 (world 1, view 1, table 1, origins 2, texts 5, then those) | control 1
+//   table     length 10 | bytes (ControlCodec.h)
+//   control   newest input 16, unless the header tells it | state (ControlCodec.h)
 //   object    id − last id − 1: exp-Golomb(order) | kind | parts
 //   kind      00 motion, 01 look, 10 birth, 110 death, 111 and a bit each for motion, look, body
 //   birth     generation 2 | order − origin's: signed exp-Golomb(10) | motion | look | body
@@ -25,6 +28,7 @@ constexpr int kObjectCountOrder = 3;
 constexpr int kIdOrderBits = 4;
 constexpr int kOrderOrder = 10;
 constexpr std::int64_t kMostOrder = std::int64_t{1} << 48;
+constexpr int kTableLengthBits = 10;
 constexpr int kTextXOrder = 6;
 constexpr int kTextYOrder = 4;
 constexpr int kTextLengthOrder = 5;
@@ -221,16 +225,36 @@ SnapshotHeader readHeader(BitReader& in, const SnapshotContext& context) {
   return header;
 }
 
-void readExtras(BitReader& in, Records& records) {
+df::ControlTable readTable(BitReader& in) {
+  const std::uint64_t length = in.bits(kTableLengthBits);
+  std::string bytes;
+  for (std::uint64_t i = 0; i < length && in.ok(); ++i) bytes.push_back(static_cast<char>(in.bits(8)));
+  const std::optional<df::ControlTable> table = readControlTable(bytes);
+  if (!table) in.fail();
+  return table.value_or(df::ControlTable{});
+}
+
+void readRareExtras(BitReader& in, Records& records) {
   const bool world = in.flag();
   const bool view = in.flag();
+  const bool table = in.flag();
   const std::uint64_t origins = in.bits(2);
   const std::uint64_t texts = in.bits(5);
   if (texts > kMaxTexts) in.fail();
   if (world) records.worlds.push_back(readWorld(in));
   if (view) records.views.push_back(readView(in));
+  if (table) records.tables.push_back(readTable(in));
   for (std::uint64_t i = 0; i < origins && in.ok(); ++i) records.origins.push_back(readOrigin(in));
   for (std::uint64_t i = 0; i < texts && in.ok(); ++i) records.texts.push_back(readText(in));
+}
+
+void readExtras(BitReader& in, const SnapshotContext& context, const Origin& origin, Snapshot& out) {
+  if (in.flag()) readRareExtras(in, out.records);
+  if (!in.flag()) return;
+  const SnapshotHeader& header = out.header;
+  const std::uint32_t input = header.tells_input ? header.input : restored(in.bits(kLowBits), context.input);
+  out.records.controls.push_back(readControlRecord(in, header.tick, origin));
+  out.records.controls.back().newest_input = input;
 }
 
 }  // namespace
@@ -244,7 +268,7 @@ ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context, 
   const auto known = vocabulary.find(out.header.number, static_cast<std::uint32_t>(in.bits(2)), origin);
   if (known == Vocabulary::Find::kUnknown || !in.ok()) return ReadResult::kMalformed;
   if (known == Vocabulary::Find::kStale) return ReadResult::kStale;
-  if (in.flag()) readExtras(in, out.records);
+  if (in.flag()) readExtras(in, context, origin, out);
   ObjectReader objects(in, out.header, origin, vocabulary, out.records);
   objects.read();
   if (!in.atEnd()) return ReadResult::kMalformed;
@@ -263,9 +287,10 @@ void SnapshotWriter::begin(const SnapshotHeader& header, std::uint32_t slot, con
   m_header = header;
   m_origin_slot = slot;
   m_origin = origin;
-  for (BitWriter* part : {&m_world, &m_view, &m_origins, &m_texts}) part->clear();
+  for (BitWriter* part : {&m_world, &m_view, &m_table, &m_origins, &m_texts, &m_control}) part->clear();
   m_origin_count = m_text_count = 0;
   m_objects.clear();
+  m_encoded.clear();
   m_bits = kHeaderBits;
 }
 
@@ -313,6 +338,21 @@ void SnapshotWriter::write(const TextRecord& record) {
   m_bits += m_texts.bitCount() - before;
 }
 
+void SnapshotWriter::writeTable(std::string_view bytes) {
+  assert(m_table.bitCount() == 0 && bytes.size() <= kMaxControlTableBytes);
+  m_table.bits(bytes.size(), kTableLengthBits);
+  for (const char c : bytes) m_table.bits(static_cast<unsigned char>(c), 8);
+  m_bits += m_table.bitCount();
+}
+
+void SnapshotWriter::write(const ControlRecord& record) {
+  assert(m_control.bitCount() == 0 && record.tick == m_header.tick);
+  assert(!m_header.tells_input || m_header.input == record.newest_input);
+  if (!m_header.tells_input) m_control.bits(record.newest_input & 0xFFFF, kLowBits);
+  writeControlRecord(m_control, record, m_origin);
+  m_bits += m_control.bitCount();
+}
+
 void SnapshotWriter::encode(BitWriter& out, std::uint8_t groups, std::uint8_t generation,
                             const ObjectState& state, const Motion& motion, LookForm form) const {
   assert((groups & kLife) == 0 || groups == kAllGroups);
@@ -342,9 +382,11 @@ void SnapshotWriter::encode(BitWriter& out, std::uint8_t groups, std::uint8_t ge
   if ((groups & kBody) != 0) writeBody(out, state.body);
 }
 
-void SnapshotWriter::object(std::uint32_t id, BitWriter bits) {
+void SnapshotWriter::object(std::uint32_t id, const BitWriter& bits) {
+  const std::size_t from = m_encoded.bitCount();
+  m_encoded.append(bits);
+  m_objects.push_back({id, from, bits.bitCount()});
   m_bits += bits.bitCount();
-  m_objects.push_back({id, std::move(bits)});
 }
 
 // n ids up to M in exp-Golomb codes of order k, which is about log2(M/n): k + 1 bits each, and two more for
@@ -355,39 +397,54 @@ bool SnapshotWriter::hasRoom(std::size_t more, std::uint32_t last_id, std::size_
   return m_bits + more + count * (order + 5) <= 8 * bytes;
 }
 
+void SnapshotWriter::finishExtras() {
+  const bool rare = m_world.bitCount() + m_view.bitCount() + m_table.bitCount() + m_origins.bitCount() +
+                        m_texts.bitCount() >
+                    0;
+  const bool control = m_control.bitCount() > 0;
+  m_out.flag(rare || control);
+  if (!rare && !control) return;
+  m_out.flag(rare);
+  if (rare) {
+    m_out.flag(m_world.bitCount() > 0);
+    m_out.flag(m_view.bitCount() > 0);
+    m_out.flag(m_table.bitCount() > 0);
+    m_out.bits(m_origin_count, 2);
+    m_out.bits(m_text_count, 5);
+    for (const BitWriter* part : {&m_world, &m_view, &m_table, &m_origins, &m_texts}) m_out.append(*part);
+  }
+  m_out.flag(control);
+  m_out.append(m_control);
+}
+
 std::string SnapshotWriter::finish() {
-  BitWriter out;
-  out.bits(m_header.number & 0xFFFF, kLowBits);
-  out.bits(m_header.tick & 0xFFFF, kLowBits);
-  out.bits(m_header.epoch, 2);
-  out.flag(m_header.complete);
-  out.flag(m_header.tells_input);
+  m_out.clear();
+  m_out.bits(m_header.number & 0xFFFF, kLowBits);
+  m_out.bits(m_header.tick & 0xFFFF, kLowBits);
+  m_out.bits(m_header.epoch, 2);
+  m_out.flag(m_header.complete);
+  m_out.flag(m_header.tells_input);
   if (m_header.tells_input) {
     constexpr std::uint32_t kMaxAge = (1u << kAgeBits) - 1;
-    out.bits(m_header.input & 0xFFFF, kLowBits);
-    out.bits(std::min(m_header.tick - m_header.input_tick, kMaxAge), kAgeBits);
+    m_out.bits(m_header.input & 0xFFFF, kLowBits);
+    m_out.bits(std::min(m_header.tick - m_header.input_tick, kMaxAge), kAgeBits);
   }
-  out.bits(m_origin_slot, 2);
-  const bool extras = m_world.bitCount() + m_view.bitCount() + m_origins.bitCount() + m_texts.bitCount() > 0;
-  out.flag(extras);
-  if (extras) {
-    out.flag(m_world.bitCount() > 0);
-    out.flag(m_view.bitCount() > 0);
-    out.bits(m_origin_count, 2);
-    out.bits(m_text_count, 5);
-    for (const BitWriter* part : {&m_world, &m_view, &m_origins, &m_texts}) out.append(*part);
+  m_out.bits(m_origin_slot, 2);
+  finishExtras();
+  const auto by_id = [](const Object& a, const Object& b) { return a.id < b.id; };
+  if (!std::is_sorted(m_objects.begin(), m_objects.end(), by_id)) {
+    std::sort(m_objects.begin(), m_objects.end(), by_id);
   }
-  std::sort(m_objects.begin(), m_objects.end(), [](const Object& a, const Object& b) { return a.id < b.id; });
-  out.golomb(m_objects.size(), kObjectCountOrder);
+  m_out.golomb(m_objects.size(), kObjectCountOrder);
   const int order = m_objects.empty() ? 0 : idOrder(m_objects.back().id, m_objects.size());
-  if (!m_objects.empty()) out.bits(static_cast<std::uint64_t>(order), kIdOrderBits);
+  if (!m_objects.empty()) m_out.bits(static_cast<std::uint64_t>(order), kIdOrderBits);
   std::uint32_t next = 0;
   for (const Object& object : m_objects) {
-    out.golomb(object.id - next, order);
-    out.append(object.bits);
+    m_out.golomb(object.id - next, order);
+    m_out.append(m_encoded, object.from, object.bits);
     next = object.id + 1;
   }
-  return out.bytes();
+  return m_out.bytes();
 }
 
 }  // namespace naiad

@@ -62,13 +62,17 @@ class SnapshotWriter {
   void write(const ViewRecord& record);
   void write(const OriginRecord& record);
   void write(const TextRecord& record);
+  /// A table of controls, as writeControlTable() wrote it.
+  void writeTable(std::string_view bytes);
+  /// It must hold at the header's tick, its newest input be the header's if that tells one.
+  void write(const ControlRecord& record);
 
   /// The bits of an object's record but for its id. `motion` must hold at the header's tick; that of `state`
   /// is not looked at.
   void encode(BitWriter& out, std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
               const Motion& motion, LookForm form = {}) const;
   /// Add an encoded record. Each id at most once.
-  void object(std::uint32_t id, BitWriter bits);
+  void object(std::uint32_t id, const BitWriter& bits);
   /// Would the snapshot stay within `bytes` with `more` bits for one more object, whatever its id up to
   /// `last_id`?
   bool hasRoom(std::size_t more, std::uint32_t last_id, std::size_t bytes) const;
@@ -82,15 +86,22 @@ class SnapshotWriter {
   static constexpr std::size_t kHeaderBits = 112;
   struct Object {
     std::uint32_t id;
-    BitWriter bits;
+    std::size_t from;  ///< in m_encoded
+    std::size_t bits;
   };
+  void finishExtras();
+
   SnapshotHeader m_header;
   std::uint32_t m_origin_slot = 0;
   Origin m_origin;
   BitWriter m_world;
   BitWriter m_view;
+  BitWriter m_table;
   BitWriter m_origins;
   BitWriter m_texts;
+  BitWriter m_control;
+  BitWriter m_encoded;  ///< the objects, in the order they came
+  BitWriter m_out;      ///< kept for its memory
   unsigned m_origin_count = 0;
   unsigned m_text_count = 0;
   std::vector<Object> m_objects;

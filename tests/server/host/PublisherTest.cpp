@@ -168,6 +168,27 @@ TEST(Publisher, AnObjectThatIsNotReportedStandsStillEvenIfItLastMoved) {
   EXPECT_FALSE(isMoving(scene.publisher.find(0)->state.motion));
 }
 
+TEST(Publisher, SolidObjectsThatStandAreExactOnceSomebodyPredicts) {
+  Scene scene;
+  const df::FixedVector position = at(10.3, 10.2);
+  scene.changed(0, position);
+  scene.drew(0, position);
+  scene.publish();
+  EXPECT_NE(scene.publisher.find(0)->state.motion.position, position) << "coarse is shorter";
+  scene.view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
+  scene.drew(0, position);
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
+  EXPECT_EQ(scene.publisher.find(0)->state.motion.position, position);
+  // One that comes to rest within its cell is exact again.
+  scene.changed(0, position, at(0.1, 0));
+  scene.drew(0, position);
+  scene.publish();
+  scene.changed(0, position + at(0.05, 0));
+  scene.drew(0, position + at(0.05, 0));
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
+  EXPECT_EQ(scene.publisher.find(0)->state.motion.position, position + at(0.05, 0));
+}
+
 TEST(Publisher, ANewCharacterIsALookAndNothingElse) {
   Scene scene;
   scene.changed(0, at(10, 10));

@@ -11,6 +11,7 @@
 #include "Replica.h"
 #include "SimulatedWorld.h"
 #include "SnapshotSender.h"
+#include "SteeredCopy.h"
 #include "UpdateCodec.h"
 #include "Vector.h"
 #include "VirtualClock.h"
@@ -43,6 +44,10 @@ class LossyPair {
     sender.note(m_publisher, m_world.view().players[0]);
     for (const SnapshotSender::Packet& packet : sender.build(m_publisher)) {
       ++snapshots;
+      std::vector<std::uint32_t>& lives = m_births[packet.number];
+      for (std::uint32_t id = 0; id < sender.known().idCount(); ++id) {
+        lives.push_back(sender.known().at(id).birth);
+      }
       ASSERT_LE(packet.bytes.size(), packet.large ? kMaxSnapshot : kMaxDatagramSnapshot);
       // What is too large for a datagram would go on the stream; here it goes the same bad way, in no hurry.
       if (packet.large) {
@@ -110,7 +115,7 @@ class LossyPair {
     ASSERT_NE(result, ReadResult::kMalformed);
     if (result == ReadResult::kStale) return;
     replica.apply(snapshot);
-    checkLives();
+    checkLives(snapshot.header.number);
     m_acks.note(snapshot.header.number);
     ClientUpdate update;
     update.acks = m_acks;
@@ -119,16 +124,16 @@ class LossyPair {
   }
 
   // Nobody is born twice: whoever is gone from the replica never comes back to life in it.
-  void checkLives() {
+  void checkLives(std::uint32_t number) {
     for (const auto& [id, entry] : replica.entries()) {
       const auto was = m_alive.find(id);
       const bool alive = was != m_alive.end() && was->second;
       if (entry.alive && !alive) {
         ++births;
-        const std::pair life(entry.state.order, entry.generation);
+        const std::uint32_t life = m_births.at(number).at(id);
         const auto before = m_lives.find(id);
         if (before != m_lives.end()) {
-          ASSERT_NE(before->second, life) << "object " << id << " came back to life";
+          ASSERT_LT(before->second, life) << "object " << id << " came back to life";
           ++reuses;
         }
         m_lives[id] = life;
@@ -145,9 +150,10 @@ class LossyPair {
   std::unique_ptr<DatagramChannel> m_client_end;
   AckWindow m_acks;
   std::vector<std::string> m_late;
-  std::map<std::uint32_t, bool> m_alive;  ///< by id
-  std::map<std::uint32_t, std::pair<std::uint64_t, std::uint8_t>>
-      m_lives;  ///< order and generation of the last one, by id
+  std::map<std::uint32_t, bool> m_alive;           ///< by id
+  std::map<std::uint32_t, std::uint32_t> m_lives;  ///< the how-manieth object was seen last, by id
+  std::map<std::uint32_t, std::vector<std::uint32_t>>
+      m_births;  ///< the how-manieth is meant, by number and id
 };
 
 TEST(SnapshotSender, EveryReplicaIsRightOnceABadLinkHeals) {
@@ -302,6 +308,8 @@ class Direct {
   void acknowledge(std::uint32_t newest, std::uint64_t mask = ~std::uint64_t{0}) {
     sender.acknowledge({newest, mask});
   }
+
+  const Replica& reader() const { return m_reader; }
 
   Publisher publisher;
   SnapshotSender sender;
@@ -552,6 +560,147 @@ TEST(SnapshotSender, SendsNoMoreThanAskedAndTheRestLater) {
   EXPECT_EQ(direct.sender.build(direct.publisher, {2, 1000, true}).size(), 2u);
   EXPECT_GT(direct.sender.build(direct.publisher).size(), 4u);
   EXPECT_TRUE(direct.sender.build(direct.publisher).empty());
+}
+
+TEST(SnapshotSender, AProbeCarriesNothingAndMayBeLost) {
+  Direct direct(3);
+  direct.tick();
+  direct.acknowledge(1);
+  const SnapshotSender::Packet probe = direct.sender.probe(direct.publisher);
+  Snapshot snapshot;
+  ASSERT_EQ(direct.reader().read(probe.bytes, snapshot), ReadResult::kOk);
+  EXPECT_EQ(snapshot.header.number, 2u);
+  EXPECT_EQ(probe.number, 2u);
+  EXPECT_EQ(snapshot.header.tick, direct.publisher.tick());
+  EXPECT_TRUE(snapshot.header.complete);
+  EXPECT_TRUE(snapshot.records.objects.empty());
+  EXPECT_TRUE(direct.sender.isSettled());
+  for (std::uint32_t number = 3; number < 8; ++number) {
+    while (direct.tick().empty()) {
+    }
+    direct.acknowledge(number, (1u << (number - 3)) - 1);  // all but the probe
+  }
+  EXPECT_EQ(direct.sender.loss(), 0);
+  EXPECT_EQ(direct.sender.resentCount(), 0u);
+}
+
+/// A player who steers the only object by declared controls, and what his client knows.
+class Steering {
+ public:
+  Steering() {
+    m_table.rows.resize(1);
+    m_table.rows[0].effect = df::ControlEffect::kDrive;
+    m_table.rows[0].value = at(1, 0);
+    m_facts.key = {0, 1};
+    m_facts.order = 1;
+    m_facts.position = at(10, 5);
+    steering().p_table = std::make_shared<df::ControlTable>(m_table);
+    steering().object = {0, 1};
+    steering().state.steering = true;
+  }
+
+  df::SteeringFacts& steering() { return direct.player.steering; }
+  const df::ControlTable& table() const { return m_table; }
+  /// One tick in which the object is moved by its velocity. Returns whether the state was told.
+  bool tick(df::FixedVector velocity, bool arrives = true) {
+    m_facts.position = m_facts.position + velocity;
+    m_facts.velocity = velocity;
+    direct.view().changed.push_back(m_facts);
+    steering().position = m_facts.position;
+    steering().velocity = velocity;
+    steering().state.x.pull = velocity.x;
+    bool told = false;
+    for (const SnapshotSender::Packet& packet : direct.tick()) {
+      told = told || !direct.decoded(packet).controls.empty();
+      Snapshot snapshot;
+      if (!arrives || replica.read(packet.bytes, snapshot) != ReadResult::kOk) continue;
+      replica.apply(snapshot);
+      acks.note(packet.number);
+    }
+    direct.sender.acknowledge(acks);
+    return told;
+  }
+  /// What the client works out is what is.
+  void expectKnown() {
+    const std::uint32_t now = direct.publisher.tick();
+    const ControlRecord known = coast(replica.control(), replica.controlTable(), now);
+    EXPECT_EQ(known.position, steering().position);
+    EXPECT_EQ(known.velocity, steering().velocity);
+    EXPECT_EQ(known.state, steering().state);
+    const Replica::Entry* entry = replica.find(known.slot);
+    ASSERT_NE(entry, nullptr);
+    EXPECT_EQ(entry->generation, known.generation);
+    EXPECT_EQ(entry->state.order, 1u);
+  }
+
+  Direct direct{0};
+  Replica replica;
+  AckWindow acks;
+
+ private:
+  df::ControlTable m_table;
+  df::ObjectFacts m_facts;
+};
+
+TEST(SnapshotSender, ControlsAreToldOnceAndTheStateWhereItCannotBeWorkedOut) {
+  Steering scene;
+  EXPECT_TRUE(scene.tick({}));
+  EXPECT_EQ(scene.replica.controlTable(), scene.table());
+  EXPECT_EQ(scene.replica.controlNumber(), 1u);
+  scene.expectKnown();
+  for (int i = 0; i < 40; ++i) EXPECT_FALSE(scene.tick({})) << "at rest, tick " << i;
+  EXPECT_TRUE(scene.tick(at(1, 0)));
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_FALSE(scene.tick(at(1, 0))) << "straight on, tick " << i;
+    scene.expectKnown();
+  }
+  EXPECT_TRUE(scene.tick(at(1, 0))) << "nobody coasts longer";
+  EXPECT_EQ(scene.replica.controlTableNumber(), 1u) << "the table came once";
+}
+
+TEST(SnapshotSender, AnInputThatChangedNothingIsAnsweredToo) {
+  Steering scene;
+  scene.tick({});
+  scene.direct.sender.noteInput(7, scene.direct.publisher.tick() + 1);
+  EXPECT_TRUE(scene.tick({}));
+  EXPECT_EQ(scene.replica.control().newest_input, 7u);
+  EXPECT_FALSE(scene.tick({}));
+}
+
+TEST(SnapshotSender, ControlsThatWereLostComeAgain) {
+  Steering scene;
+  scene.tick({}, false);
+  for (int i = 0; i < 5; ++i) scene.tick({}, false);
+  bool told = false;
+  for (int i = 0; i < 40; ++i) told = scene.tick(at(i % 7 == 0 ? 1 : 0, 0)) || told;
+  EXPECT_TRUE(told);
+  EXPECT_EQ(scene.replica.controlTable(), scene.table());
+  scene.expectKnown();
+}
+
+TEST(SnapshotSender, ControlsThatEndAreToldAsATableWithoutRows) {
+  Steering scene;
+  scene.tick({});
+  scene.steering() = {};
+  scene.tick({});
+  EXPECT_TRUE(scene.replica.controlTable().rows.empty());
+  EXPECT_EQ(scene.replica.controlTableNumber(), 2u);
+}
+
+TEST(SnapshotSender, AShipThatTurnsCostsLittle) {
+  Steering scene;
+  scene.tick({});
+  for (int i = 0; i < 10; ++i) scene.tick({});
+  scene.direct.sender.noteInput(7, scene.direct.publisher.tick() + 1);
+  const std::uint32_t before = scene.replica.controlNumber();
+  BitWriter bits;
+  ASSERT_TRUE(scene.tick(at(1, 0)));
+  ASSERT_GT(scene.replica.controlNumber(), before);
+  Origin origin;
+  origin.x_bits = 7;
+  origin.y_bits = 5;
+  writeControlRecord(bits, scene.replica.control(), origin);
+  EXPECT_LE(bits.byteCount(), 8u);
 }
 
 }  // namespace
