@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "DrawnPlacement.h"
+#include "ExtrapolationClamp.h"
 #include "Screen.h"
 #include "TerminalGuard.h"
 
@@ -33,7 +35,8 @@ SessionOptions withTerminalSize(SessionOptions options) {
 
 ClientApp::ClientApp(Options options)
     : m_options(std::move(options)),
-      m_connection(m_context, m_options.address, withTerminalSize(m_options.session), true) {}
+      m_connection(m_context, m_options.address, withTerminalSize(m_options.session), true, m_options.trust) {
+}
 
 ClientApp::~ClientApp() = default;
 
@@ -268,6 +271,7 @@ ClientApp::Seen ClientApp::look(Time now) {
   if (session == nullptr) return seen;
   seen.session = session->revision();
   seen.tick = session->displayTick(now);
+  if (session->isPredicting()) seen.predicted = session->predictedTick(now);
   const bool waiting = m_connection.state() == Connection::State::kSearching || session->isSilent(now);
   if (waiting) {
     seen.silence = std::chrono::floor<std::chrono::milliseconds>(session->clock().silence(now)).count() / 100;
@@ -310,8 +314,11 @@ void ClientApp::drawFrame(Time now) {
   ScreenModel model;
   model.banner = banner(now);
   if (ClientSession* session = m_connection.session()) {
-    model.view = session->replica().render(m_drawn.tick);
-    model.focus = session->replica().focus(m_drawn.tick);
+    const Replica& replica = session->replica();
+    const ExtrapolationClamp clamp(replica, session->clock().newestTick(), m_drawn.tick);
+    const DrawnPlacement placement(replica, session->predict(now), clamp);
+    model.view = replica.render(m_drawn.tick, &placement);
+    model.focus = replica.focus(m_drawn.tick, &placement);
     model.has_view = true;
     model.round_trip = session->roundTrip();
     model.tick = m_drawn.tick;
@@ -340,6 +347,10 @@ ClientApp::Time ClientApp::nextDeadline(Time now) {
     next = std::min(next, m_connection.session()->nextWake().value_or(next));
   if (m_move) next = std::min(next, m_last_move + kFrame);
   if (m_dirty) next = std::min(next, m_last_frame + kFrame);
+  // One's own object runs on by a clock of its own.
+  if (m_connection.session() != nullptr && m_connection.session()->isPredicting()) {
+    next = std::min(next, m_last_frame + kFrame);
+  }
   // A tick that passes without news can still change the picture.
   if (m_connection.session() != nullptr) next = std::min(next, m_connection.session()->clock().nextTick(now));
   return next;

@@ -56,6 +56,7 @@ class ClientApp {
     std::uint64_t connection = 0;
     std::uint64_t session = 0;
     std::uint32_t tick = 0;
+    std::uint32_t predicted = 0;
     std::int64_t silence = 0;  ///< in tenths of a second, once it is shown
     std::size_t chat_lines = 0;
     friend bool operator==(const Seen&, const Seen&) = default;

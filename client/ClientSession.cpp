@@ -170,18 +170,45 @@ void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
     m_replica = std::move(*m_next_replica);
     m_next_replica.reset();
     m_epoch = (m_epoch + 1) & 3;
+    m_table_known = m_control_known = 0;
   }
   m_acks.note(snapshot.header.number);
   m_clock.note(snapshot.header.tick, now);
   if (snapshot.header.tells_input) {
-    while (!m_inputs.empty() && !isNewer(m_inputs.front().id, snapshot.header.input)) m_inputs.pop_front();
+    for (; !m_inputs.empty() && !isNewer(m_inputs.front().id, snapshot.header.input); m_inputs.pop_front()) {
+      if (m_inputs.front().id == snapshot.header.input) {
+        m_take_in.noteTaken(m_inputs.front().tick, snapshot.header.input_tick);
+      }
+    }
   }
+  takeControls();
   ++m_counters.snapshots;
   // Every second one is enough, unless something is missing.
   ++m_unacknowledged;
   const bool gap = (m_acks.mask & 1) == 0 && m_counters.snapshots > 1;
   if (!hasDatagrams(now) || m_unacknowledged >= kAckEvery || gap) return sendUpdate(now);
   m_acknowledge_at = now + kAckDelay;
+}
+
+// What the newest snapshots said of the player's own object.
+void ClientSession::takeControls() {
+  if (m_replica.controlTableNumber() != m_table_known) {
+    m_table_known = m_replica.controlTableNumber();
+    m_prediction.setTable(m_replica.controlTable());
+  }
+  if (m_replica.controlNumber() != m_control_known) {
+    m_control_known = m_replica.controlNumber();
+    m_prediction.take(m_replica.control());
+  }
+}
+
+std::uint32_t ClientSession::predictedTick(Time now) const {
+  return m_take_in.tickFor(m_clock, m_welcome.tick, now);
+}
+
+const Prediction& ClientSession::predict(Time now) {
+  m_prediction.run(m_replica, predictedTick(now));
+  return m_prediction;
 }
 
 std::optional<ClientSession::Time> ClientSession::nextWake() const {
@@ -221,6 +248,7 @@ void ClientSession::handle(const PongMessage& message, Time now) {
   if (ping == m_pings.end()) return;  // answered twice, or made up
   const std::chrono::duration<double, std::milli> sample = now - ping->second;
   m_pings.erase(m_pings.begin(), std::next(ping));
+  m_take_in.noteRoundTrip(sample);
   m_round_trip = m_round_trip.count() == 0 ? sample : m_round_trip + (sample - m_round_trip) / 8;
 }
 
@@ -303,10 +331,15 @@ bool ClientSession::sendInput(Input input, bool urgent, Time now) {
     return false;
   }
   input.id = m_next_input++;
-  input.tick = m_clock.displayTick(now);
+  input.tick = predictedTick(now);
   input.snapshot = m_acks.newest;
   ++m_counters.inputs;
   m_inputs.push_back(input);
+  if (!input.is_mouse) {
+    m_prediction.press(input.id, static_cast<df::Keyboard::Key>(input.key),
+                       static_cast<df::EventKeyboardAction>(input.action), input.tick);
+    ++m_revision;  // its effect may be seen at once
+  }
   m_repeat_at = now + kRepeatInput;
   sendUpdate(now);
   return true;

@@ -24,9 +24,11 @@
 #include "DisplayClock.h"
 #include "InputBudget.h"
 #include "Keyboard.h"
+#include "Prediction.h"
 #include "Replica.h"
 #include "SealedDatagrams.h"
 #include "ServerMessages.h"
+#include "TakeInClock.h"
 #include "UpdateCodec.h"
 
 namespace naiad {
@@ -85,7 +87,7 @@ class ClientSession {
   static constexpr std::chrono::milliseconds kProbeEvery{1000};  ///< then
   static constexpr std::chrono::milliseconds kFirstProbes{100};  ///< in the first second
   static constexpr std::chrono::milliseconds kRepeatInput{10};   ///< a new input is sent again after this
-  static constexpr int kAckEvery = 2;                            ///< snapshots that come as datagrams
+  static constexpr int kAckEvery = 3;                            ///< snapshots that come as datagrams
   static constexpr std::chrono::milliseconds kAckDelay{50};      ///< of the last one, at most
   static constexpr std::chrono::seconds kChecksumEvery{1};
   static constexpr std::chrono::milliseconds kResetPatience{
@@ -146,6 +148,14 @@ class ClientSession {
   /// Points of this player, from the newest player list.
   std::int32_t score() const;
 
+  /// Work out where the player's own object is by now, if the game declared how keys move it. Before drawing.
+  const Prediction& predict(Time now);
+  /// The tick that predict() runs to: the one that takes in a key pressed now, so that it shows in the next
+  /// frame.
+  std::uint32_t predictedTick(Time now) const;
+  bool isPredicting() const { return m_prediction.isActive(); }
+  const TakeInClock& takeInClock() const { return m_take_in; }
+
   /// The tick to draw now, whether the line is silent, the newest tick known.
   std::uint32_t displayTick(Time now) { return m_clock.displayTick(now); }
   const DisplayClock& clock() const { return m_clock; }
@@ -177,6 +187,7 @@ class ClientSession {
   bool sendInput(Input input, bool urgent, Time now);
   void sendUpdate(Time now);
   void takeSnapshot(std::string_view bytes, Time now);
+  void takeControls();
   Replica* replicaFor(std::string_view bytes, Time now);
   void openDatagrams(Time now);
   void onDatagram(std::string_view bytes, Time now);
@@ -193,6 +204,10 @@ class ClientSession {
   AckWindow m_acks;
   DisplayClock m_clock{std::chrono::microseconds(33333)};
   InputBudget m_budget;
+  Prediction m_prediction;
+  TakeInClock m_take_in;
+  std::uint32_t m_table_known = 0;    ///< snapshot that told the newest controls taken over
+  std::uint32_t m_control_known = 0;  ///< … and state
   std::vector<PlayerLine> m_players;
   std::deque<ChatEntry> m_chat;
   SessionCounters m_counters;

@@ -50,6 +50,11 @@ std::uint32_t DisplayClock::displayTick(Time now) {
   return m_shown;
 }
 
+double DisplayClock::ticksSinceNewest(Time now) const {
+  using Millis = std::chrono::duration<double, std::milli>;
+  return m_started ? std::min(Millis(now - m_anchor_time), Millis(kMaxAhead)) / Millis(m_length) : 0;
+}
+
 DisplayClock::Time DisplayClock::nextTick(Time now) const {
   if (!m_started) return now + m_length;
   const auto ticks = std::max<std::int64_t>((now - m_anchor_time) / m_length, 0) + 1;

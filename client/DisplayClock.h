@@ -30,6 +30,8 @@ class DisplayClock {
   void note(std::uint32_t tick, Time now);
   /// The tick to draw. Never lower than the last answer, unless that lies beyond the allowed lead.
   std::uint32_t displayTick(Time now);
+  /// Time since the newest tick should have arrived, in ticks; at most what the picture may run ahead.
+  double ticksSinceNewest(Time now) const;
   /// The newest tick of any snapshot; 0 before the first.
   std::uint32_t newestTick() const { return m_newest; }
   /// No snapshot for kSilence (never before the first).

@@ -163,6 +163,7 @@ void Host::sendSnapshots(df::World& world) {
     if (found == players.end()) return;  // joins with the next tick
     // The truth first: whoever compares must find it once the snapshot has arrived.
     if (m_truth) writeTruth(*found, world);
+    session.setControls(found->steering.p_table);
     session.sendTick(m_publisher, *found);
   });
 }

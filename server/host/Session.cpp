@@ -110,6 +110,13 @@ bool Session::takeUpdate(std::string_view bytes) {
                      [this](const Input& input) { return takeInput(input); });
 }
 
+bool Session::isTooEarly(const Input& input, std::uint32_t tick) const {
+  const auto early = static_cast<std::int32_t>(input.tick - tick);
+  if (m_controls == nullptr || input.is_mouse || early <= 0 || early > kMostEarly) return false;
+  return std::any_of(m_controls->rows.begin(), m_controls->rows.end(),
+                     [&input](const df::ControlRow& row) { return row.key == input.key; });
+}
+
 // False if the session has ended of it.
 bool Session::takeInput(const Input& input) {
   if (m_state != State::kPlaying) return true;

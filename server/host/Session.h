@@ -42,6 +42,8 @@ class Session {
   static constexpr std::chrono::seconds kIdleTimeout{15};
   static constexpr std::size_t kMaxQueuedInputs = 64;
   static constexpr int kInputsPerTick = 16;
+  /// An input that asks for a tick farther off has asked for nonsense.
+  static constexpr std::int32_t kMostEarly = 8;
   static constexpr int kChatPerSecond = 3;
   /// An honest client that catches up after a stall sends fewer: every reply is bounded by what it got.
   static constexpr int kMessagesPerTick = 1024;
@@ -77,12 +79,16 @@ class Session {
   /// Take up to kInputsPerTick inputs out of the queue, in order, each id once, into the world's next tick.
   template <class Apply>
   void takeInputs(std::uint32_t tick, Apply apply) {
-    for (int i = 0; i < kInputsPerTick && !m_inputs.empty(); ++i) {
+    for (int i = 0; i < kInputsPerTick && !m_inputs.empty() && !isTooEarly(m_inputs.front(), tick); ++i) {
       apply(m_inputs.front());
       m_sender.noteInput(m_inputs.front().id, tick);
       m_inputs.pop_front();
     }
   }
+
+  /// The player steers by declared controls (null: does not): the keys in them wait for the tick that they
+  /// ask for, since he has seen their effect there already.
+  void setControls(std::shared_ptr<const df::ControlTable> controls) { m_controls = std::move(controls); }
 
   /// Note a published tick, and send what is owed unless the client is still busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player);
@@ -115,6 +121,7 @@ class Session {
   void count(const SnapshotSender::Packet& packet);
   bool dispatch(const wire::ClientMessage& message);
   bool takeUpdate(std::string_view bytes);
+  bool isTooEarly(const Input& input, std::uint32_t tick) const;
   bool takeInput(const Input& input);
   void takeChat(const std::string& text);
   void malformed();
@@ -140,6 +147,7 @@ class Session {
   std::uint32_t m_rtt_millis = 0;
   std::uint64_t m_skipped_ticks = 0;
   std::deque<Input> m_inputs;
+  std::shared_ptr<const df::ControlTable> m_controls;
   std::uint32_t m_input_received = 0;
   std::uint32_t m_tick = 0;  ///< newest published
   int m_messages = 0;        ///< since the last tick

@@ -7,6 +7,9 @@ namespace naiad::test {
 HostOptions fastOptions() {
   HostOptions options;
   options.port = 0;
+  options.address = "127.0.0.1";
+  options.insecure = true;
+  options.grace = 0;
   options.frame_micros = 3000;
   return options;
 }

@@ -16,7 +16,7 @@ class TerminalRestoreTest : public testing::Test {
  protected:
   PtyTerminal::Options options() const {
     PtyTerminal::Options options;
-    options.command = {programPath("dfclient"), server.address(), "--name", "Ada"};
+    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
     return options;
   }
 
