@@ -31,25 +31,36 @@ class InterestGrid {
   void put(std::uint32_t slot, CellPosition cell);
   void remove(std::uint32_t slot);
 
-  /// Call `visit(slot)` for every slot in a block that meets `rect`: all in the rectangle, and some around
-  /// it.
+  /// Call `visit(slot)` for every slot in a block that meets `rect`, unless the block lies in `inner`: all in
+  /// the rectangle that are not in the inner one, and some more.
   template <class Visit>
-  void forEachNear(const CellRect& rect, Visit visit) const {
+  void forEachNear(const CellRect& rect, const CellRect& inner, Visit visit) const {
+    const std::int64_t left = rect.left >> kColumnShift;
+    const std::int64_t right = rect.right >> kColumnShift;
+    const std::int64_t top = rect.top >> kRowShift;
+    const std::int64_t bottom = rect.bottom >> kRowShift;
+    const auto isInner = [&inner](std::int64_t x, std::int64_t y) {
+      return x << kColumnShift >= inner.left && (x + 1) << kColumnShift <= inner.right &&
+             y << kRowShift >= inner.top && (y + 1) << kRowShift <= inner.bottom;
+    };
+    const auto visitAll = [&visit](const std::vector<std::uint32_t>& block) {
+      for (const std::uint32_t slot : block) visit(slot);
+    };
     // A rectangle of more blocks than there are is answered by all of them.
-    const auto columns =
-        static_cast<std::uint64_t>((rect.right >> kColumnShift) - (rect.left >> kColumnShift) + 1);
-    const auto rows = static_cast<std::uint64_t>((rect.bottom >> kRowShift) - (rect.top >> kRowShift) + 1);
-    if (columns * rows >= m_blocks.size()) {
+    if (static_cast<std::uint64_t>(right - left + 1) * static_cast<std::uint64_t>(bottom - top + 1) >=
+        m_blocks.size()) {
       for (const auto& [key, block] : m_blocks) {
-        for (const std::uint32_t slot : block) visit(slot);
+        const auto x = static_cast<std::int32_t>(key >> 32);
+        const auto y = static_cast<std::int32_t>(key & 0xFFFFFFFF);
+        if (x >= left && x <= right && y >= top && y <= bottom && !isInner(x, y)) visitAll(block);
       }
       return;
     }
-    for (std::int64_t y = rect.top >> kRowShift; y <= rect.bottom >> kRowShift; ++y) {
-      for (std::int64_t x = rect.left >> kColumnShift; x <= rect.right >> kColumnShift; ++x) {
+    for (std::int64_t y = top; y <= bottom; ++y) {
+      for (std::int64_t x = left; x <= right; ++x) {
+        if (isInner(x, y)) continue;
         const auto found = m_blocks.find(keyOf(x, y));
-        if (found == m_blocks.end()) continue;
-        for (const std::uint32_t slot : found->second) visit(slot);
+        if (found != m_blocks.end()) visitAll(found->second);
       }
     }
   }

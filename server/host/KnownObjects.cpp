@@ -21,10 +21,10 @@ void KnownObjects::enqueue(std::uint32_t id, std::uint32_t tick) {
   m_owing.push_back(id);
 }
 
-void KnownObjects::learn(std::uint32_t slot, std::uint32_t generation, std::uint32_t tick) {
+std::uint32_t KnownObjects::learn(std::uint32_t slot, std::uint32_t generation, std::uint32_t tick) {
   auto id = static_cast<std::uint32_t>(m_known.size());
   if (m_free.empty()) {
-    if (id >= kMaxSlots) return;
+    if (id >= kMaxSlots) return kNobody;
     m_known.emplace_back();
   } else {
     id = m_free.top();
@@ -39,6 +39,7 @@ void KnownObjects::learn(std::uint32_t slot, std::uint32_t generation, std::uint
   ++m_alive;
   enqueue(id, tick);
   known.owed = kAllGroups;
+  return id;
 }
 
 void KnownObjects::owe(std::uint32_t id, std::uint8_t groups, std::uint32_t tick) {

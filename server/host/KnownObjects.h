@@ -50,8 +50,8 @@ class KnownObjects {
   std::size_t idCount() const { return m_known.size(); }
   std::size_t aliveCount() const { return m_alive; }
 
-  /// Owe the birth of an object that the client does not know.
-  void learn(std::uint32_t slot, std::uint32_t generation, std::uint32_t tick);
+  /// Owe the birth of an object that the client does not know. Its id; kNobody if there is none left.
+  std::uint32_t learn(std::uint32_t slot, std::uint32_t generation, std::uint32_t tick);
   /// Owe groups of a known one.
   void owe(std::uint32_t id, std::uint8_t groups, std::uint32_t tick);
   /// Owe its death, or nothing if the client never heard of it.

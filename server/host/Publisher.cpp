@@ -40,6 +40,12 @@ std::int32_t reachOf(const Look& look) {
   return (most >> kGlyphUnitBits) + (most == 0 ? 0 : 1);
 }
 
+/// Does it move by more than a cell in a tick, or may it soon?
+bool isFast(const Motion& motion) {
+  const auto above = [](df::Fixed v) { return v > df::kFixedOne || v < -df::kFixedOne; };
+  return motion.acceleration != df::FixedVector{} || above(motion.velocity.x) || above(motion.velocity.y);
+}
+
 /// Paths are fitted for at least so many ticks, and after a turn for at most so many.
 constexpr std::uint32_t kShortestHorizon = 64;
 constexpr std::uint32_t kHorizonAfterTurn = 512;
@@ -77,7 +83,7 @@ void Publisher::mark(std::uint32_t slot, Tracked& tracked, std::uint8_t groups) 
   tracked.changed |= groups;
   if (tracked.touched) return;
   tracked.touched = true;
-  m_changes.push_back({slot, 0});
+  m_changes.push_back({slot, 0, {}});
 }
 
 void Publisher::update(const df::WorldView& view) {
@@ -102,15 +108,51 @@ void Publisher::update(const df::WorldView& view) {
   if (std::exchange(m_solids_are_coarse, false)) keepSolidsExact();
   for (const df::ObjectKey key : m_exact) keepExact(key);
 
-  for (Change& change : m_changes) {
-    Tracked& tracked = change.slot == kLooseSlot ? m_loose : m_models[change.slot];
-    change.groups = tracked.model.alive ? tracked.changed : 0;
-    if ((change.groups & (kMotion | kLook)) != 0) file(change.slot, tracked);
-    if ((change.groups & kMotion) != 0) fit(tracked);
-    if ((change.groups & kLook) != 0) meet(tracked.model);
-    tracked.changed = 0;
-    tracked.touched = false;
+  for (Change& change : m_changes) finish(change);
+}
+
+void Publisher::finish(Change& change) {
+  Tracked& tracked = change.slot == kLooseSlot ? m_loose : m_models[change.slot];
+  change.groups = tracked.model.alive ? tracked.changed : 0;
+  if ((change.groups & (kMotion | kLook)) != 0) file(change.slot, tracked);
+  if ((change.groups & kMotion) != 0) fit(tracked);
+  if ((change.groups & kLook) != 0) meet(tracked.model);
+  if (change.groups == 0 || (change.groups & kMotion) != 0) {
+    list(m_fast, change.slot, tracked.fast, tracked.model.alive && isFast(tracked.model.state.motion));
   }
+  change.sweep = sweepOf(tracked.model, m_tick, kSweep);
+  tracked.changed = 0;
+  tracked.touched = false;
+}
+
+CellRect Publisher::sweepOf(const Model& model, std::uint32_t tick, std::uint32_t ticks) {
+  constexpr std::int64_t kEverywhere = INT32_MAX;
+  if (model.reach > kWide) return {-kEverywhere, -kEverywhere, kEverywhere, kEverywhere};
+  const Motion motion = rebase(model.state.motion, tick);
+  const auto cells = [ticks](df::Fixed velocity, df::Fixed acceleration) {
+    const double n = ticks;
+    const double most = n * std::abs(df::toCells(velocity)) + n * n * std::abs(df::toCells(acceleration));
+    return static_cast<std::int64_t>(std::min(most, 1e9)) + 1;
+  };
+  const std::int64_t x = df::cellOf(motion.position.x);
+  const std::int64_t y = df::cellOf(motion.position.y);
+  const std::int64_t dx = cells(motion.velocity.x, motion.acceleration.x);
+  const std::int64_t dy = cells(motion.velocity.y, motion.acceleration.y);
+  const bool straight = motion.acceleration == df::FixedVector{};
+  const CellRect sweep{x - (straight && motion.velocity.x >= 0 ? 0 : dx),
+                       y - (straight && motion.velocity.y >= 0 ? 0 : dy),
+                       x + 1 + (straight && motion.velocity.x <= 0 ? 0 : dx),
+                       y + 1 + (straight && motion.velocity.y <= 0 ? 0 : dy)};
+  return sweep.grownBy(model.reach);
+}
+
+// Put the slot into the list, or take it out.
+void Publisher::list(std::vector<std::uint32_t>& slots, std::uint32_t slot, bool& is_in, bool should_be) {
+  if (is_in == should_be) return;
+  is_in = should_be;
+  if (should_be) return slots.push_back(slot);
+  *std::find(slots.begin(), slots.end(), slot) = slots.back();
+  slots.pop_back();
 }
 
 void Publisher::bury(df::ObjectKey key) {
@@ -204,14 +246,7 @@ void Publisher::file(std::uint32_t slot, Tracked& tracked) {
   Model& model = tracked.model;
   model.reach = model.alive ? reachOf(model.state.look) : 0;
   const bool wide = model.alive && (slot == kLooseSlot || model.reach > kWide);
-  if (wide != tracked.wide) {
-    tracked.wide = wide;
-    if (wide) {
-      m_wide.push_back(slot);
-    } else {
-      m_wide.erase(std::find(m_wide.begin(), m_wide.end(), slot));
-    }
-  }
+  list(m_wide, slot, tracked.wide, wide);
   if (slot == kLooseSlot) return;
   if (wide || !model.alive) return m_grid.remove(slot);
   m_reach = std::max(m_reach, model.reach);

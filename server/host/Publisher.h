@@ -37,7 +37,9 @@ class Publisher {
   struct Change {
     std::uint32_t slot = 0;
     std::uint8_t groups = 0;
+    CellRect sweep;  ///< sweepOf() for kSweep ticks, so that not every client has to find out
   };
+  static constexpr std::uint32_t kSweep = 16;
 
   /// Take in one tick of the world. `changes()` then lists what clients have to be told.
   void update(const df::WorldView& view);
@@ -56,13 +58,20 @@ class Publisher {
   }
   const WorldRecord& world() const { return m_world; }
   /// Call `visit(slot, model)` for every live model of which something may be drawn in `rect`, and for some
-  /// around it.
+  /// around it, but those well inside `inner` may be left out. Models that are wide or faster than a cell per
+  /// tick are visited wherever they are; some models twice.
   template <class Visit>
-  void forEachNear(const CellRect& rect, Visit visit) const {
-    m_grid.forEachNear(rect.grownBy(m_reach), [&](std::uint32_t slot) { visit(slot, m_models[slot].model); });
-    for (const std::uint32_t slot : m_wide)
-      visit(slot, slot == kLooseSlot ? m_loose.model : m_models[slot].model);
+  void forEachNear(const CellRect& rect, const CellRect& inner, Visit visit) const {
+    m_grid.forEachNear(rect.grownBy(m_reach), inner,
+                       [&](std::uint32_t slot) { visit(slot, m_models[slot].model); });
+    for (const std::vector<std::uint32_t>* slots : {&m_wide, &m_fast}) {
+      for (const std::uint32_t slot : *slots) {
+        visit(slot, slot == kLooseSlot ? m_loose.model : m_models[slot].model);
+      }
+    }
   }
+  /// The cells in which something of the model may be drawn from `tick` to `ticks` later, and some more.
+  static CellRect sweepOf(const Model& model, std::uint32_t tick, std::uint32_t ticks);
 
   /// The highest creation order published so far.
   std::uint64_t newestOrder() const { return m_newest_order; }
@@ -89,6 +98,7 @@ class Publisher {
     Motion path;            ///< where its present straight path began
     std::uint32_t run = 0;  ///< ticks that the path before lasted
     bool wide = false;      ///< in m_wide
+    bool fast = false;      ///< in m_fast
     bool shown = true;
     std::uint32_t drawn = 0;  ///< newest tick in which its draw() ran
     std::uint8_t changed = 0;
@@ -111,6 +121,8 @@ class Publisher {
   void file(std::uint32_t slot, Tracked& tracked);
   void meet(Model& model);
   bool isExact(const Tracked& tracked) const;
+  void finish(Change& change);
+  static void list(std::vector<std::uint32_t>& slots, std::uint32_t slot, bool& is_in, bool should_be);
 
   std::vector<Tracked> m_models;
   Tracked m_loose;
@@ -119,6 +131,7 @@ class Publisher {
       m_appearances;  ///< by sum: the tick they were last taken on
   InterestGrid m_grid;
   std::vector<std::uint32_t> m_wide;   ///< models that reach farther than kWide, and the loose one
+  std::vector<std::uint32_t> m_fast;   ///< models that move by more than a cell per tick, or are accelerated
   std::int32_t m_reach = 0;            ///< of the others, the farthest so far
   std::vector<df::ObjectKey> m_exact;  ///< followed by a player: their views and predictions need them exact
   bool m_exact_solids = false;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "ViewFollow.h"
 
@@ -14,22 +16,10 @@ bool sameCell(df::FixedVector a, df::FixedVector b) {
   return df::cellOf(a.x) == df::cellOf(b.x) && df::cellOf(a.y) == df::cellOf(b.y);
 }
 
-CellPosition cellAt(const Motion& motion, std::uint32_t tick) {
-  return glyphCell(positionAt(motion, tick), Glyph{});
-}
-
-bool meets(const CellRect& rect, CellPosition a, CellPosition b) {
-  return std::max(a.x, b.x) >= rect.left && std::min(a.x, b.x) < rect.right &&
-         std::max(a.y, b.y) >= rect.top && std::min(a.y, b.y) < rect.bottom;
-}
-
-/// An object that left the view is forgotten only this many cells outside, lest it come and go at the edge.
-constexpr std::int64_t kHysteresis = 2;
 /// Weight of the newest snapshot in the loss.
 constexpr double kLossWeight = 1.0 / 64;
 /// With less loss than this nothing is repeated ahead.
 constexpr double kAheadLoss = 0.003;
-constexpr std::size_t kMaxMoments = 128;
 /// What a snapshot of one record takes beside it, at most.
 constexpr std::size_t kMostOverheadBits = 256;
 /// Cells by which an origin's window exceeds the view, at least.
@@ -63,80 +53,54 @@ CellRect SnapshotSender::windowOf(const Publisher& publisher) const {
   return window;
 }
 
-bool SnapshotSender::isVisible(const Publisher::Model& model, std::uint32_t tick,
-                               const CellRect& window) const {
-  if (model.reach > Publisher::kWide) return true;
-  const Motion& motion = model.state.motion;
-  return meets(window.grownBy(model.reach), cellAt(motion, tick), cellAt(motion, tick + m_look_ahead));
-}
-
 void SnapshotSender::note(const Publisher& publisher, const df::PlayerFacts& player) {
   m_tick = publisher.tick();
-  m_player = player;
+  notePlayer(player);
   if (!m_began) m_last_tick = m_tick - kKeepAlive;
   m_began = true;
-  const CellRect window = windowOf(publisher);
-  noteChanges(publisher);
-  noteLeaving(publisher, window);
-  noteEntering(publisher, window);
-  noteTexts();
-  noteTable();
-  Single& world = m_singles[kWorld];
-  if (m_world != publisher.world() || (world.sent == 0 && !world.owed)) {
+  m_interest.update(
+      publisher,
+      {windowOf(publisher), {m_player.followed, m_player.steering.object}, m_look_ahead, m_player.id},
+      m_known);
+  if (m_world != publisher.world() || (m_singles[kWorld].sent == 0 && !isOwed(kWorld))) {
     m_world = publisher.world();
-    world.owed = true;
+    owe(kWorld);
   }
   chooseOrigin(publisher);
 }
 
-void SnapshotSender::noteChanges(const Publisher& publisher) {
-  for (const Publisher::Change& change : publisher.changes()) {
-    const std::uint32_t id = m_known.find(change.slot);
-    if (id == KnownObjects::kNobody) continue;
-    const Publisher::Model* model = publisher.find(change.slot);
-    if (model == nullptr || model->generation != m_known.at(id).generation) {
-      m_known.forget(id, m_tick);
-    } else {
-      m_known.owe(id, change.groups, m_tick);
-    }
-  }
-}
-
-void SnapshotSender::noteLeaving(const Publisher& publisher, const CellRect& window) {
-  const CellRect outer = window.grownBy(kHysteresis);
-  m_leaving.clear();
-  m_known.forEachAlive([&](std::uint32_t id, const KnownObjects::Known& known) {
-    const Publisher::Model* model = publisher.find(known.slot);
-    if (!isVisible(*model, m_tick, outer) && !isOwn(known.slot, known.generation)) m_leaving.push_back(id);
-  });
-  for (const std::uint32_t id : m_leaving) m_known.forget(id, m_tick);
-}
-
-void SnapshotSender::noteEntering(const Publisher& publisher, const CellRect& window) {
-  const auto consider = [&](std::uint32_t slot, const Publisher::Model& model) {
-    if (m_known.find(slot) != KnownObjects::kNobody) return;
-    if (isVisible(model, m_tick, window) || isOwn(slot, model.generation)) {
-      m_known.learn(slot, model.generation, m_tick);
-    }
-  };
-  publisher.forEachNear(window, consider);
-  for (const df::ObjectKey own : {m_player.followed, m_player.steering.object}) {
-    const Publisher::Model* model = own.generation != 0 ? publisher.find(own.slot) : nullptr;
-    if (model != nullptr) consider(own.slot, *model);
-  }
-}
-
 // Whom the view follows and whom the player steers are of interest wherever they are.
-bool SnapshotSender::isOwn(std::uint32_t slot, std::uint32_t generation) const {
-  const df::ObjectKey key{slot, generation};
+bool SnapshotSender::isOwn(const KnownObjects::Known& known) const {
+  const df::ObjectKey key{known.slot, known.generation};
   return m_player.followed == key || m_player.steering.object == key;
 }
 
 // ---- what is no object ------------------------------------------------------------------------------------
 
-void SnapshotSender::noteTexts() {
+// Strings and tables are copied only when they change.
+void SnapshotSender::notePlayer(const df::PlayerFacts& player) {
+  m_player.id = player.id;
+  m_player.followed = player.followed;
+  m_player.view_corner = player.view_corner;
+  const df::SteeringFacts& steering = player.steering;
+  m_player.steering.object = steering.object;
+  m_player.steering.state = steering.state;
+  m_player.steering.position = steering.position;
+  m_player.steering.velocity = steering.velocity;
+  m_player.steering.acceleration = steering.acceleration;
+  if (steering.p_table != m_player.steering.p_table) {
+    m_player.steering.p_table = steering.p_table;
+    noteTable();
+  }
+  if (player.texts != m_player.texts) {
+    m_player.texts = player.texts;
+    noteTexts(player.texts);
+  }
+}
+
+void SnapshotSender::noteTexts(const std::vector<df::PlayerText>& now) {
   std::array<df::PlayerText, kMaxTexts> texts;
-  for (const df::PlayerText& text : m_player.texts) {
+  for (const df::PlayerText& text : now) {
     if (text.id < kMaxTexts) texts[text.id] = text;
   }
   for (std::uint32_t i = 0; i < kMaxTexts; ++i) {
@@ -144,28 +108,27 @@ void SnapshotSender::noteTexts() {
     const bool silent = texts[i].text.empty() && m_texts[i].text.empty();
     if (silent || texts[i] == m_texts[i]) continue;
     m_texts[i] = texts[i];
-    m_singles[kTexts + i].owed = true;
+    owe(kTexts + i);
   }
 }
 
 // One who never had controls need not be told of none.
 void SnapshotSender::noteTable() {
-  const std::shared_ptr<const df::ControlTable>& p_table = m_player.steering.p_table;
-  if (p_table == m_p_table) return;
-  m_p_table = p_table;
+  const df::ControlTable* p_table = m_player.steering.p_table.get();
   std::string bytes;
   writeControlTable(bytes, p_table != nullptr ? *p_table : df::ControlTable{});
   if (bytes == m_table) return;
   m_table = bytes;
-  m_singles[kTable].owed = true;
-  m_singles[kControl].owed = p_table != nullptr;
+  owe(kTable);
+  owe(kControl);
 }
 
 void SnapshotSender::noteInput(std::uint32_t id, std::uint32_t tick) {
   if (id == m_input) return;
   m_input = id;
   m_input_tick = tick;
-  m_singles[kInput] = {true, 0, false};
+  m_singles[kInput] = {};
+  owe(kInput);
 }
 
 // Count positions from a window around the view; once the client has confirmed it, snapshots name it.
@@ -193,7 +156,8 @@ void SnapshotSender::chooseOrigin(const Publisher& publisher) {
   origin.corner.x = corner.x - ((1 << origin.x_bits) - world.view_width) / 2;
   origin.corner.y = corner.y - ((1 << origin.y_bits) - world.view_height) / 2;
   origin.order = publisher.newestOrder();
-  m_singles[kOrigins + m_newest_origin - 1] = {true, 0, false};
+  m_singles[kOrigins + m_newest_origin - 1] = {};
+  owe(kOrigins + m_newest_origin - 1);
 }
 
 // The followed object's model, if the client was told of the object.
@@ -213,8 +177,7 @@ void SnapshotSender::checkView(const Publisher& publisher) {
     truth.id = id;
     truth.generation = KnownObjects::generationOf(m_known.at(id));
   }
-  Single& single = m_singles[kView];
-  bool right = single.sent != 0 && truth.follows == m_view.follows && truth.id == m_view.id &&
+  bool right = m_singles[kView].sent != 0 && truth.follows == m_view.follows && truth.id == m_view.id &&
                truth.generation == m_view.generation;
   if (right && motion != nullptr && motion->tick != publisher.tick()) {
     // A motion that is sent late gets a new base, and following it from there may lead elsewhere.
@@ -226,10 +189,10 @@ void SnapshotSender::checkView(const Publisher& publisher) {
                           m_world.boundary};
     right = sameCell(viewCornerAt(frame, m_view_tick, motion, publisher.tick()), truth.corner);
   }
-  if (right && !single.owed) return;
+  if (right && !isOwed(kView)) return;
   m_view = truth;
   m_view_tick = publisher.tick();
-  single.owed = true;
+  owe(kView);
 }
 
 ControlRecord SnapshotSender::controlNow() const {
@@ -251,28 +214,33 @@ ControlRecord SnapshotSender::controlNow() const {
 
 // What is steered is sent where the client could not have worked it out.
 void SnapshotSender::checkControl() {
-  Single& single = m_singles[kControl];
-  if (m_p_table == nullptr) {
-    single.owed = false;
+  const df::ControlTable* p_table = m_player.steering.p_table.get();
+  if (p_table == nullptr) {
+    m_owed_singles &= ~(1u << kControl);
     return;
   }
   m_control = controlNow();
-  single.owed = single.owed || !m_told_control.implies(m_control, *m_p_table);
+  if (!m_told_control.implies(m_control, *p_table)) owe(kControl);
+}
+
+void SnapshotSender::pay(std::size_t single) {
+  m_owed_singles &= ~(1u << single);
+  m_singles[single] = {m_next_number, false};
+  m_flight.newest().empty = false;
 }
 
 void SnapshotSender::writeSingles(const Publisher& publisher, std::size_t limit) {
-  for (std::size_t i = 0; i < kSingles; ++i) {
-    Single& single = m_singles[i];
-    if (!single.owed || i == kInput) continue;
+  for (std::uint32_t left = m_owed_singles & ~(1u << kInput); left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
     const std::size_t most = i == kTable ? 8 * m_table.size() + 16 : kMostSingleBits;
     if (!m_writer.hasRoom(most, 0, limit)) continue;
+    if (i == kWorld) m_writer.write(publisher.world());
+    if (i == kView) m_writer.write(m_view);
     if (i == kTable) m_writer.writeTable(m_table);
     if (i == kControl) {
       m_writer.write(m_control);
       m_told_control.tell(m_control);
     }
-    if (i == kWorld) m_writer.write(publisher.world());
-    if (i == kView) m_writer.write(m_view);
     if (i >= kOrigins && i < kTexts) {
       const auto slot = static_cast<std::uint32_t>(i - kOrigins + 1);
       m_writer.write(OriginRecord{slot, m_origins[slot]});
@@ -281,25 +249,19 @@ void SnapshotSender::writeSingles(const Publisher& publisher, std::size_t limit)
       const df::PlayerText& text = m_texts[i - kTexts];
       m_writer.write(TextRecord{text.id, text.x, text.y, text.color, text.text});
     }
-    single = {false, m_next_number, false};
-    m_flight.back().empty = false;
+    pay(i);
   }
 }
 
 // ---- building
 // ----------------------------------------------------------------------------------------------
 
-bool SnapshotSender::isOwing() const {
-  return !m_known.owing().empty() ||
-         std::any_of(m_singles.begin(), m_singles.end(), [](const Single& single) { return single.owed; });
-}
-
 // Deaths first, for they are short and hide ghosts; then what the player looks at, what is near and what has
 // waited long.
 double SnapshotSender::urgency(std::uint32_t id, const Publisher& publisher) const {
   const KnownObjects::Known& known = m_known.at(id);
   if (known.life == KnownObjects::Life::kDying) return 1e6;
-  if (isOwn(known.slot, known.generation)) return 1e5;
+  if (isOwn(known)) return 1e5;
   const df::FixedVector at = positionAt(publisher.find(known.slot)->state.motion, m_tick);
   const df::FixedVector focus{m_player.view_corner.x + df::fromCells(m_world.view_width) / 2,
                               m_player.view_corner.y + df::fromCells(m_world.view_height) / 2};
@@ -308,20 +270,39 @@ double SnapshotSender::urgency(std::uint32_t id, const Publisher& publisher) con
   return 8.0 * (m_tick - known.since) - std::sqrt(dx * dx + dy * dy);
 }
 
-std::vector<std::uint32_t> SnapshotSender::byUrgency(const Publisher& publisher) const {
-  std::vector<std::pair<double, std::uint32_t>> ranked;
-  ranked.reserve(m_known.owing().size());
+/// More than any record of the groups takes.
+std::size_t SnapshotSender::mostBits(std::uint32_t id, const Publisher& publisher) const {
+  constexpr std::size_t kLifeBits = 112;
+  constexpr std::size_t kMotionBits = 448;
+  constexpr std::size_t kBodyBits = 384;
+  constexpr std::size_t kLookBits = 64;
+  constexpr std::size_t kGlyphBits = 128;
+  const std::uint8_t groups = m_known.due(id);
+  std::size_t bits = kLifeBits;
+  if ((groups & kMotion) != 0) bits += kMotionBits;
+  if ((groups & kBody) != 0) bits += kBodyBits;
+  if ((groups & kLook) == 0) return bits;
+  const Look& look = publisher.find(m_known.at(id).slot)->state.look;
+  return bits + kLookBits + (look.sequence.empty() ? 0 : kGlyphBits * look.sequence.front().size());
+}
+
+// The order matters only where not all fit.
+void SnapshotSender::makeQueue(const Publisher& publisher, const Room& room) {
+  m_queue.clear();
+  std::size_t most =
+      kMostOverheadBits + static_cast<std::size_t>(std::popcount(m_owed_singles)) * kMostSingleBits;
   for (const std::uint32_t id : m_known.owing()) {
-    if (m_known.at(id).owed != 0) ranked.emplace_back(urgency(id, publisher), id);
+    m_queue.push_back(id);
+    if (most <= 8 * room.bytes) most += mostBits(id, publisher);
   }
+  if (most <= 8 * room.bytes) return std::sort(m_queue.begin(), m_queue.end(), std::greater<>());
+  m_ranked.clear();
+  for (const std::uint32_t id : m_queue) m_ranked.emplace_back(urgency(id, publisher), id);
   // Equal urgency: by id, so that a run is the same everywhere. The most urgent comes last, to be popped.
-  std::sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
+  std::sort(m_ranked.begin(), m_ranked.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second > b.second;
   });
-  std::vector<std::uint32_t> ids;
-  ids.reserve(ranked.size());
-  for (const auto& [rank, id] : ranked) ids.push_back(id);
-  return ids;
+  std::transform(m_ranked.begin(), m_ranked.end(), m_queue.begin(), [](const auto& r) { return r.second; });
 }
 
 std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publisher, Room room) {
@@ -331,15 +312,17 @@ std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publi
   checkView(publisher);
   checkControl();
   const bool due = static_cast<std::int32_t>(m_tick - m_last_tick) >= static_cast<std::int32_t>(kKeepAlive);
+  std::vector<Packet> packets;
+  m_throttled = isOwing();
+  if (!m_throttled && !due) return packets;
   // With the window full only the keep-alive goes out, lest what is still under way be taken for lost.
   const std::size_t window = m_flight.size() < kMaxInFlight ? kMaxInFlight - m_flight.size() : due ? 1 : 0;
   room.packets = std::min(room.packets, window);
+  if (room.packets > 0) makeQueue(publisher, room);
 
-  std::vector<Packet> packets;
-  std::vector<std::uint32_t> queue = byUrgency(publisher);
   bool more = true;
   while (packets.size() < room.packets && more && (isOwing() || (due && packets.empty()))) {
-    more = write(publisher, room, queue, packets.emplace_back());
+    more = write(publisher, room, packets.emplace_back());
     room.large = room.large && !packets.back().large;
     if (more || (due && packets.size() == 1)) continue;
     takeBack();
@@ -353,7 +336,7 @@ std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publi
 SnapshotHeader SnapshotSender::header() const {
   SnapshotHeader header{m_next_number, m_tick, m_epoch, false, false, 0, 0};
   const Single& input = m_singles[kInput];
-  if (input.owed || (input.sent != 0 && !input.arrived)) {
+  if (isOwed(kInput) || (input.sent != 0 && !input.arrived)) {
     header.tells_input = true;
     header.input = m_input;
     header.input_tick = m_input_tick;
@@ -362,44 +345,17 @@ SnapshotHeader SnapshotSender::header() const {
 }
 
 // Fill one snapshot. False if it took nothing that was owed, so that another one would not either.
-bool SnapshotSender::write(const Publisher& publisher, const Room& room, std::vector<std::uint32_t>& queue,
-                           Packet& packet) {
-  m_flight.push_back({m_next_number, false, true, false, {}, {}});
+bool SnapshotSender::write(const Publisher& publisher, const Room& room, Packet& packet) {
+  m_flight.add(m_next_number);
   const SnapshotHeader head = header();
   m_writer.begin(head, m_origin, m_origins[m_origin]);
   if (head.tells_input) {
-    m_flight.back().empty = !m_singles[kInput].owed;
-    m_singles[kInput] = {false, m_next_number, false};
+    const bool owed = isOwed(kInput);
+    pay(kInput);
+    m_flight.newest().empty = !owed;
   }
   writeSingles(publisher, room.bytes);
-  const auto last_id = static_cast<std::uint32_t>(m_known.idCount());
-  std::vector<std::uint32_t> later;
-  while (!queue.empty()) {
-    const std::uint32_t id = queue.back();
-    if (m_known.at(id).owed == 0) {  // paid by a packet before
-      queue.pop_back();
-      continue;
-    }
-    Written written = encode(id, publisher);
-    const std::size_t bits = written.bits.bitCount();
-    if (!m_writer.hasRoom(bits, last_id, room.bytes)) {
-      if (!isTooLarge(bits, room.bytes)) break;
-      queue.pop_back();
-      // Alone in a snapshot of its own, on the stream.
-      if (!room.large || !m_writer.isEmpty()) {
-        later.push_back(id);
-        if (room.large) break;
-        continue;
-      }
-      packet.large = m_flight.back().large = true;
-    } else {
-      queue.pop_back();
-    }
-    pay(id, publisher, std::move(written));
-    if (packet.large) break;
-  }
-  queue.insert(queue.end(), later.rbegin(), later.rend());
-  m_known.sweepOwing();
+  writeObjects(publisher, room, packet);
   const bool complete = !isOwing();
   if (complete && m_repairing) {
     m_clean_from = m_next_number;
@@ -407,30 +363,66 @@ bool SnapshotSender::write(const Publisher& publisher, const Room& room, std::ve
   }
   m_writer.setComplete(complete);
   finish(packet);
-  const bool took = !m_flight.back().empty;
+  const bool took = !m_flight.newest().empty;
   forgetOldest();
   return took;
+}
+
+void SnapshotSender::writeObjects(const Publisher& publisher, const Room& room, Packet& packet) {
+  const auto last_id = static_cast<std::uint32_t>(m_known.idCount());
+  m_later.clear();
+  while (!m_queue.empty() && !packet.large) {
+    const std::uint32_t id = m_queue.back();
+    const KnownObjects::Known& known = m_known.at(id);
+    if (known.owed == 0) {  // paid by a packet before
+      m_queue.pop_back();
+      continue;
+    }
+    const bool dying = known.life == KnownObjects::Life::kDying;
+    const Publisher::Model* model = dying ? nullptr : publisher.find(known.slot);
+    LookForm form;
+    const std::size_t bits = encode(id, model, form);
+    if (!m_writer.hasRoom(bits, last_id, room.bytes)) {
+      const bool alone = isTooLarge(bits, room.bytes) && room.large && m_writer.isEmpty();
+      if (!alone) m_writer.drop();
+      if (!isTooLarge(bits, room.bytes)) break;
+      m_queue.pop_back();
+      if (!alone) {  // in a snapshot of its own, on the stream
+        m_later.push_back(id);
+        if (room.large) break;
+        continue;
+      }
+      packet.large = m_flight.newest().large = true;
+    } else {
+      m_queue.pop_back();
+    }
+    pay(id, model, form);
+  }
+  m_queue.insert(m_queue.end(), m_later.rbegin(), m_later.rend());
+  m_known.sweepOwing();
 }
 
 void SnapshotSender::finish(Packet& packet) {
   packet.number = m_next_number;
   packet.tick = m_tick;
   packet.bytes = m_writer.finish();
-  m_moments.push_back({m_next_number, m_known.checksum(), Moment::kUnknown});
-  if (m_moments.size() > kMaxMoments) m_moments.pop_front();
+  momentOf(m_next_number) = {m_next_number, m_known.checksum(), Moment::kUnknown};
   if (++m_next_number == 0) m_next_number = 1;
 }
 
 void SnapshotSender::forgetOldest() {
   if (m_flight.size() <= kMaxInFlight) return;
-  const InFlight oldest = std::move(m_flight.front());
-  m_flight.pop_front();
-  lost(oldest);
+  bool oldest = true;
+  m_flight.removeIf([&](const Flight::Snapshot& snapshot) {
+    if (!std::exchange(oldest, false)) return false;
+    lost(snapshot);
+    return true;
+  });
 }
 
 SnapshotSender::Packet SnapshotSender::probe(const Publisher& publisher) {
   m_tick = publisher.tick();
-  m_flight.push_back({m_next_number, false, true, true, {}, {}});
+  m_flight.add(m_next_number).probe = true;
   m_writer.begin({m_next_number, m_tick, m_epoch, !isOwing(), false, 0, 0}, m_origin, m_origins[m_origin]);
   Packet packet;
   finish(packet);
@@ -440,9 +432,9 @@ SnapshotSender::Packet SnapshotSender::probe(const Publisher& publisher) {
 
 // The snapshot just written says nothing: it never was.
 void SnapshotSender::takeBack() {
-  m_next_number = m_flight.back().number;
-  m_flight.pop_back();
-  m_moments.pop_back();
+  m_next_number = m_flight.newest().number;
+  m_flight.removeNewest();
+  momentOf(m_next_number) = {};
 }
 
 // Would it exceed the limit even alone?
@@ -450,37 +442,32 @@ bool SnapshotSender::isTooLarge(std::size_t bits, std::size_t bytes) {
   return bits + kMostOverheadBits > 8 * bytes;
 }
 
-SnapshotSender::Written SnapshotSender::encode(std::uint32_t id, const Publisher& publisher) {
-  const KnownObjects::Known& known = m_known.at(id);
+// Stage the record of what is due; no model: a death. Its length in bits.
+std::size_t SnapshotSender::encode(std::uint32_t id, const Publisher::Model* model, LookForm& form) {
+  static const ObjectState kNothing;
+  if (model == nullptr) return m_writer.stage(kDeath, 0, kNothing, {});
   const std::uint8_t groups = m_known.due(id);
-  Written written;
-  if (groups == kDeath) {
-    m_writer.encode(written.bits, groups, 0, {}, {});
-    return written;
+  if ((groups & kLook) != 0 && model->recurs) {
+    form = m_names.formOf(model->look_sum, model->state.look.sequence.front().size(), m_next_number);
   }
-  const Publisher::Model& model = *publisher.find(known.slot);
-  if ((groups & kLook) != 0 && model.recurs) {
-    written.form = m_names.formOf(model.look_sum, model.state.look.sequence.front().size(), m_next_number);
-  }
-  m_writer.encode(written.bits, groups, KnownObjects::generationOf(known), model.state,
-                  rebase(model.state.motion, m_tick), written.form);
-  return written;
+  const Motion motion = (groups & kMotion) != 0 ? rebase(model->state.motion, m_tick) : Motion{};
+  return m_writer.stage(groups, KnownObjects::generationOf(m_known.at(id)), model->state, motion, form);
 }
 
-void SnapshotSender::pay(std::uint32_t id, const Publisher& publisher, Written written) {
-  const Publisher::Model* model = publisher.find(m_known.at(id).slot);
-  InFlight& flight = m_flight.back();
-  flight.empty = false;
-  const std::uint8_t groups = m_known.due(id);
-  if (written.form.kind != LookForm::kSpelled) {
-    m_names.wrote(model->look_sum, m_next_number);
-    if (written.form.kind == LookForm::kDefined) flight.names.emplace_back(written.form.id, model->look_sum);
-  }
+// What is staged goes into the snapshot.
+void SnapshotSender::pay(std::uint32_t id, const Publisher::Model* model, LookForm form) {
   static const ObjectState kNothing;
-  flight.objects.push_back(m_known.paid(id, m_next_number, groups == kDeath ? kNothing : model->state));
-  m_writer.object(id, std::move(written.bits));
+  Flight::Snapshot& flight = m_flight.newest();
+  flight.empty = false;
+  if (form.kind != LookForm::kSpelled) {
+    m_names.wrote(model->look_sum, m_next_number);
+    if (form.kind == LookForm::kDefined) flight.names.emplace_back(form.id, model->look_sum);
+  }
+  flight.objects.push_back(m_known.paid(id, m_next_number, model == nullptr ? kNothing : model->state));
+  m_writer.keep(id);
+  if (m_resend != Resend::kAhead || m_loss <= kAheadLoss) return;
   const bool again = std::find(m_repeated.begin(), m_repeated.end(), id) != m_repeated.end();
-  if (m_resend == Resend::kAhead && m_loss > kAheadLoss && !again) m_ahead.push_back(flight.objects.back());
+  if (!again) m_ahead.push_back(flight.objects.back());
 }
 
 // Once more, although nobody knows yet whether the first time was enough.
@@ -501,28 +488,26 @@ void SnapshotSender::repeatAhead() {
 void SnapshotSender::acknowledge(const AckWindow& acks) {
   // A number that was never sent is a lie; believing it would drop debts that are still open.
   if (isNewer(acks.newest, m_next_number - 1)) return;
-  for (auto it = m_flight.begin(); it != m_flight.end();) {
-    const std::int32_t behind = static_cast<std::int32_t>(acks.newest - it->number);
-    const bool has = acks.has(it->number);
+  m_flight.removeIf([&](const Flight::Snapshot& snapshot) {
+    const std::int32_t behind = static_cast<std::int32_t>(acks.newest - snapshot.number);
+    const bool has = acks.has(snapshot.number);
     // The stream loses nothing, but it may be late.
-    if (!has && (behind < kReorder || (it->large && behind < static_cast<std::int32_t>(kMaxInFlight)))) {
-      ++it;
-      continue;
+    if (!has && (behind < kReorder || (snapshot.large && behind < static_cast<std::int32_t>(kMaxInFlight)))) {
+      return false;
     }
-    const InFlight snapshot = std::move(*it);
-    it = m_flight.erase(it);
     has ? arrived(snapshot) : lost(snapshot);
     if (!snapshot.probe) noteLoss(!has);
-  }
+    return true;
+  });
 }
 
 void SnapshotSender::noteLoss(bool was_lost) {
   m_loss += ((was_lost ? 1.0 : 0.0) - m_loss) * kLossWeight;
 }
 
-void SnapshotSender::arrived(const InFlight& snapshot) {
+void SnapshotSender::arrived(const Flight::Snapshot& snapshot) {
   for (std::size_t i = 0; i < kSingles; ++i) {
-    if (m_singles[i].sent != snapshot.number || m_singles[i].owed) continue;
+    if (m_singles[i].sent != snapshot.number || isOwed(i)) continue;
     m_singles[i].arrived = true;
     if (i >= kOrigins && i < kTexts && i - kOrigins + 1 == m_newest_origin) m_origin = m_newest_origin;
   }
@@ -530,11 +515,12 @@ void SnapshotSender::arrived(const InFlight& snapshot) {
   for (const auto& [id, sum] : snapshot.names) m_names.arrived(id, sum);
 }
 
-void SnapshotSender::lost(const InFlight& snapshot) {
+void SnapshotSender::lost(const Flight::Snapshot& snapshot) {
   bool missing = false;
-  for (Single& single : m_singles) {
-    if (single.sent != snapshot.number || single.owed) continue;
-    single.owed = missing = true;
+  for (std::size_t i = 0; i < kSingles; ++i) {
+    if (m_singles[i].sent != snapshot.number || isOwed(i)) continue;
+    owe(i);
+    missing = true;
   }
   for (const KnownObjects::Sent& sent : snapshot.objects) {
     if (!m_known.lost(sent, snapshot.number, m_tick)) continue;
@@ -544,27 +530,22 @@ void SnapshotSender::lost(const InFlight& snapshot) {
   m_repairing = m_repairing || missing;
   // Where nothing is missing, newer snapshots have said what this one said.
   if (!snapshot.empty && isNewer(newestNumber(), m_clean_from)) m_clean_from = newestNumber();
-  for (Moment& moment : m_moments) {
-    if (moment.number == snapshot.number)
-      moment.fate = snapshot.empty ? Moment::kNotMissed : Moment::kRepaired;
-  }
+  Moment& moment = momentOf(snapshot.number);
+  if (moment.number == snapshot.number) moment.fate = snapshot.empty ? Moment::kNotMissed : Moment::kRepaired;
 }
 
 void SnapshotSender::loseLarge() {
-  for (auto it = m_flight.begin(); it != m_flight.end();) {
-    if (!it->large) {
-      ++it;
-      continue;
-    }
-    const InFlight snapshot = std::move(*it);
-    it = m_flight.erase(it);
-    lost(snapshot);
-  }
+  m_flight.removeIf([this](const Flight::Snapshot& snapshot) {
+    if (snapshot.large) lost(snapshot);
+    return snapshot.large;
+  });
 }
 
 bool SnapshotSender::isSettled() const {
-  return !isOwing() && std::all_of(m_flight.begin(), m_flight.end(),
-                                   [](const InFlight& snapshot) { return snapshot.empty; });
+  for (std::size_t i = 0; i < m_flight.size(); ++i) {
+    if (!m_flight.at(i).empty) return false;
+  }
+  return !isOwing();
 }
 
 std::optional<bool> SnapshotSender::isRight(const AckWindow& acks, std::uint64_t checksum) const {
@@ -575,8 +556,8 @@ std::optional<bool> SnapshotSender::isRight(const AckWindow& acks, std::uint64_t
   const Moment* then = nullptr;
   for (const Moment& moment : m_moments) {
     const std::uint32_t behind = number - moment.number;
-    if (behind == 0) then = &moment;
-    if (behind == 0 || behind > kMaxInFlight || acks.has(moment.number)) continue;
+    if (behind == 0 && moment.number != 0) then = &moment;
+    if (moment.number == 0 || behind == 0 || behind > kMaxInFlight || acks.has(moment.number)) continue;
     if (moment.fate == Moment::kNotMissed) continue;
     if (moment.fate != Moment::kRepaired || !isNewer(m_clean_from, moment.number)) return std::nullopt;
   }

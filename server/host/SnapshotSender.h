@@ -7,15 +7,16 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
-#include <deque>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "Acks.h"
 #include "AppearanceNames.h"
+#include "Flight.h"
+#include "Interest.h"
 #include "KnownObjects.h"
 #include "Publisher.h"
 #include "SnapshotCodec.h"
@@ -97,17 +98,8 @@ class SnapshotSender {
  private:
   /// Anything that is not an object: owed or sent as a whole.
   struct Single {
-    bool owed = false;
     std::uint32_t sent = 0;
     bool arrived = false;  ///< of the newest sending
-  };
-  struct InFlight {
-    std::uint32_t number = 0;
-    bool large = false;
-    bool empty = true;
-    bool probe = false;
-    std::vector<KnownObjects::Sent> objects;
-    std::vector<std::pair<std::uint32_t, std::uint64_t>> names;  ///< ids of appearances defined, their sums
   };
   /// The client's state after a snapshot, for isRight().
   struct Moment {
@@ -130,23 +122,20 @@ class SnapshotSender {
     kSingles = kTexts + kMaxTexts
   };
 
-  /// An encoded record, and how its look was written.
-  struct Written {
-    BitWriter bits;
-    LookForm form;
-  };
+  static_assert(kSingles <= 32);
+
+  static constexpr std::size_t kMaxMoments = 128;
   /// No single takes more: a text of kMaxViewWidth characters.
   static constexpr std::size_t kMostSingleBits = 15 * kMaxViewWidth + 64;
 
   SnapshotSender(Resend resend, std::uint32_t look_ahead, std::uint8_t epoch)
       : m_resend(resend), m_epoch(epoch), m_look_ahead(look_ahead) {}
+  bool isOwed(std::size_t single) const { return (m_owed_singles >> single & 1) != 0; }
+  void owe(std::size_t single) { m_owed_singles |= 1u << single; }
+  void notePlayer(const df::PlayerFacts& player);
   CellRect windowOf(const Publisher& publisher) const;
-  bool isVisible(const Publisher::Model& model, std::uint32_t tick, const CellRect& window) const;
-  bool isOwn(std::uint32_t slot, std::uint32_t generation) const;
-  void noteChanges(const Publisher& publisher);
-  void noteEntering(const Publisher& publisher, const CellRect& window);
-  void noteLeaving(const Publisher& publisher, const CellRect& window);
-  void noteTexts();
+  bool isOwn(const KnownObjects::Known& known) const;
+  void noteTexts(const std::vector<df::PlayerText>& now);
   void noteTable();
   void chooseOrigin(const Publisher& publisher);
   const Motion* followedMotion(const Publisher& publisher) const;
@@ -154,28 +143,33 @@ class SnapshotSender {
   ControlRecord controlNow() const;
   void checkControl();
   void writeSingles(const Publisher& publisher, std::size_t limit);
-  bool isOwing() const;
+  void pay(std::size_t single);
+  bool isOwing() const { return m_owed_singles != 0 || !m_known.owing().empty(); }
   double urgency(std::uint32_t id, const Publisher& publisher) const;
-  std::vector<std::uint32_t> byUrgency(const Publisher& publisher) const;
+  std::size_t mostBits(std::uint32_t id, const Publisher& publisher) const;
+  void makeQueue(const Publisher& publisher, const Room& room);
   SnapshotHeader header() const;
-  bool write(const Publisher& publisher, const Room& room, std::vector<std::uint32_t>& queue, Packet& packet);
+  bool write(const Publisher& publisher, const Room& room, Packet& packet);
+  void writeObjects(const Publisher& publisher, const Room& room, Packet& packet);
   void finish(Packet& packet);
   void forgetOldest();
   void takeBack();
   static bool isTooLarge(std::size_t bits, std::size_t bytes);
-  Written encode(std::uint32_t id, const Publisher& publisher);
-  void pay(std::uint32_t id, const Publisher& publisher, Written written);
+  std::size_t encode(std::uint32_t id, const Publisher::Model* model, LookForm& form);
+  void pay(std::uint32_t id, const Publisher::Model* model, LookForm form);
   void repeatAhead();
-  void arrived(const InFlight& snapshot);
-  void lost(const InFlight& snapshot);
+  void arrived(const Flight::Snapshot& snapshot);
+  void lost(const Flight::Snapshot& snapshot);
+  Moment& momentOf(std::uint32_t number) { return m_moments[number % kMaxMoments]; }
   void noteLoss(bool was_lost);
 
   Resend m_resend;
   KnownObjects m_known;
   AppearanceNames m_names;
   SnapshotWriter m_writer;
-  std::deque<InFlight> m_flight;
-  std::deque<Moment> m_moments;
+  Flight m_flight;
+  std::array<Moment, kMaxMoments> m_moments;  ///< by number, modulo their number
+  Interest m_interest;
   std::uint32_t m_next_number = 1;
   std::uint32_t m_last_tick = 0;  ///< of the last snapshot built
   std::uint32_t m_tick = 0;
@@ -188,9 +182,12 @@ class SnapshotSender {
   double m_loss = 0;
   std::vector<KnownObjects::Sent> m_ahead;  ///< to be repeated in the next tick
   std::vector<std::uint32_t> m_repeated;    ///< ids that this tick repeats
-  std::vector<std::uint32_t> m_leaving;     ///< kept for its memory
+  std::vector<std::uint32_t> m_queue;       ///< ids to be written, the most urgent last
+  std::vector<std::uint32_t> m_later;       ///< these two kept for their memory
+  std::vector<std::pair<double, std::uint32_t>> m_ranked;
 
   std::array<Single, kSingles> m_singles;
+  std::uint32_t m_owed_singles = 0;  ///< a bit each
   WorldRecord m_world;
   ViewRecord m_view;              ///< as last sent
   std::uint32_t m_view_tick = 0;  ///< the tick at which m_view holds
@@ -201,7 +198,6 @@ class SnapshotSender {
   std::uint32_t m_input_tick = 0;
   df::PlayerFacts m_player;
   std::array<df::PlayerText, kMaxTexts> m_texts;
-  std::shared_ptr<const df::ControlTable> m_p_table;
   std::string m_table;      ///< the player's controls as last told, encoded; empty: none
   ControlRecord m_control;  ///< to be told, if owed
   ToldControl m_told_control;

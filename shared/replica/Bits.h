@@ -59,6 +59,14 @@ class BitWriter {
     bits(other.word(from) & ((std::uint64_t{1} << count) - 1), static_cast<int>(count));
   }
 
+  /// Forget all but the first `count` bits.
+  void truncate(std::size_t count) {
+    assert(count <= bitCount());
+    m_pending_count = static_cast<int>(count % 64);
+    m_pending = wordAt(count / 64) & ((std::uint64_t{1} << m_pending_count) - 1);
+    m_words.resize(count / 64);
+  }
+
   std::size_t bitCount() const { return m_words.size() * 64 + static_cast<std::size_t>(m_pending_count); }
   std::size_t byteCount() const { return (bitCount() + 7) / 8; }
   void clear() {

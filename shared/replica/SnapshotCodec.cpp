@@ -291,6 +291,7 @@ void SnapshotWriter::begin(const SnapshotHeader& header, std::uint32_t slot, con
   m_origin_count = m_text_count = 0;
   m_objects.clear();
   m_encoded.clear();
+  m_kept = 0;
   m_bits = kHeaderBits;
 }
 
@@ -383,10 +384,21 @@ void SnapshotWriter::encode(BitWriter& out, std::uint8_t groups, std::uint8_t ge
 }
 
 void SnapshotWriter::object(std::uint32_t id, const BitWriter& bits) {
-  const std::size_t from = m_encoded.bitCount();
   m_encoded.append(bits);
-  m_objects.push_back({id, from, bits.bitCount()});
-  m_bits += bits.bitCount();
+  keep(id);
+}
+
+std::size_t SnapshotWriter::stage(std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
+                                  const Motion& motion, LookForm form) {
+  encode(m_encoded, groups, generation, state, motion, form);
+  return m_encoded.bitCount() - m_kept;
+}
+
+void SnapshotWriter::keep(std::uint32_t id) {
+  const std::size_t bits = m_encoded.bitCount() - m_kept;
+  m_objects.push_back({id, m_kept, bits});
+  m_kept += bits;
+  m_bits += bits;
 }
 
 // n ids up to M in exp-Golomb codes of order k, which is about log2(M/n): k + 1 bits each, and two more for

@@ -73,6 +73,13 @@ class SnapshotWriter {
               const Motion& motion, LookForm form = {}) const;
   /// Add an encoded record. Each id at most once.
   void object(std::uint32_t id, const BitWriter& bits);
+
+  /// The same without a copy: encode a record to see how many bits it takes, then keep() or drop() it.
+  std::size_t stage(std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
+                    const Motion& motion, LookForm form = {});
+  void keep(std::uint32_t id);
+  void drop() { m_encoded.truncate(m_kept); }
+
   /// Would the snapshot stay within `bytes` with `more` bits for one more object, whatever its id up to
   /// `last_id`?
   bool hasRoom(std::size_t more, std::uint32_t last_id, std::size_t bytes) const;
@@ -100,8 +107,9 @@ class SnapshotWriter {
   BitWriter m_origins;
   BitWriter m_texts;
   BitWriter m_control;
-  BitWriter m_encoded;  ///< the objects, in the order they came
-  BitWriter m_out;      ///< kept for its memory
+  BitWriter m_encoded;     ///< the objects, in the order they came
+  std::size_t m_kept = 0;  ///< bits of m_encoded; more are staged
+  BitWriter m_out;         ///< kept for its memory
   unsigned m_origin_count = 0;
   unsigned m_text_count = 0;
   std::vector<Object> m_objects;

@@ -1,0 +1,179 @@
+#include "Interest.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace naiad {
+
+namespace {
+
+/// Longer than this nobody stays without being looked at.
+constexpr std::uint32_t kLongest = 1u << 20;
+
+bool isDue(std::uint32_t due, std::uint32_t tick) {
+  return static_cast<std::int32_t>(due - tick) <= 0;
+}
+
+bool meets(const CellRect& a, const CellRect& b) {
+  return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+}
+
+bool isInside(const CellRect& inner, const CellRect& outer) {
+  return inner.left >= outer.left && inner.right <= outer.right && inner.top >= outer.top &&
+         inner.bottom <= outer.bottom;
+}
+
+bool isSame(const CellRect& a, const CellRect& b) {
+  return isInside(a, b) && isInside(b, a);
+}
+
+CellRect shared(const CellRect& a, const CellRect& b) {
+  return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
+          std::min(a.bottom, b.bottom)};
+}
+
+CellPosition cellAt(const Motion& motion, std::uint32_t tick) {
+  const df::FixedVector at = positionAt(motion, tick);
+  return {df::cellOf(at.x), df::cellOf(at.y)};
+}
+
+/// Ticks that a coordinate surely stays between two cells; 0 if it is not even there.
+std::uint32_t staysFor(df::Fixed position, df::Fixed velocity, std::int64_t low, std::int64_t high) {
+  const std::int64_t cell = df::cellOf(position);
+  if (cell < low || cell >= high) return 0;
+  if (velocity == 0) return kLongest;
+  const std::int64_t cells = velocity > 0 ? high - 1 - cell : cell - low;
+  // A cell further than it has to be to leave the last one, and the half that cells are shifted by.
+  if (cells <= 1 || velocity < -df::fromCells(1 << 20) || velocity > df::fromCells(1 << 20)) return 0;
+  const std::uint64_t ticks = (static_cast<std::uint64_t>(cells - 1) << df::kFixedBits) /
+                              static_cast<std::uint64_t>(std::abs(velocity));
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(ticks, kLongest));
+}
+
+}  // namespace
+
+bool Interest::isVisible(const Publisher::Model& model, std::uint32_t tick, std::uint32_t look_ahead,
+                         const CellRect& window) {
+  if (model.reach > Publisher::kWide) return true;
+  const CellRect rect = window.grownBy(model.reach);
+  const CellPosition now = cellAt(model.state.motion, tick);
+  if (rect.contains(now)) return true;
+  if (!isMoving(model.state.motion)) return false;
+  const CellPosition then = cellAt(model.state.motion, tick + look_ahead);
+  return meets(rect, {std::min(now.x, then.x), std::min(now.y, then.y),
+                      std::int64_t{std::max(now.x, then.x)} + 1, std::int64_t{std::max(now.y, then.y)} + 1});
+}
+
+void Interest::update(const Publisher& publisher, const Focus& focus, KnownObjects& known) {
+  m_p_publisher = &publisher;
+  m_p_known = &known;
+  m_tick = publisher.tick();
+  m_focus = focus;
+  noteChanges();
+  judgeCandidates();
+  if (isSearchDue()) search();
+  for (const df::ObjectKey own : focus.own) {
+    const Publisher::Model* model = own.generation != 0 ? publisher.find(own.slot) : nullptr;
+    if (model == nullptr || model->generation != own.generation) continue;
+    if (known.find(own.slot) == KnownObjects::kNobody) learn(own.slot, own.generation);
+  }
+  m_seen = focus.window;
+}
+
+void Interest::learn(std::uint32_t slot, std::uint32_t generation) {
+  const std::uint32_t id = m_p_known->learn(slot, generation, m_tick);
+  if (id == KnownObjects::kNobody) return;
+  if (id >= m_stays.size()) m_stays.resize(std::size_t{id} + 1);
+  m_stays[id] = m_tick;
+}
+
+void Interest::noteChanges() {
+  // The publisher looks so far ahead for all clients at once.
+  const bool sweeps_suffice = kGap + m_focus.look_ahead <= Publisher::kSweep;
+  for (const Publisher::Change& change : m_p_publisher->changes()) {
+    const std::uint32_t id = m_p_known->find(change.slot);
+    if (id == KnownObjects::kNobody) {
+      if (change.groups == 0 || (sweeps_suffice && !meets(change.sweep, m_covered))) continue;
+      consider(change.slot, *m_p_publisher->find(change.slot));
+      continue;
+    }
+    const Publisher::Model* model = m_p_publisher->find(change.slot);
+    if (model != nullptr && model->generation == m_p_known->at(id).generation) {
+      m_p_known->owe(id, change.groups, m_tick);
+      if ((change.groups & (kMotion | kLook)) != 0) m_stays[id] = m_tick;
+      continue;
+    }
+    m_p_known->forget(id, m_tick);
+    if (model != nullptr) consider(change.slot, *model);
+  }
+}
+
+// Learn of the object if it can be seen, watch it if that may come.
+void Interest::consider(std::uint32_t slot, const Publisher::Model& model) {
+  if (isVisible(model, m_tick, m_focus.look_ahead, m_focus.window)) {
+    if (m_p_known->find(slot) == KnownObjects::kNobody) learn(slot, model.generation);
+    return;
+  }
+  const CellRect sweep = Publisher::sweepOf(model, m_tick, kGap + m_focus.look_ahead);
+  if (meets(sweep, m_covered)) m_candidates.push_back(slot);
+}
+
+void Interest::judgeCandidates() {
+  std::erase_if(m_candidates, [this](std::uint32_t slot) {
+    const Publisher::Model* model = m_p_publisher->find(slot);
+    if (model == nullptr || m_p_known->find(slot) != KnownObjects::kNobody) return true;
+    if (!isVisible(*model, m_tick, m_focus.look_ahead, m_focus.window)) return false;
+    learn(slot, model->generation);
+    return true;
+  });
+}
+
+bool Interest::isSearchDue() const {
+  return !m_began || (m_tick + m_focus.stagger) % kGap == 0 || !isInside(m_focus.window, m_covered);
+}
+
+void Interest::search() {
+  const bool moved = m_began && !isSame(m_focus.window, m_searched);
+  const CellRect outer = m_focus.window.grownBy(kHysteresis);
+  if (moved || !m_began) std::fill(m_stays.begin(), m_stays.end(), m_tick);
+  m_began = true;
+  m_searched = m_focus.window;
+  m_covered = m_focus.window.grownBy(moved ? kSpare : 0);
+  forgetThoseOutside(outer);
+  m_candidates.clear();
+  // Slow ones come no farther than a cell in each tick; the publisher knows the others.
+  const CellRect around = m_covered.grownBy(kGap + m_focus.look_ahead);
+  m_p_publisher->forEachNear(around, shared(m_seen, m_focus.window),
+                             [this](std::uint32_t slot, const Publisher::Model& model) {
+                               if (m_p_known->find(slot) == KnownObjects::kNobody) consider(slot, model);
+                             });
+}
+
+void Interest::forgetThoseOutside(const CellRect& outer) {
+  for (std::uint32_t id = 0; id < m_stays.size(); ++id) {
+    if (!isDue(m_stays[id], m_tick)) continue;
+    m_stays[id] = m_tick + kLongest;
+    const KnownObjects::Known& known = m_p_known->at(id);
+    if (known.life != KnownObjects::Life::kBorn && known.life != KnownObjects::Life::kAlive) continue;
+    const Publisher::Model& model = *m_p_publisher->find(known.slot);
+    const df::ObjectKey key{known.slot, known.generation};
+    const bool own = key == m_focus.own[0] || key == m_focus.own[1];
+    if (own || isVisible(model, m_tick, m_focus.look_ahead, outer)) {
+      m_stays[id] = m_tick + (own ? 0 : leavesAfter(model, outer));
+    } else {
+      m_p_known->forget(id, m_tick);
+    }
+  }
+}
+
+std::uint32_t Interest::leavesAfter(const Publisher::Model& model, const CellRect& outer) const {
+  if (model.reach > Publisher::kWide) return kLongest;
+  const Motion& motion = model.state.motion;
+  if (motion.acceleration != df::FixedVector{}) return 0;
+  const CellRect rect = outer.grownBy(model.reach);
+  const df::FixedVector at = positionAt(motion, m_tick);
+  return std::min(staysFor(at.x, motion.velocity.x, rect.left, rect.right),
+                  staysFor(at.y, motion.velocity.y, rect.top, rect.bottom));
+}
+
+}  // namespace naiad
