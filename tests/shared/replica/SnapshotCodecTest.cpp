@@ -354,5 +354,30 @@ TEST(SnapshotCodec, WhatHasRoomFits) {
   EXPECT_GT(filled / full, 0.6) << "the estimate leaves too much unused";
 }
 
+// Gaps of three times the code's step, and none for almost a third, are what costs most for the ids there
+// are.
+TEST(SnapshotCodec, EvenTheDearestIdsFitWhereThereIsRoom) {
+  for (int order = 1; order <= 15; ++order) {
+    for (const std::uint32_t count : {1u, 2u, 5u, 30u, 300u}) {
+      SnapshotWriter out;
+      SnapshotHeader head = header(0xFFFF, 1);
+      head.tells_input = true;
+      out.begin(head, 0, {});
+      std::uint32_t id = 0;
+      std::size_t bytes = 0;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if (i % 25 < 16) id += 3u << order;
+        if (id >= kMaxSlots) break;
+        BitWriter bits;
+        out.encode(bits, kDeath, 0, {}, {});
+        bytes = 1;
+        while (!out.hasRoom(bits.bitCount(), id, bytes)) ++bytes;
+        out.object(id++, std::move(bits));
+      }
+      ASSERT_LE(out.finish().size(), bytes) << count << " ids, order " << order;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace naiad
