@@ -13,8 +13,18 @@ SessionOptions named(const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+ServerTrust insecurely() {
+  ServerTrust trust;
+  trust.insecure = true;
+  return trust;
+}
+
+}  // namespace
+
 TestClient::TestClient(asio::io_context& context, std::uint16_t port, const std::string& name)
-    : m_connection(context, ServerAddress{"127.0.0.1", port}, named(name), false, ServerTrust{.insecure = true}) {
+    : m_connection(context, ServerAddress{"127.0.0.1", port}, named(name), false, insecurely()) {
   m_connection.onSession([this](ClientSession& session) {
     session.onBeforeSnapshot([this, &session](std::uint32_t tick) { record(session, tick); });
   });

@@ -11,7 +11,7 @@ namespace {
 
 std::multiset<std::uint32_t> near(const InterestGrid& grid, const CellRect& rect) {
   std::multiset<std::uint32_t> slots;
-  grid.forEachNear(rect, [&](std::uint32_t slot) { slots.insert(slot); });
+  grid.forEachNear(rect, CellRect{}, [&](std::uint32_t slot) { slots.insert(slot); });
   return slots;
 }
 

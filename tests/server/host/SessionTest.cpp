@@ -55,7 +55,8 @@ class SessionTest : public testing::Test {
                      s.welcome(welcome);
                    },
                    [this](Session&, const std::string& text) { chat.push_back(text); },
-                   [this](Session&) { ++gone; }});
+                   [this](Session&) { ++gone; },
+                   {}});
   }
 
   void hear(const wire::ClientMessage& message) { hearBytes(message.SerializeAsString()); }
