@@ -82,7 +82,7 @@ void ClientSession::openDatagrams(Time now) {
   if (socket == nullptr) return;
   m_datagrams =
       std::make_unique<SealedDatagrams>(std::move(socket), *server, ConnectionId{m_welcome.connection_id},
-                                        [] { return std::chrono::steady_clock::now(); });
+                                        m_options.now);
   if (!m_datagrams->startEpoch(exporter(), *aead, m_welcome.epoch)) return m_datagrams.reset();
   m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes, m_options.now()); });
   probe(now);
