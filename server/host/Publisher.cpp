@@ -154,22 +154,26 @@ void Publisher::finish(Change& change) {
 CellRect Publisher::sweepOf(const Model& model, std::uint32_t tick, std::uint32_t ticks) {
   constexpr std::int64_t kEverywhere = INT32_MAX;
   if (model.reach > kWide) return {-kEverywhere, -kEverywhere, kEverywhere, kEverywhere};
-  const Motion motion = rebase(model.state.motion, tick);
-  const auto cells = [ticks](df::Fixed velocity, df::Fixed acceleration) {
-    const double n = ticks;
-    const double most = n * std::abs(df::toCells(velocity)) + n * n * std::abs(df::toCells(acceleration));
-    return static_cast<std::int64_t>(std::min(most, 1e9)) + 1;
-  };
-  const std::int64_t x = df::cellOf(motion.position.x);
-  const std::int64_t y = df::cellOf(motion.position.y);
-  const std::int64_t dx = cells(motion.velocity.x, motion.acceleration.x);
-  const std::int64_t dy = cells(motion.velocity.y, motion.acceleration.y);
+  const Motion& motion = model.state.motion;
   const bool straight = motion.acceleration == df::FixedVector{};
-  const CellRect sweep{x - (straight && motion.velocity.x >= 0 ? 0 : dx),
-                       y - (straight && motion.velocity.y >= 0 ? 0 : dy),
-                       x + 1 + (straight && motion.velocity.x <= 0 ? 0 : dx),
-                       y + 1 + (straight && motion.velocity.y <= 0 ? 0 : dy)};
-  return sweep.grownBy(model.reach);
+  const df::FixedVector velocity = straight ? motion.velocity : rebase(motion, tick).velocity;
+  const df::FixedVector at = positionAt(motion, tick);
+  constexpr std::int64_t kFar = 1 << 30;
+  constexpr std::int64_t kFine = df::kFixedOne >> 8;
+  // Cells that it gets away, at most.
+  const auto way = [ticks](df::Fixed v, df::Fixed a) {
+    const std::int64_t n = ticks;
+    const std::int64_t speed = (std::abs(v) + n * std::abs(a) + kFine - 1) / kFine;
+    return v == 0 && a == 0 ? 0 : std::min(std::int64_t{kFar}, (speed * n >> 8) + 1);
+  };
+  const std::int64_t x = df::cellOf(at.x);
+  const std::int64_t y = df::cellOf(at.y);
+  const std::int64_t dx = way(velocity.x, motion.acceleration.x);
+  const std::int64_t dy = way(velocity.y, motion.acceleration.y);
+  return CellRect{x - (straight && velocity.x > 0 ? 0 : dx), y - (straight && velocity.y > 0 ? 0 : dy),
+                  x + 1 + (straight && velocity.x < 0 ? 0 : dx),
+                  y + 1 + (straight && velocity.y < 0 ? 0 : dy)}
+      .grownBy(model.reach);
 }
 
 // Put the slot into the list, or take it out.
