@@ -21,7 +21,7 @@ constexpr double kLossWeight = 1.0 / 64;
 /// With less loss than this nothing is repeated ahead.
 constexpr double kAheadLoss = 0.003;
 /// What is repeated ahead in a tick, in bits; one record may be longer.
-constexpr std::size_t kAheadBits = 192;
+constexpr std::size_t kAheadBits = 512;
 /// A cell per tick counts as much as being so many cells nearer.
 constexpr double kAheadPerSpeed = 20;
 /// What a snapshot of one record takes beside it, at most.
@@ -230,6 +230,9 @@ void SnapshotSender::checkControl() {
 void SnapshotSender::pay(std::size_t single) {
   m_owed_singles &= ~(1u << single);
   m_singles[single] = {m_next_number, false};
+  const bool small = single == kView || single == kControl || single >= kTexts;
+  const bool again = (m_repeated_singles & (1u << single)) != 0;
+  if (m_resend == Resend::kAhead && m_loss > kAheadLoss && small && !again) m_ahead_singles |= 1u << single;
   m_flight.newest().empty = false;
 }
 
@@ -487,6 +490,14 @@ void SnapshotSender::considerAhead(std::uint32_t id, std::size_t bits, const Pub
 // looks at, what is gone, what is near or fast, as far as the budget goes.
 void SnapshotSender::repeatAhead() {
   m_repeated.clear();
+  m_repeated_singles = 0;
+  for (std::uint32_t left = std::exchange(m_ahead_singles, 0) & ~m_owed_singles; left != 0;
+       left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    if (m_singles[i].arrived) continue;
+    m_repeated_singles |= 1u << i;
+    owe(i);
+  }
   std::sort(m_ahead.begin(), m_ahead.end(), [](const Ahead& a, const Ahead& b) {
     return a.urgency != b.urgency ? a.urgency > b.urgency : a.sent.id < b.sent.id;
   });

@@ -194,7 +194,9 @@ class SnapshotSender {
   std::vector<std::pair<double, std::uint32_t>> m_ranked;
 
   std::array<Single, kSingles> m_singles;
-  std::uint32_t m_owed_singles = 0;  ///< a bit each
+  std::uint32_t m_ahead_singles = 0;     ///< to be repeated in the next tick
+  std::uint32_t m_repeated_singles = 0;  ///< that this tick repeats
+  std::uint32_t m_owed_singles = 0;      ///< a bit each
   WorldRecord m_world;
   ViewRecord m_view;              ///< as last sent
   std::uint32_t m_view_tick = 0;  ///< the tick at which m_view holds
