@@ -80,9 +80,8 @@ void ClientSession::openDatagrams(Time now) {
   if (!aead || !m_options.open_socket || !server) return;
   std::unique_ptr<DatagramSocket> socket = m_options.open_socket(*server);
   if (socket == nullptr) return;
-  m_datagrams =
-      std::make_unique<SealedDatagrams>(std::move(socket), *server, ConnectionId{m_welcome.connection_id},
-                                        m_options.now);
+  m_datagrams = std::make_unique<SealedDatagrams>(std::move(socket), *server,
+                                                  ConnectionId{m_welcome.connection_id}, m_options.now);
   if (!m_datagrams->startEpoch(exporter(), *aead, m_welcome.epoch)) return m_datagrams.reset();
   m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes, m_options.now()); });
   probe(now);
@@ -160,10 +159,12 @@ void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
       break;
     case ReadResult::kStale:
       ++m_counters.stale_snapshots;
+      ++m_stale_in_a_row;
       return;
     case ReadResult::kMalformed:
       return reject("a malformed snapshot");
   }
+  m_stale_in_a_row = 0;
   if (m_observer) m_observer(snapshot.header.tick);
   replica->apply(snapshot);
   if (replica != &m_replica && (snapshot.header.complete || now - m_reset_at >= kResetPatience)) {
@@ -356,6 +357,7 @@ ClientUpdate ClientSession::nextUpdate(bool on_stream, Time now) {
     if (!on_stream || isNewer(input.id, m_newest_on_stream)) update.inputs.push_back(input);
   }
   if (on_stream && !m_inputs.empty()) m_newest_on_stream = m_inputs.back().id;
+  update.wants_reset = m_stale_in_a_row >= kMostStale;
   if (now >= m_next_checksum && m_acks.newest != 0 && !m_next_replica) {
     m_next_checksum = now + kChecksumEvery;
     update.checksum = m_replica.checksum();

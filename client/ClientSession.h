@@ -91,6 +91,8 @@ class ClientSession {
   static constexpr std::chrono::milliseconds kRepeatInput{10};   ///< a new input is sent again after this
   static constexpr int kAckEvery = 3;                            ///< snapshots that come as datagrams
   static constexpr std::chrono::milliseconds kAckDelay{50};      ///< of the last one, at most
+  static constexpr int kMostStale =
+      30;  ///< snapshots in a row that mean what is gone: then the world is to come anew
   static constexpr std::chrono::seconds kChecksumEvery{1};
   static constexpr std::chrono::milliseconds kResetPatience{
       500};  ///< then a world that is not complete is shown
@@ -227,6 +229,7 @@ class ClientSession {
   std::optional<Replica> m_next_replica;  ///< of the next epoch, until it is complete
   Time m_reset_at{};
   std::uint8_t m_epoch = 0;
+  int m_stale_in_a_row = 0;
   int m_unacknowledged = 0;  ///< snapshots that no update has acknowledged
   std::optional<Time> m_acknowledge_at;
   std::map<std::uint64_t, Time> m_pings;  ///< unanswered, by token

@@ -104,8 +104,9 @@ bool Session::takeUpdate(std::string_view bytes) {
   }
   if (update->checksum && m_sender.isRight(update->acks, *update->checksum) == false) {
     ++m_counters.divergences;
-    m_sender.reset();
+    reset();
   }
+  if (update->wants_reset) reset();
   return std::all_of(update->inputs.begin(), update->inputs.end(),
                      [this](const Input& input) { return takeInput(input); });
 }
@@ -115,6 +116,15 @@ bool Session::isTooEarly(const Input& input, std::uint32_t tick) const {
   if (m_controls == nullptr || input.is_mouse || early <= 0 || early > kMostEarly) return false;
   return std::any_of(m_controls->rows.begin(), m_controls->rows.end(),
                      [&input](const df::ControlRow& row) { return row.key == input.key; });
+}
+
+// The client's world comes anew, though not more often than a line can carry.
+void Session::reset() {
+  const Clock::time_point present = now();
+  if (m_last_reset && present - *m_last_reset < kResetEvery) return;
+  m_last_reset = present;
+  ++m_counters.resets;
+  m_sender.reset();
 }
 
 // False if the session has ended of it.

@@ -12,6 +12,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "Channel.h"
@@ -40,6 +41,7 @@ class Session {
 
   static constexpr std::chrono::seconds kLoginTimeout{5};
   static constexpr std::chrono::seconds kIdleTimeout{15};
+  static constexpr std::chrono::seconds kResetEvery{2};
   static constexpr std::size_t kMaxQueuedInputs = 64;
   static constexpr int kInputsPerTick = 16;
   /// An input that asks for a tick farther off has asked for nonsense.
@@ -121,6 +123,7 @@ class Session {
   void count(const SnapshotSender::Packet& packet);
   bool dispatch(const wire::ClientMessage& message);
   bool takeUpdate(std::string_view bytes);
+  void reset();
   bool isTooEarly(const Input& input, std::uint32_t tick) const;
   bool takeInput(const Input& input);
   void takeChat(const std::string& text);
@@ -155,6 +158,7 @@ class Session {
   Clock::time_point m_chat_refill;
   SnapshotSender m_sender{Resend::kAhead};
   Passage m_passage;
+  std::optional<Clock::time_point> m_last_reset;
 };
 
 }  // namespace naiad

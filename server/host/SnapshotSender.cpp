@@ -469,7 +469,8 @@ void SnapshotSender::pay(std::uint32_t id, const Publisher::Model* model, LookFo
     m_names.wrote(model->look_sum, m_next_number);
     if (form.kind == LookForm::kDefined) flight.names.emplace_back(form.id, model->look_sum);
   }
-  flight.objects.push_back(m_known.paid(id, m_next_number, model == nullptr ? kNothing : model->state));
+  flight.objects.push_back(
+      m_known.paid(id, m_next_number, model == nullptr ? kNothing : model->state, m_tick));
   m_writer.keep(id);
 }
 
@@ -548,7 +549,7 @@ void SnapshotSender::arrived(const Flight::Snapshot& snapshot) {
     if (i >= kOrigins && i < kTexts && i - kOrigins + 1 == m_newest_origin) m_origin = m_newest_origin;
   }
   for (const KnownObjects::Sent& sent : snapshot.objects) m_known.arrived(sent, snapshot.number);
-  for (const auto& [id, sum] : snapshot.names) m_names.arrived(id, sum);
+  for (const auto& [id, sum] : snapshot.names) m_names.arrived(id, sum, snapshot.number);
 }
 
 void SnapshotSender::lost(const Flight::Snapshot& snapshot) {
@@ -603,9 +604,12 @@ std::optional<bool> SnapshotSender::isRight(const AckWindow& acks, std::uint64_t
 
 void SnapshotSender::reset() {
   const std::uint32_t number = m_next_number;
+  const std::uint32_t input = m_input;
+  const std::uint32_t input_tick = m_input_tick;
   *this = SnapshotSender(m_resend, m_look_ahead, static_cast<std::uint8_t>((m_epoch + 1) & 3));
   m_next_number = number;
   m_clean_from = number;
+  noteInput(input, input_tick);
 }
 
 }  // namespace naiad

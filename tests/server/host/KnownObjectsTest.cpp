@@ -25,7 +25,7 @@ class KnownObjectsTest : public testing::Test {
     known.arrived(pay(id, number), number);
   }
   Sent pay(std::uint32_t id, std::uint32_t snapshot) {
-    const Sent sent = known.paid(id, snapshot, state);
+    const Sent sent = known.paid(id, snapshot, state, 0);
     known.sweepOwing();
     return sent;
   }
