@@ -159,7 +159,7 @@ void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
       break;
     case ReadResult::kStale:
       ++m_counters.stale_snapshots;
-      ++m_stale_in_a_row;
+      if (++m_stale_in_a_row % kMostStale == 0) sendUpdate(now);  // asks for the world anew
       return;
     case ReadResult::kMalformed:
       return reject("a malformed snapshot");
