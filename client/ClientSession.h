@@ -45,7 +45,8 @@ struct SessionOptions {
   int rows = 24;
   std::string password;      ///< of the server, if it wants one
   std::string resume_token;  ///< of an earlier welcome: go on with that session
-  /// Makes a socket for datagrams to an endpoint; empty: no datagrams. May return null.
+  /// Makes a socket for datagrams to an endpoint; empty: no datagrams (a Connection that encrypts puts UDP
+  /// there). May return null.
   std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> open_socket;
   /// For what comes as a datagram; another clock is for tests in virtual time.
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;

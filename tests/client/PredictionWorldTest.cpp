@@ -132,7 +132,6 @@ TEST(PredictionWorld, StatesThatTheClientKnowsByItselfNeedNotBeSent) {
   int ticks = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     FarPlayer far({4, 3, 0, 1}, seed);
-    far.setSparse();
     playAmongWalls(far, 300);
     EXPECT_EQ(far.wrong, 0) << "seed " << seed;
     states += far.states;
@@ -165,6 +164,7 @@ TEST(PredictionWorld, WhatMovesInTheWayIsCorrectedWithinARoundTrip) {
     for (const Vector d : {Vector(1, 0), Vector(-1, 0), Vector(0, 1), Vector(0, -1)})
       controls.onKey(kKeys[i++]).step(d.x(), d.y());
     controls.onKey(df::Keyboard::E).velocity(1, 0).onKey(df::Keyboard::F).velocity(-1, 0);
+    WM.setBoundary(Box(Vector(), 200, 60));
     launch(far, controls.within(Box(Vector(80, 20), 40, 20)));
     std::vector<Shuttle*> shuttles;
     for (int n = 0; n < 30; ++n) {
