@@ -80,9 +80,8 @@ void ClientSession::openDatagrams(Time now) {
   if (!aead || !m_options.open_socket || !server) return;
   std::unique_ptr<DatagramSocket> socket = m_options.open_socket(*server);
   if (socket == nullptr) return;
-  m_datagrams =
-      std::make_unique<SealedDatagrams>(std::move(socket), *server, ConnectionId{m_welcome.connection_id},
-                                        m_options.now);
+  m_datagrams = std::make_unique<SealedDatagrams>(std::move(socket), *server,
+                                                  ConnectionId{m_welcome.connection_id}, m_options.now);
   if (!m_datagrams->startEpoch(exporter(), *aead, m_welcome.epoch)) return m_datagrams.reset();
   m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes, m_options.now()); });
   probe(now);
@@ -183,6 +182,7 @@ void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
   }
   takeControls();
   ++m_counters.snapshots;
+  if (m_after_observer) m_after_observer(snapshot.header, m_acks);
   // Every second one is enough, unless something is missing.
   ++m_unacknowledged;
   const bool gap = (m_acks.mask & 1) == 0 && m_counters.snapshots > 1;
