@@ -9,18 +9,21 @@ namespace {
 constexpr int kMostAge = 90;        ///< ticks that a picture waits
 constexpr int kMostDescribed = 12;  ///< wrong pictures that are printed
 
-void describe(const df::Canvas& seen, const df::Canvas& truth) {
+std::string describe(const df::Canvas& seen, const df::Canvas& truth) {
   int told = 0;
+  std::string text;
   for (int y = 0; y < truth.height(); ++y) {
     for (int x = 0; x < truth.width(); ++x) {
       if (seen.at(x, y) == truth.at(x, y) || ++told > 8) continue;
       std::string a, b;
       df::appendUtf8(a, seen.at(x, y).ch);
       df::appendUtf8(b, truth.at(x, y).ch);
-      std::fprintf(stderr, "  (%d,%d) seen '%s' colour %d, true '%s' colour %d\n", x, y, a.c_str(),
-                   static_cast<int>(seen.at(x, y).color), b.c_str(), static_cast<int>(truth.at(x, y).color));
+      text += "\n  (" + std::to_string(x) + "," + std::to_string(y) + ") seen '" + a + "' colour " +
+              std::to_string(seen.at(x, y).color) + ", true '" + b + "' colour " +
+              std::to_string(truth.at(x, y).color);
     }
   }
+  return text;
 }
 
 }  // namespace
@@ -45,12 +48,12 @@ void Judge::look(Bot& bot, const SnapshotHeader& header, const AckWindow& acks) 
   const Replica& replica = bot.session()->replica();
   const df::Canvas seen = replica.render(header.tick);
   const int wrong = countDifferences(seen, truth.picture);
-  const Waiting waiting{acks, replica.checksum(), header.tick, wrong, seen.width() * seen.height(), 0};
-  const bool settled = settle(bot.player(), account, waiting);
-  if (!settled) account.waiting.push_back(waiting);
-  if (wrong == 0 || !settled || ++m_described > kMostDescribed) return;
-  std::fprintf(stderr, "wrong picture of tick %u: %s\n", header.tick, bot.describe().c_str());
-  describe(seen, truth.picture);
+  Waiting waiting{acks, replica.checksum(), header.tick, wrong, seen.width() * seen.height(), 0, {}};
+  if (wrong > 0) {
+    waiting.text =
+        "snapshot " + std::to_string(header.number) + ", " + bot.describe() + describe(seen, truth.picture);
+  }
+  if (!settle(bot.player(), account, waiting)) account.waiting.push_back(std::move(waiting));
 }
 
 // False if it cannot be told yet.
@@ -65,8 +68,9 @@ bool Judge::settle(std::uint32_t player, Account& account, const Waiting& waitin
   m_tally.wrong_cells += static_cast<std::uint64_t>(waiting.wrong);
   account.right_in_a_row = waiting.wrong == 0 ? account.right_in_a_row + 1 : 0;
   if (waiting.wrong > 0 || !*right) {
-    std::fprintf(stderr, "player %u tick %u: %d wrong cells, checksum %s\n", player, waiting.tick,
-                 waiting.wrong, *right ? "right" : "wrong");
+    if (++m_described > kMostDescribed) return true;
+    std::fprintf(stderr, "player %u tick %u: %d wrong cells, checksum %s; %s\n", player, waiting.tick,
+                 waiting.wrong, *right ? "right" : "wrong", waiting.text.c_str());
   }
   return true;
 }

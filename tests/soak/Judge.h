@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <string>
 #include <unordered_map>
 
 #include "Bot.h"
@@ -48,6 +49,7 @@ class Judge {
     int wrong = 0;
     int cells = 0;
     int age = 0;
+    std::string text;  ///< for people, if it is wrong
   };
   struct Account {
     std::array<Truth, kTruths> truths;
