@@ -249,6 +249,7 @@ void ClientSession::handle(const PongMessage& message, Time now) {
   const std::chrono::duration<double, std::milli> sample = now - ping->second;
   m_pings.erase(m_pings.begin(), std::next(ping));
   m_take_in.noteRoundTrip(sample);
+  m_clock.setWay(std::chrono::duration_cast<DisplayClock::Duration>(m_take_in.shortestRoundTrip() / 2));
   m_round_trip = m_round_trip.count() == 0 ? sample : m_round_trip + (sample - m_round_trip) / 8;
 }
 

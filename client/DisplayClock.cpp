@@ -40,7 +40,7 @@ void DisplayClock::note(std::uint32_t tick, Time now) {
 std::uint32_t DisplayClock::displayTick(Time now) {
   if (!m_started) return 0;
   const auto allowed = static_cast<std::int32_t>(kMaxAhead / m_length);
-  const auto elapsed = std::max<Duration>(now - m_anchor_time, Duration::zero());
+  const auto elapsed = std::max<Duration>(now - m_anchor_time + m_lead, Duration::zero());
   const auto ahead = static_cast<std::int32_t>(std::min<std::int64_t>(elapsed / m_length, allowed));
   const std::uint32_t wanted = m_newest + static_cast<std::uint32_t>(ahead);
   const std::int32_t step = distance(m_shown, wanted);
@@ -57,8 +57,8 @@ double DisplayClock::ticksSinceNewest(Time now) const {
 
 DisplayClock::Time DisplayClock::nextTick(Time now) const {
   if (!m_started) return now + m_length;
-  const auto ticks = std::max<std::int64_t>((now - m_anchor_time) / m_length, 0) + 1;
-  return m_anchor_time + ticks * m_length;
+  const auto ticks = std::max<std::int64_t>((now - m_anchor_time + m_lead) / m_length, 0) + 1;
+  return m_anchor_time - m_lead + ticks * m_length;
 }
 
 }  // namespace naiad

@@ -2,13 +2,14 @@
 //
 // Snapshots tell what the world was like at a tick; between them the replica extrapolates. This clock
 // estimates when each tick should arrive (the earliest arrivals count, later ones pull it back gently, so
-// that jitter does not shake the picture) and counts on from there, at most 250 ms beyond the newest
+// that jitter does not shake the picture) and counts on from there and from how long they took, at most 250 ms beyond the newest
 // snapshot. After 500 ms without one the picture stands still and the player is
 // told.
 //
 // Ticks are compared as serial numbers. Time is a parameter.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 
@@ -21,11 +22,16 @@ class DisplayClock {
 
   /// How far the picture may run ahead of the newest snapshot.
   static constexpr std::chrono::milliseconds kMaxAhead{250};
+  /// How far it does so in any case, to make up for the way of the snapshots.
+  static constexpr std::chrono::milliseconds kMostLead{50};
   /// Silence that counts as a broken line.
   static constexpr std::chrono::milliseconds kSilence{500};
 
   explicit DisplayClock(Duration tick_length) : m_length(tick_length) {}
 
+  /// Half the shortest round trip: how old what arrives is. The picture makes up for it, up to kMostLead: beyond
+  /// that more turns out wrong than is gained, for whoever turns meanwhile does so unseen.
+  void setWay(Duration way) { m_lead = std::clamp<Duration>(way, Duration::zero(), kMostLead); }
   /// A snapshot of `tick` arrived.
   void note(std::uint32_t tick, Time now);
   /// The tick to draw. Never lower than the last answer, unless that lies beyond the allowed lead.
@@ -45,6 +51,7 @@ class DisplayClock {
   Duration due(std::uint32_t tick) const;
 
   Duration m_length;
+  Duration m_lead{0};
   bool m_started = false;
   std::uint32_t m_newest = 0;
   std::uint32_t m_shown = 0;

@@ -31,11 +31,10 @@ class TakeInClock {
   /// The tick, for a key pressed at `now`.
   std::uint32_t tickFor(const DisplayClock& clock, DisplayClock::Duration tick_length, Time now) const;
 
+  Millis shortestRoundTrip() const;
   double margin() const { return m_margin; }
 
  private:
-  Millis shortestRoundTrip() const;
-
   std::array<Millis, 8> m_round_trips{};
   std::size_t m_count = 0;
   double m_margin = kLeastMargin;

@@ -110,12 +110,9 @@ void Interest::noteChanges() {
 
 // Learn of the object if it can be seen, watch it if that may come.
 void Interest::consider(std::uint32_t slot, const Publisher::Model& model) {
-  if (isVisible(model, m_tick, m_focus.look_ahead, m_focus.window)) {
-    if (m_p_known->find(slot) == KnownObjects::kNobody) learn(slot, model.generation);
-    return;
-  }
-  const CellRect sweep = Publisher::sweepOf(model, m_tick, kGap + m_focus.look_ahead);
-  if (meets(sweep, m_covered)) m_candidates.push_back(slot);
+  if (!meets(Publisher::sweepOf(model, m_tick, kGap + m_focus.look_ahead), m_covered)) return;
+  if (!isVisible(model, m_tick, m_focus.look_ahead, m_focus.window)) return m_candidates.push_back(slot);
+  if (m_p_known->find(slot) == KnownObjects::kNobody) learn(slot, model.generation);
 }
 
 void Interest::judgeCandidates() {

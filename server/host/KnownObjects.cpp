@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "Acks.h"
 #include "Checksum.h"
 
 namespace naiad {
@@ -84,25 +85,26 @@ std::uint8_t KnownObjects::due(std::uint32_t id) const {
 KnownObjects::Sent KnownObjects::paid(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state) {
   Known& known = m_known[id];
   const std::uint8_t groups = due(id);
-  const std::uint8_t carried = groups == kDeath ? +kLife : groups;
-  for (int i = 0; i < kGroupCount; ++i) {
-    if ((carried & (1 << i)) == 0) continue;
-    known.sent[i] = snapshot;
-    m_checksum -= known.sums[i];
-    known.sums[i] = 0;
-  }
   if (groups == kDeath) {
     for (std::uint64_t& sum : known.sums) m_checksum -= std::exchange(sum, 0);
+    known.sent[kLifeIndex] = snapshot;
   } else {
-    if ((groups & kLife) != 0) known.sums[0] = lifeSum(id, generationOf(known), state.order);
-    if ((groups & kMotion) != 0) known.sums[1] = motionSum(id, state.motion);
-    if ((groups & kLook) != 0) known.sums[2] = lookSum(id, state.look);
-    if ((groups & kBody) != 0) known.sums[3] = bodySum(id, state.body);
-    for (int i = 0; i < kGroupCount; ++i) m_checksum += (carried & (1 << i)) != 0 ? known.sums[i] : 0;
+    if ((groups & kLife) != 0) carry(known, 0, snapshot, lifeSum(id, generationOf(known), state.order));
+    if ((groups & kMotion) != 0) carry(known, 1, snapshot, motionSum(id, state.motion));
+    if ((groups & kLook) != 0) carry(known, 2, snapshot, lookSum(id, state.look));
+    if ((groups & kBody) != 0) carry(known, 3, snapshot, bodySum(id, state.body));
   }
-  known.unconfirmed |= carried;
+  known.unconfirmed |= groups == kDeath ? +kLife : groups;
   known.owed = 0;
   return {id, known.birth, groups};
+}
+
+// What is carried again as it was is confirmed by any snapshot since it was so.
+void KnownObjects::carry(Known& known, std::size_t group, std::uint32_t snapshot, std::uint64_t sum) {
+  if (known.sent[group] == 0 || known.sums[group] != sum) known.first[group] = snapshot;
+  known.sent[group] = snapshot;
+  m_checksum += sum - known.sums[group];
+  known.sums[group] = sum;
 }
 
 void KnownObjects::sweepOwing() {
@@ -123,7 +125,7 @@ void KnownObjects::arrived(const Sent& sent, std::uint32_t snapshot) {
   }
   if (known.life == Life::kDying) return;
   for (int i = 0; i < kGroupCount; ++i) {
-    if (known.sent[i] == snapshot) known.unconfirmed &= ~(1 << i);
+    if ((sent.groups & (1 << i)) != 0 && !isNewer(known.first[i], snapshot)) known.unconfirmed &= ~(1 << i);
   }
   if ((sent.groups & kLife) != 0) known.life = Life::kAlive;
 }
@@ -138,6 +140,7 @@ bool KnownObjects::lost(const Sent& sent, std::uint32_t snapshot, std::uint32_t 
     const bool carried = dying ? i == kLifeIndex : (sent.groups & (1 << i)) != 0;
     if (carried && known.sent[i] == snapshot) missing |= 1 << i;
   }
+  missing &= known.unconfirmed;
   // A birth that was lost after another one arrived leaves its other groups, if they are the newest.
   if (known.life == Life::kAlive) missing &= ~kLife;
   owe(sent.id, missing, tick);

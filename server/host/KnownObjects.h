@@ -25,12 +25,14 @@ class KnownObjects {
     std::uint32_t generation = 0;  ///< of the world's slot
     std::uint32_t birth = 0;       ///< the how-manieth object under this id
     Life life = Life::kFree;
-    std::uint8_t owed = 0;         ///< groups; when dying, kLife is the death
-    std::uint8_t unconfirmed = 0;  ///< groups that were sent, and of whose newest sending nothing is known
-    bool queued = false;           ///< among owing()
-    std::uint32_t since = 0;       ///< the tick from which on it has owed something
-    std::array<std::uint32_t, kGroupCount> sent{};  ///< newest snapshot that carried the group
-    std::array<std::uint64_t, kGroupCount> sums{};  ///< of what it carried
+    std::uint8_t owed = 0;  ///< groups; when dying, kLife is the death
+    std::uint8_t unconfirmed =
+        0;  ///< groups of which no snapshot that carried what was sent last is known to have arrived
+    bool queued = false;                             ///< among owing()
+    std::uint32_t since = 0;                         ///< the tick from which on it has owed something
+    std::array<std::uint32_t, kGroupCount> sent{};   ///< newest snapshot that carried the group
+    std::array<std::uint32_t, kGroupCount> first{};  ///< the first one that carried it as that one did
+    std::array<std::uint64_t, kGroupCount> sums{};   ///< of what it carried
   };
   /// One object's part of a snapshot.
   struct Sent {
@@ -86,6 +88,7 @@ class KnownObjects {
  private:
   void enqueue(std::uint32_t id, std::uint32_t tick);
   void release(std::uint32_t id);
+  void carry(Known& known, std::size_t group, std::uint32_t snapshot, std::uint64_t sum);
 
   std::vector<Known> m_known;  ///< by id
   SlotMap m_ids;

@@ -16,11 +16,66 @@ constexpr Fixed kHalf = df::kFixedOne / 2;
 /// Far more than a view is wide; keeps every sum below within the type.
 constexpr Fixed kFastest = Fixed{4096} * df::kFixedOne;
 
+/// A tick after the first, and where in its cell a character then is.
+struct Place {
+  Fixed tick = 0;
+  Fixed within = 0;
+};
+
+/// One half of the convex hull of places, by tick: those that bound what a line may do. Of the places of a
+/// straight path modulo a cell there are only few, however many ticks it takes.
+class HalfHull {
+ public:
+  /// `side`: 1 for the lower half, −1 for the upper one.
+  explicit HalfHull(Fixed side) : m_side(side) {}
+
+  void add(Place place) {
+    while (m_places.size() >= 2 && isWithin(place)) m_places.pop_back();
+    m_places.push_back(place);
+  }
+  /// The least, or for the upper half greatest, `within + tick · slope`.
+  Fixed extreme(Fixed slope) const {
+    Fixed best = m_places.front().within;
+    for (const Place& place : m_places) {
+      const Fixed value = place.within + place.tick * slope;
+      if ((best - value) * m_side > 0) best = value;
+    }
+    return best;
+  }
+
+ private:
+  /// Does the last place lie inside, now that this one follows?
+  bool isWithin(Place next) const {
+    const Place& last = m_places.back();
+    const Place& before = m_places[m_places.size() - 2];
+    return ((last.within - before.within) * (next.tick - before.tick) -
+            (next.within - before.within) * (last.tick - before.tick)) *
+               m_side >=
+           0;
+  }
+
+  Fixed m_side;
+  std::vector<Place> m_places;
+};
+
 /// One axis of a path, and the coarse pairs that draw it.
 class AxisFit {
  public:
   AxisFit(Fixed position, Fixed velocity, const std::vector<Fixed>& offsets, std::uint32_t horizon)
-      : m_position(position), m_velocity(velocity), m_offsets(offsets), m_horizon(horizon) {}
+      : m_position(position), m_velocity(velocity), m_horizon(velocity == 0 ? 0 : horizon) {
+    Fixed place = position + kHalf;
+    for (std::uint32_t n = 0; n <= m_horizon; ++n, place += velocity) {
+      Fixed least = df::kFixedOne;
+      Fixed most = 0;
+      for (const Fixed offset : offsets) {
+        const Fixed within = (place + offset) & (df::kFixedOne - 1);
+        least = std::min(least, within);
+        most = std::max(most, within);
+      }
+      m_lower.add({n, least});
+      m_upper.add({n, most});
+    }
+  }
 
   struct Pair {
     Fixed position = 0;
@@ -43,21 +98,12 @@ class AxisFit {
 
  private:
   std::optional<Pair> positionFor(Fixed velocity) const {
-    // Relative to the true position: drift is how far the coarse path has moved away from the true one.
-    Fixed low = -df::kFixedOne;
-    Fixed high = df::kFixedOne;
-    Fixed drift = 0;
-    Fixed place = m_position;
-    for (std::uint32_t n = 0; n <= m_horizon; ++n) {
-      for (const Fixed offset : m_offsets) {
-        const Fixed within = (place + offset + kHalf) & (df::kFixedOne - 1);
-        low = std::max(low, -within - drift);
-        high = std::min(high, df::kFixedOne - within - drift);
-      }
-      if (low >= high) return std::nullopt;
-      drift += velocity - m_velocity;
-      place += m_velocity;
-    }
+    // Relative to the true position, from which the coarse path drifts away tick by tick.
+    const Fixed drift = velocity - m_velocity;
+    if (std::abs(drift) > 2 * df::kFixedOne / std::max<Fixed>(m_horizon, 1)) return std::nullopt;
+    const Fixed low = std::max(-df::kFixedOne, -m_lower.extreme(drift));
+    const Fixed high = std::min(df::kFixedOne, df::kFixedOne - m_upper.extreme(drift));
+    if (low >= high) return std::nullopt;
     const Fixed position = simplest(m_position + low, m_position + high);
     return Pair{position, velocity, bitsOf(position)};
   }
@@ -77,8 +123,9 @@ class AxisFit {
 
   Fixed m_position;
   Fixed m_velocity;
-  const std::vector<Fixed>& m_offsets;
   std::uint32_t m_horizon;
+  HalfHull m_lower{1};
+  HalfHull m_upper{-1};
 };
 
 /// The distinct fractions of the offsets; whole cells make no difference to a path.

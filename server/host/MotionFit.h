@@ -14,8 +14,9 @@ namespace naiad {
 /// position. `truth` itself where nothing coarser does, and for accelerated motions.
 ///
 /// For a velocity v' the positions p' that draw the right cells are those with c(n) − ½ <= p' + n·v' < c(n) +
-/// ½ for all n: an interval, of which the number with the fewest bits is taken. So the cost is O(horizon) for
-/// each of the few velocities tried, coarsest first.
+/// ½ for all n: an interval, of which the number with the fewest bits is taken. Only the n on the convex hull
+/// of the c(n) − p − n·v bound it, so the cost is O(horizon) once and little for each of the velocities
+/// tried, coarsest first.
 Motion fitMotion(const Motion& truth, std::span<const df::FixedVector> offsets, std::uint32_t horizon);
 
 /// Horizons beyond this are not tried: fitMotion() returns `truth`.

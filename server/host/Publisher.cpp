@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "Acks.h"
 #include "Checksum.h"
 #include "LookCapture.h"
 #include "LookCodec.h"
@@ -31,6 +32,26 @@ bool landsInAView(const Appearance& appearance, df::FixedVector position, const 
   });
 }
 
+/// Ticks that nothing of the model, off all views now, can come into one, if these move by a cell per tick.
+std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, const df::WorldView& view) {
+  constexpr std::int64_t kFar = 1 << 20;
+  const Motion motion = rebase(model.state.motion, tick);
+  if (motion.acceleration != df::FixedVector{}) return 0;
+  const std::int64_t x = df::cellOf(motion.position.x);
+  const std::int64_t y = df::cellOf(motion.position.y);
+  std::int64_t nearest = kFar;
+  for (const df::PlayerFacts& player : view.players) {
+    const std::int64_t left = df::cellOf(player.view_corner.x);
+    const std::int64_t top = df::cellOf(player.view_corner.y);
+    nearest = std::min(nearest, std::max({left - x, x - (left + view.view_width - 1), top - y,
+                                          y - (top + view.view_height - 1)}));
+  }
+  const double speed =
+      std::max(std::abs(df::toCells(motion.velocity.x)), std::abs(df::toCells(motion.velocity.y)));
+  const double free = static_cast<double>(nearest - model.reach - 1);
+  return free <= 0 ? 0 : static_cast<std::uint32_t>(free / (speed + 1));
+}
+
 /// Cells from the object's own that its look reaches, rounded up.
 std::int32_t reachOf(const Look& look) {
   std::int32_t most = 0;
@@ -46,6 +67,8 @@ bool isFast(const Motion& motion) {
   return motion.acceleration != df::FixedVector{} || above(motion.velocity.x) || above(motion.velocity.y);
 }
 
+/// An object that stands and shows nothing need not be looked at for so many ticks.
+constexpr std::uint32_t kNeverLook = 1u << 20;
 /// Paths are fitted for at least so many ticks, and after a turn for at most so many.
 constexpr std::uint32_t kShortestHorizon = 64;
 constexpr std::uint32_t kHorizonAfterTurn = 512;
@@ -69,7 +92,10 @@ Publisher::Tracked* Publisher::track(std::uint32_t slot) {
     ++m_refused;
     return nullptr;
   }
-  if (slot >= m_models.size()) m_models.resize(std::size_t{slot} + 1);
+  if (slot >= m_models.size()) {
+    m_models.resize(std::size_t{slot} + 1);
+    m_look_at.resize(m_models.size(), m_tick);
+  }
   return &m_models[slot];
 }
 
@@ -128,22 +154,26 @@ void Publisher::finish(Change& change) {
 CellRect Publisher::sweepOf(const Model& model, std::uint32_t tick, std::uint32_t ticks) {
   constexpr std::int64_t kEverywhere = INT32_MAX;
   if (model.reach > kWide) return {-kEverywhere, -kEverywhere, kEverywhere, kEverywhere};
-  const Motion motion = rebase(model.state.motion, tick);
-  const auto cells = [ticks](df::Fixed velocity, df::Fixed acceleration) {
-    const double n = ticks;
-    const double most = n * std::abs(df::toCells(velocity)) + n * n * std::abs(df::toCells(acceleration));
-    return static_cast<std::int64_t>(std::min(most, 1e9)) + 1;
-  };
-  const std::int64_t x = df::cellOf(motion.position.x);
-  const std::int64_t y = df::cellOf(motion.position.y);
-  const std::int64_t dx = cells(motion.velocity.x, motion.acceleration.x);
-  const std::int64_t dy = cells(motion.velocity.y, motion.acceleration.y);
+  const Motion& motion = model.state.motion;
   const bool straight = motion.acceleration == df::FixedVector{};
-  const CellRect sweep{x - (straight && motion.velocity.x >= 0 ? 0 : dx),
-                       y - (straight && motion.velocity.y >= 0 ? 0 : dy),
-                       x + 1 + (straight && motion.velocity.x <= 0 ? 0 : dx),
-                       y + 1 + (straight && motion.velocity.y <= 0 ? 0 : dy)};
-  return sweep.grownBy(model.reach);
+  const df::FixedVector velocity = straight ? motion.velocity : rebase(motion, tick).velocity;
+  const df::FixedVector at = positionAt(motion, tick);
+  constexpr std::int64_t kFar = 1 << 30;
+  constexpr std::int64_t kFine = df::kFixedOne >> 8;
+  // Cells that it gets away, at most.
+  const auto way = [ticks](df::Fixed v, df::Fixed a) {
+    const std::int64_t n = ticks;
+    const std::int64_t speed = (std::abs(v) + n * std::abs(a) + kFine - 1) / kFine;
+    return v == 0 && a == 0 ? 0 : std::min(std::int64_t{kFar}, (speed * n >> 8) + 1);
+  };
+  const std::int64_t x = df::cellOf(at.x);
+  const std::int64_t y = df::cellOf(at.y);
+  const std::int64_t dx = way(velocity.x, motion.acceleration.x);
+  const std::int64_t dy = way(velocity.y, motion.acceleration.y);
+  return CellRect{x - (straight && velocity.x > 0 ? 0 : dx), y - (straight && velocity.y > 0 ? 0 : dy),
+                  x + 1 + (straight && velocity.x < 0 ? 0 : dx),
+                  y + 1 + (straight && velocity.y < 0 ? 0 : dy)}
+      .grownBy(model.reach);
 }
 
 // Put the slot into the list, or take it out.
@@ -190,6 +220,8 @@ void Publisher::keepExact(df::ObjectKey key) {
   const Motion truth = truthNow(tracked);
   if (rebase(tracked.model.state.motion, m_tick) == truth) return;
   tracked.model.state.motion = truth;
+  m_look_at[key.slot] = m_tick + 1;
+  tracked.off_views = m_tick;
   mark(key.slot, tracked, kMotion);
 }
 
@@ -259,6 +291,8 @@ void Publisher::takeFacts(const df::ObjectFacts& facts) {
   Model& model = tracked->model;
   const Motion truth{m_tick, facts.position, facts.velocity, facts.acceleration};
   const Body body{facts.box, facts.solidness, facts.no_soft};
+  m_look_at[facts.key.slot] = m_tick;
+  if (tracked->truth.velocity != facts.velocity || tracked->shown != facts.shown) tracked->off_views = m_tick;
   tracked->truth = truth;
   tracked->shown = facts.shown;
   takePath(*tracked, truth);
@@ -289,7 +323,8 @@ void Publisher::takeDrawing(const df::WorldView& view, const df::DrawnObject& dr
   if (drawn.key.generation == 0 || drawn.key.slot >= m_models.size()) return;
   Tracked& tracked = m_models[drawn.key.slot];
   if (!tracked.model.alive || tracked.model.generation != drawn.key.generation) return;
-  tracked.drawn = m_tick;
+  tracked.drawn = tracked.off_views = m_tick;
+  m_look_at[drawn.key.slot] = m_tick + 1;  // unless it is drawn again
   correctLook(drawn.key.slot, tracked, view.commands.data() + drawn.first, drawn.count);
 }
 
@@ -343,23 +378,55 @@ void Publisher::takeLoose(const df::WorldView& view) {
   correctLook(kLooseSlot, m_loose, loose.data(), loose.size());
 }
 
-void Publisher::correctUndrawn(const df::WorldView& view) {
-  for (std::uint32_t slot = 0; slot < m_models.size(); ++slot) {
-    Tracked& tracked = m_models[slot];
-    if (!tracked.model.alive || tracked.drawn == m_tick) continue;
-    ObjectState& state = tracked.model.state;
-    if (!sameCell(positionAt(state.motion, m_tick), tracked.truth.position)) {
-      state.motion = truthNow(tracked);
-      mark(slot, tracked, kMotion);
-      ++m_corrections;
-    }
-    // draw() did not run, so nothing of it may show; off every view its look can wait there unseen.
-    if (const Appearance* appearance = state.look.select(m_tick)) {
-      if (tracked.shown && !landsInAView(*appearance, positionAt(state.motion, m_tick), view)) continue;
-      state.look.sequence.clear();
-      mark(slot, tracked, kLook);
-    }
+// Has a view come, or gone farther than a cell?
+bool Publisher::haveViewsJumped(const df::WorldView& view) {
+  const std::vector<df::PlayerFacts>& players = view.players;
+  bool jumped = players.size() != m_corners.size();
+  m_corners.resize(players.size());
+  for (std::size_t i = 0; i < players.size(); ++i) {
+    const df::FixedVector moved{players[i].view_corner.x - m_corners[i].x,
+                                players[i].view_corner.y - m_corners[i].y};
+    jumped = jumped || std::max(std::abs(moved.x), std::abs(moved.y)) > df::kFixedOne;
+    m_corners[i] = players[i].view_corner;
   }
+  const bool resized = std::exchange(m_view_width, view.view_width) != view.view_width ||
+                       std::exchange(m_view_height, view.view_height) != view.view_height;
+  return jumped || resized;
+}
+
+void Publisher::correctUndrawn(const df::WorldView& view) {
+  const bool jumped = haveViewsJumped(view);
+  for (std::uint32_t slot = 0; slot < m_look_at.size(); ++slot) {
+    if (isNewer(m_look_at[slot], m_tick) && !(jumped && m_models[slot].drawn != m_tick)) continue;
+    Tracked& tracked = m_models[slot];
+    m_look_at[slot] = m_tick + kNeverLook;
+    if (!tracked.model.alive) continue;
+    if (jumped) tracked.off_views = m_tick;
+    correctUndrawn(slot, tracked, view);
+    const bool standing = !isMoving(tracked.model.state.motion);
+    const bool blank = tracked.model.state.look.sequence.empty();
+    m_look_at[slot] = !standing ? m_tick + 1 : blank ? m_tick + kNeverLook : tracked.off_views;
+    if (m_look_at[slot] == m_tick) ++m_look_at[slot];
+  }
+}
+
+void Publisher::correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::WorldView& view) {
+  ObjectState& state = tracked.model.state;
+  if (!sameCell(positionAt(state.motion, m_tick), tracked.truth.position)) {
+    state.motion = truthNow(tracked);
+    mark(slot, tracked, kMotion);
+    ++m_corrections;
+  }
+  // draw() did not run, so nothing of it may show; off every view its look can wait there unseen.
+  const Appearance* appearance = state.look.select(m_tick);
+  if (appearance == nullptr) return;
+  if (tracked.shown && tracked.changed == 0 && isNewer(tracked.off_views, m_tick)) return;
+  if (tracked.shown && !landsInAView(*appearance, positionAt(state.motion, m_tick), view)) {
+    tracked.off_views = m_tick + ticksOffViews(tracked.model, m_tick, view);
+    return;
+  }
+  state.look.sequence.clear();
+  mark(slot, tracked, kLook);
 }
 
 }  // namespace naiad

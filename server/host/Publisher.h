@@ -100,7 +100,8 @@ class Publisher {
     bool wide = false;      ///< in m_wide
     bool fast = false;      ///< in m_fast
     bool shown = true;
-    std::uint32_t drawn = 0;  ///< newest tick in which its draw() ran
+    std::uint32_t drawn = 0;      ///< newest tick in which its draw() ran
+    std::uint32_t off_views = 0;  ///< until this tick nothing of its look can come into a view
     std::uint8_t changed = 0;
     bool touched = false;  ///< in m_changes already
   };
@@ -113,7 +114,9 @@ class Publisher {
   void takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn);
   void takeLoose(const df::WorldView& view);
   void correctLook(std::uint32_t slot, Tracked& tracked, const df::DrawCommand* commands, std::size_t count);
+  bool haveViewsJumped(const df::WorldView& view);
   void correctUndrawn(const df::WorldView& view);
+  void correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::WorldView& view);
   void takePath(Tracked& tracked, const Motion& truth);
   void keepSolidsExact();
   void keepExact(df::ObjectKey key);
@@ -125,6 +128,10 @@ class Publisher {
   static void list(std::vector<std::uint32_t>& slots, std::uint32_t slot, bool& is_in, bool should_be);
 
   std::vector<Tracked> m_models;
+  std::vector<std::uint32_t> m_look_at;    ///< by slot: the tick in which correctUndrawn() must look at it
+  std::vector<df::FixedVector> m_corners;  ///< of the views, a tick ago
+  std::int32_t m_view_width = 0;
+  std::int32_t m_view_height = 0;
   Tracked m_loose;
   std::vector<Change> m_changes;
   std::unordered_map<std::uint64_t, std::uint32_t>

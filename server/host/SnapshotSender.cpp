@@ -20,6 +20,10 @@ bool sameCell(df::FixedVector a, df::FixedVector b) {
 constexpr double kLossWeight = 1.0 / 64;
 /// With less loss than this nothing is repeated ahead.
 constexpr double kAheadLoss = 0.003;
+/// What is repeated ahead in a tick, in bits; one record may be longer.
+constexpr std::size_t kAheadBits = 512;
+/// A cell per tick counts as much as being so many cells nearer.
+constexpr double kAheadPerSpeed = 20;
 /// What a snapshot of one record takes beside it, at most.
 constexpr std::size_t kMostOverheadBits = 256;
 /// Cells by which an origin's window exceeds the view, at least.
@@ -226,6 +230,9 @@ void SnapshotSender::checkControl() {
 void SnapshotSender::pay(std::size_t single) {
   m_owed_singles &= ~(1u << single);
   m_singles[single] = {m_next_number, false};
+  const bool small = single == kView || single == kControl || single >= kTexts;
+  const bool again = (m_repeated_singles & (1u << single)) != 0;
+  if (m_resend == Resend::kAhead && m_loss > kAheadLoss && small && !again) m_ahead_singles |= 1u << single;
   m_flight.newest().empty = false;
 }
 
@@ -350,9 +357,7 @@ bool SnapshotSender::write(const Publisher& publisher, const Room& room, Packet&
   const SnapshotHeader head = header();
   m_writer.begin(head, m_origin, m_origins[m_origin]);
   if (head.tells_input) {
-    const bool owed = isOwed(kInput);
-    pay(kInput);
-    m_flight.newest().empty = !owed;
+    if (isOwed(kInput)) pay(kInput);
   }
   writeSingles(publisher, room.bytes);
   writeObjects(publisher, room, packet);
@@ -397,6 +402,7 @@ void SnapshotSender::writeObjects(const Publisher& publisher, const Room& room, 
       m_queue.pop_back();
     }
     pay(id, model, form);
+    considerAhead(id, bits, publisher);
   }
   m_queue.insert(m_queue.end(), m_later.rbegin(), m_later.rend());
   m_known.sweepOwing();
@@ -465,18 +471,45 @@ void SnapshotSender::pay(std::uint32_t id, const Publisher::Model* model, LookFo
   }
   flight.objects.push_back(m_known.paid(id, m_next_number, model == nullptr ? kNothing : model->state));
   m_writer.keep(id);
-  if (m_resend != Resend::kAhead || m_loss <= kAheadLoss) return;
-  const bool again = std::find(m_repeated.begin(), m_repeated.end(), id) != m_repeated.end();
-  if (!again) m_ahead.push_back(flight.objects.back());
 }
 
-// Once more, although nobody knows yet whether the first time was enough.
+// What was repeated is not repeated again.
+void SnapshotSender::considerAhead(std::uint32_t id, std::size_t bits, const Publisher& publisher) {
+  if (m_resend != Resend::kAhead || m_loss <= kAheadLoss) return;
+  if (std::find(m_repeated.begin(), m_repeated.end(), id) != m_repeated.end()) return;
+  const KnownObjects::Known& known = m_known.at(id);
+  double rank = urgency(id, publisher);
+  if (known.life != KnownObjects::Life::kDying) {
+    const df::FixedVector v = publisher.find(known.slot)->state.motion.velocity;
+    rank += kAheadPerSpeed * (std::abs(df::toCells(v.x)) + std::abs(df::toCells(v.y)));
+  }
+  m_ahead.push_back({rank, bits, m_flight.newest().objects.back()});
+}
+
+// Once more, although nobody knows yet whether the first time was enough: first what the player steers or
+// looks at, what is gone, what is near or fast, as far as the budget goes.
 void SnapshotSender::repeatAhead() {
   m_repeated.clear();
-  for (const KnownObjects::Sent& sent : m_ahead) {
-    if (m_known.at(sent.id).birth != sent.birth || m_known.at(sent.id).unconfirmed == 0) continue;
-    m_known.owe(sent.id, m_known.at(sent.id).unconfirmed & (sent.groups == kDeath ? +kLife : +sent.groups),
-                m_tick);
+  m_repeated_singles = 0;
+  for (std::uint32_t left = std::exchange(m_ahead_singles, 0) & ~m_owed_singles; left != 0;
+       left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    if (m_singles[i].arrived) continue;
+    m_repeated_singles |= 1u << i;
+    owe(i);
+  }
+  std::sort(m_ahead.begin(), m_ahead.end(), [](const Ahead& a, const Ahead& b) {
+    return a.urgency != b.urgency ? a.urgency > b.urgency : a.sent.id < b.sent.id;
+  });
+  std::size_t spent = 0;
+  for (const Ahead& ahead : m_ahead) {
+    const KnownObjects::Sent& sent = ahead.sent;
+    const KnownObjects::Known& known = m_known.at(sent.id);
+    const bool first = spent == 0;
+    if (known.birth != sent.birth || known.unconfirmed == 0) continue;
+    if (!first && spent + ahead.bits > kAheadBits) continue;
+    spent += ahead.bits;
+    m_known.owe(sent.id, known.unconfirmed & (sent.groups == kDeath ? +kLife : +sent.groups), m_tick);
     m_repeated.push_back(sent.id);
   }
   m_ahead.clear();
@@ -506,6 +539,9 @@ void SnapshotSender::noteLoss(bool was_lost) {
 }
 
 void SnapshotSender::arrived(const Flight::Snapshot& snapshot) {
+  // All snapshots since it was paid tell the input, until one is known to have arrived.
+  Single& input = m_singles[kInput];
+  if (!snapshot.probe && input.sent != 0 && !isNewer(input.sent, snapshot.number)) input.arrived = true;
   for (std::size_t i = 0; i < kSingles; ++i) {
     if (m_singles[i].sent != snapshot.number || isOwed(i)) continue;
     m_singles[i].arrived = true;

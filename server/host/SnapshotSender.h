@@ -28,7 +28,7 @@ namespace naiad {
 enum class Resend {
   kEveryTick,  ///< with every snapshot, until they are
   kOnGap,      ///< when later snapshots are acknowledged and theirs is not
-  kAhead,      ///< as kOnGap; what matters now is also repeated once in the next snapshot, if the line loses
+  kAhead,      ///< as kOnGap; what matters most is also repeated once in the next tick, if the line loses
 };
 
 class SnapshotSender {
@@ -46,7 +46,7 @@ class SnapshotSender {
     bool large = true;  ///< one that exceeds `bytes` may be among them, up to kMaxSnapshot
   };
 
-  explicit SnapshotSender(Resend resend = Resend::kOnGap) : m_resend(resend) {}
+  explicit SnapshotSender(Resend resend = Resend::kAhead) : m_resend(resend) {}
 
   /// Note one published tick and what this player sees of it. To be called after every Publisher::update
   /// while the client is connected; the first call owes the client all it sees.
@@ -100,6 +100,12 @@ class SnapshotSender {
   struct Single {
     std::uint32_t sent = 0;
     bool arrived = false;  ///< of the newest sending
+  };
+  /// A record that may be repeated in the next tick.
+  struct Ahead {
+    double urgency = 0;
+    std::size_t bits = 0;
+    KnownObjects::Sent sent;
   };
   /// The client's state after a snapshot, for isRight().
   struct Moment {
@@ -157,6 +163,7 @@ class SnapshotSender {
   static bool isTooLarge(std::size_t bits, std::size_t bytes);
   std::size_t encode(std::uint32_t id, const Publisher::Model* model, LookForm& form);
   void pay(std::uint32_t id, const Publisher::Model* model, LookForm form);
+  void considerAhead(std::uint32_t id, std::size_t bits, const Publisher& publisher);
   void repeatAhead();
   void arrived(const Flight::Snapshot& snapshot);
   void lost(const Flight::Snapshot& snapshot);
@@ -180,14 +187,16 @@ class SnapshotSender {
   std::uint8_t m_epoch = 0;
   std::uint32_t m_look_ahead = 4;
   double m_loss = 0;
-  std::vector<KnownObjects::Sent> m_ahead;  ///< to be repeated in the next tick
-  std::vector<std::uint32_t> m_repeated;    ///< ids that this tick repeats
-  std::vector<std::uint32_t> m_queue;       ///< ids to be written, the most urgent last
-  std::vector<std::uint32_t> m_later;       ///< these two kept for their memory
+  std::vector<Ahead> m_ahead;
+  std::vector<std::uint32_t> m_repeated;  ///< ids that this tick repeats
+  std::vector<std::uint32_t> m_queue;     ///< ids to be written, the most urgent last
+  std::vector<std::uint32_t> m_later;     ///< these two kept for their memory
   std::vector<std::pair<double, std::uint32_t>> m_ranked;
 
   std::array<Single, kSingles> m_singles;
-  std::uint32_t m_owed_singles = 0;  ///< a bit each
+  std::uint32_t m_ahead_singles = 0;     ///< to be repeated in the next tick
+  std::uint32_t m_repeated_singles = 0;  ///< that this tick repeats
+  std::uint32_t m_owed_singles = 0;      ///< a bit each
   WorldRecord m_world;
   ViewRecord m_view;              ///< as last sent
   std::uint32_t m_view_tick = 0;  ///< the tick at which m_view holds

@@ -76,10 +76,13 @@ class BitWriter {
   }
   /// All bits, the last byte filled up with zeros.
   std::string bytes() const {
-    std::string all(byteCount(), '\0');
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const std::uint64_t word = i / 8 < m_words.size() ? m_words[i / 8] : m_pending;
-      all[i] = static_cast<char>(word >> (8 * (i % 8)) & 0xFF);
+    std::string all(m_words.size() * 8 + static_cast<std::size_t>(m_pending_count + 7) / 8, '\0');
+    std::size_t at = 0;
+    for (const std::uint64_t word : m_words) {
+      for (int i = 0; i < 8; ++i) all[at++] = static_cast<char>(word >> (8 * i) & 0xFF);
+    }
+    for (std::uint64_t rest = m_pending; at < all.size(); rest >>= 8) {
+      all[at++] = static_cast<char>(rest & 0xFF);
     }
     return all;
   }

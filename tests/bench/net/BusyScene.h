@@ -1,7 +1,7 @@
 // The world of the network's measurements: `busy1000`, and two that should cost nothing.
 //
-// 1000 single characters on 320 by 96 cells. 80 % walk at up to ±0.5 cells per tick across and ±0.25 down, 10 %
-// stand, 10 % run at ±1 across; they bounce at the edges. In each tick 1 % turn, 2 % change their
+// 1000 single characters on 320 by 96 cells. 80 % walk at up to ±0.5 cells per tick across and ±0.25 down, 10
+// % stand, 10 % run at ±1 across; they bounce at the edges. In each tick 1 % turn, 2 % change their
 // character, 0.2 % die while another is born elsewhere. All of it through df::Object, seeded.
 #pragma once
 

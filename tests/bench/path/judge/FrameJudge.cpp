@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "../scene/Status.h"
 #include "Quantile.h"
@@ -23,10 +24,13 @@ void FrameJudge::look(const Picture& screen, Nanoseconds now) {
 }
 
 bool FrameJudge::isRight(const Picture& screen, std::uint32_t tick) {
+  std::vector<const Picture*> around;
   for (int distance = -kTolerance; distance <= kTolerance; ++distance) {
     const Truth::Moment* moment = m_truth.find(static_cast<std::uint32_t>(static_cast<int>(tick) + distance));
-    if (moment != nullptr) m_best = std::max(m_best, likeness(screen, moment->picture));
+    if (moment != nullptr) around.push_back(&moment->picture);
   }
+  const Truth::Moment* own = m_truth.find(tick);
+  if (own != nullptr) m_best = std::max(m_best, likeness(screen, own->picture, around));
   return m_best >= kLikenessPercent;
 }
 

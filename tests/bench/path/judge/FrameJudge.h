@@ -20,9 +20,10 @@ struct Shown {
 
 class FrameJudge {
  public:
-  /// So much of the cells that are not blank must equal the truth …
+  /// So much of the cells that are not blank, on the screen or in the truth, must equal the truth …
   static constexpr double kLikenessPercent = 97;
-  /// … of a tick at most so far from the counter.
+  /// … of some tick at most so far from the counter, each cell for itself: a client may draw what moves where
+  /// it is by now, and what has a new character when it hears of it.
   static constexpr int kTolerance = 2;
 
   explicit FrameJudge(const Truth& truth) : m_truth(truth) {}

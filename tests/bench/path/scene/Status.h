@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "Crowd.h"
@@ -48,5 +49,7 @@ bool isJudged(int x, int y);
 /// Of the judged cells that are not blank in either picture, how many percent are equal. 100 if all are
 /// blank.
 double likeness(const Picture& a, const Picture& b);
+/// The same of a screen and its truth, where a cell also counts as equal if it is so in any picture `around`.
+double likeness(const Picture& screen, const Picture& truth, std::span<const Picture* const> around);
 
 }  // namespace bench::path

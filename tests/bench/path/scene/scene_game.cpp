@@ -11,6 +11,7 @@
 
 #include "../Monotonic.h"
 #include "../SharedFile.h"
+#include "Controls.h"
 #include "Crowd.h"
 #include "DisplayManager.h"
 #include "EventKeyboard.h"
@@ -20,7 +21,6 @@
 #include "Status.h"
 #include "Truth.h"
 #include "WorldManager.h"
-#include "Controls.h"
 
 namespace {
 

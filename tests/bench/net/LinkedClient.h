@@ -1,0 +1,66 @@
+// One client of a published world: its sender on the server, a bad line in virtual time, its replica at the
+// other end. Counts what goes over the line as it would be there: IPv4 and UDP headers, the datagram's, its
+// seal.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "DisplayClock.h"
+#include "LossyLink.h"
+#include "Publisher.h"
+#include "Replica.h"
+#include "SnapshotSender.h"
+#include "VirtualClock.h"
+
+namespace bench {
+
+class LinkedClient {
+ public:
+  /// Around a snapshot: IPv4 and UDP headers, those of the datagram, its seal, its field of flags.
+  static constexpr std::size_t kDownOverhead = 28 + 3 + 16 + 1;
+  static constexpr std::size_t kUpOverhead = 28 + 11 + 16 + 1;
+  using Time = naiad::DisplayClock::Time;
+
+  LinkedClient(naiad::VirtualClock& clock, const naiad::LinkConditions& conditions, std::uint64_t seed,
+               naiad::Resend resend);
+
+  /// A tick of the server.
+  void tick(const naiad::Publisher& publisher, const df::PlayerFacts& player);
+  /// Called for each snapshot that arrives, before it is applied.
+  std::function<void(const naiad::Snapshot&)> on_snapshot;
+
+  const naiad::Replica& replica() const { return m_replica; }
+  naiad::DisplayClock& displayClock() { return m_display; }
+  /// The virtual time as the display clock has it.
+  Time now() const { return Time{} + m_clock.now(); }
+
+  /// Since the last resetFigures().
+  std::size_t bytes_down = 0;
+  std::size_t bytes_up = 0;
+  std::size_t packets_down = 0;
+  std::chrono::steady_clock::duration encode{};
+  void resetFigures();
+
+ private:
+  void serverHears(std::string_view bytes);
+  void clientHears(std::string_view bytes);
+
+  naiad::VirtualClock& m_clock;
+  naiad::SnapshotSender m_sender;
+  naiad::Replica m_replica;
+  naiad::AckWindow m_acks;
+  naiad::DisplayClock m_display;
+  std::uint32_t m_tick = 0;
+  naiad::LossyDatagramLink m_link;
+  std::unique_ptr<naiad::DatagramChannel> m_server;
+  std::unique_ptr<naiad::DatagramChannel> m_client;
+};
+
+/// Length of a tick in all of them.
+inline constexpr std::chrono::microseconds kTickLength{33'333};
+
+}  // namespace bench

@@ -1,0 +1,46 @@
+// A small world that a replica may know before the fuzzer's snapshots come, so that they can name what is in
+// it.
+#pragma once
+
+#include "Replica.h"
+
+namespace naiad::fuzz {
+
+inline constexpr std::uint32_t kPreludeTick = 1000;
+
+/// The snapshot (number 1, epoch 0) that tells it: world, a view that follows object 0, the three origins, a
+/// text, the names 1 to 3, and six objects.
+inline std::string preludeSnapshot() {
+  SnapshotWriter writer;
+  writer.begin({1, kPreludeTick, 0, true, false, 0, 0}, 0, {});
+  writer.write(WorldRecord{{{}, {df::fromCells(120), df::fromCells(50)}}, 40, 20});
+  writer.write(ViewRecord{{df::fromCells(3), 0}, true, 0, 1});
+  for (std::uint32_t slot = 1; slot <= kOriginSlots; ++slot) {
+    writer.write(OriginRecord{slot, {{static_cast<std::int32_t>(slot) * 8 - 12, -6}, 6, 5, slot * 100}});
+  }
+  writer.write(TextRecord{1, 2, 0, df::GREEN, "Score 7"});
+  for (std::uint32_t id = 0; id < 6; ++id) {
+    ObjectState state;
+    state.order = id + 1;
+    state.motion = {kPreludeTick, {df::fromCells(5 * id), df::fromCells(3)}, {df::kFixedOne / 4, 0}, {}};
+    Appearance word;
+    for (std::int32_t i = 0; i <= static_cast<std::int32_t>(id); ++i)
+      word.push_back({256 * i, 0, U'a', df::RED});
+    state.look = {{word}, 2};
+    BitWriter bits;
+    const LookForm form = id < 4 ? LookForm{LookForm::kDefined, id} : LookForm{};
+    writer.encode(bits, kAllGroups, 1, state, state.motion, form);
+    writer.object(id, std::move(bits));
+  }
+  return writer.finish();
+}
+
+inline Replica preludeReplica() {
+  static const std::string bytes = preludeSnapshot();
+  Replica replica(kPreludeTick);
+  Snapshot snapshot;
+  if (replica.read(bytes, snapshot) == ReadResult::kOk) replica.apply(snapshot);
+  return replica;
+}
+
+}  // namespace naiad::fuzz

@@ -1,0 +1,63 @@
+// The fuzzer's bytes, read from the front as numbers and pieces: what a target is to do, one step after
+// another.
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace naiad::fuzz {
+
+class Script {
+ public:
+  Script(const std::uint8_t* data, std::size_t size) : m_left(reinterpret_cast<const char*>(data), size) {}
+
+  bool atEnd() const { return m_left.empty(); }
+  /// Little-endian; missing bytes are 0.
+  template <std::unsigned_integral Number>
+  Number number() {
+    Number value = 0;
+    for (std::size_t i = 0; i < sizeof value && !m_left.empty(); ++i, m_left.remove_prefix(1)) {
+      value = static_cast<Number>(value | Number{static_cast<unsigned char>(m_left[0])} << (8 * i));
+    }
+    return value;
+  }
+  std::uint8_t byte() { return number<std::uint8_t>(); }
+  /// In 0 … n − 1.
+  std::size_t below(std::size_t n) { return byte() % n; }
+  bool flag() { return (byte() & 1) != 0; }
+  /// At most `count` bytes, in memory of just that size, so that the sanitizer sees who reads beyond.
+  std::string bytes(std::size_t count) {
+    const std::string piece(m_left.substr(0, count));
+    m_left.remove_prefix(piece.size());
+    return piece;
+  }
+  std::string rest() { return bytes(m_left.size()); }
+
+ private:
+  std::string_view m_left;
+};
+
+/// The same bytes in an allocation of exactly their size (a std::string keeps short ones within itself, and a
+/// zero behind all).
+class Exactly {
+ public:
+  explicit Exactly(std::string_view bytes) : m_size(bytes.size()), m_bytes(new char[m_size]) {
+    std::copy(bytes.begin(), bytes.end(), m_bytes);
+  }
+  Exactly(const Exactly&) = delete;
+  Exactly& operator=(const Exactly&) = delete;
+  ~Exactly() { delete[] m_bytes; }
+  std::string_view view() const { return {m_bytes, m_size}; }
+
+ private:
+  std::size_t m_size;
+  char* m_bytes;
+};
+
+}  // namespace naiad::fuzz
+
+/// What libFuzzer calls.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -1,0 +1,57 @@
+// A small world in which just that happens which a script says, and which reports itself as the engine does.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "Canvas.h"
+#include "Script.h"
+#include "WorldView.h"
+
+namespace naiad::fuzz {
+
+class ScriptedWorld {
+ public:
+  static constexpr std::size_t kThings = 16;  ///< alive at a time, at most
+  static constexpr int kWidth = 120;          ///< of the boundary, in cells
+  static constexpr int kHeight = 50;
+  static constexpr int kViewWidth = 30;
+  static constexpr int kViewHeight = 12;
+
+  ScriptedWorld();
+
+  /// One thing happens to one object or the player: two bytes of the script say what and to whom, more say
+  /// how.
+  void happen(Script& script);
+  /// All that moves moves, and everything is drawn.
+  void tick();
+  const df::WorldView& view() const { return m_view; }
+  /// What the player ought to see.
+  df::Canvas picture() const;
+
+ private:
+  struct Thing {
+    df::ObjectFacts facts;
+    bool alive = false;
+    bool changed = false;
+    std::vector<df::DrawCommand> look;  ///< relative to the position
+  };
+
+  void bear(Thing& thing, Script& script);
+  void kill(Thing& thing);
+  void place(Thing& thing, Script& script);
+  void turn(Thing& thing, Script& script);
+  void restyle(Thing& thing, Script& script);
+  void reshape(Thing& thing, Script& script);
+  void follow(const Thing& thing, Script& script);
+  void speak(Script& script);
+  void noteMoved(const Thing& thing);
+
+  std::array<Thing, kThings> m_things;
+  std::vector<df::ObjectKey> m_gone;     ///< since the last tick
+  std::vector<df::DrawCommand> m_loose;  ///< drawn outside any object in the next tick
+  std::uint64_t m_next_order = 1;
+  df::WorldView m_view;
+};
+
+}  // namespace naiad::fuzz

@@ -1,0 +1,244 @@
+// Writes the inputs that fuzzing began with: honest ones, by the product's own writers, a folder for each
+// target.
+//
+// usage: fuzz_seeds DIRECTORY
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "ControlCodec.h"
+#include "Framing.h"
+#include "Limits.h"
+#include "ScriptedLink.h"
+#include "SplitMix64.h"
+#include "UpdateCodec.h"
+#include "naiad.pb.h"
+
+namespace naiad::fuzz {
+namespace {
+
+class Folder {
+ public:
+  explicit Folder(std::filesystem::path path, std::string prefix = "seed-")
+      : m_path(std::move(path)), m_prefix(std::move(prefix)) {
+    std::filesystem::create_directories(m_path);
+  }
+  void add(const std::string& bytes) {
+    std::ofstream(m_path / (m_prefix + std::to_string(++m_count)), std::ios::binary) << bytes;
+  }
+
+ private:
+  std::filesystem::path m_path;
+  std::string m_prefix;
+  int m_count = 0;
+};
+
+std::string u16(std::size_t value) {
+  return {static_cast<char>(value & 0xFF), static_cast<char>(value >> 8)};
+}
+
+std::string randomBytes(SplitMix64& random, std::size_t count) {
+  std::string bytes(count, '\0');
+  for (char& byte : bytes) byte = static_cast<char>(random.next());
+  return bytes;
+}
+
+void frames(Folder folder) {
+  std::string stream;
+  for (const std::size_t size : {1u, 5u, 300u}) appendFrame(stream, std::string(size, 'x'));
+  for (const char how : {0, 1, 9}) folder.add(u16(64) + u16(512) + how + stream);
+  folder.add(u16(4) + u16(4) + '\x03' + stream);
+  folder.add(u16(64) + u16(64) + '\x03' + std::string(2, '\0'));
+}
+
+void texts(Folder folder) {
+  folder.add(
+      "\x10"
+      "Ann");
+  folder.add("\x28 na\xC3\xAFve\t\xE2\x96\x93 \xF0\x9F\x98\x80 \x1B[2J\r\n\xE2\x80\x8B");
+  folder.add("\x04\xC0\x80\xED\xA0\x80\xF4\x90\x80\x80\xE2\x82");
+}
+
+void keys(Folder folder) {
+  for (const std::string& text :
+       {"aZ1 \r\t\x7F\x03", "\x1B[A\x1B[1;5B\x1BOP\x1B[3~\x1B[15;2~", "\x1B[97;5u\x1B[57399;1:3u\x1B[?3u",
+        "\x1B[<0;10;5M\x1B[<0;10;5m\x1B[<35;1;1M", "\x1B[M !!\x1B[[A\x1B[5^\x1B[7$\x1B[c\x1BOd",
+        "\x1B[200~pasted\x1B[201~", "\x1B]0;title\x07\x1BPq\x1B\\\x1B\x1B[A\x1Bx",
+        "\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80", "\x1B[27;5;97~\x1B[1089::99;5u\x1B[97:65;2:2;65u"}) {
+    folder.add(static_cast<char>(text.size()) + text);
+    folder.add(std::string(1, static_cast<char>(3)) + text.substr(0, 3) + static_cast<char>(0x80 + 60) +
+               text.substr(3));
+  }
+}
+
+void updates(Folder folder) {
+  const std::string context("\x40\0\0\0\x80\0\0\0\x05\0\0\0\0", 13);
+  ClientUpdate update;
+  folder.add(context + writeUpdate(update));
+  update.acks = {0x40, ~std::uint64_t{0}};
+  update.ping = 7;
+  update.checksum = 0x0123456789ABCDEF;
+  update.inputs.push_back({6, 0x7E, 0x3F, false, 1, 33, 0, 0, 0});
+  update.inputs.push_back({7, 0x80, 0x40, true, 2, 0, 2, 79, 23});
+  folder.add(context + writeUpdate(update));
+  update.acks.mask = 5;
+  update.wants_reset = true;
+  for (std::uint32_t id = 8; id < 30; ++id)
+    update.inputs.push_back({id, 0x80 + id, 0x10, false, 0, 1, 0, 0, 0});
+  folder.add(context + writeUpdate(update));
+}
+
+/// Random numbers, small ones mostly.
+std::string smallNumbers(SplitMix64& random, std::size_t count) {
+  std::string bytes = randomBytes(random, count);
+  for (char& byte : bytes) {
+    if (random.below(8) != 0) byte = static_cast<char>(byte & 7);
+  }
+  return bytes;
+}
+
+void hostile(Folder updates, Folder snapshots) {
+  SplitMix64 random(13);
+  for (std::size_t i = 0; i < 16; ++i) {
+    updates.add(std::string("\x40\0\0\0\x80\0\0\0\x05\0\0\0\1", 13) + smallNumbers(random, 20 + 8 * i));
+    std::string pieces(1, '\3');
+    for (std::size_t k = 0; k < 3; ++k) pieces += u16(20 + 8 * i) + smallNumbers(random, 20 + 8 * i);
+    snapshots.add(pieces);
+  }
+}
+
+void controls(Folder folder) {
+  df::ControlTable table;
+  table.bounded = table.whole_cells = true;
+  table.bounds = {{}, {df::fromCells(80), df::fromCells(24)}};
+  table.patience = 30;
+  table.rows.push_back(
+      {df::Keyboard::W, df::KEY_PRESSED, df::ControlEffect::kStep, true, true, {0, -df::kFixedOne}, 2, 1});
+  table.rows.push_back(
+      {df::Keyboard::D, df::KEY_PRESSED, df::ControlEffect::kDrive, true, false, {df::kFixedOne, 0}, 0, 0});
+  std::string bytes(5, '\0');
+  writeControlTable(bytes, table);
+  folder.add(bytes);
+  ControlRecord record;
+  record.slot = 4;
+  record.generation = 1;
+  record.newest_input = 9;
+  record.position = {df::fromCells(3), df::fromCells(4)};
+  record.velocity = {df::kFixedOne / 2, 0};
+  record.state.steering = true;
+  record.state.wait[1] = 3;
+  bytes.assign("\1\0\0\0\0", 5);
+  writeControlRecord(bytes, record);
+  folder.add(bytes);
+}
+
+void serverMessages(Folder folder) {
+  wire::ServerMessage message;
+  message.mutable_refused()->set_reason(wire::Refused::FULL);
+  message.mutable_refused()->set_sentence("The game is full.");
+  folder.add(message.SerializeAsString());
+  wire::Welcome& welcome = *message.mutable_welcome();
+  welcome.set_player(1);
+  welcome.set_name("Ann");
+  welcome.set_game("hello");
+  welcome.set_tick_micros(33333);
+  welcome.set_view_width(80);
+  welcome.set_view_height(24);
+  welcome.set_color(2);
+  welcome.set_server("dfserver 0.1");
+  welcome.add_help("Arrows move.");
+  welcome.set_tick(1000);
+  folder.add(message.SerializeAsString());
+  message.set_snapshot("0123");
+  folder.add(message.SerializeAsString());
+  wire::PlayerEntry& entry = *message.mutable_players()->add_players();
+  entry.set_player(1);
+  entry.set_name("Ann");
+  entry.set_color(3);
+  entry.set_score(-5);
+  entry.set_rtt_millis(40);
+  *message.mutable_players()->add_players() = entry;
+  folder.add(message.SerializeAsString());
+  message.mutable_chat()->set_player(1);
+  message.mutable_chat()->set_text("hello");
+  folder.add(message.SerializeAsString());
+  message.mutable_pong()->set_token(7);
+  folder.add(message.SerializeAsString());
+  message.mutable_goodbye()->set_sentence("Bye.");
+  folder.add(message.SerializeAsString());
+}
+
+void clientMessages(Folder folder) {
+  std::string all;
+  const auto add = [&](const wire::ClientMessage& message, std::size_t flags) {
+    const std::string bytes = message.SerializeAsString();
+    folder.add(u16(bytes.size() | flags) + bytes);
+    all += u16(bytes.size() | (all.empty() ? flags : 0x4000)) + bytes;
+  };
+  wire::ClientMessage message;
+  ClientUpdate update;
+  update.acks = {1, 0};
+  update.inputs.push_back({1, 1, 1, false, 0, 33, 0, 0, 0});
+  message.set_update(writeUpdate(update));
+  add(message, 0xC000);
+  message.mutable_chat()->set_text("hello");
+  add(message, 0xC000);
+  message.mutable_ping()->set_token(7);
+  message.mutable_ping()->set_rtt_millis(30);
+  add(message, 0xC000);
+  message.mutable_resize()->set_columns(80);
+  add(message, 0xC000);
+  message.mutable_leave();
+  add(message, 0xC000);
+  folder.add(all);
+  wire::Hello& hello = *message.mutable_hello();
+  hello.set_magic(kHelloMagic);
+  hello.set_protocol(kProtocolVersion);
+  hello.set_player_name("Ann");
+  add(message, 0);
+  hello.set_protocol(1);
+  add(message, 0x4000);
+}
+
+/// Random scripts; and what the client and the server heard in the short ones.
+void replication(Folder folder, Folder snapshots) {
+  SplitMix64 random(11);
+  for (std::size_t i = 0; i < 24; ++i) {
+    const std::string script = randomBytes(random, i < 12 ? 40 + 10 * i : 200 + 20 * i);
+    folder.add(script);
+    std::string heard(1, '\0');
+    Script reader(reinterpret_cast<const std::uint8_t*>(script.data()), script.size());
+    ScriptedLink link(static_cast<Resend>(reader.below(3)));
+    link.on_snapshot = [&heard](const std::string& bytes) {
+      if (heard.size() + bytes.size() < 1500) heard += u16(bytes.size()) + bytes;
+    };
+    link.run(reader, 30);
+    snapshots.add(heard);
+  }
+}
+
+void datagrams(Folder folder) {
+  SplitMix64 random(12);
+  for (std::size_t i = 0; i < 16; ++i) folder.add(randomBytes(random, 40 + 20 * i));
+}
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int main(int argc, char** argv) {
+  using namespace naiad::fuzz;
+  if (argc != 2) return 2;
+  const std::filesystem::path base(argv[1]);
+  frames(Folder(base / "frames"));
+  texts(Folder(base / "safe_text"));
+  keys(Folder(base / "input_decoder"));
+  updates(Folder(base / "update"));
+  hostile(Folder(base / "update", "hostile-"), Folder(base / "snapshot", "hostile-"));
+  controls(Folder(base / "controls"));
+  serverMessages(Folder(base / "server_message"));
+  clientMessages(Folder(base / "client_message"));
+  replication(Folder(base / "replication"), Folder(base / "snapshot"));
+  datagrams(Folder(base / "datagram"));
+  return 0;
+}

@@ -1,0 +1,114 @@
+// What a server makes of a client's frames: parse, check, dispatch, on a channel that leads nowhere. No frame
+// is answered before the hello but with a refusal, there is one hello, and what comes out of it is in its
+// ranges.
+//
+//   input   frames: length + 2^14·tick before it + 2^15·behind a proper hello (2) | the frame's payload
+//           length 0: what 1 of the channel or the host: 0 closed, 1 busy, 2 many times the last frame, 3
+//           goodbye, else so many half seconds pass
+#include <google/protobuf/stubs/logging.h>
+
+#include <memory>
+
+#include "FakeChannel.h"
+#include "Limits.h"
+#include "Require.h"
+#include "Script.h"
+#include "Session.h"
+
+namespace naiad::fuzz {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Play {
+ public:
+  Play() : m_session(std::make_unique<FakeChannel>(m_line), m_counters, m_now) {
+    m_session.start({[this](Session& session, const wire::Hello& hello) { greet(session, hello); },
+                     [](Session&, const std::string& text) {
+                       REQUIRE(!text.empty() && text.size() <= 4 * kMaxChatLength);
+                     },
+                     [this](Session&) { REQUIRE(++m_gone == 1); }});
+  }
+
+  void hear(std::string_view frame) {
+    if (m_line.closed || frame.empty() || frame.size() > m_line.receive_limit) return;  // never gets here
+    m_last = frame;
+    const Exactly bytes(m_last);
+    m_line.callbacks.on_frame(bytes.view());
+    REQUIRE((m_session.state() == Session::State::kEnding) == m_line.closed);
+    REQUIRE(m_gone == (m_line.closed ? 1 : 0));
+  }
+  void hello() {
+    if (m_session.state() != Session::State::kGreeting) return;
+    wire::ClientMessage message;
+    message.mutable_hello()->set_magic(kHelloMagic);
+    message.mutable_hello()->set_protocol(kProtocolVersion);
+    hear(message.SerializeAsString());
+  }
+  void meddle(std::uint8_t what) {
+    if (what == 0 && !m_line.closed) {
+      m_line.closed = true;
+      m_line.callbacks.on_closed(CloseReason::kProtocol);
+      REQUIRE(m_session.state() == Session::State::kGone && m_gone == 1);
+    }
+    if (what == 1) m_line.unsent ^= 1;
+    if (what == 2) {
+      for (int i = 0; i < 100; ++i) hear(std::string(m_last));
+    }
+    if (what == 3 && m_session.state() == Session::State::kPlaying) m_session.goodbye("Bye.");
+    if (what > 3) m_now += 500ms * what;
+  }
+  void tick() {
+    m_now += 33ms;
+    m_session.checkDeadlines(m_now);
+    ++m_view.tick;
+    m_publisher.update(m_view);
+    if (m_session.state() != Session::State::kPlaying) return;
+    m_session.takeInputs(m_view.tick, [this](const Input& input) {
+      REQUIRE(m_input == 0 || isNewer(input.id, m_input));
+      REQUIRE(input.key < df::Keyboard::kKeyCount && input.x < kMaxViewWidth && input.y < kMaxViewHeight);
+      m_input = input.id;
+    });
+    m_session.sendTick(m_publisher, m_player);
+  }
+
+ private:
+  void greet(Session& session, const wire::Hello& hello) {
+    REQUIRE(++m_hellos == 1 && hello.magic() == kHelloMagic);
+    if (hello.protocol() != kProtocolVersion)
+      return session.refuse(wire::Refused::VERSION, "Another version.");
+    wire::Welcome welcome;
+    welcome.set_player(7);
+    session.welcome(welcome);
+  }
+
+  Session::Clock::time_point m_now{1h};
+  FakeLine m_line;
+  std::string m_last;  ///< frame
+  Counters m_counters;
+  Session m_session;
+  int m_hellos = 0;
+  int m_gone = 0;
+  std::uint32_t m_input = 0;
+  df::WorldView m_view;
+  df::PlayerFacts m_player;
+  Publisher m_publisher;
+};
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const auto noisy = google::protobuf::SetLogHandler(nullptr);
+  static_cast<void>(noisy);
+  naiad::fuzz::Script script(data, size);
+  naiad::fuzz::Play play;
+  while (!script.atEnd()) {
+    const auto head = script.number<std::uint16_t>();
+    if ((head & 0x4000) != 0) play.tick();
+    if ((head & 0x8000) != 0) play.hello();
+    if ((head & 0x3FFF) == 0) play.meddle(script.byte());
+    play.hear(script.bytes(head & 0x3FFF));
+  }
+  return 0;
+}

@@ -1,0 +1,52 @@
+// Declared controls, and the exact state of what a player steers.
+//
+//   input   0 table, 1 state (1) | tick (4) | the bytes
+#include "ControlCodec.h"
+#include "Limits.h"
+#include "Require.h"
+#include "Script.h"
+
+namespace naiad::fuzz {
+namespace {
+
+void tryTable(std::string_view bytes) {
+  const auto table = readControlTable(bytes);
+  if (!table) return;
+  REQUIRE(isValid(*table));
+  std::string written;
+  writeControlTable(written, *table);
+  REQUIRE(written.size() <= kMaxControlTableBytes);
+  REQUIRE(readControlTable(written) == table);
+}
+
+void tryRecord(std::string_view bytes, std::uint32_t tick) {
+  const auto record = readControlRecord(bytes, tick);
+  if (!record) return;
+  REQUIRE(record->tick == tick && record->slot < kMaxSlots);
+  REQUIRE(record->state.silence <= df::kMaxControlTicks);
+  for (const std::uint16_t wait : record->state.wait) REQUIRE(wait <= df::kMaxControlTicks);
+  for (const df::Fixed pull : {record->state.x.pull, record->state.y.pull}) {
+    REQUIRE(pull >= -df::kMaxControlReach && pull <= df::kMaxControlReach);
+  }
+  std::string written;
+  writeControlRecord(written, *record);
+  REQUIRE(written.size() <= kMaxControlRecordBytes);
+  REQUIRE(readControlRecord(written, tick) == record);
+}
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace naiad;
+  fuzz::Script script(data, size);
+  const bool table = !script.flag();
+  const auto tick = script.number<std::uint32_t>();
+  const fuzz::Exactly bytes(script.rest());
+  if (table) {
+    fuzz::tryTable(bytes.view());
+  } else {
+    fuzz::tryRecord(bytes.view(), tick);
+  }
+  return 0;
+}

@@ -1,0 +1,91 @@
+// The stream deframer: however a stream is cut into pieces, the same frames come out as of the whole, and
+// never more than one frame is kept.
+//
+//   input   limit 2 | limit after the first frame 2 | how it is cut 1 | the stream
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "Framing.h"
+#include "Require.h"
+#include "Script.h"
+#include "SplitMix64.h"
+
+namespace naiad::fuzz {
+namespace {
+
+struct Outcome {
+  std::vector<std::string> frames;
+  FrameError error = FrameError::kNone;
+  bool mid_frame = false;
+  friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+
+/// What PROTOCOL.md says, on a stream that is all there.
+Outcome expected(std::string_view stream, std::size_t limit, std::size_t later) {
+  Outcome outcome;
+  while (stream.size() >= kFrameHeaderSize) {
+    const auto low = static_cast<unsigned char>(stream[0]);
+    const auto high = static_cast<unsigned char>(stream[1]);
+    const std::size_t length = low + 256u * high;
+    if (length == 0) outcome.error = FrameError::kEmpty;
+    if (length > limit) outcome.error = FrameError::kTooLarge;
+    if (outcome.error != FrameError::kNone) return outcome;
+    if (stream.size() - kFrameHeaderSize < length) break;
+    outcome.frames.emplace_back(stream.substr(kFrameHeaderSize, length));
+    stream.remove_prefix(kFrameHeaderSize + length);
+    limit = later;
+  }
+  outcome.mid_frame = !stream.empty();
+  return outcome;
+}
+
+Outcome cut(std::string_view stream, std::size_t limit, std::size_t later, std::uint8_t how) {
+  SplitMix64 random(how);
+  FrameReader reader(limit);
+  Outcome outcome;
+  const std::size_t most = std::max(limit, later) + kFrameHeaderSize;
+  for (std::string_view left = stream; !left.empty();) {
+    const std::size_t size = how == 0   ? left.size()
+                             : how == 1 ? 1
+                                        : std::min<std::size_t>(left.size(), random.below(how));
+    const Exactly piece(left.substr(0, size));
+    left.remove_prefix(size);
+    reader.feed(piece.view());
+    while (const auto frame = reader.next()) {
+      outcome.frames.emplace_back(*frame);
+      reader.setLimit(later);
+      REQUIRE(reader.buffered() <= most);
+    }
+    REQUIRE(reader.buffered() <= most);
+  }
+  outcome.error = reader.error();
+  outcome.mid_frame = reader.midFrame();
+  return outcome;
+}
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace naiad;
+  fuzz::Script script(data, size);
+  const std::size_t limit = script.number<std::uint16_t>();
+  const std::size_t later = script.number<std::uint16_t>();
+  const std::uint8_t how = script.byte();
+  const std::string stream = script.rest();
+  const fuzz::Outcome outcome = fuzz::cut(stream, limit, later, how);
+  REQUIRE(outcome == fuzz::expected(stream, limit, later));
+
+  std::string written;
+  for (const std::string& frame : outcome.frames) appendFrame(written, frame);
+  REQUIRE(std::string_view(stream).starts_with(written));
+  try {
+    appendFrame(written, std::string(stream.size() < 64 ? stream.size() : kMaxFramePayload + 1, 'x'));
+    REQUIRE(!stream.empty() && stream.size() < 64);
+  } catch (const std::length_error&) {
+    REQUIRE(stream.empty() || stream.size() >= 64);
+  }
+  return 0;
+}

@@ -1,0 +1,15 @@
+// A world, its publisher, a sender, a bad link and a replica, by a script: whatever happened and whatever got
+// lost, doubled, reordered or damaged, once the link is well again the replica is the world.
+//
+//   input   when to send again 1 | steps: see ScriptedLink::run() and ScriptedWorld::happen()
+#include "ScriptedLink.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace naiad;
+  fuzz::Script script(data, size);
+  fuzz::ScriptedLink link(static_cast<Resend>(script.below(3)));
+  link.run(script, 200);
+  link.heal(40);
+  link.requireSame();
+  return 0;
+}

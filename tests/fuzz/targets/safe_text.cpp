@@ -1,0 +1,48 @@
+// Text from the network made fit for a terminal: whatever goes in, what comes out is drawable, of the right
+// length, and stays as it is when cleaned again.
+//
+//   input   characters at most 1 | the text
+#include "Canvas.h"
+#include "Limits.h"
+#include "Require.h"
+#include "SafeText.h"
+#include "Script.h"
+
+namespace naiad::fuzz {
+namespace {
+
+void requireSafe(const std::string& text, std::size_t most) {
+  const std::u32string decoded = df::decodeUtf8(text);
+  REQUIRE(decoded.size() == columnsOf(text));
+  REQUIRE(decoded.size() <= most);
+  std::string again;
+  for (const char32_t ch : decoded) {
+    REQUIRE(df::isDrawable(ch));
+    df::appendUtf8(again, ch);
+  }
+  REQUIRE(again == text);
+}
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace naiad;
+  fuzz::Script script(data, size);
+  const std::size_t most = script.byte();
+  const std::string text = script.rest();
+
+  const std::string safe = safeText(text, most);
+  fuzz::requireSafe(safe, most);
+  REQUIRE(safeText(safe, most) == safe);
+
+  const std::string name = safeName(text);
+  fuzz::requireSafe(name, kMaxNameLength);
+  REQUIRE(!name.empty() && name.front() != ' ' && name.back() != ' ');
+  REQUIRE(safeName(name) == name);
+
+  std::string all;
+  for (const char32_t ch : df::decodeUtf8(text)) df::appendUtf8(all, ch);
+  REQUIRE(df::decodeUtf8(all) == df::decodeUtf8(text));
+  return 0;
+}

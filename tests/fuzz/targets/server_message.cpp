@@ -1,0 +1,71 @@
+// What a server may say: whatever the bytes, the values that come out are in their ranges and fit for a
+// terminal.
+//
+//   input   a frame's payload
+#include "Canvas.h"
+#include "Limits.h"
+#include "Require.h"
+#include "SafeText.h"
+#include "Script.h"
+#include "ServerMessages.h"
+
+namespace naiad::fuzz {
+namespace {
+
+void requireText(const std::string& text, std::size_t most) {
+  std::size_t count = 0;
+  for (const char32_t ch : df::decodeUtf8(text)) {
+    REQUIRE(df::isDrawable(ch));
+    ++count;
+  }
+  REQUIRE(count <= most);
+}
+
+void requireColor(df::Color color) {
+  REQUIRE(static_cast<unsigned>(color) < static_cast<unsigned>(df::kColorCount));
+}
+
+void requireGood(const WelcomeMessage& message) {
+  using namespace std::chrono_literals;
+  REQUIRE(message.player != 0);
+  REQUIRE(message.tick >= 1ms && message.tick <= 1s);
+  REQUIRE(message.view_width >= 1 && message.view_width <= kMaxViewWidth);
+  REQUIRE(message.view_height >= 1 && message.view_height <= kMaxViewHeight);
+  requireColor(message.color);
+  requireText(message.name, kMaxNameLength);
+  requireText(message.game, kMaxProgramLength);
+  requireText(message.server, kMaxProgramLength);
+  REQUIRE(message.help.size() <= kMaxHelpLines);
+  for (const std::string& line : message.help) requireText(line, kMaxHelpLength);
+}
+void requireGood(const RefusedMessage& message) {
+  requireText(message.sentence, kMaxSentenceLength);
+}
+void requireGood(const GoodbyeMessage& message) {
+  requireText(message.sentence, kMaxSentenceLength);
+}
+void requireGood(const PlayersMessage& message) {
+  REQUIRE(message.players.size() <= kMaxPlayers);
+  for (const PlayerLine& line : message.players) {
+    REQUIRE(line.player != 0 && line.rtt_millis < 100000);
+    requireColor(line.color);
+    requireText(line.name, kMaxNameLength);
+  }
+}
+void requireGood(const ChatMessage& message) {
+  requireText(message.text, kMaxChatLength);
+}
+template <class Other>
+void requireGood(const Other&) {}  // nothing in it can be wrong, or somebody else reads it
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace naiad;
+  fuzz::Script script(data, size);
+  const fuzz::Exactly frame(script.rest());
+  const auto message = readServerMessage(frame.view());
+  if (message) std::visit([](const auto& value) { fuzz::requireGood(value); }, *message);
+  return 0;
+}
