@@ -184,6 +184,7 @@ void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
   }
   takeControls();
   ++m_counters.snapshots;
+  if (m_after_observer) m_after_observer(snapshot.header, m_acks);
   // Every second one is enough, unless something is missing.
   ++m_unacknowledged;
   const bool gap = (m_acks.mask & 1) == 0 && m_counters.snapshots > 1;

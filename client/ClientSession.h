@@ -177,6 +177,11 @@ class ClientSession {
   void onBeforeSnapshot(std::function<void(std::uint32_t tick)> observer) {
     m_observer = std::move(observer);
   }
+  /// Called after a snapshot was applied, with what it said of itself and what has arrived by now. For checks
+  /// that hold the picture against the server's.
+  void onAfterSnapshot(std::function<void(const SnapshotHeader& header, const AckWindow& acks)> observer) {
+    m_after_observer = std::move(observer);
+  }
 
  private:
   void handle(WelcomeMessage&& message, Time now);
@@ -217,6 +222,7 @@ class ClientSession {
   std::deque<ChatEntry> m_chat;
   SessionCounters m_counters;
   std::function<void(std::uint32_t)> m_observer;
+  std::function<void(const SnapshotHeader&, const AckWindow&)> m_after_observer;
   std::uint32_t m_next_input = 1;
   std::deque<Input> m_inputs;            ///< that no snapshot has acknowledged
   std::uint32_t m_newest_on_stream = 0;  ///< newest input sent on this stream

@@ -105,6 +105,8 @@ class Session {
   /// The round trip the client measured last, in milliseconds; 0: not yet.
   std::uint32_t rttMillis() const { return m_rtt_millis; }
   const Passage& passage() const { return m_passage; }
+  /// What the client has been told.
+  const SnapshotSender& sender() const { return m_sender; }
 
  private:
   /// Where the callbacks of a stream lead: its session may change.

@@ -1,0 +1,95 @@
+// A client with a random player at the keys, over a bad network: what client/Connection does for dfclient, in
+// virtual time.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "BotPlayer.h"
+#include "ClientSession.h"
+#include "LossyLink.h"
+#include "SoakScene.h"
+#include "Tally.h"
+#include "VirtualHost.h"
+#include "Weather.h"
+
+namespace naiad::soak {
+
+class Bot {
+ public:
+  struct Place {
+    VirtualClock& clock;
+    VirtualNetwork& network;
+    VirtualHost& host;
+    Endpoint server;
+    Tally& tally;
+  };
+  /// Called after each snapshot of the session shown.
+  using OnSnapshot = std::function<void(Bot& bot, const SnapshotHeader& header, const AckWindow& acks)>;
+
+  Bot(Place place, int number, std::uint64_t seed, double haste, OnSnapshot on_snapshot);
+
+  /// Strokes of fate, the player's keys, and whether there is news. Once a tick.
+  void tick();
+  /// Deadlines. A few times a tick.
+  void update();
+  /// The game heard something of this player.
+  void heard(const Heard& what);
+  /// Fine weather, and no more keys.
+  void rest();
+
+  /// The session shown; null while there is none.
+  ClientSession* session() { return m_shown.session.get(); }
+  /// Of the session shown; 0 while there is none.
+  std::uint32_t player() const;
+  int number() const { return m_number; }
+  /// Keys and clicks that were sent, and the game has not heard of.
+  std::size_t unheard() const { return m_unheard.size(); }
+  const Weather& weather() const { return m_weather; }
+  std::string describe() const;
+
+ private:
+  using Time = ClientSession::Time;
+  /// A session with what carries it.
+  struct Seat {
+    std::unique_ptr<ClientSession> session;
+    std::unique_ptr<VirtualStreamLink> link;
+    const DatagramSocket* p_socket = nullptr;
+  };
+
+  Time now() const { return timeOf(m_place.clock); }
+  void attempt();
+  void attach();
+  std::unique_ptr<ClientSession> makeSession(std::unique_ptr<ReliableChannel> channel, Seat& seat);
+  void checkPending();
+  void checkShown();
+  void tryAgain();
+  void applyWeather();
+  void applyTo(const Seat& seat) const;
+  void strike(const Strokes& strokes);
+  void quit(std::chrono::milliseconds pause);
+  void press();
+  void watch();
+
+  Place m_place;
+  int m_number;
+  SplitMix64 m_random;
+  OnSnapshot m_on_snapshot;
+  Weather m_weather;
+  RandomPlayer m_player;
+  bool m_resting = false;
+  Seat m_shown;
+  Seat m_pending;
+  std::shared_ptr<const DatagramSocket*> m_p_opened;
+  std::chrono::milliseconds m_backoff{250};
+  Time m_next_attempt{};
+  bool m_connecting = false;
+  std::deque<Heard> m_unheard;
+  Time m_calm_since{};
+  Time m_news_at{};
+  std::uint64_t m_snapshots_seen = 0;
+};
+
+}  // namespace naiad::soak

@@ -1,0 +1,161 @@
+#include "Soak.h"
+
+#include <malloc.h>
+
+#include <cstdio>
+#include <numeric>
+
+namespace naiad::soak {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kTicksPerSecond = 30;
+constexpr int kParts = 4;  ///< of a tick: how often bots look at their deadlines
+/// Until streams have got over what happened, and 5 s more.
+constexpr int kQuietSeconds = 20;
+/// Of each client, in the end, at least so many pictures in a row.
+constexpr std::uint64_t kRightInTheEnd = 10;
+
+double mean(const std::vector<double>& values) {
+  return values.empty()
+             ? 0
+             : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+Soak::Soak(const SoakOptions& options)
+    : m_options(options),
+      m_network(m_clock, LinkConditions{}, options.seed),
+      m_scope(m_world),
+      m_host(m_world, m_clock, m_network, *makeEndpoint("10.0.0.1", 9876), options.seed + 1),
+      m_judge(m_world, m_host, m_tally, options.stride) {
+  m_world.setLogSink([](const std::string&) {});
+  populateSoak(m_world, options.creatures, options.seed + 2, [this](const Heard& heard) { hear(heard); });
+  SplitMix64 seeds(options.seed + 3);
+  const Bot::Place place{m_clock, m_network, m_host, *makeEndpoint("10.0.0.1", 9876), m_tally};
+  for (int i = 0; i < options.bots; ++i) {
+    m_bots.push_back(
+        std::make_unique<Bot>(place, i, seeds.next(), options.haste,
+                              [this](Bot& bot, const SnapshotHeader& header, const AckWindow& acks) {
+                                m_judge.look(bot, header, acks);
+                              }));
+  }
+}
+
+Soak::~Soak() {
+  m_bots.clear();
+  m_world.shutDown();
+}
+
+void Soak::hear(const Heard& heard) {
+  for (const auto& bot : m_bots) {
+    if (bot->player() == heard.player) return bot->heard(heard);
+  }
+}
+
+void Soak::tick() {
+  ++m_ticks;
+  const VirtualClock::Time begin{static_cast<VirtualClock::Time::rep>(m_ticks * 1'000'000 / kTicksPerSecond)};
+  const VirtualClock::Time before = m_clock.now();
+  for (int i = 1; i <= kParts; ++i) {
+    m_clock.advanceTo(before + (begin - before) * i / kParts);
+    for (const auto& bot : m_bots) bot->update();
+  }
+  for (const auto& bot : m_bots) bot->tick();
+  m_host.tick([this] { m_judge.keepTruths(); });
+  m_judge.judge();
+}
+
+bool Soak::run() {
+  const auto ticks = static_cast<std::uint64_t>(m_options.minutes * 60 * kTicksPerSecond);
+  for (std::uint64_t i = 1; i <= ticks; ++i) {
+    tick();
+    if (i % (5 * kTicksPerSecond) == 0) measureMemory(static_cast<double>(i) / static_cast<double>(ticks));
+    if (i % (5 * 60 * kTicksPerSecond) == 0) report();
+  }
+  finish();
+  return conclude();
+}
+
+// Memory of the early time (10 to 20 %) and of the late time (90 % and on), each averaged: clients come and
+// go.
+void Soak::measureMemory(double share) {
+  const struct mallinfo2 info = mallinfo2();
+  const double bytes =
+      static_cast<double>(info.uordblks + info.hblkhd) - static_cast<double>(m_judge.bytesKept());
+  if (share > 0.1 && share <= 0.2) m_early.push_back(bytes);
+  if (share > 0.9) m_late.push_back(bytes);
+}
+
+double Soak::memoryGrowth() const {
+  return m_early.empty() ? 0 : 100 * (mean(m_late) / mean(m_early) - 1);
+}
+
+void Soak::finish() {
+  for (const auto& bot : m_bots) bot->rest();
+  for (int i = 0; i < kQuietSeconds * kTicksPerSecond; ++i) tick();
+  for (const auto& bot : m_bots) {
+    m_tally.inputs_lost += bot->unheard();
+    if (isQuiet(*bot)) continue;
+    ++m_unwell;
+    std::fprintf(stderr, "not well in the end: %s, %llu pictures right in a row\n", bot->describe().c_str(),
+                 static_cast<unsigned long long>(m_judge.rightInARow(bot->player())));
+  }
+}
+
+bool Soak::isQuiet(Bot& bot) const {
+  ClientSession* session = bot.session();
+  if (session == nullptr || session->state() != ClientSession::State::kPlaying) return false;
+  if (session->isDetached() || !session->hasDatagrams(timeOf(m_clock))) return false;
+  const Session* far = m_host.find(bot.player());
+  return far != nullptr && far->passage().isOpen(timeOf(m_clock)) &&
+         m_judge.rightInARow(bot.player()) >= kRightInTheEnd;
+}
+
+void Soak::report() const {
+  std::fprintf(
+      stderr,
+      "%3.0f min: players=%zu snapshots=%llu compared=%llu wrong_cells=%llu divergences=%llu stuck=%llu "
+      "resumed=%llu lost_sessions=%llu bytes_in_use=%.0f\n",
+      static_cast<double>(m_clock.now().count()) / 60e6, m_host.playing(),
+      static_cast<unsigned long long>(m_tally.snapshots), static_cast<unsigned long long>(m_tally.compared),
+      static_cast<unsigned long long>(m_tally.wrong_cells),
+      static_cast<unsigned long long>(m_host.counters().divergences + m_tally.wrong_checksums),
+      static_cast<unsigned long long>(m_tally.stuck), static_cast<unsigned long long>(m_tally.resumed),
+      static_cast<unsigned long long>(m_tally.lost_sessions),
+      static_cast<double>(mallinfo2().uordblks) - static_cast<double>(m_judge.bytesKept()));
+}
+
+bool Soak::conclude() {
+  std::uint64_t blocked = 0;
+  std::uint64_t outages = 0;
+  for (const auto& bot : m_bots) {
+    blocked += bot->weather().blockades();
+    outages += bot->weather().outages();
+  }
+  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+  const std::uint64_t divergences = m_host.counters().divergences + m_tally.wrong_checksums;
+  std::printf("soak bots=%d minutes=%g snapshots=%llu compared=%llu compared_cells=%llu wrong_cells=%llu ",
+              m_options.bots, m_options.minutes, number(m_tally.snapshots), number(m_tally.compared),
+              number(m_tally.compared_cells), number(m_tally.wrong_cells));
+  std::printf(
+      "divergences=%llu stuck=%llu unwell=%d thrown_out=%llu joins=%llu resumed=%llu lost_sessions=%llu ",
+      number(divergences), number(m_tally.stuck), m_unwell, number(m_tally.thrown_out), number(m_tally.joins),
+      number(m_tally.resumed), number(m_tally.lost_sessions));
+  std::printf("outages=%llu blocked=%llu rebound=%llu broken=%llu killed=%llu left=%llu ", number(outages),
+              number(blocked), number(m_tally.rebound), number(m_tally.broken), number(m_tally.killed),
+              number(m_tally.left));
+  std::printf(
+      "inputs=%llu inputs_lost=%llu inputs_wrong=%llu inputs_dropped=%llu memory_growth_percent=%.2f\n",
+      number(m_tally.inputs), number(m_tally.inputs_lost), number(m_tally.inputs_wrong),
+      number(m_tally.inputs_dropped), memoryGrowth());
+  std::fprintf(stderr, "server: %s\n", m_host.counters().summary().c_str());
+  return m_tally.wrong_cells == 0 && divergences == 0 && m_tally.stuck == 0 && m_unwell == 0 &&
+         m_tally.thrown_out == 0 && m_tally.lost_sessions == 0 && m_tally.inputs_lost == 0 &&
+         m_tally.inputs_wrong == 0 && m_tally.compared > 0 && memoryGrowth() < 10;
+}
+
+}  // namespace naiad::soak

@@ -1,0 +1,58 @@
+// A server, its bots and the network between them, for some virtual time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "Bot.h"
+#include "Judge.h"
+#include "Tally.h"
+#include "VirtualHost.h"
+#include "World.h"
+
+namespace naiad::soak {
+
+struct SoakOptions {
+  int bots = 64;
+  double minutes = 60;
+  std::uint64_t seed = 1;
+  int creatures = 200;
+  double haste = 1;          ///< how many times more often than usual things happen
+  std::uint32_t stride = 5;  ///< each player's picture is looked at in every so-manieth tick
+};
+
+class Soak {
+ public:
+  explicit Soak(const SoakOptions& options);
+  ~Soak();
+
+  /// Run it, print how it goes on stderr and the last line on stdout. True if nothing went wrong.
+  bool run();
+
+ private:
+  void tick();
+  void hear(const Heard& heard);
+  void report() const;
+  void finish();
+  bool isQuiet(Bot& bot) const;
+  void measureMemory(double share);
+  double memoryGrowth() const;
+  bool conclude();
+
+  SoakOptions m_options;
+  VirtualClock m_clock;
+  VirtualNetwork m_network;
+  df::World m_world;
+  df::World::Scope m_scope;
+  VirtualHost m_host;
+  Tally m_tally;
+  Judge m_judge;
+  std::vector<std::unique_ptr<Bot>> m_bots;
+  std::uint64_t m_ticks = 0;
+  int m_unwell = 0;  ///< clients whose picture was not right, or whose datagrams did not pass, in the end
+  std::vector<double> m_early;  ///< bytes in use
+  std::vector<double> m_late;
+};
+
+}  // namespace naiad::soak

@@ -1,0 +1,184 @@
+#include "SoakScene.h"
+
+#include <string>
+#include <utility>
+
+#include "Controls.h"
+#include "DisplayManager.h"
+#include "EventMouse.h"
+#include "EventOut.h"
+#include "EventPlayer.h"
+#include "EventStep.h"
+#include "Object.h"
+#include "Player.h"
+#include "WorldManager.h"
+
+namespace naiad::soak {
+
+namespace {
+
+constexpr int kWidth = 240;
+constexpr int kHeight = 60;
+
+df::Vector somewhere() {
+  const double x = WM.randomInt(kWidth * 100) / 100.0;
+  return {x, WM.randomInt(kHeight * 100) / 100.0};
+}
+
+df::Vector somehow() {
+  const double x = (WM.randomInt(200) - 100) / 120.0;
+  return {x, (WM.randomInt(200) - 100) / 240.0};
+}
+
+df::Color someColor() {
+  return static_cast<df::Color>(1 + WM.randomInt(df::kColorCount - 1));
+}
+
+/// One character, a word, or a sprite whose frames take turns.
+class Creature : public df::Object {
+ public:
+  Creature() {
+    setType("Creature");
+    setPosition(somewhere());
+    setVelocity(somehow());
+    setAltitude(WM.randomInt(df::MAX_ALTITUDE + 1));
+    setSolidness(static_cast<df::Solidness>(WM.randomInt(3)));
+    if (WM.randomInt(8) == 0) setAcceleration(df::Vector(0, 0.01));
+    m_kind = WM.randomInt(4);
+    if (m_kind == 3) setBox(df::Box(df::Vector(-1, -1), 3, 3));
+    m_color = someColor();
+    m_text = std::string(m_kind == 0 ? 1 : 2 + WM.randomInt(9), static_cast<char>('a' + WM.randomInt(26)));
+    registerInterest(df::STEP_EVENT);
+  }
+
+  int eventHandler(const df::Event* p_e) override {
+    if (p_e->getType() == df::OUT_EVENT) {
+      setPosition(somewhere());
+      return 1;
+    }
+    if (p_e->getType() != df::STEP_EVENT) return 0;
+    ++m_age;
+    change(WM.randomInt(400));
+    return 1;
+  }
+
+  int draw() override {
+    if (m_kind < 3) return DM.drawString(getPosition(), m_text, df::LEFT_JUSTIFIED, m_color);
+    const char frame = "|/-\\"[m_age / 8 % 4];
+    for (int i = 0; i < 9; ++i) {
+      const df::Vector at(getPosition().getX() - 1 + i % 3, getPosition().getY() - 1 + i / 3);
+      DM.drawCh(at, i == 4 ? frame : m_text.front(), m_color);
+    }
+    return 0;
+  }
+
+ private:
+  void change(int what) {
+    if (what == 0) setVelocity(somehow());
+    if (what == 1) m_text.front() = static_cast<char>('A' + WM.randomInt(26));
+    if (what == 2) setVisible(!isVisible());
+    if (what == 3) setPosition(somewhere());
+    if (what == 4) m_color = someColor();
+    if (what == 5) {
+      WM.markForDelete(this);
+      new Creature;
+    }
+  }
+
+  int m_kind = 0;
+  int m_age = 0;
+  df::Color m_color = df::WHITE;
+  std::string m_text;
+};
+
+class Ship : public df::Object {
+ public:
+  explicit Ship(df::Player& player) : m_player(player.getId()), m_color(player.getColor()) {
+    setType("Ship");
+    setPosition(somewhere());
+    setSolidness(player.getId() % 4 == 0 ? df::HARD : df::SPECTRAL);
+    setAltitude(df::MAX_ALTITUDE);
+    player.setObject(this);
+    registerInterest(df::KEYBOARD_EVENT);
+    if (m_player % 2 != 0) return;
+    using namespace df::Keyboard;
+    player.setControls(df::Controls()
+                           .onKey(LEFTARROW)
+                           .drive(-0.5, 0)
+                           .onKey(RIGHTARROW)
+                           .drive(0.5, 0)
+                           .onKey(UPARROW)
+                           .step(0, -1)
+                           .every(2)
+                           .onKey(DOWNARROW)
+                           .step(0, 1)
+                           .every(2)
+                           .within(df::Box(df::Vector(1, 1), kWidth - 2, kHeight - 2)));
+  }
+
+  int eventHandler(const df::Event* p_e) override {
+    const auto* p_key = dynamic_cast<const df::EventKeyboard*>(p_e);
+    if (p_key == nullptr || p_key->getPlayer() != m_player) return 0;
+    if (p_key->getKeyboardAction() != df::KEY_PRESSED) return 0;
+    const df::Keyboard::Key key = p_key->getKey();
+    if (!p_key->isHandled()) {
+      using namespace df::Keyboard;
+      const int across = (key == RIGHTARROW || key == D) - (key == LEFTARROW || key == A);
+      const int down = (key == DOWNARROW || key == S) - (key == UPARROW || key == W);
+      if (across != 0 || down != 0) WM.moveObject(this, getPosition() + df::Vector(across, down));
+    }
+    ++m_keys;
+    if (df::Player* p_player = WM.getPlayer(m_player)) {
+      p_player->setText(0, df::Vector(2, 0), "keys " + std::to_string(m_keys), df::YELLOW);
+      const std::string shout = m_keys % 3 == 0 ? std::string() : std::string(5 + m_keys % 40, '*');
+      p_player->setText(1, df::Vector(2, 23), shout, m_color);
+      p_player->setScore(m_keys);
+    }
+    return 1;
+  }
+  int draw() override { return DM.drawCh(getPosition(), '@', m_color); }
+
+ private:
+  std::uint32_t m_player;
+  df::Color m_color;
+  int m_keys = 0;
+};
+
+/// Gives every player a ship, takes it away, and hears all.
+class Harbour : public df::Object {
+ public:
+  explicit Harbour(OnHeard on_heard) : m_on_heard(std::move(on_heard)) {
+    setType("Harbour");
+    setSolidness(df::SPECTRAL);
+    setVisible(false);
+    for (const std::string& type : {df::JOIN_EVENT, df::LEAVE_EVENT, df::KEYBOARD_EVENT, df::MSE_EVENT})
+      registerInterest(type);
+  }
+  int eventHandler(const df::Event* p_e) override {
+    if (const auto* p_key = dynamic_cast<const df::EventKeyboard*>(p_e)) {
+      m_on_heard({p_key->getPlayer(), false, p_key->getKey(), p_key->getKeyboardAction()});
+    } else if (const auto* p_mouse = dynamic_cast<const df::EventMouse*>(p_e)) {
+      m_on_heard({p_mouse->getPlayer(), true, p_mouse->getMouseButton(), p_mouse->getMouseAction()});
+    } else if (const auto* p_join = dynamic_cast<const df::EventJoin*>(p_e)) {
+      new Ship(*WM.getPlayer(p_join->getPlayer()));
+    } else if (const auto* p_leave = dynamic_cast<const df::EventLeave*>(p_e)) {
+      df::Object* p_ship = WM.getPlayer(p_leave->getPlayer())->getObject();
+      if (p_ship != nullptr) WM.markForDelete(p_ship);
+    }
+    return 1;
+  }
+
+ private:
+  OnHeard m_on_heard;
+};
+
+}  // namespace
+
+void populateSoak(df::World& world, int creatures, std::uint64_t seed, OnHeard on_heard) {
+  world.setSeed(seed);
+  WM.setBoundary(df::Box(df::Vector(0, 0), kWidth, kHeight));
+  new Harbour(std::move(on_heard));
+  for (int i = 0; i < creatures; ++i) new Creature;
+}
+
+}  // namespace naiad::soak

@@ -1,0 +1,70 @@
+// What Host does for its sessions (greet, admit, resume, tick), in virtual time and without a listener.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "Counters.h"
+#include "DatagramService.h"
+#include "Publisher.h"
+#include "ResumeTokens.h"
+#include "Session.h"
+#include "SplitMix64.h"
+#include "VirtualClock.h"
+#include "VirtualNetwork.h"
+#include "World.h"
+
+namespace naiad::soak {
+
+/// The time that sessions read.
+inline Session::Clock::time_point timeOf(const VirtualClock& clock) {
+  return Session::Clock::time_point(std::chrono::hours(1)) + clock.now();
+}
+
+class VirtualHost {
+ public:
+  VirtualHost(df::World& world, const VirtualClock& clock, VirtualNetwork& network, const Endpoint& address,
+              std::uint64_t seed);
+
+  /// A client connected.
+  void accept(std::unique_ptr<ReliableChannel> channel);
+  /// One tick: inputs, world, snapshots. `on_ticked` is called between the last two.
+  void tick(const std::function<void()>& on_ticked);
+
+  const Counters& counters() const { return m_counters; }
+  const Publisher& publisher() const { return m_publisher; }
+  /// The socket through which all datagrams of the server go.
+  const DatagramSocket& socket() const { return *m_p_socket; }
+  const DatagramService& datagrams() const { return *m_datagrams; }
+  /// The session of a player; null if he has none (any more).
+  Session* find(std::uint32_t player) const;
+  /// Players, those in their grace time included.
+  std::size_t playing() const;
+
+ private:
+  void greet(Session& session, const wire::Hello& hello);
+  bool resume(Session& session, const wire::Hello& hello);
+  void admit(Session& session, const wire::Hello& hello);
+  void chat(const Session& session, const std::string& text);
+  void applyInputs();
+  void sendSnapshots();
+  void sendPlayers();
+  template <class Visit>
+  void forEachPlaying(Visit visit) const;
+
+  df::World& m_world;
+  const VirtualClock& m_clock;
+  SplitMix64 m_random;
+  Counters m_counters;
+  const DatagramSocket* m_p_socket = nullptr;
+  std::unique_ptr<DatagramService> m_datagrams;
+  ResumeTokens m_tokens;
+  std::uint64_t m_next_session = 1;
+  std::vector<std::unique_ptr<Session>> m_sessions;
+  Publisher m_publisher;
+  std::string m_players_told;
+};
+
+}  // namespace naiad::soak
