@@ -204,8 +204,8 @@ TEST_F(PredictionTest, InputsAndTicksAreBounded) {
 TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
   constexpr df::Fixed kFar = df::fromCells(2'000'000'000);
   constexpr df::Fixed kFast = df::fromCells(1 << 24);
-  hear(objects(
-      {object(8, {INT64_MAX, INT64_MIN}, {INT64_MAX, 1}), object(9, {kFar, kFar}, {kFast, -kFast})}));
+  hear(
+      objects({object(8, {INT64_MAX, INT64_MIN}, {INT64_MAX, 1}), object(9, {kFar, kFar}, {kFast, -kFast})}));
   ControlRecord record = answer(kTick + 1, 0, {kFar, -kFar});
   record.velocity = {kFast, -kFast};
   record.acceleration = {kFast, -kFast};

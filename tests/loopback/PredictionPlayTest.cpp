@@ -32,11 +32,8 @@ class Boatyard : public df::Object {
     p_boat->setType("Boat");
     p_boat->setPosition(df::Vector(40, 12));
     p_player->setObject(p_boat);
-    p_player->setControls(df::Controls()
-                              .onKey(df::Keyboard::RIGHTARROW)
-                              .step(1, 0)
-                              .onKey(df::Keyboard::LEFTARROW)
-                              .step(-1, 0));
+    p_player->setControls(
+        df::Controls().onKey(df::Keyboard::RIGHTARROW).step(1, 0).onKey(df::Keyboard::LEFTARROW).step(-1, 0));
     return 1;
   }
 };
@@ -58,11 +55,11 @@ class PredictionPlay : public testing::Test {
     setup.options.open_socket = through(context, valve);
     return setup;
   }
-  static df::FixedVector shown(TestClient& client) { return client.session().predict(Clock::now()).position(); }
-  df::FixedVector real(TestClient& client) {
-    return server.inWorld([&](df::World& world) {
-      return world.view().players.at(0).steering.position;
-    });
+  static df::FixedVector shown(TestClient& client) {
+    return client.session().predict(Clock::now()).position();
+  }
+  df::FixedVector real() {
+    return server.inWorld([](df::World& world) { return world.view().players.at(0).steering.position; });
   }
   bool isPredicting(TestClient& client) {
     return serveUntil(context, {&client}, [&] {
@@ -83,7 +80,7 @@ TEST_F(PredictionPlay, AKeyShowsInTheNextFrameAndComesTrue) {
   TestClient ann(context, proxy.port(), player());
   ASSERT_TRUE(isPredicting(ann));
   const df::FixedVector start = shown(ann);
-  EXPECT_EQ(start, real(ann));
+  EXPECT_EQ(start, real());
   int x = 0;
   for (int i = 0; i < 20; ++i) {
     const bool right = i % 5 < 3;
@@ -102,8 +99,8 @@ TEST_F(PredictionPlay, AKeyShowsInTheNextFrameAndComesTrue) {
     shown(ann);
     return ann.session().predict(Clock::now()).unanswered() == 0;
   }));
-  EXPECT_EQ(shown(ann), real(ann));
-  EXPECT_EQ(real(ann), (start + df::FixedVector{df::fromCells(x), 0}));
+  EXPECT_EQ(shown(ann), real());
+  EXPECT_EQ(real(), (start + df::FixedVector{df::fromCells(x), 0}));
   const Prediction::Counters& counters = ann.session().predict(Clock::now()).counters();
   EXPECT_EQ(counters.unpredicted, 0u);
   EXPECT_GE(counters.confirmed, 10u);

@@ -34,7 +34,8 @@ class Resume : public testing::Test {
   }
   bool settle(TestClient& client) {
     return serveUntil(context, {&client}, [&] {
-      return onDatagrams(client) && client.session().counters().datagrams_in > 20 && client.session().score() >= 0;
+      return onDatagrams(client) && client.session().counters().datagrams_in > 20 &&
+             client.session().score() >= 0;
     });
   }
   bool keyWorks(TestClient& client) {

@@ -1,9 +1,9 @@
 // Encrypted play: a stream in TLS, sealed datagrams beside it, and what happens where datagrams do not pass.
 #include <gtest/gtest.h>
 
+#include "BusyWorld.h"
 #include "Compare.h"
 #include "Home.h"
-#include "BusyWorld.h"
 #include "TestServer.h"
 #include "Valve.h"
 

@@ -18,8 +18,8 @@
 
 namespace naiad::test {
 
-/// Options for tests: any free port, plain TCP, who is gone is gone, short ticks so that a thousand of them take
-/// seconds.
+/// Options for tests: any free port, plain TCP, who is gone is gone, short ticks so that a thousand of them
+/// take seconds.
 HostOptions fastOptions();
 
 class TestServer {

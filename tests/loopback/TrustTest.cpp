@@ -20,7 +20,8 @@ class TrustTest : public testing::Test {
   }
   /// The sentence that it ends with; empty if it was let in.
   std::string refusal(TestClient& client) {
-    EXPECT_TRUE(serveUntil(context, {&client}, [&] { return client.joined() || client.connection().isOver(); }));
+    EXPECT_TRUE(
+        serveUntil(context, {&client}, [&] { return client.joined() || client.connection().isOver(); }));
     if (client.joined()) return {};
     EXPECT_EQ(client.connection().state(), Connection::State::kRefused);
     return client.connection().sentence();

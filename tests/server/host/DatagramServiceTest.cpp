@@ -62,22 +62,23 @@ class DatagramServiceTest : public testing::Test {
 
   /// The other end of a channel.
   struct Client {
-    Client(DatagramServiceTest& test, const DatagramService::Channel& channel, int nth, const char* address)
-        : test(test),
+    Client(DatagramServiceTest& of, const DatagramService::Channel& channel, int nth, const char* address)
+        : test(of),
           link({SealedLink::Role::kClient, ConnectionId{channel.id()}, {}, {}}),
           socket(test.network.open(at(address, 0))),
           aead(channel.aead()) {
       link.setServerPath({{}, at("10.0.0.1")});
       renew(nth, channel.epoch());
       socket->start([this](const Path& path, std::string_view packet) {
-        const auto payload = link.open(path, packet, this->test.now());
+        const auto payload = link.open(path, packet, test.now());
         if (!payload) return;
-        if (link.wantsToSend(this->test.now())) send("");
+        if (link.wantsToSend(test.now())) send("");
         if (!payload->empty()) heard.emplace_back(*payload);
       });
     }
     void renew(int nth, Epoch epoch) {
-      ASSERT_TRUE(link.startEpoch(epoch, deriveDatagramKeys(stream(nth), aead, link.id(), epoch), test.now()));
+      ASSERT_TRUE(
+          link.startEpoch(epoch, deriveDatagramKeys(stream(nth), aead, link.id(), epoch), test.now()));
     }
     void send(std::string_view payload) {
       const auto outgoing = link.seal(payload, test.now());
