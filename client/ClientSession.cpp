@@ -134,6 +134,7 @@ void ClientSession::handle(GoodbyeMessage&& message, Time) {
 
 void ClientSession::handle(SnapshotMessage&& message, Time now) {
   if (m_state != State::kPlaying) return reject("a snapshot before the welcome");
+  m_last_streamed = now;
   takeSnapshot(message.bytes, now);
 }
 
@@ -287,8 +288,9 @@ void ClientSession::update(Time now) {
     if (!m_inputs.empty() && hasDatagrams(now)) sendUpdate(now);
   }
   if (m_acknowledge_at && now >= *m_acknowledge_at) sendUpdate(now);
-  const auto between = now - m_attached < kPassing ? kFirstProbes : kProbeEvery;
-  if (m_datagrams != nullptr && !hasDatagrams(now) && now - m_last_probe >= between) probe(now);
+  const bool often = now - m_attached < kPassing || hasDatagrams(now);
+  const auto between = often ? kFirstProbes : kProbeEvery;
+  if (m_datagrams != nullptr && now - m_last_datagram >= kQuiet && now - m_last_probe >= between) probe(now);
   if (m_channel == nullptr) return;
   if (hasDatagrams(now) && !m_pings.empty() && now - m_pings.begin()->second >= kStreamSilence) {
     m_pings.clear();
@@ -366,8 +368,12 @@ ClientUpdate ClientSession::nextUpdate(bool on_stream, Time now) {
   return update;
 }
 
+// Datagrams may pass from the server and not to it: while it sends on the stream, it is told there, too.
 void ClientSession::sendUpdate(Time now) {
-  if (hasDatagrams(now)) return probe(now);
+  if (hasDatagrams(now)) {
+    probe(now);
+    if (now - m_last_streamed >= kUndecided) return;
+  }
   if (m_channel == nullptr) return;
   wire::ClientMessage message;
   message.set_update(writeUpdate(nextUpdate(true, now)));

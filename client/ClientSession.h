@@ -88,6 +88,10 @@ class ClientSession {
   static constexpr std::chrono::seconds kStreamSilence{10};
   static constexpr std::chrono::milliseconds kPassing{1000};     ///< without a datagram: they do not pass
   static constexpr std::chrono::milliseconds kProbeEvery{1000};  ///< then
+  /// So long without a datagram is odd: the server may not know our address any more.
+  static constexpr std::chrono::milliseconds kQuiet{400};
+  /// After a snapshot on the stream it is open for so long whether the server hears datagrams.
+  static constexpr std::chrono::milliseconds kUndecided{500};
   static constexpr std::chrono::milliseconds kFirstProbes{100};  ///< in the first second
   static constexpr std::chrono::milliseconds kRepeatInput{10};   ///< a new input is sent again after this
   static constexpr int kAckEvery = 3;                            ///< snapshots that come as datagrams
@@ -98,9 +102,10 @@ class ClientSession {
   static constexpr std::chrono::milliseconds kResetPatience{
       500};  ///< then a world that is not complete is shown
   static constexpr std::size_t kMaxChatLog = 100;
-  /// Inputs that the game has not heard of yet, at most; more are dropped here. Below the 64 that a server
-  /// lets wait, so that who holds a key through a stall is not thrown out as a flooder afterwards.
-  static constexpr std::uint32_t kMaxUnapplied = 48;
+  /// Inputs that the game has not heard of yet, at most; more are dropped here, but for keys that go up. Below
+  /// the 64 that a server lets wait, so that who holds a key through a stall is not thrown out as a flooder
+  /// afterwards, and below kMaxUpdateInputs.
+  static constexpr std::uint32_t kMaxUnapplied = 40;
 
   /// Takes the connected channel and says Hello. The owner starts the channel and passes what it delivers
   /// to receive() and closed().
@@ -231,6 +236,7 @@ class ClientSession {
   std::unique_ptr<SealedDatagrams> m_datagrams;
   SessionOptions m_options;
   Time m_last_datagram{};
+  Time m_last_streamed{};  ///< snapshot on the stream
   Time m_last_probe{};
   Time m_attached{};
   std::optional<Replica> m_next_replica;  ///< of the next epoch, until it is complete

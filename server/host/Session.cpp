@@ -59,7 +59,7 @@ void Session::onFrame(std::string_view frame) {
 }
 
 void Session::onDatagram(std::string_view bytes) {
-  if (mayHear() && !takeUpdate(bytes)) malformed();
+  if (mayHear() && !takeUpdate(bytes, true)) malformed();
 }
 
 // False if the message breaks a rule: then the connection ends, and nothing else happens.
@@ -73,7 +73,7 @@ bool Session::dispatch(const wire::ClientMessage& message) {
       m_events.on_hello(*this, message.hello());
       return true;
     case What::kUpdate:
-      return takeUpdate(message.update());
+      return takeUpdate(message.update(), false);
     case What::kChat:
       takeChat(message.chat().text());
       return true;
@@ -95,12 +95,12 @@ bool Session::dispatch(const wire::ClientMessage& message) {
   return false;
 }
 
-bool Session::takeUpdate(std::string_view bytes) {
+bool Session::takeUpdate(std::string_view bytes, bool by_datagram) {
   const auto update = readUpdate(bytes, {m_sender.newestNumber(), m_tick, m_input_received});
   if (!update) return false;
   if (update->acks.newest != 0) {
     m_sender.acknowledge(update->acks);
-    m_passage.acknowledged(update->acks, now());
+    m_passage.acknowledged(update->acks, by_datagram, now());
   }
   if (update->checksum && m_sender.isRight(update->acks, *update->checksum) == false) {
     ++m_counters.divergences;

@@ -124,7 +124,7 @@ class Session {
   void sendSnapshot(const SnapshotSender::Packet& packet);
   void count(const SnapshotSender::Packet& packet);
   bool dispatch(const wire::ClientMessage& message);
-  bool takeUpdate(std::string_view bytes);
+  bool takeUpdate(std::string_view bytes, bool by_datagram);
   void reset();
   bool isTooEarly(const Input& input, std::uint32_t tick) const;
   bool takeInput(const Input& input);

@@ -10,6 +10,7 @@ FarPlayer::FarPlayer(const Way& way, std::uint64_t seed) : rng(seed), m_way(way)
   world.setLogSink([](const std::string&) {});
   world.setSeed(seed);
   world.setWatched(true);
+  m_sender.setLookAhead(lead() + m_way.down);
   m_player = world.join("far", df::RED);
   world.tick();
   m_publisher.update(world.view());

@@ -126,7 +126,6 @@ TEST_F(TrustTest, AnImpostorInMidGameGetsNoToken) {
   EXPECT_EQ(ann.connection().state(), Connection::State::kRefused);
   EXPECT_NE(ann.connection().sentence().find("HAS CHANGED"), std::string::npos);
   EXPECT_EQ(impostor.counters().joined, 0u);
-  EXPECT_EQ(impostor.counters().connections, 1u) << "it was reached, and nothing was said";
 }
 
 }  // namespace

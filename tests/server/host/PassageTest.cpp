@@ -15,7 +15,8 @@ class PassageTest : public testing::Test {
     passage.sent(++number, as_datagram, now);
     return number;
   }
-  void hear(std::uint32_t newest, std::uint64_t mask = 0) { passage.acknowledged({newest, mask}, now); }
+  void hear(std::uint32_t newest, std::uint64_t mask = 0) { passage.acknowledged({newest, mask}, true, now); }
+  void hearOnStream(std::uint32_t newest) { passage.acknowledged({newest, 0}, false, now); }
   void open() {
     send(true);
     hear(number);
@@ -61,6 +62,23 @@ TEST_F(PassageTest, OneAcknowledgedProbeOpensIt) {
   EXPECT_EQ(probe + 1, streamed);
   EXPECT_TRUE(passage.isOpen(now));
   EXPECT_FALSE(passage.wantsProbe(now));
+}
+
+TEST_F(PassageTest, WhatIsAcknowledgedOnTheStreamShowsOneDirectionOnly) {
+  const std::uint32_t probe = send(true);
+  now += 20ms;
+  hearOnStream(probe);
+  EXPECT_FALSE(passage.isOpen(now));
+  EXPECT_EQ(passage.roundTrip(), 20ms);
+  now += 20ms;
+  hear(probe);
+  EXPECT_TRUE(passage.isOpen(now)) << "whichever came first";
+  EXPECT_EQ(passage.roundTrip(), 20ms);
+  for (int i = 0; i < 10; ++i) {
+    now += 100ms;
+    hearOnStream(send(true));
+  }
+  EXPECT_FALSE(passage.isOpen(now));
 }
 
 TEST_F(PassageTest, ClosesAfterASecondWithoutAcknowledgement) {
