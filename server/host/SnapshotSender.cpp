@@ -563,7 +563,8 @@ void SnapshotSender::lost(const Flight::Snapshot& snapshot) {
     ++m_resent;
     missing = true;
   }
-  m_repairing = m_repairing || missing;
+  // What has changed or died since is owed already; until that is sent, the client lacks what was lost.
+  m_repairing = m_repairing || missing || (!snapshot.empty && isOwing());
   // Where nothing is missing, newer snapshots have said what this one said.
   if (!snapshot.empty && isNewer(newestNumber(), m_clean_from)) m_clean_from = newestNumber();
   Moment& moment = momentOf(snapshot.number);
