@@ -604,9 +604,12 @@ std::optional<bool> SnapshotSender::isRight(const AckWindow& acks, std::uint64_t
 
 void SnapshotSender::reset() {
   const std::uint32_t number = m_next_number;
+  const std::uint32_t input = m_input;
+  const std::uint32_t input_tick = m_input_tick;
   *this = SnapshotSender(m_resend, m_look_ahead, static_cast<std::uint8_t>((m_epoch + 1) & 3));
   m_next_number = number;
   m_clean_from = number;
+  noteInput(input, input_tick);  // a client that has not heard of it waits for that with further ones
 }
 
 }  // namespace naiad
