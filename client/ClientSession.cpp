@@ -287,12 +287,19 @@ void ClientSession::update(Time now) {
   if (m_acknowledge_at && now >= *m_acknowledge_at) sendUpdate(now);
   const auto between = now - m_attached < kPassing ? kFirstProbes : kProbeEvery;
   if (m_datagrams != nullptr && !hasDatagrams(now) && now - m_last_probe >= between) probe(now);
-  if (m_channel == nullptr) return;
+  if (m_channel == nullptr) {
+    if (now - m_last_heard >= kDetachedTimeout)
+      finish(State::kLost, "The connection to the server was lost.");
+    return;
+  }
   if (hasDatagrams(now) && !m_pings.empty() && now - m_pings.begin()->second >= kStreamSilence) {
     m_pings.clear();
     return closed(CloseReason::kError);  // an address that changed takes datagrams with it, not a stream
   }
-  if (now - m_last_heard >= kIdleTimeout) return finish(State::kLost, "The server fell silent.");
+  if (now - m_last_heard >= kIdleTimeout) {
+    if (m_welcome.resume_token.empty()) return finish(State::kLost, "The server fell silent.");
+    return closed(CloseReason::kError);  // the line may be down for a while; the session waits for another
+  }
   if (now - m_last_ping < (hasDatagrams(now) && m_round_trip.count() > 0 ? kSeldomPing : kPingInterval))
     return;
   m_last_ping = now;

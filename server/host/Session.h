@@ -115,6 +115,7 @@ class Session {
   void onFrame(std::string_view frame);
   void onDatagram(std::string_view bytes);
   void onClosed(CloseReason reason);
+  void detach();
   bool mayHear();
   Clock::time_point now() const { return m_events.now ? m_events.now() : Clock::now(); }
   void sendDatagrams(const Publisher& publisher, Clock::time_point present);
