@@ -55,6 +55,7 @@ bool Session::mayHear() {
 
 void Session::onFrame(std::string_view frame) {
   if (!mayHear()) return;
+  if (std::exchange(m_awaits_proof, false)) m_proved = true;
   wire::ClientMessage message;
   if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size())) || !dispatch(message))
     malformed();
@@ -189,6 +190,7 @@ void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<DatagramServ
   m_datagrams = std::move(datagrams);
   if (m_datagrams) m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes); });
   m_passage.renewed(now());
+  m_awaits_proof = true;
 }
 
 void Session::adopt(Session& other, const wire::Welcome& welcome) {
@@ -212,6 +214,7 @@ void Session::adopt(Session& other, const wire::Welcome& welcome) {
   *message.mutable_welcome() = welcome;
   send(message);
   m_passage.renewed(now());
+  m_awaits_proof = true;
   ++m_counters.resumed;
 }
 

@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "Channel.h"
 #include "Counters.h"
@@ -66,6 +67,9 @@ class Session {
   void setGrace(std::chrono::milliseconds grace) { m_grace = grace; }
   /// The stream is broken; the client may come back.
   bool isDetached() const { return m_state == State::kPlaying && m_channel == nullptr; }
+  /// The client has spoken on its newest stream since it was welcomed there, so it knows what the welcome
+  /// said. True once for each stream.
+  bool takeProof() { return std::exchange(m_proved, false); }
   /// As it was sent.
   const wire::Welcome& welcomed() const { return m_welcome; }
   DatagramService::Channel* datagrams() { return m_datagrams.get(); }
@@ -143,7 +147,9 @@ class Session {
   State m_state = State::kGreeting;
   Clock::time_point m_heard;  ///< when the client last sent a frame
   bool m_told_gone = false;
-  bool m_spoke = false;  ///< a frame came since then
+  bool m_spoke = false;         ///< a frame came since then
+  bool m_awaits_proof = false;  ///< see takeProof()
+  bool m_proved = false;
   std::uint32_t m_player = 0;
   std::string m_name;
   wire::Welcome m_welcome;

@@ -1,0 +1,45 @@
+#include <gtest/gtest.h>
+
+#include "ResumeTokens.h"
+
+namespace naiad {
+namespace {
+
+TEST(ResumeTokens, NameTheSessionTheyWereIssuedFor) {
+  ResumeTokens tokens;
+  const std::string token = tokens.issue(5);
+  tokens.issue(6);
+  EXPECT_EQ(token.size(), ResumeTokens::kBytes);
+  EXPECT_EQ(tokens.redeem(token), 5u);
+  EXPECT_EQ(tokens.redeem(std::string(ResumeTokens::kBytes, 'x')), std::nullopt);
+  EXPECT_EQ(tokens.redeem(""), std::nullopt);
+}
+
+TEST(ResumeTokens, AreGoodUntilTheNextOneIsKnownToHaveCome) {
+  ResumeTokens tokens;
+  const std::string first = tokens.issue(5);
+  ASSERT_EQ(tokens.redeem(first), 5u);
+  const std::string lost = tokens.issue(5);
+  ASSERT_EQ(tokens.redeem(first), 5u) << "the answer with the second may be lost";
+  const std::string third = tokens.issue(5);
+  EXPECT_EQ(tokens.redeem(lost), std::nullopt) << "an answer that was not the last";
+  tokens.confirm(5);
+  EXPECT_EQ(tokens.redeem(first), std::nullopt);
+  EXPECT_EQ(tokens.redeem(third), 5u);
+}
+
+TEST(ResumeTokens, AreVoidOnceALaterOneIsUsedOrTheSessionIsOver) {
+  ResumeTokens tokens;
+  const std::string first = tokens.issue(5);
+  ASSERT_EQ(tokens.redeem(first), 5u);
+  const std::string second = tokens.issue(5);
+  ASSERT_EQ(tokens.redeem(second), 5u);
+  EXPECT_EQ(tokens.redeem(first), std::nullopt);
+  const std::string third = tokens.issue(5);
+  tokens.forget(5);
+  EXPECT_EQ(tokens.redeem(second), std::nullopt);
+  EXPECT_EQ(tokens.redeem(third), std::nullopt);
+}
+
+}  // namespace
+}  // namespace naiad
