@@ -144,7 +144,7 @@ Replica* ClientSession::replicaFor(std::string_view bytes, Time now) {
   if (!epoch || *epoch == m_epoch) return &m_replica;
   if (*epoch != ((m_epoch + 1) & 3)) return nullptr;  // a late one of the epoch before
   if (!m_next_replica) {
-    m_next_replica.emplace(m_replica.newest());
+    m_next_replica = Replica::anew(m_replica.newest());
     m_reset_at = now;
     ++m_counters.resets;
   }
@@ -291,12 +291,19 @@ void ClientSession::update(Time now) {
   const bool often = now - m_attached < kPassing || hasDatagrams(now);
   const auto between = often ? kFirstProbes : kProbeEvery;
   if (m_datagrams != nullptr && now - m_last_datagram >= kQuiet && now - m_last_probe >= between) probe(now);
-  if (m_channel == nullptr) return;
+  if (m_channel == nullptr) {
+    if (now - m_last_heard >= kDetachedTimeout)
+      finish(State::kLost, "The connection to the server was lost.");
+    return;
+  }
   if (hasDatagrams(now) && !m_pings.empty() && now - m_pings.begin()->second >= kStreamSilence) {
     m_pings.clear();
     return closed(CloseReason::kError);  // an address that changed takes datagrams with it, not a stream
   }
-  if (now - m_last_heard >= kIdleTimeout) return finish(State::kLost, "The server fell silent.");
+  if (now - m_last_heard >= kIdleTimeout) {
+    if (m_welcome.resume_token.empty()) return finish(State::kLost, "The server fell silent.");
+    return closed(CloseReason::kError);  // the line may be down for a while; the session waits for another
+  }
   if (now - m_last_ping < (hasDatagrams(now) && m_round_trip.count() > 0 ? kSeldomPing : kPingInterval))
     return;
   m_last_ping = now;

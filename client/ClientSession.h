@@ -80,7 +80,10 @@ class ClientSession {
   enum class State { kGreeting, kPlaying, kRefused, kEnded, kLost, kLeft };
 
   static constexpr std::chrono::seconds kGreetingTimeout{5};
+  /// Silence after which the stream is given up, and the session, too, if it cannot be resumed.
   static constexpr std::chrono::seconds kIdleTimeout{15};
+  /// Silence after which a session without a stream is given up.
+  static constexpr std::chrono::seconds kDetachedTimeout{60};
   static constexpr std::chrono::seconds kPingInterval{1};
   /// Pings while datagrams pass: these say most of what a ping would.
   static constexpr std::chrono::seconds kSeldomPing{5};

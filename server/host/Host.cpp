@@ -118,7 +118,10 @@ void Host::tick(df::World& world) {
   const bool watched = playing() > 0;
   if (watched && !world.isWatched()) m_publisher = Publisher();
   world.setWatched(watched);
-  for (const auto& session : m_sessions) session->checkDeadlines(Clock::now());
+  for (const auto& session : m_sessions) {
+    session->checkDeadlines(Clock::now());
+    if (session->takeProof()) m_tokens.confirm(session->id());
+  }
 
   applyInputs(world);
   world.tick();

@@ -220,7 +220,8 @@ void Publisher::keepExact(df::ObjectKey key) {
   const Motion truth = truthNow(tracked);
   if (rebase(tracked.model.state.motion, m_tick) == truth) return;
   tracked.model.state.motion = truth;
-  m_look_at[key.slot] = m_tick + 1;
+  // Sooner than planned, not later: in this tick it may still turn out not to be drawn.
+  if (isNewer(m_look_at[key.slot], m_tick + 1)) m_look_at[key.slot] = m_tick + 1;
   tracked.off_views = m_tick;
   mark(key.slot, tracked, kMotion);
 }

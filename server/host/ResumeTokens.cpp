@@ -25,29 +25,43 @@ std::string hashOf(const std::string& token) {
 }  // namespace
 
 std::string ResumeTokens::issue(std::uint64_t session) {
-  forget(session);
   std::string token(kBytes, '\0');
   fillRandom(token.data(), static_cast<int>(token.size()));
-  const std::string hash = hashOf(token);
-  m_sessions[hash] = session;
-  m_hashes[session] = hash;
+  Hashes& hashes = m_hashes[session];
+  if (hashes.newest != hashes.redeemed) drop(hashes.newest);
+  hashes.newest = hashOf(token);
+  m_sessions[hashes.newest] = session;
   return token;
 }
 
 std::optional<std::uint64_t> ResumeTokens::redeem(const std::string& token) {
   if (token.size() != kBytes) return std::nullopt;
-  const auto found = m_sessions.find(hashOf(token));
+  const std::string hash = hashOf(token);
+  const auto found = m_sessions.find(hash);
   if (found == m_sessions.end()) return std::nullopt;
   const std::uint64_t session = found->second;
-  forget(session);
+  Hashes& hashes = m_hashes.at(session);
+  if (hashes.redeemed != hash) drop(hashes.redeemed);
+  hashes.redeemed = hash;
   return session;
+}
+
+void ResumeTokens::confirm(std::uint64_t session) {
+  const auto found = m_hashes.find(session);
+  if (found != m_hashes.end() && found->second.redeemed != found->second.newest) drop(found->second.redeemed);
 }
 
 void ResumeTokens::forget(std::uint64_t session) {
   const auto found = m_hashes.find(session);
   if (found == m_hashes.end()) return;
-  m_sessions.erase(found->second);
+  drop(found->second.newest);
+  drop(found->second.redeemed);
   m_hashes.erase(found);
+}
+
+void ResumeTokens::drop(std::string& hash) {
+  m_sessions.erase(hash);
+  hash.clear();
 }
 
 std::uint64_t randomBits() {

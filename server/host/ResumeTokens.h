@@ -9,22 +9,31 @@
 
 namespace naiad {
 
-/// 128 unpredictable bits, valid once. Only their SHA-256 is kept, so that what a server remembers is of no
-/// use to whoever reads it.
+/// 128 unpredictable bits, good for one return: until the client has proved that it got the next one. (Were
+/// they void at once, an answer lost on a bad line would cost the session.) Only their SHA-256 is kept, so
+/// that what a server remembers is of no use to whoever reads it.
 class ResumeTokens {
  public:
   static constexpr std::size_t kBytes = 16;
 
-  /// A new token for a session; the one before is void.
+  /// A new token for a session. The one redeemed last stays good until confirm(), any other is void.
   std::string issue(std::uint64_t session);
-  /// The session a token was issued for; nothing if it never was or was used. It is used now.
+  /// The session a token was issued for; nothing if it never was or is void.
   std::optional<std::uint64_t> redeem(const std::string& token);
+  /// The client has got the newest token: the one before is void.
+  void confirm(std::uint64_t session);
   /// The session is over.
   void forget(std::uint64_t session);
 
  private:
+  struct Hashes {
+    std::string newest;
+    std::string redeemed;  ///< empty: none, or void
+  };
+  void drop(std::string& hash);
+
   std::unordered_map<std::string, std::uint64_t> m_sessions;  ///< by hash
-  std::unordered_map<std::uint64_t, std::string> m_hashes;    ///< by session
+  std::unordered_map<std::uint64_t, Hashes> m_hashes;         ///< by session
 };
 
 /// Unpredictable bits, from the system.

@@ -30,15 +30,17 @@ void Session::start(Events events) {
 void Session::onClosed(CloseReason reason) {
   if (reason == CloseReason::kProtocol) ++m_counters.malformed_frames;
   const bool lost = reason == CloseReason::kPeer || reason == CloseReason::kError;
-  if (m_state == State::kPlaying && lost && m_grace.count() > 0) {
-    ++m_counters.detached;
-    m_address = m_channel->peerAddress();
-    m_channel.reset();
-    m_sender.loseLarge();
-    return;
-  }
+  if (m_state == State::kPlaying && lost && m_grace.count() > 0) return detach();
   m_state = State::kGone;
   tellGone();
+}
+
+// Go on without the stream.
+void Session::detach() {
+  ++m_counters.detached;
+  m_address = m_channel->peerAddress();
+  m_channel.reset();
+  m_sender.loseLarge();
 }
 
 // Within what a client may send between two ticks? If not, the session has ended.
@@ -53,6 +55,7 @@ bool Session::mayHear() {
 
 void Session::onFrame(std::string_view frame) {
   if (!mayHear()) return;
+  if (std::exchange(m_awaits_proof, false)) m_proved = true;
   wire::ClientMessage message;
   if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size())) || !dispatch(message))
     malformed();
@@ -197,6 +200,7 @@ void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<DatagramServ
   m_datagrams = std::move(datagrams);
   if (m_datagrams) m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes); });
   m_passage.renewed(now());
+  m_awaits_proof = true;
 }
 
 void Session::adopt(Session& other, const wire::Welcome& welcome) {
@@ -220,6 +224,7 @@ void Session::adopt(Session& other, const wire::Welcome& welcome) {
   *message.mutable_welcome() = welcome;
   send(message);
   m_passage.renewed(now());
+  m_awaits_proof = true;
   ++m_counters.resumed;
 }
 
@@ -247,6 +252,8 @@ void Session::checkDeadlines(Clock::time_point now) {
     end();
   } else if (m_state == State::kPlaying && !isDetached() && now - m_heard > kIdleTimeout) {
     ++m_counters.idle_timeouts;
+    // A line that is down for a while often takes neither end's stream with it.
+    if (m_grace.count() > 0) return detach();
     goodbye("The server has not heard from you for a while.");
   }
 }

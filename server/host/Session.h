@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "Channel.h"
 #include "Counters.h"
@@ -68,6 +69,9 @@ class Session {
   void setGrace(std::chrono::milliseconds grace) { m_grace = grace; }
   /// The stream is broken; the client may come back.
   bool isDetached() const { return m_state == State::kPlaying && m_channel == nullptr; }
+  /// The client has spoken on its newest stream since it was welcomed there, so it knows what the welcome
+  /// said. True once for each stream.
+  bool takeProof() { return std::exchange(m_proved, false); }
   /// As it was sent.
   const wire::Welcome& welcomed() const { return m_welcome; }
   DatagramService::Channel* datagrams() { return m_datagrams.get(); }
@@ -117,6 +121,7 @@ class Session {
   void onFrame(std::string_view frame);
   void onDatagram(std::string_view bytes);
   void onClosed(CloseReason reason);
+  void detach();
   bool mayHear();
   Clock::time_point now() const { return m_events.now ? m_events.now() : Clock::now(); }
   void sendDatagrams(const Publisher& publisher, Clock::time_point present);
@@ -145,7 +150,9 @@ class Session {
   State m_state = State::kGreeting;
   Clock::time_point m_heard;  ///< when the client last sent a frame
   bool m_told_gone = false;
-  bool m_spoke = false;  ///< a frame came since then
+  bool m_spoke = false;         ///< a frame came since then
+  bool m_awaits_proof = false;  ///< see takeProof()
+  bool m_proved = false;
   std::uint32_t m_player = 0;
   std::string m_name;
   wire::Welcome m_welcome;

@@ -567,7 +567,8 @@ void SnapshotSender::lost(const Flight::Snapshot& snapshot) {
     ++m_resent;
     missing = true;
   }
-  m_repairing = m_repairing || missing;
+  // What has changed or died since is owed already; until that is sent, the client lacks what was lost.
+  m_repairing = m_repairing || missing || (!snapshot.empty && isOwing());
   // Where nothing is missing, newer snapshots have said what this one said.
   if (!snapshot.empty && isNewer(newestNumber(), m_clean_from)) m_clean_from = newestNumber();
   Moment& moment = momentOf(snapshot.number);
@@ -612,7 +613,7 @@ void SnapshotSender::reset() {
   *this = SnapshotSender(m_resend, m_look_ahead, static_cast<std::uint8_t>((m_epoch + 1) & 3));
   m_next_number = number;
   m_clean_from = number;
-  noteInput(input, input_tick);
+  noteInput(input, input_tick);  // a client that has not heard of it waits for that with further ones
 }
 
 }  // namespace naiad

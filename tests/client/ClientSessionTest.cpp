@@ -209,6 +209,44 @@ TEST_F(ClientSessionTest, GivesUpASilentGame) {
   EXPECT_EQ(session->state(), State::kLost);
 }
 
+TEST_F(ClientSessionTest, ASilentGameThatCanBeResumedIsWaitedFor) {
+  wire::ServerMessage message = welcomeMessage();
+  message.mutable_welcome()->set_resume_token(std::string(16, 't'));
+  receive(message);
+  session->update(now + 15s);
+  EXPECT_EQ(session->state(), State::kPlaying);
+  EXPECT_TRUE(session->isDetached());
+  session->update(now + 59s);
+  EXPECT_EQ(session->state(), State::kPlaying);
+  session->update(now + 60s);
+  EXPECT_EQ(session->state(), State::kLost);
+  EXPECT_FALSE(session->sentence().empty());
+}
+
+TEST_F(ClientSessionTest, AWorldThatComesAnewCountsOnFromTheNumbersBefore) {
+  join();
+  snapshot(20'000, 10);
+  receive(snapshotMessage(40'000, 11, 20'000));
+  receive(snapshotMessage(40'001, 12, 40'000));
+  SnapshotHeader header;
+  header.number = 40'002;
+  header.tick = 13;
+  header.epoch = 1;
+  header.tells_input = true;
+  header.input = 40'001;
+  header.input_tick = 13;
+  SnapshotWriter out;
+  out.begin(header, 0, {});
+  wire::ServerMessage message;
+  message.set_snapshot(out.finish());
+  receive(message);
+  EXPECT_EQ(session->counters().resets, 1u);
+  EXPECT_EQ(session->replica().aliveCount(), 0u);
+  EXPECT_EQ(session->replica().newest().number, 40'002u);
+  EXPECT_EQ(session->replica().newest().input, 40'001u);
+  EXPECT_EQ(lastUpdate().acks.newest, 40'002u);
+}
+
 TEST_F(ClientSessionTest, ClosedChannelIsALostServer) {
   join();
   session->closed(CloseReason::kPeer);

@@ -188,6 +188,7 @@ void Bot::quit(std::chrono::milliseconds pause) {
   m_unheard.clear();
   m_connecting = false;
   m_backoff = kFirstBackoff;
+  m_snapshots_seen = 0;
   m_next_attempt = m_calm_since = m_news_at = now() + pause;
 }
 
@@ -259,7 +260,7 @@ void Bot::watch() {
   const std::uint64_t seen = m_shown.session ? m_shown.session->counters().snapshots : 0;
   if (seen != m_snapshots_seen) m_news_at = now();
   m_snapshots_seen = seen;
-  if (m_weather.isOutage()) m_calm_since = now();
+  if (m_weather.isOutage()) m_calm_since = std::max(m_calm_since, now());
   const auto patience = m_weather.isBlocked() || m_shown.p_socket == nullptr ? kStuckOnStream : kStuck;
   if (now() - std::max(m_news_at, m_calm_since) < patience) return;
   ++m_place.tally.stuck;

@@ -74,7 +74,7 @@ bool Soak::run() {
   for (std::uint64_t i = 1; i <= ticks; ++i) {
     tick();
     if (i % (5 * kTicksPerSecond) == 0) measureMemory(static_cast<double>(i) / static_cast<double>(ticks));
-    if (i % (5 * 60 * kTicksPerSecond) == 0) report();
+    if (i % ((m_options.minutes > 20 ? 300 : 60) * kTicksPerSecond) == 0) report();
   }
   finish();
   return conclude();

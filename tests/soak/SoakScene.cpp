@@ -34,6 +34,11 @@ df::Color someColor() {
   return static_cast<df::Color>(1 + WM.randomInt(df::kColorCount - 1));
 }
 
+/// Of a few: clients remember looks up to a limit, and are to reach it within minutes.
+char someLetter(char first) {
+  return static_cast<char>(first + WM.randomInt(4));
+}
+
 /// One character, a word, or a sprite whose frames take turns.
 class Creature : public df::Object {
  public:
@@ -47,7 +52,7 @@ class Creature : public df::Object {
     m_kind = WM.randomInt(4);
     if (m_kind == 3) setBox(df::Box(df::Vector(-1, -1), 3, 3));
     m_color = someColor();
-    m_text = std::string(m_kind == 0 ? 1 : 2 + WM.randomInt(9), static_cast<char>('a' + WM.randomInt(26)));
+    m_text = std::string(m_kind == 0 ? 1 : 3 + 4 * WM.randomInt(3), someLetter('a'));
     registerInterest(df::STEP_EVENT);
   }
 
@@ -75,7 +80,7 @@ class Creature : public df::Object {
  private:
   void change(int what) {
     if (what == 0) setVelocity(somehow());
-    if (what == 1) m_text.front() = static_cast<char>('A' + WM.randomInt(26));
+    if (what == 1) m_text.front() = someLetter('A');
     if (what == 2) setVisible(!isVisible());
     if (what == 3) setPosition(somewhere());
     if (what == 4) m_color = someColor();

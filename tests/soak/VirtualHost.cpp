@@ -117,7 +117,10 @@ void VirtualHost::tick(const std::function<void()>& on_ticked) {
   const bool watched = playing() > 0;
   if (watched && !m_world.isWatched()) m_publisher = Publisher();
   m_world.setWatched(watched);
-  for (const auto& session : m_sessions) session->checkDeadlines(timeOf(m_clock));
+  for (const auto& session : m_sessions) {
+    session->checkDeadlines(timeOf(m_clock));
+    if (session->takeProof()) m_tokens.confirm(session->id());
+  }
   applyInputs();
   m_world.tick();
   ++m_counters.ticks;

@@ -250,6 +250,17 @@ TEST(Publisher, AHiddenObjectLosesItsLookAndGetsItBack) {
   EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
 }
 
+TEST(Publisher, ASolidObjectThatStopsAndHidesIsHiddenAtOnce) {
+  Scene scene;
+  scene.view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
+  scene.changed(0, at(10.3, 10), at(0.2, 0));
+  scene.drew(0, at(10.3, 10));
+  scene.publish();
+  scene.changed(0, at(10.35, 10)).shown = false;  // its path has to be made exact in the same tick
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kLook | kMotion);
+  EXPECT_EQ(scene.publisher.find(0)->state.look.select(0), nullptr);
+}
+
 TEST(Publisher, WhatLeavesEveryViewKeepsItsLook) {
   Scene scene;
   df::FixedVector position = at(78, 5);

@@ -352,6 +352,23 @@ TEST_F(SessionTest, EndsAfterFifteenSecondsOfSilence) {
   EXPECT_EQ(counters.idle_timeouts, 1u);
 }
 
+TEST_F(SessionTest, FifteenSecondsOfSilenceCostAResumableSessionItsStreamOnly) {
+  greet();
+  session.setGrace(60s);
+  session.checkDeadlines(now);  // from here
+  session.checkDeadlines(now + 15s + 1ms);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+  EXPECT_TRUE(session.isDetached());
+  EXPECT_EQ(counters.idle_timeouts, 1u);
+  EXPECT_EQ(gone, 0);
+  session.checkDeadlines(now + 60s);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+  session.checkDeadlines(now + 60s + 1ms);
+  EXPECT_EQ(session.state(), Session::State::kGone);
+  EXPECT_EQ(counters.graces_expired, 1u);
+  EXPECT_EQ(gone, 1);
+}
+
 TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentAndCatchesUpAfter) {
   greet();
   test::SimulatedWorld world({}, 5);

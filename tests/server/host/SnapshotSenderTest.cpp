@@ -725,5 +725,43 @@ TEST(SnapshotSender, AShipThatTurnsCostsLittle) {
   EXPECT_LE(bits.byteCount(), 8u);
 }
 
+TEST(SnapshotSender, WhatIsLostWhileItIsOwedAnewIsNoDivergence) {
+  Direct direct(1);
+  direct.tick();
+  direct.acknowledge(1);
+  const std::uint64_t before = direct.reader().checksum();
+  direct.view().vanished.push_back({0, 1});
+  df::ObjectFacts heir;
+  heir.key = {1, 1};
+  heir.order = 2;
+  heir.position = at(3, 3);
+  direct.view().changed.push_back(heir);
+  const auto second = direct.tick();  // a death and a birth, which do not arrive
+  ASSERT_EQ(second.size(), 1u);
+  const auto third = direct.sender.probe(direct.publisher).number;
+  const auto fourth = direct.sender.probe(direct.publisher).number;
+  const auto fifth = direct.sender.probe(direct.publisher).number;
+  direct.view().vanished.push_back({1, 1});
+  direct.note();  // the death of the heir is owed, and not sent yet
+  const AckWindow acks{fifth, 0b1011};
+  ASSERT_TRUE(acks.has(fourth) && acks.has(third) && !acks.has(second[0].number) && acks.has(1));
+  direct.acknowledge(acks.newest, acks.mask);
+  EXPECT_NE(direct.sender.isRight(acks, before), std::optional<bool>(false));
+}
+
+TEST(SnapshotSender, AResetTellsTheNewestInputAgain) {
+  Direct direct(1);
+  direct.sender.noteInput(7, 1);
+  direct.tick();
+  direct.sender.reset();
+  direct.note();
+  const auto packets = direct.sender.build(direct.publisher);
+  ASSERT_FALSE(packets.empty());
+  Snapshot snapshot;
+  ASSERT_EQ(Replica::anew(direct.reader().newest()).read(packets[0].bytes, snapshot), ReadResult::kOk);
+  EXPECT_TRUE(snapshot.header.tells_input);
+  EXPECT_EQ(snapshot.header.input, 7u);
+}
+
 }  // namespace
 }  // namespace naiad
