@@ -105,9 +105,9 @@ class ClientSession {
   static constexpr std::chrono::milliseconds kResetPatience{
       500};  ///< then a world that is not complete is shown
   static constexpr std::size_t kMaxChatLog = 100;
-  /// Inputs that the game has not heard of yet, at most; more are dropped here, but for keys that go up. Below
-  /// the 64 that a server lets wait, so that who holds a key through a stall is not thrown out as a flooder
-  /// afterwards, and below kMaxUpdateInputs.
+  /// Inputs that the game has not heard of yet, at most; more are dropped here, but for keys that go up.
+  /// Below the 64 that a server lets wait, so that who holds a key through a stall is not thrown out as a
+  /// flooder afterwards, and below kMaxUpdateInputs.
   static constexpr std::uint32_t kMaxUnapplied = 40;
 
   /// Takes the connected channel and says Hello. The owner starts the channel and passes what it delivers

@@ -134,7 +134,7 @@ TEST(PredictionWorld, StatesThatTheClientKnowsByItselfNeedNotBeSent) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     FarPlayer far({4, 3, 0, 1}, seed);
     playAmongWalls(far, 300);
-    EXPECT_EQ(far.wrong, 0) << "seed " << seed ;
+    EXPECT_EQ(far.wrong, 0) << "seed " << seed;
     states += far.states;
     ticks += far.ticks;
   }
