@@ -134,6 +134,7 @@ void ClientSession::handle(GoodbyeMessage&& message, Time) {
 
 void ClientSession::handle(SnapshotMessage&& message, Time now) {
   if (m_state != State::kPlaying) return reject("a snapshot before the welcome");
+  m_last_streamed = now;
   takeSnapshot(message.bytes, now);
 }
 
@@ -143,7 +144,7 @@ Replica* ClientSession::replicaFor(std::string_view bytes, Time now) {
   if (!epoch || *epoch == m_epoch) return &m_replica;
   if (*epoch != ((m_epoch + 1) & 3)) return nullptr;  // a late one of the epoch before
   if (!m_next_replica) {
-    m_next_replica = Replica::anew(m_replica.newest());
+    m_next_replica.emplace(m_replica.newest());
     m_reset_at = now;
     ++m_counters.resets;
   }
@@ -159,10 +160,12 @@ void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
       break;
     case ReadResult::kStale:
       ++m_counters.stale_snapshots;
+      if (++m_stale_in_a_row % kMostStale == 0) sendUpdate(now);  // asks for the world anew
       return;
     case ReadResult::kMalformed:
       return reject("a malformed snapshot");
   }
+  m_stale_in_a_row = 0;
   if (m_observer) m_observer(snapshot.header.tick);
   replica->apply(snapshot);
   if (replica != &m_replica && (snapshot.header.complete || now - m_reset_at >= kResetPatience)) {
@@ -285,8 +288,9 @@ void ClientSession::update(Time now) {
     if (!m_inputs.empty() && hasDatagrams(now)) sendUpdate(now);
   }
   if (m_acknowledge_at && now >= *m_acknowledge_at) sendUpdate(now);
-  const auto between = now - m_attached < kPassing ? kFirstProbes : kProbeEvery;
-  if (m_datagrams != nullptr && !hasDatagrams(now) && now - m_last_probe >= between) probe(now);
+  const bool often = now - m_attached < kPassing || hasDatagrams(now);
+  const auto between = often ? kFirstProbes : kProbeEvery;
+  if (m_datagrams != nullptr && now - m_last_datagram >= kQuiet && now - m_last_probe >= between) probe(now);
   if (m_channel == nullptr) {
     if (now - m_last_heard >= kDetachedTimeout)
       finish(State::kLost, "The connection to the server was lost.");
@@ -363,6 +367,7 @@ ClientUpdate ClientSession::nextUpdate(bool on_stream, Time now) {
     if (!on_stream || isNewer(input.id, m_newest_on_stream)) update.inputs.push_back(input);
   }
   if (on_stream && !m_inputs.empty()) m_newest_on_stream = m_inputs.back().id;
+  update.wants_reset = m_stale_in_a_row >= kMostStale;
   if (now >= m_next_checksum && m_acks.newest != 0 && !m_next_replica) {
     m_next_checksum = now + kChecksumEvery;
     update.checksum = m_replica.checksum();
@@ -370,8 +375,12 @@ ClientUpdate ClientSession::nextUpdate(bool on_stream, Time now) {
   return update;
 }
 
+// Datagrams may pass from the server and not to it: while it sends on the stream, it is told there, too.
 void ClientSession::sendUpdate(Time now) {
-  if (hasDatagrams(now)) return probe(now);
+  if (hasDatagrams(now)) {
+    probe(now);
+    if (now - m_last_streamed >= kUndecided) return;
+  }
   if (m_channel == nullptr) return;
   wire::ClientMessage message;
   message.set_update(writeUpdate(nextUpdate(true, now)));

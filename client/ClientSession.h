@@ -45,7 +45,8 @@ struct SessionOptions {
   int rows = 24;
   std::string password;      ///< of the server, if it wants one
   std::string resume_token;  ///< of an earlier welcome: go on with that session
-  /// Makes a socket for datagrams to an endpoint; empty: no datagrams. May return null.
+  /// Makes a socket for datagrams to an endpoint; empty: no datagrams (a Connection that encrypts puts UDP
+  /// there). May return null.
   std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> open_socket;
   /// For what comes as a datagram; another clock is for tests in virtual time.
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
@@ -90,17 +91,24 @@ class ClientSession {
   static constexpr std::chrono::seconds kStreamSilence{10};
   static constexpr std::chrono::milliseconds kPassing{1000};     ///< without a datagram: they do not pass
   static constexpr std::chrono::milliseconds kProbeEvery{1000};  ///< then
+  /// So long without a datagram is odd: the server may not know our address any more.
+  static constexpr std::chrono::milliseconds kQuiet{400};
+  /// After a snapshot on the stream it is open for so long whether the server hears datagrams.
+  static constexpr std::chrono::milliseconds kUndecided{500};
   static constexpr std::chrono::milliseconds kFirstProbes{100};  ///< in the first second
   static constexpr std::chrono::milliseconds kRepeatInput{10};   ///< a new input is sent again after this
   static constexpr int kAckEvery = 3;                            ///< snapshots that come as datagrams
   static constexpr std::chrono::milliseconds kAckDelay{50};      ///< of the last one, at most
+  static constexpr int kMostStale =
+      30;  ///< snapshots in a row that mean what is gone: then the world is to come anew
   static constexpr std::chrono::seconds kChecksumEvery{1};
   static constexpr std::chrono::milliseconds kResetPatience{
       500};  ///< then a world that is not complete is shown
   static constexpr std::size_t kMaxChatLog = 100;
-  /// Inputs that the game has not heard of yet, at most; more are dropped here. Below the 64 that a server
-  /// lets wait, so that who holds a key through a stall is not thrown out as a flooder afterwards.
-  static constexpr std::uint32_t kMaxUnapplied = 48;
+  /// Inputs that the game has not heard of yet, at most; more are dropped here, but for keys that go up. Below
+  /// the 64 that a server lets wait, so that who holds a key through a stall is not thrown out as a flooder
+  /// afterwards, and below kMaxUpdateInputs.
+  static constexpr std::uint32_t kMaxUnapplied = 40;
 
   /// Takes the connected channel and says Hello. The owner starts the channel and passes what it delivers
   /// to receive() and closed().
@@ -231,11 +239,13 @@ class ClientSession {
   std::unique_ptr<SealedDatagrams> m_datagrams;
   SessionOptions m_options;
   Time m_last_datagram{};
+  Time m_last_streamed{};  ///< snapshot on the stream
   Time m_last_probe{};
   Time m_attached{};
   std::optional<Replica> m_next_replica;  ///< of the next epoch, until it is complete
   Time m_reset_at{};
   std::uint8_t m_epoch = 0;
+  int m_stale_in_a_row = 0;
   int m_unacknowledged = 0;  ///< snapshots that no update has acknowledged
   std::optional<Time> m_acknowledge_at;
   std::map<std::uint64_t, Time> m_pings;  ///< unanswered, by token

@@ -17,7 +17,7 @@ Connection::Connection(asio::io_context& context, ServerAddress address, Session
       m_address(std::move(address)),
       m_options(std::move(options)),
       m_rejoin(rejoin) {
-  if (m_trust.insecure) return;
+  if (m_trust.insecure || m_options.open_socket) return;
   m_options.open_socket = [&context](const Endpoint& server) -> std::unique_ptr<DatagramSocket> {
     UdpOptions udp;
     udp.address = server.isIPv4() ? "0.0.0.0" : "::";

@@ -2,9 +2,8 @@
 //
 // Snapshots tell what the world was like at a tick; between them the replica extrapolates. This clock
 // estimates when each tick should arrive (the earliest arrivals count, later ones pull it back gently, so
-// that jitter does not shake the picture) and counts on from there and from how long they took, at most 250 ms beyond the newest
-// snapshot. After 500 ms without one the picture stands still and the player is
-// told.
+// that jitter does not shake the picture) and counts on from there and from how long they took, at most 250
+// ms beyond the newest snapshot. After 500 ms without one the picture stands still and the player is told.
 //
 // Ticks are compared as serial numbers. Time is a parameter.
 #pragma once
@@ -29,8 +28,8 @@ class DisplayClock {
 
   explicit DisplayClock(Duration tick_length) : m_length(tick_length) {}
 
-  /// Half the shortest round trip: how old what arrives is. The picture makes up for it, up to kMostLead: beyond
-  /// that more turns out wrong than is gained, for whoever turns meanwhile does so unseen.
+  /// Half the shortest round trip: how old what arrives is. The picture makes up for it, up to kMostLead:
+  /// beyond that more turns out wrong than is gained, for whoever turns meanwhile does so unseen.
   void setWay(Duration way) { m_lead = std::clamp<Duration>(way, Duration::zero(), kMostLead); }
   /// A snapshot of `tick` arrived.
   void note(std::uint32_t tick, Time now);

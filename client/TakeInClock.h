@@ -1,9 +1,9 @@
 // In which tick will the server take in a key that is pressed now?
 //
-// It goes out now, and the server's tick is by then what the newest snapshot said, and what has passed since, and
-// a round trip: half of it for that snapshot's way here, half for the key's way there. A margin on top makes
-// up for jitter: it grows when an input came too late for the tick it asked for, and shrinks with each that did
-// not, so that one in forty may be late (more than that is loss, which no margin helps).
+// It goes out now, and the server's tick is by then what the newest snapshot said, and what has passed since,
+// and a round trip: half of it for that snapshot's way here, half for the key's way there. A margin on top
+// makes up for jitter: it grows when an input came too late for the tick it asked for, and shrinks with each
+// that did not, so that one in forty may be late (more than that is loss, which no margin helps).
 #pragma once
 
 #include <array>

@@ -20,7 +20,7 @@ LookForm AppearanceNames::formOf(std::uint64_t hash, std::size_t glyphs, std::ui
       id = m_free.back();
       m_free.pop_back();
     }
-    found = m_names.emplace(hash, Name{id, glyphs, 0, false}).first;
+    found = m_names.emplace(hash, Name{id, glyphs, snapshot, 0, false}).first;
     m_glyphs += glyphs;
   }
   const Name& name = found->second;
@@ -45,9 +45,10 @@ bool AppearanceNames::retireOldest(std::uint32_t snapshot) {
   return true;
 }
 
-void AppearanceNames::arrived(std::uint32_t id, std::uint64_t hash) {
+void AppearanceNames::arrived(std::uint32_t id, std::uint64_t hash, std::uint32_t snapshot) {
   const auto found = m_names.find(hash);
-  if (found != m_names.end() && found->second.id == id) found->second.confirmed = true;
+  if (found == m_names.end() || found->second.id != id || isNewer(found->second.given, snapshot)) return;
+  found->second.confirmed = true;
 }
 
 void AppearanceNames::clear() {

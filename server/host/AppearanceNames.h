@@ -19,7 +19,7 @@ class AppearanceNames {
   /// It was written so.
   void wrote(std::uint64_t hash, std::uint32_t snapshot);
   /// The snapshot that defined `id` arrived.
-  void arrived(std::uint32_t id, std::uint64_t hash);
+  void arrived(std::uint32_t id, std::uint64_t hash, std::uint32_t snapshot);
   /// The client has forgotten all.
   void clear();
 
@@ -29,7 +29,8 @@ class AppearanceNames {
   struct Name {
     std::uint32_t id = 0;
     std::size_t glyphs = 0;
-    std::uint32_t used = 0;  ///< the newest snapshot that meant it; 0: none yet
+    std::uint32_t given = 0;  ///< the snapshot for which it got the id: older ones meant another by it
+    std::uint32_t used = 0;   ///< the newest snapshot that meant it; 0: none yet
     bool confirmed = false;
   };
   /// False if `snapshot` itself uses all that there are.

@@ -19,6 +19,7 @@ std::string Counters::summary() const {
       {"resumed", resumed},
       {"graces_expired", graces_expired},
       {"divergences", divergences},
+      {"resets", resets},
       {"malformed_frames", malformed_frames},
       {"malformed_messages", malformed_messages},
       {"login_timeouts", login_timeouts},

@@ -25,6 +25,7 @@ struct Counters {
   std::uint64_t graces_expired = 0;      ///< clients that did not come back in time
   std::uint64_t refused_password = 0;    ///< missing or wrong
   std::uint64_t divergences = 0;         ///< a client held another world than it was sent: sent anew
+  std::uint64_t resets = 0;              ///< worlds sent anew, on request or after a divergence
   std::uint64_t repeated_inputs = 0;     ///< applied before: ignored
   std::uint64_t chat_dropped = 0;        ///< faster than three lines a second: ignored
   std::uint64_t snapshots = 0;           ///< sent

@@ -39,8 +39,8 @@ DatagramService::Channel::Channel(DatagramService& service, ConnectionId id, Aea
     : m_service(service), m_aead(aead), m_link({SealedLink::Role::kServer, id, service.m_random, {}}) {}
 
 DatagramService::Channel::~Channel() {
-  m_service.m_gate.remove(m_link.id());
-  std::erase(m_service.m_channels, this);
+  // One that never got in must not take the session with it that has the same id.
+  if (std::erase(m_service.m_channels, this) > 0) m_service.m_gate.remove(m_link.id());
 }
 
 bool DatagramService::Channel::renew(const KeyExporter& exporter, Epoch epoch) {

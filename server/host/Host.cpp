@@ -290,6 +290,7 @@ bool Host::resume(Session& session, const wire::Hello& hello) {
     }
   }
   before->adopt(session, welcome);
+  m_players_told.clear();  // he may have missed the last one
   m_log(before->name() + " is back from " + before->address());
   return true;
 }

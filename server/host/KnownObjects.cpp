@@ -82,7 +82,8 @@ std::uint8_t KnownObjects::due(std::uint32_t id) const {
   return known.life == Life::kBorn ? kAllGroups : known.owed;
 }
 
-KnownObjects::Sent KnownObjects::paid(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state) {
+KnownObjects::Sent KnownObjects::paid(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state,
+                                      std::uint32_t tick) {
   Known& known = m_known[id];
   const std::uint8_t groups = due(id);
   if (groups == kDeath) {
@@ -90,7 +91,7 @@ KnownObjects::Sent KnownObjects::paid(std::uint32_t id, std::uint32_t snapshot, 
     known.sent[kLifeIndex] = snapshot;
   } else {
     if ((groups & kLife) != 0) carry(known, 0, snapshot, lifeSum(id, generationOf(known), state.order));
-    if ((groups & kMotion) != 0) carry(known, 1, snapshot, motionSum(id, state.motion));
+    if ((groups & kMotion) != 0) carry(known, 1, snapshot, motionSum(id, rebase(state.motion, tick)));
     if ((groups & kLook) != 0) carry(known, 2, snapshot, lookSum(id, state.look));
     if ((groups & kBody) != 0) carry(known, 3, snapshot, bodySum(id, state.body));
   }

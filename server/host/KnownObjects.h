@@ -65,8 +65,8 @@ class KnownObjects {
   const std::vector<std::uint32_t>& owing() const { return m_owing; }
   /// The groups to write for an id: kDeath, kAllGroups or some.
   std::uint8_t due(std::uint32_t id) const;
-  /// They were written into `snapshot`. `state`: what was written (not looked at for a death).
-  Sent paid(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state);
+  /// They were written into `snapshot`, of `tick`. `state`: what was written (not looked at for a death).
+  Sent paid(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state, std::uint32_t tick);
   /// Take those that were paid off the list.
   void sweepOwing();
 

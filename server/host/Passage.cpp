@@ -15,16 +15,17 @@ constexpr std::chrono::seconds kGoodFor{5};
 }  // namespace
 
 void Passage::sent(std::uint32_t number, bool as_datagram, Time now) {
-  m_sent[number % kKept] = {number, as_datagram, true, now};
+  m_sent[number % kKept] = {number, as_datagram, true, false, now};
   if (as_datagram && !isOpen(now)) m_last_probe = now;
 }
 
-void Passage::acknowledged(const AckWindow& acks, Time now) {
+void Passage::acknowledged(const AckWindow& acks, bool by_datagram, Time now) {
   for (Sent& sent : m_sent) {
-    if (!sent.open || !acks.has(sent.number)) continue;
+    if (sent.number == 0 || !acks.has(sent.number)) continue;
+    if (sent.open && sent.number == acks.newest) measure(now - sent.at, now);
     sent.open = false;
-    if (sent.number == acks.newest) measure(now - sent.at, now);
-    if (!sent.as_datagram) continue;
+    if (!sent.as_datagram || !by_datagram || sent.confirmed) continue;
+    sent.confirmed = true;
     // What was sent before the line fell silent says nothing of it now.
     if (now - sent.at < kSilence + kSilence) {
       m_open = true;

@@ -2,8 +2,9 @@
 // round trip, how much is lost, and so how often to send.
 //
 // A session starts on the stream. Once a second, and at first more often, it sends a snapshot as a datagram;
-// when one of those is acknowledged, over whatever channel, snapshots go as datagrams from then on, until
-// none of them has been acknowledged for a second. Pure: time is passed in.
+// when one of those is acknowledged by a datagram, snapshots go as datagrams from then on, until none of them
+// has been acknowledged so for a second. (An acknowledgement on the stream would say that datagrams pass in
+// one direction only; then the player's keys would get lost.) Pure: time is passed in.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +30,8 @@ class Passage {
 
   /// Snapshot `number` was sent, as a datagram or on the stream.
   void sent(std::uint32_t number, bool as_datagram, Time now);
-  /// The client acknowledged.
-  void acknowledged(const AckWindow& acks, Time now);
+  /// The client acknowledged, by a datagram or on the stream.
+  void acknowledged(const AckWindow& acks, bool by_datagram, Time now);
   /// Another address or stream: find out again, soon.
   void renewed(Time now) { m_began = now; }
 
@@ -54,7 +55,8 @@ class Passage {
   struct Sent {
     std::uint32_t number = 0;
     bool as_datagram = false;
-    bool open = false;  ///< not acknowledged yet
+    bool open = false;       ///< not acknowledged yet
+    bool confirmed = false;  ///< a datagram that a datagram acknowledged
     Time at{};
   };
   static constexpr std::size_t kKept = 128;

@@ -62,7 +62,7 @@ void Session::onFrame(std::string_view frame) {
 }
 
 void Session::onDatagram(std::string_view bytes) {
-  if (mayHear() && !takeUpdate(bytes)) malformed();
+  if (mayHear() && !takeUpdate(bytes, true)) malformed();
 }
 
 // False if the message breaks a rule: then the connection ends, and nothing else happens.
@@ -76,7 +76,7 @@ bool Session::dispatch(const wire::ClientMessage& message) {
       m_events.on_hello(*this, message.hello());
       return true;
     case What::kUpdate:
-      return takeUpdate(message.update());
+      return takeUpdate(message.update(), false);
     case What::kChat:
       takeChat(message.chat().text());
       return true;
@@ -98,17 +98,18 @@ bool Session::dispatch(const wire::ClientMessage& message) {
   return false;
 }
 
-bool Session::takeUpdate(std::string_view bytes) {
+bool Session::takeUpdate(std::string_view bytes, bool by_datagram) {
   const auto update = readUpdate(bytes, {m_sender.newestNumber(), m_tick, m_input_received});
   if (!update) return false;
   if (update->acks.newest != 0) {
     m_sender.acknowledge(update->acks);
-    m_passage.acknowledged(update->acks, now());
+    m_passage.acknowledged(update->acks, by_datagram, now());
   }
   if (update->checksum && m_sender.isRight(update->acks, *update->checksum) == false) {
     ++m_counters.divergences;
-    m_sender.reset();
+    reset();
   }
+  if (update->wants_reset) reset();
   return std::all_of(update->inputs.begin(), update->inputs.end(),
                      [this](const Input& input) { return takeInput(input); });
 }
@@ -118,6 +119,15 @@ bool Session::isTooEarly(const Input& input, std::uint32_t tick) const {
   if (m_controls == nullptr || input.is_mouse || early <= 0 || early > kMostEarly) return false;
   return std::any_of(m_controls->rows.begin(), m_controls->rows.end(),
                      [&input](const df::ControlRow& row) { return row.key == input.key; });
+}
+
+// The client's world comes anew, though not more often than a line can carry.
+void Session::reset() {
+  const Clock::time_point present = now();
+  if (m_last_reset && present - *m_last_reset < kResetEvery) return;
+  m_last_reset = present;
+  ++m_counters.resets;
+  m_sender.reset();
 }
 
 // False if the session has ended of it.

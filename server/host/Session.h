@@ -12,6 +12,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -41,6 +42,7 @@ class Session {
 
   static constexpr std::chrono::seconds kLoginTimeout{5};
   static constexpr std::chrono::seconds kIdleTimeout{15};
+  static constexpr std::chrono::seconds kResetEvery{2};
   static constexpr std::size_t kMaxQueuedInputs = 64;
   static constexpr int kInputsPerTick = 16;
   /// An input that asks for a tick farther off has asked for nonsense.
@@ -127,7 +129,8 @@ class Session {
   void sendSnapshot(const SnapshotSender::Packet& packet);
   void count(const SnapshotSender::Packet& packet);
   bool dispatch(const wire::ClientMessage& message);
-  bool takeUpdate(std::string_view bytes);
+  bool takeUpdate(std::string_view bytes, bool by_datagram);
+  void reset();
   bool isTooEarly(const Input& input, std::uint32_t tick) const;
   bool takeInput(const Input& input);
   void takeChat(const std::string& text);
@@ -164,6 +167,7 @@ class Session {
   Clock::time_point m_chat_refill;
   SnapshotSender m_sender{Resend::kAhead};
   Passage m_passage;
+  std::optional<Clock::time_point> m_last_reset;
 };
 
 }  // namespace naiad

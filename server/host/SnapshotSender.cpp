@@ -28,6 +28,8 @@ constexpr double kAheadPerSpeed = 20;
 constexpr std::size_t kMostOverheadBits = 256;
 /// Cells by which an origin's window exceeds the view, at least.
 constexpr std::int64_t kOriginMargin = 8;
+/// Cells around the view in which somebody who predicts is told of what he might bump into.
+constexpr std::int32_t kUnseen = 2;
 /// Orders farther than this from the origin's take too many bits.
 constexpr std::uint64_t kFarOrder = 1 << 14;
 
@@ -41,6 +43,7 @@ CellRect SnapshotSender::windowOf(const Publisher& publisher) const {
   const std::int64_t left = df::cellOf(m_player.view_corner.x);
   const std::int64_t top = df::cellOf(m_player.view_corner.y);
   CellRect window{left, top, left + world.view_width, top + world.view_height};
+  if (m_player.steering.p_table != nullptr) window = window.grownBy(kUnseen);
   const Publisher::Model* followed = publisher.find(m_player.followed.slot);
   if (m_player.followed.generation == 0 || followed == nullptr) return window;
   const ViewFrame frame{m_player.view_corner,
@@ -469,7 +472,8 @@ void SnapshotSender::pay(std::uint32_t id, const Publisher::Model* model, LookFo
     m_names.wrote(model->look_sum, m_next_number);
     if (form.kind == LookForm::kDefined) flight.names.emplace_back(form.id, model->look_sum);
   }
-  flight.objects.push_back(m_known.paid(id, m_next_number, model == nullptr ? kNothing : model->state));
+  flight.objects.push_back(
+      m_known.paid(id, m_next_number, model == nullptr ? kNothing : model->state, m_tick));
   m_writer.keep(id);
 }
 
@@ -548,7 +552,7 @@ void SnapshotSender::arrived(const Flight::Snapshot& snapshot) {
     if (i >= kOrigins && i < kTexts && i - kOrigins + 1 == m_newest_origin) m_origin = m_newest_origin;
   }
   for (const KnownObjects::Sent& sent : snapshot.objects) m_known.arrived(sent, snapshot.number);
-  for (const auto& [id, sum] : snapshot.names) m_names.arrived(id, sum);
+  for (const auto& [id, sum] : snapshot.names) m_names.arrived(id, sum, snapshot.number);
 }
 
 void SnapshotSender::lost(const Flight::Snapshot& snapshot) {

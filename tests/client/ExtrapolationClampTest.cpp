@@ -26,7 +26,11 @@ class ExtrapolationClampTest : public testing::Test {
     record.state.order = m_slot;
     record.state.motion = {kKnown, position, velocity, {}};
     record.state.body = {box, solidness, false};
-    replica.apply(++m_number, kKnown, {{}, {}, {}, {record}});
+    Snapshot snapshot;
+    snapshot.header.number = ++m_number;
+    snapshot.header.tick = kKnown;
+    snapshot.records.objects = {record};
+    replica.apply(snapshot);
     return m_slot++;
   }
   FixedVector clamped(std::uint32_t slot, std::uint32_t ahead) const {
@@ -99,7 +103,7 @@ TEST_F(ExtrapolationClampTest, EqualsThePlainRuleForRandomCrowds) {
   int held = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SplitMix64 rng(seed);
-    replica = {};
+    replica = Replica();
     for (int i = 0; i < 200; ++i) {
       const bool large = rng.below(20) == 0;
       const auto side = [&] { return 0.5 + rng.unit() * (large ? 90 : 3); };

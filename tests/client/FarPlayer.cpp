@@ -4,18 +4,17 @@
 
 #include <utility>
 
-#include "SteeredCopy.h"
-
 namespace naiad::test {
 
 FarPlayer::FarPlayer(const Way& way, std::uint64_t seed) : rng(seed), m_way(way) {
   world.setLogSink([](const std::string&) {});
   world.setSeed(seed);
   world.setWatched(true);
+  m_sender.setLookAhead(lead() + m_way.down);
   m_player = world.join("far", df::RED);
   world.tick();
   m_publisher.update(world.view());
-  m_sender.note(m_publisher);
+  m_sender.note(m_publisher, world.view().players[0]);
 }
 
 void FarPlayer::step() {
@@ -28,10 +27,13 @@ void FarPlayer::step() {
 }
 
 void FarPlayer::meetAll() {
-  const auto all = static_cast<std::size_t>(world.getObjectCount());
-  for (int i = 0; i < 1000 && replica.aliveCount() < all; ++i) step();
-  ASSERT_EQ(replica.aliveCount(), all);
-  step();
+  const auto knowsAll = [this] {
+    return m_sender.knownCount() > 1 && replica.aliveCount() == m_sender.knownCount();
+  };
+  for (std::uint32_t i = 0; i < m_way.down + m_way.up; ++i) step();
+  for (int i = 0; i < 1000 && !knowsAll(); ++i) step();
+  ASSERT_TRUE(knowsAll());
+  for (std::uint32_t i = 0; i <= lead(); ++i) step();  // what was shown before comes true, or not
 }
 
 void FarPlayer::takeInputs() {
@@ -46,7 +48,7 @@ void FarPlayer::takeInputs() {
        next = m_waiting.find(m_applied + 1)) {
     world.key(m_player, next->second.key, next->second.action);
     late_inputs += next->second.tick < now ? 1 : 0;
-    ++m_applied;
+    m_sender.noteInput(++m_applied, now);
     m_waiting.erase(next);
   }
 }
@@ -64,40 +66,32 @@ void FarPlayer::checkFrame() {
 
 void FarPlayer::serve() {
   m_publisher.update(world.view());
-  m_sender.note(m_publisher);
-  m_sender.setPlayer(world.view().players[0]);
-  m_table = *world.view().players[0].steering.p_table;
-  Down packet{tick() + m_way.down, m_sender.build(m_publisher), state(world.view().players[0]), tick()};
-  if (!isLost()) m_down.push_back(std::move(packet));
+  m_sender.note(m_publisher, world.view().players[0]);
+  for (SnapshotSender::Packet& packet : m_sender.build(m_publisher)) {
+    if (!isLost()) m_down.push_back({tick() + m_way.down, std::move(packet)});
+  }
 }
 
-std::string FarPlayer::state(const df::PlayerFacts& facts) {
-  const df::SteeringFacts& f = facts.steering;
-  const ControlRecord now{tick(),     f.object.slot, f.object.generation, m_applied,
-                          f.position, f.velocity,    f.acceleration,      f.state};
-  if (m_sparse && m_told && coast(*m_told, *f.p_table, tick()) == now) return {};
-  m_told = now;
-  ++states;
-  std::string bytes;
-  writeControlRecord(bytes, now);
-  return bytes;
+void FarPlayer::receive(const SnapshotSender::Packet& packet) {
+  Snapshot snapshot;
+  ASSERT_EQ(replica.read(packet.bytes, snapshot), ReadResult::kOk);
+  replica.apply(snapshot);
+  m_acks.note(packet.number);
+  if (snapshot.header.tells_input) m_answered = std::max(m_answered, snapshot.header.input);
+  if (replica.controlTableNumber() != m_table_known) {
+    m_table_known = replica.controlTableNumber();
+    prediction.setTable(replica.controlTable());
+  }
+  if (replica.controlNumber() != m_control_known) {
+    m_control_known = replica.controlNumber();
+    prediction.take(replica.control());
+    ++states;
+  }
 }
 
 void FarPlayer::draw() {
-  prediction.setTable(m_table);
   for (; !m_down.empty() && m_down.front().arrives <= tick(); m_down.pop_front()) {
-    const Down& packet = m_down.front();
-    for (const SnapshotSender::Snapshot& snapshot : packet.snapshots) {
-      const auto records = readRecords(snapshot.records, snapshot.tick);
-      ASSERT_TRUE(records);
-      replica.apply(snapshot.number, snapshot.tick, *records);
-      m_acks.note(snapshot.number);
-    }
-    if (packet.state.empty()) continue;
-    const auto record = readControlRecord(packet.state, packet.tick);
-    ASSERT_TRUE(record);
-    prediction.take(*record);
-    m_answered = std::max(m_answered, record->newest_input);
+    receive(m_down.front().packet);
   }
   while (!m_unanswered.empty() && m_unanswered.front().id <= m_answered) m_unanswered.pop_front();
   const bool lost = isLost();

@@ -8,14 +8,12 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "DrawnPlacement.h"
 #include "Player.h"
 #include "Publisher.h"
-#include "RecordCodec.h"
+#include "Replica.h"
 #include "SnapshotSender.h"
 #include "SplitMix64.h"
 #include "World.h"
@@ -40,7 +38,7 @@ class FarPlayer {
   df::Player& player() { return *world.getPlayer(m_player); }
   /// One tick and one frame.
   void step();
-  /// Step until the client has heard of every Object.
+  /// Step until the client has heard of all that is of interest to it.
   void meetAll();
   /// In the frame that has just been drawn.
   void press(df::Keyboard::Key key, df::EventKeyboardAction action = df::KEY_PRESSED);
@@ -48,8 +46,6 @@ class FarPlayer {
   std::uint32_t tick() const { return static_cast<std::uint32_t>(world.getStepCount()); }
   std::uint32_t lead() const { return m_way.up + m_way.margin; }
   std::uint32_t shownTick() const { return tick() + lead(); }
-  /// Send the player's state only where a client could not know it.
-  void setSparse() { m_sparse = true; }
 
   df::World world;
   df::World::Scope scope{world};
@@ -64,15 +60,13 @@ class FarPlayer {
   int wrong_views = 0;              ///< … or the view
   int inputs = 0;
   int late_inputs = 0;  ///< taken in after the tick they were meant for
-  int states = 0;       ///< states of the player that were sent
+  int states = 0;       ///< states of the player that arrived
   int ticks = 0;
 
  private:
   struct Down {
     std::uint32_t arrives;
-    std::vector<SnapshotSender::Snapshot> snapshots;
-    std::string state;  ///< empty: none
-    std::uint32_t tick;
+    SnapshotSender::Packet packet;
   };
   struct Input {
     std::uint32_t id;
@@ -94,21 +88,20 @@ class FarPlayer {
   void serve();
   void takeInputs();
   void checkFrame();
-  std::string state(const df::PlayerFacts& facts);
+  void receive(const SnapshotSender::Packet& packet);
   void draw();
 
   Way m_way;
   std::uint32_t m_player;
   Publisher m_publisher;
-  SnapshotSender m_sender;
+  SnapshotSender m_sender{Resend::kAhead};
   std::deque<Down> m_down;
   std::deque<Up> m_up;
   std::map<std::uint32_t, Input> m_waiting;  // on the server, by id
   std::uint32_t m_applied = 0;
-  std::optional<ControlRecord> m_told;
-  bool m_sparse = false;
 
-  df::ControlTable m_table;  // as the client has it
+  std::uint32_t m_table_known = 0;  // as in ClientSession
+  std::uint32_t m_control_known = 0;
   AckWindow m_acks;
   std::uint32_t m_next_id = 1;
   std::uint32_t m_answered = 0;

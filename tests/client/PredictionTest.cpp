@@ -30,6 +30,20 @@ ObjectRecord object(std::uint32_t slot, FixedVector at, FixedVector velocity = {
   return record;
 }
 
+Records objects(std::vector<ObjectRecord> list) {
+  Records records;
+  records.objects = std::move(list);
+  return records;
+}
+
+void apply(Replica& replica, std::uint32_t number, Records records) {
+  Snapshot snapshot;
+  snapshot.header.number = number;
+  snapshot.header.tick = kTick;
+  snapshot.records = std::move(records);
+  replica.apply(snapshot);
+}
+
 /// The own ship at (10,10), a step to the right for D, a step down for S.
 class PredictionTest : public testing::Test {
  protected:
@@ -37,10 +51,10 @@ class PredictionTest : public testing::Test {
     table.rows = {{D, KEY_PRESSED, df::ControlEffect::kStep, true, true, cells(1, 0)},
                   {S, KEY_PRESSED, df::ControlEffect::kStep, true, true, cells(0, 1)}};
     prediction.setTable(table);
-    hear({{}, {}, {}, {object(kOwnSlot, cells(10, 10))}});
+    hear(objects({object(kOwnSlot, cells(10, 10))}));
     prediction.take(answer(kTick, 0, cells(10, 10)));
   }
-  void hear(const Records& records) { replica.apply(++number, kTick, records); }
+  void hear(Records records) { apply(replica, ++number, std::move(records)); }
   static ControlRecord answer(std::uint32_t tick, std::uint32_t newest, FixedVector at) {
     ControlRecord record;
     record.tick = tick;
@@ -149,8 +163,7 @@ TEST_F(PredictionTest, WhoHasMovedIsDecidedByTheOrderOfCreation) {
   prediction.setTable(table);
   for (const auto& [slot, wanted] : {std::pair{kOwnSlot - 1, 11}, {kOwnSlot + 1, 10}}) {
     Replica around;
-    around.apply(1, kTick,
-                 {{}, {}, {}, {object(kOwnSlot, cells(10, 10)), object(slot, cells(12, 10), cells(1, 0))}});
+    apply(around, 1, objects({object(kOwnSlot, cells(10, 10)), object(slot, cells(12, 10), cells(1, 0))}));
     Prediction ship;
     ship.setTable(table);
     ship.take(answer(kTick, 0, cells(10, 10)));
@@ -171,7 +184,7 @@ TEST_F(PredictionTest, HardBlocksSoftDoesNotAndNoSoftMinds) {
     ObjectRecord me = object(kOwnSlot, cells(10, 10), {}, own);
     me.state.body.no_soft = no_soft;
     Replica around;
-    around.apply(1, kTick, {{}, {}, {}, {me, object(1, cells(12, 10), {}, other)}});
+    apply(around, 1, objects({me, object(1, cells(12, 10), {}, other)}));
     Prediction ship;
     ship.setTable(table);
     ship.take(answer(kTick, 0, cells(10, 10)));
@@ -191,10 +204,8 @@ TEST_F(PredictionTest, InputsAndTicksAreBounded) {
 TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
   constexpr df::Fixed kFar = df::fromCells(2'000'000'000);
   constexpr df::Fixed kFast = df::fromCells(1 << 24);
-  hear({{},
-        {},
-        {},
-        {object(8, {INT64_MAX, INT64_MIN}, {INT64_MAX, 1}), object(9, {kFar, kFar}, {kFast, -kFast})}});
+  hear(
+      objects({object(8, {INT64_MAX, INT64_MIN}, {INT64_MAX, 1}), object(9, {kFar, kFar}, {kFast, -kFast})}));
   ControlRecord record = answer(kTick + 1, 0, {kFar, -kFar});
   record.velocity = {kFast, -kFast};
   record.acceleration = {kFast, -kFast};
@@ -211,7 +222,10 @@ TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
 
 TEST_F(PredictionTest, ThePictureShowsTheShipAndTheViewWhereTheyWillBe) {
   // A view of 30 by 12 in a world of 200 by 24 follows the ship at (10,10).
-  hear({{{{{}, cells(200, 24)}, 30, 12}}, {{cells(0, 4), kOwnSlot, 1}}, {}, {object(1, cells(40, 10))}});
+  Records records = objects({object(1, cells(40, 10))});
+  records.worlds = {{{{}, cells(200, 24)}, 30, 12}};
+  records.views = {{cells(0, 4), true, kOwnSlot, 1}};
+  hear(std::move(records));
   for (std::uint32_t i = 1; i <= 20; ++i) prediction.press(i, D, KEY_PRESSED, kTick + 1);
   at(kTick + 1);
   const ExtrapolationClamp clamp(replica, kTick, kTick);

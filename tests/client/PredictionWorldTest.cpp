@@ -84,6 +84,7 @@ Way anyWay(SplitMix64& rng) {
 /// Everything stands still but the player.
 void playAmongWalls(FarPlayer& far, int steps) {
   WM.setBoundary(Box(Vector(), 200, 60));
+  far.world.setWindow(120, 54);  // what is out of view is not known
   litter(far.rng, 150);
   Object* p_ship = launch(far, anyControls(far.rng));
   if (far.rng.below(3) == 0) litter(far.rng, 50);  // some come after the ship
@@ -106,7 +107,7 @@ TEST(PredictionWorld, WithAllElseAtRestEveryFrameComesTrue) {
     EXPECT_EQ(far.wrong, 0) << "seed " << seed;
     EXPECT_EQ(far.wrong_views, 0) << "seed " << seed;
     EXPECT_EQ(far.prediction.counters().mispredicted, 0u) << "seed " << seed;
-    EXPECT_GT(far.prediction.counters().confirmed, 200u);
+    EXPECT_GT(far.prediction.counters().confirmed, 50u);
     inputs += far.inputs;
     compared += far.compared;
   }
@@ -132,9 +133,8 @@ TEST(PredictionWorld, StatesThatTheClientKnowsByItselfNeedNotBeSent) {
   int ticks = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     FarPlayer far({4, 3, 0, 1}, seed);
-    far.setSparse();
     playAmongWalls(far, 300);
-    EXPECT_EQ(far.wrong, 0) << "seed " << seed;
+    EXPECT_EQ(far.wrong, 0) << "seed " << seed ;
     states += far.states;
     ticks += far.ticks;
   }
@@ -165,6 +165,7 @@ TEST(PredictionWorld, WhatMovesInTheWayIsCorrectedWithinARoundTrip) {
     for (const Vector d : {Vector(1, 0), Vector(-1, 0), Vector(0, 1), Vector(0, -1)})
       controls.onKey(kKeys[i++]).step(d.x(), d.y());
     controls.onKey(df::Keyboard::E).velocity(1, 0).onKey(df::Keyboard::F).velocity(-1, 0);
+    WM.setBoundary(Box(Vector(), 200, 60));
     launch(far, controls.within(Box(Vector(80, 20), 40, 20)));
     std::vector<Shuttle*> shuttles;
     for (int n = 0; n < 30; ++n) {

@@ -16,12 +16,12 @@ std::uint64_t low(std::uint64_t value, int bits) {
 
 }  // namespace
 
-/// Small numbers, in one byte; else those around a power of two, where limits are.
+/// One byte gives a small number, or a power of two or one less: that is where limits are. Always one byte,
+/// so that nothing behind it moves when it becomes another one.
 std::uint64_t HostileWriter::any() {
   const std::uint8_t head = m_script.byte();
-  if (head < 0xC0) return head;
-  const auto beside = static_cast<std::int8_t>(m_script.byte());
-  return (std::uint64_t{1} << (head & 63)) + static_cast<std::uint64_t>(std::int64_t{beside});
+  if (head < 0x80) return head;
+  return (std::uint64_t{1} << (head >> 1 & 63)) - (head & 1);
 }
 
 std::uint64_t HostileWriter::field(int bits) {

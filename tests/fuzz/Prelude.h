@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Replica.h"
+#include "Require.h"
 
 namespace naiad::fuzz {
 
@@ -35,12 +36,15 @@ inline std::string preludeSnapshot() {
   return writer.finish();
 }
 
-inline Replica preludeReplica() {
-  static const std::string bytes = preludeSnapshot();
-  Replica replica(kPreludeTick);
-  Snapshot snapshot;
-  if (replica.read(bytes, snapshot) == ReadResult::kOk) replica.apply(snapshot);
-  return replica;
+inline const Replica& preludeReplica() {
+  static const Replica kept = [] {
+    Replica replica(kPreludeTick);
+    Snapshot snapshot;
+    REQUIRE(replica.read(preludeSnapshot(), snapshot) == ReadResult::kOk);
+    replica.apply(snapshot);
+    return replica;
+  }();
+  return kept;
 }
 
 }  // namespace naiad::fuzz

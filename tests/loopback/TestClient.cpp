@@ -2,29 +2,16 @@
 
 namespace naiad::test {
 
-namespace {
-
-SessionOptions named(const std::string& name) {
-  SessionOptions options;
-  options.name = name;
-  options.program = "test";
-  return options;
+ClientSetup insecurely(const std::string& name) {
+  ClientSetup setup;
+  setup.options.name = name;
+  setup.options.program = "test";
+  setup.trust.insecure = true;
+  return setup;
 }
 
-}  // namespace
-
-namespace {
-
-ServerTrust insecurely() {
-  ServerTrust trust;
-  trust.insecure = true;
-  return trust;
-}
-
-}  // namespace
-
-TestClient::TestClient(asio::io_context& context, std::uint16_t port, const std::string& name)
-    : m_connection(context, ServerAddress{"127.0.0.1", port}, named(name), false, insecurely()) {
+TestClient::TestClient(asio::io_context& context, std::uint16_t port, const ClientSetup& setup)
+    : m_connection(context, ServerAddress{"127.0.0.1", port}, setup.options, setup.rejoin, setup.trust) {
   m_connection.onSession([this](ClientSession& session) {
     session.onBeforeSnapshot([this, &session](std::uint32_t tick) { record(session, tick); });
   });

@@ -14,9 +14,20 @@ namespace naiad::test {
 /// Long enough for a loaded machine under a sanitizer; a test that needs it has failed anyway.
 inline constexpr std::chrono::seconds kPatience{30};
 
+/// How a client comes: as itself, to whom, and whether it comes back.
+struct ClientSetup {
+  SessionOptions options;
+  ServerTrust trust;
+  bool rejoin = false;
+};
+/// Plain TCP, once.
+ClientSetup insecurely(const std::string& name);
+
 class TestClient {
  public:
-  TestClient(asio::io_context& context, std::uint16_t port, const std::string& name);
+  TestClient(asio::io_context& context, std::uint16_t port, const std::string& name)
+      : TestClient(context, port, insecurely(name)) {}
+  TestClient(asio::io_context& context, std::uint16_t port, const ClientSetup& setup);
 
   Connection& connection() { return m_connection; }
   /// The session being played; must be joined.
@@ -27,6 +38,8 @@ class TestClient {
   /// What the client's replica shows at each tick that can no longer change, by tick.
   const std::map<std::uint32_t, df::Canvas>& pictures() const { return m_pictures; }
   void keepPictures(bool keep) { m_keep = keep; }
+  /// Keep those from now on only.
+  void forgetPictures() { m_pictures.clear(); }
 
  private:
   void record(ClientSession& session, std::uint32_t tick);

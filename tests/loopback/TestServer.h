@@ -18,8 +18,8 @@
 
 namespace naiad::test {
 
-/// Options for tests: any free port, plain TCP, who is gone is gone, short ticks so that a thousand of them take
-/// seconds.
+/// Options for tests: any free port, plain TCP, who is gone is gone, short ticks so that a thousand of them
+/// take seconds.
 HostOptions fastOptions();
 
 class TestServer {
@@ -29,6 +29,7 @@ class TestServer {
   ~TestServer();
 
   std::uint16_t port() const { return m_host->port(); }
+  std::optional<Fingerprint> fingerprint() const { return m_host->fingerprint(); }
   /// Run `look` on the server's thread between two ticks and return what it returns.
   template <class Look>
   auto inWorld(Look look) {

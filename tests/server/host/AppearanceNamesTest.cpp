@@ -27,7 +27,7 @@ TEST_F(AppearanceNamesTest, DefinesUntilADefinitionArrived) {
   const LookForm second = write(111, 2);
   EXPECT_EQ(second.kind, LookForm::kDefined);
   EXPECT_EQ(second.id, first.id);
-  names.arrived(first.id, 111);
+  names.arrived(first.id, 111, 1);
   const LookForm third = write(111, 3);
   EXPECT_EQ(third.kind, LookForm::kNamed);
   EXPECT_EQ(third.id, first.id);
@@ -60,7 +60,7 @@ TEST_F(AppearanceNamesTest, TheLeastRecentlyUsedGivesItsIdAway) {
   std::uint32_t second = 0;
   for (std::uint64_t hash = 1; hash <= kMaxAppearances; ++hash) {
     const LookForm form = write(hash, ++snapshot, 2);
-    names.arrived(form.id, hash);
+    names.arrived(form.id, hash, snapshot);
     if (hash == 2) second = form.id;
   }
   EXPECT_EQ(write(1, ++snapshot, 2).kind, LookForm::kNamed);  // so 2 is the oldest
@@ -75,8 +75,22 @@ TEST_F(AppearanceNamesTest, ALateArrivalDoesNotConfirmTheNextUnderTheId) {
   std::uint32_t snapshot = 0;
   for (std::uint64_t hash = 1; hash <= 8; ++hash) write(hash, ++snapshot, kLargest);
   const LookForm next = write(9, ++snapshot, kLargest);  // instead of 1
-  names.arrived(next.id, 1);
+  names.arrived(next.id, 1, 1);
   EXPECT_EQ(write(9, ++snapshot, kLargest).kind, LookForm::kDefined);
+}
+
+// The same appearance again under the same id, with another one between: the client may hold that one.
+TEST_F(AppearanceNamesTest, AnEarlierDefinitionDoesNotConfirmALaterOne) {
+  const LookForm first = write(1, 1, kLargest);
+  std::uint32_t snapshot = 1;
+  for (std::uint64_t hash = 2; hash <= 9; ++hash) write(hash, ++snapshot, kLargest);  // 9 gets the id of 1
+  for (std::uint64_t hash = 2; hash <= 8; ++hash) write(hash, ++snapshot, kLargest);
+  const LookForm again = write(1, ++snapshot, kLargest);  // instead of 9
+  ASSERT_EQ(again.id, first.id);
+  names.arrived(first.id, 1, 1);
+  EXPECT_EQ(write(1, ++snapshot, kLargest).kind, LookForm::kDefined);
+  names.arrived(first.id, 1, snapshot);
+  EXPECT_EQ(write(1, ++snapshot, kLargest).kind, LookForm::kNamed);
 }
 
 TEST_F(AppearanceNamesTest, GlyphsAreBoundedInAll) {
@@ -86,7 +100,7 @@ TEST_F(AppearanceNamesTest, GlyphsAreBoundedInAll) {
     const LookForm form = write(hash, ++snapshot, kLargest);
     EXPECT_EQ(form.kind, LookForm::kDefined);
     EXPECT_LT(form.id, 8u) << "eight of this size are all that is known at a time";
-    names.arrived(form.id, hash);
+    names.arrived(form.id, hash, snapshot);
   }
   for (std::uint64_t hash = 13; hash <= 20; ++hash)
     EXPECT_EQ(write(hash, 99, kLargest).kind, LookForm::kNamed);
@@ -95,14 +109,14 @@ TEST_F(AppearanceNamesTest, GlyphsAreBoundedInAll) {
 
 // Else the client would take the new appearance for the old one where the snapshot names that.
 TEST_F(AppearanceNamesTest, AnIdMeansOneThingInASnapshot) {
-  for (std::uint64_t hash = 1; hash <= 8; ++hash) names.arrived(write(hash, 1, kLargest).id, hash);
+  for (std::uint64_t hash = 1; hash <= 8; ++hash) names.arrived(write(hash, 1, kLargest).id, hash, 1);
   for (std::uint64_t hash = 1; hash <= 8; ++hash) EXPECT_EQ(write(hash, 2, kLargest).kind, LookForm::kNamed);
   EXPECT_EQ(write(9, 2, kLargest).kind, LookForm::kSpelled) << "all ids are in use";
   EXPECT_EQ(write(9, 3, kLargest).kind, LookForm::kDefined);
 }
 
 TEST_F(AppearanceNamesTest, AClientThatForgotIsToldAnew) {
-  names.arrived(write(111, 1).id, 111);
+  names.arrived(write(111, 1).id, 111, 1);
   names.clear();
   EXPECT_EQ(write(111, 2).kind, LookForm::kDefined);
 }

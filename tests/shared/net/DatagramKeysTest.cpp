@@ -13,20 +13,20 @@ constexpr ConnectionId kId{0x0123456789abcdef};
 // Made with HMAC-SHA256 and a few lines of Python, from exporter_master_secret 00 01 … 1f.
 TEST(DatagramKeys, KnownAnswersOfAes) {
   const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kAes128Gcm, kId, 0x13);
-  EXPECT_EQ(toHex(keys.client.key.data(), 16), "f7816f32d4a8bc907e3ccba853045e5c");
-  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "d9301b0fee8215ed785fb5f6");
-  EXPECT_EQ(toHex(keys.server.key.data(), 16), "a2247a5040d4ab5b402a8b042a1c4874");
-  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "433fa8945325bf231f5931d7");
+  EXPECT_EQ(toHex(keys.client.key.data(), 16), "dcc79784d226f89bc32145c6d412e2a9");
+  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "7c076190190c2b5ea574a494");
+  EXPECT_EQ(toHex(keys.server.key.data(), 16), "47e7c1913b4a9e437182727006c01d08");
+  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "f92db1a170c83f4bc0209522");
 }
 
 TEST(DatagramKeys, KnownAnswersOfChaCha) {
   const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kChaCha20Poly1305, kId, 0x13);
   EXPECT_EQ(toHex(keys.client.key.data(), 32),
-            "06a726080eb488e6e03ba569655ad82e709ffb5dbea0970109cb9765e8bcbc98");
-  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "6e41ddf41b741fd0709dedaa");
+            "6cdc19ec5f5c7203a055e167f75d43474b6ff2ac7cface4825e83c8d0d55180f");
+  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "d0889574cc39351d2f797e20");
   EXPECT_EQ(toHex(keys.server.key.data(), 32),
-            "e50c4453e29b2893e9337a1c5499a2958a794a268def0329558fd5574d8b4a1c");
-  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "a4a77d340635454970be1cfd");
+            "7120610b98122e53215ff759c1c207d57753d03dda5aba271d7d829a1a27329e");
+  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "9197542a450836a0c7096bfc");
 }
 
 TEST(DatagramKeys, ExporterIsAskedForWhatThePageSays) {
@@ -40,7 +40,7 @@ TEST(DatagramKeys, ExporterIsAskedForWhatThePageSays) {
   };
   deriveDatagramKeys(spy, AeadId::kChaCha20Poly1305, kId, 0x13);
   EXPECT_EQ(label, "EXPERIMENTAL-naiad-datagram");
-  EXPECT_EQ(toHex(context), "0100000002efcdab896745230113000000");
+  EXPECT_EQ(toHex(context), "0200000002efcdab896745230113000000");
   EXPECT_EQ(asked, 88u);
 }
 

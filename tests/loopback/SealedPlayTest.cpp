@@ -1,0 +1,150 @@
+// Encrypted play: a stream in TLS, sealed datagrams beside it, and what happens where datagrams do not pass.
+#include <gtest/gtest.h>
+
+#include "BusyWorld.h"
+#include "Compare.h"
+#include "Home.h"
+#include "TestServer.h"
+#include "Valve.h"
+
+namespace naiad::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+class SealedPlay : public testing::Test {
+ protected:
+  ClientSetup player(const std::string& name) {
+    ClientSetup setup = home.player(name);
+    setup.options.open_socket = through(context, valve);
+    return setup;
+  }
+  bool join(TestClient& client) {
+    return serveUntil(context, {&client}, [&] { return client.joined(); });
+  }
+  static bool onDatagrams(TestClient& client) { return client.session().hasDatagrams(Clock::now()); }
+  static std::uint64_t datagrams(TestClient& client) { return client.session().counters().datagrams_in; }
+  /// Snapshots that came on the stream.
+  static std::uint64_t streamed(TestClient& client) {
+    const SessionCounters& counters = client.session().counters();
+    return counters.snapshots + counters.stale_snapshots - counters.datagrams_in;
+  }
+  bool settleOnDatagrams(TestClient& client) {
+    const auto settled = [&] { return client.joined() && onDatagrams(client) && datagrams(client) > 20; };
+    return serveUntil(context, {&client}, settled);
+  }
+  /// Go on until the client has heard of so many more ticks; how long that took.
+  std::chrono::duration<double> hear(TestClient& client, std::uint32_t ticks) {
+    const std::uint32_t start = client.newestTick();
+    const auto began = Clock::now();
+    EXPECT_TRUE(serveUntil(context, {&client}, [&] { return client.newestTick() >= start + ticks; }));
+    return Clock::now() - began;
+  }
+  /// A key reaches the game: its number is in the player's score.
+  bool keyWorks(TestClient& client) {
+    const std::int32_t before = client.session().score();
+    client.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
+    return serveUntil(context, {&client}, [&] { return client.session().score() > before; });
+  }
+
+  Home home;
+  asio::io_context context;
+  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
+};
+
+TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
+  TestServer server([](df::World& world) { populateBusyWorld(world, 200); }, home.server());
+  TestClient ann(context, server.port(), home.player("ann"));
+  ASSERT_TRUE(settleOnDatagrams(ann));
+  // What comes on the stream may be overtaken; then a picture is not final when it is taken.
+  std::uint64_t on_stream = streamed(ann);
+  ann.forgetPictures();
+  std::uint32_t pressed = 0;
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+    if (streamed(ann) != on_stream) ann.forgetPictures();
+    on_stream = streamed(ann);
+    if (ann.newestTick() > pressed + 10) {
+      pressed = ann.newestTick();
+      ann.session().sendKey(df::Keyboard::LEFTARROW, df::KEY_PRESSED, Clock::now());
+    }
+    return ann.pictures().size() >= 500;
+  }));
+  expectSame(ann, server, 500);
+  EXPECT_TRUE(onDatagrams(ann));
+  EXPECT_GT(datagrams(ann), 400u);
+  EXPECT_EQ(server.counters().divergences, 0u);
+}
+
+TEST_F(SealedPlay, KeysArriveAndTheStreamFallsSilent) {
+  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  TestClient ann(context, server.port(), player("ann"));
+  ASSERT_TRUE(settleOnDatagrams(ann));
+  EXPECT_TRUE(keyWorks(ann));
+  // Over a thousand ticks the stream carries none, unless the machine stood still for a second.
+  const std::uint64_t on_stream = streamed(ann);
+  const std::uint64_t before = datagrams(ann);
+  hear(ann, 300);
+  EXPECT_GT(datagrams(ann) - before, 10 * (streamed(ann) - on_stream));
+}
+
+TEST_F(SealedPlay, WithDatagramsBlockedTheStreamWillDo) {
+  for (const auto& [up, down] : {std::pair{false, false}, {false, true}, {true, false}}) {
+    valve = std::make_shared<Valve>();
+    valve->up = up;
+    valve->down = down;
+    TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+    TestClient ann(context, server.port(), player("ann"));
+    ASSERT_TRUE(join(ann)) << up << down;
+    EXPECT_TRUE(keyWorks(ann)) << up << down;
+    hear(ann, 400);
+    EXPECT_EQ(datagrams(ann), 0u) << up << down;
+    EXPECT_FALSE(onDatagrams(ann));
+    expectSame(ann, server, 200);
+    EXPECT_EQ(server.counters().divergences, 0u);
+  }
+}
+
+TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {
+  for (const auto& [up, down] : {std::pair{false, false}, {false, true}, {true, false}}) {
+    valve = std::make_shared<Valve>();
+    TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+    TestClient ann(context, server.port(), player("ann"));
+    ASSERT_TRUE(settleOnDatagrams(ann));
+    const std::uint64_t on_stream = streamed(ann);
+    valve->up = up;
+    valve->down = down;
+    const auto blocked = Clock::now();
+    ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return streamed(ann) > on_stream + 5; })) << up << down;
+    EXPECT_LT(Clock::now() - blocked, std::chrono::seconds(2)) << up << down;
+    EXPECT_TRUE(keyWorks(ann)) << up << down;
+
+    valve->up = valve->down = true;
+    const std::uint64_t before = datagrams(ann);
+    const auto returns = [&] { return onDatagrams(ann) && datagrams(ann) > before + 100; };
+    ASSERT_TRUE(serveUntil(context, {&ann}, returns)) << up << down;
+    EXPECT_TRUE(keyWorks(ann));
+    EXPECT_EQ(server.counters().divergences, 0u);
+    EXPECT_EQ(server.counters().detached, 0u);
+  }
+}
+
+TEST_F(SealedPlay, AnotherPortGoesOnWithinASecond) {
+  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  TestClient ann(context, server.port(), player("ann"));
+  ASSERT_TRUE(settleOnDatagrams(ann));
+  for (int i = 0; i < 3; ++i) {
+    const std::uint16_t port = valve->p_socket->localEndpoint().port;
+    valve->rebind();
+    ASSERT_NE(valve->p_socket->localEndpoint().port, port);
+    const std::uint64_t before = datagrams(ann);
+    const auto moved = Clock::now();
+    ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return datagrams(ann) > before + 5; }));
+    EXPECT_LT(Clock::now() - moved, std::chrono::seconds(1));
+    EXPECT_TRUE(keyWorks(ann));
+  }
+  EXPECT_EQ(server.counters().detached, 0u);
+  EXPECT_EQ(server.counters().divergences, 0u);
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,50 @@
+// Stands between clients and a server's stream, and can take the line away.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace naiad::test {
+
+/// Runs in `context`, which must outlive it.
+class StreamProxy {
+ public:
+  StreamProxy(asio::io_context& context, std::uint16_t server_port);
+  ~StreamProxy();
+
+  /// Clients connect here.
+  std::uint16_t port() const { return m_acceptor.local_endpoint().port(); }
+  /// Both ends of all present connections lose them.
+  void cut();
+  /// Nothing goes through the present connections any more, and nobody hears of it.
+  void stall();
+  /// Later connections are hung up on.
+  void setOpen(bool open) { m_open = open; }
+  /// What comes is passed on so much later, each way.
+  void setDelay(std::chrono::milliseconds delay) { m_delay = delay; }
+  /// Later connections lead to another server.
+  void setServer(std::uint16_t port) { m_server_port = port; }
+  /// Connections so far that went through.
+  int count() const { return m_count; }
+
+ private:
+  struct Line;
+  void accept();
+  void pump(const std::shared_ptr<Line>& line, std::size_t from);
+  void passOn(const std::shared_ptr<Line>& line, std::size_t from, std::size_t size);
+
+  asio::io_context& m_context;
+  asio::ip::tcp::acceptor m_acceptor;
+  std::uint16_t m_server_port;
+  std::vector<std::shared_ptr<Line>> m_lines;
+  std::chrono::milliseconds m_delay{0};
+  bool m_open = true;
+  int m_count = 0;
+};
+
+}  // namespace naiad::test

@@ -1,0 +1,132 @@
+// Who is let in, and who is trusted: passwords, pins, fingerprints.
+#include <gtest/gtest.h>
+
+#include "BusyWorld.h"
+#include "Home.h"
+#include "SafeFile.h"
+#include "StreamProxy.h"
+#include "TestServer.h"
+
+namespace naiad::test {
+namespace {
+
+class TrustTest : public testing::Test {
+ protected:
+  static std::function<void(df::World&)> world() {
+    return [](df::World& world) { populateBusyWorld(world, 5); };
+  }
+  bool joins(TestClient& client) {
+    return serveUntil(context, {&client}, [&] { return client.joined(); });
+  }
+  /// The sentence that it ends with; empty if it was let in.
+  std::string refusal(TestClient& client) {
+    EXPECT_TRUE(
+        serveUntil(context, {&client}, [&] { return client.joined() || client.connection().isOver(); }));
+    if (client.joined()) return {};
+    EXPECT_EQ(client.connection().state(), Connection::State::kRefused);
+    return client.connection().sentence();
+  }
+  std::string refusal(std::uint16_t port, const ClientSetup& setup) {
+    TestClient client(context, port, setup);
+    return refusal(client);
+  }
+  std::string pins() const { return readSmallFile(home.knownServers(), 10'000).value_or(""); }
+
+  Home home;
+  asio::io_context context;
+};
+
+TEST_F(TrustTest, RightWrongAndMissingPasswords) {
+  HostOptions options = home.server();
+  options.password = "xyzzy";
+  TestServer server(world(), options);
+  ClientSetup setup = home.player("ann");
+  EXPECT_EQ(refusal(server.port(), setup), "This server wants a password.");
+  setup.options.password = "plugh";
+  EXPECT_EQ(refusal(server.port(), setup), "That is not this server's password.");
+  EXPECT_EQ(server.counters().refused_password, 2u);
+  EXPECT_EQ(server.counters().joined, 0u);
+  setup.options.password = "xyzzy";
+  EXPECT_EQ(refusal(server.port(), setup), "");
+  EXPECT_EQ(server.counters().joined, 1u);
+}
+
+TEST_F(TrustTest, WhoGuessesTooOftenWaitsEvenWithTheRightPassword) {
+  HostOptions options = home.server();
+  options.password = "xyzzy";
+  TestServer server(world(), options);
+  ClientSetup setup = home.player("eve");
+  for (int i = 0; i < 5; ++i) {
+    setup.options.password = "guess " + std::to_string(i);
+    EXPECT_EQ(refusal(server.port(), setup), "That is not this server's password.");
+  }
+  setup.options.password = "xyzzy";
+  EXPECT_EQ(refusal(server.port(), setup), "Too many wrong passwords. Try again in a minute.");
+  EXPECT_EQ(server.counters().refused_password, 6u);
+  EXPECT_EQ(server.counters().joined, 0u);
+}
+
+TEST_F(TrustTest, TheFirstKeyIsPinnedAndTheSameOneIsWelcome) {
+  TestServer server(world(), home.server());
+  EXPECT_EQ(refusal(server.port(), home.player("ann")), "");
+  const std::string pin =
+      "127.0.0.1:" + std::to_string(server.port()) + " " + server.fingerprint()->text() + "\n";
+  EXPECT_NE(pins().find(pin), std::string::npos) << pins();
+  const std::string before = pins();
+  EXPECT_EQ(refusal(server.port(), home.player("bob")), "");
+  EXPECT_EQ(pins(), before);
+}
+
+TEST_F(TrustTest, AnotherKeyIsRefusedLoudly) {
+  auto server = std::make_unique<TestServer>(world(), home.server());
+  const std::uint16_t port = server->port();
+  EXPECT_EQ(refusal(port, home.player("ann")), "");
+  const std::string before = pins();
+  server.reset();
+
+  HostOptions other = home.server("another identity");
+  other.port = port;
+  server = std::make_unique<TestServer>(world(), other);
+  const std::string sentence = refusal(port, home.player("ann"));
+  EXPECT_NE(sentence.find("HAS CHANGED"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find(server->fingerprint()->text()), std::string::npos) << sentence;
+  EXPECT_EQ(pins(), before);
+  // It has not even been greeted.
+  EXPECT_EQ(server->counters().joined, 0u);
+
+  // The host says that this is the key now.
+  ClientSetup told = home.player("ann");
+  told.trust.fingerprint = server->fingerprint();
+  EXPECT_EQ(refusal(port, told), "");
+  EXPECT_EQ(refusal(port, home.player("ann")), "");
+}
+
+TEST_F(TrustTest, AGivenFingerprintCountsMost) {
+  TestServer server(world(), home.server());
+  ClientSetup setup = home.player("ann");
+  setup.trust.fingerprint = Fingerprint::parse(std::string(64, 'a'));
+  ASSERT_TRUE(setup.trust.fingerprint);
+  const std::string sentence = refusal(server.port(), setup);
+  EXPECT_NE(sentence.find("does not have the key that was given"), std::string::npos) << sentence;
+  EXPECT_EQ(pins(), "");
+  EXPECT_EQ(server.counters().joined, 0u);
+  setup.trust.fingerprint = server.fingerprint();
+  EXPECT_EQ(refusal(server.port(), setup), "");
+}
+
+TEST_F(TrustTest, AnImpostorInMidGameGetsNoToken) {
+  TestServer server(world(), home.server());
+  TestServer impostor(world(), home.server("another identity"));
+  StreamProxy proxy(context, server.port());
+  TestClient ann(context, proxy.port(), home.player("ann"));
+  ASSERT_TRUE(joins(ann));
+  proxy.setServer(impostor.port());
+  proxy.cut();
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
+  EXPECT_EQ(ann.connection().state(), Connection::State::kRefused);
+  EXPECT_NE(ann.connection().sentence().find("HAS CHANGED"), std::string::npos);
+  EXPECT_EQ(impostor.counters().joined, 0u);
+}
+
+}  // namespace
+}  // namespace naiad::test
