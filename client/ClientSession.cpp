@@ -144,7 +144,7 @@ Replica* ClientSession::replicaFor(std::string_view bytes, Time now) {
   if (!epoch || *epoch == m_epoch) return &m_replica;
   if (*epoch != ((m_epoch + 1) & 3)) return nullptr;  // a late one of the epoch before
   if (!m_next_replica) {
-    m_next_replica.emplace(m_replica.newest());
+    m_next_replica = Replica::anew(m_replica.newest());
     m_reset_at = now;
     ++m_counters.resets;
   }

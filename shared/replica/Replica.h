@@ -37,8 +37,12 @@ class Replica {
 
   /// `tick`: one near those of the snapshots to come (the welcome names it).
   explicit Replica(std::uint32_t tick = 0) : m_context{0, tick, 0} {}
-  /// `near`: what is known of a world before this one, from the same sender.
-  explicit Replica(const SnapshotContext& near) : m_context(near) {}
+  /// Of a world that comes anew in a session that goes on: numbers, ticks and inputs continue from `near`.
+  static Replica anew(const SnapshotContext& near) {
+    Replica replica;
+    replica.m_context = near;
+    return replica;
+  }
 
   /// Read a snapshot of this replica's epoch, without applying it.
   ReadResult read(std::string_view bytes, Snapshot& out) const {
