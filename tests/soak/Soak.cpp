@@ -120,14 +120,14 @@ bool Soak::isQuiet(Bot& bot) const {
 }
 
 void Soak::report() const {
+  const unsigned long long divergences = m_host.counters().divergences + m_tally.wrong_checksums;
   std::fprintf(
       stderr,
       "%3.0f min: players=%zu snapshots=%llu compared=%llu wrong_cells=%llu divergences=%llu stuck=%llu "
       "resumed=%llu lost_sessions=%llu bytes_in_use=%.0f\n",
       static_cast<double>(m_clock.now().count()) / 60e6, m_host.playing(),
       static_cast<unsigned long long>(m_tally.snapshots), static_cast<unsigned long long>(m_tally.compared),
-      static_cast<unsigned long long>(m_tally.wrong_cells),
-      static_cast<unsigned long long>(m_host.counters().divergences + m_tally.wrong_checksums),
+      static_cast<unsigned long long>(m_tally.wrong_cells), divergences,
       static_cast<unsigned long long>(m_tally.stuck), static_cast<unsigned long long>(m_tally.resumed),
       static_cast<unsigned long long>(m_tally.lost_sessions),
       static_cast<double>(mallinfo2().uordblks) - static_cast<double>(m_judge.bytesKept()));
