@@ -1,5 +1,6 @@
 #include "Judge.h"
 
+#include <array>
 #include <cstdio>
 
 namespace naiad::soak {
@@ -18,9 +19,11 @@ std::string describe(const df::Canvas& seen, const df::Canvas& truth) {
       std::string a, b;
       df::appendUtf8(a, seen.at(x, y).ch);
       df::appendUtf8(b, truth.at(x, y).ch);
-      text += "\n  (" + std::to_string(x) + "," + std::to_string(y) + ") seen '" + a + "' colour " +
-              std::to_string(seen.at(x, y).color) + ", true '" + b + "' colour " +
-              std::to_string(truth.at(x, y).color);
+      std::array<char, 96> line{};
+      std::snprintf(line.data(), line.size(), "\n  (%d,%d) seen '%s' colour %d, true '%s' colour %d", x, y,
+                    a.c_str(), static_cast<int>(seen.at(x, y).color), b.c_str(),
+                    static_cast<int>(truth.at(x, y).color));
+      text += line.data();
     }
   }
   return text;

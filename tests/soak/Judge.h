@@ -24,6 +24,8 @@ class Judge {
   Judge(const df::World& world, const VirtualHost& host, Tally& tally, std::uint32_t stride)
       : m_world(world), m_host(host), m_tally(tally), m_stride(stride) {}
 
+  /// From now on look at every tick.
+  void lookAtAll() { m_stride = 1; }
   /// Keep the truth about the world's present tick. Before its snapshots are sent.
   void keepTruths();
   /// A client has applied a snapshot.

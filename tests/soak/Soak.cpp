@@ -11,10 +11,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kTicksPerSecond = 30;
+constexpr std::uint64_t kTicksPerSecond = 30;
 constexpr int kParts = 4;  ///< of a tick: how often bots look at their deadlines
 /// Until streams have got over what happened, and 5 s more.
-constexpr int kQuietSeconds = 20;
+constexpr std::uint64_t kQuietSeconds = 20;
 /// In less time nothing can be said of the growth of memory: there is more of everybody all the time.
 constexpr double kJudgedMinutes = 20;
 /// Of each client, in the end, at least so many pictures in a row.
@@ -72,11 +72,12 @@ void Soak::tick() {
 }
 
 bool Soak::run() {
-  const auto ticks = static_cast<std::uint64_t>(m_options.minutes * 60 * kTicksPerSecond);
+  const auto ticks =
+      static_cast<std::uint64_t>(m_options.minutes * 60 * static_cast<double>(kTicksPerSecond));
   for (std::uint64_t i = 1; i <= ticks; ++i) {
     tick();
     if (i % (5 * kTicksPerSecond) == 0) measureMemory(static_cast<double>(i) / static_cast<double>(ticks));
-    if (i % ((m_options.minutes > 20 ? 300 : 60) * kTicksPerSecond) == 0) report();
+    if (i % ((m_options.minutes > 20 ? 300u : 60u) * kTicksPerSecond) == 0) report();
   }
   finish();
   return conclude();
@@ -98,7 +99,8 @@ double Soak::memoryGrowth() const {
 
 void Soak::finish() {
   for (const auto& bot : m_bots) bot->rest();
-  for (int i = 0; i < kQuietSeconds * kTicksPerSecond; ++i) tick();
+  m_judge.lookAtAll();
+  for (std::uint64_t i = 0; i < kQuietSeconds * kTicksPerSecond; ++i) tick();
   for (const auto& bot : m_bots) {
     m_tally.inputs_lost += bot->unheard();
     if (isQuiet(*bot)) continue;
@@ -118,14 +120,14 @@ bool Soak::isQuiet(Bot& bot) const {
 }
 
 void Soak::report() const {
+  const unsigned long long divergences = m_host.counters().divergences + m_tally.wrong_checksums;
   std::fprintf(
       stderr,
       "%3.0f min: players=%zu snapshots=%llu compared=%llu wrong_cells=%llu divergences=%llu stuck=%llu "
       "resumed=%llu lost_sessions=%llu bytes_in_use=%.0f\n",
       static_cast<double>(m_clock.now().count()) / 60e6, m_host.playing(),
       static_cast<unsigned long long>(m_tally.snapshots), static_cast<unsigned long long>(m_tally.compared),
-      static_cast<unsigned long long>(m_tally.wrong_cells),
-      static_cast<unsigned long long>(m_host.counters().divergences + m_tally.wrong_checksums),
+      static_cast<unsigned long long>(m_tally.wrong_cells), divergences,
       static_cast<unsigned long long>(m_tally.stuck), static_cast<unsigned long long>(m_tally.resumed),
       static_cast<unsigned long long>(m_tally.lost_sessions),
       static_cast<double>(mallinfo2().uordblks) - static_cast<double>(m_judge.bytesKept()));

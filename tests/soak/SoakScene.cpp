@@ -71,7 +71,8 @@ class Creature : public df::Object {
     if (m_kind < 3) return DM.drawString(getPosition(), m_text, df::LEFT_JUSTIFIED, m_color);
     const char frame = "|/-\\"[m_age / 8 % 4];
     for (int i = 0; i < 9; ++i) {
-      const df::Vector at(getPosition().getX() - 1 + i % 3, getPosition().getY() - 1 + i / 3);
+      const int row = i / 3;
+      const df::Vector at(getPosition().getX() - 1 + i % 3, getPosition().getY() - 1 + row);
       DM.drawCh(at, i == 4 ? frame : m_text.front(), m_color);
     }
     return 0;
