@@ -142,8 +142,9 @@ void ClientSession::handle(SnapshotMessage&& message, Time now) {
 Replica* ClientSession::replicaFor(std::string_view bytes, Time now) {
   const auto epoch = peekEpoch(bytes);
   if (!epoch || *epoch == m_epoch) return &m_replica;
-  if (*epoch != ((m_epoch + 1) & 3)) return nullptr;  // a late one of the epoch before
-  if (!m_next_replica) {
+  if (*epoch == ((m_epoch + 3) & 3)) return nullptr;  // a late one of the epoch before
+  if (!m_next_replica || m_next_epoch != *epoch) {
+    m_next_epoch = *epoch;
     m_next_replica = Replica::anew(m_replica.newest());
     m_reset_at = now;
     ++m_counters.resets;
@@ -171,7 +172,7 @@ void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
   if (replica != &m_replica && (snapshot.header.complete || now - m_reset_at >= kResetPatience)) {
     m_replica = std::move(*m_next_replica);
     m_next_replica.reset();
-    m_epoch = (m_epoch + 1) & 3;
+    m_epoch = m_next_epoch;
     m_table_known = m_control_known = 0;
   }
   m_acks.note(snapshot.header.number);
@@ -186,7 +187,7 @@ void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
   takeControls();
   ++m_counters.snapshots;
   if (m_after_observer) m_after_observer(snapshot.header, m_acks);
-  // Every second one is enough, unless something is missing.
+  // Not each of them, unless something is missing.
   ++m_unacknowledged;
   const bool gap = (m_acks.mask & 1) == 0 && m_counters.snapshots > 1;
   if (!hasDatagrams(now) || m_unacknowledged >= kAckEvery || gap) return sendUpdate(now);

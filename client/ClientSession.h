@@ -245,6 +245,7 @@ class ClientSession {
   std::optional<Replica> m_next_replica;  ///< of the next epoch, until it is complete
   Time m_reset_at{};
   std::uint8_t m_epoch = 0;
+  std::uint8_t m_next_epoch = 0;
   int m_stale_in_a_row = 0;
   int m_unacknowledged = 0;  ///< snapshots that no update has acknowledged
   std::optional<Time> m_acknowledge_at;

@@ -1,11 +1,9 @@
 #include "Counters.h"
 
-#include <utility>
-
 namespace naiad {
 
 std::string Counters::summary() const {
-  const std::pair<const char*, std::uint64_t> all[] = {
+  return listCounters({
       {"ticks", ticks},
       {"connections", connections},
       {"joined", joined},
@@ -33,9 +31,12 @@ std::string Counters::summary() const {
       {"skipped_ticks", skipped_ticks},
       {"late_ticks", late_ticks},
       {"rebased_ticks", rebased_ticks},
-  };
+  });
+}
+
+std::string listCounters(std::initializer_list<std::pair<const char*, std::uint64_t>> counters) {
   std::string text;
-  for (const auto& [name, value] : all) {
+  for (const auto& [name, value] : counters) {
     if (value == 0) continue;
     if (!text.empty()) text += ' ';
     text += std::string(name) + '=' + std::to_string(value);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
+#include <utility>
 
 namespace naiad {
 
@@ -39,5 +41,8 @@ struct Counters {
   /// "connections=3 joined=2 …", only what is not zero.
   std::string summary() const;
 };
+
+/// "name=3 other=1 …" of numbers by name, only those that are not zero.
+std::string listCounters(std::initializer_list<std::pair<const char*, std::uint64_t>> counters);
 
 }  // namespace naiad

@@ -431,6 +431,31 @@ void Host::drain() {
     sweep();
   }
   m_log("stopped: " + m_counters.summary());
+  logRefusals();
+}
+
+// What came to the door and was not let in.
+void Host::logRefusals() const {
+  const TcpListener::Counters& streams = m_port.streams->counters();
+  std::string text = listCounters({{"failed_accepts", streams.failed_accepts},
+                                   {"handshakes_failed", streams.handshakes_failed},
+                                   {"handshakes_late", streams.handshakes_late},
+                                   {"refused_half_open", streams.refused_half_open},
+                                   {"refused_from_prefix", streams.refused_from_prefix}});
+  if (!text.empty()) m_log("streams: " + text);
+  if (!m_port.datagrams) return;
+  const DatagramGateCounters& gate = m_port.datagrams->counters();
+  text = listCounters({{"delivered", gate.delivered},
+                       {"too_short", gate.too_short},
+                       {"too_long", gate.too_long},
+                       {"bad_kind", gate.bad_kind},
+                       {"unknown_id", gate.unknown_id},
+                       {"session_flood", gate.session_flood},
+                       {"claimed_flood", gate.claimed_flood},
+                       {"prefix_flood", gate.prefix_flood},
+                       {"stranger_flood", gate.stranger_flood},
+                       {"refused", gate.refused}});
+  if (!text.empty()) m_log("datagrams: " + text);
 }
 
 void Host::stop(const std::string& sentence) {

@@ -79,6 +79,7 @@ class Host : public df::Runner {
   void sendPlayers(const df::World& world);
   void sweep();
   void drain();
+  void logRefusals() const;
   bool isOver(const df::World& world) const;
   bool isDeserted(Clock::time_point now) const;
   std::size_t playing() const;

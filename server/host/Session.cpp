@@ -72,7 +72,9 @@ bool Session::dispatch(const wire::ClientMessage& message) {
   if (greeting != (message.what_case() == What::kHello)) return false;
   switch (message.what_case()) {
     case What::kHello:
-      if (message.hello().magic() != kHelloMagic) return false;
+      // Once: a password is being checked, perhaps, and that must not begin again and again.
+      if (message.hello().magic() != kHelloMagic || m_greeted) return false;
+      m_greeted = true;
       m_events.on_hello(*this, message.hello());
       return true;
     case What::kUpdate:

@@ -150,6 +150,7 @@ class Session {
   State m_state = State::kGreeting;
   Clock::time_point m_heard;  ///< when the client last sent a frame
   bool m_told_gone = false;
+  bool m_greeted = false;       ///< the hello has come
   bool m_spoke = false;         ///< a frame came since then
   bool m_awaits_proof = false;  ///< see takeProof()
   bool m_proved = false;
