@@ -94,7 +94,7 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   m_last_heard = m_attached = now;
   m_newest_on_stream = 0;
   m_pings.clear();
-  m_last_ping = now - kPingInterval;
+  m_last_ping = now - kSeldomPing;  // at once: it proves to the server that the new token has come
   const auto aead = aeadFromWire(other.m_welcome.aead);
   if (m_datagrams && aead) {
     m_datagrams->startEpoch(exporter(), *aead, other.m_welcome.epoch);

@@ -21,7 +21,10 @@ class AddressPrefix {
   /// texts.
   static std::optional<AddressPrefix> ofEndpoint(std::string_view text);
 
-  friend auto operator<=>(const AddressPrefix&, const AddressPrefix&) = default;
+  friend bool operator==(const AddressPrefix&, const AddressPrefix&) = default;
+  friend bool operator<(const AddressPrefix& a, const AddressPrefix& b) {
+    return a.is_v6_ != b.is_v6_ ? b.is_v6_ : a.bytes_ < b.bytes_;
+  }
 
  private:
   bool is_v6_ = false;

@@ -200,6 +200,9 @@ TEST_F(Resume, ATokenWorksOnce) {
   EXPECT_EQ(token.size(), 16u);
   proxy->cut();
   ASSERT_TRUE(resumes(ann, 1));
+  // The token is void once the server has heard that its successor came.
+  const std::uint32_t heard = ann.newestTick() + 30;
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() >= heard; }));
 
   ClientSetup thief = home.player("thief");
   thief.options.resume_token = token;
