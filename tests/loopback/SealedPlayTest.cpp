@@ -10,6 +10,13 @@
 namespace naiad::test {
 namespace {
 
+// The protocol's own deadlines are real time; a sanitizer's build may need some more of it.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kSlowness = 5;
+#else
+constexpr int kSlowness = 1;
+#endif
+
 using Clock = std::chrono::steady_clock;
 
 class SealedPlay : public testing::Test {
@@ -115,7 +122,7 @@ TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {
     valve->down = down;
     const auto blocked = Clock::now();
     ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return streamed(ann) > on_stream + 5; })) << up << down;
-    EXPECT_LT(Clock::now() - blocked, std::chrono::seconds(2)) << up << down;
+    EXPECT_LT(Clock::now() - blocked, kSlowness * std::chrono::seconds(2)) << up << down;
     EXPECT_TRUE(keyWorks(ann)) << up << down;
 
     valve->up = valve->down = true;
@@ -139,7 +146,7 @@ TEST_F(SealedPlay, AnotherPortGoesOnWithinASecond) {
     const std::uint64_t before = datagrams(ann);
     const auto moved = Clock::now();
     ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return datagrams(ann) > before + 5; }));
-    EXPECT_LT(Clock::now() - moved, std::chrono::seconds(1));
+    EXPECT_LT(Clock::now() - moved, kSlowness * std::chrono::seconds(1));
     EXPECT_TRUE(keyWorks(ann));
   }
   EXPECT_EQ(server.counters().detached, 0u);
