@@ -1,19 +1,23 @@
 #include "StopSignals.h"
 
+#include <atomic>
+
 namespace naiad {
 
 namespace {
 
-volatile std::sig_atomic_t g_asked = 0;
+// Lock-free, so that a handler may touch it, and several hosts in one process (tests have them) may, too.
+std::atomic<bool> g_asked = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 void ask(int /*signal*/) {
-  g_asked = 1;
+  g_asked = true;
 }
 
 }  // namespace
 
 StopSignals::StopSignals() {
-  g_asked = 0;
+  g_asked = false;
   struct sigaction action {};
   action.sa_handler = ask;
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // the next one of the kind has its default effect
@@ -27,7 +31,7 @@ StopSignals::~StopSignals() {
 }
 
 bool StopSignals::isAsked() const {
-  return g_asked != 0;
+  return g_asked;
 }
 
 }  // namespace naiad
