@@ -142,7 +142,8 @@ void Connection::checkPending() {
   }
   if (!m_pending->isOver()) return;
   const std::unique_ptr<ClientSession> over = std::move(m_pending);
-  if (over->state() == S::kRefused) return finish(State::kRefused, over->sentence());
+  const bool again = over->isRefusedForNow() && m_state == State::kSearching;
+  if (over->state() == S::kRefused && !again) return finish(State::kRefused, over->sentence());
   if (over->state() == S::kEnded) return finish(State::kEnded, over->sentence());
   attemptFailed(over->sentence());
 }

@@ -17,8 +17,6 @@
 
 namespace naiad {
 
-/// Caps on what a server may make the client keep.
-
 /// The join was granted.
 struct WelcomeMessage {
   std::uint32_t player = 0;  ///< this player's id, never 0

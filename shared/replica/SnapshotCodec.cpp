@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "Acks.h"
 #include "Canvas.h"
 #include "ControlCodec.h"
 #include "Limits.h"
@@ -36,12 +37,6 @@ constexpr std::size_t kMaxTextCharacters = kMaxViewWidth;
 
 /// The first two bits of an object's record, the first one low.
 enum Prefix : std::uint8_t { kJustMotion = 0b00, kJustLook = 0b10, kBirth = 0b01, kElse = 0b11 };
-
-std::uint32_t restored(std::uint64_t low, std::uint32_t near) {
-  const auto difference =
-      static_cast<std::int16_t>(static_cast<std::uint16_t>(low) - static_cast<std::uint16_t>(near));
-  return near + static_cast<std::uint32_t>(std::int32_t{difference});
-}
 
 int idOrder(std::uint32_t last_id, std::size_t count) {
   const auto gap = static_cast<std::uint32_t>(last_id / std::max<std::size_t>(count, 1));

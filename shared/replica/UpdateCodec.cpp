@@ -26,12 +26,6 @@ constexpr std::uint64_t kOldestBase = 1 << 15;
 constexpr int kActions = 3;
 constexpr int kButtons = 4;
 
-std::uint32_t restored(std::uint64_t low, std::uint32_t near) {
-  const auto apart =
-      static_cast<std::int16_t>(static_cast<std::uint16_t>(low) - static_cast<std::uint16_t>(near));
-  return near + static_cast<std::uint32_t>(std::int32_t{apart});
-}
-
 // Mostly all have arrived but a few: those are named.
 void writeMask(BitWriter& out, std::uint64_t mask) {
   const int missing = std::popcount(~mask);

@@ -1,21 +1,15 @@
 // snapshot: what a client of the 1000-object world costs on the line, and the processor to encode, over a
 // link of 100 ms there and back in virtual time that loses nothing.
 #include <chrono>
-#include <deque>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "Line.h"
-#include "LossyLink.h"
-#include "Publisher.h"
-#include "Replica.h"
-#include "SnapshotSender.h"
 #include "Suite.h"
-#include "UpdateCodec.h"
-#include "VirtualClock.h"
 #include "net/BusyScene.h"
+#include "net/LinkedClient.h"
 
 namespace bench {
 
@@ -24,86 +18,41 @@ namespace {
 using namespace naiad;
 using namespace std::chrono_literals;
 
-constexpr auto kTick = 33'333us;
 constexpr double kSecondsPerTick = 1.0 / 30;
-/// Around a snapshot: IPv4 and UDP headers, those of the datagram, its seal, its field of flags.
-constexpr std::size_t kDownOverhead = 28 + 3 + 16 + 1;
-constexpr std::size_t kUpOverhead = 28 + 11 + 16 + 1;
 
+/// A client, and how far what it showed was from the truth, tick by tick.
 class Client {
  public:
   Client(VirtualClock& clock, const LinkConditions& conditions, std::uint64_t seed, Resend resend)
-      : m_sender(resend),
-        m_link(clock, conditions, seed),
-        m_server(m_link.takeEnd(LinkEnd::kServer)),
-        m_client(m_link.takeEnd(LinkEnd::kClient)) {
-    m_server->start([this](std::string_view bytes) { serverHears(bytes); });
-    m_client->start([this](std::string_view bytes) { clientHears(bytes); });
+      : m_linked(clock, conditions, seed, resend) {
+    m_linked.on_snapshot = [this](const Snapshot& snapshot) { compareUntil(snapshot.header.tick); };
   }
 
   void tick(const Publisher& publisher, const df::PlayerFacts& player, const df::Canvas& truth) {
     m_truths.emplace(publisher.tick(), truth);
-    m_tick = publisher.tick();
-    const auto begin = std::chrono::steady_clock::now();
-    m_sender.note(publisher, player);
-    const std::vector<SnapshotSender::Packet> packets = m_sender.build(publisher);
-    encode += std::chrono::steady_clock::now() - begin;
-    for (const SnapshotSender::Packet& packet : packets) {
-      bytes_down += packet.bytes.size() + kDownOverhead;
-      ++packets_down;
-      m_server->send(packet.bytes);
-    }
+    m_linked.tick(publisher, player);
   }
   void resetFigures() {
-    bytes_down = bytes_up = packets_down = 0;
-    wrong = seen = 0;
-    encode = {};
+    m_linked.resetFigures();
+    m_wrong = 0;
   }
-
-  std::size_t bytes_down = 0;
-  std::size_t bytes_up = 0;
-  std::size_t packets_down = 0;
-  long long wrong = 0;
-  long long seen = 0;
-  std::chrono::steady_clock::duration encode{};
-  const SnapshotSender& sender() const { return m_sender; }
+  const LinkedClient& linked() const { return m_linked; }
+  long long wrong() const { return m_wrong; }
 
  private:
-  void serverHears(std::string_view bytes) {
-    const auto update = readUpdate(bytes, {m_sender.newestNumber(), m_tick, 0});
-    if (!update) return void(++wrong);
-    m_sender.acknowledge(update->acks);
-  }
-  void clientHears(std::string_view bytes) {
-    Snapshot snapshot;
-    if (m_replica.read(bytes, snapshot) != ReadResult::kOk) return;
-    // Between snapshots the picture runs on; each tick up to this one was on the screen for a while.
-    for (auto it = m_truths.begin(); it != m_truths.end() && it->first <= snapshot.header.tick;) {
-      if (it->first == snapshot.header.tick) m_replica.apply(snapshot);
-      if (m_replica.newest().number != 0) compare(it->second, m_replica.render(it->first));
-      it = m_truths.erase(it);
+  // Between snapshots the picture runs on: each tick before `tick` was on the screen as the replica has it
+  // now.
+  void compareUntil(std::uint32_t tick) {
+    auto it = m_truths.begin();
+    for (; it != m_truths.end() && it->first < tick; it = m_truths.erase(it)) {
+      if (m_linked.replica().newest().number == 0) continue;
+      m_wrong += countDifferences(it->second, m_linked.replica().render(it->first));
     }
-    if (m_replica.newest().number != snapshot.header.number) m_replica.apply(snapshot);
-    m_acks.note(snapshot.header.number);
-    ClientUpdate update;
-    update.acks = m_acks;
-    const std::string answer = writeUpdate(update);
-    bytes_up += answer.size() + kUpOverhead;
-    m_client->send(answer);
-  }
-  void compare(const df::Canvas& truth, const df::Canvas& screen) {
-    wrong += countDifferences(truth, screen);
-    ++seen;
   }
 
-  SnapshotSender m_sender;
-  Replica m_replica;
-  AckWindow m_acks;
-  std::uint32_t m_tick = 0;
-  std::map<std::uint32_t, df::Canvas> m_truths;
-  LossyDatagramLink m_link;
-  std::unique_ptr<DatagramChannel> m_server;
-  std::unique_ptr<DatagramChannel> m_client;
+  LinkedClient m_linked;
+  std::map<std::uint32_t, df::Canvas> m_truths;  ///< that were not compared yet
+  long long m_wrong = 0;
 };
 
 struct Scene {
@@ -144,7 +93,7 @@ void measure(const Scene& scene, bool quick) {
     for (std::size_t p = 0; p < facts.size(); ++p) {
       clients[p]->tick(publisher, facts[p], world.truth(facts[p].id));
     }
-    clock.advanceBy(kTick);
+    clock.advanceBy(kTickLength);
   }
   double down = 0;
   double up = 0;
@@ -152,11 +101,11 @@ void measure(const Scene& scene, bool quick) {
   double encode = 0;
   long long wrong = 0;
   for (const auto& client : clients) {
-    down += static_cast<double>(client->bytes_down);
-    up += static_cast<double>(client->bytes_up);
-    packets += static_cast<double>(client->packets_down);
-    encode += std::chrono::duration<double, std::micro>(client->encode).count();
-    wrong += client->wrong;
+    down += static_cast<double>(client->linked().bytes_down);
+    up += static_cast<double>(client->linked().bytes_up);
+    packets += static_cast<double>(client->linked().packets_down);
+    encode += std::chrono::duration<double, std::micro>(client->linked().encode).count();
+    wrong += client->wrong();
   }
   const double client_seconds = static_cast<double>(players) * seconds;
   Line line("snapshot");
