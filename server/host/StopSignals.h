@@ -5,7 +5,7 @@
 
 namespace naiad {
 
-/// Installed while it lives. A signal asks all that are installed, whose process it is. A game that hangs in a handler never comes back to
+/// Installed while it lives; a signal asks all that are. A game that hangs in a handler never comes back to
 /// look at isAsked(), so the second signal has its default effect and ends the process at once.
 class StopSignals {
  public:
