@@ -407,6 +407,10 @@ std::uint64_t Host::skippedTicks(std::uint32_t player) const {
   return found != m_sessions.end() ? (*found)->skippedTicks() : 0;
 }
 
+DatagramGateCounters Host::datagramCounters() const {
+  return m_port.datagrams ? m_port.datagrams->counters() : DatagramGateCounters();
+}
+
 bool Host::isDeserted(Clock::time_point now) const {
   if (m_options.exit_when_empty <= 0 || connected() > 0) return false;
   const std::chrono::duration<double> patience(m_options.exit_when_empty);

@@ -44,6 +44,8 @@ class Host : public df::Runner {
   /// What dfclient needs on its command line to join from this machine: "127.0.0.1:9876 --fingerprint …".
   std::string joinArguments() const;
   const Counters& counters() const { return m_counters; }
+  /// What became of every datagram so far; nothing without encryption.
+  DatagramGateCounters datagramCounters() const;
   /// Ticks that were skipped for a player who is here (Session::skippedTicks); 0 for anybody else.
   std::uint64_t skippedTicks(std::uint32_t player) const;
 

@@ -124,13 +124,17 @@ TEST_F(HostileTls, ADatagramThatWasHeldBackMovesNobody) {
   TestServer server([](df::World& world) { populateBusyWorld(world, 20); }, home.server());
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(settle(ann));
-  // One that never arrived, and is authentic; but a newer one names the address already.
+  // One that never arrived, and is authentic; but a newer one names the address already. What was sent before
+  // has arrived, or it would look like the newer one.
+  const auto arrived = [&] { return server.datagrams().delivered; };
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return arrived() == valve->sent; }));
+  const std::uint64_t before = arrived();
   valve->up = false;
   const std::size_t lost = seen.size();
   ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
   ASSERT_GT(seen.size(), lost);
   valve->up = true;
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().score() == 1; }));
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().score() == 1 && arrived() > before; }));
   udp::socket attacker(context, udp::endpoint(asio::ip::address_v4::loopback(), 0));
   attacker.non_blocking(true);
   asio::error_code ignored;

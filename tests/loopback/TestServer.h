@@ -40,6 +40,10 @@ class TestServer {
   Counters counters() {
     return inWorld([this](df::World&) { return m_host->counters(); });
   }
+  /// What became of the datagrams that have arrived.
+  DatagramGateCounters datagrams() {
+    return inWorld([this](df::World&) { return m_host->datagramCounters(); });
+  }
   /// Ticks at whose end the server knew that this player was not up to date.
   std::uint64_t skippedTicks(std::uint32_t player) {
     return inWorld([this, player](df::World&) { return m_host->skippedTicks(player); });
