@@ -4,6 +4,7 @@
 #include <asio/post.hpp>
 #include <stdexcept>
 
+#include "LookAlikes.h"
 #include "Names.h"
 #include "Player.h"
 #include "SafeText.h"
@@ -58,6 +59,7 @@ Host::Host(HostOptions options, std::string game, Log log)
           [this](std::unique_ptr<ReliableChannel> channel) { accept(std::move(channel)); }, channelOptions(),
           m_identity ? TlsListening{m_identity->tls()} : TlsListening{})),
       m_empty_since(Clock::now()) {
+  shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
   if (!m_options.password.empty()) {
     m_password =
         std::make_unique<PasswordCheck>(m_io.get_executor(), PasswordHash::fromText(m_options.password));

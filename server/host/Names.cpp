@@ -1,9 +1,12 @@
 #include "Names.h"
 
 #include <algorithm>
+#include <unordered_set>
+#include <utility>
 
 #include "Canvas.h"
 #include "Limits.h"
+#include "LookAlikes.h"
 
 namespace naiad {
 
@@ -25,12 +28,6 @@ std::string clean(const std::string& text, std::size_t longest) {
   return out;
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
 }  // namespace
 
 std::string cleanName(const std::string& wanted) {
@@ -38,9 +35,14 @@ std::string cleanName(const std::string& wanted) {
 }
 
 std::string uniqueName(const std::string& name, const std::vector<std::string>& taken) {
-  const auto isTaken = [&taken](const std::string& candidate) {
-    return std::any_of(taken.begin(), taken.end(),
-                       [&](const std::string& other) { return lower(other) == lower(candidate); });
+  std::unordered_set<std::string> shapes;
+  for (const std::string& other : taken) {
+    for (std::string& shape : shapesOf(other)) shapes.insert(std::move(shape));
+  }
+  const auto isTaken = [&shapes](const std::string& candidate) {
+    const std::vector<std::string> own = shapesOf(candidate);
+    return std::any_of(own.begin(), own.end(),
+                       [&shapes](const std::string& shape) { return shapes.contains(shape); });
   };
   std::string candidate = name;
   for (int number = 2; isTaken(candidate); ++number) {

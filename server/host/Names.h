@@ -10,8 +10,8 @@ namespace naiad {
 /// kMaxNameLength characters. Empty if nothing is left.
 std::string cleanName(const std::string& wanted);
 
-/// `name`, or where it is taken (upper and lower case count as the same), `name` with the lowest number from
-/// 2 on that is free, cut so that it still fits.
+/// `name`, or where it is taken (so is one that looks like another: LookAlikes.h), `name` with the lowest
+/// number from 2 on that is free, cut so that it still fits.
 std::string uniqueName(const std::string& name, const std::vector<std::string>& taken);
 
 /// A line of chat, cleaned as a name is and cut to kMaxChatLength characters.

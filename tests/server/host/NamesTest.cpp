@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Canvas.h"
@@ -46,6 +48,48 @@ TEST(Names, ATakenNameGetsTheLowestFreeNumber) {
   EXPECT_EQ(uniqueName("Ann", {}), "Ann");
   EXPECT_EQ(uniqueName("Ann", {"ann"}), "Ann2");
   EXPECT_EQ(uniqueName("Ann", {"Ann", "ANN2", "Ann4"}), "Ann3");
+}
+
+TEST(Names, LookAlikesAreTaken) {
+  const std::pair<const char*, const char*> alike[] = {
+      {"ann", "ANN"},                 // another case
+      {"ZOË", "zoë"},                 // beyond ASCII, too
+      {"\u0410NN", "ANN"},            // Cyrillic A among Latin letters
+      {"\u0410nn", "ann"},            // in another case as well
+      {"\u0391nn", "Ann"},            // Greek Alpha
+      {"\u039Cark", "mark"},          // Greek Mu, whose small letter looks different
+      {"\u0421\u0410\u0420", "CAP"},  // all of it Cyrillic
+      {"Ilse", "llse"},               // capital i, small L
+      {"1lse", "Ilse"},               // the digit
+      {"B0b", "BOb"},                 // zero and O
+      {"B0B", "bob"},
+      {"\u0131van", "ivan"},        // i without its dot
+      {"Ann\u2013Bee", "Ann-Bee"},  // dashes
+  };
+  for (const auto& [name, taken] : alike) {
+    EXPECT_EQ(uniqueName(name, {taken}), std::string(name) + "2") << taken;
+    EXPECT_EQ(uniqueName(taken, {name}), std::string(taken) + "2") << name;
+  }
+}
+
+TEST(Names, WhatIsToldApartIsNotTaken) {
+  for (const auto& [name, taken] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"Ann", "Anna"},
+                                                                  {"Zoe", "Zoë"},
+                                                                  {"Ann2", "Ann3"},
+                                                                  {"Мария", "Мар"},
+                                                                  {"Ann Bee", "AnnBee"},
+                                                                  {"Σ", "E"}}) {
+    EXPECT_EQ(uniqueName(name, {taken}), name) << taken;
+  }
+}
+
+TEST(Names, LookAlikesShareOneRowOfNumbers) {
+  EXPECT_EQ(uniqueName("\u0410NN", {"ANN", "\u0410nn2"}), "\u0410NN3");
+}
+
+TEST(Names, FullWidthLettersAreNotDrawnAtAll) {
+  EXPECT_EQ(cleanName("\uFF21nn"), "nn") << "two cells wide";
 }
 
 TEST(Names, NumbersDoNotMakeANameTooLong) {
