@@ -1,7 +1,6 @@
 #include "SnapshotSender.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -11,10 +10,6 @@
 namespace naiad {
 
 namespace {
-
-bool sameCell(df::FixedVector a, df::FixedVector b) {
-  return df::cellOf(a.x) == df::cellOf(b.x) && df::cellOf(a.y) == df::cellOf(b.y);
-}
 
 /// Weight of the newest snapshot in the loss.
 constexpr double kLossWeight = 1.0 / 64;
@@ -26,12 +21,8 @@ constexpr std::size_t kAheadBits = 512;
 constexpr double kAheadPerSpeed = 20;
 /// What a snapshot of one record takes beside it, at most.
 constexpr std::size_t kMostOverheadBits = 256;
-/// Cells by which an origin's window exceeds the view, at least.
-constexpr std::int64_t kOriginMargin = 8;
 /// Cells around the view in which somebody who predicts is told of what he might bump into.
 constexpr std::int32_t kUnseen = 2;
-/// Orders farther than this from the origin's take too many bits.
-constexpr std::uint64_t kFarOrder = 1 << 14;
 
 }  // namespace
 
@@ -40,13 +31,14 @@ constexpr std::uint64_t kFarOrder = 1 << 14;
 // The cells that the player sees now or, as the view follows an object, is about to see.
 CellRect SnapshotSender::windowOf(const Publisher& publisher) const {
   const WorldRecord& world = publisher.world();
-  const std::int64_t left = df::cellOf(m_player.view_corner.x);
-  const std::int64_t top = df::cellOf(m_player.view_corner.y);
+  const df::PlayerFacts& player = m_singles.player();
+  const std::int64_t left = df::cellOf(player.view_corner.x);
+  const std::int64_t top = df::cellOf(player.view_corner.y);
   CellRect window{left, top, left + world.view_width, top + world.view_height};
-  if (m_player.steering.p_table != nullptr) window = window.grownBy(kUnseen);
-  const Publisher::Model* followed = publisher.find(m_player.followed.slot);
-  if (m_player.followed.generation == 0 || followed == nullptr) return window;
-  const ViewFrame frame{m_player.view_corner,
+  if (player.steering.p_table != nullptr) window = window.grownBy(kUnseen);
+  const Publisher::Model* followed = publisher.find(player.followed.slot);
+  if (player.followed.generation == 0 || followed == nullptr) return window;
+  const ViewFrame frame{player.view_corner,
                         {df::fromCells(world.view_width), df::fromCells(world.view_height)},
                         world.boundary};
   const df::FixedVector later =
@@ -62,209 +54,21 @@ CellRect SnapshotSender::windowOf(const Publisher& publisher) const {
 
 void SnapshotSender::note(const Publisher& publisher, const df::PlayerFacts& player) {
   m_tick = publisher.tick();
-  notePlayer(player);
+  m_singles.note(publisher, player);
   if (!m_began) m_last_tick = m_tick - kKeepAlive;
   m_began = true;
-  m_interest.update(
-      publisher,
-      {windowOf(publisher), {m_player.followed, m_player.steering.object}, m_look_ahead, m_player.id},
-      m_known);
-  if (m_world != publisher.world() || (m_singles[kWorld].sent == 0 && !isOwed(kWorld))) {
-    m_world = publisher.world();
-    owe(kWorld);
-  }
-  chooseOrigin(publisher);
+  m_interest.update(publisher,
+                    {windowOf(publisher), {player.followed, player.steering.object}, m_look_ahead, player.id},
+                    m_known);
 }
 
 // Whom the view follows and whom the player steers are of interest wherever they are.
 bool SnapshotSender::isOwn(const KnownObjects::Known& known) const {
   const df::ObjectKey key{known.slot, known.generation};
-  return m_player.followed == key || m_player.steering.object == key;
+  return m_singles.player().followed == key || m_singles.player().steering.object == key;
 }
 
-// ---- what is no object ------------------------------------------------------------------------------------
-
-// Strings and tables are copied only when they change.
-void SnapshotSender::notePlayer(const df::PlayerFacts& player) {
-  m_player.id = player.id;
-  m_player.followed = player.followed;
-  m_player.view_corner = player.view_corner;
-  const df::SteeringFacts& steering = player.steering;
-  m_player.steering.object = steering.object;
-  m_player.steering.state = steering.state;
-  m_player.steering.position = steering.position;
-  m_player.steering.velocity = steering.velocity;
-  m_player.steering.acceleration = steering.acceleration;
-  if (steering.p_table != m_player.steering.p_table) {
-    m_player.steering.p_table = steering.p_table;
-    noteTable();
-  }
-  if (player.texts != m_player.texts) {
-    m_player.texts = player.texts;
-    noteTexts(player.texts);
-  }
-}
-
-void SnapshotSender::noteTexts(const std::vector<df::PlayerText>& now) {
-  std::array<df::PlayerText, kMaxTexts> texts;
-  for (const df::PlayerText& text : now) {
-    if (text.id < kMaxTexts) texts[text.id] = text;
-  }
-  for (std::uint32_t i = 0; i < kMaxTexts; ++i) {
-    texts[i].id = i;
-    const bool silent = texts[i].text.empty() && m_texts[i].text.empty();
-    if (silent || texts[i] == m_texts[i]) continue;
-    m_texts[i] = texts[i];
-    owe(kTexts + i);
-  }
-}
-
-// One who never had controls need not be told of none.
-void SnapshotSender::noteTable() {
-  const df::ControlTable* p_table = m_player.steering.p_table.get();
-  std::string bytes;
-  writeControlTable(bytes, p_table != nullptr ? *p_table : df::ControlTable{});
-  if (bytes == m_table) return;
-  m_table = bytes;
-  owe(kTable);
-  owe(kControl);
-}
-
-void SnapshotSender::noteInput(std::uint32_t id, std::uint32_t tick) {
-  if (id == m_input) return;
-  m_input = id;
-  m_input_tick = tick;
-  m_singles[kInput] = {};
-  owe(kInput);
-}
-
-// Count positions from a window around the view; once the client has confirmed it, snapshots name it.
-void SnapshotSender::chooseOrigin(const Publisher& publisher) {
-  const WorldRecord& world = publisher.world();
-  const CellPosition corner{df::cellOf(m_player.view_corner.x), df::cellOf(m_player.view_corner.y)};
-  const Origin& newest = m_origins[m_newest_origin];
-  const auto covers = [](std::int32_t from, std::int32_t bits, std::int32_t low, std::int32_t extent) {
-    return low >= from && std::int64_t{low} + extent <= std::int64_t{from} + (std::int64_t{1} << bits);
-  };
-  if (m_newest_origin != 0 && covers(newest.corner.x, newest.x_bits, corner.x, world.view_width) &&
-      covers(newest.corner.y, newest.y_bits, corner.y, world.view_height) &&
-      publisher.newestOrder() - newest.order < kFarOrder) {
-    return;
-  }
-  // A slot that is still on its way may be set anew, since no snapshot names it yet.
-  const bool pending = m_newest_origin != m_origin;
-  if (!pending) m_newest_origin = m_newest_origin % kOriginSlots + 1;
-  const auto bitsFor = [](std::int32_t extent) {
-    return static_cast<std::int32_t>(std::bit_width(static_cast<std::uint32_t>(extent + kOriginMargin - 1)));
-  };
-  Origin& origin = m_origins[m_newest_origin];
-  origin.x_bits = bitsFor(world.view_width);
-  origin.y_bits = bitsFor(world.view_height);
-  origin.corner.x = corner.x - ((1 << origin.x_bits) - world.view_width) / 2;
-  origin.corner.y = corner.y - ((1 << origin.y_bits) - world.view_height) / 2;
-  origin.order = publisher.newestOrder();
-  m_singles[kOrigins + m_newest_origin - 1] = {};
-  owe(kOrigins + m_newest_origin - 1);
-}
-
-// The followed object's model, if the client was told of the object.
-const Motion* SnapshotSender::followedMotion(const Publisher& publisher) const {
-  const df::ObjectKey followed = m_player.followed;
-  const std::uint32_t id = followed.generation != 0 ? m_known.find(followed.slot) : KnownObjects::kNobody;
-  if (id == KnownObjects::kNobody || m_known.at(id).generation != followed.generation) return nullptr;
-  return &publisher.find(followed.slot)->state.motion;
-}
-
-// The view is a model too: it is sent where following the published object would show the wrong cells.
-void SnapshotSender::checkView(const Publisher& publisher) {
-  const Motion* motion = followedMotion(publisher);
-  ViewRecord truth{m_player.view_corner, motion != nullptr, 0, 0};
-  const std::uint32_t id = truth.follows ? m_known.find(m_player.followed.slot) : 0;
-  if (truth.follows) {
-    truth.id = id;
-    truth.generation = KnownObjects::generationOf(m_known.at(id));
-  }
-  bool right = m_singles[kView].sent != 0 && truth.follows == m_view.follows && truth.id == m_view.id &&
-               truth.generation == m_view.generation;
-  if (right && motion != nullptr && motion->tick != publisher.tick()) {
-    // A motion that is sent late gets a new base, and following it from there may lead elsewhere.
-    right = (m_known.at(id).owed & kMotion) == 0;
-  }
-  if (right) {
-    const ViewFrame frame{m_view.corner,
-                          {df::fromCells(m_world.view_width), df::fromCells(m_world.view_height)},
-                          m_world.boundary};
-    right = sameCell(viewCornerAt(frame, m_view_tick, motion, publisher.tick()), truth.corner);
-  }
-  if (right && !isOwed(kView)) return;
-  m_view = truth;
-  m_view_tick = publisher.tick();
-  owe(kView);
-}
-
-ControlRecord SnapshotSender::controlNow() const {
-  const df::SteeringFacts& facts = m_player.steering;
-  ControlRecord now;
-  now.tick = m_tick;
-  now.newest_input = m_input;
-  now.state = facts.state;
-  const std::uint32_t id =
-      facts.object.generation != 0 ? m_known.find(facts.object.slot) : KnownObjects::kNobody;
-  if (id == KnownObjects::kNobody || m_known.at(id).generation != facts.object.generation) return now;
-  now.slot = id;
-  now.generation = KnownObjects::generationOf(m_known.at(id));
-  now.position = facts.position;
-  now.velocity = facts.velocity;
-  now.acceleration = facts.acceleration;
-  return now;
-}
-
-// What is steered is sent where the client could not have worked it out.
-void SnapshotSender::checkControl() {
-  const df::ControlTable* p_table = m_player.steering.p_table.get();
-  if (p_table == nullptr) {
-    m_owed_singles &= ~(1u << kControl);
-    return;
-  }
-  m_control = controlNow();
-  if (!m_told_control.implies(m_control, *p_table)) owe(kControl);
-}
-
-void SnapshotSender::pay(std::size_t single) {
-  m_owed_singles &= ~(1u << single);
-  m_singles[single] = {m_next_number, false};
-  const bool small = single == kView || single == kControl || single >= kTexts;
-  const bool again = (m_repeated_singles & (1u << single)) != 0;
-  if (m_resend == Resend::kAhead && m_loss > kAheadLoss && small && !again) m_ahead_singles |= 1u << single;
-  m_flight.newest().empty = false;
-}
-
-void SnapshotSender::writeSingles(const Publisher& publisher, std::size_t limit) {
-  for (std::uint32_t left = m_owed_singles & ~(1u << kInput); left != 0; left &= left - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(left));
-    const std::size_t most = i == kTable ? 8 * m_table.size() + 16 : kMostSingleBits;
-    if (!m_writer.hasRoom(most, 0, limit)) continue;
-    if (i == kWorld) m_writer.write(publisher.world());
-    if (i == kView) m_writer.write(m_view);
-    if (i == kTable) m_writer.writeTable(m_table);
-    if (i == kControl) {
-      m_writer.write(m_control);
-      m_told_control.tell(m_control);
-    }
-    if (i >= kOrigins && i < kTexts) {
-      const auto slot = static_cast<std::uint32_t>(i - kOrigins + 1);
-      m_writer.write(OriginRecord{slot, m_origins[slot]});
-    }
-    if (i >= kTexts) {
-      const df::PlayerText& text = m_texts[i - kTexts];
-      m_writer.write(TextRecord{text.id, text.x, text.y, text.color, text.text});
-    }
-    pay(i);
-  }
-}
-
-// ---- building
-// ----------------------------------------------------------------------------------------------
+// ---- building ---------------------------------------------------------------------------------------------
 
 // Deaths first, for they are short and hide ghosts; then what the player looks at, what is near and what has
 // waited long.
@@ -273,8 +77,10 @@ double SnapshotSender::urgency(std::uint32_t id, const Publisher& publisher) con
   if (known.life == KnownObjects::Life::kDying) return 1e6;
   if (isOwn(known)) return 1e5;
   const df::FixedVector at = positionAt(publisher.find(known.slot)->state.motion, m_tick);
-  const df::FixedVector focus{m_player.view_corner.x + df::fromCells(m_world.view_width) / 2,
-                              m_player.view_corner.y + df::fromCells(m_world.view_height) / 2};
+  const WorldRecord& world = m_singles.world();
+  const df::FixedVector corner = m_singles.player().view_corner;
+  const df::FixedVector focus{corner.x + df::fromCells(world.view_width) / 2,
+                              corner.y + df::fromCells(world.view_height) / 2};
   const double dx = df::toCells(at.x) - df::toCells(focus.x);
   const double dy = 2 * (df::toCells(at.y) - df::toCells(focus.y));  // cells are twice as high as wide
   return 8.0 * (m_tick - known.since) - std::sqrt(dx * dx + dy * dy);
@@ -299,8 +105,7 @@ std::size_t SnapshotSender::mostBits(std::uint32_t id, const Publisher& publishe
 // The order matters only where not all fit.
 void SnapshotSender::makeQueue(const Publisher& publisher, const Room& room) {
   m_queue.clear();
-  std::size_t most =
-      kMostOverheadBits + static_cast<std::size_t>(std::popcount(m_owed_singles)) * kMostSingleBits;
+  std::size_t most = kMostOverheadBits + m_singles.mostBits();
   for (const std::uint32_t id : m_known.owing()) {
     m_queue.push_back(id);
     if (most <= 8 * room.bytes) most += mostBits(id, publisher);
@@ -319,8 +124,7 @@ std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publi
   if (m_resend == Resend::kEveryTick) m_known.oweUnconfirmed(m_tick);
   repeatAhead();
   m_known.sweepOwing();
-  checkView(publisher);
-  checkControl();
+  m_singles.check(publisher, m_known);
   const bool due = static_cast<std::int32_t>(m_tick - m_last_tick) >= static_cast<std::int32_t>(kKeepAlive);
   std::vector<Packet> packets;
   m_throttled = isOwing();
@@ -343,26 +147,13 @@ std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publi
   return packets;
 }
 
-SnapshotHeader SnapshotSender::header() const {
-  SnapshotHeader header{m_next_number, m_tick, m_epoch, false, false, 0, 0};
-  const Single& input = m_singles[kInput];
-  if (isOwed(kInput) || (input.sent != 0 && !input.arrived)) {
-    header.tells_input = true;
-    header.input = m_input;
-    header.input_tick = m_input_tick;
-  }
-  return header;
-}
-
 // Fill one snapshot. False if it took nothing that was owed, so that another one would not either.
 bool SnapshotSender::write(const Publisher& publisher, const Room& room, Packet& packet) {
-  m_flight.add(m_next_number);
-  const SnapshotHeader head = header();
-  m_writer.begin(head, m_origin, m_origins[m_origin]);
-  if (head.tells_input) {
-    if (isOwed(kInput)) pay(kInput);
-  }
-  writeSingles(publisher, room.bytes);
+  Flight::Snapshot& flight = m_flight.add(m_next_number);
+  SnapshotHeader header{m_next_number, m_tick, m_epoch, false, false, 0, 0};
+  m_singles.tellInput(header);
+  m_writer.begin(header, m_singles.origins().slot(), m_singles.origins().window());
+  flight.empty = !m_singles.write(m_writer, m_next_number, room.bytes, repeatsAhead());
   writeObjects(publisher, room, packet);
   const bool complete = !isOwing();
   if (complete && m_repairing) {
@@ -432,7 +223,8 @@ void SnapshotSender::forgetOldest() {
 SnapshotSender::Packet SnapshotSender::probe(const Publisher& publisher) {
   m_tick = publisher.tick();
   m_flight.add(m_next_number).probe = true;
-  m_writer.begin({m_next_number, m_tick, m_epoch, !isOwing(), false, 0, 0}, m_origin, m_origins[m_origin]);
+  m_writer.begin({m_next_number, m_tick, m_epoch, !isOwing(), false, 0, 0}, m_singles.origins().slot(),
+                 m_singles.origins().window());
   Packet packet;
   finish(packet);
   forgetOldest();
@@ -477,9 +269,13 @@ void SnapshotSender::pay(std::uint32_t id, const Publisher::Model* model, LookFo
   m_writer.keep(id);
 }
 
+bool SnapshotSender::repeatsAhead() const {
+  return m_resend == Resend::kAhead && m_loss > kAheadLoss;
+}
+
 // What was repeated is not repeated again.
 void SnapshotSender::considerAhead(std::uint32_t id, std::size_t bits, const Publisher& publisher) {
-  if (m_resend != Resend::kAhead || m_loss <= kAheadLoss) return;
+  if (!repeatsAhead()) return;
   if (std::find(m_repeated.begin(), m_repeated.end(), id) != m_repeated.end()) return;
   const KnownObjects::Known& known = m_known.at(id);
   double rank = urgency(id, publisher);
@@ -494,14 +290,7 @@ void SnapshotSender::considerAhead(std::uint32_t id, std::size_t bits, const Pub
 // looks at, what is gone, what is near or fast, as far as the budget goes.
 void SnapshotSender::repeatAhead() {
   m_repeated.clear();
-  m_repeated_singles = 0;
-  for (std::uint32_t left = std::exchange(m_ahead_singles, 0) & ~m_owed_singles; left != 0;
-       left &= left - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(left));
-    if (m_singles[i].arrived) continue;
-    m_repeated_singles |= 1u << i;
-    owe(i);
-  }
+  m_singles.repeatAhead();
   std::sort(m_ahead.begin(), m_ahead.end(), [](const Ahead& a, const Ahead& b) {
     return a.urgency != b.urgency ? a.urgency > b.urgency : a.sent.id < b.sent.id;
   });
@@ -519,8 +308,7 @@ void SnapshotSender::repeatAhead() {
   m_ahead.clear();
 }
 
-// ---- what arrived
-// ------------------------------------------------------------------------------------------
+// ---- what arrived -----------------------------------------------------------------------------------------
 
 void SnapshotSender::acknowledge(const AckWindow& acks) {
   // A number that was never sent is a lie; believing it would drop debts that are still open.
@@ -543,25 +331,13 @@ void SnapshotSender::noteLoss(bool was_lost) {
 }
 
 void SnapshotSender::arrived(const Flight::Snapshot& snapshot) {
-  // All snapshots since it was paid tell the input, until one is known to have arrived.
-  Single& input = m_singles[kInput];
-  if (!snapshot.probe && input.sent != 0 && !isNewer(input.sent, snapshot.number)) input.arrived = true;
-  for (std::size_t i = 0; i < kSingles; ++i) {
-    if (m_singles[i].sent != snapshot.number || isOwed(i)) continue;
-    m_singles[i].arrived = true;
-    if (i >= kOrigins && i < kTexts && i - kOrigins + 1 == m_newest_origin) m_origin = m_newest_origin;
-  }
+  m_singles.arrived(snapshot.number, snapshot.probe);
   for (const KnownObjects::Sent& sent : snapshot.objects) m_known.arrived(sent, snapshot.number);
   for (const auto& [id, sum] : snapshot.names) m_names.arrived(id, sum, snapshot.number);
 }
 
 void SnapshotSender::lost(const Flight::Snapshot& snapshot) {
-  bool missing = false;
-  for (std::size_t i = 0; i < kSingles; ++i) {
-    if (m_singles[i].sent != snapshot.number || isOwed(i)) continue;
-    owe(i);
-    missing = true;
-  }
+  bool missing = m_singles.lost(snapshot.number);
   for (const KnownObjects::Sent& sent : snapshot.objects) {
     if (!m_known.lost(sent, snapshot.number, m_tick)) continue;
     ++m_resent;
@@ -608,8 +384,8 @@ std::optional<bool> SnapshotSender::isRight(const AckWindow& acks, std::uint64_t
 
 void SnapshotSender::reset() {
   const std::uint32_t number = m_next_number;
-  const std::uint32_t input = m_input;
-  const std::uint32_t input_tick = m_input_tick;
+  const std::uint32_t input = m_singles.input();
+  const std::uint32_t input_tick = m_singles.inputTick();
   *this = SnapshotSender(m_resend, m_look_ahead, static_cast<std::uint8_t>((m_epoch + 1) & 3));
   m_next_number = number;
   m_clean_from = number;

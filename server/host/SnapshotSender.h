@@ -1,13 +1,13 @@
 // What one client still has to be told, and the snapshots that tell it.
 //
 // A client is told of what it can see: objects in its view, those that are about to enter it, and whom the
-// view follows. KnownObjects keeps what is owed of each; this class decides whom the client knows, writes
-// what is owed into snapshots, most urgent first, and learns from acknowledgements what arrived. Nothing here
-// knows the channel, except that a snapshot may be too large for a datagram.
+// view follows. KnownObjects keeps what is owed of each, Singles what is owed of all that is no object; this
+// class decides whom the client knows, writes what is owed into snapshots, most urgent first, and learns from
+// acknowledgements what arrived. Nothing here knows the channel, except that a snapshot may be too large for
+// a datagram.
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,8 +19,8 @@
 #include "Interest.h"
 #include "KnownObjects.h"
 #include "Publisher.h"
+#include "Singles.h"
 #include "SnapshotCodec.h"
-#include "ToldControl.h"
 
 namespace naiad {
 
@@ -52,7 +52,7 @@ class SnapshotSender {
   /// while the client is connected; the first call owes the client all it sees.
   void note(const Publisher& publisher, const df::PlayerFacts& player);
   /// The newest input that the game has had, and in which tick. To be called before the build() of that tick.
-  void noteInput(std::uint32_t id, std::uint32_t tick);
+  void noteInput(std::uint32_t id, std::uint32_t tick) { m_singles.noteInput(id, tick); }
   /// How many ticks from now on an object may enter the view before the next one is due.
   void setLookAhead(std::uint32_t ticks) { m_look_ahead = ticks; }
 
@@ -96,11 +96,6 @@ class SnapshotSender {
   static constexpr std::size_t kMaxInFlight = 64;
 
  private:
-  /// Anything that is not an object: owed or sent as a whole.
-  struct Single {
-    std::uint32_t sent = 0;
-    bool arrived = false;  ///< of the newest sending
-  };
   /// A record that may be repeated in the next tick.
   struct Ahead {
     double urgency = 0;
@@ -117,44 +112,17 @@ class SnapshotSender {
       kRepaired
     } fate = kUnknown;  ///< of the snapshot, if it was lost
   };
-  enum SingleIndex : std::size_t {
-    kWorld,
-    kView,
-    kInput,
-    kTable,
-    kControl,
-    kOrigins,
-    kTexts = kOrigins + kOriginSlots,
-    kSingles = kTexts + kMaxTexts
-  };
-
-  static_assert(kSingles <= 32);
-
   static constexpr std::size_t kMaxMoments = 128;
-  /// No single takes more: a text of kMaxViewWidth characters.
-  static constexpr std::size_t kMostSingleBits = 15 * kMaxViewWidth + 64;
 
   SnapshotSender(Resend resend, std::uint32_t look_ahead, std::uint8_t epoch)
       : m_resend(resend), m_epoch(epoch), m_look_ahead(look_ahead) {}
-  bool isOwed(std::size_t single) const { return (m_owed_singles >> single & 1) != 0; }
-  void owe(std::size_t single) { m_owed_singles |= 1u << single; }
-  void notePlayer(const df::PlayerFacts& player);
   CellRect windowOf(const Publisher& publisher) const;
   bool isOwn(const KnownObjects::Known& known) const;
-  void noteTexts(const std::vector<df::PlayerText>& now);
-  void noteTable();
-  void chooseOrigin(const Publisher& publisher);
-  const Motion* followedMotion(const Publisher& publisher) const;
-  void checkView(const Publisher& publisher);
-  ControlRecord controlNow() const;
-  void checkControl();
-  void writeSingles(const Publisher& publisher, std::size_t limit);
-  void pay(std::size_t single);
-  bool isOwing() const { return m_owed_singles != 0 || !m_known.owing().empty(); }
+  bool isOwing() const { return m_singles.isOwing() || !m_known.owing().empty(); }
   double urgency(std::uint32_t id, const Publisher& publisher) const;
   std::size_t mostBits(std::uint32_t id, const Publisher& publisher) const;
   void makeQueue(const Publisher& publisher, const Room& room);
-  SnapshotHeader header() const;
+  bool repeatsAhead() const;
   bool write(const Publisher& publisher, const Room& room, Packet& packet);
   void writeObjects(const Publisher& publisher, const Room& room, Packet& packet);
   void finish(Packet& packet);
@@ -172,6 +140,7 @@ class SnapshotSender {
 
   Resend m_resend;
   KnownObjects m_known;
+  Singles m_singles;
   AppearanceNames m_names;
   SnapshotWriter m_writer;
   Flight m_flight;
@@ -193,23 +162,6 @@ class SnapshotSender {
   std::vector<std::uint32_t> m_later;     ///< these two kept for their memory
   std::vector<std::pair<double, std::uint32_t>> m_ranked;
 
-  std::array<Single, kSingles> m_singles;
-  std::uint32_t m_ahead_singles = 0;     ///< to be repeated in the next tick
-  std::uint32_t m_repeated_singles = 0;  ///< that this tick repeats
-  std::uint32_t m_owed_singles = 0;      ///< a bit each
-  WorldRecord m_world;
-  ViewRecord m_view;              ///< as last sent
-  std::uint32_t m_view_tick = 0;  ///< the tick at which m_view holds
-  std::array<Origin, kOriginSlots + 1> m_origins;
-  std::uint32_t m_origin = 0;         ///< the slot in use
-  std::uint32_t m_newest_origin = 0;  ///< the slot set last
-  std::uint32_t m_input = 0;
-  std::uint32_t m_input_tick = 0;
-  df::PlayerFacts m_player;
-  std::array<df::PlayerText, kMaxTexts> m_texts;
-  std::string m_table;      ///< the player's controls as last told, encoded; empty: none
-  ControlRecord m_control;  ///< to be told, if owed
-  ToldControl m_told_control;
   std::uint64_t m_resent = 0;
 };
 
