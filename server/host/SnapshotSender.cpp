@@ -11,12 +11,8 @@ namespace naiad {
 
 namespace {
 
-/// Weight of the newest snapshot in the loss.
-constexpr double kLossWeight = 1.0 / 64;
 /// With less loss than this nothing is repeated ahead.
 constexpr double kAheadLoss = 0.003;
-/// What is repeated ahead in a tick, in bits; one record may be longer.
-constexpr std::size_t kAheadBits = 512;
 /// A cell per tick counts as much as being so many cells nearer.
 constexpr double kAheadPerSpeed = 20;
 /// What a snapshot of one record takes beside it, at most.
@@ -122,7 +118,8 @@ void SnapshotSender::makeQueue(const Publisher& publisher, const Room& room) {
 
 std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publisher, Room room) {
   if (m_resend == Resend::kEveryTick) m_known.oweUnconfirmed(m_tick);
-  repeatAhead();
+  m_singles.repeatAhead();
+  m_ahead.owe(m_known, m_tick);
   m_known.sweepOwing();
   m_singles.check(publisher, m_known);
   const bool due = static_cast<std::int32_t>(m_tick - m_last_tick) >= static_cast<std::int32_t>(kKeepAlive);
@@ -270,42 +267,18 @@ void SnapshotSender::pay(std::uint32_t id, const Publisher::Model* model, LookFo
 }
 
 bool SnapshotSender::repeatsAhead() const {
-  return m_resend == Resend::kAhead && m_loss > kAheadLoss;
+  return m_resend == Resend::kAhead && m_line.usualLoss() > kAheadLoss;
 }
 
-// What was repeated is not repeated again.
 void SnapshotSender::considerAhead(std::uint32_t id, std::size_t bits, const Publisher& publisher) {
   if (!repeatsAhead()) return;
-  if (std::find(m_repeated.begin(), m_repeated.end(), id) != m_repeated.end()) return;
   const KnownObjects::Known& known = m_known.at(id);
   double rank = urgency(id, publisher);
   if (known.life != KnownObjects::Life::kDying) {
     const df::FixedVector v = publisher.find(known.slot)->state.motion.velocity;
     rank += kAheadPerSpeed * (std::abs(df::toCells(v.x)) + std::abs(df::toCells(v.y)));
   }
-  m_ahead.push_back({rank, bits, m_flight.newest().objects.back()});
-}
-
-// Once more, although nobody knows yet whether the first time was enough: first what the player steers or
-// looks at, what is gone, what is near or fast, as far as the budget goes.
-void SnapshotSender::repeatAhead() {
-  m_repeated.clear();
-  m_singles.repeatAhead();
-  std::sort(m_ahead.begin(), m_ahead.end(), [](const Ahead& a, const Ahead& b) {
-    return a.urgency != b.urgency ? a.urgency > b.urgency : a.sent.id < b.sent.id;
-  });
-  std::size_t spent = 0;
-  for (const Ahead& ahead : m_ahead) {
-    const KnownObjects::Sent& sent = ahead.sent;
-    const KnownObjects::Known& known = m_known.at(sent.id);
-    const bool first = spent == 0;
-    if (known.birth != sent.birth || known.unconfirmed == 0) continue;
-    if (!first && spent + ahead.bits > kAheadBits) continue;
-    spent += ahead.bits;
-    m_known.owe(sent.id, known.unconfirmed & (sent.groups == kDeath ? +kLife : +sent.groups), m_tick);
-    m_repeated.push_back(sent.id);
-  }
-  m_ahead.clear();
+  m_ahead.consider(m_flight.newest().objects.back(), bits, rank);
 }
 
 // ---- what arrived -----------------------------------------------------------------------------------------
@@ -317,17 +290,20 @@ void SnapshotSender::acknowledge(const AckWindow& acks) {
     const std::int32_t behind = static_cast<std::int32_t>(acks.newest - snapshot.number);
     const bool has = acks.has(snapshot.number);
     // The stream loses nothing, but it may be late.
-    if (!has && (behind < kReorder || (snapshot.large && behind < static_cast<std::int32_t>(kMaxInFlight)))) {
+    if (!has && (behind < m_line.patience() ||
+                 (snapshot.large && behind < static_cast<std::int32_t>(kMaxInFlight)))) {
       return false;
     }
     has ? arrived(snapshot) : lost(snapshot);
-    if (!snapshot.probe) noteLoss(!has);
+    if (!has) m_missing[snapshot.number % m_missing.size()] = snapshot.number;
+    if (!snapshot.probe) m_line.note(!has);
     return true;
   });
-}
-
-void SnapshotSender::noteLoss(bool was_lost) {
-  m_loss += ((was_lost ? 1.0 : 0.0) - m_loss) * kLossWeight;
+  for (std::uint32_t& number : m_missing) {
+    if (number == 0 || !acks.has(number)) continue;
+    m_line.noteLate();
+    number = 0;
+  }
 }
 
 void SnapshotSender::arrived(const Flight::Snapshot& snapshot) {

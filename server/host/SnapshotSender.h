@@ -14,10 +14,12 @@
 #include <vector>
 
 #include "Acks.h"
+#include "AheadRepeats.h"
 #include "AppearanceNames.h"
 #include "Flight.h"
 #include "Interest.h"
 #include "KnownObjects.h"
+#include "LineGauge.h"
 #include "Publisher.h"
 #include "Singles.h"
 #include "SnapshotCodec.h"
@@ -28,7 +30,7 @@ namespace naiad {
 enum class Resend {
   kEveryTick,  ///< with every snapshot, until they are
   kOnGap,      ///< when later snapshots are acknowledged and theirs is not
-  kAhead,      ///< as kOnGap; what matters most is also repeated once in the next tick, if the line loses
+  kAhead,      ///< as kOnGap; what matters most is also repeated before it is known, if the line loses
 };
 
 class SnapshotSender {
@@ -66,8 +68,8 @@ class SnapshotSender {
   /// says nothing of the line.
   Packet probe(const Publisher& publisher);
 
-  /// The client acknowledged. A number more than kReorder behind the newest one that it never mentions is
-  /// taken for lost.
+  /// The client acknowledged. A number that it leaves out is taken for lost, at once or with some patience
+  /// (LineGauge).
   void acknowledge(const AckWindow& acks);
   /// What was sent on the stream is gone with it.
   void loseLarge();
@@ -83,7 +85,7 @@ class SnapshotSender {
   /// Nothing is owed and nothing unacknowledged.
   bool isSettled() const;
   /// Share of the last snapshots that were lost, 0 … 1, smoothed.
-  double loss() const { return m_loss; }
+  double loss() const { return m_line.loss(); }
   /// Objects sent again because a snapshot was lost.
   std::uint64_t resentCount() const { return m_resent; }
   std::size_t knownCount() const { return m_known.aliveCount(); }
@@ -91,17 +93,10 @@ class SnapshotSender {
   std::uint32_t newestNumber() const { return m_next_number - 1; }
 
   static constexpr std::uint32_t kKeepAlive = 5;
-  static constexpr int kReorder = 3;
   /// Snapshots unacknowledged at most; the oldest beyond that is taken for lost.
   static constexpr std::size_t kMaxInFlight = 64;
 
  private:
-  /// A record that may be repeated in the next tick.
-  struct Ahead {
-    double urgency = 0;
-    std::size_t bits = 0;
-    KnownObjects::Sent sent;
-  };
   /// The client's state after a snapshot, for isRight().
   struct Moment {
     std::uint32_t number = 0;
@@ -132,11 +127,9 @@ class SnapshotSender {
   std::size_t encode(std::uint32_t id, const Publisher::Model* model, LookForm& form);
   void pay(std::uint32_t id, const Publisher::Model* model, LookForm form);
   void considerAhead(std::uint32_t id, std::size_t bits, const Publisher& publisher);
-  void repeatAhead();
   void arrived(const Flight::Snapshot& snapshot);
   void lost(const Flight::Snapshot& snapshot);
   Moment& momentOf(std::uint32_t number) { return m_moments[number % kMaxMoments]; }
-  void noteLoss(bool was_lost);
 
   Resend m_resend;
   KnownObjects m_known;
@@ -155,11 +148,11 @@ class SnapshotSender {
   bool m_throttled = false;
   std::uint8_t m_epoch = 0;
   std::uint32_t m_look_ahead = 4;
-  double m_loss = 0;
-  std::vector<Ahead> m_ahead;
-  std::vector<std::uint32_t> m_repeated;  ///< ids that this tick repeats
-  std::vector<std::uint32_t> m_queue;     ///< ids to be written, the most urgent last
-  std::vector<std::uint32_t> m_later;     ///< these two kept for their memory
+  LineGauge m_line;
+  std::array<std::uint32_t, 16> m_missing{};  ///< the last ones taken for lost, by number
+  AheadRepeats m_ahead;
+  std::vector<std::uint32_t> m_queue;  ///< ids to be written, the most urgent last
+  std::vector<std::uint32_t> m_later;  ///< these two kept for their memory
   std::vector<std::pair<double, std::uint32_t>> m_ranked;
 
   std::uint64_t m_resent = 0;
