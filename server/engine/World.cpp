@@ -98,6 +98,7 @@ void World::update() {
       if (m_p_store->isCurrent(key)) learnType(key.slot);
     }
     m_mover->moveAll();
+    for (const auto& layer : m_layers) layer->step(*this);
     deleteMarked();
     m_p_store->closeGaps();
     m_p_store->age();

@@ -22,6 +22,7 @@
 #include "Event.h"
 #include "Hindsight.h"
 #include "Keyboard.h"
+#include "Layer.h"
 #include "ObjectList.h"
 #include "Paths.h"
 #include "Random.h"
@@ -81,8 +82,8 @@ class World {
   /// One full tick: step event, input events, update(), draw(), then view() is filled if somebody watches.
   /// Nothing happens inside another tick, update or draw.
   void tick();
-  /// Move all Objects once, in creation order, then delete what is marked. Nothing happens inside
-  /// another update.
+  /// Move all Objects once, in creation order, let the layers step, then delete what is marked. Nothing
+  /// happens inside another update.
   void update();
   /// Begin a new picture: run the draw() of all Objects in view, by altitude, then creation order. Nothing
   /// happens inside a tick, which does it at its end.
@@ -97,6 +98,17 @@ class World {
   /// Not owned; null for none.
   void setRunner(Runner* p_runner) { m_p_runner = p_runner; }
   Runner* getRunner() const { return m_p_runner; }
+  /// From now on `layer` takes part in update(), after the layers added before it. It lives as long as the
+  /// world. Not to be called by a layer's step().
+  void addLayer(std::unique_ptr<Layer> layer) { m_layers.push_back(std::move(layer)); }
+  /// The first layer of this class; null if there is none.
+  template <class T>
+  T* findLayer() const {
+    for (const auto& layer : m_layers) {
+      if (auto* p_layer = dynamic_cast<T*>(layer.get())) return p_layer;
+    }
+    return nullptr;
+  }
   /// Begin the random sequence anew.
   void setSeed(std::uint64_t seed);
   /// 0 to n-1, each equally likely; 0 if n < 1.
@@ -248,6 +260,7 @@ class World {
   std::unique_ptr<Capture> m_capture;
   std::unique_ptr<InputQueue> m_input;
   std::unique_ptr<Mover> m_mover;
+  std::vector<std::unique_ptr<Layer>> m_layers;
   std::vector<ObjectKey> m_deletions;  // marked, in that order
   Random m_random;
   std::uint64_t m_seed = 1;

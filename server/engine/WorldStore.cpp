@@ -127,7 +127,8 @@ void WorldStore::classify(Slot s) {
   if ((flags & kInWorld) == 0) return;
   const bool moves = m_velocities[s] != FixedVector{};
   const bool accelerates = m_accelerations[s] != FixedVector{};
-  const bool turns = (flags & kActive) != 0 && (moves || accelerates || testsAtRest(s));
+  const bool acts = (flags & (kActive | kBody)) == kActive;
+  const bool turns = acts && (moves || accelerates || testsAtRest(s));
   const bool plain = turns && moves && !accelerates && (flags & kSpecial) == 0;
   const bool spectral = m_cards[s].solidness == SPECTRAL;
   const std::size_t i = m_cards[s].index;
@@ -221,7 +222,7 @@ void WorldStore::set(Slot s, Flag flag, bool on) {
   m_cards[s].flags ^= flag;
   if (flag == kActive) file(s);
   if (flag == kPrecise) m_precise += on ? 1 : -1;
-  if ((flag & kSpecial) != 0) classify(s);
+  if ((flag & (kSpecial | kBody)) != 0) classify(s);
   if ((flag & (kActive | kVisible | kNoSoft)) != 0) touch(s);
 }
 
@@ -359,6 +360,8 @@ ObjectFacts WorldStore::facts(Slot s) const {
   if (has(s, kActive) && !isBlocked(s)) {
     f.velocity = m_velocities[s];
     if (isVelocity(f.velocity + m_accelerations[s])) f.acceleration = m_accelerations[s];
+    // A body's velocity is that of this moment; what it adds in a tick is half a tick's acceleration more.
+    if (has(s, kBody)) f.velocity = f.velocity + FixedVector{f.acceleration.x >> 1, f.acceleration.y >> 1};
   }
   f.box = m_boxes[s];
   f.solidness = m_cards[s].solidness;

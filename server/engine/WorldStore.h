@@ -58,6 +58,7 @@ class WorldStore {
     kPrecise = 1 << 16,
     kRestContacts = 1 << 17,
     kMayMoveOut = 1 << 18,
+    kBody = 1 << 19,  ///< moved by a layer, not by the book's rules
   };
 
   explicit WorldStore(World* p_world) : m_p_world(p_world) {}
