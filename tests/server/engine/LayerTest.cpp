@@ -72,7 +72,7 @@ TEST_F(Layers, TheBooksMovesSkipBodies) {
   p_body->getWorld()->store().set(p_body->key().slot, WorldStore::kBody, false);
   layer->bodies.clear();
   world.update();
-  EXPECT_EQ(p_body->getPosition(), Vector(2, 0.125)) << "no body any more: the book's";
+  EXPECT_EQ(p_body->getPosition(), Vector(2, 0.375)) << "no body any more: the book's";
 }
 
 TEST_F(Layers, WhoWatchesCanWorkOutABodysFlight) {
