@@ -17,7 +17,7 @@ constexpr std::array<int, 16> kFractions = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11
 constexpr std::uint64_t kHuge = std::uint64_t{1} << 62;
 constexpr std::int64_t kMostCells = 1'000'000'000;
 constexpr std::int64_t kMostBoxCells = 1'000'000;
-constexpr std::uint64_t kMostOrder = (std::uint64_t{1} << 48) - 1;
+constexpr std::int64_t kMostOrder = (std::int64_t{1} << 48) - 1;
 
 std::uint64_t low(std::uint64_t value, int bits) {
   return bits == 64 ? value : value & ((std::uint64_t{1} << bits) - 1);
@@ -269,7 +269,8 @@ void HostileWriter::object() {
   const unsigned parts = groups();
   if ((parts & kLife) != 0) {
     field(2);
-    const auto order = static_cast<std::int64_t>(std::min(choose(Kind::kOrder, kMostOrder), kHuge));
+    auto order = static_cast<std::int64_t>(std::min(choose(Kind::kOrder, kMostOrder), kHuge));
+    if (order > kMostOrder && order % 2 != 0) order = kMostOrder - order;  // below zero
     m_out.signedGolomb(order - static_cast<std::int64_t>(preludeOrigin(m_slot).order), 10);
   }
   if ((parts & kMotion) != 0) motion();
