@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "Canvas.h"
-#include "tests/HostileTexts.h"
 #include "Limits.h"
 #include "ServerMessages.h"
 #include "SplitMix64.h"
 #include "naiad.pb.h"
+#include "tests/HostileTexts.h"
 
 namespace naiad {
 namespace {
