@@ -14,6 +14,7 @@ struct Counters {
   std::uint64_t turned_away = 0;         ///< hung up without a word: too many connections
   std::uint64_t refused_version = 0;     ///< wrong protocol version
   std::uint64_t refused_full = 0;        ///< no place left
+  std::uint64_t refused_address = 0;     ///< too many players from one address
   std::uint64_t refused_game = 0;        ///< asked for another game
   std::uint64_t refused_name = 0;        ///< no usable name
   std::uint64_t malformed_frames = 0;    ///< oversized or empty frames: the connection ended
@@ -28,6 +29,8 @@ struct Counters {
   std::uint64_t refused_password = 0;    ///< missing or wrong
   std::uint64_t divergences = 0;         ///< a client held another world than it was sent: sent anew
   std::uint64_t resets = 0;              ///< worlds sent anew, on request or after a divergence
+  std::uint64_t resets_dropped = 0;      ///< sooner than two seconds after the last one: ignored
+  std::uint64_t checksums_dropped = 0;   ///< more often than four a second: ignored
   std::uint64_t repeated_inputs = 0;     ///< applied before: ignored
   std::uint64_t chat_dropped = 0;        ///< faster than three lines a second: ignored
   std::uint64_t snapshots = 0;           ///< sent

@@ -304,6 +304,12 @@ void Host::admit(Session& session, const wire::Hello& hello) {
                                             " players). Try again later.");
     return;
   }
+  if (fromSameAddress(session) >= static_cast<std::size_t>(m_options.max_per_address)) {
+    ++m_counters.refused_address;
+    session.refuse(wire::Refused::FULL, "There are " + std::to_string(m_options.max_per_address) +
+                                            " players from your address already. Try again later.");
+    return;
+  }
   const std::string wanted = cleanName(hello.player_name());
   if (wanted.empty()) {
     ++m_counters.refused_name;
@@ -400,6 +406,16 @@ std::size_t Host::connected() const {
   return static_cast<std::size_t>(
       std::count_if(m_sessions.begin(), m_sessions.end(), [](const auto& session) {
         return session->state() == Session::State::kPlaying && !session->isDetached();
+      }));
+}
+
+// Of those that play and are there: who has lost his place in the network must not keep it from others.
+std::size_t Host::fromSameAddress(const Session& session) const {
+  const auto prefix = AddressPrefix::ofEndpoint(session.address());
+  return static_cast<std::size_t>(
+      std::count_if(m_sessions.begin(), m_sessions.end(), [&prefix](const auto& other) {
+        return other->state() == Session::State::kPlaying && !other->isDetached() &&
+               AddressPrefix::ofEndpoint(other->address()) == prefix;
       }));
 }
 

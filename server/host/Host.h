@@ -86,6 +86,7 @@ class Host : public df::Runner {
   bool isDeserted(Clock::time_point now) const;
   std::size_t playing() const;
   std::size_t connected() const;
+  std::size_t fromSameAddress(const Session& session) const;
   template <class Visit>
   void forEachPlaying(Visit visit);
 

@@ -33,6 +33,8 @@ const std::vector<Row>& table() {
        "Port to listen on, TCP and UDP; 0 takes any free one"},
       {"--max-players", "NAIAD_MAX_PLAYERS", &HostOptions::max_players, 1, static_cast<double>(kMaxPlayers),
        "Players at a time"},
+      {"--max-per-address", "NAIAD_MAX_PER_ADDRESS", &HostOptions::max_per_address, 1,
+       static_cast<double>(kMaxPlayers), "Players at a time from one IPv4 address or IPv6 network (/64)"},
       {"--server-name", "NAIAD_SERVER_NAME", &HostOptions::name, 0, 0, "Name shown to players"},
       {"--seed", "NAIAD_SEED", &HostOptions::seed, 0, 9e15,
        "Seed of the world's random numbers; 0 takes a new one and logs it"},

@@ -1,5 +1,7 @@
 #include "Session.h"
 
+#include <google/protobuf/stubs/logging.h>
+
 #include <algorithm>
 
 #include "Keyboard.h"
@@ -12,6 +14,13 @@ namespace {
 constexpr SnapshotSender::Room kStreamRoom{64, kMaxSnapshot, false};
 /// At 30 Hz more than a megabit per second.
 constexpr std::size_t kDatagramsPerTick = 4;
+
+bool parse(std::string_view frame, wire::ClientMessage& message) {
+  // protobuf reports malformed text on stderr: a stranger could fill the host's log. It is counted instead.
+  static const auto previous_handler = google::protobuf::SetLogHandler(nullptr);
+  (void)previous_handler;
+  return message.ParseFromArray(frame.data(), static_cast<int>(frame.size()));
+}
 
 }  // namespace
 
@@ -57,8 +66,7 @@ void Session::onFrame(std::string_view frame) {
   if (!mayHear()) return;
   if (std::exchange(m_awaits_proof, false)) m_proved = true;
   wire::ClientMessage message;
-  if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size())) || !dispatch(message))
-    malformed();
+  if (!parse(frame, message) || !dispatch(message)) malformed();
 }
 
 void Session::onDatagram(std::string_view bytes) {
@@ -107,10 +115,7 @@ bool Session::takeUpdate(std::string_view bytes, bool by_datagram) {
     m_sender.acknowledge(update->acks);
     m_passage.acknowledged(update->acks, by_datagram, now());
   }
-  if (update->checksum && m_sender.isRight(update->acks, *update->checksum) == false) {
-    ++m_counters.divergences;
-    reset();
-  }
+  if (update->checksum) compare(update->acks, *update->checksum);
   if (update->wants_reset) reset();
   return std::all_of(update->inputs.begin(), update->inputs.end(),
                      [this](const Input& input) { return takeInput(input); });
@@ -123,10 +128,26 @@ bool Session::isTooEarly(const Input& input, std::uint32_t tick) const {
                      [&input](const df::ControlRow& row) { return row.key == input.key; });
 }
 
+// Does the client hold what it was sent?
+void Session::compare(const AckWindow& acks, std::uint64_t checksum) {
+  const Clock::time_point present = now();
+  if (m_last_checksum && present - *m_last_checksum < kChecksumEvery) {
+    ++m_counters.checksums_dropped;
+    return;
+  }
+  m_last_checksum = present;
+  if (m_sender.isRight(acks, checksum) != false) return;
+  ++m_counters.divergences;
+  reset();
+}
+
 // The client's world comes anew, though not more often than a line can carry.
 void Session::reset() {
   const Clock::time_point present = now();
-  if (m_last_reset && present - *m_last_reset < kResetEvery) return;
+  if (m_last_reset && present - *m_last_reset < kResetEvery) {
+    ++m_counters.resets_dropped;
+    return;
+  }
   m_last_reset = present;
   ++m_counters.resets;
   m_sender.reset();

@@ -43,6 +43,8 @@ class Session {
   static constexpr std::chrono::seconds kLoginTimeout{5};
   static constexpr std::chrono::seconds kIdleTimeout{15};
   static constexpr std::chrono::seconds kResetEvery{2};
+  /// A client sends a checksum once a second; a few may come at once after a stall.
+  static constexpr std::chrono::milliseconds kChecksumEvery{250};
   static constexpr std::size_t kMaxQueuedInputs = 64;
   static constexpr int kInputsPerTick = 16;
   /// An input that asks for a tick farther off has asked for nonsense.
@@ -130,6 +132,7 @@ class Session {
   void count(const SnapshotSender::Packet& packet);
   bool dispatch(const wire::ClientMessage& message);
   bool takeUpdate(std::string_view bytes, bool by_datagram);
+  void compare(const AckWindow& acks, std::uint64_t checksum);
   void reset();
   bool isTooEarly(const Input& input, std::uint32_t tick) const;
   bool takeInput(const Input& input);
@@ -169,6 +172,7 @@ class Session {
   SnapshotSender m_sender{Resend::kAhead};
   Passage m_passage;
   std::optional<Clock::time_point> m_last_reset;
+  std::optional<Clock::time_point> m_last_checksum;
 };
 
 }  // namespace naiad

@@ -2,19 +2,36 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+
+#include "Keyboard.h"
+#include "Look.h"
+#include "Prelude.h"
+#include "UpdateCodec.h"
 
 namespace naiad::fuzz {
 namespace {
 
 /// The numbers of bits behind the point, by code.
 constexpr std::array<int, 16> kFractions = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 16, 22, 32};
+/// What no number that is written needs to exceed: enough for every limit, and nothing overflows.
+constexpr std::uint64_t kHuge = std::uint64_t{1} << 62;
+constexpr std::int64_t kMostCells = 1'000'000'000;
+constexpr std::int64_t kMostBoxCells = 1'000'000;
+constexpr std::int64_t kMostOrder = (std::int64_t{1} << 48) - 1;
 
 std::uint64_t low(std::uint64_t value, int bits) {
   return bits == 64 ? value : value & ((std::uint64_t{1} << bits) - 1);
 }
 
 }  // namespace
+
+void HostileWriter::begin() {
+  constexpr int kKindBits = 5;
+  const std::uint8_t bad = m_script.byte();
+  m_out.clear();
+  m_bad = static_cast<Kind>(bad & ((1 << kKindBits) - 1));
+  m_good_before = bad >> kKindBits;
+}
 
 /// One byte gives a small number, or a power of two or one less: that is where limits are. Always one byte,
 /// so that nothing behind it moves when it becomes another one.
@@ -24,8 +41,21 @@ std::uint64_t HostileWriter::any() {
   return (std::uint64_t{1} << (head >> 1 & 63)) - (head & 1);
 }
 
+std::uint64_t HostileWriter::choose(Kind kind, std::uint64_t most, std::uint64_t limit) {
+  constexpr std::uint64_t kJustBeyond = 0x80;
+  const std::uint64_t value = any();
+  if (kind != m_bad || m_good_before-- != 0) return value % (most + 1);
+  return value < kJustBeyond ? limit + 1 + value : value;
+}
+
 std::uint64_t HostileWriter::field(int bits) {
   const std::uint64_t value = low(any(), bits);
+  m_out.bits(value, bits);
+  return value;
+}
+
+std::uint64_t HostileWriter::field(Kind kind, int bits, std::uint64_t most) {
+  const std::uint64_t value = low(choose(kind, most), bits);
   m_out.bits(value, bits);
   return value;
 }
@@ -34,59 +64,108 @@ bool HostileWriter::flag() {
   return field(1) != 0;
 }
 
-std::uint64_t HostileWriter::golomb(int order) {
-  const std::uint64_t value = std::min(any(), ~std::uint64_t{0} - (std::uint64_t{1} << order));
+std::uint64_t HostileWriter::golomb(Kind kind, int order, std::uint64_t most, std::uint64_t limit) {
+  const std::uint64_t value = std::min(choose(kind, most, limit), kHuge);
   m_out.golomb(value, order);
   return value;
 }
 
-int HostileWriter::fraction() {
-  const int bits = kFractions[field(4)];
-  field(bits);
-  field(bits);
-  return bits;
+/// From -most to most.
+std::int64_t HostileWriter::centered(Kind kind, std::int64_t most) {
+  const auto zigzag = std::min(choose(kind, 2 * static_cast<std::uint64_t>(most)), kHuge);
+  return static_cast<std::int64_t>(zigzag >> 1) ^ -static_cast<std::int64_t>(zigzag & 1);
 }
 
-void HostileWriter::position() {
-  if (flag()) {  // near the origin: of windows of 64 by 32, as all are that the prelude has
-    field(6);
-    field(5);
-  } else {
-    golomb(10);
-    golomb(10);
+void HostileWriter::zeros(std::uint64_t count) {
+  for (; count > 0; count -= std::min<std::uint64_t>(count, 64)) {
+    m_out.bits(0, static_cast<int>(std::min<std::uint64_t>(count, 64)));
   }
 }
 
-void HostileWriter::vector() {
+void HostileWriter::cell(std::int64_t origin) {
+  m_out.signedGolomb(centered(Kind::kCell, kMostCells) - origin, 10);
+}
+
+void HostileWriter::position() {
+  const Origin& origin = preludeOrigin(m_slot);
+  if (flag()) {
+    field(origin.x_bits);
+    field(origin.y_bits);
+  } else {
+    cell(origin.corner.x);
+    cell(origin.corner.y);
+  }
+}
+
+void HostileWriter::fraction() {
+  const int bits = kFractions[field(4)];
+  field(bits);
+  field(bits);
+}
+
+/// Components of a whole number of cells in this range, and a fraction.
+void HostileWriter::vector(std::int64_t least, std::int64_t most) {
   m_out.flag(false);
-  golomb(10);
-  golomb(10);
+  for (int i = 0; i < 2; ++i) {
+    m_out.signedGolomb(least + static_cast<std::int64_t>(std::min(
+                                   choose(Kind::kVector, static_cast<std::uint64_t>(most - least)), kHuge)),
+                       10);
+  }
   fraction();
 }
 
+/// As wide as a number of steps can be that is no faster than allowed: 26 bits before the point. Beyond 64 it
+/// is none that fits a type.
 void HostileWriter::steps() {
   const int bits = kFractions[field(4)];
-  const std::uint64_t more = low(any(), 7);
-  m_out.golomb(more, 1);
-  const int width =
-      bits + static_cast<int>(static_cast<std::int64_t>(more >> 1) ^ -static_cast<std::int64_t>(more & 1));
-  if (width < 0 || width > 64) return;
-  field(width);
-  field(width);
+  const std::uint64_t width =
+      std::min<std::uint64_t>(choose(Kind::kWidth, static_cast<std::uint64_t>(26 + bits), 64), 1000);
+  m_out.signedGolomb(static_cast<std::int64_t>(width) - bits, 1);
+  if (width > 64) return zeros(2 * width);
+  field(static_cast<int>(width));
+  field(static_cast<int>(width));
 }
 
 void HostileWriter::motion() {
   position();
-  const std::uint64_t kind = field(2);
+  const std::uint64_t kind = field(Kind::kMotion, 2, 2);
   fraction();
   if (kind != 0) steps();
   if (kind == 2) steps();
 }
 
-/// 0 … 94 are drawable.
+/// Narrow ones, or Latin letters beyond them.
 void HostileWriter::character() {
   const bool wide = flag();
-  m_out.bits(low(any() + (wide ? 0xA0 : 0x20), wide ? 14 : 7), wide ? 14 : 7);
+  const std::uint64_t first = wide ? 0xAE : 0x20;
+  const std::uint64_t most = wide ? 0x2FF - first : 0x7E - first;
+  m_out.bits(low(first + choose(Kind::kCharacter, most), wide ? 14 : 7), wide ? 14 : 7);
+}
+
+void HostileWriter::appearance() {
+  constexpr std::uint64_t kEnough = 2 * kMaxGlyphs;  // one more than the limit is what must be tried
+  const std::uint64_t glyphs = golomb(Kind::kGlyphs, 3, 15, kMaxGlyphs);
+  constexpr std::int64_t kStep = 1 << kGlyphUnitBits;
+  std::int64_t dx = -kStep;
+  std::int64_t dy = 0;
+  for (std::uint64_t i = 0; i < std::min(glyphs, kEnough); ++i) {
+    const bool at_edge = dx + kStep > kMaxGlyphOffset;
+    if (at_edge) m_out.flag(true);
+    const bool moved = at_edge || flag();
+    const bool recoloured = flag();
+    character();
+    if (moved) {
+      const std::int64_t x = centered(Kind::kOffset, kMaxGlyphOffset);
+      const std::int64_t y = centered(Kind::kOffset, kMaxGlyphOffset);
+      m_out.signedGolomb(x - dx - kStep, 8);
+      m_out.signedGolomb(y - dy, 8);
+      dx = x;
+      dy = y;
+    } else {
+      dx += kStep;
+    }
+    if (recoloured) field(3);
+  }
 }
 
 void HostileWriter::look() {
@@ -99,94 +178,108 @@ void HostileWriter::look() {
       field(3);
       return;
     case 3:
-      field(12);
+      field(Kind::kName, 12, kPreludeNames - 1);
       return;
     default:
       break;
   }
   if (flag()) field(12);
-  const std::uint64_t glyphs = golomb(3);
-  for (std::uint64_t i = 0; i < glyphs && !m_script.atEnd(); ++i) {
-    const bool moved = flag();
-    const bool recoloured = flag();
-    character();
-    if (moved) {
-      golomb(8);
-      golomb(8);
-    }
-    if (recoloured) field(3);
-  }
+  appearance();
 }
 
 void HostileWriter::body() {
   if (!flag()) {
-    vector();
-    vector();
+    vector(-kMostBoxCells, kMostBoxCells);
+    vector(1, kMostBoxCells);
   }
-  field(2);
+  field(Kind::kSolidness, 2, df::SPECTRAL);
   field(1);
 }
 
+void HostileWriter::world() {
+  vector(-kMostCells, kMostCells);
+  field(Kind::kSize, 64, kHuge);
+  field(Kind::kSize, 64, kHuge);
+  m_out.bits(low(kMinViewWidth + choose(Kind::kViewWidth, kMaxViewWidth - kMinViewWidth), 9), 9);
+  m_out.bits(low(kMinViewHeight + choose(Kind::kViewHeight, kMaxViewHeight - kMinViewHeight), 9), 9);
+}
+
+void HostileWriter::view() {
+  vector(-kMostCells, kMostCells);
+  if (!flag()) return;
+  golomb(Kind::kFollowed, 6, kMaxSlots - 1);
+  field(2);
+}
+
+/// As the prelude has them, so that what is counted from them later is where it should be.
+void HostileWriter::origin() {
+  const std::uint64_t slot = 1 + choose(Kind::kSlot, kOriginSlots - 1);
+  const Origin& origin = preludeOrigin(slot);
+  m_out.bits(low(slot, 2), 2);
+  m_out.signedBits(origin.corner.x, 32);
+  m_out.signedBits(origin.corner.y, 32);
+  m_out.bits(static_cast<std::uint64_t>(origin.x_bits), 4);
+  m_out.bits(static_cast<std::uint64_t>(origin.y_bits), 4);
+  m_out.bits(origin.order, 48);
+}
+
+void HostileWriter::text() {
+  field(4);
+  m_out.signedGolomb(centered(Kind::kPlace, kMaxViewWidth), 6);
+  m_out.signedGolomb(centered(Kind::kPlace, kMaxViewHeight), 4);
+  field(3);
+  const std::uint64_t length = golomb(Kind::kLength, 5, 15, kMaxViewWidth);
+  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(length, 2 * kMaxViewWidth); ++i) character();
+}
+
+/// Without controls: these have a target of their own.
 void HostileWriter::extras() {
-  const bool world = flag();
-  const bool view = flag();
-  const std::uint64_t origins = field(2);
-  const std::uint64_t texts = field(5);
-  if (world) {
-    vector();
-    for (const int bits : {64, 64, 9, 9}) field(bits);
+  if (flag()) {
+    const bool has_world = flag();
+    const bool has_view = flag();
+    field(Kind::kControls, 1, 0);
+    const std::uint64_t origins = field(2);
+    const std::uint64_t texts = field(Kind::kTexts, 5, kMaxTexts);
+    if (has_world) world();
+    if (has_view) view();
+    for (std::uint64_t i = 0; i < origins; ++i) origin();
+    for (std::uint64_t i = 0; i < texts; ++i) text();
   }
-  if (view) {
-    vector();
-    if (flag()) {
-      golomb(6);
-      field(2);
-    }
+  field(Kind::kControls, 1, 0);
+}
+
+unsigned HostileWriter::groups() {
+  switch (field(2)) {
+    case 0:
+      return kMotion;
+    case 1:
+      return kAllGroups;
+    case 2:
+      return kLook;
+    default:
+      break;
   }
-  for (std::uint64_t i = 0; i < origins; ++i) {
-    for (const int bits : {2, 32, 32, 4, 4, 48}) field(bits);
-  }
-  for (std::uint64_t i = 0; i < texts && !m_script.atEnd(); ++i) {
-    field(4);
-    golomb(6);
-    golomb(4);
-    field(3);
-    const std::uint64_t length = golomb(5);
-    for (std::uint64_t k = 0; k < length && !m_script.atEnd(); ++k) character();
-  }
+  if (!flag()) return kDeath;
+  const std::uint64_t which = low(1 + choose(Kind::kGroups, 6), 3);
+  m_out.bits(which, 3);
+  return static_cast<unsigned>(which) << 1;
 }
 
 void HostileWriter::object() {
-  constexpr unsigned kLife = 1;
-  constexpr unsigned kMotion = 2;
-  constexpr unsigned kLook = 4;
-  constexpr unsigned kBody = 8;
-  unsigned groups = 0;
-  switch (field(2)) {
-    case 0:
-      groups = kMotion;
-      break;
-    case 1:
-      groups = kLife | kMotion | kLook | kBody;
-      break;
-    case 2:
-      groups = kLook;
-      break;
-    default:
-      if (!flag()) return;  // dead
-      groups = static_cast<unsigned>(field(3)) << 1;
-  }
-  if ((groups & kLife) != 0) {
+  const unsigned parts = groups();
+  if ((parts & kLife) != 0) {
     field(2);
-    golomb(10);
+    auto order = static_cast<std::int64_t>(std::min(choose(Kind::kOrder, kMostOrder), kHuge));
+    if (order > kMostOrder && order % 2 != 0) order = kMostOrder - order;  // below zero
+    m_out.signedGolomb(order - static_cast<std::int64_t>(preludeOrigin(m_slot).order), 10);
   }
-  if ((groups & kMotion) != 0) motion();
-  if ((groups & kLook) != 0) look();
-  if ((groups & kBody) != 0) body();
+  if ((parts & kMotion) != 0) motion();
+  if ((parts & kLook) != 0) look();
+  if ((parts & kBody) != 0) body();
 }
 
 std::string HostileWriter::snapshot(std::uint32_t number, std::uint32_t tick) {
-  m_out.clear();
+  begin();
   m_out.bits(number & 0xFFFF, 16);
   m_out.bits(tick & 0xFFFF, 16);
   m_out.bits(0, 2);
@@ -195,43 +288,57 @@ std::string HostileWriter::snapshot(std::uint32_t number, std::uint32_t tick) {
     field(16);
     field(6);
   }
-  field(2);
+  m_slot = field(2);
   if (flag()) extras();
-  const std::uint64_t objects = golomb(3);
+  const std::uint64_t objects = golomb(Kind::kObjects, 3, 12);
   const int order = objects > 0 ? static_cast<int>(field(4)) : 0;
-  for (std::uint64_t i = 0; i < objects && !m_script.atEnd(); ++i) {
-    golomb(order);
+  std::uint64_t next = 0;
+  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(objects, 12); ++i) {
+    const std::uint64_t room = kMaxSlots - std::min<std::uint64_t>(next + objects - i, kMaxSlots);
+    next += golomb(Kind::kId, order, room) + 1;
     object();
   }
   return m_out.bytes();
 }
 
+void HostileWriter::mask() {
+  if (flag()) {
+    field(64);
+    return;
+  }
+  for (std::uint64_t missing = std::min<std::uint64_t>(golomb(Kind::kMissing, 0, 8), 64); missing > 0;
+       --missing)
+    field(6);
+}
+
+void HostileWriter::input(bool first) {
+  if (first) {
+    field(16);
+  } else {
+    m_out.signedGolomb(centered(Kind::kTicks, 1 << 15), 2);
+  }
+  golomb(Kind::kBehind, 3, 1 << 15);
+  const bool mouse = flag();
+  if (!mouse) field(Kind::kKey, 7, df::Keyboard::kKeyCount - 1);
+  field(Kind::kAction, 2, df::KEY_DOWN);
+  if (!mouse) return;
+  field(2);
+  field(Kind::kMouse, 9, kMaxViewWidth - 1);
+  field(Kind::kMouse, 8, kMaxViewHeight - 1);
+}
+
 std::string HostileWriter::update() {
-  m_out.clear();
+  begin();
   if (flag()) {
     field(16);
-    if (!flag()) field(64);
+    mask();
   }
   if (flag()) field(8);
   if (flag()) field(64);
   field(1);
-  const std::uint64_t inputs = golomb(0);
+  const std::uint64_t inputs = golomb(Kind::kInputs, 0, kMaxUpdateInputs);
   if (inputs > 0) field(16);
-  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(inputs, 256); ++i) {
-    if (i == 0) {
-      field(16);
-    } else {
-      golomb(2);
-    }
-    golomb(3);
-    const bool mouse = flag();
-    if (!mouse) field(7);
-    field(2);
-    if (!mouse) continue;
-    field(2);
-    field(9);
-    field(8);
-  }
+  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(inputs, 256); ++i) input(i == 0);
   return m_out.bytes();
 }
 

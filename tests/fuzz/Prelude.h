@@ -2,22 +2,36 @@
 // it.
 #pragma once
 
+#include <array>
+
 #include "Replica.h"
 #include "Require.h"
 
 namespace naiad::fuzz {
 
 inline constexpr std::uint32_t kPreludeTick = 1000;
+inline constexpr std::uint32_t kPreludeNames = 4;  ///< appearances 0 … 3 have names
+
+/// What the prelude has in an origin slot.
+inline const Origin& preludeOrigin(std::uint64_t slot) {
+  static const std::array<Origin, kOriginSlots + 1> kOrigins = [] {
+    std::array<Origin, kOriginSlots + 1> origins;
+    for (std::uint32_t i = 1; i <= kOriginSlots; ++i)
+      origins[i] = {{static_cast<std::int32_t>(i) * 8 - 12, -6}, 6, 5, i * 100};
+    return origins;
+  }();
+  return kOrigins[slot % kOrigins.size()];
+}
 
 /// The snapshot (number 1, epoch 0) that tells it: world, a view that follows object 0, the three origins, a
-/// text, the names 1 to 3, and six objects.
+/// text, the names, and six objects.
 inline std::string preludeSnapshot() {
   SnapshotWriter writer;
   writer.begin({1, kPreludeTick, 0, true, false, 0, 0}, 0, {});
   writer.write(WorldRecord{{{}, {df::fromCells(120), df::fromCells(50)}}, 40, 20});
   writer.write(ViewRecord{{df::fromCells(3), 0}, true, 0, 1});
   for (std::uint32_t slot = 1; slot <= kOriginSlots; ++slot) {
-    writer.write(OriginRecord{slot, {{static_cast<std::int32_t>(slot) * 8 - 12, -6}, 6, 5, slot * 100}});
+    writer.write(OriginRecord{slot, preludeOrigin(slot)});
   }
   writer.write(TextRecord{1, 2, 0, df::GREEN, "Score 7"});
   for (std::uint32_t id = 0; id < 6; ++id) {
@@ -29,7 +43,7 @@ inline std::string preludeSnapshot() {
       word.push_back({256 * i, 0, U'a', df::RED});
     state.look = {{word}, 2};
     BitWriter bits;
-    const LookForm form = id < 4 ? LookForm{LookForm::kDefined, id} : LookForm{};
+    const LookForm form = id < kPreludeNames ? LookForm{LookForm::kDefined, id} : LookForm{};
     writer.encode(bits, kAllGroups, 1, state, state.motion, form);
     writer.object(id, std::move(bits));
   }

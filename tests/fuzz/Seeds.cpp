@@ -102,39 +102,8 @@ void hostile(Folder updates, Folder snapshots) {
   SplitMix64 random(13);
   for (std::size_t i = 0; i < 16; ++i) {
     updates.add(std::string("\x40\0\0\0\x80\0\0\0\x05\0\0\0\1", 13) + smallNumbers(random, 20 + 8 * i));
-    std::string pieces(1, '\3');
-    for (std::size_t k = 0; k < 3; ++k) pieces += u16(20 + 8 * i) + smallNumbers(random, 20 + 8 * i);
-    snapshots.add(pieces);
+    snapshots.add(smallNumbers(random, 20 + 8 * i));
   }
-}
-
-/// Good snapshots as numbers for HostileWriter, one after another in its order.
-void numbers(Folder folder) {
-  using Numbers = std::vector<int>;
-  const auto add = [&folder](const Numbers& snapshot) {
-    folder.add('\3' + u16(snapshot.size()) + std::string(snapshot.begin(), snapshot.end()));
-  };
-  const Numbers nothing = {0, 0, 0, 0, 0};  // a vector
-  const auto joined = [](const std::vector<Numbers>& parts) {
-    Numbers all;
-    for (const Numbers& part : parts) all.insert(all.end(), part.begin(), part.end());
-    return all;
-  };
-  add({1, 0, 0, 0, 4, 0, 1, 3, 0, 2, 3, 0, 0, 3, 0, 5, 3, 0});  // four deaths
-  const Numbers glyph = {1, 0, 0, 40, 6, 4};
-  const Numbers last = {1, 1, 0, 41, 8, 2, 3};
-  add(joined(
-      {{1, 0, 0, 0, 2, 0, 0, 2, 1, 2, 0, 3}, glyph, glyph, glyph, {2, 2, 1, 2, 0, 1}, last}));  // two looks
-  add(joined({{1, 0, 0, 1, 1, 1, 1, 1},
-              nothing,
-              {80, 24, 40, 20},
-              nothing,
-              {1, 0, 1},
-              {1, 0, 0, 6, 5, 0},
-              {1, 0, 0, 2, 2, 0, 40, 0, 41},
-              {0}}));  // world, view, origin, text
-  add({1, 0, 1, 0, 1, 0, 9, 1, 1, 0, 1, 9,  9, 2, 1, 1, 0,
-       1, 4, 3, 2, 1, 4, 1, 1, 1, 1, 0, 40, 3, 1, 0, 0});  // a birth
 }
 
 void controls(Folder folder) {
@@ -263,8 +232,7 @@ int main(int argc, char** argv) {
   texts(Folder(base / "safe_text"));
   keys(Folder(base / "input_decoder"));
   updates(Folder(base / "update"));
-  hostile(Folder(base / "update", "hostile-"), Folder(base / "snapshot", "hostile-"));
-  numbers(Folder(base / "snapshot", "kept-"));
+  hostile(Folder(base / "update", "hostile-"), Folder(base / "snapshot_fields"));
   controls(Folder(base / "controls"));
   serverMessages(Folder(base / "server_message"));
   clientMessages(Folder(base / "client_message"));

@@ -61,6 +61,10 @@ void FakeServer::welcome() {
   welcome.set_color(df::CYAN);
   welcome.set_server("fake 1");
   welcome.add_help("There is nothing to do.");
+  {
+    const std::lock_guard lock(m_mutex);
+    if (m_change) m_change(message);
+  }
   m_channel->send(message.SerializeAsString());
 
   SnapshotHeader header;
@@ -107,6 +111,11 @@ bool FakeServer::heardInput(const std::function<bool(const Input&)>& wanted) {
 bool FakeServer::heardKey(int key, int action) {
   return heardInput(
       [=](const Input& input) { return !input.is_mouse && input.key == key && input.action == action; });
+}
+
+void FakeServer::onWelcome(std::function<void(wire::ServerMessage&)> change) {
+  const std::lock_guard lock(m_mutex);
+  m_change = std::move(change);
 }
 
 void FakeServer::send(const wire::ServerMessage& message) {

@@ -33,6 +33,8 @@ class FakeServer {
   bool heardInput(const std::function<bool(const Input&)>& wanted);
   /// Wait until a key action arrived.
   bool heardKey(int key, int action);
+  /// Change the welcome before it is sent, from the next client on.
+  void onWelcome(std::function<void(wire::ServerMessage&)> change);
   /// Send the client a message.
   void send(const wire::ServerMessage& message);
   /// Hang up without a word.
@@ -50,6 +52,7 @@ class FakeServer {
   std::mutex m_mutex;
   std::condition_variable m_changed;
   std::vector<wire::ClientMessage> m_messages;
+  std::function<void(wire::ServerMessage&)> m_change;  ///< of the welcome
   std::thread m_thread;
 };
 

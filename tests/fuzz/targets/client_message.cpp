@@ -20,6 +20,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr auto kSteering = static_cast<df::Keyboard::Key>(5);
+
 class Play {
  public:
   Play() : m_session(std::make_unique<FakeChannel>(m_line), m_counters, m_now) {
@@ -27,7 +29,12 @@ class Play {
                      [](Session&, const std::string& text) {
                        REQUIRE(!text.empty() && text.size() <= 4 * kMaxChatLength);
                      },
-                     [this](Session&) { REQUIRE(++m_gone == 1); }});
+                     [this](Session&) { REQUIRE(++m_gone == 1); }, [this] { return m_now; }});
+    // Keys of these wait for the tick that they ask for.
+    auto controls = std::make_shared<df::ControlTable>();
+    controls->rows.push_back(
+        {kSteering, df::KEY_PRESSED, df::ControlEffect::kStep, true, false, {df::kFixedOne, 0}, 0, 0});
+    m_session.setControls(std::move(controls));
   }
 
   void hear(std::string_view frame) {

@@ -9,6 +9,7 @@
 #include "Limits.h"
 #include "Names.h"
 #include "SplitMix64.h"
+#include "tests/HostileTexts.h"
 
 namespace naiad {
 namespace {
@@ -24,6 +25,15 @@ TEST(Names, WhatDisturbsATerminalIsLeftOut) {
   EXPECT_EQ(cleanName("\u202eevil\u200b"), "evil");
   EXPECT_EQ(cleanName("\xff\xfe\xc3"), "");
   EXPECT_EQ(cleanName("Zoë"), "Zoë");
+}
+
+TEST(Names, TextsOfEveryHostileClassAreMadeHarmless) {
+  for (const test::HostileText& hostile : test::hostileTexts()) {
+    for (const std::string& text : {cleanName("x" + hostile.bytes), cleanChat("x" + hostile.bytes)}) {
+      EXPECT_EQ(text.front(), 'x') << hostile.what;
+      for (const char32_t ch : df::decodeUtf8(text)) EXPECT_TRUE(df::isDrawable(ch)) << hostile.what;
+    }
+  }
 }
 
 TEST(Names, AreCutByCharactersNotBytes) {

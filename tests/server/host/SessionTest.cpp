@@ -1,15 +1,19 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "Canvas.h"
 #include "Keyboard.h"
 #include "Limits.h"
 #include "Replica.h"
 #include "Session.h"
 #include "SimulatedWorld.h"
+#include "SplitMix64.h"
 #include "UpdateCodec.h"
+#include "tests/HostileTexts.h"
 
 namespace naiad {
 namespace {
@@ -55,8 +59,7 @@ class SessionTest : public testing::Test {
                      s.welcome(welcome);
                    },
                    [this](Session&, const std::string& text) { chat.push_back(text); },
-                   [this](Session&) { ++gone; },
-                   {}});
+                   [this](Session&) { ++gone; }, [this] { return now; }});
   }
 
   void hear(const wire::ClientMessage& message) { hearBytes(message.SerializeAsString()); }
@@ -170,6 +173,17 @@ TEST_F(SessionTest, EndsAtBytesThatAreNoMessage) {
   EXPECT_EQ(counters.malformed_messages, 1u);
 }
 
+TEST_F(SessionTest, MalformedTextLeavesNothingInTheHostsLog) {
+  greet();
+  std::string bytes = says("hello").SerializeAsString();
+  bytes.back() = '\xff';
+  testing::internal::CaptureStderr();
+  hearBytes(bytes);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_TRUE(ended());
+  EXPECT_EQ(counters.malformed_messages, 1u);
+}
+
 TEST_F(SessionTest, EndsAtAnEmptyMessage) {
   greet();
   hear({});
@@ -273,6 +287,56 @@ TEST_P(BadInput, EndsTheSession) {
 
 INSTANTIATE_TEST_SUITE_P(Session, BadInput, testing::Range(0, 11));
 
+/// Whatever becomes of a valid message on its way, what the game and the others are given is legal.
+TEST_F(SessionTest, MutatedMessagesEndTheSessionOrAreLegal) {
+  SplitMix64 random(8);
+  std::size_t inputs_taken = 0, lines_said = 0, ends = 0;
+  for (int round = 0; round < 5'000; ++round) {
+    Wire own;
+    std::vector<std::string> said;
+    Session one(std::make_unique<FakeChannel>(own), counters, now);
+    one.start({[](Session& s, const wire::Hello&) { s.welcome({}); },
+               [&](Session&, const std::string& text) { said.push_back(text); }, [](Session&) {},
+               [this] { return now; }});
+    wire::ClientMessage hello;
+    hello.mutable_hello()->set_magic(kHelloMagic);
+    own.callbacks.on_frame(hello.SerializeAsString());
+    wire::ClientMessage ping;
+    ping.mutable_ping()->set_token(random.next());
+    wire::ClientMessage resize;
+    resize.mutable_resize()->set_columns(80);
+    const wire::ClientMessage valid[] = {
+        inputs({keyInput(1, 5), keyInput(2, 6, 1), mouseInput(3, 1, 2, 40, 12)}),
+        says(test::hostileText(random)), ping, resize};
+    for (int k = 0; k < 4; ++k) {
+      std::string bytes = valid[random.below(std::size(valid))].SerializeAsString();
+      for (std::uint64_t changes = random.below(4); changes > 0; --changes)
+        bytes[random.below(bytes.size())] ^= static_cast<char>(1 << random.below(8));
+      own.callbacks.on_frame(bytes);
+    }
+    one.takeInputs(1, [&](const Input& input) {
+      ++inputs_taken;
+      EXPECT_LT(input.key, df::Keyboard::kKeyCount);
+      EXPECT_LE(input.action, df::KEY_DOWN);
+      EXPECT_LE(input.button, df::Mouse::MIDDLE + 1);
+      EXPECT_LT(input.x, kMaxViewWidth);
+      EXPECT_LT(input.y, kMaxViewHeight);
+    });
+    for (const std::string& line_said : said) {
+      ++lines_said;
+      const std::u32string characters = df::decodeUtf8(line_said);
+      EXPECT_TRUE(!characters.empty() && characters.size() <= kMaxChatLength);
+      EXPECT_TRUE(std::all_of(characters.begin(), characters.end(), df::isDrawable)) << line_said;
+    }
+    EXPECT_LE(one.rttMillis(), 99'999u);
+    ends += one.state() == Session::State::kPlaying ? 0 : 1;
+    ASSERT_FALSE(HasFailure()) << "round " << round;
+  }
+  EXPECT_GT(inputs_taken, 1'000u);
+  EXPECT_GT(lines_said, 300u);
+  EXPECT_GT(ends, 500u);
+}
+
 TEST_F(SessionTest, ChatIsCleanedAndThreeLinesASecond) {
   greet();
   for (int i = 0; i < 5; ++i) hear(says("  line\x1b " + std::to_string(i)));
@@ -284,6 +348,36 @@ TEST_F(SessionTest, ChatIsCleanedAndThreeLinesASecond) {
   hear(says("again"));
   EXPECT_EQ(chat.back(), "again");
   EXPECT_EQ(chat.size(), 4u);
+}
+
+TEST_F(SessionTest, TheWorldComesAnewOnceInTwoSeconds) {
+  greet();
+  ClientUpdate update;
+  update.wants_reset = true;
+  for (int i = 0; i < 100; ++i) hear(updateOf(update));
+  EXPECT_EQ(counters.resets, 1u);
+  EXPECT_EQ(counters.resets_dropped, 99u);
+  now += 2s - 1ms;
+  hear(updateOf(update));
+  EXPECT_EQ(counters.resets, 1u);
+  now += 1ms;
+  hear(updateOf(update));
+  EXPECT_EQ(counters.resets, 2u);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+}
+
+TEST_F(SessionTest, ChecksumsAreComparedFourTimesASecond) {
+  greet();
+  ClientUpdate update;
+  update.checksum = 1;
+  for (int i = 0; i < 100; ++i) hear(updateOf(update));
+  EXPECT_EQ(counters.checksums_dropped, 99u);
+  for (int second = 0; second < 5; ++second) {  // what an honest client sends
+    now += Session::Clock::duration(1s);
+    hear(updateOf(update));
+  }
+  EXPECT_EQ(counters.checksums_dropped, 99u);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
 TEST_F(SessionTest, ChatOfNothingCostsNothing) {

@@ -185,6 +185,17 @@ TEST_F(TlsListenerTest, IdleConnectionsFromOnePlaceAreLimited) {
   join();
 }
 
+TEST_F(TlsListenerTest, AClassOf64BehindOneAddressMayKnockAtOnce) {
+  tls.handshake_timeout = 1h;
+  listen();
+  std::vector<tcp::socket> pupils;
+  for (int i = 0; i < 64; ++i) pupils.push_back(knock());
+  EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 64; }));
+  EXPECT_EQ(counters().refused_from_prefix, 0u);
+  pupils.push_back(knock());
+  EXPECT_TRUE(runUntil(context, [&] { return counters().refused_from_prefix == 1; }));
+}
+
 TEST_F(TlsListenerTest, IdleConnectionsInAllAreLimitedAndTimeOut) {
   tls.max_half_open = 8;
   tls.handshake_timeout = 100ms;

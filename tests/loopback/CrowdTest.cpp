@@ -1,0 +1,186 @@
+// Many at once, and what must not hold up the tick: a class behind one address, floods from many, guesses.
+#include <gtest/gtest.h>
+
+#include <asio/ip/udp.hpp>
+#include <atomic>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "BusyWorld.h"
+#include "Home.h"
+#include "PasswordHash.h"
+#include "RawClient.h"
+#include "SplitMix64.h"
+#include "TestServer.h"
+#include "Valve.h"
+
+namespace naiad::test {
+namespace {
+
+using asio::ip::udp;
+using Clock = std::chrono::steady_clock;
+
+class Crowd : public testing::Test {
+ protected:
+  static std::function<void(df::World&)> world() {
+    return [](df::World& w) { populateBusyWorld(w, 5); };
+  }
+  Home home;
+  asio::io_context context;
+};
+
+TEST_F(Crowd, AClassOf64BehindOneAddressPlays) {
+  TestServer server(world(), fastOptions());
+  std::vector<std::unique_ptr<RawClient>> pupils;
+  for (int i = 0; i < 64; ++i) {
+    pupils.push_back(std::make_unique<RawClient>(server.port()));
+    pupils.back()->send(RawClient::hello("pupil"));
+  }
+  std::set<std::string> names;
+  for (const auto& pupil : pupils) {
+    const auto answer = pupil->receive();
+    ASSERT_TRUE(answer && answer->has_welcome());
+    names.insert(answer->welcome().name());
+  }
+  EXPECT_EQ(names.size(), 64u);
+  EXPECT_EQ(server.counters().refused_address, 0u);
+}
+
+TEST_F(Crowd, OneAddressHasItsShareOfThePlaces) {
+  HostOptions options = fastOptions();
+  options.max_players = 8;
+  options.max_per_address = 2;
+  TestServer server(world(), options);
+  const auto answerTo = [&](RawClient& client) {
+    client.send(RawClient::hello("ann"));
+    return client.receive().value_or(wire::ServerMessage());
+  };
+  auto first = std::make_unique<RawClient>(server.port());
+  RawClient second(server.port()), third(server.port());
+  EXPECT_TRUE(answerTo(*first).has_welcome());
+  EXPECT_TRUE(answerTo(second).has_welcome());
+  const wire::ServerMessage refusal = answerTo(third);
+  EXPECT_EQ(refusal.refused().reason(), wire::Refused::FULL);
+  EXPECT_EQ(refusal.refused().sentence(), "There are 2 players from your address already. Try again later.");
+  EXPECT_EQ(server.counters().refused_address, 1u);
+  first->reset();
+  while (server.inWorld([](df::World& w) { return w.getPlayers().size(); }) != 1) std::this_thread::yield();
+  RawClient fourth(server.port());
+  EXPECT_TRUE(answerTo(fourth).has_welcome());
+}
+
+TEST_F(Crowd, AClaimedSizeIsNoAdvantage) {
+  TestServer server(world(), fastOptions());
+  wire::ClientMessage hello = RawClient::hello("ann");
+  hello.mutable_hello()->set_columns(4'000'000'000u);
+  hello.mutable_hello()->set_rows(4'000'000'000u);
+  RawClient client(server.port());
+  client.send(hello);
+  const auto answer = client.receive();
+  ASSERT_TRUE(answer && answer->has_welcome());
+  const auto window =
+      server.inWorld([](df::World& w) { return std::pair(w.getWindowWidth(), w.getWindowHeight()); });
+  EXPECT_LE(answer->welcome().view_width(), static_cast<unsigned>(window.first));
+  EXPECT_LE(answer->welcome().view_height(), static_cast<unsigned>(window.second));
+}
+
+/// A guess that takes a while: nobody knows the password, so it is compared to the end.
+TEST_F(Crowd, TheWorldGoesOnWhileAPasswordIsCompared) {
+  HostOptions options = fastOptions();
+  options.frame_micros = 1000;
+  options.password = PasswordHash::of("the right one", {.memory_kib = 8 * 1024, .passes = 12}).text();
+  TestServer server(world(), options);
+  const auto ticks = [&] { return server.counters().ticks; };
+  wire::ClientMessage hello = RawClient::hello("eve");
+  hello.mutable_hello()->set_password("a wrong one");
+  RawClient eve(server.port());
+  eve.send(hello);
+  const std::uint64_t before = ticks();
+  const auto answer = eve.receive();
+  EXPECT_GE(ticks() - before, 10u) << "of a millisecond each, and the guess takes some fifty";
+  ASSERT_TRUE(answer && answer->has_refused());
+  EXPECT_EQ(answer->refused().reason(), wire::Refused::PASSWORD);
+}
+
+/// Keeps the newest datagram that a client sent: what somebody on the way would have.
+class Overheard : public DatagramSocket {
+ public:
+  Overheard(std::unique_ptr<DatagramSocket> socket, std::string& newest)
+      : m_socket(std::move(socket)), m_newest(newest) {}
+  void start(OnPacket on_packet) override { m_socket->start(std::move(on_packet)); }
+  void send(const Path& path, std::string_view packet) override {
+    m_newest = packet;
+    m_socket->send(path, packet);
+  }
+  void flush() override { m_socket->flush(); }
+  void reopen() override { m_socket->reopen(); }
+  Endpoint localEndpoint() const override { return m_socket->localEndpoint(); }
+
+ private:
+  std::unique_ptr<DatagramSocket> m_socket;
+  std::string& m_newest;
+};
+
+TEST_F(Crowd, ASpooferOfManyAddressesLocksNobodyOut) {
+  TestServer server(world(), home.server());
+  const auto valve = std::make_shared<Valve>();
+  std::string overheard;
+  ClientSetup setup = home.player("ann");
+  setup.options.open_socket = [&, open = through(context, valve)](const Endpoint& endpoint) {
+    return std::make_unique<Overheard>(open(endpoint), overheard);
+  };
+  TestClient ann(context, server.port(), setup);
+  const auto hasDatagrams = [](TestClient& client) {
+    return client.joined() && client.session().hasDatagrams(Clock::now()) &&
+           client.session().counters().datagrams_in > 20;
+  };
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return hasDatagrams(ann); }));
+
+  // Forgeries from two hundred addresses, half of them with her id.
+  std::atomic<bool> done = false;
+  std::atomic<std::uint64_t> sent = 0;
+  std::thread spoofer([&, port = server.port(), genuine = overheard] {
+    asio::io_context own;
+    std::vector<udp::socket> sockets;
+    for (unsigned i = 0; i < 200; ++i) {
+      const asio::ip::address_v4 from(0x7F010000u + 256 * (i % 20) + i + 1);
+      sockets.emplace_back(own, udp::endpoint(from, 0));
+    }
+    SplitMix64 random(7);
+    while (!done) {
+      std::string forged = genuine;
+      for (std::size_t k = random.below(2) == 0 ? 1 : 9; k < forged.size(); ++k)
+        forged[k] = static_cast<char>(random.next());
+      asio::error_code ignored;
+      sockets[random.below(sockets.size())].send_to(asio::buffer(forged),
+                                                    {asio::ip::address_v4::loopback(), port}, 0, ignored);
+      ++sent;
+    }
+  });
+  // She plays on; somebody else gets in, gets datagrams, and moves to another port.
+  const auto bobs = std::make_shared<Valve>();
+  ClientSetup other = home.player("bob");
+  other.options.open_socket = through(context, bobs);
+  TestClient bob(context, server.port(), other);
+  EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return hasDatagrams(bob); }));
+  bobs->rebind();
+  const auto heard = [&] {
+    return std::pair(ann.session().counters().datagrams_in, bob.session().counters().datagrams_in);
+  };
+  const auto before = heard();
+  EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] {
+    return heard().first > before.first + 50 && heard().second > before.second + 50;
+  }));
+  EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return sent > 5'000; }));
+  done = true;
+  spoofer.join();
+  EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
+  EXPECT_EQ(server.counters().detached, 0u);
+  const DatagramGateCounters gate = server.datagrams();
+  EXPECT_GT(gate.unknown_id, 500u);
+  EXPECT_GT(gate.claimed_flood, 500u) << "most of them met no cryptography";
+}
+
+}  // namespace
+}  // namespace naiad::test
