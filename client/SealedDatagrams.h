@@ -28,6 +28,9 @@ class SealedDatagrams : public DatagramChannel {
   void send(std::string_view packet) override;
   std::optional<std::size_t> room() const override { return m_link.room(); }
   std::string peerAddress() const override { return toString(m_server); }
+  /// Measure the round trip with the next packet, and take what the last one said.
+  void ping() { m_link.ping(); }
+  std::optional<LinkPing::Millis> takeRoundTrip() { return m_link.takeRoundTrip(); }
   /// The network may have changed: go on from another port.
   void reopen();
 

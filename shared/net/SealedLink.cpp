@@ -10,6 +10,8 @@ namespace {
 
 constexpr unsigned kHasChallenge = 1;
 constexpr unsigned kHasAnswer = 2;
+constexpr unsigned kHasPing = 4;
+constexpr unsigned kHasEcho = 8;
 constexpr std::size_t kFieldSize = sizeof(PathChallenge);
 
 std::optional<PathChallenge> takeField(std::string_view& text) {
@@ -17,6 +19,20 @@ std::optional<PathChallenge> takeField(std::string_view& text) {
   const auto value = loadLittleEndian<PathChallenge>(text.data());
   text.remove_prefix(kFieldSize);
   return value;
+}
+
+std::optional<std::uint8_t> takeByte(std::string_view& text) {
+  if (text.empty()) return std::nullopt;
+  const auto byte = static_cast<std::uint8_t>(text[0]);
+  text.remove_prefix(1);
+  return byte;
+}
+
+std::optional<LinkPing::Echo> takeEcho(std::string_view& text) {
+  const auto token = takeByte(text);
+  const auto held = takeByte(text);
+  if (!token || !held) return std::nullopt;
+  return LinkPing::Echo{*token, *held};
 }
 
 }  // namespace
@@ -129,17 +145,21 @@ std::optional<std::string_view> SealedLink::open(const Path& path, std::string_v
   if (isServer()) notePath(path, packet.size(), {keys->epoch, sequence});
   if (fields->answer) noteAnswer(*fields->answer);
   if (fields->challenge) owed_answer_ = fields->challenge;
+  if (fields->ping) echo_.note(*fields->ping, now);
+  if (fields->echo) ping_.answered(*fields->echo, now);
   return fields->payload;
 }
 
 std::optional<SealedLink::Fields> SealedLink::readFields(std::string_view text) const {
   const auto flags = static_cast<unsigned char>(text[0]);
   text.remove_prefix(1);
-  // A server never is challenged, and a client is never answered.
-  if (flags & ~(isServer() ? kHasAnswer : kHasChallenge)) return std::nullopt;
+  // A server never is challenged, and a client is never answered; servers do not ping.
+  if (flags & ~(isServer() ? kHasAnswer | kHasPing : kHasChallenge | kHasEcho)) return std::nullopt;
   Fields fields;
   if (flags & kHasChallenge && !(fields.challenge = takeField(text))) return std::nullopt;
   if (flags & kHasAnswer && !(fields.answer = takeField(text))) return std::nullopt;
+  if (flags & kHasPing && !(fields.ping = takeByte(text))) return std::nullopt;
+  if (flags & kHasEcho && !(fields.echo = takeEcho(text))) return std::nullopt;
   fields.payload = text;
   return fields;
 }
@@ -200,7 +220,8 @@ std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, T
   }
   const std::size_t prefix = writeSealedPrefix(sends(), keys->epoch, options_.id, sealed_.data());
   char* const text = sealed_.data() + prefix + 2;
-  const std::size_t fields = writeFields(text);
+  const std::size_t least = payload.size() + overhead();
+  const std::size_t fields = writeFields(text, std::min(kMaxDatagram, guard_.budget()) - least, now);
   std::copy(payload.begin(), payload.end(), text + fields);
   const std::size_t size = keys->sealer.seal(sealed_.data(), prefix, fields + payload.size());
   guard_.sent(size, now);
@@ -208,19 +229,34 @@ std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, T
   return Outgoing{*guard_.current(), {sealed_.data(), size}};
 }
 
-std::size_t SealedLink::writeFields(char* out) {
+/// `spare`: bytes that the packet may still have beyond overhead() and the payload.
+std::size_t SealedLink::writeFields(char* out, std::size_t spare, Time now) {
+  std::size_t size = 1;
   out[0] = 0;
   if (isServer() && !guard_.validated()) {
     out[0] = kHasChallenge;
-    storeLittleEndian(guard_.challenge(), out + 1);
-    return 1 + kFieldSize;
-  }
-  if (!isServer() && owed_answer_) {
+    storeLittleEndian(guard_.challenge(), out + size);
+    size += kFieldSize;
+  } else if (!isServer() && owed_answer_) {
     out[0] = kHasAnswer;
-    storeLittleEndian(*std::exchange(owed_answer_, std::nullopt), out + 1);
-    return 1 + kFieldSize;
+    storeLittleEndian(*std::exchange(owed_answer_, std::nullopt), out + size);
+    size += kFieldSize;
   }
-  return 1;
+  return size + writePing(out, out + size, spare, now);
+}
+
+std::size_t SealedLink::writePing(char* flags, char* out, std::size_t spare, Time now) {
+  if (!isServer() && spare >= 1 && ping_.isAsked()) {
+    *flags = static_cast<char>(*flags | kHasPing);
+    out[0] = static_cast<char>(ping_.sent(now));
+    return 1;
+  }
+  const auto echo = isServer() && spare >= 2 ? echo_.take(now) : std::nullopt;
+  if (!echo) return 0;
+  *flags = static_cast<char>(*flags | kHasEcho);
+  out[0] = static_cast<char>(echo->token);
+  out[1] = static_cast<char>(echo->held_millis);
+  return 2;
 }
 
 }  // namespace naiad

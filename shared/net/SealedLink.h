@@ -2,7 +2,8 @@
 //
 // It does no I/O and reads no clock. The owner feeds it what a socket received and sends what it returns.
 // Inside the seal, in front of the payload, is one byte of flags: bit 0, an 8-byte path challenge follows;
-// bit 1, an 8-byte answer to one follows. The link adds and strips them. Only servers challenge.
+// bit 1, an 8-byte answer to one follows; bit 2, a ping, of one byte; bit 3, its echo, of two. The link adds
+// and strips them. Only servers challenge, only clients ping.
 //
 // Epochs: whenever the session's keys change, both ends call startEpoch(), the client first (its TLS
 // handshake completes first, too). The server then seals with the new keys at once; the client does so when a
@@ -19,6 +20,7 @@
 #include <utility>
 
 #include "DatagramKeys.h"
+#include "LinkPing.h"
 #include "PathGuard.h"
 #include "Seal.h"
 #include "SealedHeader.h"
@@ -89,6 +91,10 @@ class SealedLink {
   };
   /// Seal at most maxPayload() bytes. Nothing if it may not be sent now; the reason is counted.
   std::optional<Outgoing> seal(std::string_view payload, Time now);
+  /// Clients only: measure the round trip with the next packet that has a byte to spare.
+  void ping() { ping_.ask(); }
+  /// The round trip measured since the last call, without what the server waited before it answered.
+  std::optional<LinkPing::Millis> takeRoundTrip() { return ping_.takeRoundTrip(); }
   /// Something of the link's own (a challenge, an answer) is due: seal an empty payload if there is no other.
   bool wantsToSend(Time now) const;
 
@@ -120,6 +126,8 @@ class SealedLink {
   struct Fields {
     std::optional<PathChallenge> challenge;
     std::optional<PathChallenge> answer;
+    std::optional<std::uint8_t> ping;
+    std::optional<LinkPing::Echo> echo;
     std::string_view payload;
   };
 
@@ -140,7 +148,8 @@ class SealedLink {
   void notePath(const Path& path, std::size_t bytes, std::pair<Epoch, std::uint64_t> number);
   void noteAnswer(PathChallenge answer);
   std::size_t overhead() const;
-  std::size_t writeFields(char* out);
+  std::size_t writeFields(char* out, std::size_t spare, Time now);
+  std::size_t writePing(char* flags, char* out, std::size_t spare, Time now);
 
   Options options_;
   std::optional<Keys> newest_;
@@ -150,6 +159,8 @@ class SealedLink {
   std::optional<std::pair<Epoch, std::uint64_t>> newest_number_;  // of the authentic packets
   PathGuard guard_;
   std::optional<PathChallenge> owed_answer_;
+  LinkPing ping_;
+  LinkEcho echo_;
   SealedLinkCounters counters_;
   std::array<char, kMaxDatagram> sealed_;
   std::array<char, kMaxDatagram> opened_;

@@ -10,7 +10,7 @@ namespace naiad {
 // The layout, drawn out in PROTOCOL.md:
 //
 //   update  acks 1 (newest 16, many missing 1, then the mask 64, or how many: exp-Golomb(0), and 6 each) |
-//   ping 1 (token 8) | checksum 1 (64 bits)
+//           | checksum 1 (64 bits)
 //           | reset 1 | inputs: exp-Golomb(0) | id of the first 16, if any | each input
 //   input   tick 16, or for later ones signed exp-Golomb(2) from the one before | snapshots before the newest
 //           acknowledged: exp-Golomb(3) | mouse 1 | key 7, action 2, or action 2, button 2, x 9, y 8
@@ -99,8 +99,6 @@ std::string writeUpdate(const ClientUpdate& update) {
     out.bits(update.acks.newest & 0xFFFF, kLowBits);
     writeMask(out, update.acks.mask);
   }
-  out.flag(update.ping.has_value());
-  if (update.ping) out.bits(*update.ping, 8);
   out.flag(update.checksum.has_value());
   if (update.checksum) out.bits(*update.checksum, 64);
   out.flag(update.wants_reset);
@@ -132,7 +130,6 @@ std::optional<ClientUpdate> readUpdate(std::string_view bytes, const UpdateConte
     update.acks.mask = readMask(in);
     if (update.acks.newest == 0) in.fail();
   }
-  if (in.flag()) update.ping = static_cast<std::uint8_t>(in.bits(8));
   if (in.flag()) update.checksum = in.bits(64);
   update.wants_reset = in.flag();
   readInputs(in, context, update);

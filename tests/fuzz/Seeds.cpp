@@ -77,7 +77,6 @@ void updates(Folder folder) {
   ClientUpdate update;
   folder.add(context + writeUpdate(update));
   update.acks = {0x40, ~std::uint64_t{0}};
-  update.ping = 7;
   update.checksum = 0x0123456789ABCDEF;
   update.inputs.push_back({6, 0x7E, 0x3F, false, 1, 33, 0, 0, 0});
   update.inputs.push_back({7, 0x80, 0x40, true, 2, 0, 2, 79, 23});

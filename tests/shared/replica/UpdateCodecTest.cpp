@@ -34,7 +34,6 @@ ClientUpdate randomUpdate(SplitMix64& rng, std::size_t most_inputs) {
     update.acks.newest = static_cast<std::uint32_t>(rng.next()) | 1;
     update.acks.mask = rng.below(2) == 0 ? ~std::uint64_t{0} : rng.next();
   }
-  if (rng.below(2) == 0) update.ping = static_cast<std::uint8_t>(rng.next());
   if (rng.below(2) == 0) update.checksum = rng.next();
   update.wants_reset = rng.below(2) == 0;
   auto id = static_cast<std::uint32_t>(1 + rng.below(0xFFFFFF00));
@@ -55,7 +54,6 @@ UpdateContext near(const ClientUpdate& update) {
 void expectSame(const ClientUpdate& a, const ClientUpdate& b) {
   ASSERT_EQ(a.acks.newest, b.acks.newest);
   ASSERT_EQ(a.acks.mask, b.acks.mask);
-  ASSERT_EQ(a.ping, b.ping);
   ASSERT_EQ(a.checksum, b.checksum);
   ASSERT_EQ(a.wants_reset, b.wants_reset);
   ASSERT_EQ(a.inputs, b.inputs);
@@ -82,7 +80,6 @@ TEST(UpdateCodec, AnAcknowledgementAloneIsShort) {
 TEST(UpdateCodec, AsManyInputsAsAllowedAlwaysFit) {
   ClientUpdate update;
   update.acks = {0xFFFFFFFF, 1};
-  update.ping = 0;
   update.checksum = 0;
   Input input;
   input.is_mouse = true;
@@ -182,7 +179,7 @@ TEST(UpdateCodec, NumbersOutOfRangeAreRefused) {
 /// An update by hand, up to its inputs.
 BitWriter bareInputs(std::uint64_t count) {
   BitWriter out;
-  out.bits(0, 4);  // no acknowledgement, ping, checksum, reset
+  out.bits(0, 3);  // no acknowledgement, checksum, reset
   out.golomb(count, 0);
   out.bits(1, 16);  // id
   out.bits(0, 16);  // tick
