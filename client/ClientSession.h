@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,44 +20,26 @@
 
 #include "Acks.h"
 #include "Channel.h"
+#include "ChatLog.h"
 #include "DisplayClock.h"
 #include "InputBudget.h"
+#include "InputOutbox.h"
+#include "KeptFrames.h"
 #include "Keyboard.h"
 #include "Prediction.h"
-#include "Replica.h"
+#include "RoundTrip.h"
 #include "SealedDatagrams.h"
 #include "ServerMessages.h"
+#include "SessionOptions.h"
 #include "TakeInClock.h"
 #include "UpdateCodec.h"
+#include "UpdateTiming.h"
+#include "WorldFeed.h"
 
 namespace naiad {
 namespace wire {
 class ClientMessage;
 }
-
-/// What the Hello says.
-struct SessionOptions {
-  std::string name = "player";  ///< wanted name, 1 to 16 characters
-  std::string game;             ///< game to play; empty: whatever runs
-  std::string program;          ///< "dfclient 0.1.0", for the server's log
-  int columns = 80;             ///< terminal size in cells
-  int rows = 24;
-  std::string password;      ///< of the server, if it wants one
-  std::string resume_token;  ///< of an earlier welcome: go on with that session
-  /// Makes a socket for datagrams to an endpoint; empty: no datagrams (a Connection that encrypts puts UDP
-  /// there). May return null.
-  std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> open_socket;
-  /// For what comes as a datagram; another clock is for tests in virtual time.
-  std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
-};
-
-/// A line of chat and when it came.
-struct ChatEntry {
-  std::string name;  ///< of the speaker; empty: the server
-  df::Color color = df::COLOR_DEFAULT;
-  std::string text;
-  std::chrono::steady_clock::time_point at;
-};
 
 /// What went over the wire so far. Bytes are frame payloads plus two bytes of header each.
 struct SessionCounters {
@@ -69,8 +50,10 @@ struct SessionCounters {
   std::uint64_t inputs = 0;
   std::uint64_t inputs_dropped = 0;  ///< kept back: too many, or the line is stuck
   std::uint64_t chat_lines = 0;
-  std::uint64_t datagrams_in = 0;  ///< with a snapshot; their bytes are in bytes_in, headers not counted
-  std::uint64_t resets = 0;        ///< the world came anew
+  std::uint64_t chat_dropped = 0;     ///< not sent: too much waits to be sent again
+  std::uint64_t repeated_frames = 0;  ///< kept frames that had come already: ignored
+  std::uint64_t datagrams_in = 0;     ///< with a snapshot; their bytes are in bytes_in, headers not counted
+  std::uint64_t resets = 0;           ///< the world came anew
   std::uint64_t bad_messages = 0;
 };
 
@@ -89,26 +72,12 @@ class ClientSession {
   static constexpr std::chrono::seconds kSeldomPing{5};
   /// A stream on which a ping stays unanswered for so long is taken to be dead.
   static constexpr std::chrono::seconds kStreamSilence{10};
-  static constexpr std::chrono::milliseconds kPassing{1000};     ///< without a datagram: they do not pass
-  static constexpr std::chrono::milliseconds kProbeEvery{1000};  ///< then
-  /// So long without a datagram is odd: the server may not know our address any more.
-  static constexpr std::chrono::milliseconds kQuiet{400};
-  /// After a snapshot on the stream it is open for so long whether the server hears datagrams.
-  static constexpr std::chrono::milliseconds kUndecided{500};
-  static constexpr std::chrono::milliseconds kFirstProbes{100};  ///< in the first second
-  static constexpr std::chrono::milliseconds kRepeatInput{10};   ///< a new input is sent again after this
-  static constexpr int kAckEvery = 3;                            ///< snapshots that come as datagrams
-  static constexpr std::chrono::milliseconds kAckDelay{50};      ///< of the last one, at most
-  static constexpr int kMostStale =
-      30;  ///< snapshots in a row that mean what is gone: then the world is to come anew
+  static constexpr std::chrono::milliseconds kPassing = UpdateTiming::kPassing;
+  static constexpr std::uint32_t kMaxUnapplied = InputOutbox::kMost;
+  static constexpr std::size_t kMaxChatLog = ChatLog::kMost;
   static constexpr std::chrono::seconds kChecksumEvery{1};
-  static constexpr std::chrono::milliseconds kResetPatience{
-      500};  ///< then a world that is not complete is shown
-  static constexpr std::size_t kMaxChatLog = 100;
-  /// Inputs that the game has not heard of yet, at most; more are dropped here, but for keys that go up.
-  /// Below the 64 that a server lets wait, so that who holds a key through a stall is not thrown out as a
-  /// flooder afterwards, and below kMaxUpdateInputs.
-  static constexpr std::uint32_t kMaxUnapplied = 40;
+  /// So many bytes of kept frames are acknowledged at once, not with the next ping.
+  static constexpr std::size_t kMuchKept = std::size_t{8} * 1024;
 
   /// Takes the connected channel and says Hello. The owner starts the channel and passes what it delivers
   /// to receive() and closed().
@@ -118,13 +87,18 @@ class ClientSession {
 
   /// Without a stream, and waiting for another one: adopt().
   bool isDetached() const { return m_state == State::kPlaying && m_channel == nullptr; }
+  /// Number of the newest kept frame that came, for who resumes the session.
+  std::uint32_t receivedFrames() const { return m_kept_heard.newest(); }
   /// The server said that an earlier session goes on here.
   bool isResumed() const { return m_state == State::kPlaying && m_welcome.resumed; }
   bool owns(const ReliableChannel* channel) const { return m_channel.get() == channel; }
   /// Go on with the stream on which `other` was welcomed back (welcome().resumed).
   void adopt(ClientSession& other, Time now);
   /// Do datagrams come from the server?
-  bool hasDatagrams(Time now) const { return m_datagrams != nullptr && now - m_last_datagram < kPassing; }
+  bool hasDatagrams(Time now) const { return m_datagrams != nullptr && m_timing.hasDatagrams(now); }
+
+  /// Has the server been heard lately, on either way?
+  bool isHeard(Time now) const { return m_state == State::kPlaying && now - m_last_heard < kPassing; }
 
   /// A frame from the server.
   void receive(std::string_view frame, Time now);
@@ -137,7 +111,8 @@ class ClientSession {
   bool sendKey(df::Keyboard::Key key, df::EventKeyboardAction action, Time now);
   /// `x`, `y`: cell of the view.
   bool sendMouse(df::EventMouseAction action, df::Mouse::Button button, int x, int y, Time now);
-  /// Say something to all players; nothing if no drawable character is left of it.
+  /// Say something to all players; nothing if no drawable character is left of it. Without a stream it waits
+  /// for the next one.
   void sendChat(const std::string& text);
   void sendResize(int columns, int rows);
   /// Leave on purpose: the server is told, the channel closes after what is queued.
@@ -154,9 +129,9 @@ class ClientSession {
   bool hasPicture() const { return m_counters.snapshots > 0; }
 
   const WelcomeMessage& welcome() const { return m_welcome; }
-  const Replica& replica() const { return m_replica; }
+  const Replica& replica() const { return m_world.shown(); }
   const std::vector<PlayerLine>& players() const { return m_players; }
-  const std::deque<ChatEntry>& chat() const { return m_chat; }
+  const std::deque<ChatEntry>& chat() const { return m_chat.entries(); }
   const SessionCounters& counters() const { return m_counters; }
   /// Points of this player, from the newest player list.
   std::int32_t score() const;
@@ -174,12 +149,12 @@ class ClientSession {
   const DisplayClock& clock() const { return m_clock; }
   bool isSilent(Time now) const { return m_state == State::kPlaying && m_clock.isSilent(now); }
   /// Smoothed round trip; zero before the first measurement.
-  std::chrono::milliseconds roundTrip() const;
+  std::chrono::milliseconds roundTrip() const { return m_round_trip.shown(); }
   /// Counts up with every change that can be seen on a screen.
   std::uint64_t revision() const { return m_revision; }
 
   /// When update() has something to do before its usual time; nothing if it has not.
-  std::optional<Time> nextWake() const;
+  std::optional<Time> nextWake() const { return m_timing.nextWake(); }
 
   /// Called before a snapshot of `tick` is applied: the replica is still as it was. For recorders.
   void onBeforeSnapshot(std::function<void(std::uint32_t tick)> observer) {
@@ -202,15 +177,18 @@ class ClientSession {
   void reject(const std::string& what);
   void finish(State state, std::string sentence);
   void send(const wire::ClientMessage& message);
+  void sendFrame(const std::string& frame);
+  void noteRoundTrip(RoundTrip::Millis sample);
   bool sendInput(Input input, bool urgent, Time now);
   void sendUpdate(Time now);
   void takeSnapshot(std::string_view bytes, Time now);
   void takeControls();
-  Replica* replicaFor(std::string_view bytes, Time now);
+  bool takeKept(std::uint32_t number);
   void openDatagrams(Time now);
   void onDatagram(std::string_view bytes, Time now);
   ClientUpdate nextUpdate(bool on_stream, Time now);
   void probe(Time now);
+  void ping(Time now);
   KeyExporter exporter() const;
 
   std::unique_ptr<ReliableChannel> m_channel;
@@ -218,7 +196,7 @@ class ClientSession {
   std::string m_sentence;
   bool m_refused_for_now = false;
   WelcomeMessage m_welcome;
-  Replica m_replica;
+  WorldFeed m_world;
   AckWindow m_acks;
   DisplayClock m_clock{std::chrono::microseconds(33333)};
   InputBudget m_budget;
@@ -227,33 +205,21 @@ class ClientSession {
   std::uint32_t m_table_known = 0;    ///< snapshot that told the newest controls taken over
   std::uint32_t m_control_known = 0;  ///< … and state
   std::vector<PlayerLine> m_players;
-  std::deque<ChatEntry> m_chat;
+  ChatLog m_chat;
   SessionCounters m_counters;
   std::function<void(std::uint32_t)> m_observer;
   std::function<void(const SnapshotHeader&, const AckWindow&)> m_after_observer;
-  std::uint32_t m_next_input = 1;
-  std::deque<Input> m_inputs;            ///< that no snapshot has acknowledged
-  std::uint32_t m_newest_on_stream = 0;  ///< newest input sent on this stream
-  std::optional<Time> m_repeat_at;
+  InputOutbox m_inputs;
+  KeptFrames m_kept;
+  KeptFramesHeard m_kept_heard;
+  std::size_t m_kept_unacknowledged = 0;  ///< bytes of kept frames since the last ping
+  UpdateTiming m_timing;
   Time m_next_checksum{};
   std::unique_ptr<SealedDatagrams> m_datagrams;
   SessionOptions m_options;
-  Time m_last_datagram{};
-  Time m_last_streamed{};  ///< snapshot on the stream
-  Time m_last_probe{};
-  Time m_attached{};
-  std::optional<Replica> m_next_replica;  ///< of the next epoch, until it is complete
-  Time m_reset_at{};
-  std::uint8_t m_epoch = 0;
-  std::uint8_t m_next_epoch = 0;
-  int m_stale_in_a_row = 0;
-  int m_unacknowledged = 0;  ///< snapshots that no update has acknowledged
-  std::optional<Time> m_acknowledge_at;
-  std::map<std::uint64_t, Time> m_pings;  ///< unanswered, by token
-  std::uint64_t m_next_token = 1;
+  RoundTrip m_round_trip;
   Time m_last_ping;
   Time m_last_heard;
-  std::chrono::duration<double, std::milli> m_round_trip{0};
   std::uint64_t m_revision = 0;
 };
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint32_t kMaxRttMillis = 99999;
 constexpr std::size_t kMaxTokenLength = 64;
+constexpr std::uint32_t kMaxGraceMillis = 3'600'000;
 
 bool isColor(std::uint32_t color) {
   return color < static_cast<std::uint32_t>(df::kColorCount);
@@ -37,6 +38,13 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
   if (wire.resume_token().size() > kMaxTokenLength) return std::nullopt;
   message.resume_token = wire.resume_token();
   message.resumed = wire.resumed();
+  message.grace = std::chrono::milliseconds(std::min(wire.grace_millis(), kMaxGraceMillis));
+  message.received = wire.received();
+  if (wire.has_continuation()) {
+    const wire::Continuation& from = wire.continuation();
+    if (from.world_epoch() > 3) return std::nullopt;
+    message.continuation = {from.snapshot(), static_cast<std::uint8_t>(from.world_epoch()), from.input()};
+  }
   message.tick = std::chrono::microseconds(wire.tick_micros());
   message.view_width = static_cast<int>(wire.view_width());
   message.view_height = static_cast<int>(wire.view_height());
@@ -45,9 +53,10 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
   return message;
 }
 
-std::optional<ServerMessageValue> check(const wire::PlayerList& wire) {
+std::optional<ServerMessageValue> check(const wire::PlayerList& wire, std::uint32_t number) {
   if (wire.players_size() > static_cast<int>(kMaxPlayers)) return std::nullopt;
   PlayersMessage message;
+  message.number = number;
   for (const wire::PlayerEntry& entry : wire.players()) {
     if (entry.player() == 0 || !isColor(entry.color())) return std::nullopt;
     message.players.push_back({entry.player(), safeName(entry.name()), static_cast<df::Color>(entry.color()),
@@ -71,16 +80,16 @@ std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
     case wire::ServerMessage::kSnapshot:
       return SnapshotMessage{std::move(*wire.mutable_snapshot())};
     case wire::ServerMessage::kPlayers:
-      return check(wire.players());
+      return check(wire.players(), wire.number());
     case wire::ServerMessage::kRefused:
       return RefusedMessage{wire.refused().reason() == wire::Refused::BUSY,
                             safeText(wire.refused().sentence(), kMaxSentenceLength)};
     case wire::ServerMessage::kGoodbye:
       return GoodbyeMessage{safeText(wire.goodbye().sentence(), kMaxSentenceLength)};
     case wire::ServerMessage::kChat:
-      return ChatMessage{wire.chat().player(), safeText(wire.chat().text(), kMaxChatLength)};
+      return ChatMessage{wire.chat().player(), safeText(wire.chat().text(), kMaxChatLength), wire.number()};
     case wire::ServerMessage::kPong:
-      return PongMessage{wire.pong().token()};
+      return PongMessage{wire.pong().token(), wire.pong().received()};
     case wire::ServerMessage::WHAT_NOT_SET:
       return std::nullopt;
   }

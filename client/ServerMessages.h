@@ -17,6 +17,13 @@
 
 namespace naiad {
 
+/// What a session is at that another process goes on with.
+struct Continuation {
+  std::uint32_t snapshot = 0;    ///< number of the newest
+  std::uint8_t world_epoch = 0;  ///< 0 … 3
+  std::uint32_t input = 0;       ///< id of the newest
+};
+
 /// The join was granted.
 struct WelcomeMessage {
   std::uint32_t player = 0;  ///< this player's id, never 0
@@ -27,13 +34,16 @@ struct WelcomeMessage {
   int view_width = 80;
   int view_height = 24;
   df::Color color = df::COLOR_DEFAULT;
-  std::vector<std::string> help;    ///< the game's own lines
-  std::uint32_t tick_now = 0;       ///< the world's tick, about now
-  std::uint64_t connection_id = 0;  ///< of the session's datagrams
-  std::uint32_t aead = 0;           ///< their cipher; 0: no datagrams
-  std::uint32_t epoch = 0;          ///< of their keys
-  std::string resume_token;         ///< empty: the session ends with its stream
-  bool resumed = false;             ///< an earlier session goes on
+  std::vector<std::string> help;             ///< the game's own lines
+  std::uint32_t tick_now = 0;                ///< the world's tick, about now
+  std::uint64_t connection_id = 0;           ///< of the session's datagrams
+  std::uint32_t aead = 0;                    ///< their cipher; 0: no datagrams
+  std::uint32_t epoch = 0;                   ///< of their keys
+  std::string resume_token;                  ///< empty: the session ends with its stream
+  bool resumed = false;                      ///< an earlier session goes on
+  std::chrono::milliseconds grace{0};        ///< the server waits so long for another stream
+  std::optional<Continuation> continuation;  ///< for a process that was not there before
+  std::uint32_t received = 0;                ///< for one that was: newest kept frame that came
 };
 
 struct RefusedMessage {
@@ -60,15 +70,18 @@ struct PlayerLine {
 
 struct PlayersMessage {
   std::vector<PlayerLine> players;
+  std::uint32_t number = 0;  ///< of a kept frame (KeptFrames.h); 0: it is none
 };
 
 struct ChatMessage {
   std::uint32_t player = 0;  ///< 0: the server itself
   std::string text;
+  std::uint32_t number = 0;  ///< of a kept frame; 0: it is none
 };
 
 struct PongMessage {
   std::uint64_t token = 0;
+  std::uint32_t received = 0;  ///< newest of our kept frames that came
 };
 
 using ServerMessageValue = std::variant<WelcomeMessage, RefusedMessage, GoodbyeMessage, SnapshotMessage,

@@ -25,6 +25,12 @@ struct Counters {
   std::uint64_t message_floods = 0;      ///< more messages between two ticks than allowed: ended
   std::uint64_t detached = 0;            ///< streams that broke while their session goes on
   std::uint64_t resumed = 0;             ///< sessions that went on with another stream
+  std::uint64_t restarted = 0;           ///< of these: with another process of the client
+  std::uint64_t refused_elsewhere = 0;   ///< came back, but the session goes on in another process
+  std::uint64_t unknown_tokens = 0;      ///< of no session that is still there: a new player, or a guess
+  std::uint64_t kept_overflows = 0;      ///< more was to be kept for a client than may be: ended
+  std::uint64_t repeated_frames = 0;     ///< kept frames that had come already: ignored
+  std::uint64_t stuck_streams = 0;       ///< not taken in for 10 s: ended
   std::uint64_t graces_expired = 0;      ///< clients that did not come back in time
   std::uint64_t refused_password = 0;    ///< missing or wrong
   std::uint64_t divergences = 0;         ///< a client held another world than it was sent: sent anew

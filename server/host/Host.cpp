@@ -24,6 +24,14 @@ constexpr std::chrono::seconds kDrainTime{1};
 constexpr std::chrono::seconds kLonely{60};     ///< --exit-when-empty, if nobody ever came
 constexpr std::uint32_t kPlayerListEvery = 15;  ///< ticks
 
+/// How to seal datagrams for `channel`, if there is one.
+void describe(const DatagramService::Channel* channel, wire::Welcome& welcome) {
+  if (channel == nullptr) return;
+  welcome.set_connection_id(channel->id());
+  welcome.set_aead(static_cast<std::uint32_t>(channel->aead()));
+  welcome.set_epoch(channel->epoch());
+}
+
 /// The colours players get, in turn; black would not be seen.
 constexpr df::Color kPlayerColors[] = {df::CYAN, df::GREEN, df::MAGENTA, df::YELLOW,
                                        df::RED,  df::BLUE,  df::WHITE};
@@ -196,7 +204,7 @@ void Host::sendPlayers(const df::World& world) {
   std::string bytes = message.SerializeAsString();
   if (bytes == m_players_told) return;
   m_players_told = std::move(bytes);
-  forEachPlaying([&](Session& session) { session.send(message); });
+  forEachPlaying([&](Session& session) { session.sendKept(message, true); });
 }
 
 void Host::accept(std::unique_ptr<ReliableChannel> channel) {
@@ -224,7 +232,7 @@ void Host::accept(std::unique_ptr<ReliableChannel> channel) {
 
 // A session may go on with another stream at once; a new player may have to prove that he knows the password.
 void Host::greet(Session& session, const wire::Hello& hello) {
-  if (!checkHello(session, hello) || resume(session, hello)) return;
+  if (!checkHello(session, hello) || (!hello.resume_token().empty() && resume(session, hello))) return;
   if (m_password) return checkPassword(session, hello);
   admit(session, hello);
 }
@@ -273,26 +281,40 @@ void Host::checkPassword(Session& session, const wire::Hello& hello) {
 
 // Does the hello name a session that may go on? Then it does, on this stream.
 bool Host::resume(Session& session, const wire::Hello& hello) {
-  const auto id = hello.resume_token().empty() ? std::nullopt : m_tokens.redeem(hello.resume_token());
+  if (m_tokens.isElsewhere(hello.resume_token())) {
+    ++m_counters.refused_elsewhere;
+    session.refuse(wire::Refused::ELSEWHERE, "You went on playing in another terminal.");
+    return true;
+  }
+  const auto id = m_tokens.redeem(hello.resume_token());
   Session* before = id ? find(*id) : nullptr;
-  if (before == nullptr || before->state() != Session::State::kPlaying) return false;
+  if (before == nullptr || before->state() != Session::State::kPlaying) {
+    ++m_counters.unknown_tokens;
+    return false;
+  }
   wire::Welcome welcome = before->welcomed();
   welcome.set_resumed(true);
   welcome.set_tick(m_publisher.tick());
   welcome.set_resume_token(m_tokens.issue(before->id()));
   welcome.set_aead(0);
+  if (hello.fresh()) {
+    m_tokens.noteRestart(before->id());
+    auto datagrams = openDatagrams(session, hello);
+    describe(datagrams.get(), welcome);
+    before->restart(session, welcome, std::move(datagrams));
+    m_players_told.clear();  // he has none
+    m_log(before->name() + " is back from " + before->address() + ", with another client");
+    return true;
+  }
   if (DatagramService::Channel* datagrams = before->datagrams()) {
     const Epoch epoch = datagrams->epoch() + 1;
+    welcome.set_connection_id(datagrams->id());
     const auto exporter = [&session](std::string_view label, std::string_view context, std::size_t bytes) {
       return session.exportSecret(label, context, bytes);
     };
-    if (datagrams->renew(exporter, epoch)) {
-      welcome.set_aead(static_cast<std::uint32_t>(datagrams->aead()));
-      welcome.set_epoch(epoch);
-    }
+    if (datagrams->renew(exporter, epoch)) describe(datagrams, welcome);
   }
-  before->adopt(session, welcome);
-  m_players_told.clear();  // he may have missed the last one
+  before->adopt(session, welcome, hello.received());
   m_log(before->name() + " is back from " + before->address());
   return true;
 }
@@ -338,13 +360,11 @@ void Host::admit(Session& session, const wire::Hello& hello) {
     }
   }
   std::unique_ptr<DatagramService::Channel> datagrams = openDatagrams(session, hello);
-  if (datagrams) {
-    welcome.set_connection_id(datagrams->id());
-    welcome.set_aead(static_cast<std::uint32_t>(datagrams->aead()));
-    welcome.set_epoch(datagrams->epoch());
-  }
-  const auto grace = std::chrono::duration<double>(m_options.grace);
-  session.setGrace(std::chrono::duration_cast<std::chrono::milliseconds>(grace));
+  describe(datagrams.get(), welcome);
+  const auto grace =
+      std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(m_options.grace));
+  session.setGrace(grace);
+  welcome.set_grace_millis(static_cast<std::uint32_t>(grace.count()));
   if (m_options.grace > 0) welcome.set_resume_token(m_tokens.issue(session.id()));
   session.welcome(welcome, std::move(datagrams));
   m_players_told.clear();
@@ -378,7 +398,7 @@ void Host::chat(const Session& session, const std::string& text) {
   wire::ServerMessage message;
   message.mutable_chat()->set_player(session.player());
   message.mutable_chat()->set_text(text);
-  forEachPlaying([&](Session& other) { other.send(message); });
+  forEachPlaying([&](Session& other) { other.sendKept(message); });
 }
 
 void Host::leave(Session& session) {

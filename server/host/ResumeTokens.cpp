@@ -41,14 +41,33 @@ std::optional<std::uint64_t> ResumeTokens::redeem(const std::string& token) {
   if (found == m_sessions.end()) return std::nullopt;
   const std::uint64_t session = found->second;
   Hashes& hashes = m_hashes.at(session);
-  if (hashes.redeemed != hash) drop(hashes.redeemed);
+  if (hashes.redeemed != hash) dropRedeemed(hashes);
   hashes.redeemed = hash;
   return session;
 }
 
 void ResumeTokens::confirm(std::uint64_t session) {
   const auto found = m_hashes.find(session);
-  if (found != m_hashes.end() && found->second.redeemed != found->second.newest) drop(found->second.redeemed);
+  if (found == m_hashes.end() || found->second.redeemed == found->second.newest) return;
+  dropRedeemed(found->second);
+}
+
+void ResumeTokens::dropRedeemed(Hashes& hashes) {
+  if (hashes.restarted) {
+    m_elsewhere.erase(hashes.elsewhere);
+    m_elsewhere.insert(hashes.elsewhere = hashes.redeemed);
+    hashes.restarted = false;
+  }
+  drop(hashes.redeemed);
+}
+
+void ResumeTokens::noteRestart(std::uint64_t session) {
+  const auto found = m_hashes.find(session);
+  if (found != m_hashes.end()) found->second.restarted = !found->second.redeemed.empty();
+}
+
+bool ResumeTokens::isElsewhere(const std::string& token) const {
+  return m_elsewhere.contains(hashOf(token));
 }
 
 void ResumeTokens::forget(std::uint64_t session) {
@@ -56,6 +75,7 @@ void ResumeTokens::forget(std::uint64_t session) {
   if (found == m_hashes.end()) return;
   drop(found->second.newest);
   drop(found->second.redeemed);
+  m_elsewhere.erase(found->second.elsewhere);
   m_hashes.erase(found);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace naiad {
 
@@ -22,18 +23,27 @@ class ResumeTokens {
   std::optional<std::uint64_t> redeem(const std::string& token);
   /// The client has got the newest token: the one before is void.
   void confirm(std::uint64_t session);
+  /// Another process has redeemed the token: the one before it is to hear of that when it comes with the
+  /// same, though not before confirm().
+  void noteRestart(std::uint64_t session);
+  /// Does the session of this token, void by now, go on in another process?
+  bool isElsewhere(const std::string& token) const;
   /// The session is over.
   void forget(std::uint64_t session);
 
  private:
   struct Hashes {
     std::string newest;
-    std::string redeemed;  ///< empty: none, or void
+    std::string redeemed;    ///< empty: none, or void
+    std::string elsewhere;   ///< the last one void that another process redeemed
+    bool restarted = false;  ///< `redeemed` was, by another process
   };
   void drop(std::string& hash);
+  void dropRedeemed(Hashes& hashes);
 
   std::unordered_map<std::string, std::uint64_t> m_sessions;  ///< by hash
   std::unordered_map<std::uint64_t, Hashes> m_hashes;         ///< by session
+  std::unordered_set<std::string> m_elsewhere;                ///< hashes, one for each session at most
 };
 
 /// Unpredictable bits, from the system.

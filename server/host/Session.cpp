@@ -25,7 +25,12 @@ bool parse(std::string_view frame, wire::ClientMessage& message) {
 }  // namespace
 
 Session::Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now)
-    : m_channel(std::move(channel)), m_counters(counters), m_heard(now), m_chat_refill(now), m_passage(now) {
+    : m_channel(std::move(channel)),
+      m_counters(counters),
+      m_heard(now),
+      m_frame_at(now),
+      m_chat_refill(now),
+      m_passage(now) {
   m_reception->session = this;
 }
 
@@ -39,17 +44,27 @@ void Session::start(Events events) {
 void Session::onClosed(CloseReason reason) {
   if (reason == CloseReason::kProtocol) ++m_counters.malformed_frames;
   const bool lost = reason == CloseReason::kPeer || reason == CloseReason::kError;
-  if (m_state == State::kPlaying && lost && m_grace.count() > 0) return detach();
+  if (m_state == State::kPlaying && lost && m_grace.count() > 0) return detach(now());
   m_state = State::kGone;
   tellGone();
 }
 
 // Go on without the stream.
-void Session::detach() {
+void Session::detach(Clock::time_point now) {
   ++m_counters.detached;
   m_address = m_channel->peerAddress();
   m_channel.reset();
   m_sender.loseLarge();
+  if (m_datagrams == nullptr || !m_passage.isOpen(now)) releaseKeys();
+}
+
+// Nobody holds them any more, as far as one can hear.
+void Session::releaseKeys() {
+  m_pressed.releaseAll([this](Input input) {
+    input.id = m_input_received;  // it is part of what came with that one
+    input.tick = m_tick;
+    m_inputs.push_back(input);
+  });
 }
 
 // Within what a client may send between two ticks? If not, the session has ended.
@@ -65,8 +80,14 @@ bool Session::mayHear() {
 void Session::onFrame(std::string_view frame) {
   if (!mayHear()) return;
   if (std::exchange(m_awaits_proof, false)) m_proved = true;
+  m_frame_at = now();
   wire::ClientMessage message;
-  if (!parse(frame, message) || !dispatch(message)) malformed();
+  if (!parse(frame, message)) return malformed();
+  if (m_state == State::kPlaying && !m_kept_heard.take(message.number())) {
+    ++m_counters.repeated_frames;
+    return;
+  }
+  if (!dispatch(message)) malformed();
 }
 
 void Session::onDatagram(std::string_view bytes) {
@@ -92,8 +113,10 @@ bool Session::dispatch(const wire::ClientMessage& message) {
       return true;
     case What::kPing: {
       m_rtt_millis = std::min<std::uint32_t>(message.ping().rtt_millis(), 99'999);
+      m_kept.acknowledge(message.ping().received());
       wire::ServerMessage answer;
       answer.mutable_pong()->set_token(message.ping().token());
+      answer.mutable_pong()->set_received(m_kept_heard.newest());
       send(answer);
       return true;
     }
@@ -167,6 +190,7 @@ bool Session::takeInput(const Input& input) {
   }
   m_input_received = input.id;
   m_inputs.push_back(input);
+  m_pressed.note(input);
   return true;
 }
 
@@ -213,20 +237,60 @@ std::string Session::exportSecret(std::string_view label, std::string_view conte
 
 void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<DatagramService::Channel> datagrams) {
   m_welcome = welcome;
+  m_welcome.clear_resume_token();  // only its hash is kept (ResumeTokens)
   m_player = welcome.player();
   m_name = welcome.name();
   m_state = State::kPlaying;
+  answer(welcome);
+  m_datagrams = std::move(datagrams);
+  if (m_datagrams) m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes); });
+}
+
+void Session::answer(const wire::Welcome& welcome) {
   m_channel->setReceiveLimit(kMaxClientFrame);
   wire::ServerMessage message;
   *message.mutable_welcome() = welcome;
   send(message);
-  m_datagrams = std::move(datagrams);
-  if (m_datagrams) m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes); });
   m_passage.renewed(now());
   m_awaits_proof = true;
 }
 
-void Session::adopt(Session& other, const wire::Welcome& welcome) {
+void Session::adopt(Session& other, wire::Welcome welcome, std::uint32_t received) {
+  takeStream(other);
+  other.m_state = State::kGone;
+  m_sender.loseLarge();
+  m_kept.acknowledge(received);
+  welcome.set_received(m_kept_heard.newest());
+  answer(welcome);
+  m_kept.forEach([this](const std::string& frame) { m_channel->send(frame); });
+}
+
+void Session::restart(Session& other, wire::Welcome welcome,
+                      std::unique_ptr<DatagramService::Channel> datagrams) {
+  takeStream(other);
+  if (other.m_channel != nullptr) {
+    other.goodbye("You went on playing in another terminal.");
+  } else {
+    other.m_state = State::kGone;
+  }
+  m_sender.reset();
+  m_passage = Passage(now());
+  m_datagrams = std::move(datagrams);
+  if (m_datagrams) m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes); });
+  m_kept.clear();
+  m_kept_heard = {};
+  m_rtt_millis = 0;
+  releaseKeys();
+  wire::Continuation& from = *welcome.mutable_continuation();
+  from.set_snapshot(m_sender.newestNumber());
+  from.set_world_epoch(m_sender.epoch());
+  from.set_input(m_input_received);
+  answer(welcome);
+  ++m_counters.restarted;
+}
+
+// `other` has the old one afterwards, if there was one, and tells nobody of its end.
+void Session::takeStream(Session& other) {
   if (m_channel != nullptr) {  // the old stream has not noticed yet that nobody is there
     m_reception->session = &other;
     std::swap(m_reception, other.m_reception);
@@ -238,16 +302,10 @@ void Session::adopt(Session& other, const wire::Welcome& welcome) {
   }
   m_reception->session = this;
   other.m_reception->session = &other;
-  other.m_state = State::kGone;
   other.m_told_gone = true;
   m_heard = now();
-  m_channel->setReceiveLimit(kMaxClientFrame);
-  m_sender.loseLarge();
-  wire::ServerMessage message;
-  *message.mutable_welcome() = welcome;
-  send(message);
-  m_passage.renewed(now());
-  m_awaits_proof = true;
+  m_drain.restart();
+  allowSavedChat(m_heard);
   ++m_counters.resumed;
 }
 
@@ -265,8 +323,19 @@ void Session::checkDeadlines(Clock::time_point now) {
   m_messages = 0;
   if (now - m_chat_refill >= std::chrono::seconds(1)) {
     m_chat_refill = now;
-    m_chat_budget = kChatPerSecond;
+    m_chat_budget = std::max(m_chat_budget, kChatPerSecond);
   }
+  checkSilence(now);
+}
+
+// What he said while nothing came by stream comes all at once.
+void Session::allowSavedChat(Clock::time_point now) {
+  const auto away = std::chrono::floor<std::chrono::seconds>(now - m_frame_at).count();
+  m_chat_budget = static_cast<int>(std::min<std::int64_t>(kChatPerSecond * (away + 1), kChatAtOnce));
+}
+
+void Session::checkSilence(Clock::time_point now) {
+  if (isDetached() && now - m_heard > kSuspend) releaseKeys();
   if (m_state == State::kGreeting && now - m_heard > kLoginTimeout) {
     ++m_counters.login_timeouts;
     refuse(wire::Refused::BAD_REQUEST, "The server heard no greeting in time.");
@@ -276,8 +345,13 @@ void Session::checkDeadlines(Clock::time_point now) {
   } else if (m_state == State::kPlaying && !isDetached() && now - m_heard > kIdleTimeout) {
     ++m_counters.idle_timeouts;
     // A line that is down for a while often takes neither end's stream with it.
-    if (m_grace.count() > 0) return detach();
+    if (m_grace.count() > 0) return detach(now);
     goodbye("The server has not heard from you for a while.");
+  } else if (m_state == State::kPlaying && m_channel != nullptr &&
+             m_drain.note(m_channel->unsentBytes(), now) && now - m_heard < StreamDrain::kPatience) {
+    // Who is silent as well is cut off, and may come back.
+    ++m_counters.stuck_streams;
+    goodbye("Your end takes in too little of what the server sends.");
   }
 }
 
@@ -337,6 +411,18 @@ void Session::count(const SnapshotSender::Packet& packet) {
 void Session::skipTick() {
   ++m_skipped_ticks;
   ++m_counters.skipped_ticks;
+}
+
+void Session::sendKept(wire::ServerMessage message, bool replaces) {
+  if (m_state != State::kPlaying) return;
+  message.set_number(m_kept.next());
+  const std::string frame = message.SerializeAsString();
+  if (m_kept.keep(frame, replaces)) {
+    if (m_channel != nullptr) m_channel->send(frame);
+    return;
+  }
+  ++m_counters.kept_overflows;
+  goodbye("More was said than your connection could take in.");
 }
 
 void Session::send(const wire::ServerMessage& message) {

@@ -19,8 +19,11 @@
 #include "Channel.h"
 #include "Counters.h"
 #include "DatagramService.h"
+#include "KeptFrames.h"
 #include "Passage.h"
+#include "PressedKeys.h"
 #include "SnapshotSender.h"
+#include "StreamDrain.h"
 #include "UpdateCodec.h"
 #include "naiad.pb.h"
 
@@ -50,6 +53,10 @@ class Session {
   /// An input that asks for a tick farther off has asked for nonsense.
   static constexpr std::int32_t kMostEarly = 8;
   static constexpr int kChatPerSecond = 3;
+  /// Lines at once from a client that comes back, if it was away long enough to have said them.
+  static constexpr int kChatAtOnce = 30;
+  /// Silence after which a player without a stream lets go of his keys.
+  static constexpr std::chrono::seconds kSuspend{1};
   /// An honest client that catches up after a stall sends fewer: every reply is bounded by what it got.
   static constexpr int kMessagesPerTick = 1024;
 
@@ -64,9 +71,13 @@ class Session {
   void refuse(wire::Refused::Reason reason, const std::string& sentence);
   /// Answer the hello: the client plays from now on. With `datagrams` if there are to be any.
   void welcome(const wire::Welcome& welcome, std::unique_ptr<DatagramService::Channel> datagrams = nullptr);
-  /// The client is back: take over the stream on which `other` heard its hello, and answer that. `other` is
-  /// Gone afterwards.
-  void adopt(Session& other, const wire::Welcome& welcome);
+  /// The client is back: take over the stream on which `other` heard its hello, and answer that; then comes
+  /// what it has missed of the frames that are kept, all after number `received`. `other` is Gone afterwards.
+  void adopt(Session& other, wire::Welcome welcome, std::uint32_t received);
+  /// Another process of the client, which knows nothing yet, goes on with the session: the same, but it is
+  /// told the world from the beginning, and with `datagrams` of its own, if any. Whoever still holds the old
+  /// stream is told that he went on elsewhere.
+  void restart(Session& other, wire::Welcome welcome, std::unique_ptr<DatagramService::Channel> datagrams);
   /// Wait this long for a client whose stream broke. 0: do not.
   void setGrace(std::chrono::milliseconds grace) { m_grace = grace; }
   /// The stream is broken; the client may come back.
@@ -101,6 +112,9 @@ class Session {
   /// Note a published tick, and send what is owed unless the client is still busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player);
   void send(const wire::ServerMessage& message);
+  /// Send it so that it arrives, on this stream or another one: it is kept until the client has it.
+  /// `replaces`: it says all that the last one did that was sent with the same.
+  void sendKept(wire::ServerMessage message, bool replaces = false);
 
   State state() const { return m_state; }
   std::uint32_t player() const { return m_player; }
@@ -123,7 +137,12 @@ class Session {
   void onFrame(std::string_view frame);
   void onDatagram(std::string_view bytes);
   void onClosed(CloseReason reason);
-  void detach();
+  void detach(Clock::time_point now);
+  void takeStream(Session& other);
+  void answer(const wire::Welcome& welcome);
+  void releaseKeys();
+  void checkSilence(Clock::time_point now);
+  void allowSavedChat(Clock::time_point now);
   bool mayHear();
   Clock::time_point now() const { return m_events.now ? m_events.now() : Clock::now(); }
   void sendDatagrams(const Publisher& publisher, Clock::time_point present);
@@ -151,7 +170,8 @@ class Session {
   Events m_events;
   std::uint64_t m_id = 0;
   State m_state = State::kGreeting;
-  Clock::time_point m_heard;  ///< when the client last sent a frame
+  Clock::time_point m_heard;     ///< when the client was last heard, to a tick
+  Clock::time_point m_frame_at;  ///< … on a stream
   bool m_told_gone = false;
   bool m_greeted = false;       ///< the hello has come
   bool m_spoke = false;         ///< a frame came since then
@@ -163,6 +183,10 @@ class Session {
   std::uint32_t m_rtt_millis = 0;
   std::uint64_t m_skipped_ticks = 0;
   std::deque<Input> m_inputs;
+  PressedKeys m_pressed;  ///< once all of m_inputs is taken in
+  KeptFrames m_kept;
+  KeptFramesHeard m_kept_heard;
+  StreamDrain m_drain;
   std::shared_ptr<const df::ControlTable> m_controls;
   std::uint32_t m_input_received = 0;
   std::uint32_t m_tick = 0;  ///< newest published

@@ -91,6 +91,8 @@ class SnapshotSender {
   std::size_t knownCount() const { return m_known.aliveCount(); }
   const KnownObjects& known() const { return m_known; }
   std::uint32_t newestNumber() const { return m_next_number - 1; }
+  /// Of the world, as the client knows it: counts resets, modulo 4.
+  std::uint8_t epoch() const { return m_epoch; }
 
   static constexpr std::uint32_t kKeepAlive = 5;
   /// Snapshots unacknowledged at most; the oldest beyond that is taken for lost.

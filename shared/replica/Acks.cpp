@@ -3,12 +3,15 @@
 namespace naiad {
 
 void AckWindow::note(std::uint32_t number) {
+  if (newest == 0) {  // the first; it may be any, where a session is gone on with
+    newest = number;
+    return;
+  }
   const auto ahead = static_cast<std::int32_t>(number - newest);
   if (ahead == 0) return;
   if (ahead > 0) {
-    const bool first = newest == 0 && mask == 0;
-    mask = ahead > 64 ? 0 : ahead == 64 ? 0 : mask << ahead;
-    if (!first && ahead <= 64) mask |= std::uint64_t{1} << (ahead - 1);
+    mask = ahead >= 64 ? 0 : mask << ahead;
+    if (ahead <= 64) mask |= std::uint64_t{1} << (ahead - 1);
     newest = number;
   } else if (ahead >= -64) {
     mask |= std::uint64_t{1} << (-ahead - 1);

@@ -58,8 +58,10 @@ std::unique_ptr<ClientSession> Bot::makeSession(std::unique_ptr<ReliableChannel>
   SessionOptions options;
   options.name = "bot" + std::to_string(m_number);
   options.program = "soak";
-  if (m_shown.session && m_shown.session->isDetached())
+  if (m_shown.session && m_shown.session->isDetached()) {
     options.resume_token = m_shown.session->welcome().resume_token;
+    options.received = m_shown.session->receivedFrames();
+  }
   options.now = [this] { return now(); };
   auto opened = std::make_shared<const DatagramSocket*>(nullptr);
   m_p_opened = opened;
@@ -125,7 +127,7 @@ void Bot::checkPending() {
     if (m_shown.session) ++m_place.tally.lost_sessions;
     m_shown = std::move(m_pending);
     m_pending = {};
-    m_unheard.clear();
+    forgetInputs();
     m_backoff = kFirstBackoff;
     m_snapshots_seen = 0;
     ++m_place.tally.joins;
@@ -185,7 +187,7 @@ void Bot::applyWeather() {
 void Bot::quit(std::chrono::milliseconds pause) {
   m_shown = {};
   m_pending = {};
-  m_unheard.clear();
+  forgetInputs();
   m_connecting = false;
   m_backoff = kFirstBackoff;
   m_snapshots_seen = 0;
@@ -247,13 +249,31 @@ void Bot::press() {
   if (m_random.below(3000) == 0) session.sendChat("all is well with " + std::to_string(m_number));
 }
 
+// The server lets go of the keys of one who is cut off; that may come before his own release of the same key.
 void Bot::heard(const Heard& what) {
-  if (m_unheard.empty() || m_unheard.front().what != what.what || m_unheard.front().action != what.action ||
-      m_unheard.front().is_mouse != what.is_mouse) {
+  const bool is_release = !what.is_mouse && what.action == df::KEY_RELEASED;
+  const bool is_next = !m_unheard.empty() && m_unheard.front().what == what.what &&
+                       m_unheard.front().action == what.action && m_unheard.front().is_mouse == what.is_mouse;
+  if (!is_next) {
+    if (is_release && m_down.erase(what.what) + m_let_go.erase(what.what) > 0) return;
     ++m_place.tally.inputs_wrong;
     return;
   }
   m_unheard.pop_front();
+  if (what.is_mouse) return;
+  if (!is_release) {
+    m_down.insert(what.what);
+    return;
+  }
+  m_down.erase(what.what);
+  const Session* far = m_place.host.find(player());
+  if (far != nullptr && far->isDetached()) m_let_go.insert(what.what);
+}
+
+void Bot::forgetInputs() {
+  m_unheard.clear();
+  m_down.clear();
+  m_let_go.clear();
 }
 
 void Bot::watch() {

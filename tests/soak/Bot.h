@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "BotPlayer.h"
@@ -60,6 +61,7 @@ class Bot {
   };
 
   Time now() const { return timeOf(m_place.clock); }
+  void forgetInputs();
   void attempt();
   void attach();
   std::unique_ptr<ClientSession> makeSession(std::unique_ptr<ReliableChannel> channel, Seat& seat);
@@ -87,6 +89,8 @@ class Bot {
   Time m_next_attempt{};
   bool m_connecting = false;
   std::deque<Heard> m_unheard;
+  std::set<int> m_down;    ///< keys, as far as the game has heard
+  std::set<int> m_let_go;  ///< … whose release may have been the server's, so that another one comes
   Time m_calm_since{};
   Time m_news_at{};
   std::uint64_t m_snapshots_seen = 0;

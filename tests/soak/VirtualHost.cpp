@@ -73,7 +73,7 @@ bool VirtualHost::resume(Session& session, const wire::Hello& hello) {
       welcome.set_epoch(epoch);
     }
   }
-  before.adopt(session, welcome);
+  before.adopt(session, welcome, hello.received());
   return true;
 }
 
@@ -109,7 +109,7 @@ void VirtualHost::chat(const Session& session, const std::string& text) {
   wire::ServerMessage message;
   message.mutable_chat()->set_player(session.player());
   message.mutable_chat()->set_text(text);
-  forEachPlaying([&](Session& other) { other.send(message); });
+  forEachPlaying([&](Session& other) { other.sendKept(message); });
 }
 
 void VirtualHost::tick(const std::function<void()>& on_ticked) {
@@ -170,7 +170,7 @@ void VirtualHost::sendPlayers() {
   std::string bytes = message.SerializeAsString();
   if (bytes == m_players_told) return;
   m_players_told = std::move(bytes);
-  forEachPlaying([&](Session& session) { session.send(message); });
+  forEachPlaying([&](Session& session) { session.sendKept(message, true); });
 }
 
 Session* VirtualHost::find(std::uint32_t player) const {

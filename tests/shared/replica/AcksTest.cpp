@@ -80,5 +80,18 @@ TEST(Acks, AJumpOfTheWholeWindowKeepsTheLastBit) {
   EXPECT_TRUE(acks.has(65));
 }
 
+TEST(Acks, TheFirstMayBeAny) {
+  for (const std::uint32_t first : {1u, 65u, 0x80000000u, 0xFFFFFFFFu}) {
+    AckWindow acks;
+    acks.note(first);
+    EXPECT_EQ(acks.newest, first);
+    EXPECT_EQ(acks.mask, 0u) << "nothing before it came";
+    EXPECT_TRUE(acks.has(first));
+    acks.note(first - 2);
+    EXPECT_EQ(acks.newest, first);
+    EXPECT_EQ(acks.mask, 2u);
+  }
+}
+
 }  // namespace
 }  // namespace naiad

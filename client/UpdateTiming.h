@@ -1,0 +1,63 @@
+// When a client says what has arrived and what its player did, and whether datagrams pass. Pure: time is
+// passed in.
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+namespace naiad {
+
+class UpdateTiming {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  static constexpr std::chrono::milliseconds kPassing{1000};     ///< without a datagram: they do not pass
+  static constexpr std::chrono::milliseconds kProbeEvery{1000};  ///< then
+  /// So long without a datagram is odd: the server may not know our address any more.
+  static constexpr std::chrono::milliseconds kQuiet{400};
+  /// After a snapshot on the stream it is open for so long whether the server hears datagrams.
+  static constexpr std::chrono::milliseconds kUndecided{500};
+  static constexpr std::chrono::milliseconds kFirstProbes{100};  ///< in the first second
+  static constexpr std::chrono::milliseconds kRepeatInput{10};   ///< a new input is sent again after this
+  static constexpr int kAckEvery = 3;                            ///< snapshots that come as datagrams
+  static constexpr std::chrono::milliseconds kAckDelay{50};      ///< of the last one, at most
+  static constexpr std::chrono::milliseconds kPingEvery{1000};   ///< by datagram
+
+  /// There is a stream, another one perhaps.
+  void attached(Time now) { m_attached = now; }
+  void datagramCame(Time now) { m_last_datagram = now; }
+  void streamSnapshotCame(Time now) { m_last_streamed = now; }
+  /// A datagram goes out, with an update. True if it shall carry a ping.
+  bool datagramGoes(Time now);
+  /// An update is made, for either way.
+  void updateMade();
+  /// The player did something.
+  void inputMade(Time now) { m_repeat_at = now + kRepeatInput; }
+  /// A snapshot was applied. `gap`: the one before it is missing. True if it is to be acknowledged at once:
+  /// not each of them, unless something is missing.
+  bool snapshotApplied(bool gap, Time now);
+
+  /// Do datagrams come?
+  bool hasDatagrams(Time now) const { return now - m_last_datagram < kPassing; }
+  /// The server sent on the stream just now: it may not hear datagrams.
+  bool isUndecided(Time now) const { return now - m_last_streamed < kUndecided; }
+  /// It is time to find out whether they pass.
+  bool isProbeDue(Time now) const;
+  bool isAckDue(Time now) const { return m_acknowledge_at && now >= *m_acknowledge_at; }
+  /// True once when new inputs should be sent again.
+  bool takeRepeat(Time now);
+  /// When one of these will be due before the usual time; nothing if none will.
+  std::optional<Time> nextWake() const;
+
+ private:
+  Time m_attached{};
+  Time m_last_datagram{};
+  Time m_last_streamed{};
+  Time m_last_sent{};        ///< datagram
+  Time m_last_ping{};        ///< likewise
+  int m_unacknowledged = 0;  ///< snapshots
+  std::optional<Time> m_acknowledge_at;
+  std::optional<Time> m_repeat_at;
+};
+
+}  // namespace naiad

@@ -1,0 +1,175 @@
+// The client's part in a session that goes on: in another process, and in what is kept.
+#include "ClientSessionFixture.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class ClientReturn : public ClientSessionFixture {
+ protected:
+  /// Another process, with the token only.
+  void restart(const std::optional<Continuation>& from) {
+    SessionOptions options;
+    options.name = "Ada";
+    options.resume_token = "0123456789abcdef";
+    options.fresh = true;
+    session = std::make_unique<ClientSession>(std::make_unique<FakeChannel>(log), options, now);
+    wire::ServerMessage message = welcomeMessage();
+    message.mutable_welcome()->set_resumed(true);
+    if (from) {
+      wire::Continuation& wire = *message.mutable_welcome()->mutable_continuation();
+      wire.set_snapshot(from->snapshot);
+      wire.set_world_epoch(from->world_epoch);
+      wire.set_input(from->input);
+    }
+    receive(message);
+  }
+  static wire::ServerMessage line(const std::string& text, std::uint32_t number) {
+    wire::ServerMessage message;
+    message.mutable_chat()->set_text(text);
+    message.set_number(number);
+    return message;
+  }
+  std::vector<std::string> heard() const {
+    std::vector<std::string> lines;
+    for (const ChatEntry& entry : session->chat()) lines.push_back(entry.text);
+    return lines;
+  }
+  const wire::Ping* lastPing() const {
+    for (auto message = log->sent.rbegin(); message != log->sent.rend(); ++message) {
+      if (message->has_ping()) return &message->ping();
+    }
+    return nullptr;
+  }
+};
+
+TEST_F(ClientReturn, AHelloOfAnotherProcessSaysSo) {
+  restart(Continuation{});
+  const auto& hello =
+      log->sent[log->sent.size() - 2].has_hello() ? log->sent[log->sent.size() - 2] : log->sent[1];
+  EXPECT_TRUE(hello.hello().fresh());
+  EXPECT_EQ(hello.hello().resume_token(), "0123456789abcdef");
+  EXPECT_EQ(heard(), std::vector<std::string>{"You are back in your old session."});
+}
+
+TEST_F(ClientReturn, NumbersGoOnFromWhereTheyWere) {
+  for (const std::uint32_t at : {70'000u, 0x80000005u, 0xFFFF0000u}) {
+    restart(Continuation{at, 2, at + 9});
+    ASSERT_EQ(session->state(), ClientSession::State::kPlaying);
+    SnapshotHeader header;
+    header.number = at + 1;
+    header.tick = 5;
+    header.epoch = 2;
+    SnapshotWriter out;
+    out.begin(header, 0, {});
+    wire::ServerMessage message;
+    message.set_snapshot(out.finish());
+    receive(message);
+    EXPECT_TRUE(session->hasPicture());
+    EXPECT_EQ(session->replica().newest().number, at + 1);
+    EXPECT_EQ(session->counters().resets, 0u) << "it is the first world that this process sees";
+    EXPECT_EQ(lastUpdate().acks.newest, at + 1);
+    EXPECT_EQ(lastUpdate().acks.mask, 0u) << "what came to another process did not come to this one";
+    ASSERT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
+    const auto update = readUpdate(last().update(), {at + 1, 5, at + 9});
+    ASSERT_TRUE(update && update->inputs.size() == 1);
+    EXPECT_EQ(update->inputs[0].id, at + 10);
+  }
+}
+
+TEST_F(ClientReturn, AServerThatLeavesOutWhereToGoOnIsBroken) {
+  restart(std::nullopt);
+  EXPECT_EQ(session->state(), ClientSession::State::kEnded);
+}
+
+TEST_F(ClientReturn, ATokenThatIsVoidMakesANewPlayer) {
+  SessionOptions options;
+  options.resume_token = "0123456789abcdef";
+  options.fresh = true;
+  session = std::make_unique<ClientSession>(std::make_unique<FakeChannel>(log), options, now);
+  join();
+  EXPECT_EQ(session->state(), ClientSession::State::kPlaying);
+  EXPECT_TRUE(heard().empty());
+}
+
+TEST_F(ClientReturn, AWorldEpochOutOfRangeIsRefused) {
+  wire::ServerMessage message = welcomeMessage();
+  message.mutable_welcome()->mutable_continuation()->set_world_epoch(4);
+  receive(message);
+  expectRejected();
+}
+
+TEST_F(ClientReturn, KeptFramesAreTakenOnceAndAcknowledged) {
+  join();
+  receive(line("one", 1));
+  receive(line("two", 2));
+  receive(line("two", 2));
+  receive(line("one", 1));
+  receive(line("unnumbered", 0));
+  EXPECT_EQ(heard(), (std::vector<std::string>{"one", "two", "unnumbered"}));
+  EXPECT_EQ(session->counters().repeated_frames, 2u);
+  EXPECT_EQ(session->receivedFrames(), 2u);
+  now += 1s;
+  session->update(now);
+  ASSERT_NE(lastPing(), nullptr);
+  EXPECT_EQ(lastPing()->received(), 2u);
+}
+
+TEST_F(ClientReturn, MuchIsAcknowledgedAtOnce) {
+  join();
+  const std::size_t before = log->sent.size();
+  std::uint32_t number = 0;
+  for (std::size_t bytes = 0; bytes < ClientSession::kMuchKept;) {
+    EXPECT_EQ(log->sent.size(), before);
+    const wire::ServerMessage message = line(std::string(200, 'x'), ++number);
+    bytes += message.ByteSizeLong();
+    receive(message);
+  }
+  ASSERT_EQ(log->sent.size(), before + 1);
+  EXPECT_EQ(lastPing()->received(), session->receivedFrames());
+}
+
+TEST_F(ClientReturn, LinesWaitForAStreamAndAreSaidAgainUntilAcknowledged) {
+  wire::ServerMessage welcome = welcomeMessage();
+  welcome.mutable_welcome()->set_resume_token("token");
+  receive(welcome);
+  session->sendChat("one");
+  EXPECT_EQ(last().number(), 1u);
+  session->sendChat("two");
+  wire::ServerMessage pong;
+  pong.mutable_pong()->set_received(1);
+  receive(pong);
+  session->closed(CloseReason::kError);
+  ASSERT_TRUE(session->isDetached());
+  session->sendChat("three");
+
+  auto next = std::make_shared<FakeChannel::Log>();
+  SessionOptions options;
+  options.resume_token = "token";
+  options.received = session->receivedFrames();
+  ClientSession pending(std::make_unique<FakeChannel>(next), options, now);
+  welcome.mutable_welcome()->set_resumed(true);
+  welcome.mutable_welcome()->set_received(1);
+  pending.receive(welcome.SerializeAsString(), now);
+  session->adopt(pending, now);
+  std::vector<std::string> said;
+  for (const wire::ClientMessage& message : next->sent) {
+    if (message.has_chat()) said.push_back(message.chat().text() + " " + std::to_string(message.number()));
+  }
+  EXPECT_EQ(said, (std::vector<std::string>{"two 2", "three 3"}));
+}
+
+TEST_F(ClientReturn, TooMuchThatWaitsIsNotTaken) {
+  wire::ServerMessage welcome = welcomeMessage();
+  welcome.mutable_welcome()->set_resume_token("token");
+  receive(welcome);
+  session->closed(CloseReason::kError);
+  for (int i = 0; i < 1000; ++i) session->sendChat(std::string(200, 'x'));
+  EXPECT_GT(session->counters().chat_dropped, 600u);
+  EXPECT_LT(session->counters().chat_dropped, 750u);
+  EXPECT_EQ(session->state(), ClientSession::State::kPlaying);
+}
+
+}  // namespace
+}  // namespace naiad::test
