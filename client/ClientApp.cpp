@@ -36,6 +36,7 @@ SessionOptions withTerminalSize(SessionOptions options) {
 ClientApp::ClientApp(Options options)
     : m_options(std::move(options)),
       m_connection(m_context, m_options.address, withTerminalSize(m_options.session), true, m_options.trust) {
+  if (m_options.p_session_file != nullptr) m_connection.keepIn(*m_options.p_session_file);
 }
 
 ClientApp::~ClientApp() = default;

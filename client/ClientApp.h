@@ -31,6 +31,7 @@ class ClientApp {
     ServerAddress address;
     SessionOptions session;  ///< the terminal's size is filled in here
     ServerTrust trust;
+    SessionFile* p_session_file = nullptr;  ///< for a successor; null: none shall go on
     bool ascii = false;
     bool mouse = true;
     bool colors = true;

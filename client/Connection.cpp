@@ -61,8 +61,10 @@ std::string Connection::judge() const {
 void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
   ReliableChannel& started = *channel;
   const ReliableChannel* p_channel = channel.get();
+  m_key.reset();
+  if (const auto facts = m_connector.peerFacts()) m_key = facts->key;
   SessionOptions options = m_options;
-  if (m_session && m_session->isDetached()) options.resume_token = m_session->welcome().resume_token;
+  chooseToken(options);
   m_pending = std::make_unique<ClientSession>(std::move(channel), options, Clock::now());
   if (m_observer) m_observer(*m_pending);
   // A stream may change hands: what it says is for the session that owns it.
@@ -74,12 +76,38 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
                    ClientSession* session = owner();
                    if (session == nullptr) return;
                    session->receive(frame, Clock::now());
+                   noteToken(*session);
                    // What follows on a stream that resumes is for the session that goes on.
                    if (session == m_pending.get() && session->isResumed()) checkPending();
                  },
                  [owner](CloseReason reason) {
                    if (ClientSession* session = owner()) session->closed(reason);
                  }});
+}
+
+// Only the server that gave a token gets to see it.
+void Connection::chooseToken(SessionOptions& options) const {
+  if (m_session && m_session->isDetached()) {
+    if (m_token_key != m_key) return;
+    options.resume_token = m_token;
+    options.received = m_session->receivedFrames();
+  } else if (!m_session && m_p_file != nullptr && m_key && options.resume_token.empty()) {
+    options.resume_token = m_p_file->tokenFor(*m_key);
+    options.fresh = !options.resume_token.empty();
+  }
+}
+
+void Connection::noteToken(const ClientSession& session) {
+  if (session.state() != ClientSession::State::kPlaying || session.welcome().resume_token == m_token) return;
+  m_token = session.welcome().resume_token;
+  m_token_key = m_key;
+  if (m_p_file == nullptr || !m_key) return;
+  m_p_file->save({.server = {},
+                  .key = *m_key,
+                  .name = m_options.name,
+                  .token = m_token,
+                  .grace = session.welcome().grace},
+                 std::chrono::system_clock::now());
 }
 
 void Connection::attemptFailed(const std::string& sentence) {
@@ -94,6 +122,9 @@ void Connection::attemptFailed(const std::string& sentence) {
 void Connection::update(Time now) {
   if (isOver()) return;
   if (m_session) m_session->update(now);
+  if (m_p_file != nullptr && m_session && m_session->isHeard(now)) {
+    m_p_file->refresh(std::chrono::system_clock::now());
+  }
   if (m_pending) {
     m_pending->update(now);
     checkPending();
@@ -167,6 +198,9 @@ bool Connection::isOver() const {
 }
 
 void Connection::finish(State state, const std::string& sentence) {
+  // A session that was lost, or whose server was not let near, may still be there.
+  const bool ended = state == State::kEnded || state == State::kLeft;
+  if (m_p_file != nullptr && ended) m_p_file->remove();
   m_connector.cancel();
   m_state = state;
   m_sentence = sentence;

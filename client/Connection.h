@@ -21,6 +21,7 @@
 #include "ClientSession.h"
 #include "KnownServers.h"
 #include "ServerAddress.h"
+#include "SessionFile.h"
 #include "TcpConnector.h"
 
 namespace naiad {
@@ -47,6 +48,9 @@ class Connection {
   Connection(asio::io_context& context, ServerAddress address, SessionOptions options, bool rejoin,
              ServerTrust trust = {});
 
+  /// Keep the session's token in this file, which must outlive the Connection, and go on with the session
+  /// that is in it. Before start().
+  void keepIn(SessionFile& file) { m_p_file = &file; }
   void start();
   /// Time-outs, pings, the next attempt. Call about ten times a second, and after every event.
   void update(Time now);
@@ -73,6 +77,8 @@ class Connection {
   void attempt();
   std::string judge() const;
   void attach(std::unique_ptr<ReliableChannel> channel);
+  void chooseToken(SessionOptions& options) const;
+  void noteToken(const ClientSession& session);
   void attemptFailed(const std::string& sentence);
   void checkPending();
   void finish(State state, const std::string& sentence);
@@ -83,7 +89,11 @@ class Connection {
   ServerAddress m_address;
   SessionOptions m_options;
   bool m_rejoin;
-  bool m_resized = false;  ///< since the pending session said how large the terminal is
+  SessionFile* m_p_file = nullptr;
+  std::optional<Fingerprint> m_key;        ///< of the server on the newest stream
+  std::optional<Fingerprint> m_token_key;  ///< of the server that gave m_token
+  std::string m_token;                     ///< newest of the session
+  bool m_resized = false;                  ///< since the pending session said how large the terminal is
   State m_state = State::kJoining;
   std::string m_sentence;
   std::unique_ptr<ClientSession> m_session;  ///< shown

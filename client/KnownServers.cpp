@@ -14,11 +14,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxFile = std::size_t{4} * 1024 * 1024;  // bytes; some 40,000 servers
 
-/// One spelling for each server: lower case, no dot at the end.
 std::string nameOf(const std::string& host, std::uint16_t port) {
-  std::string name = lowerCase(host);
-  if (name.size() > 1 && name.back() == '.') name.pop_back();
-  return ServerAddress{name, port}.text();
+  return ServerAddress{host, port}.canonicalText();
 }
 
 PinLines readLines(const fs::path& path) {

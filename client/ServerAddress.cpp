@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "PinLines.h"
+
 namespace naiad {
 
 std::optional<ServerAddress> ServerAddress::parse(const std::string& text) {
@@ -43,6 +45,12 @@ std::optional<ServerAddress> ServerAddress::parse(const std::string& text) {
 std::string ServerAddress::text() const {
   const bool ipv6 = host.find(':') != std::string::npos;
   return (ipv6 ? std::string("[") + host + "]" : host) + ":" + std::to_string(port);
+}
+
+std::string ServerAddress::canonicalText() const {
+  ServerAddress one{lowerCase(host), port};
+  if (one.host.size() > 1 && one.host.back() == '.') one.host.pop_back();
+  return one.text();
 }
 
 }  // namespace naiad

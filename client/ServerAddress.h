@@ -18,6 +18,8 @@ struct ServerAddress {
   static std::optional<ServerAddress> parse(const std::string& text);
   /// "localhost:9876", "[::1]:9876".
   std::string text() const;
+  /// The same in one spelling for each server: lower case, no dot at the end of the host.
+  std::string canonicalText() const;
 };
 
 }  // namespace naiad

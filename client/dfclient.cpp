@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -34,6 +35,15 @@ int complain(naiad::ExitCode code, const std::string& sentence) {
   return code;
 }
 
+/// Say from the `from`-th on what was not right with the file. How many there are.
+std::size_t tellProblems(const naiad::SessionFile* p_file, std::size_t from) {
+  if (p_file == nullptr) return 0;
+  for (std::size_t i = from; i < p_file->problems().size(); ++i) {
+    std::fprintf(stderr, "dfclient: %s\n", p_file->problems()[i].c_str());
+  }
+  return p_file->problems().size();
+}
+
 int play(const naiad::ClientApp::Options& options) {
   if (!naiad::TerminalGuard::isTerminal()) {
     return complain(naiad::kExitNoTerminal,
@@ -44,10 +54,12 @@ int play(const naiad::ClientApp::Options& options) {
     return complain(naiad::kExitNoTerminal, "TERM is not set: what kind of terminal is this?");
   }
   naiad::ClientApp::Outcome outcome;
+  const std::size_t told = tellProblems(options.p_session_file, 0);
   {
     naiad::ClientApp app(options);
     outcome = app.run();
   }
+  tellProblems(options.p_session_file, told);
   if (outcome.signal != 0) {
     // The terminal is restored; now die of the signal, so that the parent process sees it.
     std::signal(outcome.signal, SIG_DFL);
@@ -63,6 +75,7 @@ int start(int argc, char** argv) {
   options.session.name = defaultName();
   options.session.program = std::string("dfclient ") + naiad::kVersion;
   bool no_mouse = false;
+  bool no_resume = false;
 
   CLI::App app("Play a Dragonfly game on a Naiad server.", "dfclient");
   app.set_version_flag("--version", std::string("dfclient ") + naiad::kVersion);
@@ -70,11 +83,15 @@ int start(int argc, char** argv) {
       ->required()
       ->type_name("HOST[:PORT]")
       ->envname("NAIAD_SERVER");
-  app.add_option("--name", options.session.name, "Your name in the game, 1 to 16 characters (default: $USER)")
-      ->envname("NAIAD_NAME");
+  const CLI::Option* name = app.add_option("--name", options.session.name,
+                                           "Your name in the game, 1 to 16 characters (default: $USER)")
+                                ->envname("NAIAD_NAME");
   app.add_option("--game", options.session.game, "The game you want; refused if another one runs")
       ->envname("NAIAD_GAME");
   naiad::addTrustOptions(app, options.trust, options.session);
+  app.add_flag("--no-resume", no_resume,
+               "Do not go on with the session of a client that was killed, nor leave yours to the next")
+      ->envname("NAIAD_NO_RESUME");
   app.add_flag("--ascii", options.ascii, "Draw with ASCII characters only")->envname("NAIAD_ASCII");
   app.add_flag("--no-mouse", no_mouse, "Leave the mouse to the terminal")->envname("NAIAD_NO_MOUSE");
   app.footer(footer());
@@ -93,6 +110,13 @@ int start(int argc, char** argv) {
   options.mouse = !no_mouse;
   const char* no_color = std::getenv("NO_COLOR");
   options.colors = no_color == nullptr || *no_color == '\0';
+  std::optional<naiad::SessionFile> file;
+  const auto directory = naiad::SessionFile::defaultDirectory();
+  if (directory && !no_resume && !options.trust.insecure) {
+    const auto wanted = name->count() > 0 ? std::optional(options.session.name) : std::nullopt;
+    file.emplace(*directory, address->canonicalText(), wanted, std::chrono::system_clock::now());
+    options.p_session_file = &*file;
+  }
   try {
     return play(options);
   } catch (const std::runtime_error& error) {

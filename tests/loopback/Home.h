@@ -42,6 +42,7 @@ class Home {
     return setup;
   }
   std::filesystem::path knownServers() const { return m_directory / "known_servers"; }
+  std::filesystem::path sessions() const { return m_directory / "sessions"; }
 
  private:
   std::filesystem::path m_directory;

@@ -122,6 +122,21 @@ TEST_F(Resume, DatagramsGoOnWhileThereIsNoStream) {
   EXPECT_EQ(census.leaves, 0);
 }
 
+TEST_F(Resume, TheRoundTripIsMeasuredWithoutAStream) {
+  start(home.server());
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(settle(ann));
+  proxy->setOpen(false);
+  proxy->cut();
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().isDetached(); }));
+  EXPECT_LT(ann.session().takeInClock().shortestRoundTrip().count(), 40);
+  valve->delay = std::chrono::milliseconds(50);
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] {
+    return ann.session().takeInClock().shortestRoundTrip().count() >= 99;
+  })) << "as datagrams go";
+  EXPECT_TRUE(ann.session().isDetached());
+}
+
 TEST_F(Resume, WithoutDatagramsTheWorldGoesOnFromWhereItWas) {
   start(home.server());
   valve->up = valve->down = false;

@@ -15,6 +15,11 @@ TestClient::TestClient(asio::io_context& context, std::uint16_t port, const Clie
   m_connection.onSession([this](ClientSession& session) {
     session.onBeforeSnapshot([this, &session](std::uint32_t tick) { record(session, tick); });
   });
+  if (!setup.sessions.empty()) {
+    m_file.emplace(setup.sessions, m_connection.address().canonicalText(), setup.options.name,
+                   std::chrono::system_clock::now());
+    m_connection.keepIn(*m_file);
+  }
   m_connection.start();
 }
 

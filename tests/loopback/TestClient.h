@@ -3,8 +3,10 @@
 
 #include <asio/io_context.hpp>
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "Connection.h"
@@ -19,10 +21,12 @@ struct ClientSetup {
   SessionOptions options;
   ServerTrust trust;
   bool rejoin = false;
+  std::filesystem::path sessions;  ///< where session files lie; empty: nowhere
 };
 /// Plain TCP, once.
 ClientSetup insecurely(const std::string& name);
 
+/// Destroying it is as if its process was killed.
 class TestClient {
  public:
   TestClient(asio::io_context& context, std::uint16_t port, const std::string& name)
@@ -44,6 +48,7 @@ class TestClient {
  private:
   void record(ClientSession& session, std::uint32_t tick);
 
+  std::optional<SessionFile> m_file;
   Connection m_connection;
   std::map<std::uint32_t, df::Canvas> m_pictures;
   std::uint32_t m_recorded = 0;  ///< newest tick recorded

@@ -1,0 +1,413 @@
+// A client is killed, and another process goes on with its session: the game notices nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "Census.h"
+#include "Compare.h"
+#include "EventKeyboard.h"
+#include "Home.h"
+#include "Player.h"
+#include "StreamProxy.h"
+#include "TestServer.h"
+#include "Valve.h"
+
+namespace naiad::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kElsewhere = "You went on playing in another terminal.";
+
+/// What the game heard of keys, as counts by action.
+struct Keys {
+  std::atomic<int> pressed = 0;
+  std::atomic<int> released = 0;
+};
+
+class KeyClerk : public df::Object {
+ public:
+  explicit KeyClerk(Keys& keys) : m_keys(keys) {
+    setType("KeyClerk");
+    setSolidness(df::SPECTRAL);
+    setVisible(false);
+    registerInterest(df::KEYBOARD_EVENT);
+  }
+  int eventHandler(const df::Event* p_e) override {
+    const auto* p_key = dynamic_cast<const df::EventKeyboard*>(p_e);
+    if (p_key == nullptr) return 0;
+    if (p_key->getKeyboardAction() == df::KEY_PRESSED) ++m_keys.pressed;
+    if (p_key->getKeyboardAction() == df::KEY_RELEASED) ++m_keys.released;
+    return 1;
+  }
+
+ private:
+  Keys& m_keys;
+};
+
+class Return : public testing::Test {
+ protected:
+  void start(HostOptions options) {
+    const auto populate = [this](df::World& world) {
+      countedWorld(census, 50)(world);
+      new KeyClerk(keys);
+    };
+    server = std::make_unique<TestServer>(populate, std::move(options));
+    proxy = std::make_unique<StreamProxy>(context, server->port());
+    valve->server_port = server->port();
+  }
+  void start() { start(home.server()); }
+  ClientSetup player(const std::string& name) {
+    ClientSetup setup = home.player(name);
+    setup.sessions = home.sessions();
+    setup.options.open_socket = through(context, valve);
+    return setup;
+  }
+  std::unique_ptr<TestClient> client(const ClientSetup& setup) {
+    return std::make_unique<TestClient>(context, proxy->port(), setup);
+  }
+  std::unique_ptr<TestClient> client(const std::string& name) { return client(player(name)); }
+  testing::AssertionResult joins(TestClient& client) {
+    const Connection& connection = client.connection();
+    if (serveUntil(context, {&client}, [&] { return client.joined() || connection.isOver(); }) &&
+        client.joined()) {
+      return testing::AssertionSuccess();
+    }
+    return testing::AssertionFailure() << "state " << static_cast<int>(connection.state()) << ": "
+                                       << connection.sentence() << " " << server->counters().summary();
+  }
+  bool onDatagrams(TestClient& client) {
+    return serveUntil(context, {&client}, [&] {
+      return client.joined() && client.session().hasDatagrams(Clock::now()) &&
+             client.session().counters().datagrams_in > 20;
+    });
+  }
+  bool scores(TestClient& client, std::int32_t score) {
+    return serveUntil(context, {&client}, [&] { return client.session().score() == score; });
+  }
+  /// As many presses, each seen to arrive; the score is theirs.
+  bool press(TestClient& client, int times) {
+    const std::int32_t from = client.session().score();
+    for (int i = 1; i <= times; ++i) {
+      client.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
+      if (!scores(client, from + i)) return false;
+    }
+    return true;
+  }
+  bool seesTheTruth(TestClient& client) {
+    client.forgetPictures();
+    return serveUntil(context, {&client}, [&] {
+      if (client.pictures().empty()) return false;
+      const auto& [tick, picture] = *client.pictures().rbegin();
+      const auto truth = server->truth(tick, client.player());
+      return truth && countDifferences(picture, *truth) == 0;
+    });
+  }
+  /// Play for a while; the checksums of it must be right.
+  bool playsOn(TestClient& client) {
+    const std::uint32_t until = client.newestTick() + 300;
+    return serveUntil(context, {&client}, [&] { return client.newestTick() >= until; }) &&
+           seesTheTruth(client) && server->counters().divergences == 0;
+  }
+  void expectNobodyCameOrWent(int players = 1) {
+    EXPECT_EQ(census.joins, players);
+    EXPECT_EQ(census.leaves, 0);
+    EXPECT_EQ(server->counters().joined, static_cast<std::uint64_t>(players));
+  }
+  static bool lists(TestClient& client, const std::string& name) {
+    const auto& players = client.session().players();
+    return std::any_of(players.begin(), players.end(), [&](const PlayerLine& p) { return p.name == name; });
+  }
+  static std::vector<std::string> linesOf(TestClient& client) {
+    std::vector<std::string> lines;
+    for (const ChatEntry& entry : client.session().chat()) lines.push_back(entry.text);
+    return lines;
+  }
+
+  Home home;
+  Census census;
+  Keys keys;
+  asio::io_context context;
+  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
+  std::unique_ptr<TestServer> server;
+  std::unique_ptr<StreamProxy> proxy;
+};
+
+TEST_F(Return, WhoWasKilledHasHisObjectBack) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  ASSERT_TRUE(press(*ann, 3));
+  const std::uint32_t id = ann->player();
+  for (std::uint64_t round = 1; round <= 3; ++round) {
+    const auto score = static_cast<std::int32_t>(2 + round);
+    ann.reset();
+    ann = client("ann");
+    ASSERT_TRUE(joins(*ann));
+    EXPECT_EQ(ann->player(), id);
+    EXPECT_EQ(ann->session().welcome().name, "ann");
+    EXPECT_EQ(linesOf(*ann), std::vector<std::string>{"You are back in your old session."});
+    EXPECT_TRUE(scores(*ann, score)) << "the player list came";
+    EXPECT_TRUE(press(*ann, 1)) << "its keys are no repetitions";
+    EXPECT_TRUE(onDatagrams(*ann));
+    EXPECT_TRUE(playsOn(*ann));
+    EXPECT_EQ(server->counters().resumed, round);
+    EXPECT_EQ(server->counters().restarted, round);
+  }
+  EXPECT_EQ(keys.pressed, 6);
+  EXPECT_EQ(ann->session().counters().resets, 0u);
+  EXPECT_EQ(server->inWorld([](df::World& world) { return world.objectsOfType("Ship").getCount(); }), 1);
+  expectNobodyCameOrWent();
+}
+
+TEST_F(Return, WithoutDatagramsToo) {
+  start();
+  valve->up = valve->down = false;
+  auto ann = client("ann");
+  ASSERT_TRUE(joins(*ann));
+  ASSERT_TRUE(scores(*ann, 0) && press(*ann, 2));
+  ann.reset();
+  ann = client("ann");
+  ASSERT_TRUE(joins(*ann));
+  EXPECT_TRUE(scores(*ann, 2) && press(*ann, 1));
+  EXPECT_TRUE(playsOn(*ann));
+  expectNobodyCameOrWent();
+}
+
+TEST_F(Return, BeforeTheServerKnowsThatAnybodyWasKilled) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  ASSERT_TRUE(press(*ann, 2));
+  proxy->stall();  // the end of the old stream never reaches the server
+  ann.reset();
+  ann = client("ann");
+  ASSERT_TRUE(joins(*ann));
+  EXPECT_TRUE(scores(*ann, 2) && press(*ann, 1));
+  EXPECT_TRUE(playsOn(*ann));
+  EXPECT_EQ(server->counters().detached, 0u);
+  expectNobodyCameOrWent();
+}
+
+TEST_F(Return, AStreamThatBreaksAfterwardsIsReplacedAsEver) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  ann.reset();
+  ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  ASSERT_TRUE(scores(*ann, 0));
+  proxy->cut();
+  ASSERT_TRUE(serveUntil(context, {ann.get()},
+                         [&] { return !ann->session().isDetached() && server->counters().resumed == 2; }));
+  EXPECT_TRUE(press(*ann, 2));
+  EXPECT_TRUE(playsOn(*ann));
+  EXPECT_EQ(server->counters().restarted, 1u);
+  expectNobodyCameOrWent();
+}
+
+TEST_F(Return, KeysOfTheKilledAreLetGo) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  for (const auto key : {df::Keyboard::LEFTARROW, df::Keyboard::SPACE, df::Keyboard::A}) {
+    ann->session().sendKey(key, df::KEY_PRESSED, Clock::now());
+  }
+  ann->session().sendKey(df::Keyboard::SPACE, df::KEY_RELEASED, Clock::now());
+  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return keys.pressed == 3 && keys.released == 1; }));
+  ann.reset();
+  ASSERT_TRUE(serveUntil(context, {}, [&] { return keys.released == 3; }));
+
+  ann = client("ann");
+  ASSERT_TRUE(joins(*ann));
+  ann->session().sendKey(df::Keyboard::B, df::KEY_PRESSED, Clock::now());
+  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return keys.pressed == 4; }));
+  EXPECT_TRUE(playsOn(*ann));
+  EXPECT_EQ(keys.released, 3) << "those that are gone go once, and who is here holds what he holds";
+  proxy->stall();
+  ann.reset();
+  ann = client("ann");
+  ASSERT_TRUE(joins(*ann));
+  EXPECT_TRUE(serveUntil(context, {ann.get()}, [&] { return keys.released == 4; }))
+      << "also where the server did not know";
+}
+
+TEST_F(Return, ASecondTerminalDoesNotTakeTheSessionOfOneThatRuns) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  auto other = client("ann");
+  ASSERT_TRUE(serveUntil(context, {ann.get(), other.get()}, [&] { return other->joined(); }));
+  EXPECT_NE(other->player(), ann->player());
+  EXPECT_EQ(other->session().welcome().name, "ann2");
+  expectNobodyCameOrWent(2);
+  // Killed both, each comes back as somebody.
+  const std::uint32_t ids = ann->player() + other->player();
+  ann.reset();
+  other.reset();
+  ann = client("ann");
+  other = client("ann");
+  ASSERT_TRUE(
+      serveUntil(context, {ann.get(), other.get()}, [&] { return ann->joined() && other->joined(); }));
+  EXPECT_NE(other->player(), ann->player());
+  EXPECT_EQ(other->player() + ann->player(), ids);
+  expectNobodyCameOrWent(2);
+}
+
+TEST_F(Return, AnotherNameIsAnotherPlayer) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  ann.reset();
+  auto bob = client("bob");
+  ASSERT_TRUE(joins(*bob));
+  EXPECT_EQ(bob->session().welcome().name, "bob");
+  EXPECT_EQ(server->counters().restarted, 0u);
+}
+
+TEST_F(Return, WhoProvesTheTokenElsewhereIsTheOne) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  ASSERT_TRUE(press(*ann, 2));
+  ClientSetup copy = player("copy");
+  copy.sessions.clear();
+  copy.options.resume_token = ann->session().welcome().resume_token;
+  copy.options.fresh = true;
+  auto elsewhere = client(copy);
+  ASSERT_TRUE(serveUntil(context, {ann.get(), elsewhere.get()},
+                         [&] { return elsewhere->joined() && ann->connection().isOver(); }));
+  EXPECT_EQ(ann->connection().state(), Connection::State::kEnded);
+  EXPECT_EQ(ann->connection().sentence(), kElsewhere);
+  EXPECT_TRUE(scores(*elsewhere, 2) && press(*elsewhere, 1));
+  EXPECT_TRUE(playsOn(*elsewhere));
+  expectNobodyCameOrWent();
+  // The first has not kept what is void.
+  EXPECT_TRUE(std::filesystem::exists(home.sessions()));
+  for (const auto& entry : std::filesystem::directory_iterator(home.sessions())) {
+    EXPECT_EQ(entry.path().filename(), "lock");
+  }
+}
+
+TEST_F(Return, WhoWasCutOffMeanwhileIsToldAndStays) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  proxy->setOpen(false);
+  proxy->cut();
+  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return ann->session().isDetached(); }));
+  ClientSetup copy = player("copy");
+  copy.sessions.clear();
+  copy.options.open_socket = nullptr;
+  copy.options.resume_token = ann->session().welcome().resume_token;
+  copy.options.fresh = true;
+  TestClient elsewhere(context, server->port(), copy);
+  ASSERT_TRUE(serveUntil(context, {ann.get(), &elsewhere}, [&] { return elsewhere.joined(); }));
+  const std::uint32_t heard = elsewhere.newestTick() + 30;
+  ASSERT_TRUE(serveUntil(context, {ann.get(), &elsewhere}, [&] { return elsewhere.newestTick() >= heard; }));
+  proxy->setOpen(true);
+  ASSERT_TRUE(serveUntil(context, {ann.get(), &elsewhere}, [&] { return ann->connection().isOver(); }));
+  EXPECT_EQ(ann->connection().state(), Connection::State::kRefused);
+  EXPECT_EQ(ann->connection().sentence(), kElsewhere);
+  EXPECT_EQ(server->counters().refused_elsewhere, 1u);
+  EXPECT_TRUE(playsOn(elsewhere));
+  expectNobodyCameOrWent();
+}
+
+TEST_F(Return, AnotherServerDoesNotGetToSeeTheToken) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  ann.reset();
+  TestServer impostor(countedWorld(census, 1), home.server("another key"));
+  proxy->setServer(impostor.port());
+  valve->server_port = impostor.port();
+  ClientSetup trusting = player("ann");
+  trusting.trust.fingerprint = impostor.fingerprint();
+  ann = client(trusting);
+  ASSERT_TRUE(joins(*ann));
+  EXPECT_EQ(impostor.counters().unknown_tokens, 0u);
+}
+
+TEST_F(Return, AfterTheGraceHeIsANewPlayer) {
+  HostOptions options = home.server();
+  options.grace = 0.3;
+  start(options);
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  EXPECT_EQ(ann->session().welcome().grace, std::chrono::milliseconds(300));
+  ann.reset();
+  ASSERT_TRUE(serveUntil(context, {}, [&] { return census.leaves == 1; }));
+  ann = client("ann");
+  ASSERT_TRUE(joins(*ann));
+  EXPECT_EQ(census.joins, 2);
+  EXPECT_EQ(server->counters().restarted, 0u);
+  EXPECT_TRUE(linesOf(*ann).empty());
+}
+
+TEST_F(Return, WhoLeftOnPurposeIsANewPlayer) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  ann->connection().leave();
+  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return census.leaves == 1; }));
+  ann.reset();
+  ann = client("ann");
+  ASSERT_TRUE(joins(*ann));
+  EXPECT_EQ(census.joins, 2);
+  EXPECT_EQ(server->counters().unknown_tokens, 0u) << "nothing was kept";
+}
+
+TEST_F(Return, WhatWasSaidWithoutAStreamArrivesOnceAndInOrder) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  TestClient bob(context, server->port(), home.player("bob"));
+  ASSERT_TRUE(serveUntil(context, {ann.get(), &bob}, [&] { return bob.joined() && lists(*ann, "bob"); }));
+  ann->session().sendChat("before");
+  bob.session().sendChat("also before");
+  const auto both = [&](std::size_t lines) {
+    return serveUntil(context, {ann.get(), &bob},
+                      [&] { return linesOf(*ann).size() >= lines && linesOf(bob).size() >= lines; });
+  };
+  ASSERT_TRUE(both(2));
+  for (int round = 0; round < 3; ++round) {
+    const std::size_t had = linesOf(bob).size();
+    const std::string number = std::to_string(round);
+    proxy->setOpen(false);
+    round == 1 ? proxy->stall() : proxy->cut();  // lost with the stream, or said without one
+    ann->session().sendChat("one " + number);
+    bob.session().sendChat("hello? " + number);
+    ann->session().sendChat("two " + number);
+    ASSERT_TRUE(serveUntil(context, {ann.get(), &bob}, [&] { return linesOf(bob).size() == had + 1; }));
+    proxy->setOpen(true);
+    ASSERT_TRUE(both(had + 3));
+    ASSERT_TRUE(serveUntil(context, {ann.get(), &bob}, [&] { return !ann->session().isDetached(); }));
+    const auto heard = linesOf(bob);
+    EXPECT_EQ(heard[had], "hello? " + number);
+    EXPECT_EQ(heard[had + 1], "one " + number);
+    EXPECT_EQ(heard[had + 2], "two " + number);
+    EXPECT_EQ(linesOf(*ann), heard) << "the same in the same order, each once";
+  }
+  EXPECT_EQ(server->counters().chat_dropped, 0u);
+  EXPECT_EQ(server->counters().kept_overflows, 0u);
+}
+
+TEST_F(Return, OldChatIsNotForANewProcess) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(onDatagrams(*ann));
+  ann->session().sendChat("old");
+  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return linesOf(*ann).size() == 1; }));
+  ann.reset();
+  ann = client("ann");
+  ASSERT_TRUE(joins(*ann));
+  ann->session().sendChat("new");
+  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return linesOf(*ann).size() >= 2; }));
+  EXPECT_EQ(linesOf(*ann), (std::vector<std::string>{"You are back in your old session.", "new"}));
+  EXPECT_TRUE(scores(*ann, 0));
+}
+
+}  // namespace
+}  // namespace naiad::test
