@@ -313,7 +313,7 @@ bool ClientSession::sendInput(Input input, bool urgent, Time now) {
     ++m_counters.inputs_dropped;
     return false;
   }
-  input.tick = predictedTick(now);
+  input.tick = input.is_mouse ? displayTick(now) : predictedTick(now);
   input.snapshot = m_acks.newest;
   ++m_counters.inputs;
   input = m_inputs.add(input);

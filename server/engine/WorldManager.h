@@ -55,7 +55,8 @@ class WorldManager : public Manager {
   /// The active visible Objects whose boxes covered this cell (a world position, as of EventMouse) on the
   /// screen of the player whose input is being handled, at the moment he did it, in creation order. For
   /// games in which a click must hit what was clicked on, however far the player and however fast the target.
-  /// Outside a player's input, and without setLookingBack(): those that cover it now.
+  /// Outside a player's mouse input, and without setLookingBack(): those that cover it now. He is believed
+  /// for at most 8 ticks back (a quarter of a second). Views that moved meanwhile are not taken into account.
   ObjectList objectsSeenAt(Vector cell) const;
   /// Have the host remember where Objects were drawn, for objectsSeenAt(). Off by default.
   void setLookingBack(bool looking_back = true);

@@ -109,6 +109,7 @@ void Host::run(df::World& world) {
     tick(world);
   }
   drain();
+  world.setHindsight(nullptr);
   m_p_world = nullptr;
 }
 
@@ -138,6 +139,7 @@ void Host::tick(df::World& world) {
   ++m_counters.ticks;
   if (watched) {
     m_publisher.update(world.view());
+    lookBack(world);
     sendSnapshots(world);
     sendPlayers(world);
   }
@@ -158,13 +160,23 @@ void Host::applyInputs(df::World& world) {
     session.takeInputs(next, [&](const Input& input) {
       if (input.is_mouse) {
         world.mouse(session.player(), static_cast<df::EventMouseAction>(input.action),
-                    static_cast<df::Mouse::Button>(int{input.button} - 1), input.x, input.y);
+                    static_cast<df::Mouse::Button>(int{input.button} - 1), input.x, input.y,
+                    session.seenWith(input));
       } else {
         world.key(session.player(), static_cast<df::Keyboard::Key>(input.key),
                   static_cast<df::EventKeyboardAction>(input.action));
       }
     });
   });
+}
+
+// Only a game that asked for it pays for the memory.
+void Host::lookBack(df::World& world) {
+  if (world.isLookingBack() != m_look_back.has_value()) {
+    world.isLookingBack() ? static_cast<void>(m_look_back.emplace()) : m_look_back.reset();
+    world.setHindsight(m_look_back ? &*m_look_back : nullptr);
+  }
+  if (m_look_back) m_look_back->note(m_publisher);
 }
 
 void Host::sendSnapshots(df::World& world) {

@@ -15,6 +15,7 @@
 #include "AddressPrefix.h"
 #include "Counters.h"
 #include "HostOptions.h"
+#include "LookBack.h"
 #include "PasswordCheck.h"
 #include "Publisher.h"
 #include "ResumeTokens.h"
@@ -76,6 +77,7 @@ class Host : public df::Runner {
   void serveSockets();
   void tick(df::World& world);
   void applyInputs(df::World& world);
+  void lookBack(df::World& world);
   void sendSnapshots(df::World& world);
   void writeTruth(const df::PlayerFacts& player, const df::World& world);
   void sendPlayers(const df::World& world);
@@ -102,6 +104,7 @@ class Host : public df::Runner {
   std::uint64_t m_next_session = 1;
   std::vector<std::unique_ptr<Session>> m_sessions;
   Publisher m_publisher;
+  std::optional<LookBack> m_look_back;  ///< while the game wants it
   std::optional<TruthWriter> m_truth;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;

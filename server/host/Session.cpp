@@ -164,6 +164,12 @@ void Session::compare(const AckWindow& acks, std::uint64_t checksum) {
   reset();
 }
 
+// A click without a snapshot that is remembered is judged in the present.
+df::Seen Session::seenWith(const Input& input) const {
+  const auto base = input.is_mouse ? m_snapshot_ticks.tickOf(input.snapshot) : std::nullopt;
+  return base ? df::Seen{true, *base, input.tick} : df::Seen{};
+}
+
 // The client's world comes anew, though not more often than a line can carry.
 void Session::reset() {
   const Clock::time_point present = now();
@@ -362,7 +368,7 @@ void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player
   if (m_datagrams != nullptr && m_passage.isOpen(present)) return sendDatagrams(publisher, present);
   if (m_datagrams != nullptr && m_datagrams->room() && m_passage.wantsProbe(present)) {
     const SnapshotSender::Packet probe = m_sender.probe(publisher);
-    m_passage.sent(probe.number, true, present);
+    noteSent(probe, true, present);
     m_datagrams->send(probe.bytes);
   }
   sendOnStream(publisher, present);
@@ -375,7 +381,7 @@ void Session::sendDatagrams(const Publisher& publisher, Clock::time_point presen
   const bool stream_idle = m_channel != nullptr && m_channel->unsentBytes() == 0;
   const std::size_t bytes = std::min(*room, kMaxDatagramSnapshot);
   for (const auto& packet : m_sender.build(publisher, {kDatagramsPerTick, bytes, stream_idle})) {
-    m_passage.sent(packet.number, !packet.large, present);
+    noteSent(packet, !packet.large, present);
     count(packet);
     if (packet.large) {
       sendSnapshot(packet);
@@ -390,7 +396,7 @@ void Session::sendOnStream(const Publisher& publisher, Clock::time_point present
   if (m_channel == nullptr) return;
   if (m_channel->unsentBytes() > 0) return skipTick();
   for (const SnapshotSender::Packet& packet : m_sender.build(publisher, kStreamRoom)) {
-    m_passage.sent(packet.number, false, present);
+    noteSent(packet, false, present);
     count(packet);
     sendSnapshot(packet);
   }
@@ -401,6 +407,11 @@ void Session::sendSnapshot(const SnapshotSender::Packet& packet) {
   wire::ServerMessage message;
   message.set_snapshot(packet.bytes);
   send(message);
+}
+
+void Session::noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Clock::time_point present) {
+  m_passage.sent(packet.number, as_datagram, present);
+  m_snapshot_ticks.note(packet.number, packet.tick);
 }
 
 void Session::count(const SnapshotSender::Packet& packet) {

@@ -20,6 +20,7 @@
 #include "Counters.h"
 #include "DatagramService.h"
 #include "KeptFrames.h"
+#include "LookBack.h"
 #include "Passage.h"
 #include "PressedKeys.h"
 #include "SnapshotSender.h"
@@ -105,6 +106,9 @@ class Session {
     }
   }
 
+  /// The picture that the player clicked in, as far as that is known: for mouse inputs only.
+  df::Seen seenWith(const Input& input) const;
+
   /// The player steers by declared controls (null: does not): the keys in them wait for the tick that they
   /// ask for, since he has seen their effect there already.
   void setControls(std::shared_ptr<const df::ControlTable> controls) { m_controls = std::move(controls); }
@@ -148,6 +152,7 @@ class Session {
   void sendDatagrams(const Publisher& publisher, Clock::time_point present);
   void sendOnStream(const Publisher& publisher, Clock::time_point present);
   void sendSnapshot(const SnapshotSender::Packet& packet);
+  void noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Clock::time_point present);
   void count(const SnapshotSender::Packet& packet);
   bool dispatch(const wire::ClientMessage& message);
   bool takeUpdate(std::string_view bytes, bool by_datagram);
@@ -195,6 +200,7 @@ class Session {
   Clock::time_point m_chat_refill;
   SnapshotSender m_sender{Resend::kAhead};
   Passage m_passage;
+  SnapshotTicks m_snapshot_ticks;
   std::optional<Clock::time_point> m_last_reset;
   std::optional<Clock::time_point> m_last_checksum;
 };
