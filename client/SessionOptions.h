@@ -19,8 +19,8 @@ struct SessionOptions {
   std::string name = "player";  ///< wanted name, 1 to 16 characters
   std::string game;             ///< game to play; empty: whatever runs
   std::string program;          ///< "dfclient 0.1.0", for the server's log
-  int columns = 80;             ///< terminal size in cells
-  int rows = 24;
+  int columns = 0;              ///< terminal size in cells; 0: all of the view is of interest
+  int rows = 0;
   std::string password;        ///< of the server, if it wants one
   std::string resume_token;    ///< of an earlier welcome: go on with that session
   bool fresh = false;          ///< with nothing but the token: an earlier process had the session

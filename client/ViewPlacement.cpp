@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ViewCrop.h"
+
 namespace naiad {
 namespace {
 
@@ -9,7 +11,7 @@ namespace {
 void placeAxis(int room, int extent, int focus, int& start, int& view_start, int& shown) {
   shown = std::min(room, extent);
   start = (room - shown) / 2;
-  view_start = std::clamp(focus - shown / 2, 0, extent - shown);
+  view_start = cropStart(focus, shown, extent);
 }
 
 }  // namespace

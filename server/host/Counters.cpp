@@ -35,6 +35,7 @@ std::string Counters::summary() const {
       {"message_floods", message_floods},
       {"repeated_inputs", repeated_inputs},
       {"chat_dropped", chat_dropped},
+      {"resizes_deferred", resizes_deferred},
       {"snapshots", snapshots},
       {"snapshot_bytes", snapshot_bytes},
       {"skipped_ticks", skipped_ticks},

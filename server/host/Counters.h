@@ -39,6 +39,7 @@ struct Counters {
   std::uint64_t checksums_dropped = 0;   ///< more often than four a second: ignored
   std::uint64_t repeated_inputs = 0;     ///< applied before: ignored
   std::uint64_t chat_dropped = 0;        ///< faster than three lines a second: ignored
+  std::uint64_t resizes_deferred = 0;    ///< replaced by a newer one before they were taken over
   std::uint64_t snapshots = 0;           ///< sent
   std::uint64_t snapshot_bytes = 0;      ///< of their frames
   std::uint64_t skipped_ticks =

@@ -104,6 +104,7 @@ bool Session::dispatch(const wire::ClientMessage& message) {
       // Once: a password is being checked, perhaps, and that must not begin again and again.
       if (message.hello().magic() != kHelloMagic || m_greeted) return false;
       m_greeted = true;
+      m_resize.emplace(message.hello().columns(), message.hello().rows());
       m_events.on_hello(*this, message.hello());
       return true;
     case What::kUpdate:
@@ -124,7 +125,8 @@ bool Session::dispatch(const wire::ClientMessage& message) {
       goodbye("You left the game.");
       return true;
     case What::kResize:
-      return true;  // the game decides how much of the world a player sees, the client how to show it
+      takeResize(message.resize());
+      return true;
     case What::WHAT_NOT_SET:
       break;
   }
@@ -198,6 +200,19 @@ bool Session::takeInput(const Input& input) {
   m_inputs.push_back(input);
   m_pressed.note(input);
   return true;
+}
+
+// The newest size counts, but not at once if it changes all the time: each may owe the client half a world.
+void Session::takeResize(const wire::Resize& size) {
+  if (m_resize) ++m_counters.resizes_deferred;
+  m_resize.emplace(size.columns(), size.rows());
+}
+
+void Session::applyResize(Clock::time_point present) {
+  if (!m_resize || (m_last_resize && present - *m_last_resize < kResizeEvery)) return;
+  m_sender.setTerminal(m_resize->first, m_resize->second);
+  m_resize.reset();
+  m_last_resize = present;
 }
 
 void Session::takeChat(const std::string& text) {
@@ -310,6 +325,7 @@ void Session::takeStream(Session& other) {
   other.m_reception->session = &other;
   other.m_told_gone = true;
   m_heard = now();
+  m_resize = other.m_resize;
   m_drain.restart();
   allowSavedChat(m_heard);
   ++m_counters.resumed;
@@ -363,8 +379,9 @@ void Session::checkSilence(Clock::time_point now) {
 
 void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player) {
   m_tick = publisher.tick();
-  m_sender.note(publisher, player);
   const Clock::time_point present = now();
+  applyResize(present);
+  m_sender.note(publisher, player);
   if (m_datagrams != nullptr && m_passage.isOpen(present)) return sendDatagrams(publisher, present);
   if (m_datagrams != nullptr && m_datagrams->room() && m_passage.wantsProbe(present)) {
     const SnapshotSender::Packet probe = m_sender.probe(publisher);

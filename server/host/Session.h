@@ -58,6 +58,8 @@ class Session {
   static constexpr int kChatAtOnce = 30;
   /// Silence after which a player without a stream lets go of his keys.
   static constexpr std::chrono::seconds kSuspend{1};
+  /// More often a terminal's size is not taken over.
+  static constexpr std::chrono::milliseconds kResizeEvery{250};
   /// An honest client that catches up after a stall sends fewer: every reply is bounded by what it got.
   static constexpr int kMessagesPerTick = 1024;
 
@@ -161,6 +163,8 @@ class Session {
   bool isTooEarly(const Input& input, std::uint32_t tick) const;
   bool takeInput(const Input& input);
   void takeChat(const std::string& text);
+  void takeResize(const wire::Resize& size);
+  void applyResize(Clock::time_point present);
   void malformed();
   void tellGone();
   void skipTick();
@@ -203,6 +207,8 @@ class Session {
   SnapshotTicks m_snapshot_ticks;
   std::optional<Clock::time_point> m_last_reset;
   std::optional<Clock::time_point> m_last_checksum;
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> m_resize;  ///< to be taken over
+  std::optional<Clock::time_point> m_last_resize;
 };
 
 }  // namespace naiad

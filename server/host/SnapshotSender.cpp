@@ -5,8 +5,6 @@
 #include <functional>
 #include <utility>
 
-#include "ViewFollow.h"
-
 namespace naiad {
 
 namespace {
@@ -17,36 +15,9 @@ constexpr double kAheadLoss = 0.003;
 constexpr double kAheadPerSpeed = 20;
 /// What a snapshot of one record takes beside it, at most.
 constexpr std::size_t kMostOverheadBits = 256;
-/// Cells around the view in which somebody who predicts is told of what he might bump into.
-constexpr std::int32_t kUnseen = 2;
-
 }  // namespace
 
 // ---- whom the client knows --------------------------------------------------------------------------------
-
-// The cells that the player sees now or, as the view follows an object, is about to see.
-CellRect SnapshotSender::windowOf(const Publisher& publisher) const {
-  const WorldRecord& world = publisher.world();
-  const df::PlayerFacts& player = m_singles.player();
-  const std::int64_t left = df::cellOf(player.view_corner.x);
-  const std::int64_t top = df::cellOf(player.view_corner.y);
-  CellRect window{left, top, left + world.view_width, top + world.view_height};
-  if (player.steering.p_table != nullptr) window = window.grownBy(kUnseen);
-  const Publisher::Model* followed = publisher.find(player.followed.slot);
-  if (player.followed.generation == 0 || followed == nullptr) return window;
-  const ViewFrame frame{player.view_corner,
-                        {df::fromCells(world.view_width), df::fromCells(world.view_height)},
-                        world.boundary};
-  const df::FixedVector later =
-      followView(frame, positionAt(followed->state.motion, publisher.tick() + m_look_ahead));
-  const std::int64_t dx =
-      std::clamp<std::int64_t>(df::cellOf(later.x) - left, -world.view_width, world.view_width);
-  const std::int64_t dy =
-      std::clamp<std::int64_t>(df::cellOf(later.y) - top, -world.view_height, world.view_height);
-  (dx < 0 ? window.left : window.right) += dx;
-  (dy < 0 ? window.top : window.bottom) += dy;
-  return window;
-}
 
 void SnapshotSender::note(const Publisher& publisher, const df::PlayerFacts& player) {
   m_tick = publisher.tick();
@@ -54,7 +25,10 @@ void SnapshotSender::note(const Publisher& publisher, const df::PlayerFacts& pla
   if (!m_began) m_last_tick = m_tick - kKeepAlive;
   m_began = true;
   m_interest.update(publisher,
-                    {windowOf(publisher), {player.followed, player.steering.object}, m_look_ahead, player.id},
+                    {m_shown.update(publisher, player, m_look_ahead),
+                     {player.followed, player.steering.object},
+                     m_look_ahead,
+                     player.id},
                     m_known);
 }
 
@@ -362,7 +336,9 @@ void SnapshotSender::reset() {
   const std::uint32_t number = m_next_number;
   const std::uint32_t input = m_singles.input();
   const std::uint32_t input_tick = m_singles.inputTick();
+  const ShownWindow shown = m_shown;
   *this = SnapshotSender(m_resend, m_look_ahead, static_cast<std::uint8_t>((m_epoch + 1) & 3));
+  m_shown = shown;
   m_next_number = number;
   m_clean_from = number;
   noteInput(input, input_tick);  // a client that has not heard of it waits for that with further ones

@@ -21,6 +21,7 @@
 #include "KnownObjects.h"
 #include "LineGauge.h"
 #include "Publisher.h"
+#include "ShownWindow.h"
 #include "Singles.h"
 #include "SnapshotCodec.h"
 
@@ -55,6 +56,8 @@ class SnapshotSender {
   void note(const Publisher& publisher, const df::PlayerFacts& player);
   /// The newest input that the game has had, and in which tick. To be called before the build() of that tick.
   void noteInput(std::uint32_t id, std::uint32_t tick) { m_singles.noteInput(id, tick); }
+  /// The client's terminal, in cells; 0: unknown.
+  void setTerminal(std::uint32_t columns, std::uint32_t rows) { m_shown.setTerminal(columns, rows); }
   /// How many ticks from now on an object may enter the view before the next one is due.
   void setLookAhead(std::uint32_t ticks) { m_look_ahead = ticks; }
 
@@ -113,7 +116,6 @@ class SnapshotSender {
 
   SnapshotSender(Resend resend, std::uint32_t look_ahead, std::uint8_t epoch)
       : m_resend(resend), m_epoch(epoch), m_look_ahead(look_ahead) {}
-  CellRect windowOf(const Publisher& publisher) const;
   bool isOwn(const KnownObjects::Known& known) const;
   bool isOwing() const { return m_singles.isOwing() || !m_known.owing().empty(); }
   double urgency(std::uint32_t id, const Publisher& publisher) const;
@@ -140,6 +142,7 @@ class SnapshotSender {
   SnapshotWriter m_writer;
   Flight m_flight;
   std::array<Moment, kMaxMoments> m_moments;  ///< by number, modulo their number
+  ShownWindow m_shown;
   Interest m_interest;
   std::uint32_t m_next_number = 1;
   std::uint32_t m_last_tick = 0;  ///< of the last snapshot built
