@@ -25,6 +25,10 @@ class Passage {
   static constexpr std::chrono::milliseconds kProbeEvery{1000};  ///< while they do not pass
   static constexpr std::chrono::milliseconds kFirstProbes{
       100};  ///< in the first kSilence of a session or path
+  /// While they passed a moment ago, or there is no other way: on a line that loses most, one probe a second
+  /// hardly ever gets through and its acknowledgement back.
+  static constexpr std::chrono::milliseconds kEagerProbes{250};
+  static constexpr std::chrono::seconds kEagerFor{10};
 
   explicit Passage(Time now) : m_began(now) {}
 
@@ -37,9 +41,9 @@ class Passage {
 
   /// Do datagrams pass?
   bool isOpen(Time now) const { return m_open && now - m_last_ack < kSilence; }
-  /// Is it time to try whether they do?
-  bool wantsProbe(Time now) const {
-    return !isOpen(now) && now - m_last_probe >= (now - m_began < kSilence ? kFirstProbes : kProbeEvery);
+  /// Is it time to try whether they do? `only`: there is no other way.
+  bool wantsProbe(Time now, bool only = false) const {
+    return !isOpen(now) && now - m_last_probe >= probeInterval(now, only);
   }
 
   /// From sending to acknowledgement, smoothed; 0 before the first.
@@ -62,6 +66,10 @@ class Passage {
   static constexpr std::size_t kKept = 128;
   static constexpr std::array<std::uint32_t, 4> kIntervals = {1, 2, 3, 6};
 
+  std::chrono::milliseconds probeInterval(Time now, bool only) const {
+    if (now - m_began < kSilence) return kFirstProbes;
+    return only || (m_open && now - m_last_ack < kEagerFor) ? kEagerProbes : kProbeEvery;
+  }
   void measure(Millis sample, Time now);
 
   std::array<Sent, kKept> m_sent{};

@@ -383,7 +383,7 @@ void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player
   applyResize(present);
   m_sender.note(publisher, player);
   if (m_datagrams != nullptr && m_passage.isOpen(present)) return sendDatagrams(publisher, present);
-  if (m_datagrams != nullptr && m_datagrams->room() && m_passage.wantsProbe(present)) {
+  if (m_datagrams != nullptr && m_datagrams->room() && m_passage.wantsProbe(present, m_channel == nullptr)) {
     const SnapshotSender::Packet probe = m_sender.probe(publisher);
     noteSent(probe, true, present);
     m_datagrams->send(probe.bytes);

@@ -91,7 +91,7 @@ TEST_F(PassageTest, ClosesAfterASecondWithoutAcknowledgement) {
   EXPECT_TRUE(passage.wantsProbe(now));
   send(true);
   EXPECT_FALSE(passage.wantsProbe(now));
-  now += 999ms;
+  now += Passage::kEagerProbes - 1ms;
   EXPECT_FALSE(passage.wantsProbe(now));
   now += 1ms;
   EXPECT_TRUE(passage.wantsProbe(now));
@@ -124,6 +124,28 @@ TEST_F(PassageTest, ProbesOftenAgainAfterAnotherStream) {
   EXPECT_FALSE(passage.wantsProbe(now));
   passage.renewed(now);
   EXPECT_TRUE(passage.wantsProbe(now));
+}
+
+TEST_F(PassageTest, ProbesEagerlyForAWhileAfterItWasOpen) {
+  open();
+  now += Passage::kSilence;
+  int eager = 0;
+  int late = 0;
+  for (int ms = 1000; ms < 20'000; ms += 10, now += 10ms) {
+    if (!passage.wantsProbe(now)) continue;
+    send(true);
+    ++(ms < 10'000 ? eager : late);
+  }
+  EXPECT_NEAR(eager, 36, 1);
+  EXPECT_NEAR(late, 10, 1);
+}
+
+TEST_F(PassageTest, ProbesEagerlyAsLongAsThereIsNoOtherWay) {
+  now += 60s;
+  send(true);
+  now += 250ms;
+  EXPECT_FALSE(passage.wantsProbe(now, false));
+  EXPECT_TRUE(passage.wantsProbe(now, true));
 }
 
 TEST_F(PassageTest, NumbersNobodySentChangeNothing) {
