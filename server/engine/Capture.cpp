@@ -36,16 +36,14 @@ bool Capture::mayDraw(std::uint32_t slot) {
 
 void Capture::sortByAltitude() {
   const WorldStore& store = m_world.store();
-  const std::vector<FixedBox> views = m_world.views().boxes();
+  const ViewCover views = m_world.views().cover();
   for (auto& keys : m_by_altitude) keys.clear();
   const WorldStore::Walk walk(store);
   for (std::size_t i = 0; i < walk.size(); ++i) {
     const WorldStore::Slot s = walk[i];
     if (s == WorldStore::kNoSlot || !mayDraw(s)) continue;
     const FixedBox box = store.worldBox(s, store.position(s));
-    const bool in_view = std::any_of(views.begin(), views.end(),
-                                     [&box](const FixedBox& view) { return intersects(box, view); });
-    if (in_view) m_by_altitude[store.altitude(s)].push_back(store.key(s));
+    if (views.meets(box)) m_by_altitude[store.altitude(s)].push_back(store.key(s));
   }
 }
 

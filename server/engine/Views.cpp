@@ -13,6 +13,8 @@ namespace df {
 
 void Views::reset() {
   m_players.clear();
+  m_followers.clear();
+  m_followers_known = false;
   m_width = WINDOW_HORIZONTAL_CHARS_DEFAULT;
   m_height = WINDOW_VERTICAL_CHARS_DEFAULT;
   m_boundary = {{}, size()};
@@ -51,6 +53,11 @@ Player* Views::addPlayer(std::uint32_t id, const std::string& name, Color color)
   return (m_players[id] = std::move(p_player)).get();
 }
 
+void Views::removePlayer(std::uint32_t id) {
+  m_players.erase(id);
+  m_followers_known = false;
+}
+
 Player* Views::player(std::uint32_t id) const {
   const auto it = m_players.find(id);
   return it == m_players.end() ? nullptr : it->second.get();
@@ -86,6 +93,7 @@ int Views::follow(Player* p_player, Object* p_o) {
   }
   const bool own = p_player != nullptr && p_player->m_has_view;
   (own ? p_player->m_followed : m_followed) = key;
+  m_followers_known = false;
   if (p_o != nullptr) centre(p_player, m_world.store().position(key.slot));
   return 0;
 }
@@ -94,6 +102,7 @@ int Views::setObject(Player& player, Object* p_o) {
   if (p_o == nullptr) {
     player.m_object = {};
     player.m_followed = {};
+    m_followers_known = false;
     return 0;
   }
   const bool had_view = std::exchange(player.m_has_view, true);
@@ -105,11 +114,26 @@ int Views::setObject(Player& player, Object* p_o) {
   return -1;
 }
 
+void Views::indexFollowers() {
+  m_followers_known = true;
+  m_followers.clear();
+  for (const auto& [id, p_player] : m_players) {
+    if (p_player->m_followed.generation != 0)
+      m_followers.emplace_back(p_player->m_followed.slot, p_player.get());
+  }
+  std::stable_sort(m_followers.begin(), m_followers.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+}
+
 void Views::moved(ObjectKey key, FixedVector position) {
   if (m_followed == key) setCorner(nullptr, naiad::followView({m_corner, size(), m_boundary}, position));
-  for (const auto& [id, p_player] : m_players) {
-    if (!p_player->m_has_view || p_player->m_followed != key) continue;
-    p_player->m_view_corner = naiad::followView({p_player->m_view_corner, size(), m_boundary}, position);
+  if (!m_followers_known) indexFollowers();
+  auto follower = std::lower_bound(m_followers.begin(), m_followers.end(), key.slot,
+                                   [](const auto& entry, std::uint32_t slot) { return entry.first < slot; });
+  for (; follower != m_followers.end() && follower->first == key.slot; ++follower) {
+    Player& player = *follower->second;
+    if (!player.m_has_view || player.m_followed != key) continue;
+    player.m_view_corner = naiad::followView({player.m_view_corner, size(), m_boundary}, position);
   }
 }
 
@@ -118,17 +142,16 @@ ObjectKey Views::followed(const Player& player) const {
   return m_world.find(key) != nullptr ? key : ObjectKey{};
 }
 
-std::vector<FixedBox> Views::boxes() const {
-  std::vector<FixedBox> boxes;
+ViewCover Views::cover() const {
+  std::vector<FixedVector> corners;
   const auto add = [&](FixedVector corner) {
-    const FixedBox box{{fromCells(cellOf(corner.x)), fromCells(cellOf(corner.y))}, size()};
-    if (std::find(boxes.begin(), boxes.end(), box) == boxes.end()) boxes.push_back(box);
+    corners.push_back({fromCells(cellOf(corner.x)), fromCells(cellOf(corner.y))});
   };
   add(m_corner);
   for (const auto& [id, p_player] : m_players) {
     if (p_player->m_has_view) add(p_player->m_view_corner);
   }
-  return boxes;
+  return {corners, size()};
 }
 
 }  // namespace df

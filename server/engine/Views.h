@@ -10,11 +10,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Box.h"
 #include "Color.h"
 #include "Player.h"
+#include "ViewCover.h"
 #include "WorldView.h"
 
 namespace df {
@@ -46,7 +48,7 @@ class Views {
   // Players.
 
   Player* addPlayer(std::uint32_t id, const std::string& name, Color color);
-  void removePlayer(std::uint32_t id) { m_players.erase(id); }
+  void removePlayer(std::uint32_t id);
   Player* player(std::uint32_t id) const;
   const Players& players() const { return m_players; }
 
@@ -65,12 +67,13 @@ class Views {
   void moved(ObjectKey key, FixedVector position);
   /// Whom the player's view follows, be it his own or the world's; generation 0 if nobody.
   ObjectKey followed(const Player& player) const;
-  /// All different views, as boxes in whole cells: what shows on the screens.
-  std::vector<FixedBox> boxes() const;
+  /// All views, in whole cells: what shows on the screens.
+  ViewCover cover() const;
 
  private:
   FixedVector size() const { return {fromCells(m_width), fromCells(m_height)}; }
   void clampAll();
+  void indexFollowers();
 
   World& m_world;
   FixedBox m_boundary;
@@ -80,6 +83,9 @@ class Views {
   FixedVector m_corner;  // of the world's view
   ObjectKey m_followed;  // by the world's view
   Players m_players;
+  /// By the slot that a player's own view follows: players are many, and many Objects are followed.
+  std::vector<std::pair<std::uint32_t, Player*>> m_followers;
+  bool m_followers_known = false;
 };
 
 }  // namespace df

@@ -14,24 +14,33 @@ DatagramService::DatagramService(std::unique_ptr<DatagramSocket> socket, Now now
 DatagramService::~DatagramService() = default;
 
 std::unique_ptr<DatagramService::Channel> DatagramService::open(const KeyExporter& exporter, AeadId aead) {
-  constexpr Epoch kFirstEpoch{1};
   for (;;) {
-    std::unique_ptr<Channel> channel(new Channel(*this, ConnectionId{m_random()}, aead));
-    if (!channel->renew(exporter, kFirstEpoch)) return nullptr;
-    // Registered before it is added, since its destructor takes it out of both.
-    Channel* p_channel = channel.get();
-    const auto deliver = [p_channel](std::string_view payload) {
-      p_channel->answerChallenges();
-      if (!payload.empty() && p_channel->m_on_packet) p_channel->m_on_packet(payload);
-    };
-    if (!m_gate.add(channel->m_link, deliver)) continue;  // an id that is taken: one in 2^64
-    m_channels.push_back(p_channel);
-    return channel;
+    const ConnectionId id{m_random()};
+    if (m_gate.has(id)) continue;  // one in 2^64
+    return open(exporter, aead, id);
   }
 }
 
+std::unique_ptr<DatagramService::Channel> DatagramService::open(const KeyExporter& exporter, AeadId aead,
+                                                                ConnectionId id) {
+  constexpr Epoch kFirstEpoch{1};
+  std::unique_ptr<Channel> channel(new Channel(*this, id, aead));
+  if (!channel->renew(exporter, kFirstEpoch)) return nullptr;
+  const auto deliver = [p_channel = channel.get()](std::string_view payload) {
+    p_channel->noteUnproven();
+    p_channel->answerChallenges();
+    if (!payload.empty() && p_channel->m_on_packet) p_channel->m_on_packet(payload);
+  };
+  channel->m_registered = m_gate.add(channel->m_link, deliver);
+  return channel->m_registered ? std::move(channel) : nullptr;
+}
+
 void DatagramService::flush() {
-  for (Channel* channel : m_channels) channel->answerChallenges();
+  std::erase_if(m_unproven, [](Channel* channel) {
+    channel->answerChallenges();
+    channel->m_unproven = !channel->m_link.isValidated(*channel->m_link.path());
+    return !channel->m_unproven;
+  });
   m_socket->flush();
 }
 
@@ -39,8 +48,9 @@ DatagramService::Channel::Channel(DatagramService& service, ConnectionId id, Aea
     : m_service(service), m_aead(aead), m_link({SealedLink::Role::kServer, id, service.m_random, {}}) {}
 
 DatagramService::Channel::~Channel() {
+  if (m_unproven) std::erase(m_service.m_unproven, this);
   // One that never got in must not take the session with it that has the same id.
-  if (std::erase(m_service.m_channels, this) > 0) m_service.m_gate.remove(m_link.id());
+  if (m_registered) m_service.m_gate.remove(m_link.id());
 }
 
 bool DatagramService::Channel::renew(const KeyExporter& exporter, Epoch epoch) {
@@ -50,6 +60,12 @@ bool DatagramService::Channel::renew(const KeyExporter& exporter, Epoch epoch) {
   } catch (const KeyExportError&) {
     return false;  // a stream without encryption, or one that has just died
   }
+}
+
+bool DatagramService::Channel::renew(const ReliableChannel& stream, Epoch epoch) {
+  return renew([&stream](std::string_view label, std::string_view context,
+                         std::size_t bytes) { return stream.exportSecret(label, context, bytes); },
+               epoch);
 }
 
 void DatagramService::Channel::start(std::function<void(std::string_view)> on_packet) {
@@ -65,6 +81,13 @@ void DatagramService::Channel::send(std::string_view packet) {
 // An address has to prove itself before much is sent there.
 void DatagramService::Channel::answerChallenges() {
   if (m_link.wantsToSend(m_service.m_now())) send({});
+}
+
+// A new address is looked after by flush() until it has answered.
+void DatagramService::Channel::noteUnproven() {
+  if (m_unproven || m_link.isValidated(*m_link.path())) return;
+  m_unproven = true;
+  m_service.m_unproven.push_back(this);
 }
 
 std::string DatagramService::Channel::peerAddress() const {

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
 #include "Channel.h"
 #include "DatagramGate.h"
 #include "DatagramSocket.h"
+#include "SealedChannel.h"
 #include "SealedLink.h"
 
 namespace naiad {
@@ -29,7 +29,7 @@ class DatagramService {
   DatagramService& operator=(const DatagramService&) = delete;
 
   /// One session's datagrams, opened and sealed. They go to wherever the newest authentic one came from.
-  class Channel : public DatagramChannel {
+  class Channel : public SealedChannel {
    public:
     ~Channel() override;
     void start(std::function<void(std::string_view packet)> on_packet) override;
@@ -37,28 +37,35 @@ class DatagramService {
     std::optional<std::size_t> room() const override { return m_link.path() ? m_link.room() : std::nullopt; }
     std::string peerAddress() const override;
 
-    /// New keys, from another stream of the session. False for an epoch that is not newer.
     bool renew(const KeyExporter& exporter, Epoch epoch);
-    std::uint64_t id() const;
-    AeadId aead() const { return m_aead; }
-    Epoch epoch() const { return *m_link.epoch(); }
+    bool renew(const ReliableChannel& stream, Epoch epoch) override;
+    std::uint64_t id() const override;
+    AeadId aead() const override { return m_aead; }
+    Epoch epoch() const override { return *m_link.epoch(); }
     const SealedLinkCounters& counters() const { return m_link.counters(); }
 
    private:
     friend class DatagramService;
     Channel(DatagramService& service, ConnectionId id, AeadId aead);
     void answerChallenges();
+    void noteUnproven();
 
     DatagramService& m_service;
     AeadId m_aead;
     SealedLink m_link;
+    bool m_registered = false;  ///< with the gate
+    bool m_unproven = false;    ///< in the service's list
     std::function<void(std::string_view)> m_on_packet;
   };
 
   /// Keys come from the stream's exporter (DatagramKeys.h). Null if it has none to give.
   std::unique_ptr<Channel> open(const KeyExporter& exporter, AeadId aead);
+  /// The same with an id that was drawn already; null also if somebody has that.
+  std::unique_ptr<Channel> open(const KeyExporter& exporter, AeadId aead, ConnectionId id);
   /// Let go what was sent since the last call, and the link's own packets.
   void flush();
+  /// Some address is being challenged: flush() is to be called now and then even if nothing is sent.
+  bool isUnproven() const { return !m_unproven.empty(); }
   /// The port bound to.
   std::uint16_t port() const { return m_socket->localEndpoint().port; }
   const DatagramGateCounters& counters() const { return m_gate.counters(); }
@@ -68,7 +75,7 @@ class DatagramService {
   Now m_now;
   Random m_random;
   DatagramGate m_gate;
-  std::vector<Channel*> m_channels;
+  std::vector<Channel*> m_unproven;  ///< whose address has not answered yet
 };
 
 }  // namespace naiad

@@ -1,11 +1,13 @@
 #include "Host.h"
 
 #include <algorithm>
+#include <asio/executor_work_guard.hpp>
 #include <asio/post.hpp>
 #include <stdexcept>
 
 #include "LookAlikes.h"
 #include "Names.h"
+#include "OpenFiles.h"
 #include "Player.h"
 #include "SafeText.h"
 #include "StopSignals.h"
@@ -19,13 +21,12 @@ namespace {
 
 constexpr std::chrono::milliseconds kLate{5};
 constexpr std::chrono::milliseconds kLeastService{5};  ///< for sockets, however late the tick is
-constexpr int kLeastHandlers = 1000;                   ///< of theirs, ditto
+constexpr int kLeastHandlers = 16;                     ///< of theirs, ditto; one may serve many messages
 constexpr std::chrono::seconds kDrainTime{1};
-constexpr std::chrono::seconds kLonely{60};     ///< --exit-when-empty, if nobody ever came
-constexpr std::uint32_t kPlayerListEvery = 15;  ///< ticks
+constexpr std::chrono::seconds kLonely{60};  ///< --exit-when-empty, if nobody ever came
 
 /// How to seal datagrams for `channel`, if there is one.
-void describe(const DatagramService::Channel* channel, wire::Welcome& welcome) {
+void describe(const SealedChannel* channel, wire::Welcome& welcome) {
   if (channel == nullptr) return;
   welcome.set_connection_id(channel->id());
   welcome.set_aead(static_cast<std::uint32_t>(channel->aead()));
@@ -39,6 +40,13 @@ constexpr df::Color kPlayerColors[] = {df::CYAN, df::GREEN, df::MAGENTA, df::YEL
 df::Color colorOf(std::uint64_t nth) {
   return kPlayerColors[nth % std::size(kPlayerColors)];
 }
+
+/// Those who play, those who come back on another stream, and some who knock.
+std::size_t mostConnections(const HostOptions& options) {
+  return static_cast<std::size_t>(options.max_players) * 2 + 16;
+}
+/// Beside connections: half-open ones, libraries, logs.
+constexpr std::size_t kOtherFiles = 512;
 
 TcpOptions channelOptions() {
   TcpOptions options;
@@ -62,15 +70,20 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_game(std::move(game)),
       m_log(std::move(log)),
       m_identity(identityOf(m_options)),
-      m_port(openServerPort(
+      m_network(
           m_io, m_options.address, static_cast<std::uint16_t>(m_options.port),
           [this](std::unique_ptr<ReliableChannel> channel) { accept(std::move(channel)); }, channelOptions(),
-          m_identity ? TlsListening{m_identity->tls()} : TlsListening{})),
+          m_identity ? TlsListening{m_identity->tls()} : TlsListening{}),
       m_empty_since(Clock::now()) {
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
   if (!m_options.password.empty()) {
     m_password =
         std::make_unique<PasswordCheck>(m_io.get_executor(), PasswordHash::fromText(m_options.password));
+  }
+  if (const std::size_t files = allowOpenFiles(mostConnections(m_options) + kOtherFiles);
+      files < mostConnections(m_options) + kOtherFiles) {
+    m_log("only " + std::to_string(files) + " files may be open (ulimit -Hn): too few for " +
+          std::to_string(m_options.max_players) + " players and those who come back");
   }
   if (m_options.truth_file.empty()) return;
   m_truth.emplace(m_options.truth_file);
@@ -83,9 +96,9 @@ std::optional<Fingerprint> Host::fingerprint() const {
 }
 
 std::string Host::joinArguments() const {
-  const std::string port = std::to_string(m_port.streams->port());
+  const std::string port = std::to_string(m_network.port());
   const bool any = m_options.address == "::" || m_options.address == "0.0.0.0";
-  const std::string where = any ? "127.0.0.1:" + port : m_port.streams->address();
+  const std::string where = any ? "127.0.0.1:" + port : m_network.address();
   return where + (m_identity ? " --fingerprint " + m_identity->fingerprint().text() : " --insecure");
 }
 
@@ -97,8 +110,10 @@ void Host::run(df::World& world) {
   const StopSignals signals;
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   m_empty_since = Clock::now();
+  const auto work = asio::make_work_guard(m_io);  // or waiting for a deadline would end at once
+  m_network.start();
   while (!isOver(world)) {
-    serveSockets();
+    serve();
     m_io.run_until(schedule.deadline());
     sweep();
     if (signals.isAsked()) m_stop_sentence = "The server is shutting down.";
@@ -116,7 +131,7 @@ void Host::run(df::World& world) {
 // Also when the deadline has passed already: an overloaded server must not turn deaf, so there is a least
 // number of handlers whatever the clock says. Not until nothing is ready any more, though: one client that
 // floods would stop the world.
-void Host::serveSockets() {
+void Host::serve() {
   m_io.restart();
   const auto enough = Clock::now() + kLeastService;
   for (int served = 0; m_io.poll_one() > 0; ++served) {
@@ -126,6 +141,8 @@ void Host::serveSockets() {
 
 // One tick: input -> world (step, input events, update, draw) -> published models -> snapshots.
 void Host::tick(df::World& world) {
+  const Clock::time_point began = Clock::now();
+  m_network.serve(began + kLeastService);  // the datagrams since the last one
   const bool watched = playing() > 0;
   if (watched && !world.isWatched()) m_publisher = Publisher();
   world.setWatched(watched);
@@ -143,7 +160,7 @@ void Host::tick(df::World& world) {
     sendSnapshots(world);
     sendPlayers(world);
   }
-  if (m_port.datagrams) m_port.datagrams->flush();
+  m_network.flushTick(began);
   if (m_observer) m_observer(world);
 }
 
@@ -181,11 +198,13 @@ void Host::lookBack(df::World& world) {
 
 void Host::sendSnapshots(df::World& world) {
   const std::vector<df::PlayerFacts>& players = world.view().players;
+  m_by_player.clear();
   forEachPlaying([&](Session& session) {
-    const auto found = std::find_if(players.begin(), players.end(), [&](const df::PlayerFacts& player) {
-      return player.id == session.player();
-    });
-    if (found == players.end()) return;  // joins with the next tick
+    m_by_player.emplace(session.player(), &session);
+    const auto found =
+        std::lower_bound(players.begin(), players.end(), session.player(),
+                         [](const df::PlayerFacts& player, std::uint32_t id) { return player.id < id; });
+    if (found == players.end() || found->id != session.player()) return;  // joins with the next tick
     // The truth first: whoever compares must find it once the snapshot has arrived.
     if (m_truth) writeTruth(*found, world);
     session.setControls(found->steering.p_table);
@@ -201,22 +220,19 @@ void Host::writeTruth(const df::PlayerFacts& player, const df::World& world) {
 }
 
 void Host::sendPlayers(const df::World& world) {
-  if (m_publisher.tick() % kPlayerListEvery != 0) return;
-  wire::ServerMessage message;
-  for (const df::PlayerFacts& player : world.view().players) {
-    wire::PlayerEntry& entry = *message.mutable_players()->add_players();
-    entry.set_player(player.id);
-    entry.set_name(player.name);
-    entry.set_color(static_cast<std::uint32_t>(player.color));
-    entry.set_score(player.score);
-    forEachPlaying([&](const Session& session) {
-      if (session.player() == player.id) entry.set_rtt_millis(session.rttMillis());
-    });
-  }
-  std::string bytes = message.SerializeAsString();
-  if (bytes == m_players_told) return;
-  m_players_told = std::move(bytes);
-  forEachPlaying([&](Session& session) { session.sendKept(message, true); });
+  const auto find_playing = [this](std::uint32_t player) {
+    const auto found = m_by_player.find(player);
+    return found != m_by_player.end() ? found->second : nullptr;
+  };
+  m_player_news.tick(
+      m_publisher.tick(), world.view().players,
+      [&](std::uint32_t player) {
+        const Session* session = find_playing(player);
+        return session != nullptr ? session->rttMillis() : 0;
+      },
+      [&](std::uint32_t player, const wire::ServerMessage& message) {
+        if (Session* session = find_playing(player)) session->sendKept(message, true);
+      });
 }
 
 void Host::accept(std::unique_ptr<ReliableChannel> channel) {
@@ -224,7 +240,7 @@ void Host::accept(std::unique_ptr<ReliableChannel> channel) {
   // Half-open connections count too: they must not be a way round the limit. The oldest that plays no part
   // makes room, so that a crowd of silent connections does not lock out players, who greet at once. This is
   // the listener's callback, none of a session's, so sessions may go.
-  const std::size_t most = static_cast<std::size_t>(m_options.max_players) * 2 + 16;
+  const std::size_t most = mostConnections(m_options);
   if (m_sessions.size() >= most) sweep();
   if (m_sessions.size() >= most) {
     ++m_counters.turned_away;
@@ -239,7 +255,7 @@ void Host::accept(std::unique_ptr<ReliableChannel> channel) {
   m_sessions.back()->start({[this](Session& session, const wire::Hello& hello) { greet(session, hello); },
                             [this](Session& session, const std::string& text) { chat(session, text); },
                             [this](Session& session) { leave(session); },
-                            {}});
+                            [this] { return m_network.now(); }});
 }
 
 // A session may go on with another stream at once; a new player may have to prove that he knows the password.
@@ -314,17 +330,14 @@ bool Host::resume(Session& session, const wire::Hello& hello) {
     auto datagrams = openDatagrams(session, hello);
     describe(datagrams.get(), welcome);
     before->restart(session, welcome, std::move(datagrams));
-    m_players_told.clear();  // he has none
+    m_player_news.repeat();  // he has none
     m_log(before->name() + " is back from " + before->address() + ", with another client");
     return true;
   }
-  if (DatagramService::Channel* datagrams = before->datagrams()) {
+  if (SealedChannel* datagrams = before->datagrams()) {
     const Epoch epoch = datagrams->epoch() + 1;
     welcome.set_connection_id(datagrams->id());
-    const auto exporter = [&session](std::string_view label, std::string_view context, std::size_t bytes) {
-      return session.exportSecret(label, context, bytes);
-    };
-    if (datagrams->renew(exporter, epoch)) describe(datagrams, welcome);
+    if (datagrams->renew(*session.stream(), epoch)) describe(datagrams, welcome);
   }
   before->adopt(session, welcome, hello.received());
   m_log(before->name() + " is back from " + before->address());
@@ -371,7 +384,7 @@ void Host::admit(Session& session, const wire::Hello& hello) {
       welcome.add_help(safeText(line, kMaxHelpLength));
     }
   }
-  std::unique_ptr<DatagramService::Channel> datagrams = openDatagrams(session, hello);
+  std::unique_ptr<SealedChannel> datagrams = openDatagrams(session, hello);
   describe(datagrams.get(), welcome);
   const auto grace =
       std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(m_options.grace));
@@ -379,31 +392,24 @@ void Host::admit(Session& session, const wire::Hello& hello) {
   welcome.set_grace_millis(static_cast<std::uint32_t>(grace.count()));
   if (m_options.grace > 0) welcome.set_resume_token(m_tokens.issue(session.id()));
   session.welcome(welcome, std::move(datagrams));
-  m_players_told.clear();
+  m_player_news.repeat();
   m_ever_joined = true;
   m_log(name + " joined from " + session.address() + " with " + safeText(hello.program(), kMaxProgramLength));
 }
 
 // The first cipher of the client's list that there is.
-std::unique_ptr<DatagramService::Channel> Host::openDatagrams(const Session& session,
-                                                              const wire::Hello& hello) {
-  if (!m_port.datagrams) return nullptr;
+std::unique_ptr<SealedChannel> Host::openDatagrams(const Session& session, const wire::Hello& hello) {
   for (const std::uint32_t wanted : hello.aeads()) {
-    const auto aead = aeadFromWire(wanted);
-    if (!aead) continue;
-    return m_port.datagrams->open(
-        [&session](std::string_view label, std::string_view context, std::size_t bytes) {
-          return session.exportSecret(label, context, bytes);
-        },
-        *aead);
+    if (const auto aead = aeadFromWire(wanted)) return m_network.openDatagrams(*session.stream(), *aead);
   }
   return nullptr;
 }
 
 Session* Host::find(std::uint64_t id) {
-  const auto found = std::find_if(m_sessions.begin(), m_sessions.end(),
-                                  [id](const auto& session) { return session->id() == id; });
-  return found != m_sessions.end() ? found->get() : nullptr;
+  const auto found =
+      std::lower_bound(m_sessions.begin(), m_sessions.end(), id,
+                       [](const auto& session, std::uint64_t wanted) { return session->id() < wanted; });
+  return found != m_sessions.end() && (*found)->id() == id ? found->get() : nullptr;
 }
 
 void Host::chat(const Session& session, const std::string& text) {
@@ -457,10 +463,6 @@ std::uint64_t Host::skippedTicks(std::uint32_t player) const {
   return found != m_sessions.end() ? (*found)->skippedTicks() : 0;
 }
 
-DatagramGateCounters Host::datagramCounters() const {
-  return m_port.datagrams ? m_port.datagrams->counters() : DatagramGateCounters();
-}
-
 bool Host::isDeserted(Clock::time_point now) const {
   if (m_options.exit_when_empty <= 0 || connected() > 0) return false;
   const std::chrono::duration<double> patience(m_options.exit_when_empty);
@@ -475,30 +477,40 @@ bool Host::isOver(const df::World& world) const {
 }
 
 void Host::drain() {
-  m_port.streams->close();
+  m_network.closeListener();
   const std::string sentence = m_stop_sentence.empty() ? "The game is over." : m_stop_sentence;
   for (const auto& session : m_sessions) session->goodbye(sentence);
+  m_network.flush();
   const Clock::time_point end = Clock::now() + kDrainTime;
   while (!m_sessions.empty() && Clock::now() < end) {
     m_io.restart();
     m_io.run_one_until(end);
     sweep();
   }
+  m_network.stop();
   m_log("stopped: " + m_counters.summary());
   logRefusals();
 }
 
 // What came to the door and was not let in.
 void Host::logRefusals() const {
-  const TcpListener::Counters& streams = m_port.streams->counters();
+  const TcpListener::Counters& streams = m_network.streamCounters();
   std::string text = listCounters({{"failed_accepts", streams.failed_accepts},
                                    {"handshakes_failed", streams.handshakes_failed},
                                    {"handshakes_late", streams.handshakes_late},
                                    {"refused_half_open", streams.refused_half_open},
                                    {"refused_from_prefix", streams.refused_from_prefix}});
   if (!text.empty()) m_log("streams: " + text);
-  if (!m_port.datagrams) return;
-  const DatagramGateCounters& gate = m_port.datagrams->counters();
+  const RelayCounters relay = m_network.counters();
+  text = listCounters({{"datagrams_in_dropped", relay.datagrams_in_dropped},
+                       {"datagrams_out_dropped", relay.datagrams_out_dropped},
+                       {"streams_overflowed", relay.streams_overflowed},
+                       {"streams_clogged", relay.streams_clogged},
+                       {"unmet", relay.unmet},
+                       {"keyless", relay.keyless}});
+  if (!text.empty()) m_log("between the threads: " + text);
+  if (!m_network.hasDatagrams()) return;
+  const DatagramGateCounters gate = m_network.gateCounters();
   text = listCounters({{"delivered", gate.delivered},
                        {"too_short", gate.too_short},
                        {"too_long", gate.too_long},

@@ -1,7 +1,8 @@
 // Hosts a game: the Runner behind GM.run() in dfserver.
 //
-// One thread does everything: between two ticks it serves sockets, at the deadline it runs the tick, then it
-// sends. `run` is the loop, `tick` one turn of it.
+// The thread that runs `run` owns world and sessions; the sockets have a thread of their own
+// (NetworkThread.h). Between two ticks it hears what came on streams, at the deadline it runs the tick. `run`
+// is the loop, `tick` one turn of it.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -10,18 +11,20 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "AddressPrefix.h"
 #include "Counters.h"
 #include "HostOptions.h"
 #include "LookBack.h"
+#include "NetworkThread.h"
 #include "PasswordCheck.h"
+#include "PlayerNews.h"
 #include "Publisher.h"
 #include "ResumeTokens.h"
 #include "Runner.h"
 #include "ServerIdentity.h"
-#include "ServerPort.h"
 #include "Session.h"
 #include "TruthFile.h"
 
@@ -37,16 +40,19 @@ class Host : public df::Runner {
   ~Host() override;
 
   /// The port listened on.
-  std::uint16_t port() const { return m_port.streams->port(); }
+  std::uint16_t port() const { return m_network.port(); }
   /// "127.0.0.1:9876".
-  std::string address() const { return m_port.streams->address(); }
+  std::string address() const { return m_network.address(); }
   /// What players compare; nothing without encryption.
   std::optional<Fingerprint> fingerprint() const;
   /// What dfclient needs on its command line to join from this machine: "127.0.0.1:9876 --fingerprint …".
   std::string joinArguments() const;
   const Counters& counters() const { return m_counters; }
-  /// What became of every datagram so far; nothing without encryption.
-  DatagramGateCounters datagramCounters() const;
+  /// What became of every datagram so far; nothing without encryption. Thread-safe.
+  DatagramGateCounters datagramCounters() const { return m_network.gateCounters(); }
+  /// How long ticks took, begin to last datagram sent. Thread-safe.
+  const TickTimes& tickTimes() const { return m_network.tickTimes(); }
+  void resetTickTimes() { m_network.resetTickTimes(); }
   /// Ticks that were skipped for a player who is here (Session::skippedTicks); 0 for anybody else.
   std::uint64_t skippedTicks(std::uint32_t player) const;
 
@@ -70,17 +76,17 @@ class Host : public df::Runner {
   void checkPassword(Session& session, const wire::Hello& hello);
   bool resume(Session& session, const wire::Hello& hello);
   void admit(Session& session, const wire::Hello& hello);
-  std::unique_ptr<DatagramService::Channel> openDatagrams(const Session& session, const wire::Hello& hello);
+  std::unique_ptr<SealedChannel> openDatagrams(const Session& session, const wire::Hello& hello);
   Session* find(std::uint64_t session);
   void chat(const Session& session, const std::string& text);
   void leave(Session& session);
-  void serveSockets();
+  void serve();
   void tick(df::World& world);
   void applyInputs(df::World& world);
   void lookBack(df::World& world);
   void sendSnapshots(df::World& world);
-  void writeTruth(const df::PlayerFacts& player, const df::World& world);
   void sendPlayers(const df::World& world);
+  void writeTruth(const df::PlayerFacts& player, const df::World& world);
   void sweep();
   void drain();
   void logRefusals() const;
@@ -96,20 +102,21 @@ class Host : public df::Runner {
   std::string m_game;
   Log m_log;
   Counters m_counters;
-  asio::io_context m_io{1};
+  asio::io_context m_io{1};  ///< this thread's handlers; no sockets
   std::optional<ServerIdentity> m_identity;
-  ServerPort m_port;
+  NetworkThread m_network;
   std::unique_ptr<PasswordCheck> m_password;
   ResumeTokens m_tokens;
   std::uint64_t m_next_session = 1;
-  std::vector<std::unique_ptr<Session>> m_sessions;
+  std::vector<std::unique_ptr<Session>> m_sessions;  ///< by id
   Publisher m_publisher;
   std::optional<LookBack> m_look_back;  ///< while the game wants it
   std::optional<TruthWriter> m_truth;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;
   std::string m_stop_sentence;
-  std::string m_players_told;  ///< the player list as last sent, serialised
+  PlayerNews m_player_news;
+  std::unordered_map<std::uint32_t, Session*> m_by_player;  ///< those that play; for one tick
   Clock::time_point m_empty_since;
   bool m_ever_joined = false;
 };

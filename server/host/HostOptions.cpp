@@ -31,7 +31,7 @@ const std::vector<Row>& table() {
        "Numeric address to listen on; :: is every address of this machine, IPv4 too"},
       {"--port", "NAIAD_PORT", &HostOptions::port, 0, 65535,
        "Port to listen on, TCP and UDP; 0 takes any free one"},
-      {"--max-players", "NAIAD_MAX_PLAYERS", &HostOptions::max_players, 1, static_cast<double>(kMaxPlayers),
+      {"--max-players", "NAIAD_MAX_PLAYERS", &HostOptions::max_players, 1, kMostPlayers,
        "Players at a time"},
       {"--max-per-address", "NAIAD_MAX_PER_ADDRESS", &HostOptions::max_per_address, 1,
        static_cast<double>(kMaxPlayers), "Players at a time from one IPv4 address or IPv6 network (/64)"},

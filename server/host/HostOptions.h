@@ -10,6 +10,9 @@
 
 namespace naiad {
 
+/// Players that one server takes, at most.
+inline constexpr int kMostPlayers = 20'000;
+
 struct HostOptions {
   std::string game = "saucershoot";  ///< name of a shipped game, or path of a module
   std::string address = "::";        ///< numeric address to listen on; "::" is all of them, IPv4 too

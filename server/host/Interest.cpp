@@ -75,7 +75,7 @@ void Interest::update(const Publisher& publisher, const Focus& focus, KnownObjec
   for (const df::ObjectKey own : focus.own) {
     const Publisher::Model* model = own.generation != 0 ? publisher.find(own.slot) : nullptr;
     if (model == nullptr || model->generation != own.generation) continue;
-    if (known.find(own.slot) == KnownObjects::kNobody) learn(own.slot, own.generation);
+    if (!isKnown(own.slot)) learn(own.slot, own.generation);
   }
   m_seen = focus.window;
 }
@@ -85,16 +85,22 @@ void Interest::learn(std::uint32_t slot, std::uint32_t generation) {
   if (id == KnownObjects::kNobody) return;
   if (id >= m_stays.size()) m_stays.resize(std::size_t{id} + 1);
   m_stays[id] = m_tick;
+  noteKnown(slot);
+}
+
+void Interest::forget(std::uint32_t id, std::uint32_t slot) {
+  m_p_known->forget(id, m_tick);
+  if (bitsAreExact()) m_known_bits[slot % kBits / 64] &= ~(std::uint64_t{1} << (slot % 64));
 }
 
 void Interest::noteChanges() {
   // The publisher looks so far ahead for all clients at once.
   const bool sweeps_suffice = kGap + m_focus.look_ahead <= Publisher::kSweep;
   for (const Publisher::Change& change : m_p_publisher->changes()) {
-    const std::uint32_t id = m_p_known->find(change.slot);
+    const std::uint32_t id = mayBeKnown(change.slot) ? m_p_known->find(change.slot) : KnownObjects::kNobody;
     if (id == KnownObjects::kNobody) {
       if (change.groups == 0 || (sweeps_suffice && !meets(change.sweep, m_covered))) continue;
-      consider(change.slot, *m_p_publisher->find(change.slot));
+      consider(change.slot);
       continue;
     }
     const Publisher::Model* model = m_p_publisher->find(change.slot);
@@ -103,24 +109,25 @@ void Interest::noteChanges() {
       if ((change.groups & (kMotion | kLook)) != 0) m_stays[id] = m_tick;
       continue;
     }
-    m_p_known->forget(id, m_tick);
-    if (model != nullptr) consider(change.slot, *model);
+    forget(id, change.slot);
+    if (model != nullptr) consider(change.slot);
   }
 }
 
-// Learn of the object if it can be seen, watch it if that may come.
-void Interest::consider(std::uint32_t slot, const Publisher::Model& model) {
-  if (!meets(Publisher::sweepOf(model, m_tick, kGap + m_focus.look_ahead), m_covered)) return;
-  if (!isVisible(model, m_tick, m_focus.look_ahead, m_focus.window)) return m_candidates.push_back(slot);
-  if (m_p_known->find(slot) == KnownObjects::kNobody) learn(slot, model.generation);
+// Learn of the object, which the client does not know, if it can be seen; watch it if that may come.
+void Interest::consider(std::uint32_t slot) {
+  const Publisher::Outlook& outlook = this->outlook(slot);
+  if (!meets(outlook.later, m_covered)) return;
+  if (!meets(outlook.soon, m_focus.window)) return m_candidates.push_back(slot);
+  learn(slot, outlook.generation);
 }
 
 void Interest::judgeCandidates() {
   std::erase_if(m_candidates, [this](std::uint32_t slot) {
-    const Publisher::Model* model = m_p_publisher->find(slot);
-    if (model == nullptr || m_p_known->find(slot) != KnownObjects::kNobody) return true;
-    if (!isVisible(*model, m_tick, m_focus.look_ahead, m_focus.window)) return false;
-    learn(slot, model->generation);
+    const Publisher::Outlook& outlook = this->outlook(slot);
+    if (outlook.generation == 0 || isKnown(slot)) return true;
+    if (!meets(outlook.soon, m_focus.window)) return false;
+    learn(slot, outlook.generation);
     return true;
   });
 }
@@ -136,29 +143,33 @@ void Interest::search() {
   m_began = true;
   m_searched = m_focus.window;
   m_covered = m_focus.window.grownBy(moved ? kSpare : 0);
-  forgetThoseOutside(outer);
+  forgetThoseOutside(outer, moved);
   m_candidates.clear();
   // Slow ones come no farther than a cell in each tick; the publisher knows the others.
   const CellRect around = m_covered.grownBy(kGap + m_focus.look_ahead);
-  m_p_publisher->forEachNear(around, shared(m_seen, m_focus.window),
-                             [this](std::uint32_t slot, const Publisher::Model& model) {
-                               if (m_p_known->find(slot) == KnownObjects::kNobody) consider(slot, model);
-                             });
+  m_p_publisher->forEachNear(around, shared(m_seen, m_focus.window), [this](std::uint32_t slot) {
+    if (!isKnown(slot)) consider(slot);
+  });
 }
 
-void Interest::forgetThoseOutside(const CellRect& outer) {
+// A view that has moved since the last search will have moved at the next: then all are looked at again
+// anyway.
+void Interest::forgetThoseOutside(const CellRect& outer, bool moves) {
+  m_known_bits = {};
   for (std::uint32_t id = 0; id < m_stays.size(); ++id) {
+    const KnownObjects::Known& known = m_p_known->at(id);
+    const bool alive = known.life == KnownObjects::Life::kBorn || known.life == KnownObjects::Life::kAlive;
+    if (alive) noteKnown(known.slot);
     if (!isDue(m_stays[id], m_tick)) continue;
     m_stays[id] = m_tick + kLongest;
-    const KnownObjects::Known& known = m_p_known->at(id);
-    if (known.life != KnownObjects::Life::kBorn && known.life != KnownObjects::Life::kAlive) continue;
-    const Publisher::Model& model = *m_p_publisher->find(known.slot);
+    if (!alive) continue;
     const df::ObjectKey key{known.slot, known.generation};
     const bool own = key == m_focus.own[0] || key == m_focus.own[1];
-    if (own || isVisible(model, m_tick, m_focus.look_ahead, outer)) {
-      m_stays[id] = m_tick + (own ? 0 : leavesAfter(model, outer));
+    if (own || meets(outlook(known.slot).soon, outer)) {
+      const bool again = own || moves;
+      m_stays[id] = m_tick + (again ? 0 : leavesAfter(*m_p_publisher->find(known.slot), outer));
     } else {
-      m_p_known->forget(id, m_tick);
+      forget(id, known.slot);
     }
   }
 }

@@ -47,13 +47,30 @@ class Interest {
   static constexpr std::int64_t kSpare = 4;
 
   void noteChanges();
-  void consider(std::uint32_t slot, const Publisher::Model& model);
+  void consider(std::uint32_t slot);
   void judgeCandidates();
   bool isSearchDue() const;
   void search();
-  void forgetThoseOutside(const CellRect& outer);
+  void forgetThoseOutside(const CellRect& outer, bool moves);
   std::uint32_t leavesAfter(const Publisher::Model& model, const CellRect& outer) const;
   void learn(std::uint32_t slot, std::uint32_t generation);
+  const Publisher::Outlook& outlook(std::uint32_t slot) const {
+    return m_p_publisher->outlook(slot, m_focus.look_ahead, kGap + m_focus.look_ahead);
+  }
+  // Most of what happens in the world happens to others than those that the client knows: a bit for each
+  // slot, modulo their number, answers for them without a look into the table; in a world of fewer slots (the
+  // last bit is the loose one's) for all.
+  static constexpr std::uint32_t kBits = 4096;
+  static_assert(kLooseSlot % kBits == kBits - 1);
+  bool bitsAreExact() const { return m_p_publisher->slotCount() < kBits; }
+  bool mayBeKnown(std::uint32_t slot) const {
+    return (m_known_bits[slot % kBits / 64] >> (slot % 64) & 1) != 0;
+  }
+  bool isKnown(std::uint32_t slot) const {
+    return mayBeKnown(slot) && (bitsAreExact() || m_p_known->find(slot) != KnownObjects::kNobody);
+  }
+  void noteKnown(std::uint32_t slot) { m_known_bits[slot % kBits / 64] |= std::uint64_t{1} << (slot % 64); }
+  void forget(std::uint32_t id, std::uint32_t slot);
 
   const Publisher* m_p_publisher = nullptr;  ///< these three only during update()
   KnownObjects* m_p_known = nullptr;
@@ -64,7 +81,8 @@ class Interest {
   CellRect m_covered;   ///< the candidates are all that may enter a window inside this before the next search
   bool m_began = false;
   std::vector<std::uint32_t> m_candidates;  ///< slots
-  std::vector<std::uint32_t> m_stays;       ///< by id: the tick until which it cannot leave m_searched
+  std::array<std::uint64_t, kBits / 64> m_known_bits{};
+  std::vector<std::uint32_t> m_stays;  ///< by id: the tick until which it cannot leave m_searched
 };
 
 }  // namespace naiad

@@ -24,7 +24,7 @@ struct CellRect {
   }
 };
 
-/// Slots filed by their cell, in blocks of 32 by 16 cells. Memory follows the number of slots.
+/// Slots filed by their cell, in blocks of 16 by 8 cells. Memory follows the number of slots.
 class InterestGrid {
  public:
   /// File `slot` where it is now; cheap if it has not left its block.
@@ -66,8 +66,8 @@ class InterestGrid {
   }
 
  private:
-  static constexpr int kColumnShift = 5;
-  static constexpr int kRowShift = 4;
+  static constexpr int kColumnShift = 4;
+  static constexpr int kRowShift = 3;
   struct Place {
     std::uint64_t key = 0;
     std::uint32_t index = 0;  ///< in the block

@@ -1,6 +1,7 @@
 #include "Passage.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace naiad {
 
@@ -19,18 +20,34 @@ void Passage::sent(std::uint32_t number, bool as_datagram, Time now) {
   if (as_datagram && !isOpen(now)) m_last_probe = now;
 }
 
+// Most of a window was in the one before, which came the same way: only what is new in it is looked at.
 void Passage::acknowledged(const AckWindow& acks, bool by_datagram, Time now) {
-  for (Sent& sent : m_sent) {
-    if (sent.number == 0 || !acks.has(sent.number)) continue;
-    if (sent.open && sent.number == acks.newest) measure(now - sent.at, now);
-    sent.open = false;
-    if (!sent.as_datagram || !by_datagram || sent.confirmed) continue;
-    sent.confirmed = true;
-    // What was sent before the line fell silent says nothing of it now.
-    if (now - sent.at < kSilence + kSilence) {
-      m_open = true;
-      m_last_ack = now;
-    }
+  AckWindow& before = m_acked[by_datagram ? 1 : 0];
+  const std::uint32_t ahead = acks.newest - before.newest;
+  const bool follows = before.newest != 0 && !isNewer(before.newest, acks.newest) && ahead <= 64;
+  std::uint64_t fresh = acks.mask;
+  if (follows && ahead > 0)
+    fresh &= ~((ahead < 64 ? before.mask << ahead : 0) | std::uint64_t{1} << (ahead - 1));
+  if (follows && ahead == 0) fresh &= ~before.mask;
+  if (before.newest == 0 || !isNewer(before.newest, acks.newest)) before = acks;
+  noteArrival(acks.newest, true, by_datagram, now);
+  for (; fresh != 0; fresh &= fresh - 1) {
+    const auto bit = static_cast<std::uint32_t>(std::countr_zero(fresh));
+    noteArrival(acks.newest - 1 - bit, false, by_datagram, now);
+  }
+}
+
+void Passage::noteArrival(std::uint32_t number, bool newest, bool by_datagram, Time now) {
+  Sent& sent = m_sent[number % kKept];
+  if (sent.number != number || number == 0) return;
+  if (sent.open && newest) measure(now - sent.at, now);
+  sent.open = false;
+  if (!sent.as_datagram || !by_datagram || sent.confirmed) return;
+  sent.confirmed = true;
+  // What was sent before the line fell silent says nothing of it now.
+  if (now - sent.at < kSilence + kSilence) {
+    m_open = true;
+    m_last_ack = now;
   }
 }
 

@@ -71,8 +71,10 @@ class Passage {
     return only || (m_open && now - m_last_ack < kEagerFor) ? kEagerProbes : kProbeEvery;
   }
   void measure(Millis sample, Time now);
+  void noteArrival(std::uint32_t number, bool newest, bool by_datagram, Time now);
 
   std::array<Sent, kKept> m_sent{};
+  std::array<AckWindow, 2> m_acked{};  ///< the newest windows taken in, on the stream and by datagram
   Time m_began;
   Time m_last_probe{};
   Time m_last_ack{};

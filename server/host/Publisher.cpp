@@ -114,6 +114,7 @@ void Publisher::mark(std::uint32_t slot, Tracked& tracked, std::uint8_t groups) 
 
 void Publisher::update(const df::WorldView& view) {
   m_tick = view.tick;
+  ++m_update;
   m_world = {view.boundary, view.view_width, view.view_height};
   m_changes.clear();
   m_exact.clear();
@@ -174,6 +175,36 @@ CellRect Publisher::sweepOf(const Model& model, std::uint32_t tick, std::uint32_
                   x + 1 + (straight && velocity.x < 0 ? 0 : dx),
                   y + 1 + (straight && velocity.y < 0 ? 0 : dy)}
       .grownBy(model.reach);
+}
+
+const Publisher::Outlook& Publisher::workOut(std::uint32_t slot, std::uint32_t soon,
+                                             std::uint32_t later) const {
+  if (soon != m_soon || later != m_later) {
+    ++m_update;
+    m_soon = soon;
+    m_later = later;
+  }
+  m_outlooks.resize(m_models.size() + 1);
+  Remembered& known = m_outlooks[std::min<std::size_t>(slot, m_models.size())];
+  known.update = m_update;
+  known.outlook = {};
+  const Model* model = find(slot);
+  if (model == nullptr) return known.outlook;
+  known.outlook.generation = model->generation;
+  known.outlook.later = sweepOf(*model, m_tick, later);
+  if (model->reach > kWide) {
+    known.outlook.soon = known.outlook.later;
+    return known.outlook;
+  }
+  const Motion& motion = model->state.motion;
+  const df::FixedVector now = positionAt(motion, m_tick);
+  const df::FixedVector then = isMoving(motion) ? positionAt(motion, m_tick + soon) : now;
+  const std::int64_t left = std::min(df::cellOf(now.x), df::cellOf(then.x));
+  const std::int64_t top = std::min(df::cellOf(now.y), df::cellOf(then.y));
+  const std::int64_t right = std::max(df::cellOf(now.x), df::cellOf(then.x));
+  const std::int64_t bottom = std::max(df::cellOf(now.y), df::cellOf(then.y));
+  known.outlook.soon = CellRect{left, top, right + 1, bottom + 1}.grownBy(model->reach);
+  return known.outlook;
 }
 
 // Put the slot into the list, or take it out.

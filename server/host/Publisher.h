@@ -40,6 +40,12 @@ class Publisher {
     CellRect sweep;  ///< sweepOf() for kSweep ticks, so that not every client has to find out
   };
   static constexpr std::uint32_t kSweep = 16;
+  /// Where something of a model may be drawn: worked out once in a tick, however many clients ask.
+  struct Outlook {
+    std::uint32_t generation = 0;  ///< 0: nothing lives there
+    CellRect soon;                 ///< now, or at the end of some ticks
+    CellRect later;                ///< at any time in these and some more
+  };
 
   /// Take in one tick of the world. `changes()` then lists what clients have to be told.
   void update(const df::WorldView& view);
@@ -56,23 +62,30 @@ class Publisher {
     }
     if (m_loose.model.alive) visit(kLooseSlot, m_loose.model);
   }
+  /// `soon`, `later`: ticks from now. The answer is remembered for the numbers asked for last; valid until
+  /// the next update or question.
+  const Outlook& outlook(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const {
+    const std::size_t index = slot < m_models.size() ? slot : m_models.size();
+    const bool known = soon == m_soon && later == m_later && index < m_outlooks.size() &&
+                       m_outlooks[index].update == m_update;
+    return known ? m_outlooks[index].outlook : workOut(slot, soon, later);
+  }
   const WorldRecord& world() const { return m_world; }
-  /// Call `visit(slot, model)` for every live model of which something may be drawn in `rect`, and for some
+  /// Call `visit(slot)` for every live model of which something may be drawn in `rect`, and for some
   /// around it, but those well inside `inner` may be left out. Models that are wide or faster than a cell per
   /// tick are visited wherever they are; some models twice.
   template <class Visit>
   void forEachNear(const CellRect& rect, const CellRect& inner, Visit visit) const {
-    m_grid.forEachNear(rect.grownBy(m_reach), inner,
-                       [&](std::uint32_t slot) { visit(slot, m_models[slot].model); });
+    m_grid.forEachNear(rect.grownBy(m_reach), inner, visit);
     for (const std::vector<std::uint32_t>* slots : {&m_wide, &m_fast}) {
-      for (const std::uint32_t slot : *slots) {
-        visit(slot, slot == kLooseSlot ? m_loose.model : m_models[slot].model);
-      }
+      for (const std::uint32_t slot : *slots) visit(slot);
     }
   }
   /// The cells in which something of the model may be drawn from `tick` to `ticks` later, and some more.
   static CellRect sweepOf(const Model& model, std::uint32_t tick, std::uint32_t ticks);
 
+  /// All slots but the loose one are below this.
+  std::size_t slotCount() const { return m_models.size(); }
   /// The highest creation order published so far.
   std::uint64_t newestOrder() const { return m_newest_order; }
 
@@ -106,6 +119,7 @@ class Publisher {
     bool touched = false;  ///< in m_changes already
   };
 
+  const Outlook& workOut(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const;
   Tracked* track(std::uint32_t slot);
   Motion truthNow(const Tracked& tracked) const;
   void mark(std::uint32_t slot, Tracked& tracked, std::uint8_t groups);
@@ -144,6 +158,15 @@ class Publisher {
   bool m_exact_solids = false;
   bool m_solids_are_coarse = false;  ///< exactness was asked for since the last update
   std::uint64_t m_newest_order = 0;
+  /// A cache, by slot; the last one is the loose one's.
+  struct Remembered {
+    std::uint64_t update = 0;
+    Outlook outlook;
+  };
+  mutable std::vector<Remembered> m_outlooks;
+  mutable std::uint64_t m_update = 1;  ///< counts updates, and changes of the next two
+  mutable std::uint32_t m_soon = 0;
+  mutable std::uint32_t m_later = 0;
   WorldRecord m_world;
   std::uint32_t m_tick = 0;
   std::uint64_t m_corrections = 0;

@@ -256,7 +256,7 @@ std::string Session::exportSecret(std::string_view label, std::string_view conte
   return m_channel != nullptr ? m_channel->exportSecret(label, context, bytes) : std::string();
 }
 
-void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<DatagramService::Channel> datagrams) {
+void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChannel> datagrams) {
   m_welcome = welcome;
   m_welcome.clear_resume_token();  // only its hash is kept (ResumeTokens)
   m_player = welcome.player();
@@ -286,8 +286,7 @@ void Session::adopt(Session& other, wire::Welcome welcome, std::uint32_t receive
   m_kept.forEach([this](const std::string& frame) { m_channel->send(frame); });
 }
 
-void Session::restart(Session& other, wire::Welcome welcome,
-                      std::unique_ptr<DatagramService::Channel> datagrams) {
+void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<SealedChannel> datagrams) {
   takeStream(other);
   if (other.m_channel != nullptr) {
     other.goodbye("You went on playing in another terminal.");

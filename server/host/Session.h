@@ -18,11 +18,11 @@
 
 #include "Channel.h"
 #include "Counters.h"
-#include "DatagramService.h"
 #include "KeptFrames.h"
 #include "LookBack.h"
 #include "Passage.h"
 #include "PressedKeys.h"
+#include "SealedChannel.h"
 #include "SnapshotSender.h"
 #include "StreamDrain.h"
 #include "UpdateCodec.h"
@@ -73,14 +73,14 @@ class Session {
   /// Answer the hello with a refusal; the connection ends.
   void refuse(wire::Refused::Reason reason, const std::string& sentence);
   /// Answer the hello: the client plays from now on. With `datagrams` if there are to be any.
-  void welcome(const wire::Welcome& welcome, std::unique_ptr<DatagramService::Channel> datagrams = nullptr);
+  void welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChannel> datagrams = nullptr);
   /// The client is back: take over the stream on which `other` heard its hello, and answer that; then comes
   /// what it has missed of the frames that are kept, all after number `received`. `other` is Gone afterwards.
   void adopt(Session& other, wire::Welcome welcome, std::uint32_t received);
   /// Another process of the client, which knows nothing yet, goes on with the session: the same, but it is
   /// told the world from the beginning, and with `datagrams` of its own, if any. Whoever still holds the old
   /// stream is told that he went on elsewhere.
-  void restart(Session& other, wire::Welcome welcome, std::unique_ptr<DatagramService::Channel> datagrams);
+  void restart(Session& other, wire::Welcome welcome, std::unique_ptr<SealedChannel> datagrams);
   /// Wait this long for a client whose stream broke. 0: do not.
   void setGrace(std::chrono::milliseconds grace) { m_grace = grace; }
   /// The stream is broken; the client may come back.
@@ -90,7 +90,9 @@ class Session {
   bool takeProof() { return std::exchange(m_proved, false); }
   /// As it was sent.
   const wire::Welcome& welcomed() const { return m_welcome; }
-  DatagramService::Channel* datagrams() { return m_datagrams.get(); }
+  SealedChannel* datagrams() { return m_datagrams.get(); }
+  /// Null while detached.
+  const ReliableChannel* stream() const { return m_channel.get(); }
   /// Keying material of the stream (Channel.h).
   std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
   /// Tell the client why it is over, and end.
@@ -172,7 +174,7 @@ class Session {
 
   std::shared_ptr<Reception> m_reception = std::make_shared<Reception>();
   std::unique_ptr<ReliableChannel> m_channel;  ///< null while detached
-  std::unique_ptr<DatagramService::Channel> m_datagrams;
+  std::unique_ptr<SealedChannel> m_datagrams;
   std::chrono::milliseconds m_grace{0};
   std::string m_address;
   Counters& m_counters;

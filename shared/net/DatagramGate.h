@@ -58,6 +58,7 @@ class DatagramGate {
   /// nothing changes, if there is such an id already: draw another.
   bool add(SealedLink& link, OnPayload on_payload);
   void remove(ConnectionId id);
+  bool has(ConnectionId id) const { return doors_.contains(id); }
 
   /// A packet arrived.
   void receive(const Path& path, std::string_view packet, Time now);

@@ -270,6 +270,12 @@ ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context, 
   return objects.isStale() ? ReadResult::kStale : ReadResult::kOk;
 }
 
+std::optional<SnapshotHeader> peekHeader(std::string_view bytes, const SnapshotContext& context) {
+  BitReader in(bytes);
+  const SnapshotHeader header = readHeader(in, context);
+  return in.ok() ? std::optional(header) : std::nullopt;
+}
+
 std::optional<std::uint8_t> peekEpoch(std::string_view bytes) {
   BitReader in(bytes);
   in.bits(2 * kLowBits);

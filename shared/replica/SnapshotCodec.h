@@ -52,6 +52,8 @@ ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context, 
                         Snapshot& out);
 /// The epoch of a snapshot, before it is read; nothing if the bytes are too few.
 std::optional<std::uint8_t> peekEpoch(std::string_view bytes);
+/// What a snapshot says of itself, without its records; nothing if the bytes are too few or malformed.
+std::optional<SnapshotHeader> peekHeader(std::string_view bytes, const SnapshotContext& context);
 
 /// Puts a snapshot together, in any order.
 class SnapshotWriter {

@@ -66,9 +66,9 @@ bool VirtualHost::resume(Session& session, const wire::Hello& hello) {
   welcome.set_tick(m_publisher.tick());
   welcome.set_resume_token(m_tokens.issue(before.id()));
   welcome.set_aead(0);
-  if (DatagramService::Channel* datagrams = before.datagrams()) {
+  if (SealedChannel* datagrams = before.datagrams()) {
     const Epoch epoch = datagrams->epoch() + 1;
-    if (datagrams->renew(exporterOf(session), epoch)) {
+    if (datagrams->renew(*session.stream(), epoch)) {
       welcome.set_aead(static_cast<std::uint32_t>(datagrams->aead()));
       welcome.set_epoch(epoch);
     }

@@ -117,14 +117,18 @@ class Usher : public df::Object {
 
 }  // namespace
 
+void populateBusy(BusyScene::Kind kind, int objects) {
+  WM.setBoundary(df::Box(df::Vector(0, 0), kBusyWidth, kBusyHeight));
+  for (int i = 0; i < objects; ++i) new Walker(kind);
+}
+
 BusyScene::BusyScene(Kind kind, int objects, int width, int height, int players, std::uint64_t seed) {
   const df::World::Scope scope(m_world);
   m_world.setSeed(seed);
   m_world.setWatched(true);
-  WM.setBoundary(df::Box(df::Vector(0, 0), kBusyWidth, kBusyHeight));
   m_world.setWindow(width, height);
   new Usher;
-  for (int i = 0; i < objects; ++i) new Walker(kind);
+  populateBusy(kind, objects);
   for (int i = 0; i < players; ++i) {
     m_players.push_back(m_world.join("bot" + std::to_string(i), df::WHITE));
   }

@@ -40,4 +40,7 @@ class BusyScene {
   std::vector<std::uint32_t> m_players;
 };
 
+/// Make that world of the current one: its boundary, and `objects` that walk about.
+void populateBusy(BusyScene::Kind kind, int objects);
+
 }  // namespace bench

@@ -1,0 +1,99 @@
+// Messages from one thread to another, many at a time.
+//
+// A writer collects a Batch of its own, and now and then puts it into the Mailbox; the reader takes all that
+// is there at once. Both swap vectors under a lock that is held for no longer, so neither waits for what the
+// other does, and after a while nothing is allocated any more.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace naiad {
+
+/// Headers in the order they were added, each with some bytes. Not thread-safe.
+template <class Header>
+class Batch {
+ public:
+  void add(const Header& header, std::string_view bytes = {}) {
+    m_items.push_back({header, static_cast<std::uint32_t>(bytes.size())});
+    m_bytes.insert(m_bytes.end(), bytes.begin(), bytes.end());
+  }
+  void append(const Batch& other) {
+    m_items.insert(m_items.end(), other.m_items.begin(), other.m_items.end());
+    m_bytes.insert(m_bytes.end(), other.m_bytes.begin(), other.m_bytes.end());
+  }
+  /// The next one that was not read yet, and its bytes, which are valid until the batch changes. False after
+  /// the last one: then the batch is empty again.
+  bool read(Header& header, std::string_view& bytes) {
+    if (m_read == m_items.size()) {
+      clear();
+      return false;
+    }
+    const Item& item = m_items[m_read++];
+    header = item.header;
+    bytes = {m_bytes.data() + m_begin, item.size};
+    m_begin += item.size;
+    return true;
+  }
+  bool empty() const { return m_items.empty(); }
+  /// Memory in use, in bytes.
+  std::size_t size() const { return m_bytes.size() + m_items.size() * sizeof(Item); }
+
+ private:
+  struct Item {
+    Header header;
+    std::uint32_t size;
+  };
+  /// What a burst has left behind beyond this is given back.
+  static constexpr std::size_t kKept = std::size_t{1} << 22;
+
+  void clear() {
+    const bool large = m_bytes.capacity() > kKept && m_bytes.size() < m_bytes.capacity() / 4;
+    m_items.clear();
+    m_bytes.clear();
+    if (large) m_bytes.shrink_to_fit();
+    m_read = m_begin = 0;
+  }
+
+  std::vector<Item> m_items;
+  std::vector<char> m_bytes;
+  std::size_t m_read = 0;
+  std::size_t m_begin = 0;
+};
+
+/// Thread-safe, one reader and one writer.
+template <class Header>
+class Mailbox {
+ public:
+  /// Leave all of `batch` here. It comes back empty.
+  void put(Batch<Header>& batch) {
+    const std::lock_guard lock(m_mutex);
+    if (m_waiting.empty()) {
+      std::swap(m_waiting, batch);
+    } else {
+      m_waiting.append(batch);
+      batch = {};
+    }
+    m_size = m_waiting.size();
+  }
+  /// Fetch what is here. `batch` has to be empty.
+  void take(Batch<Header>& batch) {
+    const std::lock_guard lock(m_mutex);
+    std::swap(m_waiting, batch);
+    m_size = 0;
+  }
+  /// Bytes that nobody has fetched yet.
+  std::size_t size() const { return m_size; }
+
+ private:
+  std::mutex m_mutex;
+  Batch<Header> m_waiting;
+  std::atomic<std::size_t> m_size = 0;
+};
+
+}  // namespace naiad

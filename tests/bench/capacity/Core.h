@@ -1,0 +1,26 @@
+// Processes and processor cores.
+#pragma once
+
+#include <sched.h>
+
+#include <cstdint>
+#include <ctime>
+
+namespace bench::capacity {
+
+/// This process and the threads it will make run on one core only. False if there is no such core for us.
+inline bool pinTo(int core) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(core, &set);
+  return sched_setaffinity(0, sizeof set, &set) == 0;
+}
+
+/// Microseconds of processor time that a clock has counted.
+inline double cpuMicros(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) / 1e3;
+}
+
+}  // namespace bench::capacity

@@ -1,0 +1,175 @@
+#include "LightBot.h"
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "DatagramKeys.h"
+#include "Keyboard.h"
+#include "Limits.h"
+#include "naiad.pb.h"
+
+namespace bench::capacity {
+
+using namespace naiad;
+using namespace std::chrono_literals;
+
+std::string addressOf(int index) {
+  const int n = index + 2;  // 127.0.0.1 is the server's
+  return "127." + std::to_string(n >> 16 & 255) + "." + std::to_string(n >> 8 & 255) + "." +
+         std::to_string(n & 255);
+}
+
+LightBot::LightBot(const Harbour& harbour, int index)
+    : m_harbour(harbour), m_index(index), m_random(static_cast<std::uint64_t>(index)) {}
+
+LightBot::~LightBot() {
+  if (m_descriptor >= 0) close(m_descriptor);
+}
+
+void LightBot::start() {
+  m_connector.emplace(m_harbour.context, TcpOptions{.receive_limit = kMaxServerFrame}, m_harbour.tls);
+  m_connector->connect(m_harbour.host, m_harbour.port, 30s,
+                       [this](std::unique_ptr<ReliableChannel> channel, const std::string&) {
+                         if (!channel) {
+                           m_over = true;
+                           return;
+                         }
+                         m_channel = std::move(channel);
+                         m_channel->start({[this](std::string_view frame) { onFrame(frame); },
+                                           [this](CloseReason) { m_over = true; }});
+                         wire::ClientMessage message;
+                         wire::Hello& hello = *message.mutable_hello();
+                         hello.set_magic(kHelloMagic);
+                         hello.set_protocol(kProtocolVersion);
+                         hello.set_player_name("bot" + std::to_string(m_index));
+                         hello.set_program("naiad_capacity_bots");
+                         hello.add_aeads(static_cast<std::uint32_t>(AeadId::kAes128Gcm));
+                         m_channel->send(message.SerializeAsString());
+                       });
+}
+
+void LightBot::onFrame(std::string_view frame) {
+  wire::ServerMessage message;
+  if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return;
+  if (message.has_refused() || message.has_goodbye()) m_over = true;
+  if (message.has_snapshot() && m_link) {
+    const Time now = std::chrono::steady_clock::now();
+    takeSnapshot(message.snapshot(), now);
+    answer(now);
+  }
+  if (!message.has_welcome() || m_link) return;
+  const wire::Welcome& welcome = message.welcome();
+  const auto aead = aeadFromWire(welcome.aead());
+  if (!aead) {
+    m_over = true;
+    return;
+  }
+  const Time now = std::chrono::steady_clock::now();
+  m_context.tick = welcome.tick();
+  m_link = std::make_unique<SealedLink>(
+      SealedLink::Options{SealedLink::Role::kClient, ConnectionId{welcome.connection_id()}, {}, {}});
+  m_link->setServerPath({Endpoint{}, *makeEndpoint(m_harbour.host, m_harbour.port)});
+  const KeyExporter exporter = [this](std::string_view label, std::string_view context, std::size_t size) {
+    return m_channel->exportSecret(label, context, size);
+  };
+  m_link->startEpoch(welcome.epoch(), deriveDatagramKeys(exporter, *aead, m_link->id(), welcome.epoch()),
+                     now);
+  openSocket();
+  m_next_input = now + std::chrono::milliseconds(m_random.below(kInputEvery.count()));
+  update(now);
+}
+
+void LightBot::openSocket() {
+  m_descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  sockaddr_in own{};
+  own.sin_family = AF_INET;
+  inet_pton(AF_INET, addressOf(m_index).c_str(), &own.sin_addr);
+  sockaddr_in server = own;
+  server.sin_port = htons(m_harbour.port);
+  inet_pton(AF_INET, m_harbour.host.c_str(), &server.sin_addr);
+  if (m_descriptor < 0 || bind(m_descriptor, reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0 ||
+      connect(m_descriptor, reinterpret_cast<const sockaddr*>(&server), sizeof server) != 0) {
+    throw std::runtime_error("a socket of a bot's own cannot be made");
+  }
+}
+
+std::string LightBot::endpoint() const {
+  sockaddr_in own{};
+  socklen_t size = sizeof own;
+  getsockname(m_descriptor, reinterpret_cast<sockaddr*>(&own), &size);
+  return addressOf(m_index) + ":" + std::to_string(ntohs(own.sin_port));
+}
+
+void LightBot::update(Time now) {
+  if (!m_link || m_ready || m_sinking || now - m_probed < 100ms) return;
+  m_probed = now;
+  answer(now);
+}
+
+std::size_t LightBot::receive(Time now) {
+  std::array<char, 2048> buffer;
+  const ssize_t size = recv(m_descriptor, buffer.data(), buffer.size(), MSG_DONTWAIT);
+  if (size <= 0) return 0;
+  ++received;
+  bytes += static_cast<std::size_t>(size);
+  if (m_sinking) return static_cast<std::size_t>(size);
+  const auto payload = m_link->open({}, {buffer.data(), static_cast<std::size_t>(size)}, now);
+  if (!payload) return static_cast<std::size_t>(size);
+  m_ready = true;
+  if (!payload->empty()) takeSnapshot(*payload, now);
+  answer(now);
+  return static_cast<std::size_t>(size);
+}
+
+void LightBot::takeSnapshot(std::string_view snapshot, Time now) {
+  const auto header = peekHeader(snapshot, m_context);
+  if (!header) return;
+  m_acks.note(header->number);
+  ++m_snapshots;
+  if (m_first == 0) m_first = header->number;
+  if (isNewer(header->number, m_context.number)) m_context.number = header->number;
+  if (isNewer(header->tick, m_context.tick)) m_context.tick = header->tick;
+  if (header->tells_input) {
+    if (isNewer(header->input, m_context.input)) m_context.input = header->input;
+    std::erase_if(m_inputs, [&](const Input& input) { return !isNewer(input.id, m_context.input); });
+  }
+  if (now >= m_next_input) press(now);
+}
+
+void LightBot::press(Time now) {
+  m_next_input = std::max(m_next_input + kInputEvery, now);
+  if (m_random.below(kTurnsOneIn) == 0) m_left = !m_left;
+  Input input;
+  input.id = ++m_newest_input;
+  input.tick = m_context.tick + 1;
+  input.snapshot = m_context.number;
+  input.action = static_cast<std::uint8_t>(df::KEY_PRESSED);
+  input.key = static_cast<std::uint8_t>(m_left ? df::Keyboard::LEFTARROW : df::Keyboard::RIGHTARROW);
+  m_inputs.push_back(input);
+}
+
+void LightBot::answer(Time now) {
+  ClientUpdate update;
+  update.acks = m_acks;
+  update.inputs = m_inputs;
+  if (const auto outgoing = m_link->seal(writeUpdate(update), now)) {
+    ::send(m_descriptor, outgoing->packet.data(), outgoing->packet.size(), MSG_DONTWAIT);
+  }
+}
+
+std::uint64_t LightBot::missing() const {
+  if (m_first == 0) return 0;
+  const std::uint64_t sent = m_context.number - m_first + 1;
+  return sent > m_snapshots ? sent - m_snapshots : 0;
+}
+
+void LightBot::resetFigures() {
+  received = bytes = m_snapshots = 0;
+  m_first = 0;
+}
+
+}  // namespace bench::capacity
