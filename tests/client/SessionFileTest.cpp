@@ -176,7 +176,9 @@ TEST_F(SessionFileTest, EveryByteThatChangesIsNoticedOrHarmless) {
     std::string text = good;
     text[i] = static_cast<char>(text[i] ^ 0x55);
     const auto read = readSavedSession(text);
-    if (read) EXPECT_EQ(writeSavedSession(*read), text) << i;
+    if (read) {
+      EXPECT_EQ(writeSavedSession(*read), text) << i;
+    }
   }
 }
 
