@@ -138,7 +138,7 @@ class Box2d : public Simulation {
 };
 
 const RegisteredMethod method({"box2d", "Box2D 2.4", "2.4.1", Method::Kind::PEER, [](const Scene& scene) -> SimulationPtr {
-                                 return scene.abstract() ? nullptr : std::make_unique<Box2d>(scene);
+                                 return scene.rigid() ? std::make_unique<Box2d>(scene) : nullptr;
                                }});
 
 }  // namespace

@@ -137,7 +137,7 @@ class Chipmunk : public Simulation {
 
 const RegisteredMethod method({"chipmunk", "Chipmunk 7", "7.0.3", Method::Kind::PEER,
                                [](const Scene& scene) -> SimulationPtr {
-                                 return scene.abstract() ? nullptr : std::make_unique<Chipmunk>(scene);
+                                 return scene.rigid() ? std::make_unique<Chipmunk>(scene) : nullptr;
                                }});
 
 }  // namespace

@@ -99,8 +99,8 @@ struct StiffPendulum {
 struct Charge {
   static constexpr int kDimension = 4;
   static constexpr bool kSecondOrder = true;
-  double frequency = 1000;  ///< rad/s
-  double push = 1000;       ///< m/s²
+  double frequency = 100;  ///< rad/s
+  double push = 100;       ///< m/s²
   Vec velocity{1, 0};
 
   std::vector<double> start() const { return {0, 0, velocity.x, velocity.y}; }
@@ -120,7 +120,7 @@ struct VanDerPol {
   static constexpr bool kSecondOrder = true;
   double epsilon = 1e-6;
 
-  std::vector<double> start() const { return {2, -0.66}; }
+  std::vector<double> start() const { return {2, 0}; }
   template <class Real>
   void rate(const Real&, const Real* y, Real* rates) const {
     rates[0] = y[1];

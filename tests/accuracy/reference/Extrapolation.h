@@ -53,16 +53,18 @@ class Extrapolation {
  private:
   static constexpr std::size_t kN = System::kDimension;
   static constexpr int kColumns = 10;
-  static constexpr double kTolerance = 1e-17;
+  static constexpr double kTolerance = 1e-16;
+  static constexpr double kNearlyZero = 1e-8;
   static constexpr long kMostSteps = 1000000;
 
   static Quad parts(int row, bool stiff) { return stiff ? row + 1 : 2 * (row + 1); }
 
-  // The error is relative to the largest value of each component so far.
+  // The error is relative to the largest value of each component so far; one that is still nearly 0 beside the others
+  // is only rounding.
   Quad attempt(Quad h, State& next) {
     if (m_stiff) findJacobian();
     std::vector<State> column;  // the last row of the tableau
-    Quad error = 1;
+    Quad error = 0;
     for (int row = 0; row < kColumns; ++row) {
       std::vector<State> current{m_stiff ? implicitEuler(h, row + 1) : midpoint(h, 2 * (row + 1))};
       for (int k = 1; k <= row; ++k) {
@@ -77,13 +79,15 @@ class Extrapolation {
       column = current;
     }
     next = column.back();
-    error = 0;
+    Quad largest = 0;
     for (std::size_t i = 0; i < kN; ++i) {
-      const Quad size = std::max(abs(next[i]), abs(m_y[i]));
-      const Quad difference = abs(next[i] - column[column.size() - 2][i]);
-      if (!(difference < Quad(1e300))) return Quad(1e300);
-      m_scale[i] = std::max(m_scale[i], size);
-      if (m_scale[i] > 0) error = std::max(error, difference / m_scale[i]);
+      if (!(abs(next[i]) < Quad(1e300))) return Quad(1e300);
+      m_scale[i] = std::max(m_scale[i], abs(m_y[i]));
+      largest = std::max(largest, std::max(m_scale[i], abs(next[i])));
+    }
+    for (std::size_t i = 0; i < kN; ++i) {
+      const Quad scale = std::max(std::max(m_scale[i], abs(next[i])), kNearlyZero * largest);
+      error = std::max(error, abs(next[i] - column[column.size() - 2][i]) / scale);
     }
     return error;
   }

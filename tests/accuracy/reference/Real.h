@@ -12,6 +12,8 @@ namespace lab {
 
 using Quad = __float128;
 
+inline const Quad kQuadPi = acosq(-1);
+
 using std::abs;
 using std::cos;
 using std::exp;

@@ -65,6 +65,17 @@ struct Joint {
   double rest_length = 0;  ///< m
 };
 
+/// An elastic beam that lies along x and is clamped at x = 0; its free end counts as the scene's body 0.
+struct Beam {
+  double length = 0;     ///< m
+  double thickness = 0;  ///< m; its depth is 1 m
+  double modulus = 0;    ///< Young's, in Pa
+  double density = 0;    ///< kg/m³
+  double tip_force = 0;  ///< N, downwards, from the start on
+  double damping = 0;    ///< part of critical damping of the first mode
+  int elements = 0;      ///< how finely it is divided along its length
+};
+
 struct BodyState {
   Vec position;  ///< from the scene's origin
   Vec velocity;
@@ -78,6 +89,7 @@ using Field = std::function<Vec(double t, const BodyState&)>;
 struct Scene {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
+  std::vector<Beam> beams;
   Vec gravity;
   Field field;  ///< none: empty
   Vec origin;   ///< where the scene is in the world: whole metres
@@ -87,7 +99,9 @@ struct Scene {
   /// are contacts.
   std::shared_ptr<const Equations> equations;
   /// There are no bodies, only equations.
-  bool abstract() const { return bodies.empty(); }
+  bool abstract() const { return bodies.empty() && beams.empty(); }
+  /// Rigid bodies and joints and nothing else.
+  bool rigid() const { return !bodies.empty() && beams.empty(); }
   double duration() const { return tick * ticks; }
 };
 
