@@ -1,5 +1,5 @@
-// naiad_lab: runs problems with every method and number of sub-steps, prints a line per point and metric, and writes
-// what the report is drawn from.
+// naiad_lab: runs problems with every method and number of sub-steps, prints a line per point and metric, and
+// writes what the report is drawn from.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -61,30 +61,43 @@ std::vector<int> substepCounts(const Options& options, const lab::Case& its_case
   return counts;
 }
 
+// All points of a problem, from case to case.
+struct Run {
+  const lab::Case* its_case;
+  const lab::Method* method;
+  int substeps;
+};
+
+std::vector<Run> runsOf(const Options& options, const lab::Problem& problem) {
+  std::vector<Run> runs;
+  for (const lab::Case& its_case : problem.cases) {
+    if (its_case.long_run && options.quick) continue;
+    for (const lab::Method* method : options.methods) {
+      for (const int substeps : substepCounts(options, its_case))
+        runs.push_back({&its_case, method, substeps});
+    }
+  }
+  return runs;
+}
+
 void run(const Options& options, lab::Records& records) {
-  lab::Progress progress(static_cast<int>(options.problems.size()));
-  for (const lab::ProblemEntry& entry : options.problems) {
-    progress.next(entry.id + " " + entry.name);
+  lab::Progress progress;
+  for (std::size_t i = 0; i < options.problems.size(); ++i) {
+    const lab::ProblemEntry& entry = options.problems[i];
+    const double share = 1 / static_cast<double>(options.problems.size());
+    const std::string name = entry.id + " " + entry.name;
+    progress.show(share * static_cast<double>(i), name + ": the reference");
     const lab::Problem problem = entry.make();
     records.describe(problem);
-    int total = 0;
-    for (const lab::Case& its_case : problem.cases) {
-      if (its_case.long_run && options.quick) continue;
-      total += static_cast<int>(options.methods.size() * substepCounts(options, its_case).size());
-    }
-    lab::Progress points(total);
-    for (const lab::Case& its_case : problem.cases) {
-      if (its_case.long_run && options.quick) continue;
-      for (const lab::Method* method : options.methods) {
-        for (const int substeps : substepCounts(options, its_case)) {
-          points.next(entry.id + " " + entry.name + " " + its_case.name + ": " + method->label + " x" +
-                      std::to_string(substeps));
-          const lab::Measurement measurement =
-              lab::measureApart(its_case, *method, substeps, kRuns, kMostCpuSeconds);
-          if (!measurement.expressed) continue;
-          records.add(problem, its_case, *method, substeps, measurement);
-        }
-      }
+    const std::vector<Run> runs = runsOf(options, problem);
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      const auto& [its_case, method, substeps] = runs[k];
+      const double part = static_cast<double>(k) / static_cast<double>(runs.size());
+      progress.show(share * (static_cast<double>(i) + part),
+                    name + " " + its_case->name + ": " + method->label + " ×" + std::to_string(substeps));
+      const lab::Measurement measurement =
+          lab::measureApart(*its_case, *method, substeps, kRuns, kMostCpuSeconds);
+      if (measurement.expressed) records.add(problem, *its_case, *method, substeps, measurement);
     }
   }
 }

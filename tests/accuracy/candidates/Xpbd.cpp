@@ -1,5 +1,5 @@
-// Extended position-based dynamics for points on rods: small sub-steps, one iteration (Macklin et al. 2019, Small
-// Steps in Physics Simulation). The yardstick of problem 11.
+// Extended position-based dynamics for points on rods: small sub-steps, one iteration (Macklin et al. 2019,
+// Small Steps in Physics Simulation). The yardstick of problem 11.
 #include <algorithm>
 #include <vector>
 
@@ -25,7 +25,8 @@ class Xpbd : public Simulation {
 
   static bool canExpress(const Scene& scene) {
     return scene.rigid() && !scene.joints.empty() && !scene.field &&
-           std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.shapes.empty(); }) &&
+           std::all_of(scene.bodies.begin(), scene.bodies.end(),
+                       [](const Body& b) { return b.shapes.empty(); }) &&
            std::all_of(scene.joints.begin(), scene.joints.end(),
                        [](const Joint& j) { return j.kind == Joint::Kind::ROD; });
   }

@@ -18,8 +18,8 @@ namespace lab {
 
 namespace {
 
-// A run that takes less is repeated on fresh copies of the scene until it does not: the clock's own reading takes
-// a quarter of a microsecond.
+// A run that takes less is repeated on fresh copies of the scene until it does not: the clock's own reading
+// takes a quarter of a microsecond.
 constexpr double kShortestRunNs = 400000;
 constexpr int kMostCopies = 256;
 
@@ -153,7 +153,8 @@ Measurement measure(const Case& its_case, const Method& method, int substeps, in
   return measurement;
 }
 
-Measurement measureApart(const Case& its_case, const Method& method, int substeps, int runs, int most_seconds) {
+Measurement measureApart(const Case& its_case, const Method& method, int substeps, int runs,
+                         int most_seconds) {
   Pipe pipe;
   const pid_t pid = fork();
   if (pid < 0) throw std::runtime_error("no process");

@@ -26,8 +26,9 @@ struct Measurement {
 /// Judges once, then times `runs` runs of the case's scene, which nobody watches.
 Measurement measure(const Case& its_case, const Method& method, int substeps, int runs);
 
-/// The same in a process of its own, so that a method that crashes or takes longer than `most_seconds` of CPU time
-/// is a failed measurement and no more.
-Measurement measureApart(const Case& its_case, const Method& method, int substeps, int runs, int most_seconds);
+/// The same in a process of its own, so that a method that crashes or takes longer than `most_seconds` of CPU
+/// time is a failed measurement and no more.
+Measurement measureApart(const Case& its_case, const Method& method, int substeps, int runs,
+                         int most_seconds);
 
 }  // namespace lab

@@ -1,6 +1,7 @@
 // What is compared: a way to run scenes. A method is a source file that registers itself:
 //
-//     const RegisteredMethod method({"box2d", "Box2D", "2.4.1", Method::Kind::PEER, [](const Scene& scene) { … }});
+//     const RegisteredMethod method({"box2d", "Box2D", "2.4.1", Method::Kind::PEER, [](const Scene& scene) {
+//     … }});
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// A problem of the laboratory: scenes, what is right in them, and how far off a method is. A problem is a source
-// file that registers itself; it is made only when it is asked for, since its references take time.
+// A problem of the laboratory: scenes, what is right in them, and how far off a method is. A problem is a
+// source file that registers itself; it is made only when it is asked for, since its references take time.
 //
 //     const RegisteredProblem problem("5", "pendulum", [] { Problem p; …; return p; });
 #pragma once
@@ -23,14 +23,14 @@ struct Metric {
 
 /// One scene and what is measured in it.
 struct Case {
-  std::string name;                  ///< empty if a problem has one case only; a suffix of its metrics
-  Scene scene;                       ///< what is timed; a judge may run others
+  std::string name;  ///< empty if a problem has one case only; a suffix of its metrics
+  Scene scene;       ///< what is timed; a judge may run others
   std::vector<Metric> metrics;
   /// The error for each metric, in that order; what is not a number, or infinite, is drawn as a failure.
   std::function<std::vector<double>(const Trial&)> judge;
-  bool long_run = false;      ///< left out by --quick
-  int most_substeps = 64;     ///< where more would take minutes and tell nothing
-  double x = 0;               ///< its place in a map: stiffness, mass ratio
+  bool long_run = false;   ///< left out by --quick
+  int most_substeps = 64;  ///< where more would take minutes and tell nothing
+  double x = 0;            ///< its place in a map: stiffness, mass ratio
 };
 
 struct Problem {
@@ -39,8 +39,8 @@ struct Problem {
     MAP,      ///< what stays bounded: cases × step
     COST,     ///< nanoseconds per body
   };
-  std::string id;     ///< as in `problem=…`
-  std::string name;   ///< the same, as a word
+  std::string id;    ///< as in `problem=…`
+  std::string name;  ///< the same, as a word
   std::string title;
   std::string text;       ///< what happens in it
   std::string reference;  ///< what is right, and how it is known

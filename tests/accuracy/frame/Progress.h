@@ -7,17 +7,15 @@ namespace lab {
 
 class Progress {
  public:
-  explicit Progress(int total);
+  Progress();
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more is about to begin.
-  void next(const std::string& what);
+  /// `part` of the whole is done, from 0 to 1; `what` is being done now.
+  void show(double part, const std::string& what);
 
  private:
-  int m_total;
-  int m_done = 0;
   bool m_shown;
 };
 

@@ -28,19 +28,26 @@ std::string quoted(const std::string& text) {
 
 const char* nameOf(Problem::Kind kind) {
   switch (kind) {
-    case Problem::Kind::DIAGRAM: return "diagram";
-    case Problem::Kind::MAP: return "map";
-    case Problem::Kind::COST: return "cost";
+    case Problem::Kind::DIAGRAM:
+      return "diagram";
+    case Problem::Kind::MAP:
+      return "map";
+    case Problem::Kind::COST:
+      return "cost";
   }
   return "";
 }
 
 const char* nameOf(Method::Kind kind) {
   switch (kind) {
-    case Method::Kind::PRODUCT: return "product";
-    case Method::Kind::CANDIDATE: return "candidate";
-    case Method::Kind::PEER: return "peer";
-    case Method::Kind::TEXTBOOK: return "textbook";
+    case Method::Kind::PRODUCT:
+      return "product";
+    case Method::Kind::CANDIDATE:
+      return "candidate";
+    case Method::Kind::PEER:
+      return "peer";
+    case Method::Kind::TEXTBOOK:
+      return "textbook";
   }
   return "";
 }
@@ -78,20 +85,22 @@ Records::~Records() {
 
 void Records::describe(const Problem& problem) {
   if (m_problems == nullptr) return;
-  std::fprintf(m_problems, "%s{\"id\": %s, \"name\": %s, \"title\": %s,\n \"text\": %s,\n \"reference\": %s,\n",
-               m_first ? "\n" : ",\n", quoted(problem.id).c_str(), quoted(problem.name).c_str(),
-               quoted(problem.title).c_str(), quoted(problem.text).c_str(), quoted(problem.reference).c_str());
+  std::fprintf(
+      m_problems, "%s{\"id\": %s, \"name\": %s, \"title\": %s,\n \"text\": %s,\n \"reference\": %s,\n",
+      m_first ? "\n" : ",\n", quoted(problem.id).c_str(), quoted(problem.name).c_str(),
+      quoted(problem.title).c_str(), quoted(problem.text).c_str(), quoted(problem.reference).c_str());
   std::fprintf(m_problems, " \"kind\": \"%s\", \"metrics\": [", nameOf(problem.kind));
   m_first = false;
   const char* comma = "\n";
   for (const Case& its_case : problem.cases) {
     for (const Metric& metric : its_case.metrics) {
-      std::fprintf(m_problems,
-                   "%s  {\"name\": %s, \"case\": %s, \"label\": %s, \"target\": %.17g, \"floor\": %.17g, \"peers\": "
-                   "%s, \"x\": %.17g, \"tick\": %.17g}",
-                   comma, quoted(metricName(its_case, metric)).c_str(), quoted(its_case.name).c_str(),
-                   quoted(metric.label).c_str(), metric.target, metric.floor, quoted(metric.peers).c_str(),
-                   its_case.x, its_case.scene.tick);
+      std::fprintf(
+          m_problems,
+          "%s  {\"name\": %s, \"case\": %s, \"label\": %s, \"target\": %.17g, \"floor\": %.17g, \"peers\": "
+          "%s, \"x\": %.17g, \"tick\": %.17g}",
+          comma, quoted(metricName(its_case, metric)).c_str(), quoted(its_case.name).c_str(),
+          quoted(metric.label).c_str(), metric.target, metric.floor, quoted(metric.peers).c_str(), its_case.x,
+          its_case.scene.tick);
       comma = ",\n";
     }
   }
@@ -115,10 +124,12 @@ void Records::add(const Problem& problem, const Case& its_case, const Method& me
     if (judged && !met) m_all_met = false;
     if (m_points == nullptr) continue;
     std::fprintf(m_points, "%s,%s,%s,%s,%d,%.6g,%.6g,%.6g,%.6g,", problem.id.c_str(),
-                 metricName(its_case, metric).c_str(), method.name.c_str(), method.version.c_str(), substeps, error,
-                 measurement.cpu.median, measurement.cpu.least, measurement.cpu.most);
-    if (judged) std::fprintf(m_points, "%.6g,%d", metric.target, met ? 1 : 0);
-    else std::fputs(",", m_points);
+                 metricName(its_case, metric).c_str(), method.name.c_str(), method.version.c_str(), substeps,
+                 error, measurement.cpu.median, measurement.cpu.least, measurement.cpu.most);
+    if (judged)
+      std::fprintf(m_points, "%.6g,%d", metric.target, met ? 1 : 0);
+    else
+      std::fputs(",", m_points);
     std::fprintf(m_points, ",%s\n", measurement.reason.c_str());
   }
   if (m_points != nullptr) std::fflush(m_points);

@@ -13,8 +13,8 @@ std::string metricName(const Case& its_case, const Metric& metric);
 
 class Records {
  public:
-  /// Writes `points.csv` and `problems.json` in `directory`, which is made. Throws std::runtime_error if it cannot.
-  /// Empty: lines only.
+  /// Writes `points.csv` and `problems.json` in `directory`, which is made. Throws std::runtime_error if it
+  /// cannot. Empty: lines only.
   explicit Records(const std::string& directory);
   ~Records();
   Records(const Records&) = delete;

@@ -25,7 +25,8 @@ void Trial::step(Simulation& simulation, const Scene& scene) const {
   simulation.step(scene.tick, m_substeps);
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
     const BodyState state = simulation.body(i);
-    if (!isBelow(state.position.x, kFarthest) || !isBelow(state.position.y, kFarthest)) throw Failure("blew up");
+    if (!isBelow(state.position.x, kFarthest) || !isBelow(state.position.y, kFarthest))
+      throw Failure("blew up");
   }
   for (const double value : simulation.coordinates()) {
     if (!isBelow(value, kLargest)) throw Failure("blew up");

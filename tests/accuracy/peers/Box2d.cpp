@@ -1,6 +1,6 @@
-// Box2D 2.4.1 as Debian builds it. `substeps` are whole steps of tick / substeps, with the velocity and position
-// iterations that its manual recommends. Its defaults stay, but nothing sleeps; boxes are made smaller by the skin
-// that it puts around polygons, so that they touch where the scene says.
+// Box2D 2.4.1 as Debian builds it. `substeps` are whole steps of tick / substeps, with the velocity and
+// position iterations that its manual recommends. Its defaults stay, but nothing sleeps; boxes are made
+// smaller by the skin that it puts around polygons, so that they touch where the scene says.
 #include <box2d/box2d.h>
 
 #include <algorithm>
@@ -29,7 +29,9 @@ class ContactCounter : public b2ContactListener {
 class Box2d : public Simulation {
  public:
   explicit Box2d(const Scene& scene)
-      : m_world({single(scene.gravity.x), single(scene.gravity.y)}), m_field(scene.field), m_origin(scene.origin) {
+      : m_world({single(scene.gravity.x), single(scene.gravity.y)}),
+        m_field(scene.field),
+        m_origin(scene.origin) {
     m_world.SetAllowSleeping(false);
     m_world.SetContactListener(&m_contacts);
     const b2BodyDef nothing;
@@ -52,9 +54,7 @@ class Box2d : public Simulation {
   long contacts() const override { return m_contacts.count; }
 
  private:
-  b2Vec2 at(Vec position) const {
-    return {single(m_origin.x + position.x), single(m_origin.y + position.y)};
-  }
+  b2Vec2 at(Vec position) const { return {single(m_origin.x + position.x), single(m_origin.y + position.y)}; }
 
   BodyState stateOf(const b2Body& body) const {
     const b2Vec2& p = body.GetPosition();
@@ -123,8 +123,8 @@ class Box2d : public Simulation {
   void push() {
     for (b2Body* body : m_bodies) {
       const Vec acceleration = m_field(m_time, stateOf(*body));
-      body->ApplyForceToCenter({body->GetMass() * single(acceleration.x), body->GetMass() * single(acceleration.y)},
-                               true);
+      body->ApplyForceToCenter(
+          {body->GetMass() * single(acceleration.x), body->GetMass() * single(acceleration.y)}, true);
     }
   }
 
@@ -137,7 +137,8 @@ class Box2d : public Simulation {
   std::vector<b2Body*> m_bodies;  // the world's, by index
 };
 
-const RegisteredMethod method({"box2d", "Box2D 2.4", "2.4.1", Method::Kind::PEER, [](const Scene& scene) -> SimulationPtr {
+const RegisteredMethod method({"box2d", "Box2D 2.4", "2.4.1", Method::Kind::PEER,
+                               [](const Scene& scene) -> SimulationPtr {
                                  return scene.rigid() ? std::make_unique<Box2d>(scene) : nullptr;
                                }});
 

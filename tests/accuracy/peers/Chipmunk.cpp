@@ -1,5 +1,6 @@
-// Chipmunk 7.0.3 as Debian builds it. `substeps` are whole steps of tick / substeps with its 10 iterations. Its
-// collision slop is set to Box2D's, for its own is a tenth of a body of these scenes; other defaults stay.
+// Chipmunk 7.0.3 as Debian builds it. `substeps` are whole steps of tick / substeps with its 10 iterations.
+// Its collision slop is set to Box2D's, for its own is a tenth of a body of these scenes; other defaults
+// stay.
 #include <chipmunk/chipmunk.h>
 
 #include <cmath>
@@ -24,7 +25,8 @@ cpBool countContact(cpArbiter*, cpSpace*, cpDataPointer count) {
 
 class Chipmunk : public Simulation {
  public:
-  explicit Chipmunk(const Scene& scene) : m_space(cpSpaceNew()), m_field(scene.field), m_origin(scene.origin) {
+  explicit Chipmunk(const Scene& scene)
+      : m_space(cpSpaceNew()), m_field(scene.field), m_origin(scene.origin) {
     cpSpaceSetGravity(m_space, vect(scene.gravity));
     cpSpaceSetCollisionSlop(m_space, kSlop);
     cpCollisionHandler* handler = cpSpaceAddDefaultCollisionHandler(m_space);
@@ -68,7 +70,10 @@ class Chipmunk : public Simulation {
   BodyState stateOf(const cpBody* body) const {
     const cpVect p = cpBodyGetPosition(body);
     const cpVect v = cpBodyGetVelocity(body);
-    return {{p.x - m_origin.x, p.y - m_origin.y}, {v.x, v.y}, cpBodyGetAngle(body), cpBodyGetAngularVelocity(body)};
+    return {{p.x - m_origin.x, p.y - m_origin.y},
+            {v.x, v.y},
+            cpBodyGetAngle(body),
+            cpBodyGetAngularVelocity(body)};
   }
 
   void add(const Body& body) {
@@ -110,10 +115,10 @@ class Chipmunk : public Simulation {
     cpBody* b = joint.b < 0 ? cpSpaceGetStaticBody(m_space) : m_bodies[static_cast<std::size_t>(joint.b)];
     const cpVect anchor_a = cpBodyWorldToLocal(a, vect(m_origin + joint.anchor_a));
     const cpVect anchor_b = cpBodyWorldToLocal(b, vect(m_origin + joint.anchor_b));
-    cpConstraint* constraint = joint.kind == Joint::Kind::ROD
-                                   ? cpPinJointNew(a, b, anchor_a, anchor_b)
-                                   : cpDampedSpringNew(a, b, anchor_a, anchor_b, joint.rest_length, joint.stiffness,
-                                                       joint.damping);
+    cpConstraint* constraint =
+        joint.kind == Joint::Kind::ROD
+            ? cpPinJointNew(a, b, anchor_a, anchor_b)
+            : cpDampedSpringNew(a, b, anchor_a, anchor_b, joint.rest_length, joint.stiffness, joint.damping);
     cpSpaceAddConstraint(m_space, constraint);
     m_constraints.push_back(constraint);
   }

@@ -25,11 +25,13 @@ Problem make() {
   system.velocity = kThrown;
   system.gravity = kGravity;
   flight.scene.equations = equationsOf(system);
-  flight.metrics = pathMetrics(1e-12, 1e-16, "Box2D 0.042 m = 2.0e-3 (1/240 s), Chipmunk 0.167 m = 8.0e-3 (1/60 s)");
+  flight.metrics =
+      pathMetrics(1e-12, 1e-16, "Box2D 0.042 m = 2.0e-3 (1/240 s), Chipmunk 0.167 m = 8.0e-3 (1/60 s)");
   Path path;
   for (int tick = 0; tick <= kTicks; ++tick) {
     const Quad t = Quad(kTick) * tick;
-    path.push_back({static_cast<double>(kThrown.x * t), static_cast<double>(kThrown.y * t - kGravity * t * t / 2)});
+    path.push_back(
+        {static_cast<double>(kThrown.x * t), static_cast<double>(kThrown.y * t - kGravity * t * t / 2)});
   }
   const double scale = length({path.back()[0], path.back()[1]});
   const Scene scene = flight.scene;

@@ -34,10 +34,11 @@ Case dying() {
   bouncing.name = "e0.8";
   bouncing.scene = ballOverGround(kHeight, kRestitution, 450);
   const double stop = std::sqrt(2 * kHeight / kGravity) * (1 + kRestitution) / (1 - kRestitution);
-  bouncing.metrics = {
-      {"first_peak", "relative error of the first peak", 1e-9, 1e-15, "Box2D 6.348 (8.1e-3), Chipmunk ×4 6.403 (4.7e-4)"},
-      {"third_peak", "relative error of the third peak", 1e-9, 1e-15, ""},
-      {"stop_time_s", "error of the moment when it lies still, s", kTick, 0, "Box2D stops at 11.6 s, Chipmunk ×4 at 12.71 s"}};
+  bouncing.metrics = {{"first_peak", "relative error of the first peak", 1e-9, 1e-15,
+                       "Box2D 6.348 (8.1e-3), Chipmunk ×4 6.403 (4.7e-4)"},
+                      {"third_peak", "relative error of the third peak", 1e-9, 1e-15, ""},
+                      {"stop_time_s", "error of the moment when it lies still, s", kTick, 0,
+                       "Box2D stops at 11.6 s, Chipmunk ×4 at 12.71 s"}};
   bouncing.judge = [scene = bouncing.scene, stop](const Trial& trial) {
     double right = kHeight;
     int bounces = 0;
@@ -83,9 +84,11 @@ Problem makeBouncing() {
   Problem problem;
   problem.title = "Bouncing ball";
   problem.text =
-      "A ball falls from 10 m and keeps 0.8 of its speed at each bounce; another falls from 5 m and keeps all of "
+      "A ball falls from 10 m and keeps 0.8 of its speed at each bounce; another falls from 5 m and keeps "
+      "all of "
       "it, for 100 s.";
-  problem.reference = "peaks h e^(2k); it stops at √(2h/g) (1 + e)/(1 − e) = 12.7279 s, after infinitely many bounces";
+  problem.reference =
+      "peaks h e^(2k); it stops at √(2h/g) (1 + e)/(1 − e) = 12.7279 s, after infinitely many bounces";
   problem.cases = {dying(), forever()};
   return problem;
 }
@@ -96,7 +99,8 @@ Problem makeFast() {
   constexpr int kTicks = 4;
   Problem problem;
   problem.title = "A bounce at 200 m/s";
-  problem.text = "A ball at 200 m/s meets a wall after 2.3 ticks and goes back with all of its speed; after 4 ticks:";
+  problem.text =
+      "A ball at 200 m/s meets a wall after 2.3 ticks and goes back with all of its speed; after 4 ticks:";
   problem.reference = "the mirrored path";
   Case bounce;
   const double gap = 2.3 * kTick * kSpeed;

@@ -40,8 +40,8 @@ Case freeCradle() {
   return cradle;
 }
 
-// Hung on rods of 5 m; the first is let go at 30°. After the impact every ball's speed, counted from its energy, must
-// be 0 or the first one's.
+// Hung on rods of 5 m; the first is let go at 30°. After the impact every ball's speed, counted from its
+// energy, must be 0 or the first one's.
 Case hungCradle() {
   constexpr double kRod = 5;
   constexpr double kGravity = 10;
@@ -51,7 +51,8 @@ Case hungCradle() {
   for (int i = 0; i < kBalls; ++i) {
     const Vec pivot{i * 2 * kRadius, kRod};
     const double angle = i == 0 ? -kAngle : 0;
-    cradle.scene.bodies.push_back(elasticBall(pivot + Vec{kRod * std::sin(angle), -kRod * std::cos(angle)}, {0, 0}));
+    cradle.scene.bodies.push_back(
+        elasticBall(pivot + Vec{kRod * std::sin(angle), -kRod * std::cos(angle)}, {0, 0}));
     Joint rod;
     rod.b = i;
     rod.anchor_a = pivot;
@@ -60,7 +61,8 @@ Case hungCradle() {
   }
   cradle.scene.gravity = {0, -kGravity};
   cradle.scene.ticks = 45;  // it meets the others after 1.13 s
-  cradle.metrics = {{"velocity", "largest error of a speed, of the first ball's at the impact", 1e-3, 1e-15, ""}};
+  cradle.metrics = {
+      {"velocity", "largest error of a speed, of the first ball's at the impact", 1e-3, 1e-15, ""}};
   cradle.judge = [scene = cradle.scene](const Trial& trial) {
     const SimulationPtr end = trial.run(scene);
     const double energy = kGravity * kRod * (1 - std::cos(kAngle));
@@ -80,7 +82,8 @@ Problem makeCradle() {
   Problem problem;
   problem.title = "Newton's cradle";
   problem.text =
-      "Five equal balls touch each other on a line; the first comes with 5 m/s. Then the same hung on rods of 5 m, "
+      "Five equal balls touch each other on a line; the first comes with 5 m/s. Then the same hung on rods "
+      "of 5 m, "
       "the first let go at 30°.";
   problem.reference = "0, 0, 0, 0, v: impacts one after another, the nearest first";
   problem.cases = {freeCradle(), hungCradle()};
@@ -107,8 +110,9 @@ Case billiard(double speed, const std::string& peers) {
     right.push_back(dot(normal, {speed, 0}) / dot(normal, normal) * normal);
   }
   shots.scene.ticks = static_cast<int>(std::ceil((kWay + 2 * kRadius + 0.1) / speed / kTick)) + 2;
-  shots.metrics = {{"struck_mean", "mean error of the struck ball's velocity, of the shot's", 1e-9, 1e-16, peers},
-                   {"struck_max", "largest error of the struck ball's velocity, of the shot's", 1e-9, 1e-16, ""}};
+  shots.metrics = {
+      {"struck_mean", "mean error of the struck ball's velocity, of the shot's", 1e-9, 1e-16, peers},
+      {"struck_max", "largest error of the struck ball's velocity, of the shot's", 1e-9, 1e-16, ""}};
   shots.judge = [scene = shots.scene, right, speed](const Trial& trial) {
     const SimulationPtr end = trial.run(scene);
     double sum = 0;
@@ -126,7 +130,9 @@ Case billiard(double speed, const std::string& peers) {
 Problem makeBilliard() {
   Problem problem;
   problem.title = "Oblique elastic billiard";
-  problem.text = "A ball of radius 0.5 m hits an equal one that rests, at 24 offsets from the centre to the edge; no friction.";
+  problem.text =
+      "A ball of radius 0.5 m hits an equal one that rests, at 24 offsets from the centre to the edge; no "
+      "friction.";
   problem.reference = "the geometry of the impact: the struck ball leaves along the line of centres";
   problem.cases = {billiard(5, "Box2D .013, Chipmunk .022"), billiard(50, "Box2D .27, Chipmunk .29")};
   return problem;
@@ -139,7 +145,8 @@ Problem makeGalperin() {
   Problem problem;
   problem.title = "Galperin's billiard";
   problem.text =
-      "A box of 100^k kg pushes one of 1 kg towards a wall, without any loss. All collisions are counted, those with "
+      "A box of 100^k kg pushes one of 1 kg towards a wall, without any loss. All collisions are counted, "
+      "those with "
       "the wall too: 10 s.";
   problem.reference = "⌈π / atan √(1/M)⌉ − 1 = 3, 31, 314, 3141, 31415";
   int right = 3;

@@ -28,7 +28,8 @@ Case layer(const std::string& name, const std::string& label, void (*dress)(Scen
     simulation->step(scene.tick, 1);
     const double start = bench::cpuNanoseconds();
     for (int tick = 1; tick < kTicks; ++tick) simulation->step(scene.tick, 1);
-    return std::vector<double>{(bench::cpuNanoseconds() - start) / ((kTicks - 1) * static_cast<double>(kBodies))};
+    return std::vector<double>{(bench::cpuNanoseconds() - start) /
+                               ((kTicks - 1) * static_cast<double>(kBodies))};
   };
   return bodies;
 }
@@ -45,7 +46,10 @@ Problem make() {
   problem.kind = Problem::Kind::COST;
   problem.cases = {
       layer("bare", "a body that moves, no shape", [](Scene&) {}),
-      layer("gravity", "with gravity", [](Scene& scene) { scene.gravity = {0, -10}; }),
+      layer("gravity", "with gravity",
+            [](Scene& scene) {
+              scene.gravity = {0, -10};
+            }),
       layer("drag", "with linear drag",
             [](Scene& scene) {
               for (Body& body : scene.bodies) body.linear_drag = 0.1;

@@ -7,10 +7,10 @@ namespace lab {
 namespace {
 
 constexpr int kTicks = 60;
-constexpr double kLinear = 2;        // kg/s
-constexpr double kStart = 10;        // m/s
-constexpr double kGravity = 10;      // m/s²
-constexpr double kTerminal = 5;      // m/s
+constexpr double kLinear = 2;    // kg/s
+constexpr double kStart = 10;    // m/s
+constexpr double kGravity = 10;  // m/s²
+constexpr double kTerminal = 5;  // m/s
 constexpr double kQuadratic = kGravity / (kTerminal * kTerminal);
 
 Case linear() {
@@ -60,7 +60,8 @@ Case quadratic() {
     const Quad t = Quad(kTick) * tick;
     const Quad s = Quad(kGravity) * t / kTerminal;
     const Quad log_cosh = s + log((1 + exp(-2 * s)) / 2);
-    path.push_back({static_cast<double>(-Quad(kTerminal) / kGravity * log_cosh), static_cast<double>(-tanh(s))});
+    path.push_back(
+        {static_cast<double>(-Quad(kTerminal) / kGravity * log_cosh), static_cast<double>(-tanh(s))});
   }
   const Scene scene = falling.scene;
   const double scale = std::abs(path.back()[0]);
@@ -77,7 +78,8 @@ Problem make() {
   Problem problem;
   problem.title = "Drag";
   problem.text =
-      "Linear: 1 kg slides from 10 m/s for 2 s with 2 kg/s of drag. Quadratic: 1 kg falls from rest for 2 s with "
+      "Linear: 1 kg slides from 10 m/s for 2 s with 2 kg/s of drag. Quadratic: 1 kg falls from rest for 2 s "
+      "with "
       "a terminal speed of 5 m/s.";
   problem.reference = "(v₀/c)(1 − e^(−ct)); (v_t²/g) ln cosh(gt/v_t) and v_t tanh(gt/v_t), in quad precision";
   problem.cases = {linear(), quadratic()};

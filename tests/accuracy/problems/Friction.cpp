@@ -64,7 +64,8 @@ Case sliding() {
     const SimulationPtr end = trial.run(scene);
     const double t = scene.duration();
     const double right = kGravity * (std::sin(kAngle) - kFriction * std::cos(kAngle)) * t * t / 2;
-    return std::vector<double>{std::abs(length(end->body(0).position - scene.bodies[0].position) / right - 1)};
+    return std::vector<double>{
+        std::abs(length(end->body(0).position - scene.bodies[0].position) / right - 1)};
   };
   return slope;
 }
@@ -88,7 +89,8 @@ Problem makeFriction() {
   Problem problem;
   problem.title = "Friction";
   problem.text =
-      "A crate of 1 × 0.5 m with µ = 0.5: from which angle it slides (bisection, 4 s each); how far it slides in 2 s "
+      "A crate of 1 × 0.5 m with µ = 0.5: from which angle it slides (bisection, 4 s each); how far it "
+      "slides in 2 s "
       "at 40°; how far it gets on a floor from 10 m/s.";
   problem.reference = "atan µ = 26.565°; g(sin θ − µ cos θ); v²/2µg";
   problem.cases = {threshold(), sliding(), stopping()};

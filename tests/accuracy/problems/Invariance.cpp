@@ -30,8 +30,9 @@ Case away(double distance, const std::string& peers) {
   Case moved;
   moved.name = power(distance);
   moved.scene = farScene(distance);
-  moved.metrics = {{"slow_path", "largest distance from the path at the origin, of its length", 0, 1e-16, peers},
-                   {"bounce_path", "the same for a bouncing ball, of the height", 0, 1e-16, ""}};
+  moved.metrics = {
+      {"slow_path", "largest distance from the path at the origin, of its length", 0, 1e-16, peers},
+      {"bounce_path", "the same for a bouncing ball, of the height", 0, 1e-16, ""}};
   moved.judge = [distance](const Trial& trial) {
     Path right[2] = {{{}}, {{}}};
     const Scene home = farScene(0);
@@ -91,7 +92,8 @@ Problem makeClosed() {
   Problem problem;
   problem.title = "A closed system";
   problem.text =
-      "100 discs of 1 kg that spin and rush together, with restitution 0.5 and friction 0.5, without gravity: 1000 ticks.";
+      "100 discs of 1 kg that spin and rush together, with restitution 0.5 and friction 0.5, without "
+      "gravity: 1000 ticks.";
   problem.reference = "momentum and angular momentum stay; energy does not grow";
   Case swarm;
   std::mt19937_64 bits(17);
@@ -106,9 +108,10 @@ Problem makeClosed() {
     swarm.scene.bodies.push_back(disc);
   }
   swarm.scene.ticks = 1000;
-  swarm.metrics = {{"momentum", "largest change of momentum, of Σ|p| at the start", 1e-12, 1e-17, "Box2D 1e-7 (float)"},
-                   {"angular_momentum", "largest change of angular momentum, of Σ|L| at the start", -1, 1e-17, ""},
-                   {"energy_growth", "largest growth of the energy, of that at the start", -1, 1e-17, ""}};
+  swarm.metrics = {
+      {"momentum", "largest change of momentum, of Σ|p| at the start", 1e-12, 1e-17, "Box2D 1e-7 (float)"},
+      {"angular_momentum", "largest change of angular momentum, of Σ|L| at the start", -1, 1e-17, ""},
+      {"energy_growth", "largest growth of the energy, of that at the start", -1, 1e-17, ""}};
   swarm.judge = [scene = swarm.scene](const Trial& trial) {
     const int count = static_cast<int>(scene.bodies.size());
     const Total start = totalOf(*trial.build(scene), count);

@@ -50,12 +50,13 @@ Case kepler() {
     return -mu / (distance * distance * distance) * state.position;
   };
   // Steps of equal length in time; what is unavoidable is the rounding of 10,000 of them.
-  orbit.metrics = {{"end_error", "distance from the start after 20 orbits, of the semi-major axis", 1e-5, 1e-12,
-                    "semi-implicit Euler .11, Verlet .047, RK4 1.8e-6"},
+  orbit.metrics = {{"end_error", "distance from the start after 20 orbits, of the semi-major axis", 1e-5,
+                    1e-12, "semi-implicit Euler .11, Verlet .047, RK4 1.8e-6"},
                    {"sup_error", "largest distance from the true place", -1, 1e-12, ""},
                    {"energy_drift", "largest |ΔE/E|", 1e-10, 1e-15, ""}};
   Path path;
-  for (int tick = 0; tick <= orbit.scene.ticks; ++tick) path.push_back(keplerPlace(Quad(tick) / kTicksPerOrbit));
+  for (int tick = 0; tick <= orbit.scene.ticks; ++tick)
+    path.push_back(keplerPlace(Quad(tick) / kTicksPerOrbit));
   orbit.judge = [scene = orbit.scene, path, mu = system.mu](const Trial& trial) {
     const double right = -mu / 2;
     double worst = 0;
@@ -118,10 +119,13 @@ Problem make() {
   Problem problem;
   problem.title = "Kepler's ellipse and the double pendulum";
   problem.text =
-      "A planet with e = 0.6, 20 orbits of 500 ticks: 8 sub-steps of a method with 4 force evaluations are 16,000 "
-      "evaluations an orbit. Two points of 1 kg on rods of 1 m, both horizontal at the start, 5 s (after that the "
+      "A planet with e = 0.6, 20 orbits of 500 ticks: 8 sub-steps of a method with 4 force evaluations are "
+      "16,000 "
+      "evaluations an orbit. Two points of 1 kg on rods of 1 m, both horizontal at the start, 5 s (after "
+      "that the "
       "motion is chaos).";
-  problem.reference = "Kepler's equation in quad precision; extrapolation in quad precision, agreeing with CVODE";
+  problem.reference =
+      "Kepler's equation in quad precision; extrapolation in quad precision, agreeing with CVODE";
   problem.cases = {kepler(), doublePendulum()};
   return problem;
 }

@@ -93,10 +93,13 @@ Problem make() {
   Problem problem;
   problem.title = "Pendulum";
   problem.text =
-      "A point on a rod of 1 m starts at 90° and swings for 60 s under 10 m/s². The textbook methods solve for its "
-      "angle and cannot stretch the rod; engines have a joint. The period is the mean over the run, zeros found by "
+      "A point on a rod of 1 m starts at 90° and swings for 60 s under 10 m/s². The textbook methods solve "
+      "for its "
+      "angle and cannot stretch the rod; engines have a joint. The period is the mean over the run, zeros "
+      "found by "
       "quintic interpolation between ticks.";
-  problem.reference = "4√(L/g) K(sin θ₀/2) by the arithmetic-geometric mean in quad precision; energy and length stay";
+  problem.reference =
+      "4√(L/g) K(sin θ₀/2) by the arithmetic-geometric mean in quad precision; energy and length stay";
   Case swing;
   Body bob;
   bob.position = {1, 0};

@@ -72,7 +72,8 @@ Case spike() {
     }
     int displaced = 0;
     for (int i = 0; i < kPile; ++i) {
-      const double distance = length(simulation->body(i).position - scene.bodies[static_cast<std::size_t>(i)].position);
+      const double distance =
+          length(simulation->body(i).position - scene.bodies[static_cast<std::size_t>(i)].position);
       displaced += distance <= 1 ? 0 : 1;  // NaN counts
     }
     return std::vector<double>{static_cast<double>(displaced)};
@@ -86,7 +87,8 @@ Problem make() {
   Problem problem;
   problem.title = "Bad numbers";
   problem.text =
-      "A ball 20 m from a pile of 5 crates has a position, velocity, mass or size that no ball can have. A crash or an "
+      "A ball 20 m from a pile of 5 crates has a position, velocity, mass or size that no ball can have. A "
+      "crash or an "
       "endless loop is a failure.";
   problem.reference = "the pile without that ball";
   Body good = ball({20, 5}, {-1, 0}, 0.5);

@@ -57,9 +57,9 @@ Case rope(double ratio) {
                             : ratio == 100 ? "Box2D .14, XPBD 20×1 .018, direct solve 4e-13"
                             : ratio == 1e3 ? "Box2D .89, XPBD 20×1 .043, direct solve 4e-13"
                                            : "";
-  swinging.metrics = {{"stretch", "largest relative stretch of a link over 10 s", ratio > 1e3 ? 0.1 : 1e-10, 1e-16, peers},
-                      {"energy_drift", "largest |ΔE| / (potential energy of the fall)", -1, 1e-15,
-                       "direct solve ≤ 2e-2"}};
+  swinging.metrics = {
+      {"stretch", "largest relative stretch of a link over 10 s", ratio > 1e3 ? 0.1 : 1e-10, 1e-16, peers},
+      {"energy_drift", "largest |ΔE| / (potential energy of the fall)", -1, 1e-15, "direct solve ≤ 2e-2"}};
   return swinging;
 }
 
@@ -67,7 +67,8 @@ Problem makeRope() {
   Problem problem;
   problem.title = "Rope with a heavy end";
   problem.text =
-      "20 rigid links of 0.5 m between points of 1 kg, the last of R kg; it is let go horizontally and swings for 10 s.";
+      "20 rigid links of 0.5 m between points of 1 kg, the last of R kg; it is let go horizontally and "
+      "swings for 10 s.";
   problem.reference = "links keep their length, and the whole its energy";
   problem.cases = {rope(1), rope(100), rope(1e3), rope(1e6)};
   return problem;
@@ -155,7 +156,8 @@ Problem makeSoft() {
   Problem problem;
   problem.title = "Catenary and cantilever";
   problem.text =
-      "A chain of 16, 32 and 64 rigid links, 12 m long, hangs between points 10 m apart: after 20 s with drag it is at "
+      "A chain of 16, 32 and 64 rigid links, 12 m long, hangs between points 10 m apart: after 20 s with "
+      "drag it is at "
       "rest. A beam of 10 m, clamped at one end, is bent by a force at the other.";
   problem.reference = "a cosh(x/a), which the chain approaches with (1/links)²; FL³/3EI";
   problem.cases = {catenary(16), catenary(32), catenary(64), bending(8), bending(16), bending(32)};

@@ -1,6 +1,6 @@
 // 3: an undamped spring.
-#include "Problem.h"
 #include "Path.h"
+#include "Problem.h"
 #include "SpringScene.h"
 
 namespace lab {

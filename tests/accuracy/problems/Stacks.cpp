@@ -71,7 +71,8 @@ Problem makeStack() {
   Problem problem;
   problem.title = "Stack";
   problem.text =
-      "10, 30 and 100 crates of 1 m on each other, gaps exactly 0 at the start, friction 0.5, 10 s; nobody sleeps. "
+      "10, 30 and 100 crates of 1 m on each other, gaps exactly 0 at the start, friction 0.5, 10 s; nobody "
+      "sleeps. "
       "`upright`: bodies that do not rotate.";
   problem.reference = "nothing moves";
   problem.cases = {stack(10, true, 1e-3, "Box2D .033, Chipmunk ×4 .001"),
@@ -125,7 +126,8 @@ Problem makePress() {
 Problem makeMap() {
   Problem problem;
   problem.title = "What stays bounded: mass ratio × step";
-  problem.text = "The two crates of problem 10. A cell is the deepest overlap in the last second, in crates of 1 m.";
+  problem.text =
+      "The two crates of problem 10. A cell is the deepest overlap in the last second, in crates of 1 m.";
   problem.reference = "nothing moves";
   problem.kind = Problem::Kind::MAP;
   for (double ratio = 1; ratio < 2e6; ratio *= 10) {

@@ -32,8 +32,8 @@ struct Flight {
   BodyState body(int, const double* y) const { return {{y[0], y[1]}, {y[2], y[3]}, 0, 0}; }
 };
 
-/// A mass of 1 kg on a spring that hangs down, or lies, along a line: y[0] is how far it is from `rest`, which is
-/// `direction` × rest length from the anchor at 0.
+/// A mass of 1 kg on a spring that hangs down, or lies, along a line: y[0] is how far it is from `rest`,
+/// which is `direction` × rest length from the anchor at 0.
 struct SpringLine {
   static constexpr int kDimension = 2;
   static constexpr bool kSecondOrder = true;
@@ -172,8 +172,8 @@ struct Hires {
 struct Kepler {
   static constexpr int kDimension = 4;
   static constexpr bool kSecondOrder = true;
-  double mu = 1;             ///< m³/s²
-  double eccentricity = 0;   ///< the semi-major axis is 1 m
+  double mu = 1;            ///< m³/s²
+  double eccentricity = 0;  ///< the semi-major axis is 1 m
 
   std::vector<double> start() const {
     return {1 - eccentricity, 0, 0, std::sqrt(mu * (1 + eccentricity) / (1 - eccentricity))};

@@ -19,7 +19,8 @@ class Extrapolation {
  public:
   using State = std::array<Quad, static_cast<std::size_t>(System::kDimension)>;
 
-  Extrapolation(const System& system, Stiffness stiffness) : m_system(system), m_stiff(stiffness == Stiffness::STIFF) {
+  Extrapolation(const System& system, Stiffness stiffness)
+      : m_system(system), m_stiff(stiffness == Stiffness::STIFF) {
     const auto start = m_system.start();
     for (std::size_t i = 0; i < kN; ++i) m_y[i] = start[i];
   }
@@ -40,8 +41,10 @@ class Extrapolation {
         m_y = next;
         m_t = last ? end : m_t + h;
         // A step cut short by the end says little about the next one's length.
-        if (!last || factor < 1) m_h = h * factor * 0.9;
-        else if (h * factor * 0.9 > m_h) m_h = h * factor * 0.9;
+        if (!last || factor < 1)
+          m_h = h * factor * 0.9;
+        else if (h * factor * 0.9 > m_h)
+          m_h = h * factor * 0.9;
       } else {
         m_h = h * (factor < 1 ? factor : Quad(0.5)) * 0.9;
       }
@@ -59,8 +62,8 @@ class Extrapolation {
 
   static Quad parts(int row, bool stiff) { return stiff ? row + 1 : 2 * (row + 1); }
 
-  // The error is relative to the largest value of each component so far; one that is still nearly 0 beside the others
-  // is only rounding.
+  // The error is relative to the largest value of each component so far; one that is still nearly 0 beside
+  // the others is only rounding.
   Quad attempt(Quad h, State& next) {
     if (m_stiff) findJacobian();
     std::vector<State> column;  // the last row of the tableau

@@ -1,5 +1,5 @@
-// Number types that equations of motion are written for once: double, quad precision (113 bits), and dual numbers
-// that carry derivatives along.
+// Number types that equations of motion are written for once: double, quad precision (113 bits), and dual
+// numbers that carry derivatives along.
 #pragma once
 
 #include <quadmath.h>
@@ -22,13 +22,27 @@ using std::sin;
 using std::sqrt;
 using std::tanh;
 
-inline Quad abs(Quad x) { return fabsq(x); }
-inline Quad cos(Quad x) { return cosq(x); }
-inline Quad exp(Quad x) { return expq(x); }
-inline Quad log(Quad x) { return logq(x); }
-inline Quad sin(Quad x) { return sinq(x); }
-inline Quad sqrt(Quad x) { return sqrtq(x); }
-inline Quad tanh(Quad x) { return tanhq(x); }
+inline Quad abs(Quad x) {
+  return fabsq(x);
+}
+inline Quad cos(Quad x) {
+  return cosq(x);
+}
+inline Quad exp(Quad x) {
+  return expq(x);
+}
+inline Quad log(Quad x) {
+  return logq(x);
+}
+inline Quad sin(Quad x) {
+  return sinq(x);
+}
+inline Quad sqrt(Quad x) {
+  return sqrtq(x);
+}
+inline Quad tanh(Quad x) {
+  return tanhq(x);
+}
 
 /// A value and its N partial derivatives.
 template <int N>

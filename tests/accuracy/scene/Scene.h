@@ -1,6 +1,6 @@
-// What an experiment consists of: bodies, shapes, joints, forces and how long it lasts. Every engine builds its
-// world from this one description, so all of them start from the same state. Metres, seconds, kilograms, radians;
-// y points up.
+// What an experiment consists of: bodies, shapes, joints, forces and how long it lasts. Every engine builds
+// its world from this one description, so all of them start from the same state. Metres, seconds, kilograms,
+// radians; y points up.
 #pragma once
 
 #include <functional>
@@ -36,7 +36,7 @@ struct Body {
   Vec velocity;
   double spin = 0;  ///< radians per second
   double mass = 1;
-  bool rotates = false;       ///< if not, its inertia is infinite; if so, that of its shape, or of its shapes' sum
+  bool rotates = false;  ///< if not, its inertia is infinite; if so, that of its shape, or of its shapes' sum
   std::vector<Shape> shapes;  ///< centred; none: a point that touches nothing
   double friction = 0;        ///< of a pair: the square root of the product
   double restitution = 0;     ///< of a pair: the larger
@@ -95,8 +95,8 @@ struct Scene {
   Vec origin;   ///< where the scene is in the world: whole metres
   double tick = kTick;
   int ticks = 0;
-  /// The same in generalised coordinates, for methods that solve ordinary differential equations; null where there
-  /// are contacts.
+  /// The same in generalised coordinates, for methods that solve ordinary differential equations; null where
+  /// there are contacts.
   std::shared_ptr<const Equations> equations;
   /// There are no bodies, only equations.
   bool abstract() const { return bodies.empty() && beams.empty(); }

@@ -1,12 +1,12 @@
-// A scene's motion as an ordinary differential equation y' = f(t, y), for the methods of the textbooks and for the
-// references.
+// A scene's motion as an ordinary differential equation y' = f(t, y), for the methods of the textbooks and
+// for the references.
 //
 // A System is a struct with
 //   static constexpr int kDimension;       how many coordinates
-//   static constexpr bool kSecondOrder;    the first half are positions, the second half their rates, in this order
-//   template <class Real> void rate(const Real& t, const Real* y, Real* rates) const;   for double, Quad and Dual
-//   std::vector<double> start() const;     y at t = 0
-//   BodyState body(int index, const double* y) const;    where the scene's body is
+//   static constexpr bool kSecondOrder;    the first half are positions, the second half their rates, in this
+//   order template <class Real> void rate(const Real& t, const Real* y, Real* rates) const;   for double,
+//   Quad and Dual std::vector<double> start() const;     y at t = 0 BodyState body(int index, const double*
+//   y) const;    where the scene's body is
 #pragma once
 
 #include <memory>
@@ -28,7 +28,8 @@ class Equations {
   virtual ~Equations() = default;
   /// Null if the rule does not apply.
   virtual SimulationPtr integrate(Rule rule) const = 0;
-  /// By CVODE, BDF or Adams, at a relative tolerance of 1e-12 or less. Throws std::runtime_error if it gives up.
+  /// By CVODE, BDF or Adams, at a relative tolerance of 1e-12 or less. Throws std::runtime_error if it gives
+  /// up.
   virtual Trajectory byCvode(double tick, int ticks, const CvodeOptions& options) const = 0;
   /// By extrapolation in quad precision, which shares nothing with CVODE but the equations.
   virtual Trajectory byExtrapolation(double tick, int ticks, Stiffness stiffness) const = 0;

@@ -15,12 +15,12 @@ namespace lab {
 enum class Rule {
   EULER,
   SEMI_IMPLICIT_EULER,
-  VERLET,          ///< with velocity, by half kicks
-  YOSHIDA_4,       ///< three Verlet steps of unequal length, one of them backwards
+  VERLET,     ///< with velocity, by half kicks
+  YOSHIDA_4,  ///< three Verlet steps of unequal length, one of them backwards
   RUNGE_KUTTA_4,
   BACKWARD_EULER,
-  TR_BDF2,         ///< trapezoidal rule, then a backward difference: order 2, L-stable
-  PLANTED_ERROR,   ///< RUNGE_KUTTA_4 with a weight of 1/5 where 1/6 belongs: it must be seen to be wrong
+  TR_BDF2,        ///< trapezoidal rule, then a backward difference: order 2, L-stable
+  PLANTED_ERROR,  ///< RUNGE_KUTTA_4 with a weight of 1/5 where 1/6 belongs: it must be seen to be wrong
 };
 
 template <class System>
@@ -52,14 +52,22 @@ class Integrator : public Simulation {
 
   void advance(double h) {
     switch (m_rule) {
-      case Rule::EULER: return add(m_y, h, rate(m_t, m_y));
-      case Rule::SEMI_IMPLICIT_EULER: return semiImplicit(h);
-      case Rule::VERLET: return verlet(m_t, h);
-      case Rule::YOSHIDA_4: return yoshida(h);
-      case Rule::RUNGE_KUTTA_4: return rungeKutta(h, h / 6);
-      case Rule::PLANTED_ERROR: return rungeKutta(h, h / 5);
-      case Rule::BACKWARD_EULER: return solve(m_t + h, h, m_y, m_y);
-      case Rule::TR_BDF2: return trBdf2(h);
+      case Rule::EULER:
+        return add(m_y, h, rate(m_t, m_y));
+      case Rule::SEMI_IMPLICIT_EULER:
+        return semiImplicit(h);
+      case Rule::VERLET:
+        return verlet(m_t, h);
+      case Rule::YOSHIDA_4:
+        return yoshida(h);
+      case Rule::RUNGE_KUTTA_4:
+        return rungeKutta(h, h / 6);
+      case Rule::PLANTED_ERROR:
+        return rungeKutta(h, h / 5);
+      case Rule::BACKWARD_EULER:
+        return solve(m_t + h, h, m_y, m_y);
+      case Rule::TR_BDF2:
+        return trBdf2(h);
     }
   }
 
@@ -85,7 +93,8 @@ class Integrator : public Simulation {
     kick(m_t, h);
     drift(h);
   }
-  // Forces that depend on velocities see the one that a whole kick would give: without it the order is 1 for them.
+  // Forces that depend on velocities see the one that a whole kick would give: without it the order is 1 for
+  // them.
   void verlet(double t, double h) {
     State rates = rate(t, m_y);
     State predicted = m_y;
@@ -168,8 +177,7 @@ class Integrator : public Simulation {
 
 template <class System>
 SimulationPtr makeIntegrator(const System& system, Rule rule) {
-  const bool by_halves =
-      rule == Rule::SEMI_IMPLICIT_EULER || rule == Rule::VERLET || rule == Rule::YOSHIDA_4;
+  const bool by_halves = rule == Rule::SEMI_IMPLICIT_EULER || rule == Rule::VERLET || rule == Rule::YOSHIDA_4;
   if (by_halves && !System::kSecondOrder) return nullptr;
   return std::make_unique<Integrator<System>>(system, rule);
 }
