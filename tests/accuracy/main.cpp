@@ -52,7 +52,8 @@ int list() {
   return 0;
 }
 
-std::vector<int> substepCounts(const Options& options, const lab::Case& its_case) {
+std::vector<int> substepCounts(const Options& options, const lab::Case& its_case, const lab::Method& method) {
+  if (method.own_substeps > 0) return {method.own_substeps};
   std::vector<int> counts;
   for (const int count : {1, 2, 4, 8, 16, 32, 64}) {
     const bool quick = count == 1 || count == 4 || count == 16;
@@ -66,6 +67,7 @@ struct Run {
   const lab::Case* its_case;
   const lab::Method* method;
   int substeps;
+  lab::Measurement measurement;
 };
 
 std::vector<Run> runsOf(const Options& options, const lab::Problem& problem) {
@@ -73,11 +75,26 @@ std::vector<Run> runsOf(const Options& options, const lab::Problem& problem) {
   for (const lab::Case& its_case : problem.cases) {
     if (its_case.long_run && options.quick) continue;
     for (const lab::Method* method : options.methods) {
-      for (const int substeps : substepCounts(options, its_case))
-        runs.push_back({&its_case, method, substeps});
+      for (const int substeps : substepCounts(options, its_case, *method)) {
+        runs.push_back({&its_case, method, substeps, {}});
+      }
     }
   }
   return runs;
+}
+
+// What is asked for in terms of another method's time, once that is known.
+void compareTimes(const lab::Problem& problem, const std::vector<Run>& runs, lab::Records& records) {
+  for (const Run& compared : runs) {
+    for (const lab::CpuBound& bound : compared.its_case->cpu_bounds) {
+      if (compared.method->name != bound.method || compared.substeps != bound.substeps) continue;
+      for (const Run& run : runs) {
+        if (run.its_case != compared.its_case || !run.measurement.expressed) continue;
+        records.add(problem, *run.its_case, bound, *run.method, run.substeps, run.measurement,
+                    compared.measurement.cpu);
+      }
+    }
+  }
 }
 
 void run(const Options& options, lab::Records& records) {
@@ -89,16 +106,18 @@ void run(const Options& options, lab::Records& records) {
     progress.show(share * static_cast<double>(i), name + ": the reference");
     const lab::Problem problem = entry.make();
     records.describe(problem);
-    const std::vector<Run> runs = runsOf(options, problem);
+    std::vector<Run> runs = runsOf(options, problem);
     for (std::size_t k = 0; k < runs.size(); ++k) {
-      const auto& [its_case, method, substeps] = runs[k];
+      Run& run = runs[k];
       const double part = static_cast<double>(k) / static_cast<double>(runs.size());
-      progress.show(share * (static_cast<double>(i) + part),
-                    name + " " + its_case->name + ": " + method->label + " ×" + std::to_string(substeps));
-      const lab::Measurement measurement =
-          lab::measureApart(*its_case, *method, substeps, kRuns, kMostCpuSeconds);
-      if (measurement.expressed) records.add(problem, *its_case, *method, substeps, measurement);
+      progress.show(
+          share * (static_cast<double>(i) + part),
+          name + " " + run.its_case->name + ": " + run.method->label + " ×" + std::to_string(run.substeps));
+      run.measurement = lab::measureApart(*run.its_case, *run.method, run.substeps, kRuns, kMostCpuSeconds);
+      if (!run.measurement.expressed) continue;
+      records.add(problem, *run.its_case, *run.method, run.substeps, run.measurement);
     }
+    compareTimes(problem, runs, records);
   }
 }
 

@@ -92,6 +92,19 @@ TEST(Laboratory, APlantedErrorMissesItsTarget) {
   }
 }
 
+TEST(Laboratory, TimesAreJudgedAgainstAnotherMethods) {
+  const Problem problem = problemOf("5");
+  const Method product = integrator(Rule::VERLET, Method::Kind::PRODUCT);
+  const CpuBound bound{"cpu_ratio", "box2d", 4, 0.5};
+  Measurement measurement;
+  measurement.cpu = {2, 2, 2};
+  for (const double compared : {3.0, 5.0}) {
+    Records records("");
+    records.add(problem, problem.cases[0], bound, product, 1, measurement, {compared, compared, compared});
+    EXPECT_EQ(records.allMet(), compared == 5);
+  }
+}
+
 TEST(Laboratory, OnlyTheProductIsJudged) {
   const Problem problem = problemOf("1");
   Records records("");

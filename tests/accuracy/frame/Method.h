@@ -25,6 +25,9 @@ struct Method {
   Kind kind = Kind::CANDIDATE;
   /// Makes the scene; null if the method cannot express it.
   std::function<SimulationPtr(const Scene&)> build;
+  /// Positive: it chooses its sub-steps itself and is measured once, and its lines say this. 0: it is
+  /// measured at 1, 2, 4 … 64.
+  int own_substeps = 0;
 
   /// All that have registered: the product first, then by kind and name.
   static std::vector<const Method*> all();

@@ -21,6 +21,14 @@ struct Metric {
   std::string peers;   ///< what peers are known to reach, in words
 };
 
+/// A bound on time that is asked for in terms of another method's in the same run.
+struct CpuBound {
+  std::string name;    ///< as in `metric=…`
+  std::string method;  ///< whose time is 1 …
+  int substeps = 1;    ///< … at this many sub-steps
+  double target = 0;   ///< how many of them the product may take
+};
+
 /// One scene and what is measured in it.
 struct Case {
   std::string name;  ///< empty if a problem has one case only; a suffix of its metrics
@@ -28,6 +36,7 @@ struct Case {
   std::vector<Metric> metrics;
   /// The error for each metric, in that order; what is not a number, or infinite, is drawn as a failure.
   std::function<std::vector<double>(const Trial&)> judge;
+  std::vector<CpuBound> cpu_bounds;
   bool long_run = false;   ///< left out by --quick
   int most_substeps = 64;  ///< where more would take minutes and tell nothing
   double x = 0;            ///< its place in a map: stiffness, mass ratio

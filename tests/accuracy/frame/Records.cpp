@@ -52,6 +52,12 @@ const char* nameOf(Method::Kind kind) {
   return "";
 }
 
+Metric metricOf(const CpuBound& bound) {
+  const std::string label =
+      "time, of " + bound.method + "'s with " + std::to_string(bound.substeps) + " sub-steps";
+  return {bound.name, label, bound.target, 0, ""};
+}
+
 }  // namespace
 
 std::string metricName(const Case& its_case, const Metric& metric) {
@@ -133,6 +139,18 @@ void Records::add(const Problem& problem, const Case& its_case, const Method& me
     std::fprintf(m_points, ",%s\n", measurement.reason.c_str());
   }
   if (m_points != nullptr) std::fflush(m_points);
+}
+
+void Records::add(const Problem& problem, const Case& its_case, const CpuBound& bound, const Method& method,
+                  int substeps, const Measurement& measurement, const CpuTime& compared) {
+  if (method.kind != Method::Kind::PRODUCT && method.kind != Method::Kind::CANDIDATE) return;
+  Case timed;
+  timed.name = its_case.name;
+  timed.metrics = {metricOf(bound)};
+  Measurement ratio;
+  ratio.errors = {measurement.cpu.median / compared.median};
+  ratio.cpu = measurement.cpu;
+  add(problem, timed, method, substeps, ratio);
 }
 
 }  // namespace lab

@@ -26,6 +26,11 @@ class Records {
   void add(const Problem& problem, const Case& its_case, const Method& method, int substeps,
            const Measurement& measurement);
 
+  /// How long it took compared with the method that the bound names: lines for the product and its
+  /// candidates.
+  void add(const Problem& problem, const Case& its_case, const CpuBound& bound, const Method& method,
+           int substeps, const Measurement& measurement, const CpuTime& compared);
+
   /// Has the product met every target that it was judged by?
   bool allMet() const { return m_all_met; }
 

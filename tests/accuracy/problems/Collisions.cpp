@@ -164,8 +164,9 @@ Problem makeGalperin() {
       body.fast = body.motion == Motion::DYNAMIC;
     }
     shove.scene.ticks = kTicks;
-    shove.metrics = {{"count", "collisions missed, of " + std::to_string(right), 0, 0, "none can"},
-                     {"speed", "error of the heavy one's speed at the end", -1, 1e-15, ""}};
+    shove.metrics = {
+        {"count", "error of the number of collisions, of " + std::to_string(right), 0, 0, "none can"},
+        {"speed", "error of the heavy one's speed at the end", -1, 1e-15, ""}};
     const double theta = std::atan(std::sqrt(1 / mass));
     // Reflections in a wedge turn the velocity by twice its angle, forwards and backwards.
     const double turned = std::cos(2 * theta * ((right + 1) / 2));
@@ -173,7 +174,7 @@ Problem makeGalperin() {
     shove.judge = [scene = shove.scene, right, final_speed](const Trial& trial) {
       const SimulationPtr end = trial.run(scene);
       if (end->contacts() < 0) throw Inexpressible();
-      return std::vector<double>{std::abs(static_cast<double>(end->contacts() - right)),
+      return std::vector<double>{std::abs(static_cast<double>(end->contacts()) / right - 1),
                                  std::abs(end->body(2).velocity.x - final_speed)};
     };
     problem.cases.push_back(shove);

@@ -116,6 +116,7 @@ Problem make() {
   swing.metrics = {{"period", "relative error of the period", -1, 1e-11, "Box2D −1.25e-3, Chipmunk −9.3e-2"},
                    {"energy_drift", "largest |ΔE| / mgL", 1e-4, 1e-15, "Box2D −1.9 %, Chipmunk −76 %"},
                    {"length", "largest relative error of the length", 1e-10, 1e-16, ""}};
+  swing.cpu_bounds = {{"cpu_ratio", "box2d", 4, 1.0 / 15}};
   swing.judge = [scene = swing.scene](const Trial& trial) { return judgePendulum(trial, scene); };
   problem.cases.push_back(swing);
   return problem;

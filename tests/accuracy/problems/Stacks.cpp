@@ -127,12 +127,16 @@ Problem makeMap() {
   Problem problem;
   problem.title = "What stays bounded: mass ratio × step";
   problem.text =
-      "The two crates of problem 10. A cell is the deepest overlap in the last second, in crates of 1 m.";
+      "The two crates of problem 10. A cell is the deepest overlap in the last "
+      "second, in halves of a crate: from 1 on the light one is crushed.";
   problem.reference = "nothing moves";
   problem.kind = Problem::Kind::MAP;
   for (double ratio = 1; ratio < 2e6; ratio *= 10) {
     Case pressed = press(ratio);
-    pressed.metrics = {{"penetration_m", "mass ratio", -1, 0, ""}};
+    pressed.metrics = {{"penetration", "mass ratio", -1, 0, ""}};
+    pressed.judge = [judge = pressed.judge](const Trial& trial) {
+      return std::vector<double>{judge(trial)[0] / kHalf};
+    };
     problem.cases.push_back(pressed);
   }
   return problem;
