@@ -26,6 +26,8 @@ using Trajectory = std::vector<std::vector<double>>;
 class Equations {
  public:
   virtual ~Equations() = default;
+  /// Where the scene's body with this index is, in a state.
+  virtual BodyState body(int index, const double* y) const = 0;
   /// Null if the rule does not apply.
   virtual SimulationPtr integrate(Rule rule) const = 0;
   /// By CVODE, BDF or Adams, at a relative tolerance of 1e-12 or less. Throws std::runtime_error if it gives
@@ -39,6 +41,8 @@ template <class System>
 class EquationsOf : public Equations {
  public:
   explicit EquationsOf(System system) : m_system(std::move(system)) {}
+
+  BodyState body(int index, const double* y) const override { return m_system.body(index, y); }
 
   SimulationPtr integrate(Rule rule) const override { return makeIntegrator(m_system, rule); }
 
