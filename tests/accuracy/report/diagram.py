@@ -120,16 +120,41 @@ def target(x, metric):
     return out
 
 
-def guides(x, y):
-    """How steep a method of a given order is, in the corner of what is slow and wrong."""
-    decades = 0.7 * min(1.0, (y.high - y.low) / 4)
-    foot_x, foot_y = x.high - 0.1 * (x.high - x.low), y.high - decades - 0.05 * (y.high - y.low)
-    out = [text(x(10**foot_x), y(10**foot_y) + 15, "order", 11, MUTED, "middle")]
-    for order in ORDERS:
-        end = foot_x - order * decades
-        if end < x.low + 0.45 * (x.high - x.low):
-            break
-        x1, y1, x2, y2 = x(10**foot_x), y(10**foot_y), x(10**end), y(10**(foot_y + decades))
+def samples(points):
+    """Along the curves, in decades: what a fan of guides should keep away from."""
+    out = []
+    for method in dict.fromkeys(p["method"] for p in points):
+        run = [(math.log10(p["error"]), math.log10(p["cpu_us"])) for p in points
+               if p["method"] == method and p["cpu_us"] > 0 and SMALLEST < p["error"] < LARGEST]
+        out += run
+        for (x1, y1), (x2, y2) in zip(run, run[1:]):
+            out += [(x1 + (x2 - x1) * part / 8, y1 + (y2 - y1) * part / 8) for part in range(1, 8)]
+    return out
+
+
+def guides(x, y, points):
+    """How steep a method of a given order is, where there are no curves."""
+    wide, high = x.high - x.low, y.high - y.low
+    rise = min(0.7, 0.18 * high)
+    orders = [order for order in ORDERS if order * rise < 0.5 * wide]
+    reach = orders[-1] * rise if orders else 0
+    crowd = samples(points)
+
+    def crowded(foot):
+        across, up = foot
+        return sum(across - reach - 0.03 * wide <= a <= across + 0.06 * wide and up - 0.07 * high <= b <= up + rise + 0.06 * high
+                   for a, b in crowd)
+
+    places = [(x.low + fraction * wide, y.low + part * high) for part in (0.76, 0.08, 0.4)
+              for fraction in (0.94, 0.85, 0.75, 0.65, 0.55, 0.45, 0.35)]
+    places = [place for place in places if place[0] - reach > x.low + 0.03 * wide]
+    if not places:
+        return []
+    foot_x, foot_y = min(places, key=crowded)  # the first of the emptiest
+    x1, y1 = x(10**foot_x), y(10**foot_y)
+    out = [text(x1, y1 + 15, "order", 11, MUTED, "middle")]
+    for order in orders:
+        x2, y2 = x(10**(foot_x - order * rise)), y(10**(foot_y + rise))
         out.append(line(x1, y1, x2, y2, "#a3a9b0", 1.2, "3 3"))
         out.append(text(x2, y2 - 4, str(order), 11, MUTED, "middle"))
     return out
@@ -185,7 +210,7 @@ def draw(points, metric, labels, title, subtitle, chosen):
     x = Axis(x_low, x_high, LEFT + STRIP + 8, WIDTH - RIGHT - STRIP - 8)
     y = Axis(y_low, y_high, HEIGHT - BOTTOM, TOP)
     methods = list(dict.fromkeys(point["method"] for point in points))
-    parts = edges(x, metric) + frame(x, y, metric, title, subtitle) + guides(x, y) + target(x, metric)
+    parts = edges(x, metric) + frame(x, y, metric, title, subtitle) + guides(x, y, points) + target(x, metric)
     for method in reversed(methods):  # the product on top
         parts += curve([p for p in points if p["method"] == method], chosen[method], x, y)
     return page(WIDTH, HEIGHT, title, parts + legend(methods, labels, chosen))
