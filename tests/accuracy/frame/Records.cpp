@@ -71,7 +71,8 @@ Records::Records(const std::string& directory) {
   std::fputs("problem,metric,method,version,substeps,error,cpu_us,cpu_us_min,cpu_us_max,target,ok,failure\n",
              m_points);
   m_problems = open(directory + "/problems.json");
-  std::fputs("{\"methods\": [", m_problems);
+  std::fprintf(m_problems, "{\"build\": %s,\n\"methods\": [",
+               quoted("GCC " __VERSION__ " " NAIAD_LAB_FLAGS).c_str());
   const char* comma = "\n";
   for (const Method* method : Method::all()) {
     std::fprintf(m_problems, "%s  {\"name\": %s, \"label\": %s, \"version\": %s, \"kind\": \"%s\"}", comma,
