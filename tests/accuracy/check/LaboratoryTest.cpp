@@ -1,0 +1,207 @@
+// The laboratory sees what it is there to see: orders, errors, crashes, and misses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "Measurement.h"
+#include "Records.h"
+#include "Systems.h"
+
+namespace lab {
+
+namespace {
+
+Problem problemOf(const std::string& id) {
+  for (const ProblemEntry& entry : allProblems()) {
+    if (entry.id == id) return entry.make();
+  }
+  throw std::logic_error("there is no problem " + id);
+}
+
+const Method& methodOf(const std::string& name) {
+  for (const Method* method : Method::all()) {
+    if (method->name == name) return *method;
+  }
+  throw std::logic_error("there is no method " + name);
+}
+
+Method integrator(Rule rule, Method::Kind kind) {
+  return {"planted", "planted", "1", kind,
+          [rule](const Scene& scene) { return scene.equations->integrate(rule); }};
+}
+
+double errorOf(const Case& its_case, const Method& method, int substeps) {
+  return measure(its_case, method, substeps, 1).errors[0];
+}
+
+// The slope between 8 and 16 sub-steps on an undamped spring of 1 Hz, from the phase.
+double orderOf(const std::string& method) {
+  const Problem problem = problemOf("3");
+  const Case& spring = problem.cases[0];
+  const double coarse = measure(spring, methodOf(method), 8, 1).errors[1];
+  const double fine = measure(spring, methodOf(method), 16, 1).errors[1];
+  return std::log2(coarse / fine);
+}
+
+TEST(Laboratory, MethodsHaveTheirOrders) {
+  EXPECT_NEAR(orderOf("semi_implicit"), 2, 0.1);  // its phase; its positions are of order 1
+  EXPECT_NEAR(orderOf("verlet"), 2, 0.1);
+  EXPECT_NEAR(orderOf("tr_bdf2"), 2, 0.1);
+  EXPECT_NEAR(orderOf("rk4"), 4, 0.1);
+  EXPECT_NEAR(orderOf("yoshida4"), 4, 0.1);
+  const Problem flight = problemOf("1");
+  for (const char* method : {"euler", "semi_implicit", "backward_euler"}) {
+    const double ratio =
+        errorOf(flight.cases[0], methodOf(method), 4) / errorOf(flight.cases[0], methodOf(method), 8);
+    EXPECT_NEAR(std::log2(ratio), 1, 0.1) << method;
+  }
+}
+
+TEST(Laboratory, VerletKeepsItsOrderWithDrag) {
+  const Problem drag = problemOf("2");
+  const double coarse = errorOf(drag.cases[1], methodOf("verlet"), 8);
+  const double fine = errorOf(drag.cases[1], methodOf("verlet"), 16);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
+}
+
+// The same program, with and without the error, as the product: lines, CSV and exit code tell them apart.
+TEST(Laboratory, APlantedErrorMissesItsTarget) {
+  const Problem problem = problemOf("1");
+  const Case& flight = problem.cases[0];
+  for (const bool planted : {false, true}) {
+    const Method method =
+        integrator(planted ? Rule::PLANTED_ERROR : Rule::RUNGE_KUTTA_4, Method::Kind::PRODUCT);
+    const std::string directory = ::testing::TempDir() + "naiad_lab_planted";
+    {
+      Records records(directory);
+      records.describe(problem);
+      const Measurement measurement = measure(flight, method, 1, 5);
+      records.add(problem, flight, method, 1, measurement);
+      EXPECT_EQ(records.allMet(), !planted);
+      EXPECT_EQ(measurement.errors[0] > 1e-3, planted);
+    }
+    std::ifstream file(directory + "/points.csv");
+    std::string header;
+    std::string first;
+    std::getline(file, header);
+    std::getline(file, first);
+    EXPECT_NE(first.find(planted ? ",1e-12,0," : ",1e-12,1,"), std::string::npos) << first;
+  }
+}
+
+TEST(Laboratory, TimesAreJudgedAgainstAnotherMethods) {
+  const Problem problem = problemOf("5");
+  const Method product = integrator(Rule::VERLET, Method::Kind::PRODUCT);
+  const CpuBound bound{"cpu_ratio", "box2d", 4, 0.5};
+  Measurement measurement;
+  measurement.cpu = {2, 2, 2};
+  for (const double compared : {3.0, 5.0}) {
+    Records records("");
+    records.add(problem, problem.cases[0], bound, product, 1, measurement, {compared, compared, compared});
+    EXPECT_EQ(records.allMet(), compared == 5);
+  }
+}
+
+TEST(Laboratory, OnlyTheProductIsJudged) {
+  const Problem problem = problemOf("1");
+  Records records("");
+  records.add(problem, problem.cases[0], methodOf("euler"), 1,
+              measure(problem.cases[0], methodOf("euler"), 1, 1));
+  EXPECT_TRUE(records.allMet());
+}
+
+TEST(Laboratory, WhatBlowsUpIsAFailureWithAReason) {
+  const Problem problem = problemOf("4");
+  const Case& stiffest = problem.cases.back();
+  const Measurement measurement = measure(stiffest, methodOf("euler"), 1, 1);
+  EXPECT_TRUE(std::isinf(measurement.errors[0]));
+  EXPECT_EQ(measurement.reason, "blew up");
+}
+
+class Aborting : public Simulation {
+ public:
+  void step(double, int) override { std::abort(); }
+  BodyState body(int) const override { return {}; }
+};
+
+class Endless : public Simulation {
+ public:
+  void step(double, int) override {
+    for (volatile bool go_on = true; go_on;) {
+    }
+  }
+  BodyState body(int) const override { return {}; }
+};
+
+template <class Simulated>
+Method methodThatIs() {
+  return {"bad", "bad", "1", Method::Kind::PEER, [](const Scene&) { return std::make_unique<Simulated>(); }};
+}
+
+TEST(Laboratory, WhatCrashesOrNeverEndsIsAFailureAndNoMore) {
+  const Problem problem = problemOf("1");
+  const Measurement crash = measureApart(problem.cases[0], methodThatIs<Aborting>(), 1, 1, 1);
+  EXPECT_EQ(crash.reason, "crashed by signal 6");
+  EXPECT_TRUE(std::isinf(crash.errors[0]));
+  EXPECT_TRUE(std::isnan(crash.cpu.median));
+  const Measurement loop = measureApart(problem.cases[0], methodThatIs<Endless>(), 1, 1, 1);
+  EXPECT_EQ(loop.reason, "took too long");
+  EXPECT_TRUE(std::isinf(loop.errors[2]));
+}
+
+TEST(Laboratory, ApartIsTheSameAsHere) {
+  const Problem problem = problemOf("5");
+  const Measurement here = measure(problem.cases[0], methodOf("verlet"), 2, 1);
+  const Measurement apart = measureApart(problem.cases[0], methodOf("verlet"), 2, 1, 60);
+  EXPECT_EQ(here.errors, apart.errors);
+  EXPECT_GT(apart.cpu.median, 0);
+  EXPECT_LE(apart.cpu.least, apart.cpu.median);
+}
+
+TEST(Laboratory, WhatAMethodCannotSayIsNotMeasured) {
+  const Problem problem = problemOf("8");
+  EXPECT_FALSE(measureApart(problem.cases[0], methodOf("rk4"), 1, 1, 10).expressed);
+  EXPECT_TRUE(measureApart(problem.cases[0], methodOf("box2d"), 1, 1, 10).expressed);
+}
+
+// Every engine starts from the scene's own state.
+TEST(Laboratory, PeersStartWhereTheSceneSays) {
+  for (const char* id : {"1", "5", "7", "8", "9", "11", "12", "17"}) {
+    for (const Case& its_case : problemOf(id).cases) {
+      for (const char* name : {"box2d", "chipmunk"}) {
+        const SimulationPtr simulation = methodOf(name).build(its_case.scene);
+        if (simulation == nullptr) continue;
+        for (std::size_t i = 0; i < its_case.scene.bodies.size(); ++i) {
+          const Body& body = its_case.scene.bodies[i];
+          const BodyState state = simulation->body(static_cast<int>(i));
+          EXPECT_LT(length(state.position - body.position), 1e-5) << id << ' ' << name << ' ' << i;
+          EXPECT_LT(length(state.velocity - body.velocity), 1e-5) << id << ' ' << name << ' ' << i;
+          EXPECT_NEAR(state.angle, body.angle, 1e-6) << id << ' ' << name << ' ' << i;
+        }
+      }
+    }
+  }
+}
+
+// So do the equations of the textbooks' methods.
+TEST(Laboratory, EquationsStartWhereTheSceneSays) {
+  for (const char* id : {"1", "2", "3", "4", "5", "6"}) {
+    for (const Case& its_case : problemOf(id).cases) {
+      const SimulationPtr simulation = methodOf("rk4").build(its_case.scene);
+      for (std::size_t i = 0; i < its_case.scene.bodies.size(); ++i) {
+        const BodyState state = simulation->body(static_cast<int>(i));
+        EXPECT_LT(length(state.position - its_case.scene.bodies[i].position), 1e-14)
+            << id << ' ' << its_case.name;
+        EXPECT_LT(length(state.velocity - its_case.scene.bodies[i].velocity), 1e-14)
+            << id << ' ' << its_case.name;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,195 @@
+// References agree with each other, and with what others have published.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "Problem.h"
+#include "SpringScene.h"
+#include "Systems.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kAgree = 1e-9;
+
+// The largest difference over the run, relative to the largest value of each coordinate.
+double difference(const Trajectory& a, const Trajectory& b) {
+  EXPECT_EQ(a.size(), b.size());
+  double worst = 0;
+  for (std::size_t i = 0; i < a[0].size(); ++i) {
+    double scale = 0;
+    double apart = 0;
+    for (std::size_t tick = 0; tick < a.size(); ++tick) {
+      scale = std::max(scale, std::abs(a[tick][i]));
+      apart = std::max(apart, std::abs(a[tick][i] - b[tick][i]));
+    }
+    if (scale > 0) worst = std::max(worst, apart / scale);
+  }
+  return worst;
+}
+
+// CVODE controls the error of a step at the tolerance, not that of the run: sharper where errors grow.
+CvodeOptions sharp(bool stiff) {
+  CvodeOptions options;
+  options.stiff = stiff;
+  options.relative = 1e-13;
+  options.absolute = 1e-17;
+  return options;
+}
+
+template <class System>
+void expectSolversAgree(const System& system, double tick, int ticks, Stiffness stiffness) {
+  const auto equations = equationsOf(system);
+  EXPECT_LT(difference(equations->byExtrapolation(tick, ticks, stiffness),
+                       equations->byCvode(tick, ticks, sharp(stiffness == Stiffness::STIFF))),
+            kAgree);
+}
+
+TEST(Reference, SolversAgreeOnTheDoublePendulum) {
+  DoublePendulum system;
+  system.angle = M_PI / 2;
+  expectSolversAgree(system, kTick, 150, Stiffness::NONE);
+}
+
+TEST(Reference, SolversAgreeOnTheStiffPendulum) {
+  expectSolversAgree(StiffPendulum(), kTick, 60, Stiffness::NONE);
+}
+
+TEST(Reference, SolversAgreeOnRobertson) {
+  expectSolversAgree(Robertson(), 1, 40, Stiffness::STIFF);
+}
+
+// Its coordinate is compared; its speed jumps by 1e6 within 1e-6 s, where any shift in time is a difference.
+TEST(Reference, SolversAgreeOnVanDerPolAndWithThePublishedEnd) {
+  const auto equations = equationsOf(VanDerPol());
+  const Trajectory exact = equations->byExtrapolation(kTick, 60, Stiffness::STIFF);
+  const Trajectory other = equations->byCvode(kTick, 60, sharp(true));
+  for (std::size_t tick = 0; tick < exact.size(); ++tick)
+    EXPECT_NEAR(exact[tick][0], other[tick][0], 2 * kAgree);
+  // Test Set for Initial Value Problem Solvers, VDPOL.
+  EXPECT_NEAR(exact.back()[0], 1.706167732170483, 1e-12);
+  EXPECT_NEAR(exact.back()[1], -0.8928097010247975, 1e-12);
+}
+
+TEST(Reference, SolversAgreeOnHiresAndWithThePublishedEnd) {
+  constexpr double kEnd = 321.8122;
+  constexpr int kTicks = 20;
+  const auto equations = equationsOf(Hires());
+  const Trajectory exact = equations->byExtrapolation(kEnd / kTicks, kTicks, Stiffness::STIFF);
+  EXPECT_LT(difference(exact, equations->byCvode(kEnd / kTicks, kTicks, sharp(true))), kAgree);
+  // Test Set for Initial Value Problem Solvers, HIRES.
+  const double published[] = {0.7371312573325668e-3, 0.1442485726316185e-3, 0.5888729740967575e-4,
+                              0.1175651343283149e-2, 0.2386356198831331e-2, 0.6238968252742796e-2,
+                              0.2849998395185769e-2, 0.2850001604814231e-2};
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(exact.back()[i] / published[i], 1, 1e-11);
+}
+
+TEST(Reference, ClosedFormOfTheSpringAgreesWithCvode) {
+  for (const double stiffness : {1e2, 1e4}) {
+    for (const double zeta : {0.0, 0.05, 1.0, 2.0}) {
+      SpringLine system;
+      system.stiffness = stiffness;
+      system.damping = 2 * zeta * std::sqrt(stiffness);
+      system.gravity = 10;
+      constexpr int kTicks = 60;
+      const Trajectory path = equationsOf(system)->byCvode(kTick, kTicks, sharp(false));
+      for (int tick = 0; tick <= kTicks; ++tick) {
+        EXPECT_NEAR(static_cast<double>(springOffset(system, Quad(kTick) * tick)),
+                    path[static_cast<std::size_t>(tick)][0], kAgree);
+      }
+    }
+  }
+}
+
+TEST(Reference, ClosedFormOfDragAgreesWithCvode) {
+  Flight gliding;
+  gliding.velocity = {10, 0};
+  gliding.linear = 2;
+  EXPECT_NEAR(equationsOf(gliding)->byCvode(kTick, 60, sharp(false)).back()[0], 5 * -std::expm1(-4), kAgree);
+  Flight falling;
+  falling.gravity = 10;
+  falling.quadratic = 0.4;
+  const auto end = equationsOf(falling)->byCvode(kTick, 60, sharp(false)).back();
+  EXPECT_NEAR(end[1], -2.5 * std::log(std::cosh(4.0)), kAgree);
+  EXPECT_NEAR(end[3], -5 * std::tanh(4.0), kAgree);
+}
+
+TEST(Reference, CvodeReturnsAfterAnOrbit) {
+  Kepler system;
+  system.eccentricity = 0.6;
+  const auto path = equationsOf(system)->byCvode(2 * M_PI, 1, sharp(false));
+  EXPECT_NEAR(path.back()[0], path.front()[0], kAgree);
+  EXPECT_NEAR(path.back()[1], path.front()[1], kAgree);
+}
+
+TEST(Reference, KeplerReturnsToItsStart) {
+  Kepler system;
+  system.eccentricity = 0.6;
+  const auto path = equationsOf(system)->byExtrapolation(2 * M_PI, 20, Stiffness::NONE);
+  EXPECT_NEAR(path.back()[0], path.front()[0], 1e-12);
+  EXPECT_NEAR(path.back()[1], path.front()[1], 1e-12);
+}
+
+// CVODE's solution of a scene's equations as a method: what judges it is every problem's own reference.
+class Replay : public Simulation {
+ public:
+  Replay(const Scene& scene, bool stiff)
+      : m_equations(scene.equations), m_path(m_equations->byCvode(scene.tick, scene.ticks, sharp(stiff))) {}
+  void step(double, int) override { ++m_tick; }
+  BodyState body(int index) const override { return m_equations->body(index, m_path[m_tick].data()); }
+  std::span<const double> coordinates() const override { return m_path[m_tick]; }
+
+ private:
+  std::shared_ptr<const Equations> m_equations;
+  Trajectory m_path;
+  std::size_t m_tick = 0;
+};
+
+TEST(Reference, CvodeMeetsTheReferenceOfEveryProblemWithEquations) {
+  int judged = 0;
+  for (const ProblemEntry& entry : allProblems()) {
+    if (entry.id.size() > 2) continue;  // maps repeat problem 4
+    for (const Case& its_case : entry.make().cases) {
+      if (its_case.scene.equations == nullptr) continue;
+      // A million radians, or a layer that jumps: each has its own test, or is the same formula as its
+      // neighbours'.
+      if (its_case.name.starts_with("k1e10") || its_case.name == "van_der_pol") continue;
+      const bool stiff = entry.id == "4" || entry.id == "4b";
+      const Method method{"cvode", "CVODE", "6", Method::Kind::CANDIDATE,
+                          [stiff](const Scene& scene) { return std::make_unique<Replay>(scene, stiff); }};
+      const std::vector<double> errors = its_case.judge(Trial(method, 1));
+      // 10,000 radians and 20 close passes of the sun add up CVODE's errors; over shorter times, tests above
+      // and below hold both to 1e-9.
+      const bool long_phase = its_case.name == "k1e6_zeta0" || its_case.name == "kepler";
+      EXPECT_LT(errors[0], long_phase ? 1e-6 : kAgree) << entry.id << ' ' << its_case.name;
+      ++judged;
+    }
+  }
+  EXPECT_EQ(judged, 1 + 2 + 3 + 8 + 4 + 1 + 2);
+}
+
+// Dual numbers against differences, on the equations with the most kinds of operations.
+TEST(Reference, DerivativesAreThoseOfTheEquations) {
+  DoublePendulum system;
+  const double y[] = {0.3, -1.1, 2.0, 0.7};
+  const auto jacobian = jacobianOf(system, 0, y);
+  constexpr double kStep = 1e-6;
+  for (std::size_t column = 0; column < 4; ++column) {
+    double more[4];
+    double less[4];
+    double at_more[] = {y[0], y[1], y[2], y[3]};
+    double at_less[] = {y[0], y[1], y[2], y[3]};
+    at_more[column] += kStep;
+    at_less[column] -= kStep;
+    system.rate(0.0, at_more, more);
+    system.rate(0.0, at_less, less);
+    for (std::size_t row = 0; row < 4; ++row) {
+      EXPECT_NEAR(jacobian[row][column], (more[row] - less[row]) / (2 * kStep), 1e-7);
+    }
+  }
+}
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,180 @@
+#include "Measurement.h"
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+#include "Clock.h"
+
+namespace lab {
+
+namespace {
+
+// A run that takes less is repeated on fresh copies of the scene until it does not: the clock's own reading
+// takes a quarter of a microsecond.
+constexpr double kShortestRunNs = 400000;
+constexpr int kMostCopies = 256;
+
+double runNs(const Case& its_case, const Method& method, int substeps, int copies) {
+  std::vector<SimulationPtr> simulations;
+  for (int i = 0; i < copies; ++i) simulations.push_back(method.build(its_case.scene));
+  const double start = bench::cpuNanoseconds();
+  for (const SimulationPtr& simulation : simulations) {
+    for (int tick = 0; tick < its_case.scene.ticks; ++tick) simulation->step(its_case.scene.tick, substeps);
+  }
+  return (bench::cpuNanoseconds() - start) / copies;
+}
+
+CpuTime timeRuns(const Case& its_case, const Method& method, int substeps, int runs) {
+  const double first = runNs(its_case, method, substeps, 1);  // warms up, too
+  const int copies = std::clamp(static_cast<int>(kShortestRunNs / std::max(first, 1.0)), 1, kMostCopies);
+  std::vector<double> times;
+  for (int i = 0; i < runs; ++i) {
+    times.push_back(runNs(its_case, method, substeps, copies) * 1e-3 / its_case.scene.ticks);
+  }
+  std::sort(times.begin(), times.end());
+  return {times[times.size() / 2], times.front(), times.back()};
+}
+
+Measurement judge(const Case& its_case, const Method& method, int substeps) {
+  Measurement measurement;
+  measurement.errors.assign(its_case.metrics.size(), std::numeric_limits<double>::infinity());
+  try {
+    measurement.errors = its_case.judge(Trial(method, substeps));
+    if (measurement.errors.size() != its_case.metrics.size()) throw std::logic_error("one error per metric");
+  } catch (const Inexpressible&) {
+    measurement.expressed = false;
+  } catch (const Failure& failure) {
+    measurement.reason = failure.what();
+  }
+  for (double& error : measurement.errors) {
+    if (!std::isnan(error)) continue;
+    error = std::numeric_limits<double>::infinity();
+    if (measurement.reason.empty()) measurement.reason = "not a number";
+  }
+  return measurement;
+}
+
+constexpr CpuTime unknownTime() {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  return {kNaN, kNaN, kNaN};
+}
+
+// What a child writes: its judgement as soon as it is known, then the times.
+class Pipe {
+ public:
+  Pipe() {
+    if (pipe(m_ends) != 0) throw std::runtime_error("no pipe");
+  }
+  ~Pipe() {
+    close(m_ends[0]);
+    closeWriter();
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  void closeWriter() {
+    if (m_ends[1] >= 0) close(m_ends[1]);
+    m_ends[1] = -1;
+  }
+  void put(const void* data, std::size_t size) const {
+    if (write(m_ends[1], data, size) != static_cast<ssize_t>(size)) _exit(1);
+  }
+  /// False if the child is gone before it has written that much.
+  bool get(void* data, std::size_t size) const {
+    char* to = static_cast<char*>(data);
+    while (size > 0) {
+      const ssize_t got = read(m_ends[0], to, size);
+      if (got <= 0) return false;
+      to += got;
+      size -= static_cast<std::size_t>(got);
+    }
+    return true;
+  }
+
+ private:
+  int m_ends[2] = {-1, -1};
+};
+
+constexpr std::size_t kReasonSize = 64;
+
+void putJudgement(const Pipe& pipe, const Measurement& measurement) {
+  char reason[kReasonSize] = {};
+  std::strncpy(reason, measurement.reason.c_str(), kReasonSize - 1);
+  pipe.put(&measurement.expressed, sizeof measurement.expressed);
+  pipe.put(reason, kReasonSize);
+  pipe.put(measurement.errors.data(), measurement.errors.size() * sizeof(double));
+}
+
+bool getJudgement(const Pipe& pipe, Measurement& measurement) {
+  char reason[kReasonSize] = {};
+  if (!pipe.get(&measurement.expressed, sizeof measurement.expressed)) return false;
+  if (!pipe.get(reason, kReasonSize)) return false;
+  measurement.reason = reason;
+  return pipe.get(measurement.errors.data(), measurement.errors.size() * sizeof(double));
+}
+
+[[noreturn]] void child(const Pipe& pipe, const Case& its_case, const Method& method, int substeps, int runs,
+                        int most_seconds) {
+  const rlimit limit{static_cast<rlim_t>(most_seconds), static_cast<rlim_t>(most_seconds)};
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CPU, &limit);
+  setrlimit(RLIMIT_CORE, &no_core);
+  if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(1);  // a library's last words
+  const Measurement measurement = judge(its_case, method, substeps);
+  putJudgement(pipe, measurement);
+  if (measurement.expressed) {
+    const CpuTime cpu = timeRuns(its_case, method, substeps, runs);
+    pipe.put(&cpu, sizeof cpu);
+  }
+  _exit(0);
+}
+
+std::string deathOf(int status) {
+  if (!WIFSIGNALED(status)) return "ended early";
+  return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL
+             ? "took too long"
+             : "crashed by signal " + std::to_string(WTERMSIG(status));
+}
+
+}  // namespace
+
+Measurement measure(const Case& its_case, const Method& method, int substeps, int runs) {
+  Measurement measurement = judge(its_case, method, substeps);
+  if (measurement.expressed) measurement.cpu = timeRuns(its_case, method, substeps, runs);
+  return measurement;
+}
+
+Measurement measureApart(const Case& its_case, const Method& method, int substeps, int runs,
+                         int most_seconds) {
+  Pipe pipe;
+  const pid_t pid = fork();
+  if (pid < 0) throw std::runtime_error("no process");
+  if (pid == 0) child(pipe, its_case, method, substeps, runs, most_seconds);
+  pipe.closeWriter();
+
+  Measurement measurement;
+  measurement.cpu = unknownTime();
+  measurement.errors.assign(its_case.metrics.size(), std::numeric_limits<double>::infinity());
+  const bool judged = getJudgement(pipe, measurement);
+  const bool timed = judged && measurement.expressed && pipe.get(&measurement.cpu, sizeof measurement.cpu);
+  int status = 0;
+  waitpid(pid, &status, 0);
+  if (!judged) {
+    std::fill(measurement.errors.begin(), measurement.errors.end(), std::numeric_limits<double>::infinity());
+    measurement.reason = deathOf(status);
+  } else if (measurement.expressed && !timed && measurement.reason.empty()) {
+    measurement.reason = "not timed: " + deathOf(status);
+  }
+  return measurement;
+}
+
+}  // namespace lab

@@ -1,0 +1,183 @@
+// naiad_lab: runs problems with every method and number of sub-steps, prints a line per point and metric, and
+// writes what the report is drawn from.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "Line.h"
+#include "Measurement.h"
+#include "Progress.h"
+#include "Records.h"
+
+namespace {
+
+constexpr const char* kUsage =
+    "usage: naiad_lab [--quick] [--method NAME]... [--output DIR] [PROBLEM...]\n"
+    "       naiad_lab --list\n"
+    "\n"
+    "  PROBLEM        a number or a name (default: all)\n"
+    "  --quick        1, 4 and 16 sub-steps, and no long runs: to see that it works\n"
+    "  --method NAME  only this one; may be repeated\n"
+    "  --output DIR   where to put points.csv and problems.json (default: nowhere)\n"
+    "  --list         the problems and methods there are\n"
+    "\n"
+    "Exit codes: 0 measured, 1 the product missed a target, or something failed, 2 wrong usage.\n";
+
+constexpr int kRuns = 5;
+constexpr int kMostCpuSeconds = 120;
+
+struct Options {
+  bool quick = false;
+  std::string output;
+  std::vector<const lab::Method*> methods;
+  std::vector<lab::ProblemEntry> problems;
+};
+
+int usage(std::FILE* out, int code) {
+  std::fputs(kUsage, out);
+  return code;
+}
+
+int list() {
+  std::puts("problems:");
+  for (const lab::ProblemEntry& entry : lab::allProblems()) {
+    std::printf("  %-14s %s\n", entry.id.c_str(), entry.name.c_str());
+  }
+  std::puts("methods:");
+  for (const lab::Method* method : lab::Method::all()) {
+    std::printf("  %-14s %s %s\n", method->name.c_str(), method->label.c_str(), method->version.c_str());
+  }
+  return 0;
+}
+
+std::vector<int> substepCounts(const Options& options, const lab::Case& its_case, const lab::Method& method) {
+  if (method.own_substeps > 0) return {method.own_substeps};
+  std::vector<int> counts;
+  for (const int count : {1, 2, 4, 8, 16, 32, 64}) {
+    const bool quick = count == 1 || count == 4 || count == 16;
+    if (count <= its_case.most_substeps && (quick || !options.quick)) counts.push_back(count);
+  }
+  return counts;
+}
+
+// All points of a problem, from case to case.
+struct Run {
+  const lab::Case* its_case;
+  const lab::Method* method;
+  int substeps;
+  lab::Measurement measurement;
+};
+
+std::vector<Run> runsOf(const Options& options, const lab::Problem& problem) {
+  std::vector<Run> runs;
+  for (const lab::Case& its_case : problem.cases) {
+    if (its_case.long_run && options.quick) continue;
+    for (const lab::Method* method : options.methods) {
+      for (const int substeps : substepCounts(options, its_case, *method)) {
+        runs.push_back({&its_case, method, substeps, {}});
+      }
+    }
+  }
+  return runs;
+}
+
+// What is asked for in terms of another method's time, once that is known.
+void compareTimes(const lab::Problem& problem, const std::vector<Run>& runs, lab::Records& records) {
+  for (const Run& compared : runs) {
+    for (const lab::CpuBound& bound : compared.its_case->cpu_bounds) {
+      if (compared.method->name != bound.method || compared.substeps != bound.substeps) continue;
+      for (const Run& run : runs) {
+        if (run.its_case != compared.its_case || !run.measurement.expressed) continue;
+        records.add(problem, *run.its_case, bound, *run.method, run.substeps, run.measurement,
+                    compared.measurement.cpu);
+      }
+    }
+  }
+}
+
+void run(const Options& options, lab::Records& records) {
+  lab::Progress progress;
+  for (std::size_t i = 0; i < options.problems.size(); ++i) {
+    const lab::ProblemEntry& entry = options.problems[i];
+    const double share = 1 / static_cast<double>(options.problems.size());
+    const std::string name = entry.id + " " + entry.name;
+    progress.show(share * static_cast<double>(i), name + ": the reference");
+    const lab::Problem problem = entry.make();
+    records.describe(problem);
+    std::vector<Run> runs = runsOf(options, problem);
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      Run& run = runs[k];
+      const double part = static_cast<double>(k) / static_cast<double>(runs.size());
+      progress.show(
+          share * (static_cast<double>(i) + part),
+          name + " " + run.its_case->name + ": " + run.method->label + " ×" + std::to_string(run.substeps));
+      run.measurement = lab::measureApart(*run.its_case, *run.method, run.substeps, kRuns, kMostCpuSeconds);
+      if (!run.measurement.expressed) continue;
+      records.add(problem, *run.its_case, *run.method, run.substeps, run.measurement);
+    }
+    compareTimes(problem, runs, records);
+  }
+}
+
+const lab::Method* findMethod(const std::string& name) {
+  for (const lab::Method* method : lab::Method::all()) {
+    if (method->name == name) return method;
+  }
+  return nullptr;
+}
+
+// False, with a word on stderr, if an argument means nothing.
+bool read(const std::vector<std::string>& arguments, Options& options) {
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    const bool has_value = i + 1 < arguments.size();
+    if (argument == "--quick") {
+      options.quick = true;
+    } else if (argument == "--output" && has_value) {
+      options.output = arguments[++i];
+    } else if (argument == "--method" && has_value) {
+      const lab::Method* method = findMethod(arguments[++i]);
+      if (method == nullptr) {
+        std::fprintf(stderr, "naiad_lab: there is no method '%s'\n", arguments[i].c_str());
+        return false;
+      }
+      options.methods.push_back(method);
+    } else {
+      const auto all = lab::allProblems();
+      const auto found = std::find_if(all.begin(), all.end(), [&](const lab::ProblemEntry& entry) {
+        return entry.id == argument || entry.name == argument;
+      });
+      if (found == all.end()) {
+        std::fprintf(stderr, "naiad_lab: there is no problem '%s'\n", argument.c_str());
+        return false;
+      }
+      options.problems.push_back(*found);
+    }
+  }
+  if (options.methods.empty()) options.methods = lab::Method::all();
+  if (options.problems.empty()) options.problems = lab::allProblems();
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (const std::string& argument : arguments) {
+    if (argument == "-h" || argument == "--help") return usage(stdout, 0);
+    if (argument == "--list") return list();
+  }
+  Options options;
+  if (!read(arguments, options)) return usage(stderr, 2);
+  try {
+    bench::reserveStdout();
+    lab::Records records(options.output);
+    run(options, records);
+    return records.allMet() ? 0 : 1;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "naiad_lab: %s\n", e.what());
+    return 1;
+  }
+}

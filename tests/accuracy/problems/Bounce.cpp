@@ -1,0 +1,130 @@
+// 7: a bouncing ball. 15: a bounce within a tick, at 200 m/s.
+#include "Path.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kGravity = 10;
+constexpr double kRadius = 0.5;
+
+// A ball above ground at 0; heights are those of its lowest point.
+Scene ballOverGround(double height, double restitution, int ticks) {
+  Scene scene;
+  Body bouncing = ball({0, height + kRadius}, {0, 0}, kRadius);
+  bouncing.restitution = restitution;
+  Body ground = wall({0, -5}, {50, 5});
+  ground.restitution = restitution;
+  scene.bodies = {bouncing, ground};
+  scene.gravity = {0, -kGravity};
+  scene.ticks = ticks;
+  return scene;
+}
+
+// The height at which the ball would turn, if nothing were in its way.
+double apexOf(const BodyState& state) {
+  return state.position.y - kRadius + state.velocity.y * state.velocity.y / (2 * kGravity);
+}
+
+Case dying() {
+  constexpr double kHeight = 10;
+  constexpr double kRestitution = 0.8;
+  constexpr double kSlow = 1e-3;  // m/s: rest
+  Case bouncing;
+  bouncing.name = "e0.8";
+  bouncing.scene = ballOverGround(kHeight, kRestitution, 450);
+  const double stop = std::sqrt(2 * kHeight / kGravity) * (1 + kRestitution) / (1 - kRestitution);
+  bouncing.metrics = {{"first_peak", "relative error of the first peak", 1e-9, 1e-15,
+                       "Box2D 6.348 (8.1e-3), Chipmunk ×4 6.403 (4.7e-4)"},
+                      {"third_peak", "relative error of the third peak", 1e-9, 1e-15, ""},
+                      {"stop_time_s", "error of the moment when it lies still, s", kTick, 0,
+                       "Box2D stops at 11.6 s, Chipmunk ×4 at 12.71 s"}};
+  bouncing.judge = [scene = bouncing.scene, stop](const Trial& trial) {
+    double right = kHeight;
+    int bounces = 0;
+    double peaks[3] = {0, 0, 0};
+    double before = 0;
+    int last_moving = 0;
+    trial.run(scene, [&](int tick, const Simulation& simulation) {
+      const BodyState state = simulation.body(0);
+      if (state.velocity.y > 0 && before <= 0) {
+        ++bounces;
+        if (bounces <= 3) peaks[bounces - 1] = apexOf(state);
+      }
+      before = state.velocity.y;
+      if (std::abs(state.velocity.y) > kSlow) last_moving = tick;
+    });
+    if (bounces < 3) throw Failure("does not bounce");
+    std::vector<double> errors;
+    for (const int bounce : {1, 2, 3}) {
+      right *= kRestitution * kRestitution;
+      if (bounce != 2) errors.push_back(std::abs(peaks[bounce - 1] / right - 1));
+    }
+    errors.push_back(last_moving == scene.ticks ? INFINITY : std::abs((last_moving + 1) * scene.tick - stop));
+    return errors;
+  };
+  return bouncing;
+}
+
+Case forever() {
+  constexpr double kHeight = 5;
+  Case bouncing;
+  bouncing.name = "e1";
+  bouncing.scene = ballOverGround(kHeight, 1, 3000);
+  bouncing.metrics = {{"peak", "relative error of the height after 100 s", 1e-9, 1e-14,
+                       "Box2D 3.95 of 5 m (0.21), Chipmunk ×4 5.000"}};
+  bouncing.judge = [scene = bouncing.scene](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    return std::vector<double>{std::abs(apexOf(end->body(0)) / kHeight - 1)};
+  };
+  return bouncing;
+}
+
+Problem makeBouncing() {
+  Problem problem;
+  problem.title = "Bouncing ball";
+  problem.text =
+      "A ball falls from 10 m and keeps 0.8 of its speed at each bounce; another falls from 5 m and keeps "
+      "all of "
+      "it, for 100 s.";
+  problem.reference =
+      "peaks h e^(2k); it stops at √(2h/g) (1 + e)/(1 − e) = 12.7279 s, after infinitely many bounces";
+  problem.cases = {dying(), forever()};
+  return problem;
+}
+
+// The wall is 2.3 ticks away, so there is a rest of a tick to use.
+Problem makeFast() {
+  constexpr double kSpeed = 200;
+  constexpr int kTicks = 4;
+  Problem problem;
+  problem.title = "A bounce at 200 m/s";
+  problem.text =
+      "A ball at 200 m/s meets a wall after 2.3 ticks and goes back with all of its speed; after 4 ticks:";
+  problem.reference = "the mirrored path";
+  Case bounce;
+  const double gap = 2.3 * kTick * kSpeed;
+  Body flying = ball({0, 0}, {kSpeed, 0}, kRadius);
+  flying.restitution = 1;
+  flying.fast = true;
+  Body target = wall({gap + kRadius + 1, 0}, {1, 10});
+  target.restitution = 1;
+  bounce.scene.bodies = {flying, target};
+  bounce.scene.ticks = kTicks;
+  bounce.metrics = {{"end_error_m", "distance from the mirrored path, m", 1e-9, 1e-14, "Box2D 5.0 m"}};
+  bounce.judge = [scene = bounce.scene, gap](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    const double right = 2 * gap - kSpeed * scene.duration();
+    const Vec place = end->body(0).position;
+    return std::vector<double>{length(place - Vec{right, 0})};
+  };
+  problem.cases = {bounce};
+  return problem;
+}
+
+const RegisteredProblem bouncing("7", "bounce", makeBouncing);
+const RegisteredProblem fast("15", "fast-bounce", makeFast);
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,191 @@
+// 8: Newton's cradle. 8b: oblique elastic billiard. 8c: Galperin's billiard, which counts the digits of π.
+#include <algorithm>
+#include <cmath>
+
+#include "Path.h"
+
+namespace lab {
+
+namespace {
+
+constexpr int kBalls = 5;
+constexpr double kRadius = 0.5;
+constexpr double kSpeed = 5;
+
+Body elasticBall(Vec position, Vec velocity, double mass = 1) {
+  Body body = ball(position, velocity, kRadius, mass);
+  body.restitution = 1;
+  return body;
+}
+
+Case freeCradle() {
+  Case cradle;
+  cradle.name = "free";
+  for (int i = 0; i < kBalls; ++i) {
+    const double gap = i == 0 ? 1 : 0;
+    cradle.scene.bodies.push_back(elasticBall({i * 2 * kRadius - gap, 0}, {i == 0 ? kSpeed : 0, 0}));
+  }
+  cradle.scene.ticks = 30;
+  cradle.metrics = {{"velocity", "largest error of a velocity, of the first ball's", 1e-9, 1e-16,
+                     "Box2D −1.9, .7, 2, 2, 2.2 m/s for 0, 0, 0, 0, 5 (0.56); Chipmunk exact"}};
+  cradle.judge = [scene = cradle.scene](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    double worst = 0;
+    for (int i = 0; i < kBalls; ++i) {
+      const Vec right{i == kBalls - 1 ? kSpeed : 0, 0};
+      worst = std::max(worst, length(end->body(i).velocity - right) / kSpeed);
+    }
+    return std::vector<double>{worst};
+  };
+  return cradle;
+}
+
+// Hung on rods of 5 m; the first is let go at 30°. After the impact every ball's speed, counted from its
+// energy, must be 0 or the first one's.
+Case hungCradle() {
+  constexpr double kRod = 5;
+  constexpr double kGravity = 10;
+  constexpr double kAngle = M_PI / 6;
+  Case cradle;
+  cradle.name = "hung";
+  for (int i = 0; i < kBalls; ++i) {
+    const Vec pivot{i * 2 * kRadius, kRod};
+    const double angle = i == 0 ? -kAngle : 0;
+    cradle.scene.bodies.push_back(
+        elasticBall(pivot + Vec{kRod * std::sin(angle), -kRod * std::cos(angle)}, {0, 0}));
+    Joint rod;
+    rod.b = i;
+    rod.anchor_a = pivot;
+    rod.anchor_b = cradle.scene.bodies.back().position;
+    cradle.scene.joints.push_back(rod);
+  }
+  cradle.scene.gravity = {0, -kGravity};
+  cradle.scene.ticks = 45;  // it meets the others after 1.13 s
+  cradle.metrics = {
+      {"velocity", "largest error of a speed, of the first ball's at the impact", 1e-3, 1e-15, ""}};
+  cradle.judge = [scene = cradle.scene](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    const double energy = kGravity * kRod * (1 - std::cos(kAngle));
+    double worst = 0;
+    for (int i = 0; i < kBalls; ++i) {
+      const BodyState state = end->body(i);
+      const double its_energy = dot(state.velocity, state.velocity) / 2 + kGravity * state.position.y;
+      const double speed = std::sqrt(std::max(0.0, its_energy / energy));
+      worst = std::max(worst, std::abs(speed - (i == kBalls - 1 ? 1 : 0)));
+    }
+    return std::vector<double>{worst};
+  };
+  return cradle;
+}
+
+Problem makeCradle() {
+  Problem problem;
+  problem.title = "Newton's cradle";
+  problem.text =
+      "Five equal balls touch each other on a line; the first comes with 5 m/s. Then the same hung on rods "
+      "of 5 m, "
+      "the first let go at 30°.";
+  problem.reference = "0, 0, 0, 0, v: impacts one after another, the nearest first";
+  problem.cases = {freeCradle(), hungCradle()};
+  return problem;
+}
+
+// Pairs at different offsets, so far apart that they are alone.
+Case billiard(double speed, const std::string& peers) {
+  constexpr int kPairs = 24;
+  constexpr double kApart = 32;
+  constexpr double kWay = 1.5;  // m, from the start to about the impact
+  Case shots;
+  shots.name = "v" + std::to_string(std::lround(speed));
+  std::vector<Vec> right;
+  for (int i = 0; i < kPairs; ++i) {
+    const double offset = (i + 0.5) / kPairs * 2 * kRadius * 0.98;
+    const double y = kApart * (i - kPairs / 2);
+    Body shot = elasticBall({0, y + offset}, {speed, 0});
+    shot.fast = true;
+    shots.scene.bodies.push_back(shot);
+    shots.scene.bodies.push_back(elasticBall({kWay + 2 * kRadius, y}, {0, 0}));
+    // Frictionless and equal: the struck ball takes the part of the velocity along the line of centres.
+    const Vec normal{std::sqrt(4 * kRadius * kRadius - offset * offset), -offset};
+    right.push_back(dot(normal, {speed, 0}) / dot(normal, normal) * normal);
+  }
+  shots.scene.ticks = static_cast<int>(std::ceil((kWay + 2 * kRadius + 0.1) / speed / kTick)) + 2;
+  shots.metrics = {
+      {"struck_mean", "mean error of the struck ball's velocity, of the shot's", 1e-9, 1e-16, peers},
+      {"struck_max", "largest error of the struck ball's velocity, of the shot's", 1e-9, 1e-16, ""}};
+  shots.judge = [scene = shots.scene, right, speed](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    double sum = 0;
+    double worst = 0;
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      const double error = length(end->body(static_cast<int>(2 * i + 1)).velocity - right[i]) / speed;
+      sum += error;
+      worst = std::max(worst, error);
+    }
+    return std::vector<double>{sum / static_cast<double>(right.size()), worst};
+  };
+  return shots;
+}
+
+Problem makeBilliard() {
+  Problem problem;
+  problem.title = "Oblique elastic billiard";
+  problem.text =
+      "A ball of radius 0.5 m hits an equal one that rests, at 24 offsets from the centre to the edge; no "
+      "friction.";
+  problem.reference = "the geometry of the impact: the struck ball leaves along the line of centres";
+  problem.cases = {billiard(5, "Box2D .013, Chipmunk .022"), billiard(50, "Box2D .27, Chipmunk .29")};
+  return problem;
+}
+
+// Two boxes between which and a wall the light one goes back and forth.
+Problem makeGalperin() {
+  constexpr int kTicks = 300;
+  constexpr double kHalf = 0.1;
+  Problem problem;
+  problem.title = "Galperin's billiard";
+  problem.text =
+      "A box of 100^k kg pushes one of 1 kg towards a wall, without any loss. All collisions are counted, "
+      "those with "
+      "the wall too: 10 s.";
+  problem.reference = "⌈π / atan √(1/M)⌉ − 1 = 3, 31, 314, 3141, 31415";
+  int right = 3;
+  double mass = 1;
+  for (int k = 0; k <= 4; ++k, mass *= 100, right = static_cast<int>(M_PI * std::pow(10, k))) {
+    Case shove;
+    shove.name = "k" + std::to_string(k);
+    Body stop = wall({-1, 0}, {1, 1});
+    Body light = box({1 + kHalf, 0}, {kHalf, kHalf});
+    Body heavy = box({2 + 3 * kHalf, 0}, {kHalf, kHalf}, mass);
+    heavy.velocity = {-1, 0};
+    shove.scene.bodies = {stop, light, heavy};
+    for (Body& body : shove.scene.bodies) {
+      body.restitution = 1;
+      body.fast = body.motion == Motion::DYNAMIC;
+    }
+    shove.scene.ticks = kTicks;
+    shove.metrics = {
+        {"count", "error of the number of collisions, of " + std::to_string(right), 0, 0, "none can"},
+        {"speed", "error of the heavy one's speed at the end", -1, 1e-15, ""}};
+    const double theta = std::atan(std::sqrt(1 / mass));
+    // Reflections in a wedge turn the velocity by twice its angle, forwards and backwards.
+    const double turned = std::cos(2 * theta * ((right + 1) / 2));
+    const double final_speed = -turned;
+    shove.judge = [scene = shove.scene, right, final_speed](const Trial& trial) {
+      const SimulationPtr end = trial.run(scene);
+      if (end->contacts() < 0) throw Inexpressible();
+      return std::vector<double>{std::abs(static_cast<double>(end->contacts()) / right - 1),
+                                 std::abs(end->body(2).velocity.x - final_speed)};
+    };
+    problem.cases.push_back(shove);
+  }
+  return problem;
+}
+
+const RegisteredProblem cradle("8", "cradle", makeCradle);
+const RegisteredProblem oblique("8b", "billiard", makeBilliard);
+const RegisteredProblem galperin("8c", "galperin", makeGalperin);
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,93 @@
+// 2: linear and quadratic drag.
+#include "Path.h"
+#include "Systems.h"
+
+namespace lab {
+
+namespace {
+
+constexpr int kTicks = 60;
+constexpr double kLinear = 2;    // kg/s
+constexpr double kStart = 10;    // m/s
+constexpr double kGravity = 10;  // m/s²
+constexpr double kTerminal = 5;  // m/s
+constexpr double kQuadratic = kGravity / (kTerminal * kTerminal);
+
+Case linear() {
+  Case gliding;
+  gliding.name = "linear";
+  Body body;
+  body.velocity = {kStart, 0};
+  body.linear_drag = kLinear;
+  gliding.scene.bodies = {body};
+  gliding.scene.ticks = kTicks;
+  Flight system;
+  system.velocity = body.velocity;
+  system.linear = kLinear;
+  gliding.scene.equations = equationsOf(system);
+  gliding.metrics =
+      pathMetrics(1e-12, 1e-16, "Box2D 1.5e-3 (1/240 s), Chipmunk 8.2e-2 (1/60 s); in m, of 4.9 m");
+  Path path;
+  for (int tick = 0; tick <= kTicks; ++tick) {
+    const Quad t = Quad(kTick) * tick;
+    path.push_back({static_cast<double>(kStart / Quad(kLinear) * (1 - exp(-kLinear * t))), 0});
+  }
+  const Scene scene = gliding.scene;
+  const double scale = path.back()[0];
+  gliding.judge = [scene, path, scale](const Trial& trial) {
+    return inOrder(compare(trial, scene, path, scale, [](const Simulation& s) { return positionOf(s, 0); }));
+  };
+  return gliding;
+}
+
+Case quadratic() {
+  Case falling;
+  falling.name = "quadratic";
+  falling.scene.bodies = {Body()};
+  falling.scene.gravity = {0, -kGravity};
+  falling.scene.ticks = kTicks;
+  falling.scene.field = [](double, const BodyState& state) {
+    return -kQuadratic * length(state.velocity) * state.velocity;
+  };
+  Flight system;
+  system.gravity = kGravity;
+  system.quadratic = kQuadratic;
+  falling.scene.equations = equationsOf(system);
+  falling.metrics = pathMetrics(1e-8, 1e-16);
+  // Both where it is and how fast, each in its own scale.
+  Path path;
+  for (int tick = 0; tick <= kTicks; ++tick) {
+    const Quad t = Quad(kTick) * tick;
+    const Quad s = Quad(kGravity) * t / kTerminal;
+    const Quad log_cosh = s + log((1 + exp(-2 * s)) / 2);
+    path.push_back(
+        {static_cast<double>(-Quad(kTerminal) / kGravity * log_cosh), static_cast<double>(-tanh(s))});
+  }
+  const Scene scene = falling.scene;
+  const double scale = std::abs(path.back()[0]);
+  falling.judge = [scene, path, scale](const Trial& trial) {
+    return inOrder(compare(trial, scene, path, scale, [](const Simulation& s) {
+      const BodyState state = s.body(0);
+      return std::vector<double>{state.position.y / kTerminal, state.velocity.y / kTerminal};
+    }));
+  };
+  return falling;
+}
+
+Problem make() {
+  Problem problem;
+  problem.title = "Drag";
+  problem.text =
+      "Linear: 1 kg slides from 10 m/s for 2 s with 2 kg/s of drag. Quadratic: 1 kg falls from rest for 2 s "
+      "with "
+      "a terminal speed of 5 m/s.";
+  problem.reference = "(v₀/c)(1 − e^(−ct)); (v_t²/g) ln cosh(gt/v_t) and v_t tanh(gt/v_t), in quad precision";
+  problem.cases = {linear(), quadratic()};
+  return problem;
+}
+
+const RegisteredProblem problem("2", "drag", make);
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,129 @@
+// 12: friction on a slope and on a floor. 13: a disc that rolls down.
+#include <algorithm>
+#include <cmath>
+
+#include "Path.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kFriction = 0.5;
+constexpr double kGravity = 10;
+
+// A slope that falls to the right by `angle` through the origin, with `body` on it at the origin.
+Scene onSlope(double angle, Body body, double lift, int ticks) {
+  Scene scene;
+  const Vec up{std::sin(angle), std::cos(angle)};
+  body.position = lift * up;
+  body.angle = -angle;
+  body.friction = kFriction;
+  body.rotates = true;
+  Body slope = wall(-5 * up, {200, 5}, -angle);
+  slope.friction = kFriction;
+  scene.bodies = {body, slope};
+  scene.gravity = {0, -kGravity};
+  scene.ticks = ticks;
+  return scene;
+}
+
+constexpr Vec kHalf{0.5, 0.25};
+
+Scene crateOnSlope(double angle, int ticks) {
+  return onSlope(angle, box({}, kHalf), kHalf.y, ticks);
+}
+
+Case threshold() {
+  constexpr int kTicks = 120;
+  constexpr double kStill = 1e-3;  // m/s: beyond the threshold by 0.0013° it would be faster after 4 s
+  constexpr double kDegree = M_PI / 180;
+  Case slope;
+  slope.name = "";
+  slope.scene = crateOnSlope(27 * kDegree, kTicks);
+  slope.metrics = {{"threshold_deg", "error of the angle from which it slides, degrees", 0.01, 1e-3,
+                    "26.51° (0.055), Chipmunk ×4 26.563° (0.002)"}};
+  slope.judge = [](const Trial& trial) {
+    double low = 20;
+    double high = 33;
+    for (int i = 0; i < 14; ++i) {
+      const double angle = (low + high) / 2;
+      const SimulationPtr end = trial.run(crateOnSlope(angle * kDegree, kTicks));
+      (length(end->body(0).velocity) > kStill ? high : low) = angle;
+    }
+    return std::vector<double>{std::abs((low + high) / 2 - std::atan(kFriction) / kDegree)};
+  };
+  return slope;
+}
+
+Case sliding() {
+  constexpr double kAngle = 40 * M_PI / 180;
+  Case slope;
+  slope.scene = crateOnSlope(kAngle, 60);
+  slope.metrics = {{"sliding", "relative error of the way down a slope of 40° in 2 s", 1e-3, 1e-15, ""}};
+  slope.judge = [scene = slope.scene](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    const double t = scene.duration();
+    const double right = kGravity * (std::sin(kAngle) - kFriction * std::cos(kAngle)) * t * t / 2;
+    return std::vector<double>{
+        std::abs(length(end->body(0).position - scene.bodies[0].position) / right - 1)};
+  };
+  return slope;
+}
+
+Case stopping() {
+  constexpr double kSpeed = 10;
+  Case floor;
+  Body crate = box({}, kHalf);
+  crate.velocity = {kSpeed, 0};
+  floor.scene = onSlope(0, crate, kHalf.y, 90);
+  floor.metrics = {{"stop", "relative error of the way to rest from 10 m/s", 1e-3, 1e-15, ""}};
+  floor.judge = [scene = floor.scene](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    const double right = kSpeed * kSpeed / (2 * kFriction * kGravity);
+    return std::vector<double>{std::abs(end->body(0).position.x / right - 1)};
+  };
+  return floor;
+}
+
+Problem makeFriction() {
+  Problem problem;
+  problem.title = "Friction";
+  problem.text =
+      "A crate of 1 × 0.5 m with µ = 0.5: from which angle it slides (bisection, 4 s each); how far it "
+      "slides in 2 s "
+      "at 40°; how far it gets on a floor from 10 m/s.";
+  problem.reference = "atan µ = 26.565°; g(sin θ − µ cos θ); v²/2µg";
+  problem.cases = {threshold(), sliding(), stopping()};
+  return problem;
+}
+
+Problem makeRolling() {
+  constexpr double kAngle = M_PI / 6;
+  constexpr double kRadius = 0.5;
+  Problem problem;
+  problem.title = "Rolling disc";
+  problem.text = "A disc rolls down a slope of 30° with µ = 0.5 for 2 s.";
+  problem.reference = "⅔ g sin θ, without slip while tan θ < 3µ";
+  Case slope;
+  slope.scene = onSlope(kAngle, ball({}, {}, kRadius), kRadius, 60);
+  slope.metrics = {{"way", "relative error of the way in 2 s", 1e-3, 1e-15, ""},
+                   {"slip", "slip after 2 s, of the speed", -1, 1e-15, ""}};
+  slope.judge = [scene = slope.scene](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    const double t = scene.duration();
+    const BodyState state = end->body(0);
+    const double right = kGravity * std::sin(kAngle) * t * t / 3;
+    const double speed = length(state.velocity);
+    return std::vector<double>{std::abs(length(state.position - scene.bodies[0].position) / right - 1),
+                               std::abs(speed + state.spin * kRadius) / speed};
+  };
+  problem.cases = {slope};
+  return problem;
+}
+
+const RegisteredProblem friction("12", "friction", makeFriction);
+const RegisteredProblem rolling("13", "rolling", makeRolling);
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,136 @@
+// 16: far from the origin. 17: a closed system.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "Path.h"
+
+namespace lab {
+
+namespace {
+
+Scene farScene(double distance) {
+  constexpr int kTicks = 150;
+  Scene scene;
+  Body slow;
+  slow.position = {0, 10};
+  slow.velocity = {1, 0.3};
+  Body bouncing = ball({5, 5}, {0.5, 0}, 0.5);
+  bouncing.restitution = 0.8;
+  Body ground = wall({0, -5}, {50, 5});
+  ground.restitution = 0.8;
+  scene.bodies = {slow, bouncing, ground};
+  scene.field = [](double, const BodyState& state) { return state.position.y > 8 ? Vec{} : Vec{0, -10}; };
+  scene.origin = {distance, -distance};
+  scene.ticks = kTicks;
+  return scene;
+}
+
+Case away(double distance, const std::string& peers) {
+  Case moved;
+  moved.name = power(distance);
+  moved.scene = farScene(distance);
+  moved.metrics = {
+      {"slow_path", "largest distance from the path at the origin, of its length", 0, 1e-16, peers},
+      {"bounce_path", "the same for a bouncing ball, of the height", 0, 1e-16, ""}};
+  moved.judge = [distance](const Trial& trial) {
+    Path right[2] = {{{}}, {{}}};
+    const Scene home = farScene(0);
+    trial.run(home, [&](int, const Simulation& simulation) {
+      for (const int i : {0, 1}) right[i].push_back(positionOf(simulation, i));
+    });
+    const Scene scene = farScene(distance);
+    double worst[2] = {0, 0};
+    trial.run(scene, [&](int tick, const Simulation& simulation) {
+      for (const int i : {0, 1}) {
+        const std::vector<double> now = positionOf(simulation, i);
+        const std::vector<double>& then = right[i][static_cast<std::size_t>(tick)];
+        worst[i] = std::max(worst[i], std::hypot(now[0] - then[0], now[1] - then[1]));
+      }
+    });
+    return std::vector<double>{worst[0] / (std::hypot(1, 0.3) * scene.duration()), worst[1] / 5};
+  };
+  return moved;
+}
+
+Problem makeFar() {
+  Problem problem;
+  problem.title = "Far from the origin";
+  problem.text = "A body at 1 m/s and a bouncing ball, 5 s, at a distance in x and y from the origin.";
+  problem.reference = "the same method's run at the origin: translation changes nothing";
+  problem.cases = {away(1e4, "Box2D 5 %"), away(1e6, "Box2D frozen"), away(1e9, "")};
+  return problem;
+}
+
+struct Total {
+  Vec momentum;
+  double spin = 0;
+  double energy = 0;
+  double size = 0;       ///< Σ |p|
+  double spin_size = 0;  ///< Σ |L|
+};
+
+constexpr double kRadius = 0.5;
+constexpr double kInertia = kRadius * kRadius / 2;  // of 1 kg
+
+Total totalOf(const Simulation& simulation, int count) {
+  Total total;
+  for (int i = 0; i < count; ++i) {
+    const BodyState state = simulation.body(i);
+    const double own = cross(state.position, state.velocity) + kInertia * state.spin;
+    total.momentum = total.momentum + state.velocity;
+    total.spin += own;
+    total.energy += dot(state.velocity, state.velocity) / 2 + kInertia * state.spin * state.spin / 2;
+    total.size += length(state.velocity);
+    total.spin_size += std::abs(own);
+  }
+  return total;
+}
+
+Problem makeClosed() {
+  constexpr int kSide = 10;
+  Problem problem;
+  problem.title = "A closed system";
+  problem.text =
+      "100 discs of 1 kg that spin and rush together, with restitution 0.5 and friction 0.5, without "
+      "gravity: 1000 ticks.";
+  problem.reference = "momentum and angular momentum stay; energy does not grow";
+  Case swarm;
+  std::mt19937_64 bits(17);
+  const auto random = [&bits] { return static_cast<double>(bits() >> 11) * 0x1p-52 - 1; };
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const Vec place{1.5 * (i % kSide) - 6.75, 1.5 * (i / kSide) - 6.75};
+    Body disc = ball(place, -0.3 * place + Vec{0.5 * random() + 0.2, 0.5 * random()}, kRadius);
+    disc.spin = random();
+    disc.rotates = true;
+    disc.friction = 0.5;
+    disc.restitution = 0.5;
+    swarm.scene.bodies.push_back(disc);
+  }
+  swarm.scene.ticks = 1000;
+  swarm.metrics = {
+      {"momentum", "largest change of momentum, of Σ|p| at the start", 1e-12, 1e-17, "Box2D 1e-7 (float)"},
+      {"angular_momentum", "largest change of angular momentum, of Σ|L| at the start", -1, 1e-17, ""},
+      {"energy_growth", "largest growth of the energy, of that at the start", -1, 1e-17, ""}};
+  swarm.judge = [scene = swarm.scene](const Trial& trial) {
+    const int count = static_cast<int>(scene.bodies.size());
+    const Total start = totalOf(*trial.build(scene), count);
+    std::vector<double> worst{0, 0, 0};
+    trial.run(scene, [&](int, const Simulation& simulation) {
+      const Total now = totalOf(simulation, count);
+      worst[0] = std::max(worst[0], length(now.momentum - start.momentum) / start.size);
+      worst[1] = std::max(worst[1], std::abs(now.spin - start.spin) / start.spin_size);
+      worst[2] = std::max(worst[2], now.energy / start.energy - 1);
+    });
+    return worst;
+  };
+  problem.cases = {swarm};
+  return problem;
+}
+
+const RegisteredProblem distant("16", "far", makeFar);
+const RegisteredProblem closed("17", "closed", makeClosed);
+
+}  // namespace
+
+}  // namespace lab

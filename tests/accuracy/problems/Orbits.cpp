@@ -1,0 +1,137 @@
+// 6: Kepler's ellipse, and the double pendulum.
+#include <algorithm>
+
+#include "Path.h"
+#include "Systems.h"
+
+namespace lab {
+
+namespace {
+
+constexpr int kOrbits = 20;
+constexpr int kTicksPerOrbit = 500;  // 8 sub-steps of a method with 4 evaluations: 16,000 of them
+constexpr double kEccentricity = 0.6;
+constexpr double kGravity = 10;
+constexpr int kPendulumTicks = 150;
+
+double keplerMu() {
+  const double rate = 2 * M_PI / (kTicksPerOrbit * kTick);
+  return rate * rate;
+}
+
+// Where the planet is after part of an orbit, by Kepler's equation.
+std::vector<double> keplerPlace(Quad orbits) {
+  const Quad mean = 2 * kQuadPi * (orbits - floorq(orbits));
+  Quad anomaly = mean;
+  Quad change = 1;
+  for (int i = 0; i < 100 && abs(change) > Quad(1e-30); ++i) {
+    change = (anomaly - kEccentricity * sin(anomaly) - mean) / (1 - kEccentricity * cos(anomaly));
+    anomaly -= change;
+  }
+  const Quad e = kEccentricity;
+  return {static_cast<double>(cos(anomaly) - e), static_cast<double>(sqrt(1 - e * e) * sin(anomaly))};
+}
+
+Case kepler() {
+  Case orbit;
+  orbit.name = "kepler";
+  Kepler system;
+  system.mu = keplerMu();
+  system.eccentricity = kEccentricity;
+  const std::vector<double> start = system.start();
+  Body planet;
+  planet.position = {start[0], start[1]};
+  planet.velocity = {start[2], start[3]};
+  orbit.scene.bodies = {planet};
+  orbit.scene.ticks = kOrbits * kTicksPerOrbit;
+  orbit.scene.equations = equationsOf(system);
+  orbit.scene.field = [mu = system.mu](double, const BodyState& state) {
+    const double distance = length(state.position);
+    return -mu / (distance * distance * distance) * state.position;
+  };
+  // Steps of equal length in time; what is unavoidable is the rounding of 10,000 of them.
+  orbit.metrics = {{"end_error", "distance from the start after 20 orbits, of the semi-major axis", 1e-5,
+                    1e-12, "semi-implicit Euler .11, Verlet .047, RK4 1.8e-6"},
+                   {"sup_error", "largest distance from the true place", -1, 1e-12, ""},
+                   {"energy_drift", "largest |ΔE/E|", 1e-10, 1e-15, ""}};
+  Path path;
+  for (int tick = 0; tick <= orbit.scene.ticks; ++tick)
+    path.push_back(keplerPlace(Quad(tick) / kTicksPerOrbit));
+  orbit.judge = [scene = orbit.scene, path, mu = system.mu](const Trial& trial) {
+    const double right = -mu / 2;
+    double worst = 0;
+    const PathErrors errors = compare(trial, scene, path, 1, [&](const Simulation& simulation) {
+      const BodyState state = simulation.body(0);
+      const double energy = dot(state.velocity, state.velocity) / 2 - mu / length(state.position);
+      worst = std::max(worst, std::abs(energy / right - 1));
+      return positionOf(simulation, 0);
+    });
+    return std::vector<double>{errors.end, errors.sup, worst};
+  };
+  return orbit;
+}
+
+Case doublePendulum() {
+  Case swing;
+  swing.name = "double_pendulum";
+  Body upper;
+  upper.position = {1, 0};
+  Body lower;
+  lower.position = {2, 0};
+  Joint first;
+  first.a = -1;
+  first.b = 0;
+  first.anchor_b = upper.position;
+  Joint second;
+  second.a = 0;
+  second.b = 1;
+  second.anchor_a = upper.position;
+  second.anchor_b = lower.position;
+  swing.scene.bodies = {upper, lower};
+  swing.scene.joints = {first, second};
+  swing.scene.gravity = {0, -kGravity};
+  swing.scene.ticks = kPendulumTicks;
+  DoublePendulum system;
+  system.gravity = kGravity;
+  system.angle = M_PI / 2;
+  swing.scene.equations = equationsOf(system);
+  swing.metrics = {{"end_error", "distance of the lower point from its true place after 5 s, m", -1, 1e-12,
+                    "semi-implicit Euler .14, Verlet 3.4e-4, RK4 6.4e-8"},
+                   {"energy_drift", "largest |ΔE| / 3mgL", -1, 1e-15, ""}};
+  const Path angles = swing.scene.equations->byExtrapolation(kTick, kPendulumTicks, Stiffness::NONE);
+  const Vec right = system.body(1, angles.back().data()).position;
+  swing.judge = [scene = swing.scene, right](const Trial& trial) {
+    double worst = 0;
+    const SimulationPtr end = trial.run(scene, [&](int, const Simulation& simulation) {
+      double energy = 0;
+      for (const int i : {0, 1}) {
+        const BodyState state = simulation.body(i);
+        energy += dot(state.velocity, state.velocity) / 2 + kGravity * state.position.y;
+      }
+      worst = std::max(worst, std::abs(energy) / (3 * kGravity));
+    });
+    return std::vector<double>{length(end->body(1).position - right), worst};
+  };
+  return swing;
+}
+
+Problem make() {
+  Problem problem;
+  problem.title = "Kepler's ellipse and the double pendulum";
+  problem.text =
+      "A planet with e = 0.6, 20 orbits of 500 ticks: 8 sub-steps of a method with 4 force evaluations are "
+      "16,000 "
+      "evaluations an orbit. Two points of 1 kg on rods of 1 m, both horizontal at the start, 5 s (after "
+      "that the "
+      "motion is chaos).";
+  problem.reference =
+      "Kepler's equation in quad precision; extrapolation in quad precision, agreeing with CVODE";
+  problem.cases = {kepler(), doublePendulum()};
+  return problem;
+}
+
+const RegisteredProblem problem("6", "orbits", make);
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,50 @@
+#include "Path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lab {
+
+PathErrors compare(const Trial& trial, const Scene& scene, const Path& reference, double scale,
+                   const std::function<std::vector<double>(const Simulation&)>& read) {
+  PathErrors errors;
+  double squares = 0;
+  trial.run(scene, [&](int tick, const Simulation& simulation) {
+    const std::vector<double> values = read(simulation);
+    const std::vector<double>& right = reference[static_cast<std::size_t>(tick)];
+    double square = 0;
+    for (std::size_t i = 0; i < right.size(); ++i) square += (values[i] - right[i]) * (values[i] - right[i]);
+    errors.end = std::sqrt(square) / scale;
+    errors.sup = std::max(errors.sup, errors.end);
+    squares += square;
+  });
+  errors.l2 = std::sqrt(squares / scene.ticks) / scale;
+  return errors;
+}
+
+std::vector<double> positionOf(const Simulation& simulation, int index) {
+  const Vec position = simulation.body(index).position;
+  return {position.x, position.y};
+}
+
+std::vector<double> coordinatesOf(const Simulation& simulation) {
+  const auto coordinates = simulation.coordinates();
+  if (coordinates.empty()) throw Inexpressible();
+  return {coordinates.begin(), coordinates.end()};
+}
+
+std::vector<Metric> pathMetrics(double target, double floor, const std::string& peers) {
+  return {{"end_error", "relative error at the end", target, floor, peers},
+          {"sup_error", "largest relative error over the run", target, floor, ""},
+          {"l2_error", "root mean square of the relative error", -1, floor, ""}};
+}
+
+std::vector<double> inOrder(const PathErrors& errors) {
+  return {errors.end, errors.sup, errors.l2};
+}
+
+std::string power(double value) {
+  return "1e" + std::to_string(std::lround(std::log10(value)));
+}
+
+}  // namespace lab

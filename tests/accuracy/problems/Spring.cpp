@@ -1,0 +1,50 @@
+// 3: an undamped spring.
+#include "Path.h"
+#include "Problem.h"
+#include "SpringScene.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kRest = 10;
+constexpr int kPeriods = 10;
+
+Case oscillator(int hertz, const std::string& peers) {
+  Case spring;
+  spring.name = std::to_string(hertz) + "hz";
+  SpringLine system;
+  const double omega = 2 * M_PI * hertz;
+  system.stiffness = omega * omega;
+  system.rest_length = kRest;
+  spring.scene = springScene(system, 30 * kPeriods / hertz);
+  spring.metrics = {{"amplitude", "|amplitude left − 1| after 10 periods", 1e-12, 1e-15, peers},
+                    {"phase_rad", "phase error after 10 periods, rad", 1e-12, 1e-14, ""}};
+  const Scene scene = spring.scene;
+  spring.judge = [scene, omega](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    const auto coordinates = end->coordinates();
+    const BodyState state = end->body(0);
+    const double x = coordinates.empty() ? state.position.x - kRest : coordinates[0];
+    const double v = state.velocity.x / omega;
+    return std::vector<double>{std::abs(std::hypot(x, v) - 1), std::abs(std::atan2(-v, x))};
+  };
+  return spring;
+}
+
+Problem make() {
+  Problem problem;
+  problem.title = "Undamped spring";
+  problem.text = "1 kg swings on a spring of rest length 10 m with an amplitude of 1 m, 10 periods.";
+  problem.reference = "A cos ωt, in quad precision";
+  problem.cases = {oscillator(1, "of the amplitude is left: Box2D 0.226 (error 0.774), Chipmunk 1.00"),
+                   oscillator(5, "of the amplitude is left: Box2D 0.0006 (error 0.9994)"),
+                   oscillator(15, "of the amplitude is left: Chipmunk 1.6 (error 0.6)")};
+  return problem;
+}
+
+const RegisteredProblem problem("3", "spring", make);
+
+}  // namespace
+
+}  // namespace lab

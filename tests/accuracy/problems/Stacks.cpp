@@ -1,0 +1,154 @@
+// 9: a stack. 10: heavy on light; and the map of what stays bounded.
+#include <algorithm>
+
+#include "Path.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kHalf = 0.5;
+constexpr double kFriction = 0.5;
+constexpr double kGravity = 10;
+constexpr int kTicks = 300;  // 10 s
+constexpr double kGone = 2;  // m: that far aside a crate is no longer on another
+
+Body ground() {
+  Body body = wall({0, -5}, {100, 5});
+  body.friction = kFriction;
+  return body;
+}
+
+Scene stackOf(const std::vector<double>& masses, bool rotates) {
+  Scene scene;
+  scene.bodies = {ground()};
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    Body crate = box({0, kHalf + 2 * kHalf * static_cast<double>(i)}, {kHalf, kHalf}, masses[i]);
+    crate.friction = kFriction;
+    crate.rotates = rotates;
+    scene.bodies.push_back(crate);
+  }
+  scene.gravity = {0, -kGravity};
+  scene.ticks = kTicks;
+  return scene;
+}
+
+struct Heap {
+  double sag = 0;    ///< the largest distance from the right height over the run
+  double drift = 0;  ///< the largest distance from the axis at the end
+  double top = 0;    ///< height of the uppermost crate at the end, of the right one
+};
+
+Heap settle(const Trial& trial, const Scene& scene) {
+  Heap heap;
+  const SimulationPtr end = trial.run(scene, [&](int, const Simulation& simulation) {
+    for (int i = 1; i < static_cast<int>(scene.bodies.size()); ++i) {
+      const double right = scene.bodies[static_cast<std::size_t>(i)].position.y;
+      heap.sag = std::max(heap.sag, std::abs(simulation.body(i).position.y - right));
+    }
+  });
+  for (int i = 1; i < static_cast<int>(scene.bodies.size()); ++i) {
+    heap.drift = std::max(heap.drift, std::abs(end->body(i).position.x));
+  }
+  const int top = static_cast<int>(scene.bodies.size()) - 1;
+  heap.top = end->body(top).position.y / scene.bodies.back().position.y;
+  return heap;
+}
+
+Case stack(int boxes, bool rotates, double target, const std::string& peers) {
+  Case standing;
+  standing.name = std::to_string(boxes) + (rotates ? "" : "_upright");
+  standing.scene = stackOf(std::vector<double>(static_cast<std::size_t>(boxes), 1), rotates);
+  standing.long_run = boxes > 30;
+  standing.metrics = {{"sag_m", "largest error of a height over 10 s, m", target, 1e-15, peers},
+                      {"drift_m", "largest sideways distance after 10 s, m", -1, 1e-15, ""}};
+  standing.judge = [scene = standing.scene](const Trial& trial) {
+    const Heap heap = settle(trial, scene);
+    if (heap.top < 0.5) throw Failure("collapsed");
+    return std::vector<double>{heap.sag, heap.drift};
+  };
+  return standing;
+}
+
+Problem makeStack() {
+  Problem problem;
+  problem.title = "Stack";
+  problem.text =
+      "10, 30 and 100 crates of 1 m on each other, gaps exactly 0 at the start, friction 0.5, 10 s; nobody "
+      "sleeps. "
+      "`upright`: bodies that do not rotate.";
+  problem.reference = "nothing moves";
+  problem.cases = {stack(10, true, 1e-3, "Box2D .033, Chipmunk ×4 .001"),
+                   stack(30, true, 1e-2, "Box2D .31, Chipmunk ×4 .018"),
+                   stack(100, true, 0.1, "Box2D 3.4, Chipmunk ×4 .45 (drifts 5.8)"),
+                   stack(10, false, 1e-9, ""),
+                   stack(30, false, 1e-9, ""),
+                   stack(100, false, 1e-9, "")};
+  return problem;
+}
+
+// How deep the two contacts overlap at worst in the last second, and an overlap deeper than a crate is none.
+Case press(double ratio) {
+  Case pressed;
+  pressed.name = "ratio" + power(ratio);
+  pressed.x = ratio;
+  pressed.scene = stackOf({1, ratio}, true);
+  pressed.judge = [scene = pressed.scene](const Trial& trial) {
+    double worst = 0;
+    trial.run(scene, [&](int tick, const Simulation& simulation) {
+      if (tick <= scene.ticks - 30) return;
+      const Vec light = simulation.body(1).position;
+      const Vec heavy = simulation.body(2).position;
+      const double below = kHalf - light.y;
+      const double between = 2 * kHalf - (heavy.y - light.y);
+      worst = std::max({worst, below, between});
+      if (std::abs(heavy.x) > kGone || std::abs(light.x) > kGone) throw Failure("fell off");
+    });
+    return std::vector<double>{worst};
+  };
+  return pressed;
+}
+
+Problem makePress() {
+  Problem problem;
+  problem.title = "Heavy on light";
+  problem.text = "A crate of R kg on one of 1 kg on the ground, gaps 0 at the start, friction 0.5, 10 s.";
+  problem.reference = "nothing moves; the metric is the deepest overlap in the last second";
+  const char* peers[] = {"Box2D .004, Chipmunk ×4 .0002", "Box2D .036, Chipmunk ×4 .004",
+                         "Box2D crushed, Chipmunk ×4 .06", "Box2D .9, Chipmunk ×4 .95"};
+  int i = 0;
+  for (const double ratio : {10.0, 100.0, 1e3, 1e4}) {
+    Case pressed = press(ratio);
+    const double bound = ratio > 1e3 ? 0.5 : 0.01;  // "bounded": half a crate
+    pressed.metrics = {{"penetration_m", "deepest overlap in the last second, m", bound, 1e-15, peers[i++]}};
+    problem.cases.push_back(pressed);
+  }
+  return problem;
+}
+
+Problem makeMap() {
+  Problem problem;
+  problem.title = "What stays bounded: mass ratio × step";
+  problem.text =
+      "The two crates of problem 10. A cell is the deepest overlap in the last "
+      "second, in halves of a crate: from 1 on the light one is crushed.";
+  problem.reference = "nothing moves";
+  problem.kind = Problem::Kind::MAP;
+  for (double ratio = 1; ratio < 2e6; ratio *= 10) {
+    Case pressed = press(ratio);
+    pressed.metrics = {{"penetration", "mass ratio", -1, 0, ""}};
+    pressed.judge = [judge = pressed.judge](const Trial& trial) {
+      return std::vector<double>{judge(trial)[0] / kHalf};
+    };
+    problem.cases.push_back(pressed);
+  }
+  return problem;
+}
+
+const RegisteredProblem stack_problem("9", "stack", makeStack);
+const RegisteredProblem press_problem("10", "mass-ratio", makePress);
+const RegisteredProblem map("map-mass-ratio", "mass-ratio-map", makeMap);
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,26 @@
+// Reference solutions by CVODE of SUNDIALS.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace lab {
+
+struct OdeFunctions {
+  int dimension = 0;
+  std::function<void(double t, const double* y, double* rates)> rate;
+  /// ∂f/∂y by columns.
+  std::function<void(double t, const double* y, double* columns)> jacobian;
+};
+
+struct CvodeOptions {
+  bool stiff = false;       ///< backward differences with the Jacobian; otherwise Adams
+  double relative = 1e-12;  ///< tolerance
+  double absolute = 1e-14;  ///< tolerance, in each coordinate's unit
+};
+
+/// States at the ends of ticks 0 … `ticks`. Throws std::runtime_error if CVODE gives up.
+std::vector<std::vector<double>> solveByCvode(const OdeFunctions& functions, const std::vector<double>& start,
+                                              double tick, int ticks, const CvodeOptions& options);
+
+}  // namespace lab

@@ -1,0 +1,29 @@
+#include "Scene.h"
+
+namespace lab {
+
+Body ball(Vec position, Vec velocity, double radius, double mass) {
+  Body body;
+  body.position = position;
+  body.velocity = velocity;
+  body.mass = mass;
+  body.shapes.push_back({Shape::Kind::CIRCLE, radius, {}});
+  return body;
+}
+
+Body box(Vec position, Vec half, double mass) {
+  Body body;
+  body.position = position;
+  body.mass = mass;
+  body.shapes.push_back({Shape::Kind::BOX, 0, half});
+  return body;
+}
+
+Body wall(Vec centre, Vec half, double angle) {
+  Body body = box(centre, half);
+  body.motion = Motion::FIXED;
+  body.angle = angle;
+  return body;
+}
+
+}  // namespace lab

@@ -1,0 +1,77 @@
+// A scene's motion as an ordinary differential equation y' = f(t, y), for the methods of the textbooks and
+// for the references.
+//
+// A System is a struct with
+//   static constexpr int kDimension;       how many coordinates
+//   static constexpr bool kSecondOrder;    the first half are positions, the second half their rates, in this
+//   order template <class Real> void rate(const Real& t, const Real* y, Real* rates) const;   for double,
+//   Quad and Dual std::vector<double> start() const;     y at t = 0 BodyState body(int index, const double*
+//   y) const;    where the scene's body is
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "Cvode.h"
+#include "Extrapolation.h"
+#include "Integrators.h"
+#include "Scene.h"
+#include "Simulation.h"
+
+namespace lab {
+
+/// States at the ends of ticks 0, 1, 2, …
+using Trajectory = std::vector<std::vector<double>>;
+
+class Equations {
+ public:
+  virtual ~Equations() = default;
+  /// Where the scene's body with this index is, in a state.
+  virtual BodyState body(int index, const double* y) const = 0;
+  /// Null if the rule does not apply.
+  virtual SimulationPtr integrate(Rule rule) const = 0;
+  /// By CVODE, BDF or Adams, at a relative tolerance of 1e-12 or less. Throws std::runtime_error if it gives
+  /// up.
+  virtual Trajectory byCvode(double tick, int ticks, const CvodeOptions& options) const = 0;
+  /// By extrapolation in quad precision, which shares nothing with CVODE but the equations.
+  virtual Trajectory byExtrapolation(double tick, int ticks, Stiffness stiffness) const = 0;
+};
+
+template <class System>
+class EquationsOf : public Equations {
+ public:
+  explicit EquationsOf(System system) : m_system(std::move(system)) {}
+
+  BodyState body(int index, const double* y) const override { return m_system.body(index, y); }
+
+  SimulationPtr integrate(Rule rule) const override { return makeIntegrator(m_system, rule); }
+
+  Trajectory byCvode(double tick, int ticks, const CvodeOptions& options) const override {
+    OdeFunctions functions;
+    functions.dimension = System::kDimension;
+    functions.rate = [this](double t, const double* y, double* rates) { m_system.rate(t, y, rates); };
+    functions.jacobian = [this](double t, const double* y, double* columns) {
+      const auto jacobian = jacobianOf(m_system, t, y);
+      for (int row = 0; row < System::kDimension; ++row) {
+        for (int column = 0; column < System::kDimension; ++column) {
+          columns[column * System::kDimension + row] = jacobian[row][column];
+        }
+      }
+    };
+    return solveByCvode(functions, m_system.start(), tick, ticks, options);
+  }
+
+  Trajectory byExtrapolation(double tick, int ticks, Stiffness stiffness) const override {
+    return solveByExtrapolation(m_system, tick, ticks, stiffness);
+  }
+
+ private:
+  System m_system;
+};
+
+template <class System>
+std::shared_ptr<const Equations> equationsOf(System system) {
+  return std::make_shared<EquationsOf<System>>(std::move(system));
+}
+
+}  // namespace lab
