@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "Elementary.h"
@@ -58,6 +59,7 @@ FlownOnLine fall(double v, double a, double q, double t) {
 }  // namespace
 
 LinearDragFlow::LinearDragFlow(double drag, double t) {
+  assert(drag >= 0 && t >= 0);
   const double z = -drag * t;
   m_left = math::exp(z);
   if (z > -0.5) {
@@ -70,6 +72,7 @@ LinearDragFlow::LinearDragFlow(double drag, double t) {
 }
 
 FlownOnLine flyQuadraticDragOnLine(double velocity, double acceleration, double drag, double t) {
+  assert(drag >= 0 && t >= 0);
   const double sign = acceleration != 0 ? std::copysign(1.0, acceleration) : std::copysign(1.0, velocity);
   const double v = sign * velocity, a = sign * acceleration;
   if (drag * std::max(std::fabs(v), a * t) * t < 1e-290) {  // no drag that a double could show

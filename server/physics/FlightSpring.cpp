@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "DoubleDouble.h"
@@ -12,6 +13,7 @@ namespace naiad::physics {
 namespace math = df::math;
 
 SpringFlow::SpringFlow(Spring spring, double t) : m_stiffness(spring.stiffness) {
+  assert(spring.stiffness >= 0 && spring.damping >= 0 && t >= 0);
   const double half = 0.5 * spring.damping;
   if (std::max(spring.stiffness * t * t, half * half * t * t) <= 0.25) {
     series(spring.damping, t);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "FlightField.h"
+#include "FlightElastic.h"
 #include "IntegratorAutomatic.h"
 #include "QuadReference.h"
 
@@ -74,13 +74,9 @@ TEST(Stiff, VanDerPol) {
 }
 
 // A mass on a rod that is a spring of stiffness k, from the horizontal, as one does it without joints.
-struct ElasticPendulum : ForceField {
-  double k = 1e6;
-  Vec2 acceleration(Vec2 p, Vec2, double) const override {
-    const double r = length(p);
-    return Vec2{0, 10} - (k * (r - 1) / r) * p;
-  }
-};
+ElasticField rod(double k) {
+  return {k, 0, 1, {0, 10}};
+}
 
 void elasticPendulum(double k, int reference_steps, double bound) {
   const QuadSystem<4> system = [k](Quad, const QuadVector<4>& y) {
@@ -89,8 +85,7 @@ void elasticPendulum(double k, int reference_steps, double bound) {
   };
   const double duration = 2;
   const auto truth = quadSolve<4>(system, 0, q(duration), {1, 0, 0, 0}, reference_steps, 4);
-  ElasticPendulum field;
-  field.k = k;
+  const ElasticField field = rod(k);
   IntegratorCounters counters;
   Vec2 p = {1, 0}, v = {};
   for (int i = 0; i < 60; ++i) {
@@ -121,8 +116,7 @@ TEST(Stiff, ElasticPendulumNearlyRigid) {
   const auto truth = quadSolve<2>(rigid, 0, 2, {0, 0}, 1000, 4);
   const Vec2 end = {static_cast<double>(cosq(truth[0])), static_cast<double>(sinq(truth[0]))};
   for (const double k : {1e8, 1e10}) {
-    ElasticPendulum field;
-    field.k = k;
+    const ElasticField field = rod(k);
     IntegratorCounters counters;
     Vec2 p = {1, 0}, v = {};
     for (int i = 0; i < 60; ++i) {
