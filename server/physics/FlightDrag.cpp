@@ -109,6 +109,17 @@ struct QuadraticDrag {
     const double speed = std::sqrt(y[2] * y[2] + y[3] * y[3]);
     rate = {y[2], y[3], acceleration.x - drag * speed * y[2], acceleration.y - drag * speed * y[3]};
   }
+
+  bool jacobian(double /*t*/, const StateVector<4>& y, StateMatrix<4>& by_state) const {
+    const double speed = std::sqrt(y[2] * y[2] + y[3] * y[3]);
+    const Vec2 direction = speed > 0 ? Vec2{y[2] / speed, y[3] / speed} : Vec2{};
+    const double both = -drag * speed * direction.x * direction.y;
+    by_state = {{{0, 0, 1, 0},
+                 {0, 0, 0, 1},
+                 {0, 0, -drag * speed * (1 + direction.x * direction.x), both},
+                 {0, 0, both, -drag * speed * (1 + direction.y * direction.y)}}};
+    return true;
+  }
 };
 
 }  // namespace

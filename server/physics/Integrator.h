@@ -22,7 +22,7 @@ template <int N>
 using StateMatrix = std::array<std::array<double, N>, N>;
 
 enum class IntegratorMethod : std::uint8_t {
-  kAutomatic,  ///< extrapolation; if that would take too many steps in this call, Radau for the rest of it
+  kAutomatic,          ///< extrapolation; in a call in which that is slow, Radau if it is faster
   kSemiImplicitEuler,  ///< order 1, one force per sub-step: what most engines do, here to compare with
   kVelocityVerlet,     ///< order 2, symplectic, one force per sub-step (two if forces depend on the velocity)
   kYoshida4,           ///< order 4, symplectic, three Verlet steps per sub-step; for forces without velocity

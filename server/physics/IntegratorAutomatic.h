@@ -1,5 +1,7 @@
-// The error-controlled integrators behind one call.
+// The error-controlled integrators behind one call, and how the automatic one decides.
 #pragma once
+
+#include <algorithm>
 
 #include "Integrator.h"
 #include "IntegratorExtrapolation.h"
@@ -7,21 +9,54 @@
 
 namespace naiad::physics {
 
-/// From `t` to `end` by kExtrapolation, kRadau or, for any other method, automatically: extrapolation; when
-/// that has taken options.max_evaluations, or would by the end at the pace of its last step, Radau goes on
-/// from there. That depends on the arguments alone. `y` is as far as it came, at the end if the status is
-/// kDone.
+namespace automatic {
+
+/// What a smooth motion never needs in one call: above it the implicit method may be the better one.
+inline constexpr int kManyEvaluations = 1500;
+/// Steps in which it must show that. A motion that oscillates for good would take it many more.
+inline constexpr int kTrialSteps = 300;
+
+/// Extrapolation; when that is slow, Radau on trial; then extrapolation again, up to the limit; at last Radau
+/// for good.
 template <int N, class System>
 IntegratorStatus integrate(const System& system, double t, double end, StateVector<N>& y,
                            const IntegratorOptions& options, IntegratorCounters& counters) {
-  IntegratorStatus status = IntegratorStatus::kTooManySteps;
-  if (options.method != IntegratorMethod::kRadau) {
+  IntegratorOptions trial = options;
+  trial.max_evaluations = std::min(options.max_evaluations, kManyEvaluations);
+  trial.max_steps = std::min(options.max_steps, kTrialSteps);
+  IntegratorStatus status = integrateByExtrapolation<N>(system, t, end, y, trial, counters);
+  if (status == IntegratorStatus::kTooManySteps) {
+    double t_stiff = t;
+    StateVector<N> y_stiff = y;
+    if (integrateByRadau<N>(system, t_stiff, end, y_stiff, trial, counters) == IntegratorStatus::kDone) {
+      ++counters.stiff_calls;
+      y = y_stiff;
+      return IntegratorStatus::kDone;
+    }
     status = integrateByExtrapolation<N>(system, t, end, y, options, counters);
   }
-  const bool may_switch = options.method != IntegratorMethod::kExtrapolation;
-  if (may_switch && status != IntegratorStatus::kDone && status != IntegratorStatus::kNotFinite) {
-    if (options.method != IntegratorMethod::kRadau) ++counters.stiff_calls;
-    status = integrateByRadau<N>(system, t, end, y, options, counters);
+  if (status == IntegratorStatus::kDone || status == IntegratorStatus::kNotFinite) return status;
+  ++counters.stiff_calls;
+  return integrateByRadau<N>(system, t, end, y, options, counters);
+}
+
+}  // namespace automatic
+
+/// From `t` to `end` >= t by kExtrapolation, kRadau or, for any other method, automatically. What that
+/// decides depends on the arguments alone. `y` is as far as it came, at the end if the status is kDone.
+template <int N, class System>
+IntegratorStatus integrate(const System& system, double t, double end, StateVector<N>& y,
+                           const IntegratorOptions& options, IntegratorCounters& counters) {
+  IntegratorStatus status;
+  switch (options.method) {
+    case IntegratorMethod::kExtrapolation:
+      status = integrateByExtrapolation<N>(system, t, end, y, options, counters);
+      break;
+    case IntegratorMethod::kRadau:
+      status = integrateByRadau<N>(system, t, end, y, options, counters);
+      break;
+    default:
+      status = automatic::integrate<N>(system, t, end, y, options, counters);
   }
   if (!isUsable<N>(y)) status = IntegratorStatus::kNotFinite;
   if (status != IntegratorStatus::kDone) ++counters.failed_calls;

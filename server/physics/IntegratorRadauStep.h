@@ -50,7 +50,7 @@ class Step {
         m_counters(counters),
         m_absolute(options.stiff_absolute),
         m_relative(options.stiff_relative),
-        m_newton_limit(std::max(0x1p-48 / m_relative, std::min(0.03, std::sqrt(m_relative)))) {}
+        m_newton_limit(std::max(0x1p-48 / m_relative, 0.01)) {}
 
   /// The derivative at the start of the step.
   const StateVector<N>& rate() const { return m_rate; }
