@@ -12,8 +12,9 @@
 
 namespace naiad::physics {
 
-/// Metric: a unit is the width of a character both ways (BodyLayer scales y by the aspect). The rest lies in
-/// [−0.5, 0.5]; a whole part stays below 2^62, which is the caller's to see to.
+/// Metric: a unit is the width of a character both ways, so y is scaled by the aspect of a cell. The rest
+/// lies in [−0.5, 0.5), so that equal places are equal; a whole part stays below 2^62, which is the caller's
+/// to see to.
 struct Place {
   std::int64_t cell_x = 0;
   std::int64_t cell_y = 0;
@@ -37,6 +38,9 @@ constexpr void advance(std::int64_t& cell, double& rest, double by) {
   const double carried = df::math::rounded(sum);
   cell += static_cast<std::int64_t>(whole) + static_cast<std::int64_t>(carried);
   rest = sum - carried;
+  if (rest < 0.5) return;
+  rest -= 1;
+  ++cell;
 }
 
 }  // namespace place_detail

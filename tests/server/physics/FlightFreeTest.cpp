@@ -38,6 +38,10 @@ TEST(Place, KeepsTheRestWithinHalfACell) {
     EXPECT_LE(std::fabs(next.dy), 0.5);
     place = next;
   }
+  for (const double x : {0.5, 1.5, -0.5, -1.5, 2.5}) {  // one way to say where
+    EXPECT_EQ(placeAt({x, 0}).dx, -0.5);
+    EXPECT_EQ(placeAt({x, 0}), (placeAt({x + 1, 0}) + Vec2{-1, 0}));
+  }
 }
 
 TEST(Place, DifferencesAreExact) {
