@@ -7,18 +7,20 @@ namespace naiad::physics {
 
 namespace {
 
-// A body in a field as a system of first order: position, velocity.
+// A body in a field as a system of first order: position, velocity. Time counts from the start of the call,
+// so that steps may be short however long the world has been running.
 struct FieldSystem {
   const ForceField& field;
+  double start;
 
   void derivative(double t, const StateVector<4>& y, StateVector<4>& rate) const {
-    const Vec2 a = field.acceleration({y[0], y[1]}, {y[2], y[3]}, t);
+    const Vec2 a = field.acceleration({y[0], y[1]}, {y[2], y[3]}, start + t);
     rate = {y[2], y[3], a.x, a.y};
   }
 
   bool jacobian(double t, const StateVector<4>& y, StateMatrix<4>& by_state) const {
     Mat22 p, v;
-    if (!field.jacobian({y[0], y[1]}, {y[2], y[3]}, t, p, v)) return false;
+    if (!field.jacobian({y[0], y[1]}, {y[2], y[3]}, start + t, p, v)) return false;
     by_state = {{{0, 0, 1, 0}, {0, 0, 0, 1}, {p.xx, p.xy, v.xx, v.xy}, {p.yx, p.yy, v.yx, v.yy}}};
     return true;
   }
@@ -35,7 +37,7 @@ IntegratorStatus flyField(const ForceField& field, Vec2 position, Vec2 velocity,
                           const IntegratorOptions& options, Flown& flown, IntegratorCounters& counters) {
   if (hasErrorControl(options.method)) {
     StateVector<4> y = {position.x, position.y, velocity.x, velocity.y};
-    const IntegratorStatus status = integrate<4>(FieldSystem{field}, time, time + t, y, options, counters);
+    const IntegratorStatus status = integrate<4>(FieldSystem{field, time}, 0, t, y, options, counters);
     flown = {Vec2{y[0], y[1]} - position, {y[2], y[3]}};
     return status;
   }

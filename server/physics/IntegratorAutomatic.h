@@ -24,7 +24,7 @@ IntegratorStatus integrate(const System& system, double t, double end, StateVect
   IntegratorOptions trial = options;
   trial.max_evaluations = std::min(options.max_evaluations, kManyEvaluations);
   trial.max_steps = std::min(options.max_steps, kTrialSteps);
-  IntegratorStatus status = integrateByExtrapolation<N>(system, t, end, y, trial, counters);
+  IntegratorStatus status = integrateByExtrapolation<N>(system, t, end, y, trial, counters, true);
   if (status == IntegratorStatus::kTooManySteps) {
     double t_stiff = t;
     StateVector<N> y_stiff = y;
@@ -33,7 +33,7 @@ IntegratorStatus integrate(const System& system, double t, double end, StateVect
       y = y_stiff;
       return IntegratorStatus::kDone;
     }
-    status = integrateByExtrapolation<N>(system, t, end, y, options, counters);
+    status = integrateByExtrapolation<N>(system, t, end, y, options, counters, true);
   }
   if (status == IntegratorStatus::kDone || status == IntegratorStatus::kNotFinite) return status;
   ++counters.stiff_calls;
@@ -50,7 +50,7 @@ IntegratorStatus integrate(const System& system, double t, double end, StateVect
   IntegratorStatus status;
   switch (options.method) {
     case IntegratorMethod::kExtrapolation:
-      status = integrateByExtrapolation<N>(system, t, end, y, options, counters);
+      status = integrateByExtrapolation<N>(system, t, end, y, options, counters, false);
       break;
     case IntegratorMethod::kRadau:
       status = integrateByRadau<N>(system, t, end, y, options, counters);

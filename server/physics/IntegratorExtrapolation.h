@@ -101,6 +101,27 @@ class Step {
     return false;
   }
 
+  /// Does the derivative jump next to one of the step's ends? `rate` and `rate_at_end` are those there. The
+  /// midpoint rule hardly looks at the ends, so its rows would agree on a force that was switched on, or off,
+  /// unseen. Judged by the second differences at the ends, against those farther in (or, with four sub-steps,
+  /// against each other). About odd sub-steps, for the rule's own error alternates.
+  bool missesJump(const StateVector<N>& y, const StateVector<N>& rate, const StateVector<N>& rate_at_end,
+                  double length) const {
+    const int n = 2 * m_columns;
+    const auto bend = [&](const StateVector<N>& a, const StateVector<N>& b, const StateVector<N>& c) {
+      StateVector<N> difference;
+      for (int i = 0; i < N; ++i) difference[i] = length / n * (a[i] - 2 * b[i] + c[i]);
+      return scaledError<N>(difference, y, way(), m_options.absolute, m_options.relative);
+    };
+    const double first = bend(rate, m_slope[1], m_slope[2]);
+    const double last = bend(rate_at_end, m_slope[n - 1], m_slope[n - 2]);
+    const double larger = std::max(first, last);
+    if (larger <= 1) return false;
+    if (n == 4) return larger > 16 * std::min(first, last);
+    return larger > 16 * std::max(bend(m_slope[2], m_slope[3], m_slope[4]),
+                                  bend(m_slope[n - 4], m_slope[n - 3], m_slope[n - 2]));
+  }
+
   const StateVector<N>& way() const { return m_row[m_columns - 1]; }
   int columns() const { return m_columns; }
   /// Derivatives taken, without the one at the start.
@@ -126,12 +147,12 @@ class Step {
   StateVector<N> midpoints(double t, const StateVector<N>& y, const StateVector<N>& rate, double length,
                            int n) {
     const double h = length / n;
-    StateVector<N> before{}, now, at, slope;
+    StateVector<N> before{}, now, at;
     for (int i = 0; i < N; ++i) now[i] = h * rate[i];
     for (int m = 1; m < n; ++m) {
       for (int i = 0; i < N; ++i) at[i] = y[i] + now[i];
-      m_system.derivative(t + m * h, at, slope);
-      for (int i = 0; i < N; ++i) before[i] = std::exchange(now[i], before[i] + 2 * h * slope[i]);
+      m_system.derivative(t + m * h, at, m_slope[m]);
+      for (int i = 0; i < N; ++i) before[i] = std::exchange(now[i], before[i] + 2 * h * m_slope[m][i]);
     }
     return now;
   }
@@ -140,51 +161,64 @@ class Step {
   const IntegratorOptions& m_options;
   int m_columns = 0;
   std::array<StateVector<N>, kColumns> m_row;  // the last row of the table: the step's way in column 1, 2 …
+  std::array<StateVector<N>, 2 * kColumns> m_slope;  // of the last row, at its sub-steps but the ends
   std::array<double, kColumns + 1> m_errors{};
 };
 
 }  // namespace extrapolation
 
 /// From `t` to `end` >= t. On return `t` and `y` are as far as it has come: the end, if the status is kDone.
+/// `gives_up_early`: also when the limit of derivatives would be passed at the pace of the last step.
 template <int N, class System>
 IntegratorStatus integrateByExtrapolation(const System& system, double& t, double end, StateVector<N>& y,
-                                          const IntegratorOptions& options, IntegratorCounters& counters) {
+                                          const IntegratorOptions& options, IntegratorCounters& counters,
+                                          bool gives_up_early) {
   extrapolation::Step<N, System> step(system, options);
-  StateVector<N> rate;
+  StateVector<N> rate, rate_at_end;
   std::int64_t evaluations = 0;
-  const auto count = [&](int more) {
-    evaluations += more;
-    counters.evaluations += more;
+  const auto evaluate = [&](double at, const StateVector<N>& state, StateVector<N>& out) {
+    system.derivative(at, state, out);
+    ++evaluations;
+    ++counters.evaluations;
+    return isUsable<N>(out);
   };
+  if (!evaluate(t, y, rate)) return IntegratorStatus::kNotFinite;
   double length = end - t;
   bool was_rejected = false;
   while (t < end) {
-    if (!was_rejected) {
-      system.derivative(t, y, rate);
-      count(1);
-      if (!isUsable<N>(rate)) return IntegratorStatus::kNotFinite;
-    }
     const double whole = end - t;
     if (length > 0.999 * whole) length = whole;
     if (t + length == t) return IntegratorStatus::kNoProgress;
 
-    const bool is_accepted = step.take(t, y, rate, length);
-    count(step.evaluations());
+    bool is_accepted = step.take(t, y, rate, length), has_jump = false;
+    evaluations += step.evaluations();
+    counters.evaluations += step.evaluations();
     if (is_accepted) {
-      for (int i = 0; i < N; ++i) y[i] += step.way()[i];
-      t = length == whole ? end : t + length;
-      ++counters.steps;
-      if (t == end) break;
+      const double at_end = length == whole ? end : t + length;
+      StateVector<N> next = y;
+      for (int i = 0; i < N; ++i) next[i] += step.way()[i];
+      has_jump = !evaluate(at_end, next, rate_at_end) || step.missesJump(y, rate, rate_at_end, length);
+      is_accepted = !has_jump;
+      if (is_accepted) {
+        t = at_end;
+        y = next;
+        rate = rate_at_end;
+        ++counters.steps;
+        if (t == end) break;
+      }
+    }
+    if (is_accepted) {
+      length *= step.nextFactor(!was_rejected);
     } else {
+      length *= has_jump ? 0.2 : std::min(step.nextFactor(false), 0.7);
       ++counters.rejected;
     }
-    const double factor = step.nextFactor(is_accepted && !was_rejected);
-    length *= is_accepted ? factor : std::min(factor, 0.7);
     was_rejected = !is_accepted;
 
     // The rest at this pace: stiffness shows in steps that the accuracy alone would not ask for.
     const double ahead = (end - t) / length * extrapolation::evaluationsOf(step.columns());
-    const bool is_slow = evaluations > 150 && is_accepted && ahead > options.max_evaluations;
+    const bool is_slow =
+        gives_up_early && evaluations > 150 && is_accepted && ahead > options.max_evaluations;
     if (is_slow || evaluations > options.max_evaluations) return IntegratorStatus::kTooManySteps;
   }
   return IntegratorStatus::kDone;

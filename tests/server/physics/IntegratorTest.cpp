@@ -172,6 +172,29 @@ TEST(Integrator, TimeOfTheFieldIsTheWorlds) {
   }
 }
 
+// A zone with another gravity, entered anywhere within the tick, in a world that has been running for years.
+TEST(Integrator, FindsItsWayThroughAJumpOfTheForce) {
+  struct Zone : ForceField {
+    double border = 0;
+    Vec2 acceleration(Vec2 p, Vec2, double) const override { return p.x < border ? Vec2{} : Vec2{0, 10}; }
+  } field;
+  for (const IntegratorMethod method :
+       {IntegratorMethod::kAutomatic, IntegratorMethod::kExtrapolation, IntegratorMethod::kRadau}) {
+    IntegratorOptions options;
+    options.method = method;
+    IntegratorCounters counters;
+    for (int i = 0; i < 500; ++i) {
+      field.border = (i + 0.5) / 500;
+      Flown flown;
+      ASSERT_EQ(flyField(field, {}, {1, 0}, 1e9, 1, options, flown, counters), IntegratorStatus::kDone);
+      const double within = 1 - field.border;
+      EXPECT_NEAR(flown.velocity.y, 10 * within, 1e-9);
+      EXPECT_NEAR(flown.displacement.y, 5 * within * within, 1e-9);
+    }
+    EXPECT_LE(counters.evaluations / 500, 2000);
+  }
+}
+
 TEST(Integrator, RefusesWhatIsNotFiniteAndStopsAtSingularities) {
   struct Broken : ForceField {
     Vec2 acceleration(Vec2 p, Vec2, double) const override { return {std::sqrt(p.x), 0}; }
