@@ -106,6 +106,10 @@ void World::update() {
   finishShutDown();
 }
 
+void World::place(ObjectKey key, FixedVector where) {
+  m_mover->place(key, where);
+}
+
 void World::draw() {
   if (m_in_tick || m_in_draw) return;
   const Scope scope(*this);

@@ -236,6 +236,9 @@ class World {
   void learnType(std::uint32_t slot);
   /// Have a static look drawn anew.
   void forgetLook(std::uint32_t slot);
+  /// Put an Object there, without a move: the views that follow it go with it, and it hears if it leaves the
+  /// world. For layers.
+  void place(ObjectKey key, FixedVector where);
   /// Make an Object that failed inactive, mark it for deletion, and say why in the log.
   void quarantine(ObjectKey key, const std::string& why);
 

@@ -1,0 +1,16 @@
+// Where a body flies in a tick, by whatever moves it.
+#pragma once
+
+#include "BodyTable.h"
+#include "FlightFree.h"
+#include "Integrator.h"
+
+namespace naiad::physics {
+
+/// From the row's state, over `t` ticks from `time` on, under `acceleration` (gravity and forces). A status
+/// other than kDone: the body is to be frozen.
+IntegratorStatus flyBody(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time,
+                         double t, const IntegratorOptions& options, Flown& flown,
+                         IntegratorCounters& counters);
+
+}  // namespace naiad::physics

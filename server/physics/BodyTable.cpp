@@ -1,0 +1,76 @@
+#include "BodyTable.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace naiad::physics {
+
+BodyTable::Index BodyTable::add(const df::Object* p_object, df::ObjectKey key) {
+  Index index = 0;
+  if (m_free.empty()) {
+    index = static_cast<Index>(m_rows.size());
+    m_rows.emplace_back();
+  } else {
+    index = m_free.back();
+    m_free.pop_back();
+    m_rows[index] = {};
+    if (index < m_media.size()) m_media[index] = {};
+  }
+  BodyRow& row = m_rows[index];
+  row.key = key;
+  row.p_object = p_object;
+  row.order = m_next_order++;
+  row.used = true;
+  m_order.push_back(index);
+  return index;
+}
+
+void BodyTable::remove(Index index) {
+  m_rows[index].used = false;
+  const auto place =
+      std::lower_bound(m_order.begin(), m_order.end(), m_rows[index].order,
+                       [this](Index other, std::uint64_t order) { return m_rows[other].order < order; });
+  m_order.erase(place);
+  m_free.push_back(index);
+}
+
+BodyMedium& BodyTable::medium(Index index) {
+  if (index >= m_media.size()) m_media.resize(index + 1);
+  return m_media[index];
+}
+
+const BodyMedium& BodyTable::medium(Index index) const {
+  static const BodyMedium kNone;
+  return index < m_media.size() ? m_media[index] : kNone;
+}
+
+void BodyTable::absorb(Index index, df::FixedVector position, df::FixedVector velocity) {
+  BodyRow& row = m_rows[index];
+  if (position != row.told_position) {
+    row.place = metric.placeOf(position);
+    row.told_position = position;
+    row.frozen = false;
+  }
+  if (velocity != row.told_velocity) {
+    row.velocity = metric.fromCells(df::Vector::fromFixed(velocity));
+    row.told_velocity = velocity;
+    row.frozen = false;
+  }
+}
+
+void BodyTable::classify(Index index) {
+  const BodyMedium& medium = std::as_const(*this).medium(index);
+  FlightKind& kind = m_rows[index].flight;
+  const bool springs = medium.spring.stiffness > 0 || medium.spring.damping > 0;
+  if (medium.field != nullptr || (springs && medium.quadratic_drag > 0)) {
+    kind = FlightKind::kField;
+  } else if (springs) {
+    kind = FlightKind::kSpring;
+  } else if (medium.quadratic_drag > 0) {
+    kind = medium.linear_drag > 0 ? FlightKind::kField : FlightKind::kQuadraticDrag;
+  } else {
+    kind = medium.linear_drag > 0 ? FlightKind::kLinearDrag : FlightKind::kFree;
+  }
+}
+
+}  // namespace naiad::physics

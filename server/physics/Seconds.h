@@ -1,0 +1,26 @@
+// Thinking in seconds: the engine counts in ticks, 30 of them to a second (GameManager's frame of 33 ms).
+//
+//   ball.setVelocity(df::perSecond(df::Vector(15, 0)));             // cells per second
+//   PM.setGravity(df::perSecondSquared(df::Vector(0, 18)));         // cells per second per second
+#pragma once
+
+#include "Vector.h"
+
+namespace df {
+
+inline constexpr double TICKS_PER_SECOND = 30;
+
+constexpr double perSecond(double value) {
+  return value / TICKS_PER_SECOND;
+}
+constexpr Vector perSecond(Vector value) {
+  return {perSecond(value.x()), perSecond(value.y())};
+}
+constexpr double perSecondSquared(double value) {
+  return value / (TICKS_PER_SECOND * TICKS_PER_SECOND);
+}
+constexpr Vector perSecondSquared(Vector value) {
+  return {perSecondSquared(value.x()), perSecondSquared(value.y())};
+}
+
+}  // namespace df
