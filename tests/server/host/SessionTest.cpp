@@ -420,6 +420,24 @@ TEST_F(SessionTest, AResizeIsAccepted) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
+TEST_F(SessionTest, ATerminalsSizeIsTakenOverFourTimesASecond) {
+  greet();
+  test::SimulatedWorld world({}, 7);
+  Publisher publisher;
+  int taken_over = 0;
+  for (int i = 0; i < 100; ++i, now += 10ms) {  // it is dragged about for a second
+    const std::uint64_t deferred = counters.resizes_deferred;
+    wire::ClientMessage resize;
+    resize.mutable_resize()->set_columns(20 + i);
+    hear(resize);
+    taken_over += counters.resizes_deferred == deferred ? 1 : 0;
+    world.tick();
+    publisher.update(world.view());
+    session.sendTick(publisher, world.view().players[0]);
+  }
+  EXPECT_NEAR(taken_over, 4, 1);
+}
+
 TEST_F(SessionTest, EndsWithoutAHelloInFiveSeconds) {
   session.checkDeadlines(now + 5s);
   EXPECT_EQ(session.state(), Session::State::kGreeting);
