@@ -192,11 +192,17 @@ void Session::allowSavedChat(Clock::time_point now) {
   m_chat_budget = static_cast<int>(std::min<std::int64_t>(kChatPerSecond * (away + 1), kChatAtOnce));
 }
 
+void Session::checkGreeting(Clock::time_point now) {
+  if (now - m_heard <= (m_greeted ? kJudgeTimeout : kLoginTimeout)) return;
+  ++m_counters.login_timeouts;
+  if (m_greeted) return refuse(wire::Refused::BUSY, "The server is busy. Try again in a moment.");
+  refuse(wire::Refused::BAD_REQUEST, "The server heard no greeting in time.");
+}
+
 void Session::checkSilence(Clock::time_point now) {
   if (isDetached() && now - m_heard > kSuspend) releaseKeys();
-  if (m_state == State::kGreeting && now - m_heard > kLoginTimeout) {
-    ++m_counters.login_timeouts;
-    refuse(wire::Refused::BAD_REQUEST, "The server heard no greeting in time.");
+  if (m_state == State::kGreeting) {
+    checkGreeting(now);
   } else if (isDetached() && now - m_heard > m_grace) {
     ++m_counters.graces_expired;
     end();

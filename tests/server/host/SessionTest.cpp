@@ -447,6 +447,29 @@ TEST_F(SessionTest, EndsWithoutAHelloInFiveSeconds) {
   EXPECT_EQ(counters.login_timeouts, 1u);
 }
 
+TEST_F(SessionTest, AHelloThatNobodyGetsRoundToJudgeIsToldToTryAgain) {
+  Wire waiting_line;
+  Session waiting(std::make_unique<FakeChannel>(waiting_line), counters, now);
+  int hellos = 0;
+  waiting.start({[&](Session&, const wire::Hello&) { ++hellos; },  // a password's turn does not come
+                 [](Session&, const std::string&) {}, [](Session&) {}, [this] { return now; }});
+  wire::ClientMessage message;
+  message.mutable_hello()->set_magic(kHelloMagic);
+  message.mutable_hello()->set_protocol(kProtocolVersion);
+  waiting_line.callbacks.on_frame(message.SerializeAsString());
+  ASSERT_EQ(hellos, 1);
+  waiting.checkDeadlines(now + 3s);  // from here: the hello was heard before
+  waiting.checkDeadlines(now + 3s + Session::kJudgeTimeout);
+  EXPECT_EQ(waiting.state(), Session::State::kGreeting);
+  waiting.checkDeadlines(now + 3s + Session::kJudgeTimeout + 1ms);
+  EXPECT_TRUE(waiting_line.closed);
+  wire::ServerMessage answer;
+  ASSERT_EQ(waiting_line.sent.size(), 1u);
+  ASSERT_TRUE(answer.ParseFromString(waiting_line.sent[0]));
+  EXPECT_EQ(answer.refused().reason(), wire::Refused::BUSY);
+  EXPECT_EQ(counters.login_timeouts, 1u);
+}
+
 TEST_F(SessionTest, EndsAfterFifteenSecondsOfSilence) {
   greet();
   session.checkDeadlines(now + 10s);  // from here: the hello was heard before
