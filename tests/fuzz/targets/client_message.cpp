@@ -43,6 +43,8 @@ class Play {
     m_last = frame;
     const Exactly bytes(m_last);
     m_line.callbacks.on_frame(bytes.view());
+    // This host judges a hello at once, and nothing else is heard before it.
+    REQUIRE(m_session.state() != Session::State::kGreeting);
     REQUIRE((m_session.state() == Session::State::kEnding) == m_line.closed);
     REQUIRE(m_gone == (m_line.closed ? 1 : 0));
   }
