@@ -71,8 +71,9 @@ void ClientSession::openDatagrams(Time now) {
   if (!aead || !m_options.open_socket || !server) return;
   std::unique_ptr<DatagramSocket> socket = m_options.open_socket(*server);
   if (socket == nullptr) return;
-  m_datagrams = std::make_unique<SealedDatagrams>(std::move(socket), *server,
-                                                  ConnectionId{m_welcome.connection_id}, m_options.now);
+  m_datagrams =
+      std::make_unique<SealedDatagrams>(std::move(socket), *server, ConnectionId{m_welcome.connection_id},
+                                        m_options.now, m_options.seal_limits);
   if (!m_datagrams->startEpoch(exporter(), *aead, m_welcome.epoch)) return m_datagrams.reset();
   m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes, m_options.now()); });
   probe(now);
@@ -258,7 +259,7 @@ void ClientSession::update(Time now) {
   }
   if (m_timing.takeRepeat(now) && !m_inputs.isEmpty() && hasDatagrams(now)) sendUpdate(now);
   if (m_timing.isAckDue(now)) sendUpdate(now);
-  if (m_datagrams != nullptr && m_timing.isProbeDue(now)) probe(now);
+  if (m_datagrams != nullptr && m_timing.isProbeDue(now, m_channel == nullptr)) probe(now);
   if (m_channel == nullptr) {
     if (now - m_last_heard >= kDetachedTimeout)
       finish(State::kLost, "The connection to the server was lost.");
@@ -267,6 +268,10 @@ void ClientSession::update(Time now) {
   if (hasDatagrams(now) && m_round_trip.waiting(now) >= kStreamSilence) {
     m_round_trip.forgetPings();
     return closed(CloseReason::kError);  // an address that changed takes datagrams with it, not a stream
+  }
+  // Keys come from a stream, so for new ones it takes another stream. Datagrams go on meanwhile.
+  if (m_datagrams != nullptr && !m_welcome.resume_token.empty() && m_datagrams->takeNewEpochDue()) {
+    return closed(CloseReason::kError);
   }
   if (now - m_last_heard >= kIdleTimeout) {
     if (m_welcome.resume_token.empty()) return finish(State::kLost, "The server fell silent.");

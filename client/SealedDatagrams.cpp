@@ -7,11 +7,11 @@
 namespace naiad {
 
 SealedDatagrams::SealedDatagrams(std::unique_ptr<DatagramSocket> socket, const Endpoint& server,
-                                 ConnectionId id, Now now)
+                                 ConnectionId id, Now now, SealLimits limits)
     : m_socket(std::move(socket)),
       m_server(server),
       m_now(std::move(now)),
-      m_link({SealedLink::Role::kClient, id, {}, {}}) {
+      m_link({SealedLink::Role::kClient, id, {}, limits}) {
   m_link.setServerPath({Endpoint{}, server});
 }
 
@@ -21,6 +21,12 @@ bool SealedDatagrams::startEpoch(const KeyExporter& exporter, AeadId aead, Epoch
   } catch (const KeyExportError&) {
     return false;
   }
+}
+
+bool SealedDatagrams::takeNewEpochDue() {
+  if (!m_link.wantsNewEpoch() || m_left_epoch == m_link.epoch()) return false;
+  m_left_epoch = m_link.epoch();
+  return true;
 }
 
 void SealedDatagrams::start(std::function<void(std::string_view packet)> on_packet) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "Channel.h"
@@ -18,7 +19,8 @@ class SealedDatagrams : public DatagramChannel {
   using Now = std::function<Time()>;
 
   /// `server`: where the server hears datagrams. `id`: from its welcome.
-  SealedDatagrams(std::unique_ptr<DatagramSocket> socket, const Endpoint& server, ConnectionId id, Now now);
+  SealedDatagrams(std::unique_ptr<DatagramSocket> socket, const Endpoint& server, ConnectionId id, Now now,
+                  SealLimits limits = {});
 
   /// Keys from the session's newest stream (DatagramKeys.h). False if it gives none, or the epoch is not
   /// newer.
@@ -31,6 +33,8 @@ class SealedDatagrams : public DatagramChannel {
   /// Measure the round trip with the next packet, and take what the last one said.
   void ping() { m_link.ping(); }
   std::optional<LinkPing::Millis> takeRoundTrip() { return m_link.takeRoundTrip(); }
+  /// True once for each epoch, when a key of it nears its limit: it is time for another stream.
+  bool takeNewEpochDue();
   /// The network may have changed: go on from another port.
   void reopen();
 
@@ -39,6 +43,7 @@ class SealedDatagrams : public DatagramChannel {
   Endpoint m_server;
   Now m_now;
   SealedLink m_link;
+  std::optional<Epoch> m_left_epoch;  ///< takeNewEpochDue() has told of it
 };
 
 }  // namespace naiad

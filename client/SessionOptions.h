@@ -8,6 +8,7 @@
 #include <string>
 
 #include "DatagramSocket.h"
+#include "Seal.h"
 
 namespace naiad {
 namespace wire {
@@ -28,6 +29,8 @@ struct SessionOptions {
   /// Makes a socket for datagrams to an endpoint; empty: no datagrams (a Connection that encrypts puts UDP
   /// there). May return null.
   std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> open_socket;
+  /// After how many datagrams new keys are wanted; smaller ones are for tests.
+  SealLimits seal_limits;
   /// For what comes as a datagram; another clock is for tests in virtual time.
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };

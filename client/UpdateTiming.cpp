@@ -23,9 +23,13 @@ bool UpdateTiming::snapshotApplied(bool gap, Time now) {
   return false;
 }
 
-bool UpdateTiming::isProbeDue(Time now) const {
-  const bool often = now - m_attached < kPassing || hasDatagrams(now);
-  return now - m_last_datagram >= kQuiet && now - m_last_sent >= (often ? kFirstProbes : kProbeEvery);
+bool UpdateTiming::isProbeDue(Time now, bool only) const {
+  return now - m_last_datagram >= kQuiet && now - m_last_sent >= probeInterval(now, only);
+}
+
+std::chrono::milliseconds UpdateTiming::probeInterval(Time now, bool only) const {
+  if (now - m_attached < kPassing || hasDatagrams(now)) return kFirstProbes;
+  return only || now - m_last_datagram < kEagerFor ? kEagerProbes : kProbeEvery;
 }
 
 bool UpdateTiming::takeRepeat(Time now) {

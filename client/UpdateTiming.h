@@ -18,10 +18,14 @@ class UpdateTiming {
   /// After a snapshot on the stream it is open for so long whether the server hears datagrams.
   static constexpr std::chrono::milliseconds kUndecided{500};
   static constexpr std::chrono::milliseconds kFirstProbes{100};  ///< in the first second
-  static constexpr std::chrono::milliseconds kRepeatInput{10};   ///< a new input is sent again after this
-  static constexpr int kAckEvery = 3;                            ///< snapshots that come as datagrams
-  static constexpr std::chrono::milliseconds kAckDelay{50};      ///< of the last one, at most
-  static constexpr std::chrono::milliseconds kPingEvery{1000};   ///< by datagram
+  /// While datagrams came a moment ago, or there is no other way: on a line that loses most, a probe now and
+  /// then hardly ever gets through both ways.
+  static constexpr std::chrono::milliseconds kEagerProbes{250};
+  static constexpr std::chrono::seconds kEagerFor{10};
+  static constexpr std::chrono::milliseconds kRepeatInput{10};  ///< a new input is sent again after this
+  static constexpr int kAckEvery = 3;                           ///< snapshots that come as datagrams
+  static constexpr std::chrono::milliseconds kAckDelay{50};     ///< of the last one, at most
+  static constexpr std::chrono::milliseconds kPingEvery{1000};  ///< by datagram
 
   /// There is a stream, another one perhaps.
   void attached(Time now) { m_attached = now; }
@@ -41,8 +45,8 @@ class UpdateTiming {
   bool hasDatagrams(Time now) const { return now - m_last_datagram < kPassing; }
   /// The server sent on the stream just now: it may not hear datagrams.
   bool isUndecided(Time now) const { return now - m_last_streamed < kUndecided; }
-  /// It is time to find out whether they pass.
-  bool isProbeDue(Time now) const;
+  /// It is time to find out whether they pass. `only`: there is no other way.
+  bool isProbeDue(Time now, bool only = false) const;
   bool isAckDue(Time now) const { return m_acknowledge_at && now >= *m_acknowledge_at; }
   /// True once when new inputs should be sent again.
   bool takeRepeat(Time now);
@@ -50,6 +54,8 @@ class UpdateTiming {
   std::optional<Time> nextWake() const;
 
  private:
+  std::chrono::milliseconds probeInterval(Time now, bool only) const;
+
   Time m_attached{};
   Time m_last_datagram{};
   Time m_last_streamed{};

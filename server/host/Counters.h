@@ -19,7 +19,7 @@ struct Counters {
   std::uint64_t refused_name = 0;        ///< no usable name
   std::uint64_t malformed_frames = 0;    ///< oversized or empty frames: the connection ended
   std::uint64_t malformed_messages = 0;  ///< bytes that are no message, or a value out of range: ended
-  std::uint64_t login_timeouts = 0;      ///< no hello in time: ended
+  std::uint64_t login_timeouts = 0;      ///< no hello, or no judgement of it, in time: ended
   std::uint64_t idle_timeouts = 0;       ///< silent too long: ended
   std::uint64_t input_floods = 0;        ///< more inputs queued than allowed: ended
   std::uint64_t message_floods = 0;      ///< more messages between two ticks than allowed: ended

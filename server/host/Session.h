@@ -34,7 +34,8 @@ class Session {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// What a session asks of the host. Called from the event loop; the callee may refuse() or welcome().
+  /// What a session asks of the host. Called from the event loop; the callee may refuse() or welcome(), at
+  /// once or within kJudgeTimeout.
   struct Events {
     std::function<void(Session&, const wire::Hello&)> on_hello;
     std::function<void(Session&, const std::string& text)> on_chat;
@@ -45,6 +46,8 @@ class Session {
   enum class State { kGreeting, kPlaying, kEnding, kGone };
 
   static constexpr std::chrono::seconds kLoginTimeout{5};
+  /// A hello that waits to be judged is answered before its client gives up on an answer (after 5 s).
+  static constexpr std::chrono::seconds kJudgeTimeout{4};
   static constexpr std::chrono::seconds kIdleTimeout{15};
   static constexpr std::chrono::seconds kResetEvery{2};
   /// A client sends a checksum once a second; a few may come at once after a stall.
@@ -149,6 +152,7 @@ class Session {
   void takeStream(Session& other);
   void answer(const wire::Welcome& welcome);
   void releaseKeys();
+  void checkGreeting(Clock::time_point now);
   void checkSilence(Clock::time_point now);
   void allowSavedChat(Clock::time_point now);
   bool mayHear();

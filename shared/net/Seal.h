@@ -91,6 +91,8 @@ class Opener {
 
   /// Nothing more can be opened.
   bool exhausted() const { return failures_ >= most_failures_; }
+  /// The other end has sealed so many at least: one more than the newest sequence number that opened.
+  std::uint64_t expected() const { return window_.expected(); }
   /// Packets that were forged, all in all.
   std::uint64_t failures() const { return failures_; }
 

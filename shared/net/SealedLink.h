@@ -104,9 +104,11 @@ class SealedLink {
   /// answered. Nothing if not even an empty one.
   std::optional<std::size_t> room() const;
 
-  /// A key nears its limit: the session should agree on a new epoch.
+  /// A key of either direction nears its limit: the session should agree on a new epoch. So it is enough if
+  /// one end asks.
   bool wantsNewEpoch() const {
-    return newest_ && (newest_->sealer.wantsNewEpoch() || newest_->opener.exhausted());
+    return newest_ && (newest_->sealer.wantsNewEpoch() || newest_->opener.exhausted() ||
+                       newest_->opener.expected() >= options_.limits.new_epoch_after);
   }
   /// The newest epoch started.
   std::optional<Epoch> epoch() const;

@@ -247,6 +247,25 @@ TEST_F(ClientSessionTest, AWorldThatComesAnewCountsOnFromTheNumbersBefore) {
   EXPECT_EQ(lastUpdate().acks.newest, 40'002u);
 }
 
+TEST_F(ClientSessionTest, AWorldAfterTheNextIsCaughtUpWith) {
+  join();
+  snapshot(1, 10);
+  for (const auto& [number, epoch, resets] : {std::tuple(50u, 2, 1u), {60u, 3, 2u}, {61u, 2, 2u}}) {
+    SnapshotHeader header;
+    header.number = number;
+    header.tick = number;
+    header.epoch = static_cast<std::uint8_t>(epoch);
+    header.complete = true;
+    SnapshotWriter out;
+    out.begin(header, 0, {});
+    wire::ServerMessage message;
+    message.set_snapshot(out.finish());
+    receive(message);
+    EXPECT_EQ(session->counters().resets, resets) << "the last is a late one of the epoch before";
+  }
+  EXPECT_EQ(session->replica().newest().number, 60u);
+}
+
 TEST_F(ClientSessionTest, ClosedChannelIsALostServer) {
   join();
   session->closed(CloseReason::kPeer);

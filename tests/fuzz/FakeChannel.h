@@ -1,7 +1,13 @@
-// A ReliableChannel that leads nowhere: the target plays the other end.
+// Channels that lead nowhere: the target plays the other end.
 #pragma once
 
+#include <functional>
+#include <optional>
+#include <string>
+
 #include "Channel.h"
+#include "Limits.h"
+#include "SealedChannel.h"
 
 namespace naiad::fuzz {
 
@@ -25,6 +31,30 @@ class FakeChannel : public ReliableChannel {
 
  private:
   FakeLine& m_line;
+};
+
+/// What a channel of datagrams was told; outlives the channel.
+struct FakeAir {
+  std::function<void(std::string_view packet)> on_packet;
+};
+
+class FakeSealed : public SealedChannel {
+ public:
+  explicit FakeSealed(FakeAir& air) : m_air(air) {}
+  ~FakeSealed() override { m_air.on_packet = nullptr; }
+  void start(std::function<void(std::string_view packet)> on_packet) override {
+    m_air.on_packet = std::move(on_packet);
+  }
+  void send(std::string_view) override {}
+  std::optional<std::size_t> room() const override { return kMaxDatagramSnapshot; }
+  std::string peerAddress() const override { return "fake:1"; }
+  std::uint64_t id() const override { return 1; }
+  AeadId aead() const override { return AeadId::kAes128Gcm; }
+  Epoch epoch() const override { return 1; }
+  bool renew(const ReliableChannel&, Epoch) override { return true; }
+
+ private:
+  FakeAir& m_air;
 };
 
 }  // namespace naiad::fuzz

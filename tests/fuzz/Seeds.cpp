@@ -166,6 +166,69 @@ void serverMessages(Folder folder) {
   folder.add(message.SerializeAsString());
 }
 
+constexpr std::size_t kDatagram = 0x2000, kTick = 0x4000, kHello = 0x8000;  // see targets/client_message.cpp
+
+std::string framed(const wire::ClientMessage& message, std::size_t flags) {
+  const std::string bytes = message.SerializeAsString();
+  return u16(bytes.size() | flags) + bytes;
+}
+
+std::string framed(const ClientUpdate& update, std::size_t flags) {
+  const std::string bytes = writeUpdate(update);
+  if ((flags & kDatagram) != 0) return u16(bytes.size() | flags) + bytes;
+  wire::ClientMessage message;
+  message.set_update(bytes);
+  return framed(message, flags);
+}
+
+ClientUpdate withKeys(std::uint32_t first, std::uint32_t count, std::uint32_t tick, std::uint8_t key) {
+  ClientUpdate update;
+  for (std::uint32_t id = first; id < first + count; ++id)
+    update.inputs.push_back({id, tick, 0, false, 1, key, 0, 0, 0});
+  return update;
+}
+
+/// What the rules count and limit: each of these goes once beyond a limit.
+void beyondLimits(Folder folder) {
+  wire::ClientMessage chat;
+  chat.mutable_chat()->set_text("hi");
+  chat.set_number(1);
+  std::string chats = framed(chat, kHello) + framed(chat, 0);  // the second has come before
+  chat.clear_number();
+  for (int i = 0; i < 4; ++i) chats += framed(chat, 0);
+  chat.mutable_chat()->set_text(" ");
+  folder.add(chats + framed(chat, kTick));
+
+  ClientUpdate sums, resets;
+  sums.acks = {1, 0};
+  sums.checksum = 7;
+  folder.add(framed(ClientUpdate(), kHello | kTick) + framed(sums, kTick) + framed(sums, kTick) +
+             framed(sums, kDatagram | kTick) + std::string("\0\0\4", 3) + framed(sums, kTick));
+  resets.wants_reset = true;
+  folder.add(framed(resets, kHello) + framed(resets, 0) + std::string("\0\0\7", 3) + framed(resets, kTick));
+
+  folder.add(framed(withKeys(1, 40, 1, 3), kHello) + framed(withKeys(41, 40, 1, 3), 0));  // 64 may wait
+  folder.add(framed(withKeys(1, 3, 1, 3), kHello) + framed(withKeys(2, 3, 1, 3), kDatagram) +
+             framed(withKeys(2, 4, 1, 3), kDatagram | kTick));
+  // A key that waits for its tick, one that asks for nonsense, one without a tick, and a click.
+  for (const std::uint32_t tick : {4u, 400u, 0u})
+    folder.add(framed(withKeys(1, 1, tick, 5), kHello | kTick) + framed(ClientUpdate(), kTick) +
+               framed(withKeys(2, 1, tick + 2, 3), kTick) + framed(ClientUpdate(), kTick));
+  ClientUpdate click;
+  click.inputs.push_back({1, 4, 0, true, 1, 0, 1, 12, 5});
+  folder.add(framed(click, kHello | kTick) + framed(ClientUpdate(), kTick));
+
+  wire::ClientMessage size;
+  size.mutable_resize()->set_columns(40);
+  folder.add(framed(size, kHello) + framed(size, 0) + framed(size, kTick));
+  size.mutable_ping()->set_rtt_millis(30);
+  const std::string many("\0\0\2", 3);  // the last frame, a hundred times
+  folder.add(framed(size, kHello) + many + many + many + many + many + many + many + many + many + many +
+             many);
+  folder.add(framed(size, kHello) + u16(3 | kDatagram) + "bad");
+  folder.add(framed(size, kHello) + std::string("\0\0\3", 3) + framed(withKeys(1, 1, 1, 3), kDatagram));
+}
+
 void clientMessages(Folder folder) {
   std::string all;
   const auto add = [&](const wire::ClientMessage& message, std::size_t flags) {
@@ -235,6 +298,7 @@ int main(int argc, char** argv) {
   controls(Folder(base / "controls"));
   serverMessages(Folder(base / "server_message"));
   clientMessages(Folder(base / "client_message"));
+  beyondLimits(Folder(base / "client_message", "limit-"));
   replication(Folder(base / "replication"), Folder(base / "snapshot"));
   datagrams(Folder(base / "datagram"));
   return 0;

@@ -135,6 +135,26 @@ TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {
   }
 }
 
+TEST_F(SealedPlay, NearTheEndOfItsKeysASessionTakesAnotherStream) {
+  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  ClientSetup setup = player("ann");
+  setup.options.seal_limits.new_epoch_after = 300;
+  TestClient ann(context, server.port(), setup);
+  ASSERT_TRUE(settleOnDatagrams(ann));
+  for (std::uint64_t times = 1; times <= 3; ++times) {
+    ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return server.counters().resumed >= times; }));
+    const std::uint64_t before = datagrams(ann);
+    ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return datagrams(ann) > before + 50; }));
+    EXPECT_TRUE(keyWorks(ann));
+  }
+  const Counters counters = server.counters();
+  EXPECT_LE(counters.resumed, datagrams(ann) / 300 + 1) << "once for each epoch";
+  EXPECT_EQ(counters.detached, counters.resumed);
+  EXPECT_EQ(counters.joined, 1u);
+  EXPECT_EQ(counters.divergences, 0u);
+  EXPECT_EQ(counters.malformed_messages, 0u);
+}
+
 TEST_F(SealedPlay, AnotherPortGoesOnWithinASecond) {
   TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
   TestClient ann(context, server.port(), player("ann"));

@@ -2,7 +2,8 @@
 // is answered before the hello but with a refusal, there is one hello, and what comes out of it is in its
 // ranges.
 //
-//   input   frames: length + 2^14·tick before it + 2^15·behind a proper hello (2) | the frame's payload
+//   input   frames: length + 2^13·as a datagram + 2^14·tick before it + 2^15·behind a proper hello (2)
+//                   | the frame's payload
 //           length 0: what 1 of the channel or the host: 0 closed, 1 busy, 2 many times the last frame, 3
 //           goodbye, else so many half seconds pass
 #include <google/protobuf/stubs/logging.h>
@@ -42,7 +43,15 @@ class Play {
     m_last = frame;
     const Exactly bytes(m_last);
     m_line.callbacks.on_frame(bytes.view());
+    // This host judges a hello at once, and nothing else is heard before it.
+    REQUIRE(m_session.state() != Session::State::kGreeting);
     REQUIRE((m_session.state() == Session::State::kEnding) == m_line.closed);
+    REQUIRE(m_gone == (m_line.closed ? 1 : 0));
+  }
+  void hearDatagram(std::string_view payload) {
+    if (m_sealed.on_packet == nullptr) return;
+    const Exactly bytes(payload);
+    m_sealed.on_packet(bytes.view());
     REQUIRE(m_gone == (m_line.closed ? 1 : 0));
   }
   void hello() {
@@ -86,11 +95,12 @@ class Play {
       return session.refuse(wire::Refused::VERSION, "Another version.");
     wire::Welcome welcome;
     welcome.set_player(7);
-    session.welcome(welcome);
+    session.welcome(welcome, std::make_unique<FakeSealed>(m_sealed));
   }
 
   Session::Clock::time_point m_now{1h};
   FakeLine m_line;
+  FakeAir m_sealed;
   std::string m_last;  ///< frame
   Counters m_counters;
   Session m_session;
@@ -114,8 +124,14 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto head = script.number<std::uint16_t>();
     if ((head & 0x4000) != 0) play.tick();
     if ((head & 0x8000) != 0) play.hello();
-    if ((head & 0x3FFF) == 0) play.meddle(script.byte());
-    play.hear(script.bytes(head & 0x3FFF));
+    const std::size_t length = head & 0x1FFF;
+    if ((head & 0x2000) != 0) {
+      play.hearDatagram(script.bytes(length));
+    } else if (length == 0) {
+      play.meddle(script.byte());
+    } else {
+      play.hear(script.bytes(length));
+    }
   }
   return 0;
 }

@@ -420,12 +420,53 @@ TEST_F(SessionTest, AResizeIsAccepted) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
+TEST_F(SessionTest, ATerminalsSizeIsTakenOverFourTimesASecond) {
+  greet();
+  test::SimulatedWorld world({}, 7);
+  Publisher publisher;
+  int taken_over = 0;
+  for (int i = 0; i < 100; ++i, now += 10ms) {  // it is dragged about for a second
+    const std::uint64_t deferred = counters.resizes_deferred;
+    wire::ClientMessage resize;
+    resize.mutable_resize()->set_columns(20 + i);
+    hear(resize);
+    taken_over += counters.resizes_deferred == deferred ? 1 : 0;
+    world.tick();
+    publisher.update(world.view());
+    session.sendTick(publisher, world.view().players[0]);
+  }
+  EXPECT_NEAR(taken_over, 4, 1);
+}
+
 TEST_F(SessionTest, EndsWithoutAHelloInFiveSeconds) {
   session.checkDeadlines(now + 5s);
   EXPECT_EQ(session.state(), Session::State::kGreeting);
   session.checkDeadlines(now + 5s + 1ms);
   EXPECT_TRUE(ended());
   EXPECT_EQ(lastSent().refused().reason(), wire::Refused::BAD_REQUEST);
+  EXPECT_EQ(counters.login_timeouts, 1u);
+}
+
+TEST_F(SessionTest, AHelloThatNobodyGetsRoundToJudgeIsToldToTryAgain) {
+  Wire waiting_line;
+  Session waiting(std::make_unique<FakeChannel>(waiting_line), counters, now);
+  int hellos = 0;
+  waiting.start({[&](Session&, const wire::Hello&) { ++hellos; },  // a password's turn does not come
+                 [](Session&, const std::string&) {}, [](Session&) {}, [this] { return now; }});
+  wire::ClientMessage message;
+  message.mutable_hello()->set_magic(kHelloMagic);
+  message.mutable_hello()->set_protocol(kProtocolVersion);
+  waiting_line.callbacks.on_frame(message.SerializeAsString());
+  ASSERT_EQ(hellos, 1);
+  waiting.checkDeadlines(now + 3s);  // from here: the hello was heard before
+  waiting.checkDeadlines(now + 3s + Session::kJudgeTimeout);
+  EXPECT_EQ(waiting.state(), Session::State::kGreeting);
+  waiting.checkDeadlines(now + 3s + Session::kJudgeTimeout + 1ms);
+  EXPECT_TRUE(waiting_line.closed);
+  wire::ServerMessage answer;
+  ASSERT_EQ(waiting_line.sent.size(), 1u);
+  ASSERT_TRUE(answer.ParseFromString(waiting_line.sent[0]));
+  EXPECT_EQ(answer.refused().reason(), wire::Refused::BUSY);
   EXPECT_EQ(counters.login_timeouts, 1u);
 }
 

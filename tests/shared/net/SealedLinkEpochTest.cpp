@@ -105,5 +105,18 @@ TEST(SealedLinkEpoch, LimitsOfTheKeyAreShownAndHeld) {
   EXPECT_EQ(pair.toServer(pair.fromClient("on we go")), "on we go");
 }
 
+// The client alone makes new streams, so it looks after the server's keys, too.
+TEST(SealedLinkEpoch, AClientSeesTheLimitOfTheServersKey) {
+  LinkPair pair(AeadId::kAes128Gcm, {.new_epoch_after = 5, .most = 100});
+  pair.settle(pair.home);  // else the server may send only three times what has come
+  for (int i = 1; i < 5; ++i) {
+    EXPECT_FALSE(pair.client.wantsNewEpoch()) << i;
+    EXPECT_EQ(pair.toClient(pair.fromServer("news")), "news");
+  }
+  EXPECT_TRUE(pair.client.wantsNewEpoch());
+  pair.startEpoch(1);
+  EXPECT_FALSE(pair.client.wantsNewEpoch());
+}
+
 }  // namespace
 }  // namespace naiad::test
