@@ -69,6 +69,7 @@ void Interest::update(const Publisher& publisher, const Focus& focus, KnownObjec
   m_p_known = &known;
   m_tick = publisher.tick();
   m_focus = focus;
+  m_window = CompactRect(focus.window);
   noteChanges();
   judgeCandidates();
   if (isSearchDue()) search();
@@ -96,10 +97,11 @@ void Interest::forget(std::uint32_t id, std::uint32_t slot) {
 void Interest::noteChanges() {
   // The publisher looks so far ahead for all clients at once.
   const bool sweeps_suffice = kGap + m_focus.look_ahead <= Publisher::kSweep;
+  const CompactRect covered(m_covered);
   for (const Publisher::Change& change : m_p_publisher->changes()) {
     const std::uint32_t id = mayBeKnown(change.slot) ? m_p_known->find(change.slot) : KnownObjects::kNobody;
     if (id == KnownObjects::kNobody) {
-      if (change.groups == 0 || (sweeps_suffice && !meets(change.sweep, m_covered))) continue;
+      if (change.groups == 0 || (sweeps_suffice && !change.sweep.meets(covered))) continue;
       consider(change.slot);
       continue;
     }
@@ -117,8 +119,8 @@ void Interest::noteChanges() {
 // Learn of the object, which the client does not know, if it can be seen; watch it if that may come.
 void Interest::consider(std::uint32_t slot) {
   const Publisher::Outlook& outlook = this->outlook(slot);
-  if (!meets(outlook.later, m_covered)) return;
-  if (!meets(outlook.soon, m_focus.window)) return m_candidates.push_back(slot);
+  if (!outlook.later.meets(CompactRect(m_covered))) return;
+  if (!outlook.soon.meets(m_window)) return m_candidates.push_back(slot);
   learn(slot, outlook.generation);
 }
 
@@ -126,7 +128,7 @@ void Interest::judgeCandidates() {
   std::erase_if(m_candidates, [this](std::uint32_t slot) {
     const Publisher::Outlook& outlook = this->outlook(slot);
     if (outlook.generation == 0 || isKnown(slot)) return true;
-    if (!meets(outlook.soon, m_focus.window)) return false;
+    if (!outlook.soon.meets(m_window)) return false;
     learn(slot, outlook.generation);
     return true;
   });
@@ -145,17 +147,19 @@ void Interest::search() {
   m_covered = m_focus.window.grownBy(moved ? kSpare : 0);
   forgetThoseOutside(outer, moved);
   m_candidates.clear();
-  // Slow ones come no farther than a cell in each tick; the publisher knows the others.
-  const CellRect around = m_covered.grownBy(kGap + m_focus.look_ahead);
-  m_p_publisher->forEachNear(around, shared(m_seen, m_focus.window), [this](std::uint32_t slot) {
-    if (!isKnown(slot)) consider(slot);
-  });
+  const CompactRect covered(m_covered);
+  m_p_publisher->forEachNear(m_covered, kGap + m_focus.look_ahead, shared(m_seen, m_focus.window),
+                             [this, &covered](std::uint32_t slot) {
+                               if (isKnown(slot) || !outlook(slot).later.meets(covered)) return;
+                               consider(slot);
+                             });
 }
 
 // A view that has moved since the last search will have moved at the next: then all are looked at again
 // anyway.
 void Interest::forgetThoseOutside(const CellRect& outer, bool moves) {
   m_known_bits = {};
+  const CompactRect around(outer);
   for (std::uint32_t id = 0; id < m_stays.size(); ++id) {
     const KnownObjects::Known& known = m_p_known->at(id);
     const bool alive = known.life == KnownObjects::Life::kBorn || known.life == KnownObjects::Life::kAlive;
@@ -165,7 +169,7 @@ void Interest::forgetThoseOutside(const CellRect& outer, bool moves) {
     if (!alive) continue;
     const df::ObjectKey key{known.slot, known.generation};
     const bool own = key == m_focus.own[0] || key == m_focus.own[1];
-    if (own || meets(outlook(known.slot).soon, outer)) {
+    if (own || outlook(known.slot).soon.meets(around)) {
       const bool again = own || moves;
       m_stays[id] = m_tick + (again ? 0 : leavesAfter(*m_p_publisher->find(known.slot), outer));
     } else {

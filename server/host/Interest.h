@@ -76,9 +76,10 @@ class Interest {
   KnownObjects* m_p_known = nullptr;
   std::uint32_t m_tick = 0;
   Focus m_focus;
-  CellRect m_seen;      ///< the window of the update before: whoever was in it is known
-  CellRect m_searched;  ///< the window at the last search
-  CellRect m_covered;   ///< the candidates are all that may enter a window inside this before the next search
+  CompactRect m_window;  ///< m_focus.window
+  CellRect m_seen;       ///< the window of the update before: whoever was in it is known
+  CellRect m_searched;   ///< the window at the last search
+  CellRect m_covered;  ///< the candidates are all that may enter a window inside this before the next search
   bool m_began = false;
   std::vector<std::uint32_t> m_candidates;  ///< slots
   std::array<std::uint64_t, kBits / 64> m_known_bits{};
