@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace naiad {
 
@@ -98,22 +99,42 @@ void Interest::noteChanges() {
   // The publisher looks so far ahead for all clients at once.
   const bool sweeps_suffice = kGap + m_focus.look_ahead <= Publisher::kSweep;
   const CompactRect covered(m_covered);
+  Changes changes;
+  std::size_t count = 0;
   for (const Publisher::Change& change : m_p_publisher->changes()) {
-    const std::uint32_t id = mayBeKnown(change.slot) ? m_p_known->find(change.slot) : KnownObjects::kNobody;
-    if (id == KnownObjects::kNobody) {
-      if (change.groups == 0 || (sweeps_suffice && !change.sweep.meets(covered))) continue;
-      consider(change.slot);
-      continue;
-    }
-    const Publisher::Model* model = m_p_publisher->find(change.slot);
-    if (model != nullptr && model->generation == m_p_known->at(id).generation) {
-      m_p_known->owe(id, change.groups, m_tick);
-      if ((change.groups & (kMotion | kLook)) != 0) m_stays[id] = m_tick;
-      continue;
-    }
-    forget(id, change.slot);
-    if (model != nullptr) consider(change.slot);
+    const bool comes = change.groups != 0 && (!sweeps_suffice || change.sweep.meets(covered));
+    if (!comes && !mayBeKnown(change.slot)) continue;
+    m_p_known->prefetchSlot(change.slot);
+    changes[count++] = &change;
+    if (count == changes.size()) noteChanges(changes, std::exchange(count, 0));
   }
+  noteChanges(changes, count);
+}
+
+// What this client knows has left the cache since the last tick: it is fetched for all of them at once.
+void Interest::noteChanges(const Changes& changes, std::size_t count) {
+  std::array<std::uint32_t, std::tuple_size_v<Changes>> ids;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t slot = changes[i]->slot;
+    ids[i] = mayBeKnown(slot) ? m_p_known->find(slot) : KnownObjects::kNobody;
+    if (ids[i] != KnownObjects::kNobody) m_p_known->prefetch(ids[i]);
+  }
+  for (std::size_t i = 0; i < count; ++i) noteChange(*changes[i], ids[i]);
+}
+
+void Interest::noteChange(const Publisher::Change& change, std::uint32_t id) {
+  if (id == KnownObjects::kNobody) {
+    if (change.groups != 0) consider(change.slot);
+    return;
+  }
+  const Publisher::Model* model = m_p_publisher->find(change.slot);
+  if (model != nullptr && model->generation == m_p_known->at(id).generation) {
+    m_p_known->owe(id, change.groups, m_tick);
+    if ((change.groups & (kMotion | kLook)) != 0) m_stays[id] = m_tick;
+    return;
+  }
+  forget(id, change.slot);
+  if (model != nullptr) consider(change.slot);
 }
 
 // Learn of the object, which the client does not know, if it can be seen; watch it if that may come.

@@ -46,7 +46,10 @@ class Interest {
   /// Cells to spare around a view that moves.
   static constexpr std::int64_t kSpare = 4;
 
+  using Changes = std::array<const Publisher::Change*, 32>;
   void noteChanges();
+  void noteChanges(const Changes& changes, std::size_t count);
+  void noteChange(const Publisher::Change& change, std::uint32_t id);
   void consider(std::uint32_t slot);
   void judgeCandidates();
   bool isSearchDue() const;
