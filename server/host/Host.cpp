@@ -146,8 +146,9 @@ void Host::tick(df::World& world) {
   const bool watched = playing() > 0;
   if (watched && !world.isWatched()) m_publisher = Publisher();
   world.setWatched(watched);
+  const Clock::time_point heard = Clock::now();
   for (const auto& session : m_sessions) {
-    session->checkDeadlines(Clock::now());
+    session->checkDeadlines(heard);
     if (session->takeProof()) m_tokens.confirm(session->id());
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace naiad {
 
@@ -69,6 +70,7 @@ void Interest::update(const Publisher& publisher, const Focus& focus, KnownObjec
   m_p_known = &known;
   m_tick = publisher.tick();
   m_focus = focus;
+  m_window = CompactRect(focus.window);
   noteChanges();
   judgeCandidates();
   if (isSearchDue()) search();
@@ -96,29 +98,50 @@ void Interest::forget(std::uint32_t id, std::uint32_t slot) {
 void Interest::noteChanges() {
   // The publisher looks so far ahead for all clients at once.
   const bool sweeps_suffice = kGap + m_focus.look_ahead <= Publisher::kSweep;
+  const CompactRect covered(m_covered);
+  Changes changes;
+  std::size_t count = 0;
   for (const Publisher::Change& change : m_p_publisher->changes()) {
-    const std::uint32_t id = mayBeKnown(change.slot) ? m_p_known->find(change.slot) : KnownObjects::kNobody;
-    if (id == KnownObjects::kNobody) {
-      if (change.groups == 0 || (sweeps_suffice && !meets(change.sweep, m_covered))) continue;
-      consider(change.slot);
-      continue;
-    }
-    const Publisher::Model* model = m_p_publisher->find(change.slot);
-    if (model != nullptr && model->generation == m_p_known->at(id).generation) {
-      m_p_known->owe(id, change.groups, m_tick);
-      if ((change.groups & (kMotion | kLook)) != 0) m_stays[id] = m_tick;
-      continue;
-    }
-    forget(id, change.slot);
-    if (model != nullptr) consider(change.slot);
+    const bool comes = change.groups != 0 && (!sweeps_suffice || change.sweep.meets(covered));
+    if (!comes && !mayBeKnown(change.slot)) continue;
+    m_p_known->prefetchSlot(change.slot);
+    changes[count++] = &change;
+    if (count == changes.size()) noteChanges(changes, std::exchange(count, 0));
   }
+  noteChanges(changes, count);
+}
+
+// What this client knows has left the cache since the last tick: it is fetched for all of them at once.
+void Interest::noteChanges(const Changes& changes, std::size_t count) {
+  std::array<std::uint32_t, std::tuple_size_v<Changes>> ids;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t slot = changes[i]->slot;
+    ids[i] = mayBeKnown(slot) ? m_p_known->find(slot) : KnownObjects::kNobody;
+    if (ids[i] != KnownObjects::kNobody) m_p_known->prefetch(ids[i]);
+  }
+  for (std::size_t i = 0; i < count; ++i) noteChange(*changes[i], ids[i]);
+}
+
+void Interest::noteChange(const Publisher::Change& change, std::uint32_t id) {
+  if (id == KnownObjects::kNobody) {
+    if (change.groups != 0) consider(change.slot);
+    return;
+  }
+  const Publisher::Model* model = m_p_publisher->find(change.slot);
+  if (model != nullptr && model->generation == m_p_known->at(id).generation) {
+    m_p_known->owe(id, change.groups, m_tick);
+    if ((change.groups & (kMotion | kLook)) != 0) m_stays[id] = m_tick;
+    return;
+  }
+  forget(id, change.slot);
+  if (model != nullptr) consider(change.slot);
 }
 
 // Learn of the object, which the client does not know, if it can be seen; watch it if that may come.
 void Interest::consider(std::uint32_t slot) {
   const Publisher::Outlook& outlook = this->outlook(slot);
-  if (!meets(outlook.later, m_covered)) return;
-  if (!meets(outlook.soon, m_focus.window)) return m_candidates.push_back(slot);
+  if (!outlook.later.meets(CompactRect(m_covered))) return;
+  if (!outlook.soon.meets(m_window)) return m_candidates.push_back(slot);
   learn(slot, outlook.generation);
 }
 
@@ -126,7 +149,7 @@ void Interest::judgeCandidates() {
   std::erase_if(m_candidates, [this](std::uint32_t slot) {
     const Publisher::Outlook& outlook = this->outlook(slot);
     if (outlook.generation == 0 || isKnown(slot)) return true;
-    if (!meets(outlook.soon, m_focus.window)) return false;
+    if (!outlook.soon.meets(m_window)) return false;
     learn(slot, outlook.generation);
     return true;
   });
@@ -145,17 +168,19 @@ void Interest::search() {
   m_covered = m_focus.window.grownBy(moved ? kSpare : 0);
   forgetThoseOutside(outer, moved);
   m_candidates.clear();
-  // Slow ones come no farther than a cell in each tick; the publisher knows the others.
-  const CellRect around = m_covered.grownBy(kGap + m_focus.look_ahead);
-  m_p_publisher->forEachNear(around, shared(m_seen, m_focus.window), [this](std::uint32_t slot) {
-    if (!isKnown(slot)) consider(slot);
-  });
+  const CompactRect covered(m_covered);
+  m_p_publisher->forEachNear(m_covered, kGap + m_focus.look_ahead, shared(m_seen, m_focus.window),
+                             [this, &covered](std::uint32_t slot) {
+                               if (isKnown(slot) || !outlook(slot).later.meets(covered)) return;
+                               consider(slot);
+                             });
 }
 
 // A view that has moved since the last search will have moved at the next: then all are looked at again
 // anyway.
 void Interest::forgetThoseOutside(const CellRect& outer, bool moves) {
   m_known_bits = {};
+  const CompactRect around(outer);
   for (std::uint32_t id = 0; id < m_stays.size(); ++id) {
     const KnownObjects::Known& known = m_p_known->at(id);
     const bool alive = known.life == KnownObjects::Life::kBorn || known.life == KnownObjects::Life::kAlive;
@@ -165,7 +190,7 @@ void Interest::forgetThoseOutside(const CellRect& outer, bool moves) {
     if (!alive) continue;
     const df::ObjectKey key{known.slot, known.generation};
     const bool own = key == m_focus.own[0] || key == m_focus.own[1];
-    if (own || meets(outlook(known.slot).soon, outer)) {
+    if (own || outlook(known.slot).soon.meets(around)) {
       const bool again = own || moves;
       m_stays[id] = m_tick + (again ? 0 : leavesAfter(*m_p_publisher->find(known.slot), outer));
     } else {

@@ -46,7 +46,10 @@ class Interest {
   /// Cells to spare around a view that moves.
   static constexpr std::int64_t kSpare = 4;
 
+  using Changes = std::array<const Publisher::Change*, 32>;
   void noteChanges();
+  void noteChanges(const Changes& changes, std::size_t count);
+  void noteChange(const Publisher::Change& change, std::uint32_t id);
   void consider(std::uint32_t slot);
   void judgeCandidates();
   bool isSearchDue() const;
@@ -76,9 +79,10 @@ class Interest {
   KnownObjects* m_p_known = nullptr;
   std::uint32_t m_tick = 0;
   Focus m_focus;
-  CellRect m_seen;      ///< the window of the update before: whoever was in it is known
-  CellRect m_searched;  ///< the window at the last search
-  CellRect m_covered;   ///< the candidates are all that may enter a window inside this before the next search
+  CompactRect m_window;  ///< m_focus.window
+  CellRect m_seen;       ///< the window of the update before: whoever was in it is known
+  CellRect m_searched;   ///< the window at the last search
+  CellRect m_covered;  ///< the candidates are all that may enter a window inside this before the next search
   bool m_began = false;
   std::vector<std::uint32_t> m_candidates;  ///< slots
   std::array<std::uint64_t, kBits / 64> m_known_bits{};

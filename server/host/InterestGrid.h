@@ -1,6 +1,8 @@
 // Where the published objects are, coarsely: who could be seen in a rectangle of cells?
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -21,6 +23,32 @@ struct CellRect {
   }
   CellRect grownBy(std::int64_t cells) const {
     return {left - cells, top - cells, right + cells, bottom + cells};
+  }
+};
+
+/// The same in half the memory, for those that are compared by the thousand. Cells beyond its type, where no
+/// position is, are taken for the last ones.
+struct CompactRect {
+  CompactRect() = default;
+  explicit CompactRect(const CellRect& rect)
+      : left(clamped(rect.left)),
+        top(clamped(rect.top)),
+        right(clamped(rect.right)),
+        bottom(clamped(rect.bottom)) {}
+  bool meets(const CompactRect& other) const {
+    // Each is as likely as not: no branches.
+    return static_cast<int>(left < other.right) & static_cast<int>(other.left < right) &
+           static_cast<int>(top < other.bottom) & static_cast<int>(other.top < bottom);
+  }
+
+  std::int32_t left = 0;
+  std::int32_t top = 0;
+  std::int32_t right = 0;
+  std::int32_t bottom = 0;
+
+ private:
+  static std::int32_t clamped(std::int64_t cell) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(cell, INT32_MIN, INT32_MAX));
   }
 };
 
@@ -59,8 +87,7 @@ class InterestGrid {
     for (std::int64_t y = top; y <= bottom; ++y) {
       for (std::int64_t x = left; x <= right; ++x) {
         if (isInner(x, y)) continue;
-        const auto found = m_blocks.find(keyOf(x, y));
-        if (found != m_blocks.end()) visitAll(found->second);
+        if (const std::vector<std::uint32_t>* block = find(keyOf(x, y))) visitAll(*block);
       }
     }
   }
@@ -78,8 +105,27 @@ class InterestGrid {
     return (static_cast<std::uint64_t>(x) << 32) | (static_cast<std::uint64_t>(y) & 0xFFFFFFFF);
   }
 
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> m_blocks;
-  std::vector<Place> m_places;  ///< by slot
+  using Block = std::vector<std::uint32_t>;
+  /// What was found last under keys that share a place; null: nothing.
+  struct Found {
+    std::uint64_t key = 0;
+    const Block* block = nullptr;
+    bool valid = false;
+  };
+  static constexpr std::size_t kFound = 1024;
+  Found& foundOf(std::uint64_t key) const { return m_found[((key >> 32) & 31) | (key & 31) << 5]; }
+  /// The block; null if it is empty.
+  const Block* find(std::uint64_t key) const {
+    Found& found = foundOf(key);
+    if (found.valid && found.key == key) return found.block;
+    const auto place = m_blocks.find(key);
+    found = {key, place != m_blocks.end() ? &place->second : nullptr, true};
+    return found.block;
+  }
+
+  std::unordered_map<std::uint64_t, Block> m_blocks;
+  mutable std::array<Found, kFound> m_found{};  ///< a cache
+  std::vector<Place> m_places;                  ///< by slot
 };
 
 }  // namespace naiad

@@ -27,6 +27,7 @@ std::uint32_t KnownObjects::learn(std::uint32_t slot, std::uint32_t generation, 
   if (m_free.empty()) {
     if (id >= kMaxSlots) return kNobody;
     m_known.emplace_back();
+    m_told.emplace_back();
   } else {
     id = m_free.top();
     m_free.pop();
@@ -53,7 +54,8 @@ void KnownObjects::forget(std::uint32_t id, std::uint32_t tick) {
   Known& known = m_known[id];
   m_ids.erase(known.slot);
   --m_alive;
-  if (known.life == Life::kBorn && known.sent[kLifeIndex] == 0) return release(id);  // it never heard of it
+  if (known.life == Life::kBorn && m_told[id].sent[kLifeIndex] == 0)
+    return release(id);  // it never heard of it
   known.life = Life::kDying;
   known.owed = 0;
   known.unconfirmed = 0;
@@ -66,7 +68,7 @@ void KnownObjects::release(std::uint32_t id) {
   known.life = Life::kFree;
   known.owed = 0;
   known.unconfirmed = 0;
-  known.sent = {};
+  m_told[id].sent = {};
   m_free.push(id);
 }
 
@@ -85,15 +87,16 @@ std::uint8_t KnownObjects::due(std::uint32_t id) const {
 KnownObjects::Sent KnownObjects::paid(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state,
                                       std::uint32_t tick) {
   Known& known = m_known[id];
+  Told& told = m_told[id];
   const std::uint8_t groups = due(id);
   if (groups == kDeath) {
-    for (std::uint64_t& sum : known.sums) m_checksum -= std::exchange(sum, 0);
-    known.sent[kLifeIndex] = snapshot;
+    for (std::uint64_t& sum : told.sums) m_checksum -= std::exchange(sum, 0);
+    told.sent[kLifeIndex] = snapshot;
   } else {
-    if ((groups & kLife) != 0) carry(known, 0, snapshot, lifeSum(id, generationOf(known), state.order));
-    if ((groups & kMotion) != 0) carry(known, 1, snapshot, motionSum(id, rebase(state.motion, tick)));
-    if ((groups & kLook) != 0) carry(known, 2, snapshot, lookSum(id, state.look));
-    if ((groups & kBody) != 0) carry(known, 3, snapshot, bodySum(id, state.body));
+    if ((groups & kLife) != 0) carry(told, 0, snapshot, lifeSum(id, generationOf(known), state.order));
+    if ((groups & kMotion) != 0) carry(told, 1, snapshot, motionSum(id, rebase(state.motion, tick)));
+    if ((groups & kLook) != 0) carry(told, 2, snapshot, lookSum(id, state.look));
+    if ((groups & kBody) != 0) carry(told, 3, snapshot, bodySum(id, state.body));
   }
   known.unconfirmed |= groups == kDeath ? +kLife : groups;
   known.owed = 0;
@@ -101,11 +104,11 @@ KnownObjects::Sent KnownObjects::paid(std::uint32_t id, std::uint32_t snapshot, 
 }
 
 // What is carried again as it was is confirmed by any snapshot since it was so.
-void KnownObjects::carry(Known& known, std::size_t group, std::uint32_t snapshot, std::uint64_t sum) {
-  if (known.sent[group] == 0 || known.sums[group] != sum) known.first[group] = snapshot;
-  known.sent[group] = snapshot;
-  m_checksum += sum - known.sums[group];
-  known.sums[group] = sum;
+void KnownObjects::carry(Told& told, std::size_t group, std::uint32_t snapshot, std::uint64_t sum) {
+  if (told.sent[group] == 0 || told.sums[group] != sum) told.first[group] = snapshot;
+  told.sent[group] = snapshot;
+  m_checksum += sum - told.sums[group];
+  told.sums[group] = sum;
 }
 
 void KnownObjects::sweepOwing() {
@@ -125,8 +128,9 @@ void KnownObjects::arrived(const Sent& sent, std::uint32_t snapshot) {
     return;
   }
   if (known.life == Life::kDying) return;
+  const Told& told = m_told[sent.id];
   for (int i = 0; i < kGroupCount; ++i) {
-    if ((sent.groups & (1 << i)) != 0 && !isNewer(known.first[i], snapshot)) known.unconfirmed &= ~(1 << i);
+    if ((sent.groups & (1 << i)) != 0 && !isNewer(told.first[i], snapshot)) known.unconfirmed &= ~(1 << i);
   }
   if ((sent.groups & kLife) != 0) known.life = Life::kAlive;
 }
@@ -139,7 +143,7 @@ bool KnownObjects::lost(const Sent& sent, std::uint32_t snapshot, std::uint32_t 
   std::uint8_t missing = 0;
   for (int i = 0; i < kGroupCount; ++i) {
     const bool carried = dying ? i == kLifeIndex : (sent.groups & (1 << i)) != 0;
-    if (carried && known.sent[i] == snapshot) missing |= 1 << i;
+    if (carried && m_told[sent.id].sent[i] == snapshot) missing |= 1 << i;
   }
   missing &= known.unconfirmed;
   // A birth that was lost after another one arrived leaves its other groups, if they are the newest.

@@ -20,6 +20,7 @@ namespace naiad {
 class KnownObjects {
  public:
   enum class Life : std::uint8_t { kFree, kBorn, kAlive, kDying };
+  /// What is looked at in every tick; a client's are cold by then, so that they are small counts.
   struct Known {
     std::uint32_t slot = 0;
     std::uint32_t generation = 0;  ///< of the world's slot
@@ -28,11 +29,8 @@ class KnownObjects {
     std::uint8_t owed = 0;  ///< groups; when dying, kLife is the death
     std::uint8_t unconfirmed =
         0;  ///< groups of which no snapshot that carried what was sent last is known to have arrived
-    bool queued = false;                             ///< among owing()
-    std::uint32_t since = 0;                         ///< the tick from which on it has owed something
-    std::array<std::uint32_t, kGroupCount> sent{};   ///< newest snapshot that carried the group
-    std::array<std::uint32_t, kGroupCount> first{};  ///< the first one that carried it as that one did
-    std::array<std::uint64_t, kGroupCount> sums{};   ///< of what it carried
+    bool queued = false;      ///< among owing()
+    std::uint32_t since = 0;  ///< the tick from which on it has owed something
   };
   /// One object's part of a snapshot.
   struct Sent {
@@ -48,6 +46,12 @@ class KnownObjects {
 
   /// The id under which the client knows, or is about to be told of, the object in `slot`; kNobody if none.
   std::uint32_t find(std::uint32_t slot) const { return m_ids.find(slot); }
+  /// So that memory is not waited for: find(slot) is about to be called; at(id) is.
+  void prefetchSlot(std::uint32_t slot) const { m_ids.prefetch(slot); }
+  void prefetch(std::uint32_t id) const {
+    __builtin_prefetch(&m_known[id], 1);
+    __builtin_prefetch(&m_told[id], 1);
+  }
   const Known& at(std::uint32_t id) const { return m_known[id]; }
   std::size_t idCount() const { return m_known.size(); }
   std::size_t aliveCount() const { return m_alive; }
@@ -86,11 +90,20 @@ class KnownObjects {
   }
 
  private:
+  /// What was sent of an object: a line of the cache.
+  struct alignas(64) Told {
+    std::array<std::uint32_t, kGroupCount> sent{};   ///< newest snapshot that carried the group
+    std::array<std::uint32_t, kGroupCount> first{};  ///< the first one that carried it as that one did
+    std::array<std::uint64_t, kGroupCount> sums{};   ///< of what it carried
+  };
+
   void enqueue(std::uint32_t id, std::uint32_t tick);
   void release(std::uint32_t id);
-  void carry(Known& known, std::size_t group, std::uint32_t snapshot, std::uint64_t sum);
+  static_assert(sizeof(Known) == 20 && sizeof(Told) == 64);
+  void carry(Told& told, std::size_t group, std::uint32_t snapshot, std::uint64_t sum);
 
   std::vector<Known> m_known;  ///< by id
+  std::vector<Told> m_told;    ///< by id
   SlotMap m_ids;
   std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> m_free;
   std::vector<std::uint32_t> m_owing;

@@ -147,7 +147,11 @@ void Publisher::finish(Change& change) {
   if (change.groups == 0 || (change.groups & kMotion) != 0) {
     list(m_fast, change.slot, tracked.fast, tracked.model.alive && isFast(tracked.model.state.motion));
   }
-  change.sweep = sweepOf(tracked.model, m_tick, kSweep);
+  if (!tracked.fast) {
+    const df::FixedVector v = tracked.model.state.motion.velocity;
+    m_speed = {std::max(m_speed.x, std::abs(v.x)), std::max(m_speed.y, std::abs(v.y))};
+  }
+  change.sweep = CompactRect(sweepOf(tracked.model, m_tick, kSweep));
   tracked.changed = 0;
   tracked.touched = false;
 }
@@ -191,7 +195,7 @@ const Publisher::Outlook& Publisher::workOut(std::uint32_t slot, std::uint32_t s
   const Model* model = find(slot);
   if (model == nullptr) return known.outlook;
   known.outlook.generation = model->generation;
-  known.outlook.later = sweepOf(*model, m_tick, later);
+  known.outlook.later = CompactRect(sweepOf(*model, m_tick, later));
   if (model->reach > kWide) {
     known.outlook.soon = known.outlook.later;
     return known.outlook;
@@ -203,7 +207,7 @@ const Publisher::Outlook& Publisher::workOut(std::uint32_t slot, std::uint32_t s
   const std::int64_t top = std::min(df::cellOf(now.y), df::cellOf(then.y));
   const std::int64_t right = std::max(df::cellOf(now.x), df::cellOf(then.x));
   const std::int64_t bottom = std::max(df::cellOf(now.y), df::cellOf(then.y));
-  known.outlook.soon = CellRect{left, top, right + 1, bottom + 1}.grownBy(model->reach);
+  known.outlook.soon = CompactRect(CellRect{left, top, right + 1, bottom + 1}.grownBy(model->reach));
   return known.outlook;
 }
 

@@ -37,14 +37,14 @@ class Publisher {
   struct Change {
     std::uint32_t slot = 0;
     std::uint8_t groups = 0;
-    CellRect sweep;  ///< sweepOf() for kSweep ticks, so that not every client has to find out
+    CompactRect sweep;  ///< sweepOf() for kSweep ticks, so that not every client has to find out
   };
   static constexpr std::uint32_t kSweep = 16;
   /// Where something of a model may be drawn: worked out once in a tick, however many clients ask.
   struct Outlook {
     std::uint32_t generation = 0;  ///< 0: nothing lives there
-    CellRect soon;                 ///< now, or at the end of some ticks
-    CellRect later;                ///< at any time in these and some more
+    CompactRect soon;              ///< now, or at the end of some ticks
+    CompactRect later;             ///< at any time in these and some more
   };
 
   /// Take in one tick of the world. `changes()` then lists what clients have to be told.
@@ -71,12 +71,14 @@ class Publisher {
     return known ? m_outlooks[index].outlook : workOut(slot, soon, later);
   }
   const WorldRecord& world() const { return m_world; }
-  /// Call `visit(slot)` for every live model of which something may be drawn in `rect`, and for some
-  /// around it, but those well inside `inner` may be left out. Models that are wide or faster than a cell per
-  /// tick are visited wherever they are; some models twice.
+  /// Call `visit(slot)` for every live model of which something may be drawn in `rect` within so many ticks,
+  /// and for some around it, but those well inside `inner` may be left out. Models that are wide or faster
+  /// than a cell per tick are visited wherever they are; some models twice.
   template <class Visit>
-  void forEachNear(const CellRect& rect, const CellRect& inner, Visit visit) const {
-    m_grid.forEachNear(rect.grownBy(m_reach), inner, visit);
+  void forEachNear(const CellRect& rect, std::uint32_t ticks, const CellRect& inner, Visit visit) const {
+    const std::int64_t x = m_reach + cellsIn(ticks, m_speed.x);
+    const std::int64_t y = m_reach + cellsIn(ticks, m_speed.y);
+    m_grid.forEachNear({rect.left - x, rect.top - y, rect.right + x, rect.bottom + y}, inner, visit);
     for (const std::vector<std::uint32_t>* slots : {&m_wide, &m_fast}) {
       for (const std::uint32_t slot : *slots) visit(slot);
     }
@@ -119,6 +121,10 @@ class Publisher {
     bool touched = false;  ///< in m_changes already
   };
 
+  /// Cells that something gets away, rounded up.
+  static std::int64_t cellsIn(std::uint32_t ticks, df::Fixed speed) {
+    return (std::int64_t{ticks} * speed >> df::kFixedBits) + 1;
+  }
   const Outlook& workOut(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const;
   Tracked* track(std::uint32_t slot);
   Motion truthNow(const Tracked& tracked) const;
@@ -154,17 +160,18 @@ class Publisher {
   std::vector<std::uint32_t> m_wide;   ///< models that reach farther than kWide, and the loose one
   std::vector<std::uint32_t> m_fast;   ///< models that move by more than a cell per tick, or are accelerated
   std::int32_t m_reach = 0;            ///< of the others, the farthest so far
+  df::FixedVector m_speed;             ///< of those not in m_fast, the highest so far, each way
   std::vector<df::ObjectKey> m_exact;  ///< followed by a player: their views and predictions need them exact
   bool m_exact_solids = false;
   bool m_solids_are_coarse = false;  ///< exactness was asked for since the last update
   std::uint64_t m_newest_order = 0;
   /// A cache, by slot; the last one is the loose one's.
   struct Remembered {
-    std::uint64_t update = 0;
+    std::uint32_t update = 0;
     Outlook outlook;
   };
   mutable std::vector<Remembered> m_outlooks;
-  mutable std::uint64_t m_update = 1;  ///< counts updates, and changes of the next two
+  mutable std::uint32_t m_update = 1;  ///< counts updates, and changes of the next two
   mutable std::uint32_t m_soon = 0;
   mutable std::uint32_t m_later = 0;
   WorldRecord m_world;

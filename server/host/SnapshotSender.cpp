@@ -15,12 +15,28 @@ constexpr double kAheadLoss = 0.003;
 constexpr double kAheadPerSpeed = 20;
 /// What a snapshot of one record takes beside it, at most.
 constexpr std::size_t kMostOverheadBits = 256;
+
 }  // namespace
+
+/// What is needed only while a snapshot is written: one for all senders of a thread, which write one after
+/// the other, so that it stays in the cache.
+struct SnapshotSender::Desk {
+  SnapshotWriter writer;
+  std::vector<std::uint32_t> queue;  ///< ids to be written, the most urgent last
+  std::vector<std::uint32_t> later;  ///< those of them that are for the stream
+  std::vector<std::pair<double, std::uint32_t>> ranked;
+};
+
+SnapshotSender::Desk& SnapshotSender::desk() {
+  thread_local Desk desk;
+  return desk;
+}
 
 // ---- whom the client knows --------------------------------------------------------------------------------
 
 void SnapshotSender::note(const Publisher& publisher, const df::PlayerFacts& player) {
   m_tick = publisher.tick();
+  m_known.prefetchSlot(player.followed.slot);
   m_singles.note(publisher, player);
   if (!m_began) m_last_tick = m_tick - kKeepAlive;
   m_began = true;
@@ -74,23 +90,26 @@ std::size_t SnapshotSender::mostBits(std::uint32_t id, const Publisher& publishe
 
 // The order matters only where not all fit.
 void SnapshotSender::makeQueue(const Publisher& publisher, const Room& room) {
-  m_queue.clear();
+  m_p_desk->queue.clear();
   std::size_t most = kMostOverheadBits + m_singles.mostBits();
   for (const std::uint32_t id : m_known.owing()) {
-    m_queue.push_back(id);
+    m_p_desk->queue.push_back(id);
     if (most <= 8 * room.bytes) most += mostBits(id, publisher);
   }
-  if (most <= 8 * room.bytes) return std::sort(m_queue.begin(), m_queue.end(), std::greater<>());
-  m_ranked.clear();
-  for (const std::uint32_t id : m_queue) m_ranked.emplace_back(urgency(id, publisher), id);
+  if (most <= 8 * room.bytes)
+    return std::sort(m_p_desk->queue.begin(), m_p_desk->queue.end(), std::greater<>());
+  m_p_desk->ranked.clear();
+  for (const std::uint32_t id : m_p_desk->queue) m_p_desk->ranked.emplace_back(urgency(id, publisher), id);
   // Equal urgency: by id, so that a run is the same everywhere. The most urgent comes last, to be popped.
-  std::sort(m_ranked.begin(), m_ranked.end(), [](const auto& a, const auto& b) {
+  std::sort(m_p_desk->ranked.begin(), m_p_desk->ranked.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second > b.second;
   });
-  std::transform(m_ranked.begin(), m_ranked.end(), m_queue.begin(), [](const auto& r) { return r.second; });
+  std::transform(m_p_desk->ranked.begin(), m_p_desk->ranked.end(), m_p_desk->queue.begin(),
+                 [](const auto& r) { return r.second; });
 }
 
 std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publisher, Room room) {
+  m_p_desk = &desk();
   if (m_resend == Resend::kEveryTick) m_known.oweUnconfirmed(m_tick);
   m_singles.repeatAhead();
   m_ahead.owe(m_known, m_tick);
@@ -123,15 +142,15 @@ bool SnapshotSender::write(const Publisher& publisher, const Room& room, Packet&
   Flight::Snapshot& flight = m_flight.add(m_next_number);
   SnapshotHeader header{m_next_number, m_tick, m_epoch, false, false, 0, 0};
   m_singles.tellInput(header);
-  m_writer.begin(header, m_singles.origins().slot(), m_singles.origins().window());
-  flight.empty = !m_singles.write(m_writer, m_next_number, room.bytes, repeatsAhead());
+  m_p_desk->writer.begin(header, m_singles.origins().slot(), m_singles.origins().window());
+  flight.empty = !m_singles.write(m_p_desk->writer, m_next_number, room.bytes, repeatsAhead());
   writeObjects(publisher, room, packet);
   const bool complete = !isOwing();
   if (complete && m_repairing) {
     m_clean_from = m_next_number;
     m_repairing = false;
   }
-  m_writer.setComplete(complete);
+  m_p_desk->writer.setComplete(complete);
   finish(packet);
   const bool took = !m_flight.newest().empty;
   forgetOldest();
@@ -140,43 +159,43 @@ bool SnapshotSender::write(const Publisher& publisher, const Room& room, Packet&
 
 void SnapshotSender::writeObjects(const Publisher& publisher, const Room& room, Packet& packet) {
   const auto last_id = static_cast<std::uint32_t>(m_known.idCount());
-  m_later.clear();
-  while (!m_queue.empty() && !packet.large) {
-    const std::uint32_t id = m_queue.back();
+  m_p_desk->later.clear();
+  while (!m_p_desk->queue.empty() && !packet.large) {
+    const std::uint32_t id = m_p_desk->queue.back();
     const KnownObjects::Known& known = m_known.at(id);
     if (known.owed == 0) {  // paid by a packet before
-      m_queue.pop_back();
+      m_p_desk->queue.pop_back();
       continue;
     }
     const bool dying = known.life == KnownObjects::Life::kDying;
     const Publisher::Model* model = dying ? nullptr : publisher.find(known.slot);
     LookForm form;
     const std::size_t bits = encode(id, model, form);
-    if (!m_writer.hasRoom(bits, last_id, room.bytes)) {
-      const bool alone = isTooLarge(bits, room.bytes) && room.large && m_writer.isEmpty();
-      if (!alone) m_writer.drop();
+    if (!m_p_desk->writer.hasRoom(bits, last_id, room.bytes)) {
+      const bool alone = isTooLarge(bits, room.bytes) && room.large && m_p_desk->writer.isEmpty();
+      if (!alone) m_p_desk->writer.drop();
       if (!isTooLarge(bits, room.bytes)) break;
-      m_queue.pop_back();
+      m_p_desk->queue.pop_back();
       if (!alone) {  // in a snapshot of its own, on the stream
-        m_later.push_back(id);
+        m_p_desk->later.push_back(id);
         if (room.large) break;
         continue;
       }
       packet.large = m_flight.newest().large = true;
     } else {
-      m_queue.pop_back();
+      m_p_desk->queue.pop_back();
     }
     pay(id, model, form);
     considerAhead(id, bits, publisher);
   }
-  m_queue.insert(m_queue.end(), m_later.rbegin(), m_later.rend());
+  m_p_desk->queue.insert(m_p_desk->queue.end(), m_p_desk->later.rbegin(), m_p_desk->later.rend());
   m_known.sweepOwing();
 }
 
 void SnapshotSender::finish(Packet& packet) {
   packet.number = m_next_number;
   packet.tick = m_tick;
-  packet.bytes = m_writer.finish();
+  packet.bytes = m_p_desk->writer.finish();
   momentOf(m_next_number) = {m_next_number, m_known.checksum(), Moment::kUnknown};
   if (++m_next_number == 0) m_next_number = 1;
 }
@@ -192,10 +211,11 @@ void SnapshotSender::forgetOldest() {
 }
 
 SnapshotSender::Packet SnapshotSender::probe(const Publisher& publisher) {
+  m_p_desk = &desk();
   m_tick = publisher.tick();
   m_flight.add(m_next_number).probe = true;
-  m_writer.begin({m_next_number, m_tick, m_epoch, !isOwing(), false, 0, 0}, m_singles.origins().slot(),
-                 m_singles.origins().window());
+  m_p_desk->writer.begin({m_next_number, m_tick, m_epoch, !isOwing(), false, 0, 0},
+                         m_singles.origins().slot(), m_singles.origins().window());
   Packet packet;
   finish(packet);
   forgetOldest();
@@ -217,13 +237,14 @@ bool SnapshotSender::isTooLarge(std::size_t bits, std::size_t bytes) {
 // Stage the record of what is due; no model: a death. Its length in bits.
 std::size_t SnapshotSender::encode(std::uint32_t id, const Publisher::Model* model, LookForm& form) {
   static const ObjectState kNothing;
-  if (model == nullptr) return m_writer.stage(kDeath, 0, kNothing, {});
+  if (model == nullptr) return m_p_desk->writer.stage(kDeath, 0, kNothing, {});
   const std::uint8_t groups = m_known.due(id);
   if ((groups & kLook) != 0 && model->recurs) {
     form = m_names.formOf(model->look_sum, model->state.look.sequence.front().size(), m_next_number);
   }
   const Motion motion = (groups & kMotion) != 0 ? rebase(model->state.motion, m_tick) : Motion{};
-  return m_writer.stage(groups, KnownObjects::generationOf(m_known.at(id)), model->state, motion, form);
+  return m_p_desk->writer.stage(groups, KnownObjects::generationOf(m_known.at(id)), model->state, motion,
+                                form);
 }
 
 // What is staged goes into the snapshot.
@@ -237,7 +258,7 @@ void SnapshotSender::pay(std::uint32_t id, const Publisher::Model* model, LookFo
   }
   flight.objects.push_back(
       m_known.paid(id, m_next_number, model == nullptr ? kNothing : model->state, m_tick));
-  m_writer.keep(id);
+  m_p_desk->writer.keep(id);
 }
 
 bool SnapshotSender::repeatsAhead() const {
@@ -281,6 +302,7 @@ void SnapshotSender::acknowledge(const AckWindow& acks) {
 }
 
 void SnapshotSender::arrived(const Flight::Snapshot& snapshot) {
+  for (const KnownObjects::Sent& sent : snapshot.objects) m_known.prefetch(sent.id);
   m_singles.arrived(snapshot.number, snapshot.probe);
   for (const KnownObjects::Sent& sent : snapshot.objects) m_known.arrived(sent, snapshot.number);
   for (const auto& [id, sum] : snapshot.names) m_names.arrived(id, sum, snapshot.number);

@@ -114,6 +114,9 @@ class SnapshotSender {
   };
   static constexpr std::size_t kMaxMoments = 128;
 
+  struct Desk;
+  static Desk& desk();
+
   SnapshotSender(Resend resend, std::uint32_t look_ahead, std::uint8_t epoch)
       : m_resend(resend), m_epoch(epoch), m_look_ahead(look_ahead) {}
   bool isOwn(const KnownObjects::Known& known) const;
@@ -136,10 +139,10 @@ class SnapshotSender {
   Moment& momentOf(std::uint32_t number) { return m_moments[number % kMaxMoments]; }
 
   Resend m_resend;
+  Desk* m_p_desk = nullptr;  ///< only while a snapshot is written
   KnownObjects m_known;
   Singles m_singles;
   AppearanceNames m_names;
-  SnapshotWriter m_writer;
   Flight m_flight;
   std::array<Moment, kMaxMoments> m_moments;  ///< by number, modulo their number
   ShownWindow m_shown;
@@ -156,10 +159,6 @@ class SnapshotSender {
   LineGauge m_line;
   std::array<std::uint32_t, 16> m_missing{};  ///< the last ones taken for lost, by number
   AheadRepeats m_ahead;
-  std::vector<std::uint32_t> m_queue;  ///< ids to be written, the most urgent last
-  std::vector<std::uint32_t> m_later;  ///< these two kept for their memory
-  std::vector<std::pair<double, std::uint32_t>> m_ranked;
-
   std::uint64_t m_resent = 0;
 };
 

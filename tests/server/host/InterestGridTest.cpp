@@ -27,6 +27,35 @@ TEST(InterestGrid, RectanglesAreHalfOpen) {
   EXPECT_FALSE(rect.grownBy(1).contains({6, 4}));
 }
 
+TEST(InterestGrid, CompactRectanglesMeetAsTheyWouldInFull) {
+  const CompactRect rect(CellRect{-2, 3, 5, 4});
+  EXPECT_TRUE(rect.meets(CompactRect(CellRect{4, 3, 9, 9})));
+  EXPECT_FALSE(rect.meets(CompactRect(CellRect{5, 3, 9, 9})));
+  EXPECT_FALSE(rect.meets(CompactRect(CellRect{-9, 3, -2, 9})));
+  EXPECT_FALSE(rect.meets(CompactRect(CellRect{4, 4, 9, 9})));
+  EXPECT_FALSE(rect.meets(CompactRect(CellRect{4, -9, 9, 3})));
+  constexpr std::int64_t kFar = std::int64_t{1} << 40;
+  EXPECT_TRUE(rect.meets(CompactRect(CellRect{-kFar, -kFar, kFar, kFar})));
+  EXPECT_FALSE(rect.meets(CompactRect(CellRect{kFar, -kFar, 2 * kFar, kFar})));
+}
+
+TEST(InterestGrid, FindsWhoComesToABlockThatWasFoundEmpty) {
+  InterestGrid grid;
+  const CellRect rect{0, 0, 1, 1};
+  for (std::uint32_t slot = 0; slot < 40; ++slot)
+    grid.put(100 + slot, {static_cast<std::int32_t>(16 * slot), 800});
+  EXPECT_TRUE(near(grid, rect).empty());
+  grid.put(7, {0, 0});
+  EXPECT_EQ(near(grid, rect), std::multiset<std::uint32_t>{7});
+  grid.put(8, {1, 1});
+  EXPECT_EQ(near(grid, rect).size(), 2u);
+  grid.remove(7);
+  grid.remove(8);
+  EXPECT_TRUE(near(grid, rect).empty());
+  grid.put(9, {2, 2});
+  EXPECT_EQ(near(grid, rect), std::multiset<std::uint32_t>{9});
+}
+
 TEST(InterestGrid, FindsAllInARectangleOnceAndNothingFarAway) {
   SplitMix64 rng(1);
   for (const std::int64_t world : {200, 20'000, 2'000'000'000}) {
