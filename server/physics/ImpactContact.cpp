@@ -18,10 +18,15 @@ ImpactWorld::Meeting ImpactWorld::meet(int a, int b, ImpactAxis axis) const {
 
 // Would the bounce be too slow, or not rise high enough, to be one?
 bool ImpactWorld::isSoft(int a, int b, const Meeting& meeting) const {
-  const double bounce = restitutionOf(m_bodies[a], m_bodies[b]) * meeting.approach;
+  const double restitution = restitutionOf(m_bodies[a], m_bodies[b]);
+  const double bounce = restitution * meeting.approach;
   if (bounce <= meeting.rest_speed) return true;
-  const double pressing =
-      -dot(m_motions[b].acceleration - m_motions[a].acceleration, meeting.touch.normal);
+  double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, meeting.touch.normal);
+  if (restitution < 1) {  // what falls together collapses together: nothing presses, and there is no end
+    for (const int id : {a, b}) {
+      pressing = std::max(pressing, std::fabs(dot(m_bodies[id].acceleration, meeting.touch.normal)));
+    }
+  }
   return pressing > 0 && bounce * bounce <= 2 * pressing * kRestHeight;
 }
 
@@ -185,13 +190,11 @@ double ImpactWorld::pushGroup(int contact, double now) {
   for (std::size_t i = 0; i < m_group.size(); ++i) {
     const int id = m_group[i];
     m_motions[id].local = -1;
-    const Vec2 change = m_rest.change(static_cast<int>(i));
+    const int local = static_cast<int>(i);
+    const Vec2 change = m_rest.change(local);
     if (change == Vec2{}) continue;
-    const auto settled = [](double before, double by) {
-      return std::fabs(before + by) <= 1e-14 * std::fabs(by) ? 0.0 : before + by;
-    };
     Vec2& velocity = m_bodies[id].velocity;
-    velocity = {settled(velocity.x, change.x), settled(velocity.y, change.y)};
+    velocity = {m_rest.settled(local, velocity.x, change.x), m_rest.settled(local, velocity.y, change.y)};
     markChanged(id);
   }
   return impulse;
@@ -217,12 +220,13 @@ void ImpactWorld::settleGroup(int body, double now) {
     const int id = m_group[i];
     Motion& motion = m_motions[id];
     motion.local = -1;
-    const Vec2 own = m_bodies[id].acceleration;
-    const Vec2 change = m_group_contacts.empty() ? Vec2{} : m_rest.change(static_cast<int>(i));
-    const auto settled = [](double before, double by) {
-      return std::fabs(before + by) <= 1e-13 * std::fabs(by) ? 0.0 : before + by;
-    };
-    const Vec2 acceleration = {settled(own.x, change.x), settled(own.y, change.y)};
+    Vec2 acceleration = m_bodies[id].acceleration;
+    if (!m_group_contacts.empty()) {
+      const int local = static_cast<int>(i);
+      const Vec2 change = m_rest.change(local);
+      acceleration = {m_rest.settled(local, acceleration.x, change.x),
+                      m_rest.settled(local, acceleration.y, change.y)};
+    }
     if (acceleration != motion.acceleration) {
       advance(id, now);
       motion.acceleration = acceleration;
@@ -236,11 +240,31 @@ void ImpactWorld::settleGroup(int body, double now) {
     contact.is_listed = false;
     const RestRow& normal = m_rest.rows()[row];
     row += frictionOf(m_bodies[contact.first], m_bodies[contact.second]) == 0 ? 1 : 2;
-    if (normal.push > 0) continue;
+    if (normal.push > 0) {
+      calm(contact);
+      continue;
+    }
     const Vec2 gain = m_motions[contact.second].acceleration - m_motions[contact.first].acceleration;
     const double scale = length(m_bodies[contact.first].acceleration) +
                          length(m_bodies[contact.second].acceleration);
     if (dot(gain, normal.direction) > 1e-12 * scale) endContact(c, now);
+  }
+}
+
+// Takes away what rounding has left of the speeds of a contact that presses.
+void ImpactWorld::calm(const Contact& contact) {
+  ImpactBody &first = m_bodies[contact.first], &second = m_bodies[contact.second];
+  const Meeting meeting = meet(contact.first, contact.second, contact.axis);
+  const double masses = first.inverse_mass + second.inverse_mass;
+  const Vec2 along = perpendicular(meeting.touch.normal);
+  const double slip = dot(meeting.velocity, along);
+  Vec2 left = -meeting.approach * meeting.touch.normal;
+  if (std::fabs(slip) <= meeting.rest_speed && frictionOf(first, second) > 0) left += slip * along;
+  if (left == Vec2{}) return;
+  first.velocity += (first.inverse_mass / masses) * left;
+  second.velocity -= (second.inverse_mass / masses) * left;
+  for (const int id : {contact.first, contact.second}) {
+    if (isPushed(id)) markChanged(id);
   }
 }
 

@@ -8,9 +8,10 @@ namespace naiad::physics {
 namespace {
 
 constexpr double kUnbounded = 1e300;
-constexpr double kRegular = 1e-9;  // of a row's own coupling, so that equal rows have one answer
+constexpr double kRegular = 1e-12;  // of a row's own coupling, so that equal rows have one answer
 constexpr int kFrictionRounds = 60;
 constexpr int kSweeps = 400;
+constexpr int kRefinements = 10;
 
 }  // namespace
 
@@ -35,10 +36,17 @@ double RestSolver::rateOf(const RestRow& row) const {
 
 void RestSolver::updateChange() {
   std::fill(m_change.begin(), m_change.end(), Vec2{});
+  std::fill(m_effort.begin(), m_effort.end(), 0.0);
   for (const RestRow& row : m_rows) {
     if (row.push == 0) continue;
-    if (row.first >= 0) m_change[row.first] -= (row.push * m_inverse_masses[row.first]) * row.direction;
-    if (row.second >= 0) m_change[row.second] += (row.push * m_inverse_masses[row.second]) * row.direction;
+    if (row.first >= 0) {
+      m_change[row.first] -= (row.push * m_inverse_masses[row.first]) * row.direction;
+      m_effort[row.first] += std::fabs(row.push) * m_inverse_masses[row.first];
+    }
+    if (row.second >= 0) {
+      m_change[row.second] += (row.push * m_inverse_masses[row.second]) * row.direction;
+      m_effort[row.second] += std::fabs(row.push) * m_inverse_masses[row.second];
+    }
   }
 }
 
@@ -114,9 +122,16 @@ bool RestSolver::solveFree() {
   if (!factorise()) return false;
   const int count = static_cast<int>(m_free.size());
   m_right.resize(count);
-  for (int round = 0; round < 4; ++round) {
+  double error = kUnbounded;
+  for (int round = 0; round < kRefinements; ++round) {
     updateChange();
-    for (int k = 0; k < count; ++k) m_right[k] = -rateOf(m_rows[m_free[k]]);
+    double worst = 0;
+    for (int k = 0; k < count; ++k) {
+      m_right[k] = -rateOf(m_rows[m_free[k]]);
+      worst = std::max(worst, std::fabs(m_right[k]));
+    }
+    if (worst == 0 || (round > 1 && worst > 0.5 * error)) break;  // as exact as it gets
+    error = worst;
     for (int k = 0; k < count; ++k) {
       const double* const line = m_factor.data() + m_start[k];
       for (int j = m_skyline[k]; j < k; ++j) m_right[k] -= line[j] * m_right[j];
@@ -223,6 +238,7 @@ bool RestSolver::solve(const std::vector<double>& inverse_masses) {
   const std::size_t count = m_rows.size();
   m_inverse_masses = inverse_masses;
   m_change.assign(inverse_masses.size(), {});
+  m_effort.assign(inverse_masses.size(), 0);
   m_low.assign(count, 0);
   m_high.assign(count, 0);
   m_side.assign(count, Side::kLow);

@@ -33,8 +33,14 @@ class RestSolver {
 
   /// By how much the pushes change the velocity (or acceleration) of a body, after solve().
   Vec2 change(int body) const { return m_change[body]; }
+  /// `before` + `change`, one component of them, with 0 for what is only the rounding of all those pushes.
+  double settled(int body, double before, double change) const {
+    const double after = before + change;
+    return after <= kRounding * m_effort[body] && after >= -kRounding * m_effort[body] ? 0 : after;
+  }
 
  private:
+  static constexpr double kRounding = 1e-14;
   enum class Side : std::uint8_t { kFree, kLow, kHigh };
 
   bool solveWithinBounds();
@@ -49,6 +55,7 @@ class RestSolver {
   std::vector<RestRow> m_rows;
   std::vector<double> m_inverse_masses;
   std::vector<Vec2> m_change;
+  std::vector<double> m_effort;  // the sum of all pushes' sizes, over the mass
   std::vector<double> m_low, m_high;
   std::vector<Side> m_side;
   std::vector<int> m_rows_begin, m_rows_of;  // the rows of each body

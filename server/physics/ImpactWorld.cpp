@@ -264,6 +264,34 @@ void ImpactWorld::handle(const Pending& pending) {
   forecastChanged(pending.time);
 }
 
+// A pair that hits itself to and fro in one moment, as touching bodies do, counts as one contact with all of
+// the impulse.
+void ImpactWorld::sortEvents() {
+  for (std::size_t i = 0; i < m_events.size(); ++i) m_events[i].order = static_cast<int>(i);
+  std::sort(m_events.begin(), m_events.end(), [](const ImpactEvent& x, const ImpactEvent& y) {
+    if (x.time != y.time) return x.time < y.time;
+    if (x.first != y.first) return x.first < y.first;
+    return x.second != y.second ? x.second < y.second : x.order < y.order;
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < m_events.size();) {
+    ImpactEvent begin = m_events[i];
+    std::size_t last = i;
+    for (std::size_t j = i + 1; j < m_events.size() && m_events[j].time == begin.time &&
+                                m_events[j].first == begin.first && m_events[j].second == begin.second;
+         ++j) {
+      begin.impulse += m_events[j].impulse;
+      last = j;
+    }
+    const ImpactEvent end = m_events[last];
+    i = last + 1;
+    if (begin.is_begin) m_events[kept++] = begin;
+    if (!end.is_begin) m_events[kept++] = end;
+  }
+  m_events.erase(m_events.begin() + static_cast<std::ptrdiff_t>(kept), m_events.end());
+  for (std::size_t i = 0; i < kept; ++i) m_events[i].order = static_cast<int>(i);
+}
+
 ImpactStatus ImpactWorld::step(double dt) {
   if (!(dt > 0 && dt < 1e12)) return ImpactStatus::kRefused;
   const std::int64_t frozen_before = m_counters.quarantined;
@@ -281,17 +309,7 @@ ImpactStatus ImpactWorld::step(double dt) {
     if (!m_motions[id].is_frozen) advance(id, dt);
     m_motions[id].time = 0;
   }
-  if (m_events.size() > 1) {  // by time already; only the ids of one moment may be out of order
-    for (std::size_t i = 1; i < m_events.size(); ++i) {
-      const auto isBefore = [](const ImpactEvent& x, const ImpactEvent& y) {
-        if (x.time != y.time) return x.time < y.time;
-        return x.first != y.first ? x.first < y.first : x.second < y.second;
-      };
-      for (std::size_t j = i; j > 0 && isBefore(m_events[j], m_events[j - 1]); --j) {
-        std::swap(m_events[j], m_events[j - 1]);
-      }
-    }
-  }
+  sortEvents();
   return m_counters.quarantined == frozen_before ? ImpactStatus::kDone : ImpactStatus::kQuarantined;
 }
 

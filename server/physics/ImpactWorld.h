@@ -24,6 +24,7 @@ struct ImpactEvent {
   bool is_begin;
   double impulse;  ///< along the normal, on second, when it begins
   Vec2 normal;     ///< from first to second
+  int order = 0;   ///< index in the list
 };
 
 /// What has happened since the world was made.
@@ -129,6 +130,7 @@ class ImpactWorld {
   bool isStale(const Pending& pending) const;
   void handle(const Pending& pending);
   void compactQueue();
+  void sortEvents();
   void markChanged(int id);
 
   // ImpactContact.cpp
@@ -138,6 +140,7 @@ class ImpactWorld {
   double pushGroup(int contact, double now);
   void settle(double now);
   void settleGroup(int body, double now);
+  void calm(const Contact& contact);
   void gather(int body, double now, bool is_impact, int own_contact);
   bool keepsContact(const Contact& contact, const Meeting& meeting) const;
   bool isSoft(int a, int b, const Meeting& meeting) const;
