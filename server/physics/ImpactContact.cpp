@@ -21,6 +21,9 @@ bool ImpactWorld::isSoft(int a, int b, const Meeting& meeting) const {
   const double restitution = restitutionOf(m_bodies[a], m_bodies[b]);
   const double bounce = restitution * meeting.approach;
   if (bounce <= meeting.rest_speed) return true;
+  if (restitution < 1 && (m_motions[a].events_at_once > kMostAtOnce || m_motions[b].events_at_once > kMostAtOnce)) {
+    return true;  // nothing has moved since: the height left is none
+  }
   double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, meeting.touch.normal);
   if (restitution < 1) {  // what falls together collapses together: nothing presses, and there is no end
     for (const int id : {a, b}) {
@@ -145,14 +148,40 @@ void ImpactWorld::gather(int body, double now, bool is_impact, int own_contact) 
     const Contact &p = m_contacts[x], &q = m_contacts[y];
     return p.first != q.first ? p.first < q.first : p.second < q.second;
   });
-  // Rows go by ids; so must the sums over a body's rows, whatever way the group was found.
   m_group_masses.clear();
   for (const int id : m_group) m_group_masses.push_back(m_bodies[id].inverse_mass);
-  m_rest.rows().clear();
-  for (const int c : m_group_contacts) addRows(m_contacts[c], is_impact);
 }
 
-void ImpactWorld::addRows(const Contact& contact, bool is_impact) {
+// Rows go by ids, and so do the sums over a body's rows, whatever way the group was found.
+void ImpactWorld::solveGroup(Purpose purpose) {
+  m_rest.rows().clear();
+  for (const int c : m_group_contacts) addRows(m_contacts[c], purpose);
+  ++m_counters.rest_solves;
+  if (!m_rest.solve(m_group_masses)) ++m_counters.unconverged;
+}
+
+// Moves the bodies of a group so far that nothing is inside anything: what impacts of the size of the slop
+// leave, where circles slide around one another. Most times there is nothing to do.
+void ImpactWorld::partGroup(double now) {
+  bool is_needed = false;
+  for (const int c : m_group_contacts) {
+    const Contact& contact = m_contacts[c];
+    const double gap = meet(contact.first, contact.second, contact.axis).touch.gap;
+    is_needed = is_needed || (gap < -0.5 * kImpactSlop && gap > -kDeepest);
+  }
+  if (!is_needed) return;
+  solveGroup(Purpose::kPlace);
+  for (std::size_t i = 0; i < m_group.size(); ++i) {
+    const Vec2 way = m_rest.change(static_cast<int>(i));
+    if (way == Vec2{}) continue;
+    const int id = m_group[i];
+    advance(id, now);
+    m_bodies[id].place = m_bodies[id].place + way;
+    markChanged(id);
+  }
+}
+
+void ImpactWorld::addRows(const Contact& contact, Purpose purpose) {
   const Meeting meeting = meet(contact.first, contact.second, contact.axis);
   const Vec2 normal = meeting.touch.normal, along = perpendicular(normal);
   const Vec2 pull = m_bodies[contact.second].acceleration - m_bodies[contact.first].acceleration;
@@ -163,10 +192,12 @@ void ImpactWorld::addRows(const Contact& contact, bool is_impact) {
   row.second = localOf(contact.second);
   row.direction = normal;
   // The normal turns while they slide around one another.
+  const bool is_impact = purpose == Purpose::kImpact;
   row.bias = is_impact ? -meeting.approach : dot(pull, normal) + slip * slip * meeting.touch.curvature;
+  if (purpose == Purpose::kPlace) row.bias = meeting.touch.gap > -kDeepest ? meeting.touch.gap : 0;
   const double friction = frictionOf(m_bodies[contact.first], m_bodies[contact.second]);
   rows.push_back(row);
-  if (friction == 0) return;
+  if (friction == 0 || purpose == Purpose::kPlace) return;
   row.normal = static_cast<int>(rows.size()) - 1;
   row.friction = friction;
   row.direction = along;
@@ -178,8 +209,7 @@ void ImpactWorld::addRows(const Contact& contact, bool is_impact) {
 // An impact without a bounce, felt at once by everything that lies there. Returns the contact's own impulse.
 double ImpactWorld::pushGroup(int contact, double now) {
   gather(-1, now, true, contact);
-  ++m_counters.rest_solves;
-  if (!m_rest.solve(m_group_masses)) ++m_counters.unconverged;
+  solveGroup(Purpose::kImpact);
   double impulse = 0;
   std::size_t row = 0;
   for (const int c : m_group_contacts) {
@@ -213,8 +243,8 @@ void ImpactWorld::settle(double now) {
 void ImpactWorld::settleGroup(int body, double now) {
   gather(body, now, false, -1);
   if (!m_group_contacts.empty()) {
-    ++m_counters.rest_solves;
-    if (!m_rest.solve(m_group_masses)) ++m_counters.unconverged;
+    partGroup(now);
+    solveGroup(Purpose::kRest);
   }
   for (std::size_t i = 0; i < m_group.size(); ++i) {
     const int id = m_group[i];

@@ -143,7 +143,8 @@ void ImpactWorld::beginTick(double dt) {
       continue;
     }
     motion.time = 0;
-    motion.events = 0;
+    motion.events = motion.events_at_once = 0;
+    motion.last_event = -1;
     m_ids.push_back(id);
   }
   for (std::size_t i = 0; i < m_contacts.size(); ++i) {
@@ -213,6 +214,10 @@ void ImpactWorld::forecastPair(int i, int j, double now) {
   const int first = std::min(i, j), second = std::max(i, j);
   const ImpactBody &a = m_bodies[first], &b = m_bodies[second];
   const RelativeMotion motion = relative(first, second, now);
+  if (isPushed(first) && isPushed(second) && touchOf(a, b, motion.way).gap < -kDeepest) {
+    ++m_counters.overlaps;
+    return;
+  }
   const double left = m_dt - now, rest_speed = restSpeed(a.velocity, b.velocity);
   const int found = findContact(first, second);
   const bool is_resting = found >= 0 && m_contacts[found].is_resting;
@@ -254,7 +259,12 @@ void ImpactWorld::handle(const Pending& pending) {
   for (const int id : {a, b}) {
     advance(id, pending.time);
     markChanged(id);
-    if (isPushed(id) && ++m_motions[id].events > kMostEvents) freeze(id);
+    if (!isPushed(id)) continue;
+    Motion& motion = m_motions[id];
+    if (motion.last_event != pending.time) motion.events_at_once = 0;
+    motion.last_event = pending.time;
+    ++motion.events_at_once;
+    if (++motion.events > kMostEvents) freeze(id);
   }
   if (!m_motions[a].is_frozen && !m_motions[b].is_frozen) {
     if (pending.kind == Kind::kImpact) collide(a, b, pending.axis, pending.time);

@@ -32,6 +32,7 @@ struct ImpactCounters {
   std::int64_t ticks = 0;
   std::int64_t impacts = 0;
   std::int64_t forecasts = 0;    ///< pairs looked at
+  std::int64_t overlaps = 0;     ///< of those, how many were too deep in one another to be kept apart
   std::int64_t rest_solves = 0;  ///< groups of resting bodies
   std::int64_t unconverged = 0;  ///< of those, how many got an approximate answer
   std::int64_t quarantined = 0;  ///< bodies frozen
@@ -50,6 +51,12 @@ class ImpactWorld {
   static constexpr int kMostEvents = 1'000'000;
   /// A bounce that would not rise higher than this (cells) ends in rest.
   static constexpr double kRestHeight = 1e-11;
+  /// Nor does one that follows so many others of the same body in the same moment, unless it is elastic.
+  static constexpr int kMostAtOnce = 32;
+
+  /// Two bodies that were put into one another deeper than this pass until they have parted. (What cannot be
+  /// pushed lets nobody deeper in.)
+  static constexpr double kDeepest = 1e-6;
 
   /// Returns the id, the lowest free one, or −1 if the body is not sound.
   int add(const ImpactBody& body);
@@ -80,7 +87,9 @@ class ImpactWorld {
     Vec2 acceleration;   // with what contacts add
     unsigned generation = 0;
     int first_contact = -1;
-    int events = 0;
+    int events = 0;          // in this tick
+    int events_at_once = 0;  // at the moment of the last one
+    double last_event = -1;
     int local = -1;      // index in the group at hand
     bool exists = false;
     bool is_frozen = false;
@@ -97,6 +106,8 @@ class ImpactWorld {
     bool is_resting = false;
     bool is_listed = false;  // in m_group_contacts
   };
+  /// What a group is solved for: speeds after an impact, accelerations at rest, or places.
+  enum class Purpose : std::uint8_t { kImpact, kRest, kPlace };
   enum class Kind : std::uint8_t { kImpact, kStop, kEdge };
   struct Pending {
     double time;
@@ -145,7 +156,9 @@ class ImpactWorld {
   bool keepsContact(const Contact& contact, const Meeting& meeting) const;
   bool isSoft(int a, int b, const Meeting& meeting) const;
   Meeting meet(int a, int b, ImpactAxis axis) const;
-  void addRows(const Contact& contact, bool is_impact);
+  void addRows(const Contact& contact, Purpose purpose);
+  void solveGroup(Purpose purpose);
+  void partGroup(double now);
   int localOf(int id);
   int findContact(int a, int b) const;
   int makeContact(int a, int b, ImpactAxis axis);
