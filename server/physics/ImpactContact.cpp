@@ -21,7 +21,8 @@ bool ImpactWorld::isSoft(int a, int b, const Meeting& meeting) const {
   const double restitution = restitutionOf(m_bodies[a], m_bodies[b]);
   const double bounce = restitution * meeting.approach;
   if (bounce <= meeting.rest_speed) return true;
-  if (restitution < 1 && (m_motions[a].events_at_once > kMostAtOnce || m_motions[b].events_at_once > kMostAtOnce)) {
+  if (restitution < 1 &&
+      (m_motions[a].events_at_once > kMostAtOnce || m_motions[b].events_at_once > kMostAtOnce)) {
     return true;  // nothing has moved since: the height left is none
   }
   double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, meeting.touch.normal);
@@ -275,8 +276,8 @@ void ImpactWorld::settleGroup(int body, double now) {
       continue;
     }
     const Vec2 gain = m_motions[contact.second].acceleration - m_motions[contact.first].acceleration;
-    const double scale = length(m_bodies[contact.first].acceleration) +
-                         length(m_bodies[contact.second].acceleration);
+    const double scale =
+        length(m_bodies[contact.first].acceleration) + length(m_bodies[contact.second].acceleration);
     if (dot(gain, normal.direction) > 1e-12 * scale) endContact(c, now);
   }
 }

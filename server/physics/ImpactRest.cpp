@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kUnbounded = 1e300;
 constexpr double kRegular = 1e-12;  // of a row's own coupling, so that equal rows have one answer
-constexpr int kFrictionRounds = 60;
+constexpr int kFrictionRounds = 200;
 constexpr int kSweeps = 400;
 constexpr int kRefinements = 10;
 constexpr int kMostStored = 4'000'000;  // of the factor; 32 MB
@@ -165,9 +165,9 @@ bool RestSolver::solveWithinBounds() {
       return m_side[i] == Side::kLow ? rate < -rate_slack : rate > rate_slack;
     };
     const auto flip = [&](int i) {
-      m_side[i] = m_side[i] != Side::kFree        ? Side::kFree
-                  : m_rows[i].push < m_low[i]     ? Side::kLow
-                                                  : Side::kHigh;
+      m_side[i] = m_side[i] != Side::kFree    ? Side::kFree
+                  : m_rows[i].push < m_low[i] ? Side::kLow
+                                              : Side::kHigh;
     };
     int bad = 0, last = -1;
     for (int i = 0; i < count; ++i) {
@@ -190,28 +190,36 @@ bool RestSolver::solveWithinBounds() {
   return false;
 }
 
-// True if they are where they were.
-bool RestSolver::setFrictionBounds() {
+// True if they are where they were. How far they go of the way is Irons and Tuck's (1969) factor: the
+// iteration is linear most of the time, and slow where a body is wedged.
+bool RestSolver::setFrictionBounds(int round) {
+  double largest = 0, product = 0, square = 0;
   bool is_same = true;
-  double largest = 0;
   for (const RestRow& row : m_rows) largest = std::max(largest, std::fabs(row.push));
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
     const RestRow& row = m_rows[i];
     if (row.normal < 0) continue;
-    const double most = row.friction * std::max(m_rows[row.normal].push, 0.0);
-    const double low = row.slip < 0 ? most : -most, high = row.slip > 0 ? -most : most;
-    if (std::fabs(low - m_low[i]) > 1e-14 * largest || std::fabs(high - m_high[i]) > 1e-14 * largest) {
-      is_same = false;
-    }
-    m_low[i] = low;
-    m_high[i] = high;
-    if (low == high) {
+    const double off = row.friction * std::max(m_rows[row.normal].push, 0.0) - m_limit[i];
+    is_same = is_same && std::fabs(off) <= 1e-14 * (1 + row.friction) * largest;
+    product += m_off[i] * (off - m_off[i]);
+    square += (off - m_off[i]) * (off - m_off[i]);
+    m_off[i] = off;
+  }
+  if (is_same) return true;
+  m_relaxation = round < 2 || square == 0 ? 1 : std::clamp(-m_relaxation * product / square, 0.2, 50.0);
+  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    const RestRow& row = m_rows[i];
+    if (row.normal < 0) continue;
+    m_limit[i] = std::max(m_limit[i] + m_relaxation * m_off[i], 0.0);
+    m_low[i] = row.slip < 0 ? m_limit[i] : -m_limit[i];
+    m_high[i] = row.slip > 0 ? -m_limit[i] : m_limit[i];
+    if (m_low[i] == m_high[i]) {
       m_side[i] = Side::kLow;
     } else if (m_side[i] == Side::kLow && row.slip == 0 && rateOf(row) < 0) {
       m_side[i] = Side::kFree;
     }
   }
-  return is_same;
+  return false;
 }
 
 // Projected Gauss and Seidel: what is left when the direct way fails.
@@ -243,6 +251,8 @@ bool RestSolver::solve(const std::vector<double>& inverse_masses) {
   m_effort.assign(inverse_masses.size(), 0);
   m_low.assign(count, 0);
   m_high.assign(count, 0);
+  m_limit.assign(count, 0);
+  m_off.assign(count, 0);
   m_side.assign(count, Side::kLow);
   m_index.assign(count, -1);
   m_rows_begin.assign(inverse_masses.size() + 1, 0);
@@ -275,7 +285,7 @@ bool RestSolver::solve(const std::vector<double>& inverse_masses) {
 
   for (int round = 0; round < kFrictionRounds; ++round) {
     if (!solveWithinBounds()) break;
-    if (!has_friction || setFrictionBounds()) return true;
+    if (!has_friction || setFrictionBounds(round)) return true;
   }
   sweep();
   return false;

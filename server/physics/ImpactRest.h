@@ -10,20 +10,20 @@ namespace naiad::physics {
 
 /// One direction of one contact: a push x of `second` along `direction` and of `first` against it.
 struct RestRow {
-  int first;       ///< index into the masses given to solve(); −1: immovable
-  int second;      ///< likewise; at least one is not −1
-  Vec2 direction;  ///< unit length, from first to second
-  double bias;     ///< what the difference of velocities (or accelerations) along it is without any push
-  int normal = -1;       ///< of a friction row: the index of its contact's row, which comes before it
-  double friction = 0;   ///< of a friction row: µ
-  double slip = 0;       ///< of a friction row: 0 holds within the cone; ±1: slides that way already
-  double push = 0;       ///< the result; before solve(): a guess, of which only the sign counts
+  int first;            ///< index into the masses given to solve(); −1: immovable
+  int second;           ///< likewise; at least one is not −1
+  Vec2 direction;       ///< unit length, from first to second
+  double bias;          ///< what the difference of velocities (or accelerations) along it is without any push
+  int normal = -1;      ///< of a friction row: the index of its contact's row, which comes before it
+  double friction = 0;  ///< of a friction row: µ
+  double slip = 0;      ///< of a friction row: 0 holds within the cone; ±1: slides that way already
+  double push = 0;      ///< the result; before solve(): a guess, of which only the sign counts
 };
 
 /// Finds pushes >= 0 that leave no approach, none where bodies part; friction within µ·push, against the
 /// slip. Direct: block principal pivoting (Júdice and Pires 1994) on a sparse Cholesky factorisation of the
-/// rows that push; friction cones by fixed-point iteration between the two kinds. Rows that say the same twice
-/// share the load. Deterministic; keeps its memory.
+/// rows that push; friction cones by fixed-point iteration between the two kinds. Rows that say the same
+/// twice share the load. Deterministic; keeps its memory.
 class RestSolver {
  public:
   std::vector<RestRow>& rows() { return m_rows; }
@@ -49,7 +49,7 @@ class RestSolver {
   bool factorise();
   double couple(const RestRow& a, const RestRow& b) const;
   double rateOf(const RestRow& row) const;
-  bool setFrictionBounds();
+  bool setFrictionBounds(int round);
   void sweep();
 
   std::vector<RestRow> m_rows;
@@ -57,12 +57,14 @@ class RestSolver {
   std::vector<Vec2> m_change;
   std::vector<double> m_effort;  // the sum of all pushes' sizes, over the mass
   std::vector<double> m_low, m_high;
+  std::vector<double> m_limit, m_off;  // of friction rows: the cone, and by how much it was wrong
   std::vector<Side> m_side;
   std::vector<int> m_rows_begin, m_rows_of;  // the rows of each body
   std::vector<int> m_free, m_index;          // free rows, and their index among them
   std::vector<int> m_skyline, m_start;       // the first column of each row of the factor, where it is stored
   std::vector<double> m_factor, m_right;
   double m_bias_scale = 0;
+  double m_relaxation = 1;
 };
 
 }  // namespace naiad::physics

@@ -26,7 +26,8 @@ constexpr SweptBox join(const SweptBox& a, const SweptBox& b) {
           {a.high.x > b.high.x ? a.high.x : b.high.x, a.high.y > b.high.y ? a.high.y : b.high.y}};
 }
 
-/// A leaf per body; n·log n to build, n to refit, about log n to ask or to let one leaf grow. Keeps its memory.
+/// A leaf per body; n·log n to build, n to refit, about log n to ask or to let one leaf grow. Keeps its
+/// memory.
 class ImpactTree {
  public:
   /// Takes `boxes[i]` for the bodies `ids[i]`, ids below `id_count`. Refits the old tree if the ids are the

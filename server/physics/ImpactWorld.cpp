@@ -222,8 +222,9 @@ void ImpactWorld::forecastPair(int i, int j, double now) {
   const int found = findContact(first, second);
   const bool is_resting = found >= 0 && m_contacts[found].is_resting;
   const ImpactForecast impact = forecastImpact(a, b, motion, left, rest_speed, is_resting);
-  Pending next = {impact.time, first, second, m_motions[first].generation, m_motions[second].generation,
-                  Kind::kImpact, impact.axis};
+  Pending next = {
+      impact.time,   first,      second, m_motions[first].generation, m_motions[second].generation,
+      Kind::kImpact, impact.axis};
   const auto take = [&](double time, Kind kind) {
     if (time < 0 || time > left || (next.time >= 0 && next.time <= time)) return;
     next.time = time;

@@ -18,8 +18,8 @@ namespace naiad::physics {
 
 /// A contact began or ended. A bounce does both.
 struct ImpactEvent {
-  double time;     ///< since the start of the tick
-  int first;       ///< the lower id
+  double time;  ///< since the start of the tick
+  int first;    ///< the lower id
   int second;
   bool is_begin;
   double impulse;  ///< along the normal, on second, when it begins
@@ -83,14 +83,14 @@ class ImpactWorld {
 
  private:
   struct Motion {
-    double time = 0;     // when place and velocity hold, within the tick
-    Vec2 acceleration;   // with what contacts add
+    double time = 0;    // when place and velocity hold, within the tick
+    Vec2 acceleration;  // with what contacts add
     unsigned generation = 0;
     int first_contact = -1;
     int events = 0;          // in this tick
     int events_at_once = 0;  // at the moment of the last one
     double last_event = -1;
-    int local = -1;      // index in the group at hand
+    int local = -1;  // index in the group at hand
     bool exists = false;
     bool is_frozen = false;
     bool is_dirty = false;    // set() since the last step

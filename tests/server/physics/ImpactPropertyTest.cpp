@@ -122,7 +122,7 @@ TEST(ImpactProperty, NothingOverlapsAndWhatIsKeptIsKept) {
     solves += world.counters().rest_solves;
     unconverged += world.counters().unconverged;
   }
-  EXPECT_GT(impacts, 100000);
+  EXPECT_GT(impacts, 50000);
   RecordProperty("impacts", static_cast<int>(impacts));
   EXPECT_LE(static_cast<double>(unconverged), 1e-3 * static_cast<double>(solves));
 }

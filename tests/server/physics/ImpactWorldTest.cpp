@@ -1,16 +1,15 @@
-#include "ImpactWorld.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
+#include "ImpactWorld.h"
 #include "Quad.h"
 
 namespace naiad::physics {
 namespace {
 
-constexpr double kTicks = 30;                      // per second
+constexpr double kTicks = 30;                        // per second
 constexpr double kGravity = 10 / (kTicks * kTicks);  // 10 per second²
 
 ImpactBody box(Vec2 at, Vec2 half = {0.5, 0.5}) {
@@ -233,6 +232,134 @@ TEST(ImpactWorld, ASlidingBoxStopsWhereItsFrictionSays) {
     for (int tick = 0; tick < 1000; ++tick) world.step();
     EXPECT_NEAR(at(world, id).x / (v * v / (2 * 0.5 * kGravity)), 1, 1e-9);
     EXPECT_EQ(world.body(id).velocity, Vec2{});
+  }
+}
+
+// What moves as told carries and pushes, and feels nothing.
+TEST(ImpactWorld, APlatformCarriesAndPushes) {
+  ImpactWorld world;
+  ImpactBody platform = fixed(box({0, 1}, {5, 1}));
+  platform.friction = 1;
+  platform.velocity = {0.001, -0.1};  // up
+  const int lift = world.add(platform);
+  ImpactBody load = falling(box({0, -0.5}));
+  load.friction = 1;
+  load.velocity = platform.velocity;
+  const int id = world.add(load);
+  for (int tick = 1; tick <= 100; ++tick) {
+    world.step();
+    EXPECT_NEAR(at(world, id).y, -0.5 - 0.1 * tick, 1e-9);
+    EXPECT_NEAR(at(world, id).x, 0.001 * tick, 1e-9);
+  }
+  EXPECT_EQ(world.body(lift).velocity, platform.velocity);
+  platform.place = world.body(lift).place;
+  platform.velocity = {};
+  world.set(lift, platform);  // it stops: the load goes on up, as it must
+  world.step();
+  EXPECT_LT(world.body(id).velocity.y, -0.08);
+}
+
+// Over seams of tiles at any speed: no edge to stumble on, no force along the way.
+TEST(ImpactWorld, SeamsOfTilesAreNotFelt) {
+  for (const bool is_ball : {false, true}) {
+    for (const double v : {0.013, 0.3, 7.0}) {
+      ImpactWorld world;
+      for (int i = 0; i < 40; ++i) world.add(fixed(box({i + 0.1, 0.3}, {0.5, 0.5})));
+      const int id = world.add(falling(moving(is_ball ? ball({1, -0.7}) : box({1, -0.7}), {v, 0}, 0.5)));
+      const int ticks = static_cast<int>(35 / v);
+      for (int tick = 0; tick < ticks; ++tick) world.step();
+      EXPECT_NEAR(at(world, id).x, 1 + v * ticks, 1e-9) << is_ball << v;
+      EXPECT_NEAR(at(world, id).y, -0.7, 1e-9) << is_ball << v;
+    }
+  }
+}
+
+TEST(ImpactWorld, WhatLosesItsSupportFalls) {
+  ImpactWorld world;
+  const int floor = world.add(fixed(box({0, 1}, {5, 1})));
+  const int lower = world.add(falling(box({0, -0.5}))), upper = world.add(falling(box({0, -1.5})));
+  for (int tick = 0; tick < 10; ++tick) world.step();
+  EXPECT_NEAR(at(world, upper).y, -1.5, 1e-12);
+  EXPECT_TRUE(world.remove(floor));
+  for (int tick = 0; tick < 10; ++tick) world.step();
+  EXPECT_NEAR(at(world, lower).y, -0.5 + 0.5 * kGravity * 100, 1e-12);
+  EXPECT_NEAR(at(world, upper).y, -1.5 + 0.5 * kGravity * 100, 1e-12);
+}
+
+// A box slides off a table's edge and flies from there, on the parabola that begins at the edge.
+TEST(ImpactWorld, ABoxLeavesTheEdgeAtItsMoment) {
+  ImpactWorld world;
+  world.add(fixed(box({0, 1}, {2, 1})));
+  const int id = world.add(falling(moving(box({0, -0.5}), {0.3, 0})));
+  for (int tick = 0; tick < 20; ++tick) world.step();
+  const double flight = 20 - 2.5 / 0.3;
+  EXPECT_NEAR(at(world, id).y, -0.5 + 0.5 * kGravity * flight * flight, 1e-9);
+  EXPECT_NEAR(at(world, id).x, 6, 1e-12);
+}
+
+TEST(ImpactWorld, TellsWhenContactsBeginAndEnd) {
+  ImpactWorld world;
+  const int wall = world.add(fixed(box({10, 0}, {1, 5})));
+  ImpactBody body = moving(box({8, 0}), {0.8, 0}, 0.5);
+  body.inverse_mass = 0.5;
+  const int id = world.add(body);
+  world.step();
+  ASSERT_EQ(world.events().size(), 2U);
+  const ImpactEvent begin = world.events()[0], end = world.events()[1];
+  EXPECT_TRUE(begin.is_begin);
+  EXPECT_FALSE(end.is_begin);
+  EXPECT_EQ(begin.first, wall);
+  EXPECT_EQ(begin.second, id);
+  EXPECT_NEAR(begin.time, 0.5 / 0.8, 1e-15);
+  EXPECT_EQ(end.time, begin.time);
+  EXPECT_NEAR(begin.impulse, 2 * 0.8 * 1.5, 1e-12);
+  EXPECT_EQ(begin.normal, (Vec2{-1, 0}));
+  world.step();
+  EXPECT_TRUE(world.events().empty());
+
+  ImpactWorld resting;  // one that stays: begins once, and ends when it is lifted
+  resting.add(fixed(box({0, 1}, {5, 1})));
+  const int lying = resting.add(falling(box({0, -0.6})));
+  int begun = 0, ended = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    if (tick == 40) resting.set(lying, moving(resting.body(lying), {0, -0.01}));
+    resting.step();
+    for (const ImpactEvent& event : resting.events()) ++(event.is_begin ? begun : ended);
+    if (tick == 39) {
+      EXPECT_EQ(begun - ended, 1);
+    }
+  }
+  EXPECT_EQ(begun, 2);  // it falls back
+  EXPECT_EQ(ended, 1);
+}
+
+// Balls heaped on two others: each force along its line of centres, until the lower ones slide apart.
+TEST(ImpactWorld, ABallBetweenTwoWedgesStaysOrPartsThem) {
+  for (const bool is_held : {true, false}) {
+    ImpactWorld world;
+    world.add(fixed(box({0, 1}, {50, 1})));
+    ImpactBody left = falling(ball({-0.6, -0.5})), right = falling(ball({0.6, -0.5}));
+    if (is_held) {
+      left = fixed(left);
+      right = fixed(right);
+      left.acceleration = right.acceleration = {};
+    }
+    world.add(left);
+    world.add(right);
+    const double height = 0.5 + std::sqrt(1 - 0.36);
+    const int id = world.add(falling(ball({0, -height})));
+    for (int tick = 0; tick < 10; ++tick) world.step();
+    if (is_held) {
+      EXPECT_NEAR(at(world, id).y, -height, 1e-9);
+    } else {
+      // Energy: what the upper ball loses in height is motion now, for nothing bounces and nothing rubs.
+      double energy = 0;
+      for (int i = 1; i <= 3; ++i) energy += 0.5 * lengthSquared(world.body(i).velocity);
+      // The force keeps its direction from one look at the contact to the next: first order.
+      EXPECT_NEAR(energy / (kGravity * (at(world, id).y + height)), 1, 3e-2);
+      EXPECT_GT(at(world, 2).x, 0.7);
+      EXPECT_NEAR(at(world, 1).x, -at(world, 2).x, 1e-9);
+    }
   }
 }
 
