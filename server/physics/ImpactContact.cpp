@@ -50,7 +50,7 @@ void ImpactWorld::collide(int a, int b, ImpactAxis axis, double now) {
   m_contacts[contact].axis = axis;
   double impulse = 0;
   if (isSoft(a, b, meeting)) {
-    impulse = pushGroup(contact, now);
+    if (meeting.approach > 0) impulse = pushGroup(contact, now);
   } else {
     pushPair(a, b, meeting);
     impulse = (1 + restitutionOf(first, second)) * meeting.approach / masses;
