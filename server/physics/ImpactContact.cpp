@@ -49,7 +49,15 @@ void ImpactWorld::collide(int a, int b, ImpactAxis axis, double now) {
   if (is_new) contact = makeContact(a, b, axis);
   m_contacts[contact].axis = axis;
   double impulse = 0;
-  if (isSoft(a, b, meeting)) {
+  if (meeting.approach < 0) {
+    const double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, meeting.touch.normal);
+    // They part, but not by what a double can tell: the next impact is this one.
+    if (pressing > 0 && meeting.approach * meeting.approach <= 2 * pressing * kRestHeight) {
+      const Vec2 pull = (meeting.approach / masses) * meeting.touch.normal;
+      first.velocity -= first.inverse_mass * pull;
+      second.velocity += second.inverse_mass * pull;
+    }
+  } else if (isSoft(a, b, meeting)) {
     if (meeting.approach > 0) impulse = pushGroup(contact, now);
   } else {
     pushPair(a, b, meeting);
