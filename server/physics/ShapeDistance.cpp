@@ -76,6 +76,12 @@ Separation fromFace(const FaceSeparation& face, const TurnedShape& owner, bool o
   return {face.distance, -n, Feature::kFaceB, face.support, face.edge};
 }
 
+// A capsule's only edge has two sides.
+FaceSeparation facing(const TurnedShape& shape, std::int32_t edge, const TurnedShape& other, Vec2 offset) {
+  if (shape.count > 2) return faceSeparation(shape, edge, other, offset);
+  return bestFace(shape, other, offset, std::numeric_limits<double>::infinity());
+}
+
 Separation fromVertices(Vec2 apart, std::int32_t index_a, std::int32_t index_b) {
   const double distance = length(apart);
   // Equal points have no direction; any will do, always the same one.
@@ -139,8 +145,8 @@ Separation separationFrom(const TurnedShape& a, const TurnedShape& b, Vec2 offse
     keepNearer(best, of_a ? betweenEdges(a, face.edge, b, beside, offset)
                           : betweenEdges(a, beside, b, face.edge, offset));
   }
-  if (best.feature == Feature::kFaceA) return fromFace(faceSeparation(a, best.index_a, b, offset), a, true);
-  if (best.feature == Feature::kFaceB) return fromFace(faceSeparation(b, best.index_b, a, -offset), b, false);
+  if (best.feature == Feature::kFaceA) return fromFace(facing(a, best.index_a, b, offset), a, true);
+  if (best.feature == Feature::kFaceB) return fromFace(facing(b, best.index_b, a, -offset), b, false);
   const Vec2 apart = offset + (b.vertices[at(best.index_b)] - a.vertices[at(best.index_a)]);
   return fromVertices(apart, best.index_a, best.index_b);
 }

@@ -74,10 +74,6 @@ double safeTime(const Corners& a, const Corners& b, double place, double speed, 
   return time;
 }
 
-double coreReach(const Shape& shape, double turn) {
-  return turn == 0 ? 0 : shape.reach * turn * turn;
-}
-
 }  // namespace
 
 double impactTolerance(const Shape& a, const Shape& b, Vec2 offset, Vec2 relative_displacement) {
@@ -89,12 +85,12 @@ ImpactTime timeOfImpact(const Shape& a, const RigidMotion& motion_a, const Shape
                         const RigidMotion& motion_b, Vec2 offset, double target) {
   const Vec2 way = motion_b.displacement - motion_a.displacement;
   const double tolerance = impactTolerance(a, b, offset, way), radii = a.radius + b.radius;
+  const double speed = length(way);
   ImpactTime result;
   const double around = a.reach + b.reach + radii + target;
   const Span span = nearTimes(offset, way, around * (1 + 1e-6) + 16 * tolerance);
   if (span.from > span.to) return result;
 
-  const double bend = coreReach(a, motion_a.turn) + coreReach(b, motion_b.turn);
   TurnedShape turned_a, turned_b;
   double level = target, time = span.from;
   for (result.iterations = 1; result.iterations <= kImpactIterations; ++result.iterations) {
@@ -114,11 +110,21 @@ ImpactTime timeOfImpact(const Shape& a, const RigidMotion& motion_a, const Shape
       return result;
     };
     if (gap - level <= tolerance) return hit();
-    // A's corners count forwards along the axis, B's backwards.
-    const Corners of_a(turned_a, s.normal, motion_a.turn), of_b(turned_b, -s.normal, motion_b.turn);
+    // An axis across an edge turns with it, or else the edge's far end would seem to come nearer.
+    const double axis_turn = s.feature == Feature::kFaceA   ? motion_a.turn
+                             : s.feature == Feature::kFaceB ? motion_b.turn
+                                                            : 0;
+    const double turn_a = motion_a.turn - axis_turn, turn_b = motion_b.turn - axis_turn;
     const double left = span.to - time;
-    const double safe =
-        safeTime(of_a, of_b, dot(s.normal, apart) - radii - level, dot(s.normal, way), bend, left);
+    // No way along the axis bends more than this: the corners about their origins, and these about the axis.
+    const double farthest = std::max(length(apart), length(offset + span.to * way));
+    const double bend = a.reach * turn_a * turn_a + b.reach * turn_b * turn_b +
+                        std::fabs(axis_turn) * (farthest * std::fabs(axis_turn) + 2 * speed);
+    // A's corners count forwards along the axis, B's backwards.
+    const Corners of_a(turned_a, s.normal, turn_a), of_b(turned_b, -s.normal, turn_b);
+    const double place = dot(s.normal, apart) - radii - level;
+    const double rate = dot(s.normal, way) + axis_turn * dot(perpendicular(s.normal), apart);
+    const double safe = safeTime(of_a, of_b, place, rate, bend, left);
     if (safe >= left) return result;
     if (time + safe == time) return hit();  // nearer than time can tell
     time += safe;

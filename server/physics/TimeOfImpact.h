@@ -34,7 +34,7 @@ struct ImpactTime {
   std::int32_t iterations = 0;
 };
 
-inline constexpr std::int32_t kImpactIterations = 100;
+inline constexpr std::int32_t kImpactIterations = 200;
 
 /// How near counts as touching, for shapes of this size and this far from each other.
 double impactTolerance(const Shape& a, const Shape& b, Vec2 offset, Vec2 relative_displacement);
