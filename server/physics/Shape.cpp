@@ -134,9 +134,10 @@ ShapeStatus makePolygon(std::span<const Vec2> points, double radius, Shape& shap
   // Every point lies on the inner side of every edge, by more than nothing: that refuses stars, too.
   const std::size_t count = points.size();
   for (std::size_t i = 0; i < count; ++i) {
+    if (length(points[(i + 1) % count] - points[i]) < kSmallestCorner * size) return ShapeStatus::kTooSmall;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
     const Vec2 a = points[i], b = points[(i + 1) % count];
-    const double edge = length(b - a);
-    if (edge < kSmallestCorner * size) return ShapeStatus::kTooSmall;
     for (std::size_t k = 2; k < count; ++k) {
       if (!(cross(b - a, points[(i + k) % count] - a) > 0)) return ShapeStatus::kNotConvex;
     }

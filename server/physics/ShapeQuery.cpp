@@ -29,7 +29,7 @@ void enterEdge(Vec2 first, Vec2 second, Vec2 normal, Vec2 from, Vec2 way, RayHit
   const double fraction = -height / rate;
   if (fraction > 1 || (best.hit && fraction >= best.fraction)) return;
   // Which side the ends of the edge lie on is asked of the way itself, so that no corner lets it through.
-  if (cross(first - from, way) < 0 || cross(second - from, way) > 0) return;
+  if (cross(first - from, way) > 0 || cross(second - from, way) < 0) return;
   best = {true, fraction, normal};
 }
 
