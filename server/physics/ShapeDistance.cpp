@@ -105,14 +105,23 @@ FaceSeparation faceSeparation(const TurnedShape& shape, std::int32_t edge, const
 }
 
 FaceSeparation bestFace(const TurnedShape& shape, const TurnedShape& other, Vec2 offset, double enough) {
-  FaceSeparation best;
-  if (shape.count == 1) return best;
+  if (shape.count == 1) return {};
+  // Which corner it is costs more than how far; it is asked for the best edge alone.
+  double most = -std::numeric_limits<double>::infinity();
+  std::int32_t best = 0;
   for (std::int32_t i = 0; i < shape.count; ++i) {
-    const FaceSeparation face = faceSeparation(shape, i, other, offset);
-    if (face.distance > best.distance) best = face;
-    if (best.distance > enough) break;
+    const Vec2 n = shape.normals[at(i)];
+    double least = dot(n, other.vertices[0]);
+    for (std::int32_t j = 1; j < other.count; ++j) {
+      const double s = dot(n, other.vertices[at(j)]);
+      least = s < least ? s : least;
+    }
+    const double distance = dot(n, offset) + (least - dot(n, shape.vertices[at(i)]));
+    if (distance > most) most = distance, best = i;
+    if (distance > enough) break;
   }
-  return best;
+  if (other.count == 1) return {most, best, 0};
+  return faceSeparation(shape, best, other, offset);
 }
 
 Separation separationFrom(const TurnedShape& a, const TurnedShape& b, Vec2 offset,

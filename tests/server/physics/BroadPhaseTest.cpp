@@ -1,9 +1,8 @@
-#include "BroadPhase.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
 
+#include "BroadPhase.h"
 #include "RandomShapes.h"
 #include "ShapeQuery.h"
 #include "tests/shared/net/AllocationCount.h"
@@ -123,7 +122,8 @@ TEST(BroadPhase, QueriesFindWhatAllAgainstAllFinds) {
   SplitMix64 random(2);
   BroadPhase broad;
   std::vector<Body> bodies = someBodies(random, 500, 60, 0);
-  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].proxy = broad.add(idOf(i), tight(bodies[i]), true);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    bodies[i].proxy = broad.add(idOf(i), tight(bodies[i]), true);
   int met = 0;
   for (int k = 0; k < 2000; ++k) {
     const GridBounds area = gridBounds(placeAt(anyVec(random, 60)), {{-2, -1}, {3, 4}}, 0);
@@ -168,7 +168,8 @@ TEST(BroadPhase, QueriesFindWhatAllAgainstAllFinds) {
 TEST(BroadPhase, FarFromTheOriginItFindsTheSame) {
   SplitMix64 random_near(3), random_far(3);
   BroadPhase near, far;
-  std::vector<Body> here = someBodies(random_near, 400, 50, 0), there = someBodies(random_far, 400, 50, 1'000'000'000);
+  std::vector<Body> here = someBodies(random_near, 400, 50, 0),
+                    there = someBodies(random_far, 400, 50, 1'000'000'000);
   for (std::size_t i = 0; i < here.size(); ++i) {
     here[i].proxy = near.add(idOf(i), wide(here[i]), here[i].moves);
     there[i].proxy = far.add(idOf(i), wide(there[i]), there[i].moves);
@@ -213,7 +214,8 @@ TEST(BroadPhase, TheTreeStaysLowHoweverBodiesCome) {
   // In a row, left to right; then all in one place.
   BroadPhase broad;
   const Bounds unit = {{-0.5, -0.5}, {0.5, 0.5}};
-  for (std::uint32_t i = 0; i < 10000; ++i) broad.add(i, gridBounds({2 * std::int64_t{i}, 0, 0, 0}, unit, 0.1), true);
+  for (std::uint32_t i = 0; i < 10000; ++i)
+    broad.add(i, gridBounds({2 * std::int64_t{i}, 0, 0, 0}, unit, 0.1), true);
   EXPECT_LE(broad.tree().height(), 60);
   EXPECT_EQ(broad.updatePairs().size(), 0U);
   std::printf("tree: height %d for a row of 10,000\n", broad.tree().height());

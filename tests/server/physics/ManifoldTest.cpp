@@ -1,10 +1,9 @@
-#include "Manifold.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <cstring>
 
+#include "Manifold.h"
 #include "Place.h"
 #include "RandomShapes.h"
 #include "ShapeDistance.h"
@@ -68,8 +67,9 @@ TEST(ShapeDistance, HoldsForParallelEdgesAndPointsOnOneLine) {
       ShapeStatus status = ShapeStatus::kTooFew;
       while (status != ShapeStatus::kOk) {
         const Vec2 centre = {coarse(1), coarse(1)};
-        status = random.unit() < 0.5 ? makeBox(std::fabs(coarse(1)), std::fabs(coarse(1)), centre, {}, 0, shape)
-                                     : makeCapsule(centre, centre + Vec2{coarse(2), 0}, 0.25, shape);
+        status = random.unit() < 0.5
+                     ? makeBox(std::fabs(coarse(1)), std::fabs(coarse(1)), centre, {}, 0, shape)
+                     : makeCapsule(centre, centre + Vec2{coarse(2), 0}, 0.25, shape);
       }
     }
     const Rotation q = random.unit() < 0.3 ? Rotation{} : anyRotation(random);
@@ -183,7 +183,8 @@ TEST(Manifold, FarFromTheOriginItHasTheSameBits) {
     far_a.cell_x += 1'000'000'000, far_b.cell_x += 1'000'000'000;
     far_a.cell_y -= 999'999'999, far_b.cell_y -= 999'999'999;
     Manifold near, far;
-    ASSERT_EQ(collide(a, qa, b, qb, place_b - place_a, 0.2, near), collide(a, qa, b, qb, far_b - far_a, 0.2, far));
+    ASSERT_EQ(collide(a, qa, b, qb, place_b - place_a, 0.2, near),
+              collide(a, qa, b, qb, far_b - far_a, 0.2, far));
     ASSERT_EQ(near.count, far.count);
     if (near.count == 0) continue;
     ASSERT_EQ(near.normal, far.normal);
@@ -226,7 +227,8 @@ TEST(Manifold, IdsAndNormalStayWhileBoxesRockOnEachOther) {
   ASSERT_TRUE(collide(below, {}, above, {}, {0.1, -0.999}, 0.05, first));
   ReferenceFace kept = first.reference;
   for (int i = 0; i < 10000; ++i) {
-    const Rotation qa = rotationBy(between(random, -1e-5, 1e-5)), qb = rotationBy(between(random, -1e-5, 1e-5));
+    const Rotation qa = rotationBy(between(random, -1e-5, 1e-5)),
+                   qb = rotationBy(between(random, -1e-5, 1e-5));
     TurnedShape a, b;
     turn(below, qa, a);
     turn(above, qb, b);

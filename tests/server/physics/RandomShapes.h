@@ -30,12 +30,14 @@ inline Shape anyShape(SplitMix64& random) {
     const double radius = random.unit() < 0.5 ? 0 : between(random, 0.01, 0.5);
     ShapeStatus status = ShapeStatus::kTooFew;
     const double kind = random.unit();
+    // Drawn before the calls: compilers evaluate arguments in different orders.
+    const double first = between(random, 0.1, 1), second = between(random, 0.1, 1);
     if (kind < 0.2) {
-      status = makeCircle(between(random, 0.1, 1), centre, shape);
+      status = makeCircle(first, centre, shape);
     } else if (kind < 0.4) {
-      status = makeCapsule(centre, centre + anyVec(random, 1), between(random, 0.05, 0.5), shape);
+      status = makeCapsule(centre, centre + anyVec(random, 1), 0.5 * second, shape);
     } else if (kind < 0.6) {
-      status = makeBox(between(random, 0.1, 1), between(random, 0.1, 1), centre, anyRotation(random), radius, shape);
+      status = makeBox(first, second, centre, anyRotation(random), radius, shape);
     } else {
       std::vector<Vec2> points;
       const int count = 3 + static_cast<int>(random.unit() * 20);
@@ -55,7 +57,8 @@ inline double pointToSegment(Vec2 p, Vec2 a, Vec2 b) {
 
 inline std::vector<Vec2> placed(const Shape& shape, Rotation q, Vec2 by) {
   std::vector<Vec2> points;
-  for (int i = 0; i < shape.count; ++i) points.push_back(by + q * shape.vertices[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < shape.count; ++i)
+    points.push_back(by + q * shape.vertices[static_cast<std::size_t>(i)]);
   return points;
 }
 
@@ -69,7 +72,8 @@ inline bool inCore(const std::vector<Vec2>& core, Vec2 p) {
 
 inline bool crossing(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   // On one line all the products below are rounding.
-  const double from = std::min(dot(c - a, b - a), dot(d - a, b - a)), to = std::max(dot(c - a, b - a), dot(d - a, b - a));
+  const double from = std::min(dot(c - a, b - a), dot(d - a, b - a)),
+               to = std::max(dot(c - a, b - a), dot(d - a, b - a));
   if (from > lengthSquared(b - a) || to < 0) return false;
   return cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
 }

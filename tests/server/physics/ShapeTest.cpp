@@ -1,5 +1,3 @@
-#include "Shape.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -8,6 +6,7 @@
 #include "Mass.h"
 #include "QuadReference.h"
 #include "RandomShapes.h"
+#include "Shape.h"
 #include "ShapeQuery.h"
 #include "ShapeRaster.h"
 
@@ -38,8 +37,8 @@ TEST(Rotation, TurningIsExactAndStaysOnTheCircle) {
       ASSERT_NEAR(q.c * q.c + q.s * q.s, 1, 7e-16);
     }
     const Quad whole = static_cast<Quad>(angle) * 10000;
-    const double off = std::fabs(static_cast<double>(static_cast<Quad>(q.c) * sinq(whole) -
-                                                     static_cast<Quad>(q.s) * cosq(whole)));
+    const double off = std::fabs(
+        static_cast<double>(static_cast<Quad>(q.c) * sinq(whole) - static_cast<Quad>(q.s) * cosq(whole)));
     worst = std::max(worst, off);
     EXPECT_LE(off, 3e-12) << angle;  // 10,000 turns: 3e-16 each
   }
@@ -174,7 +173,8 @@ TEST(Mass, ACompoundOfPartsIsTheWhole) {
   EXPECT_EQ(both.centre, Vec2{});
   EXPECT_LE(length(massOf(parts, std::array<double, 2>{3, 3}).centre), 1e-15);
   // Overlaps count twice.
-  EXPECT_NEAR(massOf(std::array<Shape, 2>{whole, whole}, std::array<double, 2>{3, 3}).mass, 2 * one.mass, 1e-13);
+  EXPECT_NEAR(massOf(std::array<Shape, 2>{whole, whole}, std::array<double, 2>{3, 3}).mass, 2 * one.mass,
+              1e-13);
 }
 
 TEST(Mass, TurningAndMovingTheShapeMovesTheCentreOnly) {
@@ -265,7 +265,8 @@ TEST(ShapeRaster, CoversTheCellsWhoseCentresAreInside) {
     turn(shape, q, placed);
     rasterise(placed, centre, aspect, spans);
     for (int row = -40; row <= 40; ++row) {
-      const auto span = std::find_if(spans.begin(), spans.end(), [&](const CellSpan& s) { return s.row == row; });
+      const auto span =
+          std::find_if(spans.begin(), spans.end(), [&](const CellSpan& s) { return s.row == row; });
       for (int column = -40; column <= 40; ++column) {
         const double distance =
             closestPoint(shape, inverse(q) * (Vec2{column * 1.0, row * aspect} - centre)).distance;
@@ -294,7 +295,8 @@ TEST(ShapeRaster, TheOutlineIsWhatHasANeighbourOutside) {
   for (std::size_t i = 0; i < spans.size(); ++i) {
     for (int c = spans[i].first; c <= spans[i].last; ++c) {
       const int row = spans[i].row;
-      const bool truth = !(inside(c - 1, row) && inside(c + 1, row) && inside(c, row - 1) && inside(c, row + 1));
+      const bool truth =
+          !(inside(c - 1, row) && inside(c + 1, row) && inside(c, row - 1) && inside(c, row + 1));
       EXPECT_EQ(isOutline(spans, i, c), truth) << c << ", " << row;
     }
   }

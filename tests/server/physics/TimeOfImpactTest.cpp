@@ -1,5 +1,3 @@
-#include "TimeOfImpact.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -7,6 +5,7 @@
 
 #include "RandomShapes.h"
 #include "ShapeDistance.h"
+#include "TimeOfImpact.h"
 
 namespace naiad::physics {
 namespace {
@@ -76,7 +75,8 @@ void judge(const Scene& s, int samples, Tally& tally, int i) {
     ++tally.apart;
     ASSERT_EQ(result.time, 1);
   }
-  // … and never before. What could touch are the circles around the origins: looked at finely while they meet.
+  // … and never before. What could touch are the circles around the origins: looked at finely while they
+  // meet.
   const double reach = s.a.reach + s.b.reach + s.a.radius + s.b.radius, speed = length(way);
   const double middle = speed > 0 ? -dot(s.offset, way) / (speed * speed) : 0.5;
   const double half = speed > 0 ? reach / speed : 1;
@@ -94,8 +94,8 @@ void run(const char* name, std::uint64_t seed, int count, double speed, double s
   for (int i = 0; i < count && !testing::Test::HasFatalFailure(); ++i) {
     judge(anyScene(random, speed, spin), samples, tally, i);
   }
-  std::printf("toi %s: %d hit, %d apart, %d touched before, %d unresolved; %.2f iterations, at most %d\n", name,
-              tally.hits, tally.apart, tally.touched, tally.unresolved,
+  std::printf("toi %s: %d hit, %d apart, %d touched before, %d unresolved; %.2f iterations, at most %d\n",
+              name, tally.hits, tally.apart, tally.touched, tally.unresolved,
               static_cast<double>(tally.iterations) / count, tally.most);
   EXPECT_EQ(tally.unresolved, 0);
   EXPECT_GT(tally.hits, count / 20);
