@@ -87,6 +87,28 @@ TEST(ShapeDistance, HoldsForParallelEdgesAndPointsOnOneLine) {
   }
 }
 
+TEST(ShapeDistance, LongCapsulesThatCrossOverlap) {
+  SplitMix64 random(8);
+  int crossed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Shape a, b;
+    ASSERT_EQ(makeCapsule({-3, 0}, {between(random, 0.1, 3), 0}, 0.1, a), ShapeStatus::kOk);
+    ASSERT_EQ(makeCapsule({-3, 0}, {between(random, 0.1, 3), 0}, 0.1, b), ShapeStatus::kOk);
+    const Rotation qa = anyRotation(random), qb = turned(qa, between(random, -0.3, 0.3));
+    const Vec2 offset = anyVec(random, 1);
+    TurnedShape ta, tb;
+    turn(a, qa, ta);
+    turn(b, qb, tb);
+    const Separation s = separation(ta, tb, offset);
+    if (test::slowDistance(test::placed(a, qa, {}), test::placed(b, qb, offset)) > 0) continue;
+    ++crossed;
+    ASSERT_LE(s.distance, 0) << i;
+    const Vec2 out = offset + (1e-9 - s.distance) * s.normal;
+    ASSERT_NEAR(test::slowDistance(test::placed(a, qa, {}), test::placed(b, qb, out)), 1e-9, 1e-12) << i;
+  }
+  EXPECT_GT(crossed, 1000);
+}
+
 TEST(Manifold, BoxesAlongTheAxesAreExact) {
   const Shape big = box(0.5, 0.5), plank = box(3, 0.3);
   for (const double gap : {0.0, 0x1p-20, -0x1p-20, 0x1p-45, -0x1p-8}) {
