@@ -58,18 +58,6 @@ Nearest betweenEdges(const TurnedShape& a, std::int32_t edge_a, const TurnedShap
   return best;
 }
 
-// Do the cores of two capsules cross? Beside each other on one line they do not, however the signs are
-// rounded.
-bool coresCross(const TurnedShape& a, const TurnedShape& b, Vec2 offset) {
-  if (a.count != 2 || b.count != 2) return false;
-  const Vec2 a1 = a.vertices[0], edge_a = a.vertices[1] - a1;
-  const Vec2 b1 = offset + b.vertices[0], b2 = offset + b.vertices[1], edge_b = b2 - b1;
-  const double x1 = dot(b1 - a1, edge_a), x2 = dot(b2 - a1, edge_a);
-  if ((x1 < 0 && x2 < 0) || (x1 > lengthSquared(edge_a) && x2 > lengthSquared(edge_a))) return false;
-  return (cross(edge_a, b1 - a1) > 0) != (cross(edge_a, b2 - a1) > 0) &&
-         (cross(edge_b, a1 - b1) > 0) != (cross(edge_b, a.vertices[1] - b1) > 0);
-}
-
 Separation fromFace(const FaceSeparation& face, const TurnedShape& owner, bool of_a) {
   const Vec2 n = owner.normals[at(face.edge)];
   if (of_a) return {face.distance, n, Feature::kFaceA, face.edge, face.support};
@@ -132,9 +120,10 @@ Separation separationFrom(const TurnedShape& a, const TurnedShape& b, Vec2 offse
   const TurnedShape& owner = of_a ? a : b;
   const TurnedShape& other = of_a ? b : a;
   const Vec2 way = of_a ? offset : -offset;
-  // Polygons that overlap have no corners that are nearest. Two capsules' cores have no area to overlap with.
+  // Polygons that overlap have no corners that are nearest. Two capsules' cores have no area to overlap with;
+  // if they cross, the best edge has the other's nearest end in front of it.
   const bool flat = a.count <= 2 && b.count <= 2;
-  if (face.distance <= 0 && (!flat || coresCross(a, b, offset))) return fromFace(face, owner, of_a);
+  if (face.distance <= 0 && !flat) return fromFace(face, owner, of_a);
   const std::int32_t next = following(face.edge, owner.count);
   const Vec2 first = owner.vertices[at(face.edge)], second = owner.vertices[at(next)];
   const Vec2 out = way + (other.vertices[at(face.support)] - first), edge = second - first;
