@@ -1,0 +1,296 @@
+// A stage of RATTLE, and what happens where it does not converge.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "JointIsland.h"
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr int kMostIterations = 40;
+constexpr int kMostHalvings = 5;
+constexpr int kMostActiveSets = 16;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+void JointIsland::save() {
+  m_place_before = m_place;
+  m_velocity_before = m_velocity;
+  if (m_is_turning) {
+    m_rotation_before = m_rotation;
+    m_spin_before = m_spin;
+  }
+}
+
+void JointIsland::restore() {
+  m_place = m_place_before;
+  m_velocity = m_velocity_before;
+  if (m_is_turning) {
+    m_rotation = m_rotation_before;
+    m_spin = m_spin_before;
+    setArms();
+  }
+  for (const int row : m_soft) m_value[at(row)] = m_value_before[at(row)];
+  std::fill(m_multiplier.begin(), m_multiplier.end(), 0.0);
+}
+
+void JointIsland::kick(double h) {
+  for (std::size_t i = 0; i < m_velocity.size(); ++i) m_velocity[i] += h * m_acceleration[i];
+  if (!m_is_turning) return;
+  for (std::size_t i = 0; i < m_spin.size(); ++i) m_spin[i] += h * m_turn_acceleration[i];
+}
+
+void JointIsland::move(double h) {
+  for (std::size_t i = 0; i < m_place.size(); ++i) m_place[i] = m_place_before[i] + h * m_velocity[i];
+  if (!m_is_turning) return;
+  for (std::size_t i = 0; i < m_spin.size(); ++i) {
+    if (m_spin[i] != 0) m_rotation[i] = rotationBy(h * m_spin[i]) * m_rotation_before[i];
+  }
+  setArms();
+}
+
+void JointIsland::apply(const double* impulse) {
+  for (const JointRow& row : m_rows) {
+    const double s = *impulse++;
+    const JointMass& b = m_mass[at(row.b)];
+    m_velocity[at(row.b)] += (b.inverse_mass * s) * row.n;
+    if (m_is_turning) m_spin[at(row.b)] += b.inverse_inertia * s * row.jb;
+    if (row.a < 0) continue;
+    const JointMass& a = m_mass[at(row.a)];
+    m_velocity[at(row.a)] -= (a.inverse_mass * s) * row.n;
+    if (m_is_turning) m_spin[at(row.a)] += a.inverse_inertia * s * row.ja;
+  }
+}
+
+void JointIsland::record(const std::vector<double>& impulse) {
+  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    const JointRow& row = m_rows[i];
+    const std::size_t link = at(m_link_of[i]);
+    m_force[link] += impulse[i] * row.n;
+    if (row.n == Vec2{}) m_torque[link] += impulse[i] * row.jb;
+  }
+}
+
+void JointIsland::factor(bool is_for_positions, JointCounters& counters, double regularisation) {
+  const std::uint8_t* is_out = is_for_positions || m_is_smooth ? m_is_out.data() : m_is_out_second.data();
+  const double* softness = is_for_positions && !m_soft.empty() ? m_diagonal.data() : nullptr;
+  counters.dependent += static_cast<std::uint64_t>(
+      m_matrix.factor(m_rows.data(), m_mass.data(), is_out, softness, regularisation));
+  m_is_factored = regularisation == 0 && (is_for_positions || m_is_smooth);
+}
+
+// Simplified: the matrix of the start, whose error is of the order of the angle turned in a stage.
+bool JointIsland::newton(double h, JointCounters& counters) {
+  const int rows = static_cast<int>(m_rows.size());
+  const double to_impulse = -1 / h;
+  double last = kNoLimit;
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    move(h);
+    evaluate<false>();
+    double worst = 0;
+    bool is_finite = true;
+    if (m_is_smooth) {
+      for (std::size_t i = 0; i < m_rows.size(); ++i) {
+        const double rest = m_value[i];
+        worst = std::max(worst, std::abs(rest));
+        is_finite &= rest - rest == 0;
+        m_rest[i] = rest * to_impulse;
+      }
+    } else {
+      for (int row = 0; row < rows; ++row) {
+        const double rest = m_is_out[at(row)] != 0 ? 0 : residual(row, h);
+        worst = std::max(worst, std::abs(rest));
+        is_finite &= rest - rest == 0;
+        m_rest[at(row)] = rest * to_impulse;
+      }
+    }
+    if (!is_finite || worst > 1e30) return false;
+    if (worst <= m_tolerance) return true;
+    if (iteration >= 4 && worst > 0.6 * last) return worst <= 20 * m_tolerance;
+    last = worst;
+    ++counters.iterations;
+    m_matrix.solve(m_rest.data());
+    for (std::size_t i = 0; i < m_rows.size(); ++i) m_multiplier[i] += m_rest[i];
+    apply(m_rest.data());
+  }
+  return false;
+}
+
+// Does a multiplier leave its bounds, or a held one want to come back? Then the sets have changed.
+bool JointIsland::changeActiveSet(double h, bool may_clamp) {
+  bool has_changed = false;
+  for (const int row : m_one_sided) {
+    const double s = m_multiplier[at(row)];
+    std::int8_t& side = m_side[at(row)];
+    const std::int8_t before = side;
+    if (side == 0) {
+      if (may_clamp && s < m_low[at(row)]) side = -1;
+      if (may_clamp && s > m_high[at(row)]) side = 1;
+    } else if (side < 0 ? residual(row, h) < -m_tolerance : residual(row, h) > m_tolerance) {
+      side = 0;
+    }
+    if (side == before) continue;
+    has_changed = true;
+    m_is_out[at(row)] = side != 0 ? 1 : 0;
+    m_multiplier[at(row)] = side == 0 ? 0 : side < 0 ? m_low[at(row)] : m_high[at(row)];
+  }
+  return has_changed;
+}
+
+bool JointIsland::positions(double h, JointCounters& counters) {
+  for (int pass = 0; pass < kMostActiveSets; ++pass) {
+    if (!m_is_smooth || !m_is_factored) factor(true, counters);
+    if (pass > 0) {
+      m_velocity = m_kicked;
+      m_spin = m_spin_kicked;
+    }
+    apply(m_multiplier.data());
+    if (!newton(h, counters)) return false;
+    if (m_one_sided.empty() || !changeActiveSet(h, pass < kMostActiveSets / 2)) return true;
+  }
+  ++counters.unsettled;
+  return true;
+}
+
+// The rows that hold velocities: hard ones, and one-sided ones that have pulled in the first half. Those that
+// would push in the second half are let go.
+void JointIsland::projectVelocities(JointCounters& counters) {
+  if (!m_one_sided.empty()) {
+    m_kicked = m_velocity;
+    m_spin_kicked = m_spin;
+  }
+  for (int pass = 0; pass < kMostActiveSets; ++pass) {
+    factor(false, counters);
+    const std::uint8_t* is_out = m_is_smooth ? m_is_out.data() : m_is_out_second.data();
+    std::fill(m_second.begin(), m_second.end(), 0.0);
+    double first = 0;
+    for (int round = 0; round < 3; ++round) {  // more than once only if the matrix is bad
+      double worst = 0;
+      for (std::size_t i = 0; i < m_rows.size(); ++i) {
+        const double rest = is_out[i] != 0 ? 0 : targetSpeed(static_cast<int>(i)) - speedAlong(m_rows[i]);
+        worst = std::max(worst, std::abs(rest));
+        m_rest[i] = rest;
+      }
+      if (round > 0 && worst <= 1e-12 * first) break;
+      first = round == 0 ? worst : first;
+      m_matrix.solve(m_rest.data());
+      for (std::size_t i = 0; i < m_rows.size(); ++i) m_second[i] += m_rest[i];
+      apply(m_rest.data());
+    }
+    bool has_changed = false;
+    for (const int row : m_one_sided) {
+      if (m_is_out_second[at(row)] != 0) continue;
+      const double s = m_second[at(row)];
+      if (s >= m_low[at(row)] && s <= m_high[at(row)]) continue;
+      m_is_out_second[at(row)] = 1;
+      has_changed = true;
+    }
+    if (!has_changed) break;
+    m_velocity = m_kicked;
+    m_spin = m_spin_kicked;
+  }
+}
+
+void JointIsland::velocities(double h, JointCounters& counters) {
+  record(m_multiplier);
+  evaluate<true>();
+  kick(0.5 * h);
+  if (!m_is_smooth) {
+    for (std::size_t i = 0; i < m_rows.size(); ++i) {
+      const bool is_again = m_kind[i] == Kind::kSoft || (m_kind[i] == Kind::kMotor && m_side[i] != 0);
+      m_rest[i] = is_again ? m_multiplier[i] : 0;
+      m_is_out_second[i] = m_kind[i] == Kind::kSoft || m_side[i] != 0 ? 1 : 0;
+    }
+    apply(m_rest.data());
+    record(m_rest);
+  }
+  projectVelocities(counters);
+  record(m_second);
+}
+
+bool JointIsland::stage(double h, JointCounters& counters) {
+  ++counters.stages;
+  save();
+  kick(0.5 * h);
+  const double ratio = h / m_last_h;
+  for (double& s : m_multiplier) s *= ratio;
+  m_last_h = h;
+  if (!m_is_smooth) {
+    prepareRows(h);
+    m_kicked = m_velocity;
+    m_spin_kicked = m_spin;
+  }
+  if (!positions(h, counters)) {
+    restore();
+    return false;
+  }
+  velocities(h, counters);
+  return true;
+}
+
+bool JointIsland::advance(double h, int depth, JointCounters& counters) {
+  if (stage(h, counters)) return true;
+  if (depth == kMostHalvings) return regularisedStage(h, counters);
+  ++counters.halved;
+  return advance(0.5 * h, depth + 1, counters) && advance(0.5 * h, depth + 1, counters);
+}
+
+double JointIsland::kineticEnergy() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < m_mass.size(); ++i) {
+    if (m_mass[i].inverse_mass > 0) sum += 0.5 * lengthSquared(m_velocity[i]) / m_mass[i].inverse_mass;
+    if (m_mass[i].inverse_inertia > 0) sum += 0.5 * m_spin[i] * m_spin[i] / m_mass[i].inverse_inertia;
+  }
+  return sum;
+}
+
+// Free flight, then Gauss–Newton with a regularised matrix towards the constraints. Velocities are those of
+// the free flight, projected; a projection with a positive matrix takes energy out, never in.
+bool JointIsland::regularisedStage(double h, JointCounters& counters) {
+  constexpr double kRegularisation = 1e-3;
+  constexpr int kRounds = 10;
+  ++counters.regularised;
+  save();
+  kick(h);
+  const double energy = kineticEnergy();
+  move(h);
+  if (!m_is_smooth) m_is_out_second = m_is_out;
+  for (const int row : m_soft) m_is_out_second[at(row)] = 1;
+  m_velocity_before = m_velocity;
+  m_spin_before = m_spin;
+  for (int round = 0; round < kRounds; ++round) {
+    evaluate<true>();
+    factor(false, counters, kRegularisation);
+    const std::uint8_t* is_out = m_is_smooth ? m_is_out.data() : m_is_out_second.data();
+    for (std::size_t i = 0; i < m_rows.size(); ++i) m_rest[i] = is_out[i] != 0 ? 0 : -m_value[i];
+    m_matrix.solve(m_rest.data());
+    std::fill(m_velocity.begin(), m_velocity.end(), Vec2{});
+    std::fill(m_spin.begin(), m_spin.end(), 0.0);
+    apply(m_rest.data());
+    m_place_before = m_place;
+    m_rotation_before = m_rotation;
+    move(1);
+  }
+  m_velocity = m_velocity_before;
+  m_spin = m_spin_before;
+  evaluate<true>();
+  projectVelocities(counters);
+  const double after = kineticEnergy();
+  if (after > energy) {
+    const double scale = std::sqrt(energy / after);
+    for (std::size_t i = 0; i < m_mass.size(); ++i) {
+      if (m_mass[i].inverse_mass > 0) m_velocity[i] *= scale;
+      if (m_mass[i].inverse_inertia > 0) m_spin[i] *= scale;
+    }
+  }
+  std::fill(m_multiplier.begin(), m_multiplier.end(), 0.0);
+  return after - after == 0;
+}
+
+}  // namespace naiad::physics
