@@ -24,6 +24,8 @@ bool isBelow(Vec2 a, double limit) {
   return std::abs(a.x) <= limit && std::abs(a.y) <= limit;
 }
 
+constexpr double kCalm = 0.25;  // of (frequency · step)²: see isCalm
+
 Vec2 accelerationOf(const JointBody& body, Vec2 gravity) {
   return body.inverse_mass > 0 ? gravity + body.inverse_mass * body.force : Vec2{};
 }
@@ -73,6 +75,7 @@ JointIsland::JointIsland(std::span<const int> bodies, std::span<const int> joint
   }
   m_matrix.analyse(m_rows, m_mass);
 
+  m_rows_now = m_rows;
   const std::size_t n = m_rows.size();
   for (auto* list :
        {&m_value, &m_value_before, &m_multiplier, &m_second, &m_rest, &m_softness, &m_memory, &m_diagonal}) {
@@ -183,6 +186,8 @@ bool JointIsland::load(std::span<const JointBody> bodies, std::span<const Joint>
     if (joint.kind == JointKind::kMouse) link.target = joint.target - m_origin;
   }
   m_last_h = 1;
+  m_is_beyond = false;
+  m_written = m_rows.data();  // the island may have been moved since the last step
   std::fill(m_force.begin(), m_force.end(), Vec2{});
   std::fill(m_torque.begin(), m_torque.end(), 0.0);
   setArms();
@@ -238,6 +243,24 @@ bool JointIsland::mayCompose(std::span<const Joint> joints, double h) const {
   return true;
 }
 
+// Does h resolve how fast the joints' forces turn them? Composed steps are longer than h / substeps, and gain
+// nothing where they resolve nothing (a whip, a heavy weight on a light chain).
+bool JointIsland::isCalm(std::span<const Joint> joints, double h) const {
+  for (const Link& link : m_links) {
+    const Joint& joint = joints[at(link.index)];
+    const double arm_a = length(link.anchor_a), arm_b = length(link.anchor_b);
+    const double arm = joint.length > 0 ? joint.length : std::max(arm_a, arm_b);
+    if (!(arm > 0)) continue;
+    const JointMass b = m_mass[at(link.b)];
+    double answer = b.inverse_mass + b.inverse_inertia * arm_b * arm_b;
+    if (link.a >= 0) {
+      answer += m_mass[at(link.a)].inverse_mass + m_mass[at(link.a)].inverse_inertia * arm_a * arm_a;
+    }
+    if (h * h * length(joint.force) * answer > kCalm * arm) return false;
+  }
+  return true;
+}
+
 bool JointIsland::stepRod(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
                           JointOptions options, JointCounters& counters) const {
   Joint& joint = joints[at(m_links[0].index)];
@@ -253,7 +276,7 @@ bool JointIsland::stepRod(std::span<JointBody> bodies, std::span<Joint> joints, 
                        isBelow(push_a, kLargest) && isBelow(push_b, kLargest);
   if (!is_good) return false;
   const double share_a = a.inverse_mass / sum, share_b = b.inverse_mass / sum;
-  JointRod rod = {start, b.velocity - a.velocity, push_b - push_a, joint.length, {}};
+  JointRod rod = {start, b.velocity - a.velocity, push_b - push_a, square, 1 / square, {}};
   rod.offset *= joint.length / length(start);
   rod.project();
   const std::span<const double> stages = stagesOf(options.method);
@@ -261,7 +284,7 @@ bool JointIsland::stepRod(std::span<JointBody> bodies, std::span<Joint> joints, 
   const double whole = h / repeats;
   for (int i = 0; i < repeats; ++i) {
     for (const double share : stages) {
-      if (!rod.advance(share * whole)) return false;
+      if (!rod.advance(share * whole, 1 / (share * whole))) return false;
     }
   }
   counters.stages += stages.size() * static_cast<std::size_t>(repeats);
@@ -281,12 +304,9 @@ bool JointIsland::stepRod(std::span<JointBody> bodies, std::span<Joint> joints, 
   return true;
 }
 
-void JointIsland::step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
-                       JointOptions options, JointCounters& counters) {
-  if (m_is_frozen) return;
-  if (options.method == JointMethod::kAutomatic) options.method = JointMethod::kKahanLi4;
-  if (m_is_rod && stepRod(bodies, joints, h, gravity, options, counters)) return;
-  if (!load(bodies, joints, gravity)) return freeze(bodies, counters);
+bool JointIsland::stepBy(JointOptions options, std::span<const JointBody> bodies, std::span<const Joint> joints,
+                         double h, Vec2 gravity, JointCounters& counters) {
+  if (!load(bodies, joints, gravity)) return false;
   if (!m_is_smooth) {
     for (std::size_t i = 0; i < m_rows.size(); ++i) {
       m_is_out_second[i] = m_kind[i] == Kind::kSoft || m_kind[i] == Kind::kMotor || m_side[i] != 0 ? 1 : 0;
@@ -294,12 +314,30 @@ void JointIsland::step(std::span<JointBody> bodies, std::span<Joint> joints, dou
   }
   projectVelocities(counters);
   record(m_second);
-  if (!mayCompose(joints, h)) options.method = JointMethod::kRattle;
   const std::span<const double> stages = stagesOf(options.method);
   const int repeats = std::max(1, options.substeps / static_cast<int>(stages.size()));
-  bool is_done = true;
-  for (int i = 0; i < repeats && is_done; ++i) {
-    for (const double share : stages) is_done = is_done && advance(share * (h / repeats), 0, counters);
+  for (int i = 0; i < repeats; ++i) {
+    for (const double share : stages) {
+      const double length = share * (h / repeats);
+      if (!(stages.size() == 1 ? advance(length, 0, counters) : stage(length, counters))) return false;
+    }
+  }
+  return true;
+}
+
+void JointIsland::step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
+                       JointOptions options, JointCounters& counters) {
+  if (m_is_frozen) return;
+  if (options.method == JointMethod::kAutomatic) {
+    options.method = isCalm(joints, h) ? JointMethod::kSuzuki4 : JointMethod::kRattle;
+  }
+  if (m_is_rod && stepRod(bodies, joints, h, gravity, options, counters)) return;
+  if (!mayCompose(joints, h)) options.method = JointMethod::kRattle;
+  bool is_done = stepBy(options, bodies, joints, h, gravity, counters);
+  if (!is_done && options.method != JointMethod::kRattle) {  // back to the start, and forward only
+    ++counters.halved;
+    options.method = JointMethod::kRattle;
+    is_done = stepBy(options, bodies, joints, h, gravity, counters);
   }
   if (!is_done || !store(bodies, joints, h)) freeze(bodies, counters);
 }

@@ -65,11 +65,16 @@ class JointIsland {
   void freeze(std::span<JointBody> bodies, JointCounters& counters);
   bool stepRod(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
                JointOptions options, JointCounters& counters) const;
+  bool stepBy(JointOptions options, std::span<const JointBody> bodies, std::span<const Joint> joints, double h,
+              Vec2 gravity, JointCounters& counters);
+  bool isCalm(std::span<const Joint> joints, double h) const;
   bool mayCompose(std::span<const Joint> joints, double h) const;
 
   bool advance(double h, int depth, JointCounters& counters);
   bool stage(double h, JointCounters& counters);
   bool regularisedStage(double h, JointCounters& counters);
+  bool projectPlaces(double h, JointCounters& counters);
+  void slowLightOnes();
   bool positions(double h, JointCounters& counters);
   bool newton(double h, JointCounters& counters);
   void velocities(double h, JointCounters& counters);
@@ -96,6 +101,7 @@ class JointIsland {
   double targetSpeed(int row) const;
   double residual(int row, double h) const;
   double kineticEnergy() const;
+  double workSince(const std::vector<Vec2>& places) const;
   void record(const std::vector<double>& impulse);
 
   std::vector<int> m_body;  // index outside
@@ -110,6 +116,8 @@ class JointIsland {
   std::vector<Link> m_links;
   const Joint* m_joints = nullptr;  // within a step
   std::vector<JointRow> m_rows;
+  std::vector<JointRow> m_rows_now;  // at the iterate, for Newton's method
+  JointRow* m_written = nullptr;     // where evaluating puts Jacobians: one of the two
   JointMatrix m_matrix;
   std::vector<Kind> m_kind;
   std::vector<int> m_link_of;
@@ -129,6 +137,7 @@ class JointIsland {
   Place m_origin;
   double m_tolerance = 0;
   double m_last_h = 0;
+  bool m_is_beyond = false;    // the fall-back has the rest of this step
   bool m_is_factored = false;  // for positions at the present place
   bool m_is_smooth = false;    // no row is one-sided or soft
 };

@@ -14,31 +14,31 @@ struct JointRod {
   Vec2 offset;        ///< from a to b
   Vec2 velocity;      ///< of b against a
   Vec2 acceleration;  ///< the same, without the rod
-  double length = 1;
+  double square = 1;          ///< of the length
+  double per_square = 1;      ///< its inverse
   Vec2 pull;  ///< sum of the rod's impulses on b, per reduced mass
 
   /// Takes the part along the rod out of the velocity.
   void project() {
-    const double along = dot(offset, velocity) / (length * length);
-    velocity -= along * offset;
+    velocity -= (per_square * dot(offset, velocity)) * offset;
   }
 
-  /// A stage over h != 0, which may be negative. False if the rod turns too far for it; nothing has changed
-  /// then.
-  bool advance(double h) {
-    const Vec2 kicked = velocity + (0.5 * h) * acceleration;
+  /// A stage over h != 0, which may be negative, `per_h` its inverse. False if the rod turns too far for it;
+  /// nothing has changed then.
+  bool advance(double h, double per_h) {
+    const Vec2 half_kick = (0.5 * h) * acceleration;
+    const Vec2 kicked = velocity + half_kick;
     const Vec2 reached = offset + h * kicked;
-    const double square = length * length;
-    const double half = dot(reached, offset) / square;
-    const double rest = (lengthSquared(reached) - square) / square;
-    const double root_of = half * half - rest;
-    if (!(half > 0.5) || !(root_of > 0.01)) return false;
-    const double shift = -rest / (half + std::sqrt(root_of));
-    const Vec2 first = (shift / h) * offset;
+    const double half = per_square * dot(reached, offset);
+    const double rest = per_square * (lengthSquared(reached) - square);
+    const double under_root = half * half - rest;
+    if (!(half > 0.5) || !(under_root > 0.01)) return false;
+    const double shift = -rest / (half + std::sqrt(under_root));
+    const Vec2 first = (shift * per_h) * offset;
     offset = reached + shift * offset;
-    velocity = kicked + first + (0.5 * h) * acceleration;
-    const Vec2 second = (dot(offset, velocity) / square) * offset;
-    velocity -= second;
+    const Vec2 free = kicked + first + half_kick;
+    const Vec2 second = (per_square * dot(offset, free)) * offset;
+    velocity = free - second;
     pull += first - second;
     return true;
   }
