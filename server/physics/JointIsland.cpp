@@ -75,7 +75,6 @@ JointIsland::JointIsland(std::span<const int> bodies, std::span<const int> joint
   }
   m_matrix.analyse(m_rows, m_mass);
 
-  m_rows_now = m_rows;
   const std::size_t n = m_rows.size();
   for (auto* list :
        {&m_value, &m_value_before, &m_multiplier, &m_second, &m_rest, &m_softness, &m_memory, &m_diagonal}) {
@@ -187,7 +186,6 @@ bool JointIsland::load(std::span<const JointBody> bodies, std::span<const Joint>
   }
   m_last_h = 1;
   m_is_beyond = false;
-  m_written = m_rows.data();  // the island may have been moved since the last step
   std::fill(m_force.begin(), m_force.end(), Vec2{});
   std::fill(m_torque.begin(), m_torque.end(), 0.0);
   setArms();
@@ -304,8 +302,8 @@ bool JointIsland::stepRod(std::span<JointBody> bodies, std::span<Joint> joints, 
   return true;
 }
 
-bool JointIsland::stepBy(JointOptions options, std::span<const JointBody> bodies, std::span<const Joint> joints,
-                         double h, Vec2 gravity, JointCounters& counters) {
+bool JointIsland::stepBy(JointOptions options, std::span<const JointBody> bodies,
+                         std::span<const Joint> joints, double h, Vec2 gravity, JointCounters& counters) {
   if (!load(bodies, joints, gravity)) return false;
   if (!m_is_smooth) {
     for (std::size_t i = 0; i < m_rows.size(); ++i) {

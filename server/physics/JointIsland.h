@@ -65,8 +65,8 @@ class JointIsland {
   void freeze(std::span<JointBody> bodies, JointCounters& counters);
   bool stepRod(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
                JointOptions options, JointCounters& counters) const;
-  bool stepBy(JointOptions options, std::span<const JointBody> bodies, std::span<const Joint> joints, double h,
-              Vec2 gravity, JointCounters& counters);
+  bool stepBy(JointOptions options, std::span<const JointBody> bodies, std::span<const Joint> joints,
+              double h, Vec2 gravity, JointCounters& counters);
   bool isCalm(std::span<const Joint> joints, double h) const;
   bool mayCompose(std::span<const Joint> joints, double h) const;
 
@@ -116,8 +116,6 @@ class JointIsland {
   std::vector<Link> m_links;
   const Joint* m_joints = nullptr;  // within a step
   std::vector<JointRow> m_rows;
-  std::vector<JointRow> m_rows_now;  // at the iterate, for Newton's method
-  JointRow* m_written = nullptr;     // where evaluating puts Jacobians: one of the two
   JointMatrix m_matrix;
   std::vector<Kind> m_kind;
   std::vector<int> m_link_of;

@@ -1,7 +1,6 @@
 #include "JointMatrix.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <set>
 #include <utility>
@@ -47,8 +46,6 @@ Neighbours neighboursOf(std::span<const JointRow> rows, std::span<const JointMas
   }
   return neighbours;
 }
-
-constexpr double kDependent = 1e-11;  // below this share of the diagonal, a pivot is rounding
 
 // How many pairs of neighbours are not neighbours of each other.
 int fillOf(const Neighbours& neighbours, int i) {
@@ -147,12 +144,11 @@ void JointMatrix::analyse(std::span<const JointRow> rows, std::span<const JointM
   m_lower.assign(m_row.size(), 0);
   m_inverse.assign(rows.size(), 0);
   m_pivot.assign(rows.size(), 0);
-  m_newton_lower = m_newton_upper = m_lower;
-  m_newton_inverse = m_pivot;
 }
 
 int JointMatrix::factor(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out,
                         const double* softness, double regularisation) {
+  constexpr double kDependent = 1e-11;  // below this share of the diagonal, a pivot is rounding
   std::fill(m_lower.begin(), m_lower.end(), 0.0);
   for (const Term& term : m_terms) {
     if ((is_out[term.i] | is_out[term.k]) != 0) continue;
@@ -210,75 +206,6 @@ void JointMatrix::solve(double* x) const {
     double value = x[j] * m_inverse[at(j)];
     for (int p = m_begin[at(j)]; p < m_begin[at(j) + 1]; ++p) value -= m_lower[at(p)] * x[m_row[at(p)]];
     x[j] = value;
-  }
-}
-
-int JointMatrix::factorNewton(const JointRow* now, const JointRow* start, const JointMass* masses,
-                              const std::uint8_t* is_out, const double* softness) {
-  std::fill(m_newton_lower.begin(), m_newton_lower.end(), 0.0);
-  std::fill(m_newton_upper.begin(), m_newton_upper.end(), 0.0);
-  for (const Term& term : m_terms) {
-    if ((is_out[term.i] | is_out[term.k]) != 0) continue;
-    const JointRow &now_i = now[term.i], &now_k = now[term.k];
-    const JointRow &start_i = start[term.i], &start_k = start[term.k];
-    const JointMass& mass = masses[term.body];
-    const double linear = term.sign * mass.inverse_mass;
-    m_newton_lower[at(term.at)] +=
-        linear * dot(now_k.n, start_i.n) + mass.inverse_inertia * (term.k_is_b ? now_k.jb : now_k.ja) *
-                                               (term.i_is_b ? start_i.jb : start_i.ja);
-    m_newton_upper[at(term.at)] +=
-        linear * dot(now_i.n, start_k.n) + mass.inverse_inertia * (term.i_is_b ? now_i.jb : now_i.ja) *
-                                               (term.k_is_b ? start_k.jb : start_k.ja);
-  }
-  for (int i = 0; i < m_size; ++i) {
-    double sum = 1;
-    if (is_out[i] == 0) {
-      const JointMass b = masses[start[i].b];
-      sum = b.inverse_mass * dot(now[i].n, start[i].n) + b.inverse_inertia * now[i].jb * start[i].jb;
-      if (start[i].a >= 0) {
-        const JointMass a = masses[start[i].a];
-        sum += a.inverse_mass * dot(now[i].n, start[i].n) + a.inverse_inertia * now[i].ja * start[i].ja;
-      }
-      if (softness != nullptr) sum += softness[i];
-    }
-    m_newton_inverse[at(i)] = sum;
-    m_pivot[at(i)] = sum;
-  }
-  int dependent = 0;
-  const int* target = m_targets.data();
-  for (int j = 0; j < m_size; ++j) {
-    const int begin = m_begin[at(j)], end = m_begin[at(j) + 1];
-    const double pivot = m_pivot[at(j)];
-    double inverse = 0;
-    if (std::abs(pivot) > kDependent * std::abs(m_newton_inverse[at(j)])) {
-      inverse = 1 / pivot;
-    } else {
-      ++dependent;
-    }
-    for (int p = begin; p < end; ++p) m_newton_lower[at(p)] *= inverse;
-    for (int p = begin; p < end; ++p) {
-      const double lower = m_newton_lower[at(p)], upper = m_newton_upper[at(p)];
-      m_pivot[at(~*target++)] -= lower * upper;
-      for (int q = p + 1; q < end; ++q) {
-        const std::size_t t = at(*target++);
-        m_newton_lower[t] -= m_newton_lower[at(q)] * upper;
-        m_newton_upper[t] -= lower * m_newton_upper[at(q)];
-      }
-    }
-    m_newton_inverse[at(j)] = inverse;
-  }
-  return dependent;
-}
-
-void JointMatrix::solveNewton(double* x) const {
-  for (int j = 0; j < m_size; ++j) {
-    const double value = x[j];
-    for (int p = m_begin[at(j)]; p < m_begin[at(j) + 1]; ++p) x[m_row[at(p)]] -= m_newton_lower[at(p)] * value;
-  }
-  for (int j = m_size - 1; j >= 0; --j) {
-    double value = x[j];
-    for (int p = m_begin[at(j)]; p < m_begin[at(j) + 1]; ++p) value -= m_newton_upper[at(p)] * x[m_row[at(p)]];
-    x[j] = value * m_newton_inverse[at(j)];
   }
 }
 

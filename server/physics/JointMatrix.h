@@ -47,11 +47,6 @@ class JointMatrix {
   /// From right-hand side to solution, in place.
   void solve(double* x) const;
 
-  /// The same for the matrix of Newton's method, J′·M⁻¹·Jᵀ with J′ from `now`, which is not symmetric.
-  int factorNewton(const JointRow* now, const JointRow* start, const JointMass* masses, const std::uint8_t* is_out,
-                   const double* softness);
-  void solveNewton(double* x) const;
-
   /// Entries below the diagonal that are not zero in the factor, and in the matrix.
   int filled() const { return static_cast<int>(m_row.size()); }
   int entries() const { return m_entries; }
@@ -72,7 +67,6 @@ class JointMatrix {
   std::vector<double> m_lower;
   std::vector<double> m_inverse;  // of the pivots
   std::vector<double> m_pivot;
-  std::vector<double> m_newton_lower, m_newton_upper, m_newton_inverse;
 };
 
 }  // namespace naiad::physics

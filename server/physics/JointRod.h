@@ -11,17 +11,15 @@
 namespace naiad::physics {
 
 struct JointRod {
-  Vec2 offset;        ///< from a to b
-  Vec2 velocity;      ///< of b against a
-  Vec2 acceleration;  ///< the same, without the rod
-  double square = 1;          ///< of the length
-  double per_square = 1;      ///< its inverse
-  Vec2 pull;  ///< sum of the rod's impulses on b, per reduced mass
+  Vec2 offset;            ///< from a to b
+  Vec2 velocity;          ///< of b against a
+  Vec2 acceleration;      ///< the same, without the rod
+  double square = 1;      ///< of the length
+  double per_square = 1;  ///< its inverse
+  Vec2 pull;              ///< sum of the rod's impulses on b, per reduced mass
 
   /// Takes the part along the rod out of the velocity.
-  void project() {
-    velocity -= (per_square * dot(offset, velocity)) * offset;
-  }
+  void project() { velocity -= (per_square * dot(offset, velocity)) * offset; }
 
   /// A stage over h != 0, which may be negative, `per_h` its inverse. False if the rod turns too far for it;
   /// nothing has changed then.

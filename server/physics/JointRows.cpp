@@ -30,7 +30,7 @@ void JointIsland::setArms() {
 }
 
 void JointIsland::setRow(int row, const Link& link, Vec2 n, double ja, double jb) {
-  m_written[row] = {n, ja, jb, link.a, link.b};
+  m_rows[at(row)] = {n, ja, jb, link.a, link.b};
 }
 
 template <bool kJacobian>
@@ -49,8 +49,6 @@ void JointIsland::evaluateLimit(Link& link) {
   const double angle = angleOf(inverse(joint.reference) * between);
   if constexpr (kJacobian) {
     setRow(row, link, {}, -1, 1);
-  }
-  if (kJacobian && m_written == m_rows.data()) {  // at a stage's start: choose the bound to watch
     const bool is_lower = angle - joint.lower < joint.upper - angle;
     const double low = is_lower ? 0 : -kNoLimit, high = is_lower ? kNoLimit : 0;
     if (low != m_low[at(row)] || high != m_high[at(row)]) m_side[at(row)] = is_lower ? -1 : 1;

@@ -11,6 +11,8 @@ namespace {
 
 constexpr int kMostIterations = 25;
 constexpr int kMostHalvings = 5;
+constexpr int kFree = 3;       // iterations whose rate does not matter
+constexpr double kSlow = 0.4;  // a worse rate gives up
 constexpr int kMostActiveSets = 16;
 
 std::size_t at(int i) {
@@ -85,13 +87,13 @@ void JointIsland::factor(bool is_for_positions, JointCounters& counters, double 
   m_is_factored = regularisation == 0 && (is_for_positions || m_is_smooth);
 }
 
-// Begins simplified, with the matrix of the start, whose error is of the order of the angle turned in a stage.
-// Where that converges slowly, with the exact one.
+// Simplified: the matrix of the start, whose error is of the order of the angle turned in a stage. That it
+// converges slowly says that h does not resolve the motion, and Newton's exact method, which would converge
+// there, buys its places with energy (measured on a rope with a thousandfold weight).
 bool JointIsland::newton(double h, JointCounters& counters) {
   const int rows = static_cast<int>(m_rows.size());
   const double to_impulse = -1 / h;
   double last = kNoLimit;
-  bool is_exact = false;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     move(h);
     evaluate<false>();
@@ -114,20 +116,10 @@ bool JointIsland::newton(double h, JointCounters& counters) {
     }
     if (!is_finite || worst > 1e30) return false;
     if (worst <= m_tolerance) return true;
-    if (iteration >= 4 && worst > 0.6 * last && is_exact) return worst <= 20 * m_tolerance;
-    if (iteration >= 2 && worst > 0.1 * last) is_exact = true;
+    if (iteration >= kFree && worst > kSlow * last) return worst <= 20 * m_tolerance;
     last = worst;
     ++counters.iterations;
-    if (is_exact) {
-      m_written = m_rows_now.data();
-      evaluate<true>();
-      m_written = m_rows.data();
-      m_matrix.factorNewton(m_rows_now.data(), m_rows.data(), m_mass.data(), m_is_out.data(),
-                            m_soft.empty() ? nullptr : m_diagonal.data());
-      m_matrix.solveNewton(m_rest.data());
-    } else {
-      m_matrix.solve(m_rest.data());
-    }
+    m_matrix.solve(m_rest.data());
     for (std::size_t i = 0; i < m_rows.size(); ++i) m_multiplier[i] += m_rest[i];
     apply(m_rest.data());
   }
@@ -266,7 +258,8 @@ double JointIsland::kineticEnergy() const {
 double JointIsland::workSince(const std::vector<Vec2>& places) const {
   double work = 0;
   for (std::size_t i = 0; i < m_mass.size(); ++i) {
-    if (m_mass[i].inverse_mass > 0) work += dot(m_acceleration[i], m_place[i] - places[i]) / m_mass[i].inverse_mass;
+    if (m_mass[i].inverse_mass > 0)
+      work += dot(m_acceleration[i], m_place[i] - places[i]) / m_mass[i].inverse_mass;
   }
   return work;
 }
