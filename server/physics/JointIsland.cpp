@@ -24,7 +24,8 @@ bool isBelow(Vec2 a, double limit) {
   return std::abs(a.x) <= limit && std::abs(a.y) <= limit;
 }
 
-constexpr double kCalm = 0.25;  // of (frequency · step)²: see isCalm
+constexpr int kFiner = 4, kFinest = 16;
+constexpr double kCalm = 0.1;  // of (frequency · step)²: see isCalm
 
 Vec2 accelerationOf(const JointBody& body, Vec2 gravity) {
   return body.inverse_mass > 0 ? gravity + body.inverse_mass * body.force : Vec2{};
@@ -302,7 +303,7 @@ bool JointIsland::stepRod(std::span<JointBody> bodies, std::span<Joint> joints, 
   return true;
 }
 
-bool JointIsland::stepBy(JointOptions options, std::span<const JointBody> bodies,
+bool JointIsland::stepBy(JointOptions options, bool is_last, std::span<const JointBody> bodies,
                          std::span<const Joint> joints, double h, Vec2 gravity, JointCounters& counters) {
   if (!load(bodies, joints, gravity)) return false;
   if (!m_is_smooth) {
@@ -317,7 +318,7 @@ bool JointIsland::stepBy(JointOptions options, std::span<const JointBody> bodies
   for (int i = 0; i < repeats; ++i) {
     for (const double share : stages) {
       const double length = share * (h / repeats);
-      if (!(stages.size() == 1 ? advance(length, 0, counters) : stage(length, counters))) return false;
+      if (!(is_last ? advance(length, 0, counters) : stage(length, counters))) return false;
     }
   }
   return true;
@@ -331,12 +332,16 @@ void JointIsland::step(std::span<JointBody> bodies, std::span<Joint> joints, dou
   }
   if (m_is_rod && stepRod(bodies, joints, h, gravity, options, counters)) return;
   if (!mayCompose(joints, h)) options.method = JointMethod::kRattle;
-  bool is_done = stepBy(options, bodies, joints, h, gravity, counters);
-  if (!is_done && options.method != JointMethod::kRattle) {  // back to the start, and forward only
-    ++counters.halved;
-    options.method = JointMethod::kRattle;
-    is_done = stepBy(options, bodies, joints, h, gravity, counters);
+  // A step whose stages do not converge is done again with shorter ones, all of it: lengths that change
+  // within a step cost more energy than long ones do. What is left to the last try may halve and fall back.
+  bool is_done = stepBy(options, false, bodies, joints, h, gravity, counters);
+  options.method = JointMethod::kRattle;
+  for (int finer = kFiner; !is_done && finer <= kFinest; finer *= kFiner) {
+    ++counters.refined;
+    const JointOptions refined = {options.method, options.substeps * finer};
+    is_done = stepBy(refined, false, bodies, joints, h, gravity, counters);
   }
+  if (!is_done) is_done = stepBy(options, true, bodies, joints, h, gravity, counters);
   if (!is_done || !store(bodies, joints, h)) freeze(bodies, counters);
 }
 

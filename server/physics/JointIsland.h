@@ -22,7 +22,8 @@ namespace naiad::physics {
 struct JointCounters {
   std::uint64_t stages = 0;
   std::uint64_t iterations = 0;   ///< of Newton, all stages together
-  std::uint64_t halved = 0;       ///< stages that did not converge and were done in two halves
+  std::uint64_t refined = 0;      ///< steps done again with shorter stages, for one had not converged
+  std::uint64_t halved = 0;       ///< stages done in two halves, where that did not help
   std::uint64_t regularised = 0;  ///< the fall-back: bounded, not exact
   std::uint64_t dependent = 0;    ///< rows that others imply, each time a matrix was factored
   std::uint64_t unsettled = 0;    ///< active sets that did not come to rest
@@ -65,8 +66,8 @@ class JointIsland {
   void freeze(std::span<JointBody> bodies, JointCounters& counters);
   bool stepRod(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
                JointOptions options, JointCounters& counters) const;
-  bool stepBy(JointOptions options, std::span<const JointBody> bodies, std::span<const Joint> joints,
-              double h, Vec2 gravity, JointCounters& counters);
+  bool stepBy(JointOptions options, bool is_last, std::span<const JointBody> bodies,
+              std::span<const Joint> joints, double h, Vec2 gravity, JointCounters& counters);
   bool isCalm(std::span<const Joint> joints, double h) const;
   bool mayCompose(std::span<const Joint> joints, double h) const;
 

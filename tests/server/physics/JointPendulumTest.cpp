@@ -71,7 +71,7 @@ TEST(JointPendulum, KeepsEnergyAndLengthForAMinute) {
   EXPECT_LE(drift, 1e-4);
   EXPECT_LE(drift, 1e-5);  // what it is
   EXPECT_LE(stretch, 1e-10);
-  EXPECT_EQ(scene.solver.counters().halved, 0u);
+  EXPECT_EQ(scene.solver.counters().refined, 0u);
   EXPECT_LE(scene.solver.counters().stages, 1800u * 8);
 }
 
