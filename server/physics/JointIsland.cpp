@@ -25,7 +25,7 @@ bool isBelow(Vec2 a, double limit) {
 }
 
 constexpr int kFiner = 4, kFinest = 16;
-constexpr double kCalm = 0.1;  // of (frequency · step)²: see isCalm
+constexpr double kCalm = 0.25;  // of (frequency · step)²: see isCalm
 
 Vec2 accelerationOf(const JointBody& body, Vec2 gravity) {
   return body.inverse_mass > 0 ? gravity + body.inverse_mass * body.force : Vec2{};
