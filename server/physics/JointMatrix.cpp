@@ -122,6 +122,8 @@ void JointMatrix::analyse(std::span<const JointRow> rows, std::span<const JointM
     const auto first = m_row.begin() + m_begin[at(column)], last = m_row.begin() + m_begin[at(column) + 1];
     return static_cast<int>(std::lower_bound(first, last, row) - m_row.begin());
   };
+  m_is_chain = m_size > 0 && filled() == m_size - 1;
+  for (int j = 0; j + 1 < m_size && m_is_chain; ++j) m_is_chain = m_begin[at(j)] == j && m_row[at(j)] == j + 1;
   m_targets.clear();
   for (const std::vector<int>& column : columns) {
     for (std::size_t p = 0; p < column.size(); ++p) {
@@ -198,6 +200,13 @@ int JointMatrix::factor(const JointRow* rows, const JointMass* masses, const std
 }
 
 void JointMatrix::solve(double* x) const {
+  if (m_is_chain) {
+    const double* lower = m_lower.data();
+    for (int j = 0; j + 1 < m_size; ++j) x[j + 1] -= lower[j] * x[j];
+    x[m_size - 1] *= m_inverse[at(m_size - 1)];
+    for (int j = m_size - 2; j >= 0; --j) x[j] = x[j] * m_inverse[at(j)] - lower[j] * x[j + 1];
+    return;
+  }
   for (int j = 0; j < m_size; ++j) {
     const double value = x[j];
     for (int p = m_begin[at(j)]; p < m_begin[at(j) + 1]; ++p) x[m_row[at(p)]] -= m_lower[at(p)] * value;
