@@ -24,7 +24,7 @@ bool isBelow(Vec2 a, double limit) {
   return std::abs(a.x) <= limit && std::abs(a.y) <= limit;
 }
 
-constexpr int kFiner = 4, kFinest = 16;
+constexpr int kFiner = 2, kFinest = 16;
 constexpr double kCalm = 0.25;  // of (frequency · step)²: see isCalm
 
 Vec2 accelerationOf(const JointBody& body, Vec2 gravity) {
@@ -111,6 +111,15 @@ JointIsland::JointIsland(std::span<const int> bodies, std::span<const int> joint
   m_place_before = m_velocity_before = m_kicked = m_velocity;
   m_rotation_before = m_rotation;
   m_spin_before = m_spin_kicked = m_spin;
+  const bool is_rods = std::all_of(m_links.begin(), m_links.end(), [](const Link& link) {
+    return link.kind == JointKind::kDistance && link.is_plain;
+  });
+  if (is_rods) {
+    m_rods.resize(n);
+    for (const Link& link : m_links) {
+      m_rods[at(link.row[0])] = {link.a, link.b, link.length * link.length, link.half_inverse_length};
+    }
+  }
   m_is_rod = m_links.size() == 1 && m_links[0].kind == JointKind::kDistance && m_links[0].is_plain &&
              m_mass[0].inverse_inertia == 0 && m_mass[1].inverse_inertia == 0;
 }

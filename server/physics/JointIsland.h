@@ -49,6 +49,10 @@ class JointIsland {
 
  private:
   enum class Kind : std::uint8_t { kHard, kRope, kSoft, kMotor, kLimit };
+  struct Rod {  // a row of an island that is all rods between centres
+    int a, b;
+    double square, half_inverse_length;
+  };
   struct Link {  // a joint, with what does not change within a step
     JointKind kind;
     bool is_plain;  // both anchors at the centres
@@ -115,6 +119,7 @@ class JointIsland {
   bool m_is_frozen = false;
 
   std::vector<Link> m_links;
+  std::vector<Rod> m_rods;          // by row; empty if there is any other joint
   const Joint* m_joints = nullptr;  // within a step
   std::vector<JointRow> m_rows;
   JointMatrix m_matrix;

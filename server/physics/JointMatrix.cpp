@@ -123,7 +123,8 @@ void JointMatrix::analyse(std::span<const JointRow> rows, std::span<const JointM
     return static_cast<int>(std::lower_bound(first, last, row) - m_row.begin());
   };
   m_is_chain = m_size > 0 && filled() == m_size - 1;
-  for (int j = 0; j + 1 < m_size && m_is_chain; ++j) m_is_chain = m_begin[at(j)] == j && m_row[at(j)] == j + 1;
+  for (int j = 0; j + 1 < m_size && m_is_chain; ++j)
+    m_is_chain = m_begin[at(j)] == j && m_row[at(j)] == j + 1;
   m_targets.clear();
   for (const std::vector<int>& column : columns) {
     for (std::size_t p = 0; p < column.size(); ++p) {

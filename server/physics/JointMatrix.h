@@ -60,7 +60,7 @@ class JointMatrix {
 
   int m_size = 0;
   int m_entries = 0;
-  bool m_is_chain = false;     // each row meets the next one and no other
+  bool m_is_chain = false;   // each row meets the next one and no other
   std::vector<int> m_begin;  // of each column in m_row and m_lower
   std::vector<int> m_row;
   std::vector<int> m_targets;  // of the updates in the order of factoring; ~row for a diagonal one

@@ -61,6 +61,14 @@ void JointIsland::evaluateLimit(Link& link) {
 
 template <bool kJacobian>
 void JointIsland::evaluate() {
+  if (!kJacobian && !m_rods.empty()) {
+    double* value = m_value.data();
+    for (const Rod& rod : m_rods) {
+      const Vec2 way = m_place[at(rod.b)] - m_place[at(rod.a)];
+      *value++ = (lengthSquared(way) - rod.square) * rod.half_inverse_length;
+    }
+    return;
+  }
   for (Link& link : m_links) {
     const int row = link.row[0];
     Vec2 way = m_place[at(link.b)] + link.arm_b;

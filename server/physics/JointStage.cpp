@@ -58,6 +58,14 @@ void JointIsland::move(double h) {
 }
 
 void JointIsland::apply(const double* impulse) {
+  if (!m_is_turning && !m_rods.empty()) {
+    for (const JointRow& row : m_rows) {
+      const Vec2 push = *impulse++ * row.n;
+      m_velocity[at(row.b)] += m_mass[at(row.b)].inverse_mass * push;
+      m_velocity[at(row.a)] -= m_mass[at(row.a)].inverse_mass * push;
+    }
+    return;
+  }
   for (const JointRow& row : m_rows) {
     const double s = *impulse++;
     const JointMass& b = m_mass[at(row.b)];
