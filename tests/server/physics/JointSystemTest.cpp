@@ -20,8 +20,8 @@ JointScene randomTree(SceneRandom& random, int count, bool is_free) {
     const int parent = random.below(i);
     const Vec2 way = {random.between(-1, 1), random.between(-1, 1)};
     const Vec2 place = scene.at(parent) + way + Vec2{0.1, 0.1};
-    const int child = random() < 0.25 ? scene.point(place, random.between(0.2, 3))
-                                      : scene.rigid(place, random.between(0.3, 3), random.between(0.1, 1));
+    const double mass = random.between(0.3, 3), inertia = random.between(0.1, 1);
+    const int child = random() < 0.25 ? scene.point(place, mass) : scene.rigid(place, mass, inertia);
     scene.bodies.back().velocity = {random.between(-1, 1), random.between(-1, 1)};
     if (scene.body(child).inverse_inertia > 0) scene.bodies.back().spin = random.between(-1, 1);
     const double choice = random();
