@@ -4,8 +4,8 @@
 // the factors of J·M⁻¹·Jᵀ at the start, half a kick, velocities that fulfil them. Springs and other soft rows
 // take the trapezoidal rule in the same equations, so that no stiffness limits the step; one-sided rows
 // (ropes, limits, motors and mice at their greatest force) are found by an active set. If the iteration does
-// not converge, the stage is halved; if that does not help, a regularised step follows that cannot gain
-// energy.
+// not converge, the whole step is done again with shorter stages; if that does not help, stages are halved,
+// and at last a regularised one follows that cannot gain energy.
 #pragma once
 
 #include <cstdint>
