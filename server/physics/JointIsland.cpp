@@ -1,0 +1,356 @@
+#include "JointIsland.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "JointRod.h"
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr double kLargest = 1e15;  // of a way or speed within an island: beyond it places have no digits left
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool isMovable(const JointBody& body) {
+  return body.inverse_mass > 0 || body.inverse_inertia > 0;
+}
+
+bool isBelow(Vec2 a, double limit) {
+  return std::abs(a.x) <= limit && std::abs(a.y) <= limit;
+}
+
+constexpr int kFiner = 2, kFinest = 16;
+constexpr double kCalm = 0.25;  // of (frequency · step)²: see isCalm
+
+Vec2 accelerationOf(const JointBody& body, Vec2 gravity) {
+  return body.inverse_mass > 0 ? gravity + body.inverse_mass * body.force : Vec2{};
+}
+
+}  // namespace
+
+JointIsland::JointIsland(std::span<const int> bodies, std::span<const int> joints,
+                         std::span<const JointBody> all_bodies, std::span<const Joint> all_joints)
+    : m_body(bodies.begin(), bodies.end()) {
+  for (const int body : bodies) {
+    m_mass.push_back({all_bodies[at(body)].inverse_mass, all_bodies[at(body)].inverse_inertia});
+  }
+  const auto local = [&](int body) {
+    const auto found = std::lower_bound(m_body.begin(), m_body.end(), body);
+    return static_cast<int>(found - m_body.begin());
+  };
+  for (const int index : joints) {
+    const Joint& joint = all_joints[at(index)];
+    Link link = {};
+    link.kind = joint.kind;
+    link.index = index;
+    link.a = joint.kind == JointKind::kMouse ? -1 : local(joint.a);
+    link.b = local(joint.b);
+    link.anchor_a = joint.anchor_a;
+    link.anchor_b = joint.anchor_b;
+    link.is_plain = joint.anchor_a == Vec2{} && joint.anchor_b == Vec2{};
+    link.length = joint.length;
+    link.half_inverse_length = joint.length > 0 ? 0.5 / joint.length : 0;
+    const bool may_turn =
+        m_mass[at(link.b)].inverse_inertia > 0 || (link.a >= 0 && m_mass[at(link.a)].inverse_inertia > 0);
+    addRows(link, joint, may_turn);
+    m_links.push_back(link);
+  }
+  const std::vector<int> order = eliminationOrder(m_rows, m_mass);
+  std::vector<int> rank(order.size());
+  for (int i = 0; i < static_cast<int>(order.size()); ++i) rank[at(order[at(i)])] = i;
+  const auto rows = m_rows;
+  const auto kinds = m_kind;
+  const auto links = m_link_of;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    m_rows[at(rank[i])] = rows[i];
+    m_kind[at(rank[i])] = kinds[i];
+    m_link_of[at(rank[i])] = links[i];
+  }
+  for (Link& link : m_links) {
+    for (int& row : link.row) row = row < 0 ? row : rank[at(row)];
+  }
+  m_matrix.analyse(m_rows, m_mass);
+
+  const std::size_t n = m_rows.size();
+  for (auto* list :
+       {&m_value, &m_value_before, &m_multiplier, &m_second, &m_rest, &m_softness, &m_memory, &m_diagonal}) {
+    list->assign(n, 0);
+  }
+  m_low.assign(n, -kNoLimit);
+  m_high.assign(n, kNoLimit);
+  m_side.assign(n, 0);
+  m_is_out.assign(n, 0);
+  m_is_out_second.assign(n, 0);
+  for (int row = 0; row < static_cast<int>(n); ++row) {
+    const Joint& joint = all_joints[at(m_links[at(m_link_of[at(row)])].index)];
+    const Kind kind = m_kind[at(row)];
+    if (kind == Kind::kSoft) m_soft.push_back(row);
+    if (kind == Kind::kRope || kind == Kind::kLimit || kind == Kind::kMotor ||
+        (joint.kind == JointKind::kMouse && joint.max_force < kNoLimit)) {
+      m_one_sided.push_back(row);
+    }
+    if (kind == Kind::kRope) m_high[at(row)] = 0;
+    if (kind == Kind::kRope || kind == Kind::kLimit) m_side[at(row)] = 1;
+    m_is_out[at(row)] = m_side[at(row)] != 0 ? 1 : 0;
+  }
+  m_is_smooth = m_one_sided.empty() && m_soft.empty();
+  m_force.assign(m_links.size(), {});
+  m_torque.assign(m_links.size(), 0);
+  const std::size_t count = m_body.size();
+  m_place.resize(count);
+  m_velocity.resize(count);
+  m_acceleration.resize(count);
+  m_rotation.resize(count);
+  m_spin.resize(count);
+  m_turn_acceleration.resize(count);
+  m_place_before = m_velocity_before = m_kicked = m_velocity;
+  m_rotation_before = m_rotation;
+  m_spin_before = m_spin_kicked = m_spin;
+  const bool is_rods = std::all_of(m_links.begin(), m_links.end(), [](const Link& link) {
+    return link.kind == JointKind::kDistance && link.is_plain;
+  });
+  if (is_rods) {
+    m_rods.resize(n);
+    for (const Link& link : m_links) {
+      m_rods[at(link.row[0])] = {link.a, link.b, link.length * link.length, link.half_inverse_length};
+    }
+  }
+  m_is_rod = m_links.size() == 1 && m_links[0].kind == JointKind::kDistance && m_links[0].is_plain &&
+             m_mass[0].inverse_inertia == 0 && m_mass[1].inverse_inertia == 0;
+}
+
+void JointIsland::addRows(Link& link, const Joint& joint, bool may_turn) {
+  const auto add = [&](int k, Kind kind) {
+    link.row[k] = static_cast<int>(m_rows.size());
+    m_rows.push_back({{}, 0, 0, link.a, link.b});
+    m_kind.push_back(kind);
+    m_link_of.push_back(static_cast<int>(m_links.size()));
+  };
+  link.row[0] = link.row[1] = link.row[2] = -1;
+  switch (joint.kind) {
+    case JointKind::kDistance:
+      return add(0, Kind::kHard);
+    case JointKind::kRope:
+      return add(0, Kind::kRope);
+    case JointKind::kMotor:
+      return add(0, Kind::kMotor);
+    case JointKind::kAngleLimit:
+      return add(0, Kind::kLimit);
+    case JointKind::kSpring:
+      add(0, Kind::kSoft);
+      if (joint.length == 0) add(1, Kind::kSoft);
+      return;
+    case JointKind::kMouse:
+      add(0, Kind::kSoft);
+      return add(1, Kind::kSoft);
+    case JointKind::kHinge:
+      add(0, Kind::kHard);
+      return add(1, Kind::kHard);
+    case JointKind::kWeld:
+      add(0, Kind::kHard);
+      add(1, Kind::kHard);
+      if (may_turn) add(2, Kind::kHard);
+      return;
+    case JointKind::kSlider:
+      add(0, Kind::kHard);
+      if (may_turn) add(1, Kind::kHard);
+      return;
+  }
+}
+
+bool JointIsland::load(std::span<const JointBody> bodies, std::span<const Joint> joints, Vec2 gravity) {
+  const Place& first = bodies[at(m_body[0])].place;
+  m_origin = {first.cell_x, first.cell_y, 0, 0};
+  m_joints = joints.data();
+  m_is_turning = false;
+  double extent = 1;
+  bool is_good = isBelow(gravity, kLargest);
+  for (std::size_t i = 0; i < m_body.size(); ++i) {
+    const JointBody& body = bodies[at(m_body[i])];
+    m_place[i] = body.place - m_origin;
+    m_velocity[i] = body.velocity;
+    m_rotation[i] = body.rotation;
+    m_spin[i] = body.spin;
+    m_acceleration[i] = accelerationOf(body, gravity);
+    m_turn_acceleration[i] = body.inverse_inertia * body.torque;
+    m_is_turning |= body.inverse_inertia > 0 || body.spin != 0;
+    extent = std::max({extent, std::abs(m_place[i].x), std::abs(m_place[i].y)});
+    is_good = is_good && isBelow(m_place[i], kLargest) && isBelow(m_velocity[i], kLargest) &&
+              isBelow(m_acceleration[i], kLargest) &&
+              isBelow({body.spin, m_turn_acceleration[i]}, kLargest) &&
+              isBelow({body.rotation.c, body.rotation.s}, 2);
+  }
+  if (!is_good) return false;
+  m_tolerance = std::max(2e-13, 0x1p-50 * extent);
+  for (Link& link : m_links) {
+    const Joint& joint = joints[at(link.index)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (link.row[k] >= 0) m_multiplier[at(link.row[k])] = joint.memory[k];
+    }
+    if (joint.kind == JointKind::kMouse) link.target = joint.target - m_origin;
+  }
+  m_last_h = 1;
+  m_is_beyond = false;
+  std::fill(m_force.begin(), m_force.end(), Vec2{});
+  std::fill(m_torque.begin(), m_torque.end(), 0.0);
+  setArms();
+  evaluate<true>();
+  return true;
+}
+
+bool JointIsland::store(std::span<JointBody> bodies, std::span<Joint> joints, double h) const {
+  for (std::size_t i = 0; i < m_body.size(); ++i) {
+    const bool is_good = isBelow(m_place[i], kLargest) && isBelow(m_velocity[i], kLargest) &&
+                         std::abs(m_spin[i]) <= kLargest && isBelow({m_rotation[i].c, m_rotation[i].s}, 2);
+    if (!is_good) return false;
+  }
+  for (std::size_t i = 0; i < m_body.size(); ++i) {
+    JointBody& body = bodies[at(m_body[i])];
+    if (!isMovable(body)) continue;
+    body.place = m_origin + m_place[i];
+    body.velocity = m_velocity[i];
+    body.spin = m_spin[i];
+    if (m_is_turning) body.rotation = renormalised(m_rotation[i]);
+  }
+  for (std::size_t i = 0; i < m_links.size(); ++i) {
+    Joint& joint = joints[at(m_links[i].index)];
+    joint.force = m_force[i] / h;
+    joint.torque = m_torque[i] / h;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (m_links[i].row[k] >= 0) joint.memory[k] = m_multiplier[at(m_links[i].row[k])] / m_last_h;
+    }
+  }
+  return true;
+}
+
+void JointIsland::freeze(std::span<JointBody> bodies, JointCounters& counters) {
+  for (const int index : m_body) {
+    JointBody& body = bodies[at(index)];
+    if (!isMovable(body)) continue;
+    body.velocity = {};
+    body.spin = 0;
+  }
+  m_is_frozen = true;
+  ++counters.quarantined;
+}
+
+bool JointIsland::mayCompose(std::span<const Joint> joints, double h) const {
+  if (!m_one_sided.empty()) return false;
+  for (const int row : m_soft) {
+    const Joint& joint = joints[at(m_links[at(m_link_of[at(row)])].index)];
+    const double answer = m_mass[at(m_rows[at(row)].b)].inverse_mass +
+                          (m_rows[at(row)].a < 0 ? 0 : m_mass[at(m_rows[at(row)].a)].inverse_mass);
+    if (joint.damping > 0 || h * h * joint.stiffness * answer > 1) return false;
+  }
+  return true;
+}
+
+// Does h resolve how fast the joints' forces turn them? Composed steps are longer than h / substeps, and gain
+// nothing where they resolve nothing (a whip, a heavy weight on a light chain).
+bool JointIsland::isCalm(std::span<const Joint> joints, double h) const {
+  for (const Link& link : m_links) {
+    const Joint& joint = joints[at(link.index)];
+    const double arm_a = length(link.anchor_a), arm_b = length(link.anchor_b);
+    const double arm = joint.length > 0 ? joint.length : std::max(arm_a, arm_b);
+    if (!(arm > 0)) continue;
+    const JointMass b = m_mass[at(link.b)];
+    double answer = b.inverse_mass + b.inverse_inertia * arm_b * arm_b;
+    if (link.a >= 0) {
+      answer += m_mass[at(link.a)].inverse_mass + m_mass[at(link.a)].inverse_inertia * arm_a * arm_a;
+    }
+    if (h * h * length(joint.force) * answer > kCalm * arm) return false;
+  }
+  return true;
+}
+
+bool JointIsland::stepRod(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
+                          JointOptions options, JointCounters& counters) const {
+  Joint& joint = joints[at(m_links[0].index)];
+  JointBody& a = bodies[at(joint.a)];
+  JointBody& b = bodies[at(joint.b)];
+  const double sum = a.inverse_mass + b.inverse_mass;
+  const double square = joint.length * joint.length;
+  const Vec2 push_a = accelerationOf(a, gravity), push_b = accelerationOf(b, gravity);
+  const Vec2 start = b.place - a.place;
+  const bool is_good = sum > 0 && a.spin == 0 && b.spin == 0 &&
+                       std::abs(lengthSquared(start) - square) <= 1e-6 * square &&
+                       isBelow(a.velocity, kLargest) && isBelow(b.velocity, kLargest) &&
+                       isBelow(push_a, kLargest) && isBelow(push_b, kLargest);
+  if (!is_good) return false;
+  const double share_a = a.inverse_mass / sum, share_b = b.inverse_mass / sum;
+  JointRod rod = {start, b.velocity - a.velocity, push_b - push_a, square, 1 / square, {}};
+  rod.offset *= joint.length / length(start);
+  rod.project();
+  const std::span<const double> stages = stagesOf(options.method);
+  const int repeats = std::max(1, options.substeps / static_cast<int>(stages.size()));
+  const double whole = h / repeats;
+  for (int i = 0; i < repeats; ++i) {
+    for (const double share : stages) {
+      if (!rod.advance(share * whole, 1 / (share * whole))) return false;
+    }
+  }
+  counters.stages += stages.size() * static_cast<std::size_t>(repeats);
+  const Vec2 velocity = share_b * a.velocity + share_a * b.velocity;
+  const Vec2 push = share_b * push_a + share_a * push_b;
+  const Vec2 flown = h * (velocity + (0.5 * h) * push), after = velocity + h * push;
+  const Vec2 turned = rod.offset - start;
+  if (a.inverse_mass > 0) {
+    a.place = a.place + (flown - share_a * turned);
+    a.velocity = after - share_a * rod.velocity;
+  }
+  if (b.inverse_mass > 0) {
+    b.place = b.place + (flown + share_b * turned);
+    b.velocity = after + share_b * rod.velocity;
+  }
+  joint.force = rod.pull / (h * sum);
+  return true;
+}
+
+bool JointIsland::stepBy(JointOptions options, bool is_last, std::span<const JointBody> bodies,
+                         std::span<const Joint> joints, double h, Vec2 gravity, JointCounters& counters) {
+  if (!load(bodies, joints, gravity)) return false;
+  if (!m_is_smooth) {
+    for (std::size_t i = 0; i < m_rows.size(); ++i) {
+      m_is_out_second[i] = m_kind[i] == Kind::kSoft || m_kind[i] == Kind::kMotor || m_side[i] != 0 ? 1 : 0;
+    }
+  }
+  projectVelocities(counters);
+  record(m_second);
+  const std::span<const double> stages = stagesOf(options.method);
+  const int repeats = std::max(1, options.substeps / static_cast<int>(stages.size()));
+  for (int i = 0; i < repeats; ++i) {
+    for (const double share : stages) {
+      const double length = share * (h / repeats);
+      if (!(is_last ? advance(length, 0, counters) : stage(length, counters))) return false;
+    }
+  }
+  return true;
+}
+
+void JointIsland::step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
+                       JointOptions options, JointCounters& counters) {
+  if (m_is_frozen) return;
+  if (options.method == JointMethod::kAutomatic) {
+    options.method = isCalm(joints, h) ? JointMethod::kSuzuki4 : JointMethod::kRattle;
+  }
+  if (m_is_rod && stepRod(bodies, joints, h, gravity, options, counters)) return;
+  if (!mayCompose(joints, h)) options.method = JointMethod::kRattle;
+  // A step whose stages do not converge is done again with shorter ones, all of it: lengths that change
+  // within a step cost more energy than long ones do. What is left to the last try may halve and fall back.
+  bool is_done = stepBy(options, false, bodies, joints, h, gravity, counters);
+  options.method = JointMethod::kRattle;
+  for (int finer = kFiner; !is_done && finer <= kFinest; finer *= kFiner) {
+    ++counters.refined;
+    const JointOptions refined = {options.method, options.substeps * finer};
+    is_done = stepBy(refined, false, bodies, joints, h, gravity, counters);
+  }
+  if (!is_done) is_done = stepBy(options, true, bodies, joints, h, gravity, counters);
+  if (!is_done || !store(bodies, joints, h)) freeze(bodies, counters);
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,44 @@
+// Bodies that are joined, all of them: which belong together, and a step of each group.
+//
+// The arrays belong to the caller; the solver keeps what it has found out about who is joined to whom, and
+// room to work in. A step allocates nothing, except for the one after a joint broke. Groups do not see each
+// other: what happens in one, a quarantine too, leaves the bits of the others alone. Any thread, one at a
+// time.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "JointIsland.h"
+
+namespace naiad::physics {
+
+class JointSolver {
+ public:
+  /// Finds the groups. To be called when bodies or joints came, went, or changed in anything but place,
+  /// velocity, rotation, spin, force, torque, target, speed, stiffness, damping, limits and strength. Frozen
+  /// groups get another chance. Returns −1 and changes nothing if a joint or a body is not valid, else 0.
+  int connect(std::span<const JointBody> bodies, std::span<const Joint> joints);
+
+  /// Moves every body that is joined over h > 0, also immovable ones that have a velocity, and writes forces
+  /// into the joints; others are left alone. Gravity is an acceleration for all bodies with mass. Returns −1
+  /// and does nothing if h, gravity or the arrays' sizes are not usable, else 0.
+  int step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
+           JointOptions options = {});
+
+  const JointCounters& counters() const { return m_counters; }
+  std::span<const JointIsland> islands() const { return m_islands; }
+  /// Is this body moved by a step?
+  bool isJoined(int body) const { return m_is_joined[static_cast<std::size_t>(body)] != 0; }
+
+ private:
+  bool breakJoints(std::span<Joint> joints);
+
+  std::vector<JointIsland> m_islands;
+  std::vector<std::uint8_t> m_is_joined;
+  std::vector<int> m_carriers;  // immovable ones
+  std::size_t m_joint_count = 0;
+  JointCounters m_counters;
+};
+
+}  // namespace naiad::physics

@@ -1,0 +1,119 @@
+// Ropes of rods: weights at their end, hanging at rest, and more weight than double precision carries.
+#include <gtest/gtest.h>
+
+#include "JointScene.h"
+
+namespace naiad::physics {
+namespace {
+
+using test::JointScene;
+using test::ropeOf;
+
+constexpr Vec2 kDown = {0, 10};
+
+TEST(JointRope, WithAWeightKeepsLengthAndEnergy) {
+  for (const double ratio : {1.0, 100.0, 1000.0}) {
+    JointScene scene = ropeOf(20, ratio);
+    EXPECT_EQ(scene.solver.islands()[0].fill(), 0);
+    const double scale = 10 * 20 * (19 + ratio), start = scene.energy(kDown);
+    double drift = 0, stretch = 0;
+    for (int i = 0; i < 300; ++i) {
+      scene.step(kDown);
+      drift = std::max(drift, std::abs(scene.energy(kDown) - start) / scale);
+      stretch = std::max(stretch, scene.worstGap());
+    }
+    EXPECT_LE(stretch, 1e-10) << ratio;
+    EXPECT_LE(drift, 2e-2) << ratio;
+    EXPECT_EQ(scene.solver.counters().regularised, 0u) << ratio;
+    EXPECT_EQ(scene.solver.counters().dependent, 0u) << ratio;
+  }
+}
+
+TEST(JointRope, WithAMillionfoldWeightStaysBoundedAndCountsTheFallBack) {
+  JointScene scene = ropeOf(20, 1e6);
+  const double scale = 10 * 20 * 1e6, start = scene.energy(kDown);
+  for (int i = 0; i < 300; ++i) {
+    scene.step(kDown);
+    ASSERT_LE(scene.worstGap(), 1e-6) << i;
+    ASSERT_LE(scene.energy(kDown) - start, 0.1 * scale) << i;
+    ASSERT_LE(length(scene.at(20)), 20 + 1e-6);
+  }
+  EXPECT_GT(scene.solver.counters().regularised, 0u);
+  EXPECT_EQ(scene.solver.counters().quarantined, 0u);
+}
+
+// A chain between two points, at rest after some drag, against a·cosh(x/a).
+double sagOf(int links) {
+  const double span = 10, total = 12;
+  JointScene scene;
+  scene.point({0, 0}, 0);
+  for (int i = 1; i < links; ++i) {  // the two sides of a triangle that is as long
+    const double s = static_cast<double>(i) / links;
+    const double depth = std::sqrt(0.25 * (total * total - span * span));
+    scene.point({span * s, depth * (1 - std::abs(1 - 2 * s))}, links / total);
+  }
+  scene.point({span, 0}, 0);
+  for (int i = 0; i < links; ++i) scene.join(JointKind::kDistance, i, i + 1, total / links);
+  scene.connect();
+  for (int i = 0; i < 3000; ++i) {
+    for (JointBody& body : scene.bodies) body.velocity *= 0.9;
+    scene.step(kDown);
+  }
+  EXPECT_LE(scene.worstGap(), 1e-10);
+  EXPECT_LE(std::sqrt(scene.kinetic()), 1e-6);
+  return scene.at(links / 2).y;
+}
+
+TEST(JointRope, HangsAsACatenary) {
+  const double half = 5, total = 12;
+  double low = 0.1, high = 1000;  // of a: the length falls with it
+  for (int i = 0; i < 200; ++i) {
+    const double a = 0.5 * (low + high);
+    (2 * a * std::sinh(half / a) > total ? low : high) = a;
+  }
+  const double sag = low * (std::cosh(half / low) - 1);
+  const double coarse = std::abs(sagOf(20) / sag - 1), fine = std::abs(sagOf(40) / sag - 1);
+  EXPECT_LE(coarse, 1e-2);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.3);  // straight links: order 2
+}
+
+TEST(JointRope, PullsButDoesNotPush) {
+  JointScene scene;
+  scene.point({0, 0}, 0);
+  scene.point({0, 0.5});
+  scene.join(JointKind::kRope, 0, 1, 2);
+  scene.connect();
+  scene.step(kDown);
+  EXPECT_NEAR(scene.at(1).y, 0.5 + 5.0 / 900, 1e-12);  // falls freely
+  EXPECT_EQ(scene.joints[0].force, Vec2{});
+  for (int i = 0; i < 60; ++i) {
+    scene.step(kDown);
+    ASSERT_LE(scene.worstGap(), 1e-10);
+  }
+  EXPECT_NEAR(scene.at(1).y, 2, 1e-9);
+  EXPECT_NEAR(scene.joints[0].force.y, -10, 1e-6);
+  scene.bodies[1].velocity = {0, -3};
+  scene.step({0, 0});
+  EXPECT_NEAR(scene.at(1).y, 1.9, 1e-9);
+}
+
+TEST(JointRope, IsTheSameFarAway) {
+  JointScene here = ropeOf(8, 10), there = ropeOf(8, 10);
+  for (JointBody& body : there.bodies) {
+    body.place.cell_x += 1'000'000'000;
+    body.place.cell_y -= 1'000'000'000;
+  }
+  for (int i = 0; i < 200; ++i) {
+    here.step(kDown);
+    there.step(kDown);
+  }
+  for (std::size_t i = 0; i < here.bodies.size(); ++i) {
+    EXPECT_EQ(here.bodies[i].velocity, there.bodies[i].velocity);
+    EXPECT_EQ(here.bodies[i].place.dx, there.bodies[i].place.dx);
+    EXPECT_EQ(here.bodies[i].place.dy, there.bodies[i].place.dy);
+    EXPECT_EQ(here.bodies[i].place.cell_x + 1'000'000'000, there.bodies[i].place.cell_x);
+  }
+}
+
+}  // namespace
+}  // namespace naiad::physics
