@@ -43,6 +43,7 @@ void PlayerNews::tellSome(std::uint32_t tick, const std::vector<df::PlayerFacts>
   m_told.clear();
   if (tick % kEvery == 0 || m_best.players().players().empty()) {
     std::vector<const df::PlayerFacts*> best;
+    best.reserve(players.size());
     for (const df::PlayerFacts& player : players) best.push_back(&player);
     const auto middle = best.begin() + kCrowdEntries;
     std::partial_sort(best.begin(), middle, best.end(), [](const auto* a, const auto* b) {
