@@ -18,14 +18,14 @@ constexpr std::size_t kMaxUnsent = std::size_t{64} * 1024;
 
 ClientSession::ClientSession(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
                              Time now)
-    : m_channel(std::move(channel)), m_options(options), m_last_ping(now), m_last_heard(now) {
+    : m_channel(std::move(channel)), m_options(options), m_last_ping(now), m_silence(now) {
   m_channel->setReceiveLimit(kMaxServerFrame);
   send(helloOf(options));
 }
 
 void ClientSession::receive(std::string_view frame, Time now) {
   if (isOver()) return;
-  m_last_heard = now;
+  m_silence.heard(now);
   m_counters.bytes_in += frame.size() + kFrameHeaderSize;
   const std::uint32_t kept = m_kept_heard.newest();
   auto message = readServerMessage(frame);
@@ -88,7 +88,7 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   m_welcome.connection_id = welcome.connection_id;
   m_welcome.aead = welcome.aead;
   m_welcome.epoch = welcome.epoch;
-  m_last_heard = now;
+  m_silence.heard(now);
   m_timing.attached(now);
   m_inputs.restartStream();
   m_round_trip.forgetPings();
@@ -110,7 +110,7 @@ void ClientSession::adopt(ClientSession& other, Time now) {
 
 void ClientSession::onDatagram(std::string_view bytes, Time now) {
   if (m_state != State::kPlaying) return;
-  m_last_heard = now;
+  m_silence.heard(now);
   m_timing.datagramCame(now);
   m_counters.bytes_in += bytes.size();
   ++m_counters.datagrams_in;
@@ -251,8 +251,9 @@ void ClientSession::closed(CloseReason reason) {
 
 void ClientSession::update(Time now) {
   if (isOver()) return;
+  m_silence.listen(now);
   if (m_state == State::kGreeting) {
-    if (now - m_last_heard >= kGreetingTimeout) {
+    if (m_silence.at(now) >= kGreetingTimeout) {
       finish(State::kLost, "The server accepted the connection but did not answer.");
     }
     return;
@@ -261,8 +262,7 @@ void ClientSession::update(Time now) {
   if (m_timing.isAckDue(now)) sendUpdate(now);
   if (m_datagrams != nullptr && m_timing.isProbeDue(now, m_channel == nullptr)) probe(now);
   if (m_channel == nullptr) {
-    if (now - m_last_heard >= kDetachedTimeout)
-      finish(State::kLost, "The connection to the server was lost.");
+    if (m_silence.at(now) >= kDetachedTimeout) finish(State::kLost, "The connection to the server was lost.");
     return;
   }
   if (hasDatagrams(now) && m_round_trip.waiting(now) >= kStreamSilence) {
@@ -273,7 +273,7 @@ void ClientSession::update(Time now) {
   if (m_datagrams != nullptr && !m_welcome.resume_token.empty() && m_datagrams->takeNewEpochDue()) {
     return closed(CloseReason::kError);
   }
-  if (now - m_last_heard >= kIdleTimeout) {
+  if (m_silence.at(now) >= kIdleTimeout) {
     if (m_welcome.resume_token.empty()) return finish(State::kLost, "The server fell silent.");
     return closed(CloseReason::kError);  // the line may be down for a while; the session waits for another
   }

@@ -31,6 +31,7 @@
 #include "SealedDatagrams.h"
 #include "ServerMessages.h"
 #include "SessionOptions.h"
+#include "Silence.h"
 #include "TakeInClock.h"
 #include "UpdateCodec.h"
 #include "UpdateTiming.h"
@@ -98,13 +99,14 @@ class ClientSession {
   bool hasDatagrams(Time now) const { return m_datagrams != nullptr && m_timing.hasDatagrams(now); }
 
   /// Has the server been heard lately, on either way?
-  bool isHeard(Time now) const { return m_state == State::kPlaying && now - m_last_heard < kPassing; }
+  bool isHeard(Time now) const { return m_state == State::kPlaying && m_silence.at(now) < kPassing; }
 
   /// A frame from the server.
   void receive(std::string_view frame, Time now);
   /// The channel ended by itself.
   void closed(CloseReason reason);
-  /// Pings and time-outs. Call about ten times a second.
+  /// Pings and time-outs. Call about ten times a second: time in which nobody calls does not count as silence
+  /// of the server (Silence.h).
   void update(Time now);
 
   /// Send a key or mouse action of the player, at once. False if it was not sent: not playing, or too many.
@@ -219,7 +221,7 @@ class ClientSession {
   SessionOptions m_options;
   RoundTrip m_round_trip;
   Time m_last_ping;
-  Time m_last_heard;
+  Silence m_silence;
   std::uint64_t m_revision = 0;
 };
 

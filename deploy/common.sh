@@ -57,6 +57,7 @@ build() {
   local preset=$1 log launcher=()
   shift
   command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1  # another checkout has use for the same objects
   log=$(mktemp)
   say "building ($preset)"
   if ! { (cd "$root" && cmake --preset "$preset" "${launcher[@]}" ${CMAKE_EXTRA:-}) >"$log" 2>&1 &&

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <exception>
 
+#include "Look.h"
 #include "Views.h"
 #include "World.h"
+#include "WorldExtras.h"
 #include "WorldStore.h"
 
 namespace df {
@@ -22,28 +24,33 @@ bool isNear(FixedVector a, FixedVector b) {
 void Capture::begin() {
   m_view.drawn.clear();
   m_view.commands.clear();
+  m_view.looks.clear();
   m_view.changed.clear();
   m_view.vanished.clear();
   m_view.players.clear();
+  m_view.sounds.clear();
 }
 
 bool Capture::mayDraw(std::uint32_t slot) {
   WorldStore& store = m_world.store();
   if (!store.has(slot, WorldStore::kActive) || !store.has(slot, WorldStore::kVisible)) return false;
   if (!store.has(slot, WorldStore::kTyped)) m_world.learnType(slot);
-  return !store.has(slot, WorldStore::kNeverDraws);
+  constexpr std::uint32_t kShows = WorldStore::kFrames | WorldStore::kPainted;
+  return !store.has(slot, WorldStore::kNeverDraws) || (store.flags(slot) & kShows) != 0;
 }
 
 void Capture::sortByAltitude() {
   const WorldStore& store = m_world.store();
   const ViewCover views = m_world.views().cover();
+  m_view.corner = m_world.views().cornerOf(nullptr);
   for (auto& keys : m_by_altitude) keys.clear();
   const WorldStore::Walk walk(store);
   for (std::size_t i = 0; i < walk.size(); ++i) {
     const WorldStore::Slot s = walk[i];
     if (s == WorldStore::kNoSlot || !mayDraw(s)) continue;
     const FixedBox box = store.worldBox(s, store.position(s));
-    if (views.meets(box)) m_by_altitude[store.altitude(s)].push_back(store.key(s));
+    if (views.meets(box) || store.has(s, WorldStore::kOnView))
+      m_by_altitude[store.altitude(s)].push_back(store.key(s));
   }
 }
 
@@ -61,9 +68,9 @@ void Capture::drawOne(ObjectKey key) {
   const FixedVector position = store.position(key.slot);
   const auto first = static_cast<std::uint32_t>(m_view.commands.size());
   const std::size_t entry = m_view.drawn.size();
-  m_view.drawn.push_back({key, first, 0});
+  m_view.drawn.push_back({key, first, 0, store.has(key.slot, WorldStore::kOnView)});
 
-  const auto look = m_looks.find(key.slot);
+  const auto look = store.has(key.slot, WorldStore::kFrames) ? m_looks.end() : m_looks.find(key.slot);
   if (look != m_looks.end()) {
     for (const DrawCommand& c : look->second)
       m_view.commands.push_back({position + c.position, c.ch, c.color});
@@ -82,7 +89,11 @@ void Capture::drawOne(ObjectKey key) {
   m_drawing = {};
   const auto count = static_cast<std::uint32_t>(m_view.commands.size()) - first;
   m_view.drawn[entry].count = count;
-  if (!store.isCurrent(key) || !store.has(key.slot, WorldStore::kStaticLook)) return;
+  if (!store.isCurrent(key)) return;
+  const bool frames = store.has(key.slot, WorldStore::kFrames);  // draw() may have set them
+  if (frames && store.isWatched() && store.frames(key.slot) != nullptr)
+    m_view.looks.push_back({static_cast<std::uint32_t>(entry), store.frames(key.slot)});
+  if (frames || !store.has(key.slot, WorldStore::kStaticLook)) return;
   auto& relative = m_looks[key.slot];
   for (std::uint32_t i = first; i < first + count; ++i) {
     const DrawCommand& c = m_view.commands[i];
@@ -96,10 +107,23 @@ void Capture::add(FixedVector position, char32_t ch, Color color) {
   if (m_drawing == ObjectKey{}) {
     const auto first = static_cast<std::uint32_t>(m_view.commands.size());
     if (m_view.drawn.empty() || m_view.drawn.back().key != ObjectKey{})
-      m_view.drawn.push_back({{}, first, 0});
+      m_view.drawn.push_back({{}, first, 0, false});
     ++m_view.drawn.back().count;
   }
   m_view.commands.push_back({position, isDrawable(ch) ? ch : U'?', color});
+}
+
+void Capture::addFrame(std::uint32_t slot) {
+  constexpr int kShift = kFixedBits - naiad::kGlyphUnitBits;
+  const WorldStore& store = m_world.store();
+  const std::shared_ptr<const naiad::Look> p_look = store.frames(slot);
+  if (p_look == nullptr) return;
+  const FixedVector position = store.position(slot);
+  const naiad::Appearance* appearance = p_look->select(static_cast<std::uint32_t>(m_world.getStepCount()));
+  for (const naiad::Glyph& glyph : *appearance) {
+    const FixedVector offset{Fixed{glyph.dx} * (Fixed{1} << kShift), Fixed{glyph.dy} * (Fixed{1} << kShift)};
+    add(position + offset, glyph.ch, glyph.color);
+  }
 }
 
 void Capture::finish() {
@@ -112,18 +136,28 @@ void Capture::finish() {
   m_view.view_height = views.height();
   store.report(m_view);
   for (const auto& [id, p_player] : views.players()) m_view.players.push_back(p_player->facts());
+  if (const WorldExtras* p_extras = m_world.findExtras()) {
+    m_view.sounds = p_extras->sounds;
+    m_view.background = p_extras->background;
+    m_view.shake_x = p_extras->shake.x;
+    m_view.shake_y = p_extras->shake.y;
+  }
 }
 
 Canvas Capture::render(FixedVector corner) const {
   const Views& views = m_world.views();
   Canvas canvas(views.width(), views.height());
-  const std::int64_t left = cellOf(corner.x);
-  const std::int64_t top = cellOf(corner.y);
-  for (const DrawCommand& c : m_view.commands) {
-    const std::int64_t x = cellOf(c.position.x) - left;
-    const std::int64_t y = cellOf(c.position.y) - top;
-    if (x < 0 || y < 0 || x >= canvas.width() || y >= canvas.height()) continue;
-    canvas.put(static_cast<int>(x), static_cast<int>(y), {c.ch, c.color});
+  for (const DrawnObject& drawn : m_view.drawn) {
+    const FixedVector& from = drawn.on_view ? m_view.corner : corner;
+    const std::int64_t left = cellOf(from.x);
+    const std::int64_t top = cellOf(from.y);
+    for (std::uint32_t i = drawn.first; i < drawn.first + drawn.count; ++i) {
+      const DrawCommand& c = m_view.commands[i];
+      const std::int64_t x = cellOf(c.position.x) - left;
+      const std::int64_t y = cellOf(c.position.y) - top;
+      if (x < 0 || y < 0 || x >= canvas.width() || y >= canvas.height()) continue;
+      canvas.put(static_cast<int>(x), static_cast<int>(y), {c.ch, c.color});
+    }
   }
   return canvas;
 }

@@ -29,6 +29,8 @@ class Capture {
   void drawAll();
   /// One character, on behalf of the Object whose draw() is running.
   void add(FixedVector position, char32_t ch, Color color);
+  /// The frame whose turn it is, on its behalf.
+  void addFrame(std::uint32_t slot);
   /// Complete the WorldView, if somebody watches.
   void finish();
   /// The look of this slot is to be drawn anew, if it was static.

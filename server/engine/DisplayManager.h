@@ -8,7 +8,11 @@
 #include <string>
 
 #include "Color.h"
+#include "Config.h"
+#include "Frame.h"
 #include "Manager.h"
+#include "Sfml.h"
+#include "StandardHeaders.h"
 #include "Vector.h"
 
 #define DM df::DisplayManager::getInstance()
@@ -26,6 +30,19 @@ enum Justification {
   RIGHT_JUSTIFIED,   ///< it ends just before
 };
 
+inline constexpr int WINDOW_HORIZONTAL_PIXELS_DEFAULT = 1024;
+inline constexpr int WINDOW_VERTICAL_PIXELS_DEFAULT = 768;
+inline constexpr Color WINDOW_BACKGROUND_COLOR_DEFAULT = BLACK;
+inline const std::string WINDOW_TITLE_DEFAULT = "Dragonfly";
+inline const std::string FONT_FILE_DEFAULT = "df-font.ttf";
+
+/// Size of a character in pixels of the window that the published engine would open.
+float charHeight();
+float charWidth();
+/// From cells to such pixels, and back.
+Vector spacesToPixels(Vector spaces);
+Vector pixelsToSpaces(Vector pixels);
+
 class DisplayManager : public Manager {
  public:
   static DisplayManager& getInstance();
@@ -38,6 +55,13 @@ class DisplayManager : public Manager {
   /// in exactly one cell becomes '?'. Return 0, or -1 for a position or colour out of range.
   int drawCh(Vector world_pos, char ch, Color color = COLOR_DEFAULT) const;
   int drawCh(Vector world_pos, char32_t ch, Color color = COLOR_DEFAULT) const;
+  /// The character with this code, as from `'0' + digit`.
+  int drawCh(Vector world_pos, int ch, Color color = COLOR_DEFAULT) const;
+  /// Terminals do not turn characters: any rotation shows the upright one.
+  int drawCh(Vector world_pos, char ch, Color color, float rotation) const;
+  /// In the one of the eight colours that is nearest to this mix.
+  int drawCh(Vector world_pos, char ch, unsigned char r, unsigned char g, unsigned char b,
+             float rotation = 0) const;
   /// A UTF-8 string, one character per cell. Return 0, or -1 as above, with nothing drawn.
   int drawString(Vector world_pos, const std::string& str, Justification just = LEFT_JUSTIFIED,
                  Color color = COLOR_DEFAULT) const;
@@ -47,6 +71,22 @@ class DisplayManager : public Manager {
   int setSize(int horizontal, int vertical);
   int getHorizontal() const;
   int getVertical() const;
+  void setHorizontal(int new_horizontal) { setSize(new_horizontal, getVertical()); }
+  void setVertical(int new_vertical) { setSize(getHorizontal(), new_vertical); }
+
+  /// Of the window that the published engine would open.
+  int getHorizontalPixels() const;
+  int getVerticalPixels() const;
+
+  /// The colour behind all characters, told to clients. Return true, or false if there is no such colour.
+  bool setBackgroundColor(Color new_color);
+  /// Shake the picture for so many ticks by up to so many pixels; `delta`: in addition to what it does
+  /// already. Told to clients, in cells (WorldView::shake_x); a cell is about 13 by 32 pixels.
+  void shake(int scale_x, int scale_y, int duration, bool delta = false);
+  /// Nothing, for characters are shown at the end of the tick. Return 0.
+  int swapBuffers() { return 0; }
+  /// What stands in for the published engine's window: it takes calls and does nothing.
+  sf::RenderWindow* getWindow() const;
 
  private:
   DisplayManager() { setType("DisplayManager"); }

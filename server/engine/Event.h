@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "StandardHeaders.h"
+
 namespace df {
 
 /// Type of an Event nobody has named.

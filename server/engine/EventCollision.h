@@ -3,6 +3,8 @@
 // It goes to the mover first, then to the other; no interest needs to be registered. Either handler may
 // delete either Object by hand: then the other is not told, so the pointers are good in every handler
 // that sees them.
+//
+// Bodies (physics) get it once when a contact begins, after all of them have moved.
 #pragma once
 
 #include "Event.h"
@@ -32,9 +34,14 @@ class EventCollision : public Event {
   /// the contact.
   void setPosition(Vector new_pos) { m_pos = new_pos; }
   Vector getPosition() const { return m_pos; }
+  /// How hard bodies hit each other: mass · widths of a cell per tick, along the line of the impact. 0 for
+  /// all others, and where nothing pushes (a SOFT one).
+  void setImpulse(double new_impulse) { m_impulse = new_impulse; }
+  double getImpulse() const { return m_impulse; }
 
  private:
   Vector m_pos;
+  double m_impulse = 0;
   Object* m_p_obj1;
   Object* m_p_obj2;
 };

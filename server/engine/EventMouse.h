@@ -10,6 +10,8 @@
 namespace df {
 
 inline const std::string MSE_EVENT = "df-mouse";
+/// The older name.
+inline const std::string MOUSE_EVENT = "df-mouse";
 
 class EventMouse : public Event {
  public:

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "Event.h"
+#include "Player.h"
 
 namespace df {
 

@@ -5,8 +5,10 @@
 #include "DisplayManager.h"
 #include "InputManager.h"
 #include "LogManager.h"
+#include "ResourceManager.h"
 #include "Started.h"
 #include "World.h"
+#include "WorldExtras.h"
 #include "WorldManager.h"
 
 namespace df {
@@ -21,6 +23,8 @@ int GameManager::startUp() {
   DM.startUp();
   IM.startUp();
   WM.startUp();
+  RM.startUp();
+  Config::getInstance().loadConfig();
   World& world = World::current();
   world.setGameOver(false);
   world.setStarted(kGameStarted, true);
@@ -37,6 +41,11 @@ bool GameManager::isStarted() const {
 
 void GameManager::run() {
   World::current().run();
+}
+
+int GameManager::getFrameTime() const {
+  const WorldExtras* p_extras = World::current().findExtras();
+  return p_extras != nullptr ? p_extras->settings.frame_time : FRAME_TIME_DEFAULT;
 }
 
 void GameManager::tick() {

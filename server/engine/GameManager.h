@@ -12,12 +12,20 @@
 #include <string>
 #include <vector>
 
+#include "Config.h"
 #include "Manager.h"
-#include "Runner.h"
+#include "StandardHeaders.h"
+
+/// The published version whose interface this is.
+#define DF_VERSION 4.18
 
 #define GM df::GameManager::getInstance()
 
 namespace df {
+
+namespace running {
+class Runner;  // df::Runner, for who includes Runner.h
+}
 
 /// Length of a tick, in milliseconds, rounded; exactly it is 1/30 s.
 inline constexpr int FRAME_TIME_DEFAULT = 33;
@@ -26,7 +34,7 @@ class GameManager : public Manager {
  public:
   static GameManager& getInstance();
 
-  /// Start all managers. Return 0.
+  /// Start all managers, and take on what df-config.txt says (Config.h). Return 0.
   int startUp() override;
   /// Stop all managers and set the world back (WorldManager::shutDown).
   void shutDown() override;
@@ -43,11 +51,11 @@ class GameManager : public Manager {
 
   /// Ticks begun since the world began.
   int getStepCount() const;
-  /// Length of a tick, in milliseconds.
-  int getFrameTime() const { return FRAME_TIME_DEFAULT; }
+  /// Length of a tick, in milliseconds: what df-config.txt says, or the default.
+  int getFrameTime() const;
 
   /// Who runs the loop; not owned; null for nobody.
-  void setRunner(Runner* p_runner);
+  void setRunner(running::Runner* p_runner);
   /// Begin the world's random sequence (WM.randomInt) anew.
   void setSeed(std::uint64_t seed);
   /// A few lines about the game and its keys, for the help screen of the clients.

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "Keyboard.h"
+#include "Player.h"
 
 namespace df {
 
-class Player;
 class World;
 
 /// The tick's part for all players with controls, between the step event and the first input.

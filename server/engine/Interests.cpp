@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "Object.h"
+#include "Pause.h"
 #include "World.h"
 #include "WorldStore.h"
 
@@ -44,14 +45,17 @@ void Interests::tidy(Table& table) {
   table.gone = 0;
 }
 
-int Interests::send(const Event& event) {
+int Interests::send(const Event& event, Whom whom) {
   const auto it = m_numbers.find(event.getType());
   if (it == m_numbers.end()) return 0;
   Table& table = m_tables[it->second];
   const std::size_t count = table.entries.size();
   int told = 0;
   ++table.walks;
-  for (std::size_t i = 0; i < count; ++i) told += m_world.deliver(table.entries[i], event) ? 1 : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (whom == kPauseOnly && dynamic_cast<Pause*>(m_world.find(table.entries[i])) == nullptr) continue;
+    told += m_world.deliver(table.entries[i], event) ? 1 : 0;
+  }
   --table.walks;
   tidy(table);
   return told;

@@ -23,8 +23,11 @@ class Interests {
   int remove(Object& object, const std::string& type);
   /// The Object leaves the world: it hears nothing any more.
   void dropAll(Object& object);
-  /// Deliver to all that were registered when the call began and still are at their turn.
-  int send(const Event& event);
+  /// Whom a send reaches.
+  enum Whom { kEverybody, kPauseOnly };
+  /// Deliver to all that were registered when the call began and still are at their turn; or only to the
+  /// Pause objects among them.
+  int send(const Event& event, Whom whom = kEverybody);
 
  private:
   struct Table {

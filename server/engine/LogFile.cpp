@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <mutex>
+#include <set>
 
 namespace df {
 
@@ -16,6 +17,17 @@ void writeToLogFile(const std::string& line, bool flush) {
   std::fwrite(line.data(), 1, line.size(), p_file);
   std::fputc('\n', p_file);
   if (flush) std::fflush(p_file);
+}
+
+bool writeToFile(const std::string& filename, const std::string& line) {
+  static std::mutex* p_mutex = new std::mutex;
+  static auto* p_known = new std::set<std::string>;
+  const std::lock_guard lock(*p_mutex);
+  std::FILE* p_file = std::fopen(filename.c_str(), p_known->insert(filename).second ? "w" : "a");
+  if (p_file == nullptr) return false;
+  std::fwrite(line.data(), 1, line.size(), p_file);
+  if (line.empty() || line.back() != '\n') std::fputc('\n', p_file);
+  return std::fclose(p_file) == 0;
 }
 
 }  // namespace df

@@ -9,4 +9,8 @@ namespace df {
 /// cannot be done, the line is dropped. Any thread.
 void writeToLogFile(const std::string& line, bool flush);
 
+/// Append a line to another file; its first line of this process empties it. Return false if that cannot be
+/// done. Any thread.
+bool writeToFile(const std::string& filename, const std::string& line);
+
 }  // namespace df

@@ -2,8 +2,10 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
+#include "LogFile.h"
 #include "Started.h"
 #include "World.h"
 
@@ -11,16 +13,34 @@ namespace df {
 
 namespace {
 
-int writeFormatted(const char* fmt, std::va_list args) {
+bool isWanted(int log_level) {
+  const World& world = World::current();
+  return world.compat() ? log_level >= world.getLogLevel() : log_level <= world.getLogLevel();
+}
+
+// Nothing if `fmt` and `args` make no text.
+std::optional<std::string> format(const char* fmt, std::va_list args) {
   std::va_list again;
   va_copy(again, args);
   const int length = std::vsnprintf(nullptr, 0, fmt, args);
   std::string line(length > 0 ? static_cast<std::size_t>(length) : 0, '\0');
   if (length > 0) std::vsnprintf(line.data(), line.size() + 1, fmt, again);
   va_end(again);
-  if (length < 0) return -1;
-  if (!line.empty() && line.back() == '\n') line.pop_back();
-  World::current().log(line);
+  if (length < 0) return std::nullopt;
+  return line;
+}
+
+int writeToOwnFile(const std::string& filename, const std::string& line) {
+  if (!writeToFile(filename, line)) return -1;
+  return static_cast<int>(line.size());
+}
+
+int writeFormatted(const char* fmt, std::va_list args) {
+  std::optional<std::string> line = format(fmt, args);
+  if (!line) return -1;
+  const int length = static_cast<int>(line->size());
+  if (length > 0 && line->back() == '\n') line->pop_back();
+  World::current().log(*line);
   return length;
 }
 
@@ -53,12 +73,29 @@ int LogManager::writeLog(const char* fmt, ...) const {
 }
 
 int LogManager::writeLog(int log_level, const char* fmt, ...) const {
-  if (log_level > getLogLevel()) return 0;
+  if (!isWanted(log_level)) return 0;
   std::va_list args;
   va_start(args, fmt);
   const int length = writeFormatted(fmt, args);
   va_end(args);
   return length;
+}
+
+int LogManager::writeMyLog(const std::string& filename, const char* fmt, ...) const {
+  std::va_list args;
+  va_start(args, fmt);
+  const std::optional<std::string> line = format(fmt, args);
+  va_end(args);
+  return line ? writeToOwnFile(filename, *line) : -1;
+}
+
+int LogManager::writeMyLog(const std::string& filename, int log_level, const char* fmt, ...) const {
+  if (!isWanted(log_level)) return 0;
+  std::va_list args;
+  va_start(args, fmt);
+  const std::optional<std::string> line = format(fmt, args);
+  va_end(args);
+  return line ? writeToOwnFile(filename, *line) : -1;
 }
 
 void LogManager::setLogLevel(int new_log_level) {

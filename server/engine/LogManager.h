@@ -8,10 +8,15 @@
 #include <string>
 
 #include "Manager.h"
+#include "StandardHeaders.h"
+#include "utility.h"
 
 #define LM df::LogManager::getInstance()
 
 namespace df {
+
+/// The file that lines go to.
+inline const std::string LOGFILE_DEFAULT = "dragonfly.log";
 
 class LogManager : public Manager {
  public:
@@ -24,13 +29,21 @@ class LogManager : public Manager {
   /// Write one line, formatted as by printf; a newline at its end may be given or left out. Return the
   /// number of characters, or -1 for a bad format.
   int writeLog(const char* fmt, ...) const __attribute__((format(printf, 2, 3)));
-  /// The same, if `log_level` is not above the level set; else return 0.
+  /// The same, if `log_level` is not above the level set (compat: not below it); else return 0.
   int writeLog(int log_level, const char* fmt, ...) const __attribute__((format(printf, 3, 4)));
+  /// The same into a file of its own, in the working directory, which the first line empties.
+  int writeMyLog(const std::string& filename, const char* fmt, ...) const
+      __attribute__((format(printf, 3, 4)));
+  int writeMyLog(const std::string& filename, int log_level, const char* fmt, ...) const
+      __attribute__((format(printf, 4, 5)));
   /// Default 0: writeLog(1, …) and above write nothing.
   void setLogLevel(int new_log_level);
   int getLogLevel() const;
   /// Flush the file after each line, so that nothing is lost in a crash. Default: no.
   void setFlush(bool do_flush = true);
+  /// Lines carry no times and no step counts, whatever is set here.
+  void setLogTimeString(bool /*log_time_string*/ = true) {}
+  void setLogStepCount(bool /*log_step_count*/ = true) {}
   /// Where the current world's lines go, without newline; an empty function: back to the file.
   void setSink(std::function<void(const std::string&)> sink);
 

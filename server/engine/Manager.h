@@ -7,6 +7,14 @@
 #include <string>
 
 #include "Event.h"
+#include "Object.h"
+#include "ObjectList.h"
+#include "StandardHeaders.h"
+
+// Games ask whether registerInterest() is there.
+#if !defined(DF_REGISTER_INTEREST)
+#define DF_REGISTER_INTEREST
+#endif
 
 namespace df {
 
@@ -31,6 +39,12 @@ class Manager {
   /// Return how many were told; 0 for null. See World::onEvent for what happens to Objects that come,
   /// go or fall asleep meanwhile.
   int onEvent(const Event* p_event) const;
+
+  /// Object::registerInterest(), seen from the other side.
+  int registerInterest(Object* p_o, const std::string& event_type);
+  int unregisterInterest(Object* p_o, const std::string& event_type);
+  /// Whether events of this type come from this manager: for games' own ones. Nobody asks.
+  virtual bool isValid(std::string /*event_type*/) const { return true; }
 
  protected:
   void setType(std::string type) { m_type = std::move(type); }

@@ -6,7 +6,10 @@
 #include <utility>
 
 #include "Interests.h"
+#include "Limits.h"
+#include "LookCodec.h"
 #include "Mask.h"
+#include "ObjectExtras.h"
 #include "World.h"
 #include "WorldStore.h"
 
@@ -69,6 +72,9 @@ const void* handlerOf(const Object& object) {
 
 const void* g_p_base_handler = nullptr;
 
+// What an Object without a sprite collides with in the published engine: characters one apart do not touch.
+const FixedBox kCompatBox{{-kFixedOne / 2, -kFixedOne / 2}, {*toFixed(0.99), *toFixed(0.99)}};
+
 bool isFiniteFloat(double x) {
   return std::isfinite(static_cast<float>(x));
 }
@@ -107,12 +113,14 @@ Object::Object() : m_p_store(nullptr), m_slot(0) {
   World& world = World::current();
   m_p_store = &world.store();
   m_slot = m_p_store->take(this, t_pending.claim(this));
+  if (world.compat()) m_p_store->setBox(m_slot, kCompatBox);
   // Here it is still nothing but an Object.
   if (g_p_base_handler == nullptr) g_p_base_handler = handlerOf(*this);
   world.insertObject(this);
 }
 
 Object::~Object() {
+  if (m_p_extras != nullptr) dropExtras();
   if (World* p_world = getWorld()) p_world->forget(this);
   m_p_store->give(m_slot);
 }
@@ -135,7 +143,16 @@ void Object::setType(std::string new_type) {
 }
 
 int Object::getId() const {
+  if (m_p_extras != nullptr && m_p_extras->id) return *m_p_extras->id;
   return static_cast<int>(m_p_store->order(m_slot));
+}
+
+void Object::setId(int new_id) {
+  extras().id = new_id;
+}
+
+Object::MaxId::operator int() const {
+  return static_cast<int>(World::current().store().lastOrder());
 }
 
 int Object::setPosition(Vector new_pos) {
@@ -307,16 +324,18 @@ bool Object::getMayMoveOut() const {
   return m_p_store->has(m_slot, WorldStore::kMayMoveOut);
 }
 
-void Object::setActive(bool active) {
+int Object::setActive(bool active) {
   m_p_store->set(m_slot, WorldStore::kActive, active);
+  return 0;
 }
 
 bool Object::isActive() const {
   return m_p_store->has(m_slot, WorldStore::kActive);
 }
 
-void Object::setVisible(bool visible) {
+int Object::setVisible(bool visible) {
   m_p_store->set(m_slot, WorldStore::kVisible, visible);
+  return 0;
 }
 
 bool Object::isVisible() const {
@@ -341,8 +360,39 @@ int Object::eventHandler(const Event* /*p_e*/) {
   return 0;
 }
 
-int Object::draw() {
+int Object::setFrames(const naiad::Sequence& frames, const naiad::Selector& selector) {
+  if (frames.empty()) {
+    m_p_store->setFrames(m_slot, nullptr);
+    return 0;
+  }
+  const bool small = frames.size() <= naiad::kMaxFrames && frames.glyphCount() <= naiad::kMaxGlyphs &&
+                     frames.reach() <= naiad::kMaxGlyphOffset;
+  if (!small || !selector.fits(frames.size()) || naiad::encodedBits(frames) > 8 * naiad::kMaxLookBytes)
+    return refuse("setFrames");
+  m_p_store->setFrames(m_slot, std::make_shared<const naiad::Look>(naiad::Look{frames, 0, selector}));
   return 0;
+}
+
+int Object::setSelector(const naiad::Selector& selector) {
+  const std::shared_ptr<const naiad::Look>& p_look = m_p_store->frames(m_slot);
+  if (p_look == nullptr || !selector.fits(p_look->sequence.size())) return refuse("setSelector");
+  if (p_look->selector == selector) return 0;
+  m_p_store->setFrames(m_slot,
+                       std::make_shared<const naiad::Look>(naiad::Look{p_look->sequence, 0, selector}));
+  return 0;
+}
+
+int Object::getFrameCount() const {
+  const std::shared_ptr<const naiad::Look>& p_look = m_p_store->frames(m_slot);
+  return p_look != nullptr ? static_cast<int>(p_look->sequence.size()) : 0;
+}
+
+int Object::getFrame() const {
+  const std::shared_ptr<const naiad::Look>& p_look = m_p_store->frames(m_slot);
+  const World* p_world = getWorld();
+  if (p_look == nullptr || p_world == nullptr) return 0;
+  const auto tick = static_cast<std::uint32_t>(p_world->getStepCount());
+  return static_cast<int>(p_look->selector.at(tick, p_look->sequence.size()));
 }
 
 void Object::setStaticLook(bool static_look) {

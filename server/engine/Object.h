@@ -15,20 +15,33 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iosfwd>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
 
+#include "Animation.h"
 #include "Box.h"
 #include "Event.h"
+#include "ObjectAttributes.h"
+#include "Path.h"
+#include "Shape.h"
 #include "Solidness.h"
+#include "StandardHeaders.h"
 #include "Vector.h"
 #include "WorldView.h"
+
+namespace naiad {
+class Sequence;
+struct Selector;
+}  // namespace naiad
 
 namespace df {
 
 class World;
 class WorldStore;
+struct ObjectExtras;
 
 /// Highest altitude; 0 is the lowest, drawn first.
 inline constexpr int MAX_ALTITUDE = 4;
@@ -43,21 +56,30 @@ class Object {
   virtual ~Object();
 
   /// A name by which game code tells its Objects apart.
-  void setType(std::string new_type);
+  virtual void setType(std::string new_type);
   const std::string& getType() const { return m_type; }
 
   /// Place in the world's creation order: unique in a world, never used again, ascending. It changes only
-  /// when a removed Object is inserted again.
+  /// when a removed Object is inserted again, and with setId().
   int getId() const;
+  /// Give it a number of the game's own. The creation order stays.
+  void setId(int new_id);
+  /// The highest id that the current world has given so far. What is written here is forgotten: the world's
+  /// ids go on by themselves.
+  struct MaxId {
+    operator int() const;
+    MaxId& operator=(int /*id*/) { return *this; }
+  };
+  inline static MaxId max_id;
 
   // Where.
 
   /// Put the Object at `new_pos`, |coordinate| <= 2e9. No collision is tested, no event sent, no view
   /// moved: for that there is WM.moveObject(). Return 0, else -1.
-  int setPosition(Vector new_pos);
+  virtual int setPosition(Vector new_pos);
   Vector getPosition() const;
   /// Drawing order, 0 to MAX_ALTITUDE, higher ones on top. Return 0, else -1.
-  int setAltitude(int new_altitude);
+  virtual int setAltitude(int new_altitude);
   int getAltitude() const;
   /// The bounding box, corner relative to the position. Used for collisions (edges included) and to find
   /// what is in view. Default: corner (-0.5,-0.5), 1 by 1, which equals the book's test for single
@@ -90,7 +112,7 @@ class Object {
   // How it collides.
 
   /// HARD by default. Return 0, or -1 if `new_solid` is none of the three.
-  int setSolidness(Solidness new_solid);
+  virtual int setSolidness(Solidness new_solid);
   Solidness getSolidness() const;
   /// True if HARD or SOFT.
   bool isSolid() const;
@@ -119,11 +141,11 @@ class Object {
   bool getMayMoveOut() const;
 
   /// An inactive Object gets no events, is not moved by update(), takes no part in collisions and is not
-  /// drawn. It stays in the world.
-  void setActive(bool active = true);
+  /// drawn. It stays in the world. Return 0.
+  virtual int setActive(bool active = true);
   bool isActive() const;
-  /// An invisible Object is not drawn; everything else goes on.
-  void setVisible(bool visible = true);
+  /// An invisible Object is not drawn; everything else goes on. Return 0.
+  int setVisible(bool visible = true);
   bool isVisible() const;
 
   // What it hears.
@@ -141,12 +163,92 @@ class Object {
   // How it looks.
 
   /// Called once a tick while the Object is active, visible and in view, to put characters on the screen
-  /// with DM.drawCh() and DM.drawString(). Return 0, else -1.
+  /// with DM.drawCh() and DM.drawString(). As it is here it shows the sprite and the shape, if there are
+  /// such, or the frame whose turn it is, if the Object has frames. Return 0, else -1.
   virtual int draw();
+
+  /// Show this sprite (RM.loadSprite), from its first frame on. Unless `set_box` is false, the box becomes
+  /// the sprite's: its size, the position in the middle. Where characters are compared (setPrecise), those of
+  /// the frame count. Return 0, or -1 for a label that is not loaded.
+  int setSprite(const std::string& sprite_label, bool set_box = true);
+  /// The same with a sprite of the game's own, which has to live as long as it is shown; null: none.
+  int setSprite(Sprite* p_new_sprite, bool set_box = true);
+  /// Null for none.
+  Sprite* getSprite() const { return getAnimation().getSprite(); }
+  /// The animation, sprite and all. Unless `set_box` is false, the box becomes the sprite's.
+  void setAnimation(const Animation& new_animation, bool set_box = true);
+  /// A copy: setAnimation() takes it back.
+  Animation getAnimation() const;
+  /// Which frame shows.
+  void setSpriteIndex(int new_index);
+  int getSpriteIndex() const { return getAnimation().getIndex(); }
+  /// The pace of the sprite, and so of all Objects that share it: ticks to a frame; 0: no animation.
+  void setSpriteSlowdown(int new_slowdown);
+  int getSpriteSlowdown() const;
+  /// Ticks for which the frame has been shown; -1 stops the animation.
+  void setSpriteSlowdownCount(int new_slowdown_count);
+  int getSpriteSlowdownCount() const { return getAnimation().getSlowdownCount(); }
+  /// The character of the sprite that is not drawn, for all Objects that share it; 0: all are.
+  void setTransparency(char new_transparency = ' ');
+  char getTransparency() const;
+  /// Show a circle, square or triangle.
+  virtual void setShape(Shape new_shape);
+  /// A white circle if none was set.
+  Shape getShape() const;
   /// Promise that draw() puts the same characters at the same places relative to the position every time:
   /// it is then called once, and its result moves with the Object. Setting it anew has it called again.
   void setStaticLook(bool static_look = true);
   bool hasStaticLook() const;
+  /// Pictures of the Object, of which draw() shows the one that `selector` names for the tick: an animation,
+  /// or a turn in steps (naiad::Selector, in Look.h of the shared parts; ticks are WorldView's). As long as
+  /// nothing but the tick decides, no watcher has to be told anything. Sprites and bodies set it. An empty
+  /// sequence: none any more. Return 0, or -1 (and no change) if the selector does not fit, or if the
+  /// pictures are too large to be described (kMaxGlyphs, kMaxLookBytes).
+  int setFrames(const naiad::Sequence& frames, const naiad::Selector& selector);
+  /// Go on with another selector. Return 0, or -1 if it does not fit or there are no frames.
+  int setSelector(const naiad::Selector& selector);
+  /// How many frames there are, and the index of the one that is shown in the present tick (0 if none).
+  int getFrameCount() const;
+  int getFrame() const;
+
+  // As text, for games that save or send their Objects.
+
+  /// The attributes as "id:7,pos-x:2.5,pos-y:3,…": those modified since they were last written, or those that
+  /// `attr` names ("pos", "box", …, separated by commas), or all of them for "ALL". Those written count as
+  /// not modified from then on.
+  virtual std::string serialize(std::string attr = "");
+  /// The same, of the attributes in the mask `attr`; 0: the modified ones. Return 0, or -1 for null.
+  virtual int serialize(std::stringstream* p_ss, unsigned int attr = 0);
+  /// Take on what such a text says. Return 0, or -1 if a value was refused.
+  virtual int deserialize(std::string s);
+  /// The same; what attributes it was is added to the mask *p_a, if that is not null.
+  virtual int deserialize(std::stringstream* p_ss, unsigned int* p_a = nullptr);
+  /// Is an attribute, or any one, another than when it was last written? It has to be written first.
+  bool isModified(ObjectAttribute attribute) const;
+  virtual bool isModified() const { return getModified() != 0; }
+  /// The modified attributes as a mask. To set it makes these count as modified, besides those that are.
+  virtual void setModified(unsigned int new_modified);
+  virtual unsigned int getModified() const;
+  /// What it is and where, for log lines.
+  std::string toString() const;
+
+  // Finding its way.
+
+  /// Walk to a position, with the speed it has, round HARD Objects (PathFind.h): a velocity is set in each
+  /// step from node to node, until it is there. The Object hears of the search by an EventPath.
+  void pathTo(Vector position);
+  /// To where another Object is now.
+  void pathTo(const Object* p_o_target);
+  /// Turn towards a position.
+  void moveTo(Vector new_position);
+  void setPath(Path new_path);
+  Path getPath() const;
+  /// Walk along the path, from its next node on, or stop doing so.
+  virtual void setFollowPath(bool new_follow_path = true);
+  bool getFollowPath() const;
+  /// Whether it walks round others: for getters only, pathTo() always does.
+  virtual void setAvoidCollisions(bool new_avoid_collisions = true);
+  bool getAvoidCollisions() const;
 
   // The engine's view of it.
 
@@ -166,8 +268,15 @@ class Object {
   static void operator delete(void* p, const std::nothrow_t& /*nothrow*/) noexcept { operator delete(p); }
   static void operator delete(void*, void*) noexcept {}
 
+ protected:
+  /// Its position is a cell of the view, and it is drawn wherever that is (ViewObject.h).
+  void showOnView();
+
  private:
+  friend class Animations;
+  friend class Walkers;
   friend class World;
+  friend class WorldStore;
   friend class Interests;
   friend class ObjectList;
   friend class Views;
@@ -176,6 +285,12 @@ class Object {
   void deriveKinematics() const;
   int refuse(const char* what) const;
   bool isDeaf() const;  // does its class leave eventHandler() as it is here?
+  ObjectExtras& extras();
+  void dropExtras();
+  void animate();
+  const Mask* spriteMask() const;
+  ObjectAttributes attributes() const;
+  void stepPath();
 
   WorldStore* m_p_store;  // never null: a store lives as long as its last Object
   std::uint32_t m_slot;
@@ -185,7 +300,8 @@ class Object {
   mutable double m_speed = 0;
   mutable Vector m_direction;
   mutable bool m_direction_is_velocity = false;
-  std::vector<std::uint32_t> m_interests;  // numbers of event types, see Interests.h
+  std::vector<std::uint32_t> m_interests;    // numbers of event types, see Interests.h
+  std::unique_ptr<ObjectExtras> m_p_extras;  // what only some have; null until it is needed
 };
 
 }  // namespace df

@@ -85,6 +85,11 @@ Object* ObjectList::operator[](int index) const {
   return m_p_store->find(keys()[index]);
 }
 
+bool operator==(const ObjectList& a, const ObjectList& b) {
+  return a.m_count == b.m_count && (a.m_p_store == b.m_p_store || a.m_count == 0) &&
+         std::equal(a.keys(), a.keys() + a.m_count, b.keys());
+}
+
 ObjectList& ObjectList::operator+=(const ObjectList& other) {
   if (m_p_store != nullptr && other.m_p_store != m_p_store) return *this;
   const int count = other.m_count;  // `other` may be this list

@@ -46,6 +46,9 @@ class ObjectList {
   /// Entry `index`; null if the Object is gone or `index` is not in 0 … getCount()-1.
   Object* operator[](int index) const;
 
+  /// The same Objects in the same order?
+  friend bool operator==(const ObjectList& a, const ObjectList& b);
+
   /// Append all entries of `other`; entries of another world are left out.
   ObjectList& operator+=(const ObjectList& other);
   friend ObjectList operator+(ObjectList a, const ObjectList& b) { return a += b; }

@@ -13,8 +13,13 @@ namespace df {
 class ObjectListIterator {
  public:
   /// Start at the first entry. The list must outlive the iterator; null is an empty list.
-  explicit ObjectListIterator(const ObjectList* p_list) : m_p_list(p_list) {}
+  ObjectListIterator(const ObjectList* p_list) : m_p_list(p_list) {}
 
+  /// On to another list, from its first entry on.
+  void setList(const ObjectList* p_list) {
+    m_p_list = p_list;
+    m_index = 0;
+  }
   /// Back to the first entry.
   void first() { m_index = 0; }
   /// On to the next entry.

@@ -18,6 +18,17 @@
 namespace df {
 
 class Controls;
+class Views;
+
+// In a namespace of its own, so that a game that says `using namespace df` and never includes this may have a
+// Player itself: many have.
+namespace players {
+class Player;
+}
+void beginControlTick(World& world);
+bool handleKey(World& world, players::Player& player, Keyboard::Key key, EventKeyboardAction action);
+
+namespace players {
 
 class Player {
  public:
@@ -61,10 +72,10 @@ class Player {
  private:
   SteeringFacts steeringFacts() const;
 
-  friend class World;
-  friend class Views;
-  friend void beginControlTick(World& world);
-  friend bool handleKey(World& world, Player& player, Keyboard::Key key, EventKeyboardAction action);
+  friend class df::World;
+  friend class df::Views;
+  friend void df::beginControlTick(World& world);
+  friend bool df::handleKey(World& world, Player& player, Keyboard::Key key, EventKeyboardAction action);
   std::uint32_t m_id;
   std::string m_name;
   Color m_color;
@@ -79,5 +90,9 @@ class Player {
   ControlState m_control_state;
   bool m_steers = true;
 };
+
+}  // namespace players
+
+using players::Player;
 
 }  // namespace df

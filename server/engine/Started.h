@@ -9,6 +9,7 @@ enum Started : unsigned {
   kLogStarted = 4,
   kDisplayStarted = 8,
   kInputStarted = 16,
+  kResourcesStarted = 32,
 };
 
 }  // namespace df

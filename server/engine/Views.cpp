@@ -137,8 +137,8 @@ void Views::moved(ObjectKey key, FixedVector position) {
   }
 }
 
-ObjectKey Views::followed(const Player& player) const {
-  const ObjectKey key = player.m_has_view ? player.m_followed : m_followed;
+ObjectKey Views::followed(const Player* p_player) const {
+  const ObjectKey key = p_player != nullptr && p_player->m_has_view ? p_player->m_followed : m_followed;
   return m_world.find(key) != nullptr ? key : ObjectKey{};
 }
 

@@ -66,7 +66,7 @@ class Views {
   /// A followed Object was moved.
   void moved(ObjectKey key, FixedVector position);
   /// Whom the player's view follows, be it his own or the world's; generation 0 if nobody.
-  ObjectKey followed(const Player& player) const;
+  ObjectKey followed(const Player* p_player) const;
   /// All views, in whole cells: what shows on the screens.
   ViewCover cover() const;
 

@@ -14,6 +14,7 @@
 #include "Object.h"
 #include "Runner.h"
 #include "Views.h"
+#include "WorldExtras.h"
 #include "WorldStore.h"
 
 namespace df {
@@ -78,13 +79,18 @@ void World::tick() {
     const During during(m_in_tick);
     ++m_step_count;
     m_capture->begin();
-    const EventStep step(m_step_count);
-    onEvent(&step);
-    beginControlTick(*this);
+    if (m_p_extras != nullptr) m_p_extras->beginTick();
+    if (!isPaused()) {
+      const EventStep step(m_step_count);
+      onEvent(&step);
+      if (m_p_extras != nullptr) m_p_extras->walkers.step();
+    }
+    if (!isPaused()) beginControlTick(*this);
     drainInput();
-    update();
+    if (!isPaused()) update();
     drawObjects();
     m_capture->finish();
+    if (m_p_extras != nullptr) m_p_extras->endTick();
   }
   finishShutDown();
 }
@@ -98,7 +104,7 @@ void World::update() {
       if (m_p_store->isCurrent(key)) learnType(key.slot);
     }
     m_mover->moveAll();
-    for (const auto& layer : m_layers) layer->step(*this);
+    for (std::size_t i = 0; i < m_layers.size(); ++i) m_layers[i]->step(*this);  // handlers may add one
     deleteMarked();
     m_p_store->closeGaps();
     m_p_store->age();
@@ -144,7 +150,7 @@ void World::setSeed(std::uint64_t seed) {
 int World::onEvent(const Event* p_event) {
   if (p_event == nullptr) return 0;
   const Scope scope(*this);
-  return m_interests->send(*p_event);
+  return isPaused() ? m_interests->send(*p_event, Interests::kPauseOnly) : m_interests->send(*p_event);
 }
 
 bool World::deliver(ObjectKey key, const Event& event) {
@@ -234,6 +240,10 @@ int World::drawCh(Vector world_pos, char32_t ch, Color color) {
 
 void World::forgetLook(std::uint32_t slot) {
   m_capture->forgetLook(slot);
+}
+
+void World::drawFrame(std::uint32_t slot) {
+  m_capture->addFrame(slot);
 }
 
 Canvas World::renderView(FixedVector corner) const {

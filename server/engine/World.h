@@ -25,7 +25,9 @@
 #include "Layer.h"
 #include "ObjectList.h"
 #include "Paths.h"
+#include "Player.h"
 #include "Random.h"
+#include "Runner.h"
 #include "Vector.h"
 #include "WorldView.h"
 
@@ -36,10 +38,9 @@ class InputQueue;
 class Interests;
 class Mover;
 class Object;
-class Player;
-class Runner;
 class Views;
 class WorldStore;
+struct WorldExtras;
 
 class World {
  public:
@@ -99,7 +100,7 @@ class World {
   void setRunner(Runner* p_runner) { m_p_runner = p_runner; }
   Runner* getRunner() const { return m_p_runner; }
   /// From now on `layer` takes part in update(), after the layers added before it. It lives as long as the
-  /// world. Not to be called by a layer's step().
+  /// world. Added by a layer's step(), or by a handler that it calls, it takes part in the same update().
   void addLayer(std::unique_ptr<Layer> layer) { m_layers.push_back(std::move(layer)); }
   /// The first layer of this class; null if there is none.
   template <class T>
@@ -161,6 +162,7 @@ class World {
   int setView(Box view);
   int setViewPosition(Vector centre);
   int setViewFollowing(Object* p_o);
+  Object* getViewFollowing() const;
   std::vector<Player*> getPlayers() const;
   Player* getPlayer(std::uint32_t id) const;
   /// The player whose join, leave, key or mouse is being handled; 0 outside that.
@@ -220,6 +222,25 @@ class World {
   /// Calls refused so far because of a number that was not finite or out of range.
   std::uint64_t getRefusals() const { return m_refusals; }
 
+  // What only some games use.
+
+  /// Behave as the published engine where it differs from the book (docs/dragonfly-api.md lists it). For new
+  /// Objects, so before the first. Default: the book. It stays through shutDown().
+  void setCompat(bool compat = true) { m_compat = compat; }
+  bool compat() const { return m_compat; }
+  /// Relative names of sprites, sounds and music are looked for in the working directory, then here. It stays
+  /// through shutDown().
+  void addResourceFolder(std::string folder);
+  /// While a game is paused, no step event is sent and nothing moves; keys reach nobody but Pause objects.
+  void setPaused(bool paused = true);
+  bool isPaused() const;
+  /// A sound was played; see WorldView.
+  void noteSound(SoundPlayed sound);
+  /// Sprites, sounds, settings and the like, made when first asked for.
+  WorldExtras& extras();
+  /// Null if nobody has asked yet.
+  WorldExtras* findExtras() const { return m_p_extras.get(); }
+
   /// Lines about the game for the client's help screen.
   void setHelp(std::vector<std::string> lines) { m_help = std::move(lines); }
   const std::vector<std::string>& getHelp() const { return m_help; }
@@ -236,6 +257,8 @@ class World {
   void learnType(std::uint32_t slot);
   /// Have a static look drawn anew.
   void forgetLook(std::uint32_t slot);
+  /// Draw the frame whose turn it is, of an Object that has frames.
+  void drawFrame(std::uint32_t slot);
   /// Put an Object there, without a move: the views that follow it go with it, and it hears if it leaves the
   /// world. For layers.
   void place(ObjectKey key, FixedVector where);
@@ -264,7 +287,8 @@ class World {
   std::unique_ptr<InputQueue> m_input;
   std::unique_ptr<Mover> m_mover;
   std::vector<std::unique_ptr<Layer>> m_layers;
-  std::vector<ObjectKey> m_deletions;  // marked, in that order
+  std::unique_ptr<WorldExtras> m_p_extras;  // null until somebody needs it
+  std::vector<ObjectKey> m_deletions;       // marked, in that order
   Random m_random;
   std::uint64_t m_seed = 1;
   Runner* m_p_runner = nullptr;
@@ -278,6 +302,7 @@ class World {
   Seen m_input_seen;  // by that player
   const Hindsight* m_p_hindsight = nullptr;
   bool m_looking_back = false;
+  bool m_compat = false;
   int m_step_count = 0;
   int m_log_level = 0;
   unsigned m_started = 0;

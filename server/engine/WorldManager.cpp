@@ -1,9 +1,26 @@
 #include "WorldManager.h"
 
 #include "Started.h"
+#include "Views.h"
 #include "World.h"
+#include "WorldExtras.h"
+#include "utility.h"
 
 namespace df {
+
+namespace {
+
+template <class Wanted>
+ObjectList pick(Wanted wanted) {
+  const ObjectList all = World::current().getAllObjects();
+  ObjectList list;
+  for (int i = 0; i < all.getCount(); ++i) {
+    if (wanted(getWorldBox(all[i]))) list.insert(all[i]);
+  }
+  return list;
+}
+
+}  // namespace
 
 WorldManager& WorldManager::getInstance() {
   static WorldManager* p_instance = new WorldManager;  // never destroyed: static Objects may still call it
@@ -33,6 +50,47 @@ int WorldManager::removeObject(Object* p_o) {
 
 int WorldManager::markForDelete(Object* p_o) {
   return World::current().markForDelete(p_o);
+}
+
+int WorldManager::markForDelete(const ObjectList& obj_list) {
+  int result = 0;
+  for (int i = 0; i < obj_list.getCount(); ++i) {
+    if (markForDelete(obj_list[i]) != 0) result = -1;
+  }
+  return result;
+}
+
+ObjectList WorldManager::objectsAtPosition(Vector where) const {
+  return pick([&](const Box& box) { return boxContainsPosition(box, where); });
+}
+
+ObjectList WorldManager::objectsInBox(Box box) const {
+  return pick([&](const Box& other) { return boxIntersectsBox(box, other); });
+}
+
+ObjectList WorldManager::objectsOnLine(Line line) const {
+  return pick([&](const Box& box) { return lineIntersectsBox(line, box); });
+}
+
+ObjectList WorldManager::objectsInCircle(Circle circle) const {
+  return pick([&](const Box& box) { return circleIntersectsBox(circle, box); });
+}
+
+SceneGraph& WorldManager::getSceneGraph() const {
+  static auto* p_graph = new SceneGraph;
+  return *p_graph;
+}
+
+Object* WorldManager::getViewFollowing() const {
+  return World::current().getViewFollowing();
+}
+
+void WorldManager::setViewSlack(Vector new_slack) {
+  World::current().extras().view_slack = new_slack;
+}
+
+Vector WorldManager::getViewSlack() const {
+  return World::current().extras().view_slack;
 }
 
 ObjectList WorldManager::getAllObjects(bool inactive) const {

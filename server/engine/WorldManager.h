@@ -8,17 +8,24 @@
 #include <vector>
 
 #include "Box.h"
+#include "Circle.h"
 #include "Contact.h"
+#include "Line.h"
 #include "Manager.h"
 #include "Object.h"
 #include "ObjectList.h"
 #include "ObjectListIterator.h"
-#include "Player.h"
+#include "SceneGraph.h"
+#include "StandardHeaders.h"
 #include "Vector.h"
 
 #define WM df::WorldManager::getInstance()
 
 namespace df {
+
+namespace players {
+class Player;  // df::Player, for who includes Player.h
+}
 
 class WorldManager : public Manager {
  public:
@@ -44,6 +51,8 @@ class WorldManager : public Manager {
   /// collides and hears as before. Twice is once. An Object not made with `new` is only taken out. Return
   /// 0, or -1 if it is not in the world.
   int markForDelete(Object* p_o);
+  /// All in the list. Return 0, or -1 if one of them is not in the world.
+  int markForDelete(const ObjectList& obj_list);
   /// All active Objects (and the inactive ones, if asked) in creation order.
   ObjectList getAllObjects(bool inactive = false) const;
   /// All active Objects of this type, in creation order.
@@ -52,6 +61,14 @@ class WorldManager : public Manager {
   ObjectList solidObjects() const;
   /// The Object with this id (Object::getId); null if there is none.
   Object* objectWithId(int id) const;
+  /// The active Objects whose boxes contain this position, edges included; in creation order, as those below.
+  ObjectList objectsAtPosition(Vector where) const;
+  /// Those whose boxes touch a box, a line segment, a circle.
+  ObjectList objectsInBox(Box box) const;
+  ObjectList objectsOnLine(Line line) const;
+  ObjectList objectsInCircle(Circle circle) const;
+  /// Lists of Objects by what they are.
+  SceneGraph& getSceneGraph() const;
   /// The active visible Objects whose boxes covered this cell (a world position, as of EventMouse) on the
   /// screen of the player whose input is being handled, at the moment he did it, in creation order. For
   /// games in which a click must hit what was clicked on, however far the player and however fast the target.
@@ -111,13 +128,19 @@ class WorldManager : public Manager {
   /// Centre the view on this Object and move it along when moveObject() or update() take the Object out of
   /// the view's inner third. Null: stay. Return 0, or -1 if the Object is not in the world.
   int setViewFollowing(Object* p_new_view_following);
+  /// Whom the view follows; null for nobody.
+  Object* getViewFollowing() const;
+  /// Views that follow keep their Object in the inner third, whatever is set here; the published engine takes
+  /// fractions of the view. Kept for who asks.
+  void setViewSlack(Vector new_slack);
+  Vector getViewSlack() const;
 
   // Players.
 
   /// All players, by id. The pointers are good until the players leave.
-  std::vector<Player*> getPlayers() const;
+  std::vector<players::Player*> getPlayers() const;
   /// The player with this id; null before its EventJoin and after its EventLeave.
-  Player* getPlayer(std::uint32_t id) const;
+  players::Player* getPlayer(std::uint32_t id) const;
 
   /// 0 to n-1, each equally likely, from the world's seed (GM.setSeed); 0 if n < 1. Unlike rand(), the same
   /// for everybody who plays the same inputs.

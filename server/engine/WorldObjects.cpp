@@ -10,6 +10,7 @@
 #include "Pair.h"
 #include "Views.h"
 #include "World.h"
+#include "WorldExtras.h"
 #include "WorldStore.h"
 
 namespace df {
@@ -98,6 +99,7 @@ void World::shutDown() {
   m_refused.clear();
   m_unowned.clear();
   m_help.clear();
+  if (m_p_extras != nullptr) m_p_extras->reset();
   m_refusals = 0;
   m_step_count = 0;
   m_started = 0;
@@ -261,6 +263,10 @@ int World::setViewPosition(Vector centre) {
 
 int World::setViewFollowing(Object* p_o) {
   return m_views->follow(getPlayer(m_input_player), p_o);
+}
+
+Object* World::getViewFollowing() const {
+  return find(m_views->followed(getPlayer(m_input_player)));
 }
 
 std::vector<Player*> World::getPlayers() const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "GridSteps.h"
+#include "Object.h"
 
 namespace df {
 
@@ -68,6 +69,7 @@ void WorldStore::give(Slot s) {
   if (has(s, kPrecise)) --m_precise;
   m_cards[s].flags &= kDirty;
   if (!m_masks.empty()) m_masks.erase(s);
+  if (!m_frames.empty()) m_frames.erase(s);
   m_free.push_back({s, m_updates});
   release();
 }
@@ -203,6 +205,25 @@ void WorldStore::setAltitude(Slot s, int altitude) {
 void WorldStore::setMask(Slot s, std::optional<Mask> mask) {
   m_masks.erase(s);
   if (mask) m_masks.emplace(s, std::move(*mask));
+}
+
+void WorldStore::setFrames(Slot s, std::shared_ptr<const naiad::Look> p_look) {
+  set(s, kFrames, p_look != nullptr);
+  if (p_look == nullptr) {
+    m_frames.erase(s);
+  } else {
+    m_frames[s] = std::move(p_look);
+  }
+}
+
+const std::shared_ptr<const naiad::Look>& WorldStore::frames(Slot s) const {
+  static const std::shared_ptr<const naiad::Look> kNone;
+  const auto found = m_frames.find(s);
+  return found == m_frames.end() ? kNone : found->second;
+}
+
+const Mask* WorldStore::spriteMask(Slot s) const {
+  return m_cards[s].p_object->spriteMask();
 }
 
 void WorldStore::settleAnew(Slot s, FixedVector velocity, bool blocked) {

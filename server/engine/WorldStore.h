@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -58,7 +59,10 @@ class WorldStore {
     kPrecise = 1 << 16,
     kRestContacts = 1 << 17,
     kMayMoveOut = 1 << 18,
-    kBody = 1 << 19,  ///< moved by a layer, not by the book's rules
+    kBody = 1 << 19,     ///< moved by a layer, not by the book's rules
+    kPainted = 1 << 24,  ///< has a sprite or a shape, which draw() shows unless its class has another one
+    kOnView = 1 << 25,   ///< a view object: drawn wherever it is
+    kFrames = 1 << 28,   ///< it has frames
   };
 
   explicit WorldStore(World* p_world) : m_p_world(p_world) {}
@@ -108,13 +112,18 @@ class WorldStore {
   FixedBox box(Slot s) const { return m_boxes[s]; }
   FixedBox worldBox(Slot s, FixedVector at) const { return translate(m_boxes[s], at); }
   Solidness solidness(Slot s) const { return m_cards[s].solidness; }
-  /// Null for the whole box.
+  /// Null for the whole box. Without one of its own that of the sprite's frame counts.
   const Mask* mask(Slot s) const {
     const auto it = m_masks.find(s);
-    return it == m_masks.end() ? nullptr : &it->second;
+    if (it != m_masks.end()) return &it->second;
+    return has(s, kPainted) ? spriteMask(s) : nullptr;
   }
+  /// Its frames and how their turn comes; null if it has none.
+  const std::shared_ptr<const naiad::Look>& frames(Slot s) const;
   int altitude(Slot s) const { return m_cards[s].altitude; }
   std::uint64_t order(Slot s) const { return m_cards[s].order; }
+  /// The one given last; 0: none yet.
+  std::uint64_t lastOrder() const { return m_next_order - 1; }
   std::uint32_t flags(Slot s) const { return m_cards[s].flags; }
   bool has(Slot s, Flag flag) const { return (m_cards[s].flags & flag) != 0; }
   bool collides(Slot s) const {
@@ -141,6 +150,8 @@ class WorldStore {
   void setAltitude(Slot s, int altitude);
   /// Nothing: the whole box.
   void setMask(Slot s, std::optional<Mask> mask);
+  /// Null: none.
+  void setFrames(Slot s, std::shared_ptr<const naiad::Look> p_look);
   /// The end of an Object's turn in update: its velocity from now on, and whether its move was blocked.
   void settle(Slot s, FixedVector velocity, bool blocked) {
     if (velocity != m_velocities[s] || blocked != isBlocked(s)) settleAnew(s, velocity, blocked);
@@ -274,6 +285,7 @@ class WorldStore {
   void settleAnew(Slot s, FixedVector velocity, bool blocked);
   void file(Slot s);
   void classify(Slot s);
+  const Mask* spriteMask(Slot s) const;
   void list(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
 
   World* m_p_world;
@@ -304,6 +316,7 @@ class WorldStore {
   std::vector<Slot> m_dirty;
   std::vector<ObjectKey> m_vanished;
   std::unordered_map<Slot, Mask> m_masks;  // of the few that have one
+  std::unordered_map<Slot, std::shared_ptr<const naiad::Look>> m_frames;
   bool m_all_swept = false;
   int m_precise = 0;                       // Objects that are
   mutable std::vector<Slot> m_candidates;  // scratch of touching()

@@ -15,6 +15,10 @@
 #include "Fixed.h"
 #include "Solidness.h"
 
+namespace naiad {
+struct Look;
+}
+
 namespace df {
 
 /// A slot of the world store and the generation that occupies it. Two objects never share both.
@@ -45,11 +49,31 @@ struct DrawCommand {
   Color color = COLOR_DEFAULT;
 };
 
+/// A sound or a piece of music that the game began, paused or stopped.
+struct SoundPlayed {
+  enum What : std::uint8_t { kPlay, kPause, kStop };
+  std::string label;  ///< as loaded
+  What what = kPlay;
+  bool music = false;        ///< else a sound
+  bool loop = false;         ///< again and again
+  std::uint32_t player = 0;  ///< in whose input's handler, as a hint for whom it is; 0: nobody's
+  friend bool operator==(const SoundPlayed&, const SoundPlayed&) = default;
+};
+
 /// The characters one object's draw() put on the screen this tick: commands[first, first + count).
 struct DrawnObject {
   ObjectKey key;  ///< key.generation 0: drawn outside any object's draw()
   std::uint32_t first = 0;
   std::uint32_t count = 0;
+  bool on_view =
+      false;  ///< a view object: its characters keep their places in every view (WorldView::corner)
+};
+
+/// What one of those drawn says of its look: frames and how their turn comes (Object::setFrames). Its draw()
+/// may have drawn something else all the same.
+struct ToldLook {
+  std::uint32_t drawn = 0;  ///< index in WorldView::drawn
+  std::shared_ptr<const naiad::Look> p_look;
 };
 
 /// A text that one player sees, in cells of that player's view. Empty text: removed.
@@ -93,7 +117,13 @@ struct WorldView {
   std::vector<ObjectKey> vanished;    ///< deleted or removed; never in `changed` of the same tick
   std::vector<DrawnObject> drawn;     ///< what was drawn, in drawing order; a drawer may have vanished since
   std::vector<DrawCommand> commands;  ///< what they drew, in drawing order
+  std::vector<ToldLook> looks;        ///< of those drawn that have frames, in that order
   std::vector<PlayerFacts> players;   ///< by id
+  FixedVector corner;                 ///< of the world's own view, in which view objects were drawn
+  std::vector<SoundPlayed> sounds;    ///< in the order they were played
+  Color background = BLACK;           ///< of the window
+  int shake_x = 0;                    ///< cells by which the whole picture is off its place in this tick
+  int shake_y = 0;
 };
 
 }  // namespace df

@@ -1,5 +1,8 @@
 #include "utility.h"
 
+#include <algorithm>
+
+#include "Elementary.h"
 #include "World.h"
 
 namespace df {
@@ -40,6 +43,112 @@ Vector viewToWorld(Vector view_pos) {
 
 float distance(Vector p1, Vector p2) {
   return (p1 - p2).getMagnitude();
+}
+
+float distance(const Object* p_o1, const Object* p_o2) {
+  return p_o1 == nullptr || p_o2 == nullptr ? -1 : distance(p_o1->getPosition(), p_o2->getPosition());
+}
+
+bool valueInRange(float value, float min, float max) {
+  return value >= min && value <= max;
+}
+
+bool boxContainsBox(Box b1, Box b2) {
+  const Vector far = b2.getCorner() + Vector(b2.width(), b2.height());
+  return boxContainsPosition(b1, b2.getCorner()) && boxContainsPosition(b1, far);
+}
+
+namespace {
+
+double cross(Vector a, Vector b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+}  // namespace
+
+bool lineIntersectsLine(Line line1, Line line2) {
+  const Vector way1 = line1.getP2() - line1.getP1();
+  const Vector way2 = line2.getP2() - line2.getP1();
+  const Vector between = line2.getP1() - line1.getP1();
+  const double area = cross(way1, way2);
+  if (area == 0) return false;
+  const double part1 = cross(between, way2) / area;
+  const double part2 = cross(between, way1) / area;
+  return part1 >= 0 && part1 <= 1 && part2 >= 0 && part2 <= 1;
+}
+
+// The part of the segment, from 0 to 1, that lies between the box's sides, axis by axis.
+bool lineIntersectsBox(Line line, Box b) {
+  const Vector way = line.getP2() - line.getP1();
+  const Vector low = b.getCorner() - line.getP1();
+  const Vector high = low + Vector(b.width(), b.height());
+  double begin = 0;
+  double end = 1;
+  const auto clip = [&](double step, double from, double to) {
+    if (step == 0) return from <= 0 && to >= 0;
+    begin = std::max(begin, std::min(from / step, to / step));
+    end = std::min(end, std::max(from / step, to / step));
+    return begin <= end;
+  };
+  return clip(way.x(), low.x(), high.x()) && clip(way.y(), low.y(), high.y());
+}
+
+bool circleIntersectsBox(Circle circle, Box b) {
+  const Vector low = b.getCorner();
+  const Vector centre = circle.getCenter();
+  const Vector nearest(std::clamp(centre.x(), low.x(), low.x() + b.width()),
+                       std::clamp(centre.y(), low.y(), low.y() + b.height()));
+  return distance(centre, nearest) <= circle.getRadius();
+}
+
+Vector getNormal(const Object* p_o1, const Object* p_o2) {
+  if (p_o1 == nullptr || p_o2 == nullptr) return {};
+  const Box a = getWorldBox(p_o1);
+  const Box b = getWorldBox(p_o2);
+  if (!boxIntersectsBox(a, b)) return {};
+  const auto middle = [](const Box& box) {
+    return box.getCorner() + Vector(box.width() / 2, box.height() / 2);
+  };
+  const Vector apart = middle(a) - middle(b);
+  if (apart == Vector()) return {};
+  const double x = (a.width() + b.width()) / 2 - std::fabs(apart.x());
+  const double y = (a.height() + b.height()) / 2 - std::fabs(apart.y());
+  if (x < y) return {apart.x() < 0 ? -1.0 : 1.0, 0};
+  return {0, apart.y() < 0 ? -1.0 : 1.0};
+}
+
+float vectorToAngle(Vector v) {
+  if (v == Vector()) return 0;
+  const double degrees = math::atan2(v.y(), v.x()) * (180 / 3.14159265358979323846);
+  return static_cast<float>(degrees < 0 ? degrees + 360 : degrees);
+}
+
+namespace {
+
+struct Mix {
+  unsigned char r;
+  unsigned char g;
+  unsigned char b;
+};
+
+constexpr Mix kMixes[] = {{0, 0, 0},   {255, 0, 0},   {0, 255, 0},   {255, 255, 0},
+                          {0, 0, 255}, {255, 0, 255}, {0, 255, 255}, {255, 255, 255}};
+
+}  // namespace
+
+void colorToRGB(Color color, unsigned char& r, unsigned char& g, unsigned char& b) {
+  const Mix& mix = kMixes[color >= BLACK && color <= WHITE ? color : COLOR_DEFAULT];
+  r = mix.r;
+  g = mix.g;
+  b = mix.b;
+}
+
+// By hue: what is strong in the mix counts as on, so that a dim yellow is yellow.
+Color nearestColor(unsigned char r, unsigned char g, unsigned char b) {
+  const int strongest = std::max({r, g, b});
+  if (strongest == 0) return BLACK;
+  const auto on = [strongest](unsigned char part) { return 2 * part > strongest ? 1 : 0; };
+  return static_cast<Color>(RED * on(r) + GREEN * on(g) + BLUE * on(b));
 }
 
 }  // namespace df

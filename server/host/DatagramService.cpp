@@ -7,8 +7,10 @@ namespace naiad {
 
 DatagramService::DatagramService(std::unique_ptr<DatagramSocket> socket, Now now, Random random)
     : m_socket(std::move(socket)), m_now(std::move(now)), m_random(std::move(random)), m_gate(m_random()) {
-  m_socket->start(
-      [this](const Path& path, std::string_view packet) { m_gate.receive(path, packet, m_now()); });
+  m_socket->start([this](const Path& path, std::string_view packet) {
+    m_received = m_now();
+    m_gate.receive(path, packet, m_received);
+  });
 }
 
 DatagramService::~DatagramService() = default;
@@ -28,7 +30,7 @@ std::unique_ptr<DatagramService::Channel> DatagramService::open(const KeyExporte
   if (!channel->renew(exporter, kFirstEpoch)) return nullptr;
   const auto deliver = [p_channel = channel.get()](std::string_view payload) {
     p_channel->noteUnproven();
-    p_channel->answerChallenges();
+    p_channel->answerChallenges(p_channel->m_service.m_received);
     if (!payload.empty() && p_channel->m_on_packet) p_channel->m_on_packet(payload);
   };
   channel->m_registered = m_gate.add(channel->m_link, deliver);
@@ -36,8 +38,8 @@ std::unique_ptr<DatagramService::Channel> DatagramService::open(const KeyExporte
 }
 
 void DatagramService::flush() {
-  std::erase_if(m_unproven, [](Channel* channel) {
-    channel->answerChallenges();
+  std::erase_if(m_unproven, [this](Channel* channel) {
+    channel->answerChallenges(m_now());
     channel->m_unproven = !channel->m_link.isValidated(*channel->m_link.path());
     return !channel->m_unproven;
   });
@@ -45,7 +47,9 @@ void DatagramService::flush() {
 }
 
 DatagramService::Channel::Channel(DatagramService& service, ConnectionId id, AeadId aead)
-    : m_service(service), m_aead(aead), m_link({SealedLink::Role::kServer, id, service.m_random, {}}) {}
+    : m_service(service),
+      m_aead(aead),
+      m_link({SealedLink::Role::kServer, id, service.m_random, {}, service.m_scratch}) {}
 
 DatagramService::Channel::~Channel() {
   if (m_unproven) std::erase(m_service.m_unproven, this);
@@ -79,8 +83,8 @@ void DatagramService::Channel::send(std::string_view packet) {
 }
 
 // An address has to prove itself before much is sent there.
-void DatagramService::Channel::answerChallenges() {
-  if (m_link.wantsToSend(m_service.m_now())) send({});
+void DatagramService::Channel::answerChallenges(Time now) {
+  if (m_link.wantsToSend(now)) send({});
 }
 
 // A new address is looked after by flush() until it has answered.

@@ -47,7 +47,7 @@ class DatagramService {
    private:
     friend class DatagramService;
     Channel(DatagramService& service, ConnectionId id, AeadId aead);
-    void answerChallenges();
+    void answerChallenges(Time now);
     void noteUnproven();
 
     DatagramService& m_service;
@@ -66,6 +66,8 @@ class DatagramService {
   void flush();
   /// Some address is being challenged: flush() is to be called now and then even if nothing is sent.
   bool isUnproven() const { return !m_unproven.empty(); }
+  /// When the packet came that is being delivered; of use in callbacks of channels.
+  Time received() const { return m_received; }
   /// The port bound to.
   std::uint16_t port() const { return m_socket->localEndpoint().port; }
   const DatagramGateCounters& counters() const { return m_gate.counters(); }
@@ -75,6 +77,8 @@ class DatagramService {
   Now m_now;
   Random m_random;
   DatagramGate m_gate;
+  std::shared_ptr<SealScratch> m_scratch = std::make_shared<SealScratch>();
+  Time m_received{};
   std::vector<Channel*> m_unproven;  ///< whose address has not answered yet
 };
 

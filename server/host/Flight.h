@@ -35,6 +35,10 @@ class Flight {
     snapshot.names.clear();
     return snapshot;
   }
+  /// add() is about to be called.
+  void prefetchNext() const {
+    if (m_count < m_snapshots.size()) __builtin_prefetch(&m_snapshots[m_count], 1);
+  }
   Snapshot& newest() { return m_snapshots[m_count - 1]; }
   void removeNewest() { --m_count; }
   /// Remove those for which `settle(snapshot)` says so.

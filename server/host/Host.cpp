@@ -23,6 +23,8 @@ constexpr std::chrono::milliseconds kLate{5};
 constexpr std::chrono::milliseconds kLeastService{5};  ///< for sockets, however late the tick is
 constexpr int kLeastHandlers = 16;                     ///< of theirs, ditto; one may serve many messages
 constexpr std::chrono::seconds kDrainTime{1};
+/// Sessions whose memory is fetched before their turn.
+constexpr std::size_t kAhead = 1;
 constexpr std::chrono::seconds kLonely{60};  ///< --exit-when-empty, if nobody ever came
 
 /// How to seal datagrams for `channel`, if there is one.
@@ -200,17 +202,21 @@ void Host::lookBack(df::World& world) {
 void Host::sendSnapshots(df::World& world) {
   const std::vector<df::PlayerFacts>& players = world.view().players;
   m_by_player.clear();
-  forEachPlaying([&](Session& session) {
-    m_by_player.emplace(session.player(), &session);
-    const auto found =
-        std::lower_bound(players.begin(), players.end(), session.player(),
-                         [](const df::PlayerFacts& player, std::uint32_t id) { return player.id < id; });
-    if (found == players.end() || found->id != session.player()) return;  // joins with the next tick
+  forEachPlaying([&](Session& session) { m_by_player.push_back(&session); });
+  std::sort(m_by_player.begin(), m_by_player.end(),
+            [](const Session* a, const Session* b) { return a->player() < b->player(); });
+  auto found = players.begin();
+  for (std::size_t i = 0; i < m_by_player.size(); ++i) {
+    if (i + 2 * kAhead < m_by_player.size()) m_by_player[i + 2 * kAhead]->prefetch();
+    if (i + kAhead < m_by_player.size()) m_by_player[i + kAhead]->prefetchParts();
+    Session& session = *m_by_player[i];
+    while (found != players.end() && found->id < session.player()) ++found;  // both are in order
+    if (found == players.end() || found->id != session.player()) continue;   // joins with the next tick
     // The truth first: whoever compares must find it once the snapshot has arrived.
     if (m_truth) writeTruth(*found, world);
     session.setControls(found->steering.p_table);
     session.sendTick(m_publisher, *found);
-  });
+  }
 }
 
 void Host::writeTruth(const df::PlayerFacts& player, const df::World& world) {
@@ -222,8 +228,10 @@ void Host::writeTruth(const df::PlayerFacts& player, const df::World& world) {
 
 void Host::sendPlayers(const df::World& world) {
   const auto find_playing = [this](std::uint32_t player) {
-    const auto found = m_by_player.find(player);
-    return found != m_by_player.end() ? found->second : nullptr;
+    const auto found =
+        std::lower_bound(m_by_player.begin(), m_by_player.end(), player,
+                         [](const Session* session, std::uint32_t id) { return session->player() < id; });
+    return found != m_by_player.end() && (*found)->player() == player ? *found : nullptr;
   };
   m_player_news.tick(
       m_publisher.tick(), world.view().players,

@@ -11,7 +11,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "AddressPrefix.h"
@@ -116,7 +115,7 @@ class Host : public df::Runner {
   df::World* m_p_world = nullptr;
   std::string m_stop_sentence;
   PlayerNews m_player_news;
-  std::unordered_map<std::uint32_t, Session*> m_by_player;  ///< those that play; for one tick
+  std::vector<Session*> m_by_player;  ///< those that play, by player; for one tick
   Clock::time_point m_empty_since;
   bool m_ever_joined = false;
 };

@@ -148,9 +148,8 @@ void Interest::consider(std::uint32_t slot) {
 void Interest::judgeCandidates() {
   std::erase_if(m_candidates, [this](std::uint32_t slot) {
     const Publisher::Outlook& outlook = this->outlook(slot);
-    if (outlook.generation == 0 || isKnown(slot)) return true;
-    if (!outlook.soon.meets(m_window)) return false;
-    learn(slot, outlook.generation);
+    if (!outlook.soon.meets(m_window)) return outlook.generation == 0;  // most of them
+    if (outlook.generation != 0 && !isKnown(slot)) learn(slot, outlook.generation);
     return true;
   });
 }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "KnownObjects.h"
+#include "Prefetch.h"
 #include "Publisher.h"
 
 namespace naiad {
@@ -32,6 +33,9 @@ class Interest {
   };
   /// To be called after every update of the publisher: owes `known` what changed, births and deaths.
   void update(const Publisher& publisher, const Focus& focus, KnownObjects& known);
+
+  /// So that memory is not waited for: update() is about to be called.
+  void prefetch() const { prefetchMemory(m_candidates.data(), m_candidates.size() * sizeof(std::uint32_t)); }
 
   /// Is the object in the view, or will it be after `look_ahead` ticks?
   static bool isVisible(const Publisher::Model& model, std::uint32_t tick, std::uint32_t look_ahead,

@@ -95,7 +95,7 @@ KnownObjects::Sent KnownObjects::paid(std::uint32_t id, std::uint32_t snapshot, 
   } else {
     if ((groups & kLife) != 0) carry(told, 0, snapshot, lifeSum(id, generationOf(known), state.order));
     if ((groups & kMotion) != 0) carry(told, 1, snapshot, motionSum(id, rebase(state.motion, tick)));
-    if ((groups & kLook) != 0) carry(told, 2, snapshot, lookSum(id, state.look));
+    if ((groups & kLook) != 0) carry(told, 2, snapshot, lookSum(id, rebase(state.look, tick)));
     if ((groups & kBody) != 0) carry(told, 3, snapshot, bodySum(id, state.body));
   }
   known.unconfirmed |= groups == kDeath ? +kLife : groups;

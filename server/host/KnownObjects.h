@@ -52,6 +52,7 @@ class KnownObjects {
     __builtin_prefetch(&m_known[id], 1);
     __builtin_prefetch(&m_told[id], 1);
   }
+  void prefetchOwing() const { __builtin_prefetch(m_owing.data(), 1); }
   const Known& at(std::uint32_t id) const { return m_known[id]; }
   std::size_t idCount() const { return m_known.size(); }
   std::size_t aliveCount() const { return m_alive; }

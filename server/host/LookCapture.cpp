@@ -22,8 +22,9 @@ void append(Appearance& out, std::int64_t dx, std::int64_t dy, const df::DrawCom
 
 }  // namespace
 
-bool drawsTheSame(const Look& look, df::FixedVector position, std::span<const df::DrawCommand> commands) {
-  const Appearance* appearance = look.select(0);
+bool drawsTheSame(const Look& look, std::uint32_t tick, df::FixedVector position,
+                  std::span<const df::DrawCommand> commands) {
+  const Appearance* appearance = look.select(tick);
   if (appearance == nullptr) return commands.empty();
   return std::equal(appearance->begin(), appearance->end(), commands.begin(), commands.end(),
                     [position](const Glyph& glyph, const df::DrawCommand& command) {
@@ -61,15 +62,14 @@ Appearance captureCells(df::FixedVector position, std::span<const df::DrawComman
   return appearance;
 }
 
-std::size_t fitToRecord(Look& look) {
-  std::size_t cut = 0;
-  while (!look.sequence.empty() && encodedBits(look.sequence.front()) > 8 * kMaxLookBytes) {
-    Appearance& glyphs = look.sequence.front();
-    const std::size_t less = glyphs.size() / 8 + 1;
-    glyphs.resize(glyphs.size() - less);
-    cut += less;
+Sequence fitToRecord(Appearance appearance) {
+  constexpr std::size_t kMostBits = 128;  // more than any glyph takes
+  Sequence fitted{appearance};
+  while (appearance.size() * kMostBits > 8 * kMaxLookBytes && encodedBits(fitted) > 8 * kMaxLookBytes) {
+    appearance.resize(appearance.size() - (appearance.size() / 8 + 1));
+    fitted = Sequence{appearance};
   }
-  return cut;
+  return fitted;
 }
 
 }  // namespace naiad

@@ -9,8 +9,9 @@
 
 namespace naiad {
 
-/// Would `look`, at `position`, put exactly these characters into exactly these cells?
-bool drawsTheSame(const Look& look, df::FixedVector position, std::span<const df::DrawCommand> commands);
+/// Would `look`, at `tick` and `position`, put exactly these characters into exactly these cells?
+bool drawsTheSame(const Look& look, std::uint32_t tick, df::FixedVector position,
+                  std::span<const df::DrawCommand> commands);
 
 /// The appearance of an object at `position` that drew `commands`: offsets rounded to 1/256 cell, which is
 /// what was meant where game code went through floats.
@@ -20,7 +21,7 @@ Appearance captureAppearance(df::FixedVector position, std::span<const df::DrawC
 /// whatever the rounding.
 Appearance captureCells(df::FixedVector position, std::span<const df::DrawCommand> commands);
 
-/// Cut characters off the end of the appearance until the look fits kMaxLookBytes. Return how many.
-std::size_t fitToRecord(Look& look);
+/// A sequence of this alone, with characters cut off its end until it fits kMaxLookBytes.
+Sequence fitToRecord(Appearance appearance);
 
 }  // namespace naiad

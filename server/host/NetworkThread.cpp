@@ -266,13 +266,15 @@ void NetworkThread::openDatagrams(DatagramsEnd& end, const StreamEnd& stream) {
       ++m_counters.datagrams_in_dropped;
       return;
     }
-    notice({.kind = Notice::kDatagram, .id = p_end->id, .came = Clock::now()}, bytes);
+    notice({.kind = Notice::kDatagram, .id = p_end->id, .came = m_port.datagrams->received()}, bytes);
   });
 }
 
 void NetworkThread::noteRoom(DatagramsEnd& end) {
   const auto room = end.channel->room();
-  end.room = room ? static_cast<std::int32_t>(*room) : -1;
+  const std::int32_t now = room ? static_cast<std::int32_t>(*room) : -1;
+  // Nothing else follows from it, and it hardly ever changes.
+  if (end.room.load(std::memory_order_relaxed) != now) end.room.store(now, std::memory_order_relaxed);
 }
 
 void NetworkThread::notice(const Notice& notice, std::string_view bytes) {

@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "Acks.h"
+#include "Prefetch.h"
 
 namespace naiad {
 
@@ -39,6 +40,11 @@ class Passage {
   /// Another address or stream: find out again, soon.
   void renewed(Time now) { m_began = now; }
 
+  /// So that memory is not waited for: the questions below are about to be asked.
+  void prefetch() const {
+    prefetchMemory(&m_began,
+                   reinterpret_cast<const char*>(this + 1) - reinterpret_cast<const char*>(&m_began));
+  }
   /// Do datagrams pass?
   bool isOpen(Time now) const { return m_open && now - m_last_ack < kSilence; }
   /// Is it time to try whether they do? `only`: there is no other way.

@@ -54,10 +54,7 @@ std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, c
 
 /// Cells from the object's own that its look reaches, rounded up.
 std::int32_t reachOf(const Look& look) {
-  std::int32_t most = 0;
-  for (const Appearance& appearance : look.sequence) {
-    for (const Glyph& glyph : appearance) most = std::max({most, std::abs(glyph.dx), std::abs(glyph.dy)});
-  }
+  const std::int32_t most = look.sequence.reach();
   return (most >> kGlyphUnitBits) + (most == 0 ? 0 : 1);
 }
 
@@ -128,7 +125,11 @@ void Publisher::update(const df::WorldView& view) {
 
   for (const df::ObjectKey key : view.vanished) bury(key);
   for (const df::ObjectFacts& facts : view.changed) takeFacts(facts);
-  for (const df::DrawnObject& drawn : view.drawn) takeDrawing(view, drawn);
+  auto told = view.looks.begin();
+  for (const df::DrawnObject& drawn : view.drawn) {
+    const bool tells = told != view.looks.end() && &view.drawn[told->drawn] == &drawn;
+    takeDrawing(view, drawn, tells ? (told++)->p_look.get() : nullptr);
+  }
   takeLoose(view);
   correctUndrawn(view);
   if (controls) setExactSolids(true);
@@ -179,6 +180,13 @@ CellRect Publisher::sweepOf(const Model& model, std::uint32_t tick, std::uint32_
                   x + 1 + (straight && velocity.x < 0 ? 0 : dx),
                   y + 1 + (straight && velocity.y < 0 ? 0 : dy)}
       .grownBy(model.reach);
+}
+
+const SharedMotion& Publisher::share(std::uint32_t slot) const {
+  m_shared.resize(m_models.size() + 1);
+  Shared& shared = m_shared[std::min<std::size_t>(slot, m_models.size())];
+  shared = {m_update, shareMotion(rebase(find(slot)->state.motion, m_tick))};
+  return shared.motion;
 }
 
 const Publisher::Outlook& Publisher::workOut(std::uint32_t slot, std::uint32_t soon,
@@ -272,19 +280,27 @@ void Publisher::keepSolidsExact() {
 // Coarser numbers for a motion that was just taken over from the world.
 void Publisher::fit(Tracked& tracked) {
   if (&tracked == &m_loose || isExact(tracked)) return;
-  const Look& look = tracked.model.state.look;
+  const Sequence& sequence = tracked.model.state.look.sequence;
   std::array<df::FixedVector, kMaxOffsets> offsets{};  // the position's own cell, first of all
   std::size_t count = 1;
-  for (const Appearance& appearance : look.sequence) {
-    for (const Glyph& glyph : appearance) {
-      constexpr int kShift = df::kFixedBits - kGlyphUnitBits;
-      constexpr df::Fixed kMask = df::kFixedOne - 1;
-      const df::FixedVector offset{(df::Fixed{glyph.dx} * (df::Fixed{1} << kShift)) & kMask,
-                                   (df::Fixed{glyph.dy} * (df::Fixed{1} << kShift)) & kMask};
-      const auto end = offsets.begin() + static_cast<std::ptrdiff_t>(count);
-      if (std::find(offsets.begin(), end, offset) != end) continue;
-      if (count == kMaxOffsets) return;
-      offsets[count++] = offset;
+  const auto add = [&](std::int32_t dx, std::int32_t dy) {
+    constexpr int kShift = df::kFixedBits - kGlyphUnitBits;
+    constexpr df::Fixed kMask = df::kFixedOne - 1;
+    const df::FixedVector offset{(df::Fixed{dx} * (df::Fixed{1} << kShift)) & kMask,
+                                 (df::Fixed{dy} * (df::Fixed{1} << kShift)) & kMask};
+    const auto end = offsets.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::find(offsets.begin(), end, offset) != end) return true;
+    if (count == kMaxOffsets) return false;
+    offsets[count++] = offset;
+    return true;
+  };
+  if (sequence.isWhole()) {
+    add(sequence.fraction().x, sequence.fraction().y);
+  } else {
+    for (const Appearance& appearance : sequence) {
+      for (const Glyph& glyph : appearance) {
+        if (!add(glyph.dx, glyph.dy)) return;
+      }
     }
   }
   const std::uint32_t age = m_tick - tracked.path.tick;
@@ -299,10 +315,10 @@ void Publisher::meet(Model& model) {
   const Look& look = model.state.look;
   model.look_sum = 0;
   model.recurs = false;
-  if (look.sequence.empty() || isSingleCharacter(look.sequence.front())) return;
-  model.look_sum = lookSum(0, {look.sequence, 0});
+  if (look.sequence.empty() || isSingleCharacter(look.sequence)) return;
+  model.look_sum = look.sequence.sum();
   const auto [known, fresh] = m_appearances.try_emplace(model.look_sum, m_tick);
-  model.recurs = !fresh;
+  model.recurs = !fresh || look.sequence.size() > 1;
   known->second = m_tick;
   if (m_appearances.size() <= kMaxKnownAppearances) return;
   std::erase_if(m_appearances, [this](const auto& a) { return m_tick - a.second > kForgetAfter; });
@@ -355,45 +371,61 @@ void Publisher::takeFacts(const df::ObjectFacts& facts) {
   if (m_exact_solids && isExact(*tracked)) keepExact(facts.key);
 }
 
-void Publisher::takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn) {
+void Publisher::takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn, const Look* told) {
   if (drawn.key.generation == 0 || drawn.key.slot >= m_models.size()) return;
   Tracked& tracked = m_models[drawn.key.slot];
   if (!tracked.model.alive || tracked.model.generation != drawn.key.generation) return;
   tracked.drawn = tracked.off_views = m_tick;
   m_look_at[drawn.key.slot] = m_tick + 1;  // unless it is drawn again
-  correctLook(drawn.key.slot, tracked, view.commands.data() + drawn.first, drawn.count);
+  correctLook(drawn.key.slot, tracked, {view.commands.data() + drawn.first, drawn.count}, told);
 }
 
-void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, const df::DrawCommand* commands,
-                            std::size_t count) {
-  const std::span<const df::DrawCommand> drawn(commands, count);
+void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn,
+                            const Look* told) {
   ObjectState& state = tracked.model.state;
   const df::FixedVector truth = tracked.truth.position;
-  df::FixedVector modelled = positionAt(state.motion, m_tick);
-  if (sameCell(modelled, truth) && drawsTheSame(state.look, modelled, drawn)) return;
+  const df::FixedVector modelled = positionAt(state.motion, m_tick);
+  if (sameCell(modelled, truth) && drawsTheSame(state.look, m_tick, modelled, drawn)) return;
 
   // A path that turned is the usual cause: try the known look at the true place before making a new one.
-  if (!sameCell(modelled, truth) || drawsTheSame(state.look, truth, drawn)) {
+  if (!sameCell(modelled, truth) || drawsTheSame(state.look, m_tick, truth, drawn)) {
     state.motion = truthNow(tracked);
-    modelled = truth;
     mark(slot, tracked, kMotion);
     ++m_corrections;
-    if (drawsTheSame(state.look, modelled, drawn)) return;
+    if (drawsTheSame(state.look, m_tick, truth, drawn)) return;
   }
-  // A drawing too large to be described whole is cut the same way each time, and not news each time.
-  const std::vector<Appearance> before = std::exchange(state.look.sequence, {});
-  if (count > 0) {
-    state.look.sequence.push_back(captureAppearance(truth, drawn));
-    if (modelled != truth && !drawsTheSame(state.look, modelled, drawn)) {
+  const Look before = state.look;
+  // What it says of itself counts if it is what it drew: a draw() of its own may have added to it.
+  if (told != nullptr && drawsTheSame(*told, m_tick, truth, drawn)) {
+    state.look.sequence = told->sequence;
+    state.look.selector = told->selector;
+    if (!drawsTheSame(state.look, m_tick, positionAt(state.motion, m_tick), drawn)) {
       state.motion = truthNow(tracked);  // fitted anew, for the new look
-      modelled = truth;
       mark(slot, tracked, kMotion);
     }
-    if (!drawsTheSame(state.look, modelled, drawn))
-      state.look.sequence.front() = captureCells(modelled, drawn);
-    fitToRecord(state.look);
+  } else {
+    capture(slot, tracked, drawn);
   }
-  if (state.look.sequence != before) mark(slot, tracked, kLook);
+  // A drawing too large to be described whole is cut the same way each time, and not news each time.
+  if (state.look != before) mark(slot, tracked, kLook);
+}
+
+void Publisher::capture(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn) {
+  ObjectState& state = tracked.model.state;
+  const df::FixedVector truth = tracked.truth.position;
+  state.look.selector = {};
+  state.look.sequence = {};
+  if (drawn.empty()) return;
+  df::FixedVector modelled = positionAt(state.motion, m_tick);
+  Appearance appearance = captureAppearance(truth, drawn);
+  state.look.sequence = {appearance};
+  if (modelled != truth && !drawsTheSame(state.look, m_tick, modelled, drawn)) {
+    state.motion = truthNow(tracked);  // fitted anew, for the new look
+    modelled = truth;
+    mark(slot, tracked, kMotion);
+  }
+  if (!drawsTheSame(state.look, m_tick, modelled, drawn)) appearance = captureCells(modelled, drawn);
+  state.look.sequence = fitToRecord(std::move(appearance));
 }
 
 void Publisher::takeLoose(const df::WorldView& view) {
@@ -411,7 +443,7 @@ void Publisher::takeLoose(const df::WorldView& view) {
     m_loose.truth = m_loose.model.state.motion;
     mark(kLooseSlot, m_loose, kAllGroups);
   }
-  correctLook(kLooseSlot, m_loose, loose.data(), loose.size());
+  correctLook(kLooseSlot, m_loose, loose, nullptr);
 }
 
 // Has a view come, or gone farther than a cell?
@@ -461,7 +493,8 @@ void Publisher::correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::W
     tracked.off_views = m_tick + ticksOffViews(tracked.model, m_tick, view);
     return;
   }
-  state.look.sequence.clear();
+  state.look.sequence = {};
+  state.look.selector = {};
   mark(slot, tracked, kLook);
 }
 

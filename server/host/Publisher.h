@@ -9,11 +9,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "InterestGrid.h"
 #include "Limits.h"
+#include "MotionCodec.h"
 #include "Records.h"
 #include "WorldView.h"
 
@@ -29,8 +31,8 @@ class Publisher {
     std::uint32_t generation = 0;
     bool alive = false;
     ObjectState state;
-    std::uint64_t look_sum = 0;  ///< of the appearance; 0 if it is one character or none
-    bool recurs = false;         ///< the appearance has been seen before: worth a name
+    std::uint64_t look_sum = 0;  ///< of the sequence; 0 if it is one character or none
+    bool recurs = false;         ///< it has been seen before, or changes by itself: worth a name
     std::int32_t reach = 0;      ///< cells from its own that its characters may be drawn in, at most
   };
   /// What an update changed about a slot; groups 0: the object is gone.
@@ -69,6 +71,13 @@ class Publisher {
     const bool known = soon == m_soon && later == m_later && index < m_outlooks.size() &&
                        m_outlooks[index].update == m_update;
     return known ? m_outlooks[index].outlook : workOut(slot, soon, later);
+  }
+  /// The motion of the model in `slot`, where one lives, at tick() and in bits. They are the same for all
+  /// clients, so they are worked out once. Valid until the next call.
+  const SharedMotion& sharedMotion(std::uint32_t slot) const {
+    const std::size_t index = std::min<std::size_t>(slot, m_models.size());
+    const bool known = index < m_shared.size() && m_shared[index].update == m_update;
+    return known ? m_shared[index].motion : share(slot);
   }
   const WorldRecord& world() const { return m_world; }
   /// Call `visit(slot)` for every live model of which something may be drawn in `rect` within so many ticks,
@@ -125,15 +134,18 @@ class Publisher {
   static std::int64_t cellsIn(std::uint32_t ticks, df::Fixed speed) {
     return (std::int64_t{ticks} * speed >> df::kFixedBits) + 1;
   }
+  const SharedMotion& share(std::uint32_t slot) const;
   const Outlook& workOut(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const;
   Tracked* track(std::uint32_t slot);
   Motion truthNow(const Tracked& tracked) const;
   void mark(std::uint32_t slot, Tracked& tracked, std::uint8_t groups);
   void bury(df::ObjectKey key);
   void takeFacts(const df::ObjectFacts& facts);
-  void takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn);
+  void takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn, const Look* told);
   void takeLoose(const df::WorldView& view);
-  void correctLook(std::uint32_t slot, Tracked& tracked, const df::DrawCommand* commands, std::size_t count);
+  void correctLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn,
+                   const Look* told);
+  void capture(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn);
   bool haveViewsJumped(const df::WorldView& view);
   void correctUndrawn(const df::WorldView& view);
   void correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::WorldView& view);
@@ -171,6 +183,12 @@ class Publisher {
     Outlook outlook;
   };
   mutable std::vector<Remembered> m_outlooks;
+  /// Another one, by slot likewise.
+  struct Shared {
+    std::uint32_t update = 0;
+    SharedMotion motion;
+  };
+  mutable std::vector<Shared> m_shared;
   mutable std::uint32_t m_update = 1;  ///< counts updates, and changes of the next two
   mutable std::uint32_t m_soon = 0;
   mutable std::uint32_t m_later = 0;

@@ -27,7 +27,7 @@ void RelayedDatagrams::send(std::string_view packet) {
 }
 
 std::optional<std::size_t> RelayedDatagrams::room() const {
-  const std::int32_t room = m_end.room;
+  const std::int32_t room = m_end.room.load(std::memory_order_relaxed);
   return room < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(room));
 }
 

@@ -10,12 +10,18 @@ constexpr SnapshotSender::Room kStreamRoom{64, kMaxSnapshot, false};
 /// At 30 Hz more than a megabit per second.
 constexpr std::size_t kDatagramsPerTick = 4;
 
+/// Sessions of a thread send one after the other, so that one place does for their packets.
+SnapshotSender::Packets& packetsOfThread() {
+  thread_local SnapshotSender::Packets packets;
+  return packets;
+}
+
 }  // namespace
 
 Session::Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now)
     : m_channel(std::move(channel)),
       m_counters(counters),
-      m_heard(now),
+      m_silence(now),
       m_frame_at(now),
       m_chat_refill(now),
       m_passage(now) {
@@ -160,10 +166,11 @@ void Session::takeStream(Session& other) {
   m_reception->session = this;
   other.m_reception->session = &other;
   other.m_told_gone = true;
-  m_heard = now();
+  const Clock::time_point present = now();
+  m_silence.heard(present);
   m_resize = other.m_resize;
   m_drain.restart();
-  allowSavedChat(m_heard);
+  allowSavedChat(present);
   ++m_counters.resumed;
 }
 
@@ -176,7 +183,8 @@ void Session::goodbye(const std::string& sentence) {
 }
 
 void Session::checkDeadlines(Clock::time_point now) {
-  if (m_spoke) m_heard = now;
+  if (m_spoke) m_silence.heard(now);
+  m_silence.listen(now);
   m_spoke = false;
   m_messages = 0;
   if (now - m_chat_refill >= std::chrono::seconds(1)) {
@@ -193,26 +201,26 @@ void Session::allowSavedChat(Clock::time_point now) {
 }
 
 void Session::checkGreeting(Clock::time_point now) {
-  if (now - m_heard <= (m_greeted ? kJudgeTimeout : kLoginTimeout)) return;
+  if (m_silence.at(now) <= (m_greeted ? kJudgeTimeout : kLoginTimeout)) return;
   ++m_counters.login_timeouts;
   if (m_greeted) return refuse(wire::Refused::BUSY, "The server is busy. Try again in a moment.");
   refuse(wire::Refused::BAD_REQUEST, "The server heard no greeting in time.");
 }
 
 void Session::checkSilence(Clock::time_point now) {
-  if (isDetached() && now - m_heard > kSuspend) releaseKeys();
+  if (isDetached() && m_silence.at(now) > kSuspend) releaseKeys();
   if (m_state == State::kGreeting) {
     checkGreeting(now);
-  } else if (isDetached() && now - m_heard > m_grace) {
+  } else if (isDetached() && m_silence.at(now) > m_grace) {
     ++m_counters.graces_expired;
     end();
-  } else if (m_state == State::kPlaying && !isDetached() && now - m_heard > kIdleTimeout) {
+  } else if (m_state == State::kPlaying && !isDetached() && m_silence.at(now) > kIdleTimeout) {
     ++m_counters.idle_timeouts;
     // A line that is down for a while often takes neither end's stream with it.
     if (m_grace.count() > 0) return detach(now);
     goodbye("The server has not heard from you for a while.");
   } else if (m_state == State::kPlaying && m_channel != nullptr &&
-             m_drain.note(m_channel->unsentBytes(), now) && now - m_heard < StreamDrain::kPatience) {
+             m_drain.note(m_channel->unsentBytes(), now) && m_silence.at(now) < StreamDrain::kPatience) {
     // Who is silent as well is cut off, and may come back.
     ++m_counters.stuck_streams;
     goodbye("Your end takes in too little of what the server sends.");
@@ -239,7 +247,9 @@ void Session::sendDatagrams(const Publisher& publisher, Clock::time_point presen
   if (publisher.tick() % interval != 0 || !room) return;
   const bool stream_idle = m_channel != nullptr && m_channel->unsentBytes() == 0;
   const std::size_t bytes = std::min(*room, kMaxDatagramSnapshot);
-  for (const auto& packet : m_sender.build(publisher, {kDatagramsPerTick, bytes, stream_idle})) {
+  SnapshotSender::Packets& packets = packetsOfThread();
+  m_sender.build(publisher, {kDatagramsPerTick, bytes, stream_idle}, packets);
+  for (const auto& packet : packets) {
     noteSent(packet, !packet.large, present);
     count(packet);
     if (packet.large) {
@@ -254,7 +264,9 @@ void Session::sendDatagrams(const Publisher& publisher, Clock::time_point presen
 void Session::sendOnStream(const Publisher& publisher, Clock::time_point present) {
   if (m_channel == nullptr) return;
   if (m_channel->unsentBytes() > 0) return skipTick();
-  for (const SnapshotSender::Packet& packet : m_sender.build(publisher, kStreamRoom)) {
+  SnapshotSender::Packets& packets = packetsOfThread();
+  m_sender.build(publisher, kStreamRoom, packets);
+  for (const SnapshotSender::Packet& packet : packets) {
     noteSent(packet, false, present);
     count(packet);
     sendSnapshot(packet);

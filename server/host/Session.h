@@ -21,8 +21,10 @@
 #include "KeptFrames.h"
 #include "LookBack.h"
 #include "Passage.h"
+#include "Prefetch.h"
 #include "PressedKeys.h"
 #include "SealedChannel.h"
+#include "Silence.h"
 #include "SnapshotSender.h"
 #include "StreamDrain.h"
 #include "UpdateCodec.h"
@@ -101,7 +103,8 @@ class Session {
   /// Tell the client why it is over, and end.
   void goodbye(const std::string& sentence);
 
-  /// Enforce deadlines.
+  /// Enforce deadlines. Once a tick: time in which nobody calls does not count as silence of the client
+  /// (Silence.h).
   void checkDeadlines(Clock::time_point now);
   /// Take up to kInputsPerTick inputs out of the queue, in order, each id once, into the world's next tick.
   template <class Apply>
@@ -119,6 +122,19 @@ class Session {
   /// The player steers by declared controls (null: does not): the keys in them wait for the tick that they
   /// ask for, since he has seen their effect there already.
   void setControls(std::shared_ptr<const df::ControlTable> controls) { m_controls = std::move(controls); }
+
+  /// So that memory is not waited for: sendTick() will be called after those of some other sessions. First
+  /// prefetch(), and when that has arrived prefetchParts(); both change nothing.
+  void prefetch() const {
+    prefetchMemory(this, reinterpret_cast<const char*>(&m_welcome) - reinterpret_cast<const char*>(this));
+    prefetchMemory(&m_inputs,
+                   reinterpret_cast<const char*>(&m_sender) - reinterpret_cast<const char*>(&m_inputs));
+    m_sender.prefetch();
+    m_passage.prefetch();
+    prefetchMemory(&m_last_reset,
+                   reinterpret_cast<const char*>(this + 1) - reinterpret_cast<const char*>(&m_last_reset));
+  }
+  void prefetchParts() const { m_sender.prefetchParts(); }
 
   /// Note a published tick, and send what is owed unless the client is still busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player);
@@ -185,8 +201,8 @@ class Session {
   Events m_events;
   std::uint64_t m_id = 0;
   State m_state = State::kGreeting;
-  Clock::time_point m_heard;     ///< when the client was last heard, to a tick
-  Clock::time_point m_frame_at;  ///< … on a stream
+  Silence m_silence;             ///< of the client, to a tick
+  Clock::time_point m_frame_at;  ///< when a frame came last
   bool m_told_gone = false;
   bool m_greeted = false;       ///< the hello has come
   bool m_spoke = false;         ///< a frame came since then

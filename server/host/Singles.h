@@ -13,6 +13,7 @@
 
 #include "KnownObjects.h"
 #include "OriginChoice.h"
+#include "Prefetch.h"
 #include "Publisher.h"
 #include "SnapshotCodec.h"
 #include "ToldControl.h"
@@ -21,6 +22,12 @@ namespace naiad {
 
 class Singles {
  public:
+  /// So that memory is not waited for: note() and check() are about to be called.
+  void prefetch() const {
+    prefetchMemory(this, reinterpret_cast<const char*>(&m_texts) - reinterpret_cast<const char*>(this));
+    prefetchMemory(&m_table,
+                   reinterpret_cast<const char*>(this + 1) - reinterpret_cast<const char*>(&m_table));
+  }
   /// Note one published tick and what this player sees of it.
   void note(const Publisher& publisher, const df::PlayerFacts& player);
   /// The newest input that the game has had, and in which tick.

@@ -77,7 +77,8 @@ std::size_t SnapshotSender::mostBits(std::uint32_t id, const Publisher& publishe
   constexpr std::size_t kLifeBits = 112;
   constexpr std::size_t kMotionBits = 448;
   constexpr std::size_t kBodyBits = 384;
-  constexpr std::size_t kLookBits = 64;
+  constexpr std::size_t kLookBits = 192;
+  constexpr std::size_t kFrameBits = 32;
   constexpr std::size_t kGlyphBits = 128;
   const std::uint8_t groups = m_known.due(id);
   std::size_t bits = kLifeBits;
@@ -85,7 +86,7 @@ std::size_t SnapshotSender::mostBits(std::uint32_t id, const Publisher& publishe
   if ((groups & kBody) != 0) bits += kBodyBits;
   if ((groups & kLook) == 0) return bits;
   const Look& look = publisher.find(m_known.at(id).slot)->state.look;
-  return bits + kLookBits + (look.sequence.empty() ? 0 : kGlyphBits * look.sequence.front().size());
+  return bits + kLookBits + kFrameBits * look.sequence.size() + kGlyphBits * look.sequence.glyphCount();
 }
 
 // The order matters only where not all fit.
@@ -108,7 +109,24 @@ void SnapshotSender::makeQueue(const Publisher& publisher, const Room& room) {
                  [](const auto& r) { return r.second; });
 }
 
-std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publisher, Room room) {
+void SnapshotSender::prefetch() const {
+  // Moments are written one at a time, later.
+  prefetchMemory(&m_known, sizeof m_known);
+  m_singles.prefetch();
+  prefetchMemory(&m_names,
+                 reinterpret_cast<const char*>(&m_moments) - reinterpret_cast<const char*>(&m_names));
+  prefetchMemory(&m_shown, reinterpret_cast<const char*>(this + 1) - reinterpret_cast<const char*>(&m_shown));
+}
+
+void SnapshotSender::prefetchParts() const {
+  m_known.prefetchOwing();
+  m_interest.prefetch();
+  __builtin_prefetch(&m_moments[m_next_number % kMaxMoments], 1);
+  m_flight.prefetchNext();
+}
+
+void SnapshotSender::build(const Publisher& publisher, Room room, Packets& packets) {
+  packets.clear();
   m_p_desk = &desk();
   if (m_resend == Resend::kEveryTick) m_known.oweUnconfirmed(m_tick);
   m_singles.repeatAhead();
@@ -116,9 +134,8 @@ std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publi
   m_known.sweepOwing();
   m_singles.check(publisher, m_known);
   const bool due = static_cast<std::int32_t>(m_tick - m_last_tick) >= static_cast<std::int32_t>(kKeepAlive);
-  std::vector<Packet> packets;
   m_throttled = isOwing();
-  if (!m_throttled && !due) return packets;
+  if (!m_throttled && !due) return;
   // With the window full only the keep-alive goes out, lest what is still under way be taken for lost.
   const std::size_t window = m_flight.size() < kMaxInFlight ? kMaxInFlight - m_flight.size() : due ? 1 : 0;
   room.packets = std::min(room.packets, window);
@@ -126,15 +143,14 @@ std::vector<SnapshotSender::Packet> SnapshotSender::build(const Publisher& publi
 
   bool more = true;
   while (packets.size() < room.packets && more && (isOwing() || (due && packets.empty()))) {
-    more = write(publisher, room, packets.emplace_back());
+    more = write(publisher, room, packets.add());
     room.large = room.large && !packets.back().large;
     if (more || (due && packets.size() == 1)) continue;
     takeBack();
-    packets.pop_back();
+    packets.removeLast();
   }
   m_throttled = isOwing();
   if (!packets.empty()) m_last_tick = m_tick;
-  return packets;
 }
 
 // Fill one snapshot. False if it took nothing that was owed, so that another one would not either.
@@ -170,7 +186,7 @@ void SnapshotSender::writeObjects(const Publisher& publisher, const Room& room, 
     const bool dying = known.life == KnownObjects::Life::kDying;
     const Publisher::Model* model = dying ? nullptr : publisher.find(known.slot);
     LookForm form;
-    const std::size_t bits = encode(id, model, form);
+    const std::size_t bits = encode(id, publisher, model, form);
     if (!m_p_desk->writer.hasRoom(bits, last_id, room.bytes)) {
       const bool alone = isTooLarge(bits, room.bytes) && room.large && m_p_desk->writer.isEmpty();
       if (!alone) m_p_desk->writer.drop();
@@ -195,7 +211,7 @@ void SnapshotSender::writeObjects(const Publisher& publisher, const Room& room, 
 void SnapshotSender::finish(Packet& packet) {
   packet.number = m_next_number;
   packet.tick = m_tick;
-  packet.bytes = m_p_desk->writer.finish();
+  m_p_desk->writer.finish(packet.bytes);
   momentOf(m_next_number) = {m_next_number, m_known.checksum(), Moment::kUnknown};
   if (++m_next_number == 0) m_next_number = 1;
 }
@@ -235,16 +251,18 @@ bool SnapshotSender::isTooLarge(std::size_t bits, std::size_t bytes) {
 }
 
 // Stage the record of what is due; no model: a death. Its length in bits.
-std::size_t SnapshotSender::encode(std::uint32_t id, const Publisher::Model* model, LookForm& form) {
+std::size_t SnapshotSender::encode(std::uint32_t id, const Publisher& publisher,
+                                   const Publisher::Model* model, LookForm& form) {
   static const ObjectState kNothing;
-  if (model == nullptr) return m_p_desk->writer.stage(kDeath, 0, kNothing, {});
+  static const SharedMotion kNoMotion;
+  if (model == nullptr) return m_p_desk->writer.stage(kDeath, 0, kNothing, kNoMotion);
   const std::uint8_t groups = m_known.due(id);
   if ((groups & kLook) != 0 && model->recurs) {
-    form = m_names.formOf(model->look_sum, model->state.look.sequence.front().size(), m_next_number);
+    form = m_names.formOf(model->look_sum, model->state.look.sequence.weight(), m_next_number);
   }
-  const Motion motion = (groups & kMotion) != 0 ? rebase(model->state.motion, m_tick) : Motion{};
-  return m_p_desk->writer.stage(groups, KnownObjects::generationOf(m_known.at(id)), model->state, motion,
-                                form);
+  const KnownObjects::Known& known = m_known.at(id);
+  const SharedMotion& motion = (groups & kMotion) != 0 ? publisher.sharedMotion(known.slot) : kNoMotion;
+  return m_p_desk->writer.stage(groups, KnownObjects::generationOf(known), model->state, motion, form);
 }
 
 // What is staged goes into the snapshot.

@@ -42,6 +42,27 @@ class SnapshotSender {
     bool large = false;  ///< exceeds the datagram's limit: for the stream
     std::string bytes;
   };
+  /// Those of a tick. Their memory is used again when they were cleared.
+  class Packets {
+   public:
+    Packet& add() {
+      if (m_count == m_all.size()) m_all.emplace_back();
+      Packet& packet = m_all[m_count++];
+      packet.large = false;
+      return packet;
+    }
+    void removeLast() { --m_count; }
+    void clear() { m_count = 0; }
+    std::size_t size() const { return m_count; }
+    bool empty() const { return m_count == 0; }
+    const Packet* begin() const { return m_all.data(); }
+    const Packet* end() const { return m_all.data() + m_count; }
+    const Packet& back() const { return m_all[m_count - 1]; }
+
+   private:
+    std::vector<Packet> m_all;  ///< the first m_count are in use
+    std::size_t m_count = 0;
+  };
   /// What may be sent in a tick.
   struct Room {
     std::size_t packets = 64;                  ///< at most so many
@@ -64,8 +85,17 @@ class SnapshotSender {
   /// Write what is owed at the publisher's tick, most urgent first, and none beyond kMaxInFlight
   /// unacknowledged. Where nothing is owed or that window is full: one snapshot every kKeepAlive ticks, else
   /// none.
-  std::vector<Packet> build(const Publisher& publisher, Room room);
-  std::vector<Packet> build(const Publisher& publisher) { return build(publisher, Room{}); }
+  void build(const Publisher& publisher, Room room, Packets& packets);
+  std::vector<Packet> build(const Publisher& publisher, Room room = Room{64, kMaxDatagramSnapshot, true}) {
+    Packets packets;
+    build(publisher, room, packets);
+    return {packets.begin(), packets.end()};
+  }
+
+  /// So that memory is not waited for: the client's turn comes after the next ones. First prefetch(), and
+  /// when that has arrived prefetchParts(); both change nothing.
+  void prefetch() const;
+  void prefetchParts() const;
 
   /// A snapshot at the publisher's tick that carries nothing, to find out whether datagrams pass. Its loss
   /// says nothing of the line.
@@ -131,7 +161,8 @@ class SnapshotSender {
   void forgetOldest();
   void takeBack();
   static bool isTooLarge(std::size_t bits, std::size_t bytes);
-  std::size_t encode(std::uint32_t id, const Publisher::Model* model, LookForm& form);
+  std::size_t encode(std::uint32_t id, const Publisher& publisher, const Publisher::Model* model,
+                     LookForm& form);
   void pay(std::uint32_t id, const Publisher::Model* model, LookForm form);
   void considerAhead(std::uint32_t id, std::size_t bits, const Publisher& publisher);
   void arrived(const Flight::Snapshot& snapshot);

@@ -54,6 +54,10 @@ int Body::refuseAs(const char* what) const {
 }
 
 void Body::absorb() const {
+  if (World* p_world = getWorld()) {  // its own numbers, for a Vector has not all their digits far away
+    const std::uint32_t slot = key().slot;
+    return m_table->absorb(m_index, p_world->store().position(slot), p_world->store().velocity(slot));
+  }
   const auto position = toFixed(Object::getPosition());
   const auto velocity = toFixed(Object::getVelocity(), kMaxVelocityCells);
   m_table->absorb(m_index, position.value_or(row().told_position), velocity.value_or(row().told_velocity));
@@ -62,7 +66,8 @@ void Body::absorb() const {
 int Body::setMass(double mass) {
   if (!(mass >= kLeastMass && mass <= kMost)) return refuseAs("setMass");
   row().mass = mass;
-  row().inverse_mass = 1 / mass;
+  row().inverse_mass = row().is_kinematic ? 0 : 1 / mass;
+  m_table->joints.markChanged();
   return 0;
 }
 
@@ -80,6 +85,44 @@ double Body::getGravityScale() const {
   return row().gravity_scale;
 }
 
+void Body::setKinematic(bool kinematic) {
+  row().is_kinematic = kinematic;
+  row().inverse_mass = kinematic ? 0 : 1 / row().mass;
+  m_table->joints.markChanged();
+}
+
+bool Body::isKinematic() const {
+  return row().is_kinematic;
+}
+
+int Body::setRestitution(double restitution) {
+  if (!(restitution >= 0 && restitution <= 1)) return refuseAs("setRestitution");
+  row().restitution = restitution;
+  return 0;
+}
+
+double Body::getRestitution() const {
+  return row().restitution;
+}
+
+int Body::setFriction(double friction) {
+  if (!isUsableSize(friction)) return refuseAs("setFriction");
+  row().friction = friction;
+  return 0;
+}
+
+double Body::getFriction() const {
+  return row().friction;
+}
+
+void Body::setContactEnds(bool contact_ends) {
+  row().hears_ends = contact_ends;
+}
+
+bool Body::hasContactEnds() const {
+  return row().hears_ends;
+}
+
 int Body::setPosition(Vector position) {
   if (Object::setPosition(position) != 0) return -1;
   BodyRow& mine = row();
@@ -92,6 +135,12 @@ int Body::setPosition(Vector position) {
 Vector Body::getPosition() const {
   absorb();
   return m_table->metric.cellsOf(row().place);
+}
+
+Vector Body::getWayFrom(Vector point) const {
+  if (!toFixed(point)) return {};
+  absorb();
+  return m_table->metric.toCells(row().place - m_table->metric.placeAtCells(point));
 }
 
 int Body::setVelocity(Vector velocity) {

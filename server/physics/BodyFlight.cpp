@@ -1,5 +1,7 @@
 #include "BodyFlight.h"
 
+#include <cmath>
+
 #include "FlightDrag.h"
 #include "FlightField.h"
 #include "FlightSpring.h"
@@ -49,7 +51,67 @@ class Everything : public ForceField {
   Vec2 m_to_field;
 };
 
+// A spring with a length, and the game's field behind it.
+class LongSpring : public ForceField {
+ public:
+  LongSpring(double length, Spring spring, const ForceField* p_field, Vec2 to_field)
+      : m_length(length), m_spring(spring), m_p_field(p_field), m_to_field(to_field) {}
+
+  Vec2 acceleration(Vec2 way, Vec2 velocity, double time) const override {
+    Vec2 a;
+    const double distance = length(way);
+    if (distance > 0) {
+      const Vec2 along = way / distance;
+      const double pull =
+          m_spring.stiffness * (distance - m_length) + m_spring.damping * dot(along, velocity);
+      a = -pull * along;
+    }
+    if (m_p_field != nullptr) a += m_p_field->acceleration(way - m_to_field, velocity, time);
+    return a;
+  }
+
+ private:
+  double m_length;
+  Spring m_spring;
+  const ForceField* m_p_field;
+  Vec2 m_to_field;  // from the spring's anchor
+};
+
+// Can it be treated as if it stayed on this side of the anchor, on one line with it? Undamped it would get
+// farthest.
+bool staysOnLine(Vec2 way, Vec2 velocity, Vec2 acceleration, double spring_length, double stiffness) {
+  const double distance = length(way);
+  if (distance == 0 || stiffness == 0) return false;
+  if (cross(way, velocity) != 0 || cross(way, acceleration) != 0) return false;
+  const double pull = length(acceleration) / stiffness;
+  const double swing =
+      std::abs(distance - spring_length) + 2 * pull + length(velocity) / std::sqrt(stiffness);
+  return swing < spring_length;
+}
+
 }  // namespace
+
+IntegratorStatus flyHanging(const BodyRow& row, const BodyMedium& medium, const Joint& spring, Place anchor,
+                            Vec2 acceleration, double time, const IntegratorOptions& options, Flown& flown,
+                            IntegratorCounters& counters) {
+  const Spring own = {row.inverse_mass * spring.stiffness, row.inverse_mass * spring.damping};
+  const Vec2 way = row.place - anchor;
+  const bool is_plain = row.flight == FlightKind::kFree || row.flight == FlightKind::kLinearDrag;
+  const bool is_linear =
+      spring.length == 0 || staysOnLine(way, row.velocity, acceleration, spring.length, own.stiffness);
+  if (is_plain && is_linear) {
+    const Vec2 rest = spring.length == 0 ? Vec2{} : (spring.length / length(way)) * way;
+    flown = flySpring(way - rest, row.velocity, acceleration,
+                      {own.stiffness, own.damping + medium.linear_drag}, 1);
+    const bool finite = isFinite(flown.displacement) && isFinite(flown.velocity);
+    return finite ? IntegratorStatus::kDone : IntegratorStatus::kNotFinite;
+  }
+  const LongSpring force(spring.length, own, medium.field, medium.field_origin - anchor);
+  BodyMedium all = medium;
+  all.field = &force;
+  const Everything everything(all, acceleration, medium.anchor - row.place, anchor - row.place);
+  return flyField(everything, Vec2{}, row.velocity, time, 1, options, flown, counters);
+}
 
 IntegratorStatus flyBody(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time,
                          double t, const IntegratorOptions& options, Flown& flown,

@@ -4,6 +4,7 @@
 #include "BodyTable.h"
 #include "FlightFree.h"
 #include "Integrator.h"
+#include "Joint.h"
 
 namespace naiad::physics {
 
@@ -12,5 +13,11 @@ namespace naiad::physics {
 IntegratorStatus flyBody(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time,
                          double t, const IntegratorOptions& options, Flown& flown,
                          IntegratorCounters& counters);
+
+/// The same on a spring joint (kSpring) from `anchor`, a point of the world, to its middle. By formula while
+/// it moves along the spring, or if that has length 0; integrated otherwise.
+IntegratorStatus flyHanging(const BodyRow& row, const BodyMedium& medium, const Joint& spring, Place anchor,
+                            Vec2 acceleration, double time, const IntegratorOptions& options, Flown& flown,
+                            IntegratorCounters& counters);
 
 }  // namespace naiad::physics

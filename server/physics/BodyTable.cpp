@@ -15,6 +15,7 @@ BodyTable::Index BodyTable::add(const df::Object* p_object, df::ObjectKey key) {
     m_free.pop_back();
     m_rows[index] = {};
     if (index < m_media.size()) m_media[index] = {};
+    if (index < m_forms.size()) m_forms[index] = {};
   }
   BodyRow& row = m_rows[index];
   row.key = key;
@@ -27,6 +28,7 @@ BodyTable::Index BodyTable::add(const df::Object* p_object, df::ObjectKey key) {
 
 void BodyTable::remove(Index index) {
   m_rows[index].used = false;
+  joints.removeOf(static_cast<int>(index));
   const auto place =
       std::lower_bound(m_order.begin(), m_order.end(), m_rows[index].order,
                        [this](Index other, std::uint64_t order) { return m_rows[other].order < order; });
@@ -42,6 +44,22 @@ BodyMedium& BodyTable::medium(Index index) {
 const BodyMedium& BodyTable::medium(Index index) const {
   static const BodyMedium kNone;
   return index < m_media.size() ? m_media[index] : kNone;
+}
+
+BodyForm& BodyTable::form(Index index) {
+  if (index >= m_forms.size()) m_forms.resize(index + 1);
+  return m_forms[index];
+}
+
+const BodyForm& BodyTable::form(Index index) const {
+  static const BodyForm kNone;
+  return index < m_forms.size() ? m_forms[index] : kNone;
+}
+
+double BodyTable::unitInertia(Index index, const df::FixedBox& box) const {
+  const BodyForm& its = form(index);
+  if (!its.shapes.empty()) return its.unit_inertia;
+  return lengthSquared(metric.fromCells(df::Vector::fromFixed(box.size))) / 12;
 }
 
 void BodyTable::absorb(Index index, df::FixedVector position, df::FixedVector velocity) {

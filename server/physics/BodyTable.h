@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "BodyForm.h"
+#include "BodyJoints.h"
 #include "FlightField.h"
 #include "FlightSpring.h"
 #include "Integrator.h"
@@ -31,20 +33,29 @@ enum class FlightKind : std::uint8_t {
   kField,   ///< that the game defines; linear and quadratic drag count as well
 };
 
+/// Of bodies and of Objects without mass.
+inline constexpr double kUsualFriction = 0.5;
+
 /// Of every body, read and written in each step.
 struct BodyRow {
   df::ObjectKey key;
   const df::Object* p_object = nullptr;
-  std::uint64_t order = 0;  ///< of construction
-  Place place;              ///< the Object's position
-  Vec2 velocity;            ///< metric cells per tick
-  Vec2 force;               ///< for the next step, mass · metric cells per tick²
+  std::uint64_t order = 0;    ///< of construction
+  std::uint8_t last_way = 0;  ///< a BodyWay: who moved it in the last step
+  Place place;                ///< the Object's position
+  Vec2 velocity;              ///< metric cells per tick
+  Vec2 force;                 ///< for the next step, mass · metric cells per tick²
   double mass = 1;
-  double inverse_mass = 1;
+  double inverse_mass = 1;  ///< 0 for a kinematic one
   double gravity_scale = 1;
+  double restitution = 0;
+  double friction = kUsualFriction;
   FlightKind flight = FlightKind::kFree;
   bool used = false;
-  bool frozen = false;  ///< quarantined: stands until the game sets its place or velocity
+  bool is_kinematic = false;
+  bool hears_ends = false;  ///< of contacts
+  bool meets_soft = false;  ///< a soft body has pushed it since its last step: no case for event-exactness
+  bool frozen = false;      ///< quarantined: stands until the game sets its place or velocity
   df::FixedVector
       told_position;  ///< as the store was told last; other than what it holds now: the game moved it
   df::FixedVector told_velocity;
@@ -77,6 +88,11 @@ class BodyTable {
   /// Grows when it is asked for the first time.
   BodyMedium& medium(Index index);
   const BodyMedium& medium(Index index) const;
+  /// Likewise.
+  BodyForm& form(Index index);
+  const BodyForm& form(Index index) const;
+  /// Moment of inertia per mass, of a body with this Object's box if it has no other shape.
+  double unitInertia(Index index, const df::FixedBox& box) const;
   /// Take over what the game has done to position and velocity since the last step, by the Object's own
   /// setters: these are what the store holds now.
   void absorb(Index index, df::FixedVector position, df::FixedVector velocity);
@@ -86,15 +102,20 @@ class BodyTable {
   /// Those in use, by order of construction.
   const std::vector<Index>& inOrder() const { return m_order; }
 
+  BodyJoints joints;
   Metric metric;
-  Vec2 gravity;  ///< metric cells per tick²
+  Vec2 gravity;                               ///< metric cells per tick²
+  double obstacle_friction = kUsualFriction;  ///< of HARD Objects without mass
+  double obstacle_restitution = 0;
   IntegratorOptions integrator;
   BodyCounters counters;
   std::int64_t ticks = 0;  ///< steps so far: the time of fields
+  int soft_bodies = 0;     ///< they live in the same metric
 
  private:
   std::vector<BodyRow> m_rows;
   std::vector<BodyMedium> m_media;  ///< by index; shorter than m_rows
+  std::vector<BodyForm> m_forms;    ///< likewise
   std::vector<Index> m_free;
   std::vector<Index> m_order;
   std::uint64_t m_next_order = 1;

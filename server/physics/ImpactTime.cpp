@@ -187,6 +187,11 @@ ImpactForecast forecastImpact(const ImpactBody& a, const ImpactBody& b, const Re
   const BoxAndCircle pair = boxAndCircle(a, b);
   const RelativeMotion seen =
       pair.is_turned ? RelativeMotion{-motion.way, -motion.velocity, -motion.acceleration} : motion;
+  if (pair.radius + depth <= 0) {  // the centre is inside: only the face that is nearest counts
+    Vec2 reach = pair.half;
+    (now.normal.x != 0 ? reach.x : reach.y) += pair.radius + depth;
+    return {boxEntry(seen, reach, horizon, is_resting).time, ImpactAxis::kNearest};
+  }
   return roundedBoxEntry(seen, pair.half, pair.radius + depth, horizon, is_resting);
 }
 

@@ -120,6 +120,21 @@ SweptBox ImpactWorld::sweptBox(int id, double now) const {
   return {low - wider, high + wider};
 }
 
+void ImpactWorld::setReach(int id, const Place& centre, Vec2 half) {
+  if (!exists(id)) return;
+  if (id >= static_cast<int>(m_reaches.size())) m_reaches.resize(m_bodies.size());
+  m_reaches[id] = {centre, half};
+  m_motions[id].has_reach = true;
+}
+
+bool ImpactWorld::isWithinReach(int id, const SweptBox& box) const {
+  if (!m_motions[id].has_reach) return true;
+  const Reach& reach = m_reaches[id];
+  const Vec2 centre = {static_cast<double>(reach.centre.cell_x - m_origin_x) + reach.centre.dx,
+                       static_cast<double>(reach.centre.cell_y - m_origin_y) + reach.centre.dy};
+  return contains({centre - reach.half, centre + reach.half}, box);
+}
+
 void ImpactWorld::markChanged(int id) {
   if (m_motions[id].is_changed) return;
   m_motions[id].is_changed = true;
@@ -195,7 +210,9 @@ void ImpactWorld::forecastChanged(double now) {
   for (const int i : m_changed) {
     ++m_motions[i].generation;
     if (m_motions[i].is_frozen) continue;
-    m_tree.grow(i, sweptBox(i, now));
+    const SweptBox box = sweptBox(i, now);
+    m_tree.grow(i, box);
+    if (isPushed(i) && !isWithinReach(i, box)) m_is_beyond = true;
   }
   for (const int i : m_changed) {
     if (m_motions[i].is_frozen) continue;
@@ -307,18 +324,22 @@ ImpactStatus ImpactWorld::step(double dt) {
   if (!(dt > 0 && dt < 1e12)) return ImpactStatus::kRefused;
   const std::int64_t frozen_before = m_counters.quarantined;
   ++m_counters.ticks;
+  m_stepped = dt;
+  m_is_beyond = false;
   beginTick(dt);
   forecastAll();
-  while (!m_queue.empty()) {
+  while (!m_queue.empty() && !m_is_beyond) {
     std::pop_heap(m_queue.begin(), m_queue.end(), isLater<Pending>);
     const Pending next = m_queue.back();
     m_queue.pop_back();
     if (!isStale(next)) handle(next);
+    if (m_is_beyond) m_stepped = next.time;
     if (m_queue.size() > m_compact_at) compactQueue();
   }
   for (const int id : m_ids) {
-    if (!m_motions[id].is_frozen) advance(id, dt);
+    if (!m_motions[id].is_frozen) advance(id, m_stepped);
     m_motions[id].time = 0;
+    m_motions[id].has_reach = false;
   }
   sortEvents();
   return m_counters.quarantined == frozen_before ? ImpactStatus::kDone : ImpactStatus::kQuarantined;

@@ -71,11 +71,21 @@ class ImpactWorld {
   }
   /// Is the body in quarantine? It is kept as it is and nothing meets it, until set().
   bool isFrozen(int id) const { return m_motions[id].is_frozen; }
+  /// Does the body, which can be pushed, touch anything?
+  bool isTouching(int id) const { return m_motions[id].first_contact >= 0; }
+  /// What moves it at the end of the last step, with what contacts add.
+  Vec2 acceleration(int id) const { return m_motions[id].acceleration; }
   /// Ids are below this.
   int idLimit() const { return static_cast<int>(m_bodies.size()); }
 
-  /// Goes on by `dt` > 0 ticks.
+  /// For the next step: the world is known `half` to either side of `centre`, and if an impact sends the body
+  /// out of that, the step ends there. Everywhere, unless told.
+  void setReach(int id, const Place& centre, Vec2 half);
+
+  /// Goes on by `dt` > 0 ticks, or until a body would leave its reach.
   ImpactStatus step(double dt = 1);
+  /// How far the last step went on.
+  double stepped() const { return m_stepped; }
 
   /// Of the last step, by (time, ids).
   const std::vector<ImpactEvent>& events() const { return m_events; }
@@ -91,11 +101,16 @@ class ImpactWorld {
     int events_at_once = 0;  // at the moment of the last one
     double last_event = -1;
     int local = -1;  // index in the group at hand
+    bool has_reach = false;
     bool exists = false;
     bool is_frozen = false;
     bool is_dirty = false;    // set() since the last step
     bool is_changed = false;  // in m_changed
     bool is_visited = false;  // by the settling at hand
+  };
+  struct Reach {
+    Place centre;
+    Vec2 half;
   };
   struct Contact {
     int first = -1;  // −1: free
@@ -138,6 +153,7 @@ class ImpactWorld {
   void forecastPair(int i, int j, double now);
   RelativeMotion relative(int a, int b, double now) const;
   SweptBox sweptBox(int id, double now) const;
+  bool isWithinReach(int id, const SweptBox& box) const;
   bool isStale(const Pending& pending) const;
   void handle(const Pending& pending);
   void compactQueue();
@@ -168,12 +184,15 @@ class ImpactWorld {
 
   std::vector<ImpactBody> m_bodies;
   std::vector<Motion> m_motions;
+  std::vector<Reach> m_reaches;  // by id; only as many as were told
   std::vector<Contact> m_contacts;
   int m_free_contact = -1;
   std::vector<ImpactEvent> m_events;
   ImpactCounters m_counters;
 
   double m_dt = 0;
+  double m_stepped = 0;
+  bool m_is_beyond = false;                     // a body's reach
   std::int64_t m_origin_x = 0, m_origin_y = 0;  // of the broad phase
   std::vector<int> m_ids;                       // who takes part
   std::vector<SweptBox> m_boxes;

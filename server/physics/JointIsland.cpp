@@ -25,6 +25,7 @@ bool isBelow(Vec2 a, double limit) {
 }
 
 constexpr int kFiner = 2, kFinest = 16;
+constexpr int kPatience = 3;    // steps that went well, until longer stages are tried again
 constexpr double kCalm = 0.25;  // of (frequency · step)²: see isCalm
 
 Vec2 accelerationOf(const JointBody& body, Vec2 gravity) {
@@ -58,6 +59,7 @@ JointIsland::JointIsland(std::span<const int> bodies, std::span<const int> joint
     const bool may_turn =
         m_mass[at(link.b)].inverse_inertia > 0 || (link.a >= 0 && m_mass[at(link.a)].inverse_inertia > 0);
     addRows(link, joint, may_turn);
+    link.most_force = mostCalmForce(link, joint);
     m_links.push_back(link);
   }
   const std::vector<int> order = eliminationOrder(m_rows, m_mass);
@@ -120,6 +122,7 @@ JointIsland::JointIsland(std::span<const int> bodies, std::span<const int> joint
       m_rods[at(link.row[0])] = {link.a, link.b, link.length * link.length, link.half_inverse_length};
     }
   }
+  if (is_rods && m_matrix.isChain()) m_chain.connect(m_rods, m_mass);
   m_is_rod = m_links.size() == 1 && m_links[0].kind == JointKind::kDistance && m_links[0].is_plain &&
              m_mass[0].inverse_inertia == 0 && m_mass[1].inverse_inertia == 0;
 }
@@ -253,19 +256,23 @@ bool JointIsland::mayCompose(std::span<const Joint> joints, double h) const {
 // Does h resolve how fast the joints' forces turn them? Composed steps are longer than h / substeps, and gain
 // nothing where they resolve nothing (a whip, a heavy weight on a light chain).
 bool JointIsland::isCalm(std::span<const Joint> joints, double h) const {
-  for (const Link& link : m_links) {
-    const Joint& joint = joints[at(link.index)];
-    const double arm_a = length(link.anchor_a), arm_b = length(link.anchor_b);
-    const double arm = joint.length > 0 ? joint.length : std::max(arm_a, arm_b);
-    if (!(arm > 0)) continue;
-    const JointMass b = m_mass[at(link.b)];
-    double answer = b.inverse_mass + b.inverse_inertia * arm_b * arm_b;
-    if (link.a >= 0) {
-      answer += m_mass[at(link.a)].inverse_mass + m_mass[at(link.a)].inverse_inertia * arm_a * arm_a;
-    }
-    if (h * h * length(joint.force) * answer > kCalm * arm) return false;
+  const double square = h * h;
+  return std::none_of(m_links.begin(), m_links.end(), [&](const Link& link) {
+    return square * square * lengthSquared(joints[at(link.index)].force) > link.most_force * link.most_force;
+  });
+}
+
+// The force that is still calm in a step of length one.
+double JointIsland::mostCalmForce(const Link& link, const Joint& joint) const {
+  const double arm_a = length(link.anchor_a), arm_b = length(link.anchor_b);
+  const double arm = joint.length > 0 ? joint.length : std::max(arm_a, arm_b);
+  if (!(arm > 0)) return kNoLimit;
+  const JointMass b = m_mass[at(link.b)];
+  double answer = b.inverse_mass + b.inverse_inertia * arm_b * arm_b;
+  if (link.a >= 0) {
+    answer += m_mass[at(link.a)].inverse_mass + m_mass[at(link.a)].inverse_inertia * arm_a * arm_a;
   }
-  return true;
+  return answer > 0 ? kCalm * arm / answer : kNoLimit;
 }
 
 bool JointIsland::stepRod(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
@@ -274,18 +281,18 @@ bool JointIsland::stepRod(std::span<JointBody> bodies, std::span<Joint> joints, 
   JointBody& a = bodies[at(joint.a)];
   JointBody& b = bodies[at(joint.b)];
   const double sum = a.inverse_mass + b.inverse_mass;
-  const double square = joint.length * joint.length;
+  const double per_length = 1 / joint.length;
   const Vec2 push_a = accelerationOf(a, gravity), push_b = accelerationOf(b, gravity);
-  const Vec2 start = b.place - a.place;
-  const bool is_good = sum > 0 && a.spin == 0 && b.spin == 0 &&
-                       std::abs(lengthSquared(start) - square) <= 1e-6 * square &&
+  const Vec2 start = b.place - a.place, direction = start / joint.length;
+  const double square = lengthSquared(direction);
+  const bool is_good = sum > 0 && a.spin == 0 && b.spin == 0 && std::abs(square - 1) <= 1e-6 &&
                        isBelow(a.velocity, kLargest) && isBelow(b.velocity, kLargest) &&
                        isBelow(push_a, kLargest) && isBelow(push_b, kLargest);
   if (!is_good) return false;
   const double share_a = a.inverse_mass / sum, share_b = b.inverse_mass / sum;
-  JointRod rod = {start, b.velocity - a.velocity, push_b - push_a, square, 1 / square, {}};
-  rod.offset *= joint.length / length(start);
-  rod.project();
+  // Close to one, the root of the square needs no root.
+  const double to_unit = std::abs(square - 1) <= 1e-10 ? 1.5 - 0.5 * square : 1 / std::sqrt(square);
+  JointRod rod(to_unit * direction, per_length * (b.velocity - a.velocity), per_length * (push_b - push_a));
   const std::span<const double> stages = stagesOf(options.method);
   const int repeats = std::max(1, options.substeps / static_cast<int>(stages.size()));
   const double whole = h / repeats;
@@ -298,27 +305,64 @@ bool JointIsland::stepRod(std::span<JointBody> bodies, std::span<Joint> joints, 
   const Vec2 velocity = share_b * a.velocity + share_a * b.velocity;
   const Vec2 push = share_b * push_a + share_a * push_b;
   const Vec2 flown = h * (velocity + (0.5 * h) * push), after = velocity + h * push;
-  const Vec2 turned = rod.offset - start;
+  const Vec2 turned = joint.length * rod.direction - start, velocity_after = joint.length * rod.velocity();
   if (a.inverse_mass > 0) {
     a.place = a.place + (flown - share_a * turned);
-    a.velocity = after - share_a * rod.velocity;
+    a.velocity = after - share_a * velocity_after;
   }
   if (b.inverse_mass > 0) {
     b.place = b.place + (flown + share_b * turned);
-    b.velocity = after + share_b * rod.velocity;
+    b.velocity = after + share_b * velocity_after;
   }
-  joint.force = rod.pull / (h * sum);
+  joint.force = (joint.length / (h * sum)) * rod.pull;
   return true;
+}
+
+void JointIsland::hold(std::span<JointBody> bodies, std::span<const Joint> joints, JointCounters& counters) {
+  if (m_is_frozen || !load(bodies, joints, {})) return;
+  prepareHold();
+  projectVelocities(counters);
+  for (std::size_t i = 0; i < m_body.size(); ++i) {
+    JointBody& body = bodies[at(m_body[i])];
+    if (!isMovable(body)) continue;
+    body.velocity = m_velocity[i];
+    body.spin = m_spin[i];
+  }
+}
+
+void JointIsland::prepareHold() {
+  if (m_is_smooth) return;
+  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    m_is_out_second[i] = m_kind[i] == Kind::kSoft || m_kind[i] == Kind::kMotor || m_side[i] != 0 ? 1 : 0;
+  }
+}
+
+JointChain::Status JointIsland::stepChain(JointOptions options, double h, JointCounters& counters) {
+  m_chain.load(m_place, m_velocity, m_acceleration, m_multiplier, m_tolerance);
+  JointChain::Status status = m_chain.project();
+  const std::span<const double> stages = stagesOf(options.method);
+  const int repeats = std::max(1, options.substeps / static_cast<int>(stages.size()));
+  for (int i = 0; i < repeats; ++i) {
+    for (const double share : stages) {
+      if (status != JointChain::Status::kDone) return status;
+      ++counters.stages;
+      status = m_chain.stage(share * (h / repeats), counters.iterations);
+    }
+  }
+  if (status != JointChain::Status::kDone) return status;
+  m_chain.store(m_place, m_velocity, m_multiplier, m_force, m_link_of);
+  m_is_factored = false;
+  return status;
 }
 
 bool JointIsland::stepBy(JointOptions options, bool is_last, std::span<const JointBody> bodies,
                          std::span<const Joint> joints, double h, Vec2 gravity, JointCounters& counters) {
   if (!load(bodies, joints, gravity)) return false;
-  if (!m_is_smooth) {
-    for (std::size_t i = 0; i < m_rows.size(); ++i) {
-      m_is_out_second[i] = m_kind[i] == Kind::kSoft || m_kind[i] == Kind::kMotor || m_side[i] != 0 ? 1 : 0;
-    }
+  if (!is_last && !m_chain.isEmpty() && !m_is_turning) {
+    const JointChain::Status status = stepChain(options, h, counters);
+    if (status != JointChain::Status::kBad) return status == JointChain::Status::kDone;
   }
+  prepareHold();
   projectVelocities(counters);
   record(m_second);
   const std::span<const double> stages = stagesOf(options.method);
@@ -342,13 +386,22 @@ void JointIsland::step(std::span<JointBody> bodies, std::span<Joint> joints, dou
   if (!mayCompose(joints, h)) options.method = JointMethod::kRattle;
   // A step whose stages do not converge is done again with shorter ones, all of it: lengths that change
   // within a step cost more energy than long ones do. What is left to the last try may halve and fall back.
-  bool is_done = stepBy(options, false, bodies, joints, h, gravity, counters);
-  options.method = JointMethod::kRattle;
-  for (int finer = kFiner; !is_done && finer <= kFinest; finer *= kFiner) {
-    ++counters.refined;
+  // What the last step needed, the next one is likely to need, too.
+  const int first = m_finer;
+  bool is_done = false;
+  for (int finer = first; !is_done && finer <= kFinest; finer *= kFiner) {
+    if (finer > first) ++counters.refined;
+    if (finer > 1) options.method = JointMethod::kRattle;
     const JointOptions refined = {options.method, options.substeps * finer};
     is_done = stepBy(refined, false, bodies, joints, h, gravity, counters);
+    m_finer = finer;
   }
+  if (m_finer > first || !is_done) m_calm_steps = 0;
+  if (++m_calm_steps > kPatience && m_finer > 1) {
+    m_finer /= kFiner;
+    m_calm_steps = 0;
+  }
+  options.method = JointMethod::kRattle;
   if (!is_done) is_done = stepBy(options, true, bodies, joints, h, gravity, counters);
   if (!is_done || !store(bodies, joints, h)) freeze(bodies, counters);
 }

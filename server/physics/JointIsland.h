@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "Joint.h"
+#include "JointChain.h"
 #include "JointMatrix.h"
 #include "JointMethod.h"
 
@@ -42,18 +43,26 @@ class JointIsland {
   void step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
             JointOptions options, JointCounters& counters);
 
+  /// Takes out of the velocities what the joints do not allow, and leaves everything else alone.
+  void hold(std::span<JointBody> bodies, std::span<const Joint> joints, JointCounters& counters);
+
   bool isFrozen() const { return m_is_frozen; }
+  /// Do all its joints hold both ways, whatever it takes?
+  bool isTwoSided() const { return m_one_sided.empty(); }
+  /// Indices of its joints, as they were given.
+  void appendJoints(std::vector<int>& joints) const {
+    for (const Link& link : m_links) joints.push_back(link.index);
+  }
+  /// Indices of its bodies, as they were given.
+  std::span<const int> bodies() const { return m_body; }
   int rows() const { return static_cast<int>(m_rows.size()); }
   /// Entries that elimination adds: 0 for a tree.
   int fill() const { return m_matrix.filled() - m_matrix.entries(); }
 
  private:
   enum class Kind : std::uint8_t { kHard, kRope, kSoft, kMotor, kLimit };
-  struct Rod {  // a row of an island that is all rods between centres
-    int a, b;
-    double square, half_inverse_length;
-  };
-  struct Link {  // a joint, with what does not change within a step
+  using Rod = JointChain::Rod;  // a row of an island that is all rods between centres
+  struct Link {                 // a joint, with what does not change within a step
     JointKind kind;
     bool is_plain;  // both anchors at the centres
     int index, a, b;
@@ -62,7 +71,8 @@ class JointIsland {
     Vec2 arm_a, arm_b;  // the anchors as turned now
     Vec2 target;
     double length, half_inverse_length;
-    double bound;  // of the angle limit that is nearer
+    double most_force;  // see isCalm
+    double bound;       // of the angle limit that is nearer
   };
 
   bool load(std::span<const JointBody> bodies, std::span<const Joint> joints, Vec2 gravity);
@@ -72,7 +82,9 @@ class JointIsland {
                JointOptions options, JointCounters& counters) const;
   bool stepBy(JointOptions options, bool is_last, std::span<const JointBody> bodies,
               std::span<const Joint> joints, double h, Vec2 gravity, JointCounters& counters);
+  JointChain::Status stepChain(JointOptions options, double h, JointCounters& counters);
   bool isCalm(std::span<const Joint> joints, double h) const;
+  double mostCalmForce(const Link& link, const Joint& joint) const;
   bool mayCompose(std::span<const Joint> joints, double h) const;
 
   bool advance(double h, int depth, JointCounters& counters);
@@ -83,6 +95,7 @@ class JointIsland {
   bool positions(double h, JointCounters& counters);
   bool newton(double h, JointCounters& counters);
   void velocities(double h, JointCounters& counters);
+  void prepareHold();
   void projectVelocities(JointCounters& counters);
   bool changeActiveSet(double h, bool may_clamp);
 
@@ -123,6 +136,7 @@ class JointIsland {
   const Joint* m_joints = nullptr;  // within a step
   std::vector<JointRow> m_rows;
   JointMatrix m_matrix;
+  JointChain m_chain;  // empty, unless it is one
   std::vector<Kind> m_kind;
   std::vector<int> m_link_of;
   std::vector<int> m_one_sided, m_soft;  // rows
@@ -141,6 +155,8 @@ class JointIsland {
   Place m_origin;
   double m_tolerance = 0;
   double m_last_h = 0;
+  int m_finer = 1;             // times as many stages as asked for, in the next step
+  int m_calm_steps = 0;        // since it changed
   bool m_is_beyond = false;    // the fall-back has the rest of this step
   bool m_is_factored = false;  // for positions at the present place
   bool m_is_smooth = false;    // no row is one-sided or soft

@@ -47,6 +47,8 @@ class JointMatrix {
   /// From right-hand side to solution, in place.
   void solve(double* x) const;
 
+  /// Does each row meet the next one, and no other?
+  bool isChain() const { return m_is_chain; }
   /// Entries below the diagonal that are not zero in the factor, and in the matrix.
   int filled() const { return static_cast<int>(m_row.size()); }
   int entries() const { return m_entries; }

@@ -1,7 +1,8 @@
 // Two points on a rod: RATTLE in closed form, for the smallest of all trees (a pendulum, a dumb-bell).
 //
-// The centre of mass flies exactly; the way from one end to the other goes by RATTLE, whose position equation
-// is a quadratic here: a root and a division per stage.
+// The centre of mass flies exactly; the way from one end to the other goes by RATTLE. In the plane that is a
+// direction and a rate of turning: half a kick turns faster, a stage over h turns by the angle whose sine is
+// h times the rate, half a kick follows. (The position equation's multiplier, put in, says that.)
 #pragma once
 
 #include <cmath>
@@ -10,34 +11,36 @@
 
 namespace naiad::physics {
 
+/// Everything over the rod's length.
 struct JointRod {
-  Vec2 offset;            ///< from a to b
-  Vec2 velocity;          ///< of b against a
-  Vec2 acceleration;      ///< the same, without the rod
-  double square = 1;      ///< of the length
-  double per_square = 1;  ///< its inverse
-  Vec2 pull;              ///< sum of the rod's impulses on b, per reduced mass
+  Vec2 direction;     ///< from a to b, of length one
+  double rate = 0;    ///< at which it turns
+  Vec2 acceleration;  ///< of b against a, without the rod
+  double gain = 0;    ///< of the rate, by that: direction × acceleration
+  Vec2 pull;          ///< sum of the rod's impulses on b, per reduced mass
 
-  /// Takes the part along the rod out of the velocity.
-  void project() { velocity -= (per_square * dot(offset, velocity)) * offset; }
+  JointRod(Vec2 its_direction, Vec2 velocity, Vec2 its_acceleration)
+      : direction(its_direction),
+        rate(cross(its_direction, velocity)),
+        acceleration(its_acceleration),
+        gain(cross(its_direction, its_acceleration)) {}
+
+  Vec2 velocity() const { return rate * perpendicular(direction); }
 
   /// A stage over h != 0, which may be negative, `per_h` its inverse. False if the rod turns too far for it;
   /// nothing has changed then.
   bool advance(double h, double per_h) {
-    const Vec2 half_kick = (0.5 * h) * acceleration;
-    const Vec2 kicked = velocity + half_kick;
-    const Vec2 reached = offset + h * kicked;
-    const double half = per_square * dot(reached, offset);
-    const double rest = per_square * (lengthSquared(reached) - square);
-    const double under_root = half * half - rest;
-    if (!(half > 0.5) || !(under_root > 0.01)) return false;
-    const double shift = -rest / (half + std::sqrt(under_root));
-    const Vec2 first = (shift * per_h) * offset;
-    offset = reached + shift * offset;
-    const Vec2 free = kicked + first + half_kick;
-    const Vec2 second = (per_square * dot(offset, free)) * offset;
-    velocity = free - second;
-    pull += first - second;
+    const double kick = 0.5 * h, kicked = rate + kick * gain, sine = h * kicked;
+    const double under_root = 1 - sine * sine;
+    if (!(under_root > 0.01)) return false;
+    const double cosine = std::sqrt(under_root);
+    const Vec2 next = cosine * direction + sine * perpendicular(direction);
+    gain = cross(next, acceleration);
+    rate = kicked + kick * gain;
+    const double bend = (1 - cosine) * per_h;
+    pull -= (bend + kick * dot(acceleration, direction)) * direction +
+            (bend + kick * dot(acceleration, next)) * next;
+    direction = next;
     return true;
   }
 };

@@ -61,10 +61,14 @@ int JointSolver::connect(std::span<const JointBody> bodies, std::span<const Join
     }
   }
   m_islands.clear();
+  m_island_of.assign(bodies.size(), -1);
   for (Group& group : groups) {
     if (group.joints.empty()) continue;
     std::sort(group.bodies.begin(), group.bodies.end());
     group.bodies.erase(std::unique(group.bodies.begin(), group.bodies.end()), group.bodies.end());
+    for (const int body : group.bodies) {
+      if (movable(body)) m_island_of[at(body)] = static_cast<int>(m_islands.size());
+    }
     m_islands.emplace_back(group.bodies, group.joints, bodies, joints);
   }
   m_joint_count = joints.size();
@@ -85,10 +89,13 @@ bool JointSolver::breakJoints(std::span<Joint> joints) {
 }
 
 int JointSolver::step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
-                      JointOptions options) {
+                      JointOptions options, std::span<const std::uint8_t> is_moved) {
   if (!(h > 0 && h <= 1e15) || !isFinite(gravity) || options.substeps < 1) return -1;
   if (bodies.size() != m_is_joined.size() || joints.size() != m_joint_count) return -1;
-  for (JointIsland& island : m_islands) island.step(bodies, joints, h, gravity, options, m_counters);
+  for (std::size_t i = 0; i < m_islands.size(); ++i) {
+    if (is_moved.empty() || is_moved[i] == 0)
+      m_islands[i].step(bodies, joints, h, gravity, options, m_counters);
+  }
   for (const int carrier : m_carriers) {
     JointBody& body = bodies[at(carrier)];
     if (!(lengthSquared(body.velocity) <= 1e30 && std::abs(body.spin) <= 1e15)) continue;

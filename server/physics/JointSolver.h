@@ -23,8 +23,20 @@ class JointSolver {
   /// Moves every body that is joined over h > 0, also immovable ones that have a velocity, and writes forces
   /// into the joints; others are left alone. Gravity is an acceleration for all bodies with mass. Returns −1
   /// and does nothing if h, gravity or the arrays' sizes are not usable, else 0.
+  /// Islands with `is_moved` (by island; empty: none) have gone on already.
   int step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
-           JointOptions options = {});
+           JointOptions options = {}, std::span<const std::uint8_t> is_moved = {});
+
+  /// One of islands(), alone: what it does within a step.
+  void stepIsland(int island, std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity) {
+    m_islands[static_cast<std::size_t>(island)].step(bodies, joints, h, gravity, {}, m_counters);
+  }
+  /// Takes out of its velocities what its joints do not allow.
+  void holdIsland(int island, std::span<JointBody> bodies, std::span<const Joint> joints) {
+    m_islands[static_cast<std::size_t>(island)].hold(bodies, joints, m_counters);
+  }
+  /// In islands(), of a body that can be moved; −1: it is not joined.
+  int islandOf(int body) const { return m_island_of[static_cast<std::size_t>(body)]; }
 
   const JointCounters& counters() const { return m_counters; }
   std::span<const JointIsland> islands() const { return m_islands; }
@@ -36,7 +48,8 @@ class JointSolver {
 
   std::vector<JointIsland> m_islands;
   std::vector<std::uint8_t> m_is_joined;
-  std::vector<int> m_carriers;  // immovable ones
+  std::vector<int> m_island_of;  // by body; −1: none, or many
+  std::vector<int> m_carriers;   // immovable ones
   std::size_t m_joint_count = 0;
   JointCounters m_counters;
 };

@@ -51,7 +51,7 @@ Vector PhysicsManager::getGravity() const {
 
 int PhysicsManager::setAspect(double aspect) {
   const bool good = aspect >= Metric::kLeastAspect && aspect <= Metric::kMostAspect;
-  if (!good || !table().inOrder().empty()) {
+  if (!good || !table().inOrder().empty() || table().soft_bodies > 0) {
     World::current().refuse(getType(), "setAspect");
     return -1;
   }
@@ -76,6 +76,32 @@ int PhysicsManager::setIntegrator(const IntegratorOptions& options) {
 
 const IntegratorOptions& PhysicsManager::getIntegrator() const {
   return table().integrator;
+}
+
+int PhysicsManager::setObstacleFriction(double friction) {
+  if (!(friction >= 0 && friction <= kMost)) {
+    World::current().refuse(getType(), "setObstacleFriction");
+    return -1;
+  }
+  table().obstacle_friction = friction;
+  return 0;
+}
+
+double PhysicsManager::getObstacleFriction() const {
+  return table().obstacle_friction;
+}
+
+int PhysicsManager::setObstacleRestitution(double restitution) {
+  if (!(restitution >= 0 && restitution <= 1)) {
+    World::current().refuse(getType(), "setObstacleRestitution");
+    return -1;
+  }
+  table().obstacle_restitution = restitution;
+  return 0;
+}
+
+double PhysicsManager::getObstacleRestitution() const {
+  return table().obstacle_restitution;
 }
 
 int PhysicsManager::getBodyCount() const {

@@ -12,14 +12,20 @@ DatagramGate::DatagramGate(std::uint64_t seed, DatagramGateRates rates)
 bool DatagramGate::add(SealedLink& link, OnPayload on_payload) {
   const auto [place, added] = doors_.try_emplace(link.id());
   if (added) {
-    place->second = std::make_shared<Door>(
-        Door{.link = &link, .on_payload = std::move(on_payload), .own = {}, .claimed = {}});
+    place->second.link = &link;
+    place->second.on_payload = std::move(on_payload);
   }
   return added;
 }
 
 void DatagramGate::remove(ConnectionId id) {
-  doors_.erase(id);
+  const auto found = doors_.find(id);
+  if (found == doors_.end()) return;
+  if (&found->second == open_) {  // its callback is running
+    leaving_ = doors_.extract(found);
+  } else {
+    doors_.erase(found);
+  }
 }
 
 void DatagramGate::receive(const Path& path, std::string_view packet, Time now) {
@@ -42,19 +48,22 @@ void DatagramGate::receive(const Path& path, std::string_view packet, Time now) 
     ++counters_.unknown_id;
     return;
   }
-  const std::shared_ptr<Door> door = found->second;  // the callee may remove it
-  if (!door->link->plausible(packet, now)) {
+  Door& door = found->second;
+  if (!door.link->plausible(packet, now)) {
     ++counters_.refused;
     return;
   }
-  if (!allowed(*door, path, now)) return;
-  const auto payload = door->link->open(path, packet, now);
+  if (!allowed(door, path, now)) return;
+  const auto payload = door.link->open(path, packet, now);
   if (!payload) {
     ++counters_.refused;
     return;
   }
   ++counters_.delivered;
-  door->on_payload(*payload);
+  open_ = &door;
+  door.on_payload(*payload);
+  open_ = nullptr;
+  leaving_ = {};
 }
 
 /// What it takes from is in the order of who is to blame, so that a flood spends as little of others as

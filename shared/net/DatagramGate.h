@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string_view>
 #include <unordered_map>
 
@@ -67,7 +66,7 @@ class DatagramGate {
 
  private:
   struct Door {
-    SealedLink* link;
+    SealedLink* link = nullptr;
     OnPayload on_payload;
     TokenBucket own;
     TokenBucket claimed;
@@ -76,7 +75,11 @@ class DatagramGate {
   bool allowed(Door& door, const Path& path, Time now);
 
   DatagramGateRates rates_;
-  std::unordered_map<ConnectionId, std::shared_ptr<Door>> doors_;
+  using Doors = std::unordered_map<ConnectionId, Door>;
+
+  Doors doors_;
+  const Door* open_ = nullptr;  ///< whose payload is being delivered
+  Doors::node_type leaving_;    ///< the same, if it was removed meanwhile
   PrefixBuckets prefixes_;
   TokenBucket strangers_;
   DatagramGateCounters counters_;

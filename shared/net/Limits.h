@@ -6,7 +6,7 @@
 
 namespace naiad {
 
-inline constexpr std::uint32_t kProtocolVersion = 2;
+inline constexpr std::uint32_t kProtocolVersion = 3;
 inline constexpr std::uint32_t kHelloMagic = 0x6e616961;
 inline constexpr std::uint16_t kDefaultPort = 9876;
 

@@ -39,6 +39,7 @@ std::optional<LinkPing::Echo> takeEcho(std::string_view& text) {
 
 SealedLink::SealedLink(Options options) : options_(std::move(options)) {
   assert(!isServer() || options_.random);
+  if (!options_.scratch) options_.scratch = std::make_shared<SealScratch>();
 }
 
 // Epochs.
@@ -134,8 +135,9 @@ std::optional<std::string_view> SealedLink::open(const Path& path, std::string_v
   if (!keys) return std::nullopt;
   const std::size_t header = sealedHeaderSize(receives());
   std::uint64_t sequence = 0;
-  if (!accept(keys->opener.open(packet, header, opened_.data(), sequence))) return std::nullopt;
-  const auto fields = readFields({opened_.data(), packet.size() - header - kSealTagSize});
+  if (!accept(keys->opener.open(packet, header, options_.scratch->opened.data(), sequence)))
+    return std::nullopt;
+  const auto fields = readFields({options_.scratch->opened.data(), packet.size() - header - kSealTagSize});
   if (!fields) {
     ++counters_.malformed;
     return std::nullopt;
@@ -218,15 +220,16 @@ std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, T
     ++counters_.over_budget;
     return std::nullopt;
   }
-  const std::size_t prefix = writeSealedPrefix(sends(), keys->epoch, options_.id, sealed_.data());
-  char* const text = sealed_.data() + prefix + 2;
+  auto& sealed = options_.scratch->sealed;
+  const std::size_t prefix = writeSealedPrefix(sends(), keys->epoch, options_.id, sealed.data());
+  char* const text = sealed.data() + prefix + 2;
   const std::size_t least = payload.size() + overhead();
   const std::size_t fields = writeFields(text, std::min(kMaxDatagram, guard_.budget()) - least, now);
   std::copy(payload.begin(), payload.end(), text + fields);
-  const std::size_t size = keys->sealer.seal(sealed_.data(), prefix, fields + payload.size());
+  const std::size_t size = keys->sealer.seal(sealed.data(), prefix, fields + payload.size());
   guard_.sent(size, now);
   ++counters_.sealed;
-  return Outgoing{*guard_.current(), {sealed_.data(), size}};
+  return Outgoing{*guard_.current(), {sealed.data(), size}};
 }
 
 /// `spare`: bytes that the packet may still have beyond overhead() and the payload.

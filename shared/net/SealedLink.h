@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -51,6 +52,13 @@ struct SealedLinkCounters {
   std::uint64_t wrong_answers = 0;  ///< to no challenge of the current path (late, mostly)
 };
 
+/// Where packets are sealed and opened. Links that one thread uses in turn share it, so that it stays in the
+/// cache.
+struct SealScratch {
+  std::array<char, kMaxDatagram> sealed;
+  std::array<char, kMaxDatagram> opened;
+};
+
 /// Not thread-safe. Times are of one monotonic clock. At most two epochs are held.
 class SealedLink {
  public:
@@ -66,6 +74,7 @@ class SealedLink {
     /// 64 unpredictable bits for path challenges. Servers only.
     std::function<std::uint64_t()> random;
     SealLimits limits;
+    std::shared_ptr<SealScratch> scratch = {};  ///< null: one of its own
   };
 
   explicit SealedLink(Options options);
@@ -78,16 +87,16 @@ class SealedLink {
   /// Clients only: where the server is. Servers learn their path from what arrives.
   void setServerPath(const Path& path);
 
-  /// The payload of an authentic packet, valid until the next open(); nothing if it was refused. An empty
-  /// payload is one, too: a probe, or a challenge by itself. A server follows the path of the newest packet;
-  /// a client takes what is authentic from wherever it comes.
+  /// The payload of an authentic packet, valid until the next open() with this scratch; nothing if it was
+  /// refused. An empty payload is one, too: a probe, or a challenge by itself. A server follows the path of
+  /// the newest packet; a client takes what is authentic from wherever it comes.
   std::optional<std::string_view> open(const Path& path, std::string_view packet, Time now);
   /// Whether open() would get as far as decrypting. If not, the refusal is counted.
   bool plausible(std::string_view packet, Time now);
 
   struct Outgoing {
     Path path;
-    std::string_view packet;  ///< valid until the next seal()
+    std::string_view packet;  ///< valid until the next seal() with this scratch
   };
   /// Seal at most maxPayload() bytes. Nothing if it may not be sent now; the reason is counted.
   std::optional<Outgoing> seal(std::string_view payload, Time now);
@@ -164,8 +173,6 @@ class SealedLink {
   LinkPing ping_;
   LinkEcho echo_;
   SealedLinkCounters counters_;
-  std::array<char, kMaxDatagram> sealed_;
-  std::array<char, kMaxDatagram> opened_;
 };
 
 }  // namespace naiad

@@ -3,10 +3,10 @@
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <asio/post.hpp>
-#include <asio/steady_timer.hpp>
 #include <utility>
 #include <vector>
 
+#include "PatientTimer.h"
 #include "TcpChannel.h"
 #include "TlsHandshake.h"
 
@@ -50,8 +50,8 @@ struct TcpConnector::Attempt : std::enable_shared_from_this<Attempt> {
   TcpConnector& connector;  // there while `done` is
   tcp::resolver resolver;
   tcp::socket socket;
-  asio::steady_timer timer;
-  asio::steady_timer share;  // of the address that is being tried
+  PatientTimer timer;
+  PatientTimer share;  // of the address that is being tried
   std::shared_ptr<TlsHandshake> handshake;
   Done done;  // empty: this attempt is over
   std::string host;
@@ -64,9 +64,8 @@ struct TcpConnector::Attempt : std::enable_shared_from_this<Attempt> {
 
 void TcpConnector::Attempt::limit(std::chrono::milliseconds timeout) {
   total = timeout;
-  timer.expires_after(timeout);
-  timer.async_wait([self = shared_from_this()](const std::error_code& error) {
-    if (!error) self->fail("No answer from " + self->target() + " within " + inWords(self->total) + ".");
+  timer.start(timeout, [self = shared_from_this()] {
+    self->fail("No answer from " + self->target() + " within " + inWords(self->total) + ".");
   });
 }
 
@@ -113,9 +112,8 @@ void TcpConnector::Attempt::tryNext() {
   if (turn == endpoints.size()) return fail(last_problem);
   const std::size_t mine = ++turn;
   if (mine < endpoints.size()) {  // the last one has all the time that is left
-    share.expires_after(total / static_cast<int>(endpoints.size()));
-    share.async_wait([self = shared_from_this(), mine](const std::error_code& error) {
-      if (!error && self->done && self->turn == mine) self->tryNext();
+    share.start(total / static_cast<int>(endpoints.size()), [self = shared_from_this(), mine] {
+      if (self->done && self->turn == mine) self->tryNext();
     });
   }
   socket.async_connect(endpoints[mine - 1], [self = shared_from_this(), mine](const std::error_code& error) {

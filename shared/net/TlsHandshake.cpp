@@ -11,10 +11,7 @@ TlsHandshake::TlsHandshake(std::unique_ptr<TlsStream> stream)
 
 void TlsHandshake::run(std::chrono::milliseconds timeout, Done done) {
   done_ = std::move(done);
-  timer_.expires_after(timeout);
-  timer_.async_wait([self = shared_from_this()](const std::error_code& error) {
-    if (!error) self->finish(End::kTimedOut);
-  });
+  timer_.start(timeout, [self = shared_from_this()] { self->finish(End::kTimedOut); });
   // OpenSSL takes memory for a handshake when it is called first: not before an idle client has said
   // something.
   await(stream_->speaksFirst() ? tcp::socket::wait_write : tcp::socket::wait_read);

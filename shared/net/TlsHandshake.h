@@ -2,12 +2,12 @@
 #pragma once
 
 #include <asio/ip/tcp.hpp>
-#include <asio/steady_timer.hpp>
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
 
+#include "PatientTimer.h"
 #include "TlsStream.h"
 
 namespace naiad {
@@ -40,7 +40,7 @@ class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
   void finish(End end);
 
   std::unique_ptr<TlsStream> stream_;
-  asio::steady_timer timer_;
+  PatientTimer timer_;
   Done done_;  // empty: over
 };
 

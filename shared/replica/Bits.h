@@ -15,6 +15,8 @@
 #include <string_view>
 #include <vector>
 
+#include "LittleEndian.h"
+
 namespace naiad {
 
 /// Keeps its memory when cleared, so that one that is used again and again allocates nothing.
@@ -67,6 +69,11 @@ class BitWriter {
     m_words.resize(count / 64);
   }
 
+  /// All bits as a number, the first one lowest; there must be fewer than 64.
+  std::uint64_t value() const {
+    assert(m_words.empty());
+    return m_pending;
+  }
   std::size_t bitCount() const { return m_words.size() * 64 + static_cast<std::size_t>(m_pending_count); }
   std::size_t byteCount() const { return (bitCount() + 7) / 8; }
   void clear() {
@@ -74,16 +81,22 @@ class BitWriter {
     m_pending = 0;
     m_pending_count = 0;
   }
+  /// The same into a string whose memory is used again.
+  void bytes(std::string& all) const {
+    all.resize(m_words.size() * 8 + static_cast<std::size_t>(m_pending_count + 7) / 8);
+    char* at = all.data();
+    for (const std::uint64_t word : m_words) {
+      storeLittleEndian(word, at);
+      at += 8;
+    }
+    for (std::uint64_t rest = m_pending; at != all.data() + all.size(); rest >>= 8) {
+      *at++ = static_cast<char>(rest & 0xFF);
+    }
+  }
   /// All bits, the last byte filled up with zeros.
   std::string bytes() const {
-    std::string all(m_words.size() * 8 + static_cast<std::size_t>(m_pending_count + 7) / 8, '\0');
-    std::size_t at = 0;
-    for (const std::uint64_t word : m_words) {
-      for (int i = 0; i < 8; ++i) all[at++] = static_cast<char>(word >> (8 * i) & 0xFF);
-    }
-    for (std::uint64_t rest = m_pending; at < all.size(); rest >>= 8) {
-      all[at++] = static_cast<char>(rest & 0xFF);
-    }
+    std::string all;
+    bytes(all);
     return all;
   }
 

@@ -1,43 +1,47 @@
 #include "Checksum.h"
 
+#include "Mixer.h"
+
 namespace naiad {
 
 namespace {
 
-/// Mixes one number after the other (the finaliser of SplitMix64 between them).
-class Mixer {
- public:
-  Mixer(Group group, std::uint32_t id) {
-    add(group);
-    add(id);
-  }
-  void add(std::uint64_t value) {
-    m_state += value + 0x9E3779B97F4A7C15;
-    m_state = (m_state ^ (m_state >> 30)) * 0xBF58476D1CE4E5B9;
-    m_state = (m_state ^ (m_state >> 27)) * 0x94D049BB133111EB;
-    m_state ^= m_state >> 31;
-  }
-  void add(df::FixedVector v) {
-    add(static_cast<std::uint64_t>(v.x));
-    add(static_cast<std::uint64_t>(v.y));
-  }
-  std::uint64_t value() const { return m_state; }
+Mixer mixerOf(Group group, std::uint32_t id) {
+  Mixer mixer;
+  mixer.add(group);
+  mixer.add(id);
+  return mixer;
+}
 
- private:
-  std::uint64_t m_state = 0;
-};
+/// The numbers that a selector of its kind has, at any tick the same.
+void addTo(Mixer& mixer, const Selector& selector, std::size_t frames) {
+  mixer.add(selector.kind);
+  switch (selector.kind) {
+    case Selector::kFixed:
+      return mixer.add(selector.frame);
+    case Selector::kClock:
+      mixer.add(selector.ticks_per_frame);
+      return mixer.add(selector.age(0, frames));
+    case Selector::kClockOnce:
+      mixer.add(selector.ticks_per_frame);
+      return mixer.add(selector.start);
+    case Selector::kAngle:
+      mixer.add(selector.angle);
+      return mixer.add(static_cast<std::uint32_t>(selector.spin));
+  }
+}
 
 }  // namespace
 
 std::uint64_t lifeSum(std::uint32_t id, std::uint8_t generation, std::uint64_t order) {
-  Mixer mixer(kLife, id);
+  Mixer mixer = mixerOf(kLife, id);
   mixer.add(generation);
   mixer.add(order);
   return mixer.value();
 }
 
 std::uint64_t motionSum(std::uint32_t id, const Motion& motion) {
-  Mixer mixer(kMotion, id);
+  Mixer mixer = mixerOf(kMotion, id);
   const Motion at_zero = rebase(motion, 0);
   mixer.add(at_zero.position);
   mixer.add(at_zero.velocity);
@@ -46,21 +50,17 @@ std::uint64_t motionSum(std::uint32_t id, const Motion& motion) {
 }
 
 std::uint64_t lookSum(std::uint32_t id, const Look& look) {
-  Mixer mixer(kLook, id);
+  Mixer mixer = mixerOf(kLook, id);
   mixer.add(static_cast<std::uint64_t>(look.altitude));
-  for (const Appearance& appearance : look.sequence) {
-    mixer.add(appearance.size());
-    for (const Glyph& glyph : appearance) {
-      mixer.add((static_cast<std::uint64_t>(static_cast<std::uint32_t>(glyph.dx)) << 32) |
-                static_cast<std::uint32_t>(glyph.dy));
-      mixer.add((static_cast<std::uint64_t>(glyph.ch) << 8) | static_cast<std::uint64_t>(glyph.color));
-    }
+  if (!look.sequence.empty()) {
+    mixer.add(look.sequence.sum());
+    addTo(mixer, look.selector, look.sequence.size());
   }
   return mixer.value();
 }
 
 std::uint64_t bodySum(std::uint32_t id, const Body& body) {
-  Mixer mixer(kBody, id);
+  Mixer mixer = mixerOf(kBody, id);
   mixer.add(body.box.corner);
   mixer.add(body.box.size);
   mixer.add(static_cast<std::uint64_t>(body.solidness) * 2 + (body.no_soft ? 1 : 0));

@@ -14,6 +14,7 @@ namespace naiad {
 std::uint64_t lifeSum(std::uint32_t id, std::uint8_t generation, std::uint64_t order);
 /// Any base tick of the same path gives the same sum.
 std::uint64_t motionSum(std::uint32_t id, const Motion& motion);
+/// A clock that goes round may be told at any tick; one that stops, as it was told: see rebase().
 std::uint64_t lookSum(std::uint32_t id, const Look& look);
 std::uint64_t bodySum(std::uint32_t id, const Body& body);
 

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "Canvas.h"
 #include "Fixed.h"
+#include "LookSelector.h"
 
 namespace naiad {
 
@@ -35,15 +39,75 @@ CellPosition glyphCell(df::FixedVector position, const Glyph& glyph);
 /// Everything one draw() put on the screen, in drawing order.
 using Appearance = std::vector<Glyph>;
 
-/// A sequence of appearances and a selector that both ends evaluate. Today every look is constant: a
-/// sequence of at most one (empty draws nothing).
+/// Appearances in their order. Never changed once made, and shared by all copies: they are cheap, and many
+/// objects that look alike take the memory of one.
+class Sequence {
+ public:
+  Sequence() = default;
+  Sequence(std::initializer_list<Appearance> frames) : Sequence(std::vector<Appearance>(frames)) {}
+  explicit Sequence(std::vector<Appearance> frames);
+
+  bool empty() const { return m_p_data == nullptr; }
+  std::size_t size() const { return empty() ? 0 : m_p_data->frames.size(); }
+  const Appearance& operator[](std::size_t frame) const { return m_p_data->frames[frame]; }
+  const Appearance& front() const { return m_p_data->frames.front(); }
+  auto begin() const { return frames().begin(); }
+  auto end() const { return frames().end(); }
+  const std::vector<Appearance>& frames() const;
+
+  /// In all of them together.
+  std::size_t glyphCount() const { return empty() ? 0 : m_p_data->glyphs; }
+  /// What it counts towards limits of memory: its glyphs, and three for each appearance beyond the first.
+  std::size_t weight() const { return empty() ? 0 : m_p_data->glyphs + 3 * (m_p_data->frames.size() - 1); }
+  /// Of all they say; PROTOCOL.md ("Checksum") tells how. 0 if there are none.
+  std::uint64_t sum() const { return empty() ? 0 : m_p_data->sum; }
+  /// Farthest that a glyph lies from the object on an axis, in glyph units.
+  std::int32_t reach() const { return empty() ? 0 : m_p_data->reach; }
+  /// Do all glyphs lie whole cells from each other, on each axis whole or half ones from the object?
+  bool isWhole() const { return empty() || m_p_data->whole; }
+  /// If so: the fraction of a cell, in glyph units.
+  CellPosition fraction() const { return empty() ? CellPosition{} : m_p_data->fraction; }
+  /// Are they the same in memory? Then they are equal.
+  bool isSharedWith(const Sequence& other) const { return m_p_data == other.m_p_data; }
+  /// What the copies share; null if there are none.
+  const void* identity() const { return m_p_data.get(); }
+
+  friend bool operator==(const Sequence& a, const Sequence& b) {
+    return a.isSharedWith(b) || (a.sum() == b.sum() && a.frames() == b.frames());
+  }
+
+ private:
+  struct Data {
+    std::vector<Appearance> frames;
+    std::size_t glyphs = 0;
+    std::uint64_t sum = 0;
+    std::int32_t reach = 0;
+    CellPosition fraction;
+    bool whole = true;
+  };
+  std::shared_ptr<const Data> m_p_data;
+};
+
+/// A sequence of appearances, none of which draws nothing, and a selector that both ends evaluate.
 struct Look {
-  std::vector<Appearance> sequence;
+  Look() = default;
+  Look(Sequence frames, std::int32_t height, Selector chosen_by = {})
+      : sequence(std::move(frames)), altitude(height), selector(chosen_by) {}
+
+  Sequence sequence;
   std::int32_t altitude = 2;
+  Selector selector;
 
   /// The appearance shown at `tick`; null if the look draws nothing.
-  const Appearance* select(std::uint32_t tick) const;
+  const Appearance* select(std::uint32_t tick) const {
+    return sequence.empty() ? nullptr : &sequence[selector.at(tick, sequence.size())];
+  }
+  /// One appearance at all times?
+  bool isConstant() const { return selector.kind == Selector::kFixed; }
   friend bool operator==(const Look&, const Look&) = default;
 };
+
+/// The same look; clocks count from the latest start that shows what is shown from `tick` on.
+Look rebase(const Look& look, std::uint32_t tick);
 
 }  // namespace naiad

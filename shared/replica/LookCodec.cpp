@@ -1,7 +1,9 @@
 #include "LookCodec.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
+#include <utility>
 
 #include "Limits.h"
 #include "MotionCodec.h"
@@ -11,9 +13,14 @@ namespace naiad {
 // The layout, drawn out in PROTOCOL.md:
 //
 //   look        altitude is 2: 1, else 0 and 8 bits | kind 2: 0 nothing, 1 a character (character, colour),
-//               2 spelled (named 1 | id 12 if named | appearance), 3 named (id 12)
-//   appearance  glyphs: exp-Golomb(3) | each: moved 1, recoloured 1 | character | dx, dy if moved: signed
-//               exp-Golomb(8) | colour 3 if recoloured
+//               2 spelled (named 1 | id 12 if named | sequence | selector), 3 named (id 12 | selector)
+//   sequence    one: 1, else 0 and count - 2: exp-Golomb(3) | whole 1 (half x 1, half y 1)
+//               | each: appearance
+//   appearance  glyphs: exp-Golomb(3) | each: if whole: plain 1 | unless plain: moved 1, recoloured 1
+//               | if whole: the same character 1 | character, unless the same | dx, dy if moved: signed
+//               exp-Golomb, of order 8, or in cells of order 1 if whole | colour 3 if recoloured
+//   selector    the first for ever: 1, else 0 | kind 2: 0 fixed (frame 8), 1 clock, 2 clock once (ticks - 1:
+//               exp-Golomb(3) | age: exp-Golomb(6)), 3 angle (code 3 | upper bits | width 6 | spin)
 //   character   wide 1 | 7 bits, or 14
 //   body        usual box: 1, else 0 and its vectors | solidness 2 | no-soft 1
 namespace {
@@ -27,16 +34,27 @@ constexpr int kWideBits = 14;
 constexpr int kColorBits = 3;
 constexpr int kGlyphCountOrder = 3;
 constexpr int kOffsetOrder = 8;
+constexpr int kCellOrder = 1;
+constexpr int kFrameCountOrder = 3;
+constexpr int kFrameBits = 8;
+constexpr int kTicksOrder = 3;
+constexpr int kAgeOrder = 6;
+constexpr int kAngleCodeBits = 3;  ///< of the angle, 4 (code + 1) upper bits are told
+constexpr int kSpinWidthBits = 6;
 constexpr std::int64_t kGlyphStep = 1 << kGlyphUnitBits;
 constexpr df::Fixed kMaxBoxCorner = df::Fixed{1'000'001} << df::kFixedBits;
 
+constexpr std::int32_t kHalfCell = 1 << (kGlyphUnitBits - 1);
+
 /// What the first glyph is written as a difference to.
-constexpr Glyph kBeforeFirst{-(1 << kGlyphUnitBits), 0, U' ', df::COLOR_DEFAULT};
+Glyph beforeFirst(CellPosition fraction) {
+  return {fraction.x - (1 << kGlyphUnitBits), fraction.y, U' ', df::COLOR_DEFAULT};
+}
 
 }  // namespace
 
-bool isSingleCharacter(const Appearance& appearance) {
-  return appearance.size() == 1 && appearance[0].dx == 0 && appearance[0].dy == 0;
+bool isSingleCharacter(const Sequence& sequence) {
+  return sequence.size() == 1 && sequence.glyphCount() == 1 && sequence.reach() == 0;
 }
 
 void writeCharacter(BitWriter& out, char32_t ch) {
@@ -61,40 +79,52 @@ df::Color readColor(BitReader& in) {
   return static_cast<df::Color>(in.bits(kColorBits));
 }
 
+namespace {
+
 // Neighbouring characters of a string differ by one cell in x and nothing else, so offsets are written as
 // differences from "one cell to the right", and colour and row only where they change.
-void writeAppearance(BitWriter& out, const Appearance& glyphs) {
-  assert(glyphs.size() <= kMaxGlyphs);
+void writeAppearance(BitWriter& out, const Appearance& glyphs, bool whole, CellPosition fraction) {
   out.golomb(glyphs.size(), kGlyphCountOrder);
-  Glyph last = kBeforeFirst;
+  Glyph last = beforeFirst(fraction);
+  const int order = whole ? kCellOrder : kOffsetOrder;
+  const std::int64_t unit = whole ? kGlyphStep : 1;
   for (const Glyph& glyph : glyphs) {
     const bool moved = glyph.dx != last.dx + kGlyphStep || glyph.dy != last.dy;
     const bool recolored = glyph.color != last.color;
-    out.flag(moved);
-    out.flag(recolored);
-    writeCharacter(out, glyph.ch);
+    const bool plain = whole && !moved && !recolored;
+    if (whole) out.flag(plain);
+    if (!plain) out.flag(moved);
+    if (!plain) out.flag(recolored);
+    if (whole) out.flag(glyph.ch == last.ch);
+    if (!whole || glyph.ch != last.ch) writeCharacter(out, glyph.ch);
     if (moved) {
-      out.signedGolomb(std::int64_t{glyph.dx} - last.dx - kGlyphStep, kOffsetOrder);
-      out.signedGolomb(std::int64_t{glyph.dy} - last.dy, kOffsetOrder);
+      out.signedGolomb((std::int64_t{glyph.dx} - last.dx - kGlyphStep) / unit, order);
+      out.signedGolomb((std::int64_t{glyph.dy} - last.dy) / unit, order);
     }
     if (recolored) writeColor(out, glyph.color);
     last = glyph;
   }
 }
 
-Appearance readAppearance(BitReader& in) {
+/// `room`: glyphs that there may be yet.
+Appearance readAppearance(BitReader& in, bool whole, CellPosition fraction, std::size_t& room) {
   Appearance glyphs;
-  const std::uint64_t count = in.golomb(kGlyphCountOrder, kMaxGlyphs);
-  Glyph last = kBeforeFirst;
+  const std::uint64_t count = in.golomb(kGlyphCountOrder, room);
+  const int order = whole ? kCellOrder : kOffsetOrder;
+  const std::int64_t unit = whole ? kGlyphStep : 1;
+  const std::int64_t most = 4 * kMaxGlyphOffset / unit;
+  Glyph last = beforeFirst(fraction);
   for (std::uint64_t i = 0; i < count && in.ok(); ++i) {
-    const bool moved = in.flag();
-    const bool recolored = in.flag();
-    const char32_t ch = readCharacter(in);
+    const bool plain = whole && in.flag();
+    const bool moved = !plain && in.flag();
+    const bool recolored = !plain && in.flag();
+    const bool same = whole && in.flag();
+    const char32_t ch = same ? last.ch : readCharacter(in);
     std::int64_t dx = last.dx + kGlyphStep;
     std::int64_t dy = last.dy;
     if (moved) {
-      dx += in.signedGolomb(kOffsetOrder, 4 * kMaxGlyphOffset);
-      dy += in.signedGolomb(kOffsetOrder, 4 * kMaxGlyphOffset);
+      dx += in.signedGolomb(order, most) * unit;
+      dy += in.signedGolomb(order, most) * unit;
     }
     if (std::max(std::abs(dx), std::abs(dy)) > kMaxGlyphOffset) in.fail();
     const df::Color color = recolored ? readColor(in) : last.color;
@@ -102,36 +132,121 @@ Appearance readAppearance(BitReader& in) {
     last = {static_cast<std::int32_t>(dx), static_cast<std::int32_t>(dy), ch, color};
     glyphs.push_back(last);
   }
+  room -= glyphs.size();
   return glyphs;
 }
 
-std::size_t encodedBits(const Appearance& appearance) {
+}  // namespace
+
+void writeSequence(BitWriter& out, const Sequence& sequence) {
+  assert(!sequence.empty() && sequence.size() <= kMaxFrames && sequence.glyphCount() <= kMaxGlyphs);
+  out.flag(sequence.size() == 1);
+  if (sequence.size() > 1) out.golomb(sequence.size() - 2, kFrameCountOrder);
+  const bool whole = sequence.isWhole();
+  const CellPosition fraction = whole ? sequence.fraction() : CellPosition{};
+  out.flag(whole);
+  if (whole) out.flag(fraction.x != 0);
+  if (whole) out.flag(fraction.y != 0);
+  for (const Appearance& appearance : sequence) writeAppearance(out, appearance, whole, fraction);
+}
+
+Sequence readSequence(BitReader& in) {
+  const std::uint64_t count = in.flag() ? 1 : 2 + in.golomb(kFrameCountOrder, kMaxFrames - 2);
+  const bool whole = in.flag();
+  CellPosition fraction;
+  if (whole && in.flag()) fraction.x = kHalfCell;
+  if (whole && in.flag()) fraction.y = kHalfCell;
+  std::size_t room = kMaxGlyphs;
+  std::vector<Appearance> frames;
+  for (std::uint64_t i = 0; i < count && in.ok(); ++i)
+    frames.push_back(readAppearance(in, whole, fraction, room));
+  return Sequence(std::move(frames));
+}
+
+std::size_t encodedBits(const Sequence& sequence) {
+  if (sequence.empty()) return 0;
   BitWriter out;
-  writeAppearance(out, appearance);
+  writeSequence(out, sequence);
   return out.bitCount();
 }
 
-void writeLook(BitWriter& out, const Look& look, LookForm form) {
-  assert(look.sequence.size() <= 1 && look.altitude >= 0 && look.altitude >> kAltitudeBits == 0);
+void writeSelector(BitWriter& out, const Selector& selector, std::uint32_t tick, std::size_t frames) {
+  assert(selector.fits(frames));
+  const bool first = selector == Selector{};
+  out.flag(first);
+  if (first) return;
+  out.bits(selector.kind, 2);
+  switch (selector.kind) {
+    case Selector::kFixed:
+      return out.bits(selector.frame, kFrameBits);
+    case Selector::kClock:
+    case Selector::kClockOnce:
+      out.golomb(selector.ticks_per_frame - 1, kTicksOrder);
+      return out.golomb(selector.age(tick, frames), kAgeOrder);
+    case Selector::kAngle:
+      break;
+  }
+  const int zeros = selector.angle == 0 ? 32 : std::countr_zero(selector.angle);
+  const int told = 32 - std::min(zeros / 4 * 4, 28);
+  out.bits(static_cast<std::uint64_t>(told / 4 - 1), kAngleCodeBits);
+  out.bits(selector.angle >> (32 - told), told);
+  const auto magnitude = static_cast<std::uint32_t>(selector.spin < 0 ? ~selector.spin : selector.spin);
+  const int width = selector.spin == 0 ? 0 : std::bit_width(magnitude) + 1;
+  out.bits(static_cast<std::uint64_t>(width), kSpinWidthBits);
+  out.signedBits(selector.spin, width);
+}
+
+// Whether it fits its sequence cannot be told here: a name may be explained later.
+Selector readSelector(BitReader& in, std::uint32_t tick) {
+  Selector selector;
+  if (in.flag()) return selector;
+  selector.kind = static_cast<Selector::Kind>(in.bits(2));
+  switch (selector.kind) {
+    case Selector::kFixed:
+      selector.frame = static_cast<std::uint8_t>(in.bits(kFrameBits));
+      break;
+    case Selector::kClock:
+    case Selector::kClockOnce:
+      selector.ticks_per_frame =
+          1 + static_cast<std::uint32_t>(in.golomb(kTicksOrder, kMaxTicksPerFrame - 1));
+      selector.start =
+          tick - static_cast<std::uint32_t>(in.golomb(kAgeOrder, kMaxFrames * kMaxTicksPerFrame - 1));
+      break;
+    case Selector::kAngle: {
+      const int told = 4 * (static_cast<int>(in.bits(kAngleCodeBits)) + 1);
+      selector.angle = static_cast<std::uint32_t>(in.bits(told) << (32 - told));
+      const int width = static_cast<int>(in.bits(kSpinWidthBits));
+      if (width > 32) in.fail();
+      selector.spin = in.ok() ? static_cast<std::int32_t>(in.signedBits(width)) : 0;
+      break;
+    }
+  }
+  return selector;
+}
+
+void writeLook(BitWriter& out, const Look& look, LookForm form, std::uint32_t tick) {
+  assert(look.altitude >= 0 && look.altitude >> kAltitudeBits == 0);
   const bool usual = look.altitude == kUsualAltitude;
   out.flag(usual);
   if (!usual) out.bits(static_cast<std::uint64_t>(look.altitude), kAltitudeBits);
   const auto kind = [&out](Kind k) { out.bits(static_cast<std::uint64_t>(k), 2); };
   if (look.sequence.empty()) return kind(Kind::kNothing);
-  const Appearance& appearance = look.sequence.front();
-  if (isSingleCharacter(appearance)) {
+  if (isSingleCharacter(look.sequence)) {
+    const Glyph& glyph = look.sequence.front().front();
     kind(Kind::kCharacter);
-    writeCharacter(out, appearance[0].ch);
-    return writeColor(out, appearance[0].color);
+    writeCharacter(out, glyph.ch);
+    return writeColor(out, glyph.color);
   }
   if (form.kind == LookForm::kNamed) {
     kind(Kind::kNamed);
-    return out.bits(form.id, kAppearanceIdBits);
+    out.bits(form.id, kAppearanceIdBits);
+  } else {
+    kind(Kind::kSpelled);
+    out.flag(form.kind == LookForm::kDefined);
+    if (form.kind == LookForm::kDefined) out.bits(form.id, kAppearanceIdBits);
+    writeSequence(out, look.sequence);
   }
-  kind(Kind::kSpelled);
-  out.flag(form.kind == LookForm::kDefined);
-  if (form.kind == LookForm::kDefined) out.bits(form.id, kAppearanceIdBits);
-  writeAppearance(out, appearance);
+  writeSelector(out, look.selector, tick, look.sequence.size());
 }
 
 namespace look_codec {

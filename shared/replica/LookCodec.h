@@ -10,24 +10,28 @@
 
 namespace naiad {
 
-/// How a look's appearance is written: spelled out, named by an id that the client knows, or spelled out
-/// and given an id.
+/// How a look's sequence is written: spelled out, named by an id that the client knows, or spelled out and
+/// given an id.
 struct LookForm {
   enum Kind : std::uint8_t { kSpelled, kNamed, kDefined } kind = kSpelled;
   std::uint32_t id = 0;
 };
 
-void writeLook(BitWriter& out, const Look& look, LookForm form);
-/// `define` is called for an appearance that gets an id, `find` for one that is named: it returns the
-/// appearance, or null where there is none (then the reader fails).
+/// `tick`: of the snapshot; clocks count from it.
+void writeLook(BitWriter& out, const Look& look, LookForm form, std::uint32_t tick);
+/// `define` is called for a sequence that gets an id, `find` for one that is named: it returns the sequence,
+/// or null where there is none (then the caller has to look it up, and whether the selector isTellable()).
 template <class Define, class FindNamed>
-Look readLook(BitReader& in, Define define, FindNamed find);
+Look readLook(BitReader& in, std::uint32_t tick, Define define, FindNamed find);
 
-void writeAppearance(BitWriter& out, const Appearance& glyphs);
-Appearance readAppearance(BitReader& in);
+void writeSequence(BitWriter& out, const Sequence& sequence);
+Sequence readSequence(BitReader& in);
+/// How a selector is written at `tick`. `frames`: of its sequence.
+void writeSelector(BitWriter& out, const Selector& selector, std::uint32_t tick, std::size_t frames);
+Selector readSelector(BitReader& in, std::uint32_t tick);
 
 /// One character where the object is: what most looks are, and shorter than any name.
-bool isSingleCharacter(const Appearance& appearance);
+bool isSingleCharacter(const Sequence& sequence);
 
 void writeCharacter(BitWriter& out, char32_t ch);
 char32_t readCharacter(BitReader& in);
@@ -37,8 +41,8 @@ df::Color readColor(BitReader& in);
 void writeBody(BitWriter& out, const Body& body);
 Body readBody(BitReader& in);
 
-/// Bits that `appearance` takes, spelled out.
-std::size_t encodedBits(const Appearance& appearance);
+/// Bits that `sequence` takes, spelled out.
+std::size_t encodedBits(const Sequence& sequence);
 
 // ---- implementation ------------------------------------------------------------------------------------
 
@@ -50,26 +54,31 @@ Appearance readSingle(BitReader& in);
 }  // namespace look_codec
 
 template <class Define, class FindNamed>
-Look readLook(BitReader& in, Define define, FindNamed find) {
+Look readLook(BitReader& in, std::uint32_t tick, Define define, FindNamed find) {
   Look look;
   look.altitude = look_codec::readAltitude(in);
   switch (look_codec::readKind(in)) {
     case look_codec::Kind::kNothing:
-      break;
+      return look;
     case look_codec::Kind::kCharacter:
-      look.sequence.push_back(look_codec::readSingle(in));
-      break;
+      look.sequence = {look_codec::readSingle(in)};
+      return look;
     case look_codec::Kind::kSpelled: {
       const bool defines = in.flag();
       const auto id = defines ? static_cast<std::uint32_t>(in.bits(kAppearanceIdBits)) : 0;
-      look.sequence.push_back(readAppearance(in));
-      if (defines && in.ok()) define(id, look.sequence.back());
+      look.sequence = readSequence(in);
+      look.selector = readSelector(in, tick);
+      if (!look.selector.isTellable(tick, look.sequence.size())) in.fail();
+      if (defines && in.ok()) define(id, look.sequence);
       break;
     }
     case look_codec::Kind::kNamed: {
       const auto id = static_cast<std::uint32_t>(in.bits(kAppearanceIdBits));
-      const Appearance* appearance = in.ok() ? find(id) : nullptr;
-      if (appearance != nullptr) look.sequence.push_back(*appearance);
+      look.selector = readSelector(in, tick);
+      const Sequence* sequence = in.ok() ? find(id) : nullptr;
+      if (sequence == nullptr) return look;
+      look.sequence = *sequence;
+      if (!look.selector.isTellable(tick, look.sequence.size())) in.fail();
       break;
     }
   }

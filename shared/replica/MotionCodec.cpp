@@ -133,6 +133,15 @@ df::FixedVector readFraction(BitReader& in, CellPosition cell) {
   return position;
 }
 
+void writeBehindCell(BitWriter& out, const Motion& m) {
+  const df::FixedVector zero;
+  const auto kind = m.acceleration != zero ? kAccelerated : m.velocity != zero ? kLinear : kStill;
+  out.bits(kind, 2);
+  writeFraction(out, m.position);
+  if (kind != kStill) writeSteps(out, m.velocity);
+  if (kind == kAccelerated) writeSteps(out, m.acceleration);
+}
+
 }  // namespace
 
 int fractionBits(df::FixedVector v) {
@@ -140,13 +149,21 @@ int fractionBits(df::FixedVector v) {
 }
 
 void writeMotion(BitWriter& out, const Motion& m, const Origin& origin) {
-  const df::FixedVector zero;
-  const auto kind = m.acceleration != zero ? kAccelerated : m.velocity != zero ? kLinear : kStill;
   writePosition(out, m.position, origin);
-  out.bits(kind, 2);
-  writeFraction(out, m.position);
-  if (kind != kStill) writeSteps(out, m.velocity);
-  if (kind == kAccelerated) writeSteps(out, m.acceleration);
+  writeBehindCell(out, m);
+}
+
+SharedMotion shareMotion(const Motion& motion) {
+  BitWriter behind;
+  writeBehindCell(behind, motion);
+  if (behind.bitCount() >= 64) return {motion, 0, 0};
+  return {motion, behind.value(), static_cast<int>(behind.bitCount())};
+}
+
+void writeMotion(BitWriter& out, const SharedMotion& shared, const Origin& origin) {
+  if (shared.count == 0) return writeMotion(out, shared.motion, origin);
+  writePosition(out, shared.motion.position, origin);
+  out.bits(shared.bits, shared.count);
 }
 
 Motion readMotion(BitReader& in, std::uint32_t tick, const Origin& origin) {

@@ -12,6 +12,22 @@ namespace naiad {
 
 /// `motion.position` holds at the snapshot's tick.
 void writeMotion(BitWriter& out, const Motion& motion, const Origin& origin);
+
+/// A motion and those of its bits that are the same for all clients: all but the cell, which each counts from
+/// an origin of its own.
+struct SharedMotion {
+  SharedMotion() = default;
+  SharedMotion(const Motion& m, std::uint64_t kept, int kept_count)
+      : motion(m), bits(kept), count(kept_count) {}
+
+  Motion motion;
+  std::uint64_t bits = 0;
+  int count = 0;  ///< of bits; 0: too many to be kept
+};
+SharedMotion shareMotion(const Motion& motion);
+/// The same bits as writeMotion() of the motion itself.
+void writeMotion(BitWriter& out, const SharedMotion& shared, const Origin& origin);
+
 /// A motion that holds at `tick`; the reader fails where a number is out of range.
 Motion readMotion(BitReader& in, std::uint32_t tick, const Origin& origin);
 

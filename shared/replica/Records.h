@@ -97,11 +97,11 @@ struct OriginRecord {
   friend bool operator==(const OriginRecord&, const OriginRecord&) = default;
 };
 
-/// An appearance that later looks may name by `id`; it came with a look of the same snapshot.
-struct AppearanceRecord {
+/// A sequence that later looks may name by `id`; it came with a look of the same snapshot.
+struct SequenceRecord {
   std::uint32_t id = 0;
-  Appearance appearance;
-  friend bool operator==(const AppearanceRecord&, const AppearanceRecord&) = default;
+  Sequence sequence;
+  friend bool operator==(const SequenceRecord&, const SequenceRecord&) = default;
 };
 
 /// The decoded records of one snapshot.
@@ -112,7 +112,7 @@ struct Records {
   std::vector<TextRecord> texts;
   std::vector<df::ControlTable> tables;  ///< the player's own controls; at most one is sent
   std::vector<ControlRecord> controls;   ///< and what he steers; at most one is sent
-  std::vector<AppearanceRecord> appearances;
+  std::vector<SequenceRecord> sequences;
   std::vector<ObjectRecord> objects;  ///< by ascending id
 };
 

@@ -15,12 +15,6 @@ bool supersedes(std::uint32_t number, std::uint32_t newest) {
   return newest == 0 || isNewer(number, newest);
 }
 
-std::size_t glyphCount(const Look& look) {
-  std::size_t count = 0;
-  for (const Appearance& appearance : look.sequence) count += appearance.size();
-  return count;
-}
-
 ViewFrame frameOf(const WorldRecord& world, df::FixedVector corner) {
   return {corner, {df::fromCells(world.view_width), df::fromCells(world.view_height)}, world.boundary};
 }
@@ -70,8 +64,8 @@ void Replica::apply(const Snapshot& snapshot) {
     newest = number;
     m_texts[text.id] = text;
   }
-  for (const AppearanceRecord& appearance : records.appearances) {
-    if (!m_vocabulary.define(number, appearance)) ++m_overflows;
+  for (const SequenceRecord& sequence : records.sequences) {
+    if (!m_vocabulary.define(number, sequence)) ++m_overflows;
   }
   for (const ObjectRecord& object : records.objects) applyObject(number, object);
 }
@@ -113,20 +107,32 @@ void Replica::applyObject(std::uint32_t number, const ObjectRecord& record) {
 // The object is dead since snapshot `number`.
 void Replica::end(Entry& entry, std::uint32_t number) {
   m_alive -= entry.alive ? 1 : 0;
-  m_glyphs -= glyphCount(entry.state.look);
+  release(entry.state.look.sequence);
   entry.alive = false;
   entry.state = {};
   entry.newest.fill(number);
 }
 
 void Replica::setLook(Entry& entry, const Look& look) {
-  const std::size_t others = m_glyphs - glyphCount(entry.state.look);
-  if (others + glyphCount(look) > kMaxReplicaGlyphs) {
-    ++m_overflows;
-    return;
+  if (!look.sequence.isSharedWith(entry.state.look.sequence)) {
+    const Sequence before = entry.state.look.sequence;
+    if (!look.sequence.empty() && ++m_uses[look.sequence.identity()] == 1) m_glyphs += look.sequence.weight();
+    release(before);
+    if (m_glyphs > kMaxReplicaGlyphs) {
+      release(look.sequence);
+      if (!before.empty() && ++m_uses[before.identity()] == 1) m_glyphs += before.weight();
+      ++m_overflows;
+      return;
+    }
   }
-  m_glyphs = others + glyphCount(look);
   entry.state.look = look;
+}
+
+void Replica::release(const Sequence& sequence) {
+  const auto found = m_uses.find(sequence.identity());
+  if (found == m_uses.end() || --found->second > 0) return;
+  m_glyphs -= sequence.weight();
+  m_uses.erase(found);
 }
 
 const Replica::Entry* Replica::find(std::uint32_t id) const {

@@ -21,7 +21,8 @@ namespace naiad {
 
 /// Objects, dead ones included, that a replica remembers; records for more are ignored and counted.
 inline constexpr std::size_t kMaxReplicaObjects = 1u << 17;
-/// Glyphs in all looks together (16 bytes each); a look beyond that is ignored and counted.
+/// Glyphs in all looks together (16 bytes each), those of a sequence that several share once, each appearance
+/// beyond its first as three more; a look beyond that is ignored and counted.
 inline constexpr std::size_t kMaxReplicaGlyphs = 1u << 21;
 
 class Replica {
@@ -90,6 +91,7 @@ class Replica {
   void applyObject(std::uint32_t number, const ObjectRecord& record);
   void end(Entry& entry, std::uint32_t number);
   void setLook(Entry& entry, const Look& look);
+  void release(const Sequence& sequence);
 
   SnapshotContext m_context;
   Vocabulary m_vocabulary;
@@ -106,7 +108,8 @@ class Replica {
   std::uint32_t m_view_newest = 0;
   std::uint32_t m_view_tick = 0;  ///< the tick at which m_view holds
   std::size_t m_alive = 0;
-  std::size_t m_glyphs = 0;  ///< in all looks
+  std::unordered_map<const void*, std::uint32_t> m_uses;  ///< looks by identity() of their sequence
+  std::size_t m_glyphs = 0;                               ///< in these sequences
   std::uint64_t m_overflows = 0;
 };
 

@@ -106,7 +106,7 @@ TextRecord readText(BitReader& in) {
   return record;
 }
 
-/// Reads the objects of one snapshot; appearances defined in it may be named in it.
+/// Reads the objects of one snapshot; sequences defined in it may be named in it.
 class ObjectReader {
  public:
   ObjectReader(BitReader& in, const SnapshotHeader& header, const Origin& origin,
@@ -163,9 +163,9 @@ class ObjectReader {
 
   Look readNamedLook() {
     return readLook(
-        m_in,
-        [this](std::uint32_t id, const Appearance& a) {
-          m_records.appearances.push_back({id, a});
+        m_in, m_header.tick,
+        [this](std::uint32_t id, const Sequence& sequence) {
+          m_records.sequences.push_back({id, sequence});
         },
         [this](std::uint32_t id) {
           m_named.push_back({m_records.objects.size() - 1, id});
@@ -175,25 +175,24 @@ class ObjectReader {
 
   // A name may be explained behind its use, since objects come by id.
   void resolve() {
-    std::size_t glyphs = 0;
     for (const auto& [object, id] : m_named) {
-      const Appearance* appearance = find(id);
-      if (appearance == nullptr) continue;
-      glyphs += appearance->size();
-      if (glyphs > kMaxSnapshotGlyphs) return m_in.fail();
-      m_records.objects[object].state.look.sequence.push_back(*appearance);
+      const Sequence* sequence = find(id);
+      if (sequence == nullptr) continue;
+      Look& look = m_records.objects[object].state.look;
+      look.sequence = *sequence;
+      if (!look.selector.isTellable(m_header.tick, look.sequence.size())) m_in.fail();
     }
   }
 
-  const Appearance* find(std::uint32_t id) {
-    for (const AppearanceRecord& defined : m_records.appearances) {
-      if (defined.id == id) return &defined.appearance;
+  const Sequence* find(std::uint32_t id) {
+    for (const SequenceRecord& defined : m_records.sequences) {
+      if (defined.id == id) return &defined.sequence;
     }
-    const Appearance* appearance = nullptr;
-    const Vocabulary::Find found = m_vocabulary.find(m_header.number, id, appearance);
+    const Sequence* sequence = nullptr;
+    const Vocabulary::Find found = m_vocabulary.find(m_header.number, id, sequence);
     if (found == Vocabulary::Find::kStale) m_stale = true;
     if (found == Vocabulary::Find::kUnknown) m_in.fail();
-    return found == Vocabulary::Find::kFound ? appearance : nullptr;
+    return found == Vocabulary::Find::kFound ? sequence : nullptr;
   }
 
   BitReader& m_in;
@@ -201,7 +200,7 @@ class ObjectReader {
   const Origin& m_origin;
   const Vocabulary& m_vocabulary;
   Records& m_records;
-  std::vector<std::pair<std::size_t, std::uint32_t>> m_named;  ///< objects, and the ids of their appearances
+  std::vector<std::pair<std::size_t, std::uint32_t>> m_named;  ///< objects, and the ids of their sequences
   bool m_stale = false;
 };
 
@@ -357,6 +356,13 @@ void SnapshotWriter::write(const ControlRecord& record) {
 
 void SnapshotWriter::encode(BitWriter& out, std::uint8_t groups, std::uint8_t generation,
                             const ObjectState& state, const Motion& motion, LookForm form) const {
+  assert((groups & kMotion) == 0 || motion.tick == m_header.tick);
+  encodeWith(out, groups, generation, state, motion, form);
+}
+
+template <class AnyMotion>
+void SnapshotWriter::encodeWith(BitWriter& out, std::uint8_t groups, std::uint8_t generation,
+                                const ObjectState& state, const AnyMotion& motion, LookForm form) const {
   assert((groups & kLife) == 0 || groups == kAllGroups);
   switch (groups) {
     case kMotion:
@@ -378,9 +384,8 @@ void SnapshotWriter::encode(BitWriter& out, std::uint8_t groups, std::uint8_t ge
     out.signedGolomb(static_cast<std::int64_t>(state.order) - static_cast<std::int64_t>(m_origin.order),
                      kOrderOrder);
   }
-  assert((groups & kMotion) == 0 || motion.tick == m_header.tick);
   if ((groups & kMotion) != 0) writeMotion(out, motion, m_origin);
-  if ((groups & kLook) != 0) writeLook(out, state.look, form);
+  if ((groups & kLook) != 0) writeLook(out, state.look, form, m_header.tick);
   if ((groups & kBody) != 0) writeBody(out, state.body);
 }
 
@@ -390,8 +395,9 @@ void SnapshotWriter::object(std::uint32_t id, const BitWriter& bits) {
 }
 
 std::size_t SnapshotWriter::stage(std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
-                                  const Motion& motion, LookForm form) {
-  encode(m_encoded, groups, generation, state, motion, form);
+                                  const SharedMotion& motion, LookForm form) {
+  assert((groups & kMotion) == 0 || motion.motion.tick == m_header.tick);
+  encodeWith(m_encoded, groups, generation, state, motion, form);
   return m_encoded.bitCount() - m_kept;
 }
 
@@ -430,7 +436,7 @@ void SnapshotWriter::finishExtras() {
   m_out.append(m_control);
 }
 
-std::string SnapshotWriter::finish() {
+void SnapshotWriter::finish(std::string& bytes) {
   m_out.clear();
   m_out.bits(m_header.number & 0xFFFF, kLowBits);
   m_out.bits(m_header.tick & 0xFFFF, kLowBits);
@@ -457,7 +463,7 @@ std::string SnapshotWriter::finish() {
     m_out.append(m_encoded, object.from, object.bits);
     next = object.id + 1;
   }
-  return m_out.bytes();
+  m_out.bytes(bytes);
 }
 
 }  // namespace naiad

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "LookCodec.h"
+#include "MotionCodec.h"
 #include "Records.h"
 #include "Vocabulary.h"
 
@@ -43,10 +44,6 @@ enum class ReadResult {
   kMalformed,  ///< bytes that no honest server sends; `out` is unspecified
 };
 
-/// Glyphs that the named looks of one snapshot unfold to, at most; one that names more is malformed. As many
-/// as a replica holds.
-inline constexpr std::size_t kMaxSnapshotGlyphs = 1u << 21;
-
 /// Read a snapshot. `vocabulary` must be that of the epoch of the snapshot; it is not changed.
 ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context, const Vocabulary& vocabulary,
                         Snapshot& out);
@@ -78,7 +75,7 @@ class SnapshotWriter {
 
   /// The same without a copy: encode a record to see how many bits it takes, then keep() or drop() it.
   std::size_t stage(std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
-                    const Motion& motion, LookForm form = {});
+                    const SharedMotion& motion, LookForm form = {});
   void keep(std::uint32_t id);
   void drop() { m_encoded.truncate(m_kept); }
 
@@ -88,7 +85,13 @@ class SnapshotWriter {
   bool isEmpty() const { return m_objects.empty() && m_bits == kHeaderBits; }
   /// The last word on SnapshotHeader::complete.
   void setComplete(bool complete) { m_header.complete = complete; }
-  std::string finish();
+  std::string finish() {
+    std::string bytes;
+    finish(bytes);
+    return bytes;
+  }
+  /// The same into a string whose memory is used again.
+  void finish(std::string& bytes);
 
  private:
   /// Header, counts and the bits that fill the last byte, at most.
@@ -98,6 +101,9 @@ class SnapshotWriter {
     std::size_t from;  ///< in m_encoded
     std::size_t bits;
   };
+  template <class AnyMotion>
+  void encodeWith(BitWriter& out, std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
+                  const AnyMotion& motion, LookForm form) const;
   void finishExtras();
 
   SnapshotHeader m_header;

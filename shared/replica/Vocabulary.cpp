@@ -16,9 +16,9 @@ Vocabulary::Find Vocabulary::find(std::uint32_t number, std::uint32_t slot, Orig
   return slot == 0 ? Find::kFound : judge(m_origins[slot], number);
 }
 
-Vocabulary::Find Vocabulary::find(std::uint32_t number, std::uint32_t id, const Appearance*& out) const {
-  const auto found = m_appearances.find(id);
-  if (found == m_appearances.end()) return Find::kUnknown;
+Vocabulary::Find Vocabulary::find(std::uint32_t number, std::uint32_t id, const Sequence*& out) const {
+  const auto found = m_sequences.find(id);
+  if (found == m_sequences.end()) return Find::kUnknown;
   out = &found->second.value;
   return judge(found->second, number);
 }
@@ -28,13 +28,13 @@ void Vocabulary::define(std::uint32_t number, const OriginRecord& record) {
   if (origin.number == 0 || isNewer(number, origin.number)) origin = {number, record.origin};
 }
 
-bool Vocabulary::define(std::uint32_t number, const AppearanceRecord& record) {
-  Named<Appearance>& named = m_appearances[record.id];
+bool Vocabulary::define(std::uint32_t number, const SequenceRecord& record) {
+  Named<Sequence>& named = m_sequences[record.id];
   if (named.number != 0 && !isNewer(number, named.number)) return true;
-  const std::size_t glyphs = m_glyphs - named.value.size() + record.appearance.size();
+  const std::size_t glyphs = m_glyphs - named.value.weight() + record.sequence.weight();
   if (glyphs > kMaxVocabularyGlyphs) return false;
   m_glyphs = glyphs;
-  named = {number, record.appearance};
+  named = {number, record.sequence};
   return true;
 }
 

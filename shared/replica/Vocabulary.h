@@ -1,4 +1,5 @@
-// What the receiver of snapshots has been told to count from and to draw: origins and appearances, by name.
+// What the receiver of snapshots has been told to count from and to draw: origins and sequences of
+// appearances, by name.
 #pragma once
 
 #include <array>
@@ -9,10 +10,10 @@
 
 namespace naiad {
 
-/// Ids of appearances: 0 … 4095.
+/// Ids of sequences: 0 … 4095.
 inline constexpr int kAppearanceIdBits = 12;
 inline constexpr std::uint32_t kMaxAppearances = 1u << kAppearanceIdBits;
-/// Glyphs of all named appearances together; a definition beyond that is refused.
+/// Glyphs of all named sequences together (Sequence::weight); a definition beyond that is refused.
 inline constexpr std::size_t kMaxVocabularyGlyphs = 65'536;
 
 /// Each entry keeps the number of the snapshot that set it. A snapshot that names an entry which a newer one
@@ -23,13 +24,13 @@ class Vocabulary {
 
   /// The origin that snapshot `number` means by `slot`.
   Find find(std::uint32_t number, std::uint32_t slot, Origin& out) const;
-  /// The appearance that snapshot `number` means by `id`; it stays valid until the next define().
-  Find find(std::uint32_t number, std::uint32_t id, const Appearance*& out) const;
+  /// The sequence that snapshot `number` means by `id`; it stays valid until the next define().
+  Find find(std::uint32_t number, std::uint32_t id, const Sequence*& out) const;
 
   /// Take in what snapshot `number` set; older numbers than the newest of an entry are ignored. False if the
   /// vocabulary is full.
   void define(std::uint32_t number, const OriginRecord& record);
-  bool define(std::uint32_t number, const AppearanceRecord& record);
+  bool define(std::uint32_t number, const SequenceRecord& record);
 
  private:
   template <class Value>
@@ -41,7 +42,7 @@ class Vocabulary {
   static Find judge(const Named<Value>& named, std::uint32_t number);
 
   std::array<Named<Origin>, kOriginSlots + 1> m_origins;
-  std::unordered_map<std::uint32_t, Named<Appearance>> m_appearances;
+  std::unordered_map<std::uint32_t, Named<Sequence>> m_sequences;
   std::size_t m_glyphs = 0;
 };
 

@@ -14,6 +14,7 @@ enum Color {
   MAGENTA,
   CYAN,
   WHITE,
+  CUSTOM,  ///< a mix of red, green and blue, where a game gives one; never on the wire, never in a cell
 };
 
 inline constexpr Color COLOR_DEFAULT = WHITE;

@@ -90,6 +90,12 @@ enum Key {
   END,
   PAGEUP,
   PAGEDOWN,
+  // The published engine's names for what comes as another key or not at all: never on the wire.
+  MULTIPLY,
+  QMARK,
+  GRAVE,
+  LBRACKET = LEFTBRACKET,
+  RBRACKET = RIGHTBRACKET,
 };
 
 inline constexpr int kKeyCount = PAGEDOWN + 1;
@@ -112,6 +118,8 @@ enum Button {
   RIGHT,
   MIDDLE,
 };
+/// The older name.
+using EventMouseButton = Button;
 
 }  // namespace Mouse
 

@@ -1,6 +1,7 @@
 #include "Vector.h"
 
 #include <cmath>
+#include <sstream>
 
 namespace df {
 
@@ -36,6 +37,22 @@ Vector& Vector::operator-=(const Vector& other) {
   m_x -= other.m_x;
   m_y -= other.m_y;
   return *this;
+}
+
+int Vector::serialize(std::stringstream* p_ss) const {
+  if (p_ss == nullptr) return -1;
+  const auto precision = p_ss->precision(17);
+  *p_ss << m_x << ' ' << m_y << ' ';
+  p_ss->precision(precision);
+  return p_ss->good() ? 0 : -1;
+}
+
+int Vector::deserialize(std::stringstream* p_ss) {
+  double x = 0;
+  double y = 0;
+  if (p_ss == nullptr || !(*p_ss >> x >> y)) return -1;
+  setXY(x, y);
+  return 0;
 }
 
 std::string Vector::toString() const {

@@ -5,6 +5,7 @@
 // Vector carries into the world is rounded to 2^-32 cell there.
 #pragma once
 
+#include <iosfwd>
 #include <optional>
 #include <string>
 
@@ -44,6 +45,13 @@ class Vector {
   friend Vector operator+(Vector a, const Vector& b) { return a += b; }
   friend Vector operator-(Vector a, const Vector& b) { return a -= b; }
   friend constexpr bool operator==(const Vector& a, const Vector& b) = default;
+
+  /// Is it (0,0)?
+  bool operator!() const { return m_x == 0 && m_y == 0; }
+
+  /// Write both components, and read them. Return 0, or -1 if the stream failed.
+  int serialize(std::stringstream* p_ss) const;
+  int deserialize(std::stringstream* p_ss);
 
   /// "(x,y)", for log lines.
   std::string toString() const;

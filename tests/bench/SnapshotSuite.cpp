@@ -79,7 +79,7 @@ void measure(const Scene& scene, bool quick) {
   }
   std::chrono::steady_clock::duration publish{};
   // A minute to settle: coarse models of paths that never end have been replaced by then.
-  const int warm_up = (quick ? 5 : 60) * 30;
+  const int warm_up = 60 * 30;
   for (int i = 0; i < warm_up + seconds * 30; ++i) {
     if (i == warm_up) {
       for (auto& client : clients) client->resetFigures();

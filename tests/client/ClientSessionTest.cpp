@@ -8,7 +8,17 @@ namespace {
 using namespace std::chrono_literals;
 using State = ClientSession::State;
 
-class ClientSessionTest : public test::ClientSessionFixture {};
+class ClientSessionTest : public test::ClientSessionFixture {
+ protected:
+  /// As an owner does that runs all the time: update() ten times a second.
+  void listenUntil(ClientSession::Time end) {
+    for (listened = std::max(listened, now); listened < end; listened += 100ms) session->update(listened);
+    session->update(end);
+  }
+
+ private:
+  ClientSession::Time listened{};
+};
 
 TEST_F(ClientSessionTest, SaysHelloFirst) {
   ASSERT_EQ(log->sent.size(), 1u);
@@ -194,18 +204,27 @@ TEST_F(ClientSessionTest, SendsOnePingASecond) {
 }
 
 TEST_F(ClientSessionTest, GivesUpASilentServer) {
-  session->update(now + 4s);
+  listenUntil(now + 4900ms);
   EXPECT_EQ(session->state(), State::kGreeting);
-  session->update(now + 5s);
+  listenUntil(now + 5s);
   EXPECT_EQ(session->state(), State::kLost);
   EXPECT_FALSE(session->sentence().empty());
 }
 
+TEST_F(ClientSessionTest, AServerThatAnsweredWhileThisProcessDidNotRunWasNotSilent) {
+  session->update(now);
+  session->update(now += 20s);  // the answer has come meanwhile, and is read next
+  EXPECT_EQ(session->state(), State::kGreeting) << session->sentence();
+  receive(welcomeMessage());
+  session->update(now += 60s);
+  EXPECT_EQ(session->state(), State::kPlaying) << session->sentence();
+}
+
 TEST_F(ClientSessionTest, GivesUpASilentGame) {
   join();
-  session->update(now + 14s);
+  listenUntil(now + 14900ms);
   EXPECT_EQ(session->state(), State::kPlaying);
-  session->update(now + 15s);
+  listenUntil(now + 15s);
   EXPECT_EQ(session->state(), State::kLost);
 }
 
@@ -213,12 +232,12 @@ TEST_F(ClientSessionTest, ASilentGameThatCanBeResumedIsWaitedFor) {
   wire::ServerMessage message = welcomeMessage();
   message.mutable_welcome()->set_resume_token(std::string(16, 't'));
   receive(message);
-  session->update(now + 15s);
+  listenUntil(now + 15s);
   EXPECT_EQ(session->state(), State::kPlaying);
   EXPECT_TRUE(session->isDetached());
-  session->update(now + 59s);
+  listenUntil(now + 59s);
   EXPECT_EQ(session->state(), State::kPlaying);
-  session->update(now + 60s);
+  listenUntil(now + 60s);
   EXPECT_EQ(session->state(), State::kLost);
   EXPECT_FALSE(session->sentence().empty());
 }

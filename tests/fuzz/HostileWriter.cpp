@@ -142,29 +142,66 @@ void HostileWriter::character() {
   m_out.bits(low(first + choose(Kind::kCharacter, most), wide ? 14 : 7), wide ? 14 : 7);
 }
 
-void HostileWriter::appearance() {
+void HostileWriter::appearance(bool whole) {
   constexpr std::uint64_t kEnough = 2 * kMaxGlyphs;  // one more than the limit is what must be tried
   const std::uint64_t glyphs = golomb(Kind::kGlyphs, 3, 15, kMaxGlyphs);
   constexpr std::int64_t kStep = 1 << kGlyphUnitBits;
-  std::int64_t dx = -kStep;
+  const std::int64_t unit = whole ? kStep : 1;
+  const int order = whole ? 1 : 8;
+  std::int64_t dx = -kStep;  // half a cell less than they are, maybe
   std::int64_t dy = 0;
   for (std::uint64_t i = 0; i < std::min(glyphs, kEnough); ++i) {
-    const bool at_edge = dx + kStep > kMaxGlyphOffset;
+    const bool at_edge = dx + 2 * kStep > kMaxGlyphOffset;
+    const bool plain = whole && !at_edge && flag();
+    if (whole && at_edge) m_out.flag(false);
     if (at_edge) m_out.flag(true);
-    const bool moved = at_edge || flag();
-    const bool recoloured = flag();
-    character();
+    const bool moved = at_edge || (!plain && flag());
+    const bool recoloured = !plain && flag();
+    if (!whole || !flag()) character();
     if (moved) {
-      const std::int64_t x = centered(Kind::kOffset, kMaxGlyphOffset);
-      const std::int64_t y = centered(Kind::kOffset, kMaxGlyphOffset);
-      m_out.signedGolomb(x - dx - kStep, 8);
-      m_out.signedGolomb(y - dy, 8);
+      const std::int64_t x = centered(Kind::kOffset, (kMaxGlyphOffset - kStep) / unit) * unit;
+      const std::int64_t y = centered(Kind::kOffset, (kMaxGlyphOffset - kStep) / unit) * unit;
+      m_out.signedGolomb((x - dx - kStep) / unit, order);
+      m_out.signedGolomb((y - dy) / unit, order);
       dx = x;
       dy = y;
     } else {
       dx += kStep;
     }
     if (recoloured) field(3);
+  }
+}
+
+/// How many appearances it says it has.
+std::uint64_t HostileWriter::sequence() {
+  const bool one = flag();
+  const std::uint64_t frames = one ? 1 : 2 + golomb(Kind::kFrames, 3, 3, kMaxFrames - 2);
+  const bool whole = flag();
+  if (whole) field(2);
+  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(frames, 2 * kMaxFrames); ++i) appearance(whole);
+  return frames;
+}
+
+void HostileWriter::selector(std::uint64_t frames) {
+  if (flag()) return;
+  const std::uint64_t kind = field(Kind::kSelector, 2, frames < 2 ? 0 : 3);
+  switch (kind) {
+    case 0:
+      field(Kind::kSelector, 8, std::min<std::uint64_t>(frames, kMaxFrames) - 1);
+      return;
+    case 3: {
+      const std::uint64_t code = field(3);
+      field(static_cast<int>(4 * (code + 1)));
+      const std::uint64_t width = field(Kind::kSelector, 6, 32);
+      if (width <= 32) field(static_cast<int>(width));
+      return;
+    }
+    default: {
+      const std::uint64_t ticks = 1 + golomb(Kind::kSelector, 3, 20, kMaxTicksPerFrame - 1);
+      const std::uint64_t count = std::min<std::uint64_t>(frames, kMaxFrames);
+      const std::uint64_t oldest = kind == Selector::kClock ? count * ticks - 1 : (count - 1) * ticks;
+      golomb(Kind::kSelector, 6, oldest, oldest);
+    }
   }
 }
 
@@ -178,13 +215,12 @@ void HostileWriter::look() {
       field(3);
       return;
     case 3:
-      field(Kind::kName, 12, kPreludeNames - 1);
-      return;
+      return selector(preludeFrames(field(Kind::kName, 12, kPreludeNames - 1)));
     default:
       break;
   }
   if (flag()) field(12);
-  appearance();
+  selector(sequence());
 }
 
 void HostileWriter::body() {

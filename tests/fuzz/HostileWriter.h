@@ -56,7 +56,9 @@ class HostileWriter {
     kBehind,
     kKey,
     kAction,
-    kMouse
+    kMouse,
+    kFrames,
+    kSelector
   };
 
   void begin();
@@ -78,7 +80,9 @@ class HostileWriter {
   void steps();
   void motion();
   void character();
-  void appearance();
+  void appearance(bool whole);
+  std::uint64_t sequence();
+  void selector(std::uint64_t frames);
   void look();
   void body();
   void world();

@@ -10,7 +10,12 @@
 namespace naiad::fuzz {
 
 inline constexpr std::uint32_t kPreludeTick = 1000;
-inline constexpr std::uint32_t kPreludeNames = 4;  ///< appearances 0 … 3 have names
+inline constexpr std::uint32_t kPreludeNames = 4;  ///< sequences 0 … 3 have names
+
+/// How many appearances the sequence with this name has; others than the prelude's: 1.
+inline std::uint64_t preludeFrames(std::uint64_t name) {
+  return name == 2 || name == 3 ? name : 1;
+}
 
 /// What the prelude has in an origin slot.
 inline const Origin& preludeOrigin(std::uint64_t slot) {
@@ -41,7 +46,8 @@ inline std::string preludeSnapshot() {
     Appearance word;
     for (std::int32_t i = 0; i <= static_cast<std::int32_t>(id); ++i)
       word.push_back({256 * i, 0, U'a', df::RED});
-    state.look = {{word}, 2};
+    state.look = {Sequence(std::vector<Appearance>(preludeFrames(id), word)), 2};
+    if (preludeFrames(id) > 1) state.look.selector = Selector::clock(kPreludeTick, 4);
     BitWriter bits;
     const LookForm form = id < kPreludeNames ? LookForm{LookForm::kDefined, id} : LookForm{};
     writer.encode(bits, kAllGroups, 1, state, state.motion, form);

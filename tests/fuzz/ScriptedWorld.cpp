@@ -102,11 +102,28 @@ void ScriptedWorld::turn(Thing& thing, Script& script) {
   thing.changed = true;
 }
 
+/// A word whose letters go round, by a clock or an angle.
+void ScriptedWorld::animate(Thing& thing, Script& script) {
+  const std::uint8_t how = script.byte();
+  std::vector<Appearance> frames(2 + how % 4);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    for (std::int32_t i = 0; i < 3; ++i)
+      frames[k].push_back({256 * i - 128 * (how >> 2 & 1), 256 * static_cast<std::int32_t>(k % 2),
+                           U'a' + static_cast<char32_t>(k), df::GREEN});
+  }
+  const std::size_t count = frames.size();
+  const std::uint8_t pace = script.byte();
+  Selector selector = Selector::clock(m_view.tick, 1 + pace % 8, (how & 8) != 0, pace % count);
+  if ((how & 16) != 0) selector = Selector::turning(m_view.tick, how << 24, (pace - 128) * 1'000'003);
+  thing.p_told = std::make_shared<const Look>(Look{Sequence(std::move(frames)), 0, selector});
+}
+
 void ScriptedWorld::restyle(Thing& thing, Script& script) {
   const std::uint8_t how = script.byte();
   const auto color = static_cast<df::Color>(how >> 5);
   const auto letter = static_cast<char32_t>(U'a' + (how >> 3) % 4);
   thing.look.clear();
+  thing.p_told = nullptr;
   const auto row = [&](int count, df::Fixed left, df::Fixed top) {
     for (int i = 0; i < count; ++i) thing.look.push_back({{left + df::fromCells(i), top}, letter, color});
   };
@@ -114,8 +131,9 @@ void ScriptedWorld::restyle(Thing& thing, Script& script) {
     case 0:
       return;  // draws nothing
     case 1:
-    case 2:
       return row(1, 0, 0);
+    case 2:
+      return animate(thing, script);
     case 3:
       return row(6, df::fromCells(-3), df::fromCells(1));
     case 4:
@@ -175,6 +193,7 @@ void ScriptedWorld::tick() {
   m_view.changed.clear();
   m_view.drawn.clear();
   m_view.commands.clear();
+  m_view.looks.clear();
   std::vector<Thing*> alive;
   for (Thing& thing : m_things) {
     if (!thing.alive) continue;
@@ -203,7 +222,20 @@ void ScriptedWorld::tick() {
   };
   if (!m_loose.empty()) draw({}, {}, m_loose);
   for (const Thing* thing : alive) {
-    if (thing->facts.shown) draw(thing->facts.key, thing->facts.position, thing->look);
+    if (!thing->facts.shown) continue;
+    if (thing->p_told == nullptr) {
+      draw(thing->facts.key, thing->facts.position, thing->look);
+      continue;
+    }
+    std::vector<df::DrawCommand> frame;
+    for (const Glyph& glyph : *thing->p_told->select(m_view.tick)) {
+      frame.push_back(
+          {{df::Fixed{glyph.dx} * (df::kFixedOne / 256), df::Fixed{glyph.dy} * (df::kFixedOne / 256)},
+           glyph.ch,
+           glyph.color});
+    }
+    m_view.looks.push_back({static_cast<std::uint32_t>(m_view.drawn.size()), thing->p_told});
+    draw(thing->facts.key, thing->facts.position, frame);
   }
   m_loose.clear();
 }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "Canvas.h"
+#include "Look.h"
 #include "Script.h"
 #include "WorldView.h"
 
@@ -34,7 +36,8 @@ class ScriptedWorld {
     df::ObjectFacts facts;
     bool alive = false;
     bool changed = false;
-    std::vector<df::DrawCommand> look;  ///< relative to the position
+    std::vector<df::DrawCommand> look;   ///< relative to the position
+    std::shared_ptr<const Look> p_told;  ///< frames that take turns, instead
   };
 
   void bear(Thing& thing, Script& script);
@@ -42,6 +45,7 @@ class ScriptedWorld {
   void place(Thing& thing, Script& script);
   void turn(Thing& thing, Script& script);
   void restyle(Thing& thing, Script& script);
+  void animate(Thing& thing, Script& script);
   void reshape(Thing& thing, Script& script);
   void follow(const Thing& thing, Script& script);
   void speak(Script& script);

@@ -7,6 +7,7 @@
 #include "MotionCodec.h"
 #include "Require.h"
 #include "Script.h"
+#include "WriteSnapshot.h"
 
 namespace naiad::fuzz {
 namespace {
@@ -30,14 +31,20 @@ void requireGood(const Appearance& appearance) {
   }
 }
 
+void requireGood(const Sequence& sequence) {
+  REQUIRE(sequence.size() <= kMaxFrames && sequence.glyphCount() <= kMaxGlyphs);
+  for (const Appearance& appearance : sequence) requireGood(appearance);
+}
+
 void requireGood(const ObjectRecord& record, std::uint32_t tick) {
   REQUIRE(record.id < kMaxSlots && record.generation < 4 && record.groups <= kAllGroups);
   REQUIRE((record.groups & kLife) == 0 || record.groups == kAllGroups);
   REQUIRE(record.state.order < std::uint64_t{1} << 48);
   if ((record.groups & kMotion) != 0) requireGood(record.state.motion, tick);
   const Look& look = record.state.look;
-  REQUIRE(look.altitude >= 0 && look.altitude < 256 && look.sequence.size() <= 1);
-  for (const Appearance& appearance : look.sequence) requireGood(appearance);
+  REQUIRE(look.altitude >= 0 && look.altitude < 256 && look.sequence.size() <= kMaxFrames);
+  requireGood(look.sequence);
+  REQUIRE(look.selector.isTellable(tick, look.sequence.size()));
   const Body& body = record.state.body;
   REQUIRE(body.box.size.x >= 0 && body.box.size.y >= 0);
   REQUIRE(static_cast<unsigned>(body.solidness) <= df::SPECTRAL);
@@ -61,9 +68,9 @@ void requireGood(const Snapshot& snapshot) {
     REQUIRE(characters.size() <= static_cast<std::size_t>(kMaxViewWidth));
     REQUIRE(std::all_of(characters.begin(), characters.end(), df::isDrawable));
   }
-  for (const AppearanceRecord& record : records.appearances) {
+  for (const SequenceRecord& record : records.sequences) {
     REQUIRE(record.id < kMaxAppearances);
-    requireGood(record.appearance);
+    requireGood(record.sequence);
   }
   for (std::size_t i = 0; i < records.objects.size(); ++i) {
     requireGood(records.objects[i], snapshot.header.tick);
@@ -78,18 +85,7 @@ bool same(const ObjectRecord& a, const ObjectRecord& b) {
 /// Spelled out, counted from no origin, it reads the same.
 void requireSameWhenWrittenAgain(const Snapshot& snapshot) {
   const Records& records = snapshot.records;
-  SnapshotWriter writer;
-  writer.begin(snapshot.header, 0, {});
-  for (const WorldRecord& world : records.worlds) writer.write(world);
-  for (const ViewRecord& view : records.views) writer.write(view);
-  for (const OriginRecord& origin : records.origins) writer.write(origin);
-  for (const TextRecord& text : records.texts) writer.write(text);
-  for (const ObjectRecord& record : records.objects) {
-    BitWriter bits;
-    writer.encode(bits, record.groups, record.generation, record.state, record.state.motion);
-    writer.object(record.id, std::move(bits));
-  }
-  const Exactly bytes(writer.finish());
+  const Exactly bytes(test::writeSnapshot(snapshot.header, snapshot.records));
   const SnapshotHeader& header = snapshot.header;
   Snapshot again;
   REQUIRE(readSnapshot(bytes.view(), {header.number, header.tick, header.input}, {}, again) ==
@@ -107,7 +103,7 @@ void requireSameWhenWrittenAgain(const Snapshot& snapshot) {
 std::size_t glyphsIn(const Records& records) {
   std::size_t count = 0;
   for (const ObjectRecord& record : records.objects) {
-    for (const Appearance& appearance : record.state.look.sequence) count += appearance.size();
+    count += record.state.look.sequence.glyphCount();
   }
   return count;
 }

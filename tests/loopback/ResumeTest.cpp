@@ -48,6 +48,12 @@ class Resume : public testing::Test {
       return client.joined() && !client.session().isDetached() && server->counters().resumed >= times;
     });
   }
+  /// And gets no other one.
+  bool losesItsStream(TestClient& client) {
+    proxy->setOpen(false);
+    proxy->cut();
+    return serveUntil(context, {&client}, [&] { return client.session().isDetached(); });
+  }
   /// The newest picture is the server's.
   bool seesTheTruth(TestClient& client) {
     return serveUntil(context, {&client}, [&] {
@@ -100,9 +106,7 @@ TEST_F(Resume, DatagramsGoOnWhileThereIsNoStream) {
   start(home.server());
   TestClient ann(context, proxy->port(), player("ann"));
   ASSERT_TRUE(settle(ann));
-  proxy->setOpen(false);
-  proxy->cut();
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().isDetached(); }));
+  ASSERT_TRUE(losesItsStream(ann));
   // Two seconds of play, and keys as well.
   const std::uint32_t tick = ann.newestTick();
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick + 400; }));
@@ -126,9 +130,7 @@ TEST_F(Resume, TheRoundTripIsMeasuredWithoutAStream) {
   start(home.server());
   TestClient ann(context, proxy->port(), player("ann"));
   ASSERT_TRUE(settle(ann));
-  proxy->setOpen(false);
-  proxy->cut();
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().isDetached(); }));
+  ASSERT_TRUE(losesItsStream(ann));
   EXPECT_LT(ann.session().takeInClock().shortestRoundTrip().count(), 40);
   const auto before = ann.session().roundTrip();
   valve->delay = std::chrono::milliseconds(100);

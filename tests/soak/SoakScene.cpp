@@ -9,6 +9,7 @@
 #include "EventOut.h"
 #include "EventPlayer.h"
 #include "EventStep.h"
+#include "Look.h"
 #include "Object.h"
 #include "Player.h"
 #include "WorldManager.h"
@@ -39,7 +40,29 @@ char someLetter(char first) {
   return static_cast<char>(first + WM.randomInt(4));
 }
 
-/// One character, a word, or a sprite whose frames take turns.
+/// Frames of about so many characters each, of a few different ones.
+Sequence someFrames(df::Color color) {
+  std::vector<Appearance> frames(static_cast<std::size_t>(2 + WM.randomInt(6)));
+  const int letter = WM.randomInt(4);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const auto turned = static_cast<std::int32_t>(k);
+    for (std::int32_t i = -3; i <= 3; ++i)
+      frames[k].push_back({256 * i, 256 * (i * turned / 3 % 4), static_cast<char32_t>(U'p' + letter), color});
+  }
+  return Sequence(frames);
+}
+
+/// By a clock or an angle that goes on by itself.
+Selector somePace(df::World& world) {
+  const auto tick = static_cast<std::uint32_t>(world.getStepCount());
+  const int kind = WM.randomInt(4);
+  const auto ticks = static_cast<std::uint32_t>(1 + WM.randomInt(12));
+  if (kind < 2) return Selector::clock(tick, ticks, kind == 0, static_cast<std::size_t>(WM.randomInt(2)));
+  return Selector::turning(tick, static_cast<std::uint32_t>(WM.randomInt(4096)) << 20,
+                           (WM.randomInt(2001) - 1000) * 100'003);
+}
+
+/// One character, a word, a sprite whose frames take turns, or frames that change by themselves.
 class Creature : public df::Object {
  public:
   Creature() {
@@ -49,9 +72,13 @@ class Creature : public df::Object {
     setAltitude(WM.randomInt(df::MAX_ALTITUDE + 1));
     setSolidness(static_cast<df::Solidness>(WM.randomInt(3)));
     if (WM.randomInt(8) == 0) setAcceleration(df::Vector(0, 0.01));
-    m_kind = WM.randomInt(4);
+    m_kind = WM.randomInt(6);
     if (m_kind == 3) setBox(df::Box(df::Vector(-1, -1), 3, 3));
     m_color = someColor();
+    if (m_kind > 3) {
+      setBox(df::Box(df::Vector(-4, -4), 9, 9));
+      setFrames(someFrames(m_color), somePace(*getWorld()));
+    }
     m_text = std::string(m_kind == 0 ? 1 : 3 + 4 * WM.randomInt(3), someLetter('a'));
     registerInterest(df::STEP_EVENT);
   }
@@ -68,6 +95,11 @@ class Creature : public df::Object {
   }
 
   int draw() override {
+    if (m_kind > 3) {
+      df::Object::draw();
+      return m_kind == 4 || m_age % 64 > 8 ? 0
+                                           : DM.drawCh(getPosition(), '!', m_color);  // adds to it at times
+    }
     if (m_kind < 3) return DM.drawString(getPosition(), m_text, df::LEFT_JUSTIFIED, m_color);
     const char frame = "|/-\\"[m_age / 8 % 4];
     for (int i = 0; i < 9; ++i) {
@@ -85,6 +117,8 @@ class Creature : public df::Object {
     if (what == 2) setVisible(!isVisible());
     if (what == 3) setPosition(somewhere());
     if (what == 4) m_color = someColor();
+    if (m_kind > 3 && what >= 6 && what < 10) setSelector(somePace(*getWorld()));
+    if (m_kind > 3 && what == 10) setFrames(someFrames(m_color), somePace(*getWorld()));
     if (what == 5) {
       WM.markForDelete(this);
       new Creature;

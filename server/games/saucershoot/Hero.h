@@ -7,12 +7,12 @@
 
 #include "Color.h"
 #include "Object.h"
+#include "Player.h"
 #include "Trigger.h"
 
 namespace df {
 class EventKeyboard;
 class EventMouse;
-class Player;
 }  // namespace df
 
 class Hero : public df::Object {

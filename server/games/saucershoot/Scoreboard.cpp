@@ -6,6 +6,7 @@
 #include "Events.h"
 #include "Field.h"
 #include "GameManager.h"
+#include "Player.h"
 #include "WorldManager.h"
 
 namespace {

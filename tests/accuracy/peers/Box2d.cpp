@@ -92,6 +92,7 @@ class Box2d : public Simulation {
     fixture.density = 1;
     if (shape.kind == Shape::Kind::CIRCLE) {
       b2CircleShape circle;
+      circle.m_p = {single(shape.centre.x), single(shape.centre.y)};
       circle.m_radius = single(shape.radius);
       fixture.shape = &circle;
       made.CreateFixture(&fixture);
@@ -99,7 +100,8 @@ class Box2d : public Simulation {
     }
     b2PolygonShape polygon;
     polygon.SetAsBox(std::max(single(shape.half.x) - b2_polygonRadius, b2_linearSlop),
-                     std::max(single(shape.half.y) - b2_polygonRadius, b2_linearSlop));
+                     std::max(single(shape.half.y) - b2_polygonRadius, b2_linearSlop),
+                     {single(shape.centre.x), single(shape.centre.y)}, 0);
     fixture.shape = &polygon;
     made.CreateFixture(&fixture);
     return dot(shape.half, shape.half) / 3;

@@ -101,9 +101,10 @@ class Chipmunk : public Simulation {
 
   // A pair has the product of the two coefficients.
   void addShape(cpBody* made, const Body& body, const Shape& shape) {
-    cpShape* its_shape = shape.kind == Shape::Kind::CIRCLE
-                             ? cpCircleShapeNew(made, shape.radius, cpvzero)
-                             : cpBoxShapeNew(made, 2 * shape.half.x, 2 * shape.half.y, 0);
+    cpShape* its_shape =
+        shape.kind == Shape::Kind::CIRCLE
+            ? cpCircleShapeNew(made, shape.radius, vect(shape.centre))
+            : cpBoxShapeNew2(made, cpBBNewForExtents(vect(shape.centre), shape.half.x, shape.half.y), 0);
     cpShapeSetFriction(its_shape, std::sqrt(body.friction));
     cpShapeSetElasticity(its_shape, std::sqrt(body.restitution));
     cpSpaceAddShape(m_space, its_shape);

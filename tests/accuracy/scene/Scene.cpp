@@ -26,4 +26,13 @@ Body wall(Vec centre, Vec half, double angle) {
   return body;
 }
 
+Joint rod(int a, Vec from, int b, Vec to) {
+  Joint joint;
+  joint.a = a;
+  joint.b = b;
+  joint.anchor_a = from;
+  joint.anchor_b = to;
+  return joint;
+}
+
 }  // namespace lab

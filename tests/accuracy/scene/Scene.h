@@ -27,6 +27,7 @@ struct Shape {
   Kind kind = Kind::CIRCLE;
   double radius = 0;  ///< of a circle
   Vec half;           ///< half width and half height of a box
+  Vec centre{};       ///< from the body's; not (0, 0): of what nothing pushes
 };
 
 struct Body {
@@ -37,7 +38,7 @@ struct Body {
   double spin = 0;  ///< radians per second
   double mass = 1;
   bool rotates = false;  ///< if not, its inertia is infinite; if so, that of its shape, or of its shapes' sum
-  std::vector<Shape> shapes;  ///< centred; none: a point that touches nothing
+  std::vector<Shape> shapes;  ///< none: a point that touches nothing
   double friction = 0;        ///< of a pair: the square root of the product
   double restitution = 0;     ///< of a pair: the larger
   bool fast = false;          ///< asks for whatever the engine has against tunnelling
@@ -64,6 +65,9 @@ struct Joint {
   double damping = 0;      ///< N·s/m
   double rest_length = 0;  ///< m
 };
+
+/// Of two bodies, or of one and the ground (−1).
+Joint rod(int a, Vec from, int b, Vec to);
 
 /// An elastic beam that lies along x and is clamped at x = 0; its free end counts as the scene's body 0.
 struct Beam {

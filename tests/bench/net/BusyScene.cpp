@@ -1,5 +1,6 @@
 #include "BusyScene.h"
 
+#include <cmath>
 #include <string>
 
 #include "DisplayManager.h"
@@ -14,6 +15,7 @@ namespace bench {
 namespace {
 
 constexpr int kFine = 1'000'000;
+constexpr int kTwoMinutes = 120 * 30;  // ticks
 
 /// Uniform in -most … most.
 double within(double most) {
@@ -25,9 +27,8 @@ class Walker : public df::Object {
   explicit Walker(BusyScene::Kind kind) : m_kind(kind) {
     setType("Walker");
     setSolidness(df::SPECTRAL);
-    const double margin = kind == BusyScene::Kind::kStraight ? 100.0 / kBusyWidth : 0.0;
-    setPosition(df::Vector(kBusyWidth * (margin + (1 - 2 * margin) * WM.randomInt(kFine) / kFine),
-                           kBusyHeight * (margin + (1 - 2 * margin) * WM.randomInt(kFine) / kFine)));
+    setPosition(df::Vector(1.0 * kBusyWidth * WM.randomInt(kFine) / kFine,
+                           1.0 * kBusyHeight * WM.randomInt(kFine) / kFine));
     m_gait = WM.randomInt(10);
     turn();
     restyle();
@@ -52,15 +53,22 @@ class Walker : public df::Object {
 
  private:
   void turn() {
-    // One who runs stands still in a straight scene: it would be off the map in no time.
-    const double slow = m_kind == BusyScene::Kind::kStraight ? 0.1 : 1.0;
     if (m_kind == BusyScene::Kind::kStill || m_gait == 0) return;
     if (m_gait == 1 && m_kind == BusyScene::Kind::kBusy) {
       setVelocity(df::Vector(WM.randomInt(2) == 0 ? 1 : -1, 0));
     } else {
-      const double x = slow * within(0.5);
-      setVelocity(df::Vector(x, slow * within(0.25)));
+      const double x = within(0.5);
+      setVelocity(df::Vector(x, within(0.25)));
     }
+    if (m_kind == BusyScene::Kind::kStraight) stayForTwoMinutes();
+  }
+  // To the farther side, and not as fast as to reach it: whoever left the map would be news.
+  void stayForTwoMinutes() {
+    const df::Vector p = getPosition();
+    const df::Vector v = getVelocity();
+    const double x = std::abs(v.getX()) * kBusyWidth / 2 / 0.5 / kTwoMinutes;
+    const double y = std::abs(v.getY()) * kBusyHeight / 2 / 0.25 / kTwoMinutes;
+    setVelocity(df::Vector(p.getX() < kBusyWidth / 2 ? x : -x, p.getY() < kBusyHeight / 2 ? y : -y));
   }
   void restyle() { m_ch = static_cast<char>('A' + WM.randomInt(26)); }
   void bounce() {

@@ -19,7 +19,7 @@ class BusyScene {
  public:
   enum class Kind {
     kBusy,
-    kStraight,  ///< nobody turns, changes or dies, and nobody comes to an edge for a minute
+    kStraight,  ///< nobody turns, changes or dies, and nobody comes to an edge for two minutes
     kStill,     ///< nobody does anything
   };
 

@@ -57,8 +57,8 @@ TEST_F(Layers, AreFoundByTheirClassAndStepOnceInEachUpdate) {
 }
 
 TEST_F(Layers, TheBooksMovesSkipBodies) {
-  auto* p_body = new Object;
-  auto* p_plain = new Object;
+  Object body, plain;
+  Object *const p_body = &body, *const p_plain = &plain;
   p_plain->setSolidness(SPECTRAL);
   p_body->setSolidness(SPECTRAL);
   layer->add(*p_body);
@@ -76,7 +76,8 @@ TEST_F(Layers, TheBooksMovesSkipBodies) {
 }
 
 TEST_F(Layers, WhoWatchesCanWorkOutABodysFlight) {
-  auto* p_body = new Object;
+  Object body;
+  Object* const p_body = &body;
   layer->add(*p_body);
   world.setWatched(true);
   p_body->setVelocity(Vector(0.5, -2));
@@ -94,8 +95,8 @@ TEST_F(Layers, WhoWatchesCanWorkOutABodysFlight) {
 }
 
 TEST_F(Layers, ABodyStandsInTheWayOfOthers) {
-  auto* p_body = new Object;
-  auto* p_plain = new Object;
+  Object body, plain;
+  Object *const p_body = &body, *const p_plain = &plain;
   layer->add(*p_body);
   layer->bodies.clear();  // stays where it is
   p_body->setPosition(Vector(5, 0));

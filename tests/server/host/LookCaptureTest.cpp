@@ -31,7 +31,7 @@ TEST(LookCapture, HalfCellOffsetsStayRightWhereverTheObjectGoes) {
     const df::FixedVector where = at((rng.unit() - 0.5) * 500, (rng.unit() - 0.5) * 500);
     const std::vector<df::DrawCommand> commands = {{where + at(-0.5, 0), U'<', df::RED},
                                                    {where + at(0.5, 0), U'>', df::RED}};
-    ASSERT_TRUE(drawsTheSame(look, where, commands));
+    ASSERT_TRUE(drawsTheSame(look, 0, where, commands));
   }
 }
 
@@ -43,25 +43,25 @@ TEST(LookCapture, CellsAreRightAtTheCapturedPositionWhateverTheOffset) {
     for (int k = 0; k < 5; ++k) {
       commands.push_back({where + at((rng.unit() - 0.5) * 9, (rng.unit() - 0.5) * 9), U'x', df::RED});
     }
-    ASSERT_TRUE(drawsTheSame(Look{{captureCells(where, commands)}, 2}, where, commands));
+    ASSERT_TRUE(drawsTheSame(Look{{captureCells(where, commands)}, 2}, 0, where, commands));
   }
 }
 
 TEST(LookCapture, NoticesEveryKindOfDifference) {
   const std::vector<df::DrawCommand> commands = {{at(1, 1), U'a', df::RED}, {at(2, 1), U'b', df::RED}};
   const Look look{{captureAppearance(at(1, 1), commands)}, 2};
-  ASSERT_TRUE(drawsTheSame(look, at(1, 1), commands));
-  EXPECT_FALSE(drawsTheSame(look, at(2, 1), commands));
-  EXPECT_FALSE(drawsTheSame(look, at(1, 1), std::span(commands).first(1)));
-  EXPECT_FALSE(drawsTheSame(look, at(1, 1), {}));
-  EXPECT_FALSE(drawsTheSame(Look{}, at(1, 1), commands));
-  EXPECT_TRUE(drawsTheSame(Look{}, at(1, 1), {}));
+  ASSERT_TRUE(drawsTheSame(look, 0, at(1, 1), commands));
+  EXPECT_FALSE(drawsTheSame(look, 0, at(2, 1), commands));
+  EXPECT_FALSE(drawsTheSame(look, 0, at(1, 1), std::span(commands).first(1)));
+  EXPECT_FALSE(drawsTheSame(look, 0, at(1, 1), {}));
+  EXPECT_FALSE(drawsTheSame(Look{}, 0, at(1, 1), commands));
+  EXPECT_TRUE(drawsTheSame(Look{}, 0, at(1, 1), {}));
   for (int change = 0; change < 3; ++change) {
     std::vector<df::DrawCommand> other = commands;
     if (change == 0) other[1].ch = U'c';
     if (change == 1) other[1].color = df::BLUE;
     if (change == 2) other[1].position = at(2, 2);
-    EXPECT_FALSE(drawsTheSame(look, at(1, 1), other)) << change;
+    EXPECT_FALSE(drawsTheSame(look, 0, at(1, 1), other)) << change;
   }
 }
 
@@ -83,20 +83,19 @@ TEST(LookCapture, CutsAtTheLargestAppearance) {
 }
 
 TEST(LookCapture, FitsALookIntoARecordByCuttingItsEnd) {
-  Look look{{Appearance(kMaxGlyphs)}, 2};
+  Appearance whole(kMaxGlyphs);
   SplitMix64 rng(3);
-  for (Glyph& glyph : look.sequence[0]) {
+  for (Glyph& glyph : whole) {
     glyph = {static_cast<std::int32_t>(rng.below(90'000)), static_cast<std::int32_t>(rng.below(90'000)), U'█',
              static_cast<df::Color>(rng.below(8))};
   }
-  const Appearance whole = look.sequence[0];
-  ASSERT_GT(encodedBits(look.sequence[0]), 8 * kMaxLookBytes);
-  const std::size_t cut = fitToRecord(look);
-  EXPECT_LE(encodedBits(look.sequence[0]), 8 * kMaxLookBytes);
-  EXPECT_GT(encodedBits(look.sequence[0]), 4 * kMaxLookBytes);
-  ASSERT_EQ(look.sequence[0].size() + cut, whole.size());
-  EXPECT_TRUE(std::equal(look.sequence[0].begin(), look.sequence[0].end(), whole.begin()));
-  EXPECT_EQ(fitToRecord(look), 0u);
+  ASSERT_GT(encodedBits({whole}), 8 * kMaxLookBytes);
+  const Sequence fitted = fitToRecord(whole);
+  EXPECT_LE(encodedBits(fitted), 8 * kMaxLookBytes);
+  EXPECT_GT(encodedBits(fitted), 4 * kMaxLookBytes);
+  ASSERT_EQ(fitted.size(), 1u);
+  EXPECT_TRUE(std::equal(fitted[0].begin(), fitted[0].end(), whole.begin()));
+  EXPECT_EQ(fitToRecord(fitted[0]), fitted);
 }
 
 }  // namespace

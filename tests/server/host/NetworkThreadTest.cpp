@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <asio/io_context.hpp>
-#include <filesystem>
 #include <thread>
 #include <vector>
 
@@ -10,9 +8,9 @@
 #include "RelayedStream.h"
 #include "ResumeTokens.h"
 #include "SealedLink.h"
-#include "ServerIdentity.h"
 #include "TcpConnector.h"
 #include "UdpSocket.h"
+#include "WithIdentity.h"
 
 namespace naiad {
 namespace {
@@ -21,18 +19,8 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 /// The tick thread is the test's; so is the client, which has an event loop of its own.
-class NetworkThreadTest : public testing::Test {
+class NetworkThreadTest : public WithIdentity {
  protected:
-  static void SetUpTestSuite() {
-    std::string name = testing::TempDir() + "naiad-network-XXXXXX";
-    directory = mkdtemp(name.data());
-    identity = std::make_unique<ServerIdentity>(
-        ServerIdentity::loadOrMake(directory, std::chrono::system_clock::now()));
-  }
-  static void TearDownTestSuite() {
-    identity.reset();
-    std::filesystem::remove_all(directory);
-  }
   void TearDown() override {
     datagrams.reset();
     near.clear();
@@ -93,8 +81,6 @@ class NetworkThreadTest : public testing::Test {
     return far;
   }
 
-  static inline std::filesystem::path directory;
-  static inline std::unique_ptr<ServerIdentity> identity;
   bool tls = false;
   asio::io_context home;
   asio::io_context client;

@@ -41,6 +41,21 @@ class Scene {
   void drew(std::uint32_t slot, df::FixedVector position, char32_t ch = U'@') {
     drew({slot, 1}, {{position, ch, df::CYAN}});
   }
+  /// It drew the frame whose turn it is in the tick that is published next, and says so.
+  void showed(std::uint32_t slot, df::FixedVector position, const Look& look) {
+    std::vector<df::DrawCommand> commands;
+    for (const Glyph& glyph : *look.select(m_view.tick + 1)) {
+      const df::FixedVector offset{df::Fixed{glyph.dx} * (df::kFixedOne / 256),
+                                   df::Fixed{glyph.dy} * (df::kFixedOne / 256)};
+      commands.push_back({position + offset, glyph.ch, glyph.color});
+    }
+    says(look);
+    drew({slot, 1}, commands);
+  }
+  void says(const Look& look) {
+    m_view.looks.push_back(
+        {static_cast<std::uint32_t>(m_view.drawn.size()), std::make_shared<const Look>(look)});
+  }
   /// Publish the tick, return its changes, and begin the next.
   std::vector<Publisher::Change> publish() {
     ++m_view.tick;
@@ -49,6 +64,7 @@ class Scene {
     m_view.vanished.clear();
     m_view.drawn.clear();
     m_view.commands.clear();
+    m_view.looks.clear();
     return publisher.changes();
   }
 
@@ -63,6 +79,31 @@ std::uint8_t groupsOf(const std::vector<Publisher::Change>& changes, std::uint32
     if (change.slot == slot) return change.groups;
   }
   return 0xFF;
+}
+
+// Whoever asks, in whatever tick.
+TEST(Publisher, AMotionForAllClientsIsTheModelsOwnNow) {
+  Scene scene;
+  const auto expectShared = [&scene](std::uint32_t slot) {
+    const Motion now = rebase(scene.publisher.find(slot)->state.motion, scene.publisher.tick());
+    for (int asked = 0; asked < 2; ++asked) {
+      EXPECT_EQ(scene.publisher.sharedMotion(slot).motion, now) << "slot " << slot;
+    }
+    BitWriter one, other;
+    writeMotion(one, scene.publisher.sharedMotion(slot), Origin{});
+    writeMotion(other, now, Origin{});
+    EXPECT_EQ(one.bytes(), other.bytes());
+  };
+  scene.changed(1, at(10, 10), at(0.25, 0));
+  scene.changed(2, at(20, 5));
+  for (int tick = 0; tick < 20; ++tick) {
+    if (tick == 7) scene.changed(2, at(20, 5), at(0, 0.5));
+    if (tick == 12) scene.changed(40, at(1, 1), at(0.125, 0.5));
+    scene.publish();
+    expectShared(1);
+    expectShared(2);
+    if (tick >= 12) expectShared(40);
+  }
 }
 
 TEST(Publisher, StraightFlightIsPublishedOnce) {
@@ -398,6 +439,89 @@ TEST(Publisher, WorldsOfStraightFlightCostNothing) {
   }
   // Only offsets that no 1/256 expresses, and what first comes into view, need a word now and then.
   EXPECT_LT(changes, 100u);
+}
+
+Sequence wheel() {
+  std::vector<Appearance> frames;
+  for (const char32_t spoke : {U'-', U'\\', U'|', U'/'})
+    frames.push_back({{-256, 0, U'(', df::CYAN}, {0, 0, spoke, df::CYAN}, {256, 0, U')', df::CYAN}});
+  return Sequence(frames);
+}
+
+// By any selector: it is told once, and right for ever after.
+TEST(Publisher, WhatChangesByItselfIsToldOnce) {
+  for (const Selector& selector :
+       {Selector::clock(1, 3), Selector::clock(1, 5, false), Selector::turning(1, 123456789, 98765432),
+        Selector::turning(1, 0, -1'000'003), Selector::fixed(2)}) {
+    Scene scene;
+    const Look look{wheel(), 2, selector};
+    scene.changed(0, at(10, 10));
+    scene.showed(0, at(10, 10), look);
+    ASSERT_EQ(scene.publish().size(), 1u);
+    EXPECT_EQ(scene.publisher.find(0)->state.look, look);
+    EXPECT_TRUE(scene.publisher.find(0)->recurs) << "worth a name from the beginning";
+    for (int i = 0; i < 5000; ++i) {
+      scene.showed(0, at(10, 10), look);
+      ASSERT_TRUE(scene.publish().empty()) << i;
+    }
+  }
+}
+
+TEST(Publisher, AnotherPaceIsToldWithTheFirstFrameThatItShowsOtherwise) {
+  Scene scene;
+  Look look{wheel(), 2, Selector::turning(1, 0, 1 << 24)};  // a frame takes 64 ticks
+  scene.changed(0, at(10, 10));
+  scene.showed(0, at(10, 10), look);
+  scene.publish();
+  const Look before = look;
+  look.selector = Selector::turning(scene.view().tick, before.selector.angleAt(scene.view().tick), 1 << 25);
+  int told = 0;
+  for (int i = 0; i < 500; ++i) {
+    const std::uint32_t tick = scene.view().tick + 1;
+    scene.showed(0, at(10, 10), look);
+    const auto changes = scene.publish();
+    const bool differs = told == 0 && look.select(tick) != before.select(tick);
+    ASSERT_EQ(changes.size(), differs ? 1u : 0u) << tick;
+    if (!differs) continue;
+    ++told;
+    EXPECT_EQ(changes[0].groups, kLook);
+    EXPECT_TRUE(scene.publisher.find(0)->state.look.sequence.isSharedWith(look.sequence));
+  }
+  EXPECT_EQ(told, 1);
+}
+
+TEST(Publisher, WhatADrawOfItsOwnAddsIsWhatCounts) {
+  Scene scene;
+  const Look look{wheel(), 2, Selector::clock(1, 3)};
+  scene.changed(0, at(10, 10));
+  scene.says(look);
+  scene.drew({0, 1}, {{at(10, 10), U'?', df::RED}});
+  scene.publish();
+  const Look& published = scene.publisher.find(0)->state.look;
+  EXPECT_EQ(published.sequence, (Sequence{{{0, 0, U'?', df::RED}}}));
+  EXPECT_EQ(published.selector, Selector{});
+  scene.showed(0, at(10, 10), look);
+  scene.publish();
+  EXPECT_EQ(published.sequence, wheel());
+  EXPECT_EQ(published.selector, look.selector);
+}
+
+TEST(Publisher, ATurningThingThatFliesOverFractionsOfCellsIsToldOnce) {
+  Scene scene;
+  const Look look{wheel(), 2, Selector::turning(1, 5, 55'555'555)};
+  df::FixedVector position = at(1.25, 3.5);
+  const df::FixedVector velocity = at(0.3, 0.07);
+  scene.changed(0, position, velocity);
+  scene.showed(0, position, look);
+  scene.publish();
+  int changes = 0;
+  for (int i = 0; i < 60; ++i) {
+    position = position + velocity;
+    scene.changed(0, position, velocity);
+    scene.showed(0, position, look);
+    changes += scene.publish().empty() ? 0 : 1;
+  }
+  EXPECT_EQ(changes, 0);
 }
 
 }  // namespace

@@ -1,30 +1,18 @@
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>
 #include <chrono>
-#include <filesystem>
 #include <set>
 
-#include "ServerIdentity.h"
 #include "ServerPort.h"
+#include "WithIdentity.h"
 
 namespace naiad {
 namespace {
 
-class ServerPortTest : public testing::Test {
+class ServerPortTest : public WithIdentity {
  protected:
-  static void SetUpTestSuite() {
-    std::string name = testing::TempDir() + "naiad-port-XXXXXX";
-    directory = mkdtemp(name.data());
-    identity = std::make_unique<ServerIdentity>(
-        ServerIdentity::loadOrMake(directory, std::chrono::system_clock::now()));
-  }
-  static void TearDownTestSuite() {
-    identity.reset();
-    std::filesystem::remove_all(directory);
-  }
   ServerPort open(const std::string& address, std::uint16_t port = 0) {
     return openServerPort(context, address, port, [](auto) {}, {}, {.context = identity->tls()});
   }
@@ -38,8 +26,6 @@ class ServerPortTest : public testing::Test {
     return {};
   }
 
-  static inline std::filesystem::path directory;
-  static inline std::unique_ptr<ServerIdentity> identity;
   asio::io_context context;
 };
 

@@ -35,6 +35,7 @@ void SimulatedWorld::tick(bool quiet) {
   m_view.vanished.clear();
   m_view.drawn.clear();
   m_view.commands.clear();
+  m_view.looks.clear();
 
   std::vector<bool> changed(m_things.size() + m_config.objects + 1, false);
   if (!quiet) {
@@ -115,6 +116,8 @@ void SimulatedWorld::turn(Thing& thing) {
 
 void SimulatedWorld::restyle(Thing& thing) {
   thing.look.clear();
+  thing.p_told = nullptr;
+  if (m_config.animate > 0 && chance(m_config.animate)) return animate(thing);
   const auto color = static_cast<df::Color>(m_rng.below(8));
   const auto letter = static_cast<char32_t>(U'a' + m_rng.below(26));
   const double kind = m_rng.unit();
@@ -129,11 +132,39 @@ void SimulatedWorld::restyle(Thing& thing) {
   }  // else: draws nothing
 }
 
+// A wheel with a spoke, of two colours, at whole or at half cells; at times it goes on by another pace.
+void SimulatedWorld::animate(Thing& thing) {
+  std::vector<Appearance> frames(2 + m_rng.below(7));
+  const auto color = static_cast<df::Color>(m_rng.below(8));
+  const std::int32_t half = chance(0.5) ? 128 : 0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    for (std::int32_t i = -1; i <= 1; ++i)
+      frames[k].push_back({256 * i * static_cast<std::int32_t>(k % 3) + half, 256 * i,
+                           U'A' + static_cast<char32_t>(k), color});
+    if (chance(0.1)) frames[k].clear();
+  }
+  const std::size_t count = frames.size();
+  thing.p_told = std::make_shared<const Look>(Look{Sequence(std::move(frames)), 0, pace(count)});
+}
+
+Selector SimulatedWorld::pace(std::size_t frames) {
+  const double kind = m_rng.unit();
+  if (kind < 0.1) return Selector::fixed(m_rng.below(frames));
+  const auto ticks = static_cast<std::uint32_t>(1 + m_rng.below(9));
+  if (kind < 0.5) return Selector::clock(m_view.tick, ticks, kind < 0.3, m_rng.below(frames));
+  return Selector::turning(m_view.tick, static_cast<std::uint32_t>(m_rng.next()),
+                           static_cast<std::int32_t>(m_rng.next()) >> 5);
+}
+
 // Game code at work on one object. Return whether its facts changed.
 bool SimulatedWorld::meddle(Thing& thing) {
   const df::ObjectFacts before = thing.facts;
   if (chance(m_config.turn)) turn(thing);
   if (chance(m_config.restyle)) restyle(thing);
+  if (thing.p_told != nullptr && chance(m_config.restyle)) {
+    const Sequence frames = thing.p_told->sequence;
+    thing.p_told = std::make_shared<const Look>(Look{frames, 0, pace(frames.size())});
+  }
   if (chance(m_config.hide)) thing.facts.shown = !thing.facts.shown;
   if (chance(m_config.reshape)) {
     thing.facts.altitude = static_cast<int>(m_rng.below(5));
@@ -208,6 +239,17 @@ void SimulatedWorld::draw() {
             return df::intersects(box, {corner, fixed(m_config.view_width, m_config.view_height)});
           });
       if (!in_view) continue;
+      if (thing.p_told != nullptr) {
+        m_view.looks.push_back({static_cast<std::uint32_t>(m_view.drawn.size()), thing.p_told});
+        const Appearance& frame = *thing.p_told->select(m_view.tick);
+        m_view.drawn.push_back({thing.facts.key, static_cast<std::uint32_t>(m_view.commands.size()),
+                                static_cast<std::uint32_t>(frame.size())});
+        for (const Glyph& glyph : frame) {
+          const df::FixedVector offset{df::Fixed{glyph.dx} << 24, df::Fixed{glyph.dy} << 24};
+          m_view.commands.push_back({thing.facts.position + offset, glyph.ch, glyph.color});
+        }
+        continue;
+      }
       m_view.drawn.push_back({thing.facts.key, static_cast<std::uint32_t>(m_view.commands.size()),
                               static_cast<std::uint32_t>(thing.look.size())});
       for (const df::DrawCommand& command : thing.look) {

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "Canvas.h"
+#include "Look.h"
 #include "SplitMix64.h"
 #include "WorldView.h"
 
@@ -25,6 +27,7 @@ struct WorldConfig {
   double restyle = 0.02;   ///< … of another look
   double reshape = 0.01;   ///< … of another box, solidness or altitude
   double vanish = 0.01;    ///< … of its death
+  double animate = 0.15;   ///< share of the looks that change by themselves
   double hide = 0.01;      ///< … of becoming invisible, or visible again
   double scribble = 0.05;  ///< probability per tick that something draws outside any object
   double speech = 0.05;    ///< … that a player's text changes
@@ -48,7 +51,8 @@ class SimulatedWorld {
     bool alive = false;
     df::FixedVector velocity;  ///< what it wants; the facts say zero while it is blocked
     df::FixedVector acceleration;
-    std::vector<df::DrawCommand> look;  ///< relative to the position
+    std::vector<df::DrawCommand> look;   ///< relative to the position
+    std::shared_ptr<const Look> p_told;  ///< frames that take turns by themselves, instead
   };
 
   double between(double low, double high) { return low + m_rng.unit() * (high - low); }
@@ -58,6 +62,8 @@ class SimulatedWorld {
   void follow(df::PlayerFacts& player);
   void turn(Thing& thing);
   void restyle(Thing& thing);
+  void animate(Thing& thing);
+  Selector pace(std::size_t frames);
   bool meddle(Thing& thing);
   bool move(Thing& thing, bool quiet);
   void scribble();

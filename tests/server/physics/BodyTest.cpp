@@ -86,6 +86,7 @@ TEST_F(Bodies, DragAndSpringsFollowTheirFormulas) {
   p_hung->setSpring(Vector(0, 0), perSecondSquared(400), 0);
   p_hung->setPosition(Vector(1, 0));
   auto* p_falling = new Body;
+  for (Body* p_body : {p_dragged, p_hung, p_falling}) p_body->setSolidness(SPECTRAL);
   p_falling->setDrag(0, 0.5);
   p_falling->setVelocity(perSecond(Vector(0, 8)));
   ticks(60);

@@ -363,5 +363,36 @@ TEST(ImpactWorld, ABallBetweenTwoWedgesStaysOrPartsThem) {
   }
 }
 
+// Whoever was put deep into something that cannot be pushed goes out by the nearest face, without a quarrel.
+TEST(ImpactWorld, ABallWithItsCentreInAWallGoesOut) {
+  for (const double restitution : {0.0, 0.12, 1.0}) {
+    for (const double speed : {0.3, -0.3, 0.0}) {
+      ImpactWorld world;
+      world.add(fixed(box({0, 43}, {60, 3})));
+      ImpactBody body = falling(moving(ball({-22.6, 43.2}, 1.144), {0.01, speed}, restitution));
+      body.friction = 0.5;
+      const int id = world.add(body);
+      for (int tick = 0; tick < 60; ++tick) world.step();
+      EXPECT_FALSE(world.isFrozen(id));
+      EXPECT_LE(world.counters().impacts, 1);
+      EXPECT_GT(at(world, id).y, 47.1);
+    }
+  }
+}
+
+// An impact that sends somebody farther than the world is known ends the step there.
+TEST(ImpactWorld, AStepEndsWhereAReachDoes) {
+  ImpactWorld world;
+  world.add(moving(ball({-2, 0}), {3, 0}, 1));
+  const int struck = world.add(ball({0, 0}));
+  world.setReach(struck, placeAt({0, 0}), {1, 1});
+  world.step();
+  EXPECT_NEAR(world.stepped(), 1 / 3.0, 1e-12);
+  EXPECT_NEAR(world.body(struck).velocity.x, 3, 1e-12);
+  EXPECT_NEAR(at(world, struck).x, 0, 1e-12);
+  world.step(1 - world.stepped());  // a reach counts for one step
+  EXPECT_NEAR(at(world, struck).x, 2, 1e-12);
+}
+
 }  // namespace
 }  // namespace naiad::physics

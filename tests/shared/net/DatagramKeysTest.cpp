@@ -13,20 +13,20 @@ constexpr ConnectionId kId{0x0123456789abcdef};
 // Made with HMAC-SHA256 and a few lines of Python, from exporter_master_secret 00 01 … 1f.
 TEST(DatagramKeys, KnownAnswersOfAes) {
   const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kAes128Gcm, kId, 0x13);
-  EXPECT_EQ(toHex(keys.client.key.data(), 16), "dcc79784d226f89bc32145c6d412e2a9");
-  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "7c076190190c2b5ea574a494");
-  EXPECT_EQ(toHex(keys.server.key.data(), 16), "47e7c1913b4a9e437182727006c01d08");
-  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "f92db1a170c83f4bc0209522");
+  EXPECT_EQ(toHex(keys.client.key.data(), 16), "908ab96aa909c31c4132142367de241a");
+  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "c64ae3a75494527a916a2385");
+  EXPECT_EQ(toHex(keys.server.key.data(), 16), "55fa02ad23aaa78bcc66eb4a4933df59");
+  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "971c93bb50faa6ce88313963");
 }
 
 TEST(DatagramKeys, KnownAnswersOfChaCha) {
   const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kChaCha20Poly1305, kId, 0x13);
   EXPECT_EQ(toHex(keys.client.key.data(), 32),
-            "6cdc19ec5f5c7203a055e167f75d43474b6ff2ac7cface4825e83c8d0d55180f");
-  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "d0889574cc39351d2f797e20");
+            "beccef6e205bba8d4a448d625b3135be95d01182833ae48962a9b31b81284022");
+  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "f98f4640e63a252deaece0a9");
   EXPECT_EQ(toHex(keys.server.key.data(), 32),
-            "7120610b98122e53215ff759c1c207d57753d03dda5aba271d7d829a1a27329e");
-  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "9197542a450836a0c7096bfc");
+            "b3c7345f330d0426cb685733ee18215d3de01357d3f28ca82cab82ed17846f1c");
+  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "824ead7be2f7a44df6eb15a9");
 }
 
 TEST(DatagramKeys, ExporterIsAskedForWhatThePageSays) {
@@ -40,7 +40,7 @@ TEST(DatagramKeys, ExporterIsAskedForWhatThePageSays) {
   };
   deriveDatagramKeys(spy, AeadId::kChaCha20Poly1305, kId, 0x13);
   EXPECT_EQ(label, "EXPERIMENTAL-naiad-datagram");
-  EXPECT_EQ(toHex(context), "0200000002efcdab896745230113000000");
+  EXPECT_EQ(toHex(context), "0300000002efcdab896745230113000000");
   EXPECT_EQ(asked, 88u);
 }
 

@@ -3,7 +3,7 @@
 #include <set>
 #include <unordered_set>
 
-#include "Path.h"
+#include "shared/net/Path.h"
 
 namespace naiad {
 namespace {

@@ -23,12 +23,14 @@ inline bool isLegal(const Motion& m, std::uint32_t tick) {
          isWithin(m.acceleration, 1 << 25);
 }
 
-inline bool isLegal(const Look& look) {
+inline bool isLegal(const Look& look, std::uint32_t tick) {
   const auto glyph = [](const Glyph& g) {
     return std::abs(g.dx) <= kMaxGlyphOffset && std::abs(g.dy) <= kMaxGlyphOffset && df::isDrawable(g.ch) &&
            isLegal(g.color);
   };
-  return look.altitude >= 0 && look.altitude <= 255 && look.sequence.size() <= 1 &&
+  return look.altitude >= 0 && look.altitude <= 255 && look.sequence.size() <= kMaxFrames &&
+         look.sequence.glyphCount() <= kMaxGlyphs &&
+         (look.sequence.empty() || look.selector.isTellable(tick, look.sequence.size())) &&
          std::all_of(look.sequence.begin(), look.sequence.end(), [&](const Appearance& a) {
            return a.size() <= kMaxGlyphs && std::all_of(a.begin(), a.end(), glyph);
          });
@@ -44,7 +46,7 @@ inline bool isLegal(const ObjectRecord& record, std::uint32_t tick) {
   const bool moves = (record.groups & kMotion) != 0;
   return record.id < kMaxSlots && record.generation < 4 && (!birth || record.groups == kAllGroups) &&
          record.groups <= kAllGroups && record.state.order >> 48 == 0 &&
-         isLegal(record.state.motion, moves ? tick : 0) && isLegal(record.state.look) &&
+         isLegal(record.state.motion, moves ? tick : 0) && isLegal(record.state.look, tick) &&
          isLegal(record.state.body);
 }
 

@@ -15,18 +15,18 @@ struct Met {
   Look look;
   std::optional<std::uint32_t> defined;
   std::optional<std::uint32_t> named;
-  Appearance definition;
+  Sequence definition;
   bool whole = false;  ///< nothing missing, nothing left
 };
 
-Met read(std::string_view bytes, const Appearance* known = nullptr) {
+Met read(std::string_view bytes, const Sequence* known = nullptr) {
   Met met;
   BitReader in(bytes);
   met.look = readLook(
-      in,
-      [&](std::uint32_t id, const Appearance& a) {
+      in, 0,
+      [&](std::uint32_t id, const Sequence& sequence) {
         met.defined = id;
-        met.definition = a;
+        met.definition = sequence;
       },
       [&](std::uint32_t id) {
         met.named = id;
@@ -38,16 +38,15 @@ Met read(std::string_view bytes, const Appearance* known = nullptr) {
 
 std::string write(const Look& look, LookForm form = {}) {
   BitWriter out;
-  writeLook(out, look, form);
+  writeLook(out, look, form, 0);
   return out.bytes();
 }
 
 Look word(const char* text, df::Color color = df::GREEN) {
-  Look look;
-  Appearance& glyphs = look.sequence.emplace_back();
+  Appearance glyphs;
   for (int x = 0; *text != '\0'; ++text, x += 256)
     glyphs.push_back({x, 0, static_cast<char32_t>(*text), color});
-  return look;
+  return {{glyphs}, 2};
 }
 
 TEST(LookCodec, RandomLooksSurviveTheRoundTrip) {
@@ -61,13 +60,13 @@ TEST(LookCodec, RandomLooksSurviveTheRoundTrip) {
   }
 }
 
-TEST(LookCodec, ADefinitionTellsIdAndAppearance) {
+TEST(LookCodec, ADefinitionTellsIdAndSequence) {
   const Look look = word("saucer");
   const Met met = read(write(look, {LookForm::kDefined, 4095}));
   EXPECT_TRUE(met.whole);
   EXPECT_EQ(met.look, look);
   EXPECT_EQ(met.defined, 4095u);
-  EXPECT_EQ(met.definition, look.sequence[0]);
+  EXPECT_EQ(met.definition, look.sequence);
   EXPECT_FALSE(met.named);
 }
 
@@ -76,7 +75,7 @@ TEST(LookCodec, ANameStandsForWhatIsKnown) {
   look.altitude = 4;
   const std::string bytes = write(look, {LookForm::kNamed, 77});
   EXPECT_LE(bytes.size(), 3u);
-  const Met met = read(bytes, &look.sequence[0]);
+  const Met met = read(bytes, &look.sequence);
   EXPECT_TRUE(met.whole);
   EXPECT_EQ(met.named, 77u);
   EXPECT_EQ(met.look, look);
@@ -91,17 +90,18 @@ TEST(LookCodec, SingleCharactersAndNothingNeedNoName) {
       EXPECT_FALSE(met.defined || met.named);
     }
   }
-  EXPECT_TRUE(isSingleCharacter({{0, 0, U'@', df::CYAN}}));
-  EXPECT_FALSE(isSingleCharacter({{1, 0, U'@', df::CYAN}}));
-  EXPECT_FALSE(isSingleCharacter({{0, -1, U'@', df::CYAN}}));
+  EXPECT_TRUE(isSingleCharacter({{{0, 0, U'@', df::CYAN}}}));
+  EXPECT_FALSE(isSingleCharacter({{{1, 0, U'@', df::CYAN}}}));
+  EXPECT_FALSE(isSingleCharacter({{{0, -1, U'@', df::CYAN}}}));
   EXPECT_FALSE(isSingleCharacter({}));
 }
 
 TEST(LookCodec, WordsAreShort) {
-  // Behind the first one a letter is: not moved, not recoloured, narrow, 7 bits.
-  EXPECT_EQ(encodedBits(word("saucers").sequence[0]) - encodedBits(word("saucer").sequence[0]), 10u);
+  // Behind the first one a letter is: plain, another one, narrow, 7 bits.
+  EXPECT_EQ(encodedBits(word("saucers").sequence) - encodedBits(word("saucer").sequence), 10u);
+  EXPECT_EQ(encodedBits(word("xxxx").sequence) - encodedBits(word("xxx").sequence), 2u);
   BitWriter one;
-  writeLook(one, {{{{0, 0, U'@', df::CYAN}}}, 2}, {});
+  writeLook(one, {{{{0, 0, U'@', df::CYAN}}}, 2}, {}, 0);
   EXPECT_EQ(one.bitCount(), 14u);
 }
 
@@ -109,10 +109,13 @@ TEST(LookCodec, EncodedBitsAreWhatASpelledLookTakes) {
   RandomRecords random(2);
   for (int i = 0; i < 500; ++i) {
     const Look look = random.look();
-    if (look.sequence.empty() || isSingleCharacter(look.sequence[0])) continue;
+    if (look.sequence.empty() || isSingleCharacter(look.sequence)) continue;
+    BitWriter selector;
+    writeSelector(selector, look.selector, 0, look.sequence.size());
     BitWriter out;
-    writeLook(out, look, {});
-    ASSERT_EQ(out.bitCount(), encodedBits(look.sequence[0]) + (look.altitude == 2 ? 1u : 9u) + 2 + 1);
+    writeLook(out, look, {}, 0);
+    ASSERT_EQ(out.bitCount(),
+              encodedBits(look.sequence) + selector.bitCount() + (look.altitude == 2 ? 1u : 9u) + 2 + 1);
   }
 }
 
@@ -150,7 +153,7 @@ TEST(LookCodec, GlyphsThatWalkTooFarAreRefused) {
   const auto start = static_cast<std::int32_t>(kMaxGlyphOffset) - 256;
   Look look{{{{start, 0, U'a', df::RED}, {start + 256, 0, U'b', df::RED}}}, 2};
   EXPECT_TRUE(read(write(look)).whole);
-  look.sequence[0].push_back({start + 512, 0, U'c', df::RED});
+  look.sequence = {{look.sequence[0][0], look.sequence[0][1], {start + 512, 0, U'c', df::RED}}};
   EXPECT_FALSE(read(write(look)).whole);
 }
 
@@ -160,6 +163,8 @@ TEST(LookCodec, TheLargestAppearanceFitsAndALargerOneIsRefused) {
   BitWriter out;
   out.flag(true);
   out.bits(2, 2);
+  out.flag(false);
+  out.flag(true);
   out.flag(false);
   out.golomb(kMaxGlyphs + 1, 3);
   for (int i = 0; i < 200'000; ++i) out.flag(false);
@@ -171,10 +176,143 @@ TEST(LookCodec, ACountThatIsOnlyClaimedCostsNothing) {
   out.flag(true);
   out.bits(2, 2);
   out.flag(false);
+  out.flag(true);
+  out.flag(false);
   out.golomb(kMaxGlyphs, 3);
   const Met met = read(out.bytes());
   EXPECT_FALSE(met.whole);
-  EXPECT_LE(met.look.sequence.at(0).capacity(), 8u);
+  EXPECT_LE(met.look.sequence[0].capacity(), 8u);
+}
+
+// Limits are of the sequence, not of each appearance.
+TEST(LookCodec, FramesShareTheLimitOfGlyphs) {
+  const Appearance half(kMaxGlyphs / 2, Glyph{0, 0, U'#', df::RED});
+  const auto bytes = [](const Appearance& a, const Appearance& b) {
+    BitWriter out;
+    out.flag(true);
+    out.bits(2, 2);
+    out.flag(false);
+    out.flag(false);
+    out.golomb(0, 3);
+    out.bits(0b001, 3);
+    for (const Appearance& appearance : {a, b}) {
+      out.golomb(appearance.size(), 3);
+      for (std::size_t i = 0; i < appearance.size(); ++i) {
+        const bool plain = i > 0;
+        out.flag(plain);
+        if (!plain) out.bits(0b10, 2);
+        out.flag(true);
+        if (!plain) writeColor(out, df::RED);
+      }
+    }
+    out.flag(true);
+    return out.bytes();
+  };
+  EXPECT_TRUE(read(bytes(half, half)).whole);
+  Appearance more = half;
+  more.push_back(more.back());
+  EXPECT_FALSE(read(bytes(half, more)).whole);
+}
+
+TEST(LookCodec, TheLongestSequenceFitsAndALongerOneIsRefused) {
+  const auto isRead = [](std::size_t count) {
+    BitWriter out;
+    out.flag(true);
+    out.bits(2, 2);
+    out.flag(false);
+    out.flag(false);
+    out.golomb(count - 2, 3);
+    out.bits(0b001, 3);
+    for (std::size_t i = 0; i < count; ++i) out.golomb(0, 3);
+    out.flag(true);
+    return read(out.bytes()).whole;
+  };
+  EXPECT_TRUE(isRead(2));
+  EXPECT_TRUE(isRead(kMaxFrames));
+  EXPECT_FALSE(isRead(kMaxFrames + 1));
+}
+
+TEST(LookCodec, SelectorsSurviveTheRoundTripAtAnyTick) {
+  RandomRecords random(7);
+  for (int i = 0; i < 20'000; ++i) {
+    const std::size_t frames = 2 + random.rng().below(kMaxFrames - 1);
+    const auto tick = static_cast<std::uint32_t>(random.rng().next());
+    const Selector selector = random.selector(frames).rebased(tick, frames);
+    BitWriter out;
+    writeSelector(out, selector, tick, frames);
+    const std::string bytes = out.bytes();
+    BitReader in(bytes);
+    ASSERT_EQ(readSelector(in, tick), selector);
+    ASSERT_TRUE(in.atEnd());
+  }
+}
+
+TEST(LookCodec, SelectorsBeyondTheirRangeAreRefused) {
+  const auto isRead = [](auto write) {
+    BitWriter out;
+    out.flag(false);
+    write(out);
+    const std::string bytes = out.bytes();
+    BitReader in(bytes);
+    readSelector(in, 5);
+    return in.ok() && in.atEnd();
+  };
+  const auto clock = [&](std::uint64_t ticks, std::uint64_t age) {
+    return isRead([=](BitWriter& out) {
+      out.bits(1, 2);
+      out.golomb(ticks, 3);
+      out.golomb(age, 6);
+    });
+  };
+  EXPECT_TRUE(clock(kMaxTicksPerFrame - 1, kMaxFrames * kMaxTicksPerFrame - 1));
+  EXPECT_FALSE(clock(kMaxTicksPerFrame, 0));
+  EXPECT_FALSE(clock(0, kMaxFrames * kMaxTicksPerFrame));
+  const auto spin = [&](std::uint64_t width) {
+    return isRead([=](BitWriter& out) {
+      out.bits(3, 2);
+      out.bits(0, 3);
+      out.bits(5, 4);
+      out.bits(width, 6);
+      out.bits(0, static_cast<int>(width));
+    });
+  };
+  EXPECT_TRUE(spin(0));
+  EXPECT_TRUE(spin(32));
+  EXPECT_FALSE(spin(33));
+  EXPECT_FALSE(spin(63));
+}
+
+// A clock has one age at a tick: another that shows the same would read as another look.
+TEST(LookCodec, ClocksOlderThanTheirRoundAreRefused) {
+  const Appearance a{{256, 0, U'a', df::RED}};
+  const Sequence three{a, {}, a};
+  const auto isRead = [&](Selector::Kind kind, std::uint64_t age, bool named) {
+    BitWriter out;
+    out.flag(true);
+    out.bits(named ? 3 : 2, 2);
+    if (named) out.bits(7, 12);
+    if (!named) out.flag(false);
+    if (!named) writeSequence(out, three);
+    out.flag(false);
+    out.bits(kind, 2);
+    out.golomb(5 - 1, 3);
+    out.golomb(age, 6);
+    return read(out.bytes(), &three).whole;
+  };
+  for (const bool named : {false, true}) {
+    EXPECT_TRUE(isRead(Selector::kClock, 14, named));
+    EXPECT_FALSE(isRead(Selector::kClock, 15, named));
+    EXPECT_TRUE(isRead(Selector::kClockOnce, 10, named));
+    EXPECT_FALSE(isRead(Selector::kClockOnce, 11, named));
+  }
+}
+
+// What has to be told when a body's turning changes: a name, an angle to a frame's fraction, and the spin.
+TEST(LookCodec, AnotherTurningOfANamedSequenceIsShort) {
+  const Appearance a{{256, 0, U'a', df::RED}};
+  BitWriter out;
+  writeLook(out, {{a, {}, a, {}}, 2, Selector::turning(0, 0xABC00000, 20'000'000)}, {LookForm::kNamed, 7}, 0);
+  EXPECT_EQ(out.bitCount(), 1u + 2 + 12 + 1 + 2 + 3 + 12 + 6 + 26);
 }
 
 TEST(LookCodec, BodiesSurviveTheRoundTrip) {
@@ -220,8 +358,8 @@ TEST(LookCodec, HostileBytesAreRefusedOrLegal) {
     for (char& byte : bytes) byte = static_cast<char>(random.rng().next() & (i % 2 == 0 ? 0xFF : 0x77));
     BitReader in(bytes);
     const Look look = readLook(
-        in, [](std::uint32_t, const Appearance&) {}, [](std::uint32_t) { return nullptr; });
-    ASSERT_TRUE(!in.ok() || test::isLegal(look));
+        in, 0, [](std::uint32_t, const Sequence&) {}, [](std::uint32_t) { return nullptr; });
+    ASSERT_TRUE(!in.ok() || test::isLegal(look, 0));
     BitReader again(bytes);
     const Body body = readBody(again);
     ASSERT_TRUE(!again.ok() || test::isLegal(body));

@@ -44,7 +44,7 @@ TEST(Look, FarAwayGlyphsWrapWithoutTrapping) {
 TEST(Look, SelectsItsOnlyAppearanceAtEveryTick) {
   Look look;
   EXPECT_EQ(look.select(0), nullptr);
-  look.sequence.push_back({{0, 0, U'@', df::CYAN}});
+  look.sequence = {{{0, 0, U'@', df::CYAN}}};
   for (const std::uint32_t tick : {0u, 7u, 0xFFFFFFFFu}) EXPECT_EQ(look.select(tick), &look.sequence[0]);
 }
 

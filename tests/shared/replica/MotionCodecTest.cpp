@@ -28,6 +28,10 @@ void expectExact(const Motion& motion, const Origin& origin) {
   const Motion read = readMotion(in, motion.tick, origin);
   ASSERT_TRUE(in.atEnd());
   ASSERT_EQ(read, motion);
+  BitWriter shared;
+  writeMotion(shared, shareMotion(motion), origin);
+  ASSERT_EQ(shared.bitCount(), out.bitCount());
+  ASSERT_EQ(shared.bytes(), bytes);
 }
 
 /// Bits behind the point that are really there.
@@ -94,6 +98,12 @@ TEST(MotionCodec, NumbersBeyondTheirRangeAreRefused) {
   EXPECT_FALSE(isRead({0, {0, -kMaxWirePosition - 1}, {}, {}}));
   EXPECT_FALSE(isRead({0, {}, {kMaxWireVelocity + 1, 0}, {}}));
   EXPECT_FALSE(isRead({0, {}, {1, 0}, {0, -kMaxWireVelocity - 1}}));
+}
+
+TEST(MotionCodec, WhatIsShortIsKeptForAllClients) {
+  EXPECT_EQ(shareMotion({1, at(3, 4), {}, {}}).count, 2 + 4);  // kind, and no fraction
+  EXPECT_GT(shareMotion({1, at(3.5, 4.25), at(0.25, 0), {}}).count, 0);
+  EXPECT_EQ(shareMotion({1, at(1.0 / 3, 1.0 / 3), at(1.0 / 3, 0), {}}).count, 0) << "too long";
 }
 
 TEST(MotionCodec, WhatLiesInTheWindowOnAWholeCellIsShort) {

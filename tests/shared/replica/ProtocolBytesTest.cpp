@@ -59,12 +59,14 @@ std::string exampleSnapshot() {
   ObjectState saucer;
   saucer.order = 7;
   saucer.motion = {100, at(10, 12), at(-0.5, 0), {}};
-  saucer.look = {{{{0, 0, U'@', df::CYAN}, {256, 0, U'>', df::CYAN}}}, 2};
+  const Glyph head{0, 0, U'@', df::CYAN};
+  saucer.look = {{{head, {256, 0, U'>', df::CYAN}}, {head}}, 2, Selector::clock(96, 3)};
   object(5, kAllGroups, saucer, {LookForm::kDefined, 9});
   ObjectState turned;
   turned.motion = {100, at(123.25, 4.75), {}, {}};
   object(6, kMotion, turned, {});
   saucer.look.altitude = 4;
+  saucer.look.selector = Selector::turning(0, 1u << 29, 1 << 20);
   object(8, kLook, saucer, {LookForm::kNamed, 9});
   object(9, kDeath, {}, {});
   return out.finish();
@@ -159,12 +161,13 @@ TEST(ProtocolBytes, UpdateThatMissesLittleIsAsTheDocumentSays) {
 
 // The same bytes once more, so that a change of document and code together is noticed as a change of
 // protocol.
-TEST(ProtocolBytes, Version2StaysAsItIs) {
-  EXPECT_EQ(kProtocolVersion, 2u);
+TEST(ProtocolBytes, Version3StaysAsItIs) {
+  EXPECT_EQ(kProtocolVersion, 3u);
   EXPECT_EQ(hex(exampleSnapshot()),
             "03 00 64 00 2c 00 10 f4 0a 01 00 00 00 00 0a 00 00 00 00 00 00 00 03 00 "
             "00 00 0a 86 70 91 e2 ff ff ff f6 ff ff ff 68 07 00 00 00 00 00 50 08 2a "
-            "20 a5 65 78 35 20 85 05 51 9d 00 25 a0 e1 8b 50 a1 0a 20 bd 08 4e 80 06");
+            "20 a5 65 78 35 20 85 05 51 9d 00 22 45 80 8e 6f 08 d0 aa 44 84 0a 55 00 "
+            "e9 45 70 02 18 62 01 00 40 0d");
   EXPECT_EQ(hex(writeUpdate(exampleUpdate())),
             "07 00 0a 00 00 00 00 00 00 00 e0 01 80 32 80 00 48 44 62 50 00");
 }
@@ -177,7 +180,11 @@ TEST(ProtocolBytes, TheExamplesAreReadAsTheyWereMeant) {
   ASSERT_EQ(readSnapshot(exampleSnapshot(), {2, 99, 1}, vocabulary, snapshot), ReadResult::kOk);
   ASSERT_EQ(snapshot.records.objects.size(), 4u);
   EXPECT_EQ(snapshot.records.objects[1].state.motion.position, at(123.25, 4.75));
-  EXPECT_EQ(snapshot.records.objects[2].state.look.sequence, snapshot.records.objects[0].state.look.sequence);
+  const Look& animated = snapshot.records.objects[0].state.look;
+  const Look& turning = snapshot.records.objects[2].state.look;
+  EXPECT_TRUE(turning.sequence.isSharedWith(animated.sequence));
+  EXPECT_EQ(animated.selector, Selector::clock(96, 3));
+  EXPECT_EQ(turning.selector, Selector::turning(0, 1u << 29, 1 << 20));
   const auto update = readUpdate(writeUpdate(exampleUpdate()), {3, 100, 2});
   ASSERT_TRUE(update);
   EXPECT_EQ(update->inputs, exampleUpdate().inputs);
@@ -217,7 +224,8 @@ TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
       {"kOriginSlots", kOriginSlots},
       {"kMaxAppearances", kMaxAppearances},
       {"kMaxVocabularyGlyphs", kMaxVocabularyGlyphs},
-      {"kMaxSnapshotGlyphs", kMaxSnapshotGlyphs},
+      {"kMaxFrames", kMaxFrames},
+      {"kMaxTicksPerFrame", kMaxTicksPerFrame},
       {"kMaxReplicaObjects", kMaxReplicaObjects},
       {"kMaxReplicaGlyphs", kMaxReplicaGlyphs},
   };

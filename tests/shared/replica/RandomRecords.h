@@ -50,23 +50,56 @@ class RandomRecords {
   Look look() {
     Look look{{}, static_cast<std::int32_t>(m_rng.below(256))};
     if (chance(0.2)) return look;
-    Appearance& glyphs = look.sequence.emplace_back();
-    const auto count = m_rng.below(chance(0.1) ? 300 : 12);
+    std::vector<Appearance> frames(chance(0.6) ? 1 : 1 + m_rng.below(chance(0.05) ? kMaxFrames : 8));
+    const bool whole = chance(0.5);
+    const auto half_x = static_cast<std::int32_t>(128 * m_rng.below(2));
+    const auto half_y = static_cast<std::int32_t>(128 * m_rng.below(2));
+    for (Appearance& glyphs : frames) {
+      glyphs = appearance(whole, frames.size() < 9 ? 300 : 12);
+      for (Glyph& glyph : glyphs) {
+        if (whole && glyph.dx < kMaxGlyphOffset && glyph.dy < kMaxGlyphOffset)
+          glyph = {glyph.dx + half_x, glyph.dy + half_y, glyph.ch, glyph.color};
+      }
+    }
+    look.sequence = Sequence(std::move(frames));
+    look.selector = selector(look.sequence.size());
+    return look;
+  }
+  /// For so many frames, as it is told in tick 0.
+  Selector selector(std::size_t frames) {
+    const std::size_t first = m_rng.below(frames);
+    if (frames == 1 || chance(0.3)) return Selector::fixed(first);
+    if (chance(0.5)) {
+      const auto angle = static_cast<std::uint32_t>(m_rng.next() << m_rng.below(33));
+      const auto spin = static_cast<std::int32_t>(within(INT32_MAX) >> m_rng.below(33));
+      return Selector::turning(0, angle, chance(0.05) ? INT32_MIN : spin);
+    }
+    const auto ticks = static_cast<std::uint32_t>(1 + m_rng.below(chance(0.1) ? kMaxTicksPerFrame : 30));
+    const bool loop = chance(0.5);
+    Selector clock = Selector::clock(0, ticks, loop, first);
+    clock.start -= static_cast<std::uint32_t>(m_rng.below(ticks));
+    return clock.rebased(0, frames);
+  }
+  Appearance appearance(bool whole, std::uint64_t most) {
+    Appearance glyphs;
+    const auto count = m_rng.below(chance(0.1) ? most : 12);
     for (std::uint64_t i = 0; i < count; ++i) {
       const bool next = i > 0 && chance(0.7);
+      const std::int64_t mask = whole ? ~std::int64_t{255} : ~std::int64_t{0};
       const auto dx =
-          next ? glyphs.back().dx + 256 : within(chance(0.2) ? kMaxGlyphOffset - 256 * 300 : 2000);
-      const auto dy = next ? glyphs.back().dy : within(chance(0.2) ? kMaxGlyphOffset : 2000);
-      glyphs.push_back({static_cast<std::int32_t>(dx), static_cast<std::int32_t>(dy), character(),
+          next ? glyphs.back().dx + 256 : within(chance(0.2) ? kMaxGlyphOffset - 256 * 300 : 2000) & mask;
+      const auto dy = next ? glyphs.back().dy : within(chance(0.2) ? kMaxGlyphOffset : 2000) & mask;
+      glyphs.push_back({static_cast<std::int32_t>(dx), static_cast<std::int32_t>(dy),
+                        next && chance(0.3) ? glyphs.back().ch : character(),
                         next && chance(0.8) ? glyphs.back().color : color()});
     }
-    return look;
+    return glyphs;
   }
   Body body() {
     return {{vector(1'000'000), size(1'000'000)}, static_cast<df::Solidness>(m_rng.below(3)), chance(0.5)};
   }
   ObjectState state(std::uint32_t tick) {
-    return {chance(0.2) ? m_rng.next() >> 16 : m_rng.below(5000), motion(tick), look(), body()};
+    return {chance(0.2) ? m_rng.next() >> 16 : m_rng.below(5000), motion(tick), rebase(look(), tick), body()};
   }
   /// Only the groups that are named carry something.
   ObjectRecord object(std::uint32_t tick) {

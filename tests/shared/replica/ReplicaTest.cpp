@@ -158,7 +158,7 @@ TEST(Replica, KeepsNamesForTheSnapshotsToCome) {
   Replica replica;
   const ObjectState state = character(1, 1, U'x');
   ObjectState word = state;
-  word.look.sequence[0].push_back({256, 0, U'y', df::CYAN});
+  word.look.sequence = {{word.look.sequence[0][0], {256, 0, U'y', df::CYAN}}};
   const auto snapshot = [&](std::uint32_t number, std::uint32_t slot, const Origin& origin, LookForm form,
                             bool sets_origin) {
     SnapshotWriter out;
@@ -235,10 +235,13 @@ TEST(Replica, IsBoundedWhateverItIsSent) {
 TEST(Replica, LooksAreBoundedInAll) {
   Replica replica;
   ObjectState huge = character(1, 1, U'x');
-  huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})};
+  const auto anew = [&huge] { huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})}; };
   const std::uint32_t fits = kMaxReplicaGlyphs / 8192;
   std::uint32_t number = 0;
-  for (std::uint32_t id = 0; id < fits + 10; ++id) apply(replica, ++number, 0, birth(id, 1, huge));
+  for (std::uint32_t id = 0; id < fits + 10; ++id) {
+    anew();  // equal, but not shared
+    apply(replica, ++number, 0, birth(id, 1, huge));
+  }
   EXPECT_EQ(replica.overflowCount(), 10u);
   EXPECT_EQ(replica.find(fits - 1)->state.look, huge.look);
   EXPECT_TRUE(replica.find(fits)->state.look.sequence.empty());
@@ -248,9 +251,30 @@ TEST(Replica, LooksAreBoundedInAll) {
   Records look;
   look.objects.push_back({2, 0, kLook, character(1, 1, U'x')});
   apply(replica, ++number, 0, look);
-  for (std::uint32_t id = fits; id < fits + 3; ++id) apply(replica, ++number, 0, birth(id, 2, huge));
+  for (std::uint32_t id = fits; id < fits + 3; ++id) {
+    anew();
+    apply(replica, ++number, 0, birth(id, 2, huge));
+  }
   EXPECT_EQ(replica.overflowCount(), 11u) << "three large looks went, two small ones came";
   EXPECT_EQ(replica.find(fits + 1)->state.look, huge.look);
+}
+
+TEST(Replica, WhatManyLooksShareCountsOnce) {
+  Replica replica;
+  ObjectState huge = character(1, 1, U'x');
+  huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})};
+  const std::uint32_t many = 2 * kMaxReplicaGlyphs / 8192;
+  std::uint32_t number = 0;
+  for (std::uint32_t id = 0; id < many; ++id) apply(replica, ++number, 0, birth(id, 1, huge));
+  EXPECT_EQ(replica.overflowCount(), 0u);
+  for (std::uint32_t id = 0; id < many; ++id) apply(replica, ++number, 0, death(id));
+  // All is given back, no more and no less.
+  const std::uint32_t fits = kMaxReplicaGlyphs / 8192;
+  for (std::uint32_t id = 0; id < fits + 1; ++id) {
+    huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})};
+    apply(replica, ++number, 0, birth(id, 2, huge));
+    EXPECT_EQ(replica.overflowCount(), id < fits ? 0u : 1u);
+  }
 }
 
 // A server's history as the rules allow it: births are complete, partial records name only objects whose

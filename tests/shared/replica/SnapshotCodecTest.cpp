@@ -42,7 +42,7 @@ void expectSame(const Records& a, const Records& b) {
   ASSERT_EQ(a.views, b.views);
   ASSERT_EQ(a.origins, b.origins);
   ASSERT_EQ(a.texts, b.texts);
-  ASSERT_EQ(a.appearances, b.appearances);
+  ASSERT_EQ(a.sequences, b.sequences);
   ASSERT_EQ(a.objects.size(), b.objects.size());
   for (std::size_t i = 0; i < a.objects.size(); ++i) {
     ASSERT_EQ(a.objects[i].id, b.objects[i].id);
@@ -168,7 +168,7 @@ TEST(SnapshotCodec, RandomBytesAreRefusedOrLegal) {
   RandomRecords random(15);
   Vocabulary vocabulary;
   vocabulary.define(1, OriginRecord{1, random.origin()});
-  vocabulary.define(1, AppearanceRecord{0, Appearance(3, Glyph{0, 0, U'x', df::RED})});
+  vocabulary.define(1, SequenceRecord{0, {Appearance(3, Glyph{0, 0, U'x', df::RED})}});
   int accepted = 0;
   for (int i = 0; i < 100'000; ++i) {
     std::string bytes(random.rng().below(60), '\0');
@@ -201,10 +201,10 @@ TEST(SnapshotCodec, CharactersThatDisturbATerminalAreRefused) {
   for (const char32_t ch : {U'\x1b', U'\n', U'\u202e', U'\u200b', U'\x7f'}) {
     Records glyph;
     glyph.objects.push_back({1, 0, kLook, {}});
-    glyph.objects[0].state.look.sequence.push_back({{0, 0, ch, df::RED}});
+    glyph.objects[0].state.look.sequence = {{{0, 0, ch, df::RED}}};
     Snapshot out;
     EXPECT_EQ(read(writeSnapshot(header(1, 1), glyph), {}, out), ReadResult::kMalformed);
-    glyph.objects[0].state.look.sequence[0].push_back({0, 0, U'a', df::RED});
+    glyph.objects[0].state.look.sequence = {{{0, 0, ch, df::RED}, {0, 0, U'a', df::RED}}};
     EXPECT_EQ(read(writeSnapshot(header(1, 1), glyph), {}, out), ReadResult::kMalformed);
     Records text;
     text.texts.push_back({0, 0, 0, df::RED, "a"});

@@ -13,9 +13,10 @@ constexpr LookForm::Kind kDefined = LookForm::kDefined;
 
 ObjectState drawnAs(const char* text) {
   ObjectState state;
-  Appearance& glyphs = state.look.sequence.emplace_back();
+  Appearance glyphs;
   for (int x = 0; *text != '\0'; ++text, x += 256)
     glyphs.push_back({x, 0, static_cast<char32_t>(*text), df::GREEN});
+  state.look.sequence = {glyphs};
   return state;
 }
 
@@ -36,7 +37,7 @@ class SnapshotNames : public testing::Test {
   ReadResult read() { return readSnapshot(writer.finish(), {m_header.number, 100, 0}, vocabulary, snapshot); }
   const Look& lookOf(std::size_t object) const { return snapshot.records.objects.at(object).state.look; }
   void know(std::uint32_t number, std::uint32_t id, const char* text) {
-    vocabulary.define(number, AppearanceRecord{id, drawnAs(text).look.sequence[0]});
+    vocabulary.define(number, SequenceRecord{id, drawnAs(text).look.sequence});
   }
 
   SnapshotWriter writer;
@@ -52,15 +53,14 @@ TEST_F(SnapshotNames, AKnownNameStandsForItsAppearance) {
   look(3, "saucer", {kNamed, 7});
   ASSERT_EQ(read(), ReadResult::kOk);
   EXPECT_EQ(lookOf(0), drawnAs("saucer").look);
-  EXPECT_TRUE(snapshot.records.appearances.empty());
+  EXPECT_TRUE(snapshot.records.sequences.empty());
 }
 
 TEST_F(SnapshotNames, ADefinitionIsReported) {
   look(3, "saucer", {kDefined, 7});
   ASSERT_EQ(read(), ReadResult::kOk);
   EXPECT_EQ(lookOf(0), drawnAs("saucer").look);
-  EXPECT_EQ(snapshot.records.appearances,
-            (std::vector<AppearanceRecord>{{7, drawnAs("saucer").look.sequence[0]}}));
+  EXPECT_EQ(snapshot.records.sequences, (std::vector<SequenceRecord>{{7, drawnAs("saucer").look.sequence}}));
 }
 
 TEST_F(SnapshotNames, ANameMayBeDefinedBehindItsUse) {
@@ -127,14 +127,45 @@ TEST_F(SnapshotNames, OriginsAreKnownStaleOrUnknown) {
   EXPECT_EQ(readAfter(0), ReadResult::kMalformed);
 }
 
-// Few bytes name much: what a snapshot unfolds to is bounded.
-TEST_F(SnapshotNames, ASnapshotDoesNotUnfoldWithoutBounds) {
-  vocabulary.define(49, AppearanceRecord{7, Appearance(kMaxGlyphs, Glyph{0, 0, U'#', df::RED})});
-  const std::size_t most = kMaxSnapshotGlyphs / kMaxGlyphs;
-  for (std::uint32_t id = 0; id < most; ++id) look(id, "saucer", {kNamed, 7});
-  EXPECT_EQ(read(), ReadResult::kOk);
-  look(static_cast<std::uint32_t>(most), "saucer", {kNamed, 7});
-  EXPECT_EQ(read(), ReadResult::kMalformed);
+// Few bytes name much: it is not unfolded.
+TEST_F(SnapshotNames, LooksOfOneNameShareTheirSequence) {
+  vocabulary.define(49, SequenceRecord{7, {Appearance(kMaxGlyphs, Glyph{0, 0, U'#', df::RED})}});
+  for (std::uint32_t id = 0; id < 1000; ++id) look(id, "saucer", {kNamed, 7});
+  look(1000, "new", {kDefined, 8});
+  look(1001, "new", {kNamed, 8});
+  ASSERT_EQ(read(), ReadResult::kOk);
+  for (std::size_t i = 1; i < 1000; ++i) ASSERT_TRUE(lookOf(i).sequence.isSharedWith(lookOf(0).sequence));
+  EXPECT_TRUE(lookOf(1000).sequence.isSharedWith(lookOf(1001).sequence));
+}
+
+TEST_F(SnapshotNames, ASelectorMustFitWhatItsNameStandsFor) {
+  const auto isRead = [this](const Selector& selector, std::uint32_t name, bool defined_here) {
+    start(50);
+    const Appearance a{{256, 0, U'a', df::RED}};
+    ObjectState state;
+    state.look = {Sequence{a, a, a}, 2, selector};
+    BitWriter bits;
+    writer.encode(bits, kLook, 0, state, {}, {kNamed, name});
+    writer.object(3, bits);
+    state.look = {name == 7 ? Sequence{a, a} : Sequence{a, a, a}, 2};
+    BitWriter more;
+    writer.encode(more, kLook, 0, state, {}, {defined_here ? kDefined : kNamed, name});
+    writer.object(4, more);
+    return read();
+  };
+  const Appearance a{{256, 0, U'a', df::RED}};
+  vocabulary.define(49, SequenceRecord{7, {a, a}});
+  vocabulary.define(49, SequenceRecord{8, {a, a, a}});
+  vocabulary.define(49, SequenceRecord{9, {a}});
+  for (const bool here : {false, true}) {
+    EXPECT_EQ(isRead(Selector::fixed(1), 7, here), ReadResult::kOk);
+    EXPECT_EQ(isRead(Selector::fixed(2), 7, here), ReadResult::kMalformed);
+    EXPECT_EQ(isRead(Selector::fixed(2), 8, here), ReadResult::kOk);
+    EXPECT_EQ(isRead(Selector::clock(100, 3), 7, here), ReadResult::kOk);
+    EXPECT_EQ(isRead(Selector::turning(100, 3, 9), 7, here), ReadResult::kOk);
+  }
+  EXPECT_EQ(isRead(Selector::clock(100, 3), 9, false), ReadResult::kMalformed) << "one frame never changes";
+  EXPECT_EQ(isRead(Selector::turning(100, 3, 9), 9, false), ReadResult::kMalformed);
 }
 
 TEST_F(SnapshotNames, RandomDefinitionsAndUsesUnfoldAsTheyWere) {
@@ -143,10 +174,12 @@ TEST_F(SnapshotNames, RandomDefinitionsAndUsesUnfoldAsTheyWere) {
     start(50 + round);
     std::vector<ObjectState> states(4);
     for (ObjectState& state : states) {
-      state.look = drawnAs("two").look;
+      Appearance glyphs = drawnAs("two").look.sequence[0];
       for (auto n = random.rng().below(20); n > 0; --n)
-        state.look.sequence[0].push_back(
-            {0, static_cast<std::int32_t>(n), random.character(), random.color()});
+        glyphs.push_back({0, static_cast<std::int32_t>(n), random.character(), random.color()});
+      state.look.sequence = random.chance(0.5) ? Sequence{glyphs} : Sequence{glyphs, glyphs, {}};
+      state.look.selector = random.selector(state.look.sequence.size());
+      state.look = rebase(state.look, 100);
     }
     std::vector<std::size_t> used;
     std::vector<bool> defined(states.size(), false);
@@ -162,7 +195,7 @@ TEST_F(SnapshotNames, RandomDefinitionsAndUsesUnfoldAsTheyWere) {
     }
     ASSERT_EQ(read(), ReadResult::kOk);
     for (std::size_t i = 0; i < used.size(); ++i) ASSERT_EQ(lookOf(i), states[used[i]].look);
-    for (const AppearanceRecord& record : snapshot.records.appearances)
+    for (const SequenceRecord& record : snapshot.records.sequences)
       ASSERT_TRUE(vocabulary.define(50 + round, record));
   }
 }

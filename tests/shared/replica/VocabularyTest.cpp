@@ -7,8 +7,8 @@ namespace {
 
 using Find = Vocabulary::Find;
 
-Appearance word(std::size_t glyphs, char32_t ch) {
-  return Appearance(glyphs, Glyph{0, 0, ch, df::RED});
+Sequence word(std::size_t glyphs, char32_t ch) {
+  return {Appearance(glyphs, Glyph{0, 0, ch, df::RED})};
 }
 
 Find find(const Vocabulary& vocabulary, std::uint32_t number, std::uint32_t slot) {
@@ -44,25 +44,25 @@ TEST(Vocabulary, TheNewestDefinitionHoldsWhateverTheOrder) {
     const std::uint32_t after = 3;  // the numbers wrap in between
     for (const std::uint32_t number : {in_order ? before : after, in_order ? after : before}) {
       vocabulary.define(number, OriginRecord{1, {{static_cast<std::int32_t>(number), 0}, 1, 1, 1}});
-      EXPECT_TRUE(vocabulary.define(number, AppearanceRecord{5, word(number == after ? 2 : 9, U'x')}));
+      EXPECT_TRUE(vocabulary.define(number, SequenceRecord{5, word(number == after ? 2 : 9, U'x')}));
     }
     Origin origin;
     EXPECT_EQ(vocabulary.find(4, 1, origin), Find::kFound);
     EXPECT_EQ(origin.corner.x, 3);
-    const Appearance* appearance = nullptr;
-    EXPECT_EQ(vocabulary.find(4, 5, appearance), Find::kFound);
-    EXPECT_EQ(*appearance, word(2, U'x'));
-    EXPECT_EQ(vocabulary.find(1, 5, appearance), Find::kStale);
+    const Sequence* sequence = nullptr;
+    EXPECT_EQ(vocabulary.find(4, 5, sequence), Find::kFound);
+    EXPECT_EQ(*sequence, word(2, U'x'));
+    EXPECT_EQ(vocabulary.find(1, 5, sequence), Find::kStale);
   }
 }
 
-TEST(Vocabulary, AnAppearanceThatNobodyDefinedIsUnknown) {
+TEST(Vocabulary, ASequenceThatNobodyDefinedIsUnknown) {
   Vocabulary vocabulary;
-  const Appearance* appearance = nullptr;
-  EXPECT_EQ(vocabulary.find(1, 0, appearance), Find::kUnknown);
-  EXPECT_TRUE(vocabulary.define(1, AppearanceRecord{7, word(3, U'a')}));
-  EXPECT_EQ(vocabulary.find(2, 6, appearance), Find::kUnknown);
-  EXPECT_EQ(vocabulary.find(2, 7, appearance), Find::kFound);
+  const Sequence* sequence = nullptr;
+  EXPECT_EQ(vocabulary.find(1, 0, sequence), Find::kUnknown);
+  EXPECT_TRUE(vocabulary.define(1, SequenceRecord{7, word(3, U'a')}));
+  EXPECT_EQ(vocabulary.find(2, 6, sequence), Find::kUnknown);
+  EXPECT_EQ(vocabulary.find(2, 7, sequence), Find::kFound);
 }
 
 TEST(Vocabulary, GlyphsAreBoundedInAllAndGivenBack) {
@@ -70,14 +70,13 @@ TEST(Vocabulary, GlyphsAreBoundedInAllAndGivenBack) {
   const std::size_t large = kMaxVocabularyGlyphs / 8;
   std::uint32_t number = 0;
   for (std::uint32_t id = 0; id < 8; ++id)
-    EXPECT_TRUE(vocabulary.define(++number, AppearanceRecord{id, word(large, U'a')}));
-  EXPECT_FALSE(vocabulary.define(++number, AppearanceRecord{8, word(1, U'b')}));
-  const Appearance* appearance = nullptr;
-  EXPECT_EQ(vocabulary.find(++number, 8, appearance), Find::kUnknown);
-  EXPECT_TRUE(vocabulary.define(++number, AppearanceRecord{3, word(large - 1, U'c')}))
-      << "instead of another";
-  EXPECT_TRUE(vocabulary.define(++number, AppearanceRecord{8, word(1, U'b')}));
-  EXPECT_FALSE(vocabulary.define(++number, AppearanceRecord{9, word(1, U'b')}));
+    EXPECT_TRUE(vocabulary.define(++number, SequenceRecord{id, word(large, U'a')}));
+  EXPECT_FALSE(vocabulary.define(++number, SequenceRecord{8, word(1, U'b')}));
+  const Sequence* sequence = nullptr;
+  EXPECT_EQ(vocabulary.find(++number, 8, sequence), Find::kUnknown);
+  EXPECT_TRUE(vocabulary.define(++number, SequenceRecord{3, word(large - 1, U'c')})) << "instead of another";
+  EXPECT_TRUE(vocabulary.define(++number, SequenceRecord{8, word(1, U'b')}));
+  EXPECT_FALSE(vocabulary.define(++number, SequenceRecord{9, word(1, U'b')}));
 }
 
 }  // namespace

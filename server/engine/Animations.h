@@ -1,0 +1,28 @@
+// The Objects of a world whose animations go on.
+#pragma once
+
+#include <vector>
+
+namespace df {
+
+class Object;
+
+class Animations {
+ public:
+  Animations() = default;
+  Animations(const Animations&) = delete;
+  Animations& operator=(const Animations&) = delete;
+  /// Objects may outlive their world.
+  ~Animations();
+
+  /// From now on this Object's animation goes on, if it was not to already.
+  void add(Object& object);
+  void remove(Object& object);
+  /// One tick has passed.
+  void advance();
+
+ private:
+  std::vector<Object*> m_objects;  // each knows its place (ObjectExtras::animated)
+};
+
+}  // namespace df

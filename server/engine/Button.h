@@ -1,0 +1,31 @@
+// A text on the view to click at: it lights up under the mouse, and a click calls callback().
+#pragma once
+
+#include "EventMouse.h"
+#include "ViewObject.h"
+
+namespace df {
+
+class Button : public ViewObject {
+ public:
+  /// Without value, in the default colour, red under the mouse; interested in MSE_EVENT.
+  Button();
+
+  /// It was clicked.
+  virtual void callback() = 0;
+
+  void setHighlightColor(Color new_highlight_color) { m_highlight_color = new_highlight_color; }
+  Color getHighlightColor() const { return m_highlight_color; }
+  void setDefaultColor(Color new_default_color);
+  Color getDefaultColor() const { return m_default_color; }
+  /// Is the mouse on it, border included?
+  bool mouseOverButton(const EventMouse* p_e) const;
+
+  int eventHandler(const Event* p_e) override;
+
+ private:
+  Color m_highlight_color = RED;
+  Color m_default_color = COLOR_DEFAULT;
+};
+
+}  // namespace df

@@ -1,0 +1,29 @@
+// A circle, in world coordinates: a place to look for Objects in (WM.objectsInCircle).
+#pragma once
+
+#include <string>
+
+#include "Vector.h"
+
+namespace df {
+
+class Circle {
+ public:
+  /// At (0,0), of radius 0.
+  Circle() = default;
+  Circle(Vector init_center, float init_radius) : m_center(init_center), m_radius(init_radius) {}
+
+  void setCenter(Vector new_center) { m_center = new_center; }
+  Vector getCenter() const { return m_center; }
+  /// In cells, of either axis.
+  void setRadius(float new_radius) { m_radius = new_radius; }
+  float getRadius() const { return m_radius; }
+
+  std::string toString() const { return m_center.toString() + ", radius " + std::to_string(m_radius); }
+
+ private:
+  Vector m_center;
+  float m_radius = 0;
+};
+
+}  // namespace df

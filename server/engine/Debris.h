@@ -1,0 +1,20 @@
+// A character of a sprite that has exploded (explode() in utility.h).
+#pragma once
+
+#include "Particle.h"
+
+namespace df {
+
+class Debris : public Particle {
+ public:
+  /// Terminals do not turn characters: `rotate`, degrees a tick, is kept and not seen.
+  Debris(int age, unsigned char opacity, Color color, Vector velocity, char ch, float rotate);
+
+  int draw() override;
+
+ private:
+  char m_ch;
+  Color m_color;
+};
+
+}  // namespace df

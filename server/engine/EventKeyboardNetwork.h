@@ -1,0 +1,22 @@
+// An event of the published engine's sockets; nobody sends it (NetworkManager.h). Here all players' input
+// comes as EventKeyboard, whose getPlayer() says whose it is.
+#pragma once
+
+#include "EventKeyboard.h"
+
+namespace df {
+
+inline const std::string NETWORK_KEYBOARD_EVENT = "df-keyboard-network";
+
+class EventKeyboardNetwork : public EventKeyboard {
+ public:
+  EventKeyboardNetwork() { setType(NETWORK_KEYBOARD_EVENT); }
+
+  void setSocket(int new_sock) { m_sock = new_sock; }
+  int getSocket() const { return m_sock; }
+
+ private:
+  int m_sock = -1;
+};
+
+}  // namespace df

@@ -1,0 +1,25 @@
+// An event of the published engine's sockets; nobody sends it (NetworkManager.h).
+#pragma once
+
+#include "EventNetwork.h"
+#include "Object.h"
+
+namespace df {
+
+inline const std::string NETWORK_CREATE_EVENT = "df-network-create";
+
+class EventNetworkCreate : public EventNetwork {
+ public:
+  explicit EventNetworkCreate(NetworkEventLabel label, Object* p_o = nullptr)
+      : EventNetwork(label), m_p_o(p_o) {
+    setType(NETWORK_CREATE_EVENT);
+  }
+
+  void setObject(Object* p_new_o) { m_p_o = p_new_o; }
+  Object* getObject() const { return m_p_o; }
+
+ private:
+  Object* m_p_o;
+};
+
+}  // namespace df

@@ -1,0 +1,35 @@
+// Tells an Object that called pathTo() how the search for a way ended. It comes at once, before pathTo()
+// returns; no interest needs to be registered.
+#pragma once
+
+#include <utility>
+
+#include "Event.h"
+#include "Path.h"
+
+namespace df {
+
+inline const std::string PATH_EVENT = "df-path";
+
+enum SearchResult {
+  NOT_FOUND,
+  INCOMPLETE,
+  FOUND,
+};
+
+class EventPath : public Event {
+ public:
+  EventPath() : Event(&PATH_EVENT) {}
+  explicit EventPath(Path path) : Event(&PATH_EVENT), m_result(FOUND), m_path(std::move(path)) {}
+
+  void setResult(SearchResult new_result) { m_result = new_result; }
+  SearchResult getResult() const { return m_result; }
+  void setPath(Path new_path) { m_path = std::move(new_path); }
+  const Path& getPath() const { return m_path; }
+
+ private:
+  SearchResult m_result = NOT_FOUND;
+  Path m_path;
+};
+
+}  // namespace df

@@ -1,0 +1,35 @@
+// Tells view objects a new value (book, Listing 4.177): sent with WM.onEvent(), taken by those whose text is
+// the tag.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "Event.h"
+
+namespace df {
+
+inline const std::string VIEW_EVENT = "df-view";
+
+class EventView : public Event {
+ public:
+  /// Tag VIEW_EVENT, value 0, not a difference.
+  EventView() : EventView(VIEW_EVENT, 0, false) {}
+  /// To the view objects with this text: add the value to theirs, if `new_delta`, else replace it.
+  EventView(std::string new_tag, int new_value, bool new_delta)
+      : Event(&VIEW_EVENT), m_tag(std::move(new_tag)), m_value(new_value), m_delta(new_delta) {}
+
+  void setTag(std::string new_tag) { m_tag = std::move(new_tag); }
+  const std::string& getTag() const { return m_tag; }
+  void setValue(int new_value) { m_value = new_value; }
+  int getValue() const { return m_value; }
+  void setDelta(bool new_delta) { m_delta = new_delta; }
+  bool getDelta() const { return m_delta; }
+
+ private:
+  std::string m_tag;
+  int m_value;
+  bool m_delta;
+};
+
+}  // namespace df

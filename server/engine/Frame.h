@@ -1,0 +1,38 @@
+// One picture of a sprite: rows of characters, all of the same length (book, Listing 4.138).
+#pragma once
+
+#include <string>
+
+#include "Color.h"
+#include "Vector.h"
+
+namespace df {
+
+class Frame {
+ public:
+  /// An empty frame.
+  Frame() = default;
+  /// `frame_str` holds the rows one after another: new_width times new_height characters.
+  Frame(int new_width, int new_height, std::string frame_str);
+
+  void setWidth(int new_width) { m_width = new_width; }
+  int getWidth() const { return m_width; }
+  void setHeight(int new_height) { m_height = new_height; }
+  int getHeight() const { return m_height; }
+  void setString(std::string new_frame_str) { m_string = std::move(new_frame_str); }
+  const std::string& getString() const { return m_string; }
+
+  /// The character in column x of row y; a blank where there is none.
+  char at(int x, int y) const;
+  /// Draw the frame around a world position: column x of row y at (position.x - (width - 1) / 2 + x,
+  /// position.y - (height - 1) / 2 + y), all in halves of cells. The character `transparency` is left out; 0:
+  /// none is. Return 0, or -1 for an empty frame, or if a character could not be drawn.
+  int draw(Vector position, Color color, char transparency = 0) const;
+
+ private:
+  int m_width = 0;
+  int m_height = 0;
+  std::string m_string;
+};
+
+}  // namespace df

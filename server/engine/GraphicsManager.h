@@ -1,0 +1,10 @@
+// The name that the DisplayManager had in older versions of the published engine.
+#pragma once
+
+#include "DisplayManager.h"
+
+namespace df {
+
+using GraphicsManager = DisplayManager;
+
+}  // namespace df

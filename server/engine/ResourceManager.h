@@ -1,0 +1,52 @@
+// Loads sprites, sounds and music and keeps them by their labels (book, Listings 4.141 and 4.172).
+//
+// File names are relative to the working directory. What is wrong with a file goes to the log, with its name
+// and the line. A label that is taken stays with what was loaded first.
+#pragma once
+
+#include <string>
+
+#include "Manager.h"
+#include "Music.h"
+#include "Sound.h"
+#include "Sprite.h"
+#include "StandardHeaders.h"
+
+#define RM df::ResourceManager::getInstance()
+
+namespace df {
+
+class ResourceManager : public Manager {
+ public:
+  static ResourceManager& getInstance();
+
+  int startUp() override;
+  void shutDown() override;
+  bool isStarted() const override;
+
+  /// Load a sprite in one of the three formats (SpriteFile.h). Return 0, else -1.
+  int loadSprite(const std::string& filename, const std::string& label);
+  /// Objects that have it go on showing it. Return 0, or -1 if there is none.
+  int unloadSprite(const std::string& label);
+  /// Null if there is none.
+  Sprite* getSprite(const std::string& label) const;
+
+  /// Return 0, or -1 for a file that cannot be read.
+  int loadSound(const std::string& filename, const std::string& label);
+  /// Return 0, or -1 if there is none.
+  int unloadSound(const std::string& label);
+  /// Null if there is none.
+  Sound* getSound(const std::string& label);
+
+  /// Return 0, or -1 for a file that cannot be read.
+  int loadMusic(const std::string& filename, const std::string& label);
+  /// Return 0, or -1 if there is none.
+  int unloadMusic(const std::string& label);
+  /// Null if there is none.
+  Music* getMusic(const std::string& label);
+
+ private:
+  ResourceManager() { setType("ResourceManager"); }
+};
+
+}  // namespace df

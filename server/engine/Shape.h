@@ -1,0 +1,53 @@
+// A circle, square or triangle that an Object shows in place of a sprite. The published engine draws it in
+// pixels; in a terminal it is the one character that comes nearest to it.
+#pragma once
+
+#include <string>
+
+#include "Color.h"
+#include "Vector.h"
+
+namespace df {
+
+enum ShapeType {
+  UNDEFINED_SHAPE = -1,
+  CIRCLE,
+  SQUARE,
+  TRIANGLE,
+};
+
+class Shape {
+ public:
+  /// A white circle of the size of a character.
+  Shape() = default;
+
+  /// Radius in pixels; a character is about 13 by 32 of them.
+  void setSize(float new_size) { m_size = new_size; }
+  float getSize() const { return m_size; }
+  void setType(ShapeType new_type) { m_type = new_type; }
+  ShapeType getType() const { return m_type; }
+  void setColor(Color new_color);
+  /// Shown in the nearest of the eight colours; getColor() says CUSTOM.
+  void setColor(unsigned char r, unsigned char g, unsigned char b);
+  Color getColor() const { return m_color; }
+  /// 0: nothing shows, 255: opaque.
+  void setOpacity(unsigned char new_opacity) { m_opacity = new_opacity; }
+  unsigned char getOpacity() const { return m_opacity; }
+
+  /// Draw it at a world position. Small ones and faint ones are points.
+  void draw(Vector world_pos) const;
+
+  std::string toString() const;
+  friend bool operator==(const Shape& a, const Shape& b) = default;
+
+ private:
+  Color m_color = COLOR_DEFAULT;
+  unsigned char m_r = 255;
+  unsigned char m_g = 255;
+  unsigned char m_b = 255;
+  ShapeType m_type = CIRCLE;
+  float m_size = 10;
+  unsigned char m_opacity = 255;
+};
+
+}  // namespace df

@@ -1,0 +1,32 @@
+// The headers of the standard library that games of the published engine expect the engine's to bring, in
+// both spellings, for they call rand() and std::rand() alike.
+#pragma once
+
+// NOLINTBEGIN(modernize-deprecated-headers)
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+// NOLINTEND(modernize-deprecated-headers)
+
+#include <algorithm>
+#include <cassert>
+#include <climits>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <functional>
+#include <iomanip>
+#include <iostream>
+#include <list>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>

@@ -1,0 +1,33 @@
+// One state of a StateMachine: what its owner does while it is in it. States hold nothing of an Object's own,
+// so many machines may share them.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "Object.h"
+
+namespace df {
+
+inline const std::string UNDEFINED_STATE = "__undefined state__";
+
+class State {
+ public:
+  State() = default;
+  State(const State&) = default;
+  State& operator=(const State&) = default;
+  virtual ~State() = default;
+
+  void setType(std::string new_type) { m_type = std::move(new_type); }
+  const std::string& getType() const { return m_type; }
+
+  /// The Object comes into the state, is in it at a step, and goes out of it.
+  virtual void Enter(Object* /*p_obj*/) {}
+  virtual void Execute(Object* p_obj) = 0;
+  virtual void Exit(Object* /*p_obj*/) {}
+
+ private:
+  std::string m_type = UNDEFINED_STATE;
+};
+
+}  // namespace df

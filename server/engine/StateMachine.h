@@ -1,0 +1,39 @@
+// A finite state machine for an Object. The game calls Update(), in each step say. Owner and states are not
+// owned.
+#pragma once
+
+#include "Object.h"
+#include "State.h"
+
+namespace df {
+
+class StateMachine {
+ public:
+  StateMachine() = default;
+
+  void setOwner(Object* p_new_owner) { m_p_owner = p_new_owner; }
+  Object* getOwner() const { return m_p_owner; }
+  /// Put it into a state without leaving or entering any.
+  void setState(State* p_new_state) { m_p_state = p_new_state; }
+  State* getState() const { return m_p_state; }
+  void setPreviousState(State* p_new_state) { m_p_previous = p_new_state; }
+  State* getPreviousState() const { return m_p_previous; }
+  /// One that is executed besides the present one, before it.
+  void setGlobalState(State* p_new_state) { m_p_global = p_new_state; }
+  State* getGlobalState() const { return m_p_global; }
+
+  /// Execute the global and the present state.
+  void Update();
+  /// Leave the present state and enter another one; null is ignored.
+  void changeState(State* p_new_state);
+  /// Change to the one before.
+  void revertToPrevious() { changeState(m_p_previous); }
+
+ private:
+  Object* m_p_owner = nullptr;
+  State* m_p_state = nullptr;
+  State* m_p_previous = nullptr;
+  State* m_p_global = nullptr;
+};
+
+}  // namespace df

@@ -1,0 +1,54 @@
+// A line of text that the player types; RETURN calls callback().
+#pragma once
+
+#include <string>
+
+#include "EventKeyboard.h"
+#include "EventMouse.h"
+#include "ViewObject.h"
+
+namespace df {
+
+class TextEntry : public ViewObject {
+ public:
+  /// Empty, for up to 30 characters; interested in KEYBOARD_EVENT.
+  TextEntry();
+
+  /// The player has finished.
+  virtual void callback() = 0;
+
+  /// Typed characters; the limit grows with a longer text.
+  void setText(std::string new_text);
+  const std::string& getText() const { return m_text; }
+  void clearText() { setText(""); }
+  /// Most characters that can be typed.
+  void setLimit(int new_limit);
+  int getLimit() const { return m_limit; }
+  /// Where the next character goes, 0 … length of the text.
+  void setCursor(int new_cursor);
+  int getCursor() const { return m_cursor; }
+  void setCursorChar(char new_cursor_char) { m_cursor_char = new_cursor_char; }
+  char getCursorChar() const { return m_cursor_char; }
+  /// Ticks for which the cursor shows, and then does not; 0: it always shows.
+  void setBlinkRate(int new_blink_rate) { m_blink_rate = new_blink_rate; }
+  int getBlinkRate() const { return m_blink_rate; }
+  void setNumbersOnly(bool new_numbers_only = true) { m_numbers_only = new_numbers_only; }
+  bool numbersOnly() const { return m_numbers_only; }
+
+  int eventHandler(const Event* p_e) override;
+  /// The view string, then the text with the cursor.
+  int draw() override;
+
+ private:
+  void type(char ch);
+
+  std::string m_text;
+  int m_limit = 30;
+  int m_cursor = 0;
+  char m_cursor_char = '_';
+  int m_blink_rate = 15;
+  bool m_numbers_only = false;
+  bool m_shift = false;
+};
+
+}  // namespace df

@@ -1,0 +1,87 @@
+// Shows a text and a value at a fixed place of the view, such as points (book, Listing 4.175).
+//
+// Its position is in cells of the view, not of the world, and it is drawn wherever that is: in the view of
+// every player, whose places of origin differ. It collides with nothing.
+#pragma once
+
+#include <string>
+
+#include "Color.h"
+#include "Event.h"
+#include "EventView.h"
+#include "Object.h"
+
+namespace df {
+
+enum ViewObjectLocation {
+  UNDEFINED = -1,
+  TOP_LEFT,
+  TOP_CENTER,
+  TOP_RIGHT,
+  CENTER_LEFT,
+  CENTER_CENTER,
+  CENTER_RIGHT,
+  BOTTOM_LEFT,
+  BOTTOM_CENTER,
+  BOTTOM_RIGHT,
+};
+
+/// Attributes beyond an Object's.
+enum class ViewObjectAttribute : unsigned int {
+  VALUE = 1 << (ObjectAttributeMax + 0),
+  APPEARANCE = 1 << (ObjectAttributeMax + 1),
+};
+inline constexpr int ViewObjectAttributeMax = ObjectAttributeMax + 2;
+
+class ViewObject : public Object {
+ public:
+  /// SPECTRAL, altitude MAX_ALTITUDE, type "ViewObject", interested in VIEW_EVENT; at the top, in the middle,
+  /// with a border, the default colour and its value, 0.
+  ViewObject();
+
+  /// " text value " around its place, with a border around it if there is to be one. Return 0, else -1.
+  int draw() override;
+  /// Take a VIEW_EVENT whose tag is the text. Return 1 if it did, else 0.
+  int eventHandler(const Event* p_e) override;
+
+  /// Place it at 1/6, 1/2 or 5/6 of the view's width, on the upper rows, the middle one or the lowest ones.
+  virtual void setLocation(ViewObjectLocation new_location);
+  /// UNDEFINED after setPosition().
+  ViewObjectLocation getLocation() const { return m_location; }
+  /// Place it at a cell of the view. Return 0, else -1.
+  int setPosition(Vector new_pos) override;
+
+  virtual void setValue(int new_value) { m_value = new_value; }
+  int getValue() const { return m_value; }
+  /// Whether to show the value behind the text.
+  virtual void setDrawValue(bool new_draw_value = true) { m_draw_value = new_draw_value; }
+  bool getDrawValue() const { return m_draw_value; }
+  virtual void setBorder(bool new_border);
+  bool getBorder() const { return m_border; }
+  virtual void setColor(Color new_color) { m_color = new_color; }
+  Color getColor() const { return m_color; }
+  /// The text before the value, and the tag of events that are for it.
+  virtual void setViewString(std::string new_view_string) { m_view_string = std::move(new_view_string); }
+  const std::string& getViewString() const { return m_view_string; }
+
+  using Object::deserialize;
+  using Object::isModified;
+  using Object::serialize;
+  std::string serialize(std::string attr = "") override;
+  int deserialize(std::string s) override;
+  std::string toString() const { return m_view_string + " " + std::to_string(m_value); }
+
+ protected:
+  /// Draw any text around its place, with its border.
+  int drawText(const std::string& text) const;
+
+ private:
+  std::string m_view_string;
+  int m_value = 0;
+  bool m_draw_value = true;
+  bool m_border = true;
+  Color m_color = COLOR_DEFAULT;
+  ViewObjectLocation m_location = TOP_CENTER;
+};
+
+}  // namespace df

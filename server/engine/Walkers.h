@@ -1,0 +1,27 @@
+// The Objects of a world that walk along paths.
+#pragma once
+
+#include <vector>
+
+namespace df {
+
+class Object;
+
+class Walkers {
+ public:
+  Walkers() = default;
+  Walkers(const Walkers&) = delete;
+  Walkers& operator=(const Walkers&) = delete;
+  /// Objects may outlive their world.
+  ~Walkers();
+
+  void add(Object& object);
+  void remove(Object& object);
+  /// A tick begins: turn each towards its next node, by the order in which they set out.
+  void step();
+
+ private:
+  std::vector<Object*> m_objects;
+};
+
+}  // namespace df

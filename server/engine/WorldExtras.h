@@ -1,0 +1,47 @@
+// What a world has only if its game uses it. Made at first use (World::extras), so that a world without it
+// pays a null pointer, and one test of it in a tick.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Animations.h"
+#include "Config.h"
+#include "Random.h"
+#include "Resources.h"
+#include "Shaking.h"
+#include "Walkers.h"
+#include "WorldView.h"
+
+namespace df {
+
+class World;
+
+struct WorldExtras {
+  explicit WorldExtras(World& the_world) : world(the_world), resources(the_world) {}
+
+  /// The world has begun a tick.
+  void beginTick();
+  /// All of it has happened, and has been drawn.
+  void endTick();
+  /// As at the beginning. Sprites live on as long as the world, for Objects may still show them.
+  void reset();
+  /// Numbers for what is only seen, so that WM.randomInt() gives the same with it and without.
+  Random& decoration() { return random; }
+
+  World& world;
+  Resources resources;
+  Animations animations;
+  Walkers walkers;
+  Settings settings;
+  Shaking shake;
+  std::vector<SoundPlayed> sounds;  ///< of this tick
+  Color background = BLACK;
+  Vector view_slack{1.0 / 3, 1.0 / 3};  ///< as asked for; it has no effect
+  bool paused = false;
+  bool network_said = false;  ///< that there are no sockets
+  Random random{0xD6A60};
+  std::int64_t clock = 0;  ///< what a Clock read last, in microseconds of game time
+};
+
+}  // namespace df

@@ -1,0 +1,11 @@
+// A nuke goes off: every saucer hears of it.
+#pragma once
+
+#include "Event.h"
+
+const std::string NUKE_EVENT = "nuke";
+
+class EventNuke : public df::Event {
+ public:
+  EventNuke() { setType(NUKE_EVENT); }
+};

@@ -1,0 +1,17 @@
+// The end, for as long as its sprite takes; then the title again.
+#pragma once
+
+#include "ViewObject.h"
+
+class GameOver : public df::ViewObject {
+ public:
+  GameOver();
+  ~GameOver() override;
+  int eventHandler(const df::Event* p_e) override;
+  int draw() override;
+
+ private:
+  void step();
+
+  int time_to_live;
+};

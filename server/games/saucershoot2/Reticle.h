@@ -1,0 +1,11 @@
+// Where the mouse points.
+#pragma once
+
+#include "Object.h"
+
+class Reticle : public df::Object {
+ public:
+  Reticle();
+  int draw() override;
+  int eventHandler(const df::Event* p_e) override;
+};

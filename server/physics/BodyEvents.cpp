@@ -1,0 +1,55 @@
+#include "BodyEvents.h"
+
+#include <algorithm>
+
+#include "Body.h"
+#include "EventCollision.h"
+#include "EventContactEnd.h"
+#include "Hearing.h"
+#include "WorldStore.h"
+
+namespace df {
+
+namespace {
+
+using naiad::physics::BodyContact;
+
+bool hearsEnds(const WorldStore& store, ObjectKey key) {
+  return store.hears(key.slot) && store.has(key.slot, WorldStore::kBody) &&
+         static_cast<const Body*>(store.object(key.slot))->hasContactEnds();
+}
+
+void tellEnd(World& world, const BodyContact& contact) {
+  const WorldStore& store = world.store();
+  const EventContactEnd event(store.object(contact.first.slot), store.object(contact.second.slot));
+  if (hearsEnds(store, contact.first)) {
+    world.hear(contact.first, *event.getObject1(), event);
+    if (!store.isStill(contact.first) || !store.isStill(contact.second)) return;
+  }
+  if (hearsEnds(store, contact.second)) world.hear(contact.second, *event.getObject2(), event);
+}
+
+}  // namespace
+
+void tellContacts(World& world, std::vector<BodyContact>& contacts) {
+  std::stable_sort(contacts.begin(), contacts.end(), [](const BodyContact& a, const BodyContact& b) {
+    if (a.time != b.time) return a.time < b.time;
+    if (a.first_order != b.first_order) return a.first_order < b.first_order;
+    return a.second_order < b.second_order;
+  });
+  const WorldStore& store = world.store();
+  for (const BodyContact& contact : contacts) {
+    if (!store.isCurrent(contact.first) || !store.isCurrent(contact.second)) continue;
+    if (!contact.is_begin) {
+      tellEnd(world, contact);
+      continue;
+    }
+    const std::uint32_t slot = contact.first.slot;
+    EventCollision event(store.object(slot), store.object(contact.second.slot),
+                         Vector::fromFixed(store.position(slot)));
+    event.setImpulse(contact.impulse);
+    tellBoth(world, contact.first, contact.second, event);
+  }
+}
+
+}  // namespace df

@@ -1,0 +1,154 @@
+// 10b: general piles. A pyramid that stands, and a drum full of boxes that turns.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "Path.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kFriction = 0.5;
+constexpr int kTicks = 300;  // 10 s
+constexpr int kRows = 30;
+constexpr double kCrate = 0.5;  // half the width of a pyramid's crate
+constexpr int kBoxes = 500;
+constexpr double kBox = 0.125;  // … and of a box in the drum
+constexpr double kDrum = 10;    // from its centre to the middle of each wall
+constexpr int kFallen = 30;     // ticks until the boxes in the drum have met
+constexpr double kOut = 16;     // m from its centre: a box that got out
+
+Vec along(double angle) {
+  return {std::cos(angle), std::sin(angle)};
+}
+
+// How deep one square overlaps another: the least of what the four directions of their sides say, 0 if they
+// are apart.
+double overlap(const BodyState& a, const BodyState& b, double half) {
+  const Vec between = b.position - a.position;
+  if (dot(between, between) > 8 * half * half) return 0;
+  double least = 4 * half;
+  for (const double angle :
+       {a.angle, a.angle + std::numbers::pi / 2, b.angle, b.angle + std::numbers::pi / 2}) {
+    const Vec axis = along(angle);
+    const auto reach = [&](double own) {
+      return half *
+             (std::abs(dot(axis, along(own))) + std::abs(dot(axis, along(own + std::numbers::pi / 2))));
+    };
+    least = std::min(least, reach(a.angle) + reach(b.angle) - std::abs(dot(axis, between)));
+  }
+  return std::max(least, 0.0);
+}
+
+// Of all bodies but the first.
+double deepest(const Simulation& simulation, int count, double half) {
+  std::vector<BodyState> states;
+  for (int i = 1; i < count; ++i) states.push_back(simulation.body(i));
+  double most = 0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) most = std::max(most, overlap(states[i], states[j], half));
+  }
+  return most;
+}
+
+Body crate(Vec position, double half) {
+  Body made = box(position, {half, half});
+  made.friction = kFriction;
+  made.rotates = true;
+  return made;
+}
+
+Case pyramid() {
+  Case standing;
+  standing.name = "pyramid";
+  Body ground = wall({0, -5}, {100, 5});
+  ground.friction = kFriction;
+  standing.scene.bodies = {ground};
+  for (int row = 0; row < kRows; ++row) {
+    for (int i = 0; i < kRows - row; ++i) {
+      standing.scene.bodies.push_back(crate({1.1 * (i - 0.5 * (kRows - row - 1)), kCrate + row}, kCrate));
+    }
+  }
+  standing.scene.gravity = {0, -10};
+  standing.scene.ticks = kTicks;
+  standing.most_substeps = 16;
+  standing.metrics = {
+      {"penetration_m", "deepest overlap of two crates at the end, m", 0.005, 1e-15, "Box2D ×4 .005"},
+      {"drift_m", "largest sideways distance after 10 s, m", 0.02, 1e-15, "Box2D ×4 .02"}};
+  standing.cpu_bounds = {{"cpu_ratio", "box2d", 4, 1.5}};
+  standing.judge = [scene = standing.scene](const Trial& trial) {
+    const int count = static_cast<int>(scene.bodies.size());
+    const SimulationPtr end = trial.run(scene);
+    double drift = 0;
+    for (int i = 1; i < count; ++i) {
+      const Vec from = scene.bodies[static_cast<std::size_t>(i)].position, to = end->body(i).position;
+      if (std::abs(to.y - from.y) > 2) throw Failure("collapsed");
+      drift = std::max(drift, std::abs(to.x - from.x));
+    }
+    return std::vector<double>{deepest(*end, count, kCrate), drift};
+  };
+  return standing;
+}
+
+Case tumbler() {
+  Case turning;
+  turning.name = "tumbler";
+  Body drum;
+  drum.motion = Motion::KINEMATIC;
+  drum.spin = 0.05 * 2 * std::numbers::pi;
+  drum.friction = kFriction;
+  const Vec flat = {kDrum + 0.5, 0.5}, tall = {0.5, kDrum + 0.5};
+  drum.shapes = {{Shape::Kind::BOX, 0, flat, {0, kDrum}},
+                 {Shape::Kind::BOX, 0, tall, {kDrum, 0}},
+                 {Shape::Kind::BOX, 0, flat, {0, -kDrum}},
+                 {Shape::Kind::BOX, 0, tall, {-kDrum, 0}}};
+  turning.scene.bodies = {drum};
+  for (int i = 0; i < kBoxes; ++i) {
+    turning.scene.bodies.push_back(crate({0.35 * (i % 25 - 12), -0.35 * (i / 25 - 10)}, kBox));
+  }
+  turning.scene.gravity = {0, -10};
+  turning.scene.ticks = kTicks;
+  turning.long_run = true;
+  turning.most_substeps = 16;
+  turning.metrics = {{"penetration_m", "deepest overlap of two boxes of 0.25 m from the second second on, m",
+                      0.1, 1e-15, "Box2D ×4 .076 – .096"},
+                     {"mean_penetration_m", "the deepest overlap of each tick, on average, m", 0.027, 1e-15,
+                      "Box2D ×4 .027"}};
+  turning.cpu_bounds = {{"cpu_ratio", "box2d", 4, 1.5}};
+  turning.judge = [scene = turning.scene](const Trial& trial) {
+    const int count = static_cast<int>(scene.bodies.size());
+    double most = 0, sum = 0;
+    const SimulationPtr end = trial.run(scene, [&](int tick, const Simulation& simulation) {
+      if (tick <= kFallen) return;
+      const double now = deepest(simulation, count, kBox);
+      most = std::max(most, now);
+      sum += now;
+    });
+    for (int i = 1; i < count; ++i) {
+      const Vec at = end->body(i).position;
+      if (dot(at, at) > kOut * kOut) throw Failure("a box got out");
+    }
+    return std::vector<double>{most, sum / (kTicks - kFallen)};
+  };
+  return turning;
+}
+
+Problem makePile() {
+  Problem problem;
+  problem.title = "Piles";
+  problem.text =
+      "A pyramid of 30 rows of crates of 1 m (465), 0.1 m apart within a row; and 500 boxes of 0.25 m in a "
+      "square "
+      "drum of 20 m that turns once in 20 s. Friction 0.5, 10 s; nobody sleeps.";
+  problem.reference = "nothing overlaps, and a pyramid stays where it is";
+  problem.cases = {pyramid(), tumbler()};
+  return problem;
+}
+
+const RegisteredProblem problem("10b", "pile", makePile);
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,176 @@
+// 11b: the catenary, and the cantilever's deflection and first frequency.
+#include <algorithm>
+#include <complex>
+
+#include "Path.h"
+#include "Real.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kGravity = 10;
+
+// The a of y = a cosh(x/a) for a rope of this length between two points at one height, by Newton.
+double catenaryOf(double span, double its_length) {
+  Quad a = span / 2;
+  for (int i = 0; i < 200; ++i) {
+    const Quad u = Quad(span) / 2 / a;
+    const Quad sinh_u = (exp(u) - exp(-u)) / 2;
+    const Quad cosh_u = (exp(u) + exp(-u)) / 2;
+    a -= (2 * a * sinh_u - its_length) / (2 * sinh_u - 2 * u * cosh_u);
+  }
+  return static_cast<double>(a);
+}
+
+Case catenary(int links) {
+  constexpr double kSpan = 10;
+  constexpr double kLength = 12;
+  constexpr double kDrag = 2;  // 1/s
+  Case hanging;
+  hanging.name = "catenary" + std::to_string(links);
+  Scene& scene = hanging.scene;
+  // From a V, whose arms are straight.
+  const double depth = std::sqrt(kLength * kLength - kSpan * kSpan) / 2;
+  const auto place = [&](int i) {
+    const double part = 2.0 * i / links;  // 0 … 2
+    return Vec{kSpan / 2 * (part - 1), -depth * std::min(part, 2 - part)};
+  };
+  for (int i = 1; i < links; ++i) {
+    Body point;
+    point.position = place(i);
+    point.mass = kLength / links;
+    point.linear_drag = kDrag * point.mass;
+    scene.bodies.push_back(point);
+    scene.joints.push_back(rod(i - 2, place(i - 1), i - 1, point.position));
+  }
+  scene.joints.push_back(rod(links - 2, place(links - 1), -1, place(links)));
+  scene.gravity = {0, -kGravity};
+  scene.ticks = 600;
+  const double a = catenaryOf(kSpan, kLength);
+  const double sag = a * (std::cosh(kSpan / 2 / a) - 1);
+  hanging.metrics = {{"sag", "relative error of the sag in the middle", 0.01, 0, ""}};
+  hanging.judge = [scene, sag, links](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    return std::vector<double>{std::abs(-end->body(links / 2 - 1).position.y / sag - 1)};
+  };
+  return hanging;
+}
+
+// Slender, and loaded so that it bends by a hundredth of its length: there the linear theory holds to 1e-4.
+Beam slender(int elements) {
+  Beam beam;
+  beam.length = 10;
+  beam.thickness = 0.25;
+  beam.modulus = 1e7;
+  beam.density = 100;
+  beam.elements = elements;
+  return beam;
+}
+
+double stiffnessOf(const Beam& beam) {
+  return beam.modulus * std::pow(beam.thickness, 3) / 12;  // EI, for a depth of 1 m
+}
+
+Case bending(int elements) {
+  Case bent;
+  bent.name = "cantilever" + std::to_string(elements);
+  Beam beam = slender(elements);
+  const double deflection = beam.length / 100;
+  beam.tip_force = deflection * 3 * stiffnessOf(beam) / std::pow(beam.length, 3);
+  beam.damping = 1;
+  bent.scene.beams = {beam};
+  bent.scene.ticks = 1200;
+  bent.metrics = {{"deflection", "relative error of the tip's deflection", 0.01, 0, ""}};
+  bent.judge = [scene = bent.scene, deflection](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    return std::vector<double>{std::abs(-end->body(0).position.y / deflection - 1)};
+  };
+  return bent;
+}
+
+// The first root of cos β cosh β = −1, by Newton.
+Quad firstRoot() {
+  Quad beta = 1.875;
+  for (int i = 0; i < 20; ++i) {
+    const Quad cosh_b = (exp(beta) + exp(-beta)) / 2;
+    const Quad sinh_b = (exp(beta) - exp(-beta)) / 2;
+    beta -= (cos(beta) * cosh_b + 1) / (cos(beta) * sinh_b - sin(beta) * cosh_b);
+  }
+  return beta;
+}
+
+// How strongly a motion, seen at the ends of ticks through a window that fades in and out, contains a
+// frequency.
+double presence(const std::vector<double>& motion, double tick, double frequency) {
+  constexpr double kTurn = 2 * 3.14159265358979323846;
+  std::complex<double> sum;
+  const auto count = static_cast<double>(motion.size());
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const double window = 1 - std::cos(kTurn * (static_cast<double>(i) + 0.5) / count);
+    sum += motion[i] * window * std::polar(1.0, -kTurn * frequency * tick * static_cast<double>(i));
+  }
+  return std::abs(sum);
+}
+
+// Where it is strongest, within a tenth of a first guess.
+double strongest(const std::vector<double>& motion, double tick, double guess) {
+  double low = 0.9 * guess;
+  double high = 1.1 * guess;
+  for (int i = 0; i < 50; ++i) {
+    const double left = low + 0.382 * (high - low);
+    const double right = low + 0.618 * (high - low);
+    if (presence(motion, tick, left) > presence(motion, tick, right)) {
+      high = right;
+    } else {
+      low = left;
+    }
+  }
+  return (low + high) / 2;
+}
+
+Case ringing(int elements) {
+  constexpr double kPeriods = 8;
+  Case rings;
+  rings.name = "frequency" + std::to_string(elements);
+  Beam beam = slender(elements);
+  const double deflection = beam.length / 100;
+  beam.tip_force = deflection * 3 * stiffnessOf(beam) / std::pow(beam.length, 3);
+  const Quad beta = firstRoot();
+  const double per_length = beam.density * beam.thickness;
+  const double frequency = static_cast<double>(beta * beta / (2 * kQuadPi)) *
+                           std::sqrt(stiffnessOf(beam) / per_length / std::pow(beam.length, 4));
+  rings.scene.beams = {beam};
+  rings.scene.ticks = static_cast<int>(kPeriods / frequency / kTick);
+  rings.most_substeps = 16;
+  rings.metrics = {{"first", "relative error of the first frequency", 0.01, 1e-5, ""}};
+  rings.judge = [scene = rings.scene, deflection, frequency](const Trial& trial) {
+    std::vector<double> motion;
+    trial.run(scene, [&](int, const Simulation& simulation) {
+      motion.push_back(simulation.body(0).position.y + deflection);
+    });
+    return std::vector<double>{std::abs(strongest(motion, scene.tick, frequency) / frequency - 1)};
+  };
+  return rings;
+}
+
+Problem makeSoft() {
+  Problem problem;
+  problem.title = "Catenary and cantilever";
+  problem.text =
+      "A chain of 16, 32 and 64 rigid links, 12 m long, hangs between points 10 m apart: after 20 s with "
+      "drag it is at "
+      "rest. A beam of 10 m, clamped at one end, is bent by a force at the other, and swings if nothing "
+      "damps it.";
+  problem.reference =
+      "a cosh(x/a), which the chain approaches with (1/links)²; FL³/3EI; the first root of cos β cosh β = −1";
+  problem.cases = {catenary(16), catenary(32), catenary(64), bending(8), bending(16),
+                   bending(32),  ringing(8),   ringing(16),  ringing(32)};
+  return problem;
+}
+
+const RegisteredProblem soft_problem("11b", "soft", makeSoft);
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,174 @@
+// Saucer Shoot as it is written for the published engine, played headless from the title to the title.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "EventKeyboard.h"
+#include "EventMouse.h"
+#include "Runner.h"
+#include "World.h"
+#include "WorldManager.h"
+
+/// The game's main(), compiled into this test under another name.
+int saucershoot2_main(int argc, char* argv[]);
+
+namespace naiad {
+namespace {
+
+class SaucerShoot2 : public ::testing::Test, public df::Runner {
+ protected:
+  /// From the start of the game to its shutDown(); `play` where GM.run() would wait for players.
+  void host(std::function<void()> play) {
+    m_play = std::move(play);
+    const df::World::Scope scope(world);
+    world.setLogSink([this](const std::string& line) { log += line + "\n"; });
+    world.addResourceFolder(std::string(NAIAD_SOURCE_DIR) + "/server/games/saucershoot2");
+    world.setRunner(this);
+    srand(1);
+    EXPECT_EQ(saucershoot2_main(0, nullptr), 0);
+    EXPECT_EQ(world.getObjectCount(), 0);
+  }
+  void run(df::World& /*world*/) override { m_play(); }
+
+  void press(df::Keyboard::Key key, df::EventKeyboardAction action = df::KEY_PRESSED) {
+    df::EventKeyboard event;
+    event.setKey(key);
+    event.setKeyboardAction(action);
+    WM.onEvent(&event);
+  }
+  void click(df::Vector at) {
+    df::EventMouse event;
+    event.setMouseAction(df::CLICKED);
+    event.setMouseButton(df::Mouse::LEFT);
+    event.setMousePosition(at);
+    WM.onEvent(&event);
+  }
+  void tick(int count = 1) {
+    for (int i = 0; i < count; ++i) world.tick();
+  }
+  int count(const char* type) const { return WM.objectsOfType(type).getCount(); }
+  bool shows(const std::string& text) const {
+    return world.renderView({}).text().find(text) != std::string::npos;
+  }
+
+  df::World world;
+  std::string log;
+
+ private:
+  std::function<void()> m_play;
+};
+
+TEST_F(SaucerShoot2, ShowsItsTitleAndStartsAtAKey) {
+  host([this] {
+    tick();
+    EXPECT_TRUE(shows("P to play  Q to leave"));
+    EXPECT_EQ(count("Star"), 16);
+    EXPECT_EQ(count("Hero"), 0);
+    press(df::Keyboard::P);
+    tick();
+    EXPECT_FALSE(shows("P to play"));
+    EXPECT_TRUE(shows("| Points 0 |"));
+    EXPECT_TRUE(shows("| Nukes 1 |"));
+    EXPECT_TRUE(shows(">=##=>"));
+    EXPECT_EQ(count("Hero"), 1);
+    EXPECT_EQ(count("Saucer"), 16);
+  });
+  EXPECT_EQ(log.find("Sprite"), std::string::npos) << log;
+}
+
+TEST_F(SaucerShoot2, AHeldKeyMovesTheShipAndTheMouseFires) {
+  host([this] {
+    press(df::Keyboard::P);
+    const df::Object* p_hero = WM.objectsOfType("Hero")[0];
+    const double y = p_hero->getPosition().y();
+    for (int i = 0; i < 6; ++i) {
+      press(df::Keyboard::W, df::KEY_DOWN);
+      tick();
+    }
+    EXPECT_EQ(p_hero->getPosition().y(), y - 2);  // every second tick, from the third on
+    tick(15);
+    click(p_hero->getPosition() + df::Vector(20, 0));
+    EXPECT_EQ(count("Bullet"), 1);
+    click(p_hero->getPosition() + df::Vector(20, 0));
+    EXPECT_EQ(count("Bullet"), 1);  // the gun is hot
+    tick(100);
+    EXPECT_EQ(count("Bullet"), 0);  // out, or spent
+  });
+}
+
+TEST_F(SaucerShoot2, AShotSaucerExplodesForTenPointsAndAnotherComes) {
+  host([this] {
+    press(df::Keyboard::P);
+    tick(20);
+    df::Object* p_hero = WM.objectsOfType("Hero")[0];
+    df::Object* p_saucer = WM.objectsOfType("Saucer")[0];
+    p_saucer->setPosition(p_hero->getPosition() + df::Vector(20, 0));
+    click(p_saucer->getPosition());
+    tick(14);
+    EXPECT_EQ(count("Explosion"), 1);
+    EXPECT_EQ(count("Saucer"), 16);
+    EXPECT_TRUE(shows("| Points 11 |")) << world.renderView({}).text();
+    tick(12);
+    EXPECT_EQ(count("Explosion"), 0);
+  });
+}
+
+TEST_F(SaucerShoot2, ANukeClearsTheSky) {
+  host([this] {
+    press(df::Keyboard::P);
+    tick();
+    press(df::Keyboard::SPACE);
+    tick();
+    EXPECT_TRUE(shows("| Nukes 0 |"));
+    EXPECT_EQ(count("Explosion"), 16);
+    EXPECT_EQ(count("Saucer"), 16);
+    press(df::Keyboard::SPACE);
+    tick();
+    EXPECT_TRUE(shows("| Nukes 0 |"));
+  });
+}
+
+TEST_F(SaucerShoot2, AHitShipEndsTheRoundAndTheTitleComesBack) {
+  host([this] {
+    for (int round = 0; round < 2; ++round) {
+      press(df::Keyboard::P);
+      tick();
+      df::Object* p_hero = WM.objectsOfType("Hero")[0];
+      ASSERT_NE(p_hero, nullptr);
+      WM.objectsOfType("Saucer")[0]->setPosition(p_hero->getPosition() + df::Vector(5.6, 0));
+      tick(3);
+      EXPECT_EQ(count("Hero"), 0);
+      EXPECT_EQ(count("Reticle"), 0);
+      EXPECT_TRUE(shows("G A M E  O V E R"));
+      tick(65);
+      EXPECT_TRUE(shows("P to play"));
+      EXPECT_EQ(count("Saucer"), 0);
+      EXPECT_FALSE(shows("Points"));
+    }
+    press(df::Keyboard::Q);
+    EXPECT_TRUE(world.isGameOver());
+  });
+}
+
+TEST_F(SaucerShoot2, SameDiceShowTheSameGame) {
+  std::vector<std::string> pictures;
+  for (int i = 0; i < 2; ++i) {
+    host([&] {
+      press(df::Keyboard::P);
+      for (int t = 0; t < 1000; ++t) {
+        if (t % 16 == 0) click(df::Vector(60, 4 + t % 19));
+        if (count("Hero") == 0) press(df::Keyboard::P);
+        tick();
+      }
+      pictures.push_back(world.renderView({}).text());
+    });
+  }
+  EXPECT_EQ(pictures[0], pictures[1]);
+}
+
+}  // namespace
+}  // namespace naiad

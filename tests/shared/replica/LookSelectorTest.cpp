@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include "LookSelector.h"
+#include "RandomRecords.h"
+
+namespace naiad {
+namespace {
+
+// A clock as one would build it: count ticks, turn the page.
+TEST(LookSelector, AClockTurnsThePageEverySoManyTicks) {
+  for (const std::uint32_t begin : {0u, 1000u, 0xFFFFFFF0u}) {  // ticks may wrap
+    for (const bool loop : {true, false}) {
+      for (const std::size_t frames : {2u, 3u, 256u}) {
+        const Selector clock = Selector::clock(begin, 3, loop, 1);
+        std::size_t page = 1, shown = 0;
+        for (std::uint32_t i = 0; i < 2000; ++i) {
+          ASSERT_EQ(clock.at(begin + i, frames), page);
+          if (++shown < 3) continue;
+          shown = 0;
+          page = page + 1 < frames ? page + 1 : loop ? 0 : page;
+        }
+      }
+    }
+  }
+}
+
+TEST(LookSelector, BeforeItsStartAClockThatGoesRoundWentRoundAndAnotherShowsTheFirst) {
+  EXPECT_EQ(Selector::clock(100, 2).at(99, 5), 4u);
+  EXPECT_EQ(Selector::clock(100, 2).at(90, 5), 0u);
+  EXPECT_EQ(Selector::clock(100, 2, false).at(99, 5), 0u);
+  EXPECT_EQ(Selector::clock(100, 2, false).at(7, 5), 0u);
+}
+
+// The frame whose middle is nearest, by exact arithmetic; a tie goes up.
+TEST(LookSelector, AnAngleShowsTheNearestFrame) {
+  test::RandomRecords random(1);
+  for (int i = 0; i < 200'000; ++i) {
+    const std::size_t frames = 2 + random.rng().below(kMaxFrames - 1);
+    auto angle = static_cast<std::uint32_t>(random.rng().next());
+    if (i % 2 == 0) {  // close to where it turns
+      const std::uint64_t edge = ((2 * random.rng().below(frames) + 1) << 31) / frames;
+      angle = static_cast<std::uint32_t>(edge + random.rng().below(5) - 2);
+    }
+    const std::size_t shown = Selector::turning(0, angle, 0).at(0, frames);
+    ASSERT_LT(shown, frames);
+    // In units of 1/frames of 2^-32 turn, half a frame is 2^31.
+    const auto off = static_cast<std::int64_t>(std::uint64_t{angle} * frames - (std::uint64_t{shown} << 32));
+    const auto whole = static_cast<std::int64_t>(frames) << 32;
+    const std::int64_t around = off > whole / 2 ? off - whole : off;
+    // Half a frame is rounded down to a whole number once: by less than `frames` of these units.
+    ASSERT_GE(around, -(std::int64_t{1} << 31)) << angle << " of " << frames;
+    ASSERT_LT(around, (std::int64_t{1} << 31) + (whole >> 32)) << angle << " of " << frames;
+  }
+}
+
+TEST(LookSelector, AnAngleGrowsByItsSpinThroughAllWraps) {
+  test::RandomRecords random(2);
+  for (int i = 0; i < 2000; ++i) {
+    const auto spin = static_cast<std::int32_t>(random.rng().next());
+    const auto begin = static_cast<std::uint32_t>(0 - random.rng().below(100));
+    auto angle = static_cast<std::uint32_t>(random.rng().next());
+    const Selector turning = Selector::turning(begin, angle, spin);
+    for (std::uint32_t n = 0; n < 200; ++n) {
+      ASSERT_EQ(turning.angleAt(begin + n), angle);
+      angle += static_cast<std::uint32_t>(spin);
+    }
+  }
+}
+
+TEST(LookSelector, RebasedItShowsTheSameFromThenOn) {
+  test::RandomRecords random(3);
+  for (int i = 0; i < 5000; ++i) {
+    const std::size_t frames = 2 + random.rng().below(20);
+    const Selector selector = random.selector(frames);
+    const auto tick = static_cast<std::uint32_t>(random.rng().below(1000));
+    const Selector later = selector.rebased(tick, frames);
+    for (std::uint32_t n = 0; n < 100; ++n)
+      ASSERT_EQ(later.at(tick + n, frames), selector.at(tick + n, frames));
+    ASSERT_EQ(later.rebased(tick, frames), later);
+    ASSERT_TRUE(later.fits(frames));
+    ASSERT_LT(later.age(tick, frames), frames * later.ticks_per_frame);
+  }
+}
+
+TEST(LookSelector, OnlyWhatSelectsAmongTheFramesFits) {
+  EXPECT_TRUE(Selector::fixed(0).fits(1));
+  EXPECT_TRUE(Selector::fixed(255).fits(256));
+  EXPECT_FALSE(Selector::fixed(2).fits(2));
+  EXPECT_TRUE(Selector::clock(0, 1).fits(2));
+  EXPECT_TRUE(Selector::clock(0, kMaxTicksPerFrame).fits(256));
+  EXPECT_FALSE(Selector::clock(0, 0).fits(2));
+  EXPECT_FALSE(Selector::clock(0, kMaxTicksPerFrame + 1).fits(2));
+  EXPECT_FALSE(Selector::clock(0, 1).fits(1));
+  EXPECT_FALSE(Selector::turning(0, 0, 1).fits(1));
+  EXPECT_FALSE(Selector::turning(0, 0, 1).fits(257));
+}
+
+}  // namespace
+}  // namespace naiad
