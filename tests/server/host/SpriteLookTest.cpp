@@ -53,6 +53,11 @@ class Show {
     return bytes;
   }
 
+  /// What the client shows in a cell.
+  char32_t shown(int x, int y) const {
+    return m_replica.render(static_cast<std::uint32_t>(world.getStepCount())).at(x, y).ch;
+  }
+
   df::World world;
   df::World::Scope scope{world};
 
@@ -112,6 +117,47 @@ TEST(SpriteLook, TwoHundredAnimatedSaucersInFlightCostWhatStillOnesDo) {
   const std::size_t animated = flight(4);
   EXPECT_EQ(animated, flight(0));
   EXPECT_EQ(animated, idle(300));
+}
+
+/// The published engine's, as far as frames go: draw() shows one, then counts.
+struct PublishedAnimation {
+  int frames;
+  int slowdown;
+  int index = 0;
+  int count = 0;
+
+  int draw() {
+    const int shown = index;
+    if (count == -1 || slowdown == 0) return shown;
+    if (++count >= slowdown) {
+      count = 0;
+      index = (index + 1) % frames;
+    }
+    return shown;
+  }
+};
+
+TEST(SpriteLook, AClientShowsTheFramesThatThePublishedEngineDraws) {
+  for (const int slowdown : {0, 1, 2, 3, 5, 8}) {
+    SCOPED_TRACE(slowdown);
+    Show show;
+    df::Sprite sprite = makeSprite({"a", "b", "c", "d"}, 1, slowdown);
+    df::Object object;
+    object.setSprite(&sprite);
+    object.setPosition(df::Vector(20, 10));
+    PublishedAnimation published{4, slowdown};
+    std::string wanted;
+    std::string seen;
+    for (int t = 0; t < 120; ++t) {
+      if (t == 40) object.setSpriteIndex(published.index = 2);
+      if (t == 61) object.setSpriteSlowdownCount(published.count = -1);
+      if (t == 80) object.setSpriteSlowdownCount(published.count = 0);
+      show.ticks(1);
+      wanted += "abcd"[published.draw()];
+      seen += static_cast<char>(show.shown(20, 10));
+    }
+    EXPECT_EQ(seen, wanted);
+  }
 }
 
 TEST(SpriteLook, EachPaceIsDrawnFrameByFrame) {
