@@ -116,11 +116,11 @@ struct Ball : Object {
     setVelocity(Vector(direction.x(), direction.y() / 2));
   }
   void bounce(Object& other, Vector at) {
-    const Vector centre = other.getPosition() + other.getBox().getCorner() +
-                          Vector(other.getBox().getHorizontal() / 2, other.getBox().getVertical() / 2);
-    const Vector off = at - centre;
-    const bool beside = std::abs(off.x()) > (other.getBox().getHorizontal() + 0.6) / 2 - kTouch;
-    const bool above = std::abs(off.y()) > (other.getBox().getVertical() + 0.6) / 2 - kTouch;
+    const Box box = other.getBox();
+    const Vector half(box.getHorizontal() / 2, box.getVertical() / 2);
+    const Vector off = at - (other.getPosition() + box.getCorner() + half);
+    const bool beside = std::abs(off.x()) > half.x() + 0.3 - kTouch;
+    const bool above = std::abs(off.y()) > half.y() + 0.3 - kTouch;
     double x = getVelocity().x();
     double y = getVelocity().y() * 2;
     if (beside) x = std::copysign(x, off.x());

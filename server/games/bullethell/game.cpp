@@ -181,8 +181,8 @@ struct Arena : Object {
     for (Player* p : WM.getPlayers()) {
       const auto* p_ship = static_cast<const Ship*>(p->getObject());
       const std::string lives_left = std::to_string(p_ship != nullptr ? p_ship->lives : 0);
-      p->setText(0, Vector(1, 0), "hits " + std::to_string(p->getScore()) + "  lives " + lives_left,
-                 p->getColor());
+      const std::string status = "hits " + std::to_string(p->getScore()) + "  lives " + lives_left;
+      p->setText(0, Vector(1, 0), status, p->getColor());
       p->setText(1, Vector(25, 0), std::string(static_cast<std::size_t>(bar), '#'), RED);
       p->setText(2, Vector(68, 0), "level " + std::to_string(p_boss->level), YELLOW);
       p->setText(3, Vector(25, 23), message_ticks > 0 ? message : "", YELLOW);

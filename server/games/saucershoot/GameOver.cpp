@@ -21,6 +21,7 @@ int GameOver::eventHandler(const df::Event* p_e) {
   return 1;
 }
 
+// Not a text and a value, but the sprite.
 int GameOver::draw() {
-  return df::Object::draw();
+  return df::Object::draw();  // NOLINT(bugprone-parent-virtual-call)
 }

@@ -32,5 +32,5 @@ int GameStart::eventHandler(const df::Event* p_e) {
 
 // Not a text and a value, but the sprite.
 int GameStart::draw() {
-  return df::Object::draw();
+  return df::Object::draw();  // NOLINT(bugprone-parent-virtual-call)
 }

@@ -39,8 +39,12 @@ struct Cycle : Object {
   int wish;  // where to turn with the next move
   bool wrecked = false;
 
-  Cycle(std::uint32_t its_player, std::string its_name, Color its_color, Vector at, int its_way)
-      : player(its_player), name(std::move(its_name)), color(its_color), way(its_way), wish(its_way) {
+  Cycle(const Player* p, Vector at, int its_way)
+      : player(p ? p->getId() : 0),
+        name(p ? p->getName() : "the robot"),
+        color(p ? p->getColor() : WHITE),
+        way(its_way),
+        wish(its_way) {
     setType("Cycle");
     setAltitude(3);
     setBox(kBody);
@@ -108,7 +112,8 @@ struct Cycle : Object {
 
 /// The course of the rounds.
 struct Track : Object {
-  int wait = 0;  // ticks until the round begins, or the next one is prepared
+  std::vector<Cycle*> cycles;  // of this round
+  int wait = 0;                // ticks until the round begins, or the next one is prepared
   bool riding = false;
   std::string message;
 
@@ -122,17 +127,11 @@ struct Track : Object {
   }
   int eventHandler(const Event* p_e) override {
     if (auto* p_leave = dynamic_cast<const EventLeave*>(p_e)) {
-      for (Cycle* p_cycle : cycles())
+      for (Cycle* p_cycle : cycles)
         if (p_cycle->player == p_leave->getPlayer()) p_cycle->wrecked = true;
     }
     if (p_e->getType() == STEP_EVENT) step();
     return 1;
-  }
-  static std::vector<Cycle*> cycles() {
-    std::vector<Cycle*> all;
-    const ObjectList list = WM.objectsOfType("Cycle");
-    for (int i = 0; i < list.getCount(); ++i) all.push_back(static_cast<Cycle*>(list[i]));
-    return all;
   }
   void step() {
     if (wait > 0) {
@@ -142,17 +141,16 @@ struct Track : Object {
     } else if (!WM.getPlayers().empty()) {
       prepare();
     }
-    for (Player* p_player : WM.getPlayers()) {
-      p_player->setText(0, Vector(1, 0), "rounds won " + std::to_string(p_player->getScore()),
-                        p_player->getColor());
-      const bool rides = p_player->getObject() != nullptr;
-      p_player->setText(1, Vector(30, 0), rides ? message : message + "   (you ride in the next round)");
+    for (Player* p : WM.getPlayers()) {
+      const bool rides = p->getObject() != nullptr;
+      p->setText(0, Vector(1, 0), "rounds won " + std::to_string(p->getScore()), p->getColor());
+      p->setText(1, Vector(30, 0), rides ? message : message + "   (you ride in the next round)");
     }
   }
   void race() {
     Cycle* p_last = nullptr;
     int left = 0;
-    for (Cycle* p_cycle : cycles()) {
+    for (Cycle* p_cycle : cycles) {
       if (!p_cycle->wrecked) p_cycle->ride(GM.getStepCount());
       if (p_cycle->wrecked) continue;
       p_last = p_cycle;
@@ -168,20 +166,16 @@ struct Track : Object {
   }
   /// A clean field, and everybody who is here on it, evenly along its left and right side.
   void prepare() {
-    WM.markForDelete(WM.objectsOfType("Cycle"));
-    WM.markForDelete(WM.objectsOfType("Trail"));
+    for (const char* type : {"Cycle", "Trail"}) WM.markForDelete(WM.objectsOfType(type));
+    cycles.clear();
     const auto players = WM.getPlayers();
     const int count = std::max(2, static_cast<int>(players.size()));
+    cycles.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
-      const bool from_left = i % 2 == 0;
-      const Vector at(from_left ? 8 : 71, 3 + (i / 2 * 2 + 1) * 18 / (count + count % 2));
-      const int way = from_left ? 0 : 2;
-      if (i < static_cast<int>(players.size())) {
-        Player& player = *players[static_cast<std::size_t>(i)];
-        player.setObject(new Cycle(player.getId(), player.getName(), player.getColor(), at, way));
-      } else {
-        new Cycle(0, "the robot", WHITE, at, way);
-      }
+      Player* p = i < static_cast<int>(players.size()) ? players[static_cast<std::size_t>(i)] : nullptr;
+      const int row = 3 + (i / 2 * 2 + 1) * 18 / (count + count % 2);
+      cycles.push_back(new Cycle(p, Vector(i % 2 == 0 ? 8 : 71, row), i % 2 == 0 ? 0 : 2));
+      if (p) p->setObject(cycles.back());
     }
     message = "get ready";
     riding = true;
