@@ -72,7 +72,7 @@ std::uint64_t HostileWriter::golomb(Kind kind, int order, std::uint64_t most, st
 
 /// From -most to most.
 std::int64_t HostileWriter::centered(Kind kind, std::int64_t most) {
-  const auto zigzag = std::min(choose(kind, 2 * static_cast<std::uint64_t>(most)), kHuge);
+  const auto zigzag = std::min(choose(kind, 2 * static_cast<std::uint64_t>(most)), kHuge >> kGlyphUnitBits);
   return static_cast<std::int64_t>(zigzag >> 1) ^ -static_cast<std::int64_t>(zigzag & 1);
 }
 

@@ -131,7 +131,7 @@ TEST(SnapshotCodec, TheEpochCanBeReadFirst) {
 
 TEST(SnapshotCodec, EveryTruncationIsRefused) {
   RandomRecords random(13);
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 150; ++i) {
     const SnapshotHeader head = random.header();
     const std::string bytes = writeSnapshot(head, random.records(head.tick));
     Snapshot out;
@@ -148,9 +148,10 @@ TEST(SnapshotCodec, EverySingleBitFlipIsRefusedOrLegal) {
   RandomRecords random(14);
   int refused = 0;
   int accepted = 0;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const SnapshotHeader head = random.header();
     std::string bytes = writeSnapshot(head, random.records(head.tick));
+    if (bytes.size() > 1200) continue;  // more than a datagram holds: dear, and nothing new
     for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
       bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
       Snapshot out;
