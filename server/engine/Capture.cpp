@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <utility>
 
 #include "Look.h"
 #include "Views.h"
@@ -75,6 +76,7 @@ void Capture::drawOne(ObjectKey key) {
     for (const DrawCommand& c : look->second)
       m_view.commands.push_back({position + c.position, c.ch, c.color});
     m_view.drawn[entry].count = static_cast<std::uint32_t>(look->second.size());
+    tellLook(entry);
     return;
   }
 
@@ -91,8 +93,7 @@ void Capture::drawOne(ObjectKey key) {
   m_view.drawn[entry].count = count;
   if (!store.isCurrent(key)) return;
   const bool frames = store.has(key.slot, WorldStore::kFrames);  // draw() may have set them
-  if (frames && store.isWatched() && store.frames(key.slot) != nullptr)
-    m_view.looks.push_back({static_cast<std::uint32_t>(entry), store.frames(key.slot)});
+  tellLook(entry);
   if (frames || !store.has(key.slot, WorldStore::kStaticLook)) return;
   auto& relative = m_looks[key.slot];
   for (std::uint32_t i = first; i < first + count; ++i) {
@@ -101,6 +102,16 @@ void Capture::drawOne(ObjectKey key) {
     if (!isNear(c.position, position)) continue;
     relative.push_back({c.position - position, c.ch, c.color});
   }
+}
+
+void Capture::tellLook(std::size_t entry) {
+  const WorldStore& store = m_world.store();
+  const std::uint32_t slot = m_view.drawn[entry].key.slot;
+  constexpr std::uint32_t kShows = WorldStore::kFrames | WorldStore::kPainted;
+  if (!store.isWatched() || (store.flags(slot) & kShows) == 0) return;
+  const auto tick = static_cast<std::uint32_t>(m_world.getStepCount());
+  auto p_look = store.object(slot)->toldLook(tick);
+  if (p_look != nullptr) m_view.looks.push_back({static_cast<std::uint32_t>(entry), std::move(p_look)});
 }
 
 void Capture::add(FixedVector position, char32_t ch, Color color) {

@@ -44,6 +44,7 @@ class Capture {
   bool mayDraw(std::uint32_t slot);
   void sortByAltitude();
   void drawOne(ObjectKey key);
+  void tellLook(std::size_t entry);
 
   World& m_world;
   WorldView m_view;

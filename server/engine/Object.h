@@ -33,6 +33,7 @@
 #include "WorldView.h"
 
 namespace naiad {
+struct Look;
 class Sequence;
 struct Selector;
 }  // namespace naiad
@@ -274,6 +275,7 @@ class Object {
 
  private:
   friend class Animations;
+  friend class Capture;
   friend class Walkers;
   friend class World;
   friend class WorldStore;
@@ -289,6 +291,7 @@ class Object {
   void dropExtras();
   void animate();
   const Mask* spriteMask() const;
+  std::shared_ptr<const naiad::Look> toldLook(std::uint32_t tick);
   ObjectAttributes attributes() const;
   void stepPath();
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "Animation.h"
@@ -10,13 +11,18 @@
 #include "Path.h"
 #include "Shape.h"
 
+namespace naiad {
+struct Look;
+}
+
 namespace df {
 
 struct ObjectExtras {
   static constexpr std::size_t kNowhere = SIZE_MAX;
 
   Animation animation;
-  std::size_t animated = kNowhere;  ///< its place in the world's Animations
+  std::shared_ptr<const naiad::Look> p_look;  ///< what watchers were last told of it
+  std::size_t animated = kNowhere;            ///< its place in the world's Animations
   std::optional<Shape> shape;
   std::optional<int> id;  ///< that the game chose
   Path path;

@@ -1,5 +1,6 @@
 // The part of Object that shows something of itself: sprite and shape.
 
+#include "AnimationLook.h"
 #include "Mask.h"
 #include "Object.h"
 #include "ObjectExtras.h"
@@ -119,6 +120,13 @@ int Object::draw() {
   if (m_p_extras->animation.getSprite() != nullptr) result = m_p_extras->animation.paint(at);
   if (m_p_extras->shape) m_p_extras->shape->draw(at);
   return result;
+}
+
+// Null if nothing goes on by itself. What draw() really draws decides whether it counts.
+std::shared_ptr<const naiad::Look> Object::toldLook(std::uint32_t tick) {
+  if (m_p_store->has(m_slot, WorldStore::kFrames)) return m_p_store->frames(m_slot);
+  if (m_p_extras == nullptr || m_p_extras->shape) return nullptr;
+  return m_p_extras->p_look = lookOf(m_p_extras->animation, tick, m_p_extras->p_look);
 }
 
 // In a box that is not the sprite's own, its characters would lie elsewhere than they are drawn.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,10 @@
 #include "Color.h"
 #include "Frame.h"
 #include "Mask.h"
+
+namespace naiad {
+class Sequence;
+}
 
 namespace df {
 
@@ -27,7 +32,7 @@ class Sprite {
   /// What it covers around a position: width by height cells, the position in the middle.
   Box getBox() const { return {Vector(-m_width / 2.0, -m_height / 2.0), double(m_width), double(m_height)}; }
 
-  void setColor(Color new_color) { m_color = new_color; }
+  void setColor(Color new_color);
   Color getColor() const { return m_color; }
 
   /// Return 0, or -1 if there are max_frames already.
@@ -55,10 +60,16 @@ class Sprite {
   /// number without a frame.
   const Mask* mask(int frame_number) const;
 
+  /// All frames as watchers are told of them. Empty if that cannot be: there are none, too many (kMaxFrames)
+  /// or too large ones, or one that draws nothing at all.
+  const naiad::Sequence& pictures() const;
+
   /// For log lines.
   std::string toString() const;
 
  private:
+  naiad::Sequence makePictures() const;
+
   int m_width = 0;
   int m_height = 0;
   int m_max_frames;
@@ -68,6 +79,7 @@ class Sprite {
   std::vector<Frame> m_frames;
   std::string m_label;
   mutable std::vector<std::optional<Mask>> m_masks;  // by frame, made when they are first asked for
+  mutable std::shared_ptr<const naiad::Sequence> m_p_pictures;  // likewise
 };
 
 }  // namespace df

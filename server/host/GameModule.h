@@ -22,6 +22,8 @@ class GameModule {
 
   /// "saucershoot": the file's name without folder and ending.
   const std::string& name() const { return m_name; }
+  /// Where its files are (sprites, sounds): a folder of the module's name beside it, then the one it is in itself.
+  std::vector<std::string> resourceFolders() const;
   /// Run the game's main() on this thread; what it returns.
   int main() const;
 
@@ -31,6 +33,7 @@ class GameModule {
  private:
   using Main = int (*)(int, char**);
   std::string m_name;
+  std::filesystem::path m_folder;  // that the module is in
   Main m_main = nullptr;
 };
 

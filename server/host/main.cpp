@@ -14,6 +14,7 @@
 #include "HostOptions.h"
 #include "LogManager.h"
 #include "Version.h"
+#include "World.h"
 
 namespace {
 
@@ -84,6 +85,7 @@ int serve(naiad::HostOptions options) {
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(newSeed());
   const Installed installed(host, [&log](const std::string& line) { log(line); });
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
+  for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + " on " + host.address() +
       ", seed " + std::to_string(options.seed));
   if (!options.join_file.empty()) {

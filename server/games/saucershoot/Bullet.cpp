@@ -2,33 +2,18 @@
 
 #include <cmath>
 
-#include "DisplayManager.h"
 #include "EventCollision.h"
 #include "EventOut.h"
 #include "Saucer.h"
+#include "Sprites.h"
 #include "WorldManager.h"
 
-namespace {
-
-/// A character that looks like the path of a bullet.
-char lookAlong(df::Vector direction) {
-  const double across = std::abs(direction.x());
-  const double down = 2 * std::abs(direction.y());  // cells are about twice as high as wide
-  if (down < 0.5 * across) return '-';
-  if (across < 0.5 * down) return '|';
-  return direction.x() * direction.y() > 0 ? '\\' : '/';
-}
-
-}  // namespace
-
 Bullet::Bullet(std::uint32_t player, df::Color color, df::Vector position, df::Vector direction)
-    : m_player(player), m_color(color), m_look(lookAlong(direction)) {
+    : m_player(player) {
   setType("Bullet");
   setSolidness(df::SOFT);  // a HARD one could not leave the ship that shoots it
-  setStaticLook();
   setPosition(position);
-  // As long as the path of one tick: nothing slips through between two positions.
-  setBox(df::Box(df::Vector(-1.5, -0.5), 3, 1));
+  setSprite(inColor("bullet", color));  // longer than its path of one tick: it passes through nothing
 
   // On the screen all directions shall look equally fast, so a row counts as two columns.
   const double x = direction.x();
@@ -56,8 +41,4 @@ void Bullet::hit(df::Object* p_other) {
   if (m_spent || p_other->getType() != "Saucer") return;
   m_spent = static_cast<Saucer*>(p_other)->shotBy(m_player);
   if (m_spent) WM.markForDelete(this);
-}
-
-int Bullet::draw() {
-  return DM.drawCh(getPosition(), m_look, m_color);
 }

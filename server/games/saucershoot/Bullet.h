@@ -15,13 +15,10 @@ class Bullet : public df::Object {
   Bullet(std::uint32_t player, df::Color color, df::Vector position, df::Vector direction);
 
   int eventHandler(const df::Event* p_e) override;
-  int draw() override;
 
  private:
   void hit(df::Object* p_other);
 
   std::uint32_t m_player;
-  df::Color m_color;
-  char m_look;
   bool m_spent = false;
 };

@@ -8,9 +8,25 @@
 
 #include "Event.h"
 
+inline const std::string ROUND_EVENT = "round";
 inline const std::string NUKE_EVENT = "nuke";
 inline const std::string SHOT_DOWN_EVENT = "shot-down";
 inline const std::string SHIP_LOST_EVENT = "ship-lost";
+
+/// Another part of the game begins.
+class EventRound : public df::Event {
+ public:
+  enum Part {
+    TITLE,   ///< it waits for somebody to begin
+    FLYING,  ///< everybody has ships
+    OVER,    ///< all ships are lost
+  };
+  explicit EventRound(Part part) : m_part(part) { setType(ROUND_EVENT); }
+  Part getPart() const { return m_part; }
+
+ private:
+  Part m_part;
+};
 
 /// Somebody set off a nuke: nothing that flies against us survives.
 class EventNuke : public df::Event {
@@ -32,7 +48,7 @@ class EventShotDown : public df::Event {
   int m_points;
 };
 
-/// A ship was lost. Its pilot `name` made `points` since it was launched.
+/// A ship was lost. Its pilot `name` has made `points` in this round.
 class EventShipLost : public df::Event {
  public:
   EventShipLost(std::string name, int points) : m_name(std::move(name)), m_points(points) {

@@ -1,4 +1,4 @@
-// A short flash of characters where something blew up, and gone.
+// What is left of a saucer or a ship, for as long as its sprite takes.
 #pragma once
 
 #include "Object.h"
@@ -8,11 +8,10 @@ class Explosion : public df::Object {
   explicit Explosion(df::Vector position, df::Vector velocity = df::Vector());
 
   int eventHandler(const df::Event* p_e) override;
-  int draw() override;
 
  private:
-  int m_age = 0;  // in ticks
+  int m_time_to_live = 1;  // in ticks
 };
 
-/// Many of them at once, flying apart: the end of a ship.
+/// Some of them at once, flying apart: the end of a ship.
 void explodeShip(df::Vector position);

@@ -13,18 +13,18 @@ inline double fieldHeight() {
   return DM.getVertical();
 }
 
-/// Ships and saucers keep to the rows from here to there. The others are left to the texts.
+/// Ships and saucers keep their middles on the rows from here to there. The others are left to the texts.
 inline double topRow() {
-  return 1;
+  return 2;
 }
 inline double bottomRow() {
-  return fieldHeight() - 3;
+  return fieldHeight() - 4;
 }
 
 /// The numbers of the texts that a player sees, see df::Player::setText().
 enum TextId : std::uint32_t {
-  STATUS_TEXT,   ///< top left: the player's points and nukes
+  STATUS_TEXT,   ///< top left: the player's points, ships and nukes
   TEAM_TEXT,     ///< top right: what flying together is worth at the moment
   MESSAGE_TEXT,  ///< second last row: the keys, and what has just happened to this player
-  BEST_TEXT,     ///< at the bottom: the best lives so far
+  BEST_TEXT,     ///< at the bottom: the best pilots so far
 };

@@ -14,6 +14,7 @@
 #include "Explosion.h"
 #include "Field.h"
 #include "Saucer.h"
+#include "Sprites.h"
 #include "WorldManager.h"
 
 namespace {
@@ -41,7 +42,7 @@ df::Controls flightControls() {
   for (const Key key : {UPARROW, W}) controls.onKey(key).drive(0, -kSpeedDown);
   for (const Key key : {DOWNARROW, S}) controls.onKey(key).drive(0, kSpeedDown);
   return controls.toWholeCells()
-      .within(df::Box(df::Vector(1, topRow()), fieldWidth() - 3, bottomRow() - topRow()))
+      .within(df::Box(df::Vector(3, topRow()), fieldWidth() - 7, bottomRow() - topRow()))
       .patience(Trigger::kPatience);
 }
 
@@ -54,14 +55,17 @@ Hero::Hero(df::Player& player)
       m_hint_wait(kHintTicks) {
   setType("Hero");
   setAltitude(3);
-  setBox(df::Box(df::Vector(-0.4, -0.4), 0.8, 0.8));  // a saucer in the next row is close, but not a hit
+  setSprite(inColor("ship", m_color), false);
+  setBox(df::Box(df::Vector(-2, -0.4), 4, 0.8));  // its body: what only brushes a wing is no hit
   registerInterest(df::STEP_EVENT);
   registerInterest(df::KEYBOARD_EVENT);
   registerInterest(df::MSE_EVENT);
   registerInterest(df::LEAVE_EVENT);
   registerInterest(SHOT_DOWN_EVENT);
+  registerInterest(ROUND_EVENT);
   player.setObject(this);
   player.setControls(flightControls());
+  player.setScore(0);
   launch();
 }
 
@@ -89,6 +93,8 @@ int Hero::eventHandler(const df::Event* p_e) {
     }
   } else if (type == df::LEAVE_EVENT) {
     if (static_cast<const df::EventLeave*>(p_e)->getPlayer() == m_player) WM.markForDelete(this);
+  } else if (type == ROUND_EVENT) {
+    if (static_cast<const EventRound*>(p_e)->getPart() == EventRound::TITLE) retire();
   } else {
     return 0;
   }
@@ -102,7 +108,7 @@ void Hero::step() {
   m_trigger.step();
   if (m_gun_wait > 0) --m_gun_wait;
   if (m_hint_wait > 0) --m_hint_wait;
-  if (m_wait > 0 && --m_wait == 0) {
+  if (!isSpent() && m_wait > 0 && --m_wait == 0) {
     if (m_lost) {
       launch();
     } else {
@@ -125,23 +131,27 @@ void Hero::keyboard(const df::EventKeyboard& event) {
 
 void Hero::mouse(const df::EventMouse& event) {
   const bool pulls_trigger = event.getMouseAction() != df::MOVED && event.getMouseButton() == df::Mouse::LEFT;
-  if (pulls_trigger && !m_lost) fire(event.getMousePosition() - getPosition());
+  if (pulls_trigger && !m_lost) fire(event.getMousePosition() - nose());
 }
 
 void Hero::fire(df::Vector direction) {
   if (m_gun_wait > 0 || WM.objectsOfType("Bullet").getCount() >= kMostBullets) return;
   if (direction == df::Vector()) direction = df::Vector(1, 0);  // clicked on the ship itself
   m_gun_wait = kGunTicks;
-  new Bullet(m_player, m_color, getPosition(), direction);
+  new Bullet(m_player, m_color, nose(), direction);
+}
+
+df::Vector Hero::nose() const {
+  return getPosition() + df::Vector(3, 0);
 }
 
 df::Vector Hero::aimAhead() const {
   df::Vector direction(1, 0);
-  double nearest = fieldWidth() - getPosition().x();  // what is not on the screen yet is not shot at
+  double nearest = fieldWidth() - nose().x();  // what is not on the screen yet is not shot at
   const df::ObjectList saucers = WM.objectsOfType("Saucer");
   df::ObjectListIterator li(&saucers);
   for (li.first(); !li.isDone(); li.next()) {
-    const df::Vector way = li.currentObject()->getPosition() - getPosition();
+    const df::Vector way = li.currentObject()->getPosition() - nose();
     if (way.x() <= 0 || way.x() >= nearest || std::abs(way.y()) > kAimRows) continue;
     nearest = way.x();
     // Not where it is, but where it will be when the bullet is there.
@@ -165,7 +175,6 @@ void Hero::launch() {
   m_lost = false;
   m_wait = kShieldTicks;
   m_nukes = std::max(1, m_nukes);
-  m_first_score = WM.getPlayer(m_player)->getScore();
   WM.getPlayer(m_player)->setSteering();
   setPosition(freePlace());
   setSolidness(df::SPECTRAL);  // nothing touches a shielded ship
@@ -176,11 +185,11 @@ df::Vector Hero::freePlace() {
   // Ask for more room than the ship needs, most of it in front; the sky may be too full for that, so take
   // the last place after some attempts: there is the shield, after all.
   const df::Box ship = getBox();
-  setBox(df::Box(df::Vector(-3, -1.5), 16, 3));
+  setBox(df::Box(df::Vector(-4, -2), 18, 4));
   df::Vector place;
   for (int attempt = 0; attempt < 20; ++attempt) {
     const int rows = static_cast<int>(bottomRow() - topRow()) - 3;
-    place = df::Vector(4 + WM.randomInt(8), topRow() + 2 + WM.randomInt(rows));
+    place = df::Vector(6 + WM.randomInt(8), topRow() + 2 + WM.randomInt(rows));
     if (!WM.isCollision(this, place)) break;
   }
   setBox(ship);
@@ -193,15 +202,22 @@ void Hero::lose() {
   m_lost = true;
   m_wait = kLostTicks;
   m_hint_wait = 0;
-  m_life_score = p_player->getScore() - m_first_score;
+  --m_ships;
   p_player->setSteering(false);
   setVelocity(df::Vector());
   setSolidness(df::SPECTRAL);
   setVisible(false);
   explodeShip(getPosition());
   showMessage(*p_player);
-  const EventShipLost ship_lost(m_name, m_life_score);
+  const EventShipLost ship_lost(m_name, p_player->getScore());
   WM.onEvent(&ship_lost);
+}
+
+void Hero::retire() {
+  if (df::Player* p_player = WM.getPlayer(m_player)) {
+    for (const TextId text : {STATUS_TEXT, MESSAGE_TEXT}) p_player->setText(text, df::Vector(), "");
+  }
+  WM.markForDelete(this);
 }
 
 // --- what is seen
@@ -209,22 +225,24 @@ void Hero::lose() {
 int Hero::draw() {
   const df::Vector at = getPosition();
   if (m_wait > 0) {  // a new ship: whose it is, and a flickering shield
-    DM.drawString(at + df::Vector(0, -1), m_name, df::LEFT_JUSTIFIED, m_color);
-    if (m_wait / 4 % 2 == 0) DM.drawCh(at + df::Vector(1, 0), ')', m_color);
+    DM.drawString(at + df::Vector(-2, -2), m_name, df::LEFT_JUSTIFIED, m_color);
+    if (m_wait / 4 % 2 == 0) DM.drawCh(at + df::Vector(4, 0), ')', m_color);
   }
-  return DM.drawCh(at, '>', m_color);
+  return df::Object::draw();
 }
 
 void Hero::showStatus(df::Player& player) const {
-  std::string text = std::to_string(player.getScore()) + " points   nukes " + std::to_string(m_nukes);
-  if (m_nukes < kMostNukes) text += "   next in " + std::to_string(kHitsPerNuke - m_hits) + " hits";
+  std::string text = std::to_string(player.getScore()) + " points  ships " + std::to_string(m_ships) +
+                     "  nukes " + std::to_string(m_nukes);
   player.setText(STATUS_TEXT, df::Vector(1, 0), text, m_color);
 }
 
 void Hero::showMessage(df::Player& player) const {
   std::string text;
-  if (m_lost) {
-    text = "Hit! " + std::to_string(m_life_score) + " points in that life. Next ship is on its way";
+  if (isSpent()) {
+    text = "Hit! That was your last ship.";
+  } else if (m_lost) {
+    text = "Hit! The next ship is on its way.";
   } else if (m_hint_wait > 0) {
     text = "arrows or WASD: fly   space: shoot   click: aim   N: nuke";
   }

@@ -1,5 +1,5 @@
-// A player's ship. It lives as long as its player stays: a lost ship is out of sight for a moment and then
-// launched anew.
+// A player's ships, one after another. A lost one is out of sight for a moment, then the next is launched;
+// when the last one is lost, the pilot watches the others until the round is over.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,9 @@ class Hero : public df::Object {
  public:
   explicit Hero(df::Player& player);
 
+  /// Has it lost its last ship?
+  bool isSpent() const { return m_ships == 0; }
+
   int eventHandler(const df::Event* p_e) override;
   int draw() override;
 
@@ -29,9 +32,11 @@ class Hero : public df::Object {
 
   void launch();
   void lose();
+  void retire();
   df::Vector freePlace();
   void fire(df::Vector direction);
   void fireNuke();
+  df::Vector nose() const;
   df::Vector aimAhead() const;
 
   void showStatus(df::Player& player) const;
@@ -42,11 +47,10 @@ class Hero : public df::Object {
   df::Color m_color;
   Trigger m_trigger;
   bool m_lost = false;
+  int m_ships = 3;      // this one among them
   int m_wait = 0;       // ticks: of the shield while flying, to the next launch while lost
   int m_gun_wait = 0;   // ticks until the gun is ready
   int m_hint_wait = 0;  // ticks for which the keys are still shown
   int m_nukes = 0;
-  int m_hits = 0;         // since the last nuke was earned
-  int m_first_score = 0;  // the player's points when this life began
-  int m_life_score = 0;   // points of the last life
+  int m_hits = 0;  // since the last nuke was earned
 };

@@ -2,18 +2,16 @@
 
 #include <cstdlib>
 
-#include "DisplayManager.h"
 #include "EventCollision.h"
-#include "EventOut.h"
 #include "EventStep.h"
 #include "Events.h"
 #include "Explosion.h"
 #include "Field.h"
 #include "WorldManager.h"
 
-const Saucer::Kind Saucer::kDrone = {'o', df::GREEN, 0.30, 0.04, 10};
-const Saucer::Kind Saucer::kWeaver = {'8', df::CYAN, 0.40, 0.16, 20};
-const Saucer::Kind Saucer::kRaider = {'<', df::RED, 0.70, 0.02, 30};
+const Saucer::Kind Saucer::kDrone = {"drone", 0.30, 0.04, 10};
+const Saucer::Kind Saucer::kWeaver = {"weaver", 0.40, 0.16, 20};
+const Saucer::Kind Saucer::kRaider = {"raider", 0.70, 0.02, 30};
 
 const Saucer::Kind& Saucer::anyKind() {
   const int dice = WM.randomInt(10);
@@ -24,7 +22,7 @@ Saucer::Saucer() : m_kind(anyKind()) {
   setType("Saucer");
   // SOFT, so that none gets stuck behind or inside another one. They see to their distance themselves.
   setSolidness(df::SOFT);
-  setStaticLook();
+  setSprite(m_kind.sprite);
   registerInterest(df::STEP_EVENT);
   registerInterest(NUKE_EVENT);
   enter();
@@ -38,7 +36,7 @@ void Saucer::enter() {
   if (!heroes.isEmpty() && WM.randomInt(3) == 0) {
     row = static_cast<int>(heroes[WM.randomInt(heroes.getCount())]->getPosition().y());
   }
-  setPosition(df::Vector(fieldWidth() + WM.randomInt(12), row));
+  setPosition(df::Vector(fieldWidth() + 3 + WM.randomInt(12), row));
   setDrift(WM.randomInt(3) - 1);
 }
 
@@ -55,10 +53,6 @@ int Saucer::eventHandler(const df::Event* p_e) {
     steer();
     return 1;
   }
-  if (p_e->getType() == df::OUT_EVENT) {
-    enter();
-    return 1;
-  }
   if (p_e->getType() == df::COLLISION_EVENT) {
     const auto* p_collision = static_cast<const df::EventCollision*>(p_e);
     const bool is_mover = p_collision->getObject1() == this;
@@ -67,13 +61,14 @@ int Saucer::eventHandler(const df::Event* p_e) {
   }
   if (p_e->getType() == NUKE_EVENT) {
     // Those that wait outside do not see the flash.
-    if (getPosition().x() < fieldWidth()) explode();
+    if (getPosition().x() < fieldWidth() + 3) explode();
     return 1;
   }
   return 0;
 }
 
 void Saucer::steer() {
+  if (getPosition().x() < -3) enter();  // the last of it is out of sight
   const double row = getPosition().y();
   if (row <= topRow()) {
     if (getVelocity().y() < 0) setDrift(1);
@@ -104,8 +99,4 @@ bool Saucer::explode() {
   new Explosion(getPosition());
   WM.markForDelete(this);  // until the tick is over it goes on colliding, hence m_exploded
   return true;
-}
-
-int Saucer::draw() {
-  return DM.drawCh(getPosition(), m_kind.ch, m_kind.color);
 }

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "Color.h"
 #include "Object.h"
 
 class Saucer : public df::Object {
@@ -17,12 +16,10 @@ class Saucer : public df::Object {
   bool explode();
 
   int eventHandler(const df::Event* p_e) override;
-  int draw() override;
 
  private:
   struct Kind {
-    char ch;
-    df::Color color;
+    const char* sprite;
     double speed;  // to the left, cells per tick
     double drift;  // up or down
     int points;

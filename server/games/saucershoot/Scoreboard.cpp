@@ -3,17 +3,19 @@
 #include <algorithm>
 
 #include "EventStep.h"
+#include "EventView.h"
 #include "Events.h"
 #include "Field.h"
 #include "GameManager.h"
 #include "Player.h"
+#include "Points.h"
 #include "WorldManager.h"
 
 namespace {
 
 constexpr int kTeamTicks = 90;         // how long a hit counts for the team
 constexpr int kBiggestTeam = 4;        // more do not make more of it
-constexpr int kShowTicks = 150;        // how long the best lives stay on the screen
+constexpr int kShowTicks = 150;        // how long the best pilots stay on the screen
 constexpr int kShowEveryTicks = 1800;  // even if nobody dies
 constexpr std::size_t kBestCount = 3;
 
@@ -50,7 +52,7 @@ void Scoreboard::step(int tick) {
   if (m_show_best > 0) --m_show_best;
 
   const std::string team = teamFactor() < 2 ? "" : "team x" + std::to_string(teamFactor());
-  const std::string best = m_show_best > 0 ? bestLives() : "";
+  const std::string best = m_show_best > 0 ? bestPilots() : "";
   for (df::Player* p_player : WM.getPlayers()) {
     p_player->setText(TEAM_TEXT, df::Vector(fieldWidth() - 10, 0), team, df::YELLOW);
     p_player->setText(BEST_TEXT, df::Vector(1, fieldHeight() - 1), best, df::YELLOW);
@@ -61,7 +63,10 @@ void Scoreboard::credit(const EventShotDown& shot_down) {
   df::Player* p_player = WM.getPlayer(shot_down.getPlayer());
   if (p_player == nullptr) return;  // left while the bullet was still on its way
   m_last_hit[shot_down.getPlayer()] = GM.getStepCount();
-  p_player->setScore(p_player->getScore() + shot_down.getPoints() * teamFactor());
+  const int points = shot_down.getPoints() * teamFactor();
+  p_player->setScore(p_player->getScore() + points);
+  const df::EventView view(POINTS_STRING, points, true);
+  WM.onEvent(&view);
 }
 
 int Scoreboard::teamFactor() const {
@@ -70,25 +75,25 @@ int Scoreboard::teamFactor() const {
 
 void Scoreboard::enter(const EventShipLost& ship_lost) {
   if (ship_lost.getPoints() == 0) return;
-  const Life life = {ship_lost.getName(), ship_lost.getPoints()};
-  const auto by_name = [&](const Life& other) { return other.name == life.name; };
+  const Flight flight = {ship_lost.getName(), ship_lost.getPoints()};
+  const auto by_name = [&](const Flight& other) { return other.name == flight.name; };
   const auto old = std::find_if(m_best.begin(), m_best.end(), by_name);
   if (old == m_best.end()) {
-    m_best.push_back(life);
+    m_best.push_back(flight);
   } else {
-    old->points = std::max(old->points, life.points);
+    old->points = std::max(old->points, flight.points);
   }
-  const auto better = [](const Life& a, const Life& b) { return a.points > b.points; };
+  const auto better = [](const Flight& a, const Flight& b) { return a.points > b.points; };
   std::stable_sort(m_best.begin(), m_best.end(), better);
   if (m_best.size() > kBestCount) m_best.resize(kBestCount);
   m_show_best = kShowTicks;
 }
 
-std::string Scoreboard::bestLives() const {
+std::string Scoreboard::bestPilots() const {
   std::string text;
-  for (const Life& life : m_best) {
-    text += text.empty() ? "Best lives: " : ", ";
-    text += life.name + " " + std::to_string(life.points);
+  for (const Flight& flight : m_best) {
+    text += text.empty() ? "Best pilots: " : ", ";
+    text += flight.name + " " + std::to_string(flight.points);
   }
   return text;
 }

@@ -20,7 +20,7 @@ class Scoreboard : public df::Object {
   int eventHandler(const df::Event* p_e) override;
 
  private:
-  struct Life {
+  struct Flight {
     std::string name;
     int points;
   };
@@ -29,9 +29,9 @@ class Scoreboard : public df::Object {
   void credit(const EventShotDown& shot_down);
   void enter(const EventShipLost& ship_lost);
   int teamFactor() const;
-  std::string bestLives() const;
+  std::string bestPilots() const;
 
   std::map<std::uint32_t, int> m_last_hit;  // player -> tick
-  std::vector<Life> m_best;                 // one life per name, best first
+  std::vector<Flight> m_best;               // one per name, best first
   int m_show_best = 0;                      // ticks to go
 };

@@ -10,16 +10,16 @@
 
 namespace {
 
-constexpr int kMostSaucers = 60;
-constexpr int kSaucersAtRest = 10;  // when nobody plays
-constexpr int kSaucersPerPlayer = 4;
-constexpr int kLevelsPerPlayer = 14;
-constexpr int kTicksPerLevel = 90;
+constexpr int kMostSaucers = 32;
+constexpr int kSaucersAtRest = 8;  // when nobody plays
+constexpr int kSaucersPerPilot = 2;
+constexpr int kLevelsPerPilot = 12;
+constexpr int kTicksPerLevel = 120;
 constexpr int kTicksPerWave = 4;  // after a nuke the sky fills again in a few seconds, not at once
 constexpr int kRelief = 2;        // levels that a lost ship takes back: it got too hard too fast
 
-int playerCount() {
-  return static_cast<int>(WM.getPlayers().size());
+int pilotCount() {
+  return WM.objectsOfType("Hero").getCount();
 }
 
 }  // namespace
@@ -52,15 +52,15 @@ int Spawner::eventHandler(const df::Event* p_e) {
 }
 
 void Spawner::step(int tick) {
-  const int players = playerCount();
+  const int pilots = pilotCount();
   if (tick % kTicksPerLevel == 0) ++m_level;
-  m_level = std::min(m_level, kLevelsPerPlayer * players);
+  m_level = std::min(m_level, kLevelsPerPilot * pilots);
   if (tick % kTicksPerWave != 0) return;
 
   const df::ObjectList saucers = WM.objectsOfType("Saucer");
-  const int wanted = std::min(kSaucersAtRest + kSaucersPerPlayer * players + m_level, kMostSaucers);
+  const int wanted = std::min(kSaucersAtRest + kSaucersPerPilot * pilots + m_level, kMostSaucers);
   const int missing = wanted - saucers.getCount();
-  const int wave = std::min(missing, 1 + players / 2);  // many pilots shoot many
+  const int wave = std::min(missing, 1 + pilots / 2);  // many pilots shoot many
   for (int i = 0; i < wave; ++i) new Saucer;
   if (missing < 0) retireOne(saucers);
 }
@@ -68,7 +68,7 @@ void Spawner::step(int tick) {
 void Spawner::retireOne(const df::ObjectList& saucers) {
   df::ObjectListIterator li(&saucers);
   for (li.first(); !li.isDone(); li.next()) {
-    if (li.currentObject()->getPosition().x() < fieldWidth()) continue;
+    if (li.currentObject()->getPosition().x() < fieldWidth() + 3) continue;
     WM.markForDelete(li.currentObject());
     return;
   }

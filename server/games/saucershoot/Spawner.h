@@ -1,4 +1,4 @@
-// Sends in the saucers: a few when nobody is there to see them, more for every pilot, and more and more the
+// Sends in the saucers: a few when nobody flies, more for every pilot, and more and more the
 // longer the pilots survive. There is always an upper limit, so it never gets hopeless.
 #pragma once
 

@@ -1,15 +1,18 @@
-// Saucer Shoot for everybody who comes: the game of the Dragonfly tutorial, with as many ships as players.
+// Saucer Shoot for everybody who comes: the game of the Dragonfly tutorial in full, for one pilot to eight or
+// more.
 //
-// Start reading here, then go on with Hero. dfserver loads this game, runs main() and shows it to the
-// players: nothing in it knows about networks.
+// Start reading here, then go on with Round and Hero. dfserver loads this game, runs main() and shows it to
+// the players: nothing in it knows about networks.
 #include "GameManager.h"
-#include "Hangar.h"
+#include "Round.h"
 #include "Scoreboard.h"
 #include "Spawner.h"
+#include "Sprites.h"
 #include "Star.h"
 
 int main() {
   if (GM.startUp()) return 1;
+  if (loadSprites()) return 1;
   GM.setHelp({
       "Saucer Shoot: shoot the saucers, do not touch them.",
       "",
@@ -18,6 +21,7 @@ int main() {
       "mouse button   shoot where you click",
       "N, Enter       nuke: clears the sky, earns nothing",
       "",
+      "Three ships each; the round is over when the last one is lost.",
       "20 hits earn a nuke. The more pilots have hit something in the",
       "last three seconds, the more a saucer is worth: up to four times.",
   });
@@ -25,7 +29,7 @@ int main() {
   // Objects are made with new and never deleted here: the world looks after them.
   for (int i = 0; i < 30; ++i) new Star;
   new Spawner;
-  new Hangar;
+  new Round;
   new Scoreboard;
 
   GM.run();  // until the server ends

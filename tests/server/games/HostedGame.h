@@ -23,12 +23,15 @@ class TestRunner : public df::Runner {
   std::function<void(df::World&)> m_play;
 };
 
-/// From the start of the game to its shutDown(), with this seed.
-inline void hostGame(int (*game_main)(), std::uint64_t seed, std::function<void(df::World&)> play) {
+/// From the start of the game to its shutDown(), with this seed. `folder`: of server/games, with what it
+/// loads.
+inline void hostGame(int (*game_main)(), std::uint64_t seed, std::function<void(df::World&)> play,
+                     const std::string& folder = {}) {
   df::World world;
   const df::World::Scope scope(world);
   world.setLogSink([](const std::string&) {});
   world.setSeed(seed);
+  if (!folder.empty()) world.addResourceFolder(std::string(NAIAD_SOURCE_DIR) + "/server/games/" + folder);
   TestRunner runner(std::move(play));
   world.setRunner(&runner);
   game_main();

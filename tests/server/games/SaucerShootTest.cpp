@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "HostedGame.h"
 #include "Player.h"
 #include "SteeredCopy.h"
+#include "ViewObject.h"
 #include "WorldView.h"
 
 /// The game's main(), compiled into this test under another name.
@@ -18,15 +20,58 @@ using df::Keyboard::Key;
 constexpr int kShieldTicks = 60;
 constexpr int kRelaunchTicks = 65;
 
+void host(std::uint64_t seed, std::function<void(df::World&)> play) {
+  bool played = false;
+  const auto noted = [&](df::World& world) {
+    played = true;
+    play(world);
+  };
+  hostGame(saucershoot_main, seed, noted, "saucershoot");
+  EXPECT_TRUE(played) << "the sprites are missing";
+}
+
 int score(df::World& world, std::uint32_t player) {
   return world.getPlayer(player)->getScore();
 }
 
-/// Joins, and waits until the new ship can be hit.
-std::uint32_t joinAndWait(df::World& world) {
+/// Joins, begins a round, and is in it.
+std::uint32_t joinAndFly(df::World& world) {
   const std::uint32_t player = world.join("ann", df::RED);
-  tick(world, kShieldTicks + 2);
+  tap(world, player, df::Keyboard::P);
+  tick(world, 1);
   return player;
+}
+
+/// The same, and waits until the new ship can be hit.
+std::uint32_t joinAndWait(df::World& world) {
+  const std::uint32_t player = joinAndFly(world);
+  tick(world, kShieldTicks + 1);
+  return player;
+}
+
+bool shows(df::World& world, std::uint32_t player, const std::string& text) {
+  return world.renderPlayer(player).text().find(text) != std::string::npos;
+}
+
+/// So many ticks without a saucer near the ship.
+void tickInPeace(df::World& world, int count) {
+  for (int t = 0; t < count; ++t) {
+    const df::ObjectList saucers = world.objectsOfType("Saucer");
+    for (int i = 0; i < saucers.getCount(); ++i) {
+      const df::Vector at = saucers[i]->getPosition();
+      if (at.x() < 60) saucers[i]->setPosition(df::Vector(82, at.y()));
+    }
+    world.tick();
+  }
+}
+
+/// A saucer meets the ship.
+void crash(df::World& world, std::uint32_t player) {
+  const df::Object* p_hero = world.getPlayer(player)->getObject();
+  const df::ObjectList saucers = world.objectsOfType("Saucer");
+  ASSERT_FALSE(saucers.isEmpty());
+  saucers[0]->setPosition(p_hero->getPosition() + df::Vector(1, 0));
+  world.tick();
 }
 
 /// Presses a random key or uses the mouse at random, now and then.
@@ -44,7 +89,7 @@ void playAtRandom(df::World& world, df::Random& random, std::uint32_t player) {
 /// All of what the first player saw while four played at random, as one number.
 std::uint64_t hashOfARandomGame(std::uint64_t seed, int ticks) {
   std::uint64_t hash = 14695981039346656037u;
-  hostGame(saucershoot_main, seed, [&](df::World& world) {
+  host(seed, [&](df::World& world) {
     df::Random random(seed);
     std::vector<std::uint32_t> players;
     for (int i = 0; i < 4; ++i) players.push_back(world.join("pilot", df::RED));
@@ -60,15 +105,17 @@ std::uint64_t hashOfARandomGame(std::uint64_t seed, int ticks) {
 }
 
 TEST(SaucerShoot, SaucersKeepOffTheRowsOfTheTexts) {
-  hostGame(saucershoot_main, 1, [](df::World& world) {
-    for (int i = 0; i < 12; ++i) world.join("pilot", df::RED);  // many pilots, many saucers
+  host(1, [](df::World& world) {
+    const std::uint32_t first = joinAndFly(world);
+    for (int i = 0; i < 11; ++i) world.join("pilot", df::RED);  // many pilots, many saucers
     int outside = 0;
     for (int t = 0; t < 6000; ++t) {
+      if (t % 100 == 0) tap(world, first, df::Keyboard::P);  // another round, if this one is over
       world.tick();
       const df::ObjectList saucers = WM.objectsOfType("Saucer");
       for (int i = 0; i < saucers.getCount(); ++i) {
         const double y = saucers[i]->getPosition().y();
-        if (y < 0.5 || y >= 21.5) ++outside;
+        if (y < 1.5 || y >= 20.5) ++outside;
       }
     }
     EXPECT_EQ(outside, 0);
@@ -77,7 +124,7 @@ TEST(SaucerShoot, SaucersKeepOffTheRowsOfTheTexts) {
 
 TEST(SaucerShoot, SimplestPlayHitsASaucerWithinFiveSecondsForAnySeed) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    hostGame(saucershoot_main, seed, [&](df::World& world) {
+    host(seed, [&](df::World& world) {
       const std::uint32_t player = world.join("bot", df::RED);
       world.tick();
       for (int t = 0; t < 149; ++t) {
@@ -91,7 +138,7 @@ TEST(SaucerShoot, SimplestPlayHitsASaucerWithinFiveSecondsForAnySeed) {
 }
 
 TEST(SaucerShoot, AtLeastTwentyObjectsMoveOnTheScreen) {
-  hostGame(saucershoot_main, 1, [](df::World& world) {
+  host(1, [](df::World& world) {
     for (int t = 0; t < 600; ++t) {
       world.tick();
       int moving = 0;
@@ -110,24 +157,30 @@ TEST(SaucerShoot, SameSeedAndInputsShowTheSameGame) {
 }
 
 TEST(SaucerShoot, ObjectsStayBoundedWhateverFourPlayersDo) {
-  hostGame(saucershoot_main, 3, [](df::World& world) {
+  host(3, [](df::World& world) {
     df::Random random(3);
     std::vector<std::uint32_t> players;
     for (int i = 0; i < 4; ++i) players.push_back(world.join("pilot", df::RED));
-    for (int t = 0; t < 5000; ++t) {
+    int rounds = 0;
+    bool flying = false;
+    for (int t = 0; t < 8000; ++t) {
       for (const std::uint32_t player : players) playAtRandom(world, random, player);
       world.tick();
       ASSERT_LE(world.getObjectCount(), 350);
-      ASSERT_LE(world.objectsOfType("Saucer").getCount(), 60);
-      ASSERT_EQ(world.objectsOfType("Hero").getCount(), 4);
+      ASSERT_LE(world.objectsOfType("Saucer").getCount(), 32);
+      const int heroes = world.objectsOfType("Hero").getCount();
+      ASSERT_TRUE(heroes == 0 || heroes == 4);
+      if (std::exchange(flying, heroes == 4) != flying && flying) ++rounds;
+      ASSERT_LE(world.objectsOfType("GameStart").getCount() + world.objectsOfType("GameOver").getCount(), 1);
     }
+    EXPECT_GE(rounds, 2);
     EXPECT_EQ(world.getRefusals(), 0u);
   });
 }
 
 TEST(SaucerShoot, APlayerWhoLeavesTakesTheShipAlong) {
-  hostGame(saucershoot_main, 1, [](df::World& world) {
-    const std::uint32_t ann = world.join("ann", df::RED);
+  host(1, [](df::World& world) {
+    const std::uint32_t ann = joinAndFly(world);
     const std::uint32_t bob = world.join("bob", df::GREEN);
     tick(world, 20);
     EXPECT_EQ(world.objectsOfType("Hero").getCount(), 2);
@@ -140,9 +193,8 @@ TEST(SaucerShoot, APlayerWhoLeavesTakesTheShipAlong) {
 }
 
 TEST(SaucerShoot, TapMovesOneCellAndAHeldKeyMovesUntilReleased) {
-  hostGame(saucershoot_main, 1, [](df::World& world) {
-    const std::uint32_t player = world.join("ann", df::RED);
-    world.tick();
+  host(1, [](df::World& world) {
+    const std::uint32_t player = joinAndFly(world);
     const df::Object* p_hero = world.getPlayer(player)->getObject();
     const df::Vector start = p_hero->getPosition();
     tap(world, player, df::Keyboard::RIGHTARROW);
@@ -160,9 +212,8 @@ TEST(SaucerShoot, TapMovesOneCellAndAHeldKeyMovesUntilReleased) {
 }
 
 TEST(SaucerShoot, ShipWhoseReleaseGotLostStopsByItself) {
-  hostGame(saucershoot_main, 1, [](df::World& world) {
-    const std::uint32_t player = world.join("ann", df::RED);
-    world.tick();
+  host(1, [](df::World& world) {
+    const std::uint32_t player = joinAndFly(world);
     world.key(player, df::Keyboard::D, df::KEY_PRESSED);
     tick(world, 2);
     const df::Object* p_hero = world.getPlayer(player)->getObject();
@@ -188,8 +239,8 @@ ControlRecord recordOf(df::World& world, std::uint32_t player) {
 /// What a client is told is enough to know where the ship flies, until it is hit.
 TEST(SaucerShoot, AShipsControlsForetellItsPath) {
   int foretold = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    hostGame(saucershoot_main, seed, [&](df::World& world) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    host(seed, [&](df::World& world) {
       df::Random random(seed);
       const std::uint32_t player = joinAndWait(world);
       const df::ControlTable table = *world.getPlayer(player)->facts().steering.p_table;
@@ -207,6 +258,7 @@ TEST(SaucerShoot, AShipsControlsForetellItsPath) {
         copy.finish();
         const bool could_steer = copy.now().state.steering;
         world.tick();
+        if (world.getPlayer(player)->getObject() == nullptr) break;  // the round is over
         const ControlRecord now = recordOf(world, player);
         if (could_steer != now.state.steering) continue;  // hit, or launched
         EXPECT_EQ(now, copy.now());
@@ -217,33 +269,92 @@ TEST(SaucerShoot, AShipsControlsForetellItsPath) {
   EXPECT_GT(foretold, 9000);
 }
 
-TEST(SaucerShoot, LostShipIsLaunchedAnewInAFreePlace) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    hostGame(saucershoot_main, seed, [](df::World& world) {
-      const std::uint32_t player = joinAndWait(world);
-      df::Object* p_hero = world.getPlayer(player)->getObject();
-      if (p_hero->isVisible()) {  // else a saucer was faster
-        world.objectsOfType("Saucer")[0]->setPosition(p_hero->getPosition() + df::Vector(1, 0));
-        world.tick();
-      }
-      ASSERT_FALSE(p_hero->isVisible());
-      EXPECT_NE(world.renderPlayer(player).text().find("Hit!"), std::string::npos);
+TEST(SaucerShoot, TheTitleWaitsForAKey) {
+  host(1, [](df::World& world) {
+    const std::uint32_t player = world.join("ann", df::RED);
+    tick(world, 30);
+    EXPECT_TRUE(shows(world, player, "SPACE or P: play"));
+    EXPECT_EQ(world.objectsOfType("Hero").getCount(), 0);
+    tap(world, player, df::Keyboard::X);
+    world.tick();
+    EXPECT_EQ(world.objectsOfType("Hero").getCount(), 0);
+    tap(world, player, df::Keyboard::P);
+    tap(world, player, df::Keyboard::P);  // one round, not two
+    tick(world, 2);
+    EXPECT_FALSE(shows(world, player, "SPACE or P: play"));
+    EXPECT_TRUE(shows(world, player, "Points 0"));
+    EXPECT_TRUE(shows(world, player, "0 points  ships 3  nukes 1"));
+    EXPECT_TRUE(shows(world, player, "##=>"));
+    EXPECT_EQ(world.objectsOfType("Hero").getCount(), 1);
+    const std::uint32_t late = world.join("bob", df::GREEN);
+    world.tick();
+    EXPECT_EQ(world.objectsOfType("Hero").getCount(), 2);
+    EXPECT_NE(world.getPlayer(late)->getObject(), nullptr);
+  });
+}
 
-      tick(world, kRelaunchTicks);
-      EXPECT_TRUE(p_hero->isVisible());
-      EXPECT_EQ(p_hero->getSolidness(), df::SPECTRAL);  // shielded
+TEST(SaucerShoot, ALostShipIsReplacedUntilTheThirdThenTheTitleComesBack) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    host(seed, [](df::World& world) {
+      const std::uint32_t player = joinAndFly(world);
+      df::Object* p_hero = world.getPlayer(player)->getObject();
+      for (int ships = 2; ships >= 0; --ships) {
+        tickInPeace(world, kShieldTicks);
+        ASSERT_EQ(p_hero->getSolidness(), df::SOFT);  // no shield any more
+        crash(world, player);
+        ASSERT_FALSE(p_hero->isVisible());
+        EXPECT_TRUE(shows(world, player, "Hit!"));
+        tickInPeace(world, 1);
+        EXPECT_TRUE(shows(world, player, "ships " + std::to_string(ships)));
+        if (ships == 0) break;
+        tickInPeace(world, kRelaunchTicks);
+        EXPECT_TRUE(p_hero->isVisible());
+      }
+      world.tick();
+      EXPECT_TRUE(shows(world, player, "G A M E   O V E R"));
+      tick(world, 100);
+      EXPECT_TRUE(shows(world, player, "SPACE or P: play"));
+      EXPECT_EQ(world.objectsOfType("Hero").getCount(), 0);
+      tap(world, player, df::Keyboard::SPACE);
+      tick(world, 2);
+      EXPECT_TRUE(shows(world, player, "ships 3"));
     });
   }
 }
 
+TEST(SaucerShoot, ARoundEndsWithItsLastPilot) {
+  host(1, [](df::World& world) {
+    const std::uint32_t ann = joinAndFly(world);
+    world.leave(ann);
+    tick(world, 3);
+    EXPECT_EQ(world.objectsOfType("GameStart").getCount(), 1);
+    EXPECT_EQ(world.objectsOfType("Points").getCount(), 0);
+  });
+}
+
+TEST(SaucerShoot, PointsAreTheTeamsAndTheScoresThePilots) {
+  host(5, [](df::World& world) {
+    const std::uint32_t player = joinAndFly(world);
+    for (int t = 0; t < 300; ++t) {
+      if (t % 10 == 0) tap(world, player, df::Keyboard::SPACE);
+      world.tick();
+    }
+    EXPECT_GT(score(world, player), 0);
+    const df::ObjectList points = world.objectsOfType("Points");
+    ASSERT_EQ(points.getCount(), 1);
+    const int team = static_cast<const df::ViewObject*>(points[0])->getValue();
+    EXPECT_EQ(team, score(world, player) + 10);  // and a point for each second
+  });
+}
+
 TEST(SaucerShoot, NukeClearsTheSkyAndEarnsNothing) {
-  hostGame(saucershoot_main, 1, [](df::World& world) {
-    const std::uint32_t player = world.join("ann", df::RED);
+  host(1, [](df::World& world) {
+    const std::uint32_t player = joinAndFly(world);
     tick(world, 10);
     tap(world, player, df::Keyboard::RETURN);
     world.tick();
     const df::ObjectList saucers = world.objectsOfType("Saucer");
-    for (int i = 0; i < saucers.getCount(); ++i) EXPECT_GE(saucers[i]->getPosition().x(), 79);
+    for (int i = 0; i < saucers.getCount(); ++i) EXPECT_GE(saucers[i]->getPosition().x(), 80);
     EXPECT_EQ(score(world, player), 0);
   });
 }

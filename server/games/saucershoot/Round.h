@@ -1,0 +1,19 @@
+// The course of the game: the title, then everybody flies until all ships are lost, then the title again. Who
+// joins meanwhile gets ships at once.
+#pragma once
+
+#include "EventPlayer.h"
+#include "Events.h"
+#include "Object.h"
+
+class Round : public df::Object {
+ public:
+  Round();
+  int eventHandler(const df::Event* p_e) override;
+
+ private:
+  void enter(EventRound::Part part);
+  void step();
+
+  EventRound::Part m_part = EventRound::TITLE;
+};

@@ -1,0 +1,145 @@
+// games: the games that ship, played by four who press keys at random: how fast they run without anybody
+// watching, and what a player costs the server while somebody does, over a link of 100 ms there and back in
+// virtual time.
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "Clock.h"
+#include "GameModule.h"
+#include "Line.h"
+#include "Player.h"
+#include "Runner.h"
+#include "Suite.h"
+#include "World.h"
+#include "net/LinkedClient.h"
+#include "server/games/Crowd.h"
+
+namespace bench {
+
+namespace {
+
+using namespace naiad;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kPlayers = 4;
+constexpr std::uint64_t kSeed = 7;
+
+/// Runs a game's main() in a world of its own, with `play` where it waits for players.
+class Stage : public df::Runner {
+ public:
+  template <class Play>
+  Stage(const GameModule& game, Play play) : m_play(play) {
+    df::World world;
+    const df::World::Scope scope(world);
+    world.setLogSink([](const std::string&) {});
+    world.setSeed(kSeed);
+    for (const std::string& folder : game.resourceFolders()) world.addResourceFolder(folder);
+    world.setRunner(this);
+    if (game.main() != 0) throw std::runtime_error("the game " + game.name() + " did not run");
+  }
+  void run(df::World& world) override { m_play(world); }
+
+ private:
+  std::function<void(df::World&)> m_play;
+};
+
+/// Ticks, the bots' keys and joins among them, per second of this thread's processor time.
+double ticksPerSecond(const GameModule& game, int ticks) {
+  double nanoseconds = 0;
+  const Stage stage(game, [&](df::World& world) {
+    Crowd crowd(world, kSeed, kPlayers);
+    const double begin = cpuNanoseconds();
+    for (int t = 0; t < ticks; ++t) {
+      crowd.play();
+      world.tick();
+    }
+    nanoseconds = cpuNanoseconds() - begin;
+  });
+  return ticks / (nanoseconds / 1e9);
+}
+
+/// What all players saw in 1,000 ticks.
+std::uint64_t hashOf(const GameModule& game) {
+  PictureHash hash;
+  const Stage stage(game, [&](df::World& world) {
+    Crowd crowd(world, kSeed, kPlayers);
+    for (int t = 0; t < 1000; ++t) {
+      crowd.play();
+      world.tick();
+      for (const std::uint32_t player : crowd.players()) hash.add(world.renderPlayer(player));
+    }
+  });
+  return hash.value();
+}
+
+struct Cost {
+  double microseconds = 0;  ///< of the server: the tick, publishing, encoding
+  double bytes = 0;         ///< down
+  double player_ticks = 0;
+};
+
+Cost costOfPlayers(const GameModule& game, int ticks) {
+  Cost cost;
+  const Stage stage(game, [&](df::World& world) {
+    VirtualClock clock;
+    LinkConditions link;
+    link.delay = 50ms;
+    Publisher publisher;
+    Crowd crowd(world, kSeed, kPlayers);
+    std::map<std::uint32_t, std::unique_ptr<LinkedClient>> clients;
+    world.setWatched(true);
+    for (int t = 0; t < ticks; ++t) {
+      crowd.play();
+      const double begin = cpuNanoseconds();
+      world.tick();
+      publisher.update(world.view());
+      cost.microseconds += (cpuNanoseconds() - begin) / 1e3;
+      std::map<std::uint32_t, std::unique_ptr<LinkedClient>> here;
+      for (const df::PlayerFacts& facts : world.view().players) {
+        std::unique_ptr<LinkedClient>& p_client = here[facts.id];
+        p_client = std::move(clients[facts.id]);
+        if (p_client == nullptr)
+          p_client = std::make_unique<LinkedClient>(clock, link, facts.id, Resend::kOnGap);
+        p_client->tick(publisher, facts);
+        cost.microseconds += std::chrono::duration<double, std::micro>(p_client->encode).count();
+        cost.bytes += static_cast<double>(p_client->bytes_down);
+        cost.player_ticks += 1;
+        p_client->resetFigures();
+      }
+      clients = std::move(here);
+      clock.advanceBy(kTickLength);
+    }
+  });
+  return cost;
+}
+
+void measure(const std::string& name, bool quick) {
+  const GameModule game(name);
+  const int ticks = quick ? 1000 : 9000;
+  const double speed = ticksPerSecond(game, ticks);
+  const Cost cost = costOfPlayers(game, ticks);
+  char hash[32];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(hashOf(game)));
+  const double seconds = cost.player_ticks / 30;
+  Line("games")
+      .add("name", name)
+      .add("ticks_per_s", speed)
+      .add("cpu_us_per_player_tick", cost.microseconds / cost.player_ticks)
+      .add("kbit_s_per_player", 8 * cost.bytes / 1000 / seconds)
+      .add("hash", std::string(hash));
+}
+
+const Suite s_suite("games", "the games that ship: ticks per second, and what a player costs",
+                    [](const Options& options) {
+                      for (const std::string& name : GameModule::available()) {
+                        progress("games " + name);
+                        measure(name, options.quick);
+                      }
+                    });
+
+}  // namespace
+
+}  // namespace bench

@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include "Fingers.h"
+#include "HostedGame.h"
+#include "Player.h"
+#include "utility.h"
+
+/// The game's main(), compiled into this test under another name.
+int chase_main();
+
+namespace naiad {
+namespace {
+
+using namespace df;
+
+/// Runs for the nearest gold, and looks neither left nor right.
+std::set<Keyboard::Key> greedy(const World& world, const Object& hare) {
+  const Vector at = hare.getPosition();
+  const Object* p_best = nullptr;
+  const ObjectList gold = world.objectsOfType("Gold");
+  for (int i = 0; i < gold.getCount(); ++i) {
+    if (p_best == nullptr || distance(at, gold[i]->getPosition()) < distance(at, p_best->getPosition()))
+      p_best = gold[i];
+  }
+  const Vector way = p_best->getPosition() - at;
+  std::set<Keyboard::Key> keys;
+  if (std::abs(way.x()) >= 0.5) keys.insert(way.x() > 0 ? Keyboard::RIGHTARROW : Keyboard::LEFTARROW);
+  if (std::abs(way.y()) >= 0.5) keys.insert(way.y() > 0 ? Keyboard::DOWNARROW : Keyboard::UPARROW);
+  return keys;
+}
+
+TEST(Chase, AGreedyBotGathersTenPiecesOfGold) {
+  hostGame(chase_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    world.tick();
+    Fingers fingers(world, ann);
+    int best = 0;
+    for (int t = 0; t < 3000 && best < 100; ++t) {
+      fingers.hold(greedy(world, *world.getPlayer(ann)->getObject()));
+      world.tick();
+      best = std::max(best, world.getPlayer(ann)->getScore());
+    }
+    EXPECT_GE(best, 100);
+  });
+}
+
+TEST(Chase, HoundsCatchWhoStandsStillAndTakeHalf) {
+  hostGame(chase_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    world.tick();
+    world.getPlayer(ann)->setScore(40);
+    for (int t = 0; t < 1500 && world.getPlayer(ann)->getScore() >= 40; ++t) world.tick();
+    EXPECT_LT(world.getPlayer(ann)->getScore(), 40);
+    EXPECT_GE(world.getPlayer(ann)->getScore(), 20);
+  });
+}
+
+TEST(Chase, MoreGoldMoreHounds) {
+  hostGame(chase_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    tick(world, 2);
+    EXPECT_EQ(world.objectsOfType("Hound").getCount(), 3);
+    world.getPlayer(ann)->setScore(100);
+    tick(world, 3);
+    EXPECT_EQ(world.objectsOfType("Hound").getCount(), 5);
+    world.leave(ann);
+    tick(world, 5);
+    EXPECT_EQ(world.objectsOfType("Hound").getCount(), 3);
+    EXPECT_EQ(world.objectsOfType("Hare").getCount(), 0);
+  });
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,66 @@
+// Players who press anything at random, come and go as they like; and what they see, as one number.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "Canvas.h"
+#include "Random.h"
+#include "World.h"
+
+namespace naiad {
+
+/// Some keys, the mouse, a newcomer and somebody who leaves, now and then.
+class Crowd {
+ public:
+  Crowd(df::World& world, std::uint64_t seed, std::size_t most)
+      : m_world(world), m_random(seed), m_most(most) {}
+
+  void play() {
+    if (m_players.empty() || (m_players.size() < m_most && m_random.below(120) == 0)) join();
+    if (m_players.size() > 1 && m_random.below(200) == 0) {
+      m_world.leave(m_players.front());
+      m_players.erase(m_players.begin());
+    }
+    for (const std::uint32_t player : m_players) {
+      using df::Keyboard::Key;
+      static constexpr Key kKeys[] = {
+          df::Keyboard::SPACE,   df::Keyboard::W,         df::Keyboard::A,         df::Keyboard::S,
+          df::Keyboard::D,       df::Keyboard::P,         df::Keyboard::LEFTARROW, df::Keyboard::RIGHTARROW,
+          df::Keyboard::UPARROW, df::Keyboard::DOWNARROW, df::Keyboard::RETURN,    df::Keyboard::N};
+      if (m_random.below(4) == 0)
+        m_world.key(player, kKeys[m_random.below(12)],
+                    static_cast<df::EventKeyboardAction>(m_random.below(3)));
+      if (m_random.below(16) == 0)
+        m_world.mouse(player, static_cast<df::EventMouseAction>(m_random.below(3)), df::Mouse::LEFT,
+                      m_random.below(80), m_random.below(24));
+    }
+  }
+  const std::vector<std::uint32_t>& players() const { return m_players; }
+
+ private:
+  void join() {
+    const auto color = static_cast<df::Color>(df::RED + m_random.below(7));
+    m_players.push_back(m_world.join("bot" + std::to_string(m_players.size()), color));
+  }
+
+  df::World& m_world;
+  df::Random m_random;
+  std::size_t m_most;
+  std::vector<std::uint32_t> m_players;
+};
+
+/// FNV-1a over the characters of pictures.
+class PictureHash {
+ public:
+  void add(const df::Canvas& canvas) {
+    for (const char ch : canvas.text()) m_sum = (m_sum ^ static_cast<unsigned char>(ch)) * 1099511628211u;
+  }
+  std::uint64_t value() const { return m_sum; }
+
+ private:
+  std::uint64_t m_sum = 14695981039346656037u;
+};
+
+}  // namespace naiad

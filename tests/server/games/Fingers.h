@@ -1,0 +1,31 @@
+// A bot's fingers: which keys it holds down, told to the world as a client would.
+#pragma once
+
+#include <cstdint>
+#include <set>
+
+#include "World.h"
+
+namespace naiad {
+
+class Fingers {
+ public:
+  Fingers(df::World& world, std::uint32_t player) : m_world(world), m_player(player) {}
+
+  /// From now on these and no others are down.
+  void hold(const std::set<df::Keyboard::Key>& keys) {
+    for (const df::Keyboard::Key key : m_down) {
+      if (!keys.contains(key)) m_world.key(m_player, key, df::KEY_RELEASED);
+    }
+    for (const df::Keyboard::Key key : keys)
+      m_world.key(m_player, key, m_down.contains(key) ? df::KEY_DOWN : df::KEY_PRESSED);
+    m_down = keys;
+  }
+
+ private:
+  df::World& m_world;
+  std::uint32_t m_player;
+  std::set<df::Keyboard::Key> m_down;
+};
+
+}  // namespace naiad

@@ -1,0 +1,94 @@
+// What holds for every game that ships: players who press anything at random, come and go as they like, and
+// after 1,000 ticks the very same pictures on every compiler.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+
+#include "Crowd.h"
+#include "HostedGame.h"
+
+int breakout_main();
+int bullethell_main();
+int chase_main();
+int hello_main();
+int lander_main();
+int maze_main();
+int platformer_main();
+int sandbox_main();
+int saucershoot_main();
+int tron_main();
+
+namespace naiad {
+namespace {
+
+struct Game {
+  const char* name;
+  int (*main)();
+  std::uint64_t hash;
+};
+
+void PrintTo(const Game& game, std::ostream* p_out) {
+  *p_out << game.name;
+}
+
+class Ladder : public ::testing::TestWithParam<Game> {};
+
+TEST_P(Ladder, AThousandTicksShowTheSamePicturesEverywhere) {
+  PictureHash hash;
+  int ticks = 0;
+  hostGame(
+      GetParam().main, 7,
+      [&](df::World& world) {
+        Crowd crowd(world, 7, 4);
+        for (; ticks < 1000; ++ticks) {
+          crowd.play();
+          world.tick();
+          for (const std::uint32_t player : crowd.players()) hash.add(world.renderPlayer(player));
+        }
+      },
+      GetParam().name);
+  EXPECT_EQ(ticks, 1000);
+  char text[32];
+  std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(hash.value()));
+  EXPECT_EQ(hash.value(), GetParam().hash) << "it is " << text << "; another game has another number";
+}
+
+TEST_P(Ladder, EightWhoComeAndGoBreakNothing) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    hostGame(
+        GetParam().main, seed,
+        [&](df::World& world) {
+          Crowd crowd(world, seed, 8);
+          int quarantined = 0;
+          world.setLogSink(
+              [&](const std::string& line) { quarantined += line.find("failed") != std::string::npos; });
+          for (int t = 0; t < 800; ++t) {
+            crowd.play();
+            world.tick();
+            ASSERT_LT(world.getObjectCount(), 2200);
+          }
+          EXPECT_EQ(quarantined, 0);
+          EXPECT_EQ(world.getRefusals(), 0u);
+          for (const std::uint32_t player : crowd.players()) world.leave(player);
+          for (int t = 0; t < 100; ++t) world.tick();
+        },
+        GetParam().name);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Games, Ladder,
+                         ::testing::Values(Game{"breakout", breakout_main, 0xbce01429f5cdc6c9},
+                                           Game{"bullethell", bullethell_main, 0xad804e66e5638c57},
+                                           Game{"chase", chase_main, 0x340062b8544b9848},
+                                           Game{"hello", hello_main, 0xe45e0ba05e3fc998},
+                                           Game{"lander", lander_main, 0xe2c224ec6152eb3f},
+                                           Game{"maze", maze_main, 0xbafc29fa70221cdd},
+                                           Game{"platformer", platformer_main, 0x821a44b3bea0d158},
+                                           Game{"sandbox", sandbox_main, 0x35f1fef4c1d465e0},
+                                           Game{"saucershoot", saucershoot_main, 0xce478919d627560a},
+                                           Game{"tron", tron_main, 0x1a55c04c2e1a2c7a}),
+                         [](const auto& game) { return std::string(game.param.name); });
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include "Fingers.h"
+#include "HostedGame.h"
+#include "Player.h"
+
+/// The game's main(), compiled into this test under another name.
+int platformer_main();
+
+namespace naiad {
+namespace {
+
+using namespace df;
+
+bool isThere(Box box, const char* type) {
+  const ObjectList there = WM.objectsInBox(box);
+  for (int i = 0; i < there.getCount(); ++i)
+    if (there[i]->getType() == type) return true;
+  return false;
+}
+
+/// Runs to the right, and jumps where there is a step, a gap or something sharp before it.
+std::set<Keyboard::Key> run(const Object& runner) {
+  const Vector at = runner.getPosition();
+  const bool step = isThere(Box(at + Vector(0.6, -0.3), 1, 0.6), "Ground");
+  const bool gap = !isThere(Box(at + Vector(0.3, 0.6), 0.9, 1), "Ground");
+  const bool sharp = isThere(Box(at + Vector(0.6, -0.3), 1.5, 0.6), "Spikes");
+  if (step || gap || sharp) return {Keyboard::RIGHTARROW, Keyboard::SPACE};
+  return {Keyboard::RIGHTARROW};
+}
+
+TEST(Platformer, ABotThatJumpsInTimeReachesTheFlag) {
+  hostGame(platformer_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    tick(world, 2);
+    Fingers fingers(world, ann);
+    int t = 0;
+    for (; t < 600 && world.getPlayer(ann)->getScore() < 100; ++t) {
+      const Object* p_runner = world.getPlayer(ann)->getObject();
+      if (p_runner != nullptr) fingers.hold(run(*p_runner));
+      world.tick();
+    }
+    EXPECT_GE(world.getPlayer(ann)->getScore(), 100) << world.renderPlayer(ann).text();
+    world.tick();
+    EXPECT_NE(world.renderPlayer(ann).text().find("reached the flag"), std::string::npos);
+    tick(world, 2);
+    EXPECT_LT(world.getPlayer(ann)->getObject()->getPosition().x(), 10);
+  });
+}
+
+TEST(Platformer, GravityLandsExactlyAndAJumpIsHighEnoughForFiveRows) {
+  hostGame(platformer_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    tick(world, 40);
+    const Object* p_runner = world.getPlayer(ann)->getObject();
+    const double ground = p_runner->getPosition().y();
+    EXPECT_NEAR(ground, 19.05, 1e-6);  // 0.9 high, on ground whose upper edge is at 19.5
+    EXPECT_EQ(p_runner->getVelocity(), Vector());
+    EXPECT_EQ(p_runner->getAcceleration(), Vector());
+    tap(world, ann, Keyboard::SPACE);
+    double highest = ground;
+    for (int t = 0; t < 40; ++t) {
+      world.tick();
+      highest = std::min(highest, p_runner->getPosition().y());
+    }
+    EXPECT_GT(ground - highest, 5.2);
+    EXPECT_LT(ground - highest, 6);
+    EXPECT_NEAR(p_runner->getPosition().y(), ground, 1e-6);
+  });
+}
+
+TEST(Platformer, NobodySticksToAWall) {
+  hostGame(platformer_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    tick(world, 2);
+    Object* p_runner = world.getPlayer(ann)->getObject();
+    p_runner->setPosition(Vector(35, 18));  // above a gap, between two pieces of ground
+    Fingers fingers(world, ann);
+    for (int t = 0; t < 60; ++t) {
+      fingers.hold({Keyboard::RIGHTARROW});
+      world.tick();
+    }
+    EXPECT_LT(p_runner->getPosition().x(), 30) << "it fell, and begins again";
+  });
+}
+
+TEST(Platformer, FriendsCanBeStoodOn) {
+  hostGame(platformer_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t bob = world.join("bob", GREEN);
+    tick(world, 40);
+    Object* p_ann = world.getPlayer(ann)->getObject();
+    Object* p_bob = world.getPlayer(bob)->getObject();
+    p_ann->setPosition(p_bob->getPosition() + Vector(0, -3));
+    tick(world, 40);
+    EXPECT_NEAR(p_ann->getPosition().y(), p_bob->getPosition().y() - 0.9, 1e-6);
+  });
+}
+
+TEST(Platformer, CoinsAreTakenAndComeBack) {
+  hostGame(platformer_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    tick(world, 40);
+    Fingers fingers(world, ann);
+    for (int t = 0; t < 15; ++t) {
+      fingers.hold({Keyboard::RIGHTARROW});
+      world.tick();
+    }
+    EXPECT_EQ(world.getPlayer(ann)->getScore(), 10);
+    fingers.hold({});
+    tick(world, 460);
+    EXPECT_EQ(world.getPlayer(ann)->getScore(), 10);
+    for (int t = 0; t < 15; ++t) {
+      fingers.hold({Keyboard::LEFTARROW});
+      world.tick();
+    }
+    EXPECT_EQ(world.getPlayer(ann)->getScore(), 20);
+  });
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include "HostedGame.h"
+#include "Player.h"
+
+/// The game's main(), compiled into this test under another name.
+int tron_main();
+
+namespace naiad {
+namespace {
+
+using namespace df;
+
+int freeCells(const Object& cycle, Vector way) {
+  Vector at = cycle.getPosition();
+  for (int i = 0; i < 30; ++i) {
+    at = at + way;
+    if (WM.isCollision(&cycle, at)) return i;
+  }
+  return 30;
+}
+
+/// Turns to where there is most room as soon as something is in the way.
+class CarefulRider {
+ public:
+  CarefulRider(World& world, std::uint32_t player) : m_world(world), m_player(player) {}
+
+  void ride() {
+    const Object* p_cycle = m_world.getPlayer(m_player)->getObject();
+    if (p_cycle == nullptr) return;
+    const Vector at = p_cycle->getPosition();
+    if (at != m_before) m_way = at - m_before;
+    m_before = at;
+    if (std::abs(m_way.x()) + std::abs(m_way.y()) != 1) return;  // set down for a new round
+    if (freeCells(*p_cycle, m_way) >= 2) return;
+    const bool level = m_way.y() == 0;
+    const Vector one = level ? Vector(0, -1) : Vector(-1, 0);
+    const Vector other = level ? Vector(0, 1) : Vector(1, 0);
+    const bool first = freeCells(*p_cycle, one) > freeCells(*p_cycle, other);
+    if (level) tap(m_world, m_player, first ? Keyboard::UPARROW : Keyboard::DOWNARROW);
+    if (!level) tap(m_world, m_player, first ? Keyboard::LEFTARROW : Keyboard::RIGHTARROW);
+  }
+
+ private:
+  World& m_world;
+  std::uint32_t m_player;
+  Vector m_before;
+  Vector m_way;
+};
+
+TEST(Tron, ACarefulRiderWinsARoundAgainstTheRobot) {
+  hostGame(tron_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    world.tick();
+    CarefulRider rider(world, ann);
+    for (int t = 0; t < 9000 && world.getPlayer(ann)->getScore() == 0; ++t) {
+      rider.ride();
+      world.tick();
+    }
+    EXPECT_EQ(world.getPlayer(ann)->getScore(), 1);
+    EXPECT_NE(world.renderPlayer(ann).text().find("ann wins"), std::string::npos);
+  });
+}
+
+TEST(Tron, WhoDoesNotTurnRidesIntoTheFenceAndTheOtherWins) {
+  hostGame(tron_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t bob = world.join("bob", GREEN);
+    tick(world, 2);
+    ASSERT_EQ(world.objectsOfType("Cycle").getCount(), 2) << "no robot where there are two";
+    CarefulRider rider(world, bob);
+    for (int t = 0; t < 1000 && world.getPlayer(bob)->getScore() == 0; ++t) {
+      rider.ride();
+      world.tick();
+    }
+    EXPECT_EQ(world.getPlayer(bob)->getScore(), 1);
+    EXPECT_EQ(world.getPlayer(ann)->getScore(), 0);
+  });
+}
+
+TEST(Tron, WhoComesLaterRidesInTheNextRoundAndWhoLeavesLoses) {
+  hostGame(tron_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    tick(world, 60);
+    const std::uint32_t bob = world.join("bob", GREEN);
+    tick(world, 2);
+    EXPECT_NE(world.renderPlayer(bob).text().find("next round"), std::string::npos);
+    world.leave(ann);
+    tick(world, 5);
+    EXPECT_NE(world.renderPlayer(bob).text().find("the robot wins"), std::string::npos);
+    tick(world, 140);
+    EXPECT_EQ(world.getPlayer(bob)->getObject()->getType(), "Cycle");
+    EXPECT_GE(world.objectsOfType("Trail").getCount(), 1);
+    EXPECT_LT(world.objectsOfType("Trail").getCount(), 60) << "the field was cleaned";
+  });
+}
+
+}  // namespace
+}  // namespace naiad
