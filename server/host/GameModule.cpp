@@ -43,10 +43,15 @@ fs::path locate(const std::string& game) {
 GameModule::GameModule(const std::string& game) {
   const fs::path path = locate(game);
   m_name = path.stem().string();
+  m_folder = fs::absolute(path).parent_path();
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw GameError("The game cannot be loaded: " + std::string(dlerror()));
   m_main = reinterpret_cast<Main>(dlsym(handle, "main"));
   if (m_main == nullptr) throw GameError("The game " + path.string() + " has no main().");
+}
+
+std::vector<std::string> GameModule::resourceFolders() const {
+  return {m_folder.string(), (m_folder / m_name).string(), m_folder.parent_path().string()};
 }
 
 int GameModule::main() const {

@@ -22,6 +22,9 @@ class GameModule {
 
   /// "saucershoot": the file's name without folder and ending.
   const std::string& name() const { return m_name; }
+  /// Where its sprites and sounds may lie: beside the module, in a folder there that has its name, and above,
+  /// for many build in a folder of their own.
+  std::vector<std::string> resourceFolders() const;
   /// Run the game's main() on this thread; what it returns.
   int main() const;
 
@@ -31,6 +34,7 @@ class GameModule {
  private:
   using Main = int (*)(int, char**);
   std::string m_name;
+  std::filesystem::path m_folder;
   Main m_main = nullptr;
 };
 
