@@ -37,13 +37,14 @@ class Capture {
   void forgetLook(std::uint32_t slot) { m_looks.erase(slot); }
 
   const WorldView& view() const { return m_view; }
-  /// The picture in a view with this corner: cell(position) - cell(corner).
+  /// The picture in a view with this corner: cell(position) - cell(corner), shaken if the window is.
   Canvas render(FixedVector corner) const;
 
  private:
   bool mayDraw(std::uint32_t slot);
   void sortByAltitude();
   void drawOne(ObjectKey key);
+  void shake();
 
   World& m_world;
   WorldView m_view;

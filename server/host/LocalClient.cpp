@@ -43,14 +43,23 @@ bool meansFailure(int status) {
 }
 
 /// Ours, but for what would send the client elsewhere.
-std::vector<char*> environmentOfClient() {
-  std::vector<char*> kept;
+std::vector<std::string> environmentOfClient(const std::string& password) {
+  std::vector<std::string> kept;
   for (char** p = environ; *p != nullptr; ++p) {
     const std::string_view entry(*p);
-    if (!entry.starts_with("NAIAD_GAME=") && !entry.starts_with("NAIAD_FINGERPRINT=")) kept.push_back(*p);
+    const bool other = entry.starts_with("NAIAD_GAME=") || entry.starts_with("NAIAD_FINGERPRINT=") ||
+                       entry.starts_with("NAIAD_PASSWORD=");
+    if (!other) kept.emplace_back(entry);
   }
-  kept.push_back(nullptr);
+  if (!password.empty()) kept.push_back("NAIAD_PASSWORD=" + password);
   return kept;
+}
+
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
 }
 
 }  // namespace
@@ -78,13 +87,11 @@ std::optional<fs::path> LocalClient::find() {
 }
 
 LocalClient::LocalClient(const fs::path& program, const std::vector<std::string>& arguments,
-                         const std::string& log_file)
+                         const std::string& password, const std::string& log_file)
     : m_redirect(log_file) {
   std::vector<std::string> words{program.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+  std::vector<std::string> environment = environmentOfClient(password);
 
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -93,8 +100,8 @@ LocalClient::LocalClient(const fs::path& program, const std::vector<std::string>
   }
   // Nor the game's sockets: a port would stay taken as long as the client lives.
   posix_spawn_file_actions_addclosefrom_np(&actions, 3);
-  const int problem =
-      posix_spawn(&m_process, program.c_str(), &actions, nullptr, argv.data(), environmentOfClient().data());
+  const int problem = posix_spawn(&m_process, program.c_str(), &actions, nullptr, pointersTo(words).data(),
+                                  pointersTo(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   if (problem == 0) return;
   m_process = -1;

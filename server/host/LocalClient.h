@@ -20,10 +20,10 @@ class LocalClient {
   /// library, else one on the PATH. Nothing if there is none.
   static std::optional<std::filesystem::path> find();
 
-  /// Start it. It has the terminal from now on; what the game prints goes to `log_file`. Throws
-  /// std::system_error.
+  /// Start it. It has the terminal from now on; what the game prints goes to `log_file`. The server's
+  /// password goes by the environment, which other users do not see. Throws std::system_error.
   LocalClient(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-              const std::string& log_file);
+              const std::string& password, const std::string& log_file);
   /// Ends it, if it has not heard that the game is over, and gives the terminal back to the game.
   ~LocalClient();
   LocalClient(const LocalClient&) = delete;

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "Announcement.h"
 #include "Config.h"
@@ -84,7 +85,7 @@ class Company {
     std::istringstream words(host.joinArguments());
     for (std::string word; words >> word;) arguments.push_back(word);
     try {
-      m_client.emplace(*program, arguments, log_file);
+      m_client.emplace(*program, arguments, options.password, log_file);
       m_host.setEndsWithLast(true);
     } catch (const std::system_error& error) {
       std::cout << error.what() << std::endl;

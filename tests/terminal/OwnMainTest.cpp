@@ -150,6 +150,14 @@ TEST_F(OwnMain, GoesOnForOthersUntilTheyHaveLeft) {
   expectOrderlyEnd(*game);
 }
 
+TEST_F(OwnMain, ItsOwnClientKnowsThePassword) {
+  configure("password:sesame,\n");
+  auto game = start();
+  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  game->type("q");
+  expectOrderlyEnd(*game);
+}
+
 TEST_F(OwnMain, OneKeyDoesNotEndEverybodysGame) {
   auto game = startServer();
   auto ann = join("ann");
