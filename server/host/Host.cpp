@@ -126,6 +126,7 @@ void Host::run(df::World& world) {
     m_counters.rebased_ticks += schedule.begin(now) ? 1 : 0;
     tick(world);
   }
+  m_round_over = wantsNextRound(world);
   drain();
   world.setHindsight(nullptr);
   world.setGameOverLeaves(false);
@@ -487,6 +488,10 @@ bool Host::isOver(const df::World& world) const {
 void Host::drain() {
   m_network.closeListener();
   const std::string sentence = m_stop_sentence.empty() ? "The game is over." : m_stop_sentence;
+  if (m_round_over) {
+    m_log("the round is over");
+    m_sessions.clear();
+  }
   for (const auto& session : m_sessions) session->goodbye(sentence);
   m_network.flush();
   const Clock::time_point end = Clock::now() + kDrainTime;

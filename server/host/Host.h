@@ -56,6 +56,9 @@ class Host : public df::Runner {
   std::size_t connected() const;
   /// A player who is alone and for whom the game is over (HostOptions::on_game_over) ends it for all.
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
+  /// run() has ended because the game is over, and another round is to begin: players were not told goodbye,
+  /// but are expected back.
+  bool isRoundOver() const { return m_round_over; }
   /// Ticks that were skipped for a player who is here (Session::skippedTicks); 0 for anybody else.
   std::uint64_t skippedTicks(std::uint32_t player) const;
 
@@ -92,6 +95,7 @@ class Host : public df::Runner {
   bool isHeard(const Session& session, const Input& input) const;
   void applyInputs(df::World& world);
   void dismissLeavers(df::World& world);
+  bool wantsNextRound(const df::World& world) const;
   void lookBack(df::World& world);
   void sendSnapshots(df::World& world);
   void sendPlayers(const df::World& world);
@@ -132,6 +136,7 @@ class Host : public df::Runner {
   Clock::time_point m_empty_since;
   bool m_ever_joined = false;
   bool m_ends_with_last = false;
+  bool m_round_over = false;
   std::uint32_t m_turn = 0;         ///< the player whose input is heard, if only one's is; 0: nobody
   std::uint32_t m_turn_before = 0;  ///< whose was before him: keys that he held are let go
 };

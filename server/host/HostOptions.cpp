@@ -71,10 +71,11 @@ const std::vector<Row>& table() {
        0,
        0,
        "When the game is over because of a key or click of one player among several: leave = it is for him "
-       "alone; exit = for everybody",
+       "alone; exit = for everybody. restart = as leave, and when the game itself is over, the next round "
+       "begins",
        Whose::kBoth,
        nullptr,
-       {"leave", "exit"}},
+       {"leave", "exit", "restart"}},
       {"--insecure", "NAIAD_INSECURE", &HostOptions::insecure, 0, 0,
        "Without encryption or datagrams, on loopback only (for tests)"},
       {"--certificate", "NAIAD_CERTIFICATE", &HostOptions::certificate, 0, 0,

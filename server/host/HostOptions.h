@@ -20,15 +20,16 @@ struct HostOptions {
   std::string address = "::";        ///< numeric address to listen on; "::" is all of them, IPv4 too
   int port = kDefaultPort;           ///< 0: any free port
   int max_players = 64;
-  int max_per_address = 64;            ///< players from one IPv4 address or IPv6 /64
-  std::string name = "naiad";          ///< shown in the clients' status line
-  std::int64_t seed = 0;               ///< of the world; 0: a new one each time, logged
-  int frame_micros = 0;                ///< length of a tick in microseconds; 0: exactly 1/30 s
-  int ticks = 0;                       ///< stop after so many; 0: never
-  double exit_when_empty = 0;          ///< seconds after the last player left; 0: never
-  std::string players = "together";    ///< whose input the game hears: "together" or "first"
-  std::string on_game_over = "leave";  ///< by one player among several: "leave" (for him) or "exit"
-  bool insecure = false;               ///< plain TCP, loopback only, no datagrams: for tests
+  int max_per_address = 64;          ///< players from one IPv4 address or IPv6 /64
+  std::string name = "naiad";        ///< shown in the clients' status line
+  std::int64_t seed = 0;             ///< of the world; 0: a new one each time, logged
+  int frame_micros = 0;              ///< length of a tick in microseconds; 0: exactly 1/30 s
+  int ticks = 0;                     ///< stop after so many; 0: never
+  double exit_when_empty = 0;        ///< seconds after the last player left; 0: never
+  std::string players = "together";  ///< whose input the game hears: "together" or "first"
+  std::string on_game_over =
+      "leave";              ///< by one player among several: "leave" (for him), "exit" or "restart"
+  bool insecure = false;    ///< plain TCP, loopback only, no datagrams: for tests
   std::string certificate;  ///< PEM file; with `key`. Empty: a key of its own, made on the first start
   std::string key;          ///< PEM file
   std::string identity;     ///< directory of the key of its own; empty: the user's

@@ -10,7 +10,8 @@ namespace naiad {
 
 namespace {
 
-constexpr int kLongestFrameMillis = 1000;  ///< as --frame-time
+constexpr int kLongestFrameMillis = 1000;     ///< as --frame-time
+constexpr std::uint64_t kShortestRound = 30;  ///< ticks of one without players that another may follow
 
 wire::ServerMessage line(const std::string& text) {
   wire::ServerMessage message;
@@ -28,7 +29,7 @@ void Host::adoptSettings(df::World& world) {
     if (m_options.frame_micros == 0 && millis != df::FRAME_TIME_DEFAULT)
       m_options.frame_micros = millis * 1000;
   }
-  world.setGameOverLeaves(m_options.on_game_over == "leave");
+  world.setGameOverLeaves(m_options.on_game_over != "exit");
   if (world.compat()) m_log("compat is on: the published engine's rules where they differ from the book's");
 }
 
@@ -69,6 +70,14 @@ void Host::dismissLeavers(df::World& world) {
     }
     if (Session* session = findPlayer(leaver)) session->goodbye("For you, the game is over.");
   }
+}
+
+// Not if nobody but the player in the game's own terminal would see it. And a game that is over at once, with
+// nobody there, would be over at once for ever.
+bool Host::wantsNextRound(const df::World& world) const {
+  const bool alone = m_ends_with_last && connected() <= 1;
+  return m_options.on_game_over == "restart" && world.isGameOver() && m_stop_sentence.empty() && !alone &&
+         (m_ever_joined || m_counters.ticks >= kShortestRound);
 }
 
 Session* Host::findPlayer(std::uint32_t player) {

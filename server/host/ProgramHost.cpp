@@ -15,6 +15,7 @@
 #include "Host.h"
 #include "LineLog.h"
 #include "LocalClient.h"
+#include "Rounds.h"
 #include "Seed.h"
 #include "Version.h"
 #include "World.h"
@@ -92,6 +93,13 @@ class Company {
     }
   }
 
+  /// The next round has a client of its own in this terminal.
+  ~Company() {
+    if (m_client && m_host.isRoundOver()) m_client->dismiss();
+  }
+  Company(const Company&) = delete;
+  Company& operator=(const Company&) = delete;
+
   /// Once a tick.
   void look() {
     if (m_client && m_client->hasEnded()) onEnd();
@@ -135,6 +143,10 @@ void ProgramHost::startUp(df::World& world) {
     m_given = readProgramOptions([&config](const std::string& key) { return config.match(key); }, m_options);
   } catch (const OptionError& error) {
     fail(kUsage, std::string("environment or df-config.txt: ") + error.what());
+  }
+  if (const auto port = portOfLastRound()) {
+    m_options.port = *port;
+    m_given.insert("port");
   }
   addFolders(world);
   seed(world);
@@ -190,6 +202,7 @@ void ProgramHost::serve(df::World& world) {
   Company company(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&company](df::World&) { company.look(); });
   host->run(world);
+  startNextRoundAtExit(host->isRoundOver() ? std::optional(host->port()) : std::nullopt);
 }
 
 }  // namespace naiad

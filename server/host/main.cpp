@@ -11,6 +11,7 @@
 #include "HostOptions.h"
 #include "LineLog.h"
 #include "LogManager.h"
+#include "Rounds.h"
 #include "Seed.h"
 #include "Version.h"
 #include "World.h"
@@ -48,6 +49,7 @@ ExitCode play(const naiad::GameModule& game) {
 }
 
 int serve(naiad::HostOptions options) {
+  options.port = naiad::portOfLastRound().value_or(static_cast<std::uint16_t>(options.port));
   naiad::LineLog log(options.log_file);
   const naiad::GameModule game(options.game);
   naiad::Host host(options, game.name(), [&log](const std::string& line) { log(line); });
@@ -59,7 +61,9 @@ int serve(naiad::HostOptions options) {
       ", seed " + std::to_string(options.seed));
   naiad::writeWhereabouts(options, host);
   for (const std::string& line : naiad::howToJoin(host)) std::cout << line << std::endl;
-  return play(game);
+  const ExitCode code = play(game);
+  if (code == kOk && host.isRoundOver()) naiad::startNextRound(host.port());
+  return code;
 }
 
 }  // namespace

@@ -183,6 +183,63 @@ TEST_F(OwnMain, UnlessTheHostWantsThat) {
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
 }
 
+/// Type to the right until the walker takes its first step, in a world that begins anew meanwhile. Slowly:
+/// keys that come in haste are one that is held.
+void walkAgain(PtyTerminal& player) {
+  for (int i = 0; i < 20 && player.newOutput().find('$') == std::string::npos; ++i) {
+    player.type(kRight);
+    player.read(800ms);
+  }
+  EXPECT_NE(player.newOutput().find('$'), std::string::npos) << player.output();
+}
+
+TEST_F(OwnMain, TheNextRoundIsAFreshProcessAndItsPlayersComeAlong) {
+  configure("on_game_over:restart,\n");
+  auto game = startServer();
+  auto ann = join("ann");
+  ann->type(kRight);
+  ASSERT_TRUE(ann->waitFor("$")) << ann->output();
+  ann->forget();
+  game->forget();
+  ann->type("x");
+  ASSERT_TRUE(game->waitFor("after the game, walker 1")) << game->output();
+  ASSERT_TRUE(game->waitFor("before the game")) << game->output();
+  walkAgain(*ann);
+  const std::string log = read("game.log");  // of this round
+  EXPECT_EQ(log.find("seed"), log.rfind("seed")) << log;
+  EXPECT_TRUE(has(log, "ann joined")) << log;
+  game->signal(SIGTERM);
+  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, ThereIsNoNextRoundForThePlayerInItsTerminalAlone) {
+  configure("on_game_over:restart,\n");
+  auto game = start();
+  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  game->type("x");
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, ModulesHaveRoundsToo) {
+  PtyTerminal::Options options =
+      inHome({programPath("dfserver"), "--game", programPath("../lib/lone_module.so"), "--address",
+              "127.0.0.1", "--on-game-over", "restart"});
+  PtyTerminal server(options);
+  ASSERT_TRUE(server.waitFor("From elsewhere")) << server.output();
+  auto ann = join("ann");
+  ann->type(kRight);
+  ASSERT_TRUE(ann->waitFor("$")) << ann->output();
+  ann->forget();
+  server.forget();
+  ann->type("x");
+  ASSERT_TRUE(server.waitFor("before the game")) << server.output();
+  walkAgain(*ann);
+  server.signal(SIGTERM);
+  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
+  expectOrderlyEnd(server);
+}
+
 TEST_F(OwnMain, TheFirstPlaysAndTheOthersWaitForTheirTurn) {
   configure("players:first,\n");
   auto game = startServer();

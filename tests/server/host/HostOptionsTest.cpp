@@ -64,6 +64,7 @@ class ProgramOptions : public testing::Test {
     return readProgramOptions([this](const std::string& key) { return config[key]; }, options);
   }
   std::string complaint() {
+    options = {};
     try {
       read();
     } catch (const OptionError& error) {
