@@ -1,4 +1,6 @@
 // dfclient: play a game that a dfserver hosts, in this terminal.
+#include <sys/prctl.h>
+
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
@@ -44,7 +46,7 @@ std::size_t tellProblems(const naiad::SessionFile* p_file, std::size_t from) {
   return p_file->problems().size();
 }
 
-int play(const naiad::ClientApp::Options& options) {
+int play(const naiad::ClientApp::Options& options, bool attached) {
   if (!naiad::TerminalGuard::isTerminal()) {
     return complain(naiad::kExitNoTerminal,
                     "standard input and output must be a terminal (dfbot needs none).");
@@ -65,6 +67,8 @@ int play(const naiad::ClientApp::Options& options) {
     std::signal(outcome.signal, SIG_DFL);
     std::raise(outcome.signal);
   }
+  // Whoever runs a game in his terminal sees that it is over.
+  if (attached && outcome.code == naiad::kExitEnded) return outcome.code;
   if (!outcome.sentence.empty()) std::fprintf(stderr, "dfclient: %s\n", outcome.sentence.c_str());
   return outcome.code;
 }
@@ -76,6 +80,7 @@ int start(int argc, char** argv) {
   options.session.program = std::string("dfclient ") + naiad::kVersion;
   bool no_mouse = false;
   bool no_resume = false;
+  bool attached = false;
 
   CLI::App app("Play a Dragonfly game on a Naiad server.", "dfclient");
   app.set_version_flag("--version", std::string("dfclient ") + naiad::kVersion);
@@ -94,12 +99,16 @@ int start(int argc, char** argv) {
       ->envname("NAIAD_NO_RESUME");
   app.add_flag("--ascii", options.ascii, "Draw with ASCII characters only")->envname("NAIAD_ASCII");
   app.add_flag("--no-mouse", no_mouse, "Leave the mouse to the terminal")->envname("NAIAD_NO_MOUSE");
+  app.add_flag("--attached", attached, "Started by the game, to end with it")->group("");
   app.footer(footer());
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? naiad::kExitLeft : naiad::kExitUsage;
   }
+
+  // The terminal must not be left to the picture of a game that has crashed.
+  if (attached) prctl(PR_SET_PDEATHSIG, SIGTERM);
 
   const auto address = naiad::ServerAddress::parse(server);
   if (!address) {
@@ -118,7 +127,7 @@ int start(int argc, char** argv) {
     options.p_session_file = &*file;
   }
   try {
-    return play(options);
+    return play(options, attached);
   } catch (const std::runtime_error& error) {
     return complain(naiad::kExitNoTerminal, error.what());
   }

@@ -30,6 +30,7 @@ void Capture::begin() {
   m_view.vanished.clear();
   m_view.players.clear();
   m_view.sounds.clear();
+  m_view.shake_x = m_view.shake_y = 0;
 }
 
 bool Capture::mayDraw(std::uint32_t slot) {
@@ -152,6 +153,17 @@ void Capture::finish() {
     m_view.background = p_extras->background;
     m_view.shake_x = p_extras->shake.x;
     m_view.shake_y = p_extras->shake.y;
+    shake();
+  }
+}
+
+// Every view is off its place, and follows nobody meanwhile: who draws it would put it right again.
+void Capture::shake() {
+  if (m_view.shake_x == 0 && m_view.shake_y == 0) return;
+  const FixedVector off{fromCells(m_view.shake_x), fromCells(m_view.shake_y)};
+  for (PlayerFacts& player : m_view.players) {
+    player.view_corner = player.view_corner + off;
+    player.followed = {};
   }
 }
 
@@ -160,8 +172,8 @@ Canvas Capture::render(FixedVector corner) const {
   Canvas canvas(views.width(), views.height());
   for (const DrawnObject& drawn : m_view.drawn) {
     const FixedVector& from = drawn.on_view ? m_view.corner : corner;
-    const std::int64_t left = cellOf(from.x);
-    const std::int64_t top = cellOf(from.y);
+    const std::int64_t left = cellOf(from.x) + m_view.shake_x;
+    const std::int64_t top = cellOf(from.y) + m_view.shake_y;
     for (std::uint32_t i = drawn.first; i < drawn.first + drawn.count; ++i) {
       const DrawCommand& c = m_view.commands[i];
       const std::int64_t x = cellOf(c.position.x) - left;

@@ -37,7 +37,7 @@ class Capture {
   void forgetLook(std::uint32_t slot) { m_looks.erase(slot); }
 
   const WorldView& view() const { return m_view; }
-  /// The picture in a view with this corner: cell(position) - cell(corner).
+  /// The picture in a view with this corner: cell(position) - cell(corner), shaken if the window is.
   Canvas render(FixedVector corner) const;
 
  private:
@@ -45,6 +45,7 @@ class Capture {
   void sortByAltitude();
   void drawOne(ObjectKey key);
   void tellLook(std::size_t entry);
+  void shake();
 
   World& m_world;
   WorldView m_view;

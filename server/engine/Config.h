@@ -5,8 +5,8 @@
 //     random_seed:7,
 //
 // GM.startUp() reads the file, from the working directory, or the one that the environment names
-// (DRAGONFLY_CONFIG). What counts here: the window's size in characters and its background, frame_time,
-// random_seed, compat, logfile and headless; the others are kept for who asks.
+// (DRAGONFLY_CONFIG). These count: size in characters and background of the window, random_seed, compat,
+// logfile; in a host frame_time; in a program headless and the host's options. The rest is kept for who asks.
 #pragma once
 
 #include <string>

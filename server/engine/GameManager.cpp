@@ -6,6 +6,7 @@
 #include "InputManager.h"
 #include "LogManager.h"
 #include "ResourceManager.h"
+#include "Runner.h"
 #include "Started.h"
 #include "World.h"
 #include "WorldExtras.h"
@@ -24,10 +25,13 @@ int GameManager::startUp() {
   IM.startUp();
   WM.startUp();
   RM.startUp();
-  Config::getInstance().loadConfig();
   World& world = World::current();
+  running::beginCompat(world);
+  Config::getInstance().loadConfig();
+  running::endCompat(world);
   world.setGameOver(false);
   world.setStarted(kGameStarted, true);
+  if (running::Program* p_program = world.program()) p_program->startUp(world);
   return 0;
 }
 

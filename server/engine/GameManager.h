@@ -34,18 +34,22 @@ class GameManager : public Manager {
  public:
   static GameManager& getInstance();
 
-  /// Start all managers, and take on what df-config.txt says (Config.h). Return 0.
+  /// Start all managers, take on what df-config.txt says (Config.h), and decide whether to be compatible
+  /// (docs/dragonfly-api.md). Return 0.
   int startUp() override;
   /// Stop all managers and set the world back (WorldManager::shutDown).
   void shutDown() override;
   bool isStarted() const override;
 
-  /// Run until the game is over: through the installed Runner, which may wait for clocks and players; without
-  /// one, tick after tick as fast as they go. Nothing happens inside a tick.
+  /// Run until the game is over: through the installed Runner, which may wait for clocks and players; in a
+  /// program with a main() of its own as a server that terminals join (docs/bring-your-game.md), unless
+  /// df-config.txt says headless:true; else tick after tick as fast as they go. Nothing happens inside a
+  /// tick.
   void run();
   /// One full tick: step event; joins, leaves, keys and mouse; WM.update(); WM.draw().
   void tick();
-  /// End run() after the present tick; `false` takes it back.
+  /// End run() after the present tick; `false` takes it back. While a player's input is handled, a host may
+  /// take it as the wish of that player alone (World::setGameOverLeaves).
   void setGameOver(bool new_game_over = true);
   bool getGameOver() const;
 
@@ -65,5 +69,12 @@ class GameManager : public Manager {
  private:
   GameManager() { setType("GameManager"); }
 };
+
+#if defined(DF_COMPAT)
+namespace running {
+bool declareCompat(bool compat);  // Runner.h
+inline const bool compat_declared = declareCompat(DF_COMPAT);
+}  // namespace running
+#endif
 
 }  // namespace df

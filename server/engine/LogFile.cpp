@@ -1,18 +1,31 @@
 #include "LogFile.h"
 
+#include <fcntl.h>
+
 #include <cstdio>
+#include <map>
 #include <mutex>
 #include <set>
 
 namespace df {
 
-void writeToLogFile(const std::string& line, bool flush) {
+namespace {
+
+// Empty, and every line goes to its end, wherever that is then.
+std::FILE* openEmpty(const std::string& filename) {
+  const int file = ::open(filename.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+  return file < 0 ? nullptr : ::fdopen(file, "a");
+}
+
+}  // namespace
+
+void writeToLogFile(const std::string& filename, const std::string& line, bool flush) {
   static std::mutex* p_mutex = new std::mutex;  // for ever, like the default world
-  static std::FILE* p_file = nullptr;
-  static bool opened = false;
+  static auto* p_files = new std::map<std::string, std::FILE*>;
   const std::lock_guard lock(*p_mutex);
-  if (!opened) p_file = std::fopen("dragonfly.log", "w");
-  opened = true;
+  const auto [entry, is_new] = p_files->try_emplace(filename);
+  if (is_new) entry->second = openEmpty(filename);
+  std::FILE* p_file = entry->second;
   if (p_file == nullptr) return;
   std::fwrite(line.data(), 1, line.size(), p_file);
   std::fputc('\n', p_file);

@@ -1,13 +1,13 @@
-// The log file of this process, for worlds that have no sink of their own.
+// The log files of this process, for worlds that have no sink of their own.
 #pragma once
 
 #include <string>
 
 namespace df {
 
-/// Append a line to dragonfly.log in the working directory; the first call opens and empties it. Where that
-/// cannot be done, the line is dropped. Any thread.
-void writeToLogFile(const std::string& line, bool flush);
+/// Append a line to the file; the first call for a name opens and empties it. Where that cannot be done, the
+/// line is dropped. Others may append to it meanwhile. Any thread.
+void writeToLogFile(const std::string& filename, const std::string& line, bool flush);
 
 /// Append a line to another file; its first line of this process empties it. Return false if that cannot be
 /// done. Any thread.

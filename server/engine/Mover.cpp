@@ -46,7 +46,7 @@ int Mover::walkOn(std::size_t word, std::uint64_t turns) {
   const int last = 63 - std::countl_zero(run);
   std::vector<ObjectKey>& met = m_lists[m_depth];
   met.clear();
-  const std::uint64_t left = store.walk(word, run, m_world.views().boundary(), met);
+  const std::uint64_t left = store.walk(word, run, roomToFly(), met);
   if (left == 0) return last + 1;
   const int bit = std::countr_zero(left);
   const ObjectKey key = store.key(store.entry(word * 64 + static_cast<std::size_t>(bit)));
@@ -81,8 +81,7 @@ int Mover::flyOn(WorldStore::Slot first, std::uint64_t fliers, std::uint64_t seq
   const std::uint64_t run = (fliers >> bit) & (sequels >> bit | 1);
   const int count = std::countr_one(run);
   WorldStore& store = m_world.store();
-  const auto done =
-      static_cast<int>(store.fly(first, static_cast<std::size_t>(count), m_world.views().boundary()));
+  const auto done = static_cast<int>(store.fly(first, static_cast<std::size_t>(count), roomToFly()));
   store.paths().flown += static_cast<std::uint64_t>(done);
   if (done == count) return count;
   ++store.paths().deferred;
@@ -163,11 +162,24 @@ bool Mover::collide(ObjectKey mover, FixedVector where, const std::vector<Object
 
 void Mover::place(ObjectKey mover, FixedVector where) {
   WorldStore& store = m_world.store();
-  const Views& views = m_world.views();
-  const bool leaves = !views.isInside(where) && views.isInside(store.position(mover.slot));
+  const bool leaves = !isInWorld(mover.slot, where) && isInWorld(mover.slot, store.position(mover.slot));
   store.setPosition(mover.slot, where);
   if (store.has(mover.slot, WorldStore::kFollowed)) m_world.views().moved(mover, where);
   if (leaves) m_world.deliver(mover, EventOut());
+}
+
+// Is an Object that is there in the world, as far as out events go?
+bool Mover::isInWorld(std::uint32_t slot, FixedVector where) const {
+  const Views& views = m_world.views();
+  return m_world.compat() ? intersects(m_world.store().worldBox(slot, where), views.boundary())
+                          : views.isInside(where);
+}
+
+// Where nobody can leave the world with a move that ends there.
+FixedBox Mover::roomToFly() const {
+  const FixedBox& boundary = m_world.views().boundary();
+  const bool anywhere = !m_world.compat() || !m_world.store().hasBoxesOffPosition();
+  return anywhere ? boundary : FixedBox{boundary.corner, {}};
 }
 
 }  // namespace df

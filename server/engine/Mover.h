@@ -6,7 +6,8 @@
 // if both are HARD, or if the mover is no-soft and the other SOFT. All pairs get their events, even when
 // an earlier one blocks; then a blocked mover stays where it is (or where a handler put it), and another
 // is set to the target (wherever a handler put it). At last, if that set took it from inside the
-// boundary to outside, it gets an out event.
+// boundary to outside, it gets an out event: its position, or, if the world is compatible with the published
+// engine, its box, which then has no point in common with the boundary any more.
 //
 // What handlers may do meanwhile:
 //  - delete or remove the other: the other hears nothing more, the pair blocks nothing;
@@ -58,6 +59,8 @@ class Mover {
   void endTurn(ObjectKey key, FixedVector velocity, bool blocked);
   bool meetAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others);
   bool collide(ObjectKey mover, FixedVector where, const std::vector<ObjectKey>& others);
+  bool isInWorld(std::uint32_t slot, FixedVector where) const;
+  FixedBox roomToFly() const;
 
   World& m_world;
   int m_depth = 0;

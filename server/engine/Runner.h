@@ -1,5 +1,8 @@
-// The seam through which somebody else may run a game's loop: GM.run() hands its world to the installed
-// Runner. The host implements one (sockets, a clock, players); without any, GM.run() steps headless.
+// The seams through which somebody else may run a game's loop.
+//
+// A program that loads games (dfserver) gives the world a Runner before it calls the game's main(). A game
+// that is a program itself knows of none: what GM.startUp() and GM.run() then do is up to the Program that
+// the library's hosting part has put here when it was loaded. Without either, GM.run() steps headless.
 #pragma once
 
 namespace df {
@@ -15,6 +18,27 @@ class Runner {
   /// Call `world.tick()` until the game is over (World::isGameOver) or the runner has a reason to stop.
   virtual void run(World& world) = 0;
 };
+
+/// What runs the default world of a process, if nobody has given that a Runner. Worlds that are made by hand
+/// never meet it.
+class Program : public Runner {
+ public:
+  /// GM.startUp() is about to return: settings are read, and nothing of the game exists yet.
+  virtual void startUp(World& world) = 0;
+};
+
+/// Not owned; it lives as long as the process. Null: nobody. To be called before the game's main() begins, or
+/// by it before GM.startUp().
+void setProgram(Program* p_program);
+
+/// The game was built with the compiler's -DDF_COMPAT=0 or 1 (GameManager.h calls it). Return `compat`.
+bool declareCompat(bool compat);
+
+/// Set World::setCompat() as far as it is decided before df-config.txt is read: by the build, else on in a
+/// Program, else as it is.
+void beginCompat(World& world);
+/// The last word has the environment: DF_COMPAT=0 or 1.
+void endCompat(World& world);
 
 }  // namespace running
 

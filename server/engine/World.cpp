@@ -10,6 +10,7 @@
 #include "InputQueue.h"
 #include "Interests.h"
 #include "LogFile.h"
+#include "LogManager.h"
 #include "Mover.h"
 #include "Object.h"
 #include "Runner.h"
@@ -59,8 +60,11 @@ World::~World() {
 
 World& World::current() {
   if (t_p_current != nullptr) return *t_p_current;
-  static World* p_default =
-      new World;  // for ever: static Objects of games may die later than anything of ours
+  static World* p_default = [] {
+    auto* p_world = new World;  // for ever: static Objects of games may die later than anything of ours
+    p_world->m_is_default = true;
+    return p_world;
+  }();
   return *p_default;
 }
 
@@ -137,7 +141,16 @@ void World::run() {
     m_p_runner->run(*this);
     return;
   }
+  if (running::Program* p_program = program()) return p_program->run(*this);
   while (!m_game_over) tick();
+}
+
+void World::setGameOver(bool game_over) {
+  if (game_over && m_game_over_leaves && m_input_player != 0) {
+    m_leavers.push_back(m_input_player);
+  } else {
+    m_game_over = game_over;
+  }
 }
 
 void World::setSeed(std::uint64_t seed) {
@@ -267,7 +280,7 @@ void World::log(const std::string& line) const {
   if (m_log_sink) {
     m_log_sink(line);
   } else {
-    writeToLogFile(line, m_log_flush);
+    writeToLogFile(m_p_extras != nullptr ? m_p_extras->settings.logfile : LOGFILE_DEFAULT, line, m_log_flush);
   }
 }
 

@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Box.h"
@@ -89,16 +90,25 @@ class World {
   /// Begin a new picture: run the draw() of all Objects in view, by altitude, then creation order. Nothing
   /// happens inside a tick, which does it at its end.
   void draw();
-  /// Run the game: through the Runner if one is set, else tick() after tick() until the game is over.
+  /// Run the game: through the Runner if one is set, else through program(), else tick() after tick() until
+  /// the game is over.
   /// Nothing happens inside a tick, update or draw.
   void run();
   /// Ticks begun since the world began.
   int getStepCount() const { return m_step_count; }
-  void setGameOver(bool game_over = true) { m_game_over = game_over; }
+  void setGameOver(bool game_over = true);
   bool isGameOver() const { return m_game_over; }
+  /// From now on a setGameOver() while a player's input is handled does not end the game: that player wants
+  /// to leave, which is up to the host. It stays through shutDown().
+  void setGameOverLeaves(bool leaves) { m_game_over_leaves = leaves; }
+  /// Those who wanted to leave since this was asked last.
+  std::vector<std::uint32_t> takeLeavers() { return std::exchange(m_leavers, {}); }
   /// Not owned; null for none.
   void setRunner(Runner* p_runner) { m_p_runner = p_runner; }
   Runner* getRunner() const { return m_p_runner; }
+  /// Who runs this world without having been asked (Runner.h); null if it has a Runner, was made by hand, or
+  /// there is nobody.
+  running::Program* program() const;
   /// From now on `layer` takes part in update(), after the layers added before it. It lives as long as the
   /// world. Added by a layer's step(), or by a handler that it calls, it takes part in the same update().
   void addLayer(std::unique_ptr<Layer> layer) { m_layers.push_back(std::move(layer)); }
@@ -308,6 +318,9 @@ class World {
   unsigned m_started = 0;
   bool m_log_flush = false;
   bool m_game_over = false;
+  bool m_game_over_leaves = false;
+  bool m_is_default = false;
+  std::vector<std::uint32_t> m_leavers;
   bool m_in_tick = false;
   bool m_in_update = false;
   bool m_in_draw = false;

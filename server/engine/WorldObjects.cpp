@@ -104,6 +104,7 @@ void World::shutDown() {
   m_step_count = 0;
   m_started = 0;
   m_looking_back = false;
+  m_leavers.clear();
   m_game_over = false;
 }
 

@@ -185,6 +185,7 @@ void WorldStore::setAcceleration(Slot s, FixedVector acceleration) {
 void WorldStore::setBox(Slot s, FixedBox box) {
   if (m_boxes[s] == box) return;
   m_boxes[s] = box;
+  m_boxes_off = m_boxes_off || !intersects(box, {});
   file(s);
   touch(s);
 }

@@ -146,6 +146,9 @@ class WorldStore {
   void setVelocity(Slot s, FixedVector velocity);
   void setAcceleration(Slot s, FixedVector acceleration);
   void setBox(Slot s, FixedBox box);
+  /// Was there ever a box that does not hold its Object's position? Else who is inside something is so with
+  /// his box, too.
+  bool hasBoxesOffPosition() const { return m_boxes_off; }
   void setSolidness(Slot s, Solidness solidness);
   void setAltitude(Slot s, int altitude);
   /// Nothing: the whole box.
@@ -318,6 +321,7 @@ class WorldStore {
   std::unordered_map<Slot, Mask> m_masks;  // of the few that have one
   std::unordered_map<Slot, std::shared_ptr<const naiad::Look>> m_frames;
   bool m_all_swept = false;
+  bool m_boxes_off = false;                // see hasBoxesOffPosition()
   int m_precise = 0;                       // Objects that are
   mutable std::vector<Slot> m_candidates;  // scratch of touching()
 };

@@ -103,7 +103,7 @@ struct PlayerFacts {
   Color color = COLOR_DEFAULT;
   int score = 0;
   ObjectKey followed;             ///< generation 0: the view follows nobody
-  FixedVector view_corner;        ///< upper left corner of the view, world coordinates
+  FixedVector view_corner;        ///< upper left corner of the view, world coordinates; shaken
   std::vector<PlayerText> texts;  ///< non-empty ones, by id
   SteeringFacts steering;
 };
@@ -122,7 +122,7 @@ struct WorldView {
   FixedVector corner;                 ///< of the world's own view, in which view objects were drawn
   std::vector<SoundPlayed> sounds;    ///< in the order they were played
   Color background = BLACK;           ///< of the window
-  int shake_x = 0;                    ///< cells by which the whole picture is off its place in this tick
+  int shake_x = 0;                    ///< cells by which views are off their places in this tick
   int shake_y = 0;
 };
 

@@ -51,7 +51,7 @@ GameModule::GameModule(const std::string& game) {
 }
 
 std::vector<std::string> GameModule::resourceFolders() const {
-  return {(m_folder / m_name).string(), m_folder.string()};
+  return {(m_folder / m_name).string(), m_folder.string(), m_folder.parent_path().string()};
 }
 
 int GameModule::main() const {

@@ -109,6 +109,7 @@ Host::~Host() = default;
 // The server's loop: serve sockets until the next tick is due, then tick.
 void Host::run(df::World& world) {
   m_p_world = &world;
+  adoptSettings(world);
   const StopSignals signals;
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   m_empty_since = Clock::now();
@@ -125,8 +126,10 @@ void Host::run(df::World& world) {
     m_counters.rebased_ticks += schedule.begin(now) ? 1 : 0;
     tick(world);
   }
+  m_round_over = wantsNextRound(world);
   drain();
   world.setHindsight(nullptr);
+  world.setGameOverLeaves(false);
   m_p_world = nullptr;
 }
 
@@ -154,9 +157,11 @@ void Host::tick(df::World& world) {
     if (session->takeProof()) m_tokens.confirm(session->id());
   }
 
+  giveTurn();
   applyInputs(world);
   world.tick();
   ++m_counters.ticks;
+  dismissLeavers(world);
   if (watched) {
     m_publisher.update(world.view());
     lookBack(world);
@@ -167,17 +172,11 @@ void Host::tick(df::World& world) {
   if (m_observer) m_observer(world);
 }
 
-template <class Visit>
-void Host::forEachPlaying(Visit visit) {
-  for (const auto& session : m_sessions) {
-    if (session->state() == Session::State::kPlaying) visit(*session);
-  }
-}
-
 void Host::applyInputs(df::World& world) {
   const std::uint32_t next = world.view().tick + 1;
-  forEachPlaying([&world, next](Session& session) {
+  forEachPlaying([this, &world, next](Session& session) {
     session.takeInputs(next, [&](const Input& input) {
+      if (!isHeard(session, input)) return;
       if (input.is_mouse) {
         world.mouse(session.player(), static_cast<df::EventMouseAction>(input.action),
                     static_cast<df::Mouse::Button>(int{input.button} - 1), input.x, input.y,
@@ -401,6 +400,7 @@ void Host::admit(Session& session, const wire::Hello& hello) {
   welcome.set_grace_millis(static_cast<std::uint32_t>(grace.count()));
   if (m_options.grace > 0) welcome.set_resume_token(m_tokens.issue(session.id()));
   session.welcome(welcome, std::move(datagrams));
+  tellTurn(session);
   m_player_news.repeat();
   m_ever_joined = true;
   m_log(name + " joined from " + session.address() + " with " + safeText(hello.program(), kMaxProgramLength));
@@ -488,6 +488,10 @@ bool Host::isOver(const df::World& world) const {
 void Host::drain() {
   m_network.closeListener();
   const std::string sentence = m_stop_sentence.empty() ? "The game is over." : m_stop_sentence;
+  if (m_round_over) {
+    m_log("the round is over");
+    m_sessions.clear();
+  }
   for (const auto& session : m_sessions) session->goodbye(sentence);
   m_network.flush();
   const Clock::time_point end = Clock::now() + kDrainTime;

@@ -52,6 +52,13 @@ class Host : public df::Runner {
   /// How long ticks took, begin to last datagram sent. Thread-safe.
   const TickTimes& tickTimes() const { return m_network.tickTimes(); }
   void resetTickTimes() { m_network.resetTickTimes(); }
+  /// Players whose streams are open. On the host's thread.
+  std::size_t connected() const;
+  /// A player who is alone and for whom the game is over (HostOptions::on_game_over) ends it for all.
+  void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
+  /// run() has ended because the game is over, and another round is to begin: players were not told goodbye,
+  /// but are expected back.
+  bool isRoundOver() const { return m_round_over; }
   /// Ticks that were skipped for a player who is here (Session::skippedTicks); 0 for anybody else.
   std::uint64_t skippedTicks(std::uint32_t player) const;
 
@@ -77,11 +84,18 @@ class Host : public df::Runner {
   void admit(Session& session, const wire::Hello& hello);
   std::unique_ptr<SealedChannel> openDatagrams(const Session& session, const wire::Hello& hello);
   Session* find(std::uint64_t session);
+  Session* findPlayer(std::uint32_t player);
   void chat(const Session& session, const std::string& text);
+  void adoptSettings(df::World& world);
   void leave(Session& session);
   void serve();
   void tick(df::World& world);
+  void giveTurn();
+  void tellTurn(Session& session);
+  bool isHeard(const Session& session, const Input& input) const;
   void applyInputs(df::World& world);
+  void dismissLeavers(df::World& world);
+  bool wantsNextRound(const df::World& world) const;
   void lookBack(df::World& world);
   void sendSnapshots(df::World& world);
   void sendPlayers(const df::World& world);
@@ -92,10 +106,13 @@ class Host : public df::Runner {
   bool isOver(const df::World& world) const;
   bool isDeserted(Clock::time_point now) const;
   std::size_t playing() const;
-  std::size_t connected() const;
   std::size_t fromSameAddress(const Session& session) const;
   template <class Visit>
-  void forEachPlaying(Visit visit);
+  void forEachPlaying(Visit visit) {
+    for (const auto& session : m_sessions) {
+      if (session->state() == Session::State::kPlaying) visit(*session);
+    }
+  }
 
   HostOptions m_options;
   std::string m_game;
@@ -118,6 +135,10 @@ class Host : public df::Runner {
   std::vector<Session*> m_by_player;  ///< those that play, by player; for one tick
   Clock::time_point m_empty_since;
   bool m_ever_joined = false;
+  bool m_ends_with_last = false;
+  bool m_round_over = false;
+  std::uint32_t m_turn = 0;         ///< the player whose input is heard, if only one's is; 0: nobody
+  std::uint32_t m_turn_before = 0;  ///< whose was before him: keys that he held are let go
 };
 
 }  // namespace naiad

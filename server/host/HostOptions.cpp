@@ -1,6 +1,8 @@
 #include "HostOptions.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
 #include <sstream>
 #include <variant>
 #include <vector>
@@ -14,6 +16,10 @@ namespace {
 using Member = std::variant<bool HostOptions::*, std::string HostOptions::*, int HostOptions::*,
                             std::int64_t HostOptions::*, double HostOptions::*>;
 
+/// Who has an option: dfserver, games that are programs themselves (no command line, but df-config.txt),
+/// both.
+enum class Whose { kBoth, kServer, kProgram };
+
 struct Row {
   const char* flag;
   const char* environment;
@@ -21,12 +27,16 @@ struct Row {
   double least;  ///< range of a number
   double most;
   const char* help;
+  Whose whose = Whose::kBoth;
+  const char* key = nullptr;          ///< in df-config.txt; null: the flag with _ for -; empty: not there
+  std::vector<std::string> one_of{};  ///< what a text may be; empty: anything
 };
 
 const std::vector<Row>& table() {
   static const std::vector<Row> rows = {
       {"--game", "NAIAD_GAME", &HostOptions::game, 0, 0,
-       "Game to host: the name of a shipped one (see --list-games) or the path of a module (.so)"},
+       "Game to host: the name of a shipped one (see --list-games) or the path of a module (.so)",
+       Whose::kServer},
       {"--address", "NAIAD_ADDRESS", &HostOptions::address, 0, 0,
        "Numeric address to listen on; :: is every address of this machine, IPv4 too"},
       {"--port", "NAIAD_PORT", &HostOptions::port, 0, 65535,
@@ -38,10 +48,34 @@ const std::vector<Row>& table() {
       {"--seed", "NAIAD_SEED", &HostOptions::seed, 0, 9e15,
        "Seed of the world's random numbers; 0 takes a new one and logs it"},
       {"--frame-time", "NAIAD_FRAME_TIME", &HostOptions::frame_micros, 0, 1e6,
-       "Length of a tick in microseconds, 1000 or more; 0 is exactly 1/30 s"},
+       "Length of a tick in microseconds, 1000 or more; 0 is what the game's df-config.txt says, else "
+       "exactly 1/30 s",
+       Whose::kBoth, ""},  // there the game's frame_time is in milliseconds
       {"--ticks", "NAIAD_TICKS", &HostOptions::ticks, 0, 2e9, "Stop after this many ticks; 0 never"},
       {"--exit-when-empty", "NAIAD_EXIT_WHEN_EMPTY", &HostOptions::exit_when_empty, 0, 1e6,
        "Stop this many seconds after the last player left (a minute if nobody ever comes); 0 never"},
+      {"--players",
+       "NAIAD_PLAYERS",
+       &HostOptions::players,
+       0,
+       0,
+       "Whose keys and mouse the game hears: together = everybody's; first = the first one's, while the "
+       "others "
+       "watch and wait for their turn",
+       Whose::kBoth,
+       nullptr,
+       {"together", "first"}},
+      {"--on-game-over",
+       "NAIAD_ON_GAME_OVER",
+       &HostOptions::on_game_over,
+       0,
+       0,
+       "When the game is over because of a key or click of one player among several: leave = it is for him "
+       "alone; exit = for everybody. restart = as leave, and when the game itself is over, the next round "
+       "begins",
+       Whose::kBoth,
+       nullptr,
+       {"leave", "exit", "restart"}},
       {"--insecure", "NAIAD_INSECURE", &HostOptions::insecure, 0, 0,
        "Without encryption or datagrams, on loopback only (for tests)"},
       {"--certificate", "NAIAD_CERTIFICATE", &HostOptions::certificate, 0, 0,
@@ -63,6 +97,10 @@ const std::vector<Row>& table() {
       {"--port-file", "NAIAD_PORT_FILE", &HostOptions::port_file, 0, 0,
        "Write the port number to this file once listening"},
       {"--log", "NAIAD_LOG", &HostOptions::log_file, 0, 0, "Append log lines to this file instead of stderr"},
+      {"--headless", "NAIAD_HEADLESS", &HostOptions::headless, 0, 0,
+       "Without network and players, as fast as possible", Whose::kProgram},
+      {"--local-client", "NAIAD_LOCAL_CLIENT", &HostOptions::local_client, 0, 0,
+       "Started in a terminal: play there, too", Whose::kProgram},
   };
   return rows;
 }
@@ -90,6 +128,44 @@ std::string defaultText(const Row& row) {
       row.member);
 }
 
+std::string keyOf(const Row& row) {
+  if (row.key != nullptr) return row.key;
+  std::string key = row.flag + 2;
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
+/// One row as an option of the parser's, which checks what is given.
+CLI::Option* addRow(CLI::App& app, const Row& row, HostOptions& options) {
+  return std::visit(
+      [&](auto member) {
+        CLI::Option* option = nullptr;
+        if constexpr (std::is_same_v<decltype(member), bool HostOptions::*>) {
+          option = app.add_flag(row.flag, options.*member, row.help);
+        } else {
+          option = app.add_option(row.flag, options.*member, row.help)->capture_default_str();
+        }
+        if (row.most > row.least) option->check(CLI::Range(row.least, row.most));
+        if (!row.one_of.empty()) option->check(CLI::IsMember(row.one_of));
+        return option;
+      },
+      row.member);
+}
+
+/// What rows cannot check one by one; empty if all is well.
+std::string complaint(const HostOptions& options) {
+  if (options.frame_micros != 0 && options.frame_micros < kMinFrameMicros) {
+    return "--frame-time: " + std::to_string(options.frame_micros) + " is neither 0 nor " +
+           std::to_string(kMinFrameMicros) + " or more";
+  }
+  if (options.certificate.empty() != options.key.empty()) return "--certificate and --key come together";
+  return {};
+}
+
+void keepHome(HostOptions& options) {
+  if (options.insecure && options.address == HostOptions().address) options.address = "127.0.0.1";
+}
+
 }  // namespace
 
 CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options) {
@@ -101,18 +177,7 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   bool list_games = false;
   bool markdown = false;
   for (const Row& row : table()) {
-    std::visit(
-        [&](auto member) {
-          CLI::Option* option = nullptr;
-          if constexpr (std::is_same_v<decltype(member), bool HostOptions::*>) {
-            option = app.add_flag(row.flag, options.*member, row.help);
-          } else {
-            option = app.add_option(row.flag, options.*member, row.help)->capture_default_str();
-          }
-          option->envname(row.environment);
-          if (row.most > row.least) option->check(CLI::Range(row.least, row.most));
-        },
-        row.member);
+    if (row.whose != Whose::kProgram) addRow(app, row, options)->envname(row.environment);
   }
   app.add_flag("--list-games", list_games, "Print the games that can be named, and exit");
   app.add_flag("--markdown", markdown, "Print the options as a Markdown table, and exit")->group("");
@@ -121,16 +186,11 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? CommandLine::kDone : CommandLine::kUsageError;
   }
-  if (options.frame_micros != 0 && options.frame_micros < kMinFrameMicros) {
-    std::cerr << "--frame-time: " << options.frame_micros << " is neither 0 nor " << kMinFrameMicros
-              << " or more\nRun with --help for more information.\n";
+  if (const std::string wrong = complaint(options); !wrong.empty()) {
+    std::cerr << wrong << "\nRun with --help for more information.\n";
     return CommandLine::kUsageError;
   }
-  if (options.certificate.empty() != options.key.empty()) {
-    std::cerr << "--certificate and --key come together\nRun with --help for more information.\n";
-    return CommandLine::kUsageError;
-  }
-  if (options.insecure && options.address == HostOptions().address) options.address = "127.0.0.1";
+  keepHome(options);
   if (markdown) {
     std::cout << hostOptionsMarkdown();
     return CommandLine::kDone;
@@ -138,15 +198,59 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   return list_games ? CommandLine::kListGames : CommandLine::kRun;
 }
 
+std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options) {
+  std::set<std::string> given;
+  std::vector<std::string> arguments;
+  for (const Row& row : table()) {
+    if (row.whose == Whose::kServer) continue;
+    const std::string key = keyOf(row);
+    const char* p_environment = std::getenv(row.environment);
+    std::string value = p_environment != nullptr ? p_environment : "";
+    if (value.empty() && !key.empty()) value = value_of(key);
+    if (value.empty()) continue;
+    given.insert(row.flag + 2);
+    arguments.push_back(std::string(row.flag) + "=" + value);
+  }
+  CLI::App app;
+  for (const Row& row : table()) {
+    if (row.whose != Whose::kServer) addRow(app, row, options);
+  }
+  try {
+    std::reverse(arguments.begin(), arguments.end());  // as the parser wants them
+    app.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    throw OptionError(error.what());
+  }
+  if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
+  keepHome(options);
+  return given;
+}
+
 std::string hostOptionsMarkdown() {
   std::string text =
       "# Options of dfserver\n\nMade by `dfserver --markdown`; a test keeps it true.\n\n"
       "| option | environment | default | meaning |\n|---|---|---|---|\n";
   for (const Row& row : table()) {
+    if (row.whose == Whose::kProgram) continue;
     text += std::string("| `") + row.flag + "` | `" + row.environment + "` | " + defaultText(row) + " | " +
             row.help + " |\n";
   }
-  return text + "\n" + kExitCodes;
+  text +=
+      std::string("\n") + kExitCodes +
+      "\n## Games that are programs themselves\n\n"
+      "A game with a `main()` of its own ([bring-your-game.md](bring-your-game.md)) has no command line of "
+      "Naiad's. It takes the same\noptions from the environment, and where that does not say from its "
+      "`df-config.txt`, as lines `key:value,`:\n\n"
+      "| df-config.txt | environment | default | meaning |\n|---|---|---|---|\n";
+  for (const Row& row : table()) {
+    if (row.whose == Whose::kServer) continue;
+    const std::string key = keyOf(row);
+    text += "| " + (key.empty() ? "" : "`" + key + "`") + " | `" + row.environment + "` | " +
+            defaultText(row) + " | " +
+            (row.whose == Whose::kProgram ? row.help : std::string("as `") + row.flag + "`") + " |\n";
+  }
+  return text +
+         "\nIt exits as its `main()` does, or with 2 for an option that makes no sense, 4 and 5 as above.\n";
 }
 
 }  // namespace naiad

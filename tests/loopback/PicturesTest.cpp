@@ -3,6 +3,8 @@
 
 #include "BusyWorld.h"
 #include "Compare.h"
+#include "DisplayManager.h"
+#include "EventStep.h"
 #include "TestClient.h"
 #include "TestServer.h"
 
@@ -52,6 +54,36 @@ TEST(Loopback, TwoClientsSeeTheSameWorldAndALateOneCatchesUp) {
   }
   EXPECT_GT(shared, 50);
   EXPECT_LE(different, server.skippedTicks(ann.player()) + server.skippedTicks(cal.player()));
+}
+
+/// Shakes the window for ten ticks of thirty.
+struct Shaker : df::Object {
+  Shaker() {
+    setSolidness(df::SPECTRAL);
+    registerInterest(df::STEP_EVENT);
+  }
+  int eventHandler(const df::Event* p_event) override {
+    const int step = dynamic_cast<const df::EventStep*>(p_event)->getStepCount();
+    if (step % 30 == 0) DM.shake(40, 40, 10);
+    return 1;
+  }
+};
+
+TEST(Loopback, AWindowThatShakesIsSeenShaking) {
+  int shaken = 0;
+  TestServer server([](df::World& world) {
+    populateBusyWorld(world, 60);
+    new Shaker;
+  });
+  asio::io_context context;
+  TestClient client(context, server.port(), "ann");
+  ASSERT_TRUE(serveUntil(context, {&client}, [&] {
+    if (client.joined())
+      shaken += server.inWorld([](df::World& world) { return world.view().shake_x != 0 ? 1 : 0; });
+    return client.pictures().size() >= 200;
+  }));
+  expectSame(client, server, 200);
+  EXPECT_GT(shaken, 0);
 }
 
 TEST(Loopback, AThousandObjectsArriveWhole) {

@@ -1,0 +1,19 @@
+// Log lines with the time of day, to a file or stderr.
+#pragma once
+
+#include <fstream>
+#include <string>
+
+namespace naiad {
+
+class LineLog {
+ public:
+  /// Append to this file; empty: stderr. Throws std::runtime_error if it cannot be written.
+  explicit LineLog(const std::string& path);
+  void operator()(const std::string& line);
+
+ private:
+  std::ofstream m_file;
+};
+
+}  // namespace naiad

@@ -1,0 +1,31 @@
+// A game that is a program itself is a server: what GM.startUp() and GM.run() do in it.
+//
+// startUp() reads the options (HostOptions.h: environment, then df-config.txt) and seeds the dice; run()
+// hosts the game as dfserver would, says how to join, and where there is a terminal attaches a client to it.
+// Options that make no sense end the process with code 2, an address that cannot be listened on with 4, files
+// and keys that cannot be used with 5, each with one line on stderr.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "HostOptions.h"
+#include "Runner.h"
+
+namespace naiad {
+
+class ProgramHost : public df::running::Program {
+ public:
+  void startUp(df::World& world) override;
+  void run(df::World& world) override;
+
+ private:
+  void seed(df::World& world) const;
+  void runHeadless(df::World& world) const;
+  void serve(df::World& world);
+
+  HostOptions m_options;
+  std::set<std::string> m_given;  ///< options that somebody gave
+};
+
+}  // namespace naiad

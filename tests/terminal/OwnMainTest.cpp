@@ -1,0 +1,343 @@
+// A game with a main() of its own that knows of no network (lone/game.cpp): what it is when it is started,
+// alone in a terminal, without one, headless, and loaded by dfserver. Real processes, terminals and sockets.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "PtyTerminal.h"
+
+namespace naiad::test {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr const char* kRight = "\033[C";
+// What is written on the screen is what changes there: the sign after WALKED-, which goes on to $ and %, and
+// of a line of chat the part that is not as in the line before.
+constexpr const char* kCtrlC = "\x03";
+
+class OwnMain : public testing::Test {
+ protected:
+  OwnMain() {
+    std::string name = fs::temp_directory_path() / "naiad-lone-XXXXXX";
+    m_home = mkdtemp(name.data());
+    configure("");
+  }
+  ~OwnMain() override { fs::remove_all(m_home); }
+
+  /// Lines of df-config.txt.
+  void configure(const std::string& lines) {
+    std::ofstream(m_home / "df-config.txt")
+        << "logfile:" << (m_home / "game.log").string() << ",\naddress:127.0.0.1,\n"
+        << lines;
+  }
+  PtyTerminal::Options inHome(std::vector<std::string> command) const {
+    PtyTerminal::Options options;
+    for (const char* kind : {"CONFIG", "DATA", "STATE"}) {
+      options.environment["XDG_" + std::string(kind) + "_HOME"] = m_home / kind;
+    }
+    options.environment["DRAGONFLY_CONFIG"] = m_home / "df-config.txt";
+    options.environment["NAIAD_PORT"] = "0";
+    options.environment["NAIAD_JOIN_FILE"] = m_home / "join";
+    options.environment["NAIAD_CLIENT"] = programPath("dfclient");
+    options.environment["NAIAD_LOG"] = "";
+    options.environment["DF_COMPAT"] = "";
+    options.environment["USER"] = "ann";
+    options.columns = 120;
+    options.command = std::move(command);
+    return options;
+  }
+  std::unique_ptr<PtyTerminal> start(std::map<std::string, std::string> environment = {}) const {
+    PtyTerminal::Options options = inHome({programPath("lone_game")});
+    for (auto& [name, value] : environment) options.environment[name] = value;
+    return std::make_unique<PtyTerminal>(options);
+  }
+  std::unique_ptr<PtyTerminal> startServer(std::map<std::string, std::string> environment = {}) const {
+    environment["NAIAD_LOCAL_CLIENT"] = "false";
+    auto server = start(environment);
+    EXPECT_TRUE(server->waitFor("Compatible with")) << server->output();
+    return server;
+  }
+  /// Another terminal, with the line that the server gave.
+  std::unique_ptr<PtyTerminal> join(const std::string& name) const {
+    std::vector<std::string> command{programPath("dfclient"), "--name", name};
+    std::istringstream words(read("join"));
+    for (std::string word; words >> word;) command.push_back(word);
+    auto terminal = std::make_unique<PtyTerminal>(inHome(command));
+    EXPECT_TRUE(terminal->waitFor("WALKED-")) << terminal->output();
+    return terminal;
+  }
+  std::string read(const std::string& file) const {
+    std::ostringstream text;
+    text << std::ifstream(m_home / file).rdbuf();
+    return text.str();
+  }
+  static bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  }
+  static void expectOrderlyEnd(PtyTerminal& game) {
+    const int status = game.waitForExit();
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status << game.output();
+    EXPECT_TRUE(has(game.output(), "after the game, walker 1")) << game.output();
+    EXPECT_TRUE(sameModes(game.originalModes(), game.currentModes()));
+  }
+
+  fs::path m_home;
+};
+
+TEST_F(OwnMain, InATerminalItIsPlayedThere) {
+  auto game = start();
+  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  EXPECT_TRUE(has(game->output(), "before the game"));
+  EXPECT_TRUE(has(game->output(), "Join from this machine with: dfclient 127.0.0.1:"));
+  game->forget();
+  game->type(kRight);
+  // Cells that stay the same are not written again.
+  ASSERT_TRUE(game->waitFor("$")) << game->output();
+  game->type("q");
+  expectOrderlyEnd(*game);
+  EXPECT_FALSE(has(game->output(), "printed in step")) << "it would spoil the picture";
+  const std::string log = read("game.log");
+  EXPECT_TRUE(has(log, "printed in step 1")) << log;
+  EXPECT_TRUE(has(log, "ann joined")) << log;
+}
+
+TEST_F(OwnMain, EndsWhenItsPlayerLeaves) {
+  auto game = start();
+  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  game->type(kCtrlC);
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, EndsItsClientWhenItIsOver) {
+  auto game = start();
+  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  game->type("x");
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, LeavesTheTerminalInOrderWhenItCrashes) {
+  auto game = start();
+  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  game->forget();
+  game->type("c");
+  const int status = game->waitForExit();
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT) << status;
+  // The client goes with it, on its own account.
+  EXPECT_TRUE(game->waitFor("\033[?1049l")) << game->output();
+  for (int i = 0; i < 100 && !sameModes(game->originalModes(), game->currentModes()); ++i) game->read(50ms);
+  EXPECT_TRUE(sameModes(game->originalModes(), game->currentModes()));
+}
+
+TEST_F(OwnMain, GoesOnForOthersUntilTheyHaveLeft) {
+  auto game = start();
+  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  auto bob = join("bob");
+  game->type("q");
+  ASSERT_TRUE(game->waitFor("1 still playing")) << game->output();
+  bob->forget();
+  bob->type(kRight);
+  ASSERT_TRUE(bob->waitFor("$")) << bob->output();
+  bob->type(kCtrlC);
+  EXPECT_EQ(WEXITSTATUS(bob->waitForExit()), 0);
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, ItsOwnClientKnowsThePassword) {
+  configure("password:sesame,\n");
+  auto game = start();
+  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  game->type("q");
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, OneKeyDoesNotEndEverybodysGame) {
+  auto game = startServer();
+  auto ann = join("ann");
+  auto bob = join("bob");
+  bob->type("q");
+  EXPECT_EQ(WEXITSTATUS(bob->waitForExit()), 4);
+  EXPECT_TRUE(has(bob->output(), "For you, the game is over.")) << bob->output();
+  ann->type("q");  // nobody is at the server's own terminal, so it stays for who comes next
+  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
+  auto carl = join("carl");
+  carl->type("x");  // this is the game itself
+  EXPECT_EQ(WEXITSTATUS(carl->waitForExit()), 4);
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, UnlessTheHostWantsThat) {
+  configure("on_game_over:exit,\n");
+  auto game = startServer();
+  auto ann = join("ann");
+  auto bob = join("bob");
+  bob->type("q");
+  expectOrderlyEnd(*game);
+  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
+}
+
+/// Type to the right until the walker takes its first step, in a world that begins anew meanwhile. Slowly:
+/// keys that come in haste are one that is held.
+void walkAgain(PtyTerminal& player) {
+  for (int i = 0; i < 20 && player.newOutput().find('$') == std::string::npos; ++i) {
+    player.type(kRight);
+    player.read(800ms);
+  }
+  EXPECT_NE(player.newOutput().find('$'), std::string::npos) << player.output();
+}
+
+TEST_F(OwnMain, TheNextRoundIsAFreshProcessAndItsPlayersComeAlong) {
+  configure("on_game_over:restart,\n");
+  auto game = startServer();
+  auto ann = join("ann");
+  ann->type(kRight);
+  ASSERT_TRUE(ann->waitFor("$")) << ann->output();
+  ann->forget();
+  game->forget();
+  ann->type("x");
+  ASSERT_TRUE(game->waitFor("after the game, walker 1")) << game->output();
+  ASSERT_TRUE(game->waitFor("before the game")) << game->output();
+  walkAgain(*ann);
+  const std::string log = read("game.log");  // of this round
+  EXPECT_EQ(log.find("seed"), log.rfind("seed")) << log;
+  EXPECT_TRUE(has(log, "ann joined")) << log;
+  game->signal(SIGTERM);
+  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, ThereIsNoNextRoundForThePlayerInItsTerminalAlone) {
+  configure("on_game_over:restart,\n");
+  auto game = start();
+  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  game->type("x");
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, ModulesHaveRoundsToo) {
+  PtyTerminal::Options options =
+      inHome({programPath("dfserver"), "--game", programPath("../lib/lone_module.so"), "--address",
+              "127.0.0.1", "--on-game-over", "restart"});
+  PtyTerminal server(options);
+  ASSERT_TRUE(server.waitFor("From elsewhere")) << server.output();
+  auto ann = join("ann");
+  ann->type(kRight);
+  ASSERT_TRUE(ann->waitFor("$")) << ann->output();
+  ann->forget();
+  server.forget();
+  ann->type("x");
+  ASSERT_TRUE(server.waitFor("before the game")) << server.output();
+  walkAgain(*ann);
+  server.signal(SIGTERM);
+  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
+  expectOrderlyEnd(server);
+}
+
+TEST_F(OwnMain, TheFirstPlaysAndTheOthersWaitForTheirTurn) {
+  configure("players:first,\n");
+  auto game = startServer();
+  auto ann = join("ann");
+  auto bob = join("bob");
+  ASSERT_TRUE(bob->waitFor("ann plays; you watch until it is your turn.")) << bob->output();
+  bob->forget();
+  bob->type(kRight);
+  bob->type("x");
+  ann->type(kRight);
+  ASSERT_TRUE(bob->waitFor("$")) << bob->output();
+  ann->type(kCtrlC);
+  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 0);
+  ASSERT_TRUE(bob->waitFor("now.")) << bob->output();
+  bob->forget();
+  bob->type(kRight);
+  ASSERT_TRUE(bob->waitFor("%")) << bob->output() << "what he typed as a spectator went nowhere";
+  bob->type("x");
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, WithoutATerminalItIsAServerThatASignalEnds) {
+  PtyTerminal::Options options = inHome(
+      {"/bin/sh", "-c", "\"$0\" </dev/null >\"$1\" 2>&1 & pid=$!; trap 'kill -TERM $pid' TERM; wait; wait",
+       programPath("lone_game"), m_home / "out"});
+  PtyTerminal shell(options);
+  for (int i = 0; i < 200 && !has(read("join"), "fingerprint"); ++i) shell.read(50ms);
+  auto ann = join("ann");
+  shell.signal(SIGTERM);
+  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
+  EXPECT_TRUE(has(ann->output(), "The server is shutting down.")) << ann->output();
+  EXPECT_NE(shell.waitForExit(), -1);
+  EXPECT_TRUE(has(read("out"), "after the game, walker 1")) << read("out");
+}
+
+TEST_F(OwnMain, HeadlessItNeedsNoNetwork) {
+  configure("headless:true,\n");
+  auto game = start({{"NAIAD_TICKS", "2000"}, {"NAIAD_CLIENT", "/nonexistent"}});
+  expectOrderlyEnd(*game);
+  EXPECT_FALSE(has(game->output(), "Join from"));
+  EXPECT_FALSE(fs::exists(m_home / "CONFIG")) << "a server's key was made";
+}
+
+TEST_F(OwnMain, WithoutAClientItIsAServer) {
+  auto game = start({{"NAIAD_CLIENT", "/nonexistent"}});
+  ASSERT_TRUE(game->waitFor("There is no dfclient")) << game->output();
+  auto ann = join("ann");
+  ann->type("x");
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, ATerminalThatCannotDrawLeavesAServer) {
+  auto game = start({{"TERM", "no-such-terminal"}});
+  ASSERT_TRUE(game->waitFor("the game goes on as a server")) << game->output();
+  auto ann = join("ann");
+  game->signal(SIGINT);
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, IsCompatibleUnlessSomebodySaysOtherwise) {
+  constexpr const char* kYes = "published engine: yes";
+  constexpr const char* kNo = "published engine: no";
+  EXPECT_TRUE(has(startServer()->output(), kYes));
+  EXPECT_TRUE(has(startServer({{"DF_COMPAT", "0"}})->output(), kNo));
+  configure("compat:false,\n");
+  EXPECT_TRUE(has(startServer()->output(), kNo));
+  EXPECT_TRUE(has(startServer({{"DF_COMPAT", "1"}})->output(), kYes));
+}
+
+TEST_F(OwnMain, WhatMakesNoSenseIsOneLineAndACode) {
+  configure("max_players:many,\n");
+  auto game = start();
+  EXPECT_EQ(WEXITSTATUS(game->waitForExit()), 2) << game->output();
+  EXPECT_TRUE(has(game->output(), "lone_game: environment or df-config.txt: --max-players: "))
+      << game->output();
+}
+
+TEST_F(OwnMain, APortThatIsTakenMattersOnlyToWhoAskedForIt) {
+  auto first = startServer();
+  std::string join_line = read("join");
+  const std::string port = join_line.substr(10, join_line.find(' ') - 10);
+  auto second = start({{"NAIAD_PORT", port}});
+  EXPECT_EQ(WEXITSTATUS(second->waitForExit()), 4) << second->output();
+}
+
+TEST_F(OwnMain, IsAModuleOfDfserverToo) {
+  PtyTerminal::Options options = inHome(
+      {programPath("dfserver"), "--game", programPath("../lib/lone_module.so"), "--address", "127.0.0.1"});
+  PtyTerminal server(options);
+  ASSERT_TRUE(server.waitFor("From elsewhere")) << server.output();
+  EXPECT_FALSE(has(server.output(), "compat is on"));
+  auto ann = join("ann");
+  ann->type("q");
+  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
+  auto bob = join("bob");
+  bob->type("x");
+  expectOrderlyEnd(server);
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,60 @@
+// A game for one, as students write them: it knows of no network and no players, and keeps what it knows in
+// globals. What it is good for is in OwnMainTest.cpp.
+#include <stdlib.h>
+
+#include "DisplayManager.h"
+#include "EventKeyboard.h"
+#include "EventStep.h"
+#include "GameManager.h"
+#include "LogManager.h"
+#include "Object.h"
+#include "ViewObject.h"
+#include "WorldManager.h"
+
+using namespace df;
+
+bool over = false;
+
+class Walker : public Object {
+ public:
+  Walker() {
+    setType("Walker");
+    setPosition(Vector(40, 12));
+    registerInterest(KEYBOARD_EVENT);
+    registerInterest(STEP_EVENT);
+  }
+  int eventHandler(const Event* p_e) {
+    if (p_e->getType() == STEP_EVENT) {
+      if (over) GM.setGameOver();
+      return 1;
+    }
+    if (p_e->getType() != KEYBOARD_EVENT) return 0;
+    const EventKeyboard* p_k = (const EventKeyboard*)p_e;
+    if (p_k->getKeyboardAction() != KEY_PRESSED) return 1;
+    if (p_k->getKey() == Keyboard::Q) GM.setGameOver();
+    if (p_k->getKey() == Keyboard::X) over = true;
+    if (p_k->getKey() == Keyboard::C) abort();
+    if (p_k->getKey() == Keyboard::RIGHTARROW) {
+      step++;
+      std::cout << "printed in step " << step << std::endl;
+    }
+    return 1;
+  }
+  int draw() {
+    return DM.drawString(getPosition(), "WALKED-" + std::string(1, "0$%&*"[step % 5]), LEFT_JUSTIFIED, YELLOW);
+  }
+
+ private:
+  int step = 0;
+};
+
+int main() {
+  GM.startUp();
+  LM.setFlush(true);
+  new Walker;
+  std::cout << "before the game" << std::endl;
+  GM.run();
+  std::cout << "after the game, walker " << WM.objectsOfType("Walker").getCount() << std::endl;
+  GM.shutDown();
+  return 0;
+}
