@@ -11,6 +11,7 @@ DatagramService::DatagramService(std::unique_ptr<DatagramSocket> socket, Now now
     m_received = m_now();
     m_gate.receive(path, packet, m_received);
   });
+  m_socket->expect([this](std::string_view packet) { m_gate.expect(packet); });
 }
 
 DatagramService::~DatagramService() = default;

@@ -202,8 +202,10 @@ void Host::sendSnapshots(df::World& world) {
   const std::vector<df::PlayerFacts>& players = world.view().players;
   m_by_player.clear();
   forEachPlaying([&](Session& session) { m_by_player.push_back(&session); });
-  std::sort(m_by_player.begin(), m_by_player.end(),
-            [](const Session* a, const Session* b) { return a->player() < b->player(); });
+  const auto by_player = [](const Session* a, const Session* b) { return a->player() < b->player(); };
+  if (!std::is_sorted(m_by_player.begin(), m_by_player.end(), by_player)) {
+    std::sort(m_by_player.begin(), m_by_player.end(), by_player);
+  }
   auto found = players.begin();
   for (std::size_t i = 0; i < m_by_player.size(); ++i) {
     if (i + 2 * kAhead < m_by_player.size()) m_by_player[i + 2 * kAhead]->prefetch();

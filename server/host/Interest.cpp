@@ -86,29 +86,41 @@ void Interest::learn(std::uint32_t slot, std::uint32_t generation) {
   const std::uint32_t id = m_p_known->learn(slot, generation, m_tick);
   if (id == KnownObjects::kNobody) return;
   if (id >= m_stays.size()) m_stays.resize(std::size_t{id} + 1);
-  m_stays[id] = m_tick;
-  noteKnown(slot);
+  m_stays[id] = {m_tick, slot};
+  m_known_bits.set(slot);
 }
 
 void Interest::forget(std::uint32_t id, std::uint32_t slot) {
   m_p_known->forget(id, m_tick);
-  if (bitsAreExact()) m_known_bits[slot % kBits / 64] &= ~(std::uint64_t{1} << (slot % 64));
+  m_stays[id].slot = KnownObjects::kNobody;
+  if (bitsAreExact()) m_known_bits.clear(slot);
 }
 
 void Interest::noteChanges() {
-  // The publisher looks so far ahead for all clients at once.
-  const bool sweeps_suffice = kGap + m_focus.look_ahead <= Publisher::kSweep;
-  const CompactRect covered(m_covered);
+  thread_local ChangeIndex::Marks marks;
+  markChanges(marks);
   Changes changes;
   std::size_t count = 0;
-  for (const Publisher::Change& change : m_p_publisher->changes()) {
-    const bool comes = change.groups != 0 && (!sweeps_suffice || change.sweep.meets(covered));
-    if (!comes && !mayBeKnown(change.slot)) continue;
+  ChangeIndex::forEachMarked(marks, [&](std::size_t i) {
+    const Publisher::Change& change = m_p_publisher->changes()[i];
     m_p_known->prefetchSlot(change.slot);
     changes[count++] = &change;
     if (count == changes.size()) noteChanges(changes, std::exchange(count, 0));
-  }
+  });
   noteChanges(changes, count);
+}
+
+// Those of objects that may come or may be known.
+void Interest::markChanges(ChangeIndex::Marks& marks) const {
+  const ChangeIndex& index = m_p_publisher->changeIndex();
+  // The publisher looks so far ahead for all clients at once.
+  const bool sweeps_suffice = kGap + m_focus.look_ahead <= Publisher::kSweep;
+  index.markMeeting(sweeps_suffice ? CompactRect(m_covered) : CompactRect::everywhere(), marks);
+  if (bitsAreExact()) return index.markShared(m_known_bits, marks);
+  const std::vector<Publisher::Change>& changes = m_p_publisher->changes();
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    if (mayBeKnown(changes[i].slot)) marks[i] = 1;
+  }
 }
 
 // What this client knows has left the cache since the last tick: it is fetched for all of them at once.
@@ -130,7 +142,7 @@ void Interest::noteChange(const Publisher::Change& change, std::uint32_t id) {
   const Publisher::Model* model = m_p_publisher->find(change.slot);
   if (model != nullptr && model->generation == m_p_known->at(id).generation) {
     m_p_known->owe(id, change.groups, m_tick);
-    if ((change.groups & (kMotion | kLook)) != 0) m_stays[id] = m_tick;
+    if ((change.groups & (kMotion | kLook)) != 0) m_stays[id].until = m_tick;
     return;
   }
   forget(id, change.slot);
@@ -161,7 +173,9 @@ bool Interest::isSearchDue() const {
 void Interest::search() {
   const bool moved = m_began && !isSame(m_focus.window, m_searched);
   const CellRect outer = m_focus.window.grownBy(kHysteresis);
-  if (moved || !m_began) std::fill(m_stays.begin(), m_stays.end(), m_tick);
+  if (moved || !m_began) {
+    for (Stay& stay : m_stays) stay.until = m_tick;
+  }
   m_began = true;
   m_searched = m_focus.window;
   m_covered = m_focus.window.grownBy(moved ? kSpare : 0);
@@ -178,24 +192,27 @@ void Interest::search() {
 // A view that has moved since the last search will have moved at the next: then all are looked at again
 // anyway.
 void Interest::forgetThoseOutside(const CellRect& outer, bool moves) {
-  m_known_bits = {};
+  m_known_bits.clear();
   const CompactRect around(outer);
   for (std::uint32_t id = 0; id < m_stays.size(); ++id) {
-    const KnownObjects::Known& known = m_p_known->at(id);
-    const bool alive = known.life == KnownObjects::Life::kBorn || known.life == KnownObjects::Life::kAlive;
-    if (alive) noteKnown(known.slot);
-    if (!isDue(m_stays[id], m_tick)) continue;
-    m_stays[id] = m_tick + kLongest;
-    if (!alive) continue;
-    const df::ObjectKey key{known.slot, known.generation};
-    const bool own = key == m_focus.own[0] || key == m_focus.own[1];
-    if (own || outlook(known.slot).soon.meets(around)) {
+    Stay& stay = m_stays[id];
+    if (stay.slot == KnownObjects::kNobody) continue;
+    m_known_bits.set(stay.slot);
+    if (!isDue(stay.until, m_tick)) continue;
+    const bool own = isOwn(id, stay.slot);
+    if (own || outlook(stay.slot).soon.meets(around)) {
       const bool again = own || moves;
-      m_stays[id] = m_tick + (again ? 0 : leavesAfter(*m_p_publisher->find(known.slot), outer));
+      stay.until = m_tick + (again ? 0 : leavesAfter(*m_p_publisher->find(stay.slot), outer));
     } else {
-      forget(id, known.slot);
+      forget(id, stay.slot);
     }
   }
+}
+
+bool Interest::isOwn(std::uint32_t id, std::uint32_t slot) const {
+  return std::any_of(m_focus.own.begin(), m_focus.own.end(), [&](const df::ObjectKey& own) {
+    return own.slot == slot && own.generation == m_p_known->at(id).generation;
+  });
 }
 
 std::uint32_t Interest::leavesAfter(const Publisher::Model& model, const CellRect& outer) const {

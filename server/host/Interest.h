@@ -52,6 +52,7 @@ class Interest {
 
   using Changes = std::array<const Publisher::Change*, 32>;
   void noteChanges();
+  void markChanges(ChangeIndex::Marks& marks) const;
   void noteChanges(const Changes& changes, std::size_t count);
   void noteChange(const Publisher::Change& change, std::uint32_t id);
   void consider(std::uint32_t slot);
@@ -59,6 +60,7 @@ class Interest {
   bool isSearchDue() const;
   void search();
   void forgetThoseOutside(const CellRect& outer, bool moves);
+  bool isOwn(std::uint32_t id, std::uint32_t slot) const;
   std::uint32_t leavesAfter(const Publisher::Model& model, const CellRect& outer) const;
   void learn(std::uint32_t slot, std::uint32_t generation);
   const Publisher::Outlook& outlook(std::uint32_t slot) const {
@@ -67,16 +69,12 @@ class Interest {
   // Most of what happens in the world happens to others than those that the client knows: a bit for each
   // slot, modulo their number, answers for them without a look into the table; in a world of fewer slots (the
   // last bit is the loose one's) for all.
-  static constexpr std::uint32_t kBits = 4096;
-  static_assert(kLooseSlot % kBits == kBits - 1);
-  bool bitsAreExact() const { return m_p_publisher->slotCount() < kBits; }
-  bool mayBeKnown(std::uint32_t slot) const {
-    return (m_known_bits[slot % kBits / 64] >> (slot % 64) & 1) != 0;
-  }
+  static_assert(kLooseSlot % SlotBits::kBits == SlotBits::kBits - 1);
+  bool bitsAreExact() const { return m_p_publisher->slotCount() < SlotBits::kBits; }
+  bool mayBeKnown(std::uint32_t slot) const { return m_known_bits.has(slot); }
   bool isKnown(std::uint32_t slot) const {
     return mayBeKnown(slot) && (bitsAreExact() || m_p_known->find(slot) != KnownObjects::kNobody);
   }
-  void noteKnown(std::uint32_t slot) { m_known_bits[slot % kBits / 64] |= std::uint64_t{1} << (slot % 64); }
   void forget(std::uint32_t id, std::uint32_t slot);
 
   const Publisher* m_p_publisher = nullptr;  ///< these three only during update()
@@ -89,8 +87,12 @@ class Interest {
   CellRect m_covered;  ///< the candidates are all that may enter a window inside this before the next search
   bool m_began = false;
   std::vector<std::uint32_t> m_candidates;  ///< slots
-  std::array<std::uint64_t, kBits / 64> m_known_bits{};
-  std::vector<std::uint32_t> m_stays;  ///< by id: the tick until which it cannot leave m_searched
+  SlotBits m_known_bits;
+  struct Stay {
+    std::uint32_t until = 0;                     ///< the tick until which it cannot leave m_searched
+    std::uint32_t slot = KnownObjects::kNobody;  ///< of who is known under the id
+  };
+  std::vector<Stay> m_stays;  ///< by id
 };
 
 }  // namespace naiad

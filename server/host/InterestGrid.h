@@ -35,6 +35,9 @@ struct CompactRect {
         top(clamped(rect.top)),
         right(clamped(rect.right)),
         bottom(clamped(rect.bottom)) {}
+  static CompactRect everywhere() { return CompactRect({INT32_MIN, INT32_MIN, INT32_MAX, INT32_MAX}); }
+  /// Meets nothing.
+  static CompactRect nowhere() { return CompactRect({INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN}); }
   bool meets(const CompactRect& other) const {
     // Each is as likely as not: no branches.
     return static_cast<int>(left < other.right) & static_cast<int>(other.left < right) &

@@ -48,10 +48,7 @@ class KnownObjects {
   std::uint32_t find(std::uint32_t slot) const { return m_ids.find(slot); }
   /// So that memory is not waited for: find(slot) is about to be called; at(id) is.
   void prefetchSlot(std::uint32_t slot) const { m_ids.prefetch(slot); }
-  void prefetch(std::uint32_t id) const {
-    __builtin_prefetch(&m_known[id], 1);
-    __builtin_prefetch(&m_told[id], 1);
-  }
+  void prefetch(std::uint32_t id) const { __builtin_prefetch(&m_known[id], 1); }
   void prefetchOwing() const { __builtin_prefetch(m_owing.data(), 1); }
   const Known& at(std::uint32_t id) const { return m_known[id]; }
   std::size_t idCount() const { return m_known.size(); }
@@ -91,20 +88,26 @@ class KnownObjects {
   }
 
  private:
-  /// What was sent of an object: a line of the cache.
-  struct alignas(64) Told {
-    std::array<std::uint32_t, kGroupCount> sent{};   ///< newest snapshot that carried the group
-    std::array<std::uint32_t, kGroupCount> first{};  ///< the first one that carried it as that one did
-    std::array<std::uint64_t, kGroupCount> sums{};   ///< of what it carried
+  /// And what was sent of it; both in a line of the cache. Snapshots are told apart by their brief() numbers:
+  /// in flight are at most some hundred.
+  struct alignas(64) Told : Known {
+    std::array<std::uint16_t, kGroupCount> sent{};        ///< newest that carried the group; 0: none
+    std::array<std::uint8_t, kGroupCount> since_first{};  ///< from the first that carried it as that one did
+    std::array<std::uint64_t, kGroupCount> sums{};        ///< of what it carried
   };
+  static constexpr std::uint32_t kBriefs = 0xFFFF;
+  static std::uint16_t brief(std::uint32_t snapshot) {
+    return static_cast<std::uint16_t>(snapshot % kBriefs + 1);
+  }
+  /// How many snapshots before `b` was `a`?
+  static std::uint32_t before(std::uint16_t a, std::uint16_t b) { return (b + kBriefs - a) % kBriefs; }
 
   void enqueue(std::uint32_t id, std::uint32_t tick);
   void release(std::uint32_t id);
-  static_assert(sizeof(Known) == 20 && sizeof(Told) == 64);
+  static_assert(sizeof(Told) == 64);
   void carry(Told& told, std::size_t group, std::uint32_t snapshot, std::uint64_t sum);
 
-  std::vector<Known> m_known;  ///< by id
-  std::vector<Told> m_told;    ///< by id
+  std::vector<Told> m_known;  ///< by id
   SlotMap m_ids;
   std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> m_free;
   std::vector<std::uint32_t> m_owing;

@@ -25,6 +25,8 @@ constexpr std::chrono::milliseconds kUnproven{50};
 /// Between two ticks the tick thread looks at the clock this often.
 constexpr std::chrono::microseconds kHelping{200};
 constexpr int kLeastServed = 64;
+/// Orders whose memory is fetched before their turn.
+constexpr std::size_t kAhead = 2;
 
 }  // namespace
 
@@ -39,7 +41,7 @@ NetworkThread::NetworkThread(asio::io_context& home, const std::string& address,
 
 NetworkThread::~NetworkThread() {
   stop();
-  assert(m_near_streams.empty() && m_near_datagrams.empty());
+  assert(m_near_streams.empty() && m_free_places.size() == m_near_datagrams.size());
 }
 
 void NetworkThread::start() {
@@ -77,6 +79,7 @@ bool NetworkThread::serve(Clock::time_point enough) {
       if (!m_serving_batch.read(notice, bytes)) break;
     }
     m_came = notice.came;
+    prefetchNear();
     onNotice(notice, bytes);
     more = served % kLeastServed == 0 && Clock::now() >= enough;
   }
@@ -91,8 +94,8 @@ void NetworkThread::onNotice(const Notice& notice, std::string_view bytes) {
     return m_on_channel(std::make_unique<RelayedStream>(*this, *notice.stream));
   }
   if (notice.kind == Notice::kDatagram) {
-    const auto found = m_near_datagrams.find(notice.id);
-    if (found != m_near_datagrams.end() && found->second->m_on_packet) found->second->m_on_packet(bytes);
+    const NearDatagrams& near = m_near_datagrams[notice.place];
+    if (near.id == notice.id && near.channel->m_on_packet) near.channel->m_on_packet(bytes);
     return;
   }
   const auto found = m_near_streams.find(notice.id);
@@ -101,6 +104,19 @@ void NetworkThread::onNotice(const Notice& notice, std::string_view bytes) {
   if (notice.kind == Notice::kClosed) return stream.ended(notice.reason);
   stream.m_end.in -= bytes.size() + kNoticeBytes;
   stream.deliver(bytes);
+}
+
+// As in prefetch(): which sessions are next is known.
+void NetworkThread::prefetchNear() const {
+  const auto channelOf = [this](const Notice* notice) -> const RelayedDatagrams* {
+    if (notice == nullptr || notice->kind != Notice::kDatagram) return nullptr;
+    const NearDatagrams& near = m_near_datagrams[notice->place];
+    return near.id == notice->id ? near.channel : nullptr;
+  };
+  if (const RelayedDatagrams* soon = channelOf(m_serving_batch.ahead(2 * kAhead)))
+    prefetchMemory(soon, sizeof(RelayedDatagrams));
+  const RelayedDatagrams* next = channelOf(m_serving_batch.ahead(kAhead));
+  if (next != nullptr && next->m_on_soon) next->m_on_soon();
 }
 
 void NetworkThread::send(std::optional<Clock::time_point> tick_began) {
@@ -126,6 +142,12 @@ std::unique_ptr<SealedChannel> NetworkThread::openDatagrams(const ReliableChanne
   constexpr Epoch kFirstEpoch{1};
   auto* const end = new DatagramsEnd;  // kept by m_datagrams from the order on
   end->id = ++m_newest_datagrams;
+  if (m_free_places.empty()) {
+    m_free_places.push_back(static_cast<std::uint32_t>(m_near_datagrams.size()));
+    m_near_datagrams.emplace_back();
+  }
+  end->place = m_free_places.back();
+  m_free_places.pop_back();
   end->connection = randomBits();
   end->aead = aead;
   give({.kind = Order::kOpenDatagrams, .stream = &relayed->m_end, .datagrams = end, .number = kFirstEpoch});
@@ -195,7 +217,18 @@ void NetworkThread::obey() {
   m_order_box.take(m_taken);
   Order order;
   std::string_view bytes;
-  while (m_taken.read(order, bytes)) obey(order, bytes);
+  while (m_taken.read(order, bytes)) {
+    prefetch();
+    obey(order, bytes);
+  }
+}
+
+// What is sealed for a session has left the cache since the last tick, and the order says whose turn comes.
+void NetworkThread::prefetch() const {
+  if (const Order* soon = m_taken.ahead(2 * kAhead)) prefetchMemory(soon->datagrams, sizeof(DatagramsEnd));
+  const Order* next = m_taken.ahead(kAhead);
+  if (next != nullptr && next->kind == Order::kSendDatagram && next->datagrams->channel)
+    next->datagrams->channel->prefetch();
 }
 
 void NetworkThread::obey(const Order& order, std::string_view bytes) {
@@ -266,7 +299,11 @@ void NetworkThread::openDatagrams(DatagramsEnd& end, const StreamEnd& stream) {
       ++m_counters.datagrams_in_dropped;
       return;
     }
-    notice({.kind = Notice::kDatagram, .id = p_end->id, .came = m_port.datagrams->received()}, bytes);
+    notice({.kind = Notice::kDatagram,
+            .place = p_end->place,
+            .id = p_end->id,
+            .came = m_port.datagrams->received()},
+           bytes);
   });
 }
 

@@ -130,6 +130,7 @@ class NetworkThread {
   /// The same of a session's datagrams.
   struct DatagramsEnd {
     std::uint64_t id = 0;
+    std::uint32_t place = 0;  ///< in m_near_datagrams
     std::uint64_t connection = 0;
     AeadId aead = AeadId::kAes128Gcm;
     std::unique_ptr<DatagramService::Channel> channel;  ///< null without keys
@@ -139,6 +140,7 @@ class NetworkThread {
   struct Notice {
     enum Kind : std::uint8_t { kMet, kFrame, kClosed, kDatagram } kind = kMet;
     CloseReason reason = CloseReason::kLocal;
+    std::uint32_t place = 0;  ///< of datagrams
     std::uint64_t id = 0;
     StreamEnd* stream = nullptr;
     Clock::time_point came{};
@@ -169,12 +171,14 @@ class NetworkThread {
   bool isFull() const { return m_order_box.size() + m_orders.size() > m_limits.mailbox; }
   void send(std::optional<Clock::time_point> tick_began);
   void onNotice(const Notice& notice, std::string_view bytes);
+  void prefetchNear() const;
   void wakeHome();
 
   // On the network thread.
   void run();
   void obey();
   void obey(const Order& order, std::string_view bytes);
+  void prefetch() const;
   void endTurn();
   void meet(std::unique_ptr<ReliableChannel> channel);
   void onFrame(StreamEnd& end, std::string_view frame);
@@ -217,7 +221,13 @@ class NetworkThread {
   Batch<Order> m_orders;
   Batch<Notice> m_serving_batch;
   std::unordered_map<std::uint64_t, RelayedStream*> m_near_streams;
-  std::unordered_map<std::uint64_t, RelayedDatagrams*> m_near_datagrams;
+  /// Places are used again, ids are not: what is still on the way when a session goes reaches nobody.
+  struct NearDatagrams {
+    std::uint64_t id = 0;
+    RelayedDatagrams* channel = nullptr;
+  };
+  std::vector<NearDatagrams> m_near_datagrams;
+  std::vector<std::uint32_t> m_free_places;
   std::uint64_t m_newest_datagrams = 0;
   bool m_serving = false;
   Clock::time_point m_came{};

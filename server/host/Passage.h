@@ -42,8 +42,8 @@ class Passage {
 
   /// So that memory is not waited for: the questions below are about to be asked.
   void prefetch() const {
-    prefetchMemory(&m_began,
-                   reinterpret_cast<const char*>(this + 1) - reinterpret_cast<const char*>(&m_began));
+    prefetchMemory(&m_acked,
+                   reinterpret_cast<const char*>(this + 1) - reinterpret_cast<const char*>(&m_acked));
   }
   /// Do datagrams pass?
   bool isOpen(Time now) const { return m_open && now - m_last_ack < kSilence; }

@@ -74,6 +74,8 @@ constexpr std::uint32_t kPatience = 8;
 /// Appearances remembered, to tell those that recur; with so many, those not taken on for so many ticks go.
 constexpr std::size_t kMaxKnownAppearances = 16'384;
 constexpr std::uint32_t kForgetAfter = 9'000;
+/// Looks kept to be shared, whether anybody still has them or not.
+constexpr std::size_t kMostShared = 2'048;
 /// More distinct offsets than this make a fit slow and coarse numbers unlikely.
 constexpr std::size_t kMaxOffsets = 6;
 
@@ -136,7 +138,11 @@ void Publisher::update(const df::WorldView& view) {
   if (std::exchange(m_solids_are_coarse, false)) keepSolidsExact();
   for (const df::ObjectKey key : m_exact) keepExact(key);
 
-  for (Change& change : m_changes) finish(change);
+  m_change_index.clear();
+  for (Change& change : m_changes) {
+    finish(change);
+    m_change_index.add(change.slot, change.groups != 0 ? change.sweep : CompactRect::nowhere());
+  }
 }
 
 void Publisher::finish(Change& change) {
@@ -312,9 +318,10 @@ void Publisher::fit(Tracked& tracked) {
 
 // Has this appearance been seen before? Texts that change all the time never have.
 void Publisher::meet(Model& model) {
-  const Look& look = model.state.look;
+  Look& look = model.state.look;
   model.look_sum = 0;
   model.recurs = false;
+  intern(look.sequence);
   if (look.sequence.empty() || isSingleCharacter(look.sequence)) return;
   model.look_sum = look.sequence.sum();
   const auto [known, fresh] = m_appearances.try_emplace(model.look_sum, m_tick);
@@ -323,6 +330,14 @@ void Publisher::meet(Model& model) {
   if (m_appearances.size() <= kMaxKnownAppearances) return;
   std::erase_if(m_appearances, [this](const auto& a) { return m_tick - a.second > kForgetAfter; });
   if (m_appearances.size() > kMaxKnownAppearances) m_appearances.clear();
+}
+
+// Objects that look the same share the memory of it: it is compared with what they draw in every tick.
+void Publisher::intern(Sequence& sequence) {
+  if (sequence.empty()) return;
+  if (m_sequences.size() >= kMostShared) m_sequences.clear();
+  const auto [known, fresh] = m_sequences.try_emplace(sequence.sum(), sequence);
+  if (!fresh && known->second == sequence) sequence = known->second;
 }
 
 // Keep track of how far the object's characters reach and where it is.

@@ -13,6 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "ChangeIndex.h"
 #include "InterestGrid.h"
 #include "Limits.h"
 #include "MotionCodec.h"
@@ -54,6 +55,8 @@ class Publisher {
 
   std::uint32_t tick() const { return m_tick; }
   const std::vector<Change>& changes() const { return m_changes; }
+  /// The same, arranged to be searched.
+  const ChangeIndex& changeIndex() const { return m_change_index; }
   /// The model in `slot`; null if nothing lives there.
   const Model* find(std::uint32_t slot) const;
   /// Call `visit(slot, model)` for every live model, in slot order.
@@ -155,6 +158,7 @@ class Publisher {
   void fit(Tracked& tracked);
   void file(std::uint32_t slot, Tracked& tracked);
   void meet(Model& model);
+  void intern(Sequence& sequence);
   bool isExact(const Tracked& tracked) const;
   void finish(Change& change);
   static void list(std::vector<std::uint32_t>& slots, std::uint32_t slot, bool& is_in, bool should_be);
@@ -166,8 +170,10 @@ class Publisher {
   std::int32_t m_view_height = 0;
   Tracked m_loose;
   std::vector<Change> m_changes;
+  ChangeIndex m_change_index;
   std::unordered_map<std::uint64_t, std::uint32_t>
-      m_appearances;  ///< by sum: the tick they were last taken on
+      m_appearances;                                        ///< by sum: the tick they were last taken on
+  std::unordered_map<std::uint64_t, Sequence> m_sequences;  ///< by sum: some of those that are published
   InterestGrid m_grid;
   std::vector<std::uint32_t> m_wide;   ///< models that reach farther than kWide, and the loose one
   std::vector<std::uint32_t> m_fast;   ///< models that move by more than a cell per tick, or are accelerated

@@ -6,16 +6,21 @@ namespace naiad {
 
 RelayedDatagrams::RelayedDatagrams(NetworkThread& network, NetworkThread::DatagramsEnd& end, Epoch epoch)
     : m_network(network), m_end(end), m_epoch(epoch) {
-  m_network.m_near_datagrams.emplace(m_end.id, this);
+  m_network.m_near_datagrams[m_end.place] = {m_end.id, this};
 }
 
 RelayedDatagrams::~RelayedDatagrams() {
-  m_network.m_near_datagrams.erase(m_end.id);
+  m_network.m_near_datagrams[m_end.place] = {};
+  m_network.m_free_places.push_back(m_end.place);
   m_network.give({.kind = NetworkThread::Order::kDropDatagrams, .datagrams = &m_end});
 }
 
 void RelayedDatagrams::start(std::function<void(std::string_view)> on_packet) {
   m_on_packet = std::move(on_packet);
+}
+
+void RelayedDatagrams::expect(std::function<void()> on_soon) {
+  m_on_soon = std::move(on_soon);
 }
 
 void RelayedDatagrams::send(std::string_view packet) {

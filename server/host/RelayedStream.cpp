@@ -35,13 +35,17 @@ void RelayedStream::send(std::string_view frame) {
     return m_network.give({.kind = NetworkThread::Order::kCut, .stream = &m_end});
   }
   m_given += kFrameHeaderSize + frame.size();
+  m_idle = false;
   m_network.give({.kind = NetworkThread::Order::kSendFrame, .stream = &m_end}, frame);
 }
 
 std::size_t RelayedStream::unsentBytes() const {
+  if (m_idle) return 0;
   // In this order: what is taken over in between counts twice rather than not at all.
   const std::size_t way = onTheWay();
-  return way + m_end.unsent;
+  const std::size_t unsent = way + m_end.unsent;
+  m_idle = unsent == 0;
+  return unsent;
 }
 
 void RelayedStream::close() {

@@ -40,6 +40,7 @@ class RelayedStream : public ReliableChannel {
   NetworkThread::StreamEnd& m_end;
   std::shared_ptr<Callbacks> m_callbacks;  ///< shared with the call that is running
   std::uint64_t m_given = 0;               ///< bytes, ever
+  mutable bool m_idle = false;             ///< nothing was given since nothing was unsent
   bool m_closed = false;                   ///< by us, or it overflowed
 };
 

@@ -19,11 +19,11 @@ SnapshotSender::Packets& packetsOfThread() {
 }  // namespace
 
 Session::Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now)
-    : m_channel(std::move(channel)),
-      m_counters(counters),
+    : m_chat_refill(now),
       m_silence(now),
+      m_channel(std::move(channel)),
+      m_counters(counters),
       m_frame_at(now),
-      m_chat_refill(now),
       m_passage(now) {
   m_reception->session = this;
 }
@@ -48,6 +48,7 @@ void Session::detach(Clock::time_point now) {
   ++m_counters.detached;
   m_address = m_channel->peerAddress();
   m_channel.reset();
+  takeAcks();
   m_sender.loseLarge();
   if (m_datagrams == nullptr || !m_passage.isOpen(now)) releaseKeys();
 }
@@ -106,8 +107,20 @@ void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChanne
   m_name = welcome.name();
   m_state = State::kPlaying;
   answer(welcome);
+  startDatagrams(std::move(datagrams));
+}
+
+void Session::startDatagrams(std::unique_ptr<SealedChannel> datagrams) {
   m_datagrams = std::move(datagrams);
-  if (m_datagrams) m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes); });
+  if (m_datagrams == nullptr) return;
+  m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes); });
+  m_datagrams->expect([this] { prefetchHearing(); });
+}
+
+void Session::prefetchHearing() const {
+  prefetchMemory(this, reinterpret_cast<const char*>(&m_last_resize) - reinterpret_cast<const char*>(this));
+  m_sender.prefetchNumbers();
+  m_passage.prefetch();
 }
 
 void Session::answer(const wire::Welcome& welcome) {
@@ -122,6 +135,7 @@ void Session::answer(const wire::Welcome& welcome) {
 void Session::adopt(Session& other, wire::Welcome welcome, std::uint32_t received) {
   takeStream(other);
   other.m_state = State::kGone;
+  takeAcks();
   m_sender.loseLarge();
   m_kept.acknowledge(received);
   welcome.set_received(m_kept_heard.newest());
@@ -136,10 +150,10 @@ void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<Sea
   } else {
     other.m_state = State::kGone;
   }
+  m_acks.reset();
   m_sender.reset();
   m_passage = Passage(now());
-  m_datagrams = std::move(datagrams);
-  if (m_datagrams) m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes); });
+  startDatagrams(std::move(datagrams));
   m_kept.clear();
   m_kept_heard = {};
   m_rtt_millis = 0;
@@ -231,6 +245,7 @@ void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player
   m_tick = publisher.tick();
   const Clock::time_point present = now();
   applyResize(present);
+  takeAcks();
   m_sender.note(publisher, player);
   if (m_datagrams != nullptr && m_passage.isOpen(present)) return sendDatagrams(publisher, present);
   if (m_datagrams != nullptr && m_datagrams->room() && m_passage.wantsProbe(present, m_channel == nullptr)) {

@@ -121,20 +121,21 @@ class Session {
 
   /// The player steers by declared controls (null: does not): the keys in them wait for the tick that they
   /// ask for, since he has seen their effect there already.
-  void setControls(std::shared_ptr<const df::ControlTable> controls) { m_controls = std::move(controls); }
+  void setControls(const std::shared_ptr<const df::ControlTable>& controls) {
+    if (m_controls != controls) m_controls = controls;
+  }
 
   /// So that memory is not waited for: sendTick() will be called after those of some other sessions. First
   /// prefetch(), and when that has arrived prefetchParts(); both change nothing.
   void prefetch() const {
-    prefetchMemory(this, reinterpret_cast<const char*>(&m_welcome) - reinterpret_cast<const char*>(this));
-    prefetchMemory(&m_inputs,
-                   reinterpret_cast<const char*>(&m_sender) - reinterpret_cast<const char*>(&m_inputs));
+    prefetchMemory(this, reinterpret_cast<const char*>(&m_last_resize) - reinterpret_cast<const char*>(this));
     m_sender.prefetch();
     m_passage.prefetch();
-    prefetchMemory(&m_last_reset,
-                   reinterpret_cast<const char*>(this + 1) - reinterpret_cast<const char*>(&m_last_reset));
   }
-  void prefetchParts() const { m_sender.prefetchParts(); }
+  void prefetchParts() const {
+    m_sender.prefetchParts();
+    if (m_datagrams != nullptr) m_datagrams->prefetch();
+  }
 
   /// Note a published tick, and send what is owed unless the client is still busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player);
@@ -167,6 +168,8 @@ class Session {
   void detach(Clock::time_point now);
   void takeStream(Session& other);
   void answer(const wire::Welcome& welcome);
+  void startDatagrams(std::unique_ptr<SealedChannel> datagrams);
+  void prefetchHearing() const;
   void releaseKeys();
   void checkGreeting(Clock::time_point now);
   void checkSilence(Clock::time_point now);
@@ -180,6 +183,7 @@ class Session {
   void count(const SnapshotSender::Packet& packet);
   bool dispatch(const wire::ClientMessage& message);
   bool takeUpdate(std::string_view bytes, bool by_datagram);
+  void takeAcks();
   void compare(const AckWindow& acks, std::uint64_t checksum);
   void reset();
   bool isTooEarly(const Input& input, std::uint32_t tick) const;
@@ -192,45 +196,48 @@ class Session {
   void skipTick();
   void end();
 
-  std::shared_ptr<Reception> m_reception = std::make_shared<Reception>();
-  std::unique_ptr<ReliableChannel> m_channel;  ///< null while detached
-  std::unique_ptr<SealedChannel> m_datagrams;
-  std::chrono::milliseconds m_grace{0};
-  std::string m_address;
-  Counters& m_counters;
-  Events m_events;
-  std::uint64_t m_id = 0;
+  // What every tick looks at comes first, close together: a server has thousands of these.
   State m_state = State::kGreeting;
-  Silence m_silence;             ///< of the client, to a tick
-  Clock::time_point m_frame_at;  ///< when a frame came last
+  std::uint32_t m_player = 0;
   bool m_told_gone = false;
   bool m_greeted = false;       ///< the hello has come
   bool m_spoke = false;         ///< a frame came since then
   bool m_awaits_proof = false;  ///< see takeProof()
   bool m_proved = false;
-  std::uint32_t m_player = 0;
+  int m_messages = 0;  ///< since the last tick
+  int m_chat_budget = kChatPerSecond;
+  Clock::time_point m_chat_refill;
+  Silence m_silence;  ///< of the client, to a tick
+  StreamDrain m_drain;
+  std::unique_ptr<ReliableChannel> m_channel;  ///< null while detached
+  std::unique_ptr<SealedChannel> m_datagrams;
+  Counters& m_counters;
+  std::uint32_t m_tick = 0;  ///< newest published
+  std::uint32_t m_input_received = 0;
+  std::optional<AckWindow> m_acks;  ///< heard, and not taken in yet
+  std::deque<Input> m_inputs;
+  std::uint64_t m_skipped_ticks = 0;
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> m_resize;  ///< to be taken over
+  std::shared_ptr<const df::ControlTable> m_controls;
+  Events m_events;
+
+  std::optional<Clock::time_point> m_last_resize;
+  std::optional<Clock::time_point> m_last_reset;
+  std::optional<Clock::time_point> m_last_checksum;
+  Clock::time_point m_frame_at;  ///< when a frame came last
+  std::shared_ptr<Reception> m_reception = std::make_shared<Reception>();
+  std::chrono::milliseconds m_grace{0};
+  std::string m_address;
+  std::uint64_t m_id = 0;
   std::string m_name;
   wire::Welcome m_welcome;
   std::uint32_t m_rtt_millis = 0;
-  std::uint64_t m_skipped_ticks = 0;
-  std::deque<Input> m_inputs;
   PressedKeys m_pressed;  ///< once all of m_inputs is taken in
   KeptFrames m_kept;
   KeptFramesHeard m_kept_heard;
-  StreamDrain m_drain;
-  std::shared_ptr<const df::ControlTable> m_controls;
-  std::uint32_t m_input_received = 0;
-  std::uint32_t m_tick = 0;  ///< newest published
-  int m_messages = 0;        ///< since the last tick
-  int m_chat_budget = kChatPerSecond;
-  Clock::time_point m_chat_refill;
   SnapshotSender m_sender{Resend::kAhead};
   Passage m_passage;
   SnapshotTicks m_snapshot_ticks;
-  std::optional<Clock::time_point> m_last_reset;
-  std::optional<Clock::time_point> m_last_checksum;
-  std::optional<std::pair<std::uint32_t, std::uint32_t>> m_resize;  ///< to be taken over
-  std::optional<Clock::time_point> m_last_resize;
 };
 
 }  // namespace naiad

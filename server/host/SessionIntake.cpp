@@ -89,13 +89,21 @@ bool Session::takeUpdate(std::string_view bytes, bool by_datagram) {
   const auto update = readUpdate(bytes, {m_sender.newestNumber(), m_tick, m_input_received});
   if (!update) return false;
   if (update->acks.newest != 0) {
-    m_sender.acknowledge(update->acks);
+    takeAcks();
+    m_acks = update->acks;
     m_passage.acknowledged(update->acks, by_datagram, now());
   }
   if (update->checksum) compare(update->acks, *update->checksum);
   if (update->wants_reset) reset();
   return std::all_of(update->inputs.begin(), update->inputs.end(),
                      [this](const Input& input) { return takeInput(input); });
+}
+
+// What they settle is spread over memory that the session's turn in the tick needs anyway: they wait for
+// that.
+void Session::takeAcks() {
+  if (m_acks) m_sender.acknowledge(*m_acks);
+  m_acks.reset();
 }
 
 bool Session::isTooEarly(const Input& input, std::uint32_t tick) const {
@@ -113,6 +121,7 @@ void Session::compare(const AckWindow& acks, std::uint64_t checksum) {
     return;
   }
   m_last_checksum = present;
+  takeAcks();
   if (m_sender.isRight(acks, checksum) != false) return;
   ++m_counters.divergences;
   reset();
@@ -127,6 +136,7 @@ void Session::reset() {
   }
   m_last_reset = present;
   ++m_counters.resets;
+  m_acks.reset();
   m_sender.reset();
 }
 

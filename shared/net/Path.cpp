@@ -3,18 +3,11 @@
 #include <algorithm>
 #include <asio/ip/address.hpp>
 #include <charconv>
-#include <cstring>
 
 namespace naiad {
 namespace {
 
 constexpr std::array<std::uint8_t, 12> kMappedPrefix{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
-
-std::uint64_t half(const Endpoint& endpoint, std::size_t which) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, endpoint.address.data() + 8 * which, sizeof bits);
-  return bits;
-}
 
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
@@ -58,7 +51,7 @@ std::string toString(const Endpoint& endpoint) {
 
 PrefixKey prefixKeyOf(const Endpoint& endpoint) {
   // The lower half of a mapped address is no network that anybody has (0::/8 is reserved).
-  return {half(endpoint, endpoint.isIPv4() ? 1 : 0)};
+  return {endpoint.half(endpoint.isIPv4() ? 1 : 0)};
 }
 
 std::string toString(const Path& path) {
@@ -82,9 +75,9 @@ std::optional<Endpoint> endpointFromText(std::string_view text) {
 }  // namespace naiad
 
 std::size_t std::hash<naiad::Endpoint>::operator()(const naiad::Endpoint& endpoint) const noexcept {
-  using naiad::half, naiad::mix;
+  using naiad::mix;
   const std::uint64_t rest = std::uint64_t{endpoint.scope} << 16 | endpoint.port;
-  return mix(mix(mix(0, half(endpoint, 0)), half(endpoint, 1)), rest);
+  return mix(mix(mix(0, endpoint.half(0)), endpoint.half(1)), rest);
 }
 
 std::size_t std::hash<naiad::Path>::operator()(const naiad::Path& path) const noexcept {

@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <optional>
 #include <string>
@@ -20,6 +21,16 @@ struct Endpoint {
   std::uint16_t port = 0;
 
   friend auto operator<=>(const Endpoint&, const Endpoint&) = default;
+  /// Asked several times for each datagram.
+  friend bool operator==(const Endpoint& a, const Endpoint& b) {
+    return a.port == b.port && a.scope == b.scope && a.half(0) == b.half(0) && a.half(1) == b.half(1);
+  }
+  /// Eight bytes of the address, as they lie in memory.
+  std::uint64_t half(std::size_t which) const {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, address.data() + 8 * which, sizeof bits);
+    return bits;
+  }
 
   bool isIPv4() const;
   /// No particular address: :: or 0.0.0.0.

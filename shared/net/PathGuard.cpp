@@ -8,6 +8,7 @@ bool PathGuard::arrived(const Path& path, std::size_t bytes, PathChallenge chall
   const bool moved = current_ != path;
   if (moved) {
     current_ = path;
+    validated_ = current_ == proven_;
     challenge_ = challenge;
     bytes_in_ = bytes_out_ = 0;
     challenged_.reset();
@@ -23,11 +24,13 @@ void PathGuard::arrivedLate(const Path& path, std::size_t bytes) {
 bool PathGuard::answered(PathChallenge answer) {
   if (!current_ || validated() || !challenged_ || answer != challenge_) return false;
   proven_ = current_;
+  validated_ = true;
   return true;
 }
 
 void PathGuard::trust(const Path& path) {
   current_ = proven_ = path;
+  validated_ = true;
 }
 
 std::size_t PathGuard::budget() const {

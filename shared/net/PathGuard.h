@@ -41,7 +41,7 @@ class PathGuard {
 
   /// None before the first packet.
   const std::optional<Path>& current() const { return current_; }
-  bool validated() const { return current_ && current_ == proven_; }
+  bool validated() const { return validated_; }
   /// To be sent along with everything as long as the path is not validated.
   PathChallenge challenge() const { return challenge_; }
   /// Bytes that may be sent now; no limit once validated.
@@ -53,6 +53,7 @@ class PathGuard {
  private:
   std::optional<Path> current_;
   std::optional<Path> proven_;
+  bool validated_ = false;  // they are the same
   PathChallenge challenge_ = 0;
   std::uint64_t bytes_in_ = 0;  // since this path is the current one
   std::uint64_t bytes_out_ = 0;

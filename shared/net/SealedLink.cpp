@@ -49,7 +49,7 @@ bool SealedLink::startEpoch(Epoch epoch, const DatagramKeys& keys, Time now) {
   const SealKey& own = isServer() ? keys.server : keys.client;
   const SealKey& other = isServer() ? keys.client : keys.server;
   previous_ = std::move(newest_);
-  previous_until_ = now + kPreviousEpoch;
+  previous_until_ = previous_ ? now + kPreviousEpoch : Time::max();
   newest_.emplace(Keys{epoch, Sealer(own, options_.limits), Opener(other)});
   confirmed_ = isServer();
   return true;
@@ -60,7 +60,9 @@ std::optional<Epoch> SealedLink::epoch() const {
 }
 
 void SealedLink::expire(Time now) {
-  if (previous_ && now >= previous_until_) previous_.reset();
+  if (now < previous_until_) return;
+  previous_.reset();
+  previous_until_ = Time::max();
 }
 
 SealedLink::Keys* SealedLink::sendingKeys() {

@@ -138,17 +138,9 @@ class BitReader {
       m_ok = false;
       return 0;
     }
-    std::uint64_t value = 0;
-    for (int have = 0; have < count;) {
-      const int offset = static_cast<int>(m_at & 7);
-      const int take = count - have < 8 - offset ? count - have : 8 - offset;
-      const std::uint64_t part =
-          (static_cast<unsigned char>(m_bytes[m_at >> 3]) >> offset) & ((1u << take) - 1);
-      value |= part << have;
-      have += take;
-      m_at += static_cast<std::size_t>(take);
-    }
-    return value;
+    const std::uint64_t value = next();
+    m_at += static_cast<std::size_t>(count);
+    return count == 64 ? value : value & ((std::uint64_t{1} << count) - 1);
   }
   bool flag() { return bits(1) != 0; }
   std::int64_t signedBits(int count) {
@@ -159,10 +151,10 @@ class BitReader {
   }
   /// Exp-Golomb, at most `most`.
   std::uint64_t golomb(int order, std::uint64_t most) {
-    int length = order;
-    while (m_ok && bits(1) == 0) {
-      if (++length > 63) m_ok = false;
-    }
+    const int zeros = std::countr_zero(next());
+    const int length = order + zeros;
+    if (length > 63) m_ok = false;
+    bits(zeros + 1);
     const std::uint64_t shifted = bits(m_ok ? length : 0) | (std::uint64_t{1} << length % 64);
     const std::uint64_t value = shifted - (std::uint64_t{1} << order);
     if (value > most) m_ok = false;
@@ -177,6 +169,26 @@ class BitReader {
   }
 
  private:
+  /// The next 64 bits, zeros where there are none.
+  std::uint64_t next() const {
+    const std::size_t at = m_at >> 3;
+    const int offset = static_cast<int>(m_at & 7);
+    const std::uint64_t low = word(at) >> offset;
+    return offset == 0 ? low : low | word(at + 8) << (64 - offset);
+  }
+  /// Eight bytes, likewise.
+  std::uint64_t word(std::size_t at) const {
+    const std::size_t size = m_bytes.size();
+    if (at + 8 <= size) return loadLittleEndian<std::uint64_t>(m_bytes.data() + at);
+    if (at >= size) return 0;
+    if (size >= 8) return loadLittleEndian<std::uint64_t>(m_bytes.data() + size - 8) >> 8 * (at + 8 - size);
+    std::uint64_t word = 0;
+    for (std::size_t i = at; i < m_bytes.size(); ++i) {
+      word |= std::uint64_t{static_cast<unsigned char>(m_bytes[i])} << (8 * (i - at));
+    }
+    return word;
+  }
+
   std::string_view m_bytes;
   std::size_t m_at = 0;  ///< bit
   bool m_ok = true;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "Bot.h"
@@ -36,8 +37,9 @@ class Soak {
   void report() const;
   void finish();
   bool isQuiet(Bot& bot) const;
-  void measureMemory(double share);
-  double memoryGrowth() const;
+  void measureMemory(double minute);
+  /// In percent, after the warm-up; nothing if the run was too short for that.
+  std::optional<double> memoryGrowth() const;
   bool conclude();
 
   SoakOptions m_options;
