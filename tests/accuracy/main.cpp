@@ -2,6 +2,7 @@
 // writes what the report is drawn from.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 #include <vector>
@@ -16,12 +17,14 @@ namespace {
 constexpr const char* kUsage =
     "usage: naiad_lab [--quick] [--method NAME]... [--output DIR] [PROBLEM...]\n"
     "       naiad_lab --list\n"
+    "       naiad_lab --work PROBLEM CASE METHOD TICKS\n"
     "\n"
     "  PROBLEM        a number or a name (default: all)\n"
     "  --quick        1, 4 and 16 sub-steps, and no long runs: to see that it works\n"
     "  --method NAME  only this one; may be repeated\n"
     "  --output DIR   where to put points.csv and problems.json (default: nowhere)\n"
     "  --list         the problems and methods there are\n"
+    "  --work         runs one case for so many ticks and prints nothing: for valgrind\n"
     "\n"
     "Exit codes: 0 measured, 1 the product missed a target, or something failed, 2 wrong usage.\n";
 
@@ -52,8 +55,9 @@ int list() {
   return 0;
 }
 
-std::vector<int> substepCounts(const Options& options, const lab::Case& its_case, const lab::Method& method) {
-  if (method.own_substeps > 0) return {method.own_substeps};
+std::vector<int> substepCounts(const Options& options, const lab::Problem& problem, const lab::Case& its_case,
+                               const lab::Method& method) {
+  if (method.own_substeps > 0 && problem.kind != lab::Problem::Kind::MAP) return {method.own_substeps};
   std::vector<int> counts;
   for (const int count : {1, 2, 4, 8, 16, 32, 64}) {
     const bool quick = count == 1 || count == 4 || count == 16;
@@ -75,7 +79,7 @@ std::vector<Run> runsOf(const Options& options, const lab::Problem& problem) {
   for (const lab::Case& its_case : problem.cases) {
     if (its_case.long_run && options.quick) continue;
     for (const lab::Method* method : options.methods) {
-      for (const int substeps : substepCounts(options, its_case, *method)) {
+      for (const int substeps : substepCounts(options, problem, its_case, *method)) {
         runs.push_back({&its_case, method, substeps, {}});
       }
     }
@@ -121,6 +125,13 @@ void run(const Options& options, lab::Records& records) {
   }
 }
 
+const lab::ProblemEntry* findProblem(const std::vector<lab::ProblemEntry>& all, const std::string& name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const lab::ProblemEntry& entry) {
+    return entry.id == name || entry.name == name;
+  });
+  return found == all.end() ? nullptr : &*found;
+}
+
 const lab::Method* findMethod(const std::string& name) {
   for (const lab::Method* method : lab::Method::all()) {
     if (method->name == name) return method;
@@ -146,10 +157,8 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
       options.methods.push_back(method);
     } else {
       const auto all = lab::allProblems();
-      const auto found = std::find_if(all.begin(), all.end(), [&](const lab::ProblemEntry& entry) {
-        return entry.id == argument || entry.name == argument;
-      });
-      if (found == all.end()) {
+      const lab::ProblemEntry* found = findProblem(all, argument);
+      if (found == nullptr) {
         std::fprintf(stderr, "naiad_lab: there is no problem '%s'\n", argument.c_str());
         return false;
       }
@@ -161,10 +170,29 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
   return true;
 }
 
+// One case for so many ticks, and nothing else.
+int work(const std::vector<std::string>& arguments) {
+  if (arguments.size() != 5) return usage(stderr, 2);
+  const auto all = lab::allProblems();
+  const lab::ProblemEntry* entry = findProblem(all, arguments[1]);
+  const lab::Method* method = findMethod(arguments[3]);
+  const int ticks = std::atoi(arguments[4].c_str());
+  if (entry == nullptr || method == nullptr || ticks < 1) return usage(stderr, 2);
+  for (const lab::Case& its_case : entry->make().cases) {
+    if (its_case.name != arguments[2]) continue;
+    const lab::SimulationPtr simulation = method->build(its_case.scene);
+    if (simulation == nullptr) return 1;
+    for (int tick = 0; tick < ticks; ++tick) simulation->step(its_case.scene.tick, 1);
+    return 0;
+  }
+  return usage(stderr, 2);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (!arguments.empty() && arguments[0] == "--work") return work(arguments);
   for (const std::string& argument : arguments) {
     if (argument == "-h" || argument == "--help") return usage(stdout, 0);
     if (argument == "--list") return list();

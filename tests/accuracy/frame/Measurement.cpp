@@ -24,11 +24,12 @@ constexpr double kShortestRunNs = 400000;
 constexpr int kMostCopies = 256;
 
 double runNs(const Case& its_case, const Method& method, int substeps, int copies) {
+  const Scene scene = paceOf(method, its_case.scene, substeps).scene;
   std::vector<SimulationPtr> simulations;
-  for (int i = 0; i < copies; ++i) simulations.push_back(method.build(its_case.scene));
+  for (int i = 0; i < copies; ++i) simulations.push_back(method.build(scene));
   const double start = bench::cpuNanoseconds();
   for (const SimulationPtr& simulation : simulations) {
-    for (int tick = 0; tick < its_case.scene.ticks; ++tick) simulation->step(its_case.scene.tick, substeps);
+    for (int tick = 0; tick < scene.ticks; ++tick) simulation->step(scene.tick, substeps);
   }
   return (bench::cpuNanoseconds() - start) / copies;
 }

@@ -8,6 +8,7 @@ namespace lab {
 namespace {
 
 SimulationPtr build(const Scene& scene) {
+  if (scene.massless) return objectsByDefault(scene);
   if (scene.abstract()) return equationsByDefault(scene);
   return scene.beams.empty() ? bodiesByDefault(scene) : beamByDefault(scene);
 }

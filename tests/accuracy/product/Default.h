@@ -8,6 +8,8 @@ namespace lab {
 
 /// Bodies and joints: df::Body Objects in a World, and WM.update().
 SimulationPtr bodiesByDefault(const Scene& scene);
+/// The book's Objects, in a World without a layer.
+SimulationPtr objectsByDefault(const Scene& scene);
 /// An elastic beam: a df::Beam in a World, and WM.update().
 SimulationPtr beamByDefault(const Scene& scene);
 /// Equations of a dimension that no body has: the call that moves a body through a field.
