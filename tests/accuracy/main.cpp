@@ -15,13 +15,14 @@
 namespace {
 
 constexpr const char* kUsage =
-    "usage: naiad_lab [--quick] [--method NAME]... [--output DIR] [PROBLEM...]\n"
+    "usage: naiad_lab [--quick] [--method NAME]... [--substeps N]... [--output DIR] [PROBLEM...]\n"
     "       naiad_lab --list\n"
     "       naiad_lab --work PROBLEM CASE METHOD TICKS\n"
     "\n"
     "  PROBLEM        a number or a name (default: all)\n"
     "  --quick        1, 4 and 16 sub-steps, and no long runs: to see that it works\n"
     "  --method NAME  only this one; may be repeated\n"
+    "  --substeps N   only so many a tick; may be repeated\n"
     "  --output DIR   where to put points.csv and problems.json (default: nowhere)\n"
     "  --list         the problems and methods there are\n"
     "  --work         runs one case for so many ticks and prints nothing: for valgrind\n"
@@ -35,6 +36,7 @@ struct Options {
   bool quick = false;
   std::string output;
   std::vector<const lab::Method*> methods;
+  std::vector<int> substeps;  // none: all
   std::vector<lab::ProblemEntry> problems;
 };
 
@@ -61,7 +63,9 @@ std::vector<int> substepCounts(const Options& options, const lab::Problem& probl
   std::vector<int> counts;
   for (const int count : {1, 2, 4, 8, 16, 32, 64}) {
     const bool quick = count == 1 || count == 4 || count == 16;
-    if (count <= its_case.most_substeps && (quick || !options.quick)) counts.push_back(count);
+    const std::vector<int>& asked = options.substeps;
+    const bool is_asked = asked.empty() || std::find(asked.begin(), asked.end(), count) != asked.end();
+    if (is_asked && count <= its_case.most_substeps && (quick || !options.quick)) counts.push_back(count);
   }
   return counts;
 }
@@ -148,6 +152,8 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
       options.quick = true;
     } else if (argument == "--output" && has_value) {
       options.output = arguments[++i];
+    } else if (argument == "--substeps" && has_value) {
+      options.substeps.push_back(std::atoi(arguments[++i].c_str()));
     } else if (argument == "--method" && has_value) {
       const lab::Method* method = findMethod(arguments[++i]);
       if (method == nullptr) {

@@ -224,8 +224,7 @@ class Avbd : public ContactSolver {
   std::vector<Contact> m_contacts;
 };
 
-const RegisteredMethod method({"avbd", "augmented vertex block descent", "1", Method::Kind::CANDIDATE,
-                               makeContacts<Avbd>});
+const RegisteredMethod method({"avbd", "AVBD", "1", Method::Kind::CANDIDATE, makeContacts<Avbd>});
 
 }  // namespace
 

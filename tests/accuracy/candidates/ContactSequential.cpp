@@ -138,8 +138,8 @@ class SoftStep : public Sequential {
   }
 };
 
-const RegisteredMethod projecting({"tgs_ngs", "small steps, positions projected", "1",
-                                   Method::Kind::CANDIDATE, makeContacts<Projecting>});
+const RegisteredMethod projecting({"tgs_ngs", "TGS, projected", "1", Method::Kind::CANDIDATE,
+                                   makeContacts<Projecting>});
 const RegisteredMethod soft_step({"soft_step", "soft step", "1", Method::Kind::CANDIDATE,
                                   makeContacts<SoftStep>});
 

@@ -97,7 +97,7 @@ class ContactXpbd : public ContactSolver {
   std::vector<Before> m_before;
 };
 
-const RegisteredMethod method({"xpbd_contacts", "XPBD, one iteration", "1", Method::Kind::CANDIDATE,
+const RegisteredMethod method({"xpbd_contacts", "XPBD contacts", "1", Method::Kind::CANDIDATE,
                                makeContacts<ContactXpbd>});
 
 }  // namespace
