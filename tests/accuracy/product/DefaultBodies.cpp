@@ -3,6 +3,7 @@
 // axes is an ordinary HARD Object.
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "Body.h"
@@ -123,7 +124,7 @@ class DefaultBodies : public Simulation {
     if (body.shapes.empty()) made.setSolidness(df::SPECTRAL);
     // A game that is refused a place for a body has none to put it.
     if (made.setPosition(cells(m_origin + body.position)) != 0) WM.removeObject(&made);
-    for (const Shape& shape : body.shapes) addShape(made, shape, body.shapes.size() > 1);
+    addShapes(made, body.shapes);
     made.setAngle(body.angle);
     made.setVelocity(cells(m_tick * body.velocity));
     made.setSpin(m_tick * body.spin);
@@ -139,12 +140,23 @@ class DefaultBodies : public Simulation {
     if (m_field) made.setField(m_field.get(), cells(m_origin));
   }
 
-  static void addShape(CountingBody& made, const Shape& shape, bool is_part) {
-    const bool is_round = shape.kind == Shape::Kind::CIRCLE;
-    if (is_part && is_round) made.addCircle(shape.radius, cells(shape.centre));
-    if (is_part && !is_round) made.addBoxShape(2 * shape.half.x, 2 * shape.half.y, cells(shape.centre));
-    if (!is_part && is_round) made.setCircle(shape.radius);
-    if (!is_part && !is_round) made.setBoxShape(2 * shape.half.x, 2 * shape.half.y);
+  // A part's centre counts from the centre of mass of those before it; a scene's from that of the whole.
+  static void addShapes(CountingBody& made, const std::vector<Shape>& shapes) {
+    double area = 0;
+    Vec middle;
+    for (const Shape& shape : shapes) {
+      const bool is_round = shape.kind == Shape::Kind::CIRCLE;
+      const bool is_part = shapes.size() > 1;
+      const df::Vector centre = cells(shape.centre - middle);
+      if (is_part && is_round) made.addCircle(shape.radius, centre);
+      if (is_part && !is_round) made.addBoxShape(2 * shape.half.x, 2 * shape.half.y, centre);
+      if (!is_part && is_round) made.setCircle(shape.radius);
+      if (!is_part && !is_round) made.setBoxShape(2 * shape.half.x, 2 * shape.half.y);
+      const double more =
+          is_round ? std::numbers::pi * shape.radius * shape.radius : 4 * shape.half.x * shape.half.y;
+      area += more;
+      middle = middle + more / area * (shape.centre - middle);
+    }
   }
 
   void add(const Joint& joint) {
