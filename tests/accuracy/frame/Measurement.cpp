@@ -45,25 +45,6 @@ CpuTime timeRuns(const Case& its_case, const Method& method, int substeps, int r
   return {times[times.size() / 2], times.front(), times.back()};
 }
 
-Measurement judge(const Case& its_case, const Method& method, int substeps) {
-  Measurement measurement;
-  measurement.errors.assign(its_case.metrics.size(), std::numeric_limits<double>::infinity());
-  try {
-    measurement.errors = its_case.judge(Trial(method, substeps));
-    if (measurement.errors.size() != its_case.metrics.size()) throw std::logic_error("one error per metric");
-  } catch (const Inexpressible&) {
-    measurement.expressed = false;
-  } catch (const Failure& failure) {
-    measurement.reason = failure.what();
-  }
-  for (double& error : measurement.errors) {
-    if (!std::isnan(error)) continue;
-    error = std::numeric_limits<double>::infinity();
-    if (measurement.reason.empty()) measurement.reason = "not a number";
-  }
-  return measurement;
-}
-
 constexpr CpuTime unknownTime() {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   return {kNaN, kNaN, kNaN};
@@ -147,6 +128,25 @@ std::string deathOf(int status) {
 }
 
 }  // namespace
+
+Measurement judge(const Case& its_case, const Method& method, int substeps) {
+  Measurement measurement;
+  measurement.errors.assign(its_case.metrics.size(), std::numeric_limits<double>::infinity());
+  try {
+    measurement.errors = its_case.judge(Trial(method, substeps));
+    if (measurement.errors.size() != its_case.metrics.size()) throw std::logic_error("one error per metric");
+  } catch (const Inexpressible&) {
+    measurement.expressed = false;
+  } catch (const Failure& failure) {
+    measurement.reason = failure.what();
+  }
+  for (double& error : measurement.errors) {
+    if (!std::isnan(error)) continue;
+    error = std::numeric_limits<double>::infinity();
+    if (measurement.reason.empty()) measurement.reason = "not a number";
+  }
+  return measurement;
+}
 
 Measurement measure(const Case& its_case, const Method& method, int substeps, int runs) {
   Measurement measurement = judge(its_case, method, substeps);
