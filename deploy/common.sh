@@ -17,7 +17,7 @@ check_packages="$build_packages ccache libgtest-dev tmux python3 clang clang-for
 bench_packages="$build_packages libbox2d-dev libchipmunk-dev valgrind python3 libvterm-dev openssh-client openssh-server mosh"
 
 # What the laboratory needs on top of building: peers, and a solver for references. GCC, for its quad precision.
-lab_packages="$build_packages libbox2d-dev libchipmunk-dev libsundials-dev libgtest-dev python3"
+lab_packages="$build_packages libbox2d-dev libchipmunk-dev libsundials-dev libgtest-dev valgrind python3"
 
 # What reports how much of a decoder was reached by fuzzing.
 fuzz_packages="llvm-14"

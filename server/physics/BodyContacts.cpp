@@ -56,6 +56,7 @@ bool BodyContacts::isTouching(df::ObjectKey key) const {
 }
 
 std::vector<BodyContact>& BodyContacts::finish() {
+  if (m_touching.empty()) return m_news;
   std::erase_if(m_touching, [this](Touch& touch) {
     if (touch.doubt == 0 || --touch.doubt > 0) return false;
     m_news.push_back(touch.contact);

@@ -5,6 +5,9 @@
 
 namespace naiad::physics {
 
+const BodyMedium BodyTable::kNoMedium;
+const BodyForm BodyTable::kNoForm;
+
 BodyTable::Index BodyTable::add(const df::Object* p_object, df::ObjectKey key) {
   Index index = 0;
   if (m_free.empty()) {
@@ -41,19 +44,9 @@ BodyMedium& BodyTable::medium(Index index) {
   return m_media[index];
 }
 
-const BodyMedium& BodyTable::medium(Index index) const {
-  static const BodyMedium kNone;
-  return index < m_media.size() ? m_media[index] : kNone;
-}
-
 BodyForm& BodyTable::form(Index index) {
   if (index >= m_forms.size()) m_forms.resize(index + 1);
   return m_forms[index];
-}
-
-const BodyForm& BodyTable::form(Index index) const {
-  static const BodyForm kNone;
-  return index < m_forms.size() ? m_forms[index] : kNone;
 }
 
 double BodyTable::unitInertia(Index index, const df::FixedBox& box) const {

@@ -87,10 +87,10 @@ class BodyTable {
   const BodyRow& row(Index index) const { return m_rows[index]; }
   /// Grows when it is asked for the first time.
   BodyMedium& medium(Index index);
-  const BodyMedium& medium(Index index) const;
+  const BodyMedium& medium(Index index) const { return index < m_media.size() ? m_media[index] : kNoMedium; }
   /// Likewise.
   BodyForm& form(Index index);
-  const BodyForm& form(Index index) const;
+  const BodyForm& form(Index index) const { return index < m_forms.size() ? m_forms[index] : kNoForm; }
   /// Moment of inertia per mass, of a body with this Object's box if it has no other shape.
   double unitInertia(Index index, const df::FixedBox& box) const;
   /// Take over what the game has done to position and velocity since the last step, by the Object's own
@@ -113,6 +113,9 @@ class BodyTable {
   int soft_bodies = 0;     ///< they live in the same metric
 
  private:
+  static const BodyMedium kNoMedium;
+  static const BodyForm kNoForm;
+
   std::vector<BodyRow> m_rows;
   std::vector<BodyMedium> m_media;  ///< by index; shorter than m_rows
   std::vector<BodyForm> m_forms;    ///< likewise

@@ -90,6 +90,7 @@ void BodyTouches::step(const WorldStore& store, const BodyTable& table, const st
   for (const BodyPlan& plan : plans) {
     if (plan.is_hard || plan.is_soft) m_movers.push_back(moverOf(store, table, plan));
   }
+  if (m_movers.empty() && m_touching.empty()) return;
   for (const Mover& mover : m_movers) {
     if (mover.displacement != Vec2{} || mover.is_soft) meetObjects(store, table.metric, mover);
     if (!mover.is_soft) continue;

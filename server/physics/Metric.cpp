@@ -29,16 +29,16 @@ Place Metric::placeOf(df::FixedVector position) const {
   const Parts y = partsOf(position.y);
   // The product is exact for aspects of few digits; the sum carries what is beyond half a unit.
   const double scaled = static_cast<double>(y.whole) * m_aspect;
-  const double whole = std::nearbyint(scaled);
+  const double whole = df::math::rounded(scaled);
   return Place{x.whole, static_cast<std::int64_t>(whole), 0, 0} +
          Vec2{x.rest, (scaled - whole) + y.rest * m_aspect};
 }
 
 df::FixedVector Metric::fixedOf(const Place& place) const {
-  const double whole = std::nearbyint(static_cast<double>(place.cell_y) / m_aspect);
+  const double whole = df::math::rounded(overAspect(static_cast<double>(place.cell_y)));
   const double left = static_cast<double>(place.cell_y) - whole * m_aspect;
   return {physics::fixedOf(static_cast<double>(place.cell_x), place.dx),
-          physics::fixedOf(whole, (left + place.dy) / m_aspect)};
+          physics::fixedOf(whole, overAspect(left + place.dy))};
 }
 
 bool Metric::isInRange(const Place& place) const {

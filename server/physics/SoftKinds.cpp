@@ -63,16 +63,18 @@ Rope::Rope(Vector from, Vector to, double mass, double stiffness, int links) {
 }
 
 // A cantilever under its own weight m g bends by m g L³ / 8 EI.
-Beam::Beam(Vector from, Vector to, double mass, double stiffness, bool is_clamped) {
+Beam::Beam(Vector from, Vector to, double mass, double stiffness, bool is_clamped, int elements) {
   setType("Beam");
   const Line line = lineOf(checked("Beam: from", from), checked("Beam: to", to));
   mass = checked("Beam: mass", mass, kLeast, kMost, 1);
   stiffness = checked("Beam: stiffness", stiffness, kLeast, kMost, 1);
+  if (elements != 0) elements = static_cast<int>(checked("Beam: elements", elements, 2, 100, 0));
   const double whole = length(line.way);
+  if (elements == 0) elements = countFor(whole, 1.5, 4, 32);
   constexpr double kTensile = 1000;
-  naiad::physics::SoftBody body = naiad::physics::makeBeam(
-      line.from, line.way, countFor(whole, 1.5, 4, 32), stiffness * mass * whole * whole / 8,
-      kTensile * stiffness * mass, mass / whole, is_clamped);
+  naiad::physics::SoftBody body =
+      naiad::physics::makeBeam(line.from, line.way, elements, stiffness * mass * whole * whole / 8,
+                               kTensile * stiffness * mass, mass / whole, is_clamped);
   body.radius = std::min(body.radius, 0.25);
   make(withUsual(body));
 }

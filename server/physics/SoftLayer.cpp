@@ -20,6 +20,7 @@ using naiad::physics::SoftEvent;
 using naiad::physics::SoftHold;
 using naiad::physics::SoftNode;
 using naiad::physics::SoftObstacle;
+using naiad::physics::SoftPull;
 using naiad::physics::SoftSeat;
 using naiad::physics::SoftStatus;
 using naiad::physics::SoftTable;
@@ -133,7 +134,11 @@ void SoftLayer::prepare(const World& world, int id) {
   });
   if (seat.is_frozen) return;
   seat.is_in = true;
-  const double gravity = length(m_gravity) * std::fabs(seat.gravity_scale) + length(seat.force) / seat.mass;
+  double gravity = length(m_gravity) * std::fabs(seat.gravity_scale) + length(seat.force) / seat.mass;
+  const std::vector<SoftNode>& nodes = m_table->world().body(id).nodes;
+  for (const SoftPull& pull : seat.pulls) {
+    gravity += length(pull.force) / nodes[static_cast<std::size_t>(pull.node)].mass;
+  }
   const double far = kRoom + seat.top_speed + gravity;
   const Vec2 reach = m_table->reach(id) + Vec2{far, far};
   m_reaches[static_cast<std::size_t>(id)] = reach;
@@ -173,13 +178,19 @@ void SoftLayer::push(int id) {
   SoftSeat& seat = m_table->seat(id);
   const Vec2 acceleration = (seat.gravity_scale - 1) * m_gravity + seat.force / seat.mass;
   seat.force = {};
-  const bool pulls = acceleration != Vec2{};
+  const bool pulls = acceleration != Vec2{} || !seat.pulls.empty();
   if (!pulls && !seat.has_forces) return;
   seat.has_forces = pulls;
   const std::vector<SoftNode>& nodes = m_table->world().body(id).nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    m_table->world().setForce(id, static_cast<int>(i), nodes[i].mass * acceleration);
+    Vec2 force = nodes[i].mass * acceleration;
+    for (const SoftPull& pull : seat.pulls) {
+      if (static_cast<std::size_t>(pull.node) == i) force += pull.force;
+    }
+    // As a whole, once: a force that changes makes the solver forget the past.
+    m_table->world().setForce(id, static_cast<int>(i), force);
   }
+  seat.pulls.clear();
 }
 
 void SoftLayer::settle(World& world, int id) {

@@ -1,5 +1,6 @@
 #include "SoftObject.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,6 +17,7 @@ namespace {
 
 using naiad::physics::SoftHand;
 using naiad::physics::SoftHold;
+using naiad::physics::SoftPull;
 using naiad::physics::SoftSeat;
 using naiad::physics::Vec2;
 
@@ -140,6 +142,23 @@ int SoftBody::applyForce(Vector force) {
   const Vector sum = m_table->metric().toCells(seat().force) + force;
   if (!isUsable(force) || !isUsable(sum)) return refuseAs("applyForce");
   seat().force = m_table->metric().fromCells(sum);
+  m_table->wake(m_id);
+  return 0;
+}
+
+int SoftBody::applyForce(int node, Vector force) {
+  if (!hasNode(node) || !isUsable(force)) return refuseAs("applyForce");
+  std::vector<SoftPull>& pulls = seat().pulls;
+  const auto same =
+      std::find_if(pulls.begin(), pulls.end(), [&](const SoftPull& p) { return p.node == node; });
+  const Vec2 before = same == pulls.end() ? Vec2{} : same->force;
+  const Vec2 sum = before + m_table->metric().fromCells(force);
+  if (!isUsable(m_table->metric().toCells(sum))) return refuseAs("applyForce");
+  if (same == pulls.end()) {
+    pulls.push_back({node, sum});
+  } else {
+    same->force = sum;
+  }
   m_table->wake(m_id);
   return 0;
 }

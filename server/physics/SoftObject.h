@@ -58,6 +58,8 @@ class SoftBody : public Object {
   /// Push the whole during the next tick, each node by its mass; several pushes add up. Mass · cells per
   /// tick².
   int applyForce(Vector force);
+  /// The same for one node alone: what pulls at a beam's end for good is applied in each tick.
+  int applyForce(int node, Vector force);
 
   // Its nodes: 0 … getNodeCount() - 1.
 
@@ -129,8 +131,10 @@ class Rope : public SoftBody {
 class Beam : public SoftBody {
  public:
   /// `stiffness`, 1e-6 … 1e6: clamped at `from`, its own weight bends it by gravity / stiffness of its
-  /// length.
-  Beam(Vector from, Vector to, double mass = 1, double stiffness = 1, bool is_clamped = false);
+  /// length; its bending stiffness EI is stiffness · mass · length² / 8. `elements` 0: as its length asks
+  /// for; else 2 … 100.
+  Beam(Vector from, Vector to, double mass = 1, double stiffness = 1, bool is_clamped = false,
+       int elements = 0);
 };
 
 /// A piece of cloth, seen from the front. Hang it up by its nodes.

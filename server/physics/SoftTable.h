@@ -31,6 +31,12 @@ struct SoftHold {
   df::ObjectKey key;
 };
 
+/// What pulls at one node in the next step.
+struct SoftPull {
+  int node = 0;
+  Vec2 force;
+};
+
 /// By id in the SoftWorld.
 struct SoftSeat {
   df::ObjectKey key;
@@ -40,7 +46,8 @@ struct SoftSeat {
   df::FixedVector told_velocity;
   Place centre;  ///< of mass
   Vec2 velocity;
-  Vec2 force;  ///< for the next step
+  Vec2 force;                   ///< on the whole, for the next step
+  std::vector<SoftPull> pulls;  ///< on single nodes, for the next step
   double mass = 1;
   double gravity_scale = 1;
   double top_speed = 0;     ///< of its nodes

@@ -2,6 +2,7 @@
 // writes what the report is drawn from.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 #include <vector>
@@ -14,14 +15,17 @@
 namespace {
 
 constexpr const char* kUsage =
-    "usage: naiad_lab [--quick] [--method NAME]... [--output DIR] [PROBLEM...]\n"
+    "usage: naiad_lab [--quick] [--method NAME]... [--substeps N]... [--output DIR] [PROBLEM...]\n"
     "       naiad_lab --list\n"
+    "       naiad_lab --work PROBLEM CASE METHOD TICKS\n"
     "\n"
     "  PROBLEM        a number or a name (default: all)\n"
     "  --quick        1, 4 and 16 sub-steps, and no long runs: to see that it works\n"
     "  --method NAME  only this one; may be repeated\n"
+    "  --substeps N   only so many a tick; may be repeated\n"
     "  --output DIR   where to put points.csv and problems.json (default: nowhere)\n"
     "  --list         the problems and methods there are\n"
+    "  --work         runs one case for so many ticks and prints nothing: for valgrind\n"
     "\n"
     "Exit codes: 0 measured, 1 the product missed a target, or something failed, 2 wrong usage.\n";
 
@@ -32,6 +36,7 @@ struct Options {
   bool quick = false;
   std::string output;
   std::vector<const lab::Method*> methods;
+  std::vector<int> substeps;  // none: all
   std::vector<lab::ProblemEntry> problems;
 };
 
@@ -52,12 +57,15 @@ int list() {
   return 0;
 }
 
-std::vector<int> substepCounts(const Options& options, const lab::Case& its_case, const lab::Method& method) {
-  if (method.own_substeps > 0) return {method.own_substeps};
+std::vector<int> substepCounts(const Options& options, const lab::Problem& problem, const lab::Case& its_case,
+                               const lab::Method& method) {
+  if (method.own_substeps > 0 && problem.kind != lab::Problem::Kind::MAP) return {method.own_substeps};
   std::vector<int> counts;
   for (const int count : {1, 2, 4, 8, 16, 32, 64}) {
     const bool quick = count == 1 || count == 4 || count == 16;
-    if (count <= its_case.most_substeps && (quick || !options.quick)) counts.push_back(count);
+    const std::vector<int>& asked = options.substeps;
+    const bool is_asked = asked.empty() || std::find(asked.begin(), asked.end(), count) != asked.end();
+    if (is_asked && count <= its_case.most_substeps && (quick || !options.quick)) counts.push_back(count);
   }
   return counts;
 }
@@ -75,7 +83,7 @@ std::vector<Run> runsOf(const Options& options, const lab::Problem& problem) {
   for (const lab::Case& its_case : problem.cases) {
     if (its_case.long_run && options.quick) continue;
     for (const lab::Method* method : options.methods) {
-      for (const int substeps : substepCounts(options, its_case, *method)) {
+      for (const int substeps : substepCounts(options, problem, its_case, *method)) {
         runs.push_back({&its_case, method, substeps, {}});
       }
     }
@@ -121,6 +129,13 @@ void run(const Options& options, lab::Records& records) {
   }
 }
 
+const lab::ProblemEntry* findProblem(const std::vector<lab::ProblemEntry>& all, const std::string& name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const lab::ProblemEntry& entry) {
+    return entry.id == name || entry.name == name;
+  });
+  return found == all.end() ? nullptr : &*found;
+}
+
 const lab::Method* findMethod(const std::string& name) {
   for (const lab::Method* method : lab::Method::all()) {
     if (method->name == name) return method;
@@ -137,6 +152,8 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
       options.quick = true;
     } else if (argument == "--output" && has_value) {
       options.output = arguments[++i];
+    } else if (argument == "--substeps" && has_value) {
+      options.substeps.push_back(std::atoi(arguments[++i].c_str()));
     } else if (argument == "--method" && has_value) {
       const lab::Method* method = findMethod(arguments[++i]);
       if (method == nullptr) {
@@ -146,10 +163,8 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
       options.methods.push_back(method);
     } else {
       const auto all = lab::allProblems();
-      const auto found = std::find_if(all.begin(), all.end(), [&](const lab::ProblemEntry& entry) {
-        return entry.id == argument || entry.name == argument;
-      });
-      if (found == all.end()) {
+      const lab::ProblemEntry* found = findProblem(all, argument);
+      if (found == nullptr) {
         std::fprintf(stderr, "naiad_lab: there is no problem '%s'\n", argument.c_str());
         return false;
       }
@@ -161,10 +176,29 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
   return true;
 }
 
+// One case for so many ticks, and nothing else.
+int work(const std::vector<std::string>& arguments) {
+  if (arguments.size() != 5) return usage(stderr, 2);
+  const auto all = lab::allProblems();
+  const lab::ProblemEntry* entry = findProblem(all, arguments[1]);
+  const lab::Method* method = findMethod(arguments[3]);
+  const int ticks = std::atoi(arguments[4].c_str());
+  if (entry == nullptr || method == nullptr || ticks < 1) return usage(stderr, 2);
+  for (const lab::Case& its_case : entry->make().cases) {
+    if (its_case.name != arguments[2]) continue;
+    const lab::SimulationPtr simulation = method->build(its_case.scene);
+    if (simulation == nullptr) return 1;
+    for (int tick = 0; tick < ticks; ++tick) simulation->step(its_case.scene.tick, 1);
+    return 0;
+  }
+  return usage(stderr, 2);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (!arguments.empty() && arguments[0] == "--work") return work(arguments);
   for (const std::string& argument : arguments) {
     if (argument == "-h" || argument == "--help") return usage(stdout, 0);
     if (argument == "--list") return list();

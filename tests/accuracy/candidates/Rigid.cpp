@@ -98,7 +98,7 @@ class Rigid : public Simulation {
   bool m_is_made = false;
 };
 
-const RegisteredMethod method({"rigid", "Naiad's rigid bodies", "1", Method::Kind::CANDIDATE,
+const RegisteredMethod method({"rigid", "rigid, no sleep", "1", Method::Kind::CANDIDATE,
                                [](const Scene& scene) -> SimulationPtr {
                                  return Rigid::canExpress(scene) ? std::make_unique<Rigid>(scene) : nullptr;
                                }});

@@ -201,11 +201,9 @@ SimulationPtr make(const Scene& scene) {
   return canExpress(scene) ? std::make_unique<Kind>(scene) : nullptr;
 }
 
-const RegisteredMethod direct({"soft", "soft body, BDF2", "1", Method::Kind::CANDIDATE, make<Direct>});
-const RegisteredMethod euler({"soft_euler", "soft body, backward Euler", "1", Method::Kind::CANDIDATE,
-                              make<Euler>});
-const RegisteredMethod projected({"soft_xpbd", "soft body, XPBD, one iteration", "1", Method::Kind::CANDIDATE,
-                                  make<Projected>});
+const RegisteredMethod direct({"soft", "soft, BDF2", "1", Method::Kind::CANDIDATE, make<Direct>});
+const RegisteredMethod euler({"soft_euler", "soft, Euler", "1", Method::Kind::CANDIDATE, make<Euler>});
+const RegisteredMethod projected({"soft_xpbd", "soft, XPBD", "1", Method::Kind::CANDIDATE, make<Projected>});
 
 }  // namespace
 

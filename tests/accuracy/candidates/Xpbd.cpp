@@ -89,7 +89,7 @@ class Xpbd : public Simulation {
   std::vector<Rod> m_rods;
 };
 
-const RegisteredMethod method({"xpbd", "XPBD, one iteration", "1", Method::Kind::CANDIDATE,
+const RegisteredMethod method({"xpbd", "XPBD rods", "1", Method::Kind::CANDIDATE,
                                [](const Scene& scene) -> SimulationPtr {
                                  return Xpbd::canExpress(scene) ? std::make_unique<Xpbd>(scene) : nullptr;
                                }});

@@ -24,11 +24,12 @@ constexpr double kShortestRunNs = 400000;
 constexpr int kMostCopies = 256;
 
 double runNs(const Case& its_case, const Method& method, int substeps, int copies) {
+  const Scene scene = paceOf(method, its_case.scene, substeps).scene;
   std::vector<SimulationPtr> simulations;
-  for (int i = 0; i < copies; ++i) simulations.push_back(method.build(its_case.scene));
+  for (int i = 0; i < copies; ++i) simulations.push_back(method.build(scene));
   const double start = bench::cpuNanoseconds();
   for (const SimulationPtr& simulation : simulations) {
-    for (int tick = 0; tick < its_case.scene.ticks; ++tick) simulation->step(its_case.scene.tick, substeps);
+    for (int tick = 0; tick < scene.ticks; ++tick) simulation->step(scene.tick, substeps);
   }
   return (bench::cpuNanoseconds() - start) / copies;
 }
@@ -42,25 +43,6 @@ CpuTime timeRuns(const Case& its_case, const Method& method, int substeps, int r
   }
   std::sort(times.begin(), times.end());
   return {times[times.size() / 2], times.front(), times.back()};
-}
-
-Measurement judge(const Case& its_case, const Method& method, int substeps) {
-  Measurement measurement;
-  measurement.errors.assign(its_case.metrics.size(), std::numeric_limits<double>::infinity());
-  try {
-    measurement.errors = its_case.judge(Trial(method, substeps));
-    if (measurement.errors.size() != its_case.metrics.size()) throw std::logic_error("one error per metric");
-  } catch (const Inexpressible&) {
-    measurement.expressed = false;
-  } catch (const Failure& failure) {
-    measurement.reason = failure.what();
-  }
-  for (double& error : measurement.errors) {
-    if (!std::isnan(error)) continue;
-    error = std::numeric_limits<double>::infinity();
-    if (measurement.reason.empty()) measurement.reason = "not a number";
-  }
-  return measurement;
 }
 
 constexpr CpuTime unknownTime() {
@@ -146,6 +128,25 @@ std::string deathOf(int status) {
 }
 
 }  // namespace
+
+Measurement judge(const Case& its_case, const Method& method, int substeps) {
+  Measurement measurement;
+  measurement.errors.assign(its_case.metrics.size(), std::numeric_limits<double>::infinity());
+  try {
+    measurement.errors = its_case.judge(Trial(method, substeps));
+    if (measurement.errors.size() != its_case.metrics.size()) throw std::logic_error("one error per metric");
+  } catch (const Inexpressible&) {
+    measurement.expressed = false;
+  } catch (const Failure& failure) {
+    measurement.reason = failure.what();
+  }
+  for (double& error : measurement.errors) {
+    if (!std::isnan(error)) continue;
+    error = std::numeric_limits<double>::infinity();
+    if (measurement.reason.empty()) measurement.reason = "not a number";
+  }
+  return measurement;
+}
 
 Measurement measure(const Case& its_case, const Method& method, int substeps, int runs) {
   Measurement measurement = judge(its_case, method, substeps);

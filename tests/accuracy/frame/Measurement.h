@@ -23,6 +23,9 @@ struct Measurement {
   std::string reason;          ///< why it failed; empty if it did not
 };
 
+/// Errors alone, without a clock.
+Measurement judge(const Case& its_case, const Method& method, int substeps);
+
 /// Judges once, then times `runs` runs of the case's scene, which nobody watches.
 Measurement measure(const Case& its_case, const Method& method, int substeps, int runs);
 

@@ -100,7 +100,9 @@ void Records::describe(const Problem& problem) {
   m_first = false;
   const char* comma = "\n";
   for (const Case& its_case : problem.cases) {
-    for (const Metric& metric : its_case.metrics) {
+    std::vector<Metric> metrics = its_case.metrics;
+    for (const CpuBound& bound : its_case.cpu_bounds) metrics.push_back(metricOf(bound));
+    for (const Metric& metric : metrics) {
       std::fprintf(
           m_problems,
           "%s  {\"name\": %s, \"case\": %s, \"label\": %s, \"target\": %.17g, \"floor\": %.17g, \"peers\": "

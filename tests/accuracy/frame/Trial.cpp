@@ -15,6 +15,15 @@ bool isBelow(double value, double bound) {
 
 }  // namespace
 
+ScenePace paceOf(const Method& method, const Scene& scene, int substeps) {
+  ScenePace pace{scene, 1};
+  if (method.own_substeps == 0 || substeps == method.own_substeps) return pace;
+  pace.each = substeps / method.own_substeps;
+  pace.scene.tick /= pace.each;
+  pace.scene.ticks *= pace.each;
+  return pace;
+}
+
 SimulationPtr Trial::build(const Scene& scene) const {
   SimulationPtr simulation = m_method.build(scene);
   if (simulation == nullptr) throw Inexpressible();

@@ -18,6 +18,14 @@ struct Inexpressible : std::runtime_error {
   Inexpressible() : std::runtime_error("the method cannot express the scene") {}
 };
 
+/// A scene as a method runs it. A method that chooses its sub-steps itself is asked for more by shorter
+/// ticks, as a world that runs faster has them: `each` of them are one of the scene's.
+struct ScenePace {
+  Scene scene;
+  int each = 1;
+};
+ScenePace paceOf(const Method& method, const Scene& scene, int substeps);
+
 class Trial {
  public:
   Trial(const Method& method, int substeps) : m_method(method), m_substeps(substeps) {}
@@ -33,9 +41,10 @@ class Trial {
   /// simulation as it ends.
   template <class After>
   SimulationPtr run(const Scene& scene, After after) const {
-    SimulationPtr simulation = build(scene);
+    const ScenePace pace = paceOf(m_method, scene, m_substeps);
+    SimulationPtr simulation = build(pace.scene);
     for (int tick = 1; tick <= scene.ticks; ++tick) {
-      step(*simulation, scene);
+      for (int i = 0; i < pace.each; ++i) step(*simulation, pace.scene);
       after(tick, *simulation);
     }
     return simulation;

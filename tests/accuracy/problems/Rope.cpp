@@ -66,7 +66,30 @@ Problem makeRope() {
   return problem;
 }
 
+Problem makeMap() {
+  Problem problem;
+  problem.title = "What stays bounded: a rope's end mass × step";
+  problem.text =
+      "The rope of problem 11. A cell is the largest relative stretch of a link over 10 s, in tenths: from 1 "
+      "on it "
+      "is a rubber band.";
+  problem.reference = "links keep their length";
+  problem.kind = Problem::Kind::MAP;
+  for (double ratio = 1; ratio < 2e6; ratio *= 10) {
+    Case swinging = rope(ratio);
+    swinging.x = ratio;
+    swinging.cpu_bounds.clear();
+    swinging.metrics = {{"stretch", "end mass, in links", -1, 0, ""}};
+    swinging.judge = [judge = swinging.judge](const Trial& trial) {
+      return std::vector<double>{judge(trial)[0] / 0.1};
+    };
+    problem.cases.push_back(swinging);
+  }
+  return problem;
+}
+
 const RegisteredProblem rope_problem("11", "rope", makeRope);
+const RegisteredProblem map("map-rope", "rope-map", makeMap);
 
 }  // namespace
 

@@ -8,7 +8,8 @@ from svg import INK, MUTED, page, text
 CELL, GAP, PER_ROW = 24, 56, 3
 LEFT, TOP, HEAD = 64, 112, 26
 # Largest error, colour (Okabe and Ito), a sign for print, its meaning
-CLASSES = [(1e-2, "#0072b2", "", "error below 0.01"), (1.0, "#9fd0ee", "", "bounded: below 1"),
+BOUNDED = 1.0
+CLASSES = [(1e-2, "#0072b2", "", "error below 0.01"), (BOUNDED, "#9fd0ee", "", "bounded: below 1"),
            (100.0, "#f2c14e", "!", "wrong: 1 and more"), (math.inf, "#c44e00", "×", "failed, or 100 and more")]
 
 
@@ -47,7 +48,7 @@ def draw(panels, values, counts, title, x_label):
     wide, high = len(values) * CELL + GAP, len(counts) * CELL + GAP + HEAD
     width, height = max(LEFT + PER_ROW * wide, 760), TOP + rows * high + 4
     parts = [text(LEFT - 40, 30, title, 18, weight="600"),
-             text(LEFT - 40, 52, f"across: {x_label}; up: sub-steps of a tick of 1/30 s", 12.5, MUTED)]
+             text(LEFT - 40, 52, f"across: {x_label}; up: steps in 1/30 s", 12.5, MUTED)]
     at = LEFT - 40
     for _, colour, sign, meaning in CLASSES:
         parts.append(f'<rect x="{at}" y="64" width="15" height="15" fill="{colour}"/>')

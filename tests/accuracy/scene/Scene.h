@@ -99,13 +99,15 @@ struct Scene {
   Vec origin;   ///< where the scene is in the world: whole metres
   double tick = kTick;
   int ticks = 0;
+  /// The bodies are the book's Objects, which have no mass and move by themselves: for the product alone.
+  bool massless = false;
   /// The same in generalised coordinates, for methods that solve ordinary differential equations; null where
   /// there are contacts.
   std::shared_ptr<const Equations> equations;
   /// There are no bodies, only equations.
   bool abstract() const { return bodies.empty() && beams.empty(); }
   /// Rigid bodies and joints and nothing else.
-  bool rigid() const { return !bodies.empty() && beams.empty(); }
+  bool rigid() const { return !bodies.empty() && beams.empty() && !massless; }
   double duration() const { return tick * ticks; }
 };
 

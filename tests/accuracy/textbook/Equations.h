@@ -28,6 +28,10 @@ class Equations {
   virtual ~Equations() = default;
   /// Where the scene's body with this index is, in a state.
   virtual BodyState body(int index, const double* y) const = 0;
+  /// The coordinates at t = 0.
+  virtual std::vector<double> start() const = 0;
+  /// Rates and Jacobian in double precision; good as long as this is.
+  virtual OdeFunctions functions() const = 0;
   /// Null if the rule does not apply.
   virtual SimulationPtr integrate(Rule rule) const = 0;
   /// By CVODE, BDF or Adams, at a relative tolerance of 1e-12 or less. Throws std::runtime_error if it gives
@@ -46,7 +50,9 @@ class EquationsOf : public Equations {
 
   SimulationPtr integrate(Rule rule) const override { return makeIntegrator(m_system, rule); }
 
-  Trajectory byCvode(double tick, int ticks, const CvodeOptions& options) const override {
+  std::vector<double> start() const override { return m_system.start(); }
+
+  OdeFunctions functions() const override {
     OdeFunctions functions;
     functions.dimension = System::kDimension;
     functions.rate = [this](double t, const double* y, double* rates) { m_system.rate(t, y, rates); };
@@ -58,7 +64,11 @@ class EquationsOf : public Equations {
         }
       }
     };
-    return solveByCvode(functions, m_system.start(), tick, ticks, options);
+    return functions;
+  }
+
+  Trajectory byCvode(double tick, int ticks, const CvodeOptions& options) const override {
+    return solveByCvode(functions(), start(), tick, ticks, options);
   }
 
   Trajectory byExtrapolation(double tick, int ticks, Stiffness stiffness) const override {

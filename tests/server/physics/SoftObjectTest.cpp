@@ -339,6 +339,11 @@ TEST_F(SoftObjects, BadNumbersAreRefused) {
   EXPECT_EQ(p_blob->setPosition(Vector(kNan, 0)), -1);
   EXPECT_EQ(p_blob->applyImpulse(Vector(kNan, 0)), -1);
   EXPECT_EQ(p_blob->applyForce(Vector(0, 1e30)), -1);
+  EXPECT_EQ(p_blob->applyForce(1000, Vector(0, 1)), -1);
+  EXPECT_EQ(p_blob->applyForce(0, Vector(0, 1e30)), -1);
+  EXPECT_EQ(p_blob->applyForce(0, Vector(0.8e9, 0)), 0);
+  EXPECT_EQ(p_blob->applyForce(0, Vector(0.8e9, 0)), -1);  // the sum
+  EXPECT_EQ(p_blob->applyForce(0, Vector(-0.8e9, 0)), 0);
   EXPECT_EQ(p_blob->setFriction(-1), -1);
   EXPECT_EQ(p_blob->setDrag(kNan), -1);
   EXPECT_EQ(p_blob->setGravityScale(kNan), -1);
@@ -473,6 +478,29 @@ TEST_F(SoftObjects, StiffnessIsWhatItSays) {
   ticks(1500);
   EXPECT_NEAR(p_rope->getNodePosition(rope_end).y() - 12, 20 * kGravity / 2 * rows, 0.01);
   EXPECT_NEAR(p_beam->getNodePosition(beam_end).y() - 2, 20 * kGravity / 2 * rows, 0.01);
+}
+
+// A force at the end of a clamped beam bends it by FL³/3EI, at any number of elements.
+TEST_F(SoftObjects, AForceAtItsEndBendsABeam) {
+  PM.setGravity(Vector(0, 0));
+  constexpr double kMass = 2, kStiffness = 1, kLength = 20, kForce = 0.02;  // rows
+  constexpr double kEi = kStiffness * kMass * kLength * kLength / 8;
+  const double rows = 0.5;  // a width of a cell
+  const double expected = kForce / rows * kLength * kLength * kLength / (3 * kEi) * rows;
+  for (const int elements : {8, 16, 32}) {
+    auto* p_beam = new Beam(Vector(0, 100.0 * elements), Vector(kLength, 100.0 * elements), kMass, kStiffness,
+                            true, elements);
+    ASSERT_EQ(p_beam->getNodeCount(), elements + 1);
+    p_beam->setDrag(0.1);
+    for (int i = 0; i < 1000; ++i) {
+      p_beam->applyForce(elements, Vector(0, kForce));
+      ticks(1);
+    }
+    EXPECT_NEAR(p_beam->getNodePosition(elements).y() - 100.0 * elements, expected, 0.01 * expected)
+        << elements;
+    for (int i = 0; i < 1000; ++i) ticks(1);  // it was told each time
+    EXPECT_NEAR(p_beam->getNodePosition(elements).y() - 100.0 * elements, 0, 0.05 * expected) << elements;
+  }
 }
 
 TEST_F(SoftObjects, CirclesAreRoundInTheMetric) {

@@ -1,0 +1,192 @@
+// df::Body Objects in a World of its own, and WM.update(). A metre is a cell, a
+// tick of the scene is a tick, mass is in kg; all else is as it comes. What never moves and lies along the
+// axes is an ordinary HARD Object.
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "Body.h"
+#include "Default.h"
+#include "EventCollision.h"
+#include "Field.h"
+#include "PhysicsManager.h"
+#include "World.h"
+#include "WorldManager.h"
+
+namespace lab {
+
+namespace {
+
+df::Vector cells(Vec v) {
+  return {v.x, v.y};
+}
+
+class SceneField : public df::Field {
+ public:
+  SceneField(lab::Field field, double tick) : m_field(std::move(field)), m_tick(tick) {}
+  df::Vector accelerationAt(df::Vector way, df::Vector velocity, double time) const override {
+    BodyState state;
+    state.position = {way.x(), way.y()};
+    state.velocity = {velocity.x() / m_tick, velocity.y() / m_tick};
+    return cells(m_tick * m_tick * m_field(time * m_tick, state));
+  }
+
+ private:
+  lab::Field m_field;
+  double m_tick;
+};
+
+class CountingBody : public df::Body {
+ public:
+  explicit CountingBody(long& count) : m_count(count) {}
+  int eventHandler(const df::Event* p_e) override {
+    if (p_e->getType() != df::COLLISION_EVENT) return 0;
+    if (static_cast<const df::EventCollision*>(p_e)->getObject1() == this) ++m_count;
+    return 1;
+  }
+
+ private:
+  long& m_count;
+};
+
+class DefaultBodies : public Simulation {
+ public:
+  explicit DefaultBodies(const Scene& scene) : m_origin(scene.origin), m_tick(scene.tick) {
+    m_world.setLogSink([](const std::string&) {});
+    const df::World::Scope scope(m_world);
+    PM.setAspect(1);
+    PM.setGravity(cells(m_tick * m_tick * scene.gravity));
+    if (scene.field) m_field = std::make_unique<SceneField>(scene.field, m_tick);
+    chooseObstacles(scene);
+    for (const Body& body : scene.bodies) add(body);
+    for (const Joint& joint : scene.joints) add(joint);
+  }
+  ~DefaultBodies() override {
+    const df::World::Scope scope(m_world);
+    m_bodies.clear();
+    m_objects.clear();
+  }
+  DefaultBodies(const DefaultBodies&) = delete;
+  DefaultBodies& operator=(const DefaultBodies&) = delete;
+
+  void step(double /*tick*/, int /*substeps*/) override { m_world.update(); }
+
+  BodyState body(int index) const override {
+    BodyState state;
+    const CountingBody* p_body = m_bodies[static_cast<std::size_t>(index)].get();
+    if (p_body == nullptr) {
+      state.position = m_places[static_cast<std::size_t>(index)];
+      return state;
+    }
+    const df::Vector way = p_body->getWayFrom(cells(m_origin)), velocity = p_body->getVelocity();
+    state.position = {way.x(), way.y()};
+    state.velocity = {velocity.x() / m_tick, velocity.y() / m_tick};
+    state.angle = p_body->getAngle();
+    state.spin = p_body->getSpin() / m_tick;
+    return state;
+  }
+  long contacts() const override { return m_contacts; }
+
+ private:
+  static bool isPlain(const Body& body) {
+    return body.motion == Motion::FIXED && body.angle == 0 && body.shapes.size() == 1 &&
+           body.shapes[0].kind == Shape::Kind::BOX;
+  }
+  bool isObstacle(const Body& body) const {
+    return isPlain(body) && body.friction == m_friction && body.restitution == m_restitution;
+  }
+
+  // Objects without mass share one surface: that of the first.
+  void chooseObstacles(const Scene& scene) {
+    for (const Body& body : scene.bodies) {
+      if (!isPlain(body)) continue;
+      m_friction = body.friction;
+      m_restitution = body.restitution;
+      PM.setObstacleFriction(m_friction);
+      PM.setObstacleRestitution(m_restitution);
+      return;
+    }
+  }
+
+  void add(const Body& body) {
+    m_places.push_back(body.position);
+    if (isObstacle(body)) {
+      m_bodies.push_back(nullptr);
+      m_objects.push_back(std::make_unique<df::Object>());
+      const Vec half = body.shapes[0].half;
+      m_objects.back()->setBox(df::Box(df::Vector(-half.x, -half.y), 2 * half.x, 2 * half.y));
+      m_objects.back()->setPosition(cells(m_origin + body.position));
+      return;
+    }
+    m_bodies.push_back(std::make_unique<CountingBody>(m_contacts));
+    CountingBody& made = *m_bodies.back();
+    if (body.shapes.empty()) made.setSolidness(df::SPECTRAL);
+    // A game that is refused a place for a body has none to put it.
+    if (made.setPosition(cells(m_origin + body.position)) != 0) WM.removeObject(&made);
+    addShapes(made, body.shapes);
+    made.setAngle(body.angle);
+    made.setVelocity(cells(m_tick * body.velocity));
+    made.setSpin(m_tick * body.spin);
+    made.setMass(body.mass);
+    made.setFriction(body.friction);
+    made.setRestitution(body.restitution);
+    made.setTurning(body.rotates);
+    if (body.motion != Motion::DYNAMIC) {
+      made.setKinematic();
+      return;
+    }
+    if (body.linear_drag > 0) made.setDrag(m_tick * body.linear_drag / body.mass);
+    if (m_field) made.setField(m_field.get(), cells(m_origin));
+  }
+
+  // A part's centre counts from the centre of mass of those before it; a scene's from that of the whole.
+  static void addShapes(CountingBody& made, const std::vector<Shape>& shapes) {
+    double area = 0;
+    Vec middle;
+    for (const Shape& shape : shapes) {
+      const bool is_round = shape.kind == Shape::Kind::CIRCLE;
+      const bool is_part = shapes.size() > 1;
+      const df::Vector centre = cells(shape.centre - middle);
+      if (is_part && is_round) made.addCircle(shape.radius, centre);
+      if (is_part && !is_round) made.addBoxShape(2 * shape.half.x, 2 * shape.half.y, centre);
+      if (!is_part && is_round) made.setCircle(shape.radius);
+      if (!is_part && !is_round) made.setBoxShape(2 * shape.half.x, 2 * shape.half.y);
+      const double more =
+          is_round ? std::numbers::pi * shape.radius * shape.radius : 4 * shape.half.x * shape.half.y;
+      area += more;
+      middle = middle + more / area * (shape.centre - middle);
+    }
+  }
+
+  void add(const Joint& joint) {
+    df::Body* p_a = joint.a < 0 ? nullptr : m_bodies[static_cast<std::size_t>(joint.a)].get();
+    df::Body* p_b = joint.b < 0 ? nullptr : m_bodies[static_cast<std::size_t>(joint.b)].get();
+    const df::Vector at_a = cells(m_origin + joint.anchor_a), at_b = cells(m_origin + joint.anchor_b);
+    if (joint.kind == Joint::Kind::ROD) {
+      PM.addDistance(p_a, p_b, at_a, at_b);
+      return;
+    }
+    PM.addSpring(p_a, p_b, at_a, at_b, m_tick * m_tick * joint.stiffness, m_tick * joint.damping)
+        .setLength(joint.rest_length);
+  }
+
+  df::World m_world;
+  Vec m_origin;
+  double m_tick;
+  double m_friction = -1;
+  double m_restitution = -1;
+  long m_contacts = 0;
+  std::unique_ptr<SceneField> m_field;
+  std::vector<Vec> m_places;                            // by index
+  std::vector<std::unique_ptr<CountingBody>> m_bodies;  // by index; null: an Object
+  std::vector<std::unique_ptr<df::Object>> m_objects;
+};
+
+}  // namespace
+
+SimulationPtr bodiesByDefault(const Scene& scene) {
+  return scene.rigid() ? std::make_unique<DefaultBodies>(scene) : nullptr;
+}
+
+}  // namespace lab
