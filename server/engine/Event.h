@@ -5,12 +5,13 @@
 #include <string>
 #include <utility>
 
+#include "EventType.h"
 #include "StandardHeaders.h"
 
 namespace df {
 
 /// Type of an Event nobody has named.
-inline const std::string UNDEFINED_EVENT = "df-undefined";
+inline const EventType UNDEFINED_EVENT("df-undefined");
 
 class Event {
  public:
@@ -21,18 +22,18 @@ class Event {
   /// The name by which Objects register interest and tell events apart. Names that begin with "df-"
   /// belong to the engine.
   void setType(std::string new_type) {
-    m_type = std::move(new_type);
+    m_type = EventType(std::move(new_type));
     m_p_known_type = nullptr;
   }
-  const std::string& getType() const { return m_p_known_type != nullptr ? *m_p_known_type : m_type; }
+  const EventType& getType() const { return m_p_known_type != nullptr ? *m_p_known_type : m_type; }
 
  protected:
   /// An event of one of the engine's own types, a constant that lives for ever: nothing is copied.
-  explicit Event(const std::string* p_known_type) : m_p_known_type(p_known_type) {}
+  explicit Event(const EventType* p_known_type) : m_p_known_type(p_known_type) {}
 
  private:
-  const std::string* m_p_known_type = &UNDEFINED_EVENT;
-  std::string m_type;
+  const EventType* m_p_known_type = &UNDEFINED_EVENT;
+  EventType m_type;
 };
 
 }  // namespace df

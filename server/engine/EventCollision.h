@@ -13,7 +13,7 @@
 
 namespace df {
 
-inline const std::string COLLISION_EVENT = "df-collision";
+inline const EventType COLLISION_EVENT("df-collision");
 
 class EventCollision : public Event {
  public:

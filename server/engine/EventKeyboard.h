@@ -8,7 +8,7 @@
 
 namespace df {
 
-inline const std::string KEYBOARD_EVENT = "df-keyboard";
+inline const EventType KEYBOARD_EVENT("df-keyboard");
 
 class EventKeyboard : public Event {
  public:

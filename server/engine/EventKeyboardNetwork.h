@@ -6,7 +6,7 @@
 
 namespace df {
 
-inline const std::string NETWORK_KEYBOARD_EVENT = "df-keyboard-network";
+inline const EventType NETWORK_KEYBOARD_EVENT("df-keyboard-network");
 
 class EventKeyboardNetwork : public EventKeyboard {
  public:

@@ -9,9 +9,9 @@
 
 namespace df {
 
-inline const std::string MSE_EVENT = "df-mouse";
+inline const EventType MSE_EVENT("df-mouse");
 /// The older name.
-inline const std::string MOUSE_EVENT = "df-mouse";
+inline const EventType MOUSE_EVENT("df-mouse");
 
 class EventMouse : public Event {
  public:

@@ -6,7 +6,7 @@
 
 namespace df {
 
-inline const std::string NETWORK_MSE_EVENT = "df-mouse-network";
+inline const EventType NETWORK_MSE_EVENT("df-mouse-network");
 
 class EventMouseNetwork : public EventMouse {
  public:

@@ -8,7 +8,7 @@
 
 namespace df {
 
-inline const std::string NETWORK_EVENT = "df-network";
+inline const EventType NETWORK_EVENT("df-network");
 
 enum class NetworkEventLabel {
   UNDEFINED = -1,

@@ -5,7 +5,7 @@
 
 namespace df {
 
-inline const std::string NETWORK_ACCEPT_EVENT = "df-network-accept";
+inline const EventType NETWORK_ACCEPT_EVENT("df-network-accept");
 
 class EventNetworkAccept : public EventNetwork {
  public:

@@ -5,7 +5,7 @@
 
 namespace df {
 
-inline const std::string NETWORK_CLOSE_EVENT = "df-network-close";
+inline const EventType NETWORK_CLOSE_EVENT("df-network-close");
 
 class EventNetworkClose : public EventNetwork {
  public:

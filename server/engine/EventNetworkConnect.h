@@ -5,7 +5,7 @@
 
 namespace df {
 
-inline const std::string NETWORK_CONNECT_EVENT = "df-network-connect";
+inline const EventType NETWORK_CONNECT_EVENT("df-network-connect");
 
 class EventNetworkConnect : public EventNetwork {
  public:

@@ -6,7 +6,7 @@
 
 namespace df {
 
-inline const std::string NETWORK_CREATE_EVENT = "df-network-create";
+inline const EventType NETWORK_CREATE_EVENT("df-network-create");
 
 class EventNetworkCreate : public EventNetwork {
  public:

@@ -5,7 +5,7 @@
 
 namespace df {
 
-inline const std::string NETWORK_CUSTOM_EVENT = "df-custom-network";
+inline const EventType NETWORK_CUSTOM_EVENT("df-custom-network");
 
 class EventNetworkCustom : public EventNetwork {
  public:

@@ -6,7 +6,7 @@
 
 namespace df {
 
-inline const std::string NETWORK_DELETE_EVENT = "df-network-delete";
+inline const EventType NETWORK_DELETE_EVENT("df-network-delete");
 
 class EventNetworkDelete : public EventNetwork {
  public:

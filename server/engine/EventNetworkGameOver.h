@@ -5,7 +5,7 @@
 
 namespace df {
 
-inline const std::string NETWORK_GAME_OVER_EVENT = "df-network-game-over";
+inline const EventType NETWORK_GAME_OVER_EVENT("df-network-game-over");
 
 class EventNetworkGameOver : public EventNetwork {
  public:

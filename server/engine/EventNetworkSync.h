@@ -6,7 +6,7 @@
 
 namespace df {
 
-inline const std::string NETWORK_SYNC_EVENT = "df-network-sync";
+inline const EventType NETWORK_SYNC_EVENT("df-network-sync");
 
 class EventNetworkSync : public EventNetwork {
  public:

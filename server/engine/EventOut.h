@@ -8,7 +8,7 @@
 
 namespace df {
 
-inline const std::string OUT_EVENT = "df-out";
+inline const EventType OUT_EVENT("df-out");
 
 class EventOut : public Event {
  public:

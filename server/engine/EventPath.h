@@ -9,7 +9,7 @@
 
 namespace df {
 
-inline const std::string PATH_EVENT = "df-path";
+inline const EventType PATH_EVENT("df-path");
 
 enum SearchResult {
   NOT_FOUND,

@@ -10,8 +10,8 @@
 
 namespace df {
 
-inline const std::string JOIN_EVENT = "df-join";
-inline const std::string LEAVE_EVENT = "df-leave";
+inline const EventType JOIN_EVENT("df-join");
+inline const EventType LEAVE_EVENT("df-leave");
 
 /// `WM.getPlayer(getPlayer())` exists from this event on.
 class EventJoin : public Event {

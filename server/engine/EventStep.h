@@ -5,7 +5,7 @@
 
 namespace df {
 
-inline const std::string STEP_EVENT = "df-step";
+inline const EventType STEP_EVENT("df-step");
 
 class EventStep : public Event {
  public:

@@ -9,7 +9,7 @@
 
 namespace df {
 
-inline const std::string VIEW_EVENT = "df-view";
+inline const EventType VIEW_EVENT("df-view");
 
 class EventView : public Event {
  public:

@@ -13,7 +13,7 @@ int Interests::add(Object& object, const std::string& type) {
   if (!m_world.store().has(object.m_slot, WorldStore::kInWorld)) return -1;
   const auto [it, is_new] = m_numbers.try_emplace(type, static_cast<std::uint32_t>(m_tables.size()));
   if (is_new) m_tables.emplace_back();
-  auto& mine = object.m_interests;
+  auto& mine = object.m_p_profile->interests;
   if (std::find(mine.begin(), mine.end(), it->second) != mine.end()) return 0;
   mine.push_back(it->second);
   Table& table = m_tables[it->second];
@@ -24,7 +24,7 @@ int Interests::add(Object& object, const std::string& type) {
 
 int Interests::remove(Object& object, const std::string& type) {
   const auto it = m_numbers.find(type);
-  if (it == m_numbers.end() || std::erase(object.m_interests, it->second) == 0) return -1;
+  if (it == m_numbers.end() || std::erase(object.m_p_profile->interests, it->second) == 0) return -1;
   Table& table = m_tables[it->second];
   const auto entry = std::find(table.entries.begin(), table.entries.end(), object.key());
   *entry = ObjectKey{};
@@ -35,8 +35,8 @@ int Interests::remove(Object& object, const std::string& type) {
 
 // The entries need not be looked for: the Object's generation ends, so they name nobody.
 void Interests::dropAll(Object& object) {
-  for (std::uint32_t number : object.m_interests) ++m_tables[number].gone;
-  object.m_interests.clear();
+  for (std::uint32_t number : object.m_p_profile->interests) ++m_tables[number].gone;
+  object.m_p_profile->interests.clear();
 }
 
 void Interests::tidy(Table& table) {

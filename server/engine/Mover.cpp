@@ -116,7 +116,7 @@ void Mover::endTurn(ObjectKey key, FixedVector velocity, bool blocked) {
   const FixedVector acceleration = store.acceleration(s);
   if (acceleration != FixedVector{} && WorldStore::isVelocity(next + acceleration)) {
     next = next + acceleration;
-    store.set(s, WorldStore::kDerive, true);
+    store.setDerived(s, true);
   }
   store.settle(s, next, blocked);
 }

@@ -25,6 +25,7 @@
 #include "Box.h"
 #include "Event.h"
 #include "ObjectAttributes.h"
+#include "ObjectProfile.h"
 #include "Path.h"
 #include "Shape.h"
 #include "Solidness.h"
@@ -58,7 +59,7 @@ class Object {
 
   /// A name by which game code tells its Objects apart.
   virtual void setType(std::string new_type);
-  const std::string& getType() const { return m_type; }
+  const std::string& getType() const { return m_p_profile->type; }
 
   /// Place in the world's creation order: unique in a world, never used again, ascending. It changes only
   /// when a removed Object is inserted again, and with setId().
@@ -295,16 +296,11 @@ class Object {
   ObjectAttributes attributes() const;
   void stepPath();
 
+  // Few members, so that a game's own, which its handlers use, lie in the same cache line with these.
   WorldStore* m_p_store;  // never null: a store lives as long as its last Object
   std::uint32_t m_slot;
-  std::string m_type = "Object";
-  // What setSpeed and setDirection said. After an acceleration (a flag in the store) or setVelocity, which
-  // leaves the vector it got in the direction, they are derived when somebody asks.
-  mutable double m_speed = 0;
-  mutable Vector m_direction;
-  mutable bool m_direction_is_velocity = false;
-  std::vector<std::uint32_t> m_interests;    // numbers of event types, see Interests.h
   std::unique_ptr<ObjectExtras> m_p_extras;  // what only some have; null until it is needed
+  ObjectProfile* m_p_profile;                // never null, the store's
 };
 
 }  // namespace df

@@ -45,7 +45,7 @@ int Object::setSprite(const std::string& sprite_label, bool set_box) {
                          ? p_world->findExtras()->resources.sprite(sprite_label)
                          : nullptr;
   if (p_sprite == nullptr) {
-    if (p_world != nullptr) p_world->log("Object of type " + m_type + ": no sprite " + sprite_label);
+    if (p_world != nullptr) p_world->log("Object of type " + getType() + ": no sprite " + sprite_label);
     return -1;
   }
   return setSprite(p_sprite, set_box);

@@ -76,7 +76,7 @@ ObjectAttributes Object::attributes() const {
       pair("id", getId()),
       pair("active", flag(WorldStore::kActive)),
       pair("visible", flag(WorldStore::kVisible)),
-      pair("events", static_cast<double>(m_interests.size())),
+      pair("events", static_cast<double>(m_p_profile->interests.size())),
       pair("box", box.getCorner()) + pair("box-horizontal", box.width()) + pair("box-vertical", box.height()),
       pair("pos", getPosition()),
       pair("type", getType()),

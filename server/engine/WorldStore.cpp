@@ -45,6 +45,7 @@ WorldStore::Slot WorldStore::take(Object* p_o, bool heap) {
     m_accelerations.emplace_back();
     m_boxes.push_back(kCharacterBox);
     m_cards.emplace_back();
+    m_profiles.emplace_back();
   } else {
     s = m_free.front().slot;
     m_free.pop_front();
@@ -66,6 +67,7 @@ WorldStore::Slot WorldStore::take(Object* p_o, bool heap) {
 void WorldStore::give(Slot s) {
   if (++m_cards[s].generation == 0) m_cards[s].generation = 1;
   m_cards[s].p_object = nullptr;
+  m_profiles[s] = {};
   if (has(s, kPrecise)) --m_precise;
   m_cards[s].flags &= kDirty;
   if (!m_masks.empty()) m_masks.erase(s);
@@ -294,6 +296,7 @@ std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const Fi
     const FixedVector where = p_positions[s] + p_velocities[s];
     if (((where.x - low.x) | (high.x - where.x) | (where.y - low.y) | (high.y - where.y)) < 0) break;
     if (!steps.isFree(s, where)) {
+      __builtin_prefetch(m_cards[s].p_object);
       list(steps.found(), met);
       break;
     }
@@ -316,28 +319,42 @@ void WorldStore::touching(const FixedBox& box, Slot self, std::vector<ObjectKey>
   list(m_candidates, out);
 }
 
-// In creation order, each once. They are few, mostly one or two.
+// In creation order, each once. They are few, mostly one or two, and about to hear of it.
 void WorldStore::list(std::span<const Slot> found, std::vector<ObjectKey>& out) const {
+  const Card* p_cards = m_cards.data();
   if (found.size() == 1) {
-    out.push_back(key(found[0]));
+    const Card& card = p_cards[found[0]];
+    __builtin_prefetch(card.p_object);
+    out.push_back({found[0], card.generation});
     return;
   }
-  const std::size_t begin = out.size();
+  if (found.size() > kManyFound) return listMany(found, out);
+  std::array<std::uint64_t, kManyFound> orders;
+  std::array<Slot, kManyFound> slots;
+  std::size_t count = 0;
   for (const Slot s : found) {
-    const Card& card = m_cards[s];
-    out.push_back({s, card.generation});
-    std::size_t i = out.size() - 1;
-    for (; i > begin && i < begin + kManyFound && m_cards[out[i - 1].slot].order > card.order; --i) {
-      out[i] = out[i - 1];
+    const Card& card = p_cards[s];
+    __builtin_prefetch(card.p_object);
+    std::size_t i = count;
+    for (; i > 0 && orders[i - 1] > card.order; --i) {
+      orders[i] = orders[i - 1];
+      slots[i] = slots[i - 1];
     }
-    out[i] = {s, card.generation};
+    orders[i] = card.order;
+    slots[i] = s;
+    ++count;
   }
-  const auto first = out.begin() + static_cast<std::ptrdiff_t>(begin);
-  if (found.size() > kManyFound) {
-    std::sort(first, out.end(),
-              [this](ObjectKey a, ObjectKey b) { return m_cards[a.slot].order < m_cards[b.slot].order; });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i == 0 || slots[i] != slots[i - 1]) out.push_back({slots[i], p_cards[slots[i]].generation});
   }
-  out.erase(std::unique(first, out.end()), out.end());
+}
+
+void WorldStore::listMany(std::span<const Slot> found, std::vector<ObjectKey>& out) const {
+  const auto begin = static_cast<std::ptrdiff_t>(out.size());
+  for (const Slot s : found) out.push_back(key(s));
+  std::sort(out.begin() + begin, out.end(),
+            [this](ObjectKey a, ObjectKey b) { return m_cards[a.slot].order < m_cards[b.slot].order; });
+  out.erase(std::unique(out.begin() + begin, out.end()), out.end());
 }
 
 void WorldStore::setWatched(bool watched) {

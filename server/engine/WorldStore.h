@@ -23,6 +23,7 @@
 #include "Fixed.h"
 #include "Grid.h"
 #include "Mask.h"
+#include "ObjectProfile.h"
 #include "Paths.h"
 #include "Solidness.h"
 #include "WorldView.h"
@@ -101,6 +102,8 @@ class WorldStore {
   bool isStill(ObjectKey k) const { return m_cards[k.slot].generation == k.generation; }
   Object* find(ObjectKey k) const { return isCurrent(k) ? m_cards[k.slot].p_object : nullptr; }
   Object* object(Slot s) const { return m_cards[s].p_object; }
+  /// Stays where it is until the slot is given back.
+  ObjectProfile& profile(Slot s) { return m_profiles[s]; }
   FixedVector position(Slot s) const { return m_positions[s]; }
   /// It will be asked for its position, and perhaps for the rest.
   void prefetch(Slot s) const {
@@ -158,6 +161,11 @@ class WorldStore {
   /// The end of an Object's turn in update: its velocity from now on, and whether its move was blocked.
   void settle(Slot s, FixedVector velocity, bool blocked) {
     if (velocity != m_velocities[s] || blocked != isBlocked(s)) settleAnew(s, velocity, blocked);
+  }
+  /// kDerive, which nobody else sees.
+  void setDerived(Slot s, bool on) {
+    const std::uint32_t others = m_cards[s].flags & ~static_cast<std::uint32_t>(kDerive);
+    m_cards[s].flags = others | (on ? kDerive : 0u);
   }
   /// Flags that the watcher sees (active, visible, no-soft) are noted as changes.
   void set(Slot s, Flag flag, bool on);
@@ -266,15 +274,16 @@ class WorldStore {
   };
 
   // What a collision asks of the other, in half a cache line.
-  struct Card {
+  struct alignas(32) Card {
     Object* p_object = nullptr;
     std::uint64_t order = 0;  ///< place in creation order, never reused
     std::uint32_t generation = 1;
     std::uint32_t flags = 0;
     std::uint32_t index = 0;  ///< in m_order_list
-    Solidness solidness = HARD;
+    Solidness solidness : 8 = HARD;
     std::uint8_t altitude = 0;
   };
+  static_assert(sizeof(Card) == 32);
 
   ~WorldStore() = default;
   static bool within(FixedVector v, double cells) {
@@ -290,6 +299,7 @@ class WorldStore {
   void classify(Slot s);
   const Mask* spriteMask(Slot s) const;
   void list(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
+  void listMany(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
 
   World* m_p_world;
   std::uint32_t m_references = 1;
@@ -299,6 +309,7 @@ class WorldStore {
   std::vector<FixedVector> m_accelerations;
   std::vector<FixedBox> m_boxes;
   std::vector<Card> m_cards;
+  std::deque<ObjectProfile> m_profiles;
 
   Grid m_grid{m_positions, m_boxes};  // everybody who collides
   std::deque<Freed> m_free;           // longest free first

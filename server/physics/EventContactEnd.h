@@ -9,7 +9,7 @@
 
 namespace df {
 
-inline const std::string CONTACT_END_EVENT = "df-contact-end";
+inline const EventType CONTACT_END_EVENT("df-contact-end");
 
 class EventContactEnd : public Event {
  public:

@@ -1,0 +1,23 @@
+// What an Object has beside its place in the arrays of the world and is rarely asked for. The store keeps it,
+// by slot.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "Vector.h"
+
+namespace df {
+
+struct ObjectProfile {
+  std::string type = "Object";
+  // What setSpeed and setDirection said. After an acceleration (a flag in the store) or setVelocity, which
+  // leaves the vector it got in the direction, they are derived when somebody asks.
+  double speed = 0;
+  Vector direction;
+  bool direction_is_velocity = false;
+  std::vector<std::uint32_t> interests;  ///< numbers of event types, see Interests.h
+};
+
+}  // namespace df
