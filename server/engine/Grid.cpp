@@ -9,6 +9,13 @@ namespace {
 
 constexpr int kFirstWidthBits = 4;   // of level 1: boxes up to 16 by 4
 constexpr int kFirstHeightBits = 2;  // each further level takes four times as much on both axes
+// Cells are smaller than the largest boxes of their level: those who are near are fewer, and to look at more
+// cells costs little, for a word holds a row of them.
+constexpr int kFinerWidthBits = 2;
+constexpr int kFinerHeightBits = 1;
+
+constexpr double kWide = 64;  // cells per character
+constexpr double kFew = 512;
 
 int bitsFor(Fixed size) {
   return size <= 1 ? 0 : std::bit_width(static_cast<std::uint64_t>(size - 1));
@@ -20,8 +27,8 @@ Grid::Grid(const std::vector<FixedVector>& positions, const std::vector<FixedBox
     : m_positions(positions), m_boxes(boxes) {
   for (int n = 1; n < kLevels; ++n) {
     Level& level = m_levels[static_cast<std::size_t>(n)];
-    level.x_shift = kFixedBits + kFirstWidthBits + 2 * (n - 1);
-    level.y_shift = kFixedBits + kFirstHeightBits + 2 * (n - 1);
+    level.x_shift = kFixedBits + kFirstWidthBits - kFinerWidthBits + 2 * (n - 1);
+    level.y_shift = kFixedBits + kFirstHeightBits - kFinerHeightBits + 2 * (n - 1);
   }
 }
 
@@ -66,7 +73,8 @@ int Grid::size() const {
 std::size_t Grid::bytes() const {
   std::size_t sum = m_records.capacity() * sizeof(Record);
   for (const Level& level : m_levels) {
-    sum += level.words.capacity() * (sizeof(std::uint64_t) + 64 * sizeof(Slot));
+    const std::size_t cell = sizeof(Slot) + (level.spots != nullptr ? sizeof(Spot) : 0);
+    sum += level.words.capacity() * (sizeof(std::uint64_t) + 64 * cell);
   }
   return sum;
 }
@@ -157,6 +165,12 @@ void Grid::rebuild(int number, std::size_t word_count) {
   }
   if (x0 > x1) x0 = x1 = y0 = y1 = 0;
   level.shape(word_count, x0, y0, x1, y1);
+  level.spots = nullptr;
+  // Where they are scattered so widely that they hardly ever meet, nobody would read them.
+  const double area = static_cast<double>(x1 - x0 + 1) * static_cast<double>(y1 - y0 + 1);
+  if (number == 0 && area <= kWide * std::max(kFew, static_cast<double>(level.count))) {
+    level.spots = std::make_unique_for_overwrite<Spot[]>(word_count * 64 + kRowOfSpots);
+  }
   for (Slot s = 0; s < m_records.size(); ++s) {
     if (m_records[s].level == number) link(s, level, level.cellOf(anchor(s, number)));
   }

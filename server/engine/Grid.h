@@ -1,17 +1,20 @@
 // The broad phase: finds the solid boxes that may touch a box.
 //
-// Boxes are filed by their upper left corner, once each, in levels of cells that are as large as the largest
-// box of the level. Level 0 is for single characters: cells of 1 by 1, so that a query looks at nine of them.
-// Above it the cells grow by four from 16 by 4 on, four times as wide as high, as text is. Where characters
-// are few among sprites, they are filed in level 1 with them, and there is one level less to look through.
+// Boxes are filed by their upper left corner, once each, in levels by their size. Level 0 is for single
+// characters: cells of 1 by 1, so that a query looks at nine of them. Above it the largest boxes of a level
+// grow by four from 16 by 4 on, four times as wide as high, as text is; the cells are a quarter as wide and
+// half as high. Where characters are few among sprites, they are filed in level 1 with them, and there is one
+// level less to look through.
 //
 // A level is two arrays: a bit per cell that says whether it is occupied, 64 cells of a row to a word, the
 // words of the rows below following; and per cell the first of its slots. Nine cells are looked at in three
-// neighbouring words. Cells are mapped onto the arrays as onto a torus: the part of the world that the boxes
-// of a level are spread over lies flat, what is a whole turn away falls onto the same cells, shifted by a
-// hash, and is told apart by the exact test. So the arrays are about as long as there are boxes, wherever
-// these are: 32 to 64 cells for each. Only what is occupied is touched. Nothing is allocated when something
-// moves.
+// neighbouring words. Level 0 has a third array: per cell the spot in it where its character is, in 15 bits;
+// so that of nine neighbours only those are looked up that touch, or nearly so. (Where characters are few and
+// far between, there is none.) Cells are mapped onto the arrays as onto a torus: the part of the world that
+// the boxes of a level are spread over lies flat, what is a whole turn away falls onto the same cells,
+// shifted by a hash, and is told apart by the exact test. So the arrays are about as long as there are boxes,
+// wherever these are: 32 to 64 cells for each. Only what is occupied is touched. Nothing is allocated when
+// something moves.
 //
 // The grid reads positions and boxes from the store's arrays; a slot is filed under what they say when
 // file() or refile() is called.
@@ -36,6 +39,7 @@ inline constexpr FixedBox kCharacterBox{{-kFixedOne / 2, -kFixedOne / 2}, {kFixe
 class Grid {
   struct Level;
   struct Record;
+  using Spot = std::uint16_t;
 
  public:
   using Slot = std::uint32_t;
@@ -73,8 +77,10 @@ class Grid {
 
  private:
   static constexpr Slot kNone = 0x7FFFFFFF;
-  static constexpr Slot kMore = 0x80000000;   // in a cell's first slot: others follow
-  static constexpr std::int64_t kBlock = 64;  // cells per side of the squares that lie flat
+  static constexpr Slot kMore = 0x80000000;      // in a cell's first slot: others follow
+  static constexpr Spot kSeveral = 0x8000;       // in a cell's spot: it has several slots, anywhere
+  static constexpr std::size_t kRowOfSpots = 4;  // that are read at a time, three of them for their own sake
+  static constexpr std::int64_t kBlock = 64;     // cells per side of the squares that lie flat
   static constexpr std::size_t kLeastWords = 256;
   static constexpr std::size_t kBoxesPerWord = 2;  // at most, on average
 
@@ -98,11 +104,18 @@ class Grid {
     int count = 0;
     std::vector<std::uint64_t> words;  // bit per cell
     std::unique_ptr<Slot[]> heads;     // first slot of each occupied cell; of others nothing sensible
+    std::unique_ptr<Spot[]>
+        spots;  // of level 0, or null: where in each occupied cell; of others nothing sensible
 
     std::uint32_t wordOf(std::int64_t x, std::int64_t y) const;
     std::uint32_t cellOf(FixedVector anchor) const;
     void shape(std::size_t word_count, std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1);
   };
+
+  /// Where in its cell a position is: x in the lower eight bits, y in the seven above, both rounded down.
+  static Spot spotOf(FixedVector p) {
+    return static_cast<Spot>((p.x >> (kFixedBits - 8) & 0xFF) | (p.y >> (kFixedBits - 7) & 0x7F) << 8);
+  }
 
   int levelOf(const FixedBox& box) const;
   void count(const Record& record, int by);
@@ -160,11 +173,13 @@ inline void Grid::link(Slot slot, Level& level, std::uint32_t cell) {
     word |= bit;
     record.next = kNone;
     head = slot;
+    if (level.spots != nullptr) level.spots[cell] = spotOf(m_positions[slot]);
     return;
   }
   record.next = head & ~kMore;
   m_records[record.next].previous = slot;
   head = slot | kMore;
+  if (level.spots != nullptr) level.spots[cell] = kSeveral;
 }
 
 inline void Grid::unlink(Slot slot, Level& level) {
@@ -175,18 +190,24 @@ inline void Grid::unlink(Slot slot, Level& level) {
   }
   if (record.next != kNone) m_records[record.next].previous = record.previous;
   if (record.previous != kNone) {
-    Record& previous = m_records[record.previous];
-    previous.next = record.next;
-    if (previous.next == kNone && previous.previous == kNone) level.heads[record.cell] &= ~kMore;
+    m_records[record.previous].next = record.next;
   } else {
-    const bool more = m_records[record.next].next != kNone;
-    level.heads[record.cell] = record.next | (more ? kMore : 0);
+    level.heads[record.cell] = record.next | kMore;
   }
+  const Slot head = level.heads[record.cell] & ~kMore;
+  if (m_records[head].next != kNone) return;
+  level.heads[record.cell] = head;
+  if (level.spots != nullptr) level.spots[record.cell] = spotOf(m_positions[head]);
 }
 
 inline void Grid::refile(Slot slot, Level& level) {
-  const std::uint32_t cell = level.cellOf(anchor(slot, m_records[slot].level));
-  if (cell == m_records[slot].cell) return;
+  const Record& record = m_records[slot];
+  const std::uint32_t cell = level.cellOf(anchor(slot, record.level));
+  if (cell == record.cell) {
+    const bool alone = (record.next & record.previous) == kNone;
+    if (alone && level.spots != nullptr) level.spots[cell] = spotOf(m_positions[slot]);
+    return;
+  }
   unlink(slot, level);
   link(slot, level, cell);
 }

@@ -20,14 +20,14 @@ void Grid::Steps::lookAtOthers(Slot s, FixedVector where) {
   for (std::uint32_t left = m_others; left != 0; left &= left - 1) visit(std::countr_zero(left), s, box);
 }
 
-// The window is no more than four cells wide and high for a box of its level; as for characters, the numbers
+// The window is a few cells wide and high for a box of its level; as for characters, the numbers
 // of its cells follow from the box's own while it stays in one block.
 bool Grid::Steps::isBoxFree(Slot s, const Record& own, FixedVector where) {
   m_count = 0;
   m_lifted = m_plain = false;
   const Level& level = m_grid.m_levels[static_cast<std::size_t>(own.level)];
   const FixedBox box = translate(m_grid.m_boxes[s], where);
-  const FixedVector low = box.corner - FixedVector{Fixed{1} << level.x_shift, Fixed{1} << level.y_shift};
+  const FixedVector low = box.corner - largest(own.level);
   const FixedVector high = box.corner + box.size;
   const FixedVector from = m_p_positions[s] + m_grid.m_boxes[s].corner;
   const std::int64_t own_x = from.x >> level.x_shift;

@@ -120,6 +120,41 @@ TEST(Grid, ABoxStepsWhereItTouchesNobody) {
   }
 }
 
+TEST(Grid, ATouchIsExactHoweverCoarselyItsSpotIsKept) {
+  Random random(11);
+  // On the lines between spots, and the least possible beside them.
+  const auto number = [&] { return random.below(8 * 256) * (kFixedOne / 256) + random.below(3) - 1; };
+  int touched = 0;
+  for (const int count : {4, 12, 60}) {
+    Filed it(60);
+    for (int round = 0; round < 20000; ++round) {
+      const auto slot = static_cast<Grid::Slot>(random.below(count));
+      // The middle of a block, far from its border.
+      FixedVector where{fromCells(30) + number(), fromCells(30) + number()};
+      if (!it.filed[slot]) {
+        it.put(slot, where, kCharacterBox);
+        continue;
+      }
+      // Half of them a cell apart from somebody, or nearly so.
+      const FixedVector near = it.positions[static_cast<std::size_t>(random.below(count))];
+      if (random.below(2) == 0) where.x = near.x + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
+      if (random.below(2) == 0) where.y = near.y + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
+      const std::vector<Grid::Slot> expected = it.touching(translate(kCharacterBox, where), slot);
+      Grid::Steps steps(it.grid);
+      ASSERT_EQ(steps.isFree(slot, where), expected.empty()) << "round " << round;
+      if (expected.empty()) {
+        it.positions[slot] = where;
+        steps.take(slot);
+      } else {
+        ++touched;
+        ASSERT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected) << "round " << round;
+        if (random.below(4) == 0) it.put(slot, where, kCharacterBox);  // they may share cells
+      }
+    }
+  }
+  EXPECT_GT(touched, 10000);
+}
+
 TEST(Grid, ManyInOneCellComeAndGoInAnyOrder) {
   Random random(9);
   Filed it(300);
