@@ -22,8 +22,8 @@ class GameModule {
 
   /// "saucershoot": the file's name without folder and ending.
   const std::string& name() const { return m_name; }
-  /// Where its files are (sprites, sounds): a folder of the module's name beside it, the one it is in itself, and
-  /// the one above, for many build in a folder of their own.
+  /// Where its files are (sprites, sounds): a folder of the module's name beside it, the one it is in itself,
+  /// and the one above, for many build in a folder of their own.
   std::vector<std::string> resourceFolders() const;
   /// Run the game's main() on this thread; what it returns.
   int main() const;

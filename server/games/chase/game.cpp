@@ -18,10 +18,16 @@ constexpr int kAimTicks = 12;     // hounds look round so often
 constexpr int kGoldPerHound = 5;  // that makes another one come
 const Box kBody(Vector(-0.4, -0.4), 0.8, 0.8);
 
+/// In two steps: which argument of a call is worked out first is the compiler's choice.
+Vector dice(int width, int height) {
+  const int y = WM.randomInt(height);
+  return Vector(WM.randomInt(width), y);
+}
+
 /// A free place, away from the row of the texts.
 Vector anywhere(const Object* p_o) {
   while (true) {
-    const Vector place(1 + WM.randomInt(78), 2 + WM.randomInt(21));
+    const Vector place = Vector(1, 2) + dice(78, 21);
     if (!WM.isCollision(p_o, place)) return place;
   }
 }
@@ -95,7 +101,8 @@ struct Hound : Object {
     setSolidness(SOFT);
     setBox(kBody);
     setStaticLook();
-    setPosition(Vector(WM.randomInt(2) * 79, 1 + WM.randomInt(22)));
+    const Vector side = dice(2, 22);
+    setPosition(Vector(79 * side.x(), 1 + side.y()));
     registerInterest(STEP_EVENT);
   }
   int eventHandler(const Event* p_e) override {
@@ -108,8 +115,8 @@ struct Hound : Object {
       if (p_prey == nullptr || way(p_hare) < way(p_prey)) p_prey = p_hare;
     }
     // A hound that knows no prey runs about, and no two take the same way.
-    Vector target(WM.randomInt(80), 1 + WM.randomInt(22));
-    if (p_prey != nullptr) target = p_prey->getPosition() + Vector(WM.randomInt(7) - 3, WM.randomInt(3) - 1);
+    Vector target = Vector(0, 1) + dice(80, 22);
+    if (p_prey != nullptr) target = p_prey->getPosition() + dice(7, 3) - Vector(3, 1);
     Vector direction = target - getPosition();
     direction.normalize();
     direction.scale(0.36);

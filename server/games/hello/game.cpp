@@ -16,8 +16,10 @@ struct Walker : Object {
   explicit Walker(Player* p_player) : player(p_player->getId()), color(p_player->getColor()) {
     p_player->setObject(this);
     setBox(Box(Vector(-0.4, -0.4), 0.8, 0.8));  // those side by side do not touch
-    do setPosition(Vector(WM.randomInt(80), WM.randomInt(24)));
-    while (WM.isCollision(this, getPosition()));
+    do {
+      const int y = WM.randomInt(24);  // in two steps: which argument comes first is the compiler's choice
+      setPosition(Vector(WM.randomInt(80), y));
+    } while (WM.isCollision(this, getPosition()));
     registerInterest(KEYBOARD_EVENT);
   }
   int eventHandler(const Event* p_e) override {

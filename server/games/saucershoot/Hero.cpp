@@ -189,7 +189,8 @@ df::Vector Hero::freePlace() {
   df::Vector place;
   for (int attempt = 0; attempt < 20; ++attempt) {
     const int rows = static_cast<int>(bottomRow() - topRow()) - 3;
-    place = df::Vector(6 + WM.randomInt(8), topRow() + 2 + WM.randomInt(rows));
+    const int row = WM.randomInt(rows);  // first: the order of arguments is the compiler's choice
+    place = df::Vector(6 + WM.randomInt(8), topRow() + 2 + row);
     if (!WM.isCollision(this, place)) break;
   }
   setBox(ship);

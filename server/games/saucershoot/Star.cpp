@@ -11,7 +11,8 @@ Star::Star() : m_near(WM.randomInt(3) == 0) {
   setAltitude(0);
   setStaticLook();
 
-  setPosition(df::Vector(WM.randomInt(DM.getHorizontal()), WM.randomInt(DM.getVertical())));
+  const int row = WM.randomInt(DM.getVertical());  // first: the order of arguments is the compiler's choice
+  setPosition(df::Vector(WM.randomInt(DM.getHorizontal()), row));
   const double speed = m_near ? 0.15 : 0.05;
   setVelocity(df::Vector(-speed - 0.01 * WM.randomInt(5), 0));
 }

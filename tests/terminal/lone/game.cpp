@@ -41,7 +41,8 @@ class Walker : public Object {
     return 1;
   }
   int draw() {
-    return DM.drawString(getPosition(), "WALKED-" + std::string(1, "0$%&*"[step % 5]), LEFT_JUSTIFIED, YELLOW);
+    return DM.drawString(getPosition(), "WALKED-" + std::string(1, "0$%&*"[step % 5]), LEFT_JUSTIFIED,
+                         YELLOW);
   }
 
  private:
