@@ -202,7 +202,7 @@ inline bool Grid::Steps::gather(Slot s, FixedVector where, unsigned near) {
     const Slot head = m_p_heads[(m_cell + neighbour) & m_cell_mask];
     const Slot first = head & ~kMore;
     m_few[count] = first;
-    count += touches(first, corner) & (first != s) ? 1 : 0;
+    count += (touches(first, corner) & (first != s)) ? 1 : 0;
     if ((head & kMore) == 0) continue;
     for (Slot t = m_p_records[first].next; t != kNone; t = m_p_records[t].next) {
       if (count >= kFew - 9) return false;

@@ -37,7 +37,7 @@ class DatagramService {
     std::optional<std::size_t> room() const override { return m_link.path() ? m_link.room() : std::nullopt; }
     std::string peerAddress() const override;
     /// send() is about to be called.
-    void prefetch() const { m_link.prefetch(); }
+    void prefetch() const override { m_link.prefetch(); }
 
     bool renew(const KeyExporter& exporter, Epoch epoch);
     bool renew(const ReliableChannel& stream, Epoch epoch) override;

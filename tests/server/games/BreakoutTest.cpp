@@ -44,7 +44,7 @@ bool shows(const World& world, std::uint32_t player, const std::string& text) {
 class BreakoutFor : public ::testing::TestWithParam<int> {};
 
 TEST_P(BreakoutFor, BotsClearTheFirstLevel) {
-  hostGame(breakout_main, 1, [this](World& world) {
+  hostGame(breakout_main, 1, [](World& world) {
     std::vector<std::uint32_t> players;
     std::vector<Fingers> fingers;
     for (int i = 0; i < GetParam(); ++i) {
