@@ -42,7 +42,7 @@ Ship::Ship(df::Player& player) : m_player(player.getId()), m_color(player.getCol
 }
 
 int Ship::eventHandler(const df::Event* p_e) {
-  const std::string& type = p_e->getType();
+  const auto& type = p_e->getType();
   if (type == df::STEP_EVENT) {
     step();
   } else if (type == df::KEYBOARD_EVENT) {

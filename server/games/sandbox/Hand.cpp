@@ -46,7 +46,7 @@ Hand::~Hand() {
 }
 
 int Hand::eventHandler(const df::Event* p_e) {
-  const std::string& type = p_e->getType();
+  const auto& type = p_e->getType();
   if (type == df::STEP_EVENT) {
     step();
   } else if (type == df::MSE_EVENT) {

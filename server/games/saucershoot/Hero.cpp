@@ -70,7 +70,7 @@ Hero::Hero(df::Player& player)
 }
 
 int Hero::eventHandler(const df::Event* p_e) {
-  const std::string& type = p_e->getType();
+  const auto& type = p_e->getType();
   if (type == df::STEP_EVENT) {
     step();
   } else if (type == df::KEYBOARD_EVENT) {

@@ -198,19 +198,6 @@ TEST_F(UtilityTest, SocketsFailAndSayOnceWhatToUseInstead) {
   EXPECT_EQ(logged("games need no sockets here"), 1);
 }
 
-TEST_F(UtilityTest, CompatTurnsTheLogLevelRound) {
-  LM.setLogLevel(1);
-  LM.writeLog(2, "two");
-  LM.writeLog(0, "zero");
-  EXPECT_EQ(logged("two"), 0);
-  EXPECT_EQ(logged("zero"), 1);
-  world.setCompat();
-  LM.writeLog(2, "two");
-  LM.writeLog(0, "zero");
-  EXPECT_EQ(logged("two"), 1);
-  EXPECT_EQ(logged("zero"), 1);
-}
-
 TEST_F(UtilityTest, CompatCharactersOneApartDoNotTouch) {
   Object a;
   Object b;
