@@ -6,15 +6,23 @@
 namespace naiad {
 
 void TruthRecorder::beforeSnapshot(const Replica& replica, std::uint32_t tick) {
-  if (m_started) {
-    for (; isNewer(tick, m_tick) && !m_full; ++m_tick) record(replica, m_tick);
+  if (m_started && !isNewer(tick, m_tick)) return;
+  if (m_started && m_complete) {
+    const std::uint32_t end = m_skips ? m_tick + 1 : tick;
+    for (; m_tick != end && !m_full; ++m_tick) record(replica, m_tick);
   }
-  if (!m_started || isNewer(tick, m_tick)) m_tick = tick;
+  m_tick = tick;
   m_started = true;
 }
 
+void TruthRecorder::afterSnapshot(std::uint32_t tick, bool complete, bool skips) {
+  if (tick != m_tick) return;
+  m_complete = complete;
+  m_skips = skips;
+}
+
 void TruthRecorder::finish(const Replica& replica) {
-  if (m_started) record(replica, m_tick);
+  if (m_started && m_complete) record(replica, m_tick);
   m_started = false;
 }
 

@@ -1,9 +1,10 @@
 // What a bot saw, tick by tick, to be compared with the server's truth file afterwards.
 //
 // Several snapshots may share a tick, so a tick's picture is final only when the next tick's first snapshot
-// comes, or at the end. A tick without a snapshot has the picture that the replica extrapolates, for that is
-// what the server relies on. Pictures are kept until a cap of ticks and cells is reached; then recording
-// stops.
+// comes, or at the end; and it is recorded only if the last of them was complete: else the server itself says
+// that the picture is not whole yet. A tick without a snapshot has the picture that the replica extrapolates,
+// for that is what the server relies on; but on the stream it may have been skipped, because what went before
+// had not left yet. Pictures are kept until a cap of ticks and cells is reached; then recording stops.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +26,8 @@ class TruthRecorder {
 
   /// Before a snapshot of `tick` is applied to `replica`.
   void beforeSnapshot(const Replica& replica, std::uint32_t tick);
+  /// After a snapshot of `tick` was. `complete` says its header; `skips`: may ticks be skipped from here on?
+  void afterSnapshot(std::uint32_t tick, bool complete, bool skips);
   /// No further snapshot comes.
   void finish(const Replica& replica);
 
@@ -56,6 +59,8 @@ class TruthRecorder {
   bool m_full = false;
   bool m_started = false;
   std::uint32_t m_tick = 0;  ///< of the newest snapshot applied
+  bool m_complete = false;   ///< was it?
+  bool m_skips = false;
   std::map<std::uint32_t, df::Canvas> m_pictures;
   std::unordered_map<std::uint32_t, Track> m_tracks;  ///< by slot
   std::size_t m_gone_moved = 0;                       ///< moved objects whose slot was used again

@@ -60,6 +60,9 @@ class Bot {
         if (!m_options.truth_file.empty()) m_recorder.beforeSnapshot(session.replica(), tick);
         if (!m_first_tick) m_first_tick = tick;
       });
+      session.onAfterSnapshot([this, &session](const naiad::SnapshotHeader& header, const naiad::AckWindow&) {
+        m_recorder.afterSnapshot(header.tick, header.complete, !session.hasDatagrams(Clock::now()));
+      });
     });
     m_connection.start();
   }

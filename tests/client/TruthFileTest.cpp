@@ -108,6 +108,7 @@ TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
     snapshot.header.tick = tick;
     snapshot.records.objects = std::move(objects);
     replica.apply(snapshot);
+    recorder.afterSnapshot(tick, true, false);
   };
   take(10, {});
   take(10, {star(10, 5, 1)});   // a second part of tick 10
@@ -136,10 +137,40 @@ TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
   EXPECT_FALSE(recorder.compare(path + "-none", 1).readable);
 }
 
+TEST_F(TruthFileTest, RecorderLeavesOutWhatTheServerSaysIsNotWhole) {
+  const Replica replica;
+  TruthRecorder recorder;
+  const auto take = [&](std::uint32_t tick, bool complete, bool skips) {
+    recorder.beforeSnapshot(replica, tick);
+    recorder.afterSnapshot(tick, complete, skips);
+  };
+  TruthWriter writer(path);
+  const df::Canvas blank(80, 24);
+  for (std::uint32_t tick = 1; tick <= 12; ++tick) {
+    const bool whole = tick == 3 || tick == 4 || tick == 7 || tick >= 10;
+    writer.write(tick, 1, whole ? blank : starAt(1));
+  }
+  take(1, false, false);  // a large world begins to come
+  take(2, false, false);
+  take(2, false, false);
+  take(3, false, false);
+  take(3, true, false);  // and is there
+  take(5, false, false);
+  take(7, true, true);  // on the stream: 8 and 9 were skipped, perhaps
+  take(10, true, false);
+  take(9, false, true);  // late: it says nothing of 10
+  take(12, true, false);
+  recorder.finish(replica);
+  const TruthRecorder::Comparison result = recorder.compare(path, 1);
+  EXPECT_EQ(result.ticks, 6u);
+  EXPECT_EQ(result.wrong, 0u) << "first at " << result.first_wrong_tick;
+}
+
 TEST_F(TruthFileTest, RecorderStopsAtItsCap) {
   Replica replica;
   TruthRecorder recorder(80 * 24 * 10);
   recorder.beforeSnapshot(replica, 1);
+  recorder.afterSnapshot(1, true, false);
   recorder.beforeSnapshot(replica, 2000000000);  // a hostile jump
   EXPECT_EQ(recorder.tickCount(), 10u);
 }
