@@ -185,15 +185,19 @@ void WorldProcess::look(std::uint32_t tick) {
   const Clock::time_point now = Clock::now();
   m_waited += std::min<std::chrono::nanoseconds>(now - m_looked, kMostBetweenLooks);
   m_looked = now;
-  int status = 0;
-  if (waitpid(m_process, &status, WNOHANG) == m_process) return finish(status);
+  if (int status = 0; m_process > 0 && waitpid(m_process, &status, WNOHANG) == m_process) {
+    m_process = -1;
+    m_status = status;
+    m_waited = {};
+  }
+  // What it said last comes before its end, unless a process that it has left behind keeps the line open.
+  if (m_status && (m_state == State::kEnding || m_waited > kEndTime)) return finish(*m_status);
   if (m_waited <= patience()) return;
   if (m_state == State::kEnding) return kill();
   fail(WorldEnd::kHung, m_state == State::kStarting ? "did not begin" : "did not answer any more");
 }
 
 void WorldProcess::finish(int status) {
-  m_process = -1;
   m_state = State::kEnded;
   asio::error_code ignored;
   m_socket.close(ignored);

@@ -82,6 +82,7 @@ class WorldProcess : public WorldPort {
   asio::local::stream_protocol::socket m_socket;
   pid_t m_process;  ///< until it was waited for
   State m_state = State::kStarting;
+  std::optional<int> m_status;        ///< then
   std::optional<WorldEnd> m_failure;  ///< why it was killed
   std::optional<WorldEnd> m_end;
   Clock::time_point m_looked;

@@ -144,27 +144,33 @@ TEST_F(RoundEnd, ByAGameThatHangs) {
 }
 
 TEST_F(Rounds, WhatPlayersSeeIsWhatTheWorldsDraw) {
-  start({{"NAIAD_ON_GAME_OVER", "restart"}, {"NAIAD_TRUTH", home.knownServers().string() + ".truth"}});
-  auto ann = join("ann");
-  const std::uint32_t begin = ann->newestTick();
-  ASSERT_TRUE(serve([&] { return ann->newestTick() > begin + 60; }));
-  press(*ann, df::Keyboard::X);
-  ASSERT_TRUE(serve([&] { return ann->session().counters().resets == 1; })) << game->log();
-  const std::uint32_t again = ann->newestTick();
-  ASSERT_TRUE(serve([&] { return ann->newestTick() > again + 60; }));
+  const std::string truth = home.knownServers().string() + ".truth";
+  start({{"NAIAD_ON_GAME_OVER", "restart"}, {"NAIAD_TRUTH", truth}, {"NAIAD_INSECURE", "true"}});
+  TestClient ann(context, game->port(), "ann");
+  clients.push_back(&ann);
+  ASSERT_TRUE(serve([&] { return ann.joined() && shown(ann).steps >= 0; })) << game->log();
+  ann.forgetPictures();
+  const std::uint32_t begin = ann.newestTick();
+  ASSERT_TRUE(serve([&] { return ann.newestTick() > begin + 60; }));
+  press(ann, df::Keyboard::X);
+  ASSERT_TRUE(serve([&] { return ann.session().counters().resets == 1; })) << game->log();
+  const std::uint32_t again = ann.newestTick();
+  ASSERT_TRUE(serve([&] { return ann.newestTick() > again + 60; }));
+  game->signal(SIGTERM);
+  game->wait();
 
-  TruthReader reader(home.knownServers().string() + ".truth");
+  TruthReader reader(truth);
   int compared = 0;
+  int wrong = 0;
   for (auto record = reader.next(); record; record = reader.next()) {
-    const auto found = ann->pictures().find(record->tick);
-    // Between the rounds the old picture stands.
-    if (found == ann->pictures().end()) continue;
+    const auto found = ann.pictures().find(record->tick);
+    if (found == ann.pictures().end()) continue;
     ++compared;
-    EXPECT_EQ(countDifferences(found->second, record->canvas), 0)
-        << "tick " << record->tick << "\n"
-        << found->second.text() << record->canvas.text();
+    wrong += countDifferences(found->second, record->canvas) > 0 ? 1 : 0;
   }
   EXPECT_GT(compared, 100);
+  EXPECT_LE(wrong, numberAfter(game->log(), "skipped_ticks=").value_or(0))
+      << "more than the server skipped for her";
 }
 
 TEST_F(Rounds, AGameThatNeverBeginsEndsTheServer) {
