@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 
+#include <atomic>
 #include <cstdio>
 #include <map>
 #include <mutex>
@@ -11,9 +12,12 @@ namespace df {
 
 namespace {
 
+constinit std::atomic<bool> g_kept = false;
+
 // Empty, and every line goes to its end, wherever that is then.
 std::FILE* openEmpty(const std::string& filename) {
-  const int file = ::open(filename.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+  const int empty = g_kept ? 0 : O_TRUNC;
+  const int file = ::open(filename.c_str(), O_WRONLY | O_CREAT | empty | O_APPEND | O_CLOEXEC, 0666);
   return file < 0 ? nullptr : ::fdopen(file, "a");
 }
 
@@ -30,6 +34,10 @@ void writeToLogFile(const std::string& filename, const std::string& line, bool f
   std::fwrite(line.data(), 1, line.size(), p_file);
   std::fputc('\n', p_file);
   if (flush) std::fflush(p_file);
+}
+
+void keepLogFiles() {
+  g_kept = true;
 }
 
 bool writeToFile(const std::string& filename, const std::string& line) {

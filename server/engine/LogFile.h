@@ -9,6 +9,9 @@ namespace df {
 /// line is dropped. Others may append to it meanwhile. Any thread.
 void writeToLogFile(const std::string& filename, const std::string& line, bool flush);
 
+/// From now on writeToLogFile() empties none: another process of this game writes to them, too. Any thread.
+void keepLogFiles();
+
 /// Append a line to another file; its first line of this process empties it. Return false if that cannot be
 /// done. Any thread.
 bool writeToFile(const std::string& filename, const std::string& line);

@@ -1,5 +1,6 @@
 #include "World.h"
 
+#include <algorithm>
 #include <typeinfo>
 #include <utility>
 
@@ -193,8 +194,9 @@ void World::quarantine(ObjectKey key, const std::string& why) {
 
 // Input.
 
-std::uint32_t World::join(const std::string& name, Color color) {
-  const std::uint32_t id = m_next_player++;
+std::uint32_t World::join(const std::string& name, Color color, std::uint32_t id) {
+  id = std::max(id, m_next_player);
+  m_next_player = id + 1;
   m_input->push({.kind = InputQueue::kJoin, .player = id, .name = name, .color = color});
   return id;
 }

@@ -181,8 +181,8 @@ class World {
   // Input, for the host. What is put in is handled in the next tick, in the order it came.
 
   /// A player joins. Return the new player's id at once; the Player and its EventJoin come in the next
-  /// tick. Ids count up from 1 and are not used again.
-  std::uint32_t join(const std::string& name, Color color);
+  /// tick. Ids count up from 1 and are not used again; `id`: leave out those before this one.
+  std::uint32_t join(const std::string& name, Color color, std::uint32_t id = 0);
   /// A player goes, in the next tick. An unknown id is ignored then.
   void leave(std::uint32_t player);
   /// A key. Unknown keys, actions and players are ignored. `seen`: what was on the player's screen then.

@@ -40,6 +40,7 @@ std::string Counters::summary() const {
       {"snapshot_bytes", snapshot_bytes},
       {"skipped_ticks", skipped_ticks},
       {"late_ticks", late_ticks},
+      {"late_worlds", late_worlds},
       {"rebased_ticks", rebased_ticks},
   });
 }

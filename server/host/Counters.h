@@ -46,6 +46,7 @@ struct Counters {
       0;  ///< a client with unsent or unacknowledged bytes was not brought up to date
   std::uint64_t ticks = 0;
   std::uint64_t late_ticks = 0;     ///< began more than 5 ms after their deadline
+  std::uint64_t late_worlds = 0;    ///< ticks that began while a world's process was not ready for one
   std::uint64_t rebased_ticks = 0;  ///< a whole tick late: the schedule starts anew
 
   /// "connections=3 joined=2 …", only what is not zero.

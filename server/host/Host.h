@@ -1,8 +1,10 @@
 // Hosts a game: the Runner behind GM.run() in dfserver.
 //
-// The thread that runs `run` owns world and sessions; the sockets have a thread of their own
+// The thread that runs `run` owns worlds and sessions; the sockets have a thread of their own
 // (NetworkThread.h). Between two ticks it hears what came on streams, at the deadline it runs the tick. `run`
-// is the loop, `tick` one turn of it.
+// is the loop, `tick` one turn of it. Who plays in which world is the rooms' business (Room.h).
+//
+// Host.cpp has the loop, HostDoor.cpp how players come in, HostRounds.cpp what becomes of a world that ends.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -16,12 +18,11 @@
 #include "AddressPrefix.h"
 #include "Counters.h"
 #include "HostOptions.h"
-#include "LookBack.h"
 #include "NetworkThread.h"
 #include "PasswordCheck.h"
 #include "PlayerNews.h"
-#include "Publisher.h"
 #include "ResumeTokens.h"
+#include "Room.h"
 #include "Runner.h"
 #include "ServerIdentity.h"
 #include "Session.h"
@@ -56,11 +57,16 @@ class Host : public df::Runner {
   std::size_t connected() const;
   /// A player who is alone and for whom the game is over (HostOptions::on_game_over) ends it for all.
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
-  /// run() has ended because the game is over, and another round is to begin: players were not told goodbye,
-  /// but are expected back.
-  bool isRoundOver() const { return m_round_over; }
+  /// How the last world failed, like "crashed (signal 6)"; empty if it did not. After run().
+  const std::string& failure() const { return m_failure; }
   /// Ticks that were skipped for a player who is here (Session::skippedTicks); 0 for anybody else.
   std::uint64_t skippedTicks(std::uint32_t player) const;
+
+  /// Makes a world that was not there before; throws std::system_error where that cannot be.
+  using NewWorld = std::function<std::unique_ptr<WorldPort>(asio::io_context& home)>;
+  /// run() hosts such worlds instead of the one that it is given: one after the other, or one for each player
+  /// (HostOptions::players). That one says only what players are told when they join. Before run().
+  void setWorlds(NewWorld new_world) { m_new_world = std::move(new_world); }
 
   /// Tick the world 30 times a second until the game is over, a signal comes or an option says so; then tell
   /// the players and let what is queued drain.
@@ -76,37 +82,48 @@ class Host : public df::Runner {
  private:
   using Clock = std::chrono::steady_clock;
 
+  // Who comes in.
   void accept(std::unique_ptr<ReliableChannel> channel);
   void greet(Session& session, const wire::Hello& hello);
+  std::size_t mostConnections() const;
   bool checkHello(Session& session, const wire::Hello& hello);
   void checkPassword(Session& session, const wire::Hello& hello);
   bool resume(Session& session, const wire::Hello& hello);
   void admit(Session& session, const wire::Hello& hello);
+  bool hasPlaceFor(Session& session);
+  wire::Welcome welcomeTo(Room& room, const std::string& name);
   std::unique_ptr<SealedChannel> openDatagrams(const Session& session, const wire::Hello& hello);
   Session* find(std::uint64_t session);
-  Session* findPlayer(std::uint32_t player);
   void chat(const Session& session, const std::string& text);
-  void adoptSettings(df::World& world);
   void leave(Session& session);
+
+  // Ticks.
+  void adoptSettings(df::World& world);
   void serve();
-  void tick(df::World& world);
-  void giveTurn();
-  void tellTurn(Session& session);
-  bool isHeard(const Session& session, const Input& input) const;
-  void applyInputs(df::World& world);
-  void dismissLeavers(df::World& world);
-  bool wantsNextRound(const df::World& world) const;
-  void lookBack(df::World& world);
-  void sendSnapshots(df::World& world);
-  void sendPlayers(const df::World& world);
-  void writeTruth(const df::PlayerFacts& player, const df::World& world);
+  void tick();
+  void afterTick(Room& room);
+  void flush();
+  void dismissLeavers(Room& room);
+  void sendPlayers();
   void sweep();
   void drain();
   void logRefusals() const;
-  bool isOver(const df::World& world) const;
+  bool isOver() const;
   bool isDeserted(Clock::time_point now) const;
   std::size_t playing() const;
   std::size_t fromSameAddress(const Session& session) const;
+
+  // Worlds.
+  std::uint32_t tickNumber() const { return static_cast<std::uint32_t>(m_counters.ticks); }
+  bool isPrivate() const { return m_new_world && m_options.players == "private"; }
+  Room& openRoom(std::unique_ptr<WorldPort> port);
+  Room* roomForNewcomer();
+  Room* roomOf(const Session& session) const;
+  void lookAfterWorlds();
+  void endRound(Room& room, const WorldEnd& end);
+  bool beginRound(Room& room);
+  void closeWorlds();
+
   template <class Visit>
   void forEachPlaying(Visit visit) {
     for (const auto& session : m_sessions) {
@@ -125,20 +142,22 @@ class Host : public df::Runner {
   ResumeTokens m_tokens;
   std::uint64_t m_next_session = 1;
   std::vector<std::unique_ptr<Session>> m_sessions;  ///< by id
-  Publisher m_publisher;
-  std::optional<LookBack> m_look_back;  ///< while the game wants it
+  NewWorld m_new_world;                              ///< empty: the world of run()
+  std::vector<std::unique_ptr<Room>> m_rooms;
   std::optional<TruthWriter> m_truth;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;
   std::string m_stop_sentence;
   PlayerNews m_player_news;
-  std::vector<Session*> m_by_player;  ///< those that play, by player; for one tick
+  std::vector<df::PlayerFacts> m_players;  ///< of several rooms
   Clock::time_point m_empty_since;
   bool m_ever_joined = false;
   bool m_ends_with_last = false;
-  bool m_round_over = false;
-  std::uint32_t m_turn = 0;         ///< the player whose input is heard, if only one's is; 0: nobody
-  std::uint32_t m_turn_before = 0;  ///< whose was before him: keys that he held are let go
+  bool m_worlds_over = false;  ///< there is no next round
+  std::string m_failure;
+  std::uint32_t m_next_player = 1;
+  bool m_in_tick = false;
+  Clock::time_point m_tick_began;
 };
 
 }  // namespace naiad

@@ -61,18 +61,19 @@ const std::vector<Row>& table() {
        0,
        "Whose keys and mouse the game hears: together = everybody's; first = the first one's, while the "
        "others "
-       "watch and wait for their turn",
+       "watch and wait for their turn; private = a world for each player, in a process of its own",
        Whose::kBoth,
        nullptr,
-       {"together", "first"}},
+       {"together", "first", "private"}},
       {"--on-game-over",
        "NAIAD_ON_GAME_OVER",
        &HostOptions::on_game_over,
        0,
        0,
        "When the game is over because of a key or click of one player among several: leave = it is for him "
-       "alone; exit = for everybody. restart = as leave, and when the game itself is over, the next round "
-       "begins",
+       "alone; exit = for everybody. restart = as leave, and when the game itself is over or crashes, the "
+       "next round "
+       "begins, in a process of its own; players stay connected",
        Whose::kBoth,
        nullptr,
        {"leave", "exit", "restart"}},

@@ -26,7 +26,7 @@ struct HostOptions {
   int frame_micros = 0;              ///< length of a tick in microseconds; 0: exactly 1/30 s
   int ticks = 0;                     ///< stop after so many; 0: never
   double exit_when_empty = 0;        ///< seconds after the last player left; 0: never
-  std::string players = "together";  ///< whose input the game hears: "together" or "first"
+  std::string players = "together";  ///< whose input the game hears: "together", "first" or "private"
   std::string on_game_over =
       "leave";              ///< by one player among several: "leave" (for him), "exit" or "restart"
   bool insecure = false;    ///< plain TCP, loopback only, no datagrams: for tests

@@ -121,10 +121,6 @@ LocalClient::~LocalClient() {
   }
 }
 
-void LocalClient::dismiss() {
-  if (!hasEnded()) kill(m_process, SIGTERM);
-}
-
 bool LocalClient::hasEnded() {
   if (m_process < 0) return true;
   int status = 0;

@@ -29,8 +29,6 @@ class LocalClient {
   LocalClient(const LocalClient&) = delete;
   LocalClient& operator=(const LocalClient&) = delete;
 
-  /// Let it go at once.
-  void dismiss();
   /// Has it ended?
   bool hasEnded();
   /// Did it end because it could not join or draw? (Else its player has left.)

@@ -9,17 +9,20 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "Announcement.h"
 #include "Config.h"
 #include "Host.h"
 #include "LineLog.h"
 #include "LocalClient.h"
-#include "Rounds.h"
+#include "LogFile.h"
 #include "Seed.h"
 #include "Version.h"
 #include "World.h"
-#include "WorldExtras.h"
+#include "WorldServer.h"
+#include "WorldStart.h"
+#include "Worlds.h"
 
 namespace naiad {
 
@@ -27,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum ExitCode { kUsage = 2, kCannotListen = 4, kFile = 5 };
+enum ExitCode { kGameFailed = 1, kUsage = 2, kCannotListen = 4, kFile = 5 };
 
 std::string programName() {
   return program_invocation_short_name;
@@ -93,13 +96,6 @@ class Company {
     }
   }
 
-  /// The next round has a client of its own in this terminal.
-  ~Company() {
-    if (m_client && m_host.isRoundOver()) m_client->dismiss();
-  }
-  Company(const Company&) = delete;
-  Company& operator=(const Company&) = delete;
-
   /// Once a tick.
   void look() {
     if (m_client && m_client->hasEnded()) onEnd();
@@ -144,9 +140,9 @@ void ProgramHost::startUp(df::World& world) {
   } catch (const OptionError& error) {
     fail(kUsage, std::string("environment or df-config.txt: ") + error.what());
   }
-  if (const auto port = portOfLastRound()) {
-    m_options.port = *port;
-    m_given.insert("port");
+  if (const auto socket = takeWorldSocket()) {
+    m_world_socket = socket;
+    df::keepLogFiles();
   }
   addFolders(world);
   seed(world);
@@ -169,6 +165,9 @@ void ProgramHost::seed(df::World& world) const {
 }
 
 void ProgramHost::run(df::World& world) {
+  // A game that runs again finds that it is over.
+  if (m_world_socket)
+    return WorldServer(std::exchange(*m_world_socket, -1), leavesAlone(m_options)).run(world);
   if (m_options.headless) return runHeadless(world);
   try {
     serve(world);
@@ -199,10 +198,11 @@ void ProgramHost::serve(df::World& world) {
             << std::endl;
   addToHelp(world, how);
 
+  if (wantsWorlds(m_options)) host->setWorlds(startWorlds());
   Company company(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&company](df::World&) { company.look(); });
   host->run(world);
-  startNextRoundAtExit(host->isRoundOver() ? std::optional(host->port()) : std::nullopt);
+  if (!host->failure().empty()) fail(kGameFailed, "the game " + host->failure());
 }
 
 }  // namespace naiad

@@ -2,10 +2,12 @@
 //
 // startUp() reads the options (HostOptions.h: environment, then df-config.txt) and seeds the dice; run()
 // hosts the game as dfserver would, says how to join, and where there is a terminal attaches a client to it.
-// Options that make no sense end the process with code 2, an address that cannot be listened on with 4, files
-// and keys that cannot be used with 5, each with one line on stderr.
+// In a process that such a host has started for one of its worlds (WorldStart.h), both serve that host
+// instead. Options that make no sense end the process with code 2, an address that cannot be listened on with
+// 4, files and keys that cannot be used with 5, each with one line on stderr.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 
@@ -25,7 +27,8 @@ class ProgramHost : public df::running::Program {
   void serve(df::World& world);
 
   HostOptions m_options;
-  std::set<std::string> m_given;  ///< options that somebody gave
+  std::set<std::string> m_given;      ///< options that somebody gave
+  std::optional<int> m_world_socket;  ///< of a process that was started for a world
 };
 
 }  // namespace naiad

@@ -166,6 +166,16 @@ void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<Sea
   ++m_counters.restarted;
 }
 
+// An input that nobody waits for any more counts as heard, or the client would repeat it.
+void Session::beginWorld() {
+  m_acks.reset();
+  if (!m_inputs.empty()) m_sender.noteInput(m_inputs.back().id, m_tick);
+  m_inputs.clear();
+  m_pressed = {};
+  m_controls.reset();
+  m_sender.reset();
+}
+
 // `other` has the old one afterwards, if there was one, and tells nobody of its end.
 void Session::takeStream(Session& other) {
   if (m_channel != nullptr) {  // the old stream has not noticed yet that nobody is there

@@ -86,6 +86,8 @@ class Session {
   /// told the world from the beginning, and with `datagrams` of its own, if any. Whoever still holds the old
   /// stream is told that he went on elsewhere.
   void restart(Session& other, wire::Welcome welcome, std::unique_ptr<SealedChannel> datagrams);
+  /// Another world begins: the client forgets what it knows, and what it did in the one before is dropped.
+  void beginWorld();
   /// Wait this long for a client whose stream broke. 0: do not.
   void setGrace(std::chrono::milliseconds grace) { m_grace = grace; }
   /// The stream is broken; the client may come back.

@@ -11,10 +11,12 @@
 #include "HostOptions.h"
 #include "LineLog.h"
 #include "LogManager.h"
-#include "Rounds.h"
 #include "Seed.h"
 #include "Version.h"
 #include "World.h"
+#include "WorldServer.h"
+#include "WorldStart.h"
+#include "Worlds.h"
 
 namespace {
 
@@ -22,9 +24,9 @@ enum ExitCode { kOk = 0, kGameFailed = 1, kUsage = 2, kNoGame = 3, kCannotListen
 
 /// What games reach the host by; taken back however the game ends, for their statics outlive the host.
 struct Installed {
-  Installed(naiad::Host& host, const naiad::Host::Log& log) {
+  Installed(df::Runner& runner, const naiad::Host::Log& log) {
     LM.setSink(log);
-    GM.setRunner(&host);
+    GM.setRunner(&runner);
   }
   ~Installed() {
     GM.setRunner(nullptr);
@@ -48,23 +50,35 @@ ExitCode play(const naiad::GameModule& game) {
   return kGameFailed;
 }
 
-int serve(naiad::HostOptions options) {
-  options.port = naiad::portOfLastRound().value_or(static_cast<std::uint16_t>(options.port));
-  naiad::LineLog log(options.log_file);
-  const naiad::GameModule game(options.game);
-  naiad::Host host(options, game.name(), [&log](const std::string& line) { log(line); });
+/// What is the same for a host and for a world that it has started in another process.
+ExitCode play(const naiad::GameModule& game, df::Runner& runner, naiad::HostOptions& options,
+              naiad::LineLog& log) {
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(naiad::newSeed());
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
-  const Installed installed(host, [&log](const std::string& line) { log(line); });
+  const Installed installed(runner, [&log](const std::string& line) { log(line); });
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
-  log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + " on " + host.address() +
-      ", seed " + std::to_string(options.seed));
+  log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + ", seed " +
+      std::to_string(options.seed));
+  return play(game);
+}
+
+int serve(naiad::HostOptions options) {
+  naiad::LineLog log(options.log_file);
+  const naiad::GameModule game(options.game);
+  if (const auto socket = naiad::takeWorldSocket()) {
+    naiad::WorldServer world(*socket, naiad::leavesAlone(options));
+    return play(game, world, options, log);
+  }
+  naiad::Host host(options, game.name(), [&log](const std::string& line) { log(line); });
+  if (naiad::wantsWorlds(options)) host.setWorlds(naiad::startWorlds());
+  log("dfserver is on " + host.address());
   naiad::writeWhereabouts(options, host);
   for (const std::string& line : naiad::howToJoin(host)) std::cout << line << std::endl;
-  const ExitCode code = play(game);
-  if (code == kOk && host.isRoundOver()) naiad::startNextRound(host.port());
-  return code;
+  const ExitCode code = play(game, host, options, log);
+  if (host.failure().empty()) return code;
+  std::cerr << "dfserver: the game " << host.failure() << "\n";
+  return kGameFailed;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "ScriptedLink.h"
 #include "SplitMix64.h"
 #include "UpdateCodec.h"
+#include "WorldMessages.h"
 #include "naiad.pb.h"
 
 namespace naiad::fuzz {
@@ -278,6 +279,37 @@ void replication(Folder folder, Folder snapshots) {
   }
 }
 
+void worlds(Folder folder) {
+  SplitMix64 random(15);
+  for (std::size_t i = 0; i < 16; ++i) {
+    const std::string bytes = randomBytes(random, 200);
+    Script script(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    ScriptedWorld world;
+    ViewWriter views;
+    std::string input = "\1";
+    for (std::size_t tick = 0; tick <= i; ++tick) {
+      world.happen(script);
+      world.tick();
+      std::string frame;
+      writeAnswer({false, {}, true, {}}, &world.view(), views, frame);
+      if (frame.size() > 0xFFFF) break;
+      input += u16(frame.size() - kWorldFrameHead) + frame.substr(kWorldFrameHead);
+    }
+    folder.add(input);
+  }
+  using Queue = df::InputQueue;
+  WorldTurn turn{{}, true, true, false};
+  turn.inputs.push_back({.kind = Queue::kJoin, .player = 4, .name = "bob", .color = df::GREEN});
+  turn.inputs.push_back(
+      {.kind = Queue::kKey, .player = 4, .key = df::Keyboard::A, .key_action = df::KEY_DOWN});
+  turn.inputs.push_back(
+      {.kind = Queue::kMouse, .player = 4, .seen = {true, 9, 10}, .mouse_action = df::MOVED});
+  turn.inputs.push_back({.kind = Queue::kLeave, .player = 4});
+  std::string frame;
+  writeTurn(turn, frame);
+  folder.add('\0' + frame.substr(kWorldFrameHead));
+}
+
 void datagrams(Folder folder) {
   SplitMix64 random(12);
   for (std::size_t i = 0; i < 16; ++i) folder.add(randomBytes(random, 40 + 20 * i));
@@ -301,5 +333,6 @@ int main(int argc, char** argv) {
   beyondLimits(Folder(base / "client_message", "limit-"));
   replication(Folder(base / "replication"), Folder(base / "snapshot"));
   datagrams(Folder(base / "datagram"));
+  worlds(Folder(base / "world"));
   return 0;
 }

@@ -205,9 +205,10 @@ TEST_F(OwnMain, TheNextRoundIsAFreshProcessAndItsPlayersComeAlong) {
   ASSERT_TRUE(game->waitFor("after the game, walker 1")) << game->output();
   ASSERT_TRUE(game->waitFor("before the game")) << game->output();
   walkAgain(*ann);
-  const std::string log = read("game.log");  // of this round
-  EXPECT_EQ(log.find("seed"), log.rfind("seed")) << log;
-  EXPECT_TRUE(has(log, "ann joined")) << log;
+  const std::string log = read("game.log");  // of the server and of both rounds
+  EXPECT_EQ(log.find("ann joined"), log.rfind("ann joined")) << log;
+  EXPECT_TRUE(has(log, "the round is over")) << log;
+  EXPECT_FALSE(has(ann->newOutput(), "Server lost")) << ann->output();
   game->signal(SIGTERM);
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
   expectOrderlyEnd(*game);

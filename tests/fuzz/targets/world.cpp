@@ -1,0 +1,100 @@
+// What a world in a process of its own tells its host, and what it is told: somebody's game may be at the
+// other end.
+//
+//   input   0 turn, 1 answers (1) | turn: its fields; answers: each length (2) | fields
+#include "LookCapture.h"
+#include "Publisher.h"
+#include "Require.h"
+#include "Script.h"
+#include "WorldMessages.h"
+
+namespace naiad::fuzz {
+namespace {
+
+std::string_view fieldsOf(const std::string& frame) {
+  return std::string_view(frame).substr(kWorldFrameHead);
+}
+
+void tryTurn(std::string_view bytes) {
+  const auto turn = readTurn(bytes);
+  if (!turn) return;
+  std::string frame;
+  std::string again;
+  REQUIRE(writeTurn(*turn, frame));
+  const auto same = readTurn(fieldsOf(frame));
+  REQUIRE(same && same->inputs.size() == turn->inputs.size());
+  REQUIRE(writeTurn(*same, again));
+  REQUIRE(again == frame);
+}
+
+/// One world's answers, one after the other.
+class Host {
+ public:
+  /// False if it would end the world.
+  bool take(std::string_view bytes) {
+    const auto answer = readAnswer(bytes, m_views, m_view);
+    if (!answer) return false;
+    for (const WorldPicture& picture : answer->pictures) {
+      REQUIRE(picture.canvas.width() <= kMaxViewWidth && picture.canvas.height() <= kMaxViewHeight);
+    }
+    if (!answer->has_view) return true;
+    check();
+    m_publisher.update(m_view);
+    m_publisher.forEach([this](std::uint32_t slot, const Publisher::Model& model) {
+      REQUIRE(model.state.look.sequence.glyphCount() <= kMaxGlyphs);
+      (void)m_publisher.sharedMotion(slot);
+    });
+    ViewWriter writer;
+    ViewReader reader;
+    std::string frame;
+    df::WorldView same;
+    REQUIRE(writeAnswer(*answer, &m_view, writer, frame));
+    REQUIRE(readAnswer(fieldsOf(frame), reader, same));
+    REQUIRE(same.tick == m_view.tick && same.changed.size() == m_view.changed.size() &&
+            same.players.size() == m_view.players.size());
+    return true;
+  }
+
+ private:
+  void check() const {
+    REQUIRE(m_view.view_width >= kMinViewWidth && m_view.view_width <= kMaxViewWidth);
+    for (const df::DrawCommand& command : m_view.commands) {
+      REQUIRE(df::isDrawable(command.ch) && command.color >= df::BLACK && command.color <= df::WHITE);
+    }
+    for (const df::DrawnObject& drawn : m_view.drawn) {
+      REQUIRE(std::uint64_t{drawn.first} + drawn.count <= m_view.commands.size());
+    }
+    for (const df::ToldLook& told : m_view.looks) {
+      REQUIRE(told.drawn < m_view.drawn.size() && told.p_look->selector.fits(told.p_look->sequence.size()));
+    }
+    for (const df::PlayerFacts& player : m_view.players) {
+      REQUIRE(player.id != 0);
+      for (const df::PlayerText& text : player.texts) REQUIRE(text.id < kMaxTexts);
+      REQUIRE(player.steering.p_table == nullptr || isValid(*player.steering.p_table));
+    }
+  }
+
+  ViewReader m_views{1000};
+  df::WorldView m_view;
+  Publisher m_publisher;
+};
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace naiad;
+  fuzz::Script script(data, size);
+  if (!script.flag()) {
+    const fuzz::Exactly bytes(script.rest());
+    fuzz::tryTurn(bytes.view());
+    return 0;
+  }
+  fuzz::Host host;
+  for (bool goes_on = true; goes_on && !script.atEnd();) {
+    const auto length = script.number<std::uint16_t>();
+    const fuzz::Exactly bytes(script.bytes(length));
+    goes_on = host.take(bytes.view());
+  }
+  return 0;
+}

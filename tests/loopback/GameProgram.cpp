@@ -1,0 +1,106 @@
+#include "GameProgram.h"
+
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "TestClient.h"
+
+namespace naiad::test {
+
+namespace {
+
+std::string makeDirectory() {
+  std::string name = std::filesystem::temp_directory_path() / "naiad-game-XXXXXX";
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
+  return name;
+}
+
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+}  // namespace
+
+GameProgram::GameProgram(const std::string& name, std::map<std::string, std::string> environment)
+    : m_directory(makeDirectory()) {
+  environment.insert({{"NAIAD_ADDRESS", "127.0.0.1"},
+                      {"NAIAD_PORT", "0"},
+                      {"NAIAD_PORT_FILE", m_directory / "port"},
+                      {"NAIAD_IDENTITY", m_directory / "identity"},
+                      {"NAIAD_LOG", m_directory / "log"},
+                      {"NAIAD_LOCAL_CLIENT", "false"},
+                      {"NAIAD_FRAME_TIME", "5000"},
+                      {"DRAGONFLY_CONFIG", m_directory / "df-config.txt"}});
+  std::ofstream(m_directory / "df-config.txt") << "logfile:" << (m_directory / "game.log").string() << ",\n";
+  for (const char* kept :
+       {"PATH", "HOME", "LD_LIBRARY_PATH", "ASAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS"}) {
+    if (const char* p_value = std::getenv(kept)) environment.emplace(kept, p_value);
+  }
+  std::vector<std::string> entries;
+  for (const auto& [key, value] : environment) entries.push_back(key + "=" + value);
+  std::vector<std::string> words{std::string(NAIAD_BINARY_DIR) + "/" + name};
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  const std::string output = m_directory / "output";
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_APPEND,
+                                   0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  const int error = posix_spawn(&m_process, words.front().c_str(), &actions, nullptr,
+                                pointersTo(words).data(), pointersTo(entries).data());
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw std::system_error(error, std::generic_category(), words.front());
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (m_port == 0 && !hasEnded() && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // between two looks
+    std::ifstream(m_directory / "port") >> m_port;
+  }
+}
+
+GameProgram::~GameProgram() {
+  if (!hasEnded()) {
+    signal(SIGTERM);
+    wait();
+  }
+  std::filesystem::remove_all(m_directory);
+}
+
+bool GameProgram::hasEnded() {
+  if (m_process > 0 && waitpid(m_process, &m_status, WNOHANG) == m_process) m_process = -1;
+  return m_process < 0;
+}
+
+int GameProgram::wait() {
+  if (m_process > 0) waitpid(m_process, &m_status, 0);
+  m_process = -1;
+  return m_status;
+}
+
+void GameProgram::signal(int number) const {
+  if (m_process > 0) kill(m_process, number);
+}
+
+std::string GameProgram::log() const {
+  std::string all;
+  for (const char* name : {"log", "output"}) {
+    std::ifstream file(m_directory / name);
+    all.append(std::istreambuf_iterator<char>(file), {});
+  }
+  return all;
+}
+
+}  // namespace naiad::test

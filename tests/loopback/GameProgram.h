@@ -1,0 +1,40 @@
+// A game with a main() of its own, as a real process that hosts itself.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace naiad::test {
+
+class GameProgram {
+ public:
+  /// Start `name` of the build's programs, without a terminal, with these variables in its environment. It
+  /// listens on a free port of 127.0.0.1, and a tick takes 5 ms.
+  GameProgram(const std::string& name, std::map<std::string, std::string> environment);
+  /// SIGTERM, if it has not ended.
+  ~GameProgram();
+  GameProgram(const GameProgram&) = delete;
+  GameProgram& operator=(const GameProgram&) = delete;
+
+  std::uint16_t port() const { return m_port; }
+  /// Wait for its end; as waitpid() tells it.
+  int wait();
+  void signal(int number) const;
+  /// What it has said so far.
+  std::string log() const;
+  std::filesystem::path directory() const { return m_directory; }
+
+ private:
+  bool hasEnded();
+
+  std::filesystem::path m_directory;
+  pid_t m_process = -1;
+  int m_status = -1;
+  std::uint16_t m_port = 0;
+};
+
+}  // namespace naiad::test

@@ -1,0 +1,249 @@
+// Games that are programs, with a process for each round or each player (rounds/game.cpp): what players
+// notice when a world ends, crashes or hangs. Real processes and sockets.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <memory>
+
+#include "GameProgram.h"
+#include "Home.h"
+#include "TestClient.h"
+#include "TruthFile.h"
+
+namespace naiad::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What the game draws of its globals.
+struct Shown {
+  int mains = 0;
+  int steps = -1;
+  int process = 0;
+};
+
+std::optional<int> numberAfter(const std::string& text, const std::string& label) {
+  const std::size_t at = text.find(label);
+  int number = 0;
+  if (at == std::string::npos) return std::nullopt;
+  const char* p_begin = text.data() + at + label.size();
+  return std::from_chars(p_begin, text.data() + text.size(), number).ec == std::errc() ? std::optional(number)
+                                                                                       : std::nullopt;
+}
+
+class Rounds : public testing::Test {
+ protected:
+  void start(std::map<std::string, std::string> environment) {
+    game = std::make_unique<GameProgram>("rounds_game", std::move(environment));
+    ASSERT_NE(game->port(), 0) << game->log();
+  }
+  std::unique_ptr<TestClient> join(const std::string& name) {
+    auto client = std::make_unique<TestClient>(context, game->port(), home.player(name));
+    clients.push_back(client.get());
+    EXPECT_TRUE(serve([&] { return client->joined() && shown(*client).steps >= 0; })) << game->log();
+    return client;
+  }
+  bool serve(const std::function<bool()>& done) {
+    const auto end = Clock::now() + kPatience;
+    while (!done()) {
+      if (Clock::now() > end) return false;
+      for (TestClient* client : clients) client->connection().update(Clock::now());
+      context.restart();
+      context.run_one_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
+  static Shown shown(TestClient& client) {
+    const std::string row = client.session().replica().render(client.newestTick()).rowText(12);
+    const auto mains = numberAfter(row, "mains=");
+    const auto steps = numberAfter(row, "steps=");
+    const auto process = numberAfter(row, "process=");
+    // What begins anew may be there in part.
+    if (!mains || !steps || !process || row.find(';') == std::string::npos) return {};
+    return {*mains, *steps, *process};
+  }
+  static void press(TestClient& client, df::Keyboard::Key key) {
+    client.session().sendKey(key, df::KEY_PRESSED, Clock::now());
+  }
+  static bool heard(TestClient& client, const std::string& line) {
+    const auto& chat = client.session().chat();
+    return std::any_of(chat.begin(), chat.end(), [&](const ChatEntry& entry) { return entry.text == line; });
+  }
+  /// Are there pictures of all ticks, from the first to the last?
+  static testing::AssertionResult hasNoGap(const TestClient& client) {
+    const auto& pictures = client.pictures();
+    const std::uint32_t ticks = pictures.rbegin()->first - pictures.begin()->first + 1;
+    if (pictures.size() == ticks) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << pictures.size() << " of " << ticks;
+  }
+
+  Home home;
+  asio::io_context context;
+  std::unique_ptr<GameProgram> game;
+  std::vector<TestClient*> clients;
+};
+
+/// A round ends by what ann's key does; ann and bob go on in the next one.
+class RoundEnd : public Rounds {
+ protected:
+  void expectAnotherRound(df::Keyboard::Key key, const std::string& line) {
+    start({{"NAIAD_ON_GAME_OVER", "restart"}});
+    auto ann = join("ann");
+    auto bob = join("bob");
+    const ClientSession* p_session = &ann->session();
+    const std::uint32_t player = ann->player();
+    press(*ann, df::Keyboard::RIGHTARROW);
+    ASSERT_TRUE(serve([&] { return shown(*ann).steps == 1 && shown(*bob).steps == 1; })) << game->log();
+    const Shown before = shown(*ann);
+    EXPECT_EQ(before.mains, 1);
+
+    const auto began = Clock::now();
+    press(*ann, key);
+    const auto is_anew = [&](TestClient& client) {
+      const Shown now = shown(client);
+      return now.steps == 0 && now.process != before.process;
+    };
+    ASSERT_TRUE(serve([&] { return is_anew(*ann) && is_anew(*bob); })) << game->log();
+    const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - began);
+    std::printf("next_round_ms=%lld\n", static_cast<long long>(took.count()));
+    EXPECT_EQ(shown(*ann).mains, 1) << "a global is what it was";
+    EXPECT_EQ(kill(before.process, 0), -1) << "the round before has a process still";
+
+    EXPECT_EQ(&ann->session(), p_session) << "she had to join again";
+    EXPECT_EQ(ann->player(), player);
+    EXPECT_EQ(ann->session().counters().resets, 1u);
+    EXPECT_EQ(bob->session().counters().resets, 1u);
+    EXPECT_EQ(ann->connection().state(), Connection::State::kJoined);
+    EXPECT_EQ(game->log().find("is back"), std::string::npos) << game->log();
+    ASSERT_TRUE(serve([&] { return heard(*ann, line) && heard(*bob, line); })) << game->log();
+    press(*bob, df::Keyboard::RIGHTARROW);
+    EXPECT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << "his keys are heard";
+    const auto lists = [&](const std::string& name) {
+      const auto& players = ann->session().players();
+      return std::any_of(players.begin(), players.end(),
+                         [&](const PlayerLine& one) { return one.name == name; });
+    };
+    EXPECT_TRUE(serve([&] { return lists("ann") && lists("bob"); }));
+  }
+};
+
+TEST_F(RoundEnd, BySettingGameOver) {
+  expectAnotherRound(df::Keyboard::X, "The round is over; the next one begins.");
+}
+
+TEST_F(RoundEnd, ByACrash) {
+  expectAnotherRound(df::Keyboard::C, "The game crashed (SIGABRT); the next round begins.");
+}
+
+TEST_F(RoundEnd, ByAGameThatHangs) {
+  expectAnotherRound(df::Keyboard::H, "The game did not answer any more; the next round begins.");
+}
+
+TEST_F(Rounds, WhatPlayersSeeIsWhatTheWorldsDraw) {
+  const std::string truth = home.knownServers().string() + ".truth";
+  start({{"NAIAD_ON_GAME_OVER", "restart"}, {"NAIAD_TRUTH", truth}, {"NAIAD_INSECURE", "true"}});
+  TestClient ann(context, game->port(), "ann");
+  clients.push_back(&ann);
+  ASSERT_TRUE(serve([&] { return ann.joined() && shown(ann).steps >= 0; })) << game->log();
+  ann.forgetPictures();
+  const std::uint32_t begin = ann.newestTick();
+  ASSERT_TRUE(serve([&] { return ann.newestTick() > begin + 60; }));
+  press(ann, df::Keyboard::X);
+  ASSERT_TRUE(serve([&] { return ann.session().counters().resets == 1; })) << game->log();
+  const std::uint32_t again = ann.newestTick();
+  ASSERT_TRUE(serve([&] { return ann.newestTick() > again + 60; }));
+  game->signal(SIGTERM);
+  game->wait();
+
+  TruthReader reader(truth);
+  int compared = 0;
+  int wrong = 0;
+  for (auto record = reader.next(); record; record = reader.next()) {
+    const auto found = ann.pictures().find(record->tick);
+    if (found == ann.pictures().end()) continue;
+    ++compared;
+    wrong += countDifferences(found->second, record->canvas) > 0 ? 1 : 0;
+  }
+  EXPECT_GT(compared, 100);
+  EXPECT_LE(wrong, numberAfter(game->log(), "skipped_ticks=").value_or(0))
+      << "more than the server skipped for her";
+}
+
+TEST_F(Rounds, AGameThatNeverBeginsEndsTheServer) {
+  GameProgram hopeless("rounds_game", {{"NAIAD_ON_GAME_OVER", "restart"}, {"ROUNDS_CRASH_AT_ONCE", "1"}});
+  const int status = hopeless.wait();
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status << hopeless.log();
+  EXPECT_NE(hopeless.log().find("the game crashed (SIGABRT)"), std::string::npos) << hopeless.log();
+}
+
+TEST_F(Rounds, TheEndOfTheServerIsTheEndOfItsWorld) {
+  start({{"NAIAD_ON_GAME_OVER", "restart"}});
+  auto ann = join("ann");
+  const int process = shown(*ann).process;
+  game->signal(SIGTERM);
+  ASSERT_TRUE(serve([&] { return ann->connection().state() == Connection::State::kEnded; }));
+  EXPECT_EQ(ann->connection().sentence(), "The server is shutting down.");
+  const int status = game->wait();
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status << game->log();
+  EXPECT_EQ(kill(process, 0), -1);
+}
+
+TEST_F(Rounds, PrivateWorldsCrashAlone) {
+  start({{"NAIAD_PLAYERS", "private"}});
+  auto ann = join("ann");
+  auto bob = join("bob");
+  EXPECT_NE(shown(*ann).process, shown(*bob).process);
+  press(*bob, df::Keyboard::RIGHTARROW);
+  ASSERT_TRUE(serve([&] { return shown(*bob).steps == 1; }));
+  EXPECT_EQ(shown(*ann).steps, 0) << "it is his world";
+  const int process = shown(*bob).process;
+
+  bob->forgetPictures();
+  press(*ann, df::Keyboard::C);
+  ASSERT_TRUE(serve([&] { return ann->connection().state() == Connection::State::kEnded; })) << game->log();
+  EXPECT_EQ(ann->connection().sentence(), "The game crashed (SIGABRT).");
+  const std::uint32_t then = bob->newestTick();
+  ASSERT_TRUE(serve([&] { return bob->newestTick() > then + 100; })) << game->log();
+  EXPECT_EQ(shown(*bob).process, process);
+  EXPECT_EQ(shown(*bob).steps, 1);
+  EXPECT_TRUE(hasNoGap(*bob));
+  EXPECT_EQ(bob->session().counters().resets, 0u);
+  auto carl = join("carl");
+  EXPECT_EQ(shown(*carl).steps, 0);
+}
+
+TEST_F(Rounds, WhoLeavesAPrivateWorldEndsIt) {
+  start({{"NAIAD_PLAYERS", "private"}});
+  auto ann = join("ann");
+  auto bob = join("bob");
+  const int anns = shown(*ann).process;
+  const int bobs = shown(*bob).process;
+  ann->connection().leave();
+  EXPECT_TRUE(serve([&] { return kill(anns, 0) == -1; })) << game->log();
+  press(*bob, df::Keyboard::Q);
+  ASSERT_TRUE(serve([&] { return bob->connection().state() == Connection::State::kEnded; })) << game->log();
+  EXPECT_EQ(bob->connection().sentence(), "For you, the game is over.");
+  EXPECT_TRUE(serve([&] { return kill(bobs, 0) == -1; })) << game->log();
+  auto carl = join("carl");
+  EXPECT_EQ(shown(*carl).steps, 0) << "the server stays";
+}
+
+TEST_F(Rounds, PrivateWorldsHaveRounds) {
+  start({{"NAIAD_PLAYERS", "private"}, {"NAIAD_ON_GAME_OVER", "restart"}});
+  auto ann = join("ann");
+  auto bob = join("bob");
+  const int anns = shown(*ann).process;
+  const int bobs = shown(*bob).process;
+  press(*ann, df::Keyboard::X);
+  ASSERT_TRUE(serve([&] { return shown(*ann).process != anns && shown(*ann).steps == 0; })) << game->log();
+  EXPECT_EQ(ann->session().counters().resets, 1u);
+  EXPECT_EQ(shown(*bob).process, bobs);
+  EXPECT_EQ(bob->session().counters().resets, 0u);
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,77 @@
+// A game that knows of no players and keeps what it knows in globals, as programs do that were written for
+// one player. What it is good for is in RoundsTest.cpp.
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "DisplayManager.h"
+#include "EventKeyboard.h"
+#include "EventOut.h"
+#include "EventStep.h"
+#include "GameManager.h"
+#include "Object.h"
+#include "WorldManager.h"
+
+using namespace df;
+
+int mains = 0;  // main() raises it: another value than 1 is a global that was there before
+int steps = 0;
+bool over = false;
+
+class Walker : public Object {
+ public:
+  Walker() {
+    setType("Walker");
+    setPosition(Vector(40, 12));
+    registerInterest(KEYBOARD_EVENT);
+    registerInterest(STEP_EVENT);
+  }
+  int eventHandler(const Event* p_e) {
+    if (p_e->getType() == STEP_EVENT) {
+      if (over) GM.setGameOver();
+      if (getenv("ROUNDS_CRASH_AT_ONCE") != NULL) abort();
+      return 1;
+    }
+    if (p_e->getType() != KEYBOARD_EVENT) return 0;
+    const EventKeyboard* p_k = (const EventKeyboard*)p_e;
+    if (p_k->getKeyboardAction() != KEY_PRESSED) return 1;
+    if (p_k->getKey() == Keyboard::Q) GM.setGameOver();
+    if (p_k->getKey() == Keyboard::X) over = true;
+    if (p_k->getKey() == Keyboard::C) abort();
+    if (p_k->getKey() == Keyboard::H) pause();
+    if (p_k->getKey() == Keyboard::RIGHTARROW) steps++;
+    return 1;
+  }
+  int draw() {
+    return DM.drawString(getPosition(),
+                         "mains=" + std::to_string(mains) + " steps=" + std::to_string(steps) +
+                             " process=" + std::to_string(getpid()) + ";",
+                         CENTER_JUSTIFIED, YELLOW);
+  }
+};
+
+// Something to be seen moving.
+class Drifter : public Object {
+ public:
+  explicit Drifter(int n) {
+    setType("Drifter");
+    setSolidness(SPECTRAL);
+    setPosition(Vector(n * 7 % 80, n % 10));
+    setVelocity(Vector(0.1f * (float)(n % 5 + 1), 0.03f * (float)(n % 3)));
+    registerInterest(OUT_EVENT);
+  }
+  int eventHandler(const Event* p_e) {
+    if (p_e->getType() == OUT_EVENT) setPosition(Vector(0, 1));
+    return 1;
+  }
+  int draw() { return DM.drawCh(getPosition(), 'o', CYAN); }
+};
+
+int main() {
+  mains++;
+  GM.startUp();
+  new Walker;
+  for (int i = 0; i < 12; i++) new Drifter(i);
+  GM.run();
+  GM.shutDown();
+  return 0;
+}
