@@ -100,6 +100,10 @@ void Screen::show(const Picture& picture) {
   m_ended = false;
 }
 
+void Screen::ring() {
+  if (!m_ended) beep();
+}
+
 void Screen::put(int x, int y, const PictureCell& cell) {
   attr_t attributes = A_NORMAL;
   if (cell.style == Style::kBold) attributes |= A_BOLD;

@@ -29,6 +29,8 @@ class Screen {
 
   /// Show the picture.
   void show(const Picture& picture);
+  /// Ring the terminal's bell.
+  void ring();
   /// The terminal's size may have changed. True if it has.
   bool readSize();
   /// Send everything anew with the next show(): somebody else has written on the terminal.

@@ -28,6 +28,7 @@ struct ScreenModel {
   std::int32_t score = 0;
   std::string server;  ///< program and address of the server
   std::string game;
+  std::string note;  ///< for a moment: what has just sounded; empty: none
 
   Panel panel = Panel::kNone;
   std::uint32_t self = 0;  ///< this player's id

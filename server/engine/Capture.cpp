@@ -30,6 +30,8 @@ void Capture::begin() {
   m_view.vanished.clear();
   m_view.players.clear();
   m_view.sounds.clear();
+  m_view.sounds_lost = 0;
+  m_view.playing.clear();
   m_view.shake_x = m_view.shake_y = 0;
 }
 
@@ -150,6 +152,8 @@ void Capture::finish() {
   for (const auto& [id, p_player] : views.players()) m_view.players.push_back(p_player->facts());
   if (const WorldExtras* p_extras = m_world.findExtras()) {
     m_view.sounds = p_extras->sounds;
+    m_view.sounds_lost = p_extras->sounds_lost;
+    m_view.playing = p_extras->playing;
     m_view.background = p_extras->background;
     m_view.shake_x = p_extras->shake.x;
     m_view.shake_y = p_extras->shake.y;

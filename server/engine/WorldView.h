@@ -121,6 +121,8 @@ struct WorldView {
   std::vector<PlayerFacts> players;   ///< by id
   FixedVector corner;                 ///< of the world's own view, in which view objects were drawn
   std::vector<SoundPlayed> sounds;    ///< in the order they were played
+  std::uint32_t sounds_lost = 0;      ///< more of this tick, beyond what is noted
+  std::vector<SoundPlayed> playing;   ///< what goes on again and again, as it was begun, oldest first
   Color background = BLACK;           ///< of the window
   int shake_x = 0;                    ///< cells by which views are off their places in this tick
   int shake_y = 0;

@@ -167,6 +167,7 @@ void Host::tick(df::World& world) {
     lookBack(world);
     sendSnapshots(world);
     sendPlayers(world);
+    sendSounds(world);
   }
   m_network.flushTick(began);
   if (m_observer) m_observer(world);
@@ -227,22 +228,37 @@ void Host::writeTruth(const df::PlayerFacts& player, const df::World& world) {
   m_truth.reset();
 }
 
+// Of those that this tick was sent to.
+Session* Host::findTicking(std::uint32_t player) const {
+  const auto found =
+      std::lower_bound(m_by_player.begin(), m_by_player.end(), player,
+                       [](const Session* session, std::uint32_t id) { return session->player() < id; });
+  return found != m_by_player.end() && (*found)->player() == player ? *found : nullptr;
+}
+
 void Host::sendPlayers(const df::World& world) {
-  const auto find_playing = [this](std::uint32_t player) {
-    const auto found =
-        std::lower_bound(m_by_player.begin(), m_by_player.end(), player,
-                         [](const Session* session, std::uint32_t id) { return session->player() < id; });
-    return found != m_by_player.end() && (*found)->player() == player ? *found : nullptr;
-  };
   m_player_news.tick(
       m_publisher.tick(), world.view().players,
       [&](std::uint32_t player) {
-        const Session* session = find_playing(player);
+        const Session* session = findTicking(player);
         return session != nullptr ? session->rttMillis() : 0;
       },
       [&](std::uint32_t player, const wire::ServerMessage& message) {
-        if (Session* session = find_playing(player)) session->sendKept(message, true);
+        if (Session* session = findTicking(player)) session->sendKept(message, true);
       });
+}
+
+void Host::sendSounds(const df::World& world) {
+  m_sound_news.tick(world.view(),
+                    [this](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
+                      Session* session = findTicking(player);
+                      if (session == nullptr) return false;
+                      if (!lasts) return session->sendFleeting(message);
+                      session->sendKept(message);
+                      return true;
+                    });
+  m_counters.sounds = m_sound_news.told();
+  m_counters.sounds_dropped = m_sound_news.dropped();
 }
 
 void Host::accept(std::unique_ptr<ReliableChannel> channel) {
@@ -341,6 +357,7 @@ bool Host::resume(Session& session, const wire::Hello& hello) {
     describe(datagrams.get(), welcome);
     before->restart(session, welcome, std::move(datagrams));
     m_player_news.repeat();  // he has none
+    m_sound_news.repeat(before->player());
     m_log(before->name() + " is back from " + before->address() + ", with another client");
     return true;
   }

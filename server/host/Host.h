@@ -25,6 +25,7 @@
 #include "Runner.h"
 #include "ServerIdentity.h"
 #include "Session.h"
+#include "SoundNews.h"
 #include "TruthFile.h"
 
 namespace naiad {
@@ -99,6 +100,8 @@ class Host : public df::Runner {
   void lookBack(df::World& world);
   void sendSnapshots(df::World& world);
   void sendPlayers(const df::World& world);
+  void sendSounds(const df::World& world);
+  Session* findTicking(std::uint32_t player) const;
   void writeTruth(const df::PlayerFacts& player, const df::World& world);
   void sweep();
   void drain();
@@ -132,6 +135,7 @@ class Host : public df::Runner {
   df::World* m_p_world = nullptr;
   std::string m_stop_sentence;
   PlayerNews m_player_news;
+  SoundNews m_sound_news;
   std::vector<Session*> m_by_player;  ///< those that play, by player; for one tick
   Clock::time_point m_empty_since;
   bool m_ever_joined = false;

@@ -81,6 +81,23 @@ ClientUpdate exampleUpdate() {
   return update;
 }
 
+/// A frame with what a client hears when a round begins.
+std::string exampleSounds() {
+  wire::ServerMessage message;
+  wire::Sound& theme = *message.mutable_sounds()->add_sounds();
+  theme.set_label("theme");
+  theme.set_music(true);
+  theme.set_loop(true);
+  wire::Sound& siren = *message.mutable_sounds()->add_sounds();
+  siren.set_label("siren");
+  siren.set_action(wire::Sound::STOP);
+  siren.set_player(2);
+  message.set_number(5);
+  std::string frame;
+  appendFrame(frame, message.SerializeAsString());
+  return frame;
+}
+
 std::string document() {
   std::ifstream file(NAIAD_SOURCE_DIR "/proto/PROTOCOL.md");
   std::ostringstream text;
@@ -159,10 +176,14 @@ TEST(ProtocolBytes, UpdateThatMissesLittleIsAsTheDocumentSays) {
   EXPECT_EQ(hexOfBits(example(4).bits), example(4).bytes);
 }
 
+TEST(ProtocolBytes, SoundsAreAsTheDocumentSays) {
+  EXPECT_EQ(hex(exampleSounds()), example(5).bytes);
+}
+
 // The same bytes once more, so that a change of document and code together is noticed as a change of
 // protocol.
-TEST(ProtocolBytes, Version3StaysAsItIs) {
-  EXPECT_EQ(kProtocolVersion, 3u);
+TEST(ProtocolBytes, Version4StaysAsItIs) {
+  EXPECT_EQ(kProtocolVersion, 4u);
   EXPECT_EQ(hex(exampleSnapshot()),
             "03 00 64 00 2c 00 10 f4 0a 01 00 00 00 00 0a 00 00 00 00 00 00 00 03 00 "
             "00 00 0a 86 70 91 e2 ff ff ff f6 ff ff ff 68 07 00 00 00 00 00 50 08 2a "
@@ -207,6 +228,8 @@ TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
       {"kMaxHelpLines", kMaxHelpLines},
       {"kMaxHelpLength", kMaxHelpLength},
       {"kMaxPlayers", kMaxPlayers},
+      {"kMaxSounds", kMaxSounds},
+      {"kMaxSoundLabel", kMaxSoundLabel},
       {"kMaxSlots", kMaxSlots},
       {"kMaxGlyphs", kMaxGlyphs},
       {"kMaxLookBytes", kMaxLookBytes},
