@@ -330,6 +330,7 @@ void ClientApp::drawFrame(Time now) {
     const DrawnPlacement placement(replica, session->predict(now), clamp);
     model.view = replica.render(m_drawn.tick, &placement);
     model.focus = replica.focus(m_drawn.tick, &placement);
+    model.background = replica.background();
     model.has_view = true;
     model.round_trip = session->roundTrip();
     model.tick = m_drawn.tick;

@@ -30,7 +30,7 @@ void drawView(Picture& picture, const ScreenModel& model, const ViewPlacement& p
   for (int y = 0; y < place.height; ++y) {
     for (int x = 0; x < place.width; ++x) {
       const df::Cell cell = model.view.at(place.view_x + x, place.view_y + y);
-      picture.put(place.left + x, place.top + y, {cell.ch, cell.color, Style::kPlain});
+      picture.put(place.left + x, place.top + y, {cell.ch, cell.color, Style::kPlain, model.background});
     }
   }
 }

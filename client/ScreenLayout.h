@@ -18,9 +18,10 @@ inline constexpr std::chrono::seconds kChatShown{8};
 /// Everything that can be seen, as values. Texts must be safe (SafeText.h).
 struct ScreenModel {
   df::Canvas view;
-  CellPosition focus;     ///< what must stay visible, in view cells
-  bool has_view = false;  ///< false before the first snapshot: only the banner is drawn
-  std::string banner;     ///< a line over everything; empty: none
+  df::Color background = df::BLACK;  ///< behind all characters of the view
+  CellPosition focus;                ///< what must stay visible, in view cells
+  bool has_view = false;             ///< false before the first snapshot: only the banner is drawn
+  std::string banner;                ///< a line over everything; empty: none
 
   bool status_shown = true;
   std::chrono::milliseconds round_trip{0};

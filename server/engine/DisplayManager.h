@@ -78,7 +78,7 @@ class DisplayManager : public Manager {
   int getHorizontalPixels() const;
   int getVerticalPixels() const;
 
-  /// The colour behind all characters, told to clients. Return true, or false if there is no such colour.
+  /// The colour behind all characters, for all players; black is the terminals' own. Return true, or false if there is no such colour.
   bool setBackgroundColor(Color new_color);
   /// Shake the picture for so many ticks by up to so many pixels; `delta`: in addition to what it does
   /// already. Told to clients, in cells (WorldView::shake_x); a cell is about 13 by 32 pixels.

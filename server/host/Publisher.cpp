@@ -114,7 +114,7 @@ void Publisher::mark(std::uint32_t slot, Tracked& tracked, std::uint8_t groups) 
 void Publisher::update(const df::WorldView& view) {
   m_tick = view.tick;
   ++m_update;
-  m_world = {view.boundary, view.view_width, view.view_height};
+  m_world = {view.boundary, view.view_width, view.view_height, view.background};
   m_changes.clear();
   m_exact.clear();
   bool controls = false;

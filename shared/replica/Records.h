@@ -54,11 +54,12 @@ struct ObjectRecord {
   ObjectState state;
 };
 
-/// The world that views are clamped in and the size of the view.
+/// The world that views are clamped in, the size of the view, and what is behind all characters.
 struct WorldRecord {
   df::FixedBox boundary;
   std::int32_t view_width = 80;
   std::int32_t view_height = 24;
+  df::Color background = df::BLACK;
   friend bool operator==(const WorldRecord&, const WorldRecord&) = default;
 };
 

@@ -78,6 +78,19 @@ TEST(ScreenLayout, ANoteIsInTheStatusLine) {
   EXPECT_FALSE(contains(layOut(m, 100, 30).picture, "music"));
 }
 
+TEST(ScreenLayout, TheBackgroundIsBehindTheViewAndNowhereElse) {
+  ScreenModel m = model();
+  m.background = df::BLUE;
+  const Picture picture = layOut(m, 100, 30).picture;
+  EXPECT_EQ(picture.background(), df::BLUE);
+  EXPECT_EQ(picture.at(10, 2).background, df::BLUE) << "behind a character";
+  EXPECT_EQ(picture.at(50, 12).background, df::BLUE) << "and behind none";
+  EXPECT_EQ(picture.at(9, 1).background, df::BLACK) << "not behind the frame";
+  EXPECT_EQ(picture.at(0, 0).background, df::BLACK);
+  EXPECT_EQ(picture.at(3, 29).background, df::BLACK) << "nor behind the status line";
+  EXPECT_EQ(layOut(model(), 100, 30).picture.background(), df::BLACK);
+}
+
 TEST(ScreenLayout, SmallTerminalIsCroppedAroundTheFocus) {
   ScreenModel m = model();
   m.focus = {70, 20};

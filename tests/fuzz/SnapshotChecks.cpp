@@ -57,6 +57,7 @@ void requireGood(const Snapshot& snapshot) {
   for (const WorldRecord& world : records.worlds) {
     REQUIRE(world.view_width >= kMinViewWidth && world.view_width <= kMaxViewWidth);
     REQUIRE(world.view_height >= kMinViewHeight && world.view_height <= kMaxViewHeight);
+    REQUIRE(world.background >= df::BLACK && world.background <= df::WHITE);
     REQUIRE(world.boundary.size.x >= 0 && world.boundary.size.y >= 0);
   }
   for (const ViewRecord& view : records.views) REQUIRE(view.id < kMaxSlots && view.generation < 4);

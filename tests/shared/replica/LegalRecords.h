@@ -53,7 +53,7 @@ inline bool isLegal(const ObjectRecord& record, std::uint32_t tick) {
 inline bool isLegal(const WorldRecord& r) {
   return isWithin(r.boundary.corner, 2'100'000'000) && r.boundary.size.x >= 0 && r.boundary.size.y >= 0 &&
          r.view_width >= kMinViewWidth && r.view_width <= kMaxViewWidth && r.view_height >= kMinViewHeight &&
-         r.view_height <= kMaxViewHeight;
+         r.view_height <= kMaxViewHeight && r.background >= df::BLACK && r.background <= df::WHITE;
 }
 
 inline bool isLegal(const ViewRecord& r) {

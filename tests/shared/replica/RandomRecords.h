@@ -119,7 +119,8 @@ class RandomRecords {
   WorldRecord world() {
     return {{vector(1'000'000), size(1'000'000)},
             static_cast<std::int32_t>(20 + m_rng.below(381)),
-            static_cast<std::int32_t>(10 + m_rng.below(141))};
+            static_cast<std::int32_t>(10 + m_rng.below(141)),
+            static_cast<df::Color>(m_rng.below(df::kColorCount))};
   }
   ViewRecord view() {
     ViewRecord record{vector(2'000'000'000), chance(0.7), 0, 0};
