@@ -32,6 +32,7 @@ void Capture::begin() {
   m_view.sounds.clear();
   m_view.sounds_lost = 0;
   m_view.playing.clear();
+  m_view.notes.clear();
   m_view.shake_x = m_view.shake_y = 0;
 }
 
@@ -154,6 +155,7 @@ void Capture::finish() {
     m_view.sounds = p_extras->sounds;
     m_view.sounds_lost = p_extras->sounds_lost;
     m_view.playing = p_extras->playing;
+    m_view.notes = p_extras->notes;
     m_view.background = p_extras->background;
     m_view.shake_x = p_extras->shake.x;
     m_view.shake_y = p_extras->shake.y;

@@ -10,6 +10,7 @@ namespace df {
 namespace {
 
 constexpr std::size_t kMostSounds = 256;  ///< in a tick; nobody hears more
+constexpr std::size_t kMostNotes = 4;     ///< in a tick
 constexpr std::size_t kMostPlaying = 16;  ///< again and again; the oldest makes room
 
 bool isSame(const SoundPlayed& a, const SoundPlayed& b) {
@@ -31,12 +32,17 @@ void WorldExtras::note(SoundPlayed sound) {
   }
 }
 
+void WorldExtras::tell(std::string line) {
+  if (notes.size() < kMostNotes) notes.push_back(std::move(line));
+}
+
 bool WorldExtras::isPlaying(const std::string& label, bool music) const {
   return std::any_of(playing.begin(), playing.end(),
                      [&](const SoundPlayed& sound) { return sound.music == music && sound.label == label; });
 }
 
 void WorldExtras::beginTick() {
+  notes.clear();
   sounds.clear();
   sounds_lost = 0;
   shake.step(random);
@@ -53,6 +59,8 @@ void WorldExtras::reset() {
   sounds.clear();
   sounds_lost = 0;
   playing.clear();
+  notes.clear();
+  heard_player = 0;
   background = BLACK;
   view_slack = Vector(1.0 / 3, 1.0 / 3);
   paused = false;

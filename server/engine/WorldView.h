@@ -123,6 +123,7 @@ struct WorldView {
   std::vector<SoundPlayed> sounds;    ///< in the order they were played
   std::uint32_t sounds_lost = 0;      ///< more of this tick, beyond what is noted
   std::vector<SoundPlayed> playing;   ///< what goes on again and again, as it was begun, oldest first
+  std::vector<std::string> notes;     ///< lines of the engine's own for all players to read
   Color background = BLACK;           ///< of the window
   int shake_x = 0;                    ///< cells by which views are off their places in this tick
   int shake_y = 0;

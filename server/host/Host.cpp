@@ -168,6 +168,7 @@ void Host::tick(df::World& world) {
     sendSnapshots(world);
     sendPlayers(world);
     sendSounds(world);
+    sendNotes(world);
   }
   m_network.flushTick(began);
   if (m_observer) m_observer(world);

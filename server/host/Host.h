@@ -101,6 +101,7 @@ class Host : public df::Runner {
   void sendSnapshots(df::World& world);
   void sendPlayers(const df::World& world);
   void sendSounds(const df::World& world);
+  void sendNotes(const df::World& world);
   Session* findTicking(std::uint32_t player) const;
   void writeTruth(const df::PlayerFacts& player, const df::World& world);
   void sweep();

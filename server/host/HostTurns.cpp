@@ -3,6 +3,8 @@
 
 #include "GameManager.h"
 #include "Host.h"
+#include "Limits.h"
+#include "SafeText.h"
 #include "World.h"
 #include "WorldExtras.h"
 
@@ -42,11 +44,20 @@ void Host::giveTurn() {
     if (p_first == nullptr || session.player() < p_first->player()) p_first = &session;
   });
   const std::uint32_t turn = p_first != nullptr ? p_first->player() : 0;
+  m_p_world->extras().heard_player = turn;
   if (turn == m_turn) return;
   m_turn_before = std::exchange(m_turn, turn);
   if (p_first == nullptr || m_turn_before == 0) return;
   const wire::ServerMessage message = line(p_first->name() + " plays now.");
   forEachPlaying([&message](Session& session) { session.sendKept(message); });
+}
+
+// What the engine itself has to say to the players.
+void Host::sendNotes(const df::World& world) {
+  for (const std::string& note : world.view().notes) {
+    const wire::ServerMessage message = line(safeText(note, kMaxChatLength));
+    forEachPlaying([&message](Session& session) { session.sendKept(message); });
+  }
 }
 
 void Host::tellTurn(Session& session) {
