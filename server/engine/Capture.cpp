@@ -177,13 +177,13 @@ Canvas Capture::render(FixedVector corner) const {
   const Views& views = m_world.views();
   Canvas canvas(views.width(), views.height());
   for (const DrawnObject& drawn : m_view.drawn) {
-    const FixedVector& from = drawn.on_view ? m_view.corner : corner;
-    const std::int64_t left = cellOf(from.x) + m_view.shake_x;
-    const std::int64_t top = cellOf(from.y) + m_view.shake_y;
+    const std::int64_t left = drawn.on_view ? 0 : cellOf(corner.x) + m_view.shake_x;
+    const std::int64_t top = drawn.on_view ? 0 : cellOf(corner.y) + m_view.shake_y;
     for (std::uint32_t i = drawn.first; i < drawn.first + drawn.count; ++i) {
       const DrawCommand& c = m_view.commands[i];
-      const std::int64_t x = cellOf(c.position.x) - left;
-      const std::int64_t y = cellOf(c.position.y) - top;
+      const FixedVector at = drawn.on_view ? c.position - m_view.corner : c.position;
+      const std::int64_t x = cellOf(at.x) - left;
+      const std::int64_t y = cellOf(at.y) - top;
       if (x < 0 || y < 0 || x >= canvas.width() || y >= canvas.height()) continue;
       canvas.put(static_cast<int>(x), static_cast<int>(y), {c.ch, c.color});
     }

@@ -38,7 +38,8 @@ struct ObjectFacts {
   FixedBox box;              ///< relative to the position
   Solidness solidness = HARD;
   bool no_soft = false;
-  bool shown = true;  ///< active and visible: false means it must not be drawn
+  bool shown = true;     ///< active and visible: false means it must not be drawn
+  bool on_view = false;  ///< a view object: its position is in cells of every view, not in the world
   int altitude = 2;
 };
 

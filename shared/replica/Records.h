@@ -30,11 +30,13 @@ inline constexpr std::uint8_t kAllGroups = kLife | kMotion | kLook | kBody;
 inline constexpr std::uint8_t kDeath = 0;  ///< the groups of a record of an object that is dead
 inline constexpr int kGroupCount = 4;
 
-/// Box, solidness and no-soft: what prediction needs to know. The default is a single hard character.
+/// Box, solidness and no-soft: what prediction needs to know. The default is a single hard character. What is
+/// on the view is spectral, and its position is counted from the view's corner, wherever that is.
 struct Body {
   df::FixedBox box{{-df::kFixedOne / 2, -df::kFixedOne / 2}, {df::kFixedOne, df::kFixedOne}};
   df::Solidness solidness = df::HARD;
   bool no_soft = false;
+  bool on_view = false;
   friend bool operator==(const Body&, const Body&) = default;
 };
 

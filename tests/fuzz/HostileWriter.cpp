@@ -228,7 +228,7 @@ void HostileWriter::body() {
     vector(-kMostBoxCells, kMostBoxCells);
     vector(1, kMostBoxCells);
   }
-  field(Kind::kSolidness, 2, df::SPECTRAL);
+  field(2);
   field(1);
 }
 

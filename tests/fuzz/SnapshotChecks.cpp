@@ -48,6 +48,7 @@ void requireGood(const ObjectRecord& record, std::uint32_t tick) {
   const Body& body = record.state.body;
   REQUIRE(body.box.size.x >= 0 && body.box.size.y >= 0);
   REQUIRE(static_cast<unsigned>(body.solidness) <= df::SPECTRAL);
+  REQUIRE(!body.on_view || body.solidness == df::SPECTRAL);
 }
 
 void requireGood(const Snapshot& snapshot) {

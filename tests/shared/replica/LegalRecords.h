@@ -38,7 +38,8 @@ inline bool isLegal(const Look& look, std::uint32_t tick) {
 
 inline bool isLegal(const Body& body) {
   return isWithin(body.box.corner, 1'000'001) && isWithin(body.box.size, 1'000'001) && body.box.size.x >= 0 &&
-         body.box.size.y >= 0 && body.solidness >= df::HARD && body.solidness <= df::SPECTRAL;
+         body.box.size.y >= 0 && body.solidness >= df::HARD && body.solidness <= df::SPECTRAL &&
+         (!body.on_view || body.solidness == df::SPECTRAL);
 }
 
 inline bool isLegal(const ObjectRecord& record, std::uint32_t tick) {
