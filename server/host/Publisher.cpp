@@ -116,7 +116,8 @@ void Publisher::mark(std::uint32_t slot, Tracked& tracked, std::uint8_t groups) 
 void Publisher::update(const df::WorldView& view) {
   m_tick = view.tick;
   ++m_update;
-  m_world = {view.boundary, view.view_width, view.view_height, view.background};
+  const bool is_color = view.background >= df::BLACK && view.background <= df::WHITE;
+  m_world = {view.boundary, view.view_width, view.view_height, is_color ? view.background : df::BLACK};
   m_changes.clear();
   m_exact.clear();
   bool controls = false;

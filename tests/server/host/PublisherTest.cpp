@@ -143,6 +143,18 @@ TEST(Publisher, AViewObjectStandsWhereverTheViewsGo) {
   EXPECT_GT(model.reach, Publisher::kWide) << "so everybody is told of it";
 }
 
+TEST(Publisher, ABackgroundThatIsNoColourIsNone) {
+  Scene scene;
+  const auto published = [&scene](df::Color background) {
+    scene.view().background = background;
+    scene.publish();
+    return scene.publisher.world().background;
+  };
+  EXPECT_EQ(published(df::BLUE), df::BLUE);
+  EXPECT_EQ(published(df::CUSTOM), df::BLACK);
+  EXPECT_EQ(published(df::UNDEFINED_COLOR), df::BLACK);
+}
+
 TEST(Publisher, AcceleratedFlightIsPublishedOnce) {
   Scene scene;
   df::FixedVector position = at(5, 5);
