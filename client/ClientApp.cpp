@@ -35,7 +35,8 @@ SessionOptions withTerminalSize(SessionOptions options) {
 
 ClientApp::ClientApp(Options options)
     : m_options(std::move(options)),
-      m_connection(m_context, m_options.address, withTerminalSize(m_options.session), true, m_options.trust) {
+      m_connection(m_context, m_options.address, withTerminalSize(m_options.session), true, m_options.trust),
+      m_sounds(m_options.sound) {
   if (m_options.p_session_file != nullptr) m_connection.keepIn(*m_options.p_session_file);
 }
 
@@ -54,6 +55,7 @@ ClientApp::Outcome ClientApp::run() {
     sendKeys(m_held.expire(now), now);
     sendHeld(now);
     sendMove(now);
+    hearSounds(now);
     m_dirty = m_dirty || !(look(now) == m_drawn);
     if (m_dirty && now - m_last_frame >= kFrame) drawFrame(now);
   }
@@ -246,6 +248,13 @@ void ClientApp::sendMove(Time now) {
   m_connection.session()->sendMouse(df::MOVED, df::Mouse::UNDEFINED_MOUSE_BUTTON, cell.x, cell.y, now);
 }
 
+void ClientApp::hearSounds(Time now) {
+  ClientSession* session = m_connection.session();
+  if (session == nullptr) return;
+  for (const SoundLine& sound : session->takeSounds()) m_sounds.hear(sound, session->welcome().player, now);
+  if (m_sounds.takeBell()) m_screen->ring();
+}
+
 void ClientApp::suspend() {
   sendKeys(m_held.releaseAll(), Clock::now());
   m_guard->leaveModes();
@@ -278,6 +287,7 @@ ClientApp::Seen ClientApp::look(Time now) {
     seen.silence = std::chrono::floor<std::chrono::milliseconds>(session->clock().silence(now)).count() / 100;
   }
   seen.chat_lines = recentChat(now).size();
+  seen.note = m_sounds.note(now);
   return seen;
 }
 
@@ -320,6 +330,7 @@ void ClientApp::drawFrame(Time now) {
     const DrawnPlacement placement(replica, session->predict(now), clamp);
     model.view = replica.render(m_drawn.tick, &placement);
     model.focus = replica.focus(m_drawn.tick, &placement);
+    model.background = replica.background();
     model.has_view = true;
     model.round_trip = session->roundTrip();
     model.tick = m_drawn.tick;
@@ -330,6 +341,7 @@ void ClientApp::drawFrame(Time now) {
     model.players = session->players();
     model.help = session->welcome().help;
     model.chat = recentChat(now);
+    model.note = m_drawn.note;
   }
   model.status_shown = m_controls.statusShown();
   model.panel = m_controls.panel();

@@ -19,6 +19,7 @@
 #include "HeldKeys.h"
 #include "InputDecoder.h"
 #include "ScreenLayout.h"
+#include "SoundNotes.h"
 
 namespace naiad {
 
@@ -35,6 +36,7 @@ class ClientApp {
     bool ascii = false;
     bool mouse = true;
     bool colors = true;
+    SoundMode sound = SoundMode::kNote;
   };
   /// How it ended.
   struct Outcome {
@@ -60,6 +62,7 @@ class ClientApp {
     std::uint32_t predicted = 0;
     std::int64_t silence = 0;  ///< in tenths of a second, once it is shown
     std::size_t chat_lines = 0;
+    std::string note;
     friend bool operator==(const Seen&, const Seen&) = default;
   };
 
@@ -78,6 +81,7 @@ class ClientApp {
   void sendKeys(const std::vector<KeyAction>& actions, Time now);
   void sendHeld(Time now);
   void sendMove(Time now);
+  void hearSounds(Time now);
   void suspend();
   void resume();
   Seen look(Time now);
@@ -99,6 +103,7 @@ class ClientApp {
   HeldKeys m_held;
   ClientControls m_controls;
   ViewPlacement m_placement;
+  SoundNotes m_sounds;
 
   df::Mouse::Button m_button = df::Mouse::UNDEFINED_MOUSE_BUTTON;  ///< held down
   CellPosition m_pointer;                                          ///< the mouse, in view cells

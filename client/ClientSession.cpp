@@ -218,6 +218,15 @@ void ClientSession::handle(ChatMessage&& message, Time now) {
   ++m_counters.chat_lines;
 }
 
+void ClientSession::handle(SoundsMessage&& message, Time) {
+  if (m_state != State::kPlaying) return reject("sounds before the welcome");
+  if (!takeKept(message.number)) return;
+  m_counters.sounds += message.sounds.size();
+  for (SoundLine& sound : message.sounds) m_sounds.push_back(std::move(sound));
+  if (m_sounds.size() <= kMaxUnheard) return;
+  m_sounds.erase(m_sounds.begin(), m_sounds.end() - static_cast<std::ptrdiff_t>(kMaxUnheard));
+}
+
 void ClientSession::handle(const PongMessage& message, Time now) {
   // Else a server could put off the time-out of the greeting for ever.
   if (m_state != State::kPlaying) return reject("a pong before the welcome");

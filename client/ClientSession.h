@@ -16,6 +16,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "Acks.h"
@@ -51,6 +52,7 @@ struct SessionCounters {
   std::uint64_t inputs = 0;
   std::uint64_t inputs_dropped = 0;  ///< kept back: too many, or the line is stuck
   std::uint64_t chat_lines = 0;
+  std::uint64_t sounds = 0;
   std::uint64_t chat_dropped = 0;     ///< not sent: too much waits to be sent again
   std::uint64_t repeated_frames = 0;  ///< kept frames that had come already: ignored
   std::uint64_t datagrams_in = 0;     ///< with a snapshot; their bytes are in bytes_in, headers not counted
@@ -76,6 +78,7 @@ class ClientSession {
   static constexpr std::chrono::milliseconds kPassing = UpdateTiming::kPassing;
   static constexpr std::uint32_t kMaxUnapplied = InputOutbox::kMost;
   static constexpr std::size_t kMaxChatLog = ChatLog::kMost;
+  static constexpr std::size_t kMaxUnheard = 32;  ///< sounds, if nobody takes them
   static constexpr std::chrono::seconds kChecksumEvery{1};
   /// So many bytes of kept frames are acknowledged at once, not with the next ping.
   static constexpr std::size_t kMuchKept = std::size_t{8} * 1024;
@@ -135,6 +138,8 @@ class ClientSession {
   const std::vector<PlayerLine>& players() const { return m_players; }
   const std::deque<ChatEntry>& chat() const { return m_chat.entries(); }
   const SessionCounters& counters() const { return m_counters; }
+  /// What the game sounded since this was asked last, oldest first; the newest kMaxUnheard of it.
+  std::vector<SoundLine> takeSounds() { return std::exchange(m_sounds, {}); }
   /// Points of this player, from the newest player list.
   std::int32_t score() const;
 
@@ -175,6 +180,7 @@ class ClientSession {
   void handle(SnapshotMessage&& message, Time now);
   void handle(PlayersMessage&& message, Time now);
   void handle(ChatMessage&& message, Time now);
+  void handle(SoundsMessage&& message, Time now);
   void handle(const PongMessage& message, Time now);
   void reject(const std::string& what);
   void finish(State state, std::string sentence);
@@ -208,6 +214,7 @@ class ClientSession {
   std::uint32_t m_control_known = 0;  ///< … and state
   std::vector<PlayerLine> m_players;
   ChatLog m_chat;
+  std::vector<SoundLine> m_sounds;
   SessionCounters m_counters;
   std::function<void(std::uint32_t)> m_observer;
   std::function<void(const SnapshotHeader&, const AckWindow&)> m_after_observer;

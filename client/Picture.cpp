@@ -11,6 +11,7 @@ Picture::Picture(int width, int height)
 
 void Picture::put(int x, int y, PictureCell cell) {
   if (x < 0 || y < 0 || x >= m_width || y >= m_height) return;
+  if (cell.background != df::BLACK) m_background = cell.background;
   m_cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width) + static_cast<std::size_t>(x)] =
       cell;
 }

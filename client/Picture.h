@@ -19,6 +19,7 @@ struct PictureCell {
   char32_t ch = U' ';
   df::Color color = df::COLOR_DEFAULT;
   Style style = Style::kPlain;
+  df::Color background = df::BLACK;  ///< black: the terminal's own
   friend bool operator==(const PictureCell&, const PictureCell&) = default;
 };
 
@@ -30,7 +31,7 @@ class Picture {
 
   int width() const { return m_width; }
   int height() const { return m_height; }
-  /// Outside the picture it is dropped.
+  /// Outside the picture it is dropped. All cells with a background must have the same.
   void put(int x, int y, PictureCell cell);
   /// Blank outside the picture.
   PictureCell at(int x, int y) const;
@@ -41,6 +42,8 @@ class Picture {
   void fill(int x, int y, int width, int height, Style style = Style::kPlain);
   /// Draw a thin frame whose corners are (x, y) and (x + width - 1, y + height - 1).
   void frame(int x, int y, int width, int height);
+  /// The one background of its cells that is not the terminal's own; black: there is none.
+  df::Color background() const { return m_background; }
   /// Row `y` as UTF-8, for tests.
   std::string rowText(int y) const;
 
@@ -50,6 +53,7 @@ class Picture {
  private:
   int m_width = 0;
   int m_height = 0;
+  df::Color m_background = df::BLACK;
   std::vector<PictureCell> m_cells;
 };
 

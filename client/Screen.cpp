@@ -20,8 +20,10 @@
 namespace naiad {
 namespace {
 
-short pairOf(df::Color color) {
-  return static_cast<short>(color + 1);
+/// Of ncurses: 1 to 8 on the terminal's own background, 9 to 16 on the game's. (On a terminal of eight
+/// colours there are not enough for all backgrounds at once, but a picture has one.)
+short pairOf(df::Color color, bool own_background) {
+  return static_cast<short>(color + (own_background ? 1 : 1 + df::kColorCount));
 }
 
 short cursesColor(df::Color color) {
@@ -56,7 +58,7 @@ Screen::Screen(Options options) : m_ascii(options.ascii), m_colors(options.color
       short foreground = cursesColor(color);
       if (color == df::COLOR_DEFAULT && has_default) foreground = -1;
       if (color == df::BLACK && COLORS > 8) foreground = 8;  // bright black is visible on black
-      init_pair(pairOf(color), foreground,
+      init_pair(pairOf(color, true), foreground,
                 has_default ? static_cast<short>(-1) : static_cast<short>(COLOR_BLACK));
     }
   }
@@ -65,6 +67,17 @@ Screen::Screen(Options options) : m_ascii(options.ascii), m_colors(options.color
 
 Screen::~Screen() {
   end();
+}
+
+// Nothing of the player's own colours on it: white on cyan has to be that, whatever his terminal writes with.
+void Screen::setBackground(df::Color background) {
+  if (!m_colors || background == df::BLACK || background == m_background) return;
+  m_background = background;
+  for (int c = df::BLACK; c < df::kColorCount; ++c) {
+    const auto color = static_cast<df::Color>(c);
+    init_pair(pairOf(color, false), cursesColor(color), cursesColor(background));
+  }
+  m_redraw = true;
 }
 
 bool Screen::readSize() {
@@ -80,6 +93,7 @@ bool Screen::readSize() {
 }
 
 void Screen::show(const Picture& picture) {
+  setBackground(picture.background());
   const bool all =
       m_redraw || m_ended || picture.width() != m_shown.width() || picture.height() != m_shown.height();
   if (all) {
@@ -100,11 +114,15 @@ void Screen::show(const Picture& picture) {
   m_ended = false;
 }
 
+void Screen::ring() {
+  if (!m_ended) beep();
+}
+
 void Screen::put(int x, int y, const PictureCell& cell) {
   attr_t attributes = A_NORMAL;
   if (cell.style == Style::kBold) attributes |= A_BOLD;
   if (cell.style == Style::kReverse) attributes |= A_REVERSE;
-  const short pair = m_colors ? pairOf(cell.color) : static_cast<short>(0);
+  const short pair = m_colors ? pairOf(cell.color, cell.background == df::BLACK) : static_cast<short>(0);
   // Whatever got here, nothing but one drawable character reaches the terminal.
   const char32_t safe = df::isDrawable(cell.ch) ? cell.ch : U'?';
   const wchar_t text[2] = {m_ascii ? static_cast<wchar_t>(asciiFor(safe)) : static_cast<wchar_t>(safe),

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "Color.h"
 #include "Picture.h"
 
 namespace naiad {
@@ -29,6 +30,8 @@ class Screen {
 
   /// Show the picture.
   void show(const Picture& picture);
+  /// Ring the terminal's bell.
+  void ring();
   /// The terminal's size may have changed. True if it has.
   bool readSize();
   /// Send everything anew with the next show(): somebody else has written on the terminal.
@@ -37,6 +40,7 @@ class Screen {
   void end();
 
  private:
+  void setBackground(df::Color background);
   void put(int x, int y, const PictureCell& cell);
 
   bool m_ascii;
@@ -45,6 +49,7 @@ class Screen {
   bool m_ended = false;
   int m_columns = 0;
   int m_rows = 0;
+  df::Color m_background = df::BLACK;  ///< of the pairs for the game's
   Picture m_shown;
 };
 

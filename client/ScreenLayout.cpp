@@ -9,6 +9,7 @@ namespace naiad {
 namespace {
 
 constexpr std::size_t kChatRows = 6;
+constexpr std::size_t kMaxOverlayNote = 20;
 
 int columnCount(const std::string& text) {
   return static_cast<int>(columnsOf(text));
@@ -29,7 +30,7 @@ void drawView(Picture& picture, const ScreenModel& model, const ViewPlacement& p
   for (int y = 0; y < place.height; ++y) {
     for (int x = 0; x < place.width; ++x) {
       const df::Cell cell = model.view.at(place.view_x + x, place.view_y + y);
-      picture.put(place.left + x, place.top + y, {cell.ch, cell.color, Style::kPlain});
+      picture.put(place.left + x, place.top + y, {cell.ch, cell.color, Style::kPlain, model.background});
     }
   }
 }
@@ -50,7 +51,11 @@ void drawStatusRow(Picture& picture, const ScreenModel& model) {
   };
   const int help_at = picture.width() - columnCount(help) - 1;
   const bool room_for_help = help_at > 12;
-  const int end = room_for_help ? help_at - 1 : picture.width();
+  int end = room_for_help ? help_at - 1 : picture.width();
+  if (const int note_at = end - columnCount(model.note) - 1; !model.note.empty() && note_at > 12) {
+    picture.write(note_at, y, model.note, end - note_at, df::COLOR_DEFAULT, Style::kReverse);
+    end = note_at - 1;
+  }
   int x = 1;
   for (const std::string& part : parts) {
     if (part.empty()) continue;
@@ -61,8 +66,11 @@ void drawStatusRow(Picture& picture, const ScreenModel& model) {
 }
 
 void drawStatusOverlay(Picture& picture, const ScreenModel& model) {
-  const std::string text = std::string(" ") + std::to_string(model.round_trip.count()) + "ms t" +
-                           std::to_string(model.tick) + " " + std::to_string(model.players.size()) + "p ^]h ";
+  // Here it covers a piece of the game, so it stays short.
+  const std::string note = safeText(model.note, kMaxOverlayNote);
+  const std::string text = (note.empty() ? " " : " " + note + "  ") +
+                           std::to_string(model.round_trip.count()) + "ms t" + std::to_string(model.tick) +
+                           " " + std::to_string(model.players.size()) + "p ^]h ";
   const int x = std::max(0, picture.width() - columnCount(text));
   picture.write(x, picture.height() - 1, text, picture.width(), df::COLOR_DEFAULT, Style::kReverse);
 }

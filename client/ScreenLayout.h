@@ -18,9 +18,10 @@ inline constexpr std::chrono::seconds kChatShown{8};
 /// Everything that can be seen, as values. Texts must be safe (SafeText.h).
 struct ScreenModel {
   df::Canvas view;
-  CellPosition focus;     ///< what must stay visible, in view cells
-  bool has_view = false;  ///< false before the first snapshot: only the banner is drawn
-  std::string banner;     ///< a line over everything; empty: none
+  df::Color background = df::BLACK;  ///< behind all characters of the view
+  CellPosition focus;                ///< what must stay visible, in view cells
+  bool has_view = false;             ///< false before the first snapshot: only the banner is drawn
+  std::string banner;                ///< a line over everything; empty: none
 
   bool status_shown = true;
   std::chrono::milliseconds round_trip{0};
@@ -28,6 +29,7 @@ struct ScreenModel {
   std::int32_t score = 0;
   std::string server;  ///< program and address of the server
   std::string game;
+  std::string note;  ///< for a moment: what has just sounded; empty: none
 
   Panel panel = Panel::kNone;
   std::uint32_t self = 0;  ///< this player's id

@@ -65,6 +65,19 @@ std::optional<ServerMessageValue> check(const wire::PlayerList& wire, std::uint3
   return message;
 }
 
+std::optional<ServerMessageValue> check(const wire::Sounds& wire, std::uint32_t number) {
+  if (wire.sounds_size() > static_cast<int>(kMaxSounds)) return std::nullopt;
+  SoundsMessage message;
+  message.number = number;
+  for (const wire::Sound& sound : wire.sounds()) {
+    if (!wire::Sound::Action_IsValid(sound.action())) return std::nullopt;
+    message.sounds.push_back({safeText(sound.label(), kMaxSoundLabel),
+                              static_cast<SoundLine::Action>(sound.action()), sound.music(), sound.loop(),
+                              sound.player()});
+  }
+  return message;
+}
+
 }  // namespace
 
 std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
@@ -88,6 +101,8 @@ std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
       return GoodbyeMessage{safeText(wire.goodbye().sentence(), kMaxSentenceLength)};
     case wire::ServerMessage::kChat:
       return ChatMessage{wire.chat().player(), safeText(wire.chat().text(), kMaxChatLength), wire.number()};
+    case wire::ServerMessage::kSounds:
+      return check(wire.sounds(), wire.number());
     case wire::ServerMessage::kPong:
       return PongMessage{wire.pong().token(), wire.pong().received()};
     case wire::ServerMessage::WHAT_NOT_SET:

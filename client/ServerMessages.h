@@ -79,13 +79,29 @@ struct ChatMessage {
   std::uint32_t number = 0;  ///< of a kept frame; 0: it is none
 };
 
+/// A sound or a piece of music began, paused or stopped.
+struct SoundLine {
+  enum class Action : std::uint8_t { kPlay, kPause, kStop };
+  std::string label;
+  Action action = Action::kPlay;
+  bool music = false;        ///< else a sound
+  bool loop = false;         ///< again and again
+  std::uint32_t player = 0;  ///< whose doing it was; 0: nobody's
+  friend bool operator==(const SoundLine&, const SoundLine&) = default;
+};
+
+struct SoundsMessage {
+  std::vector<SoundLine> sounds;  ///< in the order in which it happened
+  std::uint32_t number = 0;       ///< of a kept frame; 0: it is none
+};
+
 struct PongMessage {
   std::uint64_t token = 0;
   std::uint32_t received = 0;  ///< newest of our kept frames that came
 };
 
 using ServerMessageValue = std::variant<WelcomeMessage, RefusedMessage, GoodbyeMessage, SnapshotMessage,
-                                        PlayersMessage, ChatMessage, PongMessage>;
+                                        PlayersMessage, ChatMessage, SoundsMessage, PongMessage>;
 
 /// The message in a frame; nothing if it is not one that this version of the protocol allows.
 std::optional<ServerMessageValue> readServerMessage(std::string_view frame);

@@ -99,6 +99,17 @@ int start(int argc, char** argv) {
       ->envname("NAIAD_NO_RESUME");
   app.add_flag("--ascii", options.ascii, "Draw with ASCII characters only")->envname("NAIAD_ASCII");
   app.add_flag("--no-mouse", no_mouse, "Leave the mouse to the terminal")->envname("NAIAD_NO_MOUSE");
+  app.add_option_function<std::string>(
+         "--sound",
+         [&options](const std::string& word) {
+           const auto mode = naiad::soundModeFrom(word);
+           if (!mode) throw CLI::ValidationError("--sound", "bell, note or off is wanted");
+           options.sound = *mode;
+         },
+         "What a sound of the game does: bell (and note), note (its name in the status line), off")
+      ->default_str("note")
+      ->type_name("bell|note|off")
+      ->envname("NAIAD_SOUND");
   app.add_flag("--attached", attached, "Started by the game, to end with it")->group("");
   app.footer(footer());
   try {

@@ -30,6 +30,9 @@ void Capture::begin() {
   m_view.vanished.clear();
   m_view.players.clear();
   m_view.sounds.clear();
+  m_view.sounds_lost = 0;
+  m_view.playing.clear();
+  m_view.notes.clear();
   m_view.shake_x = m_view.shake_y = 0;
 }
 
@@ -150,6 +153,9 @@ void Capture::finish() {
   for (const auto& [id, p_player] : views.players()) m_view.players.push_back(p_player->facts());
   if (const WorldExtras* p_extras = m_world.findExtras()) {
     m_view.sounds = p_extras->sounds;
+    m_view.sounds_lost = p_extras->sounds_lost;
+    m_view.playing = p_extras->playing;
+    m_view.notes = p_extras->notes;
     m_view.background = p_extras->background;
     m_view.shake_x = p_extras->shake.x;
     m_view.shake_y = p_extras->shake.y;
@@ -171,13 +177,13 @@ Canvas Capture::render(FixedVector corner) const {
   const Views& views = m_world.views();
   Canvas canvas(views.width(), views.height());
   for (const DrawnObject& drawn : m_view.drawn) {
-    const FixedVector& from = drawn.on_view ? m_view.corner : corner;
-    const std::int64_t left = cellOf(from.x) + m_view.shake_x;
-    const std::int64_t top = cellOf(from.y) + m_view.shake_y;
+    const std::int64_t left = drawn.on_view ? 0 : cellOf(corner.x) + m_view.shake_x;
+    const std::int64_t top = drawn.on_view ? 0 : cellOf(corner.y) + m_view.shake_y;
     for (std::uint32_t i = drawn.first; i < drawn.first + drawn.count; ++i) {
       const DrawCommand& c = m_view.commands[i];
-      const std::int64_t x = cellOf(c.position.x) - left;
-      const std::int64_t y = cellOf(c.position.y) - top;
+      const FixedVector at = drawn.on_view ? c.position - m_view.corner : c.position;
+      const std::int64_t x = cellOf(at.x) - left;
+      const std::int64_t y = cellOf(at.y) - top;
       if (x < 0 || y < 0 || x >= canvas.width() || y >= canvas.height()) continue;
       canvas.put(static_cast<int>(x), static_cast<int>(y), {c.ch, c.color});
     }

@@ -37,7 +37,8 @@ class Capture {
   void forgetLook(std::uint32_t slot) { m_looks.erase(slot); }
 
   const WorldView& view() const { return m_view; }
-  /// The picture in a view with this corner: cell(position) - cell(corner), shaken if the window is.
+  /// The picture in a view with this corner: cell(position) - cell(corner), shaken if the window is, but view
+  /// objects where they are in every view.
   Canvas render(FixedVector corner) const;
 
  private:

@@ -78,10 +78,10 @@ class DisplayManager : public Manager {
   int getHorizontalPixels() const;
   int getVerticalPixels() const;
 
-  /// The colour behind all characters, told to clients. Return true, or false if there is no such colour.
+  /// The colour behind all characters, for all players; black is the terminals' own. Return true, or false if there is no such colour.
   bool setBackgroundColor(Color new_color);
   /// Shake the picture for so many ticks by up to so many pixels; `delta`: in addition to what it does
-  /// already. Told to clients, in cells (WorldView::shake_x); a cell is about 13 by 32 pixels.
+  /// already. In cells, of which one is about 13 by 32 pixels; view objects stay where they are.
   void shake(int scale_x, int scale_y, int duration, bool delta = false);
   /// Nothing, for characters are shown at the end of the tick. Return 0.
   int swapBuffers() { return 0; }

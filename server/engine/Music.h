@@ -14,6 +14,7 @@ class Music : private Sound {
   /// Return 0 if there is such a file, else -1, with a line in the log. What is in it is not looked at.
   int loadMusic(const std::string& filename) { return loadSound(filename); }
 
+  using Sound::endLoop;
   using Sound::getLabel;
   using Sound::pause;
   using Sound::setLabel;

@@ -1,8 +1,15 @@
 // Pauses the game when its key is pressed, and lets it go on when it is pressed again: no step events,
 // nothing moves, no input but to Pause objects; the picture stays.
 //
-// With many players any of them can do it. (That it becomes a vote is up to the host.)
+// With several players it is a vote: more than half of those who are there have to press the key, each once,
+// within ten seconds of the one before. All of them read how it stands ("pause: 1 of 3"). Who leaves takes
+// his vote along, and the others are counted anew. Who pauses and goes, and leaves nobody behind, ends the
+// pause.
 #pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "EventKeyboard.h"
 #include "Object.h"
@@ -20,7 +27,13 @@ class Pause : public Object {
   int eventHandler(const Event* p_e) override;
 
  private:
+  void vote(std::uint32_t player);
+  void leave(std::uint32_t player);
+  void count(std::size_t voters, bool tell);
+
   int m_pause_key;
+  std::vector<std::uint32_t> m_votes;  ///< for the other state: players
+  int m_voted_at = 0;                  ///< the step of the newest
 };
 
 }  // namespace df

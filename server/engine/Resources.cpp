@@ -97,6 +97,7 @@ int Resources::loadSound(const std::string& filename, const std::string& label) 
 int Resources::unloadSound(const std::string& label) {
   const auto it = findSound(m_sounds, label);
   if (it == m_sounds.end()) return -1;
+  it->endLoop();
   m_sounds.erase(it);
   return 0;
 }
@@ -118,6 +119,7 @@ int Resources::loadMusic(const std::string& filename, const std::string& label) 
 int Resources::unloadMusic(const std::string& label) {
   const auto it = findSound(m_musics, label);
   if (it == m_musics.end()) return -1;
+  it->endLoop();
   m_musics.erase(it);
   return 0;
 }

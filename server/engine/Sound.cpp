@@ -26,6 +26,10 @@ void Sound::pause() {
   tell(SoundPlayed::kPause, false);
 }
 
+void Sound::endLoop() {
+  if (World::current().extras().isPlaying(m_label, m_music)) stop();
+}
+
 void Sound::tell(SoundPlayed::What what, bool loop) {
   World& world = World::current();
   world.noteSound({m_label, what, m_music, loop, world.inputPlayer()});

@@ -1,5 +1,6 @@
 // A sound or a piece of music of a game. The engine makes no noise: that something was played is written into
-// the tick's WorldView, from where a host may tell clients. Without anybody who watches, it is silence.
+// the tick's WorldView, from where a host tells clients, each of which does with it what its player likes.
+// What plays again and again is remembered for who joins later. Without anybody who watches, it is silence.
 #pragma once
 
 #include <string>
@@ -25,6 +26,9 @@ class Sound {
   void play(bool loop = false);
   void stop();
   void pause();
+
+  /// Stop it if it goes on again and again: it is about to be unloaded.
+  void endLoop();
 
   /// What stands in for the published engine's member of a graphics library: it takes calls and does nothing.
   sf::Sound getSound() const { return {}; }

@@ -92,8 +92,9 @@ naiad::Sequence Sprite::makePictures() const {
   for (const Frame& frame : m_frames) {
     pictures.push_back(pictureOf(frame, m_color, m_transparency));
     glyphs += pictures.back().size();
-    if (pictures.back().empty() || glyphs > naiad::kMaxGlyphs) return {};
+    if (glyphs > naiad::kMaxGlyphs) return {};
   }
+  if (glyphs == 0) return {};
   naiad::Sequence sequence(std::move(pictures));
   const bool fits =
       sequence.reach() <= naiad::kMaxGlyphOffset && naiad::encodedBits(sequence) <= 8 * naiad::kMaxLookBytes;

@@ -61,7 +61,7 @@ class Sprite {
   const Mask* mask(int frame_number) const;
 
   /// All frames as watchers are told of them. Empty if that cannot be: there are none, too many (kMaxFrames)
-  /// or too large ones, or one that draws nothing at all.
+  /// or too large ones, or only such as draw nothing.
   const naiad::Sequence& pictures() const;
 
   /// For log lines.

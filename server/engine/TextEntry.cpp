@@ -5,11 +5,12 @@
 #include <utility>
 
 #include "GameManager.h"
+#include "World.h"
 #include "utility.h"
 
 namespace df {
 
-TextEntry::TextEntry() {
+TextEntry::TextEntry() : m_player(World::current().inputPlayer()) {
   Object::setType("TextEntry");
   ViewObject::setDrawValue(false);
   registerInterest(KEYBOARD_EVENT);
@@ -38,9 +39,16 @@ void TextEntry::type(char ch) {
   ++m_cursor;
 }
 
+bool TextEntry::hears(const EventKeyboard& key) const {
+  if (m_player == 0 || key.getPlayer() == m_player) return true;
+  const World* p_world = getWorld();
+  return p_world != nullptr && p_world->getPlayer(m_player) == nullptr;
+}
+
 int TextEntry::eventHandler(const Event* p_e) {
   const auto* p_key = dynamic_cast<const EventKeyboard*>(p_e);
   if (p_key == nullptr) return ViewObject::eventHandler(p_e);
+  if (!hears(*p_key)) return 0;
   const Keyboard::Key key = p_key->getKey();
   const EventKeyboardAction action = p_key->getKeyboardAction();
   if (key == Keyboard::LEFTSHIFT || key == Keyboard::RIGHTSHIFT) m_shift = action != KEY_RELEASED;

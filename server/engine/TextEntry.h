@@ -1,6 +1,10 @@
 // A line of text that the player types; RETURN calls callback().
+//
+// One that is made while a player's join, key or mouse is handled is that player's: it hears his keys and no
+// others. One that is made elsewhere hears everybody's, unless setPlayer() says whose it is.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "EventKeyboard.h"
@@ -11,7 +15,7 @@ namespace df {
 
 class TextEntry : public ViewObject {
  public:
-  /// Empty, for up to 30 characters; interested in KEYBOARD_EVENT.
+  /// Empty, for up to 30 characters; interested in KEYBOARD_EVENT; of the player whose input is handled.
   TextEntry();
 
   /// The player has finished.
@@ -35,11 +39,17 @@ class TextEntry : public ViewObject {
   void setNumbersOnly(bool new_numbers_only = true) { m_numbers_only = new_numbers_only; }
   bool numbersOnly() const { return m_numbers_only; }
 
+  /// Whose keys it hears; 0: everybody's. When he has left, everybody's are heard, lest the game wait for
+  /// ever.
+  void setPlayer(std::uint32_t new_player) { m_player = new_player; }
+  std::uint32_t getPlayer() const { return m_player; }
+
   int eventHandler(const Event* p_e) override;
   /// The view string, then the text with the cursor.
   int draw() override;
 
  private:
+  bool hears(const EventKeyboard& key) const;
   void type(char ch);
 
   std::string m_text;
@@ -49,6 +59,7 @@ class TextEntry : public ViewObject {
   int m_blink_rate = 15;
   bool m_numbers_only = false;
   bool m_shift = false;
+  std::uint32_t m_player = 0;
 };
 
 }  // namespace df

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Capture.h"
+#include "EventPlayer.h"
 #include "EventStep.h"
 #include "Hearing.h"
 #include "Helm.h"
@@ -164,7 +165,10 @@ void World::setSeed(std::uint64_t seed) {
 int World::onEvent(const Event* p_event) {
   if (p_event == nullptr) return 0;
   const Scope scope(*this);
-  return isPaused() ? m_interests->send(*p_event, Interests::kPauseOnly) : m_interests->send(*p_event);
+  // Who comes or goes meanwhile is there or not when the game goes on.
+  const EventType& type = p_event->getType();
+  const bool stays = isPaused() && type != JOIN_EVENT && type != LEAVE_EVENT;
+  return m_interests->send(*p_event, stays ? Interests::kPauseOnly : Interests::kEverybody);
 }
 
 bool World::deliver(ObjectKey key, const Event& event) {

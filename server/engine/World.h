@@ -241,7 +241,8 @@ class World {
   /// Relative names of sprites, sounds and music are looked for in the working directory, then here. It stays
   /// through shutDown().
   void addResourceFolder(std::string folder);
-  /// While a game is paused, no step event is sent and nothing moves; keys reach nobody but Pause objects.
+  /// While a game is paused, no step event is sent and nothing moves; events reach nobody but Pause objects,
+  /// except that a player joins or leaves.
   void setPaused(bool paused = true);
   bool isPaused() const;
   /// A sound was played; see WorldView.

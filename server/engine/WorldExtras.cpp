@@ -1,13 +1,50 @@
 #include "WorldExtras.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "World.h"
 
 namespace df {
 
+namespace {
+
+constexpr std::size_t kMostSounds = 256;  ///< in a tick; nobody hears more
+constexpr std::size_t kMostNotes = 4;     ///< in a tick
+constexpr std::size_t kMostPlaying = 16;  ///< again and again; the oldest makes room
+
+bool isSame(const SoundPlayed& a, const SoundPlayed& b) {
+  return a.music == b.music && a.label == b.label;
+}
+
+}  // namespace
+
+void WorldExtras::note(SoundPlayed sound) {
+  std::erase_if(playing, [&sound](const SoundPlayed& other) { return isSame(sound, other); });
+  if (sound.what == SoundPlayed::kPlay && sound.loop) {
+    if (playing.size() == kMostPlaying) playing.erase(playing.begin());
+    playing.push_back(sound);
+  }
+  if (sounds.size() < kMostSounds) {
+    sounds.push_back(std::move(sound));
+  } else {
+    ++sounds_lost;
+  }
+}
+
+void WorldExtras::tell(std::string line) {
+  if (notes.size() < kMostNotes) notes.push_back(std::move(line));
+}
+
+bool WorldExtras::isPlaying(const std::string& label, bool music) const {
+  return std::any_of(playing.begin(), playing.end(),
+                     [&](const SoundPlayed& sound) { return sound.music == music && sound.label == label; });
+}
+
 void WorldExtras::beginTick() {
+  notes.clear();
   sounds.clear();
+  sounds_lost = 0;
   shake.step(random);
 }
 
@@ -20,6 +57,10 @@ void WorldExtras::reset() {
   settings = {};
   shake = {};
   sounds.clear();
+  sounds_lost = 0;
+  playing.clear();
+  notes.clear();
+  heard_player = 0;
   background = BLACK;
   view_slack = Vector(1.0 / 3, 1.0 / 3);
   paused = false;
@@ -46,9 +87,7 @@ bool World::isPaused() const {
 }
 
 void World::noteSound(SoundPlayed sound) {
-  constexpr std::size_t kMost = 256;  // more in a tick nobody hears
-  std::vector<SoundPlayed>& sounds = extras().sounds;
-  if (sounds.size() < kMost) sounds.push_back(std::move(sound));
+  extras().note(std::move(sound));
 }
 
 }  // namespace df

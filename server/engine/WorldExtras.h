@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "Animations.h"
@@ -22,6 +23,12 @@ struct WorldExtras {
 
   /// The world has begun a tick.
   void beginTick();
+  /// A sound or music began, paused or stopped.
+  void note(SoundPlayed sound);
+  /// A line for all players to read.
+  void tell(std::string line);
+  /// Does it go on again and again?
+  bool isPlaying(const std::string& label, bool music) const;
   /// All of it has happened, and has been drawn.
   void endTick();
   /// As at the beginning. Sprites live on as long as the world, for Objects may still show them.
@@ -36,6 +43,11 @@ struct WorldExtras {
   Settings settings;
   Shaking shake;
   std::vector<SoundPlayed> sounds;  ///< of this tick
+  std::uint32_t sounds_lost = 0;
+  std::vector<SoundPlayed> playing;  ///< again and again
+  std::vector<std::string> notes;    ///< of this tick
+  /// The only player whose input the host hands in; 0: everybody's.
+  std::uint32_t heard_player = 0;
   Color background = BLACK;
   Vector view_slack{1.0 / 3, 1.0 / 3};  ///< as asked for; it has no effect
   bool paused = false;

@@ -406,6 +406,7 @@ ObjectFacts WorldStore::facts(Slot s) const {
   f.solidness = m_cards[s].solidness;
   f.no_soft = has(s, kNoSoft);
   f.shown = has(s, kActive) && has(s, kVisible);
+  f.on_view = has(s, kOnView);
   f.altitude = m_cards[s].altitude;
   return f;
 }

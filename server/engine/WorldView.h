@@ -38,7 +38,8 @@ struct ObjectFacts {
   FixedBox box;              ///< relative to the position
   Solidness solidness = HARD;
   bool no_soft = false;
-  bool shown = true;  ///< active and visible: false means it must not be drawn
+  bool shown = true;     ///< active and visible: false means it must not be drawn
+  bool on_view = false;  ///< a view object: its position is in cells of every view, not in the world
   int altitude = 2;
 };
 
@@ -121,6 +122,9 @@ struct WorldView {
   std::vector<PlayerFacts> players;   ///< by id
   FixedVector corner;                 ///< of the world's own view, in which view objects were drawn
   std::vector<SoundPlayed> sounds;    ///< in the order they were played
+  std::uint32_t sounds_lost = 0;      ///< more of this tick, beyond what is noted
+  std::vector<SoundPlayed> playing;   ///< what goes on again and again, as it was begun, oldest first
+  std::vector<std::string> notes;     ///< lines of the engine's own for all players to read
   Color background = BLACK;           ///< of the window
   int shake_x = 0;                    ///< cells by which views are off their places in this tick
   int shake_y = 0;

@@ -36,6 +36,8 @@ std::string Counters::summary() const {
       {"repeated_inputs", repeated_inputs},
       {"chat_dropped", chat_dropped},
       {"resizes_deferred", resizes_deferred},
+      {"sounds", sounds},
+      {"sounds_dropped", sounds_dropped},
       {"snapshots", snapshots},
       {"snapshot_bytes", snapshot_bytes},
       {"skipped_ticks", skipped_ticks},

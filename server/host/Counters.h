@@ -39,6 +39,8 @@ struct Counters {
   std::uint64_t checksums_dropped = 0;   ///< more often than four a second: ignored
   std::uint64_t repeated_inputs = 0;     ///< applied before: ignored
   std::uint64_t chat_dropped = 0;        ///< faster than three lines a second: ignored
+  std::uint64_t sounds = 0;              ///< told, each counted for each player
+  std::uint64_t sounds_dropped = 0;      ///< too many, or the stream was broken or busy: not told
   std::uint64_t resizes_deferred = 0;    ///< replaced by a newer one before they were taken over
   std::uint64_t snapshots = 0;           ///< sent
   std::uint64_t snapshot_bytes = 0;      ///< of their frames

@@ -164,7 +164,11 @@ void Host::tick() {
 
 void Host::afterTick(Room& room) {
   dismissLeavers(room);
+  const std::uint64_t told = room.sounds().told();
+  const std::uint64_t dropped = room.sounds().dropped();
   room.publish(m_truth ? &*m_truth : nullptr);
+  m_counters.sounds += room.sounds().told() - told;
+  m_counters.sounds_dropped += room.sounds().dropped() - dropped;
   if (m_truth && !m_truth->isGood()) {
     m_log("the truth file " + m_options.truth_file + " cannot be written any more; it ends here");
     m_truth.reset();

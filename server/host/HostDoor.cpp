@@ -132,6 +132,7 @@ bool Host::resume(Session& session, const wire::Hello& hello) {
     describe(datagrams.get(), welcome);
     before->restart(session, welcome, std::move(datagrams));
     m_player_news.repeat();  // he has none
+    if (Room* p_room = roomOf(*before)) p_room->repeatSounds(before->player());
     m_log(before->name() + " is back from " + before->address() + ", with another client");
     return true;
   }

@@ -76,6 +76,8 @@ constexpr std::size_t kMaxKnownAppearances = 16'384;
 constexpr std::uint32_t kForgetAfter = 9'000;
 /// Looks kept to be shared, whether anybody still has them or not.
 constexpr std::size_t kMostShared = 2'048;
+/// Cells that a view object reaches, so that it is of interest to everybody wherever his view is.
+constexpr std::int32_t kOnEveryView = 1 << 20;
 /// More distinct offsets than this make a fit slow and coarse numbers unlikely.
 constexpr std::size_t kMaxOffsets = 6;
 
@@ -114,7 +116,8 @@ void Publisher::mark(std::uint32_t slot, Tracked& tracked, std::uint8_t groups) 
 void Publisher::update(const df::WorldView& view) {
   m_tick = view.tick;
   ++m_update;
-  m_world = {view.boundary, view.view_width, view.view_height};
+  const bool is_color = view.background >= df::BLACK && view.background <= df::WHITE;
+  m_world = {view.boundary, view.view_width, view.view_height, is_color ? view.background : df::BLACK};
   m_changes.clear();
   m_exact.clear();
   bool controls = false;
@@ -343,7 +346,7 @@ void Publisher::intern(Sequence& sequence) {
 // Keep track of how far the object's characters reach and where it is.
 void Publisher::file(std::uint32_t slot, Tracked& tracked) {
   Model& model = tracked.model;
-  model.reach = model.alive ? reachOf(model.state.look) : 0;
+  model.reach = !model.alive ? 0 : model.state.body.on_view ? kOnEveryView : reachOf(model.state.look);
   const bool wide = model.alive && (slot == kLooseSlot || model.reach > kWide);
   list(m_wide, slot, tracked.wide, wide);
   if (slot == kLooseSlot) return;
@@ -357,7 +360,8 @@ void Publisher::takeFacts(const df::ObjectFacts& facts) {
   if (tracked == nullptr) return;
   Model& model = tracked->model;
   const Motion truth{m_tick, facts.position, facts.velocity, facts.acceleration};
-  const Body body{facts.box, facts.solidness, facts.no_soft};
+  const df::Solidness solidness = facts.on_view ? df::SPECTRAL : facts.solidness;
+  const Body body{facts.box, solidness, facts.no_soft, facts.on_view};
   m_look_at[facts.key.slot] = m_tick;
   if (tracked->truth.velocity != facts.velocity || tracked->shown != facts.shown) tracked->off_views = m_tick;
   tracked->truth = truth;
@@ -377,6 +381,7 @@ void Publisher::takeFacts(const df::ObjectFacts& facts) {
     m_grid.put(facts.key.slot, {df::cellOf(truth.position.x), df::cellOf(truth.position.y)});
   if (model.state.body != body) {
     model.state.body = body;
+    file(facts.key.slot, *tracked);  // it may be a view object from now on
     mark(facts.key.slot, *tracked, kBody);
   }
   if (model.state.look.altitude != facts.altitude) {
@@ -392,7 +397,17 @@ void Publisher::takeDrawing(const df::WorldView& view, const df::DrawnObject& dr
   if (!tracked.model.alive || tracked.model.generation != drawn.key.generation) return;
   tracked.drawn = tracked.off_views = m_tick;
   m_look_at[drawn.key.slot] = m_tick + 1;  // unless it is drawn again
-  correctLook(drawn.key.slot, tracked, {view.commands.data() + drawn.first, drawn.count}, told);
+  std::span<const df::DrawCommand> commands{view.commands.data() + drawn.first, drawn.count};
+  if (drawn.on_view) commands = takeOffView(commands, view.corner);
+  correctLook(drawn.key.slot, tracked, commands, told);
+}
+
+// What was drawn in the world's own view, as it is in every view.
+std::span<const df::DrawCommand> Publisher::takeOffView(std::span<const df::DrawCommand> drawn,
+                                                        df::FixedVector corner) {
+  m_off_view.assign(drawn.begin(), drawn.end());
+  for (df::DrawCommand& command : m_off_view) command.position = command.position - corner;
+  return m_off_view;
 }
 
 void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn,
@@ -504,7 +519,8 @@ void Publisher::correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::W
   const Appearance* appearance = state.look.select(m_tick);
   if (appearance == nullptr) return;
   if (tracked.shown && tracked.changed == 0 && isNewer(tracked.off_views, m_tick)) return;
-  if (tracked.shown && !landsInAView(*appearance, positionAt(state.motion, m_tick), view)) {
+  if (tracked.shown && !state.body.on_view &&
+      !landsInAView(*appearance, positionAt(state.motion, m_tick), view)) {
     tracked.off_views = m_tick + ticksOffViews(tracked.model, m_tick, view);
     return;
   }

@@ -145,6 +145,8 @@ class Publisher {
   void bury(df::ObjectKey key);
   void takeFacts(const df::ObjectFacts& facts);
   void takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn, const Look* told);
+  std::span<const df::DrawCommand> takeOffView(std::span<const df::DrawCommand> drawn,
+                                               df::FixedVector corner);
   void takeLoose(const df::WorldView& view);
   void correctLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn,
                    const Look* told);
@@ -169,6 +171,7 @@ class Publisher {
   std::int32_t m_view_width = 0;
   std::int32_t m_view_height = 0;
   Tracked m_loose;
+  std::vector<df::DrawCommand> m_off_view;  ///< scratch
   std::vector<Change> m_changes;
   ChangeIndex m_change_index;
   std::unordered_map<std::uint64_t, std::uint32_t>

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "Limits.h"
+#include "SafeText.h"
+
 namespace naiad {
 
 namespace {
@@ -113,11 +116,30 @@ void Room::publish(TruthWriter* p_truth) {
     session.setControls(found->steering.p_table);
     session.sendTick(m_publisher, *found);
   }
+  tellSounds();
+  tellNotes();
+}
+
+void Room::tellSounds() {
+  m_sound_news.tick(m_p_port->view(),
+                    [this](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
+                      Session* p_session = find(player);
+                      if (p_session == nullptr) return false;
+                      if (!lasts) return p_session->sendFleeting(message);
+                      p_session->sendKept(message);
+                      return true;
+                    });
+}
+
+// What the engine itself has to say to the players.
+void Room::tellNotes() const {
+  for (const std::string& note : m_p_port->view().notes) say(safeText(note, kMaxChatLength));
 }
 
 void Room::changeWorld(std::unique_ptr<WorldPort> port) {
   m_p_port = std::move(port);
   m_publisher = Publisher();
+  m_sound_news = SoundNews();
   m_watched = m_ticking = false;
   m_ticks = 0;
   forEachPlaying([this](Session& session) {
@@ -136,6 +158,7 @@ void Room::giveTurn() {
     if (p_first == nullptr && !session.isDetached()) p_first = &session;
   });
   const std::uint32_t turn = p_first != nullptr ? p_first->player() : 0;
+  m_p_port->setHeard(turn);
   if (turn == m_turn) return;
   m_turn_before = std::exchange(m_turn, turn);
   if (p_first != nullptr && m_turn_before != 0) say(p_first->name() + " plays now.");

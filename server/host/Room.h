@@ -11,6 +11,7 @@
 
 #include "Publisher.h"
 #include "Session.h"
+#include "SoundNews.h"
 #include "TruthFile.h"
 #include "WorldPort.h"
 
@@ -49,6 +50,10 @@ class Room {
   }
   /// A line from the server to all that play.
   void say(const std::string& text) const;
+  /// The player may have missed what sounds: he is told anew what goes on.
+  void repeatSounds(std::uint32_t player) { m_sound_news.repeat(player); }
+  /// What was told of this world's sounds so far.
+  const SoundNews& sounds() const { return m_sound_news; }
   /// End the sessions of all that play.
   void dismiss(const std::string& sentence) const;
 
@@ -75,11 +80,14 @@ class Room {
  private:
   void giveTurn();
   void tellTurn(Session& session) const;
+  void tellSounds();
+  void tellNotes() const;
   bool isHeard(const Session& session, const Input& input) const;
   void applyInputs();
 
   std::unique_ptr<WorldPort> m_p_port;
   Publisher m_publisher;
+  SoundNews m_sound_news;
   std::vector<Session*> m_members;    ///< by player; those that are ending among them
   std::vector<Session*> m_by_player;  ///< those that play; for one tick
   bool m_first_only;

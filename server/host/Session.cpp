@@ -332,6 +332,13 @@ void Session::sendKept(wire::ServerMessage message, bool replaces) {
   goodbye("More was said than your connection could take in.");
 }
 
+bool Session::sendFleeting(const wire::ServerMessage& message) {
+  if (m_state != State::kPlaying || m_channel == nullptr) return false;
+  if (m_channel->unsentBytes() > kMostBeforeFleeting) return false;
+  send(message);
+  return true;
+}
+
 void Session::send(const wire::ServerMessage& message) {
   if (m_state == State::kGone || m_channel == nullptr) return;
   m_channel->send(message.SerializeAsString());

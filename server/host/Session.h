@@ -63,6 +63,8 @@ class Session {
   static constexpr int kChatAtOnce = 30;
   /// Silence after which a player without a stream lets go of his keys.
   static constexpr std::chrono::seconds kSuspend{1};
+  /// With more than this unsent on the stream nothing arrives at once.
+  static constexpr std::size_t kMostBeforeFleeting = std::size_t{4} * 1024;
   /// More often a terminal's size is not taken over.
   static constexpr std::chrono::milliseconds kResizeEvery{250};
   /// An honest client that catches up after a stall sends fewer: every reply is bounded by what it got.
@@ -145,6 +147,9 @@ class Session {
   /// Send it so that it arrives, on this stream or another one: it is kept until the client has it.
   /// `replaces`: it says all that the last one did that was sent with the same.
   void sendKept(wire::ServerMessage message, bool replaces = false);
+
+  /// Send it if that can be at once: it is worth nothing later. Whether it was sent.
+  bool sendFleeting(const wire::ServerMessage& message);
 
   State state() const { return m_state; }
   std::uint32_t player() const { return m_player; }

@@ -62,6 +62,7 @@ double SnapshotSender::urgency(std::uint32_t id, const Publisher& publisher) con
   const KnownObjects::Known& known = m_known.at(id);
   if (known.life == KnownObjects::Life::kDying) return 1e6;
   if (isOwn(known)) return 1e5;
+  if (publisher.find(known.slot)->state.body.on_view) return 8.0 * (m_tick - known.since);
   const df::FixedVector at = positionAt(publisher.find(known.slot)->state.motion, m_tick);
   const WorldRecord& world = m_singles.world();
   const df::FixedVector corner = m_singles.player().view_corner;

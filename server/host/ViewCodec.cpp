@@ -29,6 +29,7 @@ constexpr std::int64_t kLastCharacter = 0x10FFFF;
 constexpr std::size_t kMostText = 4 * std::size_t{kMaxViewWidth};
 constexpr std::size_t kMostName = 4 * kMaxNameLength;
 constexpr std::size_t kMostLabel = 256;
+constexpr std::size_t kMostNote = 4 * kMaxChatLength;
 constexpr std::int64_t kMostShake = 1000;
 constexpr std::int64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
 /// More than any sequence takes that a snapshot could carry.
@@ -89,6 +90,7 @@ struct ViewFields {
     f.number(facts.solidness, df::HARD, df::SPECTRAL);
     f.flag(facts.no_soft);
     f.flag(facts.shown);
+    f.flag(facts.on_view);
     f.number(facts.altitude, 0, df::MAX_ALTITUDE);
     if constexpr (F::kReads) f.require(facts.key.generation != 0);
   }
@@ -182,6 +184,9 @@ struct ViewFields {
     f.list(view.players, [&tables](F& in, auto& element) { player(in, tables, element); });
     visitVector(f, view.corner, kMostCorner);
     f.list(view.sounds, [](F& in, auto& element) { sound(in, element); });
+    f.number(view.sounds_lost);
+    f.list(view.playing, [](F& in, auto& element) { sound(in, element); });
+    f.list(view.notes, [](F& in, auto& element) { in.text(element, kMostNote); });
     f.number(view.background, df::UNDEFINED_COLOR, df::CUSTOM);
     f.number(view.shake_x, -kMostShake, kMostShake);
     f.number(view.shake_y, -kMostShake, kMostShake);

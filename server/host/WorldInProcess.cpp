@@ -1,6 +1,7 @@
 #include "WorldInProcess.h"
 
 #include "World.h"
+#include "WorldExtras.h"
 
 namespace naiad {
 
@@ -23,6 +24,10 @@ void WorldInProcess::key(std::uint32_t player, df::Keyboard::Key key, df::EventK
 void WorldInProcess::mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x,
                            int y, const df::Seen& seen) {
   m_world.mouse(player, action, button, x, y, seen);
+}
+
+void WorldInProcess::setHeard(std::uint32_t player) {
+  m_world.extras().heard_player = player;
 }
 
 void WorldInProcess::endGame() {

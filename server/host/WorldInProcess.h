@@ -25,6 +25,7 @@ class WorldInProcess : public WorldPort {
   void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) override;
   void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x, int y,
              const df::Seen& seen) override;
+  void setHeard(std::uint32_t player) override;
   void endGame() override;
   bool isReady() const override { return true; }
   void tick(bool watched, bool truth) override;

@@ -44,6 +44,7 @@ void visitTurn(F& f, T& turn) {
   f.flag(turn.watched);
   f.flag(turn.wants_truth);
   f.flag(turn.ends_game);
+  f.number(turn.heard_player);
   f.list(turn.inputs, [](F& in, auto& input) { visitInput(in, input); });
 }
 

@@ -27,6 +27,7 @@ struct WorldTurn {
   bool watched = false;                       ///< the answer is to have a view
   bool wants_truth = false;                   ///< and pictures
   bool ends_game = false;
+  std::uint32_t heard_player = 0;  ///< the only one whose input comes; 0: everybody's does
 };
 
 /// What one player sees.

@@ -46,6 +46,8 @@ class WorldPort {
   virtual void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) = 0;
   virtual void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x,
                      int y, const df::Seen& seen) = 0;
+  /// From the next tick on only this player's input comes; 0: everybody's.
+  virtual void setHeard(std::uint32_t player) = 0;
   /// The game is to be over at the end of the next tick.
   virtual void endGame() = 0;
 

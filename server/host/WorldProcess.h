@@ -42,6 +42,7 @@ class WorldProcess : public WorldPort {
   void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) override;
   void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x, int y,
              const df::Seen& seen) override;
+  void setHeard(std::uint32_t player) override { m_turn.heard_player = player; }
   void endGame() override { m_turn.ends_game = true; }
   bool isReady() const override { return m_state == State::kReady; }
   void tick(bool watched, bool truth) override;

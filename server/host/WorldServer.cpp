@@ -6,6 +6,7 @@
 #include <cerrno>
 
 #include "World.h"
+#include "WorldExtras.h"
 
 namespace naiad {
 
@@ -89,6 +90,9 @@ void WorldServer::take(const WorldTurn& turn, df::World& world) {
         world.mouse(input.player, input.mouse_action, input.button, input.x, input.y, input.seen);
         break;
     }
+  }
+  if (turn.heard_player != 0 || world.findExtras() != nullptr) {
+    world.extras().heard_player = turn.heard_player;
   }
   if (turn.ends_game) world.setGameOver();
   world.setWatched(turn.watched);

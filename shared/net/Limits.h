@@ -6,7 +6,7 @@
 
 namespace naiad {
 
-inline constexpr std::uint32_t kProtocolVersion = 3;
+inline constexpr std::uint32_t kProtocolVersion = 4;
 inline constexpr std::uint32_t kHelloMagic = 0x6e616961;
 inline constexpr std::uint16_t kDefaultPort = 9876;
 
@@ -30,6 +30,10 @@ inline constexpr std::size_t kMaxHelpLines = 24;
 inline constexpr std::size_t kMaxHelpLength = 76;
 /// Entries of a player list (so that it fits a frame).
 inline constexpr std::size_t kMaxPlayers = 200;
+
+/// Entries of one message of sounds, and characters of a sound's label.
+inline constexpr std::size_t kMaxSounds = 16;
+inline constexpr std::size_t kMaxSoundLabel = 40;
 
 /// Slots of the replica; a server with more Objects in one world replicates the first ones and says so.
 inline constexpr std::uint32_t kMaxSlots = 1u << 20;

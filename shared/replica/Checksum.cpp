@@ -1,5 +1,6 @@
 #include "Checksum.h"
 
+#include "LookCodec.h"
 #include "Mixer.h"
 
 namespace naiad {
@@ -63,7 +64,7 @@ std::uint64_t bodySum(std::uint32_t id, const Body& body) {
   Mixer mixer = mixerOf(kBody, id);
   mixer.add(body.box.corner);
   mixer.add(body.box.size);
-  mixer.add(static_cast<std::uint64_t>(body.solidness) * 2 + (body.no_soft ? 1 : 0));
+  mixer.add(wireSolidness(body) * 2 + (body.no_soft ? 1 : 0));
   return mixer.value();
 }
 

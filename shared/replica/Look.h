@@ -88,7 +88,7 @@ class Sequence {
   std::shared_ptr<const Data> m_p_data;
 };
 
-/// A sequence of appearances, none of which draws nothing, and a selector that both ends evaluate.
+/// A sequence of appearances, some of which may draw nothing, and a selector that both ends evaluate.
 struct Look {
   Look() = default;
   Look(Sequence frames, std::int32_t height, Selector chosen_by = {})

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstdlib>
 #include <utility>
 
@@ -267,6 +268,11 @@ Appearance readSingle(BitReader& in) {
 
 }  // namespace look_codec
 
+std::uint64_t wireSolidness(const Body& body) {
+  assert(!body.on_view || body.solidness == df::SPECTRAL);
+  return body.on_view ? kOnViewSolidness : static_cast<std::uint64_t>(body.solidness);
+}
+
 void writeBody(BitWriter& out, const Body& body) {
   const bool usual = body.box == Body{}.box;
   out.flag(usual);
@@ -274,7 +280,7 @@ void writeBody(BitWriter& out, const Body& body) {
     writeVector(out, body.box.corner);
     writeVector(out, body.box.size);
   }
-  out.bits(body.solidness, 2);
+  out.bits(wireSolidness(body), 2);
   out.flag(body.no_soft);
 }
 
@@ -286,8 +292,8 @@ Body readBody(BitReader& in) {
     if (body.box.size.x < 0 || body.box.size.y < 0) in.fail();
   }
   const std::uint64_t solidness = in.bits(2);
-  if (solidness > df::SPECTRAL) in.fail();
-  body.solidness = static_cast<df::Solidness>(in.ok() ? solidness : 0);
+  body.on_view = solidness == kOnViewSolidness;
+  body.solidness = body.on_view ? df::SPECTRAL : static_cast<df::Solidness>(solidness);
   body.no_soft = in.flag();
   return body;
 }

@@ -38,6 +38,9 @@ char32_t readCharacter(BitReader& in);
 void writeColor(BitWriter& out, df::Color color);
 df::Color readColor(BitReader& in);
 
+/// The solidness of what is on the view, as sent.
+inline constexpr std::uint64_t kOnViewSolidness = 3;
+std::uint64_t wireSolidness(const Body& body);
 void writeBody(BitWriter& out, const Body& body);
 Body readBody(BitReader& in);
 

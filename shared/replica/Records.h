@@ -30,11 +30,13 @@ inline constexpr std::uint8_t kAllGroups = kLife | kMotion | kLook | kBody;
 inline constexpr std::uint8_t kDeath = 0;  ///< the groups of a record of an object that is dead
 inline constexpr int kGroupCount = 4;
 
-/// Box, solidness and no-soft: what prediction needs to know. The default is a single hard character.
+/// Box, solidness and no-soft: what prediction needs to know. The default is a single hard character. What is
+/// on the view is spectral, and its position is counted from the view's corner, wherever that is.
 struct Body {
   df::FixedBox box{{-df::kFixedOne / 2, -df::kFixedOne / 2}, {df::kFixedOne, df::kFixedOne}};
   df::Solidness solidness = df::HARD;
   bool no_soft = false;
+  bool on_view = false;
   friend bool operator==(const Body&, const Body&) = default;
 };
 
@@ -54,11 +56,12 @@ struct ObjectRecord {
   ObjectState state;
 };
 
-/// The world that views are clamped in and the size of the view.
+/// The world that views are clamped in, the size of the view, and what is behind all characters.
 struct WorldRecord {
   df::FixedBox boundary;
   std::int32_t view_width = 80;
   std::int32_t view_height = 24;
+  df::Color background = df::BLACK;
   friend bool operator==(const WorldRecord&, const WorldRecord&) = default;
 };
 

@@ -183,10 +183,11 @@ df::Canvas Replica::render(std::uint32_t tick, const Placement* p_placement) con
   });
   for (const ObjectState* state : shown) {
     const df::FixedVector at = placed(*state, tick, p_placement);
+    const CellPosition from = state->body.on_view ? CellPosition{} : corner;
     for (const Glyph& glyph : *state->look.select(tick)) {
       const CellPosition cell = glyphCell(at, glyph);
-      const std::int64_t x = std::int64_t{cell.x} - corner.x;
-      const std::int64_t y = std::int64_t{cell.y} - corner.y;
+      const std::int64_t x = std::int64_t{cell.x} - from.x;
+      const std::int64_t y = std::int64_t{cell.y} - from.y;
       if (x >= 0 && y >= 0 && x < canvas.width() && y < canvas.height()) {
         canvas.put(static_cast<int>(x), static_cast<int>(y), {glyph.ch, glyph.color});
       }

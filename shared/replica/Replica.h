@@ -74,6 +74,8 @@ class Replica {
 
   int viewWidth() const { return m_world.view_width; }
   int viewHeight() const { return m_world.view_height; }
+  /// Behind all characters of the view.
+  df::Color background() const { return m_world.background; }
   std::size_t aliveCount() const { return m_alive; }
   /// The newest snapshot, tick and input that were applied.
   const SnapshotContext& newest() const { return m_context; }

@@ -64,6 +64,7 @@ WorldRecord readWorld(BitReader& in) {
   record.boundary = readBox(in);
   record.view_width = static_cast<std::int32_t>(in.bits(9));
   record.view_height = static_cast<std::int32_t>(in.bits(9));
+  record.background = readColor(in);
   if (record.view_width < kMinViewWidth || record.view_height < kMinViewHeight ||
       record.view_width > kMaxViewWidth || record.view_height > kMaxViewHeight) {
     in.fail();
@@ -300,6 +301,7 @@ void SnapshotWriter::write(const WorldRecord& record) {
   writeBox(m_world, record.boundary);
   m_world.bits(static_cast<std::uint64_t>(record.view_width), 9);
   m_world.bits(static_cast<std::uint64_t>(record.view_height), 9);
+  writeColor(m_world, record.background);
   m_bits += m_world.bitCount();
 }
 

@@ -330,5 +330,32 @@ TEST_F(ClientSessionTest, AHeldKeyIsNoFloodAfterTheServerStalled) {
   EXPECT_EQ(lastInput().id, newest + 2);
 }
 
+TEST_F(ClientSessionTest, SoundsAreHandedOnOnce) {
+  join();
+  wire::ServerMessage message;
+  wire::Sound& sound = *message.mutable_sounds()->add_sounds();
+  sound.set_label("\x1b[2Jfire");
+  sound.set_player(3);
+  message.set_number(1);
+  receive(message);
+  receive(message);  // it was kept, and sent again
+  const auto heard = session->takeSounds();
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0], (SoundLine{"?[2Jfire", SoundLine::Action::kPlay, false, false, 3}));
+  EXPECT_TRUE(session->takeSounds().empty());
+  EXPECT_EQ(session->counters().repeated_frames, 1u);
+  message.clear_number();
+  for (int i = 0; i < 100; ++i) receive(message);
+  EXPECT_EQ(session->takeSounds().size(), ClientSession::kMaxUnheard);
+  EXPECT_EQ(session->counters().sounds, 101u);
+}
+
+TEST_F(ClientSessionTest, SoundsBeforeTheWelcomeEndIt) {
+  wire::ServerMessage message;
+  message.mutable_sounds();
+  receive(message);
+  expectRejected();
+}
+
 }  // namespace
 }  // namespace naiad

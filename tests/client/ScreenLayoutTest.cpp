@@ -63,6 +63,34 @@ TEST(ScreenLayout, OneRowMoreThanTheViewIsTheStatusLine) {
   EXPECT_EQ(layout.picture.at(79, 23).ch, U'Z');
 }
 
+TEST(ScreenLayout, ANoteIsInTheStatusLine) {
+  ScreenModel m = model();
+  m.note = "sound: fire";
+  const std::string row = layOut(m, 80, 25).picture.rowText(24);
+  EXPECT_NE(row.find("sound: fire  Ctrl-] help"), std::string::npos) << row;
+  EXPECT_NE(row.find("42 ms   tick 1200   2 players   0 points"), std::string::npos) << row;
+  EXPECT_NE(layOut(m, 80, 24).picture.rowText(23).find(" sound: fire  42ms t1200"), std::string::npos);
+  m.note = "music: " + std::string(40, 'x');
+  EXPECT_NE(layOut(m, 80, 24).picture.rowText(23).find(" music: " + std::string(13, 'x') + "  42ms"),
+            std::string::npos)
+      << "it must not cover the game";
+  m.status_shown = false;
+  EXPECT_FALSE(contains(layOut(m, 100, 30).picture, "music"));
+}
+
+TEST(ScreenLayout, TheBackgroundIsBehindTheViewAndNowhereElse) {
+  ScreenModel m = model();
+  m.background = df::BLUE;
+  const Picture picture = layOut(m, 100, 30).picture;
+  EXPECT_EQ(picture.background(), df::BLUE);
+  EXPECT_EQ(picture.at(10, 2).background, df::BLUE) << "behind a character";
+  EXPECT_EQ(picture.at(50, 12).background, df::BLUE) << "and behind none";
+  EXPECT_EQ(picture.at(9, 1).background, df::BLACK) << "not behind the frame";
+  EXPECT_EQ(picture.at(0, 0).background, df::BLACK);
+  EXPECT_EQ(picture.at(3, 29).background, df::BLACK) << "nor behind the status line";
+  EXPECT_EQ(layOut(model(), 100, 30).picture.background(), df::BLACK);
+}
+
 TEST(ScreenLayout, SmallTerminalIsCroppedAroundTheFocus) {
   ScreenModel m = model();
   m.focus = {70, 20};
@@ -93,6 +121,7 @@ TEST(ScreenLayout, AnySizeIsSafe) {
   ScreenModel m = model();
   m.help = {"Space fires."};
   m.banner = "Server lost, looking for it again: 1.0 s";
+  m.note = "sound: fire";
   m.chat = {{"Ada", df::CYAN, std::string(200, 'x'), {}}};
   m.chat_text = std::string(200, 'y');
   for (const Panel panel : {Panel::kNone, Panel::kPlayers, Panel::kHelp}) {

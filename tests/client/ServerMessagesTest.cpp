@@ -58,6 +58,13 @@ void expectGood(const RefusedMessage& refused) {
 void expectGood(const GoodbyeMessage& goodbye) {
   expectSafe(goodbye.sentence, kMaxSentenceLength);
 }
+void expectGood(const SoundsMessage& message) {
+  EXPECT_LE(message.sounds.size(), kMaxSounds);
+  for (const SoundLine& sound : message.sounds) {
+    expectSafe(sound.label, kMaxSoundLabel);
+    EXPECT_LE(sound.action, SoundLine::Action::kStop);
+  }
+}
 void expectGood(const PongMessage&) {}
 void expectGood(const SnapshotMessage& snapshot) {
   EXPECT_LE(snapshot.bytes.size(), kMaxServerFrame);
@@ -69,7 +76,7 @@ void expectGood(const ServerMessageValue& value) {
 
 /// One of each kind, every field of it set.
 std::vector<wire::ServerMessage> validMessages(const std::string& text) {
-  std::vector<wire::ServerMessage> all(7);
+  std::vector<wire::ServerMessage> all(8);
   wire::Welcome& welcome = *all[0].mutable_welcome();
   welcome.set_player(1);
   welcome.set_name(text);
@@ -100,6 +107,14 @@ std::vector<wire::ServerMessage> validMessages(const std::string& text) {
   all[4].mutable_refused()->set_sentence(text);
   all[5].mutable_goodbye()->set_sentence(text);
   all[6].mutable_pong()->set_token(9);
+  for (std::size_t i = 0; i < kMaxSounds; ++i) {
+    wire::Sound& sound = *all[7].mutable_sounds()->add_sounds();
+    sound.set_label(text);
+    sound.set_action(wire::Sound::STOP);
+    sound.set_music(true);
+    sound.set_loop(true);
+    sound.set_player(3);
+  }
   return all;
 }
 
@@ -158,10 +173,30 @@ TEST(ServerMessages, EveryNumberHasItsRange) {
     with(2, [&](auto& m) { m.mutable_players()->mutable_players(4)->set_player(number); });
     with(2, [&](auto& m) { m.mutable_players()->mutable_players(4)->set_color(number); });
     with(2, [&](auto& m) { m.mutable_players()->mutable_players(4)->set_rtt_millis(number); });
+    with(7, [&](auto& m) {
+      m.mutable_sounds()->mutable_sounds(1)->set_action(static_cast<wire::Sound::Action>(number));
+    });
     for (const wire::ServerMessage& message : changed) {
       if (const auto value = readServerMessage(message.SerializeAsString())) expectGood(*value);
     }
   }
+}
+
+TEST(ServerMessages, MoreSoundsThanMayBeAreRefused) {
+  wire::ServerMessage message = validMessages("fire")[7];
+  const auto value = readServerMessage(message.SerializeAsString());
+  ASSERT_TRUE(value);
+  const auto& read = std::get<SoundsMessage>(*value);
+  ASSERT_EQ(read.sounds.size(), kMaxSounds);
+  EXPECT_EQ(read.sounds[2], (SoundLine{"fire", SoundLine::Action::kStop, true, true, 3}));
+  message.mutable_sounds()->add_sounds();
+  EXPECT_FALSE(readServerMessage(message.SerializeAsString()));
+}
+
+TEST(ServerMessages, SoundsThatDoWhatNobodyKnowsAreRefused) {
+  wire::ServerMessage message;
+  message.mutable_sounds()->add_sounds()->set_action(static_cast<wire::Sound::Action>(3));
+  EXPECT_FALSE(readServerMessage(message.SerializeAsString()));
 }
 
 TEST(ServerMessages, TextsOfEveryHostileClassAreMadeHarmless) {

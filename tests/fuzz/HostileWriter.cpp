@@ -228,7 +228,7 @@ void HostileWriter::body() {
     vector(-kMostBoxCells, kMostBoxCells);
     vector(1, kMostBoxCells);
   }
-  field(Kind::kSolidness, 2, df::SPECTRAL);
+  field(2);
   field(1);
 }
 
@@ -238,6 +238,7 @@ void HostileWriter::world() {
   field(Kind::kSize, 64, kHuge);
   m_out.bits(low(kMinViewWidth + choose(Kind::kViewWidth, kMaxViewWidth - kMinViewWidth), 9), 9);
   m_out.bits(low(kMinViewHeight + choose(Kind::kViewHeight, kMaxViewHeight - kMinViewHeight), 9), 9);
+  field(3);
 }
 
 void HostileWriter::view() {

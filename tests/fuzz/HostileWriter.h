@@ -36,7 +36,6 @@ class HostileWriter {
     kGlyphs,
     kOffset,
     kName,
-    kSolidness,
     kSize,
     kViewWidth,
     kViewHeight,

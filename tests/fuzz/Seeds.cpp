@@ -165,6 +165,14 @@ void serverMessages(Folder folder) {
   folder.add(message.SerializeAsString());
   message.mutable_goodbye()->set_sentence("Bye.");
   folder.add(message.SerializeAsString());
+  wire::Sound& sound = *message.mutable_sounds()->add_sounds();
+  sound.set_label("theme");
+  sound.set_action(wire::Sound::PAUSE);
+  sound.set_music(true);
+  sound.set_player(1);
+  *message.mutable_sounds()->add_sounds() = sound;
+  message.set_number(4);
+  folder.add(message.SerializeAsString());
 }
 
 constexpr std::size_t kDatagram = 0x2000, kTick = 0x4000, kHello = 0x8000;  // see targets/client_message.cpp

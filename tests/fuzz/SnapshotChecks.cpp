@@ -48,6 +48,7 @@ void requireGood(const ObjectRecord& record, std::uint32_t tick) {
   const Body& body = record.state.body;
   REQUIRE(body.box.size.x >= 0 && body.box.size.y >= 0);
   REQUIRE(static_cast<unsigned>(body.solidness) <= df::SPECTRAL);
+  REQUIRE(!body.on_view || body.solidness == df::SPECTRAL);
 }
 
 void requireGood(const Snapshot& snapshot) {
@@ -57,6 +58,7 @@ void requireGood(const Snapshot& snapshot) {
   for (const WorldRecord& world : records.worlds) {
     REQUIRE(world.view_width >= kMinViewWidth && world.view_width <= kMaxViewWidth);
     REQUIRE(world.view_height >= kMinViewHeight && world.view_height <= kMaxViewHeight);
+    REQUIRE(world.background >= df::BLACK && world.background <= df::WHITE);
     REQUIRE(world.boundary.size.x >= 0 && world.boundary.size.y >= 0);
   }
   for (const ViewRecord& view : records.views) REQUIRE(view.id < kMaxSlots && view.generation < 4);

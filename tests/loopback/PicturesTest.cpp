@@ -4,9 +4,12 @@
 #include "BusyWorld.h"
 #include "Compare.h"
 #include "DisplayManager.h"
+#include "EventPlayer.h"
 #include "EventStep.h"
 #include "TestClient.h"
 #include "TestServer.h"
+#include "ViewObject.h"
+#include "WorldManager.h"
 
 namespace naiad::test {
 namespace {
@@ -84,6 +87,50 @@ TEST(Loopback, AWindowThatShakesIsSeenShaking) {
   }));
   expectSame(client, server, 200);
   EXPECT_GT(shaken, 0);
+}
+
+/// Flies to the right through a world larger than its player's view, who follows it.
+struct Scout : df::Object {
+  explicit Scout(df::Vector at) {
+    setSolidness(df::SPECTRAL);
+    setPosition(at);
+    setVelocity(df::Vector(0.4, 0.1));
+  }
+  int draw() override { return DM.drawCh(getPosition(), '@', df::CYAN); }
+};
+
+/// Gives each player a Scout far from the others'; counts them in a frame on the view.
+struct Scouts : df::ViewObject {
+  Scouts() {
+    setViewString("Scouts");
+    registerInterest(df::JOIN_EVENT);
+  }
+  int eventHandler(const df::Event* p_event) override {
+    const auto* p_join = dynamic_cast<const df::EventJoin*>(p_event);
+    if (p_join == nullptr) return df::ViewObject::eventHandler(p_event);
+    setValue(getValue() + 1);
+    const auto number = static_cast<double>(p_join->getPlayer());
+    WM.getPlayer(p_join->getPlayer())->setObject(new Scout(df::Vector(200 * number, 60)));
+    return 1;
+  }
+};
+
+TEST(Loopback, ViewObjectsAreInEveryPlayersOwnView) {
+  TestServer server([](df::World& world) {
+    world.setBoundary(df::Box(df::Vector(), 2000, 400));
+    for (int i = 0; i < 60; ++i) new Scout(df::Vector(20 * i, 50 + i % 20));
+    new Scouts;
+  });
+  asio::io_context context;
+  TestClient ann(context, server.port(), "ann");
+  TestClient bob(context, server.port(), "bob");
+  ASSERT_TRUE(serveUntil(context, {&ann, &bob},
+                         [&] { return ann.pictures().size() > 150 && bob.pictures().size() > 150; }));
+  expectSame(ann, server, 150);
+  expectSame(bob, server, 150);
+  for (TestClient* client : {&ann, &bob})
+    EXPECT_NE(client->pictures().rbegin()->second.rowText(1).find("| Scouts 2 |"), std::string::npos)
+        << client->pictures().rbegin()->second.text();
 }
 
 TEST(Loopback, AThousandObjectsArriveWhole) {

@@ -1,6 +1,7 @@
 // What a game asks for in its settings, and what its players are told of it; who may end it.
 #include <gtest/gtest.h>
 
+#include "DisplayManager.h"
 #include "EventKeyboard.h"
 #include "GameManager.h"
 #include "TestClient.h"
@@ -27,6 +28,22 @@ TEST(Settings, TheFrameTimeOfTheGameCountsAndIsTold) {
   EXPECT_EQ(tickToldWith(33, 0), std::chrono::microseconds(33333))
       << "33 is how the published engine writes 1/30 s";
   EXPECT_EQ(tickToldWith(999999, 0), std::chrono::seconds(1)) << "clients believe no longer one";
+}
+
+TEST(Settings, TheBackgroundReachesClientsWheneverItChanges) {
+  TestServer server([](df::World&) { DM.setBackgroundColor(df::BLUE); });
+  asio::io_context context;
+  TestClient client(context, server.port(), "ann");
+  const auto shows = [&](df::Color color) {
+    return serveUntil(context, {&client},
+                      [&] { return client.joined() && client.session().replica().background() == color; });
+  };
+  EXPECT_TRUE(shows(df::BLUE));
+  server.inWorld([](df::World& world) {
+    const df::World::Scope scope(world);
+    return DM.setBackgroundColor(df::RED);
+  });
+  EXPECT_TRUE(shows(df::RED));
 }
 
 /// Q ends the game, as in most of them.

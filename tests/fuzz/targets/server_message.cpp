@@ -55,6 +55,13 @@ void requireGood(const PlayersMessage& message) {
 void requireGood(const ChatMessage& message) {
   requireText(message.text, kMaxChatLength);
 }
+void requireGood(const SoundsMessage& message) {
+  REQUIRE(message.sounds.size() <= kMaxSounds);
+  for (const SoundLine& sound : message.sounds) {
+    REQUIRE(sound.action <= SoundLine::Action::kStop);
+    requireText(sound.label, kMaxSoundLabel);
+  }
+}
 template <class Other>
 void requireGood(const Other&) {}  // nothing in it can be wrong, or somebody else reads it
 

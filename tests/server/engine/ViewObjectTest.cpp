@@ -151,6 +151,56 @@ TEST_F(ViewObjectTest, TextEntryTakesKeysUntilReturn) {
   EXPECT_NE(row(1).find("Name: Ab-_7"), std::string::npos) << row(1);
 }
 
+TEST_F(ViewObjectTest, TextEntryMadeForAPlayersKeyHearsThatPlayer) {
+  const std::uint32_t ann = world.join("ann", RED);
+  const std::uint32_t bob = world.join("bob", BLUE);
+  world.tick();
+  Entry* p_entry = nullptr;
+  Probe probe;
+  probe.registerInterest(KEYBOARD_EVENT);
+  probe.on_event = [&](Probe& p, const Event&) {
+    p_entry = new Entry;
+    p.unregisterInterest(KEYBOARD_EVENT);
+  };
+  world.key(ann, Keyboard::SPACE, KEY_PRESSED);
+  world.tick();
+  ASSERT_NE(p_entry, nullptr);
+  EXPECT_EQ(p_entry->getPlayer(), ann);
+  p_entry->clearText();
+  world.key(bob, Keyboard::LEFTSHIFT, KEY_PRESSED);
+  world.key(ann, Keyboard::A, KEY_PRESSED);
+  world.key(bob, Keyboard::B, KEY_PRESSED);
+  world.key(bob, Keyboard::RETURN, KEY_PRESSED);
+  world.tick();
+  EXPECT_EQ(p_entry->getText(), "a");
+  EXPECT_TRUE(p_entry->entered.empty());
+  world.leave(ann);
+  world.tick();
+  world.key(bob, Keyboard::RETURN, KEY_PRESSED);
+  world.tick();
+  EXPECT_EQ(p_entry->entered, std::vector<std::string>{"a"}) << "somebody has to finish";
+}
+
+TEST_F(ViewObjectTest, TextEntryOfNobodyHearsEverybodyUntilItIsGivenToSomebody) {
+  const std::uint32_t ann = world.join("ann", RED);
+  const std::uint32_t bob = world.join("bob", BLUE);
+  Entry entry;
+  EXPECT_EQ(entry.getPlayer(), 0u);
+  world.key(ann, Keyboard::A, KEY_PRESSED);
+  world.key(bob, Keyboard::B, KEY_PRESSED);
+  world.tick();
+  EXPECT_EQ(entry.getText(), "ab");
+  entry.setPlayer(bob);
+  world.key(ann, Keyboard::A, KEY_PRESSED);
+  world.key(bob, Keyboard::B, KEY_PRESSED);
+  world.tick();
+  EXPECT_EQ(entry.getText(), "abb");
+  entry.setPlayer(0);
+  world.key(ann, Keyboard::C, KEY_PRESSED);
+  world.tick();
+  EXPECT_EQ(entry.getText(), "abbc");
+}
+
 TEST_F(ViewObjectTest, TextEntryKeepsItsLimitAndMayTakeDigitsOnly) {
   Entry entry;
   entry.setLimit(2);

@@ -122,6 +122,39 @@ TEST(Publisher, StraightFlightIsPublishedOnce) {
   EXPECT_EQ(scene.publisher.correctionCount(), 0u);
 }
 
+TEST(Publisher, AViewObjectStandsWhereverTheViewsGo) {
+  Scene scene;
+  for (int i = 0; i < 50; ++i) {
+    const df::FixedVector corner = at(100 + 0.3 * i, 7.5);  // of the world's own view
+    scene.view().corner = corner;
+    scene.view().players[0].view_corner = at(-3.0 * i, 900);  // far from there
+    scene.changed(1, at(40, 1)).on_view = true;
+    scene.drew(1, corner + at(38, 1), U'H');
+    scene.view().drawn.back().on_view = true;
+    EXPECT_EQ(scene.publish().size(), i == 0 ? 1u : 0u) << "tick " << i;
+  }
+  const Publisher::Model& model = *scene.publisher.find(1);
+  EXPECT_TRUE(model.state.body.on_view);
+  EXPECT_EQ(model.state.body.solidness, df::SPECTRAL) << "nobody meets it";
+  ASSERT_EQ(model.state.look.sequence.glyphCount(), 1u);
+  const CellPosition cell =
+      glyphCell(positionAt(model.state.motion, scene.publisher.tick()), model.state.look.sequence[0][0]);
+  EXPECT_EQ(cell, (CellPosition{38, 1}));
+  EXPECT_GT(model.reach, Publisher::kWide) << "so everybody is told of it";
+}
+
+TEST(Publisher, ABackgroundThatIsNoColourIsNone) {
+  Scene scene;
+  const auto published = [&scene](df::Color background) {
+    scene.view().background = background;
+    scene.publish();
+    return scene.publisher.world().background;
+  };
+  EXPECT_EQ(published(df::BLUE), df::BLUE);
+  EXPECT_EQ(published(df::CUSTOM), df::BLACK);
+  EXPECT_EQ(published(df::UNDEFINED_COLOR), df::BLACK);
+}
+
 TEST(Publisher, AcceleratedFlightIsPublishedOnce) {
   Scene scene;
   df::FixedVector position = at(5, 5);

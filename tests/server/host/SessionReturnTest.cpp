@@ -149,6 +149,21 @@ TEST_F(SessionReturn, WhatWasNotAcknowledgedIsSaidAgainOnTheNextStream) {
   EXPECT_EQ(second.sent[1].number(), 3u);
 }
 
+TEST_F(SessionReturn, WhatIsOnlyWorthSomethingAtOnceIsSentAtOnceOrNotAtAll) {
+  wire::ServerMessage sound;
+  sound.mutable_sounds()->add_sounds()->set_label("fire");
+  EXPECT_TRUE(session->sendFleeting(sound));
+  EXPECT_TRUE(first.sent.back().has_sounds());
+  EXPECT_EQ(first.sent.back().number(), 0u) << "not kept";
+  first.unsent = Session::kMostBeforeFleeting + 1;
+  EXPECT_FALSE(session->sendFleeting(sound));
+  breakStream(first);
+  EXPECT_FALSE(session->sendFleeting(sound));
+  const auto other = make(second);
+  greet(second, "token");
+  EXPECT_EQ(second.sent.size(), 1u) << "the welcome";
+}
+
 TEST_F(SessionReturn, OfPlayerListsTheNewestIsSaidAgain) {
   for (const std::uint32_t player : {1u, 2u}) {
     wire::ServerMessage list;

@@ -231,14 +231,27 @@ TEST(SpriteLook, AStoppedAnimationAndAStaticLookCostNothing) {
   EXPECT_EQ(show.ticks(100), idle(100));
 }
 
-// A look none of whose pictures may be empty cannot say it; then each picture is told when its turn comes.
-TEST(SpriteLook, ABlinkingSpriteIsShownAllTheSame) {
+TEST(SpriteLook, ASpriteThatBlinksCostsNothing) {
   Show show;
   df::Sprite sprite = makeSprite({"abc", "~~~"}, 3, 3, '~');
+  df::Sprite other = makeSprite({"~", "o", "~"}, 1, 2, '~');  // which begins with nothing
+  df::Object object, late;
+  object.setSprite(&sprite);
+  object.setPosition(df::Vector(20, 10));
+  late.setSprite(&other);
+  late.setPosition(df::Vector(30, 10));
+  show.ticks(20);
+  EXPECT_EQ(show.ticks(100), idle(100));
+}
+
+TEST(SpriteLook, ASpriteThatDrawsNothingIsNothing) {
+  Show show;
+  df::Sprite sprite = makeSprite({"~", "~"}, 1, 2, '~');
   df::Object object;
   object.setSprite(&sprite);
   object.setPosition(df::Vector(20, 10));
-  show.ticks(30);
+  show.ticks(10);
+  EXPECT_EQ(show.ticks(50), idle(50));
 }
 
 // Own characters around the sprite, by a draw() of one's own.

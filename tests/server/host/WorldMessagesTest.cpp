@@ -30,8 +30,9 @@ df::WorldView fullView() {
   view.view_width = 100;
   view.view_height = 30;
   view.changed.push_back(
-      {{7, 3}, 11, at(1, 2), at(0, 1), at(1, 0), {at(-1, -1), at(3, 3)}, df::SOFT, true, false, 4});
-  view.changed.push_back({{2, 1}, 12, at(-5, 2), {}, {}, {at(0, 0), at(1, 1)}, df::HARD, false, true, 0});
+      {{7, 3}, 11, at(1, 2), at(0, 1), at(1, 0), {at(-1, -1), at(3, 3)}, df::SOFT, true, false, true, 4});
+  view.changed.push_back(
+      {{2, 1}, 12, at(-5, 2), {}, {}, {at(0, 0), at(1, 1)}, df::HARD, false, true, false, 0});
   view.vanished = {{4, 9}, {5, 1}};
   view.commands = {{at(1, 2), U'x', df::GREEN}, {at(2, 2), U'é', df::CYAN}, {at(9, 9), U'o', df::BLACK}};
   view.drawn = {{{7, 3}, 0, 2, true}, {{}, 2, 1, false}};
@@ -59,6 +60,9 @@ df::WorldView fullView() {
   view.players.push_back(player);
   view.corner = at(3, 1);
   view.sounds = {{"boom", df::SoundPlayed::kPause, true, true, 8}};
+  view.sounds_lost = 3;
+  view.playing = {{"theme", df::SoundPlayed::kPlay, true, true, 0}};
+  view.notes = {"pause: 1 of 3", "go on: 2 of 3"};
   view.background = df::BLUE;
   view.shake_x = -2;
   view.shake_y = 1;
@@ -95,7 +99,7 @@ void expectSame(const df::WorldView& a, const df::WorldView& b) {
     EXPECT_TRUE(f.key == g.key && f.order == g.order && f.position == g.position &&
                 f.velocity == g.velocity && f.acceleration == g.acceleration && f.box == g.box &&
                 f.solidness == g.solidness && f.no_soft == g.no_soft && f.shown == g.shown &&
-                f.altitude == g.altitude)
+                f.on_view == g.on_view && f.altitude == g.altitude)
         << i;
   }
   EXPECT_EQ(a.vanished, b.vanished);
@@ -126,6 +130,9 @@ void expectSame(const df::WorldView& a, const df::WorldView& b) {
   }
   EXPECT_EQ(a.corner, b.corner);
   EXPECT_EQ(a.sounds, b.sounds);
+  EXPECT_EQ(a.sounds_lost, b.sounds_lost);
+  EXPECT_EQ(a.playing, b.playing);
+  EXPECT_EQ(a.notes, b.notes);
   EXPECT_EQ(a.background, b.background);
   EXPECT_EQ(a.shake_x, b.shake_x);
   EXPECT_EQ(a.shake_y, b.shake_y);

@@ -118,7 +118,7 @@ TEST(Manifold, BoxesAlongTheAxesAreExact) {
         const Vec2 offset = q * Vec2{side, -1 - gap};
         ASSERT_TRUE(collide(big, q, big, q, offset, 0.1, m));
         EXPECT_EQ(m.count, 2);
-        EXPECT_EQ(m.normal, q * Vec2(0, -1));
+        EXPECT_EQ(m.normal, (q * Vec2{0, -1}));
         for (const ManifoldPoint& point : m.points) {
           EXPECT_EQ(point.separation, gap);
           EXPECT_EQ(point.anchor_a - point.anchor_b, offset);
@@ -279,7 +279,7 @@ TEST(Manifold, AWrongMemoryDoesNoHarm) {
     for (int edge = 0; edge < 255; ++edge) {
       Manifold m;
       ASSERT_TRUE(collide(ta, tb, {0.25, -0.99}, 0, {owner, static_cast<std::uint8_t>(edge)}, m));
-      EXPECT_EQ(m.normal, Vec2(0, -1));
+      EXPECT_EQ(m.normal, (Vec2{0, -1}));
       EXPECT_NEAR(smallest(m), -0.01, 1e-15);
     }
   }

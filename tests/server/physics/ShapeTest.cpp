@@ -243,7 +243,7 @@ TEST(ShapeQuery, ARayFromFarAwayHitsWhereItShould) {
   for (const double y : {0.0, 0.25, -0.5 + 1e-9, 0.5 - 1e-9}) {
     const RayHit hit = castRay(shape, {-1e6, y}, {1e9, 0});
     ASSERT_TRUE(hit.hit) << y;
-    EXPECT_EQ(hit.normal, Vec2(-1, 0));
+    EXPECT_EQ(hit.normal, (Vec2{-1, 0}));
     EXPECT_NEAR(hit.fraction * 1e9, 1e6 - 0.5, 1e-6);
   }
   EXPECT_FALSE(castRay(shape, {-1e6, 0}, {-1e9, 0}).hit);

@@ -13,20 +13,20 @@ constexpr ConnectionId kId{0x0123456789abcdef};
 // Made with HMAC-SHA256 and a few lines of Python, from exporter_master_secret 00 01 … 1f.
 TEST(DatagramKeys, KnownAnswersOfAes) {
   const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kAes128Gcm, kId, 0x13);
-  EXPECT_EQ(toHex(keys.client.key.data(), 16), "908ab96aa909c31c4132142367de241a");
-  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "c64ae3a75494527a916a2385");
-  EXPECT_EQ(toHex(keys.server.key.data(), 16), "55fa02ad23aaa78bcc66eb4a4933df59");
-  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "971c93bb50faa6ce88313963");
+  EXPECT_EQ(toHex(keys.client.key.data(), 16), "4bf58675aeb5d26a6fb351d2ba56c3d4");
+  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "84784d40194d0940a7028eaf");
+  EXPECT_EQ(toHex(keys.server.key.data(), 16), "8ebd5d909a24e84b1f9686b6ddfe75f1");
+  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "d644bd65fb79bc54285b075c");
 }
 
 TEST(DatagramKeys, KnownAnswersOfChaCha) {
   const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kChaCha20Poly1305, kId, 0x13);
   EXPECT_EQ(toHex(keys.client.key.data(), 32),
-            "beccef6e205bba8d4a448d625b3135be95d01182833ae48962a9b31b81284022");
-  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "f98f4640e63a252deaece0a9");
+            "1bc0cc8be1216a553b07211a30a06e3986c4f21d15c63c5cd08f3cde5ea50e01");
+  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "d891b999d7072a7ac76783af");
   EXPECT_EQ(toHex(keys.server.key.data(), 32),
-            "b3c7345f330d0426cb685733ee18215d3de01357d3f28ca82cab82ed17846f1c");
-  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "824ead7be2f7a44df6eb15a9");
+            "2ac40823402de6c8644557c32cc7898c0d4c1faa52c9aaca408106344d118137");
+  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "14a508dfd5a797fd08477130");
 }
 
 TEST(DatagramKeys, ExporterIsAskedForWhatThePageSays) {
@@ -40,7 +40,7 @@ TEST(DatagramKeys, ExporterIsAskedForWhatThePageSays) {
   };
   deriveDatagramKeys(spy, AeadId::kChaCha20Poly1305, kId, 0x13);
   EXPECT_EQ(label, "EXPERIMENTAL-naiad-datagram");
-  EXPECT_EQ(toHex(context), "0300000002efcdab896745230113000000");
+  EXPECT_EQ(toHex(context), "0400000002efcdab896745230113000000");
   EXPECT_EQ(asked, 88u);
 }
 

@@ -72,6 +72,8 @@ TEST_F(ParseMemory, TheDearestMessageOfAServerIsBounded) {
   const std::size_t heap = heapOf<wire::ServerMessage>(players);
   EXPECT_GT(heap, 100u * 1024) << "this is the dear one";
   EXPECT_LE(heap, 1024u * 1024);
+  const std::string sounds = filled('\x4a', std::string("\x0a\x00", 2), kMaxServerFrame);
+  EXPECT_LE(heapOf<wire::ServerMessage>(sounds), 1024u * 1024);
   const std::string help = filled('\x12', std::string("\x4a\x00", 2), kMaxServerFrame);
   EXPECT_LE(heapOf<wire::ServerMessage>(help), 1024u * 1024);
 }

@@ -92,6 +92,9 @@ TEST(Checksum, EveryFieldMatters) {
       [](ObjectState& s) { s.body.solidness = df::SOFT; },
       [](ObjectState& s) { s.body.solidness = df::SPECTRAL; },
       [](ObjectState& s) { s.body.no_soft = true; },
+      [](ObjectState& s) {
+        s.body = {s.body.box, df::SPECTRAL, s.body.no_soft, true};
+      },
   };
   std::set<std::uint64_t> sums;
   for (const auto& change : changes) {

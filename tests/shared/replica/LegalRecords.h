@@ -38,7 +38,8 @@ inline bool isLegal(const Look& look, std::uint32_t tick) {
 
 inline bool isLegal(const Body& body) {
   return isWithin(body.box.corner, 1'000'001) && isWithin(body.box.size, 1'000'001) && body.box.size.x >= 0 &&
-         body.box.size.y >= 0 && body.solidness >= df::HARD && body.solidness <= df::SPECTRAL;
+         body.box.size.y >= 0 && body.solidness >= df::HARD && body.solidness <= df::SPECTRAL &&
+         (!body.on_view || body.solidness == df::SPECTRAL);
 }
 
 inline bool isLegal(const ObjectRecord& record, std::uint32_t tick) {
@@ -53,7 +54,7 @@ inline bool isLegal(const ObjectRecord& record, std::uint32_t tick) {
 inline bool isLegal(const WorldRecord& r) {
   return isWithin(r.boundary.corner, 2'100'000'000) && r.boundary.size.x >= 0 && r.boundary.size.y >= 0 &&
          r.view_width >= kMinViewWidth && r.view_width <= kMaxViewWidth && r.view_height >= kMinViewHeight &&
-         r.view_height <= kMaxViewHeight;
+         r.view_height <= kMaxViewHeight && r.background >= df::BLACK && r.background <= df::WHITE;
 }
 
 inline bool isLegal(const ViewRecord& r) {

@@ -347,7 +347,7 @@ TEST(LookCodec, BodiesOutOfRangeAreRefused) {
   EXPECT_FALSE(isRead({{{0, 0}, {1, most + 1}}, df::HARD, false}));
   EXPECT_FALSE(isRead({{{0, 0}, {-1, 1}}, df::HARD, false}));
   EXPECT_FALSE(isRead({{{0, 0}, {1, -1}}, df::HARD, false}));
-  EXPECT_FALSE(isRead({Body{}.box, static_cast<df::Solidness>(3), false}));
+  EXPECT_TRUE(isRead({Body{}.box, df::SPECTRAL, false, true}));
 }
 
 TEST(LookCodec, HostileBytesAreRefusedOrLegal) {

@@ -47,7 +47,7 @@ std::string exampleSnapshot() {
   header.input = 2;
   header.input_tick = 99;
   out.begin(header, 1, kConfirmed);
-  out.write(WorldRecord{{at(0, 0), at(80, 24)}, 80, 24});
+  out.write(WorldRecord{{at(0, 0), at(80, 24)}, 80, 24, df::BLUE});
   out.write(ViewRecord{at(0, 0), true, 5, 1});
   out.write(OriginRecord{2, {{-30, -10}, 8, 6, 7}});
   out.write(TextRecord{0, 1, 0, df::GREEN, "Hi"});
@@ -79,6 +79,23 @@ ClientUpdate exampleUpdate() {
   Input click{4, 103, 3, true, df::CLICKED, 0, df::Mouse::LEFT + 1, 12, 5};
   update.inputs = {key, click};
   return update;
+}
+
+/// A frame with what a client hears when a round begins.
+std::string exampleSounds() {
+  wire::ServerMessage message;
+  wire::Sound& theme = *message.mutable_sounds()->add_sounds();
+  theme.set_label("theme");
+  theme.set_music(true);
+  theme.set_loop(true);
+  wire::Sound& siren = *message.mutable_sounds()->add_sounds();
+  siren.set_label("siren");
+  siren.set_action(wire::Sound::STOP);
+  siren.set_player(2);
+  message.set_number(5);
+  std::string frame;
+  appendFrame(frame, message.SerializeAsString());
+  return frame;
 }
 
 std::string document() {
@@ -159,15 +176,19 @@ TEST(ProtocolBytes, UpdateThatMissesLittleIsAsTheDocumentSays) {
   EXPECT_EQ(hexOfBits(example(4).bits), example(4).bytes);
 }
 
+TEST(ProtocolBytes, SoundsAreAsTheDocumentSays) {
+  EXPECT_EQ(hex(exampleSounds()), example(5).bytes);
+}
+
 // The same bytes once more, so that a change of document and code together is noticed as a change of
 // protocol.
-TEST(ProtocolBytes, Version3StaysAsItIs) {
-  EXPECT_EQ(kProtocolVersion, 3u);
+TEST(ProtocolBytes, Version4StaysAsItIs) {
+  EXPECT_EQ(kProtocolVersion, 4u);
   EXPECT_EQ(hex(exampleSnapshot()),
             "03 00 64 00 2c 00 10 f4 0a 01 00 00 00 00 0a 00 00 00 00 00 00 00 03 00 "
-            "00 00 0a 86 70 91 e2 ff ff ff f6 ff ff ff 68 07 00 00 00 00 00 50 08 2a "
-            "20 a5 65 78 35 20 85 05 51 9d 00 22 45 80 8e 6f 08 d0 aa 44 84 0a 55 00 "
-            "e9 45 70 02 18 62 01 00 40 0d");
+            "00 00 0a 06 86 8b 14 ff ff ff b7 ff ff ff 47 3b 00 00 00 00 00 80 42 50 "
+            "01 29 2d c3 ab 01 29 2c 88 ea 04 10 29 02 74 7c 43 80 56 25 22 54 a8 02 "
+            "48 2f 82 13 c0 10 0b 00 00 6a");
   EXPECT_EQ(hex(writeUpdate(exampleUpdate())),
             "07 00 0a 00 00 00 00 00 00 00 e0 01 80 32 80 00 48 44 62 50 00");
 }
@@ -207,6 +228,8 @@ TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
       {"kMaxHelpLines", kMaxHelpLines},
       {"kMaxHelpLength", kMaxHelpLength},
       {"kMaxPlayers", kMaxPlayers},
+      {"kMaxSounds", kMaxSounds},
+      {"kMaxSoundLabel", kMaxSoundLabel},
       {"kMaxSlots", kMaxSlots},
       {"kMaxGlyphs", kMaxGlyphs},
       {"kMaxLookBytes", kMaxLookBytes},

@@ -96,7 +96,11 @@ class RandomRecords {
     return glyphs;
   }
   Body body() {
-    return {{vector(1'000'000), size(1'000'000)}, static_cast<df::Solidness>(m_rng.below(3)), chance(0.5)};
+    const auto solidness = static_cast<df::Solidness>(m_rng.below(3));
+    return {{vector(1'000'000), size(1'000'000)},
+            solidness,
+            chance(0.5),
+            solidness == df::SPECTRAL && chance(0.5)};
   }
   ObjectState state(std::uint32_t tick) {
     return {chance(0.2) ? m_rng.next() >> 16 : m_rng.below(5000), motion(tick), rebase(look(), tick), body()};
@@ -119,7 +123,8 @@ class RandomRecords {
   WorldRecord world() {
     return {{vector(1'000'000), size(1'000'000)},
             static_cast<std::int32_t>(20 + m_rng.below(381)),
-            static_cast<std::int32_t>(10 + m_rng.below(141))};
+            static_cast<std::int32_t>(10 + m_rng.below(141)),
+            static_cast<df::Color>(m_rng.below(df::kColorCount))};
   }
   ViewRecord view() {
     ViewRecord record{vector(2'000'000'000), chance(0.7), 0, 0};

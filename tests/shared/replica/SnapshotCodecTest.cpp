@@ -265,14 +265,14 @@ TEST(SnapshotCodec, WorldsOutOfRangeAreRefused) {
     return read(writeSnapshot(header(1, 1), records), {}, out) == ReadResult::kOk;
   };
   const df::FixedBox box{{}, {INT64_MAX, INT64_MAX}};
-  EXPECT_TRUE(isRead({box, kMaxViewWidth, kMaxViewHeight}));
-  EXPECT_TRUE(isRead({box, kMinViewWidth, kMinViewHeight}));
-  EXPECT_FALSE(isRead({box, kMinViewWidth - 1, kMinViewHeight}));
-  EXPECT_FALSE(isRead({box, kMinViewWidth, kMinViewHeight - 1}));
-  EXPECT_FALSE(isRead({box, kMaxViewWidth + 1, kMinViewHeight}));
-  EXPECT_FALSE(isRead({box, kMinViewWidth, kMaxViewHeight + 1}));
-  EXPECT_FALSE(isRead({{{}, {-1, 0}}, 80, 24}));
-  EXPECT_FALSE(isRead({{{}, {0, -1}}, 80, 24}));
+  EXPECT_TRUE(isRead({box, kMaxViewWidth, kMaxViewHeight, df::WHITE}));
+  EXPECT_TRUE(isRead({box, kMinViewWidth, kMinViewHeight, df::BLACK}));
+  EXPECT_FALSE(isRead({box, kMinViewWidth - 1, kMinViewHeight, df::BLACK}));
+  EXPECT_FALSE(isRead({box, kMinViewWidth, kMinViewHeight - 1, df::BLACK}));
+  EXPECT_FALSE(isRead({box, kMaxViewWidth + 1, kMinViewHeight, df::BLACK}));
+  EXPECT_FALSE(isRead({box, kMinViewWidth, kMaxViewHeight + 1, df::BLACK}));
+  EXPECT_FALSE(isRead({{{}, {-1, 0}}, 80, 24, df::BLACK}));
+  EXPECT_FALSE(isRead({{{}, {0, -1}}, 80, 24, df::BLACK}));
 }
 
 TEST(SnapshotCodec, ObjectsThatAreOnlyClaimedCostNothing) {

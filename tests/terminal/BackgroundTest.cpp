@@ -1,0 +1,60 @@
+// The colour behind a game, on the terminal of the real dfclient.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "FakeServer.h"
+#include "PtyTerminal.h"
+#include "SnapshotCodec.h"
+
+namespace naiad::test {
+namespace {
+
+wire::ServerMessage onBlue() {
+  SnapshotHeader header;
+  header.number = 2;
+  header.tick = 101;
+  SnapshotWriter out;
+  out.begin(header, 0, {});
+  out.write(WorldRecord{{{}, {df::fromCells(80), df::fromCells(24)}}, 80, 24, df::BLUE});
+  wire::ServerMessage message;
+  message.set_snapshot(out.finish());
+  return message;
+}
+
+class BackgroundTest : public testing::Test {
+ protected:
+  PtyTerminal::Options options() const {
+    PtyTerminal::Options options;
+    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
+    return options;
+  }
+
+  FakeServer server;
+};
+
+TEST_F(BackgroundTest, IsTheTerminalsOwnUntilTheGameWantsAnother) {
+  PtyTerminal terminal(options());
+  ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+  EXPECT_EQ(terminal.output().find("\033[44m"), std::string::npos);
+  terminal.forget();
+  server.send(onBlue());
+  EXPECT_TRUE(terminal.waitFor("\033[44m")) << terminal.output();
+  EXPECT_TRUE(terminal.waitFor("NAIAD-HERE")) << "all of it is drawn anew";
+}
+
+TEST_F(BackgroundTest, IsNoneWithoutColours) {
+  PtyTerminal::Options with = options();
+  with.environment["NO_COLOR"] = "1";
+  PtyTerminal terminal(with);
+  ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+  server.send(onBlue());
+  wire::ServerMessage chat;
+  chat.mutable_chat()->set_text("after-that");
+  server.send(chat);
+  ASSERT_TRUE(terminal.waitFor("after-that")) << terminal.output();
+  EXPECT_EQ(terminal.output().find("\033[44m"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,65 @@
+// What the real dfclient does on a terminal when the game sounds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "FakeServer.h"
+#include "PtyTerminal.h"
+
+namespace naiad::test {
+namespace {
+
+class TerminalSoundTest : public testing::Test {
+ protected:
+  PtyTerminal::Options options(const std::string& mode) const {
+    PtyTerminal::Options options;
+    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
+    if (!mode.empty()) options.command.insert(options.command.end(), {"--sound", mode});
+    return options;
+  }
+  /// Many of them; and then a line of chat, before which they came.
+  void play(PtyTerminal& terminal) {
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+    terminal.forget();
+    for (int i = 0; i < 50; ++i) {
+      wire::ServerMessage message;
+      message.mutable_sounds()->add_sounds()->set_label("pew");
+      server.send(message);
+    }
+    wire::ServerMessage chat;
+    chat.mutable_chat()->set_text("that-was-loud");
+    server.send(chat);
+    ASSERT_TRUE(terminal.waitFor("that-was-loud")) << terminal.output();
+  }
+  static auto bells(const PtyTerminal& terminal) {
+    return std::count(terminal.output().begin(), terminal.output().end(), '\a');
+  }
+
+  FakeServer server;
+};
+
+TEST_F(TerminalSoundTest, IsANoteUnlessSomethingElseIsWanted) {
+  PtyTerminal terminal(options(""));
+  play(terminal);
+  EXPECT_TRUE(terminal.waitFor("sound: pew"));
+  EXPECT_EQ(bells(terminal), 0);
+}
+
+TEST_F(TerminalSoundTest, RingsTheBellOnceHoweverManyThereAre) {
+  PtyTerminal terminal(options("bell"));
+  play(terminal);
+  EXPECT_TRUE(terminal.waitFor("sound: pew"));
+  EXPECT_TRUE(terminal.waitFor("\a"));
+  EXPECT_LE(bells(terminal), 3) << "fifty sounds within a moment";
+}
+
+TEST_F(TerminalSoundTest, IsNothingIfNothingIsWanted) {
+  PtyTerminal terminal(options("off"));
+  play(terminal);
+  EXPECT_EQ(terminal.output().find("pew"), std::string::npos);
+  EXPECT_EQ(bells(terminal), 0);
+}
+
+}  // namespace
+}  // namespace naiad::test
