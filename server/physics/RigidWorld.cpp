@@ -429,10 +429,7 @@ void RigidWorld::finishStep(double dt) {
   });
 }
 
-RigidStatus RigidWorld::step(double dt) {
-  if (!(dt > 0 && dt < 1e6)) return RigidStatus::kRefused;
-  const std::int64_t frozen_before = m_counters.quarantined;
-  ++m_counters.ticks;
+void RigidWorld::stepOnce(double dt) {
   beginStep(dt);
   updatePairs();
   updateContacts(dt);
@@ -445,6 +442,21 @@ RigidStatus RigidWorld::step(double dt) {
     substep(m_h);
   }
   finishStep(dt);
+}
+
+RigidStatus RigidWorld::step(double dt) {
+  if (!(dt > 0 && dt < 1e6)) return RigidStatus::kRefused;
+  const std::int64_t frozen_before = m_counters.quarantined;
+  ++m_counters.ticks;
+  m_earlier_events.clear();
+  const double parts = std::ceil(dt / kLongestStep), part = dt / parts;
+  for (double done = 0; done < parts; ++done) {
+    stepOnce(part);
+    if (parts == 1) break;
+    for (RigidEvent& event : m_events) event.time += done * part;
+    m_earlier_events.insert(m_earlier_events.end(), m_events.begin(), m_events.end());
+  }
+  if (parts > 1) m_events.swap(m_earlier_events);
   return m_counters.quarantined == frozen_before ? RigidStatus::kDone : RigidStatus::kQuarantined;
 }
 

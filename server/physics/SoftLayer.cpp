@@ -104,6 +104,7 @@ void SoftLayer::step(World& world) {
     if (seat.p_object != nullptr) soft.setOut(id, !seat.is_in || seat.is_asleep);
   }
   soft.step(1, m_meetings.obstacles());
+  tellOfCrowd(world);
   collectNews(world);
   m_meetings.apply(world, m_bodies, table, m_moved);
   for (int id = 0; id < table.idLimit(); ++id) {
@@ -115,6 +116,13 @@ void SoftLayer::step(World& world) {
     if (takesPart(world.store(), moved.key)) world.place(moved.key, moved.where);
   }
   if (!m_news.empty()) tellContacts(world, m_news);
+}
+
+// Once: it counts on in SoftCounters::crowded.
+void SoftLayer::tellOfCrowd(World& world) {
+  if (m_has_told_of_crowd || m_table->world().counters().crowded == 0) return;
+  m_has_told_of_crowd = true;
+  world.log("physics: too many soft bodies in one place: some pass through one another until there is room");
 }
 
 // Does it take part, and what is around it?

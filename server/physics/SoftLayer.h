@@ -42,11 +42,13 @@ class SoftLayer : public Layer {
   bool mayRest(int id) const;
   bool areNear(int a, int b);
   void collectNews(const World& world);
+  void tellOfCrowd(World& world);
 
   BodyLayer& m_bodies;  // lives as long: it is a layer of the same world, and came before
   std::shared_ptr<naiad::physics::SoftTable> m_table;
   SoftMeetings m_meetings;
   naiad::physics::Vec2 m_gravity;
+  bool m_has_told_of_crowd = false;
   // Of this step; kept for their memory.
   std::vector<naiad::physics::MovedObject> m_moved;
   std::vector<naiad::physics::BodyContact> m_news;

@@ -10,6 +10,7 @@
 
 #include "SoftBody.h"
 #include "SoftContact.h"
+#include "SoftCrowd.h"
 #include "SoftElastic.h"
 #include "SoftRows.h"
 
@@ -38,6 +39,8 @@ struct SoftCounters {
   std::int64_t unconverged = 0;  ///< groups' sub-steps that ended without the accuracy they should have
   std::int64_t limited = 0;  ///< bodies' sub-steps that were slowed, because they would have gained energy
   std::int64_t stopped = 0;  ///< nodes that were held at a surface at last, as no force had done it
+  std::int64_t crowded =
+      0;  ///< bodies' sub-steps in which some contacts with others were left out (SoftCrowd)
   std::int64_t quarantined = 0;  ///< bodies frozen
 };
 
@@ -123,10 +126,13 @@ class SoftWorld {
   void recentre(int id);
   void start(int id);
 
-  // SoftGroup.cpp
-  void substep(double h, std::span<SoftObstacle> obstacles);
+  // SoftSight.cpp
   void look(double h, std::span<SoftObstacle> obstacles);
   void findRows(double h, std::span<SoftObstacle> obstacles);
+  void findAttachments(std::span<SoftObstacle> obstacles);
+
+  // SoftGroup.cpp
+  void substep(double h, std::span<SoftObstacle> obstacles);
   void findGroups();
   void solveGroups(double h);
   bool solveGroup(double h);
@@ -155,6 +161,7 @@ class SoftWorld {
   std::vector<Vec2> m_ends;
   std::vector<SoftPose> m_poses;
   std::vector<SoftPush> m_pushes;
+  SoftCrowd m_crowd;
   std::vector<SoftRow> m_rows;
   std::vector<SoftRow> m_earlier;  // of the one before, by key
   std::vector<int> m_links;        // union-find over bodies and obstacles
