@@ -13,10 +13,8 @@ namespace df {
 
 namespace {
 
-using naiad::physics::BodyContact;
 using naiad::physics::Metric;
 using naiad::physics::MovedObject;
-using naiad::physics::SoftEvent;
 using naiad::physics::SoftHold;
 using naiad::physics::SoftNode;
 using naiad::physics::SoftObstacle;
@@ -105,7 +103,8 @@ void SoftLayer::step(World& world) {
   }
   soft.step(1, m_meetings.obstacles());
   tellOfCrowd(world);
-  collectNews(world);
+  m_touches.collect(world.store(), table, m_meetings, m_news);
+  findLoads();
   m_meetings.apply(world, m_bodies, table, m_moved);
   for (int id = 0; id < table.idLimit(); ++id) {
     if (table.seat(id).is_in && !table.seat(id).is_asleep) settle(world, id);
@@ -291,16 +290,8 @@ void SoftLayer::rest() {
   }
 }
 
-void SoftLayer::collectNews(const World& world) {
-  const WorldStore& store = world.store();
-  for (const SoftEvent& event : m_table->world().events()) {
-    const ObjectKey first = m_table->seat(event.body).key;
-    const ObjectKey second =
-        event.is_other_soft ? m_table->seat(event.other).key : m_meetings.keyOf(event.other);
-    if (!store.isCurrent(first) || !store.isCurrent(second)) continue;
-    m_news.push_back({1, first, second, store.order(first.slot), store.order(second.slot), event.impulse,
-                      true, naiad::physics::BodyWay::kAlone});
-  }
+// On whom does something press that could move?
+void SoftLayer::findLoads() {
   for (int id = 0; id < m_table->idLimit(); ++id) m_table->seat(id).is_loaded = false;
   for (const SoftObstacle& obstacle : m_meetings.obstacles()) {
     if (obstacle.inverse_mass == 0 || obstacle.impulse == Vec2{}) continue;

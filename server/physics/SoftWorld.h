@@ -16,12 +16,13 @@
 
 namespace naiad::physics {
 
-/// Two bodies began to touch in this step.
+/// Two bodies began to touch in this step, or no longer do.
 struct SoftEvent {
   int body;   ///< a soft body's id
   int other;  ///< the obstacle's id, or a soft body's higher than `body`
   bool is_other_soft;
-  double impulse;  ///< the sum along the normals, in this step
+  bool is_begin;
+  double impulse;  ///< when it begins: the sum along the normals, in this step
 };
 
 /// A node that is held to a point of an obstacle, both ways.
@@ -59,7 +60,8 @@ class SoftWorld {
 
   /// Returns the id, the lowest free one, or −1 if the body is not sound.
   int add(const SoftBody& body);
-  /// Replaces a body, and thaws it. False if there is none, or `body` is not sound; then nothing changes.
+  /// Replaces a body, and thaws it; its contacts go on. False if there is none, or `body` is not sound; then
+  /// nothing changes.
   bool set(int id, const SoftBody& body);
   /// Its contacts end without an event, and so do its attachments.
   bool remove(int id);
@@ -114,6 +116,10 @@ class SoftWorld {
     int body() const { return static_cast<int>(key >> 33); }
     int other() const { return static_cast<int>(key & 0xffffffff); }
     bool isSoft() const { return (key >> 32 & 1) != 0; }
+    bool isOf(int id) const { return body() == id || (isSoft() && other() == id); }
+    SoftEvent event(bool is_begin) const {
+      return {body(), other(), isSoft(), is_begin, is_begin ? impulse : 0};
+    }
   };
 
   static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }

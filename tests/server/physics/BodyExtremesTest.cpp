@@ -27,6 +27,7 @@ using Made = std::vector<Object*>;
 struct Kind {
   const char* p_name;
   Made (*make)(Vector where);
+  bool is_dear = false;
 };
 
 Body* turning(Vector where) {
@@ -60,7 +61,7 @@ const std::vector<Kind>& kinds() {
          p_body->setPolygon({Vector(-1, -1), Vector(1, -1), Vector(0, 1)});
          return {p_body};
        }},
-      {"compound", [](Vector where) -> Made { return {compound(where)}; }},
+      {"compound", [](Vector where) -> Made { return {compound(where)}; }, true},
       {"on a rod",
        [](Vector where) -> Made {
          Body* p_body = BodyScene::ball(where, Vector());
@@ -74,7 +75,8 @@ const std::vector<Kind>& kinds() {
          Body* p_partner = compound(where + Vector(4, 0));
          PM.addHinge(p_body, p_partner, where + Vector(2, 0));
          return {p_body, p_partner};
-       }},
+       },
+       true},
       {"rope", [](Vector where) -> Made { return {new Rope(where, where + Vector(6, 0))}; }},
       {"beam", [](Vector where) -> Made { return {new Beam(where, where + Vector(6, 0))}; }},
       {"cloth", [](Vector where) -> Made { return {new Cloth(where, 5, 3)}; }},
@@ -234,12 +236,13 @@ TEST(BodyExtremes, AForceBeyondAllBoundsFreezesWhatItPushes) {
 class InOnePlace : public testing::TestWithParam<Kind> {};
 
 TEST_P(InOnePlace, HundredsStayBounded) {
-  constexpr int kTicks = 6, kMany = 200;
+  constexpr int kTicks = 5;
+  const int many = GetParam().is_dear ? 100 : 200;
   constexpr double kFall = 0.01 * kTicks, kFastest = 10;
   const auto run = [&] {
     Witnesses those;
     Made all;
-    while (static_cast<int>(all.size()) < kMany) {
+    while (static_cast<int>(all.size()) < many) {
       for (Object* p_object : GetParam().make(Vector(0, -40))) all.push_back(p_object);
     }
     those.ticks(kTicks);
@@ -253,7 +256,7 @@ TEST_P(InOnePlace, HundredsStayBounded) {
       add(bits, p_object->getPosition());
       add(bits, velocity);
     }
-    EXPECT_NEAR(momentum / kMany, kFall, 0.01);  // as a whole they fall
+    EXPECT_NEAR(momentum / many, kFall, 0.01);  // as a whole they fall
     EXPECT_EQ(those.seen, undisturbed(kTicks));
     EXPECT_LE(those.log.size(), 1u);  // of soft ones: that it is a crowd
     return bits;
