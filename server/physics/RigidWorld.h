@@ -195,10 +195,12 @@ class RigidWorld {
   void freeze(int id);
   void wakeNeighbours(int id);
   void wakeRing(int id);
+  Bounds turnShapes(int id, Rotation rotation);
+
+  // RigidStep.cpp
   void stepOnce(double dt);
   void beginStep(double dt);
   void beginBody(int id, double dt);
-  Bounds turnShapes(int id, Rotation rotation);
   void substep(double h);
   void solve(bool is_second);
   void pushOut(double h);
