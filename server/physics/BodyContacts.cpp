@@ -29,16 +29,36 @@ void BodyContacts::add(const BodyContact& contact) {
   }
   m_news.push_back(contact);
   if (!contact.is_begin) {
+    count(at->contact, -1);
     m_touching.erase(at);
     return;
   }
   const bool is_slot_reused = at != m_touching.end() && at->contact.first.slot == contact.first.slot &&
                               at->contact.second.slot == contact.second.slot;
   if (is_slot_reused) {
+    count(at->contact, -1);
     *at = {contact};
   } else {
     m_touching.insert(at, {contact});
   }
+  count(contact, 1);
+}
+
+void BodyContacts::count(const BodyContact& contact, int by) {
+  for (const df::ObjectKey key : {contact.first, contact.second}) {
+    const auto at = m_touchers.begin() + (toucher(key) - m_touchers.cbegin());
+    if (at == m_touchers.end() || at->key != key) {
+      m_touchers.insert(at, {key, by});
+    } else if (at->count += by; at->count == 0) {
+      m_touchers.erase(at);
+    }
+  }
+}
+
+std::vector<BodyContacts::Toucher>::const_iterator BodyContacts::toucher(df::ObjectKey key) const {
+  return std::lower_bound(m_touchers.begin(), m_touchers.end(), key, [](const Toucher& its, df::ObjectKey k) {
+    return its.key.slot != k.slot ? its.key.slot < k.slot : its.key.generation < k.generation;
+  });
 }
 
 void BodyContacts::doubtFor(df::ObjectKey key, int ticks, const BodyWay* p_by) {
@@ -50,15 +70,15 @@ void BodyContacts::doubtFor(df::ObjectKey key, int ticks, const BodyWay* p_by) {
 }
 
 bool BodyContacts::isTouching(df::ObjectKey key) const {
-  return std::any_of(m_touching.begin(), m_touching.end(), [key](const Touch& touch) {
-    return touch.contact.first == key || touch.contact.second == key;
-  });
+  const auto at = toucher(key);
+  return at != m_touchers.end() && at->key == key;
 }
 
 std::vector<BodyContact>& BodyContacts::finish() {
   if (m_touching.empty()) return m_news;
   std::erase_if(m_touching, [this](Touch& touch) {
     if (touch.doubt == 0 || --touch.doubt > 0) return false;
+    count(touch.contact, -1);
     m_news.push_back(touch.contact);
     m_news.back().time = 0;
     m_news.back().is_begin = false;

@@ -24,6 +24,7 @@ class BodyContacts {
   /// The tick ends: the news.
   std::vector<BodyContact>& finish();
 
+  /// About the logarithm of how many touch something.
   bool isTouching(df::ObjectKey key) const;
   bool isEmpty() const { return m_touching.empty(); }
 
@@ -32,11 +33,18 @@ class BodyContacts {
     BodyContact contact;
     int doubt = 0;  // ticks until it ends, unless somebody finds it; 0: none
   };
+  struct Toucher {
+    df::ObjectKey key;
+    int count;  // of what it touches
+  };
   static constexpr int kPatience = 3;  // a solver may see a touch first, and feel it a tick later
   void doubtFor(df::ObjectKey key, int ticks, const BodyWay* p_by);
   std::vector<Touch>::iterator find(const BodyContact& contact);
+  void count(const BodyContact& contact, int by);
+  std::vector<Toucher>::const_iterator toucher(df::ObjectKey key) const;
 
-  std::vector<Touch> m_touching;  // by the slots of the two
+  std::vector<Touch> m_touching;    // by the slots of the two
+  std::vector<Toucher> m_touchers;  // by keys
   std::vector<BodyContact> m_news;
 };
 

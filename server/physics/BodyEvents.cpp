@@ -6,6 +6,7 @@
 #include "EventCollision.h"
 #include "EventContactEnd.h"
 #include "Hearing.h"
+#include "SoftObject.h"
 #include "WorldStore.h"
 
 namespace df {
@@ -15,8 +16,11 @@ namespace {
 using naiad::physics::BodyContact;
 
 bool hearsEnds(const WorldStore& store, ObjectKey key) {
-  return store.hears(key.slot) && store.has(key.slot, WorldStore::kBody) &&
-         static_cast<const Body*>(store.object(key.slot))->hasContactEnds();
+  if (!store.hears(key.slot) || !store.has(key.slot, WorldStore::kBody)) return false;
+  const Object* p_object = store.object(key.slot);
+  if (const auto* p_body = dynamic_cast<const Body*>(p_object)) return p_body->hasContactEnds();
+  const auto* p_soft = dynamic_cast<const SoftBody*>(p_object);
+  return p_soft != nullptr && p_soft->hasContactEnds();
 }
 
 void tellEnd(World& world, const BodyContact& contact) {

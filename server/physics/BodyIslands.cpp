@@ -47,12 +47,7 @@ void BodyIslands::gather(const std::vector<BodyPlan>& plans) {
     m_boxes.push_back({centre - plans[i].reach, centre + plans[i].reach});
   }
   m_tree.update(m_boxes, m_ids, static_cast<int>(plans.size()));
-  for (std::size_t k = 0; k < m_ids.size(); ++k) {
-    const int i = m_ids[k];
-    m_tree.query(m_boxes[k], [&](int j) {
-      if (j > i) m_pairs.emplace_back(i, j);
-    });
-  }
+  m_tree.queryPairs([&](int i, int j) { m_pairs.emplace_back(i, j); });
   std::sort(m_pairs.begin(), m_pairs.end());
 }
 

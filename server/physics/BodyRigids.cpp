@@ -117,6 +117,7 @@ void BodyRigids::sitDown(const WorldStore& store, const BodyTable& table, const 
 void BodyRigids::takeObstacles(const WorldStore& store, const BodyTable& table,
                                const std::vector<BodyPlan>& plans, BodyContacts& contacts) {
   m_obstacles.begin();
+  m_surroundings.begin();
   Vec2 fastest;
   for (const BodyPlan& plan : plans) {
     if (plan.way != BodyWay::kRigid) continue;
@@ -125,12 +126,11 @@ void BodyRigids::takeObstacles(const WorldStore& store, const BodyTable& table,
   }
   for (const BodyPlan& plan : plans) {
     if (plan.way != BodyWay::kRigid || !plan.is_hard) continue;
-    m_found.clear();
-    store.touching(regionOf(table.metric, plan.start, plan.reach + fastest), plan.key.slot, m_found);
-    for (const ObjectKey key : m_found) {
-      if (BodyObstacles::isOne(store, key)) m_obstacles.note(key);
-    }
+    m_surroundings.ask(regionOf(table.metric, plan.start, plan.reach + fastest));
   }
+  m_surroundings.answer(store, [&](std::size_t /*number*/, ObjectKey key) {
+    if (BodyObstacles::isOne(store, key)) m_obstacles.note(key);
+  });
   for (BodyObstacles::Obstacle& obstacle : m_obstacles.all()) {
     if (!obstacle.is_near) {
       if (obstacle.id >= 0) m_world.remove(obstacle.id);

@@ -6,6 +6,7 @@
 #include "BodyContacts.h"
 #include "BodyObstacles.h"
 #include "BodyPlan.h"
+#include "BodySurroundings.h"
 #include "RigidWorld.h"
 
 namespace df {
@@ -65,7 +66,7 @@ class BodyRigids {
   std::vector<Who> m_who;
   BodyObstacles m_obstacles;
   std::vector<FixedBox> m_obstacle_boxes;  // by id
-  std::vector<ObjectKey> m_found;
+  BodySurroundings m_surroundings;
   std::vector<naiad::physics::Shape> m_shapes;
   int m_count = 0;
 };

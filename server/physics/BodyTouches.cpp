@@ -66,15 +66,22 @@ void BodyTouches::add(const Mover& a, const Mover& b) {
   m_pairs.push_back(is_swapped ? Touch{b, a} : Touch{a, b});
 }
 
-void BodyTouches::meetObjects(const WorldStore& store, const Metric& metric, const Mover& mover) {
-  const Vec2 middle = 0.5 * mover.displacement;
-  const Vec2 half = halfOf(mover.shape) + Vec2{std::fabs(middle.x), std::fabs(middle.y)};
-  m_found.clear();
-  store.touching(regionOf(metric, mover.shape.place + middle, half), mover.key.slot, m_found);
-  for (const ObjectKey key : m_found) {
-    if (store.has(key.slot, WorldStore::kBody)) continue;
-    if (mover.is_soft || store.solidness(key.slot) == SOFT) add(mover, moverOf(store, metric, key));
+// Who moves, or is SOFT itself, may meet an Object anew.
+void BodyTouches::meetObjects(const WorldStore& store, const Metric& metric) {
+  m_looking.clear();
+  m_surroundings.begin();
+  for (std::size_t i = 0; i < m_movers.size(); ++i) {
+    const Mover& mover = m_movers[i];
+    if (mover.displacement == Vec2{} && !mover.is_soft) continue;
+    const Vec2 middle = 0.5 * mover.displacement;
+    const Vec2 half = halfOf(mover.shape) + Vec2{std::fabs(middle.x), std::fabs(middle.y)};
+    m_looking.push_back(i);
+    m_surroundings.ask(regionOf(metric, mover.shape.place + middle, half));
   }
+  m_surroundings.answer(store, [&](std::size_t number, ObjectKey key) {
+    const Mover& mover = m_movers[m_looking[number]];
+    if (mover.is_soft || store.solidness(key.slot) == SOFT) add(mover, moverOf(store, metric, key));
+  });
 }
 
 bool BodyTouches::wereTouching(const Touch& touch) const {
@@ -91,8 +98,8 @@ void BodyTouches::step(const WorldStore& store, const BodyTable& table, const st
     if (plan.is_hard || plan.is_soft) m_movers.push_back(moverOf(store, table, plan));
   }
   if (m_movers.empty() && m_touching.empty()) return;
+  meetObjects(store, table.metric);
   for (const Mover& mover : m_movers) {
-    if (mover.displacement != Vec2{} || mover.is_soft) meetObjects(store, table.metric, mover);
     if (!mover.is_soft) continue;
     for (const Mover& other : m_movers) {
       const bool is_told_twice = other.is_soft && other.order <= mover.order;

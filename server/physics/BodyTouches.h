@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "BodyPlan.h"
+#include "BodySurroundings.h"
 #include "ImpactBody.h"
 #include "World.h"
 #include "WorldStore.h"
@@ -35,7 +36,7 @@ class BodyTouches {
   static Mover moverOf(const WorldStore& store, const naiad::physics::BodyTable& table,
                        const naiad::physics::BodyPlan& plan);
   static Mover moverOf(const WorldStore& store, const naiad::physics::Metric& metric, ObjectKey key);
-  void meetObjects(const WorldStore& store, const naiad::physics::Metric& metric, const Mover& mover);
+  void meetObjects(const WorldStore& store, const naiad::physics::Metric& metric);
   void add(const Mover& a, const Mover& b);
   bool wereTouching(const Touch& touch) const;
 
@@ -43,7 +44,8 @@ class BodyTouches {
   std::vector<Touch> m_pairs;     // to be looked at
   std::vector<Touch> m_touching;  // at the end of the last tick, by order
   std::vector<Touch> m_now;
-  std::vector<ObjectKey> m_found;
+  std::vector<std::size_t> m_looking;  // movers, by number of what is asked
+  BodySurroundings m_surroundings;
 };
 
 }  // namespace df

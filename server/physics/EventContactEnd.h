@@ -1,4 +1,4 @@
-// Sent to a Body that asked for it (Body::setContactEnds) when something that it touched has left it.
+// Sent to a Body or SoftBody that asked for it (setContactEnds) when something that it touched has left it.
 //
 // As an EventCollision it comes after all bodies have moved, in the order of (time, ids); a bounce within a
 // tick begins a contact and ends it.
@@ -15,7 +15,7 @@ class EventContactEnd : public Event {
  public:
   /// Between nobody and nobody.
   EventContactEnd() : EventContactEnd(nullptr, nullptr) {}
-  /// The contact of `p_o1`, a Body, with `p_o2`.
+  /// The contact of `p_o1`, a Body or SoftBody, with `p_o2`.
   EventContactEnd(Object* p_o1, Object* p_o2) : Event(&CONTACT_END_EVENT), m_p_obj1(p_o1), m_p_obj2(p_o2) {}
 
   /// As they were in the collision event that began it.

@@ -4,14 +4,6 @@
 
 namespace naiad::physics {
 
-namespace {
-
-double sizeOf(const SweptBox& box) {
-  return (box.high.x - box.low.x) + (box.high.y - box.low.y);
-}
-
-}  // namespace
-
 void ImpactTree::update(const std::vector<SweptBox>& boxes, const std::vector<int>& ids, int id_count) {
   constexpr double kSpread = 1.3;  // a tree this much larger than when it was built is not worth keeping
   m_boxes = &boxes;

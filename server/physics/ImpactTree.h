@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "Vec2.h"
@@ -57,7 +58,40 @@ class ImpactTree {
     }
   }
 
+  /// Calls found(i, j), i < j, for every two bodies whose boxes overlap, once.
+  template <typename Found>
+  void queryPairs(Found&& found) const {
+    if (m_nodes.empty()) return;
+    std::pair<int, int> stack[4 * kDepth];  // what is left of each level: two of what one was divided into
+    int height = 0;
+    stack[height++] = {0, 0};
+    while (height > 0) {
+      const auto [a, b] = stack[--height];
+      const Node &one = m_nodes[a], &other = m_nodes[b];
+      if (a == b) {
+        if (one.id >= 0) continue;
+        stack[height++] = {one.first, one.first};
+        stack[height++] = {one.second, one.second};
+        if (overlaps(m_nodes[one.first].box, m_nodes[one.second].box)) {
+          stack[height++] = {one.first, one.second};
+        }
+        continue;
+      }
+      if (one.id >= 0 && other.id >= 0) {
+        one.id < other.id ? found(one.id, other.id) : found(other.id, one.id);
+        continue;
+      }
+      const bool divides_one = other.id >= 0 || (one.id < 0 && sizeOf(one.box) > sizeOf(other.box));
+      const Node& large = divides_one ? one : other;
+      const SweptBox& box = divides_one ? other.box : one.box;
+      const int rest = divides_one ? b : a;
+      if (overlaps(m_nodes[large.first].box, box)) stack[height++] = {large.first, rest};
+      if (overlaps(m_nodes[large.second].box, box)) stack[height++] = {large.second, rest};
+    }
+  }
+
  private:
+  static double sizeOf(const SweptBox& box) { return (box.high.x - box.low.x) + (box.high.y - box.low.y); }
   static constexpr int kDepth = 128;  // halved at every level: far more than any number of bodies needs
   struct Node {
     SweptBox box;

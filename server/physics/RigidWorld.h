@@ -63,6 +63,8 @@ struct RigidOptions {
 /// Not thread-safe. No allocation in step() once the scene has shown what it needs.
 class RigidWorld {
  public:
+  static constexpr double kLongestStep = 32;  ///< ticks
+
   explicit RigidWorld(RigidOptions options = {}) : m_options(options) {}
 
   /// Shapes are relative to the centre of mass; none: a body that touches nothing, for joints. Returns the
@@ -99,7 +101,7 @@ class RigidWorld {
   const Joint& joint(int id) const { return m_joints.joint(id); }
   int jointLimit() const { return m_joints.limit(); }
 
-  /// Goes on by `dt` > 0 ticks.
+  /// Goes on by `dt` > 0 ticks, up to 1e6; by more than kLongestStep in several equal parts.
   RigidStatus step(double dt = 1);
 
   /// Of the last step, by (time, ids).
@@ -193,9 +195,12 @@ class RigidWorld {
   void freeze(int id);
   void wakeNeighbours(int id);
   void wakeRing(int id);
+  Bounds turnShapes(int id, Rotation rotation);
+
+  // RigidStep.cpp
+  void stepOnce(double dt);
   void beginStep(double dt);
   void beginBody(int id, double dt);
-  Bounds turnShapes(int id, Rotation rotation);
   void substep(double h);
   void solve(bool is_second);
   void pushOut(double h);
@@ -275,6 +280,7 @@ class RigidWorld {
   std::vector<Gain> m_island_gain;
   std::vector<std::uint8_t> m_island_flags;
   std::vector<RigidEvent> m_events;
+  std::vector<RigidEvent> m_earlier_events;  // of a long step's earlier parts
   RigidCounters m_counters;
   double m_time = 0;  // within the step
   double m_deepest = 0;

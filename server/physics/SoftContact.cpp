@@ -199,9 +199,14 @@ void findContacts(const SoftView& soft, const SoftPose& rigid, double h, std::ve
   }
 }
 
+bool mayMeet(const SoftView& a, const SoftView& b) {
+  const Vec2 between = b.body->place - a.body->place;
+  return overlap(a.lower, a.upper, b.lower + between, b.upper + between);
+}
+
 void findContacts(const SoftView& a, const SoftView& b, std::vector<SoftRow>& rows) {
   const Vec2 between = b.body->place - a.body->place;
-  if (!overlap(a.lower, a.upper, b.lower + between, b.upper + between)) return;
+  if (!mayMeet(a, b)) return;
   const double thick = a.body->radius + b.body->radius;
   const double skin = kSoftSkin * std::min(a.body->radius, b.body->radius);
   const Vec2 margin = {thick + skin, thick + skin};

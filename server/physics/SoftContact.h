@@ -80,6 +80,8 @@ struct SoftPose {
 /// Contacts closer than this part of a radius are looked after before they touch.
 inline constexpr double kSoftSkin = 0.1;
 
+/// Do the bounds of two bodies meet within the sub-step?
+bool mayMeet(const SoftView& a, const SoftView& b);
 /// Append what may touch within `h` ticks.
 void findContacts(const SoftView& soft, const SoftPose& rigid, double h, std::vector<SoftRow>& rows);
 /// Nodes of `a` against the boundary of `b`.

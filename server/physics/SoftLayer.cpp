@@ -13,10 +13,8 @@ namespace df {
 
 namespace {
 
-using naiad::physics::BodyContact;
 using naiad::physics::Metric;
 using naiad::physics::MovedObject;
-using naiad::physics::SoftEvent;
 using naiad::physics::SoftHold;
 using naiad::physics::SoftNode;
 using naiad::physics::SoftObstacle;
@@ -104,7 +102,9 @@ void SoftLayer::step(World& world) {
     if (seat.p_object != nullptr) soft.setOut(id, !seat.is_in || seat.is_asleep);
   }
   soft.step(1, m_meetings.obstacles());
-  collectNews(world);
+  tellOfCrowd(world);
+  m_touches.collect(world.store(), table, m_meetings, m_news);
+  findLoads();
   m_meetings.apply(world, m_bodies, table, m_moved);
   for (int id = 0; id < table.idLimit(); ++id) {
     if (table.seat(id).is_in && !table.seat(id).is_asleep) settle(world, id);
@@ -115,6 +115,13 @@ void SoftLayer::step(World& world) {
     if (takesPart(world.store(), moved.key)) world.place(moved.key, moved.where);
   }
   if (!m_news.empty()) tellContacts(world, m_news);
+}
+
+// Once: it counts on in SoftCounters::crowded.
+void SoftLayer::tellOfCrowd(World& world) {
+  if (m_has_told_of_crowd || m_table->world().counters().crowded == 0) return;
+  m_has_told_of_crowd = true;
+  world.log("physics: too many soft bodies in one place: some pass through one another until there is room");
 }
 
 // Does it take part, and what is around it?
@@ -283,16 +290,8 @@ void SoftLayer::rest() {
   }
 }
 
-void SoftLayer::collectNews(const World& world) {
-  const WorldStore& store = world.store();
-  for (const SoftEvent& event : m_table->world().events()) {
-    const ObjectKey first = m_table->seat(event.body).key;
-    const ObjectKey second =
-        event.is_other_soft ? m_table->seat(event.other).key : m_meetings.keyOf(event.other);
-    if (!store.isCurrent(first) || !store.isCurrent(second)) continue;
-    m_news.push_back({1, first, second, store.order(first.slot), store.order(second.slot), event.impulse,
-                      true, naiad::physics::BodyWay::kAlone});
-  }
+// On whom does something press that could move?
+void SoftLayer::findLoads() {
   for (int id = 0; id < m_table->idLimit(); ++id) m_table->seat(id).is_loaded = false;
   for (const SoftObstacle& obstacle : m_meetings.obstacles()) {
     if (obstacle.inverse_mass == 0 || obstacle.impulse == Vec2{}) continue;

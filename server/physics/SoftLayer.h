@@ -11,6 +11,7 @@
 #include "Layer.h"
 #include "SoftMeetings.h"
 #include "SoftTable.h"
+#include "SoftTouches.h"
 #include "World.h"
 
 namespace df {
@@ -41,12 +42,15 @@ class SoftLayer : public Layer {
   void rest();
   bool mayRest(int id) const;
   bool areNear(int a, int b);
-  void collectNews(const World& world);
+  void findLoads();
+  void tellOfCrowd(World& world);
 
   BodyLayer& m_bodies;  // lives as long: it is a layer of the same world, and came before
   std::shared_ptr<naiad::physics::SoftTable> m_table;
   SoftMeetings m_meetings;
+  SoftTouches m_touches;
   naiad::physics::Vec2 m_gravity;
+  bool m_has_told_of_crowd = false;
   // Of this step; kept for their memory.
   std::vector<naiad::physics::MovedObject> m_moved;
   std::vector<naiad::physics::BodyContact> m_news;

@@ -10,7 +10,8 @@
 // A soft body consists of nodes, points with mass, and what holds them together. Its position is its centre
 // of mass, its velocity that one's, its box goes around it; what the game sets of the first two moves the
 // whole, pins too. It hits HARD bodies and HARD Objects and other soft bodies, and they hear of it by an
-// EventCollision, once when a contact begins. To the book's moves it is nothing: it is SPECTRAL.
+// EventCollision, once when a contact begins, and on request by an EventContactEnd. To the book's moves it is
+// nothing: it is SPECTRAL.
 //
 // Units: positions in cells, lengths in widths of a cell, times in ticks, mass in the game's unit. The
 // stiffness is told as an acceleration (widths of a cell per tick²), so that it does not depend on the mass.
@@ -60,6 +61,10 @@ class SoftBody : public Object {
   int applyForce(Vector force);
   /// The same for one node alone: what pulls at a beam's end for good is applied in each tick.
   int applyForce(int node, Vector force);
+
+  /// Does it hear of contacts' ends, too (EventContactEnd)? Off by default.
+  void setContactEnds(bool contact_ends = true) { m_has_contact_ends = contact_ends; }
+  bool hasContactEnds() const { return m_has_contact_ends; }
 
   // Its nodes: 0 … getNodeCount() - 1.
 
@@ -117,6 +122,7 @@ class SoftBody : public Object {
   std::shared_ptr<naiad::physics::SoftTable> m_table;
   std::shared_ptr<naiad::physics::SoftDrawn> m_drawn;
   int m_id = -1;  ///< in the table
+  bool m_has_contact_ends = false;
 };
 
 /// From `from` to `to`, hanging free: pin() its ends.

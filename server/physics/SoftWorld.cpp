@@ -43,6 +43,7 @@ bool SoftWorld::set(int id, const SoftBody& body) {
 bool SoftWorld::remove(int id) {
   if (!exists(id)) return false;
   m_states[at(id)].exists = false;
+  std::erase_if(m_touched, [id](const Touch& touch) { return touch.isOf(id); });
   for (SoftAttachment& attachment : m_attachments) {
     if (attachment.body == id) attachment.body = -1;
   }
@@ -162,9 +163,7 @@ bool SoftWorld::isOut(const Touch& touch) const {
 }
 
 bool SoftWorld::isTouching(int id) const {
-  return std::any_of(m_touched.begin(), m_touched.end(), [id](const Touch& touch) {
-    return touch.body() == id || (touch.isSoft() && touch.other() == id);
-  });
+  return std::any_of(m_touched.begin(), m_touched.end(), [id](const Touch& touch) { return touch.isOf(id); });
 }
 
 bool SoftWorld::isTouching(int id, int obstacle) const {
@@ -175,13 +174,21 @@ bool SoftWorld::isTouching(int id, int obstacle) const {
 
 void SoftWorld::publish() {
   m_events.clear();
+  const auto has = [](const std::vector<Touch>& touches, const Touch& one) {
+    return std::any_of(touches.begin(), touches.end(), [&](const Touch& t) { return t.key == one.key; });
+  };
   for (const Touch& touch : m_touching) {
-    const auto isSame = [&](const Touch& t) { return t.key == touch.key; };
-    if (std::any_of(m_touched.begin(), m_touched.end(), isSame)) continue;
-    m_events.push_back({touch.body(), touch.other(), touch.isSoft(), touch.impulse});
+    if (!has(m_touched, touch)) m_events.push_back(touch.event(true));
   }
+  const std::size_t touching = m_touching.size();
   for (const Touch& touch : m_touched) {
-    if (isOut(touch)) m_touching.push_back(touch);  // theirs go on, and are no news when they are back
+    if (isOut(touch)) {
+      m_touching.push_back(touch);  // theirs go on, and are no news when they are back
+    } else if (!std::binary_search(m_touching.begin(),
+                                   m_touching.begin() + static_cast<std::ptrdiff_t>(touching), touch,
+                                   [](const Touch& a, const Touch& b) { return a.key < b.key; })) {
+      m_events.push_back(touch.event(false));
+    }
   }
   m_touched.swap(m_touching);
 }

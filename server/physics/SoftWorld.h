@@ -10,17 +10,19 @@
 
 #include "SoftBody.h"
 #include "SoftContact.h"
+#include "SoftCrowd.h"
 #include "SoftElastic.h"
 #include "SoftRows.h"
 
 namespace naiad::physics {
 
-/// Two bodies began to touch in this step.
+/// Two bodies began to touch in this step, or no longer do.
 struct SoftEvent {
   int body;   ///< a soft body's id
   int other;  ///< the obstacle's id, or a soft body's higher than `body`
   bool is_other_soft;
-  double impulse;  ///< the sum along the normals, in this step
+  bool is_begin;
+  double impulse;  ///< when it begins: the sum along the normals, in this step
 };
 
 /// A node that is held to a point of an obstacle, both ways.
@@ -38,6 +40,8 @@ struct SoftCounters {
   std::int64_t unconverged = 0;  ///< groups' sub-steps that ended without the accuracy they should have
   std::int64_t limited = 0;  ///< bodies' sub-steps that were slowed, because they would have gained energy
   std::int64_t stopped = 0;  ///< nodes that were held at a surface at last, as no force had done it
+  std::int64_t crowded =
+      0;  ///< bodies' sub-steps in which some contacts with others were left out (SoftCrowd)
   std::int64_t quarantined = 0;  ///< bodies frozen
 };
 
@@ -56,7 +60,8 @@ class SoftWorld {
 
   /// Returns the id, the lowest free one, or −1 if the body is not sound.
   int add(const SoftBody& body);
-  /// Replaces a body, and thaws it. False if there is none, or `body` is not sound; then nothing changes.
+  /// Replaces a body, and thaws it; its contacts go on. False if there is none, or `body` is not sound; then
+  /// nothing changes.
   bool set(int id, const SoftBody& body);
   /// Its contacts end without an event, and so do its attachments.
   bool remove(int id);
@@ -111,6 +116,10 @@ class SoftWorld {
     int body() const { return static_cast<int>(key >> 33); }
     int other() const { return static_cast<int>(key & 0xffffffff); }
     bool isSoft() const { return (key >> 32 & 1) != 0; }
+    bool isOf(int id) const { return body() == id || (isSoft() && other() == id); }
+    SoftEvent event(bool is_begin) const {
+      return {body(), other(), isSoft(), is_begin, is_begin ? impulse : 0};
+    }
   };
 
   static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -123,10 +132,13 @@ class SoftWorld {
   void recentre(int id);
   void start(int id);
 
-  // SoftGroup.cpp
-  void substep(double h, std::span<SoftObstacle> obstacles);
+  // SoftSight.cpp
   void look(double h, std::span<SoftObstacle> obstacles);
   void findRows(double h, std::span<SoftObstacle> obstacles);
+  void findAttachments(std::span<SoftObstacle> obstacles);
+
+  // SoftGroup.cpp
+  void substep(double h, std::span<SoftObstacle> obstacles);
   void findGroups();
   void solveGroups(double h);
   bool solveGroup(double h);
@@ -155,6 +167,7 @@ class SoftWorld {
   std::vector<Vec2> m_ends;
   std::vector<SoftPose> m_poses;
   std::vector<SoftPush> m_pushes;
+  SoftCrowd m_crowd;
   std::vector<SoftRow> m_rows;
   std::vector<SoftRow> m_earlier;  // of the one before, by key
   std::vector<int> m_links;        // union-find over bodies and obstacles

@@ -6,12 +6,9 @@
 
 #include "DisplayManager.h"
 #include "EventOut.h"
-#include "EventPlayer.h"
-#include "EventStep.h"
 #include "Ground.h"
 #include "PhysicsManager.h"
 #include "Seconds.h"
-#include "WorldManager.h"
 
 namespace {
 
@@ -28,33 +25,18 @@ constexpr std::uint32_t kMessageText = 1;
 
 }  // namespace
 
-Ship::Ship(df::Player& player) : m_player(player.getId()), m_color(player.getColor()) {
+Ship::Ship(df::Player& player) : PlayerObject(player) {
   setType("Ship");
   setAltitude(3);
   setBoxShape(3, 2);
   setRestitution(0.2);
   setFriction(0.8);
-  registerInterest(df::STEP_EVENT);
-  registerInterest(df::KEYBOARD_EVENT);
-  registerInterest(df::LEAVE_EVENT);
-  player.setObject(this);
   launch();
 }
 
-int Ship::eventHandler(const df::Event* p_e) {
-  const auto& type = p_e->getType();
-  if (type == df::STEP_EVENT) {
-    step();
-  } else if (type == df::KEYBOARD_EVENT) {
-    const auto& event = *static_cast<const df::EventKeyboard*>(p_e);
-    if (event.getPlayer() == m_player) keyboard(event);
-  } else if (type == df::COLLISION_EVENT) {
-    touch(*static_cast<const df::EventCollision*>(p_e));
-  } else if (type == df::LEAVE_EVENT) {
-    if (static_cast<const df::EventLeave*>(p_e)->getPlayer() == m_player) WM.markForDelete(this);
-  } else if (type == df::OUT_EVENT && m_wait == 0) {
-    crash("Lost in space");
-  }
+int Ship::handle(const df::Event* p_e) {
+  if (p_e->getType() == df::COLLISION_EVENT) touch(*static_cast<const df::EventCollision*>(p_e));
+  if (p_e->getType() == df::OUT_EVENT && m_wait == 0) crash("Lost in space");
   return 1;
 }
 
@@ -100,8 +82,6 @@ void Ship::burn(Jet jet) {
 }
 
 void Ship::step() {
-  df::Player* p_player = WM.getPlayer(m_player);
-  if (p_player == nullptr) return;
   if (m_wait > 0) {
     if (--m_wait == 0) launch();
   } else {
@@ -110,7 +90,7 @@ void Ship::step() {
     m_standing = still && m_worth > 0 ? m_standing + 1 : 0;
     if (m_standing == kStandTicks) land(m_worth);
   }
-  showStatus(*p_player);
+  showStatus(*getPlayer());
 }
 
 // How hard it was hit is its change of velocity: impulse over mass.
@@ -127,7 +107,7 @@ void Ship::touch(const df::EventCollision& event) {
 
 void Ship::land(int worth) {
   const int points = worth + static_cast<int>(10 * m_fuel);
-  df::Player& player = *WM.getPlayer(m_player);
+  df::Player& player = *getPlayer();
   player.setScore(player.getScore() + points);
   m_message = "Landed: " + std::to_string(points) + " points";
   m_wait = kWaitTicks;
@@ -149,8 +129,8 @@ int Ship::draw() {
     DM.drawString(upper, "\\*/", df::LEFT_JUSTIFIED, df::RED);
     return DM.drawString(lower, "/*\\", df::LEFT_JUSTIFIED, df::RED);
   }
-  DM.drawString(upper, "/O\\", df::LEFT_JUSTIFIED, m_color);
-  DM.drawString(lower, "/ \\", df::LEFT_JUSTIFIED, m_color);
+  DM.drawString(upper, "/O\\", df::LEFT_JUSTIFIED, getColor());
+  DM.drawString(lower, "/ \\", df::LEFT_JUSTIFIED, getColor());
   if (m_fuel <= 0) return 0;
   if (m_burning[MAIN] > 0) DM.drawCh(lower + df::Vector(1, 0), 'W', df::RED);
   if (m_burning[LEFT] > 0) DM.drawCh(upper + df::Vector(3, 0), '>', df::RED);
@@ -166,5 +146,5 @@ void Ship::showStatus(df::Player& player) const {
   const bool gentle = v.getMagnitude() * df::TICKS_PER_SECOND < kGentle;
   player.setText(kStatusText, df::Vector(1, 0), text, gentle ? df::GREEN : df::WHITE);
   const double left = (DM.getHorizontal() - static_cast<double>(m_message.size())) / 2;
-  player.setText(kMessageText, df::Vector(left, 1), m_message, m_color);
+  player.setText(kMessageText, df::Vector(left, 1), m_message, getColor());
 }

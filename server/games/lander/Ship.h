@@ -6,30 +6,27 @@
 
 #include "Body.h"
 #include "EventCollision.h"
-#include "EventKeyboard.h"
-#include "Player.h"
+#include "PlayerObject.h"
 
-class Ship : public df::Body {
+class Ship : public df::PlayerObject<df::Body> {
  public:
   explicit Ship(df::Player& player);
 
-  int eventHandler(const df::Event* p_e) override;
   int draw() override;
 
  private:
   enum Jet { MAIN, LEFT, RIGHT, JETS };
 
   void launch();
-  void keyboard(const df::EventKeyboard& event);
+  void keyboard(const df::EventKeyboard& event) override;
+  void step() override;
+  int handle(const df::Event* p_e) override;
   void touch(const df::EventCollision& event);
-  void step();
   void burn(Jet jet);
   void land(int worth);
   void crash(const std::string& why);
   void showStatus(df::Player& player) const;
 
-  std::uint32_t m_player;
-  df::Color m_color;
   double m_fuel = 0;                     // seconds of the main engine
   std::array<int, JETS> m_burning = {};  // ticks that each jet still burns
   int m_worth = 0;                       // of the pad it stands on

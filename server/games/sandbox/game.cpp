@@ -1,53 +1,87 @@
 // The sandbox: crates, balls, a rope bridge, a cradle, a billiard corner, ragdolls, blobs and a flag, to be
-// dragged, thrown, stacked and shot at by everybody who comes. Start reading at Hand, then Things.
-#include <algorithm>
-
-#include "EventPlayer.h"
-#include "EventStep.h"
+// dragged, thrown, stacked and shot at by everybody who comes. Start reading at Hand, then main().
+#include "Bridge.h"
 #include "GameManager.h"
 #include "Hand.h"
+#include "Obstacle.h"
+#include "PhysicsManager.h"
 #include "Ragdoll.h"
 #include "Seconds.h"
+#include "SoftObject.h"
 #include "Things.h"
-#include "WorldManager.h"
 
 namespace {
 
-/// Gives everybody a hand, and turns gravity by a quarter when more than half of them want it.
-class Master : public df::Object {
+/// Turns gravity by a quarter when more than half of the players want it.
+class Votes : public df::Object {
  public:
-  Master() {
+  Votes() {
     setSolidness(df::SPECTRAL);
     setVisible(false);
-    registerInterest(df::JOIN_EVENT);
     registerInterest(df::STEP_EVENT);
-    PM.setGravity(m_gravity);
+    PM.setGravity(df::perSecondSquared(df::Vector(0, 15)));
   }
   int eventHandler(const df::Event* p_e) override {
-    if (const auto* p_join = dynamic_cast<const df::EventJoin*>(p_e))
-      new Hand(*WM.getPlayer(p_join->getPlayer()));
-    if (p_e->getType() == df::STEP_EVENT) count();
+    if (p_e->getType() != df::STEP_EVENT) return 0;
+    const df::ObjectList hands = WM.objectsOfType("Hand");
+    int wishes = 0;
+    for (int i = 0; i < hands.getCount(); ++i) wishes += static_cast<Hand*>(hands[i])->wantsTurn() ? 1 : 0;
+    if (2 * wishes <= hands.getCount()) return 1;
+    for (int i = 0; i < hands.getCount(); ++i) static_cast<Hand*>(hands[i])->forgetTurn();
+    // A cell is twice as high as wide, and so is what gravity does in cells.
+    const df::Vector gravity = PM.getGravity();
+    PM.setGravity(df::Vector(-2 * gravity.y(), gravity.x() / 2));
     return 1;
   }
-
- private:
-  void count() {
-    std::vector<Hand*> wishes;
-    const df::ObjectList hands = WM.objectsOfType("Hand");
-    df::ObjectListIterator li(&hands);
-    for (li.first(); !li.isDone(); li.next()) {
-      auto* p_hand = static_cast<Hand*>(li.currentObject());
-      if (p_hand->wantsTurn()) wishes.push_back(p_hand);
-    }
-    if (2 * static_cast<int>(wishes.size()) <= hands.getCount()) return;
-    for (Hand* p_hand : wishes) p_hand->forgetTurn();
-    // A cell is twice as high as wide, and so is what gravity does in cells.
-    m_gravity = df::Vector(-2 * m_gravity.y(), m_gravity.x() / 2);
-    PM.setGravity(m_gravity);
-  }
-
-  df::Vector m_gravity = df::perSecondSquared(df::Vector(0, 15));
 };
+
+void makeWall(df::Vector corner, int width, int height) {
+  new df::Obstacle(corner, width, height, '%', df::BLUE);
+}
+
+void makePyramid(df::Vector foot, int rows) {
+  for (int row = 0; row < rows; ++row)
+    for (int i = 0; i < rows - row; ++i)
+      new Crate(foot + df::Vector(4.2 * i + 2.1 * row, -1 - 2 * row), row % 2 == 0 ? df::YELLOW : df::RED);
+}
+
+/// Newton's: as many balls on rods; the first is let go from the side.
+void makeCradle(df::Vector where, int balls) {
+  constexpr double kRadius = 1.5;
+  constexpr double kRod = 5;  // rows
+  for (int i = 0; i < balls; ++i) {
+    const df::Vector above = where + df::Vector(2 * kRadius * i, 0);
+    auto* p_ball =
+        new Ball(above + (i == 0 ? df::Vector(-2 * kRod, 0) : df::Vector(0, kRod)), df::MAGENTA, kRadius, 1);
+    p_ball->setTurning(false);
+    p_ball->setFriction(0);
+    p_ball->setDrag(0);
+    PM.addDistance(nullptr, p_ball, above, p_ball->getPosition());
+  }
+}
+
+/// Balls that feel no gravity, within rails.
+void makeBilliard(df::Vector corner, int width, int height) {
+  makeWall(corner, width, 1);
+  makeWall(corner + df::Vector(0, height - 1), width, 1);
+  makeWall(corner, 1, height);
+  makeWall(corner + df::Vector(width - 1, 0), 1, height);
+  for (int row = 0; row < 3; ++row) {
+    for (int i = 0; i <= row; ++i) {
+      const df::Vector at(width / 2.0 + 3 * row, height / 2.0 + (i - row / 2.0) * 1.6);
+      auto* p_ball = new Ball(corner + at, df::GREEN, 1.4, 0.95);
+      p_ball->setGravityScale(0);
+      p_ball->setDrag(0.01);
+    }
+  }
+}
+
+/// Hung up by its left edge.
+void makeFlag(df::Vector corner, double width, double height) {
+  auto* p_flag = new df::Cloth(corner, width, height, 0.5);
+  p_flag->setDrawing(df::BodyDrawing::FILL, ':', df::RED);
+  for (int row = 0; row < p_flag->getRows(); ++row) p_flag->pin(p_flag->getNode(0, row));
+}
 
 }  // namespace
 
@@ -67,7 +101,10 @@ int main() {
   makeWall(df::Vector(79, 1), 1, 22);
   makeWall(df::Vector(0, 17), 8, 6);
   makeWall(df::Vector(32, 17), 4, 6);
-  makeBridge(df::Vector(7.5, 17), df::Vector(31.5, 17), 8);
+  for (df::Body* p_plank : df::makeBridge(df::Vector(7.5, 17), df::Vector(31.5, 17), 8)) {
+    makeThing(*p_plank);
+    p_plank->setDrawing(df::BodyDrawing::FILL, '#', df::CYAN);
+  }
   makePyramid(df::Vector(42, 22.5), 4);
   makeCradle(df::Vector(20, 4), 5);
   makeBilliard(df::Vector(50, 2), 27, 9);
@@ -76,7 +113,8 @@ int main() {
   makeBlob(df::Vector(13, 14), df::CYAN);
   makeBlob(df::Vector(25, 13), df::MAGENTA);
   makeFlag(df::Vector(2, 3), 7, 3);
-  new Master;
+  new Votes;
+  new df::Welcome<Hand>;
   GM.run();
   GM.shutDown();
   return 0;

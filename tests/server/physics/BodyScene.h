@@ -28,6 +28,7 @@ class BodyScene : public testing::Test {
     for (int i = 0; i < n; ++i) world.update();
   }
 
+ public:
   /// A HARD Object without mass.
   static Object* wall(Vector centre, Vector half) {
     auto* p_wall = new Object;
@@ -53,6 +54,7 @@ class BodyScene : public testing::Test {
     p_crate->setMass(mass);
     return p_crate;
   }
+ protected:
   /// Per second.
   static Vector speedOf(const Body* p_body) {
     return Vector(30 * p_body->getVelocity().x(), 30 * p_body->getVelocity().y());

@@ -186,16 +186,18 @@ TEST(SoftWorld, FreezesOneBodyAndNoOther) {
   EXPECT_FALSE(with.world.isFrozen(id));
 }
 
-// Spikes of the step, and hundreds of nodes in one place: bounded.
+// Spikes of the step, and hundreds of bodies in one place: bounded, and counted.
 TEST(SoftWorld, StaysBoundedInExtremes) {
   Scene scene;
   for (const double dt : {1.0, 1e3, 1e-6, 10.0, 1e-3, 100.0, 1.0}) scene.step(dt);
   SoftWorld crowd;
   crowd.setSubsteps(1);
-  for (int i = 0; i < 30; ++i) crowd.add(makeBlob(placeAt({0.01 * i, 0}), 1, 8, 1, 0.05, 0.2, 0.5));
+  constexpr int kMany = 300;
+  for (int i = 0; i < kMany; ++i) crowd.add(makeBlob(placeAt({0.001 * i, 0}), 1, 8, 1, 0.05, 0.2, 0.5));
   for (int i = 0; i < 10; ++i) crowd.step();
+  EXPECT_GE(crowd.counters().crowded, 10 * (kMany - SoftCrowd::kMostOthers));
   for (int id = 0; id < 5; ++id) EXPECT_TRUE(isFinite(test::momentumOf(scene.world.body(id))));
-  for (int id = 0; id < 30; ++id) {
+  for (int id = 0; id < kMany; ++id) {
     EXPECT_LT(length(test::centreOf(crowd, id)), 200);
     EXPECT_LT(test::fastest(crowd.body(id)), 10);
   }

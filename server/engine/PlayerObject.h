@@ -1,0 +1,94 @@
+// An Object that a player steers, of any kind of Object: it hears that player's input and no other's.
+//
+//   class Ship : public df::PlayerObject<df::Body> {
+//    public:
+//     explicit Ship(df::Player& player) : PlayerObject(player) { … }
+//
+//    private:
+//     void step() override;
+//     void keyboard(const df::EventKeyboard& event) override;
+//   };
+//
+//   new df::Welcome<Ship>;  // before GM.run(): everybody who joins gets one
+//
+// It is the player's Object (Player::setObject) and is deleted when the player leaves.
+#pragma once
+
+#include <cstdint>
+
+#include "EventKeyboard.h"
+#include "EventMouse.h"
+#include "EventPlayer.h"
+#include "EventStep.h"
+#include "Object.h"
+#include "Player.h"
+#include "WorldManager.h"
+
+namespace df {
+
+template <class Base = Object>
+class PlayerObject : public Base {
+ public:
+  /// In the current world, in which the player must be.
+  explicit PlayerObject(Player& player) : m_player(player.getId()), m_color(player.getColor()) {
+    for (const EventType& type : {STEP_EVENT, KEYBOARD_EVENT, MSE_EVENT, LEAVE_EVENT}) {
+      this->registerInterest(type);
+    }
+    player.setObject(this);
+  }
+
+  /// Who steers it; null from the tick on in which he leaves.
+  Player* getPlayer() const { return WM.getPlayer(m_player); }
+  /// The player's.
+  Color getColor() const { return m_color; }
+
+  int eventHandler(const Event* p_e) override {
+    const EventType& type = p_e->getType();
+    if (type == STEP_EVENT) {
+      if (getPlayer() != nullptr) step();
+    } else if (type == KEYBOARD_EVENT) {
+      const auto& event = *static_cast<const EventKeyboard*>(p_e);
+      if (event.getPlayer() == m_player) keyboard(event);
+    } else if (type == MSE_EVENT) {
+      const auto& event = *static_cast<const EventMouse*>(p_e);
+      if (event.getPlayer() == m_player) mouse(event);
+    } else if (type == LEAVE_EVENT) {
+      if (static_cast<const EventLeave*>(p_e)->getPlayer() == m_player) WM.markForDelete(this);
+    } else {
+      return handle(p_e);
+    }
+    return 1;
+  }
+
+ protected:
+  /// Each tick, while the player is there.
+  virtual void step() {}
+  /// A key of this player's.
+  virtual void keyboard(const EventKeyboard& /*event*/) {}
+  /// The mouse of this player's.
+  virtual void mouse(const EventMouse& /*event*/) {}
+  /// Any other event, as Object::eventHandler().
+  virtual int handle(const Event* p_e) { return Base::eventHandler(p_e); }
+
+ private:
+  std::uint32_t m_player;
+  Color m_color;
+};
+
+/// Makes an Its(Player&) for each player who joins. Neither seen nor in anybody's way.
+template <class Its>
+class Welcome : public Object {
+ public:
+  Welcome() {
+    setSolidness(SPECTRAL);
+    setVisible(false);
+    registerInterest(JOIN_EVENT);
+  }
+  int eventHandler(const Event* p_e) override {
+    if (p_e->getType() != JOIN_EVENT) return 0;
+    new Its(*WM.getPlayer(static_cast<const EventJoin*>(p_e)->getPlayer()));
+    return 1;
+  }
+};
+
+}  // namespace df

@@ -1,0 +1,19 @@
+// A rope bridge, made in a line:
+//
+//   for (df::Body* p_plank : df::makeBridge(df::Vector(8, 17), df::Vector(32, 17), 8))
+//   p_plank->setFriction(1);
+#pragma once
+
+#include <vector>
+
+#include "Body.h"
+
+namespace df {
+
+/// Planks from `left` to `right`, from left to right, each on hinges to the next and the outer ones to the
+/// world. They lie in a row, may turn, weigh 1 and are 0.9 rows high, with 0.4 cells between them. The world
+/// owns them; the joints go with them. Nothing is made of fewer than one plank, nor between places that
+/// leave a plank no length.
+std::vector<Body*> makeBridge(Vector left, Vector right, int planks);
+
+}  // namespace df
