@@ -33,7 +33,7 @@ struct WorldExtras {
   Resources resources;
   Animations animations;
   Walkers walkers;
-  Settings settings;
+  ConfigSettings settings;
   Shaking shake;
   std::vector<SoundPlayed> sounds;  ///< of this tick
   Color background = BLACK;
