@@ -15,7 +15,7 @@ namespace df {
 class FreedBlocks {
  public:
   /// Deletions for which a block is kept.
-  static constexpr std::size_t kKept = 1024;
+  static constexpr std::size_t kKept = 4096;
 
   FreedBlocks() = default;
   FreedBlocks(const FreedBlocks&) = delete;

@@ -83,6 +83,7 @@ TEST_F(ObjectCopy, ComesIntoTheWorldWhenItIsInserted) {
   Card copy = card;
   EXPECT_EQ(WM.insertObject(&copy), 0);
   EXPECT_EQ(WM.getAllObjects().getCount(), 2);
+  card.setPosition(Vector(20, 20));  // out of its way
   copy.setVelocity(Vector(1, 0));
   world.update();
   expectAt(copy, 1, 0);
