@@ -148,8 +148,9 @@ ObjectKey Object::key() const {
   return m_p_store->key(m_slot);
 }
 
+// None for who was deleted (FreedBlocks.h): nothing that is done to it may reach the world's lists.
 World* Object::getWorld() const {
-  return m_p_store->world();
+  return m_p_store->object(m_slot) == this ? m_p_store->world() : nullptr;
 }
 
 int Object::refuse(const char* what) const {

@@ -44,6 +44,13 @@ TEST_F(FreedBlocksTest, WhoIsGoneStillAnswers) {
   EXPECT_NE(p_gone->getShape().getSize(), 5) << "it has no extras any more";
   EXPECT_EQ(p_gone->getAnimation().getSprite(), nullptr);
   EXPECT_EQ(p_gone->setPosition(Vector(5, 5)), 0);
+  EXPECT_EQ(p_gone->getWorld(), nullptr);
+  EXPECT_EQ(p_gone->registerInterest(STEP_EVENT), -1);
+  Sprite blinking(2);
+  blinking.addFrame(Frame(1, 1, "*"));
+  blinking.addFrame(Frame(1, 1, "+"));
+  p_gone->setSprite(&blinking);
+  world.tick();
   EXPECT_EQ(p_gone->draw(), 0);
   const EventStep step;
   EXPECT_EQ(p_gone->eventHandler(&step), 0);
