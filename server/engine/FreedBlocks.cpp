@@ -5,12 +5,12 @@
 namespace df {
 
 FreedBlocks::~FreedBlocks() {
-  for (const Block& block : m_blocks) ::operator delete(block.p, block.align);
+  for (std::size_t i = 0; i < m_count; ++i) ::operator delete(m_blocks[i].p, m_blocks[i].align);
 }
 
-void FreedBlocks::free(void* p, std::align_val_t align) {
-  if (m_blocks.size() < kKept) {
-    m_blocks.push_back({p, align});
+void FreedBlocks::free(void* p, std::align_val_t align) noexcept {
+  if (m_count < kKept) {
+    m_blocks[m_count++] = {p, align};
     return;
   }
   const Block gone = std::exchange(m_blocks[m_oldest], {p, align});

@@ -6,9 +6,9 @@
 // a handler called on it does nothing.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <new>
-#include <vector>
 
 namespace df {
 
@@ -23,17 +23,18 @@ class FreedBlocks {
   ~FreedBlocks();
 
   /// Free this one later, and the one that has been waiting for longest now.
-  void free(void* p, std::align_val_t align);
+  void free(void* p, std::align_val_t align) noexcept;
   /// How many are waiting.
-  std::size_t size() const { return m_blocks.size(); }
+  std::size_t size() const { return m_count; }
 
  private:
   struct Block {
-    void* p;
-    std::align_val_t align;
+    void* p = nullptr;
+    std::align_val_t align{};
   };
 
-  std::vector<Block> m_blocks;  // a ring, once it is full
+  std::array<Block, kKept> m_blocks;  // a ring, once it is full
+  std::size_t m_count = 0;
   std::size_t m_oldest = 0;
 };
 

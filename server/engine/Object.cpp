@@ -120,8 +120,12 @@ void Object::operator delete(void* p, std::align_val_t align) noexcept {
     return;
   }
   // Never destroyed: static Objects may delete others when the thread's own have gone.
-  thread_local auto* t_p_freed = new FreedBlocks;
-  t_p_freed->free(p, align);
+  thread_local auto* t_p_freed = new (std::nothrow) FreedBlocks;
+  if (t_p_freed != nullptr) {
+    t_p_freed->free(p, align);
+  } else {
+    ::operator delete(p, align);
+  }
 }
 
 Object::Object() : m_p_store(nullptr), m_slot(0), m_p_profile(nullptr) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <vector>
 
 #include "EventStep.h"
@@ -15,7 +16,8 @@ using FreedBlocksTest = WorldTest;
 
 TEST(FreedBlocks, KeepSoManyAndNoMore) {
   constexpr std::align_val_t kAlign{64};
-  FreedBlocks freed;
+  const auto p_freed = std::make_unique<FreedBlocks>();
+  FreedBlocks& freed = *p_freed;
   std::vector<void*> blocks;
   for (std::size_t i = 0; i < FreedBlocks::kKept + 10; ++i) {
     blocks.push_back(::operator new(200, kAlign));
