@@ -41,7 +41,11 @@ class Animation {
   bool advance();
 
   std::string toString() const;
-  friend bool operator==(const Animation& a, const Animation& b) = default;
+  friend bool operator==(const Animation& a, const Animation& b) {
+    return a.m_p_sprite == b.m_p_sprite && a.m_index == b.m_index &&
+           a.m_slowdown_count == b.m_slowdown_count && a.m_name == b.m_name;
+  }
+  friend bool operator!=(const Animation& a, const Animation& b) { return !(a == b); }
 
  private:
   Sprite* m_p_sprite = nullptr;

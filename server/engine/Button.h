@@ -6,6 +6,12 @@
 
 namespace df {
 
+/// The attribute that a Button adds to a ViewObject's, as a bit.
+enum class ButtonAttribute : unsigned int {
+  APPEARANCE = 1 << (ViewObjectAttributeMax + 0),
+};
+inline constexpr int ButtonAttributeMax = ViewObjectAttributeMax + 1;
+
 class Button : public ViewObject {
  public:
   /// Without value, in the default colour, red under the mouse; interested in MSE_EVENT.

@@ -13,7 +13,7 @@ namespace df {
 
 namespace {
 
-Settings& settings() {
+ConfigSettings& settings() {
   return World::current().extras().settings;
 }
 
@@ -65,7 +65,7 @@ class Reader {
   World& m_world;
 };
 
-void apply(World& world, const Settings& s) {
+void apply(World& world, const ConfigSettings& s) {
   const bool chars = s.window_horizontal_chars != world.getWindowWidth() ||
                      s.window_vertical_chars != world.getWindowHeight();
   if (chars && world.setWindow(s.window_horizontal_chars, s.window_vertical_chars) != 0) {
@@ -97,7 +97,7 @@ void Config::loadConfig(const std::string& str) {
   const std::string text = str.empty() ? readConfig() : str;
   if (text.empty()) return;
   World& world = World::current();
-  Settings& s = settings();
+  ConfigSettings& s = settings();
   s.text = text;
   Reader read(text, world);
   read("window_horizontal_pixels", s.window_horizontal_pixels, 1);
@@ -126,7 +126,7 @@ std::string Config::match(const std::string& find) const {
 }
 
 void Config::writeToLog() const {
-  const Settings& s = settings();
+  const ConfigSettings& s = settings();
   std::ostringstream out;
   out << "Configuration: window " << s.window_horizontal_chars << " by " << s.window_vertical_chars
       << " characters, frame_time " << s.frame_time << ", random_seed " << s.random_seed << ", headless "

@@ -24,7 +24,7 @@ namespace df {
 inline const std::string CONFIG_FILENAME = "df-config.txt";
 
 /// Plain data of one world.
-struct Settings {
+struct ConfigSettings {
   std::string text;  ///< as read: "key:value,key:value," without comments
   int window_horizontal_pixels = 1024;
   int window_vertical_pixels = 768;

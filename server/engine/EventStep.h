@@ -14,7 +14,7 @@ class EventStep : public Event {
   /// A step event of tick number `step_count`.
   explicit EventStep(int step_count) : m_step_count(step_count) { setType(STEP_EVENT); }
 
-  /// Ticks begun since the world began, this one included: 1 in the first tick.
+  /// Ticks begun since the world began, this one included: 1 in the first tick (compat: 0).
   void setStepCount(int step_count) { m_step_count = step_count; }
   int getStepCount() const { return m_step_count; }
 

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 
 #include "Manager.h"
 #include "StandardHeaders.h"
@@ -31,6 +32,15 @@ class LogManager : public Manager {
   int writeLog(const char* fmt, ...) const __attribute__((format(printf, 2, 3)));
   /// The same, if `log_level` is not above the level set (compat: not below it); else return 0.
   int writeLog(int log_level, const char* fmt, ...) const __attribute__((format(printf, 3, 4)));
+  /// The same with a std::string among what is to be printed, which printf could not take: "%s" prints it.
+  template <class... Printed, class = std::enable_if_t<(std::is_base_of_v<std::string, Printed> || ...)>>
+  int writeLog(const char* fmt, const Printed&... printed) const {
+    return writeLog(fmt, printable(printed)...);
+  }
+  template <class... Printed, class = std::enable_if_t<(std::is_base_of_v<std::string, Printed> || ...)>>
+  int writeLog(int log_level, const char* fmt, const Printed&... printed) const {
+    return writeLog(log_level, fmt, printable(printed)...);
+  }
   /// The same into a file of its own, in the working directory, which the first line empties.
   int writeMyLog(const std::string& filename, const char* fmt, ...) const
       __attribute__((format(printf, 3, 4)));
@@ -49,6 +59,14 @@ class LogManager : public Manager {
 
  private:
   LogManager() { setType("LogManager"); }
+  template <class T>
+  static auto printable(const T& printed) {
+    if constexpr (std::is_base_of_v<std::string, T>) {
+      return printed.c_str();
+    } else {
+      return printed;
+    }
+  }
 };
 
 }  // namespace df

@@ -1,11 +1,13 @@
 #include "Object.h"
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
+#include "FreedBlocks.h"
 #include "Interests.h"
 #include "Limits.h"
 #include "LookCodec.h"
@@ -108,13 +110,22 @@ void* Object::operator new(std::size_t size, std::align_val_t align) {
 }
 
 void Object::operator delete(void* p) noexcept {
-  t_pending.cancel(p);
-  ::operator delete(p, kLine);
+  operator delete(p, kLine);
 }
 
 void Object::operator delete(void* p, std::align_val_t align) noexcept {
   t_pending.cancel(p);
-  ::operator delete(p, align);
+  if (!World::current().compat()) {
+    ::operator delete(p, align);
+    return;
+  }
+  // Never destroyed: static Objects may delete others when the thread's own have gone.
+  thread_local auto* t_p_freed = new (std::nothrow) FreedBlocks;
+  if (t_p_freed != nullptr) {
+    t_p_freed->free(p, align);
+  } else {
+    ::operator delete(p, align);
+  }
 }
 
 Object::Object() : m_p_store(nullptr), m_slot(0), m_p_profile(nullptr) {
@@ -132,14 +143,18 @@ Object::~Object() {
   if (m_p_extras != nullptr) dropExtras();
   if (World* p_world = getWorld()) p_world->forget(this);
   m_p_store->give(m_slot);
+  // Who still asks it (FreedBlocks.h) must find no extras, so this is to be written although it ends here.
+  m_p_extras.reset();
+  std::atomic_signal_fence(std::memory_order_seq_cst);
 }
 
 ObjectKey Object::key() const {
   return m_p_store->key(m_slot);
 }
 
+// None for who was deleted (FreedBlocks.h): nothing that is done to it may reach the world's lists.
 World* Object::getWorld() const {
-  return m_p_store->world();
+  return m_p_store->object(m_slot) == this ? m_p_store->world() : nullptr;
 }
 
 int Object::refuse(const char* what) const {

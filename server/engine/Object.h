@@ -24,6 +24,7 @@
 #include "Animation.h"
 #include "Box.h"
 #include "Event.h"
+#include "EventPath.h"
 #include "ObjectAttributes.h"
 #include "ObjectProfile.h"
 #include "Path.h"
@@ -53,8 +54,11 @@ class Object {
   /// An active, visible, HARD Object of type "Object" at (0,0), altitude 2, at rest, with the box of a
   /// single character, as the last one in the current world's creation order.
   Object();
-  Object(const Object&) = delete;
-  Object& operator=(const Object&) = delete;
+  /// A copy that is not in the world, so that it is neither drawn nor moved and gets no events: the same
+  /// attributes, another id, no interests, no mask or path of its own. WM.insertObject() brings it in.
+  Object(const Object& other);
+  /// Takes over the other's attributes, and keeps its own id, its interests, its place in the world.
+  Object& operator=(const Object& other);
   virtual ~Object();
 
   /// A name by which game code tells its Objects apart.
@@ -108,6 +112,8 @@ class Object {
   /// would leave its range stays as it is. Return 0, else -1.
   int setAcceleration(Vector new_acceleration);
   Vector getAcceleration() const;
+  /// Velocity += acceleration, as update() does it after each move.
+  void accelerate() { setVelocity(getVelocity() + getAcceleration()); }
   /// Position plus velocity: where the next WM.update() tries to move it.
   Vector predictPosition() const;
 
@@ -158,6 +164,8 @@ class Object {
   int registerInterest(const std::string& event_type);
   /// Return 0, or -1 if it was not registered.
   int unregisterInterest(const std::string& event_type);
+  /// How many interests it has registered.
+  int getEventCount() const { return static_cast<int>(m_p_profile->interests.size()); }
   /// Called for each event. Return 1 if it was handled, else 0 (for readers of the book; the engine does
   /// not mind). What it throws costs this Object its life (World::deliver), not the world.
   virtual int eventHandler(const Event* p_e);
@@ -288,6 +296,7 @@ class Object {
   void deriveKinematics() const;
   int refuse(const char* what) const;
   bool isDeaf() const;  // does its class leave eventHandler() as it is here?
+  void resemble(const Object& other);
   ObjectExtras& extras();
   void dropExtras();
   void animate();

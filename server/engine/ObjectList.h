@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "Object.h"
 #include "WorldView.h"
 
 namespace df {
@@ -48,6 +49,7 @@ class ObjectList {
 
   /// The same Objects in the same order?
   friend bool operator==(const ObjectList& a, const ObjectList& b);
+  friend bool operator!=(const ObjectList& a, const ObjectList& b) { return !(a == b); }
 
   /// Append all entries of `other`; entries of another world are left out.
   ObjectList& operator+=(const ObjectList& other);
@@ -66,3 +68,5 @@ class ObjectList {
 };
 
 }  // namespace df
+
+#include "ObjectListIterator.h"  // IWYU pragma: keep: games expect it to come along

@@ -22,6 +22,8 @@ class ObjectListIterator {
   }
   /// Back to the first entry.
   void first() { m_index = 0; }
+  /// On to the last entry.
+  void last() { m_index = m_p_list != nullptr && !m_p_list->isEmpty() ? m_p_list->getCount() - 1 : 0; }
   /// On to the next entry.
   void next() { ++m_index; }
   /// True if no living Object is left at or after the current entry.

@@ -35,7 +35,10 @@ class Path {
   int draw(Color color) const;
 
   std::string toString() const;
-  friend bool operator==(const Path& a, const Path& b) = default;
+  friend bool operator==(const Path& a, const Path& b) {
+    return a.m_path == b.m_path && a.m_index == b.m_index;
+  }
+  friend bool operator!=(const Path& a, const Path& b) { return !(a == b); }
 
  private:
   std::vector<Vector> m_path;

@@ -23,6 +23,8 @@ class Pause : public Object {
   explicit Pause(int init_pause_key = DF_PAUSE_KEY);
   /// The game goes on.
   ~Pause() override;
+  Pause(const Pause&) = delete;
+  Pause& operator=(const Pause&) = delete;
 
   int eventHandler(const Event* p_e) override;
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "LooseName.h"
 #include "SpriteFile.h"
 #include "World.h"
 
@@ -38,7 +39,11 @@ std::string Resources::locate(const std::string& filename) const {
     const std::filesystem::path path = std::filesystem::path(folder) / filename;
     if (isFile(path)) return path.string();
   }
-  return filename;
+  // Games are written where "Sprites\Ship.txt" finds sprites/ship.txt.
+  std::string found = findLoosely("", filename);
+  for (std::size_t i = 0; i < m_folders.size() && found.empty(); ++i)
+    found = findLoosely(m_folders[i], filename);
+  return found.empty() ? filename : found;
 }
 
 bool Resources::open(const std::string& filename) const {

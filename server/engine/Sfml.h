@@ -1,15 +1,14 @@
-// Stands in for the few classes of the graphics library SFML that show in the published engine's interface
-// (DM.getWindow(), Sound::getSound(), Music::getMusic()): they take the usual calls and do nothing. A game
-// that includes SFML's own headers is not one for a terminal; where those are installed, they are left alone.
+// Stands in for the graphics library SFML, which the published engine's headers bring along and some games
+// use past the engine: DM.getWindow(), Sound::getSound(), Music::getMusic(), what is drawn on the window,
+// keys and buttons asked for by hand. All of it takes the usual calls and does nothing; no key is ever down.
+// The folder SFML beside this file has the headers that games include by themselves.
 #pragma once
 
-#if __has_include(<SFML/Graphics/RenderWindow.hpp>)
+#include <string>
 
-#include <SFML/Audio/Music.hpp>
-#include <SFML/Audio/Sound.hpp>
-#include <SFML/Graphics/RenderWindow.hpp>
-
-#else
+#include "SfmlDrawing.h"
+#include "SfmlInput.h"
+#include "SfmlValues.h"
 
 namespace sf {
 
@@ -21,6 +20,8 @@ class SoundSource {
   void stop() {}
   void setVolume(float volume) { m_volume = volume; }
   float getVolume() const { return m_volume; }
+  void setPlayingOffset(Time /*offset*/) {}
+  Time getPlayingOffset() const { return {}; }
   void setPitch(float pitch) { m_pitch = pitch; }
   float getPitch() const { return m_pitch; }
   void setLoop(bool loop) { m_loop = loop; }
@@ -33,8 +34,22 @@ class SoundSource {
   bool m_loop = false;
 };
 
-class Sound : public SoundSource {};
-class Music : public SoundSource {};
+class SoundBuffer {
+ public:
+  bool loadFromFile(const std::string& /*file*/) { return true; }
+};
+
+class Sound : public SoundSource {
+ public:
+  Sound() = default;
+  explicit Sound(const SoundBuffer& /*buffer*/) {}
+  void setBuffer(const SoundBuffer& /*buffer*/) {}
+};
+
+class Music : public SoundSource {
+ public:
+  bool openFromFile(const std::string& /*file*/) { return true; }
+};
 
 class RenderWindow {
  public:
@@ -51,6 +66,18 @@ class RenderWindow {
   void setVerticalSyncEnabled(bool /*enabled*/) {}
   void setFramerateLimit(unsigned /*limit*/) {}
   void setVisible(bool /*visible*/) {}
+  template <class... T>
+  bool pollEvent(const T&... /*event*/) {
+    return false;
+  }
+  template <class... T>
+  void setView(const T&... /*view*/) {}
+  template <class... T>
+  void setSize(const T&... /*size*/) {}
+  template <class... T>
+  void setPosition(const T&... /*position*/) {}
+  Vector2u getSize() const { return {1024, 768}; }
+  Vector2i getPosition() const { return {}; }
   bool isOpen() const { return true; }
   bool hasFocus() const { return true; }
   void requestFocus() {}
@@ -59,5 +86,3 @@ class RenderWindow {
 };
 
 }  // namespace sf
-
-#endif

@@ -38,7 +38,11 @@ class Shape {
   void draw(Vector world_pos) const;
 
   std::string toString() const;
-  friend bool operator==(const Shape& a, const Shape& b) = default;
+  friend bool operator==(const Shape& a, const Shape& b) {
+    return a.m_color == b.m_color && a.m_r == b.m_r && a.m_g == b.m_g && a.m_b == b.m_b &&
+           a.m_type == b.m_type && a.m_size == b.m_size && a.m_opacity == b.m_opacity;
+  }
+  friend bool operator!=(const Shape& a, const Shape& b) { return !(a == b); }
 
  private:
   Color m_color = COLOR_DEFAULT;

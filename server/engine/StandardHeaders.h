@@ -12,7 +12,9 @@
 // NOLINTEND(modernize-deprecated-headers)
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <chrono>
 #include <climits>
 #include <cmath>
 #include <cstdint>
@@ -20,12 +22,16 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <deque>
+#include <fstream>
 #include <functional>
 #include <iomanip>
 #include <iostream>
 #include <list>
 #include <map>
 #include <memory>
+#include <queue>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>

@@ -13,6 +13,13 @@
 
 namespace df {
 
+/// The attributes that a TextEntry adds to a ViewObject's, as bits.
+enum class TextEntryAttribute : unsigned int {
+  TEXT = 1 << (ViewObjectAttributeMax + 0),
+  APPEARANCE = 1 << (ViewObjectAttributeMax + 1),
+};
+inline constexpr int TextEntryAttributeMax = ViewObjectAttributeMax + 2;
+
 class TextEntry : public ViewObject {
  public:
   /// Empty, for up to 30 characters; interested in KEYBOARD_EVENT; of the player whose input is handled.

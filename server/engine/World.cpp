@@ -87,7 +87,7 @@ void World::tick() {
     m_capture->begin();
     if (m_p_extras != nullptr) m_p_extras->beginTick();
     if (!isPaused()) {
-      const EventStep step(m_step_count);
+      const EventStep step(m_compat ? m_step_count - 1 : m_step_count);
       onEvent(&step);
       if (m_p_extras != nullptr) m_p_extras->walkers.step();
     }

@@ -40,7 +40,7 @@ struct WorldExtras {
   Resources resources;
   Animations animations;
   Walkers walkers;
-  Settings settings;
+  ConfigSettings settings;
   Shaking shake;
   std::vector<SoundPlayed> sounds;  ///< of this tick
   std::uint32_t sounds_lost = 0;

@@ -18,11 +18,13 @@ namespace df {
 // Coming and going.
 
 bool World::owns(const Object* p_o) const {
-  return p_o != nullptr && p_o->m_p_store == m_p_store && m_p_store->has(p_o->m_slot, WorldStore::kInWorld);
+  // Its slot may be another one's by now, if the game holds a pointer to what it has deleted.
+  return p_o != nullptr && p_o->m_p_store == m_p_store && m_p_store->has(p_o->m_slot, WorldStore::kInWorld) &&
+         m_p_store->object(p_o->m_slot) == p_o;
 }
 
 int World::insertObject(Object* p_o) {
-  if (p_o == nullptr || p_o->m_p_store != m_p_store) return -1;
+  if (p_o == nullptr || p_o->m_p_store != m_p_store || m_p_store->object(p_o->m_slot) != p_o) return -1;
   if (!owns(p_o)) m_p_store->enter(p_o->m_slot);
   return 0;
 }

@@ -25,7 +25,10 @@ namespace df {
 struct ObjectKey {
   std::uint32_t slot = 0;
   std::uint32_t generation = 0;  ///< 0 is nobody
-  friend bool operator==(ObjectKey, ObjectKey) = default;
+  friend bool operator==(ObjectKey a, ObjectKey b) {
+    return a.slot == b.slot && a.generation == b.generation;
+  }
+  friend bool operator!=(ObjectKey a, ObjectKey b) { return !(a == b); }
 };
 
 /// State of one object that appeared or changed (moved, turned, resized …) in the tick.
@@ -58,7 +61,11 @@ struct SoundPlayed {
   bool music = false;        ///< else a sound
   bool loop = false;         ///< again and again
   std::uint32_t player = 0;  ///< in whose input's handler, as a hint for whom it is; 0: nobody's
-  friend bool operator==(const SoundPlayed&, const SoundPlayed&) = default;
+  friend bool operator==(const SoundPlayed& a, const SoundPlayed& b) {
+    return a.label == b.label && a.what == b.what && a.music == b.music && a.loop == b.loop &&
+           a.player == b.player;
+  }
+  friend bool operator!=(const SoundPlayed& a, const SoundPlayed& b) { return !(a == b); }
 };
 
 /// The characters one object's draw() put on the screen this tick: commands[first, first + count).
@@ -84,7 +91,10 @@ struct PlayerText {
   int y = 0;
   Color color = COLOR_DEFAULT;
   std::string text;  ///< UTF-8, drawable characters only
-  friend bool operator==(const PlayerText&, const PlayerText&) = default;
+  friend bool operator==(const PlayerText& a, const PlayerText& b) {
+    return a.id == b.id && a.x == b.x && a.y == b.y && a.color == b.color && a.text == b.text;
+  }
+  friend bool operator!=(const PlayerText& a, const PlayerText& b) { return !(a == b); }
 };
 
 /// What a player steers by declared controls, exactly, at the end of the tick.

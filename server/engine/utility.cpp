@@ -143,6 +143,14 @@ void colorToRGB(Color color, unsigned char& r, unsigned char& g, unsigned char& 
   b = mix.b;
 }
 
+sf::Color colorToSFML(Color color) {
+  unsigned char r = 0;
+  unsigned char g = 0;
+  unsigned char b = 0;
+  colorToRGB(color, r, g, b);
+  return {r, g, b};
+}
+
 // By hue: what is strong in the mix counts as on, so that a dim yellow is yellow.
 Color nearestColor(unsigned char r, unsigned char g, unsigned char b) {
   const int strongest = std::max({r, g, b});

@@ -16,6 +16,7 @@
 #include "Particle.h"
 #include "Path.h"
 #include "Precipitation.h"
+#include "Sfml.h"
 #include "StandardHeaders.h"
 #include "Vector.h"
 #include "ViewObject.h"
@@ -114,5 +115,7 @@ void colorToRGB(Color color, unsigned char& r, unsigned char& g, unsigned char& 
 /// The one of the eight colours that is nearest to this mix. Black only for black itself: on a black ground
 /// a dark thing is to be seen.
 Color nearestColor(unsigned char r, unsigned char g, unsigned char b);
+/// The same as a value of the graphics library (Sfml.h).
+sf::Color colorToSFML(Color color);
 
 }  // namespace df

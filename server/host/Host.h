@@ -26,7 +26,6 @@
 #include "Runner.h"
 #include "ServerIdentity.h"
 #include "Session.h"
-#include "SoundNews.h"
 #include "TruthFile.h"
 
 namespace naiad {
@@ -101,28 +100,11 @@ class Host : public df::Runner {
   // Ticks.
   void adoptSettings(df::World& world);
   void serve();
-<<<<<<< HEAD
   void tick();
   void afterTick(Room& room);
   void flush();
   void dismissLeavers(Room& room);
   void sendPlayers();
-=======
-  void tick(df::World& world);
-  void giveTurn();
-  void tellTurn(Session& session);
-  bool isHeard(const Session& session, const Input& input) const;
-  void applyInputs(df::World& world);
-  void dismissLeavers(df::World& world);
-  bool wantsNextRound(const df::World& world) const;
-  void lookBack(df::World& world);
-  void sendSnapshots(df::World& world);
-  void sendPlayers(const df::World& world);
-  void sendSounds(const df::World& world);
-  void sendNotes(const df::World& world);
-  Session* findTicking(std::uint32_t player) const;
-  void writeTruth(const df::PlayerFacts& player, const df::World& world);
->>>>>>> events
   void sweep();
   void drain();
   void logRefusals() const;
@@ -167,12 +149,7 @@ class Host : public df::Runner {
   df::World* m_p_world = nullptr;
   std::string m_stop_sentence;
   PlayerNews m_player_news;
-<<<<<<< HEAD
   std::vector<df::PlayerFacts> m_players;  ///< of several rooms
-=======
-  SoundNews m_sound_news;
-  std::vector<Session*> m_by_player;  ///< those that play, by player; for one tick
->>>>>>> events
   Clock::time_point m_empty_since;
   bool m_ever_joined = false;
   bool m_ends_with_last = false;

@@ -40,6 +40,8 @@ class Body : public Object {
  public:
   /// An Object of mass 1 in the current world.
   Body();
+  Body(const Body&) = delete;
+  Body& operator=(const Body&) = delete;
   ~Body() override;
 
   /// 1e-30 … 1e30.

@@ -42,6 +42,8 @@ class Body;
 
 class SoftBody : public Object {
  public:
+  SoftBody(const SoftBody&) = delete;
+  SoftBody& operator=(const SoftBody&) = delete;
   ~SoftBody() override;
 
   double getMass() const;

@@ -2,6 +2,10 @@
 
 namespace df {
 
+std::string Box::toString() const {
+  return m_corner.toString() + "," + std::to_string(m_horizontal) + "," + std::to_string(m_vertical);
+}
+
 std::optional<FixedBox> toFixed(const Box& box, double size_limit) {
   const auto corner = toFixed(box.getCorner(), 1e6);
   const auto size = toFixed(Vector(box.width(), box.height()), size_limit);

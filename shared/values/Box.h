@@ -26,7 +26,13 @@ class Box {
   double width() const { return m_horizontal; }
   double height() const { return m_vertical; }
 
-  friend bool operator==(const Box& a, const Box& b) = default;
+  /// Corner, horizontal and vertical size, "(x,y),horizontal,vertical".
+  std::string toString() const;
+
+  friend bool operator==(const Box& a, const Box& b) {
+    return a.m_corner == b.m_corner && a.m_horizontal == b.m_horizontal && a.m_vertical == b.m_vertical;
+  }
+  friend bool operator!=(const Box& a, const Box& b) { return !(a == b); }
 
  private:
   Vector m_corner;

@@ -41,7 +41,11 @@ struct ControlRow {
   std::uint16_t wait = 0;  ///< ticks from one effect to the next of any row of the group; 0 and 1: no wait
   std::uint8_t group = 0;
 
-  friend bool operator==(const ControlRow&, const ControlRow&) = default;
+  friend bool operator==(const ControlRow& a, const ControlRow& b) {
+    return a.key == b.key && a.action == b.action && a.effect == b.effect && a.x == b.x && a.y == b.y &&
+           a.value == b.value && a.wait == b.wait && a.group == b.group;
+  }
+  friend bool operator!=(const ControlRow& a, const ControlRow& b) { return !(a == b); }
 };
 
 struct ControlTable {
@@ -51,7 +55,11 @@ struct ControlTable {
   bool whole_cells = false;    ///< what is driven comes to rest on the next whole cell, not where it is
   std::uint16_t patience = 0;  ///< all drives are let go after so many ticks without a key; 0: never
 
-  friend bool operator==(const ControlTable&, const ControlTable&) = default;
+  friend bool operator==(const ControlTable& a, const ControlTable& b) {
+    return a.rows == b.rows && a.bounded == b.bounded && a.bounds == b.bounds &&
+           a.whole_cells == b.whole_cells && a.patience == b.patience;
+  }
+  friend bool operator!=(const ControlTable& a, const ControlTable& b) { return !(a == b); }
 };
 
 /// Is every number of the table within its range?
@@ -62,7 +70,10 @@ struct ControlLever {
   Fixed pull = 0;       ///< the velocity that the key pulled last asks for; 0: none does
   bool let_go = false;  ///< its key went up: the pull ends with the next tick
 
-  friend bool operator==(const ControlLever&, const ControlLever&) = default;
+  friend bool operator==(const ControlLever& a, const ControlLever& b) {
+    return a.pull == b.pull && a.let_go == b.let_go;
+  }
+  friend bool operator!=(const ControlLever& a, const ControlLever& b) { return !(a == b); }
 };
 
 /// What the table has to remember from tick to tick.
@@ -73,7 +84,10 @@ struct ControlState {
   std::uint16_t silence = 0;                         ///< ticks since the last key, if there is a patience
   std::array<std::uint16_t, kControlGroups> wait{};  ///< ticks until the group may act again
 
-  friend bool operator==(const ControlState&, const ControlState&) = default;
+  friend bool operator==(const ControlState& a, const ControlState& b) {
+    return a.steering == b.steering && a.x == b.x && a.y == b.y && a.silence == b.silence && a.wait == b.wait;
+  }
+  friend bool operator!=(const ControlState& a, const ControlState& b) { return !(a == b); }
 };
 
 }  // namespace df

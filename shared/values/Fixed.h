@@ -32,7 +32,8 @@ struct FixedVector {
 
   friend constexpr FixedVector operator+(FixedVector a, FixedVector b) { return {a.x + b.x, a.y + b.y}; }
   friend constexpr FixedVector operator-(FixedVector a, FixedVector b) { return {a.x - b.x, a.y - b.y}; }
-  friend constexpr bool operator==(FixedVector a, FixedVector b) = default;
+  friend constexpr bool operator==(FixedVector a, FixedVector b) { return a.x == b.x && a.y == b.y; }
+  friend constexpr bool operator!=(FixedVector a, FixedVector b) { return !(a == b); }
 };
 
 /// An axis-aligned box in fixed point: corner is the upper left one, size is non-negative.
@@ -40,7 +41,10 @@ struct FixedBox {
   FixedVector corner;
   FixedVector size;
 
-  friend constexpr bool operator==(const FixedBox& a, const FixedBox& b) = default;
+  friend constexpr bool operator==(const FixedBox& a, const FixedBox& b) {
+    return a.corner == b.corner && a.size == b.size;
+  }
+  friend constexpr bool operator!=(const FixedBox& a, const FixedBox& b) { return !(a == b); }
 };
 
 /// `box` moved by `offset`.

@@ -44,7 +44,10 @@ class Vector {
   Vector& operator-=(const Vector& other);
   friend Vector operator+(Vector a, const Vector& b) { return a += b; }
   friend Vector operator-(Vector a, const Vector& b) { return a -= b; }
-  friend constexpr bool operator==(const Vector& a, const Vector& b) = default;
+  friend constexpr bool operator==(const Vector& a, const Vector& b) {
+    return a.m_x == b.m_x && a.m_y == b.m_y;
+  }
+  friend constexpr bool operator!=(const Vector& a, const Vector& b) { return !(a == b); }
 
   /// Is it (0,0)?
   bool operator!() const { return m_x == 0 && m_y == 0; }

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "EventStep.h"
 #include "GameManager.h"
 #include "LogManager.h"
 #include "Probe.h"
@@ -37,6 +38,22 @@ class CompatTest : public WorldTest {
     return at;
   }
 };
+
+TEST_F(CompatTest, ThePublishedEngineCountsStepsFromZero) {
+  std::vector<int> counts;
+  Probe probe;
+  probe.registerInterest(STEP_EVENT);
+  probe.on_event = [&](Probe&, const Event& e) {
+    if (const auto* p_step = dynamic_cast<const EventStep*>(&e)) counts.push_back(p_step->getStepCount());
+  };
+  world.setCompat();
+  world.tick();
+  world.tick();
+  EXPECT_EQ(counts, (std::vector<int>{0, 1}));
+  world.setCompat(false);
+  world.tick();
+  EXPECT_EQ(counts.back(), 3);
+}
 
 TEST_F(CompatTest, TheBookJudgesLeavingByThePosition) {
   EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0)), Vector(80, 10));

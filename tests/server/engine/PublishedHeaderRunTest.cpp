@@ -1,0 +1,58 @@
+// Runs what PublishedHeaderTest.cpp compiles. (That file's includes are its own.)
+
+#include <gtest/gtest.h>
+
+#include "Probe.h"
+#include "utility.h"
+
+df::ObjectListIterator overObjectsOf(df::ObjectList& list);
+bool isWayFound(const df::Event* p_e);
+float nearTo(const df::Object* p_o);
+int namesOfAGame();
+void pastTheEngine();
+int logStrings(const df::Object& o);
+
+namespace df::test {
+namespace {
+
+using PublishedHeader = WorldTest;
+
+TEST_F(PublishedHeader, BringsAlongWhatGamesName) {
+  Probe a("a");
+  Probe b("b");
+  ObjectList list = WM.getAllObjects();
+  ObjectListIterator li = overObjectsOf(list);
+  EXPECT_EQ(li.currentObject(), &b);
+  expectAt(a, 1, 2);
+  EXPECT_TRUE(isWayFound(std::make_unique<EventPath>().get()));
+  EXPECT_FLOAT_EQ(nearTo(&a), std::sqrt(5.0f));
+  EXPECT_GT(namesOfAGame(), 0);
+  pastTheEngine();
+}
+
+TEST_F(PublishedHeader, StringsAreLoggedAsTheyAre) {
+  const Probe probe("gems");
+  EXPECT_EQ(logStrings(probe), 1);
+  EXPECT_EQ(lines, (std::vector<std::string>{"ann has 3 of gems", "ann", "5"}));
+}
+
+TEST_F(PublishedHeader, AccelerateIsWhatUpdateDoes) {
+  Probe probe;
+  probe.setVelocity(Vector(1, 0));
+  probe.setAcceleration(Vector(0.5, 0.25));
+  probe.accelerate();
+  EXPECT_EQ(probe.getVelocity(), Vector(1.5, 0.25));
+  EXPECT_EQ(Box(Vector(1, 2), 3, 4).toString(), "(1.000000,2.000000),3.000000,4.000000");
+}
+
+TEST_F(PublishedHeader, ColoursOfTheGraphicsLibrary) {
+  EXPECT_TRUE(colorToSFML(RED) == sf::Color::Red);
+  EXPECT_TRUE(colorToSFML(BLACK) == sf::Color::Black);
+  const sf::Clock clock;
+  const sf::Time before = clock.getElapsedTime();
+  world.tick();
+  EXPECT_GT(clock.getElapsedTime() - before, sf::milliseconds(30));
+}
+
+}  // namespace
+}  // namespace df::test

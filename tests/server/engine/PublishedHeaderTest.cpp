@@ -1,0 +1,78 @@
+// A game's header that includes nothing but "Manager.h" and "LogManager.h": what else it names must come
+// along. And a game's classes keep their names while all of the engine's are in sight.
+
+#include "Manager.h"
+
+df::ObjectListIterator overObjectsOf(df::ObjectList& list) {
+  for (df::ObjectListIterator li(&list); !li.isDone(); li.next()) li.currentObject()->setPosition({1, 2});
+  df::ObjectListIterator li = df::ObjectListIterator(&list);
+  li.last();
+  return li;
+}
+
+bool isWayFound(const df::Event* p_e) {
+  return dynamic_cast<const df::EventPath*>(p_e) != nullptr && p_e->getType() == df::PATH_EVENT;
+}
+
+#include "LogManager.h"
+
+float nearTo(const df::Object* p_o) {
+  df::addParticles(df::SPARKS, p_o->getPosition(), 1, df::RED);
+  std::queue<int> waiting;
+  std::set<int> ids;
+  std::array<int, 2> pair{};
+  return df::distance(p_o->getPosition(), df::Vector(float(pair[0]), float(waiting.size() + ids.size())));
+}
+
+#include "DisplayManager.h"
+#include "EventStep.h"
+#include "GameManager.h"
+#include "InputManager.h"
+#include "ResourceManager.h"
+#include "WorldManager.h"
+
+using namespace df;
+
+// They are in no header that comes along with those above.
+class Button : public Object {};
+class Clock : public Object {};
+class Entry : public Object {};
+class Fader : public Object {};
+class Pause : public Object {};
+class Settings : public Object {};
+class State : public Object {};
+class TextBox : public Object {};
+
+int namesOfAGame() {
+  Button button;
+  Clock clock;
+  Entry entry;
+  Fader fader;
+  Pause pause;
+  Settings settings;
+  State state;
+  TextBox text_box;
+  return button.getId() + clock.getId() + entry.getId() + fader.getId() + pause.getId() + settings.getId() +
+         state.getId() + text_box.getId();
+}
+
+// What games draw and ask past the engine, without a header of the graphics library.
+void pastTheEngine() {
+  const sf::Vector2f from(spacesToPixels(Vector(1, 2)).getX(), 3);
+  const sf::Vertex line[]{{{from}, sf::Color::Red}, {{from + sf::Vector2f(1, 1)}, colorToSFML(df::GREEN)}};
+  DM.getWindow()->draw(line, 2, sf::PrimitiveType::Lines);
+  sf::CircleShape circle(80);
+  circle.setFillColor(sf::Color(237, 247, 84, 100));
+  circle.setPosition(from.x - 75, from.y);
+  DM.getWindow()->draw(circle);
+  if (sf::Mouse::isButtonPressed(sf::Mouse::Button::Left) || sf::Keyboard::isKeyPressed(sf::Keyboard::Space))
+    circle.move(sf::Mouse::getPosition(*DM.getWindow()).x * 1.0f, 0);
+}
+
+// The calls that printf would not take.
+int logStrings(const Object& o) {
+  const std::string name = "ann";
+  LM.writeLog("%s has %d of %s", name, 3, o.getType());
+  LM.writeLog(0, "%s", name);
+  return LM.writeLog("%d", 5);
+}
