@@ -194,7 +194,7 @@ struct ViewFields {
 
   // What has numbers. A number that is new is one more than the last.
 
-  static void table(FrameWriter& out, ViewWriter& known,
+  static void table(FieldWriter& out, ViewWriter& known,
                     const std::shared_ptr<const df::ControlTable>& p_table) {
     const auto fresh = static_cast<std::uint32_t>(known.m_kept_tables.size());
     const std::uint32_t number = numberOf(known.m_tables, p_table.get(), fresh);
@@ -206,7 +206,7 @@ struct ViewFields {
     known.m_tables.emplace(p_table.get(), fresh);
     known.m_kept_tables.push_back(p_table);
   }
-  static void table(FrameReader& in, ViewReader& known, std::shared_ptr<const df::ControlTable>& p_table) {
+  static void table(FieldReader& in, ViewReader& known, std::shared_ptr<const df::ControlTable>& p_table) {
     std::uint32_t number = 0;
     in.number(number, 0, static_cast<std::int64_t>(known.m_tables.size()));
     if (in.ok() && number == known.m_tables.size()) {
@@ -218,7 +218,7 @@ struct ViewFields {
     }
     if (in.ok()) p_table = known.m_tables[number];
   }
-  static void sequence(FrameWriter& out, ViewWriter& known, const Sequence& sequence) {
+  static void sequence(FieldWriter& out, ViewWriter& known, const Sequence& sequence) {
     const auto fresh = static_cast<std::uint32_t>(known.m_kept_sequences.size());
     const std::uint32_t number = numberOf(known.m_sequences, sequence.identity(), fresh);
     out.number(number);
@@ -227,7 +227,7 @@ struct ViewFields {
     known.m_sequences.emplace(sequence.identity(), fresh);
     known.m_kept_sequences.push_back(sequence);
   }
-  static void sequence(FrameReader& in, ViewReader& known, Sequence& sequence) {
+  static void sequence(FieldReader& in, ViewReader& known, Sequence& sequence) {
     std::uint32_t number = 0;
     in.number(number, 0, static_cast<std::int64_t>(known.m_sequences.size()));
     if (in.ok() && number == known.m_sequences.size()) {
@@ -241,20 +241,20 @@ struct ViewFields {
     if (in.ok()) sequence = known.m_sequences[number];
   }
   // Those that cannot be told are left out: what draw() drew counts anyway.
-  static void looks(FrameWriter& out, ViewWriter& known, const df::WorldView& view) {
+  static void looks(FieldWriter& out, ViewWriter& known, const df::WorldView& view) {
     std::vector<df::ToldLook> told;
     for (const df::ToldLook& look : view.looks) {
       if (isTellable(*look.p_look)) told.push_back(look);
     }
-    out.list(told, [&known](FrameWriter& f, const df::ToldLook& look) {
+    out.list(told, [&known](FieldWriter& f, const df::ToldLook& look) {
       f.number(look.drawn);
       f.number(look.p_look->altitude, 0, df::MAX_ALTITUDE);
       selector(f, look.p_look->selector);
       sequence(f, known, look.p_look->sequence);
     });
   }
-  static void looks(FrameReader& in, ViewReader& known, df::WorldView& view) {
-    in.list(view.looks, [&known](FrameReader& f, df::ToldLook& told) {
+  static void looks(FieldReader& in, ViewReader& known, df::WorldView& view) {
+    in.list(view.looks, [&known](FieldReader& f, df::ToldLook& told) {
       Look look;
       f.number(told.drawn);
       f.number(look.altitude, 0, df::MAX_ALTITUDE);
@@ -284,14 +284,14 @@ struct ViewFields {
   }
 };
 
-void ViewWriter::write(FrameWriter& out, const df::WorldView& view) {
+void ViewWriter::write(FieldWriter& out, const df::WorldView& view) {
   const bool forgets = m_kept_sequences.size() > kMostViewNumbers || m_kept_tables.size() > kMostViewNumbers;
   if (forgets) *this = ViewWriter();
   out.flag(forgets);
   ViewFields::view(out, *this, view);
 }
 
-void ViewReader::read(FrameReader& in, df::WorldView& view) {
+void ViewReader::read(FieldReader& in, df::WorldView& view) {
   bool forgets = false;
   in.flag(forgets);
   if (forgets) *this = ViewReader(m_later);

@@ -20,7 +20,7 @@ inline constexpr std::size_t kMostViewNumbers = 4096;
 
 class ViewWriter {
  public:
-  void write(FrameWriter& out, const df::WorldView& view);
+  void write(FieldWriter& out, const df::WorldView& view);
 
  private:
   friend struct ViewFields;
@@ -36,7 +36,7 @@ class ViewReader {
   /// `later`: ticks by which those of the views that are read come later than those that are written.
   explicit ViewReader(std::uint32_t later = 0) : m_later(later) {}
   /// The reader fails where anything is wrong; `view` and this are good for nothing then.
-  void read(FrameReader& in, df::WorldView& view);
+  void read(FieldReader& in, df::WorldView& view);
 
  private:
   friend struct ViewFields;

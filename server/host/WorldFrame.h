@@ -4,7 +4,7 @@
 //
 // What a struct consists of is said once, for both ends, by a function that visits its fields:
 //
-//   template <class Fields, class T>          // a FrameWriter and a const T, or a FrameReader and a T
+//   template <class Fields, class T>          // a FieldWriter and a const T, or a FieldReader and a T
 //   void visit(Fields& f, T& facts) { f.flag(facts.shown); f.number(facts.id, 1, 9); … }
 //
 // so a new field is one line. Both ends are built from one source, so there are no versions. But a world is
@@ -31,10 +31,10 @@ inline constexpr std::size_t kMaxWorldFrame = std::size_t{16} << 20;
 /// Of its length.
 inline constexpr std::size_t kWorldFrameHead = 4;
 
-class FrameWriter {
+class FieldWriter {
  public:
   /// Begins a frame in `out`, whose memory is used again.
-  explicit FrameWriter(std::string& out) : m_out(out), m_bytes(out) { m_out.assign(kWorldFrameHead, '\0'); }
+  explicit FieldWriter(std::string& out) : m_out(out), m_bytes(out) { m_out.assign(kWorldFrameHead, '\0'); }
   /// Complete it. False: it is too long to be sent.
   bool finish() {
     const std::size_t size = m_out.size() - kWorldFrameHead;
@@ -77,10 +77,10 @@ class FrameWriter {
 };
 
 /// Fails at the first thing that is wrong, and stays failed.
-class FrameReader {
+class FieldReader {
  public:
   /// Without the length.
-  explicit FrameReader(std::string_view fields) : m_bytes(fields), m_size(fields.size()) {}
+  explicit FieldReader(std::string_view fields) : m_bytes(fields), m_size(fields.size()) {}
   bool ok() const { return m_bytes.ok(); }
   /// All was read, and was good.
   bool isWhole() const { return m_bytes.ok() && m_bytes.atEnd(); }

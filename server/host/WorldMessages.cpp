@@ -48,7 +48,7 @@ void visitTurn(F& f, T& turn) {
   f.list(turn.inputs, [](F& in, auto& input) { visitInput(in, input); });
 }
 
-void visitCanvas(FrameWriter& out, const df::Canvas& canvas) {
+void visitCanvas(FieldWriter& out, const df::Canvas& canvas) {
   out.number(canvas.width(), 0, kMaxViewWidth);
   out.number(canvas.height(), 0, kMaxViewHeight);
   for (int y = 0; y < canvas.height(); ++y) {
@@ -60,7 +60,7 @@ void visitCanvas(FrameWriter& out, const df::Canvas& canvas) {
   }
 }
 
-void visitCanvas(FrameReader& in, df::Canvas& canvas) {
+void visitCanvas(FieldReader& in, df::Canvas& canvas) {
   int width = 0;
   int height = 0;
   in.number(width, 0, kMaxViewWidth);
@@ -91,13 +91,13 @@ void visitAnswer(F& f, T& answer) {
 }  // namespace
 
 bool writeTurn(const WorldTurn& turn, std::string& frame) {
-  FrameWriter out(frame);
+  FieldWriter out(frame);
   visitTurn(out, turn);
   return out.finish();
 }
 
 std::optional<WorldTurn> readTurn(std::string_view fields) {
-  FrameReader in(fields);
+  FieldReader in(fields);
   WorldTurn turn;
   visitTurn(in, turn);
   return in.isWhole() ? std::optional(std::move(turn)) : std::nullopt;
@@ -105,14 +105,14 @@ std::optional<WorldTurn> readTurn(std::string_view fields) {
 
 bool writeAnswer(const WorldAnswer& answer, const df::WorldView* p_view, ViewWriter& views,
                  std::string& frame) {
-  FrameWriter out(frame);
+  FieldWriter out(frame);
   visitAnswer(out, answer);
   if (p_view != nullptr) views.write(out, *p_view);
   return out.finish();
 }
 
 std::optional<WorldAnswer> readAnswer(std::string_view fields, ViewReader& views, df::WorldView& view) {
-  FrameReader in(fields);
+  FieldReader in(fields);
   WorldAnswer answer;
   visitAnswer(in, answer);
   if (in.ok() && answer.has_view) views.read(in, view);

@@ -55,7 +55,7 @@ bool WorldServer::send(const std::string& frame) const {
 
 void WorldServer::run(df::World& world) {
   world.setGameOverLeaves(m_leaves);
-  FrameWriter(m_frame).finish();  // ready
+  FieldWriter(m_frame).finish();  // ready
   bool goes_on = send(m_frame);
   for (std::string fields; goes_on && receive(fields);) {
     const auto turn = readTurn(fields);

@@ -50,15 +50,15 @@ ExitCode play(const naiad::GameModule& game) {
   return kGameFailed;
 }
 
-/// What is the same for a host and for a world that it has started in another process.
-ExitCode play(const naiad::GameModule& game, df::Runner& runner, naiad::HostOptions& options,
-              naiad::LineLog& log) {
+/// What is the same for a host and for a world that it has started in another process; `where` it is.
+ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runner& runner,
+              naiad::HostOptions& options, naiad::LineLog& log) {
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(naiad::newSeed());
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
   const Installed installed(runner, [&log](const std::string& line) { log(line); });
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
-  log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + ", seed " +
+  log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + where + ", seed " +
       std::to_string(options.seed));
   return play(game);
 }
@@ -68,14 +68,13 @@ int serve(naiad::HostOptions options) {
   const naiad::GameModule game(options.game);
   if (const auto socket = naiad::takeWorldSocket()) {
     naiad::WorldServer world(*socket, naiad::leavesAlone(options));
-    return play(game, world, options, log);
+    return play(game, " in a world of its own", world, options, log);
   }
   naiad::Host host(options, game.name(), [&log](const std::string& line) { log(line); });
   if (naiad::wantsWorlds(options)) host.setWorlds(naiad::startWorlds());
-  log("dfserver is on " + host.address());
   naiad::writeWhereabouts(options, host);
   for (const std::string& line : naiad::howToJoin(host)) std::cout << line << std::endl;
-  const ExitCode code = play(game, host, options, log);
+  const ExitCode code = play(game, " on " + host.address(), host, options, log);
   if (host.failure().empty()) return code;
   std::cerr << "dfserver: the game " << host.failure() << "\n";
   return kGameFailed;

@@ -287,6 +287,32 @@ void replication(Folder folder, Folder snapshots) {
   }
 }
 
+/// Little of everything.
+df::WorldView fullView() {
+  df::WorldView view;
+  view.tick = 9;
+  view.boundary = {{}, {df::fromCells(80), df::fromCells(24)}};
+  view.changed.push_back({{1, 1}, 3, {}, {df::kFixedOne, 0}, {}, {{}, {df::kFixedOne, df::kFixedOne}}});
+  view.vanished = {{2, 1}};
+  view.commands = {{{}, U'x', df::GREEN}};
+  view.drawn = {{{1, 1}, 0, 1, false}};
+  const Sequence frames{{{0, 0, U'x', df::GREEN}}, {{0, 0, U'y', df::GREEN}}};
+  view.looks = {{0, std::make_shared<const Look>(frames, 2, Selector::clock(9, 3))}};
+  df::PlayerFacts player;
+  player.id = 1;
+  player.name = "ann";
+  player.texts = {{1, 3, 4, df::YELLOW, "HP"}, {2, 3, 5, df::RED, "3"}};
+  df::ControlTable table;
+  table.rows.push_back({.key = df::Keyboard::A, .value = {df::kFixedOne, 0}});
+  player.steering.p_table = std::make_shared<const df::ControlTable>(table);
+  player.steering.object = player.followed = {1, 1};
+  view.players.push_back(player);
+  player.id = 2;
+  view.players.push_back(player);
+  view.sounds = {{"boom", df::SoundPlayed::kStop, true, true, 1}};
+  return view;
+}
+
 void worlds(Folder folder) {
   SplitMix64 random(15);
   for (std::size_t i = 0; i < 16; ++i) {
@@ -305,6 +331,19 @@ void worlds(Folder folder) {
     }
     folder.add(input);
   }
+  std::string full = "\1";
+  for (const Selector& selector :
+       {Selector::clock(9, 3), Selector::turning(9, 1u << 30, 5), Selector::fixed(1)}) {
+    df::WorldView view = fullView();
+    view.looks[0].p_look = std::make_shared<const Look>(view.looks[0].p_look->sequence, 2, selector);
+    WorldAnswer answer{false, {1}, true, {{1, df::Canvas(2, 1)}}};
+    ViewWriter views;
+    std::string frame;
+    writeAnswer(answer, &view, views, frame);
+    folder.add("\1" + u16(frame.size() - kWorldFrameHead) + frame.substr(kWorldFrameHead));
+    full += u16(frame.size() - kWorldFrameHead) + frame.substr(kWorldFrameHead);
+  }
+  folder.add(full);
   using Queue = df::InputQueue;
   WorldTurn turn{{}, true, true, false};
   turn.inputs.push_back({.kind = Queue::kJoin, .player = 4, .name = "bob", .color = df::GREEN});
