@@ -21,7 +21,7 @@
 namespace df {
 
 /// The file that GM.startUp() reads.
-inline const std::string CONFIG_FILENAME = "df-config.txt";
+const std::string CONFIG_FILENAME = "df-config.txt";
 
 /// Plain data of one world.
 struct ConfigSettings {

@@ -33,8 +33,8 @@ enum Justification {
 inline constexpr int WINDOW_HORIZONTAL_PIXELS_DEFAULT = 1024;
 inline constexpr int WINDOW_VERTICAL_PIXELS_DEFAULT = 768;
 inline constexpr Color WINDOW_BACKGROUND_COLOR_DEFAULT = BLACK;
-inline const std::string WINDOW_TITLE_DEFAULT = "Dragonfly";
-inline const std::string FONT_FILE_DEFAULT = "df-font.ttf";
+const std::string WINDOW_TITLE_DEFAULT = "Dragonfly";
+const std::string FONT_FILE_DEFAULT = "df-font.ttf";
 inline constexpr float FONT_SCALE_DEFAULT = 2;
 
 /// Size of a character in pixels of the window that the published engine would open.

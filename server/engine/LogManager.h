@@ -17,7 +17,7 @@
 namespace df {
 
 /// The file that lines go to.
-inline const std::string LOGFILE_DEFAULT = "dragonfly.log";
+const std::string LOGFILE_DEFAULT = "dragonfly.log";
 
 class LogManager : public Manager {
  public:

@@ -14,7 +14,7 @@
 
 namespace df {
 
-inline const std::string DRAGONFLY_PORT = "9876";
+const std::string DRAGONFLY_PORT = "9876";
 
 class NetworkManager : public Manager {
  public:

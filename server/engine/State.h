@@ -9,7 +9,7 @@
 
 namespace df {
 
-inline const std::string UNDEFINED_STATE = "__undefined state__";
+const std::string UNDEFINED_STATE = "__undefined state__";
 
 class State {
  public:

@@ -1,5 +1,6 @@
 // Runs what PublishedHeaderTest.cpp compiles. (That file's includes are its own.)
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include "Probe.h"
@@ -34,6 +35,17 @@ TEST_F(PublishedHeader, StringsAreLoggedAsTheyAre) {
   const Probe probe("gems");
   EXPECT_EQ(logStrings(probe), 1);
   EXPECT_EQ(lines, (std::vector<std::string>{"ann has 3 of gems", "ann", "5"}));
+}
+
+// A string that a header declares inline would be one for library and game; and of the two C++20 sets it up
+// before anything runs, C++17 only if nobody has done so yet: it would stay empty in a game of C++17.
+TEST(PublishedHeaderStrings, AreEachTranslationUnitsOwn) {
+  for (const char* name : {"CONFIG_FILENAME", "WINDOW_TITLE_DEFAULT", "FONT_FILE_DEFAULT", "LOGFILE_DEFAULT",
+                           "DRAGONFLY_PORT", "UNDEFINED_STATE"}) {
+    const std::string symbol = "_ZN2df" + std::to_string(std::strlen(name)) + name + "B5cxx11E";
+    EXPECT_EQ(dlsym(RTLD_DEFAULT, symbol.c_str()), nullptr) << name;
+  }
+  EXPECT_NE(dlsym(RTLD_DEFAULT, "_ZN2df15UNDEFINED_EVENTE"), nullptr) << "an event type is one for all";
 }
 
 TEST_F(PublishedHeader, AccelerateIsWhatUpdateDoes) {
