@@ -80,8 +80,9 @@ TEST(Platformer, NobodySticksToAWall) {
     for (; t < 30 && p_runner->getPosition().x() > 30; ++t) {
       fingers.hold({Keyboard::RIGHTARROW});
       world.tick();
-      if (p_runner->getPosition().y() < 21)
+      if (p_runner->getPosition().y() < 21) {
         ASSERT_LT(p_runner->getPosition().x(), 36.5) << "through the wall";
+      }
     }
     EXPECT_LT(t, 30) << "it falls along the wall and out of the world, and begins again";
   });

@@ -150,7 +150,9 @@ TEST(WorldMessages, ViewsCrossWhole) {
     ASSERT_TRUE(answer && answer->has_view);
     expectSame(view, sent);
     if (i == 0) first = frame.size();
-    if (i > 0) EXPECT_LT(frame.size(), first) << "sequences and tables were told before";
+    if (i > 0) {
+      EXPECT_LT(frame.size(), first) << "sequences and tables were told before";
+    }
   }
 }
 
