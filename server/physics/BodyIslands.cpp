@@ -33,7 +33,7 @@ void BodyIslands::unite(int a, int b) {
   m_parent[at(std::max(a, b))] = std::min(a, b);
 }
 
-// Pairs of HARD ones whose reaches overlap.
+// Pairs of HARD ones whose reaches overlap, in no particular order: nothing depends on it.
 void BodyIslands::gather(const std::vector<BodyPlan>& plans) {
   m_boxes.clear();
   m_ids.clear();
@@ -48,7 +48,6 @@ void BodyIslands::gather(const std::vector<BodyPlan>& plans) {
   }
   m_tree.update(m_boxes, m_ids, static_cast<int>(plans.size()));
   m_tree.queryPairs([&](int i, int j) { m_pairs.emplace_back(i, j); });
-  std::sort(m_pairs.begin(), m_pairs.end());
 }
 
 void BodyIslands::join(const BodyTable& table, const std::vector<BodyPlan>& plans) {
