@@ -79,7 +79,8 @@ class DisplayManager : public Manager {
   int getHorizontalPixels() const;
   int getVerticalPixels() const;
 
-  /// The colour behind all characters, for all players; black is the terminals' own. Return true, or false if there is no such colour.
+  /// The colour behind all characters, for all players; black is the terminals' own. Return true, or false if
+  /// there is no such colour.
   bool setBackgroundColor(Color new_color);
   /// Shake the picture for so many ticks by up to so many pixels; `delta`: in addition to what it does
   /// already. In cells, of which one is about 13 by 32 pixels; view objects stay where they are.

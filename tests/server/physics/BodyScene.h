@@ -54,6 +54,7 @@ class BodyScene : public testing::Test {
     p_crate->setMass(mass);
     return p_crate;
   }
+
  protected:
   /// Per second.
   static Vector speedOf(const Body* p_body) {
