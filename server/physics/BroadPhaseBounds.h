@@ -19,6 +19,8 @@ struct GridBounds {
 };
 
 inline constexpr std::int64_t kGridUnits = 16;
+/// Bounds end here, whatever they are of: 2^48 cells from the body's own.
+inline constexpr double kMostGridUnits = 0x1p52;
 
 constexpr bool overlap(const GridBounds& a, const GridBounds& b) {
   return a.lower_x <= b.upper_x && b.lower_x <= a.upper_x && a.lower_y <= b.upper_y && b.lower_y <= a.upper_y;
@@ -37,10 +39,14 @@ constexpr std::int64_t perimeter(const GridBounds& a) {
 }
 
 /// The least bounds on the grid around `bounds` at `place`, `margin` >= 0 metric cells wider on every side.
-/// Bounds and margin are below 2^40 cells.
+/// A body hit so hard that it is about to be frozen may ask for any.
 inline GridBounds gridBounds(const Place& place, const Bounds& bounds, double margin) {
-  const auto down = [](double x) { return static_cast<std::int64_t>(std::floor(x * kGridUnits)); };
-  const auto up = [](double x) { return static_cast<std::int64_t>(std::ceil(x * kGridUnits)); };
+  const auto whole = [](double units) {
+    const double bound = units < kMostGridUnits ? units : kMostGridUnits;  // also where that is no number
+    return static_cast<std::int64_t>(bound > -kMostGridUnits ? bound : -kMostGridUnits);
+  };
+  const auto down = [&whole](double x) { return whole(std::floor(x * kGridUnits)); };
+  const auto up = [&whole](double x) { return whole(std::ceil(x * kGridUnits)); };
   const std::int64_t x = place.cell_x * kGridUnits, y = place.cell_y * kGridUnits;
   return {x + down(place.dx + bounds.lower.x - margin), y + down(place.dy + bounds.lower.y - margin),
           x + up(place.dx + bounds.upper.x + margin), y + up(place.dy + bounds.upper.y + margin)};
