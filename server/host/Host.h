@@ -57,7 +57,7 @@ class Host : public df::Runner {
   std::size_t connected() const;
   /// A player who is alone and for whom the game is over (HostOptions::on_game_over) ends it for all.
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
-  /// How the last world failed, like "crashed (signal 6)"; empty if it did not. After run().
+  /// How the last world failed, like "crashed (SIGABRT)"; empty if it did not. After run().
   const std::string& failure() const { return m_failure; }
   /// Ticks that were skipped for a player who is here (Session::skippedTicks); 0 for anybody else.
   std::uint64_t skippedTicks(std::uint32_t player) const;

@@ -14,6 +14,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "WordPointers.h"
+
 namespace naiad {
 
 namespace fs = std::filesystem;
@@ -53,14 +55,6 @@ std::vector<std::string> environmentOfClient(const std::string& password) {
   }
   if (!password.empty()) kept.push_back("NAIAD_PASSWORD=" + password);
   return kept;
-}
-
-std::vector<char*> pointersTo(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct WorldEnd {
     kHung,      ///< it did not answer in time
     kBroken,    ///< it sent what no world sends
   } why = kGameOver;
-  std::string text;  ///< for the log and for players, like "crashed (signal 6)"
+  std::string text;  ///< for the log and for players, like "crashed (SIGABRT)"
 };
 
 class WorldPort {

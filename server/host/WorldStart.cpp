@@ -16,6 +16,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "WordPointers.h"
+
 namespace naiad {
 
 namespace {
@@ -64,14 +66,6 @@ class Actions {
   posix_spawn_file_actions_t m_actions;
   posix_spawnattr_t m_attributes;
 };
-
-std::vector<char*> pointersTo(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
 
 std::vector<std::string> environment() {
   std::vector<std::string> entries;

@@ -1,7 +1,6 @@
 // A rope bridge, made in a line:
 //
-//   for (df::Body* p_plank : df::makeBridge(df::Vector(8, 17), df::Vector(32, 17), 8))
-//   p_plank->setFriction(1);
+//   for (df::Body* p_plank : df::makeBridge(left, right, 8)) p_plank->setFriction(1);
 #pragma once
 
 #include <vector>
