@@ -1,5 +1,6 @@
 // The laboratory sees what it is there to see: orders, errors, crashes, and misses.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -74,7 +75,7 @@ TEST(Laboratory, APlantedErrorMissesItsTarget) {
   for (const bool planted : {false, true}) {
     const Method method =
         integrator(planted ? Rule::PLANTED_ERROR : Rule::RUNGE_KUTTA_4, Method::Kind::PRODUCT);
-    const std::string directory = ::testing::TempDir() + "naiad_lab_planted";
+    const std::string directory = ::testing::TempDir() + "naiad_lab_planted-" + std::to_string(getpid());
     {
       Records records(directory);
       records.describe(problem);

@@ -1,6 +1,7 @@
 // Files found by names as systems take them that know no upper and lower case.
 
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -18,7 +19,6 @@ namespace fs = std::filesystem;
 class LooseName : public WorldTest {
  protected:
   LooseName() {
-    fs::remove_all(folder);
     fs::create_directories(folder / "sprites" / "Walls");
     write("sprites/Walls/Brick.txt");
     write("sprites/ship.txt");
@@ -31,7 +31,12 @@ class LooseName : public WorldTest {
         << "<HEADER>\nframes 1\nwidth 1\nheight 1\n</HEADER>\n<BODY>\n*\nend\n</BODY>\n";
   }
 
-  const fs::path folder = fs::path(::testing::TempDir()) / "loose-name-test";
+  static fs::path makeFolder() {
+    std::string name = ::testing::TempDir() + "naiad-loose-name-XXXXXX";
+    return mkdtemp(name.data());
+  }
+
+  const fs::path folder = makeFolder();
 };
 
 TEST_F(LooseName, BackslashesPartFoldersAndCaseDoesNotCount) {

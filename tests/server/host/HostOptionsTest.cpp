@@ -1,5 +1,6 @@
 // The command line of dfserver: what would start a server that nobody meant is an error.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -21,7 +22,7 @@ CommandLine parse(const std::vector<const char*>& arguments, HostOptions& option
 }
 
 TEST(HostOptions, AMisspeltOptionInTheConfigFileIsAnError) {
-  const std::string path = testing::TempDir() + "naiad_host_options.ini";
+  const std::string path = testing::TempDir() + "naiad_host_options-" + std::to_string(getpid()) + ".ini";
   std::ofstream(path) << "ticks = 3\n";
   HostOptions options;
   EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kRun);
