@@ -64,6 +64,7 @@ void BodyLayer::step(World& world) {
   if (!m_impacts.isEmpty()) m_impacts.step(world, *m_table, m_plans, m_touching);
   if (m_is_mixed || !m_rigids.isEmpty()) {
     m_rigids.step(world.store(), *m_table, m_plans, m_unit_inertias, m_touching);
+    tellOfCrowd(world);
   }
   for (Plan& plan : m_plans) settle(world, plan);
   for (const Moved& moved : m_moved) {
@@ -226,6 +227,13 @@ void BodyLayer::tell(World& world, const Plan& plan, BodyRow& row, FixedVector v
   store.setAcceleration(row.key.slot, change.value_or(FixedVector{}));
   store.set(row.key.slot, WorldStore::kDerive, true);
   if (row.told_position != store.position(row.key.slot)) m_moved.push_back({row.key, row.told_position});
+}
+
+// Once: it counts on in RigidCounters::passed.
+void BodyLayer::tellOfCrowd(World& world) {
+  if (m_has_told_of_crowd || m_rigids.counters().passed == 0) return;
+  m_has_told_of_crowd = true;
+  world.log("physics: too many bodies in one place: some pass through one another until there is room");
 }
 
 // It stands where it is, so that nothing of it spreads.

@@ -47,6 +47,7 @@ class BodyLayer : public Layer {
   void settle(World& world, Plan& plan);
   void tell(World& world, const Plan& plan, naiad::physics::BodyRow& row, FixedVector velocity);
   void quarantine(World& world, Plan& plan, const char* p_why);
+  void tellOfCrowd(World& world);
 
   struct Moved {
     ObjectKey key;
@@ -64,6 +65,7 @@ class BodyLayer : public Layer {
   std::vector<double> m_unit_inertias;  // by plan; 0: it does not turn
   bool m_is_mixed = false;              // is any HARD body joined, or more than a box or a circle?
   std::vector<Moved> m_moved;
+  bool m_has_told_of_crowd = false;
 };
 
 }  // namespace df

@@ -82,10 +82,12 @@ void RigidWorld::updatePairs() {
       m_pairs.back().is_jointed = m_joints.keepsApart(a, b);
     }
     m_pairs.back().is_seen = m_pairs.back().is_pushing = m_pairs.back().is_near = false;
+    m_pairs.back().is_passed = false;
     if (m_joints_changed) m_pairs.back().is_jointed = m_joints.keepsApart(a, b);
   }
   while (next < m_pairs_before.size()) dropPair(m_pairs_before[next++]);
   m_joints_changed = false;
+  thinCrowds();
   for (const Late& late : m_late_before) {
     const std::int32_t pair = findPair(late.a, late.b);
     if (pair >= 0) {
@@ -124,6 +126,7 @@ ContactConstraint& RigidWorld::addConstraint(int a, int b) {
 void RigidWorld::updatePair(std::int32_t index, double dt) {
   Pair& pair = m_pairs[at(index)];
   if (pair.is_seen) return;
+  if (pair.is_passed) return dropContacts(pair);
   const Extra &a = m_extras[at(pair.a)], &b = m_extras[at(pair.b)];
   if (!(a.is_active || a.is_dirty || b.is_active || b.is_dirty)) return;
   const bool a_sleeps = a.is_asleep, b_sleeps = b.is_asleep;

@@ -68,6 +68,8 @@ bool RigidWorld::isSolved(int a, int b, int shape_a, int shape_b) const {
 
 void RigidWorld::forecastPair(int one, int other, double h) {
   const int a = std::min(one, other), b = std::max(one, other);
+  const std::int32_t known = findPair(a, b);
+  if (known >= 0 && m_pairs[at(known)].is_passed) return;
   const Extra &of_a = m_extras[at(a)], &of_b = m_extras[at(b)];
   const auto flightOf = [&](const Extra& e) { return e.flight >= 0 ? &m_flights[at(e.flight)] : nullptr; };
   const Flight *flight_a = flightOf(of_a), *flight_b = flightOf(of_b);

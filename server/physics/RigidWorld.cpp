@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Elementary.h"
+#include "Mass.h"
+
 namespace naiad::physics {
 
 namespace {
@@ -103,10 +106,13 @@ void RigidWorld::measure(int id) {
   extra.turned.resize(extra.shapes.size());
   extra.reach = 0;
   extra.thickness = extra.shapes.empty() ? 0 : kLargestShape;
+  double area = 0;
   for (const Shape& shape : extra.shapes) {
     extra.reach = std::max(extra.reach, shape.reach + shape.radius);
     extra.thickness = std::min(extra.thickness, thicknessOf(shape));
+    area += massOf(shape, 1).mass;
   }
+  extra.size = std::sqrt(area / df::math::kPi);
 }
 
 Bounds RigidWorld::turnShapes(int id, Rotation rotation) {

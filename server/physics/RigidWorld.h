@@ -38,6 +38,7 @@ struct RigidCounters {
   std::int64_t sweeps = 0;           ///< pairs whose time of impact was asked for
   std::int64_t looks = 0;            ///< bodies that were looked around again within a step
   std::int64_t impacts = 0;          ///< of fast bodies, handled at their moment
+  std::int64_t passed = 0;           ///< pairs in crowds that were left out, once per step each
   std::int64_t held = 0;             ///< times that a fast body had to wait for the next sub-step
   std::int64_t unresolved = 0;       ///< times of impact that were not found to the end
   std::int64_t direct_solves = 0;    ///< groups that were solved for at once
@@ -119,6 +120,7 @@ class RigidWorld {
     std::int32_t proxy = -1;
     double reach = 0;        // of all shapes from the centre
     double thickness = 0;    // the least half width of any shape
+    double size = 0;         // the radius of a disc of the same area
     double margin = 0;       // how far around it was looked in this step
     double moved = 0;        // how far any of its points has got in this step, at most
     double rolled = 0;       // the part of it that is due to turning
@@ -150,8 +152,15 @@ class RigidWorld {
     bool is_touching = false;
     bool is_seen = false;     // in this step
     bool is_jointed = false;  // a joint keeps them from touching
+    bool is_passed = false;   // in this step: too many others are nearer
     bool is_pushing = false;  // in this step
     bool is_near = false;     // at the end of this step
+  };
+  struct Choice {  // of one in a crowd: whom it is pushed by
+    std::int32_t by;
+    double square;  // of the distance
+    std::uint32_t turn;
+    std::int32_t pair;
   };
   struct Late {  // a contact found within the step
     std::int32_t a, b;
@@ -224,6 +233,10 @@ class RigidWorld {
   void tellBegin(const ContactConstraint& constraint, double dt);
   void tellEnds(double dt);
 
+  // RigidCrowd.cpp
+  bool areHeaped(const Pair& pair) const;
+  void thinCrowds();
+
   // RigidSweep.cpp
   struct Pose {
     Vec2 way;
@@ -267,6 +280,8 @@ class RigidWorld {
   std::vector<int> m_dirty;   // ids of immovable ones that were set
   RigidJoints m_joints;
   std::vector<Late> m_late, m_late_before;
+  std::vector<std::uint32_t> m_others;  // by body: so many are where it is
+  std::vector<Choice> m_choices;
   std::vector<Flight> m_flights;
   std::vector<Impact> m_impacts;
   std::vector<int> m_near;
