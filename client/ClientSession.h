@@ -130,8 +130,8 @@ class ClientSession {
   bool isOver() const { return m_state != State::kGreeting && m_state != State::kPlaying; }
   /// Why the session is over, for people. Empty while it is not, or after leave().
   const std::string& sentence() const { return m_sentence; }
-  /// Playing, and at least one snapshot came: there is something to show.
-  bool hasPicture() const { return m_counters.snapshots > 0; }
+  /// There is a picture to show: all of the world has come, or as much as came in half a second.
+  bool hasPicture(Time now) const { return m_world.hasPicture(now); }
 
   const WelcomeMessage& welcome() const { return m_welcome; }
   const Replica& replica() const { return m_world.shown(); }

@@ -163,7 +163,7 @@ void Connection::checkPending() {
     ++m_revision;
     return;
   }
-  if (m_pending->state() == S::kPlaying && m_pending->hasPicture()) {
+  if (m_pending->state() == S::kPlaying && m_pending->hasPicture(Clock::now())) {
     m_session = std::move(m_pending);
     m_state = State::kJoined;
     m_sentence.clear();

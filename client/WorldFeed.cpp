@@ -17,6 +17,18 @@ Replica* WorldFeed::replicaFor(std::string_view bytes, Time now) {
   return &*m_next;
 }
 
+// A complete snapshot may overtake those that it completes: one goes as a datagram and they on the stream.
+void WorldFeed::noteFirst(const SnapshotHeader& header, Time now) {
+  if (!m_began) m_began = now;
+  m_came.note(header.number);
+  if (header.complete && isNewer(header.number, m_complete)) m_complete = header.number;
+  m_whole = m_complete != m_before;
+  // What is older than the window was sent again before the server called anything complete.
+  for (std::uint32_t n = m_complete; m_whole && n != m_before && m_came.newest - n <= 64; --n) {
+    m_whole = m_came.has(n);
+  }
+}
+
 WorldFeed::Taken WorldFeed::take(std::string_view bytes, Time now, SnapshotHeader& header,
                                  const std::function<void(std::uint32_t)>& before) {
   Replica* replica = replicaFor(bytes, now);
@@ -35,9 +47,11 @@ WorldFeed::Taken WorldFeed::take(std::string_view bytes, Time now, SnapshotHeade
   header = snapshot.header;
   if (before) before(header.tick);
   replica->apply(snapshot);
-  if (replica == &m_replica || !(header.complete || now - m_reset_at >= kResetPatience)) {
+  if (!m_whole && replica == &m_replica) noteFirst(header, now);
+  if (replica == &m_replica || !(header.complete || now - m_reset_at >= kPatience)) {
     return Taken::kApplied;
   }
+  m_whole = true;
   m_replica = std::move(*m_next);
   m_next.reset();
   m_epoch = m_next_epoch;

@@ -24,6 +24,9 @@ class Hindsight {
   virtual ~Hindsight() = default;
   /// Where the Object was drawn in that picture; nothing if it was not in it.
   virtual std::optional<FixedVector> positionOf(ObjectKey object, const Seen& seen) const = 0;
+  /// Where the upper left corner of the player's view was in that picture, world coordinates; nothing if
+  /// nobody knows: then it counts where it is.
+  virtual std::optional<FixedVector> viewCornerOf(std::uint32_t player, const Seen& seen) const = 0;
 };
 
 }  // namespace df

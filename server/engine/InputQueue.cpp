@@ -52,7 +52,10 @@ void InputQueue::sendKey(const Input& input) {
 }
 
 void InputQueue::sendMouse(const Input& input) {
-  const FixedVector corner = m_world.views().cornerOf(m_world.getPlayer(input.player));
+  FixedVector corner = m_world.views().cornerOf(m_world.getPlayer(input.player));
+  if (m_world.m_p_hindsight != nullptr && input.seen.known) {
+    corner = m_world.m_p_hindsight->viewCornerOf(input.player, input.seen).value_or(corner);
+  }
   EventMouse event;
   event.setMouseAction(input.mouse_action);
   event.setMouseButton(input.button);

@@ -188,7 +188,8 @@ class World {
   /// A key. Unknown keys, actions and players are ignored. `seen`: what was on the player's screen then.
   void key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const Seen& seen = {});
   /// The mouse, at cell (x,y) of the player's view; ignored outside it. The event's position is in world
-  /// coordinates, by the view as it is when the event is handled.
+  /// coordinates, by the view as the player saw it if the host knows (setHindsight()), else as it is when the
+  /// event is handled.
   void mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y,
              const Seen& seen = {});
   /// Hand on what waits. tick() does this.

@@ -73,9 +73,10 @@ class WorldManager : public Manager {
   /// screen of the player whose input is being handled, at the moment he did it, in creation order. For
   /// games in which a click must hit what was clicked on, however far the player and however fast the target.
   /// Outside a player's mouse input, and without setLookingBack(): those that cover it now. He is believed
-  /// for at most 8 ticks back (a quarter of a second). Views that moved meanwhile are not taken into account.
+  /// for at most 8 ticks back (a quarter of a second).
   ObjectList objectsSeenAt(Vector cell) const;
-  /// Have the host remember where Objects were drawn, for objectsSeenAt(). Off by default.
+  /// Have the host remember where Objects were drawn, for objectsSeenAt(), and where players' views were:
+  /// then the position of an EventMouse is what was under the pointer in that picture. Off by default.
   void setLookingBack(bool looking_back = true);
   bool isLookingBack() const;
 

@@ -69,12 +69,14 @@ void Host::endRound(Room& room, const WorldEnd& end) {
 }
 
 bool Host::beginRound(Room& room) {
+  const std::uint64_t told = room.sounds().told();
   try {
     room.changeWorld(m_new_world(m_io));
   } catch (const std::system_error& error) {
     m_log(std::string("there is no next round: ") + error.what());
     return false;
   }
+  m_counters.sounds += room.sounds().told() - told;
   room.port().setOnTick([this, &room] { afterTick(room); });
   room.port().look(tickNumber());
   return true;

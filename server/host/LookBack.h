@@ -1,4 +1,4 @@
-// Where objects were on a client's screen: the published motions of the last ticks.
+// Where objects were on a client's screen: the published motions of the last ticks, and the players' views.
 //
 // All clients extrapolate the same published models, so what one drew follows from two ticks: the newest it
 // had heard of, and the one it drew. What is too long ago does not count: a player may be slow, not late by
@@ -13,6 +13,7 @@
 
 #include "Hindsight.h"
 #include "Publisher.h"
+#include "ViewFollow.h"
 
 namespace naiad {
 
@@ -23,11 +24,15 @@ class LookBack : public df::Hindsight {
   /// A tick drawn is taken to be one of this many before the present one, or that itself.
   static constexpr std::uint32_t kMostBehind = 8;
 
-  /// Take in one tick, after Publisher::update(). Ticks left out empty the memory.
-  void note(const Publisher& publisher);
+  /// Take in one tick, after Publisher::update() with this view. Ticks left out empty the memory.
+  void note(const Publisher& publisher, const df::WorldView& view);
 
   /// By the published models, drawn characters may be off by what the publisher tolerates: no cell.
   std::optional<df::FixedVector> positionOf(df::ObjectKey object, const df::Seen& seen) const override;
+  /// Right to the cell while what the view follows moves on a straight path. Nothing if the player steers by
+  /// declared controls what his view follows: his client draws both ahead, as they are when the input
+  /// arrives.
+  std::optional<df::FixedVector> viewCornerOf(std::uint32_t player, const df::Seen& seen) const override;
 
  private:
   struct Known {
@@ -40,10 +45,27 @@ class LookBack : public df::Hindsight {
     std::deque<Known> motions;  ///< oldest first, never empty while somebody is here
   };
 
+  /// A player's view at the end of a tick, and how what it follows moves on, as far as clients know.
+  struct PlayerView {
+    std::uint32_t player;
+    df::FixedVector corner;
+    std::optional<Motion> followed;
+  };
+  struct Views {
+    std::uint32_t tick = 0;
+    df::FixedVector size;
+    df::FixedBox boundary;
+    std::vector<PlayerView> players;  ///< by player
+  };
+
+  std::uint32_t baseOf(const df::Seen& seen) const;
+  std::uint32_t drawnOf(const df::Seen& seen) const;
+  void noteViews(const Publisher& publisher, const df::WorldView& view);
   void learn(std::uint32_t slot, const Publisher::Model& model, bool moved);
   void forget(std::uint32_t slot);
 
   std::vector<History> m_histories;  ///< by slot
+  std::array<Views, kTicks + 1> m_views;
   std::uint32_t m_tick = 0;
   bool m_began = false;
 };

@@ -116,19 +116,22 @@ void Room::publish(TruthWriter* p_truth) {
     session.setControls(found->steering.p_table);
     session.sendTick(m_publisher, *found);
   }
-  tellSounds();
+  m_sound_news.tick(m_p_port->view(), soundTeller());
   tellNotes();
 }
 
-void Room::tellSounds() {
-  m_sound_news.tick(m_p_port->view(),
-                    [this](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
-                      Session* p_session = find(player);
-                      if (p_session == nullptr) return false;
-                      if (!lasts) return p_session->sendFleeting(message);
-                      p_session->sendKept(message);
-                      return true;
-                    });
+SoundNews::Tell Room::soundTeller() const {
+  return [this](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
+    return tellSounds(player, message, lasts);
+  };
+}
+
+bool Room::tellSounds(std::uint32_t player, const wire::ServerMessage& message, bool lasts) const {
+  Session* p_session = find(player);
+  if (p_session == nullptr) return false;
+  if (!lasts) return p_session->sendFleeting(message);
+  p_session->sendKept(message);
+  return true;
 }
 
 // What the engine itself has to say to the players.
@@ -139,7 +142,7 @@ void Room::tellNotes() const {
 void Room::changeWorld(std::unique_ptr<WorldPort> port) {
   m_p_port = std::move(port);
   m_publisher = Publisher();
-  m_sound_news = SoundNews();
+  m_sound_news.changeWorld(soundTeller());
   m_watched = m_ticking = false;
   m_ticks = 0;
   forEachPlaying([this](Session& session) {

@@ -80,7 +80,8 @@ class Room {
  private:
   void giveTurn();
   void tellTurn(Session& session) const;
-  void tellSounds();
+  bool tellSounds(std::uint32_t player, const wire::ServerMessage& message, bool lasts) const;
+  SoundNews::Tell soundTeller() const;
   void tellNotes() const;
   bool isHeard(const Session& session, const Input& input) const;
   void applyInputs();

@@ -65,6 +65,7 @@ void SoundNews::gather(const df::WorldView& view) {
   m_now.clear();
   m_left_out = view.sounds_lost;
   for (const df::SoundPlayed& sound : view.sounds) {
+    noteLasting(sound);
     const bool known = std::any_of(m_now.begin(), m_now.end(),
                                    [&sound](const df::SoundPlayed* other) { return *other == sound; });
     if (known) continue;
@@ -76,9 +77,25 @@ void SoundNews::gather(const df::WorldView& view) {
   }
 }
 
+// Of more than fits in one message, what does not loop has most likely ended by itself.
+void SoundNews::noteLasting(const df::SoundPlayed& sound) {
+  if (!lasts(sound)) return;
+  std::erase_if(m_lasting, [&sound](const df::SoundPlayed& other) {
+    return other.music == sound.music && other.label == sound.label;
+  });
+  if (sound.what == df::SoundPlayed::kStop) return;
+  if (m_lasting.size() == kMaxSounds) {
+    const auto once = std::find_if(m_lasting.begin(), m_lasting.end(),
+                                   [](const df::SoundPlayed& other) { return !other.loop; });
+    m_lasting.erase(once != m_lasting.end() ? once : m_lasting.begin());
+  }
+  m_lasting.push_back(sound);
+}
+
 SoundNews::Listener SoundNews::welcome(std::uint32_t player, const df::WorldView& view, const Tell& tell) {
   wire::ServerMessage message;
   for (const df::SoundPlayed& sound : view.playing) {
+    noteLasting(sound);
     if (message.sounds().sounds_size() < static_cast<int>(kMaxSounds)) add(message, sound);
   }
   if (!view.playing.empty()) send(player, message, true, tell);
@@ -119,6 +136,17 @@ void SoundNews::tellSounds(Listener& listener, bool is_new, std::uint32_t tick, 
 void SoundNews::send(std::uint32_t player, const wire::ServerMessage& message, bool lasts, const Tell& tell) {
   const auto count = static_cast<std::uint64_t>(message.sounds().sounds_size());
   (tell(player, message, lasts) ? m_told : m_dropped) += count;
+}
+
+void SoundNews::changeWorld(const Tell& tell) {
+  wire::ServerMessage message;
+  for (const df::SoundPlayed& sound : m_lasting)
+    add(message, {sound.label, df::SoundPlayed::kStop, sound.music, sound.loop, 0});
+  if (message.has_sounds()) {
+    for (const Listener& listener : m_listeners) send(listener.player, message, true, tell);
+  }
+  m_lasting.clear();
+  m_listeners.clear();
 }
 
 void SoundNews::repeat(std::uint32_t player) {

@@ -30,6 +30,9 @@ class SoundNews {
   void tick(const df::WorldView& view, const Tell& tell);
   /// The player may have missed what was told: he is as one who is new.
   void repeat(std::uint32_t player);
+  /// The world has ended and another one begins: all are told that what still lasts of the old one has
+  /// stopped, and are as those who are new.
+  void changeWorld(const Tell& tell);
 
   /// Sounds told, and not told since they were too many or came too late, each counted for each player.
   std::uint64_t told() const { return m_told; }
@@ -43,6 +46,7 @@ class SoundNews {
   };
 
   void gather(const df::WorldView& view);
+  void noteLasting(const df::SoundPlayed& sound);
   Listener welcome(std::uint32_t player, const df::WorldView& view, const Tell& tell);
   void tellSounds(Listener& listener, bool is_new, std::uint32_t tick, const Tell& tell);
   void send(std::uint32_t player, const wire::ServerMessage& message, bool lasts, const Tell& tell);
@@ -54,6 +58,7 @@ class SoundNews {
   std::size_t m_left_out = 0;                 ///< of this tick, beyond m_now
   std::uint64_t m_told = 0;
   std::uint64_t m_dropped = 0;
+  std::vector<df::SoundPlayed> m_lasting;  ///< what clients may go on with until they hear that it stopped
 };
 
 }  // namespace naiad

@@ -54,7 +54,7 @@ void WorldInProcess::published(const Publisher& publisher) {
     m_world.isLookingBack() ? static_cast<void>(m_look_back.emplace()) : m_look_back.reset();
     m_world.setHindsight(m_look_back ? &*m_look_back : nullptr);
   }
-  if (m_look_back) m_look_back->note(publisher);
+  if (m_look_back) m_look_back->note(publisher, m_world.view());
 }
 
 std::vector<std::uint32_t> WorldInProcess::takeLeavers() {

@@ -66,7 +66,7 @@ TEST_F(ClientReturn, NumbersGoOnFromWhereTheyWere) {
     wire::ServerMessage message;
     message.set_snapshot(out.finish());
     receive(message);
-    EXPECT_TRUE(session->hasPicture());
+    EXPECT_TRUE(session->hasPicture(now));
     EXPECT_EQ(session->replica().newest().number, at + 1);
     EXPECT_EQ(session->counters().resets, 0u) << "it is the first world that this process sees";
     EXPECT_EQ(lastUpdate().acks.newest, at + 1);

@@ -76,7 +76,7 @@ TEST_F(ClientSessionTest, AppliesAndAcknowledgesSnapshots) {
   EXPECT_EQ(session->replica().aliveCount(), 1u);
   EXPECT_EQ(session->replica().render(103).at(10, 4), (df::Cell{U'@', df::RED}));
   EXPECT_EQ(session->counters().snapshots, 3u);
-  EXPECT_TRUE(session->hasPicture());
+  EXPECT_TRUE(session->hasPicture(now));
 }
 
 TEST_F(ClientSessionTest, ObserverSeesTheReplicaBeforeTheSnapshot) {

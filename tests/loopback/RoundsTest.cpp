@@ -73,6 +73,15 @@ class Rounds : public testing::Test {
     const auto& chat = client.session().chat();
     return std::any_of(chat.begin(), chat.end(), [&](const ChatEntry& entry) { return entry.text == line; });
   }
+  /// The game's theme as the client has heard it: + began, - ended.
+  static std::string theme(TestClient& client) {
+    std::string heard;
+    for (const SoundLine& sound : client.session().takeSounds()) {
+      if (sound.label != "theme") continue;
+      heard += sound.action == SoundLine::Action::kPlay ? '+' : '-';
+    }
+    return heard;
+  }
   /// Are there pictures of all ticks, from the first to the last?
   static testing::AssertionResult hasNoGap(const TestClient& client) {
     const auto& pictures = client.pictures();
@@ -100,6 +109,8 @@ class RoundEnd : public Rounds {
     ASSERT_TRUE(serve([&] { return shown(*ann).steps == 1 && shown(*bob).steps == 1; })) << game->log();
     const Shown before = shown(*ann);
     EXPECT_EQ(before.mains, 1);
+    std::string theme_of_ann = theme(*ann);
+    std::string theme_of_bob = theme(*bob);
 
     const auto began = Clock::now();
     press(*ann, key);
@@ -120,6 +131,8 @@ class RoundEnd : public Rounds {
     EXPECT_EQ(ann->connection().state(), Connection::State::kJoined);
     EXPECT_EQ(game->log().find("is back"), std::string::npos) << game->log();
     ASSERT_TRUE(serve([&] { return heard(*ann, line) && heard(*bob, line); })) << game->log();
+    EXPECT_TRUE(serve([&] { return (theme_of_ann += theme(*ann)) == "+-+"; })) << theme_of_ann;
+    EXPECT_TRUE(serve([&] { return (theme_of_bob += theme(*bob)) == "+-+"; })) << theme_of_bob;
     press(*bob, df::Keyboard::RIGHTARROW);
     EXPECT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << "his keys are heard";
     const auto lists = [&](const std::string& name) {

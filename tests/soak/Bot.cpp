@@ -123,7 +123,7 @@ void Bot::checkPending() {
     ++m_place.tally.resumed;
     return;
   }
-  if (pending.state() == S::kPlaying && pending.hasPicture()) {
+  if (pending.state() == S::kPlaying && pending.hasPicture(now())) {
     if (m_shown.session) ++m_place.tally.lost_sessions;
     m_shown = std::move(m_pending);
     m_pending = {};

@@ -8,6 +8,7 @@
 #include "EventOut.h"
 #include "EventStep.h"
 #include "GameManager.h"
+#include "Music.h"
 #include "Object.h"
 #include "WorldManager.h"
 
@@ -70,6 +71,9 @@ int main() {
   mains++;
   GM.startUp();
   new Walker;
+  Music theme;
+  theme.setLabel("theme");
+  theme.play();
   for (int i = 0; i < 12; i++) new Drifter(i);
   GM.run();
   GM.shutDown();

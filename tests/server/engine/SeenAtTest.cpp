@@ -25,8 +25,12 @@ class TenToTheLeft : public Hindsight {
     if (object == hidden) return std::nullopt;
     return toFixed(m_world.find(object)->getPosition() - Vector(10, 0));
   }
+  std::optional<FixedVector> viewCornerOf(std::uint32_t player, const Seen&) const override {
+    return player == 1 ? corner : std::nullopt;
+  }
   mutable Seen last;
   ObjectKey hidden;
+  std::optional<FixedVector> corner;  ///< of the first player's view
 
  private:
   const World& m_world;
@@ -79,6 +83,27 @@ TEST_F(SeenAt, LooksBackOnlyWhileAnInputIsHandledOfWhichSomebodyKnows) {
   GM.tick();
   EXPECT_EQ(at_click, Names{});
   EXPECT_EQ(names(WM.objectsSeenAt(Vector(40, 5))), Names{"dot"});  // between inputs: now
+  world.setHindsight(nullptr);
+}
+
+TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
+  TenToTheLeft hindsight(world);
+  world.setHindsight(&hindsight);
+  const std::uint32_t ann = world.join("ann", RED);
+  const std::uint32_t bob = world.join("bob", BLUE);
+  Probe dot("dot", nullptr, Vector(40, 5));
+  dot.registerInterest(MSE_EVENT);
+  std::vector<Vector> clicks;
+  dot.on_event = [&](Probe&, const Event& e) {
+    clicks.push_back(static_cast<const EventMouse&>(e).getMousePosition());
+  };
+  hindsight.corner = toFixed(Vector(6.6, -2));  // cell 7
+  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
+  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5);
+  world.mouse(bob, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
+  GM.tick();
+  EXPECT_EQ(clicks, (std::vector<Vector>{Vector(37, 3), Vector(30, 5), Vector(30, 5)}))
+      << "of whom nobody says what he saw, the present view counts";
   world.setHindsight(nullptr);
 }
 

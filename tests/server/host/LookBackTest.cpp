@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <map>
+#include <memory>
+#include <vector>
 
 #include "LookBack.h"
+#include "Replica.h"
 #include "SimulatedWorld.h"
+#include "SnapshotSender.h"
 
 namespace naiad {
 namespace {
@@ -14,7 +19,7 @@ class LookBackTest : public testing::Test {
   void tick() {
     world.tick();
     publisher.update(world.view());
-    memory.note(publisher);
+    memory.note(publisher, world.view());
     auto& models = published[world.tickNumber()];
     publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) { models[slot] = model; });
   }
@@ -107,6 +112,100 @@ TEST_F(LookBackTest, ALeftOutTickEmptiesTheMemory) {
               positionAt(model.state.motion, world.tickNumber()));
     EXPECT_FALSE(memory.positionOf({slot, model.generation}, seen(1, 0)));
   });
+}
+
+CellPosition cellAt(df::FixedVector position) {
+  return {df::cellOf(position.x), df::cellOf(position.y)};
+}
+
+/// Players with views that follow things, all of whom hear everything, and what they knew at each tick.
+class LookBackViews : public testing::Test {
+ protected:
+  static constexpr std::size_t kPlayers = 3;
+
+  void tick() {
+    world.tick();
+    publisher.update(world.view());
+    memory.note(publisher, world.view());
+    for (std::size_t i = 0; i < kPlayers; ++i) {
+      senders[i].note(publisher, player(i));
+      for (const auto& packet : senders[i].build(publisher, {64, kMaxSnapshot, false})) {
+        Snapshot snapshot;
+        ASSERT_EQ(replicas[i].read(packet.bytes, snapshot), ReadResult::kOk);
+        replicas[i].apply(snapshot);
+      }
+      senders[i].acknowledge({senders[i].newestNumber(), ~std::uint64_t{0}});
+      known[world.tickNumber()].push_back(replicas[i]);
+    }
+    known.erase(world.tickNumber() - LookBack::kTicks - 1);
+  }
+  const df::PlayerFacts& player(std::size_t i) const { return world.view().players[i]; }
+
+  test::SimulatedWorld world{{.width = 200, .height = 80, .players = kPlayers, .refollow = 0.02}, 7};
+  Publisher publisher;
+  LookBack memory;
+  std::vector<SnapshotSender> senders{kPlayers, SnapshotSender(Resend::kOnGap)};
+  std::vector<Replica> replicas{kPlayers};
+  std::map<std::uint32_t, std::vector<Replica>> known;  ///< by tick, one for each player
+};
+
+TEST_F(LookBackViews, AreWhereTheClientThatKnewTheBaseDrewThem) {
+  SplitMix64 rng(3);
+  int compared = 0;
+  int scrolled = 0;
+  for (int t = 0; t < 1500; ++t) {
+    ASSERT_NO_FATAL_FAILURE(tick());
+    if (t < 40) continue;
+    for (std::size_t i = 0; i < kPlayers; ++i) {
+      const auto drawn_age = static_cast<std::uint32_t>(rng.below(LookBack::kMostBehind + 1));
+      const auto base_age = drawn_age + static_cast<std::uint32_t>(rng.below(LookBack::kMostBehind + 1));
+      const df::Seen seen{true, world.tickNumber() - base_age, world.tickNumber() - drawn_age};
+      const Replica& then = known.at(seen.base)[i];
+      const ObjectState* p_followed = then.followed();
+      // A client leaves out how it came where it is, which matters only if that was not straight.
+      if (p_followed != nullptr && !(p_followed->motion.acceleration == df::FixedVector{})) continue;
+      const auto corner = memory.viewCornerOf(player(i).id, seen);
+      ASSERT_TRUE(corner);
+      EXPECT_EQ(cellAt(*corner), then.viewCorner(seen.drawn))
+          << "tick " << world.tickNumber() << ", player " << i << ", " << base_age << ", " << drawn_age;
+      ++compared;
+      scrolled += cellAt(*corner) == cellAt(player(i).view_corner) ? 0 : 1;
+    }
+  }
+  EXPECT_GT(compared, 3000);
+  EXPECT_GT(scrolled, 300) << "the present corner would have been wrong";
+  std::printf("compared=%d scrolled=%d\n", compared, scrolled);
+}
+
+TEST_F(LookBackViews, OfWhoIsUnknownOrTooLongAgoNothingIsSaid) {
+  for (int t = 0; t < 50; ++t) ASSERT_NO_FATAL_FAILURE(tick());
+  const std::uint32_t now = world.tickNumber();
+  const std::uint32_t id = player(1).id;
+  EXPECT_TRUE(memory.viewCornerOf(id, {true, now, now}));
+  EXPECT_FALSE(memory.viewCornerOf(id, {}));
+  EXPECT_FALSE(memory.viewCornerOf(999, {true, now, now}));
+  EXPECT_EQ(memory.viewCornerOf(id, {true, now - 1000, now}),
+            memory.viewCornerOf(id, {true, now - LookBack::kTicks, now}));
+  EXPECT_EQ(memory.viewCornerOf(id, {true, now - 20, now - 100}),
+            memory.viewCornerOf(id, {true, now - 20, now - LookBack::kMostBehind}));
+}
+
+TEST_F(LookBackViews, AreWhereTheyAreForWhoSteersWhatTheyFollow) {
+  for (int t = 0; t < 50; ++t) ASSERT_NO_FATAL_FAILURE(tick());
+  df::WorldView view = world.view();
+  df::PlayerFacts& steers = view.players[0];
+  steers.followed = {3, 1};
+  steers.steering.object = steers.followed;
+  memory.note(publisher, view);
+  const df::Seen seen{true, world.tickNumber(), world.tickNumber()};
+  EXPECT_TRUE(memory.viewCornerOf(steers.id, seen)) << "by no declared controls";
+  steers.steering.p_table = std::make_shared<const df::ControlTable>();
+  memory.note(publisher, view);
+  EXPECT_FALSE(memory.viewCornerOf(steers.id, seen)) << "the client draws it ahead";
+  EXPECT_TRUE(memory.viewCornerOf(view.players[1].id, seen));
+  steers.steering.object = {4, 1};
+  memory.note(publisher, view);
+  EXPECT_TRUE(memory.viewCornerOf(steers.id, seen)) << "he follows another one than he steers";
 }
 
 TEST(SnapshotTicksTest, KnowsTheLastSnapshotsOnly) {

@@ -29,13 +29,27 @@ class SoundNewsTest : public testing::Test {
     once.clear();
     lasting.clear();
     news.tick(view, [&](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
-      EXPECT_LE(message.sounds().sounds_size(), static_cast<int>(kMaxSounds));
       for (const wire::Sound& heard : message.sounds().sounds())
         (lasts ? lasting : once)[player].push_back(heard.label());
-      last = message;
-      return sends;
+      return take(message);
     });
     view.sounds.clear();
+  }
+  /// The world ends; what is told of it is marked with a minus where it is a stop.
+  void changeWorld() {
+    once.clear();
+    lasting.clear();
+    news.changeWorld([&](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
+      for (const wire::Sound& heard : message.sounds().sounds())
+        (lasts ? lasting : once)[player].push_back((heard.action() == wire::Sound::STOP ? "-" : "+") +
+                                                   heard.label());
+      return take(message);
+    });
+  }
+  bool take(const wire::ServerMessage& message) {
+    EXPECT_LE(message.sounds().sounds_size(), static_cast<int>(kMaxSounds));
+    last = message;
+    return sends;
   }
 
   SoundNews news;
@@ -138,6 +152,50 @@ TEST_F(SoundNewsTest, WhoIsNewHearsOfWhatGoesOn) {
   view.players.erase(view.players.begin());
   tick();
   EXPECT_TRUE(lasting.empty());
+}
+
+TEST_F(SoundNewsTest, WithTheWorldEndsWhatLastedInIt) {
+  view.playing = {{"theme", df::SoundPlayed::kPlay, true, true, 0}};
+  tick();
+  view.playing.push_back({"siren", df::SoundPlayed::kPlay, false, true, 2});
+  view.sounds = {{"siren", df::SoundPlayed::kPlay, false, true, 2},
+                 {"fire", df::SoundPlayed::kPlay, false, false, 2},
+                 {"jingle", df::SoundPlayed::kPlay, true, false, 0},
+                 {"storm", df::SoundPlayed::kPlay, false, true, 0}};
+  tick();
+  view.tick += 100;
+  view.sounds = {{"storm", df::SoundPlayed::kStop, false, true, 0},
+                 {"theme", df::SoundPlayed::kPause, true, true, 0}};
+  tick();
+  changeWorld();
+  EXPECT_EQ(lasting, (std::map<std::uint32_t, Labels>{{1, {"-siren", "-jingle", "-theme"}},
+                                                      {2, {"-siren", "-jingle", "-theme"}}}));
+  EXPECT_TRUE(once.empty());
+  EXPECT_FALSE(last.sounds().sounds(0).music());
+  EXPECT_TRUE(last.sounds().sounds(0).loop());
+  EXPECT_EQ(last.sounds().sounds(0).player(), 0u) << "it is nobody's doing";
+  EXPECT_TRUE(last.sounds().sounds(1).music());
+
+  changeWorld();
+  EXPECT_TRUE(lasting.empty()) << "once";
+  view.playing = {{"theme", df::SoundPlayed::kPlay, true, true, 0}};
+  tick();
+  EXPECT_EQ(lasting[1], Labels{"theme"}) << "what goes on in the next world is new to all";
+}
+
+TEST_F(SoundNewsTest, WhatLoopsIsStoppedHoweverMuchMusicWasPlayedSince) {
+  play(1);
+  tick();
+  view.sounds = {{"siren", df::SoundPlayed::kPlay, false, true, 0}};
+  tick();
+  for (int i = 0; i < 100; ++i) {
+    view.sounds = {{"tune " + std::to_string(i), df::SoundPlayed::kPlay, true, false, 0}};
+    tick();
+  }
+  changeWorld();
+  ASSERT_EQ(lasting[1].size(), kMaxSounds);
+  EXPECT_EQ(lasting[1].front(), "-siren");
+  EXPECT_EQ(lasting[1].back(), "-tune 99");
 }
 
 TEST_F(SoundNewsTest, LabelsAreMadeFitForAWire) {

@@ -45,16 +45,21 @@ class Flyer : public df::Object {
 
 class WorldServerTest : public testing::Test {
  protected:
-  WorldServerTest() {
+  /// `scrolls`: the view follows what flies, through a world that is wider.
+  explicit WorldServerTest(bool scrolls = false) {
     int sockets[2];
     EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, sockets), 0);
     m_socket = sockets[0];
-    m_thread = std::thread([this, theirs = sockets[1]] {
+    m_thread = std::thread([this, theirs = sockets[1], scrolls] {
       df::World world;
       world.setLogSink([](const std::string&) {});
       const df::World::Scope scope(world);
       world.setLookingBack(true);
-      new Flyer(hits);
+      auto* p_flyer = new Flyer(hits);
+      if (scrolls) {
+        world.setBoundary(df::Box(df::Vector(), 400, 24));
+        world.setViewFollowing(p_flyer);
+      }
       WorldServer(theirs, true).run(world);
       over = world.isGameOver();
       world.shutDown();
@@ -128,6 +133,29 @@ TEST_F(WorldServerTest, AClickHitsWhatWasOnThePlayersScreen) {
                               .y = 5};
   turn({click});
   click.x = 21;
+  turn({click});
+  end();
+  EXPECT_EQ(hits, 1);
+}
+
+class ScrollingWorldServerTest : public WorldServerTest {
+ protected:
+  ScrollingWorldServerTest() : WorldServerTest(true) {}
+};
+
+TEST_F(ScrollingWorldServerTest, AClickIsInTheViewAsItWasOnThePlayersScreen) {
+  turn({join(7)});
+  while (view.tick < 80) turn();
+  // In tick 78 it was in cell 88, two thirds into a view of 80 cells; now both are farther to the right.
+  df::InputQueue::Input click{.kind = df::InputQueue::kMouse,
+                              .player = 7,
+                              .seen = {true, 76, 78},
+                              .button = df::Mouse::LEFT,
+                              .mouse_action = df::CLICKED,
+                              .x = 53,
+                              .y = 5};
+  turn({click});
+  click.x = 55;
   turn({click});
   end();
   EXPECT_EQ(hits, 1);

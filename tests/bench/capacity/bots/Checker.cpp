@@ -61,7 +61,7 @@ void Checker::update(Time now) {
 
 bool Checker::isReady(Time now) {
   ClientSession* session = m_connection.session();
-  return session != nullptr && session->hasPicture() && session->hasDatagrams(now);
+  return session != nullptr && session->hasPicture(now) && session->hasDatagrams(now);
 }
 
 }  // namespace bench::capacity

@@ -1,0 +1,59 @@
+// Who joins a world that takes many snapshots sees nothing of it before he sees all of it.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "DisplayManager.h"
+#include "Object.h"
+#include "TestClient.h"
+#include "TestServer.h"
+
+namespace naiad::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kObjects = 3000;
+
+/// A word that no other one says, so that each takes its own place in a snapshot.
+struct Word : df::Object {
+  explicit Word(int number) : text("word " + std::to_string(number)) {
+    setSolidness(df::SPECTRAL);
+    setPosition(df::Vector(number % 70, number % 24));
+  }
+  int draw() override { return DM.drawString(getPosition(), text, df::LEFT_JUSTIFIED, df::CYAN); }
+  std::string text;
+};
+
+TEST(FirstPicture, IsTheWholeWorld) {
+  TestServer server([](df::World&) {
+    for (int i = 0; i < kObjects; ++i) new Word(i);
+  });
+  asio::io_context context;
+  TestClient ann(context, server.port(), "ann");
+  std::optional<Clock::time_point> first;
+  std::size_t at_first = 0;
+  std::uint64_t frames = 0;
+  ann.connection().onSession([&](ClientSession& session) {
+    session.onAfterSnapshot([&](const SnapshotHeader& header, const AckWindow&) {
+      ++frames;
+      if (first) return;
+      EXPECT_FALSE(header.complete);
+      first = Clock::now();
+      at_first = session.replica().aliveCount();
+    });
+  });
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  const auto held = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - *first);
+  EXPECT_GE(frames, 3u);
+  EXPECT_LT(at_first, kObjects);
+  // On a machine that is too busy somebody may have had to wait for longer than anybody is made to.
+  if (held < WorldFeed::kPatience) EXPECT_EQ(ann.session().replica().aliveCount(), kObjects);
+  std::printf("snapshots=%llu first_had=%zu joined_with=%zu held_us=%lld\n",
+              static_cast<unsigned long long>(frames), at_first, ann.session().replica().aliveCount(),
+              static_cast<long long>(held.count()));
+}
+
+}  // namespace
+}  // namespace naiad::test
