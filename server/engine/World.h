@@ -91,7 +91,7 @@ class World {
   /// happens inside a tick, which does it at its end.
   void draw();
   /// Run the game: through the Runner if one is set, else through program(), else tick() after tick() until
-  /// the game is over.
+  /// the game is over. Without a Runner it goes on after a run that has ended, if GM.startUp() was called.
   /// Nothing happens inside a tick, update or draw.
   void run();
   /// Ticks begun since the world began.
