@@ -145,7 +145,8 @@ void World::run() {
     return;
   }
   // Many games show a title in a run of its own, which ends with the game over, and then run again.
-  if (isStarted(kGameStarted)) m_game_over = false;
+  if (isStarted(kGameHasRun)) m_game_over = false;
+  if (isStarted(kGameStarted)) setStarted(kGameHasRun, true);
   if (running::Program* p_program = program()) return p_program->run(*this);
   while (!m_game_over) tick();
 }
