@@ -14,6 +14,8 @@ class EventMouseNetwork : public EventMouse {
 
   void setSocket(int new_sock) { m_sock = new_sock; }
   int getSocket() const { return m_sock; }
+  void setSocketIndex(int new_socket_index) { m_sock = new_socket_index; }
+  int getSocketIndex() const { return m_sock; }
 
  private:
   int m_sock = -1;

@@ -18,6 +18,9 @@
 
 namespace df {
 
+// The macros of the managers say df:: themselves; games write df::GM.run() nevertheless.
+namespace df = ::df;
+
 class Manager {
  public:
   Manager() = default;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "Manager.h"
+#include "NetworkNode.h"
 #include "StandardHeaders.h"
 
 #define NM df::NetworkManager::getInstance()

@@ -33,6 +33,7 @@ class NetworkNode : public Object {
   virtual int handleConnect(const EventNetwork* /*p_e*/) { return 0; }
   virtual int handleAccept(const EventNetwork* /*p_e*/) { return 0; }
   virtual int handleData(const EventNetwork* /*p_e*/) { return 0; }
+  virtual int handleClose(const EventNetwork* /*p_e*/) { return 0; }
   virtual Object* createObject(std::string /*object_type*/) { return nullptr; }
 
   // -1, all of them.
@@ -65,5 +66,9 @@ class NetworkNode : public Object {
  private:
   static int refuse();
 };
+
+/// "sync-object" and so on. Declared here and not in utility.h, so that games that bring a NetworkManager and
+/// its events of their own, in this namespace, meet none of these unless they ask for them.
+std::string toString(MessageType message);
 
 }  // namespace df

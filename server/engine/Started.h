@@ -10,6 +10,7 @@ enum Started : unsigned {
   kDisplayStarted = 8,
   kInputStarted = 16,
   kResourcesStarted = 32,
+  kGameHasRun = 64,  ///< GM.run() has been there since
 };
 
 }  // namespace df

@@ -16,6 +16,7 @@
 #include "Mover.h"
 #include "Object.h"
 #include "Runner.h"
+#include "Started.h"
 #include "Views.h"
 #include "WorldExtras.h"
 #include "WorldStore.h"
@@ -143,6 +144,9 @@ void World::run() {
     m_p_runner->run(*this);
     return;
   }
+  // Many games show a title in a run of its own, which ends with the game over, and then run again.
+  if (isStarted(kGameHasRun)) m_game_over = false;
+  if (isStarted(kGameStarted)) setStarted(kGameHasRun, true);
   if (running::Program* p_program = program()) return p_program->run(*this);
   while (!m_game_over) tick();
 }

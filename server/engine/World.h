@@ -91,8 +91,8 @@ class World {
   /// happens inside a tick, which does it at its end.
   void draw();
   /// Run the game: through the Runner if one is set, else through program(), else tick() after tick() until
-  /// the game is over.
-  /// Nothing happens inside a tick, update or draw.
+  /// the game is over. Without a Runner it goes on after a run that has ended, if GM.startUp() was called; a
+  /// game that is over before the first one is over. Nothing happens inside a tick, update or draw.
   void run();
   /// Ticks begun since the world began.
   int getStepCount() const { return m_step_count; }

@@ -11,7 +11,6 @@
 #include "EventKeyboard.h"
 #include "EventMouse.h"
 #include "Line.h"
-#include "NetworkNode.h"
 #include "Object.h"
 #include "Particle.h"
 #include "Path.h"
@@ -76,7 +75,6 @@ std::string toString(const Path& path);
 std::string toString(Keyboard::Key key_val);
 std::string toString(Solidness solid);
 std::string toString(ViewObjectLocation location);
-std::string toString(MessageType message);
 /// Ones and zeros, the highest bit first.
 std::string maskToString(unsigned int mask);
 /// The value of the key `find` in "key:value,key:value,…", blanks left out; empty if there is none. An empty

@@ -8,6 +8,7 @@
 #include "ConfigText.h"
 #include "GameManager.h"
 #include "LogManager.h"
+#include "NetworkNode.h"
 #include "World.h"
 #include "utility.h"
 

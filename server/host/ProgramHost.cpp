@@ -165,7 +165,8 @@ void ProgramHost::seed(df::World& world) const {
 }
 
 void ProgramHost::run(df::World& world) {
-  // A game that runs again finds that it is over.
+  if (m_stopped) return world.setGameOver();
+  // A world in a process of its own has one run: its game that runs again finds that it is over.
   if (m_world_socket)
     return WorldServer(std::exchange(*m_world_socket, -1), leavesAlone(m_options)).run(world);
   if (m_options.headless) return runHeadless(world);
@@ -176,10 +177,12 @@ void ProgramHost::run(df::World& world) {
   } catch (const std::exception& error) {
     fail(kFile, error.what());
   }
+  // Players have left, or somebody has stopped the server: no more of the game, whatever its main() says.
+  m_stopped = !world.isGameOver();
 }
 
-void ProgramHost::runHeadless(df::World& world) const {
-  for (int ticks = 0; !world.isGameOver() && (m_options.ticks == 0 || ticks < m_options.ticks); ++ticks) {
+void ProgramHost::runHeadless(df::World& world) {
+  for (; !world.isGameOver() && (m_options.ticks == 0 || m_ticks < m_options.ticks); ++m_ticks) {
     world.tick();
   }
 }
@@ -196,12 +199,14 @@ void ProgramHost::serve(df::World& world) {
   for (const std::string& line : how) std::cout << line << std::endl;
   std::cout << "Compatible with the published engine: " << (world.compat() ? "yes (compat)" : "no")
             << std::endl;
+  const std::vector<std::string> help = world.getHelp();
   addToHelp(world, how);
 
   if (wantsWorlds(m_options)) host->setWorlds(startWorlds());
   Company company(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&company](df::World&) { company.look(); });
   host->run(world);
+  world.setHelp(help);
   if (!host->failure().empty()) fail(kGameFailed, "the game " + host->failure());
 }
 

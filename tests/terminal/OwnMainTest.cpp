@@ -109,6 +109,23 @@ TEST_F(OwnMain, InATerminalItIsPlayedThere) {
   EXPECT_TRUE(has(log, "ann joined")) << log;
 }
 
+TEST_F(OwnMain, PlaysOnAfterATitleWithARunOfItsOwn) {
+  auto game = start({{"LONE_TITLE", "1"}});
+  ASSERT_TRUE(game->waitFor("TITLE")) << game->output();
+  game->type(kRight);
+  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  game->type("q");
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, WhoLeavesAtTheTitleHasLeft) {
+  auto game = start({{"LONE_TITLE", "1"}});
+  ASSERT_TRUE(game->waitFor("TITLE")) << game->output();
+  game->type(kCtrlC);
+  expectOrderlyEnd(*game);
+  EXPECT_FALSE(has(game->output(), "WALKED-"));
+}
+
 TEST_F(OwnMain, EndsWhenItsPlayerLeaves) {
   auto game = start();
   ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();

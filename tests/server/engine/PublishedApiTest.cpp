@@ -2,6 +2,11 @@
 // namespace`, with and without `df::`, relying on what the engine's headers bring along. That it compiles is
 // the test; that it runs shows that nothing of it is a trap.
 
+#include <vector.h>
+
+#include <SFML/Graphics/RenderWindow.hpp>
+#include <SFML/Window/Mouse.hpp>
+
 #include "Animation.h"
 #include "Box.h"
 #include "Button.h"
@@ -250,6 +255,7 @@ class Node : public NetworkNode {
  public:
   int eventHandler(const Event* p_e) override { return NetworkNode::eventHandler(p_e); }
   int handleData(const EventNetwork* p_e) override { return p_e->getBytes() + p_e->getSocket(); }
+  int handleClose(const EventNetwork* p_e) override { return p_e->getSocketIndex(); }
   Object* createObject(std::string object_type) override { return object_type == "Hero" ? new Hero : NULL; }
 };
 
@@ -408,6 +414,8 @@ void utilities() {
   EventNetworkCustom custom(NetworkEventLabel::DATA);
   EventMouseNetwork mouse;
   EventKeyboardNetwork keyboard;
+  mouse.setSocketIndex(1);
+  keyboard.setSocketIndex(mouse.getSocketIndex());
   if (create.getObject() != &o || custom.getMessage() || mouse.getType() != NETWORK_MSE_EVENT) exit(1);
   if (create.getLabel() == NetworkEventLabel::CLOSE || custom.getType() != NETWORK_CUSTOM_EVENT) exit(1);
   Vector v;

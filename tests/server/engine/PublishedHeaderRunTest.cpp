@@ -10,6 +10,8 @@ df::ObjectListIterator overObjectsOf(df::ObjectList& list);
 bool isWayFound(const df::Event* p_e);
 float nearTo(const df::Object* p_o);
 int namesOfAGame();
+int stepsOfTheEngineSpelledTwice();
+std::string ping(int count);
 void pastTheEngine();
 int logStrings(const df::Object& o);
 
@@ -28,7 +30,13 @@ TEST_F(PublishedHeader, BringsAlongWhatGamesName) {
   EXPECT_TRUE(isWayFound(std::make_unique<EventPath>().get()));
   EXPECT_FLOAT_EQ(nearTo(&a), std::sqrt(5.0f));
   EXPECT_GT(namesOfAGame(), 0);
+  EXPECT_EQ(stepsOfTheEngineSpelledTwice(), WM.getAllObjects().getCount());
   pastTheEngine();
+}
+
+TEST(PublishedHeaderMicrosoft, WhatDoesNotFitIsCutOff) {
+  EXPECT_EQ(ping(7), "Ping 7!");
+  EXPECT_EQ(ping(1234567), "Ping 12");
 }
 
 TEST_F(PublishedHeader, StringsAreLoggedAsTheyAre) {

@@ -37,7 +37,10 @@ using namespace df;
 class Button : public Object {};
 class Clock : public Object {};
 class Entry : public Object {};
+class EventNetwork : public Event {};
 class Fader : public Object {};
+enum class MessageType { UNDEFINED = -1, EXIT, CHAT };
+class NetworkManager : public Manager {};
 class Pause : public Object {};
 class Settings : public Object {};
 class State : public Object {};
@@ -47,13 +50,31 @@ int namesOfAGame() {
   Button button;
   Clock clock;
   Entry entry;
+  EventNetwork event_network;
   Fader fader;
+  NetworkManager network_manager;
   Pause pause;
   Settings settings;
   State state;
   TextBox text_box;
   return button.getId() + clock.getId() + entry.getId() + fader.getId() + pause.getId() + settings.getId() +
-         state.getId() + text_box.getId();
+         state.getId() + text_box.getId() + static_cast<int>(MessageType::CHAT) +
+         static_cast<int>(event_network.getType().size()) + network_manager.onEvent(&event_network);
+}
+
+int stepsOfTheEngineSpelledTwice() {
+  return df::GM.getStepCount() + df::WM.getAllObjects().getCount();
+}
+
+// As Microsoft has them.
+std::string ping(int count) {
+  char line[12];
+  sprintf_s(line, "Ping %d", count);
+  char copy[8];
+  strcpy_s(copy, line);
+  strcat_s(copy, sizeof copy, "!");
+  sprintf_s(line, sizeof line, "%s", copy);
+  return line;
 }
 
 // What games draw and ask past the engine, without a header of the graphics library.

@@ -130,6 +130,22 @@ TEST_F(WorldLife, RunWithoutRunnerTicksUntilGameOver) {
   EXPECT_EQ(GM.getStepCount(), 7);
 }
 
+TEST_F(WorldLife, RunGoesOnAfterOneThatEnded) {
+  GM.startUp();
+  Probe p("title");
+  p.registerInterest(STEP_EVENT);
+  int handled = 0;
+  p.on_event = [&](Probe&, const Event&) {
+    if (++handled % 3 == 0) GM.setGameOver();
+  };
+  GM.run();
+  EXPECT_EQ(handled, 3);
+  EXPECT_TRUE(GM.getGameOver());
+  GM.run();
+  EXPECT_EQ(handled, 6);
+  EXPECT_TRUE(GM.getGameOver());
+}
+
 TEST_F(WorldLife, RunInsideAHandlerReturnsAtOnce) {
   Probe p("p");
   p.registerInterest(STEP_EVENT);

@@ -49,9 +49,34 @@ class Walker : public Object {
   int step = 0;
 };
 
+// Any key ends it, and with it the run that it has to itself.
+class Title : public Object {
+ public:
+  Title() {
+    registerInterest(KEYBOARD_EVENT);
+    registerInterest(STEP_EVENT);
+  }
+  int eventHandler(const Event* p_e) {
+    if (p_e->getType() == KEYBOARD_EVENT) seen = true;
+    if (p_e->getType() == STEP_EVENT && seen) {
+      WM.markForDelete(this);
+      GM.setGameOver();
+    }
+    return 1;
+  }
+  int draw() { return DM.drawString(Vector(40, 6), "TITLE", LEFT_JUSTIFIED, GREEN); }
+
+ private:
+  bool seen = false;
+};
+
 int main() {
   GM.startUp();
   LM.setFlush(true);
+  if (getenv("LONE_TITLE") != NULL) {
+    new Title;
+    GM.run();
+  }
   new Walker;
   std::cout << "before the game" << std::endl;
   GM.run();
