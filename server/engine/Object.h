@@ -270,13 +270,15 @@ class Object {
   /// These note which Objects were made with `new`, so that the world knows which ones are its to delete.
   /// (Elements of an array made with `new[]` are not.)
   static void* operator new(std::size_t size);
-  static void* operator new(std::size_t size, std::align_val_t align);
   static void* operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept;
   static void* operator new(std::size_t, void* p_place) noexcept { return p_place; }
   static void operator delete(void* p) noexcept;
-  static void operator delete(void* p, std::align_val_t align) noexcept;
   static void operator delete(void* p, const std::nothrow_t& /*nothrow*/) noexcept { operator delete(p); }
   static void operator delete(void*, void*) noexcept {}
+#if defined(__cpp_aligned_new)
+  static void* operator new(std::size_t size, std::align_val_t align);
+  static void operator delete(void* p, std::align_val_t align) noexcept;
+#endif
 
  protected:
   /// Its position is a cell of the view, and it is drawn wherever that is (ViewObject.h).
