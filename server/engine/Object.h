@@ -34,6 +34,12 @@
 #include "Vector.h"
 #include "WorldView.h"
 
+/// What draw() returns: int. Games of the published engine's first versions have a `void draw()`, and are
+/// compiled with -DDF_DRAW=void; nobody looks at what it returns.
+#if !defined(DF_DRAW)
+#define DF_DRAW int
+#endif
+
 namespace naiad {
 struct Look;
 class Sequence;
@@ -175,7 +181,7 @@ class Object {
   /// Called once a tick while the Object is active, visible and in view, to put characters on the screen
   /// with DM.drawCh() and DM.drawString(). As it is here it shows the sprite and the shape, if there are
   /// such, or the frame whose turn it is, if the Object has frames. Return 0, else -1.
-  virtual int draw();
+  virtual DF_DRAW draw();
 
   /// Show this sprite (RM.loadSprite), from its first frame on. Unless `set_box` is false, the box becomes
   /// the sprite's: its size, the position in the middle. Where characters are compared (setPrecise), those of

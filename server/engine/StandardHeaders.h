@@ -36,3 +36,5 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "Microsoft.h"
