@@ -10,7 +10,7 @@ class Debris : public Particle {
   /// Terminals do not turn characters: `rotate`, degrees a tick, is kept and not seen.
   Debris(int age, unsigned char opacity, Color color, Vector velocity, char ch, float rotate);
 
-  int draw() override;
+  DF_DRAW draw() override;
 
  private:
   char m_ch;

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "Dialect.h"
+
 namespace df {
 
 class EventType : public std::string {

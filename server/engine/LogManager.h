@@ -33,11 +33,13 @@ class LogManager : public Manager {
   /// The same, if `log_level` is not above the level set (compat: not below it); else return 0.
   int writeLog(int log_level, const char* fmt, ...) const __attribute__((format(printf, 3, 4)));
   /// The same with a std::string among what is to be printed, which printf could not take: "%s" prints it.
-  template <class... Printed, class = std::enable_if_t<(std::is_base_of_v<std::string, Printed> || ...)>>
+  template <class... Printed,
+            class = typename std::enable_if<(std::is_base_of<std::string, Printed>::value || ...)>::type>
   int writeLog(const char* fmt, const Printed&... printed) const {
     return writeLog(fmt, printable(printed)...);
   }
-  template <class... Printed, class = std::enable_if_t<(std::is_base_of_v<std::string, Printed> || ...)>>
+  template <class... Printed,
+            class = typename std::enable_if<(std::is_base_of<std::string, Printed>::value || ...)>::type>
   int writeLog(int log_level, const char* fmt, const Printed&... printed) const {
     return writeLog(log_level, fmt, printable(printed)...);
   }
@@ -59,13 +61,11 @@ class LogManager : public Manager {
 
  private:
   LogManager() { setType("LogManager"); }
+  static const char* printable(const std::string& printed) { return printed.c_str(); }
   template <class T>
-  static auto printable(const T& printed) {
-    if constexpr (std::is_base_of_v<std::string, T>) {
-      return printed.c_str();
-    } else {
-      return printed;
-    }
+  static typename std::enable_if<!std::is_base_of<std::string, T>::value, const T&>::type printable(
+      const T& printed) {
+    return printed;
   }
 };
 

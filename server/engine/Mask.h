@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +15,18 @@ class Mask {
   /// Largest width and height in characters.
   static constexpr int kMaxSide = 1024;
 
+#if __cplusplus >= 201703L
   /// One string per row, UTF-8; a character is set unless it is a blank or `hole`. Shorter rows are padded
   /// with holes. Nothing if there is no row, no character at all, or a side is longer than kMaxSide.
   static std::optional<Mask> fromRows(const std::vector<std::string>& rows, char32_t hole = U' ');
+#endif
 
-  int width() const { return m_width; }
-  int height() const { return m_height; }
+  int width() const {
+    return m_width;
+  }
+  int height() const {
+    return m_height;
+  }
   /// Is character (x,y) set? False outside.
   bool isSet(int x, int y) const;
 

@@ -34,6 +34,12 @@
 #include "Vector.h"
 #include "WorldView.h"
 
+/// What draw() returns: int. Games of the published engine's first versions have a `void draw()`, and are
+/// compiled with -DDF_DRAW=void; nobody looks at what it returns.
+#if !defined(DF_DRAW)
+#define DF_DRAW int
+#endif
+
 namespace naiad {
 struct Look;
 class Sequence;
@@ -175,7 +181,7 @@ class Object {
   /// Called once a tick while the Object is active, visible and in view, to put characters on the screen
   /// with DM.drawCh() and DM.drawString(). As it is here it shows the sprite and the shape, if there are
   /// such, or the frame whose turn it is, if the Object has frames. Return 0, else -1.
-  virtual int draw();
+  virtual DF_DRAW draw();
 
   /// Show this sprite (RM.loadSprite), from its first frame on. Unless `set_box` is false, the box becomes
   /// the sprite's: its size, the position in the middle. Where characters are compared (setPrecise), those of
@@ -270,13 +276,15 @@ class Object {
   /// These note which Objects were made with `new`, so that the world knows which ones are its to delete.
   /// (Elements of an array made with `new[]` are not.)
   static void* operator new(std::size_t size);
-  static void* operator new(std::size_t size, std::align_val_t align);
   static void* operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept;
   static void* operator new(std::size_t, void* p_place) noexcept { return p_place; }
   static void operator delete(void* p) noexcept;
-  static void operator delete(void* p, std::align_val_t align) noexcept;
   static void operator delete(void* p, const std::nothrow_t& /*nothrow*/) noexcept { operator delete(p); }
   static void operator delete(void*, void*) noexcept {}
+#if defined(__cpp_aligned_new)
+  static void* operator new(std::size_t size, std::align_val_t align);
+  static void operator delete(void* p, std::align_val_t align) noexcept;
+#endif
 
  protected:
   /// Its position is a cell of the view, and it is drawn wherever that is (ViewObject.h).

@@ -4,6 +4,8 @@
 #include <array>
 #include <string>
 
+#include "Dialect.h"
+
 namespace df {
 
 /// One bit each.

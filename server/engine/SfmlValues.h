@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "Dialect.h"
+
 namespace sf {
 
 template <class T>

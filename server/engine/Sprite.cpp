@@ -61,9 +61,9 @@ int Sprite::draw(int frame_number, Vector position, char transparency) const {
 
 const Mask* Sprite::mask(int frame_number) const {
   if (frame_number < 0 || frame_number >= getFrameCount()) return nullptr;
-  if (m_masks.size() != m_frames.size()) m_masks.assign(m_frames.size(), std::nullopt);
+  if (m_masks.size() != m_frames.size()) m_masks.assign(m_frames.size(), nullptr);
   const auto i = static_cast<std::size_t>(frame_number);
-  if (!m_masks[i]) {
+  if (m_masks[i] == nullptr) {
     const Frame& frame = m_frames[i];
     std::vector<std::string> rows;
     for (int y = 0; y < frame.getHeight(); ++y) {
@@ -75,9 +75,9 @@ const Mask* Sprite::mask(int frame_number) const {
         row += hole ? ' ' : '#';
       }
     }
-    m_masks[i] = Mask::fromRows(rows);
+    m_masks[i] = std::make_shared<const Mask>(Mask::fromRows(rows).value_or(Mask()));
   }
-  return m_masks[i] ? &*m_masks[i] : nullptr;
+  return m_masks[i]->width() > 0 ? m_masks[i].get() : nullptr;
 }
 
 const naiad::Sequence& Sprite::pictures() const {

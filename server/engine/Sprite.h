@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,7 +77,8 @@ class Sprite {
   char m_transparency = 0;
   std::vector<Frame> m_frames;
   std::string m_label;
-  mutable std::vector<std::optional<Mask>> m_masks;  // by frame, made when they are first asked for
+  // By frame, made when they are first asked for; null: not yet, an empty one: the frame has no character.
+  mutable std::vector<std::shared_ptr<const Mask>> m_masks;
   mutable std::shared_ptr<const naiad::Sequence> m_p_pictures;  // likewise
 };
 

@@ -37,4 +37,4 @@
 #include <utility>
 #include <vector>
 
-#include "MicrosoftNames.h"
+#include "Microsoft.h"

@@ -35,7 +35,7 @@ class TextBox : public ViewObject {
   bool getWordWrap() const { return m_word_wrap; }
 
   /// The box around its place, and in it the last lines.
-  int draw() override;
+  DF_DRAW draw() override;
   /// The text in lines as they are shown, all of them.
   std::vector<std::string> lines() const;
 

@@ -53,7 +53,7 @@ class TextEntry : public ViewObject {
 
   int eventHandler(const Event* p_e) override;
   /// The view string, then the text with the cursor.
-  int draw() override;
+  DF_DRAW draw() override;
 
  private:
   bool hears(const EventKeyboard& key) const;

@@ -40,7 +40,7 @@ class ViewObject : public Object {
   ViewObject();
 
   /// " text value " around its place, with a border around it if there is to be one. Return 0, else -1.
-  int draw() override;
+  DF_DRAW draw() override;
   /// Take a VIEW_EVENT whose tag is the text. Return 1 if it did, else 0.
   int eventHandler(const Event* p_e) override;
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -97,11 +96,13 @@ class WorldManager : public Manager {
   /// and whether or not p_o is swept (docs/collisions.md): nothing moves, nobody hears. Nobody for null, for
   /// an Object that is SPECTRAL, inactive or in no world, and for a position out of range.
   Contact firstContact(const Object* p_o, Vector where) const;
+#if __cplusplus >= 201703L
   /// The position nearest to `near`, a whole number of cells from it on each axis, at which `box` (relative
   /// to the position, as in Object::setBox) touches no solid Object and lies inside the boundary; of equally
   /// near ones the one with the least y, then x. Nothing if there is none within 1000 cells, or if an
   /// argument is out of range.
   std::optional<Vector> findFree(Box box, Vector near) const;
+#endif
   /// All moves of all Objects are swept from now on (Object::setSwept), or only those of the Objects that
   /// ask for it: the default.
   void setSweptCollisions(bool swept = true);
@@ -148,7 +149,9 @@ class WorldManager : public Manager {
   int randomInt(int n);
 
  private:
-  WorldManager() { setType("WorldManager"); }
+  WorldManager() {
+    setType("WorldManager");
+  }
 };
 
 }  // namespace df

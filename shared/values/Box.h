@@ -40,9 +40,11 @@ class Box {
   double m_vertical = 0;
 };
 
+#if __cplusplus >= 201703L
 /// The box in fixed point; nothing if a number is not finite, a size is negative, the corner is beyond
 /// 1e6 cells or a size beyond `size_limit` cells.
 std::optional<FixedBox> toFixed(const Box& box, double size_limit = 1e6);
+#endif
 
 /// The box of a fixed-point box.
 Box fromFixed(const FixedBox& box);

@@ -1,6 +1,8 @@
 // The eight colours of a Dragonfly character (book, Listing 4.66).
 #pragma once
 
+#include "Dialect.h"
+
 namespace df {
 
 /// Values are fixed: they travel on the wire.

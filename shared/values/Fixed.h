@@ -11,7 +11,11 @@
 
 #include <cmath>
 #include <cstdint>
+#if __cplusplus >= 201703L
 #include <optional>
+#endif
+
+#include "Dialect.h"
 
 namespace df {
 
@@ -30,8 +34,6 @@ struct FixedVector {
   Fixed x = 0;
   Fixed y = 0;
 
-  friend constexpr FixedVector operator+(FixedVector a, FixedVector b) { return {a.x + b.x, a.y + b.y}; }
-  friend constexpr FixedVector operator-(FixedVector a, FixedVector b) { return {a.x - b.x, a.y - b.y}; }
   friend constexpr bool operator==(FixedVector a, FixedVector b) { return a.x == b.x && a.y == b.y; }
   friend constexpr bool operator!=(FixedVector a, FixedVector b) { return !(a == b); }
 };
@@ -46,6 +48,25 @@ struct FixedBox {
   }
   friend constexpr bool operator!=(const FixedBox& a, const FixedBox& b) { return !(a == b); }
 };
+
+/// Fixed point -> cells. Exact up to 2^21 cells; beyond that rounded to the nearest double.
+constexpr double toCells(Fixed value) {
+  return static_cast<double>(value) / static_cast<double>(kFixedOne);
+}
+
+/// A whole number of cells as a coordinate.
+constexpr Fixed fromCells(std::int32_t cells) {
+  return static_cast<Fixed>(cells) * kFixedOne;
+}
+
+#if __cplusplus >= 201703L  // games have no use for what follows
+
+constexpr FixedVector operator+(FixedVector a, FixedVector b) {
+  return {a.x + b.x, a.y + b.y};
+}
+constexpr FixedVector operator-(FixedVector a, FixedVector b) {
+  return {a.x - b.x, a.y - b.y};
+}
 
 /// `box` moved by `offset`.
 constexpr FixedBox translate(FixedBox box, FixedVector offset) {
@@ -65,11 +86,6 @@ inline std::optional<Fixed> toFixed(double cells, double limit = kMaxCells) {
   return static_cast<Fixed>(std::llrint(cells * static_cast<double>(kFixedOne)));
 }
 
-/// Fixed point -> cells. Exact up to 2^21 cells; beyond that rounded to the nearest double.
-constexpr double toCells(Fixed value) {
-  return static_cast<double>(value) / static_cast<double>(kFixedOne);
-}
-
 /// The character cell in which a coordinate is drawn: floor(v + 0.5), everywhere (server, client, mouse).
 /// Unsigned inside, so that a number from a hostile peer wraps instead of overflowing.
 constexpr std::int32_t cellOf(Fixed value) {
@@ -77,9 +93,6 @@ constexpr std::int32_t cellOf(Fixed value) {
   return static_cast<std::int32_t>(static_cast<Fixed>(shifted) >> kFixedBits);
 }
 
-/// A whole number of cells as a coordinate.
-constexpr Fixed fromCells(std::int32_t cells) {
-  return static_cast<Fixed>(cells) * kFixedOne;
-}
+#endif
 
 }  // namespace df

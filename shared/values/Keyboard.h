@@ -1,6 +1,8 @@
 // Keys and mouse buttons: names the game reads and numbers the wire carries (book, Listings 4.84 to 4.88).
 #pragma once
 
+#include "Dialect.h"
+
 namespace df {
 
 namespace Keyboard {

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <iosfwd>
-#include <optional>
 #include <string>
 
 #include "Fixed.h"
@@ -64,6 +63,7 @@ class Vector {
   double m_y = 0;
 };
 
+#if __cplusplus >= 201703L
 /// Both components in fixed point; nothing if either is not finite or beyond `limit` cells.
 inline std::optional<FixedVector> toFixed(const Vector& v, double limit = kMaxCells) {
   const auto x = toFixed(v.x(), limit);
@@ -71,5 +71,6 @@ inline std::optional<FixedVector> toFixed(const Vector& v, double limit = kMaxCe
   if (!x || !y) return std::nullopt;
   return FixedVector{*x, *y};
 }
+#endif
 
 }  // namespace df

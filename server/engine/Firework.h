@@ -1,0 +1,14 @@
+// A particle of a firework: in a terminal one like the others.
+#pragma once
+
+#include "Particle.h"
+
+namespace df {
+
+class Firework : public Particle {
+ public:
+  Firework(float size, int age, unsigned char opacity, unsigned char r, unsigned char g, unsigned char b)
+      : Particle(size, age, opacity, r, g, b) {}
+};
+
+}  // namespace df

@@ -1,0 +1,27 @@
+// Shows how many frames the game makes in a second, at the top right in green, as "fps". F9 hides and shows
+// it.
+//
+// The time is the game's, so it is what `frame_time` asks for, however a server keeps up. Nothing is
+// recorded.
+#pragma once
+
+#include <string>
+
+#include "ViewObject.h"
+
+namespace df {
+
+const std::string FRAPS_STRING = "fps";
+
+class Fraps : public ViewObject {
+ public:
+  explicit Fraps(bool do_record = false);
+
+  int eventHandler(const Event* p_e) override;
+
+  /// These have no effect.
+  void setRecord(bool /*new_record*/) {}
+  void setLogFrameRate(bool /*new_do_frame_rate*/) {}
+};
+
+}  // namespace df

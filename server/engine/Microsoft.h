@@ -1,0 +1,78 @@
+// Functions that Microsoft's compiler has beside those of the standard, and that games made with it use.
+#pragma once
+
+#if !defined(_MSC_VER)
+
+#include <cerrno>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+
+#if !defined(_countof)
+#define _countof(array) (sizeof(array) / sizeof((array)[0]))
+#endif
+
+// A game that knows other compilers has macros of these names.
+#if !defined(sprintf_s)
+/// As std::snprintf().
+__attribute__((format(printf, 3, 4))) inline int sprintf_s(char* text, std::size_t size, const char* format,
+                                                           ...) {
+  std::va_list arguments;
+  va_start(arguments, format);
+  const int length = std::vsnprintf(text, size, format, arguments);
+  va_end(arguments);
+  return length;
+}
+template <std::size_t size>
+__attribute__((format(printf, 2, 3))) int sprintf_s(char (&text)[size], const char* format, ...) {
+  std::va_list arguments;
+  va_start(arguments, format);
+  const int length = std::vsnprintf(text, size, format, arguments);
+  va_end(arguments);
+  return length;
+}
+#endif
+
+#if !defined(strcpy_s)
+/// Copies what fits, with a 0 at the end. Return 0.
+inline int strcpy_s(char* text, std::size_t size, const char* from) {
+  std::snprintf(text, size, "%s", from);
+  return 0;
+}
+template <std::size_t size>
+int strcpy_s(char (&text)[size], const char* from) {
+  return strcpy_s(text, size, from);
+}
+#endif
+
+#if !defined(strcat_s)
+/// Appends what fits. Return 0.
+inline int strcat_s(char* text, std::size_t size, const char* more) {
+  const std::size_t length = strnlen(text, size);
+  std::snprintf(text + length, size - length, "%s", more);
+  return 0;
+}
+template <std::size_t size>
+int strcat_s(char (&text)[size], const char* more) {
+  return strcat_s(text, size, more);
+}
+#endif
+
+#if !defined(fopen_s)
+/// Return 0, else the error number; then the file is null.
+inline int fopen_s(std::FILE** p_file, const char* name, const char* mode) {
+  *p_file = std::fopen(name, mode);
+  return *p_file != nullptr ? 0 : errno;
+}
+#endif
+
+#if !defined(localtime_s)
+/// Return 0, else the error number.
+inline int localtime_s(std::tm* p_local, const std::time_t* p_time) {
+  return localtime_r(p_time, p_local) != nullptr ? 0 : errno;
+}
+#endif
+
+#endif

@@ -1,0 +1,39 @@
+// Stands in for the header of the system Windows, which games include that were made there, mostly for
+// nothing. Keys are heard as events, and time is the game's: nothing here waits, or asks the machine.
+#pragma once
+
+#include <algorithm>
+
+#include "GameManager.h"
+#include "StandardHeaders.h"
+
+using BOOL = int;
+using BYTE = unsigned char;
+using WORD = unsigned short;
+using DWORD = unsigned int;
+
+#if !defined(TRUE)
+#define TRUE 1
+#define FALSE 0
+#endif
+
+using std::max;
+using std::min;
+
+/// Returns at once.
+inline void Sleep(DWORD /*milliseconds*/) {}
+inline BOOL Beep(DWORD /*frequency*/, DWORD /*milliseconds*/) {
+  return TRUE;
+}
+/// No key is ever down.
+inline short GetAsyncKeyState(int /*key*/) {
+  return 0;
+}
+inline short GetKeyState(int /*key*/) {
+  return 0;
+}
+/// Milliseconds of game time.
+inline DWORD GetTickCount() {
+  return static_cast<DWORD>(GM.getStepCount()) * static_cast<DWORD>(GM.getFrameTime());
+}
+inline void OutputDebugStringA(const char* /*text*/) {}

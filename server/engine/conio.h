@@ -1,0 +1,9 @@
+// Stands in for Microsoft's header of this name: no key is ever waiting, for keys are heard as events.
+#pragma once
+
+inline int _kbhit() {
+  return 0;
+}
+inline int _getch() {
+  return -1;
+}
