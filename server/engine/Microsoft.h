@@ -36,9 +36,12 @@ __attribute__((format(printf, 2, 3))) int sprintf_s(char (&text)[size], const ch
 #endif
 
 #if !defined(strcpy_s)
-/// Copies what fits, with a 0 at the end. Return 0.
+/// Copies what fits, with a 0 at the end. Return 0, unless there is no room at all.
 inline int strcpy_s(char* text, std::size_t size, const char* from) {
-  std::snprintf(text, size, "%s", from);
+  if (size == 0) return ERANGE;
+  const std::size_t length = strnlen(from, size - 1);
+  std::memcpy(text, from, length);
+  text[length] = 0;
   return 0;
 }
 template <std::size_t size>
@@ -48,11 +51,10 @@ int strcpy_s(char (&text)[size], const char* from) {
 #endif
 
 #if !defined(strcat_s)
-/// Appends what fits. Return 0.
+/// Appends what fits. Return 0, unless there is no 0 at the end of the first.
 inline int strcat_s(char* text, std::size_t size, const char* more) {
   const std::size_t length = strnlen(text, size);
-  std::snprintf(text + length, size - length, "%s", more);
-  return 0;
+  return strcpy_s(text + length, size - length, more);
 }
 template <std::size_t size>
 int strcat_s(char (&text)[size], const char* more) {

@@ -49,7 +49,9 @@ TEST(FirstPicture, IsTheWholeWorld) {
   EXPECT_GE(frames, 3u);
   EXPECT_LT(at_first, kObjects);
   // On a machine that is too busy somebody may have had to wait for longer than anybody is made to.
-  if (held < WorldFeed::kPatience) EXPECT_EQ(ann.session().replica().aliveCount(), kObjects);
+  if (held < WorldFeed::kPatience) {
+    EXPECT_EQ(ann.session().replica().aliveCount(), kObjects);
+  }
   std::printf("snapshots=%llu first_had=%zu joined_with=%zu held_us=%lld\n",
               static_cast<unsigned long long>(frames), at_first, ann.session().replica().aliveCount(),
               static_cast<long long>(held.count()));
