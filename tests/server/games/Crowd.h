@@ -29,12 +29,18 @@ class Crowd {
           df::Keyboard::SPACE,   df::Keyboard::W,         df::Keyboard::A,         df::Keyboard::S,
           df::Keyboard::D,       df::Keyboard::P,         df::Keyboard::LEFTARROW, df::Keyboard::RIGHTARROW,
           df::Keyboard::UPARROW, df::Keyboard::DOWNARROW, df::Keyboard::RETURN,    df::Keyboard::N};
-      if (m_random.below(4) == 0)
-        m_world.key(player, kKeys[m_random.below(12)],
-                    static_cast<df::EventKeyboardAction>(m_random.below(3)));
-      if (m_random.below(16) == 0)
-        m_world.mouse(player, static_cast<df::EventMouseAction>(m_random.below(3)), df::Mouse::LEFT,
-                      m_random.below(80), m_random.below(24));
+      // One statement each: in which order arguments are worked out is the compiler's choice.
+      if (m_random.below(4) == 0) {
+        const auto action = static_cast<df::EventKeyboardAction>(m_random.below(3));
+        const Key key = kKeys[m_random.below(12)];
+        m_world.key(player, key, action);
+      }
+      if (m_random.below(16) == 0) {
+        const int y = m_random.below(24);
+        const int x = m_random.below(80);
+        const auto action = static_cast<df::EventMouseAction>(m_random.below(3));
+        m_world.mouse(player, action, df::Mouse::LEFT, x, y);
+      }
     }
   }
   const std::vector<std::uint32_t>& players() const { return m_players; }

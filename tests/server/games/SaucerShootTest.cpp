@@ -79,10 +79,12 @@ void playAtRandom(df::World& world, df::Random& random, std::uint32_t player) {
   static constexpr Key kKeys[] = {df::Keyboard::SPACE, df::Keyboard::W, df::Keyboard::A, df::Keyboard::S,
                                   df::Keyboard::D,     df::Keyboard::N, df::Keyboard::Z};
   if (random.below(5) == 0) {
-    world.key(player, kKeys[random.below(7)], static_cast<df::EventKeyboardAction>(random.below(3)));
+    const auto action = static_cast<df::EventKeyboardAction>(random.below(3));
+    world.key(player, kKeys[random.below(7)], action);
   }
   if (random.below(8) == 0) {
-    world.mouse(player, df::CLICKED, df::Mouse::LEFT, random.below(80), random.below(24));
+    const int y = random.below(24);
+    world.mouse(player, df::CLICKED, df::Mouse::LEFT, random.below(80), y);
   }
 }
 
