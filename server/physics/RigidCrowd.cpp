@@ -1,6 +1,7 @@
 // Bodies that lie in one another by the dozen, as when a game makes all of them in one place: each is pushed
 // by the nearest, and passes through the rest until there is room. What a crowd costs grows with the number
-// of its bodies, not with the number of their pairs. Nothing that could lie side by side is ever in one.
+// of its bodies, not with the number of their pairs. Who lies side by side with others touches none but the
+// nearest of them.
 #include <algorithm>
 #include <tuple>
 
