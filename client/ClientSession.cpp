@@ -79,7 +79,34 @@ void ClientSession::openDatagrams(Time now) {
   probe(now);
 }
 
+bool ClientSession::wantsSecond(Time now) {
+  return m_state == State::kPlaying && m_channel != nullptr && m_welcome.second_stream &&
+         m_datagrams != nullptr && m_timing.isOnStreamOnly(now) && m_second.takeAttempt(now);
+}
+
+void ClientSession::startSecond(std::unique_ptr<ReliableChannel> channel) {
+  if (m_state != State::kPlaying || m_channel == nullptr) return;
+  SessionOptions options = m_options;
+  options.password.clear();
+  options.resume_token = m_welcome.resume_token;
+  options.fresh = false;
+  options.second_stream = true;
+  m_second.start(std::move(channel), options,
+                 [this](std::string_view bytes) { onSecond(bytes, m_options.now()); });
+}
+
+// It keeps nothing alive: if the first stream has died, that is to be noticed.
+void ClientSession::onSecond(std::string_view bytes, Time now) {
+  if (m_state != State::kPlaying) return;
+  m_counters.bytes_in += bytes.size() + kFrameHeaderSize;
+  m_timing.streamSnapshotCame(now);
+  if (m_second.isRepeat(bytes)) return;
+  takeSnapshot(bytes, now);
+  ++m_revision;
+}
+
 void ClientSession::adopt(ClientSession& other, Time now) {
+  m_second.close();
   m_channel = std::move(other.m_channel);
   other.m_state = State::kLeft;
   const WelcomeMessage& welcome = other.m_welcome;
@@ -143,7 +170,7 @@ void ClientSession::handle(GoodbyeMessage&& message, Time) {
 void ClientSession::handle(SnapshotMessage&& message, Time now) {
   if (m_state != State::kPlaying) return reject("a snapshot before the welcome");
   m_timing.streamSnapshotCame(now);
-  takeSnapshot(message.bytes, now);
+  if (!m_second.isRepeat(message.bytes)) takeSnapshot(message.bytes, now);
 }
 
 void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
@@ -249,6 +276,7 @@ void ClientSession::closed(CloseReason reason) {
     default:
       break;
   }
+  m_second.close();
   if (m_state == State::kPlaying && !m_welcome.resume_token.empty()) {
     m_channel.reset();
     ++m_revision;
@@ -270,6 +298,7 @@ void ClientSession::update(Time now) {
   if (m_timing.takeRepeat(now) && !m_inputs.isEmpty() && hasDatagrams(now)) sendUpdate(now);
   if (m_timing.isAckDue(now)) sendUpdate(now);
   if (m_datagrams != nullptr && m_timing.isProbeDue(now, m_channel == nullptr)) probe(now);
+  if (hasDatagrams(now) && !m_timing.isUndecided(now)) m_second.close();
   if (m_channel == nullptr) {
     if (m_silence.at(now) >= kDetachedTimeout) finish(State::kLost, "The connection to the server was lost.");
     return;
@@ -341,12 +370,12 @@ bool ClientSession::sendInput(Input input, bool urgent, Time now) {
   return true;
 }
 
-ClientUpdate ClientSession::nextUpdate(bool on_stream, Time now) {
+ClientUpdate ClientSession::nextUpdate(bool in_order, Time now) {
   m_timing.updateMade();
   ClientUpdate update;
   update.acks = m_acks;
-  // What is lost is sent again with everything until it is acknowledged; the stream loses nothing.
-  update.inputs = on_stream ? m_inputs.takeForStream() : m_inputs.all();
+  // What is lost, or overtaken on the other stream, is sent again with everything until it is acknowledged.
+  update.inputs = in_order ? m_inputs.takeForStream() : m_inputs.all();
   update.wants_reset = m_world.wantsReset();
   if (now >= m_next_checksum && m_acks.newest != 0 && !m_world.isChanging()) {
     m_next_checksum = now + kChecksumEvery;
@@ -363,8 +392,12 @@ void ClientSession::sendUpdate(Time now) {
   }
   if (m_channel == nullptr) return;
   wire::ClientMessage message;
-  message.set_update(writeUpdate(nextUpdate(true, now)));
-  send(message);
+  message.set_update(writeUpdate(nextUpdate(!m_second.isOpen(), now)));
+  const std::string frame = message.SerializeAsString();
+  sendFrame(frame);
+  if (!m_second.isOpen()) return;
+  m_counters.bytes_out += frame.size() + kFrameHeaderSize;
+  m_second.send(frame);
 }
 
 void ClientSession::sendChat(const std::string& text) {
@@ -410,6 +443,7 @@ void ClientSession::finish(State state, std::string sentence) {
   m_state = state;
   m_sentence = std::move(sentence);
   ++m_revision;
+  m_second.close();
   if (m_channel != nullptr) m_channel->close();
 }
 

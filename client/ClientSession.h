@@ -30,6 +30,7 @@
 #include "Prediction.h"
 #include "RoundTrip.h"
 #include "SealedDatagrams.h"
+#include "SecondStream.h"
 #include "ServerMessages.h"
 #include "SessionOptions.h"
 #include "Silence.h"
@@ -98,6 +99,11 @@ class ClientSession {
   bool owns(const ReliableChannel* channel) const { return m_channel.get() == channel; }
   /// Go on with the stream on which `other` was welcomed back (welcome().resumed).
   void adopt(ClientSession& other, Time now);
+  /// Datagrams do not pass, and it is time to open a second stream: startSecond(). Says so once for each
+  /// attempt.
+  bool wantsSecond(Time now);
+  void startSecond(std::unique_ptr<ReliableChannel> channel);
+  bool hasSecondStream() const { return m_second.isOpen(); }
   /// Do datagrams come from the server?
   bool hasDatagrams(Time now) const { return m_datagrams != nullptr && m_timing.hasDatagrams(now); }
 
@@ -190,16 +196,18 @@ class ClientSession {
   bool sendInput(Input input, bool urgent, Time now);
   void sendUpdate(Time now);
   void takeSnapshot(std::string_view bytes, Time now);
+  void onSecond(std::string_view bytes, Time now);
   void takeControls();
   bool takeKept(std::uint32_t number);
   void openDatagrams(Time now);
   void onDatagram(std::string_view bytes, Time now);
-  ClientUpdate nextUpdate(bool on_stream, Time now);
+  ClientUpdate nextUpdate(bool in_order, Time now);
   void probe(Time now);
   void ping(Time now);
   KeyExporter exporter() const;
 
   std::unique_ptr<ReliableChannel> m_channel;
+  SecondStream m_second;
   State m_state = State::kGreeting;
   std::string m_sentence;
   bool m_refused_for_now = false;

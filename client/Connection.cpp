@@ -14,6 +14,7 @@ Connection::Connection(asio::io_context& context, ServerAddress address, Session
       m_trust(std::move(trust)),
       m_connector(context, TcpOptions{.receive_limit = kMaxServerFrame},
                   m_trust.insecure ? nullptr : TlsContext::forClient()),
+      m_second_connector(context, TcpOptions{.receive_limit = kMaxServerFrame}, TlsContext::forClient()),
       m_address(std::move(address)),
       m_options(std::move(options)),
       m_rejoin(rejoin) {
@@ -56,6 +57,16 @@ std::string Connection::judge() const {
   } catch (const KnownServersError& error) {
     return error.what();
   }
+}
+
+// Nothing depends on it: what fails is tried again later. Only the session's server gets to see its token.
+void Connection::openSecond() {
+  m_second_connector.connect(m_address.host, m_address.port, kConnectTimeout,
+                             [this](std::unique_ptr<ReliableChannel> channel, const std::string&) {
+                               const auto& facts = m_second_connector.peerFacts();
+                               if (!channel || !m_session || !facts || facts->key != m_token_key) return;
+                               m_session->startSecond(std::move(channel));
+                             });
 }
 
 void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
@@ -122,6 +133,7 @@ void Connection::attemptFailed(const std::string& sentence) {
 void Connection::update(Time now) {
   if (isOver()) return;
   if (m_session) m_session->update(now);
+  if (m_session && m_session->wantsSecond(now)) openSecond();
   if (m_p_file != nullptr && m_session && m_session->isHeard(now)) {
     m_p_file->refresh(std::chrono::system_clock::now());
   }
@@ -202,6 +214,7 @@ void Connection::finish(State state, const std::string& sentence) {
   const bool ended = state == State::kEnded || state == State::kLeft;
   if (m_p_file != nullptr && ended) m_p_file->remove();
   m_connector.cancel();
+  m_second_connector.cancel();
   m_state = state;
   m_sentence = sentence;
   m_next_attempt = Time::max();

@@ -75,6 +75,7 @@ class Connection {
 
  private:
   void attempt();
+  void openSecond();
   std::string judge() const;
   void attach(std::unique_ptr<ReliableChannel> channel);
   void chooseToken(SessionOptions& options) const;
@@ -86,6 +87,7 @@ class Connection {
   asio::io_context& m_context;
   ServerTrust m_trust;
   TcpConnector m_connector;
+  TcpConnector m_second_connector;  ///< for a second stream beside the session's (SecondStream.h)
   ServerAddress m_address;
   SessionOptions m_options;
   bool m_rejoin;

@@ -40,6 +40,7 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
   message.resumed = wire.resumed();
   message.grace = std::chrono::milliseconds(std::min(wire.grace_millis(), kMaxGraceMillis));
   message.received = wire.received();
+  message.second_stream = wire.second_stream();
   if (wire.has_continuation()) {
     const wire::Continuation& from = wire.continuation();
     if (from.world_epoch() > 3) return std::nullopt;

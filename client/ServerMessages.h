@@ -44,6 +44,7 @@ struct WelcomeMessage {
   std::chrono::milliseconds grace{0};        ///< the server waits so long for another stream
   std::optional<Continuation> continuation;  ///< for a process that was not there before
   std::uint32_t received = 0;                ///< for one that was: newest kept frame that came
+  bool second_stream = false;                ///< the server takes one; or: this is it
 };
 
 struct RefusedMessage {

@@ -30,6 +30,7 @@ wire::ClientMessage helloOf(const SessionOptions& options) {
   hello.set_resume_token(options.resume_token);
   hello.set_fresh(options.fresh);
   hello.set_received(options.received);
+  hello.set_second_stream(options.second_stream);
   if (options.open_socket) {
     hello.add_aeads(static_cast<std::uint32_t>(AeadId::kAes128Gcm));
     hello.add_aeads(static_cast<std::uint32_t>(AeadId::kChaCha20Poly1305));

@@ -26,6 +26,7 @@ struct SessionOptions {
   std::string resume_token;    ///< of an earlier welcome: go on with that session
   bool fresh = false;          ///< with nothing but the token: an earlier process had the session
   std::uint32_t received = 0;  ///< else: number of the newest kept frame that came
+  bool second_stream = false;  ///< with the token: a stream beside that of the session
   /// Makes a socket for datagrams to an endpoint; empty: no datagrams (a Connection that encrypts puts UDP
   /// there). May return null.
   std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> open_socket;

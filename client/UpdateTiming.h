@@ -2,6 +2,7 @@
 // passed in.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
@@ -13,6 +14,8 @@ class UpdateTiming {
 
   static constexpr std::chrono::milliseconds kPassing{1000};     ///< without a datagram: they do not pass
   static constexpr std::chrono::milliseconds kProbeEvery{1000};  ///< then
+  /// After so long without datagrams it is worth while to arrange oneself.
+  static constexpr std::chrono::milliseconds kOnStreamOnly{3000};
   /// So long without a datagram is odd: the server may not know our address any more.
   static constexpr std::chrono::milliseconds kQuiet{400};
   /// After a snapshot on the stream it is open for so long whether the server hears datagrams.
@@ -45,6 +48,10 @@ class UpdateTiming {
   bool hasDatagrams(Time now) const { return now - m_last_datagram < kPassing; }
   /// The server sent on the stream just now: it may not hear datagrams.
   bool isUndecided(Time now) const { return now - m_last_streamed < kUndecided; }
+  /// Everything has come on the stream for a while, since datagrams do not pass.
+  bool isOnStreamOnly(Time now) const {
+    return isUndecided(now) && now - std::max(m_last_datagram, m_attached) >= kOnStreamOnly;
+  }
   /// It is time to find out whether they pass. `only`: there is no other way.
   bool isProbeDue(Time now, bool only = false) const;
   bool isAckDue(Time now) const { return m_acknowledge_at && now >= *m_acknowledge_at; }

@@ -17,6 +17,7 @@ std::string Counters::summary() const {
       {"detached", detached},
       {"resumed", resumed},
       {"restarted", restarted},
+      {"second_streams", second_streams},
       {"refused_elsewhere", refused_elsewhere},
       {"unknown_tokens", unknown_tokens},
       {"kept_overflows", kept_overflows},

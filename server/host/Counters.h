@@ -26,6 +26,7 @@ struct Counters {
   std::uint64_t detached = 0;            ///< streams that broke while their session goes on
   std::uint64_t resumed = 0;             ///< sessions that went on with another stream
   std::uint64_t restarted = 0;           ///< of these: with another process of the client
+  std::uint64_t second_streams = 0;      ///< beside the first, where datagrams do not pass
   std::uint64_t refused_elsewhere = 0;   ///< came back, but the session goes on in another process
   std::uint64_t unknown_tokens = 0;      ///< of no session that is still there: a new player, or a guess
   std::uint64_t kept_overflows = 0;      ///< more was to be kept for a client than may be: ended

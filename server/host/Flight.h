@@ -39,6 +39,13 @@ class Flight {
   void prefetchNext() const {
     if (m_count < m_snapshots.size()) __builtin_prefetch(&m_snapshots[m_count], 1);
   }
+  /// Null if it is settled.
+  Snapshot* find(std::uint32_t number) {
+    for (std::size_t i = m_count; i > 0; --i) {
+      if (m_snapshots[i - 1].number == number) return &m_snapshots[i - 1];
+    }
+    return nullptr;
+  }
   Snapshot& newest() { return m_snapshots[m_count - 1]; }
   void removeNewest() { --m_count; }
   /// Remove those for which `settle(snapshot)` says so.

@@ -89,6 +89,7 @@ class Host : public df::Runner {
   bool checkHello(Session& session, const wire::Hello& hello);
   void checkPassword(Session& session, const wire::Hello& hello);
   bool resume(Session& session, const wire::Hello& hello);
+  void accompany(Session& session, const wire::Hello& hello);
   void admit(Session& session, const wire::Hello& hello);
   bool hasPlaceFor(Session& session);
   wire::Welcome welcomeTo(Room& room, const std::string& name);

@@ -61,7 +61,9 @@ void Host::accept(std::unique_ptr<ReliableChannel> channel) {
 
 // A session may go on with another stream at once; a new player may have to prove that he knows the password.
 void Host::greet(Session& session, const wire::Hello& hello) {
-  if (!checkHello(session, hello) || (!hello.resume_token().empty() && resume(session, hello))) return;
+  if (!checkHello(session, hello)) return;
+  if (hello.second_stream()) return accompany(session, hello);
+  if (!hello.resume_token().empty() && resume(session, hello)) return;
   if (m_password) return checkPassword(session, hello);
   admit(session, hello);
 }
@@ -146,6 +148,18 @@ bool Host::resume(Session& session, const wire::Hello& hello) {
   return true;
 }
 
+// Whoever shows the token of a session that has its stream may open a second one beside that. He is no new
+// player if he may not.
+void Host::accompany(Session& session, const wire::Hello& hello) {
+  const auto id = m_tokens.find(hello.resume_token());
+  Session* first = id ? find(*id) : nullptr;
+  if (first == nullptr || first->state() != Session::State::kPlaying || first->isDetached()) {
+    ++m_counters.unknown_tokens;
+    return session.refuse(wire::Refused::BAD_REQUEST, "There is no stream for this one to go beside.");
+  }
+  first->accompany(session);
+}
+
 void Host::admit(Session& session, const wire::Hello& hello) {
   if (!hasPlaceFor(session)) return;
   const std::string wanted = cleanName(hello.player_name());
@@ -169,7 +183,10 @@ void Host::admit(Session& session, const wire::Hello& hello) {
       std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(m_options.grace));
   session.setGrace(grace);
   welcome.set_grace_millis(static_cast<std::uint32_t>(grace.count()));
-  if (m_options.grace > 0) welcome.set_resume_token(m_tokens.issue(session.id()));
+  if (m_options.grace > 0) {
+    welcome.set_resume_token(m_tokens.issue(session.id()));
+    welcome.set_second_stream(true);
+  }
   session.welcome(welcome, std::move(datagrams));
   p_room->add(session);
   m_player_news.repeat();

@@ -34,13 +34,17 @@ std::string ResumeTokens::issue(std::uint64_t session) {
   return token;
 }
 
-std::optional<std::uint64_t> ResumeTokens::redeem(const std::string& token) {
+std::optional<std::uint64_t> ResumeTokens::find(const std::string& token) const {
   if (token.size() != kBytes) return std::nullopt;
+  const auto found = m_sessions.find(hashOf(token));
+  return found != m_sessions.end() ? std::optional(found->second) : std::nullopt;
+}
+
+std::optional<std::uint64_t> ResumeTokens::redeem(const std::string& token) {
+  const auto session = find(token);
+  if (!session) return std::nullopt;
   const std::string hash = hashOf(token);
-  const auto found = m_sessions.find(hash);
-  if (found == m_sessions.end()) return std::nullopt;
-  const std::uint64_t session = found->second;
-  Hashes& hashes = m_hashes.at(session);
+  Hashes& hashes = m_hashes.at(*session);
   if (hashes.redeemed != hash) dropRedeemed(hashes);
   hashes.redeemed = hash;
   return session;

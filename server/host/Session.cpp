@@ -7,6 +7,7 @@ namespace naiad {
 namespace {
 
 constexpr SnapshotSender::Room kStreamRoom{64, kMaxSnapshot, false};
+constexpr SnapshotSender::Room kSecondRoom{1, kMaxDatagramSnapshot, false};
 /// At 30 Hz more than a megabit per second.
 constexpr std::size_t kDatagramsPerTick = 4;
 
@@ -31,8 +32,12 @@ Session::Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, C
 void Session::start(Events events) {
   m_events = std::move(events);
   m_channel->setReceiveLimit(kMaxHelloFrame);
-  m_channel->start({[to = m_reception](std::string_view frame) { to->session->onFrame(frame); },
-                    [to = m_reception](CloseReason reason) { to->session->onClosed(reason); }});
+  m_channel->start({[to = m_reception](std::string_view frame) {
+                      to->second ? to->session->onSecondFrame(frame) : to->session->onFrame(frame);
+                    },
+                    [to = m_reception](CloseReason reason) {
+                      to->second ? to->session->onSecondClosed(reason) : to->session->onClosed(reason);
+                    }});
 }
 
 void Session::onClosed(CloseReason reason) {
@@ -48,6 +53,7 @@ void Session::detach(Clock::time_point now) {
   ++m_counters.detached;
   m_address = m_channel->peerAddress();
   m_channel.reset();
+  dropSecond();
   takeAcks();
   m_sender.loseLarge();
   if (m_datagrams == nullptr || !m_passage.isOpen(now)) releaseKeys();
@@ -84,6 +90,7 @@ void Session::tellGone() {
 void Session::end() {
   if (m_state == State::kGone) return;
   m_state = m_channel != nullptr ? State::kEnding : State::kGone;
+  dropSecond();
   if (m_channel != nullptr) m_channel->close();
   tellGone();  // the ship must not wait for the last bytes to get through
 }
@@ -176,8 +183,38 @@ void Session::beginWorld() {
   m_sender.reset();
 }
 
+void Session::accompany(Session& other) {
+  dropSecond();
+  m_second = std::move(other.m_channel);
+  m_second_reception = std::exchange(other.m_reception, std::make_shared<Reception>());
+  m_second_reception->session = this;
+  m_second_reception->second = true;
+  other.m_reception->session = &other;
+  other.m_told_gone = true;
+  other.m_state = State::kGone;
+  ++m_counters.second_streams;
+  m_second->setReceiveLimit(kMaxClientFrame);
+  wire::ServerMessage message;
+  *message.mutable_welcome() = m_welcome;
+  message.mutable_welcome()->set_second_stream(true);
+  m_second->send(message.SerializeAsString());
+}
+
+void Session::onSecondClosed(CloseReason reason) {
+  if (reason == CloseReason::kProtocol) ++m_counters.malformed_frames;
+  dropSecond();
+}
+
+void Session::dropSecond() {
+  if (m_second == nullptr) return;
+  m_second->close();
+  m_second.reset();
+  m_second_reception.reset();
+}
+
 // `other` has the old one afterwards, if there was one, and tells nobody of its end.
 void Session::takeStream(Session& other) {
+  dropSecond();
   if (m_channel != nullptr) {  // the old stream has not noticed yet that nobody is there
     m_reception->session = &other;
     std::swap(m_reception, other.m_reception);
@@ -288,21 +325,33 @@ void Session::sendDatagrams(const Publisher& publisher, Clock::time_point presen
 
 void Session::sendOnStream(const Publisher& publisher, Clock::time_point present) {
   if (m_channel == nullptr) return;
-  if (m_channel->unsentBytes() > 0) return skipTick();
+  // While the first stream is busy with what is large, the second does not overtake it: that would look like
+  // loss. If it only waits for a packet to be sent again, the second goes on alone.
+  const std::size_t unsent = m_channel->unsentBytes();
+  const bool second = m_second != nullptr && m_second->unsentBytes() == 0 && unsent <= kMaxDatagramSnapshot;
+  if (unsent > 0 && !second) return skipTick();
   SnapshotSender::Packets& packets = packetsOfThread();
-  m_sender.build(publisher, kStreamRoom, packets);
+  m_sender.build(publisher, unsent > 0 ? kSecondRoom : kStreamRoom, packets);
+  const bool small = packets.size() == 1 && packets.back().bytes.size() <= kMaxDatagramSnapshot;
   for (const SnapshotSender::Packet& packet : packets) {
     noteSent(packet, false, present);
     count(packet);
-    sendSnapshot(packet);
+    const std::string frame = frameOf(packet);
+    if (unsent == 0) m_channel->send(frame);
+    if (second && small) m_second->send(frame);
+    if (m_second != nullptr && !small) m_sender.wentByStream(packet.number);
   }
   if (m_sender.isThrottled()) skipTick();
 }
 
-void Session::sendSnapshot(const SnapshotSender::Packet& packet) {
+std::string Session::frameOf(const SnapshotSender::Packet& packet) {
   wire::ServerMessage message;
   message.set_snapshot(packet.bytes);
-  send(message);
+  return message.SerializeAsString();
+}
+
+void Session::sendSnapshot(const SnapshotSender::Packet& packet) {
+  if (m_channel != nullptr) m_channel->send(frameOf(packet));
 }
 
 void Session::noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Clock::time_point present) {

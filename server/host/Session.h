@@ -88,6 +88,12 @@ class Session {
   /// told the world from the beginning, and with `datagrams` of its own, if any. Whoever still holds the old
   /// stream is told that he went on elsewhere.
   void restart(Session& other, wire::Welcome welcome, std::unique_ptr<SealedChannel> datagrams);
+  /// From now on small snapshots also go on the stream on which `other` heard its hello, beside this one's:
+  /// where datagrams do not pass, a packet that one stream waits for does not hold up the other. Updates come
+  /// on both. `other` is Gone afterwards; a second stream that was there before ends, and this one ends with
+  /// the first.
+  void accompany(Session& other);
+  bool hasSecondStream() const { return m_second != nullptr; }
   /// Another world begins: the client forgets what it knows, and what it did in the one before is dropped.
   void beginWorld();
   /// Wait this long for a client whose stream broke. 0: do not.
@@ -167,9 +173,13 @@ class Session {
   /// Where the callbacks of a stream lead: its session may change.
   struct Reception {
     Session* session = nullptr;
+    bool second = false;
   };
 
   void onFrame(std::string_view frame);
+  void onSecondFrame(std::string_view frame);
+  void onSecondClosed(CloseReason reason);
+  void dropSecond();
   void onDatagram(std::string_view bytes);
   void onClosed(CloseReason reason);
   void detach(Clock::time_point now);
@@ -185,6 +195,7 @@ class Session {
   Clock::time_point now() const { return m_events.now ? m_events.now() : Clock::now(); }
   void sendDatagrams(const Publisher& publisher, Clock::time_point present);
   void sendOnStream(const Publisher& publisher, Clock::time_point present);
+  static std::string frameOf(const SnapshotSender::Packet& packet);
   void sendSnapshot(const SnapshotSender::Packet& packet);
   void noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Clock::time_point present);
   void count(const SnapshotSender::Packet& packet);
@@ -217,6 +228,7 @@ class Session {
   Silence m_silence;  ///< of the client, to a tick
   StreamDrain m_drain;
   std::unique_ptr<ReliableChannel> m_channel;  ///< null while detached
+  std::unique_ptr<ReliableChannel> m_second;   ///< beside m_channel; null: there is none
   std::unique_ptr<SealedChannel> m_datagrams;
   Counters& m_counters;
   std::uint32_t m_tick = 0;  ///< newest published
@@ -233,6 +245,7 @@ class Session {
   std::optional<Clock::time_point> m_last_checksum;
   Clock::time_point m_frame_at;  ///< when a frame came last
   std::shared_ptr<Reception> m_reception = std::make_shared<Reception>();
+  std::shared_ptr<Reception> m_second_reception;
   std::chrono::milliseconds m_grace{0};
   std::string m_address;
   std::uint64_t m_id = 0;

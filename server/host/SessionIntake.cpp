@@ -42,6 +42,13 @@ void Session::onFrame(std::string_view frame) {
   if (!dispatch(message)) malformed();
 }
 
+// What needs order and certainty goes on the first stream only.
+void Session::onSecondFrame(std::string_view frame) {
+  if (!mayHear()) return;
+  wire::ClientMessage message;
+  if (!parse(frame, message) || !message.has_update() || !takeUpdate(message.update(), false)) malformed();
+}
+
 void Session::onDatagram(std::string_view bytes) {
   if (mayHear() && !takeUpdate(bytes, true)) malformed();
 }

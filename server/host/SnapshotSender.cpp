@@ -342,6 +342,10 @@ void SnapshotSender::lost(const Flight::Snapshot& snapshot) {
   if (moment.number == snapshot.number) moment.fate = snapshot.empty ? Moment::kNotMissed : Moment::kRepaired;
 }
 
+void SnapshotSender::wentByStream(std::uint32_t number) {
+  if (Flight::Snapshot* snapshot = m_flight.find(number)) snapshot->large = true;
+}
+
 void SnapshotSender::loseLarge() {
   m_flight.removeIf([this](const Flight::Snapshot& snapshot) {
     if (snapshot.large) lost(snapshot);

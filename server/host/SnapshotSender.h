@@ -106,6 +106,8 @@ class SnapshotSender {
   /// The client acknowledged. A number that it leaves out is taken for lost, at once or with some patience
   /// (LineGauge).
   void acknowledge(const AckWindow& acks);
+  /// This one, just built, goes on a stream only: it is not lost if newer ones come sooner on another way.
+  void wentByStream(std::uint32_t number);
   /// What was sent on the stream is gone with it.
   void loseLarge();
 

@@ -4,6 +4,7 @@
 #include "BusyWorld.h"
 #include "Compare.h"
 #include "Home.h"
+#include "StreamProxy.h"
 #include "TestServer.h"
 #include "Valve.h"
 
@@ -109,6 +110,86 @@ TEST_F(SealedPlay, WithDatagramsBlockedTheStreamWillDo) {
     expectSame(ann, server, 200);
     EXPECT_EQ(server.counters().divergences, 0u);
   }
+}
+
+TEST_F(SealedPlay, WithDatagramsBlockedASecondStreamIsOpened) {
+  valve->up = valve->down = false;
+  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  TestClient ann(context, server.port(), player("ann"));
+  ASSERT_TRUE(join(ann));
+  EXPECT_FALSE(ann.session().hasSecondStream()) << "it may be that datagrams will pass in a moment";
+  const auto has_second = [&] { return ann.session().hasSecondStream(); };
+  ASSERT_TRUE(serveUntil(context, {&ann}, has_second));
+  EXPECT_EQ(server.counters().second_streams, 1u);
+  EXPECT_EQ(server.counters().joined, 1u);
+  ann.forgetPictures();
+  EXPECT_TRUE(keyWorks(ann));
+  hear(ann, 400);
+  expectSame(ann, server, 200);
+  EXPECT_TRUE(ann.session().hasSecondStream());
+  EXPECT_EQ(server.counters().divergences, 0u);
+  EXPECT_EQ(server.counters().resets, 0u);
+
+  valve->up = valve->down = true;
+  const auto returns = [&] { return onDatagrams(ann) && !ann.session().hasSecondStream(); };
+  ASSERT_TRUE(serveUntil(context, {&ann}, returns)) << "it is not needed any more";
+  EXPECT_TRUE(keyWorks(ann));
+}
+
+TEST_F(SealedPlay, WhoBreaksOffHasASecondStreamAgain) {
+  valve->up = valve->down = false;
+  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  StreamProxy proxy(context, server.port());
+  ClientSetup setup = player("ann");
+  setup.rejoin = true;
+  TestClient ann(context, proxy.port(), setup);
+  const auto has_second = [&](std::uint64_t times) {
+    return serveUntil(context, {&ann}, [&] {
+      return ann.joined() && ann.session().hasSecondStream() && server.counters().second_streams == times;
+    });
+  };
+  ASSERT_TRUE(join(ann) && has_second(1));
+  const std::uint32_t id = ann.player();
+  proxy.cut();
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return server.counters().resumed == 1; }));
+  ASSERT_TRUE(has_second(2));
+  EXPECT_EQ(ann.player(), id);
+  EXPECT_TRUE(keyWorks(ann));
+  EXPECT_EQ(server.counters().joined, 1u);
+  EXPECT_EQ(server.counters().divergences, 0u);
+}
+
+TEST_F(SealedPlay, AStreamThatWaitsDoesNotHoldUpTheGame) {
+  valve->up = valve->down = false;
+  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  StreamProxy proxy(context, server.port());
+  TestClient ann(context, proxy.port(), player("ann"));
+  ASSERT_TRUE(join(ann));
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().hasSecondStream(); }));
+  ann.forgetPictures();
+  proxy.stallOldest();
+  hear(ann, 200);
+  expectSame(ann, server, 100);
+  EXPECT_EQ(server.counters().repeated_inputs, 0u);
+  ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
+  const auto taken = [&] { return ann.session().replica().newest().input != 0; };
+  EXPECT_TRUE(serveUntil(context, {&ann}, taken)) << "the key goes that way, too";
+  EXPECT_EQ(server.counters().detached, 0u);
+}
+
+TEST_F(SealedPlay, WithoutTheTokenOfASessionThereIsNoSecondStream) {
+  TestServer server([](df::World& world) { populateBusyWorld(world, 5); }, home.server());
+  for (const std::string& token : {std::string(), std::string("0123456789abcdef")}) {
+    ClientSetup stranger = player("eve");
+    stranger.options.second_stream = true;
+    stranger.options.resume_token = token;
+    TestClient eve(context, server.port(), stranger);
+    ASSERT_TRUE(serveUntil(context, {&eve}, [&] { return eve.connection().isOver(); }));
+    EXPECT_EQ(eve.connection().state(), Connection::State::kRefused);
+  }
+  EXPECT_EQ(server.counters().joined, 0u) << "nor another player";
+  EXPECT_EQ(server.counters().unknown_tokens, 2u);
+  EXPECT_EQ(server.counters().second_streams, 0u);
 }
 
 TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {

@@ -85,4 +85,8 @@ void StreamProxy::stall() {
   for (const auto& line : m_lines) line->stalled = true;
 }
 
+void StreamProxy::stallOldest() {
+  m_lines.front()->stalled = true;
+}
+
 }  // namespace naiad::test

@@ -23,6 +23,8 @@ class StreamProxy {
   void cut();
   /// Nothing goes through the present connections any more, and nobody hears of it.
   void stall();
+  /// The same for the one that was made first.
+  void stallOldest();
   /// Later connections are hung up on.
   void setOpen(bool open) { m_open = open; }
   /// What comes is passed on so much later, each way.
