@@ -298,6 +298,7 @@ void ClientSession::update(Time now) {
   if (m_timing.takeRepeat(now) && !m_inputs.isEmpty() && hasDatagrams(now)) sendUpdate(now);
   if (m_timing.isAckDue(now)) sendUpdate(now);
   if (m_datagrams != nullptr && m_timing.isProbeDue(now, m_channel == nullptr)) probe(now);
+  m_second.update(now);
   if (hasDatagrams(now) && !m_timing.isUndecided(now)) m_second.close();
   if (m_channel == nullptr) {
     if (m_silence.at(now) >= kDetachedTimeout) finish(State::kLost, "The connection to the server was lost.");

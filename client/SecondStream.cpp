@@ -22,17 +22,24 @@ void SecondStream::start(std::unique_ptr<ReliableChannel> channel, const Session
   close();
   m_channel = std::move(channel);
   m_on_snapshot = std::move(on_snapshot);
+  m_started = m_last_heard = options.now();
   m_channel->setReceiveLimit(kMaxServerFrame);
-  m_channel->start({[this](std::string_view frame) { receive(frame); }, [this](CloseReason) { close(); }});
+  m_channel->start({[this, now = options.now](std::string_view frame) { receive(frame, now()); },
+                    [this](CloseReason) { close(); }});
   m_channel->send(helloOf(options).SerializeAsString());
 }
 
-void SecondStream::receive(std::string_view frame) {
+void SecondStream::update(Time now) {
+  if (now - m_last_heard >= kSilence) close();
+}
+
+void SecondStream::receive(std::string_view frame, Time now) {
+  m_last_heard = now;
+  if (now - m_started > m_pause) m_pause = kFirstPause;
   auto message = readServerMessage(frame);
   const auto* welcome = message ? std::get_if<WelcomeMessage>(&*message) : nullptr;
   if (!m_open && welcome != nullptr && welcome->second_stream) {
     m_open = true;
-    m_pause = kFirstPause;
     return;
   }
   const auto* snapshot = message ? std::get_if<SnapshotMessage>(&*message) : nullptr;

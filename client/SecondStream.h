@@ -23,9 +23,11 @@ class SecondStream {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Between two attempts, at first; doubled with each that came to nothing, up to kLastPause.
+  /// Between two attempts, at first; doubled with each up to kLastPause, unless the one before lasted longer.
   static constexpr std::chrono::seconds kFirstPause{2};
   static constexpr std::chrono::seconds kLastPause{64};
+  /// Silence after which it is given up, and no answer to the hello.
+  static constexpr std::chrono::seconds kSilence{5};
 
   SecondStream() = default;
   ~SecondStream() { close(); }
@@ -38,6 +40,8 @@ class SecondStream {
   /// sends anything else there loses this stream, nothing more.
   void start(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
              std::function<void(std::string_view bytes)> on_snapshot);
+  /// Give it up if it is silent. Call now and then.
+  void update(Time now);
   /// The server has said yes.
   bool isOpen() const { return m_open; }
   /// A snapshot came, on either stream. True if it is among the last ones that did: it came on the other.
@@ -48,7 +52,7 @@ class SecondStream {
   void close();
 
  private:
-  void receive(std::string_view frame);
+  void receive(std::string_view frame, Time now);
 
   std::unique_ptr<ReliableChannel> m_channel;
   std::function<void(std::string_view)> m_on_snapshot;
@@ -58,6 +62,8 @@ class SecondStream {
   std::size_t m_heard = 0;
   std::chrono::seconds m_pause = kFirstPause;
   Time m_next_attempt{};
+  Time m_started{};
+  Time m_last_heard{};
 };
 
 }  // namespace naiad

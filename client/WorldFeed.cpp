@@ -4,16 +4,17 @@
 
 namespace naiad {
 
+// Numbers count on through all epochs: what is not newer than all of a world is of one before it, and late.
+// (Of two streams one may lag behind by several worlds.)
 Replica* WorldFeed::replicaFor(std::string_view bytes, Time now) {
-  const auto epoch = peekEpoch(bytes);
-  if (!epoch || *epoch == m_epoch) return &m_replica;
-  if (*epoch == ((m_epoch + 3) & 3)) return nullptr;  // a late one of the epoch before
-  if (!m_next || m_next_epoch != *epoch) {
-    m_next_epoch = *epoch;
-    m_next = Replica::anew(m_replica.newest());
-    m_reset_at = now;
-    ++m_resets;
-  }
+  const auto header = peekHeader(bytes, m_replica.newest());
+  if (!header || header->epoch == m_epoch) return &m_replica;
+  if (m_next && m_next_epoch == header->epoch) return &*m_next;
+  if (!isNewer(header->number, (m_next ? *m_next : m_replica).newest().number)) return nullptr;
+  m_next_epoch = header->epoch;
+  m_next = Replica::anew(m_replica.newest());
+  m_reset_at = now;
+  ++m_resets;
   return &*m_next;
 }
 

@@ -62,8 +62,9 @@ Host::Host(HostOptions options, std::string game, Log log)
     m_password =
         std::make_unique<PasswordCheck>(m_io.get_executor(), PasswordHash::fromText(m_options.password));
   }
-  if (const std::size_t files = allowOpenFiles(mostConnections() + kOtherFiles);
-      files < mostConnections() + kOtherFiles) {
+  const std::size_t wanted =
+      mostConnections() + mostPlayers() + kOtherFiles;  // each may have a second stream
+  if (const std::size_t files = allowOpenFiles(wanted); files < wanted) {
     m_log("only " + std::to_string(files) + " files may be open (ulimit -Hn): too few for " +
           std::to_string(m_options.max_players) + " players and those who come back");
   }

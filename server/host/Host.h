@@ -85,6 +85,7 @@ class Host : public df::Runner {
   // Who comes in.
   void accept(std::unique_ptr<ReliableChannel> channel);
   void greet(Session& session, const wire::Hello& hello);
+  std::size_t mostPlayers() const { return static_cast<std::size_t>(m_options.max_players); }
   std::size_t mostConnections() const;
   bool checkHello(Session& session, const wire::Hello& hello);
   void checkPassword(Session& session, const wire::Hello& hello);

@@ -32,7 +32,7 @@ df::Color colorOf(std::uint64_t nth) {
 
 // Those who play, those who come back on another stream, and some who knock.
 std::size_t Host::mostConnections() const {
-  return static_cast<std::size_t>(m_options.max_players) * 2 + 16;
+  return mostPlayers() * 2 + 16;
 }
 
 void Host::accept(std::unique_ptr<ReliableChannel> channel) {
@@ -151,12 +151,13 @@ bool Host::resume(Session& session, const wire::Hello& hello) {
 // Whoever shows the token of a session that has its stream may open a second one beside that. He is no new
 // player if he may not.
 void Host::accompany(Session& session, const wire::Hello& hello) {
-  const auto id = m_tokens.find(hello.resume_token());
+  const auto id = m_tokens.holderOf(hello.resume_token());
   Session* first = id ? find(*id) : nullptr;
   if (first == nullptr || first->state() != Session::State::kPlaying || first->isDetached()) {
     ++m_counters.unknown_tokens;
     return session.refuse(wire::Refused::BAD_REQUEST, "There is no stream for this one to go beside.");
   }
+  m_log(first->name() + " has a second stream, from " + session.address());
   first->accompany(session);
 }
 
@@ -196,7 +197,7 @@ void Host::admit(Session& session, const wire::Hello& hello) {
 
 // If not, it was refused.
 bool Host::hasPlaceFor(Session& session) {
-  if (playing() >= static_cast<std::size_t>(m_options.max_players)) {
+  if (playing() >= mostPlayers()) {
     ++m_counters.refused_full;
     session.refuse(wire::Refused::FULL, "The server is full (" + std::to_string(m_options.max_players) +
                                             " players). Try again later.");

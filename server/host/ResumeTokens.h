@@ -21,8 +21,8 @@ class ResumeTokens {
   std::string issue(std::uint64_t session);
   /// The session a token was issued for; nothing if it never was or is void.
   std::optional<std::uint64_t> redeem(const std::string& token);
-  /// The same, but the token is not used up by it: nothing else changes.
-  std::optional<std::uint64_t> find(const std::string& token) const;
+  /// The same if it is the newest one, and it is not used up by this: nothing changes.
+  std::optional<std::uint64_t> holderOf(const std::string& token) const;
   /// The client has got the newest token: the one before is void.
   void confirm(std::uint64_t session);
   /// Another process has redeemed the token: the one before it is to hear of that when it comes with the
@@ -40,6 +40,7 @@ class ResumeTokens {
     std::string elsewhere;   ///< the last one void that another process redeemed
     bool restarted = false;  ///< `redeemed` was, by another process
   };
+  std::optional<std::uint64_t> find(const std::string& hash) const;
   void drop(std::string& hash);
   void dropRedeemed(Hashes& hashes);
 

@@ -45,6 +45,7 @@ void Session::onClosed(CloseReason reason) {
   const bool lost = reason == CloseReason::kPeer || reason == CloseReason::kError;
   if (m_state == State::kPlaying && lost && m_grace.count() > 0) return detach(now());
   m_state = State::kGone;
+  dropSecond();
   tellGone();
 }
 
@@ -325,19 +326,19 @@ void Session::sendDatagrams(const Publisher& publisher, Clock::time_point presen
 
 void Session::sendOnStream(const Publisher& publisher, Clock::time_point present) {
   if (m_channel == nullptr) return;
-  // While the first stream is busy with what is large, the second does not overtake it: that would look like
-  // loss. If it only waits for a packet to be sent again, the second goes on alone.
-  const std::size_t unsent = m_channel->unsentBytes();
-  const bool second = m_second != nullptr && m_second->unsentBytes() == 0 && unsent <= kMaxDatagramSnapshot;
-  if (unsent > 0 && !second) return skipTick();
+  // If the first stream only waits for a packet to be sent again, the second goes on alone. What is large
+  // goes on the first, and is not overtaken.
+  const bool first = m_channel->unsentBytes() == 0;
+  const bool second = m_second != nullptr && m_second->unsentBytes() == 0 && !m_sender.awaitsLarge();
+  if (!first && !second) return skipTick();
   SnapshotSender::Packets& packets = packetsOfThread();
-  m_sender.build(publisher, unsent > 0 ? kSecondRoom : kStreamRoom, packets);
+  m_sender.build(publisher, first ? kStreamRoom : kSecondRoom, packets);
   const bool small = packets.size() == 1 && packets.back().bytes.size() <= kMaxDatagramSnapshot;
   for (const SnapshotSender::Packet& packet : packets) {
     noteSent(packet, false, present);
     count(packet);
     const std::string frame = frameOf(packet);
-    if (unsent == 0) m_channel->send(frame);
+    if (first) m_channel->send(frame);
     if (second && small) m_second->send(frame);
     if (m_second != nullptr && !small) m_sender.wentByStream(packet.number);
   }

@@ -22,7 +22,6 @@ bool parse(std::string_view frame, wire::ClientMessage& message) {
 // Within what a client may send between two ticks? If not, the session has ended.
 bool Session::mayHear() {
   if (m_state == State::kEnding || m_state == State::kGone) return false;
-  m_spoke = true;
   if (++m_messages <= kMessagesPerTick) return true;
   ++m_counters.message_floods;
   goodbye("Too many messages at once.");
@@ -31,6 +30,7 @@ bool Session::mayHear() {
 
 void Session::onFrame(std::string_view frame) {
   if (!mayHear()) return;
+  m_spoke = true;
   if (std::exchange(m_awaits_proof, false)) m_proved = true;
   m_frame_at = now();
   wire::ClientMessage message;
@@ -42,7 +42,8 @@ void Session::onFrame(std::string_view frame) {
   if (!dispatch(message)) malformed();
 }
 
-// What needs order and certainty goes on the first stream only.
+// What needs order and certainty goes on the first stream only; and a first one that has died is to be
+// noticed.
 void Session::onSecondFrame(std::string_view frame) {
   if (!mayHear()) return;
   wire::ClientMessage message;
@@ -50,7 +51,9 @@ void Session::onSecondFrame(std::string_view frame) {
 }
 
 void Session::onDatagram(std::string_view bytes) {
-  if (mayHear() && !takeUpdate(bytes, true)) malformed();
+  if (!mayHear()) return;
+  m_spoke = true;
+  if (!takeUpdate(bytes, true)) malformed();
 }
 
 // False if the message breaks a rule: then the connection ends, and nothing else happens.

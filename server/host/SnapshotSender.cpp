@@ -346,6 +346,13 @@ void SnapshotSender::wentByStream(std::uint32_t number) {
   if (Flight::Snapshot* snapshot = m_flight.find(number)) snapshot->large = true;
 }
 
+bool SnapshotSender::awaitsLarge() const {
+  for (std::size_t i = 0; i < m_flight.size(); ++i) {
+    if (m_flight.at(i).large) return true;
+  }
+  return false;
+}
+
 void SnapshotSender::loseLarge() {
   m_flight.removeIf([this](const Flight::Snapshot& snapshot) {
     if (snapshot.large) lost(snapshot);

@@ -106,8 +106,10 @@ class SnapshotSender {
   /// The client acknowledged. A number that it leaves out is taken for lost, at once or with some patience
   /// (LineGauge).
   void acknowledge(const AckWindow& acks);
-  /// This one, just built, goes on a stream only: it is not lost if newer ones come sooner on another way.
+  /// This one, just built, is large and goes on a stream: it is late rather than lost.
   void wentByStream(std::uint32_t number);
+  /// One that is large has not been acknowledged yet. What overtakes it would show a world without it.
+  bool awaitsLarge() const;
   /// What was sent on the stream is gone with it.
   void loseLarge();
 

@@ -48,6 +48,7 @@ class SecondStreamTest : public ClientSessionFixture {
     SessionOptions options;
     options.resume_token = "token";
     options.second_stream = true;
+    options.now = [this] { return now; };
     stream.start(std::make_unique<LineChannel>(line), options,
                  [this](std::string_view bytes) { snapshots.emplace_back(bytes); });
   }
@@ -125,17 +126,41 @@ TEST_F(SecondStreamTest, AttemptsThatFailBecomeSeldom) {
   EXPECT_FALSE(stream.takeAttempt(now)) << "there is one";
 }
 
-TEST_F(SecondStreamTest, OneThatWasOpenMayBeReplacedSoon) {
-  Time now{1h};
-  SecondStream again;
-  for (int i = 0; i < 600; ++i, now += 1s) again.takeAttempt(now);
-  Line other;
-  again.start(std::make_unique<LineChannel>(other), {}, [](std::string_view) {});
-  other.say(yes());
-  again.close();
-  int attempts = 0;
-  for (int i = 0; i < 80; ++i, now += 1s) attempts += again.takeAttempt(now) ? 1 : 0;
-  EXPECT_GE(attempts, 3);
+TEST_F(SecondStreamTest, OneThatLastedMayBeReplacedSoon) {
+  for (const auto& [lasts, attempts_then] : {std::pair{1s, 1}, {100s, 4}}) {
+    SecondStream again;
+    for (int i = 0; i < 600; ++i, now += 1s) again.takeAttempt(now);
+    Line other;
+    SessionOptions options;
+    options.now = [this] { return now; };
+    again.start(std::make_unique<LineChannel>(other), options, [](std::string_view) {});
+    other.say(yes());
+    now += lasts;
+    other.say(snapshotMessage(1, 1));
+    EXPECT_TRUE(again.isOpen());
+    again.close();
+    now += SecondStream::kLastPause;
+    int attempts = 0;
+    for (int i = 0; i < 20; ++i, now += 1s) attempts += again.takeAttempt(now) ? 1 : 0;
+    EXPECT_EQ(attempts, attempts_then) << lasts.count() << " s";
+  }
+}
+
+TEST_F(SecondStreamTest, OneThatIsSilentIsGivenUp) {
+  now += SecondStream::kSilence - 1ms;
+  stream.update(now);
+  EXPECT_FALSE(line.destroyed);
+  line.say(yes());
+  for (int i = 0; i < 5; ++i) {
+    now += SecondStream::kSilence - 1ms;
+    stream.update(now);
+    EXPECT_TRUE(stream.isOpen());
+    line.say(snapshotMessage(1, 1));
+  }
+  now += SecondStream::kSilence;
+  stream.update(now);
+  EXPECT_FALSE(stream.isOpen());
+  EXPECT_TRUE(line.destroyed);
 }
 
 TEST_F(SecondStreamTest, KnowsTheLastSnapshotsAgain) {

@@ -22,11 +22,20 @@ class WorldFeedTest : public testing::Test {
   std::size_t shown() const { return feed.shown().aliveCount(); }
   bool hasPicture() const { return feed.hasPicture(now); }
 
+  /// One of another epoch, and what became of it.
+  WorldFeed::Taken of(std::uint8_t epoch, std::uint32_t number, bool complete) {
+    return taken(number, complete, epoch, true);
+  }
+
   WorldFeed feed;
   WorldFeed::Time now = WorldFeed::Time{} + 1h;
 
  private:
   void take(std::uint32_t number, bool complete, std::uint8_t epoch, bool born) {
+    const WorldFeed::Taken became = taken(number, complete, epoch, born);
+    EXPECT_TRUE(became == WorldFeed::Taken::kApplied || became == WorldFeed::Taken::kShown);
+  }
+  WorldFeed::Taken taken(std::uint32_t number, bool complete, std::uint8_t epoch, bool born) {
     SnapshotHeader header;
     header.number = number;
     header.tick = 100;
@@ -40,8 +49,7 @@ class WorldFeedTest : public testing::Test {
     BitWriter bits;
     out.encode(bits, kAllGroups, 1, state, state.motion);
     if (born) out.object(number % 1000, bits);
-    const WorldFeed::Taken taken = feed.take(out.finish(), now, header, nullptr);
-    EXPECT_TRUE(taken == WorldFeed::Taken::kApplied || taken == WorldFeed::Taken::kShown);
+    return feed.take(out.finish(), now, header, nullptr);
   }
 };
 
@@ -128,6 +136,31 @@ TEST_F(WorldFeedTest, AWorldThatComesAnewIsShownOnceItIsWhole) {
   birth(4, true, 1);
   EXPECT_EQ(shown(), 3u);
   EXPECT_FALSE(feed.isChanging());
+}
+
+TEST_F(WorldFeedTest, WhatIsLateByAnyNumberOfWorldsIsIgnored) {
+  using Taken = WorldFeed::Taken;
+  birth(1, true);
+  EXPECT_EQ(of(1, 5, true), Taken::kShown);
+  EXPECT_EQ(of(2, 8, true), Taken::kShown);
+  for (const auto& [epoch, number] : {std::pair{0, 2}, {0, 4}, {1, 6}, {1, 7}, {3, 3}})
+    EXPECT_EQ(of(static_cast<std::uint8_t>(epoch), static_cast<std::uint32_t>(number), true),
+              Taken::kIgnored);
+  EXPECT_EQ(feed.resets(), 2u);
+  EXPECT_EQ(of(2, 9, true), Taken::kApplied);
+  EXPECT_EQ(shown(), 2u);
+}
+
+TEST_F(WorldFeedTest, AWorldThatIsAwaitedGivesWayToANewerOneOnly) {
+  using Taken = WorldFeed::Taken;
+  birth(1, true);
+  EXPECT_EQ(of(1, 2, false), Taken::kApplied);
+  EXPECT_EQ(of(2, 5, false), Taken::kApplied);
+  EXPECT_EQ(of(1, 4, true), Taken::kIgnored) << "late, on another way";
+  EXPECT_EQ(of(0, 3, true), Taken::kApplied) << "to the one that is shown still";
+  EXPECT_EQ(of(2, 6, true), Taken::kShown);
+  EXPECT_EQ(shown(), 2u) << "of 5 and 6";
+  EXPECT_EQ(feed.resets(), 2u);
 }
 
 }  // namespace

@@ -238,6 +238,22 @@ void beyondLimits(Folder folder) {
   folder.add(framed(size, kHello) + std::string("\0\0\3", 3) + framed(withKeys(1, 1, 1, 3), kDatagram));
 }
 
+/// Two streams: what comes on both, what only one may say, and what either does while the other is busy.
+void onTwoStreams(Folder folder) {
+  const auto meddle = [](int what) { return std::string{'\0', '\0', static_cast<char>(what)}; };
+  const std::string two = framed(withKeys(1, 1, 1, 3), kHello | kTick) + meddle(252);
+  const std::string key = framed(withKeys(2, 1, 1, 3), kTick);
+  wire::ClientMessage chat;
+  chat.mutable_chat()->set_text("hi");
+  folder.add(two + key + meddle(253) + key + framed(withKeys(3, 1, 1, 3), kTick));
+  folder.add(two + meddle(253) + framed(chat, kTick));
+  folder.add(two + meddle(253) + u16(3) + "bad");
+  folder.add(two + meddle(255) + key + meddle(1) + key + meddle(255) + key);
+  folder.add(two + meddle(254) + key + meddle(253) + key);
+  folder.add(two + meddle(0) + meddle(253) + key);
+  folder.add(two + meddle(3) + meddle(253) + key);
+}
+
 void clientMessages(Folder folder) {
   std::string all;
   const auto add = [&](const wire::ClientMessage& message, std::size_t flags) {
@@ -378,6 +394,7 @@ int main(int argc, char** argv) {
   serverMessages(Folder(base / "server_message"));
   clientMessages(Folder(base / "client_message"));
   beyondLimits(Folder(base / "client_message", "limit-"));
+  onTwoStreams(Folder(base / "client_message", "second-"));
   replication(Folder(base / "replication"), Folder(base / "snapshot"));
   datagrams(Folder(base / "datagram"));
   worlds(Folder(base / "world"));

@@ -5,7 +5,8 @@
 //   input   frames: length + 2^13·as a datagram + 2^14·tick before it + 2^15·behind a proper hello (2)
 //                   | the frame's payload
 //           length 0: what 1 of the channel or the host: 0 closed, 1 busy, 2 many times the last frame, 3
-//           goodbye, else so many half seconds pass
+//           goodbye, 252 a second stream comes, 253 the next frames come on the other stream, 254 the
+//           second closed, 255 it is busy, else so many half seconds pass
 #include <google/protobuf/stubs/logging.h>
 
 #include <memory>
@@ -21,6 +22,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr std::uint8_t kSecond = 252, kOther = 253, kClosed = 254, kBusy = 255;
 constexpr auto kSteering = static_cast<df::Keyboard::Key>(5);
 
 class Play {
@@ -39,6 +41,7 @@ class Play {
   }
 
   void hear(std::string_view frame) {
+    if (m_on_second) return hearSecond(frame);
     if (m_line.closed || frame.empty() || frame.size() > m_line.receive_limit) return;  // never gets here
     m_last = frame;
     const Exactly bytes(m_last);
@@ -46,6 +49,16 @@ class Play {
     // This host judges a hello at once, and nothing else is heard before it.
     REQUIRE(m_session.state() != Session::State::kGreeting);
     REQUIRE((m_session.state() == Session::State::kEnding) == m_line.closed);
+    REQUIRE(m_gone == (m_line.closed ? 1 : 0));
+  }
+  void hearSecond(std::string_view frame) {
+    if (m_second.closed || !m_second.callbacks.on_frame) return;
+    if (frame.empty() || frame.size() > m_second.receive_limit) return;
+    m_last = frame;
+    const Exactly bytes(m_last);
+    const auto on_frame = m_second.callbacks.on_frame;  // the callee may destroy the channel
+    on_frame(bytes.view());
+    REQUIRE(m_second.closed == !m_session.hasSecondStream());
     REQUIRE(m_gone == (m_line.closed ? 1 : 0));
   }
   void hearDatagram(std::string_view payload) {
@@ -72,7 +85,15 @@ class Play {
       for (int i = 0; i < 100; ++i) hear(std::string(m_last));
     }
     if (what == 3 && m_session.state() == Session::State::kPlaying) m_session.goodbye("Bye.");
-    if (what > 3) m_now += 500ms * what;
+    if (what == kSecond) openSecond();
+    if (what == kOther) m_on_second = !m_on_second;
+    if (what == kClosed && m_session.hasSecondStream()) {
+      const auto on_closed = m_second.callbacks.on_closed;
+      on_closed(CloseReason::kPeer);
+      REQUIRE(!m_session.hasSecondStream());
+    }
+    if (what == kBusy) m_second.unsent ^= 1;
+    if (what > 3 && what < kSecond) m_now += 500ms * what;
   }
   void tick() {
     m_now += 33ms;
@@ -89,6 +110,18 @@ class Play {
   }
 
  private:
+  // Once: what the channel was told before is lost with it.
+  void openSecond() {
+    if (m_session.state() != Session::State::kPlaying || m_second.callbacks.on_frame) return;
+    Session other(std::make_unique<FakeChannel>(m_second), m_counters, m_now);
+    other.start({[this](Session& session, const wire::Hello&) { m_session.accompany(session); },
+                 [](Session&, const std::string&) {}, [](Session&) { REQUIRE(false); },
+                 [this] { return m_now; }});
+    wire::ClientMessage message;
+    message.mutable_hello()->set_magic(kHelloMagic);
+    m_second.callbacks.on_frame(message.SerializeAsString());
+    REQUIRE(other.state() == Session::State::kGone && m_session.hasSecondStream());
+  }
   void greet(Session& session, const wire::Hello& hello) {
     REQUIRE(++m_hellos == 1 && hello.magic() == kHelloMagic);
     if (hello.protocol() != kProtocolVersion)
@@ -100,6 +133,8 @@ class Play {
 
   Session::Clock::time_point m_now{1h};
   FakeLine m_line;
+  FakeLine m_second;
+  bool m_on_second = false;
   FakeAir m_sealed;
   std::string m_last;  ///< frame
   Counters m_counters;

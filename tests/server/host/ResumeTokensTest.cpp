@@ -15,6 +15,18 @@ TEST(ResumeTokens, NameTheSessionTheyWereIssuedFor) {
   EXPECT_EQ(tokens.redeem(""), std::nullopt);
 }
 
+TEST(ResumeTokens, OnlyTheNewestShowsWhoseItIsWithoutBeingUsed) {
+  ResumeTokens tokens;
+  const std::string first = tokens.issue(5);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(tokens.holderOf(first), 5u);
+  EXPECT_EQ(tokens.redeem(first), 5u);
+  const std::string second = tokens.issue(5);
+  EXPECT_EQ(tokens.holderOf(first), std::nullopt) << "though it could be redeemed again";
+  EXPECT_EQ(tokens.holderOf(second), 5u);
+  EXPECT_EQ(tokens.redeem(first), 5u);
+  EXPECT_EQ(tokens.holderOf(""), std::nullopt);
+}
+
 TEST(ResumeTokens, AreGoodUntilTheNextOneIsKnownToHaveCome) {
   ResumeTokens tokens;
   const std::string first = tokens.issue(5);
