@@ -7,7 +7,7 @@ namespace naiad {
 namespace {
 
 constexpr SnapshotSender::Room kStreamRoom{64, kMaxSnapshot, false};
-constexpr SnapshotSender::Room kSecondRoom{1, kMaxDatagramSnapshot, false};
+constexpr SnapshotSender::Room kSecondRoom{1, Session::kMostOnSecond, false};
 /// At 30 Hz more than a megabit per second.
 constexpr std::size_t kDatagramsPerTick = 4;
 
@@ -333,7 +333,7 @@ void Session::sendOnStream(const Publisher& publisher, Clock::time_point present
   if (!first && !second) return skipTick();
   SnapshotSender::Packets& packets = packetsOfThread();
   m_sender.build(publisher, first ? kStreamRoom : kSecondRoom, packets);
-  const bool small = packets.size() == 1 && packets.back().bytes.size() <= kMaxDatagramSnapshot;
+  const bool small = packets.size() == 1 && packets.back().bytes.size() <= kMostOnSecond;
   for (const SnapshotSender::Packet& packet : packets) {
     noteSent(packet, false, present);
     count(packet);

@@ -65,6 +65,9 @@ class Session {
   static constexpr std::chrono::seconds kSuspend{1};
   /// With more than this unsent on the stream nothing arrives at once.
   static constexpr std::size_t kMostBeforeFleeting = std::size_t{4} * 1024;
+  /// A larger snapshot goes on the first stream only: a world twice would be too much for a thin line, while
+  /// what gathered during a wait should not make for another one.
+  static constexpr std::size_t kMostOnSecond = std::size_t{4} * 1024;
   /// More often a terminal's size is not taken over.
   static constexpr std::chrono::milliseconds kResizeEvery{250};
   /// An honest client that catches up after a stall sends fewer: every reply is bounded by what it got.

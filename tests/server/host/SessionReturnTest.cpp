@@ -411,7 +411,7 @@ TEST_F(SessionWithTwoStreams, TheSecondIsWelcomedAndNobodyJoins) {
 TEST_F(SessionWithTwoStreams, SmallSnapshotsGoOnBothLargeOnesOnTheFirst) {
   tick();
   ASSERT_EQ(snapshots(first).size(), 1u);
-  ASSERT_GT(snapshots(first)[0].size(), kMaxDatagramSnapshot) << "300 births";
+  ASSERT_GT(snapshots(first)[0].size(), Session::kMostOnSecond) << "300 births";
   EXPECT_TRUE(snapshots(second).empty());
   acknowledge(first);
   forget();
