@@ -391,7 +391,7 @@ class SessionWithTwoStreams : public SessionReturn {
 
   std::unique_ptr<Session> other;
   AckWindow acks;
-  test::SimulatedWorld world{{.objects = 300}, 5};
+  test::SimulatedWorld world{{.view_width = 100, .view_height = 40, .objects = 600}, 5};
   Publisher publisher;
 };
 
@@ -411,7 +411,7 @@ TEST_F(SessionWithTwoStreams, TheSecondIsWelcomedAndNobodyJoins) {
 TEST_F(SessionWithTwoStreams, SmallSnapshotsGoOnBothLargeOnesOnTheFirst) {
   tick();
   ASSERT_EQ(snapshots(first).size(), 1u);
-  ASSERT_GT(snapshots(first)[0].size(), Session::kMostOnSecond) << "300 births";
+  ASSERT_GT(snapshots(first)[0].size(), Session::kMostOnSecond) << "all of a world";
   EXPECT_TRUE(snapshots(second).empty());
   acknowledge(first);
   forget();
