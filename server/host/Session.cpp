@@ -187,9 +187,9 @@ void Session::beginWorld() {
 void Session::accompany(Session& other) {
   dropSecond();
   m_second = std::move(other.m_channel);
-  m_second_reception = std::exchange(other.m_reception, std::make_shared<Reception>());
-  m_second_reception->session = this;
-  m_second_reception->second = true;
+  const auto reception = std::exchange(other.m_reception, std::make_shared<Reception>());
+  reception->session = this;
+  reception->second = true;
   other.m_reception->session = &other;
   other.m_told_gone = true;
   other.m_state = State::kGone;
@@ -210,7 +210,6 @@ void Session::dropSecond() {
   if (m_second == nullptr) return;
   m_second->close();
   m_second.reset();
-  m_second_reception.reset();
 }
 
 // `other` has the old one afterwards, if there was one, and tells nobody of its end.

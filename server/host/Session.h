@@ -248,7 +248,6 @@ class Session {
   std::optional<Clock::time_point> m_last_checksum;
   Clock::time_point m_frame_at;  ///< when a frame came last
   std::shared_ptr<Reception> m_reception = std::make_shared<Reception>();
-  std::shared_ptr<Reception> m_second_reception;
   std::chrono::milliseconds m_grace{0};
   std::string m_address;
   std::uint64_t m_id = 0;
