@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "DoubleDouble.h"
-#include "Elementary.h"
+#include "shared/math/DoubleDouble.h"
+#include "shared/math/Elementary.h"
 
 namespace df::math {
 

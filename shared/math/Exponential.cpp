@@ -2,8 +2,8 @@
 #include <bit>
 #include <cstdint>
 
-#include "Elementary.h"
-#include "ExponentialCore.h"
+#include "shared/math/Elementary.h"
+#include "shared/math/ExponentialCore.h"
 
 namespace df::math {
 

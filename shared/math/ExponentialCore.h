@@ -1,7 +1,7 @@
 // e^x with a few bits more than a double has: what exp, expm1 and the hyperbolic functions are rounded from.
 #pragma once
 
-#include "DoubleDouble.h"
+#include "shared/math/DoubleDouble.h"
 
 namespace df::math {
 

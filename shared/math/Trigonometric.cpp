@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "DoubleDouble.h"
-#include "Elementary.h"
+#include "shared/math/DoubleDouble.h"
+#include "shared/math/Elementary.h"
 
 namespace df::math {
 

@@ -1,4 +1,4 @@
-#include "Acks.h"
+#include "shared/replica/Acks.h"
 
 namespace naiad {
 

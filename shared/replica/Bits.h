@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "LittleEndian.h"
+#include "shared/values/LittleEndian.h"
 
 namespace naiad {
 

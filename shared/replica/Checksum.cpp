@@ -1,7 +1,7 @@
-#include "Checksum.h"
+#include "shared/replica/Checksum.h"
 
-#include "LookCodec.h"
-#include "Mixer.h"
+#include "shared/replica/LookCodec.h"
+#include "shared/replica/Mixer.h"
 
 namespace naiad {
 

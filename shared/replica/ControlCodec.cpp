@@ -1,11 +1,11 @@
-#include "ControlCodec.h"
+#include "shared/replica/ControlCodec.h"
 
 #include <cassert>
 
-#include "Bits.h"
-#include "Bytes.h"
-#include "Limits.h"
-#include "MotionCodec.h"
+#include "shared/replica/Bits.h"
+#include "shared/replica/Bytes.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/MotionCodec.h"
 
 namespace naiad {
 

@@ -22,7 +22,7 @@
 #include <string>
 #include <string_view>
 
-#include "ControlTable.h"
+#include "shared/values/ControlTable.h"
 
 namespace naiad {
 

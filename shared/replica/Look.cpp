@@ -1,10 +1,10 @@
-#include "Look.h"
+#include "shared/replica/Look.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
 
-#include "Mixer.h"
+#include "shared/replica/Mixer.h"
 
 namespace naiad {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "Canvas.h"
-#include "Fixed.h"
-#include "LookSelector.h"
+#include "shared/replica/LookSelector.h"
+#include "shared/values/Canvas.h"
+#include "shared/values/Fixed.h"
 
 namespace naiad {
 

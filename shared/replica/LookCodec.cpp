@@ -1,4 +1,4 @@
-#include "LookCodec.h"
+#include "shared/replica/LookCodec.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <utility>
 
-#include "Limits.h"
-#include "MotionCodec.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/MotionCodec.h"
 
 namespace naiad {
 

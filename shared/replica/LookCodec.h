@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "Bits.h"
-#include "Records.h"
-#include "Vocabulary.h"
+#include "shared/replica/Bits.h"
+#include "shared/replica/Records.h"
+#include "shared/replica/Vocabulary.h"
 
 namespace naiad {
 

@@ -1,4 +1,4 @@
-#include "LookSelector.h"
+#include "shared/replica/LookSelector.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "Fixed.h"
+#include "shared/values/Fixed.h"
 
 namespace naiad {
 

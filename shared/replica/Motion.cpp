@@ -1,4 +1,4 @@
-#include "Motion.h"
+#include "shared/replica/Motion.h"
 
 namespace naiad {
 

@@ -1,4 +1,4 @@
-#include "MotionCodec.h"
+#include "shared/replica/MotionCodec.h"
 
 #include <algorithm>
 #include <array>

@@ -5,8 +5,8 @@
 // other is exact all the same.
 #pragma once
 
-#include "Bits.h"
-#include "Records.h"
+#include "shared/replica/Bits.h"
+#include "shared/replica/Records.h"
 
 namespace naiad {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "Records.h"
+#include "shared/replica/Records.h"
 
 namespace naiad {
 

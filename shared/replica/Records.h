@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "ControlCodec.h"
-#include "Look.h"
-#include "Motion.h"
-#include "Solidness.h"
+#include "shared/replica/ControlCodec.h"
+#include "shared/replica/Look.h"
+#include "shared/replica/Motion.h"
+#include "shared/values/Solidness.h"
 
 namespace naiad {
 

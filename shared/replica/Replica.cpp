@@ -1,8 +1,8 @@
-#include "Replica.h"
+#include "shared/replica/Replica.h"
 
 #include <algorithm>
 
-#include "Checksum.h"
+#include "shared/replica/Checksum.h"
 
 namespace naiad {
 

@@ -10,12 +10,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "Acks.h"
-#include "Canvas.h"
-#include "Placement.h"
-#include "SnapshotCodec.h"
-#include "ViewFollow.h"
-#include "Vocabulary.h"
+#include "shared/replica/Acks.h"
+#include "shared/replica/Placement.h"
+#include "shared/replica/SnapshotCodec.h"
+#include "shared/replica/ViewFollow.h"
+#include "shared/replica/Vocabulary.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad {
 

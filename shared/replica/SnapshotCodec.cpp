@@ -1,13 +1,13 @@
-#include "SnapshotCodec.h"
+#include "shared/replica/SnapshotCodec.h"
 
 #include <algorithm>
 #include <cassert>
 
-#include "Acks.h"
-#include "Canvas.h"
-#include "ControlCodec.h"
-#include "Limits.h"
-#include "MotionCodec.h"
+#include "shared/replica/Acks.h"
+#include "shared/replica/ControlCodec.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/MotionCodec.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad {
 

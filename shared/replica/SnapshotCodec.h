@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "LookCodec.h"
-#include "MotionCodec.h"
-#include "Records.h"
-#include "Vocabulary.h"
+#include "shared/replica/LookCodec.h"
+#include "shared/replica/MotionCodec.h"
+#include "shared/replica/Records.h"
+#include "shared/replica/Vocabulary.h"
 
 namespace naiad {
 

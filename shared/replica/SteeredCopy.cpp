@@ -1,4 +1,4 @@
-#include "SteeredCopy.h"
+#include "shared/replica/SteeredCopy.h"
 
 namespace naiad {
 

@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "ControlCodec.h"
-#include "Steering.h"
+#include "shared/replica/ControlCodec.h"
+#include "shared/replica/Steering.h"
 
 namespace naiad {
 

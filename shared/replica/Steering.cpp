@@ -1,4 +1,4 @@
-#include "Steering.h"
+#include "shared/replica/Steering.h"
 
 #include <cstdlib>
 

@@ -4,8 +4,8 @@
 // the world moves everything by its velocity. Pure integer; nothing is read but the arguments.
 #pragma once
 
-#include "ControlTable.h"
-#include "Fixed.h"
+#include "shared/values/ControlTable.h"
+#include "shared/values/Fixed.h"
 
 namespace naiad {
 

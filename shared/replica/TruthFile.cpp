@@ -1,4 +1,4 @@
-#include "TruthFile.h"
+#include "shared/replica/TruthFile.h"
 
 #include <cstdio>
 #include <vector>

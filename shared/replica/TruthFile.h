@@ -16,7 +16,7 @@
 #include <optional>
 #include <string>
 
-#include "Canvas.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad {
 

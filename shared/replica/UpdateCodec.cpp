@@ -1,9 +1,9 @@
-#include "UpdateCodec.h"
+#include "shared/replica/UpdateCodec.h"
 
 #include <algorithm>
 
-#include "Bits.h"
-#include "Limits.h"
+#include "shared/replica/Bits.h"
+#include "shared/replica/Limits.h"
 
 namespace naiad {
 

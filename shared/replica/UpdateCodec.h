@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "Acks.h"
-#include "Keyboard.h"
+#include "shared/replica/Acks.h"
+#include "shared/values/Keyboard.h"
 
 namespace naiad {
 

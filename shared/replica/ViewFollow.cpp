@@ -1,4 +1,4 @@
-#include "ViewFollow.h"
+#include "shared/replica/ViewFollow.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // Where a view lies that follows an object: one integer function, run by server and client alike.
 #pragma once
 
-#include "Fixed.h"
-#include "Motion.h"
+#include "shared/replica/Motion.h"
+#include "shared/values/Fixed.h"
 
 namespace naiad {
 

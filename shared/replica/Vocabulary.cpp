@@ -1,6 +1,6 @@
-#include "Vocabulary.h"
+#include "shared/replica/Vocabulary.h"
 
-#include "Acks.h"
+#include "shared/replica/Acks.h"
 
 namespace naiad {
 

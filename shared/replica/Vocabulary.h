@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "Records.h"
+#include "shared/replica/Records.h"
 
 namespace naiad {
 

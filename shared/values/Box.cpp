@@ -1,4 +1,4 @@
-#include "Box.h"
+#include "shared/values/Box.h"
 
 namespace df {
 

@@ -1,4 +1,4 @@
-#include "Canvas.h"
+#include "shared/values/Canvas.h"
 
 #include <algorithm>
 #include <array>

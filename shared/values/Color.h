@@ -1,7 +1,7 @@
 // The eight colours of a Dragonfly character (book, Listing 4.66).
 #pragma once
 
-#include "Dialect.h"
+#include "detail/Dialect.h"
 
 namespace df {
 

@@ -1,4 +1,4 @@
-#include "ControlTable.h"
+#include "shared/values/ControlTable.h"
 
 #include <algorithm>
 

@@ -15,7 +15,7 @@
 #include <optional>
 #endif
 
-#include "Dialect.h"
+#include "detail/Dialect.h"
 
 namespace df {
 

@@ -1,7 +1,7 @@
 // Keys and mouse buttons: names the game reads and numbers the wire carries (book, Listings 4.84 to 4.88).
 #pragma once
 
-#include "Dialect.h"
+#include "detail/Dialect.h"
 
 namespace df {
 

@@ -1,5 +1,5 @@
 // A small random number generator, the same everywhere for the same seed: for links, tests, and to seed the
-// world's own (server/engine/Random.h).
+// world's own (server/engine/world/Random.h).
 //
 // Steele, Lea, Flood: "Fast splittable pseudorandom number generators", OOPSLA 2014. Not for secrets.
 #pragma once

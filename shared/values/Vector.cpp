@@ -1,4 +1,4 @@
-#include "Vector.h"
+#include "shared/values/Vector.h"
 
 #include <cmath>
 #include <sstream>

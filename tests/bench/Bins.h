@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "Fixed.h"
+#include "shared/values/Fixed.h"
 
 namespace bench {
 

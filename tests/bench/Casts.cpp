@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "SplitMix64.h"
+#include "shared/values/SplitMix64.h"
 
 namespace bench {
 

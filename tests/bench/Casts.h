@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "Bins.h"
-#include "Fixed.h"
 #include "Impact.h"
+#include "shared/values/Fixed.h"
 
 namespace bench {
 

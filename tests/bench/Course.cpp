@@ -3,9 +3,9 @@
 #include <string>
 #include <utility>
 
-#include "EventCollision.h"
-#include "Object.h"
-#include "WorldManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/Object.h"
 
 namespace bench {
 

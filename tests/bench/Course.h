@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Casts.h"
-#include "World.h"
+#include "engine/world/World.h"
 
 namespace bench {
 

@@ -8,12 +8,12 @@
 #include <string>
 
 #include "Clock.h"
-#include "GameModule.h"
 #include "Line.h"
-#include "Player.h"
-#include "Runner.h"
 #include "Suite.h"
-#include "World.h"
+#include "engine/world/Player.h"
+#include "engine/world/Runner.h"
+#include "engine/world/World.h"
+#include "host/program/GameModule.h"
 #include "net/LinkedClient.h"
 #include "server/games/Crowd.h"
 

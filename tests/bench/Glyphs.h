@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "Fixed.h"
 #include "Impact.h"
-#include "SplitMix64.h"
+#include "shared/values/Fixed.h"
+#include "shared/values/SplitMix64.h"
 
 namespace bench {
 

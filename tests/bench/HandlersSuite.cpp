@@ -6,15 +6,15 @@
 
 #include "Clock.h"
 #include "Contest.h"
-#include "EventCollision.h"
-#include "EventOut.h"
 #include "Line.h"
-#include "Object.h"
 #include "Scene.h"
-#include "SplitMix64.h"
 #include "Suite.h"
-#include "World.h"
-#include "WorldManager.h"
+#include "engine/events/EventOut.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
+#include "shared/values/SplitMix64.h"
 
 namespace bench {
 

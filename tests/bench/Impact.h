@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "Fixed.h"
+#include "shared/values/Fixed.h"
 
 namespace bench {
 

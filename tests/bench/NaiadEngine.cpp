@@ -1,9 +1,9 @@
 #include "NaiadEngine.h"
 
-#include "EventCollision.h"
-#include "EventOut.h"
-#include "Object.h"
-#include "WorldManager.h"
+#include "engine/events/EventOut.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/Object.h"
 
 namespace bench {
 

@@ -6,7 +6,7 @@
 
 #include "Engine.h"
 #include "Scene.h"
-#include "World.h"
+#include "engine/world/World.h"
 
 namespace bench {
 

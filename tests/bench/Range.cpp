@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "EventCollision.h"
-#include "WorldManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
 
 namespace bench {
 

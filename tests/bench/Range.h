@@ -14,11 +14,11 @@
 #include <cstdint>
 #include <optional>
 
-#include "Fixed.h"
 #include "Glyphs.h"
 #include "Impact.h"
-#include "Object.h"
-#include "World.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
+#include "shared/values/Fixed.h"
 
 namespace bench {
 

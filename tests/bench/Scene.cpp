@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "SplitMix64.h"
+#include "shared/values/SplitMix64.h"
 
 namespace bench {
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "Solidness.h"
+#include "shared/values/Solidness.h"
 
 namespace bench {
 

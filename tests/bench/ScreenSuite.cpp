@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "Line.h"
-#include "SplitMix64.h"
 #include "Suite.h"
 #include "net/BusyScene.h"
 #include "net/LinkedClient.h"
+#include "shared/values/SplitMix64.h"
 
 namespace bench {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Range.h"
-#include "SplitMix64.h"
+#include "shared/values/SplitMix64.h"
 
 namespace bench {
 

@@ -6,8 +6,8 @@
 #include "Line.h"
 #include "Range.h"
 #include "Shots.h"
-#include "SplitMix64.h"
 #include "Suite.h"
+#include "shared/values/SplitMix64.h"
 
 namespace bench {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "Channel.h"
-#include "Limits.h"
-#include "SealedChannel.h"
+#include "host/net/SealedChannel.h"
+#include "shared/net/base/Channel.h"
+#include "shared/replica/Limits.h"
 
 namespace naiad::fuzz {
 

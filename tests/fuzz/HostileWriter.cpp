@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "Keyboard.h"
-#include "Look.h"
 #include "Prelude.h"
-#include "UpdateCodec.h"
+#include "shared/replica/Look.h"
+#include "shared/replica/UpdateCodec.h"
+#include "shared/values/Keyboard.h"
 
 namespace naiad::fuzz {
 namespace {

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <string>
 
-#include "Bits.h"
-#include "Limits.h"
 #include "Script.h"
+#include "shared/net/base/Limits.h"
+#include "shared/replica/Bits.h"
 
 namespace naiad::fuzz {
 

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "Replica.h"
 #include "Require.h"
+#include "shared/replica/Replica.h"
 
 namespace naiad::fuzz {
 

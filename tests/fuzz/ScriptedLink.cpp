@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "Require.h"
-#include "UpdateCodec.h"
+#include "shared/replica/UpdateCodec.h"
 
 namespace naiad::fuzz {
 namespace {

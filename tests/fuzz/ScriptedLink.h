@@ -6,10 +6,10 @@
 #include <functional>
 #include <string>
 
-#include "Replica.h"
 #include "ScriptedWorld.h"
-#include "SealedLink.h"
-#include "SnapshotSender.h"
+#include "host/snapshot/SnapshotSender.h"
+#include "shared/net/datagram/SealedLink.h"
+#include "shared/replica/Replica.h"
 
 namespace naiad::fuzz {
 

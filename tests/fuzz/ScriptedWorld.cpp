@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "ViewFollow.h"
+#include "shared/replica/ViewFollow.h"
 
 namespace naiad::fuzz {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "Canvas.h"
-#include "Look.h"
 #include "Script.h"
-#include "WorldView.h"
+#include "engine/world/WorldView.h"
+#include "shared/replica/Look.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad::fuzz {
 

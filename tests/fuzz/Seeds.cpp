@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "ControlCodec.h"
-#include "Framing.h"
-#include "Limits.h"
 #include "ScriptedLink.h"
-#include "SplitMix64.h"
-#include "UpdateCodec.h"
-#include "WorldMessages.h"
+#include "host/world/WorldMessages.h"
 #include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/stream/Framing.h"
+#include "shared/replica/ControlCodec.h"
+#include "shared/replica/UpdateCodec.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad::fuzz {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "Canvas.h"
-#include "Limits.h"
-#include "MotionCodec.h"
 #include "Require.h"
 #include "Script.h"
-#include "WriteSnapshot.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/MotionCodec.h"
+#include "shared/values/Canvas.h"
+#include "tests/support/WriteSnapshot.h"
 
 namespace naiad::fuzz {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "Replica.h"
+#include "shared/replica/Replica.h"
 
 namespace naiad::fuzz {
 

@@ -2,14 +2,14 @@
 
 #include <string>
 
-#include "DisplayManager.h"
-#include "EventKeyboard.h"
-#include "EventOut.h"
-#include "EventPlayer.h"
-#include "EventStep.h"
-#include "Object.h"
-#include "Player.h"
-#include "WorldManager.h"
+#include "engine/events/EventKeyboard.h"
+#include "engine/events/EventOut.h"
+#include "engine/events/EventStep.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventPlayer.h"
+#include "engine/world/Object.h"
+#include "engine/world/Player.h"
 
 namespace naiad::test {
 

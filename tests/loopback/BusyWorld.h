@@ -2,7 +2,7 @@
 // look, die and are born, and every player steers a ship.
 #pragma once
 
-#include "World.h"
+#include "engine/world/World.h"
 
 namespace naiad::test {
 

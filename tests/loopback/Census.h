@@ -4,8 +4,8 @@
 #include <atomic>
 
 #include "BusyWorld.h"
-#include "EventPlayer.h"
-#include "Object.h"
+#include "engine/world/EventPlayer.h"
+#include "engine/world/Object.h"
 
 namespace naiad::test {
 

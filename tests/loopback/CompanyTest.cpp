@@ -5,10 +5,10 @@
 
 #include "BusyWorld.h"
 #include "Compare.h"
-#include "Player.h"
 #include "RawClient.h"
 #include "TestClient.h"
 #include "TestServer.h"
+#include "engine/world/Player.h"
 
 namespace naiad::test {
 namespace {

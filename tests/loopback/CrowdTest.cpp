@@ -9,11 +9,11 @@
 
 #include "BusyWorld.h"
 #include "Home.h"
-#include "PasswordHash.h"
 #include "RawClient.h"
-#include "SplitMix64.h"
 #include "TestServer.h"
 #include "Valve.h"
+#include "host/auth/PasswordHash.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad::test {
 namespace {

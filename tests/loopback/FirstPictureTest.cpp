@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <optional>
 
-#include "DisplayManager.h"
-#include "Object.h"
 #include "TestClient.h"
 #include "TestServer.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/world/Object.h"
 
 namespace naiad::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "HostOptions.h"
 #include "TestClient.h"
+#include "host/program/HostOptions.h"
 
 namespace naiad::test {
 

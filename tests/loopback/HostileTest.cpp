@@ -8,12 +8,12 @@
 
 #include "BusyWorld.h"
 #include "Compare.h"
-#include "Framing.h"
 #include "RawClient.h"
-#include "SplitMix64.h"
 #include "TestClient.h"
 #include "TestServer.h"
-#include "UpdateCodec.h"
+#include "shared/net/stream/Framing.h"
+#include "shared/replica/UpdateCodec.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad::test {
 namespace {

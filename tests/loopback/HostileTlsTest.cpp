@@ -11,10 +11,10 @@
 
 #include "BusyWorld.h"
 #include "Home.h"
-#include "Player.h"
-#include "SplitMix64.h"
 #include "TestServer.h"
 #include "Valve.h"
+#include "engine/world/Player.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad::test {
 namespace {

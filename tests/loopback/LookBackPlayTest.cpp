@@ -6,16 +6,16 @@
 #include <functional>
 #include <vector>
 
-#include "DisplayManager.h"
-#include "EventMouse.h"
-#include "EventPlayer.h"
-#include "EventStep.h"
 #include "Home.h"
-#include "Object.h"
 #include "StreamProxy.h"
 #include "TestServer.h"
 #include "Valve.h"
-#include "WorldManager.h"
+#include "engine/events/EventMouse.h"
+#include "engine/events/EventStep.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventPlayer.h"
+#include "engine/world/Object.h"
 
 namespace naiad::test {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "Pause.h"
 #include "TestClient.h"
 #include "TestServer.h"
+#include "engine/widgets/Pause.h"
 
 namespace naiad::test {
 namespace {

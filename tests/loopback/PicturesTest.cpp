@@ -3,13 +3,13 @@
 
 #include "BusyWorld.h"
 #include "Compare.h"
-#include "DisplayManager.h"
-#include "EventPlayer.h"
-#include "EventStep.h"
 #include "TestClient.h"
 #include "TestServer.h"
-#include "ViewObject.h"
-#include "WorldManager.h"
+#include "engine/events/EventStep.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/widgets/ViewObject.h"
+#include "engine/world/EventPlayer.h"
 
 namespace naiad::test {
 namespace {

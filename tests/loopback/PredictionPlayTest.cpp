@@ -1,15 +1,15 @@
 // A key shows at once, however far the server is, and what is shown is what then happens.
 #include <gtest/gtest.h>
 
-#include "Controls.h"
-#include "EventPlayer.h"
 #include "Home.h"
-#include "Object.h"
-#include "Player.h"
 #include "StreamProxy.h"
 #include "TestServer.h"
 #include "Valve.h"
-#include "WorldManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/Controls.h"
+#include "engine/world/EventPlayer.h"
+#include "engine/world/Object.h"
+#include "engine/world/Player.h"
 
 namespace naiad::test {
 namespace {

@@ -4,8 +4,8 @@
 #include <asio/write.hpp>
 #include <chrono>
 
-#include "Framing.h"
-#include "Limits.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/stream/Framing.h"
 
 namespace naiad::test {
 

@@ -6,10 +6,10 @@
 #include "Census.h"
 #include "Compare.h"
 #include "Home.h"
-#include "Player.h"
 #include "StreamProxy.h"
 #include "TestServer.h"
 #include "Valve.h"
+#include "engine/world/Player.h"
 
 namespace naiad::test {
 namespace {

@@ -6,12 +6,12 @@
 
 #include "Census.h"
 #include "Compare.h"
-#include "EventKeyboard.h"
 #include "Home.h"
-#include "Player.h"
 #include "StreamProxy.h"
 #include "TestServer.h"
 #include "Valve.h"
+#include "engine/events/EventKeyboard.h"
+#include "engine/world/Player.h"
 
 namespace naiad::test {
 namespace {

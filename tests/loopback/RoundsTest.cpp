@@ -12,7 +12,7 @@
 #include "GameProgram.h"
 #include "Home.h"
 #include "TestClient.h"
-#include "TruthFile.h"
+#include "shared/replica/TruthFile.h"
 
 namespace naiad::test {
 namespace {

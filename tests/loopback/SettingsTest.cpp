@@ -1,12 +1,12 @@
 // What a game asks for in its settings, and what its players are told of it; who may end it.
 #include <gtest/gtest.h>
 
-#include "DisplayManager.h"
-#include "EventKeyboard.h"
-#include "GameManager.h"
 #include "TestClient.h"
 #include "TestServer.h"
-#include "WorldExtras.h"
+#include "engine/events/EventKeyboard.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/managers/GameManager.h"
+#include "engine/world/WorldExtras.h"
 
 namespace naiad::test {
 namespace {

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "EventKeyboard.h"
-#include "Music.h"
-#include "Sound.h"
 #include "TestClient.h"
 #include "TestServer.h"
+#include "engine/events/EventKeyboard.h"
+#include "engine/world/Music.h"
+#include "engine/world/Sound.h"
 
 namespace naiad::test {
 namespace {

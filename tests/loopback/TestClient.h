@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "Connection.h"
+#include "client/session/Connection.h"
 
 namespace naiad::test {
 

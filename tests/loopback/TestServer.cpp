@@ -1,6 +1,6 @@
 #include "TestServer.h"
 
-#include "Player.h"
+#include "engine/world/Player.h"
 
 namespace naiad::test {
 

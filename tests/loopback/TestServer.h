@@ -11,10 +11,10 @@
 #include <optional>
 #include <thread>
 
-#include "Canvas.h"
-#include "Host.h"
-#include "HostOptions.h"
-#include "World.h"
+#include "engine/world/World.h"
+#include "host/program/Host.h"
+#include "host/program/HostOptions.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad::test {
 

@@ -3,10 +3,10 @@
 
 #include "BusyWorld.h"
 #include "Home.h"
-#include "PasswordHash.h"
-#include "SafeFile.h"
 #include "StreamProxy.h"
 #include "TestServer.h"
+#include "host/auth/PasswordHash.h"
+#include "shared/net/base/SafeFile.h"
 
 namespace naiad::test {
 namespace {

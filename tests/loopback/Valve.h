@@ -7,7 +7,7 @@
 #include <functional>
 #include <memory>
 
-#include "UdpSocket.h"
+#include "shared/net/datagram/UdpSocket.h"
 
 namespace naiad::test {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "Channel.h"
+#include "shared/net/base/Channel.h"
 
 namespace naiad::soak {
 

@@ -1,4 +1,4 @@
-// A client with a random player at the keys, over a bad network: what client/Connection does for dfclient, in
+// A client with a random player at the keys, over a bad network: what client/session/Connection does for dfclient, in
 // virtual time.
 #pragma once
 
@@ -8,13 +8,13 @@
 #include <set>
 #include <string>
 
-#include "BotPlayer.h"
-#include "ClientSession.h"
-#include "LossyLink.h"
 #include "SoakScene.h"
 #include "Tally.h"
 #include "VirtualHost.h"
 #include "Weather.h"
+#include "client/bot/BotPlayer.h"
+#include "client/session/ClientSession.h"
+#include "tests/support/net/LossyLink.h"
 
 namespace naiad::soak {
 

@@ -12,9 +12,9 @@
 #include <unordered_map>
 
 #include "Bot.h"
-#include "Canvas.h"
 #include "Tally.h"
 #include "VirtualHost.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad::soak {
 

@@ -10,7 +10,7 @@
 #include "Judge.h"
 #include "Tally.h"
 #include "VirtualHost.h"
-#include "World.h"
+#include "engine/world/World.h"
 
 namespace naiad::soak {
 

@@ -3,16 +3,16 @@
 #include <string>
 #include <utility>
 
-#include "Controls.h"
-#include "DisplayManager.h"
-#include "EventMouse.h"
-#include "EventOut.h"
-#include "EventPlayer.h"
-#include "EventStep.h"
-#include "Look.h"
-#include "Object.h"
-#include "Player.h"
-#include "WorldManager.h"
+#include "engine/events/EventMouse.h"
+#include "engine/events/EventOut.h"
+#include "engine/events/EventStep.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/Controls.h"
+#include "engine/world/EventPlayer.h"
+#include "engine/world/Object.h"
+#include "engine/world/Player.h"
+#include "shared/replica/Look.h"
 
 namespace naiad::soak {
 

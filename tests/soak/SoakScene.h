@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "EventKeyboard.h"
-#include "World.h"
+#include "engine/events/EventKeyboard.h"
+#include "engine/world/World.h"
 
 namespace naiad::soak {
 

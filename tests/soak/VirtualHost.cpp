@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "Names.h"
-#include "Player.h"
+#include "engine/world/Player.h"
+#include "host/session/Names.h"
 
 namespace naiad::soak {
 

@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "Counters.h"
-#include "DatagramService.h"
-#include "Publisher.h"
-#include "ResumeTokens.h"
-#include "Session.h"
-#include "SplitMix64.h"
-#include "VirtualClock.h"
-#include "VirtualNetwork.h"
-#include "World.h"
+#include "engine/world/World.h"
+#include "host/auth/ResumeTokens.h"
+#include "host/net/DatagramService.h"
+#include "host/session/Counters.h"
+#include "host/session/Session.h"
+#include "host/snapshot/Publisher.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/support/net/VirtualClock.h"
+#include "tests/support/net/VirtualNetwork.h"
 
 namespace naiad::soak {
 

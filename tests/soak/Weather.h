@@ -4,9 +4,9 @@
 #include <chrono>
 #include <optional>
 
-#include "LinkConditions.h"
-#include "SplitMix64.h"
-#include "VirtualClock.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/support/net/LinkConditions.h"
+#include "tests/support/net/VirtualClock.h"
 
 namespace naiad::soak {
 

@@ -5,7 +5,7 @@
 
 #include "FakeServer.h"
 #include "PtyTerminal.h"
-#include "SnapshotCodec.h"
+#include "shared/replica/SnapshotCodec.h"
 
 namespace naiad::test {
 namespace {

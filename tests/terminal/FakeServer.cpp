@@ -4,10 +4,10 @@
 #include <asio/post.hpp>
 #include <chrono>
 
-#include "Color.h"
-#include "Limits.h"
-#include "SnapshotCodec.h"
-#include "TcpChannel.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/stream/TcpChannel.h"
+#include "shared/replica/SnapshotCodec.h"
+#include "shared/values/Color.h"
 
 namespace naiad::test {
 

@@ -13,9 +13,9 @@
 #include <thread>
 #include <vector>
 
-#include "Channel.h"
-#include "UpdateCodec.h"
 #include "naiad.pb.h"
+#include "shared/net/base/Channel.h"
+#include "shared/replica/UpdateCodec.h"
 
 namespace naiad::test {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "Canvas.h"
 #include "FakeServer.h"
 #include "PtyTerminal.h"
-#include "tests/HostileTexts.h"
+#include "shared/values/Canvas.h"
+#include "tests/support/HostileTexts.h"
 
 namespace naiad::test {
 namespace {

@@ -4,8 +4,8 @@
 #include <sys/wait.h>
 
 #include "FakeServer.h"
-#include "Keyboard.h"
 #include "PtyTerminal.h"
+#include "shared/values/Keyboard.h"
 
 namespace naiad::test {
 namespace {

@@ -37,7 +37,7 @@ bool isSound(const Body& body) {
 double addShapes(const Body& body, ContactBody& made) {
   double inertia = 0;
   for (const Shape& shape : body.shapes) {
-    physics::Shape own;
+    physics::ConvexShape own;
     if (shape.kind == Shape::Kind::CIRCLE) {
       physics::makeCircle(shape.radius, from(shape.centre), own);
       inertia = shape.radius * shape.radius / 2;

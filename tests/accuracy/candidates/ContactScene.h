@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "Manifold.h"
 #include "Method.h"
+#include "physics/geometry/Manifold.h"
 
 namespace lab {
 
@@ -27,7 +27,7 @@ struct ContactBody {
   Vec2 gravity;
   double drag = 0;  ///< 1/s
   double friction = 0;
-  std::vector<naiad::physics::Shape> shapes;
+  std::vector<naiad::physics::ConvexShape> shapes;
   std::vector<naiad::physics::TurnedShape> turned;
   Vec2 lower, upper;  ///< bounds, with room for the step
   double room = 0;    ///< how far it may get in the step

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "Method.h"
-#include "RigidWorld.h"
+#include "physics/rigid/RigidWorld.h"
 
 namespace lab {
 
@@ -62,10 +62,10 @@ class Rigid : public Simulation {
     m_world = physics::RigidWorld(withSubsteps(substeps));
     m_origin = physics::placeAt(down(m_scene.origin));
     for (const Body& body : m_scene.bodies) {
-      std::vector<physics::Shape> shapes;
+      std::vector<physics::ConvexShape> shapes;
       double inertia = 0;
       for (const Shape& shape : body.shapes) {
-        physics::Shape made;
+        physics::ConvexShape made;
         if (shape.kind == Shape::Kind::CIRCLE) {
           physics::makeCircle(shape.radius, down(shape.centre), made);
           inertia = shape.radius * shape.radius / 2;

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "Method.h"
-#include "SoftBuild.h"
-#include "SoftElastic.h"
-#include "SoftForces.h"
-#include "SoftWorld.h"
+#include "physics/soft/SoftBuild.h"
+#include "physics/soft/SoftElastic.h"
+#include "physics/soft/SoftForces.h"
+#include "physics/soft/SoftWorld.h"
 
 namespace lab {
 

@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "Default.h"
-#include "PhysicsManager.h"
-#include "SoftObject.h"
-#include "World.h"
-#include "WorldManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/World.h"
+#include "physics/body/PhysicsManager.h"
+#include "physics/body/SoftObject.h"
 
 namespace lab {
 

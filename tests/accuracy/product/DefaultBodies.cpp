@@ -6,13 +6,13 @@
 #include <numbers>
 #include <vector>
 
-#include "Body.h"
 #include "Default.h"
-#include "EventCollision.h"
-#include "Field.h"
-#include "PhysicsManager.h"
-#include "World.h"
-#include "WorldManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/World.h"
+#include "physics/body/Body.h"
+#include "physics/body/Field.h"
+#include "physics/body/PhysicsManager.h"
 
 namespace lab {
 

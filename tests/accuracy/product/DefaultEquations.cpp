@@ -5,7 +5,7 @@
 
 #include "Default.h"
 #include "Equations.h"
-#include "IntegratorAutomatic.h"
+#include "physics/numerics/IntegratorAutomatic.h"
 
 namespace lab {
 

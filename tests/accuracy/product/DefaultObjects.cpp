@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "Default.h"
-#include "Object.h"
-#include "World.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
 
 namespace lab {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "Canvas.h"
+#include "shared/values/Canvas.h"
 
 namespace bench::capacity {
 

@@ -10,12 +10,12 @@
 #include <map>
 #include <string>
 
-#include "EventCollision.h"
 #include "Heap.h"
-#include "Object.h"
 #include "Scene.h"
-#include "World.h"
-#include "WorldManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
 
 namespace bench {
 

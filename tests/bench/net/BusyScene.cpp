@@ -3,12 +3,12 @@
 #include <cmath>
 #include <string>
 
-#include "DisplayManager.h"
-#include "EventPlayer.h"
-#include "EventStep.h"
-#include "Object.h"
-#include "Player.h"
-#include "WorldManager.h"
+#include "engine/events/EventStep.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventPlayer.h"
+#include "engine/world/Object.h"
+#include "engine/world/Player.h"
 
 namespace bench {
 

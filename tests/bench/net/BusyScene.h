@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "World.h"
+#include "engine/world/World.h"
 
 namespace bench {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "UpdateCodec.h"
+#include "shared/replica/UpdateCodec.h"
 
 namespace bench {
 

@@ -9,12 +9,12 @@
 #include <memory>
 #include <string_view>
 
-#include "DisplayClock.h"
-#include "LossyLink.h"
-#include "Publisher.h"
-#include "Replica.h"
-#include "SnapshotSender.h"
-#include "VirtualClock.h"
+#include "client/world/DisplayClock.h"
+#include "host/snapshot/Publisher.h"
+#include "host/snapshot/SnapshotSender.h"
+#include "shared/replica/Replica.h"
+#include "tests/support/net/LossyLink.h"
+#include "tests/support/net/VirtualClock.h"
 
 namespace bench {
 

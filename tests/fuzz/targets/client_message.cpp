@@ -12,10 +12,11 @@
 #include <memory>
 
 #include "FakeChannel.h"
-#include "Limits.h"
 #include "Require.h"
 #include "Script.h"
-#include "Session.h"
+#include "host/session/Session.h"
+#include "shared/net/base/Limits.h"
+#include "shared/replica/Limits.h"
 
 namespace naiad::fuzz {
 namespace {

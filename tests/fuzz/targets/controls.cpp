@@ -1,10 +1,10 @@
 // Declared controls, and the exact state of what a player steers.
 //
 //   input   0 table, 1 state (1) | tick (4) | the bytes
-#include "ControlCodec.h"
-#include "Limits.h"
 #include "Require.h"
 #include "Script.h"
+#include "shared/replica/ControlCodec.h"
+#include "shared/replica/Limits.h"
 
 namespace naiad::fuzz {
 namespace {

@@ -9,12 +9,12 @@
 #include <set>
 #include <vector>
 
-#include "DatagramGate.h"
-#include "LittleEndian.h"
 #include "Require.h"
 #include "Script.h"
-#include "Seal.h"
-#include "SealedLink.h"
+#include "shared/net/datagram/DatagramGate.h"
+#include "shared/net/datagram/Seal.h"
+#include "shared/net/datagram/SealedLink.h"
+#include "shared/values/LittleEndian.h"
 
 namespace naiad::fuzz {
 namespace {

@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "Framing.h"
 #include "Require.h"
 #include "Script.h"
-#include "SplitMix64.h"
+#include "shared/net/stream/Framing.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad::fuzz {
 namespace {

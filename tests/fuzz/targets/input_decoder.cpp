@@ -5,9 +5,9 @@
 #include <array>
 #include <vector>
 
-#include "InputDecoder.h"
 #include "Require.h"
 #include "Script.h"
+#include "client/terminal/InputDecoder.h"
 
 namespace naiad::fuzz {
 namespace {

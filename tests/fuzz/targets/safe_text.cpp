@@ -2,11 +2,11 @@
 // length, and stays as it is when cleaned again.
 //
 //   input   characters at most 1 | the text
-#include "Canvas.h"
-#include "Limits.h"
 #include "Require.h"
-#include "SafeText.h"
 #include "Script.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad::fuzz {
 namespace {

@@ -2,12 +2,13 @@
 // terminal.
 //
 //   input   a frame's payload
-#include "Canvas.h"
-#include "Limits.h"
 #include "Require.h"
-#include "SafeText.h"
 #include "Script.h"
-#include "ServerMessages.h"
+#include "client/session/ServerMessages.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/replica/Limits.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad::fuzz {
 namespace {

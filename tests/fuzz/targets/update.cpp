@@ -3,10 +3,10 @@
 //   input   newest snapshot, tick and input known (4 each) | 0 raw, 1 numbers for HostileWriter (1) | the
 //   update
 #include "HostileWriter.h"
-#include "Limits.h"
 #include "Require.h"
 #include "Script.h"
-#include "UpdateCodec.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/UpdateCodec.h"
 
 namespace naiad::fuzz {
 namespace {

@@ -2,11 +2,11 @@
 // other end.
 //
 //   input   0 turn, 1 answers (1) | turn: its fields; answers: each length (2) | fields
-#include "LookCapture.h"
-#include "Publisher.h"
 #include "Require.h"
 #include "Script.h"
-#include "WorldMessages.h"
+#include "host/snapshot/LookCapture.h"
+#include "host/snapshot/Publisher.h"
+#include "host/world/WorldMessages.h"
 
 namespace naiad::fuzz {
 namespace {

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "EventCollision.h"
-#include "EventOut.h"
-#include "GameManager.h"
-#include "Object.h"
-#include "World.h"
-#include "WorldManager.h"
+#include "engine/events/EventOut.h"
+#include "engine/managers/GameManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
 
 namespace df::test {
 

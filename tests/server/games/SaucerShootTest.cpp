@@ -5,9 +5,9 @@
 
 #include "HostedGame.h"
 #include "Player.h"
-#include "SteeredCopy.h"
 #include "ViewObject.h"
-#include "WorldView.h"
+#include "detail/WorldView.h"
+#include "shared/replica/SteeredCopy.h"
 
 /// The game's main(), compiled into this test under another name.
 int saucershoot_main();

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "Body.h"
-#include "EventCollision.h"
-#include "EventContactEnd.h"
-#include "PhysicsManager.h"
-#include "Seconds.h"
-#include "World.h"
-#include "WorldManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/World.h"
+#include "physics/body/Body.h"
+#include "physics/body/EventContactEnd.h"
+#include "physics/body/PhysicsManager.h"
+#include "physics/body/Seconds.h"
 
 namespace df::test {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "Quad.h"
+#include "tests/support/Quad.h"
 
 namespace naiad::physics {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "Shape.h"
-#include "SplitMix64.h"
+#include "physics/geometry/ConvexShape.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad::physics::test {
 
@@ -23,9 +23,9 @@ inline Rotation anyRotation(SplitMix64& random) {
 }
 
 /// Circle, capsule, box, polygon; sharp or rounded; about 1 in size, off its origin now and then.
-inline Shape anyShape(SplitMix64& random) {
+inline ConvexShape anyShape(SplitMix64& random) {
   for (;;) {
-    Shape shape;
+    ConvexShape shape;
     const Vec2 centre = random.unit() < 0.5 ? Vec2{} : anyVec(random, 1);
     const double radius = random.unit() < 0.5 ? 0 : between(random, 0.01, 0.5);
     ShapeStatus status = ShapeStatus::kTooFew;
@@ -55,7 +55,7 @@ inline double pointToSegment(Vec2 p, Vec2 a, Vec2 b) {
   return length(p - (a + t * e));
 }
 
-inline std::vector<Vec2> placed(const Shape& shape, Rotation q, Vec2 by) {
+inline std::vector<Vec2> placed(const ConvexShape& shape, Rotation q, Vec2 by) {
   std::vector<Vec2> points;
   for (int i = 0; i < shape.count; ++i)
     points.push_back(by + q * shape.vertices[static_cast<std::size_t>(i)]);
@@ -93,7 +93,7 @@ inline double slowDistance(const std::vector<Vec2>& a, const std::vector<Vec2>& 
 }
 
 /// The gap between the surfaces, or ≤ 0 if they overlap: −radii at the deepest.
-inline double slowGap(const Shape& a, Rotation qa, const Shape& b, Rotation qb, Vec2 offset) {
+inline double slowGap(const ConvexShape& a, Rotation qa, const ConvexShape& b, Rotation qb, Vec2 offset) {
   return slowDistance(placed(a, qa, {}), placed(b, qb, offset)) - (a.radius + b.radius);
 }
 

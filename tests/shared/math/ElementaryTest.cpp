@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "Elementary.h"
-#include "Quad.h"
-#include "SplitMix64.h"
+#include "shared/math/Elementary.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/support/Quad.h"
 
 namespace df {
 namespace {

@@ -11,11 +11,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "Limits.h"
-#include "PlainStream.h"
-#include "TcpChannel.h"
 #include "TestIdentity.h"
-#include "TlsStream.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/stream/PlainStream.h"
+#include "shared/net/stream/TcpChannel.h"
+#include "shared/net/stream/TlsStream.h"
 
 namespace naiad::test {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "Channel.h"
+#include "shared/net/base/Channel.h"
 
 namespace naiad::test {
 

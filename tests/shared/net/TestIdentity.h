@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "TlsContext.h"
+#include "shared/net/stream/TlsContext.h"
 
 namespace naiad::test {
 

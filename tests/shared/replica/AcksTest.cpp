@@ -4,8 +4,8 @@
 #include <set>
 #include <vector>
 
-#include "Acks.h"
-#include "SplitMix64.h"
+#include "shared/replica/Acks.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad {
 namespace {

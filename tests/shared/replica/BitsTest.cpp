@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "Bits.h"
-#include "SplitMix64.h"
+#include "shared/replica/Bits.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad {
 namespace {

@@ -3,8 +3,8 @@
 #include <functional>
 #include <set>
 
-#include "Checksum.h"
 #include "RandomRecords.h"
+#include "shared/replica/Checksum.h"
 
 namespace naiad {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "Limits.h"
-#include "Records.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/Records.h"
 
 namespace naiad::test {
 

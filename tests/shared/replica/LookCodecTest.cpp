@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "LegalRecords.h"
-#include "Limits.h"
-#include "LookCodec.h"
 #include "RandomRecords.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/LookCodec.h"
 
 namespace naiad {
 namespace {

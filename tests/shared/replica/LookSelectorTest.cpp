@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "LookSelector.h"
 #include "RandomRecords.h"
+#include "shared/replica/LookSelector.h"
 
 namespace naiad {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "Look.h"
-#include "SplitMix64.h"
-#include "Vector.h"
+#include "shared/replica/Look.h"
+#include "shared/values/SplitMix64.h"
+#include "shared/values/Vector.h"
 
 namespace naiad {
 namespace {

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "LegalRecords.h"
-#include "MotionCodec.h"
 #include "RandomRecords.h"
-#include "Vector.h"
+#include "shared/replica/MotionCodec.h"
+#include "shared/values/Vector.h"
 
 namespace naiad {
 namespace {

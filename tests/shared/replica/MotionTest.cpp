@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "Motion.h"
-#include "SplitMix64.h"
+#include "shared/replica/Motion.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad {
 namespace {

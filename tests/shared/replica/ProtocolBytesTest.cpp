@@ -7,15 +7,16 @@
 #include <sstream>
 #include <string>
 
-#include "Bits.h"
-#include "Framing.h"
-#include "Keyboard.h"
-#include "Limits.h"
-#include "Replica.h"
-#include "SealedHeader.h"
-#include "UpdateCodec.h"
-#include "Vector.h"
 #include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/datagram/SealedHeader.h"
+#include "shared/net/stream/Framing.h"
+#include "shared/replica/Bits.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/Replica.h"
+#include "shared/replica/UpdateCodec.h"
+#include "shared/values/Keyboard.h"
+#include "shared/values/Vector.h"
 
 namespace naiad {
 namespace {

@@ -1,8 +1,8 @@
 // Random tables and states of controls, all of them valid.
 #pragma once
 
-#include "ControlCodec.h"
-#include "SplitMix64.h"
+#include "shared/replica/ControlCodec.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad::test {
 

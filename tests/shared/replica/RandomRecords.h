@@ -4,9 +4,9 @@
 #include <map>
 #include <string>
 
-#include "Limits.h"
-#include "SnapshotCodec.h"
-#include "SplitMix64.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/SnapshotCodec.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad::test {
 

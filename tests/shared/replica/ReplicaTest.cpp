@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "RandomRecords.h"
-#include "Replica.h"
-#include "Vector.h"
+#include "shared/replica/Replica.h"
+#include "shared/values/Vector.h"
 
 namespace naiad {
 namespace {

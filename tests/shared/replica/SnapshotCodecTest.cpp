@@ -5,10 +5,10 @@
 #include <string>
 
 #include "LegalRecords.h"
-#include "Limits.h"
 #include "RandomRecords.h"
-#include "SnapshotCodec.h"
-#include "WriteSnapshot.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/SnapshotCodec.h"
+#include "tests/support/WriteSnapshot.h"
 
 namespace naiad {
 namespace {

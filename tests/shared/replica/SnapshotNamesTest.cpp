@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "RandomRecords.h"
-#include "SnapshotCodec.h"
-#include "WriteSnapshot.h"
+#include "shared/replica/SnapshotCodec.h"
+#include "tests/support/WriteSnapshot.h"
 
 namespace naiad {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "SteeredCopy.h"
+#include "shared/replica/SteeredCopy.h"
 
 namespace naiad {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <functional>
 
-#include "Bits.h"
-#include "Limits.h"
-#include "SplitMix64.h"
-#include "UpdateCodec.h"
+#include "shared/replica/Bits.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/UpdateCodec.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "SplitMix64.h"
-#include "Vector.h"
-#include "ViewFollow.h"
+#include "shared/replica/ViewFollow.h"
+#include "shared/values/SplitMix64.h"
+#include "shared/values/Vector.h"
 
 namespace naiad {
 namespace {

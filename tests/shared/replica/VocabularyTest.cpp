@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "Vocabulary.h"
+#include "shared/replica/Vocabulary.h"
 
 namespace naiad {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "Canvas.h"
-#include "SplitMix64.h"
+#include "shared/values/Canvas.h"
+#include "shared/values/SplitMix64.h"
 
 namespace df {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "Box.h"
-#include "Fixed.h"
-#include "SplitMix64.h"
+#include "shared/values/Box.h"
+#include "shared/values/Fixed.h"
+#include "shared/values/SplitMix64.h"
 
 namespace df {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "Vector.h"
+#include "shared/values/Vector.h"
 
 namespace df {
 namespace {

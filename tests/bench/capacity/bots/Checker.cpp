@@ -5,7 +5,7 @@
 
 #include "../Check.h"
 #include "LightBot.h"
-#include "UdpSocket.h"
+#include "shared/net/datagram/UdpSocket.h"
 
 namespace bench::capacity {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "Connection.h"
-#include "SplitMix64.h"
+#include "client/session/Connection.h"
+#include "shared/values/SplitMix64.h"
 
 namespace bench::capacity {
 

@@ -7,10 +7,10 @@
 #include <array>
 #include <stdexcept>
 
-#include "DatagramKeys.h"
-#include "Keyboard.h"
-#include "Limits.h"
 #include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/datagram/DatagramKeys.h"
+#include "shared/values/Keyboard.h"
 
 namespace bench::capacity {
 

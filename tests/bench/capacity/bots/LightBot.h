@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "Acks.h"
-#include "SealedLink.h"
-#include "SnapshotCodec.h"
-#include "SplitMix64.h"
-#include "TcpConnector.h"
-#include "UpdateCodec.h"
+#include "shared/net/datagram/SealedLink.h"
+#include "shared/net/stream/TcpConnector.h"
+#include "shared/replica/Acks.h"
+#include "shared/replica/SnapshotCodec.h"
+#include "shared/replica/UpdateCodec.h"
+#include "shared/values/SplitMix64.h"
 
 namespace bench::capacity {
 

@@ -26,7 +26,7 @@
 #include "../Core.h"
 #include "Checker.h"
 #include "LightBot.h"
-#include "TlsContext.h"
+#include "shared/net/stream/TlsContext.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "Fixed.h"
 #include "RandomWorld.h"
-#include "Solidness.h"
+#include "shared/values/Fixed.h"
+#include "shared/values/Solidness.h"
 
 namespace oracle {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "Counters.h"
-#include "Paths.h"
+#include "engine/collision/Paths.h"
 
 namespace oracle {
 

@@ -1,9 +1,9 @@
 #include "EngineDriver.h"
 
-#include "EventCollision.h"
-#include "EventOut.h"
-#include "EventStep.h"
-#include "WorldManager.h"
+#include "engine/events/EventOut.h"
+#include "engine/events/EventStep.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
 
 namespace oracle {
 

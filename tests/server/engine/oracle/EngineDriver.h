@@ -2,9 +2,9 @@
 #pragma once
 
 #include "Actor.h"
-#include "Object.h"
 #include "Script.h"
-#include "World.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
 
 namespace oracle {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "Fixed.h"
 #include "Rng.h"
+#include "shared/values/Fixed.h"
 
 namespace oracle {
 

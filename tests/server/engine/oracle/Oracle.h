@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "Counters.h"
-#include "Fixed.h"
 #include "OracleGeometry.h"
 #include "OracleMask.h"
-#include "Solidness.h"
+#include "shared/values/Fixed.h"
+#include "shared/values/Solidness.h"
 
 namespace oracle {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "Fixed.h"
 #include "OracleMask.h"
+#include "shared/values/Fixed.h"
 
 namespace oracle {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "Fixed.h"
+#include "shared/values/Fixed.h"
 
 namespace oracle {
 

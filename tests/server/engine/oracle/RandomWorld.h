@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "Fixed.h"
 #include "Options.h"
 #include "Rng.h"
-#include "Solidness.h"
+#include "shared/values/Fixed.h"
+#include "shared/values/Solidness.h"
 
 namespace oracle {
 

@@ -26,7 +26,7 @@ class SaucerShoot2 : public ::testing::Test, public df::Runner {
     m_play = std::move(play);
     const df::World::Scope scope(world);
     world.setLogSink([this](const std::string& line) { log += line + "\n"; });
-    world.addResourceFolder(std::string(NAIAD_SOURCE_DIR) + "/server/games/saucershoot2");
+    world.addResourceFolder(std::string(NAIAD_SOURCE_DIR) + "/tests/support/saucershoot2");
     world.setRunner(this);
     srand(1);
     EXPECT_EQ(saucershoot2_main(0, nullptr), 0);

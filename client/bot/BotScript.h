@@ -1,0 +1,61 @@
+// What a bot does: a tiny language for key presses, clicks and chat.
+//
+//   press KEY              press and let go a tick later
+//   hold KEY TICKS         press, keep down for TICKS ticks, let go
+//   wait TICKS
+//   click X Y [BUTTON]     at a cell of the view; BUTTON: left (default), right, middle
+//   move X Y               move the mouse there
+//   chat TEXT              up to the end of the statement
+//   repeat N { … }         N times (1 to 1000000)
+//   repeat                 from the beginning of the script, for ever; the last statement
+//
+// Statements are separated by ';' or line ends; '#' begins a comment. KEY is a name of df::Keyboard::Key
+// (LEFTARROW, SPACE, F1, A, NUM1 …), in any case, or a digit. Every statement but repeat takes at least a
+// tick, so a script cannot flood a server.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "shared/values/Keyboard.h"
+
+namespace naiad {
+
+/// One step of a compiled script.
+struct BotStep {
+  enum class Kind : unsigned char { kPress, kHold, kWait, kClick, kMove, kChat, kLoop, kEndLoop, kRestart };
+  Kind kind = Kind::kWait;
+  df::Keyboard::Key key = df::Keyboard::UNDEFINED_KEY;
+  df::Mouse::Button button = df::Mouse::LEFT;
+  int x = 0;
+  int y = 0;
+  int count = 1;           ///< ticks, or rounds of a loop
+  std::size_t target = 0;  ///< kEndLoop: the step of its kLoop
+  std::string text;
+};
+
+/// Where a script is wrong, and how. Line and column count from 1.
+struct ScriptError {
+  int line = 1;
+  int column = 1;
+  std::string message;
+};
+
+class BotScript {
+ public:
+  static std::variant<BotScript, ScriptError> parse(const std::string& text);
+
+  const std::vector<BotStep>& steps() const { return m_steps; }
+
+ private:
+  friend class BotScriptParser;
+  std::vector<BotStep> m_steps;
+};
+
+/// The key of a name as scripts write it.
+std::optional<df::Keyboard::Key> keyNamed(const std::string& name);
+
+}  // namespace naiad

@@ -1,0 +1,69 @@
+// What a bot saw, tick by tick, to be compared with the server's truth file afterwards.
+//
+// Several snapshots may share a tick, so a tick's picture is final only when the next tick's first snapshot
+// comes, or at the end; and it is recorded only if the last of them was complete: else the server itself says
+// that the picture is not whole yet. A tick without a snapshot has the picture that the replica extrapolates,
+// for that is what the server relies on; but on the stream it may have been skipped, because what went before
+// had not left yet. Pictures are kept until a cap of ticks and cells is reached; then recording stops.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <unordered_map>
+
+#include "shared/replica/Replica.h"
+
+namespace naiad {
+
+class TruthRecorder {
+ public:
+  static constexpr std::size_t kMaxTicks = 2000;
+  /// Cells of all pictures together: 128 MB.
+  static constexpr std::size_t kMaxCells = 16u << 20;
+
+  explicit TruthRecorder(std::size_t max_cells = kMaxCells) : m_max_cells(max_cells) {}
+
+  /// Before a snapshot of `tick` is applied to `replica`.
+  void beforeSnapshot(const Replica& replica, std::uint32_t tick);
+  /// After a snapshot of `tick` was. `complete` says its header; `skips`: may ticks be skipped from here on?
+  void afterSnapshot(std::uint32_t tick, bool complete, bool skips);
+  /// No further snapshot comes.
+  void finish(const Replica& replica);
+
+  std::size_t tickCount() const { return m_pictures.size(); }
+  /// Objects that were in different cells of the world at different times.
+  std::size_t movingCount() const;
+
+  struct Comparison {
+    bool readable = false;  ///< the file could be opened and was well-formed
+    std::uint64_t ticks = 0;
+    std::uint64_t cells = 0;
+    std::uint64_t wrong = 0;
+    std::uint32_t first_wrong_tick = 0;  ///< 0: none
+    Comparison& operator+=(const Comparison& other);
+  };
+  /// Compare what was recorded with the records of `player` in the truth file.
+  Comparison compare(const std::string& path, std::uint32_t player) const;
+
+ private:
+  void record(const Replica& replica, std::uint32_t tick);
+
+  struct Track {
+    std::uint32_t generation = 0;
+    CellPosition first;
+    bool moved = false;
+  };
+  std::size_t m_max_cells;
+  std::size_t m_cells = 0;
+  bool m_full = false;
+  bool m_started = false;
+  std::uint32_t m_tick = 0;  ///< of the newest snapshot applied
+  bool m_complete = false;   ///< was it?
+  bool m_skips = false;
+  std::map<std::uint32_t, df::Canvas> m_pictures;
+  std::unordered_map<std::uint32_t, Track> m_tracks;  ///< by slot
+  std::size_t m_gone_moved = 0;                       ///< moved objects whose slot was used again
+};
+
+}  // namespace naiad

@@ -1,0 +1,294 @@
+// dfbot: players without a screen, for tests, demonstrations and load.
+#include <CLI/CLI.hpp>
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/bot/BotPlayer.h"
+#include "client/bot/TruthRecorder.h"
+#include "client/session/Connection.h"
+#include "client/session/ExitCode.h"
+#include "client/session/TrustOptions.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/values/Version.h"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kServing{20};  // of frames in one turn
+
+constexpr const char* kScriptHelp =
+    "Scripts (--script FILE or --script TEXT), durations in ticks:\n"
+    "  press SPACE; hold LEFTARROW 10; wait 5; click 40 12 [right]; move 3 4; chat hello all\n"
+    "  repeat 3 { press UPARROW; wait 2 }    repeat    (alone, at the end: the script again, for ever)\n"
+    "  Statements end with ';' or the line; '#' begins a comment. Keys are the names of "
+    "df::Keyboard::Key.\n\n";
+
+struct BotOptions {
+  naiad::ServerAddress address;
+  naiad::ServerTrust trust;
+  naiad::SessionOptions session;
+  std::string name = "bot";
+  std::string game;
+  int clients = 1;
+  std::optional<double> seconds;
+  std::optional<std::uint32_t> ticks;
+  std::optional<naiad::BotScript> script;
+  std::optional<std::uint64_t> random_seed;
+  std::string truth_file;
+  bool quiet = false;
+};
+
+/// One client: its connection, what it plays, what it saw.
+class Bot {
+ public:
+  Bot(asio::io_context& context, const BotOptions& options, int index)
+      : m_options(options),
+        m_index(index),
+        m_connection(context, options.address, sessionOptions(options, index), false, options.trust),
+        m_recorder(naiad::TruthRecorder::kMaxCells / static_cast<std::size_t>(options.clients)) {
+    m_connection.onSession([this](naiad::ClientSession& session) {
+      session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
+        if (!m_options.truth_file.empty()) m_recorder.beforeSnapshot(session.replica(), tick);
+        if (!m_first_tick) m_first_tick = tick;
+      });
+      session.onAfterSnapshot([this, &session](const naiad::SnapshotHeader& header, const naiad::AckWindow&) {
+        m_recorder.afterSnapshot(header.tick, header.complete, !session.hasDatagrams(Clock::now()));
+      });
+    });
+    m_connection.start();
+  }
+
+  void update(Clock::time_point now) {
+    m_connection.update(now);
+    naiad::ClientSession* session = m_connection.session();
+    if (session == nullptr || m_connection.isOver()) return;
+    if (m_script == nullptr && m_random == nullptr) startPlaying(*session, now);
+    while (now >= m_next_tick) {
+      m_next_tick += session->welcome().tick;
+      if (now - m_next_tick > std::chrono::milliseconds(250)) m_next_tick = now;  // after a pause: no rush
+      play(*session, now);
+    }
+  }
+
+  /// Ticks of the server since the first picture.
+  std::uint32_t ticks() {
+    naiad::ClientSession* session = m_connection.session();
+    return session != nullptr && m_first_tick ? session->clock().newestTick() - *m_first_tick : 0;
+  }
+  void leave() {
+    if (naiad::ClientSession* session = m_connection.session()) m_recorder.finish(session->replica());
+    m_connection.leave();
+  }
+  naiad::Connection& connection() { return m_connection; }
+  const naiad::TruthRecorder& recorder() const { return m_recorder; }
+  Clock::time_point joinedAt() const { return m_joined_at; }
+
+ private:
+  static naiad::SessionOptions sessionOptions(const BotOptions& options, int index) {
+    naiad::SessionOptions session = options.session;
+    session.name = options.clients == 1 ? options.name : options.name + std::to_string(index + 1);
+    session.game = options.game;
+    session.program = std::string("dfbot ") + naiad::kVersion;
+    return session;
+  }
+
+  void startPlaying(const naiad::ClientSession& session, Clock::time_point now) {
+    m_next_tick = m_joined_at = now;
+    if (m_options.random_seed) {
+      const std::uint64_t seed = *m_options.random_seed + static_cast<std::uint64_t>(m_index);
+      m_random = std::make_unique<naiad::RandomPlayer>(seed, session.replica().viewWidth(),
+                                                       session.replica().viewHeight());
+    } else {
+      m_script = std::make_unique<naiad::ScriptPlayer>(m_options.script.value_or(naiad::BotScript()));
+    }
+  }
+
+  void play(naiad::ClientSession& session, Clock::time_point now) {
+    for (const naiad::BotAction& action : m_random ? m_random->tick() : m_script->tick()) {
+      if (const auto* key = std::get_if<naiad::KeyAction>(&action))
+        session.sendKey(key->key, key->action, now);
+      if (const auto* click = std::get_if<naiad::BotClick>(&action)) {
+        session.sendMouse(click->action, click->button, click->x, click->y, now);
+      }
+      if (const auto* chat = std::get_if<naiad::BotChat>(&action)) session.sendChat(chat->text);
+    }
+  }
+
+  const BotOptions& m_options;
+  int m_index;
+  naiad::Connection m_connection;
+  naiad::TruthRecorder m_recorder;
+  std::optional<std::uint32_t> m_first_tick;
+  Clock::time_point m_joined_at{};
+  Clock::time_point m_next_tick{};
+  std::unique_ptr<naiad::ScriptPlayer> m_script;
+  std::unique_ptr<naiad::RandomPlayer> m_random;
+};
+
+/// Text of a script: the file of that name if there is one, else the argument itself.
+std::string scriptText(const std::string& argument) {
+  std::ifstream file(argument, std::ios::binary);
+  if (!file) return argument;
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+int complain(naiad::ExitCode code, const std::string& sentence) {
+  std::fprintf(stderr, "dfbot: %s\n", sentence.c_str());
+  return code;
+}
+
+/// The last screen of the first bot and the summary line.
+int report(const BotOptions& options, std::vector<std::unique_ptr<Bot>>& bots, Clock::time_point now) {
+  naiad::ClientSession& first = *bots[0]->connection().session();
+  if (!options.quiet) std::fputs(first.replica().render(first.displayTick(now)).text().c_str(), stdout);
+
+  naiad::SessionCounters total;
+  for (const auto& bot : bots) {
+    const naiad::SessionCounters& counters = bot->connection().session()->counters();
+    total.bytes_in += counters.bytes_in;
+    total.snapshots += counters.snapshots;
+    total.chat_lines += counters.chat_lines;
+  }
+  const std::chrono::duration<double> played = now - bots[0]->joinedAt();
+  const double per_client = static_cast<double>(total.bytes_in) / static_cast<double>(bots.size());
+  std::printf("bot ok clients=%zu ticks=%u objects=%zu score=%d bytes_per_s=%.0f snapshots=%llu chat=%llu",
+              bots.size(), bots[0]->ticks(), first.replica().aliveCount(), first.score(),
+              per_client / std::max(played.count(), 0.001), static_cast<unsigned long long>(total.snapshots),
+              static_cast<unsigned long long>(total.chat_lines));
+  int code = naiad::kExitLeft;
+  if (!options.truth_file.empty()) {
+    naiad::TruthRecorder::Comparison compared{.readable = true};
+    for (const auto& bot : bots) {
+      const std::uint32_t player = bot->connection().session()->welcome().player;
+      compared += bot->recorder().compare(options.truth_file, player);
+    }
+    std::printf(" compared_ticks=%llu compared_cells=%llu wrong_cells=%llu moving=%zu",
+                static_cast<unsigned long long>(compared.ticks),
+                static_cast<unsigned long long>(compared.cells),
+                static_cast<unsigned long long>(compared.wrong), bots[0]->recorder().movingCount());
+    if (!compared.readable)
+      code = complain(naiad::kExitUsage, "cannot read the truth file " + options.truth_file);
+    if (compared.first_wrong_tick != 0) {
+      std::fprintf(stderr, "dfbot: first wrong cell at tick %u\n", compared.first_wrong_tick);
+    }
+  }
+  std::printf("\n");
+  return code;
+}
+
+int run(const BotOptions& options) {
+  using State = naiad::Connection::State;
+  asio::io_context context(1);
+  std::vector<std::unique_ptr<Bot>> bots;
+  bots.reserve(static_cast<std::size_t>(options.clients));
+  for (int i = 0; i < options.clients; ++i) bots.push_back(std::make_unique<Bot>(context, options, i));
+
+  std::optional<Clock::time_point> all_joined;
+  while (true) {
+    context.restart();
+    context.run_one_for(std::chrono::milliseconds(5));
+    // Not until nothing is ready any more: a server that floods must not keep the bots for ever.
+    for (const auto enough = Clock::now() + kServing; Clock::now() < enough && context.poll_one() > 0;) {
+    }
+    const Clock::time_point now = Clock::now();
+    bool joined = true;
+    for (const auto& bot : bots) {
+      bot->update(now);
+      const naiad::Connection& connection = bot->connection();
+      switch (connection.state()) {
+        case State::kUnreachable:
+          return complain(naiad::kExitUnreachable, connection.sentence());
+        case State::kRefused:
+          return complain(naiad::kExitRefused, connection.sentence());
+        case State::kEnded:
+        case State::kLost:
+          return complain(naiad::kExitEnded, connection.sentence());
+        default:
+          joined = joined && connection.state() == State::kJoined;
+      }
+    }
+    if (joined && !all_joined) all_joined = now;
+    if (!all_joined) continue;
+    const std::chrono::duration<double> played = now - *all_joined;
+    if (options.ticks ? bots[0]->ticks() >= *options.ticks : played.count() >= options.seconds.value_or(5))
+      break;
+  }
+  const Clock::time_point end = Clock::now();
+  for (const auto& bot : bots) bot->leave();
+  context.restart();
+  context.run_for(std::chrono::milliseconds(1000));  // until the servers have heard it
+  return report(options, bots, end);
+}
+
+int start(int argc, char** argv) {
+  BotOptions options;
+  std::string server;
+  std::string script;
+  CLI::App app("Join a Naiad server with scripted or random players and no screen.", "dfbot");
+  app.set_version_flag("--version", std::string("dfbot ") + naiad::kVersion);
+  app.add_option("server", server, "Where the server is: HOST[:PORT], [::1]:PORT (port 9876 by default)")
+      ->required()
+      ->type_name("HOST[:PORT]")
+      ->envname("NAIAD_SERVER");
+  app.add_option("--clients", options.clients, "How many players join (default 1)")
+      ->check(CLI::Range(1, 1000));
+  auto* seconds =
+      app.add_option("--seconds", options.seconds, "How long to play once all have joined (default 5)")
+          ->check(CLI::Range(0.0, 86400.0 * 365));
+  app.add_option("--ticks", options.ticks, "… or how many ticks of the server")->excludes(seconds);
+  auto* script_option =
+      app.add_option("--script", script, "What to do: a file, or the script itself (see below)");
+  app.add_option("--random", options.random_seed, "Random input instead, from this seed")
+      ->excludes(script_option);
+  app.add_option("--name", options.name, "Name in the game (with several clients: numbered)")
+      ->envname("NAIAD_NAME");
+  naiad::addTrustOptions(app, options.trust, options.session);
+  app.add_option("--game", options.game, "The game wanted; refused if another one runs")
+      ->envname("NAIAD_GAME");
+  app.add_option("--truth", options.truth_file,
+                 "Compare every tick seen with this file, as dfserver --truth FILE writes it")
+      ->type_name("FILE");
+  app.add_flag("--quiet", options.quiet, "Do not print the last screen");
+  app.footer(std::string(kScriptHelp) + naiad::kExitCodeHelp);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? naiad::kExitLeft : naiad::kExitUsage;
+  }
+
+  const auto address = naiad::ServerAddress::parse(server);
+  if (!address) {
+    return complain(naiad::kExitUsage,
+                    "\"" + naiad::safeText(server, 100) + "\" is no server: HOST[:PORT] is wanted.");
+  }
+  options.address = *address;
+  if (!script.empty()) {
+    auto parsed = naiad::BotScript::parse(scriptText(script));
+    if (const auto* error = std::get_if<naiad::ScriptError>(&parsed)) {
+      return complain(naiad::kExitUsage, "script, line " + std::to_string(error->line) + ", column " +
+                                             std::to_string(error->column) + ": " + error->message);
+    }
+    options.script = std::get<naiad::BotScript>(std::move(parsed));
+  }
+  return run(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return start(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "dfbot: %s\n", error.what());
+    return naiad::kExitUsage;
+  }
+}

@@ -1,0 +1,224 @@
+#include "client/session/Connection.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "shared/net/base/Limits.h"
+#include "shared/net/datagram/UdpSocket.h"
+
+namespace naiad {
+
+Connection::Connection(asio::io_context& context, ServerAddress address, SessionOptions options, bool rejoin,
+                       ServerTrust trust)
+    : m_context(context),
+      m_trust(std::move(trust)),
+      m_connector(context, TcpOptions{.receive_limit = kMaxServerFrame},
+                  m_trust.insecure ? nullptr : TlsContext::forClient()),
+      m_second_connector(context, TcpOptions{.receive_limit = kMaxServerFrame}, TlsContext::forClient()),
+      m_address(std::move(address)),
+      m_options(std::move(options)),
+      m_rejoin(rejoin) {
+  if (m_trust.insecure || m_options.open_socket) return;
+  m_options.open_socket = [&context](const Endpoint& server) -> std::unique_ptr<DatagramSocket> {
+    UdpOptions udp;
+    udp.address = server.isIPv4() ? "0.0.0.0" : "::";
+    try {
+      return std::make_unique<UdpSocket>(context, udp);
+    } catch (const ListenError&) {
+      return nullptr;  // the stream will do
+    }
+  };
+}
+
+void Connection::start() {
+  attempt();
+}
+
+void Connection::attempt() {
+  m_next_attempt = Time::max();
+  m_connector.connect(m_address.host, m_address.port, kConnectTimeout,
+                      [this](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
+                        if (!channel) return attemptFailed(error);
+                        const std::string refusal = judge();
+                        if (refusal.empty()) return attach(std::move(channel));
+                        finish(State::kRefused, refusal);
+                      });
+}
+
+// Whom did we reach? A sentence if that is not who it should be: then nothing is sent there.
+std::string Connection::judge() const {
+  if (m_trust.insecure || !m_connector.peerFacts()) return {};
+  try {
+    const KnownServers known(m_trust.known_servers.empty() ? KnownServers::defaultPath()
+                                                           : m_trust.known_servers);
+    const Verdict verdict =
+        known.admit(m_address.host, m_address.port, *m_connector.peerFacts(), m_trust.fingerprint);
+    return verdict.accepted() ? std::string() : verdict.sentence;
+  } catch (const KnownServersError& error) {
+    return error.what();
+  }
+}
+
+// Nothing depends on it: what fails is tried again later. Only the session's server gets to see its token.
+void Connection::openSecond() {
+  m_second_connector.connect(m_address.host, m_address.port, kConnectTimeout,
+                             [this](std::unique_ptr<ReliableChannel> channel, const std::string&) {
+                               const auto& facts = m_second_connector.peerFacts();
+                               if (!channel || !m_session || !facts || facts->key != m_token_key) return;
+                               m_session->startSecond(std::move(channel));
+                             });
+}
+
+void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
+  ReliableChannel& started = *channel;
+  const ReliableChannel* p_channel = channel.get();
+  m_key.reset();
+  if (const auto facts = m_connector.peerFacts()) m_key = facts->key;
+  SessionOptions options = m_options;
+  chooseToken(options);
+  m_pending = std::make_unique<ClientSession>(std::move(channel), options, Clock::now());
+  if (m_observer) m_observer(*m_pending);
+  // A stream may change hands: what it says is for the session that owns it.
+  const auto owner = [this, p_channel]() -> ClientSession* {
+    if (m_pending && m_pending->owns(p_channel)) return m_pending.get();
+    return m_session && m_session->owns(p_channel) ? m_session.get() : nullptr;
+  };
+  started.start({[this, owner](std::string_view frame) {
+                   ClientSession* session = owner();
+                   if (session == nullptr) return;
+                   session->receive(frame, Clock::now());
+                   noteToken(*session);
+                   // What follows on a stream that resumes is for the session that goes on.
+                   if (session == m_pending.get() && session->isResumed()) checkPending();
+                 },
+                 [owner](CloseReason reason) {
+                   if (ClientSession* session = owner()) session->closed(reason);
+                 }});
+}
+
+// Only the server that gave a token gets to see it.
+void Connection::chooseToken(SessionOptions& options) const {
+  if (m_session && m_session->isDetached()) {
+    if (m_token_key != m_key) return;
+    options.resume_token = m_token;
+    options.received = m_session->receivedFrames();
+  } else if (!m_session && m_p_file != nullptr && m_key && options.resume_token.empty()) {
+    options.resume_token = m_p_file->tokenFor(*m_key);
+    options.fresh = !options.resume_token.empty();
+  }
+}
+
+void Connection::noteToken(const ClientSession& session) {
+  if (session.state() != ClientSession::State::kPlaying || session.welcome().resume_token == m_token) return;
+  m_token = session.welcome().resume_token;
+  m_token_key = m_key;
+  if (m_p_file == nullptr || !m_key) return;
+  m_p_file->save({.server = {},
+                  .key = *m_key,
+                  .name = m_options.name,
+                  .token = m_token,
+                  .grace = session.welcome().grace},
+                 std::chrono::system_clock::now());
+}
+
+void Connection::attemptFailed(const std::string& sentence) {
+  const Time now = Clock::now();
+  if (m_state == State::kJoining) return finish(State::kUnreachable, sentence);
+  if (m_state == State::kLeft) return;
+  if (now - m_lost_at >= kGiveUp) return finish(State::kLost, m_sentence);
+  m_next_attempt = now + m_backoff;
+  m_backoff = std::min(m_backoff * 2, kLastBackoff);
+}
+
+void Connection::update(Time now) {
+  if (isOver()) return;
+  if (m_session) m_session->update(now);
+  if (m_session && m_session->wantsSecond(now)) openSecond();
+  if (m_p_file != nullptr && m_session && m_session->isHeard(now)) {
+    m_p_file->refresh(std::chrono::system_clock::now());
+  }
+  if (m_pending) {
+    m_pending->update(now);
+    checkPending();
+  }
+  if (m_state == State::kJoined && m_session->isDetached() && m_rejoin) {
+    m_state = State::kSearching;
+    m_sentence = "The connection to the server was lost.";
+    m_lost_at = now;
+    m_backoff = kFirstBackoff;
+    m_next_attempt = now;
+    ++m_revision;
+  }
+  if (m_state == State::kJoined && m_session->isOver()) {
+    using S = ClientSession::State;
+    if (m_session->state() != S::kLost) return finish(State::kEnded, m_session->sentence());
+    if (!m_rejoin) return finish(State::kLost, m_session->sentence());
+    m_state = State::kSearching;
+    m_sentence = m_session->sentence();
+    m_lost_at = now;
+    m_backoff = kFirstBackoff;
+    m_next_attempt = now + m_backoff;
+    ++m_revision;
+  }
+  if (now >= m_next_attempt) attempt();
+}
+
+void Connection::checkPending() {
+  using S = ClientSession::State;
+  if (m_pending->state() == S::kPlaying && m_pending->welcome().resumed && m_session &&
+      m_session->isDetached()) {
+    m_session->adopt(*m_pending, Clock::now());
+    m_pending.reset();
+    m_state = State::kJoined;
+    m_sentence.clear();
+    if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
+    ++m_revision;
+    return;
+  }
+  if (m_pending->state() == S::kPlaying && m_pending->hasPicture(Clock::now())) {
+    m_session = std::move(m_pending);
+    m_state = State::kJoined;
+    m_sentence.clear();
+    if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
+    ++m_revision;
+    return;
+  }
+  if (!m_pending->isOver()) return;
+  const std::unique_ptr<ClientSession> over = std::move(m_pending);
+  const bool again = over->isRefusedForNow() && m_state == State::kSearching;
+  if (over->state() == S::kRefused && !again) return finish(State::kRefused, over->sentence());
+  if (over->state() == S::kEnded) return finish(State::kEnded, over->sentence());
+  attemptFailed(over->sentence());
+}
+
+void Connection::leave() {
+  if (isOver()) return;
+  if (m_session) m_session->leave();
+  if (m_pending) m_pending->leave();
+  finish(State::kLeft, "");
+}
+
+void Connection::resize(int columns, int rows) {
+  m_options.columns = columns;
+  m_options.rows = rows;
+  if (m_session) m_session->sendResize(columns, rows);
+  m_resized = m_pending != nullptr;
+}
+
+bool Connection::isOver() const {
+  return m_state != State::kJoining && m_state != State::kJoined && m_state != State::kSearching;
+}
+
+void Connection::finish(State state, const std::string& sentence) {
+  // A session that was lost, or whose server was not let near, may still be there.
+  const bool ended = state == State::kEnded || state == State::kLeft;
+  if (m_p_file != nullptr && ended) m_p_file->remove();
+  m_connector.cancel();
+  m_second_connector.cancel();
+  m_state = state;
+  m_sentence = sentence;
+  m_next_attempt = Time::max();
+  ++m_revision;
+}
+
+}  // namespace naiad

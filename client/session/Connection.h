@@ -1,0 +1,110 @@
+// Joins a server and stays joined: connects, makes a ClientSession, and joins again when it was lost.
+//
+//   kJoining --picture--> kJoined --lost--> kSearching --picture--> kJoined
+//   kJoining --no answer--> kUnreachable   any --Refused--> kRefused   any --Goodbye--> kEnded
+//   kSearching --60 s in vain--> kLost
+//
+// While searching, session() is still the lost one, so that its last picture can stay on the screen under a
+// banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another stream is
+// sought behind its back, and where the server knows it still, nobody notices. The waiting time between
+// attempts doubles from 0.25 s to 2 s. A refusal is never argued with.
+//
+// Thread: the one that runs the io_context, which must outlive the Connection.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "client/session/ClientSession.h"
+#include "client/trust/KnownServers.h"
+#include "client/trust/ServerAddress.h"
+#include "client/trust/SessionFile.h"
+#include "shared/net/stream/TcpConnector.h"
+
+namespace naiad {
+
+/// How a client makes sure whom it talks to.
+struct ServerTrust {
+  bool insecure = false;                   ///< plain TCP, loopback only, no datagrams: for tests
+  std::optional<Fingerprint> fingerprint;  ///< the server's key, if the player knows it
+  std::filesystem::path known_servers;     ///< pins; empty: the user's file
+};
+
+class Connection {
+ public:
+  using Clock = std::chrono::steady_clock;
+  using Time = Clock::time_point;
+  enum class State { kJoining, kJoined, kSearching, kUnreachable, kRefused, kEnded, kLost, kLeft };
+
+  static constexpr std::chrono::milliseconds kConnectTimeout{5000};
+  static constexpr std::chrono::milliseconds kFirstBackoff{250};
+  static constexpr std::chrono::milliseconds kLastBackoff{2000};
+  static constexpr std::chrono::seconds kGiveUp{60};
+
+  /// `rejoin`: look for a lost server again. Nothing happens before start().
+  Connection(asio::io_context& context, ServerAddress address, SessionOptions options, bool rejoin,
+             ServerTrust trust = {});
+
+  /// Keep the session's token in this file, which must outlive the Connection, and go on with the session
+  /// that is in it. Before start().
+  void keepIn(SessionFile& file) { m_p_file = &file; }
+  void start();
+  /// Time-outs, pings, the next attempt. Call about ten times a second, and after every event.
+  void update(Time now);
+  /// Leave on purpose. Let the io_context run for a moment so that the server hears it.
+  void leave();
+  /// Tell the server the terminal's size, now and when joining again.
+  void resize(int columns, int rows);
+  /// Called for each session as it is made, before it receives anything. For recorders.
+  void onSession(std::function<void(ClientSession&)> observer) { m_observer = std::move(observer); }
+
+  State state() const { return m_state; }
+  /// Nothing will happen any more.
+  bool isOver() const;
+  /// Why, for people: set in all states that are over but kLeft; while searching, why the server was lost.
+  const std::string& sentence() const { return m_sentence; }
+  /// The session to show; null before the first picture.
+  ClientSession* session() { return m_session.get(); }
+  /// The state can change, or a new session can replace session(), only in update() and from the
+  /// io_context; this counts both.
+  std::uint64_t revision() const { return m_revision; }
+  const ServerAddress& address() const { return m_address; }
+
+ private:
+  void attempt();
+  void openSecond();
+  std::string judge() const;
+  void attach(std::unique_ptr<ReliableChannel> channel);
+  void chooseToken(SessionOptions& options) const;
+  void noteToken(const ClientSession& session);
+  void attemptFailed(const std::string& sentence);
+  void checkPending();
+  void finish(State state, const std::string& sentence);
+
+  asio::io_context& m_context;
+  ServerTrust m_trust;
+  TcpConnector m_connector;
+  TcpConnector m_second_connector;  ///< for a second stream beside the session's (SecondStream.h)
+  ServerAddress m_address;
+  SessionOptions m_options;
+  bool m_rejoin;
+  SessionFile* m_p_file = nullptr;
+  std::optional<Fingerprint> m_key;        ///< of the server on the newest stream
+  std::optional<Fingerprint> m_token_key;  ///< of the server that gave m_token
+  std::string m_token;                     ///< newest of the session
+  bool m_resized = false;                  ///< since the pending session said how large the terminal is
+  State m_state = State::kJoining;
+  std::string m_sentence;
+  std::unique_ptr<ClientSession> m_session;  ///< shown
+  std::unique_ptr<ClientSession> m_pending;  ///< greeting, or waiting for its first picture
+  std::function<void(ClientSession&)> m_observer;
+  std::chrono::milliseconds m_backoff{kFirstBackoff};
+  Time m_next_attempt = Time::max();
+  Time m_lost_at{};
+  std::uint64_t m_revision = 0;
+};
+
+}  // namespace naiad

@@ -1,0 +1,42 @@
+#include "client/session/RoundTrip.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+namespace naiad {
+namespace {
+
+constexpr std::size_t kMostOpen = 20;
+
+}  // namespace
+
+std::uint64_t RoundTrip::ping(Time now) {
+  if (m_open.size() >= kMostOpen) m_open.erase(m_open.begin());
+  m_open.emplace(m_next_token, now);
+  return m_next_token++;
+}
+
+std::optional<RoundTrip::Millis> RoundTrip::pong(std::uint64_t token, Time now) {
+  const auto ping = m_open.find(token);
+  if (ping == m_open.end()) return std::nullopt;
+  const Millis sample = now - ping->second;
+  m_open.erase(m_open.begin(), std::next(ping));
+  note(sample);
+  return sample;
+}
+
+void RoundTrip::note(Millis sample) {
+  m_smoothed = m_smoothed.count() == 0 ? sample : m_smoothed + (sample - m_smoothed) / 8;
+}
+
+RoundTrip::Millis RoundTrip::waiting(Time now) const {
+  return m_open.empty() ? Millis{0} : Millis(now - m_open.begin()->second);
+}
+
+std::chrono::milliseconds RoundTrip::shown() const {
+  const auto whole = std::chrono::ceil<std::chrono::milliseconds>(m_smoothed);
+  return std::min<std::chrono::milliseconds>(whole, std::chrono::milliseconds(99999));
+}
+
+}  // namespace naiad

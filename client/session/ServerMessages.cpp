@@ -1,0 +1,116 @@
+#include "client/session/ServerMessages.h"
+
+#include <google/protobuf/stubs/logging.h>
+
+#include <algorithm>
+
+#include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/net/datagram/DatagramKeys.h"
+#include "shared/replica/Limits.h"
+
+namespace naiad {
+namespace {
+
+constexpr std::uint32_t kMaxRttMillis = 99999;
+constexpr std::size_t kMaxTokenLength = 64;
+constexpr std::uint32_t kMaxGraceMillis = 3'600'000;
+
+bool isColor(std::uint32_t color) {
+  return color < static_cast<std::uint32_t>(df::kColorCount);
+}
+
+std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
+  WelcomeMessage message;
+  const bool good = wire.player() != 0 && wire.tick_micros() >= 1000 && wire.tick_micros() <= 1000000 &&
+                    wire.view_width() >= 1 && wire.view_width() <= static_cast<unsigned>(kMaxViewWidth) &&
+                    wire.view_height() >= 1 && wire.view_height() <= static_cast<unsigned>(kMaxViewHeight) &&
+                    isColor(wire.color());
+  if (!good || wire.help_size() > static_cast<int>(kMaxHelpLines)) return std::nullopt;
+  message.player = wire.player();
+  message.name = safeName(wire.name());
+  message.game = safeText(wire.game(), kMaxProgramLength);
+  message.server = safeText(wire.server(), kMaxProgramLength);
+  message.tick_now = wire.tick();
+  message.connection_id = wire.connection_id();
+  message.aead = aeadFromWire(wire.aead()) ? wire.aead() : 0;
+  message.epoch = wire.epoch();
+  if (wire.resume_token().size() > kMaxTokenLength) return std::nullopt;
+  message.resume_token = wire.resume_token();
+  message.resumed = wire.resumed();
+  message.grace = std::chrono::milliseconds(std::min(wire.grace_millis(), kMaxGraceMillis));
+  message.received = wire.received();
+  message.second_stream = wire.second_stream();
+  if (wire.has_continuation()) {
+    const wire::Continuation& from = wire.continuation();
+    if (from.world_epoch() > 3) return std::nullopt;
+    message.continuation = {from.snapshot(), static_cast<std::uint8_t>(from.world_epoch()), from.input()};
+  }
+  message.tick = std::chrono::microseconds(wire.tick_micros());
+  message.view_width = static_cast<int>(wire.view_width());
+  message.view_height = static_cast<int>(wire.view_height());
+  message.color = static_cast<df::Color>(wire.color());
+  for (const std::string& line : wire.help()) message.help.push_back(safeText(line, kMaxHelpLength));
+  return message;
+}
+
+std::optional<ServerMessageValue> check(const wire::PlayerList& wire, std::uint32_t number) {
+  if (wire.players_size() > static_cast<int>(kMaxPlayers)) return std::nullopt;
+  PlayersMessage message;
+  message.number = number;
+  for (const wire::PlayerEntry& entry : wire.players()) {
+    if (entry.player() == 0 || !isColor(entry.color())) return std::nullopt;
+    message.players.push_back({entry.player(), safeName(entry.name()), static_cast<df::Color>(entry.color()),
+                               entry.score(), std::min(entry.rtt_millis(), kMaxRttMillis)});
+  }
+  return message;
+}
+
+std::optional<ServerMessageValue> check(const wire::Sounds& wire, std::uint32_t number) {
+  if (wire.sounds_size() > static_cast<int>(kMaxSounds)) return std::nullopt;
+  SoundsMessage message;
+  message.number = number;
+  for (const wire::Sound& sound : wire.sounds()) {
+    if (!wire::Sound::Action_IsValid(sound.action())) return std::nullopt;
+    message.sounds.push_back({safeText(sound.label(), kMaxSoundLabel),
+                              static_cast<SoundLine::Action>(sound.action()), sound.music(), sound.loop(),
+                              sound.player()});
+  }
+  return message;
+}
+
+}  // namespace
+
+std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
+  // protobuf reports malformed text on stderr: a server could scribble on the player's screen.
+  static const auto previous_handler = google::protobuf::SetLogHandler(nullptr);
+  (void)previous_handler;
+  if (frame.size() > kMaxServerFrame) return std::nullopt;
+  wire::ServerMessage wire;
+  if (!wire.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return std::nullopt;
+  switch (wire.what_case()) {
+    case wire::ServerMessage::kWelcome:
+      return check(wire.welcome());
+    case wire::ServerMessage::kSnapshot:
+      return SnapshotMessage{std::move(*wire.mutable_snapshot())};
+    case wire::ServerMessage::kPlayers:
+      return check(wire.players(), wire.number());
+    case wire::ServerMessage::kRefused:
+      return RefusedMessage{wire.refused().reason() == wire::Refused::BUSY,
+                            safeText(wire.refused().sentence(), kMaxSentenceLength)};
+    case wire::ServerMessage::kGoodbye:
+      return GoodbyeMessage{safeText(wire.goodbye().sentence(), kMaxSentenceLength)};
+    case wire::ServerMessage::kChat:
+      return ChatMessage{wire.chat().player(), safeText(wire.chat().text(), kMaxChatLength), wire.number()};
+    case wire::ServerMessage::kSounds:
+      return check(wire.sounds(), wire.number());
+    case wire::ServerMessage::kPong:
+      return PongMessage{wire.pong().token(), wire.pong().received()};
+    case wire::ServerMessage::WHAT_NOT_SET:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace naiad

@@ -1,0 +1,44 @@
+// What a client says in its hello, and where it gets sockets and time.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "shared/net/datagram/DatagramSocket.h"
+#include "shared/net/datagram/Seal.h"
+
+namespace naiad {
+namespace wire {
+class ClientMessage;
+}
+
+/// What the Hello says.
+struct SessionOptions {
+  std::string name = "player";  ///< wanted name, 1 to 16 characters
+  std::string game;             ///< game to play; empty: whatever runs
+  std::string program;          ///< "dfclient 0.1.0", for the server's log
+  int columns = 0;              ///< terminal size in cells; 0: all of the view is of interest
+  int rows = 0;
+  std::string password;        ///< of the server, if it wants one
+  std::string resume_token;    ///< of an earlier welcome: go on with that session
+  bool fresh = false;          ///< with nothing but the token: an earlier process had the session
+  std::uint32_t received = 0;  ///< else: number of the newest kept frame that came
+  bool second_stream = false;  ///< with the token: a stream beside that of the session
+  /// Makes a socket for datagrams to an endpoint; empty: no datagrams (a Connection that encrypts puts UDP
+  /// there). May return null.
+  std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> open_socket;
+  /// After how many datagrams new keys are wanted; smaller ones are for tests.
+  SealLimits seal_limits;
+  /// For what comes as a datagram; another clock is for tests in virtual time.
+  std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
+};
+
+/// The first message of a stream.
+wire::ClientMessage helloOf(const SessionOptions& options);
+/// The terminal's size, in cells; what is no size becomes one.
+wire::ClientMessage resizeOf(int columns, int rows);
+
+}  // namespace naiad

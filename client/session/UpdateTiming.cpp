@@ -1,0 +1,46 @@
+#include "client/session/UpdateTiming.h"
+
+#include <algorithm>
+
+namespace naiad {
+
+bool UpdateTiming::datagramGoes(Time now) {
+  m_last_sent = now;
+  if (now - m_last_ping < kPingEvery) return false;
+  m_last_ping = now;
+  return true;
+}
+
+void UpdateTiming::updateMade() {
+  m_unacknowledged = 0;
+  m_acknowledge_at.reset();
+}
+
+bool UpdateTiming::snapshotApplied(bool gap, Time now) {
+  ++m_unacknowledged;
+  if (!hasDatagrams(now) || m_unacknowledged >= kAckEvery || gap) return true;
+  m_acknowledge_at = now + kAckDelay;
+  return false;
+}
+
+bool UpdateTiming::isProbeDue(Time now, bool only) const {
+  return now - m_last_datagram >= kQuiet && now - m_last_sent >= probeInterval(now, only);
+}
+
+std::chrono::milliseconds UpdateTiming::probeInterval(Time now, bool only) const {
+  if (now - m_attached < kPassing || hasDatagrams(now)) return kFirstProbes;
+  return only || now - m_last_datagram < kEagerFor ? kEagerProbes : kProbeEvery;
+}
+
+bool UpdateTiming::takeRepeat(Time now) {
+  if (!m_repeat_at || now < *m_repeat_at) return false;
+  m_repeat_at.reset();
+  return true;
+}
+
+std::optional<UpdateTiming::Time> UpdateTiming::nextWake() const {
+  if (!m_repeat_at || !m_acknowledge_at) return m_repeat_at ? m_repeat_at : m_acknowledge_at;
+  return std::min(*m_repeat_at, *m_acknowledge_at);
+}
+
+}  // namespace naiad

@@ -1,0 +1,312 @@
+#include "client/terminal/InputDecoder.h"
+
+#include <algorithm>
+#include <array>
+
+#include "client/terminal/KeyTable.h"
+#include "shared/values/Canvas.h"
+
+namespace naiad {
+namespace {
+
+constexpr std::size_t kMaxParameters = 48;
+constexpr int kMaxNumber = 1 << 24;
+constexpr int kMaxCell = 9999;
+
+/// The numbers of `a:b:c;d:e;…`: up to four fields of up to three parts; -1 where nothing stands.
+struct Numbers {
+  std::array<std::array<int, 3>, 4> field{};
+  bool well_formed = true;
+};
+
+Numbers parseNumbers(std::string_view text) {
+  Numbers numbers;
+  for (auto& field : numbers.field) field.fill(-1);
+  std::size_t f = 0;
+  std::size_t p = 0;
+  for (const char c : text) {
+    if (c >= '0' && c <= '9') {
+      if (f >= 4 || p >= 3) continue;
+      int& n = numbers.field[f][p];
+      n = std::min(std::max(n, 0) * 10 + (c - '0'), kMaxNumber);
+    } else if (c == ';') {
+      ++f;
+      p = 0;
+    } else if (c == ':') {
+      ++p;
+    } else {
+      numbers.well_formed = false;
+    }
+  }
+  return numbers;
+}
+
+/// Modifiers and action of the field `modifiers:event` that xterm and kitty share.
+void applyModifiers(const Numbers& numbers, KeyEvent& event) {
+  const auto& field = numbers.field[1];
+  if (field[0] > 0) event.modifiers |= static_cast<std::uint8_t>((field[0] - 1) & 0x0F);
+  if (field[1] == 2) event.action = KeyEvent::Action::kRepeat;
+  if (field[1] == 3) event.action = KeyEvent::Action::kRelease;
+}
+
+bool isText(int code) {
+  return code >= 0x20 && code != 0x7F && !(code >= 0x80 && code < 0xA0) && code <= 0x10FFFF &&
+         !(code >= 0xD800 && code <= 0xDFFF) && !(code >= 0xE000 && code <= 0xF8FF);
+}
+
+/// `CSI code:shifted:base ; modifiers:event ; text u`.
+KeyEvent kittyKey(const Numbers& numbers) {
+  KeyEvent event;
+  const auto& code = numbers.field[0];
+  event.key = keyOfKitty(code[0]);
+  // On a keyboard of another script the third part is the key in the US layout.
+  if (event.key == df::Keyboard::UNDEFINED_KEY && code[2] > 0) event.key = keyOfKitty(code[2]);
+  applyModifiers(numbers, event);
+  if (event.action == KeyEvent::Action::kRelease) return event;
+  if (isText(numbers.field[2][0])) {
+    event.ch = static_cast<char32_t>(numbers.field[2][0]);
+  } else if ((event.modifiers & (kControl | kAlt | kSuper)) == 0) {
+    const int typed = (event.modifiers & kShift) != 0 && code[1] > 0 ? code[1] : code[0];
+    event.ch = isText(typed) ? static_cast<char32_t>(typed) : characterOfKeypad(code[0]);
+  }
+  return event;
+}
+
+}  // namespace
+
+std::vector<TerminalEvent> InputDecoder::feed(std::string_view bytes, Time now) {
+  Events out = flush(now);
+  for (const char c : bytes) take(static_cast<unsigned char>(c), out);
+  if (!bytes.empty()) m_last = now;
+  return out;
+}
+
+std::vector<TerminalEvent> InputDecoder::flush(Time now) {
+  Events out;
+  const auto due = deadline();
+  if (!due || now < *due) return out;
+  if (m_state == State::kEscape && !m_pasting) {
+    if (m_meta) emitKey(out, keyOfControl(0x1B));
+    emitKey(out, keyOfControl(0x1B));
+  }
+  m_pasting = false;
+  m_meta = false;
+  begin(State::kGround);
+  return out;
+}
+
+std::optional<InputDecoder::Time> InputDecoder::deadline() const {
+  if (m_state == State::kEscape && !m_pasting) return m_last + kEscapeDelay;
+  if (m_state != State::kGround || m_pasting) return m_last + kSequenceDelay;
+  return std::nullopt;
+}
+
+void InputDecoder::begin(State state) {
+  m_state = state;
+  m_overlong = false;
+  m_parameters.clear();
+  m_utf8.clear();
+  if (state == State::kGround) m_meta = false;
+}
+
+void InputDecoder::take(unsigned char byte, Events& out) {
+  switch (m_state) {
+    case State::kGround:
+      return takeGround(byte, out);
+    case State::kEscape:
+      return takeEscape(byte, out);
+    case State::kCsi:
+    case State::kSs3:
+      return takeSequence(byte, out);
+    case State::kUtf8:
+      return takeUtf8(byte, out);
+    case State::kX10Mouse:
+      return takeX10(byte, out);
+    case State::kLinuxFunction: {
+      const bool known = byte >= 'A' && byte <= 'E';
+      if (known) emitKey(out, {static_cast<df::Keyboard::Key>(df::Keyboard::F1 + (byte - 'A'))});
+      return begin(State::kGround);
+    }
+    case State::kString:
+      if (byte == 0x1B) return begin(State::kStringEscape);
+      if (byte == 0x07 || byte == 0x18 || byte == 0x1A) begin(State::kGround);
+      return;
+    case State::kStringEscape:
+      // ST is ESC \; any other ESC has ended the string and begins something new.
+      if (byte == '\\') return begin(State::kGround);
+      begin(State::kEscape);
+      return takeEscape(byte, out);
+  }
+}
+
+void InputDecoder::takeGround(unsigned char byte, Events& out) {
+  if (byte == 0x1B) return begin(State::kEscape);
+  if (byte < 0x20 || byte == 0x7F) return emitKey(out, keyOfControl(byte));
+  if (byte < 0x80) return emitKey(out, keyOfCharacter(byte));
+  if (byte >= 0xC2 && byte < 0xF5) {
+    begin(State::kUtf8);
+    m_utf8.push_back(static_cast<char>(byte));
+  }
+}
+
+void InputDecoder::takeUtf8(unsigned char byte, Events& out) {
+  if ((byte & 0xC0) != 0x80) {  // a broken character; this byte may begin a good one
+    begin(State::kGround);
+    return takeGround(byte, out);
+  }
+  m_utf8.push_back(static_cast<char>(byte));
+  const auto lead = static_cast<unsigned char>(m_utf8[0]);
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (m_utf8.size() < length) return;
+  const std::u32string decoded = df::decodeUtf8(m_utf8);
+  begin(State::kGround);
+  if (decoded.size() == 1 && isText(static_cast<int>(decoded[0]))) {
+    emitKey(out, {df::Keyboard::UNDEFINED_KEY, decoded[0]});
+  }
+}
+
+void InputDecoder::takeEscape(unsigned char byte, Events& out) {
+  switch (byte) {
+    case 0x1B:
+      if (m_meta) emitKey(out, keyOfControl(0x1B));
+      m_meta = true;  // the Escape key twice, or rxvt's Alt with a cursor key
+      return;
+    case '[':
+      return begin(State::kCsi);
+    case 'O':
+      return begin(State::kSs3);
+    case ']':
+    case 'P':
+    case 'X':
+    case '^':
+    case '_':
+      return begin(State::kString);
+    default:
+      break;
+  }
+  if (m_meta) emitKey(out, keyOfControl(0x1B));
+  begin(State::kGround);
+  if (byte >= 0x80) return takeGround(byte, out);
+  KeyEvent event = byte < 0x20 || byte == 0x7F ? keyOfControl(byte) : keyOfCharacter(byte);
+  event.modifiers |= kAlt;
+  event.ch = 0;
+  emitKey(out, event);
+}
+
+void InputDecoder::takeSequence(unsigned char byte, Events& out) {
+  if (byte == 0x1B) {
+    m_meta = false;
+    return begin(State::kEscape);
+  }
+  if (byte == 0x18 || byte == 0x1A) return begin(State::kGround);
+  if (byte < 0x20 || byte >= 0x7F) return;
+  // rxvt ends shifted editing keys with '$', which is no final byte anywhere else.
+  const bool rxvt_shift =
+      byte == '$' && m_state == State::kCsi && !m_parameters.empty() &&
+      std::all_of(m_parameters.begin(), m_parameters.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (byte < 0x40 && !rxvt_shift) {
+    if (m_parameters.size() < kMaxParameters) {
+      m_parameters.push_back(static_cast<char>(byte));
+    } else {
+      m_overlong = true;
+    }
+    return;
+  }
+  finishSequence(byte, out);
+}
+
+void InputDecoder::finishSequence(unsigned char final, Events& out) {
+  const bool ss3 = m_state == State::kSs3;
+  if (m_overlong) return begin(State::kGround);
+  if (!ss3 && m_parameters.empty() && final == '[') return begin(State::kLinuxFunction);
+  if (!ss3 && m_parameters.empty() && final == 'M') return begin(State::kX10Mouse);
+  if (!ss3 && (final == '~' || final == '^' || final == '@' || final == '$')) {
+    if (final == '^' || final == '@') m_parameters += ";5";  // rxvt's control
+    if (final == '$') m_parameters += ";2";
+    finishTilde(out);
+    return begin(State::kGround);
+  }
+  const char prefix = m_parameters.empty() ? '\0' : m_parameters[0];
+  if (!ss3 && prefix == '<' && (final == 'M' || final == 'm')) {
+    const Numbers numbers = parseNumbers(std::string_view(m_parameters).substr(1));
+    const auto& f = numbers.field;
+    const bool complete = numbers.well_formed && f[0][0] >= 0 && f[1][0] > 0 && f[2][0] > 0;
+    if (complete) emitMouse(out, f[0][0], f[1][0] - 1, f[2][0] - 1, final == 'm');
+    return begin(State::kGround);
+  }
+  if (!ss3 && prefix == '?' && final == 'u') {
+    const Numbers numbers = parseNumbers(std::string_view(m_parameters).substr(1));
+    if (numbers.well_formed && !m_pasting) out.emplace_back(KittyAnswer{std::max(numbers.field[0][0], 0)});
+    return begin(State::kGround);
+  }
+  Numbers numbers = parseNumbers(m_parameters);
+  if (!numbers.well_formed) return begin(State::kGround);
+  if (!ss3 && final == 'u') {
+    KeyEvent event = kittyKey(numbers);
+    if (event.key != df::Keyboard::UNDEFINED_KEY || event.ch != 0) emitKey(out, event);
+    return begin(State::kGround);
+  }
+  KeyEvent event{keyOfFinal(static_cast<char>(final), ss3)};
+  // Some terminals write SS3 5 P instead of CSI 1 ; 5 P.
+  if (ss3 && numbers.field[1][0] < 0) numbers.field[1][0] = numbers.field[0][0];
+  applyModifiers(numbers, event);
+  if (final >= 'a' && final <= 'd') event.modifiers |= ss3 ? kControl : kShift;
+  if (final == 'Z') event.modifiers |= kShift;
+  if (m_meta) event.modifiers |= kAlt;
+  // In a cursor position report the first number is a row; a key has 1 or nothing there.
+  const bool is_key = ss3 || numbers.field[0][0] <= 1;
+  if (event.key != df::Keyboard::UNDEFINED_KEY && is_key) emitKey(out, event);
+  begin(State::kGround);
+}
+
+void InputDecoder::finishTilde(Events& out) {
+  const Numbers numbers = parseNumbers(m_parameters);
+  if (!numbers.well_formed) return;
+  const int number = numbers.field[0][0];
+  if (number == 200) m_pasting = true;
+  if (number == 201) m_pasting = false;
+  KeyEvent event{keyOfTilde(number)};
+  applyModifiers(numbers, event);
+  if (m_meta) event.modifiers |= kAlt;
+  if (number == 27 && numbers.field[2][0] > 0) {  // xterm's modifyOtherKeys: CSI 27 ; modifiers ; code ~
+    event.key = keyOfKitty(numbers.field[2][0]);
+  }
+  if (event.key != df::Keyboard::UNDEFINED_KEY) emitKey(out, event);
+}
+
+void InputDecoder::takeX10(unsigned char byte, Events& out) {
+  m_parameters.push_back(static_cast<char>(byte));
+  if (m_parameters.size() < 3) return;
+  const auto value = [this](std::size_t i) { return static_cast<unsigned char>(m_parameters[i]) - 32; };
+  const int code = value(0);
+  const int x = value(1) - 1;
+  const int y = value(2) - 1;
+  if (code >= 0 && x >= 0 && y >= 0) {
+    const bool released = (code & 3) == 3 && (code & 32) == 0;
+    emitMouse(out, released ? code & ~3 : code, x, y, released);
+  }
+  begin(State::kGround);
+}
+
+void InputDecoder::emitMouse(Events& out, int code, int x, int y, bool released) {
+  if (m_pasting || code >= 64) return;  // the wheel and further buttons mean nothing to a game
+  static constexpr std::array<df::Mouse::Button, 4> kButtons = {
+      df::Mouse::LEFT, df::Mouse::MIDDLE, df::Mouse::RIGHT, df::Mouse::UNDEFINED_MOUSE_BUTTON};
+  MouseEvent event;
+  event.x = std::min(x, kMaxCell);
+  event.y = std::min(y, kMaxCell);
+  event.button = kButtons[static_cast<std::size_t>(code & 3)];
+  const bool moved = (code & 32) != 0;
+  const bool has_button = event.button != df::Mouse::UNDEFINED_MOUSE_BUTTON;
+  event.action = released               ? MouseEvent::Action::kRelease
+                 : moved && has_button  ? MouseEvent::Action::kDrag
+                 : moved || !has_button ? MouseEvent::Action::kMotion
+                                        : MouseEvent::Action::kPress;
+  out.emplace_back(event);
+}
+
+void InputDecoder::emitKey(Events& out, KeyEvent event) {
+  if (!m_pasting) out.emplace_back(event);
+}
+
+}  // namespace naiad

@@ -1,0 +1,111 @@
+// Terminal bytes to events: what the player's terminal sends, in any of the dialects in use.
+//
+// ncurses would decode keys too, but not key releases, not mouse motion under every TERM, and it waits a
+// second after an ESC. So the client reads fd 0 itself and this decoder, which knows no terminal and no
+// clock, gives the bytes their meaning:
+//   - plain characters, control bytes, UTF-8, Alt as an ESC before the character
+//   - cursor, editing and function keys of xterm, rxvt, the Linux console (CSI and SS3), with modifiers
+//   - the kitty keyboard protocol (press, repeat, release, alternate keys, text) and its query's answer
+//   - the mouse as SGR (1006) and as X10 bytes
+// Unknown sequences, pasted text, terminal answers and focus reports are swallowed whole: a byte of a
+// sequence never comes out as a key. Memory is bounded whatever arrives.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "shared/values/Keyboard.h"
+
+namespace naiad {
+
+/// Modifier keys held with a key, as a sum of bits.
+enum Modifier : std::uint8_t { kShift = 1, kAlt = 2, kControl = 4, kSuper = 8 };
+
+/// A key, as far as the terminal tells. Terminals without the kitty protocol send only presses (and cannot
+/// tell a repeat from a press: HeldKeys guesses).
+struct KeyEvent {
+  enum class Action : std::uint8_t { kPress, kRepeat, kRelease };
+  df::Keyboard::Key key = df::Keyboard::UNDEFINED_KEY;  ///< undefined for characters that have no key
+  char32_t ch = 0;  ///< the character for a text line; 0 if the key types none
+  Action action = Action::kPress;
+  std::uint8_t modifiers = 0;
+  friend bool operator==(const KeyEvent&, const KeyEvent&) = default;
+};
+
+/// The mouse, in terminal cells counted from 0.
+struct MouseEvent {
+  enum class Action : std::uint8_t { kPress, kDrag, kMotion, kRelease };
+  int x = 0;
+  int y = 0;
+  df::Mouse::Button button = df::Mouse::UNDEFINED_MOUSE_BUTTON;
+  Action action = Action::kMotion;
+  friend bool operator==(const MouseEvent&, const MouseEvent&) = default;
+};
+
+/// The answer to `CSI ? u`: the terminal speaks the kitty keyboard protocol; `flags` are those in force.
+struct KittyAnswer {
+  int flags = 0;
+  friend bool operator==(const KittyAnswer&, const KittyAnswer&) = default;
+};
+
+using TerminalEvent = std::variant<KeyEvent, MouseEvent, KittyAnswer>;
+
+class InputDecoder {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// An ESC that nothing follows for this long is the Escape key.
+  static constexpr std::chrono::milliseconds kEscapeDelay{25};
+  /// A sequence that stops in the middle for this long is given up.
+  static constexpr std::chrono::milliseconds kSequenceDelay{500};
+
+  /// Decode `bytes`, read at `now`. Sequences may be split anywhere between calls.
+  std::vector<TerminalEvent> feed(std::string_view bytes, Time now);
+  /// What became certain by time alone: the lone ESC. Call at deadline().
+  std::vector<TerminalEvent> flush(Time now);
+  /// When flush() will next have something to do; nothing while no sequence is open.
+  std::optional<Time> deadline() const;
+  /// Bytes held back at the moment; never more than 64.
+  std::size_t pendingBytes() const { return m_parameters.size() + m_utf8.size(); }
+
+ private:
+  enum class State {
+    kGround,
+    kEscape,         ///< after ESC
+    kCsi,            ///< after ESC [
+    kSs3,            ///< after ESC O
+    kLinuxFunction,  ///< after ESC [ [
+    kX10Mouse,       ///< after ESC [ M: three bytes follow
+    kString,         ///< OSC, DCS, APC, PM, SOS: until ST or BEL
+    kStringEscape,   ///< an ESC inside such a string
+    kUtf8,
+  };
+  using Events = std::vector<TerminalEvent>;
+
+  void take(unsigned char byte, Events& out);
+  void takeGround(unsigned char byte, Events& out);
+  void takeEscape(unsigned char byte, Events& out);
+  void takeSequence(unsigned char byte, Events& out);
+  void takeUtf8(unsigned char byte, Events& out);
+  void takeX10(unsigned char byte, Events& out);
+  void finishSequence(unsigned char final, Events& out);
+  void finishTilde(Events& out);
+  void emitKey(Events& out, KeyEvent event);
+  void emitMouse(Events& out, int code, int x, int y, bool released);
+  void begin(State state);
+
+  State m_state = State::kGround;
+  bool m_overlong = false;  ///< the sequence is too long to be one of ours: swallow to its end
+  bool m_meta = false;      ///< an ESC came before the sequence (rxvt's Alt)
+  bool m_pasting = false;   ///< between CSI 200 ~ and CSI 201 ~
+  std::string m_parameters;
+  std::string m_utf8;
+  Time m_last{};
+};
+
+}  // namespace naiad

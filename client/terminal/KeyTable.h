@@ -1,0 +1,27 @@
+// Which key a character, a control byte, an escape sequence's number or a kitty code stands for.
+#pragma once
+
+#include "client/terminal/InputDecoder.h"
+
+namespace naiad {
+
+/// The key that types `ch` on a US keyboard, with kShift if it takes shift ('a' and 'A' are the same key).
+/// Undefined beyond ASCII.
+KeyEvent keyOfCharacter(char32_t ch);
+
+/// The key of a byte below 0x20 or of 0x7F: Return, Tab, Backspace, or Control with a letter or sign.
+KeyEvent keyOfControl(unsigned char byte);
+
+/// The key of `CSI … letter` and `SS3 letter`: cursor keys, Home, End, F1 to F4, the keypad.
+df::Keyboard::Key keyOfFinal(char final, bool ss3);
+
+/// The key of `CSI number ~`: editing keys and function keys, xterm's and rxvt's numbers.
+df::Keyboard::Key keyOfTilde(int number);
+
+/// The key of a kitty code: a Unicode character, or a functional key in the private use area.
+df::Keyboard::Key keyOfKitty(int code);
+
+/// The character that a keypad code of kitty types; 0 for all other codes.
+char32_t characterOfKeypad(int code);
+
+}  // namespace naiad

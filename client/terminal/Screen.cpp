@@ -1,0 +1,141 @@
+#include "client/terminal/Screen.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+
+// The wide-character half of curses.h is there only on request.
+#ifndef NCURSES_WIDECHAR
+#define NCURSES_WIDECHAR 1
+#endif
+#include <curses.h>
+#include <langinfo.h>
+
+#include "client/terminal/AsciiFallback.h"
+
+namespace naiad {
+namespace {
+
+/// Of ncurses: 1 to 8 on the terminal's own background, 9 to 16 on the game's. (On a terminal of eight
+/// colours there are not enough for all backgrounds at once, but a picture has one.)
+short pairOf(df::Color color, bool own_background) {
+  return static_cast<short>(color + (own_background ? 1 : 1 + df::kColorCount));
+}
+
+short cursesColor(df::Color color) {
+  static constexpr short kColors[] = {COLOR_BLACK, COLOR_RED,     COLOR_GREEN, COLOR_YELLOW,
+                                      COLOR_BLUE,  COLOR_MAGENTA, COLOR_CYAN,  COLOR_WHITE};
+  return kColors[color];
+}
+
+}  // namespace
+
+Screen::Screen(Options options) : m_ascii(options.ascii), m_colors(options.colors) {
+  std::setlocale(LC_CTYPE, "");
+  if (std::strcmp(nl_langinfo(CODESET), "UTF-8") != 0) m_ascii = true;
+
+  const char* term = std::getenv("TERM");
+  if (term == nullptr || *term == '\0') {
+    throw std::runtime_error("TERM is not set: what kind of terminal is this?");
+  }
+  if (newterm(nullptr, stdout, stdin) == nullptr) {
+    throw std::runtime_error("TERM=" + std::string(term) + " is no terminal that dfclient can draw on.");
+  }
+  curs_set(0);
+  leaveok(stdscr, FALSE);
+  scrollok(stdscr, FALSE);
+  m_colors = m_colors && has_colors();
+  if (m_colors) {
+    start_color();
+    // The player's own background, where the terminal can; black has to be told from it.
+    const bool has_default = use_default_colors() == OK;
+    for (int c = df::BLACK; c < df::kColorCount; ++c) {
+      const auto color = static_cast<df::Color>(c);
+      short foreground = cursesColor(color);
+      if (color == df::COLOR_DEFAULT && has_default) foreground = -1;
+      if (color == df::BLACK && COLORS > 8) foreground = 8;  // bright black is visible on black
+      init_pair(pairOf(color, true), foreground,
+                has_default ? static_cast<short>(-1) : static_cast<short>(COLOR_BLACK));
+    }
+  }
+  readSize();
+}
+
+Screen::~Screen() {
+  end();
+}
+
+// Nothing of the player's own colours on it: white on cyan has to be that, whatever his terminal writes with.
+void Screen::setBackground(df::Color background) {
+  if (!m_colors || background == df::BLACK || background == m_background) return;
+  m_background = background;
+  for (int c = df::BLACK; c < df::kColorCount; ++c) {
+    const auto color = static_cast<df::Color>(c);
+    init_pair(pairOf(color, false), cursesColor(color), cursesColor(background));
+  }
+  m_redraw = true;
+}
+
+bool Screen::readSize() {
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
+    if (size.ws_row != LINES || size.ws_col != COLS) resizeterm(size.ws_row, size.ws_col);
+  }
+  if (m_columns == COLS && m_rows == LINES) return false;
+  m_columns = COLS;
+  m_rows = LINES;
+  m_redraw = true;
+  return true;
+}
+
+void Screen::show(const Picture& picture) {
+  setBackground(picture.background());
+  const bool all =
+      m_redraw || m_ended || picture.width() != m_shown.width() || picture.height() != m_shown.height();
+  if (all) {
+    clearok(stdscr, TRUE);
+    erase();
+  }
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const PictureCell cell = picture.at(x, y);
+      if (all || !(cell == m_shown.at(x, y))) put(x, y, cell);
+    }
+  }
+  if (picture.cursor) move(picture.cursor->y, picture.cursor->x);
+  curs_set(picture.cursor ? 1 : 0);
+  refresh();
+  m_shown = picture;
+  m_redraw = false;
+  m_ended = false;
+}
+
+void Screen::ring() {
+  if (!m_ended) beep();
+}
+
+void Screen::put(int x, int y, const PictureCell& cell) {
+  attr_t attributes = A_NORMAL;
+  if (cell.style == Style::kBold) attributes |= A_BOLD;
+  if (cell.style == Style::kReverse) attributes |= A_REVERSE;
+  const short pair = m_colors ? pairOf(cell.color, cell.background == df::BLACK) : static_cast<short>(0);
+  // Whatever got here, nothing but one drawable character reaches the terminal.
+  const char32_t safe = df::isDrawable(cell.ch) ? cell.ch : U'?';
+  const wchar_t text[2] = {m_ascii ? static_cast<wchar_t>(asciiFor(safe)) : static_cast<wchar_t>(safe),
+                           L'\0'};
+  cchar_t glyph;
+  setcchar(&glyph, text, attributes, pair, nullptr);
+  mvadd_wch(y, x, &glyph);
+}
+
+void Screen::end() {
+  if (m_ended) return;
+  m_ended = true;
+  endwin();
+}
+
+}  // namespace naiad

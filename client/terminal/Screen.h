@@ -1,0 +1,56 @@
+// Puts pictures on the terminal with ncurses, which sends only what changed.
+//
+// ncurses is used for output alone: it never reads the keyboard and sets no signal handlers (the
+// TerminalGuard's are there first). One Screen at a time; all calls on one thread.
+#pragma once
+
+#include <string>
+
+#include "client/terminal/Picture.h"
+#include "shared/values/Color.h"
+
+namespace naiad {
+
+class Screen {
+ public:
+  struct Options {
+    bool ascii = false;  ///< use the ASCII glyph set even if the locale is UTF-8
+    bool colors = true;  ///< false: NO_COLOR
+  };
+
+  /// Enters the alternate screen. Throws std::runtime_error, with a sentence for people, if TERM names no
+  /// terminal that can do this.
+  explicit Screen(Options options);
+  ~Screen();
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+
+  int columns() const { return m_columns; }
+  int rows() const { return m_rows; }
+
+  /// Show the picture.
+  void show(const Picture& picture);
+  /// Ring the terminal's bell.
+  void ring();
+  /// The terminal's size may have changed. True if it has.
+  bool readSize();
+  /// Send everything anew with the next show(): somebody else has written on the terminal.
+  void redrawAll() { m_redraw = true; }
+  /// Back to the normal screen, for a while (suspended) or for good; show() returns from it.
+  void end();
+
+ private:
+  void setBackground(df::Color background);
+  void put(int x, int y, const PictureCell& cell);
+
+  bool m_ascii;
+  bool m_colors;
+  bool m_redraw = true;
+  bool m_ended = false;
+  int m_columns = 0;
+  int m_rows = 0;
+  df::Color m_background = df::BLACK;  ///< of the pairs for the game's
+  Picture m_shown;
+};
+
+}  // namespace naiad

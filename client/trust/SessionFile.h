@@ -1,0 +1,70 @@
+// Where a running client keeps what its successor needs if it is killed: one file for each, locked as long as
+// the client runs, so that a second terminal cannot take the session of the first.
+//
+// Files are 0600 in a directory of the user's own. What is damaged, or not this user's alone, is not used,
+// and said so: the player then plays as a new one. Nothing here throws.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/trust/SavedSession.h"
+
+namespace naiad {
+
+/// Not thread-safe; any number of processes on one directory.
+class SessionFile {
+ public:
+  using Time = SavedSession::Time;
+
+  /// The time in the file is brought up to date this often.
+  static constexpr std::chrono::seconds kRefresh{2};
+
+  /// $XDG_STATE_HOME/naiad/sessions, or the same in ~/.local/state; nothing if the environment names neither.
+  static std::optional<std::filesystem::path> defaultDirectory();
+
+  /// Take over the newest file that a client left there which does not run any more and played at `server`
+  /// (ServerAddress::canonicalText()), by this name if one is given. Those whose grace is over are removed.
+  /// The directory is made with the first save().
+  SessionFile(std::filesystem::path directory, std::string server, const std::optional<std::string>& name,
+              Time now);
+  /// The file stays: whoever leaves in order removes it.
+  ~SessionFile();
+  SessionFile(const SessionFile&) = delete;
+  SessionFile& operator=(const SessionFile&) = delete;
+
+  /// The token of the session that was left, for the server with this key; empty if there is none.
+  std::string tokenFor(const Fingerprint& key) const;
+  /// The session's token is another one now. `session.server` and `alive` are filled in.
+  void save(SavedSession session, Time now);
+  /// The session is well. Call about once a second.
+  void refresh(Time now);
+  /// The session is over.
+  void remove();
+
+  /// What was not right, a sentence each.
+  const std::vector<std::string>& problems() const { return m_problems; }
+
+ private:
+  void look(const std::optional<std::string>& name, Time now);
+  void consider(const std::filesystem::path& path, const std::optional<std::string>& name, Time now);
+  std::optional<SavedSession> readOpen(int file, const std::filesystem::path& path);
+  bool isDirectoryOurs();
+  void makeOwn();
+  void write(Time now);
+  void letGo();
+  void complain(const std::filesystem::path& path, const std::string& what);
+
+  std::filesystem::path m_directory;
+  std::string m_server;
+  std::filesystem::path m_path;
+  int m_file = -1;     ///< locked; −1: none yet
+  bool m_off = false;  ///< it does not work here
+  std::optional<SavedSession> m_saved;
+  std::vector<std::string> m_problems;
+};
+
+}  // namespace naiad

@@ -1,0 +1,105 @@
+#include "client/ui/ClientControls.h"
+
+#include <utility>
+
+#include "shared/net/base/Limits.h"
+#include "shared/values/Canvas.h"
+
+namespace naiad {
+
+using namespace df::Keyboard;
+
+namespace {
+
+bool isControl(const KeyEvent& event, Key key) {
+  return event.key == key && (event.modifiers & kControl) != 0 && (event.modifiers & (kAlt | kSuper)) == 0;
+}
+
+/// Keys that only modify others; terminals with the kitty protocol report them too.
+bool isModifierKey(Key key) {
+  return key == LEFTSHIFT || key == RIGHTSHIFT || key == LEFTCONTROL || key == RIGHTCONTROL ||
+         key == LEFTALT || key == RIGHTALT;
+}
+
+}  // namespace
+
+ClientControls::Result ClientControls::take(const KeyEvent& event) {
+  // The game ignores releases of keys that it never saw go down, so they may all go there.
+  if (event.action == KeyEvent::Action::kRelease) return Result::kGame;
+  if (isControl(event, C)) return Result::kLeave;
+  if (isControl(event, Z)) return Result::kSuspend;
+  if (m_prefixed) return isModifierKey(event.key) ? Result::kTaken : takeCommand(event);
+  if (isControl(event, RIGHTBRACKET) && event.action == KeyEvent::Action::kPress) {
+    m_prefixed = true;
+    return Result::kTaken;
+  }
+  if (m_chat_open) return takeChatKey(event);
+  if (m_panel != Panel::kNone && event.key == ESCAPE) {
+    m_panel = Panel::kNone;
+    return Result::kTaken;
+  }
+  return Result::kGame;
+}
+
+ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
+  // A held Ctrl-] repeats; that is not its own command.
+  if (event.action == KeyEvent::Action::kRepeat) return Result::kTaken;
+  m_prefixed = false;
+  const bool question = event.ch == U'?';
+  if (question) return toggle(Panel::kHelp);
+  switch (event.key) {
+    case H:
+      return toggle(Panel::kHelp);
+    case P:
+      return toggle(Panel::kPlayers);
+    case S:
+      m_status = !m_status;
+      return Result::kTaken;
+    case Q:
+      return Result::kLeave;
+    case C:
+    case T:
+      if (m_chat_open) return Result::kTaken;
+      m_chat_open = true;
+      m_text.clear();
+      return Result::kOpened;
+    default:
+      break;
+  }
+  m_panel = Panel::kNone;
+  return Result::kTaken;
+}
+
+ClientControls::Result ClientControls::toggle(Panel panel) {
+  m_panel = m_panel == panel ? Panel::kNone : panel;
+  return Result::kTaken;
+}
+
+ClientControls::Result ClientControls::takeChatKey(const KeyEvent& event) {
+  if (event.key == ESCAPE || event.key == RETURN) {
+    m_chat_open = false;
+    return event.key == RETURN && !m_text.empty() ? Result::kSay : Result::kClosed;
+  }
+  if (event.key == BACKSPACE) {
+    if (!m_text.empty()) m_text.pop_back();
+  } else if (isControl(event, U)) {
+    m_text.clear();
+  } else if (event.ch != 0 && df::isDrawable(event.ch) && m_text.size() < kMaxChatLength) {
+    m_text.push_back(event.ch);
+  }
+  return Result::kTaken;
+}
+
+std::string ClientControls::chatText() const {
+  std::string text;
+  for (const char32_t ch : m_text) df::appendUtf8(text, ch);
+  return text;
+}
+
+std::string ClientControls::takeChat() {
+  std::string text = chatText();
+  m_text.clear();
+  return text;
+}
+
+}  // namespace naiad

@@ -1,0 +1,52 @@
+// Composes the whole terminal picture: view, frame, status line, banner, chat, panels.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "client/session/ClientSession.h"
+#include "client/terminal/Picture.h"
+#include "client/ui/ClientControls.h"
+#include "client/ui/ViewPlacement.h"
+
+namespace naiad {
+
+/// Chat lines are seen this long; all recent ones while the chat line is open.
+inline constexpr std::chrono::seconds kChatShown{8};
+
+/// Everything that can be seen, as values. Texts must be safe (SafeText.h).
+struct ScreenModel {
+  df::Canvas view;
+  df::Color background = df::BLACK;  ///< behind all characters of the view
+  CellPosition focus;                ///< what must stay visible, in view cells
+  bool has_view = false;             ///< false before the first snapshot: only the banner is drawn
+  std::string banner;                ///< a line over everything; empty: none
+
+  bool status_shown = true;
+  std::chrono::milliseconds round_trip{0};
+  std::uint32_t tick = 0;
+  std::int32_t score = 0;
+  std::string server;  ///< program and address of the server
+  std::string game;
+  std::string note;  ///< for a moment: what has just sounded; empty: none
+
+  Panel panel = Panel::kNone;
+  std::uint32_t self = 0;  ///< this player's id
+  std::vector<PlayerLine> players;
+  std::vector<std::string> help;  ///< the game's own lines
+
+  bool chat_open = false;
+  std::string chat_text;
+  std::vector<ChatEntry> chat;  ///< lines to show, oldest first
+};
+
+struct ScreenLayout {
+  Picture picture;
+  ViewPlacement placement;  ///< for the mouse; empty when no view is shown
+};
+
+/// Lay out `model` on a terminal of `columns` by `rows` cells.
+ScreenLayout layOut(const ScreenModel& model, int columns, int rows);
+
+}  // namespace naiad

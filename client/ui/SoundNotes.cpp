@@ -1,0 +1,47 @@
+#include "client/ui/SoundNotes.h"
+
+namespace naiad {
+
+namespace {
+
+std::string textOf(const SoundLine& sound) {
+  return (sound.music ? "music: " : "sound: ") + sound.label;
+}
+
+}  // namespace
+
+std::optional<SoundMode> soundModeFrom(std::string_view name) {
+  if (name == "note") return SoundMode::kNote;
+  if (name == "bell") return SoundMode::kBell;
+  if (name == "off") return SoundMode::kOff;
+  return std::nullopt;
+}
+
+void SoundNotes::hear(const SoundLine& sound, std::uint32_t self, Time now) {
+  if (m_mode == SoundMode::kOff) return;
+  if (sound.action != SoundLine::Action::kPlay) {
+    if (m_note == textOf(sound)) m_noted_at.reset();  // it is over
+    return;
+  }
+  const bool others = sound.player != 0 && sound.player != self;
+  show(sound, others, now);
+  if (m_mode != SoundMode::kBell || sound.music || others) return;
+  if (m_rang_at && now - *m_rang_at < kBellEvery) return;
+  m_rang_at = now;
+  m_rings = true;
+}
+
+// One's own, and what is meant for all, takes the place of what others do at once.
+void SoundNotes::show(const SoundLine& sound, bool others, Time now) {
+  const bool fresh = m_noted_at && now - *m_noted_at < kLeast;
+  if (fresh && (others || !m_of_others)) return;
+  m_note = textOf(sound);
+  m_of_others = others;
+  m_noted_at = now;
+}
+
+std::string SoundNotes::note(Time now) const {
+  return m_noted_at && now - *m_noted_at < kShown ? m_note : std::string();
+}
+
+}  // namespace naiad

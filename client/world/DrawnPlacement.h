@@ -1,0 +1,33 @@
+// What the client adds to the picture by itself: its own object where it is predicted, with the view that
+// follows it, and the others not inside what is solid.
+#pragma once
+
+#include "client/world/ExtrapolationClamp.h"
+#include "client/world/Prediction.h"
+#include "shared/replica/Placement.h"
+
+namespace naiad {
+
+class DrawnPlacement : public Placement {
+ public:
+  /// All must outlive it, and not change.
+  DrawnPlacement(const Replica& replica, const Prediction& prediction, const ExtrapolationClamp& clamp)
+      : m_replica(replica), m_prediction(prediction), m_clamp(clamp) {}
+
+  /// `tick` must be the one that the clamp was made for.
+  df::FixedVector positionOf(const ObjectState& object, std::uint32_t /*tick*/) const override {
+    return m_prediction.isOwn(object) ? m_prediction.position() : m_clamp.positionOf(object);
+  }
+  df::FixedVector viewCorner(df::FixedVector modelled) const override {
+    const ObjectState* p_followed = m_replica.followed();
+    const bool own = p_followed != nullptr && m_prediction.isOwn(*p_followed);
+    return own ? m_prediction.viewCorner(m_replica) : modelled;
+  }
+
+ private:
+  const Replica& m_replica;
+  const Prediction& m_prediction;
+  const ExtrapolationClamp& m_clamp;
+};
+
+}  // namespace naiad

@@ -1,0 +1,100 @@
+// The player's own object, ahead of the server's answer: where it will be when the keys that are on their
+// way have arrived.
+//
+// The server says now and then what the object exactly was at the end of a tick, and which inputs had
+// reached the game by then (ControlRecord). From there run() replays all that the server has not yet
+// answered, through the same table, against what is solid in the replica. It begins anew each time: when
+// the server saw something otherwise, the next picture is simply the new replay.
+//
+// The tick to run to is the one in which the server will take in a key that is pressed now: so much ahead of
+// the newest snapshot as a round trip and the server's margin take. Then a key is seen in the next frame,
+// however long the way.
+//
+// Pure: no clock, no I/O; ticks are serial numbers. Not thread-safe. Bounded whatever the server sends.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "shared/replica/ControlCodec.h"
+#include "shared/replica/Replica.h"
+#include "shared/replica/SteeredCopy.h"
+
+namespace naiad {
+
+class Prediction {
+ public:
+  /// Ticks that are replayed at most: kMostCoasting and two seconds' way there and back.
+  static constexpr std::uint32_t kMaxAhead = 90;
+  /// Inputs without an answer that are kept at most; further ones are not predicted.
+  static constexpr std::size_t kMaxInputs = 64;
+
+  struct Counters {
+    std::uint64_t confirmed = 0;     ///< answers that said what had been predicted for their tick
+    std::uint64_t mispredicted = 0;  ///< answers that said something else
+    std::uint64_t unpredicted = 0;   ///< inputs beyond kMaxInputs
+  };
+
+  /// The controls that the game declared, as they arrive; one without rows ends the prediction.
+  void setTable(df::ControlTable table) { m_table = std::move(table); }
+  /// An answer; an older one than the last is ignored.
+  void take(const ControlRecord& record);
+  /// The player did this; it was sent as input `id` (newer than all before), and the server should take it
+  /// in in the tick that ends as `tick`.
+  void press(std::uint32_t id, df::Keyboard::Key key, df::EventKeyboardAction action, std::uint32_t tick);
+  /// Forget everything but the counters: another session.
+  void reset();
+
+  /// Find out where the object is at the end of `tick`. The replica should be as new as the last answer.
+  void run(const Replica& replica, std::uint32_t tick);
+
+  /// Did the last run() find an object to predict?
+  bool isActive() const { return m_active; }
+  /// Is this the predicted object?
+  bool isOwn(const ObjectState& object) const { return m_active && object.order == m_order; }
+  /// Where it is at the end of the last run()'s tick, and with what velocity it goes on.
+  df::FixedVector position() const { return m_position; }
+  df::FixedVector velocity() const { return m_velocity; }
+  /// Where the view is then that follows it.
+  df::FixedVector viewCorner(const Replica& replica) const;
+  /// Inputs that no answer has covered yet.
+  std::size_t unanswered() const { return m_inputs.size(); }
+  const Counters& counters() const { return m_counters; }
+
+ private:
+  struct Input {
+    std::uint32_t id;
+    df::Keyboard::Key key;
+    df::EventKeyboardAction action;
+    std::uint32_t tick;
+  };
+  /// What was predicted for a tick, kept until the answer comes.
+  struct Guess {
+    bool made = false;
+    std::uint32_t tick = 0;
+    df::FixedVector position;
+  };
+  static constexpr std::size_t kGuesses = 128;
+
+  void replay(const Replica& replica, const ObjectState& own, std::uint32_t tick);
+  df::FixedVector reach(std::uint32_t ticks) const;
+  Guess& guess(std::uint32_t tick) { return m_guesses[tick % kGuesses]; }
+
+  df::ControlTable m_table;
+  std::optional<ControlRecord> m_known;
+  std::deque<Input> m_inputs;
+  std::array<Guess, kGuesses> m_guesses{};
+  Counters m_counters;
+  bool m_active = false;
+  std::uint64_t m_order = 0;
+  std::uint32_t m_from = 0;  ///< the tick that the last replay began at
+  df::FixedVector m_position;
+  df::FixedVector m_velocity;
+  std::vector<df::FixedVector> m_trail;
+};
+
+}  // namespace naiad

@@ -1,0 +1,63 @@
+#include "client/world/Surroundings.h"
+
+#include <algorithm>
+
+namespace naiad {
+
+namespace {
+
+bool blocks(const Body& mover, const Body& other) {
+  return (mover.solidness == df::HARD && other.solidness == df::HARD) ||
+         (mover.solidness != df::SPECTRAL && mover.no_soft && other.solidness == df::SOFT);
+}
+
+df::FixedBox unite(const df::FixedBox& a, const df::FixedBox& b) {
+  const df::FixedVector low{std::min(a.corner.x, b.corner.x), std::min(a.corner.y, b.corner.y)};
+  const df::FixedVector high{std::max(a.corner.x + a.size.x, b.corner.x + b.size.x),
+                             std::max(a.corner.y + a.size.y, b.corner.y + b.size.y)};
+  return {low, high - low};
+}
+
+}  // namespace
+
+std::optional<df::FixedBox> boxAt(const Body& body, df::FixedVector position) {
+  // Boxes are within 10^6 cells (RecordCodec), so nothing overflows that spans two places within this.
+  constexpr df::Fixed kFar = df::fromCells(1'000'000'000);
+  if (position.x < -kFar || position.x > kFar || position.y < -kFar || position.y > kFar) return std::nullopt;
+  return df::translate(body.box, position);
+}
+
+std::optional<df::FixedBox> boxAlong(const ObjectState& object, std::uint32_t first, std::uint32_t last) {
+  // A straight path is farthest at its ends, one that bends may be so anywhere.
+  const std::uint32_t ticks = last - first;
+  const bool bends = object.motion.acceleration != df::FixedVector{};
+  std::optional<df::FixedBox> all;
+  for (std::uint32_t i = 0; i <= ticks; i += bends || ticks == 0 ? 1 : ticks) {
+    const auto box = boxAt(object.body, positionAt(object.motion, first + i));
+    if (!box) return std::nullopt;
+    all = all ? unite(*all, *box) : *box;
+  }
+  return all;
+}
+
+Surroundings::Surroundings(const Replica& replica, const ObjectState& own, const df::FixedBox& from,
+                           df::FixedVector reach, std::uint32_t first, std::uint32_t last)
+    : m_own(own) {
+  const df::FixedBox around{from.corner - reach, from.size + reach + reach};
+  for (const auto& [slot, entry] : replica.entries()) {
+    if (!entry.alive || entry.state.order == own.order || !blocks(own.body, entry.state.body)) continue;
+    const auto box = boxAlong(entry.state, first, last);
+    if (box && df::intersects(*box, around)) m_others.push_back(&entry.state);
+  }
+}
+
+bool Surroundings::block(df::FixedVector to, std::uint32_t tick, bool in_update) const {
+  const auto own = boxAt(m_own.body, to);
+  return own && std::any_of(m_others.begin(), m_others.end(), [&](const ObjectState* p_other) {
+           const bool has_moved = in_update && p_other->order < m_own.order;
+           const auto box = boxAt(p_other->body, positionAt(p_other->motion, has_moved ? tick : tick - 1));
+           return box && df::intersects(*own, *box);
+         });
+}
+
+}  // namespace naiad

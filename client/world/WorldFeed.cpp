@@ -1,0 +1,62 @@
+#include "client/world/WorldFeed.h"
+
+#include <utility>
+
+namespace naiad {
+
+// Numbers count on through all epochs: what is not newer than all of a world is of one before it, and late.
+// (Of two streams one may lag behind by several worlds.)
+Replica* WorldFeed::replicaFor(std::string_view bytes, Time now) {
+  const auto header = peekHeader(bytes, m_replica.newest());
+  if (!header || header->epoch == m_epoch) return &m_replica;
+  if (m_next && m_next_epoch == header->epoch) return &*m_next;
+  if (!isNewer(header->number, (m_next ? *m_next : m_replica).newest().number)) return nullptr;
+  m_next_epoch = header->epoch;
+  m_next = Replica::anew(m_replica.newest());
+  m_reset_at = now;
+  ++m_resets;
+  return &*m_next;
+}
+
+// A complete snapshot may overtake those that it completes: one goes as a datagram and they on the stream.
+void WorldFeed::noteFirst(const SnapshotHeader& header, Time now) {
+  if (!m_began) m_began = now;
+  m_came.note(header.number);
+  if (header.complete && isNewer(header.number, m_complete)) m_complete = header.number;
+  m_whole = m_complete != m_before;
+  // What is older than the window was sent again before the server called anything complete.
+  for (std::uint32_t n = m_complete; m_whole && n != m_before && m_came.newest - n <= 64; --n) {
+    m_whole = m_came.has(n);
+  }
+}
+
+WorldFeed::Taken WorldFeed::take(std::string_view bytes, Time now, SnapshotHeader& header,
+                                 const std::function<void(std::uint32_t)>& before) {
+  Replica* replica = replicaFor(bytes, now);
+  if (replica == nullptr) return Taken::kIgnored;
+  Snapshot snapshot;
+  switch (replica->read(bytes, snapshot)) {
+    case ReadResult::kOk:
+      break;
+    case ReadResult::kStale:
+      ++m_stale_in_a_row;
+      return Taken::kStale;
+    case ReadResult::kMalformed:
+      return Taken::kMalformed;
+  }
+  m_stale_in_a_row = 0;
+  header = snapshot.header;
+  if (before) before(header.tick);
+  replica->apply(snapshot);
+  if (!m_whole && replica == &m_replica) noteFirst(header, now);
+  if (replica == &m_replica || !(header.complete || now - m_reset_at >= kPatience)) {
+    return Taken::kApplied;
+  }
+  m_whole = true;
+  m_replica = std::move(*m_next);
+  m_next.reset();
+  m_epoch = m_next_epoch;
+  return Taken::kShown;
+}
+
+}  // namespace naiad

@@ -1,0 +1,254 @@
+// The broad phase: finds the solid boxes that may touch a box.
+//
+// Boxes are filed by their upper left corner, once each, in levels by their size. Level 0 is for single
+// characters: cells of 1 by 1, so that a query looks at nine of them. Above it the largest boxes of a level
+// grow by four from 16 by 4 on, four times as wide as high, as text is; the cells are a quarter as wide and
+// half as high. Where characters are few among sprites, they are filed in level 1 with them, and there is one
+// level less to look through.
+//
+// A level is two arrays: a bit per cell that says whether it is occupied, 64 cells of a row to a word, the
+// words of the rows below following; and per cell the first of its slots. Nine cells are looked at in three
+// neighbouring words. Level 0 has a third array: per cell the spot in it where its character is, in 15 bits;
+// so that of nine neighbours only those are looked up that touch, or nearly so. (Where characters are few and
+// far between, there is none.) Cells are mapped onto the arrays as onto a torus: the part of the world that
+// the boxes of a level are spread over lies flat, what is a whole turn away falls onto the same cells,
+// shifted by a hash, and is told apart by the exact test. So the arrays are about as long as there are boxes,
+// wherever these are: 32 to 64 cells for each. Only what is occupied is touched. Nothing is allocated when
+// something moves.
+//
+// The grid reads positions and boxes from the store's arrays; a slot is filed under what they say when
+// file() or refile() is called.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/collision/Paths.h"
+#include "shared/values/Fixed.h"
+
+namespace df {
+
+/// A single character: one cell, centred on the position.
+inline constexpr FixedBox kCharacterBox{{-kFixedOne / 2, -kFixedOne / 2}, {kFixedOne, kFixedOne}};
+
+class Grid {
+  struct Level;
+  struct Record;
+  using Spot = std::uint16_t;
+
+ public:
+  using Slot = std::uint32_t;
+  static constexpr int kLevels = 12;
+  class Steps;
+
+  /// Both must outlive the grid; slots index them.
+  Grid(const std::vector<FixedVector>& positions, const std::vector<FixedBox>& boxes);
+
+  /// File `slot` under its position and box, wherever it was filed before.
+  void file(Slot slot);
+  /// Its position has changed, and nothing else: file it anew. It must be filed.
+  void refile(Slot slot) { refile(slot, m_levels[static_cast<std::size_t>(m_records[slot].level)]); }
+  /// Forget `slot`, if it was filed.
+  void remove(Slot slot);
+  bool contains(Slot slot) const { return slot < m_records.size() && m_records[slot].level >= 0; }
+  int size() const;
+  /// What has been done, here and by those who use the grid.
+  Paths& paths() { return m_paths; }
+  const Paths& paths() const { return m_paths; }
+  /// Memory of the levels, in bytes.
+  std::size_t bytes() const;
+
+  /// Append to `out` the slots whose boxes touch `box`, except `self`; in no particular order, and a slot may
+  /// come twice.
+  void touching(const FixedBox& box, Slot self, std::vector<Slot>& out) const;
+  /// Call `visit(slot)` for every slot of a level in `levels` whose corner may lie in [from, to]; some may
+  /// come twice.
+  template <class Visit>
+  void visitCorners(int level, FixedVector from, FixedVector to, Visit visit) const;
+  /// Bit per level that holds something.
+  std::uint32_t levels() const { return m_occupied; }
+  /// Upper bound of the sizes of boxes in a level.
+  static FixedVector largest(int level);
+
+ private:
+  static constexpr Slot kNone = 0x7FFFFFFF;
+  static constexpr Slot kMore = 0x80000000;      // in a cell's first slot: others follow
+  static constexpr Spot kSeveral = 0x8000;       // in a cell's spot: it has several slots, anywhere
+  static constexpr std::size_t kRowOfSpots = 4;  // that are read at a time, three of them for their own sake
+  static constexpr std::int64_t kBlock = 64;     // cells per side of the squares that lie flat
+  static constexpr std::size_t kLeastWords = 256;
+  static constexpr std::size_t kBoxesPerWord = 2;  // at most, on average
+
+  struct Record {
+    std::uint32_t cell = 0;
+    Slot next = kNone;
+    Slot previous = kNone;
+    std::int16_t level = -1;  // not filed
+    bool character = false;
+  };
+
+  struct Level {
+    int x_shift = kFixedBits;
+    int y_shift = kFixedBits;
+    std::int64_t base_x = 0;  // block from which the torus is unrolled
+    std::int64_t base_y = 0;
+    int x_bits = 0;  // blocks of one turn, as powers of two
+    int y_bits = 0;
+    std::int64_t x_mask = 0;
+    std::uint32_t word_mask = 0;
+    int count = 0;
+    std::vector<std::uint64_t> words;  // bit per cell
+    std::unique_ptr<Slot[]> heads;     // first slot of each occupied cell; of others nothing sensible
+    std::unique_ptr<Spot[]>
+        spots;  // of level 0, or null: where in each occupied cell; of others nothing sensible
+
+    std::uint32_t wordOf(std::int64_t x, std::int64_t y) const;
+    std::uint32_t cellOf(FixedVector anchor) const;
+    void shape(std::size_t word_count, std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1);
+  };
+
+  /// Where in its cell a position is: x in the lower eight bits, y in the seven above, both rounded down.
+  static Spot spotOf(FixedVector p) {
+    return static_cast<Spot>((p.x >> (kFixedBits - 8) & 0xFF) | (p.y >> (kFixedBits - 7) & 0x7F) << 8);
+  }
+
+  int levelOf(const FixedBox& box) const;
+  void count(const Record& record, int by);
+  void drop(Slot slot);
+  void weigh();
+  void fileAt(Slot slot, int number);
+  void refile(Slot slot, Level& level);
+  void link(Slot slot, Level& level, std::uint32_t cell);
+  void unlink(Slot slot, Level& level);
+  void rebuild(int level, std::size_t word_count);
+  /// The point by which a box is filed: its corner; of a character its position.
+  FixedVector anchor(Slot slot, int level) const {
+    return level == 0 ? m_positions[slot] : m_positions[slot] + m_boxes[slot].corner;
+  }
+  FixedBox worldBox(Slot slot) const { return translate(m_boxes[slot], m_positions[slot]); }
+
+  const std::vector<FixedVector>& m_positions;
+  const std::vector<FixedBox>& m_boxes;
+  std::array<Level, kLevels> m_levels;
+  std::vector<Record> m_records;
+  std::uint32_t m_occupied = 0;
+  int m_characters = 0;
+  int m_small_boxes = 0;           // of level 1, without characters
+  bool m_characters_apart = true;  // in level 0; else they are in level 1
+  Paths m_paths;
+  std::vector<Slot> m_found;  // of Steps, when they are many
+};
+
+// The word that holds cell (x,y), and the 63 others of its row in its block.
+inline std::uint32_t Grid::Level::wordOf(std::int64_t x, std::int64_t y) const {
+  const std::int64_t bx = (x >> 6) - base_x;
+  const std::int64_t by = (y >> 6) - base_y;
+  const auto flat = static_cast<std::uint32_t>(((by << x_bits | (bx & x_mask)) << 6) | (y & 63));
+  const std::int64_t turn_x = bx >> x_bits;
+  const std::int64_t turn_y = by >> y_bits;
+  if ((turn_x | turn_y) == 0) return flat & word_mask;
+  const std::uint64_t hash = static_cast<std::uint64_t>(turn_x) * 0x9E3779B97F4A7C15ull +
+                             static_cast<std::uint64_t>(turn_y) * 0xD1B54A32D192ED03ull;
+  return (flat + static_cast<std::uint32_t>(hash >> 32)) & word_mask;
+}
+
+inline std::uint32_t Grid::Level::cellOf(FixedVector anchor) const {
+  const std::int64_t x = anchor.x >> x_shift;
+  return wordOf(x, anchor.y >> y_shift) << 6 | static_cast<std::uint32_t>(x & 63);
+}
+
+inline void Grid::link(Slot slot, Level& level, std::uint32_t cell) {
+  std::uint64_t& word = level.words[cell >> 6];
+  const std::uint64_t bit = std::uint64_t{1} << (cell & 63);
+  Slot& head = level.heads[cell];
+  Record& record = m_records[slot];
+  record.cell = cell;
+  record.previous = kNone;
+  if ((word & bit) == 0) {
+    word |= bit;
+    record.next = kNone;
+    head = slot;
+    if (level.spots != nullptr) level.spots[cell] = spotOf(m_positions[slot]);
+    return;
+  }
+  record.next = head & ~kMore;
+  m_records[record.next].previous = slot;
+  head = slot | kMore;
+  if (level.spots != nullptr) level.spots[cell] = kSeveral;
+}
+
+inline void Grid::unlink(Slot slot, Level& level) {
+  const Record& record = m_records[slot];
+  if (record.next == kNone && record.previous == kNone) {
+    level.words[record.cell >> 6] &= ~(std::uint64_t{1} << (record.cell & 63));
+    return;
+  }
+  if (record.next != kNone) m_records[record.next].previous = record.previous;
+  if (record.previous != kNone) {
+    m_records[record.previous].next = record.next;
+  } else {
+    level.heads[record.cell] = record.next | kMore;
+  }
+  const Slot head = level.heads[record.cell] & ~kMore;
+  if (m_records[head].next != kNone) return;
+  level.heads[record.cell] = head;
+  if (level.spots != nullptr) level.spots[record.cell] = spotOf(m_positions[head]);
+}
+
+inline void Grid::refile(Slot slot, Level& level) {
+  const Record& record = m_records[slot];
+  const std::uint32_t cell = level.cellOf(anchor(slot, record.level));
+  if (cell == record.cell) {
+    const bool alone = (record.next & record.previous) == kNone;
+    if (alone && level.spots != nullptr) level.spots[cell] = spotOf(m_positions[slot]);
+    return;
+  }
+  unlink(slot, level);
+  link(slot, level, cell);
+}
+
+template <class Visit>
+void Grid::visitCorners(int number, FixedVector from, FixedVector to, Visit visit) const {
+  const Level& level = m_levels[static_cast<std::size_t>(number)];
+  const auto visitWord = [&](std::uint32_t index, std::uint64_t bits) {
+    for (; bits != 0; bits &= bits - 1) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
+      const Slot head = level.heads[index << 6 | bit];
+      visit(head & ~kMore);
+      if ((head & kMore) == 0) continue;
+      for (Slot s = m_records[head & ~kMore].next; s != kNone; s = m_records[s].next) visit(s);
+    }
+  };
+  if (number == 0) {
+    from = from - kCharacterBox.corner;
+    to = to - kCharacterBox.corner;
+  }
+  const std::int64_t x0 = from.x >> level.x_shift;
+  const std::int64_t y0 = from.y >> level.y_shift;
+  const std::int64_t x1 = to.x >> level.x_shift;
+  const std::int64_t y1 = to.y >> level.y_shift;
+  const std::int64_t strips = (x1 >> 6) - (x0 >> 6) + 1;
+  if (strips * (y1 - y0 + 1) > static_cast<std::int64_t>(level.words.size())) {
+    for (std::uint32_t index = 0; index < level.words.size(); ++index) visitWord(index, level.words[index]);
+    return;
+  }
+  for (std::int64_t strip = x0 >> 6; strip <= x1 >> 6; ++strip) {
+    std::uint64_t mask = ~std::uint64_t{0};
+    if (strip == x0 >> 6) mask &= ~std::uint64_t{0} << (x0 & 63);
+    if (strip == x1 >> 6) mask &= ~std::uint64_t{0} >> (63 - (x1 & 63));
+    std::uint32_t index = level.wordOf(strip * kBlock, y0);
+    for (std::int64_t y = y0;;) {
+      const std::uint64_t bits = level.words[index] & mask;
+      if (bits != 0) visitWord(index, bits);
+      if (++y > y1) break;
+      index = (y & 63) == 0 ? level.wordOf(strip * kBlock, y) : (index + 1) & level.word_mask;
+    }
+  }
+}
+
+}  // namespace df

@@ -1,0 +1,250 @@
+// The grid's part in a walker's step: is the place free, and then the box is filed there. Inline, for this is
+// what most Objects of a busy world do most of the time.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include "engine/collision/Grid.h"
+#include "shared/values/Fixed.h"
+
+namespace df {
+
+/// Steps of boxes, one after another, while nothing else touches the grid and the store's arrays
+/// stay where they are: the pointers are held at hand.
+class Grid::Steps {
+ public:
+  explicit Steps(Grid& grid);
+  ~Steps() { m_grid.m_paths.nine_cells += m_nine_cells; }
+  Steps(const Steps&) = delete;
+  Steps& operator=(const Steps&) = delete;
+  /// Would `s`, which is filed, touch nobody at `where`? If it would, found() says whom.
+  bool isFree(Slot s, FixedVector where) {
+    return m_p_records[s].level == 0 ? isCharacterFree(s, where) : isBoxFree(s, m_p_records[s], where);
+  }
+  /// Whom it touches; in no particular order, and one may come twice.
+  std::span<const Slot> found() const {
+    return {m_count <= kFew ? m_few.data() : m_grid.m_found.data(), m_count};
+  }
+  /// File `s`, for which isFree() was asked last, where it wanted to go. Its position must be set.
+  void take(Slot s);
+
+ private:
+  static constexpr std::size_t kFew = 32;
+  class Nine;
+  bool isCharacterFree(Slot s, FixedVector where);
+  bool gather(Slot s, FixedVector where, unsigned near);
+  bool isBoxFree(Slot s, const Record& own, FixedVector where);
+  bool lookAround(Slot s, FixedVector where);
+  void lookAtOthers(Slot s, FixedVector where);
+  void visit(int level, Slot s, const FixedBox& box);
+  void test(Slot t, Slot self, FixedVector low, FixedVector high);
+  bool touches(Slot t, FixedVector corner) const;
+  void putBack(const Record& own);
+  void found(Slot t);
+
+  Grid& m_grid;
+  Level& m_level;
+  const FixedVector* m_p_positions;
+  const FixedBox* m_p_boxes;
+  std::uint64_t* m_p_words;
+  Record* m_p_records;
+  Slot* m_p_heads;
+  Spot* m_p_spots;
+  std::uint32_t m_word_mask;
+  std::uint32_t m_cell_mask;
+  std::uint32_t m_others;
+  std::uint64_t m_nine_cells = 0;
+  // Of the last isFree().
+  std::uint32_t m_cell = 0;
+  bool m_lifted = false;  // its own cell, which nobody shares, is marked empty while it goes
+  bool m_plain = false;   // ... and the cell it goes to is empty, too
+  std::size_t m_count = 0;
+  std::array<Slot, kFew> m_few;
+};
+
+// Which of the characters in nine cells touch one in the middle cell, by their spots: all nine at once, for
+// nobody can foresee which. Bit 0 to 2 are the row above, 4 to 6 the one below, 8 to 10 the row between, from
+// left to right.
+class Grid::Steps::Nine {
+ public:
+  static constexpr unsigned kMiddle = 1 << 9;
+  /// From the middle to the cell of each bit.
+  static constexpr std::array<std::int32_t, 11> kSteps{-65, -64, -63, 0, 63, 64, 65, 0, -1, 0, 1};
+
+  /// The spots of each row from the left cell on, kRowOfSpots of them, whoever is there; and the one in the
+  /// middle.
+  Nine(const Spot* p_above, const Spot* p_own, const Spot* p_below, Spot middle) {
+    const Eight outer = load(p_above, p_below);
+    const Eight inner = load(p_own, p_own);
+    const Eight x = Eight{} + static_cast<std::int16_t>(middle & 0xFF);
+    const Eight y = Eight{} + static_cast<std::int16_t>(middle >> 8);
+    const Eight outer_x = outer & 0xFF;
+    const Eight outer_y = outer >> 8 & 0x7F;
+    const Eight inner_x = inner & 0xFF;
+    // To the left it may not be farther left in its cell than the middle one is in its own, and so on.
+    constexpr Eight kLeft{-1, 0, 0, 0, -1, 0, 0, 0};
+    constexpr Eight kRight{0, 0, -1, 0, 0, 0, -1, 0};
+    constexpr Eight kAbove{-1, -1, -1, -1, 0, 0, 0, 0};
+    const Eight far_outer = ((outer_x < x) & kLeft) | ((outer_x > x) & kRight) | ((outer_y < y) & kAbove) |
+                            ((outer_y > y) & ~kAbove);
+    const Eight far_inner = ((inner_x < x) & kLeft) | ((inner_x > x) & kRight);
+    m_near = ~bits(far_outer, far_inner) | bits(outer, inner);  // several may be anywhere
+  }
+  /// Those that may touch. They do, unless they miss by less than a spot can tell, or are neighbours on the
+  /// torus only.
+  unsigned near() const { return m_near; }
+
+ private:
+  using Eight = std::int16_t __attribute__((vector_size(16)));
+
+  static Eight load(const Spot* p_low, const Spot* p_high) {
+    std::array<std::uint64_t, 2> rows;
+    std::memcpy(&rows[0], p_low, sizeof rows[0]);
+    std::memcpy(&rows[1], p_high, sizeof rows[1]);
+    using Two = std::uint64_t __attribute__((vector_size(16)));
+    const Two two{rows[0], rows[1]};
+    Eight eight;
+    std::memcpy(&eight, &two, sizeof eight);
+    return eight;
+  }
+  /// The signs.
+  static unsigned bits(Eight low, Eight high) {
+#if defined(__SSE2__)
+    return static_cast<unsigned>(
+        _mm_movemask_epi8(_mm_packs_epi16(reinterpret_cast<__m128i>(low), reinterpret_cast<__m128i>(high))));
+#else
+    unsigned all = 0;
+    for (int i = 0; i < 8; ++i) all |= (low[i] < 0 ? 1u << i : 0) | (high[i] < 0 ? 256u << i : 0);
+    return all;
+#endif
+  }
+
+  unsigned m_near = 0;
+};
+
+inline Grid::Steps::Steps(Grid& grid)
+    : m_grid(grid),
+      m_level(grid.m_levels[0]),
+      m_p_positions(grid.m_positions.data()),
+      m_p_boxes(grid.m_boxes.data()),
+      m_p_words(m_level.words.data()),
+      m_p_records(grid.m_records.data()),
+      m_p_heads(m_level.heads.get()),
+      m_p_spots(m_level.spots.get()),
+      m_word_mask(m_level.word_mask),
+      m_cell_mask(m_level.word_mask << 6 | 63),
+      m_others(grid.m_occupied & ~1u) {}
+
+// A character touches another if the positions are at most one apart on both axes: nine cells. In the inner
+// part of the block it comes from, their numbers follow from its own.
+inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
+  const FixedVector from = m_p_positions[s];
+  const std::int64_t x = where.x >> kFixedBits;
+  const std::int64_t y = where.y >> kFixedBits;
+  const std::int64_t own_x = from.x >> kFixedBits;
+  const std::int64_t own_y = from.y >> kFixedBits;
+  const Record& own = m_p_records[s];
+  m_count = 0;
+  const bool same_block = (((x ^ own_x) | (y ^ own_y)) & ~std::int64_t{63}) == 0;
+  const bool inner = (((x - 1) & 63) <= 61) & (((y - 1) & 63) <= 61);
+  ++m_nine_cells;
+  if (!(same_block & inner)) {
+    m_lifted = m_plain = false;
+    return lookAround(s, where);
+  }
+  const auto step = static_cast<std::uint32_t>((x - own_x) + (y - own_y) * 64);
+  m_cell = (own.cell + step) & m_cell_mask;
+  const bool alone = (own.next & own.previous) == kNone;
+  m_lifted = alone;
+  if (alone) m_p_words[own.cell >> 6] &= ~(std::uint64_t{1} << (own.cell & 63));
+  const std::uint32_t before = m_cell - 1;
+  const auto rowOf = [&](std::uint32_t first) {
+    return static_cast<unsigned>(m_p_words[first >> 6] >> (first & 63)) & 7;
+  };
+  const std::uint32_t above = (before - 64) & m_cell_mask;
+  const std::uint32_t below = (before + 64) & m_cell_mask;
+  // The bits of Nine: the row above, the one below, its own.
+  const unsigned seen = rowOf(above) | rowOf(below) << 4 | rowOf(before) << 8;
+  m_plain = alone & ((seen & Nine::kMiddle) == 0);
+  if (seen != 0) {
+    unsigned near = seen;
+    if (m_p_spots != nullptr) {
+      near &= Nine(m_p_spots + above, m_p_spots + before, m_p_spots + below, spotOf(where)).near();
+    }
+    if (near != 0 && !gather(s, where, near)) {
+      putBack(own);
+      return lookAround(s, where);
+    }
+  }
+  if (m_others != 0) lookAtOthers(s, where);
+  if (m_count == 0) return true;
+  putBack(own);
+  return false;
+}
+
+// Of the slots in the cells of `near` those that touch. Return false if that are too many.
+inline bool Grid::Steps::gather(Slot s, FixedVector where, unsigned near) {
+  // What touches lies within 2 of the corner that is one up and one to the left.
+  const FixedVector corner = where - FixedVector{kFixedOne, kFixedOne};
+  std::size_t count = 0;
+  for (; near != 0; near &= near - 1) {
+    const auto neighbour =
+        static_cast<std::uint32_t>(Nine::kSteps[static_cast<std::size_t>(std::countr_zero(near))]);
+    const Slot head = m_p_heads[(m_cell + neighbour) & m_cell_mask];
+    const Slot first = head & ~kMore;
+    m_few[count] = first;
+    count += (touches(first, corner) & (first != s)) ? 1 : 0;
+    if ((head & kMore) == 0) continue;
+    for (Slot t = m_p_records[first].next; t != kNone; t = m_p_records[t].next) {
+      if (count >= kFew - 9) return false;
+      m_few[count] = t;
+      count += touches(t, corner) & (t != s) ? 1 : 0;
+    }
+  }
+  m_count = count;
+  return true;
+}
+
+inline void Grid::Steps::putBack(const Record& own) {
+  if (m_lifted) m_p_words[own.cell >> 6] |= std::uint64_t{1} << (own.cell & 63);
+  m_lifted = m_plain = false;
+}
+
+inline bool Grid::Steps::touches(Slot t, FixedVector corner) const {
+  const FixedVector d = m_p_positions[t] - corner;
+  constexpr auto kTwo = static_cast<std::uint64_t>(2 * kFixedOne);
+  return (static_cast<std::uint64_t>(d.x) <= kTwo) & (static_cast<std::uint64_t>(d.y) <= kTwo);
+}
+
+inline void Grid::Steps::found(Slot t) {
+  if (m_count < kFew) {
+    m_few[m_count] = t;
+  } else {
+    if (m_count == kFew) m_grid.m_found.assign(m_few.begin(), m_few.end());
+    m_grid.m_found.push_back(t);
+  }
+  ++m_count;
+}
+
+inline void Grid::Steps::take(Slot s) {
+  if (m_plain) {  // from a cell of its own, which isFree() has emptied, to a free one
+    m_p_records[s].cell = m_cell;
+    m_p_words[m_cell >> 6] |= std::uint64_t{1} << (m_cell & 63);
+    m_p_heads[m_cell] = s;
+    if (m_p_spots != nullptr) m_p_spots[m_cell] = spotOf(m_p_positions[s]);
+    return;
+  }
+  putBack(m_p_records[s]);
+  m_grid.refile(s);
+}
+
+}  // namespace df

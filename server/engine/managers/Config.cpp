@@ -1,0 +1,266 @@
+#include "engine/managers/Config.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "engine/sprites/SpriteFile.h"
+#include "engine/world/ConfigText.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
+
+namespace df {
+
+namespace {
+
+ConfigSettings& settings() {
+  return World::current().extras().settings;
+}
+
+// Takes on the values of keys, one by one.
+class Reader {
+ public:
+  Reader(const std::string& text, World& world) : m_text(text), m_world(world) {}
+
+  void operator()(const char* key, int& out, int least = INT_MIN) {
+    const std::string value = valueOf(m_text, key);
+    if (value.empty()) return;
+    char* p_end = nullptr;
+    const long number = std::strtol(value.c_str(), &p_end, 10);
+    if (*p_end != '\0' || number < least || number > INT_MAX) return refuse(key, value);
+    out = static_cast<int>(number);
+  }
+  void operator()(const char* key, float& out) {
+    const std::string value = valueOf(m_text, key);
+    if (value.empty()) return;
+    char* p_end = nullptr;
+    const float number = std::strtof(value.c_str(), &p_end);
+    if (*p_end != '\0' || !(number > 0)) return refuse(key, value);
+    out = number;
+  }
+  void operator()(const char* key, bool& out) {
+    const std::string value = valueOf(m_text, key);
+    if (value.empty()) return;
+    if (value != "true" && value != "false" && value != "1" && value != "0") return refuse(key, value);
+    out = value == "true" || value == "1";
+  }
+  void operator()(const char* key, Color& out) {
+    const std::string value = valueOf(m_text, key);
+    if (value.empty()) return;
+    const Color color = colorOfName(value);
+    if (color == UNDEFINED_COLOR) return refuse(key, value);
+    out = color;
+  }
+  void operator()(const char* key, std::string& out) {
+    const std::string value = valueOf(m_text, key);
+    if (!value.empty()) out = value;
+  }
+
+ private:
+  void refuse(const char* key, const std::string& value) {
+    m_world.log("Configuration: " + std::string(key) + ":" + value + " makes no sense, and is left out");
+  }
+
+  const std::string& m_text;
+  World& m_world;
+};
+
+void apply(World& world, const ConfigSettings& s) {
+  const bool chars = s.window_horizontal_chars != world.getWindowWidth() ||
+                     s.window_vertical_chars != world.getWindowHeight();
+  if (chars && world.setWindow(s.window_horizontal_chars, s.window_vertical_chars) != 0) {
+    world.log("Configuration: no window can be of " + std::to_string(s.window_horizontal_chars) + " by " +
+              std::to_string(s.window_vertical_chars) + " characters");
+  }
+  world.extras().background = s.window_background_color;
+}
+
+}  // namespace
+
+Config& Config::getInstance() {
+  static Config* p_instance = new Config;
+  return *p_instance;
+}
+
+std::string Config::readConfig() {
+  const char* p_named = std::getenv("DRAGONFLY_CONFIG");
+  std::ifstream file(p_named != nullptr ? p_named : CONFIG_FILENAME.c_str());
+  std::string text;
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first != std::string::npos && line[first] != '#') text += line + "\n";
+  }
+  return text;
+}
+
+void Config::loadConfig(const std::string& str) {
+  const std::string text = str.empty() ? readConfig() : str;
+  if (text.empty()) return;
+  World& world = World::current();
+  ConfigSettings& s = settings();
+  s.text = text;
+  Reader read(text, world);
+  read("window_horizontal_pixels", s.window_horizontal_pixels, 1);
+  read("window_vertical_pixels", s.window_vertical_pixels, 1);
+  read("window_horizontal_chars", s.window_horizontal_chars, 1);
+  read("window_vertical_chars", s.window_vertical_chars, 1);
+  read("window_background_color", s.window_background_color);
+  read("window_title", s.window_title);
+  read("frame_time", s.frame_time, 1);
+  read("font_scale", s.font_scale);
+  read("font_file", s.font_file);
+  read("mouse_cursor", s.show_mouse);
+  read("headless", s.headless);
+  read("logfile", s.logfile);
+  read("random_seed", s.random_seed, -1);
+  read("networking", s.networking);
+  bool compat = world.compat();
+  read("compat", compat);
+  world.setCompat(compat);
+  if (s.random_seed > 0) world.setSeed(static_cast<std::uint64_t>(s.random_seed));
+  apply(world, s);
+}
+
+std::string Config::match(const std::string& find) const {
+  return valueOf(settings().text, find);
+}
+
+void Config::writeToLog() const {
+  const ConfigSettings& s = settings();
+  std::ostringstream out;
+  out << "Configuration: window " << s.window_horizontal_chars << " by " << s.window_vertical_chars
+      << " characters, frame_time " << s.frame_time << ", random_seed " << s.random_seed << ", headless "
+      << s.headless << ", logfile " << s.logfile;
+  World::current().log(out.str());
+}
+
+void Config::setConfig(const std::string& config) {
+  settings().text = config;
+}
+
+void Config::setWindowHorizontalChars(int window_horizontal_chars) {
+  settings().window_horizontal_chars = window_horizontal_chars;
+  apply(World::current(), settings());
+}
+
+void Config::setWindowVerticalChars(int window_vertical_chars) {
+  settings().window_vertical_chars = window_vertical_chars;
+  apply(World::current(), settings());
+}
+
+void Config::setWindowBackgroundColor(Color window_background_color) {
+  settings().window_background_color = window_background_color;
+  apply(World::current(), settings());
+}
+
+std::string Config::getConfig() const {
+  return settings().text;
+}
+int Config::getWindowHorizontalPixels() const {
+  return settings().window_horizontal_pixels;
+}
+int Config::getWindowVerticalPixels() const {
+  return settings().window_vertical_pixels;
+}
+int Config::getWindowHorizontalChars() const {
+  return settings().window_horizontal_chars;
+}
+int Config::getWindowVerticalChars() const {
+  return settings().window_vertical_chars;
+}
+Color Config::getWindowBackgroundColor() const {
+  return settings().window_background_color;
+}
+int Config::getWindowStyle() const {
+  return settings().window_style;
+}
+int Config::getFrameTime() const {
+  return settings().frame_time;
+}
+float Config::getFontScale() const {
+  return settings().font_scale;
+}
+std::string Config::getWindowTitle() const {
+  return settings().window_title;
+}
+bool Config::getShowMouse() const {
+  return settings().show_mouse;
+}
+bool Config::getHeadless() const {
+  return settings().headless;
+}
+std::string Config::getFontFile() const {
+  return settings().font_file;
+}
+std::string Config::getLogFile() const {
+  return settings().logfile;
+}
+int Config::getRandomSeed() const {
+  return settings().random_seed;
+}
+bool Config::getNetworking() const {
+  return settings().networking;
+}
+int Config::getQuadtreeDepth() const {
+  return settings().quadtree_depth;
+}
+int Config::getQuadtreeThreshold() const {
+  return settings().quadtree_threshold;
+}
+int Config::getGridWidth() const {
+  return settings().grid_width;
+}
+int Config::getGridHeight() const {
+  return settings().grid_height;
+}
+
+void Config::setWindowHorizontalPixels(int pixels) {
+  settings().window_horizontal_pixels = pixels;
+}
+void Config::setWindowVerticalPixels(int pixels) {
+  settings().window_vertical_pixels = pixels;
+}
+void Config::setWindowStyle(int window_style) {
+  settings().window_style = window_style;
+}
+void Config::setFrameTime(int frame_time) {
+  settings().frame_time = frame_time;
+}
+void Config::setFontScale(float font_scale) {
+  settings().font_scale = font_scale;
+}
+void Config::setWindowTitle(const std::string& window_title) {
+  settings().window_title = window_title;
+}
+void Config::setHeadless(bool headless) {
+  settings().headless = headless;
+}
+void Config::setShowMouse(bool show_mouse) {
+  settings().show_mouse = show_mouse;
+}
+void Config::setFontFile(const std::string& font_file) {
+  settings().font_file = font_file;
+}
+void Config::setLogFile(const std::string& logfile) {
+  settings().logfile = logfile;
+}
+void Config::setRandomSeed(int random_seed) {
+  settings().random_seed = random_seed;
+}
+void Config::setNetworking(bool networking) {
+  settings().networking = networking;
+}
+void Config::setQuadtreeDepth(int depth) {
+  settings().quadtree_depth = depth;
+}
+void Config::setQuadtreeThreshold(int threshold) {
+  settings().quadtree_threshold = threshold;
+}
+void Config::setGridWidth(int grid_width) {
+  settings().grid_width = grid_width;
+}
+void Config::setGridHeight(int grid_height) {
+  settings().grid_height = grid_height;
+}
+
+}  // namespace df

@@ -1,0 +1,93 @@
+// Puts characters on the screen (book, Listing 4.69).
+//
+// There is no screen here: characters are collected, in world coordinates, and shown to each player by the
+// client. Call these from an Object's draw(). What is drawn elsewhere in a tick is shown for that tick,
+// below everything else.
+#pragma once
+
+#include <string>
+
+#include "Color.h"
+#include "Config.h"
+#include "Frame.h"
+#include "Manager.h"
+#include "Sfml.h"
+#include "StandardHeaders.h"
+#include "Vector.h"
+
+#define DM df::DisplayManager::getInstance()
+
+namespace df {
+
+/// Where a string lies relative to its position.
+enum Justification {
+  LEFT_JUSTIFIED,    ///< it begins there
+  CENTER_JUSTIFIED,  ///< its middle is there
+  RIGHT_JUSTIFIED,   ///< it ends just before
+};
+
+inline constexpr int WINDOW_HORIZONTAL_PIXELS_DEFAULT = 1024;
+inline constexpr int WINDOW_VERTICAL_PIXELS_DEFAULT = 768;
+inline constexpr Color WINDOW_BACKGROUND_COLOR_DEFAULT = BLACK;
+const std::string WINDOW_TITLE_DEFAULT = "Dragonfly";
+const std::string FONT_FILE_DEFAULT = "df-font.ttf";
+inline constexpr float FONT_SCALE_DEFAULT = 2;
+
+/// Size of a character in pixels of the window that the published engine would open.
+float charHeight();
+float charWidth();
+/// From cells to such pixels, and back.
+Vector spacesToPixels(Vector spaces);
+Vector pixelsToSpaces(Vector pixels);
+
+class DisplayManager : public Manager {
+ public:
+  static DisplayManager& getInstance();
+
+  int startUp() override;
+  void shutDown() override;
+  bool isStarted() const override;
+
+  /// One character at a world position, in the cell floor(v + 0.5). A character that terminals do not draw
+  /// in exactly one cell becomes '?'. Return 0, or -1 for a position or colour out of range.
+  int drawCh(Vector world_pos, char ch, Color color = COLOR_DEFAULT) const;
+  int drawCh(Vector world_pos, char32_t ch, Color color = COLOR_DEFAULT) const;
+  /// The character with this code, as from `'0' + digit`.
+  int drawCh(Vector world_pos, int ch, Color color = COLOR_DEFAULT) const;
+  /// Terminals do not turn characters: any rotation shows the upright one.
+  int drawCh(Vector world_pos, char ch, Color color, float rotation) const;
+  /// In the one of the eight colours that is nearest to this mix.
+  int drawCh(Vector world_pos, char ch, unsigned char r, unsigned char g, unsigned char b,
+             float rotation = 0) const;
+  /// A UTF-8 string, one character per cell. Return 0, or -1 as above, with nothing drawn.
+  int drawString(Vector world_pos, const std::string& str, Justification just = LEFT_JUSTIFIED,
+                 Color color = COLOR_DEFAULT) const;
+
+  /// Size of the window, and so of every view, in cells: 20 to 400 by 10 to 150; before GM.run(). A
+  /// boundary that was never set follows. Return 0, else -1.
+  int setSize(int horizontal, int vertical);
+  int getHorizontal() const;
+  int getVertical() const;
+  void setHorizontal(int new_horizontal) { setSize(new_horizontal, getVertical()); }
+  void setVertical(int new_vertical) { setSize(getHorizontal(), new_vertical); }
+
+  /// Of the window that the published engine would open.
+  int getHorizontalPixels() const;
+  int getVerticalPixels() const;
+
+  /// The colour behind all characters, for all players; black is the terminals' own. Return true, or false if
+  /// there is no such colour.
+  bool setBackgroundColor(Color new_color);
+  /// Shake the picture for so many ticks by up to so many pixels; `delta`: in addition to what it does
+  /// already. In cells, of which one is about 13 by 32 pixels; view objects stay where they are.
+  void shake(int scale_x, int scale_y, int duration, bool delta = false);
+  /// Nothing, for characters are shown at the end of the tick. Return 0.
+  int swapBuffers() { return 0; }
+  /// What stands in for the published engine's window: it takes calls and does nothing.
+  sf::RenderWindow* getWindow() const;
+
+ private:
+  DisplayManager() { setType("DisplayManager"); }
+};
+
+}  // namespace df

@@ -1,0 +1,28 @@
+#include "engine/managers/Clock.h"
+#include "engine/prelude/Sfml.h"
+
+namespace sf {
+
+namespace {
+
+// Since some moment, the same one for all clocks.
+long elapsed() {
+  static const df::Clock kBegun;
+  return kBegun.split();
+}
+
+}  // namespace
+
+Clock::Clock() : m_start(elapsed()) {}
+
+Time Clock::getElapsedTime() const {
+  return Time(elapsed() - m_start);
+}
+
+Time Clock::restart() {
+  const Time before = getElapsedTime();
+  m_start = elapsed();
+  return before;
+}
+
+}  // namespace sf

@@ -1,0 +1,85 @@
+// A named sequence of frames, all of one size, with a colour and a pace (book, Listing 4.139). Sprites come
+// from files, through RM.loadSprite(), and belong to the ResourceManager; Objects share them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "Box.h"
+#include "Color.h"
+#include "Frame.h"
+#include "detail/Mask.h"
+
+namespace naiad {
+class Sequence;
+}
+
+namespace df {
+
+class Sprite {
+ public:
+  /// A sprite without frames, with room for `max_frames`.
+  explicit Sprite(int max_frames);
+
+  /// Size of all frames, in characters.
+  void setWidth(int new_width) { m_width = new_width; }
+  int getWidth() const { return m_width; }
+  void setHeight(int new_height) { m_height = new_height; }
+  int getHeight() const { return m_height; }
+  /// What it covers around a position: width by height cells, the position in the middle.
+  Box getBox() const { return {Vector(-m_width / 2.0, -m_height / 2.0), double(m_width), double(m_height)}; }
+
+  void setColor(Color new_color);
+  Color getColor() const { return m_color; }
+
+  /// Return 0, or -1 if there are max_frames already.
+  int addFrame(Frame new_frame);
+  int getFrameCount() const { return static_cast<int>(m_frames.size()); }
+  /// The empty frame for a number that is not in 0 … getFrameCount()-1.
+  Frame getFrame(int frame_number) const;
+
+  void setLabel(std::string new_label) { m_label = std::move(new_label); }
+  const std::string& getLabel() const { return m_label; }
+
+  /// Ticks for which each frame is shown; 0: the first frame is shown for ever.
+  void setSlowdown(int new_sprite_slowdown) { m_slowdown = new_sprite_slowdown; }
+  int getSlowdown() const { return m_slowdown; }
+
+  /// The character that is not drawn; 0: all are, blanks included.
+  void setTransparency(char new_transparency);
+  char getTransparency() const { return m_transparency; }
+
+  /// Draw one frame around a position (Frame::draw). Return 0, or -1 for a number without a frame.
+  int draw(int frame_number, Vector position, char transparency) const;
+  int draw(int frame_number, Vector position) const { return draw(frame_number, position, m_transparency); }
+
+  /// Which characters of a frame are set, for precise collisions: neither blank nor transparent. Null for a
+  /// number without a frame.
+  const Mask* mask(int frame_number) const;
+
+  /// All frames as watchers are told of them. Empty if that cannot be: there are none, too many (kMaxFrames)
+  /// or too large ones, or only such as draw nothing.
+  const naiad::Sequence& pictures() const;
+
+  /// For log lines.
+  std::string toString() const;
+
+ private:
+  naiad::Sequence makePictures() const;
+
+  int m_width = 0;
+  int m_height = 0;
+  int m_max_frames;
+  Color m_color = COLOR_DEFAULT;
+  int m_slowdown = 1;
+  char m_transparency = 0;
+  std::vector<Frame> m_frames;
+  std::string m_label;
+  // By frame, made when they are first asked for; null: not yet, an empty one: the frame has no character.
+  mutable std::vector<std::shared_ptr<const Mask>> m_masks;
+  mutable std::shared_ptr<const naiad::Sequence> m_p_pictures;  // likewise
+};
+
+}  // namespace df

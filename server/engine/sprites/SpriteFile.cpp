@@ -1,0 +1,253 @@
+#include "engine/sprites/SpriteFile.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace df {
+
+namespace {
+
+// What is wrong with the file; caught in parseSprite().
+struct Trouble {
+  std::size_t line;
+  std::string what;
+};
+
+std::string trimmed(const std::string& text) {
+  const auto blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  const auto begin = std::find_if_not(text.begin(), text.end(), blank);
+  const auto end = std::find_if_not(text.rbegin(), std::make_reverse_iterator(begin), blank).base();
+  return {begin, end};
+}
+
+class Lines {
+ public:
+  explicit Lines(const std::string& text) {
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      std::size_t length = end - begin;
+      if (length > 0 && text[end - 1] == '\r') --length;
+      m_lines.push_back(text.substr(begin, length));
+      begin = end + 1;
+    }
+  }
+
+  bool isDone() const { return m_next == m_lines.size(); }
+  void skipBlank() {
+    while (!isDone() && trimmed(m_lines[m_next]).empty()) ++m_next;
+  }
+  /// The line as it is.
+  const std::string& take(const std::string& expected) {
+    if (isDone()) throw Trouble{m_lines.size(), "the file ends where " + expected + " should be"};
+    return m_lines[m_next++];
+  }
+  /// The next line that is not blank, without blanks around it.
+  std::string takeWord(const std::string& expected) {
+    skipBlank();
+    return trimmed(take(expected));
+  }
+  std::string peekWord() {
+    skipBlank();
+    return isDone() ? std::string() : trimmed(m_lines[m_next]);
+  }
+  void expect(const std::string& word) {
+    const std::string found = takeWord("\"" + word + "\"");
+    if (found != word) fail("\"" + word + "\" should be here, not \"" + found + "\"");
+  }
+  /// Trouble with the line taken last.
+  [[noreturn]] void fail(const std::string& what) const { throw Trouble{m_next, what}; }
+
+ private:
+  std::vector<std::string> m_lines;
+  std::size_t m_next = 0;
+};
+
+struct Header {
+  std::optional<int> frames;
+  std::optional<int> width;
+  std::optional<int> height;
+  int slowdown = 1;
+  Color color = COLOR_DEFAULT;
+  char transparency = 0;
+};
+
+int toNumber(const Lines& lines, const std::string& key, const std::string& text, int least, int most) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    lines.fail(key + " should be a number, not \"" + text + "\"");
+  }
+  if (value < least || value > most) {
+    lines.fail(key + " should be " + std::to_string(least) + " to " + std::to_string(most) + ", not " + text);
+  }
+  return value;
+}
+
+Color toColor(const Lines& lines, const std::string& text) {
+  const Color color = colorOfName(text);
+  if (color == UNDEFINED_COLOR) lines.fail("there is no color \"" + text + "\"");
+  return color;
+}
+
+int toSlowdown(const Lines& lines, const std::string& text) {
+  return toNumber(lines, "slowdown", text, 0, 1'000'000);
+}
+
+void takeField(const Lines& lines, Header& header, const std::string& line) {
+  const std::size_t gap = std::min(line.find_first_of(" \t"), line.size());
+  const std::string key = line.substr(0, gap);
+  const std::string value = trimmed(line.substr(gap));
+  if (key == "frames") {
+    header.frames = toNumber(lines, key, value, 1, kMaxSpriteFrames);
+  } else if (key == "width") {
+    header.width = toNumber(lines, key, value, 1, kMaxSpriteSide);
+  } else if (key == "height") {
+    header.height = toNumber(lines, key, value, 1, kMaxSpriteSide);
+  } else if (key == "color") {
+    header.color = toColor(lines, value);
+  } else if (key == "slowdown") {
+    header.slowdown = toSlowdown(lines, value);
+  } else if (key == "transparency") {
+    if (value.size() > 1) lines.fail("transparency should be one character, not \"" + value + "\"");
+    header.transparency = value.empty() ? ' ' : value[0];
+  } else {
+    lines.fail("there is no field \"" + key + "\"");
+  }
+}
+
+void expectSizes(const Lines& lines, const Header& header) {
+  if (!header.frames) lines.fail("frames is missing");
+  if (!header.width) lines.fail("width is missing");
+  if (!header.height) lines.fail("height is missing");
+}
+
+std::unique_ptr<Sprite> newSprite(const Header& header) {
+  auto sprite = std::make_unique<Sprite>(*header.frames);
+  sprite->setWidth(*header.width);
+  sprite->setHeight(*header.height);
+  sprite->setColor(header.color);
+  sprite->setSlowdown(header.slowdown);
+  sprite->setTransparency(header.transparency);
+  return sprite;
+}
+
+void readFrame(Lines& lines, Sprite& sprite) {
+  const auto width = static_cast<std::size_t>(sprite.getWidth());
+  std::string characters;
+  for (int y = 0; y < sprite.getHeight(); ++y) {
+    const std::string& row = lines.take("a row of characters");
+    if (row.size() != width) {
+      lines.fail("the row has " + std::to_string(row.size()) + " characters instead of " +
+                 std::to_string(width));
+    }
+    characters += row;
+  }
+  sprite.addFrame(Frame(sprite.getWidth(), sprite.getHeight(), std::move(characters)));
+}
+
+std::unique_ptr<Sprite> readWithHeader(Lines& lines) {
+  lines.expect("<HEADER>");
+  Header header;
+  while (lines.peekWord() != "</HEADER>") takeField(lines, header, lines.takeWord("\"</HEADER>\""));
+  lines.expect("</HEADER>");
+  expectSizes(lines, header);
+  lines.expect("<BODY>");
+  auto sprite = newSprite(header);
+  for (int i = 0; i < *header.frames; ++i) {
+    readFrame(lines, *sprite);
+    lines.expect("end");
+  }
+  lines.expect("</BODY>");
+  if (lines.peekWord().empty()) return sprite;  // the footer says nothing that is of use
+  lines.expect("<FOOTER>");
+  while (lines.takeWord("\"</FOOTER>\"") != "</FOOTER>") {
+  }
+  return sprite;
+}
+
+std::unique_ptr<Sprite> readOld(Lines& lines) {
+  Header header;
+  // The fields end with the last one that a line begins with: rows may look like anything, so it is by their
+  // names alone that fields are known.
+  constexpr std::array<const char*, 5> kFields{"frames", "width", "height", "color", "slowdown"};
+  const auto isField = [&](const std::string& line) {
+    return std::any_of(kFields.begin(), kFields.end(),
+                       [&](const char* field) { return line.rfind(std::string(field) + " ", 0) == 0; });
+  };
+  while (isField(lines.peekWord())) takeField(lines, header, lines.takeWord("a field"));
+  expectSizes(lines, header);
+  auto sprite = newSprite(header);
+  for (int i = 0; i < *header.frames; ++i) {
+    readFrame(lines, *sprite);
+    lines.expect("end");
+  }
+  if (!lines.peekWord().empty()) lines.expect("eof");
+  return sprite;
+}
+
+std::unique_ptr<Sprite> readSimple(Lines& lines) {
+  const auto number = [&](const char* key, int most) {
+    const std::string word = lines.takeWord(key);
+    return toNumber(lines, key, word, 1, most);
+  };
+  Header header;
+  header.frames = number("frames", kMaxSpriteFrames);
+  header.width = number("width", kMaxSpriteSide);
+  header.height = number("height", kMaxSpriteSide);
+  header.slowdown = toSlowdown(lines, lines.takeWord("slowdown"));
+  header.color = toColor(lines, lines.takeWord("a color"));
+  auto sprite = newSprite(header);
+  for (int i = 0; i < *header.frames; ++i) readFrame(lines, *sprite);
+  return sprite;
+}
+
+std::unique_ptr<Sprite> readAny(Lines& lines) {
+  const std::string first = lines.peekWord();
+  std::unique_ptr<Sprite> sprite;
+  if (first == "<HEADER>") {
+    sprite = readWithHeader(lines);
+  } else if (!first.empty() && std::isdigit(static_cast<unsigned char>(first[0])) != 0) {
+    sprite = readSimple(lines);
+  } else if (first.rfind("frames", 0) == 0 || first.rfind("width", 0) == 0 || first.rfind("height", 0) == 0 ||
+             first.rfind("color", 0) == 0) {
+    sprite = readOld(lines);
+  } else {
+    lines.takeWord("\"<HEADER>\", \"frames\" or a number");
+    lines.fail("a sprite begins with \"<HEADER>\", \"frames\" or a number");
+  }
+  if (const std::string rest = lines.peekWord(); !rest.empty()) {
+    lines.takeWord("");
+    lines.fail("the sprite has ended, but there is \"" + rest + "\"");
+  }
+  return sprite;
+}
+
+}  // namespace
+
+Color colorOfName(const std::string& name) {
+  constexpr std::array<const char*, 8> kNames{"black", "red",     "green", "yellow",
+                                              "blue",  "magenta", "cyan",  "white"};
+  std::string lower = name;
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto found = std::find(kNames.begin(), kNames.end(), lower);
+  return found == kNames.end() ? UNDEFINED_COLOR : static_cast<Color>(found - kNames.begin());
+}
+
+std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error) {
+  Lines lines(text);
+  try {
+    auto sprite = readAny(lines);
+    sprite->setLabel(label);
+    return sprite;
+  } catch (const Trouble& trouble) {
+    error = std::to_string(trouble.line) + ": " + trouble.what;
+    return nullptr;
+  }
+}
+
+}  // namespace df

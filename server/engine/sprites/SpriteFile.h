@@ -1,0 +1,32 @@
+// Reads sprite files, in the three formats that are about (docs/dragonfly-api.md shows one of each):
+//
+// - header: <HEADER> frames, width, height, optionally color, slowdown, transparency, in any order </HEADER>
+//   <BODY> the rows of each frame, then a line "end" </BODY> <FOOTER> version </FOOTER>;
+// - old: lines frames, width, height, color, perhaps slowdown; the rows of each frame, then "end"; at last
+// "eof";
+// - simple: five lines with the numbers of frames, width, height and slowdown and the colour; then all rows.
+//
+// Lines may end in LF or CR LF, the last one in nothing. A row has exactly `width` characters: blanks at its
+// end count.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/sprites/Sprite.h"
+#include "shared/values/Color.h"
+
+namespace df {
+
+/// Largest number of frames, and of characters to a side.
+inline constexpr int kMaxSpriteFrames = 10'000;
+inline constexpr int kMaxSpriteSide = 1024;
+
+/// The sprite in `text`, with this label. If it is none: null, and in `error` the number of the line where
+/// the trouble is and what it is, as "12: the row has 5 characters instead of 6".
+std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error);
+
+/// The colour of this name, in small or capital letters; UNDEFINED_COLOR for none.
+Color colorOfName(const std::string& name);
+
+}  // namespace df

@@ -1,0 +1,194 @@
+#include "engine/world/Capture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "engine/world/Views.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
+#include "engine/world/WorldStore.h"
+#include "shared/replica/Look.h"
+
+namespace df {
+
+namespace {
+
+bool isNear(FixedVector a, FixedVector b) {
+  constexpr double kCells = 1e6;
+  return std::fabs(toCells(a.x) - toCells(b.x)) <= kCells && std::fabs(toCells(a.y) - toCells(b.y)) <= kCells;
+}
+
+}  // namespace
+
+void Capture::begin() {
+  m_view.drawn.clear();
+  m_view.commands.clear();
+  m_view.looks.clear();
+  m_view.changed.clear();
+  m_view.vanished.clear();
+  m_view.players.clear();
+  m_view.sounds.clear();
+  m_view.sounds_lost = 0;
+  m_view.playing.clear();
+  m_view.notes.clear();
+  m_view.shake_x = m_view.shake_y = 0;
+}
+
+bool Capture::mayDraw(std::uint32_t slot) {
+  WorldStore& store = m_world.store();
+  if (!store.has(slot, WorldStore::kActive) || !store.has(slot, WorldStore::kVisible)) return false;
+  if (!store.has(slot, WorldStore::kTyped)) m_world.learnType(slot);
+  constexpr std::uint32_t kShows = WorldStore::kFrames | WorldStore::kPainted;
+  return !store.has(slot, WorldStore::kNeverDraws) || (store.flags(slot) & kShows) != 0;
+}
+
+void Capture::sortByAltitude() {
+  const WorldStore& store = m_world.store();
+  const ViewCover views = m_world.views().cover();
+  m_view.corner = m_world.views().cornerOf(nullptr);
+  for (auto& keys : m_by_altitude) keys.clear();
+  const WorldStore::Walk walk(store);
+  for (std::size_t i = 0; i < walk.size(); ++i) {
+    const WorldStore::Slot s = walk[i];
+    if (s == WorldStore::kNoSlot || !mayDraw(s)) continue;
+    const FixedBox box = store.worldBox(s, store.position(s));
+    if (views.meets(box) || store.has(s, WorldStore::kOnView))
+      m_by_altitude[store.altitude(s)].push_back(store.key(s));
+  }
+}
+
+void Capture::drawAll() {
+  sortByAltitude();
+  for (const auto& keys : m_by_altitude) {
+    for (const ObjectKey key : keys) {
+      if (m_world.store().isCurrent(key) && mayDraw(key.slot)) drawOne(key);
+    }
+  }
+}
+
+void Capture::drawOne(ObjectKey key) {
+  WorldStore& store = m_world.store();
+  const FixedVector position = store.position(key.slot);
+  const auto first = static_cast<std::uint32_t>(m_view.commands.size());
+  const std::size_t entry = m_view.drawn.size();
+  m_view.drawn.push_back({key, first, 0, store.has(key.slot, WorldStore::kOnView)});
+
+  const auto look = store.has(key.slot, WorldStore::kFrames) ? m_looks.end() : m_looks.find(key.slot);
+  if (look != m_looks.end()) {
+    for (const DrawCommand& c : look->second)
+      m_view.commands.push_back({position + c.position, c.ch, c.color});
+    m_view.drawn[entry].count = static_cast<std::uint32_t>(look->second.size());
+    tellLook(entry);
+    return;
+  }
+
+  m_drawing = key;
+  try {
+    store.object(key.slot)->draw();
+  } catch (const std::exception& e) {
+    m_world.quarantine(key, e.what());
+  } catch (...) {
+    m_world.quarantine(key, "an exception in draw()");
+  }
+  m_drawing = {};
+  const auto count = static_cast<std::uint32_t>(m_view.commands.size()) - first;
+  m_view.drawn[entry].count = count;
+  if (!store.isCurrent(key)) return;
+  const bool frames = store.has(key.slot, WorldStore::kFrames);  // draw() may have set them
+  tellLook(entry);
+  if (frames || !store.has(key.slot, WorldStore::kStaticLook)) return;
+  auto& relative = m_looks[key.slot];
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const DrawCommand& c = m_view.commands[i];
+    // Far from the Object the sum might leave the number range when the Object moves.
+    if (!isNear(c.position, position)) continue;
+    relative.push_back({c.position - position, c.ch, c.color});
+  }
+}
+
+void Capture::tellLook(std::size_t entry) {
+  const WorldStore& store = m_world.store();
+  const std::uint32_t slot = m_view.drawn[entry].key.slot;
+  constexpr std::uint32_t kShows = WorldStore::kFrames | WorldStore::kPainted;
+  if (!store.isWatched() || (store.flags(slot) & kShows) == 0) return;
+  const auto tick = static_cast<std::uint32_t>(m_world.getStepCount());
+  auto p_look = store.object(slot)->toldLook(tick);
+  if (p_look != nullptr) m_view.looks.push_back({static_cast<std::uint32_t>(entry), std::move(p_look)});
+}
+
+void Capture::add(FixedVector position, char32_t ch, Color color) {
+  if (m_drawing == ObjectKey{}) {
+    const auto first = static_cast<std::uint32_t>(m_view.commands.size());
+    if (m_view.drawn.empty() || m_view.drawn.back().key != ObjectKey{})
+      m_view.drawn.push_back({{}, first, 0, false});
+    ++m_view.drawn.back().count;
+  }
+  m_view.commands.push_back({position, isDrawable(ch) ? ch : U'?', color});
+}
+
+void Capture::addFrame(std::uint32_t slot) {
+  constexpr int kShift = kFixedBits - naiad::kGlyphUnitBits;
+  const WorldStore& store = m_world.store();
+  const std::shared_ptr<const naiad::Look> p_look = store.frames(slot);
+  if (p_look == nullptr) return;
+  const FixedVector position = store.position(slot);
+  const naiad::Appearance* appearance = p_look->select(static_cast<std::uint32_t>(m_world.getStepCount()));
+  for (const naiad::Glyph& glyph : *appearance) {
+    const FixedVector offset{Fixed{glyph.dx} * (Fixed{1} << kShift), Fixed{glyph.dy} * (Fixed{1} << kShift)};
+    add(position + offset, glyph.ch, glyph.color);
+  }
+}
+
+void Capture::finish() {
+  WorldStore& store = m_world.store();
+  if (!store.isWatched()) return;
+  const Views& views = m_world.views();
+  m_view.tick = static_cast<std::uint32_t>(m_world.getStepCount());
+  m_view.boundary = views.boundary();
+  m_view.view_width = views.width();
+  m_view.view_height = views.height();
+  store.report(m_view);
+  for (const auto& [id, p_player] : views.players()) m_view.players.push_back(p_player->facts());
+  if (const WorldExtras* p_extras = m_world.findExtras()) {
+    m_view.sounds = p_extras->sounds;
+    m_view.sounds_lost = p_extras->sounds_lost;
+    m_view.playing = p_extras->playing;
+    m_view.notes = p_extras->notes;
+    m_view.background = p_extras->background;
+    m_view.shake_x = p_extras->shake.x;
+    m_view.shake_y = p_extras->shake.y;
+    shake();
+  }
+}
+
+// Every view is off its place, and follows nobody meanwhile: who draws it would put it right again.
+void Capture::shake() {
+  if (m_view.shake_x == 0 && m_view.shake_y == 0) return;
+  const FixedVector off{fromCells(m_view.shake_x), fromCells(m_view.shake_y)};
+  for (PlayerFacts& player : m_view.players) {
+    player.view_corner = player.view_corner + off;
+    player.followed = {};
+  }
+}
+
+Canvas Capture::render(FixedVector corner) const {
+  const Views& views = m_world.views();
+  Canvas canvas(views.width(), views.height());
+  for (const DrawnObject& drawn : m_view.drawn) {
+    const std::int64_t left = drawn.on_view ? 0 : cellOf(corner.x) + m_view.shake_x;
+    const std::int64_t top = drawn.on_view ? 0 : cellOf(corner.y) + m_view.shake_y;
+    for (std::uint32_t i = drawn.first; i < drawn.first + drawn.count; ++i) {
+      const DrawCommand& c = m_view.commands[i];
+      const FixedVector at = drawn.on_view ? c.position - m_view.corner : c.position;
+      const std::int64_t x = cellOf(at.x) - left;
+      const std::int64_t y = cellOf(at.y) - top;
+      if (x < 0 || y < 0 || x >= canvas.width() || y >= canvas.height()) continue;
+      canvas.put(static_cast<int>(x), static_cast<int>(y), {c.ch, c.color});
+    }
+  }
+  return canvas;
+}
+
+}  // namespace df

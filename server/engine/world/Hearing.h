@@ -1,0 +1,42 @@
+// How an event reaches an Object's eventHandler(): inline, for a crowded world does little else.
+#pragma once
+
+#include <exception>
+
+#include "engine/world/EventCollision.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
+
+namespace df {
+
+inline void World::hear(ObjectKey key, Object& object, const Event& event) {
+  ++m_handlers;
+  try {
+    object.eventHandler(&event);
+  } catch (const std::exception& e) {
+    quarantine(key, e.what());
+  } catch (...) {
+    quarantine(key, "an exception of unknown type");
+  }
+  --m_handlers;
+  if (m_shutdown_pending) finishShutDown();
+}
+
+/// Tell the mover of a collision, then the other; whoever is gone meanwhile, is inactive or cannot listen
+/// hears nothing. Both must be in the world. Return whether the mover still is.
+inline bool tellBoth(World& world, ObjectKey mover, ObjectKey other, const EventCollision& event) {
+  const WorldStore& store = world.store();
+  if (store.hears(mover.slot)) {
+    world.hear(mover, *event.getObject1(), event);
+    if (!store.isStill(mover)) return false;
+    if (!store.isStill(other)) return true;
+  }
+  if (store.hears(other.slot)) {
+    world.hear(other, *event.getObject2(), event);
+    if (!store.isStill(mover)) return false;
+  }
+  return true;
+}
+
+}  // namespace df

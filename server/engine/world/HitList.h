@@ -1,0 +1,45 @@
+// Whom a move meets on its way: the solid Objects hit, in the order of (time, creation).
+//
+// The grid is asked piece by piece in the order of travel, and no further than to where the list ends. The
+// levels of the grid take turns, so that none is searched far ahead of the others.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/collision/KeySet.h"
+#include "engine/collision/Sweep.h"
+#include "engine/collision/Way.h"
+#include "engine/world/WorldStore.h"
+
+namespace df {
+
+struct Hit {
+  Moment moment;
+  std::uint64_t order;  ///< in the world's creation order
+  ObjectKey key;
+};
+
+class HitList {
+ public:
+  /// With which hits the list ends: those at the first time at which a pair would block, or at the first time
+  /// at all.
+  enum End { kBlock, kFirst };
+
+  /// List whom `mover`, in the world and solid, meets on `way` at `since` or later, except those in `met`.
+  void fill(const WorldStore& store, WorldStore::Slot mover, const Way& way, End end, Moment since = {},
+            const KeySet* p_met = nullptr);
+
+  const std::vector<Hit>& hits() const { return m_hits; }
+  /// When the list was ended; nothing if it goes to the end of the way.
+  std::optional<Moment> end() const { return m_end; }
+
+ private:
+  class Search;
+
+  std::vector<Hit> m_hits;
+  std::optional<Moment> m_end;
+};
+
+}  // namespace df

@@ -1,0 +1,68 @@
+#include "engine/world/InputQueue.h"
+
+#include <utility>
+
+#include "engine/events/EventKeyboard.h"
+#include "engine/events/EventMouse.h"
+#include "engine/world/EventPlayer.h"
+#include "engine/world/Helm.h"
+#include "engine/world/Views.h"
+#include "engine/world/World.h"
+
+namespace df {
+
+void InputQueue::drain() {
+  std::vector<Input> inputs;
+  inputs.swap(m_inputs);
+  for (const Input& input : inputs) {
+    const std::uint32_t before = std::exchange(m_world.m_input_player, input.player);
+    const Seen seen_before = std::exchange(m_world.m_input_seen, input.seen);
+    handle(input);
+    m_world.m_input_player = before;
+    m_world.m_input_seen = seen_before;
+  }
+}
+
+void InputQueue::handle(const Input& input) {
+  if (input.kind == kJoin) {
+    m_world.views().addPlayer(input.player, input.name, input.color);
+    const EventJoin event(input.player);
+    m_world.onEvent(&event);
+    return;
+  }
+  if (m_world.getPlayer(input.player) == nullptr) return;  // has left, or never joined
+  if (input.kind == kKey) sendKey(input);
+  if (input.kind == kMouse) sendMouse(input);
+  if (input.kind == kLeave) {
+    const EventLeave event(input.player);
+    m_world.onEvent(&event);
+    m_world.views().removePlayer(input.player);
+  }
+}
+
+void InputQueue::sendKey(const Input& input) {
+  EventKeyboard event;
+  event.setKey(input.key);
+  event.setKeyboardAction(input.key_action);
+  event.setPlayer(input.player);
+  // Who is paused is not steered, either.
+  event.setHandled(!m_world.isPaused() &&
+                   handleKey(m_world, *m_world.getPlayer(input.player), input.key, input.key_action));
+  m_world.onEvent(&event);
+}
+
+void InputQueue::sendMouse(const Input& input) {
+  FixedVector corner = m_world.views().cornerOf(m_world.getPlayer(input.player));
+  if (m_world.m_p_hindsight != nullptr && input.seen.known) {
+    corner = m_world.m_p_hindsight->viewCornerOf(input.player, input.seen).value_or(corner);
+  }
+  EventMouse event;
+  event.setMouseAction(input.mouse_action);
+  event.setMouseButton(input.button);
+  event.setMousePosition(Vector(static_cast<double>(cellOf(corner.x)) + input.x,
+                                static_cast<double>(cellOf(corner.y)) + input.y));
+  event.setPlayer(input.player);
+  m_world.onEvent(&event);
+}
+
+}  // namespace df

@@ -1,0 +1,51 @@
+// What players did since the last tick, in the order it came.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/world/Hindsight.h"
+#include "shared/values/Color.h"
+#include "shared/values/Keyboard.h"
+
+namespace df {
+
+class World;
+
+class InputQueue {
+ public:
+  enum Kind { kJoin, kLeave, kKey, kMouse };
+  /// One input; of the fields below `player`, those of its kind.
+  struct Input {
+    Kind kind;
+    std::uint32_t player;
+    Seen seen = {};
+    std::string name = {};
+    Color color = COLOR_DEFAULT;
+    Keyboard::Key key = Keyboard::UNDEFINED_KEY;
+    EventKeyboardAction key_action = UNDEFINED_KEYBOARD_ACTION;
+    Mouse::Button button = Mouse::UNDEFINED_MOUSE_BUTTON;
+    EventMouseAction mouse_action = UNDEFINED_MOUSE_ACTION;
+    int x = 0;  ///< cell of the player's view
+    int y = 0;
+  };
+
+  explicit InputQueue(World& world) : m_world(world) {}
+
+  void push(Input input) { m_inputs.push_back(std::move(input)); }
+  void clear() { m_inputs.clear(); }
+  /// Send the events of all that waits. What is pushed meanwhile waits for the next time.
+  void drain();
+
+ private:
+  void handle(const Input& input);
+  void sendKey(const Input& input);
+  void sendMouse(const Input& input);
+
+  World& m_world;
+  std::vector<Input> m_inputs;
+};
+
+}  // namespace df

@@ -1,0 +1,185 @@
+#include "engine/world/Mover.h"
+
+#include <bit>
+
+#include "engine/events/EventOut.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/Hearing.h"
+#include "engine/world/Object.h"
+#include "engine/world/Pair.h"
+#include "engine/world/Views.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
+
+namespace df {
+
+void Mover::moveAll() {
+  WorldStore& store = m_world.store();
+  const WorldStore::Walk walk(store);
+  for (std::size_t word = 0; word * 64 < walk.size(); ++word) {
+    // Those who come during the update wait for the next one.
+    const std::size_t left = walk.size() - word * 64;
+    std::uint64_t waiting = left < 64 ? (std::uint64_t{1} << left) - 1 : ~std::uint64_t{0};
+    for (std::uint64_t turns = 0; (turns = store.turns(word) & waiting) != 0;) {
+      const int bit = std::countr_zero(turns);
+      int next = bit + 1;
+      if ((store.walkers(word) >> bit & 1) != 0 && m_depth < kMaxDepth) {
+        next = walkOn(word, turns);
+      } else if ((store.fliers(word) >> bit & 1) != 0) {
+        next = bit + flyOn(walk[word * 64 + static_cast<std::size_t>(bit)], store.fliers(word) & waiting,
+                           store.sequels(word), bit);
+      } else {
+        ++store.paths().special;
+        takeTurn(store.key(walk[word * 64 + static_cast<std::size_t>(bit)]));
+      }
+      waiting &= next < 64 ? ~std::uint64_t{0} << next : 0;
+    }
+  }
+}
+
+// All walkers until somebody else's turn comes, or one of them meets somebody, who takes his turn, too.
+// Return the bit after that of the last one.
+int Mover::walkOn(std::size_t word, std::uint64_t turns) {
+  WorldStore& store = m_world.store();
+  const std::uint64_t others = turns & ~store.walkers(word);
+  const std::uint64_t run = turns & ((others & -others) - 1);
+  const int last = 63 - std::countl_zero(run);
+  std::vector<ObjectKey>& met = m_lists[m_depth];
+  met.clear();
+  const std::uint64_t left = store.walk(word, run, roomToFly(), met);
+  if (left == 0) return last + 1;
+  const int bit = std::countr_zero(left);
+  const ObjectKey key = store.key(store.entry(word * 64 + static_cast<std::size_t>(bit)));
+  if (store.hasPrecise()) {
+    keepMet(store, key.slot, store.worldBox(key.slot, store.position(key.slot) + store.velocity(key.slot)),
+            met);
+  }
+  if (met.empty()) {
+    ++store.paths().deferred;
+    takeTurn(key);
+  } else {
+    ++store.paths().met;
+    meet(key, met);
+  }
+  return bit + 1;
+}
+
+// A walker's turn, when it is known whom it touches at its target.
+void Mover::meet(ObjectKey key, std::vector<ObjectKey>& others) {
+  WorldStore& store = m_world.store();
+  const FixedVector velocity = store.velocity(key.slot);
+  const FixedVector where = store.position(key.slot) + velocity;
+  ++m_depth;
+  const bool free = collide(key, where, others);
+  if (free) place(key, where);
+  --m_depth;
+  if (store.isCurrent(key)) endTurn(key, velocity, !free);
+}
+
+// As many fliers as lie side by side. Return how many turns were taken.
+int Mover::flyOn(WorldStore::Slot first, std::uint64_t fliers, std::uint64_t sequels, int bit) {
+  const std::uint64_t run = (fliers >> bit) & (sequels >> bit | 1);
+  const int count = std::countr_one(run);
+  WorldStore& store = m_world.store();
+  const auto done = static_cast<int>(store.fly(first, static_cast<std::size_t>(count), roomToFly()));
+  store.paths().flown += static_cast<std::uint64_t>(done);
+  if (done == count) return count;
+  ++store.paths().deferred;
+  takeTurn(store.key(first + static_cast<WorldStore::Slot>(done)));
+  return done + 1;
+}
+
+void Mover::takeTurn(ObjectKey key) {
+  WorldStore& store = m_world.store();
+  const WorldStore::Slot s = key.slot;
+  const FixedVector velocity = store.velocity(s);
+  bool blocked = false;
+  if (velocity != FixedVector{} || store.testsAtRest(s)) {
+    const FixedVector where = store.position(s) + velocity;
+    if (WorldStore::isPosition(where)) {
+      blocked = move(key, where) != 0;
+    } else {
+      m_world.refuse(store.object(s)->getType(), "update, at the end of the number range");
+      blocked = true;
+    }
+    if (!store.isCurrent(key)) return;
+  }
+  endTurn(key, velocity, blocked);
+}
+
+void Mover::endTurn(ObjectKey key, FixedVector velocity, bool blocked) {
+  WorldStore& store = m_world.store();
+  const WorldStore::Slot s = key.slot;
+  FixedVector next = store.velocity(s);
+  // Whether a velocity that a handler has just set will be blocked, nobody knows yet.
+  if (next != velocity) blocked = false;
+  const FixedVector acceleration = store.acceleration(s);
+  if (acceleration != FixedVector{} && WorldStore::isVelocity(next + acceleration)) {
+    next = next + acceleration;
+    store.setDerived(s, true);
+  }
+  store.settle(s, next, blocked);
+}
+
+int Mover::move(ObjectKey mover, FixedVector where) {
+  if (m_depth >= kMaxDepth) return -1;
+  const int depth = m_depth++;
+  bool free = true;
+  const WorldStore& store = m_world.store();
+  if (store.collides(mover.slot)) {
+    free = store.isSwept(mover.slot) ? m_swept[depth].run(*this, m_world, mover, where)
+                                     : meetAt(mover, where, m_lists[depth]);
+  }
+  if (free) place(mover, where);
+  --m_depth;
+  return free ? 0 : -1;
+}
+
+// Return whether the mover may move. Where it is going is all that is looked at.
+bool Mover::meetAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others) {
+  const WorldStore& store = m_world.store();
+  const FixedBox box = store.worldBox(mover.slot, where);
+  others.clear();
+  store.touching(box, mover.slot, others);
+  keepMet(store, mover.slot, box, others);
+  return others.empty() || collide(mover, where, others);
+}
+
+bool Mover::collide(ObjectKey mover, FixedVector where, const std::vector<ObjectKey>& others) {
+  const WorldStore& store = m_world.store();
+  const FixedVector from = store.position(mover.slot);
+  bool free = true;
+  EventCollision event(store.object(mover.slot), nullptr, Vector::fromFixed(where));
+  for (const ObjectKey other : others) {
+    if (!store.isStill(other)) continue;
+    event.setObject2(store.object(other.slot));
+    if (!tellBoth(m_world, mover, other, event)) return false;
+    if (!store.isStill(other)) continue;
+    if (Pair(store, mover.slot, other.slot).blocks(from, where)) free = false;
+  }
+  return free;
+}
+
+void Mover::place(ObjectKey mover, FixedVector where) {
+  WorldStore& store = m_world.store();
+  const bool leaves = !isInWorld(mover.slot, where) && isInWorld(mover.slot, store.position(mover.slot));
+  store.setPosition(mover.slot, where);
+  if (store.has(mover.slot, WorldStore::kFollowed)) m_world.views().moved(mover, where);
+  if (leaves) m_world.deliver(mover, EventOut());
+}
+
+// Is an Object that is there in the world, as far as out events go?
+bool Mover::isInWorld(std::uint32_t slot, FixedVector where) const {
+  const Views& views = m_world.views();
+  return m_world.compat() ? intersects(m_world.store().worldBox(slot, where), views.boundary())
+                          : views.isInside(where);
+}
+
+// Where nobody can leave the world with a move that ends there.
+FixedBox Mover::roomToFly() const {
+  const FixedBox& boundary = m_world.views().boundary();
+  const bool anywhere = !m_world.compat() || !m_world.store().hasBoxesOffPosition();
+  return anywhere ? boundary : FixedBox{boundary.corner, {}};
+}
+
+}  // namespace df

@@ -1,0 +1,71 @@
+// How Objects move: the book's update() and moveObject() (Listings 4.101, 4.109, 4.111, 4.113), made whole.
+//
+// One move of a solid, active Object: the solid Objects touched at the target are listed once, in creation
+// order, before the first event. For each that is still in the world, the collision event goes to the mover,
+// then to the other. After both handlers have run, the pair is judged by what the two are then: it blocks
+// if both are HARD, or if the mover is no-soft and the other SOFT. All pairs get their events, even when
+// an earlier one blocks; then a blocked mover stays where it is (or where a handler put it), and another
+// is set to the target (wherever a handler put it). At last, if that set took it from inside the
+// boundary to outside, it gets an out event: its position, or, if the world is compatible with the published
+// engine, its box, which then has no point in common with the boundary any more.
+//
+// What handlers may do meanwhile:
+//  - delete or remove the other: the other hears nothing more, the pair blocks nothing;
+//  - delete or remove the mover: the move ends at once, -1, and the rest of the list hears nothing;
+//  - make either inactive: it hears nothing from then on, the move goes on;
+//  - make either SPECTRAL: it still hears of the listed pairs, which then do not block;
+//  - mark for deletion, move, create, resize: the list stays as it is, the move goes on.
+//
+// That is the book's move. Beyond it there are moves that are tested along the way (SweptMove.h) and pairs
+// whose characters are tested, or that do not block (Pair.h).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/world/SweptMove.h"
+#include "engine/world/WorldView.h"
+
+namespace df {
+
+class EventCollision;
+class World;
+
+class Mover {
+ public:
+  /// Moves inside handlers of moves inside handlers … deeper than this are refused.
+  static constexpr int kMaxDepth = 32;
+
+  explicit Mover(World& world) : m_world(world) {}
+
+  /// Every active Object that was in the world when this began, in creation order: move it by its velocity,
+  /// then add its acceleration to the velocity. Activity is read at the Object's turn.
+  void moveAll();
+  /// Move one Object. Return 0 if it moved, else -1.
+  int move(ObjectKey mover, FixedVector where);
+
+  // Parts of a move.
+
+  /// Put the mover there, with the views that follow it, and let it hear if it leaves the world.
+  void place(ObjectKey mover, FixedVector where);
+
+ private:
+  int walkOn(std::size_t word, std::uint64_t turns);
+  int flyOn(std::uint32_t first, std::uint64_t fliers, std::uint64_t sequels, int bit);
+  void meet(ObjectKey key, std::vector<ObjectKey>& others);
+  void takeTurn(ObjectKey key);
+  void endTurn(ObjectKey key, FixedVector velocity, bool blocked);
+  bool meetAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others);
+  bool collide(ObjectKey mover, FixedVector where, const std::vector<ObjectKey>& others);
+  bool isInWorld(std::uint32_t slot, FixedVector where) const;
+  FixedBox roomToFly() const;
+
+  World& m_world;
+  int m_depth = 0;
+  std::array<std::vector<ObjectKey>, kMaxDepth> m_lists;  // one per depth, kept for their memory
+  std::array<SweptMove, kMaxDepth> m_swept;               // likewise
+};
+
+}  // namespace df

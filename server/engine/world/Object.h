@@ -1,0 +1,325 @@
+// A thing in the world (book, Listings 4.34, 4.99, 4.104, 4.110, 4.122): games derive theirs from it.
+//
+// Constructing an Object puts it into the calling thread's current World, destroying it takes it out. It
+// may be made with `new`, be a static or automatic variable or a member, and be deleted by hand at any
+// time, also inside an event handler; `WM.markForDelete()` is the usual way. The world deletes only what
+// was made with `new`.
+//
+// An Object is a handle: position, velocity, box and the like live in arrays of the world's store. Lengths
+// are in cells, velocities in cells per tick; both are kept in fixed point (Fixed.h). A setter that is given
+// a number that is not finite or out of range returns -1, changes nothing, is counted by the world
+// (World::getRefusals) and logged once per type of Object.
+//
+// All calls on the thread that runs the world's tick.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iosfwd>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "Animation.h"
+#include "Box.h"
+#include "Event.h"
+#include "EventPath.h"
+#include "ObjectAttributes.h"
+#include "Path.h"
+#include "Shape.h"
+#include "Solidness.h"
+#include "StandardHeaders.h"
+#include "Vector.h"
+#include "detail/ObjectProfile.h"
+#include "detail/WorldView.h"
+
+/// What draw() returns: int. Games of the published engine's first versions have a `void draw()`, and are
+/// compiled with -DDF_DRAW=void; nobody looks at what it returns.
+#if !defined(DF_DRAW)
+#define DF_DRAW int
+#endif
+
+namespace naiad {
+struct Look;
+class Sequence;
+struct Selector;
+}  // namespace naiad
+
+namespace df {
+
+class World;
+class WorldStore;
+struct ObjectExtras;
+
+/// Highest altitude; 0 is the lowest, drawn first.
+inline constexpr int MAX_ALTITUDE = 4;
+
+class Object {
+ public:
+  /// An active, visible, HARD Object of type "Object" at (0,0), altitude 2, at rest, with the box of a
+  /// single character, as the last one in the current world's creation order.
+  Object();
+  /// A copy that is not in the world, so that it is neither drawn nor moved and gets no events: the same
+  /// attributes, another id, no interests, no mask or path of its own. WM.insertObject() brings it in.
+  Object(const Object& other);
+  /// Takes over the other's attributes, and keeps its own id, its interests, its place in the world.
+  Object& operator=(const Object& other);
+  virtual ~Object();
+
+  /// A name by which game code tells its Objects apart.
+  virtual void setType(std::string new_type);
+  const std::string& getType() const { return m_p_profile->type; }
+
+  /// Place in the world's creation order: unique in a world, never used again, ascending. It changes only
+  /// when a removed Object is inserted again, and with setId().
+  int getId() const;
+  /// Give it a number of the game's own. The creation order stays.
+  void setId(int new_id);
+  /// The highest id that the current world has given so far. What is written here is forgotten: the world's
+  /// ids go on by themselves.
+  struct MaxId {
+    operator int() const;
+    MaxId& operator=(int /*id*/) { return *this; }
+  };
+  inline static MaxId max_id;
+
+  // Where.
+
+  /// Put the Object at `new_pos`, |coordinate| <= 2e9. No collision is tested, no event sent, no view
+  /// moved: for that there is WM.moveObject(). Return 0, else -1.
+  virtual int setPosition(Vector new_pos);
+  Vector getPosition() const;
+  /// Drawing order, 0 to MAX_ALTITUDE, higher ones on top. Return 0, else -1.
+  virtual int setAltitude(int new_altitude);
+  int getAltitude() const;
+  /// The bounding box, corner relative to the position. Used for collisions (edges included) and to find
+  /// what is in view. Default: corner (-0.5,-0.5), 1 by 1, which equals the book's test for single
+  /// characters. Corner and size up to 1e6 cells. Return 0, else -1.
+  int setBox(Box new_box);
+  Box getBox() const;
+
+  // How it moves. Velocity = direction × speed, rounded once to 2^-32 cell when one of them is set.
+
+  /// Cells per tick, in the present direction. Return 0, or -1 if not finite or if a component of the
+  /// velocity would exceed 2^24.
+  int setSpeed(double speed);
+  float getSpeed() const;
+  /// The direction as it is given, not normalised: (2,0) doubles the velocity. Return 0, else -1.
+  int setDirection(Vector new_direction);
+  Vector getDirection() const;
+  /// Set speed to the length of `new_velocity` and direction to the normalised vector; (0,0) zeroes both.
+  /// From the next move on. Return 0, or -1 if a component exceeds 2^24 cells per tick.
+  int setVelocity(Vector new_velocity);
+  /// What WM.update() adds to the position.
+  Vector getVelocity() const;
+  /// What WM.update() adds to the velocity after each move, blocked or not (position first, with the old
+  /// velocity): `setAcceleration(Vector(0, 0.02))` is gravity. Speed and direction follow. A velocity that
+  /// would leave its range stays as it is. Return 0, else -1.
+  int setAcceleration(Vector new_acceleration);
+  Vector getAcceleration() const;
+  /// Velocity += acceleration, as update() does it after each move.
+  void accelerate() { setVelocity(getVelocity() + getAcceleration()); }
+  /// Position plus velocity: where the next WM.update() tries to move it.
+  Vector predictPosition() const;
+
+  // How it collides.
+
+  /// HARD by default. Return 0, or -1 if `new_solid` is none of the three.
+  virtual int setSolidness(Solidness new_solid);
+  Solidness getSolidness() const;
+  /// True if HARD or SOFT.
+  bool isSolid() const;
+  /// If set, this Object does not move onto SOFT ones either (both still get the collision event).
+  void setNoSoft(bool new_no_soft = true);
+  bool getNoSoft() const;
+  /// Test for collisions all along the way of each move, not only where it ends: for what is fast. Off by
+  /// default, as in the book. WM.setSweptCollisions() does it for all. docs/collisions.md has the rules.
+  void setSwept(bool swept = true);
+  bool isSwept() const;
+  /// Where the boxes touch, also compare the characters: two set ones must share a drawn cell. A pair is
+  /// tested so if either of the two is precise. Off by default.
+  void setPrecise(bool precise = true);
+  bool isPrecise() const;
+  /// Which characters of the Object are set, a string (UTF-8) per row from the box's upper left cell on;
+  /// blanks are holes. No rows: the whole box counts, as by default. What draw() does is never looked at.
+  /// Return 0, or -1 (and no change) for rows without any character or a side above 1024.
+  int setMask(const std::vector<std::string>& rows);
+  /// At rest, test for collisions at each turn as if it had moved to where it stands: to hear of what
+  /// touches it. Off by default.
+  void setRestContacts(bool rest_contacts = true);
+  bool hasRestContacts() const;
+  /// What the Object touches where a move begins does not block it if the gap is larger at the end: it
+  /// may leave a wall in which it was placed. Both still hear. Off by default.
+  void setMayMoveOut(bool may_move_out = true);
+  bool getMayMoveOut() const;
+
+  /// An inactive Object gets no events, is not moved by update(), takes no part in collisions and is not
+  /// drawn. It stays in the world. Return 0.
+  virtual int setActive(bool active = true);
+  bool isActive() const;
+  /// An invisible Object is not drawn; everything else goes on. Return 0.
+  int setVisible(bool visible = true);
+  bool isVisible() const;
+
+  // What it hears.
+
+  /// Receive events of this type (step, keyboard, mouse, join, leave, or a game's own) through
+  /// eventHandler(). Collision and out events come without it. Registering twice is once. Return 0, or
+  /// -1 if the Object is in no world.
+  int registerInterest(const std::string& event_type);
+  /// Return 0, or -1 if it was not registered.
+  int unregisterInterest(const std::string& event_type);
+  /// How many interests it has registered.
+  int getEventCount() const { return static_cast<int>(m_p_profile->interests.size()); }
+  /// Called for each event. Return 1 if it was handled, else 0 (for readers of the book; the engine does
+  /// not mind). What it throws costs this Object its life (World::deliver), not the world.
+  virtual int eventHandler(const Event* p_e);
+
+  // How it looks.
+
+  /// Called once a tick while the Object is active, visible and in view, to put characters on the screen
+  /// with DM.drawCh() and DM.drawString(). As it is here it shows the sprite and the shape, if there are
+  /// such, or the frame whose turn it is, if the Object has frames. Return 0, else -1.
+  virtual DF_DRAW draw();
+
+  /// Show this sprite (RM.loadSprite), from its first frame on. Unless `set_box` is false, the box becomes
+  /// the sprite's: its size, the position in the middle. Where characters are compared (setPrecise), those of
+  /// the frame count. Return 0, or -1 for a label that is not loaded.
+  int setSprite(const std::string& sprite_label, bool set_box = true);
+  /// The same with a sprite of the game's own, which has to live as long as it is shown; null: none.
+  int setSprite(Sprite* p_new_sprite, bool set_box = true);
+  /// Null for none.
+  Sprite* getSprite() const { return getAnimation().getSprite(); }
+  /// The animation, sprite and all. Unless `set_box` is false, the box becomes the sprite's.
+  void setAnimation(const Animation& new_animation, bool set_box = true);
+  /// A copy: setAnimation() takes it back.
+  Animation getAnimation() const;
+  /// Which frame shows.
+  void setSpriteIndex(int new_index);
+  int getSpriteIndex() const { return getAnimation().getIndex(); }
+  /// The pace of the sprite, and so of all Objects that share it: ticks to a frame; 0: no animation.
+  void setSpriteSlowdown(int new_slowdown);
+  int getSpriteSlowdown() const;
+  /// Ticks for which the frame has been shown; -1 stops the animation.
+  void setSpriteSlowdownCount(int new_slowdown_count);
+  int getSpriteSlowdownCount() const { return getAnimation().getSlowdownCount(); }
+  /// The character of the sprite that is not drawn, for all Objects that share it; 0: all are.
+  void setTransparency(char new_transparency = ' ');
+  char getTransparency() const;
+  /// Show a circle, square or triangle.
+  virtual void setShape(Shape new_shape);
+  /// A white circle if none was set.
+  Shape getShape() const;
+  /// Promise that draw() puts the same characters at the same places relative to the position every time:
+  /// it is then called once, and its result moves with the Object. Setting it anew has it called again.
+  void setStaticLook(bool static_look = true);
+  bool hasStaticLook() const;
+  /// Pictures of the Object, of which draw() shows the one that `selector` names for the tick: an animation,
+  /// or a turn in steps (naiad::Selector, in Look.h of the shared parts; ticks are WorldView's). As long as
+  /// nothing but the tick decides, no watcher has to be told anything. Sprites and bodies set it. An empty
+  /// sequence: none any more. Return 0, or -1 (and no change) if the selector does not fit, or if the
+  /// pictures are too large to be described (kMaxGlyphs, kMaxLookBytes).
+  int setFrames(const naiad::Sequence& frames, const naiad::Selector& selector);
+  /// Go on with another selector. Return 0, or -1 if it does not fit or there are no frames.
+  int setSelector(const naiad::Selector& selector);
+  /// How many frames there are, and the index of the one that is shown in the present tick (0 if none).
+  int getFrameCount() const;
+  int getFrame() const;
+
+  // As text, for games that save or send their Objects.
+
+  /// The attributes as "id:7,pos-x:2.5,pos-y:3,…": those modified since they were last written, or those that
+  /// `attr` names ("pos", "box", …, separated by commas), or all of them for "ALL". Those written count as
+  /// not modified from then on.
+  virtual std::string serialize(std::string attr = "");
+  /// The same, of the attributes in the mask `attr`; 0: the modified ones. Return 0, or -1 for null.
+  virtual int serialize(std::stringstream* p_ss, unsigned int attr = 0);
+  /// Take on what such a text says. Return 0, or -1 if a value was refused.
+  virtual int deserialize(std::string s);
+  /// The same; what attributes it was is added to the mask *p_a, if that is not null.
+  virtual int deserialize(std::stringstream* p_ss, unsigned int* p_a = nullptr);
+  /// Is an attribute, or any one, another than when it was last written? It has to be written first.
+  bool isModified(ObjectAttribute attribute) const;
+  virtual bool isModified() const { return getModified() != 0; }
+  /// The modified attributes as a mask. To set it makes these count as modified, besides those that are.
+  virtual void setModified(unsigned int new_modified);
+  virtual unsigned int getModified() const;
+  /// What it is and where, for log lines.
+  std::string toString() const;
+
+  // Finding its way.
+
+  /// Walk to a position, with the speed it has, round HARD Objects (PathFind.h): a velocity is set in each
+  /// step from node to node, until it is there. The Object hears of the search by an EventPath.
+  void pathTo(Vector position);
+  /// To where another Object is now.
+  void pathTo(const Object* p_o_target);
+  /// Turn towards a position.
+  void moveTo(Vector new_position);
+  void setPath(Path new_path);
+  Path getPath() const;
+  /// Walk along the path, from its next node on, or stop doing so.
+  virtual void setFollowPath(bool new_follow_path = true);
+  bool getFollowPath() const;
+  /// Whether it walks round others: for getters only, pathTo() always does.
+  virtual void setAvoidCollisions(bool new_avoid_collisions = true);
+  bool getAvoidCollisions() const;
+
+  // The engine's view of it.
+
+  /// Handle of the Object: what lists and the host hold.
+  ObjectKey key() const;
+  /// The world it was made in; null once that is gone.
+  World* getWorld() const;
+
+  /// These note which Objects were made with `new`, so that the world knows which ones are its to delete.
+  /// (Elements of an array made with `new[]` are not.)
+  static void* operator new(std::size_t size);
+  static void* operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept;
+  static void* operator new(std::size_t, void* p_place) noexcept { return p_place; }
+  static void operator delete(void* p) noexcept;
+  static void operator delete(void* p, const std::nothrow_t& /*nothrow*/) noexcept { operator delete(p); }
+  static void operator delete(void*, void*) noexcept {}
+#if defined(__cpp_aligned_new)
+  static void* operator new(std::size_t size, std::align_val_t align);
+  static void operator delete(void* p, std::align_val_t align) noexcept;
+#endif
+
+ protected:
+  /// Its position is a cell of the view, and it is drawn wherever that is (ViewObject.h).
+  void showOnView();
+  /// It gets events while the game is paused, too (Pause.h).
+  void hearWhilePaused();
+
+ private:
+  friend class Animations;
+  friend class Capture;
+  friend class Walkers;
+  friend class World;
+  friend class WorldStore;
+  friend class Interests;
+  friend class ObjectList;
+  friend class Views;
+
+  int applyVelocity(double speed, Vector direction);
+  void deriveKinematics() const;
+  int refuse(const char* what) const;
+  bool isDeaf() const;  // does its class leave eventHandler() as it is here?
+  void resemble(const Object& other);
+  ObjectExtras& extras();
+  void dropExtras();
+  void animate();
+  const Mask* spriteMask() const;
+  std::shared_ptr<const naiad::Look> toldLook(std::uint32_t tick);
+  ObjectAttributes attributes() const;
+  void stepPath();
+
+  // Few members, so that a game's own, which its handlers use, lie in the same cache line with these.
+  WorldStore* m_p_store;  // never null: a store lives as long as its last Object
+  std::uint32_t m_slot;
+  std::unique_ptr<ObjectExtras> m_p_extras;  // what only some have; null until it is needed
+  ObjectProfile* m_p_profile;                // never null, the store's
+};
+
+}  // namespace df

@@ -1,0 +1,74 @@
+// A reference to an Object that knows when the Object is gone.
+//
+//   class Missile : public df::Object {
+//     df::Ref<Saucer> m_target;  // = p_saucer, some time
+//     …
+//     if (m_target) steerTo(m_target->getPosition());
+//   };
+//
+// It reads as null once the Object was deleted or removed from the world, even if another one has taken its
+// place in memory, and also when the world itself is gone. A removed Object that was inserted again is no
+// longer the one it meant. Like ObjectList it holds a handle, not only a pointer.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+#include "detail/WorldView.h"
+
+namespace df {
+
+class Object;
+class WorldStore;
+
+/// What a Ref is without its type: whether the Object is still there.
+class RefBase {
+ public:
+  RefBase() = default;
+  explicit RefBase(const Object* p_o);
+  RefBase(const RefBase& other);
+  RefBase(RefBase&& other) noexcept;
+  RefBase& operator=(const RefBase& other);
+  RefBase& operator=(RefBase&& other) noexcept;
+  ~RefBase();
+
+  bool isInWorld() const;
+
+ private:
+  WorldStore* m_p_store = nullptr;  // counted; null for nobody
+  ObjectKey m_key;
+};
+
+template <class T>
+class Ref {
+ public:
+  /// To nobody.
+  Ref() = default;
+  Ref(std::nullptr_t) {}
+  /// To an Object that is in the world; one that is not reads as null until it is inserted.
+  Ref(T* p_o) : m_base(p_o), m_p_object(p_o) {}
+  /// To the same Object, as one of its base classes.
+  template <class U>
+  requires std::is_convertible_v<U*, T*> Ref(const Ref<U>& other)
+      : m_base(other.m_base), m_p_object(other.m_p_object) {}
+
+  /// Null if the Object is gone.
+  T* get() const { return m_base.isInWorld() ? m_p_object : nullptr; }
+  T* operator->() const { return get(); }
+  T& operator*() const { return *get(); }
+  explicit operator bool() const { return m_base.isInWorld(); }
+
+  /// Two that are gone are equal: both are null.
+  friend bool operator==(const Ref& a, const Ref& b) { return a.get() == b.get(); }
+  friend bool operator==(const Ref& a, const Object* p_b) { return a.get() == p_b; }
+  friend bool operator==(const Ref& a, std::nullptr_t) { return !a; }
+
+ private:
+  template <class U>
+  friend class Ref;
+
+  RefBase m_base;
+  T* m_p_object = nullptr;
+};
+
+}  // namespace df

@@ -1,0 +1,137 @@
+#include "engine/world/Resources.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "engine/sprites/LooseName.h"
+#include "engine/sprites/SpriteFile.h"
+#include "engine/world/World.h"
+
+namespace df {
+
+namespace {
+
+template <class List>
+auto findSound(List& list, const std::string& label) {
+  return std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.getLabel() == label; });
+}
+
+bool isFile(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+
+}  // namespace
+
+void Resources::clear() {
+  for (auto& p_sprite : m_sprites) m_unloaded.push_back(std::move(p_sprite));
+  m_sprites.clear();
+  m_sounds.clear();
+  m_musics.clear();
+}
+
+std::string Resources::locate(const std::string& filename) const {
+  if (isFile(filename) || std::filesystem::path(filename).is_absolute()) return filename;
+  for (const std::string& folder : m_folders) {
+    const std::filesystem::path path = std::filesystem::path(folder) / filename;
+    if (isFile(path)) return path.string();
+  }
+  // Games are written where "Sprites\Ship.txt" finds sprites/ship.txt.
+  std::string found = findLoosely("", filename);
+  for (std::size_t i = 0; i < m_folders.size() && found.empty(); ++i)
+    found = findLoosely(m_folders[i], filename);
+  return found.empty() ? filename : found;
+}
+
+bool Resources::open(const std::string& filename) const {
+  const std::string path = locate(filename);
+  return isFile(path) && std::ifstream(path).good();
+}
+
+std::optional<std::string> Resources::read(const std::string& filename) const {
+  const std::string path = locate(filename);
+  std::ifstream file(path, std::ios::binary);
+  if (!isFile(path) || !file) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+int Resources::loadSprite(const std::string& filename, const std::string& label) {
+  const std::optional<std::string> text = read(filename);
+  if (!text) {
+    m_world.log("Sprite " + label + ": " + filename + ": cannot be read");
+    return -1;
+  }
+  std::string error;
+  std::unique_ptr<Sprite> loaded = parseSprite(*text, label, error);
+  if (loaded == nullptr) {
+    m_world.log("Sprite " + label + ": " + filename + ":" + error);
+    return -1;
+  }
+  if (sprite(label) == nullptr) m_sprites.push_back(std::move(loaded));
+  return 0;
+}
+
+int Resources::unloadSprite(const std::string& label) {
+  const auto it = std::find_if(m_sprites.begin(), m_sprites.end(),
+                               [&](const auto& p_sprite) { return p_sprite->getLabel() == label; });
+  if (it == m_sprites.end()) return -1;
+  m_unloaded.push_back(std::move(*it));
+  m_sprites.erase(it);
+  return 0;
+}
+
+Sprite* Resources::sprite(const std::string& label) const {
+  for (const auto& p_sprite : m_sprites) {
+    if (p_sprite->getLabel() == label) return p_sprite.get();
+  }
+  return nullptr;
+}
+
+int Resources::loadSound(const std::string& filename, const std::string& label) {
+  if (sound(label) != nullptr) return 0;
+  Sound loaded;
+  loaded.setLabel(label);
+  if (loaded.loadSound(filename) != 0) return -1;
+  m_sounds.push_back(loaded);
+  return 0;
+}
+
+int Resources::unloadSound(const std::string& label) {
+  const auto it = findSound(m_sounds, label);
+  if (it == m_sounds.end()) return -1;
+  it->endLoop();
+  m_sounds.erase(it);
+  return 0;
+}
+
+Sound* Resources::sound(const std::string& label) {
+  const auto it = findSound(m_sounds, label);
+  return it == m_sounds.end() ? nullptr : &*it;
+}
+
+int Resources::loadMusic(const std::string& filename, const std::string& label) {
+  if (music(label) != nullptr) return 0;
+  Music& loaded = m_musics.emplace_back();
+  loaded.setLabel(label);
+  if (loaded.loadMusic(filename) == 0) return 0;
+  m_musics.pop_back();
+  return -1;
+}
+
+int Resources::unloadMusic(const std::string& label) {
+  const auto it = findSound(m_musics, label);
+  if (it == m_musics.end()) return -1;
+  it->endLoop();
+  m_musics.erase(it);
+  return 0;
+}
+
+Music* Resources::music(const std::string& label) {
+  const auto it = findSound(m_musics, label);
+  return it == m_musics.end() ? nullptr : &*it;
+}
+
+}  // namespace df

@@ -1,0 +1,52 @@
+// The sprites, sounds and music of one world. ResourceManager.h says what the functions do.
+#pragma once
+
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/sprites/Sprite.h"
+#include "engine/world/Music.h"
+#include "engine/world/Sound.h"
+
+namespace df {
+
+class World;
+
+class Resources {
+ public:
+  explicit Resources(World& world) : m_world(world) {}
+
+  int loadSprite(const std::string& filename, const std::string& label);
+  int unloadSprite(const std::string& label);
+  Sprite* sprite(const std::string& label) const;
+  int loadSound(const std::string& filename, const std::string& label);
+  int unloadSound(const std::string& label);
+  Sound* sound(const std::string& label);
+  int loadMusic(const std::string& filename, const std::string& label);
+  int unloadMusic(const std::string& label);
+  Music* music(const std::string& label);
+
+  /// Labels mean nothing any more; sprites live on, for Objects may still show them.
+  void clear();
+  /// Relative names are looked for in the working directory, then here, in order of the calls.
+  void addFolder(std::string folder) { m_folders.push_back(std::move(folder)); }
+  /// What is in the file; nothing if it cannot be read.
+  std::optional<std::string> read(const std::string& filename) const;
+  /// Can it be read?
+  bool open(const std::string& filename) const;
+
+ private:
+  std::string locate(const std::string& filename) const;
+
+  World& m_world;
+  std::vector<std::string> m_folders;
+  std::vector<std::unique_ptr<Sprite>> m_sprites;
+  std::vector<std::unique_ptr<Sprite>> m_unloaded;  // Objects may still show them
+  std::list<Sound> m_sounds;                        // games keep pointers
+  std::list<Music> m_musics;
+};
+
+}  // namespace df

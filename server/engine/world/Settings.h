@@ -1,0 +1,41 @@
+// The settings of one world as plain data, and their defaults. Config.h says where they come from.
+#pragma once
+
+#include <string>
+
+#include "Color.h"
+
+namespace df {
+
+/// Size of the window, in cells, unless DM.setSize() or df-config.txt says otherwise.
+inline constexpr int WINDOW_HORIZONTAL_CHARS_DEFAULT = 80;
+inline constexpr int WINDOW_VERTICAL_CHARS_DEFAULT = 24;
+
+/// The file that log lines go to.
+const std::string LOGFILE_DEFAULT = "dragonfly.log";
+
+/// Plain data of one world.
+struct ConfigSettings {
+  std::string text;  ///< as read: "key:value,key:value," without comments
+  int window_horizontal_pixels = 1024;
+  int window_vertical_pixels = 768;
+  int window_horizontal_chars = WINDOW_HORIZONTAL_CHARS_DEFAULT;
+  int window_vertical_chars = WINDOW_VERTICAL_CHARS_DEFAULT;
+  Color window_background_color = BLACK;
+  int window_style = 5;
+  std::string window_title = "Dragonfly";
+  int frame_time = 33;  ///< milliseconds
+  float font_scale = 2;
+  std::string font_file = "df-font.ttf";
+  bool show_mouse = true;
+  bool headless = false;
+  std::string logfile = LOGFILE_DEFAULT;
+  int random_seed = -1;  ///< 0: from the time; -1: nobody seeds
+  bool networking = false;
+  int quadtree_threshold = 10;
+  int quadtree_depth = 5;
+  int grid_width = 1;
+  int grid_height = 1;
+};
+
+}  // namespace df

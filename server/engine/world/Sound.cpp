@@ -1,0 +1,38 @@
+#include "engine/world/Sound.h"
+
+#include <fstream>
+
+#include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
+
+namespace df {
+
+int Sound::loadSound(const std::string& filename) {
+  World& world = World::current();
+  if (world.extras().resources.open(filename)) return 0;
+  world.log(std::string(m_music ? "Music: " : "Sound: ") + filename + ": cannot be read");
+  return -1;
+}
+
+void Sound::play(bool loop) {
+  tell(SoundPlayed::kPlay, loop);
+}
+
+void Sound::stop() {
+  tell(SoundPlayed::kStop, false);
+}
+
+void Sound::pause() {
+  tell(SoundPlayed::kPause, false);
+}
+
+void Sound::endLoop() {
+  if (World::current().extras().isPlaying(m_label, m_music)) stop();
+}
+
+void Sound::tell(SoundPlayed::What what, bool loop) {
+  World& world = World::current();
+  world.noteSound({m_label, what, m_music, loop, world.inputPlayer()});
+}
+
+}  // namespace df

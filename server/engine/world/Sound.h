@@ -1,0 +1,46 @@
+// A sound or a piece of music of a game. The engine makes no noise: that something was played is written into
+// the tick's WorldView, from where a host tells clients, each of which does with it what its player likes.
+// What plays again and again is remembered for who joins later. Without anybody who watches, it is silence.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "Sfml.h"
+#include "detail/WorldView.h"
+
+namespace df {
+
+class Sound {
+ public:
+  Sound() = default;
+  virtual ~Sound() = default;
+
+  /// Return 0 if there is such a file, else -1, with a line in the log. What is in it is not looked at.
+  int loadSound(const std::string& filename);
+
+  void setLabel(std::string new_label) { m_label = std::move(new_label); }
+  const std::string& getLabel() const { return m_label; }
+
+  /// From its beginning, or from where it paused; again and again, if `loop`.
+  void play(bool loop = false);
+  void stop();
+  void pause();
+
+  /// Stop it if it goes on again and again: it is about to be unloaded.
+  void endLoop();
+
+  /// What stands in for the published engine's member of a graphics library: it takes calls and does nothing.
+  sf::Sound getSound() const { return {}; }
+
+ protected:
+  explicit Sound(bool music) : m_music(music) {}
+
+ private:
+  void tell(SoundPlayed::What what, bool loop);
+
+  std::string m_label;
+  bool m_music = false;
+};
+
+}  // namespace df

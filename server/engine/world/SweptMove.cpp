@@ -1,0 +1,59 @@
+#include "engine/world/SweptMove.h"
+
+#include "engine/world/EventCollision.h"
+#include "engine/world/Hearing.h"
+#include "engine/world/Mover.h"
+#include "engine/world/Pair.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
+
+namespace df {
+
+bool SweptMove::run(Mover& moves, World& world, ObjectKey mover, FixedVector where) {
+  const WorldStore& store = world.store();
+  const FixedVector from = store.position(mover.slot);
+  m_met.clear();
+  Moment since;
+  for (int stage = 1; store.collides(mover.slot); ++stage) {
+    const Way way(store.box(mover.slot), from, where);
+    ++(stage == 1 ? world.store().paths().swept : world.store().paths().swept_again);
+    m_list.fill(store, mover.slot, way, HitList::kBlock, since, &m_met);
+    if (m_list.hits().empty()) return true;
+
+    const Verdict verdict = meetAll(world, mover, way);
+    if (verdict.outcome == Outcome::kGone) return false;
+    const bool is_blocked = verdict.outcome == Outcome::kBlocked;
+    if (!is_blocked && !m_list.end()) return true;
+    if (is_blocked || stage == kMaxStages) {
+      const FixedVector stop = way.sweep().before(is_blocked ? verdict.moment : *m_list.end());
+      if (stop != from && store.position(mover.slot) == from) moves.place(mover, stop);
+      return false;
+    }
+    since = *m_list.end();
+    for (const Hit& hit : m_list.hits()) m_met.insert(hit.key);
+  }
+  return true;
+}
+
+// A handler may begin moves of its own, but those have lists of their own.
+SweptMove::Verdict SweptMove::meetAll(World& world, ObjectKey mover, const Way& way) {
+  const WorldStore& store = world.store();
+  Verdict verdict{Outcome::kFree, {}};
+  EventCollision event(store.object(mover.slot), nullptr, Vector());
+  for (const Hit& hit : m_list.hits()) {
+    if (verdict.outcome == Outcome::kBlocked && hit.moment > verdict.moment) break;
+    if (!store.isCurrent(hit.key)) continue;
+    if (store.hears(mover.slot) || store.hears(hit.key.slot)) {
+      event.setObject2(store.object(hit.key.slot));
+      event.setPosition(Vector::fromFixed(way.sweep().before(hit.moment)));
+      if (!tellBoth(world, mover, hit.key, event)) return {Outcome::kGone, {}};
+      if (!store.isCurrent(hit.key)) continue;
+    }
+    if (verdict.outcome == Outcome::kBlocked) continue;
+    const Pair pair(store, mover.slot, hit.key.slot);
+    if (pair.blocks(way.from(), way.to())) verdict = {Outcome::kBlocked, hit.moment};
+  }
+  return verdict;
+}
+
+}  // namespace df

@@ -1,0 +1,48 @@
+// Does anything of this show in any view? A question asked of every Object in every tick, whatever the number
+// of views.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "shared/values/Fixed.h"
+
+namespace df {
+
+/// Views of one size, at corners in whole cells.
+class ViewCover {
+ public:
+  ViewCover(const std::vector<FixedVector>& corners, FixedVector size);
+
+  /// Does the box meet a view, edges included (intersects() in Fixed.h)?
+  bool meets(const FixedBox& box) const;
+
+ private:
+  /// So few are looked at one by one.
+  static constexpr std::size_t kFew = 8;
+  /// Blocks of 8 by 4 cells that lie in a view are known to; so many at most.
+  static constexpr int kColumnShift = 3;
+  static constexpr int kRowShift = 2;
+  static constexpr std::int64_t kMostBlocks = 1 << 16;
+
+  /// Corners by the cell of a grid that they lie in, as wide and high as a view.
+  struct Corner {
+    std::int64_t row, column;
+    FixedVector at;
+  };
+
+  void markBlocks();
+  bool isMarked(FixedVector point) const;
+  std::int64_t columnOf(Fixed x) const;
+  std::int64_t rowOf(Fixed y) const;
+
+  FixedVector m_size;
+  std::vector<Corner> m_corners;  ///< by row, column and place; each once
+  std::int64_t m_left = 0;        ///< of the marks, in blocks
+  std::int64_t m_top = 0;
+  std::int64_t m_columns = 0;
+  std::int64_t m_rows = 0;
+  std::vector<bool> m_marked;
+};
+
+}  // namespace df

@@ -1,0 +1,308 @@
+#include "engine/world/World.h"
+
+#include <algorithm>
+#include <typeinfo>
+#include <utility>
+
+#include "engine/events/EventStep.h"
+#include "engine/world/Capture.h"
+#include "engine/world/EventPlayer.h"
+#include "engine/world/Hearing.h"
+#include "engine/world/Helm.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/Interests.h"
+#include "engine/world/LogFile.h"
+#include "engine/world/Mover.h"
+#include "engine/world/Object.h"
+#include "engine/world/Runner.h"
+#include "engine/world/Settings.h"
+#include "engine/world/Started.h"
+#include "engine/world/Views.h"
+#include "engine/world/WorldExtras.h"
+#include "engine/world/WorldStore.h"
+
+namespace df {
+
+namespace {
+
+thread_local World* t_p_current = nullptr;
+
+// Sets a flag while it lives.
+class During {
+ public:
+  explicit During(bool& flag) : m_flag(flag) { m_flag = true; }
+  ~During() { m_flag = false; }
+  During(const During&) = delete;
+  During& operator=(const During&) = delete;
+
+ private:
+  bool& m_flag;
+};
+
+}  // namespace
+
+World::World()
+    : m_p_store(new WorldStore(this)),
+      m_interests(std::make_unique<Interests>(*this)),
+      m_views(std::make_unique<Views>(*this)),
+      m_capture(std::make_unique<Capture>(*this)),
+      m_input(std::make_unique<InputQueue>(*this)),
+      m_mover(std::make_unique<Mover>(*this)) {}
+
+World::~World() {
+  {
+    const WorldStore::Walk walk(*m_p_store);
+    for (std::size_t i = 0; i < walk.size(); ++i) {
+      if (walk[i] != WorldStore::kNoSlot) removeObject(m_p_store->object(walk[i]));
+    }
+  }
+  if (t_p_current == this) t_p_current = nullptr;
+  m_p_store->orphan();
+  m_p_store->release();
+}
+
+World& World::current() {
+  if (t_p_current != nullptr) return *t_p_current;
+  static World* p_default = [] {
+    auto* p_world = new World;  // for ever: static Objects of games may die later than anything of ours
+    p_world->m_is_default = true;
+    return p_world;
+  }();
+  return *p_default;
+}
+
+World::Scope::Scope(World& world) : m_p_before(std::exchange(t_p_current, &world)) {}
+
+World::Scope::~Scope() {
+  t_p_current = m_p_before;
+}
+
+// Time.
+
+void World::tick() {
+  if (m_in_tick || m_in_update || m_in_draw) return;
+  const Scope scope(*this);
+  {
+    const During during(m_in_tick);
+    ++m_step_count;
+    m_capture->begin();
+    if (m_p_extras != nullptr) m_p_extras->beginTick();
+    if (!isPaused()) {
+      const EventStep step(m_compat ? m_step_count - 1 : m_step_count);
+      onEvent(&step);
+      if (m_p_extras != nullptr) m_p_extras->walkers.step();
+    }
+    if (!isPaused()) beginControlTick(*this);
+    drainInput();
+    if (!isPaused()) update();
+    drawObjects();
+    m_capture->finish();
+    if (m_p_extras != nullptr) m_p_extras->endTick();
+  }
+  finishShutDown();
+}
+
+void World::update() {
+  if (m_in_update) return;
+  const Scope scope(*this);
+  {
+    const During during(m_in_update);
+    for (const ObjectKey key : m_p_store->takeNewcomers()) {
+      if (m_p_store->isCurrent(key)) learnType(key.slot);
+    }
+    m_mover->moveAll();
+    for (std::size_t i = 0; i < m_layers.size(); ++i) m_layers[i]->step(*this);  // handlers may add one
+    deleteMarked();
+    m_p_store->closeGaps();
+    m_p_store->age();
+  }
+  finishShutDown();
+}
+
+void World::place(ObjectKey key, FixedVector where) {
+  m_mover->place(key, where);
+}
+
+void World::draw() {
+  if (m_in_tick || m_in_draw) return;
+  const Scope scope(*this);
+  m_capture->begin();
+  drawObjects();
+  finishShutDown();
+}
+
+void World::drawObjects() {
+  const During during(m_in_draw);
+  m_capture->drawAll();
+}
+
+void World::run() {
+  // A handler that ran the game would wait for ticks that cannot begin before it returns.
+  if (m_in_tick || m_in_update || m_in_draw) return;
+  const Scope scope(*this);
+  if (m_p_runner != nullptr) {
+    m_p_runner->run(*this);
+    return;
+  }
+  // Many games show a title in a run of its own, which ends with the game over, and then run again.
+  if (isStarted(kGameHasRun)) m_game_over = false;
+  if (isStarted(kGameStarted)) setStarted(kGameHasRun, true);
+  if (running::Program* p_program = program()) return p_program->run(*this);
+  while (!m_game_over) tick();
+}
+
+void World::setGameOver(bool game_over) {
+  if (game_over && m_game_over_leaves && m_input_player != 0) {
+    m_leavers.push_back(m_input_player);
+  } else {
+    m_game_over = game_over;
+  }
+}
+
+void World::setSeed(std::uint64_t seed) {
+  m_seed = seed;
+  m_random = Random(seed);
+}
+
+// Events.
+
+int World::onEvent(const Event* p_event) {
+  if (p_event == nullptr) return 0;
+  const Scope scope(*this);
+  // Who comes or goes meanwhile is there or not when the game goes on.
+  const EventType& type = p_event->getType();
+  const bool stays = isPaused() && type != JOIN_EVENT && type != LEAVE_EVENT;
+  return m_interests->send(*p_event, stays ? Interests::kHearingWhilePaused : Interests::kEverybody);
+}
+
+bool World::deliver(ObjectKey key, const Event& event) {
+  const WorldStore& store = *m_p_store;
+  constexpr std::uint32_t kThere = WorldStore::kInWorld | WorldStore::kActive;
+  if (!store.isCurrent(key) || (store.flags(key.slot) & kThere) != kThere) return false;
+  if (store.hears(key.slot)) hear(key, *store.object(key.slot), event);
+  return true;
+}
+
+// The constructors of Object could not know what is derived from it.
+void World::learnType(std::uint32_t slot) {
+  const Object& object = *m_p_store->object(slot);
+  m_p_store->set(slot, WorldStore::kTyped, true);
+  m_p_store->set(slot, WorldStore::kNeverDraws, typeid(object) == typeid(Object));
+  m_p_store->set(slot, WorldStore::kDeaf, object.isDeaf());
+}
+
+void World::quarantine(ObjectKey key, const std::string& why) {
+  Object* p_o = find(key);
+  log("An object" + (p_o != nullptr ? " of type " + p_o->getType() : std::string()) +
+      " failed and is taken out of the game: " + why);
+  if (p_o == nullptr) return;
+  p_o->setActive(false);
+  markForDelete(p_o);
+}
+
+// Input.
+
+std::uint32_t World::join(const std::string& name, Color color, std::uint32_t id) {
+  id = std::max(id, m_next_player);
+  m_next_player = id + 1;
+  m_input->push({.kind = InputQueue::kJoin, .player = id, .name = name, .color = color});
+  return id;
+}
+
+void World::leave(std::uint32_t player) {
+  m_input->push({.kind = InputQueue::kLeave, .player = player});
+}
+
+void World::key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const Seen& seen) {
+  if (key < 0 || key >= Keyboard::kKeyCount || action < KEY_PRESSED || action > KEY_DOWN) return;
+  m_input->push({.kind = InputQueue::kKey, .player = player, .seen = seen, .key = key, .key_action = action});
+}
+
+void World::mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y,
+                  const Seen& seen) {
+  if (action < CLICKED || action > MOVED) return;
+  if (button < Mouse::UNDEFINED_MOUSE_BUTTON || button > Mouse::MIDDLE) return;
+  if (x < 0 || y < 0 || x >= getWindowWidth() || y >= getWindowHeight()) return;
+  m_input->push({.kind = InputQueue::kMouse,
+                 .player = player,
+                 .seen = seen,
+                 .button = button,
+                 .mouse_action = action,
+                 .x = x,
+                 .y = y});
+}
+
+void World::drainInput() {
+  const Scope scope(*this);
+  m_input->drain();
+}
+
+// What is seen.
+
+void World::setWatched(bool watched) {
+  m_p_store->setWatched(watched);
+}
+
+bool World::isWatched() const {
+  return m_p_store->isWatched();
+}
+
+const WorldView& World::view() const {
+  return m_capture->view();
+}
+
+int World::drawCh(Vector world_pos, char32_t ch, Color color) {
+  const auto position = toFixed(world_pos);
+  if (!position || color < BLACK || color > WHITE) {
+    refuse("DisplayManager", "drawCh");
+    return -1;
+  }
+  m_capture->add(*position, ch, color);
+  return 0;
+}
+
+void World::forgetLook(std::uint32_t slot) {
+  m_capture->forgetLook(slot);
+}
+
+void World::drawFrame(std::uint32_t slot) {
+  m_capture->addFrame(slot);
+}
+
+Canvas World::renderView(FixedVector corner) const {
+  return m_capture->render(corner);
+}
+
+Canvas World::renderPlayer(std::uint32_t player) const {
+  const Player* p_player = getPlayer(player);
+  Canvas canvas = renderView(m_views->cornerOf(p_player));
+  if (p_player == nullptr) return canvas;
+  for (const PlayerText& text : p_player->facts().texts) {
+    int x = text.x;
+    for (const char32_t ch : decodeUtf8(text.text)) canvas.put(x++, text.y, {ch, text.color});
+  }
+  return canvas;
+}
+
+// Log and refusals.
+
+void World::log(const std::string& line) const {
+  if (m_log_sink) {
+    m_log_sink(line);
+  } else {
+    writeToLogFile(m_p_extras != nullptr ? m_p_extras->settings.logfile : LOGFILE_DEFAULT, line, m_log_flush);
+  }
+}
+
+void World::refuse(const std::string& type, const char* what) {
+  ++m_refusals;
+  if (!m_refused.insert(type).second) return;
+  log("Refused a number that is not finite or out of range: " + std::string(what) + ", object of type " +
+      type + " (further ones of this type are only counted)");
+}
+
+void World::setStarted(unsigned manager, bool started) {
+  m_started = started ? m_started | manager : m_started & ~manager;
+}
+
+}  // namespace df

@@ -1,0 +1,59 @@
+// What a world has only if its game uses it. Made at first use (World::extras), so that a world without it
+// pays a null pointer, and one test of it in a tick.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/world/Animations.h"
+#include "engine/world/Random.h"
+#include "engine/world/Resources.h"
+#include "engine/world/Settings.h"
+#include "engine/world/Shaking.h"
+#include "engine/world/Walkers.h"
+#include "engine/world/WorldView.h"
+
+namespace df {
+
+class World;
+
+struct WorldExtras {
+  explicit WorldExtras(World& the_world) : world(the_world), resources(the_world) {}
+
+  /// The world has begun a tick.
+  void beginTick();
+  /// A sound or music began, paused or stopped.
+  void note(SoundPlayed sound);
+  /// A line for all players to read.
+  void tell(std::string line);
+  /// Does it go on again and again?
+  bool isPlaying(const std::string& label, bool music) const;
+  /// All of it has happened, and has been drawn.
+  void endTick();
+  /// As at the beginning. Sprites live on as long as the world, for Objects may still show them.
+  void reset();
+  /// Numbers for what is only seen, so that WM.randomInt() gives the same with it and without.
+  Random& decoration() { return random; }
+
+  World& world;
+  Resources resources;
+  Animations animations;
+  Walkers walkers;
+  ConfigSettings settings;
+  Shaking shake;
+  std::vector<SoundPlayed> sounds;  ///< of this tick
+  std::uint32_t sounds_lost = 0;
+  std::vector<SoundPlayed> playing;  ///< again and again
+  std::vector<std::string> notes;    ///< of this tick
+  /// The only player whose input the host hands in; 0: everybody's.
+  std::uint32_t heard_player = 0;
+  Color background = BLACK;
+  Vector view_slack{1.0 / 3, 1.0 / 3};  ///< as asked for; it has no effect
+  bool paused = false;
+  bool network_said = false;  ///< that there are no sockets
+  Random random{0xD6A60};
+  std::int64_t clock = 0;  ///< what a Clock read last, in microseconds of game time
+};
+
+}  // namespace df

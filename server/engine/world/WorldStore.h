@@ -1,0 +1,340 @@
+// The hot state of a world's Objects: arrays by slot, behind handles with generations.
+//
+// An Object owns one slot from construction to destruction. It is "in the world" in between; entering puts
+// it last in the creation order, leaving (or dying) ends its generation, so that old handles find nobody.
+// Slots of the dead rest before they are used again, so that whoever watches from afar has heard of the
+// death when the next one moves in.
+//
+// Everybody who changes an Object's state goes through the setters here: they keep the grid of solid boxes
+// and the list of changes up to date. Arguments are in range; Object checks what games pass in.
+//
+// The store is counted: by its world, by each Object and by each list. It outlives the world, if need be.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "engine/collision/Grid.h"
+#include "engine/collision/Mask.h"
+#include "engine/collision/Paths.h"
+#include "engine/world/ObjectProfile.h"
+#include "engine/world/WorldView.h"
+#include "shared/values/Fixed.h"
+#include "shared/values/Solidness.h"
+
+namespace df {
+
+class Object;
+class World;
+
+class WorldStore {
+ public:
+  using Slot = std::uint32_t;
+  static constexpr Slot kNoSlot = UINT32_MAX;
+  /// Updates for which a freed slot rests: two seconds, longer than any playable round trip.
+  static constexpr std::uint64_t kRest = 64;
+
+  /// What is true of an Object, beyond numbers.
+  enum Flag : std::uint32_t {
+    kInWorld = 1 << 0,
+    kActive = 1 << 1,
+    kVisible = 1 << 2,
+    kNoSoft = 1 << 3,
+    kHeap = 1 << 4,      ///< made with `new`: the world's to delete
+    kMarked = 1 << 5,    ///< to be deleted after update
+    kDirty = 1 << 7,     ///< in the list of changes
+    kReported = 1 << 8,  ///< the watcher knows it
+    kDerive = 1 << 9,    ///< speed and direction follow from the velocity
+    kStaticLook = 1 << 10,
+    kNeverDraws = 1 << 11,  ///< its dynamic type is Object itself
+    kTyped = 1 << 12,       ///< kNeverDraws and kDeaf have been found out
+    kFollowed = 1 << 13,    ///< a view follows it
+    kDeaf = 1 << 14,        ///< its class has no eventHandler() of its own
+    kSwept = 1 << 15,
+    kPrecise = 1 << 16,
+    kRestContacts = 1 << 17,
+    kMayMoveOut = 1 << 18,
+    kBody = 1 << 19,     ///< moved by a layer, not by the book's rules
+    kPainted = 1 << 24,  ///< has a sprite or a shape, which draw() shows unless its class has another one
+    kOnView = 1 << 25,   ///< a view object: drawn wherever it is
+    kFrames = 1 << 28,   ///< it has frames
+  };
+
+  explicit WorldStore(World* p_world) : m_p_world(p_world) {}
+  WorldStore(const WorldStore&) = delete;
+  WorldStore& operator=(const WorldStore&) = delete;
+  void retain() { ++m_references; }
+  void release() {
+    if (--m_references == 0) delete this;
+  }
+  /// Null once the world is gone.
+  World* world() const { return m_p_world; }
+  void orphan() { m_p_world = nullptr; }
+
+  // Life.
+
+  /// A slot with an Object's default state, not in the world.
+  Slot take(Object* p_o, bool heap);
+  /// Give the slot of a destroyed Object back. It must have left the world. It rests for kRest updates.
+  void give(Slot s);
+  /// An update has passed.
+  void age() { ++m_updates; }
+  /// Into the world, last in order.
+  void enter(Slot s);
+  /// Those who have entered since the last call.
+  std::vector<ObjectKey> takeNewcomers() { return std::exchange(m_newcomers, {}); }
+  /// Out of it.
+  void leave(Slot s);
+
+  // Reading.
+
+  ObjectKey key(Slot s) const { return {s, m_cards[s].generation}; }
+  bool isCurrent(ObjectKey k) const {
+    return k.slot < m_cards.size() && m_cards[k.slot].generation == k.generation;
+  }
+  /// The same for a key that was current in this store once.
+  bool isStill(ObjectKey k) const { return m_cards[k.slot].generation == k.generation; }
+  Object* find(ObjectKey k) const { return isCurrent(k) ? m_cards[k.slot].p_object : nullptr; }
+  Object* object(Slot s) const { return m_cards[s].p_object; }
+  /// Stays where it is until the slot is given back.
+  ObjectProfile& profile(Slot s) { return m_profiles[s]; }
+  FixedVector position(Slot s) const { return m_positions[s]; }
+  /// It will be asked for its position, and perhaps for the rest.
+  void prefetch(Slot s) const {
+    __builtin_prefetch(&m_positions[s]);
+    __builtin_prefetch(&m_cards[s]);
+  }
+  FixedVector velocity(Slot s) const { return m_velocities[s]; }
+  FixedVector acceleration(Slot s) const { return m_accelerations[s]; }
+  FixedBox box(Slot s) const { return m_boxes[s]; }
+  FixedBox worldBox(Slot s, FixedVector at) const { return translate(m_boxes[s], at); }
+  Solidness solidness(Slot s) const { return m_cards[s].solidness; }
+  /// Null for the whole box. Without one of its own that of the sprite's frame counts.
+  const Mask* mask(Slot s) const {
+    const auto it = m_masks.find(s);
+    if (it != m_masks.end()) return &it->second;
+    return has(s, kPainted) ? spriteMask(s) : nullptr;
+  }
+  /// Its frames and how their turn comes; null if it has none.
+  const std::shared_ptr<const naiad::Look>& frames(Slot s) const;
+  int altitude(Slot s) const { return m_cards[s].altitude; }
+  std::uint64_t order(Slot s) const { return m_cards[s].order; }
+  /// The one given last; 0: none yet.
+  std::uint64_t lastOrder() const { return m_next_order - 1; }
+  std::uint32_t flags(Slot s) const { return m_cards[s].flags; }
+  bool has(Slot s, Flag flag) const { return (m_cards[s].flags & flag) != 0; }
+  bool collides(Slot s) const {
+    return (m_cards[s].flags & (kInWorld | kActive)) == (kInWorld | kActive) &&
+           m_cards[s].solidness != SPECTRAL;
+  }
+  /// Did its last move in update not happen?
+  bool isBlocked(Slot s) const {
+    return (m_blocked[m_cards[s].index / 64] >> (m_cards[s].index % 64) & 1) != 0;
+  }
+  /// Does it get events: in the world, active, and of a class with an eventHandler() of its own?
+  bool hears(Slot s) const {
+    return (m_cards[s].flags & (kInWorld | kActive | kDeaf)) == (kInWorld | kActive);
+  }
+  int countInWorld() const { return m_in_world; }
+
+  // Changing.
+
+  void setPosition(Slot s, FixedVector position);
+  void setVelocity(Slot s, FixedVector velocity);
+  void setAcceleration(Slot s, FixedVector acceleration);
+  void setBox(Slot s, FixedBox box);
+  /// Was there ever a box that does not hold its Object's position? Else who is inside something is so with
+  /// his box, too.
+  bool hasBoxesOffPosition() const { return m_boxes_off; }
+  void setSolidness(Slot s, Solidness solidness);
+  void setAltitude(Slot s, int altitude);
+  /// Nothing: the whole box.
+  void setMask(Slot s, std::optional<Mask> mask);
+  /// Null: none.
+  void setFrames(Slot s, std::shared_ptr<const naiad::Look> p_look);
+  /// The end of an Object's turn in update: its velocity from now on, and whether its move was blocked.
+  void settle(Slot s, FixedVector velocity, bool blocked) {
+    if (velocity != m_velocities[s] || blocked != isBlocked(s)) settleAnew(s, velocity, blocked);
+  }
+  /// kDerive, which nobody else sees.
+  void setDerived(Slot s, bool on) {
+    const std::uint32_t others = m_cards[s].flags & ~static_cast<std::uint32_t>(kDerive);
+    m_cards[s].flags = others | (on ? kDerive : 0u);
+  }
+  /// Flags that the watcher sees (active, visible, no-soft) are noted as changes.
+  void set(Slot s, Flag flag, bool on);
+
+  /// Is this a legal position, a legal velocity?
+  static bool isPosition(FixedVector p) { return within(p, kMaxCells); }
+  static bool isVelocity(FixedVector v) { return within(v, kMaxVelocityCells); }
+
+  // Walking.
+
+  /// The creation order as it is now: entries [0, size()), which a walk may read while Objects come and
+  /// go. Those that come are appended behind the end; those that go leave a gap, kNoSlot.
+  class Walk {
+   public:
+    explicit Walk(const WorldStore& store) : m_store(store), m_size(store.m_order_list.size()) {
+      ++store.m_walks;
+    }
+    ~Walk() { --m_store.m_walks; }
+    Walk(const Walk&) = delete;
+    Walk& operator=(const Walk&) = delete;
+    std::size_t size() const { return m_size; }
+    Slot operator[](std::size_t i) const { return m_store.m_order_list[i]; }
+
+   private:
+    const WorldStore& m_store;
+    std::size_t m_size;
+  };
+
+  // Whose turn it is: 64 Objects of the order to a word, bit i % 64 of word i / 64 for entry i.
+
+  /// Entry i; kNoSlot for a gap.
+  Slot entry(std::size_t i) const { return m_order_list[i]; }
+  /// Those that move in update(): active, with a velocity, an acceleration or contacts at rest.
+  std::uint64_t turns(std::size_t word) const { return m_turns[word]; }
+  /// Those of them that only fly on: SPECTRAL, and nothing to do but to add the velocity.
+  std::uint64_t fliers(std::size_t word) const { return m_fliers[word]; }
+  /// Those that walk: solid, and use nothing beyond the book's test of where a move ends.
+  std::uint64_t walkers(std::size_t word) const { return m_walkers[word]; }
+  /// Those whose slot is the one after that of the entry before.
+  std::uint64_t sequels(std::size_t word) const { return m_sequels[word]; }
+  /// Sweep the moves of all, or only of those that ask for it.
+  void setAllSwept(bool all_swept);
+  bool isAllSwept() const { return m_all_swept; }
+
+  // The options beyond the book, as they count: an engine that is built without them (NAIAD_WITHOUT_LAYERS)
+  // has the setters, but nothing of this.
+
+#if defined(NAIAD_WITHOUT_LAYERS)
+  static constexpr bool kLayers = false;
+#else
+  static constexpr bool kLayers = true;
+#endif
+  bool isSwept(Slot s) const {
+    return kLayers && (m_all_swept || has(s, kSwept));
+  }
+  bool testsAtRest(Slot s) const {
+    return kLayers && has(s, kRestContacts);
+  }
+  bool mayMoveOut(Slot s) const {
+    return kLayers && has(s, kMayMoveOut);
+  }
+  /// Is there anybody whose characters are tested?
+  bool hasPrecise() const {
+    return kLayers && m_precise > 0;
+  }
+
+  /// Move up to `count` fliers, from slot `first` on, by their velocities; stop at the first that would
+  /// leave `boundary`. Return how many were moved.
+  std::size_t fly(Slot first, std::size_t count, const FixedBox& boundary);
+  /// Let walkers take their steps, as long as they stay inside `boundary` and touch nobody: entry
+  /// 64 * word + i of the order for each bit i of `walkers`, lowest first. Return the bits of those that
+  /// have not; of the first of them, whom it would touch at its target is in `met`, in creation order.
+  /// (Nobody, if it would leave the boundary.)
+  std::uint64_t walk(std::size_t word, std::uint64_t walkers, const FixedBox& boundary,
+                     std::vector<ObjectKey>& met);
+
+  /// Drop the gaps from the order, if they are many and nobody walks. leave() does it when it may; call it
+  /// when a walk has ended.
+  void closeGaps();
+
+  /// The Objects that collide with `box`, except `self`, in creation order, appended to `out`.
+  void touching(const FixedBox& box, Slot self, std::vector<ObjectKey>& out) const;
+  const Grid& grid() const {
+    return m_grid;
+  }
+  /// What has been done so far.
+  Paths& paths() {
+    return m_grid.paths();
+  }
+
+  // Changes, for the watcher.
+
+  /// Note changes from now on, beginning with everybody.
+  void setWatched(bool watched);
+  bool isWatched() const {
+    return m_watched;
+  }
+  /// Move what has changed since the last call into `view`.
+  void report(WorldView& view);
+  ObjectFacts facts(Slot s) const;
+
+ private:
+  struct Freed {
+    Slot slot;
+    std::uint64_t since;  ///< m_updates when it was freed
+  };
+
+  // What a collision asks of the other, in half a cache line.
+  struct alignas(32) Card {
+    Object* p_object = nullptr;
+    std::uint64_t order = 0;  ///< place in creation order, never reused
+    std::uint32_t generation = 1;
+    std::uint32_t flags = 0;
+    std::uint32_t index = 0;  ///< in m_order_list
+    Solidness solidness : 8 = HARD;
+    std::uint8_t altitude = 0;
+  };
+  static_assert(sizeof(Card) == 32);
+
+  ~WorldStore() = default;
+  static bool within(FixedVector v, double cells) {
+    const auto limit = static_cast<Fixed>(cells * static_cast<double>(kFixedOne));
+    return v.x >= -limit && v.x <= limit && v.y >= -limit && v.y <= limit;
+  }
+  void touch(Slot s) {
+    if (m_watched) note(s);
+  }
+  void note(Slot s);
+  void settleAnew(Slot s, FixedVector velocity, bool blocked);
+  void file(Slot s);
+  void classify(Slot s);
+  const Mask* spriteMask(Slot s) const;
+  void list(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
+  void listMany(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
+
+  World* m_p_world;
+  std::uint32_t m_references = 1;
+
+  std::vector<FixedVector> m_positions;
+  std::vector<FixedVector> m_velocities;
+  std::vector<FixedVector> m_accelerations;
+  std::vector<FixedBox> m_boxes;
+  std::vector<Card> m_cards;
+  std::deque<ObjectProfile> m_profiles;
+
+  Grid m_grid{m_positions, m_boxes};  // everybody who collides
+  std::deque<Freed> m_free;           // longest free first
+  std::uint64_t m_updates = 0;
+  std::vector<Slot> m_order_list;      // those in the world by creation order, with gaps
+  std::vector<std::uint64_t> m_turns;  // bits by place in m_order_list
+  std::vector<std::uint64_t> m_fliers;
+  std::vector<std::uint64_t> m_walkers;
+  std::vector<std::uint64_t> m_sequels;
+  std::vector<std::uint64_t> m_blocked;  // the last move in update did not happen
+  std::size_t m_gaps = 0;
+  mutable int m_walks = 0;  // no gap is closed while somebody walks
+  int m_in_world = 0;
+  std::uint64_t m_next_order = 1;
+  std::vector<ObjectKey> m_newcomers;
+
+  bool m_watched = false;
+  std::vector<Slot> m_dirty;
+  std::vector<ObjectKey> m_vanished;
+  std::unordered_map<Slot, Mask> m_masks;  // of the few that have one
+  std::unordered_map<Slot, std::shared_ptr<const naiad::Look>> m_frames;
+  bool m_all_swept = false;
+  bool m_boxes_off = false;                // see hasBoxesOffPosition()
+  int m_precise = 0;                       // Objects that are
+  mutable std::vector<Slot> m_candidates;  // scratch of touching()
+};
+
+}  // namespace df

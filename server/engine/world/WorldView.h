@@ -1,0 +1,134 @@
+// What a tick changed, as plain data: the one window through which a host looks at a world.
+//
+// The engine fills a WorldView at the end of every tick while somebody watches (World::setWatched) and
+// spends nothing on it otherwise. It holds no pointers into the world, so it could cross a process
+// boundary. The engine knows nothing of who reads it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "Color.h"
+#include "ControlTable.h"
+#include "Fixed.h"
+#include "Solidness.h"
+#include "detail/ObjectKey.h"
+
+namespace naiad {
+struct Look;
+}
+
+namespace df {
+
+/// State of one object that appeared or changed (moved, turned, resized …) in the tick.
+struct ObjectFacts {
+  ObjectKey key;
+  std::uint64_t order = 0;   ///< creation order in the world: a total order, never reused
+  FixedVector position;      ///< at the end of the tick
+  FixedVector velocity;      ///< what update() will add next tick; zero if the last move was blocked
+  FixedVector acceleration;  ///< added to the velocity after each move; zero if blocked
+  FixedBox box;              ///< relative to the position
+  Solidness solidness = HARD;
+  bool no_soft = false;
+  bool shown = true;     ///< active and visible: false means it must not be drawn
+  bool on_view = false;  ///< a view object: its position is in cells of every view, not in the world
+  int altitude = 2;
+};
+
+/// One character put on the screen, in world coordinates.
+struct DrawCommand {
+  FixedVector position;
+  char32_t ch = U' ';
+  Color color = COLOR_DEFAULT;
+};
+
+/// A sound or a piece of music that the game began, paused or stopped.
+struct SoundPlayed {
+  enum What : std::uint8_t { kPlay, kPause, kStop };
+  std::string label;  ///< as loaded
+  What what = kPlay;
+  bool music = false;        ///< else a sound
+  bool loop = false;         ///< again and again
+  std::uint32_t player = 0;  ///< in whose input's handler, as a hint for whom it is; 0: nobody's
+  friend bool operator==(const SoundPlayed& a, const SoundPlayed& b) {
+    return a.label == b.label && a.what == b.what && a.music == b.music && a.loop == b.loop &&
+           a.player == b.player;
+  }
+  friend bool operator!=(const SoundPlayed& a, const SoundPlayed& b) { return !(a == b); }
+};
+
+/// The characters one object's draw() put on the screen this tick: commands[first, first + count).
+struct DrawnObject {
+  ObjectKey key;  ///< key.generation 0: drawn outside any object's draw()
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+  bool on_view =
+      false;  ///< a view object: its characters keep their places in every view (WorldView::corner)
+};
+
+/// What one of those drawn says of its look: frames and how their turn comes (Object::setFrames). Its draw()
+/// may have drawn something else all the same.
+struct ToldLook {
+  std::uint32_t drawn = 0;  ///< index in WorldView::drawn
+  std::shared_ptr<const naiad::Look> p_look;
+};
+
+/// A text that one player sees, in cells of that player's view. Empty text: removed.
+struct PlayerText {
+  std::uint32_t id = 0;
+  int x = 0;
+  int y = 0;
+  Color color = COLOR_DEFAULT;
+  std::string text;  ///< UTF-8, drawable characters only
+  friend bool operator==(const PlayerText& a, const PlayerText& b) {
+    return a.id == b.id && a.x == b.x && a.y == b.y && a.color == b.color && a.text == b.text;
+  }
+  friend bool operator!=(const PlayerText& a, const PlayerText& b) { return !(a == b); }
+};
+
+/// What a player steers by declared controls, exactly, at the end of the tick.
+struct SteeringFacts {
+  std::shared_ptr<const ControlTable> p_table;  ///< null: no controls declared, and nothing below is set
+  ObjectKey object;  ///< generation 0: nobody is steered, nothing but `state` below
+  ControlState state;
+  FixedVector position;
+  FixedVector velocity;  ///< what update() will try to add next tick, even if the last move was blocked
+  FixedVector acceleration;
+};
+
+/// A player as seen from outside the world.
+struct PlayerFacts {
+  std::uint32_t id = 0;
+  std::string name;
+  Color color = COLOR_DEFAULT;
+  int score = 0;
+  ObjectKey followed;             ///< generation 0: the view follows nobody
+  FixedVector view_corner;        ///< upper left corner of the view, world coordinates; shaken
+  std::vector<PlayerText> texts;  ///< non-empty ones, by id
+  SteeringFacts steering;
+};
+
+struct WorldView {
+  std::uint32_t tick = 0;  ///< ticks done since the world began
+  FixedBox boundary;       ///< of the world
+  int view_width = 80;     ///< size of every view, in cells
+  int view_height = 24;
+  std::vector<ObjectFacts> changed;   ///< appeared or changed, by creation order
+  std::vector<ObjectKey> vanished;    ///< deleted or removed; never in `changed` of the same tick
+  std::vector<DrawnObject> drawn;     ///< what was drawn, in drawing order; a drawer may have vanished since
+  std::vector<DrawCommand> commands;  ///< what they drew, in drawing order
+  std::vector<ToldLook> looks;        ///< of those drawn that have frames, in that order
+  std::vector<PlayerFacts> players;   ///< by id
+  FixedVector corner;                 ///< of the world's own view, in which view objects were drawn
+  std::vector<SoundPlayed> sounds;    ///< in the order they were played
+  std::uint32_t sounds_lost = 0;      ///< more of this tick, beyond what is noted
+  std::vector<SoundPlayed> playing;   ///< what goes on again and again, as it was begun, oldest first
+  std::vector<std::string> notes;     ///< lines of the engine's own for all players to read
+  Color background = BLACK;           ///< of the window
+  int shake_x = 0;                    ///< cells by which views are off their places in this tick
+  int shake_y = 0;
+};
+
+}  // namespace df

@@ -1,0 +1,102 @@
+#include "host/auth/ResumeTokens.h"
+
+#include <openssl/rand.h>
+#include <openssl/sha.h>
+
+#include <stdexcept>
+
+namespace naiad {
+
+namespace {
+
+void fillRandom(void* out, int size) {
+  if (RAND_bytes(static_cast<unsigned char*>(out), size) != 1) {
+    throw std::runtime_error("The system gives no random numbers.");
+  }
+}
+
+std::string hashOf(const std::string& token) {
+  std::string hash(SHA256_DIGEST_LENGTH, '\0');
+  SHA256(reinterpret_cast<const unsigned char*>(token.data()), token.size(),
+         reinterpret_cast<unsigned char*>(hash.data()));
+  return hash;
+}
+
+}  // namespace
+
+std::string ResumeTokens::issue(std::uint64_t session) {
+  std::string token(kBytes, '\0');
+  fillRandom(token.data(), static_cast<int>(token.size()));
+  Hashes& hashes = m_hashes[session];
+  if (hashes.newest != hashes.redeemed) drop(hashes.newest);
+  hashes.newest = hashOf(token);
+  m_sessions[hashes.newest] = session;
+  return token;
+}
+
+std::optional<std::uint64_t> ResumeTokens::find(const std::string& hash) const {
+  const auto found = m_sessions.find(hash);
+  return found != m_sessions.end() ? std::optional(found->second) : std::nullopt;
+}
+
+std::optional<std::uint64_t> ResumeTokens::holderOf(const std::string& token) const {
+  const std::string hash = hashOf(token);
+  const auto session = find(hash);
+  return session && m_hashes.at(*session).newest == hash ? session : std::nullopt;
+}
+
+std::optional<std::uint64_t> ResumeTokens::redeem(const std::string& token) {
+  const std::string hash = hashOf(token);
+  const auto session = find(hash);
+  if (!session) return std::nullopt;
+  Hashes& hashes = m_hashes.at(*session);
+  if (hashes.redeemed != hash) dropRedeemed(hashes);
+  hashes.redeemed = hash;
+  return session;
+}
+
+void ResumeTokens::confirm(std::uint64_t session) {
+  const auto found = m_hashes.find(session);
+  if (found == m_hashes.end() || found->second.redeemed == found->second.newest) return;
+  dropRedeemed(found->second);
+}
+
+void ResumeTokens::dropRedeemed(Hashes& hashes) {
+  if (hashes.restarted) {
+    m_elsewhere.erase(hashes.elsewhere);
+    m_elsewhere.insert(hashes.elsewhere = hashes.redeemed);
+    hashes.restarted = false;
+  }
+  drop(hashes.redeemed);
+}
+
+void ResumeTokens::noteRestart(std::uint64_t session) {
+  const auto found = m_hashes.find(session);
+  if (found != m_hashes.end()) found->second.restarted = !found->second.redeemed.empty();
+}
+
+bool ResumeTokens::isElsewhere(const std::string& token) const {
+  return m_elsewhere.contains(hashOf(token));
+}
+
+void ResumeTokens::forget(std::uint64_t session) {
+  const auto found = m_hashes.find(session);
+  if (found == m_hashes.end()) return;
+  drop(found->second.newest);
+  drop(found->second.redeemed);
+  m_elsewhere.erase(found->second.elsewhere);
+  m_hashes.erase(found);
+}
+
+void ResumeTokens::drop(std::string& hash) {
+  m_sessions.erase(hash);
+  hash.clear();
+}
+
+std::uint64_t randomBits() {
+  std::uint64_t bits = 0;
+  fillRandom(&bits, sizeof bits);
+  return bits;
+}
+
+}  // namespace naiad

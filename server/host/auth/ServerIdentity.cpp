@@ -1,0 +1,88 @@
+#include "host/auth/ServerIdentity.h"
+
+#include <openssl/ssl.h>
+
+#include <system_error>
+
+#include "host/auth/SelfSigned.h"
+#include "shared/net/base/SafeFile.h"
+#include "shared/net/base/UserDirectory.h"
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxPem = 65'536;  // bytes of a key or a chain
+
+std::string readKey(const fs::path& path) {
+  const auto pem = readSmallFile(path, kMaxPem);
+  if (!pem) throw TlsError("There is no key file " + path.string() + ".");
+  if (openToOthers(path)) {
+    throw TlsError("The key file " + path.string() + " can be read by other users. Run: chmod 600 " +
+                   path.string());
+  }
+  return *pem;
+}
+
+std::string readCertificate(const fs::path& path) {
+  const auto pem = readSmallFile(path, kMaxPem);
+  if (!pem) throw TlsError("There is no certificate file " + path.string() + ".");
+  return *pem;
+}
+
+/// What the system refused, as a sentence.
+template <class Action>
+auto inWords(Action action) {
+  try {
+    return action();
+  } catch (const std::system_error& error) {
+    throw TlsError(std::string("The server's key or certificate cannot be used: ") + error.what() + ".");
+  }
+}
+
+void makeDirectory(const fs::path& directory) {
+  if (fs::is_directory(directory)) return;
+  fs::create_directories(directory);
+  fs::permissions(directory, fs::perms::owner_all);
+}
+
+}  // namespace
+
+fs::path ServerIdentity::defaultDirectory() {
+  if (const auto directory = userDirectory("XDG_CONFIG_HOME", ".config")) return *directory;
+  throw TlsError("No place for the server's key: neither HOME nor XDG_CONFIG_HOME is set.");
+}
+
+ServerIdentity ServerIdentity::loadOrMake(const fs::path& directory,
+                                          std::chrono::system_clock::time_point now) {
+  return inWords([&] {
+    makeDirectory(directory);
+    const fs::path key = directory / "key.pem";
+    const fs::path certificate = directory / "certificate.pem";
+    const bool had_certificate = fs::exists(certificate);  // looked at first, for it is made last
+    if (!fs::exists(key)) {
+      if (had_certificate) {
+        throw TlsError("The key " + key.string() +
+                       " is missing, though its certificate is there. Bring it back, or "
+                       "remove " +
+                       certificate.string() +
+                       " to begin with a new key that players will have to trust anew.");
+      }
+      makeFile(key, makeKeyPem());  // if somebody was faster, theirs is loaded
+    }
+    const std::string key_pem = readKey(key);
+    if (!fs::exists(certificate)) makeFile(certificate, makeCertificatePem(key_pem, now));
+    return ServerIdentity(readCertificate(certificate), key_pem);
+  });
+}
+
+ServerIdentity ServerIdentity::load(const fs::path& certificate, const fs::path& key) {
+  return inWords([&] { return ServerIdentity(readCertificate(certificate), readKey(key)); });
+}
+
+ServerIdentity::ServerIdentity(const std::string& certificate_pem, const std::string& key_pem)
+    : tls_(TlsContext::forServer(certificate_pem, key_pem)),
+      fingerprint_(Fingerprint::of(*SSL_CTX_get0_certificate(tls_->get()))) {}
+
+}  // namespace naiad

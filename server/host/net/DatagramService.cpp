@@ -1,0 +1,106 @@
+#include "host/net/DatagramService.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace naiad {
+
+DatagramService::DatagramService(std::unique_ptr<DatagramSocket> socket, Now now, Random random)
+    : m_socket(std::move(socket)), m_now(std::move(now)), m_random(std::move(random)), m_gate(m_random()) {
+  m_socket->start([this](const Path& path, std::string_view packet) {
+    m_received = m_now();
+    m_gate.receive(path, packet, m_received);
+  });
+  m_socket->expect([this](std::string_view packet) { m_gate.expect(packet); });
+}
+
+DatagramService::~DatagramService() = default;
+
+std::unique_ptr<DatagramService::Channel> DatagramService::open(const KeyExporter& exporter, AeadId aead) {
+  for (;;) {
+    const ConnectionId id{m_random()};
+    if (m_gate.has(id)) continue;  // one in 2^64
+    return open(exporter, aead, id);
+  }
+}
+
+std::unique_ptr<DatagramService::Channel> DatagramService::open(const KeyExporter& exporter, AeadId aead,
+                                                                ConnectionId id) {
+  constexpr Epoch kFirstEpoch{1};
+  std::unique_ptr<Channel> channel(new Channel(*this, id, aead));
+  if (!channel->renew(exporter, kFirstEpoch)) return nullptr;
+  const auto deliver = [p_channel = channel.get()](std::string_view payload) {
+    p_channel->noteUnproven();
+    p_channel->answerChallenges(p_channel->m_service.m_received);
+    if (!payload.empty() && p_channel->m_on_packet) p_channel->m_on_packet(payload);
+  };
+  channel->m_registered = m_gate.add(channel->m_link, deliver);
+  return channel->m_registered ? std::move(channel) : nullptr;
+}
+
+void DatagramService::flush() {
+  std::erase_if(m_unproven, [this](Channel* channel) {
+    channel->answerChallenges(m_now());
+    channel->m_unproven = !channel->m_link.isValidated(*channel->m_link.path());
+    return !channel->m_unproven;
+  });
+  m_socket->flush();
+}
+
+DatagramService::Channel::Channel(DatagramService& service, ConnectionId id, AeadId aead)
+    : m_service(service),
+      m_aead(aead),
+      m_link({SealedLink::Role::kServer, id, service.m_random, {}, service.m_scratch}) {}
+
+DatagramService::Channel::~Channel() {
+  if (m_unproven) std::erase(m_service.m_unproven, this);
+  // One that never got in must not take the session with it that has the same id.
+  if (m_registered) m_service.m_gate.remove(m_link.id());
+}
+
+bool DatagramService::Channel::renew(const KeyExporter& exporter, Epoch epoch) {
+  try {
+    return m_link.startEpoch(epoch, deriveDatagramKeys(exporter, m_aead, m_link.id(), epoch),
+                             m_service.m_now());
+  } catch (const KeyExportError&) {
+    return false;  // a stream without encryption, or one that has just died
+  }
+}
+
+bool DatagramService::Channel::renew(const ReliableChannel& stream, Epoch epoch) {
+  return renew([&stream](std::string_view label, std::string_view context,
+                         std::size_t bytes) { return stream.exportSecret(label, context, bytes); },
+               epoch);
+}
+
+void DatagramService::Channel::start(std::function<void(std::string_view)> on_packet) {
+  m_on_packet = std::move(on_packet);
+}
+
+void DatagramService::Channel::send(std::string_view packet) {
+  if (const auto outgoing = m_link.seal(packet, m_service.m_now())) {
+    m_service.m_socket->send(outgoing->path, outgoing->packet);
+  }
+}
+
+// An address has to prove itself before much is sent there.
+void DatagramService::Channel::answerChallenges(Time now) {
+  if (m_link.wantsToSend(now)) send({});
+}
+
+// A new address is looked after by flush() until it has answered.
+void DatagramService::Channel::noteUnproven() {
+  if (m_unproven || m_link.isValidated(*m_link.path())) return;
+  m_unproven = true;
+  m_service.m_unproven.push_back(this);
+}
+
+std::string DatagramService::Channel::peerAddress() const {
+  return m_link.path() ? toString(m_link.path()->remote) : "nowhere";
+}
+
+std::uint64_t DatagramService::Channel::id() const {
+  return m_link.id().value;
+}
+
+}  // namespace naiad

@@ -1,0 +1,355 @@
+#include "host/net/NetworkThread.h"
+
+#include <algorithm>
+#include <asio/post.hpp>
+#include <cassert>
+#include <optional>
+#include <utility>
+
+#include "host/auth/ResumeTokens.h"
+#include "host/net/RelayedDatagrams.h"
+#include "host/net/RelayedStream.h"
+#include "shared/net/stream/Framing.h"
+
+namespace naiad {
+
+namespace {
+
+/// Handlers of the event loop before what they brought is handed over.
+constexpr int kTurn = 64;
+/// What a notice of a frame takes beside the frame, so that many small ones fill a bound, too.
+constexpr std::size_t kNoticeBytes = 32;
+/// Unsent bytes are looked at so often while there are any, addresses challenged so often while one is new.
+constexpr std::chrono::milliseconds kBusy{2};
+constexpr std::chrono::milliseconds kUnproven{50};
+/// Between two ticks the tick thread looks at the clock this often.
+constexpr std::chrono::microseconds kHelping{200};
+constexpr int kLeastServed = 64;
+/// Orders whose memory is fetched before their turn.
+constexpr std::size_t kAhead = 2;
+
+}  // namespace
+
+NetworkThread::NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port,
+                             OnChannel on_channel, TcpOptions options, TlsListening tls, Limits limits)
+    : m_home(home),
+      m_on_channel(std::move(on_channel)),
+      m_limits(limits),
+      m_port(openServerPort(
+          m_io, address, port, [this](std::unique_ptr<ReliableChannel> channel) { meet(std::move(channel)); },
+          options, std::move(tls))) {}
+
+NetworkThread::~NetworkThread() {
+  stop();
+  assert(m_near_streams.empty() && m_free_places.size() == m_near_datagrams.size());
+}
+
+void NetworkThread::start() {
+  if (m_thread.joinable()) return;
+  m_stopping = false;
+  m_thread = std::thread([this] { run(); });
+}
+
+void NetworkThread::stop() {
+  if (m_thread.joinable()) {
+    m_stopping = true;
+    asio::post(m_io, [] {});
+    m_thread.join();
+  }
+  // Nobody obeys any more, but what is to be kept or given back still is.
+  m_order_box.put(m_orders);
+  obey();
+}
+
+void NetworkThread::closeListener() {
+  give({.kind = Order::kCloseListener});
+}
+
+// ---- the tick thread --------------------------------------------------------------------------------------
+
+bool NetworkThread::serve(Clock::time_point enough) {
+  m_home_woken = false;  // before it is taken, so that what comes later wakes again
+  bool more = false;
+  m_serving = true;
+  Notice notice;
+  std::string_view bytes;
+  for (int served = 1; !more; ++served) {
+    if (!m_serving_batch.read(notice, bytes)) {
+      m_notice_box.take(m_serving_batch);
+      if (!m_serving_batch.read(notice, bytes)) break;
+    }
+    m_came = notice.came;
+    prefetchNear();
+    onNotice(notice, bytes);
+    more = served % kLeastServed == 0 && Clock::now() >= enough;
+  }
+  m_serving = false;
+  flush();
+  return !more;
+}
+
+void NetworkThread::onNotice(const Notice& notice, std::string_view bytes) {
+  if (notice.kind == Notice::kMet) {
+    --m_unmet;
+    return m_on_channel(std::make_unique<RelayedStream>(*this, *notice.stream));
+  }
+  if (notice.kind == Notice::kDatagram) {
+    const NearDatagrams& near = m_near_datagrams[notice.place];
+    if (near.id == notice.id && near.channel->m_on_packet) near.channel->m_on_packet(bytes);
+    return;
+  }
+  const auto found = m_near_streams.find(notice.id);
+  if (found == m_near_streams.end()) return;  // let go of in the meantime
+  RelayedStream& stream = *found->second;
+  if (notice.kind == Notice::kClosed) return stream.ended(notice.reason);
+  stream.m_end.in -= bytes.size() + kNoticeBytes;
+  stream.deliver(bytes);
+}
+
+// As in prefetch(): which sessions are next is known.
+void NetworkThread::prefetchNear() const {
+  const auto channelOf = [this](const Notice* notice) -> const RelayedDatagrams* {
+    if (notice == nullptr || notice->kind != Notice::kDatagram) return nullptr;
+    const NearDatagrams& near = m_near_datagrams[notice->place];
+    return near.id == notice->id ? near.channel : nullptr;
+  };
+  if (const RelayedDatagrams* soon = channelOf(m_serving_batch.ahead(2 * kAhead)))
+    prefetchMemory(soon, sizeof(RelayedDatagrams));
+  const RelayedDatagrams* next = channelOf(m_serving_batch.ahead(kAhead));
+  if (next != nullptr && next->m_on_soon) next->m_on_soon();
+}
+
+void NetworkThread::send(std::optional<Clock::time_point> tick_began) {
+  if (m_orders.empty()) return;
+  if (tick_began) {
+    const auto began = static_cast<std::uint64_t>(tick_began->time_since_epoch().count());
+    give({.kind = Order::kTickEnd, .number = began});
+  }
+  m_order_box.put(m_orders);
+  if (!m_woken.exchange(true)) asio::post(m_io, [this] { obey(); });
+}
+
+void NetworkThread::wakeHome() {
+  if (m_home_woken.exchange(true)) return;
+  asio::post(m_home, [this] {
+    if (!serve(Clock::now() + kHelping)) wakeHome();
+  });
+}
+
+std::unique_ptr<SealedChannel> NetworkThread::openDatagrams(const ReliableChannel& stream, AeadId aead) {
+  const auto* relayed = dynamic_cast<const RelayedStream*>(&stream);
+  if (!hasDatagrams() || relayed == nullptr) return nullptr;
+  constexpr Epoch kFirstEpoch{1};
+  auto* const end = new DatagramsEnd;  // kept by m_datagrams from the order on
+  end->id = ++m_newest_datagrams;
+  if (m_free_places.empty()) {
+    m_free_places.push_back(static_cast<std::uint32_t>(m_near_datagrams.size()));
+    m_near_datagrams.emplace_back();
+  }
+  end->place = m_free_places.back();
+  m_free_places.pop_back();
+  end->connection = randomBits();
+  end->aead = aead;
+  give({.kind = Order::kOpenDatagrams, .stream = &relayed->m_end, .datagrams = end, .number = kFirstEpoch});
+  return std::make_unique<RelayedDatagrams>(*this, *end, kFirstEpoch);
+}
+
+bool NetworkThread::renewDatagrams(DatagramsEnd& end, const ReliableChannel& stream, Epoch epoch) {
+  const auto* relayed = dynamic_cast<const RelayedStream*>(&stream);
+  if (relayed == nullptr) return false;
+  give({.kind = Order::kRenew, .stream = &relayed->m_end, .datagrams = &end, .number = epoch});
+  return true;
+}
+
+RelayCounters NetworkThread::counters() const {
+  RelayCounters counters = m_counters;
+  counters.datagrams_out_dropped = m_out_dropped;
+  counters.streams_clogged = m_clogged;
+  return counters;
+}
+
+DatagramGateCounters NetworkThread::gateCounters() const {
+  const std::lock_guard lock(m_gate_mutex);
+  return m_gate_counters;
+}
+
+// ---- the network thread -----------------------------------------------------------------------------------
+
+// Its loop: serve what is ready, then hand over what that brought.
+void NetworkThread::run() {
+  while (!m_stopping) {
+    if (!m_busy.empty()) {
+      m_io.run_one_for(kBusy);
+    } else if (m_port.datagrams && m_port.datagrams->isUnproven()) {
+      m_io.run_one_for(kUnproven);
+    } else {
+      m_io.run_one();
+    }
+    for (int i = 1; i < kTurn && m_io.poll_one() > 0; ++i) {
+    }
+    endTurn();
+  }
+}
+
+void NetworkThread::endTurn() {
+  if (m_port.datagrams) {
+    m_port.datagrams->flush();
+    const std::lock_guard lock(m_gate_mutex);
+    m_gate_counters = m_port.datagrams->counters();
+  }
+  noteUnsent();
+  if (m_notices.empty()) return;
+  m_notice_box.put(m_notices);
+  if (std::exchange(m_urgent, false)) wakeHome();
+}
+
+// Streams that have been sent something, until the kernel has let go of it.
+void NetworkThread::noteUnsent() {
+  std::erase_if(m_busy, [](StreamEnd* end) {
+    end->unsent = end->channel ? end->channel->unsentBytes() : 0;
+    end->busy = end->unsent > 0;
+    return !end->busy;
+  });
+}
+
+void NetworkThread::obey() {
+  m_woken = false;  // before they are taken, so that later ones wake again
+  m_order_box.take(m_taken);
+  Order order;
+  std::string_view bytes;
+  while (m_taken.read(order, bytes)) {
+    prefetch();
+    obey(order, bytes);
+  }
+}
+
+// What is sealed for a session has left the cache since the last tick, and the order says whose turn comes.
+void NetworkThread::prefetch() const {
+  if (const Order* soon = m_taken.ahead(2 * kAhead)) prefetchMemory(soon->datagrams, sizeof(DatagramsEnd));
+  const Order* next = m_taken.ahead(kAhead);
+  if (next != nullptr && next->kind == Order::kSendDatagram && next->datagrams->channel)
+    next->datagrams->channel->prefetch();
+}
+
+void NetworkThread::obey(const Order& order, std::string_view bytes) {
+  StreamEnd* const stream = order.stream;
+  DatagramsEnd* const datagrams = order.datagrams;
+  switch (order.kind) {
+    case Order::kSendDatagram:
+      if (!datagrams->channel) break;
+      datagrams->channel->send(bytes);
+      return noteRoom(*datagrams);
+    case Order::kSendFrame:
+      if (stream->channel) {
+        stream->channel->send(bytes);
+        stream->unsent += kFrameHeaderSize + bytes.size();  // before `taken`: see RelayedStream::unsentBytes
+        if (!std::exchange(stream->busy, true)) m_busy.push_back(stream);
+      }
+      stream->taken += kFrameHeaderSize + bytes.size();
+      break;
+    case Order::kClose:
+      if (stream->channel) stream->channel->close();
+      break;
+    case Order::kCut:
+      if (stream->channel) onClosed(*stream, CloseReason::kOverflow);
+      break;
+    case Order::kReceiveLimit:
+      if (stream->channel) stream->channel->setReceiveLimit(order.number);
+      break;
+    case Order::kDropStream:
+      std::erase(m_busy, stream);
+      m_streams.erase(stream);
+      break;
+    case Order::kOpenDatagrams:
+      m_datagrams.emplace(datagrams, datagrams);
+      openDatagrams(*datagrams, *stream);
+      break;
+    case Order::kRenew:
+      if (!datagrams->channel) break;
+      if (!stream->channel || !datagrams->channel->renew(*stream->channel, static_cast<Epoch>(order.number)))
+        ++m_counters.keyless;
+      break;
+    case Order::kDropDatagrams:
+      m_datagrams.erase(datagrams);
+      break;
+    case Order::kCloseListener:
+      m_port.streams->close();
+      break;
+    case Order::kTickEnd:
+      if (m_port.datagrams) m_port.datagrams->flush();
+      m_tick_times.add(Clock::now().time_since_epoch() - Clock::duration(order.number));
+      break;
+  }
+}
+
+void NetworkThread::openDatagrams(DatagramsEnd& end, const StreamEnd& stream) {
+  if (stream.channel) {
+    const KeyExporter exporter = [&](std::string_view label, std::string_view context, std::size_t bytes) {
+      return stream.channel->exportSecret(label, context, bytes);
+    };
+    end.channel = m_port.datagrams->open(exporter, end.aead, ConnectionId{end.connection});
+  }
+  if (!end.channel) {
+    ++m_counters.keyless;
+    return;
+  }
+  end.channel->start([this, p_end = &end](std::string_view bytes) {
+    noteRoom(*p_end);
+    if (isInFull()) {
+      ++m_counters.datagrams_in_dropped;
+      return;
+    }
+    notice({.kind = Notice::kDatagram,
+            .place = p_end->place,
+            .id = p_end->id,
+            .came = m_port.datagrams->received()},
+           bytes);
+  });
+}
+
+void NetworkThread::noteRoom(DatagramsEnd& end) {
+  const auto room = end.channel->room();
+  const std::int32_t now = room ? static_cast<std::int32_t>(*room) : -1;
+  // Nothing else follows from it, and it hardly ever changes.
+  if (end.room.load(std::memory_order_relaxed) != now) end.room.store(now, std::memory_order_relaxed);
+}
+
+void NetworkThread::notice(const Notice& notice, std::string_view bytes) {
+  m_notices.add(notice, bytes);
+  m_urgent = m_urgent || notice.kind != Notice::kDatagram;
+}
+
+void NetworkThread::meet(std::unique_ptr<ReliableChannel> channel) {
+  if (m_unmet >= m_limits.unmet || isInFull()) {
+    ++m_counters.unmet;
+    return;
+  }
+  ++m_unmet;
+  auto end = std::make_unique<StreamEnd>();
+  StreamEnd* const p_end = end.get();
+  end->id = ++m_newest_stream;
+  end->peer = channel->peerAddress();
+  end->channel = std::move(channel);
+  m_streams.emplace(p_end, std::move(end));
+  notice({.kind = Notice::kMet, .id = p_end->id, .stream = p_end, .came = Clock::now()});
+  p_end->channel->start({[this, p_end](std::string_view frame) { onFrame(*p_end, frame); },
+                         [this, p_end](CloseReason reason) { onClosed(*p_end, reason); }});
+}
+
+void NetworkThread::onFrame(StreamEnd& end, std::string_view frame) {
+  const std::size_t bytes = frame.size() + kNoticeBytes;
+  if (end.in + bytes > m_limits.stream_in || isInFull()) {
+    ++m_counters.streams_overflowed;
+    return onClosed(end, CloseReason::kOverflow);
+  }
+  end.in += bytes;
+  notice({.kind = Notice::kFrame, .id = end.id, .came = Clock::now()}, frame);
+}
+
+// By itself, or because it has to.
+void NetworkThread::onClosed(StreamEnd& end, CloseReason reason) {
+  end.channel.reset();
+  notice({.kind = Notice::kClosed, .reason = reason, .id = end.id, .came = Clock::now()});
+}
+
+}  // namespace naiad

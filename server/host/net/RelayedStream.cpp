@@ -1,0 +1,71 @@
+#include "host/net/RelayedStream.h"
+
+#include <utility>
+
+#include "shared/net/stream/Framing.h"
+
+namespace naiad {
+
+namespace {
+
+/// What may be on the way to the network thread; over there the channel has a queue of its own.
+constexpr std::size_t kMostOnTheWay = TcpOptions{}.send_cap;
+
+}  // namespace
+
+RelayedStream::RelayedStream(NetworkThread& network, NetworkThread::StreamEnd& end)
+    : m_network(network), m_end(end) {
+  m_network.m_near_streams.emplace(m_end.id, this);
+}
+
+RelayedStream::~RelayedStream() {
+  m_network.m_near_streams.erase(m_end.id);
+  m_network.give({.kind = NetworkThread::Order::kDropStream, .stream = &m_end});
+}
+
+void RelayedStream::start(Callbacks callbacks) {
+  m_callbacks = std::make_shared<Callbacks>(std::move(callbacks));
+}
+
+void RelayedStream::send(std::string_view frame) {
+  if (m_closed) return;
+  if (onTheWay() + frame.size() > kMostOnTheWay || m_network.isFull()) {
+    ++m_network.m_clogged;
+    m_closed = true;
+    return m_network.give({.kind = NetworkThread::Order::kCut, .stream = &m_end});
+  }
+  m_given += kFrameHeaderSize + frame.size();
+  m_idle = false;
+  m_network.give({.kind = NetworkThread::Order::kSendFrame, .stream = &m_end}, frame);
+}
+
+std::size_t RelayedStream::unsentBytes() const {
+  if (m_idle) return 0;
+  // In this order: what is taken over in between counts twice rather than not at all.
+  const std::size_t way = onTheWay();
+  const std::size_t unsent = way + m_end.unsent;
+  m_idle = unsent == 0;
+  return unsent;
+}
+
+void RelayedStream::close() {
+  if (std::exchange(m_closed, true)) return;
+  m_network.give({.kind = NetworkThread::Order::kClose, .stream = &m_end});
+}
+
+void RelayedStream::setReceiveLimit(std::size_t bytes) {
+  m_network.give({.kind = NetworkThread::Order::kReceiveLimit, .stream = &m_end, .number = bytes});
+}
+
+void RelayedStream::deliver(std::string_view frame) {
+  const auto callbacks = m_callbacks;  // the callee may destroy this
+  if (!m_closed && callbacks && callbacks->on_frame) callbacks->on_frame(frame);
+}
+
+void RelayedStream::ended(CloseReason reason) {
+  m_closed = true;
+  const auto callbacks = std::move(m_callbacks);
+  if (callbacks && callbacks->on_closed) callbacks->on_closed(reason);
+}
+
+}  // namespace naiad

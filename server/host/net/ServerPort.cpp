@@ -1,0 +1,65 @@
+#include "host/net/ServerPort.h"
+
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <utility>
+
+#include "host/auth/ResumeTokens.h"
+#include "shared/net/datagram/UdpSocket.h"
+
+namespace naiad {
+
+namespace {
+
+/// Free for streams need not be free for datagrams.
+constexpr int kPortsToTry = 50;
+
+ServerPort open(asio::io_context& context, const std::string& address, std::uint16_t port,
+                const TcpListener::OnChannel& on_channel, const TcpOptions& options,
+                const TlsListening& tls) {
+  ServerPort opened;
+  opened.streams = std::make_unique<TcpListener>(context, address, port, on_channel, options, tls);
+  if (!tls.context) return opened;
+  UdpOptions udp;
+  udp.address = address;
+  udp.port = opened.streams->port();
+  udp.v6_only = false;
+  opened.datagrams = std::make_unique<DatagramService>(
+      std::make_unique<UdpSocket>(context, udp), [] { return std::chrono::steady_clock::now(); }, randomBits);
+  return opened;
+}
+
+ServerPort openAny(asio::io_context& context, const std::string& address,
+                   const TcpListener::OnChannel& on_channel, const TcpOptions& options,
+                   const TlsListening& tls) {
+  for (int i = 1; i < kPortsToTry; ++i) {
+    try {
+      return open(context, address, 0, on_channel, options, tls);
+    } catch (const ListenError& error) {
+      if (error.code() != std::errc::address_in_use) throw;
+    }
+  }
+  return open(context, address, 0, on_channel, options, tls);
+}
+
+bool lacksIPv6(const std::error_code& code) {
+  return code == std::errc::address_family_not_supported || code == std::errc::address_not_available;
+}
+
+}  // namespace
+
+ServerPort openServerPort(asio::io_context& context, const std::string& address, std::uint16_t port,
+                          TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls) {
+  const auto attempt = [&](const std::string& where) {
+    return port == 0 ? openAny(context, where, on_channel, options, tls)
+                     : open(context, where, port, on_channel, options, tls);
+  };
+  try {
+    return attempt(address);
+  } catch (const ListenError& error) {
+    if (address != "::" || !lacksIPv6(error.code())) throw;
+  }
+  return attempt("0.0.0.0");
+}
+
+}  // namespace naiad

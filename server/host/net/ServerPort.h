@@ -1,0 +1,23 @@
+// What a server listens with: a listener for streams, and datagrams on the same port number.
+#pragma once
+
+#include <asio/ts/netfwd.hpp>
+#include <memory>
+#include <string>
+
+#include "host/net/DatagramService.h"
+#include "shared/net/stream/TcpListener.h"
+
+namespace naiad {
+
+struct ServerPort {
+  std::unique_ptr<TcpListener> streams;
+  std::unique_ptr<DatagramService> datagrams;  ///< null without encryption
+};
+
+/// Listen on a numeric address ("::" hears IPv4 as well, and is 0.0.0.0 where there is no IPv6). `port` 0
+/// takes one that is free for both. Without `tls`: loopback, streams only. Throws ListenError.
+ServerPort openServerPort(asio::io_context& context, const std::string& address, std::uint16_t port,
+                          TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls);
+
+}  // namespace naiad

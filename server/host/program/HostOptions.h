@@ -1,0 +1,71 @@
+// Everything a host can set, in one table that feeds the command line, the environment, the config file,
+// --help and docs/dfserver.md.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "shared/net/base/Limits.h"
+
+namespace naiad {
+
+/// Players that one server takes, at most.
+inline constexpr int kMostPlayers = 20'000;
+
+struct HostOptions {
+  std::string game = "saucershoot";  ///< name of a shipped game, or path of a module
+  std::string address = "::";        ///< numeric address to listen on; "::" is all of them, IPv4 too
+  int port = kDefaultPort;           ///< 0: any free port
+  int max_players = 64;
+  int max_per_address = 64;          ///< players from one IPv4 address or IPv6 /64
+  std::string name = "naiad";        ///< shown in the clients' status line
+  std::int64_t seed = 0;             ///< of the world; 0: a new one each time, logged
+  int frame_micros = 0;              ///< length of a tick in microseconds; 0: exactly 1/30 s
+  int ticks = 0;                     ///< stop after so many; 0: never
+  double exit_when_empty = 0;        ///< seconds after the last player left; 0: never
+  std::string players = "together";  ///< whose input the game hears: "together", "first" or "private"
+  std::string on_game_over =
+      "leave";              ///< by one player among several: "leave" (for him), "exit" or "restart"
+  bool insecure = false;    ///< plain TCP, loopback only, no datagrams: for tests
+  std::string certificate;  ///< PEM file; with `key`. Empty: a key of its own, made on the first start
+  std::string key;          ///< PEM file
+  std::string identity;     ///< directory of the key of its own; empty: the user's
+  std::string password;     ///< that players need: itself, or its Argon2id hash; empty: none
+  double grace = 60;        ///< seconds that a player whose connection broke may take to come back
+  std::string join_file;    ///< write what to pass to dfclient here once listening
+  std::string truth_file;   ///< write what each player should see, tick by tick
+  std::string port_file;    ///< write the port number here once listening
+  std::string log_file;     ///< append log lines here instead of stderr
+  // Of games that are programs themselves:
+  bool headless = false;     ///< no network and no players
+  bool local_client = true;  ///< in a terminal: attach a client there
+};
+
+/// What the command line asked for.
+enum class CommandLine { kRun, kListGames, kDone, kUsageError };
+
+/// Fill `options` from the command line, the environment and --config FILE (in this order of precedence).
+/// Help, version and usage errors are printed here.
+CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options);
+
+/// An option has a value that makes no sense; what() is a sentence that names it.
+class OptionError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The value of a key in df-config.txt, empty if there is none.
+using ConfigValue = std::function<std::string(const std::string& key)>;
+
+/// Fill `options` for a game that is a program itself: from the environment and, where that does not say,
+/// from df-config.txt. Return the names of the options that one of them gave, without dashes in front. Throws
+/// OptionError.
+std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options);
+
+/// The table of options as Markdown, for docs/dfserver.md.
+std::string hostOptionsMarkdown();
+
+}  // namespace naiad

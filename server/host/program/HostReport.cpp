@@ -1,0 +1,39 @@
+// What a host says of itself when it has ended.
+#include "host/program/Host.h"
+#include "host/session/Counters.h"
+
+namespace naiad {
+
+// What came to the door and was not let in.
+void Host::logRefusals() const {
+  const TcpListener::Counters& streams = m_network.streamCounters();
+  std::string text = listCounters({{"failed_accepts", streams.failed_accepts},
+                                   {"handshakes_failed", streams.handshakes_failed},
+                                   {"handshakes_late", streams.handshakes_late},
+                                   {"refused_half_open", streams.refused_half_open},
+                                   {"refused_from_prefix", streams.refused_from_prefix}});
+  if (!text.empty()) m_log("streams: " + text);
+  const RelayCounters relay = m_network.counters();
+  text = listCounters({{"datagrams_in_dropped", relay.datagrams_in_dropped},
+                       {"datagrams_out_dropped", relay.datagrams_out_dropped},
+                       {"streams_overflowed", relay.streams_overflowed},
+                       {"streams_clogged", relay.streams_clogged},
+                       {"unmet", relay.unmet},
+                       {"keyless", relay.keyless}});
+  if (!text.empty()) m_log("between the threads: " + text);
+  if (!m_network.hasDatagrams()) return;
+  const DatagramGateCounters gate = m_network.gateCounters();
+  text = listCounters({{"delivered", gate.delivered},
+                       {"too_short", gate.too_short},
+                       {"too_long", gate.too_long},
+                       {"bad_kind", gate.bad_kind},
+                       {"unknown_id", gate.unknown_id},
+                       {"session_flood", gate.session_flood},
+                       {"claimed_flood", gate.claimed_flood},
+                       {"prefix_flood", gate.prefix_flood},
+                       {"stranger_flood", gate.stranger_flood},
+                       {"refused", gate.refused}});
+  if (!text.empty()) m_log("datagrams: " + text);
+}
+
+}  // namespace naiad

@@ -1,0 +1,129 @@
+#include "host/program/LocalClient.h"
+
+#include <dlfcn.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+#include "host/world/WordPointers.h"
+
+namespace naiad {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kPatienceMillis = 2000;  // for a client that was told that the game is over
+
+bool isProgram(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0;
+}
+
+/// Where this library lies.
+fs::path ownFolder() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<void*>(&isProgram), &info) == 0 || info.dli_fname == nullptr) return {};
+  std::error_code error;
+  return fs::canonical(info.dli_fname, error).parent_path();
+}
+
+/// How dfclient ends when it has not played (client/session/ExitCode.h): wrong usage, unreachable, refused, no
+/// terminal.
+bool meansFailure(int status) {
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+  return code != 0 && code != 4;
+}
+
+/// Ours, but for what would send the client elsewhere.
+std::vector<std::string> environmentOfClient(const std::string& password) {
+  std::vector<std::string> kept;
+  for (char** p = environ; *p != nullptr; ++p) {
+    const std::string_view entry(*p);
+    const bool other = entry.starts_with("NAIAD_GAME=") || entry.starts_with("NAIAD_FINGERPRINT=") ||
+                       entry.starts_with("NAIAD_PASSWORD=");
+    if (!other) kept.emplace_back(entry);
+  }
+  if (!password.empty()) kept.push_back("NAIAD_PASSWORD=" + password);
+  return kept;
+}
+
+}  // namespace
+
+bool LocalClient::hasTerminal() {
+  const char* p_term = std::getenv("TERM");
+  return p_term != nullptr && *p_term != '\0' && isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1 &&
+         tcgetpgrp(STDIN_FILENO) == getpgrp();
+}
+
+std::optional<fs::path> LocalClient::find() {
+  if (const char* p_named = std::getenv("NAIAD_CLIENT")) {
+    return isProgram(p_named) ? std::optional<fs::path>(p_named) : std::nullopt;
+  }
+  const fs::path own = ownFolder();
+  for (const char* bin : {"../bin", "../../bin"}) {  // lib, or lib/x86_64-linux-gnu
+    if (const fs::path path = own / bin / "dfclient"; isProgram(path)) return path.lexically_normal();
+  }
+  const char* p_path = std::getenv("PATH");
+  std::istringstream folders(p_path != nullptr ? p_path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (const fs::path path = fs::path(folder) / "dfclient"; !folder.empty() && isProgram(path)) return path;
+  }
+  return std::nullopt;
+}
+
+LocalClient::LocalClient(const fs::path& program, const std::vector<std::string>& arguments,
+                         const std::string& password, const std::string& log_file)
+    : m_redirect(log_file) {
+  std::vector<std::string> words{program.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> environment = environmentOfClient(password);
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (int n = 0; n < 3; ++n) {
+    if (m_redirect.original(n) >= 0) posix_spawn_file_actions_adddup2(&actions, m_redirect.original(n), n);
+  }
+  // Nor the game's sockets: a port would stay taken as long as the client lives.
+  posix_spawn_file_actions_addclosefrom_np(&actions, 3);
+  const int problem = posix_spawn(&m_process, program.c_str(), &actions, nullptr, pointersTo(words).data(),
+                                  pointersTo(environment).data());
+  posix_spawn_file_actions_destroy(&actions);
+  if (problem == 0) return;
+  m_process = -1;
+  throw std::system_error(problem, std::generic_category(), program.string() + " cannot be started");
+}
+
+LocalClient::~LocalClient() {
+  if (hasEnded()) return;
+  // (glibc 2.36 declares pidfd_open as a C++ function.)
+  const int handle = static_cast<int>(syscall(SYS_pidfd_open, m_process, 0));
+  pollfd ended{handle, POLLIN, 0};
+  if (handle < 0 || poll(&ended, 1, kPatienceMillis) <= 0) kill(m_process, SIGTERM);
+  if (handle >= 0) close(handle);
+  int status = 0;
+  while (waitpid(m_process, &status, 0) < 0 && errno == EINTR) {
+  }
+}
+
+bool LocalClient::hasEnded() {
+  if (m_process < 0) return true;
+  int status = 0;
+  const pid_t ended = waitpid(m_process, &status, WNOHANG);
+  if (ended == 0 || (ended < 0 && errno == EINTR)) return false;
+  // (A game that waits for children of its own may have taken the status.)
+  m_failed = ended > 0 && meansFailure(status);
+  m_process = -1;
+  return true;
+}
+
+}  // namespace naiad

@@ -1,0 +1,68 @@
+#include "host/program/PlayerNews.h"
+
+#include <algorithm>
+
+#include "shared/net/base/Limits.h"
+
+namespace naiad {
+
+namespace {
+
+void add(wire::ServerMessage& message, const df::PlayerFacts& player,
+         const PlayerNews::RoundTrip& round_trip) {
+  wire::PlayerEntry& entry = *message.mutable_players()->add_players();
+  entry.set_player(player.id);
+  entry.set_name(player.name);
+  entry.set_color(static_cast<std::uint32_t>(player.color));
+  entry.set_score(player.score);
+  if (const std::uint32_t millis = round_trip(player.id); millis > 0) entry.set_rtt_millis(millis);
+}
+
+}  // namespace
+
+void PlayerNews::tick(std::uint32_t tick, const std::vector<df::PlayerFacts>& players,
+                      const RoundTrip& round_trip, const Tell& tell) {
+  if (players.size() > kMaxPlayers) return tellSome(tick, players, round_trip, tell);
+  if (tick % kEvery == 0) tellAll(players, round_trip, tell);
+}
+
+void PlayerNews::tellAll(const std::vector<df::PlayerFacts>& players, const RoundTrip& round_trip,
+                         const Tell& tell) {
+  wire::ServerMessage message;
+  message.mutable_players();
+  for (const df::PlayerFacts& player : players) add(message, player, round_trip);
+  std::string bytes = message.SerializeAsString();
+  if (bytes == m_told) return;
+  m_told = std::move(bytes);
+  for (const df::PlayerFacts& player : players) tell(player.id, message);
+}
+
+// In each tick other ones, so that no tick has to tell all.
+void PlayerNews::tellSome(std::uint32_t tick, const std::vector<df::PlayerFacts>& players,
+                          const RoundTrip& round_trip, const Tell& tell) {
+  m_told.clear();
+  if (tick % kEvery == 0 || m_best.players().players().empty()) {
+    std::vector<const df::PlayerFacts*> best;
+    best.reserve(players.size());
+    for (const df::PlayerFacts& player : players) best.push_back(&player);
+    const auto middle = best.begin() + kCrowdEntries;
+    std::partial_sort(best.begin(), middle, best.end(), [](const auto* a, const auto* b) {
+      return a->score != b->score ? a->score > b->score : a->id < b->id;
+    });
+    best.erase(middle, best.end());
+    m_best.Clear();
+    for (const df::PlayerFacts* player : best) add(m_best, *player, round_trip);
+  }
+  for (const df::PlayerFacts& player : players) {
+    if ((tick + player.id) % kCrowdEvery != 0) continue;
+    const auto& told = m_best.players().players();
+    const bool among = std::any_of(told.begin(), told.end(), [&](const wire::PlayerEntry& entry) {
+      return entry.player() == player.id;
+    });
+    if (!among) add(m_best, player, round_trip);
+    tell(player.id, m_best);
+    if (!among) m_best.mutable_players()->mutable_players()->RemoveLast();
+  }
+}
+
+}  // namespace naiad

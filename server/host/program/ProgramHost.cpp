@@ -1,0 +1,213 @@
+#include "host/program/ProgramHost.h"
+
+#include <google/protobuf/stubs/logging.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "engine/managers/Config.h"
+#include "engine/world/LogFile.h"
+#include "engine/world/World.h"
+#include "host/auth/Seed.h"
+#include "host/program/Announcement.h"
+#include "host/program/Host.h"
+#include "host/program/LineLog.h"
+#include "host/program/LocalClient.h"
+#include "host/program/Worlds.h"
+#include "host/world/WorldServer.h"
+#include "host/world/WorldStart.h"
+#include "shared/values/Version.h"
+
+namespace naiad {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+enum ExitCode { kGameFailed = 1, kUsage = 2, kCannotListen = 4, kFile = 5 };
+
+std::string programName() {
+  return program_invocation_short_name;
+}
+
+[[noreturn]] void fail(ExitCode code, const std::string& sentence) {
+  std::cerr << programName() << ": " << sentence << std::endl;
+  std::exit(code);
+}
+
+/// Sprites and sounds are looked for in the working directory, beside the program, and above it: many build
+/// in a folder of their own.
+void addFolders(df::World& world) {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  if (error) return;
+  world.addResourceFolder(folder.string());
+  world.addResourceFolder(folder.parent_path().string());
+}
+
+/// On the usual port; if that is taken and nobody asked for it, on any.
+std::unique_ptr<Host> openHost(HostOptions options, bool port_given, const Host::Log& log) {
+  try {
+    return std::make_unique<Host>(options, programName(), log);
+  } catch (const ListenError&) {
+    if (port_given) throw;
+  }
+  options.port = 0;
+  return std::make_unique<Host>(options, programName(), log);
+}
+
+/// The help screen of clients is where a player can look it up while he plays.
+void addToHelp(df::World& world, const std::vector<std::string>& lines) {
+  std::vector<std::string> help = world.getHelp();
+  for (const std::string& line : lines) {
+    for (std::size_t begin = 0; begin < line.size(); begin += kMaxHelpLength) {
+      help.push_back(line.substr(begin, kMaxHelpLength));
+    }
+  }
+  world.setHelp(std::move(help));
+}
+
+/// Lets the client in the terminal, if there is one, and the game end each other.
+class Company {
+ public:
+  Company(Host& host, const HostOptions& options, const std::string& log_file, const df::World::LogSink& log)
+      : m_host(host), m_log(log) {
+    if (!options.local_client || !LocalClient::hasTerminal()) return;
+    const auto program = LocalClient::find();
+    if (!program) {
+      std::cout << "There is no dfclient to play with in this terminal (NAIAD_CLIENT can name it)."
+                << std::endl;
+      return;
+    }
+    std::vector<std::string> arguments{"--attached", "--no-resume"};
+    std::istringstream words(host.joinArguments());
+    for (std::string word; words >> word;) arguments.push_back(word);
+    try {
+      m_client.emplace(*program, arguments, options.password, log_file);
+      m_host.setEndsWithLast(true);
+    } catch (const std::system_error& error) {
+      std::cout << error.what() << std::endl;
+    }
+  }
+
+  /// Once a tick.
+  void look() {
+    if (m_client && m_client->hasEnded()) onEnd();
+    if (m_local_left && m_host.connected() == 0) m_host.stop("The game is over.");
+  }
+
+ private:
+  void onEnd() {
+    const bool failed = m_client->hasFailed();
+    m_client.reset();
+    m_host.setEndsWithLast(false);
+    m_local_left = !failed;
+    if (failed) {
+      std::cout << "No client in this terminal; the game goes on as a server. Ctrl-C ends it." << std::endl;
+    } else if (const std::size_t others = m_host.connected(); others > 0) {
+      std::cout << others << " still playing: the server ends when they have left, or with Ctrl-C."
+                << std::endl;
+    }
+    m_log(failed ? "the client in the terminal failed" : "the client in the terminal has left");
+  }
+
+  Host& m_host;
+  df::World::LogSink m_log;
+  std::optional<LocalClient> m_client;
+  bool m_local_left = false;
+};
+
+ProgramHost g_program;
+[[maybe_unused]] const bool g_installed = (df::running::setProgram(&g_program), true);
+
+}  // namespace
+
+void ProgramHost::startUp(df::World& world) {
+  // The library would complain on stderr about every string that a stranger sends in bad UTF-8.
+  google::protobuf::SetLogHandler(nullptr);
+  const df::Config& config = df::Config::getInstance();
+  m_options = {};
+  m_options.name = programName();
+  m_options.headless = config.getHeadless();
+  try {
+    m_given = readProgramOptions([&config](const std::string& key) { return config.match(key); }, m_options);
+  } catch (const OptionError& error) {
+    fail(kUsage, std::string("environment or df-config.txt: ") + error.what());
+  }
+  if (const auto socket = takeWorldSocket()) {
+    m_world_socket = socket;
+    df::keepLogFiles();
+  }
+  addFolders(world);
+  seed(world);
+  world.log("Naiad " + std::string(kVersion) + ", compat " + (world.compat() ? "on" : "off") +
+            (m_options.headless ? ", headless" : ""));
+}
+
+// random_seed is for rand(): 0 takes the time, -1 leaves it alone. The engine's own dice are never the same
+// twice, unless somebody wants that; without players, everybody does.
+void ProgramHost::seed(df::World& world) const {
+  const int random_seed = df::Config::getInstance().getRandomSeed();
+  std::uint64_t seed = static_cast<std::uint64_t>(m_options.seed);
+  if (seed == 0 && random_seed > 0) seed = static_cast<std::uint64_t>(random_seed);
+  const bool wanted = seed != 0;
+  if (!wanted && m_options.headless && random_seed < 0) return;
+  if (!wanted) seed = newSeed();
+  world.setSeed(seed);
+  world.log("seed " + std::to_string(seed));
+  if (wanted || random_seed == 0) std::srand(static_cast<unsigned>(seed));
+}
+
+void ProgramHost::run(df::World& world) {
+  if (m_stopped) return world.setGameOver();
+  // A world in a process of its own has one run: its game that runs again finds that it is over.
+  if (m_world_socket)
+    return WorldServer(std::exchange(*m_world_socket, -1), leavesAlone(m_options)).run(world);
+  if (m_options.headless) return runHeadless(world);
+  try {
+    serve(world);
+  } catch (const ListenError& error) {
+    fail(kCannotListen, error.what());
+  } catch (const std::exception& error) {
+    fail(kFile, error.what());
+  }
+  // Players have left, or somebody has stopped the server: no more of the game, whatever its main() says.
+  m_stopped = !world.isGameOver();
+}
+
+void ProgramHost::runHeadless(df::World& world) {
+  for (; !world.isGameOver() && (m_options.ticks == 0 || m_ticks < m_options.ticks); ++m_ticks) {
+    world.tick();
+  }
+}
+
+void ProgramHost::serve(df::World& world) {
+  std::optional<LineLog> lines;
+  if (!m_options.log_file.empty() || !LocalClient::hasTerminal()) lines.emplace(m_options.log_file);
+  // What the game itself logs goes to its own file, as ever.
+  const Host::Log log = [&](const std::string& line) { lines ? (*lines)(line) : world.log(line); };
+  const std::unique_ptr<Host> host = openHost(m_options, m_given.count("port") > 0, log);
+  writeWhereabouts(m_options, *host);
+  log(programName() + " is a server on " + host->address());
+  const std::vector<std::string> how = howToJoin(*host);
+  for (const std::string& line : how) std::cout << line << std::endl;
+  std::cout << "Compatible with the published engine: " << (world.compat() ? "yes (compat)" : "no")
+            << std::endl;
+  const std::vector<std::string> help = world.getHelp();
+  addToHelp(world, how);
+
+  if (wantsWorlds(m_options)) host->setWorlds(startWorlds());
+  Company company(*host, m_options, df::Config::getInstance().getLogFile(), log);
+  host->setObserver([&company](df::World&) { company.look(); });
+  host->run(world);
+  world.setHelp(help);
+  if (!host->failure().empty()) fail(kGameFailed, "the game " + host->failure());
+}
+
+}  // namespace naiad

@@ -1,0 +1,61 @@
+#include "host/session/Counters.h"
+
+namespace naiad {
+
+std::string Counters::summary() const {
+  return listCounters({
+      {"ticks", ticks},
+      {"connections", connections},
+      {"joined", joined},
+      {"turned_away", turned_away},
+      {"refused_version", refused_version},
+      {"refused_full", refused_full},
+      {"refused_address", refused_address},
+      {"refused_game", refused_game},
+      {"refused_name", refused_name},
+      {"refused_password", refused_password},
+      {"detached", detached},
+      {"resumed", resumed},
+      {"restarted", restarted},
+      {"second_streams", second_streams},
+      {"refused_elsewhere", refused_elsewhere},
+      {"unknown_tokens", unknown_tokens},
+      {"kept_overflows", kept_overflows},
+      {"repeated_frames", repeated_frames},
+      {"stuck_streams", stuck_streams},
+      {"graces_expired", graces_expired},
+      {"divergences", divergences},
+      {"resets", resets},
+      {"resets_dropped", resets_dropped},
+      {"checksums_dropped", checksums_dropped},
+      {"malformed_frames", malformed_frames},
+      {"malformed_messages", malformed_messages},
+      {"login_timeouts", login_timeouts},
+      {"idle_timeouts", idle_timeouts},
+      {"input_floods", input_floods},
+      {"message_floods", message_floods},
+      {"repeated_inputs", repeated_inputs},
+      {"chat_dropped", chat_dropped},
+      {"resizes_deferred", resizes_deferred},
+      {"sounds", sounds},
+      {"sounds_dropped", sounds_dropped},
+      {"snapshots", snapshots},
+      {"snapshot_bytes", snapshot_bytes},
+      {"skipped_ticks", skipped_ticks},
+      {"late_ticks", late_ticks},
+      {"late_worlds", late_worlds},
+      {"rebased_ticks", rebased_ticks},
+  });
+}
+
+std::string listCounters(std::initializer_list<std::pair<const char*, std::uint64_t>> counters) {
+  std::string text;
+  for (const auto& [name, value] : counters) {
+    if (value == 0) continue;
+    if (!text.empty()) text += ' ';
+    text += std::string(name) + '=' + std::to_string(value);
+  }
+  return text;
+}
+
+}  // namespace naiad

@@ -1,0 +1,225 @@
+// The Publisher's looks: what was drawn becomes what clients are told to draw, and what is not drawn any more
+// is taken from them.
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "host/snapshot/LookCapture.h"
+#include "host/snapshot/Publisher.h"
+#include "shared/replica/Acks.h"
+#include "shared/replica/LookCodec.h"
+
+namespace naiad {
+
+namespace {
+
+bool sameCell(df::FixedVector a, df::FixedVector b) {
+  return df::cellOf(a.x) == df::cellOf(b.x) && df::cellOf(a.y) == df::cellOf(b.y);
+}
+
+/// Would any glyph of the appearance fall into any player's view?
+bool landsInAView(const Appearance& appearance, df::FixedVector position, const df::WorldView& view) {
+  return std::any_of(view.players.begin(), view.players.end(), [&](const df::PlayerFacts& player) {
+    const std::int64_t left = df::cellOf(player.view_corner.x);
+    const std::int64_t top = df::cellOf(player.view_corner.y);
+    return std::any_of(appearance.begin(), appearance.end(), [&](const Glyph& glyph) {
+      const CellPosition cell = glyphCell(position, glyph);
+      return cell.x >= left && cell.x < left + view.view_width && cell.y >= top &&
+             cell.y < top + view.view_height;
+    });
+  });
+}
+
+/// Ticks that nothing of the model, off all views now, can come into one, if these move by a cell per tick.
+std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, const df::WorldView& view) {
+  constexpr std::int64_t kFar = 1 << 20;
+  const Motion motion = rebase(model.state.motion, tick);
+  if (motion.acceleration != df::FixedVector{}) return 0;
+  const std::int64_t x = df::cellOf(motion.position.x);
+  const std::int64_t y = df::cellOf(motion.position.y);
+  std::int64_t nearest = kFar;
+  for (const df::PlayerFacts& player : view.players) {
+    const std::int64_t left = df::cellOf(player.view_corner.x);
+    const std::int64_t top = df::cellOf(player.view_corner.y);
+    nearest = std::min(nearest, std::max({left - x, x - (left + view.view_width - 1), top - y,
+                                          y - (top + view.view_height - 1)}));
+  }
+  const double speed =
+      std::max(std::abs(df::toCells(motion.velocity.x)), std::abs(df::toCells(motion.velocity.y)));
+  const double free = static_cast<double>(nearest - model.reach - 1);
+  return free <= 0 ? 0 : static_cast<std::uint32_t>(free / (speed + 1));
+}
+
+/// An object that stands and shows nothing need not be looked at for so many ticks.
+constexpr std::uint32_t kNeverLook = 1u << 20;
+/// Appearances remembered, to tell those that recur; with so many, those not taken on for so many ticks go.
+constexpr std::size_t kMaxKnownAppearances = 16'384;
+constexpr std::uint32_t kForgetAfter = 9'000;
+/// Looks kept to be shared, whether anybody still has them or not.
+constexpr std::size_t kMostShared = 2'048;
+
+}  // namespace
+
+// Has this appearance been seen before? Texts that change all the time never have.
+void Publisher::meet(Model& model) {
+  Look& look = model.state.look;
+  model.look_sum = 0;
+  model.recurs = false;
+  intern(look.sequence);
+  if (look.sequence.empty() || isSingleCharacter(look.sequence)) return;
+  model.look_sum = look.sequence.sum();
+  const auto [known, fresh] = m_appearances.try_emplace(model.look_sum, m_tick);
+  model.recurs = !fresh || look.sequence.size() > 1;
+  known->second = m_tick;
+  if (m_appearances.size() <= kMaxKnownAppearances) return;
+  std::erase_if(m_appearances, [this](const auto& a) { return m_tick - a.second > kForgetAfter; });
+  if (m_appearances.size() > kMaxKnownAppearances) m_appearances.clear();
+}
+
+// Objects that look the same share the memory of it: it is compared with what they draw in every tick.
+void Publisher::intern(Sequence& sequence) {
+  if (sequence.empty()) return;
+  if (m_sequences.size() >= kMostShared) m_sequences.clear();
+  const auto [known, fresh] = m_sequences.try_emplace(sequence.sum(), sequence);
+  if (!fresh && known->second == sequence) sequence = known->second;
+}
+
+void Publisher::takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn, const Look* told) {
+  if (drawn.key.generation == 0 || drawn.key.slot >= m_models.size()) return;
+  Tracked& tracked = m_models[drawn.key.slot];
+  if (!tracked.model.alive || tracked.model.generation != drawn.key.generation) return;
+  tracked.drawn = tracked.off_views = m_tick;
+  m_look_at[drawn.key.slot] = m_tick + 1;  // unless it is drawn again
+  std::span<const df::DrawCommand> commands{view.commands.data() + drawn.first, drawn.count};
+  if (drawn.on_view) commands = takeOffView(commands, view.corner);
+  correctLook(drawn.key.slot, tracked, commands, told);
+}
+
+// What was drawn in the world's own view, as it is in every view.
+std::span<const df::DrawCommand> Publisher::takeOffView(std::span<const df::DrawCommand> drawn,
+                                                        df::FixedVector corner) {
+  m_off_view.assign(drawn.begin(), drawn.end());
+  for (df::DrawCommand& command : m_off_view) command.position = command.position - corner;
+  return m_off_view;
+}
+
+void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn,
+                            const Look* told) {
+  ObjectState& state = tracked.model.state;
+  const df::FixedVector truth = tracked.truth.position;
+  const df::FixedVector modelled = positionAt(state.motion, m_tick);
+  if (sameCell(modelled, truth) && drawsTheSame(state.look, m_tick, modelled, drawn)) return;
+
+  // A path that turned is the usual cause: try the known look at the true place before making a new one.
+  if (!sameCell(modelled, truth) || drawsTheSame(state.look, m_tick, truth, drawn)) {
+    state.motion = truthNow(tracked);
+    mark(slot, tracked, kMotion);
+    ++m_corrections;
+    if (drawsTheSame(state.look, m_tick, truth, drawn)) return;
+  }
+  const Look before = state.look;
+  // What it says of itself counts if it is what it drew: a draw() of its own may have added to it.
+  if (told != nullptr && drawsTheSame(*told, m_tick, truth, drawn)) {
+    state.look.sequence = told->sequence;
+    state.look.selector = told->selector;
+    if (!drawsTheSame(state.look, m_tick, positionAt(state.motion, m_tick), drawn)) {
+      state.motion = truthNow(tracked);  // fitted anew, for the new look
+      mark(slot, tracked, kMotion);
+    }
+  } else {
+    capture(slot, tracked, drawn);
+  }
+  // A drawing too large to be described whole is cut the same way each time, and not news each time.
+  if (state.look != before) mark(slot, tracked, kLook);
+}
+
+void Publisher::capture(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn) {
+  ObjectState& state = tracked.model.state;
+  const df::FixedVector truth = tracked.truth.position;
+  state.look.selector = {};
+  state.look.sequence = {};
+  if (drawn.empty()) return;
+  df::FixedVector modelled = positionAt(state.motion, m_tick);
+  Appearance appearance = captureAppearance(truth, drawn);
+  state.look.sequence = {appearance};
+  if (modelled != truth && !drawsTheSame(state.look, m_tick, modelled, drawn)) {
+    state.motion = truthNow(tracked);  // fitted anew, for the new look
+    modelled = truth;
+    mark(slot, tracked, kMotion);
+  }
+  if (!drawsTheSame(state.look, m_tick, modelled, drawn)) appearance = captureCells(modelled, drawn);
+  state.look.sequence = fitToRecord(std::move(appearance));
+}
+
+void Publisher::takeLoose(const df::WorldView& view) {
+  std::vector<df::DrawCommand> loose;
+  for (const df::DrawnObject& drawn : view.drawn) {
+    if (drawn.key.generation != 0) continue;
+    loose.insert(loose.end(), view.commands.begin() + drawn.first,
+                 view.commands.begin() + drawn.first + drawn.count);
+  }
+  if (loose.empty() && !m_loose.model.alive) return;
+  if (!m_loose.model.alive) {
+    // Far below everything, and never moving: each glyph's offset says where it is.
+    m_loose.model = {1, true, {0, {m_tick, loose.front().position, {}, {}}, {{}, 0}, {}}};
+    m_loose.model.state.body.solidness = df::SPECTRAL;
+    m_loose.truth = m_loose.model.state.motion;
+    mark(kLooseSlot, m_loose, kAllGroups);
+  }
+  correctLook(kLooseSlot, m_loose, loose, nullptr);
+}
+
+// Has a view come, or gone farther than a cell?
+bool Publisher::haveViewsJumped(const df::WorldView& view) {
+  const std::vector<df::PlayerFacts>& players = view.players;
+  bool jumped = players.size() != m_corners.size();
+  m_corners.resize(players.size());
+  for (std::size_t i = 0; i < players.size(); ++i) {
+    const df::FixedVector moved{players[i].view_corner.x - m_corners[i].x,
+                                players[i].view_corner.y - m_corners[i].y};
+    jumped = jumped || std::max(std::abs(moved.x), std::abs(moved.y)) > df::kFixedOne;
+    m_corners[i] = players[i].view_corner;
+  }
+  const bool resized = std::exchange(m_view_width, view.view_width) != view.view_width ||
+                       std::exchange(m_view_height, view.view_height) != view.view_height;
+  return jumped || resized;
+}
+
+void Publisher::correctUndrawn(const df::WorldView& view) {
+  const bool jumped = haveViewsJumped(view);
+  for (std::uint32_t slot = 0; slot < m_look_at.size(); ++slot) {
+    if (isNewer(m_look_at[slot], m_tick) && !(jumped && m_models[slot].drawn != m_tick)) continue;
+    Tracked& tracked = m_models[slot];
+    m_look_at[slot] = m_tick + kNeverLook;
+    if (!tracked.model.alive) continue;
+    if (jumped) tracked.off_views = m_tick;
+    correctUndrawn(slot, tracked, view);
+    const bool standing = !isMoving(tracked.model.state.motion);
+    const bool blank = tracked.model.state.look.sequence.empty();
+    m_look_at[slot] = !standing ? m_tick + 1 : blank ? m_tick + kNeverLook : tracked.off_views;
+    if (m_look_at[slot] == m_tick) ++m_look_at[slot];
+  }
+}
+
+void Publisher::correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::WorldView& view) {
+  ObjectState& state = tracked.model.state;
+  if (!sameCell(positionAt(state.motion, m_tick), tracked.truth.position)) {
+    state.motion = truthNow(tracked);
+    mark(slot, tracked, kMotion);
+    ++m_corrections;
+  }
+  // draw() did not run, so nothing of it may show; off every view its look can wait there unseen.
+  const Appearance* appearance = state.look.select(m_tick);
+  if (appearance == nullptr) return;
+  if (tracked.shown && tracked.changed == 0 && isNewer(tracked.off_views, m_tick)) return;
+  if (tracked.shown && !state.body.on_view &&
+      !landsInAView(*appearance, positionAt(state.motion, m_tick), view)) {
+    tracked.off_views = m_tick + ticksOffViews(tracked.model, m_tick, view);
+    return;
+  }
+  state.look.sequence = {};
+  state.look.selector = {};
+  mark(slot, tracked, kLook);
+}
+
+}  // namespace naiad

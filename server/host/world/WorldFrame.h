@@ -1,0 +1,128 @@
+// Frames between a host and a world in a process of its own: a length, then fields in order.
+//
+//   frame   length of the rest (4, low byte first), at most kMaxWorldFrame | fields
+//
+// What a struct consists of is said once, for both ends, by a function that visits its fields:
+//
+//   template <class Fields, class T>          // a FieldWriter and a const T, or a FieldReader and a T
+//   void visit(Fields& f, T& facts) { f.flag(facts.shown); f.number(facts.id, 1, 9); … }
+//
+// so a new field is one line. Both ends are built from one source, so there are no versions. But a world is
+// somebody's game: a reader checks every number, and a writer cuts what is out of range to it, so that no
+// game is refused for a coordinate.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "shared/replica/Bytes.h"
+#include "shared/values/Fixed.h"
+#include "shared/values/LittleEndian.h"
+
+namespace naiad {
+
+/// Bytes of a frame's fields, at most.
+inline constexpr std::size_t kMaxWorldFrame = std::size_t{16} << 20;
+/// Of its length.
+inline constexpr std::size_t kWorldFrameHead = 4;
+
+class FieldWriter {
+ public:
+  /// Begins a frame in `out`, whose memory is used again.
+  explicit FieldWriter(std::string& out) : m_out(out), m_bytes(out) { m_out.assign(kWorldFrameHead, '\0'); }
+  /// Complete it. False: it is too long to be sent.
+  bool finish() {
+    const std::size_t size = m_out.size() - kWorldFrameHead;
+    if (size > kMaxWorldFrame) return false;
+    storeLittleEndian(static_cast<std::uint32_t>(size), m_out.data());
+    return true;
+  }
+
+  void flag(bool value) { m_bytes.byte(value ? 1 : 0); }
+  /// Any integer or enumeration, from `least` to `most`.
+  template <class T>
+  void number(T value, std::int64_t least, std::int64_t most) {
+    m_bytes.varint(
+        static_cast<std::uint64_t>(std::clamp(static_cast<std::int64_t>(value), least, most) - least));
+  }
+  void number(std::uint32_t value) { number(value, 0, std::numeric_limits<std::uint32_t>::max()); }
+  /// 64 bits within ±`most`.
+  void fixed(df::Fixed value, df::Fixed most) {
+    char bytes[8];
+    storeLittleEndian(static_cast<std::uint64_t>(std::clamp(value, -most, most)), bytes);
+    m_bytes.bytes({bytes, sizeof bytes});
+  }
+  /// At most so many bytes.
+  void text(std::string_view value, std::size_t most) {
+    value = value.substr(0, most);
+    m_bytes.varint(value.size());
+    m_bytes.bytes(value);
+  }
+  /// Each at least one byte long, by `visit(*this, element)`.
+  template <class T, class Visit>
+  void list(const std::vector<T>& values, Visit visit) {
+    m_bytes.varint(values.size());
+    for (const T& value : values) visit(*this, value);
+  }
+  static constexpr bool kReads = false;
+
+ private:
+  std::string& m_out;
+  ByteWriter m_bytes;
+};
+
+/// Fails at the first thing that is wrong, and stays failed.
+class FieldReader {
+ public:
+  /// Without the length.
+  explicit FieldReader(std::string_view fields) : m_bytes(fields), m_size(fields.size()) {}
+  bool ok() const { return m_bytes.ok(); }
+  /// All was read, and was good.
+  bool isWhole() const { return m_bytes.ok() && m_bytes.atEnd(); }
+  void fail() { m_bytes.fail(); }
+  /// Fail unless so.
+  void require(bool so) {
+    if (!so) m_bytes.fail();
+  }
+
+  void flag(bool& value) { value = m_bytes.upTo(1) != 0; }
+  template <class T>
+  void number(T& value, std::int64_t least, std::int64_t most) {
+    value = static_cast<T>(static_cast<std::int64_t>(m_bytes.upTo(static_cast<std::uint64_t>(most - least))) +
+                           least);
+  }
+  void number(std::uint32_t& value) { number(value, 0, std::numeric_limits<std::uint32_t>::max()); }
+  void fixed(df::Fixed& value, df::Fixed most) {
+    const std::string_view bytes = m_bytes.bytes(8);
+    value = bytes.empty() ? 0 : static_cast<df::Fixed>(loadLittleEndian<std::uint64_t>(bytes.data()));
+    if (value >= -most && value <= most) return;
+    value = 0;
+    fail();
+  }
+  void text(std::string& value, std::size_t most) { value = m_bytes.bytes(m_bytes.upTo(most)); }
+  template <class T, class Visit>
+  void list(std::vector<T>& values, Visit visit) {
+    values.clear();
+    const std::uint64_t count = m_bytes.upTo(m_size);  // each takes a byte
+    for (std::uint64_t i = 0; i < count && ok(); ++i) visit(*this, values.emplace_back());
+  }
+  static constexpr bool kReads = true;
+
+ private:
+  ByteReader m_bytes;
+  std::size_t m_size;
+};
+
+/// A coordinate pair within ±`most` each.
+template <class Fields, class T>
+void visitVector(Fields& f, T& vector, df::Fixed most) {
+  f.fixed(vector.x, most);
+  f.fixed(vector.y, most);
+}
+
+}  // namespace naiad

@@ -1,0 +1,72 @@
+#include "host/world/WorldInProcess.h"
+
+#include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
+
+namespace naiad {
+
+WorldInProcess::~WorldInProcess() {
+  m_world.setHindsight(nullptr);
+}
+
+std::uint32_t WorldInProcess::join(std::uint32_t player, const std::string& name, df::Color color) {
+  return m_world.join(name, color, player);
+}
+
+void WorldInProcess::leave(std::uint32_t player) {
+  m_world.leave(player);
+}
+
+void WorldInProcess::key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) {
+  m_world.key(player, key, action);
+}
+
+void WorldInProcess::mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x,
+                           int y, const df::Seen& seen) {
+  m_world.mouse(player, action, button, x, y, seen);
+}
+
+void WorldInProcess::setHeard(std::uint32_t player) {
+  m_world.extras().heard_player = player;
+}
+
+void WorldInProcess::endGame() {
+  m_world.setGameOver();
+}
+
+void WorldInProcess::tick(bool watched, bool /*truth*/) {
+  m_world.setWatched(watched);
+  m_world.tick();
+  ticked();
+}
+
+std::uint32_t WorldInProcess::nextTick() const {
+  return m_world.view().tick + 1;
+}
+
+const df::WorldView& WorldInProcess::view() const {
+  return m_world.view();
+}
+
+// Only a game that asked for it pays for the memory.
+void WorldInProcess::published(const Publisher& publisher) {
+  if (m_world.isLookingBack() != m_look_back.has_value()) {
+    m_world.isLookingBack() ? static_cast<void>(m_look_back.emplace()) : m_look_back.reset();
+    m_world.setHindsight(m_look_back ? &*m_look_back : nullptr);
+  }
+  if (m_look_back) m_look_back->note(publisher, m_world.view());
+}
+
+std::vector<std::uint32_t> WorldInProcess::takeLeavers() {
+  return m_world.takeLeavers();
+}
+
+bool WorldInProcess::isGameOver() const {
+  return m_world.isGameOver();
+}
+
+df::Canvas WorldInProcess::renderPlayer(std::uint32_t player) const {
+  return m_world.renderPlayer(player);
+}
+
+}  // namespace naiad

@@ -1,0 +1,44 @@
+// The world of this process, on this thread.
+#pragma once
+
+#include <optional>
+
+#include "host/snapshot/LookBack.h"
+#include "host/world/WorldPort.h"
+
+namespace df {
+class World;
+}
+
+namespace naiad {
+
+class WorldInProcess : public WorldPort {
+ public:
+  /// `world` must live until this is gone.
+  explicit WorldInProcess(df::World& world) : m_world(world) {}
+  ~WorldInProcess() override;
+  WorldInProcess(const WorldInProcess&) = delete;
+  WorldInProcess& operator=(const WorldInProcess&) = delete;
+
+  std::uint32_t join(std::uint32_t player, const std::string& name, df::Color color) override;
+  void leave(std::uint32_t player) override;
+  void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) override;
+  void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x, int y,
+             const df::Seen& seen) override;
+  void setHeard(std::uint32_t player) override;
+  void endGame() override;
+  bool isReady() const override { return true; }
+  void tick(bool watched, bool truth) override;
+  std::uint32_t nextTick() const override;
+  const df::WorldView& view() const override;
+  void published(const Publisher& publisher) override;
+  std::vector<std::uint32_t> takeLeavers() override;
+  bool isGameOver() const override;
+  df::Canvas renderPlayer(std::uint32_t player) const override;
+
+ private:
+  df::World& m_world;
+  std::optional<LookBack> m_look_back;  ///< while the game wants it
+};
+
+}  // namespace naiad

@@ -1,0 +1,123 @@
+#include "host/world/WorldMessages.h"
+
+#include "shared/net/base/Limits.h"
+#include "shared/replica/Limits.h"
+
+namespace naiad {
+
+namespace {
+
+using Input = df::InputQueue::Input;
+
+constexpr std::size_t kMostName = 4 * kMaxNameLength;
+
+template <class F, class T>
+void visitSeen(F& f, T& seen) {
+  f.flag(seen.known);
+  f.number(seen.base);
+  f.number(seen.drawn);
+}
+
+template <class F, class T>
+void visitInput(F& f, T& input) {
+  f.number(input.kind, df::InputQueue::kJoin, df::InputQueue::kMouse);
+  f.number(input.player);
+  switch (input.kind) {
+    case df::InputQueue::kJoin:
+      f.text(input.name, kMostName);
+      return f.number(input.color, df::BLACK, df::WHITE);
+    case df::InputQueue::kLeave:
+      return;
+    case df::InputQueue::kKey:
+      f.number(input.key, 0, df::Keyboard::kKeyCount - 1);
+      return f.number(input.key_action, df::KEY_PRESSED, df::KEY_DOWN);
+    case df::InputQueue::kMouse:
+      f.number(input.mouse_action, df::CLICKED, df::MOVED);
+      f.number(input.button, df::Mouse::UNDEFINED_MOUSE_BUTTON, df::Mouse::MIDDLE);
+      f.number(input.x, 0, kMaxViewWidth - 1);
+      f.number(input.y, 0, kMaxViewHeight - 1);
+      return visitSeen(f, input.seen);
+  }
+}
+
+template <class F, class T>
+void visitTurn(F& f, T& turn) {
+  f.flag(turn.watched);
+  f.flag(turn.wants_truth);
+  f.flag(turn.ends_game);
+  f.number(turn.heard_player);
+  f.list(turn.inputs, [](F& in, auto& input) { visitInput(in, input); });
+}
+
+void visitCanvas(FieldWriter& out, const df::Canvas& canvas) {
+  out.number(canvas.width(), 0, kMaxViewWidth);
+  out.number(canvas.height(), 0, kMaxViewHeight);
+  for (int y = 0; y < canvas.height(); ++y) {
+    for (int x = 0; x < canvas.width(); ++x) {
+      const df::Cell cell = canvas.at(x, y);
+      out.number(static_cast<std::uint32_t>(cell.ch));
+      out.number(cell.color, df::BLACK, df::WHITE);
+    }
+  }
+}
+
+void visitCanvas(FieldReader& in, df::Canvas& canvas) {
+  int width = 0;
+  int height = 0;
+  in.number(width, 0, kMaxViewWidth);
+  in.number(height, 0, kMaxViewHeight);
+  canvas = df::Canvas(width, height);
+  for (int i = 0; i < width * height && in.ok(); ++i) {
+    df::Cell cell;
+    std::uint32_t ch = 0;
+    in.number(ch);
+    in.number(cell.color, df::BLACK, df::WHITE);
+    cell.ch = static_cast<char32_t>(ch);
+    in.require(df::isDrawable(cell.ch));
+    canvas.put(i % width, i / width, cell);
+  }
+}
+
+template <class F, class T>
+void visitAnswer(F& f, T& answer) {
+  f.flag(answer.game_over);
+  f.list(answer.leavers, [](F& in, auto& leaver) { in.number(leaver); });
+  f.list(answer.pictures, [](F& in, auto& picture) {
+    in.number(picture.player);
+    visitCanvas(in, picture.canvas);
+  });
+  f.flag(answer.has_view);
+}
+
+}  // namespace
+
+bool writeTurn(const WorldTurn& turn, std::string& frame) {
+  FieldWriter out(frame);
+  visitTurn(out, turn);
+  return out.finish();
+}
+
+std::optional<WorldTurn> readTurn(std::string_view fields) {
+  FieldReader in(fields);
+  WorldTurn turn;
+  visitTurn(in, turn);
+  return in.isWhole() ? std::optional(std::move(turn)) : std::nullopt;
+}
+
+bool writeAnswer(const WorldAnswer& answer, const df::WorldView* p_view, ViewWriter& views,
+                 std::string& frame) {
+  FieldWriter out(frame);
+  visitAnswer(out, answer);
+  if (p_view != nullptr) views.write(out, *p_view);
+  return out.finish();
+}
+
+std::optional<WorldAnswer> readAnswer(std::string_view fields, ViewReader& views, df::WorldView& view) {
+  FieldReader in(fields);
+  WorldAnswer answer;
+  visitAnswer(in, answer);
+  if (in.ok() && answer.has_view) views.read(in, view);
+  return in.isWhole() ? std::optional(std::move(answer)) : std::nullopt;
+}
+
+}  // namespace naiad

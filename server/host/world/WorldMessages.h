@@ -1,0 +1,58 @@
+// What a host and a world in a process of its own tell each other, as frames (WorldFrame.h).
+//
+//   world → host   ready                     once, when the game has come to GM.run()
+//   host → world   turn: inputs, and tick
+//   world → host   answer: how the tick ended; a turn has one answer, and no turn is sent before it
+//
+// When the game is over, the world's process closes its end and exits; so it does when the host closes its
+// own.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/world/InputQueue.h"
+#include "engine/world/WorldView.h"
+#include "host/world/ViewCodec.h"
+#include "shared/values/Canvas.h"
+
+namespace naiad {
+
+/// Inputs, and a tick.
+struct WorldTurn {
+  std::vector<df::InputQueue::Input> inputs;  ///< in the order they came
+  bool watched = false;                       ///< the answer is to have a view
+  bool wants_truth = false;                   ///< and pictures
+  bool ends_game = false;
+  std::uint32_t heard_player = 0;  ///< the only one whose input comes; 0: everybody's does
+};
+
+/// What one player sees.
+struct WorldPicture {
+  std::uint32_t player = 0;
+  df::Canvas canvas;
+};
+
+/// How a tick ended.
+struct WorldAnswer {
+  bool game_over = false;
+  std::vector<std::uint32_t> leavers;
+  bool has_view = false;
+  std::vector<WorldPicture> pictures;  ///< by player
+};
+
+/// Make `frame` a whole frame. False: it would be too long.
+bool writeTurn(const WorldTurn& turn, std::string& frame);
+/// Nothing if anything is missing, out of range or left over.
+std::optional<WorldTurn> readTurn(std::string_view fields);
+
+/// `p_view` if the answer has one.
+bool writeAnswer(const WorldAnswer& answer, const df::WorldView* p_view, ViewWriter& views,
+                 std::string& frame);
+/// `view` is filled if the answer has one.
+std::optional<WorldAnswer> readAnswer(std::string_view fields, ViewReader& views, df::WorldView& view);
+
+}  // namespace naiad

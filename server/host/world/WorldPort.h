@@ -1,0 +1,91 @@
+// The world that a room plays in, as the host sees it: inputs down, tick by tick a WorldView up.
+//
+// Two kinds: the world of this process (WorldInProcess.h), which ticks while it is called, and one in a
+// process of its own (WorldProcess.h), which answers later, and may crash or hang.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/world/Hindsight.h"
+#include "engine/world/WorldView.h"
+#include "shared/values/Canvas.h"
+#include "shared/values/Color.h"
+#include "shared/values/Keyboard.h"
+
+namespace naiad {
+
+class Publisher;
+
+/// How a world ended.
+struct WorldEnd {
+  enum Why : std::uint8_t {
+    kGameOver,  ///< the game said so, or its process ended in order
+    kCrashed,   ///< a signal or an error code
+    kHung,      ///< it did not answer in time
+    kBroken,    ///< it sent what no world sends
+  } why = kGameOver;
+  std::string text;  ///< for the log and for players, like "crashed (SIGABRT)"
+};
+
+class WorldPort {
+ public:
+  virtual ~WorldPort() = default;
+
+  /// Called at the end of every tick: from tick(), or later from the host's event loop.
+  void setOnTick(std::function<void()> on_tick) { m_on_tick = std::move(on_tick); }
+
+  // Input, in the order it came. It counts from nextTick() on.
+
+  /// Return the player's id: `player`, or the next one that is free if the world has had that one.
+  virtual std::uint32_t join(std::uint32_t player, const std::string& name, df::Color color) = 0;
+  virtual void leave(std::uint32_t player) = 0;
+  virtual void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) = 0;
+  virtual void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x,
+                     int y, const df::Seen& seen) = 0;
+  /// From the next tick on only this player's input comes; 0: everybody's.
+  virtual void setHeard(std::uint32_t player) = 0;
+  /// The game is to be over at the end of the next tick.
+  virtual void endGame() = 0;
+
+  // Ticks.
+
+  /// May a tick begin?
+  virtual bool isReady() const = 0;
+  /// Begin one. `watched`: view() is wanted; the first time with every Object as changed. `truth`:
+  /// renderPlayer() is, too.
+  virtual void tick(bool watched, bool truth) = 0;
+  /// The number of the next tick to begin, by which view() counts.
+  virtual std::uint32_t nextTick() const = 0;
+  /// What the last watched tick changed. Valid until the next one begins.
+  virtual const df::WorldView& view() const = 0;
+  /// The models that clients have been told of since the last tick: for a game that looks back.
+  virtual void published(const Publisher& publisher) = 0;
+  /// Those who wanted to leave since this was asked last.
+  virtual std::vector<std::uint32_t> takeLeavers() = 0;
+  virtual bool isGameOver() const = 0;
+  /// What this player sees, as the engine drew it in the last tick.
+  virtual df::Canvas renderPlayer(std::uint32_t player) const = 0;
+
+  // Its end.
+
+  /// Is it still alive? Once in each tick of the host's, ready or not; `tick` is its number.
+  virtual void look(std::uint32_t /*tick*/) {}
+  /// How it ended; nothing while it lives.
+  virtual std::optional<WorldEnd> end() const { return std::nullopt; }
+  /// Let it come to its end; end() says when it has.
+  virtual void close() {}
+
+ protected:
+  void ticked() {
+    if (m_on_tick) m_on_tick();
+  }
+
+ private:
+  std::function<void()> m_on_tick;
+};
+
+}  // namespace naiad

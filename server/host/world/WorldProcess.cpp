@@ -1,0 +1,215 @@
+#include "host/world/WorldProcess.h"
+
+#include <signal.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <asio/buffer.hpp>
+#include <asio/read.hpp>
+#include <asio/write.hpp>
+#include <cerrno>
+#include <utility>
+
+namespace naiad {
+
+namespace {
+
+/// Between two looks no more time than this counts.
+constexpr std::chrono::milliseconds kMostBetweenLooks{100};
+
+std::string nameOf(int signal) {
+  const char* p_name = sigabbrev_np(signal);
+  return p_name != nullptr ? "SIG" + std::string(p_name) : std::to_string(signal);
+}
+
+}  // namespace
+
+WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started)
+    : m_socket(home, asio::local::stream_protocol(), started.socket),
+      m_process(started.process),
+      m_looked(Clock::now()) {
+  readHead();
+}
+
+WorldProcess::~WorldProcess() {
+  if (m_process <= 0) return;
+  kill();
+  int status = 0;
+  while (waitpid(m_process, &status, 0) < 0 && errno == EINTR) continue;
+}
+
+void WorldProcess::kill() {
+  if (m_process > 0) ::kill(m_process, SIGKILL);
+}
+
+// ---- down -------------------------------------------------------------------------------------------------
+
+// Who joins a world that has ended joins the next one (Room::changeWorld).
+std::uint32_t WorldProcess::join(std::uint32_t player, const std::string& name, df::Color color) {
+  if (m_state < State::kEnding) {
+    m_turn.inputs.push_back({.kind = df::InputQueue::kJoin, .player = player, .name = name, .color = color});
+  }
+  return player;
+}
+
+void WorldProcess::leave(std::uint32_t player) {
+  if (m_state < State::kEnding) m_turn.inputs.push_back({.kind = df::InputQueue::kLeave, .player = player});
+}
+
+void WorldProcess::key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) {
+  if (!takesInput()) return;
+  m_turn.inputs.push_back({.kind = df::InputQueue::kKey, .player = player, .key = key, .key_action = action});
+}
+
+void WorldProcess::mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x,
+                         int y, const df::Seen& seen) {
+  if (!takesInput()) return;
+  m_turn.inputs.push_back({.kind = df::InputQueue::kMouse,
+                           .player = player,
+                           .seen = {seen.known, seen.base - m_later, seen.drawn - m_later},
+                           .button = button,
+                           .mouse_action = action,
+                           .x = x,
+                           .y = y});
+}
+
+void WorldProcess::tick(bool watched, bool truth) {
+  if (!std::exchange(m_began, true)) {
+    m_later = m_next_tick - 1;
+    m_views.emplace(m_later);
+  }
+  ++m_next_tick;
+  m_turn.watched = watched;
+  m_turn.wants_truth = truth;
+  if (!writeTurn(std::exchange(m_turn, {}), m_out)) return fail(WorldEnd::kBroken, "was asked too much");
+  m_state = State::kTicking;
+  m_waited = {};
+  // What becomes of it, the answer tells.
+  asio::async_write(m_socket, asio::buffer(m_out), [](const asio::error_code&, std::size_t) {});
+}
+
+// ---- up ---------------------------------------------------------------------------------------------------
+
+void WorldProcess::readHead() {
+  m_in.resize(kWorldFrameHead);
+  asio::async_read(m_socket, asio::buffer(m_in),
+                   [self = std::weak_ptr(m_self)](const asio::error_code& error, std::size_t) {
+                     const auto p_self = self.lock();
+                     if (p_self == nullptr) return;
+                     error ? (*p_self)->hangUp() : (*p_self)->readFields();
+                   });
+}
+
+void WorldProcess::readFields() {
+  const auto size = loadLittleEndian<std::uint32_t>(m_in.data());
+  if (size > kMaxWorldFrame) return fail(WorldEnd::kBroken, "sent too long a frame");
+  m_in.resize(size);
+  asio::async_read(m_socket, asio::buffer(m_in),
+                   [self = std::weak_ptr(m_self)](const asio::error_code& error, std::size_t) {
+                     const auto p_self = self.lock();
+                     if (p_self == nullptr) return;
+                     error ? (*p_self)->hangUp() : (*p_self)->onFrame();
+                   });
+}
+
+void WorldProcess::onFrame() {
+  if (m_state >= State::kEnding) return;
+  const bool starts = m_state == State::kStarting;
+  if (m_state == State::kReady || starts != m_in.empty()) return fail(WorldEnd::kBroken, "spoke out of turn");
+  if (!starts) {
+    auto answer = readAnswer(m_in, *m_views, m_view);
+    if (!answer) return fail(WorldEnd::kBroken, "sent what no world sends");
+    answer->leavers.insert(answer->leavers.begin(), m_answer.leavers.begin(), m_answer.leavers.end());
+    m_answer = *std::move(answer);
+  }
+  m_state = State::kReady;
+  m_waited = {};
+  readHead();
+  if (m_answer.game_over) {
+    m_state = State::kEnding;
+    m_expected = true;
+  }
+  if (!starts) ticked();
+}
+
+std::vector<std::uint32_t> WorldProcess::takeLeavers() {
+  return std::exchange(m_answer.leavers, {});
+}
+
+df::Canvas WorldProcess::renderPlayer(std::uint32_t player) const {
+  const auto found = std::find_if(m_answer.pictures.begin(), m_answer.pictures.end(),
+                                  [player](const WorldPicture& picture) { return picture.player == player; });
+  return found != m_answer.pictures.end() ? found->canvas : df::Canvas(m_view.view_width, m_view.view_height);
+}
+
+// ---- its end ----------------------------------------------------------------------------------------------
+
+void WorldProcess::close() {
+  m_expected = true;
+  hangUp();
+}
+
+void WorldProcess::hangUp() {
+  if (m_state >= State::kEnding) return;
+  m_state = State::kEnding;
+  m_waited = {};
+  asio::error_code ignored;
+  m_socket.shutdown(asio::local::stream_protocol::socket::shutdown_both, ignored);
+}
+
+void WorldProcess::fail(WorldEnd::Why why, const std::string& text) {
+  if (!m_failure) m_failure = WorldEnd{why, text};
+  hangUp();
+  kill();
+}
+
+std::chrono::nanoseconds WorldProcess::patience() const {
+  switch (m_state) {
+    case State::kStarting:
+      return kStartTime;
+    case State::kTicking:
+      return kAnswerTime;
+    case State::kEnding:
+      return kEndTime;
+    case State::kReady:
+    case State::kEnded:
+      break;
+  }
+  return std::chrono::nanoseconds::max();
+}
+
+void WorldProcess::look(std::uint32_t tick) {
+  if (!m_began) m_next_tick = std::max(tick, 1u);
+  if (m_state == State::kEnded) return;
+  const Clock::time_point now = Clock::now();
+  m_waited += std::min<std::chrono::nanoseconds>(now - m_looked, kMostBetweenLooks);
+  m_looked = now;
+  if (int status = 0; m_process > 0 && waitpid(m_process, &status, WNOHANG) == m_process) {
+    m_process = -1;
+    m_status = status;
+    m_waited = {};
+  }
+  // What it said last comes before its end, unless a process that it has left behind keeps the line open.
+  if (m_status && (m_state == State::kEnding || m_waited > kEndTime)) return finish(*m_status);
+  if (m_waited <= patience()) return;
+  if (m_state == State::kEnding) return kill();
+  fail(WorldEnd::kHung, m_state == State::kStarting ? "did not begin" : "did not answer any more");
+}
+
+void WorldProcess::finish(int status) {
+  m_state = State::kEnded;
+  asio::error_code ignored;
+  m_socket.close(ignored);
+  if (m_failure) {
+    m_end = m_failure;
+  } else if (WIFSIGNALED(status) && !(m_expected && WTERMSIG(status) == SIGKILL)) {
+    m_end = WorldEnd{WorldEnd::kCrashed, "crashed (" + nameOf(WTERMSIG(status)) + ")"};
+  } else if (WIFEXITED(status) && WEXITSTATUS(status) != 0) {
+    m_end = WorldEnd{WorldEnd::kCrashed, "ended with code " + std::to_string(WEXITSTATUS(status))};
+  } else {
+    m_end = WorldEnd{WorldEnd::kGameOver, "is over"};
+  }
+}
+
+}  // namespace naiad

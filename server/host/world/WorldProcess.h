@@ -1,0 +1,104 @@
+// A world in a process of its own, over a Unix socket (WorldMessages.h). The other end is a WorldServer.
+//
+// A world that does not answer in time is killed; one that crashes has ended, and so has one that sends what
+// no world sends. None of it costs the host more than that world.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <asio/local/stream_protocol.hpp>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/world/WorldMessages.h"
+#include "host/world/WorldPort.h"
+#include "host/world/WorldStart.h"
+
+namespace naiad {
+
+class WorldProcess : public WorldPort {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// For an answer; then the game hangs.
+  static constexpr std::chrono::seconds kAnswerTime{5};
+  /// From the start of the process to GM.run().
+  static constexpr std::chrono::seconds kStartTime{30};
+  /// From the end of the game to that of its process: what main() does after GM.run().
+  static constexpr std::chrono::seconds kEndTime{1};
+  /// Keys and clicks that wait for a world, at most; those beyond are dropped.
+  static constexpr std::size_t kMostInputs = 16'384;
+
+  /// Takes over the process and the socket. `home` runs its handlers.
+  WorldProcess(asio::io_context& home, const StartedWorld& started);
+  /// Kills it, if it has not ended.
+  ~WorldProcess() override;
+  WorldProcess(const WorldProcess&) = delete;
+  WorldProcess& operator=(const WorldProcess&) = delete;
+
+  std::uint32_t join(std::uint32_t player, const std::string& name, df::Color color) override;
+  void leave(std::uint32_t player) override;
+  void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) override;
+  void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x, int y,
+             const df::Seen& seen) override;
+  void setHeard(std::uint32_t player) override { m_turn.heard_player = player; }
+  void endGame() override { m_turn.ends_game = true; }
+  bool isReady() const override { return m_state == State::kReady; }
+  void tick(bool watched, bool truth) override;
+  /// Before the first tick: that of the host's. From there on it counts its own.
+  std::uint32_t nextTick() const override { return m_next_tick; }
+  const df::WorldView& view() const override { return m_view; }
+  /// The world's own process looks back.
+  void published(const Publisher& /*publisher*/) override {}
+  std::vector<std::uint32_t> takeLeavers() override;
+  bool isGameOver() const override { return m_answer.game_over; }
+  df::Canvas renderPlayer(std::uint32_t player) const override;
+  void look(std::uint32_t tick) override;
+  std::optional<WorldEnd> end() const override { return m_end; }
+  void close() override;
+
+  /// For tests that watch the process itself.
+  pid_t process() const { return m_process; }
+
+ private:
+  enum class State {
+    kStarting,
+    kReady,
+    kTicking,
+    kEnding,  ///< the socket is closed, or will be, and the process comes to its end
+    kEnded,
+  };
+
+  bool takesInput() const { return m_state < State::kEnding && m_turn.inputs.size() < kMostInputs; }
+  void readHead();
+  void readFields();
+  void onFrame();
+  void hangUp();
+  void fail(WorldEnd::Why why, const std::string& text);
+  void finish(int status);
+  std::chrono::nanoseconds patience() const;
+  void kill();
+
+  asio::local::stream_protocol::socket m_socket;
+  pid_t m_process;  ///< until it was waited for
+  State m_state = State::kStarting;
+  std::optional<int> m_status;        ///< then
+  std::optional<WorldEnd> m_failure;  ///< why it was killed
+  std::optional<WorldEnd> m_end;
+  Clock::time_point m_looked;
+  std::chrono::nanoseconds m_waited{0};  ///< in this state; time in which nobody looked does not count
+  std::uint32_t m_next_tick = 1;
+  std::uint32_t m_later = 0;  ///< by which ticks here come later than the world's own
+  bool m_began = false;
+  bool m_expected = false;  ///< to end: the game is over, or the host closed it
+  WorldTurn m_turn;         ///< the next one
+  std::string m_out;
+  std::string m_in;
+  std::optional<ViewReader> m_views;
+  df::WorldView m_view;
+  WorldAnswer m_answer;
+  std::shared_ptr<WorldProcess*> m_self = std::make_shared<WorldProcess*>(this);  ///< handlers may come later
+};
+
+}  // namespace naiad

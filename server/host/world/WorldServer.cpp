@@ -1,0 +1,132 @@
+#include "host/world/WorldServer.h"
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
+
+namespace naiad {
+
+namespace {
+
+bool receiveAll(int socket, char* to, std::size_t count) {
+  while (count > 0) {
+    const ssize_t got = ::recv(socket, to, count, 0);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    to += got;
+    count -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+}  // namespace
+
+WorldServer::~WorldServer() {
+  close();
+}
+
+void WorldServer::close() {
+  if (m_socket >= 0) ::close(m_socket);
+  m_socket = -1;
+}
+
+bool WorldServer::receive(std::string& fields) const {
+  char head[kWorldFrameHead];
+  if (!receiveAll(m_socket, head, sizeof head)) return false;
+  const auto size = loadLittleEndian<std::uint32_t>(head);
+  if (size > kMaxWorldFrame) return false;
+  fields.resize(size);
+  return receiveAll(m_socket, fields.data(), size);
+}
+
+bool WorldServer::send(const std::string& frame) const {
+  for (std::size_t sent = 0; sent < frame.size();) {
+    const ssize_t count = ::send(m_socket, frame.data() + sent, frame.size() - sent, MSG_NOSIGNAL);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    sent += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+void WorldServer::run(df::World& world) {
+  world.setGameOverLeaves(m_leaves);
+  FieldWriter(m_frame).finish();  // ready
+  bool goes_on = send(m_frame);
+  for (std::string fields; goes_on && receive(fields);) {
+    const auto turn = readTurn(fields);
+    if (!turn) {
+      world.log("The host said what no host says; the game is over.");
+      break;
+    }
+    lookBack(*turn, world);
+    take(*turn, world);
+    world.tick();
+    goes_on = answer(*turn, world) && !world.isGameOver();
+  }
+  world.setGameOver();
+  world.setHindsight(nullptr);
+  close();
+}
+
+void WorldServer::take(const WorldTurn& turn, df::World& world) {
+  using Queue = df::InputQueue;
+  for (const Queue::Input& input : turn.inputs) {
+    switch (input.kind) {
+      case Queue::kJoin:
+        world.join(input.name, input.color, input.player);
+        break;
+      case Queue::kLeave:
+        world.leave(input.player);
+        break;
+      case Queue::kKey:
+        world.key(input.player, input.key, input.key_action);
+        break;
+      case Queue::kMouse:
+        world.mouse(input.player, input.mouse_action, input.button, input.x, input.y, input.seen);
+        break;
+    }
+  }
+  if (turn.heard_player != 0 || world.findExtras() != nullptr) {
+    world.extras().heard_player = turn.heard_player;
+  }
+  if (turn.ends_game) world.setGameOver();
+  world.setWatched(turn.watched);
+}
+
+void WorldServer::lookBack(const WorldTurn& turn, df::World& world) {
+  const bool wanted = turn.watched && world.isLookingBack();
+  if (wanted == m_publisher.has_value()) return;
+  wanted ? static_cast<void>(m_publisher.emplace()) : m_publisher.reset();
+  m_look_back = LookBack();
+  world.setHindsight(wanted ? &m_look_back : nullptr);
+  world.setWatched(false);  // so that it is told from the beginning
+}
+
+bool WorldServer::answer(const WorldTurn& turn, df::World& world) {
+  if (m_publisher) {
+    m_publisher->update(world.view());
+    m_look_back.note(*m_publisher, world.view());
+  }
+  WorldAnswer answer;
+  answer.game_over = world.isGameOver();
+  answer.leavers = world.takeLeavers();
+  answer.has_view = turn.watched;
+  if (turn.watched && turn.wants_truth) {
+    for (const df::PlayerFacts& player : world.view().players) {
+      answer.pictures.push_back({player.id, world.renderPlayer(player.id)});
+    }
+  }
+  if (!writeAnswer(answer, turn.watched ? &world.view() : nullptr, m_views, m_frame)) {
+    world.log("The world is too large to be told in " + std::to_string(kMaxWorldFrame) +
+              " bytes; the game is over.");
+    return false;
+  }
+  return send(m_frame);
+}
+
+}  // namespace naiad

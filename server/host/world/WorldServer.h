@@ -1,0 +1,44 @@
+// The other end of a WorldProcess: what GM.run() is in a process that a host has started for a world.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/world/Runner.h"
+#include "host/snapshot/LookBack.h"
+#include "host/snapshot/Publisher.h"
+#include "host/world/WorldMessages.h"
+
+namespace naiad {
+
+class WorldServer : public df::Runner {
+ public:
+  /// `socket`: from takeWorldSocket(), closed by this; below 0: run() ends at once. `leaves`: a player whose
+  /// key ends the game leaves it (World::setGameOverLeaves).
+  WorldServer(int socket, bool leaves) : m_socket(socket), m_leaves(leaves) {}
+  ~WorldServer() override;
+  WorldServer(const WorldServer&) = delete;
+  WorldServer& operator=(const WorldServer&) = delete;
+
+  /// Tick as the host says, until the game is over or the host is gone.
+  void run(df::World& world) override;
+
+ private:
+  bool receive(std::string& fields) const;
+  bool send(const std::string& frame) const;
+  void take(const WorldTurn& turn, df::World& world);
+  void lookBack(const WorldTurn& turn, df::World& world);
+  bool answer(const WorldTurn& turn, df::World& world);
+  void close();
+
+  int m_socket;
+  bool m_leaves;
+  ViewWriter m_views;
+  std::string m_frame;
+  // A game that looks back asks in the middle of a tick, so what clients have been told is worked out here,
+  // too.
+  std::optional<Publisher> m_publisher;
+  LookBack m_look_back;
+};
+
+}  // namespace naiad

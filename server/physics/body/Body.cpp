@@ -1,0 +1,208 @@
+#include "physics/body/Body.h"
+
+#include <cmath>
+#include <utility>
+
+#include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
+#include "physics/body/BodyLayer.h"
+#include "physics/body/Field.h"
+
+namespace df {
+
+namespace {
+
+using naiad::physics::BodyMedium;
+using naiad::physics::BodyRow;
+using naiad::physics::Vec2;
+
+constexpr double kLeastMass = 1e-30;
+constexpr double kMost = 1e30;
+
+bool isUsable(double value) {
+  return std::abs(value) <= kMost;  // not if it is no number
+}
+bool isUsable(Vector v) {
+  return isUsable(v.x()) && isUsable(v.y());
+}
+bool isUsableSize(double value) {
+  return value >= 0 && value <= kMost;
+}
+
+}  // namespace
+
+Body::Body() : m_table(BodyLayer::of(*getWorld()).table()), m_index(m_table->add(this, key())) {
+  WorldStore& store = getWorld()->store();
+  store.set(key().slot, WorldStore::kBody, true);
+  BodyRow& mine = row();
+  mine.told_position = store.position(key().slot);
+  mine.told_velocity = store.velocity(key().slot);
+  mine.place = m_table->metric.placeOf(mine.told_position);
+}
+
+Body::~Body() {
+  m_table->remove(m_index);
+}
+
+BodyRow& Body::row() const {
+  return m_table->row(m_index);
+}
+
+int Body::refuseAs(const char* what) const {
+  if (World* p_world = getWorld()) p_world->refuse(getType(), what);
+  return -1;
+}
+
+void Body::absorb() const {
+  if (World* p_world = getWorld()) {  // its own numbers, for a Vector has not all their digits far away
+    const std::uint32_t slot = key().slot;
+    return m_table->absorb(m_index, p_world->store().position(slot), p_world->store().velocity(slot));
+  }
+  const auto position = toFixed(Object::getPosition());
+  const auto velocity = toFixed(Object::getVelocity(), kMaxVelocityCells);
+  m_table->absorb(m_index, position.value_or(row().told_position), velocity.value_or(row().told_velocity));
+}
+
+int Body::setMass(double mass) {
+  if (!(mass >= kLeastMass && mass <= kMost)) return refuseAs("setMass");
+  row().mass = mass;
+  row().inverse_mass = row().is_kinematic ? 0 : 1 / mass;
+  m_table->joints.markChanged();
+  return 0;
+}
+
+double Body::getMass() const {
+  return row().mass;
+}
+
+int Body::setGravityScale(double scale) {
+  if (!isUsable(scale)) return refuseAs("setGravityScale");
+  row().gravity_scale = scale;
+  return 0;
+}
+
+double Body::getGravityScale() const {
+  return row().gravity_scale;
+}
+
+void Body::setKinematic(bool kinematic) {
+  row().is_kinematic = kinematic;
+  row().inverse_mass = kinematic ? 0 : 1 / row().mass;
+  m_table->joints.markChanged();
+}
+
+bool Body::isKinematic() const {
+  return row().is_kinematic;
+}
+
+int Body::setRestitution(double restitution) {
+  if (!(restitution >= 0 && restitution <= 1)) return refuseAs("setRestitution");
+  row().restitution = restitution;
+  return 0;
+}
+
+double Body::getRestitution() const {
+  return row().restitution;
+}
+
+int Body::setFriction(double friction) {
+  if (!isUsableSize(friction)) return refuseAs("setFriction");
+  row().friction = friction;
+  return 0;
+}
+
+double Body::getFriction() const {
+  return row().friction;
+}
+
+void Body::setContactEnds(bool contact_ends) {
+  row().hears_ends = contact_ends;
+}
+
+bool Body::hasContactEnds() const {
+  return row().hears_ends;
+}
+
+int Body::setPosition(Vector position) {
+  if (Object::setPosition(position) != 0) return -1;
+  BodyRow& mine = row();
+  mine.place = m_table->metric.placeAtCells(position);
+  mine.told_position = *toFixed(position);
+  mine.frozen = false;
+  return 0;
+}
+
+Vector Body::getPosition() const {
+  absorb();
+  return m_table->metric.cellsOf(row().place);
+}
+
+Vector Body::getWayFrom(Vector point) const {
+  if (!toFixed(point)) return {};
+  absorb();
+  return m_table->metric.toCells(row().place - m_table->metric.placeAtCells(point));
+}
+
+int Body::setVelocity(Vector velocity) {
+  if (Object::setVelocity(velocity) != 0) return -1;
+  BodyRow& mine = row();
+  mine.velocity = m_table->metric.fromCells(velocity);
+  mine.told_velocity = *toFixed(velocity, kMaxVelocityCells);
+  mine.frozen = false;
+  return 0;
+}
+
+Vector Body::getVelocity() const {
+  absorb();
+  return m_table->metric.toCells(row().velocity);
+}
+
+int Body::applyForce(Vector force) {
+  const Vector sum = m_table->metric.toCells(row().force) + force;
+  if (!isUsable(force) || !isUsable(sum)) return refuseAs("applyForce");
+  row().force = m_table->metric.fromCells(sum);
+  return 0;
+}
+
+int Body::applyImpulse(Vector impulse) {
+  absorb();
+  const Vector change = m_table->metric.toCells(row().inverse_mass * m_table->metric.fromCells(impulse));
+  const Vector velocity = getVelocity() + change;
+  if (!isUsable(impulse) || !toFixed(velocity, kMaxVelocityCells)) return refuseAs("applyImpulse");
+  return setVelocity(velocity);
+}
+
+int Body::setDrag(double linear, double quadratic) {
+  if (!isUsableSize(linear) || !isUsableSize(quadratic)) return refuseAs("setDrag");
+  BodyMedium& medium = m_table->medium(m_index);
+  medium.linear_drag = linear;
+  medium.quadratic_drag = quadratic;
+  m_table->classify(m_index);
+  return 0;
+}
+
+int Body::setSpring(Vector anchor, double stiffness, double damping) {
+  const bool good = toFixed(anchor) && isUsableSize(stiffness) && isUsableSize(damping);
+  if (!good) return refuseAs("setSpring");
+  BodyMedium& medium = m_table->medium(m_index);
+  medium.anchor = m_table->metric.placeAtCells(anchor);
+  medium.spring = {stiffness, damping};
+  m_table->classify(m_index);
+  return 0;
+}
+
+int Body::setField(const Field* p_field, Vector origin) {
+  if (!toFixed(origin)) return refuseAs("setField");
+  BodyMedium& medium = m_table->medium(m_index);
+  medium.field = p_field != nullptr ? &p_field->forces() : nullptr;
+  medium.field_origin = m_table->metric.placeAtCells(origin);
+  m_table->classify(m_index);
+  return 0;
+}
+
+bool Body::isFrozen() const {
+  absorb();
+  return row().frozen;
+}
+
+}  // namespace df

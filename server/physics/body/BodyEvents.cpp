@@ -1,0 +1,59 @@
+#include "physics/body/BodyEvents.h"
+
+#include <algorithm>
+
+#include "engine/world/EventCollision.h"
+#include "engine/world/Hearing.h"
+#include "engine/world/WorldStore.h"
+#include "physics/body/Body.h"
+#include "physics/body/EventContactEnd.h"
+#include "physics/body/SoftObject.h"
+
+namespace df {
+
+namespace {
+
+using naiad::physics::BodyContact;
+
+bool hearsEnds(const WorldStore& store, ObjectKey key) {
+  if (!store.hears(key.slot) || !store.has(key.slot, WorldStore::kBody)) return false;
+  const Object* p_object = store.object(key.slot);
+  if (const auto* p_body = dynamic_cast<const Body*>(p_object)) return p_body->hasContactEnds();
+  const auto* p_soft = dynamic_cast<const SoftBody*>(p_object);
+  return p_soft != nullptr && p_soft->hasContactEnds();
+}
+
+void tellEnd(World& world, const BodyContact& contact) {
+  const WorldStore& store = world.store();
+  const EventContactEnd event(store.object(contact.first.slot), store.object(contact.second.slot));
+  if (hearsEnds(store, contact.first)) {
+    world.hear(contact.first, *event.getObject1(), event);
+    if (!store.isStill(contact.first) || !store.isStill(contact.second)) return;
+  }
+  if (hearsEnds(store, contact.second)) world.hear(contact.second, *event.getObject2(), event);
+}
+
+}  // namespace
+
+void tellContacts(World& world, std::vector<BodyContact>& contacts) {
+  std::stable_sort(contacts.begin(), contacts.end(), [](const BodyContact& a, const BodyContact& b) {
+    if (a.time != b.time) return a.time < b.time;
+    if (a.first_order != b.first_order) return a.first_order < b.first_order;
+    return a.second_order < b.second_order;
+  });
+  const WorldStore& store = world.store();
+  for (const BodyContact& contact : contacts) {
+    if (!store.isCurrent(contact.first) || !store.isCurrent(contact.second)) continue;
+    if (!contact.is_begin) {
+      tellEnd(world, contact);
+      continue;
+    }
+    const std::uint32_t slot = contact.first.slot;
+    EventCollision event(store.object(slot), store.object(contact.second.slot),
+                         Vector::fromFixed(store.position(slot)));
+    event.setImpulse(contact.impulse);
+    tellBoth(world, contact.first, contact.second, event);
+  }
+}
+
+}  // namespace df

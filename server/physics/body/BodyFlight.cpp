@@ -1,0 +1,143 @@
+#include "physics/body/BodyFlight.h"
+
+#include <cmath>
+
+#include "physics/flight/FlightDrag.h"
+#include "physics/flight/FlightField.h"
+#include "physics/flight/FlightSpring.h"
+
+namespace naiad::physics {
+
+namespace {
+
+/// Everything at once, where no formula has it all.
+class Everything : public ForceField {
+ public:
+  Everything(const BodyMedium& medium, Vec2 acceleration, Vec2 to_anchor, Vec2 to_field)
+      : m_medium(medium), m_acceleration(acceleration), m_to_anchor(to_anchor), m_to_field(to_field) {}
+
+  Vec2 acceleration(Vec2 way, Vec2 velocity, double time) const override {
+    Vec2 a = m_acceleration - m_medium.spring.stiffness * (way - m_to_anchor) - damping(velocity) * velocity;
+    if (m_medium.field != nullptr) a += m_medium.field->acceleration(way - m_to_field, velocity, time);
+    return a;
+  }
+  bool jacobian(Vec2 way, Vec2 velocity, double time, Mat22& by_position, Mat22& by_velocity) const override {
+    // Differences see a field without a Jacobian and all the rest together.
+    if (m_medium.field != nullptr &&
+        !m_medium.field->jacobian(way - m_to_field, velocity, time, by_position, by_velocity)) {
+      return false;
+    }
+    if (m_medium.field == nullptr) by_position = by_velocity = Mat22{};
+    const double speed = length(velocity);
+    const double q = speed > 0 ? m_medium.quadratic_drag / speed : 0;
+    const double c = damping(velocity);
+    by_position.xx -= m_medium.spring.stiffness;
+    by_position.yy -= m_medium.spring.stiffness;
+    by_velocity.xx -= c + q * velocity.x * velocity.x;
+    by_velocity.xy -= q * velocity.x * velocity.y;
+    by_velocity.yx -= q * velocity.x * velocity.y;
+    by_velocity.yy -= c + q * velocity.y * velocity.y;
+    return true;
+  }
+
+ private:
+  double damping(Vec2 velocity) const {
+    return m_medium.spring.damping + m_medium.linear_drag + m_medium.quadratic_drag * length(velocity);
+  }
+
+  const BodyMedium& m_medium;
+  Vec2 m_acceleration;
+  Vec2 m_to_anchor;  // from where the tick began
+  Vec2 m_to_field;
+};
+
+// A spring with a length, and the game's field behind it.
+class LongSpring : public ForceField {
+ public:
+  LongSpring(double length, Spring spring, const ForceField* p_field, Vec2 to_field)
+      : m_length(length), m_spring(spring), m_p_field(p_field), m_to_field(to_field) {}
+
+  Vec2 acceleration(Vec2 way, Vec2 velocity, double time) const override {
+    Vec2 a;
+    const double distance = length(way);
+    if (distance > 0) {
+      const Vec2 along = way / distance;
+      const double pull =
+          m_spring.stiffness * (distance - m_length) + m_spring.damping * dot(along, velocity);
+      a = -pull * along;
+    }
+    if (m_p_field != nullptr) a += m_p_field->acceleration(way - m_to_field, velocity, time);
+    return a;
+  }
+
+ private:
+  double m_length;
+  Spring m_spring;
+  const ForceField* m_p_field;
+  Vec2 m_to_field;  // from the spring's anchor
+};
+
+// Can it be treated as if it stayed on this side of the anchor, on one line with it? Undamped it would get
+// farthest.
+bool staysOnLine(Vec2 way, Vec2 velocity, Vec2 acceleration, double spring_length, double stiffness) {
+  const double distance = length(way);
+  if (distance == 0 || stiffness == 0) return false;
+  if (cross(way, velocity) != 0 || cross(way, acceleration) != 0) return false;
+  const double pull = length(acceleration) / stiffness;
+  const double swing =
+      std::abs(distance - spring_length) + 2 * pull + length(velocity) / std::sqrt(stiffness);
+  return swing < spring_length;
+}
+
+}  // namespace
+
+IntegratorStatus flyHanging(const BodyRow& row, const BodyMedium& medium, const Joint& spring, Place anchor,
+                            Vec2 acceleration, double time, const IntegratorOptions& options, Flown& flown,
+                            IntegratorCounters& counters) {
+  const Spring own = {row.inverse_mass * spring.stiffness, row.inverse_mass * spring.damping};
+  const Vec2 way = row.place - anchor;
+  const bool is_plain = row.flight == FlightKind::kFree || row.flight == FlightKind::kLinearDrag;
+  const bool is_linear =
+      spring.length == 0 || staysOnLine(way, row.velocity, acceleration, spring.length, own.stiffness);
+  if (is_plain && is_linear) {
+    const Vec2 rest = spring.length == 0 ? Vec2{} : (spring.length / length(way)) * way;
+    flown = flySpring(way - rest, row.velocity, acceleration,
+                      {own.stiffness, own.damping + medium.linear_drag}, 1);
+    const bool finite = isFinite(flown.displacement) && isFinite(flown.velocity);
+    return finite ? IntegratorStatus::kDone : IntegratorStatus::kNotFinite;
+  }
+  const LongSpring force(spring.length, own, medium.field, medium.field_origin - anchor);
+  BodyMedium all = medium;
+  all.field = &force;
+  const Everything everything(all, acceleration, medium.anchor - row.place, anchor - row.place);
+  return flyField(everything, Vec2{}, row.velocity, time, 1, options, flown, counters);
+}
+
+IntegratorStatus flyBody(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time,
+                         double t, const IntegratorOptions& options, Flown& flown,
+                         IntegratorCounters& counters) {
+  switch (row.flight) {
+    case FlightKind::kFree:
+      flown = flyFree(row.velocity, acceleration, t);
+      break;
+    case FlightKind::kLinearDrag:
+      flown = flyLinearDrag(row.velocity, acceleration, medium.linear_drag, t);
+      break;
+    case FlightKind::kSpring: {
+      const Spring spring{medium.spring.stiffness, medium.spring.damping + medium.linear_drag};
+      flown = flySpring(row.place - medium.anchor, row.velocity, acceleration, spring, t);
+      break;
+    }
+    case FlightKind::kQuadraticDrag:
+      return flyQuadraticDrag(row.velocity, acceleration, medium.quadratic_drag, t, flown, counters);
+    case FlightKind::kField: {
+      const Everything everything(medium, acceleration, medium.anchor - row.place,
+                                  medium.field_origin - row.place);
+      return flyField(everything, Vec2{}, row.velocity, time, t, options, flown, counters);
+    }
+  }
+  const bool finite = isFinite(flown.displacement) && isFinite(flown.velocity);
+  return finite ? IntegratorStatus::kDone : IntegratorStatus::kNotFinite;
+}
+
+}  // namespace naiad::physics

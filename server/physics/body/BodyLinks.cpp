@@ -1,0 +1,188 @@
+#include "physics/body/BodyLinks.h"
+
+#include <utility>
+
+namespace naiad::physics {
+
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+int BodyLinks::bodyOf(int row) {
+  if (row != BodyJoints::kWorld && m_body_of[at(row)] >= 0) return m_body_of[at(row)];
+  m_bodies.emplace_back();
+  m_bodies.back().inverse_mass = 0;
+  m_row_of.push_back(row);
+  const int body = static_cast<int>(m_bodies.size()) - 1;
+  if (row != BodyJoints::kWorld) m_body_of[at(row)] = body;
+  return body;
+}
+
+// Groups that may touch something are somebody else's.
+void BodyLinks::leaveOut(BodyTable& table, const std::vector<BodyPlan>& plans) {
+  bool is_other = findGuests(plans);
+  m_has_left_out = !m_guests.empty();
+  m_is_rigid.resize(m_kinds.size(), 0);
+  for (const BodyPlan& plan : plans) {
+    if (!isJoined(plan.index) || plan.is_kinematic) continue;
+    const std::uint8_t is_rigid = plan.way == BodyWay::kRigid ? 1 : 0;
+    is_other = is_other || m_is_rigid[plan.index] != is_rigid;
+    m_is_rigid[plan.index] = is_rigid;
+    m_has_left_out = m_has_left_out || is_rigid != 0;
+  }
+  if (!is_other) return;
+  collect(table);
+  m_is_connected = false;
+}
+
+void BodyLinks::prepare(BodyTable& table) {
+  if (m_changes == table.joints.changes()) return;
+  m_changes = table.joints.changes();
+  m_is_rigid.clear();
+  collect(table);
+  m_is_connected = false;
+}
+
+void BodyLinks::collect(BodyTable& table) {
+  const std::vector<BodyJoints::Entry>& entries = table.joints.entries();
+  std::size_t rows = 0;
+  for (const BodyJoints::Entry& entry : entries) {
+    if (!entry.used) continue;
+    for (const int row : {entry.joint.a, entry.joint.b}) rows = std::max(rows, at(row + 1));
+  }
+  m_kinds.assign(rows, kNoJoint);
+  std::vector<int> joints_of(rows, 0);
+  for (const BodyJoints::Entry& entry : entries) {
+    if (!entry.used) continue;
+    for (const int row : {entry.joint.a, entry.joint.b}) {
+      if (row != BodyJoints::kWorld) ++joints_of[at(row)], m_kinds[at(row)] = kJoined;
+    }
+  }
+  m_bodies.clear();
+  m_row_of.clear();
+  m_body_of.assign(rows, -1);
+  m_joints.clear();
+  m_entry_of.clear();
+  m_tunings.clear();
+  for (std::uint32_t i = 0; i < entries.size(); ++i) {
+    const BodyJoints::Entry& entry = entries[i];
+    if (!entry.used) continue;
+    const bool is_spring = entry.joint.kind == JointKind::kSpring && entry.joint.a == BodyJoints::kWorld;
+    if (is_spring && joints_of[at(entry.joint.b)] == 1 && entry.joint.anchor_b == Vec2{}) {
+      m_kinds[at(entry.joint.b)] = static_cast<int>(i);
+      continue;
+    }
+    const auto isRigid = [&](int row) {
+      return row >= 0 && at(row) < m_is_rigid.size() && m_is_rigid[at(row)] != 0;
+    };
+    if (isRigid(entry.joint.a) || isRigid(entry.joint.b)) continue;
+    Joint joint = entry.joint;
+    joint.a = bodyOf(entry.joint.a);
+    joint.b = bodyOf(entry.joint.b);
+    if (entry.joint.a == BodyJoints::kWorld) m_bodies[at(joint.a)].place = entry.anchor;
+    if (entry.joint.b == BodyJoints::kWorld) m_bodies[at(joint.b)].place = entry.anchor;
+    m_joints.push_back(joint);
+    m_entry_of.push_back(i);
+    m_tunings.push_back(entry.tunings);
+  }
+  for (const BodyTable::Index guest : m_guests) {
+    if (guest >= m_body_of.size()) m_body_of.resize(guest + 1, -1);
+    bodyOf(static_cast<int>(guest));
+  }
+}
+
+// Who takes no part stands, and holds what hangs on him.
+void BodyLinks::load(const BodyTable& table, const std::vector<BodyPlan>& plans,
+                     const std::vector<double>& unit_inertias) {
+  m_plan_of.assign(m_bodies.size(), -1);
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    const int body = bodyAt(plans[i].index);
+    if (body >= 0) m_plan_of[at(body)] = static_cast<int>(i);
+  }
+  for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+    if (m_row_of[i] == BodyJoints::kWorld) continue;
+    JointBody& body = m_bodies[i];
+    const auto index = static_cast<BodyTable::Index>(m_row_of[i]);
+    const BodyRow& row = table.row(index);
+    const BodyForm& form = table.form(index);
+    JointBody next;
+    next.place = row.place;
+    next.rotation = form.rotation;
+    next.inverse_mass = 0;
+    if (m_plan_of[i] >= 0) {
+      const BodyPlan& plan = plans[at(m_plan_of[i])];
+      const double unit_inertia = unit_inertias[at(m_plan_of[i])];
+      next.velocity = row.velocity;
+      next.spin = form.spin;
+      next.inverse_mass = row.inverse_mass;
+      next.inverse_inertia = unit_inertia > 0 ? row.inverse_mass / unit_inertia : 0;
+      next.force = row.mass * plan.push;
+      next.torque = form.torque;
+      if (!isValid(next)) {
+        next = {};
+        next.place = row.place;
+        next.inverse_mass = 0;
+      }
+    }
+    const bool is_other =
+        next.inverse_mass != body.inverse_mass || next.inverse_inertia != body.inverse_inertia;
+    if (is_other) m_is_connected = false;
+    body = next;
+  }
+}
+
+void BodyLinks::step(BodyTable& table, std::vector<BodyPlan>& plans, const std::vector<double>& unit_inertias,
+                     const std::vector<BodyMeeting>& meetings, BodyContacts& contacts) {
+  load(table, plans, unit_inertias);
+  std::vector<BodyJoints::Entry>& entries = table.joints.entries();
+  for (std::size_t i = 0; i < m_joints.size(); ++i) {
+    BodyJoints::Entry& entry = entries[m_entry_of[i]];
+    if (std::exchange(m_tunings[i], entry.tunings) == entry.tunings) continue;
+    Joint joint = entry.joint;
+    joint.a = m_joints[i].a;
+    joint.b = m_joints[i].b;
+    joint.memory = m_joints[i].memory;
+    m_joints[i] = joint;
+  }
+  if (!m_is_connected) m_is_connected = m_solver.connect(m_bodies, m_joints) == 0;
+  m_is_moved.clear();
+  if (m_is_connected && !meetings.empty()) strike(table, plans, meetings, contacts);
+  if (m_is_connected) m_solver.step(m_bodies, m_joints, 1, {}, {}, m_is_moved);
+  store(table, plans);
+}
+
+void BodyLinks::store(BodyTable& table, std::vector<BodyPlan>& plans) {
+  for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+    if (m_plan_of[i] < 0) continue;
+    BodyPlan& plan = plans[at(m_plan_of[i])];
+    if (plan.way != BodyWay::kJoined && plan.way != BodyWay::kStruck) continue;
+    const JointBody& body = m_bodies[i];
+    plan.place = body.place;
+    plan.velocity = body.velocity;
+    plan.rotation = body.rotation;
+    plan.spin = body.spin;
+    plan.acceleration = plan.is_struck ? Vec2{} : body.velocity - plan.start_velocity;
+    const bool is_held = body.inverse_mass == 0 && table.row(plan.index).inverse_mass > 0;
+    if (is_held || !m_is_connected) plan.p_failure = "its numbers are beyond what joints can hold";
+  }
+  for (const JointIsland& island : m_solver.islands()) {
+    if (!island.isFrozen()) continue;
+    for (const int body : island.bodies()) {
+      if (m_plan_of[at(body)] < 0) continue;
+      plans[at(m_plan_of[at(body)])].p_failure = "what it is joined with cannot be worked out";
+    }
+  }
+  std::vector<BodyJoints::Entry>& entries = table.joints.entries();
+  for (std::size_t i = 0; i < m_joints.size(); ++i) {
+    BodyJoints::Entry& entry = entries[m_entry_of[i]];
+    entry.joint.force = m_joints[i].force;
+    entry.joint.torque = m_joints[i].torque;
+    if (m_joints[i].is_broken) table.joints.remove({m_entry_of[i], entry.generation});
+  }
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,44 @@
+#include "physics/body/BodyObstacles.h"
+
+#include <algorithm>
+
+namespace df {
+
+namespace {
+
+// Within what the store's numbers hold.
+FixedVector clamped(const naiad::physics::Metric& metric, const naiad::physics::Place& place) {
+  if (metric.isInRange(place)) return metric.fixedOf(place);
+  const Vector at = metric.cellsOf(place);
+  return {*toFixed(std::clamp(at.x(), -kMaxCells, kMaxCells)),
+          *toFixed(std::clamp(at.y(), -kMaxCells, kMaxCells))};
+}
+
+}  // namespace
+
+void BodyObstacles::begin() {
+  for (Obstacle& obstacle : m_all) obstacle.is_near = false;
+}
+
+void BodyObstacles::note(ObjectKey key) {
+  const auto at =
+      std::lower_bound(m_all.begin(), m_all.end(), key,
+                       [](const Obstacle& obstacle, ObjectKey k) { return obstacle.key.slot < k.slot; });
+  if (at == m_all.end() || at->key.slot != key.slot) {
+    m_all.insert(at, Obstacle{key});
+    return;
+  }
+  at->key = key;  // a new Object in an old slot is another place for the same obstacle
+  at->is_near = true;
+}
+
+FixedBox regionOf(const naiad::physics::Metric& metric, const naiad::physics::Place& centre,
+                  naiad::physics::Vec2 half) {
+  // So far nobody looks, and the box's size stays a number.
+  constexpr double kFarthest = 1 << 28;
+  const naiad::physics::Vec2 reach = {std::min(half.x, kFarthest), std::min(half.y, kFarthest)};
+  const FixedVector low = clamped(metric, centre + -reach), high = clamped(metric, centre + reach);
+  return {{low.x - 1, low.y - 1}, {high.x - low.x + 2, high.y - low.y + 2}};
+}
+
+}  // namespace df

@@ -1,0 +1,46 @@
+// The Objects without mass that bodies may run into in this tick: HARD ones near them, as a solver knows
+// them.
+//
+// They are found by the world's own grid, and kept while something is near. Whoever has no bodies near costs
+// nothing.
+#pragma once
+
+#include <vector>
+
+#include "engine/world/WorldStore.h"
+#include "physics/body/Metric.h"
+
+namespace df {
+
+class BodyObstacles {
+ public:
+  struct Obstacle {
+    ObjectKey key;
+    int id = -1;  ///< the solver's; −1: it does not know it yet
+    bool is_near = true;
+  };
+
+  /// Nothing is near, until it is noted.
+  void begin();
+  void note(ObjectKey key);
+  /// Ordered by slot. The solver takes in those without an id, and drops those that are not near.
+  std::vector<Obstacle>& all() { return m_all; }
+  void forgetFar() {
+    std::erase_if(m_all, [](const Obstacle& obstacle) { return !obstacle.is_near; });
+  }
+
+  /// Is the Object one: solid, HARD, and no body?
+  static bool isOne(const WorldStore& store, ObjectKey key) {
+    return store.isCurrent(key) && store.collides(key.slot) && store.solidness(key.slot) == HARD &&
+           !store.has(key.slot, WorldStore::kBody);
+  }
+
+ private:
+  std::vector<Obstacle> m_all;
+};
+
+/// Everything within `half` to either side of `centre`, in the world's own numbers, and a little more.
+FixedBox regionOf(const naiad::physics::Metric& metric, const naiad::physics::Place& centre,
+                  naiad::physics::Vec2 half);
+
+}  // namespace df

@@ -1,0 +1,65 @@
+#include "physics/body/BodySurroundings.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace df {
+
+namespace {
+
+constexpr int kTileBits = kFixedBits + 3;  // regions that begin in the same 8 by 8 cells are one place …
+constexpr Fixed kLargest = Fixed{1} << kTileBits;  // … if none is larger than that
+
+bool isLarge(const FixedBox& region) {
+  return region.size.x > kLargest || region.size.y > kLargest;
+}
+
+FixedBox around(const FixedBox& a, const FixedBox& b) {
+  const FixedVector low = {std::min(a.corner.x, b.corner.x), std::min(a.corner.y, b.corner.y)};
+  const FixedVector high = {std::max(a.corner.x + a.size.x, b.corner.x + b.size.x),
+                            std::max(a.corner.y + a.size.y, b.corner.y + b.size.y)};
+  return {low, high - low};
+}
+
+}  // namespace
+
+void BodySurroundings::ask(const FixedBox& region) {
+  const auto number = static_cast<std::uint32_t>(m_asked.size());
+  m_asked.push_back({region.corner.x >> kTileBits, region.corner.y >> kTileBits, number, region});
+}
+
+void BodySurroundings::search(const WorldStore& store) {
+  constexpr WorldStore::Slot kNobody = ~WorldStore::Slot{0};
+  m_found.clear();
+  std::sort(m_asked.begin(), m_asked.end(), [](const Asked& a, const Asked& b) {
+    return std::tie(a.tile_y, a.tile_x, a.number) < std::tie(b.tile_y, b.tile_x, b.number);
+  });
+  for (std::size_t i = 0, end = 0; i < m_asked.size(); i = end) {
+    const Asked& first = m_asked[i];
+    FixedBox place = first.region;
+    const auto isBeside = [&](const Asked& asked) {
+      return asked.tile_x == first.tile_x && asked.tile_y == first.tile_y && !isLarge(first.region) &&
+             !isLarge(asked.region);
+    };
+    for (end = i + 1; end < m_asked.size() && isBeside(m_asked[end]); ++end) {
+      place = around(place, m_asked[end].region);
+    }
+    m_near.clear();
+    store.touching(place, kNobody, m_near);
+    std::erase_if(m_near, [&](ObjectKey key) { return store.has(key.slot, WorldStore::kBody); });
+    for (std::size_t k = i; k < end; ++k) {
+      std::uint32_t turn = 0;
+      for (const ObjectKey key : m_near) {
+        const bool is_near =
+            intersects(store.worldBox(key.slot, store.position(key.slot)), m_asked[k].region);
+        if (is_near) m_found.push_back({m_asked[k].number, turn, key});
+        ++turn;
+      }
+    }
+  }
+  std::sort(m_found.begin(), m_found.end(), [](const Found& a, const Found& b) {
+    return std::tie(a.number, a.turn) < std::tie(b.number, b.turn);
+  });
+}
+
+}  // namespace df

@@ -1,0 +1,45 @@
+// The Objects without mass that are near many bodies.
+//
+// The world's grid is asked once for bodies that are in one place, not once for each: a heap would find
+// itself each time, which is no news.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/world/WorldStore.h"
+
+namespace df {
+
+class BodySurroundings {
+ public:
+  void begin() { m_asked.clear(); }
+  /// Asks for what touches `region`. The first since begin() has number 0, the next 1, and so on.
+  void ask(const FixedBox& region);
+  /// Calls visit(number, key) for each Object in the store's grid that is no body and touches the region of
+  /// that number, edges included: by numbers, then in creation order.
+  template <class Visit>
+  void answer(const WorldStore& store, Visit visit) {
+    search(store);
+    for (const Found& found : m_found) visit(static_cast<std::size_t>(found.number), found.key);
+  }
+
+ private:
+  struct Asked {
+    std::int64_t tile_x, tile_y;
+    std::uint32_t number;
+    FixedBox region;
+  };
+  struct Found {
+    std::uint32_t number;
+    std::uint32_t turn;  // in creation order
+    ObjectKey key;
+  };
+  void search(const WorldStore& store);
+
+  std::vector<Asked> m_asked;
+  std::vector<Found> m_found;
+  std::vector<ObjectKey> m_near;
+};
+
+}  // namespace df

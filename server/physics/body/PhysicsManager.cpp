@@ -1,0 +1,115 @@
+#include "physics/body/PhysicsManager.h"
+
+#include <cmath>
+
+#include "engine/world/World.h"
+#include "physics/body/BodyLayer.h"
+
+namespace df {
+
+namespace {
+
+using naiad::physics::BodyTable;
+using naiad::physics::IntegratorOptions;
+using naiad::physics::Metric;
+
+constexpr double kMost = 1e30;
+
+BodyTable& table() {
+  return *BodyLayer::of(World::current()).table();
+}
+
+bool isTolerance(double value) {
+  return value > 0 && value <= 1;
+}
+
+bool isUsable(const IntegratorOptions& o) {
+  return o.substeps >= 1 && o.substeps <= 10'000 && isTolerance(o.relative) && isTolerance(o.absolute) &&
+         isTolerance(o.stiff_relative) && isTolerance(o.stiff_absolute) && o.max_evaluations >= 1 &&
+         o.max_steps >= 1 && o.max_evaluations <= 10'000'000 && o.max_steps <= 10'000'000;
+}
+
+}  // namespace
+
+PhysicsManager& PhysicsManager::getInstance() {
+  static PhysicsManager* p_instance = new PhysicsManager;  // never destroyed, as all managers
+  return *p_instance;
+}
+
+int PhysicsManager::setGravity(Vector gravity) {
+  if (!(std::abs(gravity.x()) <= kMost && std::abs(gravity.y()) <= kMost)) {
+    World::current().refuse(getType(), "setGravity");
+    return -1;
+  }
+  table().gravity = table().metric.fromCells(gravity);
+  return 0;
+}
+
+Vector PhysicsManager::getGravity() const {
+  return table().metric.toCells(table().gravity);
+}
+
+int PhysicsManager::setAspect(double aspect) {
+  const bool good = aspect >= Metric::kLeastAspect && aspect <= Metric::kMostAspect;
+  if (!good || !table().inOrder().empty() || table().soft_bodies > 0) {
+    World::current().refuse(getType(), "setAspect");
+    return -1;
+  }
+  const Vector gravity = getGravity();
+  table().metric = Metric(aspect);
+  table().gravity = table().metric.fromCells(gravity);
+  return 0;
+}
+
+double PhysicsManager::getAspect() const {
+  return table().metric.aspect();
+}
+
+int PhysicsManager::setIntegrator(const IntegratorOptions& options) {
+  if (!isUsable(options)) {
+    World::current().refuse(getType(), "setIntegrator");
+    return -1;
+  }
+  table().integrator = options;
+  return 0;
+}
+
+const IntegratorOptions& PhysicsManager::getIntegrator() const {
+  return table().integrator;
+}
+
+int PhysicsManager::setObstacleFriction(double friction) {
+  if (!(friction >= 0 && friction <= kMost)) {
+    World::current().refuse(getType(), "setObstacleFriction");
+    return -1;
+  }
+  table().obstacle_friction = friction;
+  return 0;
+}
+
+double PhysicsManager::getObstacleFriction() const {
+  return table().obstacle_friction;
+}
+
+int PhysicsManager::setObstacleRestitution(double restitution) {
+  if (!(restitution >= 0 && restitution <= 1)) {
+    World::current().refuse(getType(), "setObstacleRestitution");
+    return -1;
+  }
+  table().obstacle_restitution = restitution;
+  return 0;
+}
+
+double PhysicsManager::getObstacleRestitution() const {
+  return table().obstacle_restitution;
+}
+
+int PhysicsManager::getBodyCount() const {
+  return static_cast<int>(table().inOrder().size());
+}
+
+std::uint64_t PhysicsManager::getQuarantineCount() const {
+  return table().counters.quarantined;
+}
+
+}  // namespace df

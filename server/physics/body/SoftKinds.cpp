@@ -1,0 +1,127 @@
+// Rope, beam, cloth and blob: from what a game says to nodes and springs.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/body/Metric.h"
+#include "physics/body/PhysicsManager.h"
+#include "physics/body/SoftObject.h"
+#include "physics/soft/SoftBuild.h"
+
+namespace df {
+
+namespace {
+
+using naiad::physics::Metric;
+using naiad::physics::Place;
+using naiad::physics::Vec2;
+
+constexpr double kLeast = 1e-6, kMost = 1e6;
+constexpr double kUsualDrag = 0.02;
+constexpr double kUsualFriction = 0.5;
+
+naiad::physics::SoftBody withUsual(naiad::physics::SoftBody body) {
+  body.drag = kUsualDrag;
+  body.friction = kUsualFriction;
+  return body;
+}
+
+int countFor(double length, double each, int least, int most) {
+  return static_cast<int>(
+      std::clamp(std::ceil(length / each), static_cast<double>(least), static_cast<double>(most)));
+}
+
+struct Line {
+  Place from;
+  Vec2 way;
+};
+
+// What has no length is as long as one cell.
+Line lineOf(Vector from, Vector to) {
+  constexpr double kLongest = 1e5;
+  const Metric metric(PM.getAspect());
+  Line line = {metric.placeAtCells(from), {}};
+  line.way = metric.placeAtCells(to) - line.from;
+  const double far = length(line.way);
+  if (!(far > 1e-3)) line.way = {1, 0};
+  if (far > kLongest) line.way = line.way * (kLongest / far);
+  return line;
+}
+
+}  // namespace
+
+Rope::Rope(Vector from, Vector to, double mass, double stiffness, int links) {
+  setType("Rope");
+  const Line line = lineOf(checked("Rope: from", from), checked("Rope: to", to));
+  mass = checked("Rope: mass", mass, kLeast, kMost, 1);
+  stiffness = checked("Rope: stiffness", stiffness, kLeast, kMost, 20);
+  links = static_cast<int>(checked("Rope: links", links, 0, 200, 0));
+  if (links == 0) links = countFor(length(line.way), 1, 2, 100);
+  naiad::physics::SoftBody body =
+      naiad::physics::makeRope(line.from, line.way, links, mass, stiffness * mass);
+  body.radius = std::min(body.radius, 0.25);
+  make(withUsual(body));
+}
+
+// A cantilever under its own weight m g bends by m g L³ / 8 EI.
+Beam::Beam(Vector from, Vector to, double mass, double stiffness, bool is_clamped, int elements) {
+  setType("Beam");
+  const Line line = lineOf(checked("Beam: from", from), checked("Beam: to", to));
+  mass = checked("Beam: mass", mass, kLeast, kMost, 1);
+  stiffness = checked("Beam: stiffness", stiffness, kLeast, kMost, 1);
+  if (elements != 0) elements = static_cast<int>(checked("Beam: elements", elements, 2, 100, 0));
+  const double whole = length(line.way);
+  if (elements == 0) elements = countFor(whole, 1.5, 4, 32);
+  constexpr double kTensile = 1000;
+  naiad::physics::SoftBody body =
+      naiad::physics::makeBeam(line.from, line.way, elements, stiffness * mass * whole * whole / 8,
+                               kTensile * stiffness * mass, mass / whole, is_clamped);
+  body.radius = std::min(body.radius, 0.25);
+  make(withUsual(body));
+}
+
+// Half of the stiffness to the threads of each direction, however many there are.
+Cloth::Cloth(Vector corner, double width, double height, double mass, double stiffness) {
+  setType("Cloth");
+  const Metric metric(PM.getAspect());
+  const Place place = metric.placeAtCells(checked("Cloth: corner", corner));
+  width = checked("Cloth: width", width, 0.5, 1000, 10);
+  height = checked("Cloth: height", height, 0.5, 1000, 5);
+  mass = checked("Cloth: mass", mass, kLeast, kMost, 1);
+  stiffness = checked("Cloth: stiffness", stiffness, kLeast, kMost, 5);
+  const Vec2 across = metric.fromCells(Vector(width, 0)), down = metric.fromCells(Vector(0, height));
+  constexpr double kMesh = 2.5;
+  m_columns = countFor(across.x, kMesh, 2, 24) + 1;
+  m_rows = countFor(down.y, kMesh, 2, 24) + 1;
+  m_is_upright = m_rows > m_columns;  // the builder wants the long side first
+  const double thread = stiffness * mass / std::min(m_columns, m_rows);
+  const int longer = std::max(m_columns, m_rows) - 1, shorter = std::min(m_columns, m_rows) - 1;
+  naiad::physics::SoftBody body =
+      naiad::physics::makeCloth(place, m_is_upright ? down : across, m_is_upright ? across : down, longer,
+                                shorter, mass, thread, thread / 4, 0);
+  body.radius = std::min(body.radius, 0.25);
+  make(withUsual(body));
+}
+
+int Cloth::getNode(int column, int row) const {
+  if (column < 0 || column >= m_columns || row < 0 || row >= m_rows) return -1;
+  return m_is_upright ? column + row * m_columns : row + column * m_rows;
+}
+
+// What resists is mostly the skin's tension while the gas keeps its area.
+Blob::Blob(Vector where, double radius, double mass, double stiffness) {
+  setType("Blob");
+  const Metric metric(PM.getAspect());
+  const Place place = metric.placeAtCells(checked("Blob: where", where));
+  radius = checked("Blob: radius", radius, 0.1, 1000, 2);
+  mass = checked("Blob: mass", mass, kLeast, kMost, 1);
+  stiffness = checked("Blob: stiffness", stiffness, kLeast, kMost, 1);
+  const double load = stiffness * mass;
+  constexpr double kGirth = 6.283185307179586;
+  constexpr double kBend = 0.02;
+  naiad::physics::SoftBody body =
+      naiad::physics::makeBlob(place, radius, countFor(kGirth * radius, 1.5, 10, 32), mass, 0,
+                               2 * load / radius, 2 * load, kBend * load * radius * radius);
+  make(withUsual(body));
+}
+
+}  // namespace df

@@ -1,0 +1,300 @@
+#include "physics/body/SoftObject.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
+#include "physics/body/Body.h"
+#include "physics/body/SoftDrawing.h"
+#include "physics/body/SoftLayer.h"
+#include "physics/body/SoftTable.h"
+
+namespace df {
+
+namespace {
+
+using naiad::physics::SoftHand;
+using naiad::physics::SoftHold;
+using naiad::physics::SoftPull;
+using naiad::physics::SoftSeat;
+using naiad::physics::Vec2;
+
+constexpr double kMostRatio = 1e6;
+constexpr double kMostForce = 1e9;
+
+bool isUsable(Vector v) {
+  return std::fabs(v.x()) <= kMostForce && std::fabs(v.y()) <= kMostForce;  // not if it is no number
+}
+
+std::size_t at(int node) {
+  return static_cast<std::size_t>(node);
+}
+
+}  // namespace
+
+SoftBody::SoftBody() : m_table(SoftLayer::of(*getWorld()).table()) {
+  setType("SoftBody");
+  getWorld()->store().set(key().slot, WorldStore::kBody, true);
+  setSolidness(SPECTRAL);
+  m_drawn = std::make_shared<naiad::physics::SoftDrawn>();
+}
+
+SoftBody::~SoftBody() {
+  if (m_id >= 0) m_table->remove(m_id);
+}
+
+void SoftBody::make(const naiad::physics::SoftBody& body) {
+  m_id = m_table->add(this, key(), body);
+  if (m_id < 0) {
+    refuseAs("make");
+    return;
+  }
+  SoftLayer::tellAtOnce(*getWorld(), *m_table, m_id);
+}
+
+double SoftBody::checked(const char* what, double value, double least, double most, double usual) const {
+  if (value >= least && value <= most) return value;
+  refuseAs(what);
+  return usual;
+}
+
+Vector SoftBody::checked(const char* what, Vector position) const {
+  constexpr double kFarthest = 1e9;
+  if (std::fabs(position.x()) <= kFarthest && std::fabs(position.y()) <= kFarthest) return position;
+  refuseAs(what);
+  return {};
+}
+
+SoftSeat& SoftBody::seat() const {
+  return m_table->seat(m_id);
+}
+
+const naiad::physics::SoftBody& SoftBody::body() const {
+  return m_table->world().body(m_id);
+}
+
+int SoftBody::refuseAs(const char* what) const {
+  if (World* p_world = getWorld()) p_world->refuse(getType(), what);
+  return -1;
+}
+
+void SoftBody::absorb() const {
+  const World* p_world = getWorld();
+  if (m_id < 0 || p_world == nullptr) return;
+  const WorldStore& store = p_world->store();
+  m_table->absorb(m_id, store.position(key().slot), store.velocity(key().slot));
+}
+
+template <class Change>
+int SoftBody::change(Change change) {
+  if (m_id < 0) return -1;
+  absorb();
+  naiad::physics::SoftBody changed = body();
+  change(changed);
+  return m_table->set(m_id, changed) ? 0 : -1;
+}
+
+double SoftBody::getMass() const {
+  return m_id < 0 ? 0 : seat().mass;
+}
+
+int SoftBody::setGravityScale(double scale) {
+  if (m_id < 0 || !(std::fabs(scale) <= kMostRatio)) return refuseAs("setGravityScale");
+  seat().gravity_scale = scale;
+  m_table->wake(m_id);
+  return 0;
+}
+
+int SoftBody::setFriction(double friction) {
+  if (!(friction >= 0 && friction <= kMostRatio)) return refuseAs("setFriction");
+  return change([friction](naiad::physics::SoftBody& body) { body.friction = friction; });
+}
+
+int SoftBody::setDrag(double drag) {
+  if (!(drag >= 0 && drag <= kMostRatio)) return refuseAs("setDrag");
+  return change([drag](naiad::physics::SoftBody& body) { body.drag = drag; });
+}
+
+int SoftBody::applyImpulse(Vector impulse) {
+  if (m_id < 0 || !isUsable(impulse)) return refuseAs("applyImpulse");
+  absorb();
+  if (seat().is_frozen) return 0;
+  const Vec2 velocity = seat().velocity + m_table->metric().fromCells(impulse) / seat().mass;
+  if (!toFixed(m_table->metric().toCells(velocity), kMaxVelocityCells)) return refuseAs("applyImpulse");
+  m_table->setVelocity(m_id, velocity);
+  return 0;
+}
+
+int SoftBody::applyImpulse(int node, Vector impulse) {
+  if (!hasNode(node) || !isUsable(impulse)) return refuseAs("applyImpulse");
+  absorb();
+  if (!m_table->world().applyImpulse(m_id, node, m_table->metric().fromCells(impulse))) {
+    return refuseAs("applyImpulse");
+  }
+  m_table->wake(m_id);
+  return 0;
+}
+
+int SoftBody::applyForce(Vector force) {
+  if (m_id < 0) return -1;
+  const Vector sum = m_table->metric().toCells(seat().force) + force;
+  if (!isUsable(force) || !isUsable(sum)) return refuseAs("applyForce");
+  seat().force = m_table->metric().fromCells(sum);
+  m_table->wake(m_id);
+  return 0;
+}
+
+int SoftBody::applyForce(int node, Vector force) {
+  if (!hasNode(node) || !isUsable(force)) return refuseAs("applyForce");
+  std::vector<SoftPull>& pulls = seat().pulls;
+  const auto same =
+      std::find_if(pulls.begin(), pulls.end(), [&](const SoftPull& p) { return p.node == node; });
+  const Vec2 before = same == pulls.end() ? Vec2{} : same->force;
+  const Vec2 sum = before + m_table->metric().fromCells(force);
+  if (!isUsable(m_table->metric().toCells(sum))) return refuseAs("applyForce");
+  if (same == pulls.end()) {
+    pulls.push_back({node, sum});
+  } else {
+    same->force = sum;
+  }
+  m_table->wake(m_id);
+  return 0;
+}
+
+int SoftBody::getNodeCount() const {
+  return m_id < 0 ? 0 : static_cast<int>(body().nodes.size());
+}
+
+Vector SoftBody::getNodePosition(int node) const {
+  if (!hasNode(node)) return {};
+  absorb();
+  return m_table->metric().cellsOf(body().place + body().nodes[at(node)].offset);
+}
+
+Vector SoftBody::getNodeVelocity(int node) const {
+  if (!hasNode(node)) return {};
+  absorb();
+  return m_table->metric().toCells(body().nodes[at(node)].velocity);
+}
+
+int SoftBody::getNearestNode(Vector where) const {
+  if (m_id < 0 || !toFixed(where)) return -1;
+  absorb();
+  const Vec2 way = m_table->metric().placeAtCells(where) - body().place;
+  int nearest = 0;
+  for (int node = 1; node < getNodeCount(); ++node) {
+    const double away = lengthSquared(body().nodes[at(node)].offset - way);
+    if (away < lengthSquared(body().nodes[at(nearest)].offset - way)) nearest = node;
+  }
+  return nearest;
+}
+
+int SoftBody::pin(int node, bool pinned) {
+  if (!hasNode(node)) return refuseAs("pin");
+  if (isPinned(node) == pinned) return 0;
+  return change([&](naiad::physics::SoftBody& body) {
+    body.nodes[at(node)].is_pinned = pinned;
+    body.nodes[at(node)].velocity = {};
+  });
+}
+
+bool SoftBody::isPinned(int node) const {
+  return hasNode(node) && body().nodes[at(node)].is_pinned;
+}
+
+int SoftBody::attach(int node, Body* p_body) {
+  const World* p_world = getWorld();
+  if (!hasNode(node) || p_body == nullptr || p_world == nullptr || p_body->getWorld() != p_world) {
+    return refuseAs("attach");
+  }
+  absorb();
+  detach(node);
+  const naiad::physics::Metric& metric = m_table->metric();
+  const Vec2 body_way = metric.fromCells(p_body->getWayFrom(metric.cellsOf(body().place)));
+  const Vec2 way = body().nodes[at(node)].offset - body_way;
+  const Vec2 anchor = inverse(naiad::physics::rotationBy(p_body->getAngle())) * way;
+  const auto obstacle = static_cast<int>(p_body->key().slot);
+  const int attachment = m_table->world().attach({m_id, node, obstacle, anchor});
+  if (attachment < 0) return refuseAs("attach");
+  seat().holds.push_back({attachment, node, p_body->key()});
+  m_table->wake(m_id);
+  return 0;
+}
+
+int SoftBody::detach(int node) {
+  if (!hasNode(node)) return -1;
+  int result = -1;
+  std::erase_if(seat().holds, [&](const SoftHold& hold) {
+    if (hold.node != node) return false;
+    m_table->world().detach(hold.attachment);
+    result = 0;
+    return true;
+  });
+  m_table->wake(m_id);
+  return result;
+}
+
+int SoftBody::grab(Vector where, double strength) {
+  const int node = getNearestNode(where);
+  if (node < 0 || !(strength >= 0 && strength <= kMostForce)) return refuseAs("grab");
+  release();
+  SoftHand hand;
+  hand.attachment = m_table->world().attach({m_id, node, SoftLayer::handOf(m_id), {}});
+  if (hand.attachment < 0) return refuseAs("grab");
+  hand.place = body().place + body().nodes[at(node)].offset;
+  hand.velocity = body().nodes[at(node)].velocity;
+  hand.target = hand.place;
+  hand.strength = strength;
+  seat().hand = hand;
+  m_table->wake(m_id);
+  return 0;
+}
+
+int SoftBody::dragTo(Vector target) {
+  if (!isGrabbed() || !toFixed(target)) return -1;
+  seat().hand.target = m_table->metric().placeAtCells(target);
+  m_table->wake(m_id);
+  return 0;
+}
+
+void SoftBody::release() {
+  if (!isGrabbed()) return;
+  m_table->world().detach(seat().hand.attachment);
+  seat().hand = {};
+}
+
+bool SoftBody::isGrabbed() const {
+  return m_id >= 0 && seat().hand.attachment >= 0;
+}
+
+bool SoftBody::isFrozen() const {
+  absorb();
+  return m_id >= 0 && seat().is_frozen;
+}
+
+bool SoftBody::isAsleep() const {
+  absorb();
+  return m_id >= 0 && seat().is_asleep;
+}
+
+int SoftBody::setDrawing(BodyDrawing drawing, char32_t ch, Color color) {
+  const bool known =
+      drawing == BodyDrawing::NONE || drawing == BodyDrawing::OUTLINE || drawing == BodyDrawing::FILL;
+  if (!known || (ch != 0 && !isDrawable(ch)) || color < BLACK || color > WHITE) return refuseAs("setDrawing");
+  *m_drawn = {};
+  m_drawn->drawing = drawing;
+  m_drawn->ch = ch;
+  m_drawn->color = color;
+  return 0;
+}
+
+int SoftBody::draw() {
+  if (m_id < 0) return -1;
+  absorb();
+  naiad::physics::redraw(*m_drawn, body(), m_table->metric());
+  return naiad::physics::put(*m_drawn);
+}
+
+}  // namespace df

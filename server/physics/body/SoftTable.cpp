@@ -1,0 +1,106 @@
+#include "physics/body/SoftTable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace naiad::physics {
+
+int SoftTable::add(const df::Object* p_object, df::ObjectKey key, const SoftBody& body) {
+  const int id = m_world.add(body);
+  if (id < 0) return -1;
+  if (id >= idLimit()) m_seats.resize(static_cast<std::size_t>(id) + 1);
+  SoftSeat& its = seat(id);
+  its = {};
+  its.key = key;
+  its.p_object = p_object;
+  its.made = body;
+  its.mass = 0;
+  for (const SoftNode& node : body.nodes) its.mass += node.mass;
+  ++m_bodies->soft_bodies;
+  measure(id);
+  return id;
+}
+
+void SoftTable::remove(int id) {
+  m_world.remove(id);
+  seat(id) = {};
+  --m_bodies->soft_bodies;
+}
+
+bool SoftTable::set(int id, const SoftBody& body) {
+  if (!m_world.set(id, body)) return false;
+  wake(id);
+  return true;
+}
+
+void SoftTable::measure(int id) {
+  const SoftBody& body = m_world.body(id);
+  SoftSeat& its = seat(id);
+  double mass = 0, most = 0;
+  Vec2 offset, momentum;
+  for (const SoftNode& node : body.nodes) {
+    mass += node.mass;
+    offset += node.mass * node.offset;
+    if (node.is_pinned) continue;
+    momentum += node.mass * node.velocity;
+    most = std::max(most, lengthSquared(node.velocity));
+  }
+  its.centre = body.place + offset / mass;
+  its.velocity = momentum / mass;
+  its.top_speed = std::sqrt(most);
+}
+
+// It comes back as it was made, for what had to be frozen may be a knot.
+void SoftTable::thaw(int id) {
+  SoftSeat& its = seat(id);
+  if (!its.is_frozen) return;
+  its.is_frozen = false;
+  SoftBody body = m_world.body(id);
+  for (std::size_t i = 0; i < body.nodes.size(); ++i) {
+    body.nodes[i].offset = its.made.nodes[i].offset;
+    body.nodes[i].velocity = {};
+  }
+  set(id, body);
+  measure(id);
+}
+
+void SoftTable::moveTo(int id, const Place& centre) {
+  thaw(id);
+  SoftBody body = m_world.body(id);
+  body.place = body.place + (centre - seat(id).centre);
+  set(id, body);
+  measure(id);
+}
+
+void SoftTable::setVelocity(int id, Vec2 velocity) {
+  thaw(id);
+  const Vec2 change = velocity - seat(id).velocity;
+  SoftBody body = m_world.body(id);
+  for (SoftNode& node : body.nodes) {
+    if (!node.is_pinned) node.velocity += change;
+  }
+  set(id, body);
+  measure(id);
+}
+
+void SoftTable::absorb(int id, df::FixedVector position, df::FixedVector velocity) {
+  SoftSeat& its = seat(id);
+  if (position != its.told_position) moveTo(id, metric().placeOf(position));
+  if (velocity != its.told_velocity) setVelocity(id, metric().fromCells(df::Vector::fromFixed(velocity)));
+  its.told_position = position;
+  its.told_velocity = velocity;
+}
+
+Vec2 SoftTable::reach(int id) const {
+  const SoftBody& body = m_world.body(id);
+  const Vec2 middle = m_seats[static_cast<std::size_t>(id)].centre - body.place;
+  Vec2 most;
+  for (const SoftNode& node : body.nodes) {
+    const Vec2 way = node.offset - middle;
+    most = {std::max(most.x, std::fabs(way.x)), std::max(most.y, std::fabs(way.y))};
+  }
+  return most + Vec2{body.radius, body.radius};
+}
+
+}  // namespace naiad::physics

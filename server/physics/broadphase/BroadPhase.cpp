@@ -1,0 +1,107 @@
+#include "physics/broadphase/BroadPhase.h"
+
+#include <array>
+#include <cassert>
+#include <utility>
+
+namespace naiad::physics {
+
+namespace {
+
+std::uint64_t keyOf(const BroadPhasePair& pair) {
+  return static_cast<std::uint64_t>(pair.id_a) << 32 | pair.id_b;
+}
+
+}  // namespace
+
+std::int32_t BroadPhase::add(std::uint32_t id, const GridBounds& wide, bool moves) {
+  std::int32_t proxy;
+  if (m_free.empty()) {
+    proxy = static_cast<std::int32_t>(m_proxies.size());
+    m_proxies.push_back({});
+  } else {
+    proxy = m_free.back();
+    m_free.pop_back();
+  }
+  m_proxies[index(proxy)] = {id, m_tree.insert(wide, static_cast<std::uint32_t>(proxy)), moves, false};
+  markChanged(proxy);
+  return proxy;
+}
+
+void BroadPhase::remove(std::int32_t proxy) {
+  assert(m_proxies[index(proxy)].leaf != BroadPhaseTree::kNone);
+  m_tree.remove(m_proxies[index(proxy)].leaf);
+  m_proxies[index(proxy)].leaf = BroadPhaseTree::kNone;
+  markChanged(proxy);  // its number is free only after its pairs are gone
+}
+
+bool BroadPhase::move(std::int32_t proxy, const GridBounds& tight, const GridBounds& wide) {
+  const std::int32_t leaf = m_proxies[index(proxy)].leaf;
+  if (contains(m_tree.bounds(leaf), tight)) return false;
+  m_tree.move(leaf, wide);
+  markChanged(proxy);
+  return true;
+}
+
+void BroadPhase::markChanged(std::int32_t proxy) {
+  if (m_proxies[index(proxy)].changed) return;
+  m_proxies[index(proxy)].changed = true;
+  m_changed.push_back(proxy);
+}
+
+// Of two changed ones, the one with the smaller number finds the pair.
+void BroadPhase::findPairs(std::int32_t proxy) {
+  const Proxy& own = m_proxies[index(proxy)];
+  m_tree.query(m_tree.bounds(own.leaf), [&](std::uint32_t value) {
+    const auto other = static_cast<std::int32_t>(value);
+    const Proxy& that = m_proxies[value];
+    if (other == proxy || (that.changed && other < proxy) || !(own.moves || that.moves)) return;
+    m_found.push_back(own.id < that.id ? BroadPhasePair{own.id, that.id, proxy, other}
+                                       : BroadPhasePair{that.id, own.id, other, proxy});
+  });
+}
+
+// By digits of eight bits, those left out that all have in common.
+void BroadPhase::sortFound() {
+  std::array<std::array<std::uint32_t, 256>, 8> counts = {};
+  for (const BroadPhasePair& pair : m_found) {
+    const std::uint64_t key = keyOf(pair);
+    for (std::size_t digit = 0; digit < 8; ++digit) ++counts[digit][key >> (8 * digit) & 255];
+  }
+  m_spare.resize(m_found.size());
+  for (std::size_t digit = 0; digit < 8 && !m_found.empty(); ++digit) {
+    std::array<std::uint32_t, 256>& count = counts[digit];
+    if (count[keyOf(m_found[0]) >> (8 * digit) & 255] == m_found.size()) continue;
+    std::uint32_t start = 0;
+    for (std::uint32_t& c : count) start += std::exchange(c, start);
+    for (const BroadPhasePair& pair : m_found) m_spare[count[keyOf(pair) >> (8 * digit) & 255]++] = pair;
+    m_found.swap(m_spare);
+  }
+}
+
+std::span<const BroadPhasePair> BroadPhase::updatePairs() {
+  if (m_changed.empty()) return m_pairs;
+  m_found.clear();
+  for (const std::int32_t proxy : m_changed) {
+    if (m_proxies[index(proxy)].leaf != BroadPhaseTree::kNone) findPairs(proxy);
+  }
+  sortFound();
+  // Old pairs of changed bodies were found again if they still are any.
+  m_spare.clear();
+  std::size_t next = 0;
+  for (const BroadPhasePair& pair : m_pairs) {
+    if (m_proxies[index(pair.proxy_a)].changed || m_proxies[index(pair.proxy_b)].changed) continue;
+    while (next < m_found.size() && keyOf(m_found[next]) < keyOf(pair)) m_spare.push_back(m_found[next++]);
+    m_spare.push_back(pair);
+  }
+  m_spare.insert(m_spare.end(), m_found.begin() + static_cast<std::ptrdiff_t>(next), m_found.end());
+  m_pairs.swap(m_spare);
+  for (const std::int32_t proxy : m_changed) {
+    m_proxies[index(proxy)].changed = false;
+    if (m_proxies[index(proxy)].leaf == BroadPhaseTree::kNone) m_free.push_back(proxy);
+  }
+  m_changed.clear();
+  return m_pairs;
+}
+
+}  // namespace naiad::physics

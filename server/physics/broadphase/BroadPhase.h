@@ -1,0 +1,73 @@
+// Which bodies may touch: pairs of bounds that overlap, kept from step to step and told in the order of ids.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/broadphase/BroadPhaseTree.h"
+
+namespace naiad::physics {
+
+/// Bodies whose bounds overlap. id_a < id_b.
+struct BroadPhasePair {
+  std::uint32_t id_a;
+  std::uint32_t id_b;
+  std::int32_t proxy_a;
+  std::int32_t proxy_b;
+  friend constexpr bool operator==(const BroadPhasePair& a, const BroadPhasePair& b) = default;
+};
+
+/// A body is in it with bounds that are wider than it is, so that small moves change nothing and cost a
+/// comparison. What lies still costs nothing. No allocation once as many bodies and pairs have been there.
+/// One thread at a time.
+class BroadPhase {
+ public:
+  /// `id` is the caller's, unique; `moves` false for bodies that never do: two of them make no pair. Returns
+  /// the proxy: the number to use below, good until it is removed.
+  std::int32_t add(std::uint32_t id, const GridBounds& wide, bool moves);
+  void remove(std::int32_t proxy);
+
+  /// The body is now within `tight`. While that lies in the bounds it has, nothing happens; else it gets
+  /// `wide`: `tight` and some room for the moves to come. Returns whether it got them.
+  bool move(std::int32_t proxy, const GridBounds& tight, const GridBounds& wide);
+  const GridBounds& bounds(std::int32_t proxy) const { return m_tree.bounds(m_proxies[index(proxy)].leaf); }
+
+  /// All pairs, ordered by (id_a, id_b), good until the next call. Pairs whose bounds ceased to overlap are
+  /// gone. Work is done for what was added, removed or given new bounds since the last call.
+  std::span<const BroadPhasePair> updatePairs();
+
+  /// visit(id) for every body whose bounds overlap; in no particular order, but always the same one.
+  template <class Visit>
+  void query(const GridBounds& bounds, Visit&& visit) const {
+    m_tree.query(bounds, [&](std::uint32_t proxy) { visit(m_proxies[proxy].id); });
+  }
+  /// visit(id, limit) → new limit, as of BroadPhaseTree.
+  template <class Visit>
+  void castRay(const Place& from, Vec2 way, Visit&& visit) const {
+    m_tree.castRay(from, way,
+                   [&](std::uint32_t proxy, double limit) { return visit(m_proxies[proxy].id, limit); });
+  }
+
+  const BroadPhaseTree& tree() const { return m_tree; }
+
+ private:
+  struct Proxy {
+    std::uint32_t id;
+    std::int32_t leaf;  // kNone: removed
+    bool moves;
+    bool changed;  // it is in m_changed
+  };
+  static std::size_t index(std::int32_t proxy) { return static_cast<std::size_t>(proxy); }
+  void markChanged(std::int32_t proxy);
+  void findPairs(std::int32_t proxy);
+  void sortFound();
+
+  BroadPhaseTree m_tree;
+  std::vector<Proxy> m_proxies;
+  std::vector<std::int32_t> m_free;
+  std::vector<std::int32_t> m_changed;
+  std::vector<BroadPhasePair> m_pairs, m_found, m_spare;
+};
+
+}  // namespace naiad::physics

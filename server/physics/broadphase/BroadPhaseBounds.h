@@ -1,0 +1,55 @@
+// Bounds of a body in whole numbers: what the broad phase compares.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "physics/geometry/ConvexShape.h"
+#include "physics/geometry/Place.h"
+
+namespace naiad::physics {
+
+/// In units of 1/16 metric cell, both ends included. Whole numbers, so that a scene moved by whole cells has
+/// the same bounds, moved; up to 2^57 cells.
+struct GridBounds {
+  std::int64_t lower_x, lower_y, upper_x, upper_y;
+
+  friend constexpr bool operator==(const GridBounds& a, const GridBounds& b) = default;
+};
+
+inline constexpr std::int64_t kGridUnits = 16;
+/// Bounds end here, whatever they are of: 2^48 cells from the body's own.
+inline constexpr double kMostGridUnits = 0x1p52;
+
+constexpr bool overlap(const GridBounds& a, const GridBounds& b) {
+  return a.lower_x <= b.upper_x && b.lower_x <= a.upper_x && a.lower_y <= b.upper_y && b.lower_y <= a.upper_y;
+}
+constexpr bool contains(const GridBounds& outer, const GridBounds& inner) {
+  return outer.lower_x <= inner.lower_x && outer.lower_y <= inner.lower_y && inner.upper_x <= outer.upper_x &&
+         inner.upper_y <= outer.upper_y;
+}
+constexpr GridBounds unite(const GridBounds& a, const GridBounds& b) {
+  return {std::min(a.lower_x, b.lower_x), std::min(a.lower_y, b.lower_y), std::max(a.upper_x, b.upper_x),
+          std::max(a.upper_y, b.upper_y)};
+}
+/// Half the perimeter: what a node of a tree costs.
+constexpr std::int64_t perimeter(const GridBounds& a) {
+  return (a.upper_x - a.lower_x) + (a.upper_y - a.lower_y);
+}
+
+/// The least bounds on the grid around `bounds` at `place`, `margin` >= 0 metric cells wider on every side.
+/// A body hit so hard that it is about to be frozen may ask for any.
+inline GridBounds gridBounds(const Place& place, const Bounds& bounds, double margin) {
+  const auto whole = [](double units) {
+    const double bound = units < kMostGridUnits ? units : kMostGridUnits;  // also where that is no number
+    return static_cast<std::int64_t>(bound > -kMostGridUnits ? bound : -kMostGridUnits);
+  };
+  const auto down = [&whole](double x) { return whole(std::floor(x * kGridUnits)); };
+  const auto up = [&whole](double x) { return whole(std::ceil(x * kGridUnits)); };
+  const std::int64_t x = place.cell_x * kGridUnits, y = place.cell_y * kGridUnits;
+  return {x + down(place.dx + bounds.lower.x - margin), y + down(place.dy + bounds.lower.y - margin),
+          x + up(place.dx + bounds.upper.x + margin), y + up(place.dy + bounds.upper.y + margin)};
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,117 @@
+// A binary tree of bounds: finds what overlaps a box or a ray without asking everybody.
+//
+// Leaves are inserted where they enlarge the tree least, and on the way back up a node and its niece change
+// places if that makes the tree smaller (surface area heuristic; cf. E. Catto, "Dynamic bounding volume
+// hierarchies", 2019). Its form follows from the order of calls alone. Memory is kept, never given back.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "physics/broadphase/BroadPhaseBounds.h"
+
+namespace naiad::physics {
+
+/// One thread at a time, for queries too: they share a stack.
+class BroadPhaseTree {
+ public:
+  static constexpr std::int32_t kNone = -1;
+
+  /// Returns the leaf's number, good until it is removed. `value` is what queries report.
+  std::int32_t insert(const GridBounds& bounds, std::uint32_t value);
+  void remove(std::int32_t leaf);
+  /// The leaf keeps its number.
+  void move(std::int32_t leaf, const GridBounds& bounds);
+
+  const GridBounds& bounds(std::int32_t leaf) const { return m_nodes[index(leaf)].bounds; }
+  std::uint32_t value(std::int32_t leaf) const { return m_nodes[index(leaf)].value; }
+
+  /// Calls visit(value) for every leaf that overlaps, in an order that only the calls so far determine.
+  template <class Visit>
+  void query(const GridBounds& bounds, Visit&& visit) const;
+
+  /// Calls visit(value, limit) for leaves that the way from `from` along `way` (fractions 0 … limit) meets;
+  /// it returns the new limit, which may be smaller: below 0 ends the search.
+  template <class Visit>
+  void castRay(const Place& from, Vec2 way, Visit&& visit) const;
+
+  /// Is everything where it belongs? For tests: it looks at every node.
+  bool isSound() const;
+  std::int32_t height() const;
+
+ private:
+  struct Node {
+    GridBounds bounds;
+    std::int32_t parent;    // or the next free node
+    std::int32_t child[2];  // kNone, kNone: a leaf
+    std::uint32_t value;
+    bool isLeaf() const { return child[0] == kNone; }
+  };
+
+  static std::size_t index(std::int32_t node) { return static_cast<std::size_t>(node); }
+  Node& node(std::int32_t i) { return m_nodes[index(i)]; }
+  const Node& node(std::int32_t i) const { return m_nodes[index(i)]; }
+  std::int32_t allocate();
+  void release(std::int32_t i);
+  void attach(std::int32_t leaf);
+  void detach(std::int32_t leaf);
+  std::int32_t bestSibling(const GridBounds& bounds) const;
+  void replaceChild(std::int32_t parent, std::int32_t old_child, std::int32_t new_child);
+  void refitUpwards(std::int32_t i);
+  void rotate(std::int32_t i);
+
+  std::vector<Node> m_nodes;
+  std::int32_t m_root = kNone;
+  std::int32_t m_free = kNone;
+  std::int32_t m_spare = kNone;  // the inner node that a leaf on the move takes along
+  mutable std::vector<std::int32_t> m_stack;
+};
+
+template <class Visit>
+void BroadPhaseTree::query(const GridBounds& bounds, Visit&& visit) const {
+  if (m_root == kNone) return;
+  m_stack.clear();
+  std::int32_t current = m_root;
+  if (!overlap(node(current).bounds, bounds)) return;
+  for (;;) {
+    const Node& here = node(current);
+    if (here.isLeaf()) {
+      visit(here.value);
+    } else {
+      const bool first = overlap(node(here.child[0]).bounds, bounds);
+      const bool second = overlap(node(here.child[1]).bounds, bounds);
+      if (first && second) m_stack.push_back(here.child[1]);
+      if (first || second) {
+        current = here.child[first ? 0 : 1];
+        continue;
+      }
+    }
+    if (m_stack.empty()) return;
+    current = m_stack.back();
+    m_stack.pop_back();
+  }
+}
+
+/// Does the way come into the bounds at a fraction from 0 to `limit`? May say yes for a near miss.
+bool rayMeets(const GridBounds& bounds, const Place& from, Vec2 way, double limit);
+
+template <class Visit>
+void BroadPhaseTree::castRay(const Place& from, Vec2 way, Visit&& visit) const {
+  if (m_root == kNone) return;
+  double limit = 1;
+  m_stack.clear();
+  m_stack.push_back(m_root);
+  while (!m_stack.empty() && limit >= 0) {
+    const Node& here = node(m_stack.back());
+    m_stack.pop_back();
+    if (!rayMeets(here.bounds, from, way, limit)) continue;
+    if (here.isLeaf()) {
+      limit = std::min(limit, visit(here.value, limit));
+    } else {
+      m_stack.push_back(here.child[1]);
+      m_stack.push_back(here.child[0]);
+    }
+  }
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,35 @@
+// A spring with a rest length to a fixed point, as a field: in the plane it has no closed form.
+#pragma once
+
+#include "physics/flight/FlightField.h"
+
+namespace naiad::physics {
+
+/// Pulls towards the field's origin beyond `rest_length`, pushes away within it, and damps the motion along
+/// the spring. Where a rest length of zero will do, SpringFlow is exact and far cheaper. At the origin
+/// itself, where the direction is undefined, it does nothing.
+class ElasticField final : public ForceField {
+ public:
+  /// `push` is a constant acceleration on top of it, such as gravity.
+  ElasticField(double stiffness, double damping, double rest_length, Vec2 push)
+      : m_stiffness(stiffness), m_damping(damping), m_rest_length(rest_length), m_push(push) {}
+
+  Vec2 acceleration(Vec2 position, Vec2 velocity, double /*time*/) const override {
+    const double distance = length(position);
+    if (distance == 0) return m_push;
+    const Vec2 outward = position / distance;
+    const double pull = m_stiffness * (distance - m_rest_length) + m_damping * dot(velocity, outward);
+    return m_push - pull * outward;
+  }
+
+  bool jacobian(Vec2 position, Vec2 velocity, double time, Mat22& by_position,
+                Mat22& by_velocity) const override;
+
+ private:
+  double m_stiffness;    // per mass, per unit of time squared
+  double m_damping;      // per mass, per unit of time
+  double m_rest_length;  // metric cells
+  Vec2 m_push;
+};
+
+}  // namespace naiad::physics

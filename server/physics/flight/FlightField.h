@@ -1,0 +1,30 @@
+// Flight through a field of force that a game defines.
+#pragma once
+
+#include "Integrator.h"
+#include "detail/FlightFree.h"
+#include "detail/Mat22.h"
+
+namespace naiad::physics {
+
+/// What a field does to a body, per unit of mass. Must be a pure function of its arguments (and of what does
+/// not change during a tick): it is called several times per tick, in an order of the integrator's choosing,
+/// and with states that the body never reaches.
+class ForceField {
+ public:
+  virtual ~ForceField() = default;
+  /// `position` is relative to the field's own origin, in metric cells; `time` is the world's.
+  virtual Vec2 acceleration(Vec2 position, Vec2 velocity, double time) const = 0;
+  /// The acceleration's derivatives. Optional: with false, integrators that need them take differences.
+  virtual bool jacobian(Vec2 /*position*/, Vec2 /*velocity*/, double /*time*/, Mat22& /*by_position*/,
+                        Mat22& /*by_velocity*/) const {
+    return false;
+  }
+};
+
+/// From `time` to `time + t`, by the method of `options`. `position` is relative to the field's origin.
+/// A status other than kDone: `flown` is where it stopped, and the caller should freeze the body.
+IntegratorStatus flyField(const ForceField& field, Vec2 position, Vec2 velocity, double time, double t,
+                          const IntegratorOptions& options, Flown& flown, IntegratorCounters& counters);
+
+}  // namespace naiad::physics

@@ -1,0 +1,129 @@
+#include "physics/flight/FlightSpring.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "shared/math/DoubleDouble.h"
+#include "shared/math/Elementary.h"
+
+namespace naiad::physics {
+
+namespace math = df::math;
+
+SpringFlow::SpringFlow(Spring spring, double t) : m_stiffness(spring.stiffness) {
+  assert(spring.stiffness >= 0 && spring.damping >= 0 && t >= 0);
+  const double half = 0.5 * spring.damping;
+  if (std::max(spring.stiffness * t * t, half * half * t * t) <= 0.25) {
+    series(spring.damping, t);
+  } else if (half * half >= spring.stiffness) {
+    overdamped(spring.damping, t);
+  } else {
+    underdamped(spring.damping, t);
+  }
+}
+
+namespace {
+
+constexpr int kTerms = 24;
+
+constexpr std::array<double, kTerms + 2> kInverse = [] {
+  std::array<double, kTerms + 2> inverse{};
+  for (int n = 1; n < kTerms + 2; ++n) inverse[n] = 1.0 / n;
+  return inverse;
+}();
+
+}  // namespace
+
+// Short steps: Taylor's series, in which nothing cancels however small stiffness and damping are.
+void SpringFlow::series(double damping, double t) {
+  const double z = damping * t, w = m_stiffness * t * t;
+  double before = 0, term = 1;  // of the way, over t: the powers n − 1 and n
+  double left = 1, way = 1, way_of_push = 0.5;
+  for (int n = 1; n < kTerms; ++n) {
+    const double next = -(z * term + w * kInverse[n] * before) * kInverse[n + 1];
+    before = term;
+    term = next;
+    left += (n + 1) * term;
+    way += term;
+    way_of_push += term * kInverse[n + 2];
+    if (std::fabs(term) + std::fabs(before) < 1e-18) break;
+  }
+  m_left = left;
+  m_way = t * way;
+  m_way_of_push = t * t * way_of_push;
+}
+
+// Two decays. The slow rate comes from the product of both, not from a difference.
+void SpringFlow::overdamped(double damping, double t) {
+  const double half = 0.5 * damping, root = std::sqrt(m_stiffness);
+  const double split = std::sqrt((half - root) * (half + root));
+  const double fast = half + split, slow = m_stiffness / fast;
+  const double decay_slow = math::exp(-slow * t), decay_fast = math::exp(-fast * t);
+  const double width = 2 * split;
+  m_way = decay_slow * (width * t > 0x1p-500 ? -math::expm1(-width * t) / width : t);
+  m_left = decay_fast - slow * m_way;
+  if (fast > 2 * slow) {
+    const double way_slow = slow * t > 0x1p-500 ? -math::expm1(-slow * t) / slow : t;
+    m_way_of_push = (way_slow + math::expm1(-fast * t) / fast) / width;
+  } else {
+    m_way_of_push = (1 - (decay_slow + slow * m_way)) / m_stiffness;
+  }
+}
+
+void SpringFlow::underdamped(double damping, double t) {
+  const double half = 0.5 * damping;
+  const math::DoubleDouble frequency = math::squareRoot(-math::twoProduct(half, half) + m_stiffness);
+  const math::DoubleDouble phase = frequency * t;
+  // The phase may be thousands of turns: what a double of it leaves out is made up for.
+  const math::SineCosine circle = math::sincos(phase.hi);
+  math::SineCosine rest = {phase.lo, 1};
+  if (std::fabs(phase.lo) > 0x1p-27) rest = math::sincos(phase.lo);
+  const double sine = circle.sine * rest.cosine + circle.cosine * rest.sine;
+  const double cosine = circle.cosine * rest.cosine - circle.sine * rest.sine;
+  const double decay = math::exp(-half * t);
+  const double swing = phase.hi > 0x1p-500 ? sine / frequency.hi : t;
+  m_way = decay * swing;
+  m_left = decay * (cosine - half * swing);
+  m_way_of_push = (1 - decay * (cosine + half * swing)) / m_stiffness;
+}
+
+namespace {
+
+double share(double inverse_mass, double sum) {
+  return sum > 0 ? inverse_mass / sum : 0;
+}
+
+}  // namespace
+
+PairFlow::PairFlow(double stiffness, double damping, double inverse_mass_first, double inverse_mass_second,
+                   double t)
+    : m_flow({stiffness * (inverse_mass_first + inverse_mass_second),
+              damping * (inverse_mass_first + inverse_mass_second)},
+             t),
+      m_t(t),
+      m_share_first(share(inverse_mass_first, inverse_mass_first + inverse_mass_second)),
+      m_share_second(share(inverse_mass_second, inverse_mass_first + inverse_mass_second)) {}
+
+FlownPair PairFlow::operator()(Vec2 offset, Vec2 velocity_first, Vec2 velocity_second,
+                               Vec2 acceleration_first, Vec2 acceleration_second) const {
+  if (m_share_first + m_share_second == 0) {
+    return {flyFree(velocity_first, {}, m_t), flyFree(velocity_second, {}, m_t)};
+  }
+  // What is immovable keeps its velocity whatever pushes it. The centre of mass: each body counts with the
+  // other's share, for shares go by inverse masses.
+  if (m_share_first == 0) acceleration_first = {};
+  if (m_share_second == 0) acceleration_second = {};
+  const Vec2 velocity = m_share_second * velocity_first + m_share_first * velocity_second;
+  const Vec2 acceleration = m_share_second * acceleration_first + m_share_first * acceleration_second;
+  const Flown centre = flyFree(velocity, acceleration, m_t);
+  const Flown apart =
+      m_flow(offset, velocity_second - velocity_first, acceleration_second - acceleration_first);
+  return {{centre.displacement + (-m_share_first) * apart.displacement,
+           centre.velocity + (-m_share_first) * apart.velocity},
+          {centre.displacement + m_share_second * apart.displacement,
+           centre.velocity + m_share_second * apart.velocity}};
+}
+
+}  // namespace naiad::physics

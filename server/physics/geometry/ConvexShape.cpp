@@ -1,0 +1,227 @@
+#include "physics/geometry/ConvexShape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace naiad::physics {
+
+namespace {
+
+bool isFinite(double x) {
+  return x - x == 0;
+}
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+// The edge's direction turned outwards. Along an axis the result is exact, for √(x²) is |x|.
+Vec2 outward(Vec2 edge) {
+  const double by = length(edge);
+  return {edge.y / by, -edge.x / by};
+}
+
+// Range checks that all shapes share, and what follows from the vertices.
+ShapeStatus finish(ConvexShape& made, ConvexShape& shape) {
+  double reach = 0;
+  for (int i = 0; i < made.count; ++i) {
+    const Vec2 v = made.vertices[at(i)];
+    if (!isFinite(v)) return ShapeStatus::kNotFinite;
+    if (std::max(std::fabs(v.x), std::fabs(v.y)) > kLargestShape) return ShapeStatus::kTooLarge;
+    reach = std::max(reach, length(v));
+  }
+  if (reach + made.radius > kLargestShape) return ShapeStatus::kTooLarge;
+  for (int i = 0; i < made.count && made.count > 1; ++i) {
+    made.normals[at(i)] = outward(made.vertices[at(following(i, made.count))] - made.vertices[at(i)]);
+  }
+  made.reach = reach;
+  shape = made;
+  return ShapeStatus::kOk;
+}
+
+ShapeStatus checkRadius(double radius, double least) {
+  if (!isFinite(radius)) return ShapeStatus::kNotFinite;
+  if (radius < least) return ShapeStatus::kTooSmall;
+  return radius > kLargestShape ? ShapeStatus::kTooLarge : ShapeStatus::kOk;
+}
+
+double sizeOf(std::span<const Vec2> points) {
+  double size = 0;
+  for (const Vec2 p : points) {
+    size = std::max({size, std::fabs(p.x - points[0].x), std::fabs(p.y - points[0].y)});
+  }
+  return size;
+}
+
+double signedArea(std::span<const Vec2> points) {
+  double twice = 0;
+  for (std::size_t i = 2; i < points.size(); ++i) {
+    twice += cross(points[i - 1] - points[0], points[i] - points[0]);
+  }
+  return twice / 2;
+}
+
+// How far b rises above the line from a to c, outwards.
+double height(Vec2 a, Vec2 b, Vec2 c) {
+  return cross(b - a, c - b) / length(c - a);
+}
+
+// One half of the hull: points sorted by x and y, kept while they turn from x to y.
+std::size_t halfHull(std::span<const Vec2> sorted, std::span<Vec2> hull) {
+  std::size_t count = 0;
+  for (const Vec2 p : sorted) {
+    while (count >= 2 && cross(hull[count - 1] - hull[count - 2], p - hull[count - 1]) <= 0) --count;
+    hull[count++] = p;
+  }
+  return count;
+}
+
+}  // namespace
+
+ShapeStatus makeCircle(double radius, Vec2 centre, ConvexShape& shape) {
+  if (const ShapeStatus status = checkRadius(radius, kSmallestShape); status != ShapeStatus::kOk)
+    return status;
+  ConvexShape made;
+  made.count = 1;
+  made.radius = radius;
+  made.vertices[0] = centre;
+  return finish(made, shape);
+}
+
+ShapeStatus makeCapsule(Vec2 a, Vec2 b, double radius, ConvexShape& shape) {
+  if (const ShapeStatus status = checkRadius(radius, kSmallestShape); status != ShapeStatus::kOk)
+    return status;
+  if (!isFinite(a) || !isFinite(b)) return ShapeStatus::kNotFinite;
+  if (std::max(std::fabs(b.x - a.x), std::fabs(b.y - a.y)) < kSmallestShape) return ShapeStatus::kTooSmall;
+  ConvexShape made;
+  made.count = 2;
+  made.radius = radius;
+  made.vertices[0] = a;
+  made.vertices[1] = b;
+  return finish(made, shape);
+}
+
+ShapeStatus makeBox(double half_width, double half_height, Vec2 centre, Rotation rotation, double radius,
+                    ConvexShape& shape) {
+  const double w = half_width, h = half_height;
+  if (!isFinite(w) || !isFinite(h) || !isFinite({rotation.c, rotation.s})) return ShapeStatus::kNotFinite;
+  if (w < kSmallestShape / 2 || h < kSmallestShape / 2) return ShapeStatus::kTooSmall;
+  if (w > kLargestShape || h > kLargestShape) return ShapeStatus::kTooLarge;
+  if (std::fabs(rotation.c * rotation.c + rotation.s * rotation.s - 1) > 1e-9) return ShapeStatus::kNotFinite;
+  if (const ShapeStatus status = checkRadius(radius, 0); status != ShapeStatus::kOk) return status;
+  ConvexShape made;
+  made.count = 4;
+  made.radius = radius;
+  const std::array<Vec2, 4> corners = {Vec2{-w, -h}, {w, -h}, {w, h}, {-w, h}};
+  for (std::size_t i = 0; i < 4; ++i) made.vertices[i] = centre + rotation * corners[i];
+  return finish(made, shape);
+}
+
+ShapeStatus makePolygon(std::span<const Vec2> points, double radius, ConvexShape& shape) {
+  if (points.size() < 3) return ShapeStatus::kTooFew;
+  if (points.size() > kMaxVertices) return ShapeStatus::kTooMany;
+  if (const ShapeStatus status = checkRadius(radius, 0); status != ShapeStatus::kOk) return status;
+  for (const Vec2 p : points) {
+    if (!isFinite(p)) return ShapeStatus::kNotFinite;
+    if (std::max(std::fabs(p.x), std::fabs(p.y)) > kLargestShape) return ShapeStatus::kTooLarge;
+  }
+  const double size = sizeOf(points), area = signedArea(points);
+  if (size < kSmallestShape ||
+      std::fabs(area) < size * std::max(kSmallestShape, kSmallestCorner * size) / 2) {
+    return ShapeStatus::kTooSmall;
+  }
+  if (area < 0) return ShapeStatus::kClockwise;
+  // Every point lies on the inner side of every edge, by more than nothing: that refuses stars, too.
+  const std::size_t count = points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (length(points[(i + 1) % count] - points[i]) < kSmallestCorner * size) return ShapeStatus::kTooSmall;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 a = points[i], b = points[(i + 1) % count];
+    for (std::size_t k = 2; k < count; ++k) {
+      if (!(cross(b - a, points[(i + k) % count] - a) > 0)) return ShapeStatus::kNotConvex;
+    }
+    if (!(height(a, b, points[(i + 2) % count]) > kSmallestCorner * size)) return ShapeStatus::kNotConvex;
+  }
+  ConvexShape made;
+  made.count = static_cast<std::int32_t>(count);
+  made.radius = radius;
+  std::copy(points.begin(), points.end(), made.vertices.begin());
+  return finish(made, shape);
+}
+
+ShapeStatus makeHull(std::span<const Vec2> points, double radius, ConvexShape& shape) {
+  constexpr std::size_t kMost = 4096;
+  if (points.empty()) return ShapeStatus::kTooFew;
+  if (points.size() > kMost) return ShapeStatus::kTooMany;
+  for (const Vec2 p : points) {
+    if (!isFinite(p)) return ShapeStatus::kNotFinite;
+    if (std::max(std::fabs(p.x), std::fabs(p.y)) > kLargestShape) return ShapeStatus::kTooLarge;
+  }
+  std::array<Vec2, kMost> sorted;
+  const std::span<Vec2> all(sorted.data(), points.size());
+  std::copy(points.begin(), points.end(), all.begin());
+  std::sort(all.begin(), all.end(), [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::array<Vec2, 2 * kMost> hull;
+  std::size_t count = halfHull(all, hull) - 1;
+  std::reverse(all.begin(), all.end());
+  count += halfHull(all, std::span<Vec2>(hull).subspan(count)) - 1;
+  const double size = sizeOf(all);
+  while (count > 3) {
+    std::size_t least = 0;
+    double least_area = 0;
+    bool flat = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec2 a = hull[(i + count - 1) % count], b = hull[i], c = hull[(i + 1) % count];
+      const double area = cross(b - a, c - b);
+      if (i > 0 && area >= least_area) continue;
+      least = i, least_area = area;
+    }
+    for (std::size_t i = 0; i < count && !flat; ++i) {
+      const Vec2 a = hull[(i + count - 1) % count], b = hull[i], c = hull[(i + 1) % count];
+      flat = !(height(a, b, c) > 2 * kSmallestCorner * size) || length(b - a) < 2 * kSmallestCorner * size;
+      if (flat) least = i;
+    }
+    if (!flat && count <= kMaxVertices) break;
+    std::copy(hull.begin() + static_cast<std::ptrdiff_t>(least) + 1,
+              hull.begin() + static_cast<std::ptrdiff_t>(count),
+              hull.begin() + static_cast<std::ptrdiff_t>(least));
+    --count;
+  }
+  if (count < 3) return ShapeStatus::kTooSmall;
+  return makePolygon({hull.data(), count}, radius, shape);
+}
+
+ConvexShape moved(const ConvexShape& shape, Rotation rotation, Vec2 by) {
+  ConvexShape result = shape;
+  result.reach = 0;
+  for (int i = 0; i < shape.count; ++i) {
+    result.vertices[at(i)] = rotation * shape.vertices[at(i)] + by;
+    result.normals[at(i)] = rotation * shape.normals[at(i)];
+    result.reach = std::max(result.reach, length(result.vertices[at(i)]));
+  }
+  return result;
+}
+
+void turn(const ConvexShape& shape, Rotation rotation, TurnedShape& turned) {
+  turned.count = shape.count;
+  turned.radius = shape.radius;
+  turned.reach = shape.reach;
+  for (int i = 0; i < shape.count; ++i) {
+    turned.vertices[at(i)] = rotation * shape.vertices[at(i)];
+    turned.normals[at(i)] = rotation * shape.normals[at(i)];
+  }
+}
+
+Bounds boundsOf(const TurnedShape& shape) {
+  Bounds bounds = {shape.vertices[0], shape.vertices[0]};
+  for (int i = 1; i < shape.count; ++i) {
+    const Vec2 v = shape.vertices[at(i)];
+    bounds.lower = {std::min(bounds.lower.x, v.x), std::min(bounds.lower.y, v.y)};
+    bounds.upper = {std::max(bounds.upper.x, v.x), std::max(bounds.upper.y, v.y)};
+  }
+  const Vec2 r = {shape.radius, shape.radius};
+  return {bounds.lower - r, bounds.upper + r};
+}
+
+}  // namespace naiad::physics

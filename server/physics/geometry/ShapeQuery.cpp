@@ -1,0 +1,78 @@
+#include "physics/geometry/ShapeQuery.h"
+
+#include <cmath>
+#include <limits>
+
+namespace naiad::physics {
+
+namespace {
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+// The earliest entry wins; a way that leaves meets nothing.
+void enterDisc(Vec2 centre, double radius, Vec2 from, Vec2 way, RayHit& best) {
+  const double long_way = length(way);
+  const Vec2 along = way / long_way, out = from - centre;
+  const double passes = cross(along, out), inside = (radius - passes) * (radius + passes);
+  if (radius == 0 || inside < 0) return;
+  const double fraction = (-dot(out, along) - std::sqrt(inside)) / long_way;
+  if (!(fraction >= 0) || fraction > 1 || (best.hit && fraction >= best.fraction)) return;
+  const Vec2 normal = out + fraction * way;
+  best = {true, fraction, normal / length(normal)};
+}
+
+void enterEdge(Vec2 first, Vec2 second, Vec2 normal, Vec2 from, Vec2 way, RayHit& best) {
+  const double rate = dot(normal, way), height = dot(normal, from - first);
+  if (rate >= 0 || height < 0) return;
+  const double fraction = -height / rate;
+  if (fraction > 1 || (best.hit && fraction >= best.fraction)) return;
+  // Which side the ends of the edge lie on is asked of the way itself, so that no corner lets it through.
+  if (cross(first - from, way) > 0 || cross(second - from, way) < 0) return;
+  best = {true, fraction, normal};
+}
+
+}  // namespace
+
+SurfacePoint closestPoint(const ConvexShape& shape, Vec2 point) {
+  double most = -std::numeric_limits<double>::infinity();
+  std::int32_t edge = 0;
+  for (std::int32_t i = 0; i < shape.count && shape.count > 1; ++i) {
+    const double s = dot(shape.normals[at(i)], point - shape.vertices[at(i)]);
+    edge = s > most ? i : edge;
+    most = s > most ? s : most;
+  }
+  const Vec2 first = shape.vertices[at(edge)], second = shape.vertices[at(following(edge, shape.count))];
+  const Vec2 side = second - first;
+  const double along = dot(point - first, side);
+  if (shape.count > 1 && ((most < 0 && shape.count > 2) || (along >= 0 && along <= lengthSquared(side)))) {
+    const Vec2 normal = shape.normals[at(edge)];
+    const double distance = most - shape.radius;
+    return {point - distance * normal, normal, distance};
+  }
+  const Vec2 corner = along < 0 ? first : second, out = point - corner;
+  const double away = length(out);
+  const Vec2 normal = away > 0 ? out / away : Vec2{0, 1};
+  return {corner + shape.radius * normal, normal, away - shape.radius};
+}
+
+bool contains(const ConvexShape& shape, Vec2 point) {
+  if (shape.count == 1) return lengthSquared(point - shape.vertices[0]) <= shape.radius * shape.radius;
+  return closestPoint(shape, point).distance <= 0;
+}
+
+RayHit castRay(const ConvexShape& shape, Vec2 from, Vec2 way) {
+  if (contains(shape, from)) return {true, 0, {}};
+  RayHit best;
+  for (std::int32_t i = 0; i < shape.count; ++i) {
+    enterDisc(shape.vertices[at(i)], shape.radius, from, way, best);
+    if (shape.count == 1) break;
+    const Vec2 normal = shape.normals[at(i)], out = shape.radius * normal;
+    enterEdge(shape.vertices[at(i)] + out, shape.vertices[at(following(i, shape.count))] + out, normal, from,
+              way, best);
+  }
+  return best;
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,81 @@
+#include "physics/geometry/ShapeRaster.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace naiad::physics {
+
+namespace {
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+// Where a level line crosses the shape. What bounds it is straight or an arc of a disc that lies in the
+// shape, so the outermost crossings are those of the shape.
+struct Crossing {
+  double from = 1;
+  double to = 0;
+  void add(double x) {
+    if (from > to) {
+      from = to = x;
+      return;
+    }
+    from = std::min(from, x);
+    to = std::max(to, x);
+  }
+};
+
+Crossing crossingOf(const TurnedShape& shape, double y) {
+  Crossing crossing;
+  for (std::int32_t i = 0; i < shape.count; ++i) {
+    const Vec2 corner = shape.vertices[at(i)];
+    const double high = y - corner.y, inside = (shape.radius - high) * (shape.radius + high);
+    if (inside >= 0) {
+      crossing.add(corner.x - std::sqrt(inside));
+      crossing.add(corner.x + std::sqrt(inside));
+    }
+    if (shape.count == 1) break;
+    const Vec2 out = shape.radius * shape.normals[at(i)];
+    const Vec2 a = corner + out, b = shape.vertices[at(following(i, shape.count))] + out;
+    if ((y < a.y && y < b.y) || (y > a.y && y > b.y)) continue;
+    if (a.y == b.y) {
+      crossing.add(a.x);
+      crossing.add(b.x);
+    } else {
+      crossing.add(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+    }
+  }
+  return crossing;
+}
+
+}  // namespace
+
+void rasterise(const TurnedShape& shape, Vec2 centre, double aspect, std::vector<CellSpan>& spans,
+               std::int32_t furthest) {
+  spans.clear();
+  const double most = furthest;
+  const auto cell = [&](double x) { return static_cast<std::int32_t>(std::clamp(x, -most - 1, most + 1)); };
+  const Bounds bounds = boundsOf(shape);
+  const std::int32_t top = std::max(cell(std::ceil((centre.y + bounds.lower.y) / aspect)), -furthest);
+  const std::int32_t bottom = std::min(cell(std::floor((centre.y + bounds.upper.y) / aspect)), furthest);
+  for (std::int32_t row = top; row <= bottom; ++row) {
+    const Crossing crossing = crossingOf(shape, row * aspect - centre.y);
+    if (crossing.from > crossing.to) continue;
+    const std::int32_t first = std::max(cell(std::ceil(centre.x + crossing.from)), -furthest);
+    const std::int32_t last = std::min(cell(std::floor(centre.x + crossing.to)), furthest);
+    if (first <= last) spans.push_back({row, first, last});
+  }
+}
+
+bool isOutline(std::span<const CellSpan> spans, std::size_t index, std::int32_t column) {
+  const CellSpan& span = spans[index];
+  if (column == span.first || column == span.last) return true;
+  const auto covers = [&](std::size_t other, std::int32_t row) {
+    return other < spans.size() && spans[other].row == row && spans[other].first <= column &&
+           column <= spans[other].last;
+  };
+  return !(index > 0 && covers(index - 1, span.row - 1)) || !covers(index + 1, span.row + 1);
+}
+
+}  // namespace naiad::physics

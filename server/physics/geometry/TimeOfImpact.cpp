@@ -1,0 +1,138 @@
+#include "physics/geometry/TimeOfImpact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/geometry/ShapeDistance.h"
+
+namespace naiad::physics {
+
+namespace {
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+struct Span {
+  double from;
+  double to;
+};
+
+// While the circles around the bodies' origins overlap: nothing else can touch. Empty: from > to.
+Span nearTimes(Vec2 offset, Vec2 way, double reach) {
+  const double speed = length(way);
+  if (speed == 0) return lengthSquared(offset) <= reach * reach ? Span{0, 1} : Span{1, 0};
+  const double passes = cross(way, offset) / speed, inside = (reach - passes) * (reach + passes);
+  if (inside < 0) return {1, 0};
+  const double middle = -dot(offset, way) / speed / speed, half = std::sqrt(inside) / speed;
+  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
+}
+
+// The corners of one shape as an axis sees them: where they are and how fast they move along it.
+struct Corners {
+  std::int32_t count;
+  std::array<double, kMaxVertices> place;
+  std::array<double, kMaxVertices> speed;
+
+  Corners(const TurnedShape& shape, Vec2 axis, double spin) : count(shape.count) {
+    const Vec2 across = perpendicular(axis);
+    for (std::int32_t i = 0; i < count; ++i) {
+      place[at(i)] = dot(axis, shape.vertices[at(i)]);
+      speed[at(i)] = -spin * dot(across, shape.vertices[at(i)]);
+    }
+  }
+
+  // Which corner lies foremost after `time`, going straight on.
+  std::int32_t foremost(double time) const {
+    std::int32_t best = 0;
+    double most = place[0] + speed[0] * time;
+    for (std::int32_t i = 1; i < count; ++i) {
+      const double p = place[at(i)] + speed[at(i)] * time;
+      best = p > most ? i : best;
+      most = p > most ? p : most;
+    }
+    return best;
+  }
+};
+
+// How long the gap along the axis is safe: every pair of corners leaves at least
+// place + speed·t − bend·t²/2 > 0 until then. At most `longest`.
+double safeTime(const Corners& a, const Corners& b, double place, double speed, double bend, double longest) {
+  double time = longest;
+  std::int32_t last_a = -1, last_b = -1;
+  // Each round takes the worst pair at the time found so far; each pair's way is concave, so its root is
+  // final.
+  for (std::int32_t round = 0; round < kMaxVertices * kMaxVertices; ++round) {
+    const std::int32_t i = a.foremost(time), j = b.foremost(time);
+    const double gap = place - a.place[at(i)] - b.place[at(j)];
+    const double rate = speed - a.speed[at(i)] - b.speed[at(j)];
+    if (gap <= 0) return 0;
+    if (gap + (rate - 0.5 * bend * time) * time >= 0 || (i == last_a && j == last_b)) break;
+    time = std::min(time, 2 * gap / (std::sqrt(rate * rate + 2 * bend * gap) - rate));
+    last_a = i, last_b = j;
+  }
+  return time;
+}
+
+}  // namespace
+
+double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, Vec2 relative_displacement) {
+  return 1e-10 * (a.reach + a.radius + b.reach + b.radius) +
+         1e-15 * (length(offset) + length(relative_displacement));
+}
+
+ImpactTime timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
+                        const RigidMotion& motion_b, Vec2 offset, double target) {
+  const Vec2 way = motion_b.displacement - motion_a.displacement;
+  const double tolerance = impactTolerance(a, b, offset, way), radii = a.radius + b.radius;
+  const double speed = length(way);
+  ImpactTime result;
+  const double around = a.reach + b.reach + radii + target;
+  const Span span = nearTimes(offset, way, around * (1 + 1e-6) + 16 * tolerance);
+  if (span.from > span.to) return result;
+
+  TurnedShape turned_a, turned_b;
+  double level = target, time = span.from;
+  for (result.iterations = 1; result.iterations <= kImpactIterations; ++result.iterations) {
+    const bool first = result.iterations == 1;
+    if (first || motion_a.turn != 0) turn(a, turned(motion_a.start, motion_a.turn * time), turned_a);
+    if (first || motion_b.turn != 0) turn(b, turned(motion_b.start, motion_b.turn * time), turned_b);
+    const Vec2 apart = offset + time * way;
+    const Separation s = separation(turned_a, turned_b, apart);
+    const double gap = s.distance - radii;
+    if (first && time == 0 && gap <= target + tolerance) {
+      result.touched_before = true;
+      level = gap - 4 * tolerance;
+    }
+    const auto hit = [&] {
+      result.status = ImpactStatus::kHit;
+      result.time = time, result.gap = gap, result.normal = s.normal;
+      return result;
+    };
+    if (gap - level <= tolerance) return hit();
+    // An axis across an edge turns with it, or else the edge's far end would seem to come nearer.
+    const double axis_turn = s.feature == Feature::kFaceA   ? motion_a.turn
+                             : s.feature == Feature::kFaceB ? motion_b.turn
+                                                            : 0;
+    const double turn_a = motion_a.turn - axis_turn, turn_b = motion_b.turn - axis_turn;
+    const double left = span.to - time;
+    // No way along the axis bends more than this: the corners about their origins, and these about the axis.
+    const double farthest = std::max(length(apart), length(offset + span.to * way));
+    const double bend = a.reach * turn_a * turn_a + b.reach * turn_b * turn_b +
+                        std::fabs(axis_turn) * (farthest * std::fabs(axis_turn) + 2 * speed);
+    // A's corners count forwards along the axis, B's backwards.
+    const Corners of_a(turned_a, s.normal, turn_a), of_b(turned_b, -s.normal, turn_b);
+    const double place = dot(s.normal, apart) - radii - level;
+    const double rate = dot(s.normal, way) + axis_turn * dot(perpendicular(s.normal), apart);
+    const double safe = safeTime(of_a, of_b, place, rate, bend, left);
+    if (safe >= left) return result;
+    if (time + safe == time) return hit();  // nearer than time can tell
+    time += safe;
+  }
+  --result.iterations;
+  result.status = ImpactStatus::kUnresolved;
+  result.time = time;
+  return result;
+}
+
+}  // namespace naiad::physics

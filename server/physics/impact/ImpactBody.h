@@ -1,0 +1,49 @@
+// What the event-exact storey moves: bodies that do not rotate, axis-aligned boxes and circles.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "physics/geometry/Place.h"
+#include "physics/geometry/Vec2.h"
+
+namespace naiad::physics {
+
+enum class ImpactShape : std::uint8_t { kBox, kCircle };
+
+/// Plain data. Time counts in ticks, lengths in metric cells.
+struct ImpactBody {
+  Place place;              ///< of the centre
+  Vec2 velocity;            ///< per tick
+  Vec2 acceleration;        ///< gravity and force over mass, constant within a tick
+  Vec2 half = {0.5, 0.5};   ///< half the box, or the radius in x; >= 0, a box may be flat but not a point
+  double inverse_mass = 1;  ///< 0: static, or kinematic if it has a velocity; nothing pushes it
+  double restitution = 0;   ///< 0 … 1; of a pair the larger one counts
+  double friction = 0;      ///< >= 0; of a pair the geometric mean counts
+  ImpactShape shape = ImpactShape::kBox;
+
+  friend constexpr bool operator==(const ImpactBody& a, const ImpactBody& b) = default;
+};
+
+/// May the body be taken in? Everything finite and below 1e30, sizes below 1e12.
+inline bool isSound(const ImpactBody& body) {
+  constexpr double kLargest = 1e30;
+  const auto isSmall = [](double x) { return std::fabs(x) <= kLargest; };  // false for NaN
+  const bool has_size = body.shape == ImpactShape::kCircle
+                            ? body.half.x > 0
+                            : body.half.x >= 0 && body.half.y >= 0 && body.half.x + body.half.y > 0;
+  return has_size && body.half.x <= 1e12 && body.half.y <= 1e12 && isSmall(body.velocity.x) &&
+         isSmall(body.velocity.y) && isSmall(body.acceleration.x) && isSmall(body.acceleration.y) &&
+         body.inverse_mass >= 0 && isSmall(body.inverse_mass) && body.restitution >= 0 &&
+         body.restitution <= 1 && body.friction >= 0 && isSmall(body.friction) &&
+         std::fabs(body.place.dx) <= 1 && std::fabs(body.place.dy) <= 1;
+}
+
+constexpr double restitutionOf(const ImpactBody& a, const ImpactBody& b) {
+  return a.restitution > b.restitution ? a.restitution : b.restitution;
+}
+inline double frictionOf(const ImpactBody& a, const ImpactBody& b) {
+  return std::sqrt(a.friction * b.friction);
+}
+
+}  // namespace naiad::physics

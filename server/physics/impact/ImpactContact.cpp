@@ -1,0 +1,368 @@
+// What happens when bodies of an ImpactWorld meet, and while they lie on one another.
+#include <algorithm>
+#include <utility>
+
+#include "physics/impact/ImpactWorld.h"
+
+namespace naiad::physics {
+
+ImpactWorld::Meeting ImpactWorld::meet(int a, int b, ImpactAxis axis) const {
+  const ImpactBody &first = m_bodies[a], &second = m_bodies[b];
+  Meeting meeting;
+  meeting.touch = touchOf(first, second, second.place - first.place, axis);
+  meeting.velocity = second.velocity - first.velocity;
+  meeting.approach = -dot(meeting.velocity, meeting.touch.normal);
+  meeting.rest_speed = restSpeed(first.velocity, second.velocity);
+  return meeting;
+}
+
+// Would the bounce be too slow, or not rise high enough, to be one?
+bool ImpactWorld::isSoft(int a, int b, const Meeting& meeting) const {
+  const double restitution = restitutionOf(m_bodies[a], m_bodies[b]);
+  const double bounce = restitution * meeting.approach;
+  if (bounce <= meeting.rest_speed) return true;
+  if (restitution < 1 &&
+      (m_motions[a].events_at_once > kMostAtOnce || m_motions[b].events_at_once > kMostAtOnce)) {
+    return true;  // nothing has moved since: the height left is none
+  }
+  double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, meeting.touch.normal);
+  if (restitution < 1) {  // what falls together collapses together: nothing presses, and there is no end
+    for (const int id : {a, b}) {
+      pressing = std::max(pressing, std::fabs(dot(m_bodies[id].acceleration, meeting.touch.normal)));
+    }
+  }
+  return pressing > 0 && bounce * bounce <= 2 * pressing * kRestHeight;
+}
+
+void ImpactWorld::collide(int a, int b, ImpactAxis axis, double now) {
+  ++m_counters.impacts;
+  ImpactBody &first = m_bodies[a], &second = m_bodies[b];
+  Meeting meeting = meet(a, b, axis);
+  const double masses = first.inverse_mass + second.inverse_mass;
+  if (std::fabs(meeting.touch.gap) <= 2 * kImpactSlop) {  // what the moment's rounding leaves
+    const Vec2 by = (meeting.touch.gap / masses) * meeting.touch.normal;
+    if (first.inverse_mass > 0) first.place = first.place + first.inverse_mass * by;
+    if (second.inverse_mass > 0) second.place = second.place + -second.inverse_mass * by;
+  }
+  int contact = findContact(a, b);
+  const bool is_new = contact < 0;
+  if (is_new) contact = makeContact(a, b, axis);
+  m_contacts[contact].axis = axis;
+  double impulse = 0;
+  if (meeting.approach < 0) {
+    const double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, meeting.touch.normal);
+    // They part, but not by what a double can tell: the next impact is this one.
+    if (pressing > 0 && meeting.approach * meeting.approach <= 2 * pressing * kRestHeight) {
+      const Vec2 pull = (meeting.approach / masses) * meeting.touch.normal;
+      first.velocity -= first.inverse_mass * pull;
+      second.velocity += second.inverse_mass * pull;
+    }
+  } else if (isSoft(a, b, meeting)) {
+    if (meeting.approach > 0) impulse = pushGroup(contact, now);
+  } else {
+    pushPair(a, b, meeting);
+    impulse = (1 + restitutionOf(first, second)) * meeting.approach / masses;
+  }
+  if (is_new) m_events.push_back({now, a, b, true, impulse, meeting.touch.normal});
+}
+
+void ImpactWorld::pushPair(int a, int b, const Meeting& meeting) {
+  ImpactBody &first = m_bodies[a], &second = m_bodies[b];
+  const double masses = first.inverse_mass + second.inverse_mass;
+  const double impulse = (1 + restitutionOf(first, second)) * meeting.approach / masses;
+  Vec2 push = impulse * meeting.touch.normal;
+  const double friction = frictionOf(first, second);
+  if (friction > 0) {
+    const Vec2 along = perpendicular(meeting.touch.normal);
+    const double stop = -dot(meeting.velocity, along) / masses;
+    push += std::clamp(stop, -friction * impulse, friction * impulse) * along;
+  }
+  first.velocity -= first.inverse_mass * push;
+  second.velocity += second.inverse_mass * push;
+}
+
+// At the moment a sliding contact comes to rest: takes away what rounding has left of its speed.
+void ImpactWorld::stopSliding(int a, int b) {
+  const int contact = findContact(a, b);
+  if (contact < 0) return;
+  ImpactBody &first = m_bodies[a], &second = m_bodies[b];
+  const Meeting meeting = meet(a, b, m_contacts[contact].axis);
+  const Vec2 along = perpendicular(meeting.touch.normal);
+  const double slip = dot(meeting.velocity, along);
+  if (std::fabs(slip) > 10 * meeting.rest_speed) return;
+  const Vec2 push = (-slip / (first.inverse_mass + second.inverse_mass)) * along;
+  first.velocity -= first.inverse_mass * push;
+  second.velocity += second.inverse_mass * push;
+}
+
+bool ImpactWorld::keepsContact(const Contact& contact, const Meeting& meeting) const {
+  const bool are_boxes = m_bodies[contact.first].shape == ImpactShape::kBox &&
+                         m_bodies[contact.second].shape == ImpactShape::kBox;
+  return meeting.touch.gap <= 2 * kImpactSlop && meeting.approach >= -meeting.rest_speed &&
+         !(are_boxes && meeting.touch.overlap <= 1.01 * kImpactSlop);
+}
+
+int ImpactWorld::localOf(int id) {
+  if (!isPushed(id)) return -1;
+  if (m_motions[id].local < 0) {
+    m_motions[id].local = static_cast<int>(m_group.size());
+    m_group.push_back(id);
+  }
+  return m_motions[id].local;
+}
+
+// Fills m_group and m_group_contacts with what hangs together with `body`. For an impact: through contacts
+// that would not bounce; otherwise through those at rest, and contacts that have parted end.
+void ImpactWorld::gather(int body, double now, bool is_impact, int own_contact) {
+  m_group.clear();
+  m_group_contacts.clear();
+  if (is_impact) {
+    localOf(m_contacts[own_contact].first);
+    localOf(m_contacts[own_contact].second);
+  } else {
+    localOf(body);
+  }
+  for (std::size_t i = 0; i < m_group.size(); ++i) {
+    const int id = m_group[i];
+    for (int c = m_motions[id].first_contact; c >= 0;) {
+      Contact& contact = m_contacts[c];
+      const int next = contact.first == id ? contact.next_of_first : contact.next_of_second;
+      const int other = contact.first == id ? contact.second : contact.first;
+      const int at = c;
+      c = next;
+      if (contact.is_listed) continue;
+      advance(other, now);
+      if (m_motions[other].is_frozen) continue;
+      const Meeting meeting = meet(contact.first, contact.second, contact.axis);
+      if (!keepsContact(contact, meeting)) {
+        if (!is_impact) {
+          markChanged(contact.first);
+          markChanged(contact.second);
+          endContact(at, now);
+        }
+        continue;
+      }
+      if (is_impact) {
+        if (at != own_contact && !isSoft(contact.first, contact.second, meeting)) continue;
+      } else {
+        contact.is_resting = meeting.approach <= meeting.rest_speed;
+        if (!contact.is_resting) continue;  // it is about to be hit
+      }
+      contact.is_listed = true;
+      m_group_contacts.push_back(at);
+      localOf(other);
+    }
+  }
+  std::sort(m_group_contacts.begin(), m_group_contacts.end(), [&](int x, int y) {
+    const Contact &p = m_contacts[x], &q = m_contacts[y];
+    return p.first != q.first ? p.first < q.first : p.second < q.second;
+  });
+  m_group_masses.clear();
+  for (const int id : m_group) m_group_masses.push_back(m_bodies[id].inverse_mass);
+}
+
+// Rows go by ids, and so do the sums over a body's rows, whatever way the group was found.
+void ImpactWorld::solveGroup(Purpose purpose) {
+  m_rest.rows().clear();
+  for (const int c : m_group_contacts) addRows(m_contacts[c], purpose);
+  ++m_counters.rest_solves;
+  if (!m_rest.solve(m_group_masses)) ++m_counters.unconverged;
+}
+
+// Moves the bodies of a group so far that nothing is inside anything: what impacts of the size of the slop
+// leave, where circles slide around one another. Most times there is nothing to do.
+void ImpactWorld::partGroup(double now) {
+  bool is_needed = false;
+  for (const int c : m_group_contacts) {
+    const Contact& contact = m_contacts[c];
+    const double gap = meet(contact.first, contact.second, contact.axis).touch.gap;
+    is_needed = is_needed || (gap < -0.5 * kImpactSlop && gap > -kDeepest);
+  }
+  if (!is_needed) return;
+  solveGroup(Purpose::kPlace);
+  for (std::size_t i = 0; i < m_group.size(); ++i) {
+    const Vec2 way = m_rest.change(static_cast<int>(i));
+    if (way == Vec2{}) continue;
+    const int id = m_group[i];
+    advance(id, now);
+    m_bodies[id].place = m_bodies[id].place + way;
+    markChanged(id);
+  }
+}
+
+void ImpactWorld::addRows(const Contact& contact, Purpose purpose) {
+  const Meeting meeting = meet(contact.first, contact.second, contact.axis);
+  const Vec2 normal = meeting.touch.normal, along = perpendicular(normal);
+  const Vec2 pull = m_bodies[contact.second].acceleration - m_bodies[contact.first].acceleration;
+  const double slip = dot(meeting.velocity, along);
+  std::vector<RestRow>& rows = m_rest.rows();
+  RestRow row;
+  row.first = localOf(contact.first);
+  row.second = localOf(contact.second);
+  row.direction = normal;
+  // The normal turns while they slide around one another.
+  const bool is_impact = purpose == Purpose::kImpact;
+  row.bias = is_impact ? -meeting.approach : dot(pull, normal) + slip * slip * meeting.touch.curvature;
+  if (purpose == Purpose::kPlace) row.bias = meeting.touch.gap > -kDeepest ? meeting.touch.gap : 0;
+  const double friction = frictionOf(m_bodies[contact.first], m_bodies[contact.second]);
+  rows.push_back(row);
+  if (friction == 0 || purpose == Purpose::kPlace) return;
+  row.normal = static_cast<int>(rows.size()) - 1;
+  row.friction = friction;
+  row.direction = along;
+  row.bias = is_impact ? slip : dot(pull, along);
+  if (!is_impact && std::fabs(slip) > meeting.rest_speed) row.slip = slip > 0 ? 1 : -1;
+  rows.push_back(row);
+}
+
+// An impact without a bounce, felt at once by everything that lies there. Returns the contact's own impulse.
+double ImpactWorld::pushGroup(int contact, double now) {
+  gather(-1, now, true, contact);
+  solveGroup(Purpose::kImpact);
+  double impulse = 0;
+  std::size_t row = 0;
+  for (const int c : m_group_contacts) {
+    m_contacts[c].is_listed = false;
+    if (c == contact) impulse = m_rest.rows()[row].push;
+    row += frictionOf(m_bodies[m_contacts[c].first], m_bodies[m_contacts[c].second]) == 0 ? 1 : 2;
+  }
+  for (std::size_t i = 0; i < m_group.size(); ++i) {
+    const int id = m_group[i];
+    m_motions[id].local = -1;
+    const int local = static_cast<int>(i);
+    const Vec2 change = m_rest.change(local);
+    if (change == Vec2{}) continue;
+    Vec2& velocity = m_bodies[id].velocity;
+    velocity = {m_rest.settled(local, velocity.x, change.x), m_rest.settled(local, velocity.y, change.y)};
+    markChanged(id);
+  }
+  return impulse;
+}
+
+void ImpactWorld::settle(double now) {
+  for (std::size_t i = 0; i < m_changed.size(); ++i) {  // it may grow
+    const int id = m_changed[i];
+    if (!isPushed(id) || m_motions[id].is_visited || m_motions[id].is_frozen) continue;
+    settleGroup(id, now);
+  }
+  for (const int id : m_changed) m_motions[id].is_visited = false;
+}
+
+// The accelerations of everything that hangs together with `body`.
+void ImpactWorld::settleGroup(int body, double now) {
+  gather(body, now, false, -1);
+  if (!m_group_contacts.empty()) {
+    partGroup(now);
+    solveGroup(Purpose::kRest);
+  }
+  for (std::size_t i = 0; i < m_group.size(); ++i) {
+    const int id = m_group[i];
+    Motion& motion = m_motions[id];
+    motion.local = -1;
+    Vec2 acceleration = m_bodies[id].acceleration;
+    if (!m_group_contacts.empty()) {
+      const int local = static_cast<int>(i);
+      const Vec2 change = m_rest.change(local);
+      acceleration = {m_rest.settled(local, acceleration.x, change.x),
+                      m_rest.settled(local, acceleration.y, change.y)};
+    }
+    if (acceleration != motion.acceleration) {
+      advance(id, now);
+      motion.acceleration = acceleration;
+      markChanged(id);
+    }
+    if (motion.is_changed) motion.is_visited = true;
+  }
+  std::size_t row = 0;
+  for (const int c : m_group_contacts) {
+    Contact& contact = m_contacts[c];
+    contact.is_listed = false;
+    const RestRow& normal = m_rest.rows()[row];
+    row += frictionOf(m_bodies[contact.first], m_bodies[contact.second]) == 0 ? 1 : 2;
+    if (normal.push > 0) {
+      calm(contact);
+      continue;
+    }
+    const Vec2 gain = m_motions[contact.second].acceleration - m_motions[contact.first].acceleration;
+    const double scale =
+        length(m_bodies[contact.first].acceleration) + length(m_bodies[contact.second].acceleration);
+    if (dot(gain, normal.direction) > 1e-12 * scale) endContact(c, now);
+  }
+}
+
+// Takes away what rounding has left of the speeds of a contact that presses.
+void ImpactWorld::calm(const Contact& contact) {
+  ImpactBody &first = m_bodies[contact.first], &second = m_bodies[contact.second];
+  const Meeting meeting = meet(contact.first, contact.second, contact.axis);
+  const double masses = first.inverse_mass + second.inverse_mass;
+  const Vec2 along = perpendicular(meeting.touch.normal);
+  const double slip = dot(meeting.velocity, along);
+  Vec2 left = -meeting.approach * meeting.touch.normal;
+  if (std::fabs(slip) <= meeting.rest_speed && frictionOf(first, second) > 0) left += slip * along;
+  if (left == Vec2{}) return;
+  first.velocity += (first.inverse_mass / masses) * left;
+  second.velocity -= (second.inverse_mass / masses) * left;
+  for (const int id : {contact.first, contact.second}) {
+    if (isPushed(id)) markChanged(id);
+  }
+}
+
+int ImpactWorld::findContact(int a, int b) const {
+  const int id = isPushed(a) ? a : b;
+  for (int c = m_motions[id].first_contact; c >= 0;) {
+    const Contact& contact = m_contacts[c];
+    if (contact.first == a && contact.second == b) return c;
+    c = contact.first == id ? contact.next_of_first : contact.next_of_second;
+  }
+  return -1;
+}
+
+int ImpactWorld::makeContact(int a, int b, ImpactAxis axis) {
+  int c = m_free_contact;
+  if (c < 0) {
+    c = static_cast<int>(m_contacts.size());
+    m_contacts.emplace_back();
+  } else {
+    m_free_contact = m_contacts[c].next_of_first;
+  }
+  Contact& contact = m_contacts[c];
+  contact = {};
+  contact.first = a;
+  contact.second = b;
+  contact.axis = axis;
+  if (isPushed(a)) contact.next_of_first = std::exchange(m_motions[a].first_contact, c);
+  if (isPushed(b)) contact.next_of_second = std::exchange(m_motions[b].first_contact, c);
+  return c;
+}
+
+void ImpactWorld::unlink(int body, int contact) {
+  int* link = &m_motions[body].first_contact;
+  while (*link >= 0) {
+    Contact& at = m_contacts[*link];
+    int& next = at.first == body ? at.next_of_first : at.next_of_second;
+    if (*link == contact) {
+      *link = next;
+      return;
+    }
+    link = &next;
+  }
+}
+
+void ImpactWorld::dropContact(int c) {
+  Contact& contact = m_contacts[c];
+  for (const int id : {contact.first, contact.second}) {
+    if (isPushed(id)) unlink(id, c);
+  }
+  contact.first = contact.second = -1;
+  contact.next_of_first = m_free_contact;
+  m_free_contact = c;
+}
+
+void ImpactWorld::endContact(int c, double now) {
+  const Contact contact = m_contacts[c];
+  const Meeting meeting = meet(contact.first, contact.second, contact.axis);
+  dropContact(c);
+  m_events.push_back({now, contact.first, contact.second, false, 0, meeting.touch.normal});
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,348 @@
+#include "physics/impact/ImpactWorld.h"
+
+#include <algorithm>
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr double kFarthest = 1e15;  // in one tick; beyond it a Place cannot count
+
+// How far a body gets to either side along one axis.
+void widen(double v, double a, double t, double& low, double& high) {
+  const double end = t * (v + 0.5 * a * t);
+  double farthest = 0;
+  if (v * a < 0 && std::fabs(v) < std::fabs(a) * t) farthest = -0.5 * v * v / a;
+  low = std::min({0.0, end, farthest});
+  high = std::max({0.0, end, farthest});
+}
+
+// Later first, so that a heap has the earliest on top.
+template <typename Pending>
+bool isLater(const Pending& a, const Pending& b) {
+  if (a.time != b.time) return a.time > b.time;
+  if (a.first != b.first) return a.first > b.first;
+  return a.second > b.second;
+}
+
+}  // namespace
+
+int ImpactWorld::add(const ImpactBody& body) {
+  if (!isSound(body)) return -1;
+  int id = 0;
+  while (id < idLimit() && m_motions[id].exists) ++id;
+  if (id == idLimit()) {
+    m_bodies.emplace_back();
+    m_motions.emplace_back();
+  }
+  m_motions[id] = {};
+  m_motions[id].exists = true;
+  return set(id, body) ? id : -1;
+}
+
+bool ImpactWorld::set(int id, const ImpactBody& body) {
+  if (!exists(id) || !isSound(body)) return false;
+  Motion& motion = m_motions[id];
+  if (m_bodies[id] == body && !motion.is_frozen) return true;
+  if (isPushed(id) != (body.inverse_mass > 0)) {  // contacts are listed by who can be pushed
+    remove(id);
+    motion.exists = true;
+  }
+  m_bodies[id] = body;
+  m_bodies[id].place = body.place + Vec2{};
+  motion.is_dirty = true;
+  motion.is_frozen = false;
+  motion.acceleration = body.acceleration;
+  return true;
+}
+
+bool ImpactWorld::remove(int id) {
+  if (!exists(id)) return false;
+  for (std::size_t i = 0; i < m_contacts.size(); ++i) {
+    const Contact& contact = m_contacts[i];
+    if (contact.first != id && contact.second != id) continue;
+    m_motions[contact.first].is_dirty = m_motions[contact.second].is_dirty = true;
+    dropContact(static_cast<int>(i));
+  }
+  m_motions[id].exists = false;
+  return true;
+}
+
+void ImpactWorld::advance(int id, double time) {
+  Motion& motion = m_motions[id];
+  const double t = time - motion.time;
+  motion.time = time;
+  if (!(t > 0) || !isMoving(id)) return;
+  ImpactBody& body = m_bodies[id];
+  const Vec2 way = t * body.velocity + (0.5 * t * t) * motion.acceleration;
+  if (!(std::fabs(way.x) < kFarthest && std::fabs(way.y) < kFarthest)) {
+    freeze(id);
+    return;
+  }
+  body.place = body.place + way;
+  body.velocity += t * motion.acceleration;
+}
+
+void ImpactWorld::freeze(int id) {
+  Motion& motion = m_motions[id];
+  motion.is_frozen = true;
+  ++motion.generation;
+  ++m_counters.quarantined;  // its contacts go when the next tick begins
+}
+
+RelativeMotion ImpactWorld::relative(int a, int b, double now) const {
+  const double ta = now - m_motions[a].time, tb = now - m_motions[b].time;
+  const Vec2 aa = m_motions[a].acceleration, ab = m_motions[b].acceleration;
+  const Vec2 va = m_bodies[a].velocity, vb = m_bodies[b].velocity;
+  return {(m_bodies[b].place - m_bodies[a].place) +
+              ((tb * vb + (0.5 * tb * tb) * ab) - (ta * va + (0.5 * ta * ta) * aa)),
+          (vb + tb * ab) - (va + ta * aa), ab - aa};
+}
+
+// From now to the end of the tick, as seen from the origin's cell, and a little wider: what is rounded off is
+// less than the margin.
+SweptBox ImpactWorld::sweptBox(int id, double now) const {
+  const ImpactBody& body = m_bodies[id];
+  const Motion& motion = m_motions[id];
+  const double t = now - motion.time, left = m_dt - now;
+  const Vec2 velocity = body.velocity + t * motion.acceleration;
+  const Vec2 at = Vec2{static_cast<double>(body.place.cell_x - m_origin_x) + body.place.dx,
+                       static_cast<double>(body.place.cell_y - m_origin_y) + body.place.dy} +
+                  t * body.velocity + (0.5 * t * t) * motion.acceleration;
+  const Vec2 half = body.shape == ImpactShape::kCircle ? Vec2{body.half.x, body.half.x} : body.half;
+  Vec2 low, high;
+  widen(velocity.x, motion.acceleration.x, left, low.x, high.x);
+  widen(velocity.y, motion.acceleration.y, left, low.y, high.y);
+  low += at - half;
+  high += at + half;
+  const auto margin = [](double a, double b) { return 1e-9 * (1 + std::max(std::fabs(a), std::fabs(b))); };
+  const Vec2 wider = {margin(low.x, high.x), margin(low.y, high.y)};
+  return {low - wider, high + wider};
+}
+
+void ImpactWorld::setReach(int id, const Place& centre, Vec2 half) {
+  if (!exists(id)) return;
+  if (id >= static_cast<int>(m_reaches.size())) m_reaches.resize(m_bodies.size());
+  m_reaches[id] = {centre, half};
+  m_motions[id].has_reach = true;
+}
+
+bool ImpactWorld::isWithinReach(int id, const SweptBox& box) const {
+  if (!m_motions[id].has_reach) return true;
+  const Reach& reach = m_reaches[id];
+  const Vec2 centre = {static_cast<double>(reach.centre.cell_x - m_origin_x) + reach.centre.dx,
+                       static_cast<double>(reach.centre.cell_y - m_origin_y) + reach.centre.dy};
+  return contains({centre - reach.half, centre + reach.half}, box);
+}
+
+void ImpactWorld::markChanged(int id) {
+  if (m_motions[id].is_changed) return;
+  m_motions[id].is_changed = true;
+  m_changed.push_back(id);
+}
+
+void ImpactWorld::beginTick(double dt) {
+  m_dt = dt;
+  m_events.clear();
+  m_queue.clear();
+  m_ids.clear();
+  m_boxes.clear();
+  for (int id = 0; id < idLimit(); ++id) {
+    Motion& motion = m_motions[id];
+    if (!motion.exists || motion.is_frozen) continue;
+    const ImpactBody& body = m_bodies[id];
+    const Vec2 reach = dt * (Vec2{std::fabs(body.velocity.x), std::fabs(body.velocity.y)} +
+                             0.5 * dt * Vec2{std::fabs(body.acceleration.x), std::fabs(body.acceleration.y)});
+    if (!(reach.x < kFarthest && reach.y < kFarthest)) {
+      freeze(id);
+      continue;
+    }
+    motion.time = 0;
+    motion.events = motion.events_at_once = 0;
+    motion.last_event = -1;
+    m_ids.push_back(id);
+  }
+  for (std::size_t i = 0; i < m_contacts.size(); ++i) {
+    const Contact& contact = m_contacts[i];
+    if (contact.first < 0) continue;
+    if (m_motions[contact.first].is_frozen || m_motions[contact.second].is_frozen) {
+      m_motions[contact.first].is_dirty = m_motions[contact.second].is_dirty = true;
+      dropContact(static_cast<int>(i));
+      continue;
+    }
+  }
+  for (const int id : m_ids) {
+    Motion& motion = m_motions[id];
+    if (motion.first_contact < 0) motion.acceleration = m_bodies[id].acceleration;
+  }
+  for (const Contact& contact : m_contacts) {
+    if (contact.first < 0) continue;
+    const RelativeMotion motion = relative(contact.first, contact.second, 0);
+    const bool is_still = motion.velocity == Vec2{} && motion.acceleration == Vec2{};
+    if (is_still && !m_motions[contact.first].is_dirty && !m_motions[contact.second].is_dirty) continue;
+    for (const int id : {contact.first, contact.second}) {
+      if (isPushed(id)) markChanged(id);
+    }
+  }
+  for (const int id : m_ids) m_motions[id].is_dirty = false;
+  settle(0);
+  for (const int id : m_changed) m_motions[id].is_changed = false;
+  m_changed.clear();
+  if (m_ids.empty()) return;
+  m_origin_x = m_bodies[m_ids[0]].place.cell_x;
+  m_origin_y = m_bodies[m_ids[0]].place.cell_y;
+  for (const int id : m_ids) m_boxes.push_back(sweptBox(id, 0));
+  m_tree.update(m_boxes, m_ids, idLimit());
+}
+
+void ImpactWorld::forecastAll() {
+  for (const int i : m_ids) {
+    if (!isMoving(i)) continue;
+    m_tree.query(m_tree.box(i), [&](int j) {
+      if (j == i || (j < i && isMoving(j))) return;
+      forecastPair(i, j, 0);
+    });
+  }
+}
+
+void ImpactWorld::forecastChanged(double now) {
+  std::sort(m_changed.begin(), m_changed.end());
+  for (const int i : m_changed) {
+    ++m_motions[i].generation;
+    if (m_motions[i].is_frozen) continue;
+    const SweptBox box = sweptBox(i, now);
+    m_tree.grow(i, box);
+    if (isPushed(i) && !isWithinReach(i, box)) m_is_beyond = true;
+  }
+  for (const int i : m_changed) {
+    if (m_motions[i].is_frozen) continue;
+    m_tree.query(sweptBox(i, now), [&](int j) {
+      if (j == i || m_motions[j].is_frozen || (j < i && m_motions[j].is_changed)) return;
+      if (isMoving(i) || isMoving(j)) forecastPair(i, j, now);
+    });
+  }
+  for (const int i : m_changed) m_motions[i].is_changed = false;
+  m_changed.clear();
+}
+
+void ImpactWorld::forecastPair(int i, int j, double now) {
+  if (!isPushed(i) && !isPushed(j)) return;
+  ++m_counters.forecasts;
+  const int first = std::min(i, j), second = std::max(i, j);
+  const ImpactBody &a = m_bodies[first], &b = m_bodies[second];
+  const RelativeMotion motion = relative(first, second, now);
+  if (isPushed(first) && isPushed(second) && touchOf(a, b, motion.way).gap < -kDeepest) {
+    ++m_counters.overlaps;
+    return;
+  }
+  const double left = m_dt - now, rest_speed = restSpeed(a.velocity, b.velocity);
+  const int found = findContact(first, second);
+  const bool is_resting = found >= 0 && m_contacts[found].is_resting;
+  const ImpactForecast impact = forecastImpact(a, b, motion, left, rest_speed, is_resting);
+  Pending next = {
+      impact.time,   first,      second, m_motions[first].generation, m_motions[second].generation,
+      Kind::kImpact, impact.axis};
+  const auto take = [&](double time, Kind kind) {
+    if (time < 0 || time > left || (next.time >= 0 && next.time <= time)) return;
+    next.time = time;
+    next.kind = kind;
+  };
+  if (is_resting) {
+    const ImpactAxis axis = m_contacts[found].axis;
+    take(forecastEdge(a, b, motion, axis, left), Kind::kEdge);
+    const Vec2 along = perpendicular(touchOf(a, b, motion.way, axis).normal);
+    const double slip = dot(motion.velocity, along), gain = dot(motion.acceleration, along);
+    if (std::fabs(slip) > rest_speed && slip * gain < 0) take(-slip / gain, Kind::kStop);
+  }
+  if (next.time < 0) return;
+  next.time = std::min(now + next.time, m_dt);
+  m_queue.push_back(next);
+  std::push_heap(m_queue.begin(), m_queue.end(), isLater<Pending>);
+}
+
+bool ImpactWorld::isStale(const Pending& pending) const {
+  return pending.first_generation != m_motions[pending.first].generation ||
+         pending.second_generation != m_motions[pending.second].generation;
+}
+
+void ImpactWorld::compactQueue() {
+  m_queue.erase(std::remove_if(m_queue.begin(), m_queue.end(), [&](const Pending& p) { return isStale(p); }),
+                m_queue.end());
+  std::make_heap(m_queue.begin(), m_queue.end(), isLater<Pending>);
+  m_compact_at = std::max<std::size_t>(4096, 2 * m_queue.size());
+}
+
+void ImpactWorld::handle(const Pending& pending) {
+  const int a = pending.first, b = pending.second;
+  for (const int id : {a, b}) {
+    advance(id, pending.time);
+    markChanged(id);
+    if (!isPushed(id)) continue;
+    Motion& motion = m_motions[id];
+    if (motion.last_event != pending.time) motion.events_at_once = 0;
+    motion.last_event = pending.time;
+    ++motion.events_at_once;
+    if (++motion.events > kMostEvents) freeze(id);
+  }
+  if (!m_motions[a].is_frozen && !m_motions[b].is_frozen) {
+    if (pending.kind == Kind::kImpact) collide(a, b, pending.axis, pending.time);
+    if (pending.kind == Kind::kStop) stopSliding(a, b);
+  }
+  settle(pending.time);
+  forecastChanged(pending.time);
+}
+
+// A pair that hits itself to and fro in one moment, as touching bodies do, counts as one contact with all of
+// the impulse.
+void ImpactWorld::sortEvents() {
+  for (std::size_t i = 0; i < m_events.size(); ++i) m_events[i].order = static_cast<int>(i);
+  std::sort(m_events.begin(), m_events.end(), [](const ImpactEvent& x, const ImpactEvent& y) {
+    if (x.time != y.time) return x.time < y.time;
+    if (x.first != y.first) return x.first < y.first;
+    return x.second != y.second ? x.second < y.second : x.order < y.order;
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < m_events.size();) {
+    ImpactEvent begin = m_events[i];
+    std::size_t last = i;
+    for (std::size_t j = i + 1; j < m_events.size() && m_events[j].time == begin.time &&
+                                m_events[j].first == begin.first && m_events[j].second == begin.second;
+         ++j) {
+      begin.impulse += m_events[j].impulse;
+      last = j;
+    }
+    const ImpactEvent end = m_events[last];
+    i = last + 1;
+    if (begin.is_begin) m_events[kept++] = begin;
+    if (!end.is_begin) m_events[kept++] = end;
+  }
+  m_events.erase(m_events.begin() + static_cast<std::ptrdiff_t>(kept), m_events.end());
+  for (std::size_t i = 0; i < kept; ++i) m_events[i].order = static_cast<int>(i);
+}
+
+ImpactStatus ImpactWorld::step(double dt) {
+  if (!(dt > 0 && dt < 1e12)) return ImpactStatus::kRefused;
+  const std::int64_t frozen_before = m_counters.quarantined;
+  ++m_counters.ticks;
+  m_stepped = dt;
+  m_is_beyond = false;
+  beginTick(dt);
+  forecastAll();
+  while (!m_queue.empty() && !m_is_beyond) {
+    std::pop_heap(m_queue.begin(), m_queue.end(), isLater<Pending>);
+    const Pending next = m_queue.back();
+    m_queue.pop_back();
+    if (!isStale(next)) handle(next);
+    if (m_is_beyond) m_stepped = next.time;
+    if (m_queue.size() > m_compact_at) compactQueue();
+  }
+  for (const int id : m_ids) {
+    if (!m_motions[id].is_frozen) advance(id, m_stepped);
+    m_motions[id].time = 0;
+    m_motions[id].has_reach = false;
+  }
+  sortEvents();
+  return m_counters.quarantined == frozen_before ? ImpactStatus::kDone : ImpactStatus::kQuarantined;
+}
+
+}  // namespace naiad::physics

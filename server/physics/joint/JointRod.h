@@ -1,0 +1,48 @@
+// Two points on a rod: RATTLE in closed form, for the smallest of all trees (a pendulum, a dumb-bell).
+//
+// The centre of mass flies exactly; the way from one end to the other goes by RATTLE. In the plane that is a
+// direction and a rate of turning: half a kick turns faster, a stage over h turns by the angle whose sine is
+// h times the rate, half a kick follows. (The position equation's multiplier, put in, says that.)
+#pragma once
+
+#include <cmath>
+
+#include "physics/geometry/Vec2.h"
+
+namespace naiad::physics {
+
+/// Everything over the rod's length.
+struct JointRod {
+  Vec2 direction;     ///< from a to b, of length one
+  double rate = 0;    ///< at which it turns
+  Vec2 acceleration;  ///< of b against a, without the rod
+  double gain = 0;    ///< of the rate, by that: direction × acceleration
+  Vec2 pull;          ///< sum of the rod's impulses on b, per reduced mass
+
+  JointRod(Vec2 its_direction, Vec2 velocity, Vec2 its_acceleration)
+      : direction(its_direction),
+        rate(cross(its_direction, velocity)),
+        acceleration(its_acceleration),
+        gain(cross(its_direction, its_acceleration)) {}
+
+  Vec2 velocity() const { return rate * perpendicular(direction); }
+
+  /// A stage over h != 0, which may be negative, `per_h` its inverse. False if the rod turns too far for it;
+  /// nothing has changed then.
+  bool advance(double h, double per_h) {
+    const double kick = 0.5 * h, kicked = rate + kick * gain, sine = h * kicked;
+    const double under_root = 1 - sine * sine;
+    if (!(under_root > 0.01)) return false;
+    const double cosine = std::sqrt(under_root);
+    const Vec2 next = cosine * direction + sine * perpendicular(direction);
+    gain = cross(next, acceleration);
+    rate = kicked + kick * gain;
+    const double bend = (1 - cosine) * per_h;
+    pull -= (bend + kick * dot(acceleration, direction)) * direction +
+            (bend + kick * dot(acceleration, next)) * next;
+    direction = next;
+    return true;
+  }
+};
+
+}  // namespace naiad::physics

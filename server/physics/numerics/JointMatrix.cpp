@@ -1,0 +1,222 @@
+#include "physics/numerics/JointMatrix.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <utility>
+
+namespace naiad::physics {
+
+namespace {
+
+using Neighbours = std::vector<std::vector<int>>;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool isMovable(std::span<const JointMass> masses, int body) {
+  return body >= 0 && (masses[at(body)].inverse_mass > 0 || masses[at(body)].inverse_inertia > 0);
+}
+
+std::vector<std::vector<int>> rowsAtBodies(std::span<const JointRow> rows,
+                                           std::span<const JointMass> masses) {
+  std::vector<std::vector<int>> at_body(masses.size());
+  for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
+    const JointRow& row = rows[at(i)];
+    if (isMovable(masses, row.a)) at_body[at(row.a)].push_back(i);
+    if (isMovable(masses, row.b)) at_body[at(row.b)].push_back(i);
+  }
+  return at_body;
+}
+
+void insertSorted(std::vector<int>& list, int value) {
+  const auto place = std::lower_bound(list.begin(), list.end(), value);
+  if (place == list.end() || *place != value) list.insert(place, value);
+}
+
+Neighbours neighboursOf(std::span<const JointRow> rows, std::span<const JointMass> masses) {
+  Neighbours neighbours(rows.size());
+  for (const std::vector<int>& group : rowsAtBodies(rows, masses)) {
+    for (const int i : group) {
+      for (const int k : group) {
+        if (i != k) insertSorted(neighbours[at(i)], k);
+      }
+    }
+  }
+  return neighbours;
+}
+
+// How many pairs of neighbours are not neighbours of each other.
+int fillOf(const Neighbours& neighbours, int i) {
+  const std::vector<int>& list = neighbours[at(i)];
+  int fill = 0;
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    const std::vector<int>& theirs = neighbours[at(list[p])];
+    for (std::size_t q = p + 1; q < list.size(); ++q) {
+      if (!std::binary_search(theirs.begin(), theirs.end(), list[q])) ++fill;
+    }
+  }
+  return fill;
+}
+
+}  // namespace
+
+// Least fill first: on a graph that has an order without fill (a tree of bodies has), it finds one.
+std::vector<int> eliminationOrder(std::span<const JointRow> rows, std::span<const JointMass> masses) {
+  Neighbours neighbours = neighboursOf(rows, masses);
+  std::vector<int> fill(rows.size());
+  std::set<std::pair<int, int>> queue;
+  for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
+    fill[at(i)] = fillOf(neighbours, i);
+    queue.emplace(fill[at(i)], i);
+  }
+  std::vector<int> order;
+  order.reserve(rows.size());
+  while (!queue.empty()) {
+    const auto [its_fill, i] = *queue.begin();
+    queue.erase(queue.begin());
+    order.push_back(i);
+    const std::vector<int> list = std::move(neighbours[at(i)]);
+    neighbours[at(i)].clear();
+    std::set<int> stale(list.begin(), list.end());
+    for (const int k : list) {
+      std::vector<int>& theirs = neighbours[at(k)];
+      theirs.erase(std::lower_bound(theirs.begin(), theirs.end(), i));
+      for (const int other : list) {
+        if (other != k) insertSorted(theirs, other);
+      }
+      if (its_fill > 0) stale.insert(theirs.begin(), theirs.end());
+    }
+    for (const int k : stale) {
+      queue.erase({fill[at(k)], k});
+      fill[at(k)] = fillOf(neighbours, k);
+      queue.emplace(fill[at(k)], k);
+    }
+  }
+  return order;
+}
+
+void JointMatrix::analyse(std::span<const JointRow> rows, std::span<const JointMass> masses) {
+  m_size = static_cast<int>(rows.size());
+  Neighbours neighbours = neighboursOf(rows, masses);
+  Neighbours columns(rows.size());
+  m_entries = 0;
+  for (int i = 0; i < m_size; ++i) {
+    for (const int k : neighbours[at(i)]) {
+      if (k > i) columns[at(i)].push_back(k);
+    }
+    m_entries += static_cast<int>(columns[at(i)].size());
+  }
+  for (int j = 0; j < m_size; ++j) {  // what is below the first entry passes to that entry's column
+    const std::vector<int>& column = columns[at(j)];
+    for (std::size_t p = 1; p < column.size(); ++p) insertSorted(columns[at(column[0])], column[p]);
+  }
+  m_begin.assign(1, 0);
+  m_row.clear();
+  for (const std::vector<int>& column : columns) {
+    m_row.insert(m_row.end(), column.begin(), column.end());
+    m_begin.push_back(static_cast<int>(m_row.size()));
+  }
+  const auto find = [&](int column, int row) {
+    const auto first = m_row.begin() + m_begin[at(column)], last = m_row.begin() + m_begin[at(column) + 1];
+    return static_cast<int>(std::lower_bound(first, last, row) - m_row.begin());
+  };
+  m_is_chain = m_size > 0 && filled() == m_size - 1;
+  for (int j = 0; j + 1 < m_size && m_is_chain; ++j)
+    m_is_chain = m_begin[at(j)] == j && m_row[at(j)] == j + 1;
+  m_targets.clear();
+  for (const std::vector<int>& column : columns) {
+    for (std::size_t p = 0; p < column.size(); ++p) {
+      m_targets.push_back(~column[p]);
+      for (std::size_t q = p + 1; q < column.size(); ++q) m_targets.push_back(find(column[p], column[q]));
+    }
+  }
+  m_terms.clear();
+  const auto groups = rowsAtBodies(rows, masses);
+  for (int body = 0; body < static_cast<int>(groups.size()); ++body) {
+    const std::vector<int>& group = groups[at(body)];
+    for (std::size_t p = 0; p < group.size(); ++p) {
+      for (std::size_t q = p + 1; q < group.size(); ++q) {
+        const int i = group[p], k = group[q];
+        const bool i_is_b = rows[at(i)].b == body, k_is_b = rows[at(k)].b == body;
+        m_terms.push_back({find(i, k), i, k, body, i_is_b == k_is_b ? 1.0 : -1.0, i_is_b, k_is_b});
+      }
+    }
+  }
+  m_lower.assign(m_row.size(), 0);
+  m_inverse.assign(rows.size(), 0);
+  m_pivot.assign(rows.size(), 0);
+}
+
+int JointMatrix::factor(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out,
+                        const double* softness, double regularisation) {
+  constexpr double kDependent = 1e-11;  // below this share of the diagonal, a pivot is rounding
+  std::fill(m_lower.begin(), m_lower.end(), 0.0);
+  for (const Term& term : m_terms) {
+    if ((is_out[term.i] | is_out[term.k]) != 0) continue;
+    const JointRow& i = rows[term.i];
+    const JointRow& k = rows[term.k];
+    const JointMass& mass = masses[term.body];
+    m_lower[at(term.at)] += term.sign * mass.inverse_mass * dot(i.n, k.n) +
+                            mass.inverse_inertia * (term.i_is_b ? i.jb : i.ja) * (term.k_is_b ? k.jb : k.ja);
+  }
+  double* diagonal = m_inverse.data();
+  for (int i = 0; i < m_size; ++i) {
+    const JointRow& row = rows[i];
+    double sum = 1;
+    if (is_out[i] == 0) {
+      const JointMass b = masses[row.b];
+      sum = b.inverse_mass * dot(row.n, row.n) + b.inverse_inertia * row.jb * row.jb;
+      if (row.a >= 0) {
+        const JointMass a = masses[row.a];
+        sum += a.inverse_mass * dot(row.n, row.n) + a.inverse_inertia * row.ja * row.ja;
+      }
+      if (softness != nullptr) sum += softness[i];
+      sum *= 1 + regularisation;
+    }
+    diagonal[i] = sum;
+    m_pivot[at(i)] = sum;
+  }
+  int dependent = 0;
+  const int* target = m_targets.data();
+  for (int j = 0; j < m_size; ++j) {
+    const int begin = m_begin[at(j)], end = m_begin[at(j) + 1];
+    const double pivot = m_pivot[at(j)];
+    double inverse = 0;
+    if (pivot > kDependent * diagonal[j]) {
+      inverse = 1 / pivot;
+    } else {
+      ++dependent;
+    }
+    for (int p = begin; p < end; ++p) {
+      const double scaled = m_lower[at(p)] * inverse;
+      m_pivot[at(~*target++)] -= scaled * m_lower[at(p)];
+      for (int q = p + 1; q < end; ++q) m_lower[at(*target++)] -= scaled * m_lower[at(q)];
+      m_lower[at(p)] = scaled;
+    }
+    m_inverse[at(j)] = inverse;
+  }
+  return dependent;
+}
+
+void JointMatrix::solve(double* x) const {
+  if (m_is_chain) {
+    const double* lower = m_lower.data();
+    for (int j = 0; j + 1 < m_size; ++j) x[j + 1] -= lower[j] * x[j];
+    x[m_size - 1] *= m_inverse[at(m_size - 1)];
+    for (int j = m_size - 2; j >= 0; --j) x[j] = x[j] * m_inverse[at(j)] - lower[j] * x[j + 1];
+    return;
+  }
+  for (int j = 0; j < m_size; ++j) {
+    const double value = x[j];
+    for (int p = m_begin[at(j)]; p < m_begin[at(j) + 1]; ++p) x[m_row[at(p)]] -= m_lower[at(p)] * value;
+  }
+  for (int j = m_size - 1; j >= 0; --j) {
+    double value = x[j] * m_inverse[at(j)];
+    for (int p = m_begin[at(j)]; p < m_begin[at(j) + 1]; ++p) value -= m_lower[at(p)] * x[m_row[at(p)]];
+    x[j] = value;
+  }
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,49 @@
+// What the storey of rigid bodies moves: bodies that turn, push one another, slide and roll.
+#pragma once
+
+#include <cmath>
+
+#include "physics/geometry/Place.h"
+#include "physics/geometry/Rotation.h"
+#include "physics/geometry/Vec2.h"
+
+namespace naiad::physics {
+
+/// Plain data. Time counts in ticks, lengths in metric cells, angles in radians from x to y. Its shapes are
+/// given beside it, relative to `place`.
+struct RigidBody {
+  Place place;  ///< of the centre of mass
+  Vec2 velocity;
+  Rotation rotation;
+  double spin = 0;             ///< rad per tick
+  double inverse_mass = 1;     ///< 0: static, or kinematic if it has a velocity
+  double inverse_inertia = 0;  ///< 0: nothing but its own spin turns it
+  Vec2 acceleration;           ///< gravity and the like, constant within a step
+  Vec2 force;                  ///< counts from set() until the next set()
+  double torque = 0;           ///< likewise
+  double linear_damping = 0;   ///< >= 0, per tick: the part of the velocity that is lost at first
+  double angular_damping = 0;  ///< >= 0, per tick
+  double friction = 0;         ///< >= 0; of a pair the geometric mean counts
+  double restitution = 0;      ///< 0 … 1; of a pair the larger one counts
+
+  friend constexpr bool operator==(const RigidBody& a, const RigidBody& b) = default;
+};
+
+/// May the body be taken in? Everything finite and below 1e30, the rotation of length one.
+inline bool isSound(const RigidBody& body) {
+  const auto isSmall = [](double x) { return std::fabs(x) <= 1e30; };  // false for NaN
+  const auto isPart = [&](double x) { return x >= 0 && isSmall(x); };
+  const double square = body.rotation.c * body.rotation.c + body.rotation.s * body.rotation.s;
+  return std::fabs(body.place.dx) <= 1 && std::fabs(body.place.dy) <= 1 && isSmall(body.velocity.x) &&
+         isSmall(body.velocity.y) && std::fabs(square - 1) <= 1e-6 && isSmall(body.spin) &&
+         isPart(body.inverse_mass) && isPart(body.inverse_inertia) && isSmall(body.acceleration.x) &&
+         isSmall(body.acceleration.y) && isSmall(body.force.x) && isSmall(body.force.y) &&
+         isSmall(body.torque) && isPart(body.linear_damping) && isPart(body.angular_damping) &&
+         isPart(body.friction) && body.restitution >= 0 && body.restitution <= 1;
+}
+
+constexpr bool isMovable(const RigidBody& body) {
+  return body.inverse_mass > 0 || body.inverse_inertia > 0;
+}
+
+}  // namespace naiad::physics

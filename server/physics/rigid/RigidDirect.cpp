@@ -1,0 +1,322 @@
+#include "physics/rigid/RigidDirect.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr double kStiffness = 1e4;  // of a row, in the greatest mass
+constexpr int kRounds = 16;
+
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+// The row's Jacobian at one of its bodies.
+struct Lever {
+  double x[3];
+};
+Lever leverA(const DirectRow& row) {
+  return {{-row.n.x, -row.n.y, row.ja}};
+}
+Lever leverB(const DirectRow& row) {
+  return {{row.n.x, row.n.y, row.jb}};
+}
+
+}  // namespace
+
+void RigidDirect::begin(std::span<const int> bodies, std::span<const RigidState> states) {
+  for (const int body : m_bodies) m_local[at(body)] = -1;
+  m_bodies.assign(bodies.begin(), bodies.end());
+  m_local.resize(states.size(), -1);
+  m_rows.clear();
+  m_velocity.resize(bodies.size());
+  m_mass.resize(bodies.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const RigidState& s = states[at(bodies[i])];
+    m_local[at(bodies[i])] = static_cast<std::int32_t>(i);
+    const double mass = s.inverse_mass > 0 ? 1 / s.inverse_mass : 0;
+    const double inertia = s.inverse_inertia > 0 ? 1 / s.inverse_inertia : 0;
+    m_velocity[i] = {{s.velocity.x, s.velocity.y, s.spin}};
+    m_mass[i] = {{mass, mass, inertia}};
+    largest = std::max(largest, mass > 0 ? mass : inertia);
+  }
+  m_stiffness = kStiffness * largest;
+}
+
+std::int32_t RigidDirect::localOf(int body) const {
+  return body >= 0 && at(body) < m_local.size() ? m_local[at(body)] : -1;
+}
+
+double RigidDirect::order() {
+  const std::size_t count = m_bodies.size();
+  m_begin.assign(count + 1, 0);
+  for (const DirectRow& row : m_rows) {
+    if (row.a < 0 || row.b < 0) continue;
+    ++m_begin[at(row.a) + 1], ++m_begin[at(row.b) + 1];
+  }
+  for (std::size_t i = 1; i <= count; ++i) m_begin[i] += m_begin[i - 1];
+  m_next.resize(at(m_begin[count]));
+  m_rank.assign(m_begin.begin(), m_begin.end() - 1);
+  for (const DirectRow& row : m_rows) {
+    if (row.a < 0 || row.b < 0) continue;
+    m_next[at(m_rank[at(row.a)]++)] = row.b;
+    m_next[at(m_rank[at(row.b)]++)] = row.a;
+  }
+  // Breadth first, twice: the second time from where the first one ended.
+  const auto spread = [&](std::int32_t start) {
+    m_rank.assign(count, -1);
+    m_sequence.clear();
+    for (std::int32_t seed = -1; seed < static_cast<std::int32_t>(count); ++seed) {
+      const std::int32_t root = seed < 0 ? start : seed;
+      if (m_rank[at(root)] >= 0) continue;
+      m_rank[at(root)] = static_cast<std::int32_t>(m_sequence.size());
+      m_sequence.push_back(root);
+      for (std::size_t head = m_sequence.size() - 1; head < m_sequence.size(); ++head) {
+        const std::int32_t here = m_sequence[head];
+        for (std::int32_t i = m_begin[at(here)]; i < m_begin[at(here) + 1]; ++i) {
+          const std::int32_t there = m_next[at(i)];
+          if (m_rank[at(there)] >= 0) continue;
+          m_rank[at(there)] = static_cast<std::int32_t>(m_sequence.size());
+          m_sequence.push_back(there);
+        }
+      }
+    }
+  };
+  spread(0);
+  spread(m_sequence.back());
+  m_first.resize(3 * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::int32_t least = m_rank[i];
+    for (std::int32_t k = m_begin[i]; k < m_begin[i + 1]; ++k)
+      least = std::min(least, m_rank[at(m_next[at(k)])]);
+    for (std::int32_t c = 0; c < 3; ++c) m_first[at(3 * m_rank[i] + c)] = 3 * least;
+  }
+  m_row_at.resize(3 * count);
+  std::int64_t stored = 0;
+  double cost = 0;
+  for (std::size_t i = 0; i < 3 * count; ++i) {
+    const std::int64_t width = static_cast<std::int64_t>(i) - m_first[i] + 1;
+    m_row_at[i] = stored - m_first[i];
+    stored += width;
+    cost += 0.5 * static_cast<double>(width * width);
+  }
+  m_matrix.resize(at(stored));
+  m_right.resize(3 * count);
+  return cost;
+}
+
+double RigidDirect::speedOf(const DirectRow& row) const {
+  double speed = -row.target;
+  if (row.a >= 0) {
+    const Velocity& v = m_velocity[at(row.a)];
+    speed += row.ja * v.x[2] - row.n.x * v.x[0] - row.n.y * v.x[1];
+  }
+  if (row.b >= 0) {
+    const Velocity& v = m_velocity[at(row.b)];
+    speed += row.jb * v.x[2] + row.n.x * v.x[0] + row.n.y * v.x[1];
+  }
+  return speed;
+}
+
+// Which rows push with their stiffness, which are at a bound, and what each exerts at the present velocities.
+// Did none change? A row that would go from one bound to the other stops between them on the way.
+bool RigidDirect::setForces(bool is_first) {
+  bool is_same = !is_first;
+  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    const DirectRow& row = m_rows[i];
+    double low = row.low, high = row.high;
+    if (row.normal >= 0) {
+      high = row.friction * std::max(m_guess[at(row.normal)], 0.0);
+      low = -high;
+    }
+    const double wanted =
+        row.softness > 0 ? row.before - speedOf(row) / row.softness : m_guess[i] - m_stiffness * speedOf(row);
+    const Side before = m_side[i];
+    Side side = wanted < low ? Side::kLow : wanted > high ? Side::kHigh : Side::kFree;
+    if (is_first || (before != Side::kFree && side != Side::kFree && side != before)) side = Side::kFree;
+    if (low == high) side = Side::kLow;
+    m_side[i] = side;
+    m_force[i] = side == Side::kFree ? wanted : side == Side::kLow ? low : high;
+    is_same = is_same && side == before;
+  }
+  return is_same;
+}
+
+void RigidDirect::assemble() {
+  std::fill(m_matrix.begin(), m_matrix.end(), 0.0);
+  for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+    for (std::int32_t c = 0; c < 3; ++c) {
+      const std::int64_t k = 3 * m_rank[i] + c;
+      m_matrix[at(m_row_at[at(k)] + k)] = m_mass[i].x[c] > 0 ? m_mass[i].x[c] : 1;
+    }
+  }
+  const auto add = [&](std::int32_t i, const Lever& p, std::int32_t j, const Lever& q, double k) {
+    const std::int64_t row = 3 * static_cast<std::int64_t>(m_rank[at(i)]),
+                       column = 3 * static_cast<std::int64_t>(m_rank[at(j)]);
+    for (std::int64_t r = 0; r < 3; ++r) {
+      const double part = m_mass[at(i)].x[r] > 0 ? k * p.x[r] : 0;
+      double* const line = m_matrix.data() + m_row_at[at(row + r)] + column;
+      const std::int64_t last = i == j ? r : 2;
+      for (std::int64_t s = 0; s <= last; ++s) {
+        if (m_mass[at(j)].x[s] > 0) line[s] += part * q.x[s];
+      }
+    }
+  };
+  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    if (m_side[i] != Side::kFree) continue;
+    const DirectRow& row = m_rows[i];
+    const double k = row.softness > 0 ? 1 / row.softness : m_stiffness;
+    const Lever a = leverA(row), b = leverB(row);
+    if (row.a >= 0) add(row.a, a, row.a, a, k);
+    if (row.b >= 0) add(row.b, b, row.b, b, k);
+    if (row.a < 0 || row.b < 0) continue;
+    if (m_rank[at(row.a)] > m_rank[at(row.b)]) {
+      add(row.a, a, row.b, b, k);
+    } else {
+      add(row.b, b, row.a, a, k);
+    }
+  }
+}
+
+bool RigidDirect::factor() {
+  const auto count = static_cast<std::int64_t>(m_first.size());
+  for (std::int64_t k = 0; k < count; ++k) {
+    double* const line = m_matrix.data() + m_row_at[at(k)];
+    const std::int64_t first = m_first[at(k)];
+    for (std::int64_t j = first; j < k; ++j) {
+      const double* const above = m_matrix.data() + m_row_at[at(j)];
+      double value = line[j];
+      for (std::int64_t i = std::max<std::int64_t>(first, m_first[at(j)]); i < j; ++i)
+        value -= line[i] * above[i];
+      line[j] = value;  // times the pivot, until the row is done
+    }
+    double pivot = line[k];
+    for (std::int64_t j = first; j < k; ++j) {
+      const double scaled = line[j] * m_matrix[at(m_row_at[at(j)] + j)];  // the pivots are stored inverted
+      pivot -= scaled * line[j];
+      line[j] = scaled;
+    }
+    if (!(pivot > 0)) return false;
+    line[k] = 1 / pivot;
+  }
+  return true;
+}
+
+void RigidDirect::solveFactored() {
+  const auto count = static_cast<std::int64_t>(m_first.size());
+  for (std::int64_t k = 0; k < count; ++k) {
+    const double* const line = m_matrix.data() + m_row_at[at(k)];
+    double value = m_right[at(k)];
+    for (std::int64_t j = m_first[at(k)]; j < k; ++j) value -= line[j] * m_right[at(j)];
+    m_right[at(k)] = value;
+  }
+  for (std::int64_t k = 0; k < count; ++k) m_right[at(k)] *= m_matrix[at(m_row_at[at(k)] + k)];
+  for (std::int64_t k = count - 1; k >= 0; --k) {
+    const double* const line = m_matrix.data() + m_row_at[at(k)];
+    for (std::int64_t j = m_first[at(k)]; j < k; ++j) m_right[at(j)] -= line[j] * m_right[at(k)];
+  }
+}
+
+void RigidDirect::setResidual() {
+  for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+    for (std::int32_t c = 0; c < 3; ++c) {
+      m_right[at(3 * m_rank[i] + c)] = m_mass[i].x[c] * (m_start[i].x[c] - m_velocity[i].x[c]);
+    }
+  }
+  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    const DirectRow& row = m_rows[i];
+    const double more = m_force[i] - row.impulse;
+    const auto give = [&](std::int32_t body, const Lever& lever) {
+      if (body < 0) return;
+      for (std::int32_t c = 0; c < 3; ++c) {
+        if (m_mass[at(body)].x[c] > 0) m_right[at(3 * m_rank[at(body)] + c)] += more * lever.x[c];
+      }
+    };
+    give(row.a, leverA(row));
+    give(row.b, leverB(row));
+  }
+}
+
+// By how much a row's speed is wrong, given what it exerts.
+double RigidDirect::worstError() const {
+  double worst = 0;
+  for (const DirectRow& row : m_rows) {
+    double low = row.low, high = row.high;
+    if (row.normal >= 0) {
+      high = row.friction * std::max(m_rows[at(row.normal)].impulse, 0.0);
+      low = -high;
+    }
+    const double speed = speedOf(row) + row.softness * (row.impulse - row.before);
+    if (row.impulse <= low && row.impulse >= high) continue;
+    if (row.impulse <= low) {
+      worst = std::max(worst, -speed);
+    } else if (row.impulse >= high) {
+      worst = std::max(worst, speed);
+    } else {
+      worst = std::max(worst, std::fabs(speed));
+    }
+  }
+  return worst;
+}
+
+bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int& rounds) {
+  const std::size_t count = m_rows.size();
+  m_start = m_velocity;
+  m_guess.resize(count);
+  m_force.resize(count);
+  m_side.assign(count, Side::kFree);
+  for (std::size_t i = 0; i < count; ++i) m_guess[i] = m_rows[i].impulse;
+  bool is_found = false;
+  setForces(true);
+  bool is_factored = false;
+  for (rounds = 1; rounds <= kRounds; ++rounds) {
+    if (!is_factored) {
+      assemble();
+      if (!factor()) return false;
+      is_factored = true;
+    }
+    setResidual();
+    solveFactored();
+    for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+      for (std::int32_t c = 0; c < 3; ++c) m_velocity[i].x[c] += m_right[at(3 * m_rank[i] + c)];
+    }
+    if (!setForces(false)) {
+      is_factored = false;
+      continue;
+    }
+    // The right ones push; is it already true what they were meant to bring about?
+    m_guess = m_force;
+    double worst = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (m_side[i] == Side::kFree && m_rows[i].softness == 0)
+        worst = std::max(worst, std::fabs(speedOf(m_rows[i])));
+    }
+    is_found = worst <= tolerance;
+    if (is_found) break;
+    is_factored = setForces(false);
+  }
+  if (!is_found) return false;
+  // The velocities that follow from the impulses, to the last digit of momentum.
+  for (std::size_t i = 0; i < count; ++i) {
+    DirectRow& row = m_rows[i];
+    const double more = m_force[i] - row.impulse;
+    row.impulse = m_force[i];
+    if (row.a >= 0) {
+      RigidState& a = states[at(m_bodies[at(row.a)])];
+      a.velocity -= (a.inverse_mass * more) * row.n;
+      a.spin += a.inverse_inertia * row.ja * more;
+    }
+    if (row.b >= 0) {
+      RigidState& b = states[at(m_bodies[at(row.b)])];
+      b.velocity += (b.inverse_mass * more) * row.n;
+      b.spin += b.inverse_inertia * row.jb * more;
+    }
+  }
+  return true;
+}
+
+}  // namespace naiad::physics

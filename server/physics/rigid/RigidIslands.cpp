@@ -1,0 +1,137 @@
+// A group of bodies that contacts and joints connect: swept once, and solved at once where that falls short.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/rigid/RigidSolver.h"
+#include "physics/rigid/RigidWorld.h"
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr int kLeastWait = 8;  // steps after one that led to nothing, twice as many each time …
+constexpr int kMostWait = 256;
+constexpr double kSmallCost = 1e4;  // … at more than so many multiplications
+// Of the speed that half a sub-step adds: what a sweep may still change …
+constexpr double kSpeedError = 1e-6;
+constexpr int kSingleSweeps = 16;
+constexpr int kJointSweeps = 8;
+constexpr int kCrowdSweeps = 4;
+constexpr double kDirectTolerance = 1e-6;  // … and what may be left when all is solved at once
+
+}  // namespace
+
+void RigidWorld::solveIsland(Island& island, bool is_second) {
+  if (!m_extras[at(island.root)].is_in_heap && m_extras[at(island.root)].budget > 0 &&
+      island.constraints + island.links > 1 && solveAtOnce(island, is_second))
+    return;
+  if (island.constraints == 1 && island.links == 0) {  // friction and pressure find each other quickly
+    ContactConstraint& c = m_constraints[at(m_island_constraints[at(island.first_constraint)])];
+    for (int i = 0; i < kSingleSweeps && solveContact(c, m_states, is_second) > kSpeedError * island.kick;
+         ++i) {
+    }
+    return;
+  }
+  for (int sweep = 0; sweep < (island.links > 0                       ? kJointSweeps
+                               : m_extras[at(island.root)].is_in_heap ? kCrowdSweeps
+                                                                      : 1);
+       ++sweep) {
+    for (int i = 0; i < island.links; ++i) {
+      m_joints.solve(m_island_links[at(island.first_link + i)], m_states, is_second);
+    }
+    for (int i = 0; i < island.constraints; ++i) {
+      const int k = is_second ? island.constraints - 1 - i : i;
+      solveContact(m_constraints[at(m_island_constraints[at(island.first_constraint + k)])], m_states,
+                   is_second);
+    }
+  }
+}
+
+bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
+  m_direct.begin(std::span(m_island_bodies).subspan(at(island.first_body), at(island.bodies)), m_states);
+  std::vector<DirectRow>& rows = m_direct.rows();
+  const auto speedOfImmovable = [&](const DirectRow& row, int a, int b) {
+    double speed = 0;
+    if (row.a < 0 && a >= 0) speed += row.ja * m_states[at(a)].spin - dot(row.n, m_states[at(a)].velocity);
+    if (row.b < 0) speed += row.jb * m_states[at(b)].spin + dot(row.n, m_states[at(b)].velocity);
+    return speed;
+  };
+  for (int i = 0; i < island.links; ++i) {
+    for (const RigidRow& row : m_joints.rowsOfLink(m_island_links[at(island.first_link + i)])) {
+      const RigidRowHalf& half = row.half[is_second];
+      if (half.mass == 0) continue;
+      DirectRow direct;
+      direct.a = m_direct.localOf(row.a), direct.b = m_direct.localOf(row.b);
+      direct.n = row.n;
+      direct.ja = row.ja, direct.jb = row.jb;
+      direct.target = half.target - speedOfImmovable(direct, row.a, row.b);
+      direct.softness = half.softness;
+      direct.before = row.before;
+      direct.low = half.low, direct.high = half.high;
+      direct.impulse = row.impulse;
+      rows.push_back(direct);
+    }
+  }
+  const auto constraintAt = [&](int i) -> ContactConstraint& {
+    return m_constraints[at(m_island_constraints[at(island.first_constraint + i)])];
+  };
+  for (int i = 0; i < island.constraints; ++i) {
+    const ContactConstraint& c = constraintAt(i);
+    DirectRow direct;
+    direct.a = m_direct.localOf(c.a), direct.b = m_direct.localOf(c.b);
+    for (std::int32_t k = 0; k < c.count; ++k) {
+      const ContactPoint& p = c.points[at(k)];
+      DirectRow normal = direct;
+      normal.n = c.normal;
+      normal.ja = -p.normal_a, normal.jb = p.normal_b;
+      normal.target = (is_second ? p.after : p.target) - speedOfImmovable(normal, c.a, c.b);
+      normal.impulse = p.normal_impulse;
+      rows.push_back(normal);
+      if (c.friction == 0) continue;
+      DirectRow friction = direct;
+      friction.n = perpendicular(c.normal);
+      friction.ja = -p.tangent_a, friction.jb = p.tangent_b;
+      friction.target = -speedOfImmovable(friction, c.a, c.b);
+      friction.impulse = p.friction_impulse;
+      friction.normal = static_cast<std::int32_t>(rows.size()) - 1;
+      friction.friction = c.friction;
+      rows.push_back(friction);
+    }
+  }
+  const double tolerance = kDirectTolerance * island.kick;
+  if (m_direct.worstError() <= tolerance) return true;
+  Extra& extra = m_extras[at(island.root)];
+  const auto giveUp = [&] {
+    extra.budget = 0;
+    extra.wait = extra.patience = std::clamp(2 * extra.patience, kLeastWait, kMostWait);
+    return false;
+  };
+  const double cost = m_direct.order() + 100.0 * static_cast<double>(rows.size());
+  if (cost > extra.budget) return giveUp();
+  ++m_counters.direct_solves;
+  int rounds = 0;
+  const bool is_found = m_direct.solve(m_states, tolerance, rounds);
+  m_counters.direct_rounds += rounds;
+  extra.budget -= rounds * cost;
+  if (!is_found) {
+    ++m_counters.direct_failures;
+    return cost > kSmallCost ? giveUp() : false;
+  }
+  extra.patience = 0;
+  std::size_t next = 0;
+  for (int i = 0; i < island.links; ++i) {
+    for (RigidRow& row : m_joints.rowsOfLink(m_island_links[at(island.first_link + i)])) {
+      if (row.half[is_second].mass != 0) row.impulse = rows[next++].impulse;
+    }
+  }
+  for (int i = 0; i < island.constraints; ++i) {
+    ContactConstraint& c = constraintAt(i);
+    for (std::int32_t k = 0; k < c.count; ++k) {
+      c.points[at(k)].normal_impulse = rows[next++].impulse;
+      if (c.friction > 0) c.points[at(k)].friction_impulse = rows[next++].impulse;
+    }
+  }
+  return true;
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,321 @@
+#include "physics/rigid/RigidJoint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr double kPullRate = 0.3;  // of a joint's error, undone in a sub-step
+constexpr double kResolved = 1;    // up to this (h·ω)² a spring swings; beyond, it is damped
+
+const RigidState kGround = {};
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool isAngleRow(JointKind kind, int k) {
+  return kind == JointKind::kMotor || kind == JointKind::kAngleLimit ||
+         (kind == JointKind::kWeld && k == 2) || (kind == JointKind::kSlider && k == 1);
+}
+
+// The sine of the angle, made monotone beyond a right angle.
+double bentSine(Rotation r) {
+  if (r.c >= 0) return r.s;
+  return r.s >= 0 ? 2 - r.s : -2 - r.s;
+}
+
+double speedOf(const RigidRow& row, const RigidState& a, const RigidState& b) {
+  return dot(row.n, b.velocity - a.velocity) + row.jb * b.spin + row.ja * a.spin;
+}
+
+void push(const RigidRow& row, std::span<RigidState> states, double impulse) {
+  if (row.a >= 0) {
+    RigidState& a = states[at(row.a)];
+    a.velocity -= (a.inverse_mass * impulse) * row.n;
+    a.spin += a.inverse_inertia * row.ja * impulse;
+  }
+  RigidState& b = states[at(row.b)];
+  b.velocity += (b.inverse_mass * impulse) * row.n;
+  b.spin += b.inverse_inertia * row.jb * impulse;
+}
+
+// Rows that hold something fast.
+void prepareHard(RigidRow& row, double h) {
+  const double mass = row.answer > 0 ? 1 / row.answer : 0;
+  // One-sided: on the free side the value may come to 0, and no farther. What did not come to it in the first
+  // half is left to the next sub-step.
+  const bool is_free = row.side * row.value > 0, is_idle = is_free && row.impulse == 0;
+  const double low = row.side > 0 ? 0 : -kNoLimit, high = row.side < 0 ? 0 : kNoLimit;
+  row.half[0] = {is_free ? -row.value / h : -kPullRate * row.value / h, 0, mass, low, high, 0};
+  row.half[1] = {is_free ? -row.value / h : 0, 0, is_idle ? 0 : mass, low, high, 0};
+  if (is_idle) row.warm = 0;
+}
+
+void prepareMotor(RigidRow& row, const Joint& joint, double h) {
+  const double mass = row.answer > 0 ? 1 / row.answer : 0, most = joint.max_force * h;
+  row.half[0] = {joint.speed, 0, mass, -0.5 * most, 0.5 * most, 0};
+  row.half[1] = {joint.speed, 0, mass, -most, most, 0};
+}
+
+// A spring that the sub-step resolves gets half its impulse before and half after the bodies move, as gravity
+// does; a stiffer one all of it before, by backward Euler.
+void prepareSoft(RigidRow& row, const Joint& joint, double h) {
+  const double k = joint.stiffness, c = joint.damping;
+  const double most = joint.kind == JointKind::kMouse ? joint.max_force * h : kNoLimit;
+  for (int half = 0; half < 2; ++half) {
+    RigidRowHalf& part = row.half[at(half)];
+    part = {};
+    part.low = half == 0 ? -0.5 * most : -most;
+    part.high = -part.low;
+    const auto soften = [&](double target, double softness) {
+      part.target = target;
+      part.softness = softness;
+      part.mass = row.answer + softness > 0 ? 1 / (row.answer + softness) : 0;
+    };
+    if (h * h * k * row.answer > kResolved || 2 * h * c * row.answer > kResolved) {
+      part.low = -most, part.high = most;
+      if (half == 0) soften(-k * row.value / (c + h * k), 1 / (h * (c + h * k)));
+    } else if (h * c * row.answer > 1e-9) {
+      soften(-k * row.value / c, 2 / (h * c));
+    } else {
+      part.given = std::clamp(-0.5 * h * k * row.value, -0.5 * most, 0.5 * most);
+    }
+  }
+}
+
+}  // namespace
+
+int RigidJoints::add(const Joint& joint, bool may_touch) {
+  int id = 0;
+  while (id < limit() && m_entries[at(id)].exists) ++id;
+  if (id == limit()) m_entries.emplace_back();
+  m_entries[at(id)] = {joint, true, may_touch, {}};
+  m_entries[at(id)].joint.is_broken = false;
+  return id;
+}
+
+bool RigidJoints::set(int id, const Joint& joint) {
+  Entry& entry = m_entries[at(id)];
+  if (joint.kind != entry.joint.kind || joint.b != entry.joint.b) return false;
+  if (joint.kind != JointKind::kMouse && joint.a != entry.joint.a) return false;
+  const bool is_broken = entry.joint.is_broken;
+  entry.joint = joint;
+  entry.joint.is_broken = is_broken;
+  return true;
+}
+
+void RigidJoints::remove(int id) {
+  m_entries[at(id)].exists = false;
+}
+
+bool RigidJoints::keepsApart(int a, int b) const {
+  return std::any_of(m_entries.begin(), m_entries.end(), [&](const Entry& e) {
+    if (!e.exists || e.may_touch || e.joint.is_broken || e.joint.kind == JointKind::kMouse) return false;
+    return (e.joint.a == a && e.joint.b == b) || (e.joint.a == b && e.joint.b == a);
+  });
+}
+
+void RigidJoints::load(int id, std::span<const RigidBody> bodies) {
+  const Entry& entry = m_entries[at(id)];
+  const Joint& j = entry.joint;
+  const RigidBody& b = bodies[at(j.b)];
+  Link link = {};
+  link.id = id;
+  link.kind = j.kind;
+  link.a = j.kind == JointKind::kMouse ? -1 : j.a;
+  link.b = j.b;
+  link.row = static_cast<int>(m_rows.size());
+  link.count = rowsOf(j);
+  link.arm_b = b.rotation * j.anchor_b;
+  if (link.a >= 0) {
+    const RigidBody& a = bodies[at(j.a)];
+    link.arm_a = a.rotation * j.anchor_a;
+    link.axis = a.rotation * j.axis;
+    link.offset = b.place - a.place;
+    link.between = inverse(j.reference) * (inverse(a.rotation) * b.rotation);
+  } else {
+    link.offset = b.place - j.target;
+  }
+  m_links.push_back(link);
+  for (int k = 0; k < link.count; ++k) {
+    RigidRow row;
+    row.a = link.a, row.b = link.b;
+    row.impulse = entry.memory[at(k)];  // per length of a sub-step, until beginSubstep
+    row.is_soft = j.kind == JointKind::kSpring || j.kind == JointKind::kMouse;
+    m_rows.push_back(row);
+  }
+}
+
+void RigidJoints::refresh(std::span<const RigidState> states) {
+  for (const Link& link : m_links) {
+    place(link, link.a >= 0 ? states[at(link.a)] : kGround, states[at(link.b)]);
+  }
+}
+
+void RigidJoints::place(const Link& link, const RigidState& a, const RigidState& b) {
+  const Joint& joint = m_entries[at(link.id)].joint;
+  RigidRow* const rows = m_rows.data() + link.row;
+  const Vec2 arm_a = a.turn * link.arm_a, arm_b = b.turn * link.arm_b;
+  const Vec2 way = link.offset + (b.way - a.way) + (arm_b - arm_a);
+  const auto along = [&](RigidRow& row, Vec2 n, Vec2 lever_a, double value) {
+    row.n = n;
+    row.ja = -cross(lever_a, n), row.jb = cross(arm_b, n);
+    row.value = value;
+  };
+  const auto angle = [&](RigidRow& row, double value) {
+    row.n = {};
+    row.ja = -1, row.jb = 1;
+    row.value = value;
+  };
+  const Rotation between = link.between * (inverse(a.turn) * b.turn);
+  switch (link.kind) {
+    case JointKind::kDistance:
+    case JointKind::kRope:
+    case JointKind::kSpring:
+      if (link.count == 1) {
+        const double distance = length(way);
+        along(rows[0], distance > 1e-12 ? way / distance : Vec2{1, 0}, arm_a, distance - joint.length);
+        rows[0].side = link.kind == JointKind::kRope ? -1 : 0;
+        break;
+      }
+      [[fallthrough]];
+    case JointKind::kHinge:
+    case JointKind::kWeld:
+    case JointKind::kMouse:
+      along(rows[0], {1, 0}, arm_a, way.x);
+      along(rows[1], {0, 1}, arm_a, way.y);
+      if (link.kind == JointKind::kWeld) angle(rows[2], bentSine(between));
+      break;
+    case JointKind::kSlider: {
+      const Vec2 n = perpendicular(a.turn * link.axis);
+      along(rows[0], n, arm_a + way, dot(n, way));
+      angle(rows[1], bentSine(between));
+      break;
+    }
+    case JointKind::kMotor:
+      angle(rows[0], 0);
+      break;
+    case JointKind::kAngleLimit: {
+      const double now = angleOf(between);
+      const bool is_lower = now - joint.lower < joint.upper - now;
+      angle(rows[0], now - (is_lower ? joint.lower : joint.upper));
+      rows[0].side = is_lower ? 1 : -1;
+      break;
+    }
+  }
+  for (int k = 0; k < link.count; ++k) {
+    RigidRow& row = rows[k];
+    row.answer = (a.inverse_mass + b.inverse_mass) * lengthSquared(row.n) +
+                 a.inverse_inertia * row.ja * row.ja + b.inverse_inertia * row.jb * row.jb;
+  }
+}
+
+void RigidJoints::prepare(double h) {
+  for (const Link& link : m_links) {
+    const Joint& joint = m_entries[at(link.id)].joint;
+    for (int k = 0; k < link.count; ++k) {
+      RigidRow& row = m_rows[at(link.row + k)];
+      if (link.kind == JointKind::kMotor) {
+        prepareMotor(row, joint, h);
+      } else if (row.is_soft) {
+        prepareSoft(row, joint, h);
+      } else {
+        prepareHard(row, h);
+      }
+    }
+  }
+}
+
+void RigidJoints::beginFirstHalf(std::span<RigidState> states, double h) {
+  for (RigidRow& row : m_rows) {
+    row.warm = row.is_soft ? 0 : 0.5 * row.impulse;
+    row.impulse = 0;
+  }
+  prepareWarm(states, h, false);
+}
+
+void RigidJoints::beginSecondHalf(std::span<RigidState> states, double h) {
+  prepareWarm(states, h, true);
+}
+
+void RigidJoints::prepareWarm(std::span<RigidState> states, double h, bool is_second) {
+  for (RigidRow& row : m_rows) row.before = row.impulse;
+  prepare(h);
+  for (RigidRow& row : m_rows) {
+    const RigidRowHalf& half = row.half[is_second];
+    const double more =
+        std::clamp(row.impulse + (row.is_soft ? half.given : row.warm), half.low, half.high) - row.impulse;
+    row.impulse += more;
+    push(row, states, more);
+  }
+}
+
+double RigidJoints::solve(int link, std::span<RigidState> states, bool is_second) {
+  double change = 0;
+  for (RigidRow& row : rowsOfLink(link)) {
+    const RigidRowHalf& half = row.half[is_second];
+    if (half.mass == 0) continue;
+    const double missing = half.target -
+                           speedOf(row, row.a >= 0 ? states[at(row.a)] : kGround, states[at(row.b)]) -
+                           half.softness * (row.impulse - row.before);
+    const double impulse = std::clamp(row.impulse + half.mass * missing, half.low, half.high);
+    const double more = impulse - row.impulse;
+    row.impulse = impulse;
+    push(row, states, more);
+    change = std::max(change, std::fabs(more) / half.mass);
+  }
+  return change;
+}
+
+void RigidJoints::hold(std::span<RigidState> states) const {
+  for (const RigidRow& row : m_rows) {
+    if (row.is_soft || row.side != 0 || row.answer == 0) continue;
+    const RigidState& a = row.a >= 0 ? states[at(row.a)] : kGround;
+    const RigidState& b = states[at(row.b)];
+    if (!a.is_pushed && !b.is_pushed) continue;
+    const double speed = dot(row.n, b.push - a.push) + row.jb * b.push_spin + row.ja * a.push_spin;
+    const double impulse = -speed / row.answer;
+    const auto give = [&](RigidState& s, double sign, double lever) {
+      if (s.inverse_mass == 0 && s.inverse_inertia == 0) return;
+      s.push += (sign * s.inverse_mass * impulse) * row.n;
+      s.push_spin += s.inverse_inertia * lever * impulse;
+      s.is_pushed = true;
+    };
+    if (row.a >= 0) give(states[at(row.a)], -1, row.ja);
+    give(states[at(row.b)], 1, row.jb);
+  }
+}
+
+void RigidJoints::endSubstep() {
+  for (Link& link : m_links) {
+    for (int k = 0; k < link.count; ++k) {
+      const RigidRow& row = m_rows[at(link.row + k)];
+      if (isAngleRow(link.kind, k)) {
+        link.torque += row.impulse;
+      } else {
+        link.force += row.impulse * row.n;
+      }
+    }
+  }
+}
+
+int RigidJoints::end(double dt, double h) {
+  int broken = 0;
+  for (const Link& link : m_links) {
+    Entry& entry = m_entries[at(link.id)];
+    entry.joint.force = link.force / dt;
+    entry.joint.torque = link.torque / dt;
+    for (int k = 0; k < link.count; ++k) entry.memory[at(k)] = m_rows[at(link.row + k)].impulse / h;
+    if (length(entry.joint.force) > entry.joint.break_force ||
+        std::fabs(entry.joint.torque) > entry.joint.break_torque) {
+      entry.joint.is_broken = true;
+      ++broken;
+    }
+  }
+  return broken;
+}
+
+}  // namespace naiad::physics

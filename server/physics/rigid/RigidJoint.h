@@ -1,0 +1,119 @@
+// The joints of rigid bodies as constraints on velocities, solved for together with the contacts.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/joint/Joint.h"
+#include "physics/rigid/RigidBody.h"
+#include "physics/rigid/RigidContact.h"
+
+namespace naiad::physics {
+
+/// What a row asks in one half of a sub-step: (J·v − target) + softness · (what this half's impulse is) = 0.
+struct RigidRowHalf {
+  double target = 0;
+  double softness = 0;
+  double mass = 0;           ///< 1 / (what the bodies answer + softness); 0: this half does nothing more
+  double low = 0, high = 0;  ///< of the impulse since the sub-step began
+  double given = 0;          ///< an impulse that does not depend on the velocities
+};
+
+/// One scalar constraint on two bodies.
+struct RigidRow {
+  std::int32_t a = -1, b = -1;  ///< a: −1 for a mouse
+  Vec2 n;                       ///< b feels +n, a −n
+  double ja = 0, jb = 0;        ///< on the spins, signs included
+  double value = 0;             ///< the constraint's
+  double answer = 0;            ///< J·M⁻¹·Jᵀ
+  int side = 0;                 ///< ±1: only impulses of this sign, when the value would pass 0
+  bool is_soft = false;         ///< starts from no impulse
+  double impulse = 0;           ///< since the sub-step began; between sub-steps, of the last one
+  double before = 0;            ///< of the first half, in the second
+  double warm = 0;              ///< what each half starts from
+  std::array<RigidRowHalf, 2> half;
+};
+
+class RigidJoints {
+ public:
+  int add(const Joint& joint, bool may_touch);
+  bool set(int id, const Joint& joint);
+  void remove(int id);
+  bool exists(int id) const {
+    return id >= 0 && id < limit() && m_entries[static_cast<std::size_t>(id)].exists;
+  }
+  const Joint& joint(int id) const { return m_entries[static_cast<std::size_t>(id)].joint; }
+  int limit() const { return static_cast<int>(m_entries.size()); }
+  bool isWorking(int id) const { return exists(id) && !joint(id).is_broken; }
+  /// Does one of them keep the two bodies from touching?
+  bool keepsApart(int a, int b) const;
+
+  /// Rows for those of which a body is active.
+  template <class IsActive>
+  void begin(std::span<const RigidBody> bodies, std::span<const RigidState> states, double h,
+             IsActive isActive) {
+    m_rows.clear();
+    m_links.clear();
+    for (int id = 0; id < limit(); ++id) {
+      if (!isWorking(id)) continue;
+      const Joint& j = joint(id);
+      if (isActive(j.b) || (j.kind != JointKind::kMouse && isActive(j.a))) load(id, bodies);
+    }
+    for (RigidRow& row : m_rows) row.impulse *= h;
+    refresh(states);
+  }
+  void refresh(std::span<const RigidState> states);
+  void beginFirstHalf(std::span<RigidState> states, double h);
+  void beginSecondHalf(std::span<RigidState> states, double h);
+  /// Of the joint that visitLinks visits as number `link`.
+  std::span<RigidRow> rowsOfLink(int link) {
+    const Link& l = m_links[static_cast<std::size_t>(link)];
+    return std::span(m_rows).subspan(static_cast<std::size_t>(l.row), static_cast<std::size_t>(l.count));
+  }
+  double solve(int link, std::span<RigidState> states, bool is_second);
+  /// Makes what undoes overlap go along with the joints.
+  void hold(std::span<RigidState> states) const;
+  void endSubstep();
+  /// Writes forces; returns how many broke.
+  int end(double dt, double h);
+  /// visit(a, b) for every joint of this step; a is −1 for a mouse.
+  template <class Visit>
+  void visitLinks(Visit visit) const {
+    for (const Link& link : m_links) visit(link.a, link.b);
+  }
+
+  std::span<const RigidRow> rows() const { return m_rows; }
+
+ private:
+  struct Entry {
+    Joint joint;
+    bool exists = false;
+    bool may_touch = false;
+    std::array<double, 3> memory = {};
+  };
+  struct Link {  // a joint within a step
+    int id;
+    JointKind kind;
+    std::int32_t a, b;
+    int row, count;
+    Vec2 arm_a, arm_b;  // at the start of the step
+    Vec2 offset;        // from a to b, or from the target to b
+    Vec2 axis;          // at the start of the step
+    Rotation between;   // of b against a and the reference, at the start of the step
+    Vec2 force;
+    double torque = 0;
+  };
+
+  void load(int id, std::span<const RigidBody> bodies);
+  void prepare(double h);
+  void prepareWarm(std::span<RigidState> states, double h, bool is_second);
+  void place(const Link& link, const RigidState& a, const RigidState& b);
+
+  std::vector<Entry> m_entries;
+  std::vector<Link> m_links;
+  std::vector<RigidRow> m_rows;
+};
+
+}  // namespace naiad::physics

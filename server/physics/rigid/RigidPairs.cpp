@@ -1,0 +1,301 @@
+// Who touches whom: contacts are kept from step to step, become constraints within one, and are told of.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/rigid/RigidSolver.h"
+#include "physics/rigid/RigidWorld.h"
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr double kMostPush = 2;   // of the thinner body, per tick: how fast overlap is undone at most
+constexpr double kSlop = 1e-8;    // of the thinner body: overlap that is left
+constexpr double kLinger = 0.01;  // of the thinner body: a gap that does not end a contact
+
+constexpr double kLook = 0.25;  // of its thickness: how far around a restless body is looked, at least
+
+// A constraint that was found within the step, as told from the start of the step.
+void tellFromStart(ContactConstraint& c, Vec2 start, const RigidState& a, const RigidState& b) {
+  c.offset = start;
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    ContactPoint& p = c.points[static_cast<std::size_t>(i)];
+    p.core_a = inverse(a.turn) * p.core_a;
+    p.core_b = inverse(b.turn) * p.core_b;
+  }
+  if (c.kind == ContactKind::kFaceA) c.first_normal = inverse(a.turn) * c.first_normal;
+  if (c.kind == ContactKind::kFaceB) c.first_normal = inverse(b.turn) * c.first_normal;
+}
+
+}  // namespace
+
+std::int32_t RigidWorld::makeContact() {
+  if (m_free_contact < 0) {
+    m_contacts.emplace_back();
+    return static_cast<std::int32_t>(m_contacts.size()) - 1;
+  }
+  const std::int32_t contact = m_free_contact;
+  m_free_contact = m_contacts[at(contact)].next;
+  m_contacts[at(contact)] = {};
+  return contact;
+}
+
+void RigidWorld::dropContacts(Pair& pair) {
+  for (std::int32_t i = pair.first; i >= 0;) {
+    const std::int32_t next = m_contacts[at(i)].next;
+    m_contacts[at(i)].next = m_free_contact;
+    m_free_contact = i;
+    i = next;
+  }
+  pair.first = -1;
+}
+
+std::int32_t RigidWorld::findPair(std::int32_t a, std::int32_t b) const {
+  const auto found = std::lower_bound(m_pairs.begin(), m_pairs.end(), Late{a, b}, [](const Pair& p, Late x) {
+    return p.a != x.a ? p.a < x.a : p.b < x.b;
+  });
+  if (found == m_pairs.end() || found->a != a || found->b != b) return -1;
+  return static_cast<std::int32_t>(found - m_pairs.begin());
+}
+
+// Their bounds parted.
+void RigidWorld::dropPair(Pair& pair) {
+  dropContacts(pair);
+  if (pair.is_touching) m_events.push_back({0, pair.a, pair.b, false, 0, {}});
+}
+
+void RigidWorld::updatePairs() {
+  const std::span<const BroadPhasePair> found = m_broad.updatePairs();
+  m_pairs.swap(m_pairs_before);
+  m_pairs.clear();
+  std::size_t next = 0;
+  for (const BroadPhasePair& pair : found) {
+    const auto a = static_cast<std::int32_t>(pair.id_a), b = static_cast<std::int32_t>(pair.id_b);
+    const auto isBefore = [&](const Pair& old) { return old.a != a ? old.a < a : old.b < b; };
+    while (next < m_pairs_before.size() && isBefore(m_pairs_before[next])) dropPair(m_pairs_before[next++]);
+    const bool is_old =
+        next < m_pairs_before.size() && m_pairs_before[next].a == a && m_pairs_before[next].b == b;
+    if (is_old) {
+      m_pairs.push_back(m_pairs_before[next++]);
+    } else {
+      m_pairs.push_back({a, b});
+      m_pairs.back().is_jointed = m_joints.keepsApart(a, b);
+    }
+    m_pairs.back().is_seen = m_pairs.back().is_pushing = m_pairs.back().is_near = false;
+    m_pairs.back().is_passed = false;
+    if (m_joints_changed) m_pairs.back().is_jointed = m_joints.keepsApart(a, b);
+  }
+  while (next < m_pairs_before.size()) dropPair(m_pairs_before[next++]);
+  m_joints_changed = false;
+  thinCrowds();
+  for (const Late& late : m_late_before) {
+    const std::int32_t pair = findPair(late.a, late.b);
+    if (pair >= 0) {
+      m_pairs[at(pair)].is_touching = true;
+    } else if (exists(late.a) && exists(late.b)) {
+      m_events.push_back({0, late.a, late.b, false, 0, {}});
+    }
+  }
+  m_late_before.clear();
+}
+
+// A pair of which one wakes the other may make others worth a look.
+void RigidWorld::updateContacts(double dt) {
+  std::size_t before = 0;
+  do {
+    before = m_active.size();
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(m_pairs.size()); ++i) updatePair(i, dt);
+  } while (m_active.size() > before);
+  m_counters.contacts += static_cast<std::int64_t>(m_constraints.size());
+}
+
+ContactConstraint& RigidWorld::addConstraint(int a, int b) {
+  m_constraints.emplace_back();
+  ContactConstraint& c = m_constraints.back();
+  const RigidBody &one = m_bodies[at(a)], &other = m_bodies[at(b)];
+  c.a = a, c.b = b;
+  c.friction = std::sqrt(one.friction * other.friction);
+  c.restitution = std::max(one.restitution, other.restitution);
+  const double thickness = std::min(m_extras[at(a)].thickness, m_extras[at(b)].thickness);
+  c.most_push = kMostPush * thickness;
+  c.slop = kSlop * thickness;
+  c.may_fly = !m_extras[at(a)].is_in_crowd && !m_extras[at(b)].is_in_crowd;
+  return c;
+}
+
+void RigidWorld::updatePair(std::int32_t index, double dt) {
+  Pair& pair = m_pairs[at(index)];
+  if (pair.is_seen) return;
+  if (pair.is_passed) return dropContacts(pair);
+  const Extra &a = m_extras[at(pair.a)], &b = m_extras[at(pair.b)];
+  if (!(a.is_active || a.is_dirty || b.is_active || b.is_dirty)) return;
+  const bool a_sleeps = a.is_asleep, b_sleeps = b.is_asleep;
+  if ((a_sleeps || !isMovable(pair.a)) && (b_sleeps || !isMovable(pair.b)) &&
+      !(a_sleeps && (b.is_active || b.is_dirty)) && !(b_sleeps && (a.is_active || a.is_dirty))) {
+    return;
+  }
+  pair.is_seen = true;
+  if (pair.is_jointed) {
+    dropContacts(pair);
+    return;
+  }
+  const RigidState &state_a = m_states[at(pair.a)], &state_b = m_states[at(pair.b)];
+  const Vec2 start = m_bodies[at(pair.b)].place - m_bodies[at(pair.a)].place;
+  const Vec2 offset = start + (state_b.way - state_a.way);
+  const double margin = a.margin + b.margin;
+  const double reach = a.reach + b.reach + margin;
+  if (lengthSquared(offset) > reach * reach) {
+    dropContacts(pair);
+    return;
+  }
+  const std::size_t first_constraint = m_constraints.size();
+  std::int32_t old = pair.first, last = -1;
+  pair.first = -1;
+  const auto append = [&](std::int32_t contact) {
+    (last >= 0 ? m_contacts[at(last)].next : pair.first) = contact;
+    m_contacts[at(contact)].next = -1;
+    last = contact;
+  };
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(a.turned.size()); ++i) {
+    for (std::int32_t j = 0; j < static_cast<std::int32_t>(b.turned.size()); ++j) {
+      std::int32_t contact = -1;
+      if (old >= 0 && m_contacts[at(old)].shape_a == i && m_contacts[at(old)].shape_b == j) {
+        contact = old;
+        old = m_contacts[at(old)].next;
+      }
+      Manifold manifold;
+      const ReferenceFace kept = contact >= 0 ? m_contacts[at(contact)].reference : ReferenceFace{};
+      if (!collide(a.turned[at(i)], b.turned[at(j)], offset, margin, kept, manifold)) {
+        if (contact >= 0) {
+          m_contacts[at(contact)].next = m_free_contact;
+          m_free_contact = contact;
+        }
+        continue;
+      }
+      if (contact < 0) contact = makeContact();
+      RigidContact& memory = m_contacts[at(contact)];
+      memory.shape_a = i, memory.shape_b = j;
+      memory.reference = manifold.reference;
+      append(contact);
+      ContactConstraint& c = addConstraint(pair.a, pair.b);
+      c.pair = index, c.contact = contact;
+      beginConstraint(a.turned[at(i)], b.turned[at(j)], offset, manifold, c);
+      if (m_time > 0) tellFromStart(c, start, state_a, state_b);
+      for (std::int32_t k = 0; k < c.count; ++k) {
+        ContactPoint& p = c.points[at(k)];
+        if (m_time == 0) m_deepest = std::max(m_deepest, -p.separation);
+        for (std::int32_t l = 0; l < memory.count; ++l) {
+          if (memory.id[at(l)] != p.id) continue;
+          p.normal_impulse = m_h * memory.normal_impulse[at(l)];
+          p.friction_impulse = m_h * memory.friction_impulse[at(l)];
+        }
+      }
+    }
+  }
+  if (m_constraints.size() == first_constraint) return;
+  for (const int id : {pair.a, pair.b}) {
+    if (!m_extras[at(id)].is_asleep) continue;
+    wakeRing(id);
+    int member = id;
+    do {
+      Extra& extra = m_extras[at(member)];
+      if (!extra.is_active && !extra.is_frozen) {
+        extra.is_active = true;
+        m_active.push_back(member);
+        beginBody(member, dt);
+      }
+      member = extra.ring;
+    } while (member != id);
+  }
+  for (std::size_t i = first_constraint; i < m_constraints.size(); ++i) refresh(m_constraints[i], m_states);
+}
+
+bool RigidWorld::isRestless(const ContactConstraint& c) const {
+  if (!m_extras[at(c.a)].is_restless && !m_extras[at(c.b)].is_restless) return false;
+  return c.pair >= 0 || findPair(c.a, c.b) >= 0;
+}
+
+// Between sub-steps: contacts of bodies that move in a heap are found anew.
+void RigidWorld::lookAgain(double dt) {
+  for (const ContactConstraint& c : m_constraints) {
+    if (!isRestless(c)) continue;
+    storeContact(c, m_h);
+    tellBegin(c, dt);
+  }
+  std::erase_if(m_constraints, [&](const ContactConstraint& c) { return isRestless(c); });
+  for (const int id : m_active) {
+    Extra& extra = m_extras[at(id)];
+    if (extra.proxy < 0) continue;
+    const RigidState& s = m_states[at(id)];
+    turnShapes(id, s.turn * m_bodies[at(id)].rotation);
+    if (!extra.is_restless) continue;
+    ++m_counters.looks;
+    extra.margin =
+        std::max(kLook * extra.thickness, 1.1 * m_h * (length(s.velocity) + std::fabs(s.spin) * extra.reach));
+    extra.margin = std::min(extra.margin, 2 * extra.thickness);
+    extra.moved = extra.rolled = 0;
+    extra.looked_at = s.way;
+  }
+  for (Pair& pair : m_pairs) {
+    if (m_extras[at(pair.a)].is_restless || m_extras[at(pair.b)].is_restless) {
+      pair.is_seen = pair.is_near = false;
+    }
+  }
+  const auto isEarly = [](const ContactConstraint& c) { return c.pair >= 0; };
+  updateContacts(dt);
+  const auto late = std::stable_partition(m_constraints.begin(), m_constraints.end(), isEarly);
+  m_first_late = static_cast<std::size_t>(late - m_constraints.begin());
+  findIslands();
+  gatherIslands(false);
+}
+
+void RigidWorld::storeContact(const ContactConstraint& c, double h) {
+  if (c.contact < 0) return;
+  RigidContact& memory = m_contacts[at(c.contact)];
+  memory.count = c.count;
+  for (std::int32_t k = 0; k < c.count; ++k) {
+    const ContactPoint& p = c.points[at(k)];
+    memory.id[at(k)] = p.id;
+    memory.normal_impulse[at(k)] = p.normal_impulse / h;
+    memory.friction_impulse[at(k)] = p.friction_impulse / h;
+  }
+}
+
+void RigidWorld::tellBegin(const ContactConstraint& c, double dt) {
+  const double impulse = c.points[0].total + c.points[1].total;
+  const double linger = kLinger * std::min(m_extras[at(c.a)].thickness, m_extras[at(c.b)].thickness);
+  std::int32_t index = c.pair >= 0 ? c.pair : findPair(c.a, c.b);
+  const double least =
+      c.count > 1 ? std::min(c.points[0].separation, c.points[1].separation) : c.points[0].separation;
+  if (index >= 0 && least <= linger) m_pairs[at(index)].is_near = true;
+  if (!(impulse > 0)) return;
+  const bool is_late = index < 0;
+  if (!is_late) {
+    Pair& pair = m_pairs[at(index)];
+    if (pair.is_touching && !pair.is_pushing) {
+      pair.is_pushing = true;  // it goes on
+      return;
+    }
+    if (pair.is_touching) {  // begun in this step, or gone on
+      for (RigidEvent& event : m_events) {
+        if (event.is_begin && event.first == c.a && event.second == c.b) event.impulse += impulse;
+      }
+      return;
+    }
+    pair.is_touching = pair.is_pushing = true;
+  } else {
+    if (std::find(m_late.begin(), m_late.end(), Late{c.a, c.b}) != m_late.end()) return;
+    m_late.push_back({c.a, c.b});
+  }
+  m_events.push_back({std::min(std::max(c.first_time, 0.0), dt), c.a, c.b, true, impulse, c.first_normal});
+}
+
+void RigidWorld::tellEnds(double dt) {
+  for (Pair& pair : m_pairs) {
+    if (!pair.is_seen || !pair.is_touching || pair.is_pushing || pair.is_near) continue;
+    pair.is_touching = false;
+    m_events.push_back({dt, pair.a, pair.b, false, 0, {}});
+  }
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,212 @@
+// Which bodies hang together, and which of these groups may sleep.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/rigid/RigidWorld.h"
+
+namespace naiad::physics {
+
+namespace {
+
+enum : std::uint8_t { kIsHeld = 1, kIsDriven = 2, kIsAdrift = 4 };
+
+constexpr double kDirectBudget = 5000;  // multiplications per constraint and sub-step
+constexpr int kCrowd = 32;              // bodies
+constexpr double kCreep = 1e-6;         // cells per tick that a group at rest may gain while it is watched
+constexpr double kLeastKick = 1e-5;     // cells per tick
+
+}  // namespace
+
+int RigidWorld::rootOf(int id) {
+  while (m_parent[at(id)] != id) {
+    m_parent[at(id)] = m_parent[at(m_parent[at(id)])];
+    id = m_parent[at(id)];
+  }
+  return id;
+}
+
+// The lowest id is the root.
+void RigidWorld::unite(int a, int b) {
+  const int one = rootOf(a), other = rootOf(b);
+  m_parent[at(std::max(one, other))] = std::min(one, other);
+}
+
+void RigidWorld::findIslands() {
+  for (const int id : m_active) m_parent[at(id)] = id;
+  const auto isMember = [&](int id) { return m_extras[at(id)].is_active && isMovable(id); };
+  for (const ContactConstraint& c : m_constraints) {
+    if (c.pair >= 0 && isMember(c.a) && isMember(c.b)) unite(c.a, c.b);
+  }
+  m_joints.visitLinks([&](int a, int b) {
+    if (a >= 0 && isMember(a) && isMember(b)) unite(a, b);
+  });
+}
+
+// −1 if neither moves.
+int RigidWorld::islandOf(int a, int b) {
+  for (const int id : {a, b}) {
+    if (id >= 0 && m_extras[at(id)].is_active && isMovable(id)) return m_island_of[at(rootOf(id))];
+  }
+  return -1;
+}
+
+// Bodies, constraints and joints by island, in the order that they had.
+void RigidWorld::gatherIslands(bool is_first) {
+  if (is_first) m_first_late = m_constraints.size();
+  const std::span<const ContactConstraint> constraints_now(m_constraints.data(), m_first_late);
+  m_islands.clear();
+  for (const int id : m_active) {
+    if (rootOf(id) != id) continue;
+    m_island_of[at(id)] = static_cast<int>(m_islands.size());
+    m_islands.emplace_back();
+  }
+  const auto ofConstraint = [&](const ContactConstraint& c) { return islandOf(c.a, c.b); };
+  for (const int id : m_active) ++m_islands[at(m_island_of[at(rootOf(id))])].bodies;
+  for (const ContactConstraint& c : constraints_now) ++m_islands[at(ofConstraint(c))].constraints;
+  m_joints.visitLinks([&](int a, int b) { ++m_islands[at(islandOf(a, b))].links; });
+  int bodies = 0, constraints = 0, links = 0;
+  for (Island& island : m_islands) {
+    island.first_body = bodies, bodies += island.bodies;
+    island.first_constraint = constraints, constraints += island.constraints;
+    island.first_link = links, links += island.links;
+  }
+  for (const int id : m_active) {
+    if (rootOf(id) != id) continue;
+    Island& island = m_islands[at(m_island_of[at(id)])];
+    Extra& extra = m_extras[at(id)];
+    island.root = id;
+    if (is_first && extra.wait > 0) {
+      --extra.wait;
+      extra.budget = 0;
+    } else if (is_first || extra.budget < 0) {
+      extra.budget = kDirectBudget * (island.constraints + island.links) * m_options.substeps;
+    }
+  }
+  if (is_first) {
+    for (const int id : m_active) {
+      const int root = rootOf(id);
+      m_islands[at(m_island_of[at(root)])].has_fast |= m_extras[at(id)].is_fast;
+      if (root != id) m_extras[at(id)].budget = -1;  // it may become one within the step
+    }
+  }
+  for (const int id : m_active) {
+    const Island& island = m_islands[at(m_island_of[at(rootOf(id))])];
+    if (!is_first) break;
+    Extra& extra = m_extras[at(id)];
+    extra.is_in_crowd = island.bodies >= kCrowd || island.links > 0;
+    extra.is_crowded = island.has_fast && extra.is_in_crowd;
+    extra.is_in_heap = extra.is_crowded && island.links == 0;
+  }
+  for (Island& island : m_islands) island.bodies = island.constraints = island.links = 0;
+  m_island_bodies.resize(at(bodies));
+  m_island_constraints.resize(at(constraints));
+  m_island_links.resize(at(links));
+  for (const int id : m_active) {
+    Island& island = m_islands[at(m_island_of[at(rootOf(id))])];
+    m_island_bodies[at(island.first_body + island.bodies++)] = id;
+    island.kick = std::max(island.kick, length(m_states[at(id)].kick) + kLeastKick);
+  }
+  for (std::size_t i = 0; i < constraints_now.size(); ++i) {
+    Island& island = m_islands[at(ofConstraint(m_constraints[i]))];
+    m_island_constraints[at(island.first_constraint + island.constraints++)] = static_cast<int>(i);
+  }
+  int link = 0;
+  m_joints.visitLinks([&](int a, int b) {
+    Island& island = m_islands[at(islandOf(a, b))];
+    m_island_links[at(island.first_link + island.links++)] = link++;
+  });
+}
+
+// A group sleeps when all of it has been still for a while and is not speeding up, and something that cannot
+// move holds it, or nothing pulls at it at all.
+void RigidWorld::sleep(double dt) {
+  if (!m_options.may_sleep) return;
+  for (const int id : m_active) {
+    m_island_still[at(id)] = 1e300;
+    m_island_gain[at(id)] = {};
+    m_island_flags[at(id)] = 0;
+    m_extras[at(id)].ring = id;
+  }
+  for (const int id : m_active) {
+    Extra& extra = m_extras[at(id)];
+    if (extra.is_frozen || !isMovable(id)) continue;
+    const RigidBody& body = m_bodies[at(id)];
+    const double speed = length(body.velocity) + std::fabs(body.spin) * extra.reach;
+    if (extra.still == 0) extra.first_speed = speed;
+    extra.still = speed < m_options.sleep_speed ? extra.still + dt : 0;
+    const int root = rootOf(id);
+    Gain& gain = m_island_gain[at(root)];
+    gain.before = std::max(gain.before, extra.first_speed);
+    gain.now = std::max(gain.now, speed);
+    m_island_still[at(root)] = std::min(m_island_still[at(root)], extra.still);
+    if (isMoving(id)) m_island_flags[at(root)] |= kIsAdrift;
+  }
+  const auto lean = [&](int on, int member) {  // `on` may be what holds the member
+    if (isMovable(on) || !m_extras[at(member)].is_active || !isMovable(member)) return;
+    m_island_flags[at(rootOf(member))] |= isMoving(on) ? kIsDriven : kIsHeld;
+  };
+  for (const ContactConstraint& c : m_constraints) {
+    if (c.points[0].normal_impulse + c.points[1].normal_impulse == 0) continue;
+    lean(c.a, c.b);
+    lean(c.b, c.a);
+  }
+  m_joints.visitLinks([&](int a, int b) {
+    if (a < 0) {
+      m_island_flags[at(rootOf(b))] |= kIsHeld;
+    } else {
+      lean(a, b);
+      lean(b, a);
+    }
+  });
+  for (const int id : m_active) {
+    Extra& extra = m_extras[at(id)];
+    if (extra.is_frozen || !isMovable(id)) continue;
+    const int root = rootOf(id);
+    const std::uint8_t flags = m_island_flags[at(root)];
+    if (m_island_still[at(root)] < m_options.sleep_delay || (flags & kIsDriven) != 0) continue;
+    if (m_island_gain[at(root)].now > m_island_gain[at(root)].before + kCreep) {
+      extra.still = 0;
+      continue;
+    }
+    if ((flags & kIsHeld) == 0 && (flags & kIsAdrift) != 0) continue;
+    extra.is_asleep = true;
+    if (root != id) std::swap(extra.ring, m_extras[at(root)].ring);
+    m_bodies[at(id)].velocity = {};
+    m_bodies[at(id)].spin = 0;
+    m_states[at(id)] = {};
+    m_active_changed = true;
+  }
+}
+
+void RigidWorld::wake(int id) {
+  if (exists(id)) wakeRing(id);
+}
+
+void RigidWorld::wakeRing(int id) {
+  m_extras[at(id)].still = 0;
+  if (!m_extras[at(id)].is_asleep) return;
+  m_active_changed = true;
+  int member = id;
+  do {
+    Extra& extra = m_extras[at(member)];
+    extra.is_asleep = false;
+    extra.still = 0;
+    member = extra.ring;
+  } while (member != id);
+}
+
+// Whoever may lean on it.
+void RigidWorld::wakeNeighbours(int id) {
+  for (const Pair& pair : m_pairs) {
+    if (pair.first < 0 || (pair.a != id && pair.b != id)) continue;
+    wakeRing(pair.a == id ? pair.b : pair.a);
+  }
+  for (int i = 0; i < m_joints.limit(); ++i) {
+    if (!m_joints.isWorking(i) || m_joints.joint(i).kind == JointKind::kMouse) continue;
+    const Joint& joint = m_joints.joint(i);
+    if (joint.a == id) wakeRing(joint.b);
+    if (joint.b == id) wakeRing(joint.a);
+  }
+}
+
+}  // namespace naiad::physics

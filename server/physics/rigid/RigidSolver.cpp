@@ -1,0 +1,300 @@
+#include "physics/rigid/RigidSolver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr double kPushRate = 0.3;  // of an overlap, undone in a sub-step
+// A bounce ends in rest when it is slower than so many sub-steps of the acceleration.
+constexpr double kRestSteps = 2;
+constexpr double kBend = 1e-6;  // of the speed of an impact, that is due to turning
+constexpr double kAnySpeed = -1e12;
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+double normalSpeed(const ContactPoint& p, Vec2 n, const RigidState& a, const RigidState& b) {
+  return dot(n, b.velocity - a.velocity) + (p.normal_b * b.spin - p.normal_a * a.spin);
+}
+
+double slipSpeed(const ContactPoint& p, Vec2 t, const RigidState& a, const RigidState& b) {
+  return dot(t, b.velocity - a.velocity) + (p.tangent_b * b.spin - p.tangent_a * a.spin);
+}
+
+void push(RigidState& a, RigidState& b, Vec2 direction, double lever_a, double lever_b, double impulse) {
+  a.velocity -= (a.inverse_mass * impulse) * direction;
+  a.spin -= a.inverse_inertia * lever_a * impulse;
+  b.velocity += (b.inverse_mass * impulse) * direction;
+  b.spin += b.inverse_inertia * lever_b * impulse;
+}
+
+void pushPoint(const ContactConstraint& c, const ContactPoint& p, RigidState& a, RigidState& b,
+               double normal_impulse, double friction_impulse) {
+  push(a, b, c.normal, p.normal_a, p.normal_b, normal_impulse);
+  push(a, b, perpendicular(c.normal), p.tangent_a, p.tangent_b, friction_impulse);
+}
+
+// Levers and masses for points at `arm_a` and `arm_b` from the centres.
+void setLevers(ContactPoint& p, Vec2 n, Vec2 arm_a, Vec2 arm_b, const RigidState& a, const RigidState& b) {
+  const Vec2 t = perpendicular(n);
+  p.normal_a = cross(arm_a, n), p.normal_b = cross(arm_b, n);
+  p.tangent_a = cross(arm_a, t), p.tangent_b = cross(arm_b, t);
+  const double mass = a.inverse_mass + b.inverse_mass;
+  const double normal =
+      mass + a.inverse_inertia * p.normal_a * p.normal_a + b.inverse_inertia * p.normal_b * p.normal_b;
+  const double tangent =
+      mass + a.inverse_inertia * p.tangent_a * p.tangent_a + b.inverse_inertia * p.tangent_b * p.tangent_b;
+  p.normal_mass = normal > 0 ? 1 / normal : 0;
+  p.tangent_mass = tangent > 0 ? 1 / tangent : 0;
+}
+
+// Two normals of one manifold as one system, if they are not nearly the same.
+void setPair(ContactConstraint& c, const RigidState& a, const RigidState& b) {
+  c.inverse_determinant = 0;
+  if (c.count < 2) return;
+  const ContactPoint &p = c.points[0], &q = c.points[1];
+  c.coupling = a.inverse_mass + b.inverse_mass + a.inverse_inertia * p.normal_a * q.normal_a +
+               b.inverse_inertia * p.normal_b * q.normal_b;
+  if (p.normal_mass == 0 || q.normal_mass == 0) return;
+  const double product = 1 / (p.normal_mass * q.normal_mass);
+  const double determinant = product - c.coupling * c.coupling;
+  if (determinant > 1e-3 * product) c.inverse_determinant = 1 / determinant;
+}
+
+// How a point that is about to meet would bounce: along the normal everything is a fall with constant
+// acceleration, so both where it ends and how fast are known.
+void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState& a, const RigidState& b,
+                   double h) {
+  const double speed = normalSpeed(p, c.normal, a, b), gap = std::max(p.separation, 0.0);
+  const double gain =
+      2 / h * (dot(c.normal, b.kick - a.kick) + p.normal_b * b.spin_kick - p.normal_a * a.spin_kick);
+  const double square = speed * speed - 2 * gain * gap;
+  if (!(square > 0)) return;
+  const double impact = std::sqrt(square);  // the speed of approach when they meet
+  const double time = speed < 0 ? 2 * gap / (impact - speed) : gain < 0 ? -(speed + impact) / gain : h;
+  const double leaving = c.restitution * impact;
+  if (!(time < h) || !(leaving > kRestSteps * h * std::fabs(gain))) return;
+  if (c.may_fly && std::fabs(p.normal_a * a.spin) + std::fabs(p.normal_b * b.spin) > kBend * impact) {
+    p.is_bending = true;
+    return;
+  }
+  const double left = h - time;
+  p.is_bouncing = true;
+  p.after = leaving + gain * left;
+  p.target = ((leaving + 0.5 * gain * left) * left - p.separation) / h;
+}
+
+void solveFriction(ContactConstraint& c, RigidState& a, RigidState& b) {
+  const Vec2 t = perpendicular(c.normal);
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    ContactPoint& p = c.points[at(i)];
+    const double most = c.friction * p.normal_impulse;
+    const double wanted = p.friction_impulse - p.tangent_mass * slipSpeed(p, t, a, b);
+    const double impulse = std::clamp(wanted, -most, most), more = impulse - p.friction_impulse;
+    p.friction_impulse = impulse;
+    push(a, b, t, p.tangent_a, p.tangent_b, more);
+  }
+}
+
+double solveOne(ContactConstraint& c, ContactPoint& p, double target, RigidState& a, RigidState& b) {
+  const double missing = target - normalSpeed(p, c.normal, a, b);
+  const double impulse = std::max(p.normal_impulse + p.normal_mass * missing, 0.0);
+  const double more = impulse - p.normal_impulse;
+  p.normal_impulse = impulse;
+  push(a, b, c.normal, p.normal_a, p.normal_b, more);
+  return p.normal_mass > 0 ? std::fabs(more) / p.normal_mass : 0;
+}
+
+// The complementarity problem of two points, by looking at its four cases.
+double solveTwo(ContactConstraint& c, double target_p, double target_q, RigidState& a, RigidState& b) {
+  ContactPoint &p = c.points[0], &q = c.points[1];
+  const double kp = 1 / p.normal_mass, kq = 1 / q.normal_mass;
+  const double missing_p = target_p - normalSpeed(p, c.normal, a, b);
+  const double missing_q = target_q - normalSpeed(q, c.normal, a, b);
+  // What is missing if neither pushed.
+  const double rp = missing_p + kp * p.normal_impulse + c.coupling * q.normal_impulse;
+  const double rq = missing_q + c.coupling * p.normal_impulse + kq * q.normal_impulse;
+  // First the change from what there is, so that nothing changes where nothing is missing.
+  double x = p.normal_impulse + c.inverse_determinant * (kq * missing_p - c.coupling * missing_q);
+  double y = q.normal_impulse + c.inverse_determinant * (kp * missing_q - c.coupling * missing_p);
+  if (!(x >= 0 && y >= 0)) {
+    x = std::max(rp * p.normal_mass, 0.0), y = 0;
+    if (c.coupling * x < rq) {
+      x = 0, y = std::max(rq * q.normal_mass, 0.0);
+      if (c.coupling * y < rp) x = std::max(rp * p.normal_mass, 0.0);  // rounding
+    }
+  }
+  const double more_p = x - p.normal_impulse, more_q = y - q.normal_impulse;
+  p.normal_impulse = x, q.normal_impulse = y;
+  const double sum = more_p + more_q;
+  a.velocity -= (a.inverse_mass * sum) * c.normal;
+  a.spin -= a.inverse_inertia * (p.normal_a * more_p + q.normal_a * more_q);
+  b.velocity += (b.inverse_mass * sum) * c.normal;
+  b.spin += b.inverse_inertia * (p.normal_b * more_p + q.normal_b * more_q);
+  return std::max(std::fabs(more_p) * kp, std::fabs(more_q) * kq);
+}
+
+double solveNormals(ContactConstraint& c, RigidState& a, RigidState& b, bool is_second) {
+  const auto target = [&](std::size_t i) { return is_second ? c.points[i].after : c.points[i].target; };
+  if (c.inverse_determinant > 0) return solveTwo(c, target(0), target(1), a, b);
+  double change = 0;
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    change = std::max(change, solveOne(c, c.points[at(i)], target(at(i)), a, b));
+  }
+  return change;
+}
+
+}  // namespace
+
+void beginConstraint(const TurnedShape& a, const TurnedShape& b, Vec2 offset, const Manifold& manifold,
+                     ContactConstraint& c) {
+  c.count = manifold.count;
+  c.normal = c.first_normal = manifold.normal;
+  c.offset = offset;
+  c.radius_a = a.radius, c.radius_b = b.radius;
+  c.first_time = -1;
+  const std::uint32_t id = manifold.points[0].id;
+  using Owner = ReferenceFace::Owner;
+  c.kind = manifold.reference.owner == Owner::kA                    ? ContactKind::kFaceA
+           : manifold.reference.owner == Owner::kB                  ? ContactKind::kFaceB
+           : a.count > 1 && manifold.normal == a.normals[id >> 8]   ? ContactKind::kFaceA
+           : b.count > 1 && manifold.normal == -b.normals[id & 255] ? ContactKind::kFaceB
+                                                                    : ContactKind::kPoints;
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    const ManifoldPoint& from = manifold.points[at(i)];
+    ContactPoint& p = c.points[at(i)];
+    p = {};
+    p.id = from.id;
+    p.separation = from.separation;
+    p.core_a = from.anchor_a - (a.radius + 0.5 * from.separation) * c.normal;
+    p.core_b = from.anchor_b + (b.radius + 0.5 * from.separation) * c.normal;
+    switch (c.kind) {
+      case ContactKind::kFaceA:
+        p.base = from.separation - dot(c.normal, offset + p.core_b);
+        break;
+      case ContactKind::kFaceB:
+        p.base = from.separation - dot(c.normal, offset - p.core_a);
+        break;
+      case ContactKind::kPoints:
+        p.base = from.separation - length(offset + p.core_b - p.core_a);
+        break;
+    }
+  }
+}
+
+void refresh(ContactConstraint& c, std::span<const RigidState> bodies) {
+  const RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
+  const Vec2 apart = c.offset + (b.way - a.way);
+  if (c.kind == ContactKind::kFaceA) c.normal = a.turn * c.first_normal;
+  if (c.kind == ContactKind::kFaceB) c.normal = b.turn * c.first_normal;
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    ContactPoint& p = c.points[at(i)];
+    Vec2 arm_a, arm_b;
+    if (c.kind == ContactKind::kFaceA) {
+      const Vec2 core = b.turn * p.core_b;
+      p.separation = p.base + dot(c.normal, apart + core);
+      arm_b = core - (c.radius_b + 0.5 * p.separation) * c.normal;
+      arm_a = apart + arm_b;
+    } else if (c.kind == ContactKind::kFaceB) {
+      const Vec2 core = a.turn * p.core_a;
+      p.separation = p.base + dot(c.normal, apart - core);
+      arm_a = core + (c.radius_a + 0.5 * p.separation) * c.normal;
+      arm_b = arm_a - apart;
+    } else {
+      const Vec2 core = a.turn * p.core_a, between = apart + b.turn * p.core_b - core;
+      const double distance = length(between);
+      p.separation = p.base + distance;
+      if (distance > 1e-9) c.normal = between / distance;
+      arm_a = core + (c.radius_a + 0.5 * p.separation) * c.normal;
+      arm_b = arm_a - apart;
+    }
+    setLevers(p, c.normal, arm_a, arm_b, a, b);
+  }
+  setPair(c, a, b);
+}
+
+bool beginSubstep(ContactConstraint& c, std::span<const RigidState> bodies, double h) {
+  const RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
+  bool is_deep = false;
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    ContactPoint& p = c.points[at(i)];
+    p.is_bouncing = p.is_bending = false;
+    if (c.restitution > 0) foreseeBounce(c, p, a, b, h);
+    if (!p.is_bouncing) {
+      p.target = p.is_bending ? kAnySpeed : p.separation > 0 ? -p.separation / h : 0;
+    }
+    // What does not overlap may not be pushed together, either.
+    p.push = p.separation < -c.slop ? std::min(-kPushRate * (p.separation + c.slop) / h, c.most_push)
+                                    : -(p.separation + c.slop) / h;
+    p.push_impulse = 0;
+    is_deep = is_deep || p.push > 0;
+    p.normal_warm = p.normal_impulse = 0.5 * p.normal_impulse;
+    p.friction_warm = p.friction_impulse = 0.5 * p.friction_impulse;
+  }
+  c.is_deep = is_deep;
+  return is_deep;
+}
+
+void pushApart(ContactConstraint& c, std::span<RigidState> bodies) {
+  RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
+  if (!c.is_deep && !a.is_pushed && !b.is_pushed) return;
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    ContactPoint& p = c.points[at(i)];
+    const double speed =
+        dot(c.normal, b.push - a.push) + (p.normal_b * b.push_spin - p.normal_a * a.push_spin);
+    const double impulse = std::max(p.push_impulse + p.normal_mass * (p.push - speed), 0.0);
+    const double more = impulse - p.push_impulse;
+    if (more == 0) continue;
+    p.push_impulse = impulse;
+    a.push -= (a.inverse_mass * more) * c.normal;
+    a.push_spin -= a.inverse_inertia * p.normal_a * more;
+    b.push += (b.inverse_mass * more) * c.normal;
+    b.push_spin += b.inverse_inertia * p.normal_b * more;
+    a.is_pushed = a.inverse_mass > 0 || a.inverse_inertia > 0;
+    b.is_pushed = b.inverse_mass > 0 || b.inverse_inertia > 0;
+  }
+}
+
+void beginFirstHalf(ContactConstraint& c, std::span<RigidState> bodies) {
+  RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    const ContactPoint& p = c.points[at(i)];
+    pushPoint(c, p, a, b, p.normal_warm, p.friction_warm);
+  }
+}
+
+void beginSecondHalf(ContactConstraint& c, std::span<RigidState> bodies, double h) {
+  RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    ContactPoint& p = c.points[at(i)];
+    if (!p.is_bouncing) {
+      p.after = 0;
+      if (p.separation > 0) {
+        p.after = -p.separation / h;
+        if (c.restitution > 0 && p.normal_impulse == 0) {  // it will bounce, in the next sub-step
+          p.after = kAnySpeed;
+          p.normal_warm = p.friction_warm = 0;
+        }
+      }
+    }
+    p.normal_impulse += p.normal_warm;
+    p.friction_impulse += p.friction_warm;
+    pushPoint(c, p, a, b, p.normal_warm, p.friction_warm);
+  }
+}
+
+double solveContact(ContactConstraint& c, std::span<RigidState> bodies, bool is_second) {
+  RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
+  if (c.friction > 0) {
+    // Friction needs something to press on.
+    if (c.points[0].normal_warm + c.points[1].normal_warm == 0) solveNormals(c, a, b, is_second);
+    solveFriction(c, a, b);
+  }
+  return solveNormals(c, a, b, is_second);
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,287 @@
+// A RigidWorld's step and its sub-steps: who moves how far, and in which order.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/rigid/RigidSolver.h"
+#include "physics/rigid/RigidWorld.h"
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr double kFarthest = 1e9;  // in one step; beyond it times of impact are not known
+constexpr double kMostTurn = 1e9;  // rad, likewise
+constexpr double kSlack = 0.02;    // of its thickness, how far around a body is looked in any case
+constexpr int kPushSweeps = 8;     // where there are joints
+constexpr int kCrowdPushSweeps = 2;
+constexpr double kBoundsSlack = 0.1;
+// Of a large group someone moves by more than this part of its thickness in a step: each of its bodies …
+constexpr double kRestless = 0.25;
+constexpr double kLook = 0.25;  // … is looked around so far in every sub-step, at least
+constexpr double kFast = 2;     // … if it does not go farther than that in one …
+constexpr double kPass = 0.5;   // … and swept if it moves by more than that part in a sub-step
+
+}  // namespace
+
+void RigidWorld::beginBody(int id, double dt) {
+  Extra& extra = m_extras[at(id)];
+  const RigidBody& body = m_bodies[at(id)];
+  const bool is_movable = isMovable(id);
+  Vec2 acceleration;
+  double spin_gain = 0;
+  if (body.inverse_mass > 0) acceleration = body.acceleration + body.inverse_mass * body.force;
+  if (body.inverse_inertia > 0) spin_gain = body.inverse_inertia * body.torque;
+  const Vec2 way = dt * body.velocity + (0.5 * dt * dt) * acceleration;
+  const double angle = dt * (std::fabs(body.spin) + 0.5 * dt * std::fabs(spin_gain));
+  const double gained = dt * dt * (std::fabs(acceleration.x) + std::fabs(acceleration.y));
+  if (!(std::fabs(way.x) + std::fabs(way.y) + gained < kFarthest && angle < kMostTurn)) {
+    freeze(id);
+    return;
+  }
+  RigidState& state = m_states[at(id)];
+  state = {};
+  state.velocity = body.velocity;
+  state.spin = body.spin;
+  if (is_movable) {
+    const auto kept = [&](double damping) {  // over half a sub-step
+      const double part = 0.25 * m_h * damping;
+      return (1 - std::min(part, 1.0)) / (1 + part);
+    };
+    state.inverse_mass = body.inverse_mass;
+    state.inverse_inertia = body.inverse_inertia;
+    state.kick = (0.5 * m_h) * acceleration;
+    state.spin_kick = 0.5 * m_h * spin_gain;
+    state.keep = kept(body.linear_damping);
+    state.spin_keep = kept(body.angular_damping);
+  }
+  extra.moved = extra.rolled = extra.travelled = 0;
+  extra.looked_at = {};
+  extra.is_restless = false;
+  extra.part = 1;
+  if (extra.proxy < 0) return;
+  const double movement = length(way) + std::min(angle, 2.0) * extra.reach;
+  extra.margin = extra.scope = std::min(movement, extra.thickness) + kSlack * extra.thickness;
+  const double steps = m_options.substeps;
+  extra.is_fast = movement > kRestless * extra.thickness;
+  if (extra.is_crowded && movement < kFast * steps * extra.thickness) {
+    extra.is_restless = m_is_restless = true;
+    extra.margin = std::max(kLook * extra.thickness, 1.1 / steps * movement);
+    extra.scope = movement + extra.thickness;
+  }
+  const Bounds bounds = turnShapes(id, body.rotation);
+  m_broad.move(extra.proxy, gridBounds(body.place, bounds, extra.scope),
+               gridBounds(body.place, bounds, extra.scope + kBoundsSlack * extra.thickness));
+}
+
+void RigidWorld::beginStep(double dt) {
+  m_events.clear();
+  m_constraints.clear();
+  m_late.swap(m_late_before);
+  m_late.clear();
+  m_time = 0;
+  m_h = dt / m_options.substeps;
+  m_deepest = 0;
+  m_is_restless = false;
+  if (m_active_changed) {
+    m_active_changed = false;
+    m_active.clear();
+    for (int id = 0; id < idLimit(); ++id) {
+      Extra& extra = m_extras[at(id)];
+      extra.is_active = extra.exists && !extra.is_frozen && (isMovable(id) ? !extra.is_asleep : isMoving(id));
+      if (extra.is_active) {
+        m_active.push_back(id);
+      } else {
+        m_states[at(id)] = {};
+      }
+    }
+  }
+  for (const int id : m_dirty) {
+    Extra& extra = m_extras[at(id)];
+    if (!extra.exists || extra.is_frozen || isMovable(id)) continue;
+    if (!extra.is_active) {
+      beginBody(id, dt);
+      m_states[at(id)] = {};
+    }
+  }
+  for (std::size_t i = 0; i < m_active.size(); ++i) beginBody(m_active[i], dt);
+  if (m_active_changed) {  // someone was frozen
+    std::erase_if(m_active, [&](int id) {
+      Extra& extra = m_extras[at(id)];
+      if (extra.is_frozen) extra.is_active = false;
+      return extra.is_frozen;
+    });
+  }
+}
+
+void RigidWorld::kick(bool is_second) {
+  for (const int id : m_active) {
+    RigidState& s = m_states[at(id)];
+    if (is_second) {
+      s.velocity = s.keep * s.velocity + s.kick;
+      s.spin = s.spin_keep * s.spin + s.spin_kick;
+    } else {
+      s.velocity = s.keep * (s.velocity + s.kick);
+      s.spin = s.spin_keep * (s.spin + s.spin_kick);
+    }
+  }
+}
+
+void RigidWorld::pushOut(double h) {
+  const int sweeps = !m_joints.rows().empty() ? kPushSweeps : m_is_restless ? kCrowdPushSweeps : 1;
+  for (int i = 0; i < sweeps; ++i) {
+    for (ContactConstraint& c : m_constraints) pushApart(c, m_states);
+    m_joints.hold(m_states);
+  }
+  for (const int id : m_active) {
+    RigidState& s = m_states[at(id)];
+    if (!s.is_pushed) continue;
+    s.way += h * s.push;
+    s.turn = turned(s.turn, h * s.push_spin);
+    s.push = {};
+    s.push_spin = 0;
+    s.is_pushed = false;
+  }
+}
+
+void RigidWorld::solve(bool is_second) {
+  for (Island& island : m_islands) solveIsland(island, is_second);
+  for (std::size_t i = m_first_late; i < m_constraints.size(); ++i) {
+    solveContact(m_constraints[i], m_states, is_second);
+  }
+}
+
+void RigidWorld::move(int id, double h) {
+  RigidState& s = m_states[at(id)];
+  const double time = m_extras[at(id)].part * h;
+  s.way += time * s.velocity;
+  s.turn = turned(s.turn, time * s.spin);
+}
+
+// Whoever got farther than it was looked around for goes impact by impact.
+void RigidWorld::drift(double h) {
+  m_flights.clear();
+  for (const int id : m_active) {
+    Extra& extra = m_extras[at(id)];
+    const RigidState& s = m_states[at(id)];
+    if (extra.proxy < 0) continue;
+    const double roll = h * std::fabs(s.spin) * extra.reach;
+    extra.rolled += roll;
+    const double movement = h * length(s.velocity) + roll;
+    extra.moved += movement;
+    if (extra.is_restless) {
+      const double most =
+          std::min(std::max(extra.margin, kPass * extra.thickness), extra.scope - extra.travelled);
+      extra.part = movement > most ? most / movement : 1;
+      extra.travelled += extra.part * movement;
+    } else if (extra.moved > extra.margin) {
+      addFlight(id, 0);
+    }
+  }
+  for (const ContactConstraint& c : m_constraints) {
+    if (!c.points[0].is_bending && !c.points[1].is_bending) continue;
+    for (const int id : {c.a, c.b}) {
+      if (!isMovable(id)) continue;
+      addFlight(id, 0);
+      m_flights[at(m_extras[at(id)].flight)].is_bending = true;
+    }
+  }
+  if (!m_flights.empty()) sweep(h);
+  for (const int id : m_active) {
+    if (m_extras[at(id)].flight < 0) move(id, h);
+  }
+  for (const Flight& flight : m_flights) {
+    if (!flight.is_held) advance(flight.id, 1, h);
+  }
+  for (const Flight& flight : m_flights) m_extras[at(flight.id)].flight = -1;
+}
+
+void RigidWorld::substep(double h) {
+  bool is_deep = false;
+  for (ContactConstraint& c : m_constraints) {
+    if (physics::beginSubstep(c, m_states, h)) is_deep = true;
+  }
+  kick(false);
+  m_joints.beginFirstHalf(m_states, h);
+  for (ContactConstraint& c : m_constraints) beginFirstHalf(c, m_states);
+  solve(false);
+  if (is_deep) pushOut(h);
+  drift(h);
+  m_joints.refresh(m_states);
+  for (ContactConstraint& c : m_constraints) physics::refresh(c, m_states);
+  kick(true);
+  m_joints.beginSecondHalf(m_states, h);
+  for (ContactConstraint& c : m_constraints) beginSecondHalf(c, m_states, h);
+  solve(true);
+  m_joints.endSubstep();
+  for (ContactConstraint& c : m_constraints) {
+    const double before = c.points[0].total + c.points[1].total;
+    for (std::int32_t i = 0; i < c.count; ++i) c.points[at(i)].total += c.points[at(i)].normal_impulse;
+    if (before == 0 && c.points[0].total + c.points[1].total > 0 && c.first_time < 0) c.first_time = m_time;
+  }
+  m_time += h;
+}
+
+void RigidWorld::finishStep(double dt) {
+  for (const int id : m_active) {
+    RigidBody& body = m_bodies[at(id)];
+    const RigidState& s = m_states[at(id)];
+    if (!isFinite(s.velocity) || !isFinite(s.way) || !(s.spin - s.spin == 0) ||
+        !(std::fabs(s.way.x) + std::fabs(s.way.y) < 1e12)) {
+      freeze(id);
+      continue;
+    }
+    body.place = body.place + s.way;
+    if (s.turn != Rotation{}) body.rotation = renormalised(s.turn * body.rotation);
+    if (isMovable(id)) {
+      body.velocity = s.velocity;
+      body.spin = s.spin;
+    }
+  }
+  for (const ContactConstraint& c : m_constraints) {
+    storeContact(c, m_h);
+    tellBegin(c, dt);
+  }
+  tellEnds(dt);
+  m_counters.broken += m_joints.end(dt, m_h);
+  sleep(dt);
+  for (const int id : m_dirty) m_extras[at(id)].is_dirty = false;
+  m_dirty.clear();
+  std::sort(m_events.begin(), m_events.end(), [](const RigidEvent& x, const RigidEvent& y) {
+    if (x.time != y.time) return x.time < y.time;
+    if (x.first != y.first) return x.first < y.first;
+    return x.second != y.second ? x.second < y.second : x.is_begin < y.is_begin;
+  });
+}
+
+void RigidWorld::stepOnce(double dt) {
+  beginStep(dt);
+  updatePairs();
+  updateContacts(dt);
+  m_joints.begin(m_bodies, m_states, m_h,
+                 [&](int id) { return m_extras[at(id)].is_active && isMovable(id); });
+  findIslands();
+  gatherIslands(true);
+  for (int i = 0; i < m_options.substeps; ++i) {
+    if (i > 0 && m_is_restless) lookAgain(dt);
+    substep(m_h);
+  }
+  finishStep(dt);
+}
+
+RigidStatus RigidWorld::step(double dt) {
+  if (!(dt > 0 && dt < 1e6)) return RigidStatus::kRefused;
+  const std::int64_t frozen_before = m_counters.quarantined;
+  ++m_counters.ticks;
+  m_earlier_events.clear();
+  const double parts = std::ceil(dt / kLongestStep), part = dt / parts;
+  for (double done = 0; done < parts; ++done) {
+    stepOnce(part);
+    if (parts == 1) break;
+    for (RigidEvent& event : m_events) event.time += done * part;
+    m_earlier_events.insert(m_earlier_events.end(), m_events.begin(), m_events.end());
+  }
+  if (parts > 1) m_events.swap(m_earlier_events);
+  return m_counters.quarantined == frozen_before ? RigidStatus::kDone : RigidStatus::kQuarantined;
+}
+
+}  // namespace naiad::physics

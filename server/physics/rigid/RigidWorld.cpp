@@ -1,0 +1,194 @@
+#include "physics/rigid/RigidWorld.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/geometry/Mass.h"
+#include "shared/math/Elementary.h"
+
+namespace naiad::physics {
+
+namespace {
+
+// The least half width of a shape, about its middle.
+double thicknessOf(const ConvexShape& shape) {
+  if (shape.count < 3) return shape.radius;
+  double least = kLargestShape;
+  for (int i = 0; i < shape.count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double face = dot(shape.normals[k], shape.vertices[k]);
+    double back = face;
+    for (int j = 0; j < shape.count; ++j) {
+      back = std::min(back, dot(shape.normals[k], shape.vertices[static_cast<std::size_t>(j)]));
+    }
+    least = std::min(least, 0.5 * (face - back));
+  }
+  return least + shape.radius;
+}
+
+}  // namespace
+
+int RigidWorld::add(const RigidBody& body, std::span<const ConvexShape> shapes) {
+  if (!isSound(body)) return -1;
+  int id = 0;
+  while (id < idLimit() && m_extras[at(id)].exists) ++id;
+  if (id == idLimit()) {
+    m_bodies.emplace_back();
+    m_extras.emplace_back();
+    m_states.emplace_back();
+    m_parent.emplace_back();
+    m_island_of.emplace_back();
+    m_island_still.emplace_back();
+    m_island_gain.emplace_back();
+    m_island_flags.emplace_back();
+  }
+  Extra& extra = m_extras[at(id)];
+  extra = {};
+  extra.exists = true;
+  extra.ring = id;
+  extra.shapes.assign(shapes.begin(), shapes.end());
+  m_bodies[at(id)] = body;
+  m_bodies[at(id)].place = body.place + Vec2{};
+  measure(id);
+  enter(id);
+  return id;
+}
+
+bool RigidWorld::set(int id, const RigidBody& body) {
+  if (!exists(id) || !isSound(body)) return false;
+  Extra& extra = m_extras[at(id)];
+  RigidBody& own = m_bodies[at(id)];
+  if (own == body && !extra.is_frozen) return true;
+  const bool was_movable = isMovable(id);
+  wakeRing(id);
+  if (!was_movable) wakeNeighbours(id);
+  own = body;
+  own.place = body.place + Vec2{};
+  extra.still = 0;
+  if (extra.is_frozen || was_movable != isMovable(id)) {
+    leave(id);
+    enter(id);
+  } else if (!was_movable) {
+    if (!extra.is_dirty) m_dirty.push_back(id);
+    extra.is_dirty = true;
+    m_active_changed = true;
+  }
+  return true;
+}
+
+bool RigidWorld::setShapes(int id, std::span<const ConvexShape> shapes) {
+  if (!exists(id)) return false;
+  wakeRing(id);
+  wakeNeighbours(id);
+  leave(id);
+  m_extras[at(id)].shapes.assign(shapes.begin(), shapes.end());
+  measure(id);
+  enter(id);
+  return true;
+}
+
+bool RigidWorld::remove(int id) {
+  if (!exists(id)) return false;
+  wakeRing(id);
+  wakeNeighbours(id);
+  for (int j = 0; j < m_joints.limit(); ++j) {
+    if (!m_joints.exists(j)) continue;
+    const Joint& joint = m_joints.joint(j);
+    if (joint.b == id || (joint.kind != JointKind::kMouse && joint.a == id)) removeJoint(j);
+  }
+  leave(id);
+  m_extras[at(id)].exists = false;
+  return true;
+}
+
+void RigidWorld::measure(int id) {
+  Extra& extra = m_extras[at(id)];
+  extra.turned.resize(extra.shapes.size());
+  extra.reach = 0;
+  extra.thickness = extra.shapes.empty() ? 0 : kLargestShape;
+  double area = 0;
+  for (const ConvexShape& shape : extra.shapes) {
+    extra.reach = std::max(extra.reach, shape.reach + shape.radius);
+    extra.thickness = std::min(extra.thickness, thicknessOf(shape));
+    area += massOf(shape, 1).mass;
+  }
+  extra.size = std::sqrt(area / df::math::kPi);
+}
+
+Bounds RigidWorld::turnShapes(int id, Rotation rotation) {
+  Extra& extra = m_extras[at(id)];
+  Bounds bounds = {{extra.reach, extra.reach}, {-extra.reach, -extra.reach}};
+  for (std::size_t i = 0; i < extra.shapes.size(); ++i) {
+    turn(extra.shapes[i], rotation, extra.turned[i]);
+    const Bounds own = boundsOf(extra.turned[i]);
+    bounds.lower = {std::min(bounds.lower.x, own.lower.x), std::min(bounds.lower.y, own.lower.y)};
+    bounds.upper = {std::max(bounds.upper.x, own.upper.x), std::max(bounds.upper.y, own.upper.y)};
+  }
+  return bounds;
+}
+
+// Into the broad phase, with what has to be known of it when it does not move.
+void RigidWorld::enter(int id) {
+  Extra& extra = m_extras[at(id)];
+  extra.is_frozen = extra.is_asleep = false;
+  extra.margin = extra.moved = extra.rolled = 0;
+  m_states[at(id)] = {};
+  m_active_changed = true;
+  if (!isMovable(id)) {
+    if (!extra.is_dirty) m_dirty.push_back(id);
+    extra.is_dirty = true;
+  }
+  if (extra.shapes.empty()) return;
+  const RigidBody& body = m_bodies[at(id)];
+  const Bounds bounds = turnShapes(id, body.rotation);
+  extra.proxy = m_broad.add(static_cast<std::uint32_t>(id), gridBounds(body.place, bounds, 0), isMovable(id));
+}
+
+// Out of the broad phase; its contacts are forgotten.
+void RigidWorld::leave(int id) {
+  Extra& extra = m_extras[at(id)];
+  if (extra.proxy >= 0) m_broad.remove(extra.proxy);
+  extra.proxy = -1;
+  for (Pair& pair : m_pairs) {
+    if (pair.a != id && pair.b != id) continue;
+    dropContacts(pair);
+    pair.is_touching = false;
+  }
+  m_active_changed = true;
+}
+
+void RigidWorld::freeze(int id) {
+  wakeNeighbours(id);
+  leave(id);
+  m_extras[at(id)].is_frozen = true;
+  m_states[at(id)] = {};
+  ++m_counters.quarantined;
+}
+
+int RigidWorld::addJoint(const Joint& joint, bool may_touch) {
+  if (!isValid(joint, idLimit()) || !exists(joint.b)) return -1;
+  if (joint.kind != JointKind::kMouse && !exists(joint.a)) return -1;
+  wakeRing(joint.b);
+  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
+  m_joints_changed = true;
+  return m_joints.add(joint, may_touch);
+}
+
+bool RigidWorld::setJoint(int id, const Joint& joint) {
+  if (!m_joints.exists(id) || !isValid(joint, idLimit()) || !m_joints.set(id, joint)) return false;
+  wakeRing(joint.b);
+  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
+  return true;
+}
+
+bool RigidWorld::removeJoint(int id) {
+  if (!m_joints.exists(id)) return false;
+  const Joint& joint = m_joints.joint(id);
+  wakeRing(joint.b);
+  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
+  m_joints.remove(id);
+  m_joints_changed = true;
+  return true;
+}
+
+}  // namespace naiad::physics

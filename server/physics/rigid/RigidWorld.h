@@ -1,0 +1,308 @@
+// Bodies that turn: they stack, slide, roll, bounce and hang on joints.
+//
+// A step is divided into a few sub-steps. What touches what is found once per step and followed in closed
+// form through the sub-steps (RigidSolver.h); contacts and joints are solved for together. A body that moves
+// farther than it was looked around for is swept, moment of impact by moment of impact (RigidSweep.cpp).
+// Groups that have come to rest sleep, exactly still. Results depend on ids, places relative to one another,
+// and inputs alone.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/broadphase/BroadPhase.h"
+#include "physics/geometry/ConvexShape.h"
+#include "physics/joint/Joint.h"
+#include "physics/rigid/RigidBody.h"
+#include "physics/rigid/RigidContact.h"
+#include "physics/rigid/RigidDirect.h"
+#include "physics/rigid/RigidJoint.h"
+
+namespace naiad::physics {
+
+/// A contact of two bodies began or ended; however many of their shapes take part, it is one.
+struct RigidEvent {
+  double time = 0;  ///< since the start of the step: when the sub-step began, or the moment of a fast impact
+  int first = 0;    ///< the lower id
+  int second = 0;
+  bool is_begin = false;
+  double impulse = 0;  ///< when it begins: along the normal, on second, until the end of the step
+  Vec2 normal;         ///< when it begins: from first to second
+};
+
+/// What has happened since the world was made.
+struct RigidCounters {
+  std::int64_t ticks = 0;
+  std::int64_t contacts = 0;         ///< manifolds solved for, once per step each
+  std::int64_t sweeps = 0;           ///< pairs whose time of impact was asked for
+  std::int64_t looks = 0;            ///< bodies that were looked around again within a step
+  std::int64_t impacts = 0;          ///< of fast bodies, handled at their moment
+  std::int64_t passed = 0;           ///< pairs in crowds that were left out, once per step each
+  std::int64_t held = 0;             ///< times that a fast body had to wait for the next sub-step
+  std::int64_t unresolved = 0;       ///< times of impact that were not found to the end
+  std::int64_t direct_solves = 0;    ///< groups that were solved for at once
+  std::int64_t direct_rounds = 0;    ///< factorisations, about, that it took
+  std::int64_t direct_failures = 0;  ///< of these solves, those that were given up
+  std::int64_t quarantined = 0;      ///< bodies frozen
+  std::int64_t broken = 0;           ///< joints
+};
+
+enum class RigidStatus : std::uint8_t {
+  kDone,
+  kQuarantined,  ///< done, and at least one body had to be frozen
+  kRefused       ///< not a time; nothing happened
+};
+
+struct RigidOptions {
+  int substeps = 4;  ///< 1 … 64
+  bool may_sleep = true;
+  double sleep_speed = 3e-4;  ///< cells per tick, of every point of a body: slower counts as still …
+  double sleep_delay = 15;  ///< … and ticks that a group must be still, and not speed up, before it sleeps
+};
+
+/// Not thread-safe. No allocation in step() once the scene has shown what it needs.
+class RigidWorld {
+ public:
+  static constexpr double kLongestStep = 32;  ///< ticks
+
+  explicit RigidWorld(RigidOptions options = {}) : m_options(options) {}
+
+  /// Shapes are relative to the centre of mass; none: a body that touches nothing, for joints. Returns the
+  /// id, the lowest free one, or −1 if the body is not sound.
+  int add(const RigidBody& body, std::span<const ConvexShape> shapes);
+  int add(const RigidBody& body, const ConvexShape& shape) { return add(body, std::span(&shape, 1)); }
+  /// Replaces a body's state, wakes it and what it lies among, and thaws it. Equal to what there is: nothing
+  /// happens. False if there is none, or `body` is not sound; then nothing changes.
+  bool set(int id, const RigidBody& body);
+  bool setShapes(int id, std::span<const ConvexShape> shapes);
+  /// Its contacts end without an event; joints with it go, too. What it carried wakes.
+  bool remove(int id);
+
+  const RigidBody& body(int id) const { return m_bodies[at(id)]; }
+  std::span<const ConvexShape> shapes(int id) const { return m_extras[at(id)].shapes; }
+  bool exists(int id) const { return id >= 0 && id < idLimit() && m_extras[at(id)].exists; }
+  /// Is the body in quarantine? It is kept as it is and nothing meets it, until set().
+  bool isFrozen(int id) const { return m_extras[at(id)].is_frozen; }
+  bool isAsleep(int id) const { return m_extras[at(id)].is_asleep; }
+  /// Wakes it and what sleeps with it.
+  void wake(int id);
+  /// Ids are below this.
+  int idLimit() const { return static_cast<int>(m_bodies.size()); }
+
+  /// Between bodies that exist; `joint.a` and `joint.b` are ids. Bodies on a joint do not touch each other
+  /// unless `may_touch`. Returns the joint's id, the lowest free one, or −1 if it is not valid.
+  int addJoint(const Joint& joint, bool may_touch = false);
+  /// Changes targets, speeds, strengths and lengths: not the kind nor the bodies. Wakes the bodies.
+  bool setJoint(int id, const Joint& joint);
+  bool removeJoint(int id);
+  bool jointExists(int id) const { return m_joints.exists(id); }
+  /// As it was given, with what the last step wrote: force, torque, is_broken. A broken one stays, and does
+  /// nothing, until it is removed.
+  const Joint& joint(int id) const { return m_joints.joint(id); }
+  int jointLimit() const { return m_joints.limit(); }
+
+  /// Goes on by `dt` > 0 ticks, up to 1e6; by more than kLongestStep in several equal parts.
+  RigidStatus step(double dt = 1);
+
+  /// Of the last step, by (time, ids).
+  const std::vector<RigidEvent>& events() const { return m_events; }
+  const RigidCounters& counters() const { return m_counters; }
+  const RigidOptions& options() const { return m_options; }
+
+  /// How deep the deepest overlap was at the start of the last step.
+  double deepest() const { return m_deepest; }
+
+ private:
+  struct Extra {
+    std::vector<ConvexShape> shapes;
+    std::vector<TurnedShape> turned;
+    std::int32_t proxy = -1;
+    double reach = 0;        // of all shapes from the centre
+    double thickness = 0;    // the least half width of any shape
+    double size = 0;         // the radius of a disc of the same area
+    double margin = 0;       // how far around it was looked in this step
+    double moved = 0;        // how far any of its points has got in this step, at most
+    double rolled = 0;       // the part of it that is due to turning
+    Vec2 looked_at;          // its way when it was last looked around it
+    double travelled = 0;    // how far any of its points has got in the whole step, at most
+    double part = 1;         // of the sub-step that it moves, if it is restless
+    double scope = 0;        // how far around it the broad phase looked in this step
+    double still = 0;        // ticks
+    double first_speed = 0;  // when it began to be still
+    double budget = 0;       // of the group of which it is the root, for solving at once
+    int wait = 0;            // steps until its group may be solved at once again …
+    int patience = 0;        // … and how many they were the last time
+    int ring = -1;           // the next body that fell asleep with it
+    bool exists = false;
+    bool is_frozen = false;
+    bool is_asleep = false;
+    bool is_dirty = false;   // set() since the last step
+    bool is_active = false;  // in m_active
+    bool is_fast = false;
+    bool is_in_crowd = false;  // in a group that is large or has joints, in the last step
+    bool is_crowded = false;   // … and someone in it was fast
+    bool is_in_heap = false;   // … and it has no joints: it is never solved at once
+    bool is_restless = false;  // in a moving heap: looked around in every sub-step
+    int flight = -1;           // in m_flights: it moves impact by impact in this sub-step
+  };
+  struct Pair {
+    std::int32_t a, b;
+    std::int32_t first = -1;  // of its contacts
+    bool is_touching = false;
+    bool is_seen = false;     // in this step
+    bool is_jointed = false;  // a joint keeps them from touching
+    bool is_passed = false;   // in this step: too many others are nearer
+    bool is_pushing = false;  // in this step
+    bool is_near = false;     // at the end of this step
+  };
+  struct Choice {  // of one in a crowd: whom it is pushed by
+    std::int32_t by;
+    double square;  // of the distance
+    std::uint32_t turn;
+    std::int32_t pair;
+  };
+  struct Late {  // a contact found within the step
+    std::int32_t a, b;
+    friend constexpr bool operator==(const Late&, const Late&) = default;
+  };
+  struct Flight {  // of a swept body within a sub-step, which lasts from 0 to 1
+    std::int32_t id;
+    int impacts = 0;
+    double time = 0;
+    double part = 1;          // of the rest of the sub-step that it moves
+    bool has_landed = false;  // moves on, but is swept no more
+    bool is_bending = false;  // to bounce where contacts do not know
+    bool is_held = false;
+  };
+  struct Island {
+    int first_body = 0, bodies = 0;  // in m_island_bodies
+    int first_constraint = 0, constraints = 0;
+    int first_link = 0, links = 0;
+    double kick = 0;  // the greatest of its bodies
+    int root = 0;     // its lowest body
+    bool has_fast = false;
+  };
+  struct Gain {  // the greatest speed in a group, when it began to be still and now
+    double before = 0, now = 0;
+  };
+  struct Impact {
+    double time = 2;
+    std::int32_t a = -1, b = -1;
+    std::int32_t shape_a = 0, shape_b = 0;
+    Vec2 normal;
+  };
+
+  static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+  bool isMovable(int id) const { return physics::isMovable(m_bodies[at(id)]); }
+  bool isMoving(int id) const { return m_bodies[at(id)].velocity != Vec2{} || m_bodies[at(id)].spin != 0; }
+
+  // RigidWorld.cpp
+  void measure(int id);
+  void enter(int id);
+  void leave(int id);
+  void freeze(int id);
+  void wakeNeighbours(int id);
+  void wakeRing(int id);
+  Bounds turnShapes(int id, Rotation rotation);
+
+  // RigidStep.cpp
+  void stepOnce(double dt);
+  void beginStep(double dt);
+  void beginBody(int id, double dt);
+  void substep(double h);
+  void solve(bool is_second);
+  void pushOut(double h);
+  void kick(bool is_second);
+  void drift(double h);
+  void move(int id, double h);
+  void finishStep(double dt);
+
+  // RigidPairs.cpp
+  void updatePairs();
+  void dropPair(Pair& pair);
+  void updateContacts(double dt);
+  void updatePair(std::int32_t index, double dt);
+  bool isRestless(const ContactConstraint& constraint) const;
+  void lookAgain(double dt);
+  ContactConstraint& addConstraint(int a, int b);
+  std::int32_t makeContact();
+  void dropContacts(Pair& pair);
+  std::int32_t findPair(std::int32_t a, std::int32_t b) const;
+  void storeContact(const ContactConstraint& constraint, double h);
+  void tellBegin(const ContactConstraint& constraint, double dt);
+  void tellEnds(double dt);
+
+  // RigidCrowd.cpp
+  bool areHeaped(const Pair& pair) const;
+  void thinCrowds();
+
+  // RigidSweep.cpp
+  struct Pose {
+    Vec2 way;
+    Rotation turn;
+  };
+  void sweep(double h);
+  void addFlight(int id, double time);
+  Pose poseAt(int id, double time, double h) const;
+  void advance(int id, double time, double h);
+  void forecast(int id, double h);
+  void forecastPair(int a, int b, double h);
+  bool isSolved(int a, int b, int shape_a, int shape_b) const;
+  void meet(const Impact& impact, double h);
+  void land(int id, double h);
+  void strike(ContactConstraint& constraint, double restitution, double time);
+  void wakeInFlight(int id);
+  void hold(int id);
+
+  // RigidSleep.cpp
+  int rootOf(int id);
+  void unite(int a, int b);
+  void findIslands();
+  void gatherIslands(bool is_first);
+  int islandOf(int a, int b);
+
+  // RigidIslands.cpp
+  void solveIsland(Island& island, bool is_second);
+  bool solveAtOnce(Island& island, bool is_second);
+  void sleep(double dt);
+
+  RigidOptions m_options;
+  std::vector<RigidBody> m_bodies;
+  std::vector<Extra> m_extras;
+  std::vector<RigidState> m_states;
+  BroadPhase m_broad;
+  std::vector<Pair> m_pairs, m_pairs_before;
+  std::vector<RigidContact> m_contacts;
+  std::int32_t m_free_contact = -1;
+  std::vector<ContactConstraint> m_constraints;
+  std::vector<int> m_active;  // ids of those that move in this step
+  std::vector<int> m_dirty;   // ids of immovable ones that were set
+  RigidJoints m_joints;
+  std::vector<Late> m_late, m_late_before;
+  std::vector<std::uint32_t> m_others;  // by body: so many are where it is
+  std::vector<Choice> m_choices;
+  std::vector<Flight> m_flights;
+  std::vector<Impact> m_impacts;
+  std::vector<int> m_near;
+  std::vector<int> m_parent;
+  std::vector<int> m_island_of;  // by root
+  std::vector<Island> m_islands;
+  std::vector<int> m_island_bodies, m_island_constraints, m_island_links;
+  std::size_t m_first_late = 0;  // in m_constraints
+  RigidDirect m_direct;
+  std::vector<double> m_island_still;
+  std::vector<Gain> m_island_gain;
+  std::vector<std::uint8_t> m_island_flags;
+  std::vector<RigidEvent> m_events;
+  std::vector<RigidEvent> m_earlier_events;  // of a long step's earlier parts
+  RigidCounters m_counters;
+  double m_time = 0;  // within the step
+  double m_deepest = 0;
+  double m_h = 0;
+  bool m_active_changed = false;
+  bool m_is_restless = false;  // someone is
+  bool m_joints_changed = false;
+};
+
+}  // namespace naiad::physics

@@ -1,0 +1,83 @@
+// One soft body's step: an implicit method of order 2 with a direct solution.
+//
+// BDF2, or backward Euler where there is no history (the first sub-step, and in contact). The new offsets
+// solve M (x − x̂) / β² = F(x), by Newton on the whole body at once. A stretch's curvature is taken from its
+// predicted tension, not from k times a length that the last iteration has not yet made right: so rigid links
+// converge like a constraint. Nodes are ordered so that the matrix is a narrow band; a blob's pressure adds a
+// rank of one.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/numerics/SoftBand.h"
+#include "physics/soft/SoftBody.h"
+
+namespace naiad::physics {
+
+/// Works on a body that is kept elsewhere and whose topology does not change after prepare(). Allocates there
+/// alone.
+class SoftElastic {
+ public:
+  void prepare(const SoftBody& body);
+
+  /// Starts a sub-step of `h` ticks from where the body is. `is_smooth`: use the history, if it is of the
+  /// same h.
+  void begin(SoftBody& body, double h, Vec2 gravity, bool is_smooth);
+  /// One iteration's system, at the body's present offsets. False if it cannot be solved.
+  bool assemble(const SoftBody& body);
+  /// Of the last assembly: offsets' changes without contact, one per row (rowOf).
+  const std::vector<double>& change() const { return m_change; }
+  /// Replaces forces by the changes of the offsets that they make, both by row.
+  void respond(double* rows) const;
+  /// Moves the body by changes, and predicts tensions from them. Returns the largest component.
+  double apply(SoftBody& body, std::span<const double> change);
+  /// Velocities that belong to the offsets.
+  void finish(SoftBody& body);
+  /// Back to where begin() was.
+  void revert(SoftBody& body) const;
+  void forgetHistory() { m_history = 0; }
+  /// Shifts the offsets' origin.
+  void shift(Vec2 by);
+
+  /// x is this row, y the next one.
+  int rowOf(int node) const { return 2 * m_order[at(node)]; }
+  int rows() const { return m_band.size(); }
+  Vec2 startOf(int node) const { return m_start[at(node)]; }
+  Vec2 startVelocityOf(int node) const { return m_start_velocity[at(node)]; }
+  double beta() const { return m_beta; }
+
+ private:
+  static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  void addMass(const SoftBody& body);
+  void addStretches(const SoftBody& body);
+  void addBends(const SoftBody& body);
+  void addPressure(const SoftBody& body);
+  void addSpring(const int* nodes, const Vec2* slopes, int count, double force, double stiffness);
+  void addEntry(int i, int j, double xx, double xy, double yx, double yy);
+  Vec2 rateOf(const SoftBody& body, int node) const {
+    return (body.nodes[at(node)].offset - m_base[at(node)]) / m_beta;
+  }
+
+  std::vector<int> m_order;
+  std::vector<char> m_pinned;
+  SoftBand m_band;
+  std::vector<double> m_change;
+  std::vector<double> m_gas;           // slope of the area, by row
+  std::vector<double> m_gas_response;  // what it does
+  double m_gas_stiffness = 0;
+  double m_gas_scale = 0;
+  std::vector<double> m_tensions;  // of stretches, predicted
+  std::vector<Vec2> m_directions;  // of stretches, at the last assembly
+  std::vector<double> m_elastic;   // their forces there
+  std::vector<Vec2> m_base;        // x̃: velocity = (x − x̃) / β
+  std::vector<Vec2> m_inertial;    // x̂
+  std::vector<Vec2> m_start, m_start_velocity;
+  std::vector<Vec2> m_before, m_before_velocity;  // a sub-step earlier
+  Vec2 m_gravity;
+  double m_beta = 1;
+  double m_h = 0;
+  int m_history = 0;
+};
+
+}  // namespace naiad::physics

@@ -1,0 +1,63 @@
+// How far a soft body's springs are from rest, and which way they push: shared by step and energy.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "physics/soft/SoftBody.h"
+#include "shared/math/Elementary.h"
+
+namespace naiad::physics {
+
+struct SoftSpan {
+  double length;   ///< > 0
+  Vec2 direction;  ///< of length one, from a to b
+};
+
+/// Nodes in one place count as a millionth apart.
+inline SoftSpan spanOf(const SoftBody& body, const SoftStretch& s) {
+  const Vec2 way =
+      body.nodes[static_cast<std::size_t>(s.b)].offset - body.nodes[static_cast<std::size_t>(s.a)].offset;
+  const double far = length(way), least = 1e-6 * s.rest_length;
+  return far > least ? SoftSpan{far, way / far} : SoftSpan{least, {1, 0}};
+}
+
+struct SoftCorner {
+  double bent;     ///< angle less rest angle, −π … π
+  Vec2 slopes[3];  ///< of the angle by the offsets of c, b and a
+};
+
+inline SoftCorner cornerOf(const SoftBody& body, const SoftBend& s) {
+  constexpr double kPi = 3.14159265358979323846;
+  const Vec2 b = body.nodes[static_cast<std::size_t>(s.b)].offset;
+  const Vec2 first = s.a < 0 ? s.direction : b - body.nodes[static_cast<std::size_t>(s.a)].offset;
+  const Vec2 second = body.nodes[static_cast<std::size_t>(s.c)].offset - b;
+  const double squares[] = {lengthSquared(first), lengthSquared(second)};
+  SoftCorner corner = {0, {{}, {}, {}}};
+  if (!(squares[0] > 1e-24 && squares[1] > 1e-24)) return corner;  // no corner: it has no angle
+  const double angle = df::math::atan2(cross(first, second), dot(first, second)) - s.rest_angle;
+  corner.bent = angle > kPi ? angle - 2 * kPi : angle < -kPi ? angle + 2 * kPi : angle;
+  const Vec2 before = s.a < 0 ? Vec2{} : perpendicular(first) / squares[0];
+  const Vec2 after = perpendicular(second) / squares[1];
+  corner.slopes[0] = after;
+  corner.slopes[1] = -(after + before);
+  corner.slopes[2] = before;
+  return corner;
+}
+
+/// Inside the boundary; negative if it runs the other way round.
+inline double areaOf(const SoftBody& body) {
+  double twice = 0;
+  const Vec2 from = body.nodes[static_cast<std::size_t>(body.boundary[0])].offset;
+  for (std::size_t i = 1; i + 1 < body.boundary.size(); ++i) {
+    twice += cross(body.nodes[static_cast<std::size_t>(body.boundary[i])].offset - from,
+                   body.nodes[static_cast<std::size_t>(body.boundary[i + 1])].offset - from);
+  }
+  return 0.5 * twice;
+}
+
+inline double pressureOf(const SoftBody& body) {
+  return body.pressure + body.bulk * (1 - areaOf(body) / body.rest_area);
+}
+
+}  // namespace naiad::physics

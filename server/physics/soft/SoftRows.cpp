@@ -1,0 +1,184 @@
+#include "physics/soft/SoftRows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr int kMostSweeps = 60;
+/// In a crowd there are fewer: no more than so many rows are settled, but eight sweeps always are.
+constexpr int kMostSettlings = 40'000;
+constexpr int kLeastSweeps = 8;
+/// Sweeps end when no force moves its row by more than this part of a radius …
+constexpr double kSettled = 1e-7;
+/// … and are counted as failed if one still moves by more than this.
+constexpr double kNearlySettled = 1e-4;
+/// What is too deep comes out by this part of its depth in a sub-step, and by no more than this part of a
+/// radius.
+constexpr double kRecovery = 0.2;
+constexpr double kMostRecovery = 0.02;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+double along(const SoftElastic& elastic, const SoftPoint& point, Vec2 axis, const double* rows) {
+  double sum = 0;
+  for (int k = 0; k < 2 && point.nodes[k] >= 0; ++k) {
+    const int row = elastic.rowOf(point.nodes[k]);
+    sum += point.weights[k] * dot(axis, {rows[row], rows[row + 1]});
+  }
+  return sum;
+}
+
+const SoftPoint& sideOf(const SoftRow& row, int side) {
+  return side == 0 ? row.a : row.b;
+}
+
+}  // namespace
+
+void SoftRowSolver::gather(const Scene& scene, const std::vector<int>& group) {
+  m_begins.resize(scene.bodies.size());
+  m_sizes.resize(scene.bodies.size());
+  m_changes.clear();
+  for (const int id : group) {
+    const std::vector<double>& change = scene.elastics[at(id)].change();
+    m_begins[at(id)] = m_changes.size();
+    m_sizes[at(id)] = change.size();
+    m_changes.insert(m_changes.end(), change.begin(), change.end());
+  }
+  m_pushed = scene.pushes;
+  m_responses.clear();
+}
+
+void SoftRowSolver::respond(const Scene& scene, SoftRow& row) {
+  for (int axis = 0; axis < 2; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const SoftPoint& point = sideOf(row, side);
+      if (point.body < 0) continue;
+      const SoftElastic& elastic = scene.elastics[at(point.body)];
+      const std::size_t begin = m_responses.size();
+      row.responses[axis][side] = static_cast<int>(begin);
+      m_responses.resize(begin + at(elastic.rows()), 0);
+      const Vec2 force = (side == 0 ? 1 : -1) * row.axes[axis];
+      for (int k = 0; k < 2 && point.nodes[k] >= 0; ++k) {
+        if (scene.bodies[at(point.body)].nodes[at(point.nodes[k])].is_pinned) continue;
+        const std::size_t r = begin + at(elastic.rowOf(point.nodes[k]));
+        m_responses[r] += point.weights[k] * force.x, m_responses[r + 1] += point.weights[k] * force.y;
+      }
+      elastic.respond(&m_responses[begin]);
+    }
+  }
+}
+
+// Adds a force along a row's axis to what moves its two sides.
+void SoftRowSolver::push(const Scene& scene, const SoftRow& row, int axis, double force) {
+  if (force == 0) return;
+  for (int side = 0; side < 2; ++side) {
+    const SoftPoint& point = sideOf(row, side);
+    if (point.body < 0) continue;
+    const double* response = &m_responses[at(row.responses[axis][side])];
+    double* change = &m_changes[m_begins[at(point.body)]];
+    for (std::size_t i = 0; i < m_sizes[at(point.body)]; ++i) change[i] += force * response[i];
+  }
+  if (row.obstacle < 0) return;
+  SoftPush& rigid = m_pushed[at(row.obstacle)];
+  const Vec2 impulse = scene.h * force * row.axes[axis];
+  rigid.velocity -= rigid.inverse_mass * impulse;
+  rigid.spin -= rigid.inverse_inertia * cross(row.lever, impulse);
+}
+
+// By how much the two sides part within this iteration's changes and the obstacle's motion.
+double SoftRowSolver::moved(const Scene& scene, const SoftRow& row, int axis) const {
+  double sum = 0;
+  for (int side = 0; side < 2; ++side) {
+    const SoftPoint& point = sideOf(row, side);
+    if (point.body < 0) continue;
+    const double* change = &m_changes[m_begins[at(point.body)]];
+    sum += (side == 0 ? 1 : -1) * along(scene.elastics[at(point.body)], point, row.axes[axis], change);
+  }
+  if (row.obstacle < 0) return sum;
+  const SoftPush& rigid = m_pushed[at(row.obstacle)];
+  return sum - scene.h * dot(row.axes[axis], rigid.velocity + cross(rigid.spin, row.lever));
+}
+
+double SoftRowSolver::fixedGap(const Scene& scene, const SoftRow& row, int axis) const {
+  double gap = row.gaps[axis];
+  for (int side = 0; side < 2; ++side) {
+    const SoftPoint& point = sideOf(row, side);
+    for (int k = 0; k < 2 && point.body >= 0 && point.nodes[k] >= 0; ++k) {
+      const Vec2 now = scene.bodies[at(point.body)].nodes[at(point.nodes[k])].offset;
+      const Vec2 went = now - scene.elastics[at(point.body)].startOf(point.nodes[k]);
+      gap += (side == 0 ? 1 : -1) * point.weights[k] * dot(row.axes[axis], went);
+    }
+  }
+  if (row.is_attachment || axis == 1) return gap;
+  const double depth = std::max(0.0, -row.gaps[0]);
+  const double recovered = std::min(kRecovery * depth, kMostRecovery * scene.bodies[at(row.a.body)].radius);
+  return gap + (depth - recovered);
+}
+
+double SoftRowSolver::give(const Scene& scene, const SoftRow& row, int axis) const {
+  double sum = 0;
+  for (int side = 0; side < 2; ++side) {
+    const SoftPoint& point = sideOf(row, side);
+    if (point.body < 0) continue;
+    const double* response = &m_responses[at(row.responses[axis][side])];
+    sum += (side == 0 ? 1 : -1) * along(scene.elastics[at(point.body)], point, row.axes[axis], response);
+  }
+  if (row.obstacle < 0) return sum;
+  const SoftPush& rigid = scene.pushes[at(row.obstacle)];
+  const double twist = cross(row.lever, row.axes[axis]);
+  return sum + scene.h * scene.h * (rigid.inverse_mass + rigid.inverse_inertia * twist * twist);
+}
+
+// Makes one row right as things stand. Returns by how far that moved it.
+double SoftRowSolver::settle(const Scene& scene, std::size_t index, SoftRow& row) {
+  double most = 0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double gives = m_gives[2 * index + at(axis)];
+    const bool is_free = axis == 1 && !row.is_attachment && row.friction == 0;
+    if (is_free || !(gives > 1e-300)) continue;
+    double force = row.forces[axis] - (m_gaps[2 * index + at(axis)] + moved(scene, row, axis)) / gives;
+    if (!row.is_attachment) {
+      const double limit = row.friction * row.forces[0];
+      force = axis == 0 ? std::max(0.0, force) : std::clamp(force, -limit, limit);
+    }
+    const double more = force - row.forces[axis];
+    most = std::max(most, gives * std::fabs(more));
+    push(scene, row, axis, more);
+    row.forces[axis] = force;
+  }
+  return most;
+}
+
+bool SoftRowSolver::solve(const Scene& scene, const std::vector<int>& group, std::vector<SoftRow*>& rows) {
+  gather(scene, group);
+  m_gaps.clear();
+  m_gives.clear();
+  double scale = 1e300;
+  for (SoftRow* row : rows) {
+    respond(scene, *row);
+    scale = std::min(scale, scene.bodies[at(row->a.body)].radius);
+    for (int axis = 0; axis < 2; ++axis) {
+      m_gaps.push_back(fixedGap(scene, *row, axis));
+      m_gives.push_back(give(scene, *row, axis));
+      push(scene, *row, axis, row->forces[axis]);
+    }
+  }
+  const int affordable = kMostSettlings / std::max(1, static_cast<int>(rows.size()));
+  const int sweeps = std::clamp(affordable, kLeastSweeps, kMostSweeps);
+  double most = 1e300;
+  for (int i = 0; i < sweeps && most > kSettled * scale; ++i) {
+    most = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const std::size_t index = i % 2 == 0 ? k : rows.size() - 1 - k;
+      most = std::max(most, settle(scene, index, *rows[index]));
+    }
+  }
+  return most <= kNearlySettled * scale;
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,136 @@
+#include "shared/net/base/SafeFile.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <span>
+#include <system_error>
+#include <utility>
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, int error = errno) {
+  throw std::system_error(error, std::generic_category(), path.string());
+}
+
+class File {
+ public:
+  File(int file, fs::path path) : file_(file), path_(std::move(path)) {
+    if (file_ < 0) fail(path_);
+  }
+  ~File() { ::close(file_); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  void write(std::string_view bytes) const {
+    while (!bytes.empty()) {
+      const ssize_t size = ::write(file_, bytes.data(), bytes.size());
+      if (size < 0 && errno != EINTR) fail(path_);
+      if (size > 0) bytes.remove_prefix(static_cast<std::size_t>(size));
+    }
+  }
+  std::size_t read(std::span<char> into) const {
+    for (;;) {
+      const ssize_t size = ::read(file_, into.data(), into.size());
+      if (size >= 0) return static_cast<std::size_t>(size);
+      if (errno != EINTR) fail(path_);
+    }
+  }
+  void sync() const {
+    if (::fsync(file_) != 0) fail(path_);
+  }
+
+ private:
+  int file_;
+  fs::path path_;
+};
+
+/// A new file beside `path` with a name of its own, gone when this is, unless it was renamed.
+class Draft {
+ public:
+  Draft(const fs::path& path, std::string_view content) : name_(path.string() + ".XXXXXX") {
+    const File file(::mkostemp(name_.data(), O_CLOEXEC), name_);  // mode 0600
+    try {
+      file.write(content);
+      file.sync();
+    } catch (...) {
+      ::unlink(name_.c_str());
+      throw;
+    }
+  }
+  ~Draft() { ::unlink(name_.c_str()); }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+  const char* name() const { return name_.c_str(); }
+
+ private:
+  std::string name_;
+};
+
+/// So that the new name survives a crash, too.
+void syncDirectoryOf(const fs::path& path) {
+  const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  File(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), parent).sync();
+}
+
+}  // namespace
+
+std::optional<std::string> readSmallFile(const fs::path& path, std::size_t most) {
+  const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (opened < 0 && errno == ENOENT) return std::nullopt;
+  const File file(opened, path);
+  std::string content;
+  std::array<char, 4096> piece;
+  while (const std::size_t size = file.read(piece)) {
+    content.append(piece.data(), size);
+    if (content.size() > most) fail(path, EFBIG);
+  }
+  return content;
+}
+
+void replaceFile(const fs::path& path, std::string_view content) {
+  const Draft draft(path, content);
+  if (::rename(draft.name(), path.c_str()) != 0) fail(path);
+  syncDirectoryOf(path);
+}
+
+bool makeFile(const fs::path& path, std::string_view content) {
+  const Draft draft(path, content);
+  if (::link(draft.name(), path.c_str()) != 0) {
+    if (errno == EEXIST) return false;
+    fail(path);
+  }
+  syncDirectoryOf(path);
+  return true;
+}
+
+bool openToOthers(const fs::path& path) {
+  struct stat facts {};
+  if (::stat(path.c_str(), &facts) != 0) fail(path);
+  return (facts.st_mode & (S_IRWXG | S_IRWXO)) != 0;
+}
+
+FileLock::FileLock(const fs::path& path)
+    : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600)) {
+  if (file_ < 0) fail(path);
+  while (::flock(file_, LOCK_EX) != 0) {
+    if (errno == EINTR) continue;
+    const int error = errno;
+    ::close(file_);
+    fail(path, error);
+  }
+}
+
+FileLock::~FileLock() {
+  ::close(file_);
+}
+
+}  // namespace naiad

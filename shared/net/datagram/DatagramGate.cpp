@@ -1,0 +1,94 @@
+#include "shared/net/datagram/DatagramGate.h"
+
+#include <utility>
+
+#include "shared/net/datagram/SealedHeader.h"
+
+namespace naiad {
+
+DatagramGate::DatagramGate(std::uint64_t seed, DatagramGateRates rates)
+    : rates_(rates), prefixes_(rates.prefix, seed) {}
+
+bool DatagramGate::add(SealedLink& link, OnPayload on_payload) {
+  const auto [place, added] = doors_.try_emplace(link.id());
+  if (added) {
+    place->second.link = &link;
+    place->second.on_payload = std::move(on_payload);
+  }
+  return added;
+}
+
+void DatagramGate::remove(ConnectionId id) {
+  const auto found = doors_.find(id);
+  if (found == doors_.end()) return;
+  if (&found->second == open_) {  // its callback is running
+    leaving_ = doors_.extract(found);
+  } else {
+    doors_.erase(found);
+  }
+}
+
+void DatagramGate::expect(std::string_view packet) const {
+  SealedHeader header;
+  if (readSealedHeader(SealDirection::kClientToServer, packet, header) != HeaderFault::kNone) return;
+  const auto found = doors_.find(header.id);
+  if (found != doors_.end()) found->second.link->prefetch();
+}
+
+void DatagramGate::receive(const Path& path, std::string_view packet, Time now) {
+  SealedHeader header;
+  switch (readSealedHeader(SealDirection::kClientToServer, packet, header)) {
+    case HeaderFault::kTooShort:
+      ++counters_.too_short;
+      return;
+    case HeaderFault::kTooLong:
+      ++counters_.too_long;
+      return;
+    case HeaderFault::kKind:
+      ++counters_.bad_kind;
+      return;
+    case HeaderFault::kNone:
+      break;
+  }
+  const auto found = doors_.find(header.id);
+  if (found == doors_.end()) {
+    ++counters_.unknown_id;
+    return;
+  }
+  Door& door = found->second;
+  if (!door.link->plausible(packet, now)) {
+    ++counters_.refused;
+    return;
+  }
+  if (!allowed(door, path, now)) return;
+  const auto payload = door.link->open(path, packet, now);
+  if (!payload) {
+    ++counters_.refused;
+    return;
+  }
+  ++counters_.delivered;
+  open_ = &door;
+  door.on_payload(*payload);
+  open_ = nullptr;
+  leaving_ = {};
+}
+
+/// What it takes from is in the order of who is to blame, so that a flood spends as little of others as
+/// possible.
+bool DatagramGate::allowed(Door& door, const Path& path, Time now) {
+  if (door.link->isValidated(path)) {
+    if (door.own.take(rates_.session, now)) return true;
+    ++counters_.session_flood;
+  } else if (!door.claimed.take(rates_.claimed, now)) {
+    ++counters_.claimed_flood;
+  } else if (!prefixes_.take(prefixKeyOf(path.remote), now)) {
+    ++counters_.prefix_flood;
+  } else if (!strangers_.take(rates_.strangers, now)) {
+    ++counters_.stranger_flood;
+  } else {
+    return true;
+  }
+  return false;
+}
+
+}  // namespace naiad

@@ -1,0 +1,91 @@
+// The server's door for datagrams: finds the session a packet is for, and keeps floods away from the
+// cryptography. Whatever is refused is counted, and never answered.
+//
+// The order is: length, kind, connection id, replay window, allowance, authentication. So a forger who knows
+// no connection id costs a look into a table. One who does may spend the allowance of strangers, of which
+// that session and his prefix have shares of their own; packets that come from where a session has proved to
+// be use that session's own allowance, which nobody else can spend.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <unordered_map>
+
+#include "shared/net/base/TokenBucket.h"
+#include "shared/net/datagram/Path.h"
+#include "shared/net/datagram/PrefixBuckets.h"
+#include "shared/net/datagram/SealedLink.h"
+
+namespace naiad {
+
+/// Every packet is counted once: delivered, refused by its link (whose counters say why), or one of the
+/// others.
+struct DatagramGateCounters {
+  std::uint64_t delivered = 0;
+  std::uint64_t too_short = 0;
+  std::uint64_t too_long = 0;
+  std::uint64_t bad_kind = 0;
+  std::uint64_t unknown_id = 0;
+  std::uint64_t session_flood = 0;   ///< a session sends more than its allowance
+  std::uint64_t claimed_flood = 0;   ///< more for one session from unproven addresses than its share
+  std::uint64_t prefix_flood = 0;    ///< more from one unproven prefix than its share
+  std::uint64_t stranger_flood = 0;  ///< more from unproven addresses in all than is allowed
+  std::uint64_t refused = 0;         ///< by the link
+};
+
+/// Packets per second and at once that may reach the authentication.
+struct DatagramGateRates {
+  BucketRate session{.per_second = 250, .burst = 500};      ///< each session, from its proven path
+  BucketRate claimed{.per_second = 32, .burst = 64};        ///< for each session, from elsewhere
+  BucketRate prefix{.per_second = 500, .burst = 500};       ///< each unproven prefix
+  BucketRate strangers{.per_second = 4000, .burst = 1000};  ///< unproven addresses in all
+};
+
+/// Not thread-safe. Times are of one monotonic clock.
+class DatagramGate {
+ public:
+  using Time = SealedLink::Time;
+  /// An authentic payload, valid during the call. The callee may add and remove sessions, its own too.
+  using OnPayload = std::function<void(std::string_view payload)>;
+
+  /// `seed`: unpredictable, see PrefixBuckets.
+  explicit DatagramGate(std::uint64_t seed, DatagramGateRates rates = {});
+
+  /// Packets with the link's id go through `link` (a server's), which must live until removed. False, and
+  /// nothing changes, if there is such an id already: draw another.
+  bool add(SealedLink& link, OnPayload on_payload);
+  void remove(ConnectionId id);
+  bool has(ConnectionId id) const { return doors_.contains(id); }
+
+  /// The packet is among those that will be received next: have the session's memory fetched. Changes
+  /// nothing.
+  void expect(std::string_view packet) const;
+  /// A packet arrived.
+  void receive(const Path& path, std::string_view packet, Time now);
+
+  const DatagramGateCounters& counters() const { return counters_; }
+
+ private:
+  struct Door {
+    SealedLink* link = nullptr;
+    OnPayload on_payload;
+    TokenBucket own;
+    TokenBucket claimed;
+  };
+
+  bool allowed(Door& door, const Path& path, Time now);
+
+  DatagramGateRates rates_;
+  using Doors = std::unordered_map<ConnectionId, Door>;
+
+  Doors doors_;
+  const Door* open_ = nullptr;  ///< whose payload is being delivered
+  Doors::node_type leaving_;    ///< the same, if it was removed meanwhile
+  PrefixBuckets prefixes_;
+  TokenBucket strangers_;
+  DatagramGateCounters counters_;
+};
+
+}  // namespace naiad

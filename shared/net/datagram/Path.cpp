@@ -1,0 +1,86 @@
+#include "shared/net/datagram/Path.h"
+
+#include <algorithm>
+#include <asio/ip/address.hpp>
+#include <charconv>
+
+namespace naiad {
+namespace {
+
+constexpr std::array<std::uint8_t, 12> kMappedPrefix{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
+
+std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
+  hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
+  return hash ^ (hash >> 32);
+}
+
+}  // namespace
+
+bool Endpoint::isIPv4() const {
+  return std::equal(kMappedPrefix.begin(), kMappedPrefix.end(), address.begin());
+}
+
+bool Endpoint::isAny() const {
+  const auto begin = address.begin() + (isIPv4() ? kMappedPrefix.size() : 0);
+  return std::all_of(begin, address.end(), [](std::uint8_t byte) { return byte == 0; });
+}
+
+std::optional<Endpoint> makeEndpoint(std::string_view address, std::uint16_t port) {
+  std::error_code error;
+  const auto parsed = asio::ip::make_address(std::string(address), error);
+  if (error) return std::nullopt;
+  Endpoint endpoint;
+  endpoint.port = port;
+  if (parsed.is_v6()) {
+    endpoint.address = parsed.to_v6().to_bytes();
+    endpoint.scope = static_cast<std::uint32_t>(parsed.to_v6().scope_id());
+    return endpoint;
+  }
+  const auto four = parsed.to_v4().to_bytes();
+  std::copy(kMappedPrefix.begin(), kMappedPrefix.end(), endpoint.address.begin());
+  std::copy(four.begin(), four.end(), endpoint.address.begin() + kMappedPrefix.size());
+  return endpoint;
+}
+
+std::string toString(const Endpoint& endpoint) {
+  const std::string port = ":" + std::to_string(endpoint.port);
+  const asio::ip::address_v6 six(endpoint.address, endpoint.scope);
+  if (endpoint.isIPv4()) return asio::ip::make_address_v4(asio::ip::v4_mapped, six).to_string() + port;
+  return "[" + six.to_string() + "]" + port;
+}
+
+PrefixKey prefixKeyOf(const Endpoint& endpoint) {
+  // The lower half of a mapped address is no network that anybody has (0::/8 is reserved).
+  return {endpoint.half(endpoint.isIPv4() ? 1 : 0)};
+}
+
+std::string toString(const Path& path) {
+  return toString(path.local) + " <- " + toString(path.remote);
+}
+
+std::optional<Endpoint> endpointFromText(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  std::uint16_t port = 0;
+  const std::string_view digits = text.substr(colon + 1);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  std::string_view address = text.substr(0, colon);
+  if (address.size() >= 2 && address.front() == '[' && address.back() == ']') {
+    address = address.substr(1, address.size() - 2);
+  }
+  return makeEndpoint(address, port);
+}
+
+}  // namespace naiad
+
+std::size_t std::hash<naiad::Endpoint>::operator()(const naiad::Endpoint& endpoint) const noexcept {
+  using naiad::mix;
+  const std::uint64_t rest = std::uint64_t{endpoint.scope} << 16 | endpoint.port;
+  return mix(mix(mix(0, endpoint.half(0)), endpoint.half(1)), rest);
+}
+
+std::size_t std::hash<naiad::Path>::operator()(const naiad::Path& path) const noexcept {
+  const std::hash<naiad::Endpoint> of;
+  return naiad::mix(of(path.local), of(path.remote));
+}

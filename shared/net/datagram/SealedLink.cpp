@@ -1,0 +1,267 @@
+#include "shared/net/datagram/SealedLink.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "shared/values/LittleEndian.h"
+
+namespace naiad {
+namespace {
+
+constexpr unsigned kHasChallenge = 1;
+constexpr unsigned kHasAnswer = 2;
+constexpr unsigned kHasPing = 4;
+constexpr unsigned kHasEcho = 8;
+constexpr std::size_t kFieldSize = sizeof(PathChallenge);
+
+std::optional<PathChallenge> takeField(std::string_view& text) {
+  if (text.size() < kFieldSize) return std::nullopt;
+  const auto value = loadLittleEndian<PathChallenge>(text.data());
+  text.remove_prefix(kFieldSize);
+  return value;
+}
+
+std::optional<std::uint8_t> takeByte(std::string_view& text) {
+  if (text.empty()) return std::nullopt;
+  const auto byte = static_cast<std::uint8_t>(text[0]);
+  text.remove_prefix(1);
+  return byte;
+}
+
+std::optional<LinkPing::Echo> takeEcho(std::string_view& text) {
+  const auto token = takeByte(text);
+  const auto held = takeByte(text);
+  if (!token || !held) return std::nullopt;
+  return LinkPing::Echo{*token, *held};
+}
+
+}  // namespace
+
+SealedLink::SealedLink(Options options) : options_(std::move(options)) {
+  assert(!isServer() || options_.random);
+  if (!options_.scratch) options_.scratch = std::make_shared<SealScratch>();
+}
+
+// Epochs.
+
+bool SealedLink::startEpoch(Epoch epoch, const DatagramKeys& keys, Time now) {
+  if (newest_ && (epoch <= newest_->epoch || epoch - newest_->epoch > kEpochMask)) return false;
+  const SealKey& own = isServer() ? keys.server : keys.client;
+  const SealKey& other = isServer() ? keys.client : keys.server;
+  previous_ = std::move(newest_);
+  previous_until_ = previous_ ? now + kPreviousEpoch : Time::max();
+  newest_.emplace(Keys{epoch, Sealer(own, options_.limits), Opener(other)});
+  confirmed_ = isServer();
+  return true;
+}
+
+std::optional<Epoch> SealedLink::epoch() const {
+  return newest_ ? std::optional(newest_->epoch) : std::nullopt;
+}
+
+void SealedLink::expire(Time now) {
+  if (now < previous_until_) return;
+  previous_.reset();
+  previous_until_ = Time::max();
+}
+
+SealedLink::Keys* SealedLink::sendingKeys() {
+  if (!confirmed_ && previous_ && !previous_->sealer.exhausted()) return &*previous_;
+  return newest_ && !newest_->sealer.exhausted() ? &*newest_ : nullptr;
+}
+
+SealedLink::Keys* SealedLink::find(Epoch epoch_bits) {
+  if (newest_ && (newest_->epoch & kEpochMask) == epoch_bits) return &*newest_;
+  if (previous_ && (previous_->epoch & kEpochMask) == epoch_bits) return &*previous_;
+  return nullptr;
+}
+
+// Receiving.
+
+bool SealedLink::plausible(std::string_view packet, Time now) {
+  return admit(packet, now) != nullptr;
+}
+
+/// Everything that is cheap, in the order of what it costs. None if the packet is refused; that is counted.
+SealedLink::Keys* SealedLink::admit(std::string_view packet, Time now) {
+  expire(now);
+  SealedHeader header;
+  switch (readSealedHeader(receives(), packet, header)) {
+    case HeaderFault::kTooShort:
+      ++counters_.too_short;
+      return nullptr;
+    case HeaderFault::kTooLong:
+      ++counters_.too_long;
+      return nullptr;
+    case HeaderFault::kKind:
+      ++counters_.bad_kind;
+      return nullptr;
+    case HeaderFault::kNone:
+      break;
+  }
+  if (isServer() && header.id != options_.id) {
+    ++counters_.wrong_id;
+    return nullptr;
+  }
+  Keys* const keys = find(header.epoch_bits);
+  if (!keys) {
+    ++counters_.unknown_epoch;
+    return nullptr;
+  }
+  return accept(keys->opener.check(header.sequence)) ? keys : nullptr;
+}
+
+/// Counts the refusals.
+bool SealedLink::accept(OpenResult result) {
+  switch (result) {
+    case OpenResult::kOpened:
+      return true;
+    case OpenResult::kTooOld:
+      ++counters_.too_old;
+      break;
+    case OpenResult::kReplayed:
+      ++counters_.replayed;
+      break;
+    case OpenResult::kForged:
+      ++counters_.forged;
+      break;
+    case OpenResult::kExhausted:
+      ++counters_.exhausted;
+      break;
+  }
+  return false;
+}
+
+std::optional<std::string_view> SealedLink::open(const Path& path, std::string_view packet, Time now) {
+  Keys* const keys = admit(packet, now);
+  if (!keys) return std::nullopt;
+  const std::size_t header = sealedHeaderSize(receives());
+  std::uint64_t sequence = 0;
+  if (!accept(keys->opener.open(packet, header, options_.scratch->opened.data(), sequence)))
+    return std::nullopt;
+  const auto fields = readFields({options_.scratch->opened.data(), packet.size() - header - kSealTagSize});
+  if (!fields) {
+    ++counters_.malformed;
+    return std::nullopt;
+  }
+  ++counters_.opened;
+  if (keys == &*newest_) confirmed_ = true;
+  if (isServer()) notePath(path, packet.size(), {keys->epoch, sequence});
+  if (fields->answer) noteAnswer(*fields->answer);
+  if (fields->challenge) owed_answer_ = fields->challenge;
+  if (fields->ping) echo_.note(*fields->ping, now);
+  if (fields->echo) ping_.answered(*fields->echo, now);
+  return fields->payload;
+}
+
+std::optional<SealedLink::Fields> SealedLink::readFields(std::string_view text) const {
+  const auto flags = static_cast<unsigned char>(text[0]);
+  text.remove_prefix(1);
+  // A server never is challenged, and a client is never answered; servers do not ping.
+  if (flags & ~(isServer() ? kHasAnswer | kHasPing : kHasChallenge | kHasEcho)) return std::nullopt;
+  Fields fields;
+  if (flags & kHasChallenge && !(fields.challenge = takeField(text))) return std::nullopt;
+  if (flags & kHasAnswer && !(fields.answer = takeField(text))) return std::nullopt;
+  if (flags & kHasPing && !(fields.ping = takeByte(text))) return std::nullopt;
+  if (flags & kHasEcho && !(fields.echo = takeEcho(text))) return std::nullopt;
+  fields.payload = text;
+  return fields;
+}
+
+void SealedLink::notePath(const Path& path, std::size_t bytes, std::pair<Epoch, std::uint64_t> number) {
+  if (newest_number_ && number < *newest_number_) return guard_.arrivedLate(path, bytes);
+  newest_number_ = number;
+  const bool moves = guard_.current() != path;
+  if (guard_.arrived(path, bytes, moves ? options_.random() : 0)) ++counters_.path_changes;
+}
+
+void SealedLink::noteAnswer(PathChallenge answer) {
+  ++(guard_.answered(answer) ? counters_.paths_validated : counters_.wrong_answers);
+}
+
+void SealedLink::setServerPath(const Path& path) {
+  assert(!isServer());
+  guard_.trust(path);
+}
+
+// Sending.
+
+std::size_t SealedLink::maxPayload() const {
+  return kMaxDatagram - smallestSealedPacket(sends()) - kFieldSize;
+}
+
+/// Bytes of the next packet that are not payload.
+std::size_t SealedLink::overhead() const {
+  const bool field = isServer() ? !guard_.validated() : owed_answer_.has_value();
+  return smallestSealedPacket(sends()) + (field ? kFieldSize : 0);
+}
+
+std::optional<std::size_t> SealedLink::room() const {
+  if (!guard_.current() || !sendingKeys() || guard_.budget() < overhead()) return std::nullopt;
+  return std::min(maxPayload(), guard_.budget() - overhead());
+}
+
+bool SealedLink::wantsToSend(Time now) const {
+  const bool due = isServer() ? guard_.wantsChallenge(now) : owed_answer_.has_value();
+  return due && room().has_value();
+}
+
+std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, Time now) {
+  assert(payload.size() <= maxPayload());
+  expire(now);
+  if (!guard_.current()) {
+    ++counters_.no_path;
+    return std::nullopt;
+  }
+  Keys* const keys = sendingKeys();
+  if (!keys) {
+    ++counters_.no_key;
+    return std::nullopt;
+  }
+  if (payload.size() + overhead() > guard_.budget()) {
+    ++counters_.over_budget;
+    return std::nullopt;
+  }
+  auto& sealed = options_.scratch->sealed;
+  const std::size_t prefix = writeSealedPrefix(sends(), keys->epoch, options_.id, sealed.data());
+  char* const text = sealed.data() + prefix + 2;
+  const std::size_t least = payload.size() + overhead();
+  const std::size_t fields = writeFields(text, std::min(kMaxDatagram, guard_.budget()) - least, now);
+  std::copy(payload.begin(), payload.end(), text + fields);
+  const std::size_t size = keys->sealer.seal(sealed.data(), prefix, fields + payload.size());
+  guard_.sent(size, now);
+  ++counters_.sealed;
+  return Outgoing{*guard_.current(), {sealed.data(), size}};
+}
+
+/// `spare`: bytes that the packet may still have beyond overhead() and the payload.
+std::size_t SealedLink::writeFields(char* out, std::size_t spare, Time now) {
+  std::size_t size = 1;
+  out[0] = 0;
+  if (isServer() && !guard_.validated()) {
+    out[0] = kHasChallenge;
+    storeLittleEndian(guard_.challenge(), out + size);
+    size += kFieldSize;
+  } else if (!isServer() && owed_answer_) {
+    out[0] = kHasAnswer;
+    storeLittleEndian(*std::exchange(owed_answer_, std::nullopt), out + size);
+    size += kFieldSize;
+  }
+  return size + writePing(out, out + size, spare, now);
+}
+
+std::size_t SealedLink::writePing(char* flags, char* out, std::size_t spare, Time now) {
+  if (!isServer() && spare >= 1 && ping_.isAsked()) {
+    *flags = static_cast<char>(*flags | kHasPing);
+    out[0] = static_cast<char>(ping_.sent(now));
+    return 1;
+  }
+  const auto echo = isServer() && spare >= 2 ? echo_.take(now) : std::nullopt;
+  if (!echo) return 0;
+  *flags = static_cast<char>(*flags | kHasEcho);
+  out[0] = static_cast<char>(echo->token);
+  out[1] = static_cast<char>(echo->held_millis);
+  return 2;
+}
+
+}  // namespace naiad

@@ -1,0 +1,95 @@
+// Packets for and from the kernel, many to a call (sendmmsg, recvmmsg), each with the local address it leaves
+// from or was sent to (IP_PKTINFO, IPV6_PKTINFO). The buffers are allocated once.
+#pragma once
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "shared/net/datagram/Path.h"
+#include "shared/net/datagram/SealedHeader.h"
+
+namespace naiad {
+
+/// What a UDP socket did, and what was lost on the way through it.
+struct UdpCounters {
+  std::uint64_t sent = 0;            ///< packets that the kernel took
+  std::uint64_t received = 0;        ///< packets handed on
+  std::uint64_t dropped_full = 0;    ///< not sent: the kernel's buffer was full
+  std::uint64_t send_errors = 0;     ///< not sent: no route, address gone, too large for the link, …
+  std::uint64_t receive_errors = 0;  ///< errors where a packet was expected (refusals by ICMP), ignored
+  std::uint64_t too_large = 0;       ///< received, longer than 1200 bytes, ignored
+};
+
+inline constexpr std::size_t kUdpBatch = 64;  // packets to a call
+
+namespace detail {
+
+union SocketAddress {
+  sockaddr generic;
+  sockaddr_in four;
+  sockaddr_in6 six;
+};
+
+struct ControlBuffer {
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(in6_pktinfo))> bytes;
+};
+
+}  // namespace detail
+
+/// `six`: for an IPv6 socket, which takes IPv4 addresses in their mapped form.
+class UdpSendBatch {
+ public:
+  explicit UdpSendBatch(bool six);
+
+  bool full() const { return count_ == kUdpBatch; }
+  /// False, and nothing is added, if a socket of this family cannot reach that address. Not when full.
+  bool add(const Path& path, std::string_view packet);
+  /// Hand everything to the kernel, without blocking. The batch is empty afterwards, whatever happened.
+  void send(int descriptor, UdpCounters& counters);
+  void clear() { count_ = 0; }
+
+ private:
+  struct Slot {
+    std::array<char, kMaxDatagram> bytes;
+    detail::SocketAddress address;
+    detail::ControlBuffer control;
+    iovec part;
+  };
+  void writeSource(msghdr& header, Slot& slot, const Endpoint& local) const;
+
+  bool six_;
+  std::size_t count_ = 0;
+  std::unique_ptr<std::array<Slot, kUdpBatch>> slots_;
+  std::array<mmsghdr, kUdpBatch> headers_{};
+};
+
+class UdpReceiveBatch {
+ public:
+  explicit UdpReceiveBatch(std::uint16_t local_port);
+
+  /// Packets that were waiting, at most kUdpBatch; 0 if none; −1 on an error, see errno.
+  int receive(int descriptor);
+  /// The n-th of them; empty and without a path if it was longer than 1200 bytes.
+  std::string_view packet(int n) const;
+  Path path(int n);
+  bool tooLarge(int n) const;
+
+ private:
+  struct Slot {
+    std::array<char, kMaxDatagram> bytes;
+    detail::SocketAddress address;
+    detail::ControlBuffer control;
+    iovec part;
+  };
+  std::uint16_t local_port_;
+  std::unique_ptr<std::array<Slot, kUdpBatch>> slots_;
+  std::array<mmsghdr, kUdpBatch> headers_{};
+};
+
+}  // namespace naiad

@@ -1,0 +1,82 @@
+#include "shared/net/stream/SocketBio.h"
+
+#include <openssl/bio.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+
+namespace naiad {
+namespace {
+
+SocketBio& stateOf(BIO* bio) {
+  return *static_cast<SocketBio*>(BIO_get_data(bio));
+}
+
+bool mayTryAgain(int error) {
+  return error == EAGAIN || error == EWOULDBLOCK || error == EINTR;
+}
+
+int readSocket(BIO* bio, char* into, int size) {
+  SocketBio& state = stateOf(bio);
+  BIO_clear_retry_flags(bio);
+  const ssize_t got = ::recv(state.socket, into, static_cast<std::size_t>(size), 0);
+  if (got > 0) {
+    if (!state.guard || state.guard->accept({into, static_cast<std::size_t>(got)}))
+      return static_cast<int>(got);
+    state.refused = true;
+    return -1;
+  }
+  if (got == 0) {
+    state.ended = true;
+    return 0;
+  }
+  if (mayTryAgain(errno)) {
+    BIO_set_retry_read(bio);
+  } else {
+    state.failed = true;
+  }
+  return -1;
+}
+
+int writeSocket(BIO* bio, const char* bytes, int size) {
+  SocketBio& state = stateOf(bio);
+  BIO_clear_retry_flags(bio);
+  const ssize_t sent = ::send(state.socket, bytes, static_cast<std::size_t>(size), MSG_NOSIGNAL);
+  if (sent >= 0) return static_cast<int>(sent);
+  if (mayTryAgain(errno)) {
+    BIO_set_retry_write(bio);
+  } else {
+    state.failed = true;
+  }
+  return -1;
+}
+
+long control(BIO* bio, int command, long, void*) {
+  if (command == BIO_CTRL_FLUSH) return 1;
+  if (command == BIO_CTRL_EOF) return stateOf(bio).ended ? 1 : 0;
+  return 0;
+}
+
+/// Made once and never freed, like OpenSSL's own.
+const BIO_METHOD* method() {
+  static const BIO_METHOD* const made = [] {
+    BIO_METHOD* fresh = BIO_meth_new(BIO_get_new_index() | BIO_TYPE_SOURCE_SINK, "naiad socket");
+    BIO_meth_set_read(fresh, readSocket);
+    BIO_meth_set_write(fresh, writeSocket);
+    BIO_meth_set_ctrl(fresh, control);
+    return fresh;
+  }();
+  return made;
+}
+
+}  // namespace
+
+bio_st* SocketBio::make() {
+  BIO* const bio = BIO_new(method());
+  if (!bio) return nullptr;
+  BIO_set_data(bio, this);
+  BIO_set_init(bio, 1);
+  return bio;
+}
+
+}  // namespace naiad

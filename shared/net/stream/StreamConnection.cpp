@@ -1,0 +1,215 @@
+#include "shared/net/stream/StreamConnection.h"
+
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
+
+#include <array>
+#include <asio/post.hpp>
+#include <stdexcept>
+#include <utility>
+
+namespace naiad {
+namespace {
+
+using asio::ip::tcp;
+
+constexpr std::size_t kReadSize = 16'384;      // one read per turn of the loop, for fairness; one TLS record
+constexpr std::size_t kKeptCapacity = 65'536;  // a queue that grew beyond this is given back
+
+tcp::socket::wait_type waitFor(ByteStream::Outcome wish) {
+  return wish == ByteStream::Outcome::kWantsWrite ? tcp::socket::wait_write : tcp::socket::wait_read;
+}
+
+}  // namespace
+
+StreamConnection::StreamConnection(std::unique_ptr<ByteStream> stream, const TcpOptions& options)
+    : stream_(std::move(stream)),
+      deadline_(stream_->socket().get_executor()),
+      options_(options),
+      peer_(peerName(stream_->socket())),
+      reader_(options.receive_limit) {}
+
+void StreamConnection::start(ReliableChannel::Callbacks callbacks) {
+  if (callbacks_) throw std::logic_error("a channel can be started once");
+  callbacks_ = std::make_shared<ReliableChannel::Callbacks>(std::move(callbacks));
+  if (phase_ == Phase::kClosed) return report();
+  awaitInput();
+}
+
+// Input. Waiting for readiness instead of reading into a buffer of its own: an idle connection then holds
+// no memory but a partial frame.
+
+void StreamConnection::awaitInput(Outcome wish) {
+  if (reading_) return;
+  reading_ = true;
+  auto go_on = [self = shared_from_this()](const std::error_code&) {
+    self->reading_ = false;
+    if (self->phase_ != Phase::kClosed) self->onInput();
+  };
+  if (stream_->holdsInput() && wish == Outcome::kWantsRead) {
+    asio::post(stream_->socket().get_executor(), [go_on = std::move(go_on)] { go_on({}); });
+  } else {
+    stream_->socket().async_wait(waitFor(wish), std::move(go_on));
+  }
+}
+
+void StreamConnection::onInput() {
+  std::array<char, kReadSize> buffer;
+  const auto [outcome, size] = stream_->read(buffer);
+  if (outcome == Outcome::kWantsRead || outcome == Outcome::kWantsWrite) {
+    awaitInput(outcome);
+  } else if (outcome != Outcome::kDone) {
+    onInputEnded(outcome);
+  } else {
+    if (phase_ == Phase::kOpen) dispatch({buffer.data(), size});
+    if (phase_ != Phase::kClosed) awaitInput();
+  }
+}
+
+void StreamConnection::dispatch(std::string_view bytes) {
+  const auto callbacks = callbacks_;  // a frame's handler may destroy the channel
+  reader_.feed(bytes);
+  while (phase_ == Phase::kOpen) {
+    const auto frame = reader_.next();
+    if (!frame) break;
+    if (callbacks->on_frame) callbacks->on_frame(*frame);
+  }
+  if (phase_ == Phase::kOpen && reader_.error() != FrameError::kNone) finish(CloseReason::kProtocol, false);
+}
+
+void StreamConnection::onInputEnded(Outcome outcome) {
+  const bool ended = outcome == Outcome::kEnd || outcome == Outcome::kTruncated;
+  if (phase_ == Phase::kClosing) {
+    finish(CloseReason::kLocal, false);
+  } else if (outcome == Outcome::kGarbage || (ended && reader_.midFrame() && !write_failed_)) {
+    finish(CloseReason::kProtocol, false);
+  } else {
+    finish(outcome == Outcome::kEnd && !write_failed_ ? CloseReason::kPeer : CloseReason::kError, false);
+  }
+}
+
+// Output. send() only queues; one posted call hands everything queued in this turn to one write.
+
+void StreamConnection::send(std::string_view frame) {
+  if (phase_ != Phase::kOpen || write_failed_) return;
+  const std::size_t before = queuedBytes();
+  if (before + kFrameHeaderSize + frame.size() > options_.send_cap && frame.size() <= kMaxFramePayload) {
+    finish(CloseReason::kOverflow, true);
+    return;
+  }
+  appendFrame(queue_, frame);
+  if (pump_posted_) return;
+  pump_posted_ = true;
+  asio::post(stream_->socket().get_executor(), [self = shared_from_this()] {
+    self->pump_posted_ = false;
+    self->pump();
+  });
+}
+
+std::size_t StreamConnection::unsentBytes() {
+  if (phase_ == Phase::kClosed || write_failed_) return 0;
+  int in_kernel = 0;
+  if (ioctl(stream_->socket().native_handle(), SIOCOUTQNSD, &in_kernel) != 0 || in_kernel < 0) in_kernel = 0;
+  return queuedBytes() + static_cast<std::size_t>(in_kernel);
+}
+
+std::string StreamConnection::exportSecret(std::string_view label, std::string_view context,
+                                           std::size_t bytes) const {
+  return phase_ == Phase::kClosed ? std::string() : stream_->exportSecret(label, context, bytes);
+}
+
+void StreamConnection::pump() {
+  if (phase_ == Phase::kClosed || write_failed_ || awaiting_room_) return;
+  while (queuedBytes() > 0) {
+    const auto [outcome, size] = stream_->write(std::string_view(queue_).substr(written_));
+    if (outcome == Outcome::kWantsWrite || outcome == Outcome::kWantsRead) {
+      if (written_ > queue_.size() / 2) dropWritten();
+      awaitRoom(outcome);
+      return;
+    }
+    if (outcome != Outcome::kDone) {
+      onWriteFailed();
+      return;
+    }
+    written_ += size;
+  }
+  dropWritten();
+  if (phase_ == Phase::kClosing) endStream();
+}
+
+void StreamConnection::awaitRoom(Outcome wish) {
+  awaiting_room_ = true;
+  stream_->socket().async_wait(waitFor(wish), [self = shared_from_this()](const std::error_code&) {
+    self->awaiting_room_ = false;
+    self->pump();
+  });
+}
+
+void StreamConnection::dropWritten() {
+  queue_.erase(0, written_);
+  written_ = 0;
+  if (queue_.empty() && queue_.capacity() > kKeptCapacity) std::string().swap(queue_);
+}
+
+/// Frames that came before the failure may still wait in the kernel; reading finds the end after them.
+void StreamConnection::onWriteFailed() {
+  write_failed_ = true;
+  if (phase_ == Phase::kClosing) finish(CloseReason::kLocal, false);
+}
+
+// The end.
+
+void StreamConnection::close() {
+  if (phase_ != Phase::kOpen) return;
+  phase_ = Phase::kClosing;
+  deadline_.expires_after(options_.close_timeout);
+  deadline_.async_wait([self = shared_from_this()](const std::error_code& error) {
+    if (!error && self->phase_ == Phase::kClosing) self->finish(CloseReason::kLocal, self->queuedBytes() > 0);
+  });
+  if (write_failed_) return finish(CloseReason::kLocal, false);
+  awaitInput();
+  pump();
+}
+
+/// Everything is sent. Closing now would reset the connection if the peer's last bytes are unread, and the
+/// reset could overtake ours; so say that this was all, and read until the peer closes as well.
+void StreamConnection::endStream() {
+  const Outcome outcome = stream_->end();
+  if (outcome == Outcome::kWantsWrite || outcome == Outcome::kWantsRead) {
+    awaitRoom(outcome);
+  } else if (outcome != Outcome::kDone) {
+    finish(CloseReason::kLocal, false);
+  }
+}
+
+void StreamConnection::abandon() {
+  callbacks_.reset();
+  if (phase_ == Phase::kOpen) finish(CloseReason::kLocal, false);
+}
+
+/// `cut`: throw away what the kernel still holds, instead of leaving it there for a peer that does not read.
+void StreamConnection::finish(CloseReason reason, bool cut) {
+  phase_ = Phase::kClosed;
+  reason_ = reason;
+  std::error_code ignored;
+  if (cut) {
+    stream_->socket().set_option(tcp::socket::linger(true, 0), ignored);
+  } else if (reason != CloseReason::kError && !write_failed_) {
+    stream_->end();  // as far as that goes without waiting
+  }
+  stream_->socket().close(ignored);
+  deadline_.cancel();
+  std::string().swap(queue_);
+  written_ = 0;
+  report();
+}
+
+void StreamConnection::report() {
+  if (!callbacks_) return;
+  asio::post(stream_->socket().get_executor(), [self = shared_from_this()] {
+    const auto callbacks = std::move(self->callbacks_);  // none if the channel was destroyed meanwhile
+    if (callbacks && callbacks->on_closed) callbacks->on_closed(self->reason_);
+  });
+}
+
+}  // namespace naiad

@@ -1,0 +1,72 @@
+// Opens a connection to a host and port, without blocking: TLS, or plain TCP on loopback.
+#pragma once
+
+#include <asio/ip/tcp.hpp>
+#include <asio/ts/netfwd.hpp>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shared/net/base/Channel.h"
+#include "shared/net/stream/PeerFacts.h"
+#include "shared/net/stream/TcpOptions.h"
+#include "shared/net/stream/TlsContext.h"
+
+namespace naiad {
+
+/// One attempt at a time; may be used again after it ended, for a client that reconnects.
+///
+///   TcpConnector connector(context, {.receive_limit = kMaxServerFrame});
+///   connector.connect("localhost", kDefaultPort, 5s, [&](auto channel, const std::string& error) { … });
+///
+/// With TLS it takes any server that can do the protocol. In `done` the caller judges peerFacts(), before it
+/// starts the channel or sends anything on it.
+///
+/// Thread: the one that runs `context`, which must outlive the connector. The connector may be destroyed at
+/// any time, in its own callback too; that cancels.
+class TcpConnector {
+ public:
+  /// Either a channel, not started yet, and an empty `error`; or no channel and one sentence for people.
+  using Done = std::function<void(std::unique_ptr<ReliableChannel> channel, const std::string& error)>;
+
+  /// `tls`: TlsContext::forClient(); without it, plain TCP.
+  explicit TcpConnector(asio::io_context& context, TcpOptions options = {},
+                        std::shared_ptr<const TlsContext> tls = nullptr);
+  ~TcpConnector();
+  TcpConnector(const TcpConnector&) = delete;
+  TcpConnector& operator=(const TcpConnector&) = delete;
+
+  /// Resolve `host` (a name, or an IPv4 or IPv6 address without brackets) and try its addresses in turn, each
+  /// for its share of `timeout`, which covers everything. The next address is tried when one is silent or
+  /// cannot be reached, not when a server there fails the handshake. Without TLS, names that do not lead to
+  /// this machine are refused. `done` is called once, from the event loop, unless cancelled. Cancels an
+  /// attempt under way.
+  void connect(const std::string& host, std::uint16_t port, std::chrono::milliseconds timeout, Done done);
+  /// The same with addresses that are known already. `host`: what they are addresses of.
+  void connect(const std::string& host, const std::vector<asio::ip::tcp::endpoint>& endpoints,
+               std::chrono::milliseconds timeout, Done done);
+
+  /// About the server behind the newest channel given out: set from before `done` is called until the next
+  /// connect() or cancel(). Nothing without TLS.
+  const std::optional<PeerFacts>& peerFacts() const { return peer_facts_; }
+
+  /// Give up; `done` will not be called. Harmless when nothing is under way. (A name look-up runs on in its
+  /// own thread until the resolver's time-out; destroying the io_context waits for it.)
+  void cancel();
+
+ private:
+  struct Attempt;
+  asio::io_context& context_;
+  TcpOptions options_;
+  std::shared_ptr<const TlsContext> tls_;
+  std::shared_ptr<Attempt> attempt_;
+  std::optional<PeerFacts> peer_facts_;
+
+  std::shared_ptr<Attempt> begin(const std::string& host, Done done);
+};
+
+}  // namespace naiad

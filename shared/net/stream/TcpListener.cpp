@@ -1,0 +1,189 @@
+#include "shared/net/stream/TcpListener.h"
+
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <asio/ip/v6_only.hpp>
+#include <asio/steady_timer.hpp>
+#include <chrono>
+#include <sstream>
+#include <unordered_set>
+#include <utility>
+
+#include "shared/net/base/AddressPrefix.h"
+#include "shared/net/stream/HalfOpenLimit.h"
+#include "shared/net/stream/TcpChannel.h"
+#include "shared/net/stream/TlsHandshake.h"
+
+namespace naiad {
+namespace {
+
+using asio::ip::tcp;
+
+/// How long to wait for descriptors or memory to come free.
+constexpr std::chrono::milliseconds kRetryDelay{100};
+
+}  // namespace
+
+struct TcpListener::State : std::enable_shared_from_this<State> {
+  State(asio::io_context& context, OnChannel callback, const TcpOptions& tcp_options,
+        TlsListening tls_listening)
+      : acceptor(context),
+        retry(context),
+        on_channel(std::move(callback)),
+        options(tcp_options),
+        tls(std::move(tls_listening)),
+        half_open(tls.max_half_open, tls.max_half_open_per_prefix) {}
+
+  void listen(const std::string& numeric_address, std::uint16_t port);
+  void accept();
+  void onAccepted(const std::error_code& error, tcp::socket socket);
+  void shakeHands(tcp::socket socket);
+  void onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream);
+  void close();
+
+  tcp::acceptor acceptor;
+  asio::steady_timer retry;
+  tcp::endpoint endpoint;
+  OnChannel on_channel;  // as long-lived as this, for a callback may destroy the listener
+  TcpOptions options;
+  TlsListening tls;
+  HalfOpenLimit half_open;
+  std::unordered_set<std::shared_ptr<TlsHandshake>> handshakes;
+  Counters counters;
+};
+
+void TcpListener::State::listen(const std::string& numeric_address, std::uint16_t port) {
+  std::error_code error;
+  const auto address = asio::ip::make_address(numeric_address, error);
+  const auto refused = std::make_error_code(std::errc::invalid_argument);
+  if (error) throw ListenError("\"" + numeric_address + "\" is not a numeric IPv4 or IPv6 address.", refused);
+  if (!tls.context && !isLoopback(address)) {
+    throw ListenError("Cannot listen on " + numeric_address +
+                          ": connections are not encrypted, so only loopback addresses are allowed.",
+                      refused);
+  }
+  endpoint = tcp::endpoint(address, port);
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error && address.is_v6()) {
+    acceptor.set_option(asio::ip::v6_only(!address.is_unspecified()), error);
+  }
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
+  if (!error) endpoint = acceptor.local_endpoint(error);
+  if (!error) return;
+  error.assign(error.value(), std::generic_category());  // Asio's category does not compare with std::errc
+  const std::string where = "port " + std::to_string(port) + " on " + numeric_address;
+  if (error == std::errc::address_in_use) {
+    throw ListenError("Cannot listen: " + where + " is in use by another program.", error);
+  }
+  throw ListenError("Cannot listen on " + where + " (" + error.message() + ").", error);
+}
+
+void TcpListener::State::accept() {
+  acceptor.async_accept([self = shared_from_this()](const std::error_code& error, tcp::socket socket) {
+    self->onAccepted(error, std::move(socket));
+  });
+}
+
+void TcpListener::State::onAccepted(const std::error_code& error, tcp::socket socket) {
+  if (!acceptor.is_open()) return;
+  if (!error) {
+    if (tls.context) {
+      shakeHands(std::move(socket));
+    } else {
+      on_channel(makeTcpChannel(std::move(socket), options));
+    }
+    if (acceptor.is_open()) accept();
+    return;
+  }
+  ++counters.failed_accepts;
+  retry.expires_after(kRetryDelay);
+  retry.async_wait([self = shared_from_this()](const std::error_code&) {
+    if (self->acceptor.is_open()) self->accept();
+  });
+}
+
+void TcpListener::State::shakeHands(tcp::socket socket) {
+  std::error_code error;
+  const tcp::endpoint peer = socket.remote_endpoint(error);
+  if (error) {  // gone already
+    ++counters.handshakes_failed;
+    return;
+  }
+  const AddressPrefix prefix = AddressPrefix::of(peer.address());
+  const auto answer = half_open.admit(prefix);
+  if (answer != HalfOpenLimit::Answer::kAdmitted) {
+    ++(answer == HalfOpenLimit::Answer::kFull ? counters.refused_half_open : counters.refused_from_prefix);
+    return;
+  }
+  std::shared_ptr<TlsHandshake> handshake;
+  try {
+    handshake = std::make_shared<TlsHandshake>(std::make_unique<TlsStream>(std::move(socket), tls.context));
+  } catch (const TlsError&) {  // no memory
+    half_open.release(prefix);
+    ++counters.handshakes_failed;
+    return;
+  }
+  handshakes.insert(handshake);
+  handshake->run(tls.handshake_timeout,
+                 [self = shared_from_this(), prefix, shaken = std::weak_ptr(handshake)](
+                     TlsHandshake::End end, std::unique_ptr<TlsStream> stream, const std::string&) {
+                   self->handshakes.erase(shaken.lock());
+                   self->half_open.release(prefix);
+                   self->onHandshake(end, std::move(stream));
+                 });
+}
+
+void TcpListener::State::onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream) {
+  if (end == TlsHandshake::End::kTimedOut) {
+    ++counters.handshakes_late;
+  } else if (end == TlsHandshake::End::kFailed) {
+    ++counters.handshakes_failed;
+  } else {
+    ++counters.handshakes;
+    on_channel(makeTcpChannel(std::move(stream), options));
+  }
+}
+
+void TcpListener::State::close() {
+  std::error_code ignored;
+  acceptor.close(ignored);
+  retry.cancel();
+  for (const auto& handshake : std::exchange(handshakes, {})) handshake->cancel();
+}
+
+TcpListener::TcpListener(asio::io_context& context, const std::string& address, std::uint16_t port,
+                         OnChannel on_channel, TcpOptions options, TlsListening tls)
+    : state_(std::make_shared<State>(context, std::move(on_channel), options, std::move(tls))) {
+  state_->listen(address, port);
+  state_->accept();
+}
+
+TcpListener::~TcpListener() {
+  close();
+}
+
+std::uint16_t TcpListener::port() const {
+  return state_->endpoint.port();
+}
+
+std::string TcpListener::address() const {
+  std::ostringstream text;
+  text << state_->endpoint;
+  return text.str();
+}
+
+const TcpListener::Counters& TcpListener::counters() const {
+  return state_->counters;
+}
+
+std::size_t TcpListener::halfOpen() const {
+  return state_->half_open.count();
+}
+
+void TcpListener::close() {
+  state_->close();
+}
+
+}  // namespace naiad

@@ -1,0 +1,94 @@
+// Waits for connections on one address and port: TLS, or plain TCP on loopback.
+#pragma once
+
+#include <asio/ts/netfwd.hpp>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "shared/net/base/Channel.h"
+#include "shared/net/stream/TcpOptions.h"
+#include "shared/net/stream/TlsContext.h"
+
+namespace naiad {
+
+/// How a listener does TLS.
+struct TlsListening {
+  std::shared_ptr<const TlsContext> context;  ///< TlsContext::forServer()
+  /// From accepting a connection to the end of its handshake.
+  std::chrono::milliseconds handshake_timeout{5000};
+  /// Connections between these two, in all and from one IPv4 address or IPv6 /64. One more is hung up on.
+  std::size_t max_half_open = 256;
+  std::size_t max_half_open_per_prefix = 64;
+};
+
+/// A listener could not be made. what() is one sentence for people: "Port 9876 on 127.0.0.1 is in use …".
+class ListenError : public std::runtime_error {
+ public:
+  ListenError(const std::string& sentence, std::error_code code)
+      : std::runtime_error(sentence), code_(code) {}
+  /// The cause, e.g. std::errc::address_in_use; std::errc::invalid_argument for an address refused here.
+  std::error_code code() const { return code_; }
+
+ private:
+  std::error_code code_;
+};
+
+/// Accepts until closed or destroyed. Running out of descriptors or memory does not end it: it waits 100 ms
+/// and tries again, while the connections wait in the kernel's backlog.
+///
+/// With TLS, handshakes run side by side, and a connection is given out when its own is done: in the order in
+/// which they finish. A slow one holds up nobody.
+///
+/// Thread: the one that runs `context`, which must outlive the listener. The listener may be destroyed at
+/// any time, in its own callback too. Channels it gave out do not depend on it.
+class TcpListener {
+ public:
+  /// A connection is ready for frames. The channel is not started yet; dropping it hangs up.
+  using OnChannel = std::function<void(std::unique_ptr<ReliableChannel> channel)>;
+
+  /// What became of connections so far.
+  struct Counters {
+    std::uint64_t failed_accepts = 0;       ///< out of descriptors, …: put off
+    std::uint64_t handshakes = 0;           ///< TLS: done, given out
+    std::uint64_t handshakes_failed = 0;    ///< TLS: no TLS 1.3, no common protocol, hung up …
+    std::uint64_t handshakes_late = 0;      ///< TLS: not done in time
+    std::uint64_t refused_half_open = 0;    ///< TLS: max_half_open reached
+    std::uint64_t refused_from_prefix = 0;  ///< TLS: max_half_open_per_prefix reached
+  };
+
+  /// Listens from now on; `on_channel` is called from the event loop. `address`: numeric, IPv4 or IPv6;
+  /// without `tls` loopback only ("127.0.0.1", "::1"). "::" listens on all of IPv4 as well. `port`: 0 takes
+  /// any free one. SO_REUSEADDR is set, so a restart need not wait for old connections to time out. Throws
+  /// ListenError.
+  TcpListener(asio::io_context& context, const std::string& address, std::uint16_t port, OnChannel on_channel,
+              TcpOptions options = {}, TlsListening tls = {});
+  ~TcpListener();
+  TcpListener(const TcpListener&) = delete;
+  TcpListener& operator=(const TcpListener&) = delete;
+
+  /// The port listened on, also when 0 was asked for.
+  std::uint16_t port() const;
+  /// "127.0.0.1:40000" or "[::1]:40000", for logs.
+  std::string address() const;
+  const Counters& counters() const;
+  /// Counters::failed_accepts.
+  std::uint64_t failedAccepts() const { return counters().failed_accepts; }
+  /// Handshakes under way.
+  std::size_t halfOpen() const;
+
+  /// Stop listening; no callback after this. Connections not accepted yet are reset by the kernel, handshakes
+  /// under way are broken off.
+  void close();
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace naiad

@@ -1,0 +1,96 @@
+// A ClientSession on a fake channel, with hand-made messages of a server and a clock that stands still.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+
+#include "FakeChannel.h"
+#include "client/session/ClientSession.h"
+#include "shared/replica/SnapshotCodec.h"
+#include "shared/replica/UpdateCodec.h"
+
+namespace naiad::test {
+
+class ClientSessionFixture : public testing::Test {
+ protected:
+  void SetUp() override {
+    SessionOptions options;
+    options.name = "Ada";
+    options.game = "saucershoot";
+    options.program = "test 1";
+    options.columns = 100;
+    options.rows = 40;
+    session = std::make_unique<ClientSession>(std::make_unique<FakeChannel>(log), options, now);
+  }
+
+  void receive(const wire::ServerMessage& message) { session->receive(message.SerializeAsString(), now); }
+
+  static wire::ServerMessage welcomeMessage() {
+    wire::ServerMessage message;
+    wire::Welcome& welcome = *message.mutable_welcome();
+    welcome.set_player(3);
+    welcome.set_name("Ada");
+    welcome.set_game("saucershoot");
+    welcome.set_tick_micros(33333);
+    welcome.set_view_width(80);
+    welcome.set_view_height(24);
+    welcome.set_color(df::CYAN);
+    welcome.set_server("dfserver 0.1");
+    welcome.add_help("Space fires.");
+    return message;
+  }
+  void join() { receive(welcomeMessage()); }
+
+  /// Object 5 at (10, 4), and the newest input that the game has had, if any.
+  static wire::ServerMessage snapshotMessage(std::uint32_t number, std::uint32_t tick,
+                                             std::uint32_t input = 0) {
+    SnapshotHeader header;
+    header.number = number;
+    header.tick = tick;
+    header.tells_input = input != 0;
+    header.input = input;
+    header.input_tick = tick;
+    SnapshotWriter out;
+    out.begin(header, 0, {});
+    ObjectState state;
+    state.motion = {tick, {df::fromCells(10), df::fromCells(4)}, {}, {}};
+    state.look.sequence = {{Glyph{0, 0, U'@', df::RED}}};
+    BitWriter bits;
+    out.encode(bits, kAllGroups, 1, state, state.motion);
+    out.object(5, std::move(bits));
+    wire::ServerMessage message;
+    message.set_snapshot(out.finish());
+    return message;
+  }
+  void snapshot(std::uint32_t number, std::uint32_t tick) { receive(snapshotMessage(number, tick)); }
+
+  void expectRejected() {
+    EXPECT_EQ(session->state(), ClientSession::State::kEnded);
+    EXPECT_FALSE(session->sentence().empty());
+    EXPECT_EQ(session->counters().bad_messages, 1u);
+    EXPECT_TRUE(log->closed);
+  }
+
+  const wire::ClientMessage& last() const { return log->sent.back(); }
+  /// The last message, which must be an update.
+  ClientUpdate lastUpdate() const {
+    EXPECT_EQ(last().what_case(), wire::ClientMessage::kUpdate);
+    const SnapshotContext& newest = session->replica().newest();
+    const auto update = readUpdate(last().update(), {newest.number, newest.tick, newest.input});
+    EXPECT_TRUE(update);
+    return update.value_or(ClientUpdate{});
+  }
+  Input lastInput() const {
+    const ClientUpdate update = lastUpdate();
+    EXPECT_FALSE(update.inputs.empty());
+    return update.inputs.empty() ? Input{} : update.inputs.back();
+  }
+
+  std::shared_ptr<FakeChannel::Log> log = std::make_shared<FakeChannel::Log>();
+  ClientSession::Time now = ClientSession::Time{} + std::chrono::hours(1);
+  std::unique_ptr<ClientSession> session;
+};
+
+}  // namespace naiad::test

@@ -1,0 +1,159 @@
+// What a server may send to harm a client, and what becomes of it.
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "ClientSessionFixture.h"
+#include "shared/net/base/Limits.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using State = ClientSession::State;
+
+class HostileServerTest : public test::ClientSessionFixture {};
+
+TEST_F(HostileServerTest, ChatIsCutFilteredAndBounded) {
+  join();
+  wire::ServerMessage players;
+  auto* entry = players.mutable_players()->add_players();
+  entry->set_player(9);
+  entry->set_name("Bob");
+  entry->set_color(df::GREEN);
+  receive(players);
+  for (int i = 0; i < 300; ++i) {
+    wire::ServerMessage message;
+    message.mutable_chat()->set_player(9);
+    message.mutable_chat()->set_text("\033]0;owned\007" + std::string(500, 'x'));
+    receive(message);
+  }
+  EXPECT_EQ(session->chat().size(), ClientSession::kMaxChatLog);
+  EXPECT_EQ(session->chat().back().name, "Bob");
+  EXPECT_EQ(session->chat().back().color, df::GREEN);
+  EXPECT_EQ(session->chat().back().text.size(), kMaxChatLength);
+  EXPECT_EQ(session->chat().back().text.substr(0, 10), "?]0;owned?");
+  EXPECT_EQ(session->counters().chat_lines, 300u);
+}
+
+TEST_F(HostileServerTest, SendsOnlyDrawableChat) {
+  join();
+  const std::size_t before = log->sent.size();
+  session->sendChat("   ");
+  EXPECT_EQ(log->sent.size(), before);
+  session->sendChat("a\033b" + std::string(400, 'c'));
+  EXPECT_EQ(last().chat().text().substr(0, 4), "a?bc");
+  EXPECT_EQ(last().chat().text().size(), kMaxChatLength);
+}
+
+TEST_F(HostileServerTest, HostileNamesAreMadeHarmless) {
+  wire::ServerMessage message = welcomeMessage();
+  message.mutable_welcome()->set_name(
+      "\033[2J\xE2\x80\xAE"
+      "abcdefghijklmnopqrstuvwxyz");
+  message.mutable_welcome()->set_server(std::string(5000, 'v'));
+  receive(message);
+  ASSERT_EQ(session->state(), State::kPlaying);
+  EXPECT_EQ(session->welcome().name, "?[2J?abcdefghijk");
+  EXPECT_EQ(session->welcome().server.size(), 40u);
+}
+
+TEST_F(HostileServerTest, EndsOnBytesThatAreNoMessage) {
+  session->receive("\xff\xff\xff garbage", now);
+  expectRejected();
+  const std::size_t sent = log->sent.size();
+  join();
+  EXPECT_EQ(log->sent.size(), sent) << "nothing is heard after the end";
+  EXPECT_EQ(session->state(), State::kEnded);
+}
+
+TEST_F(HostileServerTest, EndsOnAnEmptyMessage) {
+  receive({});
+  expectRejected();
+}
+
+TEST_F(HostileServerTest, EndsOnASnapshotBeforeTheWelcome) {
+  snapshot(1, 1);
+  expectRejected();
+}
+
+TEST_F(HostileServerTest, EndsOnAPongBeforeTheWelcome) {
+  wire::ServerMessage message;
+  message.mutable_pong()->set_token(1);
+  receive(message);
+  expectRejected();
+}
+
+TEST_F(HostileServerTest, EndsOnASecondWelcome) {
+  join();
+  join();
+  expectRejected();
+}
+
+TEST_F(HostileServerTest, EndsOnAMalformedSnapshot) {
+  join();
+  wire::ServerMessage message = snapshotMessage(1, 100);
+  message.mutable_snapshot()->append("\xee\xee\xee");
+  receive(message);
+  expectRejected();
+  EXPECT_EQ(session->replica().aliveCount(), 0u) << "no record of a bad snapshot is applied";
+}
+
+TEST_F(HostileServerTest, EndsOnASnapshotWithoutANumber) {
+  join();
+  snapshot(0, 100);
+  expectRejected();
+}
+
+TEST_F(HostileServerTest, EndsOnAWelcomeOutOfRange) {
+  const std::vector<std::function<void(wire::Welcome&)>> lies = {
+      [](wire::Welcome& w) { w.set_player(0); },
+      [](wire::Welcome& w) { w.set_tick_micros(0); },
+      [](wire::Welcome& w) { w.set_tick_micros(4000000000u); },
+      [](wire::Welcome& w) { w.set_view_width(0); },
+      [](wire::Welcome& w) { w.set_view_width(100000); },
+      [](wire::Welcome& w) { w.set_view_height(4000000000u); },
+      [](wire::Welcome& w) { w.set_color(8); },
+      [](wire::Welcome& w) {
+        for (int i = 0; i < 1000; ++i) w.add_help(std::string(3, 'x'));
+      },
+  };
+  for (const auto& lie : lies) {
+    SetUp();
+    log->closed = false;
+    wire::ServerMessage message = welcomeMessage();
+    lie(*message.mutable_welcome());
+    receive(message);
+    expectRejected();
+  }
+}
+
+TEST_F(HostileServerTest, EndsOnAPlayerListOutOfRange) {
+  join();
+  wire::ServerMessage message;
+  message.mutable_players()->add_players()->set_player(1);
+  message.mutable_players()->mutable_players(0)->set_color(200);
+  receive(message);
+  expectRejected();
+}
+
+TEST_F(HostileServerTest, SurvivesMutatedMessages) {
+  std::mt19937 random(11);
+  const std::string seeds[] = {welcomeMessage().SerializeAsString(),
+                               snapshotMessage(1, 100).SerializeAsString()};
+  for (int i = 0; i < 3000; ++i) {
+    SetUp();
+    join();
+    std::string frame = seeds[random() % 2];
+    for (unsigned k = 0; k < 1 + random() % 4; ++k)
+      frame[random() % frame.size()] = static_cast<char>(random());
+    if (random() % 4 == 0) frame.resize(random() % frame.size());
+    session->receive(frame, now);
+    session->replica().render(session->displayTick(now + 1s));
+    log->sent.clear();
+  }
+}
+
+}  // namespace
+}  // namespace naiad

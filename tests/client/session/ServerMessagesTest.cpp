@@ -1,0 +1,214 @@
+// Whatever a server says, what the client takes in is in its ranges, and its texts are fit for a terminal.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "client/session/ServerMessages.h"
+#include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/replica/Limits.h"
+#include "shared/values/Canvas.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/support/HostileTexts.h"
+
+namespace naiad {
+namespace {
+
+void expectSafe(const std::string& text, std::size_t most) {
+  const std::u32string characters = df::decodeUtf8(text);
+  EXPECT_LE(characters.size(), most);
+  EXPECT_TRUE(std::all_of(characters.begin(), characters.end(), df::isDrawable)) << text;
+}
+
+void expectGood(const WelcomeMessage& welcome) {
+  EXPECT_NE(welcome.player, 0u);
+  expectSafe(welcome.name, kMaxNameLength);
+  expectSafe(welcome.game, kMaxProgramLength);
+  expectSafe(welcome.server, kMaxProgramLength);
+  EXPECT_GE(welcome.tick, std::chrono::milliseconds(1));
+  EXPECT_LE(welcome.tick, std::chrono::seconds(1));
+  EXPECT_TRUE(welcome.view_width >= 1 && welcome.view_width <= kMaxViewWidth);
+  EXPECT_TRUE(welcome.view_height >= 1 && welcome.view_height <= kMaxViewHeight);
+  EXPECT_LT(static_cast<unsigned>(welcome.color), 8u);
+  EXPECT_LE(welcome.help.size(), kMaxHelpLines);
+  for (const std::string& line : welcome.help) expectSafe(line, kMaxHelpLength);
+  EXPECT_LE(welcome.aead, 2u);
+  EXPECT_LE(welcome.resume_token.size(), 64u);
+}
+
+void expectGood(const PlayersMessage& message) {
+  EXPECT_LE(message.players.size(), kMaxPlayers);
+  for (const PlayerLine& line : message.players) {
+    EXPECT_NE(line.player, 0u);
+    expectSafe(line.name, kMaxNameLength);
+    EXPECT_LT(static_cast<unsigned>(line.color), 8u);
+    EXPECT_LE(line.rtt_millis, 99'999u);
+  }
+}
+
+void expectGood(const ChatMessage& chat) {
+  expectSafe(chat.text, kMaxChatLength);
+}
+void expectGood(const RefusedMessage& refused) {
+  expectSafe(refused.sentence, kMaxSentenceLength);
+}
+void expectGood(const GoodbyeMessage& goodbye) {
+  expectSafe(goodbye.sentence, kMaxSentenceLength);
+}
+void expectGood(const SoundsMessage& message) {
+  EXPECT_LE(message.sounds.size(), kMaxSounds);
+  for (const SoundLine& sound : message.sounds) {
+    expectSafe(sound.label, kMaxSoundLabel);
+    EXPECT_LE(sound.action, SoundLine::Action::kStop);
+  }
+}
+void expectGood(const PongMessage&) {}
+void expectGood(const SnapshotMessage& snapshot) {
+  EXPECT_LE(snapshot.bytes.size(), kMaxServerFrame);
+}
+
+void expectGood(const ServerMessageValue& value) {
+  std::visit([](const auto& message) { expectGood(message); }, value);
+}
+
+/// One of each kind, every field of it set.
+std::vector<wire::ServerMessage> validMessages(const std::string& text) {
+  std::vector<wire::ServerMessage> all(8);
+  wire::Welcome& welcome = *all[0].mutable_welcome();
+  welcome.set_player(1);
+  welcome.set_name(text);
+  welcome.set_game(text);
+  welcome.set_server(text);
+  welcome.set_tick_micros(33'333);
+  welcome.set_view_width(kMaxViewWidth);
+  welcome.set_view_height(kMaxViewHeight);
+  welcome.set_color(7);
+  for (std::size_t i = 0; i < kMaxHelpLines; ++i) welcome.add_help(text);
+  welcome.set_tick(1000);
+  welcome.set_connection_id(77);
+  welcome.set_aead(2);
+  welcome.set_epoch(1);
+  welcome.set_resume_token("0123456789abcdef");
+  all[1].set_snapshot("snapshot");
+  for (std::uint32_t i = 1; i <= 5; ++i) {
+    wire::PlayerEntry& entry = *all[2].mutable_players()->add_players();
+    entry.set_player(i);
+    entry.set_name(text);
+    entry.set_color(i);
+    entry.set_score(-7);
+    entry.set_rtt_millis(40);
+  }
+  all[3].mutable_chat()->set_player(1);
+  all[3].mutable_chat()->set_text(text);
+  all[4].mutable_refused()->set_reason(wire::Refused::BUSY);
+  all[4].mutable_refused()->set_sentence(text);
+  all[5].mutable_goodbye()->set_sentence(text);
+  all[6].mutable_pong()->set_token(9);
+  for (std::size_t i = 0; i < kMaxSounds; ++i) {
+    wire::Sound& sound = *all[7].mutable_sounds()->add_sounds();
+    sound.set_label(text);
+    sound.set_action(wire::Sound::STOP);
+    sound.set_music(true);
+    sound.set_loop(true);
+    sound.set_player(3);
+  }
+  return all;
+}
+
+TEST(ServerMessages, ValidOnesAreTakenIn) {
+  for (const wire::ServerMessage& message : validMessages("Ann"))
+    EXPECT_TRUE(readServerMessage(message.SerializeAsString())) << message.what_case();
+}
+
+TEST(ServerMessages, MutatedOnesAreRefusedOrGood) {
+  SplitMix64 random(3);
+  std::size_t taken = 0;
+  for (int i = 0; i < 40'000; ++i) {
+    const auto messages = validMessages(test::hostileText(random));
+    std::string bytes = messages[random.below(messages.size())].SerializeAsString();
+    for (std::uint64_t k = 0; k < 1 + random.below(3); ++k) {
+      const std::size_t at = random.below(bytes.size());
+      switch (random.below(4)) {
+        case 0:
+          bytes[at] = static_cast<char>(random.next());
+          break;
+        case 1:
+          bytes[at] ^= static_cast<char>(1 << random.below(8));
+          break;
+        case 2:
+          bytes.insert(at, 1, static_cast<char>(random.next()));
+          break;
+        default:
+          bytes.erase(at, 1);
+      }
+      if (bytes.empty()) bytes.push_back('\0');
+    }
+    const auto value = readServerMessage(bytes);
+    if (!value) continue;
+    ++taken;
+    expectGood(*value);
+    ASSERT_FALSE(HasFailure()) << "message " << i;
+  }
+  EXPECT_GT(taken, 1'000u) << "mutations that leave a message";
+}
+
+TEST(ServerMessages, EveryNumberHasItsRange) {
+  const std::uint32_t numbers[] = {0, 1, 7, 8, 400, 401, 999, 1'000, 1'000'001, 0x7FFFFFFF, 0xFFFFFFFF};
+  for (const std::uint32_t number : numbers) {
+    auto messages = validMessages("Ann");
+    std::vector<wire::ServerMessage> changed;
+    const auto with = [&](int which, auto change) {
+      changed.push_back(messages[static_cast<std::size_t>(which)]);
+      change(changed.back());
+    };
+    with(0, [&](auto& m) { m.mutable_welcome()->set_player(number); });
+    with(0, [&](auto& m) { m.mutable_welcome()->set_tick_micros(number); });
+    with(0, [&](auto& m) { m.mutable_welcome()->set_view_width(number); });
+    with(0, [&](auto& m) { m.mutable_welcome()->set_view_height(number); });
+    with(0, [&](auto& m) { m.mutable_welcome()->set_color(number); });
+    with(0, [&](auto& m) { m.mutable_welcome()->set_aead(number); });
+    with(2, [&](auto& m) { m.mutable_players()->mutable_players(4)->set_player(number); });
+    with(2, [&](auto& m) { m.mutable_players()->mutable_players(4)->set_color(number); });
+    with(2, [&](auto& m) { m.mutable_players()->mutable_players(4)->set_rtt_millis(number); });
+    with(7, [&](auto& m) {
+      m.mutable_sounds()->mutable_sounds(1)->set_action(static_cast<wire::Sound::Action>(number));
+    });
+    for (const wire::ServerMessage& message : changed) {
+      if (const auto value = readServerMessage(message.SerializeAsString())) expectGood(*value);
+    }
+  }
+}
+
+TEST(ServerMessages, MoreSoundsThanMayBeAreRefused) {
+  wire::ServerMessage message = validMessages("fire")[7];
+  const auto value = readServerMessage(message.SerializeAsString());
+  ASSERT_TRUE(value);
+  const auto& read = std::get<SoundsMessage>(*value);
+  ASSERT_EQ(read.sounds.size(), kMaxSounds);
+  EXPECT_EQ(read.sounds[2], (SoundLine{"fire", SoundLine::Action::kStop, true, true, 3}));
+  message.mutable_sounds()->add_sounds();
+  EXPECT_FALSE(readServerMessage(message.SerializeAsString()));
+}
+
+TEST(ServerMessages, SoundsThatDoWhatNobodyKnowsAreRefused) {
+  wire::ServerMessage message;
+  message.mutable_sounds()->add_sounds()->set_action(static_cast<wire::Sound::Action>(3));
+  EXPECT_FALSE(readServerMessage(message.SerializeAsString()));
+}
+
+TEST(ServerMessages, TextsOfEveryHostileClassAreMadeHarmless) {
+  for (const test::HostileText& hostile : test::hostileTexts()) {
+    SCOPED_TRACE(hostile.what);
+    for (const wire::ServerMessage& message : validMessages("x" + hostile.bytes + "y")) {
+      // Bytes that are no UTF-8 are no message; everything else is shown with the bad ones replaced.
+      if (const auto value = readServerMessage(message.SerializeAsString())) expectGood(*value);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,234 @@
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <random>
+
+#include "client/terminal/InputDecoder.h"
+
+namespace naiad {
+
+void PrintTo(const KeyEvent& e, std::ostream* out) {
+  *out << "key " << e.key << " ch " << static_cast<unsigned>(e.ch) << " action " << static_cast<int>(e.action)
+       << " modifiers " << static_cast<int>(e.modifiers);
+}
+void PrintTo(const MouseEvent& e, std::ostream* out) {
+  *out << "mouse " << e.x << "," << e.y << " button " << e.button << " action " << static_cast<int>(e.action);
+}
+
+namespace {
+
+using namespace df::Keyboard;
+using namespace std::chrono_literals;
+using Action = KeyEvent::Action;
+using Events = std::vector<TerminalEvent>;
+using Time = InputDecoder::Time;
+
+const Time kStart = Time{} + 1h;
+
+void append(Events& all, const Events& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Decode `bytes`, arriving in two pieces, and let time pass.
+Events decodeSplit(const std::string& bytes, std::size_t at) {
+  InputDecoder decoder;
+  Events events = decoder.feed(bytes.substr(0, at), kStart);
+  append(events, decoder.feed(bytes.substr(at), kStart + 5ms));
+  append(events, decoder.flush(kStart + 2s));
+  return events;
+}
+
+Events decode(const std::string& bytes) {
+  return decodeSplit(bytes, bytes.size());
+}
+
+KeyEvent key(Key k, char32_t ch = 0, std::uint8_t modifiers = 0, Action action = Action::kPress) {
+  return {k, ch, action, modifiers};
+}
+MouseEvent mouse(int x, int y, df::Mouse::Button button, MouseEvent::Action action) {
+  return {x, y, button, action};
+}
+
+struct Case {
+  const char* name;
+  std::string bytes;
+  Events events;
+};
+
+const std::vector<Case>& cases() {
+  using M = MouseEvent::Action;
+  static const std::vector<Case> all = {
+      {"lower case", "a", {key(A, U'a')}},
+      {"upper case is the same key with shift", "Q", {key(Q, U'Q', kShift)}},
+      {"digit", "7", {key(NUM7, U'7')}},
+      {"zero", "0", {key(NUM0, U'0')}},
+      {"shifted digit", "!", {key(NUM1, U'!', kShift)}},
+      {"closing parenthesis", ")", {key(NUM0, U')', kShift)}},
+      {"space", " ", {key(SPACE, U' ')}},
+      {"plus", "+", {key(PLUS, U'+', kShift)}},
+      {"question mark", "?", {key(SLASH, U'?', kShift)}},
+      {"backslash", "\\", {key(BACKSLASH, U'\\')}},
+      {"return", "\r", {key(RETURN)}},
+      {"line feed", "\n", {key(RETURN)}},
+      {"tab", "\t", {key(TAB)}},
+      {"delete byte is backspace", "\x7f", {key(BACKSPACE)}},
+      {"control c", "\x03", {key(C, 0, kControl)}},
+      {"control z", "\x1a", {key(Z, 0, kControl)}},
+      {"control bracket", "\x1d", {key(RIGHTBRACKET, 0, kControl)}},
+      {"control space", std::string(1, '\0'), {key(SPACE, 0, kControl)}},
+      {"lone escape", "\033", {key(ESCAPE)}},
+      {"escape twice", "\033\033", {key(ESCAPE), key(ESCAPE)}},
+      {"alt and a letter", "\033x", {key(X, 0, kAlt)}},
+      {"xterm up", "\033[A", {key(UPARROW)}},
+      {"application down", "\033OB", {key(DOWNARROW)}},
+      {"right, left", "\033[C\033[D", {key(RIGHTARROW), key(LEFTARROW)}},
+      {"control right", "\033[1;5C", {key(RIGHTARROW, 0, kControl)}},
+      {"shift up", "\033[1;2A", {key(UPARROW, 0, kShift)}},
+      {"rxvt shift up", "\033[a", {key(UPARROW, 0, kShift)}},
+      {"rxvt control up", "\033Oa", {key(UPARROW, 0, kControl)}},
+      {"rxvt alt up", "\033\033[A", {key(UPARROW, 0, kAlt)}},
+      {"shift tab", "\033[Z", {key(TAB, 0, kShift)}},
+      {"xterm home, end", "\033[H\033[F", {key(HOME), key(END)}},
+      {"application home, end", "\033OH\033OF", {key(HOME), key(END)}},
+      {"linux home, end", "\033[1~\033[4~", {key(HOME), key(END)}},
+      {"rxvt home, end", "\033[7~\033[8~", {key(HOME), key(END)}},
+      {"insert, delete", "\033[2~\033[3~", {key(INSERT), key(DELETE)}},
+      {"page up, page down", "\033[5~\033[6~", {key(PAGEUP), key(PAGEDOWN)}},
+      {"control delete", "\033[3;5~", {key(DELETE, 0, kControl)}},
+      {"rxvt shift delete, control delete",
+       "\033[3$\033[3^",
+       {key(DELETE, 0, kShift), key(DELETE, 0, kControl)}},
+      {"xterm F1 to F4", "\033OP\033OQ\033OR\033OS", {key(F1), key(F2), key(F3), key(F4)}},
+      {"xterm control F1", "\033[1;5P", {key(F1, 0, kControl)}},
+      {"rxvt F1 to F5",
+       "\033[11~\033[12~\033[13~\033[14~\033[15~",
+       {key(F1), key(F2), key(F3), key(F4), key(F5)}},
+      {"F6 to F12",
+       "\033[17~\033[18~\033[19~\033[20~\033[21~\033[23~\033[24~",
+       {key(F6), key(F7), key(F8), key(F9), key(F10), key(F11), key(F12)}},
+      {"linux F1 to F5",
+       "\033[[A\033[[B\033[[C\033[[D\033[[E",
+       {key(F1), key(F2), key(F3), key(F4), key(F5)}},
+      {"keypad", "\033OM\033Ok\033Op\033Oy", {key(RETURN), key(PLUS), key(NUM0), key(NUM9)}},
+      {"SGR press, release",
+       "\033[<0;10;5M\033[<0;10;5m",
+       {mouse(9, 4, df::Mouse::LEFT, M::kPress), mouse(9, 4, df::Mouse::LEFT, M::kRelease)}},
+      {"SGR right and middle",
+       "\033[<2;1;1M\033[<1;300;200M",
+       {mouse(0, 0, df::Mouse::RIGHT, M::kPress), mouse(299, 199, df::Mouse::MIDDLE, M::kPress)}},
+      {"SGR drag with control", "\033[<48;3;4M", {mouse(2, 3, df::Mouse::LEFT, M::kDrag)}},
+      {"SGR motion", "\033[<35;3;4M", {mouse(2, 3, df::Mouse::UNDEFINED_MOUSE_BUTTON, M::kMotion)}},
+      {"SGR wheel is ignored", "\033[<64;3;4M\033[<65;3;4M", {}},
+      {"X10 press, release",
+       "\033[M !!\033[M#!!",
+       {mouse(0, 0, df::Mouse::LEFT, M::kPress), mouse(0, 0, df::Mouse::LEFT, M::kRelease)}},
+      {"kitty letter", "\033[97u", {key(A, U'a')}},
+      {"kitty shifted letter with text", "\033[97:65;2;65u", {key(A, U'A', kShift)}},
+      {"kitty repeat", "\033[97;1:2u", {key(A, U'a', 0, Action::kRepeat)}},
+      {"kitty release", "\033[97;1:3u", {key(A, 0, 0, Action::kRelease)}},
+      {"kitty control c", "\033[99;5u", {key(C, 0, kControl)}},
+      {"kitty escape", "\033[27u", {key(ESCAPE)}},
+      {"kitty enter, tab, backspace", "\033[13u\033[9u\033[127u", {key(RETURN), key(TAB), key(BACKSPACE)}},
+      {"kitty arrow release", "\033[1;1:3A", {key(UPARROW, 0, 0, Action::kRelease)}},
+      {"kitty delete release", "\033[3;1:3~", {key(DELETE, 0, 0, Action::kRelease)}},
+      {"kitty F5 repeat with shift", "\033[15;2:2~", {key(F5, 0, kShift, Action::kRepeat)}},
+      {"kitty left shift down, up",
+       "\033[57441;2u\033[57441;1:3u",
+       {key(LEFTSHIFT, 0, kShift), key(LEFTSHIFT, 0, 0, Action::kRelease)}},
+      {"kitty keypad 5", "\033[57404u", {key(NUM5, U'5')}},
+      {"kitty Cyrillic with the US key", "\033[1092::97u", {key(A, U'ф')}},
+      {"kitty answer", "\033[?31u", {KittyAnswer{31}}},
+      {"modify other keys", "\033[27;5;99~", {key(C, 0, kControl)}},
+      {"UTF-8 of two, three and four bytes",
+       "é€😀",
+       {key(UNDEFINED_KEY, U'é'), key(UNDEFINED_KEY, U'€'), key(UNDEFINED_KEY, U'😀')}},
+      {"broken UTF-8", "\xc3(\xff", {key(NUM9, U'(', kShift)}},
+      {"focus", "\033[I\033[O", {}},
+      {"paste", "\033[200~hello\r\033[Aworld\033[201~b", {key(B, U'b')}},
+      {"device attributes", "\033[?62;22c\033[>41;354;0c", {}},
+      {"cursor position", "\033[12;40R", {}},
+      {"mode report", "\033[?2026;2$y", {}},
+      {"colour answer", "\033]11;rgb:0000/0000/0000\033\\\033]10;x\007", {}},
+      {"device control string", "\033P1$r0m\033\\x", {key(X, U'x')}},
+      {"unknown sequences", "\033[99~\033[1;2;3;4;5;6y\033[=5;3!p\033Oz", {}},
+      {"cancelled sequence", "\033[12\030a", {key(A, U'a')}},
+      {"sequence within a sequence", "\033[1;\033[B", {key(DOWNARROW)}},
+      {"overlong sequence", "\033[" + std::string(500, '1') + "Ax", {key(X, U'x')}},
+  };
+  return all;
+}
+
+TEST(InputDecoder, DecodesEveryForm) {
+  for (const Case& c : cases()) EXPECT_EQ(decode(c.bytes), c.events) << c.name;
+}
+
+TEST(InputDecoder, DoesNotCareWhereSequencesAreSplit) {
+  for (const Case& c : cases()) {
+    for (std::size_t at = 0; at <= c.bytes.size(); ++at) {
+      EXPECT_EQ(decodeSplit(c.bytes, at), c.events) << c.name << " split at " << at;
+    }
+  }
+}
+
+TEST(InputDecoder, DecodesByteByByte) {
+  for (const Case& c : cases()) {
+    InputDecoder decoder;
+    Events events;
+    Time now = kStart;
+    for (const char byte : c.bytes) append(events, decoder.feed(std::string(1, byte), now += 1ms));
+    append(events, decoder.flush(now + 2s));
+    EXPECT_EQ(events, c.events) << c.name;
+  }
+}
+
+TEST(InputDecoder, EscapeIsAKeyOnlyAfter25Milliseconds) {
+  InputDecoder decoder;
+  EXPECT_TRUE(decoder.feed("\033", kStart).empty());
+  ASSERT_TRUE(decoder.deadline());
+  EXPECT_EQ(*decoder.deadline(), kStart + 25ms);
+  EXPECT_TRUE(decoder.flush(kStart + 24ms).empty());
+  EXPECT_EQ(decoder.flush(kStart + 25ms), Events{key(ESCAPE)});
+  EXPECT_FALSE(decoder.deadline());
+  // What comes later is a key of its own, not part of a sequence.
+  EXPECT_EQ(decoder.feed("a", kStart + 26ms), Events{key(A, U'a')});
+}
+
+TEST(InputDecoder, LateBytesDoNotJoinAnExpiredEscape) {
+  InputDecoder decoder;
+  decoder.feed("\033", kStart);
+  EXPECT_EQ(decoder.feed("a", kStart + 30ms), (Events{key(ESCAPE), key(A, U'a')}));
+}
+
+TEST(InputDecoder, AbandonedSequenceIsForgotten) {
+  InputDecoder decoder;
+  EXPECT_TRUE(decoder.feed("\033[1;", kStart).empty());
+  EXPECT_TRUE(decoder.flush(kStart + 499ms).empty());
+  EXPECT_TRUE(decoder.flush(kStart + 500ms).empty());
+  EXPECT_EQ(decoder.feed("a", kStart + 501ms), Events{key(A, U'a')});
+}
+
+TEST(InputDecoder, RandomBytesNeitherCrashNorGrow) {
+  std::mt19937 random(7);
+  InputDecoder decoder;
+  Time now = kStart;
+  // Half of the bytes from those that begin and end sequences, so that deep states are reached.
+  const std::string frequent = "\033\033\033[[[OM<?;:0123456789uAm~P]\\\007$";
+  for (int i = 0; i < 300000; ++i) {
+    const auto raw = random();
+    const char byte = (raw & 1) != 0 ? frequent[(raw >> 8) % frequent.size()] : static_cast<char>(raw >> 8);
+    const Events events = decoder.feed(std::string(1, byte), now);
+    EXPECT_LE(events.size(), 3u);
+    EXPECT_LE(decoder.pendingBytes(), 64u);
+    for (const TerminalEvent& event : events) {
+      if (const auto* k = std::get_if<KeyEvent>(&event)) {
+        EXPECT_GE(k->key, UNDEFINED_KEY);
+        EXPECT_LT(k->key, kKeyCount);
+      }
+    }
+    now += std::chrono::microseconds(random() % 2000);
+    if (random() % 1000 == 0) now += 1s;
+  }
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,193 @@
+#include <gtest/gtest.h>
+
+#include "client/terminal/AsciiFallback.h"
+#include "client/ui/ScreenLayout.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+ScreenModel model(int width = 80, int height = 24) {
+  ScreenModel m;
+  m.view = df::Canvas(width, height);
+  m.view.put(0, 0, {U'A', df::RED});
+  m.view.put(width - 1, height - 1, {U'Z', df::BLUE});
+  m.focus = {width / 2, height / 2};
+  m.has_view = true;
+  m.round_trip = 42ms;
+  m.tick = 1200;
+  m.game = "saucershoot";
+  m.server = "dfserver 0.1";
+  m.players = {{1, "Ada", df::CYAN, 30, 42}, {2, "Bob", df::GREEN, 70, 8}};
+  m.self = 1;
+  return m;
+}
+
+bool contains(const Picture& picture, const std::string& text) {
+  for (int y = 0; y < picture.height(); ++y) {
+    if (picture.rowText(y).find(text) != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST(ScreenLayout, LargeTerminalCentresAndFramesTheView) {
+  const ScreenLayout layout = layOut(model(), 100, 30);
+  const ViewPlacement& place = layout.placement;
+  EXPECT_TRUE(place.framed);
+  EXPECT_TRUE(place.status_row);
+  EXPECT_EQ(place.left, 10);
+  EXPECT_EQ(place.top, 2);
+  EXPECT_EQ(layout.picture.at(10, 2).ch, U'A');
+  EXPECT_EQ(layout.picture.at(89, 25).ch, U'Z');
+  EXPECT_EQ(layout.picture.at(9, 1).ch, U'┌');
+  EXPECT_EQ(layout.picture.at(90, 26).ch, U'┘');
+  EXPECT_NE(layout.picture.rowText(29).find("42 ms   tick 1200   2 players"), std::string::npos);
+  EXPECT_NE(layout.picture.rowText(29).find("Ctrl-] help"), std::string::npos);
+}
+
+TEST(ScreenLayout, TerminalOfTheViewsSizeShowsAllOfItUnderACompactStatus) {
+  const ScreenLayout layout = layOut(model(), 80, 24);
+  EXPECT_FALSE(layout.placement.framed);
+  EXPECT_FALSE(layout.placement.status_row);
+  EXPECT_EQ(layout.picture.at(0, 0).ch, U'A');
+  EXPECT_NE(layout.picture.rowText(23).find("42ms t1200 2p"), std::string::npos);
+  ScreenModel without = model();
+  without.status_shown = false;
+  EXPECT_EQ(layOut(without, 80, 24).picture.at(79, 23).ch, U'Z');
+}
+
+TEST(ScreenLayout, OneRowMoreThanTheViewIsTheStatusLine) {
+  const ScreenLayout layout = layOut(model(), 80, 25);
+  EXPECT_TRUE(layout.placement.status_row);
+  EXPECT_EQ(layout.picture.at(79, 23).ch, U'Z');
+}
+
+TEST(ScreenLayout, ANoteIsInTheStatusLine) {
+  ScreenModel m = model();
+  m.note = "sound: fire";
+  const std::string row = layOut(m, 80, 25).picture.rowText(24);
+  EXPECT_NE(row.find("sound: fire  Ctrl-] help"), std::string::npos) << row;
+  EXPECT_NE(row.find("42 ms   tick 1200   2 players   0 points"), std::string::npos) << row;
+  EXPECT_NE(layOut(m, 80, 24).picture.rowText(23).find(" sound: fire  42ms t1200"), std::string::npos);
+  m.note = "music: " + std::string(40, 'x');
+  EXPECT_NE(layOut(m, 80, 24).picture.rowText(23).find(" music: " + std::string(13, 'x') + "  42ms"),
+            std::string::npos)
+      << "it must not cover the game";
+  m.status_shown = false;
+  EXPECT_FALSE(contains(layOut(m, 100, 30).picture, "music"));
+}
+
+TEST(ScreenLayout, TheBackgroundIsBehindTheViewAndNowhereElse) {
+  ScreenModel m = model();
+  m.background = df::BLUE;
+  const Picture picture = layOut(m, 100, 30).picture;
+  EXPECT_EQ(picture.background(), df::BLUE);
+  EXPECT_EQ(picture.at(10, 2).background, df::BLUE) << "behind a character";
+  EXPECT_EQ(picture.at(50, 12).background, df::BLUE) << "and behind none";
+  EXPECT_EQ(picture.at(9, 1).background, df::BLACK) << "not behind the frame";
+  EXPECT_EQ(picture.at(0, 0).background, df::BLACK);
+  EXPECT_EQ(picture.at(3, 29).background, df::BLACK) << "nor behind the status line";
+  EXPECT_EQ(layOut(model(), 100, 30).picture.background(), df::BLACK);
+}
+
+TEST(ScreenLayout, SmallTerminalIsCroppedAroundTheFocus) {
+  ScreenModel m = model();
+  m.focus = {70, 20};
+  const ScreenLayout layout = layOut(m, 40, 12);
+  EXPECT_EQ(layout.placement.view_x, 40);
+  EXPECT_EQ(layout.placement.view_y, 12);
+  EXPECT_EQ(layout.placement.toView(0, 0), (CellPosition{40, 12}));
+  m.focus = {0, 0};
+  EXPECT_EQ(layOut(m, 40, 12).placement.toView(3, 4), (CellPosition{3, 4}));
+}
+
+TEST(ScreenLayout, MouseBesideTheViewHitsNothing) {
+  const ViewPlacement place = layOut(model(), 100, 30).placement;
+  EXPECT_EQ(place.toView(9, 5), std::nullopt);
+  EXPECT_EQ(place.toView(10, 2), (CellPosition{0, 0}));
+  EXPECT_EQ(place.toView(89, 25), (CellPosition{79, 23}));
+  EXPECT_EQ(place.toView(90, 25), std::nullopt);
+}
+
+TEST(ScreenLayout, TooSmallTerminalSaysSo) {
+  EXPECT_TRUE(contains(layOut(model(), 19, 10).picture, "Terminal too small"));
+  EXPECT_TRUE(contains(layOut(model(), 80, 9).picture, "80x9, needs 20x10"));
+  EXPECT_TRUE(contains(layOut(model(), 10, 3).picture, "too small")) << "in few words where there is no room";
+  EXPECT_FALSE(contains(layOut(model(), 20, 10).picture, "small"));
+}
+
+TEST(ScreenLayout, AnySizeIsSafe) {
+  ScreenModel m = model();
+  m.help = {"Space fires."};
+  m.banner = "Server lost, looking for it again: 1.0 s";
+  m.note = "sound: fire";
+  m.chat = {{"Ada", df::CYAN, std::string(200, 'x'), {}}};
+  m.chat_text = std::string(200, 'y');
+  for (const Panel panel : {Panel::kNone, Panel::kPlayers, Panel::kHelp}) {
+    for (const bool chat : {false, true}) {
+      m.panel = panel;
+      m.chat_open = chat;
+      for (int columns = 0; columns < 120; columns += 7) {
+        for (int rows = 0; rows < 40; rows += 3) {
+          const ScreenLayout layout = layOut(m, columns, rows);
+          EXPECT_EQ(layout.picture.width(), columns);
+          if (layout.picture.cursor) {
+            EXPECT_LT(layout.picture.cursor->x, columns);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(ScreenLayout, PlayersAreListedByScore) {
+  ScreenModel m = model();
+  m.panel = Panel::kPlayers;
+  const Picture picture = layOut(m, 100, 30).picture;
+  int ada = -1;
+  int bob = -1;
+  for (int y = 0; y < 29; ++y) {
+    if (picture.rowText(y).find("Ada") != std::string::npos) ada = y;
+    if (picture.rowText(y).find("Bob") != std::string::npos) bob = y;
+  }
+  EXPECT_GE(bob, 0);
+  EXPECT_EQ(ada, bob + 1);
+  EXPECT_TRUE(contains(picture, "70"));
+}
+
+TEST(ScreenLayout, HelpShowsTheGamesLinesAndTheClientsKeys) {
+  ScreenModel m = model();
+  m.panel = Panel::kHelp;
+  m.help = {"Space fires."};
+  const Picture picture = layOut(m, 80, 24).picture;
+  EXPECT_TRUE(contains(picture, "Space fires."));
+  EXPECT_TRUE(contains(picture, "leave the game"));
+}
+
+TEST(ScreenLayout, ChatLineShowsTheEndOfALongText) {
+  ScreenModel m = model();
+  m.chat_open = true;
+  m.chat_text = std::string(100, 'a') + "END";
+  m.chat = {{"Bob", df::GREEN, "hi there", {}}, {"", df::WHITE, "Ada joined", {}}};
+  const ScreenLayout layout = layOut(m, 80, 25);
+  EXPECT_NE(layout.picture.rowText(23).find("aEND"), std::string::npos);
+  EXPECT_EQ(layout.picture.cursor, (CellPosition{79, 23}));
+  EXPECT_EQ(layout.picture.rowText(22).substr(0, 12), "* Ada joined");
+  EXPECT_EQ(layout.picture.rowText(21).substr(0, 13), "Bob: hi there");
+  EXPECT_EQ(layout.picture.at(0, 21).color, df::GREEN);
+}
+
+TEST(AsciiFallback, FindsALikeness) {
+  EXPECT_EQ(asciiFor(U'a'), 'a');
+  EXPECT_EQ(asciiFor(U'─'), '-');
+  EXPECT_EQ(asciiFor(U'│'), '|');
+  EXPECT_EQ(asciiFor(U'┌'), '+');
+  EXPECT_EQ(asciiFor(U'█'), '#');
+  EXPECT_EQ(asciiFor(U'▲'), '^');
+  EXPECT_EQ(asciiFor(U'é'), 'e');
+  EXPECT_EQ(asciiFor(U'Ж'), '?');
+}
+
+}  // namespace
+}  // namespace naiad

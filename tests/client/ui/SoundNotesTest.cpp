@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "client/ui/SoundNotes.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint32_t kSelf = 3;
+
+class SoundNotesTest : public testing::Test {
+ protected:
+  void hear(const std::string& label, std::uint32_t player = 0) {
+    notes.hear({label, SoundLine::Action::kPlay, false, false, player}, kSelf, now);
+  }
+  std::string note() const { return notes.note(now); }
+
+  SoundNotes::Time now{1h};
+  SoundNotes notes{SoundMode::kBell};
+};
+
+TEST_F(SoundNotesTest, ANoteIsSeenForAMoment) {
+  EXPECT_EQ(note(), "");
+  hear("fire");
+  EXPECT_EQ(note(), "sound: fire");
+  now += SoundNotes::kShown - 1ms;
+  EXPECT_EQ(note(), "sound: fire");
+  now += 1ms;
+  EXPECT_EQ(note(), "");
+}
+
+TEST_F(SoundNotesTest, NotesDoNotFlicker) {
+  hear("fire");
+  now += SoundNotes::kLeast - 1ms;
+  hear("boom");
+  EXPECT_EQ(note(), "sound: fire");
+  now += 1ms;
+  hear("boom");
+  EXPECT_EQ(note(), "sound: boom");
+}
+
+TEST_F(SoundNotesTest, OnesOwnIsSeenRatherThanWhatOthersDo) {
+  hear("theirs", 7);
+  EXPECT_EQ(note(), "sound: theirs");
+  hear("more of theirs", 8);
+  EXPECT_EQ(note(), "sound: theirs");
+  hear("mine", kSelf);
+  EXPECT_EQ(note(), "sound: mine");
+  hear("theirs", 7);
+  EXPECT_EQ(note(), "sound: mine");
+}
+
+TEST_F(SoundNotesTest, TheBellRingsOnceASecondAtMost) {
+  int rings = 0;
+  for (int i = 0; i < 300; ++i, now += 10ms) {
+    hear("fire", i % 2 == 0 ? 0 : kSelf);
+    rings += notes.takeBell() ? 1 : 0;
+  }
+  EXPECT_EQ(rings, 3);
+}
+
+TEST_F(SoundNotesTest, TheBellRingsNeitherForMusicNorForOthers) {
+  hear("theirs", 7);
+  notes.hear({"theme", SoundLine::Action::kPlay, true, true, 0}, kSelf, now);
+  notes.hear({"fire", SoundLine::Action::kStop, false, false, 0}, kSelf, now);
+  EXPECT_FALSE(notes.takeBell());
+  hear("mine", kSelf);
+  EXPECT_TRUE(notes.takeBell());
+  EXPECT_FALSE(notes.takeBell());
+}
+
+TEST_F(SoundNotesTest, WhatStopsIsNoNoteAndTakesItsOwnAway) {
+  notes.hear({"theme", SoundLine::Action::kPlay, true, true, 0}, kSelf, now);
+  EXPECT_EQ(note(), "music: theme");
+  notes.hear({"fire", SoundLine::Action::kStop, false, false, 0}, kSelf, now);
+  EXPECT_EQ(note(), "music: theme");
+  notes.hear({"theme", SoundLine::Action::kPause, true, false, 0}, kSelf, now);
+  EXPECT_EQ(note(), "");
+}
+
+TEST_F(SoundNotesTest, ModesAreWhatTheyAreCalled) {
+  EXPECT_EQ(soundModeFrom("bell"), SoundMode::kBell);
+  EXPECT_EQ(soundModeFrom("loud"), std::nullopt);
+  notes = SoundNotes(*soundModeFrom("note"));
+  hear("fire");
+  EXPECT_EQ(note(), "sound: fire");
+  EXPECT_FALSE(notes.takeBell());
+  notes = SoundNotes(*soundModeFrom("off"));
+  hear("fire");
+  EXPECT_EQ(note(), "");
+}
+
+}  // namespace
+}  // namespace naiad

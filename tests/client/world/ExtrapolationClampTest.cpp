@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include "client/world/ExtrapolationClamp.h"
+#include "client/world/Surroundings.h"
+#include "shared/values/SplitMix64.h"
+#include "shared/values/Vector.h"
+
+namespace naiad {
+namespace {
+
+using df::FixedVector;
+using df::fromCells;
+using df::kFixedOne;
+
+constexpr std::uint32_t kKnown = 50;
+
+FixedVector at(double x, double y) {
+  return *df::toFixed(df::Vector(x, y));
+}
+
+class ExtrapolationClampTest : public testing::Test {
+ protected:
+  std::uint32_t add(FixedVector position, FixedVector velocity = {}, df::Solidness solidness = df::HARD,
+                    df::FixedBox box = {{-kFixedOne / 2, -kFixedOne / 2}, {kFixedOne, kFixedOne}}) {
+    ObjectRecord record{m_slot, 1, kAllGroups, {}};
+    record.state.order = m_slot;
+    record.state.motion = {kKnown, position, velocity, {}};
+    record.state.body = {box, solidness, false};
+    Snapshot snapshot;
+    snapshot.header.number = ++m_number;
+    snapshot.header.tick = kKnown;
+    snapshot.records.objects = {record};
+    replica.apply(snapshot);
+    return m_slot++;
+  }
+  FixedVector clamped(std::uint32_t slot, std::uint32_t ahead) const {
+    return clampedPosition(replica, replica.find(slot)->state, kKnown, kKnown + ahead);
+  }
+  Replica replica;
+
+ private:
+  std::uint32_t m_slot = 1;
+  std::uint32_t m_number = 0;
+};
+
+TEST_F(ExtrapolationClampTest, WhatFliesIntoAWallIsDrawnBeforeIt) {
+  const auto ball = add(at(10, 5), at(1, 0));
+  add(at(14, 5));
+  EXPECT_EQ(clamped(ball, 0), at(10, 5));
+  EXPECT_EQ(clamped(ball, 2), at(12, 5));
+  EXPECT_EQ(clamped(ball, 3), at(12, 5));  // at 13 it would touch the wall
+  EXPECT_EQ(clamped(ball, 8), at(12, 5));
+}
+
+TEST_F(ExtrapolationClampTest, OnlyWhatIsHardMindsAndIsMinded) {
+  const auto ghost = add(at(10, 5), at(1, 0), df::SOFT);
+  const auto ball = add(at(10, 9), at(1, 0));
+  add(at(14, 5));
+  add(at(14, 9), {}, df::SOFT);
+  add(at(15, 9), {}, df::SPECTRAL);
+  EXPECT_EQ(clamped(ghost, 6), at(16, 5));
+  EXPECT_EQ(clamped(ball, 6), at(16, 9));
+}
+
+TEST_F(ExtrapolationClampTest, WhatTouchedBeforeIsNoObstacle) {
+  const auto ball = add(at(10, 5), at(0, 1));
+  add(at(11, 5), {}, df::HARD, {{-kFixedOne / 2, -kFixedOne * 8}, {kFixedOne, kFixedOne * 16}});
+  EXPECT_EQ(clamped(ball, 5), at(10, 10));
+}
+
+TEST_F(ExtrapolationClampTest, WallsThatMoveAreWhereTheyAreAtThatTick) {
+  const auto ball = add(at(10, 5), at(1, 0));
+  add(at(14, 5), at(0, 2));  // out of the way in time
+  EXPECT_EQ(clamped(ball, 6), at(16, 5));
+}
+
+TEST_F(ExtrapolationClampTest, LongExtrapolationsAndThePastAreAsModelled) {
+  const auto ball = add(at(10, 5), at(1, 0));
+  add(at(14, 5));
+  EXPECT_EQ(clamped(ball, ExtrapolationClamp::kMaxTicks + 1), at(27, 5));
+  EXPECT_EQ(clampedPosition(replica, replica.find(ball)->state, kKnown, kKnown - 2), at(8, 5));
+}
+
+/// The rule in its plainest form: all against all, tick by tick.
+FixedVector plainly(const Replica& replica, const ObjectState& mover, std::uint32_t drawn) {
+  const auto touches = [&](const ObjectState& other, std::uint32_t tick) {
+    const bool moved = tick == kKnown || other.order < mover.order;
+    return df::intersects(*boxAt(mover.body, positionAt(mover.motion, tick)),
+                          *boxAt(other.body, positionAt(other.motion, moved ? tick : tick - 1)));
+  };
+  if (mover.body.solidness != df::HARD) return positionAt(mover.motion, drawn);
+  for (std::uint32_t tick = kKnown + 1; tick != drawn + 1; ++tick) {
+    for (const auto& [slot, entry] : replica.entries()) {
+      const ObjectState& other = entry.state;
+      if (other.order == mover.order || other.body.solidness != df::HARD || touches(other, kKnown)) continue;
+      if (touches(other, tick)) return positionAt(mover.motion, tick - 1);
+    }
+  }
+  return positionAt(mover.motion, drawn);
+}
+
+TEST_F(ExtrapolationClampTest, EqualsThePlainRuleForRandomCrowds) {
+  int held = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SplitMix64 rng(seed);
+    replica = Replica();
+    for (int i = 0; i < 200; ++i) {
+      const bool large = rng.below(20) == 0;
+      const auto side = [&] { return 0.5 + rng.unit() * (large ? 90 : 3); };
+      const double w = side();
+      const double h = side();
+      const double x = rng.unit() * 160 - 40;
+      const double y = rng.unit() * 80 - 40;
+      const double vx = rng.below(2) == 0 ? 0 : rng.unit() * 4 - 2;
+      const double vy = rng.below(2) == 0 ? 0 : rng.unit() * 2 - 1;
+      add(at(x, y), at(vx, vy), static_cast<df::Solidness>(rng.below(3)), {at(-w / 2, -h / 2), at(w, h)});
+    }
+    const auto drawn = kKnown + 1 + static_cast<std::uint32_t>(rng.below(8));
+    const ExtrapolationClamp clamp(replica, kKnown, drawn);
+    for (const auto& [slot, entry] : replica.entries()) {
+      const FixedVector wanted = plainly(replica, entry.state, drawn);
+      EXPECT_EQ(clamp.positionOf(entry.state), wanted) << "seed " << seed << " slot " << slot;
+      held += wanted != positionAt(entry.state.motion, drawn) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(held, 300);
+}
+
+}  // namespace
+}  // namespace naiad

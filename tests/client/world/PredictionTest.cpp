@@ -1,0 +1,243 @@
+#include <gtest/gtest.h>
+
+#include "client/world/DrawnPlacement.h"
+#include "client/world/Prediction.h"
+
+namespace naiad {
+namespace {
+
+using df::FixedVector;
+using df::fromCells;
+using df::KEY_PRESSED;
+using df::kFixedOne;
+using df::Keyboard::D;
+using df::Keyboard::S;
+
+constexpr std::uint32_t kTick = 100;
+constexpr std::uint32_t kOwnSlot = 7;
+
+FixedVector cells(int x, int y) {
+  return {fromCells(x), fromCells(y)};
+}
+
+ObjectRecord object(std::uint32_t slot, FixedVector at, FixedVector velocity = {},
+                    df::Solidness solidness = df::HARD) {
+  ObjectRecord record{slot, 1, kAllGroups, {}};
+  record.state.order = slot;
+  record.state.motion = {kTick, at, velocity, {}};
+  record.state.look.sequence = {{Glyph{0, 0, U'@', df::WHITE}}};
+  record.state.body = {{{-kFixedOne / 2, -kFixedOne / 2}, {kFixedOne, kFixedOne}}, solidness, false};
+  return record;
+}
+
+Records objects(std::vector<ObjectRecord> list) {
+  Records records;
+  records.objects = std::move(list);
+  return records;
+}
+
+void apply(Replica& replica, std::uint32_t number, Records records) {
+  Snapshot snapshot;
+  snapshot.header.number = number;
+  snapshot.header.tick = kTick;
+  snapshot.records = std::move(records);
+  replica.apply(snapshot);
+}
+
+/// The own ship at (10,10), a step to the right for D, a step down for S.
+class PredictionTest : public testing::Test {
+ protected:
+  PredictionTest() {
+    table.rows = {{D, KEY_PRESSED, df::ControlEffect::kStep, true, true, cells(1, 0)},
+                  {S, KEY_PRESSED, df::ControlEffect::kStep, true, true, cells(0, 1)}};
+    prediction.setTable(table);
+    hear(objects({object(kOwnSlot, cells(10, 10))}));
+    prediction.take(answer(kTick, 0, cells(10, 10)));
+  }
+  void hear(Records records) { apply(replica, ++number, std::move(records)); }
+  static ControlRecord answer(std::uint32_t tick, std::uint32_t newest, FixedVector at) {
+    ControlRecord record;
+    record.tick = tick;
+    record.slot = kOwnSlot;
+    record.generation = 1;
+    record.newest_input = newest;
+    record.position = at;
+    record.state.steering = true;
+    return record;
+  }
+  FixedVector at(std::uint32_t tick) {
+    prediction.run(replica, tick);
+    return prediction.position();
+  }
+
+  df::ControlTable table;
+  Replica replica;
+  Prediction prediction;
+  std::uint32_t number = 0;
+};
+
+TEST_F(PredictionTest, NothingIsPredictedWithoutTableStateOrObject) {
+  Prediction other;
+  other.run(replica, kTick);
+  EXPECT_FALSE(other.isActive());
+  other.take(answer(kTick, 0, cells(10, 10)));
+  other.run(replica, kTick);
+  EXPECT_FALSE(other.isActive());
+  other.setTable(table);
+  other.run(replica, kTick);
+  EXPECT_TRUE(other.isActive());
+  other.run(Replica(), kTick);
+  EXPECT_FALSE(other.isActive());
+  ControlRecord nobody = answer(kTick + 1, 0, {});
+  nobody.generation = 0;
+  other.take(nobody);
+  other.run(replica, kTick + 1);
+  EXPECT_FALSE(other.isActive());
+}
+
+TEST_F(PredictionTest, AnInputCountsFromItsTickOn) {
+  prediction.press(1, D, KEY_PRESSED, kTick + 5);
+  EXPECT_EQ(at(kTick + 4), cells(10, 10));
+  EXPECT_EQ(at(kTick + 5), cells(11, 10));
+  EXPECT_EQ(at(kTick + 9), cells(11, 10));
+}
+
+TEST_F(PredictionTest, NoInputComesBeforeOneThatWasSentEarlier) {
+  prediction.press(1, D, KEY_PRESSED, kTick + 5);
+  prediction.press(2, S, KEY_PRESSED, kTick + 3);
+  prediction.take(answer(kTick + 1, 1, cells(10, 10)));
+  EXPECT_EQ(at(kTick + 4), cells(10, 10));
+  EXPECT_EQ(at(kTick + 5), cells(10, 11));
+}
+
+TEST_F(PredictionTest, AnswersTakeTheirInputsAway) {
+  prediction.press(1, D, KEY_PRESSED, kTick + 2);
+  prediction.press(2, S, KEY_PRESSED, kTick + 6);
+  EXPECT_EQ(at(kTick + 8), cells(11, 11));
+  prediction.take(answer(kTick + 3, 1, cells(11, 10)));
+  EXPECT_EQ(prediction.unanswered(), 1u);
+  EXPECT_EQ(at(kTick + 8), cells(11, 11));
+  EXPECT_EQ(prediction.counters().confirmed, 1u);
+  EXPECT_EQ(prediction.counters().mispredicted, 0u);
+}
+
+TEST_F(PredictionTest, AnInputThatIsLateIsExpectedWithTheNextTick) {
+  prediction.press(1, D, KEY_PRESSED, kTick + 2);
+  EXPECT_EQ(at(kTick + 6), cells(11, 10));
+  prediction.take(answer(kTick + 4, 0, cells(10, 10)));  // it has not arrived
+  EXPECT_EQ(prediction.counters().mispredicted, 1u);
+  EXPECT_EQ(at(kTick + 4), cells(10, 10));
+  EXPECT_EQ(at(kTick + 5), cells(11, 10));
+}
+
+TEST_F(PredictionTest, TheNextPictureIsTheNewReplay) {
+  prediction.press(1, D, KEY_PRESSED, kTick + 2);
+  prediction.press(2, D, KEY_PRESSED, kTick + 5);
+  at(kTick + 5);
+  prediction.take(answer(kTick + 3, 1, cells(30, 5)));  // somebody carried the ship away
+  EXPECT_EQ(prediction.counters().mispredicted, 1u);
+  EXPECT_EQ(at(kTick + 6), cells(31, 5));
+}
+
+TEST_F(PredictionTest, OlderAnswersAreIgnored) {
+  prediction.take(answer(kTick + 3, 0, cells(12, 10)));
+  prediction.take(answer(kTick + 2, 0, cells(50, 10)));
+  prediction.take(answer(kTick + 3, 0, cells(50, 10)));
+  EXPECT_EQ(at(kTick + 4), cells(12, 10));
+}
+
+TEST_F(PredictionTest, TicksAndInputsMayWrapAround) {
+  prediction.reset();
+  prediction.setTable(table);
+  prediction.take(answer(UINT32_MAX - 1, UINT32_MAX - 1, cells(10, 10)));
+  prediction.press(UINT32_MAX, D, KEY_PRESSED, UINT32_MAX);
+  prediction.press(1, D, KEY_PRESSED, 1);
+  EXPECT_EQ(at(2), cells(12, 10));
+  prediction.take(answer(3, 1, cells(12, 10)));
+  EXPECT_EQ(prediction.unanswered(), 0u);
+}
+
+TEST_F(PredictionTest, WhoHasMovedIsDecidedByTheOrderOfCreation) {
+  // Two blocks leave the cells on the right, one tick after the other key could use them.
+  table.rows[0] = {D, KEY_PRESSED, df::ControlEffect::kVelocity, true, true, cells(1, 0)};
+  prediction.setTable(table);
+  for (const auto& [slot, wanted] : {std::pair{kOwnSlot - 1, 11}, {kOwnSlot + 1, 10}}) {
+    Replica around;
+    apply(around, 1, objects({object(kOwnSlot, cells(10, 10)), object(slot, cells(12, 10), cells(1, 0))}));
+    Prediction ship;
+    ship.setTable(table);
+    ship.take(answer(kTick, 0, cells(10, 10)));
+    ship.press(1, D, KEY_PRESSED, kTick + 1);
+    ship.run(around, kTick + 1);
+    EXPECT_EQ(ship.position(), cells(wanted, 10)) << "slot " << slot;
+  }
+}
+
+TEST_F(PredictionTest, HardBlocksSoftDoesNotAndNoSoftMinds) {
+  for (const auto& [own, no_soft, other, wanted] : {std::tuple{df::HARD, false, df::HARD, 10},
+                                                    {df::HARD, false, df::SOFT, 11},
+                                                    {df::SOFT, false, df::HARD, 11},
+                                                    {df::SOFT, true, df::SOFT, 10},
+                                                    {df::HARD, true, df::SOFT, 10},
+                                                    {df::SPECTRAL, true, df::SOFT, 11},
+                                                    {df::HARD, true, df::SPECTRAL, 11}}) {
+    ObjectRecord me = object(kOwnSlot, cells(10, 10), {}, own);
+    me.state.body.no_soft = no_soft;
+    Replica around;
+    apply(around, 1, objects({me, object(1, cells(12, 10), {}, other)}));
+    Prediction ship;
+    ship.setTable(table);
+    ship.take(answer(kTick, 0, cells(10, 10)));
+    ship.press(1, D, KEY_PRESSED, kTick + 1);
+    ship.run(around, kTick + 1);
+    EXPECT_EQ(ship.position(), cells(wanted, 10)) << own << no_soft << other;
+  }
+}
+
+TEST_F(PredictionTest, InputsAndTicksAreBounded) {
+  for (std::uint32_t id = 1; id <= 100; ++id) prediction.press(id, D, KEY_PRESSED, kTick + 1);
+  EXPECT_EQ(prediction.unanswered(), Prediction::kMaxInputs);
+  EXPECT_EQ(prediction.counters().unpredicted, 100 - Prediction::kMaxInputs);
+  EXPECT_EQ(at(kTick + 1'000'000), cells(10 + static_cast<int>(Prediction::kMaxInputs), 10));
+}
+
+TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
+  constexpr df::Fixed kFar = df::fromCells(2'000'000'000);
+  constexpr df::Fixed kFast = df::fromCells(1 << 24);
+  hear(
+      objects({object(8, {INT64_MAX, INT64_MIN}, {INT64_MAX, 1}), object(9, {kFar, kFar}, {kFast, -kFast})}));
+  ControlRecord record = answer(kTick + 1, 0, {kFar, -kFar});
+  record.velocity = {kFast, -kFast};
+  record.acceleration = {kFast, -kFast};
+  prediction.take(record);
+  prediction.press(1, D, KEY_PRESSED, kTick + 3);
+  prediction.run(replica, kTick + 90);
+  EXPECT_EQ(prediction.position(), (FixedVector{kFar, -kFar}));
+  EXPECT_EQ(prediction.velocity(), record.velocity);
+  const ExtrapolationClamp clamp(replica, kTick, kTick + 8);
+  for (const auto& [slot, entry] : replica.entries()) {
+    EXPECT_EQ(clamp.positionOf(entry.state), positionAt(entry.state.motion, kTick + 8));
+  }
+}
+
+TEST_F(PredictionTest, ThePictureShowsTheShipAndTheViewWhereTheyWillBe) {
+  // A view of 30 by 12 in a world of 200 by 24 follows the ship at (10,10).
+  Records records = objects({object(1, cells(40, 10))});
+  records.worlds = {{{{}, cells(200, 24)}, 30, 12}};
+  records.views = {{cells(0, 4), true, kOwnSlot, 1}};
+  hear(std::move(records));
+  for (std::uint32_t i = 1; i <= 20; ++i) prediction.press(i, D, KEY_PRESSED, kTick + 1);
+  at(kTick + 1);
+  const ExtrapolationClamp clamp(replica, kTick, kTick);
+  const DrawnPlacement placement(replica, prediction, clamp);
+  EXPECT_EQ(replica.viewCorner(kTick), (CellPosition{0, 4}));
+  EXPECT_EQ(replica.viewCorner(kTick, &placement), (CellPosition{10, 4}));  // 30 is two thirds of the view
+  EXPECT_EQ(replica.focus(kTick, &placement), (CellPosition{20, 6}));
+  const df::Canvas picture = replica.render(kTick, &placement);
+  EXPECT_EQ(picture.at(20, 6).ch, U'@');
+  EXPECT_EQ(picture.at(10, 6).ch, U' ');
+  EXPECT_EQ(replica.render(kTick).at(10, 6).ch, U'@');
+}
+
+}  // namespace
+}  // namespace naiad

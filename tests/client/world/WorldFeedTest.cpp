@@ -1,0 +1,167 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "client/world/WorldFeed.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+class WorldFeedTest : public testing::Test {
+ protected:
+  /// Snapshot `number`, in which the object of that id is born.
+  void birth(std::uint32_t number, bool complete, std::uint8_t epoch = 0) {
+    take(number, complete, epoch, true);
+  }
+  /// One without records, as the server sends it to find out whether datagrams pass.
+  void probe(std::uint32_t number, bool complete) { take(number, complete, 0, false); }
+  std::size_t shown() const { return feed.shown().aliveCount(); }
+  bool hasPicture() const { return feed.hasPicture(now); }
+
+  /// One of another epoch, and what became of it.
+  WorldFeed::Taken of(std::uint8_t epoch, std::uint32_t number, bool complete) {
+    return taken(number, complete, epoch, true);
+  }
+
+  WorldFeed feed;
+  WorldFeed::Time now = WorldFeed::Time{} + 1h;
+
+ private:
+  void take(std::uint32_t number, bool complete, std::uint8_t epoch, bool born) {
+    const WorldFeed::Taken became = taken(number, complete, epoch, born);
+    EXPECT_TRUE(became == WorldFeed::Taken::kApplied || became == WorldFeed::Taken::kShown);
+  }
+  WorldFeed::Taken taken(std::uint32_t number, bool complete, std::uint8_t epoch, bool born) {
+    SnapshotHeader header;
+    header.number = number;
+    header.tick = 100;
+    header.epoch = epoch;
+    header.complete = complete;
+    SnapshotWriter out;
+    out.begin(header, 0, {});
+    ObjectState state;
+    state.motion = {header.tick, {}, {}, {}};
+    state.look.sequence = {{Glyph{0, 0, U'@', df::RED}}};
+    BitWriter bits;
+    out.encode(bits, kAllGroups, 1, state, state.motion);
+    if (born) out.object(number % 1000, bits);
+    return feed.take(out.finish(), now, header, nullptr);
+  }
+};
+
+TEST_F(WorldFeedTest, TheFirstPictureWaitsForTheWholeWorld) {
+  EXPECT_FALSE(hasPicture());
+  birth(1, false);
+  birth(2, false);
+  EXPECT_FALSE(hasPicture());
+  birth(3, true);
+  EXPECT_TRUE(hasPicture());
+  EXPECT_EQ(shown(), 3u);
+  birth(4, false);
+  birth(6, false);
+  EXPECT_TRUE(hasPicture()) << "what is born later is another matter";
+}
+
+TEST_F(WorldFeedTest, ACompleteOneThatOvertookTheOthersWaitsForThem) {
+  probe(4, true);
+  EXPECT_FALSE(hasPicture()) << "it came as a datagram; the world is on the stream";
+  birth(1, false);
+  birth(2, false);
+  probe(5, true);
+  EXPECT_FALSE(hasPicture());
+  birth(3, true);
+  EXPECT_TRUE(hasPicture());
+  EXPECT_EQ(shown(), 3u);
+}
+
+TEST_F(WorldFeedTest, WhatComesOfAnIncompleteWorldIsShownAfterAWhile) {
+  now += 10min;
+  EXPECT_FALSE(hasPicture()) << "nothing has come";
+  birth(1, false);
+  now += WorldFeed::kPatience - 1ms;
+  birth(2, false);
+  EXPECT_FALSE(hasPicture());
+  now += 1ms;
+  EXPECT_TRUE(hasPicture());
+  EXPECT_EQ(shown(), 2u);
+}
+
+TEST_F(WorldFeedTest, OneThatIsMissingIsWaitedForNoLonger) {
+  birth(1, false);
+  birth(3, true);
+  now += WorldFeed::kPatience - 1ms;
+  EXPECT_FALSE(hasPicture());
+  now += 1ms;
+  EXPECT_TRUE(hasPicture());
+}
+
+TEST_F(WorldFeedTest, MoreSnapshotsThanAreRememberedAreAWholeWorld) {
+  for (std::uint32_t number = 1; number < 200; ++number) birth(number, false);
+  EXPECT_FALSE(hasPicture());
+  birth(200, true);
+  EXPECT_TRUE(hasPicture());
+  EXPECT_EQ(shown(), 200u);
+}
+
+TEST_F(WorldFeedTest, ASessionThatGoesOnCountsFromWhereItWas) {
+  feed = WorldFeed({70'000, 100, 0}, 0);
+  birth(70'001, false);
+  EXPECT_FALSE(hasPicture());
+  birth(70'002, true);
+  EXPECT_TRUE(hasPicture());
+  EXPECT_EQ(shown(), 2u);
+}
+
+TEST_F(WorldFeedTest, AWorldThatComesAnewIsTheFirstPictureIfThereWasNone) {
+  birth(1, false);
+  birth(2, false, 1);
+  EXPECT_FALSE(hasPicture());
+  birth(3, true, 1);
+  EXPECT_TRUE(hasPicture());
+  EXPECT_EQ(shown(), 2u);
+  EXPECT_EQ(feed.resets(), 1u);
+}
+
+TEST_F(WorldFeedTest, AWorldThatComesAnewIsShownOnceItIsWhole) {
+  birth(1, true);
+  birth(2, false, 1);
+  EXPECT_TRUE(hasPicture());
+  EXPECT_EQ(shown(), 1u) << "the old one";
+  EXPECT_TRUE(feed.isChanging());
+  birth(3, false, 1);
+  birth(4, true, 1);
+  EXPECT_EQ(shown(), 3u);
+  EXPECT_FALSE(feed.isChanging());
+}
+
+TEST_F(WorldFeedTest, WhatIsLateByAnyNumberOfWorldsIsIgnored) {
+  using Taken = WorldFeed::Taken;
+  birth(1, true);
+  EXPECT_EQ(of(1, 5, true), Taken::kShown);
+  EXPECT_EQ(of(2, 8, true), Taken::kShown);
+  for (const auto& [epoch, number] : {std::pair{0, 2}, {0, 4}, {1, 6}, {1, 7}, {3, 3}})
+    EXPECT_EQ(of(static_cast<std::uint8_t>(epoch), static_cast<std::uint32_t>(number), true),
+              Taken::kIgnored);
+  EXPECT_EQ(feed.resets(), 2u);
+  EXPECT_EQ(of(2, 9, true), Taken::kApplied);
+  EXPECT_EQ(shown(), 2u);
+}
+
+TEST_F(WorldFeedTest, AWorldThatIsAwaitedGivesWayToANewerOneOnly) {
+  using Taken = WorldFeed::Taken;
+  birth(1, true);
+  EXPECT_EQ(of(1, 2, false), Taken::kApplied);
+  EXPECT_EQ(of(2, 5, false), Taken::kApplied);
+  EXPECT_EQ(of(1, 4, true), Taken::kIgnored) << "late, on another way";
+  EXPECT_EQ(of(0, 3, true), Taken::kApplied) << "to the one that is shown still";
+  EXPECT_EQ(of(2, 6, true), Taken::kShown);
+  EXPECT_EQ(shown(), 2u) << "of 5 and 6";
+  EXPECT_EQ(feed.resets(), 2u);
+}
+
+}  // namespace
+}  // namespace naiad

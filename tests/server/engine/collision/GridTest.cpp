@@ -1,0 +1,209 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/collision/Grid.h"
+#include "engine/collision/GridSteps.h"
+#include "engine/world/Random.h"
+
+namespace df::test {
+namespace {
+
+/// A grid with the arrays it reads.
+struct Filed {
+  std::vector<FixedVector> positions;
+  std::vector<FixedBox> boxes;
+  std::vector<bool> filed;
+  Grid grid{positions, boxes};
+
+  explicit Filed(std::size_t slots) : positions(slots), boxes(slots), filed(slots) {}
+  void put(Grid::Slot s, FixedVector position, const FixedBox& box) {
+    const bool only_moved = filed[s] && boxes[s] == box;
+    positions[s] = position;
+    boxes[s] = box;
+    if (only_moved) {
+      grid.refile(s);
+    } else {
+      grid.file(s);
+    }
+    filed[s] = true;
+  }
+  void remove(Grid::Slot s) {
+    grid.remove(s);
+    filed[s] = false;
+  }
+  std::vector<Grid::Slot> touching(const FixedBox& box, Grid::Slot self) const {
+    std::vector<Grid::Slot> expected;
+    for (Grid::Slot s = 0; s < filed.size(); ++s) {
+      if (filed[s] && s != self && intersects(translate(boxes[s], positions[s]), box)) expected.push_back(s);
+    }
+    return expected;
+  }
+};
+
+std::vector<Grid::Slot> sorted(std::vector<Grid::Slot> slots) {
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  return slots;
+}
+
+FixedVector randomPosition(Random& random, int spread) {
+  const auto number = [&] { return static_cast<Fixed>(random.below(spread)) * (kFixedOne / 4); };
+  return {number() - number(), number() - number()};
+}
+
+FixedBox randomBox(Random& random) {
+  const auto number = [&](int below) { return static_cast<Fixed>(random.below(below)) * (kFixedOne / 4); };
+  // Mostly characters, some sprites and walls, a few as large as boxes get.
+  const int kind = random.below(20);
+  if (kind < 10) return kCharacterBox;
+  const int size = kind == 10 ? 4000000 : kind < 14 ? 400 : kind < 18 ? 60 : 5;
+  return {{number(size) - number(size), number(size) - number(size)}, {number(size), number(size)}};
+}
+
+TEST(Grid, FindsWhatTouchesWhereverItLiesAndHoweverLarge) {
+  Random random(7);
+  for (const int spread : {20, 400, 40000, 2000000000}) {
+    Filed it(400);
+    for (int round = 0; round < 4000; ++round) {
+      const auto slot = static_cast<Grid::Slot>(random.below(400));
+      if (random.below(6) == 0) {
+        it.remove(slot);
+      } else {
+        it.put(slot, randomPosition(random, spread),
+               random.below(2) == 0 && it.filed[slot] ? it.boxes[slot] : randomBox(random));
+      }
+      const FixedBox asked = translate(randomBox(random), randomPosition(random, spread));
+      std::vector<Grid::Slot> found;
+      it.grid.touching(asked, slot, found);
+      ASSERT_EQ(sorted(found), it.touching(asked, slot)) << "spread " << spread << " round " << round;
+    }
+    ASSERT_EQ(it.grid.size(), std::count(it.filed.begin(), it.filed.end(), true));
+  }
+}
+
+// Steps of characters among characters, of characters and boxes among both.
+TEST(Grid, ABoxStepsWhereItTouchesNobody) {
+  Random random(8);
+  for (const int spread : {12, 60, 700, 2000000000}) {
+    for (const int others : {0, 25, 100}) {  // percent: none, some, nearly all
+      Filed it(1500);                        // so many that the level grows under way
+      for (int round = 0; round < 6000; ++round) {
+        const auto slot = static_cast<Grid::Slot>(random.below(1500));
+        if (!it.filed[slot]) {
+          it.put(slot, randomPosition(random, spread),
+                 random.below(100) < others ? randomBox(random) : kCharacterBox);
+          continue;
+        }
+        FixedVector where = it.positions[slot] + FixedVector{random.below(17) * kFixedOne / 8, 0} -
+                            FixedVector{kFixedOne, random.below(9) * kFixedOne / 8};
+        if (random.below(8) == 0) where = randomPosition(random, spread);
+        const std::vector<Grid::Slot> expected = it.touching(translate(it.boxes[slot], where), slot);
+        Grid::Steps steps(it.grid);
+        ASSERT_EQ(steps.isFree(slot, where), expected.empty());
+        if (expected.empty()) {
+          it.positions[slot] = where;
+          steps.take(slot);
+        } else {
+          ASSERT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected) << "spread " << spread;
+        }
+        if (round % 50 == 0) {
+          std::vector<Grid::Slot> all;
+          it.grid.touching({{fromCells(-1000000000), fromCells(-1000000000)},
+                            {fromCells(2000000000), fromCells(2000000000)}},
+                           1500, all);
+          ASSERT_EQ(sorted(all).size(), static_cast<std::size_t>(it.grid.size()));
+        }
+      }
+    }
+  }
+}
+
+TEST(Grid, ATouchIsExactHoweverCoarselyItsSpotIsKept) {
+  Random random(11);
+  // On the lines between spots, and the least possible beside them.
+  const auto number = [&] { return random.below(8 * 256) * (kFixedOne / 256) + random.below(3) - 1; };
+  int touched = 0;
+  for (const int count : {4, 12, 60}) {
+    Filed it(60);
+    for (int round = 0; round < 20000; ++round) {
+      const auto slot = static_cast<Grid::Slot>(random.below(count));
+      // The middle of a block, far from its border.
+      FixedVector where{fromCells(30) + number(), fromCells(30) + number()};
+      if (!it.filed[slot]) {
+        it.put(slot, where, kCharacterBox);
+        continue;
+      }
+      // Half of them a cell apart from somebody, or nearly so.
+      const FixedVector near = it.positions[static_cast<std::size_t>(random.below(count))];
+      if (random.below(2) == 0) where.x = near.x + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
+      if (random.below(2) == 0) where.y = near.y + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
+      const std::vector<Grid::Slot> expected = it.touching(translate(kCharacterBox, where), slot);
+      Grid::Steps steps(it.grid);
+      ASSERT_EQ(steps.isFree(slot, where), expected.empty()) << "round " << round;
+      if (expected.empty()) {
+        it.positions[slot] = where;
+        steps.take(slot);
+      } else {
+        ++touched;
+        ASSERT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected) << "round " << round;
+        if (random.below(4) == 0) it.put(slot, where, kCharacterBox);  // they may share cells
+      }
+    }
+  }
+  EXPECT_GT(touched, 10000);
+}
+
+TEST(Grid, ManyInOneCellComeAndGoInAnyOrder) {
+  Random random(9);
+  Filed it(300);
+  for (int round = 0; round < 5000; ++round) {
+    const auto slot = static_cast<Grid::Slot>(random.below(300));
+    if (it.filed[slot]) {
+      it.remove(slot);
+    } else {
+      it.put(slot, {kFixedOne * random.below(2), 0}, kCharacterBox);
+    }
+    std::vector<Grid::Slot> found;
+    it.grid.touching(kCharacterBox, 1000, found);
+    ASSERT_EQ(sorted(found), it.touching(kCharacterBox, 1000));
+  }
+}
+
+TEST(Grid, FarAwayBoxesAreNotVisited) {
+  Filed it(10000);
+  for (Grid::Slot s = 0; s < 10000; ++s) it.put(s, {fromCells(static_cast<int>(s) * 10), 0}, kCharacterBox);
+  int visited = 0;
+  it.grid.visitCorners(0, {fromCells(5000), 0}, {fromCells(5002), 0}, [&](Grid::Slot) { ++visited; });
+  EXPECT_LE(visited, 4);
+}
+
+// Boxes on the corners of a lattice whose step is a power of two must not fall onto the same few cells.
+TEST(Grid, ALatticeDoesNotPileUp) {
+  for (const int step : {64, 1024, 65536}) {
+    Filed it(10000);
+    for (Grid::Slot s = 0; s < 10000; ++s) {
+      it.put(s, {fromCells(static_cast<int>(s % 100) * step), fromCells(static_cast<int>(s / 100) * step)},
+             kCharacterBox);
+    }
+    int visited = 0;
+    for (Grid::Slot s = 0; s < 10000; ++s) {
+      const FixedVector p = it.positions[s];
+      it.grid.visitCorners(0, p - FixedVector{kFixedOne, kFixedOne}, p, [&](Grid::Slot) { ++visited; });
+    }
+    EXPECT_LE(visited, 8 * 10000) << "step " << step;
+  }
+}
+
+TEST(Grid, MemoryFollowsTheNumberOfBoxesNotTheSizeOfTheWorld) {
+  Random random(10);
+  Filed it(10000);
+  for (Grid::Slot s = 0; s < 10000; ++s) it.put(s, randomPosition(random, 4000000), kCharacterBox);
+  EXPECT_LE(it.grid.bytes(), 3u << 20);
+  for (Grid::Slot s = 100; s < 10000; ++s) it.remove(s);
+  EXPECT_LE(it.grid.bytes(), 768u << 10);
+}
+
+}  // namespace
+}  // namespace df::test

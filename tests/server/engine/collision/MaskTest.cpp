@@ -1,0 +1,199 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "engine/collision/Mask.h"
+#include "shared/values/SplitMix64.h"
+
+namespace df::test {
+namespace {
+
+Mask maskOf(const std::vector<std::string>& rows, char32_t hole = U' ') {
+  const auto mask = Mask::fromRows(rows, hole);
+  EXPECT_TRUE(mask.has_value());
+  return mask.value_or(Mask{});
+}
+
+// '#' where a character is set, '.' elsewhere.
+std::vector<std::string> picture(const Mask& mask) {
+  std::vector<std::string> rows(static_cast<std::size_t>(mask.height()));
+  for (int y = 0; y < mask.height(); ++y) {
+    for (int x = 0; x < mask.width(); ++x) rows[static_cast<std::size_t>(y)] += mask.isSet(x, y) ? '#' : '.';
+  }
+  return rows;
+}
+
+using Rows = std::vector<std::string>;
+
+TEST(Mask, BlanksAreHoles) {
+  EXPECT_EQ(picture(maskOf({"  /\\  ", " /##\\ ", "/_||_\\"})), (Rows{"..##..", ".####.", "######"}));
+}
+
+TEST(Mask, ShorterRowsArePaddedWithHoles) {
+  EXPECT_EQ(picture(maskOf({"#", "", "###", " #"})), (Rows{"#..", "...", "###", ".#."}));
+}
+
+TEST(Mask, GivenCharacterIsAHoleAsBlanksAre) {
+  EXPECT_EQ(picture(maskOf({"a.b", " .c"}, U'.')), (Rows{"#.#", "..#"}));
+  EXPECT_EQ(picture(maskOf({"█░█"}, U'░')), (Rows{"#.#"}));
+}
+
+TEST(Mask, CharactersAreCountedNotBytes) {
+  EXPECT_EQ(picture(maskOf({"é █", "ab€c"})), (Rows{"#.#.", "####"}));
+  EXPECT_EQ(picture(maskOf({"\xff \xe2\x82"})), (Rows{"#.##"})) << "a malformed byte is one character";
+}
+
+TEST(Mask, OnlyHolesAreAMaskThatMeetsNobody) {
+  const Mask mask = maskOf({"  ", " "});
+  const FixedBox box = {{}, {2 * kFixedOne, 2 * kFixedOne}};
+  EXPECT_EQ(picture(mask), (Rows{"..", ".."}));
+  EXPECT_FALSE(shareCell(&mask, box, nullptr, box));
+  EXPECT_FALSE(shareCell(&mask, box, &mask, box));
+}
+
+TEST(Mask, NothingOrTooMuchIsRefused) {
+  const auto side = static_cast<std::size_t>(Mask::kMaxSide);
+  EXPECT_FALSE(Mask::fromRows({}));
+  EXPECT_FALSE(Mask::fromRows({""}));
+  EXPECT_FALSE(Mask::fromRows({"", ""}));
+  EXPECT_FALSE(Mask::fromRows({"#", std::string(side + 1, '#')}));
+  EXPECT_FALSE(Mask::fromRows(Rows(side + 1, "#")));
+  const Mask largest = maskOf(Rows(side, std::string(side, '#')));
+  EXPECT_EQ(largest.width(), Mask::kMaxSide);
+  EXPECT_EQ(largest.height(), Mask::kMaxSide);
+  EXPECT_TRUE(largest.isSet(Mask::kMaxSide - 1, Mask::kMaxSide - 1));
+  std::string wide;
+  for (std::size_t i = 0; i < side; ++i) wide += "█";
+  EXPECT_EQ(maskOf({wide}).width(), Mask::kMaxSide) << "the limit is one of characters";
+}
+
+TEST(Mask, NothingIsSetOutside) {
+  const Mask mask = maskOf(Rows(3, std::string(70, '#')));
+  EXPECT_TRUE(mask.isSet(69, 2));
+  for (const auto& [x, y] : std::vector<std::pair<int, int>>{
+           {-1, 0}, {0, -1}, {70, 0}, {0, 3}, {127, 0}, {INT32_MIN, INT32_MIN}, {INT32_MAX, INT32_MAX}}) {
+    EXPECT_FALSE(mask.isSet(x, y)) << x << ' ' << y;
+  }
+}
+
+TEST(Mask, FirstCharacterLiesInTheCellAfterTheCorner) {
+  const Fixed half = kFixedOne / 2;
+  const auto cells = [](FixedVector corner, FixedVector size) { return drawnCells(nullptr, {corner, size}); };
+  // A character of width 1 at (7,3), the box around it.
+  const CellBox one = cells({7 * kFixedOne - half, 3 * kFixedOne - half}, {kFixedOne, kFixedOne});
+  EXPECT_EQ(one.x, 7);
+  EXPECT_EQ(one.y, 3);
+  EXPECT_EQ(one.width, 1);
+  EXPECT_EQ(one.height, 1);
+  const CellBox below_zero = cells({-1, -kFixedOne - 1}, {0, kFixedOne + 1});
+  EXPECT_EQ(below_zero.x, 0);
+  EXPECT_EQ(below_zero.y, -1);
+  EXPECT_EQ(below_zero.width, 1);
+  EXPECT_EQ(below_zero.height, 2);
+  const CellBox far = cells({fromCells(-2001000000), fromCells(2001000000)}, {fromCells(1000000), 0});
+  EXPECT_EQ(far.x, -2000999999);
+  EXPECT_EQ(far.y, 2001000001);
+  EXPECT_EQ(far.width, 1000000);
+}
+
+TEST(Mask, SideBySideSharesNoCell) {
+  const FixedVector size = {kFixedOne, kFixedOne};
+  const FixedBox a = {{0, 0}, size};
+  const FixedBox b = {{kFixedOne, 0}, size};
+  EXPECT_TRUE(intersects(a, b));
+  EXPECT_FALSE(shareCell(nullptr, a, nullptr, b));
+  EXPECT_TRUE(shareCell(nullptr, a, nullptr, translate(b, {-1, 0})));
+}
+
+TEST(Mask, HolesLetThrough) {
+  const Mask ring = maskOf({"####", "#  #", "####"});
+  const Mask dot = maskOf({"o"});
+  const FixedBox ring_box = {{}, {4 * kFixedOne, 3 * kFixedOne}};
+  const auto meets = [&](int x, int y) {
+    const FixedBox dot_box = {{fromCells(x), fromCells(y)}, {kFixedOne, kFixedOne}};
+    const bool shares = shareCell(&ring, ring_box, &dot, dot_box);
+    EXPECT_EQ(shareCell(&dot, dot_box, &ring, ring_box), shares);
+    EXPECT_EQ(shareCell(nullptr, dot_box, &ring, ring_box), shares);
+    return shares;
+  };
+  EXPECT_FALSE(meets(1, 1));
+  EXPECT_FALSE(meets(2, 1));
+  EXPECT_TRUE(meets(0, 1));
+  EXPECT_TRUE(meets(3, 1));
+  EXPECT_TRUE(meets(1, 2));
+  EXPECT_FALSE(meets(1, 3));
+  EXPECT_FALSE(meets(-1, 0));
+}
+
+TEST(Mask, FullMasksOfHugeBoxesNeedNoRows) {
+  const FixedBox huge = {{fromCells(-2001000000), fromCells(-2001000000)},
+                         {fromCells(1000000), fromCells(1000000)}};
+  FixedBox other = translate(huge, {fromCells(999999), fromCells(999999)});
+  EXPECT_TRUE(shareCell(nullptr, huge, nullptr, other));
+  EXPECT_FALSE(shareCell(nullptr, huge, nullptr, translate(other, {0, kFixedOne})));
+  const Mask dots = maskOf({"#    ", "    #"});
+  other = {{fromCells(-2001000003), fromCells(-2001000001)}, {fromCells(5), fromCells(2)}};
+  EXPECT_TRUE(shareCell(nullptr, huge, &dots, other));
+  other.corner.y = fromCells(-2000000001);
+  EXPECT_FALSE(shareCell(nullptr, huge, &dots, other));
+}
+
+class MaskPairs : public testing::Test {
+ protected:
+  int number(int below) { return static_cast<int>(random.below(static_cast<std::uint64_t>(below))); }
+  int side() { return 1 + number(number(4) == 0 ? 200 : 8); }
+  std::optional<Mask> mask(int width, int height) {
+    const int holes = number(50);  // few are set, or the first row would mostly decide
+    Rows rows(static_cast<std::size_t>(height));
+    for (std::string& row : rows) {
+      for (int x = 0; x < width; ++x) row += number(holes + 1) == 0 ? '#' : ' ';
+    }
+    return number(5) == 0 ? std::nullopt : Mask::fromRows(rows);
+  }
+
+  naiad::SplitMix64 random{11};
+};
+
+TEST_F(MaskPairs, ShareWhatAPlainDoubleLoopFinds) {
+  int shared = 0;
+  const int cases = 6000;
+  for (int i = 0; i < cases; ++i) {
+    struct Drawn {
+      int x, y, width, height;
+      std::optional<Mask> mask;
+      FixedBox box;
+      bool isSet(int cell_x, int cell_y) const {
+        if (mask) return mask->isSet(cell_x - x, cell_y - y);
+        return cell_x >= x && cell_x < x + width && cell_y >= y && cell_y < y + height;
+      }
+    };
+    const auto drawn = [&](int around_x, int around_y) {
+      Drawn d{around_x, around_y, side(), side(), {}, {}};
+      d.mask = mask(d.width, d.height);
+      d.x -= number(d.width + 2);
+      d.y -= number(d.height + 2);
+      const auto part = [&] { return static_cast<Fixed>(random.below(kFixedOne)); };
+      d.box.corner = {fromCells(d.x - 1) + part(), fromCells(d.y - 1) + part()};
+      d.box.size = {fromCells(d.width) - part(), fromCells(d.height) - part()};
+      return d;
+    };
+    const int far = i % 2 == 0 ? 0 : 2000000000;
+    const Drawn a = drawn(-far, far);
+    const Drawn b = drawn(-far, far);
+    bool expected = false;
+    for (int y = a.y; y < a.y + a.height; ++y) {
+      for (int x = a.x; x < a.x + a.width; ++x) expected = expected || (a.isSet(x, y) && b.isSet(x, y));
+    }
+    const Mask* const p_a = a.mask ? &*a.mask : nullptr;
+    const Mask* const p_b = b.mask ? &*b.mask : nullptr;
+    ASSERT_EQ(shareCell(p_a, a.box, p_b, b.box), expected) << i;
+    ASSERT_EQ(shareCell(p_b, b.box, p_a, a.box), expected) << i;
+    shared += expected ? 1 : 0;
+  }
+  EXPECT_GT(shared, cases / 8);
+  EXPECT_LT(shared, cases * 7 / 8);
+}
+
+}  // namespace
+}  // namespace df::test

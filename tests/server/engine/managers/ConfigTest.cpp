@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include "engine/managers/Config.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/managers/GameManager.h"
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+using ConfigTest = WorldTest;
+
+Config& config() {
+  return Config::getInstance();
+}
+
+TEST_F(ConfigTest, DefaultsAreThePublishedOnes) {
+  EXPECT_EQ(config().getWindowHorizontalChars(), 80);
+  EXPECT_EQ(config().getWindowVerticalChars(), 24);
+  EXPECT_EQ(config().getFrameTime(), 33);
+  EXPECT_EQ(GM.getFrameTime(), 33);
+  EXPECT_EQ(config().getWindowBackgroundColor(), BLACK);
+  EXPECT_FALSE(config().getHeadless());
+  EXPECT_EQ(DM.getHorizontalPixels(), 1024);
+  EXPECT_FLOAT_EQ(charHeight(), 32);
+  EXPECT_EQ(pixelsToSpaces(spacesToPixels(Vector(3, 4))), Vector(3, 4));
+}
+
+TEST_F(ConfigTest, ReadsPairsAcrossLinesAndBlanks) {
+  config().loadConfig(
+      "window_horizontal_chars:100,\nwindow_vertical_chars : 40 ,\r\nwindow_background_color:blue,\n"
+      "frame_time:50,headless:true,random_seed:7,logfile:my.log,own_key:x");
+  EXPECT_EQ(DM.getHorizontal(), 100);
+  EXPECT_EQ(DM.getVertical(), 40);
+  EXPECT_EQ(WM.getBoundary(), Box(Vector(), 100, 40));
+  EXPECT_EQ(config().getWindowBackgroundColor(), BLUE);
+  EXPECT_EQ(GM.getFrameTime(), 50);
+  EXPECT_TRUE(config().getHeadless());
+  EXPECT_EQ(config().getRandomSeed(), 7);
+  EXPECT_EQ(config().getLogFile(), "my.log");
+  EXPECT_EQ(config().match("own_key"), "x");
+  EXPECT_FALSE(world.compat());
+  config().loadConfig("compat:true,");
+  EXPECT_TRUE(world.compat());
+}
+
+TEST_F(ConfigTest, NonsenseIsLoggedAndLeftOut) {
+  config().loadConfig(
+      "window_horizontal_chars:wide,frame_time:-3,headless:maybe,window_background_color:pink,"
+      "window_vertical_chars:5000,");
+  EXPECT_EQ(DM.getHorizontal(), 80);
+  EXPECT_EQ(DM.getVertical(), 24);
+  EXPECT_EQ(GM.getFrameTime(), 33);
+  EXPECT_EQ(logged("makes no sense"), 4);
+  EXPECT_EQ(logged("no window can be of 80 by 5000"), 1);
+}
+
+TEST_F(ConfigTest, SeedMakesTheDiceTheSame) {
+  World other;
+  other.setSeed(42);
+  config().loadConfig("random_seed:42,");
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(world.randomInt(1000), other.randomInt(1000));
+}
+
+TEST_F(ConfigTest, BackgroundAndShakeAreToldToWhoWatches) {
+  world.setWatched(true);
+  EXPECT_TRUE(DM.setBackgroundColor(GREEN));
+  EXPECT_FALSE(DM.setBackgroundColor(CUSTOM));
+  DM.shake(20, 20, 10);
+  int shaken = 0;
+  for (int i = 0; i < 10; ++i) {
+    world.tick();
+    const WorldView& view = world.view();
+    EXPECT_EQ(view.background, GREEN);
+    EXPECT_LE(std::abs(view.shake_x), 2);
+    EXPECT_LE(std::abs(view.shake_y), 1);
+    shaken += view.shake_x != 0 || view.shake_y != 0 ? 1 : 0;
+  }
+  EXPECT_GT(shaken, 3);
+  world.tick();
+  EXPECT_EQ(world.view().shake_x, 0);
+  EXPECT_EQ(world.view().shake_y, 0);
+}
+
+}  // namespace
+}  // namespace df::test

@@ -1,0 +1,23 @@
+// Runs what PublishedApiTest.cpp compiles. (That file includes no header of the tests, so that games'
+// conditions are its own.)
+
+#include <gtest/gtest.h>
+
+#include "tests/server/engine/Probe.h"
+
+int published_api_main(int argc, char* argv[]);
+
+namespace df::test {
+namespace {
+
+using PublishedApi = WorldTest;
+
+TEST_F(PublishedApi, EveryNameThatGamesUseIsThereAndRuns) {
+  EXPECT_EQ(published_api_main(0, nullptr), 0);
+  EXPECT_EQ(logged("sprites/ship-spr.txt: cannot be read"), 1);
+  EXPECT_EQ(logged("games need no sockets here"), 1);
+  EXPECT_EQ(logged("failed and is taken out"), 0);
+}
+
+}  // namespace
+}  // namespace df::test

@@ -1,0 +1,78 @@
+// Runs what PublishedHeaderTest.cpp compiles. (That file's includes are its own.)
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include "tests/server/engine/Probe.h"
+#include "utility.h"
+
+df::ObjectListIterator overObjectsOf(df::ObjectList& list);
+bool isWayFound(const df::Event* p_e);
+float nearTo(const df::Object* p_o);
+int namesOfAGame();
+int stepsOfTheEngineSpelledTwice();
+std::string ping(int count);
+void pastTheEngine();
+int logStrings(const df::Object& o);
+
+namespace df::test {
+namespace {
+
+using PublishedHeader = WorldTest;
+
+TEST_F(PublishedHeader, BringsAlongWhatGamesName) {
+  Probe a("a");
+  Probe b("b");
+  ObjectList list = WM.getAllObjects();
+  ObjectListIterator li = overObjectsOf(list);
+  EXPECT_EQ(li.currentObject(), &b);
+  expectAt(a, 1, 2);
+  EXPECT_TRUE(isWayFound(std::make_unique<EventPath>().get()));
+  EXPECT_FLOAT_EQ(nearTo(&a), std::sqrt(5.0f));
+  EXPECT_GT(namesOfAGame(), 0);
+  EXPECT_EQ(stepsOfTheEngineSpelledTwice(), WM.getAllObjects().getCount());
+  pastTheEngine();
+}
+
+TEST(PublishedHeaderMicrosoft, WhatDoesNotFitIsCutOff) {
+  EXPECT_EQ(ping(7), "Ping 7!");
+  EXPECT_EQ(ping(1234567), "Ping 12");
+}
+
+TEST_F(PublishedHeader, StringsAreLoggedAsTheyAre) {
+  const Probe probe("gems");
+  EXPECT_EQ(logStrings(probe), 1);
+  EXPECT_EQ(lines, (std::vector<std::string>{"ann has 3 of gems", "ann", "5"}));
+}
+
+// A string that a header declares inline would be one for library and game; and of the two C++20 sets it up
+// before anything runs, C++17 only if nobody has done so yet: it would stay empty in a game of C++17.
+TEST(PublishedHeaderStrings, AreEachTranslationUnitsOwn) {
+  for (const char* name : {"CONFIG_FILENAME", "WINDOW_TITLE_DEFAULT", "FONT_FILE_DEFAULT", "LOGFILE_DEFAULT",
+                           "DRAGONFLY_PORT", "UNDEFINED_STATE"}) {
+    const std::string symbol = "_ZN2df" + std::to_string(std::strlen(name)) + name + "B5cxx11E";
+    EXPECT_EQ(dlsym(RTLD_DEFAULT, symbol.c_str()), nullptr) << name;
+  }
+  EXPECT_NE(dlsym(RTLD_DEFAULT, "_ZN2df15UNDEFINED_EVENTE"), nullptr) << "an event type is one for all";
+}
+
+TEST_F(PublishedHeader, AccelerateIsWhatUpdateDoes) {
+  Probe probe;
+  probe.setVelocity(Vector(1, 0));
+  probe.setAcceleration(Vector(0.5, 0.25));
+  probe.accelerate();
+  EXPECT_EQ(probe.getVelocity(), Vector(1.5, 0.25));
+  EXPECT_EQ(Box(Vector(1, 2), 3, 4).toString(), "(1.000000,2.000000),3.000000,4.000000");
+}
+
+TEST_F(PublishedHeader, ColoursOfTheGraphicsLibrary) {
+  EXPECT_TRUE(colorToSFML(RED) == sf::Color::Red);
+  EXPECT_TRUE(colorToSFML(BLACK) == sf::Color::Black);
+  const sf::Clock clock;
+  const sf::Time before = clock.getElapsedTime();
+  world.tick();
+  EXPECT_GT(clock.getElapsedTime() - before, sf::milliseconds(30));
+}
+
+}  // namespace
+}  // namespace df::test

@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/managers/ResourceManager.h"
+#include "engine/sprites/SpriteFile.h"
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+const std::string kFolder = std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine/sprites/";
+
+std::string textOf(const std::string& name) {
+  std::ifstream file(kFolder + name, std::ios::binary);
+  EXPECT_TRUE(file.good()) << name;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string troubleOf(const std::string& text) {
+  std::string error;
+  EXPECT_EQ(parseSprite(text, "s", error), nullptr);
+  return error;
+}
+
+using SpriteFile = WorldTest;
+
+TEST_F(SpriteFile, HeaderFormatSaysEverything) {
+  for (const char* name : {"header.txt", "header-crlf.txt"}) {
+    ASSERT_EQ(RM.loadSprite(kFolder + name, name), 0);
+    const Sprite* p_sprite = RM.getSprite(name);
+    ASSERT_NE(p_sprite, nullptr);
+    EXPECT_EQ(p_sprite->getFrameCount(), 2);
+    EXPECT_EQ(p_sprite->getWidth(), 3);
+    EXPECT_EQ(p_sprite->getHeight(), 2);
+    EXPECT_EQ(p_sprite->getColor(), CYAN);
+    EXPECT_EQ(p_sprite->getSlowdown(), 4);
+    EXPECT_EQ(p_sprite->getTransparency(), '#');
+    EXPECT_EQ(p_sprite->getLabel(), name);
+    EXPECT_EQ(p_sprite->getFrame(0).getString(), "/-\\#o#");
+    EXPECT_EQ(p_sprite->getFrame(1).getString(), "\\-/ o ");
+  }
+}
+
+TEST_F(SpriteFile, HeaderHasDefaultsAndTheFileNeedNotEndInANewline) {
+  ASSERT_EQ(RM.loadSprite(kFolder + "header-no-newline.txt", "s"), 0);
+  const Sprite* p_sprite = RM.getSprite("s");
+  EXPECT_EQ(p_sprite->getColor(), WHITE);
+  EXPECT_EQ(p_sprite->getSlowdown(), 1);
+  EXPECT_EQ(p_sprite->getTransparency(), 0);
+  EXPECT_EQ(p_sprite->getFrame(0).getString(), "<>");
+}
+
+TEST_F(SpriteFile, SimpleFormat) {
+  for (const char* name : {"simple.txt", "simple-crlf-no-newline.txt"}) {
+    ASSERT_EQ(RM.loadSprite(kFolder + name, name), 0);
+    const Sprite* p_sprite = RM.getSprite(name);
+    EXPECT_EQ(p_sprite->getFrameCount(), 3);
+    EXPECT_EQ(p_sprite->getWidth(), 2);
+    EXPECT_EQ(p_sprite->getHeight(), 1);
+    EXPECT_EQ(p_sprite->getSlowdown(), 5);
+    EXPECT_EQ(p_sprite->getColor(), RED);
+    EXPECT_EQ(p_sprite->getFrame(2).getString(), "ef");
+  }
+}
+
+TEST_F(SpriteFile, OldFormat) {
+  for (const char* name : {"old.txt", "old-crlf-no-newline.txt"}) {
+    ASSERT_EQ(RM.loadSprite(kFolder + name, name), 0);
+    const Sprite* p_sprite = RM.getSprite(name);
+    EXPECT_EQ(p_sprite->getFrameCount(), 2);
+    EXPECT_EQ(p_sprite->getColor(), GREEN);
+    EXPECT_EQ(p_sprite->getFrame(1).getString(), "=-=");
+  }
+}
+
+TEST_F(SpriteFile, TroubleIsToldWithFileAndLine) {
+  const std::pair<const char*, const char*> kBad[] = {
+      {"bad-short-row.txt", ":8: the row has 2 characters instead of 3"},
+      {"bad-no-height.txt", ":4: height is missing"},
+      {"bad-color.txt", ":5: there is no color \"pink\""},
+      {"bad-number.txt", ":2: frames should be a number, not \"two\""},
+      {"bad-cut-off.txt", ":9: the file ends where \"end\" should be"},
+      {"bad-extra-row.txt", ":8: \"end\" should be here, not \"abc\""},
+      {"bad-long-row.txt", ":7: the row has 4 characters instead of 3"},
+      {"bad-no-end.txt", ":6: \"end\" should be here, not \"eof\""},
+      {"bad-no-sprite.txt", ":1: a sprite begins with \"<HEADER>\", \"frames\" or a number"},
+      {"bad-many-frames.txt", ":2: frames should be 1 to 10000, not 100000000"},
+      {"bad-empty.txt", ":0: the file ends where \"<HEADER>\", \"frames\" or a number should be"},
+      {"no-such-file.txt", ": cannot be read"},
+  };
+  for (const auto& [name, trouble] : kBad) {
+    EXPECT_EQ(RM.loadSprite(kFolder + name, "bad"), -1) << name;
+    EXPECT_EQ(logged(kFolder + name + trouble), 1) << name << ": " << lines.back();
+    EXPECT_EQ(RM.getSprite("bad"), nullptr);
+  }
+}
+
+TEST_F(SpriteFile, ARowMayLookLikeTheEndOfItsFrame) {
+  std::string error;
+  const auto sprite = parseSprite("frames 1\nwidth 3\nheight 2\nend\nend\nend\neof\n", "s", error);
+  ASSERT_NE(sprite, nullptr) << error;
+  EXPECT_EQ(sprite->getFrame(0).getString(), "endend");
+}
+
+TEST_F(SpriteFile, BlanksAtTheEndOfARowCount) {
+  std::string error;
+  const auto sprite = parseSprite("1\n4\n1\n1\nwhite\na   ", "s", error);
+  ASSERT_NE(sprite, nullptr) << error;
+  EXPECT_EQ(sprite->getFrame(0).getString(), "a   ");
+}
+
+TEST_F(SpriteFile, TransparencyMayBeABlank) {
+  std::string error;
+  const auto sprite = parseSprite(
+      "<HEADER>\nframes 1\nwidth 1\nheight 1\ntransparency  \n</HEADER>\n<BODY>\nx\nend\n</BODY>\n", "s",
+      error);
+  ASSERT_NE(sprite, nullptr) << error;
+  EXPECT_EQ(sprite->getTransparency(), ' ');
+}
+
+// Whatever a file holds, reading it ends with a sprite or with a sentence.
+TEST_F(SpriteFile, CutAndGarbledFilesAreRefusedOrRead) {
+  int refused = 0;
+  for (const char* name : {"header.txt", "simple.txt", "old.txt", "header-crlf.txt"}) {
+    const std::string text = textOf(name);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      for (const char other : {'\n', '9', ' ', '\xff', '\0'}) {
+        std::string garbled = text;
+        garbled[i] = other;
+        std::string error;
+        const auto sprite = parseSprite(garbled, "s", error);
+        EXPECT_EQ(sprite == nullptr, !error.empty());
+        refused += sprite == nullptr ? 1 : 0;
+      }
+      std::string error;
+      const auto cut = parseSprite(text.substr(0, i), "s", error);
+      EXPECT_EQ(cut == nullptr, !error.empty());
+    }
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_EQ(troubleOf("1\n1\n1\n-1\nred\nx"), "4: slowdown should be 0 to 1000000, not -1");
+  EXPECT_EQ(troubleOf("1\n1\n1\n1\nred\nx\ny"), "7: the sprite has ended, but there is \"y\"");
+}
+
+TEST_F(SpriteFile, FirstSpriteOfALabelStays) {
+  ASSERT_EQ(RM.loadSprite(kFolder + "simple.txt", "s"), 0);
+  Sprite* p_first = RM.getSprite("s");
+  EXPECT_EQ(RM.loadSprite(kFolder + "old.txt", "s"), 0);
+  EXPECT_EQ(RM.getSprite("s"), p_first);
+  EXPECT_EQ(RM.unloadSprite("s"), 0);
+  EXPECT_EQ(RM.getSprite("s"), nullptr);
+  EXPECT_EQ(RM.unloadSprite("s"), -1);
+  EXPECT_EQ(p_first->getFrameCount(), 3);  // Objects may still show it
+}
+
+TEST_F(SpriteFile, RelativeNamesAreLookedForInTheWorldsFolders) {
+  EXPECT_EQ(RM.loadSprite("sprites/simple.txt", "s"), -1);
+  world.addResourceFolder(std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine");
+  EXPECT_EQ(RM.loadSprite("sprites/simple.txt", "s"), 0);
+}
+
+TEST_F(SpriteFile, WorldsHaveSpritesOfTheirOwn) {
+  ASSERT_EQ(RM.loadSprite(kFolder + "simple.txt", "s"), 0);
+  World other;
+  const World::Scope inside(other);
+  EXPECT_EQ(RM.getSprite("s"), nullptr);
+}
+
+}  // namespace
+}  // namespace df::test

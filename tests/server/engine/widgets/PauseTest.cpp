@@ -1,0 +1,158 @@
+// The pause as a vote of those who play.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "engine/events/EventStep.h"
+#include "engine/widgets/Pause.h"
+#include "engine/world/EventPlayer.h"
+#include "engine/world/WorldExtras.h"
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+using Notes = std::vector<std::string>;
+
+class PauseTest : public WorldTest {
+ protected:
+  PauseTest() {
+    world.setWatched(true);
+    new Pause(Keyboard::P);
+  }
+  void join(int count) {
+    for (int i = 0; i < count; ++i) players.push_back(world.join("player", RED));
+    world.tick();
+  }
+  /// One tick in which these (counted from 0) press the key.
+  void press(const std::vector<std::size_t>& who) {
+    for (const std::size_t i : who) world.key(players[i], Keyboard::P, KEY_PRESSED);
+    world.tick();
+  }
+  const Notes& notes() const { return world.view().notes; }
+
+  std::vector<std::uint32_t> players;
+};
+
+TEST_F(PauseTest, OnePlayerAloneDecides) {
+  join(1);
+  press({0});
+  EXPECT_TRUE(world.isPaused());
+  EXPECT_EQ(notes(), Notes{});
+  press({0});
+  EXPECT_FALSE(world.isPaused());
+}
+
+TEST_F(PauseTest, OfSeveralMoreThanHalfDecide) {
+  join(3);
+  press({0});
+  EXPECT_FALSE(world.isPaused());
+  EXPECT_EQ(notes(), Notes{"pause: 1 of 3"});
+  world.tick();
+  EXPECT_EQ(notes(), Notes{}) << "said once";
+  press({2});
+  EXPECT_TRUE(world.isPaused());
+  EXPECT_EQ(notes(), Notes{"pause: 2 of 3"});
+  press({1});
+  EXPECT_TRUE(world.isPaused());
+  EXPECT_EQ(notes(), Notes{"go on: 1 of 3"});
+  press({0});
+  EXPECT_FALSE(world.isPaused());
+}
+
+TEST_F(PauseTest, HalfOfThemIsNotEnough) {
+  join(2);
+  press({1});
+  EXPECT_FALSE(world.isPaused());
+  press({0});
+  EXPECT_TRUE(world.isPaused());
+}
+
+TEST_F(PauseTest, WhoPressesTwiceHasOneVote) {
+  join(3);
+  press({1, 1, 1});
+  press({1});
+  EXPECT_FALSE(world.isPaused());
+  EXPECT_EQ(notes(), Notes{}) << "so nobody can fill the others' screens";
+}
+
+TEST_F(PauseTest, VotesAreForgottenAfterTenSeconds) {
+  join(2);
+  press({0});
+  for (int i = 0; i < 300; ++i) world.tick();
+  press({1});
+  EXPECT_FALSE(world.isPaused());
+  EXPECT_EQ(notes(), Notes{"pause: 1 of 2"});
+  for (int i = 0; i < 299; ++i) world.tick();
+  press({0});
+  EXPECT_TRUE(world.isPaused());
+}
+
+TEST_F(PauseTest, WhoLeavesIsNotCountedAnyMore) {
+  join(4);
+  press({0, 1});
+  EXPECT_FALSE(world.isPaused()) << "two of four";
+  world.leave(players[3]);
+  world.tick();
+  EXPECT_TRUE(world.isPaused()) << "two of three";
+  EXPECT_EQ(notes(), Notes{"pause: 2 of 3"});
+}
+
+TEST_F(PauseTest, WhoLeavesTakesHisVoteAlong) {
+  join(3);
+  press({0});
+  world.leave(players[0]);
+  world.tick();
+  press({1});
+  EXPECT_FALSE(world.isPaused());
+  EXPECT_EQ(notes(), Notes{"pause: 1 of 2"});
+}
+
+TEST_F(PauseTest, WhenNobodyIsLeftTheGameGoesOn) {
+  join(2);
+  press({0, 1});
+  ASSERT_TRUE(world.isPaused());
+  world.leave(players[0]);
+  world.tick();
+  EXPECT_TRUE(world.isPaused()) << "one is there, and may want it";
+  world.leave(players[1]);
+  world.tick();
+  EXPECT_FALSE(world.isPaused());
+}
+
+TEST_F(PauseTest, WhoIsNotHeardIsNotAskedEither) {
+  join(3);
+  world.extras().heard_player = players[1];
+  press({1});
+  EXPECT_TRUE(world.isPaused());
+  EXPECT_EQ(notes(), Notes{});
+  world.extras().heard_player = 0;
+  press({1});
+  EXPECT_TRUE(world.isPaused());
+}
+
+TEST_F(PauseTest, AKeyOfTheGamesOwnIsObeyed) {
+  join(3);
+  EventKeyboard event;
+  event.setKey(Keyboard::P);
+  event.setKeyboardAction(KEY_PRESSED);
+  WM.onEvent(&event);
+  EXPECT_TRUE(world.isPaused());
+}
+
+TEST_F(PauseTest, WhoComesOrGoesInAPauseIsHeardOf) {
+  join(1);
+  press({0});
+  Probe game("game", &heard);
+  for (const std::string& type : {std::string(JOIN_EVENT), std::string(LEAVE_EVENT), std::string(STEP_EVENT)})
+    game.registerInterest(type);
+  join(1);
+  world.leave(players[1]);
+  world.tick();
+  EXPECT_TRUE(world.isPaused());
+  EXPECT_EQ(heard, (std::vector<std::string>{"game:df-join", "game:df-leave"}));
+}
+
+}  // namespace
+}  // namespace df::test

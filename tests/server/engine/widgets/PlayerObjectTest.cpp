@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "engine/events/EventOut.h"
+#include "engine/widgets/PlayerObject.h"
+#include "engine/world/World.h"
+
+namespace df {
+namespace {
+
+// A kind of Object of the game's own, with which a player's is made.
+struct Boat : Object {
+  Boat() { setType("Boat"); }
+  int eventHandler(const Event* p_e) override {
+    if (p_e->getType() == OUT_EVENT) ++outs;
+    return 0;
+  }
+  int outs = 0;
+};
+
+struct Ferry : PlayerObject<Boat> {
+  explicit Ferry(Player& player) : PlayerObject(player) {
+    setSolidness(SPECTRAL);
+    setPosition(Vector(5, 5));
+  }
+  void step() override { heard.push_back("step"); }
+  void keyboard(const EventKeyboard& event) override {
+    heard.push_back(event.getKey() == Keyboard::A ? "A" : "key");
+  }
+  void mouse(const EventMouse& event) override { setPosition(event.getMousePosition()); }
+  std::vector<std::string> heard;
+};
+
+class PlayerObjects : public testing::Test {
+ protected:
+  PlayerObjects() : scope(world) { new Welcome<Ferry>; }
+  ~PlayerObjects() override { world.shutDown(); }
+  Ferry* ferryOf(std::uint32_t player) { return static_cast<Ferry*>(world.getPlayer(player)->getObject()); }
+  World world;
+  World::Scope scope;
+};
+
+TEST_F(PlayerObjects, EverybodyWhoComesGetsOne) {
+  EXPECT_TRUE(WM.objectsOfType("Boat").isEmpty());
+  const std::uint32_t ann = world.join("ann", RED), bob = world.join("bob", BLUE);
+  world.tick();
+  ASSERT_EQ(WM.objectsOfType("Boat").getCount(), 2);
+  EXPECT_NE(ferryOf(ann), ferryOf(bob));
+  EXPECT_EQ(ferryOf(ann)->getPlayer(), world.getPlayer(ann));
+  EXPECT_EQ(ferryOf(ann)->getColor(), world.getPlayer(ann)->getColor());
+  EXPECT_EQ(ferryOf(bob)->getColor(), world.getPlayer(bob)->getColor());
+}
+
+TEST_F(PlayerObjects, EachHearsItsPlayerOnly) {
+  const std::uint32_t ann = world.join("ann", RED), bob = world.join("bob", BLUE);
+  world.tick();
+  ferryOf(ann)->heard.clear(), ferryOf(bob)->heard.clear();
+  world.key(ann, Keyboard::A, KEY_PRESSED);
+  world.mouse(bob, CLICKED, Mouse::LEFT, 9, 7);
+  world.tick();
+  EXPECT_EQ(ferryOf(ann)->heard, (std::vector<std::string>{"step", "A"}));
+  EXPECT_EQ(ferryOf(bob)->heard, (std::vector<std::string>{"step"}));
+  EXPECT_EQ(ferryOf(ann)->getPosition(), Vector(5, 5));
+  EXPECT_EQ(ferryOf(bob)->getPosition(), Vector(9, 7));
+}
+
+TEST_F(PlayerObjects, OtherEventsGoToWhatItIsMadeOf) {
+  const std::uint32_t ann = world.join("ann", RED);
+  world.tick();
+  ferryOf(ann)->setVelocity(Vector(-10, 0));
+  world.tick();
+  EXPECT_EQ(ferryOf(ann)->outs, 1);
+}
+
+TEST_F(PlayerObjects, ItGoesWithItsPlayer) {
+  const std::uint32_t ann = world.join("ann", RED), bob = world.join("bob", BLUE);
+  world.tick();
+  Ferry* p_left = ferryOf(bob);
+  world.leave(ann);
+  world.tick();
+  world.tick();
+  ASSERT_EQ(WM.objectsOfType("Boat").getCount(), 1);
+  EXPECT_EQ(WM.objectsOfType("Boat")[0], p_left);
+  EXPECT_EQ(p_left->getPlayer(), world.getPlayer(bob));
+}
+
+// In the tick in which its player leaves, it may still be stepped by the game's own hand: there is nobody.
+TEST_F(PlayerObjects, WithoutAPlayerItDoesNotStep) {
+  const std::uint32_t ann = world.join("ann", RED);
+  world.tick();
+  Ferry* p_ferry = ferryOf(ann);
+  p_ferry->unregisterInterest(LEAVE_EVENT);
+  world.leave(ann);
+  world.tick();
+  world.tick();
+  p_ferry->heard.clear();
+  world.tick();
+  EXPECT_EQ(p_ferry->getPlayer(), nullptr);
+  EXPECT_TRUE(p_ferry->heard.empty());
+}
+
+}  // namespace
+}  // namespace df

@@ -1,0 +1,99 @@
+// A tick of a warm world takes nothing from the heap.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "engine/events/EventOut.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/World.h"
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace {
+
+thread_local long t_allocations = 0;
+
+void* counted(std::size_t size) {
+  ++t_allocations;
+  void* p = std::malloc(size > 0 ? size : 1);
+  if (p == nullptr) throw std::bad_alloc();
+  return p;
+}
+
+}  // namespace
+
+// The only way to see every allocation in the process: replace the operators.
+void* operator new(std::size_t size) {
+  return counted(size);
+}
+void* operator new[](std::size_t size) {
+  return counted(size);
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete[](void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+void operator delete[](void* p, std::size_t) noexcept {
+  std::free(p);
+}
+
+namespace df::test {
+namespace {
+
+class Bouncer : public Object {
+ public:
+  int eventHandler(const Event* p_e) override {
+    if (p_e->getType() == COLLISION_EVENT) {
+      const auto* p_c = static_cast<const EventCollision*>(p_e);
+      const Vector v = getVelocity();
+      if (p_c->getObject1() == this) setVelocity(Vector(-v.x(), -v.y()));
+    } else if (p_e->getType() == OUT_EVENT) {
+      setPosition(Vector(40, 12));
+    }
+    return 1;
+  }
+};
+
+long allocationsOf(bool swept, bool precise, bool events) {
+  World world;
+  const World::Scope scope(world);
+  world.setLogSink([](const std::string&) {});
+  WM.setSweptCollisions(swept);
+  for (int i = 0; i < 300; ++i) {
+    auto* p_o = new Bouncer;
+    p_o->setPosition(Vector(i % 40 * 2, i / 40 * 3));
+    p_o->setVelocity(Vector((i * 37 % 19 - 9) / 8.0, (i * 23 % 17 - 8) / 16.0));
+    p_o->setSolidness(i % 10 == 0 ? SPECTRAL : i % 3 == 0 ? SOFT : HARD);
+    if (i % 7 == 0) p_o->setBox(Box(Vector(-2, -1), 4, 2));
+    if (precise && i % 2 == 0) p_o->setPrecise();
+    if (events) p_o->setRestContacts();
+  }
+  for (int tick = 0; tick < 300; ++tick) WM.update();
+  const long before = t_allocations;
+  for (int tick = 0; tick < 100; ++tick) WM.update();
+  const long during = t_allocations - before;
+  world.shutDown();
+  return during;
+}
+
+TEST(Allocation, AWarmWorldMovesWithoutAny) {
+  EXPECT_EQ(allocationsOf(false, false, false), 0);
+}
+
+TEST(Allocation, NorDoSweepsMasksAndContactsAtRestNeedAny) {
+  EXPECT_EQ(allocationsOf(true, false, false), 0);
+  EXPECT_EQ(allocationsOf(false, true, false), 0);
+  EXPECT_EQ(allocationsOf(true, true, true), 0);
+}
+
+}  // namespace
+}  // namespace df::test
+
+#endif

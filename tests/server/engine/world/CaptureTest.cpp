@@ -1,0 +1,326 @@
+#include <stdexcept>
+
+#include "engine/managers/DisplayManager.h"
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+using Heard = std::vector<std::string>;
+
+class Capture : public WorldTest {
+ protected:
+  Probe* make(const std::string& name, double x, double y, int altitude = 2) {
+    auto* p = new Probe(name, nullptr, Vector(x, y));
+    p->setSolidness(SPECTRAL);
+    p->setAltitude(altitude);
+    p->on_draw = [this](Probe& self) {
+      heard.push_back(self.getType());
+      DM.drawCh(self.getPosition(), self.getType()[0], RED);
+    };
+    return p;
+  }
+  const ObjectFacts* changed(const Object& o) const {
+    for (const ObjectFacts& f : world.view().changed) {
+      if (f.key == o.key()) return &f;
+    }
+    return nullptr;
+  }
+};
+
+TEST_F(Capture, DrawsByAltitudeThenCreation) {
+  make("c", 3, 3, 4);
+  make("a", 3, 3, 0);
+  make("d", 3, 3, 4);
+  make("b", 3, 3, 2);
+  GM.tick();
+  EXPECT_EQ(heard, (Heard{"a", "b", "c", "d"}));
+  EXPECT_EQ(world.renderView({}).at(3, 3).ch, U'd');
+  EXPECT_EQ(world.renderView({}).at(3, 3).color, RED);
+}
+
+TEST_F(Capture, InactiveInvisibleAndFarOnesAreNotDrawn) {
+  make("a", 3, 3)->setActive(false);
+  make("b", 3, 3)->setVisible(false);
+  make("c", 100, 3);
+  make("d", 80.5, 3);  // its box touches the view
+  make("e", 80.75, 3);
+  WM.draw();
+  EXPECT_EQ(heard, (Heard{"d"}));
+}
+
+TEST_F(Capture, WhatAPlayersViewShowsIsDrawn) {
+  WM.setBoundary(Box(Vector(0, 0), 500, 500));
+  Probe* a = make("a", 300, 300);
+  GM.tick();
+  EXPECT_TRUE(heard.empty());
+  const std::uint32_t ann = world.join("ann", RED);
+  GM.tick();
+  WM.getPlayer(ann)->setObject(a);
+  GM.tick();
+  EXPECT_EQ(heard, (Heard{"a"}));
+  EXPECT_EQ(world.renderPlayer(ann).at(40, 12).ch, U'a');
+  EXPECT_EQ(world.renderPlayer(0).at(40, 12).ch, U' ');
+}
+
+TEST_F(Capture, CellIsTheRoundedPositionMinusTheRoundedCorner) {
+  WM.setBoundary(Box(Vector(0, 0), 500, 500));
+  make("a", 10.5, 9.49);
+  WM.setView(Box(Vector(2.5, 1.25), 80, 24));
+  GM.tick();
+  EXPECT_EQ(world.renderPlayer(0).at(11 - 3, 9 - 1).ch, U'a');
+  EXPECT_EQ(world.renderView({}).at(11, 9).ch, U'a');
+}
+
+TEST_F(Capture, StringsAreJustifiedAndCleaned) {
+  Probe* a = make("a", 0, 0);
+  a->on_draw = [](Probe&) {
+    DM.drawString(Vector(10, 1), "left\n\xC3\xA9", LEFT_JUSTIFIED, CYAN);
+    DM.drawString(Vector(10, 2), "middle", CENTER_JUSTIFIED);
+    DM.drawString(Vector(10, 3), "right", RIGHT_JUSTIFIED);
+    EXPECT_EQ(DM.drawString(Vector(3e9, 3), "far"), -1);
+    EXPECT_EQ(DM.drawCh(Vector(0, 3), 'x', UNDEFINED_COLOR), -1);
+    DM.drawCh(Vector(0, 4), '\xE9');
+    DM.drawCh(Vector(1, 4), char32_t{0x2588});
+  };
+  GM.tick();
+  const Canvas canvas = world.renderView({});
+  EXPECT_EQ(canvas.rowText(1).substr(0, 18), "          left?\xC3\xA9 ");
+  EXPECT_EQ(canvas.rowText(2).substr(0, 14), "       middle ");
+  EXPECT_EQ(canvas.rowText(3).substr(0, 12), "     right  ");
+  EXPECT_EQ(canvas.at(0, 4).ch, U'?');
+  EXPECT_EQ(canvas.at(1, 4).ch, char32_t{0x2588});
+}
+
+TEST_F(Capture, StaticLookIsDrawnOnceAndMovesAlong) {
+  Probe* a = make("a", 3, 3);
+  a->setStaticLook();
+  a->setVelocity(Vector(1, 0));
+  for (int i = 0; i < 3; ++i) GM.tick();
+  EXPECT_EQ(heard, (Heard{"a"}));
+  EXPECT_EQ(world.renderView({}).at(6, 3).ch, U'a');
+  ASSERT_EQ(world.view().drawn.size(), 1u);
+  EXPECT_EQ(world.view().drawn[0].count, 1u);
+  a->setStaticLook();
+  GM.tick();
+  EXPECT_EQ(heard, (Heard{"a", "a"}));
+}
+
+TEST_F(Capture, CommandsNameWhoDrewThem) {
+  Probe* a = make("a", 3, 3);
+  Object plain;  // of type Object itself: draws nothing, is not asked
+  Probe* silent = make("s", 4, 4);
+  silent->on_draw = nullptr;
+  a->on_event = [](Probe&, const Event&) { DM.drawCh(Vector(1, 1), '!', RED); };
+  world.join("ann", RED);
+  a->registerInterest("df-join");
+  GM.tick();
+  const WorldView& view = world.view();
+  ASSERT_EQ(view.drawn.size(), 3u);
+  EXPECT_EQ(view.drawn[0].key, ObjectKey{});
+  EXPECT_EQ(view.drawn[1].key, a->key());
+  EXPECT_EQ(view.drawn[1].first, 1u);
+  EXPECT_EQ(view.drawn[1].count, 1u);
+  EXPECT_EQ(view.drawn[2].key, silent->key());
+  EXPECT_EQ(view.drawn[2].count, 0u);
+  EXPECT_EQ(view.commands.size(), 2u);
+}
+
+TEST_F(Capture, DrawMayDeleteAndThrow) {
+  Probe* a = make("a", 3, 3);
+  Probe* b = make("b", 4, 3);
+  Probe* c = make("c", 5, 3);
+  a->on_draw = [&](Probe& self) {
+    delete b;
+    delete &self;
+  };
+  c->on_draw = [](Probe&) { throw std::runtime_error("cannot draw"); };
+  GM.tick();
+  EXPECT_EQ(logged("cannot draw"), 1);
+  GM.tick();
+  EXPECT_EQ(world.getObjectCount(), 0);
+}
+
+TEST_F(Capture, DrawCannotBeginATickOrAnotherPicture) {
+  Probe* a = make("a", 3, 3);
+  a->on_draw = [this](Probe& self) {
+    heard.push_back("draw");
+    WM.draw();
+    GM.tick();
+    DM.drawCh(self.getPosition(), 'a');
+  };
+  WM.draw();
+  GM.tick();
+  EXPECT_EQ(heard, (Heard{"draw", "draw"}));
+  EXPECT_EQ(GM.getStepCount(), 1);
+  EXPECT_EQ(world.view().commands.size(), 1u);
+}
+
+TEST_F(Capture, ShutDownInsideDrawWaitsForItsEnd) {
+  Probe* a = make("a", 3, 3);
+  a->on_draw = [](Probe& self) {
+    WM.shutDown();
+    DM.drawCh(self.getPosition(), 'a');
+  };
+  WM.draw();
+  EXPECT_EQ(world.getObjectCount(), 0);
+}
+
+TEST_F(Capture, UnwatchedReportsNothingAndTheFirstWatchedTickEverything) {
+  Object a;
+  Object b;
+  GM.tick();
+  EXPECT_TRUE(world.view().changed.empty());
+  world.setWatched(true);
+  GM.tick();
+  ASSERT_EQ(world.view().changed.size(), 2u);
+  EXPECT_EQ(world.view().changed[0].key, a.key());
+  EXPECT_EQ(world.view().changed[1].key, b.key());
+  EXPECT_EQ(world.view().tick, 2u);
+  EXPECT_EQ(world.view().boundary.size.x, fromCells(80));
+  GM.tick();
+  EXPECT_TRUE(world.view().changed.empty());
+}
+
+TEST_F(Capture, ChangesAreReportedInCreationOrder) {
+  Object a;
+  Object b;
+  Object c;
+  world.setWatched(true);
+  GM.tick();
+  c.setAltitude(3);
+  a.setSolidness(SPECTRAL);
+  a.setVelocity(Vector(0, 0.5));
+  b.setPosition(b.getPosition());  // no change
+  GM.tick();
+  ASSERT_EQ(world.view().changed.size(), 2u);
+  EXPECT_EQ(world.view().changed[0].key, a.key());
+  EXPECT_EQ(world.view().changed[0].position.y, kFixedOne / 2);
+  EXPECT_EQ(world.view().changed[1].altitude, 3);
+  GM.tick();  // a goes on moving
+  ASSERT_EQ(world.view().changed.size(), 1u);
+}
+
+TEST_F(Capture, EveryFactIsReported) {
+  Object o;
+  world.setWatched(true);
+  GM.tick();
+  const auto reported = [&] {
+    GM.tick();
+    return changed(o) != nullptr;
+  };
+  EXPECT_FALSE(reported());
+  o.setSolidness(SOFT);
+  EXPECT_TRUE(reported());
+  o.setNoSoft();
+  EXPECT_TRUE(reported());
+  o.setBox(Box(Vector(0, 0), 2, 2));
+  EXPECT_TRUE(reported());
+  o.setVisible(false);
+  EXPECT_TRUE(reported());
+  EXPECT_FALSE(changed(o)->shown);
+  o.setVisible(true);
+  o.setActive(false);
+  EXPECT_TRUE(reported());
+  EXPECT_FALSE(changed(o)->shown);
+  o.setPosition(Vector(5, 5));
+  EXPECT_TRUE(reported());
+  o.setType("other");
+  EXPECT_FALSE(reported());
+}
+
+TEST_F(Capture, BlockedObjectHasNoVelocityUntilItIsFree) {
+  Object wall;
+  wall.setPosition(Vector(12, 10));
+  Object a;
+  a.setPosition(Vector(10.5, 10));
+  a.setVelocity(Vector(1, 0));
+  a.setAcceleration(Vector(0.5, 0));
+  world.setWatched(true);
+  GM.tick();
+  ASSERT_NE(changed(a), nullptr);
+  EXPECT_EQ(changed(a)->velocity, FixedVector{});
+  EXPECT_EQ(changed(a)->acceleration, FixedVector{});
+  GM.tick();  // still blocked: nothing new, though its velocity grows
+  EXPECT_EQ(changed(a), nullptr);
+  EXPECT_EQ(a.getVelocity(), Vector(2, 0));
+  wall.setSolidness(SPECTRAL);
+  GM.tick();
+  ASSERT_NE(changed(a), nullptr);
+  EXPECT_EQ(toCells(changed(a)->velocity.x), 2.5);
+}
+
+TEST_F(Capture, BouncerReportsItsNewVelocity) {
+  Object wall;
+  wall.setPosition(Vector(12, 10));
+  Probe a("a", nullptr, Vector(10.5, 10));
+  a.setVelocity(Vector(1, 0));
+  a.on_event = [](Probe& self, const Event&) { self.setVelocity(Vector(-1, 0)); };
+  world.setWatched(true);
+  GM.tick();
+  ASSERT_NE(changed(a), nullptr);
+  EXPECT_EQ(toCells(changed(a)->velocity.x), -1);
+}
+
+TEST_F(Capture, VanishedAreThoseThatWereReported) {
+  auto* p_a = new Object;
+  world.setWatched(true);
+  GM.tick();
+  const ObjectKey key = p_a->key();
+  p_a->setAltitude(1);
+  delete p_a;
+  delete new Object;  // born and dead between two looks
+  GM.tick();
+  EXPECT_EQ(world.view().vanished, std::vector{key});
+  EXPECT_TRUE(world.view().changed.empty());
+  GM.tick();
+  EXPECT_TRUE(world.view().vanished.empty());
+}
+
+TEST_F(Capture, ReturningObjectIsANewOne) {
+  Object o;
+  world.setWatched(true);
+  GM.tick();
+  const ObjectKey before = o.key();
+  WM.removeObject(&o);
+  WM.insertObject(&o);
+  GM.tick();
+  EXPECT_EQ(world.view().vanished, std::vector{before});
+  ASSERT_EQ(world.view().changed.size(), 1u);
+  EXPECT_EQ(world.view().changed[0].key, o.key());
+  EXPECT_NE(o.key(), before);
+}
+
+TEST_F(Capture, SlotReusedWithinATickIsReportedOnce) {
+  std::vector<Object*> objects;
+  world.setWatched(true);
+  for (int i = 0; i < 10; ++i) objects.push_back(new Object);
+  GM.tick();
+  for (Object*& p : objects) {
+    p->setAltitude(0);
+    delete p;
+    p = new Object;
+  }
+  GM.tick();
+  EXPECT_EQ(world.view().changed.size(), 10u);
+  EXPECT_EQ(world.view().vanished.size(), 10u);
+}
+
+TEST_F(Capture, PlayersAreReportedById) {
+  world.setWatched(true);
+  const std::uint32_t ann = world.join("ann", RED);
+  world.join("bob", BLUE);
+  GM.tick();
+  auto* p_ship = new Object;
+  WM.getPlayer(ann)->setObject(p_ship);
+  WM.getPlayer(ann)->setScore(7);
+  GM.tick();
+  ASSERT_EQ(world.view().players.size(), 2u);
+  EXPECT_EQ(world.view().players[0].name, "ann");
+  EXPECT_EQ(world.view().players[0].score, 7);
+  EXPECT_EQ(world.view().players[0].followed, p_ship->key());
+  EXPECT_EQ(world.view().players[1].followed.generation, 0u);
+}
+
+}  // namespace
+}  // namespace df::test

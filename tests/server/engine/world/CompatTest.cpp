@@ -1,0 +1,166 @@
+// Where the published engine differs from the book, and how a world is told to behave like it.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <optional>
+
+#include "engine/events/EventKeyboard.h"
+#include "engine/events/EventStep.h"
+#include "engine/managers/GameManager.h"
+#include "engine/managers/LogManager.h"
+#include "engine/world/Runner.h"
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+/// The environment is put back after the test.
+class CompatTest : public WorldTest {
+ protected:
+  CompatTest() { unsetenv("DF_COMPAT"); }
+  ~CompatTest() override { unsetenv("DF_COMPAT"); }
+
+  /// Where a Probe is that left the world of 80 by 24, after how many updates; nothing if it never hears of
+  /// it.
+  std::optional<Vector> leavesAt(Vector from, Vector velocity, std::optional<Box> box = {}) {
+    auto* p = new Probe("leaver", nullptr, from);
+    if (box) p->setBox(*box);
+    p->setVelocity(velocity);
+    std::optional<Vector> at;
+    int times = 0;
+    p->on_event = [&](Probe& self, const Event& e) {
+      if (e.getType() != OUT_EVENT) return;
+      if (times++ == 0) at = self.getPosition();
+    };
+    for (int i = 0; i < 40; ++i) world.update();
+    EXPECT_LE(times, 1);
+    WM.markForDelete(p);
+    world.update();
+    return at;
+  }
+};
+
+TEST_F(CompatTest, ThePublishedEngineCountsStepsFromZero) {
+  std::vector<int> counts;
+  Probe probe;
+  probe.registerInterest(STEP_EVENT);
+  probe.on_event = [&](Probe&, const Event& e) {
+    if (const auto* p_step = dynamic_cast<const EventStep*>(&e)) counts.push_back(p_step->getStepCount());
+  };
+  world.setCompat();
+  world.tick();
+  world.tick();
+  EXPECT_EQ(counts, (std::vector<int>{0, 1}));
+  world.setCompat(false);
+  world.tick();
+  EXPECT_EQ(counts.back(), 3);
+}
+
+TEST_F(CompatTest, TheBookJudgesLeavingByThePosition) {
+  EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0)), Vector(80, 10));
+  EXPECT_EQ(leavesAt(Vector(1, 10), Vector(-0.5, 0)), Vector(-0.5, 10));
+}
+
+TEST_F(CompatTest, ThePublishedEngineJudgesItByTheBox) {
+  world.setCompat();
+  EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0)), Vector(81, 10)) << "at 80.5 it touches the edge";
+  EXPECT_EQ(leavesAt(Vector(1, 10), Vector(-0.25, 0)), Vector(-0.5, 10)) << "0.99 cells wide, from -0.5";
+  EXPECT_EQ(leavesAt(Vector(40, 20), Vector(0, 1)), Vector(40, 25));
+}
+
+TEST_F(CompatTest, ALargeBoxIsInTheWorldForLonger) {
+  world.setCompat();
+  const Box sprite(Vector(-3, -1), 6, 2);
+  EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0), sprite), Vector(83.5, 10));
+  world.setCompat(false);
+  EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0), sprite), Vector(80, 10));
+}
+
+TEST_F(CompatTest, ABoxBesideItsPositionLeavesWhileThePositionIsInside) {
+  world.setCompat();
+  EXPECT_EQ(leavesAt(Vector(60, 10), Vector(0.5, 0), Box(Vector(10, 0), 1, 1)), Vector(70.5, 10));
+  // Others in the same world are judged by their own, whichever way they are moved.
+  EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0)), Vector(81, 10));
+}
+
+TEST_F(CompatTest, WhoWasPlacedOutsideLeavesOnlyAfterComingIn) {
+  world.setCompat();
+  EXPECT_EQ(leavesAt(Vector(82, 10), Vector(1, 0)), std::nullopt);
+  EXPECT_EQ(leavesAt(Vector(85, 10), Vector(-2.5, 0)), Vector(-2.5, 10));
+}
+
+TEST_F(CompatTest, SpritelessNeighboursDoNotTouchThere) {
+  world.setCompat();
+  Probe a("a", &heard, Vector(10, 10));
+  Probe b("b", &heard, Vector(12, 10));
+  EXPECT_EQ(WM.moveObject(&a, Vector(11, 10)), 0);
+  EXPECT_TRUE(heard.empty());
+  EXPECT_EQ(a.getBox().getCorner(), Vector(-0.5, -0.5));
+  EXPECT_FLOAT_EQ(a.getBox().getHorizontal(), 0.99F);
+  EXPECT_FLOAT_EQ(a.getBox().getVertical(), 0.99F);
+  world.setCompat(false);
+  Probe c("c", &heard, Vector(13, 12));
+  Probe d("d", &heard, Vector(15, 12));
+  EXPECT_EQ(WM.moveObject(&c, Vector(14, 12)), -1);
+}
+
+TEST_F(CompatTest, LogLevelsCountTheOtherWayRound) {
+  LM.setLogLevel(3);
+  LM.writeLog(5, "five");
+  LM.writeLog(1, "one");
+  EXPECT_EQ(logged("five"), 0);
+  EXPECT_EQ(logged("one"), 1);
+  world.setCompat();
+  LM.writeLog(5, "five");
+  LM.writeLog(1, "one");
+  EXPECT_EQ(logged("five"), 1);
+  EXPECT_EQ(logged("one"), 1);
+}
+
+TEST_F(CompatTest, AWorldMadeByHandIsLeftAlone) {
+  EXPECT_EQ(world.program(), nullptr);
+  GM.startUp();
+  EXPECT_FALSE(world.compat());
+  world.setCompat();
+  GM.startUp();
+  EXPECT_TRUE(world.compat());
+}
+
+TEST_F(CompatTest, TheEnvironmentHasTheLastWord) {
+  setenv("DF_COMPAT", "1", 1);
+  GM.startUp();
+  EXPECT_TRUE(world.compat());
+  setenv("DF_COMPAT", "0", 1);
+  GM.startUp();
+  EXPECT_FALSE(world.compat());
+  setenv("DF_COMPAT", "perhaps", 1);
+  world.setCompat();
+  GM.startUp();
+  EXPECT_TRUE(world.compat());
+}
+
+TEST_F(WorldTest, AGameThatIsOverForOnePlayerGoesOnForTheOthers) {
+  Probe quitter("quitter");
+  quitter.registerInterest(KEYBOARD_EVENT);
+  quitter.on_event = [](Probe&, const Event& e) {
+    if (e.getType() == KEYBOARD_EVENT) GM.setGameOver();
+  };
+  world.setGameOverLeaves(true);
+  const std::uint32_t ann = world.join("ann", CYAN);
+  const std::uint32_t bob = world.join("bob", RED);
+  world.key(bob, Keyboard::Q, KEY_PRESSED);
+  world.tick();
+  EXPECT_FALSE(world.isGameOver());
+  EXPECT_EQ(world.takeLeavers(), std::vector<std::uint32_t>{bob});
+  EXPECT_TRUE(world.takeLeavers().empty());
+  GM.setGameOver();  // nobody's key
+  EXPECT_TRUE(world.isGameOver());
+  GM.setGameOver(false);
+  world.setGameOverLeaves(false);
+  world.key(ann, Keyboard::Q, KEY_PRESSED);
+  world.tick();
+  EXPECT_TRUE(world.isGameOver());
+}
+
+}  // namespace
+}  // namespace df::test

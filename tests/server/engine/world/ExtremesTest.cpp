@@ -1,0 +1,189 @@
+// What lies at the ends of the ranges: far away, very fast, very large, very many.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
+
+namespace df::test {
+namespace {
+
+class Extremes : public ::testing::Test {
+ protected:
+  Extremes() {
+    world.setLogSink([](const std::string&) {});
+  }
+  ~Extremes() override { world.shutDown(); }
+  World world;
+  World::Scope scope{world};
+};
+
+class Reacting : public Object {
+ public:
+  explicit Reacting(std::function<void(Reacting&, const EventCollision&)> reaction = {})
+      : m_reaction(std::move(reaction)) {}
+  int eventHandler(const Event* p_e) override {
+    if (p_e->getType() != COLLISION_EVENT) return 0;
+    ++collisions;
+    if (m_reaction) m_reaction(*this, *static_cast<const EventCollision*>(p_e));
+    return 1;
+  }
+  int collisions = 0;
+
+ private:
+  std::function<void(Reacting&, const EventCollision&)> m_reaction;
+};
+
+/// The way of a small crowd around `origin`, relative to it, and its collisions.
+std::vector<FixedVector> wayAround(Vector origin, bool swept, int& collisions) {
+  World world;
+  const World::Scope scope(world);
+  world.setLogSink([](const std::string&) {});
+  WM.setSweptCollisions(swept);
+  std::vector<Reacting*> crowd;
+  const auto turn = [](Reacting& self, const EventCollision& c) {
+    const Vector v = self.getVelocity();
+    if (c.getObject1() == &self) self.setVelocity(Vector(-v.y(), v.x()));
+  };
+  for (int i = 0; i < 40; ++i) {
+    auto* p_o = new Reacting(turn);
+    p_o->setPosition(origin + Vector(i % 8 * 2.5, i / 8 * 1.75));
+    p_o->setVelocity(Vector((i * 37 % 19 - 9) / 8.0, (i * 23 % 17 - 8) / 16.0));
+    if (i % 5 == 0) p_o->setBox(Box(Vector(-1.5, -1), 3, 2));
+    if (i % 3 == 0) p_o->setSolidness(SOFT);
+    crowd.push_back(p_o);
+  }
+  std::vector<FixedVector> way;
+  for (int tick = 0; tick < 60; ++tick) {
+    WM.update();
+    for (const Reacting* p_o : crowd)
+      way.push_back(world.store().position(p_o->key().slot) - *toFixed(origin));
+  }
+  for (const Reacting* p_o : crowd) collisions += p_o->collisions;
+  world.shutDown();
+  return way;
+}
+
+// Read from the store: a double has no room for 2^-32 cell at 2e9.
+TEST_F(Extremes, APathTwoBillionCellsAwayIsTheSameAsAtTheOrigin) {
+  for (const bool swept : {false, true}) {
+    int here = 0;
+    const std::vector<FixedVector> way = wayAround(Vector(0, 0), swept, here);
+    EXPECT_GT(here, 100);
+    for (const double x : {1.99999e9, -1.99999e9, 63.0, 1e6}) {
+      int there = 0;
+      EXPECT_TRUE(wayAround(Vector(x, -x / 2), swept, there) == way) << x << (swept ? " swept" : "");
+      EXPECT_EQ(there, here);
+    }
+  }
+}
+
+TEST_F(Extremes, AMillionCellsPerTickEndWhereTheyShould) {
+  WM.setBoundary(Box(Vector(0, 0), 1e6, 1e6));
+  auto* p_wall = new Reacting;
+  p_wall->setPosition(Vector(900000, 10));
+  auto* p_fast = new Reacting;
+  p_fast->setPosition(Vector(0.5, 10));
+  p_fast->setVelocity(Vector(1e6 - 1, 0));
+  WM.update();
+  EXPECT_EQ(p_fast->getPosition(), Vector(999999.5, 10)) << "the book looks only at where a move ends";
+  p_fast->setPosition(Vector(0.5, 10));
+  p_fast->setSwept();
+  WM.update();
+  EXPECT_EQ(p_wall->collisions, 1);
+  EXPECT_LT(p_fast->getPosition().x(), 899999);
+  EXPECT_GT(p_fast->getPosition().x(), 899998.999);
+}
+
+TEST_F(Extremes, BoxesWithoutSizeAndHugeOnesMeet) {
+  auto* p_huge = new Reacting;
+  p_huge->setPosition(Vector(0, 0));
+  EXPECT_EQ(p_huge->setBox(Box(Vector(-5000, -5000), 1e4, 1e4)), 0);
+  auto* p_point = new Reacting;
+  EXPECT_EQ(p_point->setBox(Box(Vector(0, 0), 0, 0)), 0);
+  p_point->setPosition(Vector(5002, 0));
+  p_point->setVelocity(Vector(-1, 0));
+  WM.update();
+  EXPECT_EQ(p_point->collisions, 0);
+  WM.update();
+  EXPECT_EQ(p_point->collisions, 1) << "edges touch";
+  EXPECT_EQ(p_point->getPosition(), Vector(5001, 0));
+}
+
+TEST_F(Extremes, NumbersThatAreNoneAreRefusedAndTheWorldGoesOn) {
+  auto* p_o = new Reacting;
+  p_o->setVelocity(Vector(1, 0));
+  auto* p_other = new Reacting;
+  p_other->setPosition(Vector(5, 5));
+  p_other->setVelocity(Vector(0.5, 0));
+  const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                        -std::numeric_limits<double>::infinity(), 1e30};
+  std::uint64_t refused = 0;
+  for (const double x : bad) {
+    for (const Vector v : {Vector(x, 0), Vector(0, x)}) {
+      EXPECT_EQ(p_o->setPosition(v), -1);
+      EXPECT_EQ(p_o->setVelocity(v), -1);
+      EXPECT_EQ(p_o->setAcceleration(v), -1);
+      EXPECT_EQ(p_o->setDirection(v), -1);
+      EXPECT_EQ(WM.moveObject(p_o, v), -1);
+      EXPECT_EQ(p_o->setBox(Box(v, 1, 1)), -1);
+      EXPECT_FALSE(WM.findFree(Box(Vector(), 1, 1), v).has_value());
+      refused += 7;
+    }
+    EXPECT_EQ(p_o->setBox(Box(Vector(), x, 1)), -1);
+    EXPECT_EQ(p_o->setSpeed(x), -1);
+    refused += 2;
+  }
+  EXPECT_EQ(world.getRefusals(), refused);
+  WM.update();
+  EXPECT_EQ(p_o->getPosition(), Vector(1, 0));
+  EXPECT_EQ(p_other->getPosition(), Vector(5.5, 5));
+}
+
+TEST_F(Extremes, AMillionObjectsLoadAndStep) {
+  WM.setBoundary(Box(Vector(0, 0), 4000, 4000));
+  for (int i = 0; i < 1000000; ++i) {
+    auto* p_o = new Object;
+    p_o->setPosition(Vector(i % 2000 * 2, i / 2000 * 4));
+    p_o->setVelocity(Vector(0.25, i % 2 == 0 ? 0.25 : -0.25));
+  }
+  for (int tick = 0; tick < 3; ++tick) WM.update();
+  EXPECT_EQ(world.getObjectCount(), 1000000);
+}
+
+// One shot clears a screen of 700 and each of them leaves a piece of wreckage, all from within one handler's
+// list.
+TEST_F(Extremes, SevenHundredDieAndAreBornInOneTick) {
+  WM.setBoundary(Box(Vector(0, 0), 200, 100));
+  int born = 0;
+  for (int i = 0; i < 700; ++i) {
+    auto* p_o = new Reacting([&born](Reacting& self, const EventCollision&) {
+      auto* p_piece = new Reacting;
+      p_piece->setPosition(self.getPosition());
+      p_piece->setType("piece");
+      p_piece->setVelocity(Vector(1, 0));
+      ++born;
+      delete &self;
+    });
+    p_o->setPosition(Vector(i % 100, i / 100));
+  }
+  auto* p_shot = new Reacting;
+  p_shot->setSolidness(SOFT);
+  p_shot->setBox(Box(Vector(-150, -150), 300, 300));
+  p_shot->setPosition(Vector(500, 500));
+  EXPECT_EQ(WM.moveObject(p_shot, Vector(50, 50)), 0);
+  EXPECT_EQ(born, 700);
+  EXPECT_EQ(world.getObjectCount(), 701);
+  WM.update();
+  EXPECT_EQ(WM.objectsOfType("piece").getCount(), 700);
+}
+
+}  // namespace
+}  // namespace df::test

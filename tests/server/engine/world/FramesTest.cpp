@@ -1,0 +1,117 @@
+// Objects that have frames: what is drawn, and what a watcher is told.
+#include <gtest/gtest.h>
+
+#include "engine/managers/DisplayManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
+#include "shared/replica/Look.h"
+
+namespace df {
+namespace {
+
+using naiad::Appearance;
+using naiad::Selector;
+using naiad::Sequence;
+
+Sequence letters() {
+  std::vector<Appearance> frames;
+  for (const char32_t ch : {U'a', U'b', U'c'})
+    frames.push_back({{-256, 0, U'<', CYAN}, {0, 0, ch, CYAN}, {256, 0, U'>', CYAN}});
+  return Sequence(frames);
+}
+
+class Adorned : public Object {
+ public:
+  int draw() override { return Object::draw() == 0 ? DM.drawCh(getPosition(), U'*', RED) : -1; }
+};
+
+class FramesTest : public testing::Test {
+ protected:
+  std::string row() { return world.renderView({}).rowText(5).substr(9, 3); }
+
+  World world;
+  World::Scope scope{world};
+};
+
+TEST_F(FramesTest, AClockTurnsTheFrames) {
+  Object object;  // needs no draw() of its own
+  object.setPosition(Vector(10, 5));
+  ASSERT_EQ(object.setFrames(letters(), Selector::clock(1, 2)), 0);
+  std::string seen;
+  for (int i = 0; i < 8; ++i) {
+    world.tick();
+    seen += row() + " ";
+    EXPECT_EQ(row()[1], "abc"[object.getFrame()]);
+  }
+  EXPECT_EQ(seen, "<a> <a> <b> <b> <c> <c> <a> <a> ");
+  EXPECT_EQ(object.getFrameCount(), 3);
+}
+
+TEST_F(FramesTest, AWatcherIsToldFramesAndSelector) {
+  Object object;
+  object.setPosition(Vector(10, 5));
+  object.setFrames(letters(), Selector::turning(1, 5, 7));
+  world.tick();
+  EXPECT_TRUE(world.view().looks.empty()) << "nobody watches";
+  world.setWatched(true);
+  Object plain;
+  world.tick();
+  ASSERT_EQ(world.view().looks.size(), 1u);
+  const ToldLook& told = world.view().looks[0];
+  EXPECT_EQ(world.view().drawn[told.drawn].key, object.key());
+  EXPECT_EQ(told.p_look->sequence, letters());
+  EXPECT_EQ(told.p_look->selector, Selector::turning(1, 5, 7));
+}
+
+TEST_F(FramesTest, ADrawOfItsOwnMayAddToThem) {
+  Adorned object;
+  object.setPosition(Vector(10, 5));
+  object.setFrames(letters(), Selector::fixed(1));
+  world.tick();
+  EXPECT_EQ(row(), "<*>");
+}
+
+TEST_F(FramesTest, TheyGoWithTheObjectAndEndWithIt) {
+  auto* p_object = new Object;
+  p_object->setPosition(Vector(10, 5));
+  p_object->setFrames(letters(), Selector::fixed(2));
+  world.tick();
+  EXPECT_EQ(row(), "<c>");
+  p_object->setSelector(Selector::fixed(0));
+  world.tick();
+  EXPECT_EQ(row(), "<a>");
+  p_object->setVisible(false);
+  world.tick();
+  EXPECT_EQ(row(), "   ");
+  p_object->setVisible();
+  p_object->setFrames({}, {});
+  world.tick();
+  EXPECT_EQ(row(), "   ");
+  EXPECT_EQ(p_object->getFrameCount(), 0);
+  p_object->setFrames(letters(), Selector::fixed(2));
+  delete p_object;
+  for (int i = 0; i < 200; ++i) {  // until its slot is used again
+    Object next;
+    next.setPosition(Vector(10, 5));
+    world.tick();
+    ASSERT_EQ(row(), "   ");
+  }
+}
+
+TEST_F(FramesTest, WhatDoesNotFitIsRefused) {
+  Object object;
+  EXPECT_EQ(object.setSelector(Selector::fixed(0)), -1) << "no frames";
+  EXPECT_EQ(object.setFrames(letters(), Selector::fixed(3)), -1);
+  EXPECT_EQ(object.setFrames(letters(), Selector::clock(0, 0)), -1);
+  EXPECT_EQ(object.setFrames(Sequence(std::vector<Appearance>(257)), {}), -1);
+  EXPECT_EQ(object.setFrames({Appearance(9000, naiad::Glyph{})}, {}), -1);
+  EXPECT_EQ(object.getFrameCount(), 0);
+  EXPECT_EQ(object.setFrames(letters(), Selector::fixed(2)), 0);
+  EXPECT_EQ(object.setSelector(Selector::fixed(3)), -1);
+  EXPECT_EQ(object.getFrame(), 2);
+  EXPECT_EQ(world.getRefusals(), 6u);
+}
+
+}  // namespace
+}  // namespace df

@@ -1,0 +1,136 @@
+#include <memory>
+
+#include "engine/events/EventStep.h"
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+using Heard = std::vector<std::string>;
+
+class Interests : public WorldTest {
+ protected:
+  Event named(const std::string& type) {
+    Event event;
+    event.setType(type);
+    return event;
+  }
+  Event ping = named("ping");
+};
+
+TEST_F(Interests, EventsGoToTheRegisteredInOrderOfRegistration) {
+  Probe a("a", &heard);
+  Probe b("b", &heard);
+  Probe c("c", &heard);
+  c.registerInterest("ping");
+  a.registerInterest("ping");
+  EXPECT_EQ(WM.onEvent(&ping), 2);
+  EXPECT_EQ(heard, (Heard{"c:ping", "a:ping"}));
+  EXPECT_EQ(WM.onEvent(nullptr), 0);
+}
+
+TEST_F(Interests, RegisteringTwiceIsOnceAndUnregisteringEnds) {
+  Probe a("a", &heard);
+  EXPECT_EQ(a.registerInterest("ping"), 0);
+  EXPECT_EQ(a.registerInterest("ping"), 0);
+  EXPECT_EQ(WM.onEvent(&ping), 1);
+  EXPECT_EQ(a.unregisterInterest("ping"), 0);
+  EXPECT_EQ(a.unregisterInterest("ping"), -1);
+  EXPECT_EQ(a.unregisterInterest("never"), -1);
+  EXPECT_EQ(WM.onEvent(&ping), 0);
+}
+
+TEST_F(Interests, InactiveHearNothing) {
+  Probe a("a", &heard);
+  a.registerInterest("ping");
+  a.setActive(false);
+  EXPECT_EQ(WM.onEvent(&ping), 0);
+  a.setActive(true);
+  EXPECT_EQ(WM.onEvent(&ping), 1);
+}
+
+TEST_F(Interests, NewcomersWaitAndTheDeletedAreSkipped) {
+  auto* p_a = new Probe("a", &heard);
+  auto* p_b = new Probe("b", &heard);
+  auto* p_c = new Probe("c", &heard);
+  for (Probe* p : {p_a, p_b, p_c}) p->registerInterest("ping");
+  p_a->on_event = [&](Probe&, const Event&) {
+    delete std::exchange(p_b, nullptr);
+    (new Probe("late", &heard))->registerInterest("ping");
+  };
+  EXPECT_EQ(WM.onEvent(&ping), 2);
+  EXPECT_EQ(heard, (Heard{"a:ping", "c:ping"}));
+}
+
+TEST_F(Interests, HandlerMayDeleteItselfAndSendMore) {
+  auto* p_a = new Probe("a", &heard);
+  Probe b("b", &heard);
+  p_a->registerInterest("ping");
+  b.registerInterest("pong");
+  p_a->on_event = [&](Probe& self, const Event&) {
+    const Event pong = named("pong");
+    WM.onEvent(&pong);
+    delete &self;
+  };
+  WM.onEvent(&ping);
+  EXPECT_EQ(heard, (Heard{"a:ping", "b:pong"}));
+  EXPECT_EQ(WM.onEvent(&ping), 0);
+}
+
+TEST_F(Interests, RemovalEndsInterestEvenAfterReturning) {
+  Probe a("a", &heard);
+  a.registerInterest("ping");
+  WM.removeObject(&a);
+  EXPECT_EQ(a.registerInterest("ping"), -1);
+  WM.insertObject(&a);
+  EXPECT_EQ(WM.onEvent(&ping), 0);
+}
+
+TEST_F(Interests, ManyComersAndGoersKeepTheOrder) {
+  std::vector<std::unique_ptr<Probe>> probes;
+  for (int i = 0; i < 200; ++i) {
+    probes.push_back(std::make_unique<Probe>(std::to_string(i), &heard));
+    probes.back()->registerInterest("ping");
+  }
+  Heard expected;
+  for (int i = 0; i < 200; ++i) {
+    if (i % 3 == 0) {
+      probes[i].reset();
+    } else if (i % 3 == 1) {
+      probes[i]->unregisterInterest("ping");
+    } else {
+      expected.push_back(std::to_string(i) + ":ping");
+    }
+  }
+  WM.onEvent(&ping);
+  EXPECT_EQ(heard, expected);
+}
+
+TEST_F(Interests, StepEventCountsTheTicks) {
+  Probe a("a");
+  a.registerInterest(STEP_EVENT);
+  std::vector<int> counts;
+  a.on_event = [&](Probe&, const Event& e) {
+    counts.push_back(dynamic_cast<const EventStep&>(e).getStepCount());
+  };
+  GM.tick();
+  GM.tick();
+  EXPECT_EQ(counts, (std::vector<int>{1, 2}));
+  EXPECT_EQ(GM.getStepCount(), 2);
+}
+
+TEST_F(Interests, HandlerThatThrowsIsQuarantinedAndTheTickGoesOn) {
+  auto* p_bad = new Probe("bad", &heard);
+  Probe good("good", &heard);
+  p_bad->registerInterest(STEP_EVENT);
+  good.registerInterest(STEP_EVENT);
+  p_bad->on_event = [](Probe&, const Event&) { throw 42; };
+  GM.tick();
+  GM.tick();
+  EXPECT_EQ(heard, (Heard{"bad:df-step", "good:df-step", "good:df-step"}));
+  EXPECT_EQ(logged("bad"), 1);
+  EXPECT_EQ(world.getObjectCount(), 1);
+}
+
+}  // namespace
+}  // namespace df::test

@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "engine/managers/WorldManager.h"
+#include "engine/world/Layer.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
+
+namespace df {
+namespace {
+
+/// Lets its bodies fall: by half a tick's gravity in the first tick, as things do.
+class Falling : public Layer {
+ public:
+  static constexpr double kGravity = 0.25;
+  void step(World& world) override {
+    ++steps;
+    for (const ObjectKey key : bodies) {
+      if (world.find(key) == nullptr) continue;
+      WorldStore& store = world.store();
+      const FixedVector v = store.velocity(key.slot);
+      const FixedVector a{0, fromCells(1) / 4};
+      store.setPosition(key.slot, store.position(key.slot) + v + FixedVector{0, a.y / 2});
+      store.setVelocity(key.slot, v + a);
+      store.setAcceleration(key.slot, a);
+    }
+  }
+  void add(const Object& object) {
+    bodies.push_back(object.key());
+    object.getWorld()->store().set(object.key().slot, WorldStore::kBody, true);
+  }
+  int steps = 0;
+  std::vector<ObjectKey> bodies;
+};
+
+class Layers : public testing::Test {
+ protected:
+  Layers() : scope(world) {
+    world.addLayer(std::make_unique<Falling>());
+    layer = world.findLayer<Falling>();
+  }
+  World world;
+  World::Scope scope;
+  Falling* layer = nullptr;
+};
+
+TEST_F(Layers, AreFoundByTheirClassAndStepOnceInEachUpdate) {
+  class Other : public Falling {};
+  ASSERT_NE(layer, nullptr);
+  EXPECT_EQ(world.findLayer<Other>(), nullptr);
+  world.update();
+  world.tick();
+  EXPECT_EQ(layer->steps, 2);
+}
+
+TEST_F(Layers, TheBooksMovesSkipBodies) {
+  Object body, plain;
+  Object *const p_body = &body, *const p_plain = &plain;
+  p_plain->setSolidness(SPECTRAL);
+  p_body->setSolidness(SPECTRAL);
+  layer->add(*p_body);
+  p_body->setVelocity(Vector(1, 0));
+  p_plain->setVelocity(Vector(1, 0));
+  world.update();
+  EXPECT_EQ(p_body->getPosition(), Vector(1, 0.125)) << "by the layer, once";
+  EXPECT_EQ(p_plain->getPosition(), Vector(1, 0));
+  p_body->setActive(false);
+  p_body->setActive(true);
+  p_body->getWorld()->store().set(p_body->key().slot, WorldStore::kBody, false);
+  layer->bodies.clear();
+  world.update();
+  EXPECT_EQ(p_body->getPosition(), Vector(2, 0.375)) << "no body any more: the book's";
+}
+
+TEST_F(Layers, WhoWatchesCanWorkOutABodysFlight) {
+  Object body;
+  Object* const p_body = &body;
+  layer->add(*p_body);
+  world.setWatched(true);
+  p_body->setVelocity(Vector(0.5, -2));
+  world.tick();
+  ASSERT_EQ(world.view().changed.size(), 1u);
+  FixedVector p = world.view().changed[0].position;
+  FixedVector v = world.view().changed[0].velocity;
+  const FixedVector a = world.view().changed[0].acceleration;
+  for (int i = 0; i < 100; ++i) {
+    world.tick();
+    p = p + v;
+    v = v + a;
+    EXPECT_EQ(world.store().position(p_body->key().slot), p) << "after " << i << " ticks";
+  }
+}
+
+TEST_F(Layers, ABodyStandsInTheWayOfOthers) {
+  Object body, plain;
+  Object *const p_body = &body, *const p_plain = &plain;
+  layer->add(*p_body);
+  layer->bodies.clear();  // stays where it is
+  p_body->setPosition(Vector(5, 0));
+  p_plain->setVelocity(Vector(1, 0));
+  for (int i = 0; i < 10; ++i) world.update();
+  EXPECT_EQ(p_plain->getPosition(), Vector(3, 0));
+}
+
+TEST_F(Layers, WhoDiesInAStepIsDeletedInTheSameUpdate) {
+  class Reaper : public Layer {
+   public:
+    void step(World& world) override {
+      for (const ObjectKey key : doomed) world.markForDelete(world.find(key));
+    }
+    std::vector<ObjectKey> doomed;
+  };
+  world.addLayer(std::make_unique<Reaper>());
+  auto* p_body = new Object;
+  const ObjectKey key = p_body->key();
+  world.findLayer<Reaper>()->doomed.push_back(key);
+  world.update();
+  EXPECT_EQ(world.find(key), nullptr);
+}
+
+}  // namespace
+}  // namespace df

@@ -1,0 +1,90 @@
+#include <string>
+#include <vector>
+
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+using Heard = std::vector<std::string>;
+
+class MayMoveOut : public WorldTest {
+ protected:
+  MayMoveOut() {
+    wall = new Probe("wall", &heard, Vector(20, 10));
+    wall->setBox(Box(Vector(-5, -5), 10, 10));
+    a = new Probe("a", &heard, Vector(23, 10));  // inside, nearest to the right side
+  }
+
+  Probe* wall;
+  Probe* a;
+};
+
+TEST_F(MayMoveOut, WithoutItOnePlacedInsideCannotLeaveStepByStep) {
+  EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1);
+  expectAt(*a, 23, 10);
+}
+
+TEST_F(MayMoveOut, LeavesStepByStepAndBothHear) {
+  a->setMayMoveOut();
+  EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), 0);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "wall:df-collision"}));
+  EXPECT_EQ(WM.moveObject(a, Vector(25, 10)), 0);
+  EXPECT_EQ(WM.moveObject(a, Vector(26, 10)), 0);
+  expectAt(*a, 26, 10);
+}
+
+TEST_F(MayMoveOut, DoesNotLetItDeeperIn) {
+  a->setMayMoveOut();
+  EXPECT_EQ(WM.moveObject(a, Vector(22, 10)), -1);
+  EXPECT_EQ(WM.moveObject(a, Vector(23, 11)), -1);  // neither nearer nor further
+  expectAt(*a, 23, 10);
+}
+
+TEST_F(MayMoveOut, DoesNotLetItIntoWhatItDidNotTouch) {
+  a->setMayMoveOut();
+  new Probe("b", &heard, Vector(25, 10));
+  EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1);
+  expectAt(*a, 23, 10);
+}
+
+TEST_F(MayMoveOut, LetsANoSoftOneLeaveASoftOne) {
+  wall->setSolidness(SOFT);
+  a->setNoSoft();
+  EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1);
+  a->setMayMoveOut();
+  EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), 0);
+}
+
+TEST_F(MayMoveOut, OnlyTheMoversSettingCounts) {
+  wall->setMayMoveOut();
+  EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1);
+}
+
+TEST_F(MayMoveOut, LeavesWithUpdate) {
+  a->setMayMoveOut();
+  a->setVelocity(Vector(0.5, 0));
+  for (int i = 0; i < 10; ++i) WM.update();
+  expectAt(*a, 28, 10);
+}
+
+TEST_F(MayMoveOut, SweptOneLeavesAndIsStoppedByTheNextWall) {
+  a->setSwept();
+  a->setMayMoveOut();
+  new Probe("next", &heard, Vector(40, 10));
+  EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), 0);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "wall:df-collision"}));  // they still touch at the end
+  EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
+  EXPECT_EQ(a->getPosition().y(), 10);
+  EXPECT_NEAR(a->getPosition().x(), 39, 1e-9);
+}
+
+TEST_F(MayMoveOut, SweptOneIsBlockedAtOnceOnTheWayIn) {
+  a->setSwept();
+  a->setMayMoveOut();
+  EXPECT_EQ(WM.moveObject(a, Vector(19, 10)), -1);
+  expectAt(*a, 23, 10);
+}
+
+}  // namespace
+}  // namespace df::test

@@ -1,0 +1,315 @@
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+using Heard = std::vector<std::string>;
+
+class MoveObject : public WorldTest {
+ protected:
+  Probe* make(const std::string& name, double x, double y, Solidness solidness = HARD) {
+    auto* p = new Probe(name, &heard, Vector(x, y));
+    p->setSolidness(solidness);
+    return p;
+  }
+};
+
+TEST_F(MoveObject, FreeMoverMoves) {
+  Probe* a = make("a", 10, 10);
+  EXPECT_EQ(WM.moveObject(a, Vector(12.5, 9)), 0);
+  expectAt(*a, 12.5, 9);
+  EXPECT_TRUE(heard.empty());
+}
+
+TEST_F(MoveObject, BlockedMoverKeepsItsPosition) {
+  Probe* a = make("a", 10, 10);
+  Probe* b = make("b", 15, 10);
+  EXPECT_EQ(WM.moveObject(a, Vector(14.5, 10)), -1);
+  expectAt(*a, 10, 10);
+  expectAt(*b, 15, 10);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+}
+
+TEST_F(MoveObject, TouchingEdgesCollideAndAHairApartDoesNot) {
+  Probe* a = make("a", 10, 10);
+  make("b", 15, 10);
+  EXPECT_EQ(WM.moveObject(a, Vector(14, 11)), -1);
+  EXPECT_EQ(WM.moveObject(a, Vector(14 - 1.0 / 1024 / 1024, 11)), 0);
+}
+
+TEST_F(MoveObject, SoftPairsMoveAndBothHear) {
+  for (const auto& [mover, other] : {std::pair{SOFT, SOFT}, std::pair{SOFT, HARD}, std::pair{HARD, SOFT}}) {
+    heard.clear();
+    Probe* a = make("a", 10, 10, mover);
+    Probe* b = make("b", 15, 10, other);
+    EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+    expectAt(*a, 15, 10);
+    EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+    delete a;
+    delete b;
+  }
+}
+
+TEST_F(MoveObject, SpectralNeverCollides) {
+  Probe* a = make("a", 10, 10, SPECTRAL);
+  Probe* b = make("b", 15, 10);
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+  EXPECT_EQ(WM.moveObject(b, Vector(15.5, 10)), 0);
+  EXPECT_TRUE(heard.empty());
+}
+
+TEST_F(MoveObject, NoSoftMoverIsBlockedBySoft) {
+  Probe* a = make("a", 10, 10);
+  Probe* b = make("b", 15, 10, SOFT);
+  a->setNoSoft();
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+  // Only the mover's setting counts.
+  EXPECT_EQ(WM.moveObject(b, Vector(10, 10)), 0);
+}
+
+TEST_F(MoveObject, AllOverlappedHearInCreationOrderEvenIfTheFirstBlocks) {
+  make("b", 15, 10);
+  make("c", 15.5, 10, SOFT);
+  Probe* a = make("a", 10, 10);
+  make("d", 16, 10);
+  EXPECT_EQ(WM.moveObject(a, Vector(15.5, 10)), -1);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision", "a:df-collision", "c:df-collision",
+                          "a:df-collision", "d:df-collision"}));
+}
+
+TEST_F(MoveObject, CollisionEventNamesMoverOtherAndTarget) {
+  Probe* a = make("a", 10, 10);
+  Probe* b = make("b", 15, 10);
+  int seen = 0;
+  const auto check = [&](Probe&, const Event& e) {
+    const auto& c = dynamic_cast<const EventCollision&>(e);
+    EXPECT_EQ(c.getObject1(), a);
+    EXPECT_EQ(c.getObject2(), b);
+    EXPECT_EQ(c.getPosition(), Vector(14.25, 10));
+    ++seen;
+  };
+  a->on_event = check;
+  b->on_event = check;
+  WM.moveObject(a, Vector(14.25, 10));
+  EXPECT_EQ(seen, 2);
+}
+
+TEST_F(MoveObject, HandlerThatSoftensThePairUnblocksIt) {
+  Probe* a = make("a", 10, 10);
+  Probe* b = make("b", 15, 10);
+  b->on_event = [](Probe& self, const Event&) { self.setSolidness(SOFT); };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+}
+
+TEST_F(MoveObject, HandlerThatHardensThePairBlocksIt) {
+  Probe* a = make("a", 10, 10, SOFT);
+  make("b", 15, 10);
+  a->on_event = [](Probe& self, const Event&) { self.setSolidness(HARD); };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
+}
+
+TEST_F(MoveObject, PairIsJudgedRightAfterItsOwnHandlers) {
+  make("b", 15, 10);
+  Probe* c = make("c", 15, 10, SOFT);
+  Probe* a = make("a", 10, 10);
+  // With b it was HARD against HARD; what happens at c comes too late.
+  c->on_event = [&](Probe&, const Event&) { a->setSolidness(SPECTRAL); };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
+}
+
+TEST_F(MoveObject, SetPositionInASoftCollisionIsOverwritten) {
+  Probe* a = make("a", 10, 10, SOFT);
+  make("b", 15, 10);
+  a->on_event = [](Probe& self, const Event&) { self.setPosition(Vector(40, 10)); };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+  expectAt(*a, 15, 10);
+}
+
+TEST_F(MoveObject, SetPositionAfterAHardBlockSticks) {
+  Probe* a = make("a", 10, 10);
+  make("b", 15, 10);
+  a->on_event = [](Probe& self, const Event&) { self.setPosition(Vector(40, 10)); };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
+  expectAt(*a, 40, 10);
+}
+
+TEST_F(MoveObject, ListMemberDeletedByHandIsSkipped) {
+  Probe* b = make("b", 15, 10);
+  Probe* c = make("c", 15, 10);
+  Probe* a = make("a", 10, 10, SOFT);
+  b->on_event = [&](Probe&, const Event&) { delete std::exchange(c, nullptr); };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+}
+
+TEST_F(MoveObject, OtherDeletedByTheMoverHearsNothingAndBlocksNothing) {
+  Probe* a = make("a", 10, 10);
+  Probe* b = make("b", 15, 10);
+  a->on_event = [&](Probe&, const Event&) { delete b; };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+  EXPECT_EQ(heard, (Heard{"a:df-collision"}));
+}
+
+TEST_F(MoveObject, MoverDeletedByHandEndsTheMove) {
+  make("b", 15, 10);
+  Probe* c = make("c", 15, 10);
+  Probe* a = make("a", 10, 10);
+  make("d", 15, 10);
+  c->on_event = [&](Probe&, const Event&) { delete a; };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision", "a:df-collision", "c:df-collision"}));
+}
+
+TEST_F(MoveObject, MoverMayDeleteItself) {
+  Probe* a = make("a", 10, 10);
+  make("b", 15, 10);
+  a->on_event = [](Probe& self, const Event&) { delete &self; };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
+  EXPECT_EQ(heard, (Heard{"a:df-collision"}));
+}
+
+TEST_F(MoveObject, MoverMarkedForDeleteGoesOn) {
+  Probe* a = make("a", 10, 10, SOFT);
+  make("b", 15, 10);
+  a->on_event = [](Probe& self, const Event&) { WM.markForDelete(&self); };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+  expectAt(*a, 15, 10);
+}
+
+TEST_F(MoveObject, NewcomersAtTheTargetAreNotInTheFixedList) {
+  Probe* a = make("a", 10, 10, SOFT);
+  Probe* b = make("b", 15, 10);
+  b->on_event = [&](Probe&, const Event&) { make("late", 15, 10, SOFT); };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+}
+
+TEST_F(MoveObject, InactiveNeitherCollidesNorHears) {
+  Probe* a = make("a", 10, 10);
+  Probe* b = make("b", 15, 10);
+  b->setActive(false);
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+  EXPECT_TRUE(heard.empty());
+  b->setActive(true);
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
+}
+
+TEST_F(MoveObject, MemberMadeInactiveMeanwhileHearsNothing) {
+  Probe* a = make("a", 10, 10, SOFT);
+  Probe* b = make("b", 15, 10);
+  a->on_event = [&](Probe&, const Event&) { b->setActive(false); };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+  EXPECT_EQ(heard, (Heard{"a:df-collision"}));
+}
+
+TEST_F(MoveObject, MovingToWhereItIsTestsCollisions) {
+  Probe* a = make("a", 10, 10, SOFT);
+  make("b", 10, 10);
+  EXPECT_EQ(WM.moveObject(a, a->getPosition()), 0);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+}
+
+TEST_F(MoveObject, NestedDeeperThan32IsRefused) {
+  Probe* a = make("a", 10, 10, SOFT);
+  Probe* b = make("b", 11, 10, SOFT);
+  int depth = 0;
+  int deepest = 0;
+  int refused = 0;
+  a->on_event = [&](Probe& self, const Event&) {
+    deepest = std::max(deepest, ++depth);
+    if (WM.moveObject(&self, Vector(11, 10)) == -1) ++refused;
+    --depth;
+  };
+  EXPECT_EQ(WM.moveObject(a, Vector(11, 10)), 0);
+  EXPECT_EQ(deepest, 32);
+  EXPECT_EQ(refused, 1);
+  expectAt(*a, 11, 10);
+  expectAt(*b, 11, 10);
+}
+
+TEST_F(MoveObject, OutOnceWhenItLeavesAndNotOnReentry) {
+  Probe* a = make("a", 78, 10);
+  EXPECT_EQ(WM.moveObject(a, Vector(79.99, 10)), 0);
+  EXPECT_TRUE(heard.empty());
+  EXPECT_EQ(WM.moveObject(a, Vector(80, 10)), 0);
+  EXPECT_EQ(heard, (Heard{"a:df-out"}));
+  WM.moveObject(a, Vector(90, 10));
+  WM.moveObject(a, Vector(70, 10));
+  EXPECT_EQ(heard.size(), 1u);
+  WM.moveObject(a, Vector(70, -0.001));
+  EXPECT_EQ(heard.size(), 2u);
+}
+
+TEST_F(MoveObject, NoOutEventWhenPlacedOutsideOrBySetPosition) {
+  Probe* a = make("a", -5, 10);
+  WM.moveObject(a, Vector(-6, 10));
+  a->setPosition(Vector(5, 5));
+  a->setPosition(Vector(-5, 5));
+  EXPECT_TRUE(heard.empty());
+}
+
+TEST_F(MoveObject, OutIsJudgedJustBeforeTheFinalSet) {
+  Probe* a = make("a", 78, 10, SOFT);
+  make("b", 82, 10);
+  a->on_event = [](Probe& self, const Event& e) {
+    if (isCollision(e)) self.setPosition(Vector(-10, 10));  // outside already: the set takes it nowhere new
+  };
+  EXPECT_EQ(WM.moveObject(a, Vector(81.5, 10)), 0);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+}
+
+TEST_F(MoveObject, OutHandlerSeesThePositionOutsideAndMayDelete) {
+  Probe* a = make("a", 79, 10, SPECTRAL);
+  double x = 0;
+  a->on_event = [&](Probe& self, const Event&) {
+    x = self.getPosition().x();
+    delete &self;
+  };
+  EXPECT_EQ(WM.moveObject(a, Vector(85, 10)), 0);
+  EXPECT_EQ(x, 85);
+}
+
+TEST_F(MoveObject, OutFollowsTheBoundaryWithItsCorner) {
+  ASSERT_EQ(WM.setBoundary(Box(Vector(100, 100), 10, 10)), 0);
+  Probe* a = make("a", 100, 100);
+  WM.moveObject(a, Vector(99.9, 100));
+  EXPECT_EQ(heard, (Heard{"a:df-out"}));
+}
+
+TEST_F(MoveObject, TargetOutOfRangeIsRefused) {
+  Probe* a = make("a", 10, 10);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(WM.moveObject(a, Vector(nan, 10)), -1);
+  EXPECT_EQ(WM.moveObject(a, Vector(3e9, 10)), -1);
+  EXPECT_EQ(WM.moveObject(nullptr, Vector()), -1);
+  expectAt(*a, 10, 10);
+  EXPECT_EQ(world.getRefusals(), 2u);
+}
+
+TEST_F(MoveObject, HandlerThatThrowsCostsItsObjectOnly) {
+  Probe* a = make("a", 10, 10, SOFT);
+  Probe* b = make("b", 15, 10);
+  b->on_event = [](Probe&, const Event&) { throw std::runtime_error("oops"); };
+  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+  EXPECT_FALSE(b->isActive());
+  EXPECT_EQ(logged("oops"), 1);
+  WM.update();
+  EXPECT_EQ(WM.getAllObjects(true).getCount(), 1);
+}
+
+TEST_F(MoveObject, BigBoxesCollideAtTheirEdges) {
+  Probe* wall = make("wall", 0, 20);
+  ASSERT_EQ(wall->setBox(Box(Vector(0, 0), 200000, 1)), 0);
+  Probe* a = make("a", 150000, 10);
+  EXPECT_EQ(WM.moveObject(a, Vector(150000, 19.5)), -1);
+  EXPECT_EQ(WM.moveObject(a, Vector(150000, 19.25)), 0);
+  EXPECT_EQ(WM.moveObject(wall, Vector(0, 18)), -1);
+}
+
+}  // namespace
+}  // namespace df::test

@@ -1,0 +1,135 @@
+#include <string>
+#include <vector>
+
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+using Heard = std::vector<std::string>;
+
+class Precise : public WorldTest {
+ protected:
+  Probe* make(const std::string& name, double x, double y, const std::vector<std::string>& rows = {}) {
+    auto* p = new Probe(name, &heard, Vector(x, y));
+    if (rows.empty()) return p;
+    p->setBox(Box(Vector(-0.5, -0.5), static_cast<double>(rows[0].size()), static_cast<double>(rows.size())));
+    EXPECT_EQ(p->setMask(rows), 0);
+    return p;
+  }
+  /// Two corners of a 4 by 4 square, away from each other.
+  Probe* makeCorner(double x, double y) {
+    Probe* p = make("corner", x, y, {"####", "#   ", "#   ", "#   "});
+    p->setPrecise();
+    return p;
+  }
+};
+
+TEST_F(Precise, HolesDoNotCollide) {
+  makeCorner(10, 10);
+  Probe* a = make("a", 30, 12);
+  EXPECT_EQ(WM.moveObject(a, Vector(12, 12)), 0);
+  expectAt(*a, 12, 12);
+  EXPECT_TRUE(heard.empty());
+}
+
+TEST_F(Precise, SetCharactersDo) {
+  makeCorner(10, 10);
+  Probe* a = make("a", 30, 12);
+  EXPECT_EQ(WM.moveObject(a, Vector(12, 10)), -1);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "corner:df-collision"}));
+}
+
+TEST_F(Precise, WithoutItTheMaskCountsForNothing) {
+  makeCorner(10, 10)->setPrecise(false);
+  Probe* a = make("a", 30, 12);
+  EXPECT_EQ(WM.moveObject(a, Vector(12, 12)), -1);
+}
+
+TEST_F(Precise, EitherOfTheTwoMakesThePairPrecise) {
+  Probe* corner = makeCorner(10, 10);
+  corner->setPrecise(false);
+  Probe* a = make("a", 30, 12);
+  a->setPrecise();
+  EXPECT_EQ(WM.moveObject(a, Vector(12, 12)), 0);
+  EXPECT_EQ(WM.moveObject(corner, Vector(10, 10)), 0);
+  EXPECT_TRUE(heard.empty());
+}
+
+TEST_F(Precise, OthersInTheSameWorldCollideAsAlways) {
+  makeCorner(10, 10);
+  make("b", 40, 12);
+  Probe* a = make("a", 30, 12);
+  EXPECT_EQ(WM.moveObject(a, Vector(39, 12)), -1);
+  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+}
+
+TEST_F(Precise, CharactersSideBySideShareNoCell) {
+  make("b", 20, 10)->setPrecise();
+  Probe* a = make("a", 10, 10);
+  EXPECT_EQ(WM.moveObject(a, Vector(19, 10)), 0);
+  EXPECT_EQ(WM.moveObject(a, Vector(19.5, 10)), -1);
+}
+
+TEST_F(Precise, CollisionsAreListedByTheCharacters) {
+  Probe* corner = makeCorner(10, 10);
+  Probe* b = make("b", 13, 12);
+  const Probe* a = make("a", 30, 12);
+  const ObjectList in_the_hole = WM.getCollisions(a, Vector(12, 12));
+  ASSERT_EQ(in_the_hole.getCount(), 1);
+  EXPECT_EQ(in_the_hole[0], b);
+  const ObjectList on_the_edge = WM.getCollisions(a, Vector(11, 10));
+  ASSERT_EQ(on_the_edge.getCount(), 1);
+  EXPECT_EQ(on_the_edge[0], corner);
+  EXPECT_FALSE(WM.isCollision(a, Vector(11, 12)));
+}
+
+TEST_F(Precise, CharactersThatWalkInUpdateEnterTheHoles) {
+  makeCorner(10, 10);
+  Probe* a = make("a", 16, 12);
+  a->setVelocity(Vector(-1, 0));
+  Probe* b = make("b", 16, 10);
+  b->setVelocity(Vector(-1, 0));
+  for (int i = 0; i < 10; ++i) WM.update();
+  expectAt(*a, 11, 12);  // there is the left side
+  expectAt(*b, 14, 10);
+}
+
+TEST_F(Precise, OneThatIsGoneIsForgotten) {
+  delete makeCorner(10, 10);
+  make("b", 20, 10);
+  Probe* a = make("a", 10, 10);
+  EXPECT_EQ(WM.moveObject(a, Vector(19, 10)), -1);
+}
+
+TEST_F(Precise, SweptOneIsStoppedByTheCharactersInside) {
+  makeCorner(10, 10);
+  Probe* a = make("a", 30, 12);
+  a->setSwept();
+  EXPECT_EQ(WM.moveObject(a, Vector(0, 12)), -1);
+  // Its cell would have been that of the left side.
+  EXPECT_EQ(a->getPosition().y(), 12);
+  EXPECT_EQ(a->getPosition().x(), 10.5);
+}
+
+TEST_F(Precise, SweptOneFliesThroughTheHoles) {
+  Probe* gate = make("gate", 20, 8, {"#", " ", " ", "#"});
+  gate->setPrecise();
+  Probe* a = make("a", 10, 9);
+  a->setSwept();
+  EXPECT_EQ(WM.moveObject(a, Vector(40, 10)), 0);
+  EXPECT_TRUE(heard.empty());
+  EXPECT_EQ(WM.moveObject(a, Vector(0, 12)), -1);
+}
+
+TEST_F(Precise, FirstContactIsWithTheCharacters) {
+  Probe* corner = makeCorner(10, 10);
+  const Probe* a = make("a", 30, 12);
+  EXPECT_EQ(WM.firstContact(a, Vector(12, 12)).p_object, nullptr);
+  const Contact contact = WM.firstContact(a, Vector(0, 12));
+  EXPECT_EQ(contact.p_object, corner);
+  EXPECT_EQ(contact.position, Vector(10.5, 12));
+}
+
+}  // namespace
+}  // namespace df::test

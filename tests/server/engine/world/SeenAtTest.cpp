@@ -1,0 +1,119 @@
+#include <map>
+
+#include "engine/events/EventKeyboard.h"
+#include "engine/events/EventMouse.h"
+#include "engine/world/Hindsight.h"
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names names(const ObjectList& list) {
+  Names out;
+  for (int i = 0; i < list.getCount(); ++i) out.push_back(list[i]->getType());
+  return out;
+}
+
+/// Everything was drawn ten cells to the left of where it is, but for what is listed as not seen.
+class TenToTheLeft : public Hindsight {
+ public:
+  explicit TenToTheLeft(const World& world) : m_world(world) {}
+  std::optional<FixedVector> positionOf(ObjectKey object, const Seen& seen) const override {
+    last = seen;
+    if (object == hidden) return std::nullopt;
+    return toFixed(m_world.find(object)->getPosition() - Vector(10, 0));
+  }
+  std::optional<FixedVector> viewCornerOf(std::uint32_t player, const Seen&) const override {
+    return player == 1 ? corner : std::nullopt;
+  }
+  mutable Seen last;
+  ObjectKey hidden;
+  std::optional<FixedVector> corner;  ///< of the first player's view
+
+ private:
+  const World& m_world;
+};
+
+using SeenAt = WorldTest;
+
+TEST_F(SeenAt, IsWhereTheBoxIsDrawn) {
+  const Probe dot("dot", nullptr, Vector(10.6, 5));  // in cell 11
+  Probe ship("ship", nullptr, Vector(20, 10));       // three by two: cells 19 to 21, rows 10 and 11
+  ship.setBox(Box(Vector(-1.5, -1), 3, 2));
+  Probe small("small", nullptr, Vector(30, 10));
+  small.setBox(Box(Vector(-0.2, -0.2), 0.4, 0.4));
+  EXPECT_EQ(names(WM.objectsSeenAt(Vector(11, 5))), Names{"dot"});
+  EXPECT_EQ(names(WM.objectsSeenAt(Vector(10, 5))), Names{});
+  EXPECT_EQ(names(WM.objectsSeenAt(Vector(30, 10))), Names{"small"});
+  int cells = 0;
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 15; x < 25; ++x) cells += WM.objectsSeenAt(Vector(x, y)).getCount();
+  }
+  EXPECT_EQ(cells, 6);
+  EXPECT_EQ(names(WM.objectsSeenAt(Vector(19, 11))), Names{"ship"});
+  ship.setVisible(false);
+  EXPECT_EQ(names(WM.objectsSeenAt(Vector(19, 11))), Names{});
+}
+
+TEST_F(SeenAt, LooksBackOnlyWhileAnInputIsHandledOfWhichSomebodyKnows) {
+  TenToTheLeft hindsight(world);
+  world.setHindsight(&hindsight);
+  const std::uint32_t ann = world.join("ann", RED);
+  Probe dot("dot", nullptr, Vector(40, 5));
+  dot.registerInterest(MSE_EVENT);
+  Names at_click;
+  dot.on_event = [&](Probe&, const Event& e) {
+    at_click = names(WM.objectsSeenAt(static_cast<const EventMouse&>(e).getMousePosition()));
+  };
+  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
+  GM.tick();
+  EXPECT_EQ(at_click, Names{"dot"});
+  EXPECT_EQ(hindsight.last.base, 70u);
+  EXPECT_EQ(hindsight.last.drawn, 74u);
+  world.mouse(ann, CLICKED, Mouse::LEFT, 40, 5);
+  GM.tick();
+  EXPECT_EQ(at_click, Names{"dot"});
+  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5);
+  GM.tick();
+  EXPECT_EQ(at_click, Names{});
+  hindsight.hidden = dot.key();
+  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
+  GM.tick();
+  EXPECT_EQ(at_click, Names{});
+  EXPECT_EQ(names(WM.objectsSeenAt(Vector(40, 5))), Names{"dot"});  // between inputs: now
+  world.setHindsight(nullptr);
+}
+
+TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
+  TenToTheLeft hindsight(world);
+  world.setHindsight(&hindsight);
+  const std::uint32_t ann = world.join("ann", RED);
+  const std::uint32_t bob = world.join("bob", BLUE);
+  Probe dot("dot", nullptr, Vector(40, 5));
+  dot.registerInterest(MSE_EVENT);
+  std::vector<Vector> clicks;
+  dot.on_event = [&](Probe&, const Event& e) {
+    clicks.push_back(static_cast<const EventMouse&>(e).getMousePosition());
+  };
+  hindsight.corner = toFixed(Vector(6.6, -2));  // cell 7
+  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
+  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5);
+  world.mouse(bob, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
+  GM.tick();
+  EXPECT_EQ(clicks, (std::vector<Vector>{Vector(37, 3), Vector(30, 5), Vector(30, 5)}))
+      << "of whom nobody says what he saw, the present view counts";
+  world.setHindsight(nullptr);
+}
+
+TEST_F(SeenAt, TheGameSaysWhetherItLooksBack) {
+  EXPECT_FALSE(world.isLookingBack());
+  WM.setLookingBack();
+  EXPECT_TRUE(world.isLookingBack());
+  world.shutDown();
+  EXPECT_FALSE(WM.isLookingBack());
+}
+
+}  // namespace
+}  // namespace df::test

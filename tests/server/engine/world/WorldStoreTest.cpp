@@ -1,0 +1,45 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "engine/managers/WorldManager.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
+
+namespace df::test {
+namespace {
+
+class Store : public testing::Test {
+ protected:
+  World world;
+  World::Scope scope{world};
+};
+
+TEST_F(Store, SlotOfTheDeadRestsBeforeItIsUsedAgain) {
+  auto first = std::make_unique<Object>();
+  const ObjectKey dead = first->key();
+  first.reset();
+  for (std::uint64_t i = 1; i < WorldStore::kRest; ++i) WM.update();
+  const Object early;
+  EXPECT_NE(early.key().slot, dead.slot);
+  WM.update();
+  const Object late;
+  EXPECT_EQ(late.key().slot, dead.slot);
+  EXPECT_GT(late.key().generation, dead.generation);
+}
+
+TEST_F(Store, ChurnDoesNotGrowForEver) {
+  std::uint32_t highest = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    auto* p_o = new Object;
+    highest = std::max(highest, p_o->key().slot);
+    WM.markForDelete(p_o);
+    WM.update();
+  }
+  EXPECT_LE(highest, WorldStore::kRest + 1);
+}
+
+}  // namespace
+}  // namespace df::test

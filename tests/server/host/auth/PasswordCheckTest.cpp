@@ -1,0 +1,189 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <asio/io_context.hpp>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "host/auth/PasswordCheck.h"
+#include "host/auth/TryLimit.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using Answer = PasswordCheck::Answer;
+using Time = std::chrono::steady_clock::time_point;
+
+/// Cheap, for tests.
+constexpr PasswordHash::Cost kCheap{.memory_kib = 64, .passes = 1};
+
+AddressPrefix prefix(int number) {
+  return AddressPrefix::of(asio::ip::address_v4(static_cast<unsigned>(number)));
+}
+
+struct PasswordCheckTest : testing::Test {
+  void make(PasswordCheck::Limits limits, PasswordHash::Cost cost = kCheap) {
+    check = std::make_unique<PasswordCheck>(context.get_executor(), PasswordHash::of("open sesame", cost),
+                                            limits);
+  }
+  void ask(int from, const std::string& password) {
+    check->check(prefix(from), password, now, [this](Answer answer) {
+      EXPECT_EQ(std::this_thread::get_id(), home);
+      answers.push_back(answer);
+    });
+  }
+  /// Ends when all answers are there: the loop has no other work.
+  std::vector<Answer> run() {
+    context.restart();
+    context.run();
+    return std::exchange(answers, {});
+  }
+
+  asio::io_context context;
+  std::unique_ptr<PasswordCheck> check;
+  Time now{};
+  std::vector<Answer> answers;
+  const std::thread::id home = std::this_thread::get_id();
+};
+
+TEST(PasswordHash, KnowsTheRightPasswordOnly) {
+  const PasswordHash hash = PasswordHash::of("open sesame", kCheap);
+  EXPECT_TRUE(hash.matches("open sesame"));
+  for (const std::string& wrong : {std::string(), std::string("open sesam"), std::string("open sesame "),
+                                   std::string("open\0sesame", 11), std::string(1000, 'x')}) {
+    EXPECT_FALSE(hash.matches(wrong));
+  }
+}
+
+TEST(PasswordHash, LongPasswordsAreNotCutOff) {
+  const std::string longest(kMaxPassword, 'x');
+  const PasswordHash hash = PasswordHash::of(longest, kCheap);
+  EXPECT_TRUE(hash.matches(longest));
+  EXPECT_FALSE(hash.matches(longest + "y"));
+  EXPECT_THROW(PasswordHash::of(longest + "y", kCheap), PasswordError);
+  EXPECT_THROW(PasswordHash::of("", kCheap), PasswordError);
+}
+
+TEST(PasswordHash, EachHasItsOwnSalt) {
+  EXPECT_NE(PasswordHash::of("open sesame", kCheap).text(), PasswordHash::of("open sesame", kCheap).text());
+}
+
+TEST(PasswordHash, TextIsAPasswordOrAHash) {
+  const PasswordHash plain = PasswordHash::fromText("open sesame\r\n");
+  EXPECT_EQ(plain.text().substr(0, 31), "$argon2id$v=19$m=65536,t=3,p=1$");
+  EXPECT_TRUE(plain.matches("open sesame"));
+  const PasswordHash hash = PasswordHash::fromText(PasswordHash::of("open sesame", kCheap).text() + "\n");
+  EXPECT_TRUE(hash.matches("open sesame"));
+  EXPECT_THROW(PasswordHash::fromText("$argon2id$v=19$m=65536,t=3,p=1$nonsense"), PasswordError);
+  EXPECT_THROW(PasswordHash::fromText("\n"), PasswordError);
+}
+
+TEST_F(PasswordCheckTest, AnswersRightAndWrongLater) {
+  make({});
+  ask(1, "open sesame");
+  ask(2, "open barley");
+  EXPECT_TRUE(answers.empty());
+  EXPECT_EQ(run(), (std::vector{Answer::kRight, Answer::kWrong}));
+  EXPECT_EQ(check->counters().right, 1u);
+  EXPECT_EQ(check->counters().wrong, 1u);
+}
+
+TEST_F(PasswordCheckTest, WrongTriesFromOnePlaceAreFew) {
+  make({});
+  for (int i = 0; i < 5; ++i) {
+    ask(1, "guess");
+    EXPECT_EQ(run(), std::vector{Answer::kWrong});
+  }
+  ask(1, "open sesame");  // too late, though it is right
+  ask(2, "open sesame");
+  EXPECT_EQ(run(), (std::vector{Answer::kTooMany, Answer::kRight}));
+  now += 60s;
+  ask(1, "open sesame");
+  EXPECT_EQ(run(), std::vector{Answer::kRight});
+  EXPECT_EQ(check->counters().too_many, 1u);
+}
+
+TEST_F(PasswordCheckTest, RightTriesAreNotCounted) {
+  make({});
+  for (int i = 0; i < 64; ++i) {  // a class behind one address
+    ask(1, "open sesame");
+    EXPECT_EQ(run(), std::vector{Answer::kRight});
+  }
+  EXPECT_EQ(check->remembered(), 0u);
+}
+
+TEST_F(PasswordCheckTest, TriesAtOnceDoNotGetAroundTheLimit) {
+  make({});
+  for (int i = 0; i < 7; ++i) ask(1, "guess");
+  const auto all = run();
+  EXPECT_EQ(std::count(all.begin(), all.end(), Answer::kWrong), 5);
+  EXPECT_EQ(std::count(all.begin(), all.end(), Answer::kBusy), 2);
+}
+
+TEST_F(PasswordCheckTest, FloodMeetsAShortQueue) {
+  make({});
+  for (int i = 0; i < 100; ++i)
+    ask(i, "open sesame");  // nothing is answered meanwhile, for the loop does not run
+  const auto all = run();
+  ASSERT_EQ(all.size(), 100u);
+  EXPECT_EQ(std::count(all.begin(), all.end(), Answer::kRight), 8);
+  EXPECT_EQ(std::count(all.begin(), all.end(), Answer::kBusy), 92);
+  EXPECT_EQ(check->counters().busy, 92u);
+}
+
+TEST_F(PasswordCheckTest, MayBeDestroyedInItsCallbackAndIsSilentAfterwards) {
+  make({});
+  int calls = 0;
+  for (int i = 0; i < 3; ++i) {
+    check->check(prefix(i), "open sesame", now, [&, marker = std::string(100, 'm')](Answer) {
+      check.reset();
+      calls += marker.size() == 100;
+    });
+  }
+  context.run();
+  EXPECT_EQ(calls, 1);
+}
+
+TEST_F(PasswordCheckTest, CallbacksDieOnTheOwnersThread) {
+  struct Canary {
+    std::thread::id home;
+    ~Canary() { EXPECT_EQ(std::this_thread::get_id(), home); }
+  };
+  make({});
+  for (int i = 0; i < 8; ++i) {
+    check->check(prefix(i), "open sesame", now, [canary = std::make_shared<Canary>(Canary{home})](Answer) {});
+  }
+  context.run_one();
+  check.reset();
+  context.run();
+}
+
+TEST(TryLimit, ForgetsTheOldestWhenItIsFull) {
+  TryLimit limit(1, 60s, 100);
+  Time now{};
+  for (int i = 0; i < 1000; ++i) {
+    now += 1ms;
+    EXPECT_EQ(limit.begin(prefix(i), now), TryLimit::Answer::kAllowed);
+    limit.finish(prefix(i), false);
+    EXPECT_LE(limit.size(), 100u);
+  }
+  EXPECT_EQ(limit.begin(prefix(999), now), TryLimit::Answer::kTooMany);
+  EXPECT_EQ(limit.begin(prefix(0), now), TryLimit::Answer::kAllowed);
+}
+
+TEST(TryLimit, WindowBeginsWithTheFirstTry) {
+  TryLimit limit(2, 60s, 100);
+  Time now{};
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(limit.begin(prefix(1), now), TryLimit::Answer::kAllowed);
+    limit.finish(prefix(1), false);
+    now += 30s;
+  }
+  EXPECT_EQ(limit.begin(prefix(1), now - 1ms), TryLimit::Answer::kTooMany);
+  EXPECT_EQ(limit.begin(prefix(1), now), TryLimit::Answer::kAllowed);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include "host/auth/ResumeTokens.h"
+
+namespace naiad {
+namespace {
+
+TEST(ResumeTokens, NameTheSessionTheyWereIssuedFor) {
+  ResumeTokens tokens;
+  const std::string token = tokens.issue(5);
+  tokens.issue(6);
+  EXPECT_EQ(token.size(), ResumeTokens::kBytes);
+  EXPECT_EQ(tokens.redeem(token), 5u);
+  EXPECT_EQ(tokens.redeem(std::string(ResumeTokens::kBytes, 'x')), std::nullopt);
+  EXPECT_EQ(tokens.redeem(""), std::nullopt);
+}
+
+TEST(ResumeTokens, OnlyTheNewestShowsWhoseItIsWithoutBeingUsed) {
+  ResumeTokens tokens;
+  const std::string first = tokens.issue(5);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(tokens.holderOf(first), 5u);
+  EXPECT_EQ(tokens.redeem(first), 5u);
+  const std::string second = tokens.issue(5);
+  EXPECT_EQ(tokens.holderOf(first), std::nullopt) << "though it could be redeemed again";
+  EXPECT_EQ(tokens.holderOf(second), 5u);
+  EXPECT_EQ(tokens.redeem(first), 5u);
+  EXPECT_EQ(tokens.holderOf(""), std::nullopt);
+}
+
+TEST(ResumeTokens, AreGoodUntilTheNextOneIsKnownToHaveCome) {
+  ResumeTokens tokens;
+  const std::string first = tokens.issue(5);
+  ASSERT_EQ(tokens.redeem(first), 5u);
+  const std::string lost = tokens.issue(5);
+  ASSERT_EQ(tokens.redeem(first), 5u) << "the answer with the second may be lost";
+  const std::string third = tokens.issue(5);
+  EXPECT_EQ(tokens.redeem(lost), std::nullopt) << "an answer that was not the last";
+  tokens.confirm(5);
+  EXPECT_EQ(tokens.redeem(first), std::nullopt);
+  EXPECT_EQ(tokens.redeem(third), 5u);
+}
+
+TEST(ResumeTokens, AreVoidOnceALaterOneIsUsedOrTheSessionIsOver) {
+  ResumeTokens tokens;
+  const std::string first = tokens.issue(5);
+  ASSERT_EQ(tokens.redeem(first), 5u);
+  const std::string second = tokens.issue(5);
+  ASSERT_EQ(tokens.redeem(second), 5u);
+  EXPECT_EQ(tokens.redeem(first), std::nullopt);
+  const std::string third = tokens.issue(5);
+  tokens.forget(5);
+  EXPECT_EQ(tokens.redeem(second), std::nullopt);
+  EXPECT_EQ(tokens.redeem(third), std::nullopt);
+}
+
+TEST(ResumeTokens, SayWhenTheSessionGoesOnElsewhere) {
+  ResumeTokens tokens;
+  const std::string first = tokens.issue(5);
+  ASSERT_EQ(tokens.redeem(first), 5u);
+  tokens.noteRestart(5);
+  const std::string second = tokens.issue(5);
+  EXPECT_FALSE(tokens.isElsewhere(first)) << "the other process may not have got its answer";
+  tokens.confirm(5);
+  EXPECT_TRUE(tokens.isElsewhere(first));
+  EXPECT_FALSE(tokens.isElsewhere(second));
+  EXPECT_EQ(tokens.redeem(first), std::nullopt);
+  // An ordinary return leaves no such trace, and the old one stays.
+  ASSERT_EQ(tokens.redeem(second), 5u);
+  const std::string third = tokens.issue(5);
+  tokens.confirm(5);
+  EXPECT_FALSE(tokens.isElsewhere(second));
+  EXPECT_TRUE(tokens.isElsewhere(first));
+  ASSERT_EQ(tokens.redeem(third), 5u);
+  tokens.forget(5);
+  EXPECT_FALSE(tokens.isElsewhere(first));
+}
+
+TEST(ResumeTokens, ARestartWhoseAnswerWasLostMayBeTriedAgain) {
+  ResumeTokens tokens;
+  const std::string first = tokens.issue(5);
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_EQ(tokens.redeem(first), 5u);
+    tokens.noteRestart(5);
+    tokens.issue(5);
+  }
+  const std::string last = tokens.issue(5);
+  ASSERT_EQ(tokens.redeem(last), 5u) << "the other process comes back with its own";
+  EXPECT_TRUE(tokens.isElsewhere(first));
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+#include <openssl/ssl.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+#include "host/auth/SelfSigned.h"
+#include "host/auth/ServerIdentity.h"
+#include "shared/net/base/SafeFile.h"
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+
+const auto kNow = std::chrono::system_clock::from_time_t(1'800'000'000);
+
+struct ServerIdentityTest : testing::Test {
+  ServerIdentityTest() {
+    std::string name = testing::TempDir() + "naiad-identity-XXXXXX";
+    base = mkdtemp(name.data());
+    directory = base / "config" / "naiad";
+  }
+  ~ServerIdentityTest() override { fs::remove_all(base); }
+
+  ServerIdentity loadOrMake() const { return ServerIdentity::loadOrMake(directory, kNow); }
+  static std::string contentOf(const fs::path& path) {
+    return readSmallFile(path, 100'000).value_or("(missing)");
+  }
+  static unsigned modeOf(const fs::path& path) {
+    struct stat facts {};
+    stat(path.c_str(), &facts);
+    return facts.st_mode & 0777U;
+  }
+  /// The sentence that loading ends with.
+  template <class Action>
+  static std::string complaint(Action action) {
+    try {
+      action();
+    } catch (const TlsError& error) {
+      return error.what();
+    }
+    return "(none)";
+  }
+
+  fs::path base;
+  fs::path directory;
+};
+
+TEST_F(ServerIdentityTest, IsMadeOnceAndUsedAgain) {
+  const Fingerprint first = loadOrMake().fingerprint();
+  const std::string key = contentOf(directory / "key.pem");
+  const std::string certificate = contentOf(directory / "certificate.pem");
+  EXPECT_EQ(loadOrMake().fingerprint(), first);
+  EXPECT_EQ(contentOf(directory / "key.pem"), key);
+  EXPECT_EQ(contentOf(directory / "certificate.pem"), certificate);
+}
+
+TEST_F(ServerIdentityTest, KeyIsForItsOwnerAlone) {
+  loadOrMake();
+  EXPECT_EQ(modeOf(directory / "key.pem"), 0600U);
+  EXPECT_EQ(modeOf(directory), 0700U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory), {}), 2);  // no drafts left
+}
+
+TEST_F(ServerIdentityTest, OtherDirectoriesHaveOtherKeys) {
+  EXPECT_NE(loadOrMake().fingerprint(), ServerIdentity::loadOrMake(base / "other", kNow).fingerprint());
+}
+
+TEST_F(ServerIdentityTest, CertificateMayBeMadeAnewForTheSameKey) {
+  const Fingerprint first = loadOrMake().fingerprint();
+  fs::remove(directory / "certificate.pem");
+  EXPECT_EQ(loadOrMake().fingerprint(), first);
+}
+
+TEST_F(ServerIdentityTest, LostKeyIsNotReplacedSilently) {
+  loadOrMake();
+  fs::remove(directory / "key.pem");
+  EXPECT_NE(complaint([&] { loadOrMake(); }).find("is missing, though its certificate is there"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(directory / "key.pem"));
+}
+
+TEST_F(ServerIdentityTest, KeyThatOthersCanReadIsRefused) {
+  loadOrMake();
+  const fs::path key = directory / "key.pem";
+  for (const auto extra : {fs::perms::group_read, fs::perms::others_read}) {
+    fs::permissions(key, fs::perms::owner_read | extra);
+    EXPECT_EQ(complaint([&] { loadOrMake(); }),
+              "The key file " + key.string() + " can be read by other users. Run: chmod 600 " + key.string());
+  }
+  fs::permissions(key, fs::perms::owner_read);
+  EXPECT_EQ(complaint([&] { loadOrMake(); }), "(none)");
+}
+
+TEST_F(ServerIdentityTest, FilesFromElsewhereAreLoaded) {
+  const Fingerprint made = loadOrMake().fingerprint();
+  EXPECT_EQ(ServerIdentity::load(directory / "certificate.pem", directory / "key.pem").fingerprint(), made);
+  EXPECT_EQ(complaint([&] { ServerIdentity::load(base / "none.pem", directory / "key.pem"); }),
+            "There is no certificate file " + (base / "none.pem").string() + ".");
+  EXPECT_EQ(complaint([&] { ServerIdentity::load(directory / "certificate.pem", base / "none.pem"); }),
+            "There is no key file " + (base / "none.pem").string() + ".");
+}
+
+TEST_F(ServerIdentityTest, ChainIsSentWhole) {
+  loadOrMake();
+  const std::string above = makeCertificatePem(makeKeyPem(), kNow);
+  const fs::path chain = base / "fullchain.pem";
+  std::ofstream(chain) << contentOf(directory / "certificate.pem") << above;
+  const ServerIdentity identity = ServerIdentity::load(chain, directory / "key.pem");
+  STACK_OF(X509)* sent = nullptr;
+  SSL_CTX_get0_chain_certs(identity.tls()->get(), &sent);
+  EXPECT_EQ(sk_X509_num(sent), 1);
+}
+
+TEST_F(ServerIdentityTest, WrongFilesGiveASentence) {
+  loadOrMake();
+  const auto complaintAbout = [&](const std::string& certificate, const std::string& key) {
+    replaceFile(base / "certificate", certificate);
+    replaceFile(base / "key", key);
+    return complaint([&] { ServerIdentity::load(base / "certificate", base / "key"); });
+  };
+  const std::string certificate = contentOf(directory / "certificate.pem");
+  const std::string key = contentOf(directory / "key.pem");
+  EXPECT_EQ(complaintAbout(certificate, key), "(none)");
+  EXPECT_EQ(complaintAbout(certificate, makeKeyPem()), "Certificate and private key do not belong together.");
+  EXPECT_EQ(complaintAbout("nonsense", key), "The certificate is not in PEM form.");
+  EXPECT_EQ(complaintAbout(certificate, "nonsense"),
+            "The private key is not in PEM form, or is protected by a password.");
+  const std::string cut = certificate.substr(0, certificate.size() / 2);
+  EXPECT_EQ(complaintAbout(certificate + cut, key), "The chain of certificates is damaged.");
+}
+
+TEST_F(ServerIdentityTest, ServersThatStartTogetherHaveOneKey) {
+  std::vector<std::string> seen(8);
+  std::vector<std::thread> servers;
+  for (std::string& fingerprint : seen) {
+    servers.emplace_back([&] { fingerprint = loadOrMake().fingerprint().text(); });
+  }
+  for (std::thread& server : servers) server.join();
+  for (const std::string& fingerprint : seen) EXPECT_EQ(fingerprint, seen[0]);
+}
+
+TEST_F(ServerIdentityTest, CertificateIsValidFromTheDayBeforeWithoutEnd) {
+  const ServerIdentity identity = loadOrMake();
+  const X509* const certificate = SSL_CTX_get0_certificate(identity.tls()->get());
+  EXPECT_EQ(ASN1_TIME_cmp_time_t(X509_get0_notBefore(certificate), 1'800'000'000 - 86'400), 0);
+  EXPECT_EQ(ASN1_TIME_cmp_time_t(X509_get0_notAfter(certificate), 253'402'300'799), 0);
+}
+
+TEST(ServerIdentityDirectory, FollowsTheEnvironment) {
+  const char* before = std::getenv("XDG_CONFIG_HOME");
+  const std::string kept = before ? before : "";
+  setenv("XDG_CONFIG_HOME", "/somewhere", 1);
+  EXPECT_EQ(ServerIdentity::defaultDirectory(), "/somewhere/naiad");
+  setenv("XDG_CONFIG_HOME", "relative", 1);
+  EXPECT_EQ(ServerIdentity::defaultDirectory(), std::string(std::getenv("HOME")) + "/.config/naiad");
+  before ? setenv("XDG_CONFIG_HOME", kept.c_str(), 1) : unsetenv("XDG_CONFIG_HOME");
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,305 @@
+#include <gtest/gtest.h>
+
+#include <asio/io_context.hpp>
+#include <thread>
+#include <vector>
+
+#include "WithIdentity.h"
+#include "host/auth/ResumeTokens.h"
+#include "host/net/NetworkThread.h"
+#include "host/net/RelayedStream.h"
+#include "shared/net/datagram/SealedLink.h"
+#include "shared/net/datagram/UdpSocket.h"
+#include "shared/net/stream/TcpConnector.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+/// The tick thread is the test's; so is the client, which has an event loop of its own.
+class NetworkThreadTest : public WithIdentity {
+ protected:
+  void TearDown() override {
+    datagrams.reset();
+    near.clear();
+  }
+
+  void listen(NetworkThread::Limits limits = {}, bool encrypted = false) {
+    tls = encrypted;
+    network = std::make_unique<NetworkThread>(
+        home, "127.0.0.1", std::uint16_t{0},
+        [this](std::unique_ptr<ReliableChannel> channel) {
+          near.push_back(std::move(channel));
+          near.back()->start({[this](std::string_view frame) { heard.emplace_back(frame); },
+                              [this](CloseReason reason) { closed.push_back(reason); }});
+        },
+        TcpOptions{.receive_limit = kMaxClientFrame}, TlsListening{encrypted ? identity->tls() : nullptr},
+        limits);
+    network->start();
+  }
+  /// Serve the client, and the tick thread unless that is to be deaf, until `done`.
+  template <class Done>
+  bool runUntil(Done done, bool deaf = false) {
+    const auto end = Clock::now() + 30s;
+    while (!done()) {
+      if (Clock::now() > end) return false;
+      client.restart();
+      client.run_for(1ms);
+      if (!deaf) serve();
+    }
+    return true;
+  }
+  void serve() {
+    home.restart();
+    home.poll();
+    network->serve(Clock::now() + 1s);
+  }
+  /// A client's end of a stream.
+  struct Far {
+    std::unique_ptr<TcpConnector> connector;
+    std::unique_ptr<ReliableChannel> channel;
+    std::vector<std::string> heard;
+    bool closed = false;
+    bool failed = false;
+  };
+  std::unique_ptr<Far> connect(bool deaf = false) {
+    auto far = std::make_unique<Far>();
+    far->connector = std::make_unique<TcpConnector>(client, TcpOptions{.receive_limit = kMaxServerFrame},
+                                                    tls ? TlsContext::forClient() : nullptr);
+    far->connector->connect(
+        "127.0.0.1", network->port(), 20s,
+        [p = far.get()](std::unique_ptr<ReliableChannel> channel, const std::string&) {
+          p->failed = channel == nullptr;
+          if (p->failed) return;
+          p->channel = std::move(channel);
+          p->channel->start({[p](std::string_view frame) { p->heard.emplace_back(frame); },
+                             [p](CloseReason) { p->closed = true; }});
+        });
+    EXPECT_TRUE(runUntil([&] { return far->failed || far->channel != nullptr; }, deaf));
+    return far;
+  }
+
+  bool tls = false;
+  asio::io_context home;
+  asio::io_context client;
+  std::unique_ptr<NetworkThread> network;
+  std::vector<std::unique_ptr<ReliableChannel>> near;
+  std::unique_ptr<SealedChannel> datagrams;
+  std::vector<std::string> heard;
+  std::vector<CloseReason> closed;
+};
+
+TEST_F(NetworkThreadTest, FramesCrossBothWaysInOrder) {
+  listen();
+  const auto far = connect();
+  for (int i = 0; i < 100; ++i) far->channel->send(std::to_string(i));
+  ASSERT_TRUE(runUntil([&] { return heard.size() == 100; }));
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(heard[static_cast<std::size_t>(i)], std::to_string(i));
+  EXPECT_EQ(near[0]->peerAddress().substr(0, 10), "127.0.0.1:");
+
+  for (int i = 0; i < 100; ++i) near[0]->send(std::to_string(i));
+  EXPECT_GE(near[0]->unsentBytes(), 290u) << "on the way";
+  network->flush();
+  ASSERT_TRUE(runUntil([&] { return far->heard.size() == 100; }));
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(far->heard[static_cast<std::size_t>(i)], std::to_string(i));
+  EXPECT_TRUE(runUntil([&] { return near[0]->unsentBytes() == 0; }));
+
+  near[0]->send("bye");
+  near[0]->close();
+  network->flush();
+  ASSERT_TRUE(runUntil([&] { return far->closed && !closed.empty(); }));
+  EXPECT_EQ(far->heard.back(), "bye");
+  EXPECT_EQ(closed, std::vector<CloseReason>{CloseReason::kLocal});
+}
+
+TEST_F(NetworkThreadTest, WhoIsLetGoOfIsHungUpOn) {
+  listen();
+  const auto far = connect();
+  ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
+  near.clear();
+  network->flush();
+  EXPECT_TRUE(runUntil([&] { return far->closed; }));
+}
+
+TEST_F(NetworkThreadTest, UnsentBytesStayWhileAPeerDoesNotRead) {
+  listen();
+  const auto far = connect();
+  ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
+  // Whatever the kernel's buffers hold, they are full some time.
+  for (std::size_t before = 0, quiet = 0; quiet < 20;) {
+    if (near[0]->unsentBytes() < 100'000) near[0]->send(std::string(16'000, 'x'));
+    network->flush();
+    std::this_thread::sleep_for(1ms);
+    const std::size_t now = near[0]->unsentBytes();
+    quiet = now == before && now >= 100'000 ? quiet + 1 : 0;
+    before = now;
+  }
+  EXPECT_TRUE(runUntil([&] { return near[0]->unsentBytes() == 0; })) << "now that he reads";
+}
+
+TEST_F(NetworkThreadTest, AStreamThatSaysMoreThanIsTakenEndsAloneAndIsCounted) {
+  NetworkThread::Limits limits;
+  limits.stream_in = 10'000;
+  listen(limits);
+  const auto loud = connect();
+  const auto quiet = connect();
+  ASSERT_TRUE(runUntil([&] { return near.size() == 2; }));
+  for (int i = 0; i < 500; ++i) loud->channel->send(std::string(100, 'x'));
+  quiet->channel->send("still here");
+  ASSERT_TRUE(runUntil([&] { return loud->closed; }, true)) << "although nobody takes anything";
+  ASSERT_TRUE(runUntil([&] { return closed.size() == 1 && !heard.empty() && heard.back() == "still here"; }));
+  EXPECT_EQ(closed[0], CloseReason::kOverflow);
+  EXPECT_LE(heard.size(), 10'000u / 100);
+  network->stop();
+  EXPECT_EQ(network->counters().streams_overflowed, 1u);
+}
+
+TEST_F(NetworkThreadTest, AStreamThatIsToldMoreThanItTakesEndsAndIsCounted) {
+  listen();
+  const auto far = connect();
+  ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
+  for (int i = 0; i < 100; ++i) near[0]->send(std::string(16'000, 'x'));  // and no flush()
+  network->flush();
+  ASSERT_TRUE(runUntil([&] { return !closed.empty(); }));
+  EXPECT_EQ(closed[0], CloseReason::kOverflow);
+  network->stop();
+  EXPECT_EQ(network->counters().streams_clogged, 1u);
+}
+
+TEST_F(NetworkThreadTest, ConnectionsThatNobodyMeetsAreBounded) {
+  NetworkThread::Limits limits;
+  limits.unmet = 3;
+  listen(limits);
+  std::vector<std::unique_ptr<Far>> far;
+  for (int i = 0; i < 5; ++i) far.push_back(connect(true));
+  ASSERT_TRUE(runUntil([&] { return far[3]->closed && far[4]->closed; }, true));
+  ASSERT_TRUE(runUntil([&] { return near.size() == 3; }));
+  EXPECT_FALSE(far[0]->closed || far[1]->closed || far[2]->closed);
+  far.push_back(connect());
+  ASSERT_TRUE(runUntil([&] { return near.size() == 4; })) << "met, they count no longer";
+  network->stop();
+  EXPECT_EQ(network->counters().unmet, 2u);
+}
+
+/// The client's end of a session's datagrams.
+struct FarDatagrams {
+  FarDatagrams(asio::io_context& context, std::uint16_t port, std::uint64_t id)
+      : socket(context, UdpOptions{}), link({SealedLink::Role::kClient, ConnectionId{id}, {}, {}}) {
+    link.setServerPath({{}, *makeEndpoint("127.0.0.1", port)});
+    socket.start([this](const Path& path, std::string_view packet) {
+      const auto payload = link.open(path, packet, Clock::now());
+      if (!payload) return;
+      if (link.wantsToSend(Clock::now())) send({});
+      if (!payload->empty()) heard.emplace_back(*payload);
+    });
+  }
+  void key(const ReliableChannel& stream, Epoch epoch) {
+    const KeyExporter exporter = [&](std::string_view label, std::string_view context, std::size_t bytes) {
+      return stream.exportSecret(label, context, bytes);
+    };
+    ASSERT_TRUE(link.startEpoch(epoch, deriveDatagramKeys(exporter, AeadId::kAes128Gcm, link.id(), epoch),
+                                Clock::now()));
+  }
+  void send(std::string_view payload) {
+    const auto outgoing = link.seal(payload, Clock::now());
+    ASSERT_TRUE(outgoing);
+    socket.send(outgoing->path, outgoing->packet);
+    socket.flush();
+  }
+  UdpSocket socket;
+  SealedLink link;
+  std::vector<std::string> heard;
+};
+
+TEST_F(NetworkThreadTest, DatagramsHaveTheirStreamsKeysAndThoseOfTheNext) {
+  listen({}, true);
+  ASSERT_TRUE(network->hasDatagrams());
+  const auto far = connect();
+  ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
+  datagrams = network->openDatagrams(*near[0], AeadId::kAes128Gcm);
+  ASSERT_NE(datagrams, nullptr);
+  std::vector<std::string> came;
+  datagrams->start([&](std::string_view bytes) { came.emplace_back(bytes); });
+  EXPECT_FALSE(datagrams->room()) << "nobody is known to be there";
+  network->flush();
+
+  FarDatagrams client_end(client, network->port(), datagrams->id());
+  client_end.key(*far->channel, datagrams->epoch());
+  const auto says = [&](const std::string& what) {
+    return runUntil([&] {
+      client_end.send(what);  // the keys may not be there yet
+      return !came.empty() && came.back() == what;
+    });
+  };
+  ASSERT_TRUE(says("hello"));
+  EXPECT_TRUE(runUntil([&] { return datagrams->room() == 1172u; })) << "once the address has proved itself";
+  const auto answers = [&](const std::string& what) {
+    datagrams->send(what);
+    network->flushTick(Clock::now());
+    return runUntil([&] { return !client_end.heard.empty() && client_end.heard.back() == what; });
+  };
+  EXPECT_TRUE(answers("welcome"));
+  EXPECT_GE(network->tickTimes().count(), 1u);
+
+  const auto next = connect();
+  ASSERT_TRUE(runUntil([&] { return near.size() == 2; }));
+  EXPECT_FALSE(datagrams->renew(*near[1], datagrams->epoch())) << "not newer";
+  ASSERT_TRUE(datagrams->renew(*near[1], datagrams->epoch() + 1));
+  network->flush();
+  client_end.key(*next->channel, datagrams->epoch());
+  EXPECT_TRUE(answers("with new keys"));
+  EXPECT_TRUE(says("me, too"));
+  network->stop();
+  EXPECT_EQ(network->counters().keyless, 0u);
+}
+
+TEST_F(NetworkThreadTest, AStreamThatIsGoneGivesNoKeys) {
+  listen({}, true);
+  auto far = connect();
+  ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
+  far.reset();
+  ASSERT_TRUE(runUntil([&] { return !closed.empty(); }));
+  datagrams = network->openDatagrams(*near[0], AeadId::kAes128Gcm);
+  ASSERT_NE(datagrams, nullptr);
+  datagrams->send("to nobody");
+  network->flush();
+  network->stop();
+  EXPECT_FALSE(datagrams->room());
+  EXPECT_EQ(network->counters().keyless, 1u);
+}
+
+TEST_F(NetworkThreadTest, DatagramsThatFindTheMailboxFullAreDroppedAndCounted) {
+  NetworkThread::Limits limits;
+  limits.mailbox = 20'000;
+  listen(limits, true);
+  const auto far = connect();
+  ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
+  datagrams = network->openDatagrams(*near[0], AeadId::kAes128Gcm);
+  int came = 0;
+  datagrams->start([&](std::string_view) { ++came; });
+  network->flush();
+  FarDatagrams client_end(client, network->port(), datagrams->id());
+  client_end.key(*far->channel, datagrams->epoch());
+  ASSERT_TRUE(runUntil([&] {
+    client_end.send("hello");
+    return came > 0 && datagrams->room() == 1172u;
+  }));
+  for (int i = 0; i < 30; ++i) datagrams->send(std::string(1000, 'x'));  // and no flush()
+  network->stop();
+  EXPECT_GE(network->counters().datagrams_out_dropped, 10u);
+  EXPECT_LE(network->counters().datagrams_out_dropped, 12u);
+  for (int i = 0; i < 60; ++i) client_end.send(std::string(1000, 'x'));
+  EXPECT_TRUE(runUntil(
+      [&] {  // nobody takes them
+        network->start();
+        client.run_for(1ms);
+        network->stop();
+        return network->counters().datagrams_in_dropped >= 35;
+      },
+      true));
+}
+
+}  // namespace
+}  // namespace naiad

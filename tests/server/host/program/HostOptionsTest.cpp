@@ -1,0 +1,132 @@
+// The command line of dfserver: what would start a server that nobody meant is an error.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "host/program/HostOptions.h"
+
+namespace naiad {
+namespace {
+
+CommandLine parse(const std::vector<const char*>& arguments, HostOptions& options) {
+  std::vector<const char*> all = {"dfserver"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  return parseHostOptions(static_cast<int>(all.size()), all.data(), options);
+}
+
+TEST(HostOptions, AMisspeltOptionInTheConfigFileIsAnError) {
+  const std::string path = testing::TempDir() + "naiad_host_options-" + std::to_string(getpid()) + ".ini";
+  std::ofstream(path) << "ticks = 3\n";
+  HostOptions options;
+  EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kRun);
+  EXPECT_EQ(options.ticks, 3);
+  std::ofstream(path) << "ticsk = 3\n";
+  EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kUsageError);
+  std::remove(path.c_str());
+}
+
+TEST(HostOptions, ATickThatNoClientWouldBelieveIsAnError) {
+  HostOptions options;
+  EXPECT_EQ(parse({"--frame-time", "999"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--frame-time", "1000"}, options), CommandLine::kRun);
+  EXPECT_EQ(parse({"--frame-time", "0"}, options), CommandLine::kRun);
+}
+
+TEST(HostOptions, WhatIsNoneOfTheWordsIsAnError) {
+  HostOptions options;
+  EXPECT_EQ(parse({"--players", "nobody"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--players", "first", "--on-game-over", "exit"}, options), CommandLine::kRun);
+  EXPECT_EQ(options.players, "first");
+  EXPECT_EQ(options.on_game_over, "exit");
+}
+
+TEST(HostOptions, ThoseOfProgramsAreNoneOfDfservers) {
+  HostOptions options;
+  EXPECT_EQ(parse({"--headless"}, options), CommandLine::kUsageError);
+}
+
+/// Of a game that is a program: what df-config.txt says, and an environment without the variables used here.
+class ProgramOptions : public testing::Test {
+ protected:
+  ProgramOptions() { clear(); }
+  ~ProgramOptions() override { clear(); }
+  static void clear() {
+    for (const char* name : {"NAIAD_PORT", "NAIAD_HEADLESS", "NAIAD_FRAME_TIME", "NAIAD_GAME"})
+      unsetenv(name);
+  }
+  std::set<std::string> read() {
+    return readProgramOptions([this](const std::string& key) { return config[key]; }, options);
+  }
+  std::string complaint() {
+    options = {};
+    try {
+      read();
+    } catch (const OptionError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  std::map<std::string, std::string> config;
+  HostOptions options;
+};
+
+TEST_F(ProgramOptions, ComeFromTheConfigFile) {
+  config = {
+      {"port", "1234"}, {"max_players", "3"}, {"server_name", "den"}, {"headless", "true"}, {"grace", "1.5"}};
+  const std::set<std::string> expected{"port", "max-players", "server-name", "headless", "grace"};
+  EXPECT_EQ(read(), expected);
+  EXPECT_EQ(options.port, 1234);
+  EXPECT_EQ(options.max_players, 3);
+  EXPECT_EQ(options.name, "den");
+  EXPECT_TRUE(options.headless);
+  EXPECT_EQ(options.grace, 1.5);
+}
+
+TEST_F(ProgramOptions, AndBeforeThatFromTheEnvironment) {
+  config = {{"port", "1234"}, {"headless", "true"}};
+  setenv("NAIAD_PORT", "4321", 1);
+  setenv("NAIAD_HEADLESS", "0", 1);
+  read();
+  EXPECT_EQ(options.port, 4321);
+  EXPECT_FALSE(options.headless);
+}
+
+TEST_F(ProgramOptions, TheGamesFrameTimeIsNotTheHosts) {
+  config = {{"frame_time", "50"}};  // milliseconds, for GM.getFrameTime()
+  EXPECT_TRUE(read().empty());
+  EXPECT_EQ(options.frame_micros, 0);
+  setenv("NAIAD_FRAME_TIME", "5000", 1);
+  read();
+  EXPECT_EQ(options.frame_micros, 5000);
+}
+
+TEST_F(ProgramOptions, WhichGameIsNoQuestion) {
+  setenv("NAIAD_GAME", "hello", 1);
+  config = {{"game", "hello"}};
+  EXPECT_TRUE(read().empty());
+  EXPECT_EQ(options.game, HostOptions().game);
+}
+
+TEST_F(ProgramOptions, NonsenseIsNamed) {
+  config = {{"port", "70000"}};
+  EXPECT_NE(complaint().find("--port"), std::string::npos) << complaint();
+  config = {{"on_game_over", "dance"}};
+  EXPECT_NE(complaint().find("--on-game-over"), std::string::npos) << complaint();
+  config = {{"local_client", "perhaps"}};
+  EXPECT_NE(complaint(), "");
+  config = {{"key", "key.pem"}};
+  EXPECT_NE(complaint().find("--certificate"), std::string::npos) << complaint();
+  config.clear();
+  EXPECT_EQ(complaint(), "");
+}
+
+}  // namespace
+}  // namespace naiad

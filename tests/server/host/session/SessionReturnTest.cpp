@@ -1,0 +1,537 @@
+// A session that goes on with another stream, or with another process of the client; what is kept meanwhile.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/session/Session.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/Limits.h"
+#include "tests/server/host/snapshot/SimulatedWorld.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// What a channel did and was told; outlives it.
+struct Wire {
+  std::vector<wire::ServerMessage> sent;
+  std::size_t unsent = 0;
+  bool closed = false;
+  bool destroyed = false;
+  ReliableChannel::Callbacks callbacks;
+};
+
+class FakeChannel : public ReliableChannel {
+ public:
+  explicit FakeChannel(Wire& wire) : m_wire(wire) {}
+  ~FakeChannel() override { m_wire.destroyed = true; }
+  void start(Callbacks callbacks) override { m_wire.callbacks = std::move(callbacks); }
+  void send(std::string_view frame) override {
+    wire::ServerMessage message;
+    ASSERT_TRUE(message.ParseFromArray(frame.data(), static_cast<int>(frame.size())));
+    if (!m_wire.closed) m_wire.sent.push_back(message);
+  }
+  std::size_t unsentBytes() const override { return m_wire.unsent; }
+  void close() override { m_wire.closed = true; }
+  std::string peerAddress() const override { return "fake:1"; }
+  void setReceiveLimit(std::size_t) override {}
+
+ private:
+  Wire& m_wire;
+};
+
+class SessionReturn : public testing::Test {
+ protected:
+  SessionReturn() : session(make(first)) {
+    session->setGrace(60s);
+    greet(first);
+  }
+
+  std::unique_ptr<Session> make(Wire& line) {
+    auto made = std::make_unique<Session>(std::make_unique<FakeChannel>(line), counters, now);
+    made->start({[this](Session& s, const wire::Hello& hello) {
+                   if (!hello.resume_token().empty()) return onReturn(s, hello);
+                   wire::Welcome welcome;
+                   welcome.set_player(7);
+                   welcome.set_name("Ann");
+                   welcome.set_resume_token("secret");
+                   s.welcome(welcome);
+                 },
+                 [this](Session&, const std::string& text) { chat.push_back(text); },
+                 [this](Session&) { ++gone; }, [this] { return now; }});
+    return made;
+  }
+  void onReturn(Session& other, const wire::Hello& hello) {
+    wire::Welcome welcome = session->welcomed();
+    welcome.set_resumed(true);
+    if (hello.second_stream()) {
+      session->accompany(other);
+    } else if (hello.fresh()) {
+      session->restart(other, welcome, nullptr);
+    } else {
+      session->adopt(other, welcome, hello.received());
+    }
+  }
+  static void say(Wire& line, const wire::ClientMessage& message) {
+    line.callbacks.on_frame(message.SerializeAsString());
+  }
+  static void greet(Wire& line, const std::string& token = "", bool fresh = false,
+                    std::uint32_t received = 0) {
+    wire::ClientMessage message;
+    message.mutable_hello()->set_magic(kHelloMagic);
+    message.mutable_hello()->set_resume_token(token);
+    message.mutable_hello()->set_fresh(fresh);
+    message.mutable_hello()->set_received(received);
+    say(line, message);
+  }
+  static void ping(Wire& line, std::uint32_t received) {
+    wire::ClientMessage message;
+    message.mutable_ping()->set_token(1);
+    message.mutable_ping()->set_received(received);
+    say(line, message);
+  }
+  static void chatLine(Wire& line, const std::string& text, std::uint32_t number) {
+    wire::ClientMessage message;
+    message.mutable_chat()->set_text(text);
+    message.set_number(number);
+    say(line, message);
+  }
+  static void key(Wire& line, std::uint32_t id, int which, df::EventKeyboardAction action) {
+    ClientUpdate update;
+    Input input;
+    input.id = id;
+    input.key = static_cast<std::uint8_t>(which);
+    input.action = static_cast<std::uint8_t>(action);
+    update.inputs = {input};
+    wire::ClientMessage message;
+    message.set_update(writeUpdate(update));
+    say(line, message);
+  }
+  void tell(const std::string& text) {
+    wire::ServerMessage message;
+    message.mutable_chat()->set_text(text);
+    session->sendKept(message);
+  }
+  static std::vector<std::string> told(const Wire& line) {
+    std::vector<std::string> texts;
+    for (const wire::ServerMessage& message : line.sent) {
+      if (message.has_chat()) texts.push_back(message.chat().text());
+    }
+    return texts;
+  }
+  /// As "key action", in order.
+  std::vector<std::string> taken() {
+    std::vector<std::string> inputs;
+    session->takeInputs(1, [&](const Input& input) {
+      inputs.push_back(std::to_string(input.key) + (input.action == df::KEY_RELEASED ? " up" : " down"));
+    });
+    return inputs;
+  }
+  void breakStream(Wire& line) { line.callbacks.on_closed(CloseReason::kError); }
+
+  Session::Clock::time_point now{1000s};
+  Counters counters;
+  std::vector<std::string> chat;
+  int gone = 0;
+  Wire first;
+  Wire second;
+  std::unique_ptr<Session> session;
+};
+
+TEST_F(SessionReturn, WhatWasNotAcknowledgedIsSaidAgainOnTheNextStream) {
+  for (const char* text : {"a", "b", "c"}) tell(text);
+  EXPECT_EQ(told(first), (std::vector<std::string>{"a", "b", "c"}));
+  ping(first, 1);
+  breakStream(first);
+  tell("d");
+  const auto other = make(second);
+  greet(second, "token", false, 2);
+  EXPECT_EQ(told(second), (std::vector<std::string>{"c", "d"})) << "b came, though that was not said in time";
+  EXPECT_EQ(second.sent[0].what_case(), wire::ServerMessage::kWelcome) << "the answer first";
+  EXPECT_EQ(second.sent[1].number(), 3u);
+}
+
+TEST_F(SessionReturn, WhatIsOnlyWorthSomethingAtOnceIsSentAtOnceOrNotAtAll) {
+  wire::ServerMessage sound;
+  sound.mutable_sounds()->add_sounds()->set_label("fire");
+  EXPECT_TRUE(session->sendFleeting(sound));
+  EXPECT_TRUE(first.sent.back().has_sounds());
+  EXPECT_EQ(first.sent.back().number(), 0u) << "not kept";
+  first.unsent = Session::kMostBeforeFleeting + 1;
+  EXPECT_FALSE(session->sendFleeting(sound));
+  breakStream(first);
+  EXPECT_FALSE(session->sendFleeting(sound));
+  const auto other = make(second);
+  greet(second, "token");
+  EXPECT_EQ(second.sent.size(), 1u) << "the welcome";
+}
+
+TEST_F(SessionReturn, OfPlayerListsTheNewestIsSaidAgain) {
+  for (const std::uint32_t player : {1u, 2u}) {
+    wire::ServerMessage list;
+    list.mutable_players()->add_players()->set_player(player);
+    session->sendKept(list, true);
+    tell("line");
+  }
+  breakStream(first);
+  const auto other = make(second);
+  greet(second, "token");
+  ASSERT_EQ(second.sent.size(), 4u);
+  EXPECT_TRUE(second.sent[1].has_chat());
+  EXPECT_EQ(second.sent[2].players().players(0).player(), 2u);
+}
+
+TEST_F(SessionReturn, WhatComesTwiceIsTakenOnce) {
+  chatLine(first, "one", 1);
+  chatLine(first, "two", 2);
+  breakStream(first);
+  const auto other = make(second);
+  greet(second, "token");
+  EXPECT_EQ(second.sent[0].welcome().received(), 2u);
+  chatLine(second, "two", 2);
+  chatLine(second, "three", 3);
+  EXPECT_EQ(chat, (std::vector<std::string>{"one", "two", "three"}));
+  EXPECT_EQ(counters.repeated_frames, 1u);
+  ping(second, 0);
+  EXPECT_EQ(second.sent.back().pong().received(), 3u);
+}
+
+TEST_F(SessionReturn, WhatWasSaidInAMinuteMayComeAtOnce) {
+  breakStream(first);
+  now += 20s;
+  session->checkDeadlines(now);
+  const auto other = make(second);
+  greet(second, "token");
+  for (std::uint32_t i = 1; i <= 20; ++i) chatLine(second, "line " + std::to_string(i), i);
+  EXPECT_EQ(chat.size(), 20u);
+  EXPECT_EQ(counters.chat_dropped, 0u);
+  for (std::uint32_t i = 21; i <= 100; ++i) chatLine(second, "line " + std::to_string(i), i);
+  EXPECT_EQ(chat.size(), 30u);
+  EXPECT_EQ(counters.chat_dropped, 70u);
+}
+
+TEST_F(SessionReturn, WhoCannotTakeInWhatIsKeptIsTold) {
+  const std::string line(1000, 'x');
+  while (session->state() == Session::State::kPlaying && first.sent.size() < 1000) tell(line);
+  EXPECT_EQ(session->state(), Session::State::kEnding);
+  EXPECT_EQ(first.sent.size(), 1u + 64 + 1) << "welcome, 64 KiB, goodbye";
+  EXPECT_EQ(first.sent.back().goodbye().sentence(), "More was said than your connection could take in.");
+  EXPECT_EQ(counters.kept_overflows, 1u);
+  EXPECT_EQ(gone, 1);
+}
+
+TEST_F(SessionReturn, WhoAcknowledgesNeverOverflows) {
+  const std::string line(1000, 'x');
+  for (std::uint32_t i = 1; i <= 1000; ++i) {
+    tell(line);
+    if (i % 32 != 0) continue;
+    session->checkDeadlines(now);
+    ping(first, i);
+  }
+  EXPECT_EQ(session->state(), Session::State::kPlaying);
+}
+
+TEST_F(SessionReturn, AnAcknowledgementOfWhatWasNeverSaidIsNone) {
+  tell("a");
+  ping(first, 77);
+  breakStream(first);
+  const auto other = make(second);
+  greet(second, "token", false, 9);
+  EXPECT_EQ(told(second), std::vector<std::string>{"a"});
+}
+
+TEST_F(SessionReturn, WhoTakesInNothingButSpeaksIsEnded) {
+  first.unsent = 100'000;
+  for (int i = 0; i < 99; ++i, now += 100ms) {
+    ping(first, 0);
+    session->checkDeadlines(now);
+  }
+  EXPECT_EQ(session->state(), Session::State::kPlaying);
+  for (int i = 0; i < 2; ++i, now += 100ms) {
+    ping(first, 0);
+    session->checkDeadlines(now);
+  }
+  EXPECT_EQ(session->state(), Session::State::kEnding);
+  EXPECT_EQ(counters.stuck_streams, 1u);
+  EXPECT_EQ(first.sent.back().goodbye().sentence(), "Your end takes in too little of what the server sends.");
+}
+
+TEST_F(SessionReturn, WhoIsSilentAsWellMayComeBack) {
+  first.unsent = 100'000;
+  for (int i = 0; i < 160; ++i, now += 100ms) session->checkDeadlines(now);
+  EXPECT_TRUE(session->isDetached());
+  EXPECT_EQ(counters.stuck_streams, 0u);
+  EXPECT_EQ(counters.detached, 1u);
+}
+
+TEST_F(SessionReturn, AnotherProcessIsToldWhereToGoOn) {
+  key(first, 1, df::Keyboard::A, df::KEY_PRESSED);
+  key(first, 2, df::Keyboard::A, df::KEY_RELEASED);
+  tell("old");
+  chatLine(first, "mine", 5);
+  breakStream(first);
+  const auto other = make(second);
+  greet(second, "token", true);
+  EXPECT_EQ(other->state(), Session::State::kGone);
+  ASSERT_EQ(second.sent.size(), 1u) << "no old chat";
+  const wire::Welcome& welcome = second.sent[0].welcome();
+  EXPECT_TRUE(welcome.resumed());
+  EXPECT_EQ(welcome.player(), 7u);
+  EXPECT_EQ(welcome.name(), "Ann");
+  EXPECT_EQ(welcome.continuation().input(), 2u);
+  EXPECT_EQ(welcome.continuation().world_epoch(), 1u);
+  EXPECT_EQ(welcome.received(), 0u);
+  chatLine(second, "a new process counts from 1", 1);
+  EXPECT_EQ(chat.size(), 2u);
+  tell("new");
+  EXPECT_EQ(told(second), std::vector<std::string>{"new"});
+  EXPECT_EQ(counters.restarted, 1u);
+  EXPECT_EQ(counters.resumed, 1u);
+  EXPECT_EQ(gone, 0);
+}
+
+TEST_F(SessionReturn, WhoIsStillThereIsToldThatHeWentOnElsewhere) {
+  const auto other = make(second);
+  greet(second, "token", true);
+  EXPECT_EQ(first.sent.back().goodbye().sentence(), "You went on playing in another terminal.");
+  EXPECT_TRUE(first.closed);
+  EXPECT_FALSE(first.destroyed) << "the sentence is on its way";
+  chatLine(first, "still here", 1);
+  EXPECT_TRUE(chat.empty());
+  chatLine(second, "here", 1);
+  EXPECT_EQ(chat, std::vector<std::string>{"here"});
+  first.callbacks.on_closed(CloseReason::kPeer);
+  EXPECT_EQ(other->state(), Session::State::kGone);
+  EXPECT_EQ(session->state(), Session::State::kPlaying);
+  EXPECT_EQ(gone, 0) << "nobody left";
+}
+
+TEST_F(SessionReturn, ItsTokenIsNotRemembered) {
+  EXPECT_EQ(first.sent[0].welcome().resume_token(), "secret");
+  EXPECT_TRUE(session->welcomed().resume_token().empty());
+}
+
+TEST_F(SessionReturn, KeysOfWhoIsCutOffAreLetGoInTheirTurn) {
+  key(first, 1, df::Keyboard::B, df::KEY_PRESSED);
+  key(first, 2, df::Keyboard::A, df::KEY_DOWN);
+  key(first, 3, df::Keyboard::C, df::KEY_PRESSED);
+  key(first, 4, df::Keyboard::C, df::KEY_RELEASED);
+  const std::string a = std::to_string(int{df::Keyboard::A});
+  const std::string b = std::to_string(int{df::Keyboard::B});
+  breakStream(first);  // without datagrams nobody is there
+  const auto inputs = taken();
+  ASSERT_EQ(inputs.size(), 6u);
+  EXPECT_EQ(inputs[4], a + " up");
+  EXPECT_EQ(inputs[5], b + " up");
+  for (int i = 0; i < 50; ++i, now += 100ms) session->checkDeadlines(now);
+  EXPECT_TRUE(taken().empty()) << "once";
+}
+
+TEST_F(SessionReturn, KeysOfTheOldProcessAreLetGoBeforeTheNewOnePresses) {
+  key(first, 1, df::Keyboard::A, df::KEY_PRESSED);
+  const auto other = make(second);
+  greet(second, "token", true);
+  key(second, 2, df::Keyboard::A, df::KEY_PRESSED);
+  const std::string a = std::to_string(int{df::Keyboard::A});
+  EXPECT_EQ(taken(), (std::vector<std::string>{a + " down", a + " up", a + " down"}));
+}
+
+TEST_F(SessionReturn, AStreamThatIsReplacedInTimeKeepsTheKeys) {
+  key(first, 1, df::Keyboard::A, df::KEY_PRESSED);
+  const auto other = make(second);
+  greet(second, "token");
+  EXPECT_EQ(taken().size(), 1u);
+  for (int i = 0; i < 50; ++i, now += 100ms) session->checkDeadlines(now);
+  EXPECT_TRUE(taken().empty());
+}
+
+class SessionWithTwoStreams : public SessionReturn {
+ protected:
+  SessionWithTwoStreams() : other(make(second)) {
+    wire::ClientMessage message;
+    message.mutable_hello()->set_magic(kHelloMagic);
+    message.mutable_hello()->set_resume_token("token");
+    message.mutable_hello()->set_second_stream(true);
+    say(second, message);
+  }
+  void tick(bool quiet = false) {
+    world.tick(quiet);
+    publisher.update(world.view());
+    session->sendTick(publisher, world.view().players[0]);
+  }
+  /// The world has come, and nothing is owed but what happens from now on.
+  void settle() {
+    tick();
+    acknowledge(first);
+    forget();
+  }
+  void forget() {
+    first.sent.clear();
+    second.sent.clear();
+  }
+  void acknowledge(Wire& line) {
+    for (std::uint32_t n = acks.newest + 1; n <= session->sender().newestNumber(); ++n) acks.note(n);
+    ClientUpdate update;
+    update.acks = acks;
+    say(line, messageOf(update));
+  }
+  static wire::ClientMessage messageOf(const ClientUpdate& update) {
+    wire::ClientMessage message;
+    message.set_update(writeUpdate(update));
+    return message;
+  }
+  static std::vector<std::string> snapshots(const Wire& line) {
+    std::vector<std::string> all;
+    for (const wire::ServerMessage& message : line.sent) {
+      if (message.has_snapshot()) all.push_back(message.snapshot());
+    }
+    return all;
+  }
+
+  std::unique_ptr<Session> other;
+  AckWindow acks;
+  test::SimulatedWorld world{{.view_width = 100, .view_height = 40, .objects = 600}, 5};
+  Publisher publisher;
+};
+
+TEST_F(SessionWithTwoStreams, TheSecondIsWelcomedAndNobodyJoins) {
+  ASSERT_EQ(second.sent.size(), 1u);
+  EXPECT_TRUE(second.sent[0].welcome().second_stream());
+  EXPECT_EQ(second.sent[0].welcome().resume_token(), "") << "the one that was shown stays good";
+  EXPECT_EQ(other->state(), Session::State::kGone);
+  EXPECT_TRUE(session->hasSecondStream());
+  EXPECT_EQ(counters.second_streams, 1u);
+  EXPECT_EQ(counters.resumed, 0u);
+  EXPECT_EQ(gone, 0);
+  other.reset();
+  EXPECT_FALSE(second.destroyed) << "it belongs to the session now";
+}
+
+TEST_F(SessionWithTwoStreams, SmallSnapshotsGoOnBothLargeOnesOnTheFirst) {
+  tick();
+  ASSERT_EQ(snapshots(first).size(), 1u);
+  ASSERT_GT(snapshots(first)[0].size(), Session::kMostOnSecond) << "all of a world";
+  EXPECT_TRUE(snapshots(second).empty());
+  acknowledge(first);
+  forget();
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_EQ(snapshots(first).size(), 5u);
+  EXPECT_EQ(snapshots(second), snapshots(first));
+}
+
+TEST_F(SessionWithTwoStreams, WhatIsLargeIsNotOvertaken) {
+  tick();
+  forget();
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_EQ(snapshots(first).size(), 5u);
+  EXPECT_TRUE(snapshots(second).empty());
+  first.unsent = 1;
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_EQ(snapshots(first).size(), 5u);
+  EXPECT_TRUE(snapshots(second).empty());
+  first.unsent = 0;
+  acknowledge(first);
+  forget();
+  tick();
+  EXPECT_EQ(snapshots(second).size(), 1u);
+}
+
+TEST_F(SessionWithTwoStreams, OneThatWaitsDoesNotHoldUpTheOther) {
+  settle();
+  first.unsent = 100;
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_TRUE(snapshots(first).empty());
+  EXPECT_EQ(snapshots(second).size(), 5u);
+  forget();
+  first.unsent = 0;
+  second.unsent = 100;
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_EQ(snapshots(first).size(), 5u);
+  EXPECT_TRUE(snapshots(second).empty());
+  forget();
+  first.unsent = 100;
+  const std::uint64_t skipped = session->skippedTicks();
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_TRUE(snapshots(first).empty() && snapshots(second).empty());
+  EXPECT_EQ(session->skippedTicks() - skipped, 5u);
+}
+
+TEST_F(SessionWithTwoStreams, WhatElseWaitsOnTheFirstDoesNotHoldUpTheSecond) {
+  settle();
+  tell(std::string(200, 'x'));
+  first.unsent = 10'000;
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_EQ(snapshots(second).size(), 5u);
+}
+
+TEST_F(SessionWithTwoStreams, AFirstThatHasDiedIsNoticed) {
+  for (int i = 0; i < 200; ++i, now += 100ms) {
+    key(second, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
+    session->checkDeadlines(now);
+  }
+  EXPECT_TRUE(session->isDetached());
+  EXPECT_EQ(counters.idle_timeouts, 1u);
+}
+
+TEST_F(SessionWithTwoStreams, InputsAreTakenOnceWhereverTheyComeFirst) {
+  key(second, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
+  key(first, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
+  key(first, 2, df::Keyboard::SPACE, df::KEY_RELEASED);
+  key(second, 2, df::Keyboard::SPACE, df::KEY_RELEASED);
+  const std::string space = std::to_string(static_cast<int>(df::Keyboard::SPACE));
+  EXPECT_EQ(taken(), (std::vector<std::string>{space + " down", space + " up"}));
+  EXPECT_EQ(counters.repeated_inputs, 2u);
+}
+
+TEST_F(SessionWithTwoStreams, OnTheSecondThereAreUpdatesOnly) {
+  chatLine(second, "hello", 1);
+  EXPECT_TRUE(chat.empty());
+  EXPECT_EQ(counters.malformed_messages, 1u);
+  EXPECT_EQ(session->state(), Session::State::kEnding);
+  EXPECT_TRUE(second.destroyed);
+}
+
+TEST_F(SessionWithTwoStreams, BytesThatAreNoMessageEndTheSession) {
+  second.callbacks.on_frame("\xff\xff");
+  EXPECT_EQ(counters.malformed_messages, 1u);
+  EXPECT_EQ(session->state(), Session::State::kEnding);
+}
+
+TEST_F(SessionWithTwoStreams, WithoutTheSecondItGoesOnAsBefore) {
+  settle();
+  second.callbacks.on_closed(CloseReason::kError);
+  EXPECT_FALSE(session->hasSecondStream());
+  EXPECT_EQ(session->state(), Session::State::kPlaying);
+  EXPECT_EQ(counters.detached, 0u);
+  tick();
+  EXPECT_EQ(snapshots(first).size(), 1u);
+}
+
+TEST_F(SessionWithTwoStreams, TheSecondEndsWithTheFirst) {
+  breakStream(first);
+  EXPECT_TRUE(session->isDetached());
+  EXPECT_FALSE(session->hasSecondStream());
+  EXPECT_TRUE(second.destroyed);
+}
+
+TEST_F(SessionWithTwoStreams, AnotherSecondReplacesIt) {
+  Wire third;
+  const auto newer = make(third);
+  wire::ClientMessage message;
+  message.mutable_hello()->set_magic(kHelloMagic);
+  message.mutable_hello()->set_resume_token("token");
+  message.mutable_hello()->set_second_stream(true);
+  say(third, message);
+  EXPECT_TRUE(second.destroyed);
+  settle();
+  tick();
+  EXPECT_EQ(snapshots(third).size(), 1u);
+  session.reset();
+  EXPECT_TRUE(third.destroyed) << "before the line that it writes to";
+}
+
+}  // namespace
+}  // namespace naiad

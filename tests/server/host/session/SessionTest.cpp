@@ -1,0 +1,592 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/session/Session.h"
+#include "shared/net/base/Limits.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/Replica.h"
+#include "shared/replica/UpdateCodec.h"
+#include "shared/values/Canvas.h"
+#include "shared/values/Keyboard.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/server/host/snapshot/SimulatedWorld.h"
+#include "tests/support/HostileTexts.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// What the channel did and was told; outlives the channel.
+struct Wire {
+  std::vector<std::string> sent;
+  std::size_t unsent = 0;
+  std::size_t receive_limit = 0;
+  bool closed = false;
+  ReliableChannel::Callbacks callbacks;
+};
+
+class FakeChannel : public ReliableChannel {
+ public:
+  explicit FakeChannel(Wire& wire) : m_wire(wire) {}
+  void start(Callbacks callbacks) override { m_wire.callbacks = std::move(callbacks); }
+  void send(std::string_view frame) override {
+    if (!m_wire.closed) m_wire.sent.emplace_back(frame);
+  }
+  std::size_t unsentBytes() const override { return m_wire.unsent; }
+  void close() override { m_wire.closed = true; }
+  std::string peerAddress() const override { return "fake:1"; }
+  void setReceiveLimit(std::size_t bytes) override { m_wire.receive_limit = bytes; }
+
+ private:
+  Wire& m_wire;
+};
+
+class SessionTest : public testing::Test {
+ protected:
+  SessionTest() : session(std::make_unique<FakeChannel>(line), counters, now) {
+    session.start({[this](Session& s, const wire::Hello& hello) {
+                     if (hello.protocol() != kProtocolVersion) {
+                       s.refuse(wire::Refused::VERSION, "Please update the client.");
+                       return;
+                     }
+                     wire::Welcome welcome;
+                     welcome.set_player(7);
+                     welcome.set_name(hello.player_name());
+                     s.welcome(welcome);
+                   },
+                   [this](Session&, const std::string& text) { chat.push_back(text); },
+                   [this](Session&) { ++gone; }, [this] { return now; }});
+  }
+
+  void hear(const wire::ClientMessage& message) { hearBytes(message.SerializeAsString()); }
+  void hearBytes(const std::string& bytes) { line.callbacks.on_frame(bytes); }
+  /// The server ticks for as long, from `now` or where it was on.
+  void listenUntil(Session& listener, Session::Clock::duration after) {
+    for (; listened < after; listened += 100ms) listener.checkDeadlines(now + listened);
+    listened = after;
+    listener.checkDeadlines(now + after);
+  }
+  void greet(std::uint32_t protocol = kProtocolVersion, std::uint32_t magic = kHelloMagic) {
+    wire::ClientMessage message;
+    message.mutable_hello()->set_magic(magic);
+    message.mutable_hello()->set_protocol(protocol);
+    message.mutable_hello()->set_player_name("Ann");
+    hear(message);
+  }
+  static wire::ClientMessage updateOf(const ClientUpdate& update) {
+    wire::ClientMessage message;
+    message.set_update(writeUpdate(update));
+    return message;
+  }
+  static wire::ClientMessage inputs(std::vector<Input> inputs) {
+    ClientUpdate update;
+    update.inputs = std::move(inputs);
+    return updateOf(update);
+  }
+  static Input keyInput(std::uint32_t id, int which = 0, int action = 0) {
+    Input input;
+    input.id = id;
+    input.key = static_cast<std::uint8_t>(which);
+    input.action = static_cast<std::uint8_t>(action);
+    return input;
+  }
+  static Input mouseInput(std::uint32_t id, int action, int button, int x, int y) {
+    Input input = keyInput(id, 0, action);
+    input.is_mouse = true;
+    input.button = static_cast<std::uint8_t>(button);
+    input.x = static_cast<std::uint16_t>(x);
+    input.y = static_cast<std::uint16_t>(y);
+    return input;
+  }
+  static wire::ClientMessage key(std::uint32_t id, int which = 0, int action = 0) {
+    return inputs({keyInput(id, which, action)});
+  }
+  static wire::ClientMessage says(const std::string& text) {
+    wire::ClientMessage message;
+    message.mutable_chat()->set_text(text);
+    return message;
+  }
+  std::vector<std::uint32_t> takeInputs(std::uint32_t tick = 1) {
+    std::vector<std::uint32_t> ids;
+    session.takeInputs(tick, [&ids](const Input& input) { ids.push_back(input.id); });
+    return ids;
+  }
+  wire::ServerMessage lastSent() const {
+    wire::ServerMessage message;
+    EXPECT_FALSE(line.sent.empty());
+    EXPECT_TRUE(line.sent.empty() || message.ParseFromString(line.sent.back()));
+    return message;
+  }
+  bool ended() const { return session.state() == Session::State::kEnding && line.closed; }
+
+  Session::Clock::time_point now{1000s};
+  Wire line;
+  Counters counters;
+  std::vector<std::string> chat;
+  int gone = 0;
+  Session session;
+  Session::Clock::duration listened{};  ///< by listenUntil()
+};
+
+TEST_F(SessionTest, IsWelcomedAfterItsHello) {
+  EXPECT_EQ(line.receive_limit, kMaxHelloFrame);
+  greet();
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+  EXPECT_EQ(lastSent().welcome().player(), 7u);
+  EXPECT_EQ(session.player(), 7u);
+  EXPECT_EQ(session.name(), "Ann");
+  EXPECT_EQ(line.receive_limit, kMaxClientFrame);
+}
+
+TEST_F(SessionTest, IsRefusedInWordsAndEnds) {
+  greet(kProtocolVersion + 1);
+  EXPECT_TRUE(ended());
+  ASSERT_EQ(line.sent.size(), 1u);
+  EXPECT_EQ(lastSent().refused().reason(), wire::Refused::VERSION);
+  EXPECT_EQ(lastSent().refused().sentence(), "Please update the client.");
+  EXPECT_EQ(counters.malformed_messages, 0u);
+}
+
+TEST_F(SessionTest, EndsIfTheFirstMessageIsNoHello) {
+  hear(key(1));
+  EXPECT_TRUE(ended());
+  EXPECT_TRUE(line.sent.empty());
+  EXPECT_EQ(counters.malformed_messages, 1u);
+}
+
+TEST_F(SessionTest, EndsIfTheMagicIsWrong) {
+  greet(kProtocolVersion, 1);
+  EXPECT_TRUE(ended());
+  EXPECT_EQ(counters.malformed_messages, 1u);
+}
+
+TEST_F(SessionTest, EndsAtASecondHello) {
+  greet();
+  greet();
+  EXPECT_TRUE(ended());
+  EXPECT_EQ(counters.malformed_messages, 1u);
+}
+
+TEST_F(SessionTest, EndsAtBytesThatAreNoMessage) {
+  greet();
+  hearBytes("\xff\xff\xff");
+  EXPECT_TRUE(ended());
+  hear(says("still there?"));
+  EXPECT_TRUE(chat.empty()) << "nothing is heard any more";
+  EXPECT_EQ(counters.malformed_messages, 1u);
+}
+
+TEST_F(SessionTest, MalformedTextLeavesNothingInTheHostsLog) {
+  greet();
+  std::string bytes = says("hello").SerializeAsString();
+  bytes.back() = '\xff';
+  testing::internal::CaptureStderr();
+  hearBytes(bytes);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_TRUE(ended());
+  EXPECT_EQ(counters.malformed_messages, 1u);
+}
+
+TEST_F(SessionTest, EndsAtAnEmptyMessage) {
+  greet();
+  hear({});
+  EXPECT_TRUE(ended());
+}
+
+TEST_F(SessionTest, CountsABadFrameAndIsGone) {
+  greet();
+  line.callbacks.on_closed(CloseReason::kProtocol);
+  EXPECT_EQ(session.state(), Session::State::kGone);
+  EXPECT_EQ(counters.malformed_frames, 1u);
+  EXPECT_EQ(gone, 1);
+  const std::size_t sent = line.sent.size();
+  session.goodbye("too late");
+  EXPECT_EQ(line.sent.size(), sent);
+}
+
+TEST_F(SessionTest, InputsComeInOrderAtMost16ATick) {
+  greet();
+  for (std::uint32_t id = 1; id <= 20; ++id) hear(key(id));
+  std::vector<std::uint32_t> first16;
+  for (std::uint32_t id = 1; id <= 16; ++id) first16.push_back(id);
+  EXPECT_EQ(takeInputs(), first16);
+  EXPECT_EQ(takeInputs(), (std::vector<std::uint32_t>{17, 18, 19, 20}));
+  EXPECT_TRUE(takeInputs().empty());
+}
+
+TEST_F(SessionTest, ARepeatedOrLateInputIsIgnoredAndCounted) {
+  greet();
+  for (const std::uint32_t id : {1u, 2u, 2u, 5u, 3u}) hear(key(id));
+  EXPECT_EQ(takeInputs(), (std::vector<std::uint32_t>{1, 2, 5}));
+  hear(key(5));
+  EXPECT_TRUE(takeInputs().empty());
+  EXPECT_EQ(counters.repeated_inputs, 3u);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+}
+
+TEST_F(SessionTest, EndsAtMoreInputsThanTheQueueHolds) {
+  greet();
+  for (std::uint32_t id = 1; id <= Session::kMaxQueuedInputs; ++id) hear(key(id));
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+  hear(key(Session::kMaxQueuedInputs + 1));
+  EXPECT_TRUE(ended());
+  EXPECT_EQ(lastSent().goodbye().sentence(), "Too many keys at once.");
+  EXPECT_EQ(counters.input_floods, 1u);
+}
+
+TEST_F(SessionTest, InputsOfEveryKindAreTaken) {
+  greet();
+  hear(inputs({keyInput(1, df::Keyboard::kKeyCount - 1, df::KEY_DOWN),
+               mouseInput(2, df::MOVED, df::Mouse::MIDDLE + 1, kMaxViewWidth - 1, kMaxViewHeight - 1)}));
+  EXPECT_EQ(takeInputs().size(), 2u);
+}
+
+TEST_F(SessionTest, InputsThatComeAgainWithLaterOnesAreTakenOnce) {
+  greet();
+  hear(inputs({keyInput(1), keyInput(2)}));
+  hear(inputs({keyInput(1), keyInput(2), keyInput(3)}));
+  EXPECT_EQ(takeInputs(), (std::vector<std::uint32_t>{1, 2, 3}));
+  EXPECT_EQ(counters.repeated_inputs, 2u);
+}
+
+TEST_F(SessionTest, AnUpdateThatIsBadInPartIsBadAsAWhole) {
+  greet();
+  hear(inputs({keyInput(1), keyInput(2, 127)}));
+  EXPECT_TRUE(ended());
+  EXPECT_TRUE(takeInputs().empty());
+}
+
+class BadInput : public SessionTest, public testing::WithParamInterface<int> {};
+
+TEST_P(BadInput, EndsTheSession) {
+  greet();
+  wire::ClientMessage nothing;
+  nothing.set_update("");
+  wire::ClientMessage cut = key(1);
+  cut.mutable_update()->pop_back();
+  wire::ClientMessage longer = key(1);
+  longer.mutable_update()->push_back('\0');
+  wire::ClientMessage large;
+  large.set_update(std::string(kMaxUpdate + 1, '\0'));
+  const wire::ClientMessage bad[] = {
+      key(0),
+      key(1, df::Keyboard::kKeyCount),
+      key(1, 127),
+      key(1, 0, df::KEY_DOWN + 1),
+      inputs({mouseInput(1, df::MOVED + 1, 0, 0, 0)}),
+      inputs({mouseInput(1, 0, 0, kMaxViewWidth, 0)}),
+      inputs({mouseInput(1, 0, 0, 0, kMaxViewHeight)}),
+      nothing,
+      cut,
+      longer,
+      large,
+  };
+  ASSERT_EQ(std::size(bad), 11u);
+  hear(bad[GetParam()]);
+  EXPECT_TRUE(ended());
+  EXPECT_EQ(counters.malformed_messages, 1u);
+  EXPECT_TRUE(takeInputs().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Session, BadInput, testing::Range(0, 11));
+
+/// Whatever becomes of a valid message on its way, what the game and the others are given is legal.
+TEST_F(SessionTest, MutatedMessagesEndTheSessionOrAreLegal) {
+  SplitMix64 random(8);
+  std::size_t inputs_taken = 0, lines_said = 0, ends = 0;
+  for (int round = 0; round < 5'000; ++round) {
+    Wire own;
+    std::vector<std::string> said;
+    Session one(std::make_unique<FakeChannel>(own), counters, now);
+    one.start({[](Session& s, const wire::Hello&) { s.welcome({}); },
+               [&](Session&, const std::string& text) { said.push_back(text); }, [](Session&) {},
+               [this] { return now; }});
+    wire::ClientMessage hello;
+    hello.mutable_hello()->set_magic(kHelloMagic);
+    own.callbacks.on_frame(hello.SerializeAsString());
+    wire::ClientMessage ping;
+    ping.mutable_ping()->set_token(random.next());
+    wire::ClientMessage resize;
+    resize.mutable_resize()->set_columns(80);
+    const wire::ClientMessage valid[] = {
+        inputs({keyInput(1, 5), keyInput(2, 6, 1), mouseInput(3, 1, 2, 40, 12)}),
+        says(test::hostileText(random)), ping, resize};
+    for (int k = 0; k < 4; ++k) {
+      std::string bytes = valid[random.below(std::size(valid))].SerializeAsString();
+      for (std::uint64_t changes = random.below(4); changes > 0; --changes)
+        bytes[random.below(bytes.size())] ^= static_cast<char>(1 << random.below(8));
+      own.callbacks.on_frame(bytes);
+    }
+    one.takeInputs(1, [&](const Input& input) {
+      ++inputs_taken;
+      EXPECT_LT(input.key, df::Keyboard::kKeyCount);
+      EXPECT_LE(input.action, df::KEY_DOWN);
+      EXPECT_LE(input.button, df::Mouse::MIDDLE + 1);
+      EXPECT_LT(input.x, kMaxViewWidth);
+      EXPECT_LT(input.y, kMaxViewHeight);
+    });
+    for (const std::string& line_said : said) {
+      ++lines_said;
+      const std::u32string characters = df::decodeUtf8(line_said);
+      EXPECT_TRUE(!characters.empty() && characters.size() <= kMaxChatLength);
+      EXPECT_TRUE(std::all_of(characters.begin(), characters.end(), df::isDrawable)) << line_said;
+    }
+    EXPECT_LE(one.rttMillis(), 99'999u);
+    ends += one.state() == Session::State::kPlaying ? 0 : 1;
+    ASSERT_FALSE(HasFailure()) << "round " << round;
+  }
+  EXPECT_GT(inputs_taken, 1'000u);
+  EXPECT_GT(lines_said, 300u);
+  EXPECT_GT(ends, 500u);
+}
+
+TEST_F(SessionTest, ChatIsCleanedAndThreeLinesASecond) {
+  greet();
+  for (int i = 0; i < 5; ++i) hear(says("  line\x1b " + std::to_string(i)));
+  EXPECT_EQ(chat, (std::vector<std::string>{"line 0", "line 1", "line 2"}));
+  EXPECT_EQ(counters.chat_dropped, 2u);
+  session.checkDeadlines(now + 999ms);
+  hear(says("too early"));
+  session.checkDeadlines(now + 1s);
+  hear(says("again"));
+  EXPECT_EQ(chat.back(), "again");
+  EXPECT_EQ(chat.size(), 4u);
+}
+
+TEST_F(SessionTest, TheWorldComesAnewOnceInTwoSeconds) {
+  greet();
+  ClientUpdate update;
+  update.wants_reset = true;
+  for (int i = 0; i < 100; ++i) hear(updateOf(update));
+  EXPECT_EQ(counters.resets, 1u);
+  EXPECT_EQ(counters.resets_dropped, 99u);
+  now += 2s - 1ms;
+  hear(updateOf(update));
+  EXPECT_EQ(counters.resets, 1u);
+  now += 1ms;
+  hear(updateOf(update));
+  EXPECT_EQ(counters.resets, 2u);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+}
+
+TEST_F(SessionTest, ChecksumsAreComparedFourTimesASecond) {
+  greet();
+  ClientUpdate update;
+  update.checksum = 1;
+  for (int i = 0; i < 100; ++i) hear(updateOf(update));
+  EXPECT_EQ(counters.checksums_dropped, 99u);
+  for (int second = 0; second < 5; ++second) {  // what an honest client sends
+    now += Session::Clock::duration(1s);
+    hear(updateOf(update));
+  }
+  EXPECT_EQ(counters.checksums_dropped, 99u);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+}
+
+TEST_F(SessionTest, ChatOfNothingCostsNothing) {
+  greet();
+  for (int i = 0; i < 5; ++i) hear(says(" \t "));
+  hear(says("word"));
+  EXPECT_EQ(chat, std::vector<std::string>{"word"});
+}
+
+TEST_F(SessionTest, AnswersPingsAndNotesTheRoundTrip) {
+  greet();
+  wire::ClientMessage ping;
+  ping.mutable_ping()->set_token(0x123456789abcdef0);
+  ping.mutable_ping()->set_rtt_millis(42);
+  hear(ping);
+  EXPECT_EQ(lastSent().pong().token(), 0x123456789abcdef0u);
+  EXPECT_EQ(session.rttMillis(), 42u);
+  ping.mutable_ping()->set_rtt_millis(0xFFFFFFFF);
+  hear(ping);
+  EXPECT_EQ(session.rttMillis(), 99'999u);
+}
+
+TEST_F(SessionTest, LeavingIsAnsweredAndEnds) {
+  greet();
+  wire::ClientMessage leave;
+  leave.mutable_leave();
+  hear(leave);
+  EXPECT_TRUE(ended());
+  EXPECT_EQ(lastSent().goodbye().sentence(), "You left the game.");
+  EXPECT_EQ(gone, 1) << "at once";
+  line.callbacks.on_closed(CloseReason::kLocal);
+  EXPECT_EQ(gone, 1);
+}
+
+TEST_F(SessionTest, AResizeIsAccepted) {
+  greet();
+  wire::ClientMessage resize;
+  resize.mutable_resize()->set_columns(0xFFFFFFFF);
+  hear(resize);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+}
+
+TEST_F(SessionTest, ATerminalsSizeIsTakenOverFourTimesASecond) {
+  greet();
+  test::SimulatedWorld world({}, 7);
+  Publisher publisher;
+  int taken_over = 0;
+  for (int i = 0; i < 100; ++i, now += 10ms) {  // it is dragged about for a second
+    const std::uint64_t deferred = counters.resizes_deferred;
+    wire::ClientMessage resize;
+    resize.mutable_resize()->set_columns(20 + i);
+    hear(resize);
+    taken_over += counters.resizes_deferred == deferred ? 1 : 0;
+    world.tick();
+    publisher.update(world.view());
+    session.sendTick(publisher, world.view().players[0]);
+  }
+  EXPECT_NEAR(taken_over, 4, 1);
+}
+
+TEST_F(SessionTest, EndsWithoutAHelloInFiveSeconds) {
+  listenUntil(session, 5s);
+  EXPECT_EQ(session.state(), Session::State::kGreeting);
+  listenUntil(session, 5s + 1ms);
+  EXPECT_TRUE(ended());
+  EXPECT_EQ(lastSent().refused().reason(), wire::Refused::BAD_REQUEST);
+  EXPECT_EQ(counters.login_timeouts, 1u);
+}
+
+TEST_F(SessionTest, AHelloThatCameWhileTheServerDidNotRunIsHeard) {
+  session.checkDeadlines(now);
+  session.checkDeadlines(now + 20s);  // it has come meanwhile, and is read next
+  EXPECT_EQ(session.state(), Session::State::kGreeting);
+  greet();
+  session.checkDeadlines(now + 60s);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+  EXPECT_EQ(counters.login_timeouts + counters.idle_timeouts, 0u);
+}
+
+TEST_F(SessionTest, AHelloThatNobodyGetsRoundToJudgeIsToldToTryAgain) {
+  Wire waiting_line;
+  Session waiting(std::make_unique<FakeChannel>(waiting_line), counters, now);
+  int hellos = 0;
+  waiting.start({[&](Session&, const wire::Hello&) { ++hellos; },  // a password's turn does not come
+                 [](Session&, const std::string&) {}, [](Session&) {}, [this] { return now; }});
+  wire::ClientMessage message;
+  message.mutable_hello()->set_magic(kHelloMagic);
+  message.mutable_hello()->set_protocol(kProtocolVersion);
+  waiting_line.callbacks.on_frame(message.SerializeAsString());
+  ASSERT_EQ(hellos, 1);
+  listenUntil(waiting, 0s);  // from here: the hello was heard before
+  listenUntil(waiting, Session::kJudgeTimeout);
+  EXPECT_EQ(waiting.state(), Session::State::kGreeting);
+  listenUntil(waiting, Session::kJudgeTimeout + 1ms);
+  EXPECT_TRUE(waiting_line.closed);
+  wire::ServerMessage answer;
+  ASSERT_EQ(waiting_line.sent.size(), 1u);
+  ASSERT_TRUE(answer.ParseFromString(waiting_line.sent[0]));
+  EXPECT_EQ(answer.refused().reason(), wire::Refused::BUSY);
+  EXPECT_EQ(counters.login_timeouts, 1u);
+}
+
+TEST_F(SessionTest, EndsAfterFifteenSecondsOfSilence) {
+  greet();
+  listenUntil(session, 0s);  // from here: the hello was heard before
+  listenUntil(session, 15s);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+  hear(says("still here"));
+  listenUntil(session, 30s);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+  listenUntil(session, 30s + 1ms);
+  EXPECT_TRUE(ended());
+  EXPECT_EQ(counters.idle_timeouts, 1u);
+  EXPECT_FALSE(lastSent().goodbye().sentence().empty());
+  session.checkDeadlines(now + 99s);
+  EXPECT_EQ(counters.idle_timeouts, 1u);
+}
+
+TEST_F(SessionTest, FifteenSecondsOfSilenceCostAResumableSessionItsStreamOnly) {
+  greet();
+  session.setGrace(60s);
+  listenUntil(session, 0s);  // from here
+  listenUntil(session, 15s + 1ms);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+  EXPECT_TRUE(session.isDetached());
+  EXPECT_EQ(counters.idle_timeouts, 1u);
+  EXPECT_EQ(gone, 0);
+  listenUntil(session, 60s);
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+  listenUntil(session, 60s + 1ms);
+  EXPECT_EQ(session.state(), Session::State::kGone);
+  EXPECT_EQ(counters.graces_expired, 1u);
+  EXPECT_EQ(gone, 1);
+}
+
+TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentAndCatchesUpAfter) {
+  greet();
+  test::SimulatedWorld world({}, 5);
+  Publisher publisher;
+  Replica replica;
+  AckWindow acks;
+  std::size_t read = line.sent.size();
+  const auto tick = [&] {
+    world.tick();
+    publisher.update(world.view());
+    session.sendTick(publisher, world.view().players[0]);
+  };
+  const auto receive = [&] {
+    for (; read < line.sent.size(); ++read) {
+      wire::ServerMessage message;
+      ASSERT_TRUE(message.ParseFromString(line.sent[read]));
+      ASSERT_EQ(message.what_case(), wire::ServerMessage::kSnapshot);
+      Snapshot snapshot;
+      ASSERT_EQ(replica.read(message.snapshot(), snapshot), ReadResult::kOk);
+      replica.apply(snapshot);
+      acks.note(snapshot.header.number);
+    }
+    ClientUpdate update;
+    update.acks = acks;
+    hear(updateOf(update));
+  };
+
+  for (int round = 0; round < 20; ++round) {
+    line.unsent = 1;
+    const std::size_t before = line.sent.size();
+    for (int i = 0; i < 25; ++i) tick();
+    ASSERT_EQ(line.sent.size(), before);
+    line.unsent = 0;
+    for (int i = 0; i < 3; ++i) {  // slots that changed hands take a round trip more
+      tick();
+      receive();
+    }
+    world.tick(true);
+    publisher.update(world.view());
+    session.sendTick(publisher, world.view().players[0]);
+    receive();
+    const df::Canvas wanted = world.picture(0);
+    const df::Canvas seen = replica.render(world.tickNumber());
+    ASSERT_EQ(countDifferences(wanted, seen), 0) << "round " << round << "\n" << test::explain(wanted, seen);
+  }
+  EXPECT_EQ(counters.skipped_ticks, 20u * 25u);
+  EXPECT_GT(counters.snapshots, 20u);
+}
+
+TEST_F(SessionTest, SnapshotsNameTheNewestInputThatReachedTheGame) {
+  greet();
+  test::SimulatedWorld world({}, 6);
+  Publisher publisher;
+  hear(key(1));
+  hear(key(4));
+  takeInputs(world.tickNumber() + 1);
+  hear(key(5));
+  world.tick();
+  publisher.update(world.view());
+  session.sendTick(publisher, world.view().players[0]);
+  Snapshot snapshot;
+  ASSERT_EQ(Replica(world.tickNumber()).read(lastSent().snapshot(), snapshot), ReadResult::kOk);
+  EXPECT_TRUE(snapshot.header.tells_input);
+  EXPECT_EQ(snapshot.header.input, 4u);
+  EXPECT_EQ(snapshot.header.input_tick, world.tickNumber());
+}
+
+}  // namespace
+}  // namespace naiad

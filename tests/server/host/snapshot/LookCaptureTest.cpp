@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "host/snapshot/LookCapture.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/LookCodec.h"
+#include "shared/values/SplitMix64.h"
+#include "shared/values/Vector.h"
+
+namespace naiad {
+namespace {
+
+df::FixedVector at(double x, double y) {
+  return *df::toFixed(df::Vector(x, y));
+}
+
+TEST(LookCapture, KeepsCharactersColoursAndOffsets) {
+  const std::vector<df::DrawCommand> commands = {{at(10.25, 4), U'a', df::RED},
+                                                 {at(8.75, 5), U'é', df::BLUE}};
+  const Appearance appearance = captureAppearance(at(10.25, 4), commands);
+  EXPECT_EQ(appearance, (Appearance{{0, 0, U'a', df::RED}, {-384, 256, U'é', df::BLUE}}));
+}
+
+TEST(LookCapture, HalfCellOffsetsStayRightWhereverTheObjectGoes) {
+  SplitMix64 rng(1);
+  const Look look{{captureAppearance(at(0, 0), std::vector<df::DrawCommand>{{at(-0.5, 0), U'<', df::RED},
+                                                                            {at(0.5, 0), U'>', df::RED}})},
+                  2};
+  for (int i = 0; i < 2000; ++i) {
+    const df::FixedVector where = at((rng.unit() - 0.5) * 500, (rng.unit() - 0.5) * 500);
+    const std::vector<df::DrawCommand> commands = {{where + at(-0.5, 0), U'<', df::RED},
+                                                   {where + at(0.5, 0), U'>', df::RED}};
+    ASSERT_TRUE(drawsTheSame(look, 0, where, commands));
+  }
+}
+
+TEST(LookCapture, CellsAreRightAtTheCapturedPositionWhateverTheOffset) {
+  SplitMix64 rng(2);
+  for (int i = 0; i < 2000; ++i) {
+    const df::FixedVector where = at((rng.unit() - 0.5) * 500, (rng.unit() - 0.5) * 500);
+    std::vector<df::DrawCommand> commands;
+    for (int k = 0; k < 5; ++k) {
+      commands.push_back({where + at((rng.unit() - 0.5) * 9, (rng.unit() - 0.5) * 9), U'x', df::RED});
+    }
+    ASSERT_TRUE(drawsTheSame(Look{{captureCells(where, commands)}, 2}, 0, where, commands));
+  }
+}
+
+TEST(LookCapture, NoticesEveryKindOfDifference) {
+  const std::vector<df::DrawCommand> commands = {{at(1, 1), U'a', df::RED}, {at(2, 1), U'b', df::RED}};
+  const Look look{{captureAppearance(at(1, 1), commands)}, 2};
+  ASSERT_TRUE(drawsTheSame(look, 0, at(1, 1), commands));
+  EXPECT_FALSE(drawsTheSame(look, 0, at(2, 1), commands));
+  EXPECT_FALSE(drawsTheSame(look, 0, at(1, 1), std::span(commands).first(1)));
+  EXPECT_FALSE(drawsTheSame(look, 0, at(1, 1), {}));
+  EXPECT_FALSE(drawsTheSame(Look{}, 0, at(1, 1), commands));
+  EXPECT_TRUE(drawsTheSame(Look{}, 0, at(1, 1), {}));
+  for (int change = 0; change < 3; ++change) {
+    std::vector<df::DrawCommand> other = commands;
+    if (change == 0) other[1].ch = U'c';
+    if (change == 1) other[1].color = df::BLUE;
+    if (change == 2) other[1].position = at(2, 2);
+    EXPECT_FALSE(drawsTheSame(look, 0, at(1, 1), other)) << change;
+  }
+}
+
+TEST(LookCapture, LeavesOutWhatIsTooFarAway) {
+  const std::vector<df::DrawCommand> commands = {{at(8192, 0), U'a', df::RED}, {at(8193, 0), U'b', df::RED}};
+  EXPECT_EQ(captureAppearance(at(0, 0), commands).size(), 1u);
+  EXPECT_EQ(captureCells(at(0, 0), commands).size(), 1u);
+}
+
+TEST(LookCapture, OppositeEndsOfTheWorldAreTooFarApart) {
+  const std::vector<df::DrawCommand> commands = {{at(2e9, -2e9), U'a', df::RED}};
+  EXPECT_TRUE(captureAppearance(at(-2e9, 2e9), commands).empty());
+  EXPECT_TRUE(captureCells(at(-2e9, 2e9), commands).empty());
+}
+
+TEST(LookCapture, CutsAtTheLargestAppearance) {
+  const std::vector<df::DrawCommand> commands(kMaxGlyphs + 5, {at(0, 0), U'x', df::RED});
+  EXPECT_EQ(captureAppearance(at(0, 0), commands).size(), kMaxGlyphs);
+}
+
+TEST(LookCapture, FitsALookIntoARecordByCuttingItsEnd) {
+  Appearance whole(kMaxGlyphs);
+  SplitMix64 rng(3);
+  for (Glyph& glyph : whole) {
+    glyph = {static_cast<std::int32_t>(rng.below(90'000)), static_cast<std::int32_t>(rng.below(90'000)), U'█',
+             static_cast<df::Color>(rng.below(8))};
+  }
+  ASSERT_GT(encodedBits({whole}), 8 * kMaxLookBytes);
+  const Sequence fitted = fitToRecord(whole);
+  EXPECT_LE(encodedBits(fitted), 8 * kMaxLookBytes);
+  EXPECT_GT(encodedBits(fitted), 4 * kMaxLookBytes);
+  ASSERT_EQ(fitted.size(), 1u);
+  EXPECT_TRUE(std::equal(fitted[0].begin(), fitted[0].end(), whole.begin()));
+  EXPECT_EQ(fitToRecord(fitted[0]), fitted);
+}
+
+}  // namespace
+}  // namespace naiad

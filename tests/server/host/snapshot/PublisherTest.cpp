@@ -1,0 +1,561 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "SimulatedWorld.h"
+#include "host/snapshot/Publisher.h"
+#include "host/snapshot/SnapshotSender.h"
+#include "shared/replica/Replica.h"
+#include "shared/values/Vector.h"
+
+namespace naiad {
+namespace {
+
+df::FixedVector at(double x, double y) {
+  return *df::toFixed(df::Vector(x, y));
+}
+
+/// A WorldView by hand, of one player who sees cells (0, 0) to (79, 23).
+class Scene {
+ public:
+  Scene() {
+    m_view.boundary = {at(0, 0), at(80, 24)};
+    m_view.players.push_back({});
+    m_view.players[0].id = 1;
+  }
+
+  df::WorldView& view() { return m_view; }
+  df::ObjectFacts& changed(std::uint32_t slot, df::FixedVector position, df::FixedVector velocity = {}) {
+    df::ObjectFacts facts;
+    facts.key = {slot, 1};
+    facts.order = slot;
+    facts.position = position;
+    facts.velocity = velocity;
+    return m_view.changed.emplace_back(facts);
+  }
+  void drew(df::ObjectKey key, const std::vector<df::DrawCommand>& commands) {
+    m_view.drawn.push_back({key, static_cast<std::uint32_t>(m_view.commands.size()),
+                            static_cast<std::uint32_t>(commands.size())});
+    m_view.commands.insert(m_view.commands.end(), commands.begin(), commands.end());
+  }
+  void drew(std::uint32_t slot, df::FixedVector position, char32_t ch = U'@') {
+    drew({slot, 1}, {{position, ch, df::CYAN}});
+  }
+  /// It drew the frame whose turn it is in the tick that is published next, and says so.
+  void showed(std::uint32_t slot, df::FixedVector position, const Look& look) {
+    std::vector<df::DrawCommand> commands;
+    for (const Glyph& glyph : *look.select(m_view.tick + 1)) {
+      const df::FixedVector offset{df::Fixed{glyph.dx} * (df::kFixedOne / 256),
+                                   df::Fixed{glyph.dy} * (df::kFixedOne / 256)};
+      commands.push_back({position + offset, glyph.ch, glyph.color});
+    }
+    says(look);
+    drew({slot, 1}, commands);
+  }
+  void says(const Look& look) {
+    m_view.looks.push_back(
+        {static_cast<std::uint32_t>(m_view.drawn.size()), std::make_shared<const Look>(look)});
+  }
+  /// Publish the tick, return its changes, and begin the next.
+  std::vector<Publisher::Change> publish() {
+    ++m_view.tick;
+    publisher.update(m_view);
+    m_view.changed.clear();
+    m_view.vanished.clear();
+    m_view.drawn.clear();
+    m_view.commands.clear();
+    m_view.looks.clear();
+    return publisher.changes();
+  }
+
+  Publisher publisher;
+
+ private:
+  df::WorldView m_view;
+};
+
+std::uint8_t groupsOf(const std::vector<Publisher::Change>& changes, std::uint32_t slot) {
+  for (const Publisher::Change& change : changes) {
+    if (change.slot == slot) return change.groups;
+  }
+  return 0xFF;
+}
+
+// Whoever asks, in whatever tick.
+TEST(Publisher, AMotionForAllClientsIsTheModelsOwnNow) {
+  Scene scene;
+  const auto expectShared = [&scene](std::uint32_t slot) {
+    const Motion now = rebase(scene.publisher.find(slot)->state.motion, scene.publisher.tick());
+    for (int asked = 0; asked < 2; ++asked) {
+      EXPECT_EQ(scene.publisher.sharedMotion(slot).motion, now) << "slot " << slot;
+    }
+    BitWriter one, other;
+    writeMotion(one, scene.publisher.sharedMotion(slot), Origin{});
+    writeMotion(other, now, Origin{});
+    EXPECT_EQ(one.bytes(), other.bytes());
+  };
+  scene.changed(1, at(10, 10), at(0.25, 0));
+  scene.changed(2, at(20, 5));
+  for (int tick = 0; tick < 20; ++tick) {
+    if (tick == 7) scene.changed(2, at(20, 5), at(0, 0.5));
+    if (tick == 12) scene.changed(40, at(1, 1), at(0.125, 0.5));
+    scene.publish();
+    expectShared(1);
+    expectShared(2);
+    if (tick >= 12) expectShared(40);
+  }
+}
+
+TEST(Publisher, StraightFlightIsPublishedOnce) {
+  Scene scene;
+  df::FixedVector position = at(5, 5);
+  const df::FixedVector velocity = at(0.3, 0.1);
+  scene.changed(0, position, velocity);
+  scene.drew(0, position);
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kAllGroups);
+  for (int i = 0; i < 100; ++i) {
+    position = position + velocity;
+    scene.changed(0, position, velocity);
+    scene.drew(0, position);
+    ASSERT_TRUE(scene.publish().empty()) << "tick " << i;
+  }
+  EXPECT_EQ(scene.publisher.correctionCount(), 0u);
+}
+
+TEST(Publisher, AViewObjectStandsWhereverTheViewsGo) {
+  Scene scene;
+  for (int i = 0; i < 50; ++i) {
+    const df::FixedVector corner = at(100 + 0.3 * i, 7.5);  // of the world's own view
+    scene.view().corner = corner;
+    scene.view().players[0].view_corner = at(-3.0 * i, 900);  // far from there
+    scene.changed(1, at(40, 1)).on_view = true;
+    scene.drew(1, corner + at(38, 1), U'H');
+    scene.view().drawn.back().on_view = true;
+    EXPECT_EQ(scene.publish().size(), i == 0 ? 1u : 0u) << "tick " << i;
+  }
+  const Publisher::Model& model = *scene.publisher.find(1);
+  EXPECT_TRUE(model.state.body.on_view);
+  EXPECT_EQ(model.state.body.solidness, df::SPECTRAL) << "nobody meets it";
+  ASSERT_EQ(model.state.look.sequence.glyphCount(), 1u);
+  const CellPosition cell =
+      glyphCell(positionAt(model.state.motion, scene.publisher.tick()), model.state.look.sequence[0][0]);
+  EXPECT_EQ(cell, (CellPosition{38, 1}));
+  EXPECT_GT(model.reach, Publisher::kWide) << "so everybody is told of it";
+}
+
+TEST(Publisher, ABackgroundThatIsNoColourIsNone) {
+  Scene scene;
+  const auto published = [&scene](df::Color background) {
+    scene.view().background = background;
+    scene.publish();
+    return scene.publisher.world().background;
+  };
+  EXPECT_EQ(published(df::BLUE), df::BLUE);
+  EXPECT_EQ(published(df::CUSTOM), df::BLACK);
+  EXPECT_EQ(published(df::UNDEFINED_COLOR), df::BLACK);
+}
+
+TEST(Publisher, AcceleratedFlightIsPublishedOnce) {
+  Scene scene;
+  df::FixedVector position = at(5, 5);
+  df::FixedVector velocity = at(0, 0);
+  const df::FixedVector acceleration = at(0.01, 0.003);
+  for (int i = 0; i < 60; ++i) {
+    scene.changed(0, position, velocity).acceleration = acceleration;
+    scene.drew(0, position);
+    ASSERT_EQ(scene.publish().size(), i == 0 ? 1u : 0u) << "tick " << i;
+    position = position + velocity;
+    velocity = velocity + acceleration;
+  }
+}
+
+TEST(Publisher, ATurnIsCorrectedExactlyWhenTheCellWouldBeWrong) {
+  Scene scene;
+  df::FixedVector position = at(10, 10);
+  df::FixedVector velocity = at(0.125, 0);
+  Motion modelled{1, position, velocity, {}};
+  int corrections = 0;
+  for (int i = 0; i < 200; ++i) {
+    if (i == 20) velocity = at(0.0625, 0.0625);  // a turn that shows only after some ticks
+    if (i == 90) velocity = at(-0.125, 0);
+    scene.changed(0, position, velocity);
+    scene.drew(0, position);
+    const auto changes = scene.publish();
+    const std::uint32_t tick = scene.publisher.tick();
+    const df::FixedVector expected = positionAt(modelled, tick);
+    const bool wrong =
+        df::cellOf(expected.x) != df::cellOf(position.x) || df::cellOf(expected.y) != df::cellOf(position.y);
+    if (i == 0) modelled = scene.publisher.find(0)->state.motion;
+    if (i > 0) {
+      ASSERT_EQ(changes.size(), wrong ? 1u : 0u) << "tick " << i;
+    }
+    if (wrong) {
+      EXPECT_EQ(changes[0].groups, kMotion);
+      modelled = scene.publisher.find(0)->state.motion;
+      ++corrections;
+    }
+    const df::FixedVector published = positionAt(scene.publisher.find(0)->state.motion, tick);
+    ASSERT_EQ(df::cellOf(published.x), df::cellOf(position.x));
+    ASSERT_EQ(df::cellOf(published.y), df::cellOf(position.y));
+    position = position + velocity;
+  }
+  EXPECT_EQ(scene.publisher.correctionCount(), static_cast<std::uint64_t>(corrections));
+  EXPECT_GE(corrections, 2);
+  EXPECT_LE(corrections, 4);
+}
+
+TEST(Publisher, ATurnOfAnObjectThatDrawsNothingIsCorrectedToo) {
+  Scene scene;
+  scene.changed(0, at(10, 10), at(1, 0));
+  scene.drew({0, 1}, {});
+  scene.publish();
+  scene.changed(0, at(11, 10), at(0, 1));
+  scene.drew({0, 1}, {});
+  EXPECT_TRUE(scene.publish().empty());
+  scene.changed(0, at(11, 11), at(0, 1));
+  scene.drew({0, 1}, {});
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
+}
+
+TEST(Publisher, ABlockedObjectIsPublishedAsStandingStill) {
+  Scene scene;
+  scene.changed(0, at(10, 10), at(1, 0));
+  scene.drew(0, at(10, 10));
+  scene.publish();
+  scene.changed(0, at(10, 10));  // blocked: no velocity
+  scene.drew(0, at(10, 10));
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
+  EXPECT_FALSE(isMoving(scene.publisher.find(0)->state.motion));
+  for (int i = 0; i < 10; ++i) {  // not reported again while it stands
+    scene.drew(0, at(10, 10));
+    EXPECT_TRUE(scene.publish().empty());
+  }
+}
+
+TEST(Publisher, AnObjectThatIsNotReportedStandsStillEvenIfItLastMoved) {
+  Scene scene;
+  scene.changed(0, at(10, 10), at(1, 0));
+  scene.drew(0, at(10, 10));
+  scene.publish();
+  scene.drew(0, at(10, 10));
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
+  EXPECT_FALSE(isMoving(scene.publisher.find(0)->state.motion));
+}
+
+TEST(Publisher, SolidObjectsThatStandAreExactOnceSomebodyPredicts) {
+  Scene scene;
+  const df::FixedVector position = at(10.3, 10.2);
+  scene.changed(0, position);
+  scene.drew(0, position);
+  scene.publish();
+  EXPECT_NE(scene.publisher.find(0)->state.motion.position, position) << "coarse is shorter";
+  scene.view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
+  scene.drew(0, position);
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
+  EXPECT_EQ(scene.publisher.find(0)->state.motion.position, position);
+  // One that comes to rest within its cell is exact again.
+  scene.changed(0, position, at(0.1, 0));
+  scene.drew(0, position);
+  scene.publish();
+  scene.changed(0, position + at(0.05, 0));
+  scene.drew(0, position + at(0.05, 0));
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
+  EXPECT_EQ(scene.publisher.find(0)->state.motion.position, position + at(0.05, 0));
+}
+
+TEST(Publisher, ANewCharacterIsALookAndNothingElse) {
+  Scene scene;
+  scene.changed(0, at(10, 10));
+  scene.drew(0, at(10, 10), U'a');
+  scene.publish();
+  scene.drew(0, at(10, 10), U'b');
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
+  EXPECT_EQ(scene.publisher.find(0)->state.look.sequence[0][0].ch, U'b');
+  EXPECT_EQ(scene.publisher.correctionCount(), 0u);
+}
+
+TEST(Publisher, BoxAndAltitudeAreBodyAndLook) {
+  Scene scene;
+  scene.changed(0, at(10, 10));
+  scene.drew(0, at(10, 10));
+  scene.publish();
+  scene.changed(0, at(10, 10)).box = {at(-1, -1), at(2, 2)};
+  scene.drew(0, at(10, 10));
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kBody);
+  df::ObjectFacts& facts = scene.changed(0, at(10, 10));
+  facts.box = {at(-1, -1), at(2, 2)};
+  facts.altitude = 4;
+  scene.drew(0, at(10, 10));
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
+  EXPECT_EQ(scene.publisher.find(0)->state.look.altitude, 4);
+}
+
+TEST(Publisher, AHalfCellSpriteFliesFree) {
+  Scene scene;
+  df::FixedVector position = at(5.3, 5.1);
+  const df::FixedVector velocity = at(0.37, 0.11);
+  std::size_t corrections = 0;
+  for (int i = 0; i < 1000; ++i) {
+    scene.changed(0, position, velocity);
+    std::vector<df::DrawCommand> sprite;
+    for (int k = 0; k < 4; ++k) sprite.push_back({position + at(k - 1.5, -0.5), U'#', df::RED});
+    scene.drew({0, 1}, sprite);
+    const std::size_t changes = scene.publish().size();
+    ASSERT_TRUE(i == 0 || changes == 0 || i >= 64) << "tick " << i;
+    corrections += i > 0 ? changes : 0;
+    position = position + velocity;
+  }
+  // Coarse numbers were good for as long as paths last at first; then ones that are good for eight times as
+  // long.
+  EXPECT_LE(corrections, 2u);
+}
+
+TEST(Publisher, AHiddenObjectLosesItsLookAndGetsItBack) {
+  Scene scene;
+  scene.changed(0, at(10, 10));
+  scene.drew(0, at(10, 10));
+  scene.publish();
+  scene.changed(0, at(10, 10)).shown = false;
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
+  EXPECT_EQ(scene.publisher.find(0)->state.look.select(0), nullptr);
+  EXPECT_TRUE(scene.publish().empty());
+  scene.changed(0, at(10, 10));
+  scene.drew(0, at(10, 10));
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
+}
+
+TEST(Publisher, ASolidObjectThatStopsAndHidesIsHiddenAtOnce) {
+  Scene scene;
+  scene.view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
+  scene.changed(0, at(10.3, 10), at(0.2, 0));
+  scene.drew(0, at(10.3, 10));
+  scene.publish();
+  scene.changed(0, at(10.35, 10)).shown = false;  // its path has to be made exact in the same tick
+  EXPECT_EQ(groupsOf(scene.publish(), 0), kLook | kMotion);
+  EXPECT_EQ(scene.publisher.find(0)->state.look.select(0), nullptr);
+}
+
+TEST(Publisher, WhatLeavesEveryViewKeepsItsLook) {
+  Scene scene;
+  df::FixedVector position = at(78, 5);
+  const df::FixedVector velocity = at(1, 0);
+  for (int i = 0; i < 20; ++i) {
+    scene.changed(0, position, velocity);
+    if (df::cellOf(position.x) < 80) scene.drew(0, position);
+    const auto changes = scene.publish();
+    ASSERT_EQ(changes.size(), i == 0 ? 1u : 0u) << "tick " << i;
+    position = position + velocity;
+  }
+  EXPECT_NE(scene.publisher.find(0)->state.look.select(0), nullptr);
+}
+
+TEST(Publisher, ADeathAndABirthInOneSlotAreOneChangeToTheNewGeneration) {
+  Scene scene;
+  scene.changed(3, at(10, 10));
+  scene.publish();
+  scene.view().vanished.push_back({3, 1});
+  scene.changed(3, at(11, 11)).key.generation = 2;
+  const auto changes = scene.publish();
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_EQ(changes[0].groups, kAllGroups);
+  EXPECT_EQ(scene.publisher.find(3)->generation, 2u);
+  scene.view().vanished.push_back({3, 1});  // an old death
+  EXPECT_TRUE(scene.publish().empty());
+  scene.view().vanished.push_back({3, 2});
+  EXPECT_EQ(groupsOf(scene.publish(), 3), 0);
+  EXPECT_EQ(scene.publisher.find(3), nullptr);
+}
+
+TEST(Publisher, LooseCharactersShareOneObjectBeneathAll) {
+  Scene scene;
+  scene.drew({}, {{at(5, 5), U'x', df::RED}});
+  scene.drew({}, {{at(60, 20), U'y', df::RED}});
+  EXPECT_EQ(groupsOf(scene.publish(), kLooseSlot), kAllGroups);
+  const ObjectState& state = scene.publisher.find(kLooseSlot)->state;
+  ASSERT_EQ(state.look.sequence[0].size(), 2u);
+  EXPECT_EQ(glyphCell(state.motion.position, state.look.sequence[0][1]), (CellPosition{60, 20}));
+  EXPECT_EQ(state.look.altitude, 0);
+  EXPECT_EQ(state.order, 0u);
+  EXPECT_EQ(groupsOf(scene.publish(), kLooseSlot), kLook) << "nothing drawn: nothing shown";
+  EXPECT_TRUE(scene.publish().empty());
+}
+
+TEST(Publisher, ADrawingTooLargeToDescribeIsSentOnce) {
+  Scene scene;
+  const std::vector<df::DrawCommand> flood(kMaxGlyphs + 100, {at(5, 5), U'█', df::RED});
+  scene.changed(0, at(5, 5));
+  scene.drew({0, 1}, flood);
+  EXPECT_EQ(scene.publish().size(), 1u);
+  for (int i = 0; i < 3; ++i) {
+    scene.drew({0, 1}, flood);
+    EXPECT_TRUE(scene.publish().empty());
+  }
+}
+
+TEST(Publisher, SlotsBeyondTheLastAreRefusedAndCounted) {
+  Scene scene;
+  scene.changed(kLooseSlot, at(5, 5));
+  EXPECT_TRUE(scene.publish().empty());
+  EXPECT_EQ(scene.publisher.refusedCount(), 1u);
+  EXPECT_EQ(scene.publisher.find(kLooseSlot), nullptr);
+}
+
+// The proof of the whole chain: what a client draws is what the world drew, cell for cell, at every tick.
+void expectSamePictures(const test::WorldConfig& config, std::uint64_t seed, int ticks) {
+  test::SimulatedWorld world(config, seed);
+  Publisher publisher;
+  struct Client {
+    SnapshotSender sender;
+    Replica replica;
+    AckWindow acks;
+  };
+  std::vector<Client> clients(config.players);
+  for (int i = 0; i < ticks; ++i) {
+    world.tick();
+    publisher.update(world.view());
+    for (std::size_t p = 0; p < clients.size(); ++p) {
+      Client& client = clients[p];
+      if (i < static_cast<int>(p) * 30) continue;  // joins late
+      client.sender.note(publisher, world.view().players[p]);
+      for (int round = 0; round < 3 && (round == 0 || !client.sender.isSettled()); ++round) {
+        for (const SnapshotSender::Packet& packet : client.sender.build(publisher)) {
+          Snapshot snapshot;
+          ASSERT_EQ(client.replica.read(packet.bytes, snapshot), ReadResult::kOk);
+          client.replica.apply(snapshot);
+          client.acks.note(packet.number);
+        }
+        client.sender.acknowledge(client.acks);
+      }
+      ASSERT_TRUE(client.sender.isSettled());
+      const df::Canvas wanted = world.picture(p);
+      const df::Canvas seen = client.replica.render(world.tickNumber());
+      ASSERT_EQ(countDifferences(wanted, seen), 0)
+          << "seed " << seed << ", tick " << i << ", player " << p << "\n"
+          << test::explain(wanted, seen);
+    }
+  }
+}
+
+TEST(Publisher, AReplicaDrawsWhatTheWorldDrawsAtEveryTick) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    test::WorldConfig config;
+    config.players = 1 + seed % 3;
+    config.objects = 10 + 7 * (seed % 9);
+    expectSamePictures(config, seed, 150);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(Publisher, ALivelyWorldIsDrawnAsWell) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    test::WorldConfig config;
+    config.turn = config.restyle = config.reshape = config.vanish = config.hide = 0.2;
+    config.scribble = config.speech = config.refollow = 0.3;
+    expectSamePictures(config, seed, 150);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(Publisher, WorldsOfStraightFlightCostNothing) {
+  test::WorldConfig config;
+  config.turn = config.block = config.restyle = config.reshape = config.vanish = config.hide = 0;
+  config.scribble = config.speech = config.refollow = 0;
+  config.view_width = 100;
+  config.view_height = 40;
+  test::SimulatedWorld world(config, 9);
+  Publisher publisher;
+  std::size_t changes = 0;
+  for (int i = 0; i < 200; ++i) {
+    world.tick(i > 20);
+    publisher.update(world.view());
+    if (i > 30) changes += publisher.changes().size();
+  }
+  // Only offsets that no 1/256 expresses, and what first comes into view, need a word now and then.
+  EXPECT_LT(changes, 100u);
+}
+
+Sequence wheel() {
+  std::vector<Appearance> frames;
+  for (const char32_t spoke : {U'-', U'\\', U'|', U'/'})
+    frames.push_back({{-256, 0, U'(', df::CYAN}, {0, 0, spoke, df::CYAN}, {256, 0, U')', df::CYAN}});
+  return Sequence(frames);
+}
+
+// By any selector: it is told once, and right for ever after.
+TEST(Publisher, WhatChangesByItselfIsToldOnce) {
+  for (const Selector& selector :
+       {Selector::clock(1, 3), Selector::clock(1, 5, false), Selector::turning(1, 123456789, 98765432),
+        Selector::turning(1, 0, -1'000'003), Selector::fixed(2)}) {
+    Scene scene;
+    const Look look{wheel(), 2, selector};
+    scene.changed(0, at(10, 10));
+    scene.showed(0, at(10, 10), look);
+    ASSERT_EQ(scene.publish().size(), 1u);
+    EXPECT_EQ(scene.publisher.find(0)->state.look, look);
+    EXPECT_TRUE(scene.publisher.find(0)->recurs) << "worth a name from the beginning";
+    for (int i = 0; i < 5000; ++i) {
+      scene.showed(0, at(10, 10), look);
+      ASSERT_TRUE(scene.publish().empty()) << i;
+    }
+  }
+}
+
+TEST(Publisher, AnotherPaceIsToldWithTheFirstFrameThatItShowsOtherwise) {
+  Scene scene;
+  Look look{wheel(), 2, Selector::turning(1, 0, 1 << 24)};  // a frame takes 64 ticks
+  scene.changed(0, at(10, 10));
+  scene.showed(0, at(10, 10), look);
+  scene.publish();
+  const Look before = look;
+  look.selector = Selector::turning(scene.view().tick, before.selector.angleAt(scene.view().tick), 1 << 25);
+  int told = 0;
+  for (int i = 0; i < 500; ++i) {
+    const std::uint32_t tick = scene.view().tick + 1;
+    scene.showed(0, at(10, 10), look);
+    const auto changes = scene.publish();
+    const bool differs = told == 0 && look.select(tick) != before.select(tick);
+    ASSERT_EQ(changes.size(), differs ? 1u : 0u) << tick;
+    if (!differs) continue;
+    ++told;
+    EXPECT_EQ(changes[0].groups, kLook);
+    EXPECT_TRUE(scene.publisher.find(0)->state.look.sequence.isSharedWith(look.sequence));
+  }
+  EXPECT_EQ(told, 1);
+}
+
+TEST(Publisher, WhatADrawOfItsOwnAddsIsWhatCounts) {
+  Scene scene;
+  const Look look{wheel(), 2, Selector::clock(1, 3)};
+  scene.changed(0, at(10, 10));
+  scene.says(look);
+  scene.drew({0, 1}, {{at(10, 10), U'?', df::RED}});
+  scene.publish();
+  const Look& published = scene.publisher.find(0)->state.look;
+  EXPECT_EQ(published.sequence, (Sequence{{{0, 0, U'?', df::RED}}}));
+  EXPECT_EQ(published.selector, Selector{});
+  scene.showed(0, at(10, 10), look);
+  scene.publish();
+  EXPECT_EQ(published.sequence, wheel());
+  EXPECT_EQ(published.selector, look.selector);
+}
+
+TEST(Publisher, ATurningThingThatFliesOverFractionsOfCellsIsToldOnce) {
+  Scene scene;
+  const Look look{wheel(), 2, Selector::turning(1, 5, 55'555'555)};
+  df::FixedVector position = at(1.25, 3.5);
+  const df::FixedVector velocity = at(0.3, 0.07);
+  scene.changed(0, position, velocity);
+  scene.showed(0, position, look);
+  scene.publish();
+  int changes = 0;
+  for (int i = 0; i < 60; ++i) {
+    position = position + velocity;
+    scene.changed(0, position, velocity);
+    scene.showed(0, position, look);
+    changes += scene.publish().empty() ? 0 : 1;
+  }
+  EXPECT_EQ(changes, 0);
+}
+
+}  // namespace
+}  // namespace naiad

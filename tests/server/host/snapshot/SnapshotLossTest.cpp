@@ -1,0 +1,297 @@
+// The sender over a bad network: whatever was lost, the replica ends up right.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "SimulatedWorld.h"
+#include "host/snapshot/SnapshotSender.h"
+#include "shared/replica/Replica.h"
+#include "shared/replica/UpdateCodec.h"
+#include "tests/support/net/LossyLink.h"
+#include "tests/support/net/VirtualClock.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A server and a client over two directions of a bad network. Snapshots go down and acknowledgements go up
+/// as the messages of the schema, in datagrams of at most 1200 bytes.
+class LossyPair {
+ public:
+  LossyPair(test::WorldConfig config, const LinkConditions& conditions, std::uint64_t seed,
+            Resend resend = Resend::kOnGap)
+      : sender(resend),
+        m_world(config, seed),
+        m_link(m_clock, conditions, seed),
+        m_server_end(m_link.takeEnd(LinkEnd::kServer)),
+        m_client_end(m_link.takeEnd(LinkEnd::kClient)) {
+    m_server_end->start([this](std::string_view packet) { serverHears(packet); });
+    m_client_end->start([this](std::string_view packet) { clientHears(packet); });
+  }
+
+  void tick(bool quiet = false) {
+    m_world.tick(quiet);
+    m_publisher.update(m_world.view());
+    sender.note(m_publisher, m_world.view().players[0]);
+    for (const SnapshotSender::Packet& packet : sender.build(m_publisher)) {
+      ++snapshots;
+      std::vector<std::uint32_t>& lives = m_births[packet.number];
+      for (std::uint32_t id = 0; id < sender.known().idCount(); ++id) {
+        lives.push_back(sender.known().at(id).birth);
+      }
+      ASSERT_LE(packet.bytes.size(), packet.large ? kMaxSnapshot : kMaxDatagramSnapshot);
+      // What is too large for a datagram would go on the stream; here it goes the same bad way, in no hurry.
+      if (packet.large) {
+        m_late.push_back(packet.bytes);
+      } else {
+        m_server_end->send(packet.bytes);
+      }
+    }
+    m_clock.advanceBy(33'333us);
+    for (const std::string& bytes : std::exchange(m_late, {})) clientHears(bytes);
+  }
+  void setConditions(const LinkConditions& conditions) {
+    m_link.setConditions(LinkEnd::kServer, conditions);
+    m_link.setConditions(LinkEnd::kClient, conditions);
+  }
+
+  /// The replica holds exactly what the server thinks it was told, and draws what the world draws.
+  void expectSame() {
+    std::size_t alive = 0;
+    const std::uint32_t tick = m_publisher.tick();
+    sender.known().forEachAlive([&](std::uint32_t id, const KnownObjects::Known& known) {
+      ++alive;
+      const Publisher::Model& model = *m_publisher.find(known.slot);
+      const Replica::Entry* entry = replica.find(id);
+      ASSERT_NE(entry, nullptr) << "object " << id << " is missing";
+      ASSERT_EQ(known.generation, model.generation) << "object " << id;
+      EXPECT_EQ(entry->state.order, model.state.order);
+      EXPECT_TRUE(rebase(entry->state.look, tick) == rebase(model.state.look, tick)) << "object " << id;
+      EXPECT_TRUE(entry->state.body == model.state.body) << "object " << id;
+      EXPECT_EQ(rebase(entry->state.motion, tick), rebase(model.state.motion, tick)) << "object " << id;
+    });
+    ASSERT_EQ(replica.aliveCount(), alive) << "ghosts";
+    EXPECT_NE(sender.isRight(m_acks, replica.checksum()), std::optional(false));
+    expectSamePicture();
+  }
+  void expectSamePicture() {
+    const df::Canvas wanted = m_world.picture(0);
+    const df::Canvas seen = replica.render(m_publisher.tick());
+    ASSERT_EQ(countDifferences(wanted, seen), 0) << test::explain(wanted, seen);
+  }
+
+  const test::SimulatedWorld& world() const { return m_world; }
+  const LinkCounters& down() const { return m_link.counters(LinkEnd::kServer); }
+
+  SnapshotSender sender;
+  Replica replica;
+  std::size_t snapshots = 0;
+  std::size_t births = 0;  ///< objects that came to life in the replica
+  std::size_t reuses = 0;  ///< … under an id that another one had before
+  std::size_t checks = 0;  ///< checksums that were compared
+
+ private:
+  void serverHears(std::string_view packet) {
+    const auto update = readUpdate(packet, {sender.newestNumber(), m_publisher.tick(), 0});
+    ASSERT_TRUE(update);
+    sender.acknowledge(update->acks);
+    const auto right = sender.isRight(update->acks, *update->checksum);
+    checks += right ? 1 : 0;
+    ASSERT_NE(right, std::optional(false)) << "after snapshot " << update->acks.newest;
+  }
+
+  void clientHears(std::string_view packet) {
+    Snapshot snapshot;
+    const ReadResult result = replica.read(packet, snapshot);
+    ASSERT_NE(result, ReadResult::kMalformed);
+    if (result == ReadResult::kStale) return;
+    replica.apply(snapshot);
+    checkLives(snapshot.header.number);
+    m_acks.note(snapshot.header.number);
+    ClientUpdate update;
+    update.acks = m_acks;
+    update.checksum = replica.checksum();
+    m_client_end->send(writeUpdate(update));
+  }
+
+  // Nobody is born twice: whoever is gone from the replica never comes back to life in it.
+  void checkLives(std::uint32_t number) {
+    for (const auto& [id, entry] : replica.entries()) {
+      const auto was = m_alive.find(id);
+      const bool alive = was != m_alive.end() && was->second;
+      if (entry.alive && !alive) {
+        ++births;
+        const std::uint32_t life = m_births.at(number).at(id);
+        const auto before = m_lives.find(id);
+        if (before != m_lives.end()) {
+          ASSERT_LT(before->second, life) << "object " << id << " came back to life";
+          ++reuses;
+        }
+        m_lives[id] = life;
+      }
+      m_alive[id] = entry.alive;
+    }
+  }
+
+  VirtualClock m_clock;
+  test::SimulatedWorld m_world;
+  Publisher m_publisher;
+  LossyDatagramLink m_link;
+  std::unique_ptr<DatagramChannel> m_server_end;
+  std::unique_ptr<DatagramChannel> m_client_end;
+  AckWindow m_acks;
+  std::vector<std::string> m_late;
+  std::map<std::uint32_t, bool> m_alive;           ///< by id
+  std::map<std::uint32_t, std::uint32_t> m_lives;  ///< the how-manieth object was seen last, by id
+  std::map<std::uint32_t, std::vector<std::uint32_t>>
+      m_births;  ///< the how-manieth is meant, by number and id
+};
+
+TEST(SnapshotLoss, EveryReplicaIsRightOnceABadLinkHeals) {
+  std::uint64_t lost = 0;
+  std::uint64_t reordered = 0;
+  std::uint64_t duplicated = 0;
+  std::uint64_t resent = 0;
+  std::size_t reuses = 0;
+  for (std::uint64_t seed = 0; seed < 240; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    SplitMix64 rng(seed);
+    LinkConditions bad;
+    bad.loss = rng.unit() * 0.3;
+    bad.duplicate = rng.unit() * 0.2;
+    bad.delay = std::chrono::microseconds(rng.below(150'000));
+    bad.jitter = std::chrono::microseconds(rng.below(120'000));
+    test::WorldConfig config;
+    config.objects = 5 + rng.below(60);
+    config.vanish = 0.02;
+    config.turn = 0.05;
+    LossyPair pair(config, bad, seed, static_cast<Resend>(seed % 3));
+    for (int i = 0; i < 150 && !testing::Test::HasFatalFailure(); ++i) pair.tick();
+    pair.setConditions({});
+    for (int i = 0; i < 40 && !testing::Test::HasFatalFailure(); ++i) pair.tick(true);
+    EXPECT_TRUE(pair.sender.isSettled());
+    pair.expectSame();
+    if (testing::Test::HasFailure()) return;
+    lost += pair.down().dropped;
+    reordered += pair.down().reordered;
+    duplicated += pair.down().duplicated;
+    resent += pair.sender.resentCount();
+    reuses += pair.reuses;
+  }
+  EXPECT_GT(lost, 1000u);
+  EXPECT_GT(reordered, 1000u);
+  EXPECT_GT(duplicated, 1000u);
+  EXPECT_GT(resent, 1000u);
+  EXPECT_GT(reuses, 1000u);
+}
+
+TEST(SnapshotLoss, FollowingViewsAreRightOnceABadLinkHeals) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    LinkConditions bad;
+    bad.loss = 0.3;
+    bad.delay = 60ms;
+    test::WorldConfig config;
+    config.objects = 6;
+    config.width = 300;
+    config.height = 120;
+    config.turn = 0.1;
+    config.block = 0.1;
+    config.vanish = 0.002;
+    LossyPair pair(config, bad, seed, static_cast<Resend>(seed % 3));
+    for (int i = 0; i < 100 && !testing::Test::HasFatalFailure(); ++i) pair.tick();
+    pair.setConditions({});
+    // Right at once when all has arrived, not only after the next correction.
+    for (int i = 0; i < 40 && !testing::Test::HasFatalFailure(); ++i) {
+      pair.tick(true);
+      if (pair.sender.isSettled()) pair.expectSame();
+    }
+    EXPECT_TRUE(pair.sender.isSettled());
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+// What is confirmed is not sent again, although newer snapshots that carried it too are still on their way.
+TEST(SnapshotLoss, WhatIsRepeatedEveryTickIsConfirmedByTheFirstThatArrives) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    LinkConditions slow;
+    slow.delay = 50ms;
+    test::WorldConfig config;
+    config.objects = 30;
+    LossyPair pair(config, slow, seed, Resend::kEveryTick);
+    for (int i = 0; i < 60; ++i) pair.tick();
+    for (int i = 0; i < 4; ++i) pair.tick(true);
+    std::size_t unconfirmed = 0;
+    for (int i = 0; i < 40; ++i) {
+      pair.tick(true);
+      pair.sender.known().forEachAlive([&](std::uint32_t, const KnownObjects::Known& known) {
+        unconfirmed += known.unconfirmed != 0 ? 1 : 0;
+      });
+    }
+    EXPECT_LT(unconfirmed, 40u * 3);
+    // Even a quiet world has news, of what is born or turns around; the last of them are still on their way.
+    pair.setConditions({});
+    for (int i = 0; i < 5; ++i) pair.tick(true);
+    pair.expectSame();
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(SnapshotLoss, NothingIsSentTwiceWhereNothingIsLost) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    LinkConditions slow;
+    slow.delay = std::chrono::milliseconds(10 * (seed % 16));
+    slow.jitter = 20ms;
+    slow.reorder = false;
+    slow.duplicate = 0.1;
+    test::WorldConfig config;
+    config.objects = 60;
+    LossyPair pair(config, slow, seed);
+    for (int i = 0; i < 150; ++i) pair.tick();
+    EXPECT_EQ(pair.sender.resentCount(), 0u);
+    pair.setConditions({});
+    for (int i = 0; i < 20; ++i) pair.tick(true);
+    pair.expectSame();
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(SnapshotLoss, AWorldLargerThanTheWindowArrivesWithoutResending) {
+  LinkConditions slow;
+  slow.delay = 70ms;
+  test::WorldConfig config;
+  config.objects = 12000;
+  config.width = 40;
+  config.height = 20;
+  config.turn = config.block = config.restyle = config.vanish = config.hide = config.reshape = 0;
+  LossyPair pair(config, slow, 1);
+  for (int i = 0; i < 60 && !testing::Test::HasFatalFailure(); ++i) pair.tick(i > 0);
+  EXPECT_GT(pair.snapshots, 2 * SnapshotSender::kMaxInFlight);
+  EXPECT_EQ(pair.sender.resentCount(), 0u);
+  pair.setConditions({});
+  for (int i = 0; i < 10 && !testing::Test::HasFatalFailure(); ++i) pair.tick(true);
+  EXPECT_TRUE(pair.sender.isSettled());
+  pair.expectSame();
+}
+
+TEST(SnapshotLoss, ALinkThatWasDeadForSecondsRecovers) {
+  LinkConditions dead;
+  dead.loss = 1;
+  LossyPair pair({}, {}, 3);
+  for (int i = 0; i < 20; ++i) pair.tick();
+  pair.setConditions(dead);
+  for (int i = 0; i < 300; ++i) pair.tick();
+  pair.setConditions({});
+  for (int i = 0; i < 20; ++i) pair.tick(true);
+  EXPECT_TRUE(pair.sender.isSettled());
+  pair.expectSame();
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,217 @@
+#include <gtest/gtest.h>
+
+#include <set>
+#include <vector>
+
+#include "DirectSender.h"
+#include "SimulatedWorld.h"
+#include "host/snapshot/SnapshotSender.h"
+
+namespace naiad {
+namespace {
+
+using test::DirectSender;
+
+df::FixedVector at(double x, double y) {
+  return test::cellsAt(x, y);
+}
+
+TEST(SnapshotSender, RespectsTheRecordLimitFor700Births) {
+  DirectSender direct(700);
+  const auto snapshots = direct.tick();
+  std::set<std::uint32_t> born;
+  for (const auto& snapshot : snapshots) {
+    EXPECT_LE(snapshot.bytes.size(), kMaxDatagramSnapshot);
+    for (const ObjectRecord& record : direct.decoded(snapshot).objects) {
+      EXPECT_EQ(record.groups, kAllGroups);
+      EXPECT_TRUE(born.insert(record.id).second);
+    }
+  }
+  EXPECT_EQ(born.size(), 700u);
+  EXPECT_GT(snapshots.size(), 3u);
+  EXPECT_EQ(snapshots[0].number, 1u);
+  const Records first = direct.decoded(snapshots[0]);
+  EXPECT_EQ(first.worlds.size(), 1u);
+  EXPECT_EQ(first.views.size(), 1u);
+}
+
+TEST(SnapshotSender, SendsAnEmptySnapshotEveryFifthTick) {
+  DirectSender direct(3);
+  ASSERT_EQ(direct.tick().size(), 1u);
+  direct.acknowledge(1);
+  EXPECT_TRUE(direct.sender.isSettled());
+  for (int i = 1; i <= 20; ++i) {
+    const auto snapshots = direct.tick();
+    ASSERT_EQ(snapshots.size(), i % 5 == 0 ? 1u : 0u) << "tick " << i;
+    EXPECT_TRUE(snapshots.empty() || direct.decoded(snapshots[0]).objects.empty());
+  }
+}
+
+TEST(SnapshotSender, UntilABirthIsAcknowledgedEveryRecordIsABirth) {
+  DirectSender direct(1);
+  direct.tick();
+  df::ObjectFacts facts;
+  facts.key = {0, 1};
+  facts.order = 1;
+  facts.position = at(9, 9);
+  direct.view().changed.push_back(facts);
+  auto snapshots = direct.tick();
+  ASSERT_EQ(snapshots.size(), 1u);
+  EXPECT_EQ(direct.decoded(snapshots[0]).objects[0].groups, kAllGroups);
+  direct.acknowledge(2, 0);
+  facts.position = at(12, 9);
+  direct.view().changed.push_back(facts);
+  snapshots = direct.tick();
+  ASSERT_EQ(snapshots.size(), 1u);
+  EXPECT_EQ(direct.decoded(snapshots[0]).objects[0].groups, kMotion);
+}
+
+TEST(SnapshotSender, AnObjectThatDiedBeforeItWasSentIsNeverMentioned) {
+  DirectSender direct(2);
+  direct.note();
+  direct.view().vanished.push_back({0, 1});
+  const auto snapshots = direct.tick();
+  ASSERT_EQ(snapshots.size(), 1u);
+  const Records records = direct.decoded(snapshots[0]);
+  ASSERT_EQ(records.objects.size(), 1u);
+  EXPECT_EQ(records.objects[0].state.order, 2u);
+}
+
+TEST(SnapshotSender, ALostSnapshotIsSentAgainInItsNewestState) {
+  DirectSender direct(1);
+  direct.tick();
+  direct.acknowledge(1);
+  df::ObjectFacts facts;
+  facts.key = {0, 1};
+  facts.order = 1;
+  facts.position = at(9, 9);
+  facts.velocity = at(1, 0);
+  direct.view().changed.push_back(facts);
+  ASSERT_EQ(direct.tick().size(), 1u);  // number 2 gets lost
+  std::uint32_t empty = 0;
+  std::vector<SnapshotSender::Packet> again;
+  for (int i = 0; i < 30 && again.empty(); ++i) {
+    facts.position = facts.position + facts.velocity;
+    direct.view().changed.push_back(facts);
+    const auto snapshots = direct.tick();
+    if (snapshots.empty()) continue;
+    if (!direct.decoded(snapshots[0]).objects.empty()) {
+      again = snapshots;
+    } else {  // a keep-alive arrives: number 3 and those after it are acknowledged, 2 is not
+      direct.acknowledge(snapshots[0].number, (std::uint64_t{1} << empty++) - 1);
+    }
+  }
+  ASSERT_FALSE(again.empty());
+  EXPECT_EQ(empty, 1u) << "the first gap tells";
+  const ObjectRecord record = direct.decoded(again[0]).objects.at(0);
+  EXPECT_EQ(record.groups, kMotion);
+  // What is sent is the published model: near the true place, and in its cell for as long as it may last.
+  EXPECT_LE(std::abs(record.state.motion.position.x - facts.position.x), df::kFixedOne / 2);
+  EXPECT_EQ(direct.sender.resentCount(), 1u);
+}
+
+TEST(SnapshotSender, AcknowledgementsOfWhatWasNeverSentAreIgnored) {
+  DirectSender direct(200);
+  const auto snapshots = direct.tick();
+  const auto sent = static_cast<std::uint32_t>(snapshots.size());
+  for (const std::uint32_t lie :
+       {sent + 1, sent + 100, 0x7FFFFFFFu, 0x80000000u, 0x80000001u, 0xFFFFFFFFu, 0u}) {
+    direct.acknowledge(lie);
+    EXPECT_FALSE(direct.sender.isSettled()) << lie;
+  }
+  EXPECT_EQ(direct.sender.resentCount(), 0u);
+  direct.acknowledge(sent);
+  EXPECT_TRUE(direct.sender.isSettled());
+}
+
+TEST(SnapshotSender, AnyAcknowledgementsAreHarmless) {
+  SplitMix64 rng(8);
+  for (int run = 0; run < 50; ++run) {
+    test::SimulatedWorld world({}, static_cast<std::uint64_t>(run));
+    Publisher publisher;
+    SnapshotSender sender;
+    for (int i = 0; i < 60; ++i) {
+      world.tick();
+      publisher.update(world.view());
+      sender.note(publisher, world.view().players[0]);
+      for (const auto& packet : sender.build(publisher)) {
+        ASSERT_LE(packet.bytes.size(), packet.large ? kMaxSnapshot : kMaxDatagramSnapshot);
+      }
+      for (auto n = rng.below(4); n > 0; --n) {
+        sender.acknowledge(
+            {static_cast<std::uint32_t>(rng.below(5) == 0 ? rng.next() : rng.below(120)), rng.next()});
+      }
+    }
+  }
+}
+
+TEST(SnapshotSender, SendsNoMoreThanAskedAndTheRestLater) {
+  DirectSender direct(1500);
+  EXPECT_EQ(direct.tick({3, 1000, true}).size(), 3u);
+  EXPECT_EQ(direct.sender.build(direct.publisher, {2, 1000, true}).size(), 2u);
+  EXPECT_GT(direct.sender.build(direct.publisher).size(), 4u);
+  EXPECT_TRUE(direct.sender.build(direct.publisher).empty());
+}
+
+TEST(SnapshotSender, AProbeCarriesNothingAndMayBeLost) {
+  DirectSender direct(3);
+  direct.tick();
+  direct.acknowledge(1);
+  const SnapshotSender::Packet probe = direct.sender.probe(direct.publisher);
+  Snapshot snapshot;
+  ASSERT_EQ(direct.reader().read(probe.bytes, snapshot), ReadResult::kOk);
+  EXPECT_EQ(snapshot.header.number, 2u);
+  EXPECT_EQ(probe.number, 2u);
+  EXPECT_EQ(snapshot.header.tick, direct.publisher.tick());
+  EXPECT_TRUE(snapshot.header.complete);
+  EXPECT_TRUE(snapshot.records.objects.empty());
+  EXPECT_TRUE(direct.sender.isSettled());
+  for (std::uint32_t number = 3; number < 8; ++number) {
+    while (direct.tick().empty()) {
+    }
+    direct.acknowledge(number, (1u << (number - 3)) - 1);  // all but the probe
+  }
+  EXPECT_EQ(direct.sender.loss(), 0);
+  EXPECT_EQ(direct.sender.resentCount(), 0u);
+}
+
+TEST(SnapshotSender, WhatIsLostWhileItIsOwedAnewIsNoDivergence) {
+  DirectSender direct(1);
+  direct.tick();
+  direct.acknowledge(1);
+  const std::uint64_t before = direct.reader().checksum();
+  direct.view().vanished.push_back({0, 1});
+  df::ObjectFacts heir;
+  heir.key = {1, 1};
+  heir.order = 2;
+  heir.position = at(3, 3);
+  direct.view().changed.push_back(heir);
+  const auto second = direct.tick();  // a death and a birth, which do not arrive
+  ASSERT_EQ(second.size(), 1u);
+  const auto third = direct.sender.probe(direct.publisher).number;
+  const auto fourth = direct.sender.probe(direct.publisher).number;
+  const auto fifth = direct.sender.probe(direct.publisher).number;
+  direct.view().vanished.push_back({1, 1});
+  direct.note();  // the death of the heir is owed, and not sent yet
+  const AckWindow acks{fifth, 0b1011};
+  ASSERT_TRUE(acks.has(fourth) && acks.has(third) && !acks.has(second[0].number) && acks.has(1));
+  direct.acknowledge(acks.newest, acks.mask);
+  EXPECT_NE(direct.sender.isRight(acks, before), std::optional<bool>(false));
+}
+
+TEST(SnapshotSender, AResetTellsTheNewestInputAgain) {
+  DirectSender direct(1);
+  direct.sender.noteInput(7, 1);
+  direct.tick();
+  direct.sender.reset();
+  direct.note();
+  const auto packets = direct.sender.build(direct.publisher);
+  ASSERT_FALSE(packets.empty());
+  Snapshot snapshot;
+  ASSERT_EQ(Replica::anew(direct.reader().newest()).read(packets[0].bytes, snapshot), ReadResult::kOk);
+  EXPECT_TRUE(snapshot.header.tells_input);
+  EXPECT_EQ(snapshot.header.input, 7u);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,272 @@
+// Sprites over the wire: what a client shows is what the animation draws, and while it goes on by itself
+// nothing is sent. The animation is the published engine's: AnimationTest says what that is.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "SimulatedWorld.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/sprites/Sprite.h"
+#include "engine/world/Object.h"
+#include "engine/world/Player.h"
+#include "engine/world/World.h"
+#include "host/snapshot/Publisher.h"
+#include "host/snapshot/SnapshotSender.h"
+#include "shared/replica/Replica.h"
+
+namespace naiad {
+namespace {
+
+df::Sprite makeSprite(const std::vector<std::string>& frames, int width, int slowdown,
+                      char transparency = 0) {
+  df::Sprite sprite(static_cast<int>(frames.size()));
+  sprite.setWidth(width);
+  sprite.setHeight(static_cast<int>(frames.front().size()) / width);
+  sprite.setSlowdown(slowdown);
+  sprite.setTransparency(transparency);
+  sprite.setColor(df::GREEN);
+  for (const std::string& frame : frames) sprite.addFrame({width, sprite.getHeight(), frame});
+  return sprite;
+}
+
+df::Sprite saucer(int slowdown) {
+  return makeSprite({"~.-.~(o_o)", "~.-.~(_o_)", "~.-.~(__o)"}, 5, slowdown, '~');
+}
+
+/// A world, and a client that gets all that is sent to it.
+class Show {
+ public:
+  Show() {
+    world.setLogSink([](const std::string&) {});
+    world.setWatched(true);
+    m_player = world.join("ann", df::RED);
+  }
+
+  /// So many ticks, as long as the client shows what is drawn. Return the bytes that they took.
+  std::size_t ticks(int count) {
+    std::size_t bytes = 0;
+    for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) bytes += tick();
+    return bytes;
+  }
+
+  /// What the client shows in a cell.
+  char32_t shown(int x, int y) const {
+    return m_replica.render(static_cast<std::uint32_t>(world.getStepCount())).at(x, y).ch;
+  }
+
+  df::World world;
+  df::World::Scope scope{world};
+
+ private:
+  std::size_t tick() {
+    world.tick();
+    m_publisher.update(world.view());
+    m_sender.note(m_publisher, world.getPlayer(m_player)->facts());
+    std::size_t bytes = 0;
+    for (const SnapshotSender::Packet& packet : m_sender.build(m_publisher)) {
+      Snapshot snapshot;
+      EXPECT_EQ(m_replica.read(packet.bytes, snapshot), ReadResult::kOk);
+      m_replica.apply(snapshot);
+      m_acks.note(packet.number);
+      bytes += packet.bytes.size();
+    }
+    m_sender.acknowledge(m_acks);
+    const df::Canvas wanted = world.renderPlayer(m_player);
+    const df::Canvas seen = m_replica.render(static_cast<std::uint32_t>(world.getStepCount()));
+    EXPECT_EQ(countDifferences(wanted, seen), 0) << "tick " << world.getStepCount() << "\n"
+                                                 << test::explain(wanted, seen);
+    return bytes;
+  }
+
+  std::uint32_t m_player = 0;
+  Publisher m_publisher;
+  SnapshotSender m_sender;
+  Replica m_replica;
+  AckWindow m_acks;
+};
+
+/// Bytes that a world without anything in it takes.
+std::size_t idle(int count) {
+  Show show;
+  show.ticks(100);
+  return show.ticks(count);
+}
+
+/// Of 300 ticks of 200 saucers in straight flight.
+std::size_t flight(int slowdown) {
+  Show show;
+  df::Sprite sprite = saucer(slowdown);
+  std::vector<std::unique_ptr<df::Object>> saucers;
+  for (int i = 0; i < 200; ++i) {
+    auto& p_o = saucers.emplace_back(std::make_unique<df::Object>());
+    p_o->setSolidness(df::SPECTRAL);
+    p_o->setSprite(&sprite);
+    p_o->setSpriteIndex(slowdown == 0 ? 0 : i % 3);
+    p_o->setPosition(df::Vector(53 + i % 25, 2 + i % 19 + 0.25 * (i % 3)));
+    p_o->setVelocity(df::Vector(-0.125, 0));
+  }
+  show.ticks(100);  // told, and fitted
+  return show.ticks(300);
+}
+
+TEST(SpriteLook, TwoHundredAnimatedSaucersInFlightCostWhatStillOnesDo) {
+  const std::size_t animated = flight(4);
+  EXPECT_EQ(animated, flight(0));
+  EXPECT_EQ(animated, idle(300));
+}
+
+/// The published engine's, as far as frames go: draw() shows one, then counts.
+struct PublishedAnimation {
+  int frames;
+  int slowdown;
+  int index = 0;
+  int count = 0;
+
+  int draw() {
+    const int shown = index;
+    if (count == -1 || slowdown == 0) return shown;
+    if (++count >= slowdown) {
+      count = 0;
+      index = (index + 1) % frames;
+    }
+    return shown;
+  }
+};
+
+TEST(SpriteLook, AClientShowsTheFramesThatThePublishedEngineDraws) {
+  for (const int slowdown : {0, 1, 2, 3, 5, 8}) {
+    SCOPED_TRACE(slowdown);
+    Show show;
+    df::Sprite sprite = makeSprite({"a", "b", "c", "d"}, 1, slowdown);
+    df::Object object;
+    object.setSprite(&sprite);
+    object.setPosition(df::Vector(20, 10));
+    PublishedAnimation published{4, slowdown};
+    std::string wanted;
+    std::string seen;
+    for (int t = 0; t < 120; ++t) {
+      if (t == 40) object.setSpriteIndex(published.index = 2);
+      if (t == 61) object.setSpriteSlowdownCount(published.count = -1);
+      if (t == 80) object.setSpriteSlowdownCount(published.count = 0);
+      show.ticks(1);
+      wanted += "abcd"[published.draw()];
+      seen += static_cast<char>(show.shown(20, 10));
+    }
+    EXPECT_EQ(seen, wanted);
+  }
+}
+
+TEST(SpriteLook, EachPaceIsDrawnFrameByFrame) {
+  Show show;
+  std::vector<df::Sprite> sprites;
+  for (const int slowdown : {0, 1, 2, 3, 7, 30}) sprites.push_back(saucer(slowdown));
+  sprites.push_back(makeSprite({"ab", "cd"}, 2, 5));
+  sprites.push_back(makeSprite({"abcd  efgh", "hgfe  dcba"}, 5, 2, ' '));
+  std::vector<std::unique_ptr<df::Object>> objects;
+  for (std::size_t i = 0; i < sprites.size(); ++i) {
+    auto& p_o = objects.emplace_back(std::make_unique<df::Object>());
+    p_o->setSolidness(df::SPECTRAL);
+    p_o->setSprite(&sprites[i]);
+    p_o->setPosition(df::Vector(10 + 3.3 * static_cast<double>(i), 3 + 2 * static_cast<double>(i)));
+    p_o->setVelocity(df::Vector(0.13, 0));
+  }
+  show.ticks(200);
+}
+
+TEST(SpriteLook, WhatAGameDoesToAnAnimationShowsInTheSameTick) {
+  Show show;
+  df::Sprite sprite = saucer(4);
+  df::Sprite other = makeSprite({"xx", "yy", "zz"}, 2, 2);
+  df::Object object;
+  object.setSprite(&sprite);
+  object.setPosition(df::Vector(20, 10));
+  const std::vector<std::function<void()>> meddling = {
+      [&] { object.setSpriteIndex(2); },
+      [&] { object.setSpriteSlowdownCount(-1); },  // stopped
+      [&] { object.setSpriteIndex(1); },
+      [&] { object.setSpriteSlowdownCount(0); },  // on it goes
+      [&] { object.setSpriteSlowdownCount(99); },
+      [&] { sprite.setSlowdown(0); },
+      [&] { sprite.setSlowdown(3); },
+      [&] { object.setTransparency('o'); },
+      [&] { object.setTransparency('~'); },
+      [&] { sprite.setColor(df::RED); },
+      [&] { object.setSprite(&other); },
+      [&] { object.setVisible(false); },
+      [&] { object.setVisible(true); },
+      [&] { object.setActive(false); },
+      [&] { object.setActive(true); },
+      [&] { object.setPosition(df::Vector(500, 10)); },  // goes on unseen
+      [&] { object.setPosition(df::Vector(30.5, 10)); },
+      [&] { object.setStaticLook(); },
+      [&] { object.setSprite(&sprite); },
+      [&] { object.setShape(df::Shape()); },
+      [&] { object.setSprite(nullptr); },
+  };
+  for (std::size_t i = 0; i < meddling.size(); ++i) {
+    SCOPED_TRACE(i);
+    show.ticks(9 + static_cast<int>(i) % 4);
+    meddling[i]();
+  }
+  show.ticks(20);
+}
+
+TEST(SpriteLook, AStoppedAnimationAndAStaticLookCostNothing) {
+  Show show;
+  df::Sprite sprite = saucer(3);
+  df::Object stopped;
+  stopped.setSprite(&sprite);
+  stopped.setPosition(df::Vector(20, 10));
+  df::Object fixed;
+  fixed.setSprite(&sprite);
+  fixed.setPosition(df::Vector(40, 10));
+  fixed.setStaticLook();
+  show.ticks(50);
+  stopped.setSpriteSlowdownCount(-1);
+  show.ticks(20);
+  EXPECT_EQ(show.ticks(100), idle(100));
+}
+
+TEST(SpriteLook, ASpriteThatBlinksCostsNothing) {
+  Show show;
+  df::Sprite sprite = makeSprite({"abc", "~~~"}, 3, 3, '~');
+  df::Sprite other = makeSprite({"~", "o", "~"}, 1, 2, '~');  // which begins with nothing
+  df::Object object, late;
+  object.setSprite(&sprite);
+  object.setPosition(df::Vector(20, 10));
+  late.setSprite(&other);
+  late.setPosition(df::Vector(30, 10));
+  show.ticks(20);
+  EXPECT_EQ(show.ticks(100), idle(100));
+}
+
+TEST(SpriteLook, ASpriteThatDrawsNothingIsNothing) {
+  Show show;
+  df::Sprite sprite = makeSprite({"~", "~"}, 1, 2, '~');
+  df::Object object;
+  object.setSprite(&sprite);
+  object.setPosition(df::Vector(20, 10));
+  show.ticks(10);
+  EXPECT_EQ(show.ticks(50), idle(50));
+}
+
+// Own characters around the sprite, by a draw() of one's own.
+TEST(SpriteLook, WhatIsDrawnBesideTheSpriteIsShown) {
+  Show show;
+  struct Named : df::Object {
+    int draw() override { return Object::draw() + DM.drawCh(getPosition() + df::Vector(0, -2), 'N'); }
+  };
+  df::Sprite sprite = saucer(3);
+  Named object;
+  object.setSprite(&sprite);
+  object.setPosition(df::Vector(20, 10));
+  object.setVelocity(df::Vector(0.3, 0.1));
+  show.ticks(60);
+}
+
+}  // namespace
+}  // namespace naiad

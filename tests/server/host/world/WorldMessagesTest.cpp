@@ -1,0 +1,324 @@
+// What crosses between a host and a world's process: whole, and refused when it is not what the other end
+// writes.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/snapshot/Publisher.h"
+#include "host/world/WorldMessages.h"
+#include "shared/values/SplitMix64.h"
+
+namespace naiad {
+namespace {
+
+df::FixedVector at(std::int32_t x, std::int32_t y) {
+  return {df::fromCells(x) + 12345, df::fromCells(y) - 54321};
+}
+
+std::shared_ptr<const Look> lookOf(char32_t first, Selector selector) {
+  return std::make_shared<const Look>(Sequence{{{0, 0, first, df::RED}}, {{256, -256, first + 1, df::BLUE}}},
+                                      3, selector);
+}
+
+/// A view with something in every field, none of it as it is by default.
+df::WorldView fullView() {
+  df::WorldView view;
+  view.tick = 70'000;
+  view.boundary = {at(-3, -4), at(200, 100)};
+  view.view_width = 100;
+  view.view_height = 30;
+  view.changed.push_back(
+      {{7, 3}, 11, at(1, 2), at(0, 1), at(1, 0), {at(-1, -1), at(3, 3)}, df::SOFT, true, false, true, 4});
+  view.changed.push_back(
+      {{2, 1}, 12, at(-5, 2), {}, {}, {at(0, 0), at(1, 1)}, df::HARD, false, true, false, 0});
+  view.vanished = {{4, 9}, {5, 1}};
+  view.commands = {{at(1, 2), U'x', df::GREEN}, {at(2, 2), U'é', df::CYAN}, {at(9, 9), U'o', df::BLACK}};
+  view.drawn = {{{7, 3}, 0, 2, true}, {{}, 2, 1, false}};
+  view.looks = {{0, lookOf(U'a', Selector::clock(69'000, 5))},
+                {1, lookOf(U'c', Selector::turning(10, 1u << 31, -77))}};
+  df::PlayerFacts player;
+  player.id = 5;
+  player.name = "änn";
+  player.color = df::MAGENTA;
+  player.score = -3;
+  player.followed = {7, 3};
+  player.view_corner = at(-40, -12);
+  player.texts = {{1, 3, 4, df::YELLOW, "HP 3"}, {9, 0, 1, df::RED, "é"}};
+  df::ControlTable table;
+  table.rows.push_back({.key = df::Keyboard::LEFTARROW, .value = {df::fromCells(-1), 0}});
+  player.steering = {
+      std::make_shared<const df::ControlTable>(table), {7, 3}, {}, at(1, 2), at(0, 1), at(1, 0)};
+  player.steering.state = {
+      true, {df::kFixedOne, true}, {-df::kFixedOne, false}, 17, {0, 9000, 0, 0, 0, 0, 0, 1}};
+  view.players.push_back(player);
+  player.id = 8;
+  player.name.clear();
+  player.texts.clear();
+  player.steering = {};
+  view.players.push_back(player);
+  view.corner = at(3, 1);
+  view.sounds = {{"boom", df::SoundPlayed::kPause, true, true, 8}};
+  view.sounds_lost = 3;
+  view.playing = {{"theme", df::SoundPlayed::kPlay, true, true, 0}};
+  view.notes = {"pause: 1 of 3", "go on: 2 of 3"};
+  view.background = df::BLUE;
+  view.shake_x = -2;
+  view.shake_y = 1;
+  return view;
+}
+
+std::string frameOf(const df::WorldView& view, ViewWriter& writer,
+                    const WorldAnswer& answer = {false, {}, true, {}}) {
+  std::string frame;
+  EXPECT_TRUE(writeAnswer(answer, answer.has_view ? &view : nullptr, writer, frame));
+  EXPECT_EQ(loadLittleEndian<std::uint32_t>(frame.data()), frame.size() - kWorldFrameHead);
+  return frame;
+}
+
+std::string_view fieldsOf(const std::string& frame) {
+  return std::string_view(frame).substr(kWorldFrameHead);
+}
+
+bool isSame(const df::SteeringFacts& a, const df::SteeringFacts& b) {
+  if ((a.p_table == nullptr) != (b.p_table == nullptr)) return false;
+  return (a.p_table == nullptr || *a.p_table == *b.p_table) && a.object == b.object && a.state == b.state &&
+         a.position == b.position && a.velocity == b.velocity && a.acceleration == b.acceleration;
+}
+
+void expectSame(const df::WorldView& a, const df::WorldView& b) {
+  EXPECT_EQ(a.tick, b.tick);
+  EXPECT_EQ(a.boundary, b.boundary);
+  EXPECT_EQ(a.view_width, b.view_width);
+  EXPECT_EQ(a.view_height, b.view_height);
+  ASSERT_EQ(a.changed.size(), b.changed.size());
+  for (std::size_t i = 0; i < a.changed.size(); ++i) {
+    const df::ObjectFacts& f = a.changed[i];
+    const df::ObjectFacts& g = b.changed[i];
+    EXPECT_TRUE(f.key == g.key && f.order == g.order && f.position == g.position &&
+                f.velocity == g.velocity && f.acceleration == g.acceleration && f.box == g.box &&
+                f.solidness == g.solidness && f.no_soft == g.no_soft && f.shown == g.shown &&
+                f.on_view == g.on_view && f.altitude == g.altitude)
+        << i;
+  }
+  EXPECT_EQ(a.vanished, b.vanished);
+  ASSERT_EQ(a.commands.size(), b.commands.size());
+  for (std::size_t i = 0; i < a.commands.size(); ++i) {
+    EXPECT_TRUE(a.commands[i].position == b.commands[i].position && a.commands[i].ch == b.commands[i].ch &&
+                a.commands[i].color == b.commands[i].color)
+        << i;
+  }
+  ASSERT_EQ(a.drawn.size(), b.drawn.size());
+  for (std::size_t i = 0; i < a.drawn.size(); ++i) {
+    EXPECT_TRUE(a.drawn[i].key == b.drawn[i].key && a.drawn[i].first == b.drawn[i].first &&
+                a.drawn[i].count == b.drawn[i].count && a.drawn[i].on_view == b.drawn[i].on_view)
+        << i;
+  }
+  ASSERT_EQ(a.looks.size(), b.looks.size());
+  for (std::size_t i = 0; i < a.looks.size(); ++i) {
+    EXPECT_TRUE(a.looks[i].drawn == b.looks[i].drawn && *a.looks[i].p_look == *b.looks[i].p_look) << i;
+  }
+  ASSERT_EQ(a.players.size(), b.players.size());
+  for (std::size_t i = 0; i < a.players.size(); ++i) {
+    const df::PlayerFacts& f = a.players[i];
+    const df::PlayerFacts& g = b.players[i];
+    EXPECT_TRUE(f.id == g.id && f.name == g.name && f.color == g.color && f.score == g.score &&
+                f.followed == g.followed && f.view_corner == g.view_corner && f.texts == g.texts &&
+                isSame(f.steering, g.steering))
+        << i;
+  }
+  EXPECT_EQ(a.corner, b.corner);
+  EXPECT_EQ(a.sounds, b.sounds);
+  EXPECT_EQ(a.sounds_lost, b.sounds_lost);
+  EXPECT_EQ(a.playing, b.playing);
+  EXPECT_EQ(a.notes, b.notes);
+  EXPECT_EQ(a.background, b.background);
+  EXPECT_EQ(a.shake_x, b.shake_x);
+  EXPECT_EQ(a.shake_y, b.shake_y);
+}
+
+TEST(WorldMessages, ViewsCrossWhole) {
+  ViewWriter writer;
+  ViewReader reader;
+  const df::WorldView sent = fullView();
+  std::size_t first = 0;
+  for (int i = 0; i < 3; ++i) {
+    const std::string frame = frameOf(sent, writer);
+    df::WorldView view;
+    const auto answer = readAnswer(fieldsOf(frame), reader, view);
+    ASSERT_TRUE(answer && answer->has_view);
+    expectSame(view, sent);
+    if (i == 0) first = frame.size();
+    if (i > 0) {
+      EXPECT_LT(frame.size(), first) << "sequences and tables were told before";
+    }
+  }
+}
+
+TEST(WorldMessages, NumbersAreGivenAnewWhenThereAreTooMany) {
+  ViewWriter writer;
+  ViewReader reader;
+  df::WorldView sent = fullView();
+  df::WorldView view;
+  for (std::uint32_t i = 0; i < 3 * kMostViewNumbers; ++i) {
+    sent.looks[1].p_look = lookOf(U'a' + static_cast<char32_t>(i % 20), Selector::fixed(i % 2));
+    ASSERT_TRUE(readAnswer(fieldsOf(frameOf(sent, writer)), reader, view)) << i;
+    ASSERT_EQ(*view.looks[0].p_look, *sent.looks[0].p_look) << i;
+    ASSERT_EQ(*view.looks[1].p_look, *sent.looks[1].p_look) << i;
+  }
+}
+
+TEST(WorldMessages, TicksOfALaterWorldAreLater) {
+  constexpr std::uint32_t kLater = 1000;
+  ViewWriter writer;
+  ViewReader reader(kLater);
+  const df::WorldView sent = fullView();
+  df::WorldView view;
+  ASSERT_TRUE(readAnswer(fieldsOf(frameOf(sent, writer)), reader, view));
+  EXPECT_EQ(view.tick, sent.tick + kLater);
+  for (std::uint32_t tick = sent.tick; tick < sent.tick + 200; ++tick) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Appearance* p_sent = sent.looks[i].p_look->select(tick);
+      EXPECT_EQ(*view.looks[i].p_look->select(tick + kLater), *p_sent) << tick;
+    }
+  }
+}
+
+TEST(WorldMessages, AnswersCrossWhole) {
+  ViewWriter writer;
+  ViewReader reader;
+  WorldAnswer sent{true, {3, 70'000}, false, {}};
+  sent.pictures.push_back({5, df::Canvas(3, 2)});
+  sent.pictures[0].canvas.put(1, 1, {U'ü', df::RED});
+  df::WorldView view;
+  const auto answer = readAnswer(fieldsOf(frameOf({}, writer, sent)), reader, view);
+  ASSERT_TRUE(answer);
+  EXPECT_TRUE(answer->game_over);
+  EXPECT_FALSE(answer->has_view);
+  EXPECT_EQ(answer->leavers, sent.leavers);
+  ASSERT_EQ(answer->pictures.size(), 1u);
+  EXPECT_EQ(answer->pictures[0].player, 5u);
+  EXPECT_EQ(countDifferences(answer->pictures[0].canvas, sent.pictures[0].canvas), 0);
+}
+
+WorldTurn fullTurn() {
+  using Queue = df::InputQueue;
+  WorldTurn turn{{}, true, true, true};
+  turn.inputs.push_back({.kind = Queue::kJoin, .player = 4, .name = "bob", .color = df::GREEN});
+  turn.inputs.push_back(
+      {.kind = Queue::kKey, .player = 4, .key = df::Keyboard::PAGEDOWN, .key_action = df::KEY_DOWN});
+  turn.inputs.push_back({.kind = Queue::kMouse,
+                         .player = 4,
+                         .seen = {true, 90'000, 90'003},
+                         .button = df::Mouse::UNDEFINED_MOUSE_BUTTON,
+                         .mouse_action = df::MOVED,
+                         .x = 79,
+                         .y = 23});
+  turn.inputs.push_back({.kind = Queue::kLeave, .player = 4});
+  return turn;
+}
+
+TEST(WorldMessages, TurnsCrossWhole) {
+  const WorldTurn sent = fullTurn();
+  std::string frame;
+  ASSERT_TRUE(writeTurn(sent, frame));
+  const auto turn = readTurn(fieldsOf(frame));
+  ASSERT_TRUE(turn);
+  EXPECT_TRUE(turn->watched && turn->wants_truth && turn->ends_game);
+  ASSERT_EQ(turn->inputs.size(), sent.inputs.size());
+  for (std::size_t i = 0; i < sent.inputs.size(); ++i) {
+    const auto& a = sent.inputs[i];
+    const auto& b = turn->inputs[i];
+    EXPECT_TRUE(a.kind == b.kind && a.player == b.player && a.name == b.name && a.color == b.color &&
+                a.key == b.key && a.key_action == b.key_action && a.button == b.button &&
+                a.mouse_action == b.mouse_action && a.x == b.x && a.y == b.y &&
+                a.seen.known == b.seen.known && a.seen.base == b.seen.base && a.seen.drawn == b.seen.drawn)
+        << i;
+  }
+}
+
+TEST(WorldMessages, EveryTruncationIsRefused) {
+  ViewWriter writer;
+  const std::string frame = frameOf(fullView(), writer);
+  std::string turn;
+  writeTurn(fullTurn(), turn);
+  for (std::size_t size = 0; size < frame.size() - kWorldFrameHead; ++size) {
+    ViewReader reader;
+    df::WorldView view;
+    EXPECT_FALSE(readAnswer(fieldsOf(frame).substr(0, size), reader, view)) << size;
+  }
+  for (std::size_t size = 0; size < turn.size() - kWorldFrameHead; ++size) {
+    EXPECT_FALSE(readTurn(fieldsOf(turn).substr(0, size))) << size;
+  }
+  ViewReader reader;
+  df::WorldView view;
+  EXPECT_FALSE(readAnswer(std::string(fieldsOf(frame)) + '\0', reader, view)) << "something is left over";
+  EXPECT_FALSE(readTurn(std::string(fieldsOf(turn)) + '\0'));
+}
+
+// What is accepted is legal: it can be written again, and the publisher takes it.
+TEST(WorldMessages, EverySingleBitFlipIsRefusedOrLegal) {
+  ViewWriter writer;
+  const std::string frame = frameOf(fullView(), writer);
+  int refused = 0;
+  for (std::size_t bit = 8 * kWorldFrameHead; bit < 8 * frame.size(); ++bit) {
+    std::string bad = frame;
+    bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << bit % 8));
+    ViewReader reader;
+    df::WorldView view;
+    if (!readAnswer(fieldsOf(bad), reader, view)) {
+      ++refused;
+      continue;
+    }
+    ViewWriter again;
+    ViewReader back;
+    df::WorldView same;
+    ASSERT_TRUE(readAnswer(fieldsOf(frameOf(view, again)), back, same)) << bit;
+    expectSame(same, view);
+    Publisher publisher;
+    publisher.update(fullView());
+    publisher.update(view);
+  }
+  EXPECT_GT(refused, 100);
+}
+
+TEST(WorldMessages, RandomBytesAreRefusedOrLegal) {
+  SplitMix64 rng(3);
+  for (int i = 0; i < 20'000; ++i) {
+    std::string bytes(rng.next() % 200, '\0');
+    for (char& byte : bytes) byte = static_cast<char>(rng.next() % 3 == 0 ? rng.next() : 0);
+    ViewReader reader;
+    df::WorldView view;
+    if (readAnswer(bytes, reader, view)) Publisher().update(view);
+    if (const auto turn = readTurn(bytes)) {
+      std::string frame;
+      EXPECT_TRUE(writeTurn(*turn, frame));
+    }
+  }
+}
+
+TEST(WorldMessages, WhatIsOutOfRangeIsCutByTheWriter) {
+  df::WorldView sent = fullView();
+  sent.players[0].view_corner = {INT64_MAX, INT64_MIN};
+  sent.changed[0].velocity = {INT64_MIN, INT64_MAX};
+  sent.view_width = 100'000;
+  sent.sounds[0].label = std::string(100'000, 'x');
+  ViewWriter writer;
+  ViewReader reader;
+  df::WorldView view;
+  ASSERT_TRUE(readAnswer(fieldsOf(frameOf(sent, writer)), reader, view));
+  EXPECT_EQ(view.players[0].view_corner.y, -view.players[0].view_corner.x);
+  EXPECT_GT(view.players[0].view_corner.x, 0);
+}
+
+TEST(WorldMessages, AFrameThatIsTooLongIsNotWritten) {
+  df::WorldView sent = fullView();
+  sent.commands.resize(kMaxWorldFrame / 16, {at(1, 1), U'x', df::RED});
+  ViewWriter writer;
+  std::string frame;
+  EXPECT_FALSE(writeAnswer({false, {}, true, {}}, &sent, writer, frame));
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,77 @@
+// The host's end of a world's process, with processes that are no worlds: /bin/sh plays them, on
+// descriptor 3.
+#include <gtest/gtest.h>
+
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <string>
+
+#include "host/world/WorldProcess.h"
+
+namespace naiad {
+namespace {
+
+class WorldProcessTest : public testing::Test {
+ protected:
+  /// Start it, and give it a turn when it is ready, until it has ended. How it did.
+  WorldEnd play(const std::string& script) {
+    WorldProcess world(m_io, startWorld("/bin/sh", {"sh", "-c", script}));
+    world.setOnTick([this] { ++ticks; });
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!world.end() && std::chrono::steady_clock::now() < end) {
+      m_io.restart();
+      m_io.run_one_for(std::chrono::milliseconds(5));
+      world.look(1);
+      if (world.isReady()) world.tick(true, false);
+    }
+    return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there"});
+  }
+
+  int ticks = 0;
+
+ private:
+  asio::io_context m_io;
+};
+
+TEST_F(WorldProcessTest, OneThatExitsIsOver) {
+  EXPECT_EQ(play("exit 0").why, WorldEnd::kGameOver);
+}
+
+TEST_F(WorldProcessTest, OneThatFailsHasCrashed) {
+  EXPECT_EQ(play("exit 3").text, "ended with code 3");
+  EXPECT_EQ(play("kill -SEGV $$").text, "crashed (SIGSEGV)");
+}
+
+TEST_F(WorldProcessTest, OneThatSendsWhatNoWorldSendsIsKilled) {
+  // Four gigabytes; something before it is ready; an answer to nothing; a bad answer.
+  for (const char* p_sent :
+       {"\\377\\377\\377\\377", "\\1\\0\\0\\0x", "\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0"}) {
+    EXPECT_EQ(play("printf '" + std::string(p_sent) + "' >&3; exec sleep 100").why, WorldEnd::kBroken)
+        << p_sent;
+  }
+  EXPECT_EQ(play("printf '\\0\\0\\0\\0' >&3; dd bs=8 count=1 <&3 2>/dev/null >/dev/null; printf "
+                 "'\\2\\0\\0\\0\\7\\7' >&3; exec sleep 100")
+                .why,
+            WorldEnd::kBroken);
+  EXPECT_EQ(ticks, 0);
+}
+
+TEST_F(WorldProcessTest, OneThatHangsUpAndStaysIsKilled) {
+  EXPECT_EQ(play("exec 3>&-; exec sleep 100").why, WorldEnd::kCrashed);
+}
+
+TEST_F(WorldProcessTest, AProgramThatIsNotThereIsAnError) {
+  EXPECT_THROW(startWorld("/nonexistent/game", {"game"}), std::system_error);
+}
+
+TEST_F(WorldProcessTest, AnAnswerIsATick) {
+  // The turn is 4 + 4 bytes: watched, no truth, no end, no inputs. The answer: not over, no leavers, no
+  // pictures, no view.
+  const std::string answer =
+      "dd bs=8 count=1 <&3 2>/dev/null >/dev/null; printf '\\4\\0\\0\\0\\0\\0\\0\\0' >&3; ";
+  EXPECT_EQ(play("printf '\\0\\0\\0\\0' >&3; " + answer + answer + "exit 0").why, WorldEnd::kGameOver);
+  EXPECT_EQ(ticks, 2);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,186 @@
+// GM.run() in a process that a host has started for a world: a thread of the test's plays that process, and
+// the test the host.
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "engine/events/EventKeyboard.h"
+#include "engine/events/EventMouse.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/managers/GameManager.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
+#include "host/world/WorldServer.h"
+
+namespace naiad {
+namespace {
+
+/// Flies by a cell a tick, and counts the clicks that hit where it was drawn.
+class Flyer : public df::Object {
+ public:
+  explicit Flyer(int& hits) : m_hits(hits) {
+    setType("Flyer");
+    setSolidness(df::SPECTRAL);
+    setPosition(df::Vector(10, 5));
+    setVelocity(df::Vector(1, 0));
+    registerInterest(df::MSE_EVENT);
+    registerInterest(df::KEYBOARD_EVENT);
+  }
+  int draw() override { return DM.drawCh(getPosition(), '#', df::RED); }
+  int eventHandler(const df::Event* p_e) override {
+    if (const auto* p_mouse = dynamic_cast<const df::EventMouse*>(p_e)) {
+      m_hits += WM.objectsSeenAt(p_mouse->getMousePosition()).getCount();
+    } else {
+      GM.setGameOver();
+    }
+    return 1;
+  }
+
+ private:
+  int& m_hits;
+};
+
+class WorldServerTest : public testing::Test {
+ protected:
+  /// `scrolls`: the view follows what flies, through a world that is wider.
+  explicit WorldServerTest(bool scrolls = false) {
+    int sockets[2];
+    EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, sockets), 0);
+    m_socket = sockets[0];
+    m_thread = std::thread([this, theirs = sockets[1], scrolls] {
+      df::World world;
+      world.setLogSink([](const std::string&) {});
+      const df::World::Scope scope(world);
+      world.setLookingBack(true);
+      auto* p_flyer = new Flyer(hits);
+      if (scrolls) {
+        world.setBoundary(df::Box(df::Vector(), 400, 24));
+        world.setViewFollowing(p_flyer);
+      }
+      WorldServer(theirs, true).run(world);
+      over = world.isGameOver();
+      world.shutDown();
+    });
+    EXPECT_EQ(receive(), "") << "ready";
+  }
+  ~WorldServerTest() override { end(); }
+  void end() {
+    if (m_socket >= 0) close(m_socket);
+    m_socket = -1;
+    if (m_thread.joinable()) m_thread.join();
+  }
+
+  void send(const std::string& bytes) const {
+    EXPECT_EQ(::send(m_socket, bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
+  }
+  /// A frame's fields; "end" if there is none.
+  std::string receive() const {
+    char head[kWorldFrameHead];
+    if (recv(m_socket, head, sizeof head, MSG_WAITALL) != sizeof head) return "end";
+    std::string fields(loadLittleEndian<std::uint32_t>(head), '\0');
+    if (fields.empty()) return fields;
+    return recv(m_socket, fields.data(), fields.size(), MSG_WAITALL) == static_cast<ssize_t>(fields.size())
+               ? fields
+               : "end";
+  }
+  WorldAnswer turn(std::vector<df::InputQueue::Input> inputs = {}, bool watched = true) {
+    std::string frame;
+    EXPECT_TRUE(writeTurn({std::move(inputs), watched, false, false}, frame));
+    send(frame);
+    const auto answer = readAnswer(receive(), m_views, view);
+    EXPECT_TRUE(answer);
+    return answer.value_or(WorldAnswer());
+  }
+  static df::InputQueue::Input join(std::uint32_t player) {
+    return {.kind = df::InputQueue::kJoin, .player = player, .name = "ann", .color = df::RED};
+  }
+
+  int hits = 0;
+  bool over = false;
+  df::WorldView view;
+
+ private:
+  int m_socket = -1;
+  ViewReader m_views;
+  std::thread m_thread;
+};
+
+TEST_F(WorldServerTest, TicksOnceForEachTurnAndTellsItIfItIsWatched) {
+  EXPECT_FALSE(turn({}, false).has_view);
+  EXPECT_TRUE(turn({join(7)}).has_view);
+  EXPECT_EQ(view.tick, 2u);
+  ASSERT_EQ(view.changed.size(), 1u);
+  EXPECT_EQ(view.changed[0].position.x, df::fromCells(12));
+  ASSERT_EQ(view.players.size(), 1u);
+  EXPECT_EQ(view.players[0].id, 7u) << "the host says who is who";
+  turn();
+  EXPECT_EQ(view.tick, 3u);
+}
+
+TEST_F(WorldServerTest, AClickHitsWhatWasOnThePlayersScreen) {
+  turn({join(7)});
+  while (view.tick < 12) turn();
+  // He saw tick 10, by what he knew of tick 8: there it was in cell 20, and by now it is elsewhere.
+  df::InputQueue::Input click{.kind = df::InputQueue::kMouse,
+                              .player = 7,
+                              .seen = {true, 8, 10},
+                              .button = df::Mouse::LEFT,
+                              .mouse_action = df::CLICKED,
+                              .x = 20,
+                              .y = 5};
+  turn({click});
+  click.x = 21;
+  turn({click});
+  end();
+  EXPECT_EQ(hits, 1);
+}
+
+class ScrollingWorldServerTest : public WorldServerTest {
+ protected:
+  ScrollingWorldServerTest() : WorldServerTest(true) {}
+};
+
+TEST_F(ScrollingWorldServerTest, AClickIsInTheViewAsItWasOnThePlayersScreen) {
+  turn({join(7)});
+  while (view.tick < 80) turn();
+  // In tick 78 it was in cell 88, two thirds into a view of 80 cells; now both are farther to the right.
+  df::InputQueue::Input click{.kind = df::InputQueue::kMouse,
+                              .player = 7,
+                              .seen = {true, 76, 78},
+                              .button = df::Mouse::LEFT,
+                              .mouse_action = df::CLICKED,
+                              .x = 53,
+                              .y = 5};
+  turn({click});
+  click.x = 55;
+  turn({click});
+  end();
+  EXPECT_EQ(hits, 1);
+}
+
+TEST_F(WorldServerTest, AKeyThatEndsTheGameIsForTheHostToJudge) {
+  turn({join(7)});
+  const WorldAnswer answer = turn(
+      {{.kind = df::InputQueue::kKey, .player = 7, .key = df::Keyboard::Q, .key_action = df::KEY_PRESSED}});
+  EXPECT_EQ(answer.leavers, std::vector<std::uint32_t>{7});
+  EXPECT_FALSE(answer.game_over);
+}
+
+TEST_F(WorldServerTest, IsOverWhenTheHostIsGone) {
+  turn();
+  end();
+  EXPECT_TRUE(over);
+}
+
+TEST_F(WorldServerTest, IsOverWhenTheHostSaysWhatNoneSays) {
+  send(std::string("\1\0\0\0\xff", 5));
+  EXPECT_EQ(receive(), "end");
+  end();
+  EXPECT_TRUE(over);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,196 @@
+// Shapes of no area, joints of no length, springs that are too stiff and masses that do not fit together.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "physics/body/SoftObject.h"
+#include "tests/server/physics/BodyScene.h"
+#include "tests/server/physics/rigid/RigidScene.h"
+
+namespace df::test {
+namespace {
+
+using BodyDegenerate = BodyScene;
+
+// Refused, unless convex with an area: a sheet of a fiftieth falls on a floor and lies there.
+TEST_F(BodyDegenerate, PolygonsOfNoAreaAreRefusedAndThinOnesLie) {
+  PM.setGravity(Vector(0, 0.01));
+  wall(Vector(0, 5), Vector(500, 5));
+  const std::vector<std::vector<Vector>> all = {
+      {},
+      {Vector(0, 0)},
+      {Vector(0, 0), Vector(0, 0), Vector(0, 0)},
+      {Vector(0, 0), Vector(1, 1), Vector(2, 2)},
+      {Vector(0, 0), Vector(1e-300, 0), Vector(0, 1e-300)},
+      {Vector(-1e8, 0), Vector(1e8, 0), Vector(0, 1e-9)},
+      {Vector(0, 0), Vector(4, 0), Vector(2, 1e-12)},
+      {Vector(0, 0), Vector(2, 2), Vector(2, 0), Vector(0, 2)},                  // crosses itself
+      {Vector(0, 0), Vector(2, 0), Vector(2, 2), Vector(1, 0.1), Vector(0, 2)},  // hollow
+      {Vector(0, 0), Vector(2, 0), Vector(2, 0), Vector(2, 1), Vector(0, 1), Vector(0, 1)},
+      {Vector(0, 0), Vector(4, 0), Vector(4, 0.02), Vector(0, 0.02)},  // a sheet
+  };
+  std::vector<Body*> taken;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    auto* p_body = new Body;
+    p_body->setTurning();
+    if (p_body->setPolygon(all[i]) != 0) {
+      EXPECT_TRUE(p_body->getShapes().empty()) << i;
+      delete p_body;
+      continue;
+    }
+    EXPECT_GT(p_body->getInertia(), 0) << i;
+    p_body->setPosition(Vector(20.0 * static_cast<double>(i) - 100, -4));
+    taken.push_back(p_body);
+  }
+  ASSERT_EQ(taken.size(), 1u);
+  ticks(400);
+  for (const Body* p_body : taken) {
+    EXPECT_LT(p_body->getVelocity().getMagnitude(), 1e-3);
+    EXPECT_NEAR(p_body->getPosition().y(), -0.01, 1e-3);
+    EXPECT_FALSE(p_body->isFrozen());
+  }
+}
+
+// Bodies in one place: a rod or a rope of no length is refused, and so is a slider without a direction; what
+// may have no length (spring, hinge, weld, slider) holds them.
+TEST_F(BodyDegenerate, JointsOfNoLengthAreRefusedOrHold) {
+  PM.setGravity(Vector(0, 0.01));
+  const auto here = Vector(3, 4);
+  for (int kind = 0; kind < 8; ++kind) {
+    SCOPED_TRACE(kind);
+    Body* p_a = ball(here, Vector());
+    Body* p_b = ball(here, Vector());
+    Joint joint;
+    switch (kind) {
+      case 0:
+        joint = PM.addDistance(p_a, p_b);
+        break;
+      case 1:
+        joint = PM.addRope(p_a, p_b);
+        break;
+      case 2:
+        joint = PM.addSpring(p_a, p_b, 1);
+        break;
+      case 3:
+        joint = PM.addSpring(p_a, p_b, 1e10, 1e10);
+        break;
+      case 4:
+        joint = PM.addHinge(p_a, p_b, here);
+        break;
+      case 5:
+        joint = PM.addWeld(p_a, p_b, here);
+        break;
+      case 6:
+        joint = PM.addSlider(p_a, p_b, here, Vector(1, 0));
+        break;
+      default:
+        joint = PM.addSlider(p_a, p_b, here, Vector(0, 0));
+        break;
+    }
+    EXPECT_EQ(joint.exists(), kind >= 2 && kind <= 6);
+    if (joint.exists()) {
+      p_a->applyImpulse(Vector(0.1, 0.05));
+      ticks(50);
+      EXPECT_FALSE(p_a->isFrozen() || p_b->isFrozen());
+      const double middle = (p_a->getPosition().y() + p_b->getPosition().y()) / 2;
+      EXPECT_NEAR(middle, here.y() + 50 * 0.025 + 0.5 * 0.01 * 50 * 50, 1e-6);
+      EXPECT_LT(std::fabs(p_a->getPosition().y() - p_b->getPosition().y()), 0.05);
+    }
+    delete p_a;
+    delete p_b;
+  }
+  EXPECT_EQ(PM.getJointCount(), 0);
+}
+
+// Springs of 1e10, of every mass: bounded, and as long as they should be.
+TEST_F(BodyDegenerate, StiffSpringsHold) {
+  PM.setGravity(Vector(0, 0.01));
+  for (const double mass : {1e-3, 1.0, 1e3}) {
+    for (const double damping : {0.0, 1e5, 1e10}) {
+      Body* p_a = ball(Vector(0, 0), Vector());
+      Body* p_b = ball(Vector(5, 0), Vector());
+      p_b->setMass(mass);
+      ASSERT_TRUE(PM.addSpring(p_a, p_b, 1e10, damping).exists());
+      p_b->applyImpulse(Vector(0, 0.1 * mass));
+      for (int i = 0; i < 100; ++i) {
+        ticks(1);
+        ASSERT_FALSE(p_a->isFrozen() || p_b->isFrozen());
+        ASSERT_NEAR((p_b->getPosition() - p_a->getPosition()).getMagnitude(), 5, 0.01)
+            << mass << ' ' << damping;
+        ASSERT_LT(p_a->getVelocity().getMagnitude(), 2);
+      }
+      delete p_a;
+      delete p_b;
+    }
+  }
+}
+
+// A millionfold mass on compounds, on hinges and on soft bodies; and light on heavy.
+TEST_F(BodyDegenerate, MassesOfAMillionToOneStayBounded) {
+  PM.setGravity(Vector(0, 0.01));
+  wall(Vector(0, 5), Vector(500, 5));
+  for (const bool is_heavy_above : {true, false}) {
+    const double low = is_heavy_above ? 1 : 1e6, high = is_heavy_above ? 1e6 : 1;
+    std::vector<Object*> all;
+    for (int i = 0; i < 3; ++i) {
+      auto* p_body = new Body;
+      p_body->setTurning();
+      p_body->setBoxShape(2, 1);
+      p_body->addBoxShape(1, 0.5, Vector(0, 0.75));
+      p_body->setMass(i == 2 ? high : low);
+      p_body->setPosition(Vector(0, -2 - 2.5 * i));
+      all.push_back(p_body);
+    }
+    Body* p_before = nullptr;
+    for (int i = 0; i < 4; ++i) {
+      Body* p_link = crate(Vector(101.0 + 2 * i, -14), Vector(1, 0.2), i == 3 ? high : low);
+      p_link->setTurning();
+      PM.addHinge(p_before, p_link, Vector(100.0 + 2 * i, -14));
+      p_before = p_link;
+      all.push_back(p_link);
+    }
+    all.push_back(new Blob(Vector(-50, -3), 2, low));
+    all.push_back(new Blob(Vector(-50, -8), 2, high));
+    all.push_back(new Beam(Vector(-80, -2), Vector(-74, -2), low));
+    all.push_back(new Beam(Vector(-80, -4), Vector(-74, -4), high));
+    for (int i = 0; i < 200; ++i) {
+      ticks(1);
+      for (const Object* p_object : all) {
+        // A fall from 40 gives .9; a light link at the end of heavy ones is a whip, and may be faster.
+        ASSERT_LT(p_object->getVelocity().getMagnitude(), 1.8) << p_object->getType() << ' ' << i;
+        ASSERT_LT(p_object->getPosition().y(), 2) << p_object->getType() << ' ' << i;
+      }
+    }
+    for (Object* p_object : all) delete p_object;
+  }
+  EXPECT_EQ(PM.getQuarantineCount(), 0u);
+}
+
+// A tick that lasts a thousand ticks, in the middle of a heap: bounded, and afterwards all is as ever.
+TEST_F(BodyDegenerate, ASpikeOfTheStepStaysBounded) {
+  using namespace naiad::physics;
+  using namespace naiad::physics::test;
+  for (const double spike : {1e-6, 100.0, 1e3}) {
+    RigidWorld heap = onFloor();
+    const naiad::physics::ConvexShape crate = boxShape(0.5, 0.5), disc = circleShape(0.4);
+    for (int i = 0; i < 12; ++i) {
+      const naiad::physics::ConvexShape& shape = i % 3 == 0 ? disc : crate;
+      heap.add(movable({0.3 * (i % 2), -0.6 - 1.1 * i}, shape), shape);
+    }
+    for (int i = 0; i < 30; ++i) heap.step();
+    EXPECT_NE(heap.step(spike), RigidStatus::kRefused);
+    for (int id = 1; id <= 12; ++id) {
+      EXPECT_LE(length(heap.body(id).velocity), kGravityPerTick * (spike + 60)) << spike << ' ' << id;
+      EXPECT_LT(whereIs(heap, id).y, 1) << spike << ' ' << id;  // nothing went through the floor
+    }
+    for (int i = 0; i < 3000; ++i) heap.step();
+    for (int id = 1; id <= 12; ++id) EXPECT_LT(whereIs(heap, id).y, 0) << spike << ' ' << id;
+    EXPECT_LT(heap.deepest(), 0.01) << spike;
+    EXPECT_EQ(heap.counters().quarantined, 0) << spike;
+  }
+}
+
+}  // namespace
+}  // namespace df::test

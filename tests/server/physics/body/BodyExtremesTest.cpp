@@ -1,0 +1,276 @@
+// What no game should do, done to each kind of body: it stays bounded, it is the same every time, what cannot
+// be worked out is frozen, counted and named in the log, and nobody else notices.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "physics/body/SoftObject.h"
+#include "tests/server/physics/BodyScene.h"
+
+namespace df::test {
+namespace {
+
+using Bits = std::vector<std::uint64_t>;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+using Made = std::vector<Object*>;
+
+// A kind of body, and how to make one of it; joined ones come with a partner.
+struct Kind {
+  const char* p_name;
+  Made (*make)(Vector where);
+  bool is_dear = false;
+};
+
+Body* turning(Vector where) {
+  auto* p_body = new Body;
+  p_body->setTurning();
+  p_body->setPosition(where);
+  return p_body;
+}
+
+Body* compound(Vector where) {
+  Body* p_body = turning(where);
+  p_body->setBoxShape(2, 1);
+  p_body->addBoxShape(1, 3, Vector(1, 1));
+  p_body->addCircle(0.7, Vector(-1, 0));
+  return p_body;
+}
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all = {
+      {"box", [](Vector where) -> Made { return {BodyScene::crate(where)}; }},
+      {"circle", [](Vector where) -> Made { return {BodyScene::ball(where, Vector())}; }},
+      {"turning box",
+       [](Vector where) -> Made {
+         Body* p_body = turning(where);
+         p_body->setBoxShape(2, 1);
+         return {p_body};
+       }},
+      {"polygon",
+       [](Vector where) -> Made {
+         Body* p_body = turning(where);
+         p_body->setPolygon({Vector(-1, -1), Vector(1, -1), Vector(0, 1)});
+         return {p_body};
+       }},
+      {"compound", [](Vector where) -> Made { return {compound(where)}; }, true},
+      {"on a rod",
+       [](Vector where) -> Made {
+         Body* p_body = BodyScene::ball(where, Vector());
+         Body* p_partner = BodyScene::ball(where + Vector(3, 0), Vector());
+         PM.addDistance(p_body, p_partner);
+         return {p_body, p_partner};
+       }},
+      {"on a hinge",
+       [](Vector where) -> Made {
+         Body* p_body = compound(where);
+         Body* p_partner = compound(where + Vector(4, 0));
+         PM.addHinge(p_body, p_partner, where + Vector(2, 0));
+         return {p_body, p_partner};
+       },
+       true},
+      {"rope", [](Vector where) -> Made { return {new Rope(where, where + Vector(6, 0))}; }},
+      {"beam", [](Vector where) -> Made { return {new Beam(where, where + Vector(6, 0))}; }},
+      {"cloth", [](Vector where) -> Made { return {new Cloth(where, 5, 3)}; }},
+      {"blob", [](Vector where) -> Made { return {new Blob(where, 1.5)}; }},
+  };
+  return all;
+}
+
+int hit(Object* p_object, Vector impulse) {
+  if (auto* p_body = dynamic_cast<Body*>(p_object)) return p_body->applyImpulse(impulse);
+  return static_cast<SoftBody*>(p_object)->applyImpulse(impulse);
+}
+
+int push(Object* p_object, Vector force) {
+  if (auto* p_body = dynamic_cast<Body*>(p_object)) return p_body->applyForce(force);
+  return static_cast<SoftBody*>(p_object)->applyForce(force);
+}
+
+bool isFrozen(const Object* p_object) {
+  if (const auto* p_body = dynamic_cast<const Body*>(p_object)) return p_body->isFrozen();
+  return static_cast<const SoftBody*>(p_object)->isFrozen();
+}
+
+void add(Bits& bits, Vector v) {
+  bits.push_back(std::bit_cast<std::uint64_t>(v.x()));
+  bits.push_back(std::bit_cast<std::uint64_t>(v.y()));
+}
+
+// A world of its own with a bit of everything in it, far from where the tests do their worst.
+class Witnesses {
+ public:
+  Witnesses() : scope(world) {
+    world.setLogSink([this](const std::string& line) { log.push_back(line); });
+    PM.setAspect(1);
+    PM.setGravity(Vector(0, 0.01));
+    BodyScene::wall(Vector(1000, 5), Vector(100, 5));
+    for (int i = 0; i < 3; ++i) m_all.push_back(BodyScene::crate(Vector(950, -0.6 - 1.2 * i)));
+    for (int i = 0; i < 3; ++i) m_all.push_back(compound(Vector(960, -3 - 4 * i)));
+    Body* p_bob = BodyScene::ball(Vector(975, -10), Vector());
+    PM.addDistance(nullptr, p_bob, Vector(970, -10), Vector(975, -10));
+    m_all.push_back(p_bob);
+    m_all.push_back(new Blob(Vector(985, -3), 2));
+    auto* p_rope = new Rope(Vector(1000, -8), Vector(1010, -8));
+    p_rope->pin(0);
+    m_all.push_back(p_rope);
+  }
+  Witnesses(const Witnesses&) = delete;
+  Witnesses& operator=(const Witnesses&) = delete;
+  ~Witnesses() { world.shutDown(); }
+
+  void ticks(int n) {
+    for (int i = 0; i < n; ++i) {
+      world.update();
+      for (const Object* p_object : m_all) {
+        add(seen, p_object->getPosition());
+        add(seen, p_object->getVelocity());
+      }
+    }
+  }
+
+  std::vector<std::string> log;
+  Bits seen;
+  World world;
+  World::Scope scope;
+
+ private:
+  std::vector<const Object*> m_all;
+};
+
+const Bits& undisturbed(int ticks) {
+  static std::vector<Bits> known(100);
+  Bits& bits = known[static_cast<std::size_t>(ticks)];
+  if (bits.empty()) {
+    Witnesses alone;
+    alone.ticks(ticks);
+    bits = alone.seen;
+  }
+  return bits;
+}
+
+// A blow that is no number, or larger than a velocity may be, is refused, and nothing has happened.
+TEST(BodyExtremes, AnExplosionBeyondAllBoundsIsRefusedByEveryKind) {
+  constexpr int kTicks = 20;
+  for (const Kind& kind : kinds()) {
+    SCOPED_TRACE(kind.p_name);
+    Witnesses run, quiet;
+    const World::Scope scope(run.world);
+    std::vector<Object*> hurt;
+    for (int i = 0; i < 12; ++i) hurt.push_back(kind.make(Vector(12.0 * i, -40)).front());
+    const std::uint64_t refusals = run.world.getRefusals();
+    for (std::size_t i = 0; i < hurt.size(); ++i) {
+      const double angle = 0.5 * static_cast<double>(i);
+      EXPECT_EQ(hit(hurt[i], Vector(1e30 * std::cos(angle), 1e30 * std::sin(angle))), -1);
+      EXPECT_EQ(hit(hurt[i], Vector(kNan, 0)), -1);
+      EXPECT_EQ(hit(hurt[i], Vector(0, -kInfinite)), -1);
+    }
+    EXPECT_EQ(run.world.getRefusals() - refusals, 3 * hurt.size());
+    run.ticks(kTicks);
+    for (const Object* p_object : hurt) {
+      EXPECT_FALSE(isFrozen(p_object));
+      EXPECT_NEAR(p_object->getVelocity().x(), 0, 1e-6);
+    }
+    EXPECT_EQ(run.seen, undisturbed(kTicks));
+  }
+}
+
+// The hardest blow that is taken: nearly as fast as a velocity may be, away from the others. They fly, or are
+// frozen, alone.
+TEST(BodyExtremes, TheHardestBlowStaysAlone) {
+  constexpr int kTicks = 20;
+  for (const Kind& kind : kinds()) {
+    SCOPED_TRACE(kind.p_name);
+    const auto run = [&] {
+      Witnesses those;
+      std::vector<Object*> hurt;
+      for (int i = 0; i < 12; ++i) hurt.push_back(kind.make(Vector(1.5 * i - 1e8, -40)).front());
+      for (std::size_t i = 0; i < hurt.size(); ++i) {
+        const double angle = 0.5 * static_cast<double>(i);
+        EXPECT_EQ(hit(hurt[i], Vector(-9e5 * std::fabs(std::cos(angle)), 9e5 * std::sin(angle))), 0);
+      }
+      those.ticks(kTicks);
+      Bits bits;
+      for (const Object* p_object : hurt) {
+        EXPECT_TRUE(std::isfinite(p_object->getPosition().x()) && std::isfinite(p_object->getPosition().y()));
+        add(bits, p_object->getPosition());
+        add(bits, p_object->getVelocity());
+      }
+      EXPECT_EQ(those.seen, undisturbed(kTicks));
+      return bits;
+    };
+    EXPECT_EQ(run(), run());
+  }
+}
+
+// A force of 1e30, where it is taken, moves what it pushes out of all bounds: that is frozen, counted and
+// named. Where it is not taken, it is refused.
+TEST(BodyExtremes, AForceBeyondAllBoundsFreezesWhatItPushes) {
+  constexpr int kTicks = 20;
+  for (const Kind& kind : kinds()) {
+    SCOPED_TRACE(kind.p_name);
+    Witnesses those;
+    Object* p_pushed = kind.make(Vector(0, -40)).front();
+    those.ticks(5);
+    const std::uint64_t refusals = those.world.getRefusals();
+    const bool is_taken = push(p_pushed, Vector(1e30, -1e30)) == 0;
+    those.ticks(kTicks - 5);
+    EXPECT_EQ(isFrozen(p_pushed), is_taken);
+    EXPECT_EQ(PM.getQuarantineCount() > 0, is_taken);
+    EXPECT_EQ(those.log.empty(), !is_taken && those.world.getRefusals() == 0);
+    EXPECT_EQ(those.world.getRefusals() - refusals, is_taken ? 0u : 1u);
+    EXPECT_EQ(p_pushed->getVelocity().x(), 0);
+    EXPECT_EQ(those.seen, undisturbed(kTicks));
+  }
+}
+
+// Hundreds of one kind in one place. Nobody flies off, nobody is frozen, and it is the same every time.
+class InOnePlace : public testing::TestWithParam<Kind> {};
+
+TEST_P(InOnePlace, HundredsStayBounded) {
+  constexpr int kTicks = 5;
+  const int many = GetParam().is_dear ? 100 : 200;
+  constexpr double kFall = 0.01 * kTicks, kFastest = 10;
+  const auto run = [&] {
+    Witnesses those;
+    Made all;
+    while (static_cast<int>(all.size()) < many) {
+      for (Object* p_object : GetParam().make(Vector(0, -40))) all.push_back(p_object);
+    }
+    those.ticks(kTicks);
+    Bits bits;
+    double momentum = 0;
+    for (const Object* p_object : all) {
+      const Vector velocity = p_object->getVelocity();
+      EXPECT_LT(velocity.getMagnitude(), kFastest);
+      EXPECT_FALSE(isFrozen(p_object));
+      momentum += velocity.y();
+      add(bits, p_object->getPosition());
+      add(bits, velocity);
+    }
+    EXPECT_NEAR(momentum / many, kFall, 0.01);  // as a whole they fall
+    EXPECT_EQ(those.seen, undisturbed(kTicks));
+    EXPECT_LE(those.log.size(), 1u);  // of soft ones: that it is a crowd
+    return bits;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+std::string nameOf(const testing::TestParamInfo<Kind>& of) {
+  std::string name = of.param.p_name;
+  std::erase(name, ' ');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryKind, InOnePlace, testing::ValuesIn(kinds()), nameOf);
+
+}  // namespace
+}  // namespace df::test

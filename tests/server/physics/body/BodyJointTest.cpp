@@ -1,0 +1,211 @@
+// Joined bodies through WM.update(), with the laboratory's targets as bounds.
+#include <limits>
+#include <numbers>
+
+#include "tests/server/physics/BodyScene.h"
+
+namespace df::test {
+namespace {
+
+class BodyJoints : public BodyScene {};
+
+Body* point(Vector place, double mass = 1) {
+  auto* p_point = new Body;
+  p_point->setSolidness(SPECTRAL);
+  p_point->setPosition(place);
+  p_point->setMass(mass);
+  return p_point;
+}
+
+// Problem 5.
+TEST_F(BodyJoints, APendulumSwingsForAMinute) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  Body* p_bob = point(Vector(1, 0));
+  ASSERT_TRUE(PM.addDistance(nullptr, p_bob, Vector(0, 0), Vector(1, 0)).exists());
+  for (int tick = 0; tick < 1800; ++tick) {
+    ticks(1);
+    const Vector at = p_bob->getPosition(), v = speedOf(p_bob);
+    ASSERT_NEAR(std::hypot(at.x(), at.y()), 1, 1e-10) << tick;
+    ASSERT_LE(std::abs((v.x() * v.x() + v.y() * v.y()) / 2 - 10 * at.y()) / 10, 1e-4) << tick;
+  }
+}
+
+// Problem 3: a spring joint that one body hangs on alone is no joint but a formula.
+TEST_F(BodyJoints, AnUndampedSpringKeepsAmplitudeAndPhase) {
+  for (const int hertz : {1, 5, 15}) {
+    const double omega = 2 * std::numbers::pi * hertz;
+    Body* p_body = point(Vector(11, 0));
+    Joint spring = PM.addSpring(nullptr, p_body, Vector(), Vector(11, 0), perSecondSquared(omega * omega));
+    ASSERT_EQ(spring.setLength(10), 0);
+    ticks(300 / hertz);
+    const double x = p_body->getPosition().x() - 10, v = speedOf(p_body).x() / omega;
+    EXPECT_NEAR(std::hypot(x, v), 1, 1e-12) << hertz;
+    EXPECT_NEAR(std::atan2(-v, x), 0, 1e-12) << hertz;
+    delete p_body;
+  }
+}
+
+// Problem 4, where the phase is still told by a double.
+TEST_F(BodyJoints, AStiffSpringIsExactAtAnyStiffness) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  for (const double stiffness : {1e2, 1e6, 1e10}) {
+    for (const double zeta : {0.0, 0.05, 1.0, 2.0}) {
+      const double rest = 10 / stiffness, omega = std::sqrt(stiffness), decay = zeta * omega;
+      Body* p_body = point(Vector(0, 10 + rest + 1));
+      PM.addSpring(nullptr, p_body, Vector(), p_body->getPosition(), perSecondSquared(stiffness),
+                   perSecond(2 * decay))
+          .setLength(10);
+      const double bound = 1e-11 + 4 * std::numeric_limits<double>::epsilon() * omega * 10;
+      for (int tick = 1; tick <= 300; ++tick) {
+        ticks(1);
+        const long double t = tick / 30.0L;
+        long double part = 0;
+        if (zeta < 1) {
+          const long double w = std::sqrt(static_cast<long double>(stiffness) - decay * decay);
+          part = std::exp(-decay * t) * (std::cos(w * t) + decay / w * std::sin(w * t));
+        } else if (zeta == 1) {
+          part = std::exp(-decay * t) * (1 + decay * t);
+        } else {
+          const long double root = std::sqrt(static_cast<long double>(decay) * decay - stiffness);
+          const long double fast = decay + root, slow = stiffness / fast;
+          part = (fast * std::exp(-slow * t) - slow * std::exp(-fast * t)) / (2 * root);
+        }
+        ASSERT_NEAR(p_body->getPosition().y(), static_cast<double>(10 + rest + part), bound)
+            << stiffness << " " << zeta << " " << tick;
+      }
+      delete p_body;
+    }
+  }
+}
+
+TEST_F(BodyJoints, ASpringThatSwingsAsideKeepsItsEnergy) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  Body* p_body = point(Vector(2, 0));
+  PM.addSpring(nullptr, p_body, Vector(), Vector(2, 0), perSecondSquared(100)).setLength(2);
+  for (int tick = 0; tick < 300; ++tick) {
+    ticks(1);
+    const Vector at = p_body->getPosition(), v = speedOf(p_body);
+    const double stretch = std::hypot(at.x(), at.y()) - 2;
+    ASSERT_NEAR((v.x() * v.x() + v.y() * v.y()) / 2 - 10 * at.y() + 50 * stretch * stretch, 0, 1e-8) << tick;
+  }
+}
+
+// Problem 11.
+TEST_F(BodyJoints, ARopeOfRodsDoesNotStretch) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  for (const double mass : {1.0, 1e3}) {
+    std::vector<Body*> points;
+    Body* p_before = nullptr;
+    for (int i = 1; i <= 20; ++i) {
+      points.push_back(point(Vector(0.5 * i, 0), i == 20 ? mass : 1));
+      PM.addDistance(p_before, points.back(), Vector(0.5 * (i - 1), 0), Vector(0.5 * i, 0));
+      p_before = points.back();
+    }
+    for (int tick = 0; tick < 300; ++tick) {
+      ticks(1);
+      Vector before;
+      for (const Body* p_point : points) {
+        const Vector at = p_point->getPosition();
+        ASSERT_NEAR(std::hypot(at.x() - before.x(), at.y() - before.y()), 0.5, 0.5e-10) << tick;
+        before = at;
+      }
+    }
+    for (Body* p_point : points) delete p_point;
+  }
+}
+
+TEST_F(BodyJoints, AreTakenApartAndPutTogetherAgain) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  Body* p_bob = point(Vector(0, 2));
+  Joint rod = PM.addDistance(nullptr, p_bob, Vector(), Vector(0, 2));
+  ticks(30);
+  EXPECT_NEAR(p_bob->getPosition().y(), 2, 1e-12);
+  EXPECT_NEAR(rod.getForce().y(), -perSecondSquared(10), 1e-12);
+  rod.remove();
+  ticks(30);
+  EXPECT_NEAR(p_bob->getPosition().y(), 7, 1e-9);
+  rod = PM.addDistance(nullptr, p_bob, Vector(0, 6), p_bob->getPosition());
+  p_bob->setVelocity(Vector());
+  ticks(30);
+  EXPECT_NEAR(p_bob->getPosition().y(), 7, 1e-9);
+}
+
+TEST_F(BodyJoints, BreakWhenTheyHaveToHoldTooMuch) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  Body* p_bob = point(Vector(0, 2), 3);
+  Joint rod = PM.addDistance(nullptr, p_bob, Vector(), Vector(0, 2));
+  rod.setBreakForce(perSecondSquared(31));
+  ticks(30);
+  EXPECT_TRUE(rod.exists());
+  rod.setBreakForce(perSecondSquared(29));
+  ticks(1);
+  EXPECT_FALSE(rod.exists());
+  ticks(30);
+  EXPECT_GT(p_bob->getPosition().y(), 6);
+}
+
+TEST_F(BodyJoints, AMouseDragsItsBodyToWhereItPoints) {
+  Body* p_crate = point(Vector(0, 0), 4);
+  Joint mouse = PM.addMouse(p_crate, Vector(0, 0), 1e6);
+  mouse.setTarget(Vector(5, -3));
+  ticks(60);
+  EXPECT_NEAR(p_crate->getPosition().x(), 5, 1e-6);
+  EXPECT_NEAR(p_crate->getPosition().y(), -3, 1e-6);
+  mouse.remove();
+  ticks(1);
+  EXPECT_EQ(PM.getJointCount(), 0);
+}
+
+TEST_F(BodyJoints, AMotorTurnsAWheelOnItsAxle) {
+  Body* p_wheel = point(Vector(3, 3));
+  p_wheel->setCircle(1);
+  p_wheel->setTurning();
+  PM.addHinge(nullptr, p_wheel, Vector(3, 3));
+  PM.addMotor(nullptr, p_wheel, 0.1, 1e3);
+  ticks(10);
+  EXPECT_NEAR(p_wheel->getSpin(), 0.1, 1e-9);
+  EXPECT_NEAR(p_wheel->getAngle(), 1, 0.06);
+  EXPECT_NEAR(p_wheel->getPosition().x(), 3, 1e-12);
+}
+
+TEST_F(BodyJoints, OneThatIsTakenOutHoldsWhatHangsOnIt) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  Body* p_hook = point(Vector(0, 0));
+  Body* p_bob = point(Vector(0, 2));
+  PM.addDistance(p_hook, p_bob);
+  p_hook->setActive(false);
+  ticks(30);
+  EXPECT_NEAR(p_bob->getPosition().y(), 2, 1e-9);
+  p_hook->setActive(true);
+  ticks(30);
+  EXPECT_NEAR(p_bob->getPosition().y() - p_hook->getPosition().y(), 2, 1e-9);
+  EXPECT_GT(p_hook->getPosition().y(), 4);
+}
+
+TEST_F(BodyJoints, OneWithBadNumbersFreezesAndNoOtherGroup) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  Body* p_good = point(Vector(1, 0));
+  PM.addDistance(nullptr, p_good, Vector(), Vector(1, 0));
+  Body* p_bad = point(Vector(50, 0));
+  PM.addDistance(nullptr, p_bad, Vector(49, 0), Vector(50, 0));
+  p_bad->applyForce(Vector(1e30, 1e30));
+  ticks(5);
+  EXPECT_TRUE(p_bad->isFrozen());
+  EXPECT_FALSE(p_good->isFrozen());
+  EXPECT_NEAR(std::hypot(p_good->getPosition().x(), p_good->getPosition().y()), 1, 1e-10);
+  EXPECT_GT(p_good->getPosition().y(), 0.01);
+}
+
+TEST_F(BodyJoints, BodiesTurnFreelyByTheirTorque) {
+  Body* p_wheel = point(Vector());
+  p_wheel->setCircle(2);
+  p_wheel->setTurning();
+  p_wheel->applyTorque(0.02);
+  ticks(1);
+  EXPECT_NEAR(p_wheel->getSpin(), 0.01, 1e-15);
+  ticks(9);
+  EXPECT_NEAR(p_wheel->getAngle(), 0.095, 1e-14);
+}
+
+}  // namespace
+}  // namespace df::test

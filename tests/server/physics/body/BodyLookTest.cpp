@@ -1,0 +1,286 @@
+// How bodies look: pictures at some angles, turns made of pictures, and what a watcher is told.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "engine/managers/WorldManager.h"
+#include "engine/world/World.h"
+#include "host/snapshot/Publisher.h"
+#include "physics/body/Body.h"
+#include "physics/body/BodyLook.h"
+#include "physics/body/PhysicsManager.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/LookCodec.h"
+#include "tests/server/physics/RandomShapes.h"
+
+namespace naiad::physics {
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+constexpr double kAspect = 2;
+
+/// The rows that an appearance touches, as text.
+std::vector<std::string> textOf(const Appearance& appearance) {
+  std::int32_t left = 1 << 20, top = 1 << 20, right = -left, bottom = -top;
+  for (const Glyph& glyph : appearance) {
+    left = std::min(left, glyph.dx >> 8);
+    right = std::max(right, glyph.dx >> 8);
+    top = std::min(top, glyph.dy >> 8);
+    bottom = std::max(bottom, glyph.dy >> 8);
+  }
+  if (appearance.empty()) return {};
+  std::vector<std::string> rows(static_cast<std::size_t>(bottom - top + 1),
+                                std::string(static_cast<std::size_t>(right - left + 1), ' '));
+  for (const Glyph& glyph : appearance)
+    rows[static_cast<std::size_t>((glyph.dy >> 8) - top)][static_cast<std::size_t>((glyph.dx >> 8) - left)] =
+        static_cast<char>(glyph.ch);
+  return rows;
+}
+
+ConvexShape box(double half_width, double half_height) {
+  ConvexShape shape;
+  EXPECT_EQ(makeBox(half_width, half_height, {}, {}, 0, shape), ShapeStatus::kOk);
+  return shape;
+}
+
+ConvexShape circle(double radius) {
+  ConvexShape shape;
+  EXPECT_EQ(makeCircle(radius, {}, shape), ShapeStatus::kOk);
+  return shape;
+}
+
+std::vector<std::string> drawn(const ConvexShape& shape, double degrees, const FrameStyle& style = {}) {
+  return textOf(drawShapes(std::span(&shape, 1), rotationBy(degrees * kPi / 180), kAspect, style));
+}
+
+using Rows = std::vector<std::string>;
+
+TEST(BodyLook, OutlinesRunAsTheEdgesDo) {
+  EXPECT_EQ(drawn(box(6, 3), 0), (Rows{"+----------+", "|          |", "+----------+"}));
+  EXPECT_EQ(drawn(box(4, 4), 45), (Rows{"    /\\    ", "  //  \\\\  ", "//      \\\\", "\\\\      //",
+                                        "  \\\\  //  ", "    \\/    "}));
+  EXPECT_EQ(drawn(circle(4), 0), (Rows{" /----\\ ", "/      \\", "\\      /", " \\----/ "}));
+}
+
+TEST(BodyLook, WhatIsThinIsALine) {
+  EXPECT_EQ(drawn(box(6, 0.3), 0), (Rows{"------------"}));
+  EXPECT_EQ(drawn(box(6, 0.3), 90), (Rows{"|", "|", "|", "|", "|", "|"}));
+}
+
+TEST(BodyLook, WhatIsSmallIsACharacter) {
+  EXPECT_EQ(drawn(circle(0.5), 0), (Rows{"o"}));
+  EXPECT_EQ(drawn(box(0.5, 1), 0), (Rows{"#"}));
+}
+
+TEST(BodyLook, ASpokeShowsHowACircleIsTurned) {
+  FrameStyle style;
+  style.spoke = true;
+  EXPECT_NE(drawn(circle(4), 0, style), drawn(circle(4), 90, style));
+  EXPECT_EQ(drawn(circle(4), 0), drawn(circle(4), 90));
+}
+
+TEST(BodyLook, SpritesTurnByTheNearestCell) {
+  FrameStyle style;
+  style.how = df::BodyDrawing::SPRITE;
+  style.rows = {U"abcd", U"efgh"};
+  const auto at = [&](double degrees) {
+    return textOf(drawShapes({}, rotationBy(degrees * kPi / 180), 1, style));
+  };
+  EXPECT_EQ(at(0), (Rows{"abcd", "efgh"}));
+  EXPECT_EQ(at(180), (Rows{"hgfe", "dcba"}));
+  EXPECT_EQ(at(90), (Rows{"ea", "fb", "gc", "hd"}));
+}
+
+// What is filled covers about its area, at any angle.
+TEST(BodyLook, FillingsAreAsLargeAsTheShape) {
+  FrameStyle style;
+  style.how = df::BodyDrawing::FILL;
+  for (int degrees = 0; degrees < 360; degrees += 7) {
+    const ConvexShape shape = box(8, 6);
+    const Appearance cells =
+        drawShapes(std::span(&shape, 1), rotationBy(degrees * kPi / 180), kAspect, style);
+    EXPECT_NEAR(static_cast<double>(cells.size()), 16 * 12 / kAspect, 8) << degrees;
+  }
+}
+
+TEST(BodyLook, SymmetricShapesShowTheirSequenceSeveralTimesInATurn) {
+  EXPECT_EQ(symmetryOf(std::vector{box(4, 4)}), 4u);
+  EXPECT_EQ(symmetryOf(std::vector{box(4, 3)}), 2u);
+  EXPECT_EQ(symmetryOf(std::vector{circle(3)}), 0u);
+  EXPECT_EQ(symmetryOf(std::vector{box(4, 4), circle(3)}), 1u);
+  ConvexShape triangle;
+  ASSERT_EQ(makePolygon(std::vector<Vec2>{{0, -3}, {3, 2}, {-3, 2}}, 0, triangle), ShapeStatus::kOk);
+  EXPECT_EQ(symmetryOf(std::vector{triangle}), 1u);
+  EXPECT_EQ(drawTurn(std::vector{circle(3)}, kAspect, {}).frames.size(), 1u);
+}
+
+TEST(BodyLook, EveryTurnMayBeTold) {
+  FrameStyle style;
+  for (const df::BodyDrawing how : {df::BodyDrawing::OUTLINE, df::BodyDrawing::FILL}) {
+    style.how = how;
+    for (const double size : {0.01, 0.5, 3.0, 20.0, 60.0}) {
+      const TurnFrames turn = drawTurn(std::vector{box(size, size / 2)}, kAspect, style);
+      ASSERT_GE(turn.frames.size(), 1u);
+      EXPECT_LE(turn.frames.size(), kMaxFrames);
+      if (turn.frames.size() > 1) {
+        EXPECT_LE(encodedBits(turn.frames), 8 * kMaxLookBytes);
+        EXPECT_LE(turn.frames.weight(), kMaxVocabularyGlyphs / 16) << "else it gets no name";
+      }
+    }
+  }
+}
+
+BodyForm form(const ConvexShape& shape, double angle, double spin) {
+  BodyForm its;
+  its.shapes = {shape};
+  its.rotation = rotationBy(angle);
+  its.spin = spin;
+  return its;
+}
+
+/// Signed, in radians, the short way round.
+double between(double a, double b) {
+  double off = a - b;
+  while (off > kPi) off -= 2 * kPi;
+  while (off < -kPi) off += 2 * kPi;
+  return off;
+}
+
+// Ten minutes of it: the error of the integer spin never adds up to a part of a frame in that time.
+TEST(BodyLook, WhatTurnsFreelyKeepsItsSelector) {
+  for (const double spin : {0.1, -0.031, 3.0, 1e-5}) {
+    BodyLook look;
+    look.update(form(box(6, 3), 0.3, spin), {}, kAspect, 1);
+    ASSERT_TRUE(look.hasNewFrames());
+    for (std::uint32_t tick = 2; tick < 20'000; ++tick) {
+      look.update(form(box(6, 3), 0.3 + spin * (tick - 1), spin), {}, kAspect, tick);
+      ASSERT_FALSE(look.hasNewFrames() || look.hasNewSelector()) << spin << " in tick " << tick;
+    }
+  }
+}
+
+// However it is jerked about, what is shown is the angle to within three quarters of a frame.
+TEST(BodyLook, TheFrameShownIsNearTheAngle) {
+  SplitMix64 random(1);
+  for (const ConvexShape& shape : {box(6, 3), box(4, 4), circle(5)}) {
+    BodyLook look;
+    double angle = 0, spin = 0.1;
+    for (std::uint32_t tick = 1; tick < 3000; ++tick) {
+      if (random.below(20) == 0) spin = (random.unit() - 0.5) * 2;
+      if (random.below(200) == 0) angle = random.unit() * 6;
+      angle += spin;
+      look.update(form(shape, angle, spin), {}, kAspect, tick);
+      const std::size_t frames = look.frames().size();
+      ASSERT_GT(frames, 1u);
+      const std::size_t shown = look.selector().at(tick, frames);
+      const double repeats = shape.count == 1 ? 1 : symmetryOf(std::vector{shape});
+      const double whole = 2 * kPi * static_cast<double>(shown) / static_cast<double>(frames);
+      const double off = between(std::remainder(angle * repeats, 2 * kPi), whole);
+      ASSERT_LE(std::abs(off), 0.76 * 2 * kPi / static_cast<double>(frames)) << tick;
+    }
+  }
+}
+
+TEST(BodyLook, WhatNeverTurnsIsOnePicture) {
+  BodyLook look;
+  look.update(form(box(6, 3), 0.5, 0), {}, kAspect, 1);
+  EXPECT_EQ(look.frames().size(), 1u);
+  look.update(form(box(6, 3), 0.5, 0), {}, kAspect, 2);
+  EXPECT_FALSE(look.hasNewFrames());
+  look.update(form(box(6, 3), 0.6, 0), {}, kAspect, 3);
+  EXPECT_TRUE(look.hasNewFrames());
+  EXPECT_GT(look.frames().size(), 1u);
+}
+
+TEST(BodyLook, AnglesBecomeIntegersThatWrap) {
+  EXPECT_EQ(integerAngle(0), 0u);
+  EXPECT_EQ(integerAngle(kPi), 1u << 31);
+  EXPECT_EQ(integerAngle(-kPi / 2), 3u << 30);
+  EXPECT_EQ(integerAngle(7 * kPi), 1u << 31);
+}
+
+/// A world with one body, and what is published of it.
+class DrawnBody : public testing::Test {
+ protected:
+  DrawnBody() : scope(world) {
+    world.setWatched(true);
+    world.join("Ann", df::WHITE);
+    body.setPosition(df::Vector(30, 12));
+    body.setSolidness(df::SPECTRAL);
+  }
+  /// How many looks are told in so many ticks; checks that what is published draws what the world drew.
+  int tell(int ticks, double spin) {
+    int looks = 0;
+    body.setSpin(spin);
+    for (int i = 0; i < ticks; ++i) {
+      body.setAngle(m_angle += spin);
+      world.tick();
+      publisher.update(world.view());
+      for (const Publisher::Change& change : publisher.changes()) {
+        looks += change.slot == body.key().slot && (change.groups & kLook) != 0 ? 1 : 0;
+      }
+      const ObjectState& state = publisher.find(body.key().slot)->state;
+      df::Canvas seen(world.getWindowWidth(), world.getWindowHeight());
+      for (const Glyph& glyph : *state.look.select(publisher.tick())) {
+        const CellPosition cell = glyphCell(positionAt(state.motion, publisher.tick()), glyph);
+        seen.put(cell.x, cell.y, {glyph.ch, glyph.color});
+      }
+      EXPECT_EQ(countDifferences(seen, world.renderView({})), 0) << "tick " << publisher.tick();
+    }
+    return looks;
+  }
+
+  df::World world;
+  df::World::Scope scope;
+  df::Body body;
+  Publisher publisher;
+
+ private:
+  double m_angle = 0;
+};
+
+TEST_F(DrawnBody, WhatTurnsIsToldOnceAndAnotherSpinOnce) {
+  body.setBoxShape(10, 4);
+  EXPECT_EQ(tell(1000, 0.05), 1);
+  EXPECT_EQ(tell(1000, 0.05), 0);
+  EXPECT_EQ(tell(1000, -0.3), 1);
+  EXPECT_EQ(tell(1000, 0), 1);
+}
+
+// The engine turns it: after its birth nothing is told but where it flies, ever more rarely.
+TEST_F(DrawnBody, WhatTurnsAndFliesFreelyCostsNoRecord) {
+  body.setBoxShape(10, 4);
+  body.setTurning();
+  body.setSpin(0.05);
+  body.setVelocity(df::Vector(0.01, 0));
+  std::size_t told = 0;
+  for (int i = 0; i < 1000; ++i) {
+    world.tick();
+    publisher.update(world.view());
+    told += publisher.changes().size();
+    for (const Publisher::Change& change : publisher.changes())
+      ASSERT_EQ(change.groups, i == 0 ? +kAllGroups : +kMotion) << i;
+  }
+  EXPECT_NEAR(between(body.getAngle(), std::remainder(50.0, 2 * kPi)), 0, 1e-9);
+  EXPECT_LE(told, 4u) << "a path that outlives its horizon is told anew";
+}
+
+TEST_F(DrawnBody, ACircleAndASpriteLikewise) {
+  body.setCircle(4);
+  EXPECT_EQ(tell(500, 0.05), 1);
+  body.setDrawing({"<==", "|o>"}, df::RED);
+  EXPECT_EQ(tell(500, 0.05), 1);
+}
+
+TEST_F(DrawnBody, DrawingsThatNobodyCanSeeAreRefused) {
+  EXPECT_EQ(body.setDrawing(df::BodyDrawing::OUTLINE, U'\n'), -1);
+  EXPECT_EQ(body.setDrawing(df::BodyDrawing::SPRITE), -1);
+  EXPECT_EQ(body.setDrawing(std::vector<std::string>{}), -1);
+  EXPECT_EQ(body.setDrawing({"\x1b[2J"}), -1);
+  EXPECT_EQ(body.setDrawing({std::string(129, 'x')}), -1);
+  EXPECT_EQ(body.setDrawing(df::BodyDrawing::FILL, U'x', df::RED), 0);
+}
+
+}  // namespace
+}  // namespace naiad::physics

@@ -1,0 +1,199 @@
+// Bodies that turn, through WM.update(): that they reach their solver, and what games are told of it.
+#include <numbers>
+
+#include "physics/body/BodyLayer.h"
+#include "tests/server/physics/BodyScene.h"
+
+namespace df::test {
+namespace {
+
+class BodyRigids : public BodyScene {
+ protected:
+  const naiad::physics::RigidCounters& rigid() { return world.findLayer<BodyLayer>()->rigidCounters(); }
+  const naiad::physics::ImpactCounters& impacts() { return world.findLayer<BodyLayer>()->impactCounters(); }
+  /// A slope through the origin that falls to the right.
+  static Body* slope(double angle) {
+    auto* p_slope = new Body;
+    p_slope->setKinematic();
+    p_slope->setBoxShape(400, 10);
+    p_slope->setAngle(angle);
+    p_slope->setPosition(Vector(-5 * std::sin(angle), 5 * std::cos(angle)));
+    return p_slope;
+  }
+};
+
+// Problem 13.
+TEST_F(BodyRigids, ADiscRollsDownASlope) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  const double angle = std::numbers::pi / 6;
+  slope(angle);
+  Body* p_disc = ball(Vector(0.5 * std::sin(angle), -0.5 * std::cos(angle)), Vector());
+  p_disc->setFriction(0.5);
+  p_disc->setTurning();
+  const Vector start = p_disc->getPosition();
+  ticks(60);
+  const Vector way = p_disc->getWayFrom(start), v = speedOf(p_disc);
+  const double right = 10 * std::sin(angle) * 4 / 3;
+  EXPECT_NEAR(std::hypot(way.x(), way.y()) / right, 1, 1e-3);
+  EXPECT_NEAR(std::hypot(v.x(), v.y()), 30 * p_disc->getSpin() * 0.5, 1e-3);
+}
+
+// Problem 12: on a slope that leans.
+TEST_F(BodyRigids, ACrateSlidesDownASlope) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  const double angle = 40 * std::numbers::pi / 180;
+  slope(angle);
+  Body* p_crate = crate(Vector(0.25 * std::sin(angle), -0.25 * std::cos(angle)), Vector(0.5, 0.25));
+  p_crate->setAngle(angle);
+  p_crate->setTurning();
+  const Vector start = p_crate->getPosition();
+  ticks(60);
+  const Vector way = p_crate->getWayFrom(start);
+  EXPECT_NEAR(std::hypot(way.x(), way.y()) / (20 * (std::sin(angle) - 0.5 * std::cos(angle))), 1, 1e-3);
+}
+
+// Problem 12: and what has hardly begun to slide does not fall asleep.
+TEST_F(BodyRigids, FrictionHoldsUpToItsAngle) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  const auto wayAt = [](double angle, World& there) {
+    Body* p_slope = slope(angle);
+    Body* p_crate = crate(Vector(0.25 * std::sin(angle), -0.25 * std::cos(angle)), Vector(0.5, 0.25));
+    p_crate->setAngle(angle);
+    p_crate->setTurning();
+    const Vector start = p_crate->getPosition();
+    for (int i = 0; i < 120; ++i) there.update();
+    const Vector way = p_crate->getWayFrom(start);
+    delete p_crate;
+    delete p_slope;
+    return std::hypot(way.x(), way.y());
+  };
+  const double threshold = std::atan(0.5), hundredth = 0.01 * std::numbers::pi / 180;
+  EXPECT_LT(wayAt(threshold - hundredth, world), 1e-4);
+  EXPECT_GT(wayAt(threshold + hundredth, world), 5e-3);
+}
+
+// Problem 10, up to what a game meets.
+TEST_F(BodyRigids, AHeavyCrateRestsOnALightOne) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  wall(Vector(0, 5), Vector(100, 5));
+  Body* p_light = crate(Vector(0, -0.5));
+  Body* p_heavy = crate(Vector(0, -1.5), Vector(0.5, 0.5), 100);
+  p_light->setTurning();
+  p_heavy->setTurning();
+  ticks(300);
+  EXPECT_LE(p_light->getPosition().y() + 0.5, 0.01);
+  EXPECT_LE(p_heavy->getPosition().y() - p_light->getPosition().y() + 1, 0.01);
+  world.setWatched(true);
+  world.tick();
+  world.tick();
+  EXPECT_TRUE(world.view().changed.empty());  // asleep
+}
+
+TEST_F(BodyRigids, OneAloneFliesExactly) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  Body* p_crate = crate(Vector(0, 0));
+  p_crate->setTurning();
+  p_crate->setSpin(0.1);
+  p_crate->setVelocity(perSecond(Vector(3, -20)));
+  ticks(60);
+  EXPECT_NEAR(p_crate->getPosition().x(), 6, 1e-12);
+  EXPECT_NEAR(p_crate->getPosition().y(), -20, 1e-11);
+  EXPECT_NEAR(p_crate->getAngle(), 6 - 2 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(rigid().ticks, 0);
+}
+
+TEST_F(BodyRigids, TheOthersStayWhereAllIsExact) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  wall(Vector(0, 5), Vector(100, 5));
+  Body* p_turning = crate(Vector(-20, -2));
+  p_turning->setTurning();
+  auto* p_ball = ball<Listener>(Vector(20, -5.5), Vector());
+  for (int tick = 0; tick < 300; ++tick) {
+    ticks(1);
+    const double energy = -p_ball->getPosition().y() - 0.5 + std::pow(speedOf(p_ball).y(), 2) / 20;
+    ASSERT_NEAR(energy, 5, 1e-9) << tick;
+  }
+  EXPECT_GT(rigid().ticks, 0);
+  EXPECT_GT(impacts().impacts, 3);
+}
+
+// A crate that does not turn lies on the floor; one that does comes, and both are handed to the RigidWorld.
+TEST_F(BodyRigids, WhoIsHandedOnHearsNothingTwice) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  Object* p_floor = wall(Vector(0, 5), Vector(100, 5));
+  auto* p_crate = crate<Listener>(Vector(0, -0.75));
+  p_crate->setContactEnds();
+  ticks(30);
+  ASSERT_EQ(p_crate->notes.size(), 1u);
+  auto* p_other = crate<Listener>(Vector(0, -3));
+  p_other->setTurning();
+  ticks(90);
+  // It may hop, but each contact begins once before it ends.
+  bool is_on_floor = false;
+  for (const Listener::Note& note : p_crate->notes) {
+    if (note.p_second != p_floor) continue;
+    EXPECT_NE(note.is_begin, is_on_floor);
+    is_on_floor = note.is_begin;
+  }
+  EXPECT_TRUE(is_on_floor);
+  EXPECT_FALSE(p_other->notes.empty());
+  EXPECT_NEAR(p_crate->getPosition().y(), -0.5, 1e-3);
+  EXPECT_NEAR(p_other->getPosition().y(), -1.5, 1e-2);
+}
+
+// A plank on a hinge, and something that falls onto its end.
+TEST_F(BodyRigids, WhatIsJoinedIsHit) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  auto* p_plank = new Listener;
+  p_plank->setBoxShape(6, 0.5);
+  p_plank->setTurning();
+  ASSERT_TRUE(PM.addHinge(nullptr, p_plank, Vector()).exists());
+  ticks(30);
+  EXPECT_EQ(rigid().ticks, 0);  // nothing is near
+  EXPECT_NEAR(p_plank->getAngle(), 0, 1e-12);
+  Body* p_crate = crate(Vector(2.5, -4));
+  ticks(35);
+  EXPECT_GT(rigid().ticks, 0);
+  EXPECT_GT(p_plank->getAngle(), 0.1);
+  EXPECT_EQ(p_plank->notes.size(), 1u);
+  EXPECT_NEAR(std::hypot(p_plank->getPosition().x(), p_plank->getPosition().y()), 0, 1e-3);
+  delete p_crate;
+  ticks(5);
+  EXPECT_NEAR(std::hypot(p_plank->getPosition().x(), p_plank->getPosition().y()), 0, 1e-3);
+}
+
+TEST_F(BodyRigids, AFloorThatGoesLetsThemFall) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  Object* p_floor = wall(Vector(0, 1), Vector(5, 1));
+  wall(Vector(0, 10), Vector(50, 5));
+  Body* p_crate = crate(Vector(0, -0.5));
+  p_crate->setTurning();
+  ticks(60);
+  EXPECT_NEAR(p_crate->getPosition().y(), -0.5, 1e-3);
+  delete p_floor;
+  ticks(60);
+  EXPECT_NEAR(p_crate->getPosition().y(), 4.5, 1e-2);
+}
+
+TEST_F(BodyRigids, BodiesMayDieWhileTheyLieOnEachOther) {
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  wall(Vector(0, 5), Vector(50, 5));
+  std::vector<Body*> crates;
+  for (int i = 0; i < 5; ++i) {
+    crates.push_back(crate(Vector(0, -0.5 - i)));
+    crates.back()->setTurning();
+  }
+  ticks(30);
+  delete crates[0];
+  delete crates[2];
+  auto* p_new = crate(Vector(10, -5));
+  p_new->setTurning();
+  ticks(90);
+  EXPECT_NEAR(crates[1]->getPosition().y(), -0.5, 2e-2);
+  EXPECT_NEAR(crates[3]->getPosition().y(), -1.5, 2e-2);
+  EXPECT_NEAR(crates[4]->getPosition().y(), -2.5, 2e-2);
+  EXPECT_NEAR(p_new->getPosition().y(), -0.5, 1e-2);
+}
+
+}  // namespace
+}  // namespace df::test

@@ -1,0 +1,280 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/events/EventOut.h"
+#include "engine/events/EventStep.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
+#include "physics/body/Body.h"
+#include "physics/body/BodyLayer.h"
+#include "physics/body/Field.h"
+#include "physics/body/PhysicsManager.h"
+#include "physics/body/Seconds.h"
+#include "shared/replica/Motion.h"
+
+namespace df {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class Bodies : public testing::Test {
+ protected:
+  Bodies() : scope(world) {
+    world.setLogSink([this](const std::string& line) { log.push_back(line); });
+  }
+  ~Bodies() override { world.shutDown(); }
+  void ticks(int n) {
+    for (int i = 0; i < n; ++i) world.update();
+  }
+  std::vector<std::string> log;
+  World world;
+  World::Scope scope;
+};
+
+void expectNear(Vector a, Vector b, double tolerance) {
+  EXPECT_NEAR(a.x(), b.x(), tolerance);
+  EXPECT_NEAR(a.y(), b.y(), tolerance);
+}
+
+TEST_F(Bodies, AWorldWithoutThemHasNoLayer) {
+  new Object;
+  ticks(3);
+  EXPECT_EQ(world.findLayer<BodyLayer>(), nullptr);
+}
+
+// Problem 1 of the laboratory, through the public interface.
+TEST_F(Bodies, FallAsGalileoSays) {
+  PM.setAspect(1);
+  PM.setGravity(perSecondSquared(Vector(0, -10)));
+  auto* p_ball = new Body;
+  ASSERT_EQ(p_ball->setVelocity(perSecond(Vector(3, 20))), 0);
+  ticks(60);
+  expectNear(p_ball->getPosition(), Vector(6, 20), 20e-12);
+  expectNear(p_ball->getVelocity(), perSecond(Vector(3, 0)), 1e-12);
+}
+
+TEST_F(Bodies, ALongFlightCostsAWatcherNothing) {
+  PM.setGravity(Vector(0, 0.0123));
+  auto* p_ball = new Body;
+  p_ball->setVelocity(Vector(0.3, -1.7));
+  world.setWatched(true);
+  world.tick();
+  ASSERT_EQ(world.view().changed.size(), 1u);
+  const ObjectFacts& facts = world.view().changed[0];
+  const naiad::Motion motion{world.view().tick, facts.position, facts.velocity, facts.acceleration};
+  for (int i = 0; i < 600; ++i) {
+    world.tick();
+    const FixedVector drawn = naiad::positionAt(motion, world.view().tick);
+    const auto at = toFixed(static_cast<Object*>(p_ball)->getPosition());
+    EXPECT_LT(std::abs(drawn.x - at->x) + std::abs(drawn.y - at->y), kFixedOne / 1000) << i;
+  }
+}
+
+TEST_F(Bodies, DragAndSpringsFollowTheirFormulas) {
+  PM.setAspect(1);
+  auto* p_dragged = new Body;
+  p_dragged->setDrag(2.0 / 30);
+  p_dragged->setVelocity(perSecond(Vector(10, 0)));
+  auto* p_hung = new Body;
+  p_hung->setSpring(Vector(0, 0), perSecondSquared(400), 0);
+  p_hung->setPosition(Vector(1, 0));
+  auto* p_falling = new Body;
+  for (Body* p_body : {p_dragged, p_hung, p_falling}) p_body->setSolidness(SPECTRAL);
+  p_falling->setDrag(0, 0.5);
+  p_falling->setVelocity(perSecond(Vector(0, 8)));
+  ticks(60);
+  EXPECT_NEAR(p_dragged->getPosition().x(), 5 * -std::expm1(-4.0), 5e-12);
+  EXPECT_NEAR(p_hung->getPosition().x(), std::cos(40.0), 1e-11);
+  EXPECT_NEAR(p_falling->getPosition().y(), std::log1p(0.5 * 8 * 2) / 0.5, 1e-8);
+}
+
+TEST_F(Bodies, ForcesLastATickAndImpulsesAreAtOnce) {
+  auto* p_body = new Body;
+  p_body->setMass(4);
+  EXPECT_EQ(p_body->applyForce(Vector(2, 0)), 0);
+  EXPECT_EQ(p_body->applyForce(Vector(2, 8)), 0);
+  ticks(1);
+  expectNear(p_body->getVelocity(), Vector(1, 2), 1e-15);
+  expectNear(p_body->getPosition(), Vector(0.5, 1), 1e-15);
+  ticks(1);
+  expectNear(p_body->getPosition(), Vector(1.5, 3), 1e-15);
+  p_body->applyImpulse(Vector(-4, -8));
+  expectNear(p_body->getVelocity(), Vector(0, 0), 1e-15);
+}
+
+TEST_F(Bodies, TheSettersOfAnObjectAreTakenOver) {
+  auto* p_body = new Body;
+  Object* p_object = p_body;
+  p_object->setPosition(Vector(10, 5));
+  p_object->setVelocity(Vector(1, -0.5));
+  ticks(1);
+  expectNear(p_body->getPosition(), Vector(11, 4.5), 1e-9);
+  p_object->setSpeed(0);
+  ticks(1);
+  expectNear(p_body->getPosition(), Vector(11, 4.5), 1e-9);
+}
+
+TEST_F(Bodies, HearWhenTheyLeaveTheWorldAndMayDieOfIt) {
+  class Leaver : public Body {
+   public:
+    int eventHandler(const Event* p_e) override {
+      if (p_e->getType() == OUT_EVENT) WM.markForDelete(this);
+      return 1;
+    }
+  };
+  auto* p_body = new Leaver;
+  const ObjectKey key = p_body->key();
+  p_body->setPosition(Vector(78.5, 3));
+  p_body->setVelocity(Vector(1, 0));
+  ticks(1);
+  EXPECT_NE(world.find(key), nullptr);
+  ticks(1);
+  EXPECT_EQ(world.find(key), nullptr);
+  EXPECT_EQ(PM.getBodyCount(), 0);
+}
+
+class Planet : public Field {
+ public:
+  explicit Planet(double pull) : m_pull(pull) {}
+  Vector accelerationAt(Vector way, Vector /*velocity*/, double /*time*/) const override {
+    const double r = std::sqrt(way.x() * way.x() + way.y() * way.y());
+    return {-m_pull * way.x() / (r * r * r), -m_pull * way.y() / (r * r * r)};
+  }
+
+ private:
+  double m_pull;
+};
+
+TEST_F(Bodies, AFieldHoldsASatelliteInItsOrbit) {
+  PM.setAspect(1);
+  const Planet planet(perSecondSquared(1));
+  auto* p_moon = new Body;
+  p_moon->setField(&planet, Vector(40, 12));
+  p_moon->setPosition(Vector(41, 12));
+  p_moon->setVelocity(perSecond(Vector(0, 1)));
+  ticks(30 * 44);  // seven times round takes 43.98 s
+  const double angle = 44.0;
+  expectNear(p_moon->getPosition(), Vector(40 + std::cos(angle), 12 + std::sin(angle)), 1e-9);
+}
+
+TEST_F(Bodies, OneThatFallsIntoASingularityFreezesAlone) {
+  PM.setAspect(1);
+  const Planet planet(1);
+  auto* p_doomed = new Body;
+  p_doomed->setType("Doomed");
+  p_doomed->setField(&planet, Vector(0, 0));
+  auto* p_other = new Body;
+  p_other->setPosition(Vector(5, 5));
+  p_other->setVelocity(Vector(0.25, 0));
+  ticks(1);  // it sits in the centre: 0/0
+  EXPECT_TRUE(p_doomed->isFrozen());
+  EXPECT_EQ(PM.getQuarantineCount(), 1u);
+  ASSERT_FALSE(log.empty());
+  EXPECT_NE(log.back().find("Doomed"), std::string::npos);
+  expectNear(p_other->getPosition(), Vector(5.25, 5), 1e-15);
+  p_doomed->setField(nullptr);
+  p_doomed->setVelocity(Vector(1, 0));
+  ticks(1);
+  expectNear(p_doomed->getPosition(), Vector(1, 0), 1e-12);
+}
+
+TEST_F(Bodies, RefuseWhatIsNoNumber) {
+  auto* p_body = new Body;
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1e31}) {
+    EXPECT_EQ(p_body->setMass(bad), -1) << bad;
+    EXPECT_EQ(p_body->applyForce(Vector(bad, 0)), -1);
+    EXPECT_EQ(p_body->applyImpulse(Vector(0, bad)), -1);
+    EXPECT_EQ(p_body->setVelocity(Vector(bad, 0)), -1);
+    EXPECT_EQ(p_body->setPosition(Vector(bad, 0)), -1);
+    EXPECT_EQ(p_body->setDrag(bad), -1);
+    EXPECT_EQ(p_body->setDrag(0, bad), -1);
+    EXPECT_EQ(p_body->setSpring(Vector(), bad), -1);
+    EXPECT_EQ(p_body->setSpring(Vector(bad, 0), 1), -1);
+    EXPECT_EQ(p_body->setGravityScale(bad), -1);
+    EXPECT_EQ(PM.setGravity(Vector(bad, 0)), -1);
+  }
+  EXPECT_EQ(p_body->setMass(0), -1);
+  EXPECT_EQ(p_body->setMass(-1), -1);
+  EXPECT_EQ(p_body->setDrag(-1), -1);
+  EXPECT_EQ(p_body->getMass(), 1);
+  EXPECT_GT(world.getRefusals(), 40u);
+  ticks(1);
+  EXPECT_EQ(p_body->getPosition(), Vector());
+}
+
+TEST_F(Bodies, AThrustBeyondAllBoundsFreezesItAndNothingElse) {
+  auto* p_rocket = new Body;
+  p_rocket->applyForce(Vector(1e30, 0));
+  auto* p_other = new Body;
+  p_other->setVelocity(Vector(0.5, 0));
+  ticks(1);
+  EXPECT_TRUE(p_rocket->isFrozen());
+  EXPECT_EQ(p_rocket->getPosition(), Vector());
+  expectNear(p_other->getPosition(), Vector(0.5, 0), 1e-15);
+}
+
+TEST_F(Bodies, ASceneFarAwayMovesAsAtTheOrigin) {
+  const auto fly = [](Vector offset) {
+    World there;
+    const World::Scope inside(there);
+    there.setLogSink([](const std::string&) {});
+    PM.setGravity(Vector(0, 0.0321));
+    auto* p_body = new Body;
+    static_cast<Object*>(p_body)->setPosition(offset + Vector(0.25, 0.125));
+    p_body->setVelocity(Vector(0.1, -0.7));
+    p_body->setDrag(0.01);
+    for (int i = 0; i < 100; ++i) there.update();
+    const FixedVector at = there.store().position(p_body->key().slot);
+    const FixedVector from = *toFixed(offset);
+    there.shutDown();
+    return at - from;
+  };
+  const FixedVector home = fly(Vector(0, 0));
+  EXPECT_EQ(fly(Vector(1e6, -1e6)), home);
+  EXPECT_EQ(fly(Vector(1e9, 1e9)), home);
+}
+
+TEST_F(Bodies, OutliveTheirWorld) {
+  auto lonely = std::make_unique<World>();
+  std::unique_ptr<Body> body;
+  {
+    const World::Scope inside(*lonely);
+    body = std::make_unique<Body>();
+  }
+  lonely.reset();
+  EXPECT_EQ(body->setMass(3), 0);
+  EXPECT_EQ(body->getMass(), 3);
+  EXPECT_EQ(body->setVelocity(Vector(1, 1)), 0);
+  EXPECT_EQ(body->getVelocity(), Vector(1, 1));
+}
+
+TEST_F(Bodies, TheAspectIsSettledBeforeTheFirst) {
+  EXPECT_EQ(PM.getAspect(), 2);
+  EXPECT_EQ(PM.setAspect(kNan), -1);
+  EXPECT_EQ(PM.setAspect(8), -1);
+  EXPECT_EQ(PM.setAspect(1), 0);
+  new Body;
+  EXPECT_EQ(PM.setAspect(2), -1);
+}
+
+TEST_F(Bodies, RemovedAndInsertedAgainTheyGoOn) {
+  auto* p_body = new Body;
+  p_body->setVelocity(Vector(1, 0));
+  ticks(1);
+  WM.removeObject(p_body);
+  ticks(5);
+  expectNear(p_body->getPosition(), Vector(1, 0), 1e-15);
+  WM.insertObject(p_body);
+  ticks(1);
+  expectNear(p_body->getPosition(), Vector(2, 0), 1e-12);
+}
+
+}  // namespace
+}  // namespace df

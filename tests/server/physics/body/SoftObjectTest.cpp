@@ -1,0 +1,560 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
+#include "physics/body/Body.h"
+#include "physics/body/PhysicsManager.h"
+#include "physics/body/SoftLayer.h"
+#include "physics/body/SoftObject.h"
+
+namespace df {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class SoftObjects : public testing::Test {
+ protected:
+  SoftObjects() : scope(world) {
+    world.setLogSink([this](const std::string& line) { log.push_back(line); });
+    PM.setGravity(Vector(0, 0.02));
+  }
+  ~SoftObjects() override { world.shutDown(); }
+  void ticks(int n) {
+    for (int i = 0; i < n; ++i) world.tick();
+  }
+  std::vector<std::string> log;
+  World world;
+  World::Scope scope;
+};
+
+struct Floor : Object {
+  explicit Floor(Vector corner, double width = 40, double height = 1) {
+    setType("Floor");
+    setPosition(corner);
+    setBox(Box(Vector(0, 0), width, height));
+  }
+};
+
+template <class Base>
+struct Hearing : Base {
+  using Base::Base;
+  int eventHandler(const Event* p_e) override {
+    if (p_e->getType() != COLLISION_EVENT) return 0;
+    const auto& event = *static_cast<const EventCollision*>(p_e);
+    ++heard;
+    impulse = event.getImpulse();
+    p_other = event.getObject1() == this ? event.getObject2() : event.getObject1();
+    return 1;
+  }
+  int heard = 0;
+  double impulse = 0;
+  Object* p_other = nullptr;
+};
+
+double lowest(const SoftBody& body) {
+  double y = -1e300;
+  for (int i = 0; i < body.getNodeCount(); ++i) y = std::max(y, body.getNodePosition(i).y());
+  return y;
+}
+
+TEST_F(SoftObjects, AWorldWithoutThemHasNoLayer) {
+  new Body;
+  ticks(3);
+  EXPECT_EQ(world.findLayer<SoftLayer>(), nullptr);
+}
+
+TEST_F(SoftObjects, ABlobFallsLikeABody) {
+  auto* p_blob = new Blob(Vector(20, 5), 3);
+  p_blob->setDrag(0);
+  auto* p_body = new Body;
+  p_body->setPosition(Vector(40, 5));
+  ticks(20);
+  EXPECT_NEAR(p_blob->getPosition().x(), 20, 1e-9);
+  EXPECT_NEAR(p_blob->getPosition().y(), p_body->getPosition().y(), 2e-3);
+  EXPECT_NEAR(p_blob->getVelocity().y(), 0.4, 1e-6);
+  const Box box = p_blob->getBox();
+  EXPECT_GT(box.getHorizontal(), 6);
+  EXPECT_LT(box.getHorizontal(), 8.5);
+  EXPECT_LT(box.getVertical(), 5.5);
+}
+
+TEST_F(SoftObjects, ABlobComesToRestOnAFloorAndBothHear) {
+  auto* p_floor = new Hearing<Floor>(Vector(0, 20));
+  auto* p_blob = new Hearing<Blob>(Vector(20, 15), 3);
+  ticks(100);
+  const int bounces = p_blob->heard;
+  EXPECT_GE(bounces, 1);
+  EXPECT_LE(bounces, 4);
+  ticks(400);
+  EXPECT_EQ(p_floor->heard, bounces);
+  EXPECT_EQ(p_blob->heard, bounces);
+  EXPECT_EQ(p_blob->p_other, p_floor);
+  EXPECT_GT(p_blob->impulse, 0);
+  EXPECT_NEAR(lowest(*p_blob), 20, 0.5);
+  EXPECT_LT(lowest(*p_blob), 20);
+  EXPECT_TRUE(p_blob->isAsleep());
+}
+
+TEST_F(SoftObjects, ARestingBlobPublishesNothing) {
+  new Floor(Vector(0, 20));
+  auto* p_blob = new Blob(Vector(20, 15), 3);
+  world.setWatched(true);
+  ticks(500);
+  ASSERT_TRUE(p_blob->isAsleep());
+  const std::vector<DrawCommand> before = world.view().commands;
+  EXPECT_FALSE(before.empty());
+  for (int i = 0; i < 60; ++i) {
+    world.tick();
+    EXPECT_TRUE(world.view().changed.empty()) << i;
+    ASSERT_EQ(world.view().commands.size(), before.size());
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      EXPECT_EQ(world.view().commands[k].position, before[k].position);
+      EXPECT_EQ(world.view().commands[k].ch, before[k].ch);
+    }
+  }
+}
+
+TEST_F(SoftObjects, ASleeperWakesWhenItsFloorGoesAndWhenSomethingComes) {
+  auto* p_floor = new Floor(Vector(0, 20));
+  auto* p_blob = new Blob(Vector(20, 15), 3);
+  ticks(500);
+  ASSERT_TRUE(p_blob->isAsleep());
+  auto* p_stone = new Body;
+  p_stone->setBoxShape(1, 1);
+  p_stone->setPosition(Vector(20, 5));
+  const double top = p_blob->getPosition().y();
+  ticks(60);
+  EXPECT_LT(p_stone->getPosition().y(), top);
+  EXPECT_GT(p_blob->getPosition().y(), top);
+  WM.markForDelete(p_stone);
+  ticks(700);
+  ASSERT_TRUE(p_blob->isAsleep());
+  WM.markForDelete(p_floor);
+  ticks(30);
+  EXPECT_GT(p_blob->getPosition().y(), top + 2);
+}
+
+TEST_F(SoftObjects, ACrateLiesOnARopeBridge) {
+  auto* p_rope = new Rope(Vector(10, 10), Vector(30, 10), 1, 50);
+  p_rope->pin(0);
+  p_rope->pin(p_rope->getNodeCount() - 1);
+  auto* p_crate = new Hearing<Body>;
+  p_crate->setBoxShape(4, 1);
+  p_crate->setPosition(Vector(20, 8));
+  ticks(900);
+  EXPECT_LE(p_crate->heard, 3);  // it bounces
+  EXPECT_EQ(p_crate->p_other, p_rope);
+  EXPECT_NEAR(p_crate->getPosition().x(), 20, 0.5);
+  EXPECT_LT(p_crate->getVelocity().getMagnitude(), 1e-4);
+  // Its lower edge lies on the rope, which is bent by its weight.
+  const double y = p_crate->getPosition().y();
+  EXPECT_GT(y + 0.5, 10.1);
+  EXPECT_LT(y + 0.5, 12);
+  EXPECT_NEAR(lowest(*p_rope), y + 0.5, 0.3);
+}
+
+TEST_F(SoftObjects, WhatLiesOnARopeIsToldTheSameInEachTick) {
+  auto* p_rope = new Rope(Vector(10, 10), Vector(30, 10), 1, 50);
+  p_rope->pin(0);
+  p_rope->pin(p_rope->getNodeCount() - 1);
+  auto* p_crate = new Body;
+  p_crate->setBoxShape(4, 1);
+  p_crate->setPosition(Vector(20, 8));
+  world.setWatched(true);
+  ticks(900);
+  const ObjectFacts of_rope = world.store().facts(p_rope->key().slot);
+  const ObjectFacts of_crate = world.store().facts(p_crate->key().slot);
+  EXPECT_EQ(of_crate.velocity, FixedVector{});
+  const std::vector<DrawCommand> before = world.view().commands;
+  for (int i = 0; i < 60; ++i) {
+    world.tick();
+    for (const ObjectFacts& facts : world.view().changed) {
+      const ObjectFacts& told = facts.key == p_rope->key() ? of_rope : of_crate;
+      EXPECT_EQ(facts.key, told.key);
+      EXPECT_EQ(facts.position, told.position);
+      EXPECT_EQ(facts.velocity, told.velocity);
+      EXPECT_EQ(facts.acceleration, told.acceleration);
+      EXPECT_EQ(facts.box, told.box);
+    }
+    ASSERT_EQ(world.view().commands.size(), before.size());
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      EXPECT_EQ(world.view().commands[k].position, before[k].position);
+    }
+  }
+}
+
+TEST_F(SoftObjects, ATurningStackLiesOnACloth) {
+  auto* p_cloth = new Cloth(Vector(8, 12), 24, 2, 1, 200);
+  for (int row = 0; row < p_cloth->getRows(); ++row) {
+    p_cloth->pin(p_cloth->getNode(0, row));
+    p_cloth->pin(p_cloth->getNode(p_cloth->getColumns() - 1, row));
+  }
+  Body* p_below = nullptr;
+  for (const double y : {11.0, 9.5}) {
+    auto* p_crate = new Body;
+    p_crate->setBoxShape(6, 1);
+    p_crate->setTurning();
+    p_crate->setPosition(Vector(20, y));
+    if (p_below == nullptr) {
+      p_below = p_crate;
+      continue;
+    }
+    ticks(600);
+    EXPECT_NEAR(p_crate->getAngle(), 0, 0.1);
+    EXPECT_NEAR(p_below->getPosition().y() - p_crate->getPosition().y(), 1, 0.05);
+    EXPECT_NEAR(p_crate->getPosition().x(), 20, 0.5);
+    EXPECT_GT(p_below->getPosition().y(), 11.37);  // 12, less half a crate and the thickness of the cloth
+    EXPECT_LT(p_below->getPosition().y(), 13.5);
+    const double y_before = p_below->getPosition().y();
+    ticks(60);
+    EXPECT_NEAR(p_below->getPosition().y(), y_before, 0.01);
+  }
+}
+
+TEST_F(SoftObjects, ABlowKeepsTheMomentum) {
+  PM.setGravity(Vector(0, 0));
+  auto* p_blob = new Blob(Vector(10, 10), 2);
+  p_blob->setDrag(0);
+  p_blob->setVelocity(Vector(0.2, 0));
+  auto* p_crate = new Body;
+  p_crate->setBoxShape(3, 2);
+  p_crate->setMass(2);
+  p_crate->setPosition(Vector(20, 10));
+  for (int i = 0; i < 80; ++i) {
+    ticks(1);
+    EXPECT_NEAR(p_blob->getVelocity().x() + 2 * p_crate->getVelocity().x(), 0.2, 1e-7) << i;
+  }
+  EXPECT_GT(p_crate->getVelocity().x(), 0.05);
+}
+
+TEST_F(SoftObjects, TwoBlobsHearOfEachOther) {
+  PM.setGravity(Vector(0, 0));
+  auto* p_left = new Hearing<Blob>(Vector(10, 10), 2);
+  auto* p_right = new Hearing<Blob>(Vector(20, 10), 2);
+  p_left->setVelocity(Vector(0.2, 0));
+  ticks(60);
+  EXPECT_EQ(p_left->heard, 1);
+  EXPECT_EQ(p_right->heard, 1);
+  EXPECT_EQ(p_left->p_other, p_right);
+  EXPECT_EQ(p_right->p_other, p_left);
+  EXPECT_GT(p_right->getVelocity().x(), 0.02);
+}
+
+TEST_F(SoftObjects, ABlobLiesOnACrateOnAFloor) {
+  new Floor(Vector(0, 20));
+  auto* p_crate = new Body;
+  p_crate->setBoxShape(8, 2);
+  p_crate->setPosition(Vector(20, 19));
+  auto* p_blob = new Blob(Vector(20, 14), 3);
+  ticks(400);
+  EXPECT_NEAR(p_crate->getPosition().y(), 19, 0.02);
+  EXPECT_LT(lowest(*p_blob), 18.05);
+  EXPECT_GT(lowest(*p_blob), 17);
+}
+
+TEST_F(SoftObjects, ABodyHangsOnARope) {
+  auto* p_rope = new Rope(Vector(20, 2), Vector(20, 8), 0.1, 1000);
+  p_rope->pin(0);
+  auto* p_ball = new Body;
+  p_ball->setCircle(1);
+  p_ball->setSolidness(SPECTRAL);
+  p_ball->setPosition(Vector(20, 8));
+  ASSERT_EQ(p_rope->attach(p_rope->getNodeCount() - 1, p_ball), 0);
+  ticks(300);
+  EXPECT_NEAR(p_ball->getPosition().y(), 8, 0.3);
+  EXPECT_NEAR(p_ball->getPosition().x(), 20, 0.1);
+  p_rope->detach(p_rope->getNodeCount() - 1);
+  ticks(20);
+  EXPECT_GT(p_ball->getPosition().y(), 10);
+}
+
+TEST_F(SoftObjects, WhatIsAttachedSwingsWithoutRubbingOnTheRope) {
+  auto* p_rope = new Rope(Vector(20, 2), Vector(30, 2), 0.2, 200);
+  p_rope->setDrag(0);
+  p_rope->pin(0);
+  auto* p_ball = new Hearing<Body>;
+  p_ball->setCircle(1.5);
+  p_ball->setPosition(Vector(30, 2));
+  ASSERT_EQ(p_rope->attach(p_rope->getNodeCount() - 1, p_ball), 0);
+  double left = 30, right = 0;
+  ticks(40);
+  for (int i = 0; i < 40; ++i) {
+    ticks(1);
+    left = std::min(left, p_ball->getPosition().x());
+  }
+  for (int i = 0; i < 60; ++i) {
+    ticks(1);
+    right = std::max(right, p_ball->getPosition().x());
+  }
+  EXPECT_LT(left, 11);
+  EXPECT_GT(right, 29);
+  EXPECT_EQ(p_ball->heard, 0);
+}
+
+TEST_F(SoftObjects, WhoIsDraggedFollowsThePointer) {
+  PM.setGravity(Vector(0, 0));
+  auto* p_blob = new Blob(Vector(20, 10), 2);
+  EXPECT_EQ(p_blob->dragTo(Vector(30, 10)), -1);
+  ASSERT_EQ(p_blob->grab(Vector(22, 10), 5), 0);
+  p_blob->dragTo(Vector(40, 12));
+  ticks(200);
+  EXPECT_NEAR(p_blob->getNodePosition(p_blob->getNearestNode(Vector(40, 12))).x(), 40, 0.1);
+  EXPECT_NEAR(p_blob->getNodePosition(p_blob->getNearestNode(Vector(40, 12))).y(), 12, 0.1);
+  p_blob->release();
+  EXPECT_FALSE(p_blob->isGrabbed());
+  p_blob->setVelocity(Vector(1, 0));
+  ticks(10);
+  EXPECT_GT(p_blob->getPosition().x(), 45);
+}
+
+TEST_F(SoftObjects, WhatTheGameSetsIsTakenOver) {
+  PM.setGravity(Vector(0, 0));
+  auto* p_blob = new Blob(Vector(20, 10), 2, 3);
+  EXPECT_NEAR(p_blob->getMass(), 3, 1e-12);
+  p_blob->setDrag(0);
+  p_blob->setPosition(Vector(1e9, -7));
+  p_blob->setVelocity(Vector(0.25, 0));
+  ticks(8);
+  EXPECT_NEAR(p_blob->getPosition().x() - 1e9, 2, 1e-6);
+  p_blob->applyImpulse(Vector(0, 3));
+  EXPECT_NEAR(p_blob->getNodeVelocity(0).y(), 1, 1e-9);
+  p_blob->applyForce(Vector(-3, 0));
+  ticks(1);
+  EXPECT_NEAR(p_blob->getVelocity().x(), -0.75, 1e-6);
+  ticks(1);
+  EXPECT_NEAR(p_blob->getVelocity().x(), -0.75, 1e-6);
+}
+
+TEST_F(SoftObjects, BadNumbersAreRefused) {
+  auto* p_blob = new Blob(Vector(20, 10), kNan, -1, 1e30);
+  EXPECT_EQ(world.getRefusals(), 3u);
+  EXPECT_NEAR(p_blob->getMass(), 1, 1e-12);
+  EXPECT_EQ(p_blob->setPosition(Vector(kNan, 0)), -1);
+  EXPECT_EQ(p_blob->applyImpulse(Vector(kNan, 0)), -1);
+  EXPECT_EQ(p_blob->applyForce(Vector(0, 1e30)), -1);
+  EXPECT_EQ(p_blob->applyForce(1000, Vector(0, 1)), -1);
+  EXPECT_EQ(p_blob->applyForce(0, Vector(0, 1e30)), -1);
+  EXPECT_EQ(p_blob->applyForce(0, Vector(0.8e9, 0)), 0);
+  EXPECT_EQ(p_blob->applyForce(0, Vector(0.8e9, 0)), -1);  // the sum
+  EXPECT_EQ(p_blob->applyForce(0, Vector(-0.8e9, 0)), 0);
+  EXPECT_EQ(p_blob->setFriction(-1), -1);
+  EXPECT_EQ(p_blob->setDrag(kNan), -1);
+  EXPECT_EQ(p_blob->setGravityScale(kNan), -1);
+  EXPECT_EQ(p_blob->pin(1000), -1);
+  EXPECT_EQ(p_blob->attach(0, nullptr), -1);
+  EXPECT_EQ(p_blob->grab(Vector(0, 0), kNan), -1);
+  EXPECT_EQ(p_blob->setDrawing(BodyDrawing::SPRITE), -1);
+  EXPECT_EQ(PM.setAspect(1), -1);
+  new Rope(Vector(5, 5), Vector(5, 5));
+  new Beam(Vector(kNan, 5), Vector(5, 5));
+  new Cloth(Vector(1, 1), 0, kNan);
+  ticks(30);
+  EXPECT_EQ(PM.getQuarantineCount(), 0u);
+}
+
+TEST_F(SoftObjects, WhatGoesWrongStaysAlone) {
+  const auto scene = [&](bool with_runaway) {
+    World alone;
+    const World::Scope inner(alone);
+    alone.setLogSink([](const std::string&) {});
+    PM.setGravity(Vector(0, 0.02));
+    auto* p_blob = new Blob(Vector(20, 10), 2);
+    SoftBody* p_runaway = nullptr;
+    if (with_runaway) {
+      p_runaway = new Rope(Vector(60, 10), Vector(70, 10));
+      p_runaway->setPosition(Vector(1.9999999e9, 0));
+      p_runaway->setVelocity(Vector(1e6, 0));
+    }
+    for (int i = 0; i < 20; ++i) alone.tick();
+    if (with_runaway) {
+      EXPECT_TRUE(p_runaway->isFrozen());
+      EXPECT_EQ(PM.getQuarantineCount(), 1u);
+      p_runaway->setPosition(Vector(40, 5));
+      EXPECT_FALSE(p_runaway->isFrozen());
+      alone.tick();
+      EXPECT_NEAR(p_runaway->getPosition().x(), 40, 0.01);
+      EXPECT_NEAR(p_runaway->getNodePosition(0).x(), 35, 0.1);
+    } else {
+      alone.tick();
+    }
+    const Vector at = p_blob->getPosition();
+    alone.shutDown();
+    return at;
+  };
+  const Vector with = scene(true), without = scene(false);
+  EXPECT_EQ(with.x(), without.x());
+  EXPECT_EQ(with.y(), without.y());
+}
+
+struct Vandal : Blob {
+  using Blob::Blob;
+  int eventHandler(const Event* p_e) override {
+    if (p_e->getType() != COLLISION_EVENT) return 0;
+    const auto& event = *static_cast<const EventCollision*>(p_e);
+    Object* p_other = event.getObject1() == this ? event.getObject2() : event.getObject1();
+    delete p_other;
+    new Rope(getPosition(), getPosition() + Vector(5, 0));
+    if (suicidal) delete this;
+    return 1;
+  }
+  bool suicidal = false;
+};
+
+TEST_F(SoftObjects, HandlersMayDeleteAnybody) {
+  new Floor(Vector(0, 20));
+  new Floor(Vector(0, 25));
+  auto* p_crate = new Body;
+  p_crate->setPosition(Vector(22, 17));
+  auto* p_rope = new Rope(Vector(15, 17), Vector(25, 17));
+  p_rope->attach(0, p_crate);
+  new Vandal(Vector(20, 12), 2);
+  auto* p_last = new Vandal(Vector(40, 12), 2);
+  p_last->suicidal = true;
+  ticks(200);
+  EXPECT_EQ(WM.objectsOfType("Floor").getCount(), 0);
+}
+
+struct Spawner : Body {
+  int eventHandler(const Event* p_e) override {
+    if (p_e->getType() == COLLISION_EVENT) new Blob(Vector(50, 5), 2);
+    return 1;
+  }
+};
+
+TEST_F(SoftObjects, TheFirstOneMayComeFromAHandlerOfABody) {
+  new Floor(Vector(0, 20));
+  auto* p_body = new Spawner;
+  p_body->setPosition(Vector(20, 15));
+  ticks(100);
+  EXPECT_NE(world.findLayer<SoftLayer>(), nullptr);
+  EXPECT_GT(WM.objectsOfType("Blob").getCount(), 0);
+}
+
+TEST_F(SoftObjects, TheRunIsTheSameEveryTime) {
+  const auto run = [] {
+    World alone;
+    const World::Scope inner(alone);
+    PM.setGravity(Vector(0, 0.02));
+    new Floor(Vector(0, 20));
+    auto* p_blob = new Blob(Vector(20, 10), 2);
+    auto* p_cloth = new Cloth(Vector(10, 14), 20, 2);
+    for (int row = 0; row < p_cloth->getRows(); ++row) {
+      p_cloth->pin(p_cloth->getNode(0, row));
+      p_cloth->pin(p_cloth->getNode(p_cloth->getColumns() - 1, row));
+    }
+    auto* p_crate = new Body;
+    p_crate->setBoxShape(2, 1);
+    p_crate->setTurning();
+    p_crate->setPosition(Vector(17, 5));
+    std::vector<double> trace;
+    for (int i = 0; i < 200; ++i) {
+      alone.tick();
+      for (const Vector at : {p_blob->getPosition(), p_crate->getPosition(), p_cloth->getPosition()}) {
+        trace.push_back(at.x());
+        trace.push_back(at.y());
+      }
+    }
+    EXPECT_LT(p_crate->getPosition().y(), 19);
+    alone.shutDown();
+    return trace;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST_F(SoftObjects, StiffnessIsWhatItSays) {
+  constexpr double kGravity = 0.04;  // in widths of a cell
+  const double rows = 0.5;           // a width of a cell
+  auto* p_rope = new Rope(Vector(5, 2), Vector(5, 12), 3, 1);
+  p_rope->pin(0);
+  auto* p_beam = new Beam(Vector(10, 2), Vector(30, 2), 5, 2, true);
+  const int rope_end = p_rope->getNodeCount() - 1, beam_end = p_beam->getNodeCount() - 1;
+  ticks(1500);
+  EXPECT_NEAR(p_rope->getNodePosition(rope_end).y() - 12, 20 * kGravity / 2 * rows, 0.01);
+  EXPECT_NEAR(p_beam->getNodePosition(beam_end).y() - 2, 20 * kGravity / 2 * rows, 0.01);
+}
+
+// A force at the end of a clamped beam bends it by FL³/3EI, at any number of elements.
+TEST_F(SoftObjects, AForceAtItsEndBendsABeam) {
+  PM.setGravity(Vector(0, 0));
+  constexpr double kMass = 2, kStiffness = 1, kLength = 20, kForce = 0.02;  // rows
+  constexpr double kEi = kStiffness * kMass * kLength * kLength / 8;
+  const double rows = 0.5;  // a width of a cell
+  const double expected = kForce / rows * kLength * kLength * kLength / (3 * kEi) * rows;
+  for (const int elements : {8, 16, 32}) {
+    auto* p_beam = new Beam(Vector(0, 100.0 * elements), Vector(kLength, 100.0 * elements), kMass, kStiffness,
+                            true, elements);
+    ASSERT_EQ(p_beam->getNodeCount(), elements + 1);
+    p_beam->setDrag(0.1);
+    for (int i = 0; i < 1000; ++i) {
+      p_beam->applyForce(elements, Vector(0, kForce));
+      ticks(1);
+    }
+    EXPECT_NEAR(p_beam->getNodePosition(elements).y() - 100.0 * elements, expected, 0.01 * expected)
+        << elements;
+    for (int i = 0; i < 1000; ++i) ticks(1);  // it was told each time
+    EXPECT_NEAR(p_beam->getNodePosition(elements).y() - 100.0 * elements, 0, 0.05 * expected) << elements;
+  }
+}
+
+TEST_F(SoftObjects, CirclesAreRoundInTheMetric) {
+  auto* p_blob = new Blob(Vector(20, 10), 4);
+  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+  for (int i = 0; i < p_blob->getNodeCount(); ++i) {
+    const Vector at = p_blob->getNodePosition(i);
+    left = std::min(left, at.x()), right = std::max(right, at.x());
+    top = std::min(top, at.y()), bottom = std::max(bottom, at.y());
+  }
+  EXPECT_NEAR(right - left, 8, 0.2);
+  EXPECT_NEAR(bottom - top, 4, 0.1);
+}
+
+TEST_F(SoftObjects, SoftBodiesAreDrawn) {
+  PM.setGravity(Vector(0, 0));
+  auto* p_rope = new Rope(Vector(2, 2), Vector(7, 2));
+  auto* p_fill = new Cloth(Vector(20, 2), 6, 3);
+  p_fill->setDrawing(BodyDrawing::FILL, '%');
+  auto* p_none = new Blob(Vector(40, 10), 3);
+  p_none->setDrawing(BodyDrawing::NONE);
+  auto* p_steep = new Beam(Vector(50, 2), Vector(50, 6));
+  ASSERT_NE(p_rope, nullptr);
+  ASSERT_NE(p_steep, nullptr);
+  world.tick();
+  const Canvas canvas = world.renderView({});
+  EXPECT_EQ(canvas.at(2, 2).ch, U'-');
+  EXPECT_EQ(canvas.at(7, 2).ch, U'-');
+  EXPECT_EQ(canvas.at(8, 2).ch, U' ');
+  EXPECT_EQ(canvas.at(23, 3).ch, U'%');
+  EXPECT_EQ(canvas.at(50, 4).ch, U'|');
+  EXPECT_EQ(canvas.at(43, 10).ch, U' ');
+}
+
+TEST_F(SoftObjects, OneThatIsInactiveStaysAndIsNothingToOthers) {
+  auto* p_blob = new Blob(Vector(20, 10), 2);
+  p_blob->setActive(false);
+  auto* p_body = new Body;
+  p_body->setPosition(Vector(20, 6));
+  ticks(60);
+  EXPECT_GT(p_body->getPosition().y(), 20);
+  EXPECT_NEAR(p_blob->getPosition().y(), 10, 1e-9);
+  p_blob->setActive();
+  ticks(10);
+  EXPECT_GT(p_blob->getPosition().y(), 10.5);
+}
+
+TEST_F(SoftObjects, TheyVanishWithTheirObject) {
+  auto* p_blob = new Blob(Vector(20, 10), 2);
+  ticks(3);
+  delete p_blob;
+  ticks(3);
+  EXPECT_EQ(PM.setAspect(1), 0);
+}
+
+}  // namespace
+}  // namespace df

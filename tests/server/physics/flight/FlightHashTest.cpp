@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "physics/flight/FlightDrag.h"
+#include "physics/flight/FlightField.h"
+#include "physics/flight/FlightSpring.h"
+#include "physics/geometry/Place.h"
+#include "shared/values/SplitMix64.h"
+
+namespace naiad::physics {
+namespace {
+
+class Hash {
+ public:
+  void add(double value) {
+    m_hash = (m_hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3 ^ m_hash >> 32;
+  }
+  void add(const Flown& f) {
+    add(f.displacement.x), add(f.displacement.y);
+    add(f.velocity.x), add(f.velocity.y);
+  }
+  std::uint64_t value() const { return m_hash; }
+
+ private:
+  std::uint64_t m_hash = 0xcbf29ce484222325;
+};
+
+struct Whirl : ForceField {
+  double stiffness = 1;
+  Vec2 acceleration(Vec2 p, Vec2 v, double t) const override {
+    return -stiffness * p + perpendicular(v) * (1 + 0.1 * t) - 0.3 * length(v) * v;
+  }
+};
+
+// One number for all that flies. Whatever compiled this, at whatever level: the same.
+TEST(Flight, IsTheSameBitsEverywhere) {
+  SplitMix64 random(1);
+  Hash hash;
+  const auto any = [&](double size) { return size * (2 * random.unit() - 1); };
+  const auto vector = [&](double size) { return Vec2{any(size), any(size)}; };
+  IntegratorCounters counters;
+  for (int i = 0; i < 2000; ++i) {
+    const double t = random.unit(), scale = std::ldexp(1, static_cast<int>(random.below(40)) - 5);
+    const double big = scale * random.unit();
+    const Vec2 p = vector(10), v = vector(5), a = vector(1);
+    hash.add(flyFree(v, a, t));
+    hash.add(flyLinearDrag(v, a, big, t));
+    hash.add(flySpring(p, v, a, {big, i % 2 == 0 ? 0 : 4 * random.unit() * std::sqrt(big)}, t));
+    const FlownPair pair = PairFlow(big, 0.1, 1, 0.25, t)(p, v, a, a, {});
+    hash.add(pair.first), hash.add(pair.second);
+    const FlownOnLine line = flyQuadraticDragOnLine(v.x, a.x, 0.1 * random.unit(), t);
+    hash.add(line.displacement), hash.add(line.velocity);
+    Flown flown;
+    flyQuadraticDrag(v, a, random.unit(), t, flown, counters);
+    hash.add(flown);
+  }
+  for (int method = 0; method <= static_cast<int>(IntegratorMethod::kRadau); ++method) {
+    IntegratorOptions options;
+    options.method = static_cast<IntegratorMethod>(method);
+    for (const double stiffness : {1.0, 1e3, 1e7}) {
+      Whirl field;
+      field.stiffness = stiffness;
+      for (int i = 0; i < 5; ++i) {
+        Flown flown;
+        const Vec2 p = vector(1), v = vector(1);
+        flyField(field, p, v, i, 0.1, options, flown, counters);
+        if (isFinite(flown.displacement) && isFinite(flown.velocity)) hash.add(flown);
+      }
+    }
+  }
+  hash.add(static_cast<double>(counters.evaluations));
+  hash.add(static_cast<double>(counters.newton_failures));
+  EXPECT_EQ(hash.value(), 0x187bf464a8610fc0ULL) << std::hex << hash.value();
+}
+
+}  // namespace
+}  // namespace naiad::physics

@@ -1,0 +1,199 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "physics/flight/FlightSpring.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/server/physics/QuadReference.h"
+
+namespace naiad::physics {
+namespace {
+
+Quad q(double x) {
+  return static_cast<Quad>(x);
+}
+
+// x and v at t of x″ = a − kx − cx′, from the characteristic roots.
+struct QuadState {
+  Quad x, v;
+};
+QuadState reference(double k, double c, double a, double x0, double v0, Quad t) {
+  const Quad half = q(c) / 2, disc = half * half - q(k), rest = q(a) / q(k), d = q(x0) - rest;
+  const Quad decay = expq(-half * t);
+  if (disc < 0) {
+    const Quad w = sqrtq(-disc), s = sinq(w * t), co = cosq(w * t), b = (q(v0) + half * d) / w;
+    return {rest + decay * (d * co + b * s), decay * ((b * w - half * d) * co - (d * w + half * b) * s)};
+  }
+  if (disc == 0) {
+    const Quad b = q(v0) + half * d;
+    return {rest + decay * (d + b * t), decay * (b - half * (d + b * t))};
+  }
+  const Quad w = sqrtq(disc), fast = half + w, slow = q(k) / fast;
+  if (w * t < 1) {  // nearly critical: two decays would cancel
+    const Quad s = sinhq(w * t) / w, co = coshq(w * t);
+    return {rest + decay * (d * (co + half * s) + q(v0) * s),
+            decay * (q(v0) * (co - half * s) - q(k) * d * s)};
+  }
+  const Quad of_slow = (q(v0) + fast * d) / (2 * w), of_fast = d - of_slow;
+  const Quad es = expq(-slow * t), ef = expq(-fast * t);
+  return {rest + of_slow * es + of_fast * ef, -slow * of_slow * es - fast * of_fast * ef};
+}
+
+TEST(Spring, UndampedKeepsItsAmplitudeForTenPeriods) {
+  for (const double hertz : {1.0, 5.0, 15.0}) {
+    const double omega = 2 * 3.141592653589793 * hertz, k = omega * omega;
+    const SpringFlow flow({k, 0}, 1.0 / 30);
+    double x = 1, v = 0, worst = 0, amplitude = 0;
+    const int ticks = static_cast<int>(std::lround(10 / hertz * 30));
+    for (int i = 1; i <= ticks; ++i) {
+      const Flown f = flow({x, 0}, {v, 0}, {});
+      x += f.displacement.x;
+      v = f.velocity.x;
+      const QuadState truth = reference(k, 0, 0, 1, 0, i * q(1.0 / 30));
+      worst = std::fmax(worst, std::fabs(static_cast<double>(q(x) - truth.x)));
+      amplitude = std::fmax(amplitude, std::fabs(std::sqrt(x * x + v * v / k) - 1));
+    }
+    EXPECT_LE(worst, 1e-12);
+    EXPECT_LE(amplitude, 1e-12);
+    std::printf("spring %g Hz: error %.2g, amplitude off by %.2g\n", hertz, worst, amplitude);
+  }
+}
+
+TEST(Spring, StiffAndDampedStaysOnTheExponential) {
+  const double eps = 0x1p-52, duration = 10, gravity = -10;
+  double worst_share = 0;
+  for (const double k : {1e-6, 1.0, 100.0, 1e4, 1e6, 1e8, 1e10}) {
+    const double omega = std::sqrt(k);
+    for (const double zeta :
+         {0.0, 1e-9, 0.05, 0.5, 1 - 1e-6, 1 - 1e-12, 1.0, 1 + 1e-12, 1 + 1e-6, 2.0, 100.0, 1e6}) {
+      for (const int rate : {3, 30, 480}) {
+        const double h = 1.0 / rate, c = 2 * zeta * omega;
+        const SpringFlow flow({k, c}, h);
+        double x = 1, v = 0, worst = 0;
+        const int ticks = static_cast<int>(duration) * rate;
+        for (int i = 1; i <= ticks; ++i) {
+          const Flown f = flow({x, 0}, {v, 0}, {gravity, 0});
+          x += f.displacement.x;
+          v = f.velocity.x;
+          if (rate == 480 && i % 16 != 0) continue;
+          const QuadState truth = reference(k, c, gravity, 1, 0, i * q(h));
+          // Without much of a spring the body falls far: relative to the way.
+          const double scale = std::fmax(1, std::fabs(static_cast<double>(truth.x)));
+          worst = std::fmax(worst, std::fabs(static_cast<double>(q(x) - truth.x)) / scale);
+          worst = std::fmax(worst,
+                            std::fabs(static_cast<double>(q(v) - truth.v)) / std::fmax(omega, 100 * scale));
+        }
+        const double bound = 1e-11 + 4 * eps * omega * duration;
+        worst_share = std::fmax(worst_share, worst / bound);
+        EXPECT_LE(worst, bound) << "k " << k << " zeta " << zeta << " h " << h;
+      }
+    }
+  }
+  std::printf("stiff springs: largest error is %.3f of the bound 1e-11 + 4 eps omega T\n", worst_share);
+}
+
+TEST(Spring, OneStepIsExactWhateverItsParameters) {
+  SplitMix64 random(1);
+  double worst = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const auto any = [&](double low, double high) {
+      return std::pow(10, low + (high - low) * random.unit());
+    };
+    const double k = any(-8, 12), t = any(-3, 2);
+    double c = i % 3 == 0 ? 2 * std::sqrt(k) * (1 + any(-16, 0) * (i % 2 ? 1 : -1)) : any(-12, 8);
+    if (i % 17 == 0) c = 0;
+    const double omega = std::sqrt(k);
+    if (omega * t > 1e6) continue;
+    const SpringFlow flow({k, c}, t);
+    const Flown kicked = flow({0, 0}, {1, 0}, {0, 0}), pulled = flow({1, 0}, {0, 0}, {0, 0}),
+                pushed = flow({0, 0}, {0, 0}, {1, 0});
+    const QuadState kick = reference(k, c, 0, 0, 1, q(t)), pull = reference(k, c, 0, 1, 0, q(t)),
+                    push = reference(k, c, 1, 0, 0, q(t));
+    // Units: what the quantity can be at most within t.
+    const double time = 1 / std::fmax(1 / t, std::fmax(omega, c / 2));
+    const double reach = std::fmin(t, 1 / omega);
+    for (const double error :
+         {std::fabs(static_cast<double>(q(kicked.displacement.x) - kick.x)) / time,
+          std::fabs(static_cast<double>(q(kicked.velocity.x) - kick.v)),
+          std::fabs(static_cast<double>(q(1 + pulled.displacement.x) - pull.x)),
+          std::fabs(static_cast<double>(q(pulled.velocity.x) - pull.v)) / (k * time),
+          std::fabs(static_cast<double>(q(pushed.displacement.x) - push.x)) / (reach * reach),
+          std::fabs(static_cast<double>(q(pushed.velocity.x) - push.v)) / time}) {
+      worst = std::fmax(worst, error);
+      ASSERT_LE(error, 1e-14) << "k " << k << " c " << c << " t " << t;
+    }
+  }
+  std::printf("one spring step: largest error %.2g of the amplitude\n", worst);
+}
+
+TEST(Spring, StaysBoundedAtAnyStiffnessAndStep) {
+  for (const double k : {1e-30, 1e10, 1e20, 1e30}) {
+    for (const double c : {0.0, 1e-3, 1e15, 1e30}) {
+      for (const double t : {1e-12, 1.0, 1e6}) {
+        const SpringFlow flow({k, c}, t);
+        double x = 1, v = 0;
+        for (int i = 0; i < 1000; ++i) {
+          const Flown f = flow({x, 0}, {v, 0}, {0, 0});
+          x += f.displacement.x;
+          v = f.velocity.x;
+          ASSERT_LE(std::fabs(x), 1 + 1e-11) << k << " " << c << " " << t;
+          ASSERT_LE(std::fabs(v), (1 + 1e-11) * std::sqrt(k)) << k << " " << c << " " << t;
+        }
+      }
+    }
+  }
+}
+
+TEST(Spring, WithoutStiffnessIsLinearDragAndWithoutAnythingFree) {
+  const Flown free = flySpring({5, 5}, {1, 2}, {0, 4}, {0, 0}, 3);
+  EXPECT_EQ(free.displacement, (Vec2{3, 24}));
+  EXPECT_EQ(free.velocity, (Vec2{1, 14}));
+  for (const double c : {1e-9, 0.3, 40.0}) {
+    const Flown f = flySpring({5, 5}, {1, 0}, {0, 1}, {0, c}, 2);
+    const Quad way = -expm1q(-2 * q(c)) / q(c);
+    EXPECT_NEAR(f.displacement.x, static_cast<double>(way), 1e-15);
+    EXPECT_NEAR(f.velocity.y, static_cast<double>(way), 1e-15);
+  }
+}
+
+TEST(Pair, MovesLikeTwoBodiesOnASpring) {
+  for (const double k : {2.0, 1e6, 1e10}) {
+    const double w1 = 0.5, w2 = 0.125, c = 0.3, h = 1.0 / 30;  // masses 2 and 8
+    const PairFlow flow(k, c, w1, w2, h);
+    Vec2 x1 = {0, 0}, x2 = {3, 4}, v1 = {1, 0}, v2 = {0, -1};
+    const Vec2 g = {0, 10};
+    const int ticks = 300;
+    for (int i = 0; i < ticks; ++i) {
+      const FlownPair f = flow(x2 - x1, v1, v2, g, g);
+      x1 += f.first.displacement, x2 += f.second.displacement;
+      v1 = f.first.velocity, v2 = f.second.velocity;
+    }
+    const Quad t = ticks * q(h);
+    const double relative_k = k * (w1 + w2), relative_c = c * (w1 + w2);
+    const double omega = std::sqrt(relative_k);
+    const double bound = 5 * (1e-11 + 4 * 0x1p-52 * omega * 10);
+    const QuadState rx = reference(relative_k, relative_c, 0, 3, -1, t),
+                    ry = reference(relative_k, relative_c, 0, 4, -1, t);
+    EXPECT_NEAR(x2.x - x1.x, static_cast<double>(rx.x), bound);
+    EXPECT_NEAR(x2.y - x1.y, static_cast<double>(ry.x), bound);
+    // the centre: (2·x1 + 8·x2) / 10 from (2.4, 3.2), momentum (2, −8) + 10·g·t
+    const auto time = static_cast<double>(t);
+    EXPECT_NEAR((2 * x1.x + 8 * x2.x) / 10, 2.4 + 0.2 * time, 1e-11 + 1e-14 * omega);
+    EXPECT_NEAR((2 * x1.y + 8 * x2.y) / 10, 3.2 - 0.8 * time + 5 * time * time, 1e-9);
+    EXPECT_NEAR(2 * v1.x + 8 * v2.x, 2, 1e-12 * std::fmax(10, omega));
+    EXPECT_NEAR(2 * v1.y + 8 * v2.y, -8 + 100 * time, 1e-11 + 1e-14 * omega);
+  }
+}
+
+TEST(Pair, ImmovableBodiesKeepTheirVelocity) {
+  const FlownPair f = PairFlow(100, 1, 0, 2, 0.5)({1, 0}, {3, 0}, {0, 1}, {0, 10}, {0, 10});
+  EXPECT_EQ(f.first.velocity, (Vec2{3, 0}));
+  EXPECT_EQ(f.first.displacement, (Vec2{1.5, 0}));
+  const FlownPair both = PairFlow(100, 1, 0, 0, 0.5)({1, 0}, {3, 0}, {0, 1}, {0, 10}, {0, 10});
+  EXPECT_EQ(both.second.velocity, (Vec2{0, 1}));
+  EXPECT_EQ(both.first.displacement, (Vec2{1.5, 0}));
+}
+
+}  // namespace
+}  // namespace naiad::physics

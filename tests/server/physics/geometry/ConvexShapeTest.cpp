@@ -1,0 +1,320 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <limits>
+
+#include "physics/geometry/ConvexShape.h"
+#include "physics/geometry/Mass.h"
+#include "physics/geometry/ShapeQuery.h"
+#include "physics/geometry/ShapeRaster.h"
+#include "tests/server/physics/QuadReference.h"
+#include "tests/server/physics/RandomShapes.h"
+
+namespace naiad::physics {
+namespace {
+
+using test::anyRotation;
+using test::anyShape;
+using test::anyVec;
+using test::between;
+
+constexpr double kPi = df::math::kPi;
+
+TEST(Rotation, QuarterTurnsAndNoTurnsAreExact) {
+  const Vec2 v = {0.1, -0.7};
+  EXPECT_EQ((Rotation{0, 1} * v), perpendicular(v));
+  EXPECT_EQ((Rotation{} * v), v);
+  EXPECT_EQ(turned(Rotation{0.6, 0.8}, 0), (Rotation{0.6, 0.8}));
+  EXPECT_EQ(renormalised(Rotation{0, -1}), (Rotation{0, -1}));
+}
+
+TEST(Rotation, TurningIsExactAndStaysOnTheCircle) {
+  double worst = 0;
+  for (const double angle : {1e-300, 1e-9, 1e-3, 0.0625, 0.1249999, 0.125, 0.2, 1.0, -3.0, -0.125, 100.0}) {
+    Rotation q;
+    for (int i = 1; i <= 10000; ++i) {
+      q = turned(q, angle);
+      ASSERT_NEAR(q.c * q.c + q.s * q.s, 1, 7e-16);
+    }
+    const Quad whole = static_cast<Quad>(angle) * 10000;
+    const double off = std::fabs(
+        static_cast<double>(static_cast<Quad>(q.c) * sinq(whole) - static_cast<Quad>(q.s) * cosq(whole)));
+    worst = std::max(worst, off);
+    EXPECT_LE(off, 3e-12) << angle;  // 10,000 turns: 3e-16 each
+  }
+  std::printf("rotation: %.2g rad off after 10,000 turns\n", worst);
+}
+
+TEST(ConvexShape, RefusesWhatIsNoShapeAndLeavesTheOldOne) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  ConvexShape shape;
+  ASSERT_EQ(makeCircle(2, {}, shape), ShapeStatus::kOk);
+  for (const double bad : {nan, inf, -inf}) {
+    EXPECT_EQ(makeCircle(bad, {}, shape), ShapeStatus::kNotFinite);
+    EXPECT_EQ(makeCircle(1, {0, bad}, shape), ShapeStatus::kNotFinite);
+    EXPECT_EQ(makeBox(bad, 1, {}, {}, 0, shape), ShapeStatus::kNotFinite);
+    EXPECT_EQ(makeBox(1, 1, {bad, 0}, {}, 0, shape), ShapeStatus::kNotFinite);
+    EXPECT_EQ(makeBox(1, 1, {}, {bad, 0}, 0, shape), ShapeStatus::kNotFinite);
+    EXPECT_EQ(makeCapsule({0, bad}, {1, 0}, 1, shape), ShapeStatus::kNotFinite);
+    const std::array<Vec2, 3> points = {Vec2{0, 0}, {1, 0}, {0, bad}};
+    EXPECT_EQ(makePolygon(points, 0, shape), ShapeStatus::kNotFinite);
+    EXPECT_EQ(makeHull(points, 0, shape), ShapeStatus::kNotFinite);
+  }
+  for (const double bad : {0.0, -1.0, 1e-7, 1e-310}) {
+    EXPECT_EQ(makeCircle(bad, {}, shape), ShapeStatus::kTooSmall);
+    EXPECT_EQ(makeBox(bad, 1, {}, {}, 0, shape), ShapeStatus::kTooSmall);
+    EXPECT_EQ(makeCapsule({}, {1, 0}, bad, shape), ShapeStatus::kTooSmall);
+  }
+  EXPECT_EQ(makeCapsule({1, 1}, {1, 1}, 1, shape), ShapeStatus::kTooSmall);
+  EXPECT_EQ(makeCircle(1e30, {}, shape), ShapeStatus::kTooLarge);
+  EXPECT_EQ(makeBox(1, 1e30, {}, {}, 0, shape), ShapeStatus::kTooLarge);
+  EXPECT_EQ(makeBox(1, 1, {1e30, 0}, {}, 0, shape), ShapeStatus::kTooLarge);
+  EXPECT_EQ(makeBox(1, 1, {}, {}, -0.1, shape), ShapeStatus::kTooSmall);
+
+  const auto polygon = [&](std::vector<Vec2> points) { return makePolygon(points, 0, shape); };
+  EXPECT_EQ(polygon({{0, 0}, {1, 0}}), ShapeStatus::kTooFew);
+  EXPECT_EQ(polygon(std::vector<Vec2>(17, Vec2{})), ShapeStatus::kTooMany);
+  EXPECT_EQ(polygon({{0, 0}, {0, 1}, {1, 0}}), ShapeStatus::kClockwise);
+  EXPECT_EQ(polygon({{0, 0}, {1, 0}, {2, 0}}), ShapeStatus::kTooSmall);
+  EXPECT_EQ(polygon({{0, 0}, {1, 0}, {1, 0}, {0, 1}}), ShapeStatus::kTooSmall);
+  EXPECT_EQ(polygon({{0, 0}, {1, 0}, {2, 0}, {1, 1}}), ShapeStatus::kNotConvex);
+  EXPECT_EQ(polygon({{0, 0}, {2, 0}, {0.5, 0.5}, {0, 2}}), ShapeStatus::kNotConvex);
+  EXPECT_EQ(polygon({{0, 0}, {1e30, 0}, {0, 1}}), ShapeStatus::kTooLarge);
+  std::vector<Vec2> star;
+  for (int i = 0; i < 5; ++i) star.push_back({std::cos(i * 4 * kPi / 5), std::sin(i * 4 * kPi / 5)});
+  EXPECT_EQ(polygon(star), ShapeStatus::kNotConvex);
+  EXPECT_EQ(makeHull(std::array<Vec2, 3>{Vec2{0, 0}, {1, 1}, {2, 2}}, 0, shape), ShapeStatus::kTooSmall);
+  EXPECT_EQ(makeHull({}, 0, shape), ShapeStatus::kTooFew);
+  EXPECT_EQ(makeHull(std::vector<Vec2>(5000), 0, shape), ShapeStatus::kTooMany);
+  EXPECT_EQ(shape.count, 1);
+  EXPECT_EQ(shape.radius, 2);
+}
+
+TEST(ConvexShape, AHullHoldsItsPoints) {
+  SplitMix64 random(1);
+  for (int i = 0; i < 5000; ++i) {
+    std::vector<Vec2> points;
+    const int count = 3 + static_cast<int>(random.below(10));
+    for (int k = 0; k < count; ++k) points.push_back(anyVec(random, 5));
+    points.push_back(points[0]);
+    ConvexShape hull;
+    if (makeHull(points, 0, hull) != ShapeStatus::kOk) continue;
+    for (const Vec2 p : points) EXPECT_LE(closestPoint(hull, p).distance, 1e-4);
+    const std::span<const Vec2> corners(hull.vertices.data(), static_cast<std::size_t>(hull.count));
+    ConvexShape again;
+    EXPECT_EQ(makePolygon(corners, 0, again), ShapeStatus::kOk);
+  }
+  // More corners than there is room for: the hull loses little.
+  std::vector<Vec2> ring;
+  for (int k = 0; k < 1000; ++k) ring.push_back(rotationBy(k * 2 * kPi / 1000) * Vec2{1, 0});
+  ConvexShape hull;
+  ASSERT_EQ(makeHull(ring, 0, hull), ShapeStatus::kOk);
+  EXPECT_EQ(hull.count, kMaxVertices);
+  EXPECT_GT(massOf(hull, 1).mass, 0.95 * kPi);
+  EXPECT_LT(massOf(hull, 1).mass, kPi);
+}
+
+TEST(Mass, HasTheTextbooksValues) {
+  ConvexShape shape;
+  ASSERT_EQ(makeBox(1.5, 0.5, {}, {}, 0, shape), ShapeStatus::kOk);
+  Mass mass = massOf(shape, 2);
+  EXPECT_NEAR(mass.mass, 6, 1e-15);
+  EXPECT_NEAR(mass.inertia, 6 * (9.0 + 1) / 12, 1e-14);
+  EXPECT_LE(length(mass.centre), 1e-16);
+  ASSERT_EQ(makeCircle(0.7, {3, 4}, shape), ShapeStatus::kOk);
+  mass = massOf(shape, 1);
+  EXPECT_NEAR(mass.mass, kPi * 0.49, 1e-15);
+  EXPECT_NEAR(mass.inertia, mass.mass * 0.49 / 2, 1e-15);
+  EXPECT_EQ(mass.centre, (Vec2{3, 4}));
+  // A capsule: a rectangle and a disc cut in two, each half's centre 4r/3π beyond its edge.
+  const double r = 0.5, d = 2;
+  ASSERT_EQ(makeCapsule({-1, 0}, {1, 0}, r, shape), ShapeStatus::kOk);
+  mass = massOf(shape, 1);
+  const double disc = kPi * r * r, bar = d * 2 * r, c = 4 * r / (3 * kPi);
+  EXPECT_NEAR(mass.mass, disc + bar, 1e-14);
+  EXPECT_NEAR(mass.inertia, bar * (d * d + 4 * r * r) / 12 + disc * (r * r / 2 + d * d / 4 + d * c), 1e-14);
+  EXPECT_LE(length(mass.centre), 1e-15);
+}
+
+TEST(Mass, IsTheSumOverManyPoints) {
+  SplitMix64 random(2);
+  for (int i = 0; i < 40; ++i) {
+    const ConvexShape shape = anyShape(random);
+    const Mass mass = massOf(shape, 1);
+    const double h = 1.0 / 64;
+    double area = 0, square = 0;
+    Vec2 first;
+    for (double x = -4; x < 4; x += h) {
+      for (double y = -4; y < 4; y += h) {
+        const Vec2 p = {x + h / 2, y + h / 2};
+        if (!contains(shape, p)) continue;
+        area += h * h;
+        first += h * h * p;
+        square += h * h * lengthSquared(p - mass.centre);
+      }
+    }
+    EXPECT_NEAR(mass.mass, area, 0.01 + 0.01 * area);
+    EXPECT_LE(length(mass.centre - first / area), 0.01 + 0.001 / area) << i;
+    EXPECT_NEAR(mass.inertia, square, 0.01 + 0.02 * square);
+  }
+}
+
+TEST(Mass, ACompoundOfPartsIsTheWhole) {
+  ConvexShape whole, parts[2];
+  ASSERT_EQ(makeBox(1, 0.5, {3, 1}, {}, 0, whole), ShapeStatus::kOk);
+  ASSERT_EQ(makeBox(0.25, 0.5, {2.25, 1}, {}, 0, parts[0]), ShapeStatus::kOk);
+  ASSERT_EQ(makeBox(0.75, 0.5, {3.25, 1}, {}, 0, parts[1]), ShapeStatus::kOk);
+  const Mass one = massOf(whole, 3);
+  Mass both = massOf(parts, std::array<double, 2>{3, 3});
+  EXPECT_NEAR(both.mass, one.mass, 1e-14);
+  EXPECT_NEAR(both.inertia, one.inertia, 1e-13);
+  EXPECT_LE(length(both.centre - one.centre), 1e-14);
+  recentre(parts, both);
+  EXPECT_EQ(both.centre, Vec2{});
+  EXPECT_LE(length(massOf(parts, std::array<double, 2>{3, 3}).centre), 1e-15);
+  // Overlaps count twice.
+  EXPECT_NEAR(massOf(std::array<ConvexShape, 2>{whole, whole}, std::array<double, 2>{3, 3}).mass,
+              2 * one.mass, 1e-13);
+}
+
+TEST(Mass, TurningAndMovingTheShapeMovesTheCentreOnly) {
+  SplitMix64 random(3);
+  for (int i = 0; i < 20000; ++i) {
+    const ConvexShape shape = anyShape(random);
+    const Rotation q = anyRotation(random);
+    const Vec2 by = anyVec(random, 5);
+    const Mass before = massOf(shape, 1), after = massOf(moved(shape, q, by), 1);
+    ASSERT_NEAR(after.mass, before.mass, 1e-12 * before.mass) << i;
+    ASSERT_NEAR(after.inertia, before.inertia, 1e-12) << i;
+    ASSERT_LE(length(after.centre - (q * before.centre + by)), 1e-12) << i;
+  }
+}
+
+TEST(ShapeQuery, TheClosestPointIsOnTheSurfaceAndNoneIsCloser) {
+  SplitMix64 random(4);
+  for (int i = 0; i < 100000; ++i) {
+    const ConvexShape shape = anyShape(random);
+    const Vec2 p = anyVec(random, 3);
+    const SurfacePoint at = closestPoint(shape, p);
+    const std::vector<Vec2> core = test::placed(shape, {}, {});
+    const double truth = test::slowDistance(core, {p}) - shape.radius;
+    if (truth > -shape.radius) {
+      ASSERT_NEAR(at.distance, truth, 1e-13) << i;
+    }
+    ASSERT_EQ(contains(shape, p), at.distance <= 0) << i;
+    ASSERT_LE(length(p - at.point - at.distance * at.normal), 1e-13);
+    if (at.distance > -shape.radius || core.size() < 3) {
+      ASSERT_NEAR(test::slowDistance(core, {at.point}), shape.radius, 1e-12) << i;
+    }
+    ASSERT_NEAR(length(at.normal), 1, 1e-15);
+  }
+}
+
+TEST(ShapeQuery, ARayStopsAtTheSurface) {
+  SplitMix64 random(5);
+  int hits = 0, misses = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const ConvexShape shape = anyShape(random);
+    const Vec2 from = anyVec(random, 4), way = anyVec(random, 8);
+    const RayHit hit = castRay(shape, from, way);
+    const std::vector<Vec2> core = test::placed(shape, {}, {});
+    if (contains(shape, from)) {
+      ASSERT_TRUE(hit.hit && hit.fraction == 0 && hit.normal == Vec2{});
+      continue;
+    }
+    hit.hit ? ++hits : ++misses;
+    if (hit.hit) {
+      ASSERT_NEAR(closestPoint(shape, from + hit.fraction * way).distance, 0, 1e-12) << i;
+      ASSERT_LT(dot(hit.normal, way), 0) << i;
+      ASSERT_LE(length(closestPoint(shape, from + hit.fraction * way).normal - hit.normal), 1e-3) << i;
+    }
+    // Nothing of the way before the hit is inside: as a capsule without a radius it keeps its distance.
+    const Vec2 end = from + (hit.hit ? hit.fraction : 1) * way;
+    ASSERT_GE(test::slowDistance(core, {from, end}), shape.radius - 1e-12) << i;
+  }
+  EXPECT_GT(hits, 5000);
+  EXPECT_GT(misses, 10000);
+}
+
+TEST(ShapeQuery, ARayFromFarAwayHitsWhereItShould) {
+  ConvexShape shape;
+  ASSERT_EQ(makeBox(0.5, 0.5, {}, {}, 0, shape), ShapeStatus::kOk);
+  // Through the corner between two edges, too.
+  for (const double y : {0.0, 0.25, -0.5 + 1e-9, 0.5 - 1e-9}) {
+    const RayHit hit = castRay(shape, {-1e6, y}, {1e9, 0});
+    ASSERT_TRUE(hit.hit) << y;
+    EXPECT_EQ(hit.normal, (Vec2{-1, 0}));
+    EXPECT_NEAR(hit.fraction * 1e9, 1e6 - 0.5, 1e-6);
+  }
+  EXPECT_FALSE(castRay(shape, {-1e6, 0}, {-1e9, 0}).hit);
+  EXPECT_FALSE(castRay(shape, {-2, 0}, {1, 0}).hit);
+}
+
+TEST(ShapeRaster, CoversTheCellsWhoseCentresAreInside) {
+  SplitMix64 random(6);
+  std::vector<CellSpan> spans;
+  long covered = 0;
+  for (int i = 0; i < 3000; ++i) {
+    ConvexShape shape = anyShape(random);
+    const double size = between(random, 0.5, 8), aspect = random.unit() < 0.5 ? 2 : between(random, 0.5, 3);
+    for (Vec2& v : shape.vertices) v *= size;
+    shape.radius *= size;
+    const Rotation q = anyRotation(random);
+    const Vec2 centre = anyVec(random, 3);
+    TurnedShape placed;
+    turn(shape, q, placed);
+    rasterise(placed, centre, aspect, spans);
+    for (int row = -40; row <= 40; ++row) {
+      const auto span =
+          std::find_if(spans.begin(), spans.end(), [&](const CellSpan& s) { return s.row == row; });
+      for (int column = -40; column <= 40; ++column) {
+        const double distance =
+            closestPoint(shape, inverse(q) * (Vec2{column * 1.0, row * aspect} - centre)).distance;
+        if (std::fabs(distance) < 1e-12) continue;
+        const bool is_in = span != spans.end() && span->first <= column && column <= span->last;
+        covered += is_in;
+        ASSERT_EQ(is_in, distance < 0) << i << ": " << column << ", " << row;
+      }
+    }
+  }
+  EXPECT_GT(covered, 50000);
+}
+
+TEST(ShapeRaster, TheOutlineIsWhatHasANeighbourOutside) {
+  ConvexShape circle;
+  ASSERT_EQ(makeCircle(6, {}, circle), ShapeStatus::kOk);
+  TurnedShape placed;
+  turn(circle, {}, placed);
+  std::vector<CellSpan> spans;
+  rasterise(placed, {0.2, 0.1}, 2, spans);
+  const auto inside = [&](int column, int row) {
+    return std::any_of(spans.begin(), spans.end(), [&](const CellSpan& s) {
+      return s.row == row && s.first <= column && column <= s.last;
+    });
+  };
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    for (int c = spans[i].first; c <= spans[i].last; ++c) {
+      const int row = spans[i].row;
+      const bool truth =
+          !(inside(c - 1, row) && inside(c + 1, row) && inside(c, row - 1) && inside(c, row + 1));
+      EXPECT_EQ(isOutline(spans, i, c), truth) << c << ", " << row;
+    }
+  }
+  EXPECT_EQ(spans.size(), 6U);
+}
+
+TEST(ShapeRaster, WhatIsHugeIsCutOff) {
+  ConvexShape box;
+  ASSERT_EQ(makeBox(1e6, 1e6, {}, {}, 0, box), ShapeStatus::kOk);
+  TurnedShape placed;
+  turn(box, {}, placed);
+  std::vector<CellSpan> spans;
+  rasterise(placed, {}, 1, spans, 100);
+  ASSERT_EQ(spans.size(), 201U);
+  EXPECT_EQ(spans[0], (CellSpan{-100, -100, 100}));
+  rasterise(placed, {1e12, 0}, 1, spans, 100);
+  EXPECT_TRUE(spans.empty());
+}
+
+}  // namespace
+}  // namespace naiad::physics

@@ -1,0 +1,245 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "physics/geometry/ShapeDistance.h"
+#include "physics/geometry/TimeOfImpact.h"
+#include "tests/server/physics/RandomShapes.h"
+
+namespace naiad::physics {
+namespace {
+
+using test::anyRotation;
+using test::anyShape;
+using test::anyVec;
+using test::between;
+
+// A longer run than the usual one: NAIAD_SWEEPS=1000000.
+int sweeps(int usual) {
+  const char* wish = std::getenv("NAIAD_SWEEPS");
+  return wish ? std::atoi(wish) : usual;
+}
+
+struct Scene {
+  ConvexShape a, b;
+  RigidMotion motion_a, motion_b;
+  Vec2 offset;
+};
+
+// The gap at a time, by the slow way and with the library's own sine.
+double gapAt(const Scene& s, double t) {
+  const auto rotation = [&](const RigidMotion& m) {
+    return m.start * Rotation{std::cos(m.turn * t), std::sin(m.turn * t)};
+  };
+  return test::slowGap(s.a, rotation(s.motion_a), s.b, rotation(s.motion_b),
+                       s.offset + t * (s.motion_b.displacement - s.motion_a.displacement));
+}
+
+// Aimed so that about half of them meet: the paths cross near the origin of A at some time.
+Scene anyScene(SplitMix64& random, double speed, double spin) {
+  Scene s = {anyShape(random), anyShape(random), {}, {}, {}};
+  s.motion_a = {anyVec(random, speed), anyRotation(random), between(random, -spin, spin)};
+  s.motion_b = {anyVec(random, speed), anyRotation(random), between(random, -spin, spin)};
+  const Vec2 way = s.motion_b.displacement - s.motion_a.displacement;
+  s.offset = anyVec(random, 3) - between(random, -0.3, 1.3) * way;
+  return s;
+}
+
+struct Tally {
+  int hits = 0, apart = 0, unresolved = 0, touched = 0;
+  long iterations = 0;
+  int most = 0;
+};
+
+// Judges one scene against `samples` slow looks at it.
+void judge(const Scene& s, int samples, Tally& tally, int i) {
+  const ImpactTime result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
+  const Vec2 way = s.motion_b.displacement - s.motion_a.displacement;
+  const double tolerance = 4 * impactTolerance(s.a, s.b, s.offset, way) + 1e-12;
+  tally.iterations += result.iterations;
+  tally.most = std::max(tally.most, result.iterations);
+  if (result.touched_before) {
+    ++tally.touched;
+    ASSERT_LE(gapAt(s, 0), tolerance) << i;
+    return;
+  }
+  if (result.status == ImpactStatus::kUnresolved) {
+    ++tally.unresolved;
+  } else if (result.status == ImpactStatus::kHit) {
+    ++tally.hits;
+    // They do touch then …
+    ASSERT_LE(gapAt(s, result.time), tolerance) << i;
+    ASSERT_NEAR(length(result.normal), 1, 1e-14);
+  } else {
+    ++tally.apart;
+    ASSERT_EQ(result.time, 1);
+  }
+  // … and never before. What could touch are the circles around the origins: looked at finely while they
+  // meet.
+  const double reach = s.a.reach + s.b.reach + s.a.radius + s.b.radius, speed = length(way);
+  const double middle = speed > 0 ? -dot(s.offset, way) / (speed * speed) : 0.5;
+  const double half = speed > 0 ? reach / speed : 1;
+  const double from = std::clamp(middle - half, 0.0, 1.0), to = std::clamp(middle + half, 0.0, 1.0);
+  for (int k = 0; k <= samples; ++k) {
+    const double t = from + (to - from) * k / samples;
+    if (t >= result.time * (1 - 1e-12)) break;
+    ASSERT_GT(gapAt(s, t), -tolerance) << i << " at " << t << " of " << result.time;
+  }
+}
+
+void run(const char* name, std::uint64_t seed, int count, double speed, double spin, int samples) {
+  SplitMix64 random(seed);
+  Tally tally;
+  for (int i = 0; i < count && !testing::Test::HasFatalFailure(); ++i) {
+    judge(anyScene(random, speed, spin), samples, tally, i);
+  }
+  std::printf("toi %s: %d hit, %d apart, %d touched before, %d unresolved; %.2f iterations, at most %d\n",
+              name, tally.hits, tally.apart, tally.touched, tally.unresolved,
+              static_cast<double>(tally.iterations) / count, tally.most);
+  EXPECT_EQ(tally.unresolved, 0);
+  EXPECT_GT(tally.hits, count / 20);
+  EXPECT_GT(tally.apart, count / 20);
+}
+
+TEST(TimeOfImpact, NeverMissesNorInventsAHitOfSlowShapes) {
+  run("slow", 1, sweeps(20000), 2, 0.5, 60);
+}
+TEST(TimeOfImpact, NeverMissesNorInventsAHitOfFastShapes) {
+  run("1000 cells", 2, sweeps(20000), 1e3, 3, 60);
+}
+TEST(TimeOfImpact, NeverMissesNorInventsAHitAtAMillionCellsATick) {
+  run("1e6 cells", 3, sweeps(20000), 1e6, 6, 60);
+}
+TEST(TimeOfImpact, NeverMissesNorInventsAHitWithoutRotation) {
+  run("straight", 4, sweeps(20000), 10, 0, 60);
+}
+TEST(TimeOfImpact, NeverMissesNorInventsAHitOfSpinningShapes) {
+  run("spinning", 5, sweeps(20000), 1, 30, 200);
+}
+
+TEST(TimeOfImpact, IsTheClosedFormForCircles) {
+  SplitMix64 random(6);
+  int hits = 0;
+  for (int i = 0; i < 200000; ++i) {
+    Scene s;
+    ASSERT_EQ(makeCircle(between(random, 0.01, 1), {}, s.a), ShapeStatus::kOk);
+    ASSERT_EQ(makeCircle(between(random, 0.01, 1), {}, s.b), ShapeStatus::kOk);
+    const double speed = std::pow(10, between(random, -2, 6));
+    const Vec2 way = anyVec(random, speed);
+    s.motion_b.displacement = way;
+    s.offset = anyVec(random, 2) - between(random, 0, 1.2) * way;
+    const long double x = s.offset.x, y = s.offset.y, vx = way.x, vy = way.y, r = s.a.radius + s.b.radius;
+    const long double passes = (vx * y - vy * x) / std::sqrt(vx * vx + vy * vy);
+    const long double inside = r * r - passes * passes;
+    if (x * x + y * y <= r * r * 1.0001L || std::fabs(inside) < 1e-3L) continue;
+    const ImpactTime result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
+    const long double vv = vx * vx + vy * vy, t = (-(x * vx + y * vy) - std::sqrt(inside * vv)) / vv;
+    if (inside < 0 || t < 0 || t > 1) {
+      ASSERT_EQ(result.status, ImpactStatus::kApart) << i;
+    } else {
+      ++hits;
+      ASSERT_EQ(result.status, ImpactStatus::kHit) << i;
+      // The error of the place, not of the time, is what matters.
+      ASSERT_LE(std::fabs(static_cast<double>(result.time - t)) * length(way),
+                40 * impactTolerance(s.a, s.b, s.offset, way));
+    }
+  }
+  EXPECT_GT(hits, 50000);
+}
+
+ConvexShape box(double half) {
+  ConvexShape shape;
+  EXPECT_EQ(makeBox(half, half, {}, {}, 0, shape), ShapeStatus::kOk);
+  return shape;
+}
+
+TEST(TimeOfImpact, APairThatTouchesAndPartsOrSlidesDoesNotHit) {
+  const ConvexShape a = box(0.5), b = box(0.5);
+  for (const Vec2 way : {Vec2{0, -1}, {5, 0}, {-1e6, 0}, {3, -1e-9}, {0, 0}, {1e6, -1e6}}) {
+    const ImpactTime result = timeOfImpact(a, {}, b, {way, {}, 0}, {0, -1});
+    EXPECT_TRUE(result.touched_before);
+    EXPECT_EQ(result.status, ImpactStatus::kApart) << way.x << ", " << way.y;
+  }
+  for (const Vec2 way : {Vec2{0, 1}, {0.4, 1e-3}, {0, 1e6}}) {
+    const ImpactTime result = timeOfImpact(a, {}, b, {way, {}, 0}, {0, -1});
+    EXPECT_TRUE(result.touched_before);
+    ASSERT_EQ(result.status, ImpactStatus::kHit);
+    EXPECT_LE(result.time * length(way), 1e-5);
+    EXPECT_NEAR(result.normal.y, -1, 1e-12);
+  }
+  // Overlapping and parting; overlapping and sinking in.
+  EXPECT_EQ(timeOfImpact(a, {}, b, {{0, -3}, {}, 0}, {0, -0.9}).status, ImpactStatus::kApart);
+  EXPECT_EQ(timeOfImpact(a, {}, b, {{0, 0.3}, {}, 0}, {0, -0.9}).status, ImpactStatus::kHit);
+}
+
+// Pairs that touch at the start: what counts from there on is whether they come nearer.
+TEST(TimeOfImpact, APairThatTouchesHitsWhenItComesNearer) {
+  SplitMix64 random(7);
+  int hits = 0, late = 0, apart = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Scene s = anyScene(random, 1, 3);
+    TurnedShape a, b;
+    turn(s.a, s.motion_a.start, a);
+    turn(s.b, s.motion_b.start, b);
+    s.offset = anyVec(random, 3);
+    const Separation first = separation(a, b, s.offset);
+    s.offset -= (first.distance - (s.a.radius + s.b.radius)) * first.normal;
+    // Moved along the normal of overlapping or distant shapes they need not touch yet.
+    if (std::fabs(gapAt(s, 0)) > 1e-12) continue;
+    const ImpactTime result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
+    ASSERT_TRUE(result.touched_before);
+    ASSERT_NE(result.status, ImpactStatus::kUnresolved) << i;
+    // Cores that overlap have no gap for the slow way to tell: below minus the radii it is the same for all.
+    const double tolerance = 8 * impactTolerance(s.a, s.b, s.offset, s.motion_b.displacement) + 1e-12;
+    for (int k = 0; k <= 400; ++k) {
+      const double t = k / 400.0;
+      if (result.status == ImpactStatus::kHit && t >= result.time) break;
+      ASSERT_GT(gapAt(s, t), -tolerance) << i << " at " << t;
+    }
+    result.status == ImpactStatus::kHit ? ++(result.time > 1e-3 ? late : hits) : ++apart;
+  }
+  EXPECT_GT(hits, 1000);
+  EXPECT_GT(late, 500);
+  EXPECT_GT(apart, 1000);
+}
+
+TEST(TimeOfImpact, StopsAtTheTargetDistance) {
+  const ConvexShape a = box(0.5), b = box(0.5);
+  const ImpactTime result = timeOfImpact(a, {}, b, {{0, 10}, {}, 0}, {0.3, -6}, 0.25);
+  ASSERT_EQ(result.status, ImpactStatus::kHit);
+  EXPECT_NEAR(result.time, 0.475, 1e-12);
+  EXPECT_NEAR(result.gap, 0.25, 1e-9);
+}
+
+TEST(TimeOfImpact, SwappedItIsTheSameTime) {
+  SplitMix64 random(8);
+  for (int i = 0; i < 20000; ++i) {
+    const Scene s = anyScene(random, 10, 2);
+    const ImpactTime there = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
+    const ImpactTime back = timeOfImpact(s.b, s.motion_b, s.a, s.motion_a, -s.offset);
+    ASSERT_EQ(there.status, back.status);
+    ASSERT_NEAR(there.time, back.time, 1e-9) << i;
+  }
+}
+
+TEST(TimeOfImpact, ABulletThroughAThinWallAtAnySpeed) {
+  SplitMix64 random(9);
+  ConvexShape bullet, wall;
+  ASSERT_EQ(makeBox(0.05, 0.05, {}, {}, 0, bullet), ShapeStatus::kOk);
+  ASSERT_EQ(makeBox(0.001, 10, {}, {}, 0, wall), ShapeStatus::kOk);
+  for (int i = 0; i < 100000; ++i) {
+    const double speed = std::pow(10, between(random, 0, 6)), at = between(random, 0.01, 0.99);
+    const RigidMotion motion = {{speed, between(random, -5, 5)}, anyRotation(random), between(random, -6, 6)};
+    const ImpactTime result = timeOfImpact(wall, {}, bullet, motion, {-speed * at, 0});
+    ASSERT_NE(result.status, ImpactStatus::kApart) << i;
+    if (!result.touched_before) {
+      ASSERT_EQ(result.status, ImpactStatus::kHit) << i;
+      ASSERT_LT(result.time, at);
+      ASSERT_GT(result.time, at - 0.1 / speed);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace naiad::physics

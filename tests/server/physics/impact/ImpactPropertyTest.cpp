@@ -1,0 +1,333 @@
+// What holds for every scene of an ImpactWorld, on random ones.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "physics/impact/ImpactWorld.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/support/AllocationCount.h"
+
+namespace naiad::physics {
+namespace {
+
+struct Scene {
+  std::vector<ImpactBody> bodies;
+  bool is_elastic = false;  // nothing in it takes energy or momentum away
+};
+
+double spread(SplitMix64& random, double size) {
+  return size * (2 * random.unit() - 1);
+}
+
+bool isFree(const std::vector<ImpactBody>& bodies, const ImpactBody& body) {
+  for (const ImpactBody& other : bodies) {
+    if (touchOf(other, body, body.place - other.place).gap < 0.01) return false;
+  }
+  return true;
+}
+
+Scene randomScene(std::uint64_t seed) {
+  SplitMix64 random(seed);
+  Scene scene;
+  scene.is_elastic = random.below(2) == 0;
+  const bool has_walls = random.below(2) == 0;
+  const double gravity = scene.is_elastic || random.below(3) == 0 ? 0 : 0.02 * random.unit();
+  const double speed = std::pow(10, 1.5 * random.unit() - 1.5);
+  const double friction = random.below(2) == 0 ? 0 : random.unit();
+  if (has_walls) {
+    for (const Vec2 out : {Vec2{0, 1}, Vec2{0, -1}, Vec2{1, 0}, Vec2{-1, 0}}) {
+      ImpactBody wall;
+      wall.place = placeAt(9 * out);
+      wall.half = out.x == 0 ? Vec2{10, 1} : Vec2{1, 8};
+      wall.inverse_mass = 0;
+      wall.friction = scene.is_elastic ? 0 : friction;
+      scene.bodies.push_back(wall);
+    }
+  }
+  for (int i = 0; i < 200 && scene.bodies.size() < 30; ++i) {
+    ImpactBody body;
+    body.place = placeAt({spread(random, 7), spread(random, 7)});
+    body.shape = random.below(2) == 0 ? ImpactShape::kCircle : ImpactShape::kBox;
+    body.half = {0.1 + random.unit(), 0.1 + random.unit()};
+    body.velocity = {spread(random, speed), spread(random, speed)};
+    body.acceleration = {0, gravity};
+    body.inverse_mass = std::pow(10, spread(random, 1));
+    body.restitution = scene.is_elastic ? 1 : 0.9 * random.unit();
+    body.friction = scene.is_elastic ? 0 : friction;
+    if (isFree(scene.bodies, body)) scene.bodies.push_back(body);
+  }
+  return scene;
+}
+
+void fill(ImpactWorld& world, const Scene& scene, std::int64_t far = 0) {
+  for (ImpactBody body : scene.bodies) {
+    body.place.cell_x += far;
+    body.place.cell_y -= far;
+    ASSERT_GE(world.add(body), 0);
+  }
+}
+
+double deepestOverlap(const ImpactWorld& world) {
+  double deepest = 0;
+  for (int i = 0; i < world.idLimit(); ++i) {
+    for (int j = 0; j < i; ++j) {
+      if (!world.exists(i) || !world.exists(j)) continue;
+      const ImpactBody &a = world.body(j), &b = world.body(i);
+      if (a.inverse_mass == 0 && b.inverse_mass == 0) continue;
+      deepest = std::fmax(deepest, -touchOf(a, b, b.place - a.place).gap);
+    }
+  }
+  return deepest;
+}
+
+struct Kept {
+  Vec2 momentum;
+  double energy = 0;
+  double scale = 0;
+};
+Kept keptOf(const ImpactWorld& world) {
+  Kept kept;
+  for (int i = 0; i < world.idLimit(); ++i) {
+    const ImpactBody& body = world.body(i);
+    if (body.inverse_mass == 0) continue;
+    kept.momentum += body.velocity / body.inverse_mass;
+    kept.energy += 0.5 * lengthSquared(body.velocity) / body.inverse_mass;
+    kept.scale += length(body.velocity) / body.inverse_mass;
+  }
+  return kept;
+}
+
+TEST(ImpactProperty, NothingOverlapsAndWhatIsKeptIsKept) {
+  std::int64_t impacts = 0, solves = 0, unconverged = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    const Scene scene = randomScene(seed);
+    ImpactWorld world;
+    fill(world, scene);
+    const Kept before = keptOf(world);
+    for (int tick = 0; tick < 20; ++tick) {
+      ASSERT_EQ(world.step(), ImpactStatus::kDone) << seed;
+      ASSERT_LE(deepestOverlap(world), 1e-9) << seed << ' ' << tick;
+    }
+    const Kept after = keptOf(world);
+    const bool is_closed = scene.bodies[0].inverse_mass > 0 && scene.bodies[0].acceleration == Vec2{};
+    if (is_closed) {
+      EXPECT_LE(length(after.momentum - before.momentum), 1e-12 * before.scale) << seed;
+    }
+    if (scene.is_elastic) {
+      EXPECT_LE(std::fabs(after.energy / before.energy - 1), 1e-12) << seed;
+    }
+    impacts += world.counters().impacts;
+    solves += world.counters().rest_solves;
+    unconverged += world.counters().unconverged;
+  }
+  EXPECT_GT(impacts, 50000);
+  RecordProperty("impacts", static_cast<int>(impacts));
+  EXPECT_LE(static_cast<double>(unconverged), 1e-3 * static_cast<double>(solves));
+}
+
+// Row 16: to the last bit.
+TEST(ImpactProperty, FarAwayIsAsHere) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Scene scene = randomScene(seed);
+    ImpactWorld here;
+    fill(here, scene);
+    for (int tick = 0; tick < 20; ++tick) here.step();
+    for (const std::int64_t far : {1'000'000LL, 1'000'000'000LL, -1'000'000'000'000LL}) {
+      ImpactWorld there;
+      fill(there, scene, far);
+      for (int tick = 0; tick < 20; ++tick) there.step();
+      for (int i = 0; i < here.idLimit(); ++i) {
+        ImpactBody moved = there.body(i);
+        moved.place.cell_x -= far;
+        moved.place.cell_y += far;
+        ASSERT_EQ(moved, here.body(i)) << seed << ' ' << far << ' ' << i;
+      }
+    }
+  }
+}
+
+// A scene far off changes nothing here, whether its bodies come first or last, are frozen or well.
+TEST(ImpactProperty, ASceneFarAwayChangesNothing) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Scene scene = randomScene(seed), other = randomScene(seed + 5000);
+    ImpactWorld alone, first, last;
+    fill(alone, scene);
+    fill(first, other, 100000);
+    ImpactBody wild;
+    wild.velocity = {1e29, 0};  // passes through every scene in its first tick, if anybody lets it
+    wild.place = placeAt({-1e6, 0});
+    first.add(wild);
+    const int offset = first.idLimit();
+    fill(first, scene);
+    fill(last, scene);
+    fill(last, other, 100000);
+    for (int tick = 0; tick < 20; ++tick) {
+      alone.step();
+      EXPECT_EQ(first.step(), tick == 0 ? ImpactStatus::kQuarantined : ImpactStatus::kDone);
+      last.step();
+    }
+    for (int i = 0; i < alone.idLimit(); ++i) {
+      ASSERT_EQ(alone.body(i), first.body(offset + i)) << seed << ' ' << i;
+      ASSERT_EQ(alone.body(i), last.body(i)) << seed << ' ' << i;
+    }
+    EXPECT_TRUE(first.isFrozen(offset - 1));
+    EXPECT_EQ(first.counters().quarantined, 1);
+  }
+}
+
+// Row 17.
+TEST(ImpactProperty, AClosedSystemKeepsItsMomentum) {
+  SplitMix64 random(17);
+  ImpactWorld world;
+  std::vector<ImpactBody> bodies;
+  while (bodies.size() < 100) {
+    ImpactBody body;
+    body.place = placeAt({spread(random, 15), spread(random, 15)});
+    body.shape = random.below(2) == 0 ? ImpactShape::kCircle : ImpactShape::kBox;
+    const Vec2 at = body.place - Place{};
+    body.velocity = -0.01 * at + Vec2{spread(random, 0.1), spread(random, 0.1)};  // inwards
+    body.inverse_mass = 0.2 + random.unit();
+    body.restitution = 1;
+    if (!isFree(bodies, body)) continue;
+    bodies.push_back(body);
+    world.add(body);
+  }
+  const Kept before = keptOf(world);
+  for (int tick = 0; tick < 1000; ++tick) world.step();
+  const Kept after = keptOf(world);
+  EXPECT_LE(length(after.momentum - before.momentum) / before.scale, 1e-12);
+  EXPECT_LE(std::fabs(after.energy / before.energy - 1), 1e-12);
+  EXPECT_GT(world.counters().impacts, 100);
+}
+
+// One that came for ever: a bounce of a height below what a double can tell.
+TEST(ImpactProperty, TheScenesThatOnceWentWrongGoWell) {
+  for (const std::uint64_t seed : {98U, 371U, 377U, 758U, 9444U}) {
+    ImpactWorld world;
+    fill(world, randomScene(seed));
+    for (int tick = 0; tick < 40; ++tick) {
+      ASSERT_EQ(world.step(), ImpactStatus::kDone) << seed;
+      ASSERT_LE(deepestOverlap(world), 1e-9) << seed;
+    }
+  }
+}
+
+// Row 14: a projectile at every speed against everything; through means that they have changed sides.
+TEST(ImpactProperty, NothingTunnels) {
+  SplitMix64 random(14);
+  int shots = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double speed = std::pow(10, 1 + 3.5 * random.unit()) / 30 * 10;  // to 1e6 per second
+    ImpactBody bullet, target;
+    for (ImpactBody* body : {&bullet, &target}) {
+      body->shape = random.below(2) == 0 ? ImpactShape::kCircle : ImpactShape::kBox;
+      body->half = {0.01 + 0.5 * random.unit(), 0.01 + 0.5 * random.unit()};
+      body->restitution = random.below(2) == 0 ? 0.0 : random.unit();
+    }
+    const double angle = spread(random, 3), c = std::cos(angle), s = std::sin(angle);
+    const Vec2 direction = {c, s};
+    const double meeting = random.unit();  // in the tick
+    const Vec2 middle = {spread(random, 100), spread(random, 100)};
+    const auto kind = random.below(4);  // static, kinematic, dynamic, as fast
+    if (kind == 1 || kind == 3) target.velocity = {spread(random, speed), spread(random, speed)};
+    if (kind < 2) target.inverse_mass = 0;
+    bullet.velocity = speed * direction;
+    const Vec2 relative = bullet.velocity - target.velocity;
+    const double away = length(relative);
+    if (away < 10) continue;
+    // They would be in one another at `meeting`, nearly central, and start clearly apart.
+    const Vec2 off = 0.5 * std::fmin(std::fmin(bullet.half.x, bullet.half.y), target.half.x) *
+                     Vec2{spread(random, 0.5), spread(random, 0.5)};
+    bullet.place = placeAt(middle + off - meeting * bullet.velocity);
+    target.place = placeAt(middle - meeting * target.velocity);
+    if (meeting * away < 4) continue;
+    ImpactWorld world;
+    const bool is_first = random.below(2) == 0;
+    const int a = world.add(is_first ? bullet : target);
+    world.add(is_first ? target : bullet);
+    world.step();
+    ++shots;
+    const Vec2 way = world.body(1 - a).place - world.body(a).place;
+    const Vec2 gone = world.body(1 - a).velocity - world.body(a).velocity;
+    const ImpactTouch touch = touchOf(world.body(a), world.body(1 - a), way);
+    ASSERT_EQ(world.counters().impacts > 0, true) << i;
+    ASSERT_GE(touch.gap, -1e-9) << i;
+    ASSERT_GE(dot(gone, touch.normal), -1e-6 * speed) << i;
+  }
+  EXPECT_GT(shots, 10000);
+}
+
+TEST(ImpactProperty, BadNumbersAreRefused) {
+  ImpactWorld world;
+  const ImpactBody good;
+  const int id = world.add(good);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = HUGE_VAL;
+  for (const double bad : {nan, inf, -inf, 2e30}) {
+    ImpactBody body;
+    body.velocity.x = bad;
+    EXPECT_EQ(world.add(body), -1);
+    EXPECT_FALSE(world.set(id, body));
+    body = good;
+    body.acceleration.y = bad;
+    EXPECT_FALSE(world.set(id, body));
+    body = good;
+    body.half.x = bad;
+    EXPECT_FALSE(world.set(id, body));
+    body = good;
+    body.inverse_mass = bad;
+    EXPECT_FALSE(world.set(id, body));
+    body = good;
+    body.place.dx = bad;
+    EXPECT_FALSE(world.set(id, body));
+    EXPECT_EQ(world.step(bad), ImpactStatus::kRefused);
+  }
+  ImpactBody point;
+  point.half = {0, 0};
+  EXPECT_EQ(world.add(point), -1);
+  EXPECT_EQ(world.body(id), good);
+  EXPECT_EQ(world.step(0), ImpactStatus::kRefused);
+  EXPECT_EQ(world.step(5e-324), ImpactStatus::kDone);
+  EXPECT_EQ(world.step(1e6), ImpactStatus::kDone);
+}
+
+// Hundreds of bodies in one place: bounded, deterministic, and none of them flies off.
+TEST(ImpactProperty, ManyBodiesInOnePlaceStayBounded) {
+  ImpactWorld one, two;
+  for (int i = 0; i < 300; ++i) {
+    ImpactBody body;
+    body.shape = i % 2 == 0 ? ImpactShape::kCircle : ImpactShape::kBox;
+    body.place = placeAt({0.01 * (i % 7), 0.01 * (i % 5)});
+    body.acceleration = {0, 0.01};
+    body.restitution = 0.3;
+    one.add(body);
+    two.add(body);
+  }
+  for (int tick = 0; tick < 30; ++tick) {
+    one.step();
+    two.step();
+  }
+  for (int i = 0; i < 300; ++i) {
+    EXPECT_EQ(one.body(i), two.body(i));
+    EXPECT_LE(length(one.body(i).velocity), 1);
+  }
+}
+
+TEST(ImpactProperty, AllocatesNothingOnceWarm) {
+  if (!test::canCountAllocations()) GTEST_SKIP() << "sanitizers have their own allocator";
+  ImpactWorld world;
+  SplitMix64 random(3);
+  Scene scene = randomScene(6);
+  for (ImpactBody& body : scene.bodies) body.restitution = 1;
+  fill(world, scene);
+  for (int tick = 0; tick < 300; ++tick) world.step();
+  const auto before = test::allocationsSoFar();
+  const auto impacts = world.counters().impacts;
+  for (int tick = 0; tick < 100; ++tick) world.step();
+  EXPECT_EQ(test::allocationsSoFar(), before);
+  EXPECT_GT(world.counters().impacts, impacts);
+}
+
+}  // namespace
+}  // namespace naiad::physics

@@ -1,0 +1,145 @@
+// Scenes of jointed bodies for the tests, and what is measured on them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "physics/joint/JointSolver.h"
+
+namespace naiad::physics::test {
+
+inline constexpr double kTick = 1.0 / 30;
+
+struct JointScene {
+  std::vector<JointBody> bodies;
+  std::vector<Joint> joints;
+  JointSolver solver;
+
+  int point(Vec2 place, double inverse_mass = 1) {
+    JointBody body;
+    body.place = placeAt(place);
+    body.inverse_mass = inverse_mass;
+    bodies.push_back(body);
+    return static_cast<int>(bodies.size()) - 1;
+  }
+  int rigid(Vec2 place, double mass, double inertia) {
+    const int body = point(place, 1 / mass);
+    bodies.back().inverse_inertia = 1 / inertia;
+    return body;
+  }
+  Joint& join(JointKind kind, int a, int b, double length = 0) {
+    Joint joint;
+    joint.kind = kind;
+    joint.a = a;
+    joint.b = b;
+    joint.length = length;
+    joints.push_back(joint);
+    return joints.back();
+  }
+  /// Both anchors at one point of the world; the bodies are not turned.
+  Joint& joinAt(JointKind kind, int a, int b, Vec2 where) {
+    Joint& joint = join(kind, a, b);
+    joint.anchor_a = placeAt(where) - bodies[static_cast<std::size_t>(a)].place;
+    joint.anchor_b = placeAt(where) - bodies[static_cast<std::size_t>(b)].place;
+    return joint;
+  }
+  int connect() { return solver.connect(bodies, joints); }
+  int step(Vec2 gravity, JointOptions options = {}, double h = kTick) {
+    return solver.step(bodies, joints, h, gravity, options);
+  }
+  const JointBody& body(int i) const { return bodies[static_cast<std::size_t>(i)]; }
+  Vec2 at(int i) const { return body(i).place - Place{}; }
+
+  double kinetic() const {
+    double sum = 0;
+    for (const JointBody& b : bodies) {
+      if (b.inverse_mass > 0) sum += 0.5 * lengthSquared(b.velocity) / b.inverse_mass;
+      if (b.inverse_inertia > 0) sum += 0.5 * b.spin * b.spin / b.inverse_inertia;
+    }
+    return sum;
+  }
+  double energy(Vec2 gravity) const {
+    double sum = kinetic();
+    for (const JointBody& b : bodies) {
+      if (b.inverse_mass > 0) sum -= dot(gravity, b.place - Place{}) / b.inverse_mass;
+    }
+    return sum;
+  }
+  Vec2 momentum() const {
+    Vec2 sum;
+    for (const JointBody& b : bodies) {
+      if (b.inverse_mass > 0) sum += b.velocity / b.inverse_mass;
+    }
+    return sum;
+  }
+  double angularMomentum() const {
+    double sum = 0;
+    for (const JointBody& b : bodies) {
+      if (b.inverse_mass > 0) sum += cross(b.place - Place{}, b.velocity) / b.inverse_mass;
+      if (b.inverse_inertia > 0) sum += b.spin / b.inverse_inertia;
+    }
+    return sum;
+  }
+  Vec2 anchorWay(const Joint& joint) const {
+    const JointBody &a = body(joint.a), &b = body(joint.b);
+    return (b.place - a.place) + (b.rotation * joint.anchor_b - a.rotation * joint.anchor_a);
+  }
+  /// By how much the hard joints are off, at most.
+  double worstGap() const {
+    double worst = 0;
+    for (const Joint& joint : joints) {
+      if (joint.is_broken || joint.kind == JointKind::kMouse) continue;
+      const Vec2 way = anchorWay(joint);
+      const Rotation turned = inverse(body(joint.a).rotation * joint.reference) * body(joint.b).rotation;
+      double gap = 0;
+      switch (joint.kind) {
+        case JointKind::kDistance:
+          gap = std::abs(length(way) - joint.length);
+          break;
+        case JointKind::kRope:
+          gap = std::max(0.0, length(way) - joint.length);
+          break;
+        case JointKind::kWeld:
+          gap = std::max(length(way), std::abs(turned.s));
+          break;
+        case JointKind::kHinge:
+          gap = length(way);
+          break;
+        case JointKind::kSlider:
+          gap = std::max(std::abs(cross(body(joint.a).rotation * joint.axis, way)), std::abs(turned.s));
+          break;
+        default:
+          break;
+      }
+      worst = std::max(worst, gap);
+    }
+    return worst;
+  }
+};
+
+/// Numbers for scenes; not for anything else.
+struct SceneRandom {
+  std::uint64_t state = 1;
+  double operator()() {  // in [0, 1)
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(state >> 11) * 0x1p-53;
+  }
+  double between(double low, double high) { return low + (high - low) * (*this)(); }
+  int below(int n) { return static_cast<int>((*this)() * n); }
+};
+
+/// A rope of `links` rods from (0, 0) along x; the last of its points is `ratio` times as heavy.
+inline JointScene ropeOf(int links, double ratio) {
+  JointScene scene;
+  scene.point({0, 0}, 0);
+  for (int i = 1; i <= links; ++i) {
+    scene.point({static_cast<double>(i), 0}, i == links ? 1 / ratio : 1);
+    scene.join(JointKind::kDistance, i - 1, i, 1);
+  }
+  scene.connect();
+  return scene;
+}
+
+}  // namespace naiad::physics::test

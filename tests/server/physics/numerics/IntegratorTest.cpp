@@ -1,0 +1,222 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "physics/flight/FlightField.h"
+#include "physics/numerics/IntegratorAutomatic.h"
+#include "tests/server/physics/QuadReference.h"
+
+namespace naiad::physics {
+namespace {
+
+Quad q(double x) {
+  return static_cast<Quad>(x);
+}
+
+struct Kepler : ForceField {
+  Vec2 acceleration(Vec2 p, Vec2, double) const override {
+    const double r2 = lengthSquared(p);
+    return p * (-1 / (r2 * std::sqrt(r2)));
+  }
+};
+
+double energyOf(Vec2 p, Vec2 v) {
+  return 0.5 * lengthSquared(v) - 1 / length(p);
+}
+
+struct OrbitResult {
+  double end_error = 0;
+  double energy_error = 0;
+  double evaluations_per_orbit = 0;
+};
+
+// e = 0.6 from the perihelion, ticks of 1/30.
+OrbitResult orbit(const IntegratorOptions& options, int orbits) {
+  const Kepler field;
+  const Vec2 p0 = {0.4, 0}, v0 = {0, 2};
+  Vec2 p = p0, v = v0;
+  IntegratorCounters counters;
+  OrbitResult result;
+  const double duration = orbits * 6.283185307179586, h = 1.0 / 30;
+  const int ticks = static_cast<int>(duration / h);
+  for (int i = 0; i <= ticks; ++i) {
+    const double dt = i < ticks ? h : duration - ticks * h;
+    Flown flown;
+    EXPECT_EQ(flyField(field, p, v, i * h, dt, options, flown, counters), IntegratorStatus::kDone);
+    p += flown.displacement;
+    v = flown.velocity;
+    result.energy_error = std::max(result.energy_error, std::fabs(energyOf(p, v) / energyOf(p0, v0) - 1));
+  }
+  result.end_error = length(p - p0);
+  result.evaluations_per_orbit = static_cast<double>(counters.evaluations) / orbits;
+  return result;
+}
+
+TEST(Integrator, KeplerReturnsToItsStartAfterTwentyOrbits) {
+  const OrbitResult own = orbit({}, 20);
+  std::printf("kepler e=0.6, 20 orbits, default: end error %.2g, energy %.2g, %.0f forces per orbit\n",
+              own.end_error, own.energy_error, own.evaluations_per_orbit);
+  EXPECT_LE(own.end_error, 1e-5);
+  EXPECT_LE(own.energy_error, 1e-10);
+  EXPECT_LE(own.evaluations_per_orbit, 16000);
+}
+
+TEST(Integrator, KeplerTable) {
+  const struct {
+    const char* name;
+    IntegratorMethod method;
+    int order;
+  } methods[] = {{"semi-implicit Euler", IntegratorMethod::kSemiImplicitEuler, 2},  // after whole orbits
+                 {"velocity Verlet", IntegratorMethod::kVelocityVerlet, 2},
+                 {"Yoshida 4", IntegratorMethod::kYoshida4, 4},
+                 {"Runge-Kutta 4", IntegratorMethod::kRungeKutta4, 4}};
+  for (const auto& [name, method, order] : methods) {
+    double before = 0;
+    for (const int substeps : {8, 16, 32}) {
+      IntegratorOptions options;
+      options.method = method;
+      options.substeps = substeps;
+      const OrbitResult r = orbit(options, 1);
+      std::printf("kepler e=0.6, 1 orbit, %s x%d: end error %.2g, energy %.2g, %.0f forces per orbit\n", name,
+                  substeps, r.end_error, r.energy_error, r.evaluations_per_orbit);
+      if (before > 0) {
+        EXPECT_NEAR(std::log2(before / r.end_error), order, 0.35) << name << " does not have its order";
+      }
+      before = r.end_error;
+    }
+  }
+  for (const IntegratorMethod method : {IntegratorMethod::kExtrapolation, IntegratorMethod::kRadau}) {
+    for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12}) {
+      IntegratorOptions options;
+      options.method = method;
+      options.relative = options.absolute = options.stiff_relative = options.stiff_absolute = tolerance;
+      const OrbitResult r = orbit(options, 1);
+      std::printf(
+          "kepler e=0.6, 1 orbit, %s tolerance %g: end error %.2g, energy %.2g, %.0f forces per orbit\n",
+          method == IntegratorMethod::kRadau ? "Radau" : "extrapolation", tolerance, r.end_error,
+          r.energy_error, r.evaluations_per_orbit);
+      EXPECT_LE(r.end_error, 2e5 * tolerance);
+    }
+  }
+}
+
+// Angles and their velocities of two rods of length 1 with masses 1 at their ends, g = 9.81.
+template <class Real, class Sine, class Cosine>
+std::array<Real, 4> doublePendulum(const std::array<Real, 4>& y, Sine sine, Cosine cosine) {
+  const Real g = static_cast<Real>(9.81), d = y[0] - y[1], s = sine(d), c = cosine(d);
+  const Real below = 2 - c * c;
+  const Real a1 = (-s * (c * y[2] * y[2] + y[3] * y[3]) - g * (2 * sine(y[0]) - c * sine(y[1]))) / below;
+  const Real a2 = (s * (2 * y[2] * y[2] + c * y[3] * y[3]) + 2 * g * (c * sine(y[0]) - sine(y[1]))) / below;
+  return {y[2], y[3], a1, a2};
+}
+
+struct DoublePendulum {
+  void derivative(double, const StateVector<4>& y, StateVector<4>& rate) const {
+    rate = doublePendulum(
+        y, [](double x) { return df::math::sin(x); }, [](double x) { return df::math::cos(x); });
+  }
+};
+
+TEST(Integrator, DoublePendulumOfFiveSeconds) {
+  const StateVector<4> start = {1.5, 1.0, 0, 0};
+  const QuadSystem<4> system = [](Quad, const QuadVector<4>& y) { return doublePendulum(y, sinq, cosq); };
+  const auto truth = quadSolve<4>(system, 0, 5, {q(start[0]), q(start[1]), 0, 0}, 1500, 5);
+  IntegratorCounters counters;
+  StateVector<4> y = start;
+  for (int i = 0; i < 150; ++i) {
+    ASSERT_EQ(integrate<4>(DoublePendulum{}, i / 30.0, (i + 1) / 30.0, y, {}, counters),
+              IntegratorStatus::kDone);
+  }
+  double error = 0;
+  for (int i = 0; i < 4; ++i) error = std::max(error, std::fabs(y[i] - static_cast<double>(truth[i])));
+  std::printf("double pendulum, 5 s: error %.2g, %.1f derivatives a tick\n", error,
+              static_cast<double>(counters.evaluations) / 150);
+  EXPECT_LE(error, 1e-9);
+}
+
+// A force that depends on the velocity: the fixed methods keep the order that they promise for it.
+TEST(Integrator, VerletIsOfSecondOrderUnderDrag) {
+  struct Drag : ForceField {
+    Vec2 acceleration(Vec2, Vec2 v, double) const override { return -0.8 * v; }
+  } field;
+  double before = 0;
+  for (const int substeps : {4, 8, 16}) {
+    IntegratorOptions options;
+    options.method = IntegratorMethod::kVelocityVerlet;
+    options.substeps = substeps;
+    IntegratorCounters counters;
+    Flown flown;
+    flyField(field, {}, {1, 0}, 0, 1, options, flown, counters);
+    const double error = std::fabs(flown.velocity.x - std::exp(-0.8));
+    if (before > 0) {
+      EXPECT_NEAR(std::log2(before / error), 2, 0.2);
+    }
+    before = error;
+  }
+}
+
+TEST(Integrator, TimeOfTheFieldIsTheWorlds) {
+  struct Tide : ForceField {
+    Vec2 acceleration(Vec2, Vec2, double t) const override { return {df::math::cos(t), 0}; }
+  } field;
+  for (const IntegratorMethod method :
+       {IntegratorMethod::kAutomatic, IntegratorMethod::kRadau, IntegratorMethod::kRungeKutta4}) {
+    IntegratorOptions options;
+    options.method = method;
+    IntegratorCounters counters;
+    Flown flown;
+    ASSERT_EQ(flyField(field, {}, {}, 5, 1, options, flown, counters), IntegratorStatus::kDone);
+    EXPECT_NEAR(flown.velocity.x, std::sin(6) - std::sin(5), 1e-7);
+  }
+}
+
+// A zone with another gravity, entered anywhere within the tick, in a world that has been running for years.
+TEST(Integrator, FindsItsWayThroughAJumpOfTheForce) {
+  struct Zone : ForceField {
+    double border = 0;
+    Vec2 acceleration(Vec2 p, Vec2, double) const override { return p.x < border ? Vec2{} : Vec2{0, 10}; }
+  } field;
+  for (const IntegratorMethod method :
+       {IntegratorMethod::kAutomatic, IntegratorMethod::kExtrapolation, IntegratorMethod::kRadau}) {
+    IntegratorOptions options;
+    options.method = method;
+    IntegratorCounters counters;
+    for (int i = 0; i < 500; ++i) {
+      field.border = (i + 0.5) / 500;
+      Flown flown;
+      ASSERT_EQ(flyField(field, {}, {1, 0}, 1e9, 1, options, flown, counters), IntegratorStatus::kDone);
+      const double within = 1 - field.border;
+      EXPECT_NEAR(flown.velocity.y, 10 * within, 1e-9);
+      EXPECT_NEAR(flown.displacement.y, 5 * within * within, 1e-9);
+    }
+    EXPECT_LE(counters.evaluations / 500, 2000);
+  }
+}
+
+TEST(Integrator, RefusesWhatIsNotFiniteAndStopsAtSingularities) {
+  struct Broken : ForceField {
+    Vec2 acceleration(Vec2 p, Vec2, double) const override { return {std::sqrt(p.x), 0}; }
+  } broken;
+  struct Blow : ForceField {  // reaches infinity within the tick
+    Vec2 acceleration(Vec2, Vec2 v, double) const override { return v * length(v) * 2; }
+  } blow;
+  for (const IntegratorMethod method : {IntegratorMethod::kAutomatic, IntegratorMethod::kExtrapolation,
+                                        IntegratorMethod::kRadau, IntegratorMethod::kVelocityVerlet}) {
+    IntegratorOptions options;
+    options.method = method;
+    IntegratorCounters counters;
+    Flown flown;
+    EXPECT_EQ(flyField(broken, {-1, 0}, {}, 0, 1, options, flown, counters), IntegratorStatus::kNotFinite);
+    EXPECT_EQ(counters.failed_calls, 1);
+    if (method == IntegratorMethod::kVelocityVerlet) continue;
+    EXPECT_NE(flyField(blow, {}, {1, 0}, 0, 1, options, flown, counters), IntegratorStatus::kDone);
+    EXPECT_EQ(counters.failed_calls, 2);
+    EXPECT_LE(counters.evaluations, 1000000);
+    EXPECT_TRUE(isFinite(flown.displacement));
+  }
+}
+
+}  // namespace
+}  // namespace naiad::physics

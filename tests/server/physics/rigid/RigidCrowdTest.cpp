@@ -1,0 +1,123 @@
+// Bodies that are made in one place: bounded work while they come apart, and no effect on what can lie side
+// by side.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "RigidScene.h"
+
+namespace naiad::physics::test {
+namespace {
+
+// Two boxes across each other and a disc beside them.
+std::vector<ConvexShape> cross() {
+  std::vector<ConvexShape> shapes(3);
+  makeBox(1, 0.5, {}, {}, 0, shapes[0]);
+  makeBox(0.5, 1.5, {}, {}, 0, shapes[1]);
+  makeCircle(0.7, {-1, 0}, shapes[2]);
+  return shapes;
+}
+
+RigidBody afloat(Vec2 where) {
+  RigidBody body;
+  body.place = placeAt(where);
+  body.inverse_inertia = 0.7;
+  return body;
+}
+
+double spread(const RigidWorld& world) {
+  double farthest = 0;
+  for (int id = 0; id < world.idLimit(); ++id) farthest = std::max(farthest, length(whereIs(world, id)));
+  return farthest;
+}
+
+TEST(RigidCrowd, ItsContactsGrowWithItsBodiesAndNotWithTheirPairs) {
+  constexpr int kMostOthers = 12, kPoints = 9;  // shapes of one times shapes of the other
+  for (const int count : {50, 100, 200}) {
+    RigidWorld world(sleepless());
+    for (int i = 0; i < count; ++i) world.add(afloat({}), cross());
+    world.step();
+    EXPECT_LE(world.counters().contacts, count * kMostOthers * kPoints) << count;
+    EXPECT_GT(world.counters().contacts, count);
+    EXPECT_GE(world.counters().passed, count * (count - 1) / 2 - count * kMostOthers) << count;
+  }
+}
+
+TEST(RigidCrowd, TheyComeApart) {
+  constexpr int kMany = 100, kTicks = 400;
+  RigidWorld world;
+  for (int i = 0; i < kMany; ++i) {
+    RigidBody body = afloat({0.01 * (i % 10), 0.01 * (i / 10)});
+    body.rotation = rotationBy(0.1 * i);
+    body.linear_damping = 0.05;
+    world.add(body, cross());
+  }
+  double fastest = 0;
+  for (int i = 0; i < kTicks; ++i) {
+    world.step();
+    for (int id = 0; id < kMany; ++id) fastest = std::max(fastest, length(world.body(id).velocity));
+  }
+  const std::int64_t passed = world.counters().passed;
+  EXPECT_GT(passed, 0);
+  world.step();
+  EXPECT_EQ(world.counters().passed, passed);
+  EXPECT_LT(world.deepest(), 0.01);
+  EXPECT_LT(fastest, 2);
+  EXPECT_LT(spread(world), 100);
+}
+
+// Two that touch are left out of one another's crowds: as long as they are, nobody hears that they parted.
+TEST(RigidCrowd, NoContactEndsWhileTheyAreOneInAnother) {
+  RigidWorld world(sleepless());
+  for (const double x : {0.0, 0.5}) {
+    RigidBody body = afloat({x, 0});
+    body.velocity = {0.25 - x, 0};
+    world.add(body, cross());
+  }
+  world.step();
+  ASSERT_EQ(world.events().size(), 1u);
+  EXPECT_TRUE(world.events()[0].is_begin);
+  for (int i = 0; i < 40; ++i) world.add(afloat(whereIs(world, i % 2)), cross());
+  world.step();
+  EXPECT_GT(world.counters().passed, 0);
+  for (const RigidEvent& event : world.events()) {
+    EXPECT_TRUE(event.is_begin) << event.first << " and " << event.second;
+  }
+}
+
+// Thin planks in a pile have many others within their length; all their contacts count.
+TEST(RigidCrowd, WhatLiesSideBySideIsNone) {
+  RigidWorld world = onFloor();
+  const ConvexShape plank = boxShape(5, 0.1), crate = boxShape(0.5, 0.5);
+  for (int i = 0; i < 40; ++i) world.add(movable({0, -0.1 - 0.2 * i}, plank), plank);
+  for (int i = 0; i < 40; ++i) world.add(movable({20.0 + i % 8, -0.5 - i / 8}, crate), crate);
+  for (int i = 0; i < 60; ++i) world.step();
+  EXPECT_GT(world.counters().contacts, 60 * 80);
+  EXPECT_EQ(world.counters().passed, 0);
+}
+
+// A tray that holds a hundred marbles is near all of them.
+TEST(RigidCrowd, ATrayMeetsAllItsMarbles) {
+  RigidWorld world = onFloor();
+  std::vector<ConvexShape> tray(3);
+  makeBox(12, 0.5, {}, {}, 0, tray[0]);
+  makeBox(0.5, 3, {-12, -3}, {}, 0, tray[1]);
+  makeBox(0.5, 3, {12, -3}, {}, 0, tray[2]);
+  RigidBody holds = movable({0, -0.5}, tray[0], 50);
+  world.add(holds, tray);
+  const ConvexShape marble = circleShape(0.4);
+  for (int i = 0; i < 100; ++i) {
+    world.add(movable({-9.0 + 0.9 * (i % 20) + 0.1 * (i / 20), -1.5 - 0.9 * (i / 20)}, marble), marble);
+  }
+  for (int i = 0; i < 120; ++i) world.step();
+  EXPECT_EQ(world.counters().passed, 0);
+  for (int id = 2; id < world.idLimit(); ++id) {
+    EXPECT_LT(whereIs(world, id).y, -1.3) << id;
+    EXPECT_LT(std::fabs(whereIs(world, id).x), 12) << id;
+  }
+}
+
+}  // namespace
+}  // namespace naiad::physics::test

@@ -1,0 +1,403 @@
+// What rigid bodies promise: each bound is a target of the laboratory.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#include "RigidScene.h"
+#include "tests/support/AllocationCount.h"
+
+namespace naiad::physics {
+namespace {
+
+using namespace test;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+TEST(RigidWorld, StacksStand) {
+  for (const auto& [count, bound] : {std::pair{10, 1e-3}, {30, 1e-2}, {100, 0.1}}) {
+    RigidWorld world = onFloor();
+    const ConvexShape crate = boxShape(0.5, 0.5);
+    for (int i = 0; i < count; ++i) world.add(movable({0, -0.5 - i}, crate), crate);
+    double sag = 0, drift = 0;
+    for (int tick = 0; tick < 300; ++tick) {
+      world.step();
+      for (int i = 0; i < count; ++i) {
+        sag = std::max(sag, std::fabs(whereIs(world, i + 1).y + 0.5 + i));
+        drift = std::max(drift, std::fabs(whereIs(world, i + 1).x));
+      }
+    }
+    EXPECT_LE(sag, bound) << count;
+    EXPECT_LE(drift, 1e-6) << count;
+  }
+}
+
+TEST(RigidWorld, TheLightOneBearsTheHeavyOne) {
+  for (const double ratio : {10.0, 1e2, 1e3, 1e4}) {
+    RigidWorld world = onFloor();
+    const ConvexShape crate = boxShape(0.5, 0.5);
+    const int light = world.add(movable({0, -0.5}, crate), crate);
+    const int heavy = world.add(movable({0, -1.5}, crate, ratio), crate);
+    double worst = 0;
+    for (int tick = 0; tick < 300; ++tick) {
+      world.step();
+      const double low = whereIs(world, light).y, high = whereIs(world, heavy).y;
+      worst = std::max({worst, low + 0.5, 1 - (low - high)});
+    }
+    EXPECT_LE(worst, 0.01) << ratio;
+  }
+}
+
+TEST(RigidWorld, FrictionHoldsUpToItsAngle) {
+  for (const double off : {-0.01, 0.01}) {
+    RigidWorld world(sleepless());
+    const double angle = std::atan(0.5) + off * kDegree;
+    const Vec2 up = addSlope(world, angle);
+    const ConvexShape crate = boxShape(0.5, 0.25);
+    RigidBody body = movable(0.25 * up, crate);
+    body.rotation = rotationBy(angle);
+    const int id = world.add(body, crate);
+    for (int tick = 0; tick < 120; ++tick) world.step();
+    const double speed = 30 * length(world.body(id).velocity);
+    if (off < 0) {
+      EXPECT_LT(speed, 1e-3);
+    } else {
+      EXPECT_GT(speed, 1e-3);
+    }
+  }
+}
+
+TEST(RigidWorld, SlidesAndRollsAsItShould) {
+  {
+    RigidWorld world(sleepless());
+    const double angle = 40 * kDegree;
+    const Vec2 up = addSlope(world, angle);
+    const ConvexShape crate = boxShape(0.5, 0.25);
+    RigidBody body = movable(0.25 * up, crate);
+    body.rotation = rotationBy(angle);
+    const int id = world.add(body, crate);
+    for (int tick = 0; tick < 60; ++tick) world.step();
+    const double way = length(whereIs(world, id) - 0.25 * up);
+    EXPECT_NEAR(way / (2 * 10 * (std::sin(angle) - 0.5 * std::cos(angle))), 1, 1e-9);
+  }
+  {
+    RigidWorld world(sleepless());
+    const double angle = 30 * kDegree;
+    const Vec2 up = addSlope(world, angle);
+    const ConvexShape disc = circleShape(0.5);
+    const int id = world.add(movable(0.5 * up, disc), disc);
+    for (int tick = 0; tick < 60; ++tick) world.step();
+    EXPECT_NEAR(length(whereIs(world, id) - 0.5 * up) / (10 * std::sin(angle) * 4 / 3), 1, 1e-9);
+    EXPECT_NEAR(length(world.body(id).velocity), 0.5 * std::fabs(world.body(id).spin), 1e-12);
+  }
+}
+
+TEST(RigidWorld, AnElasticBallBouncesForEver) {
+  RigidWorld world = onFloor();
+  const ConvexShape disc = circleShape(0.5);
+  RigidBody ball = movable({0, -5.5}, disc);
+  ball.restitution = 1;
+  const int id = world.add(ball, disc);
+  for (int tick = 0; tick < 3000; ++tick) {
+    world.step();
+    const double height = -0.5 - whereIs(world, id).y;
+    const double energy = kGravityPerTick * height + 0.5 * lengthSquared(world.body(id).velocity);
+    ASSERT_NEAR(energy / (5 * kGravityPerTick), 1, 1e-9) << tick;
+  }
+}
+
+TEST(RigidWorld, AnElasticBoxTumblesForEver) {
+  RigidWorld world;
+  RigidBody floor = immovable({0, 5});
+  floor.restitution = 1;
+  floor.friction = 0;
+  world.add(floor, boxShape(1000, 5));
+  const ConvexShape crate = boxShape(0.5, 0.25);
+  RigidBody box = movable({0, -5.5}, crate);
+  box.friction = 0;
+  box.spin = 0.1;
+  box.rotation = rotationBy(0.3);
+  const int id = world.add(box, crate);
+  const auto energy = [&] {
+    const RigidBody& b = world.body(id);
+    return -kGravityPerTick * whereIs(world, id).y + 0.5 * lengthSquared(b.velocity) +
+           0.5 / b.inverse_inertia * b.spin * b.spin;
+  };
+  const double before = energy();
+  for (int tick = 0; tick < 900; ++tick) {
+    world.step();
+    ASSERT_NEAR(energy() / before, 1, 1e-12) << tick;
+    ASSERT_LT(whereIs(world, id).y, -0.24) << tick;
+  }
+  EXPECT_GT(world.counters().impacts, 20);
+}
+
+// Nothing is passed, at any speed, turning or not, whoever moves.
+TEST(RigidWorld, NothingGoesThrough) {
+  std::uint64_t state = 1;
+  const auto uniform = [&] {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<double>(state >> 11) * 0x1p-53;
+  };
+  for (int kind = 0; kind < 3; ++kind) {
+    for (int shot = 0; shot < 2000; ++shot) {
+      RigidWorld world(sleepless());
+      const double speed = 0.3 * std::ldexp(1, static_cast<int>(17 * uniform()));
+      const ConvexShape wall = boxShape(0.1, 3),
+                        bullet = shot % 2 == 0 ? boxShape(0.3, 0.2) : circleShape(0.25);
+      RigidBody target = immovable({0, 0});
+      if (kind == 1) target.velocity = {-speed / 2, 0};
+      if (kind == 2) target = movable({0, 0}, wall), target.inverse_inertia = 0;
+      RigidBody flying = movable({-0.6 - 2 * speed * uniform(), 2 * uniform() - 1}, bullet);
+      flying.velocity = {speed, 0};
+      flying.spin = 4 * uniform() - 2;
+      flying.acceleration = target.acceleration = {};
+      flying.restitution = 1;
+      world.add(flying, bullet);
+      world.add(target, wall);
+      bool has_met = false;
+      for (int tick = 0; tick < 4; ++tick) {
+        world.step();
+        has_met = has_met || !world.events().empty();
+        if (std::fabs(whereIs(world, 0).y) > 2.5) break;  // it may leave past the end
+        ASSERT_LT(whereIs(world, 0).x, whereIs(world, 1).x) << kind << ' ' << shot;
+      }
+      ASSERT_TRUE(has_met) << kind << ' ' << shot;
+    }
+  }
+}
+
+TEST(RigidWorld, MomentumStays) {
+  RigidWorld world(sleepless());
+  const ConvexShape crate = boxShape(0.5, 0.5);
+  for (int i = 0; i < 100; ++i) {
+    RigidBody body = movable({1.2 * (i % 10), 1.2 * (i / 10)}, crate, 1 + i % 3);
+    body.acceleration = {};
+    body.velocity = {0.05 * ((i * 7) % 11 - 5), 0.05 * ((i * 5) % 13 - 6)};
+    body.restitution = 0.5;
+    world.add(body, crate);
+  }
+  const auto momentum = [&] {
+    Vec2 sum;
+    for (int i = 0; i < 100; ++i) sum += world.body(i).velocity / world.body(i).inverse_mass;
+    return sum;
+  };
+  const Vec2 before = momentum();
+  for (int tick = 0; tick < 1000; ++tick) world.step();
+  EXPECT_GT(world.counters().contacts, 1000);
+  EXPECT_LE(length(momentum() - before), 1e-12 * 100);
+}
+
+std::uint64_t hashOf(const RigidWorld& world, const Place& origin) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (int id = 0; id < world.idLimit(); ++id) {
+    const RigidBody& body = world.body(id);
+    const Vec2 at = body.place - origin;
+    for (const double x :
+         {at.x, at.y, body.velocity.x, body.velocity.y, body.rotation.c, body.rotation.s, body.spin}) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3 ^ hash >> 32;
+    }
+  }
+  return hash;
+}
+
+// A heap of boxes, discs and a chain. `poison`: an id that gets a force that nothing can be done with.
+std::uint64_t heapAt(const Place& origin, bool has_poison) {
+  RigidWorld world;
+  const auto put = [&](RigidBody body, const ConvexShape& shape) {
+    const Vec2 at = body.place - Place{};
+    body.place = origin + at;
+    return world.add(body, shape);
+  };
+  put(immovable({0, 5}), boxShape(50, 5));
+  const ConvexShape crate = boxShape(0.5, 0.4), disc = circleShape(0.45);
+  int last = -1;
+  for (int i = 0; i < 40; ++i) {
+    const bool is_disc = i % 3 == 0;
+    RigidBody body = movable({1.1 * (i % 7) + 0.1 * (i % 2), -1 - 1.2 * (i / 7)}, is_disc ? disc : crate);
+    body.rotation = rotationBy(0.3 * i);
+    const int id = put(body, is_disc ? disc : crate);
+    if (i % 10 == 1) last = id;
+    if (i % 10 == 2) {
+      Joint joint;
+      joint.kind = JointKind::kHinge;
+      joint.a = last, joint.b = id;
+      joint.anchor_a = {0.55, 0}, joint.anchor_b = {-0.55, 0};
+      EXPECT_GE(world.addJoint(joint), 0);
+    }
+  }
+  int poisoned = -1;
+  if (has_poison) {
+    RigidBody body = movable({0, -200}, crate);
+    body.force = {1e30, 0};
+    poisoned = put(body, crate);
+  }
+  for (int tick = 0; tick < 200; ++tick) world.step();
+  if (has_poison) {
+    EXPECT_TRUE(world.isFrozen(poisoned));
+    EXPECT_EQ(world.counters().quarantined, 1);
+    RigidBody clean;
+    clean.place = origin;
+    EXPECT_TRUE(world.remove(poisoned));
+    EXPECT_TRUE(world.set(0, world.body(0)));
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (int id = 0; id < poisoned; ++id) {
+      const RigidBody& b = world.body(id);
+      const Vec2 at = b.place - origin;
+      for (const double x : {at.x, at.y, b.velocity.x, b.velocity.y, b.rotation.c, b.rotation.s, b.spin}) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3 ^ hash >> 32;
+      }
+    }
+    return hash;
+  }
+  return hashOf(world, origin);
+}
+
+TEST(RigidWorld, IsTheSameEverywhere) {
+  const std::uint64_t here = heapAt({}, false);
+  EXPECT_EQ(here, heapAt({1'000'000'000, -1'000'000'000, 0, 0}, false));
+  EXPECT_EQ(here, 3592255401862025720ULL);  // whatever compiled this
+}
+
+TEST(RigidWorld, WhatCannotBeSolvedStaysAlone) {
+  EXPECT_EQ(heapAt({}, false), heapAt({}, true));
+  RigidWorld world;
+  RigidBody body;
+  body.velocity.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(world.add(body, circleShape(1)), -1);
+  EXPECT_EQ(world.step(std::numeric_limits<double>::infinity()), RigidStatus::kRefused);
+}
+
+TEST(RigidWorld, HundredsInOnePlaceComeApart) {
+  RigidWorld world = onFloor();
+  const ConvexShape crate = boxShape(0.5, 0.5);
+  for (int i = 0; i < 200; ++i) world.add(movable({0, -20}, crate), crate);
+  double fastest = 0;
+  for (int tick = 0; tick < 300; ++tick) {
+    world.step();
+    for (int i = 1; i <= 200; ++i) fastest = std::max(fastest, length(world.body(i).velocity));
+  }
+  EXPECT_LT(fastest, 2);  // a fall from 20 gives 0.67
+  EXPECT_LT(world.deepest(), 0.1);
+}
+
+TEST(RigidWorld, SleepsStillAndWakesWhenItMust) {
+  RigidWorld world = onFloor({});
+  const ConvexShape crate = boxShape(0.5, 0.5);
+  const int lower = world.add(movable({0, -0.6}, crate), crate);
+  const int upper = world.add(movable({0.1, -1.8}, crate), crate);
+  for (int tick = 0; tick < 100; ++tick) world.step();
+  ASSERT_TRUE(world.isAsleep(lower) && world.isAsleep(upper));
+  EXPECT_EQ(world.body(lower).velocity, Vec2{});
+  const RigidBody before = world.body(upper);
+  const std::int64_t contacts = world.counters().contacts;
+  for (int tick = 0; tick < 10; ++tick) world.step();
+  EXPECT_EQ(world.body(upper), before);
+  EXPECT_EQ(world.counters().contacts, contacts);  // nothing was solved for
+
+  RigidBody ball = movable({-3, -0.5}, circleShape(0.3));  // what moves wakes what it hits
+  ball.velocity = {0.3, 0};
+  ball.friction = 0;
+  const int id = world.add(ball, circleShape(0.3));
+  for (int tick = 0; tick < 12; ++tick) world.step();
+  EXPECT_FALSE(world.isAsleep(lower) || world.isAsleep(upper));
+  world.remove(id);
+  for (int tick = 0; tick < 150; ++tick) world.step();
+  ASSERT_TRUE(world.isAsleep(lower) && world.isAsleep(upper));
+  world.remove(0);  // and so does losing what it lies on
+  const double height = whereIs(world, upper).y;
+  for (int tick = 0; tick < 10; ++tick) world.step();
+  EXPECT_NEAR(whereIs(world, upper).y - height, 0.5 * kGravityPerTick * 100, 1e-6);
+}
+
+TEST(RigidWorld, WhatSpeedsUpDoesNotSleep) {
+  RigidWorld world;
+  const double angle = std::atan(0.5) + 0.01 * kDegree;
+  const Vec2 up = addSlope(world, angle);
+  const ConvexShape crate = boxShape(0.5, 0.25);
+  RigidBody body = movable(0.25 * up, crate);
+  body.rotation = rotationBy(angle);
+  const int id = world.add(body, crate);
+  const double gain = kGravityPerTick * (std::sin(angle) - 0.5 * std::cos(angle));
+  for (int tick = 1; tick <= 300; ++tick) {
+    world.step();
+    ASSERT_NEAR(length(world.body(id).velocity), gain * tick, 1e-9) << tick;
+  }
+}
+
+TEST(RigidWorld, TellsWhenContactsBeginAndEnd) {
+  RigidWorld world(sleepless());
+  const int wall = world.add(immovable({10, 0}), boxShape(1, 5));
+  RigidBody body = movable({8, 0}, boxShape(0.5, 0.5), 2);
+  body.velocity = {0.8, 0};
+  body.acceleration = {};
+  body.restitution = 0.5;
+  const int id = world.add(body, boxShape(0.5, 0.5));
+  world.step();
+  ASSERT_EQ(world.events().size(), 1U);
+  const RigidEvent begin = world.events()[0];
+  EXPECT_TRUE(begin.is_begin);
+  EXPECT_EQ(begin.first, wall);
+  EXPECT_EQ(begin.second, id);
+  EXPECT_NEAR(begin.impulse, 2 * 0.8 * 1.5, 1e-9);
+  EXPECT_EQ(begin.normal, (Vec2{-1, 0}));
+  EXPECT_NEAR(whereIs(world, id).x, 8.5 - 0.4 * (1 - 0.5 / 0.8), 1e-9);  // the rest of the tick is used
+  world.step();
+  ASSERT_EQ(world.events().size(), 1U);
+  EXPECT_FALSE(world.events()[0].is_begin);
+}
+
+double gapOf(const RigidWorld& world, int id) {
+  const Joint& joint = world.joint(id);
+  const RigidBody &a = world.body(joint.a), &b = world.body(joint.b);
+  return length((b.place - a.place) + b.rotation * joint.anchor_b - a.rotation * joint.anchor_a);
+}
+
+TEST(RigidWorld, ABridgeBearsItsLoad) {
+  RigidWorld world(sleepless());
+  const ConvexShape plank = boxShape(0.5, 0.1), crate = boxShape(0.4, 0.4);
+  const int left = world.add(immovable({0, 0}), std::span<const ConvexShape>());
+  const int right = world.add(immovable({19, 0}), std::span<const ConvexShape>());
+  int last = left, joints = 0;
+  const auto hinge = [&](int a, int b, Vec2 on_a, Vec2 on_b) {
+    Joint joint;
+    joint.kind = JointKind::kHinge;
+    joint.a = a, joint.b = b;
+    joint.anchor_a = on_a, joint.anchor_b = on_b;
+    EXPECT_EQ(world.addJoint(joint), joints++);
+  };
+  Vec2 end = {0, 0};  // it hangs in a V, to begin with
+  for (int i = 0; i < 20; ++i) {
+    const double rise = std::sqrt(1 - 0.95 * 0.95) * (i < 10 ? 1 : -1);
+    RigidBody body = movable(end + Vec2{0.475, 0.5 * rise}, plank);
+    body.rotation = {0.95, rise};
+    end += Vec2{0.95, rise};
+    const int id = world.add(body, plank);
+    hinge(last, id, last == left ? Vec2{} : Vec2{0.5, 0}, {-0.5, 0});
+    last = id;
+  }
+  hinge(last, right, {0.5, 0}, {});
+  const int load = world.add(movable({9.5, 2.2}, crate, 10), crate);
+  double worst = 0;
+  for (int tick = 0; tick < 300; ++tick) {
+    world.step();
+    for (int i = 0; i < joints; ++i) worst = std::max(worst, gapOf(world, i));
+  }
+  EXPECT_LE(worst, 0.01);
+  EXPECT_LT(whereIs(world, load).y, 4);  // it lies on the bridge
+}
+
+TEST(RigidWorld, StepsWithoutAskingForMemory) {
+  if (!naiad::test::canCountAllocations()) GTEST_SKIP() << "sanitizers have their own allocator";
+  RigidWorld world = onFloor();
+  const ConvexShape crate = boxShape(0.5, 0.5);
+  for (int i = 0; i < 30; ++i) world.add(movable({1.01 * (i % 6), -0.5 - i / 6}, crate), crate);
+  for (int tick = 0; tick < 120; ++tick) world.step();
+  const std::uint64_t before = naiad::test::allocationsSoFar();
+  for (int tick = 0; tick < 60; ++tick) world.step();
+  EXPECT_EQ(naiad::test::allocationsSoFar(), before);
+}
+
+}  // namespace
+}  // namespace naiad::physics

@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "SoftScene.h"
+#include "physics/soft/SoftCrowd.h"
+
+namespace naiad::physics {
+namespace {
+
+// Blobs of 8 nodes side by side, `apart` from one another, and what they find of each other.
+class Crowd {
+ public:
+  Crowd(int count, double apart) {
+    for (int i = 0; i < count; ++i) m_bodies.push_back(makeBlob(placeAt({apart * i, 0}), 1, 8, 1, 0, 0, 0));
+    for (const SoftBody& body : m_bodies) {
+      for (const SoftNode& node : body.nodes) m_ends.push_back(node.offset);
+    }
+    for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+      SoftView view;
+      view.body = &m_bodies[i], view.id = static_cast<int>(i), view.ends = &m_ends[8 * i];
+      view.lower = {-1.2, -1.2}, view.upper = {1.2, 1.2};
+      m_views.push_back(view);
+    }
+    for (std::size_t i = 0; i < m_views.size(); ++i)
+      m_left_out += crowd.findContacts(m_views, i, rows) ? 0 : 1;
+  }
+  // Of a body's nodes with others.
+  int rowsOf(int id) const {
+    int count = 0;
+    for (const SoftRow& row : rows) count += row.a.body == id ? 1 : 0;
+    return count;
+  }
+  int leftOut() const { return m_left_out; }
+  /// Every contact there is.
+  std::vector<SoftRow> all() const {
+    std::vector<SoftRow> found;
+    for (const SoftView& a : m_views) {
+      for (const SoftView& b : m_views) {
+        if (a.id != b.id) findContacts(a, b, found);
+      }
+    }
+    return found;
+  }
+
+  SoftCrowd crowd;
+  std::vector<SoftRow> rows;
+
+ private:
+  std::vector<SoftBody> m_bodies;
+  std::vector<Vec2> m_ends;
+  std::vector<SoftView> m_views;
+  int m_left_out = 0;
+};
+
+TEST(SoftCrowd, WithoutOneEveryContactCounts) {
+  for (const int count : {2, SoftCrowd::kMostOthers + 1}) {
+    const Crowd few(count, 0.1);
+    const std::vector<SoftRow> all = few.all();
+    EXPECT_EQ(few.leftOut(), 0);
+    EXPECT_GT(all.size(), 4u);
+    ASSERT_EQ(few.rows.size(), all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(few.rows[i].key, all[i].key);
+  }
+}
+
+TEST(SoftCrowd, ItsContactsGrowWithItsBodiesAndNotWithTheirPairs) {
+  for (const int count : {50, 100, 200}) {
+    const Crowd many(count, 0);
+    EXPECT_EQ(many.leftOut(), count);
+    for (int id = 0; id < count; ++id) {
+      EXPECT_GT(many.rowsOf(id), 0) << id;
+      EXPECT_LE(many.rowsOf(id), SoftCrowd::kMostOthers) << id;
+    }
+  }
+}
+
+// In one place each begins with another one, so that all are met by as many.
+TEST(SoftCrowd, NobodyBearsMoreThanOthers) {
+  constexpr int kMany = 60;
+  const Crowd many(kMany, 0);
+  std::vector<int> met(kMany, 0);
+  for (const SoftRow& row : many.rows) ++met[static_cast<std::size_t>(row.b.body)];
+  for (const int times : met) EXPECT_LE(times, SoftCrowd::kMostOthers * SoftCrowd::kMostOthers);
+  EXPECT_GT(*std::min_element(met.begin(), met.end()), 0);
+}
+
+// In a row where each overlaps a score of others, the nearest are met, and of the contacts the deepest.
+TEST(SoftCrowd, TheNearestAreMet) {
+  const Crowd row(100, 0.1);
+  for (const SoftRow& contact : row.rows) {
+    EXPECT_LE(std::abs(contact.a.body - contact.b.body), SoftCrowd::kMostOthers) << contact.a.body;
+  }
+}
+
+}  // namespace
+}  // namespace naiad::physics

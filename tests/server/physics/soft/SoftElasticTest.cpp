@@ -1,0 +1,211 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "SoftScene.h"
+#include "physics/soft/SoftForces.h"
+#include "tests/support/Quad.h"
+
+namespace naiad::physics {
+namespace {
+
+using test::kGravity;
+
+constexpr double kPi = 3.14159265358979323846;
+// A beam in ticks: EI 14, EA 3e3, 25 per length, 10 long. Its first mode takes some 240 ticks.
+constexpr double kEi = 14, kEa = 3e3, kDensity = 25, kLength = 10;
+
+SoftBody clamped(int elements) {
+  return makeBeam({}, {kLength, 0}, elements, kEi, kEa, kDensity, true);
+}
+
+// Bent by a ten-thousandth of its length: there the linear theory holds to 1e-8.
+double relativeDeflection(int elements) {
+  SoftBody beam = clamped(elements);
+  beam.drag = 0.1;
+  const double expected = 0.001, force = expected * 3 * kEi / (kLength * kLength * kLength);
+  beam.nodes.back().force = {0, force};
+  SoftWorld world;
+  world.setSubsteps(1);
+  const int id = world.add(beam);
+  for (int i = 0; i < 3000; ++i) world.step();
+  EXPECT_LT(test::fastest(world.body(id)), 1e-12);
+  return test::nodeAt(world, id, elements).y / expected - 1;
+}
+
+// Row 11b: FL³/3EI within 1 %, and the error falls with the cube of the number of elements.
+TEST(SoftBody, CantileverBendsAsItsStiffnessSays) {
+  const double coarse = relativeDeflection(8), medium = relativeDeflection(16), fine = relativeDeflection(32);
+  EXPECT_LT(std::fabs(coarse), 1e-3);
+  EXPECT_LT(std::fabs(fine), 1e-5);
+  EXPECT_NEAR(coarse / medium, 8, 1);
+  EXPECT_NEAR(medium / fine, 8, 1);
+}
+
+// Started in the shape of its first mode; the time between passages.
+double relativeFrequency(int elements, int substeps) {
+  const double beta = 1.8751040687119612,
+               sigma = (std::cosh(beta) + std::cos(beta)) / (std::sinh(beta) + std::sin(beta));
+  SoftBody beam = clamped(elements);
+  for (SoftNode& node : beam.nodes) {
+    const double x = beta * node.offset.x / kLength;
+    node.offset.y = 0.01 * (std::cosh(x) - std::cos(x) - sigma * (std::sinh(x) - std::sin(x)));
+  }
+  SoftWorld world;
+  world.setSubsteps(substeps);
+  const int id = world.add(beam);
+  double before = 1, first = 0, last = 0;
+  int passages = 0;
+  for (int i = 0; i < 1200; ++i) {
+    world.step();
+    const double now = test::nodeAt(world, id, elements).y;
+    if ((now < 0) != (before < 0)) {
+      last = i + 1 - now / (now - before);
+      if (passages++ == 0) first = last;
+    }
+    before = now;
+  }
+  const double measured = (passages - 1) / (2 * (last - first));
+  const double expected = beta * beta / (2 * kPi) * std::sqrt(kEi / kDensity / std::pow(kLength, 4));
+  return measured / expected - 1;
+}
+
+// Row 11b: f₁ within 1 %, and of second order.
+TEST(SoftBody, CantileverSwingsAtItsFirstFrequency) {
+  EXPECT_LT(std::fabs(relativeFrequency(4, 4)), 0.01);
+  EXPECT_LT(std::fabs(relativeFrequency(8, 4)), 1e-3);
+  EXPECT_LT(std::fabs(relativeFrequency(8, 1)), 1e-3);
+  const double medium = relativeFrequency(32, 16), fine = relativeFrequency(64, 16);
+  EXPECT_LT(std::fabs(medium), 1e-4);
+  EXPECT_NEAR(medium / fine, 4, 0.5);
+}
+
+double relativeSag(int links) {
+  constexpr double kSpan = 10, kRope = 12;
+  Quad a = kSpan / 2;  // y = a cosh(x/a)
+  for (int i = 0; i < 200; ++i) {
+    const Quad u = Quad(kSpan) / 2 / a;
+    const Quad sinh_u = sinhq(u), cosh_u = coshq(u);
+    a -= (2 * a * sinh_u - kRope) / (2 * sinh_u - 2 * u * cosh_u);
+  }
+  const double sag = static_cast<double>(a * (coshq(Quad(kSpan) / 2 / a) - 1));
+  SoftBody rope = makeRope({}, {kRope, 0}, links, kRope, 1e6);
+  const double depth = std::sqrt(kRope * kRope - kSpan * kSpan) / 2;
+  for (int i = 0; i <= links; ++i) {
+    const double part = 2.0 * i / links;
+    rope.nodes[static_cast<std::size_t>(i)].offset = {kSpan / 2 * part, depth * std::min(part, 2 - part)};
+  }
+  rope.nodes.front().is_pinned = rope.nodes.back().is_pinned = true;
+  rope.drag = 0.1;
+  SoftWorld world;
+  world.setGravity({0, kGravity});
+  const int id = world.add(rope);
+  for (int i = 0; i < 600; ++i) world.step();
+  return test::nodeAt(world, id, links / 2).y / sag - 1;
+}
+
+// Row 11b.
+TEST(SoftBody, RopeHangsAsACatenary) {
+  const double coarse = relativeSag(16), medium = relativeSag(32), fine = relativeSag(64);
+  EXPECT_LT(std::fabs(coarse), 0.01);
+  EXPECT_LT(std::fabs(fine), 0.001);
+  EXPECT_NEAR(coarse / medium, 4, 0.3);
+  EXPECT_NEAR(medium / fine, 4, 0.3);
+}
+
+// A ring under pressure: tension = pressure · radius (and the polygon's cosine), tension = EA · strain.
+TEST(SoftBody, BlobSwellsAsItsSkinAllows) {
+  constexpr int kNodes = 24;
+  constexpr double kRadius = 2, kSkin = 1, kPressure = 0.1;
+  SoftBody blob = makeBlob({}, kRadius, kNodes, 5, kPressure, 0, kSkin);
+  blob.drag = 0.1;
+  SoftWorld world;
+  const int id = world.add(blob);
+  for (int i = 0; i < 2000; ++i) world.step();
+  const double expected = kSkin / (kSkin / kRadius - kPressure * std::cos(kPi / kNodes));
+  EXPECT_NEAR(length(test::nodeAt(world, id, 0) - test::centreOf(world, id)), expected, 1e-9);
+}
+
+double springError(int substeps) {
+  SoftBody pair = makeRope({}, {1, 0}, 1, 2, 0.01);  // a mass of 1 on a spring of 0.01: ω = 0.1
+  pair.nodes[0].is_pinned = true;
+  pair.nodes[1].offset.x = 1.1;
+  SoftWorld world;
+  world.setSubsteps(substeps);
+  const int id = world.add(pair);
+  double most = 0;
+  for (int i = 1; i <= 200; ++i) {
+    world.step();
+    most = std::max(most, std::fabs(test::nodeAt(world, id, 1).x - 1 - 0.1 * std::cos(0.1 * i)));
+  }
+  return most / 0.1;
+}
+
+TEST(SoftBody, StepIsOfSecondOrder) {
+  const double coarse = springError(8), medium = springError(16), fine = springError(32);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_NEAR(coarse / medium, 4, 0.4);
+  EXPECT_NEAR(medium / fine, 4, 0.4);
+}
+
+// Any stiffness to 1e10 (and a beam as stiff), any step to 100 ticks: energy does not grow, nothing flies
+// off.
+TEST(SoftBody, EnergyNeverGrowsAtAnyStiffnessOrStep) {
+  for (const double stiffness : {1e-3, 1.0, 1e3, 1e6, 1e10}) {
+    for (const double dt : {0.1, 1.0, 10.0, 100.0}) {
+      SoftBody rope = makeRope({}, {10, 0}, 20, 10, stiffness, 1e-3 * stiffness);
+      rope.nodes[0].is_pinned = true;
+      rope.nodes.back().velocity = {0, -0.5};
+      const Vec2 gravity = {0, kGravity};
+      SoftWorld world;
+      world.setGravity(gravity);
+      const int id = world.add(rope);
+      const double before = energyOf(rope, gravity);
+      double most = before;
+      for (int i = 0; i < 100; ++i) {
+        ASSERT_EQ(world.step(dt), SoftStatus::kDone);
+        most = std::max(most, energyOf(world.body(id), gravity));
+      }
+      EXPECT_LT(most, before + 1e-8) << stiffness << ' ' << dt;
+      EXPECT_LT(length(test::nodeAt(world, id, 20)), 10.1 + 20 / stiffness) << stiffness << ' ' << dt;
+      EXPECT_LT(length(test::nodeAt(world, id, 1)), 0.6 + 20 / stiffness) << stiffness << ' ' << dt;
+    }
+  }
+}
+
+// At 1e10 links keep their length, whatever hangs on them: 2e-12 for each unit of weight, and a jerk is some
+// ten times that.
+TEST(SoftBody, StiffRopeKeepsItsLength) {
+  for (const double end : {1.0, 1e3, 1e6}) {
+    SoftBody rope = makeRope({}, {10, 0}, 20, 20, 0.5e10);
+    rope.nodes[0].is_pinned = true;
+    rope.nodes.back().mass = end;
+    SoftWorld world;
+    world.setGravity({0, kGravity});
+    const int id = world.add(rope);
+    double stretch = 0;
+    for (int i = 0; i < 300; ++i) {
+      world.step();
+      for (const SoftStretch& s : world.body(id).stretches) {
+        stretch = std::max(stretch, std::fabs(spanOf(world.body(id), s).length / s.rest_length - 1));
+      }
+    }
+    EXPECT_LT(stretch, 2e-9 + 3e-11 * end) << end;
+    EXPECT_EQ(world.counters().unconverged, 0) << end;
+  }
+}
+
+TEST(SoftBody, FreeBodyKeepsItsMomentum) {
+  SoftBody blob = makeBlob({}, 2, 24, 5, 0.05, 0.2, 0.5, 0.1);
+  for (std::size_t i = 0; i < 24; ++i)
+    blob.nodes[i].velocity = {0.3 + 0.01 * static_cast<double>(i % 5), -0.1};
+  const Vec2 before = test::momentumOf(blob);
+  SoftWorld world;
+  const int id = world.add(blob);
+  for (int i = 0; i < 1000; ++i) world.step();
+  EXPECT_LT(length(test::momentumOf(world.body(id)) - before) / length(before), 1e-11);
+}
+
+}  // namespace
+}  // namespace naiad::physics

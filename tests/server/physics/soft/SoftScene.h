@@ -1,0 +1,58 @@
+// What tests of soft bodies share.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "physics/soft/SoftBuild.h"
+#include "physics/soft/SoftWorld.h"
+
+namespace naiad::physics::test {
+
+constexpr double kTicks = 30;                        // per second
+constexpr double kGravity = 10 / (kTicks * kTicks);  // 10 per second²
+
+inline Vec2 nodeAt(const SoftWorld& world, int id, int node) {
+  const SoftBody& body = world.body(id);
+  return (body.place - Place{}) + body.nodes[static_cast<std::size_t>(node)].offset;
+}
+inline Vec2 centreOf(const SoftWorld& world, int id) {
+  Vec2 sum;
+  double mass = 0;
+  for (const SoftNode& node : world.body(id).nodes) sum += node.mass * node.offset, mass += node.mass;
+  return (world.body(id).place - Place{}) + sum / mass;
+}
+inline Vec2 momentumOf(const SoftBody& body) {
+  Vec2 sum;
+  for (const SoftNode& node : body.nodes) sum += node.mass * node.velocity;
+  return sum;
+}
+inline double fastest(const SoftBody& body) {
+  double most = 0;
+  for (const SoftNode& node : body.nodes) most = std::max(most, length(node.velocity));
+  return most;
+}
+
+inline ConvexShape boxShape(double half_width, double half_height) {
+  ConvexShape shape;
+  makeBox(half_width, half_height, {}, {}, 0, shape);
+  return shape;
+}
+inline SoftObstacle obstacleAt(int id, const ConvexShape& shape, Vec2 at, double friction = 0) {
+  SoftObstacle obstacle;
+  obstacle.id = id;
+  obstacle.shapes = {&shape, 1};
+  obstacle.place = placeAt(at);
+  obstacle.friction = friction;
+  return obstacle;
+}
+/// What the layer of rigid bodies would do after a step.
+inline void goOn(SoftObstacle& o, double dt = 1) {
+  o.velocity += dt * o.acceleration + o.inverse_mass * o.impulse;
+  o.spin += o.inverse_inertia * o.angular_impulse;
+  o.place = o.place + o.displacement;
+  o.rotation = turned(o.rotation, o.turn);
+}
+
+}  // namespace naiad::physics::test

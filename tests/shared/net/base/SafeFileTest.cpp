@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "shared/net/base/SafeFile.h"
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SafeFileTest : testing::Test {
+  SafeFileTest() {
+    std::string name = testing::TempDir() + "naiad-file-XXXXXX";
+    base = mkdtemp(name.data());
+    path = base / "file";
+  }
+  ~SafeFileTest() override { fs::remove_all(base); }
+  std::ptrdiff_t filesThere() const { return std::distance(fs::directory_iterator(base), {}); }
+
+  fs::path base;
+  fs::path path;
+};
+
+TEST_F(SafeFileTest, ReplacesWholeAndForItsOwnerAlone) {
+  std::ofstream(path) << "something longer, open to all";
+  fs::permissions(path, fs::perms::owner_all | fs::perms::others_read);
+  EXPECT_TRUE(openToOthers(path));
+  replaceFile(path, "new");
+  EXPECT_EQ(readSmallFile(path, 3), "new");
+  EXPECT_FALSE(openToOthers(path));
+  EXPECT_EQ(filesThere(), 1);
+}
+
+TEST_F(SafeFileTest, MakesOnlyWhatIsNotThere) {
+  EXPECT_TRUE(makeFile(path, "first"));
+  EXPECT_FALSE(makeFile(path, "second"));
+  EXPECT_EQ(readSmallFile(path, 100), "first");
+  EXPECT_EQ(filesThere(), 1);
+}
+
+TEST_F(SafeFileTest, SaysWhatTheSystemRefuses) {
+  EXPECT_EQ(readSmallFile(path, 100), std::nullopt);
+  makeFile(path, "four");
+  EXPECT_THROW(readSmallFile(path, 3), std::system_error);
+  EXPECT_THROW(readSmallFile(base, 100), std::system_error);
+  EXPECT_THROW(replaceFile(base / "none" / "file", "x"), std::system_error);
+  EXPECT_THROW(openToOthers(base / "none"), std::system_error);
+}
+
+TEST_F(SafeFileTest, LockIsHeldByOneAtATime) {
+  std::atomic<int> inside{0};
+  std::atomic<int> most{0};
+  int rounds = 0;  // guarded by the lock
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([&] {
+      for (int i = 0; i < 200; ++i) {
+        const FileLock lock(base / "lock");
+        most = std::max(most.load(), ++inside);
+        ++rounds;
+        --inside;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(most, 1);
+  EXPECT_EQ(rounds, 800);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "SealKit.h"
+#include "shared/net/datagram/DatagramKeys.h"
+
+namespace naiad::test {
+namespace {
+
+constexpr ConnectionId kId{0x0123456789abcdef};
+
+// Made with HMAC-SHA256 and a few lines of Python, from exporter_master_secret 00 01 … 1f.
+TEST(DatagramKeys, KnownAnswersOfAes) {
+  const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kAes128Gcm, kId, 0x13);
+  EXPECT_EQ(toHex(keys.client.key.data(), 16), "4bf58675aeb5d26a6fb351d2ba56c3d4");
+  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "84784d40194d0940a7028eaf");
+  EXPECT_EQ(toHex(keys.server.key.data(), 16), "8ebd5d909a24e84b1f9686b6ddfe75f1");
+  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "d644bd65fb79bc54285b075c");
+}
+
+TEST(DatagramKeys, KnownAnswersOfChaCha) {
+  const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kChaCha20Poly1305, kId, 0x13);
+  EXPECT_EQ(toHex(keys.client.key.data(), 32),
+            "1bc0cc8be1216a553b07211a30a06e3986c4f21d15c63c5cd08f3cde5ea50e01");
+  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "d891b999d7072a7ac76783af");
+  EXPECT_EQ(toHex(keys.server.key.data(), 32),
+            "2ac40823402de6c8644557c32cc7898c0d4c1faa52c9aaca408106344d118137");
+  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "14a508dfd5a797fd08477130");
+}
+
+TEST(DatagramKeys, ExporterIsAskedForWhatThePageSays) {
+  std::string label, context;
+  std::size_t asked = 0;
+  const KeyExporter spy = [&](std::string_view l, std::string_view c, std::size_t bytes) {
+    label = l;
+    context = c;
+    asked = bytes;
+    return std::string(bytes, 'k');
+  };
+  deriveDatagramKeys(spy, AeadId::kChaCha20Poly1305, kId, 0x13);
+  EXPECT_EQ(label, "EXPERIMENTAL-naiad-datagram");
+  EXPECT_EQ(toHex(context), "0400000002efcdab896745230113000000");
+  EXPECT_EQ(asked, 88u);
+}
+
+TEST(DatagramKeys, NoTwoSessionsEpochsOrCiphersShareKeys) {
+  std::set<std::string> all;
+  for (const AeadId aead : kBothAeads) {
+    for (const ConnectionId id : {ConnectionId{0}, ConnectionId{1}, ConnectionId{1ull << 63}}) {
+      for (const Epoch epoch : {0u, 1u, 16u, 1u << 31}) {
+        const DatagramKeys keys = deriveDatagramKeys(knownExporter(), aead, id, epoch);
+        for (const SealKey* key : {&keys.client, &keys.server}) {
+          EXPECT_EQ(key->aead, aead);
+          all.insert(toHex(key->key.data(), 16));
+          all.insert(toHex(key->iv.data(), 12));
+        }
+      }
+    }
+  }
+  EXPECT_EQ(all.size(), 2u * 3 * 4 * 2 * 2);
+}
+
+TEST(DatagramKeys, ExporterThatFailsIsAnError) {
+  for (const std::size_t size : {0u, 55u, 57u}) {
+    const KeyExporter broken = [&](auto, auto, std::size_t) { return std::string(size, 'k'); };
+    EXPECT_THROW(deriveDatagramKeys(broken, AeadId::kAes128Gcm, kId, 0), KeyExportError) << size;
+  }
+}
+
+TEST(DatagramKeys, OnlyKnownCiphersHaveNumbers) {
+  EXPECT_EQ(aeadFromWire(1), AeadId::kAes128Gcm);
+  EXPECT_EQ(aeadFromWire(2), AeadId::kChaCha20Poly1305);
+  for (const std::uint32_t number : {0u, 3u, 255u, 257u, 0xffffffffu}) EXPECT_FALSE(aeadFromWire(number));
+}
+
+}  // namespace
+}  // namespace naiad::test

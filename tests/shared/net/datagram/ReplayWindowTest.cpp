@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "shared/net/datagram/ReplayWindow.h"
+#include "shared/values/SplitMix64.h"
+
+namespace naiad {
+namespace {
+
+using Verdict = ReplayWindow::Verdict;
+
+/// What the window should say, from all that was ever marked.
+Verdict plainly(const std::set<std::uint64_t>& marked, std::uint64_t sequence) {
+  if (marked.contains(sequence)) {
+    return *marked.rbegin() - sequence < ReplayWindow::kSize ? Verdict::kSeen : Verdict::kTooOld;
+  }
+  const bool old = !marked.empty() && *marked.rbegin() >= sequence + ReplayWindow::kSize;
+  return old ? Verdict::kTooOld : Verdict::kNew;
+}
+
+TEST(ReplayWindow, AgreesWithASetOfAllNumbers) {
+  SplitMix64 rng(3);
+  for (int round = 0; round < 60; ++round) {
+    ReplayWindow window;
+    std::set<std::uint64_t> marked;
+    std::uint64_t around = rng.below(2) ? 0 : rng.next() >> 8;
+    const std::uint64_t spread = 1 + rng.below(3000);
+    for (int i = 0; i < 3000; ++i) {
+      const std::uint64_t jump = rng.below(400) == 0 ? rng.below(5000) : rng.below(3);
+      around += jump;
+      const std::uint64_t back = rng.below(spread);
+      const std::uint64_t sequence = around > back ? around - back : 0;
+      const Verdict verdict = window.check(sequence);
+      ASSERT_EQ(verdict, plainly(marked, sequence)) << "round " << round << ", number " << sequence;
+      if (verdict != Verdict::kNew || rng.below(4) == 0) continue;  // some are tried, and turn out forged
+      window.mark(sequence);
+      marked.insert(sequence);
+      ASSERT_EQ(window.expected(), *marked.rbegin() + 1);
+    }
+  }
+}
+
+TEST(ReplayWindow, EveryPlaceInTheWindowIsItsOwn) {
+  for (const std::uint64_t newest : {1023u, 1024u, 5000u, 65'536u}) {
+    ReplayWindow window;
+    window.mark(newest);
+    for (std::uint64_t i = 1; i < ReplayWindow::kSize; ++i) {
+      ASSERT_EQ(window.check(newest - i), Verdict::kNew);
+      window.mark(newest - i);
+      ASSERT_EQ(window.check(newest - i), Verdict::kSeen);
+    }
+    if (newest >= ReplayWindow::kSize) {
+      EXPECT_EQ(window.check(newest - ReplayWindow::kSize), Verdict::kTooOld);
+    }
+    EXPECT_EQ(window.check(newest + 1), Verdict::kNew);
+  }
+}
+
+TEST(ReplayWindow, JumpForgetsExactlyWhatFallsOut) {
+  for (std::uint64_t jump = 1; jump < 2 * ReplayWindow::kSize; ++jump) {
+    ReplayWindow window;
+    for (std::uint64_t i = 0; i < ReplayWindow::kSize; ++i) window.mark(i);
+    const std::uint64_t newest = ReplayWindow::kSize - 1 + jump;
+    window.mark(newest);
+    for (std::uint64_t i = 0; i < newest; i += 1 + jump % 7) {
+      const Verdict expected = newest - i >= ReplayWindow::kSize ? Verdict::kTooOld
+                               : i < ReplayWindow::kSize         ? Verdict::kSeen
+                                                                 : Verdict::kNew;
+      ASSERT_EQ(window.check(i), expected) << "jump " << jump << ", number " << i;
+    }
+  }
+}
+
+TEST(RestoreSequence, ExampleOfTheRfc) {
+  EXPECT_EQ(restoreSequence(0xa82f30ea + 1, 0x9b32), 0xa82f9b32u);  // RFC 9000, A.3
+}
+
+TEST(RestoreSequence, WhateverIsNearComesBack) {
+  SplitMix64 rng(9);
+  for (int i = 0; i < 300'000; ++i) {
+    const std::uint64_t expected = rng.below(3) == 0 ? rng.below(200'000) : rng.next() >> (2 + rng.below(60));
+    const std::uint64_t offset = rng.below(0xffff);  // −32767 … 32767 from what is expected
+    if (expected + offset < 0x7fff) continue;
+    const std::uint64_t truth = expected + offset - 0x7fff;
+    if (truth >= std::uint64_t{1} << 62) continue;
+    ASSERT_EQ(restoreSequence(expected, static_cast<std::uint16_t>(truth)), truth) << expected;
+  }
+}
+
+TEST(RestoreSequence, IsNeverBelowZero) {
+  for (std::uint32_t wire = 0; wire <= 0xffff; ++wire) {
+    ASSERT_EQ(restoreSequence(0, static_cast<std::uint16_t>(wire)), wire);
+  }
+}
+
+}  // namespace
+}  // namespace naiad

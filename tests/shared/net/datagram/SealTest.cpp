@@ -1,0 +1,298 @@
+#include <gtest/gtest.h>
+#include <openssl/err.h>
+#include <openssl/evp.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "SealKit.h"
+#include "shared/net/datagram/Seal.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/support/AllocationCount.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::string_literals;
+
+constexpr ConnectionId kId{0x0123456789abcdef};
+constexpr std::size_t kHeader = 11;
+
+std::string sealWith(Sealer& sealer, std::string_view payload, SealDirection direction) {
+  std::string packet(kMaxDatagram, '\0');
+  const std::size_t prefix = writeSealedPrefix(direction, 0x13, kId, packet.data());
+  packet.replace(prefix + 2, payload.size(), payload);
+  packet.resize(sealer.seal(packet.data(), prefix, payload.size()));
+  return packet;
+}
+
+std::string sealWith(Sealer& sealer, std::string_view payload) {
+  return sealWith(sealer, payload, SealDirection::kClientToServer);
+}
+
+OpenResult openWith(Opener& opener, std::string_view packet, std::string* payload = nullptr,
+                    std::uint64_t* sequence = nullptr) {
+  std::string text(packet.size() - kHeader - kSealTagSize, '\0');
+  std::uint64_t number = 0;
+  const OpenResult result = opener.open(packet, kHeader, text.data(), number);
+  if (payload) *payload = text;
+  if (sequence) *sequence = number;
+  return result;
+}
+
+/// Decrypt one packet the plain way: a new context, the nonce counted by hand.
+std::string openPlainly(const SealKey& key, std::uint64_t sequence, std::string_view packet) {
+  const std::unique_ptr<EVP_CIPHER, decltype(&EVP_CIPHER_free)> cipher(
+      EVP_CIPHER_fetch(nullptr, key.aead == AeadId::kAes128Gcm ? "AES-128-GCM" : "ChaCha20-Poly1305",
+                       nullptr),
+      EVP_CIPHER_free);
+  const std::unique_ptr<EVP_CIPHER_CTX, decltype(&EVP_CIPHER_CTX_free)> context(EVP_CIPHER_CTX_new(),
+                                                                                EVP_CIPHER_CTX_free);
+  auto nonce = key.iv;
+  for (int byte = 11; byte >= 4; --byte, sequence >>= 8) nonce[byte] ^= sequence & 0xff;
+  std::string header(packet.substr(0, kHeader)), tag(packet.substr(packet.size() - 16));
+  std::string text(packet.substr(kHeader, packet.size() - kHeader - 16));
+  auto* const bytes = reinterpret_cast<unsigned char*>(text.data());
+  int written = 0;
+  EVP_DecryptInit_ex2(context.get(), cipher.get(), key.key.data(), nonce.data(), nullptr);
+  EVP_DecryptUpdate(context.get(), nullptr, &written, reinterpret_cast<unsigned char*>(header.data()),
+                    kHeader);
+  EVP_DecryptUpdate(context.get(), bytes, &written, bytes, static_cast<int>(text.size()));
+  EVP_CIPHER_CTX_ctrl(context.get(), EVP_CTRL_AEAD_SET_TAG, 16, tag.data());
+  return EVP_DecryptFinal_ex(context.get(), bytes + text.size(), &written) == 1 ? text : "<forged>";
+}
+
+struct KnownAnswer {
+  AeadId aead;
+  SealDirection direction;
+  std::vector<std::string> packets;  // numbers 0, 1, 258: "hello", "", "\0world"
+};
+
+// Made with Python's "cryptography", by a program that knows only the page.
+const KnownAnswer kKnownAnswers[] = {
+    {AeadId::kAes128Gcm,
+     SealDirection::kClientToServer,
+     {"13efcdab89674523010000664d07ba85437f9ad9df6fb60cef5479dd40a0ee71",
+      "13efcdab8967452301010070ccbdf6327f0d425f95094dc2be1b3f",
+      "13efcdab896745230102019461e58dbdf6e9b7ff5600b2b608743bfaf20a3f6c88"}},
+    {AeadId::kAes128Gcm,
+     SealDirection::kServerToClient,
+     {"23000066fbca4b6285a2ea26163bab4ba10f3cdf89973d0b", "230100d6acbc8583166aff532d321f67649841",
+      "23020155532c0eec30acdc963f22b43e31a1fe43d3fc8205d4"}},
+    {AeadId::kChaCha20Poly1305,
+     SealDirection::kClientToServer,
+     {"13efcdab89674523010000619f513742324e7fb790d90ba9c471d874b7b52e95",
+      "13efcdab896745230101003627efa96c619ff9a5a8779da8a7cc7b",
+      "13efcdab896745230102015503972d58b9ae6daa6c9074f03643233a9482375910"}},
+    {AeadId::kChaCha20Poly1305,
+     SealDirection::kServerToClient,
+     {"2300004135f34a7d6269c5b477f486ebe08dd6f8ae03c793", "230100878a1633f107f1065782a6d72776e88e",
+      "2302012717c3d916a5ef3a5c231b3d413875a05a507ea0ffcf"}},
+};
+
+TEST(Seal, KnownAnswers) {
+  for (const KnownAnswer& known : kKnownAnswers) {
+    const DatagramKeys keys = knownKeys(known.aead, kId, 0x13);
+    Sealer sealer(known.direction == SealDirection::kClientToServer ? keys.client : keys.server);
+    std::vector<std::string> packets;
+    for (int number = 0; number <= 258; ++number) {
+      const std::string payload = number == 0 ? "hello"s : number == 258 ? "\0world"s : ""s;
+      const std::string packet = sealWith(sealer, payload, known.direction);
+      if (number < 2 || number == 258) packets.push_back(toHex(packet));
+    }
+    EXPECT_EQ(packets, known.packets);
+  }
+}
+
+TEST(Seal, PlainEvpOpensWhatWasSealed) {
+  SplitMix64 rng(1);
+  for (const AeadId aead : kBothAeads) {
+    const DatagramKeys keys = knownKeys(aead);
+    Sealer sealer(keys.client);
+    for (std::uint64_t number = 0; number < 70'000; ++number) {
+      const std::string payload(rng.below(number % 1000 == 0 ? 1170 : 20), static_cast<char>(rng.next()));
+      const std::string packet = sealWith(sealer, payload);
+      if (number < 300 || number % 97 == 0 || number > 65'500) {
+        ASSERT_EQ(openPlainly(keys.client, number, packet), payload) << number;
+      }
+    }
+  }
+}
+
+TEST(Seal, OpensAcrossManyWrapsOfTheNumberOnTheWire) {
+  for (const AeadId aead : kBothAeads) {
+    const DatagramKeys keys = knownKeys(aead);
+    Sealer sealer(keys.client);
+    Opener opener(keys.client);
+    SplitMix64 rng(2);
+    std::uint64_t next_kept = 0;
+    for (std::uint64_t number = 0; number < 300'000; ++number) {
+      const std::string packet = sealWith(sealer, "x");
+      if (number != next_kept) continue;
+      std::uint64_t restored = 0;
+      ASSERT_EQ(openWith(opener, packet, nullptr, &restored), OpenResult::kOpened) << number;
+      ASSERT_EQ(restored, number);
+      next_kept += 1 + rng.below(rng.below(50) == 0 ? 32'000 : 10);
+    }
+  }
+}
+
+TEST(Seal, EveryPacketOpensOnceInAnyOrder) {
+  const DatagramKeys keys = knownKeys(AeadId::kChaCha20Poly1305);
+  Sealer sealer(keys.client);
+  Opener opener(keys.client);
+  std::vector<std::string> packets;
+  for (int i = 0; i < 1000; ++i) packets.push_back(sealWith(sealer, std::to_string(i)));
+  SplitMix64 rng(4);
+  std::vector<int> opened(packets.size());
+  for (int i = 0; i < 20'000; ++i) {
+    const auto chosen = rng.below(packets.size());
+    std::string payload;
+    const OpenResult result = openWith(opener, packets[chosen], &payload);
+    ASSERT_EQ(result, opened[chosen] ? OpenResult::kReplayed : OpenResult::kOpened);
+    if (result == OpenResult::kOpened) {
+      EXPECT_EQ(payload, std::to_string(chosen));
+    }
+    opened[chosen] = 1;
+  }
+  EXPECT_EQ(opener.failures(), 0u);
+}
+
+TEST(Seal, EveryFlippedBitIsRefusedAndHarmsNothing) {
+  for (const AeadId aead : kBothAeads) {
+    const DatagramKeys keys = knownKeys(aead);
+    Sealer sealer(keys.client);
+    Opener opener(keys.client);
+    const std::string packet = sealWith(sealer, "a payload of some length");
+    for (std::size_t bit = 0; bit < 8 * packet.size(); ++bit) {
+      std::string changed = packet;
+      changed[bit / 8] = static_cast<char>(changed[bit / 8] ^ 1 << bit % 8);
+      ASSERT_EQ(openWith(opener, changed), OpenResult::kForged) << "bit " << bit;
+    }
+    EXPECT_EQ(opener.failures(), 8 * packet.size());
+    EXPECT_EQ(ERR_peek_error(), 0u);  // TLS on the same thread would take it for its own
+    EXPECT_EQ(openWith(opener, packet), OpenResult::kOpened);
+  }
+}
+
+TEST(Seal, ShortenedAndLengthenedPacketsAreRefused) {
+  for (const AeadId aead : kBothAeads) {
+    const DatagramKeys keys = knownKeys(aead);
+    Sealer sealer(keys.client);
+    Opener opener(keys.client);
+    const std::string packet = sealWith(sealer, "a payload of some length");
+    for (std::size_t size = kHeader + kSealTagSize; size < packet.size(); ++size) {
+      ASSERT_EQ(openWith(opener, packet.substr(0, size)), OpenResult::kForged) << size;
+    }
+    for (std::size_t more = 1; more < 40; ++more) {
+      ASSERT_EQ(openWith(opener, packet + std::string(more, '\0')), OpenResult::kForged) << more;
+    }
+    EXPECT_EQ(openWith(opener, packet), OpenResult::kOpened);
+  }
+}
+
+TEST(Seal, OtherKeysOpenNothing) {
+  for (const AeadId aead : kBothAeads) {
+    const DatagramKeys keys = knownKeys(aead);
+    Sealer sealer(keys.client);
+    const std::string packet = sealWith(sealer, "hello");
+    for (const SealKey& other :
+         {keys.server, knownKeys(aead, kId, 0x14).client, knownKeys(aead, {1}, 0x13).client}) {
+      Opener opener(other);
+      EXPECT_EQ(openWith(opener, packet), OpenResult::kForged);
+    }
+  }
+}
+
+TEST(Seal, ForgedNumbersDoNotMoveTheWindow) {
+  const DatagramKeys keys = knownKeys(AeadId::kAes128Gcm);
+  Sealer sealer(keys.client);
+  Opener opener(keys.client);
+  const std::string packet = sealWith(sealer, "real");
+  for (const char high : {'\x10', '\x40', '\x7f'}) {
+    std::string forged = packet;
+    forged[kHeader - 1] = high;
+    EXPECT_EQ(openWith(opener, forged), OpenResult::kForged);
+  }
+  EXPECT_EQ(openWith(opener, packet), OpenResult::kOpened);
+}
+
+TEST(Seal, PacketsBehindTheWindowAreTooOld) {
+  const DatagramKeys keys = knownKeys(AeadId::kAes128Gcm);
+  Sealer sealer(keys.client);
+  Opener opener(keys.client);
+  const std::string first = sealWith(sealer, "0"), second = sealWith(sealer, "1");
+  for (std::uint64_t i = 2; i < ReplayWindow::kSize; ++i) sealWith(sealer, "lost");
+  ASSERT_EQ(openWith(opener, sealWith(sealer, "newest")), OpenResult::kOpened);
+  EXPECT_EQ(openWith(opener, first), OpenResult::kTooOld);
+  EXPECT_EQ(openWith(opener, second), OpenResult::kOpened);
+}
+
+TEST(Seal, StopsBeforeItsLimit) {
+  const DatagramKeys keys = knownKeys(AeadId::kAes128Gcm);
+  Sealer sealer(keys.client, {.new_epoch_after = 3, .most = 5});
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(sealer.wantsNewEpoch(), i >= 3);
+    EXPECT_FALSE(sealer.exhausted());
+    EXPECT_EQ(sealWith(sealer, "x").size(), kHeader + 17);
+  }
+  EXPECT_TRUE(sealer.exhausted());
+  EXPECT_EQ(sealWith(sealer, "x"), "");
+  EXPECT_EQ(sealer.sealed(), 5u);
+  EXPECT_EQ(SealLimits{}.new_epoch_after, 1u << 23);
+}
+
+TEST(Seal, KeyThatSawTooManyForgeriesOpensNothing) {
+  EXPECT_EQ(mostFailedOpens(AeadId::kAes128Gcm), std::uint64_t{1} << 52);
+  EXPECT_EQ(mostFailedOpens(AeadId::kChaCha20Poly1305), std::uint64_t{1} << 36);
+  const DatagramKeys keys = knownKeys(AeadId::kChaCha20Poly1305);
+  Sealer sealer(keys.client);
+  Opener opener(keys.client, 3);
+  std::string forged = sealWith(sealer, "x");
+  forged.back() = static_cast<char>(forged.back() ^ 1);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(openWith(opener, forged), OpenResult::kForged);
+  EXPECT_EQ(openWith(opener, forged), OpenResult::kExhausted);
+  EXPECT_EQ(openWith(opener, sealWith(sealer, "real")), OpenResult::kExhausted);
+}
+
+TEST(Seal, SealersMoveAndAreNeverCopied) {
+  static_assert(!std::is_copy_constructible_v<Sealer> && !std::is_copy_assignable_v<Sealer>);
+  const DatagramKeys keys = knownKeys(AeadId::kAes128Gcm);
+  Sealer first(keys.client);
+  Opener opener(keys.client);
+  EXPECT_EQ(openWith(opener, sealWith(first, "x")), OpenResult::kOpened);
+  Sealer second = std::move(first);
+  EXPECT_EQ(second.sealed(), 1u);
+  EXPECT_EQ(openWith(opener, sealWith(second, "x")), OpenResult::kOpened);
+}
+
+TEST(Seal, PacketsCostNoAllocation) {
+  if (!canCountAllocations()) GTEST_SKIP() << "sanitizers bring their own allocator";
+  for (const AeadId aead : kBothAeads) {
+    const DatagramKeys keys = knownKeys(aead);
+    Sealer sealer(keys.client);
+    Opener opener(keys.client);
+    char packet[kMaxDatagram] = {}, payload[kMaxDatagram];
+    const auto one = [&](bool forge) {
+      const std::size_t prefix = writeSealedPrefix(SealDirection::kClientToServer, 0, kId, packet);
+      const std::size_t size = sealer.seal(packet, prefix, 100);
+      packet[50] = static_cast<char>(packet[50] ^ (forge ? 1 : 0));
+      std::uint64_t sequence = 0;
+      return opener.open({packet, size}, kHeader, payload, sequence) ==
+             (forge ? OpenResult::kForged : OpenResult::kOpened);
+    };
+    ASSERT_TRUE(one(false) && one(true));
+    const std::uint64_t before = allocationsSoFar();
+    bool well = true;
+    for (int i = 0; i < 1000; ++i) well = one(i % 2 == 0) && well;
+    const std::uint64_t after = allocationsSoFar();
+    EXPECT_TRUE(well);
+    EXPECT_EQ(after - before, 0u);
+    EVP_CIPHER_CTX_free(EVP_CIPHER_CTX_new());
+    EXPECT_GT(allocationsSoFar(), after);  // it does count
+  }
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "shared/net/datagram/SealedHeader.h"
+
+namespace naiad {
+namespace {
+
+constexpr SealDirection kBoth[] = {SealDirection::kClientToServer, SealDirection::kServerToClient};
+
+std::string packetOf(SealDirection direction, std::size_t size) {
+  std::string packet(std::max(size, sealedHeaderSize(direction)), '\x7f');
+  writeSealedPrefix(direction, 5, {42}, packet.data());
+  packet.resize(size);
+  return packet;
+}
+
+TEST(SealedHeader, BytesAreWhereThePageSaysTheyAre) {
+  std::string packet(40, '\0');
+  EXPECT_EQ(writeSealedPrefix(SealDirection::kClientToServer, 0x25, {0x0807060504030201}, packet.data()), 9u);
+  EXPECT_EQ(packet.substr(0, 9), "\x15\x01\x02\x03\x04\x05\x06\x07\x08");
+  EXPECT_EQ(writeSealedPrefix(SealDirection::kServerToClient, 0x25, {0x0807060504030201}, packet.data()), 1u);
+  EXPECT_EQ(packet[0], '\x25');
+}
+
+TEST(SealedHeader, ReadsWhatWasWritten) {
+  for (const SealDirection direction : kBoth) {
+    std::string packet(100, '\0');
+    const std::size_t prefix = writeSealedPrefix(direction, 0xabcdef7, {~0ull - 9}, packet.data());
+    packet[prefix] = 0x34;
+    packet[prefix + 1] = 0x12;
+    SealedHeader header;
+    ASSERT_EQ(readSealedHeader(direction, packet, header), HeaderFault::kNone);
+    EXPECT_EQ(header.epoch_bits, 7u);
+    EXPECT_EQ(header.sequence, 0x1234u);
+    if (direction == SealDirection::kClientToServer) {
+      EXPECT_EQ(header.id.value, ~0ull - 9);
+    }
+  }
+}
+
+TEST(SealedHeader, LengthsHaveLimits) {
+  EXPECT_EQ(smallestSealedPacket(SealDirection::kClientToServer), 28u);
+  EXPECT_EQ(smallestSealedPacket(SealDirection::kServerToClient), 20u);
+  for (const SealDirection direction : kBoth) {
+    SealedHeader header;
+    for (std::size_t size = 0; size <= 1300; ++size) {
+      const HeaderFault expected = size < smallestSealedPacket(direction) ? HeaderFault::kTooShort
+                                   : size > 1200                          ? HeaderFault::kTooLong
+                                                                          : HeaderFault::kNone;
+      ASSERT_EQ(readSealedHeader(direction, packetOf(direction, size), header), expected) << size;
+    }
+  }
+}
+
+TEST(SealedHeader, AllOtherKindsAreRefused) {
+  for (const SealDirection direction : kBoth) {
+    std::string packet = packetOf(direction, 50);
+    SealedHeader header;
+    int accepted = 0;
+    for (int first = 0; first < 256; ++first) {
+      packet[0] = static_cast<char>(first);
+      const HeaderFault fault = readSealedHeader(direction, packet, header);
+      if (fault == HeaderFault::kNone) {
+        ++accepted;
+        EXPECT_EQ(first >> 4, direction == SealDirection::kClientToServer ? 1 : 2);
+      } else {
+        EXPECT_EQ(fault, HeaderFault::kKind);
+      }
+    }
+    EXPECT_EQ(accepted, 16);
+  }
+}
+
+}  // namespace
+}  // namespace naiad

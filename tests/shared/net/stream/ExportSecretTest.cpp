@@ -1,0 +1,64 @@
+// Both ends of an encrypted channel know the same secrets, and nobody else does.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/shared/net/Loopback.h"
+#include "tests/shared/net/Recorder.h"
+#include "tests/support/net/LossyLink.h"
+
+namespace naiad::test {
+namespace {
+
+constexpr std::string_view kLabel = "EXPERIMENTAL-naiad-datagram";
+
+/// The same at both ends; different for everything that tells uses apart.
+void expectSecrets(const ReliableChannel& near, const ReliableChannel& far, std::set<std::string>& seen) {
+  for (const auto& [label, text, bytes] :
+       {std::tuple(kLabel, "one", 88), std::tuple(kLabel, "two", 88), std::tuple(kLabel, "", 88),
+        std::tuple(std::string_view("EXPERIMENTAL-other"), "one", 88), std::tuple(kLabel, "one", 32)}) {
+    const std::string secret = near.exportSecret(label, text, static_cast<std::size_t>(bytes));
+    EXPECT_EQ(secret.size(), static_cast<std::size_t>(bytes));
+    EXPECT_EQ(secret, near.exportSecret(label, text, static_cast<std::size_t>(bytes)));
+    EXPECT_EQ(secret, far.exportSecret(label, text, static_cast<std::size_t>(bytes)));
+    EXPECT_TRUE(seen.insert(secret.substr(0, 32)).second) << label << ' ' << text << ' ' << bytes;
+  }
+}
+
+TEST(ExportSecret, IsTheSameAtBothEndsOfTlsAndForNothingElse) {
+  asio::io_context context;
+  std::set<std::string> seen;
+  for (int connection = 0; connection < 2; ++connection) {
+    const ChannelPair pair(context, Kind::kTls);
+    expectSecrets(*pair.near, *pair.far, seen);
+  }
+}
+
+TEST(ExportSecret, IsTheSameAtBothEndsOfAVirtualLinkAndDependsOnItsSeed) {
+  VirtualClock clock;
+  std::set<std::string> seen;
+  for (const std::uint64_t seed : {1u, 2u}) {
+    VirtualStreamLink link(clock, {}, seed);
+    const auto client = link.takeEnd(LinkEnd::kClient);
+    const auto server = link.takeEnd(LinkEnd::kServer);
+    expectSecrets(*client, *server, seen);
+  }
+  VirtualStreamLink again(clock, {}, 1);
+  EXPECT_TRUE(seen.contains(again.takeEnd(LinkEnd::kClient)->exportSecret(kLabel, "one", 32)));
+}
+
+TEST(ExportSecret, IsEmptyWithoutEncryptionAndAfterTheEnd) {
+  asio::io_context context;
+  const ChannelPair plain(context, Kind::kPlain);
+  EXPECT_EQ(plain.near->exportSecret(kLabel, "one", 32), "");
+  ChannelPair pair(context, Kind::kTls);
+  Recorder recorder;
+  pair.far->start(recorder.callbacks());
+  pair.near.reset();
+  EXPECT_TRUE(runUntil(context, [&] { return recorder.closed.has_value(); }));
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+  EXPECT_EQ(pair.far->exportSecret(kLabel, "one", 32), "");
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,206 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "shared/net/base/Limits.h"
+#include "shared/net/stream/Framing.h"
+#include "shared/values/SplitMix64.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::string_literals;
+
+std::string framed(std::string_view payload) {
+  std::string out;
+  appendFrame(out, payload);
+  return out;
+}
+
+/// Feed a copy, so that a sanitizer sees views that outlive their piece, and collect what comes out.
+void feed(FrameReader& reader, std::string_view bytes, std::vector<std::string>& frames) {
+  const std::vector<char> piece(bytes.begin(), bytes.end());
+  reader.feed({piece.data(), piece.size()});
+  while (const auto frame = reader.next()) frames.emplace_back(*frame);
+}
+
+TEST(Framing, PrefixIsTwoBytesLittleEndian) {
+  EXPECT_EQ(framed("abc"), "\x03\x00"s + "abc");
+  EXPECT_EQ(framed(std::string(0x1234, 'x')).substr(0, 2), "\x34\x12");
+}
+
+TEST(Framing, AppendsBehindWhatIsThere) {
+  std::string out = framed("a");
+  appendFrame(out, "b");
+  EXPECT_EQ(out, framed("a") + framed("b"));
+}
+
+TEST(Framing, WriterRefusesWrongSizesAndLeavesTheOutputAlone) {
+  std::string out = "before";
+  EXPECT_THROW(appendFrame(out, ""), std::length_error);
+  EXPECT_THROW(appendFrame(out, std::string(kMaxFramePayload + 1, 'x')), std::length_error);
+  EXPECT_EQ(out, "before");
+}
+
+TEST(Framing, LargestFrameSurvives) {
+  const std::string payload(kMaxFramePayload, 'x');
+  FrameReader reader(kMaxFramePayload);
+  std::vector<std::string> frames;
+  feed(reader, framed(payload), frames);
+  EXPECT_EQ(frames, std::vector{payload});
+}
+
+TEST(Framing, ReadsFramesByteByByte) {
+  const std::string stream = framed("one") + framed("2") + framed("three");
+  FrameReader reader(kMaxHelloFrame);
+  std::vector<std::string> frames;
+  for (const char byte : stream) feed(reader, {&byte, 1}, frames);
+  EXPECT_EQ(frames, (std::vector<std::string>{"one", "2", "three"}));
+  EXPECT_FALSE(reader.midFrame());
+}
+
+TEST(Framing, ReadsManyFramesFromOnePiece) {
+  FrameReader reader(kMaxHelloFrame);
+  std::vector<std::string> frames;
+  feed(reader, framed("one") + framed("two") + framed("thr").substr(0, 4), frames);
+  EXPECT_EQ(frames, (std::vector<std::string>{"one", "two"}));
+  EXPECT_TRUE(reader.midFrame());
+}
+
+TEST(Framing, TruncatedFrameIsNotYielded) {
+  const std::string whole = framed("hello");
+  for (std::size_t length = 1; length < whole.size(); ++length) {
+    FrameReader reader(kMaxHelloFrame);
+    std::vector<std::string> frames;
+    feed(reader, whole.substr(0, length), frames);
+    EXPECT_TRUE(frames.empty());
+    EXPECT_TRUE(reader.midFrame());
+    EXPECT_EQ(reader.error(), FrameError::kNone);
+  }
+}
+
+TEST(Framing, EmptyFrameIsAnErrorForEver) {
+  FrameReader reader(kMaxHelloFrame);
+  std::vector<std::string> frames;
+  feed(reader, framed("good") + "\0\0"s + framed("never"), frames);
+  EXPECT_EQ(frames, std::vector{"good"s});
+  EXPECT_EQ(reader.error(), FrameError::kEmpty);
+  feed(reader, framed("never"), frames);
+  EXPECT_EQ(frames.size(), 1u);
+  EXPECT_EQ(reader.error(), FrameError::kEmpty);
+}
+
+TEST(Framing, FrameOverTheLimitIsAnErrorBeforeItsPayload) {
+  FrameReader reader(4);
+  std::vector<std::string> frames;
+  feed(reader, framed("four"), frames);
+  feed(reader, framed("fives").substr(0, 2), frames);
+  EXPECT_EQ(frames, std::vector{"four"s});
+  EXPECT_EQ(reader.error(), FrameError::kTooLarge);
+  EXPECT_EQ(reader.buffered(), 0u);
+  feed(reader, framed("x"), frames);
+  EXPECT_EQ(frames.size(), 1u);
+}
+
+TEST(Framing, AfterAnErrorNothingIsKept) {
+  FrameReader reader(4);
+  std::vector<std::string> frames;
+  feed(reader, framed("fives").substr(0, 1), frames);
+  EXPECT_EQ(reader.buffered(), 1u);
+  feed(reader, framed("fives").substr(1), frames);
+  EXPECT_EQ(reader.error(), FrameError::kTooLarge);
+  EXPECT_EQ(reader.buffered(), 0u);
+}
+
+TEST(Framing, LimitChangesBetweenTwoFramesOfOnePiece) {
+  FrameReader reader(4);
+  const std::string piece = framed("four") + framed("a longer one");
+  reader.feed(piece);
+  EXPECT_EQ(reader.next(), "four");
+  reader.setLimit(100);
+  EXPECT_EQ(reader.next(), "a longer one");
+}
+
+TEST(Framing, LoweredLimitHoldsForAnIncompleteFrame) {
+  FrameReader reader(100);
+  std::vector<std::string> frames;
+  feed(reader, framed("a longer one").substr(0, 5), frames);
+  reader.setLimit(4);
+  feed(reader, "x", frames);
+  EXPECT_EQ(reader.error(), FrameError::kTooLarge);
+}
+
+TEST(Framing, KeepsOnlyBytesThatCame) {
+  FrameReader reader(kMaxFramePayload);
+  std::vector<std::string> frames;
+  feed(reader, "\xff\xff", frames);  // claims 64 KiB
+  EXPECT_EQ(reader.buffered(), 2u);
+  feed(reader, std::string(10, 'x'), frames);
+  EXPECT_EQ(reader.buffered(), 12u);
+}
+
+TEST(Framing, NeverKeepsMoreThanOneFrame) {
+  FrameReader reader(8);
+  std::vector<std::string> frames;
+  std::string stream;
+  for (int i = 0; i < 1000; ++i) appendFrame(stream, "12345678");
+  feed(reader, stream.substr(0, 4), frames);
+  reader.feed(std::string_view(stream).substr(4));
+  while (reader.next()) EXPECT_LE(reader.buffered(), kFrameHeaderSize + 8);
+}
+
+TEST(Framing, FeedingBeforeDrainingIsABug) {
+  FrameReader reader(kMaxHelloFrame);
+  const std::string piece = framed("a");
+  reader.feed(piece);
+  EXPECT_THROW(reader.feed(piece), std::logic_error);
+}
+
+TEST(Framing, RandomFramesInRandomPiecesComeBackUnchanged) {
+  SplitMix64 rng(1);
+  for (int round = 0; round < 300; ++round) {
+    std::vector<std::string> sent;
+    std::string stream;
+    for (std::uint64_t n = rng.below(40); n > 0; --n) {
+      std::string payload(1 + rng.below(rng.below(4) == 0 ? 5000 : 20), '\0');
+      for (char& c : payload) c = static_cast<char>(rng.next());
+      appendFrame(stream, payload);
+      sent.push_back(std::move(payload));
+    }
+    FrameReader reader(5000);
+    std::vector<std::string> received;
+    const std::uint64_t largest = rng.below(2) == 0 ? 10 : 9000;
+    for (std::size_t at = 0; at < stream.size();) {
+      const std::size_t size = std::min<std::size_t>(rng.below(largest), stream.size() - at);
+      feed(reader, std::string_view(stream).substr(at, size), received);
+      at += size;
+    }
+    ASSERT_EQ(received, sent) << "round " << round;
+    ASSERT_FALSE(reader.midFrame());
+  }
+}
+
+TEST(Framing, RandomBytesNeverYieldAFrameOverTheLimit) {
+  SplitMix64 rng(2);
+  int errors = 0;
+  for (int round = 0; round < 1000; ++round) {
+    FrameReader reader(300);
+    for (int pieces = 0; pieces < 50; ++pieces) {
+      std::string piece(rng.below(100), '\0');
+      for (char& c : piece) c = static_cast<char>(rng.below(3) == 0 ? rng.next() : rng.below(2));
+      reader.feed(piece);
+      while (const auto frame = reader.next()) {
+        ASSERT_GE(frame->size(), 1u);
+        ASSERT_LE(frame->size(), 300u);
+      }
+      ASSERT_LE(reader.buffered(), kFrameHeaderSize + 300);
+    }
+    if (reader.error() != FrameError::kNone) ++errors;
+  }
+  EXPECT_GT(errors, 900);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,82 @@
+// What a message within its limit may cost in memory: protobuf makes an object of two bytes, so the frame's
+// limit has to be small enough for the worst that fits into it.
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <string>
+
+#include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define NAIAD_OTHER_HEAP 1
+#else
+#define NAIAD_OTHER_HEAP 0
+#endif
+
+namespace naiad {
+namespace {
+
+/// Bytes that a parsed message holds.
+template <class Message>
+std::size_t heapOf(const std::string& bytes) {
+  const auto used = [] {
+    const auto info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+  };
+  const std::size_t before = used();
+  Message message;
+  static_cast<void>(message.ParseFromString(bytes));
+  return used() - before;
+}
+
+/// A message whose field `outer` (its key) is `part` as often as it fits.
+std::string filled(char outer, const std::string& part, std::size_t limit) {
+  const std::size_t room = limit - 4;  // the outer key and its length
+  std::string inner;
+  while (inner.size() + part.size() <= room) inner += part;
+  std::string bytes(1, outer);
+  for (std::size_t size = inner.size();; size >>= 7) {
+    bytes.push_back(static_cast<char>((size & 0x7F) | (size > 0x7F ? 0x80 : 0)));
+    if (size <= 0x7F) break;
+  }
+  return bytes + inner;
+}
+
+class ParseMemory : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (NAIAD_OTHER_HEAP) GTEST_SKIP() << "a sanitizer's heap does not count this way";
+  }
+};
+
+TEST_F(ParseMemory, TheDearestHelloIsSmall) {
+  // Numbers of one byte in an unpacked list of words; empty texts again and again; one long text.
+  for (const char* part : {"\x48\x01", "\x1a\x00", "\x50\x01"}) {
+    const std::string bytes = filled('\x0a', std::string(part, 2), kMaxHelloFrame);
+    ASSERT_LE(bytes.size(), kMaxHelloFrame);
+    EXPECT_LE(heapOf<wire::ClientMessage>(bytes), 16u * 1024) << static_cast<int>(part[0]);
+  }
+}
+
+TEST_F(ParseMemory, TheDearestMessageOfAClientIsSmall) {
+  for (const char outer : {'\x12', '\x2a', '\x32', '\x3a'}) {
+    const std::string bytes = filled(outer, std::string("\x12\x00", 2), kMaxClientFrame);
+    EXPECT_LE(heapOf<wire::ClientMessage>(bytes), 64u * 1024) << static_cast<int>(outer);
+  }
+}
+
+TEST_F(ParseMemory, TheDearestMessageOfAServerIsBounded) {
+  // Entries of no bytes: each becomes an object.
+  const std::string players = filled('\x22', std::string("\x0a\x00", 2), kMaxServerFrame);
+  const std::size_t heap = heapOf<wire::ServerMessage>(players);
+  EXPECT_GT(heap, 100u * 1024) << "this is the dear one";
+  EXPECT_LE(heap, 1024u * 1024);
+  const std::string sounds = filled('\x4a', std::string("\x0a\x00", 2), kMaxServerFrame);
+  EXPECT_LE(heapOf<wire::ServerMessage>(sounds), 1024u * 1024);
+  const std::string help = filled('\x12', std::string("\x4a\x00", 2), kMaxServerFrame);
+  EXPECT_LE(heapOf<wire::ServerMessage>(help), 1024u * 1024);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,212 @@
+// How a TcpChannel ends, and what may happen to it meanwhile.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "TcpFixture.h"
+#include "shared/net/stream/TcpChannel.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace std::string_literals;
+
+using TcpChannelEndTest = TcpFixture;
+INSTANTIATE_TEST_SUITE_P(Channel, TcpChannelEndTest, testing::Values(Kind::kPlain, Kind::kTls), nameOf);
+
+TEST_P(TcpChannelEndTest, CloseFlushesWhatIsQueued) {
+  ChannelPair pair(context, GetParam());
+  Recorder closer;
+  pair.near->start(closer.callbacks());
+  pair.far->start(recorder.callbacks());
+  for (int i = 0; i < 50; ++i) pair.near->send(std::string(10'000, 'x'));
+  pair.near->close();
+  pair.near->send("too late");
+  EXPECT_TRUE(runUntil(context, [&] { return recorder.closed && closer.closed; }));
+  EXPECT_EQ(recorder.frames.size(), 50u);
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+  EXPECT_EQ(closer.closed, CloseReason::kLocal);
+}
+
+TEST_P(TcpChannelEndTest, DestroyedAfterCloseItStillFlushes) {
+  ChannelPair pair(context, GetParam());
+  pair.far->start(recorder.callbacks());
+  for (int i = 0; i < 50; ++i) pair.near->send(std::string(10'000, 'x'));
+  pair.near->close();
+  pair.near.reset();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.frames.size(), 50u);
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+}
+
+TEST_P(TcpChannelEndTest, LastWordsSurviveAPeerThatWasStillTalking) {
+  ChannelPair pair(context, GetParam());
+  pair.near->start({nullptr, nullptr});
+  pair.far->start(recorder.callbacks());
+  for (int i = 0; i < 20; ++i) pair.far->send(std::string(10'000, 'x'));
+  pair.near->send("goodbye");
+  pair.near->close();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.frames, std::vector{"goodbye"s});
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+}
+
+TEST_P(TcpChannelEndTest, CloseGivesUpOnAPeerThatDoesNotRead) {
+  connect({.close_timeout = 30ms});
+  fillUp();
+  channel->close();
+  EXPECT_FALSE(recorder.closed);
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kLocal);
+  EXPECT_EQ(peerReads(), ByteStream::Outcome::kBroken);  // a reset: the kernel keeps nothing for it
+}
+
+TEST_P(TcpChannelEndTest, DestroyingWithoutCloseHangsUp) {
+  ChannelPair pair(context, GetParam());
+  pair.far->start(recorder.callbacks());
+  pair.near.reset();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+}
+
+TEST_P(TcpChannelEndTest, OrderlyEndOfThePeerIsReportedOnce) {
+  connect({});
+  peerSends("\x05\0hello"s);
+  peerEnds();
+  EXPECT_TRUE(runUntilClosed());
+  channel->close();
+  runReady(context);
+  EXPECT_EQ(recorder.frames, std::vector{"hello"s});
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+  EXPECT_EQ(recorder.closings, 1);
+}
+
+TEST_P(TcpChannelEndTest, ResetByThePeerIsAnError) {
+  connect({});
+  peerResets();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kError);
+}
+
+TEST_P(TcpChannelEndTest, FramesFromBeforeAResetAreStillDelivered) {
+  connect({});
+  peerSends("\x05\0hello"s);
+  peerResets();
+  channel->send("anyone?");  // fails before the frame is read
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.frames, std::vector{"hello"s});
+  EXPECT_EQ(recorder.closed, CloseReason::kError);
+}
+
+TEST_P(TcpChannelEndTest, SendingToAPeerThatWentAwayEndsTheChannel) {
+  connect({});
+  peerResets();
+  for (int i = 0; i < 10; ++i) channel->send("hello?");
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kError);
+  EXPECT_EQ(channel->unsentBytes(), 0u);
+}
+
+TEST_P(TcpChannelEndTest, StreamThatEndsWithinAFrameBreaksTheProtocol) {
+  connect({});
+  peerSends("\x05\0hel"s);
+  peerEnds();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_TRUE(recorder.frames.empty());
+  EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
+}
+
+TEST_P(TcpChannelEndTest, MayBeDestroyedInItsFrameCallback) {
+  ChannelPair pair(context, GetParam());
+  int frames = 0;
+  pair.far->start({[&, marker = std::string(100, 'm')](std::string_view) {
+                     ++frames;
+                     pair.far.reset();
+                     EXPECT_EQ(marker.size(), 100u);  // the callback itself is still alive
+                   },
+                   [](CloseReason) { FAIL() << "callback after destruction"; }});
+  pair.near->start(recorder.callbacks());
+  pair.near->send("one");
+  pair.near->send("two");
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(frames, 1);
+}
+
+TEST_P(TcpChannelEndTest, MayBeDestroyedInItsClosedCallback) {
+  connect({});
+  ChannelPair pair(context, GetParam());
+  bool closed = false;
+  pair.far->start({nullptr, [&, marker = std::string(100, 'm')](CloseReason) {
+                     pair.far.reset();
+                     closed = marker.size() == 100;
+                   }});
+  pair.near.reset();
+  EXPECT_TRUE(runUntil(context, [&] { return closed; }));
+}
+
+TEST_P(TcpChannelEndTest, NoFrameComesAfterTheHandlerClosed) {
+  ChannelPair pair(context, GetParam());
+  Recorder closer;
+  pair.far->start({[&](std::string_view frame) {
+                     closer.frames.emplace_back(frame);
+                     pair.far->close();
+                     EXPECT_FALSE(closer.closed);
+                   },
+                   [&](CloseReason reason) { closer.closed = reason; }});
+  pair.near->start(recorder.callbacks());
+  pair.near->send("one");
+  pair.near->send("two");
+  EXPECT_TRUE(runUntil(context, [&] { return closer.closed && recorder.closed; }));
+  EXPECT_EQ(closer.frames, std::vector{"one"s});
+  EXPECT_EQ(closer.closed, CloseReason::kLocal);
+}
+
+TEST_P(TcpChannelEndTest, EndBeforeStartIsReportedAfterStart) {
+  makeChannel({.close_timeout = 1h});
+  channel->close();
+  peerEnds();
+  runReady(context);
+  channel->start(recorder.callbacks());
+  EXPECT_FALSE(recorder.closed);
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kLocal);
+}
+
+TEST_P(TcpChannelEndTest, ClosedBeforeStartItIsGoneWhenThePeerIs) {
+  makeChannel({.close_timeout = 1h});
+  channel->close();
+  channel.reset();
+  peerEnds();
+  EXPECT_TRUE(runUntil(context, [&] { return context.stopped(); }));  // nothing left to wait for
+}
+
+TEST_P(TcpChannelEndTest, KnowsItsPeersAddressAfterTheEndToo) {
+  connect({});
+  const std::string expected = "127.0.0.1:" + std::to_string(peer->socket().local_endpoint().port());
+  EXPECT_EQ(channel->peerAddress(), expected);
+  peerEnds();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(channel->peerAddress(), expected);
+}
+
+TEST_P(TcpChannelEndTest, EndWithoutAWordBetweenFramesIsAnErrorInTls) {
+  connect({});
+  peerSends("\x05\0hello"s);
+  peerVanishes();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.frames, std::vector{"hello"s});
+  EXPECT_EQ(recorder.closed, encrypted() ? CloseReason::kError : CloseReason::kPeer);
+}
+
+TEST_P(TcpChannelEndTest, EndWithoutAWordWithinAFrameBreaksTheProtocol) {
+  connect({});
+  peerSends("\x05\0hel"s);
+  peerVanishes();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,143 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <vector>
+
+#include "shared/net/stream/TcpListener.h"
+#include "tests/shared/net/Loopback.h"
+#include "tests/shared/net/Recorder.h"
+
+namespace naiad::test {
+namespace {
+
+/// While it lives, this process can open no more descriptors.
+class NoDescriptorsLeft {
+ public:
+  NoDescriptorsLeft() {
+    getrlimit(RLIMIT_NOFILE, &before_);
+    rlimit none = before_;
+    none.rlim_cur = 0;
+    setrlimit(RLIMIT_NOFILE, &none);
+  }
+  ~NoDescriptorsLeft() { setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+struct TcpListenerTest : testing::Test {
+  TcpListener::OnChannel keep() {
+    return [this](std::unique_ptr<ReliableChannel> channel) { channels.push_back(std::move(channel)); };
+  }
+  tcp::socket connectTo(const TcpListener& listener, const std::string& address = "127.0.0.1") {
+    tcp::socket socket(context);
+    socket.connect({asio::ip::make_address(address), listener.port()});
+    return socket;
+  }
+
+  asio::io_context context;
+  std::vector<std::unique_ptr<ReliableChannel>> channels;
+};
+
+TEST_F(TcpListenerTest, PortZeroTakesAFreePort) {
+  TcpListener first(context, "127.0.0.1", 0, keep());
+  TcpListener second(context, "127.0.0.1", 0, keep());
+  EXPECT_NE(first.port(), 0);
+  EXPECT_NE(first.port(), second.port());
+  EXPECT_EQ(first.address(), "127.0.0.1:" + std::to_string(first.port()));
+}
+
+TEST_F(TcpListenerTest, GivesAChannelForEachConnection) {
+  TcpListener listener(context, "127.0.0.1", 0, keep());
+  std::vector<tcp::socket> clients;
+  for (int i = 0; i < 20; ++i) clients.push_back(connectTo(listener));
+  EXPECT_TRUE(runUntil(context, [&] { return channels.size() == 20; }));
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    EXPECT_EQ(channels[i]->peerAddress(), "127.0.0.1:" + std::to_string(clients[i].local_endpoint().port()));
+  }
+  EXPECT_EQ(listener.failedAccepts(), 0u);
+}
+
+TEST_F(TcpListenerTest, ListensOnIPv6) {
+  if (!haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 loopback on this machine";
+  TcpListener listener(context, "::1", 0, keep());
+  EXPECT_EQ(listener.address(), "[::1]:" + std::to_string(listener.port()));
+  const tcp::socket client = connectTo(listener, "::1");
+  EXPECT_TRUE(runUntil(context, [&] { return channels.size() == 1; }));
+}
+
+TEST_F(TcpListenerTest, PortInUseIsASentence) {
+  TcpListener first(context, "127.0.0.1", 0, keep());
+  try {
+    TcpListener second(context, "127.0.0.1", first.port(), keep());
+    FAIL() << "two listeners on one port";
+  } catch (const ListenError& error) {
+    EXPECT_EQ(error.code(), std::errc::address_in_use);
+    EXPECT_EQ(error.what(), "Cannot listen: port " + std::to_string(first.port()) +
+                                " on 127.0.0.1 is in use by another program.");
+  }
+}
+
+TEST_F(TcpListenerTest, AddressesThatAreNotLoopbackAreRefused) {
+  for (const std::string address : {"0.0.0.0", "::", "192.0.2.1", "localhost", ""}) {
+    try {
+      TcpListener listener(context, address, 0, keep());
+      FAIL() << address;
+    } catch (const ListenError& error) {
+      EXPECT_EQ(error.code(), std::errc::invalid_argument);
+      EXPECT_NE(std::string(error.what()).find(address), std::string::npos);
+    }
+  }
+}
+
+TEST_F(TcpListenerTest, PortCanBeTakenAgainRightAfterItsConnectionsEnded) {
+  auto listener = std::make_unique<TcpListener>(context, "127.0.0.1", 0, keep());
+  const std::uint16_t port = listener->port();
+  tcp::socket client = connectTo(*listener);
+  ASSERT_TRUE(runUntil(context, [&] { return channels.size() == 1; }));
+  channels.clear();  // this side closes first and so keeps the port in TIME_WAIT
+  client.close();
+  listener.reset();
+  EXPECT_NO_THROW(TcpListener(context, "127.0.0.1", port, keep()));
+}
+
+TEST_F(TcpListenerTest, ClosedListenerAcceptsNobody) {
+  TcpListener listener(context, "127.0.0.1", 0, keep());
+  listener.close();
+  EXPECT_THROW(connectTo(listener), std::system_error);
+  runReady(context);
+  EXPECT_TRUE(channels.empty());
+}
+
+TEST_F(TcpListenerTest, MayBeDestroyedInItsCallback) {
+  std::unique_ptr<TcpListener> listener;
+  int calls = 0;
+  listener = std::make_unique<TcpListener>(context, "127.0.0.1", 0,
+                                           [&, marker = std::string(100, 'm')](auto channel) {
+                                             listener.reset();
+                                             channels.push_back(std::move(channel));
+                                             calls += marker.size() == 100;
+                                           });
+  const tcp::socket first = connectTo(*listener);
+  const tcp::socket second = connectTo(*listener);
+  EXPECT_TRUE(runUntil(context, [&] { return calls > 0; }));
+  runReady(context);
+  EXPECT_EQ(calls, 1);
+}
+
+TEST_F(TcpListenerTest, SurvivesRunningOutOfDescriptors) {
+  TcpListener listener(context, "127.0.0.1", 0, keep());
+  runReady(context);
+  const tcp::socket client = connectTo(listener);
+  {
+    const NoDescriptorsLeft shortage;
+    EXPECT_TRUE(runUntil(context, [&] { return listener.failedAccepts() >= 2; }));
+    EXPECT_TRUE(channels.empty());
+  }
+  EXPECT_TRUE(runUntil(context, [&] { return channels.size() == 1; }));
+}
+
+}  // namespace
+}  // namespace naiad::test

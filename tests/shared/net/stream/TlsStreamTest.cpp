@@ -1,0 +1,111 @@
+// What may happen on an encrypted stream after its handshake that plain ones do not know.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <asio/write.hpp>
+
+#include "TlsFixture.h"
+#include "shared/net/stream/Framing.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::string_literals;
+
+/// A channel whose peer is OpenSSL in the test's hands.
+struct TlsStreamTest : TlsFixture {
+  void SetUp() override {
+    listen();
+    socket = knock();
+    client.shakeHands(context, socket);
+    ASSERT_TRUE(client.done());
+    ASSERT_TRUE(runUntil(context, [&] { return accepted.size() == 1; }));
+    accepted[0]->start(recorder.callbacks());
+  }
+  void clientSends(const std::string& payload) {
+    std::string framed;
+    appendFrame(framed, payload);
+    ASSERT_EQ(SSL_write(client.ssl(), framed.data(), static_cast<int>(framed.size())),
+              static_cast<int>(framed.size()));
+    asio::write(socket, asio::buffer(client.advance()));
+  }
+  /// What the client got until it has `size` bytes.
+  std::string clientReads(std::size_t size) {
+    std::string got;
+    EXPECT_TRUE(runUntil(context, [&] {
+      std::array<char, 4096> in;
+      std::error_code ignored;
+      client.feed({in.data(), socket.read_some(asio::buffer(in), ignored)});
+      const int read = SSL_read(client.ssl(), in.data(), in.size());
+      if (read > 0) got.append(in.data(), static_cast<std::size_t>(read));
+      return got.size() >= size;
+    }));
+    return got;
+  }
+  bool runUntilClosed() {
+    return runUntil(context, [&] { return recorder.closed.has_value(); });
+  }
+
+  Recorder recorder;
+  RawTls client;
+  tcp::socket socket{context};
+};
+
+TEST_F(TlsStreamTest, ForgedRecordBreaksTheProtocol) {
+  clientSends("genuine");
+  asio::write(socket, asio::buffer("\x17\x03\x03\x00\x20"s + std::string(32, 'x')));
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.frames, std::vector{"genuine"s});
+  EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
+}
+
+TEST_F(TlsStreamTest, PlainBytesAfterTheHandshakeBreakTheProtocol) {
+  asio::write(socket, asio::buffer("\x05\0hello"s));
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
+}
+
+TEST_F(TlsStreamTest, RecordThatComesInPartLeavesTheLoopAtRest) {
+  asio::write(socket, asio::buffer("\x17\x03\x03\x00\x20"s + std::string(10, 'x')));
+  for (int i = 0; i < 5; ++i) runReady(context);  // would not return
+  context.restart();
+  EXPECT_EQ(context.poll(), 0u);
+  EXPECT_FALSE(recorder.closed);
+}
+
+TEST_F(TlsStreamTest, KeysMayBeUpdatedInBothDirections) {
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_EQ(SSL_key_update(client.ssl(), SSL_KEY_UPDATE_REQUESTED), 1);
+    clientSends("up" + std::to_string(i));
+    EXPECT_TRUE(runUntil(context, [&] { return recorder.frames.size() == static_cast<std::size_t>(i) + 1; }));
+    accepted[0]->send("down");
+    EXPECT_EQ(clientReads(6), "\x04\0down"s);
+  }
+  EXPECT_FALSE(recorder.closed);
+}
+
+TEST_F(TlsStreamTest, SecretIsTheOneThatOpenSslExports) {
+  std::string expected(40, '\0');
+  ASSERT_EQ(SSL_export_keying_material(client.ssl(), reinterpret_cast<unsigned char*>(expected.data()),
+                                       expected.size(), "EXPERIMENTAL-naiad", 18,
+                                       reinterpret_cast<const unsigned char*>("abc"), 3, 1),
+            1);
+  EXPECT_EQ(accepted[0]->exportSecret("EXPERIMENTAL-naiad", "abc", 40), expected);
+}
+
+TEST_F(TlsStreamTest, CloseSaysCloseNotify) {
+  accepted[0]->send("bye");
+  accepted[0]->close();
+  EXPECT_EQ(clientReads(5), "\x03\0bye"s);
+  EXPECT_TRUE(runUntil(context, [&] {
+    std::array<char, 4096> in;
+    std::error_code ignored;
+    client.feed({in.data(), socket.read_some(asio::buffer(in), ignored)});
+    char byte = 0;
+    SSL_read(client.ssl(), &byte, 1);
+    return (SSL_get_shutdown(client.ssl()) & SSL_RECEIVED_SHUTDOWN) != 0;
+  }));
+}
+
+}  // namespace
+}  // namespace naiad::test

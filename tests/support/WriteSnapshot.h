@@ -1,0 +1,32 @@
+// Snapshots by hand: header and records into bytes.
+#pragma once
+
+#include <string>
+
+#include "shared/replica/SnapshotCodec.h"
+
+namespace naiad::test {
+
+/// Nothing gets a name. The origin is one that the reader knows under `slot`.
+inline std::string writeSnapshot(const SnapshotHeader& header, const Records& records, std::uint32_t slot = 0,
+                                 const Origin& origin = {}) {
+  SnapshotWriter out;
+  out.begin(header, slot, origin);
+  for (const WorldRecord& record : records.worlds) out.write(record);
+  for (const ViewRecord& record : records.views) out.write(record);
+  for (const OriginRecord& record : records.origins) out.write(record);
+  for (const TextRecord& record : records.texts) out.write(record);
+  for (const ObjectRecord& record : records.objects) {
+    BitWriter bits;
+    out.encode(bits, record.groups, record.generation, record.state, record.state.motion);
+    out.object(record.id, std::move(bits));
+  }
+  return out.finish();
+}
+
+/// What restores the numbers of a header.
+inline SnapshotContext near(const SnapshotHeader& header) {
+  return {header.number, header.tick, header.input};
+}
+
+}  // namespace naiad::test

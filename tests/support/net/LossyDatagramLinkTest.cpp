@@ -1,0 +1,262 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "shared/values/SplitMix64.h"
+#include "tests/support/net/LossyLink.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using Time = VirtualClock::Time;
+
+struct Arrival {
+  Time when;
+  std::string packet;
+  friend bool operator==(const Arrival&, const Arrival&) = default;
+};
+
+/// A link with both ends taken, and what arrived at the server's.
+struct Bench {
+  explicit Bench(const LinkConditions& conditions, std::uint64_t seed = 1)
+      : link(clock, conditions, seed),
+        client(link.takeEnd(LinkEnd::kClient)),
+        server(link.takeEnd(LinkEnd::kServer)) {
+    server->start([this](std::string_view packet) {
+      arrivals.push_back({clock.now(), std::string(packet)});
+    });
+  }
+  /// Packets "0", "1", …, one each `interval`, and then a minute for the last ones to arrive.
+  void sendMany(int count, Time interval) {
+    for (int i = 0; i < count; ++i) {
+      client->send(std::to_string(i));
+      clock.advanceBy(interval);
+    }
+    clock.advanceBy(60s);
+  }
+  const LinkCounters& counters() const { return link.counters(LinkEnd::kClient); }
+  std::vector<int> numbers() const {
+    std::vector<int> all;
+    for (const Arrival& arrival : arrivals) all.push_back(std::stoi(arrival.packet));
+    return all;
+  }
+
+  VirtualClock clock;
+  LossyDatagramLink link;
+  std::unique_ptr<DatagramChannel> client;
+  std::unique_ptr<DatagramChannel> server;
+  std::vector<Arrival> arrivals;
+};
+
+TEST(LossyDatagramLink, PerfectLinkDeliversAtTheNextAdvance) {
+  Bench bench({});
+  bench.client->send("a");
+  bench.client->send("b");
+  EXPECT_TRUE(bench.arrivals.empty());
+  bench.clock.advanceBy(0us);
+  EXPECT_EQ(bench.arrivals, (std::vector<Arrival>{{0us, "a"}, {0us, "b"}}));
+}
+
+TEST(LossyDatagramLink, DelayIsOneWayAndExact) {
+  Bench bench({.delay = 50ms});
+  Time echoed{};
+  bench.client->start([&](std::string_view) { echoed = bench.clock.now(); });
+  bench.server->start([&](std::string_view packet) { bench.server->send(packet); });
+  bench.clock.advanceTo(7ms);
+  bench.client->send("ping");
+  bench.clock.advanceBy(1s);
+  EXPECT_EQ(echoed, 107ms);
+}
+
+TEST(LossyDatagramLink, DirectionsHaveTheirOwnConditions) {
+  Bench bench({.delay = 50ms});
+  bench.link.setConditions(LinkEnd::kServer, {.loss = 1});
+  bench.sendMany(10, 1ms);
+  for (int i = 0; i < 5; ++i) bench.server->send("x");
+  bench.clock.advanceBy(1s);
+  EXPECT_EQ(bench.arrivals.size(), 10u);
+  EXPECT_EQ(bench.link.counters(LinkEnd::kServer).dropped, 5u);
+}
+
+TEST(LossyDatagramLink, LosesTheShareItWasToldTo) {
+  for (const double loss : {0.0, 0.02, 0.3, 1.0}) {
+    Bench bench({.loss = loss});
+    bench.sendMany(20'000, 1us);
+    EXPECT_NEAR(static_cast<double>(bench.counters().dropped) / 20'000, loss, 0.012) << loss;
+    EXPECT_EQ(bench.counters().delivered, bench.arrivals.size());
+    EXPECT_EQ(bench.counters().delivered + bench.counters().dropped, 20'000u);
+  }
+}
+
+TEST(LossyDatagramLink, DuplicatesTheShareItWasToldTo) {
+  Bench bench({.delay = 1ms, .duplicate = 0.1});
+  bench.sendMany(20'000, 1us);
+  EXPECT_NEAR(static_cast<double>(bench.counters().duplicated) / 20'000, 0.1, 0.01);
+  EXPECT_EQ(bench.arrivals.size(), 20'000 + bench.counters().duplicated);
+  const auto numbers = bench.numbers();
+  EXPECT_EQ(std::set<int>(numbers.begin(), numbers.end()).size(), 20'000u);
+}
+
+TEST(LossyDatagramLink, SecondCopiesHaveTheirOwnJitter) {
+  Bench bench({.jitter = 1s, .duplicate = 1});
+  bench.client->send("x");
+  bench.clock.advanceBy(2s);
+  ASSERT_EQ(bench.arrivals.size(), 2u);
+  EXPECT_NE(bench.arrivals[0].when, bench.arrivals[1].when);
+}
+
+TEST(LossyDatagramLink, JitterStaysInItsRangeAndReorders) {
+  Bench bench({.delay = 10ms, .jitter = 20ms});
+  bench.sendMany(2000, 1ms);
+  Time least = 1h, most{};
+  for (const Arrival& arrival : bench.arrivals) {
+    const Time took = arrival.when - std::stoi(arrival.packet) * 1ms;
+    least = std::min(least, took);
+    most = std::max(most, took);
+  }
+  EXPECT_GE(least, 10ms);
+  EXPECT_LT(least, 11ms);
+  EXPECT_LE(most, 30ms);
+  EXPECT_GT(most, 29ms);
+  const auto numbers = bench.numbers();
+  EXPECT_FALSE(std::is_sorted(numbers.begin(), numbers.end()));
+  std::uint64_t late = 0;
+  int newest = -1;
+  for (const int number : numbers) {
+    late += number < newest;
+    newest = std::max(newest, number);
+  }
+  EXPECT_EQ(bench.counters().reordered, late);
+}
+
+TEST(LossyDatagramLink, WithoutReorderingJitterKeepsTheOrder) {
+  Bench bench({.delay = 10ms, .jitter = 20ms, .reorder = false, .duplicate = 0.2});
+  bench.sendMany(2000, 1ms);
+  const auto numbers = bench.numbers();
+  EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
+  EXPECT_EQ(bench.counters().reordered, 0u);
+}
+
+TEST(LossyDatagramLink, RateSpacesPacketsOut) {
+  Bench bench({.delay = 5ms, .rate = 10'000});
+  for (int i = 0; i < 10; ++i) bench.client->send(std::string(1000, 'x'));
+  bench.clock.advanceBy(10s);
+  ASSERT_EQ(bench.arrivals.size(), 10u);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(bench.arrivals[i].when, (i + 1) * 100ms + 5ms);
+}
+
+TEST(LossyDatagramLink, RateHoldsOverManySmallPackets) {
+  Bench bench({.rate = 3'000'000, .queue = 1 << 30});
+  for (int i = 0; i < 30'000; ++i) bench.client->send("1234567");  // 2⅓ µs each
+  bench.clock.advanceBy(10s);
+  EXPECT_NEAR(static_cast<double>(bench.arrivals.back().when.count()), 70'000, 20);
+}
+
+TEST(LossyDatagramLink, QueueDropsWhatDoesNotFit) {
+  Bench bench({.rate = 10'000, .queue = 3000});
+  for (int i = 0; i < 10; ++i) bench.client->send(std::to_string(i) + std::string(999, 'x'));
+  bench.clock.advanceBy(150ms);  // half of the second is still on the line
+  for (int i = 0; i < 2; ++i) bench.client->send("z" + std::string(999, 'x'));
+  bench.clock.advanceBy(10s);
+  std::string order;
+  for (const Arrival& arrival : bench.arrivals) order += arrival.packet[0];
+  EXPECT_EQ(order, "012z");
+  EXPECT_EQ(bench.counters().dropped, 8u);
+}
+
+TEST(LossyDatagramLink, SameSeedGivesTheSameDeliveries) {
+  const LinkConditions bad{.delay = 30ms, .jitter = 40ms, .loss = 0.1, .duplicate = 0.1, .rate = 50'000};
+  const auto run = [&](std::uint64_t seed) {
+    Bench bench(bad, seed);
+    bench.sendMany(1000, 2ms);
+    return bench.arrivals;
+  };
+  EXPECT_EQ(run(7), run(7));
+  EXPECT_NE(run(7), run(8));
+}
+
+TEST(LossyDatagramLink, LossLeavesTheFateOfOtherPacketsAlone) {
+  Bench clean({.jitter = 40ms});
+  Bench lossy({.jitter = 40ms, .loss = 0.2});
+  clean.sendMany(500, 1ms);
+  lossy.sendMany(500, 1ms);
+  EXPECT_LT(lossy.arrivals.size(), clean.arrivals.size());
+  for (const Arrival& arrival : lossy.arrivals) {
+    EXPECT_NE(std::find(clean.arrivals.begin(), clean.arrivals.end(), arrival), clean.arrivals.end());
+  }
+}
+
+TEST(LossyDatagramLink, EveryPacketIsAccountedFor) {
+  SplitMix64 rng(11);
+  for (int round = 0; round < 200; ++round) {
+    Bench bench({.delay = Time(rng.below(50'000)),
+                 .jitter = Time(rng.below(50'000)),
+                 .reorder = rng.below(2) == 0,
+                 .loss = rng.unit(),
+                 .duplicate = rng.unit(),
+                 .rate = rng.below(3) == 0 ? 0 : 1 + rng.below(20'000),
+                 .queue = rng.below(5000)},
+                rng.next());
+    for (int i = 0; i < 200; ++i) {
+      bench.client->send(std::string(rng.below(1201), 'x'));
+      bench.clock.advanceBy(Time(rng.below(20'000)));
+    }
+    bench.clock.advanceBy(1h * 24);
+    const LinkCounters& counted = bench.counters();
+    ASSERT_EQ(counted.sent, 200u);
+    ASSERT_EQ(counted.sent + counted.duplicated, counted.delivered + counted.dropped) << "round " << round;
+    ASSERT_EQ(counted.delivered, bench.arrivals.size());
+    ASSERT_EQ(bench.clock.nextDue(), std::nullopt);
+  }
+}
+
+TEST(LossyDatagramLink, PacketsToNobodyAreDropped) {
+  Bench bench({});
+  bench.server->send("client has not started");
+  bench.client->send("server goes away");
+  bench.server.reset();
+  bench.clock.advanceBy(1ms);
+  EXPECT_EQ(bench.counters().dropped, 1u);
+  EXPECT_EQ(bench.link.counters(LinkEnd::kServer).dropped, 1u);
+}
+
+TEST(LossyDatagramLink, EndMayBeDestroyedInItsCallback) {
+  Bench bench({});
+  int calls = 0;
+  bench.server->start([&, marker = std::string(100, 'm')](std::string_view) {
+    bench.server.reset();
+    calls += marker.size() == 100;
+  });
+  bench.client->send("one");
+  bench.client->send("two");
+  bench.clock.advanceBy(1ms);
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(LossyDatagramLink, EndsOutliveTheLink) {
+  VirtualClock clock;
+  auto link = std::make_unique<LossyDatagramLink>(clock, LinkConditions{}, 1);
+  const auto client = link->takeEnd(LinkEnd::kClient);
+  const auto server = link->takeEnd(LinkEnd::kServer);
+  EXPECT_THROW(link->takeEnd(LinkEnd::kClient), std::logic_error);
+  link.reset();
+  std::string got;
+  server->start([&](std::string_view packet) { got = packet; });
+  client->send("still here");
+  clock.advanceBy(1ms);
+  EXPECT_EQ(got, "still here");
+  EXPECT_EQ(client->peerAddress(), "virtual:server");
+}
+
+TEST(LossyDatagramLink, RefusesPacketsOverTheLimit) {
+  Bench bench({});
+  EXPECT_NO_THROW(bench.client->send(std::string(1200, 'x')));
+  EXPECT_THROW(bench.client->send(std::string(1201, 'x')), std::length_error);
+}
+
+}  // namespace
+}  // namespace naiad

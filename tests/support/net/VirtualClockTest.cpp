@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "tests/support/net/VirtualClock.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(VirtualClock, RunsActionsInTimeOrderAndTiesInOrderOfScheduling) {
+  VirtualClock clock;
+  std::string order;
+  clock.schedule(2ms, [&] { order += 'c'; });
+  clock.schedule(1ms, [&] { order += 'a'; });
+  clock.schedule(2ms, [&] { order += 'd'; });
+  clock.schedule(1ms, [&] { order += 'b'; });
+  clock.advanceBy(5ms);
+  EXPECT_EQ(order, "abcd");
+  EXPECT_EQ(clock.now(), 5ms);
+}
+
+TEST(VirtualClock, ActionsSeeTheTimeTheyWereScheduledFor) {
+  VirtualClock clock;
+  VirtualClock::Time seen{};
+  clock.schedule(3ms, [&] { seen = clock.now(); });
+  clock.advanceTo(10ms);
+  EXPECT_EQ(seen, 3ms);
+}
+
+TEST(VirtualClock, LeavesLaterActionsAlone) {
+  VirtualClock clock;
+  int runs = 0;
+  clock.schedule(2ms, [&] { ++runs; });
+  clock.advanceTo(1999us);
+  EXPECT_EQ(runs, 0);
+  EXPECT_EQ(clock.nextDue(), 2ms);
+  clock.advanceTo(2ms);
+  EXPECT_EQ(runs, 1);
+  EXPECT_EQ(clock.nextDue(), std::nullopt);
+}
+
+TEST(VirtualClock, ActionsMayScheduleMoreWithinTheSameAdvance) {
+  VirtualClock clock;
+  int runs = 0;
+  std::function<void()> again = [&] {
+    if (++runs < 5) clock.schedule(clock.now() + 1ms, again);
+  };
+  clock.schedule(0ms, again);
+  clock.advanceTo(3ms);
+  EXPECT_EQ(runs, 4);
+}
+
+TEST(VirtualClock, PastActionsRunAtTheNextAdvance) {
+  VirtualClock clock;
+  clock.advanceTo(5ms);
+  VirtualClock::Time seen{};
+  clock.schedule(1ms, [&] { seen = clock.now(); });
+  EXPECT_EQ(seen, 0ms);
+  clock.advanceBy(0ms);
+  EXPECT_EQ(seen, 5ms);
+}
+
+TEST(VirtualClock, RefusesToGoBackOrToBeAdvancedByItsActions) {
+  VirtualClock clock;
+  clock.advanceTo(5ms);
+  EXPECT_THROW(clock.advanceTo(4ms), std::logic_error);
+  clock.schedule(6ms, [&] { clock.advanceBy(1ms); });
+  EXPECT_THROW(clock.advanceTo(7ms), std::logic_error);
+  EXPECT_NO_THROW(clock.advanceTo(8ms));
+}
+
+}  // namespace
+}  // namespace naiad

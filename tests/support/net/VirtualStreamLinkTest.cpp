@@ -1,0 +1,310 @@
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "shared/net/base/Limits.h"
+#include "shared/net/stream/Framing.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/shared/net/Recorder.h"
+#include "tests/support/net/LossyLink.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace std::string_literals;
+using Time = VirtualClock::Time;
+
+struct Bench {
+  explicit Bench(const LinkConditions& conditions, std::uint64_t seed = 1)
+      : link(clock, conditions, seed),
+        client(link.takeEnd(LinkEnd::kClient)),
+        server(link.takeEnd(LinkEnd::kServer)) {
+    client->setReceiveLimit(kMaxFramePayload);
+    server->setReceiveLimit(kMaxFramePayload);
+    auto recording = at_server.callbacks();
+    server->start({[this, record = recording.on_frame](std::string_view frame) {
+                     record(frame);
+                     times.push_back(clock.now());
+                   },
+                   recording.on_closed});
+    client->start(at_client.callbacks());
+  }
+
+  VirtualClock clock;
+  Recorder at_client;
+  Recorder at_server;
+  std::vector<Time> times;  // of the frames at the server
+  VirtualStreamLink link;
+  std::unique_ptr<ReliableChannel> client;
+  std::unique_ptr<ReliableChannel> server;
+};
+
+/// So many bytes on the line.
+std::string frameOnLine(std::size_t bytes) {
+  return std::string(bytes - kFrameHeaderSize, 'x');
+}
+
+TEST(VirtualStreamLink, DelaysFramesAndNothingElse) {
+  Bench bench({.delay = 50ms});
+  bench.client->send("one");
+  bench.clock.advanceTo(10ms);
+  bench.client->send("two");
+  bench.clock.advanceTo(1s);
+  EXPECT_EQ(bench.at_server.frames, (std::vector<std::string>{"one", "two"}));
+  EXPECT_EQ(bench.times, (std::vector<Time>{50ms, 60ms}));
+}
+
+TEST(VirtualStreamLink, AnythingSentArrivesOnceAndInOrder) {
+  SplitMix64 rng(5);
+  std::uint64_t lost = 0, held_back = 0;
+  for (int round = 0; round < 100; ++round) {
+    Bench bench({.delay = Time(rng.below(100'000)),
+                 .jitter = Time(rng.below(100'000)),
+                 .loss = rng.unit() * 0.3,
+                 .rate = rng.below(2) * (10'000 + rng.below(100'000)),
+                 .window = 1 + rng.below(30'000)},
+                rng.next());
+    std::vector<std::string> sent;
+    for (int i = 0; i < 100; ++i) {
+      sent.push_back(std::to_string(i) + std::string(rng.below(3000), 'x'));
+      bench.client->send(sent.back());
+      bench.clock.advanceBy(Time(rng.below(30'000)));
+    }
+    bench.clock.advanceBy(1h);
+    ASSERT_EQ(bench.at_server.frames, sent) << "round " << round;
+    ASSERT_EQ(bench.client->unsentBytes(), 0u);
+    lost += bench.link.counters(LinkEnd::kClient).dropped;
+    held_back += bench.link.counters(LinkEnd::kClient).reordered;
+  }
+  EXPECT_GT(lost, 1000u);
+  EXPECT_GT(held_back, 1000u);
+}
+
+TEST(VirtualStreamLink, LossHoldsUpWhatCameAfterIt) {
+  Bench bench({.delay = 20ms});
+  bench.link.setConditions(LinkEnd::kClient, {.delay = 20ms, .loss = 1});
+  bench.client->send("lost");
+  bench.clock.advanceTo(10ms);
+  bench.link.setConditions(LinkEnd::kClient, {.delay = 20ms});
+  bench.client->send("waits");
+  bench.clock.advanceTo(5s);
+  EXPECT_EQ(bench.at_server.frames, (std::vector<std::string>{"lost", "waits"}));
+  EXPECT_EQ(bench.times, (std::vector<Time>{220ms, 220ms}));  // retransmitted after 200 ms
+  EXPECT_EQ(bench.link.counters(LinkEnd::kClient).dropped, 1u);
+  EXPECT_EQ(bench.link.counters(LinkEnd::kClient).reordered, 1u);
+}
+
+TEST(VirtualStreamLink, RetransmissionWaitsTwoRoundTripsAndBacksOff) {
+  Bench bench({.delay = 100ms, .loss = 1});
+  bench.client->send("lost twice");  // at 0, at 400 ms, then at 1200 ms
+  bench.clock.advanceTo(500ms);
+  bench.link.setConditions(LinkEnd::kClient, {.delay = 100ms});
+  bench.clock.advanceTo(5s);
+  EXPECT_EQ(bench.times, std::vector<Time>{1300ms});
+}
+
+TEST(VirtualStreamLink, RateSpacesFramesOutAndShowsAsUnsentBytes) {
+  Bench bench({.delay = 5ms, .rate = 10'000});
+  for (int i = 0; i < 10; ++i) bench.client->send(frameOnLine(1000));
+  EXPECT_EQ(bench.client->unsentBytes(), 10'000u);
+  bench.clock.advanceTo(499ms);
+  EXPECT_EQ(bench.client->unsentBytes(), 6000u);
+  bench.clock.advanceTo(500ms);
+  EXPECT_EQ(bench.client->unsentBytes(), 5000u);
+  bench.clock.advanceTo(10s);
+  EXPECT_EQ(bench.client->unsentBytes(), 0u);
+  ASSERT_EQ(bench.times.size(), 10u);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(bench.times[i], (i + 1) * 100ms + 5ms);
+}
+
+TEST(VirtualStreamLink, WindowLimitsWhatIsUnderWay) {
+  Bench bench({.delay = 50ms, .window = 2000});
+  for (int i = 0; i < 6; ++i) bench.client->send(frameOnLine(1000));
+  EXPECT_EQ(bench.client->unsentBytes(), 4000u);
+  bench.clock.advanceTo(1s);
+  EXPECT_EQ(bench.times, (std::vector<Time>{50ms, 50ms, 150ms, 150ms, 250ms, 250ms}));
+}
+
+TEST(VirtualStreamLink, OutageShowsAsUnsentBytesAndThenOverflows) {
+  Bench bench({.loss = 1});
+  bool grew = false;
+  for (int i = 0; i < 30 && !bench.at_client.closed; ++i) {
+    bench.client->send(std::string(50'000, 'x'));
+    EXPECT_FALSE(bench.at_client.closed);
+    grew = grew || bench.client->unsentBytes() > 900'000;
+    bench.clock.advanceBy(33ms);
+  }
+  EXPECT_TRUE(grew);
+  EXPECT_EQ(bench.at_client.closed, CloseReason::kOverflow);
+  bench.link.setConditions(LinkEnd::kClient, {});
+  bench.clock.advanceBy(1min);
+  EXPECT_EQ(bench.at_server.closed, CloseReason::kError);
+}
+
+TEST(VirtualStreamLink, SurvivesAnOutage) {
+  Bench bench({.delay = 50ms});
+  bench.link.setConditions(LinkEnd::kClient, {.delay = 50ms, .loss = 1});
+  for (int i = 0; i < 150; ++i) {
+    bench.client->send(std::to_string(i));
+    bench.clock.advanceBy(33ms);
+  }
+  EXPECT_TRUE(bench.at_server.frames.empty());
+  bench.link.setConditions(LinkEnd::kClient, {.delay = 50ms});
+  bench.clock.advanceBy(20s);
+  EXPECT_EQ(bench.at_server.frames.size(), 150u);
+}
+
+TEST(VirtualStreamLink, FramesWaitForAReceiverThatStartsLate) {
+  VirtualClock clock;
+  VirtualStreamLink link(clock, {.window = 1000}, 1);
+  const auto client = link.takeEnd(LinkEnd::kClient);
+  const auto server = link.takeEnd(LinkEnd::kServer);
+  EXPECT_THROW(link.takeEnd(LinkEnd::kServer), std::logic_error);
+  for (int i = 0; i < 3; ++i) client->send(frameOnLine(500));
+  clock.advanceBy(1s);
+  EXPECT_EQ(client->unsentBytes(), 500u);
+  Recorder recorder;
+  server->start(recorder.callbacks());
+  EXPECT_TRUE(recorder.frames.empty());
+  clock.advanceBy(1s);
+  EXPECT_EQ(recorder.frames.size(), 3u);
+}
+
+TEST(VirtualStreamLink, CloseFlushesAndBothEndsHear) {
+  Bench bench({.delay = 50ms, .rate = 10'000});
+  for (int i = 0; i < 5; ++i) bench.client->send(frameOnLine(1000));
+  bench.client->close();
+  bench.client->send("too late");
+  EXPECT_FALSE(bench.at_client.closed);
+  bench.clock.advanceTo(549ms);
+  EXPECT_FALSE(bench.at_server.closed);
+  bench.clock.advanceTo(550ms);
+  EXPECT_EQ(bench.at_server.frames.size(), 5u);
+  EXPECT_EQ(bench.at_server.closed, CloseReason::kPeer);
+  EXPECT_FALSE(bench.at_client.closed);
+  bench.clock.advanceTo(600ms);
+  EXPECT_EQ(bench.at_client.closed, CloseReason::kLocal);
+  bench.clock.advanceBy(1min);
+  EXPECT_EQ(bench.at_client.closings + bench.at_server.closings, 2);
+}
+
+TEST(VirtualStreamLink, CloseGivesUpAfterASecond) {
+  Bench bench({.rate = 1000});
+  for (int i = 0; i < 5; ++i) bench.client->send(frameOnLine(1000));
+  bench.client->close();
+  bench.clock.advanceTo(999ms);
+  EXPECT_FALSE(bench.at_client.closed);
+  bench.clock.advanceTo(1s);
+  EXPECT_EQ(bench.at_client.closed, CloseReason::kLocal);
+  EXPECT_EQ(bench.client->unsentBytes(), 0u);
+  bench.clock.advanceBy(1min);
+  EXPECT_EQ(bench.at_server.closed, CloseReason::kError);
+  EXPECT_LE(bench.at_server.frames.size(), 2u);
+}
+
+TEST(VirtualStreamLink, DestroyedAfterCloseItStillFlushes) {
+  Bench bench({.rate = 10'000});
+  for (int i = 0; i < 5; ++i) bench.client->send(frameOnLine(1000));
+  bench.client->close();
+  bench.client.reset();
+  bench.clock.advanceBy(1min);
+  EXPECT_EQ(bench.at_server.frames.size(), 5u);
+  EXPECT_EQ(bench.at_server.closed, CloseReason::kPeer);
+  EXPECT_FALSE(bench.at_client.closed);
+}
+
+TEST(VirtualStreamLink, DestroyingHangsUp) {
+  Bench bench({.delay = 50ms});
+  bench.client.reset();
+  bench.clock.advanceTo(50ms);
+  EXPECT_EQ(bench.at_server.closed, CloseReason::kPeer);
+}
+
+TEST(VirtualStreamLink, NothingIsSentAgainToAnEndThatIsGone) {
+  Bench bench({.loss = 1});
+  bench.link.setConditions(LinkEnd::kServer, {});
+  bench.client->send("lost");
+  bench.server.reset();
+  bench.clock.advanceBy(1h);
+  EXPECT_EQ(bench.at_client.closed, CloseReason::kPeer);
+  EXPECT_EQ(bench.clock.nextDue(), std::nullopt);
+}
+
+TEST(VirtualStreamLink, FrameOverTheReceiveLimitBreaksTheProtocol) {
+  Bench bench({});
+  bench.server->setReceiveLimit(4);
+  for (const char* frame : {"four", "fives", "six"}) bench.client->send(frame);
+  bench.clock.advanceBy(1s);
+  EXPECT_EQ(bench.at_server.frames, std::vector{"four"s});
+  EXPECT_EQ(bench.at_server.closed, CloseReason::kProtocol);
+  EXPECT_EQ(bench.at_client.closed, CloseReason::kError);
+}
+
+TEST(VirtualStreamLink, StartsWithTheLimitOfAServerBeforeLogin) {
+  VirtualClock clock;
+  VirtualStreamLink link(clock, {}, 1);
+  const auto client = link.takeEnd(LinkEnd::kClient);
+  const auto server = link.takeEnd(LinkEnd::kServer);
+  Recorder recorder;
+  server->start(recorder.callbacks());
+  client->send(std::string(kMaxHelloFrame + 1, 'x'));
+  clock.advanceBy(1ms);
+  EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
+}
+
+TEST(VirtualStreamLink, RefusesSizesThatAreNoFrame) {
+  Bench bench({});
+  EXPECT_THROW(bench.client->send(""), std::length_error);
+  EXPECT_THROW(bench.client->send(std::string(kMaxFramePayload + 1, 'x')), std::length_error);
+}
+
+TEST(VirtualStreamLink, BrokenConnectionEndsBothWithAnError) {
+  Bench bench({.delay = 50ms});
+  bench.client->send("never");
+  bench.link.breakConnection();
+  EXPECT_FALSE(bench.at_client.closed);
+  bench.clock.advanceBy(1min);
+  EXPECT_EQ(bench.at_client.closed, CloseReason::kError);
+  EXPECT_EQ(bench.at_server.closed, CloseReason::kError);
+  EXPECT_TRUE(bench.at_server.frames.empty());
+}
+
+TEST(VirtualStreamLink, EndMayBeDestroyedInItsCallbacks) {
+  VirtualClock clock;
+  VirtualStreamLink link(clock, {}, 1);
+  auto client = link.takeEnd(LinkEnd::kClient);
+  auto server = link.takeEnd(LinkEnd::kServer);
+  int calls = 0;
+  server->start({[&, marker = std::string(100, 'm')](std::string_view) {
+                   server.reset();
+                   calls += marker.size() == 100;
+                 },
+                 [](CloseReason) { FAIL() << "callback after destruction"; }});
+  client->start({nullptr, [&, marker = std::string(100, 'm')](CloseReason) {
+                   client.reset();
+                   calls += marker.size() == 100;
+                 }});
+  client->send("one");
+  client->send("two");
+  clock.advanceBy(1s);
+  EXPECT_EQ(calls, 2);
+}
+
+TEST(VirtualStreamLink, SameSeedGivesTheSameDeliveries) {
+  const auto run = [](std::uint64_t seed) {
+    Bench bench({.delay = 30ms, .jitter = 40ms, .loss = 0.1}, seed);
+    for (int i = 0; i < 300; ++i) {
+      bench.client->send(std::to_string(i));
+      bench.clock.advanceBy(2ms);
+    }
+    bench.clock.advanceBy(1min);
+    return bench.times;
+  };
+  EXPECT_EQ(run(7), run(7));
+  EXPECT_NE(run(7), run(8));
+}
+
+}  // namespace
+}  // namespace naiad::test
