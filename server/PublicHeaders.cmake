@@ -112,7 +112,7 @@ set(naiad_physics_headers
 set(naiad_detail_headers
   server/engine/collision/Mask.h
   server/engine/collision/ObjectKey.h
-  server/engine/collision/Paths.h
+  server/engine/collision/MoverStats.h
   server/engine/effects/Particles.h
   server/engine/events/KeyCharacter.h
   server/engine/managers/LogManager.h
@@ -121,7 +121,7 @@ set(naiad_detail_headers
   server/engine/prelude/SfmlValues.h
   server/engine/world/ColorMix.h
   server/engine/world/Geometry.h
-  server/engine/world/Hindsight.h
+  server/engine/world/LagCompensation.h
   server/engine/world/ObjectProfile.h
   server/engine/world/Settings.h
   server/engine/world/WorldView.h

@@ -22,7 +22,7 @@ void ChatLog::note(ChatMessage message, const std::vector<PlayerLine>& players, 
 
 void ChatLog::add(ChatEntry entry) {
   m_entries.push_back(std::move(entry));
-  if (m_entries.size() > kMost) m_entries.pop_front();
+  if (m_entries.size() > kMax) m_entries.pop_front();
 }
 
 }  // namespace naiad

@@ -25,7 +25,7 @@ class ChatLog {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr std::size_t kMost = 100;  ///< lines kept
+  static constexpr std::size_t kMax = 100;  ///< lines kept
 
   /// Somebody of `players`, or who plays here (`self`), or the server said something.
   void note(ChatMessage message, const std::vector<PlayerLine>& players, const WelcomeMessage& self,

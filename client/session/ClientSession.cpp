@@ -19,14 +19,14 @@ constexpr std::size_t kMaxUnsent = std::size_t{64} * 1024;
 
 ClientSession::ClientSession(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
                              Time now)
-    : m_channel(std::move(channel)), m_options(options), m_last_ping(now), m_silence(now) {
+    : m_channel(std::move(channel)), m_options(options), m_last_ping(now), m_idle(now) {
   m_channel->setReceiveLimit(kMaxServerFrame);
   send(helloOf(options));
 }
 
 void ClientSession::receive(std::string_view frame, Time now) {
   if (isOver()) return;
-  m_silence.heard(now);
+  m_idle.heard(now);
   m_counters.bytes_in += frame.size() + kFrameHeaderSize;
   const std::uint32_t kept = m_kept_heard.newest();
   auto message = readServerMessage(frame);
@@ -116,7 +116,7 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   m_welcome.connection_id = welcome.connection_id;
   m_welcome.aead = welcome.aead;
   m_welcome.epoch = welcome.epoch;
-  m_silence.heard(now);
+  m_idle.heard(now);
   m_timing.attached(now);
   m_inputs.restartStream();
   m_round_trip.forgetPings();
@@ -138,7 +138,7 @@ void ClientSession::adopt(ClientSession& other, Time now) {
 
 void ClientSession::onDatagram(std::string_view bytes, Time now) {
   if (m_state != State::kPlaying) return;
-  m_silence.heard(now);
+  m_idle.heard(now);
   m_timing.datagramCame(now);
   m_counters.bytes_in += bytes.size();
   ++m_counters.datagrams_in;
@@ -197,7 +197,7 @@ void ClientSession::takeSnapshot(std::string_view bytes, Time now) {
   m_clock.note(header.tick, now);
   if (header.tells_input) {
     const auto input = m_inputs.taken(header.input);
-    if (input) m_take_in.noteTaken(input->tick, header.input_tick);
+    if (input) m_input_tick_estimator.noteTaken(input->tick, header.input_tick);
   }
   takeControls();
   ++m_counters.snapshots;
@@ -219,7 +219,7 @@ void ClientSession::takeControls() {
 }
 
 std::uint32_t ClientSession::predictedTick(Time now) const {
-  return m_take_in.tickFor(m_clock, m_welcome.tick, now);
+  return m_input_tick_estimator.tickFor(m_clock, m_welcome.tick, now);
 }
 
 const Prediction& ClientSession::predict(Time now) {
@@ -263,8 +263,9 @@ void ClientSession::handle(const PongMessage& message, Time now) {
 }
 
 void ClientSession::noteRoundTrip(RoundTrip::Millis sample) {
-  m_take_in.noteRoundTrip(sample);
-  m_clock.setWay(std::chrono::duration_cast<DisplayClock::Duration>(m_take_in.shortestRoundTrip() / 2));
+  m_input_tick_estimator.noteRoundTrip(sample);
+  m_clock.setWay(
+      std::chrono::duration_cast<DisplayClock::Duration>(m_input_tick_estimator.shortestRoundTrip() / 2));
 }
 
 void ClientSession::closed(CloseReason reason) {
@@ -289,9 +290,9 @@ void ClientSession::closed(CloseReason reason) {
 
 void ClientSession::update(Time now) {
   if (isOver()) return;
-  m_silence.listen(now);
+  m_idle.listen(now);
   if (m_state == State::kGreeting) {
-    if (m_silence.at(now) >= kGreetingTimeout) {
+    if (m_idle.at(now) >= kGreetingTimeout) {
       finish(State::kLost, "The server accepted the connection but did not answer.");
     }
     return;
@@ -302,7 +303,7 @@ void ClientSession::update(Time now) {
   m_second.update(now);
   if (hasDatagrams(now) && !m_timing.isUndecided(now)) m_second.close();
   if (m_channel == nullptr) {
-    if (m_silence.at(now) >= kDetachedTimeout) finish(State::kLost, "The connection to the server was lost.");
+    if (m_idle.at(now) >= kDetachedTimeout) finish(State::kLost, "The connection to the server was lost.");
     return;
   }
   if (hasDatagrams(now) && m_round_trip.waiting(now) >= kStreamSilence) {
@@ -313,7 +314,7 @@ void ClientSession::update(Time now) {
   if (m_datagrams != nullptr && !m_welcome.resume_token.empty() && m_datagrams->takeNewEpochDue()) {
     return closed(CloseReason::kError);
   }
-  if (m_silence.at(now) >= kIdleTimeout) {
+  if (m_idle.at(now) >= kIdleTimeout) {
     if (m_welcome.resume_token.empty()) return finish(State::kLost, "The server fell silent.");
     return closed(CloseReason::kError);  // the line may be down for a while; the session waits for another
   }

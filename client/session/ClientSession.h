@@ -29,12 +29,12 @@
 #include "client/session/SessionOptions.h"
 #include "client/session/UpdateTiming.h"
 #include "client/world/DisplayClock.h"
+#include "client/world/InputTickEstimator.h"
 #include "client/world/Prediction.h"
-#include "client/world/TakeInClock.h"
 #include "client/world/WorldFeed.h"
 #include "shared/net/base/Channel.h"
-#include "shared/net/base/Silence.h"
-#include "shared/net/stream/KeptFrames.h"
+#include "shared/net/base/IdleTimer.h"
+#include "shared/net/stream/ReliableFrames.h"
 #include "shared/replica/Acks.h"
 #include "shared/replica/UpdateCodec.h"
 #include "shared/values/Keyboard.h"
@@ -77,8 +77,8 @@ class ClientSession {
   /// A stream on which a ping stays unanswered for so long is taken to be dead.
   static constexpr std::chrono::seconds kStreamSilence{10};
   static constexpr std::chrono::milliseconds kPassing = UpdateTiming::kPassing;
-  static constexpr std::uint32_t kMaxUnapplied = InputOutbox::kMost;
-  static constexpr std::size_t kMaxChatLog = ChatLog::kMost;
+  static constexpr std::uint32_t kMaxUnapplied = InputOutbox::kMax;
+  static constexpr std::size_t kMaxChatLog = ChatLog::kMax;
   static constexpr std::size_t kMaxUnheard = 32;  ///< sounds, if nobody takes them
   static constexpr std::chrono::seconds kChecksumEvery{1};
   /// So many bytes of kept frames are acknowledged at once, not with the next ping.
@@ -108,14 +108,14 @@ class ClientSession {
   bool hasDatagrams(Time now) const { return m_datagrams != nullptr && m_timing.hasDatagrams(now); }
 
   /// Has the server been heard lately, on either way?
-  bool isHeard(Time now) const { return m_state == State::kPlaying && m_silence.at(now) < kPassing; }
+  bool isHeard(Time now) const { return m_state == State::kPlaying && m_idle.at(now) < kPassing; }
 
   /// A frame from the server.
   void receive(std::string_view frame, Time now);
   /// The channel ended by itself.
   void closed(CloseReason reason);
   /// Pings and time-outs. Call about ten times a second: time in which nobody calls does not count as silence
-  /// of the server (Silence.h).
+  /// of the server (IdleTimer.h).
   void update(Time now);
 
   /// Send a key or mouse action of the player, at once. False if it was not sent: not playing, or too many.
@@ -155,7 +155,7 @@ class ClientSession {
   /// frame.
   std::uint32_t predictedTick(Time now) const;
   bool isPredicting() const { return m_prediction.isActive(); }
-  const TakeInClock& takeInClock() const { return m_take_in; }
+  const InputTickEstimator& takeInClock() const { return m_input_tick_estimator; }
 
   /// The tick to draw now, whether the line is silent, the newest tick known.
   std::uint32_t displayTick(Time now) { return m_clock.displayTick(now); }
@@ -217,7 +217,7 @@ class ClientSession {
   DisplayClock m_clock{std::chrono::microseconds(33333)};
   InputBudget m_budget;
   Prediction m_prediction;
-  TakeInClock m_take_in;
+  InputTickEstimator m_input_tick_estimator;
   std::uint32_t m_table_known = 0;    ///< snapshot that told the newest controls taken over
   std::uint32_t m_control_known = 0;  ///< … and state
   std::vector<PlayerLine> m_players;
@@ -227,8 +227,8 @@ class ClientSession {
   std::function<void(std::uint32_t)> m_observer;
   std::function<void(const SnapshotHeader&, const AckWindow&)> m_after_observer;
   InputOutbox m_inputs;
-  KeptFrames m_kept;
-  KeptFramesHeard m_kept_heard;
+  ReliableFrames m_kept;
+  ReliableFramesHeard m_kept_heard;
   std::size_t m_kept_unacknowledged = 0;  ///< bytes of kept frames since the last ping
   UpdateTiming m_timing;
   Time m_next_checksum{};
@@ -236,7 +236,7 @@ class ClientSession {
   SessionOptions m_options;
   RoundTrip m_round_trip;
   Time m_last_ping;
-  Silence m_silence;
+  IdleTimer m_idle;
   std::uint64_t m_revision = 0;
 };
 

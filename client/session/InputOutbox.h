@@ -17,12 +17,12 @@ class InputOutbox {
   /// Inputs that wait, at most; of more only those that let a key go are taken. Below the 64 that a server
   /// lets wait, so that who holds a key through a stall is not thrown out as a flooder afterwards, and below
   /// kMaxUpdateInputs.
-  static constexpr std::size_t kMost = 40;
+  static constexpr std::size_t kMax = 40;
 
   /// The server has received inputs up to this id: the next ones come after it.
   void goOnAfter(std::uint32_t id);
   /// Is there no room? `urgent`: it lets a key go.
-  bool isFull(bool urgent) const { return m_inputs.size() >= (urgent ? kMaxUpdateInputs : kMost); }
+  bool isFull(bool urgent) const { return m_inputs.size() >= (urgent ? kMaxUpdateInputs : kMax); }
   /// Give it the next id, and keep it.
   const Input& add(Input input);
   /// The game has had all up to `id`. The input with just that id, if it was still here.

@@ -7,12 +7,12 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kMostOpen = 20;
+constexpr std::size_t kMaxOpen = 20;
 
 }  // namespace
 
 std::uint64_t RoundTrip::ping(Time now) {
-  if (m_open.size() >= kMostOpen) m_open.erase(m_open.begin());
+  if (m_open.size() >= kMaxOpen) m_open.erase(m_open.begin());
   m_open.emplace(m_next_token, now);
   return m_next_token++;
 }

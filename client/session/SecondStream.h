@@ -27,7 +27,7 @@ class SecondStream {
   static constexpr std::chrono::seconds kFirstPause{2};
   static constexpr std::chrono::seconds kLastPause{64};
   /// Silence after which it is given up, and no answer to the hello.
-  static constexpr std::chrono::seconds kSilence{5};
+  static constexpr std::chrono::seconds kIdleTimer{5};
 
   SecondStream() = default;
   ~SecondStream() { close(); }

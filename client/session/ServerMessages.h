@@ -71,7 +71,7 @@ struct PlayerLine {
 
 struct PlayersMessage {
   std::vector<PlayerLine> players;
-  std::uint32_t number = 0;  ///< of a kept frame (KeptFrames.h); 0: it is none
+  std::uint32_t number = 0;  ///< of a kept frame (ReliableFrames.h); 0: it is none
 };
 
 struct ChatMessage {

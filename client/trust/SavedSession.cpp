@@ -7,8 +7,8 @@ namespace naiad {
 namespace {
 
 constexpr std::string_view kFirstLine = "naiad session 1";
-constexpr std::size_t kMostToken = 64;
-constexpr std::int64_t kMostGrace = 3'600'000;  // ms
+constexpr std::size_t kMaxToken = 64;
+constexpr std::int64_t kMaxGrace = 3'600'000;  // ms
 
 std::string toHex(std::string_view bytes) {
   static constexpr char kDigits[] = "0123456789abcdef";
@@ -21,7 +21,7 @@ std::string toHex(std::string_view bytes) {
 }
 
 std::optional<std::string> fromHex(std::string_view text) {
-  if (text.empty() || text.size() % 2 != 0 || text.size() > 2 * kMostToken) return std::nullopt;
+  if (text.empty() || text.size() % 2 != 0 || text.size() > 2 * kMaxToken) return std::nullopt;
   std::string bytes;
   for (std::size_t i = 0; i < text.size(); i += 2) {
     unsigned byte = 0;
@@ -77,7 +77,7 @@ std::optional<SavedSession> readSavedSession(std::string_view text) {
   const auto token = takeLine(text, "token");
   const auto grace = takeNumber(text, "grace");
   const auto alive = takeNumber(text, "alive");
-  if (!server || !key || !name || !token || !grace || !alive || *grace > kMostGrace) return std::nullopt;
+  if (!server || !key || !name || !token || !grace || !alive || *grace > kMaxGrace) return std::nullopt;
   if (text.find_first_not_of('\n') != std::string_view::npos) return std::nullopt;
   const auto fingerprint = Fingerprint::parse(*key);
   auto bytes = fromHex(*token);

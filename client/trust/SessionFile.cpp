@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPrefix = "session-";
-constexpr int kMostLooked = 1000;
+constexpr int kMaxLooked = 1000;
 
 std::string describe(int error) {
   return std::generic_category().message(error);
@@ -59,7 +59,7 @@ void SessionFile::look(const std::optional<std::string>& name, Time now) {
   int looked = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(m_directory)) {
     if (!entry.path().filename().string().starts_with(kPrefix)) continue;
-    if (++looked > kMostLooked) break;
+    if (++looked > kMaxLooked) break;
     consider(entry.path(), name, now);
   }
 }

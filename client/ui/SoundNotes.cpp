@@ -33,7 +33,7 @@ void SoundNotes::hear(const SoundLine& sound, std::uint32_t self, Time now) {
 
 // One's own, and what is meant for all, takes the place of what others do at once.
 void SoundNotes::show(const SoundLine& sound, bool others, Time now) {
-  const bool fresh = m_noted_at && now - *m_noted_at < kLeast;
+  const bool fresh = m_noted_at && now - *m_noted_at < kMin;
   if (fresh && (others || !m_of_others)) return;
   m_note = textOf(sound);
   m_of_others = others;

@@ -28,7 +28,7 @@ class SoundNotes {
 
   /// So long a note is seen, and so long at least before another takes its place.
   static constexpr std::chrono::milliseconds kShown{1500};
-  static constexpr std::chrono::milliseconds kLeast{300};
+  static constexpr std::chrono::milliseconds kMin{300};
   /// The bell rings at most once in this time.
   static constexpr std::chrono::milliseconds kBellEvery{1000};
 

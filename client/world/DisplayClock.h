@@ -22,15 +22,15 @@ class DisplayClock {
   /// How far the picture may run ahead of the newest snapshot.
   static constexpr std::chrono::milliseconds kMaxAhead{250};
   /// How far it does so in any case, to make up for the way of the snapshots.
-  static constexpr std::chrono::milliseconds kMostLead{50};
+  static constexpr std::chrono::milliseconds kMaxLead{50};
   /// Silence that counts as a broken line.
-  static constexpr std::chrono::milliseconds kSilence{500};
+  static constexpr std::chrono::milliseconds kIdleTimer{500};
 
   explicit DisplayClock(Duration tick_length) : m_length(tick_length) {}
 
-  /// Half the shortest round trip: how old what arrives is. The picture makes up for it, up to kMostLead:
+  /// Half the shortest round trip: how old what arrives is. The picture makes up for it, up to kMaxLead:
   /// beyond that more turns out wrong than is gained, for whoever turns meanwhile does so unseen.
-  void setWay(Duration way) { m_lead = std::clamp<Duration>(way, Duration::zero(), kMostLead); }
+  void setWay(Duration way) { m_lead = std::clamp<Duration>(way, Duration::zero(), kMaxLead); }
   /// A snapshot of `tick` arrived.
   void note(std::uint32_t tick, Time now);
   /// The tick to draw. Never lower than the last answer, unless that lies beyond the allowed lead.
@@ -40,7 +40,7 @@ class DisplayClock {
   /// The newest tick of any snapshot; 0 before the first.
   std::uint32_t newestTick() const { return m_newest; }
   /// No snapshot for kSilence (never before the first).
-  bool isSilent(Time now) const { return m_started && now - m_last_arrival >= kSilence; }
+  bool isSilent(Time now) const { return m_started && now - m_last_arrival >= kIdleTimer; }
   /// How long ago the last snapshot came; zero before the first.
   Duration silence(Time now) const { return m_started ? now - m_last_arrival : Duration::zero(); }
   /// When displayTick() will next give another answer, for a timer.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kCellWidth = 4;  // in characters
 constexpr std::int64_t kCellHeight = 2;
-constexpr std::int64_t kMostCells = 64;
+constexpr std::int64_t kMaxCells = 64;
 
 std::uint64_t cellKey(std::int64_t x, std::int64_t y) {
   return static_cast<std::uint64_t>(x) << 32 | static_cast<std::uint32_t>(y);
@@ -52,7 +52,7 @@ ExtrapolationClamp::ExtrapolationClamp(const Replica& replica, std::uint32_t kno
 }
 
 void ExtrapolationClamp::sort(const Solid& solid, std::uint32_t index) {
-  if (solid.range.count() > kMostCells) {
+  if (solid.range.count() > kMaxCells) {
     m_large.push_back(index);
     return;
   }
@@ -66,7 +66,7 @@ void ExtrapolationClamp::sort(const Solid& solid, std::uint32_t index) {
 template <class Visit>
 void ExtrapolationClamp::forEachNear(const df::FixedBox& box, Visit visit) const {
   const Range range = cellsOf(box);
-  if (range.count() > kMostCells) {
+  if (range.count() > kMaxCells) {
     for (const Solid& solid : m_solids) visit(solid);
     return;
   }

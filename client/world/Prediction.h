@@ -28,7 +28,7 @@ namespace naiad {
 
 class Prediction {
  public:
-  /// Ticks that are replayed at most: kMostCoasting and two seconds' way there and back.
+  /// Ticks that are replayed at most: kMaxCoasting and two seconds' way there and back.
   static constexpr std::uint32_t kMaxAhead = 90;
   /// Inputs without an answer that are kept at most; further ones are not predicted.
   static constexpr std::size_t kMaxInputs = 64;

@@ -24,7 +24,7 @@ class WorldFeed {
   /// Then a world that is not complete is shown.
   static constexpr std::chrono::milliseconds kPatience{500};
   /// Snapshots in a row that mean what is gone: then the world is to come anew.
-  static constexpr int kMostStale = 30;
+  static constexpr int kMaxStale = 30;
 
   /// `near`: what the snapshots to come count on from. `epoch`: theirs.
   explicit WorldFeed(const SnapshotContext& near = {}, std::uint8_t epoch = 0)
@@ -50,9 +50,9 @@ class WorldFeed {
   /// Is another one about to replace it?
   bool isChanging() const { return m_next.has_value(); }
   /// So many stale ones came in a row that the world should be sent anew.
-  bool wantsReset() const { return m_stale_in_a_row >= kMostStale; }
+  bool wantsReset() const { return m_stale_in_a_row >= kMaxStale; }
   /// This was the last straw: ask for it now.
-  bool wantsResetNow() const { return wantsReset() && m_stale_in_a_row % kMostStale == 0; }
+  bool wantsResetNow() const { return wantsReset() && m_stale_in_a_row % kMaxStale == 0; }
   /// Worlds that came anew.
   std::uint64_t resets() const { return m_resets; }
 

@@ -6,7 +6,7 @@
 
 #include "shared/replica/Bits.h"
 #include "shared/replica/Records.h"
-#include "shared/replica/Vocabulary.h"
+#include "shared/replica/SnapshotDictionary.h"
 
 namespace naiad {
 

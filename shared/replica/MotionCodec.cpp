@@ -105,10 +105,10 @@ void writeFraction(BitWriter& out, df::FixedVector position) {
 }
 
 CellPosition readCell(BitReader& in, const Origin& origin) {
-  constexpr std::int64_t kMostCells = std::int64_t{1} << 32;
+  constexpr std::int64_t kMaxCells = std::int64_t{1} << 32;
   const bool near = in.flag();
   const auto cell = [&](int bits) {
-    return near ? static_cast<std::int64_t>(in.bits(bits)) : in.signedGolomb(kCellOrder, kMostCells);
+    return near ? static_cast<std::int64_t>(in.bits(bits)) : in.signedGolomb(kCellOrder, kMaxCells);
   };
   const std::int64_t x = cell(origin.x_bits) + origin.corner.x;
   const std::int64_t y = cell(origin.y_bits) + origin.corner.y;

@@ -57,7 +57,7 @@ void Replica::apply(const Snapshot& snapshot) {
     m_control_newest = number;
     m_control = control;
   }
-  for (const OriginRecord& origin : records.origins) m_vocabulary.define(number, origin);
+  for (const OriginRecord& origin : records.origins) m_dictionary.define(number, origin);
   for (const TextRecord& text : records.texts) {
     std::uint32_t& newest = m_text_newest[text.id];
     if (!supersedes(number, newest)) continue;
@@ -65,7 +65,7 @@ void Replica::apply(const Snapshot& snapshot) {
     m_texts[text.id] = text;
   }
   for (const SequenceRecord& sequence : records.sequences) {
-    if (!m_vocabulary.define(number, sequence)) ++m_overflows;
+    if (!m_dictionary.define(number, sequence)) ++m_overflows;
   }
   for (const ObjectRecord& object : records.objects) applyObject(number, object);
 }

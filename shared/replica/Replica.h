@@ -13,8 +13,8 @@
 #include "shared/replica/Acks.h"
 #include "shared/replica/Placement.h"
 #include "shared/replica/SnapshotCodec.h"
+#include "shared/replica/SnapshotDictionary.h"
 #include "shared/replica/ViewFollow.h"
-#include "shared/replica/Vocabulary.h"
 #include "shared/values/Canvas.h"
 
 namespace naiad {
@@ -47,7 +47,7 @@ class Replica {
 
   /// Read a snapshot of this replica's epoch, without applying it.
   ReadResult read(std::string_view bytes, Snapshot& out) const {
-    return readSnapshot(bytes, m_context, m_vocabulary, out);
+    return readSnapshot(bytes, m_context, m_dictionary, out);
   }
   /// Apply what was read. Order of arrival does not matter, nor does a second time.
   void apply(const Snapshot& snapshot);
@@ -96,7 +96,7 @@ class Replica {
   void release(const Sequence& sequence);
 
   SnapshotContext m_context;
-  Vocabulary m_vocabulary;
+  SnapshotDictionary m_dictionary;
   std::unordered_map<std::uint32_t, Entry> m_entries;
   std::map<std::uint32_t, TextRecord> m_texts;
   std::map<std::uint32_t, std::uint32_t> m_text_newest;

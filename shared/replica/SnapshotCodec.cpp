@@ -28,7 +28,7 @@ constexpr int kAgeBits = 6;
 constexpr int kObjectCountOrder = 3;
 constexpr int kIdOrderBits = 4;
 constexpr int kOrderOrder = 10;
-constexpr std::int64_t kMostOrder = std::int64_t{1} << 48;
+constexpr std::int64_t kMaxOrder = std::int64_t{1} << 48;
 constexpr int kTableLengthBits = 10;
 constexpr int kTextXOrder = 6;
 constexpr int kTextYOrder = 4;
@@ -111,8 +111,8 @@ TextRecord readText(BitReader& in) {
 class ObjectReader {
  public:
   ObjectReader(BitReader& in, const SnapshotHeader& header, const Origin& origin,
-               const Vocabulary& vocabulary, Records& records)
-      : m_in(in), m_header(header), m_origin(origin), m_vocabulary(vocabulary), m_records(records) {}
+               const SnapshotDictionary& vocabulary, Records& records)
+      : m_in(in), m_header(header), m_origin(origin), m_dictionary(vocabulary), m_records(records) {}
 
   void read() {
     const std::uint64_t count = m_in.golomb(kObjectCountOrder, m_in.bitsLeft());
@@ -136,8 +136,8 @@ class ObjectReader {
     if ((record.groups & kLife) != 0) {
       record.generation = static_cast<std::uint8_t>(m_in.bits(2));
       const std::int64_t order =
-          static_cast<std::int64_t>(m_origin.order) + m_in.signedGolomb(kOrderOrder, kMostOrder);
-      if (order < 0 || order >= kMostOrder) m_in.fail();
+          static_cast<std::int64_t>(m_origin.order) + m_in.signedGolomb(kOrderOrder, kMaxOrder);
+      if (order < 0 || order >= kMaxOrder) m_in.fail();
       record.state.order = static_cast<std::uint64_t>(order);
     }
     if ((record.groups & kMotion) != 0) record.state.motion = readMotion(m_in, m_header.tick, m_origin);
@@ -190,16 +190,16 @@ class ObjectReader {
       if (defined.id == id) return &defined.sequence;
     }
     const Sequence* sequence = nullptr;
-    const Vocabulary::Find found = m_vocabulary.find(m_header.number, id, sequence);
-    if (found == Vocabulary::Find::kStale) m_stale = true;
-    if (found == Vocabulary::Find::kUnknown) m_in.fail();
-    return found == Vocabulary::Find::kFound ? sequence : nullptr;
+    const SnapshotDictionary::Find found = m_dictionary.find(m_header.number, id, sequence);
+    if (found == SnapshotDictionary::Find::kStale) m_stale = true;
+    if (found == SnapshotDictionary::Find::kUnknown) m_in.fail();
+    return found == SnapshotDictionary::Find::kFound ? sequence : nullptr;
   }
 
   BitReader& m_in;
   const SnapshotHeader& m_header;
   const Origin& m_origin;
-  const Vocabulary& m_vocabulary;
+  const SnapshotDictionary& m_dictionary;
   Records& m_records;
   std::vector<std::pair<std::size_t, std::uint32_t>> m_named;  ///< objects, and the ids of their sequences
   bool m_stale = false;
@@ -254,15 +254,15 @@ void readExtras(BitReader& in, const SnapshotContext& context, const Origin& ori
 
 }  // namespace
 
-ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context, const Vocabulary& vocabulary,
-                        Snapshot& out) {
+ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context,
+                        const SnapshotDictionary& vocabulary, Snapshot& out) {
   out = {};
   BitReader in(bytes);
   out.header = readHeader(in, context);
   Origin origin;
   const auto known = vocabulary.find(out.header.number, static_cast<std::uint32_t>(in.bits(2)), origin);
-  if (known == Vocabulary::Find::kUnknown || !in.ok()) return ReadResult::kMalformed;
-  if (known == Vocabulary::Find::kStale) return ReadResult::kStale;
+  if (known == SnapshotDictionary::Find::kUnknown || !in.ok()) return ReadResult::kMalformed;
+  if (known == SnapshotDictionary::Find::kStale) return ReadResult::kStale;
   if (in.flag()) readExtras(in, context, origin, out);
   ObjectReader objects(in, out.header, origin, vocabulary, out.records);
   objects.read();

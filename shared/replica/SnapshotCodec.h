@@ -10,7 +10,7 @@
 #include "shared/replica/LookCodec.h"
 #include "shared/replica/MotionCodec.h"
 #include "shared/replica/Records.h"
-#include "shared/replica/Vocabulary.h"
+#include "shared/replica/SnapshotDictionary.h"
 
 namespace naiad {
 
@@ -45,8 +45,8 @@ enum class ReadResult {
 };
 
 /// Read a snapshot. `vocabulary` must be that of the epoch of the snapshot; it is not changed.
-ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context, const Vocabulary& vocabulary,
-                        Snapshot& out);
+ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context,
+                        const SnapshotDictionary& vocabulary, Snapshot& out);
 /// The epoch of a snapshot, before it is read; nothing if the bytes are too few.
 std::optional<std::uint8_t> peekEpoch(std::string_view bytes);
 /// What a snapshot says of itself, without its records; nothing if the bytes are too few or malformed.

@@ -39,7 +39,7 @@ void SteeredCopy::move(df::FixedVector to, bool in_update) {
 
 ControlRecord coast(const ControlRecord& known, const df::ControlTable& table, std::uint32_t tick) {
   SteeredCopy copy(known, table);
-  for (int i = 0; i < kMostCoasting && copy.now().tick != tick; ++i) {
+  for (int i = 0; i < kMaxCoasting && copy.now().tick != tick; ++i) {
     copy.begin();
     copy.finish();
   }

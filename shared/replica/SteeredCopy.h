@@ -53,10 +53,10 @@ class SteeredCopy : public Steered {
 };
 
 /// Ticks after which a state that still changes by itself is sent anew.
-inline constexpr int kMostCoasting = 30;
+inline constexpr int kMaxCoasting = 30;
 
 /// What a client that knows `known` and hears no more takes for true at `tick`, where nothing is in the way;
-/// after kMostCoasting ticks: that nothing changes any more. A server need not send a state that equals it.
+/// after kMaxCoasting ticks: that nothing changes any more. A server need not send a state that equals it.
 ControlRecord coast(const ControlRecord& known, const df::ControlTable& table, std::uint32_t tick);
 
 }  // namespace naiad

@@ -17,11 +17,11 @@ namespace naiad {
 namespace {
 
 constexpr int kLowBits = 16;
-constexpr int kMostNamed = 8;  ///< snapshots that have not arrived
+constexpr int kMaxNamed = 8;  ///< snapshots that have not arrived
 constexpr int kKeyBits = 7;
 constexpr int kTickOrder = 2;
 constexpr int kSnapshotOrder = 3;
-constexpr std::int64_t kMostTicksApart = 1 << 15;
+constexpr std::int64_t kMaxTicksApart = 1 << 15;
 constexpr std::uint64_t kOldestBase = 1 << 15;
 constexpr int kActions = 3;
 constexpr int kButtons = 4;
@@ -29,8 +29,8 @@ constexpr int kButtons = 4;
 // Mostly all have arrived but a few: those are named.
 void writeMask(BitWriter& out, std::uint64_t mask) {
   const int missing = std::popcount(~mask);
-  out.flag(missing > kMostNamed);
-  if (missing > kMostNamed) return out.bits(mask, 64);
+  out.flag(missing > kMaxNamed);
+  if (missing > kMaxNamed) return out.bits(mask, 64);
   out.golomb(static_cast<std::uint64_t>(missing), 0);
   for (std::uint64_t left = ~mask; left != 0; left &= left - 1) {
     out.bits(static_cast<std::uint64_t>(std::countr_zero(left)), 6);
@@ -40,7 +40,7 @@ void writeMask(BitWriter& out, std::uint64_t mask) {
 std::uint64_t readMask(BitReader& in) {
   if (in.flag()) return in.bits(64);
   std::uint64_t mask = ~std::uint64_t{0};
-  for (std::uint64_t missing = in.golomb(0, kMostNamed); missing > 0; --missing) {
+  for (std::uint64_t missing = in.golomb(0, kMaxNamed); missing > 0; --missing) {
     mask &= ~(std::uint64_t{1} << in.bits(6));
   }
   return mask;
@@ -82,7 +82,7 @@ void readInputs(BitReader& in, const UpdateContext& context, ClientUpdate& updat
     if (id == 0) return in.fail();
     input.id = id;
     tick = i == 0 ? restored(in.bits(kLowBits), context.tick)
-                  : tick + static_cast<std::uint32_t>(in.signedGolomb(kTickOrder, kMostTicksApart));
+                  : tick + static_cast<std::uint32_t>(in.signedGolomb(kTickOrder, kMaxTicksApart));
     input.tick = tick;
     input.snapshot = update.acks.newest - static_cast<std::uint32_t>(in.golomb(kSnapshotOrder, kOldestBase));
     readWhat(in, input);
@@ -112,7 +112,7 @@ std::string writeUpdate(const ClientUpdate& update) {
       out.bits(input.tick & 0xFFFF, kLowBits);
     } else {
       const auto apart = static_cast<std::int32_t>(input.tick - update.inputs[i - 1].tick);
-      out.signedGolomb(std::clamp<std::int64_t>(apart, -kMostTicksApart, kMostTicksApart), kTickOrder);
+      out.signedGolomb(std::clamp<std::int64_t>(apart, -kMaxTicksApart, kMaxTicksApart), kTickOrder);
     }
     const std::uint64_t behind = update.acks.newest - input.snapshot;
     out.golomb(std::min(behind, kOldestBase), kSnapshotOrder);

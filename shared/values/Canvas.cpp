@@ -90,8 +90,8 @@ std::u32string decodeUtf8(const std::string& text) {
       good = good && (next & 0xC0) == 0x80;
       ch = (ch << 6) | (next & 0x3F);
     }
-    static constexpr std::array<char32_t, 4> kLeast = {0, 0x80, 0x800, 0x10000};
-    good = good && ch >= kLeast[extra] && ch <= 0x10FFFF && (ch < 0xD800 || ch > 0xDFFF);
+    static constexpr std::array<char32_t, 4> kMin = {0, 0x80, 0x800, 0x10000};
+    good = good && ch >= kMin[extra] && ch <= 0x10FFFF && (ch < 0xD800 || ch > 0xDFFF);
     out.push_back(good ? ch : kBad);
     i += good ? static_cast<std::size_t>(extra) + 1 : 1;
   }

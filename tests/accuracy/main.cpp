@@ -30,7 +30,7 @@ constexpr const char* kUsage =
     "Exit codes: 0 measured, 1 the product missed a target, or something failed, 2 wrong usage.\n";
 
 constexpr int kRuns = 5;
-constexpr int kMostCpuSeconds = 120;
+constexpr int kMaxCpuSeconds = 120;
 
 struct Options {
   bool quick = false;
@@ -121,7 +121,7 @@ void run(const Options& options, lab::Records& records) {
       progress.show(
           share * (static_cast<double>(i) + part),
           name + " " + run.its_case->name + ": " + run.method->label + " ×" + std::to_string(run.substeps));
-      run.measurement = lab::measureApart(*run.its_case, *run.method, run.substeps, kRuns, kMostCpuSeconds);
+      run.measurement = lab::measureApart(*run.its_case, *run.method, run.substeps, kRuns, kMaxCpuSeconds);
       if (!run.measurement.expressed) continue;
       records.add(problem, *run.its_case, *run.method, run.substeps, run.measurement);
     }

@@ -37,7 +37,7 @@ constexpr double kTick = 1.0 / 30;
 constexpr double kBotsBusy = 0.95;
 
 /// Of the screens looked at: what may be due to a moment in which this machine did something else.
-constexpr double kMostWrong = 0.02;
+constexpr double kMaxWrong = 0.02;
 
 struct Effort {
   double settle_s = 5;
@@ -158,7 +158,7 @@ class Arena {
  private:
   static std::string limitOf(const Trial& trial) {
     std::string limit;
-    if (trial.wrong > kMostWrong * trial.checked) limit = "screens";
+    if (trial.wrong > kMaxWrong * trial.checked) limit = "screens";
     if (trial.delivered < 0.999) limit = "delivery";
     if (trial.late > std::max(1.0, trial.ticks / 1000)) limit = "late_ticks";
     if (trial.tick_p99_ms >= 33) limit = "tick_p99";

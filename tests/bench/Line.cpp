@@ -12,7 +12,7 @@ namespace bench {
 namespace {
 
 constexpr int kDigits = 4;
-constexpr int kMostDecimals = 24;
+constexpr int kMaxDecimals = 24;
 
 bool s_all_equal = true;
 std::FILE* s_out = stdout;
@@ -39,7 +39,7 @@ Line& Line::add(const std::string& key, double value) {
     decimals = std::max(0, kDigits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
   }
   char text[64];
-  std::snprintf(text, sizeof text, "%.*f", std::min(decimals, kMostDecimals), value);
+  std::snprintf(text, sizeof text, "%.*f", std::min(decimals, kMaxDecimals), value);
   std::string digits = text;
   if (digits.find('.') != std::string::npos) {
     digits.erase(digits.find_last_not_of('0') + 1);

@@ -20,7 +20,7 @@ class NaiadEngine : public Engine {
   void tick() override;
   const Tally& tally() const override { return m_tally; }
   std::uint64_t stateHash() const override;
-  const df::Paths& paths() const { return m_world.paths(); }
+  const df::MoverStats& moverStats() const { return m_world.moverStats(); }
 
  private:
   df::World m_world;

@@ -71,17 +71,17 @@ void addChipmunk(Line& line, const Contest& contest, const ChipmunkTuning& tunin
 }
 
 // Of all turns: how they were taken. (Looks of the broad phase are fewer: who flies does not look.)
-void addPaths(Line& line, const df::Paths& paths) {
+void addPaths(Line& line, const df::MoverStats& paths) {
   const auto turns =
       static_cast<double>(paths.flown + paths.walked + paths.met + paths.deferred + paths.special);
-  for (const df::NamedPath& path : df::kPaths) {
+  for (const df::NamedPath& path : df::kMoverStats) {
     line.add("path_" + std::string(path.name) + "_percent",
              100 * static_cast<double>(paths.*path.count) / turns);
   }
 }
 
 void report(const Case& c, const Scene& scene, const Contest& contest, const ChipmunkTuning& tuning,
-            const df::Paths& paths) {
+            const df::MoverStats& paths) {
   const double ours = contest.nanosecondsPerTick("naiad");
   Line line("world");
   line.add("n", c.n).add("density", c.density).add("mix", nameOf(c.mix)).add("ns_per_object", ours / c.n);
@@ -111,7 +111,7 @@ void measure(const Case& c, const Options& options) {
   }
   Contest contest(rules);
   auto p_ours = std::make_unique<NaiadEngine>(scene);
-  const df::Paths& paths = p_ours->paths();  // the contest keeps what it is given
+  const df::MoverStats& paths = p_ours->moverStats();  // the contest keeps what it is given
   contest.add("naiad", std::move(p_ours));
   ChipmunkTuning tuning;
   if (c.isMotionOnly()) {

@@ -15,9 +15,9 @@ namespace {
 constexpr std::array<int, 16> kFractions = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 16, 22, 32};
 /// What no number that is written needs to exceed: enough for every limit, and nothing overflows.
 constexpr std::uint64_t kHuge = std::uint64_t{1} << 62;
-constexpr std::int64_t kMostCells = 1'000'000'000;
-constexpr std::int64_t kMostBoxCells = 1'000'000;
-constexpr std::int64_t kMostOrder = (std::int64_t{1} << 48) - 1;
+constexpr std::int64_t kMaxCells = 1'000'000'000;
+constexpr std::int64_t kMaxBoxCells = 1'000'000;
+constexpr std::int64_t kMaxOrder = (std::int64_t{1} << 48) - 1;
 
 std::uint64_t low(std::uint64_t value, int bits) {
   return bits == 64 ? value : value & ((std::uint64_t{1} << bits) - 1);
@@ -83,7 +83,7 @@ void HostileWriter::zeros(std::uint64_t count) {
 }
 
 void HostileWriter::cell(std::int64_t origin) {
-  m_out.signedGolomb(centered(Kind::kCell, kMostCells) - origin, 10);
+  m_out.signedGolomb(centered(Kind::kCell, kMaxCells) - origin, 10);
 }
 
 void HostileWriter::position() {
@@ -225,15 +225,15 @@ void HostileWriter::look() {
 
 void HostileWriter::body() {
   if (!flag()) {
-    vector(-kMostBoxCells, kMostBoxCells);
-    vector(1, kMostBoxCells);
+    vector(-kMaxBoxCells, kMaxBoxCells);
+    vector(1, kMaxBoxCells);
   }
   field(2);
   field(1);
 }
 
 void HostileWriter::world() {
-  vector(-kMostCells, kMostCells);
+  vector(-kMaxCells, kMaxCells);
   field(Kind::kSize, 64, kHuge);
   field(Kind::kSize, 64, kHuge);
   m_out.bits(low(kMinViewWidth + choose(Kind::kViewWidth, kMaxViewWidth - kMinViewWidth), 9), 9);
@@ -242,7 +242,7 @@ void HostileWriter::world() {
 }
 
 void HostileWriter::view() {
-  vector(-kMostCells, kMostCells);
+  vector(-kMaxCells, kMaxCells);
   if (!flag()) return;
   golomb(Kind::kFollowed, 6, kMaxSlots - 1);
   field(2);
@@ -306,8 +306,8 @@ void HostileWriter::object() {
   const unsigned parts = groups();
   if ((parts & kLife) != 0) {
     field(2);
-    auto order = static_cast<std::int64_t>(std::min(choose(Kind::kOrder, kMostOrder), kHuge));
-    if (order > kMostOrder && order % 2 != 0) order = kMostOrder - order;  // below zero
+    auto order = static_cast<std::int64_t>(std::min(choose(Kind::kOrder, kMaxOrder), kHuge));
+    if (order > kMaxOrder && order % 2 != 0) order = kMaxOrder - order;  // below zero
     m_out.signedGolomb(order - static_cast<std::int64_t>(preludeOrigin(m_slot).order), 10);
   }
   if ((parts & kMotion) != 0) motion();

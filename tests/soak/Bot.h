@@ -1,5 +1,5 @@
-// A client with a random player at the keys, over a bad network: what client/session/Connection does for dfclient, in
-// virtual time.
+// A client with a random player at the keys, over a bad network: what client/session/Connection does for
+// dfclient, in virtual time.
 #pragma once
 
 #include <deque>

@@ -7,8 +7,8 @@ namespace naiad::soak {
 
 namespace {
 
-constexpr int kMostAge = 90;        ///< ticks that a picture waits
-constexpr int kMostDescribed = 12;  ///< wrong pictures that are printed
+constexpr int kMaxAge = 90;        ///< ticks that a picture waits
+constexpr int kMaxDescribed = 12;  ///< wrong pictures that are printed
 
 std::string describe(const df::Canvas& seen, const df::Canvas& truth) {
   int told = 0;
@@ -71,7 +71,7 @@ bool Judge::settle(std::uint32_t player, Account& account, const Waiting& waitin
   m_tally.wrong_cells += static_cast<std::uint64_t>(waiting.wrong);
   account.right_in_a_row = waiting.wrong == 0 ? account.right_in_a_row + 1 : 0;
   if (waiting.wrong > 0 || !*right) {
-    if (++m_described > kMostDescribed) return true;
+    if (++m_described > kMaxDescribed) return true;
     std::fprintf(stderr, "player %u tick %u: %d wrong cells, checksum %s; %s\n", player, waiting.tick,
                  waiting.wrong, *right ? "right" : "wrong", waiting.text.c_str());
   }
@@ -81,7 +81,7 @@ bool Judge::settle(std::uint32_t player, Account& account, const Waiting& waitin
 void Judge::judge() {
   for (auto& [player, account] : m_accounts) {
     std::erase_if(account.waiting, [&, id = player, &own = account](Waiting& waiting) {
-      return settle(id, own, waiting) || ++waiting.age > kMostAge;
+      return settle(id, own, waiting) || ++waiting.age > kMaxAge;
     });
   }
 }

@@ -103,7 +103,7 @@ void Grid::fileAt(Slot slot, int number) {
   }
   drop(slot);
   if (static_cast<std::size_t>(level.count) >= level.words.size() * kBoxesPerWord) {
-    rebuild(number, std::max(kLeastWords, level.words.size() * 2));
+    rebuild(number, std::max(kMinWords, level.words.size() * 2));
   }
   ++level.count;
   m_occupied |= 1u << number;
@@ -123,7 +123,7 @@ void Grid::drop(Slot slot) {
   if (--level.count == 0) m_occupied &= ~(1u << number);
   // A sixteenth of what would have it grow beyond this size: give memory back.
   const std::size_t few = level.words.size() * kBoxesPerWord / 16;
-  if (level.words.size() > kLeastWords && static_cast<std::size_t>(level.count) < few) {
+  if (level.words.size() > kMinWords && static_cast<std::size_t>(level.count) < few) {
     rebuild(number, level.words.size() / 4);
   }
 }

@@ -28,7 +28,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/collision/Paths.h"
+#include "engine/collision/MoverStats.h"
 #include "shared/values/Fixed.h"
 
 namespace df {
@@ -58,8 +58,8 @@ class Grid {
   bool contains(Slot slot) const { return slot < m_records.size() && m_records[slot].level >= 0; }
   int size() const;
   /// What has been done, here and by those who use the grid.
-  Paths& paths() { return m_paths; }
-  const Paths& paths() const { return m_paths; }
+  MoverStats& moverStats() { return m_mover_stats; }
+  const MoverStats& moverStats() const { return m_mover_stats; }
   /// Memory of the levels, in bytes.
   std::size_t bytes() const;
 
@@ -81,7 +81,7 @@ class Grid {
   static constexpr Spot kSeveral = 0x8000;       // in a cell's spot: it has several slots, anywhere
   static constexpr std::size_t kRowOfSpots = 4;  // that are read at a time, three of them for their own sake
   static constexpr std::int64_t kBlock = 64;     // cells per side of the squares that lie flat
-  static constexpr std::size_t kLeastWords = 256;
+  static constexpr std::size_t kMinWords = 256;
   static constexpr std::size_t kBoxesPerWord = 2;  // at most, on average
 
   struct Record {
@@ -140,7 +140,7 @@ class Grid {
   int m_characters = 0;
   int m_small_boxes = 0;           // of level 1, without characters
   bool m_characters_apart = true;  // in level 0; else they are in level 1
-  Paths m_paths;
+  MoverStats m_mover_stats;
   std::vector<Slot> m_found;  // of Steps, when they are many
 };
 

@@ -5,7 +5,7 @@ namespace df {
 // Where the nine cells lie in more than one block.
 bool Grid::Steps::lookAround(Slot s, FixedVector where) {
   --m_nine_cells;
-  ++m_grid.m_paths.far_cells;
+  ++m_grid.m_mover_stats.far_cells;
   const FixedVector corner = where + kCharacterBox.corner;
   const FixedVector one{kFixedOne, kFixedOne};
   m_grid.visitCorners(0, corner - one, corner + one, [&](Slot t) {
@@ -39,7 +39,7 @@ bool Grid::Steps::isBoxFree(Slot s, const Record& own, FixedVector where) {
   const bool same_block =
       (((x0 ^ own_x) | (x1 ^ own_x) | (y0 ^ own_y) | (y1 ^ own_y)) & ~std::int64_t{63}) == 0;
   std::uint32_t others = m_grid.m_occupied;
-  ++(same_block ? m_grid.m_paths.few_cells : m_grid.m_paths.far_cells);
+  ++(same_block ? m_grid.m_mover_stats.few_cells : m_grid.m_mover_stats.far_cells);
   if (same_block) {
     others &= ~(1u << own.level);
     const std::uint64_t* p_words = level.words.data();

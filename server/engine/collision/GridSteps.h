@@ -23,7 +23,7 @@ namespace df {
 class Grid::Steps {
  public:
   explicit Steps(Grid& grid);
-  ~Steps() { m_grid.m_paths.nine_cells += m_nine_cells; }
+  ~Steps() { m_grid.m_mover_stats.nine_cells += m_nine_cells; }
   Steps(const Steps&) = delete;
   Steps& operator=(const Steps&) = delete;
   /// Would `s`, which is filed, touch nobody at `where`? If it would, found() says whom.

@@ -23,7 +23,7 @@ class KeySet {
   void clear() {
     if (m_count == 0) return;
     m_count = 0;
-    if (m_places.size() <= kMost) {
+    if (m_places.size() <= kMax) {
       m_places.assign(m_places.size(), {});
     } else {  // a crowd: every later clear() would have to wipe it all
       m_places = {};
@@ -31,8 +31,8 @@ class KeySet {
   }
 
  private:
-  static constexpr std::size_t kLeast = 16;   // a power of two
-  static constexpr std::size_t kMost = 1024;  // to be kept
+  static constexpr std::size_t kMin = 16;    // a power of two
+  static constexpr std::size_t kMax = 1024;  // to be kept
 
   // Where the key is, or would be: generations in the world begin with 1, so 0 marks a free place.
   std::size_t find(ObjectKey key) const {
@@ -44,7 +44,7 @@ class KeySet {
     return i;
   }
   void grow() {
-    std::vector<ObjectKey> before(m_places.empty() ? kLeast : m_places.size() * 2);
+    std::vector<ObjectKey> before(m_places.empty() ? kMin : m_places.size() * 2);
     before.swap(m_places);
     for (const ObjectKey key : before) {
       if (key.generation != 0) m_places[find(key)] = key;

@@ -80,8 +80,8 @@ int addParticles(int count, int count_spread, Vector position, float position_sp
                  int age, int age_spread, unsigned char opacity, char opacity_spread, unsigned char r,
                  unsigned char g, unsigned char b, unsigned char color_spread, ParticleClass particle_class) {
   if (particle_class != PARTICLE && particle_class != FIREWORK) return -1;
-  constexpr int kMost = 1000;
-  const int n = std::min(kMost, static_cast<int>(about(count, count_spread)));
+  constexpr int kMax = 1000;
+  const int n = std::min(kMax, static_cast<int>(about(count, count_spread)));
   for (int i = 0; i < n; ++i) {
     Vector way = direction == Vector()
                      ? anyDirection()

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <utility>
 
-#include "engine/collision/Glance.h"
-#include "engine/collision/Pieces.h"
-#include "engine/world/Pair.h"
+#include "engine/collision/SweepBounds.h"
+#include "engine/collision/SweepSegments.h"
+#include "engine/world/CollisionRule.h"
 
 namespace df {
 
@@ -37,7 +37,7 @@ struct Front {
 
 class HitList::Search {
  public:
-  Search(HitList& list, const WorldStore& store, WorldStore::Slot mover, const Way& way, End end,
+  Search(HitList& list, const WorldStore& store, WorldStore::Slot mover, const SweepPath& way, End end,
          Moment since, const KeySet* p_met)
       : m_list(list),
         m_store(store),
@@ -49,8 +49,8 @@ class HitList::Search {
 
   void run() {
     constexpr std::uint64_t kShort = kFirstPiece * kFixedOne;
-    if (m_way.lengthX() > kShort || m_way.lengthY() > kShort) return runAlong(Pieces(m_way));
-    const Way::Piece whole = m_way.whole();
+    if (m_way.lengthX() > kShort || m_way.lengthY() > kShort) return runAlong(SweepSegments(m_way));
+    const SweepPath::Piece whole = m_way.whole();
     for (std::uint32_t left = m_store.grid().levels(); left != 0; left &= left - 1) {
       searchPiece(std::countr_zero(left), whole);
     }
@@ -66,7 +66,7 @@ class HitList::Search {
   };
 
   // Level by level, always the one that is behind.
-  void runAlong(const Pieces& pieces) {
+  void runAlong(const SweepSegments& pieces) {
     const std::uint64_t begin = pieces.stepsBefore(m_since);
     std::array<Front, Grid::kLevels> fronts;
     std::size_t count = 0;
@@ -89,7 +89,7 @@ class HitList::Search {
     }
   }
 
-  Front frontOf(int level, const Pieces& pieces, std::uint64_t begin) const {
+  Front frontOf(int level, const SweepSegments& pieces, std::uint64_t begin) const {
     const bool horizontal = pieces.isHorizontal();
     const Fixed cell = horizontal ? Grid::largest(level).x : Grid::largest(level).y;
     const Fixed first = level == 0 ? kFirstPiece * cell : cell;
@@ -107,7 +107,7 @@ class HitList::Search {
   }
 
   // Return whether anybody was near.
-  bool searchPiece(int level, const Way::Piece& piece) {
+  bool searchPiece(int level, const SweepPath::Piece& piece) {
     bool is_empty = true;
     const FixedVector low = piece.low - Grid::largest(level);
     const FixedVector high = piece.high + m_way.box().size;
@@ -128,12 +128,12 @@ class HitList::Search {
   void lookAtNear(int level) {
     std::size_t count = std::exchange(m_count, 0);
     if (count == 1) return lookAt(m_near[0], level);
-    if (!m_glance) m_glance.emplace(m_way);
-    const double until = m_list.m_end ? Glance::latest(*m_list.m_end) : 1;
+    if (!m_bounds) m_bounds.emplace(m_way);
+    const double until = m_list.m_end ? SweepBounds::latest(*m_list.m_end) : 1;
     std::array<Candidate, kBatch> candidates;
     std::size_t left = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const Glance::Stay stay = m_glance->at(boxOf(m_near[i], level));
+      const SweepBounds::Stay stay = m_bounds->at(boxOf(m_near[i], level));
       candidates[left] = {stay.enter, m_near[i]};
       left += (stay.enter <= stay.leave) & (stay.enter <= until) & (stay.leave >= 0) ? 1 : 0;
     }
@@ -142,14 +142,14 @@ class HitList::Search {
       for (std::size_t i = 1; i < left; ++i) {
         if (candidates[i].enter < p_next->enter) p_next = &candidates[i];
       }
-      if (m_list.m_end && p_next->enter > Glance::latest(*m_list.m_end)) return;
+      if (m_list.m_end && p_next->enter > SweepBounds::latest(*m_list.m_end)) return;
       lookAt(p_next->slot, level);
       *p_next = candidates[left - 1];
     }
   }
 
   void lookAt(Slot other, int level) {
-    const Pair pair(m_store, m_mover, other);
+    const CollisionRule pair(m_store, m_mover, other);
     const std::optional<Moment> moment = pair.firstMeeting(m_way.sweep(), boxOf(other, level));
     if (!moment || (m_list.m_end && *moment > *m_list.m_end)) return;
     if (m_since.numerator != 0 && *moment < m_since) return;
@@ -165,17 +165,17 @@ class HitList::Search {
   HitList& m_list;
   const WorldStore& m_store;
   const Slot m_mover;
-  const Way& m_way;
+  const SweepPath& m_way;
   const End m_end;
   const Moment m_since;
   const KeySet* const m_p_met;
-  std::optional<Glance> m_glance;  // made when there are several to look at
+  std::optional<SweepBounds> m_bounds;  // made when there are several to look at
   std::size_t m_count = 0;
   std::array<Slot, kBatch> m_near;
 };
 
-void HitList::fill(const WorldStore& store, WorldStore::Slot mover, const Way& way, End end, Moment since,
-                   const KeySet* p_met) {
+void HitList::fill(const WorldStore& store, WorldStore::Slot mover, const SweepPath& way, End end,
+                   Moment since, const KeySet* p_met) {
   m_hits.clear();
   m_end.reset();
   Search(*this, store, mover, way, end, since, p_met).run();

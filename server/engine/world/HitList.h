@@ -10,7 +10,7 @@
 
 #include "engine/collision/KeySet.h"
 #include "engine/collision/Sweep.h"
-#include "engine/collision/Way.h"
+#include "engine/collision/SweepPath.h"
 #include "engine/world/WorldStore.h"
 
 namespace df {
@@ -28,7 +28,7 @@ class HitList {
   enum End { kBlock, kFirst };
 
   /// List whom `mover`, in the world and solid, meets on `way` at `since` or later, except those in `met`.
-  void fill(const WorldStore& store, WorldStore::Slot mover, const Way& way, End end, Moment since = {},
+  void fill(const WorldStore& store, WorldStore::Slot mover, const SweepPath& way, End end, Moment since = {},
             const KeySet* p_met = nullptr);
 
   const std::vector<Hit>& hits() const { return m_hits; }

@@ -4,8 +4,8 @@
 
 #include "engine/events/EventKeyboard.h"
 #include "engine/events/EventMouse.h"
+#include "engine/world/ControlApplier.h"
 #include "engine/world/EventPlayer.h"
-#include "engine/world/Helm.h"
 #include "engine/world/Views.h"
 #include "engine/world/World.h"
 
@@ -16,7 +16,7 @@ void InputQueue::drain() {
   inputs.swap(m_inputs);
   for (const Input& input : inputs) {
     const std::uint32_t before = std::exchange(m_world.m_input_player, input.player);
-    const Seen seen_before = std::exchange(m_world.m_input_seen, input.seen);
+    const ViewedTick seen_before = std::exchange(m_world.m_input_seen, input.seen);
     handle(input);
     m_world.m_input_player = before;
     m_world.m_input_seen = seen_before;
@@ -53,8 +53,8 @@ void InputQueue::sendKey(const Input& input) {
 
 void InputQueue::sendMouse(const Input& input) {
   FixedVector corner = m_world.views().cornerOf(m_world.getPlayer(input.player));
-  if (m_world.m_p_hindsight != nullptr && input.seen.known) {
-    corner = m_world.m_p_hindsight->viewCornerOf(input.player, input.seen).value_or(corner);
+  if (m_world.m_p_lag_compensation != nullptr && input.seen.known) {
+    corner = m_world.m_p_lag_compensation->viewCornerOf(input.player, input.seen).value_or(corner);
   }
   EventMouse event;
   event.setMouseAction(input.mouse_action);

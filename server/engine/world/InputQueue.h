@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/world/Hindsight.h"
+#include "engine/world/LagCompensation.h"
 #include "shared/values/Color.h"
 #include "shared/values/Keyboard.h"
 
@@ -21,7 +21,7 @@ class InputQueue {
   struct Input {
     Kind kind;
     std::uint32_t player;
-    Seen seen = {};
+    ViewedTick seen = {};
     std::string name = {};
     Color color = COLOR_DEFAULT;
     Keyboard::Key key = Keyboard::UNDEFINED_KEY;

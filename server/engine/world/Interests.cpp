@@ -57,7 +57,7 @@ int Interests::send(const Event& event, Whom whom) {
   int told = 0;
   ++table.walks;
   for (std::size_t i = 0; i < count; ++i) {
-    if (whom == kHearingWhilePaused && !hearsWhilePaused(m_world.find(table.entries[i]))) continue;
+    if (whom == kInterestDispatchWhilePaused && !hearsWhilePaused(m_world.find(table.entries[i]))) continue;
     told += m_world.deliver(table.entries[i], event) ? 1 : 0;
   }
   --table.walks;

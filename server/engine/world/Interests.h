@@ -24,7 +24,7 @@ class Interests {
   /// The Object leaves the world: it hears nothing any more.
   void dropAll(Object& object);
   /// Whom a send reaches.
-  enum Whom { kEverybody, kHearingWhilePaused };
+  enum Whom { kEverybody, kInterestDispatchWhilePaused };
   /// Deliver to all that were registered when the call began and still are at their turn; or only to those
   /// that hear events while the game is paused.
   int send(const Event& event, Whom whom = kEverybody);

@@ -3,10 +3,10 @@
 #include <bit>
 
 #include "engine/events/EventOut.h"
+#include "engine/world/CollisionRule.h"
 #include "engine/world/EventCollision.h"
-#include "engine/world/Hearing.h"
+#include "engine/world/InterestDispatch.h"
 #include "engine/world/Object.h"
-#include "engine/world/Pair.h"
 #include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
@@ -29,7 +29,7 @@ void Mover::moveAll() {
         next = bit + flyOn(walk[word * 64 + static_cast<std::size_t>(bit)], store.fliers(word) & waiting,
                            store.sequels(word), bit);
       } else {
-        ++store.paths().special;
+        ++store.moverStats().special;
         takeTurn(store.key(walk[word * 64 + static_cast<std::size_t>(bit)]));
       }
       waiting &= next < 64 ? ~std::uint64_t{0} << next : 0;
@@ -55,10 +55,10 @@ int Mover::walkOn(std::size_t word, std::uint64_t turns) {
             met);
   }
   if (met.empty()) {
-    ++store.paths().deferred;
+    ++store.moverStats().deferred;
     takeTurn(key);
   } else {
-    ++store.paths().met;
+    ++store.moverStats().met;
     meet(key, met);
   }
   return bit + 1;
@@ -82,9 +82,9 @@ int Mover::flyOn(WorldStore::Slot first, std::uint64_t fliers, std::uint64_t seq
   const int count = std::countr_one(run);
   WorldStore& store = m_world.store();
   const auto done = static_cast<int>(store.fly(first, static_cast<std::size_t>(count), roomToFly()));
-  store.paths().flown += static_cast<std::uint64_t>(done);
+  store.moverStats().flown += static_cast<std::uint64_t>(done);
   if (done == count) return count;
-  ++store.paths().deferred;
+  ++store.moverStats().deferred;
   takeTurn(store.key(first + static_cast<WorldStore::Slot>(done)));
   return done + 1;
 }
@@ -155,7 +155,7 @@ bool Mover::collide(ObjectKey mover, FixedVector where, const std::vector<Object
     event.setObject2(store.object(other.slot));
     if (!tellBoth(m_world, mover, other, event)) return false;
     if (!store.isStill(other)) continue;
-    if (Pair(store, mover.slot, other.slot).blocks(from, where)) free = false;
+    if (CollisionRule(store, mover.slot, other.slot).blocks(from, where)) free = false;
   }
   return free;
 }

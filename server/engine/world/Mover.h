@@ -17,7 +17,7 @@
 //  - mark for deletion, move, create, resize: the list stays as it is, the move goes on.
 //
 // That is the book's move. Beyond it there are moves that are tested along the way (SweptMove.h) and pairs
-// whose characters are tested, or that do not block (Pair.h).
+// whose characters are tested, or that do not block (CollisionRule.h).
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/collision/Mask.h"
-#include "engine/world/FreedBlocks.h"
+#include "engine/world/DelayedFree.h"
 #include "engine/world/Interests.h"
 #include "engine/world/ObjectExtras.h"
 #include "engine/world/World.h"
@@ -120,7 +120,7 @@ void Object::operator delete(void* p, std::align_val_t align) noexcept {
     return;
   }
   // Never destroyed: static Objects may delete others when the thread's own have gone.
-  thread_local auto* t_p_freed = new (std::nothrow) FreedBlocks;
+  thread_local auto* t_p_freed = new (std::nothrow) DelayedFree;
   if (t_p_freed != nullptr) {
     t_p_freed->free(p, align);
   } else {
@@ -143,7 +143,7 @@ Object::~Object() {
   if (m_p_extras != nullptr) dropExtras();
   if (World* p_world = getWorld()) p_world->forget(this);
   m_p_store->give(m_slot);
-  // Who still asks it (FreedBlocks.h) must find no extras, so this is to be written although it ends here.
+  // Who still asks it (DelayedFree.h) must find no extras, so this is to be written although it ends here.
   m_p_extras.reset();
   std::atomic_signal_fence(std::memory_order_seq_cst);
 }
@@ -152,7 +152,7 @@ ObjectKey Object::key() const {
   return m_p_store->key(m_slot);
 }
 
-// None for who was deleted (FreedBlocks.h): nothing that is done to it may reach the world's lists.
+// None for who was deleted (DelayedFree.h): nothing that is done to it may reach the world's lists.
 World* Object::getWorld() const {
   return m_p_store->object(m_slot) == this ? m_p_store->world() : nullptr;
 }

@@ -14,7 +14,7 @@ namespace df {
 
 namespace {
 
-constexpr std::size_t kMostCells = 20'000;
+constexpr std::size_t kMaxCells = 20'000;
 // Lengths of a step in units of 1/5 cell, as integers: 5 along an axis, 7 (about 5√2) across.
 constexpr int kStraight = 5;
 constexpr int kDiagonal = 7;
@@ -38,7 +38,7 @@ class Search {
   bool run() {
     m_visits[{0, 0}] = {};
     m_open.emplace(estimate({0, 0}), 0, Node{0, 0});
-    while (!m_open.empty() && m_visits.size() < kMostCells) {
+    while (!m_open.empty() && m_visits.size() < kMaxCells) {
       const auto [total, length, node] = m_open.top();
       m_open.pop();
       if (node == m_goal) return true;

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "engine/sprites/LooseName.h"
+#include "engine/sprites/CaseInsensitiveFile.h"
 #include "engine/sprites/SpriteFile.h"
 #include "engine/world/World.h"
 

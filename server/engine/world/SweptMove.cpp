@@ -1,9 +1,9 @@
 #include "engine/world/SweptMove.h"
 
+#include "engine/world/CollisionRule.h"
 #include "engine/world/EventCollision.h"
-#include "engine/world/Hearing.h"
+#include "engine/world/InterestDispatch.h"
 #include "engine/world/Mover.h"
-#include "engine/world/Pair.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 
@@ -15,8 +15,8 @@ bool SweptMove::run(Mover& moves, World& world, ObjectKey mover, FixedVector whe
   m_met.clear();
   Moment since;
   for (int stage = 1; store.collides(mover.slot); ++stage) {
-    const Way way(store.box(mover.slot), from, where);
-    ++(stage == 1 ? world.store().paths().swept : world.store().paths().swept_again);
+    const SweepPath way(store.box(mover.slot), from, where);
+    ++(stage == 1 ? world.store().moverStats().swept : world.store().moverStats().swept_again);
     m_list.fill(store, mover.slot, way, HitList::kBlock, since, &m_met);
     if (m_list.hits().empty()) return true;
 
@@ -36,7 +36,7 @@ bool SweptMove::run(Mover& moves, World& world, ObjectKey mover, FixedVector whe
 }
 
 // A handler may begin moves of its own, but those have lists of their own.
-SweptMove::Verdict SweptMove::meetAll(World& world, ObjectKey mover, const Way& way) {
+SweptMove::Verdict SweptMove::meetAll(World& world, ObjectKey mover, const SweepPath& way) {
   const WorldStore& store = world.store();
   Verdict verdict{Outcome::kFree, {}};
   EventCollision event(store.object(mover.slot), nullptr, Vector());
@@ -50,7 +50,7 @@ SweptMove::Verdict SweptMove::meetAll(World& world, ObjectKey mover, const Way& 
       if (!store.isCurrent(hit.key)) continue;
     }
     if (verdict.outcome == Outcome::kBlocked) continue;
-    const Pair pair(store, mover.slot, hit.key.slot);
+    const CollisionRule pair(store, mover.slot, hit.key.slot);
     if (pair.blocks(way.from(), way.to())) verdict = {Outcome::kBlocked, hit.moment};
   }
   return verdict;

@@ -32,7 +32,7 @@ class SweptMove {
     Moment moment;  // of the block
   };
 
-  Verdict meetAll(World& world, ObjectKey mover, const Way& way);
+  Verdict meetAll(World& world, ObjectKey mover, const SweepPath& way);
 
   HitList m_list;
   KeySet m_met;  // in the stages before this one

@@ -51,8 +51,8 @@ void ViewCover::markBlocks() {
     right = std::max(right, (floorCell(corner.at.x) + width) >> kColumnShift);
     bottom = std::max(bottom, (floorCell(corner.at.y) + height) >> kRowShift);
   }
-  if (right - m_left > kMostBlocks || bottom - m_top > kMostBlocks) return;
-  if ((right - m_left) * (bottom - m_top) > kMostBlocks) return;
+  if (right - m_left > kMaxBlocks || bottom - m_top > kMaxBlocks) return;
+  if ((right - m_left) * (bottom - m_top) > kMaxBlocks) return;
   m_columns = right - m_left;
   m_rows = bottom - m_top;
   m_marked.resize(static_cast<std::size_t>(m_columns * m_rows));

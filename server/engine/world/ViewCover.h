@@ -23,7 +23,7 @@ class ViewCover {
   /// Blocks of 8 by 4 cells that lie in a view are known to; so many at most.
   static constexpr int kColumnShift = 3;
   static constexpr int kRowShift = 2;
-  static constexpr std::int64_t kMostBlocks = 1 << 16;
+  static constexpr std::int64_t kMaxBlocks = 1 << 16;
 
   /// Corners by the cell of a grid that they lie in, as wide and high as a view.
   struct Corner {

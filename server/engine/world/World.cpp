@@ -6,10 +6,10 @@
 
 #include "engine/events/EventStep.h"
 #include "engine/world/Capture.h"
+#include "engine/world/ControlApplier.h"
 #include "engine/world/EventPlayer.h"
-#include "engine/world/Hearing.h"
-#include "engine/world/Helm.h"
 #include "engine/world/InputQueue.h"
+#include "engine/world/InterestDispatch.h"
 #include "engine/world/Interests.h"
 #include "engine/world/LogFile.h"
 #include "engine/world/Mover.h"
@@ -172,7 +172,7 @@ int World::onEvent(const Event* p_event) {
   // Who comes or goes meanwhile is there or not when the game goes on.
   const EventType& type = p_event->getType();
   const bool stays = isPaused() && type != JOIN_EVENT && type != LEAVE_EVENT;
-  return m_interests->send(*p_event, stays ? Interests::kHearingWhilePaused : Interests::kEverybody);
+  return m_interests->send(*p_event, stays ? Interests::kInterestDispatchWhilePaused : Interests::kEverybody);
 }
 
 bool World::deliver(ObjectKey key, const Event& event) {
@@ -213,13 +213,13 @@ void World::leave(std::uint32_t player) {
   m_input->push({.kind = InputQueue::kLeave, .player = player});
 }
 
-void World::key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const Seen& seen) {
+void World::key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const ViewedTick& seen) {
   if (key < 0 || key >= Keyboard::kKeyCount || action < KEY_PRESSED || action > KEY_DOWN) return;
   m_input->push({.kind = InputQueue::kKey, .player = player, .seen = seen, .key = key, .key_action = action});
 }
 
 void World::mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y,
-                  const Seen& seen) {
+                  const ViewedTick& seen) {
   if (action < CLICKED || action > MOVED) return;
   if (button < Mouse::UNDEFINED_MOUSE_BUTTON || button > Mouse::MIDDLE) return;
   if (x < 0 || y < 0 || x >= getWindowWidth() || y >= getWindowHeight()) return;

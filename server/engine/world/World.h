@@ -28,8 +28,8 @@
 #include "Random.h"
 #include "Runner.h"
 #include "Vector.h"
-#include "detail/Hindsight.h"
-#include "detail/Paths.h"
+#include "detail/LagCompensation.h"
+#include "detail/MoverStats.h"
 #include "detail/WorldView.h"
 
 namespace df {
@@ -143,7 +143,8 @@ class World {
   /// The Object of a handle; null if it is gone.
   Object* find(ObjectKey key) const;
   /// Which ways through the engine the moves have taken so far.
-  const Paths& paths() const;
+  const MoverStats& moverStats() const;
+  [[deprecated("say moverStats()")]] const MoverStats& paths() const { return moverStats(); }
   ObjectList objectsSeenAt(Vector cell) const;
   /// Objects in the world, inactive ones included.
   int getObjectCount() const;
@@ -186,19 +187,24 @@ class World {
   /// A player goes, in the next tick. An unknown id is ignored then.
   void leave(std::uint32_t player);
   /// A key. Unknown keys, actions and players are ignored. `seen`: what was on the player's screen then.
-  void key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const Seen& seen = {});
+  void key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const ViewedTick& seen = {});
   /// The mouse, at cell (x,y) of the player's view; ignored outside it. The event's position is in world
-  /// coordinates, by the view as the player saw it if the host knows (setHindsight()), else as it is when the
-  /// event is handled.
+  /// coordinates, by the view as the player saw it if the host knows (setLagCompensation()), else as it is
+  /// when the event is handled.
   void mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y,
-             const Seen& seen = {});
+             const ViewedTick& seen = {});
   /// Hand on what waits. tick() does this.
   void drainInput();
   /// Does the game look back? Then the host should say how; it need not remember anything otherwise.
   void setLookingBack(bool looking_back) { m_looking_back = looking_back; }
   bool isLookingBack() const { return m_looking_back; }
   /// Who knows what players saw. Not owned; null for nobody.
-  void setHindsight(const Hindsight* p_hindsight) { m_p_hindsight = p_hindsight; }
+  void setLagCompensation(const LagCompensation* p_lag_compensation) {
+    m_p_lag_compensation = p_lag_compensation;
+  }
+  [[deprecated("say setLagCompensation()")]] void setHindsight(const LagCompensation* p_lag_compensation) {
+    setLagCompensation(p_lag_compensation);
+  }
 
   // What a tick looks like.
 
@@ -263,7 +269,7 @@ class World {
   const WorldStore& store() const { return *m_p_store; }
   Interests& interests() { return *m_interests; }
   Views& views() { return *m_views; }
-  /// Run the eventHandler() of an Object in the world; see deliver(). Defined in Hearing.h.
+  /// Run the eventHandler() of an Object in the world; see deliver(). Defined in InterestDispatch.h.
   inline void hear(ObjectKey key, Object& object, const Event& event);
   /// Note what the Object's class overrides.
   void learnType(std::uint32_t slot);
@@ -311,8 +317,8 @@ class World {
   std::uint64_t m_refusals = 0;
   std::uint32_t m_next_player = 1;
   std::uint32_t m_input_player = 0;
-  Seen m_input_seen;  // by that player
-  const Hindsight* m_p_hindsight = nullptr;
+  ViewedTick m_input_seen;  // by that player
+  const LagCompensation* m_p_lag_compensation = nullptr;
   bool m_looking_back = false;
   bool m_compat = false;
   int m_step_count = 0;

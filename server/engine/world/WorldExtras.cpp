@@ -9,9 +9,9 @@ namespace df {
 
 namespace {
 
-constexpr std::size_t kMostSounds = 256;  ///< in a tick; nobody hears more
-constexpr std::size_t kMostNotes = 4;     ///< in a tick
-constexpr std::size_t kMostPlaying = 16;  ///< again and again; the oldest makes room
+constexpr std::size_t kMaxSounds = 256;  ///< in a tick; nobody hears more
+constexpr std::size_t kMaxNotes = 4;     ///< in a tick
+constexpr std::size_t kMaxPlaying = 16;  ///< again and again; the oldest makes room
 
 bool isSame(const SoundPlayed& a, const SoundPlayed& b) {
   return a.music == b.music && a.label == b.label;
@@ -22,10 +22,10 @@ bool isSame(const SoundPlayed& a, const SoundPlayed& b) {
 void WorldExtras::note(SoundPlayed sound) {
   std::erase_if(playing, [&sound](const SoundPlayed& other) { return isSame(sound, other); });
   if (sound.what == SoundPlayed::kPlay && sound.loop) {
-    if (playing.size() == kMostPlaying) playing.erase(playing.begin());
+    if (playing.size() == kMaxPlaying) playing.erase(playing.begin());
     playing.push_back(sound);
   }
-  if (sounds.size() < kMostSounds) {
+  if (sounds.size() < kMaxSounds) {
     sounds.push_back(std::move(sound));
   } else {
     ++sounds_lost;
@@ -33,7 +33,7 @@ void WorldExtras::note(SoundPlayed sound) {
 }
 
 void WorldExtras::tell(std::string line) {
-  if (notes.size() < kMostNotes) notes.push_back(std::move(line));
+  if (notes.size() < kMaxNotes) notes.push_back(std::move(line));
 }
 
 bool WorldExtras::isPlaying(const std::string& label, bool music) const {

@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "engine/world/Capture.h"
+#include "engine/world/CollisionRule.h"
 #include "engine/world/InputQueue.h"
 #include "engine/world/Interests.h"
 #include "engine/world/Mover.h"
 #include "engine/world/Object.h"
-#include "engine/world/Pair.h"
 #include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
@@ -122,8 +122,8 @@ Object* World::find(ObjectKey key) const {
   return m_p_store->find(key);
 }
 
-const Paths& World::paths() const {
-  return m_p_store->grid().paths();
+const MoverStats& World::moverStats() const {
+  return m_p_store->grid().moverStats();
 }
 
 int World::getObjectCount() const {
@@ -173,8 +173,8 @@ ObjectList World::objectsSeenAt(Vector cell) const {
   return collect([&](auto s) {
     if (!m_p_store->has(s, WorldStore::kActive) || !m_p_store->has(s, WorldStore::kVisible)) return false;
     std::optional<FixedVector> p = m_p_store->position(s);
-    if (m_p_hindsight != nullptr && m_input_seen.known) {
-      p = m_p_hindsight->positionOf(m_p_store->key(s), m_input_seen);
+    if (m_p_lag_compensation != nullptr && m_input_seen.known) {
+      p = m_p_lag_compensation->positionOf(m_p_store->key(s), m_input_seen);
     }
     const FixedBox box = m_p_store->box(s);
     return p && coversCell(p->x, box.corner.x, box.size.x, cellOf(where->x)) &&

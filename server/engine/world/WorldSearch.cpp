@@ -13,7 +13,7 @@ Contact World::firstContact(const Object* p_o, Vector where) const {
   const Contact nobody{nullptr, 1, where};
   const auto target = toFixed(where);
   if (!owns(p_o) || !target || !m_p_store->collides(p_o->m_slot)) return nobody;
-  const Way way(m_p_store->box(p_o->m_slot), m_p_store->position(p_o->m_slot), *target);
+  const SweepPath way(m_p_store->box(p_o->m_slot), m_p_store->position(p_o->m_slot), *target);
   thread_local HitList list;  // for its memory
   list.fill(*m_p_store, p_o->m_slot, way, HitList::kFirst);
   if (list.hits().empty()) return nobody;

@@ -305,7 +305,7 @@ std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const Fi
     ++walked;
   }
   m_blocked[word] &= ~(walkers & ~left);
-  paths().walked += walked;
+  moverStats().walked += walked;
   if (m_watched) {
     for (std::uint64_t done = walkers & ~left; done != 0; done &= done - 1)
       note(p_order[std::countr_zero(done)]);

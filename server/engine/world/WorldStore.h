@@ -22,7 +22,7 @@
 
 #include "engine/collision/Grid.h"
 #include "engine/collision/Mask.h"
-#include "engine/collision/Paths.h"
+#include "engine/collision/MoverStats.h"
 #include "engine/world/ObjectProfile.h"
 #include "engine/world/WorldView.h"
 #include "shared/values/Fixed.h"
@@ -252,8 +252,8 @@ class WorldStore {
     return m_grid;
   }
   /// What has been done so far.
-  Paths& paths() {
-    return m_grid.paths();
+  MoverStats& moverStats() {
+    return m_grid.moverStats();
   }
 
   // Changes, for the watcher.

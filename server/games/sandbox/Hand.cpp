@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kLetGo = 4;  // ticks without news of the button
 constexpr int kVoteTicks = 15 * 30;
-constexpr int kMostThings = 150;
-constexpr int kMostBlobs = 8;      // a heap of them is dear
+constexpr int kMaxThings = 150;
+constexpr int kMaxBlobs = 8;       // a heap of them is dear
 constexpr double kShotSpeed = 60;  // cells per second
 const df::Vector kMuzzle(40, 1);   // where shots come from
 
@@ -51,7 +51,7 @@ void Hand::shoot() {
 void Hand::keyboard(const df::EventKeyboard& event) {
   if (event.getKeyboardAction() != df::KEY_PRESSED) return;
   if (event.getKey() == df::Keyboard::G) m_wants_turn = kVoteTicks;
-  if (WM.objectsOfType("Thing").getCount() >= kMostThings) return;
+  if (WM.objectsOfType("Thing").getCount() >= kMaxThings) return;
   switch (event.getKey()) {
     case df::Keyboard::C:
       new Crate(getPosition(), getColor());
@@ -60,7 +60,7 @@ void Hand::keyboard(const df::EventKeyboard& event) {
       new Ball(getPosition(), getColor());
       break;
     case df::Keyboard::X:
-      if (WM.objectsOfType("Blob").getCount() < kMostBlobs) makeBlob(getPosition(), getColor());
+      if (WM.objectsOfType("Blob").getCount() < kMaxBlobs) makeBlob(getPosition(), getColor());
       break;
     case df::Keyboard::R:
       df::makeRagdoll(getPosition(), 8, 8, getColor());

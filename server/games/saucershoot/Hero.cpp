@@ -27,8 +27,8 @@ constexpr int kShieldTicks = 60;
 constexpr int kLostTicks = 60;
 constexpr int kHintTicks = 240;
 constexpr int kGunTicks = 6;
-constexpr int kMostBullets = 128;  // of all ships together
-constexpr int kMostNukes = 3;
+constexpr int kMaxBullets = 128;  // of all ships together
+constexpr int kMaxNukes = 3;
 constexpr int kHitsPerNuke = 20;
 constexpr double kAimRows = 2;  // how far the gun turns by itself
 
@@ -87,7 +87,7 @@ int Hero::eventHandler(const df::Event* p_e) {
     }
   } else if (type == SHOT_DOWN_EVENT) {
     const bool mine = static_cast<const EventShotDown*>(p_e)->getPlayer() == m_player;
-    if (mine && m_nukes < kMostNukes && ++m_hits == kHitsPerNuke) {
+    if (mine && m_nukes < kMaxNukes && ++m_hits == kHitsPerNuke) {
       m_hits = 0;
       ++m_nukes;
     }
@@ -135,7 +135,7 @@ void Hero::mouse(const df::EventMouse& event) {
 }
 
 void Hero::fire(df::Vector direction) {
-  if (m_gun_wait > 0 || WM.objectsOfType("Bullet").getCount() >= kMostBullets) return;
+  if (m_gun_wait > 0 || WM.objectsOfType("Bullet").getCount() >= kMaxBullets) return;
   if (direction == df::Vector()) direction = df::Vector(1, 0);  // clicked on the ship itself
   m_gun_wait = kGunTicks;
   new Bullet(m_player, m_color, nose(), direction);

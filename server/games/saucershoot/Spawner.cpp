@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr int kMostSaucers = 32;
+constexpr int kMaxSaucers = 32;
 constexpr int kSaucersAtRest = 8;  // when nobody plays
 constexpr int kSaucersPerPilot = 2;
 constexpr int kLevelsPerPilot = 12;
@@ -58,7 +58,7 @@ void Spawner::step(int tick) {
   if (tick % kTicksPerWave != 0) return;
 
   const df::ObjectList saucers = WM.objectsOfType("Saucer");
-  const int wanted = std::min(kSaucersAtRest + kSaucersPerPilot * pilots + m_level, kMostSaucers);
+  const int wanted = std::min(kSaucersAtRest + kSaucersPerPilot * pilots + m_level, kMaxSaucers);
   const int missing = wanted - saucers.getCount();
   const int wave = std::min(missing, 1 + pilots / 2);  // many pilots shoot many
   for (int i = 0; i < wave; ++i) new Saucer;

@@ -2,10 +2,10 @@
 
 void Trigger::key(const df::EventKeyboard& event) {
   const bool down = event.getKeyboardAction() != df::KEY_RELEASED;
-  if (down) m_silence = 0;  // any key will do: keyboards repeat only the one that was pressed last
+  if (down) m_idle = 0;  // any key will do: keyboards repeat only the one that was pressed last
   if (event.getKey() == df::Keyboard::SPACE) m_pulled = down;
 }
 
 void Trigger::step() {
-  if (++m_silence > kPatience) *this = Trigger();
+  if (++m_idle > kPatience) *this = Trigger();
 }

@@ -20,5 +20,5 @@ class Trigger {
 
  private:
   bool m_pulled = false;
-  int m_silence = 0;
+  int m_idle = 0;
 };

@@ -13,7 +13,7 @@
 #include <thread>
 #include <utility>
 
-#include "host/auth/TryLimit.h"
+#include "host/auth/LoginRateLimit.h"
 
 namespace naiad {
 namespace {
@@ -39,7 +39,7 @@ struct PasswordCheck::State {
 
   asio::any_io_executor owner;
   Limits limits;
-  TryLimit tries;
+  LoginRateLimit tries;
   Counters counters;
   struct Pending {
     AddressPrefix from;
@@ -135,12 +135,12 @@ void PasswordCheck::check(const AddressPrefix& from, std::string password,
     });
   };
   const bool full = state_->pending.size() >= state_->limits.queue;
-  const auto allowed = full ? TryLimit::Answer::kWait : state_->tries.begin(from, now);
-  if (allowed == TryLimit::Answer::kTooMany) {
+  const auto allowed = full ? LoginRateLimit::Answer::kWait : state_->tries.begin(from, now);
+  if (allowed == LoginRateLimit::Answer::kTooMany) {
     ++state_->counters.too_many;
     return answer_later(Answer::kTooMany);
   }
-  if (allowed == TryLimit::Answer::kWait) {
+  if (allowed == LoginRateLimit::Answer::kWait) {
     ++state_->counters.busy;
     return answer_later(Answer::kBusy);
   }

@@ -24,7 +24,7 @@ constexpr std::chrono::milliseconds kBusy{2};
 constexpr std::chrono::milliseconds kUnproven{50};
 /// Between two ticks the tick thread looks at the clock this often.
 constexpr std::chrono::microseconds kHelping{200};
-constexpr int kLeastServed = 64;
+constexpr int kMinServed = 64;
 /// Orders whose memory is fetched before their turn.
 constexpr std::size_t kAhead = 2;
 
@@ -81,7 +81,7 @@ bool NetworkThread::serve(Clock::time_point enough) {
     m_came = notice.came;
     prefetchNear();
     onNotice(notice, bytes);
-    more = served % kLeastServed == 0 && Clock::now() >= enough;
+    more = served % kMinServed == 0 && Clock::now() >= enough;
   }
   m_serving = false;
   flush();

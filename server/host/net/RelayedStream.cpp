@@ -9,7 +9,7 @@ namespace naiad {
 namespace {
 
 /// What may be on the way to the network thread; over there the channel has a queue of its own.
-constexpr std::size_t kMostOnTheWay = TcpOptions{}.send_cap;
+constexpr std::size_t kMaxOnTheWay = TcpOptions{}.send_cap;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void RelayedStream::start(Callbacks callbacks) {
 
 void RelayedStream::send(std::string_view frame) {
   if (m_closed) return;
-  if (onTheWay() + frame.size() > kMostOnTheWay || m_network.isFull()) {
+  if (onTheWay() + frame.size() > kMaxOnTheWay || m_network.isFull()) {
     ++m_network.m_clogged;
     m_closed = true;
     return m_network.give({.kind = NetworkThread::Order::kCut, .stream = &m_end});

@@ -20,8 +20,8 @@ namespace naiad {
 namespace {
 
 constexpr std::chrono::milliseconds kLate{5};
-constexpr std::chrono::milliseconds kLeastService{5};  ///< for sockets, however late the tick is
-constexpr int kLeastHandlers = 16;                     ///< of theirs, ditto; one may serve many messages
+constexpr std::chrono::milliseconds kMinService{5};  ///< for sockets, however late the tick is
+constexpr int kMinHandlers = 16;                     ///< of theirs, ditto; one may serve many messages
 constexpr std::chrono::seconds kDrainTime{1};
 constexpr std::chrono::milliseconds kLookEvery{10};  ///< while the last ones go
 constexpr std::chrono::seconds kLonely{60};          ///< --exit-when-empty, if nobody ever came
@@ -135,9 +135,9 @@ void Host::adoptSettings(df::World& world) {
 // floods would stop the world.
 void Host::serve() {
   m_io.restart();
-  const auto enough = Clock::now() + kLeastService;
+  const auto enough = Clock::now() + kMinService;
   for (int served = 0; m_io.poll_one() > 0; ++served) {
-    if (served >= kLeastHandlers && Clock::now() >= enough) break;
+    if (served >= kMinHandlers && Clock::now() >= enough) break;
   }
 }
 
@@ -145,7 +145,7 @@ void Host::serve() {
 // process of its own answers later; afterTick() comes then.
 void Host::tick() {
   m_tick_began = Clock::now();
-  m_network.serve(m_tick_began + kLeastService);  // the datagrams since the last one
+  m_network.serve(m_tick_began + kMinService);  // the datagrams since the last one
   const Clock::time_point heard = Clock::now();
   for (const auto& session : m_sessions) {
     session->checkDeadlines(heard);

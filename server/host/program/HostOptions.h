@@ -13,7 +13,7 @@
 namespace naiad {
 
 /// Players that one server takes, at most.
-inline constexpr int kMostPlayers = 20'000;
+inline constexpr int kMaxServerPlayers = 20'000;
 
 struct HostOptions {
   std::string game = "saucershoot";  ///< name of a shipped game, or path of a module

@@ -9,7 +9,7 @@ namespace naiad {
 namespace {
 
 constexpr std::uint64_t kShortestRound = 30;  ///< ticks; one that ends sooner hardly began
-constexpr int kMostShortRounds = 5;           ///< in a row
+constexpr int kMaxShortRounds = 5;            ///< in a row
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void Host::endRound(Room& room, const WorldEnd& end) {
   const bool alone = m_ends_with_last && connected() <= 1;
   const bool is_short = room.ticks() < kShortestRound;
   const int short_rounds = room.countShortRounds(is_short);
-  const bool hopeless = short_rounds >= kMostShortRounds || (is_short && !m_ever_joined);
+  const bool hopeless = short_rounds >= kMaxShortRounds || (is_short && !m_ever_joined);
   const bool failed = end.why != WorldEnd::kGameOver;
   const std::string how = failed ? "The game " + end.text : "The round is over";
   if (m_options.on_game_over == "restart" && !alone && !hopeless && beginRound(room)) {

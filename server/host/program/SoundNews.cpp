@@ -69,7 +69,7 @@ void SoundNews::gather(const df::WorldView& view) {
     const bool known = std::any_of(m_now.begin(), m_now.end(),
                                    [&sound](const df::SoundPlayed* other) { return *other == sound; });
     if (known) continue;
-    if (m_now.size() < kMostDifferent) {
+    if (m_now.size() < kMaxDifferent) {
       m_now.push_back(&sound);
     } else {
       ++m_left_out;

@@ -21,7 +21,7 @@ class SoundNews {
   static constexpr std::uint32_t kAtOnce = 12;      ///< to one player …
   static constexpr std::uint32_t kTicksForOne = 3;  ///< … and then one more for so many ticks
   /// Different sounds of a tick that are looked at.
-  static constexpr std::size_t kMostDifferent = 64;
+  static constexpr std::size_t kMaxDifferent = 64;
 
   /// Returns whether it was sent. `lasts`: it must arrive; else it is worth something at once or not at all.
   using Tell = std::function<bool(std::uint32_t player, const wire::ServerMessage& message, bool lasts)>;

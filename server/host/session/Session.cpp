@@ -10,7 +10,7 @@ namespace naiad {
 namespace {
 
 constexpr SnapshotSender::Room kStreamRoom{64, kMaxSnapshot, false};
-constexpr SnapshotSender::Room kSecondRoom{1, Session::kMostOnSecond, false};
+constexpr SnapshotSender::Room kSecondRoom{1, Session::kMaxOnSecond, false};
 /// At 30 Hz more than a megabit per second.
 constexpr std::size_t kDatagramsPerTick = 4;
 
@@ -24,11 +24,11 @@ SnapshotSender::Packets& packetsOfThread() {
 
 Session::Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now)
     : m_chat_refill(now),
-      m_silence(now),
+      m_idle(now),
       m_channel(std::move(channel)),
       m_counters(counters),
       m_frame_at(now),
-      m_passage(now) {
+      m_transport(now) {
   m_reception->session = this;
 }
 
@@ -60,7 +60,7 @@ void Session::detach(Clock::time_point now) {
   dropSecond();
   takeAcks();
   m_sender.loseLarge();
-  if (m_datagrams == nullptr || !m_passage.isOpen(now)) releaseKeys();
+  if (m_datagrams == nullptr || !m_transport.isOpen(now)) releaseKeys();
 }
 
 // Nobody holds them any more, as far as one can hear.
@@ -73,9 +73,9 @@ void Session::releaseKeys() {
 }
 
 // A click without a snapshot that is remembered is judged in the present.
-df::Seen Session::seenWith(const Input& input) const {
+df::ViewedTick Session::seenWith(const Input& input) const {
   const auto base = input.is_mouse ? m_snapshot_ticks.tickOf(input.snapshot) : std::nullopt;
-  return base ? df::Seen{true, *base, input.tick} : df::Seen{};
+  return base ? df::ViewedTick{true, *base, input.tick} : df::ViewedTick{};
 }
 
 void Session::applyResize(Clock::time_point present) {
@@ -131,7 +131,7 @@ void Session::startDatagrams(std::unique_ptr<SealedChannel> datagrams) {
 void Session::prefetchHearing() const {
   prefetchMemory(this, reinterpret_cast<const char*>(&m_last_resize) - reinterpret_cast<const char*>(this));
   m_sender.prefetchNumbers();
-  m_passage.prefetch();
+  m_transport.prefetch();
 }
 
 void Session::answer(const wire::Welcome& welcome) {
@@ -139,7 +139,7 @@ void Session::answer(const wire::Welcome& welcome) {
   wire::ServerMessage message;
   *message.mutable_welcome() = welcome;
   send(message);
-  m_passage.renewed(now());
+  m_transport.renewed(now());
   m_awaits_proof = true;
 }
 
@@ -163,7 +163,7 @@ void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<Sea
   }
   m_acks.reset();
   m_sender.reset();
-  m_passage = Passage(now());
+  m_transport = TransportSelector(now());
   startDatagrams(std::move(datagrams));
   m_kept.clear();
   m_kept_heard = {};
@@ -231,9 +231,9 @@ void Session::takeStream(Session& other) {
   other.m_reception->session = &other;
   other.m_told_gone = true;
   const Clock::time_point present = now();
-  m_silence.heard(present);
+  m_idle.heard(present);
   m_resize = other.m_resize;
-  m_drain.restart();
+  m_stall.restart();
   allowSavedChat(present);
   ++m_counters.resumed;
 }
@@ -247,8 +247,8 @@ void Session::goodbye(const std::string& sentence) {
 }
 
 void Session::checkDeadlines(Clock::time_point now) {
-  if (m_spoke) m_silence.heard(now);
-  m_silence.listen(now);
+  if (m_spoke) m_idle.heard(now);
+  m_idle.listen(now);
   m_spoke = false;
   m_messages = 0;
   if (now - m_chat_refill >= std::chrono::seconds(1)) {
@@ -265,26 +265,26 @@ void Session::allowSavedChat(Clock::time_point now) {
 }
 
 void Session::checkGreeting(Clock::time_point now) {
-  if (m_silence.at(now) <= (m_greeted ? kJudgeTimeout : kLoginTimeout)) return;
+  if (m_idle.at(now) <= (m_greeted ? kJudgeTimeout : kLoginTimeout)) return;
   ++m_counters.login_timeouts;
   if (m_greeted) return refuse(wire::Refused::BUSY, "The server is busy. Try again in a moment.");
   refuse(wire::Refused::BAD_REQUEST, "The server heard no greeting in time.");
 }
 
 void Session::checkSilence(Clock::time_point now) {
-  if (isDetached() && m_silence.at(now) > kSuspend) releaseKeys();
+  if (isDetached() && m_idle.at(now) > kSuspend) releaseKeys();
   if (m_state == State::kGreeting) {
     checkGreeting(now);
-  } else if (isDetached() && m_silence.at(now) > m_grace) {
+  } else if (isDetached() && m_idle.at(now) > m_grace) {
     ++m_counters.graces_expired;
     end();
-  } else if (m_state == State::kPlaying && !isDetached() && m_silence.at(now) > kIdleTimeout) {
+  } else if (m_state == State::kPlaying && !isDetached() && m_idle.at(now) > kIdleTimeout) {
     ++m_counters.idle_timeouts;
     // A line that is down for a while often takes neither end's stream with it.
     if (m_grace.count() > 0) return detach(now);
     goodbye("The server has not heard from you for a while.");
   } else if (m_state == State::kPlaying && m_channel != nullptr &&
-             m_drain.note(m_channel->unsentBytes(), now) && m_silence.at(now) < StreamDrain::kPatience) {
+             m_stall.note(m_channel->unsentBytes(), now) && m_idle.at(now) < StallDetector::kPatience) {
     // Who is silent as well is cut off, and may come back.
     ++m_counters.stuck_streams;
     goodbye("Your end takes in too little of what the server sends.");
@@ -297,8 +297,9 @@ void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player
   applyResize(present);
   takeAcks();
   m_sender.note(publisher, player);
-  if (m_datagrams != nullptr && m_passage.isOpen(present)) return sendDatagrams(publisher, present);
-  if (m_datagrams != nullptr && m_datagrams->room() && m_passage.wantsProbe(present, m_channel == nullptr)) {
+  if (m_datagrams != nullptr && m_transport.isOpen(present)) return sendDatagrams(publisher, present);
+  if (m_datagrams != nullptr && m_datagrams->room() &&
+      m_transport.wantsProbe(present, m_channel == nullptr)) {
     const SnapshotSender::Packet probe = m_sender.probe(publisher);
     noteSent(probe, true, present);
     m_datagrams->send(probe.bytes);
@@ -307,7 +308,7 @@ void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player
 }
 
 void Session::sendDatagrams(const Publisher& publisher, Clock::time_point present) {
-  const std::uint32_t interval = m_passage.interval(m_sender.loss(), present);
+  const std::uint32_t interval = m_transport.interval(m_sender.loss(), present);
   const auto room = m_datagrams->room();
   if (publisher.tick() % interval != 0 || !room) return;
   const bool stream_idle = m_channel != nullptr && m_channel->unsentBytes() == 0;
@@ -335,7 +336,7 @@ void Session::sendOnStream(const Publisher& publisher, Clock::time_point present
   if (!first && !second) return skipTick();
   SnapshotSender::Packets& packets = packetsOfThread();
   m_sender.build(publisher, first ? kStreamRoom : kSecondRoom, packets);
-  const bool small = packets.size() == 1 && packets.back().bytes.size() <= kMostOnSecond;
+  const bool small = packets.size() == 1 && packets.back().bytes.size() <= kMaxOnSecond;
   for (const SnapshotSender::Packet& packet : packets) {
     noteSent(packet, false, present);
     count(packet);
@@ -358,7 +359,7 @@ void Session::sendSnapshot(const SnapshotSender::Packet& packet) {
 }
 
 void Session::noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Clock::time_point present) {
-  m_passage.sent(packet.number, as_datagram, present);
+  m_transport.sent(packet.number, as_datagram, present);
   m_snapshot_ticks.note(packet.number, packet.tick);
 }
 
@@ -386,7 +387,7 @@ void Session::sendKept(wire::ServerMessage message, bool replaces) {
 
 bool Session::sendFleeting(const wire::ServerMessage& message) {
   if (m_state != State::kPlaying || m_channel == nullptr) return false;
-  if (m_channel->unsentBytes() > kMostBeforeFleeting) return false;
+  if (m_channel->unsentBytes() > kMaxBeforeFleeting) return false;
   send(message);
   return true;
 }

@@ -18,16 +18,16 @@
 
 #include "host/net/SealedChannel.h"
 #include "host/session/Counters.h"
-#include "host/session/Passage.h"
 #include "host/session/PressedKeys.h"
-#include "host/session/StreamDrain.h"
-#include "host/snapshot/LookBack.h"
+#include "host/session/StallDetector.h"
+#include "host/session/TransportSelector.h"
+#include "host/snapshot/LagCompensator.h"
 #include "host/snapshot/SnapshotSender.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Channel.h"
+#include "shared/net/base/IdleTimer.h"
 #include "shared/net/base/Prefetch.h"
-#include "shared/net/base/Silence.h"
-#include "shared/net/stream/KeptFrames.h"
+#include "shared/net/stream/ReliableFrames.h"
 #include "shared/replica/UpdateCodec.h"
 
 namespace naiad {
@@ -57,17 +57,17 @@ class Session {
   static constexpr std::size_t kMaxQueuedInputs = 64;
   static constexpr int kInputsPerTick = 16;
   /// An input that asks for a tick farther off has asked for nonsense.
-  static constexpr std::int32_t kMostEarly = 8;
+  static constexpr std::int32_t kMaxEarly = 8;
   static constexpr int kChatPerSecond = 3;
   /// Lines at once from a client that comes back, if it was away long enough to have said them.
   static constexpr int kChatAtOnce = 30;
   /// Silence after which a player without a stream lets go of his keys.
   static constexpr std::chrono::seconds kSuspend{1};
   /// With more than this unsent on the stream nothing arrives at once.
-  static constexpr std::size_t kMostBeforeFleeting = std::size_t{4} * 1024;
+  static constexpr std::size_t kMaxBeforeFleeting = std::size_t{4} * 1024;
   /// A larger snapshot goes on the first stream only: a world twice would be too much for a thin line, while
   /// what gathered during a wait should not make for another one.
-  static constexpr std::size_t kMostOnSecond = std::size_t{4} * 1024;
+  static constexpr std::size_t kMaxOnSecond = std::size_t{4} * 1024;
   /// More often a terminal's size is not taken over.
   static constexpr std::chrono::milliseconds kResizeEvery{250};
   /// An honest client that catches up after a stall sends fewer: every reply is bounded by what it got.
@@ -117,7 +117,7 @@ class Session {
   void goodbye(const std::string& sentence);
 
   /// Enforce deadlines. Once a tick: time in which nobody calls does not count as silence of the client
-  /// (Silence.h).
+  /// (IdleTimer.h).
   void checkDeadlines(Clock::time_point now);
   /// Take up to kInputsPerTick inputs out of the queue, in order, each id once, into the world's next tick.
   template <class Apply>
@@ -130,7 +130,7 @@ class Session {
   }
 
   /// The picture that the player clicked in, as far as that is known: for mouse inputs only.
-  df::Seen seenWith(const Input& input) const;
+  df::ViewedTick seenWith(const Input& input) const;
 
   /// The player steers by declared controls (null: does not): the keys in them wait for the tick that they
   /// ask for, since he has seen their effect there already.
@@ -143,7 +143,7 @@ class Session {
   void prefetch() const {
     prefetchMemory(this, reinterpret_cast<const char*>(&m_last_resize) - reinterpret_cast<const char*>(this));
     m_sender.prefetch();
-    m_passage.prefetch();
+    m_transport.prefetch();
   }
   void prefetchParts() const {
     m_sender.prefetchParts();
@@ -168,7 +168,7 @@ class Session {
   std::uint64_t skippedTicks() const { return m_skipped_ticks; }
   /// The round trip the client measured last, in milliseconds; 0: not yet.
   std::uint32_t rttMillis() const { return m_rtt_millis; }
-  const Passage& passage() const { return m_passage; }
+  const TransportSelector& passage() const { return m_transport; }
   /// What the client has been told.
   const SnapshotSender& sender() const { return m_sender; }
 
@@ -228,8 +228,8 @@ class Session {
   int m_messages = 0;  ///< since the last tick
   int m_chat_budget = kChatPerSecond;
   Clock::time_point m_chat_refill;
-  Silence m_silence;  ///< of the client, to a tick
-  StreamDrain m_drain;
+  IdleTimer m_idle;  ///< of the client, to a tick
+  StallDetector m_stall;
   std::unique_ptr<ReliableChannel> m_channel;  ///< null while detached
   std::unique_ptr<ReliableChannel> m_second;   ///< beside m_channel; null: there is none
   std::unique_ptr<SealedChannel> m_datagrams;
@@ -255,10 +255,10 @@ class Session {
   wire::Welcome m_welcome;
   std::uint32_t m_rtt_millis = 0;
   PressedKeys m_pressed;  ///< once all of m_inputs is taken in
-  KeptFrames m_kept;
-  KeptFramesHeard m_kept_heard;
+  ReliableFrames m_kept;
+  ReliableFramesHeard m_kept_heard;
   SnapshotSender m_sender{Resend::kAhead};
-  Passage m_passage;
+  TransportSelector m_transport;
   SnapshotTicks m_snapshot_ticks;
 };
 

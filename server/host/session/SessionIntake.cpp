@@ -102,7 +102,7 @@ bool Session::takeUpdate(std::string_view bytes, bool by_datagram) {
   if (update->acks.newest != 0) {
     takeAcks();
     m_acks = update->acks;
-    m_passage.acknowledged(update->acks, by_datagram, now());
+    m_transport.acknowledged(update->acks, by_datagram, now());
   }
   if (update->checksum) compare(update->acks, *update->checksum);
   if (update->wants_reset) reset();
@@ -119,7 +119,7 @@ void Session::takeAcks() {
 
 bool Session::isTooEarly(const Input& input, std::uint32_t tick) const {
   const auto early = static_cast<std::int32_t>(input.tick - tick);
-  if (m_controls == nullptr || input.is_mouse || early <= 0 || early > kMostEarly) return false;
+  if (m_controls == nullptr || input.is_mouse || early <= 0 || early > kMaxEarly) return false;
   return std::any_of(m_controls->rows.begin(), m_controls->rows.end(),
                      [&input](const df::ControlRow& row) { return row.key == input.key; });
 }

@@ -102,10 +102,10 @@ KnownObjects::Sent KnownObjects::paid(std::uint32_t id, std::uint32_t snapshot, 
 
 // What is carried again as it was is confirmed by any snapshot since it was so.
 void KnownObjects::carry(Told& told, std::size_t group, std::uint32_t snapshot, std::uint64_t sum) {
-  constexpr std::uint32_t kMost = std::numeric_limits<std::uint8_t>::max();  // none of these is in flight
+  constexpr std::uint32_t kMax = std::numeric_limits<std::uint8_t>::max();  // none of these is in flight
   const bool first = told.sent[group] == 0 || told.sums[group] != sum;
   const std::uint32_t since = first ? 0 : told.since_first[group] + before(told.sent[group], brief(snapshot));
-  told.since_first[group] = static_cast<std::uint8_t>(std::min(since, kMost));
+  told.since_first[group] = static_cast<std::uint8_t>(std::min(since, kMax));
   told.sent[group] = brief(snapshot);
   m_checksum += sum - told.sums[group];
   told.sums[group] = sum;

@@ -63,9 +63,9 @@ Appearance captureCells(df::FixedVector position, std::span<const df::DrawComman
 }
 
 Sequence fitToRecord(Appearance appearance) {
-  constexpr std::size_t kMostBits = 128;  // more than any glyph takes
+  constexpr std::size_t kMaxBits = 128;  // more than any glyph takes
   Sequence fitted{appearance};
-  while (appearance.size() * kMostBits > 8 * kMaxLookBytes && encodedBits(fitted) > 8 * kMaxLookBytes) {
+  while (appearance.size() * kMaxBits > 8 * kMaxLookBytes && encodedBits(fitted) > 8 * kMaxLookBytes) {
     appearance.resize(appearance.size() - (appearance.size() / 8 + 1));
     fitted = Sequence{appearance};
   }

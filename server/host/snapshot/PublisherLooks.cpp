@@ -56,7 +56,7 @@ constexpr std::uint32_t kNeverLook = 1u << 20;
 constexpr std::size_t kMaxKnownAppearances = 16'384;
 constexpr std::uint32_t kForgetAfter = 9'000;
 /// Looks kept to be shared, whether anybody still has them or not.
-constexpr std::size_t kMostShared = 2'048;
+constexpr std::size_t kMaxShared = 2'048;
 
 }  // namespace
 
@@ -79,7 +79,7 @@ void Publisher::meet(Model& model) {
 // Objects that look the same share the memory of it: it is compared with what they draw in every tick.
 void Publisher::intern(Sequence& sequence) {
   if (sequence.empty()) return;
-  if (m_sequences.size() >= kMostShared) m_sequences.clear();
+  if (m_sequences.size() >= kMaxShared) m_sequences.clear();
   const auto [known, fresh] = m_sequences.try_emplace(sequence.sum(), sequence);
   if (!fresh && known->second == sequence) sequence = known->second;
 }

@@ -14,7 +14,7 @@ constexpr double kAheadLoss = 0.003;
 /// A cell per tick counts as much as being so many cells nearer.
 constexpr double kAheadPerSpeed = 20;
 /// What a snapshot of one record takes beside it, at most.
-constexpr std::size_t kMostOverheadBits = 256;
+constexpr std::size_t kMaxOverheadBits = 256;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ SnapshotSender::Desk& SnapshotSender::desk() {
 void SnapshotSender::note(const Publisher& publisher, const df::PlayerFacts& player) {
   m_tick = publisher.tick();
   m_known.prefetchSlot(player.followed.slot);
-  m_singles.note(publisher, player);
+  m_per_client.note(publisher, player);
   if (!m_began) m_last_tick = m_tick - kKeepAlive;
   m_began = true;
   m_interest.update(publisher,
@@ -51,7 +51,7 @@ void SnapshotSender::note(const Publisher& publisher, const df::PlayerFacts& pla
 // Whom the view follows and whom the player steers are of interest wherever they are.
 bool SnapshotSender::isOwn(const KnownObjects::Known& known) const {
   const df::ObjectKey key{known.slot, known.generation};
-  return m_singles.player().followed == key || m_singles.player().steering.object == key;
+  return m_per_client.player().followed == key || m_per_client.player().steering.object == key;
 }
 
 // ---- building ---------------------------------------------------------------------------------------------
@@ -64,8 +64,8 @@ double SnapshotSender::urgency(std::uint32_t id, const Publisher& publisher) con
   if (isOwn(known)) return 1e5;
   if (publisher.find(known.slot)->state.body.on_view) return 8.0 * (m_tick - known.since);
   const df::FixedVector at = positionAt(publisher.find(known.slot)->state.motion, m_tick);
-  const WorldRecord& world = m_singles.world();
-  const df::FixedVector corner = m_singles.player().view_corner;
+  const WorldRecord& world = m_per_client.world();
+  const df::FixedVector corner = m_per_client.player().view_corner;
   const df::FixedVector focus{corner.x + df::fromCells(world.view_width) / 2,
                               corner.y + df::fromCells(world.view_height) / 2};
   const double dx = df::toCells(at.x) - df::toCells(focus.x);
@@ -93,7 +93,7 @@ std::size_t SnapshotSender::mostBits(std::uint32_t id, const Publisher& publishe
 // The order matters only where not all fit.
 void SnapshotSender::makeQueue(const Publisher& publisher, const Room& room) {
   m_p_desk->queue.clear();
-  std::size_t most = kMostOverheadBits + m_singles.mostBits();
+  std::size_t most = kMaxOverheadBits + m_per_client.mostBits();
   for (const std::uint32_t id : m_known.owing()) {
     m_p_desk->queue.push_back(id);
     if (most <= 8 * room.bytes) most += mostBits(id, publisher);
@@ -113,7 +113,7 @@ void SnapshotSender::makeQueue(const Publisher& publisher, const Room& room) {
 void SnapshotSender::prefetch() const {
   // Moments are written one at a time, later.
   prefetchMemory(&m_known, sizeof m_known);
-  m_singles.prefetch();
+  m_per_client.prefetch();
   prefetchMemory(&m_names,
                  reinterpret_cast<const char*>(&m_moments) - reinterpret_cast<const char*>(&m_names));
   prefetchMemory(&m_shown, reinterpret_cast<const char*>(this + 1) - reinterpret_cast<const char*>(&m_shown));
@@ -130,10 +130,10 @@ void SnapshotSender::build(const Publisher& publisher, Room room, Packets& packe
   packets.clear();
   m_p_desk = &desk();
   if (m_resend == Resend::kEveryTick) m_known.oweUnconfirmed(m_tick);
-  m_singles.repeatAhead();
+  m_per_client.repeatAhead();
   m_ahead.owe(m_known, m_tick);
   m_known.sweepOwing();
-  m_singles.check(publisher, m_known);
+  m_per_client.check(publisher, m_known);
   const bool due = static_cast<std::int32_t>(m_tick - m_last_tick) >= static_cast<std::int32_t>(kKeepAlive);
   m_throttled = isOwing();
   if (!m_throttled && !due) return;
@@ -158,9 +158,9 @@ void SnapshotSender::build(const Publisher& publisher, Room room, Packets& packe
 bool SnapshotSender::write(const Publisher& publisher, const Room& room, Packet& packet) {
   Flight::Snapshot& flight = m_flight.add(m_next_number);
   SnapshotHeader header{m_next_number, m_tick, m_epoch, false, false, 0, 0};
-  m_singles.tellInput(header);
-  m_p_desk->writer.begin(header, m_singles.origins().slot(), m_singles.origins().window());
-  flight.empty = !m_singles.write(m_p_desk->writer, m_next_number, room.bytes, repeatsAhead());
+  m_per_client.tellInput(header);
+  m_p_desk->writer.begin(header, m_per_client.origins().slot(), m_per_client.origins().window());
+  flight.empty = !m_per_client.write(m_p_desk->writer, m_next_number, room.bytes, repeatsAhead());
   writeObjects(publisher, room, packet);
   const bool complete = !isOwing();
   if (complete && m_repairing) {
@@ -232,7 +232,7 @@ SnapshotSender::Packet SnapshotSender::probe(const Publisher& publisher) {
   m_tick = publisher.tick();
   m_flight.add(m_next_number).probe = true;
   m_p_desk->writer.begin({m_next_number, m_tick, m_epoch, !isOwing(), false, 0, 0},
-                         m_singles.origins().slot(), m_singles.origins().window());
+                         m_per_client.origins().slot(), m_per_client.origins().window());
   Packet packet;
   finish(packet);
   forgetOldest();
@@ -248,7 +248,7 @@ void SnapshotSender::takeBack() {
 
 // Would it exceed the limit even alone?
 bool SnapshotSender::isTooLarge(std::size_t bits, std::size_t bytes) {
-  return bits + kMostOverheadBits > 8 * bytes;
+  return bits + kMaxOverheadBits > 8 * bytes;
 }
 
 // Stage the record of what is due; no model: a death. Its length in bits.
@@ -322,13 +322,13 @@ void SnapshotSender::acknowledge(const AckWindow& acks) {
 
 void SnapshotSender::arrived(const Flight::Snapshot& snapshot) {
   for (const KnownObjects::Sent& sent : snapshot.objects) m_known.prefetch(sent.id);
-  m_singles.arrived(snapshot.number, snapshot.probe);
+  m_per_client.arrived(snapshot.number, snapshot.probe);
   for (const KnownObjects::Sent& sent : snapshot.objects) m_known.arrived(sent, snapshot.number);
   for (const auto& [id, sum] : snapshot.names) m_names.arrived(id, sum, snapshot.number);
 }
 
 void SnapshotSender::lost(const Flight::Snapshot& snapshot) {
-  bool missing = m_singles.lost(snapshot.number);
+  bool missing = m_per_client.lost(snapshot.number);
   for (const KnownObjects::Sent& sent : snapshot.objects) {
     if (!m_known.lost(sent, snapshot.number, m_tick)) continue;
     ++m_resent;
@@ -386,9 +386,9 @@ std::optional<bool> SnapshotSender::isRight(const AckWindow& acks, std::uint64_t
 
 void SnapshotSender::reset() {
   const std::uint32_t number = m_next_number;
-  const std::uint32_t input = m_singles.input();
-  const std::uint32_t input_tick = m_singles.inputTick();
-  const ShownWindow shown = m_shown;
+  const std::uint32_t input = m_per_client.input();
+  const std::uint32_t input_tick = m_per_client.inputTick();
+  const ClientViewport shown = m_shown;
   *this = SnapshotSender(m_resend, m_look_ahead, static_cast<std::uint8_t>((m_epoch + 1) & 3));
   m_shown = shown;
   m_next_number = number;

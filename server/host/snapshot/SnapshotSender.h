@@ -13,15 +13,15 @@
 #include <string>
 #include <vector>
 
-#include "host/snapshot/AheadRepeats.h"
 #include "host/snapshot/AppearanceNames.h"
+#include "host/snapshot/ClientViewport.h"
 #include "host/snapshot/Flight.h"
 #include "host/snapshot/Interest.h"
 #include "host/snapshot/KnownObjects.h"
-#include "host/snapshot/LineGauge.h"
+#include "host/snapshot/LossEstimator.h"
+#include "host/snapshot/PerClientState.h"
 #include "host/snapshot/Publisher.h"
-#include "host/snapshot/ShownWindow.h"
-#include "host/snapshot/Singles.h"
+#include "host/snapshot/RedundantResend.h"
 #include "shared/replica/Acks.h"
 #include "shared/replica/SnapshotCodec.h"
 
@@ -76,7 +76,7 @@ class SnapshotSender {
   /// while the client is connected; the first call owes the client all it sees.
   void note(const Publisher& publisher, const df::PlayerFacts& player);
   /// The newest input that the game has had, and in which tick. To be called before the build() of that tick.
-  void noteInput(std::uint32_t id, std::uint32_t tick) { m_singles.noteInput(id, tick); }
+  void noteInput(std::uint32_t id, std::uint32_t tick) { m_per_client.noteInput(id, tick); }
   /// The client's terminal, in cells; 0: unknown.
   void setTerminal(std::uint32_t columns, std::uint32_t rows) { m_shown.setTerminal(columns, rows); }
   /// How many ticks from now on an object may enter the view before the next one is due.
@@ -104,7 +104,7 @@ class SnapshotSender {
   Packet probe(const Publisher& publisher);
 
   /// The client acknowledged. A number that it leaves out is taken for lost, at once or with some patience
-  /// (LineGauge).
+  /// (LossEstimator).
   void acknowledge(const AckWindow& acks);
   /// This one, just built, is large and goes on a stream: it is late rather than lost.
   void wentByStream(std::uint32_t number);
@@ -156,7 +156,7 @@ class SnapshotSender {
   SnapshotSender(Resend resend, std::uint32_t look_ahead, std::uint8_t epoch)
       : m_resend(resend), m_epoch(epoch), m_look_ahead(look_ahead) {}
   bool isOwn(const KnownObjects::Known& known) const;
-  bool isOwing() const { return m_singles.isOwing() || !m_known.owing().empty(); }
+  bool isOwing() const { return m_per_client.isOwing() || !m_known.owing().empty(); }
   double urgency(std::uint32_t id, const Publisher& publisher) const;
   std::size_t mostBits(std::uint32_t id, const Publisher& publisher) const;
   void makeQueue(const Publisher& publisher, const Room& room);
@@ -178,11 +178,11 @@ class SnapshotSender {
   Resend m_resend;
   Desk* m_p_desk = nullptr;  ///< only while a snapshot is written
   KnownObjects m_known;
-  Singles m_singles;
+  PerClientState m_per_client;
   AppearanceNames m_names;
   Flight m_flight;
   std::array<Moment, kMaxMoments> m_moments;  ///< by number, modulo their number
-  ShownWindow m_shown;
+  ClientViewport m_shown;
   Interest m_interest;
   std::uint32_t m_next_number = 1;
   std::uint32_t m_last_tick = 0;  ///< of the last snapshot built
@@ -193,9 +193,9 @@ class SnapshotSender {
   bool m_throttled = false;
   std::uint8_t m_epoch = 0;
   std::uint32_t m_look_ahead = 4;
-  LineGauge m_line;
+  LossEstimator m_line;
   std::array<std::uint32_t, 16> m_missing{};  ///< the last ones taken for lost, by number
-  AheadRepeats m_ahead;
+  RedundantResend m_ahead;
   std::uint64_t m_resent = 0;
 };
 

@@ -21,20 +21,20 @@ constexpr df::Fixed cells(std::int64_t count) {
 }
 
 /// Beyond what legal positions, and characters drawn beside them, come to.
-constexpr df::Fixed kMostPosition = cells(2'010'000'000);
+constexpr df::Fixed kMaxPosition = cells(2'010'000'000);
 /// Of a view, so that two are not too far apart to be subtracted.
-constexpr df::Fixed kMostCorner = cells(1'000'000'000);
-constexpr df::Fixed kMostVelocity = cells(1 << 24);
-constexpr std::int64_t kMostOrder = (std::int64_t{1} << 48) - 1;
+constexpr df::Fixed kMaxCorner = cells(1'000'000'000);
+constexpr df::Fixed kMaxVelocity = cells(1 << 24);
+constexpr std::int64_t kMaxOrder = (std::int64_t{1} << 48) - 1;
 constexpr std::int64_t kLastCharacter = 0x10FFFF;
-constexpr std::size_t kMostText = 4 * std::size_t{kMaxViewWidth};
-constexpr std::size_t kMostName = 4 * kMaxNameLength;
-constexpr std::size_t kMostLabel = 256;
-constexpr std::size_t kMostNote = 4 * kMaxChatLength;
-constexpr std::int64_t kMostShake = 1000;
+constexpr std::size_t kMaxText = 4 * std::size_t{kMaxViewWidth};
+constexpr std::size_t kMaxName = 4 * kMaxNameLength;
+constexpr std::size_t kMaxLabel = 256;
+constexpr std::size_t kMaxNote = 4 * kMaxChatLength;
+constexpr std::int64_t kMaxShake = 1000;
 constexpr std::int64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
 /// More than any sequence takes that a snapshot could carry.
-constexpr std::size_t kMostSequence = std::size_t{1} << 20;
+constexpr std::size_t kMaxSequence = std::size_t{1} << 20;
 
 std::uint32_t numberOf(const std::unordered_map<const void*, std::uint32_t>& numbers, const void* p_thing,
                        std::uint32_t none) {
@@ -71,8 +71,8 @@ struct ViewFields {
   }
   template <class F, class T>
   static void box(F& f, T& box) {
-    visitVector(f, box.corner, kMostPosition);
-    visitVector(f, box.size, kMostPosition);
+    visitVector(f, box.corner, kMaxPosition);
+    visitVector(f, box.size, kMaxPosition);
     if constexpr (F::kReads) f.require(box.size.x >= 0 && box.size.y >= 0);
   }
   template <class F, class T>
@@ -83,10 +83,10 @@ struct ViewFields {
   template <class F, class T>
   static void object(F& f, T& facts) {
     key(f, facts.key);
-    f.number(facts.order, 0, kMostOrder);
-    visitVector(f, facts.position, kMostPosition);
-    visitVector(f, facts.velocity, kMostVelocity);
-    visitVector(f, facts.acceleration, kMostVelocity);
+    f.number(facts.order, 0, kMaxOrder);
+    visitVector(f, facts.position, kMaxPosition);
+    visitVector(f, facts.velocity, kMaxVelocity);
+    visitVector(f, facts.acceleration, kMaxVelocity);
     box(f, facts.box);
     f.number(facts.solidness, df::HARD, df::SPECTRAL);
     f.flag(facts.no_soft);
@@ -97,7 +97,7 @@ struct ViewFields {
   }
   template <class F, class T>
   static void command(F& f, T& command) {
-    visitVector(f, command.position, kMostPosition);
+    visitVector(f, command.position, kMaxPosition);
     f.number(command.ch, 0, kLastCharacter);
     color(f, command.color);
     if constexpr (F::kReads) f.require(df::isDrawable(command.ch));
@@ -111,7 +111,7 @@ struct ViewFields {
   }
   template <class F, class T>
   static void sound(F& f, T& sound) {
-    f.text(sound.label, kMostLabel);
+    f.text(sound.label, kMaxLabel);
     f.number(sound.what, df::SoundPlayed::kPlay, df::SoundPlayed::kStop);
     f.flag(sound.music);
     f.flag(sound.loop);
@@ -123,7 +123,7 @@ struct ViewFields {
     f.number(text.x, 0, kMaxViewWidth - 1);
     f.number(text.y, 0, kMaxViewHeight - 1);
     color(f, text.color);
-    f.text(text.text, kMostText);
+    f.text(text.text, kMaxText);
   }
   template <class F, class T>
   static void lever(F& f, T& lever) {
@@ -146,18 +146,18 @@ struct ViewFields {
     table(f, tables, steering.p_table);
     key(f, steering.object);
     control(f, steering.state);
-    visitVector(f, steering.position, kMostPosition);
-    visitVector(f, steering.velocity, kMostVelocity);
-    visitVector(f, steering.acceleration, kMostVelocity);
+    visitVector(f, steering.position, kMaxPosition);
+    visitVector(f, steering.velocity, kMaxVelocity);
+    visitVector(f, steering.acceleration, kMaxVelocity);
   }
   template <class F, class Tables, class T>
   static void player(F& f, Tables& tables, T& player) {
     f.number(player.id, 1, kMost32);
-    f.text(player.name, kMostName);
+    f.text(player.name, kMaxName);
     color(f, player.color);
     f.number(player.score, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
     key(f, player.followed);
-    visitVector(f, player.view_corner, kMostCorner);
+    visitVector(f, player.view_corner, kMaxCorner);
     f.list(player.texts, [](F& in, auto& element) { text(in, element); });
     steering(f, tables, player.steering);
   }
@@ -183,14 +183,14 @@ struct ViewFields {
     f.list(view.drawn, [](F& in, auto& element) { drawn(in, element); });
     looks(f, tables, view);
     f.list(view.players, [&tables](F& in, auto& element) { player(in, tables, element); });
-    visitVector(f, view.corner, kMostCorner);
+    visitVector(f, view.corner, kMaxCorner);
     f.list(view.sounds, [](F& in, auto& element) { sound(in, element); });
     f.number(view.sounds_lost);
     f.list(view.playing, [](F& in, auto& element) { sound(in, element); });
-    f.list(view.notes, [](F& in, auto& element) { in.text(element, kMostNote); });
+    f.list(view.notes, [](F& in, auto& element) { in.text(element, kMaxNote); });
     f.number(view.background, df::UNDEFINED_COLOR, df::CUSTOM);
-    f.number(view.shake_x, -kMostShake, kMostShake);
-    f.number(view.shake_y, -kMostShake, kMostShake);
+    f.number(view.shake_x, -kMaxShake, kMaxShake);
+    f.number(view.shake_y, -kMaxShake, kMaxShake);
   }
 
   // What has numbers. A number that is new is one more than the last.
@@ -224,7 +224,7 @@ struct ViewFields {
     const std::uint32_t number = numberOf(known.m_sequences, sequence.identity(), fresh);
     out.number(number);
     if (number != fresh) return;
-    out.text(spell(sequence), kMostSequence);
+    out.text(spell(sequence), kMaxSequence);
     known.m_sequences.emplace(sequence.identity(), fresh);
     known.m_kept_sequences.push_back(sequence);
   }
@@ -233,7 +233,7 @@ struct ViewFields {
     in.number(number, 0, static_cast<std::int64_t>(known.m_sequences.size()));
     if (in.ok() && number == known.m_sequences.size()) {
       std::string bytes;
-      in.text(bytes, kMostSequence);
+      in.text(bytes, kMaxSequence);
       BitReader bits(bytes);
       Sequence read = readSequence(bits);
       in.require(bits.atEnd() && !read.empty());
@@ -286,7 +286,7 @@ struct ViewFields {
 };
 
 void ViewWriter::write(FieldWriter& out, const df::WorldView& view) {
-  const bool forgets = m_kept_sequences.size() > kMostViewNumbers || m_kept_tables.size() > kMostViewNumbers;
+  const bool forgets = m_kept_sequences.size() > kMaxViewNumbers || m_kept_tables.size() > kMaxViewNumbers;
   if (forgets) *this = ViewWriter();
   out.flag(forgets);
   ViewFields::view(out, *this, view);
@@ -296,7 +296,7 @@ void ViewReader::read(FieldReader& in, df::WorldView& view) {
   bool forgets = false;
   in.flag(forgets);
   if (forgets) *this = ViewReader(m_later);
-  in.require(m_sequences.size() <= kMostViewNumbers && m_tables.size() <= kMostViewNumbers);
+  in.require(m_sequences.size() <= kMaxViewNumbers && m_tables.size() <= kMaxViewNumbers);
   ViewFields::view(in, *this, view);
   if (in.ok()) in.require(ViewFields::fits(view));
   view.tick += m_later;

@@ -16,7 +16,7 @@
 namespace naiad {
 
 /// With more numbers than that of one kind, both ends forget them before the next view.
-inline constexpr std::size_t kMostViewNumbers = 4096;
+inline constexpr std::size_t kMaxViewNumbers = 4096;
 
 class ViewWriter {
  public:

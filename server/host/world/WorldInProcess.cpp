@@ -6,7 +6,7 @@
 namespace naiad {
 
 WorldInProcess::~WorldInProcess() {
-  m_world.setHindsight(nullptr);
+  m_world.setLagCompensation(nullptr);
 }
 
 std::uint32_t WorldInProcess::join(std::uint32_t player, const std::string& name, df::Color color) {
@@ -22,7 +22,7 @@ void WorldInProcess::key(std::uint32_t player, df::Keyboard::Key key, df::EventK
 }
 
 void WorldInProcess::mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x,
-                           int y, const df::Seen& seen) {
+                           int y, const df::ViewedTick& seen) {
   m_world.mouse(player, action, button, x, y, seen);
 }
 
@@ -50,11 +50,11 @@ const df::WorldView& WorldInProcess::view() const {
 
 // Only a game that asked for it pays for the memory.
 void WorldInProcess::published(const Publisher& publisher) {
-  if (m_world.isLookingBack() != m_look_back.has_value()) {
-    m_world.isLookingBack() ? static_cast<void>(m_look_back.emplace()) : m_look_back.reset();
-    m_world.setHindsight(m_look_back ? &*m_look_back : nullptr);
+  if (m_world.isLookingBack() != m_lag_compensator.has_value()) {
+    m_world.isLookingBack() ? static_cast<void>(m_lag_compensator.emplace()) : m_lag_compensator.reset();
+    m_world.setLagCompensation(m_lag_compensator ? &*m_lag_compensator : nullptr);
   }
-  if (m_look_back) m_look_back->note(publisher, m_world.view());
+  if (m_lag_compensator) m_lag_compensator->note(publisher, m_world.view());
 }
 
 std::vector<std::uint32_t> WorldInProcess::takeLeavers() {

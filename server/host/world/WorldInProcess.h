@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "host/snapshot/LookBack.h"
+#include "host/snapshot/LagCompensator.h"
 #include "host/world/WorldPort.h"
 
 namespace df {
@@ -24,7 +24,7 @@ class WorldInProcess : public WorldPort {
   void leave(std::uint32_t player) override;
   void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) override;
   void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x, int y,
-             const df::Seen& seen) override;
+             const df::ViewedTick& seen) override;
   void setHeard(std::uint32_t player) override;
   void endGame() override;
   bool isReady() const override { return true; }
@@ -38,7 +38,7 @@ class WorldInProcess : public WorldPort {
 
  private:
   df::World& m_world;
-  std::optional<LookBack> m_look_back;  ///< while the game wants it
+  std::optional<LagCompensator> m_lag_compensator;  ///< while the game wants it
 };
 
 }  // namespace naiad

@@ -9,7 +9,7 @@ namespace {
 
 using Input = df::InputQueue::Input;
 
-constexpr std::size_t kMostName = 4 * kMaxNameLength;
+constexpr std::size_t kMaxName = 4 * kMaxNameLength;
 
 template <class F, class T>
 void visitSeen(F& f, T& seen) {
@@ -24,7 +24,7 @@ void visitInput(F& f, T& input) {
   f.number(input.player);
   switch (input.kind) {
     case df::InputQueue::kJoin:
-      f.text(input.name, kMostName);
+      f.text(input.name, kMaxName);
       return f.number(input.color, df::BLACK, df::WHITE);
     case df::InputQueue::kLeave:
       return;

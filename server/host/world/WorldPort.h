@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/world/Hindsight.h"
+#include "engine/world/LagCompensation.h"
 #include "engine/world/WorldView.h"
 #include "shared/values/Canvas.h"
 #include "shared/values/Color.h"
@@ -45,7 +45,7 @@ class WorldPort {
   virtual void leave(std::uint32_t player) = 0;
   virtual void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) = 0;
   virtual void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x,
-                     int y, const df::Seen& seen) = 0;
+                     int y, const df::ViewedTick& seen) = 0;
   /// From the next tick on only this player's input comes; 0: everybody's.
   virtual void setHeard(std::uint32_t player) = 0;
   /// The game is to be over at the end of the next tick.

@@ -16,7 +16,7 @@ namespace naiad {
 namespace {
 
 /// Between two looks no more time than this counts.
-constexpr std::chrono::milliseconds kMostBetweenLooks{100};
+constexpr std::chrono::milliseconds kMaxBetweenLooks{100};
 
 std::string nameOf(int signal) {
   const char* p_name = sigabbrev_np(signal);
@@ -63,7 +63,7 @@ void WorldProcess::key(std::uint32_t player, df::Keyboard::Key key, df::EventKey
 }
 
 void WorldProcess::mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x,
-                         int y, const df::Seen& seen) {
+                         int y, const df::ViewedTick& seen) {
   if (!takesInput()) return;
   m_turn.inputs.push_back({.kind = df::InputQueue::kMouse,
                            .player = player,
@@ -183,7 +183,7 @@ void WorldProcess::look(std::uint32_t tick) {
   if (!m_began) m_next_tick = std::max(tick, 1u);
   if (m_state == State::kEnded) return;
   const Clock::time_point now = Clock::now();
-  m_waited += std::min<std::chrono::nanoseconds>(now - m_looked, kMostBetweenLooks);
+  m_waited += std::min<std::chrono::nanoseconds>(now - m_looked, kMaxBetweenLooks);
   m_looked = now;
   if (int status = 0; m_process > 0 && waitpid(m_process, &status, WNOHANG) == m_process) {
     m_process = -1;

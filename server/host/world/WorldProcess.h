@@ -28,7 +28,7 @@ class WorldProcess : public WorldPort {
   /// From the end of the game to that of its process: what main() does after GM.run().
   static constexpr std::chrono::seconds kEndTime{1};
   /// Keys and clicks that wait for a world, at most; those beyond are dropped.
-  static constexpr std::size_t kMostInputs = 16'384;
+  static constexpr std::size_t kMaxInputs = 16'384;
 
   /// Takes over the process and the socket. `home` runs its handlers.
   WorldProcess(asio::io_context& home, const StartedWorld& started);
@@ -41,7 +41,7 @@ class WorldProcess : public WorldPort {
   void leave(std::uint32_t player) override;
   void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) override;
   void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x, int y,
-             const df::Seen& seen) override;
+             const df::ViewedTick& seen) override;
   void setHeard(std::uint32_t player) override { m_turn.heard_player = player; }
   void endGame() override { m_turn.ends_game = true; }
   bool isReady() const override { return m_state == State::kReady; }
@@ -70,7 +70,7 @@ class WorldProcess : public WorldPort {
     kEnded,
   };
 
-  bool takesInput() const { return m_state < State::kEnding && m_turn.inputs.size() < kMostInputs; }
+  bool takesInput() const { return m_state < State::kEnding && m_turn.inputs.size() < kMaxInputs; }
   void readHead();
   void readFields();
   void onFrame();

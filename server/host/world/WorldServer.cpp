@@ -69,7 +69,7 @@ void WorldServer::run(df::World& world) {
     goes_on = answer(*turn, world) && !world.isGameOver();
   }
   world.setGameOver();
-  world.setHindsight(nullptr);
+  world.setLagCompensation(nullptr);
   close();
 }
 
@@ -102,15 +102,15 @@ void WorldServer::lookBack(const WorldTurn& turn, df::World& world) {
   const bool wanted = turn.watched && world.isLookingBack();
   if (wanted == m_publisher.has_value()) return;
   wanted ? static_cast<void>(m_publisher.emplace()) : m_publisher.reset();
-  m_look_back = LookBack();
-  world.setHindsight(wanted ? &m_look_back : nullptr);
+  m_lag_compensator = LagCompensator();
+  world.setLagCompensation(wanted ? &m_lag_compensator : nullptr);
   world.setWatched(false);  // so that it is told from the beginning
 }
 
 bool WorldServer::answer(const WorldTurn& turn, df::World& world) {
   if (m_publisher) {
     m_publisher->update(world.view());
-    m_look_back.note(*m_publisher, world.view());
+    m_lag_compensator.note(*m_publisher, world.view());
   }
   WorldAnswer answer;
   answer.game_over = world.isGameOver();

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/world/Runner.h"
-#include "host/snapshot/LookBack.h"
+#include "host/snapshot/LagCompensator.h"
 #include "host/snapshot/Publisher.h"
 #include "host/world/WorldMessages.h"
 
@@ -38,7 +38,7 @@ class WorldServer : public df::Runner {
   // A game that looks back asks in the middle of a tick, so what clients have been told is worked out here,
   // too.
   std::optional<Publisher> m_publisher;
-  LookBack m_look_back;
+  LagCompensator m_lag_compensator;
 };
 
 }  // namespace naiad

@@ -16,17 +16,17 @@ using naiad::physics::BodyMedium;
 using naiad::physics::BodyRow;
 using naiad::physics::Vec2;
 
-constexpr double kLeastMass = 1e-30;
-constexpr double kMost = 1e30;
+constexpr double kMinMass = 1e-30;
+constexpr double kMax = 1e30;
 
 bool isUsable(double value) {
-  return std::abs(value) <= kMost;  // not if it is no number
+  return std::abs(value) <= kMax;  // not if it is no number
 }
 bool isUsable(Vector v) {
   return isUsable(v.x()) && isUsable(v.y());
 }
 bool isUsableSize(double value) {
-  return value >= 0 && value <= kMost;
+  return value >= 0 && value <= kMax;
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ void Body::absorb() const {
 }
 
 int Body::setMass(double mass) {
-  if (!(mass >= kLeastMass && mass <= kMost)) return refuseAs("setMass");
+  if (!(mass >= kMinMass && mass <= kMax)) return refuseAs("setMass");
   row().mass = mass;
   row().inverse_mass = row().is_kinematic ? 0 : 1 / mass;
   m_table->joints.markChanged();

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/world/EventCollision.h"
-#include "engine/world/Hearing.h"
+#include "engine/world/InterestDispatch.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/Body.h"
 #include "physics/body/EventContactEnd.h"

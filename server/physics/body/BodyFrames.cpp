@@ -21,7 +21,7 @@ constexpr double kHair = 1.0 / 1024;
 constexpr double kThin = 1.1;
 constexpr double kTurn = 6.283185307179586;
 /// Of all frames of a turn together: what is heavier gets no name on the wire.
-constexpr std::size_t kMostWeight = 4096;
+constexpr std::size_t kMaxWeight = 4096;
 
 /// Column and row; ordered by rows, as they are written.
 struct Cell {
@@ -340,7 +340,7 @@ TurnFrames drawTurn(std::span<const ConvexShape> shapes, double aspect, const Fr
   if (symmetry == 0 || style.how == df::BodyDrawing::NONE) count = 1;
   for (;; count = (count + 1) / 2) {
     turn.frames = Sequence(drawFrames(shapes, aspect, style, count, turn.repeats));
-    const bool fits = turn.frames.weight() <= kMostWeight && encodedBits(turn.frames) <= 8 * kMaxLookBytes;
+    const bool fits = turn.frames.weight() <= kMaxWeight && encodedBits(turn.frames) <= 8 * kMaxLookBytes;
     if (fits || count == 1) return turn;
   }
 }

@@ -21,8 +21,8 @@ using naiad::physics::Place;
 using naiad::physics::Rotation;
 using naiad::physics::Vec2;
 
-constexpr int kMostRounds = 100;  // then nobody looks any farther
-constexpr double kRoom = 0.25;    // around what a body reaches by itself, metric cells
+constexpr int kMaxRounds = 100;  // then nobody looks any farther
+constexpr double kRoom = 0.25;   // around what a body reaches by itself, metric cells
 
 Vec2 sizeOf(Vec2 a) {
   return {std::fabs(a.x), std::fabs(a.y)};
@@ -190,7 +190,7 @@ void BodyImpacts::step(World& world, const BodyTable& table, std::vector<BodyPla
   for (int round = 0;; ++round) {
     const double left = 1 - done;
     for (Entrant& entrant : m_entrants) {
-      const bool looks = entrant.body.inverse_mass > 0 && round < kMostRounds;
+      const bool looks = entrant.body.inverse_mass > 0 && round < kMaxRounds;
       if (looks) look(world, table, entrant, left, round == 0 ? 1 : 2);
     }
     takeObstacles(world, table, contacts);

@@ -13,10 +13,10 @@ namespace {
 using naiad::physics::BodyJoints;
 using naiad::physics::JointKind;
 
-constexpr double kMost = 1e30;
+constexpr double kMax = 1e30;
 
 bool isSize(double value) {
-  return value >= 0 && value <= kMost;
+  return value >= 0 && value <= kMax;
 }
 
 bool isOneOf(JointKind kind, JointKind first, JointKind second, JointKind third) {
@@ -85,8 +85,7 @@ int Joint::setStiffness(double stiffness, double damping) {
 
 int Joint::setSpeed(double speed) {
   BodyJoints::Entry* p_entry = find();
-  if (p_entry == nullptr || p_entry->joint.kind != JointKind::kMotor || !(std::abs(speed) <= kMost))
-    return -1;
+  if (p_entry == nullptr || p_entry->joint.kind != JointKind::kMotor || !(std::abs(speed) <= kMax)) return -1;
   p_entry->joint.speed = speed;
   ++p_entry->tunings;
   return 0;

@@ -29,7 +29,7 @@ using naiad::physics::IntegratorStatus;
 using naiad::physics::Vec2;
 
 constexpr double kFarthest = 1e12;  // in a tick: displacements that no place can take are beyond the world
-constexpr double kMostSpin = 1e6;
+constexpr double kMaxSpin = 1e6;
 constexpr const char* kBeyond = "it has left all bounds of place or velocity";
 
 bool takesPart(const WorldStore& store, ObjectKey key) {
@@ -195,7 +195,7 @@ void BodyLayer::turnAlone(Plan& plan) {
   const double gain =
       unit_inertia > 0 ? m_table->row(plan.index).inverse_mass / unit_inertia * form.torque : 0;
   plan.spin = form.spin + gain;
-  if (std::abs(plan.spin) <= kMostSpin) plan.rotation = turned(form.rotation, form.spin + 0.5 * gain);
+  if (std::abs(plan.spin) <= kMaxSpin) plan.rotation = turned(form.rotation, form.spin + 0.5 * gain);
 }
 
 void BodyLayer::settle(World& world, Plan& plan) {
@@ -203,7 +203,7 @@ void BodyLayer::settle(World& world, Plan& plan) {
   if (!is_on_joints && plan.turns_alone) turnAlone(plan);
   if (plan.p_failure != nullptr) return quarantine(world, plan, plan.p_failure);
   const auto velocity = toFixed(m_table->metric.toCells(plan.velocity), kMaxVelocityCells);
-  const bool is_sound = velocity && m_table->metric.isInRange(plan.place) && std::abs(plan.spin) <= kMostSpin;
+  const bool is_sound = velocity && m_table->metric.isInRange(plan.place) && std::abs(plan.spin) <= kMaxSpin;
   if (!is_sound) return quarantine(world, plan, kBeyond);
   BodyRow& row = m_table->row(plan.index);
   row.place = plan.place;

@@ -118,14 +118,14 @@ int Body::setDrawing(BodyDrawing drawing, char32_t ch, Color color) {
 }
 
 int Body::setDrawing(const std::vector<std::string>& rows, Color color) {
-  constexpr std::size_t kMostSide = 128;
+  constexpr std::size_t kMaxSide = 128;
   FrameStyle style;
   style.how = BodyDrawing::SPRITE;
   style.color = color;
-  bool good = !rows.empty() && rows.size() <= kMostSide && color >= BLACK && color <= WHITE;
+  bool good = !rows.empty() && rows.size() <= kMaxSide && color >= BLACK && color <= WHITE;
   for (const std::string& row : rows) {
     style.rows.push_back(decodeUtf8(row));
-    good = good && style.rows.back().size() <= kMostSide &&
+    good = good && style.rows.back().size() <= kMaxSide &&
            std::all_of(style.rows.back().begin(), style.rows.back().end(), isDrawable);
   }
   if (!good) return refuseAs("setDrawing");

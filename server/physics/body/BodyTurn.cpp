@@ -20,8 +20,8 @@ using Part = naiad::physics::ConvexShape;  // df::Shape is what spriteless Objec
 using naiad::physics::ShapeStatus;
 using naiad::physics::Vec2;
 
-constexpr double kMostAngle = 1e6;
-constexpr double kMost = 1e30;
+constexpr double kMaxAngle = 1e6;
+constexpr double kMax = 1e30;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ BodyForm& Body::form() const {
 void Body::fitBox() {
   const BodyForm& its = form();
   if (its.shapes.empty()) return;
-  Vec2 lower = {kMost, kMost}, upper = {-kMost, -kMost};
+  Vec2 lower = {kMax, kMax}, upper = {-kMax, -kMax};
   for (const Part& shape : its.shapes) {
     naiad::physics::TurnedShape turned;
     turn(shape, its.rotation, turned);
@@ -118,7 +118,7 @@ int Body::addCircle(double radius, Vector centre) {
 }
 
 int Body::addBoxShape(double width, double height, Vector centre, double angle) {
-  if (!(std::abs(angle) <= kMostAngle)) return refuseAs("addBoxShape");
+  if (!(std::abs(angle) <= kMaxAngle)) return refuseAs("addBoxShape");
   const Vec2 half = 0.5 * m_table->metric.fromCells({width, height});
   Part shape;
   const ShapeStatus status =
@@ -147,7 +147,7 @@ bool Body::isTurning() const {
 }
 
 int Body::setAngle(double angle) {
-  if (!(std::abs(angle) <= kMostAngle)) return refuseAs("setAngle");
+  if (!(std::abs(angle) <= kMaxAngle)) return refuseAs("setAngle");
   form().rotation = naiad::physics::rotationBy(angle);
   fitBox();
   return 0;
@@ -158,7 +158,7 @@ double Body::getAngle() const {
 }
 
 int Body::setSpin(double spin) {
-  if (!(std::abs(spin) <= kMostAngle)) return refuseAs("setSpin");
+  if (!(std::abs(spin) <= kMaxAngle)) return refuseAs("setSpin");
   form().spin = spin;
   return 0;
 }
@@ -174,7 +174,7 @@ double Body::getInertia() const {
 
 int Body::applyTorque(double torque) {
   const double sum = form().torque + torque;
-  if (!(std::abs(torque) <= kMost && std::abs(sum) <= kMost)) return refuseAs("applyTorque");
+  if (!(std::abs(torque) <= kMax && std::abs(sum) <= kMax)) return refuseAs("applyTorque");
   form().torque = sum;
   return 0;
 }
@@ -187,7 +187,7 @@ int Body::applyImpulseAt(Vector impulse, Vector where) {
   const double inertia = getInertia();
   const double spin =
       getSpin() + (turns && inertia > 0 ? cross(arm, m_table->metric.fromCells(impulse)) / inertia : 0);
-  if (!(std::abs(spin) <= kMostAngle)) return refuseAs("applyImpulseAt");
+  if (!(std::abs(spin) <= kMaxAngle)) return refuseAs("applyImpulseAt");
   if (applyImpulse(impulse) != 0) return -1;
   if (turns) form().spin = spin;
   return 0;

@@ -15,10 +15,10 @@ namespace naiad::physics {
 
 class Metric {
  public:
-  static constexpr double kLeastAspect = 0.25;
-  static constexpr double kMostAspect = 4;
+  static constexpr double kMinAspect = 0.25;
+  static constexpr double kMaxAspect = 4;
 
-  /// `aspect`: height of a cell over its width, kLeastAspect … kMostAspect. Where it is a whole number, or a
+  /// `aspect`: height of a cell over its width, kMinAspect … kMaxAspect. Where it is a whole number, or a
   /// half or a quarter, conversions are exact, and a scene that is moved by whole cells goes on as it did.
   explicit Metric(double aspect = 2)
       : m_aspect(aspect), m_per_aspect(isPowerOfTwo(aspect) ? 1 / aspect : 0) {}

@@ -13,7 +13,7 @@ using naiad::physics::BodyTable;
 using naiad::physics::IntegratorOptions;
 using naiad::physics::Metric;
 
-constexpr double kMost = 1e30;
+constexpr double kMax = 1e30;
 
 BodyTable& table() {
   return *BodyLayer::of(World::current()).table();
@@ -37,7 +37,7 @@ PhysicsManager& PhysicsManager::getInstance() {
 }
 
 int PhysicsManager::setGravity(Vector gravity) {
-  if (!(std::abs(gravity.x()) <= kMost && std::abs(gravity.y()) <= kMost)) {
+  if (!(std::abs(gravity.x()) <= kMax && std::abs(gravity.y()) <= kMax)) {
     World::current().refuse(getType(), "setGravity");
     return -1;
   }
@@ -50,7 +50,7 @@ Vector PhysicsManager::getGravity() const {
 }
 
 int PhysicsManager::setAspect(double aspect) {
-  const bool good = aspect >= Metric::kLeastAspect && aspect <= Metric::kMostAspect;
+  const bool good = aspect >= Metric::kMinAspect && aspect <= Metric::kMaxAspect;
   if (!good || !table().inOrder().empty() || table().soft_bodies > 0) {
     World::current().refuse(getType(), "setAspect");
     return -1;
@@ -79,7 +79,7 @@ const IntegratorOptions& PhysicsManager::getIntegrator() const {
 }
 
 int PhysicsManager::setObstacleFriction(double friction) {
-  if (!(friction >= 0 && friction <= kMost)) {
+  if (!(friction >= 0 && friction <= kMax)) {
     World::current().refuse(getType(), "setObstacleFriction");
     return -1;
   }

@@ -12,8 +12,8 @@ namespace {
 
 using Cell = SoftDrawn::Cell;
 
-constexpr int kMostSteps = 2000;  // of one line, and rows of a filling
-constexpr std::size_t kMostCells = 8000;
+constexpr int kMaxSteps = 2000;  // of one line, and rows of a filling
+constexpr std::size_t kMaxCells = 8000;
 
 // By how steep it is on the screen; the borders are at 22.5° and 67.5°.
 char32_t lineChar(Vec2 way) {
@@ -38,7 +38,7 @@ class Pen {
     const df::Vector from = m_points[at(a)], way = m_points[at(b)] - from;
     const char32_t ch = m_drawn.ch != 0 ? m_drawn.ch : lineChar(m_metric.fromCells(way));
     const double longer = std::max(std::fabs(way.x()), std::fabs(way.y()));
-    const int steps = static_cast<int>(std::min(std::ceil(longer), static_cast<double>(kMostSteps)));
+    const int steps = static_cast<int>(std::min(std::ceil(longer), static_cast<double>(kMaxSteps)));
     for (int i = 0; i <= steps; ++i) {
       const double part = steps > 0 ? static_cast<double>(i) / steps : 0;
       m_drawn.cells.push_back({cellOf(from.x() + part * way.x()), cellOf(from.y() + part * way.y()), ch});
@@ -52,7 +52,7 @@ class Pen {
       low = std::min(low, m_points[at(node)].y());
       high = std::max(high, m_points[at(node)].y());
     }
-    if (!(high - low <= kMostSteps)) return;
+    if (!(high - low <= kMaxSteps)) return;
     for (std::int64_t y = cellOf(low); y <= cellOf(high); ++y) fillRow(boundary, y);
   }
 
@@ -70,7 +70,7 @@ class Pen {
     std::sort(m_crossings.begin(), m_crossings.end());
     for (std::size_t i = 0; i + 1 < m_crossings.size(); i += 2) {
       const double first = std::ceil(m_crossings[i]), last = std::floor(m_crossings[i + 1]);
-      if (!(last - first <= kMostSteps)) continue;
+      if (!(last - first <= kMaxSteps)) continue;
       for (double x = first; x <= last; ++x) {
         m_drawn.cells.push_back({static_cast<std::int64_t>(x), y, m_drawn.ch != 0 ? m_drawn.ch : U'#'});
       }
@@ -109,7 +109,7 @@ void redraw(SoftDrawn& drawn, const SoftBody& body, const Metric& metric) {
   std::stable_sort(drawn.cells.begin(), drawn.cells.end(), isBefore);
   const auto isSame = [](const Cell& a, const Cell& b) { return a.y == b.y && a.x == b.x; };
   drawn.cells.erase(std::unique(drawn.cells.begin(), drawn.cells.end(), isSame), drawn.cells.end());
-  if (drawn.cells.size() > kMostCells) drawn.cells.resize(kMostCells);
+  if (drawn.cells.size() > kMaxCells) drawn.cells.resize(kMaxCells);
 }
 
 int put(const SoftDrawn& drawn) {

@@ -27,7 +27,7 @@ using naiad::physics::SoftTable;
 using naiad::physics::SoftWorld;
 using naiad::physics::Vec2;
 
-constexpr double kMostSpin = 1e6;
+constexpr double kMaxSpin = 1e6;
 // The sub-steps change an obstacle's velocity first, and then move it: so it is half a sub-step ahead.
 constexpr double kAhead = 0.5 / SoftWorld::kDefaultSubsteps;
 
@@ -245,7 +245,7 @@ void SoftMeetings::push(World& world, const BodyLayer& bodies, BodyTable& table,
   const Vec2 end = obstacle.velocity + obstacle.acceleration + gain;
   const naiad::physics::Place place = obstacle.place + (obstacle.displacement - kAhead * end);
   const bool is_sound = toFixed(metric.toCells(velocity), kMaxVelocityCells) && metric.isInRange(place) &&
-                        std::fabs(spin) <= kMostSpin;
+                        std::fabs(spin) <= kMaxSpin;
   if (!is_sound) return;
   row.velocity = velocity;
   row.place = place;

@@ -21,11 +21,11 @@ using naiad::physics::SoftPull;
 using naiad::physics::SoftSeat;
 using naiad::physics::Vec2;
 
-constexpr double kMostRatio = 1e6;
-constexpr double kMostForce = 1e9;
+constexpr double kMaxRatio = 1e6;
+constexpr double kMaxForce = 1e9;
 
 bool isUsable(Vector v) {
-  return std::fabs(v.x()) <= kMostForce && std::fabs(v.y()) <= kMostForce;  // not if it is no number
+  return std::fabs(v.x()) <= kMaxForce && std::fabs(v.y()) <= kMaxForce;  // not if it is no number
 }
 
 std::size_t at(int node) {
@@ -101,19 +101,19 @@ double SoftBody::getMass() const {
 }
 
 int SoftBody::setGravityScale(double scale) {
-  if (m_id < 0 || !(std::fabs(scale) <= kMostRatio)) return refuseAs("setGravityScale");
+  if (m_id < 0 || !(std::fabs(scale) <= kMaxRatio)) return refuseAs("setGravityScale");
   seat().gravity_scale = scale;
   m_table->wake(m_id);
   return 0;
 }
 
 int SoftBody::setFriction(double friction) {
-  if (!(friction >= 0 && friction <= kMostRatio)) return refuseAs("setFriction");
+  if (!(friction >= 0 && friction <= kMaxRatio)) return refuseAs("setFriction");
   return change([friction](naiad::physics::SoftBody& body) { body.friction = friction; });
 }
 
 int SoftBody::setDrag(double drag) {
-  if (!(drag >= 0 && drag <= kMostRatio)) return refuseAs("setDrag");
+  if (!(drag >= 0 && drag <= kMaxRatio)) return refuseAs("setDrag");
   return change([drag](naiad::physics::SoftBody& body) { body.drag = drag; });
 }
 
@@ -238,7 +238,7 @@ int SoftBody::detach(int node) {
 
 int SoftBody::grab(Vector where, double strength) {
   const int node = getNearestNode(where);
-  if (node < 0 || !(strength >= 0 && strength <= kMostForce)) return refuseAs("grab");
+  if (node < 0 || !(strength >= 0 && strength <= kMaxForce)) return refuseAs("grab");
   release();
   SoftHand hand;
   hand.attachment = m_table->world().attach({m_id, node, SoftLayer::handOf(m_id), {}});

@@ -20,7 +20,7 @@ struct GridBounds {
 
 inline constexpr std::int64_t kGridUnits = 16;
 /// Bounds end here, whatever they are of: 2^48 cells from the body's own.
-inline constexpr double kMostGridUnits = 0x1p52;
+inline constexpr double kMaxGridUnits = 0x1p52;
 
 constexpr bool overlap(const GridBounds& a, const GridBounds& b) {
   return a.lower_x <= b.upper_x && b.lower_x <= a.upper_x && a.lower_y <= b.upper_y && b.lower_y <= a.upper_y;
@@ -42,8 +42,8 @@ constexpr std::int64_t perimeter(const GridBounds& a) {
 /// A body hit so hard that it is about to be frozen may ask for any.
 inline GridBounds gridBounds(const Place& place, const Bounds& bounds, double margin) {
   const auto whole = [](double units) {
-    const double bound = units < kMostGridUnits ? units : kMostGridUnits;  // also where that is no number
-    return static_cast<std::int64_t>(bound > -kMostGridUnits ? bound : -kMostGridUnits);
+    const double bound = units < kMaxGridUnits ? units : kMaxGridUnits;  // also where that is no number
+    return static_cast<std::int64_t>(bound > -kMaxGridUnits ? bound : -kMaxGridUnits);
   };
   const auto down = [&whole](double x) { return whole(std::floor(x * kGridUnits)); };
   const auto up = [&whole](double x) { return whole(std::ceil(x * kGridUnits)); };

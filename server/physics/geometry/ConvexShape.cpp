@@ -151,18 +151,18 @@ ShapeStatus makePolygon(std::span<const Vec2> points, double radius, ConvexShape
 }
 
 ShapeStatus makeHull(std::span<const Vec2> points, double radius, ConvexShape& shape) {
-  constexpr std::size_t kMost = 4096;
+  constexpr std::size_t kMax = 4096;
   if (points.empty()) return ShapeStatus::kTooFew;
-  if (points.size() > kMost) return ShapeStatus::kTooMany;
+  if (points.size() > kMax) return ShapeStatus::kTooMany;
   for (const Vec2 p : points) {
     if (!isFinite(p)) return ShapeStatus::kNotFinite;
     if (std::max(std::fabs(p.x), std::fabs(p.y)) > kLargestShape) return ShapeStatus::kTooLarge;
   }
-  std::array<Vec2, kMost> sorted;
+  std::array<Vec2, kMax> sorted;
   const std::span<Vec2> all(sorted.data(), points.size());
   std::copy(points.begin(), points.end(), all.begin());
   std::sort(all.begin(), all.end(), [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  std::array<Vec2, 2 * kMost> hull;
+  std::array<Vec2, 2 * kMax> hull;
   std::size_t count = halfHull(all, hull) - 1;
   std::reverse(all.begin(), all.end());
   count += halfHull(all, std::span<Vec2>(hull).subspan(count)) - 1;

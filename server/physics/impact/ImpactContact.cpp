@@ -22,7 +22,7 @@ bool ImpactWorld::isSoft(int a, int b, const Meeting& meeting) const {
   const double bounce = restitution * meeting.approach;
   if (bounce <= meeting.rest_speed) return true;
   if (restitution < 1 &&
-      (m_motions[a].events_at_once > kMostAtOnce || m_motions[b].events_at_once > kMostAtOnce)) {
+      (m_motions[a].events_at_once > kMaxAtOnce || m_motions[b].events_at_once > kMaxAtOnce)) {
     return true;  // nothing has moved since: the height left is none
   }
   double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, meeting.touch.normal);

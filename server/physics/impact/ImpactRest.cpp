@@ -12,7 +12,7 @@ constexpr double kRegular = 1e-12;  // of a row's own coupling, so that equal ro
 constexpr int kFrictionRounds = 200;
 constexpr int kSweeps = 400;
 constexpr int kRefinements = 10;
-constexpr int kMostStored = 4'000'000;  // of the factor; 32 MB
+constexpr int kMaxStored = 4'000'000;  // of the factor; 32 MB
 
 }  // namespace
 
@@ -72,7 +72,7 @@ bool RestSolver::factorise() {
     m_skyline[k] = first;
     m_start[k] = stored - first;
     stored += k - first + 1;
-    if (stored > kMostStored) return false;
+    if (stored > kMaxStored) return false;
   }
   m_factor.assign(stored, 0.0);
   for (int k = 0; k < count; ++k) {

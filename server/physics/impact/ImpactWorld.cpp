@@ -282,7 +282,7 @@ void ImpactWorld::handle(const Pending& pending) {
     if (motion.last_event != pending.time) motion.events_at_once = 0;
     motion.last_event = pending.time;
     ++motion.events_at_once;
-    if (++motion.events > kMostEvents) freeze(id);
+    if (++motion.events > kMaxEvents) freeze(id);
   }
   if (!m_motions[a].is_frozen && !m_motions[b].is_frozen) {
     if (pending.kind == Kind::kImpact) collide(a, b, pending.axis, pending.time);

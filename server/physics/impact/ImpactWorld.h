@@ -48,11 +48,11 @@ enum class ImpactStatus : std::uint8_t {
 class ImpactWorld {
  public:
   /// More events than this for one body in one tick, and it is frozen where it is.
-  static constexpr int kMostEvents = 1'000'000;
+  static constexpr int kMaxEvents = 1'000'000;
   /// A bounce that would not rise higher than this (cells) ends in rest.
   static constexpr double kRestHeight = 1e-11;
   /// Nor does one that follows so many others of the same body in the same moment, unless it is elastic.
-  static constexpr int kMostAtOnce = 32;
+  static constexpr int kMaxAtOnce = 32;
 
   /// Two bodies that were put into one another deeper than this pass until they have parted. (What cannot be
   /// pushed lets nobody deeper in.)

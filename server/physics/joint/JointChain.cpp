@@ -7,7 +7,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMostIterations = 25;
+constexpr int kMaxIterations = 25;
 constexpr int kFree = 3;           // iterations whose rate does not matter
 constexpr double kSlow = 0.4;      // a worse rate gives up
 constexpr double kCertain = 0.02;  // of the tolerance: what is foreseen to be below it is not looked at
@@ -122,7 +122,7 @@ JointChain::Status JointChain::project() {
 bool JointChain::newton(double h, std::uint64_t& iterations) {
   const double to_impulse = -1 / h;
   double last = 0;
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     double worst = 0, sum = 0, rest = 0;
     const Node* node = m_nodes.data();
     Pair place = node->before + h * node->velocity;

@@ -14,10 +14,10 @@ constexpr double kSlow = 1e-9;     // per unit of time: who meets more slowly do
 constexpr double kInstant = 1e-9;  // times less apart than this are one moment
 constexpr double kMeets = 1e-13;   // of a gap, where it counts as found
 constexpr double kStride = 0.25;   // of the reach: how far two move between two looks
-constexpr int kMostLooks = 256;
+constexpr int kMaxLooks = 256;
 constexpr int kTries = 8;
-constexpr int kMostImpacts = 256;  // in a step, and so many more for each pair
-constexpr int kMostPerPair = 16;
+constexpr int kMaxImpacts = 256;  // in a step, and so many more for each pair
+constexpr int kMaxPerPair = 16;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -160,7 +160,7 @@ int JointImpacts::findMeeting(std::span<const JointBody> bodies, double left, do
     const double radius = pair.reach + m_floor[at(i)] - kSink;
     if (length(from) - way > radius) continue;
     const double looks = std::ceil(way / (kStride * pair.reach)) + 1;
-    if (!(looks <= kMostLooks)) return -2;
+    if (!(looks <= kMaxLooks)) return -2;
     const Path path(from, rate, to, to_rate);
     const double met = path.firstBelow(radius * radius, static_cast<int>(looks));
     if (met >= first_time) continue;
@@ -259,7 +259,7 @@ void JointImpacts::strike(int index, std::span<JointBody> bodies, std::span<Join
 
 // All impacts of one moment, the hardest first, then by order; `forced` has met though it may be slow.
 bool JointImpacts::strikeAll(std::span<JointBody> bodies, std::span<Joint> joints, double now, int forced) {
-  const std::size_t most = kMostImpacts + kMostPerPair * m_pairs.size();
+  const std::size_t most = kMaxImpacts + kMaxPerPair * m_pairs.size();
   while (m_impacts.size() <= most) {
     int hardest = -1;
     double greatest = kSlow;

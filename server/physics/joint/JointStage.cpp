@@ -9,11 +9,11 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMostIterations = 25;
-constexpr int kMostHalvings = 5;
+constexpr int kMaxIterations = 25;
+constexpr int kMaxHalvings = 5;
 constexpr int kFree = 3;       // iterations whose rate does not matter
 constexpr double kSlow = 0.4;  // a worse rate gives up
-constexpr int kMostActiveSets = 16;
+constexpr int kMaxActiveSets = 16;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -102,7 +102,7 @@ bool JointIsland::newton(double h, JointCounters& counters) {
   const int rows = static_cast<int>(m_rows.size());
   const double to_impulse = -1 / h;
   double last = kNoLimit;
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     move(h);
     evaluate<false>();
     double worst = 0;
@@ -156,7 +156,7 @@ bool JointIsland::changeActiveSet(double h, bool may_clamp) {
 }
 
 bool JointIsland::positions(double h, JointCounters& counters) {
-  for (int pass = 0; pass < kMostActiveSets; ++pass) {
+  for (int pass = 0; pass < kMaxActiveSets; ++pass) {
     if (!m_is_smooth || !m_is_factored) factor(true, counters);
     if (pass > 0) {
       m_velocity = m_kicked;
@@ -164,7 +164,7 @@ bool JointIsland::positions(double h, JointCounters& counters) {
     }
     apply(m_multiplier.data());
     if (!newton(h, counters)) return false;
-    if (m_one_sided.empty() || !changeActiveSet(h, pass < kMostActiveSets / 2)) return true;
+    if (m_one_sided.empty() || !changeActiveSet(h, pass < kMaxActiveSets / 2)) return true;
   }
   ++counters.unsettled;
   return true;
@@ -177,7 +177,7 @@ void JointIsland::projectVelocities(JointCounters& counters) {
     m_kicked = m_velocity;
     m_spin_kicked = m_spin;
   }
-  for (int pass = 0; pass < kMostActiveSets; ++pass) {
+  for (int pass = 0; pass < kMaxActiveSets; ++pass) {
     factor(false, counters);
     const std::uint8_t* is_out = m_is_smooth ? m_is_out.data() : m_is_out_second.data();
     std::fill(m_second.begin(), m_second.end(), 0.0);
@@ -249,7 +249,7 @@ bool JointIsland::stage(double h, JointCounters& counters) {
 bool JointIsland::advance(double h, int depth, JointCounters& counters) {
   if (m_is_beyond) return regularisedStage(h, counters);
   if (stage(h, counters)) return true;
-  if (depth == kMostHalvings) return regularisedStage(h, counters);
+  if (depth == kMaxHalvings) return regularisedStage(h, counters);
   ++counters.halved;
   return advance(0.5 * h, depth + 1, counters) && advance(0.5 * h, depth + 1, counters);
 }

@@ -70,9 +70,9 @@ std::array<Body*, 10> Ragdoll::parts() const {
 }
 
 Ragdoll makeRagdoll(Vector where, double height, double mass, Color color) {
-  constexpr double kMost = 1e4;
-  if (!(height > 0 && height <= kMost)) height = 8;
-  if (!(mass > 0 && mass <= kMost * kMost)) mass = 8;
+  constexpr double kMax = 1e4;
+  if (!(height > 0 && height <= kMax)) height = 8;
+  if (!(mass > 0 && mass <= kMax * kMax)) mass = 8;
   const Maker make(where, height, mass, color);
   Ragdoll figure;
   figure.p_trunk = make.box(kTrunk, 1);

@@ -41,7 +41,7 @@ bool isUsable(const StateVector<N>& y) {
 namespace extrapolation {
 
 inline constexpr int kColumns = 8;
-inline constexpr int kMostSubsteps = 2 * kColumns;
+inline constexpr int kMaxSubsteps = 2 * kColumns;
 
 /// Row i (of 2(i + 1) sub-steps) is corrected in column j by its difference to the row before, times
 /// 1 / ((n_i / n_(i−1−j))² − 1).
@@ -162,7 +162,7 @@ class Step {
   const IntegratorOptions& m_options;
   int m_columns = 0;
   std::array<StateVector<N>, kColumns> m_row;  // the last row of the table: the step's way in column 1, 2 …
-  std::array<StateVector<N>, kMostSubsteps> m_slope;  // of the last row, at its sub-steps but the ends
+  std::array<StateVector<N>, kMaxSubsteps> m_slope;  // of the last row, at its sub-steps but the ends
   std::array<double, kColumns + 1> m_errors{};
 };
 

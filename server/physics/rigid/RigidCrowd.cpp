@@ -11,7 +11,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr std::uint32_t kMostOthers = 12;  // discs of one size that touch a disc are six
+constexpr std::uint32_t kMaxOthers = 12;  // discs of one size that touch a disc are six
 
 }  // namespace
 
@@ -24,13 +24,13 @@ bool RigidWorld::areHeaped(const Pair& pair) const {
 
 // A pair is passed over if for both it is one of too many, and neither has it among its nearest.
 void RigidWorld::thinCrowds() {
-  if (m_pairs.size() <= kMostOthers) return;
+  if (m_pairs.size() <= kMaxOthers) return;
   m_others.assign(m_bodies.size(), 0);
   std::uint32_t most = 0;
   for (const Pair& pair : m_pairs) {
     most = std::max({most, ++m_others[at(pair.a)], ++m_others[at(pair.b)]});
   }
-  if (most <= kMostOthers) return;
+  if (most <= kMaxOthers) return;
   m_others.assign(m_bodies.size(), 0);
   for (const Pair& pair : m_pairs) {
     if (!areHeaped(pair)) continue;
@@ -40,7 +40,7 @@ void RigidWorld::thinCrowds() {
   m_choices.clear();
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(m_pairs.size()); ++i) {
     Pair& pair = m_pairs[at(i)];
-    if (m_others[at(pair.a)] <= kMostOthers || m_others[at(pair.b)] <= kMostOthers || !areHeaped(pair))
+    if (m_others[at(pair.a)] <= kMaxOthers || m_others[at(pair.b)] <= kMaxOthers || !areHeaped(pair))
       continue;
     const double square = lengthSquared(m_bodies[at(pair.b)].place - m_bodies[at(pair.a)].place);
     // Of those in the same place everybody begins with another one.
@@ -55,7 +55,7 @@ void RigidWorld::thinCrowds() {
   std::uint32_t chosen = 0;
   for (std::size_t i = 0; i < m_choices.size(); ++i) {
     chosen = i > 0 && m_choices[i].by == m_choices[i - 1].by ? chosen + 1 : 0;
-    if (chosen >= kMostOthers || !m_pairs[at(m_choices[i].pair)].is_passed) continue;
+    if (chosen >= kMaxOthers || !m_pairs[at(m_choices[i].pair)].is_passed) continue;
     m_pairs[at(m_choices[i].pair)].is_passed = false;
     --m_counters.passed;
   }

@@ -9,8 +9,8 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kLeastWait = 8;  // steps after one that led to nothing, twice as many each time …
-constexpr int kMostWait = 256;
+constexpr int kMinWait = 8;  // steps after one that led to nothing, twice as many each time …
+constexpr int kMaxWait = 256;
 constexpr double kSmallCost = 1e4;  // … at more than so many multiplications
 // Of the speed that half a sub-step adds: what a sweep may still change …
 constexpr double kSpeedError = 1e-6;
@@ -103,7 +103,7 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
   Extra& extra = m_extras[at(island.root)];
   const auto giveUp = [&] {
     extra.budget = 0;
-    extra.wait = extra.patience = std::clamp(2 * extra.patience, kLeastWait, kMostWait);
+    extra.wait = extra.patience = std::clamp(2 * extra.patience, kMinWait, kMaxWait);
     return false;
   };
   const double cost = m_direct.order() + 100.0 * static_cast<double>(rows.size());

@@ -9,7 +9,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kMostPush = 2;   // of the thinner body, per tick: how fast overlap is undone at most
+constexpr double kMaxPush = 2;    // of the thinner body, per tick: how fast overlap is undone at most
 constexpr double kSlop = 1e-8;    // of the thinner body: overlap that is left
 constexpr double kLinger = 0.01;  // of the thinner body: a gap that does not end a contact
 
@@ -117,7 +117,7 @@ ContactConstraint& RigidWorld::addConstraint(int a, int b) {
   c.friction = std::sqrt(one.friction * other.friction);
   c.restitution = std::max(one.restitution, other.restitution);
   const double thickness = std::min(m_extras[at(a)].thickness, m_extras[at(b)].thickness);
-  c.most_push = kMostPush * thickness;
+  c.most_push = kMaxPush * thickness;
   c.slop = kSlop * thickness;
   c.may_fly = !m_extras[at(a)].is_in_crowd && !m_extras[at(b)].is_in_crowd;
   return c;

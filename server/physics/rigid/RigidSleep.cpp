@@ -13,7 +13,7 @@ enum : std::uint8_t { kIsHeld = 1, kIsDriven = 2, kIsAdrift = 4 };
 constexpr double kDirectBudget = 5000;  // multiplications per constraint and sub-step
 constexpr int kCrowd = 32;              // bodies
 constexpr double kCreep = 1e-6;         // cells per tick that a group at rest may gain while it is watched
-constexpr double kLeastKick = 1e-5;     // cells per tick
+constexpr double kMinKick = 1e-5;       // cells per tick
 
 }  // namespace
 
@@ -104,7 +104,7 @@ void RigidWorld::gatherIslands(bool is_first) {
   for (const int id : m_active) {
     Island& island = m_islands[at(m_island_of[at(rootOf(id))])];
     m_island_bodies[at(island.first_body + island.bodies++)] = id;
-    island.kick = std::max(island.kick, length(m_states[at(id)].kick) + kLeastKick);
+    island.kick = std::max(island.kick, length(m_states[at(id)].kick) + kMinKick);
   }
   for (std::size_t i = 0; i < constraints_now.size(); ++i) {
     Island& island = m_islands[at(ofConstraint(m_constraints[i]))];

@@ -10,7 +10,7 @@ namespace naiad::physics {
 namespace {
 
 constexpr double kFarthest = 1e9;  // in one step; beyond it times of impact are not known
-constexpr double kMostTurn = 1e9;  // rad, likewise
+constexpr double kMaxTurn = 1e9;   // rad, likewise
 constexpr double kSlack = 0.02;    // of its thickness, how far around a body is looked in any case
 constexpr int kPushSweeps = 8;     // where there are joints
 constexpr int kCrowdPushSweeps = 2;
@@ -34,7 +34,7 @@ void RigidWorld::beginBody(int id, double dt) {
   const Vec2 way = dt * body.velocity + (0.5 * dt * dt) * acceleration;
   const double angle = dt * (std::fabs(body.spin) + 0.5 * dt * std::fabs(spin_gain));
   const double gained = dt * dt * (std::fabs(acceleration.x) + std::fabs(acceleration.y));
-  if (!(std::fabs(way.x) + std::fabs(way.y) + gained < kFarthest && angle < kMostTurn)) {
+  if (!(std::fabs(way.x) + std::fabs(way.y) + gained < kFarthest && angle < kMaxTurn)) {
     freeze(id);
     return;
   }

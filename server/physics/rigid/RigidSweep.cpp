@@ -10,13 +10,13 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMostImpacts = 64;  // of a body in a sub-step; then it waits for the next one
-constexpr int kMostBounces = 32;  // then it bounces no more
-constexpr double kMostTurn = 40;  // rad in a sub-step that are looked at
-constexpr double kTouch = 1e-6;   // of the thinner body: within this gap an impact is one
+constexpr int kMaxImpacts = 64;  // of a body in a sub-step; then it waits for the next one
+constexpr int kMaxBounces = 32;  // then it bounces no more
+constexpr double kMaxTurn = 40;  // rad in a sub-step that are looked at
+constexpr double kTouch = 1e-6;  // of the thinner body: within this gap an impact is one
 constexpr int kImpactSweeps = 8;
-constexpr double kLanded = 0.5;    // of its thickness: how far a body goes at most after it has landed
-constexpr double kMostRoll = 0.5;  // of the thinner body: how far its corners go before others may touch
+constexpr double kLanded = 0.5;   // of its thickness: how far a body goes at most after it has landed
+constexpr double kMaxRoll = 0.5;  // of the thinner body: how far its corners go before others may touch
 
 }  // namespace
 
@@ -82,13 +82,13 @@ void RigidWorld::forecastPair(int one, int other, double h) {
     const Rotation rotation = poseAt(id, start, h).turn * m_bodies[at(id)].rotation;
     if (flight != nullptr && flight->is_held) return {{}, rotation, 0};
     const double time = left * (flight != nullptr ? flight->part : m_extras[at(id)].part);
-    return {time * s.velocity, rotation, std::clamp(time * s.spin, -kMostTurn, kMostTurn)};
+    return {time * s.velocity, rotation, std::clamp(time * s.spin, -kMaxTurn, kMaxTurn)};
   };
   // Of what has turned far since the step began, other corners come to touch than those that were found then.
   const bool is_bending =
       (flight_a != nullptr && flight_a->is_bending) || (flight_b != nullptr && flight_b->is_bending);
   const bool has_turned =
-      is_bending || of_a.rolled + of_b.rolled > kMostRoll * std::min(of_a.thickness, of_b.thickness);
+      is_bending || of_a.rolled + of_b.rolled > kMaxRoll * std::min(of_a.thickness, of_b.thickness);
   // At the start of the step they were farther apart than they were looked around for, if nothing keeps them
   // apart now. Have they come nearer by more than that?
   if (!has_met && !has_turned && of_a.is_restless == of_b.is_restless) {
@@ -183,8 +183,8 @@ void RigidWorld::meet(const Impact& impact, double h) {
   if (c.kind == ContactKind::kFaceA) c.first_normal = inverse(one.turn) * c.first_normal;
   if (c.kind == ContactKind::kFaceB) c.first_normal = inverse(other.turn) * c.first_normal;
   refresh(c, m_states);
-  strike(c, most > kMostBounces ? 0 : c.restitution, impact.time);
-  if (most > kMostImpacts) giveUp();
+  strike(c, most > kMaxBounces ? 0 : c.restitution, impact.time);
+  if (most > kMaxImpacts) giveUp();
   for (const int id : {a, b}) {
     if (isMovable(id) && m_extras[at(id)].is_in_crowd) land(id, h);
   }

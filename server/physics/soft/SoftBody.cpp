@@ -22,7 +22,7 @@ bool isLoad(double x) {
 
 bool isSound(const SoftBody& body) {
   const int count = static_cast<int>(body.nodes.size());
-  if (count < 1 || count > kMostSoftNodes || body.boundary.size() > body.nodes.size()) return false;
+  if (count < 1 || count > kMaxSoftNodes || body.boundary.size() > body.nodes.size()) return false;
   const auto isNode = [count](int i) { return i >= 0 && i < count; };
   bool is_sound = std::fabs(body.place.dx) <= 1 && std::fabs(body.place.dy) <= 1 && body.radius >= 1e-6 &&
                   isSmall(body.radius) && isLoad(body.friction) && isLoad(body.drag) &&

@@ -43,7 +43,7 @@ struct SoftBend {
 
 struct SoftBody {
   Place place;
-  std::vector<SoftNode> nodes;  ///< 1 … kMostSoftNodes
+  std::vector<SoftNode> nodes;  ///< 1 … kMaxSoftNodes
   std::vector<SoftStretch> stretches;
   std::vector<SoftBend> bends;
   /// What others touch: nodes in order, with straight lines between neighbours. Closed, it has an inside, and
@@ -59,7 +59,7 @@ struct SoftBody {
   double rest_area = 0;  ///< > 0 if there is pressure or bulk
 };
 
-inline constexpr int kMostSoftNodes = 4096;
+inline constexpr int kMaxSoftNodes = 4096;
 inline constexpr double kLargestSoft = 1e12;  ///< of sizes, speeds, masses, forces and stiffness
 
 /// May it be taken in? Everything finite and within kLargestSoft, indices in range, nothing of zero size.

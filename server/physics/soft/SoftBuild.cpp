@@ -11,7 +11,7 @@ std::size_t at(int i) {
 }
 
 bool isCount(int count) {
-  return count >= 1 && count <= kMostSoftNodes;
+  return count >= 1 && count <= kMaxSoftNodes;
 }
 
 void connect(SoftBody& body, int a, int b, double ea) {

@@ -106,7 +106,7 @@ void findCorners(const SoftView& soft, int segment, const SoftPose& rigid, int s
     SoftRow row = rowAgainst(rigid, body, origin + lever + shape.radius * out, out);
     row.a = {soft.id, {nodes[0], nodes[1]}, {1 - t, t}};
     row.gaps[0] = gap;
-    row.key = keyOf(soft.id, kMostSoftNodes + segment, rigid.obstacle->id, 32 * (shape_index + 1) + i);
+    row.key = keyOf(soft.id, kMaxSoftNodes + segment, rigid.obstacle->id, 32 * (shape_index + 1) + i);
     rows.push_back(row);
   }
 }

@@ -32,7 +32,7 @@ bool SoftCrowd::findContacts(const std::vector<SoftView>& views, std::size_t whi
                              std::vector<SoftRow>& rows) {
   const SoftView& view = views[which];
   gather(views, which);
-  const std::size_t most = std::max<std::size_t>(kMostOthers, view.body->boundary.size() / 2);
+  const std::size_t most = std::max<std::size_t>(kMaxOthers, view.body->boundary.size() / 2);
   const bool is_crowded = m_others.size() > most;
   if (is_crowded) {
     const auto isNearer = [](const Other& a, const Other& b) {

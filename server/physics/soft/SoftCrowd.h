@@ -16,7 +16,7 @@ class SoftCrowd {
  public:
   /// So many others, or half as many as its own nodes if that is more, make a crowd of one; as many contacts
   /// of its nodes with them count.
-  static constexpr int kMostOthers = 8;
+  static constexpr int kMaxOthers = 8;
 
   /// Appends the contacts of the nodes of `views[which]` with the other bodies. False if it is in a crowd,
   /// and some were left out.

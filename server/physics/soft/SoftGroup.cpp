@@ -8,9 +8,9 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMostIterations = 12;
+constexpr int kMaxIterations = 12;
 /// With contacts an iteration costs more, and the next sub-step makes good what is left.
-constexpr int kMostContactIterations = 4;
+constexpr int kMaxContactIterations = 4;
 /// Offsets are found to this part of a radius, and with contacts or attachments to that.
 constexpr double kTolerance = 1e-9;
 constexpr double kContactTolerance = 1e-6;
@@ -100,7 +100,7 @@ void SoftWorld::solveGroups(double h) {
 bool SoftWorld::solveGroup(double h) {
   const bool is_touched = std::any_of(m_group_rows.begin(), m_group_rows.end(),
                                       [](const SoftRow* row) { return !row->is_attachment; });
-  const int most = is_touched ? kMostContactIterations : kMostIterations;
+  const int most = is_touched ? kMaxContactIterations : kMaxIterations;
   bool is_settled = false;
   for (int i = 0; i < most && !is_settled; ++i) {
     if (!iterate(h, is_settled)) return false;

@@ -7,10 +7,10 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMostSweeps = 60;
+constexpr int kMaxSweeps = 60;
 /// In a crowd there are fewer: no more than so many rows are settled, but eight sweeps always are.
-constexpr int kMostSettlings = 40'000;
-constexpr int kLeastSweeps = 8;
+constexpr int kMaxSettlings = 40'000;
+constexpr int kMinSweeps = 8;
 /// Sweeps end when no force moves its row by more than this part of a radius …
 constexpr double kSettled = 1e-7;
 /// … and are counted as failed if one still moves by more than this.
@@ -18,7 +18,7 @@ constexpr double kNearlySettled = 1e-4;
 /// What is too deep comes out by this part of its depth in a sub-step, and by no more than this part of a
 /// radius.
 constexpr double kRecovery = 0.2;
-constexpr double kMostRecovery = 0.02;
+constexpr double kMaxRecovery = 0.02;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -116,7 +116,7 @@ double SoftRowSolver::fixedGap(const Scene& scene, const SoftRow& row, int axis)
   }
   if (row.is_attachment || axis == 1) return gap;
   const double depth = std::max(0.0, -row.gaps[0]);
-  const double recovered = std::min(kRecovery * depth, kMostRecovery * scene.bodies[at(row.a.body)].radius);
+  const double recovered = std::min(kRecovery * depth, kMaxRecovery * scene.bodies[at(row.a.body)].radius);
   return gap + (depth - recovered);
 }
 
@@ -168,8 +168,8 @@ bool SoftRowSolver::solve(const Scene& scene, const std::vector<int>& group, std
       push(scene, *row, axis, row->forces[axis]);
     }
   }
-  const int affordable = kMostSettlings / std::max(1, static_cast<int>(rows.size()));
-  const int sweeps = std::clamp(affordable, kLeastSweeps, kMostSweeps);
+  const int affordable = kMaxSettlings / std::max(1, static_cast<int>(rows.size()));
+  const int sweeps = std::clamp(affordable, kMinSweeps, kMaxSweeps);
   double most = 1e300;
   for (int i = 0; i < sweeps && most > kSettled * scale; ++i) {
     most = 0;

@@ -54,13 +54,13 @@ class LinkEcho {
   using Time = LinkPing::Time;
 
   /// Longer held ones are not worth an answer.
-  static constexpr std::chrono::milliseconds kMostHeld{255};
+  static constexpr std::chrono::milliseconds kMaxHeld{255};
 
   void note(std::uint8_t token, Time now) { m_waiting = {token, now}; }
   /// What the packet that is sent now shall carry.
   std::optional<LinkPing::Echo> take(Time now) {
     const auto waiting = std::exchange(m_waiting, std::nullopt);
-    if (!waiting || now - waiting->second > kMostHeld) return std::nullopt;
+    if (!waiting || now - waiting->second > kMaxHeld) return std::nullopt;
     const auto held = std::chrono::floor<std::chrono::milliseconds>(now - waiting->second);
     return LinkPing::Echo{waiting->first, static_cast<std::uint8_t>(held.count())};
   }

@@ -15,8 +15,8 @@ constexpr int kIterations = 10;
 constexpr double kRamp = 1e5;    // β: how penalties grow with what they miss
 constexpr double kKept = 0.99;   // α: of an error at the start, not undone in this step
 constexpr double kDecay = 0.99;  // γ: of multipliers and penalties from step to step
-constexpr double kLeastPenalty = 1e3;
-constexpr double kMostPenalty = 1e9;
+constexpr double kMinPenalty = 1e3;
+constexpr double kMaxPenalty = 1e9;
 constexpr double kMargin = 5e-4;    // m of overlap in which contacts live
 constexpr double kSticking = 0.01;  // m
 
@@ -105,13 +105,13 @@ class Avbd : public ContactSolver {
         contact.normal = {rowOf(-pair.normal, arms.a),
                           rowOf(pair.normal, arms.b),
                           point.gap + kMargin,
-                          std::clamp(point.normal_penalty * kDecay, kLeastPenalty, kMostPenalty),
+                          std::clamp(point.normal_penalty * kDecay, kMinPenalty, kMaxPenalty),
                           point.normal_impulse * kKept * kDecay,
                           0};
         contact.tangent = {rowOf(-tangent, arms.a),
                            rowOf(tangent, arms.b),
                            dot(between, tangent),
-                           std::clamp(point.tangent_penalty * kDecay, kLeastPenalty, kMostPenalty),
+                           std::clamp(point.tangent_penalty * kDecay, kMinPenalty, kMaxPenalty),
                            point.tangent_impulse * kKept * kDecay,
                            0};
         m_bodies[at(pair.a)].contacts.push_back(static_cast<int>(m_contacts.size()));
@@ -217,7 +217,7 @@ class Avbd : public ContactSolver {
     if (std::abs(contact.tangent.force) < most) grow(contact.tangent);
   }
   static void grow(Constraint& constraint) {
-    constraint.penalty = std::min(constraint.penalty + kRamp * std::abs(constraint.value), kMostPenalty);
+    constraint.penalty = std::min(constraint.penalty + kRamp * std::abs(constraint.value), kMaxPenalty);
   }
 
   std::vector<Moving> m_bodies;

@@ -21,7 +21,7 @@ namespace {
 // A run that takes less is repeated on fresh copies of the scene until it does not: the clock's own reading
 // takes a quarter of a microsecond.
 constexpr double kShortestRunNs = 400000;
-constexpr int kMostCopies = 256;
+constexpr int kMaxCopies = 256;
 
 double runNs(const Case& its_case, const Method& method, int substeps, int copies) {
   const Scene scene = paceOf(method, its_case.scene, substeps).scene;
@@ -36,7 +36,7 @@ double runNs(const Case& its_case, const Method& method, int substeps, int copie
 
 CpuTime timeRuns(const Case& its_case, const Method& method, int substeps, int runs) {
   const double first = runNs(its_case, method, substeps, 1);  // warms up, too
-  const int copies = std::clamp(static_cast<int>(kShortestRunNs / std::max(first, 1.0)), 1, kMostCopies);
+  const int copies = std::clamp(static_cast<int>(kShortestRunNs / std::max(first, 1.0)), 1, kMaxCopies);
   std::vector<double> times;
   for (int i = 0; i < runs; ++i) {
     times.push_back(runNs(its_case, method, substeps, copies) * 1e-3 / its_case.scene.ticks);

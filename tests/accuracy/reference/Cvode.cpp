@@ -14,7 +14,7 @@ namespace lab {
 
 namespace {
 
-constexpr long kMostStepsPerTick = 50000000;
+constexpr long kMaxStepsPerTick = 50000000;
 
 int rateOf(double t, N_Vector y, N_Vector rates, void* user) {
   static_cast<const OdeFunctions*>(user)->rate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rates));
@@ -64,7 +64,7 @@ std::vector<std::vector<double>> solveByCvode(const OdeFunctions& functions, con
   demand(CVodeSStolerances(session.memory, options.relative, options.absolute), "tolerances");
   OdeFunctions copy = functions;
   demand(CVodeSetUserData(session.memory, &copy), "user data");
-  demand(CVodeSetMaxNumSteps(session.memory, kMostStepsPerTick), "steps");
+  demand(CVodeSetMaxNumSteps(session.memory, kMaxStepsPerTick), "steps");
   session.matrix = SUNDenseMatrix(n, n, session.context);
   session.solver = SUNLinSol_Dense(session.y, session.matrix, session.context);
   demand(CVodeSetLinearSolver(session.memory, session.solver, session.matrix), "solver");

@@ -28,7 +28,7 @@ class Extrapolation {
   /// Goes on to time `end`.
   void advance(Quad end) {
     while (m_t < end) {
-      if (++m_steps > kMostSteps) throw std::runtime_error("extrapolation takes too many steps");
+      if (++m_steps > kMaxSteps) throw std::runtime_error("extrapolation takes too many steps");
       const bool last = m_t + m_h >= end;
       const Quad h = last ? end - m_t : m_h;
       State next;
@@ -58,7 +58,7 @@ class Extrapolation {
   static constexpr int kColumns = 10;
   static constexpr double kTolerance = 1e-16;
   static constexpr double kNearlyZero = 1e-8;
-  static constexpr long kMostSteps = 1000000;
+  static constexpr long kMaxSteps = 1000000;
 
   static Quad parts(int row, bool stiff) { return stiff ? row + 1 : 2 * (row + 1); }
 

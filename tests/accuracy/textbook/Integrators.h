@@ -46,7 +46,7 @@ class Integrator : public Simulation {
  private:
   static constexpr std::size_t kN = System::kDimension;
   static constexpr std::size_t kHalf = kN / 2;
-  static constexpr int kMostIterations = 20;
+  static constexpr int kMaxIterations = 20;
   static constexpr double kConverged = 1e-13;
   using State = std::array<double, kN>;
 
@@ -148,7 +148,7 @@ class Integrator : public Simulation {
 
   // Newton for y - d f(t, y) = known, from y on.
   void solve(double t, double d, const State known, State& y) {
-    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
       const State rates = rate(t, y);
       Matrix<double, System::kDimension> matrix = jacobianOf(m_system, t, y.data());
       State correction;

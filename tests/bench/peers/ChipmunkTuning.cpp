@@ -13,7 +13,7 @@ namespace bench {
 
 namespace {
 
-constexpr int kMostObjects = 100'000;
+constexpr int kMaxObjects = 100'000;
 constexpr int kObjectTurns = 200'000;  // per trial
 
 int ticksFor(const Scene& scene) {
@@ -55,7 +55,7 @@ ChipmunkTuning tryAll(const Scene& scene) {
 
 ChipmunkTuning tuneChipmunk(const Scene& scene) {
   static std::map<std::tuple<Mix, double, int>, ChipmunkTuning> s_known;
-  const int n = std::min(scene.count(), kMostObjects);
+  const int n = std::min(scene.count(), kMaxObjects);
   const auto [known, is_new] = s_known.try_emplace({scene.mix, scene.density, n});
   if (is_new) {
     known->second = tryAll(n == scene.count() ? scene : Scene(scene.mix, n, scene.density));

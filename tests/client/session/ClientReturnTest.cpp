@@ -100,7 +100,7 @@ TEST_F(ClientReturn, AWorldEpochOutOfRangeIsRefused) {
   expectRejected();
 }
 
-TEST_F(ClientReturn, KeptFramesAreTakenOnceAndAcknowledged) {
+TEST_F(ClientReturn, ReliableFramesAreTakenOnceAndAcknowledged) {
   join();
   receive(line("one", 1));
   receive(line("two", 2));

@@ -47,7 +47,7 @@ TEST(InputOutbox, GoesOnAfterTheIdsOfAnotherProcess) {
 TEST(InputOutbox, HasRoomLeftForKeysThatGoUp) {
   InputOutbox outbox;
   while (!outbox.isFull(false)) outbox.add({});
-  EXPECT_EQ(outbox.all().size(), InputOutbox::kMost);
+  EXPECT_EQ(outbox.all().size(), InputOutbox::kMax);
   EXPECT_FALSE(outbox.isFull(true));
   while (!outbox.isFull(true)) outbox.add({});
   EXPECT_EQ(outbox.all().size(), kMaxUpdateInputs);

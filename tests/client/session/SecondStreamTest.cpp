@@ -147,17 +147,17 @@ TEST_F(SecondStreamTest, OneThatLastedMayBeReplacedSoon) {
 }
 
 TEST_F(SecondStreamTest, OneThatIsSilentIsGivenUp) {
-  now += SecondStream::kSilence - 1ms;
+  now += SecondStream::kIdleTimer - 1ms;
   stream.update(now);
   EXPECT_FALSE(line.destroyed);
   line.say(yes());
   for (int i = 0; i < 5; ++i) {
-    now += SecondStream::kSilence - 1ms;
+    now += SecondStream::kIdleTimer - 1ms;
     stream.update(now);
     EXPECT_TRUE(stream.isOpen());
     line.say(snapshotMessage(1, 1));
   }
-  now += SecondStream::kSilence;
+  now += SecondStream::kIdleTimer;
   stream.update(now);
   EXPECT_FALSE(stream.isOpen());
   EXPECT_TRUE(line.destroyed);

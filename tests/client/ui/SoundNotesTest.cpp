@@ -34,7 +34,7 @@ TEST_F(SoundNotesTest, ANoteIsSeenForAMoment) {
 
 TEST_F(SoundNotesTest, NotesDoNotFlicker) {
   hear("fire");
-  now += SoundNotes::kLeast - 1ms;
+  now += SoundNotes::kMin - 1ms;
   hear("boom");
   EXPECT_EQ(note(), "sound: fire");
   now += 1ms;

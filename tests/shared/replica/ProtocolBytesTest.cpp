@@ -196,7 +196,7 @@ TEST(ProtocolBytes, Version4StaysAsItIs) {
 
 // What is frozen must also be read as what it was.
 TEST(ProtocolBytes, TheExamplesAreReadAsTheyWereMeant) {
-  Vocabulary vocabulary;
+  SnapshotDictionary vocabulary;
   vocabulary.define(2, OriginRecord{1, kConfirmed});
   Snapshot snapshot;
   ASSERT_EQ(readSnapshot(exampleSnapshot(), {2, 99, 1}, vocabulary, snapshot), ReadResult::kOk);

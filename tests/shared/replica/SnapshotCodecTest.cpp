@@ -17,7 +17,7 @@ using test::RandomRecords;
 using test::writeSnapshot;
 
 ReadResult read(std::string_view bytes, const SnapshotContext& context, Snapshot& out) {
-  return readSnapshot(bytes, context, Vocabulary{}, out);
+  return readSnapshot(bytes, context, SnapshotDictionary{}, out);
 }
 
 SnapshotHeader header(std::uint32_t number, std::uint32_t tick) {
@@ -71,7 +71,7 @@ TEST(SnapshotCodec, PositionsAndOrdersAreCountedFromAnOrigin) {
     const SnapshotHeader head = random.header();
     const OriginRecord origin = random.originRecord();
     const Records records = random.records(head.tick);
-    Vocabulary vocabulary;
+    SnapshotDictionary vocabulary;
     vocabulary.define(head.number - 1 == 0 ? 0xFFFFFFFF : head.number - 1, origin);
     const std::string bytes = writeSnapshot(head, records, origin.slot, origin.origin);
     Snapshot out;
@@ -167,7 +167,7 @@ TEST(SnapshotCodec, EverySingleBitFlipIsRefusedOrLegal) {
 
 TEST(SnapshotCodec, RandomBytesAreRefusedOrLegal) {
   RandomRecords random(15);
-  Vocabulary vocabulary;
+  SnapshotDictionary vocabulary;
   vocabulary.define(1, OriginRecord{1, random.origin()});
   vocabulary.define(1, SequenceRecord{0, {Appearance(3, Glyph{0, 0, U'x', df::RED})}});
   int accepted = 0;
@@ -244,7 +244,7 @@ TEST(SnapshotCodec, OrdersOutOfRangeAreRefused) {
     records.objects.push_back({1, 0, kAllGroups, {}});
     records.objects[0].state.order = order;
     records.objects[0].state.motion.tick = 5;
-    Vocabulary vocabulary;
+    SnapshotDictionary vocabulary;
     vocabulary.define(1, OriginRecord{1, {{}, 0, 0, 10}});
     Snapshot out;
     const std::string bytes = writeSnapshot(header(2, 5), records, 1, {{}, 0, 0, written_from});

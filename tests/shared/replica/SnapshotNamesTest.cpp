@@ -41,7 +41,7 @@ class SnapshotNames : public testing::Test {
   }
 
   SnapshotWriter writer;
-  Vocabulary vocabulary;
+  SnapshotDictionary vocabulary;
   Snapshot snapshot;
 
  private:
@@ -117,7 +117,7 @@ TEST_F(SnapshotNames, OriginsAreKnownStaleOrUnknown) {
   const Origin there{{10, 10}, 6, 4, 3};
   const std::string bytes = test::writeSnapshot(head, {}, 2, there);
   const auto readAfter = [&](std::uint32_t defined_by) {
-    Vocabulary origins;
+    SnapshotDictionary origins;
     if (defined_by != 0) origins.define(defined_by, OriginRecord{2, there});
     return readSnapshot(bytes, {50, 0, 0}, origins, snapshot);
   };

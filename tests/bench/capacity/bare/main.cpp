@@ -23,13 +23,13 @@
 namespace {
 
 constexpr std::size_t kBatch = 64;  // as naiad::kUdpBatch
-constexpr std::size_t kMost = 1200;
+constexpr std::size_t kMax = 1200;
 
 struct Packet {
   sockaddr_in6 to{};
   iovec part{};
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof(in6_pktinfo))];
-  char bytes[kMost];
+  char bytes[kMax];
 };
 
 /// From 127.0.0.1, as the server answers.
@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
   const int ticks = std::stoi(argv[4]);
   std::vector<std::size_t> sizes;
   std::ifstream size_file(folder + "/sizes");
-  for (std::size_t size = 0; size_file >> size;) sizes.push_back(std::min(size, kMost));
+  for (std::size_t size = 0; size_file >> size;) sizes.push_back(std::min(size, kMax));
   std::vector<std::string> endpoints;
   std::ifstream endpoint_file(folder + "/endpoints");
   for (std::string line; endpoint_file >> line;) endpoints.push_back(line);

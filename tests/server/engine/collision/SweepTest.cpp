@@ -12,14 +12,14 @@ namespace {
 // ---- Moments.
 
 TEST(Moments, AreComparedAsFractionsNotAsDoubles) {
-  constexpr std::uint64_t kMost = UINT64_MAX;
+  constexpr std::uint64_t kMax = UINT64_MAX;
   EXPECT_EQ((Moment{1, 2}), (Moment{3, 6}));
-  EXPECT_EQ((Moment{0, 1}), (Moment{0, kMost}));
-  EXPECT_EQ((Moment{kMost, kMost}), (Moment{1, 1}));
-  EXPECT_LT((Moment{kMost - 1, kMost}), (Moment{1, 1}));
-  EXPECT_LT((Moment{kMost - 2, kMost - 1}), (Moment{kMost - 1, kMost}));
-  EXPECT_GT((Moment{1, kMost - 1}), (Moment{1, kMost}));
-  EXPECT_LT((Moment{5, kMost}), (Moment{6, kMost}));
+  EXPECT_EQ((Moment{0, 1}), (Moment{0, kMax}));
+  EXPECT_EQ((Moment{kMax, kMax}), (Moment{1, 1}));
+  EXPECT_LT((Moment{kMax - 1, kMax}), (Moment{1, 1}));
+  EXPECT_LT((Moment{kMax - 2, kMax - 1}), (Moment{kMax - 1, kMax}));
+  EXPECT_GT((Moment{1, kMax - 1}), (Moment{1, kMax}));
+  EXPECT_LT((Moment{5, kMax}), (Moment{6, kMax}));
   EXPECT_EQ((Moment{1, 4}).toDouble(), 0.25);
 }
 

@@ -144,7 +144,7 @@ Comparison run(const RandomWorld& world, bool explain) {
   result.births = script.births();
   result.deaths = script.deaths();
   result.counters = oracle.counters();
-  result.paths = engine.paths();
+  result.paths = engine.moverStats();
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "Counters.h"
-#include "engine/collision/Paths.h"
+#include "engine/collision/MoverStats.h"
 
 namespace oracle {
 
@@ -25,7 +25,7 @@ struct Comparison {
   std::int64_t rooms_asked = 0;
   std::int64_t rooms_found = 0;
   Counters counters;
-  df::Paths paths;  ///< of the engine
+  df::MoverStats paths;  ///< of the engine
 };
 
 /// Run the world of `seed` in both and compare, after each tick, every event since the last and the state of

@@ -40,7 +40,7 @@ class EngineDriver : public Actor {
   bool getSweptCollisions() const override;
   Meeting firstContact(int id, FixedVector where) override;
   std::optional<FixedVector> findFree(FixedBox box, FixedVector near) override;
-  const df::Paths& paths() const { return m_world.paths(); }
+  const df::MoverStats& moverStats() const { return m_world.moverStats(); }
   void tick() override;
   std::vector<Snapshot> snapshot() const override;
 

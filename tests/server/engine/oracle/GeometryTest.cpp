@@ -22,7 +22,7 @@ bool isEqual(Time a, Time b) {
 
 /// A way, what moves along it and what it may meet.
 struct Case {
-  Way way;
+  SweepPath way;
   FixedBox box;
   Mask mask;
   FixedBox other;
@@ -168,7 +168,7 @@ TEST(GeometryTest, TheGapClosesIfItIsSmallerAMomentLater) {
 TEST(GeometryTest, WaysAreAsLongAsTheWorldIsWide) {
   const Fixed end = df::fromCells(2'000'000'000);
   const FixedBox character{{-df::kFixedOne / 2, -df::kFixedOne / 2}, {df::kFixedOne, df::kFixedOne}};
-  const Way way{{-end, -end}, {end, end}};
+  const SweepPath way{{-end, -end}, {end, end}};
   const auto time = firstTouch(
       way, character, translate(character, {end - 10 * df::kFixedOne, end - 10 * df::kFixedOne - 5}));
   ASSERT_TRUE(time);

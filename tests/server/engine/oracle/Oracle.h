@@ -121,15 +121,15 @@ class World {
   enum class Verdict { PASSES, HARD_BLOCK, SOFT_BLOCK, MOVES_OUT };
 
   int moveNow(Object* p_o, FixedVector where);
-  bool moveAtOnce(Object* p_o, const Way& way);
-  int moveSwept(Object* p_o, const Way& way);
-  HitList getHits(const Object* p_o, const Way& way);
-  std::optional<Time> hitTime(const Object* p_o, const Way& way, const Object* p_other);
+  bool moveAtOnce(Object* p_o, const SweepPath& way);
+  int moveSwept(Object* p_o, const SweepPath& way);
+  HitList getHits(const Object* p_o, const SweepPath& way);
+  std::optional<Time> hitTime(const Object* p_o, const SweepPath& way, const Object* p_other);
   bool isPrecise(const Object* p_o, const Object* p_other) const;
   bool shareCellAt(const Object* p_o, FixedVector where, const Object* p_other);
   void tellBoth(Object* p_o, Object* p_other, FixedVector where);
-  Verdict judge(const Object* p_o, const Object* p_other, const Way& way) const;
-  bool cutAtFirstBlock(HitList& hits, const Object* p_o, const Way& way) const;
+  Verdict judge(const Object* p_o, const Object* p_other, const SweepPath& way) const;
+  bool cutAtFirstBlock(HitList& hits, const Object* p_o, const SweepPath& way) const;
   void place(Object* p_o, FixedVector where);
   bool isInside(FixedVector position) const;
   bool isFree(const FixedBox& box) const;

@@ -73,13 +73,13 @@ Time nextCell(const Axis& axis, Time time) {
 
 // Both axes.
 
-FixedVector Way::at(Time time) const {
+FixedVector SweepPath::at(Time time) const {
   const Axis x{from.x, to.x};
   const Axis y{from.y, to.y};
   return {static_cast<Fixed>(x.after(x.gone(time))), static_cast<Fixed>(y.after(y.gone(time)))};
 }
 
-FixedVector Way::before(Time time) const {
+FixedVector SweepPath::before(Time time) const {
   const Axis x{from.x, to.x};
   const Axis y{from.y, to.y};
   return {static_cast<Fixed>(x.after(x.goneBefore(time))), static_cast<Fixed>(y.after(y.goneBefore(time)))};
@@ -97,7 +97,7 @@ Wide gap(const FixedBox& a, const FixedBox& b) {
   return *std::max_element(sides.begin(), sides.end());
 }
 
-bool closesGap(const FixedBox& box, const Way& way, const FixedBox& other) {
+bool closesGap(const FixedBox& box, const SweepPath& way, const FixedBox& other) {
   const Wide right = Wide{way.to.x} - way.from.x;
   const Wide down = Wide{way.to.y} - way.from.y;
   const std::array<Wide, 4> approaches{right, -right, down, -down};
@@ -109,7 +109,7 @@ bool closesGap(const FixedBox& box, const Way& way, const FixedBox& other) {
   return true;
 }
 
-static std::optional<Span> touchingSpan(const Way& way, const FixedBox& box, const FixedBox& other) {
+static std::optional<Span> touchingSpan(const SweepPath& way, const FixedBox& box, const FixedBox& other) {
   const Axis left{Wide{way.from.x} + box.corner.x, Wide{way.to.x} + box.corner.x};
   const Axis top{Wide{way.from.y} + box.corner.y, Wide{way.to.y} + box.corner.y};
   const auto x = touchingSpan(left, box.size.x, other.corner.x, Wide{other.corner.x} + other.size.x);
@@ -119,7 +119,7 @@ static std::optional<Span> touchingSpan(const Way& way, const FixedBox& box, con
   return both.begin < both.end ? std::optional(both) : std::nullopt;
 }
 
-std::optional<Time> firstTouch(const Way& way, const FixedBox& box, const FixedBox& other) {
+std::optional<Time> firstTouch(const SweepPath& way, const FixedBox& box, const FixedBox& other) {
   const auto span = touchingSpan(way, box, other);
   if (!span) return std::nullopt;
   const bool at_start = span->begin.numerator == 0;
@@ -128,8 +128,8 @@ std::optional<Time> firstTouch(const Way& way, const FixedBox& box, const FixedB
   return span->begin;
 }
 
-std::optional<Time> firstShare(const Way& way, const FixedBox& box, const Mask& mask, const FixedBox& other,
-                               const Mask& others_mask) {
+std::optional<Time> firstShare(const SweepPath& way, const FixedBox& box, const Mask& mask,
+                               const FixedBox& other, const Mask& others_mask) {
   const auto span = touchingSpan(way, box, other);
   if (!span) return std::nullopt;
   const auto share = [&](FixedVector position) {

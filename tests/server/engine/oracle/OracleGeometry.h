@@ -27,7 +27,7 @@ struct Time {
 };
 
 /// A move's straight way. At time t each coordinate has gone the whole units of its distance times t.
-struct Way {
+struct SweepPath {
   FixedVector from;
   FixedVector to;
 
@@ -48,13 +48,13 @@ Wide gap(const FixedBox& a, const FixedBox& b);
 
 /// Does the gap from `box`, relative to the position, to `other`, in world coordinates, shrink as soon as the
 /// move begins? It does if the move brings each side closer on which the boxes are as far apart as the gap.
-bool closesGap(const FixedBox& box, const Way& way, const FixedBox& other);
+bool closesGap(const FixedBox& box, const SweepPath& way, const FixedBox& other);
 
 /// When does `box`, relative to the position on its way, meet `other`, in world coordinates, by the boxes?
-std::optional<Time> firstTouch(const Way& way, const FixedBox& box, const FixedBox& other);
+std::optional<Time> firstTouch(const SweepPath& way, const FixedBox& box, const FixedBox& other);
 
 /// When do they meet by boxes and masks?
-std::optional<Time> firstShare(const Way& way, const FixedBox& box, const Mask& mask, const FixedBox& other,
-                               const Mask& others_mask);
+std::optional<Time> firstShare(const SweepPath& way, const FixedBox& box, const Mask& mask,
+                               const FixedBox& other, const Mask& others_mask);
 
 }  // namespace oracle

@@ -9,7 +9,7 @@ int World::moveNow(Object* p_o, FixedVector where) {
     p_o->position = where;
     return 0;
   }
-  const Way way{p_o->position, where};
+  const SweepPath way{p_o->position, where};
   if (p_o->isSolid()) {
     if (p_o->swept || m_swept_collisions) return moveSwept(p_o, way);
     if (!moveAtOnce(p_o, way)) return -1;
@@ -29,7 +29,7 @@ void World::tellBoth(Object* p_o, Object* p_other, FixedVector where) {
 }
 
 /// Does the other block the mover, as they are now?
-World::Verdict World::judge(const Object* p_o, const Object* p_other, const Way& way) const {
+World::Verdict World::judge(const Object* p_o, const Object* p_other, const SweepPath& way) const {
   // If both HARD, then cannot move.
   const bool hard_block = p_o->solidness == df::HARD && p_other->solidness == df::HARD;
   // If object does not want to move onto soft objects, don't move.
@@ -76,7 +76,7 @@ ObjectList World::getCollisions(const Object* p_o, FixedVector where) {
 }
 
 /// Return whether the move is allowed.
-bool World::moveAtOnce(Object* p_o, const Way& way) {
+bool World::moveAtOnce(Object* p_o, const SweepPath& way) {
   const ObjectList list = getCollisions(p_o, way.to);
   bool hard_block = false;
   bool soft_block = false;

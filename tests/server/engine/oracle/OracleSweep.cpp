@@ -6,7 +6,7 @@
 namespace oracle {
 
 /// When does the move meet the other, if it does?
-std::optional<Time> World::hitTime(const Object* p_o, const Way& way, const Object* p_other) {
+std::optional<Time> World::hitTime(const Object* p_o, const SweepPath& way, const Object* p_other) {
   const FixedBox others = p_other->getWorldBox(p_other->position);
   // Most are nowhere near.
   const FixedBox& box = p_o->box;
@@ -25,7 +25,7 @@ std::optional<Time> World::hitTime(const Object* p_o, const Way& way, const Obje
 }
 
 /// All whom the move meets, first those that it meets first, in creation order if that is at one time.
-World::HitList World::getHits(const Object* p_o, const Way& way) {
+World::HitList World::getHits(const Object* p_o, const SweepPath& way) {
   HitList hits;
   if (!p_o->active || !p_o->isSolid()) return hits;
   for (Object* p_other : m_updates) {
@@ -37,7 +37,7 @@ World::HitList World::getHits(const Object* p_o, const Way& way) {
 }
 
 /// Drop what comes later than the first time at which a pair blocks as things stand. Return whether one does.
-bool World::cutAtFirstBlock(HitList& hits, const Object* p_o, const Way& way) const {
+bool World::cutAtFirstBlock(HitList& hits, const Object* p_o, const SweepPath& way) const {
   const auto blocks = [&](const Hit& hit) {
     const Verdict verdict = judge(p_o, hit.p_other, way);
     return verdict == Verdict::HARD_BLOCK || verdict == Verdict::SOFT_BLOCK;
@@ -49,7 +49,7 @@ bool World::cutAtFirstBlock(HitList& hits, const Object* p_o, const Way& way) co
   return true;
 }
 
-int World::moveSwept(Object* p_o, const Way& way) {
+int World::moveSwept(Object* p_o, const SweepPath& way) {
   ++m_counters.swept_moves;
   ObjectList met;
   Time begin;
@@ -99,7 +99,7 @@ int World::moveSwept(Object* p_o, const Way& way) {
 
 /// Whom would the first search of a swept move find first?
 Contact World::firstContact(const Object* p_o, FixedVector where) {
-  const Way way{p_o->position, where};
+  const SweepPath way{p_o->position, where};
   const HitList hits = getHits(p_o, way);
   if (hits.empty()) return {nullptr, {1, 1}, where};
   return {hits.front().p_other, hits.front().time, way.before(hits.front().time)};

@@ -46,7 +46,7 @@ struct Sum : Comparison {
     ticks += one.ticks;
     objects += one.objects;
     largest = std::max(largest, one.largest);
-    for (const df::NamedPath& path : df::kPaths) paths.*path.count += one.paths.*path.count;
+    for (const df::NamedPath& path : df::kMoverStats) paths.*path.count += one.paths.*path.count;
     handled += one.handled;
     births += one.births;
     deaths += one.deaths;
@@ -121,10 +121,10 @@ void reportOptions(const Sum& sum) {
 /// Which of the engine's paths the worlds took, so that none goes untested: of all turns in update and all
 /// looks of the broad phase for them.
 void reportPaths(const Sum& sum) {
-  const df::Paths& n = sum.paths;
+  const df::MoverStats& n = sum.paths;
   const auto turns = static_cast<double>(n.flown + n.walked + n.met + n.deferred + n.special);
   std::printf("oracle paths turns=%.0f", turns);
-  for (const df::NamedPath& path : df::kPaths) {
+  for (const df::NamedPath& path : df::kMoverStats) {
     std::printf(" %s=%.2f%%", path.name, 100 * static_cast<double>(n.*path.count) / turns);
     if (sum.worlds >= kEnough) {
       EXPECT_GE(n.*path.count, 100) << path.name;

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <random>
 
+#include "engine/world/CollisionRule.h"
 #include "engine/world/HitList.h"
-#include "engine/world/Pair.h"
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
@@ -32,7 +32,7 @@ class Hits : public WorldTest {
     }
   }
 
-  std::vector<Hit> lookAtAll(const Object& mover, const Way& way, HitList::End end, Moment since,
+  std::vector<Hit> lookAtAll(const Object& mover, const SweepPath& way, HitList::End end, Moment since,
                              const KeySet& met) const {
     const WorldStore& store = world.store();
     std::vector<Hit> hits;
@@ -40,7 +40,7 @@ class Hits : public WorldTest {
     for (const Object* p : objects) {
       const ObjectKey key = p->key();
       if (p == &mover || !store.collides(key.slot) || met.contains(key)) continue;
-      const Pair pair(store, mover.key().slot, key.slot);
+      const CollisionRule pair(store, mover.key().slot, key.slot);
       const auto moment = pair.firstMeeting(way.sweep());
       if (!moment || *moment < since) continue;
       hits.push_back({*moment, store.order(key.slot), key});
@@ -57,7 +57,7 @@ class Hits : public WorldTest {
   void compare(Object& mover, FixedVector to, HitList::End end) {
     const WorldStore& store = world.store();
     const ObjectKey key = mover.key();
-    const Way way(store.box(key.slot), store.position(key.slot), to);
+    const SweepPath way(store.box(key.slot), store.position(key.slot), to);
     Moment since;
     KeySet met;
     for (int stage = 0; stage < 4; ++stage) {

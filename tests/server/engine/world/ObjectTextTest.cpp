@@ -130,7 +130,7 @@ TEST_F(ObjectText, NoWayIsTold) {
   EXPECT_TRUE(findPath(walker, Vector(1e9, 0)).getPath().empty());
 }
 
-TEST_F(ObjectText, PathsCountTheirNodes) {
+TEST_F(ObjectText, MoverStatsCountTheirNodes) {
   Path path;
   EXPECT_EQ(path.nextNode(), Vector(-1, -1));
   EXPECT_TRUE(path.endOfPath());

@@ -2,7 +2,7 @@
 
 #include "engine/events/EventKeyboard.h"
 #include "engine/events/EventMouse.h"
-#include "engine/world/Hindsight.h"
+#include "engine/world/LagCompensation.h"
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
@@ -17,18 +17,18 @@ Names names(const ObjectList& list) {
 }
 
 /// Everything was drawn ten cells to the left of where it is, but for what is listed as not seen.
-class TenToTheLeft : public Hindsight {
+class TenToTheLeft : public LagCompensation {
  public:
   explicit TenToTheLeft(const World& world) : m_world(world) {}
-  std::optional<FixedVector> positionOf(ObjectKey object, const Seen& seen) const override {
+  std::optional<FixedVector> positionOf(ObjectKey object, const ViewedTick& seen) const override {
     last = seen;
     if (object == hidden) return std::nullopt;
     return toFixed(m_world.find(object)->getPosition() - Vector(10, 0));
   }
-  std::optional<FixedVector> viewCornerOf(std::uint32_t player, const Seen&) const override {
+  std::optional<FixedVector> viewCornerOf(std::uint32_t player, const ViewedTick&) const override {
     return player == 1 ? corner : std::nullopt;
   }
-  mutable Seen last;
+  mutable ViewedTick last;
   ObjectKey hidden;
   std::optional<FixedVector> corner;  ///< of the first player's view
 
@@ -59,7 +59,7 @@ TEST_F(SeenAt, IsWhereTheBoxIsDrawn) {
 
 TEST_F(SeenAt, LooksBackOnlyWhileAnInputIsHandledOfWhichSomebodyKnows) {
   TenToTheLeft hindsight(world);
-  world.setHindsight(&hindsight);
+  world.setLagCompensation(&hindsight);
   const std::uint32_t ann = world.join("ann", RED);
   Probe dot("dot", nullptr, Vector(40, 5));
   dot.registerInterest(MSE_EVENT);
@@ -83,12 +83,12 @@ TEST_F(SeenAt, LooksBackOnlyWhileAnInputIsHandledOfWhichSomebodyKnows) {
   GM.tick();
   EXPECT_EQ(at_click, Names{});
   EXPECT_EQ(names(WM.objectsSeenAt(Vector(40, 5))), Names{"dot"});  // between inputs: now
-  world.setHindsight(nullptr);
+  world.setLagCompensation(nullptr);
 }
 
 TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
   TenToTheLeft hindsight(world);
-  world.setHindsight(&hindsight);
+  world.setLagCompensation(&hindsight);
   const std::uint32_t ann = world.join("ann", RED);
   const std::uint32_t bob = world.join("bob", BLUE);
   Probe dot("dot", nullptr, Vector(40, 5));
@@ -104,7 +104,7 @@ TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
   GM.tick();
   EXPECT_EQ(clicks, (std::vector<Vector>{Vector(37, 3), Vector(30, 5), Vector(30, 5)}))
       << "of whom nobody says what he saw, the present view counts";
-  world.setHindsight(nullptr);
+  world.setLagCompensation(nullptr);
 }
 
 TEST_F(SeenAt, TheGameSaysWhetherItLooksBack) {

@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include "host/auth/LoginRateLimit.h"
 #include "host/auth/PasswordCheck.h"
-#include "host/auth/TryLimit.h"
 
 namespace naiad {
 namespace {
@@ -160,29 +160,29 @@ TEST_F(PasswordCheckTest, CallbacksDieOnTheOwnersThread) {
   context.run();
 }
 
-TEST(TryLimit, ForgetsTheOldestWhenItIsFull) {
-  TryLimit limit(1, 60s, 100);
+TEST(LoginRateLimit, ForgetsTheOldestWhenItIsFull) {
+  LoginRateLimit limit(1, 60s, 100);
   Time now{};
   for (int i = 0; i < 1000; ++i) {
     now += 1ms;
-    EXPECT_EQ(limit.begin(prefix(i), now), TryLimit::Answer::kAllowed);
+    EXPECT_EQ(limit.begin(prefix(i), now), LoginRateLimit::Answer::kAllowed);
     limit.finish(prefix(i), false);
     EXPECT_LE(limit.size(), 100u);
   }
-  EXPECT_EQ(limit.begin(prefix(999), now), TryLimit::Answer::kTooMany);
-  EXPECT_EQ(limit.begin(prefix(0), now), TryLimit::Answer::kAllowed);
+  EXPECT_EQ(limit.begin(prefix(999), now), LoginRateLimit::Answer::kTooMany);
+  EXPECT_EQ(limit.begin(prefix(0), now), LoginRateLimit::Answer::kAllowed);
 }
 
-TEST(TryLimit, WindowBeginsWithTheFirstTry) {
-  TryLimit limit(2, 60s, 100);
+TEST(LoginRateLimit, WindowBeginsWithTheFirstTry) {
+  LoginRateLimit limit(2, 60s, 100);
   Time now{};
   for (int i = 0; i < 2; ++i) {
-    EXPECT_EQ(limit.begin(prefix(1), now), TryLimit::Answer::kAllowed);
+    EXPECT_EQ(limit.begin(prefix(1), now), LoginRateLimit::Answer::kAllowed);
     limit.finish(prefix(1), false);
     now += 30s;
   }
-  EXPECT_EQ(limit.begin(prefix(1), now - 1ms), TryLimit::Answer::kTooMany);
-  EXPECT_EQ(limit.begin(prefix(1), now), TryLimit::Answer::kAllowed);
+  EXPECT_EQ(limit.begin(prefix(1), now - 1ms), LoginRateLimit::Answer::kTooMany);
+  EXPECT_EQ(limit.begin(prefix(1), now), LoginRateLimit::Answer::kAllowed);
 }
 
 }  // namespace

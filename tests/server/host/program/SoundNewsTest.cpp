@@ -6,7 +6,7 @@
 
 #include "host/program/SoundNews.h"
 #include "shared/net/base/Limits.h"
-#include "shared/net/stream/KeptFrames.h"
+#include "shared/net/stream/ReliableFrames.h"
 
 namespace naiad {
 namespace {
@@ -134,7 +134,7 @@ TEST_F(SoundNewsTest, WhatIsKeptForAMinuteIsFarFromWhatMayBeKept) {
     if (!lasting.empty()) bytes += last.SerializeAsString().size() + 10;
   }
   EXPECT_GT(bytes, 10'000u);
-  EXPECT_LT(bytes, KeptFrames::kMost / 2);
+  EXPECT_LT(bytes, ReliableFrames::kMax / 2);
 }
 
 TEST_F(SoundNewsTest, WhoIsNewHearsOfWhatGoesOn) {

@@ -7,7 +7,6 @@
 
 #include "host/session/Session.h"
 #include "shared/net/base/Limits.h"
-#include "shared/net/base/Limits.h"
 #include "tests/server/host/snapshot/SimulatedWorld.h"
 
 namespace naiad {
@@ -160,7 +159,7 @@ TEST_F(SessionReturn, WhatIsOnlyWorthSomethingAtOnceIsSentAtOnceOrNotAtAll) {
   EXPECT_TRUE(session->sendFleeting(sound));
   EXPECT_TRUE(first.sent.back().has_sounds());
   EXPECT_EQ(first.sent.back().number(), 0u) << "not kept";
-  first.unsent = Session::kMostBeforeFleeting + 1;
+  first.unsent = Session::kMaxBeforeFleeting + 1;
   EXPECT_FALSE(session->sendFleeting(sound));
   breakStream(first);
   EXPECT_FALSE(session->sendFleeting(sound));
@@ -413,7 +412,7 @@ TEST_F(SessionWithTwoStreams, TheSecondIsWelcomedAndNobodyJoins) {
 TEST_F(SessionWithTwoStreams, SmallSnapshotsGoOnBothLargeOnesOnTheFirst) {
   tick();
   ASSERT_EQ(snapshots(first).size(), 1u);
-  ASSERT_GT(snapshots(first)[0].size(), Session::kMostOnSecond) << "all of a world";
+  ASSERT_GT(snapshots(first)[0].size(), Session::kMaxOnSecond) << "all of a world";
   EXPECT_TRUE(snapshots(second).empty());
   acknowledge(first);
   forget();

@@ -161,7 +161,7 @@ TEST(WorldMessages, NumbersAreGivenAnewWhenThereAreTooMany) {
   ViewReader reader;
   df::WorldView sent = fullView();
   df::WorldView view;
-  for (std::uint32_t i = 0; i < 3 * kMostViewNumbers; ++i) {
+  for (std::uint32_t i = 0; i < 3 * kMaxViewNumbers; ++i) {
     sent.looks[1].p_look = lookOf(U'a' + static_cast<char32_t>(i % 20), Selector::fixed(i % 2));
     ASSERT_TRUE(readAnswer(fieldsOf(frameOf(sent, writer)), reader, view)) << i;
     ASSERT_EQ(*view.looks[0].p_look, *sent.looks[0].p_look) << i;

@@ -34,14 +34,14 @@ double spread(const RigidWorld& world) {
 }
 
 TEST(RigidCrowd, ItsContactsGrowWithItsBodiesAndNotWithTheirPairs) {
-  constexpr int kMostOthers = 12, kPoints = 9;  // shapes of one times shapes of the other
+  constexpr int kMaxOthers = 12, kPoints = 9;  // shapes of one times shapes of the other
   for (const int count : {50, 100, 200}) {
     RigidWorld world(sleepless());
     for (int i = 0; i < count; ++i) world.add(afloat({}), cross());
     world.step();
-    EXPECT_LE(world.counters().contacts, count * kMostOthers * kPoints) << count;
+    EXPECT_LE(world.counters().contacts, count * kMaxOthers * kPoints) << count;
     EXPECT_GT(world.counters().contacts, count);
-    EXPECT_GE(world.counters().passed, count * (count - 1) / 2 - count * kMostOthers) << count;
+    EXPECT_GE(world.counters().passed, count * (count - 1) / 2 - count * kMaxOthers) << count;
   }
 }
 

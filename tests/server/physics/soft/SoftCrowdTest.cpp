@@ -56,7 +56,7 @@ class Crowd {
 };
 
 TEST(SoftCrowd, WithoutOneEveryContactCounts) {
-  for (const int count : {2, SoftCrowd::kMostOthers + 1}) {
+  for (const int count : {2, SoftCrowd::kMaxOthers + 1}) {
     const Crowd few(count, 0.1);
     const std::vector<SoftRow> all = few.all();
     EXPECT_EQ(few.leftOut(), 0);
@@ -72,7 +72,7 @@ TEST(SoftCrowd, ItsContactsGrowWithItsBodiesAndNotWithTheirPairs) {
     EXPECT_EQ(many.leftOut(), count);
     for (int id = 0; id < count; ++id) {
       EXPECT_GT(many.rowsOf(id), 0) << id;
-      EXPECT_LE(many.rowsOf(id), SoftCrowd::kMostOthers) << id;
+      EXPECT_LE(many.rowsOf(id), SoftCrowd::kMaxOthers) << id;
     }
   }
 }
@@ -83,7 +83,7 @@ TEST(SoftCrowd, NobodyBearsMoreThanOthers) {
   const Crowd many(kMany, 0);
   std::vector<int> met(kMany, 0);
   for (const SoftRow& row : many.rows) ++met[static_cast<std::size_t>(row.b.body)];
-  for (const int times : met) EXPECT_LE(times, SoftCrowd::kMostOthers * SoftCrowd::kMostOthers);
+  for (const int times : met) EXPECT_LE(times, SoftCrowd::kMaxOthers * SoftCrowd::kMaxOthers);
   EXPECT_GT(*std::min_element(met.begin(), met.end()), 0);
 }
 
@@ -91,7 +91,7 @@ TEST(SoftCrowd, NobodyBearsMoreThanOthers) {
 TEST(SoftCrowd, TheNearestAreMet) {
   const Crowd row(100, 0.1);
   for (const SoftRow& contact : row.rows) {
-    EXPECT_LE(std::abs(contact.a.body - contact.b.body), SoftCrowd::kMostOthers) << contact.a.body;
+    EXPECT_LE(std::abs(contact.a.body - contact.b.body), SoftCrowd::kMaxOthers) << contact.a.body;
   }
 }
 

@@ -195,7 +195,7 @@ TEST(SoftWorld, StaysBoundedInExtremes) {
   constexpr int kMany = 300;
   for (int i = 0; i < kMany; ++i) crowd.add(makeBlob(placeAt({0.001 * i, 0}), 1, 8, 1, 0.05, 0.2, 0.5));
   for (int i = 0; i < 10; ++i) crowd.step();
-  EXPECT_GE(crowd.counters().crowded, 10 * (kMany - SoftCrowd::kMostOthers));
+  EXPECT_GE(crowd.counters().crowded, 10 * (kMany - SoftCrowd::kMaxOthers));
   for (int id = 0; id < 5; ++id) EXPECT_TRUE(isFinite(test::momentumOf(scene.world.body(id))));
   for (int id = 0; id < kMany; ++id) {
     EXPECT_LT(length(test::centreOf(crowd, id)), 200);

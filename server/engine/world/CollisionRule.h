@@ -1,0 +1,59 @@
+// What a mover and another Object are to each other: the rules of docs/collisions.md for two.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/collision/Sweep.h"
+#include "engine/world/WorldStore.h"
+
+namespace df {
+
+/// A moving Object and another one that it may meet, as they are in the store now. Both are in the world.
+class CollisionRule {
+ public:
+  CollisionRule(const WorldStore& store, WorldStore::Slot mover, WorldStore::Slot other)
+      : m_store(store), m_mover(mover), m_other(other) {}
+
+  /// Would they block each other? HARD and HARD do, and a mover that is no-soft and a SOFT one.
+  bool blocks() const {
+    const Solidness own = m_store.solidness(m_mover);
+    const Solidness its = m_store.solidness(m_other);
+    return (own == HARD && its == HARD) || (its == SOFT && m_store.has(m_mover, WorldStore::kNoSoft));
+  }
+  /// The same on this way: what the mover may move out of does not block it.
+  bool blocks(FixedVector from, FixedVector to) const { return blocks() && !movesOut(from, to); }
+  /// When they first meet on this way, by the boxes or, if one of the two is precise, by the characters.
+  std::optional<Moment> firstMeeting(const Sweep& sweep) const { return firstMeeting(sweep, otherBox()); }
+  /// The same, when the other's box in world coordinates is at hand.
+  std::optional<Moment> firstMeeting(const Sweep& sweep, const FixedBox& box) const {
+    if (!m_store.hasPrecise() || !isPrecise()) return sweep.firstTouch(box);
+    return sweep.firstShare(m_store.mask(m_mover), box, m_store.mask(m_other));
+  }
+  /// Their boxes touch if the mover's is `box`: do they meet there, by the characters as well?
+  bool meets(const FixedBox& box) const {
+    return !isPrecise() || shareCell(m_store.mask(m_mover), box, m_store.mask(m_other), otherBox());
+  }
+
+ private:
+  bool isPrecise() const {
+    return ((m_store.flags(m_mover) | m_store.flags(m_other)) & WorldStore::kPrecise) != 0;
+  }
+  bool movesOut(FixedVector from, FixedVector to) const {
+    return m_store.mayMoveOut(m_mover) && Sweep(m_store.box(m_mover), from, to).movesOutOf(otherBox());
+  }
+  FixedBox otherBox() const { return m_store.worldBox(m_other, m_store.position(m_other)); }
+
+  const WorldStore& m_store;
+  WorldStore::Slot m_mover;
+  WorldStore::Slot m_other;
+};
+
+/// Of Objects whose boxes touch `box`, in which the mover would be, leave those that it meets there.
+inline void keepMet(const WorldStore& store, WorldStore::Slot mover, const FixedBox& box,
+                    std::vector<ObjectKey>& others) {
+  if (!store.hasPrecise()) return;
+  std::erase_if(others, [&](ObjectKey other) { return !CollisionRule(store, mover, other.slot).meets(box); });
+}
+
+}  // namespace df

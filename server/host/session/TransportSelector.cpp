@@ -1,0 +1,79 @@
+#include "host/session/TransportSelector.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace naiad {
+
+namespace {
+
+constexpr std::chrono::seconds kShortestAge{5};  ///< two of these are kept
+constexpr TransportSelector::Millis kFullQueue{50};
+constexpr double kMuchLoss = 0.15;
+constexpr std::chrono::seconds kBadFor{1};
+constexpr std::chrono::seconds kGoodFor{5};
+
+}  // namespace
+
+void TransportSelector::sent(std::uint32_t number, bool as_datagram, Time now) {
+  m_sent[number % kKept] = {number, as_datagram, true, false, now};
+  if (as_datagram && !isOpen(now)) m_last_probe = now;
+}
+
+// Most of a window was in the one before, which came the same way: only what is new in it is looked at.
+void TransportSelector::acknowledged(const AckWindow& acks, bool by_datagram, Time now) {
+  AckWindow& before = m_acked[by_datagram ? 1 : 0];
+  const std::uint32_t ahead = acks.newest - before.newest;
+  const bool follows = before.newest != 0 && !isNewer(before.newest, acks.newest) && ahead <= 64;
+  std::uint64_t fresh = acks.mask;
+  if (follows && ahead > 0)
+    fresh &= ~((ahead < 64 ? before.mask << ahead : 0) | std::uint64_t{1} << (ahead - 1));
+  if (follows && ahead == 0) fresh &= ~before.mask;
+  if (before.newest == 0 || !isNewer(before.newest, acks.newest)) before = acks;
+  noteArrival(acks.newest, true, by_datagram, now);
+  for (; fresh != 0; fresh &= fresh - 1) {
+    const auto bit = static_cast<std::uint32_t>(std::countr_zero(fresh));
+    noteArrival(acks.newest - 1 - bit, false, by_datagram, now);
+  }
+}
+
+void TransportSelector::noteArrival(std::uint32_t number, bool newest, bool by_datagram, Time now) {
+  Sent& sent = m_sent[number % kKept];
+  if (sent.number != number || number == 0) return;
+  if (sent.open && newest) measure(now - sent.at, now);
+  sent.open = false;
+  if (!sent.as_datagram || !by_datagram || sent.confirmed) return;
+  sent.confirmed = true;
+  // What was sent before the line fell silent says nothing of it now.
+  if (now - sent.at < kIdleTimer + kIdleTimer) {
+    m_open = true;
+    m_last_ack = now;
+  }
+}
+
+void TransportSelector::measure(Millis sample, Time now) {
+  m_round_trip = m_round_trip.count() == 0 ? sample : m_round_trip + (sample - m_round_trip) / 8;
+  if (now - m_shortest_since >= kShortestAge) {
+    m_shortest_before = m_shortest;
+    m_shortest = sample;
+    m_shortest_since = now;
+  }
+  m_shortest = std::min(m_shortest, sample);
+}
+
+std::uint32_t TransportSelector::interval(double loss, Time now) {
+  const bool bad = m_round_trip - shortestRoundTrip() > kFullQueue || loss > kMuchLoss;
+  if (bad != m_bad) (bad ? m_bad_since : m_good_since) = now;
+  m_bad = bad;
+  if (bad && now - m_bad_since >= kBadFor && m_rung + 1 < kIntervals.size()) {
+    ++m_rung;
+    m_bad_since = now;
+  }
+  if (!bad && now - m_good_since >= kGoodFor && m_rung > 0) {
+    --m_rung;
+    m_good_since = now;
+  }
+  return kIntervals[m_rung];
+}
+
+}  // namespace naiad

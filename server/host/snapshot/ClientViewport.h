@@ -1,0 +1,40 @@
+// Which cells of the world one client can show: its view, or where its terminal is smaller than that, the
+// part around whom the view follows.
+//
+// A terminal that is larger than the view shows no more of the world than others do.
+#pragma once
+
+#include <cstdint>
+
+#include "host/snapshot/Publisher.h"
+
+namespace naiad {
+
+class ClientViewport {
+ public:
+  /// The client's terminal, in cells; 0: unknown, taken to be as large as any. Clamped to what a client can
+  /// use at all.
+  void setTerminal(std::uint32_t columns, std::uint32_t rows);
+
+  /// What the client shows at the publisher's tick or may show within `look_ahead` ticks, and what somebody
+  /// who predicts may bump into beside it. Once a tick.
+  CellRect update(const Publisher& publisher, const df::PlayerFacts& player, std::uint32_t look_ahead);
+
+  static constexpr int kMinColumns = 20;
+  static constexpr int kMinRows = 10;
+
+ private:
+  /// One axis: what of the view is shown.
+  struct Axis {
+    int cells = 0;           ///< of the terminal
+    std::int64_t spare = 0;  ///< to either side, for the client may see the player elsewhere
+    void noteSpeed(double cells_per_tick, std::uint32_t tick);
+    /// Widen low … high by what is shown of a view.
+    void cover(std::int64_t corner, int extent, std::int64_t focus, std::int64_t& low,
+               std::int64_t& high) const;
+  };
+  Axis m_x{kMaxViewWidth};
+  Axis m_y{kMaxViewHeight};
+};
+
+}  // namespace naiad

@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "client/world/InputTickEstimator.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr DisplayClock::Duration kTick = std::chrono::milliseconds(40);
+
+class InputTickEstimatorTest : public testing::Test {
+ protected:
+  InputTickEstimatorTest() {
+    for (std::uint32_t tick = 100; tick <= 200; ++tick, now += kTick) clock.note(tick, now);
+    now -= kTick;
+  }
+  /// How far ahead of the newest tick a key is asked for.
+  std::uint32_t ahead() const { return take_in.tickFor(clock, kTick, now) - clock.newestTick(); }
+
+  DisplayClock::Time now{std::chrono::hours(1)};
+  DisplayClock clock{kTick};
+  InputTickEstimator take_in;
+};
+
+TEST_F(InputTickEstimatorTest, WithoutAWayItIsTheNextTick) {
+  EXPECT_EQ(ahead(), 1u);
+}
+
+TEST_F(InputTickEstimatorTest, ARoundTripMakesItLater) {
+  take_in.noteRoundTrip(100ms);  // two and a half ticks, and the margin
+  EXPECT_EQ(ahead(), 3u);
+  InputTickEstimator far;
+  far.noteRoundTrip(400ms);
+  EXPECT_EQ(far.tickFor(clock, kTick, now) - clock.newestTick(), 11u);
+}
+
+TEST_F(InputTickEstimatorTest, TheShortestOfTheLastEightCounts) {
+  take_in.noteRoundTrip(400ms);
+  take_in.noteRoundTrip(40ms);
+  EXPECT_EQ(ahead(), 2u);
+  for (int i = 0; i < 7; ++i) take_in.noteRoundTrip(400ms);
+  EXPECT_EQ(ahead(), 2u);
+  take_in.noteRoundTrip(400ms);
+  EXPECT_EQ(ahead(), 11u);
+}
+
+TEST_F(InputTickEstimatorTest, TimeThatPassesMakesItLater) {
+  now += 3 * kTick;
+  EXPECT_EQ(ahead(), 4u);
+}
+
+TEST_F(InputTickEstimatorTest, ASilentLineDoesNotMakeItEndless) {
+  now += 1000 * kTick;
+  EXPECT_EQ(ahead(), 1 + DisplayClock::kMaxAhead / kTick);
+  take_in.noteRoundTrip(std::chrono::hours(1));
+  EXPECT_EQ(ahead(), 61u);
+}
+
+TEST_F(InputTickEstimatorTest, LateInputsWidenTheMarginOthersNarrowIt) {
+  EXPECT_EQ(take_in.margin(), InputTickEstimator::kMinMargin);
+  take_in.noteTaken(10, 11);
+  EXPECT_DOUBLE_EQ(take_in.margin(), InputTickEstimator::kMinMargin + InputTickEstimator::kGrow);
+  take_in.noteTaken(11, 11);
+  EXPECT_DOUBLE_EQ(take_in.margin(),
+                   InputTickEstimator::kMinMargin + InputTickEstimator::kGrow - InputTickEstimator::kShrink);
+  for (int i = 0; i < 1000; ++i) take_in.noteTaken(10, 12);
+  EXPECT_EQ(take_in.margin(), InputTickEstimator::kMaxMargin);
+  for (int i = 0; i < 10'000; ++i) take_in.noteTaken(12, 12);
+  EXPECT_EQ(take_in.margin(), InputTickEstimator::kMinMargin);
+}
+
+TEST_F(InputTickEstimatorTest, TicksMayWrapAround) {
+  take_in.noteTaken(UINT32_MAX, 1);
+  EXPECT_GT(take_in.margin(), InputTickEstimator::kMinMargin);
+  InputTickEstimator other;
+  other.noteTaken(1, UINT32_MAX);
+  EXPECT_EQ(other.margin(), InputTickEstimator::kMinMargin);
+}
+
+// One in so many late: the margin neither grows nor shrinks.
+TEST_F(InputTickEstimatorTest, OneInFortyMayBeLate) {
+  const auto drift = [](int every) {
+    InputTickEstimator other;
+    for (int i = 0; i < 10; ++i) other.noteTaken(0, 1);
+    const double before = other.margin();
+    for (int i = 1; i <= 400; ++i) other.noteTaken(0, i % every == 0 ? 1 : 0);
+    return other.margin() - before;
+  };
+  EXPECT_GT(drift(30), 0.1);
+  EXPECT_LT(drift(50), -0.1);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,73 @@
+// Files found by names as systems take them that know no upper and lower case.
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "engine/managers/ResourceManager.h"
+#include "engine/sprites/CaseInsensitiveFile.h"
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CaseInsensitiveFile : public WorldTest {
+ protected:
+  CaseInsensitiveFile() {
+    fs::create_directories(folder / "sprites" / "Walls");
+    write("sprites/Walls/Brick.txt");
+    write("sprites/ship.txt");
+    write("sprites/SHIP.txt");
+  }
+  ~CaseInsensitiveFile() override { fs::remove_all(folder); }
+
+  void write(const std::string& name) const {
+    std::ofstream(folder / name)
+        << "<HEADER>\nframes 1\nwidth 1\nheight 1\n</HEADER>\n<BODY>\n*\nend\n</BODY>\n";
+  }
+
+  static fs::path makeFolder() {
+    std::string name = ::testing::TempDir() + "naiad-loose-name-XXXXXX";
+    return mkdtemp(name.data());
+  }
+
+  const fs::path folder = makeFolder();
+};
+
+TEST_F(CaseInsensitiveFile, BackslashesPartFoldersAndCaseDoesNotCount) {
+  const std::string brick = (folder / "sprites" / "Walls" / "Brick.txt").string();
+  for (const char* name : {"sprites\\Walls\\Brick.txt", "Sprites/walls/brick.TXT",
+                           "./SPRITES\\.\\walls/BRICK.txt", "sprites/../sprites/walls/brick.txt"}) {
+    std::error_code error;
+    EXPECT_TRUE(fs::equivalent(findLoosely(folder.string(), name), brick, error)) << name;
+  }
+}
+
+TEST_F(CaseInsensitiveFile, WhatIsNotThereOrNoFileIsNotFound) {
+  EXPECT_EQ(findLoosely(folder.string(), "sprites/none.txt"), "");
+  EXPECT_EQ(findLoosely(folder.string(), "sprites\\walls"), "");
+  EXPECT_EQ(findLoosely((folder / "nowhere").string(), "ship.txt"), "");
+  EXPECT_EQ(findLoosely(folder.string(), ""), "");
+}
+
+TEST_F(CaseInsensitiveFile, TheFirstByNameOfSeveral) {
+  EXPECT_EQ(findLoosely(folder.string(), "sprites/Ship.txt"), (folder / "sprites" / "SHIP.txt").string());
+}
+
+TEST_F(CaseInsensitiveFile, SpritesAreFoundSo) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder);
+  EXPECT_EQ(RM.loadSprite("Sprites\\walls\\brick.txt", "brick"), 0);
+  EXPECT_EQ(RM.loadSprite("Sprites\\walls\\none.txt", "none"), -1);
+  fs::current_path(before);
+  EXPECT_NE(RM.getSprite("brick"), nullptr);
+  EXPECT_EQ(logged("Sprites\\walls\\none.txt: cannot be read"), 1);
+}
+
+}  // namespace
+}  // namespace df::test

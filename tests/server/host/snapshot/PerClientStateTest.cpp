@@ -1,0 +1,347 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "DirectSender.h"
+#include "host/snapshot/PerClientState.h"
+#include "shared/replica/SteeredCopy.h"
+#include "shared/replica/ViewFollow.h"
+
+namespace naiad {
+namespace {
+
+using test::DirectSender;
+
+df::FixedVector at(double x, double y) {
+  return test::cellsAt(x, y);
+}
+
+/// Singles by themselves, for somebody who looks at an empty world.
+class Alone {
+ public:
+  Alone() {
+    m_view.boundary = {at(0, 0), at(80, 24)};
+    player.id = 1;
+    m_view.players.push_back(player);
+  }
+  /// A tick. The records of what was written into the next snapshot, as far as it fits.
+  Records tick(std::size_t limit = kMaxDatagramSnapshot, bool repeats = false) {
+    ++m_view.tick;
+    m_publisher.update(m_view);
+    singles.note(m_publisher, player);
+    singles.repeatAhead();
+    singles.check(m_publisher, m_known);
+    SnapshotHeader header{++number, m_view.tick, 0, true, false, 0, 0};
+    singles.tellInput(header);
+    SnapshotWriter writer;
+    writer.begin(header, 0, {});
+    took = singles.write(writer, number, limit, repeats);
+    Snapshot snapshot;
+    EXPECT_EQ(Replica().read(writer.finish(), snapshot), ReadResult::kOk);
+    tells_input = snapshot.header.tells_input;
+    return snapshot.records;
+  }
+  void say(const std::string& text) { player.texts = {{0, 1, 1, df::WHITE, text}}; }
+
+  PerClientState singles;
+  df::PlayerFacts player;
+  std::uint32_t number = 0;  ///< of the newest snapshot
+  bool took = false;
+  bool tells_input = false;
+
+ private:
+  df::WorldView m_view;
+  Publisher m_publisher;
+  KnownObjects m_known;
+};
+
+TEST(PerClientState, WorldViewAndOriginComeFirstAndOnce) {
+  Alone scene;
+  Records records = scene.tick();
+  EXPECT_TRUE(scene.took);
+  EXPECT_EQ(records.worlds.size(), 1u);
+  EXPECT_EQ(records.views.size(), 1u);
+  EXPECT_EQ(records.origins.size(), 1u);
+  EXPECT_TRUE(records.texts.empty());
+  EXPECT_FALSE(scene.singles.isOwing());
+  records = scene.tick();
+  EXPECT_FALSE(scene.took);
+  EXPECT_TRUE(records.worlds.empty());
+}
+
+TEST(PerClientState, OnlyTheNewestSendingOfOneCanBeMissed) {
+  Alone scene;
+  scene.tick();
+  scene.say("old");
+  scene.tick();
+  scene.say("new");
+  scene.tick();
+  EXPECT_FALSE(scene.singles.lost(2)) << "the next one replaced it";
+  EXPECT_FALSE(scene.singles.isOwing());
+  EXPECT_TRUE(scene.singles.lost(3));
+  EXPECT_EQ(scene.tick().texts.at(0).text, "new");
+}
+
+TEST(PerClientState, WhatDoesNotFitWaits) {
+  Alone scene;
+  const Records records = scene.tick(60);
+  EXPECT_FALSE(scene.took);
+  EXPECT_TRUE(records.worlds.empty());
+  EXPECT_TRUE(scene.singles.isOwing());
+  EXPECT_EQ(scene.tick().worlds.size(), 1u);
+}
+
+TEST(PerClientState, WhatIsRepeatedAheadComesOnceMore) {
+  Alone scene;
+  scene.tick();
+  scene.say("quick");
+  EXPECT_EQ(scene.tick(kMaxDatagramSnapshot, true).texts.size(), 1u);
+  EXPECT_EQ(scene.tick(kMaxDatagramSnapshot, true).texts.size(), 1u);
+  EXPECT_EQ(scene.tick(kMaxDatagramSnapshot, true).texts.size(), 0u);
+}
+
+TEST(PerClientState, WhatHasArrivedIsNotRepeated) {
+  Alone scene;
+  scene.tick();
+  scene.say("quick");
+  scene.tick(kMaxDatagramSnapshot, true);
+  scene.singles.arrived(scene.number, false);
+  EXPECT_TRUE(scene.tick(kMaxDatagramSnapshot, true).texts.empty());
+}
+
+TEST(PerClientState, EverySnapshotTellsTheInputUntilOneHasArrived) {
+  Alone scene;
+  scene.tick();
+  EXPECT_FALSE(scene.tells_input);
+  scene.singles.noteInput(7, 2);
+  for (int i = 0; i < 3; ++i) {
+    scene.tick();
+    EXPECT_TRUE(scene.tells_input);
+  }
+  scene.singles.arrived(1, false);
+  scene.singles.arrived(scene.number, true);
+  scene.tick();
+  EXPECT_TRUE(scene.tells_input) << "neither an older one nor a probe told it";
+  scene.singles.arrived(scene.number, false);
+  scene.tick();
+  EXPECT_FALSE(scene.tells_input);
+}
+
+enum class Arrival { kLost, kDownOnly, kBothWays };
+
+/// A player whose view (80 by 24, in a wide world) follows the only object, and what the client makes of it.
+class Following {
+ public:
+  Following() {
+    direct.view().boundary = {at(0, 0), at(400, 24)};
+    direct.player.followed = {0, 1};
+    direct.player.view_corner = at(60, 0);
+    m_facts.key = {0, 1};
+    m_facts.order = 1;
+    m_facts.position = at(100, 5);
+    direct.view().changed.push_back(m_facts);
+  }
+
+  /// One tick in which the object is put at `x`, to fly on with `velocity`.
+  void tick(double x, double velocity, Arrival arrival) {
+    m_facts.position = at(x, 5);
+    m_facts.velocity = at(velocity, 0);
+    direct.view().changed.push_back(m_facts);
+    const ViewFrame frame{direct.player.view_corner, at(80, 24), direct.view().boundary};
+    direct.player.view_corner = followView(frame, m_facts.position);
+    for (const SnapshotSender::Packet& packet : direct.tick()) {
+      Snapshot snapshot;
+      if (arrival == Arrival::kLost || replica.read(packet.bytes, snapshot) != ReadResult::kOk) continue;
+      replica.apply(snapshot);
+      acks.note(packet.number);
+    }
+    if (arrival == Arrival::kBothWays) direct.sender.acknowledge(acks);
+  }
+  void becomeAnother() {
+    direct.view().vanished.push_back(m_facts.key);
+    direct.player.followed = m_facts.key = {0, ++m_facts.key.generation};
+    ++m_facts.order;
+  }
+  void expectSameView() {
+    EXPECT_EQ(replica.viewCorner(direct.publisher.tick()).x, df::cellOf(direct.player.view_corner.x))
+        << "tick " << direct.publisher.tick();
+  }
+
+  DirectSender direct{0};
+  Replica replica;
+  AckWindow acks;
+
+ private:
+  df::ObjectFacts m_facts;
+};
+
+TEST(PerClientState, AViewIsRightAlthoughTheMotionItFollowsCameLate) {
+  Following scene;
+  scene.tick(100, 0, Arrival::kBothWays);
+  scene.expectSameView();
+  scene.tick(80, 1, Arrival::kLost);  // pulls the view to the left, and the snapshot is lost
+  double x = 80;
+  for (int i = 0; i < 25; ++i) scene.tick(x += 1, 1, Arrival::kBothWays);  // too slow to push the view back
+  EXPECT_GT(scene.direct.sender.resentCount(), 0u);
+  EXPECT_TRUE(scene.direct.sender.isSettled());
+  scene.expectSameView();
+}
+
+TEST(PerClientState, AViewFollowsAnotherObjectAtOnceAlthoughTheDeathIsUnconfirmed) {
+  Following scene;
+  scene.tick(100, 0, Arrival::kBothWays);
+  scene.becomeAnother();
+  for (int i = 0; i < 20; ++i) {  // the death stays unacknowledged
+    scene.tick(100 + 3 * i, 3, Arrival::kDownOnly);
+    EXPECT_EQ(scene.replica.aliveCount(), 1u);
+    scene.expectSameView();
+  }
+  scene.tick(160, 3, Arrival::kBothWays);
+  scene.tick(163, 3, Arrival::kBothWays);
+  EXPECT_EQ(scene.replica.aliveCount(), 1u);
+  scene.expectSameView();
+}
+
+TEST(PerClientState, TextsAreSentWhenTheyChange) {
+  DirectSender direct(0);
+  direct.tick();
+  direct.acknowledge(1);
+  direct.player.texts.push_back({2, 5, 0, df::GREEN, "Score 3"});
+  auto snapshots = direct.tick();
+  ASSERT_EQ(snapshots.size(), 1u);
+  EXPECT_EQ(direct.decoded(snapshots[0]).texts, (std::vector<TextRecord>{{2, 5, 0, df::GREEN, "Score 3"}}));
+  EXPECT_FALSE(direct.sender.isSettled()) << "not acknowledged yet";
+  direct.acknowledge(2);
+  EXPECT_TRUE(direct.tick().empty());
+  direct.player.texts.clear();
+  snapshots = direct.tick();
+  ASSERT_EQ(snapshots.size(), 1u);
+  EXPECT_EQ(direct.decoded(snapshots[0]).texts.at(0).text, "");
+  direct.acknowledge(3);
+  EXPECT_TRUE(direct.sender.isSettled());
+  EXPECT_TRUE(direct.tick().empty());
+}
+
+/// A player who steers the only object by declared controls, and what his client knows.
+class Steering {
+ public:
+  Steering() {
+    m_table.rows.resize(1);
+    m_table.rows[0].effect = df::ControlEffect::kDrive;
+    m_table.rows[0].value = at(1, 0);
+    m_facts.key = {0, 1};
+    m_facts.order = 1;
+    m_facts.position = at(10, 5);
+    steering().p_table = std::make_shared<df::ControlTable>(m_table);
+    steering().object = {0, 1};
+    steering().state.steering = true;
+  }
+
+  df::SteeringFacts& steering() { return direct.player.steering; }
+  const df::ControlTable& table() const { return m_table; }
+  /// One tick in which the object is moved by its velocity. Returns whether the state was told.
+  bool tick(df::FixedVector velocity, bool arrives = true) {
+    m_facts.position = m_facts.position + velocity;
+    m_facts.velocity = velocity;
+    direct.view().changed.push_back(m_facts);
+    steering().position = m_facts.position;
+    steering().velocity = velocity;
+    steering().state.x.pull = velocity.x;
+    bool told = false;
+    for (const SnapshotSender::Packet& packet : direct.tick()) {
+      told = told || !direct.decoded(packet).controls.empty();
+      Snapshot snapshot;
+      if (!arrives || replica.read(packet.bytes, snapshot) != ReadResult::kOk) continue;
+      replica.apply(snapshot);
+      acks.note(packet.number);
+    }
+    direct.sender.acknowledge(acks);
+    return told;
+  }
+  /// What the client works out is what is.
+  void expectKnown() {
+    const std::uint32_t now = direct.publisher.tick();
+    const ControlRecord known = coast(replica.control(), replica.controlTable(), now);
+    EXPECT_EQ(known.position, steering().position);
+    EXPECT_EQ(known.velocity, steering().velocity);
+    EXPECT_EQ(known.state, steering().state);
+    const Replica::Entry* entry = replica.find(known.slot);
+    ASSERT_NE(entry, nullptr);
+    EXPECT_EQ(entry->generation, known.generation);
+    EXPECT_EQ(entry->state.order, 1u);
+  }
+
+  DirectSender direct{0};
+  Replica replica;
+  AckWindow acks;
+
+ private:
+  df::ControlTable m_table;
+  df::ObjectFacts m_facts;
+};
+
+TEST(PerClientState, ControlsAreToldOnceAndTheStateWhereItCannotBeWorkedOut) {
+  Steering scene;
+  EXPECT_TRUE(scene.tick({}));
+  EXPECT_EQ(scene.replica.controlTable(), scene.table());
+  EXPECT_EQ(scene.replica.controlNumber(), 1u);
+  scene.expectKnown();
+  for (int i = 0; i < 40; ++i) EXPECT_FALSE(scene.tick({})) << "at rest, tick " << i;
+  EXPECT_TRUE(scene.tick(at(1, 0)));
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_FALSE(scene.tick(at(1, 0))) << "straight on, tick " << i;
+    scene.expectKnown();
+  }
+  EXPECT_TRUE(scene.tick(at(1, 0))) << "nobody coasts longer";
+  EXPECT_EQ(scene.replica.controlTableNumber(), 1u) << "the table came once";
+}
+
+TEST(PerClientState, AnInputThatChangedNothingIsAnsweredToo) {
+  Steering scene;
+  scene.tick({});
+  scene.direct.sender.noteInput(7, scene.direct.publisher.tick() + 1);
+  EXPECT_TRUE(scene.tick({}));
+  EXPECT_EQ(scene.replica.control().newest_input, 7u);
+  EXPECT_FALSE(scene.tick({}));
+}
+
+TEST(PerClientState, ControlsThatWereLostComeAgain) {
+  Steering scene;
+  scene.tick({}, false);
+  for (int i = 0; i < 5; ++i) scene.tick({}, false);
+  bool told = false;
+  for (int i = 0; i < 40; ++i) told = scene.tick(at(i % 7 == 0 ? 1 : 0, 0)) || told;
+  EXPECT_TRUE(told);
+  EXPECT_EQ(scene.replica.controlTable(), scene.table());
+  scene.expectKnown();
+}
+
+TEST(PerClientState, ControlsThatEndAreToldAsATableWithoutRows) {
+  Steering scene;
+  scene.tick({});
+  scene.steering() = {};
+  scene.tick({});
+  EXPECT_TRUE(scene.replica.controlTable().rows.empty());
+  EXPECT_EQ(scene.replica.controlTableNumber(), 2u);
+}
+
+TEST(PerClientState, AShipThatTurnsCostsLittle) {
+  Steering scene;
+  scene.tick({});
+  for (int i = 0; i < 10; ++i) scene.tick({});
+  scene.direct.sender.noteInput(7, scene.direct.publisher.tick() + 1);
+  const std::uint32_t before = scene.replica.controlNumber();
+  BitWriter bits;
+  ASSERT_TRUE(scene.tick(at(1, 0)));
+  ASSERT_GT(scene.replica.controlNumber(), before);
+  Origin origin;
+  origin.x_bits = 7;
+  origin.y_bits = 5;
+  writeControlRecord(bits, scene.replica.control(), origin);
+  EXPECT_LE(bits.byteCount(), 8u);
+}
+
+}  // namespace
+}  // namespace naiad

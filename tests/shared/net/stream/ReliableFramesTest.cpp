@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "shared/net/stream/ReliableFrames.h"
+
+namespace naiad {
+namespace {
+
+std::vector<std::string> all(const ReliableFrames& frames) {
+  std::vector<std::string> found;
+  frames.forEach([&found](const std::string& frame) { found.push_back(frame); });
+  return found;
+}
+
+TEST(ReliableFrames, StayUntilTheyAreAcknowledgedInOrder) {
+  ReliableFrames frames;
+  EXPECT_EQ(frames.next(), 1u);
+  for (const char* text : {"a", "b", "c"}) ASSERT_TRUE(frames.keep(text));
+  EXPECT_EQ(frames.next(), 4u);
+  EXPECT_EQ(all(frames), (std::vector<std::string>{"a", "b", "c"}));
+  frames.acknowledge(2);
+  EXPECT_EQ(all(frames), std::vector<std::string>{"c"});
+  frames.acknowledge(1);
+  frames.acknowledge(0);
+  EXPECT_EQ(all(frames), std::vector<std::string>{"c"}) << "an old acknowledgement says nothing";
+  frames.acknowledge(4);
+  EXPECT_EQ(all(frames), std::vector<std::string>{"c"}) << "nor one of what was never sent";
+  frames.acknowledge(3);
+  EXPECT_TRUE(all(frames).empty());
+  EXPECT_EQ(frames.bytes(), 0u);
+}
+
+TEST(ReliableFrames, OneThatReplacesTakesThePlaceOfTheLastOne) {
+  ReliableFrames frames;
+  frames.keep("list 1", true);
+  frames.keep("line");
+  frames.keep("list 2", true);
+  EXPECT_EQ(all(frames), (std::vector<std::string>{"line", "list 2"}));
+  EXPECT_EQ(frames.bytes(), 4u + 2 + 6 + 2);
+  frames.acknowledge(1);
+  EXPECT_EQ(all(frames).size(), 2u);
+  for (int i = 0; i < 100'000; ++i) ASSERT_TRUE(frames.keep(std::string(1000, 'x'), true));
+  EXPECT_EQ(frames.bytes(), 4u + 2 + 1000 + 2);
+}
+
+TEST(ReliableFrames, AreNotMoreThan64KiB) {
+  ReliableFrames frames;
+  const std::string frame(1022, 'x');
+  for (int i = 0; i < 64; ++i) ASSERT_TRUE(frames.keep(frame));
+  EXPECT_EQ(frames.bytes(), ReliableFrames::kMax);
+  EXPECT_FALSE(frames.keep("y"));
+  EXPECT_EQ(frames.next(), 65u) << "it has no number";
+  EXPECT_EQ(all(frames).size(), 64u);
+  frames.acknowledge(1);
+  EXPECT_TRUE(frames.keep("y"));
+  frames.clear();
+  EXPECT_EQ(frames.bytes(), 0u);
+  EXPECT_EQ(frames.next(), 66u) << "numbers go on";
+}
+
+TEST(ReliableFrames, AreHeardOnce) {
+  ReliableFramesHeard heard;
+  EXPECT_TRUE(heard.take(0)) << "it is not kept";
+  EXPECT_EQ(heard.newest(), 0u);
+  EXPECT_TRUE(heard.take(7)) << "the first may be any";
+  EXPECT_FALSE(heard.take(7));
+  EXPECT_FALSE(heard.take(6));
+  EXPECT_TRUE(heard.take(9)) << "one that was replaced leaves a gap";
+  EXPECT_FALSE(heard.take(8));
+  EXPECT_EQ(heard.newest(), 9u);
+  ReliableFramesHeard late;
+  EXPECT_TRUE(late.take(0xFFFFFFFF));
+  EXPECT_TRUE(late.take(1)) << "after the last number comes 1";
+  EXPECT_FALSE(late.take(0xFFFFFFFF));
+}
+
+}  // namespace
+}  // namespace naiad
