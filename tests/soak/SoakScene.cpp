@@ -11,6 +11,7 @@
 #include "engine/world/Controls.h"
 #include "engine/world/EventPlayer.h"
 #include "engine/world/Object.h"
+#include "engine/world/ObjectLookAccess.h"
 #include "engine/world/Player.h"
 #include "shared/replica/Look.h"
 
@@ -77,7 +78,7 @@ class Creature : public df::Object {
     m_color = someColor();
     if (m_kind > 3) {
       setBox(df::Box(df::Vector(-4, -4), 9, 9));
-      setFrames(someFrames(m_color), somePace(*getWorld()));
+      df::ObjectLookAccess::setFrames(*this, someFrames(m_color), somePace(*getWorld()));
     }
     m_text = std::string(m_kind == 0 ? 1 : 3 + 4 * WM.randomInt(3), someLetter('a'));
     registerInterest(df::STEP_EVENT);
@@ -117,8 +118,9 @@ class Creature : public df::Object {
     if (what == 2) setVisible(!isVisible());
     if (what == 3) setPosition(somewhere());
     if (what == 4) m_color = someColor();
-    if (m_kind > 3 && what >= 6 && what < 10) setSelector(somePace(*getWorld()));
-    if (m_kind > 3 && what == 10) setFrames(someFrames(m_color), somePace(*getWorld()));
+    if (m_kind > 3 && what >= 6 && what < 10) df::ObjectLookAccess::setSelector(*this, somePace(*getWorld()));
+    if (m_kind > 3 && what == 10)
+      df::ObjectLookAccess::setFrames(*this, someFrames(m_color), somePace(*getWorld()));
     if (what == 5) {
       WM.markForDelete(this);
       new Creature;

@@ -26,7 +26,7 @@ std::shared_ptr<const naiad::Look> lookOf(const Animation& animation, std::uint3
   const Sprite* p_sprite = animation.getSprite();
   if (p_sprite == nullptr || p_sprite->getFrameCount() < 2) return nullptr;
   if (animation.getIndex() < 0 || animation.getIndex() >= p_sprite->getFrameCount()) return nullptr;
-  const naiad::Sequence& pictures = p_sprite->pictures();
+  const naiad::Sequence& pictures = SpritePictures::of(*p_sprite);
   if (pictures.empty()) return nullptr;
   const naiad::Selector selector = selectorOf(animation, tick).rebased(tick, pictures.size());
   if (before != nullptr && before->sequence.isSharedWith(pictures) &&

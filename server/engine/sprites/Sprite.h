@@ -59,14 +59,13 @@ class Sprite {
   /// number without a frame.
   const Mask* mask(int frame_number) const;
 
-  /// All frames as watchers are told of them. Empty if that cannot be: there are none, too many (kMaxFrames)
-  /// or too large ones, or only such as draw nothing.
-  const naiad::Sequence& pictures() const;
-
   /// For log lines.
   std::string toString() const;
 
  private:
+  friend class SpritePictures;
+
+  const naiad::Sequence& pictures() const;
   naiad::Sequence makePictures() const;
 
   int m_width = 0;
@@ -79,7 +78,7 @@ class Sprite {
   std::string m_label;
   // By frame, made when they are first asked for; null: not yet, an empty one: the frame has no character.
   mutable std::vector<std::shared_ptr<const Mask>> m_masks;
-  mutable std::shared_ptr<const naiad::Sequence> m_p_pictures;  // likewise
+  mutable std::shared_ptr<const naiad::Sequence> m_p_pictures;  // as clients get them; made likewise
 };
 
 }  // namespace df

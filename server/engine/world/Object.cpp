@@ -13,8 +13,6 @@
 #include "engine/world/ObjectExtras.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
-#include "shared/replica/Limits.h"
-#include "shared/replica/LookCodec.h"
 
 namespace df {
 
@@ -389,41 +387,6 @@ bool Object::isDeaf() const {
 
 int Object::eventHandler(const Event* /*p_e*/) {
   return 0;
-}
-
-int Object::setFrames(const naiad::Sequence& frames, const naiad::Selector& selector) {
-  if (frames.empty()) {
-    m_p_store->setFrames(m_slot, nullptr);
-    return 0;
-  }
-  const bool small = frames.size() <= naiad::kMaxFrames && frames.glyphCount() <= naiad::kMaxGlyphs &&
-                     frames.reach() <= naiad::kMaxGlyphOffset;
-  if (!small || !selector.fits(frames.size()) || naiad::encodedBits(frames) > 8 * naiad::kMaxLookBytes)
-    return refuse("setFrames");
-  m_p_store->setFrames(m_slot, std::make_shared<const naiad::Look>(naiad::Look{frames, 0, selector}));
-  return 0;
-}
-
-int Object::setSelector(const naiad::Selector& selector) {
-  const std::shared_ptr<const naiad::Look>& p_look = m_p_store->frames(m_slot);
-  if (p_look == nullptr || !selector.fits(p_look->sequence.size())) return refuse("setSelector");
-  if (p_look->selector == selector) return 0;
-  m_p_store->setFrames(m_slot,
-                       std::make_shared<const naiad::Look>(naiad::Look{p_look->sequence, 0, selector}));
-  return 0;
-}
-
-int Object::getFrameCount() const {
-  const std::shared_ptr<const naiad::Look>& p_look = m_p_store->frames(m_slot);
-  return p_look != nullptr ? static_cast<int>(p_look->sequence.size()) : 0;
-}
-
-int Object::getFrame() const {
-  const std::shared_ptr<const naiad::Look>& p_look = m_p_store->frames(m_slot);
-  const World* p_world = getWorld();
-  if (p_look == nullptr || p_world == nullptr) return 0;
-  const auto tick = static_cast<std::uint32_t>(p_world->getStepCount());
-  return static_cast<int>(p_look->selector.at(tick, p_look->sequence.size()));
 }
 
 void Object::setStaticLook(bool static_look) {

@@ -42,9 +42,7 @@
 
 namespace naiad {
 struct Look;
-class Sequence;
-struct Selector;
-}  // namespace naiad
+}
 
 namespace df {
 
@@ -215,15 +213,7 @@ class Object {
   /// it is then called once, and its result moves with the Object. Setting it anew has it called again.
   void setStaticLook(bool static_look = true);
   bool hasStaticLook() const;
-  /// Pictures of the Object, of which draw() shows the one that `selector` names for the tick: an animation,
-  /// or a turn in steps (naiad::Selector, in Look.h of the shared parts; ticks are WorldView's). As long as
-  /// nothing but the tick decides, no watcher has to be told anything. Sprites and bodies set it. An empty
-  /// sequence: none any more. Return 0, or -1 (and no change) if the selector does not fit, or if the
-  /// pictures are too large to be described (kMaxGlyphs, kMaxLookBytes).
-  int setFrames(const naiad::Sequence& frames, const naiad::Selector& selector);
-  /// Go on with another selector. Return 0, or -1 if it does not fit or there are no frames.
-  int setSelector(const naiad::Selector& selector);
-  /// How many frames there are, and the index of the one that is shown in the present tick (0 if none).
+  /// How many frames a body has, and the index of the one that shows in the present tick (0 if none).
   int getFrameCount() const;
   int getFrame() const;
 
@@ -300,6 +290,7 @@ class Object {
   friend class WorldStore;
   friend class Interests;
   friend class ObjectList;
+  friend class ObjectLookAccess;
   friend class Views;
 
   int applyVelocity(double speed, Vector direction);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/world/ObjectLookAccess.h"
 #include "engine/world/World.h"
 #include "physics/body/Body.h"
 #include "physics/body/BodyTable.h"
@@ -140,9 +141,10 @@ int Body::draw() {
   its.update(std::as_const(*m_table).form(m_index), toFixed(getBox()).value_or(FixedBox{}),
              m_table->metric.aspect(), static_cast<std::uint32_t>(p_world->getStepCount()));
   if (its.hasNewFrames()) {
-    if (setFrames(its.frames(), its.selector()) != 0) setFrames({}, {});
+    if (ObjectLookAccess::setFrames(*this, its.frames(), its.selector()) != 0)
+      ObjectLookAccess::setFrames(*this, {}, {});
   } else if (its.hasNewSelector()) {
-    setSelector(its.selector());
+    ObjectLookAccess::setSelector(*this, its.selector());
   }
   return Object::draw();
 }

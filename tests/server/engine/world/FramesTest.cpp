@@ -4,6 +4,7 @@
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/Object.h"
+#include "engine/world/ObjectLookAccess.h"
 #include "engine/world/World.h"
 #include "shared/replica/Look.h"
 
@@ -37,7 +38,7 @@ class FramesTest : public testing::Test {
 TEST_F(FramesTest, AClockTurnsTheFrames) {
   Object object;  // needs no draw() of its own
   object.setPosition(Vector(10, 5));
-  ASSERT_EQ(object.setFrames(letters(), Selector::clock(1, 2)), 0);
+  ASSERT_EQ(ObjectLookAccess::setFrames(object, letters(), Selector::clock(1, 2)), 0);
   std::string seen;
   for (int i = 0; i < 8; ++i) {
     world.tick();
@@ -51,7 +52,7 @@ TEST_F(FramesTest, AClockTurnsTheFrames) {
 TEST_F(FramesTest, AWatcherIsToldFramesAndSelector) {
   Object object;
   object.setPosition(Vector(10, 5));
-  object.setFrames(letters(), Selector::turning(1, 5, 7));
+  ObjectLookAccess::setFrames(object, letters(), Selector::turning(1, 5, 7));
   world.tick();
   EXPECT_TRUE(world.view().looks.empty()) << "nobody watches";
   world.setWatched(true);
@@ -67,7 +68,7 @@ TEST_F(FramesTest, AWatcherIsToldFramesAndSelector) {
 TEST_F(FramesTest, ADrawOfItsOwnMayAddToThem) {
   Adorned object;
   object.setPosition(Vector(10, 5));
-  object.setFrames(letters(), Selector::fixed(1));
+  ObjectLookAccess::setFrames(object, letters(), Selector::fixed(1));
   world.tick();
   EXPECT_EQ(row(), "<*>");
 }
@@ -75,21 +76,21 @@ TEST_F(FramesTest, ADrawOfItsOwnMayAddToThem) {
 TEST_F(FramesTest, TheyGoWithTheObjectAndEndWithIt) {
   auto* p_object = new Object;
   p_object->setPosition(Vector(10, 5));
-  p_object->setFrames(letters(), Selector::fixed(2));
+  ObjectLookAccess::setFrames(*p_object, letters(), Selector::fixed(2));
   world.tick();
   EXPECT_EQ(row(), "<c>");
-  p_object->setSelector(Selector::fixed(0));
+  ObjectLookAccess::setSelector(*p_object, Selector::fixed(0));
   world.tick();
   EXPECT_EQ(row(), "<a>");
   p_object->setVisible(false);
   world.tick();
   EXPECT_EQ(row(), "   ");
   p_object->setVisible();
-  p_object->setFrames({}, {});
+  ObjectLookAccess::setFrames(*p_object, {}, {});
   world.tick();
   EXPECT_EQ(row(), "   ");
   EXPECT_EQ(p_object->getFrameCount(), 0);
-  p_object->setFrames(letters(), Selector::fixed(2));
+  ObjectLookAccess::setFrames(*p_object, letters(), Selector::fixed(2));
   delete p_object;
   for (int i = 0; i < 200; ++i) {  // until its slot is used again
     Object next;
@@ -101,14 +102,14 @@ TEST_F(FramesTest, TheyGoWithTheObjectAndEndWithIt) {
 
 TEST_F(FramesTest, WhatDoesNotFitIsRefused) {
   Object object;
-  EXPECT_EQ(object.setSelector(Selector::fixed(0)), -1) << "no frames";
-  EXPECT_EQ(object.setFrames(letters(), Selector::fixed(3)), -1);
-  EXPECT_EQ(object.setFrames(letters(), Selector::clock(0, 0)), -1);
-  EXPECT_EQ(object.setFrames(Sequence(std::vector<Appearance>(257)), {}), -1);
-  EXPECT_EQ(object.setFrames({Appearance(9000, naiad::Glyph{})}, {}), -1);
+  EXPECT_EQ(ObjectLookAccess::setSelector(object, Selector::fixed(0)), -1) << "no frames";
+  EXPECT_EQ(ObjectLookAccess::setFrames(object, letters(), Selector::fixed(3)), -1);
+  EXPECT_EQ(ObjectLookAccess::setFrames(object, letters(), Selector::clock(0, 0)), -1);
+  EXPECT_EQ(ObjectLookAccess::setFrames(object, Sequence(std::vector<Appearance>(257)), {}), -1);
+  EXPECT_EQ(ObjectLookAccess::setFrames(object, {Appearance(9000, naiad::Glyph{})}, {}), -1);
   EXPECT_EQ(object.getFrameCount(), 0);
-  EXPECT_EQ(object.setFrames(letters(), Selector::fixed(2)), 0);
-  EXPECT_EQ(object.setSelector(Selector::fixed(3)), -1);
+  EXPECT_EQ(ObjectLookAccess::setFrames(object, letters(), Selector::fixed(2)), 0);
+  EXPECT_EQ(ObjectLookAccess::setSelector(object, Selector::fixed(3)), -1);
   EXPECT_EQ(object.getFrame(), 2);
   EXPECT_EQ(world.getRefusals(), 6u);
 }
