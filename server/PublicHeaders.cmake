@@ -25,17 +25,7 @@ set(naiad_public_headers
   server/engine/prelude/Microsoft.h
   server/engine/prelude/Sfml.h
   server/engine/prelude/StandardHeaders.h
-  server/engine/published/EventKeyboardNetwork.h
-  server/engine/published/EventMouseNetwork.h
   server/engine/published/EventNetwork.h
-  server/engine/published/EventNetworkAccept.h
-  server/engine/published/EventNetworkClose.h
-  server/engine/published/EventNetworkConnect.h
-  server/engine/published/EventNetworkCreate.h
-  server/engine/published/EventNetworkCustom.h
-  server/engine/published/EventNetworkDelete.h
-  server/engine/published/EventNetworkGameOver.h
-  server/engine/published/EventNetworkSync.h
   server/engine/published/GraphicsManager.h
   server/engine/published/LogManager.h
   server/engine/published/NetworkManager.h
@@ -119,6 +109,7 @@ set(naiad_detail_headers
   server/engine/prelude/SfmlDrawing.h
   server/engine/prelude/SfmlInput.h
   server/engine/prelude/SfmlValues.h
+  server/engine/published/EventNetworks.h
   server/engine/world/ColorMix.h
   server/engine/world/Geometry.h
   server/engine/world/LagCompensation.h
@@ -135,7 +126,11 @@ set(naiad_detail_headers
   shared/math/DoubleDouble.h
   shared/values/Dialect.h)
 
-# In SFML/, made by the build: each brings Sfml.h.
+# Made by the build: each brings detail/EventNetworks.h.
+set(naiad_event_network_headers
+  EventKeyboardNetwork.h EventMouseNetwork.h EventNetworkAccept.h EventNetworkClose.h EventNetworkConnect.h
+  EventNetworkCreate.h EventNetworkCustom.h EventNetworkDelete.h EventNetworkGameOver.h EventNetworkSync.h)
+# Likewise in SFML/: each brings Sfml.h.
 set(naiad_sfml_headers
   Audio.hpp Graphics.hpp System.hpp Window.hpp
   Audio/Music.hpp Audio/Sound.hpp Audio/SoundBuffer.hpp Audio/SoundSource.hpp

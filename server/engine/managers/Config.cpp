@@ -13,10 +13,6 @@ namespace df {
 
 namespace {
 
-ConfigSettings& settings() {
-  return World::current().extras().settings;
-}
-
 // Takes on the values of keys, one by one.
 class Reader {
  public:
@@ -77,6 +73,14 @@ void apply(World& world, const ConfigSettings& s) {
 
 }  // namespace
 
+ConfigSettings& Config::settings() {
+  return World::current().extras().settings;
+}
+
+void Config::applyWindow() {
+  apply(World::current(), settings());
+}
+
 Config& Config::getInstance() {
   static Config* p_instance = new Config;
   return *p_instance;
@@ -132,135 +136,6 @@ void Config::writeToLog() const {
       << " characters, frame_time " << s.frame_time << ", random_seed " << s.random_seed << ", headless "
       << s.headless << ", logfile " << s.logfile;
   World::current().log(out.str());
-}
-
-void Config::setConfig(const std::string& config) {
-  settings().text = config;
-}
-
-void Config::setWindowHorizontalChars(int window_horizontal_chars) {
-  settings().window_horizontal_chars = window_horizontal_chars;
-  apply(World::current(), settings());
-}
-
-void Config::setWindowVerticalChars(int window_vertical_chars) {
-  settings().window_vertical_chars = window_vertical_chars;
-  apply(World::current(), settings());
-}
-
-void Config::setWindowBackgroundColor(Color window_background_color) {
-  settings().window_background_color = window_background_color;
-  apply(World::current(), settings());
-}
-
-std::string Config::getConfig() const {
-  return settings().text;
-}
-int Config::getWindowHorizontalPixels() const {
-  return settings().window_horizontal_pixels;
-}
-int Config::getWindowVerticalPixels() const {
-  return settings().window_vertical_pixels;
-}
-int Config::getWindowHorizontalChars() const {
-  return settings().window_horizontal_chars;
-}
-int Config::getWindowVerticalChars() const {
-  return settings().window_vertical_chars;
-}
-Color Config::getWindowBackgroundColor() const {
-  return settings().window_background_color;
-}
-int Config::getWindowStyle() const {
-  return settings().window_style;
-}
-int Config::getFrameTime() const {
-  return settings().frame_time;
-}
-float Config::getFontScale() const {
-  return settings().font_scale;
-}
-std::string Config::getWindowTitle() const {
-  return settings().window_title;
-}
-bool Config::getShowMouse() const {
-  return settings().show_mouse;
-}
-bool Config::getHeadless() const {
-  return settings().headless;
-}
-std::string Config::getFontFile() const {
-  return settings().font_file;
-}
-std::string Config::getLogFile() const {
-  return settings().logfile;
-}
-int Config::getRandomSeed() const {
-  return settings().random_seed;
-}
-bool Config::getNetworking() const {
-  return settings().networking;
-}
-int Config::getQuadtreeDepth() const {
-  return settings().quadtree_depth;
-}
-int Config::getQuadtreeThreshold() const {
-  return settings().quadtree_threshold;
-}
-int Config::getGridWidth() const {
-  return settings().grid_width;
-}
-int Config::getGridHeight() const {
-  return settings().grid_height;
-}
-
-void Config::setWindowHorizontalPixels(int pixels) {
-  settings().window_horizontal_pixels = pixels;
-}
-void Config::setWindowVerticalPixels(int pixels) {
-  settings().window_vertical_pixels = pixels;
-}
-void Config::setWindowStyle(int window_style) {
-  settings().window_style = window_style;
-}
-void Config::setFrameTime(int frame_time) {
-  settings().frame_time = frame_time;
-}
-void Config::setFontScale(float font_scale) {
-  settings().font_scale = font_scale;
-}
-void Config::setWindowTitle(const std::string& window_title) {
-  settings().window_title = window_title;
-}
-void Config::setHeadless(bool headless) {
-  settings().headless = headless;
-}
-void Config::setShowMouse(bool show_mouse) {
-  settings().show_mouse = show_mouse;
-}
-void Config::setFontFile(const std::string& font_file) {
-  settings().font_file = font_file;
-}
-void Config::setLogFile(const std::string& logfile) {
-  settings().logfile = logfile;
-}
-void Config::setRandomSeed(int random_seed) {
-  settings().random_seed = random_seed;
-}
-void Config::setNetworking(bool networking) {
-  settings().networking = networking;
-}
-void Config::setQuadtreeDepth(int depth) {
-  settings().quadtree_depth = depth;
-}
-void Config::setQuadtreeThreshold(int threshold) {
-  settings().quadtree_threshold = threshold;
-}
-void Config::setGridWidth(int grid_width) {
-  settings().grid_width = grid_width;
-}
-void Config::setGridHeight(int grid_height) {
-  settings().grid_height = grid_height;
 }
 
 }  // namespace df

@@ -6,10 +6,12 @@
 //
 // GM.startUp() reads the file, from the working directory, or the one that the environment names
 // (DRAGONFLY_CONFIG). These count: size in characters and background of the window, random_seed, compat,
-// logfile; in a host frame_time; in a program headless and the host's options. The rest is kept for who asks.
+// logfile; in a host frame_time; in a program headless and the host's options. The rest is kept and has no
+// effect.
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "Color.h"
 #include "StandardHeaders.h"
@@ -29,53 +31,56 @@ class Config {
   /// The current world's.
   static Config& getInstance();
 
-  std::string getConfig() const;
-  int getWindowHorizontalPixels() const;
-  int getWindowVerticalPixels() const;
-  int getWindowHorizontalChars() const;
-  int getWindowVerticalChars() const;
-  Color getWindowBackgroundColor() const;
-  int getWindowStyle() const;
-  int getFrameTime() const;
-  float getFontScale() const;
-  std::string getWindowTitle() const;
-  bool getShowMouse() const;
-  bool getHeadless() const;
-  std::string getFontFile() const;
-  std::string getLogFile() const;
-  int getRandomSeed() const;
-  bool getNetworking() const;
-  int getQuadtreeDepth() const;
-  int getQuadtreeThreshold() const;
-  int getGridWidth() const;
-  int getGridHeight() const;
+  // Of each setting a getter and a setter, as getFrameTime() and setFrameTime(33). Setters count before
+  // GM.startUp() opens the window; those of its size in characters and of its background always (DM.setSize).
+#define DF_SETTING(Type, Name, member)     \
+  Type get##Name() const {                 \
+    return settings().member;              \
+  }                                        \
+  void set##Name(Type member) {            \
+    settings().member = std::move(member); \
+  }
+#define DF_WINDOW_SETTING(Type, Name, member) \
+  Type get##Name() const {                    \
+    return settings().member;                 \
+  }                                           \
+  void set##Name(Type member) {               \
+    settings().member = member;               \
+    applyWindow();                            \
+  }
+  // clang-format off
+  DF_SETTING(std::string, Config, text)
+  DF_SETTING(int, WindowHorizontalPixels, window_horizontal_pixels)
+  DF_SETTING(int, WindowVerticalPixels, window_vertical_pixels)
+  DF_WINDOW_SETTING(int, WindowHorizontalChars, window_horizontal_chars)
+  DF_WINDOW_SETTING(int, WindowVerticalChars, window_vertical_chars)
+  DF_WINDOW_SETTING(Color, WindowBackgroundColor, window_background_color)
+  DF_SETTING(int, WindowStyle, window_style)
+  DF_SETTING(std::string, WindowTitle, window_title)
+  DF_SETTING(int, FrameTime, frame_time)
+  DF_SETTING(float, FontScale, font_scale)
+  DF_SETTING(std::string, FontFile, font_file)
+  DF_SETTING(bool, ShowMouse, show_mouse)
+  DF_SETTING(bool, Headless, headless)
+  DF_SETTING(std::string, LogFile, logfile)
+  DF_SETTING(int, RandomSeed, random_seed)
+  DF_SETTING(bool, Networking, networking)
+  DF_SETTING(int, QuadtreeDepth, quadtree_depth)
+  DF_SETTING(int, QuadtreeThreshold, quadtree_threshold)
+  DF_SETTING(int, GridWidth, grid_width)
+  DF_SETTING(int, GridHeight, grid_height)
+  // clang-format on
+#undef DF_SETTING
+#undef DF_WINDOW_SETTING
+  void setHeadless() {
+    setHeadless(true);
+  }
+  void setShowMouse() {
+    setShowMouse(true);
+  }
 
   /// The value of a key in what was read; empty if there is none.
   std::string match(const std::string& find) const;
-
-  // They have effect if called before GM.startUp() opens the window; that of the size and the background
-  // always (DM.setSize).
-
-  void setConfig(const std::string& config);
-  void setWindowHorizontalPixels(int window_horizontal_pixels);
-  void setWindowVerticalPixels(int window_vertical_pixels);
-  void setWindowHorizontalChars(int window_horizontal_chars);
-  void setWindowVerticalChars(int window_vertical_chars);
-  void setWindowBackgroundColor(Color window_background_color);
-  void setWindowStyle(int window_style);
-  void setFrameTime(int frame_time);
-  void setFontScale(float font_scale);
-  void setWindowTitle(const std::string& window_title);
-  void setHeadless(bool headless = true);
-  void setShowMouse(bool show_mouse = true);
-  void setFontFile(const std::string& font_file);
-  void setLogFile(const std::string& logfile);
-  void setRandomSeed(int random_seed);
-  void setNetworking(bool networking);
-  void setQuadtreeDepth(int quadtree_depth);
-  void setQuadtreeThreshold(int quadtree_threshold);
-  void setGridWidth(int grid_width);
-  void setGridHeight(int grid_height);
 
   /// Write all of it to the log.
   void writeToLog() const;
@@ -86,6 +91,8 @@ class Config {
 
  private:
   Config() = default;
+  static ConfigSettings& settings();
+  static void applyWindow();
 };
 
 }  // namespace df
