@@ -115,6 +115,7 @@ set(naiad_detail_headers
   server/engine/world/LagCompensation.h
   server/engine/world/ObjectProfile.h
   server/engine/world/Settings.h
+  server/engine/world/WorldScope.h
   server/engine/world/WorldView.h
   server/physics/body/BodyDrawing.h
   server/physics/body/BodyJoints.h

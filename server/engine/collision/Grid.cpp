@@ -1,6 +1,7 @@
 #include "engine/collision/Grid.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace df {
@@ -9,8 +10,8 @@ namespace {
 
 constexpr int kFirstWidthBits = 4;   // of level 1: boxes up to 16 by 4
 constexpr int kFirstHeightBits = 2;  // each further level takes four times as much on both axes
-// Cells are smaller than the largest boxes of their level: those who are near are fewer, and to look at more
-// cells costs little, for a word holds a row of them.
+// Cells are smaller than the largest boxes of their level: fewer boxes are near then, and more cells cost
+// little, because a word holds a row of them.
 constexpr int kFinerWidthBits = 2;
 constexpr int kFinerHeightBits = 1;
 
@@ -53,7 +54,7 @@ void Grid::count(const Record& record, int by) {
   }
 }
 
-// Do characters deserve a level of their own? The answer changes so rarely that moving them costs nothing.
+// Should characters have a level of their own? The answer changes so rarely that moving them costs nothing.
 void Grid::weigh() {
   const bool apart = m_characters_apart ? m_small_boxes <= 16 || m_characters * 4 >= m_small_boxes
                                         : m_characters > m_small_boxes;
@@ -131,6 +132,7 @@ void Grid::drop(Slot slot) {
 // The torus is unrolled over where the boxes are now.
 void Grid::Level::shape(std::size_t word_count, std::int64_t x0, std::int64_t y0, std::int64_t x1,
                         std::int64_t y1) {
+  assert(std::has_single_bit(word_count) && word_count >= 64);
   words.assign(word_count, 0);
   words.shrink_to_fit();
   heads = std::make_unique_for_overwrite<Slot[]>(word_count * 64);
@@ -166,7 +168,7 @@ void Grid::rebuild(int number, std::size_t word_count) {
   if (x0 > x1) x0 = x1 = y0 = y1 = 0;
   level.shape(word_count, x0, y0, x1, y1);
   level.spots = nullptr;
-  // Where they are scattered so widely that they hardly ever meet, nobody would read them.
+  // Characters scattered so widely that they hardly ever touch do not need spots.
   const double area = static_cast<double>(x1 - x0 + 1) * static_cast<double>(y1 - y0 + 1);
   if (number == 0 && area <= kWide * std::max(kFew, static_cast<double>(level.count))) {
     level.spots = std::make_unique_for_overwrite<Spot[]>(word_count * 64 + kRowOfSpots);

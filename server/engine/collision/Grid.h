@@ -12,7 +12,7 @@
 // so that of nine neighbours only those are looked up that touch, or nearly so. (Where characters are few and
 // far between, there is none.) Cells are mapped onto the arrays as onto a torus: the part of the world that
 // the boxes of a level are spread over lies flat, what is a whole turn away falls onto the same cells,
-// shifted by a hash, and is told apart by the exact test. So the arrays are about as long as there are boxes,
+// shifted by a hash, and the exact test separates them. So the arrays are about as long as there are boxes,
 // wherever these are: 32 to 64 cells for each. Only what is occupied is touched. Nothing is allocated when
 // something moves.
 //
@@ -51,13 +51,13 @@ class Grid {
 
   /// File `slot` under its position and box, wherever it was filed before.
   void file(Slot slot);
-  /// Its position has changed, and nothing else: file it anew. It must be filed.
+  /// Its position has changed, and nothing else: file it again. It must be filed.
   void refile(Slot slot) { refile(slot, m_levels[static_cast<std::size_t>(m_records[slot].level)]); }
   /// Forget `slot`, if it was filed.
   void remove(Slot slot);
   bool contains(Slot slot) const { return slot < m_records.size() && m_records[slot].level >= 0; }
   int size() const;
-  /// What has been done, here and by those who use the grid.
+  /// What has been done, here and by users of the grid.
   MoverStats& moverStats() { return m_mover_stats; }
   const MoverStats& moverStats() const { return m_mover_stats; }
   /// Memory of the levels, in bytes.

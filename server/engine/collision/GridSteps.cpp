@@ -69,7 +69,7 @@ inline void Grid::Steps::test(Slot t, Slot self, FixedVector low, FixedVector hi
   // All four differences must not be negative.
   const Fixed apart = (high.x - corner.x) | (far.x - low.x) | (high.y - corner.y) | (far.y - low.y);
   const bool touches = (apart >= 0) & (t != self);
-  if (m_count < kFew) {  // counted, not asked: nobody can foresee the answer
+  if (m_count < kFew) {  // arithmetic in place of an unpredictable branch
     m_few[m_count] = t;
     m_count += touches ? 1 : 0;
   } else if (touches) {

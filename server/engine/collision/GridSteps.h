@@ -1,5 +1,5 @@
-// The grid's part in a walker's step: is the place free, and then the box is filed there. Inline, for this is
-// what most Objects of a busy world do most of the time.
+// The grid's part in a walker's step: test whether the place is free, then file the box there. Inline,
+// because most Objects of a busy world do this in most ticks.
 #pragma once
 
 #include <array>
@@ -19,23 +19,23 @@
 namespace df {
 
 /// Steps of boxes, one after another, while nothing else touches the grid and the store's arrays
-/// stay where they are: the pointers are held at hand.
+/// stay where they are: the pointers are kept in members.
 class Grid::Steps {
  public:
   explicit Steps(Grid& grid);
   ~Steps() { m_grid.m_mover_stats.nine_cells += m_nine_cells; }
   Steps(const Steps&) = delete;
   Steps& operator=(const Steps&) = delete;
-  /// Would `s`, which is filed, touch nobody at `where`? If it would, found() says whom.
+  /// Would `s`, which is filed, touch nothing at `where`? If not, found() lists what it touches.
   bool isFree(Slot s, FixedVector where) {
     return m_p_records[s].level == 0 ? isCharacterFree(s, where) : isBoxFree(s, m_p_records[s], where);
   }
-  /// Whom it touches; in no particular order, and one may come twice.
+  /// The slots it touches, in no particular order; a slot may come twice.
   std::span<const Slot> found() const {
     return {m_count <= kFew ? m_few.data() : m_grid.m_found.data(), m_count};
   }
-  /// File `s`, for which isFree() was asked last, where it wanted to go. Its position must be set.
-  void take(Slot s);
+  /// File `s`, the argument of the last isFree(), at its target. Its position must be set.
+  void fileAtTarget(Slot s);
 
  private:
   static constexpr std::size_t kFew = 32;
@@ -65,22 +65,22 @@ class Grid::Steps {
   std::uint64_t m_nine_cells = 0;
   // Of the last isFree().
   std::uint32_t m_cell = 0;
-  bool m_lifted = false;  // its own cell, which nobody shares, is marked empty while it goes
-  bool m_plain = false;   // ... and the cell it goes to is empty, too
+  bool m_lifted = false;  // its own cell, which it has alone, is marked empty meanwhile
+  bool m_plain = false;   // ... and the target cell is empty, too
   std::size_t m_count = 0;
   std::array<Slot, kFew> m_few;
 };
 
-// Which of the characters in nine cells touch one in the middle cell, by their spots: all nine at once, for
-// nobody can foresee which. Bit 0 to 2 are the row above, 4 to 6 the one below, 8 to 10 the row between, from
-// left to right.
+// Which of the characters in nine cells touch one in the middle cell, by their spots: all nine at once,
+// because a branch for each would be mispredicted. Bit 0 to 2 are the row above, 4 to 6 the one below, 8 to
+// 10 the row between, from left to right.
 class Grid::Steps::Nine {
  public:
   static constexpr unsigned kMiddle = 1 << 9;
   /// From the middle to the cell of each bit.
   static constexpr std::array<std::int32_t, 11> kSteps{-65, -64, -63, 0, 63, 64, 65, 0, -1, 0, 1};
 
-  /// The spots of each row from the left cell on, kRowOfSpots of them, whoever is there; and the one in the
+  /// The spots of each row from the left cell on, kRowOfSpots of them, occupied or not; and the one in the
   /// middle.
   Nine(const Spot* p_above, const Spot* p_own, const Spot* p_below, Spot middle) {
     const Eight outer = load(p_above, p_below);
@@ -99,7 +99,7 @@ class Grid::Steps::Nine {
     const Eight far_inner = ((inner_x < x) & kLeft) | ((inner_x > x) & kRight);
     m_near = ~bits(far_outer, far_inner) | bits(outer, inner);  // several may be anywhere
   }
-  /// Those that may touch. They do, unless they miss by less than a spot can tell, or are neighbours on the
+  /// Those that may touch. They do, unless they miss by less than a spot resolves, or are neighbours on the
   /// torus only.
   unsigned near() const { return m_near; }
 
@@ -191,7 +191,7 @@ inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
   return false;
 }
 
-// Of the slots in the cells of `near` those that touch. Return false if that are too many.
+// Of the slots in the cells of `near` those that touch. Return false if they are too many.
 inline bool Grid::Steps::gather(Slot s, FixedVector where, unsigned near) {
   // What touches lies within 2 of the corner that is one up and one to the left.
   const FixedVector corner = where - FixedVector{kFixedOne, kFixedOne};
@@ -235,7 +235,7 @@ inline void Grid::Steps::found(Slot t) {
   ++m_count;
 }
 
-inline void Grid::Steps::take(Slot s) {
+inline void Grid::Steps::fileAtTarget(Slot s) {
   if (m_plain) {  // from a cell of its own, which isFree() has emptied, to a free one
     m_p_records[s].cell = m_cell;
     m_p_words[m_cell >> 6] |= std::uint64_t{1} << (m_cell & 63);

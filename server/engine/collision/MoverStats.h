@@ -1,5 +1,5 @@
 // Counts of the code paths that a world's moves have taken: tests check that each is taken, measurements say
-// which were measured. Counted by the run of Objects, not by the Object, where there are many.
+// which were measured. Counted once for a run of Objects where there are many.
 #pragma once
 
 #include <array>
@@ -10,22 +10,22 @@ namespace df {
 struct MoverStats {
   // Turns in update.
   std::uint64_t flown = 0;   ///< SPECTRAL ones, moved side by side
-  std::uint64_t walked = 0;  ///< solid ones that met nobody
-  std::uint64_t met = 0;     ///< solid ones that met somebody
+  std::uint64_t walked = 0;  ///< solid ones that touched nothing
+  std::uint64_t met = 0;     ///< solid ones that touched another
   std::uint64_t deferred =
-      0;  ///< of either kind, with more to it: out of the boundary, or a mask did not meet
+      0;  ///< of either kind, with more to it: out of the boundary, or the masks share no cell
   std::uint64_t special = 0;  ///< with an acceleration, an option, or a view that follows
-  // Moves tested all along their way: all of them, and those that searched again after a pass.
+  // Moves tested along their whole path: all of them, and those that searched again after a pass.
   std::uint64_t swept = 0;
   std::uint64_t swept_again = 0;
-  // Looks of the broad phase for a turn: of characters at their nine cells, of boxes at a few cells, and of
+  // Queries of the broad phase for a turn: of characters at their nine cells, of boxes at a few cells, and of
   // both across the border of a block or on another level.
   std::uint64_t nine_cells = 0;
   std::uint64_t few_cells = 0;
   std::uint64_t far_cells = 0;
 };
 
-/// A path and its name, for those who print them.
+/// A count and its name, to print them.
 struct NamedPath {
   const char* name;
   std::uint64_t MoverStats::*count;

@@ -8,7 +8,7 @@ namespace df {
 /// A slot of the world store and the generation that occupies it. Two objects never share both.
 struct ObjectKey {
   std::uint32_t slot = 0;
-  std::uint32_t generation = 0;  ///< 0 is nobody
+  std::uint32_t generation = 0;  ///< 0: no Object
   friend bool operator==(ObjectKey a, ObjectKey b) {
     return a.slot == b.slot && a.generation == b.generation;
   }

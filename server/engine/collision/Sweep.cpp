@@ -74,7 +74,7 @@ Sweep::Sweep(const FixedBox& box, FixedVector from, FixedVector to) : m_from(fro
   m_y = axis(box.corner.y, box.size.y, from.y, to.y);
 }
 
-// When the low edge lies within [first, last], which the way reaches.
+// When the low edge lies within [first, last], which the move reaches.
 Sweep::Stay Sweep::Axis::stayWithin(Fixed first, Fixed last) const {
   if (direction >= 0) return {low < first ? distance(first, low) : 0, distance(last, low) + 1};
   return {low > last ? distance(low, last) : 0, distance(low, first) + 1};
@@ -92,16 +92,16 @@ Fixed Sweep::Axis::lowAfter(std::uint64_t steps) const {
 
 std::uint64_t Sweep::Axis::stepsBy(Moment moment) const {
   if (moment.numerator == 0) return 0;
-  if (moment.denominator == way) return moment.numerator;
-  return static_cast<std::uint64_t>(multiply(way, moment.numerator) / moment.denominator);
+  if (moment.denominator == length) return moment.numerator;
+  return static_cast<std::uint64_t>(multiply(length, moment.numerator) / moment.denominator);
 }
 
 std::uint64_t Sweep::Axis::stepsBefore(Moment moment) const {
-  if (way == 0 || moment.numerator == 0) return 0;
-  if (moment.numerator > moment.denominator) return way;
-  if (moment.denominator == way) return moment.numerator - 1;
+  if (length == 0 || moment.numerator == 0) return 0;
+  if (moment.numerator > moment.denominator) return length;
+  if (moment.denominator == length) return moment.numerator - 1;
   // ⌈a/b⌉ − 1 is ⌊(a − 1)/b⌋.
-  return static_cast<std::uint64_t>((multiply(way, moment.numerator) - 1) / moment.denominator);
+  return static_cast<std::uint64_t>((multiply(length, moment.numerator) - 1) / moment.denominator);
 }
 
 // To where the mask's first character is drawn in `cell`, which lies ahead; out of reach if nothing moves.
@@ -121,17 +121,17 @@ Sweep::Gap Sweep::Axis::gapTo(Fixed low_then, Fixed other_low, Fixed other_size)
 // The first time at which both axes are where they should be. Not for the start. It needs no care for an axis
 // that does not move: both its products are 0, and the other's leave is not.
 std::optional<Moment> Sweep::bothWithin(const Stay& x, const Stay& y) const {
-  const WideUnsigned enter_x = multiply(x.enter, m_y.way);
-  const WideUnsigned enter_y = multiply(y.enter, m_x.way);
+  const WideUnsigned enter_x = multiply(x.enter, m_y.length);
+  const WideUnsigned enter_y = multiply(y.enter, m_x.length);
   if (x.enter != 0 && enter_x >= enter_y) {
-    if (enter_x >= multiply(y.leave, m_x.way)) return std::nullopt;
-    return Moment{x.enter, m_x.way};
+    if (enter_x >= multiply(y.leave, m_x.length)) return std::nullopt;
+    return Moment{x.enter, m_x.length};
   }
-  if (enter_y >= multiply(x.leave, m_y.way)) return std::nullopt;
-  return Moment{y.enter, m_y.way};
+  if (enter_y >= multiply(x.leave, m_y.length)) return std::nullopt;
+  return Moment{y.enter, m_y.length};
 }
 
-std::optional<Moment> Sweep::touchOnTheWay(const FixedBox& other) const {
+std::optional<Moment> Sweep::touchOnPath(const FixedBox& other) const {
   const Stay x = m_x.stayWithin(other.corner.x - m_x.size, other.corner.x + other.size.x);
   const Stay y = m_y.stayWithin(other.corner.y - m_y.size, other.corner.y + other.size.y);
   if ((x.enter | y.enter) != 0) return bothWithin(x, y);
@@ -171,9 +171,9 @@ std::optional<Moment> Sweep::firstShare(const Mask* p_own, const FixedBox& other
   if (shares && !is_at_start) return enter;
   if (shares) {
     if (closesGap(other)) return enter;
-    if (endsWithin(x, y) && share(cellAfter(m_x, m_x.way), cellAfter(m_y, m_y.way))) return enter;
+    if (endsWithin(x, y) && share(cellAfter(m_x, m_x.length), cellAfter(m_y, m_y.length))) return enter;
   }
-  if (p_own == nullptr && p_others == nullptr) return std::nullopt;  // rectangles meet once
+  if (p_own == nullptr && p_others == nullptr) return std::nullopt;  // rectangles touch once
 
   // From one cell to the next, in the order of time.
   const Still still_x(p_own == nullptr, own.width, p_others == nullptr, cells.x, cells.width);
@@ -181,16 +181,16 @@ std::optional<Moment> Sweep::firstShare(const Mask* p_own, const FixedBox& other
   for (;;) {
     const std::int64_t next_x = still_x.next(cell_x, m_x.direction);
     const std::int64_t next_y = still_y.next(cell_y, m_y.direction);
-    const Moment at_x = {m_x.stepsToCell(next_x), m_x.way};
-    const Moment at_y = {m_y.stepsToCell(next_y), m_y.way};
-    const bool reaches_x = at_x.numerator <= m_x.way;
-    const bool reaches_y = at_y.numerator <= m_y.way;
+    const Moment at_x = {m_x.stepsToCell(next_x), m_x.length};
+    const Moment at_y = {m_y.stepsToCell(next_y), m_y.length};
+    const bool reaches_x = at_x.numerator <= m_x.length;
+    const bool reaches_y = at_y.numerator <= m_y.length;
     if (!reaches_x && !reaches_y) return std::nullopt;
     const bool moves_x = reaches_x && (!reaches_y || at_x <= at_y);
     const bool moves_y = reaches_y && (!reaches_x || at_y <= at_x);
     const Moment now = moves_x ? at_x : at_y;
-    if (multiply(now.numerator, m_x.way) >= multiply(x.leave, now.denominator)) return std::nullopt;
-    if (multiply(now.numerator, m_y.way) >= multiply(y.leave, now.denominator)) return std::nullopt;
+    if (multiply(now.numerator, m_x.length) >= multiply(x.leave, now.denominator)) return std::nullopt;
+    if (multiply(now.numerator, m_y.length) >= multiply(y.leave, now.denominator)) return std::nullopt;
     if (moves_x) cell_x = next_x;
     if (moves_y) cell_y = next_y;
     const bool shared = shares;
@@ -221,7 +221,7 @@ bool Sweep::movesOutOf(const FixedBox& other) const {
         .size;
   };
   const Wide at_start = gapAfter(0, 0);
-  return at_start <= 0 && gapAfter(m_x.way, m_y.way) > at_start;
+  return at_start <= 0 && gapAfter(m_x.length, m_y.length) > at_start;
 }
 
 }  // namespace df

@@ -1,7 +1,7 @@
 // The geometry of one move along a straight line (docs/collisions.md, "Swept"): when it first touches a box,
 // exactly.
 //
-// At time t in [0,1] of a move by d, each coordinate has gone floor(|d|·t) of its way: the move visits
+// At time t in [0,1] of a move by d, each coordinate has gone floor(|d|·t) units: the move visits
 // representable positions only, and the sweep is the end-point test at every one of them. The first time at
 // which two boxes touch is then a whole number of units over |d|, so moments are fractions, compared without
 // rounding.
@@ -33,14 +33,14 @@ class Sweep {
   /// may be as far apart as the world is wide.
   Sweep(const FixedBox& box, FixedVector from, FixedVector to);
 
-  /// When the move meets `other` (world coordinates) by the boxes: the first time at which they touch. A
+  /// When the move hits `other` (world coordinates) by the boxes: the first time at which they touch. A
   /// pair that touches at the start counts, at time 0, only if the move closes the gap or they touch at the
   /// end.
   std::optional<Moment> firstTouch(const FixedBox& other) const {
-    return mayTouch(other) ? touchOnTheWay(other) : std::nullopt;
+    return mayTouch(other) ? touchOnPath(other) : std::nullopt;
   }
-  /// When it meets `other` by the boxes and the masks: the first time at which they touch and share a cell,
-  /// with the same rule for the start; a pair that shares a cell at the start and does not count may be met
+  /// When it hits `other` by the boxes and the masks: the first time at which they touch and share a cell,
+  /// with the same rule for the start; a pair that shares a cell at the start and does not count may hit
   /// again after the two have come apart. Null for a full mask.
   std::optional<Moment> firstShare(const Mask* p_own, const FixedBox& other, const Mask* p_others) const;
 
@@ -55,19 +55,19 @@ class Sweep {
   struct Gap;
 
   // The steps of an axis at which its coordinate lies within a range: from `enter` on, before `leave`. An
-  // axis that does not move has way 0: then `enter` is 0, and `leave` over 0 is never.
+  // axis that does not move has length 0: then `enter` is 0, and `leave` over 0 is never.
   struct Stay {
     std::uint64_t enter;
     std::uint64_t leave;
   };
 
-  // One axis of the move: `way` steps of one unit each.
+  // One axis of the move: `length` steps of one unit each.
   struct Axis {
     Fixed low;  // of the box at the start
     Fixed size;
-    std::uint64_t way;  // |d|
-    int direction;      // sign of d
-    Fixed path_low;     // what the box covers from the start to the end
+    std::uint64_t length;  // |d|
+    int direction;         // sign of d
+    Fixed path_low;        // what the box covers from the start to the end
     Fixed path_high;
 
     bool reaches(Fixed first, Fixed last) const;
@@ -85,9 +85,9 @@ class Sweep {
     const bool is_above = (other.corner.y > m_y.path_high) | (other.corner.y + other.size.y < m_y.path_low);
     return !(is_beside | is_above);
   }
-  std::optional<Moment> touchOnTheWay(const FixedBox& other) const;
+  std::optional<Moment> touchOnPath(const FixedBox& other) const;
   std::optional<Moment> bothWithin(const Stay& x, const Stay& y) const;
-  bool endsWithin(const Stay& x, const Stay& y) const { return m_x.way < x.leave && m_y.way < y.leave; }
+  bool endsWithin(const Stay& x, const Stay& y) const { return m_x.length < x.leave && m_y.length < y.leave; }
 
   Axis m_x;
   Axis m_y;

@@ -1,5 +1,5 @@
-// A first look at whom a move may meet, in doubles: it says without a branch when a box is touched, from a
-// little too early to a little too late. Those that it leaves are asked exactly.
+// A quick bound, in doubles, on when a move touches a box: without a branch, from a little too early to a
+// little too late. Sweep tests what this leaves exactly.
 #pragma once
 
 #include <algorithm>
@@ -20,9 +20,11 @@ class SweepBounds {
     double leave;
   };
 
-  explicit SweepBounds(const SweepPath& way)
-      : m_x(way.box().corner.x + way.from().x, way.box().size.x, way.lengthX(), way.to().x < way.from().x),
-        m_y(way.box().corner.y + way.from().y, way.box().size.y, way.lengthY(), way.to().y < way.from().y) {}
+  explicit SweepBounds(const SweepPath& path)
+      : m_x(path.box().corner.x + path.from().x, path.box().size.x, path.lengthX(),
+            path.to().x < path.from().x),
+        m_y(path.box().corner.y + path.from().y, path.box().size.y, path.lengthY(),
+            path.to().y < path.from().y) {}
 
   Stay at(const FixedBox& other) const {
     const Stay x = m_x.at(other.corner.x, other.size.x);

@@ -1,4 +1,4 @@
-// The straight way of a move, with the box that moves along it.
+// The straight path of a move, with the box that moves along it.
 #pragma once
 
 #include <algorithm>

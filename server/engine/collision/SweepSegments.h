@@ -1,7 +1,7 @@
-// A way cut into pieces, so that what lies along it is searched in the order of travel.
+// A path cut into pieces, so that what lies along it is searched in the order of travel.
 //
 // It is as many steps long as its longer axis has units. Where the shorter axis is after so many steps is
-// rounded, and a piece is a little wider for it: who is met, and when, only the sweep says.
+// rounded, and a piece is a little wider for it: only the sweep says what is hit, and when.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@ namespace df {
 
 class SweepSegments {
  public:
-  /// The way must not be of length 0.
-  explicit SweepSegments(const SweepPath& way)
-      : m_horizontal(way.lengthX() >= way.lengthY()),
-        m_along(axis(way, m_horizontal)),
-        m_across(axis(way, !m_horizontal)),
+  /// The path must not be of length 0.
+  explicit SweepSegments(const SweepPath& path)
+      : m_horizontal(path.lengthX() >= path.lengthY()),
+        m_along(axis(path, m_horizontal)),
+        m_across(axis(path, !m_horizontal)),
         m_slope(halfOf(m_across.length) / std::max(halfOf(m_along.length), 1.0)) {}
 
   /// Is the longer axis x?
@@ -49,17 +49,17 @@ class SweepSegments {
   struct Axis {
     Fixed start;  // of the box's corner
     std::uint64_t length;
-    std::uint64_t back;  // all ones if it goes back: nobody can foresee a branch
+    std::uint64_t back;  // all ones if it goes back: arithmetic in place of an unpredictable branch
 
     Fixed after(std::uint64_t steps) const {
       return static_cast<Fixed>(static_cast<std::uint64_t>(start) + ((steps ^ back) - back));
     }
   };
 
-  static Axis axis(const SweepPath& way, bool is_x) {
-    const FixedVector corner = way.box().corner + way.from();
-    if (is_x) return {corner.x, way.lengthX(), way.to().x < way.from().x ? ~std::uint64_t{0} : 0};
-    return {corner.y, way.lengthY(), way.to().y < way.from().y ? ~std::uint64_t{0} : 0};
+  static Axis axis(const SweepPath& path, bool is_x) {
+    const FixedVector corner = path.box().corner + path.from();
+    if (is_x) return {corner.x, path.lengthX(), path.to().x < path.from().x ? ~std::uint64_t{0} : 0};
+    return {corner.y, path.lengthY(), path.to().y < path.from().y ? ~std::uint64_t{0} : 0};
   }
   // Signed numbers become doubles faster.
   static double halfOf(std::uint64_t steps) {

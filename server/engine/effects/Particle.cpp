@@ -9,16 +9,16 @@ namespace df {
 Particle::Particle(float size, int age, unsigned char opacity, unsigned char r, unsigned char g,
                    unsigned char b)
     : m_age(age) {
-  begin(size, opacity);
+  initialise(size, opacity);
   setRGB(r, g, b);
 }
 
 Particle::Particle(float size, int age, unsigned char opacity, Color color) : m_age(age) {
-  begin(size, opacity);
+  initialise(size, opacity);
   setRGB(color);
 }
 
-void Particle::begin(float size, unsigned char opacity) {
+void Particle::initialise(float size, unsigned char opacity) {
   Object::setType("df-particle");
   Object::setSolidness(SPECTRAL);
   Object::setAltitude(MAX_ALTITUDE);

@@ -47,7 +47,7 @@ class Particle : public Object {
   int eventHandler(const Event* p_e) override;
 
  private:
-  void begin(float size, unsigned char opacity);
+  void initialise(float size, unsigned char opacity);
 
   int m_age;
 };

@@ -83,16 +83,16 @@ int addParticles(int count, int count_spread, Vector position, float position_sp
   constexpr int kMax = 1000;
   const int n = std::min(kMax, static_cast<int>(about(count, count_spread)));
   for (int i = 0; i < n; ++i) {
-    Vector way = direction == Vector()
-                     ? anyDirection()
-                     : direction + Vector(about(0, direction_spread), about(0, direction_spread));
-    way.normalize();
-    way.scale(about(speed, speed_spread));
+    Vector velocity = direction == Vector()
+                          ? anyDirection()
+                          : direction + Vector(about(0, direction_spread), about(0, direction_spread));
+    velocity.normalize();
+    velocity.scale(about(speed, speed_spread));
     const auto part = [&](unsigned char c) { return byte(about(c, color_spread)); };
     auto* p_particle = new Particle(static_cast<float>(about(size, size_spread)),
                                     std::max(1, static_cast<int>(about(age, age_spread))),
                                     byte(about(opacity, opacity_spread)), part(r), part(g), part(b));
-    spawn(p_particle, position + Vector(about(0, position_spread), about(0, position_spread)), way);
+    spawn(p_particle, position + Vector(about(0, position_spread), about(0, position_spread)), velocity);
   }
   return 0;
 }
@@ -104,12 +104,12 @@ int addParticles(ParticleType type, Vector position, float scale, Color color) {
   const double size = std::clamp(static_cast<double>(scale), 0.1, 10.0);
   const int n = std::max(1, static_cast<int>(look.count * size));
   for (int i = 0; i < n; ++i) {
-    Vector way = type == RINGS ? turned(360.0 * i / n) : anyDirection();
-    way.scale(type == RINGS ? look.speed * size : about(look.speed, look.speed / 2) * size);
-    if (type == SMOKE) way = way + Vector(0, -look.speed);
+    Vector velocity = type == RINGS ? turned(360.0 * i / n) : anyDirection();
+    velocity.scale(type == RINGS ? look.speed * size : about(look.speed, look.speed / 2) * size);
+    if (type == SMOKE) velocity = velocity + Vector(0, -look.speed);
     auto* p_particle = new Fader(look.size, static_cast<int>(about(look.age, look.age / 4.0)), 255,
                                  look.rgb[0], look.rgb[1], look.rgb[2]);
-    spawn(p_particle, position, asSeen(way));
+    spawn(p_particle, position, asSeen(velocity));
   }
   return 0;
 }
@@ -139,13 +139,13 @@ int explode(const Sprite* p_sprite, int index, Vector position, int age, float s
       const char ch = frame.at(x, y);
       if (ch == ' ' || (p_sprite->getTransparency() != 0 && ch == p_sprite->getTransparency())) continue;
       const Vector offset = Vector(x, y) - middle;
-      Vector way = offset == Vector() ? anyDirection() : offset;
-      way.normalize();
-      way.scale(speed);
+      Vector velocity = offset == Vector() ? anyDirection() : offset;
+      velocity.normalize();
+      velocity.scale(speed);
       // What flies together starts from where it would have flown apart to.
       Vector start = position + offset;
-      if (speed < 0) start = start - Vector(way.x() * age, way.y() * age);
-      auto* p_debris = new Debris(age, 255, p_sprite->getColor(), way, ch, rotate);
+      if (speed < 0) start = start - Vector(velocity.x() * age, velocity.y() * age);
+      auto* p_debris = new Debris(age, 255, p_sprite->getColor(), velocity, ch, rotate);
       p_debris->setPosition(start);
     }
   }

@@ -27,7 +27,7 @@ int addParticles(PrecipitationType type, Direction direction, float scale = 1.0,
 /// A frame's characters fly apart (together, if `speed` is negative), for `age` ticks. Return 0, or -1 for
 /// null and for a number without a frame.
 int explode(const Sprite* p_sprite, int index, Vector position, int age, float speed, float rotate);
-/// The published engine shows its name here before the game begins. Nobody would be there to see it: it
+/// The published engine shows its name here before the game begins. Here no player has joined by then, so it
 /// returns at once. Return 0.
 int splash();
 

@@ -1,5 +1,5 @@
-// What an Object is told (book, Listing 4.51). An Event is a container: a type name and, in derived
-// classes, a few values. Games derive their own and send them with WM.onEvent().
+// What an Object gets in its eventHandler() (book, Listing 4.51). An Event is a container: a type name and,
+// in derived classes, a few values. Games derive their own and send them with WM.onEvent().
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace df {
 
-/// Type of an Event nobody has named.
+/// Type of an Event without a name.
 inline const EventType UNDEFINED_EVENT("df-undefined");
 
 class Event {
@@ -19,7 +19,7 @@ class Event {
   Event() = default;
   virtual ~Event() = default;
 
-  /// The name by which Objects register interest and tell events apart. Names that begin with "df-"
+  /// The name by which Objects register interest and distinguish events. Names that begin with "df-"
   /// belong to the engine.
   void setType(std::string new_type) {
     m_type = EventType(std::move(new_type));

@@ -19,8 +19,8 @@ class EventKeyboard : public Event {
   void setKeyboardAction(EventKeyboardAction action) { m_action = action; }
   EventKeyboardAction getKeyboardAction() const { return m_action; }
 
-  /// Whose key: a player id for `WM.getPlayer()`; 0 if no player sent it (an event a game made itself).
-  /// A game that ignores this hears everybody's keys.
+  /// The player that pressed it: an id for `WM.getPlayer()`; 0 if no player sent it (an event a game made
+  /// itself). A game that ignores this gets all players' keys.
   void setPlayer(std::uint32_t player) { m_player = player; }
   std::uint32_t getPlayer() const { return m_player; }
 

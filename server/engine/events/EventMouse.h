@@ -27,7 +27,7 @@ class EventMouse : public Event {
   void setMousePosition(Vector position) { m_position = position; }
   Vector getMousePosition() const { return m_position; }
 
-  /// Whose mouse: a player id for `WM.getPlayer()`; 0 if no player sent it.
+  /// The player: an id for `WM.getPlayer()`; 0 if no player sent it.
   void setPlayer(std::uint32_t player) { m_player = player; }
   std::uint32_t getPlayer() const { return m_player; }
 

@@ -1,5 +1,5 @@
-// Tells view objects a new value (book, Listing 4.177): sent with WM.onEvent(), taken by those whose text is
-// the tag.
+// Sets the value of view objects (book, Listing 4.177): sent with WM.onEvent(), applied by view objects with
+// the tag as their text.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // Measures time between calls, in microseconds (book, Listing 4.21). It is the game's time, which is the same
-// for everybody who plays the same inputs: a tick is a tick long, however long it took. Within a tick each
+// in every run with the same inputs: a tick has its nominal length, however long it took. Within a tick each
 // reading is a microsecond later than the one before, so that a loop that waits comes to an end.
 #pragma once
 
@@ -9,7 +9,7 @@ class Clock {
  public:
   /// From now on.
   Clock();
-  /// Time since the last call, or since the clock was made; begins anew.
+  /// Time since the last call, or since the clock was made; restarts the clock.
   long int delta();
   /// The same, and goes on.
   long int split() const;

@@ -16,7 +16,7 @@
 #include "Manager.h"
 #include "StandardHeaders.h"
 
-/// The published version whose interface this is.
+/// The published version that has this interface.
 #define DF_VERSION 4.18
 
 #define GM df::GameManager::getInstance()
@@ -24,7 +24,7 @@
 namespace df {
 
 namespace running {
-class Runner;  // df::Runner, for who includes Runner.h
+class Runner;  // Runner.h
 }
 
 /// Length of a tick, in milliseconds, rounded; exactly it is 1/30 s.
@@ -58,9 +58,9 @@ class GameManager : public Manager {
   /// Length of a tick, in milliseconds: what df-config.txt says, or the default.
   int getFrameTime() const;
 
-  /// Who runs the loop; not owned; null for nobody.
+  /// Runs the loop; not owned; null for none.
   void setRunner(running::Runner* p_runner);
-  /// Begin the world's random sequence (WM.randomInt) anew.
+  /// Restart the world's random sequence (WM.randomInt).
   void setSeed(std::uint64_t seed);
   /// A few lines about the game and its keys, for the help screen of the clients.
   void setHelp(std::vector<std::string> lines);

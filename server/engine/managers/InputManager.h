@@ -1,5 +1,5 @@
 // Hands on what players do (book, Listing 4.91). Keys and mouse come from the host through World::key()
-// and World::mouse(); Objects hear of them as EventKeyboard and EventMouse.
+// and World::mouse(); Objects get them as EventKeyboard and EventMouse.
 #pragma once
 
 #include "EventKeyboard.h"

@@ -39,14 +39,15 @@ class Manager {
   virtual bool isStarted() const { return m_is_started; }
 
   /// Send `p_event` to the Objects that registered interest in its type, in the order they registered.
-  /// Return how many were told; 0 for null. See World::onEvent for what happens to Objects that come,
+  /// Return to how many it was sent; 0 for null. See World::onEvent for what happens to Objects that come,
   /// go or fall asleep meanwhile.
   int onEvent(const Event* p_event) const;
 
   /// Object::registerInterest(), seen from the other side.
   int registerInterest(Object* p_o, const std::string& event_type);
   int unregisterInterest(Object* p_o, const std::string& event_type);
-  /// Whether events of this type come from this manager: for games' own ones. Nobody asks.
+  /// Whether events of this type come from this manager: for games' own managers. The engine does not call
+  /// it.
   virtual bool isValid(std::string /*event_type*/) const { return true; }
 
  protected:

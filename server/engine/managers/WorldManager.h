@@ -1,4 +1,4 @@
-// Manages the Objects of the current world: who is in it, how they move, what they bump into (book,
+// Manages the Objects of the current world: which are in it, how they move, what they collide with (book,
 // Listings 4.54, 4.101, 4.106, 4.130).
 #pragma once
 
@@ -23,7 +23,7 @@
 namespace df {
 
 namespace players {
-class Player;  // df::Player, for who includes Player.h
+class Player;  // Player.h
 }
 
 class WorldManager : public Manager {
@@ -37,7 +37,7 @@ class WorldManager : public Manager {
   void shutDown() override;
   bool isStarted() const override;
 
-  // Who is in the world.
+  // The Objects in the world.
 
   /// Put a removed Object back, as the last in creation order. (The constructor does the first insertion;
   /// for an Object that is in the world nothing happens.) Return 0, or -1 for null or an Object of another
@@ -47,8 +47,8 @@ class WorldManager : public Manager {
   /// it is not in the world.
   int removeObject(Object* p_o);
   /// Delete at the end of the present or next update(), in order of the marks; until then it moves,
-  /// collides and hears as before. Twice is once. An Object not made with `new` is only taken out. Return
-  /// 0, or -1 if it is not in the world.
+  /// collides and gets events as before. Twice is once. An Object not made with `new` is only taken out.
+  /// Return 0, or -1 if it is not in the world.
   int markForDelete(Object* p_o);
   /// All in the list. Return 0, or -1 if one of them is not in the world.
   int markForDelete(const ObjectList& obj_list);
@@ -69,12 +69,12 @@ class WorldManager : public Manager {
   /// Lists of Objects by what they are.
   SceneGraph& getSceneGraph() const;
   /// The active visible Objects whose boxes covered this cell (a world position, as of EventMouse) on the
-  /// screen of the player whose input is being handled, at the moment he did it, in creation order. For
-  /// games in which a click must hit what was clicked on, however far the player and however fast the target.
-  /// Outside a player's mouse input, and without setLookingBack(): those that cover it now. He is believed
-  /// for at most 8 ticks back (a quarter of a second).
+  /// screen of the player whose input is being handled, at the moment of that input, in creation order. For
+  /// games in which a click must hit what was clicked on, whatever the latency and the target's speed.
+  /// Outside a player's mouse input, and without setLookingBack(): those that cover it now. It goes at most 8
+  /// ticks back (a quarter of a second).
   ObjectList objectsSeenAt(Vector cell) const;
-  /// Have the host remember where Objects were drawn, for objectsSeenAt(), and where players' views were:
+  /// Have the host keep where Objects were drawn, for objectsSeenAt(), and where players' views were:
   /// then the position of an EventMouse is what was under the pointer in that picture. Off by default.
   void setLookingBack(bool looking_back = true);
   bool isLookingBack() const;
@@ -82,19 +82,19 @@ class WorldManager : public Manager {
   // How they move.
 
   /// The active solid Objects whose boxes touch p_o's box if p_o were at `where`, in creation order,
-  /// without p_o itself; where one of the two is precise, the characters must meet, too. Whether p_o is solid
-  /// does not matter (Listing 4.108). Empty for null and for a position out of range.
+  /// without p_o itself; where one of the two is precise, the characters must share a cell, too. Whether p_o
+  /// is solid does not matter (Listing 4.108). Empty for null and for a position out of range.
   ObjectList getCollisions(const Object* p_o, Vector where) const;
   /// Would p_o collide at `where`?
   bool isCollision(const Object* p_o, Vector where) const;
   /// Move p_o to `where` (Listings 4.109, 4.111, 4.113): solid Objects it touches there and itself get
-  /// collision events; if none blocks, it moves, and hears of it if it left the world. Return 0 if it moved;
-  /// -1 if blocked, deleted by a handler, not in the world, out of range, or nested more than 32 deep in
-  /// handlers. An inactive Object is placed without collisions or events. Mover.h has the details.
+  /// collision events; if none blocks, it moves, and gets an out event if it left the world. Return 0 if it
+  /// moved; -1 if blocked, deleted by a handler, not in the world, out of range, or nested more than 32 deep
+  /// in handlers. An inactive Object is placed without collisions or events. Mover.h has the details.
   int moveObject(Object* p_o, Vector where);
-  /// Whom p_o, if it is solid, would meet first on the straight way to `where`, by the rules of swept moves
-  /// and whether or not p_o is swept (docs/collisions.md): nothing moves, nobody hears. Nobody for null, for
-  /// an Object that is SPECTRAL, inactive or in no world, and for a position out of range.
+  /// The first Object that p_o, if it is solid, would hit on the straight path to `where`, by the rules of
+  /// swept moves, whether or not p_o is swept (docs/collisions.md): nothing moves, no event is sent. None for
+  /// null, for an Object that is SPECTRAL, inactive or in no world, and for a position out of range.
   Contact firstContact(const Object* p_o, Vector where) const;
 #if __cplusplus >= 201703L
   /// The position nearest to `near`, a whole number of cells from it on each axis, at which `box` (relative
@@ -119,8 +119,8 @@ class WorldManager : public Manager {
   /// 1e6 cells. Return 0, else -1.
   int setBoundary(Box new_boundary);
   Box getBoundary() const;
-  /// The view: that of the player whose input is being handled, if he has one of his own, else the world's,
-  /// which all other players share. Its size is the window's (DM.setSize).
+  /// The view: that of the player whose input is being handled, if they have one of their own, else the
+  /// world's, which all other players share. Its size is the window's (DM.setSize).
   Box getView() const;
   /// Move the view to the box's corner, clamped inside the boundary; the box's size is ignored. Return
   /// 0, or -1 if not finite.
@@ -130,10 +130,10 @@ class WorldManager : public Manager {
   /// Centre the view on this Object and move it along when moveObject() or update() take the Object out of
   /// the view's inner third. Null: stay. Return 0, or -1 if the Object is not in the world.
   int setViewFollowing(Object* p_new_view_following);
-  /// Whom the view follows; null for nobody.
+  /// The Object that the view follows; null for none.
   Object* getViewFollowing() const;
   /// Views that follow keep their Object in the inner third, whatever is set here; the published engine takes
-  /// fractions of the view. Kept for who asks.
+  /// fractions of the view. Kept for getViewSlack().
   void setViewSlack(Vector new_slack);
   Vector getViewSlack() const;
 
@@ -145,7 +145,7 @@ class WorldManager : public Manager {
   players::Player* getPlayer(std::uint32_t id) const;
 
   /// 0 to n-1, each equally likely, from the world's seed (GM.setSeed); 0 if n < 1. Unlike rand(), the same
-  /// for everybody who plays the same inputs.
+  /// in every run with the same inputs.
   int randomInt(int n);
 
  private:

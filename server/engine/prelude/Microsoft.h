@@ -1,4 +1,4 @@
-// Functions that Microsoft's compiler has beside those of the standard, and that games made with it use.
+// Functions of Microsoft's compiler beyond the standard, for games that use them.
 #pragma once
 
 #if !defined(_MSC_VER)
@@ -14,7 +14,7 @@
 #define _countof(array) (sizeof(array) / sizeof((array)[0]))
 #endif
 
-// A game that knows other compilers has macros of these names.
+// A game written for several compilers may define macros of these names.
 #if !defined(sprintf_s)
 /// As std::snprintf().
 __attribute__((format(printf, 3, 4))) inline int sprintf_s(char* text, std::size_t size, const char* format,

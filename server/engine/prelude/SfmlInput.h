@@ -1,5 +1,5 @@
-// Keys and buttons as the graphics library SFML lets games ask for them, past the engine: none is ever down,
-// for the keys are the players', and come as events. See Sfml.h.
+// Keys and buttons as in the graphics library SFML, past the engine: none is ever down, because the players'
+// keys come as events. See Sfml.h.
 #pragma once
 
 #include "detail/SfmlValues.h"

@@ -1,4 +1,4 @@
-// Events of the published engine's sockets. They exist so that games compile; nobody sends them
+// Events of the published engine's sockets. They exist so that games compile; the engine sends none
 // (NetworkManager.h says what to use instead).
 #pragma once
 

@@ -1,6 +1,7 @@
-// The published engine's sockets, which Naiad games need not have: a game is one program, on the server, and
-// whoever joins plays in its world. Input of all players comes as EventKeyboard and EventMouse, with
-// getPlayer(); who comes and goes, as EventJoin and EventLeave; what Objects look like, everybody sees.
+// The published engine's sockets, which Naiad games do not need: a game is one program, on the server, and
+// all players play in its world. Input of all players comes as EventKeyboard and EventMouse, with
+// getPlayer(); joins and leaves come as EventJoin and EventLeave; the server sends all players what Objects
+// look like.
 //
 // The class exists so that games compile. Its calls fail, and the first one says so in the log.
 #pragma once
@@ -32,7 +33,7 @@ class NetworkManager : public Manager {
   int closeAll() { return close(); }
   int setDelay(int new_delay, int sock = 0);
 
-  // Nobody is connected.
+  // There are no connections.
 
   bool isServer() const { return false; }
   bool isConnected(int /*sock*/ = -1) const { return false; }

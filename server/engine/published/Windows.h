@@ -1,5 +1,5 @@
 // Stands in for the header of the system Windows, which games include that were made there, mostly for
-// nothing. Keys are heard as events, and time is the game's: nothing here waits, or asks the machine.
+// nothing. Keys come as events, and time is the game's: nothing here waits, or asks the machine.
 #pragma once
 
 #include <algorithm>

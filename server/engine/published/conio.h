@@ -1,4 +1,4 @@
-// Stands in for Microsoft's header of this name: no key is ever waiting, for keys are heard as events.
+// Stands in for Microsoft's header of this name: no key is ever waiting, because keys come as events.
 #pragma once
 
 inline int _kbhit() {

@@ -1,6 +1,6 @@
 // Which frame of a sprite shows now (book, Listing 4.149). A value: each Object has its own.
 //
-// An Object's animation goes on in the tick, once, after all have been drawn, whether or not anybody sees it;
+// An Object's animation goes on in the tick, once, after all have been drawn, whether or not it is in a view;
 // that of an inactive or invisible Object waits. One that a game holds for itself goes on with each draw().
 #pragma once
 

@@ -1,5 +1,4 @@
-// Finds files by names as systems take them that part folders by backslashes, too, and know no upper and
-// lower case.
+// Finds files by names as on systems that separate folders by backslashes and ignore case.
 #pragma once
 
 #include <string>

@@ -42,14 +42,14 @@ class Lines {
     while (!isDone() && trimmed(m_lines[m_next]).empty()) ++m_next;
   }
   /// The line as it is.
-  const std::string& take(const std::string& expected) {
+  const std::string& takeLine(const std::string& expected) {
     if (isDone()) throw Trouble{m_lines.size(), "the file ends where " + expected + " should be"};
     return m_lines[m_next++];
   }
   /// The next line that is not blank, without blanks around it.
   std::string takeWord(const std::string& expected) {
     skipBlank();
-    return trimmed(take(expected));
+    return trimmed(takeLine(expected));
   }
   std::string peekWord() {
     skipBlank();
@@ -140,7 +140,7 @@ void readFrame(Lines& lines, Sprite& sprite) {
   const auto width = static_cast<std::size_t>(sprite.getWidth());
   std::string characters;
   for (int y = 0; y < sprite.getHeight(); ++y) {
-    const std::string& row = lines.take("a row of characters");
+    const std::string& row = lines.takeLine("a row of characters");
     if (row.size() != width) {
       lines.fail("the row has " + std::to_string(row.size()) + " characters instead of " +
                  std::to_string(width));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kVoteTicks = 300;
 
-/// Whose keys are heard, so who can vote.
+/// The players whose keys count, so that can vote.
 std::vector<std::uint32_t> votersOf(const World& world) {
   const WorldExtras* p_extras = world.findExtras();
   const std::uint32_t only = p_extras != nullptr ? p_extras->heard_player : 0;
@@ -51,7 +51,7 @@ int Pause::eventHandler(const Event* p_e) {
   return 1;
 }
 
-// A key that is nobody's, from the game itself, is obeyed.
+// A key without a player, from the game itself, takes effect at once.
 void Pause::vote(std::uint32_t player) {
   World& world = *getWorld();
   const std::vector<std::uint32_t> voters = votersOf(world);
@@ -69,7 +69,7 @@ void Pause::vote(std::uint32_t player) {
   count(voters.size(), true);
 }
 
-// He is among the players still.
+// They are among the players still.
 void Pause::leave(std::uint32_t player) {
   World& world = *getWorld();
   std::erase(m_votes, player);
@@ -83,13 +83,13 @@ void Pause::leave(std::uint32_t player) {
   }
 }
 
-// `tell`: even if it is not enough.
-void Pause::count(std::size_t voters, bool tell) {
+// `announce`: even if it is not enough.
+void Pause::count(std::size_t voters, bool announce) {
   World& world = *getWorld();
   const bool enough = 2 * m_votes.size() > voters;
-  if (tell || enough) {
-    world.extras().tell((world.isPaused() ? "go on: " : "pause: ") + std::to_string(m_votes.size()) + " of " +
-                        std::to_string(voters));
+  if (announce || enough) {
+    world.extras().addNote((world.isPaused() ? "go on: " : "pause: ") + std::to_string(m_votes.size()) +
+                           " of " + std::to_string(voters));
   }
   if (!enough) return;
   m_votes.clear();

@@ -1,10 +1,9 @@
 // Pauses the game when its key is pressed, and lets it go on when it is pressed again: no step events,
 // nothing moves, no input but to Pause objects; the picture stays.
 //
-// With several players it is a vote: more than half of those who are there have to press the key, each once,
-// within ten seconds of the one before. All of them read how it stands ("pause: 1 of 3"). Who leaves takes
-// his vote along, and the others are counted anew. Who pauses and goes, and leaves nobody behind, ends the
-// pause.
+// With several players it is a vote: more than half of the players have to press the key, each once, within
+// ten seconds of the one before. All of them read the count ("pause: 1 of 3"). A player that leaves loses
+// their vote, and the others are counted again. When the last player leaves, the pause ends.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +30,7 @@ class Pause : public Object {
  private:
   void vote(std::uint32_t player);
   void leave(std::uint32_t player);
-  void count(std::size_t voters, bool tell);
+  void count(std::size_t voters, bool announce);
 
   int m_pause_key;
   std::vector<std::uint32_t> m_votes;  ///< for the other state: players

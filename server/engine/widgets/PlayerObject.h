@@ -1,4 +1,4 @@
-// An Object that a player steers, of any kind of Object: it hears that player's input and no other's.
+// An Object that a player steers, of any kind of Object: it gets that player's input and no other's.
 //
 //   class Ship : public df::PlayerObject<df::Body> {
 //    public:
@@ -9,7 +9,7 @@
 //     void keyboard(const df::EventKeyboard& event) override;
 //   };
 //
-//   new df::Welcome<Ship>;  // before GM.run(): everybody who joins gets one
+//   new df::Welcome<Ship>;  // before GM.run(): each player that joins gets one
 //
 // It is the player's Object (Player::setObject) and is deleted when the player leaves.
 #pragma once
@@ -37,7 +37,7 @@ class PlayerObject : public Base {
     player.setObject(this);
   }
 
-  /// Who steers it; null from the tick on in which he leaves.
+  /// The player that steers it; null from the tick in which they leave.
   Player* getPlayer() const { return WM.getPlayer(m_player); }
   /// The player's.
   Color getColor() const { return m_color; }
@@ -75,7 +75,7 @@ class PlayerObject : public Base {
   Color m_color;
 };
 
-/// Makes an Its(Player&) for each player who joins. Neither seen nor in anybody's way.
+/// Makes an Its(Player&) for each player that joins. It is invisible and collides with nothing.
 template <class Its>
 class Welcome : public Object {
  public:

@@ -39,7 +39,7 @@ void TextEntry::type(char ch) {
   ++m_cursor;
 }
 
-bool TextEntry::hears(const EventKeyboard& key) const {
+bool TextEntry::takesKey(const EventKeyboard& key) const {
   if (m_player == 0 || key.getPlayer() == m_player) return true;
   const World* p_world = getWorld();
   return p_world != nullptr && p_world->getPlayer(m_player) == nullptr;
@@ -48,7 +48,7 @@ bool TextEntry::hears(const EventKeyboard& key) const {
 int TextEntry::eventHandler(const Event* p_e) {
   const auto* p_key = dynamic_cast<const EventKeyboard*>(p_e);
   if (p_key == nullptr) return ViewObject::eventHandler(p_e);
-  if (!hears(*p_key)) return 0;
+  if (!takesKey(*p_key)) return 0;
   const Keyboard::Key key = p_key->getKey();
   const EventKeyboardAction action = p_key->getKeyboardAction();
   if (key == Keyboard::LEFTSHIFT || key == Keyboard::RIGHTSHIFT) m_shift = action != KEY_RELEASED;

@@ -1,7 +1,7 @@
 // A line of text that the player types; RETURN calls callback().
 //
-// One that is made while a player's join, key or mouse is handled is that player's: it hears his keys and no
-// others. One that is made elsewhere hears everybody's, unless setPlayer() says whose it is.
+// One that is made while a player's join, key or mouse is handled is that player's: it takes their keys and
+// no others. One that is made elsewhere takes all players' keys, unless setPlayer() names one.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +46,8 @@ class TextEntry : public ViewObject {
   void setNumbersOnly(bool new_numbers_only = true) { m_numbers_only = new_numbers_only; }
   bool numbersOnly() const { return m_numbers_only; }
 
-  /// Whose keys it hears; 0: everybody's. When he has left, everybody's are heard, lest the game wait for
-  /// ever.
+  /// The player whose keys it takes; 0: all. When that player has left, it takes all players' keys, lest the
+  /// game wait for ever.
   void setPlayer(std::uint32_t new_player) { m_player = new_player; }
   std::uint32_t getPlayer() const { return m_player; }
 
@@ -56,7 +56,7 @@ class TextEntry : public ViewObject {
   DF_DRAW draw() override;
 
  private:
-  bool hears(const EventKeyboard& key) const;
+  bool takesKey(const EventKeyboard& key) const;
   void type(char ch);
 
   std::string m_text;

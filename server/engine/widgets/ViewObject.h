@@ -1,7 +1,7 @@
 // Shows a text and a value at a fixed place of the view, such as points (book, Listing 4.175).
 //
-// Its position is in cells of the view, not of the world, and it is drawn wherever that is: in the view of
-// every player, whose places of origin differ. It collides with nothing.
+// Its position is in cells of the view, not of the world, and it is drawn wherever that is: at the same cell
+// of every player's view. It collides with nothing.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The Objects of a world whose animations go on.
+// The Objects of a world with running animations.
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ class Animations {
   void advance();
 
  private:
-  std::vector<Object*> m_objects;  // each knows its place (ObjectExtras::animated)
+  std::vector<Object*> m_objects;  // each stores its place (ObjectExtras::animated)
 };
 
 }  // namespace df

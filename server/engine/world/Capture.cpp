@@ -22,7 +22,7 @@ bool isNear(FixedVector a, FixedVector b) {
 
 }  // namespace
 
-void Capture::begin() {
+void Capture::clearPicture() {
   m_view.drawn.clear();
   m_view.commands.clear();
   m_view.looks.clear();
@@ -54,7 +54,7 @@ void Capture::sortByAltitude() {
     const WorldStore::Slot s = walk[i];
     if (s == WorldStore::kNoSlot || !mayDraw(s)) continue;
     const FixedBox box = store.worldBox(s, store.position(s));
-    if (views.meets(box) || store.has(s, WorldStore::kOnView))
+    if (views.intersectsAny(box) || store.has(s, WorldStore::kOnView))
       m_by_altitude[store.altitude(s)].push_back(store.key(s));
   }
 }
@@ -80,7 +80,7 @@ void Capture::drawOne(ObjectKey key) {
     for (const DrawCommand& c : look->second)
       m_view.commands.push_back({position + c.position, c.ch, c.color});
     m_view.drawn[entry].count = static_cast<std::uint32_t>(look->second.size());
-    tellLook(entry);
+    publishLook(entry);
     return;
   }
 
@@ -97,7 +97,7 @@ void Capture::drawOne(ObjectKey key) {
   m_view.drawn[entry].count = count;
   if (!store.isCurrent(key)) return;
   const bool frames = store.has(key.slot, WorldStore::kFrames);  // draw() may have set them
-  tellLook(entry);
+  publishLook(entry);
   if (frames || !store.has(key.slot, WorldStore::kStaticLook)) return;
   auto& relative = m_looks[key.slot];
   for (std::uint32_t i = first; i < first + count; ++i) {
@@ -108,13 +108,13 @@ void Capture::drawOne(ObjectKey key) {
   }
 }
 
-void Capture::tellLook(std::size_t entry) {
+void Capture::publishLook(std::size_t entry) {
   const WorldStore& store = m_world.store();
   const std::uint32_t slot = m_view.drawn[entry].key.slot;
   constexpr std::uint32_t kShows = WorldStore::kFrames | WorldStore::kPainted;
   if (!store.isWatched() || (store.flags(slot) & kShows) == 0) return;
   const auto tick = static_cast<std::uint32_t>(m_world.getStepCount());
-  auto p_look = store.object(slot)->toldLook(tick);
+  auto p_look = store.object(slot)->publishedLook(tick);
   if (p_look != nullptr) m_view.looks.push_back({static_cast<std::uint32_t>(entry), std::move(p_look)});
 }
 
@@ -141,7 +141,7 @@ void Capture::addFrame(std::uint32_t slot) {
   }
 }
 
-void Capture::finish() {
+void Capture::finishView() {
   WorldStore& store = m_world.store();
   if (!store.isWatched()) return;
   const Views& views = m_world.views();
@@ -163,7 +163,7 @@ void Capture::finish() {
   }
 }
 
-// Every view is off its place, and follows nobody meanwhile: who draws it would put it right again.
+// Shift every view and let it follow none meanwhile: a client would undo the shift by following.
 void Capture::shake() {
   if (m_view.shake_x == 0 && m_view.shake_y == 0) return;
   const FixedVector off{fromCells(m_view.shake_x), fromCells(m_view.shake_y)};

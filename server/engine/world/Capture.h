@@ -1,7 +1,7 @@
 // Runs the draw() of everything in view, and keeps what it put on the screen.
 //
 // The list of characters is kept in any case: it is the picture of the tick (World::renderView). The rest
-// of the WorldView is filled only while somebody watches.
+// of the WorldView is filled only while the world is watched.
 #pragma once
 
 #include <array>
@@ -22,18 +22,18 @@ class Capture {
   explicit Capture(World& world) : m_world(world) {}
 
   /// Forget the last picture.
-  void begin();
-  /// Draw the active visible Objects whose box meets a view: by altitude, then creation order, as they were
-  /// when this began. Objects of type Object itself draw nothing and are left out; of static looks the
+  void clearPicture();
+  /// Draw the active visible Objects whose box intersects a view: by altitude, then creation order, as they
+  /// were when this began. Objects of type Object itself draw nothing and are left out; of static looks the
   /// first drawing is repeated.
   void drawAll();
   /// One character, on behalf of the Object whose draw() is running.
   void add(FixedVector position, char32_t ch, Color color);
-  /// The frame whose turn it is, on its behalf.
+  /// The frame that shows now, on its behalf.
   void addFrame(std::uint32_t slot);
-  /// Complete the WorldView, if somebody watches.
-  void finish();
-  /// The look of this slot is to be drawn anew, if it was static.
+  /// Complete the WorldView, if the world is watched.
+  void finishView();
+  /// Draw the look of this slot again, if it was static.
   void forgetLook(std::uint32_t slot) { m_looks.erase(slot); }
 
   const WorldView& view() const { return m_view; }
@@ -45,12 +45,12 @@ class Capture {
   bool mayDraw(std::uint32_t slot);
   void sortByAltitude();
   void drawOne(ObjectKey key);
-  void tellLook(std::size_t entry);
+  void publishLook(std::size_t entry);
   void shake();
 
   World& m_world;
   WorldView m_view;
-  ObjectKey m_drawing;  // whose draw() is running; generation 0: nobody's
+  ObjectKey m_drawing;  // its draw() is running; generation 0: none is
   std::array<std::vector<ObjectKey>, MAX_ALTITUDE + 1> m_by_altitude;   // scratch of drawAll()
   std::unordered_map<std::uint32_t, std::vector<DrawCommand>> m_looks;  // static ones, relative
 };

@@ -1,4 +1,4 @@
-// What a mover and another Object are to each other: the rules of docs/collisions.md for two.
+// The collision rules of docs/collisions.md for a mover and one other Object.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace df {
 
-/// A moving Object and another one that it may meet, as they are in the store now. Both are in the world.
+/// A moving Object and another that it may touch, as they are in the store now. Both are in the world.
 class CollisionRule {
  public:
   CollisionRule(const WorldStore& store, WorldStore::Slot mover, WorldStore::Slot other)
@@ -21,17 +21,17 @@ class CollisionRule {
     const Solidness its = m_store.solidness(m_other);
     return (own == HARD && its == HARD) || (its == SOFT && m_store.has(m_mover, WorldStore::kNoSoft));
   }
-  /// The same on this way: what the mover may move out of does not block it.
+  /// The same on this path: what the mover may move out of does not block it.
   bool blocks(FixedVector from, FixedVector to) const { return blocks() && !movesOut(from, to); }
-  /// When they first meet on this way, by the boxes or, if one of the two is precise, by the characters.
+  /// When they first collide on this path, by the boxes or, if one of the two is precise, by the characters.
   std::optional<Moment> firstMeeting(const Sweep& sweep) const { return firstMeeting(sweep, otherBox()); }
-  /// The same, when the other's box in world coordinates is at hand.
+  /// The same, with the other's box in world coordinates.
   std::optional<Moment> firstMeeting(const Sweep& sweep, const FixedBox& box) const {
     if (!m_store.hasPrecise() || !isPrecise()) return sweep.firstTouch(box);
     return sweep.firstShare(m_store.mask(m_mover), box, m_store.mask(m_other));
   }
-  /// Their boxes touch if the mover's is `box`: do they meet there, by the characters as well?
-  bool meets(const FixedBox& box) const {
+  /// Their boxes touch if the mover's is `box`: do they collide there, by the characters as well?
+  bool collidesIn(const FixedBox& box) const {
     return !isPrecise() || shareCell(m_store.mask(m_mover), box, m_store.mask(m_other), otherBox());
   }
 
@@ -49,11 +49,12 @@ class CollisionRule {
   WorldStore::Slot m_other;
 };
 
-/// Of Objects whose boxes touch `box`, in which the mover would be, leave those that it meets there.
-inline void keepMet(const WorldStore& store, WorldStore::Slot mover, const FixedBox& box,
-                    std::vector<ObjectKey>& others) {
+/// Of the Objects whose boxes touch `box`, where the mover would be, keep those that it collides with there.
+inline void keepCollisions(const WorldStore& store, WorldStore::Slot mover, const FixedBox& box,
+                           std::vector<ObjectKey>& others) {
   if (!store.hasPrecise()) return;
-  std::erase_if(others, [&](ObjectKey other) { return !CollisionRule(store, mover, other.slot).meets(box); });
+  std::erase_if(others,
+                [&](ObjectKey other) { return !CollisionRule(store, mover, other.slot).collidesIn(box); });
 }
 
 }  // namespace df

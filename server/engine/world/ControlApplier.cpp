@@ -13,8 +13,8 @@ namespace df {
 
 namespace {
 
-/// The Object a player steers, for the function that the client shares. Whoever has gone meanwhile, or is
-/// inactive, is not moved.
+/// The Object that a player steers, for the function that the client shares. One that is gone or inactive is
+/// not moved.
 class ControlApplier : public naiad::Steered {
  public:
   ControlApplier(World& world, ObjectKey object) : m_world(world), m_object(object) {}

@@ -1,8 +1,8 @@
-// How a player's keys move his Object, declared instead of programmed: Player::setControls().
+// How a player's keys move their Object, declared instead of programmed: Player::setControls().
 //
 // A game that moves its Object in the handler of EventKeyboard shows a key only after a round trip. One that
-// declares its controls lets the client show it in the next frame: it knows the table, moves its copy at
-// once, and corrects itself where the server saw it otherwise.
+// declares its controls lets the client show it in the next frame: the client has the table, moves its copy
+// at once, and corrects it by the server's result.
 //
 //   player.setControls(Controls()
 //                          .onKey(Keyboard::UPARROW).step(0, -1).every(3)
@@ -28,7 +28,7 @@ class Controls {
   Controls& onKey(Keyboard::Key key, EventKeyboardAction action = KEY_PRESSED);
   /// Move by (dx,dy), once, at once: WM.moveObject(). Up to 1024 cells on each axis.
   Controls& step(double dx, double dy);
-  /// Set the velocity, in cells per tick; it stays until somebody changes it.
+  /// Set the velocity, in cells per tick; it stays until it is changed.
   Controls& velocity(double vx, double vy);
   /// Likewise of one axis; the other keeps its own.
   Controls& velocityX(double vx);

@@ -1,9 +1,9 @@
 // The memory of Objects that were deleted lately.
 //
-// Games written for the published engine go on asking Objects that they have deleted, and there it mostly
-// goes well, for a while: nobody else has the memory yet. So in a world with `compat` it is kept for some
-// deletions more: what is asked of such an Object is answered with what it was, or what its slot is now, and
-// a handler called on it does nothing.
+// Games written for the published engine go on asking Objects that they have deleted, which mostly works
+// there for a while, because the memory is not used again yet. So a world with `compat` keeps it for some
+// deletions more: getters of such an Object return what it was, or what its slot is now, and a handler called
+// on it does nothing.
 #pragma once
 
 #include <array>

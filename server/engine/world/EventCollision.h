@@ -1,8 +1,8 @@
 // Sent to both Objects when a solid one moves onto another solid one (book, Listing 4.105).
 //
 // It goes to the mover first, then to the other; no interest needs to be registered. Either handler may
-// delete either Object by hand: then the other is not told, so the pointers are good in every handler
-// that sees them.
+// delete either Object by hand: then the other gets no event, so the pointers are valid in every handler that
+// gets them.
 //
 // Bodies (physics) get it once when a contact begins, after all of them have moved.
 #pragma once
@@ -17,7 +17,7 @@ inline const EventType COLLISION_EVENT("df-collision");
 
 class EventCollision : public Event {
  public:
-  /// A collision at (0,0) between nobody and nobody.
+  /// A collision at (0,0) without Objects.
   EventCollision() : EventCollision(nullptr, nullptr, Vector()) {}
   /// `p_o1` caused the collision by moving onto `p_o2`; `p` is the position p_o1 wanted to move to (swept:
   /// just before the contact).

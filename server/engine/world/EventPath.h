@@ -1,4 +1,4 @@
-// Tells an Object that called pathTo() how the search for a way ended. It comes at once, before pathTo()
+// Sent to an Object that called pathTo(): how the search ended. It comes at once, before pathTo()
 // returns; no interest needs to be registered.
 #pragma once
 

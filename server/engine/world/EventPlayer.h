@@ -1,6 +1,6 @@
-// A player joined, or is about to go. Sent to Objects that registered interest in JOIN_EVENT or
-// LEAVE_EVENT, in the input stage of a tick. A game that registers neither has players all the same: they
-// watch, and their keys are heard.
+// A player joined, or is about to leave. Sent to Objects that registered interest in JOIN_EVENT or
+// LEAVE_EVENT, in the input stage of a tick. A game that registers neither still has players: they watch, and
+// their keys are sent to it.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ inline const EventType LEAVE_EVENT("df-leave");
 class EventJoin : public Event {
  public:
   explicit EventJoin(std::uint32_t player = 0) : m_player(player) { setType(JOIN_EVENT); }
-  /// Id of the player who joined.
+  /// Id of the player that joined.
   void setPlayer(std::uint32_t player) { m_player = player; }
   std::uint32_t getPlayer() const { return m_player; }
 
@@ -26,12 +26,12 @@ class EventJoin : public Event {
 };
 
 /// The last event in which `WM.getPlayer(getPlayer())` exists. The player's Object is the game's to
-/// delete. Marked for deletion, it still hears what comes later in the same tick, when the Player is gone:
+/// delete. Marked for deletion, it still gets events later in the same tick, when the Player is gone:
 /// keep the id in it, not the pointer.
 class EventLeave : public Event {
  public:
   explicit EventLeave(std::uint32_t player = 0) : m_player(player) { setType(LEAVE_EVENT); }
-  /// Id of the player who leaves.
+  /// Id of the player that leaves.
   void setPlayer(std::uint32_t player) { m_player = player; }
   std::uint32_t getPlayer() const { return m_player; }
 

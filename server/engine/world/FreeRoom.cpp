@@ -64,12 +64,12 @@ void FreeRoom::mark(const Range& xs, const Range& ys) {
   m_store.grid().touching(reached, WorldStore::kNoSlot, m_near);
   for (const WorldStore::Slot s : m_near) {
     const FixedBox other = m_store.worldBox(s, m_store.position(s));
-    take(taken(m_box.corner.x, m_box.size.x, other.corner.x, other.size.x).within(xs),
-         taken(m_box.corner.y, m_box.size.y, other.corner.y, other.size.y).within(ys));
+    markTaken(taken(m_box.corner.x, m_box.size.x, other.corner.x, other.size.x).within(xs),
+              taken(m_box.corner.y, m_box.size.y, other.corner.y, other.size.y).within(ys));
   }
 }
 
-void FreeRoom::take(const Range& xs, const Range& ys) {
+void FreeRoom::markTaken(const Range& xs, const Range& ys) {
   if (xs.first > xs.last) return;
   const std::int64_t first = xs.first - m_xs.first;
   const std::int64_t last = xs.last - m_xs.first;

@@ -1,4 +1,4 @@
-// Finds room for a box: the nearest whole number of cells by which to move it so that it touches nobody.
+// Finds room for a box: the nearest whole number of cells by which to move it so that it touches no other.
 //
 // A square of such offsets is a table with a bit for each; every solid Object in reach takes a rectangle of
 // them. The squares double until the nearest free offset is nearer than anything outside.
@@ -43,14 +43,14 @@ class FreeRoom {
   static Range inside(Fixed low, Fixed size, Fixed boundary_low, Fixed boundary_size);
   static Range taken(Fixed low, Fixed size, Fixed other_low, Fixed other_size);
   void mark(const Range& xs, const Range& ys);
-  void take(const Range& xs, const Range& ys);
+  void markTaken(const Range& xs, const Range& ys);
   std::optional<std::int64_t> nearestInRow(std::int64_t y) const;
   std::optional<Offset> nearestInTable() const;
 
   const WorldStore& m_store;
   const FixedBox m_boundary;
   const FixedBox m_box;
-  Range m_xs{0, -1};  // what the table is about
+  Range m_xs{0, -1};  // what the table covers
   Range m_ys{0, -1};
   std::int64_t m_words = 0;           // per row
   std::vector<std::uint64_t> m_free;  // row by row, offset x in bit x - m_xs.first

@@ -81,7 +81,7 @@ bool lineIntersectsLine(Line line1, Line line2) {
 
 // The part of the segment, from 0 to 1, that lies between the box's sides, axis by axis.
 bool lineIntersectsBox(Line line, Box b) {
-  const Vector way = line.getP2() - line.getP1();
+  const Vector displacement = line.getP2() - line.getP1();
   const Vector low = b.getCorner() - line.getP1();
   const Vector high = low + Vector(b.width(), b.height());
   double begin = 0;
@@ -92,7 +92,7 @@ bool lineIntersectsBox(Line line, Box b) {
     end = std::min(end, std::max(from / step, to / step));
     return begin <= end;
   };
-  return clip(way.x(), low.x(), high.x()) && clip(way.y(), low.y(), high.y());
+  return clip(displacement.x(), low.x(), high.x()) && clip(displacement.y(), low.y(), high.y());
 }
 
 bool circleIntersectsBox(Circle circle, Box b) {

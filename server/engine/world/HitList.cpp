@@ -15,17 +15,17 @@ namespace df {
 
 namespace {
 
-// A hit is near where many are, and where few are an empty piece costs little. So the first piece is short,
-// and whenever nobody was there, the next one is longer: in cells of the level.
+// Among many Objects a hit is near, and among few an empty piece costs little. So the first piece is short,
+// and after each empty piece the next one is longer: in cells of the level.
 constexpr Fixed kFirstPiece = 4;
 constexpr Fixed kLongestPiece = 16;
-constexpr Fixed kLongestFlatPiece = 64;  // of a way that hardly changes its row
+constexpr Fixed kLongestFlatPiece = 64;  // of a path that hardly changes its row
 constexpr double kFlat = 0.25;
 
-// So many pieces are cheaper than to look at everything, even where there is next to nothing.
+// Up to so many pieces are cheaper than to test all Objects, even where there are very few.
 constexpr int kFewPieces = 32;
 
-// How far the way has been searched in one level of the grid, and in pieces of which length.
+// How far the path has been searched in one level of the grid, and in pieces of which length.
 struct Front {
   std::uint64_t reached;
   std::uint64_t stride;
@@ -37,20 +37,20 @@ struct Front {
 
 class HitList::Search {
  public:
-  Search(HitList& list, const WorldStore& store, WorldStore::Slot mover, const SweepPath& way, End end,
+  Search(HitList& list, const WorldStore& store, WorldStore::Slot mover, const SweepPath& path, End end,
          Moment since, const KeySet* p_met)
       : m_list(list),
         m_store(store),
         m_mover(mover),
-        m_way(way),
+        m_path(path),
         m_end(end),
         m_since(since),
         m_p_met(p_met) {}
 
   void run() {
     constexpr std::uint64_t kShort = kFirstPiece * kFixedOne;
-    if (m_way.lengthX() > kShort || m_way.lengthY() > kShort) return runAlong(SweepSegments(m_way));
-    const SweepPath::Piece whole = m_way.whole();
+    if (m_path.lengthX() > kShort || m_path.lengthY() > kShort) return runAlong(SweepSegments(m_path));
+    const SweepPath::Piece whole = m_path.whole();
     for (std::uint32_t left = m_store.grid().levels(); left != 0; left &= left - 1) {
       searchPiece(std::countr_zero(left), whole);
     }
@@ -79,7 +79,7 @@ class HitList::Search {
         if (fronts[i].reached < front.reached) std::swap(front, fronts[i]);
       }
       const std::uint64_t from = front.reached;
-      // Whoever is ahead of all fronts is hit later.
+      // What lies ahead of all fronts is hit later.
       if (m_list.m_end && from != begin && *m_list.m_end <= pieces.at(from)) return;
       const bool is_last = pieces.length() - from <= front.stride || !isWorthMore(number);
       front.reached = is_last ? pieces.length() : from + front.stride;
@@ -94,23 +94,23 @@ class HitList::Search {
     const Fixed cell = horizontal ? Grid::largest(level).x : Grid::largest(level).y;
     const Fixed first = level == 0 ? kFirstPiece * cell : cell;
     // Neighbouring pieces both see what is within the mover's size: not to look at that many times.
-    const Fixed least = horizontal ? m_way.box().size.x : m_way.box().size.y;
+    const Fixed least = horizontal ? m_path.box().size.x : m_path.box().size.y;
     const bool flat = horizontal && pieces.slope() < kFlat;
     const Fixed longest = (flat ? kLongestFlatPiece : kLongestPiece) * cell;
     return {begin, static_cast<std::uint64_t>(std::max(first, least)), static_cast<std::uint64_t>(longest),
             level};
   }
 
-  // A piece costs about as much as to look at a few Objects: no more of them than everybody is worth.
+  // A piece costs about as much as to test a few Objects: no more pieces than to test all Objects is worth.
   bool isWorthMore(int number) const {
     return number < kFewPieces || number < kFewPieces + m_store.grid().size() / 4;
   }
 
-  // Return whether anybody was near.
+  // Return whether any candidate was near.
   bool searchPiece(int level, const SweepPath::Piece& piece) {
     bool is_empty = true;
     const FixedVector low = piece.low - Grid::largest(level);
-    const FixedVector high = piece.high + m_way.box().size;
+    const FixedVector high = piece.high + m_path.box().size;
     m_store.grid().visitCorners(level, low, high, [&](Slot other) {
       m_store.prefetch(other);
       m_near[m_count] = other;
@@ -124,11 +124,11 @@ class HitList::Search {
     return true;
   }
 
-  // At those who wait, the nearest first, until the rest of them is beyond the end of the list.
+  // Test the collected candidates, the nearest first, until the rest is beyond the end of the list.
   void lookAtNear(int level) {
     std::size_t count = std::exchange(m_count, 0);
     if (count == 1) return lookAt(m_near[0], level);
-    if (!m_bounds) m_bounds.emplace(m_way);
+    if (!m_bounds) m_bounds.emplace(m_path);
     const double until = m_list.m_end ? SweepBounds::latest(*m_list.m_end) : 1;
     std::array<Candidate, kBatch> candidates;
     std::size_t left = 0;
@@ -150,11 +150,11 @@ class HitList::Search {
 
   void lookAt(Slot other, int level) {
     const CollisionRule pair(m_store, m_mover, other);
-    const std::optional<Moment> moment = pair.firstMeeting(m_way.sweep(), boxOf(other, level));
+    const std::optional<Moment> moment = pair.firstMeeting(m_path.sweep(), boxOf(other, level));
     if (!moment || (m_list.m_end && *moment > *m_list.m_end)) return;
     if (m_since.numerator != 0 && *moment < m_since) return;
     if (m_p_met != nullptr && m_p_met->contains(m_store.key(other))) return;
-    if (m_end == kFirst || pair.blocks(m_way.from(), m_way.to())) m_list.m_end = moment;
+    if (m_end == kFirst || pair.blocks(m_path.from(), m_path.to())) m_list.m_end = moment;
     m_list.m_hits.push_back({*moment, m_store.order(other), m_store.key(other)});
   }
 
@@ -165,7 +165,7 @@ class HitList::Search {
   HitList& m_list;
   const WorldStore& m_store;
   const Slot m_mover;
-  const SweepPath& m_way;
+  const SweepPath& m_path;
   const End m_end;
   const Moment m_since;
   const KeySet* const m_p_met;
@@ -174,11 +174,11 @@ class HitList::Search {
   std::array<Slot, kBatch> m_near;
 };
 
-void HitList::fill(const WorldStore& store, WorldStore::Slot mover, const SweepPath& way, End end,
+void HitList::fill(const WorldStore& store, WorldStore::Slot mover, const SweepPath& path, End end,
                    Moment since, const KeySet* p_met) {
   m_hits.clear();
   m_end.reset();
-  Search(*this, store, mover, way, end, since, p_met).run();
+  Search(*this, store, mover, path, end, since, p_met).run();
   if (m_hits.size() < 2) return;
   std::sort(m_hits.begin(), m_hits.end(), [](const Hit& a, const Hit& b) {
     const auto earlier = a.moment <=> b.moment;

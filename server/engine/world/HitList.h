@@ -1,6 +1,6 @@
-// Whom a move meets on its way: the solid Objects hit, in the order of (time, creation).
+// The solid Objects that a move hits on its path, in the order of (time, creation).
 //
-// The grid is asked piece by piece in the order of travel, and no further than to where the list ends. The
+// The grid is queried piece by piece in the order of travel, and no further than to where the list ends. The
 // levels of the grid take turns, so that none is searched far ahead of the others.
 #pragma once
 
@@ -23,16 +23,15 @@ struct Hit {
 
 class HitList {
  public:
-  /// With which hits the list ends: those at the first time at which a pair would block, or at the first time
-  /// at all.
+  /// Where the list ends: at the first time at which a pair would block, or at the first hit.
   enum End { kBlock, kFirst };
 
-  /// List whom `mover`, in the world and solid, meets on `way` at `since` or later, except those in `met`.
-  void fill(const WorldStore& store, WorldStore::Slot mover, const SweepPath& way, End end, Moment since = {},
-            const KeySet* p_met = nullptr);
+  /// List what `mover`, in the world and solid, hits on `path` at `since` or later, except Objects in `met`.
+  void fill(const WorldStore& store, WorldStore::Slot mover, const SweepPath& path, End end,
+            Moment since = {}, const KeySet* p_met = nullptr);
 
   const std::vector<Hit>& hits() const { return m_hits; }
-  /// When the list was ended; nothing if it goes to the end of the way.
+  /// When the list was ended; nothing if it goes to the end of the path.
   std::optional<Moment> end() const { return m_end; }
 
  private:

@@ -45,7 +45,7 @@ void InputQueue::sendKey(const Input& input) {
   event.setKey(input.key);
   event.setKeyboardAction(input.key_action);
   event.setPlayer(input.player);
-  // Who is paused is not steered, either.
+  // Declared controls have no effect during a pause, either.
   event.setHandled(!m_world.isPaused() &&
                    handleKey(m_world, *m_world.getPlayer(input.player), input.key, input.key_action));
   m_world.onEvent(&event);

@@ -10,7 +10,7 @@
 
 namespace df {
 
-inline void World::hear(ObjectKey key, Object& object, const Event& event) {
+inline void World::runHandler(ObjectKey key, Object& object, const Event& event) {
   ++m_handlers;
   try {
     object.eventHandler(&event);
@@ -23,17 +23,17 @@ inline void World::hear(ObjectKey key, Object& object, const Event& event) {
   if (m_shutdown_pending) finishShutDown();
 }
 
-/// Tell the mover of a collision, then the other; whoever is gone meanwhile, is inactive or cannot listen
-/// hears nothing. Both must be in the world. Return whether the mover still is.
-inline bool tellBoth(World& world, ObjectKey mover, ObjectKey other, const EventCollision& event) {
+/// Send a collision to the mover, then to the other, except to an Object that is gone meanwhile, inactive or
+/// without a handler. Both must be in the world. Return whether the mover still is.
+inline bool sendToBoth(World& world, ObjectKey mover, ObjectKey other, const EventCollision& event) {
   const WorldStore& store = world.store();
   if (store.hears(mover.slot)) {
-    world.hear(mover, *event.getObject1(), event);
+    world.runHandler(mover, *event.getObject1(), event);
     if (!store.isStill(mover)) return false;
     if (!store.isStill(other)) return true;
   }
   if (store.hears(other.slot)) {
-    world.hear(other, *event.getObject2(), event);
+    world.runHandler(other, *event.getObject2(), event);
     if (!store.isStill(mover)) return false;
   }
   return true;

@@ -1,6 +1,7 @@
 #include "engine/world/Interests.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "engine/world/Object.h"
 #include "engine/world/ObjectExtras.h"
@@ -27,13 +28,14 @@ int Interests::remove(Object& object, const std::string& type) {
   if (it == m_numbers.end() || std::erase(object.m_p_profile->interests, it->second) == 0) return -1;
   Table& table = m_tables[it->second];
   const auto entry = std::find(table.entries.begin(), table.entries.end(), object.key());
+  assert(entry != table.entries.end());  // the Object lists only types for which it has an entry
   *entry = ObjectKey{};
   ++table.gone;
   tidy(table);
   return 0;
 }
 
-// The entries need not be looked for: the Object's generation ends, so they name nobody.
+// The entries need no search: the Object's generation ends, so they name no Object.
 void Interests::dropAll(Object& object) {
   for (std::uint32_t number : object.m_p_profile->interests) ++m_tables[number].gone;
   object.m_p_profile->interests.clear();
@@ -49,20 +51,20 @@ bool Interests::hearsWhilePaused(const Object* p_object) {
   return p_object != nullptr && p_object->m_p_extras != nullptr && p_object->m_p_extras->hears_while_paused;
 }
 
-int Interests::send(const Event& event, Whom whom) {
+int Interests::send(const Event& event, Audience audience) {
   const auto it = m_numbers.find(event.getType());
   if (it == m_numbers.end()) return 0;
   Table& table = m_tables[it->second];
   const std::size_t count = table.entries.size();
-  int told = 0;
+  int delivered = 0;
   ++table.walks;
   for (std::size_t i = 0; i < count; ++i) {
-    if (whom == kInterestDispatchWhilePaused && !hearsWhilePaused(m_world.find(table.entries[i]))) continue;
-    told += m_world.deliver(table.entries[i], event) ? 1 : 0;
+    if (audience == kWhilePaused && !hearsWhilePaused(m_world.find(table.entries[i]))) continue;
+    delivered += m_world.deliver(table.entries[i], event) ? 1 : 0;
   }
   --table.walks;
   tidy(table);
-  return told;
+  return delivered;
 }
 
 }  // namespace df

@@ -1,4 +1,4 @@
-// Who wants to hear of what: per type of event, the Objects in the order they registered.
+// The registered interests: for each type of event, the Objects in the order they registered.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@ class Interests {
 
   int add(Object& object, const std::string& type);
   int remove(Object& object, const std::string& type);
-  /// The Object leaves the world: it hears nothing any more.
+  /// The Object leaves the world and gets no events any more.
   void dropAll(Object& object);
-  /// Whom a send reaches.
-  enum Whom { kEverybody, kInterestDispatchWhilePaused };
+  /// The Objects that a send reaches.
+  enum Audience { kAll, kWhilePaused };
   /// Deliver to all that were registered when the call began and still are at their turn; or only to those
-  /// that hear events while the game is paused.
-  int send(const Event& event, Whom whom = kEverybody);
+  /// that get events while the game is paused.
+  int send(const Event& event, Audience audience = kAll);
 
  private:
   struct Table {

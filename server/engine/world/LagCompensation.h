@@ -1,8 +1,8 @@
 // Lag compensation: the seam through which a host says what was on a player's screen when the player acted.
 //
-// Between a click and the tick that handles it, what was clicked on has moved on. A host that knows which
-// snapshots each client has received can say where an Object was drawn; without one, Objects count where they
-// are.
+// Between a click and the tick that handles it, the Object that was clicked on has moved. A host that knows
+// which snapshots each client has received can say where an Object was drawn; without one, Objects count
+// where they are.
 #pragma once
 
 #include <cstdint>

@@ -17,17 +17,17 @@ void Mover::moveAll() {
   WorldStore& store = m_world.store();
   const WorldStore::Walk walk(store);
   for (std::size_t word = 0; word * 64 < walk.size(); ++word) {
-    // Those who come during the update wait for the next one.
+    // Objects that enter during the update wait for the next one.
     const std::size_t left = walk.size() - word * 64;
     std::uint64_t waiting = left < 64 ? (std::uint64_t{1} << left) - 1 : ~std::uint64_t{0};
-    for (std::uint64_t turns = 0; (turns = store.turns(word) & waiting) != 0;) {
+    for (std::uint64_t turns = 0; (turns = store.turnBits().turns[word] & waiting) != 0;) {
       const int bit = std::countr_zero(turns);
       int next = bit + 1;
-      if ((store.walkers(word) >> bit & 1) != 0 && m_depth < kMaxDepth) {
+      if ((store.turnBits().walkers[word] >> bit & 1) != 0 && m_depth < kMaxDepth) {
         next = walkOn(word, turns);
-      } else if ((store.fliers(word) >> bit & 1) != 0) {
-        next = bit + flyOn(walk[word * 64 + static_cast<std::size_t>(bit)], store.fliers(word) & waiting,
-                           store.sequels(word), bit);
+      } else if ((store.turnBits().fliers[word] >> bit & 1) != 0) {
+        next = bit + flyOn(walk[word * 64 + static_cast<std::size_t>(bit)],
+                           store.turnBits().fliers[word] & waiting, store.turnBits().sequels[word], bit);
       } else {
         ++store.moverStats().special;
         takeTurn(store.key(walk[word * 64 + static_cast<std::size_t>(bit)]));
@@ -37,11 +37,11 @@ void Mover::moveAll() {
   }
 }
 
-// All walkers until somebody else's turn comes, or one of them meets somebody, who takes his turn, too.
-// Return the bit after that of the last one.
+// Move all walkers up to the next turn of another kind, or up to a walker that touches another, whose turn is
+// finished, too. Return the bit after that of the last one.
 int Mover::walkOn(std::size_t word, std::uint64_t turns) {
   WorldStore& store = m_world.store();
-  const std::uint64_t others = turns & ~store.walkers(word);
+  const std::uint64_t others = turns & ~store.turnBits().walkers[word];
   const std::uint64_t run = turns & ((others & -others) - 1);
   const int last = 63 - std::countl_zero(run);
   std::vector<ObjectKey>& met = m_lists[m_depth];
@@ -51,21 +51,21 @@ int Mover::walkOn(std::size_t word, std::uint64_t turns) {
   const int bit = std::countr_zero(left);
   const ObjectKey key = store.key(store.entry(word * 64 + static_cast<std::size_t>(bit)));
   if (store.hasPrecise()) {
-    keepMet(store, key.slot, store.worldBox(key.slot, store.position(key.slot) + store.velocity(key.slot)),
-            met);
+    keepCollisions(store, key.slot,
+                   store.worldBox(key.slot, store.position(key.slot) + store.velocity(key.slot)), met);
   }
   if (met.empty()) {
     ++store.moverStats().deferred;
     takeTurn(key);
   } else {
     ++store.moverStats().met;
-    meet(key, met);
+    finishWalk(key, met);
   }
   return bit + 1;
 }
 
-// A walker's turn, when it is known whom it touches at its target.
-void Mover::meet(ObjectKey key, std::vector<ObjectKey>& others) {
+// A walker's turn, given what it touches at its target.
+void Mover::finishWalk(ObjectKey key, std::vector<ObjectKey>& others) {
   WorldStore& store = m_world.store();
   const FixedVector velocity = store.velocity(key.slot);
   const FixedVector where = store.position(key.slot) + velocity;
@@ -111,7 +111,7 @@ void Mover::endTurn(ObjectKey key, FixedVector velocity, bool blocked) {
   WorldStore& store = m_world.store();
   const WorldStore::Slot s = key.slot;
   FixedVector next = store.velocity(s);
-  // Whether a velocity that a handler has just set will be blocked, nobody knows yet.
+  // Whether a velocity that a handler has just set is blocked is not known yet.
   if (next != velocity) blocked = false;
   const FixedVector acceleration = store.acceleration(s);
   if (acceleration != FixedVector{} && WorldStore::isVelocity(next + acceleration)) {
@@ -128,20 +128,20 @@ int Mover::move(ObjectKey mover, FixedVector where) {
   const WorldStore& store = m_world.store();
   if (store.collides(mover.slot)) {
     free = store.isSwept(mover.slot) ? m_swept[depth].run(*this, m_world, mover, where)
-                                     : meetAt(mover, where, m_lists[depth]);
+                                     : collideAt(mover, where, m_lists[depth]);
   }
   if (free) place(mover, where);
   --m_depth;
   return free ? 0 : -1;
 }
 
-// Return whether the mover may move. Where it is going is all that is looked at.
-bool Mover::meetAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others) {
+// Return whether the mover may move. Only the target is tested.
+bool Mover::collideAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others) {
   const WorldStore& store = m_world.store();
   const FixedBox box = store.worldBox(mover.slot, where);
   others.clear();
   store.touching(box, mover.slot, others);
-  keepMet(store, mover.slot, box, others);
+  keepCollisions(store, mover.slot, box, others);
   return others.empty() || collide(mover, where, others);
 }
 
@@ -153,7 +153,7 @@ bool Mover::collide(ObjectKey mover, FixedVector where, const std::vector<Object
   for (const ObjectKey other : others) {
     if (!store.isStill(other)) continue;
     event.setObject2(store.object(other.slot));
-    if (!tellBoth(m_world, mover, other, event)) return false;
+    if (!sendToBoth(m_world, mover, other, event)) return false;
     if (!store.isStill(other)) continue;
     if (CollisionRule(store, mover.slot, other.slot).blocks(from, where)) free = false;
   }
@@ -168,14 +168,14 @@ void Mover::place(ObjectKey mover, FixedVector where) {
   if (leaves) m_world.deliver(mover, EventOut());
 }
 
-// Is an Object that is there in the world, as far as out events go?
+// Would an Object at `where` be inside the world, as out events define it?
 bool Mover::isInWorld(std::uint32_t slot, FixedVector where) const {
   const Views& views = m_world.views();
   return m_world.compat() ? intersects(m_world.store().worldBox(slot, where), views.boundary())
                           : views.isInside(where);
 }
 
-// Where nobody can leave the world with a move that ends there.
+// A move that ends in here does not leave the world.
 FixedBox Mover::roomToFly() const {
   const FixedBox& boundary = m_world.views().boundary();
   const bool anywhere = !m_world.compat() || !m_world.store().hasBoxesOffPosition();

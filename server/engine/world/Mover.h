@@ -10,13 +10,13 @@
 // engine, its box, which then has no point in common with the boundary any more.
 //
 // What handlers may do meanwhile:
-//  - delete or remove the other: the other hears nothing more, the pair blocks nothing;
-//  - delete or remove the mover: the move ends at once, -1, and the rest of the list hears nothing;
-//  - make either inactive: it hears nothing from then on, the move goes on;
-//  - make either SPECTRAL: it still hears of the listed pairs, which then do not block;
+//  - delete or remove the other: the other gets no more events, the pair blocks nothing;
+//  - delete or remove the mover: the move ends at once, -1, and the rest of the list gets no events;
+//  - make either inactive: it gets no events from then on, the move goes on;
+//  - make either SPECTRAL: it still gets the events of the listed pairs, which then do not block;
 //  - mark for deletion, move, create, resize: the list stays as it is, the move goes on.
 //
-// That is the book's move. Beyond it there are moves that are tested along the way (SweptMove.h) and pairs
+// That is the book's move. Beyond it there are moves that are tested along the path (SweptMove.h) and pairs
 // whose characters are tested, or that do not block (CollisionRule.h).
 #pragma once
 
@@ -48,16 +48,16 @@ class Mover {
 
   // Parts of a move.
 
-  /// Put the mover there, with the views that follow it, and let it hear if it leaves the world.
+  /// Put the mover there, with the views that follow it, and send it an out event if it leaves the world.
   void place(ObjectKey mover, FixedVector where);
 
  private:
   int walkOn(std::size_t word, std::uint64_t turns);
   int flyOn(std::uint32_t first, std::uint64_t fliers, std::uint64_t sequels, int bit);
-  void meet(ObjectKey key, std::vector<ObjectKey>& others);
+  void finishWalk(ObjectKey key, std::vector<ObjectKey>& others);
   void takeTurn(ObjectKey key);
   void endTurn(ObjectKey key, FixedVector velocity, bool blocked);
-  bool meetAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others);
+  bool collideAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others);
   bool collide(ObjectKey mover, FixedVector where, const std::vector<ObjectKey>& others);
   bool isInWorld(std::uint32_t slot, FixedVector where) const;
   FixedBox roomToFly() const;

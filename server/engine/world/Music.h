@@ -1,4 +1,4 @@
-// A piece of music: as a Sound, but it plays again and again unless told otherwise.
+// A piece of music: as a Sound, but by default it repeats.
 #pragma once
 
 #include "Sound.h"

@@ -1,14 +1,8 @@
 #include "engine/world/Object.h"
 
-#include <array>
-#include <atomic>
-#include <bit>
-#include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "engine/collision/Mask.h"
-#include "engine/world/DelayedFree.h"
 #include "engine/world/Interests.h"
 #include "engine/world/ObjectExtras.h"
 #include "engine/world/World.h"
@@ -16,141 +10,11 @@
 
 namespace df {
 
-namespace {
-
-// Blocks that operator new has handed out and in which no Object has been constructed yet. The constructor
-// finds itself in one of them, or was not made with `new`. More than one at a time: `new A(new B)`.
-struct PendingBlocks {
-  struct Block {
-    const std::byte* begin;
-    std::size_t size;
-  };
-  std::array<Block, 64> blocks;
-  std::size_t count = 0;
-
-  void push(const void* p, std::size_t size) {
-    if (count < blocks.size()) blocks[count++] = {static_cast<const std::byte*>(p), size};
-  }
-  bool erase(std::size_t i) {
-    for (--count; i < count; ++i) blocks[i] = blocks[i + 1];
-    return true;
-  }
-  bool claim(const void* p) {
-    const auto* address = static_cast<const std::byte*>(p);
-    for (std::size_t i = count; i-- > 0;) {
-      if (address >= blocks[i].begin && address < blocks[i].begin + blocks[i].size) return erase(i);
-    }
-    return false;
-  }
-  void cancel(const void* p) {  // the constructor threw before it got to Object
-    for (std::size_t i = count; i-- > 0;) {
-      if (blocks[i].begin == p) erase(i);
-    }
-  }
-};
-
-thread_local PendingBlocks t_pending;
-
-// The function that eventHandler() of this Object is, to find out whether its class has one of its own. By
-// the Itanium C++ ABI, which GCC and Clang follow: an Object begins with the address of its vtable, and on
-// x86-64 a pointer to a virtual member function begins with 1 + the function's offset there. Null where that
-// does not hold.
-const void* handlerOf(const Object& object) {
-#if defined(__x86_64__) && defined(__GXX_ABI_VERSION)
-  int (Object::*const p_member)(const Event*) = &Object::eventHandler;
-  std::ptrdiff_t offset = 0;
-  std::memcpy(&offset, &p_member, sizeof offset);
-  const std::byte* p_table = nullptr;
-  std::memcpy(&p_table, static_cast<const void*>(&object), sizeof p_table);
-  const void* p_function = nullptr;
-  std::memcpy(&p_function, p_table + offset - 1, sizeof p_function);
-  return p_function;
-#else
-  (void)object;
-  return nullptr;
-#endif
-}
-
-const void* g_p_base_handler = nullptr;
-
-// An Object begins with a cache line: what every event needs is in it.
-constexpr std::align_val_t kLine{64};
-
-// What an Object without a sprite collides with in the published engine: characters one apart do not touch.
-const FixedBox kCompatBox{{-kFixedOne / 2, -kFixedOne / 2}, {*toFixed(0.99), *toFixed(0.99)}};
-
-bool sameBits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
-bool isFiniteFloat(double x) {
-  return std::isfinite(static_cast<float>(x));
-}
-
-}  // namespace
-
-void* Object::operator new(std::size_t size) {
-  void* p = ::operator new(size, kLine);
-  t_pending.push(p, size);
-  return p;
-}
-
-void* Object::operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept {
-  void* p = ::operator new(size, kLine, nothrow);
-  if (p != nullptr) t_pending.push(p, size);
-  return p;
-}
-
-void* Object::operator new(std::size_t size, std::align_val_t align) {
-  void* p = ::operator new(size, align);
-  t_pending.push(p, size);
-  return p;
-}
-
-void Object::operator delete(void* p) noexcept {
-  operator delete(p, kLine);
-}
-
-void Object::operator delete(void* p, std::align_val_t align) noexcept {
-  t_pending.cancel(p);
-  if (!World::current().compat()) {
-    ::operator delete(p, align);
-    return;
-  }
-  // Never destroyed: static Objects may delete others when the thread's own have gone.
-  thread_local auto* t_p_freed = new (std::nothrow) DelayedFree;
-  if (t_p_freed != nullptr) {
-    t_p_freed->free(p, align);
-  } else {
-    ::operator delete(p, align);
-  }
-}
-
-Object::Object() : m_p_store(nullptr), m_slot(0), m_p_profile(nullptr) {
-  World& world = World::current();
-  m_p_store = &world.store();
-  m_slot = m_p_store->take(this, t_pending.claim(this));
-  m_p_profile = &m_p_store->profile(m_slot);
-  if (world.compat()) m_p_store->setBox(m_slot, kCompatBox);
-  // Here it is still nothing but an Object.
-  if (g_p_base_handler == nullptr) g_p_base_handler = handlerOf(*this);
-  world.insertObject(this);
-}
-
-Object::~Object() {
-  if (m_p_extras != nullptr) dropExtras();
-  if (World* p_world = getWorld()) p_world->forget(this);
-  m_p_store->give(m_slot);
-  // Who still asks it (DelayedFree.h) must find no extras, so this is to be written although it ends here.
-  m_p_extras.reset();
-  std::atomic_signal_fence(std::memory_order_seq_cst);
-}
-
 ObjectKey Object::key() const {
   return m_p_store->key(m_slot);
 }
 
-// None for who was deleted (DelayedFree.h): nothing that is done to it may reach the world's lists.
+// Null for a deleted Object (DelayedFree.h): its setters must not reach the world's lists.
 World* Object::getWorld() const {
   return m_p_store->object(m_slot) == this ? m_p_store->world() : nullptr;
 }
@@ -177,17 +41,6 @@ Object::MaxId::operator int() const {
   return static_cast<int>(World::current().store().lastOrder());
 }
 
-int Object::setPosition(Vector new_pos) {
-  const auto position = toFixed(new_pos);
-  if (!position) return refuse("setPosition");
-  m_p_store->setPosition(m_slot, *position);
-  return 0;
-}
-
-Vector Object::getPosition() const {
-  return Vector::fromFixed(m_p_store->position(m_slot));
-}
-
 int Object::setAltitude(int new_altitude) {
   if (new_altitude < 0 || new_altitude > MAX_ALTITUDE) return refuse("setAltitude");
   m_p_store->setAltitude(m_slot, new_altitude);
@@ -207,85 +60,6 @@ int Object::setBox(Box new_box) {
 
 Box Object::getBox() const {
   return fromFixed(m_p_store->box(m_slot));
-}
-
-void Object::deriveKinematics() const {
-  ObjectProfile& profile = *m_p_profile;
-  const bool follow = m_p_store->has(m_slot, WorldStore::kDerive);
-  if (!follow && !profile.direction_is_velocity) return;
-  if (follow) profile.direction = getVelocity();
-  m_p_store->setDerived(m_slot, false);
-  profile.direction_is_velocity = false;
-  profile.speed = std::sqrt(profile.direction.x() * profile.direction.x() +
-                            profile.direction.y() * profile.direction.y());
-  profile.direction.normalize();
-}
-
-int Object::applyVelocity(double speed, Vector direction) {
-  if (!isFiniteFloat(speed) || !isFiniteFloat(direction.x()) || !isFiniteFloat(direction.y())) return -1;
-  const auto velocity = toFixed(Vector(direction.x() * speed, direction.y() * speed), kMaxVelocityCells);
-  if (!velocity) return -1;
-  m_p_profile->speed = speed;
-  m_p_profile->direction = direction;
-  m_p_profile->direction_is_velocity = false;
-  m_p_store->setVelocity(m_slot, *velocity);
-  return 0;
-}
-
-int Object::setSpeed(double speed) {
-  deriveKinematics();
-  return applyVelocity(speed, m_p_profile->direction) == 0 ? 0 : refuse("setSpeed");
-}
-
-float Object::getSpeed() const {
-  deriveKinematics();
-  return static_cast<float>(m_p_profile->speed);
-}
-
-int Object::setDirection(Vector new_direction) {
-  deriveKinematics();
-  return applyVelocity(m_p_profile->speed, new_direction) == 0 ? 0 : refuse("setDirection");
-}
-
-Vector Object::getDirection() const {
-  deriveKinematics();
-  return m_p_profile->direction;
-}
-
-// The product of length and normalised vector is the vector itself, so it is rounded as it is: that way
-// what was set is what getVelocity() returns, at any size.
-int Object::setVelocity(Vector new_velocity) {
-  const auto velocity = toFixed(new_velocity, kMaxVelocityCells);
-  if (!velocity) return refuse("setVelocity");
-  // Nothing needs to be kept that the velocity itself can tell, to the last bit (it knows no -0).
-  const Vector told = Vector::fromFixed(*velocity);
-  const bool tells = sameBits(told.x(), new_velocity.x()) && sameBits(told.y(), new_velocity.y());
-  m_p_store->setDerived(m_slot, tells);
-  if (!tells) {
-    m_p_profile->direction = new_velocity;
-    m_p_profile->direction_is_velocity = true;
-  }
-  m_p_store->setVelocity(m_slot, *velocity);
-  return 0;
-}
-
-Vector Object::getVelocity() const {
-  return Vector::fromFixed(m_p_store->velocity(m_slot));
-}
-
-int Object::setAcceleration(Vector new_acceleration) {
-  const auto acceleration = toFixed(new_acceleration, kMaxVelocityCells);
-  if (!acceleration) return refuse("setAcceleration");
-  m_p_store->setAcceleration(m_slot, *acceleration);
-  return 0;
-}
-
-Vector Object::getAcceleration() const {
-  return Vector::fromFixed(m_p_store->acceleration(m_slot));
-}
-
-Vector Object::predictPosition() const {
-  return Vector::fromFixed(m_p_store->position(m_slot) + m_p_store->velocity(m_slot));
 }
 
 int Object::setSolidness(Solidness new_solid) {
@@ -379,10 +153,6 @@ int Object::registerInterest(const std::string& event_type) {
 int Object::unregisterInterest(const std::string& event_type) {
   World* p_world = getWorld();
   return p_world != nullptr ? p_world->interests().remove(*this, event_type) : -1;
-}
-
-bool Object::isDeaf() const {
-  return g_p_base_handler != nullptr && handlerOf(*this) == g_p_base_handler;
 }
 
 int Object::eventHandler(const Event* /*p_e*/) {

@@ -2,7 +2,7 @@
 //
 // Constructing an Object puts it into the calling thread's current World, destroying it takes it out. It
 // may be made with `new`, be a static or automatic variable or a member, and be deleted by hand at any
-// time, also inside an event handler; `WM.markForDelete()` is the usual way. The world deletes only what
+// time, also inside an event handler; usually by `WM.markForDelete()`. The world deletes only what
 // was made with `new`.
 //
 // An Object is a handle: position, velocity, box and the like live in arrays of the world's store. Lengths
@@ -35,7 +35,7 @@
 #include "detail/WorldView.h"
 
 /// What draw() returns: int. Games of the published engine's first versions have a `void draw()`, and are
-/// compiled with -DDF_DRAW=void; nobody looks at what it returns.
+/// compiled with -DDF_DRAW=void; the engine ignores the result.
 #if !defined(DF_DRAW)
 #define DF_DRAW int
 #endif
@@ -74,8 +74,7 @@ class Object {
   int getId() const;
   /// Give it a number of the game's own. The creation order stays.
   void setId(int new_id);
-  /// The highest id that the current world has given so far. What is written here is forgotten: the world's
-  /// ids go on by themselves.
+  /// The highest id that the current world has given so far. Assignments to it have no effect.
   struct MaxId {
     operator int() const;
     MaxId& operator=(int /*id*/) { return *this; }
@@ -131,7 +130,7 @@ class Object {
   /// If set, this Object does not move onto SOFT ones either (both still get the collision event).
   void setNoSoft(bool new_no_soft = true);
   bool getNoSoft() const;
-  /// Test for collisions all along the way of each move, not only where it ends: for what is fast. Off by
+  /// Test for collisions along the whole path of each move, not only where it ends: for fast Objects. Off by
   /// default, as in the book. WM.setSweptCollisions() does it for all. docs/collisions.md has the rules.
   void setSwept(bool swept = true);
   bool isSwept() const;
@@ -140,15 +139,15 @@ class Object {
   void setPrecise(bool precise = true);
   bool isPrecise() const;
   /// Which characters of the Object are set, a string (UTF-8) per row from the box's upper left cell on;
-  /// blanks are holes. No rows: the whole box counts, as by default. What draw() does is never looked at.
+  /// blanks are holes. No rows: the whole box counts, as by default. draw() does not count.
   /// Return 0, or -1 (and no change) for rows without any character or a side above 1024.
   int setMask(const std::vector<std::string>& rows);
-  /// At rest, test for collisions at each turn as if it had moved to where it stands: to hear of what
+  /// At rest, test for collisions at each turn as if it had moved to where it stands: to get events of what
   /// touches it. Off by default.
   void setRestContacts(bool rest_contacts = true);
   bool hasRestContacts() const;
   /// What the Object touches where a move begins does not block it if the gap is larger at the end: it
-  /// may leave a wall in which it was placed. Both still hear. Off by default.
+  /// may leave a wall in which it was placed. Both still get the event. Off by default.
   void setMayMoveOut(bool may_move_out = true);
   bool getMayMoveOut() const;
 
@@ -160,7 +159,7 @@ class Object {
   int setVisible(bool visible = true);
   bool isVisible() const;
 
-  // What it hears.
+  // Its events.
 
   /// Receive events of this type (step, keyboard, mouse, join, leave, or a game's own) through
   /// eventHandler(). Collision and out events come without it. Registering twice is once. Return 0, or
@@ -170,15 +169,15 @@ class Object {
   int unregisterInterest(const std::string& event_type);
   /// How many interests it has registered.
   int getEventCount() const { return static_cast<int>(m_p_profile->interests.size()); }
-  /// Called for each event. Return 1 if it was handled, else 0 (for readers of the book; the engine does
-  /// not mind). What it throws costs this Object its life (World::deliver), not the world.
+  /// Called for each event. Return 1 if it was handled, else 0 (as in the book; the engine ignores it). If it
+  /// throws, the Object is deleted (World::deliver) and the world goes on.
   virtual int eventHandler(const Event* p_e);
 
   // How it looks.
 
   /// Called once a tick while the Object is active, visible and in view, to put characters on the screen
   /// with DM.drawCh() and DM.drawString(). As it is here it shows the sprite and the shape, if there are
-  /// such, or the frame whose turn it is, if the Object has frames. Return 0, else -1.
+  /// such, or the frame that shows now, if the Object has frames. Return 0, else -1.
   virtual DF_DRAW draw();
 
   /// Show this sprite (RM.loadSprite), from its first frame on. Unless `set_box` is false, the box becomes
@@ -210,7 +209,7 @@ class Object {
   /// A white circle if none was set.
   Shape getShape() const;
   /// Promise that draw() puts the same characters at the same places relative to the position every time:
-  /// it is then called once, and its result moves with the Object. Setting it anew has it called again.
+  /// it is then called once, and its result moves with the Object. Setting it again has draw() called again.
   void setStaticLook(bool static_look = true);
   bool hasStaticLook() const;
   /// How many frames a body has, and the index of the one that shows in the present tick (0 if none).
@@ -238,10 +237,10 @@ class Object {
   /// What it is and where, for log lines.
   std::string toString() const;
 
-  // Finding its way.
+  // Paths.
 
   /// Walk to a position, with the speed it has, round HARD Objects (PathFind.h): a velocity is set in each
-  /// step from node to node, until it is there. The Object hears of the search by an EventPath.
+  /// step from node to node, until it is there. An EventPath tells the Object how the search ended.
   void pathTo(Vector position);
   /// To where another Object is now.
   void pathTo(const Object* p_o_target);
@@ -256,14 +255,14 @@ class Object {
   virtual void setAvoidCollisions(bool new_avoid_collisions = true);
   bool getAvoidCollisions() const;
 
-  // The engine's view of it.
+  // For lists, layers and hosts.
 
-  /// Handle of the Object: what lists and the host hold.
+  /// Handle of the Object.
   ObjectKey key() const;
   /// The world it was made in; null once that is gone.
   World* getWorld() const;
 
-  /// These note which Objects were made with `new`, so that the world knows which ones are its to delete.
+  /// These note which Objects were made with `new`: those the world deletes.
   /// (Elements of an array made with `new[]` are not.)
   static void* operator new(std::size_t size);
   static void* operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept;
@@ -277,9 +276,9 @@ class Object {
 #endif
 
  protected:
-  /// Its position is a cell of the view, and it is drawn wherever that is (ViewObject.h).
+  /// Its position is a cell of every view, and it is always drawn (ViewObject.h).
   void showOnView();
-  /// It gets events while the game is paused, too (Pause.h).
+  /// Send it events while the game is paused, too (Pause.h).
   void hearWhilePaused();
 
  private:
@@ -302,7 +301,7 @@ class Object {
   void dropExtras();
   void animate();
   const Mask* spriteMask() const;
-  std::shared_ptr<const naiad::Look> toldLook(std::uint32_t tick);
+  std::shared_ptr<const naiad::Look> publishedLook(std::uint32_t tick);
   ObjectAttributes attributes() const;
   void stepPath();
 

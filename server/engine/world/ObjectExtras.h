@@ -21,7 +21,7 @@ struct ObjectExtras {
   static constexpr std::size_t kNowhere = SIZE_MAX;
 
   Animation animation;
-  std::shared_ptr<const naiad::Look> p_look;  ///< what watchers were last told of it
+  std::shared_ptr<const naiad::Look> p_look;  ///< as last published
   std::size_t animated = kNowhere;            ///< its place in the world's Animations
   std::optional<Shape> shape;
   std::optional<int> id;  ///< that the game chose

@@ -126,7 +126,7 @@ int Object::draw() {
 }
 
 // Null if nothing goes on by itself. What draw() really draws decides whether it counts.
-std::shared_ptr<const naiad::Look> Object::toldLook(std::uint32_t tick) {
+std::shared_ptr<const naiad::Look> Object::publishedLook(std::uint32_t tick) {
   if (m_p_store->has(m_slot, WorldStore::kFrames)) return m_p_store->frames(m_slot);
   if (m_p_extras == nullptr || m_p_extras->shape) return nullptr;
   return m_p_extras->p_look = lookOf(m_p_extras->animation, tick, m_p_extras->p_look);

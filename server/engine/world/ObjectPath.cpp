@@ -83,10 +83,10 @@ void Object::stepPath() {
   const double speed = m_p_extras->path_speed > 0 ? m_p_extras->path_speed : getSpeed();
   if (path.getPath().empty() || !(speed > 0)) return;
   m_p_extras->path_speed = speed;
-  Vector way = path.nextNode() - getPosition();
-  const double left = way.getMagnitude();
-  if (left > speed) way.scale(speed / left);
-  setVelocity(way);
+  Vector displacement = path.nextNode() - getPosition();
+  const double left = displacement.getMagnitude();
+  if (left > speed) displacement.scale(speed / left);
+  setVelocity(displacement);
 }
 
 }  // namespace df

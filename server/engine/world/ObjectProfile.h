@@ -1,4 +1,4 @@
-// What an Object has beside its place in the arrays of the world and is rarely asked for. The store keeps it,
+// The rarely read attributes of an Object, beside its place in the arrays of the world. The store keeps it,
 // by slot.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace df {
 struct ObjectProfile {
   std::string type = "Object";
   // What setSpeed and setDirection said. After an acceleration (a flag in the store) or setVelocity, which
-  // leaves the vector it got in the direction, they are derived when somebody asks.
+  // leaves the vector it got in the direction, they are derived when they are read.
   double speed = 0;
   Vector direction;
   bool direction_is_velocity = false;

@@ -144,15 +144,15 @@ int Object::deserialize(std::stringstream* p_ss, unsigned int* p_a) {
   const std::string text = p_ss->str();
   unsigned mask = 0;
   int result = 0;
-  const auto take = [&](ObjectAttribute attribute, int outcome) {
+  const auto noteApplied = [&](ObjectAttribute attribute, int outcome) {
     mask |= static_cast<unsigned>(attribute);
     if (outcome != 0) result = -1;
   };
   const auto takeNumber = [&](ObjectAttribute attribute, const char* key, auto apply) {
-    if (const auto value = numberOf(text, key)) take(attribute, apply(*value));
+    if (const auto value = numberOf(text, key)) noteApplied(attribute, apply(*value));
   };
   const auto takeVector = [&](ObjectAttribute attribute, const char* key, auto apply) {
-    if (const auto value = vectorOf(text, key)) take(attribute, apply(*value));
+    if (const auto value = vectorOf(text, key)) noteApplied(attribute, apply(*value));
   };
   const auto toInt = [](double value) {
     return value >= -2e9 && value <= 2e9 ? static_cast<int>(value) : -1;
@@ -167,10 +167,10 @@ int Object::deserialize(std::stringstream* p_ss, unsigned int* p_a) {
              [&](double v) { return setSolidness(static_cast<Solidness>(toInt(v) & 3)); });
   if (const std::string type = valueOf(text, "type"); !type.empty()) {
     setType(type);
-    take(ObjectAttribute::TYPE, 0);
+    noteApplied(ObjectAttribute::TYPE, 0);
   }
   if (const std::string sprite = valueOf(text, "animation"); !sprite.empty()) {
-    take(ObjectAttribute::ANIMATION, getAnimation().getName() == sprite ? 0 : setSprite(sprite));
+    noteApplied(ObjectAttribute::ANIMATION, getAnimation().getName() == sprite ? 0 : setSprite(sprite));
     if (const auto index = numberOf(text, "animation-index")) setSpriteIndex(toInt(*index));
     if (const auto count = numberOf(text, "animation-count")) setSpriteSlowdownCount(toInt(*count));
   }

@@ -1,4 +1,4 @@
-// A way through the world from node to node, as Object::pathTo() finds it.
+// A path through the world from node to node, as Object::pathTo() finds it.
 #pragma once
 
 #include <string>

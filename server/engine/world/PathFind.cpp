@@ -48,12 +48,12 @@ class Search {
   }
 
   std::vector<Vector> nodes(Vector end) const {
-    std::vector<Vector> way{end};
+    std::vector<Vector> nodes{end};
     for (Node node = m_goal; node != Node{0, 0};) {
       node = m_visits.at(node).from;
-      if (node != Node{0, 0}) way.insert(way.begin(), positionOf(node));
+      if (node != Node{0, 0}) nodes.insert(nodes.begin(), positionOf(node));
     }
-    return way;
+    return nodes;
   }
 
  private:
@@ -72,9 +72,9 @@ class Search {
     const Vector inside = place - boundary.getCorner();
     if (inside.x() < 0 || inside.y() < 0 || inside.x() >= boundary.width() || inside.y() >= boundary.height())
       return false;
-    const ObjectList met = m_world.getCollisions(&m_object, place);
-    for (int i = 0; i < met.getCount(); ++i) {
-      if (met[i] != nullptr && met[i]->getSolidness() == HARD) return false;
+    const ObjectList others = m_world.getCollisions(&m_object, place);
+    for (int i = 0; i < others.getCount(); ++i) {
+      if (others[i] != nullptr && others[i]->getSolidness() == HARD) return false;
     }
     return true;
   }
@@ -109,8 +109,10 @@ class Search {
 Path findPath(const Object& object, Vector end) {
   Path path;
   constexpr double kFar = 10'000;
-  const Vector way = end - object.getPosition();
-  if (object.getWorld() == nullptr || !(std::fabs(way.x()) < kFar && std::fabs(way.y()) < kFar)) return path;
+  const Vector displacement = end - object.getPosition();
+  if (object.getWorld() == nullptr ||
+      !(std::fabs(displacement.x()) < kFar && std::fabs(displacement.y()) < kFar))
+    return path;
   Search search(object, end);
   if (search.run()) path.setPath(search.nodes(end));
   return path;

@@ -71,7 +71,7 @@ PlayerFacts Player::facts() const {
   f.name = m_name;
   f.color = m_color;
   f.score = m_score;
-  // A player without a view of his own shares the world's, and with it whom that follows.
+  // A player without a view of their own shares the world's, and the Object that it follows.
   if (m_p_world != nullptr) f.followed = m_p_world->views().followed(this);
   f.view_corner = m_view_corner;
   for (const auto& [id, text] : m_texts) f.texts.push_back(text);

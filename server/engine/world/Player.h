@@ -1,5 +1,5 @@
-// A person (or bot) at a terminal. Games that know players read and set these; games that do not never
-// meet one and hear everybody's keys.
+// A person (or bot) at a terminal. Games for several players read and set these; other games ignore them and
+// get all players' keys.
 //
 // A Player exists from its EventJoin until just after its EventLeave; `WM.getPlayer(id)` is null outside
 // that. Ids count up from 1 and are not used again in a world. All calls on the thread that runs the tick.
@@ -20,8 +20,8 @@ namespace df {
 class Controls;
 class Views;
 
-// In a namespace of its own, so that a game that says `using namespace df` and never includes this may have a
-// Player itself: many have.
+// In a namespace of its own, so that a game with `using namespace df` that never includes this may have a
+// Player class itself: many do.
 namespace players {
 class Player;
 }

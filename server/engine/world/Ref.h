@@ -1,4 +1,4 @@
-// A reference to an Object that knows when the Object is gone.
+// A reference to an Object that becomes null when the Object is gone.
 //
 //   class Missile : public df::Object {
 //     df::Ref<Saucer> m_target;  // = p_saucer, some time
@@ -7,8 +7,8 @@
 //   };
 //
 // It reads as null once the Object was deleted or removed from the world, even if another one has taken its
-// place in memory, and also when the world itself is gone. A removed Object that was inserted again is no
-// longer the one it meant. Like ObjectList it holds a handle, not only a pointer.
+// place in memory, and also when the world itself is gone. A removed Object that was inserted again is
+// another one for it. Like ObjectList it holds a handle, not only a pointer.
 #pragma once
 
 #include <cstddef>
@@ -35,14 +35,14 @@ class RefBase {
   bool isInWorld() const;
 
  private:
-  WorldStore* m_p_store = nullptr;  // counted; null for nobody
+  WorldStore* m_p_store = nullptr;  // counted; null for none
   ObjectKey m_key;
 };
 
 template <class T>
 class Ref {
  public:
-  /// To nobody.
+  /// Null.
   Ref() = default;
   Ref(std::nullptr_t) {}
   /// To an Object that is in the world; one that is not reads as null until it is inserted.

@@ -1,8 +1,8 @@
-// The seams through which somebody else may run a game's loop.
+// The seams through which a host runs a game's loop.
 //
 // A program that loads games (dfserver) gives the world a Runner before it calls the game's main(). A game
-// that is a program itself knows of none: what GM.startUp() and GM.run() then do is up to the Program that
-// the library's hosting part has put here when it was loaded. Without either, GM.run() steps headless.
+// that is a program itself sets none: GM.startUp() and GM.run() then call the Program that the library's
+// hosting part has set when it was loaded. Without either, GM.run() steps headless.
 #pragma once
 
 namespace df {
@@ -19,15 +19,14 @@ class Runner {
   virtual void run(World& world) = 0;
 };
 
-/// What runs the default world of a process, if nobody has given that a Runner. Worlds that are made by hand
-/// never meet it.
+/// Runs the default world of a process that has no Runner. Worlds that are made by hand never use it.
 class Program : public Runner {
  public:
   /// GM.startUp() is about to return: settings are read, and nothing of the game exists yet.
   virtual void startUp(World& world) = 0;
 };
 
-/// Not owned; it lives as long as the process. Null: nobody. To be called before the game's main() begins, or
+/// Not owned; it lives as long as the process. Null: none. To be called before the game's main() begins, or
 /// by it before GM.startUp().
 void setProgram(Program* p_program);
 
@@ -37,7 +36,7 @@ bool declareCompat(bool compat);
 /// Set World::setCompat() as far as it is decided before df-config.txt is read: by the build, else on in a
 /// Program, else as it is.
 void beginCompat(World& world);
-/// The last word has the environment: DF_COMPAT=0 or 1.
+/// The environment decides last: DF_COMPAT=0 or 1.
 void endCompat(World& world);
 
 }  // namespace running

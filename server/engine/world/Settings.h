@@ -30,7 +30,7 @@ struct ConfigSettings {
   bool show_mouse = true;
   bool headless = false;
   std::string logfile = LOGFILE_DEFAULT;
-  int random_seed = -1;  ///< 0: from the time; -1: nobody seeds
+  int random_seed = -1;  ///< 0: from the time; -1: not set
   bool networking = false;
   int quadtree_threshold = 10;
   int quadtree_depth = 5;

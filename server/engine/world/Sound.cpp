@@ -15,22 +15,22 @@ int Sound::loadSound(const std::string& filename) {
 }
 
 void Sound::play(bool loop) {
-  tell(SoundPlayed::kPlay, loop);
+  notePlayed(SoundPlayed::kPlay, loop);
 }
 
 void Sound::stop() {
-  tell(SoundPlayed::kStop, false);
+  notePlayed(SoundPlayed::kStop, false);
 }
 
 void Sound::pause() {
-  tell(SoundPlayed::kPause, false);
+  notePlayed(SoundPlayed::kPause, false);
 }
 
 void Sound::endLoop() {
   if (World::current().extras().isPlaying(m_label, m_music)) stop();
 }
 
-void Sound::tell(SoundPlayed::What what, bool loop) {
+void Sound::notePlayed(SoundPlayed::What what, bool loop) {
   World& world = World::current();
   world.noteSound({m_label, what, m_music, loop, world.inputPlayer()});
 }

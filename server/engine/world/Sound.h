@@ -1,6 +1,6 @@
 // A sound or a piece of music of a game. The engine makes no noise: that something was played is written into
-// the tick's WorldView, from where a host tells clients, each of which does with it what its player likes.
-// What plays again and again is remembered for who joins later. Without anybody who watches, it is silence.
+// the tick's WorldView, from which a host sends it to clients, which play it as their player has chosen.
+// Sounds that repeat are kept for players that join later. Without clients they have no effect.
 #pragma once
 
 #include <string>
@@ -37,7 +37,7 @@ class Sound {
   explicit Sound(bool music) : m_music(music) {}
 
  private:
-  void tell(SoundPlayed::What what, bool loop);
+  void notePlayed(SoundPlayed::What what, bool loop);
 
   std::string m_label;
   bool m_music = false;

@@ -15,17 +15,17 @@ bool SweptMove::run(Mover& moves, World& world, ObjectKey mover, FixedVector whe
   m_met.clear();
   Moment since;
   for (int stage = 1; store.collides(mover.slot); ++stage) {
-    const SweepPath way(store.box(mover.slot), from, where);
+    const SweepPath path(store.box(mover.slot), from, where);
     ++(stage == 1 ? world.store().moverStats().swept : world.store().moverStats().swept_again);
-    m_list.fill(store, mover.slot, way, HitList::kBlock, since, &m_met);
+    m_list.fill(store, mover.slot, path, HitList::kBlock, since, &m_met);
     if (m_list.hits().empty()) return true;
 
-    const Verdict verdict = meetAll(world, mover, way);
+    const Verdict verdict = sendHits(world, mover, path);
     if (verdict.outcome == Outcome::kGone) return false;
     const bool is_blocked = verdict.outcome == Outcome::kBlocked;
     if (!is_blocked && !m_list.end()) return true;
     if (is_blocked || stage == kMaxStages) {
-      const FixedVector stop = way.sweep().before(is_blocked ? verdict.moment : *m_list.end());
+      const FixedVector stop = path.sweep().before(is_blocked ? verdict.moment : *m_list.end());
       if (stop != from && store.position(mover.slot) == from) moves.place(mover, stop);
       return false;
     }
@@ -36,7 +36,7 @@ bool SweptMove::run(Mover& moves, World& world, ObjectKey mover, FixedVector whe
 }
 
 // A handler may begin moves of its own, but those have lists of their own.
-SweptMove::Verdict SweptMove::meetAll(World& world, ObjectKey mover, const SweepPath& way) {
+SweptMove::Verdict SweptMove::sendHits(World& world, ObjectKey mover, const SweepPath& path) {
   const WorldStore& store = world.store();
   Verdict verdict{Outcome::kFree, {}};
   EventCollision event(store.object(mover.slot), nullptr, Vector());
@@ -45,13 +45,13 @@ SweptMove::Verdict SweptMove::meetAll(World& world, ObjectKey mover, const Sweep
     if (!store.isCurrent(hit.key)) continue;
     if (store.hears(mover.slot) || store.hears(hit.key.slot)) {
       event.setObject2(store.object(hit.key.slot));
-      event.setPosition(Vector::fromFixed(way.sweep().before(hit.moment)));
-      if (!tellBoth(world, mover, hit.key, event)) return {Outcome::kGone, {}};
+      event.setPosition(Vector::fromFixed(path.sweep().before(hit.moment)));
+      if (!sendToBoth(world, mover, hit.key, event)) return {Outcome::kGone, {}};
       if (!store.isCurrent(hit.key)) continue;
     }
     if (verdict.outcome == Outcome::kBlocked) continue;
     const CollisionRule pair(store, mover.slot, hit.key.slot);
-    if (pair.blocks(way.from(), way.to())) verdict = {Outcome::kBlocked, hit.moment};
+    if (pair.blocks(path.from(), path.to())) verdict = {Outcome::kBlocked, hit.moment};
   }
   return verdict;
 }

@@ -1,8 +1,9 @@
-// One move that is tested all along its way (docs/collisions.md, "Swept").
+// One move that is tested along its whole path (docs/collisions.md, "Swept").
 //
-// It goes in stages. Each lists whom the mover hits, up to the first time at which a pair would block as
-// things stand, tells both sides of each pair and judges it afterwards. If that block came to nothing - a
-// handler broke the glass - the next stage searches the rest of the way, in the world as it is then.
+// It goes in stages. Each lists what the mover hits, up to the first time at which a pair would block as
+// things stand, sends the event to both of each pair and judges the pair afterwards. If it does not block
+// after all (a handler has deleted the glass), the next stage searches the rest of the path, in the world as
+// it is then.
 #pragma once
 
 #include "engine/collision/KeySet.h"
@@ -18,11 +19,12 @@ class World;
 /// Its memory is kept for the next move.
 class SweptMove {
  public:
-  /// A handler may put up a new glass for each that breaks: a move that has broken so many is blocked.
+  /// A handler may make a new obstacle for each that it deletes: a move with so many stages is blocked.
   static constexpr int kMaxStages = 1000;
 
-  /// Meet whom `mover`, in the world and solid, hits on its way to `where`. If that blocks it, place it just
-  /// before, if it still stands where it was. Return whether it may move on to `where`.
+  /// Send the events of what `mover`, in the world and solid, hits on its path to `where`. If a pair blocks
+  /// it, place it just before the contact, unless a handler has moved it. Return whether it may move on to
+  /// `where`.
   bool run(Mover& moves, World& world, ObjectKey mover, FixedVector where);
 
  private:
@@ -32,7 +34,7 @@ class SweptMove {
     Moment moment;  // of the block
   };
 
-  Verdict meetAll(World& world, ObjectKey mover, const SweepPath& way);
+  Verdict sendHits(World& world, ObjectKey mover, const SweepPath& path);
 
   HitList m_list;
   KeySet m_met;  // in the stages before this one

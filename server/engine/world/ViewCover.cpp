@@ -1,6 +1,7 @@
 #include "engine/world/ViewCover.h"
 
 #include <algorithm>
+#include <cassert>
 #include <tuple>
 
 namespace df {
@@ -18,6 +19,7 @@ std::int64_t floorCell(Fixed value) {
 }  // namespace
 
 ViewCover::ViewCover(const std::vector<FixedVector>& corners, FixedVector size) : m_size(size) {
+  assert(size.x > 0 && size.y > 0);
   m_corners.reserve(corners.size());
   for (const FixedVector at : corners) m_corners.push_back({rowOf(at.y), columnOf(at.x), at});
   const auto place = [](const Corner& c) { return std::tuple(c.row, c.column, c.at.y, c.at.x); };
@@ -74,9 +76,9 @@ bool ViewCover::isMarked(FixedVector point) const {
   return m_marked[static_cast<std::size_t>(row * m_columns + column)];
 }
 
-bool ViewCover::meets(const FixedBox& box) const {
-  const auto is_met = [&](const Corner& corner) { return intersects(box, {corner.at, m_size}); };
-  if (m_corners.size() <= kFew) return std::any_of(m_corners.begin(), m_corners.end(), is_met);
+bool ViewCover::intersectsAny(const FixedBox& box) const {
+  const auto meets = [&](const Corner& corner) { return intersects(box, {corner.at, m_size}); };
+  if (m_corners.size() <= kFew) return std::any_of(m_corners.begin(), m_corners.end(), meets);
   if (isMarked(box.corner)) return true;
   const std::int64_t left = columnOf(box.corner.x - m_size.x);
   const std::int64_t right = columnOf(box.corner.x + box.size.x);
@@ -89,7 +91,7 @@ bool ViewCover::meets(const FixedBox& box) const {
         m_corners.begin(), m_corners.end(), std::pair(row, left),
         [](const Corner& c, const auto& wanted) { return std::pair(c.row, c.column) < wanted; });
     for (; corner != m_corners.end() && corner->row == row && corner->column <= right; ++corner) {
-      if (is_met(*corner)) return true;
+      if (meets(*corner)) return true;
     }
   }
   return false;

@@ -1,5 +1,5 @@
-// Does anything of this show in any view? A question asked of every Object in every tick, whatever the number
-// of views.
+// Tests whether a box shows in any view: done for every Object in every tick, at a cost that hardly grows
+// with the number of views.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ class ViewCover {
  public:
   ViewCover(const std::vector<FixedVector>& corners, FixedVector size);
 
-  /// Does the box meet a view, edges included (intersects() in Fixed.h)?
-  bool meets(const FixedBox& box) const;
+  /// Does the box intersect a view, edges included (intersects() in Fixed.h)?
+  bool intersectsAny(const FixedBox& box) const;
 
  private:
-  /// So few are looked at one by one.
+  /// Up to so many are tested one by one.
   static constexpr std::size_t kFew = 8;
-  /// Blocks of 8 by 4 cells that lie in a view are known to; so many at most.
+  /// Blocks of 8 by 4 cells that lie wholly in a view are marked; so many at most.
   static constexpr int kColumnShift = 3;
   static constexpr int kRowShift = 2;
   static constexpr std::int64_t kMaxBlocks = 1 << 16;

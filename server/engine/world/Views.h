@@ -1,7 +1,7 @@
 // The boundary, the window, the world's own view, and the players with theirs.
 //
-// A view is a corner; its size is the window's. A player shares the world's view until he first has an
-// Object, and has his own from then on. A view that follows an Object moves only when that Object is moved
+// A view is a corner; its size is the window's. A player shares the world's view until they first have an
+// Object, and have their own from then on. A view that follows an Object moves only when that Object is moved
 // by moveObject() or update(); setting it to follow centres it.
 #pragma once
 
@@ -52,20 +52,20 @@ class Views {
   Player* player(std::uint32_t id) const;
   const Players& players() const { return m_players; }
 
-  // Views. A null player, and one without a view of his own, stand for the world's view.
+  // Views. A null player, and one without a view of their own, stand for the world's view.
 
   FixedVector cornerOf(const Player* p_player) const;
   /// Put the corner there, clamped inside the boundary.
   void setCorner(Player* p_player, FixedVector corner);
   /// Centre the view on this position.
   void centre(Player* p_player, FixedVector position);
-  /// Follow this Object from now on, or nobody. Return 0, or -1 for one that is not in this world.
+  /// Follow this Object from now on; null: none. Return 0, or -1 for one that is not in this world.
   int follow(Player* p_player, Object* p_o);
-  /// Give the player a view of his own and follow this Object; null leaves the view where it is.
+  /// Give the player a view of their own and follow this Object; null leaves the view where it is.
   int setObject(Player& player, Object* p_o);
   /// A followed Object was moved.
   void moved(ObjectKey key, FixedVector position);
-  /// Whom the player's view follows, be it his own or the world's; generation 0 if nobody.
+  /// The Object that the player's view follows, their own or the world's; generation 0 if none.
   ObjectKey followed(const Player* p_player) const;
   /// All views, in whole cells: what shows on the screens.
   ViewCover cover() const;

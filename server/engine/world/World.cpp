@@ -1,6 +1,5 @@
 #include "engine/world/World.h"
 
-#include <algorithm>
 #include <typeinfo>
 #include <utility>
 
@@ -11,11 +10,9 @@
 #include "engine/world/InputQueue.h"
 #include "engine/world/InterestDispatch.h"
 #include "engine/world/Interests.h"
-#include "engine/world/LogFile.h"
 #include "engine/world/Mover.h"
 #include "engine/world/Object.h"
 #include "engine/world/Runner.h"
-#include "engine/world/Settings.h"
 #include "engine/world/Started.h"
 #include "engine/world/Views.h"
 #include "engine/world/WorldExtras.h"
@@ -71,9 +68,9 @@ World& World::current() {
   return *p_default;
 }
 
-World::Scope::Scope(World& world) : m_p_before(std::exchange(t_p_current, &world)) {}
+WorldScope::WorldScope(World& world) : m_p_before(std::exchange(t_p_current, &world)) {}
 
-World::Scope::~Scope() {
+WorldScope::~WorldScope() {
   t_p_current = m_p_before;
 }
 
@@ -85,7 +82,7 @@ void World::tick() {
   {
     const During during(m_in_tick);
     ++m_step_count;
-    m_capture->begin();
+    m_capture->clearPicture();
     if (m_p_extras != nullptr) m_p_extras->beginTick();
     if (!isPaused()) {
       const EventStep step(m_compat ? m_step_count - 1 : m_step_count);
@@ -96,7 +93,7 @@ void World::tick() {
     drainInput();
     if (!isPaused()) update();
     drawObjects();
-    m_capture->finish();
+    m_capture->finishView();
     if (m_p_extras != nullptr) m_p_extras->endTick();
   }
   finishShutDown();
@@ -126,7 +123,7 @@ void World::place(ObjectKey key, FixedVector where) {
 void World::draw() {
   if (m_in_tick || m_in_draw) return;
   const Scope scope(*this);
-  m_capture->begin();
+  m_capture->clearPicture();
   drawObjects();
   finishShutDown();
 }
@@ -164,22 +161,26 @@ void World::setSeed(std::uint64_t seed) {
   m_random = Random(seed);
 }
 
+void World::setStarted(unsigned manager, bool started) {
+  m_started = started ? m_started | manager : m_started & ~manager;
+}
+
 // Events.
 
 int World::onEvent(const Event* p_event) {
   if (p_event == nullptr) return 0;
   const Scope scope(*this);
-  // Who comes or goes meanwhile is there or not when the game goes on.
+  // Joins and leaves during a pause count when the game goes on.
   const EventType& type = p_event->getType();
   const bool stays = isPaused() && type != JOIN_EVENT && type != LEAVE_EVENT;
-  return m_interests->send(*p_event, stays ? Interests::kInterestDispatchWhilePaused : Interests::kEverybody);
+  return m_interests->send(*p_event, stays ? Interests::kWhilePaused : Interests::kAll);
 }
 
 bool World::deliver(ObjectKey key, const Event& event) {
   const WorldStore& store = *m_p_store;
   constexpr std::uint32_t kThere = WorldStore::kInWorld | WorldStore::kActive;
   if (!store.isCurrent(key) || (store.flags(key.slot) & kThere) != kThere) return false;
-  if (store.hears(key.slot)) hear(key, *store.object(key.slot), event);
+  if (store.hears(key.slot)) runHandler(key, *store.object(key.slot), event);
   return true;
 }
 
@@ -198,111 +199,6 @@ void World::quarantine(ObjectKey key, const std::string& why) {
   if (p_o == nullptr) return;
   p_o->setActive(false);
   markForDelete(p_o);
-}
-
-// Input.
-
-std::uint32_t World::join(const std::string& name, Color color, std::uint32_t id) {
-  id = std::max(id, m_next_player);
-  m_next_player = id + 1;
-  m_input->push({.kind = InputQueue::kJoin, .player = id, .name = name, .color = color});
-  return id;
-}
-
-void World::leave(std::uint32_t player) {
-  m_input->push({.kind = InputQueue::kLeave, .player = player});
-}
-
-void World::key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const ViewedTick& seen) {
-  if (key < 0 || key >= Keyboard::kKeyCount || action < KEY_PRESSED || action > KEY_DOWN) return;
-  m_input->push({.kind = InputQueue::kKey, .player = player, .seen = seen, .key = key, .key_action = action});
-}
-
-void World::mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y,
-                  const ViewedTick& seen) {
-  if (action < CLICKED || action > MOVED) return;
-  if (button < Mouse::UNDEFINED_MOUSE_BUTTON || button > Mouse::MIDDLE) return;
-  if (x < 0 || y < 0 || x >= getWindowWidth() || y >= getWindowHeight()) return;
-  m_input->push({.kind = InputQueue::kMouse,
-                 .player = player,
-                 .seen = seen,
-                 .button = button,
-                 .mouse_action = action,
-                 .x = x,
-                 .y = y});
-}
-
-void World::drainInput() {
-  const Scope scope(*this);
-  m_input->drain();
-}
-
-// What is seen.
-
-void World::setWatched(bool watched) {
-  m_p_store->setWatched(watched);
-}
-
-bool World::isWatched() const {
-  return m_p_store->isWatched();
-}
-
-const WorldView& World::view() const {
-  return m_capture->view();
-}
-
-int World::drawCh(Vector world_pos, char32_t ch, Color color) {
-  const auto position = toFixed(world_pos);
-  if (!position || color < BLACK || color > WHITE) {
-    refuse("DisplayManager", "drawCh");
-    return -1;
-  }
-  m_capture->add(*position, ch, color);
-  return 0;
-}
-
-void World::forgetLook(std::uint32_t slot) {
-  m_capture->forgetLook(slot);
-}
-
-void World::drawFrame(std::uint32_t slot) {
-  m_capture->addFrame(slot);
-}
-
-Canvas World::renderView(FixedVector corner) const {
-  return m_capture->render(corner);
-}
-
-Canvas World::renderPlayer(std::uint32_t player) const {
-  const Player* p_player = getPlayer(player);
-  Canvas canvas = renderView(m_views->cornerOf(p_player));
-  if (p_player == nullptr) return canvas;
-  for (const PlayerText& text : p_player->facts().texts) {
-    int x = text.x;
-    for (const char32_t ch : decodeUtf8(text.text)) canvas.put(x++, text.y, {ch, text.color});
-  }
-  return canvas;
-}
-
-// Log and refusals.
-
-void World::log(const std::string& line) const {
-  if (m_log_sink) {
-    m_log_sink(line);
-  } else {
-    writeToLogFile(m_p_extras != nullptr ? m_p_extras->settings.logfile : LOGFILE_DEFAULT, line, m_log_flush);
-  }
-}
-
-void World::refuse(const std::string& type, const char* what) {
-  ++m_refusals;
-  if (!m_refused.insert(type).second) return;
-  log("Refused a number that is not finite or out of range: " + std::string(what) + ", object of type " +
-      type + " (further ones of this type are only counted)");
-}
-
-void World::setStarted(unsigned manager, bool started) {
-  m_started = started ? m_started | manager : m_started & ~manager;
 }
 
 }  // namespace df

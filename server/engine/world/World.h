@@ -1,6 +1,6 @@
-// One game world: everything that moves, hears and is drawn together, from its seed to its tick count.
+// One game world: all Objects that interact, from its seed to its tick count.
 //
-// Game code rarely meets it: the managers (WM, GM, DM, IM, LM) forward to the calling thread's current
+// Game code rarely names it: the managers (WM, GM, DM, IM, LM) forward to the calling thread's current
 // world. Hosts and tests hold worlds directly, as many as they like, each on one thread at a time.
 //
 // A world is a pure function of its seed, its inputs and its tick count: it reads no clock and needs
@@ -30,6 +30,7 @@
 #include "Vector.h"
 #include "detail/LagCompensation.h"
 #include "detail/MoverStats.h"
+#include "detail/WorldScope.h"
 #include "detail/WorldView.h"
 
 namespace df {
@@ -57,16 +58,7 @@ class World {
   static World& current();
 
   /// Makes a world the current one of this thread while it lives. Scopes nest.
-  class Scope {
-   public:
-    explicit Scope(World& world);
-    ~Scope();
-    Scope(const Scope&) = delete;
-    Scope& operator=(const Scope&) = delete;
-
-   private:
-    World* m_p_before;
-  };
+  using Scope = WorldScope;
 
   // Life.
 
@@ -81,8 +73,8 @@ class World {
 
   // Time.
 
-  /// One full tick: step event, input events, update(), draw(), then view() is filled if somebody watches.
-  /// Nothing happens inside another tick, update or draw.
+  /// One full tick: step event, input events, update(), draw(), then view() is filled if the world is
+  /// watched. Nothing happens inside another tick, update or draw.
   void tick();
   /// Move all Objects once, in creation order, let the layers step, then delete what is marked. Nothing
   /// happens inside another update.
@@ -101,13 +93,13 @@ class World {
   /// From now on a setGameOver() while a player's input is handled does not end the game: that player wants
   /// to leave, which is up to the host. It stays through shutDown().
   void setGameOverLeaves(bool leaves) { m_game_over_leaves = leaves; }
-  /// Those who wanted to leave since this was asked last.
+  /// The players that wanted to leave since the last call.
   std::vector<std::uint32_t> takeLeavers() { return std::exchange(m_leavers, {}); }
   /// Not owned; null for none.
   void setRunner(Runner* p_runner) { m_p_runner = p_runner; }
   Runner* getRunner() const { return m_p_runner; }
-  /// Who runs this world without having been asked (Runner.h); null if it has a Runner, was made by hand, or
-  /// there is nobody.
+  /// Runs this world if it has no Runner (Runner.h); null if it has one, was made by hand, or no Program is
+  /// set.
   running::Program* program() const;
   /// From now on `layer` takes part in update(), after the layers added before it. It lives as long as the
   /// world. Added by a layer's step(), or by a handler that it calls, it takes part in the same update().
@@ -120,12 +112,12 @@ class World {
     }
     return nullptr;
   }
-  /// Begin the random sequence anew.
+  /// Restart the random sequence.
   void setSeed(std::uint64_t seed);
   /// 0 to n-1, each equally likely; 0 if n < 1.
   int randomInt(int n) { return m_random.below(n); }
 
-  // Objects. See WorldManager.h, whose functions of the same name these are.
+  // Objects. WorldManager.h documents them under the same names.
 
   int insertObject(Object* p_o);
   int removeObject(Object* p_o);
@@ -142,7 +134,7 @@ class World {
   std::optional<Vector> findFree(Box box, Vector near);
   /// The Object of a handle; null if it is gone.
   Object* find(ObjectKey key) const;
-  /// Which ways through the engine the moves have taken so far.
+  /// Counts of the code paths that the moves have taken so far.
   const MoverStats& moverStats() const;
   [[deprecated("say moverStats()")]] const MoverStats& paths() const { return moverStats(); }
   ObjectList objectsSeenAt(Vector cell) const;
@@ -151,12 +143,12 @@ class World {
 
   // Events.
 
-  /// Send to all Objects that registered interest in the event's type, in order of registration, as of
-  /// now: one that registers meanwhile waits for the next event; one that is deleted, unregistered or
-  /// made inactive meanwhile is skipped. Return how many were told.
+  /// Send to all Objects that registered interest in the event's type, in order of registration, as of now:
+  /// an Object that registers meanwhile waits for the next event; one that is deleted, unregistered or made
+  /// inactive meanwhile is skipped. Return to how many it was sent.
   int onEvent(const Event* p_event);
   /// Send to one Object, if it is alive and active. If its handler throws, the Object is made inactive,
-  /// marked for deletion and logged. Return whether it was told.
+  /// marked for deletion and logged. Return whether it was sent.
   bool deliver(ObjectKey key, const Event& event);
 
   // Boundary, views and players.
@@ -168,7 +160,7 @@ class World {
   int setWindow(int width, int height);
   int getWindowWidth() const;
   int getWindowHeight() const;
-  /// The view of the player whose input is being handled, if he has one of his own, else the world's.
+  /// The view of the player whose input is being handled, if they have one of their own, else the world's.
   Box getView() const;
   int setView(Box view);
   int setViewPosition(Vector centre);
@@ -189,16 +181,16 @@ class World {
   /// A key. Unknown keys, actions and players are ignored. `seen`: what was on the player's screen then.
   void key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const ViewedTick& seen = {});
   /// The mouse, at cell (x,y) of the player's view; ignored outside it. The event's position is in world
-  /// coordinates, by the view as the player saw it if the host knows (setLagCompensation()), else as it is
+  /// coordinates, by the view as the player saw it if the host says so (setLagCompensation()), else as it is
   /// when the event is handled.
   void mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y,
              const ViewedTick& seen = {});
-  /// Hand on what waits. tick() does this.
+  /// Send the events of all queued input. tick() does this.
   void drainInput();
-  /// Does the game look back? Then the host should say how; it need not remember anything otherwise.
+  /// Does the game use lag compensation? Then the host should set it; otherwise it need not keep any history.
   void setLookingBack(bool looking_back) { m_looking_back = looking_back; }
   bool isLookingBack() const { return m_looking_back; }
-  /// Who knows what players saw. Not owned; null for nobody.
+  /// Says what players saw. Not owned; null for none.
   void setLagCompensation(const LagCompensation* p_lag_compensation) {
     m_p_lag_compensation = p_lag_compensation;
   }
@@ -219,7 +211,7 @@ class World {
   int drawCh(Vector world_pos, char32_t ch, Color color);
   /// What the last tick drew, seen from a view with this corner.
   Canvas renderView(FixedVector corner) const;
-  /// What this player sees: the view, his texts on top. Without such a player, the world's own view.
+  /// What this player sees: the view, their texts on top. Without such a player, the world's own view.
   Canvas renderPlayer(std::uint32_t player) const;
 
   // Log and refusals.
@@ -248,39 +240,39 @@ class World {
   /// Relative names of sprites, sounds and music are looked for in the working directory, then here. It stays
   /// through shutDown().
   void addResourceFolder(std::string folder);
-  /// While a game is paused, no step event is sent and nothing moves; events reach nobody but Pause objects,
-  /// except that a player joins or leaves.
+  /// While a game is paused, no step event is sent and nothing moves; only Pause objects get events, except
+  /// joins and leaves, which all get.
   void setPaused(bool paused = true);
   bool isPaused() const;
   /// A sound was played; see WorldView.
   void noteSound(SoundPlayed sound);
-  /// Sprites, sounds, settings and the like, made when first asked for.
+  /// Sprites, sounds, settings and the like, made at first use.
   WorldExtras& extras();
-  /// Null if nobody has asked yet.
+  /// Null before the first extras().
   WorldExtras* findExtras() const { return m_p_extras.get(); }
 
   /// Lines about the game for the client's help screen.
   void setHelp(std::vector<std::string> lines) { m_help = std::move(lines); }
   const std::vector<std::string>& getHelp() const { return m_help; }
 
-  // The parts, for each other.
+  // The engine's parts, which games do not use.
 
   WorldStore& store() { return *m_p_store; }
   const WorldStore& store() const { return *m_p_store; }
   Interests& interests() { return *m_interests; }
   Views& views() { return *m_views; }
   /// Run the eventHandler() of an Object in the world; see deliver(). Defined in InterestDispatch.h.
-  inline void hear(ObjectKey key, Object& object, const Event& event);
+  inline void runHandler(ObjectKey key, Object& object, const Event& event);
   /// Note what the Object's class overrides.
   void learnType(std::uint32_t slot);
-  /// Have a static look drawn anew.
+  /// Draw a static look again.
   void forgetLook(std::uint32_t slot);
-  /// Draw the frame whose turn it is, of an Object that has frames.
+  /// Draw the frame that shows now, of an Object that has frames.
   void drawFrame(std::uint32_t slot);
-  /// Put an Object there, without a move: the views that follow it go with it, and it hears if it leaves the
-  /// world. For layers.
+  /// Put an Object there, without a move: the views that follow it go with it, and it gets an out event if it
+  /// leaves the world. For layers.
   void place(ObjectKey key, FixedVector where);
-  /// Make an Object that failed inactive, mark it for deletion, and say why in the log.
+  /// Make an Object whose handler threw inactive, mark it for deletion, and log why.
   void quarantine(ObjectKey key, const std::string& why);
 
  private:
@@ -295,7 +287,7 @@ class World {
   template <class Wanted>
   ObjectList collect(Wanted wanted) const;
   bool owns(const Object* p_o) const;
-  /// Is code of an Object running that has to come to its end first?
+  /// Is code of an Object running that has to return first?
   bool isBusy() const { return m_in_tick || m_in_update || m_in_draw || m_handlers > 0; }
 
   WorldStore* m_p_store;  // counted: outlives the world if Objects or lists do
@@ -305,7 +297,7 @@ class World {
   std::unique_ptr<InputQueue> m_input;
   std::unique_ptr<Mover> m_mover;
   std::vector<std::unique_ptr<Layer>> m_layers;
-  std::unique_ptr<WorldExtras> m_p_extras;  // null until somebody needs it
+  std::unique_ptr<WorldExtras> m_p_extras;  // null until first use
   std::vector<ObjectKey> m_deletions;       // marked, in that order
   Random m_random;
   std::uint64_t m_seed = 1;

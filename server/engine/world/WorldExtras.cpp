@@ -9,9 +9,9 @@ namespace df {
 
 namespace {
 
-constexpr std::size_t kMaxSounds = 256;  ///< in a tick; nobody hears more
+constexpr std::size_t kMaxSounds = 256;  ///< in a tick; more are only counted
 constexpr std::size_t kMaxNotes = 4;     ///< in a tick
-constexpr std::size_t kMaxPlaying = 16;  ///< again and again; the oldest makes room
+constexpr std::size_t kMaxPlaying = 16;  ///< repeating; the oldest makes room
 
 bool isSame(const SoundPlayed& a, const SoundPlayed& b) {
   return a.music == b.music && a.label == b.label;
@@ -19,7 +19,7 @@ bool isSame(const SoundPlayed& a, const SoundPlayed& b) {
 
 }  // namespace
 
-void WorldExtras::note(SoundPlayed sound) {
+void WorldExtras::noteSound(SoundPlayed sound) {
   std::erase_if(playing, [&sound](const SoundPlayed& other) { return isSame(sound, other); });
   if (sound.what == SoundPlayed::kPlay && sound.loop) {
     if (playing.size() == kMaxPlaying) playing.erase(playing.begin());
@@ -32,7 +32,7 @@ void WorldExtras::note(SoundPlayed sound) {
   }
 }
 
-void WorldExtras::tell(std::string line) {
+void WorldExtras::addNote(std::string line) {
   if (notes.size() < kMaxNotes) notes.push_back(std::move(line));
 }
 
@@ -87,7 +87,7 @@ bool World::isPaused() const {
 }
 
 void World::noteSound(SoundPlayed sound) {
-  extras().note(std::move(sound));
+  extras().noteSound(std::move(sound));
 }
 
 }  // namespace df

@@ -1,5 +1,5 @@
 // What a world has only if its game uses it. Made at first use (World::extras), so that a world without it
-// pays a null pointer, and one test of it in a tick.
+// costs a null pointer and one test in a tick.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +24,12 @@ struct WorldExtras {
   /// The world has begun a tick.
   void beginTick();
   /// A sound or music began, paused or stopped.
-  void note(SoundPlayed sound);
+  void noteSound(SoundPlayed sound);
   /// A line for all players to read.
-  void tell(std::string line);
+  void addNote(std::string line);
   /// Does it go on again and again?
   bool isPlaying(const std::string& label, bool music) const;
-  /// All of it has happened, and has been drawn.
+  /// The tick is over, drawn and all.
   void endTick();
   /// As at the beginning. Sprites live on as long as the world, for Objects may still show them.
   void reset();
@@ -46,7 +46,7 @@ struct WorldExtras {
   std::uint32_t sounds_lost = 0;
   std::vector<SoundPlayed> playing;  ///< again and again
   std::vector<std::string> notes;    ///< of this tick
-  /// The only player whose input the host hands in; 0: everybody's.
+  /// The only player whose input the host hands in; 0: all players'.
   std::uint32_t heard_player = 0;
   Color background = BLACK;
   Vector view_slack{1.0 / 3, 1.0 / 3};  ///< as asked for; it has no effect

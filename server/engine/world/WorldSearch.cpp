@@ -1,5 +1,6 @@
-// The part of World that looks at how things meet without moving anything.
+// The part of World that searches: Objects by what is true of them, collisions and room without a move.
 
+#include "engine/world/CollisionRule.h"
 #include "engine/world/FreeRoom.h"
 #include "engine/world/HitList.h"
 #include "engine/world/Object.h"
@@ -9,17 +10,81 @@
 
 namespace df {
 
-Contact World::firstContact(const Object* p_o, Vector where) const {
-  const Contact nobody{nullptr, 1, where};
+template <class Wanted>
+ObjectList World::collect(Wanted wanted) const {
+  ObjectList list;
+  const WorldStore::Walk walk(*m_p_store);
+  for (std::size_t i = 0; i < walk.size(); ++i) {
+    const WorldStore::Slot s = walk[i];
+    if (s != WorldStore::kNoSlot && wanted(s)) list.append(m_p_store, m_p_store->key(s));
+  }
+  return list;
+}
+
+ObjectList World::getAllObjects(bool inactive) const {
+  return collect([&](auto s) { return inactive || m_p_store->has(s, WorldStore::kActive); });
+}
+
+ObjectList World::objectsOfType(const std::string& type) const {
+  return collect([&](auto s) {
+    return m_p_store->has(s, WorldStore::kActive) && m_p_store->object(s)->getType() == type;
+  });
+}
+
+ObjectList World::solidObjects() const {
+  return collect([&](auto s) { return m_p_store->collides(s); });
+}
+
+Object* World::objectWithId(int id) const {
+  const ObjectList found = collect([&](auto s) { return m_p_store->object(s)->getId() == id; });
+  return found[0];
+}
+
+// The cells that a box of an Object at `position` is drawn in; what is smaller than a cell is drawn in one.
+static bool coversCell(Fixed position, Fixed corner, Fixed extent, std::int32_t cell) {
+  if (extent < kFixedOne) return cellOf(position + corner + extent / 2) == cell;
+  return cellOf(position + corner + kFixedOne / 2) <= cell &&
+         cell <= cellOf(position + corner + extent - kFixedOne / 2);
+}
+
+ObjectList World::objectsSeenAt(Vector cell) const {
+  const auto where = toFixed(cell);
+  if (!where) return {};
+  return collect([&](auto s) {
+    if (!m_p_store->has(s, WorldStore::kActive) || !m_p_store->has(s, WorldStore::kVisible)) return false;
+    std::optional<FixedVector> p = m_p_store->position(s);
+    if (m_p_lag_compensation != nullptr && m_input_seen.known) {
+      p = m_p_lag_compensation->positionOf(m_p_store->key(s), m_input_seen);
+    }
+    const FixedBox box = m_p_store->box(s);
+    return p && coversCell(p->x, box.corner.x, box.size.x, cellOf(where->x)) &&
+           coversCell(p->y, box.corner.y, box.size.y, cellOf(where->y));
+  });
+}
+
+ObjectList World::getCollisions(const Object* p_o, Vector where) const {
+  ObjectList list;
   const auto target = toFixed(where);
-  if (!owns(p_o) || !target || !m_p_store->collides(p_o->m_slot)) return nobody;
-  const SweepPath way(m_p_store->box(p_o->m_slot), m_p_store->position(p_o->m_slot), *target);
+  if (p_o == nullptr || p_o->m_p_store != m_p_store || !target) return list;
+  std::vector<ObjectKey> keys;
+  const FixedBox box = m_p_store->worldBox(p_o->m_slot, *target);
+  m_p_store->touching(box, p_o->m_slot, keys);
+  keepCollisions(*m_p_store, p_o->m_slot, box, keys);
+  for (const ObjectKey key : keys) list.append(m_p_store, key);
+  return list;
+}
+
+Contact World::firstContact(const Object* p_o, Vector where) const {
+  const Contact none{nullptr, 1, where};
+  const auto target = toFixed(where);
+  if (!owns(p_o) || !target || !m_p_store->collides(p_o->m_slot)) return none;
+  const SweepPath path(m_p_store->box(p_o->m_slot), m_p_store->position(p_o->m_slot), *target);
   thread_local HitList list;  // for its memory
-  list.fill(*m_p_store, p_o->m_slot, way, HitList::kFirst);
-  if (list.hits().empty()) return nobody;
+  list.fill(*m_p_store, p_o->m_slot, path, HitList::kFirst);
+  if (list.hits().empty()) return none;
   const Hit& first = list.hits().front();
   return {m_p_store->object(first.key.slot), first.moment.toDouble(),
-          Vector::fromFixed(way.sweep().before(first.moment))};
+          Vector::fromFixed(path.sweep().before(first.moment))};
 }
 
 std::optional<Vector> World::findFree(Box box, Vector near) {

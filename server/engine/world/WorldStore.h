@@ -1,16 +1,17 @@
 // The hot state of a world's Objects: arrays by slot, behind handles with generations.
 //
 // An Object owns one slot from construction to destruction. It is "in the world" in between; entering puts
-// it last in the creation order, leaving (or dying) ends its generation, so that old handles find nobody.
-// Slots of the dead rest before they are used again, so that whoever watches from afar has heard of the
-// death when the next one moves in.
+// it last in the creation order, leaving (or dying) ends its generation, so that old handles find none.
+// A freed slot rests before it is used again, so that clients know of the deletion before another Object has
+// the slot.
 //
-// Everybody who changes an Object's state goes through the setters here: they keep the grid of solid boxes
+// All changes of an Object's state go through the setters here: they keep the grid of solid boxes
 // and the list of changes up to date. Arguments are in range; Object checks what games pass in.
 //
 // The store is counted: by its world, by each Object and by each list. It outlives the world, if need be.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -23,7 +24,9 @@
 #include "engine/collision/Grid.h"
 #include "engine/collision/Mask.h"
 #include "engine/collision/MoverStats.h"
+#include "engine/world/ObjectFlags.h"
 #include "engine/world/ObjectProfile.h"
+#include "engine/world/TurnBits.h"
 #include "engine/world/WorldView.h"
 #include "shared/values/Fixed.h"
 #include "shared/values/Solidness.h"
@@ -33,44 +36,19 @@ namespace df {
 class Object;
 class World;
 
-class WorldStore {
+class WorldStore : public ObjectFlags {
  public:
   using Slot = std::uint32_t;
   static constexpr Slot kNoSlot = UINT32_MAX;
   /// Updates for which a freed slot rests: two seconds, longer than any playable round trip.
   static constexpr std::uint64_t kRest = 64;
 
-  /// What is true of an Object, beyond numbers.
-  enum Flag : std::uint32_t {
-    kInWorld = 1 << 0,
-    kActive = 1 << 1,
-    kVisible = 1 << 2,
-    kNoSoft = 1 << 3,
-    kHeap = 1 << 4,      ///< made with `new`: the world's to delete
-    kMarked = 1 << 5,    ///< to be deleted after update
-    kDirty = 1 << 7,     ///< in the list of changes
-    kReported = 1 << 8,  ///< the watcher knows it
-    kDerive = 1 << 9,    ///< speed and direction follow from the velocity
-    kStaticLook = 1 << 10,
-    kNeverDraws = 1 << 11,  ///< its dynamic type is Object itself
-    kTyped = 1 << 12,       ///< kNeverDraws and kDeaf have been found out
-    kFollowed = 1 << 13,    ///< a view follows it
-    kDeaf = 1 << 14,        ///< its class has no eventHandler() of its own
-    kSwept = 1 << 15,
-    kPrecise = 1 << 16,
-    kRestContacts = 1 << 17,
-    kMayMoveOut = 1 << 18,
-    kBody = 1 << 19,     ///< moved by a layer, not by the book's rules
-    kPainted = 1 << 24,  ///< has a sprite or a shape, which draw() shows unless its class has another one
-    kOnView = 1 << 25,   ///< a view object: drawn wherever it is
-    kFrames = 1 << 28,   ///< it has frames
-  };
-
   explicit WorldStore(World* p_world) : m_p_world(p_world) {}
   WorldStore(const WorldStore&) = delete;
   WorldStore& operator=(const WorldStore&) = delete;
   void retain() { ++m_references; }
   void release() {
+    assert(m_references > 0);
     if (--m_references == 0) delete this;
   }
   /// Null once the world is gone.
@@ -79,15 +57,15 @@ class WorldStore {
 
   // Life.
 
-  /// A slot with an Object's default state, not in the world.
-  Slot take(Object* p_o, bool heap);
+  /// A slot with an Object's default state, not in the world yet.
+  Slot takeSlot(Object* p_o, bool heap);
   /// Give the slot of a destroyed Object back. It must have left the world. It rests for kRest updates.
-  void give(Slot s);
+  void giveBackSlot(Slot s);
   /// An update has passed.
   void age() { ++m_updates; }
   /// Into the world, last in order.
   void enter(Slot s);
-  /// Those who have entered since the last call.
+  /// The Objects that have entered since the last call.
   std::vector<ObjectKey> takeNewcomers() { return std::exchange(m_newcomers, {}); }
   /// Out of it.
   void leave(Slot s);
@@ -105,7 +83,7 @@ class WorldStore {
   /// Stays where it is until the slot is given back.
   ObjectProfile& profile(Slot s) { return m_profiles[s]; }
   FixedVector position(Slot s) const { return m_positions[s]; }
-  /// It will be asked for its position, and perhaps for the rest.
+  /// Its position will be read, and perhaps the rest.
   void prefetch(Slot s) const {
     __builtin_prefetch(&m_positions[s]);
     __builtin_prefetch(&m_cards[s]);
@@ -134,10 +112,8 @@ class WorldStore {
            m_cards[s].solidness != SPECTRAL;
   }
   /// Did its last move in update not happen?
-  bool isBlocked(Slot s) const {
-    return (m_blocked[m_cards[s].index / 64] >> (m_cards[s].index % 64) & 1) != 0;
-  }
-  /// Does it get events: in the world, active, and of a class with an eventHandler() of its own?
+  bool isBlocked(Slot s) const { return TurnBits::get(m_bits.blocked, m_cards[s].index); }
+  /// Does it get events: in the world, active, and of a class that overrides eventHandler()?
   bool hears(Slot s) const {
     return (m_cards[s].flags & (kInWorld | kActive | kDeaf)) == (kInWorld | kActive);
   }
@@ -149,8 +125,8 @@ class WorldStore {
   void setVelocity(Slot s, FixedVector velocity);
   void setAcceleration(Slot s, FixedVector acceleration);
   void setBox(Slot s, FixedBox box);
-  /// Was there ever a box that does not hold its Object's position? Else who is inside something is so with
-  /// his box, too.
+  /// Was there ever a box that does not contain its Object's position? If not, an Object whose position is
+  /// inside something has its box there, too.
   bool hasBoxesOffPosition() const { return m_boxes_off; }
   void setSolidness(Slot s, Solidness solidness);
   void setAltitude(Slot s, int altitude);
@@ -160,14 +136,14 @@ class WorldStore {
   void setFrames(Slot s, std::shared_ptr<const naiad::Look> p_look);
   /// The end of an Object's turn in update: its velocity from now on, and whether its move was blocked.
   void settle(Slot s, FixedVector velocity, bool blocked) {
-    if (velocity != m_velocities[s] || blocked != isBlocked(s)) settleAnew(s, velocity, blocked);
+    if (velocity != m_velocities[s] || blocked != isBlocked(s)) settleChanged(s, velocity, blocked);
   }
-  /// kDerive, which nobody else sees.
+  /// kDerive, which is no change for hosts.
   void setDerived(Slot s, bool on) {
     const std::uint32_t others = m_cards[s].flags & ~static_cast<std::uint32_t>(kDerive);
     m_cards[s].flags = others | (on ? kDerive : 0u);
   }
-  /// Flags that the watcher sees (active, visible, no-soft) are noted as changes.
+  /// Flags that hosts see (active, visible, no-soft) are noted as changes.
   void set(Slot s, Flag flag, bool on);
 
   /// Is this a legal position, a legal velocity?
@@ -177,7 +153,7 @@ class WorldStore {
   // Walking.
 
   /// The creation order as it is now: entries [0, size()), which a walk may read while Objects come and
-  /// go. Those that come are appended behind the end; those that go leave a gap, kNoSlot.
+  /// go. An Object that enters is appended behind the end; one that leaves leaves a gap, kNoSlot.
   class Walk {
    public:
     explicit Walk(const WorldStore& store) : m_store(store), m_size(store.m_order_list.size()) {
@@ -194,18 +170,9 @@ class WorldStore {
     std::size_t m_size;
   };
 
-  // Whose turn it is: 64 Objects of the order to a word, bit i % 64 of word i / 64 for entry i.
-
-  /// Entry i; kNoSlot for a gap.
+  /// Entry i of the creation order; kNoSlot for a gap.
   Slot entry(std::size_t i) const { return m_order_list[i]; }
-  /// Those that move in update(): active, with a velocity, an acceleration or contacts at rest.
-  std::uint64_t turns(std::size_t word) const { return m_turns[word]; }
-  /// Those of them that only fly on: SPECTRAL, and nothing to do but to add the velocity.
-  std::uint64_t fliers(std::size_t word) const { return m_fliers[word]; }
-  /// Those that walk: solid, and use nothing beyond the book's test of where a move ends.
-  std::uint64_t walkers(std::size_t word) const { return m_walkers[word]; }
-  /// Those whose slot is the one after that of the entry before.
-  std::uint64_t sequels(std::size_t word) const { return m_sequels[word]; }
+  const TurnBits& turnBits() const { return m_bits; }
   /// Sweep the moves of all, or only of those that ask for it.
   void setAllSwept(bool all_swept);
   bool isAllSwept() const { return m_all_swept; }
@@ -227,7 +194,7 @@ class WorldStore {
   bool mayMoveOut(Slot s) const {
     return kLayers && has(s, kMayMoveOut);
   }
-  /// Is there anybody whose characters are tested?
+  /// Are any Objects precise?
   bool hasPrecise() const {
     return kLayers && m_precise > 0;
   }
@@ -235,15 +202,15 @@ class WorldStore {
   /// Move up to `count` fliers, from slot `first` on, by their velocities; stop at the first that would
   /// leave `boundary`. Return how many were moved.
   std::size_t fly(Slot first, std::size_t count, const FixedBox& boundary);
-  /// Let walkers take their steps, as long as they stay inside `boundary` and touch nobody: entry
-  /// 64 * word + i of the order for each bit i of `walkers`, lowest first. Return the bits of those that
-  /// have not; of the first of them, whom it would touch at its target is in `met`, in creation order.
-  /// (Nobody, if it would leave the boundary.)
+  /// Let walkers take their steps, as long as they stay inside `boundary` and touch nothing: entry
+  /// 64 * word + i of the order for each bit i of `walkers`, lowest first. Return the bits of those that have
+  /// not; `met` lists what the first of them would touch at its target, in creation order: nothing, if it
+  /// would leave the boundary.
   std::uint64_t walk(std::size_t word, std::uint64_t walkers, const FixedBox& boundary,
                      std::vector<ObjectKey>& met);
 
-  /// Drop the gaps from the order, if they are many and nobody walks. leave() does it when it may; call it
-  /// when a walk has ended.
+  /// Drop the gaps from the order, if they are many and no walk is under way. leave() does it when it may;
+  /// call it when a walk has ended.
   void closeGaps();
 
   /// The Objects that collide with `box`, except `self`, in creation order, appended to `out`.
@@ -256,9 +223,9 @@ class WorldStore {
     return m_grid.moverStats();
   }
 
-  // Changes, for the watcher.
+  // Changes, for hosts.
 
-  /// Note changes from now on, beginning with everybody.
+  /// Note changes from now on, beginning with all Objects.
   void setWatched(bool watched);
   bool isWatched() const {
     return m_watched;
@@ -273,7 +240,7 @@ class WorldStore {
     std::uint64_t since;  ///< m_updates when it was freed
   };
 
-  // What a collision asks of the other, in half a cache line.
+  // What a collision reads of the other Object, in half a cache line.
   struct alignas(32) Card {
     Object* p_object = nullptr;
     std::uint64_t order = 0;  ///< place in creation order, never reused
@@ -285,16 +252,22 @@ class WorldStore {
   };
   static_assert(sizeof(Card) == 32);
 
-  ~WorldStore() = default;
+  ~WorldStore() {
+    assert(m_p_world == nullptr);
+  }  // the world holds a reference
   static bool within(FixedVector v, double cells) {
     const auto limit = static_cast<Fixed>(cells * static_cast<double>(kFixedOne));
     return v.x >= -limit && v.x <= limit && v.y >= -limit && v.y <= limit;
   }
   void touch(Slot s) {
-    if (m_watched) note(s);
+    if (m_watched) noteChange(s);
   }
-  void note(Slot s);
-  void settleAnew(Slot s, FixedVector velocity, bool blocked);
+  void noteChange(Slot s) {
+    if (has(s, kDirty)) return;
+    m_cards[s].flags |= kDirty;
+    m_dirty.push_back(s);
+  }
+  void settleChanged(Slot s, FixedVector velocity, bool blocked);
   void file(Slot s);
   void classify(Slot s);
   const Mask* spriteMask(Slot s) const;
@@ -311,17 +284,13 @@ class WorldStore {
   std::vector<Card> m_cards;
   std::deque<ObjectProfile> m_profiles;
 
-  Grid m_grid{m_positions, m_boxes};  // everybody who collides
+  Grid m_grid{m_positions, m_boxes};  // all that collide
   std::deque<Freed> m_free;           // longest free first
   std::uint64_t m_updates = 0;
-  std::vector<Slot> m_order_list;      // those in the world by creation order, with gaps
-  std::vector<std::uint64_t> m_turns;  // bits by place in m_order_list
-  std::vector<std::uint64_t> m_fliers;
-  std::vector<std::uint64_t> m_walkers;
-  std::vector<std::uint64_t> m_sequels;
-  std::vector<std::uint64_t> m_blocked;  // the last move in update did not happen
+  std::vector<Slot> m_order_list;  // those in the world by creation order, with gaps
+  TurnBits m_bits;
   std::size_t m_gaps = 0;
-  mutable int m_walks = 0;  // no gap is closed while somebody walks
+  mutable int m_walks = 0;  // under way; no gap is closed meanwhile
   int m_in_world = 0;
   std::uint64_t m_next_order = 1;
   std::vector<ObjectKey> m_newcomers;

@@ -1,8 +1,8 @@
-// What a tick changed, as plain data: the one window through which a host looks at a world.
+// What a tick changed, as plain data: all that a host reads of a world.
 //
-// The engine fills a WorldView at the end of every tick while somebody watches (World::setWatched) and
+// The engine fills a WorldView at the end of every tick while the world is watched (World::setWatched) and
 // spends nothing on it otherwise. It holds no pointers into the world, so it could cross a process
-// boundary. The engine knows nothing of who reads it.
+// boundary. The engine does not depend on its readers.
 #pragma once
 
 #include <cstdint>
@@ -49,9 +49,10 @@ struct SoundPlayed {
   enum What : std::uint8_t { kPlay, kPause, kStop };
   std::string label;  ///< as loaded
   What what = kPlay;
-  bool music = false;        ///< else a sound
-  bool loop = false;         ///< again and again
-  std::uint32_t player = 0;  ///< in whose input's handler, as a hint for whom it is; 0: nobody's
+  bool music = false;  ///< else a sound
+  bool loop = false;   ///< again and again
+  std::uint32_t player =
+      0;  ///< in the handler of this player's input, as a hint for which client it is; 0: none
   friend bool operator==(const SoundPlayed& a, const SoundPlayed& b) {
     return a.label == b.label && a.what == b.what && a.music == b.music && a.loop == b.loop &&
            a.player == b.player;
@@ -68,12 +69,13 @@ struct DrawnObject {
       false;  ///< a view object: its characters keep their places in every view (WorldView::corner)
 };
 
-/// What one of those drawn says of its look: frames and how their turn comes (Object::setFrames). Its draw()
-/// may have drawn something else all the same.
-struct ToldLook {
+/// The look of one of those drawn as frames and a selector (ObjectLookAccess::setFrames). Its draw() may have
+/// drawn something else.
+struct PublishedLook {
   std::uint32_t drawn = 0;  ///< index in WorldView::drawn
   std::shared_ptr<const naiad::Look> p_look;
 };
+using ToldLook [[deprecated("say PublishedLook")]] = PublishedLook;
 
 /// A text that one player sees, in cells of that player's view. Empty text: removed.
 struct PlayerText {
@@ -91,7 +93,7 @@ struct PlayerText {
 /// What a player steers by declared controls, exactly, at the end of the tick.
 struct SteeringFacts {
   std::shared_ptr<const ControlTable> p_table;  ///< null: no controls declared, and nothing below is set
-  ObjectKey object;  ///< generation 0: nobody is steered, nothing but `state` below
+  ObjectKey object;  ///< generation 0: no Object is steered, nothing but `state` is set below
   ControlState state;
   FixedVector position;
   FixedVector velocity;  ///< what update() will try to add next tick, even if the last move was blocked
@@ -104,7 +106,7 @@ struct PlayerFacts {
   std::string name;
   Color color = COLOR_DEFAULT;
   int score = 0;
-  ObjectKey followed;             ///< generation 0: the view follows nobody
+  ObjectKey followed;             ///< generation 0: the view follows none
   FixedVector view_corner;        ///< upper left corner of the view, world coordinates; shaken
   std::vector<PlayerText> texts;  ///< non-empty ones, by id
   SteeringFacts steering;
@@ -115,11 +117,11 @@ struct WorldView {
   FixedBox boundary;       ///< of the world
   int view_width = 80;     ///< size of every view, in cells
   int view_height = 24;
-  std::vector<ObjectFacts> changed;   ///< appeared or changed, by creation order
-  std::vector<ObjectKey> vanished;    ///< deleted or removed; never in `changed` of the same tick
-  std::vector<DrawnObject> drawn;     ///< what was drawn, in drawing order; a drawer may have vanished since
+  std::vector<ObjectFacts> changed;  ///< appeared or changed, by creation order
+  std::vector<ObjectKey> vanished;   ///< deleted or removed; never in `changed` of the same tick
+  std::vector<DrawnObject> drawn;    ///< what was drawn, in drawing order; the Object may have vanished since
   std::vector<DrawCommand> commands;  ///< what they drew, in drawing order
-  std::vector<ToldLook> looks;        ///< of those drawn that have frames, in that order
+  std::vector<PublishedLook> looks;   ///< of those drawn that have frames, in that order
   std::vector<PlayerFacts> players;   ///< by id
   FixedVector corner;                 ///< of the world's own view, in which view objects were drawn
   std::vector<SoundPlayed> sounds;    ///< in the order they were played

@@ -243,11 +243,11 @@ struct ViewFields {
   }
   // Those that cannot be told are left out: what draw() drew counts anyway.
   static void looks(FieldWriter& out, ViewWriter& known, const df::WorldView& view) {
-    std::vector<df::ToldLook> told;
-    for (const df::ToldLook& look : view.looks) {
+    std::vector<df::PublishedLook> told;
+    for (const df::PublishedLook& look : view.looks) {
       if (isTellable(*look.p_look)) told.push_back(look);
     }
-    out.list(told, [&known](FieldWriter& f, const df::ToldLook& look) {
+    out.list(told, [&known](FieldWriter& f, const df::PublishedLook& look) {
       f.number(look.drawn);
       f.number(look.p_look->altitude, 0, df::MAX_ALTITUDE);
       selector(f, look.p_look->selector);
@@ -255,7 +255,7 @@ struct ViewFields {
     });
   }
   static void looks(FieldReader& in, ViewReader& known, df::WorldView& view) {
-    in.list(view.looks, [&known](FieldReader& f, df::ToldLook& told) {
+    in.list(view.looks, [&known](FieldReader& f, df::PublishedLook& told) {
       Look look;
       f.number(told.drawn);
       f.number(look.altitude, 0, df::MAX_ALTITUDE);
@@ -277,7 +277,7 @@ struct ViewFields {
              }) == all.end();
     };
     if (!view.looks.empty() && view.looks.back().drawn >= view.drawn.size()) return false;
-    return rises(view.looks, [](const df::ToldLook& look) { return look.drawn; }) &&
+    return rises(view.looks, [](const df::PublishedLook& look) { return look.drawn; }) &&
            rises(view.players, [](const df::PlayerFacts& player) { return player.id; }) &&
            std::all_of(view.players.begin(), view.players.end(), [&](const df::PlayerFacts& player) {
              return rises(player.texts, [](const df::PlayerText& text) { return text.id; });

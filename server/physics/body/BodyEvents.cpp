@@ -27,10 +27,10 @@ void tellEnd(World& world, const BodyContact& contact) {
   const WorldStore& store = world.store();
   const EventContactEnd event(store.object(contact.first.slot), store.object(contact.second.slot));
   if (hearsEnds(store, contact.first)) {
-    world.hear(contact.first, *event.getObject1(), event);
+    world.runHandler(contact.first, *event.getObject1(), event);
     if (!store.isStill(contact.first) || !store.isStill(contact.second)) return;
   }
-  if (hearsEnds(store, contact.second)) world.hear(contact.second, *event.getObject2(), event);
+  if (hearsEnds(store, contact.second)) world.runHandler(contact.second, *event.getObject2(), event);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ void tellContacts(World& world, std::vector<BodyContact>& contacts) {
     EventCollision event(store.object(slot), store.object(contact.second.slot),
                          Vector::fromFixed(store.position(slot)));
     event.setImpulse(contact.impulse);
-    tellBoth(world, contact.first, contact.second, event);
+    sendToBoth(world, contact.first, contact.second, event);
   }
 }
 

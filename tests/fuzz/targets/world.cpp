@@ -64,7 +64,7 @@ class Host {
     for (const df::DrawnObject& drawn : m_view.drawn) {
       REQUIRE(std::uint64_t{drawn.first} + drawn.count <= m_view.commands.size());
     }
-    for (const df::ToldLook& told : m_view.looks) {
+    for (const df::PublishedLook& told : m_view.looks) {
       REQUIRE(told.drawn < m_view.drawn.size() && told.p_look->selector.fits(told.p_look->sequence.size()));
     }
     for (const df::PlayerFacts& player : m_view.players) {

@@ -84,7 +84,7 @@ TEST(Grid, FindsWhatTouchesWhereverItLiesAndHoweverLarge) {
 }
 
 // Steps of characters among characters, of characters and boxes among both.
-TEST(Grid, ABoxStepsWhereItTouchesNobody) {
+TEST(Grid, ABoxStepsWhereItTouchesNothing) {
   Random random(8);
   for (const int spread : {12, 60, 700, 2000000000}) {
     for (const int others : {0, 25, 100}) {  // percent: none, some, nearly all
@@ -104,7 +104,7 @@ TEST(Grid, ABoxStepsWhereItTouchesNobody) {
         ASSERT_EQ(steps.isFree(slot, where), expected.empty());
         if (expected.empty()) {
           it.positions[slot] = where;
-          steps.take(slot);
+          steps.fileAtTarget(slot);
         } else {
           ASSERT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected) << "spread " << spread;
         }
@@ -135,7 +135,7 @@ TEST(Grid, ATouchIsExactHoweverCoarselyItsSpotIsKept) {
         it.put(slot, where, kCharacterBox);
         continue;
       }
-      // Half of them a cell apart from somebody, or nearly so.
+      // Half of them a cell apart from another, or nearly so.
       const FixedVector near = it.positions[static_cast<std::size_t>(random.below(count))];
       if (random.below(2) == 0) where.x = near.x + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
       if (random.below(2) == 0) where.y = near.y + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
@@ -144,7 +144,7 @@ TEST(Grid, ATouchIsExactHoweverCoarselyItsSpotIsKept) {
       ASSERT_EQ(steps.isFree(slot, where), expected.empty()) << "round " << round;
       if (expected.empty()) {
         it.positions[slot] = where;
-        steps.take(slot);
+        steps.fileAtTarget(slot);
       } else {
         ++touched;
         ASSERT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected) << "round " << round;

@@ -1,4 +1,4 @@
-// Objects that have frames: what is drawn, and what a watcher is told.
+// Objects that have frames: what is drawn, and what a host gets.
 #include <gtest/gtest.h>
 
 #include "engine/managers/DisplayManager.h"
@@ -49,20 +49,20 @@ TEST_F(FramesTest, AClockTurnsTheFrames) {
   EXPECT_EQ(object.getFrameCount(), 3);
 }
 
-TEST_F(FramesTest, AWatcherIsToldFramesAndSelector) {
+TEST_F(FramesTest, AHostGetsFramesAndSelector) {
   Object object;
   object.setPosition(Vector(10, 5));
   ObjectLookAccess::setFrames(object, letters(), Selector::turning(1, 5, 7));
   world.tick();
-  EXPECT_TRUE(world.view().looks.empty()) << "nobody watches";
+  EXPECT_TRUE(world.view().looks.empty()) << "not watched";
   world.setWatched(true);
   Object plain;
   world.tick();
   ASSERT_EQ(world.view().looks.size(), 1u);
-  const ToldLook& told = world.view().looks[0];
-  EXPECT_EQ(world.view().drawn[told.drawn].key, object.key());
-  EXPECT_EQ(told.p_look->sequence, letters());
-  EXPECT_EQ(told.p_look->selector, Selector::turning(1, 5, 7));
+  const PublishedLook& look = world.view().looks[0];
+  EXPECT_EQ(world.view().drawn[look.drawn].key, object.key());
+  EXPECT_EQ(look.p_look->sequence, letters());
+  EXPECT_EQ(look.p_look->selector, Selector::turning(1, 5, 7));
 }
 
 TEST_F(FramesTest, ADrawOfItsOwnMayAddToThem) {

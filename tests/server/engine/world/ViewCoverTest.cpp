@@ -32,7 +32,7 @@ void compare(std::size_t views, std::int64_t extent, std::uint64_t seed) {
     const bool expected = std::any_of(corners.begin(), corners.end(), [&](FixedVector at) {
       return intersects(box, {at, size});
     });
-    ASSERT_EQ(cover.meets(box), expected) << views << " views, box " << i;
+    ASSERT_EQ(cover.intersectsAny(box), expected) << views << " views, box " << i;
     met += expected ? 1 : 0;
   }
   EXPECT_EQ(met > 0, views > 0);
@@ -49,10 +49,10 @@ TEST(ViewCoverTest, EdgesCount) {
   std::vector<FixedVector> corners;
   for (int i = 0; i < 20; ++i) corners.push_back(cells(100 * i, 0));
   const ViewCover cover(corners, cells(20, 10));
-  EXPECT_TRUE(cover.meets({cells(20, 10), {}}));
-  EXPECT_TRUE(cover.meets({cells(98, 3), cells(2, 1)}));
-  EXPECT_FALSE(cover.meets({cells(20, 10) + FixedVector{1, 0}, {}}));
-  EXPECT_FALSE(cover.meets({cells(98, 3), cells(2, 1) - FixedVector{1, 0}}));
+  EXPECT_TRUE(cover.intersectsAny({cells(20, 10), {}}));
+  EXPECT_TRUE(cover.intersectsAny({cells(98, 3), cells(2, 1)}));
+  EXPECT_FALSE(cover.intersectsAny({cells(20, 10) + FixedVector{1, 0}, {}}));
+  EXPECT_FALSE(cover.intersectsAny({cells(98, 3), cells(2, 1) - FixedVector{1, 0}}));
 }
 
 }  // namespace

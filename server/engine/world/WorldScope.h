@@ -1,0 +1,19 @@
+// Makes a world the current one of the calling thread while it lives (World::Scope).
+#pragma once
+
+namespace df {
+
+class World;
+
+class WorldScope {
+ public:
+  explicit WorldScope(World& world);
+  ~WorldScope();
+  WorldScope(const WorldScope&) = delete;
+  WorldScope& operator=(const WorldScope&) = delete;
+
+ private:
+  World* m_p_before;
+};
+
+}  // namespace df

@@ -1,0 +1,133 @@
+// The part of WorldStore that moves many Objects at a time and lists what a box touches.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "engine/collision/GridSteps.h"
+#include "engine/world/WorldStore.h"
+
+namespace df {
+
+namespace {
+
+constexpr std::size_t kManyFound = 12;  // too many to sort them one by one
+
+// Both coordinates at once, in a register of any processor that has such (GCC and Clang know the notation).
+using Two = Fixed __attribute__((vector_size(16)));
+
+Two load(FixedVector v) {
+  return Two{v.x, v.y};
+}
+
+}  // namespace
+
+std::size_t WorldStore::fly(Slot first, std::size_t count, const FixedBox& boundary) {
+  const Two low = load(boundary.corner);
+  const Two high = load(boundary.corner + boundary.size - FixedVector{1, 1});
+  FixedVector* p_positions = &m_positions[first];
+  const FixedVector* p_velocities = &m_velocities[first];
+  // A sign in `outside` is a coordinate that would leave the boundary.
+  const auto move = [&](std::size_t i, Two& outside) {
+    const Two p = load(p_positions[i]) + load(p_velocities[i]);
+    outside |= (p - low) | (high - p);
+    return p;
+  };
+  std::size_t done = 0;
+  for (; done + 4 <= count; done += 4) {
+    Two outside{};
+    const std::array<Two, 4> moved{move(done, outside), move(done + 1, outside), move(done + 2, outside),
+                                   move(done + 3, outside)};
+    if ((outside[0] | outside[1]) < 0) break;
+    std::memcpy(static_cast<void*>(p_positions + done), moved.data(), sizeof moved);
+  }
+  for (; done < count; ++done) {
+    Two outside{};
+    const Two moved = move(done, outside);
+    if ((outside[0] | outside[1]) < 0) break;
+    std::memcpy(static_cast<void*>(p_positions + done), &moved, sizeof moved);
+  }
+  if (m_watched) {
+    for (std::size_t i = 0; i < done; ++i) noteChange(first + static_cast<Slot>(i));
+  }
+  return done;
+}
+
+std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const FixedBox& boundary,
+                               std::vector<ObjectKey>& met) {
+  const FixedVector low = boundary.corner;
+  const FixedVector high = boundary.corner + boundary.size - FixedVector{1, 1};
+  const Slot* p_order = &m_order_list[word * 64];
+  FixedVector* p_positions = m_positions.data();
+  const FixedVector* p_velocities = m_velocities.data();
+  Grid::Steps steps(m_grid);
+  std::uint64_t left = walkers;
+  std::uint64_t walked = 0;
+  for (; left != 0; left &= left - 1) {
+    const Slot s = p_order[std::countr_zero(left)];
+    const FixedVector where = p_positions[s] + p_velocities[s];
+    if (((where.x - low.x) | (high.x - where.x) | (where.y - low.y) | (high.y - where.y)) < 0) break;
+    if (!steps.isFree(s, where)) {
+      __builtin_prefetch(m_cards[s].p_object);
+      list(steps.found(), met);
+      break;
+    }
+    p_positions[s] = where;
+    steps.fileAtTarget(s);
+    ++walked;
+  }
+  m_bits.blocked[word] &= ~(walkers & ~left);
+  moverStats().walked += walked;
+  if (m_watched) {
+    for (std::uint64_t done = walkers & ~left; done != 0; done &= done - 1)
+      noteChange(p_order[std::countr_zero(done)]);
+  }
+  return left;
+}
+
+void WorldStore::touching(const FixedBox& box, Slot self, std::vector<ObjectKey>& out) const {
+  m_candidates.clear();
+  m_grid.touching(box, self, m_candidates);
+  list(m_candidates, out);
+}
+
+// In creation order, each once. They are few, mostly one or two, and get events next.
+void WorldStore::list(std::span<const Slot> found, std::vector<ObjectKey>& out) const {
+  const Card* p_cards = m_cards.data();
+  if (found.size() == 1) {
+    const Card& card = p_cards[found[0]];
+    __builtin_prefetch(card.p_object);
+    out.push_back({found[0], card.generation});
+    return;
+  }
+  if (found.size() > kManyFound) return listMany(found, out);
+  std::array<std::uint64_t, kManyFound> orders;
+  std::array<Slot, kManyFound> slots;
+  std::size_t count = 0;
+  for (const Slot s : found) {
+    const Card& card = p_cards[s];
+    __builtin_prefetch(card.p_object);
+    std::size_t i = count;
+    for (; i > 0 && orders[i - 1] > card.order; --i) {
+      orders[i] = orders[i - 1];
+      slots[i] = slots[i - 1];
+    }
+    orders[i] = card.order;
+    slots[i] = s;
+    ++count;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i == 0 || slots[i] != slots[i - 1]) out.push_back({slots[i], p_cards[slots[i]].generation});
+  }
+}
+
+void WorldStore::listMany(std::span<const Slot> found, std::vector<ObjectKey>& out) const {
+  const auto begin = static_cast<std::ptrdiff_t>(out.size());
+  for (const Slot s : found) out.push_back(key(s));
+  std::sort(out.begin() + begin, out.end(),
+            [this](ObjectKey a, ObjectKey b) { return m_cards[a.slot].order < m_cards[b.slot].order; });
+  out.erase(std::unique(out.begin() + begin, out.end()), out.end());
+}
+
+}  // namespace df
