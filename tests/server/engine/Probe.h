@@ -1,4 +1,4 @@
-// What the engine's tests share: a world of one's own, and an Object that tells what it hears.
+// What the engine's tests share: a world of its own for each test, and an Object that logs its events.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,24 +33,24 @@ class WorldTest : public ::testing::Test {
   }
 
   std::vector<std::string> lines;
-  std::vector<std::string> heard;  // "name:event", for Probes that are given this list
+  std::vector<std::string> received;  // "name:event", for Probes that are given this list
   World world;
   World::Scope scope;
 };
 
-/// An Object that writes "name:event" to a list, then does what it was told to do.
+/// An Object that writes "name:event" to a list, then runs the handler that it was given.
 class Probe : public Object {
  public:
   using Handler = std::function<void(Probe&, const Event&)>;
 
-  explicit Probe(std::string name = "probe", std::vector<std::string>* p_heard = nullptr, Vector at = {})
-      : m_p_heard(p_heard) {
+  explicit Probe(std::string name = "probe", std::vector<std::string>* p_received = nullptr, Vector at = {})
+      : m_p_received(p_received) {
     setType(std::move(name));
     setPosition(at);
   }
 
   int eventHandler(const Event* p_e) override {
-    if (m_p_heard != nullptr) m_p_heard->push_back(getType() + ":" + p_e->getType());
+    if (m_p_received != nullptr) m_p_received->push_back(getType() + ":" + p_e->getType());
     const Handler handler = on_event;  // it may delete this
     if (handler) handler(*this, *p_e);
     return 1;
@@ -65,7 +65,7 @@ class Probe : public Object {
   std::function<void(Probe&)> on_draw;
 
  private:
-  std::vector<std::string>* m_p_heard;
+  std::vector<std::string>* m_p_received;
 };
 
 inline bool isCollision(const Event& e) {

@@ -77,7 +77,7 @@ TEST(BulletHell, ABotThatDodgesBeatsTheFirstBoss) {
   });
 }
 
-TEST(BulletHell, WhoNeverMovesLosesThreeLivesAndThenAllBeginAgain) {
+TEST(BulletHell, APlayerThatNeverMovesLosesThreeLivesAndThenAllBeginAgain) {
   hostGame(bullethell_main, 1, [](World& world) {
     const std::uint32_t ann = world.join("ann", RED);
     tick(world, 2);

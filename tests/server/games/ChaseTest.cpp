@@ -44,7 +44,7 @@ TEST(Chase, AGreedyBotGathersTenPiecesOfGold) {
   });
 }
 
-TEST(Chase, HoundsCatchWhoStandsStillAndTakeHalf) {
+TEST(Chase, HoundsCatchAPlayerThatStandsStillAndTakeHalf) {
   hostGame(chase_main, 1, [](World& world) {
     const std::uint32_t ann = world.join("ann", RED);
     world.tick();

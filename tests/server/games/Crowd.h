@@ -1,4 +1,4 @@
-// Players who press anything at random, come and go as they like; and what they see, as one number.
+// Players that press anything at random, come and go as they like; and what they see, as one number.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace naiad {
 
-/// Some keys, the mouse, a newcomer and somebody who leaves, now and then.
+/// Some keys, the mouse, a join and a leave, now and then.
 class Crowd {
  public:
   Crowd(df::World& world, std::uint64_t seed, std::size_t most)

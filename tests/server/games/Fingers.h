@@ -1,4 +1,4 @@
-// A bot's fingers: which keys it holds down, told to the world as a client would.
+// A bot's fingers: which keys it holds down, sent to the world as a client would.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What holds for every game that ships: players who press anything at random, come and go as they like, and
+// What holds for every game that ships: players that press anything at random, come and go as they like, and
 // after 1,000 ticks the very same pictures on every compiler.
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ TEST_P(Ladder, AThousandTicksShowTheSamePicturesEverywhere) {
   EXPECT_EQ(hash.value(), GetParam().hash) << "it is " << text << "; another game has another number";
 }
 
-TEST_P(Ladder, EightWhoComeAndGoBreakNothing) {
+TEST_P(Ladder, EightPlayersThatComeAndGoBreakNothing) {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     hostGame(
         GetParam().main, seed,

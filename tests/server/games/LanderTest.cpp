@@ -55,7 +55,7 @@ TEST(Lander, AGentlePilotLandsAndEarnsPoints) {
   });
 }
 
-TEST(Lander, WhoDoesNothingCrashes) {
+TEST(Lander, WithoutInputTheLanderCrashes) {
   hostGame(lander_main, 3, [](df::World& world) {
     const std::uint32_t ann = world.join("ann", df::RED);
     int longest = 0;

@@ -52,7 +52,7 @@ std::vector<Keyboard::Key> solve(const World& world, const Object& walker) {
   return {};
 }
 
-TEST(Maze, HasSevenHundredWallsAndAWayForAnySeed) {
+TEST(Maze, HasSevenHundredWallsAndAPathForAnySeed) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     hostGame(maze_main, seed, [](World& world) {
       const std::uint32_t ann = world.join("ann", RED);
@@ -63,7 +63,7 @@ TEST(Maze, HasSevenHundredWallsAndAWayForAnySeed) {
   }
 }
 
-TEST(Maze, ABotThatKnowsTheWayWinsThreeMazes) {
+TEST(Maze, ABotWithThePathWinsThreeMazes) {
   hostGame(maze_main, 1, [](World& world) {
     const std::uint32_t ann = world.join("ann", RED);
     world.join("bob", GREEN);

@@ -69,7 +69,7 @@ TEST(Platformer, GravityLandsExactlyAndAJumpIsHighEnoughForFiveRows) {
   });
 }
 
-TEST(Platformer, NobodySticksToAWall) {
+TEST(Platformer, NoPlayerSticksToAWall) {
   hostGame(platformer_main, 1, [](World& world) {
     const std::uint32_t ann = world.join("ann", RED);
     tick(world, 2);

@@ -65,7 +65,7 @@ void tickInPeace(df::World& world, int count) {
   }
 }
 
-/// A saucer meets the ship.
+/// A saucer hits the ship.
 void crash(df::World& world, std::uint32_t player) {
   const df::Object* p_hero = world.getPlayer(player)->getObject();
   const df::ObjectList saucers = world.objectsOfType("Saucer");
@@ -180,7 +180,7 @@ TEST(SaucerShoot, ObjectsStayBoundedWhateverFourPlayersDo) {
   });
 }
 
-TEST(SaucerShoot, APlayerWhoLeavesTakesTheShipAlong) {
+TEST(SaucerShoot, APlayerThatLeavesTakesTheShipAlong) {
   host(1, [](df::World& world) {
     const std::uint32_t ann = joinAndFly(world);
     const std::uint32_t bob = world.join("bob", df::GREEN);
@@ -238,7 +238,7 @@ ControlRecord recordOf(df::World& world, std::uint32_t player) {
           f.state};
 }
 
-/// What a client is told is enough to know where the ship flies, until it is hit.
+/// What a client gets is enough to compute where the ship flies, until it is hit.
 TEST(SaucerShoot, AShipsControlsForetellItsPath) {
   int foretold = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {

@@ -62,7 +62,7 @@ TEST(Tron, ACarefulRiderWinsARoundAgainstTheRobot) {
   });
 }
 
-TEST(Tron, WhoDoesNotTurnRidesIntoTheFenceAndTheOtherWins) {
+TEST(Tron, ARiderThatDoesNotTurnHitsTheFenceAndTheOtherWins) {
   hostGame(tron_main, 1, [](World& world) {
     const std::uint32_t ann = world.join("ann", RED);
     const std::uint32_t bob = world.join("bob", GREEN);
@@ -78,7 +78,7 @@ TEST(Tron, WhoDoesNotTurnRidesIntoTheFenceAndTheOtherWins) {
   });
 }
 
-TEST(Tron, WhoComesLaterRidesInTheNextRoundAndWhoLeavesLoses) {
+TEST(Tron, LatePlayersRideInTheNextRoundAndThoseThatLeaveLose) {
   hostGame(tron_main, 1, [](World& world) {
     const std::uint32_t ann = world.join("ann", RED);
     tick(world, 60);

@@ -44,7 +44,7 @@ TEST(Mask, CharactersAreCountedNotBytes) {
   EXPECT_EQ(picture(maskOf({"\xff \xe2\x82"})), (Rows{"#.##"})) << "a malformed byte is one character";
 }
 
-TEST(Mask, OnlyHolesAreAMaskThatMeetsNobody) {
+TEST(Mask, OnlyHolesAreAMaskThatSharesNoCell) {
   const Mask mask = maskOf({"  ", " "});
   const FixedBox box = {{}, {2 * kFixedOne, 2 * kFixedOne}};
   EXPECT_EQ(picture(mask), (Rows{"..", ".."}));

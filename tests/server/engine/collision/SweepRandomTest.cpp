@@ -112,7 +112,7 @@ TEST_F(RandomSweeps, ShareWhatEveryStepFinds) {
     if (found && found->numerator != 0 && sharePlainly(masks, move.at(move.from), other)) ++agains;
   }
   EXPECT_GT(hits, 5000);
-  EXPECT_GT(agains, 20) << "met again after coming apart";
+  EXPECT_GT(agains, 20) << "hit again after coming apart";
 }
 
 TEST_F(RandomSweeps, OverManyCellsMeetWhatAWalkFromMarkToMarkFinds) {
@@ -157,8 +157,8 @@ TEST_F(RandomSweeps, OverManyCellsMeetWhatAWalkFromMarkToMarkFinds) {
     if (share && share->numerator != 0 && sharePlainly(masks, move.at(move.from), other)) ++agains;
   }
   EXPECT_GT(hits, 3000);
-  EXPECT_GT(late, 1000) << "masks met after the boxes did";
-  EXPECT_GT(agains, 50) << "met again after coming apart";
+  EXPECT_GT(late, 1000) << "masks touched after the boxes did";
+  EXPECT_GT(agains, 50) << "hit again after coming apart";
 }
 
 TEST_F(RandomSweeps, AcrossTheWorldTouchWhatAWalkFromMarkToMarkFinds) {
@@ -171,12 +171,12 @@ TEST_F(RandomSweeps, AcrossTheWorldTouchWhatAWalkFromMarkToMarkFinds) {
     move.box = {{between(-largest, largest), between(-largest, largest)}, {number(largest), number(largest)}};
     move.from = anyPoint();
     move.to = anyPoint();
-    // Close to some point of the way.
+    // Close to some point of the path.
     const double share = random.unit();
     const auto aim = [&](Fixed from, Fixed to, Fixed corner) {
-      const double way = static_cast<double>(magnitude(from, to)) * share;
+      const double distance = static_cast<double>(magnitude(from, to)) * share;
       const Fixed point =
-          goOn(from, to, static_cast<std::uint64_t>(way)) + corner + between(-largest, largest);
+          goOn(from, to, static_cast<std::uint64_t>(distance)) + corner + between(-largest, largest);
       return std::clamp(point, -kFar, kFar);
     };
     const FixedBox other = {

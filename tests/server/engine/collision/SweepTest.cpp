@@ -114,7 +114,7 @@ TEST_F(AtTheWall, OneUnitAwaySlidesFreely) {
   EXPECT_EQ(Sweep(kCharacter, stop, stop + FixedVector{1, 0}).firstTouch(wall), (Moment{1, 1}));
 }
 
-TEST_F(AtTheWall, FromInsideTheShortestWayOutIsFree) {
+TEST_F(AtTheWall, FromInsideTheShortestPathOutIsFree) {
   // Half a cell deep from the left, five from above and below.
   const FixedVector inside = cells(0, 5);
   const auto touch_from = [&](FixedVector by) {
@@ -141,7 +141,7 @@ TEST(SweptMove, GapOfAPairIsTheLargerAndClosesOnlyIfAllOfItDoes) {
   EXPECT_TRUE(closes(corner, cells(1, 1)));
   EXPECT_FALSE(closes(corner, cells(1, 0)));
   EXPECT_FALSE(closes(corner, cells(1, -1)));
-  // In the very middle any way is out.
+  // In the very middle any direction is out.
   EXPECT_FALSE(closes(cells(2, 2), cells(1, 0)));
   EXPECT_FALSE(closes(cells(2, 2), cells(-1, 1)));
 }
@@ -207,7 +207,7 @@ TEST_F(MaskedMove, GoesDownIntoACellAtItsLastUnit) {
 }
 
 TEST_F(MaskedMove, MeetsAgainWhatItHasLeft) {
-  // Two bars in a row: the mover begins in the first, leaves it and meets the second.
+  // Two bars in a row: the mover begins in the first, leaves it and hits the second.
   const Mask bars = *Mask::fromRows({"#   #   "});
   const Mask dot = *Mask::fromRows({"o"});
   const FixedBox box = boxAt(0, 0, 8, 1);
@@ -239,7 +239,7 @@ TEST_F(MaskedMove, CrossesTheLargestBoxByItsEndsOnly) {
   // It sinks by one cell while it crosses: the upper row is level with the wall in the end.
   const Sweep sinking = sweep(ship, cells(0, -1), cells(900000, 0));
   EXPECT_EQ(sinking.firstShare(&ship, wall, nullptr), (Moment{1, 1}));
-  // The same the other way round: the wall moves, up.
+  // The same with roles exchanged: the wall moves, up.
   const Sweep rising(boxAt(0, 0, 1000000, 1), cells(-900000, 0), cells(0, -1));
   EXPECT_EQ(rising.firstShare(nullptr, boxAt(0, -1, 4, 2), &ship),
             (Moment{1, static_cast<std::uint64_t>(kFixedOne)}));
@@ -332,7 +332,7 @@ TEST(FarAndFast, MasksMeetAtTheEndOfTheFastestMove) {
   const FixedBox box = {{-kFixedOne, -kFixedOne}, {2 * kFixedOne, 2 * kFixedOne}};
   const Sweep sweep(box, {-kFar, -kFar}, {kFar, kFar});
   const FixedBox wall = translate({{}, {fromCells(1000000), fromCells(1000000)}}, {kFar, kFar});
-  // The corners of the boxes meet a cell before the target, the characters at the target.
+  // The corners of the boxes touch a cell before the target, the characters at the target.
   const auto way = static_cast<std::uint64_t>(kFar) * 2;
   EXPECT_EQ(sweep.firstTouch(wall), (Moment{way - kFixedOne, way}));
   EXPECT_EQ(sweep.firstShare(&mask, wall, nullptr), (Moment{1, 1}));

@@ -62,7 +62,7 @@ TEST_F(ConfigTest, SeedMakesTheDiceTheSame) {
   for (int i = 0; i < 5; ++i) EXPECT_EQ(world.randomInt(1000), other.randomInt(1000));
 }
 
-TEST_F(ConfigTest, BackgroundAndShakeAreToldToWhoWatches) {
+TEST_F(ConfigTest, BackgroundAndShakeAreInTheView) {
   world.setWatched(true);
   EXPECT_TRUE(DM.setBackgroundColor(GREEN));
   EXPECT_FALSE(DM.setBackgroundColor(CUSTOM));

@@ -27,7 +27,7 @@ struct Snapshot {
 
 /// What firstContact() found.
 struct Meeting {
-  int id = -1;      ///< nobody
+  int id = -1;      ///< none
   double time = 1;  ///< rounded, perhaps not in the same way by both
   FixedVector position;
 };

@@ -169,7 +169,7 @@ TEST_F(BookTest, ABirthInAHandlerCanBeHitAtOnceAndMovesNextTick) {
   EXPECT_EQ(p_born->position, cells(33, 10));
 }
 
-TEST_F(BookTest, InactiveObjectsAreNotMovedNotHitAndHearNothing) {
+TEST_F(BookTest, InactiveObjectsAreNotMovedNotHitAndGetNoEvents) {
   Object* p_sleeper = make(15, 10);
   p_sleeper->velocity = cells(1, 0);
   p_sleeper->active = false;

@@ -1,4 +1,4 @@
-// A world of the oracle to say sentences about: what was heard is written down in one line.
+// A world of the oracle to say sentences about: what was received is written down in one line.
 #pragma once
 
 #include <gtest/gtest.h>

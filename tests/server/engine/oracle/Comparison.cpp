@@ -56,7 +56,7 @@ std::string compareContact(Actor& engine, Actor& oracle, int id, FixedVector whe
   if (a.id == b.id && a.position == b.position && std::abs(a.time - b.time) <= 1e-15) return {};
   std::ostringstream text;
   text.precision(17);
-  text << "  firstContact of " << id << " on its way to " << where << "\n  engine  " << a.id << " at "
+  text << "  firstContact of " << id << " on its path to " << where << "\n  engine  " << a.id << " at "
        << a.time << ", stands at " << a.position << "\n  oracle  " << b.id << " at " << b.time
        << ", stands at " << b.position << '\n';
   return text.str();
@@ -83,7 +83,7 @@ std::string compareRoom(Actor& engine, Actor& oracle, const FixedBox& box, Fixed
   return text.str();
 }
 
-/// Of a few Objects: whom would they meet, and where is there room nearby?
+/// Of a few Objects: what would they hit, and where is there room nearby?
 std::string compareQuestions(const RandomWorld& world, EngineDriver& engine, OracleDriver& oracle,
                              Comparison& result) {
   Rng rng(mix(world.seed ^ mix(static_cast<std::uint64_t>(result.ticks) << 40)));

@@ -73,7 +73,7 @@ TEST_F(ContactsTest, ASweptShotFliesIntoTheMouthAndIsStoppedByTheThroat) {
 }
 
 // "it may still be met again later in the move, once the two have come apart"
-TEST_F(ContactsTest, WhoLeavesOneToothMayMeetTheNext) {
+TEST_F(ContactsTest, ObjectLeavingOneToothMayHitTheNext) {
   Object* p_comb = make(20, 10);
   p_comb->box = boxOf(9, 1);
   p_comb->mask = {"#   #   #"};  // in cells 16, 20 and 24
@@ -94,7 +94,7 @@ TEST_F(ContactsTest, WhoLeavesOneToothMayMeetTheNext) {
 }
 
 // "as if it had moved to where it stands, so it hears of those who touch it"
-TEST_F(ContactsTest, AtRestOneHearsIfOneAsks) {
+TEST_F(ContactsTest, AtRestContactsAreSentOnRequest) {
   Object* p_floor = make(10, 10);
   make(11, 10);
   m_world.update();
@@ -109,7 +109,7 @@ TEST_F(ContactsTest, AtRestOneHearsIfOneAsks) {
 }
 
 // "So a HARD Object that was placed inside another can leave it. Both still hear."
-TEST_F(ContactsTest, WhoMayMoveOutLeavesAWallStepByStep) {
+TEST_F(ContactsTest, ObjectThatMayMoveOutLeavesAWallStepByStep) {
   for (const bool swept : {false, true}) {
     Object* p_o = make(12, swept ? 18 : 6);
     p_o->swept = swept;
@@ -129,7 +129,7 @@ TEST_F(ContactsTest, WhoMayMoveOutLeavesAWallStepByStep) {
 }
 
 // "a pair that touches where the move begins": others block as always.
-TEST_F(ContactsTest, WhoMovesOutOfOneDoesNotMoveIntoAnother) {
+TEST_F(ContactsTest, MovingOutOfOneDoesNotAllowMovingIntoAnother) {
   Object* p_o = make(10, 10);
   p_o->may_move_out = true;
   make(9.5, 10);

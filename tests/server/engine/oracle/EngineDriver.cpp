@@ -31,7 +31,7 @@ class EngineDriver::Numbered : public df::Object {
   int m_number;
 };
 
-/// One whose handler is the script. The handler may destroy it, so nothing of it is used afterwards.
+/// An Object with the script as its handler. The handler may destroy it, so nothing of it is used afterwards.
 class EngineDriver::Scripted : public Numbered {
  public:
   using Numbered::Numbered;

@@ -13,22 +13,23 @@ std::string toString(const Entry& entry) {
   };
   switch (entry.what) {
     case Happening::STEP:
-      text << "step to " << entry.who;
+      text << "step to " << entry.receiver;
       break;
     case Happening::COLLISION:
-      text << "collision to " << entry.who << ": " << entry.object1 << " onto " << entry.object2 << " at ";
+      text << "collision to " << entry.receiver << ": " << entry.object1 << " onto " << entry.object2
+           << " at ";
       position();
       break;
     case Happening::OUT:
-      text << "out to " << entry.who;
+      text << "out to " << entry.receiver;
       break;
     case Happening::MOVED:
-      text << "moveObject of " << entry.who << " to ";
+      text << "moveObject of " << entry.receiver << " to ";
       position();
       text << " returned " << entry.result;
       break;
     case Happening::DESTROYED:
-      text << "destructor of " << entry.who;
+      text << "destructor of " << entry.receiver;
       break;
   }
   return text.str();

@@ -1,4 +1,4 @@
-// What happened in a world, in order: a running hash, and every entry too if somebody wants to read them.
+// What happened in a world, in order: a running hash, and every entry, too, on request.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ enum class Happening { STEP, COLLISION, OUT, MOVED, DESTROYED };
 
 struct Entry {
   Happening what = Happening::STEP;
-  int who = 0;                 ///< the receiver; of MOVED the mover
-  int object1 = 0;             ///< of a collision: who caused it
-  int object2 = 0;             ///< of a collision: who was hit
+  int receiver = 0;            ///< of MOVED the mover
+  int object1 = 0;             ///< of a collision: the mover
+  int object2 = 0;             ///< of a collision: the other
   df::FixedVector where = {};  ///< of a collision: its position; of MOVED the target
   int result = 0;              ///< of MOVED: what moveObject returned
 
@@ -34,12 +34,12 @@ class EventLog {
   void add(const Entry& entry) {
     ++m_count;
     if (m_keep) m_entries.push_back(entry);
-    take(static_cast<std::uint64_t>(entry.what) ^ static_cast<std::uint64_t>(entry.who) << 8);
+    mixIn(static_cast<std::uint64_t>(entry.what) ^ static_cast<std::uint64_t>(entry.receiver) << 8);
     if (entry.what == Happening::STEP || entry.what == Happening::OUT) return;
-    take(static_cast<std::uint64_t>(entry.object1) << 32 ^ static_cast<std::uint64_t>(entry.object2));
-    take(static_cast<std::uint64_t>(entry.where.x));
-    take(static_cast<std::uint64_t>(entry.where.y));
-    take(static_cast<std::uint64_t>(entry.result));
+    mixIn(static_cast<std::uint64_t>(entry.object1) << 32 ^ static_cast<std::uint64_t>(entry.object2));
+    mixIn(static_cast<std::uint64_t>(entry.where.x));
+    mixIn(static_cast<std::uint64_t>(entry.where.y));
+    mixIn(static_cast<std::uint64_t>(entry.result));
   }
 
   std::uint64_t hash() const { return m_hash; }
@@ -47,7 +47,7 @@ class EventLog {
   const std::vector<Entry>& entries() const { return m_entries; }
 
  private:
-  void take(std::uint64_t value) { m_hash = mix(m_hash ^ value); }
+  void mixIn(std::uint64_t value) { m_hash = mix(m_hash ^ value); }
 
   std::uint64_t m_hash = 0;
   std::int64_t m_count = 0;

@@ -1,4 +1,4 @@
-// The oracle's geometry, held against looking at every position of a way.
+// The oracle's geometry, held against looking at every position of a path.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,9 +20,9 @@ bool isEqual(Time a, Time b) {
   return !(a < b) && !(b < a);
 }
 
-/// A way, what moves along it and what it may meet.
+/// A path, what moves along it and what it may hit.
 struct Case {
-  SweepPath way;
+  SweepPath path;
   FixedBox box;
   Mask mask;
   FixedBox other;
@@ -38,11 +38,11 @@ struct Case {
 std::optional<Time> look(const Case& c, const std::vector<Time>& times,
                          const std::function<bool(FixedVector)>& meets) {
   std::size_t i = 0;
-  if (meets(c.way.from)) {
-    if (closesGap(c.box, c.way, c.other) || meets(c.way.to)) return Time{0, 1};
-    while (i < times.size() && meets(c.way.at(times[i]))) ++i;
+  if (meets(c.path.from)) {
+    if (closesGap(c.box, c.path, c.other) || meets(c.path.to)) return Time{0, 1};
+    while (i < times.size() && meets(c.path.at(times[i]))) ++i;
   }
-  while (i < times.size() && !meets(c.way.at(times[i]))) ++i;
+  while (i < times.size() && !meets(c.path.at(times[i]))) ++i;
   return i < times.size() ? std::optional(times[i]) : std::nullopt;
 }
 
@@ -53,20 +53,20 @@ void expectEqual(const std::optional<Time>& found, const std::optional<Time>& ex
                                           << " for " << testing::PrintToString(*expected);
 }
 
-/// A case in which all is a multiple of `unit`, within `way` units and with boxes up to `size` units.
-Case randomCase(Rng& rng, Fixed unit, int way, int size) {
+/// A case in which all is a multiple of `unit`, within `reach` units and with boxes up to `size` units.
+Case randomCase(Rng& rng, Fixed unit, int reach, int size) {
   const auto vector = [&](int least, int most) {
     const Fixed x = unit * rng.between(least, most);
     return FixedVector{x, unit * rng.between(least, most)};
   };
   Case c;
-  c.way.from = vector(-way, way);
-  c.way.to = c.way.from + vector(-way, way);
-  if (rng.chance(20)) c.way.to.x = c.way.from.x;
-  if (rng.chance(20)) c.way.to.y = c.way.from.y;
+  c.path.from = vector(-reach, reach);
+  c.path.to = c.path.from + vector(-reach, reach);
+  if (rng.chance(20)) c.path.to.x = c.path.from.x;
+  if (rng.chance(20)) c.path.to.y = c.path.from.y;
   c.box.corner = vector(-size, size);
   c.box.size = vector(0, size);
-  c.other.corner = vector(-way, way);
+  c.other.corner = vector(-reach, reach);
   c.other.size = vector(0, size);
   return c;
 }
@@ -77,27 +77,27 @@ TEST(GeometryTest, FirstTouchIsTheFirstOfAllPositions) {
   int at_start = 0;
   for (int number = 0; number < 20'000; ++number) {
     const Case c = randomCase(rng, 1, 9, 6);
-    const auto length_x = static_cast<std::uint64_t>(std::abs(c.way.to.x - c.way.from.x));
-    const auto length_y = static_cast<std::uint64_t>(std::abs(c.way.to.y - c.way.from.y));
+    const auto length_x = static_cast<std::uint64_t>(std::abs(c.path.to.x - c.path.from.x));
+    const auto length_y = static_cast<std::uint64_t>(std::abs(c.path.to.y - c.path.from.y));
     const std::uint64_t steps = std::max<std::uint64_t>(length_x, 1) * std::max<std::uint64_t>(length_y, 1);
     std::vector<Time> times;
     for (std::uint64_t i = 0; i <= steps; ++i) times.push_back({i, steps});
 
-    const auto found = firstTouch(c.way, c.box, c.other);
+    const auto found = firstTouch(c.path, c.box, c.other);
     expectEqual(found, look(c, times, [&](FixedVector where) { return c.touches(where); }), number);
     if (!found) continue;
     ++met;
     if (found->numerator == 0) {
       ++at_start;
-      EXPECT_EQ(c.way.before(*found), c.way.from);
+      EXPECT_EQ(c.path.before(*found), c.path.from);
       continue;
     }
     // The position before is that of the step before, and there is no touch there yet.
     std::uint64_t i = 0;
     while (!isEqual(times[i], *found)) ++i;
-    EXPECT_EQ(c.way.before(*found), c.way.at(times[i - 1]));
-    EXPECT_FALSE(c.touches(c.way.before(*found)));
-    EXPECT_TRUE(c.touches(c.way.at(*found)));
+    EXPECT_EQ(c.path.before(*found), c.path.at(times[i - 1]));
+    EXPECT_FALSE(c.touches(c.path.before(*found)));
+    EXPECT_TRUE(c.touches(c.path.at(*found)));
   }
   EXPECT_GT(met, 2'000);
   EXPECT_GT(at_start, 500);
@@ -123,7 +123,7 @@ TEST(GeometryTest, FirstShareIsTheFirstOfAllPositions) {
     c.others_mask = mask();
 
     std::vector<Time> times{{0, 1}, {1, 1}};
-    for (const Fixed distance : {c.way.to.x - c.way.from.x, c.way.to.y - c.way.from.y}) {
+    for (const Fixed distance : {c.path.to.x - c.path.from.x, c.path.to.y - c.path.from.y}) {
       const auto length = static_cast<std::uint64_t>(std::abs(distance));
       for (std::uint64_t gone = 0; gone < length; gone += static_cast<std::uint64_t>(unit)) {
         times.push_back({gone, length});
@@ -132,11 +132,11 @@ TEST(GeometryTest, FirstShareIsTheFirstOfAllPositions) {
     }
     std::sort(times.begin(), times.end());
 
-    const auto found = firstShare(c.way, c.box, c.mask, c.other, c.others_mask);
+    const auto found = firstShare(c.path, c.box, c.mask, c.other, c.others_mask);
     expectEqual(found, look(c, times, [&](FixedVector where) { return c.shares(where); }), number);
-    const auto touched = firstTouch(c.way, c.box, c.other);
+    const auto touched = firstTouch(c.path, c.box, c.other);
     if (found) ++met;
-    if (found && found->numerator != 0 && c.shares(c.way.from)) ++met_again;
+    if (found && found->numerator != 0 && c.shares(c.path.from)) ++met_again;
     if (touched && !found) ++passed;
   }
   EXPECT_GT(met, 2'000);
@@ -155,26 +155,26 @@ TEST(GeometryTest, TheGapClosesIfItIsSmallerAMomentLater) {
   int closing = 0;
   for (int number = 0; number < 20'000; ++number) {
     const Case c = randomCase(rng, 1, 9, 6);
-    const FixedBox at_start = scaled(translate(c.box, c.way.from));
-    const FixedBox a_moment_later = translate(at_start, c.way.to - c.way.from);
+    const FixedBox at_start = scaled(translate(c.box, c.path.from));
+    const FixedBox a_moment_later = translate(at_start, c.path.to - c.path.from);
     const bool closes = gap(a_moment_later, scaled(c.other)) < gap(at_start, scaled(c.other));
-    EXPECT_EQ(closesGap(c.box, c.way, c.other), closes) << "case " << number;
+    EXPECT_EQ(closesGap(c.box, c.path, c.other), closes) << "case " << number;
     if (closes) ++closing;
   }
   EXPECT_GT(closing, 2'000);
 }
 
 // From one end of the number range to the other the distance does not fit a signed number.
-TEST(GeometryTest, WaysAreAsLongAsTheWorldIsWide) {
+TEST(GeometryTest, PathsAreAsLongAsTheWorldIsWide) {
   const Fixed end = df::fromCells(2'000'000'000);
   const FixedBox character{{-df::kFixedOne / 2, -df::kFixedOne / 2}, {df::kFixedOne, df::kFixedOne}};
-  const SweepPath way{{-end, -end}, {end, end}};
+  const SweepPath path{{-end, -end}, {end, end}};
   const auto time = firstTouch(
-      way, character, translate(character, {end - 10 * df::kFixedOne, end - 10 * df::kFixedOne - 5}));
+      path, character, translate(character, {end - 10 * df::kFixedOne, end - 10 * df::kFixedOne - 5}));
   ASSERT_TRUE(time);
-  EXPECT_EQ(way.before(*time), (FixedVector{end - 11 * df::kFixedOne - 1, end - 11 * df::kFixedOne - 1}));
-  EXPECT_EQ(way.at({1, 1}), way.to);
-  EXPECT_EQ(gap(translate(character, way.from), translate(character, way.to)),
+  EXPECT_EQ(path.before(*time), (FixedVector{end - 11 * df::kFixedOne - 1, end - 11 * df::kFixedOne - 1}));
+  EXPECT_EQ(path.at({1, 1}), path.to);
+  EXPECT_EQ(gap(translate(character, path.from), translate(character, path.to)),
             2 * static_cast<Wide>(end) - df::kFixedOne);
 }
 

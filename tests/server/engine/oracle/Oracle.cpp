@@ -98,7 +98,7 @@ bool World::isInside(FixedVector position) const {
 
 // Finding room.
 
-/// Does `box`, in world coordinates, touch nobody?
+/// Does `box`, in world coordinates, touch nothing?
 bool World::isFree(const FixedBox& box) const {
   return std::none_of(m_updates.begin(), m_updates.end(), [&](const Object* p_o) {
     return p_o->active && p_o->isSolid() && boxIntersectsBox(p_o->getWorldBox(p_o->position), box);

@@ -66,11 +66,11 @@ class Handlers {
   virtual void destroyed(Object* p_o) = 0;
 };
 
-/// Whom a move would meet first.
+/// What a move would hit first.
 struct Contact {
-  Object* p_object = nullptr;  ///< null: nobody
+  Object* p_object = nullptr;  ///< null: none
   Time time{1, 1};
-  FixedVector position;  ///< of the mover just before; the target if it meets nobody
+  FixedVector position;  ///< of the mover just before; the target if it hits nothing
 };
 
 class World {
@@ -99,7 +99,7 @@ class World {
   /// All moves, then all deletions.
   void update();
   int moveObject(Object* p_o, FixedVector where);
-  /// Whom p_o touches if it is at `where`; if one of the two is precise, by their masks, too.
+  /// What p_o touches if it is at `where`; if one of the two is precise, by their masks, too.
   ObjectList getCollisions(const Object* p_o, FixedVector where);
   /// All moves that begin from now on are swept.
   void setSweptCollisions(bool swept) { m_swept_collisions = swept; }
@@ -112,7 +112,7 @@ class World {
   const Counters& counters() const { return m_counters; }
 
  private:
-  /// One whom a move meets.
+  /// An Object that a move hits.
   struct Hit {
     Object* p_other;
     Time time;
@@ -121,15 +121,15 @@ class World {
   enum class Verdict { PASSES, HARD_BLOCK, SOFT_BLOCK, MOVES_OUT };
 
   int moveNow(Object* p_o, FixedVector where);
-  bool moveAtOnce(Object* p_o, const SweepPath& way);
-  int moveSwept(Object* p_o, const SweepPath& way);
-  HitList getHits(const Object* p_o, const SweepPath& way);
-  std::optional<Time> hitTime(const Object* p_o, const SweepPath& way, const Object* p_other);
+  bool moveAtOnce(Object* p_o, const SweepPath& path);
+  int moveSwept(Object* p_o, const SweepPath& path);
+  HitList getHits(const Object* p_o, const SweepPath& path);
+  std::optional<Time> hitTime(const Object* p_o, const SweepPath& path, const Object* p_other);
   bool isPrecise(const Object* p_o, const Object* p_other) const;
   bool shareCellAt(const Object* p_o, FixedVector where, const Object* p_other);
-  void tellBoth(Object* p_o, Object* p_other, FixedVector where);
-  Verdict judge(const Object* p_o, const Object* p_other, const SweepPath& way) const;
-  bool cutAtFirstBlock(HitList& hits, const Object* p_o, const SweepPath& way) const;
+  void sendToBoth(Object* p_o, Object* p_other, FixedVector where);
+  Verdict judge(const Object* p_o, const Object* p_other, const SweepPath& path) const;
+  bool cutAtFirstBlock(HitList& hits, const Object* p_o, const SweepPath& path) const;
   void place(Object* p_o, FixedVector where);
   bool isInside(FixedVector position) const;
   bool isFree(const FixedBox& box) const;

@@ -2,8 +2,7 @@
 
 namespace oracle {
 
-// Games say and hear positions in doubles, which are too short beyond 2^21 cells. So is what scripts are
-// told.
+// Games set and get positions in doubles, which are too short beyond 2^21 cells. So are those in scripts.
 static FixedVector inDoubles(FixedVector position) {
   return {*df::toFixed(df::toCells(position.x)), *df::toFixed(df::toCells(position.y))};
 }

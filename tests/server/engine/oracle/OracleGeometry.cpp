@@ -18,7 +18,7 @@ bool operator<(Time a, Time b) {
 
 namespace {
 
-/// The coordinate of one axis on its way: `length` units, one after another.
+/// The coordinate of one axis on the path: `length` units, one after another.
 struct Axis {
   Wide from;
   Wide to;
@@ -45,8 +45,8 @@ struct Span {
   Time end;
 };
 
-/// When is something of this `size`, whose low end goes along `axis`, in touch with what lies from `low` to
-/// `high`?
+/// When is something of this `size`, with its low end going along `axis`, in touch with what lies from `low`
+/// to `high`?
 std::optional<Span> touchingSpan(const Axis& axis, Wide size, Wide low, Wide high) {
   // After how many units that begins, and the last unit at which it is so.
   const Wide first = axis.isForward() ? low - (axis.from + size) : axis.from - high;
@@ -58,7 +58,7 @@ std::optional<Span> touchingSpan(const Axis& axis, Wide size, Wide low, Wide hig
               {static_cast<std::uint64_t>(last + 1), length}};
 }
 
-/// The next time after `time` at which a coordinate on its way comes into another cell, ⌊coordinate⌋.
+/// The next time after `time` at which a coordinate on its path comes into another cell, ⌊coordinate⌋.
 Time nextCell(const Axis& axis, Time time) {
   if (axis.length() == 0) return kNever;
   const std::uint64_t gone = axis.gone(time);
@@ -97,11 +97,11 @@ Wide gap(const FixedBox& a, const FixedBox& b) {
   return *std::max_element(sides.begin(), sides.end());
 }
 
-bool closesGap(const FixedBox& box, const SweepPath& way, const FixedBox& other) {
-  const Wide right = Wide{way.to.x} - way.from.x;
-  const Wide down = Wide{way.to.y} - way.from.y;
+bool closesGap(const FixedBox& box, const SweepPath& path, const FixedBox& other) {
+  const Wide right = Wide{path.to.x} - path.from.x;
+  const Wide down = Wide{path.to.y} - path.from.y;
   const std::array<Wide, 4> approaches{right, -right, down, -down};
-  const FixedBox at_start = translate(box, way.from);
+  const FixedBox at_start = translate(box, path.from);
   const auto sides = distances(at_start, other);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (sides[i] == gap(at_start, other) && approaches[i] <= 0) return false;
@@ -109,9 +109,9 @@ bool closesGap(const FixedBox& box, const SweepPath& way, const FixedBox& other)
   return true;
 }
 
-static std::optional<Span> touchingSpan(const SweepPath& way, const FixedBox& box, const FixedBox& other) {
-  const Axis left{Wide{way.from.x} + box.corner.x, Wide{way.to.x} + box.corner.x};
-  const Axis top{Wide{way.from.y} + box.corner.y, Wide{way.to.y} + box.corner.y};
+static std::optional<Span> touchingSpan(const SweepPath& path, const FixedBox& box, const FixedBox& other) {
+  const Axis left{Wide{path.from.x} + box.corner.x, Wide{path.to.x} + box.corner.x};
+  const Axis top{Wide{path.from.y} + box.corner.y, Wide{path.to.y} + box.corner.y};
   const auto x = touchingSpan(left, box.size.x, other.corner.x, Wide{other.corner.x} + other.size.x);
   const auto y = touchingSpan(top, box.size.y, other.corner.y, Wide{other.corner.y} + other.size.y);
   if (!x || !y) return std::nullopt;
@@ -119,35 +119,35 @@ static std::optional<Span> touchingSpan(const SweepPath& way, const FixedBox& bo
   return both.begin < both.end ? std::optional(both) : std::nullopt;
 }
 
-std::optional<Time> firstTouch(const SweepPath& way, const FixedBox& box, const FixedBox& other) {
-  const auto span = touchingSpan(way, box, other);
+std::optional<Time> firstTouch(const SweepPath& path, const FixedBox& box, const FixedBox& other) {
+  const auto span = touchingSpan(path, box, other);
   if (!span) return std::nullopt;
   const bool at_start = span->begin.numerator == 0;
-  const bool at_end = boxIntersectsBox(translate(box, way.to), other);
-  if (at_start && !closesGap(box, way, other) && !at_end) return std::nullopt;
+  const bool at_end = boxIntersectsBox(translate(box, path.to), other);
+  if (at_start && !closesGap(box, path, other) && !at_end) return std::nullopt;
   return span->begin;
 }
 
-std::optional<Time> firstShare(const SweepPath& way, const FixedBox& box, const Mask& mask,
+std::optional<Time> firstShare(const SweepPath& path, const FixedBox& box, const Mask& mask,
                                const FixedBox& other, const Mask& others_mask) {
-  const auto span = touchingSpan(way, box, other);
+  const auto span = touchingSpan(path, box, other);
   if (!span) return std::nullopt;
   const auto share = [&](FixedVector position) {
     return shareCell(translate(box, position), mask, other, others_mask);
   };
-  const Axis left{Wide{way.from.x} + box.corner.x, Wide{way.to.x} + box.corner.x};
-  const Axis top{Wide{way.from.y} + box.corner.y, Wide{way.to.y} + box.corner.y};
+  const Axis left{Wide{path.from.x} + box.corner.x, Wide{path.to.x} + box.corner.x};
+  const Axis top{Wide{path.from.y} + box.corner.y, Wide{path.to.y} + box.corner.y};
 
   bool apart = true;
-  if (span->begin.numerator == 0 && share(way.from)) {
-    const bool at_end = boxIntersectsBox(translate(box, way.to), other) && share(way.to);
-    if (closesGap(box, way, other) || at_end) return span->begin;
+  if (span->begin.numerator == 0 && share(path.from)) {
+    const bool at_end = boxIntersectsBox(translate(box, path.to), other) && share(path.to);
+    if (closesGap(box, path, other) || at_end) return span->begin;
     apart = false;
   }
   // Which cells they share changes only when the corner of the moving box comes into another cell.
   for (Time time = span->begin; time < span->end && time < kNever;
        time = std::min(nextCell(left, time), nextCell(top, time))) {
-    const bool shares = share(way.at(time));
+    const bool shares = share(path.at(time));
     if (shares && apart) return time;
     if (!shares) apart = true;
   }

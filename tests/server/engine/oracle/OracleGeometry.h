@@ -1,5 +1,5 @@
 // The geometry of docs/collisions.md, each sentence in its plainest form: the gap of two boxes, and the times
-// at which a box on a straight way meets another. Nothing of the engine is used here but its number type.
+// at which a box on a straight path hits another. Nothing of the engine is used here but its number type.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Time {
   double toDouble() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }
 };
 
-/// A move's straight way. At time t each coordinate has gone the whole units of its distance times t.
+/// A move's straight path. At time t each coordinate has gone the whole units of its distance times t.
 struct SweepPath {
   FixedVector from;
   FixedVector to;
@@ -48,13 +48,13 @@ Wide gap(const FixedBox& a, const FixedBox& b);
 
 /// Does the gap from `box`, relative to the position, to `other`, in world coordinates, shrink as soon as the
 /// move begins? It does if the move brings each side closer on which the boxes are as far apart as the gap.
-bool closesGap(const FixedBox& box, const SweepPath& way, const FixedBox& other);
+bool closesGap(const FixedBox& box, const SweepPath& path, const FixedBox& other);
 
-/// When does `box`, relative to the position on its way, meet `other`, in world coordinates, by the boxes?
-std::optional<Time> firstTouch(const SweepPath& way, const FixedBox& box, const FixedBox& other);
+/// When does `box`, relative to the position on its path, hit `other`, in world coordinates, by the boxes?
+std::optional<Time> firstTouch(const SweepPath& path, const FixedBox& box, const FixedBox& other);
 
-/// When do they meet by boxes and masks?
-std::optional<Time> firstShare(const SweepPath& way, const FixedBox& box, const Mask& mask,
+/// When do they hit by boxes and masks?
+std::optional<Time> firstShare(const SweepPath& path, const FixedBox& box, const Mask& mask,
                                const FixedBox& other, const Mask& others_mask);
 
 }  // namespace oracle

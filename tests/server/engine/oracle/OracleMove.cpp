@@ -9,10 +9,10 @@ int World::moveNow(Object* p_o, FixedVector where) {
     p_o->position = where;
     return 0;
   }
-  const SweepPath way{p_o->position, where};
+  const SweepPath path{p_o->position, where};
   if (p_o->isSolid()) {
-    if (p_o->swept || m_swept_collisions) return moveSwept(p_o, way);
-    if (!moveAtOnce(p_o, way)) return -1;
+    if (p_o->swept || m_swept_collisions) return moveSwept(p_o, path);
+    if (!moveAtOnce(p_o, path)) return -1;
   }
   place(p_o, where);  // no collision that impedes, so allow the move
   return 0;
@@ -21,7 +21,7 @@ int World::moveNow(Object* p_o, FixedVector where) {
 // What a pair is.
 
 /// Send to both objects; either handler may delete either of them.
-void World::tellBoth(Object* p_o, Object* p_other, FixedVector where) {
+void World::sendToBoth(Object* p_o, Object* p_other, FixedVector where) {
   ++m_counters.collisions;
   if (p_o->active) m_handlers.collision(p_o, p_o, p_other, where);
   if (p_o->gone || p_other->gone) return;
@@ -29,7 +29,7 @@ void World::tellBoth(Object* p_o, Object* p_other, FixedVector where) {
 }
 
 /// Does the other block the mover, as they are now?
-World::Verdict World::judge(const Object* p_o, const Object* p_other, const SweepPath& way) const {
+World::Verdict World::judge(const Object* p_o, const Object* p_other, const SweepPath& path) const {
   // If both HARD, then cannot move.
   const bool hard_block = p_o->solidness == df::HARD && p_other->solidness == df::HARD;
   // If object does not want to move onto soft objects, don't move.
@@ -37,8 +37,8 @@ World::Verdict World::judge(const Object* p_o, const Object* p_other, const Swee
   if (!hard_block && !soft_block) return Verdict::PASSES;
 
   if (p_o->may_move_out) {
-    const FixedBox at_start = p_o->getWorldBox(way.from);
-    const FixedBox at_end = p_o->getWorldBox(way.to);
+    const FixedBox at_start = p_o->getWorldBox(path.from);
+    const FixedBox at_end = p_o->getWorldBox(path.to);
     const FixedBox others = p_other->getWorldBox(p_other->position);
     if (boxIntersectsBox(at_start, others) && gap(at_end, others) > gap(at_start, others))
       return Verdict::MOVES_OUT;
@@ -76,19 +76,19 @@ ObjectList World::getCollisions(const Object* p_o, FixedVector where) {
 }
 
 /// Return whether the move is allowed.
-bool World::moveAtOnce(Object* p_o, const SweepPath& way) {
-  const ObjectList list = getCollisions(p_o, way.to);
+bool World::moveAtOnce(Object* p_o, const SweepPath& path) {
+  const ObjectList list = getCollisions(p_o, path.to);
   bool hard_block = false;
   bool soft_block = false;
   bool met_soft = false;
   for (Object* p_temp_o : list) {
     if (p_temp_o->gone) continue;
     if (p_o->solidness == df::SOFT || p_temp_o->solidness == df::SOFT) met_soft = true;
-    tellBoth(p_o, p_temp_o, way.to);
+    sendToBoth(p_o, p_temp_o, path.to);
     if (p_o->gone) break;
     if (p_temp_o->gone) continue;
 
-    const Verdict verdict = judge(p_o, p_temp_o, way);
+    const Verdict verdict = judge(p_o, p_temp_o, path);
     if (verdict == Verdict::HARD_BLOCK) hard_block = true;
     if (verdict == Verdict::SOFT_BLOCK) soft_block = true;
     if (verdict == Verdict::MOVES_OUT) ++m_counters.moved_out;

@@ -1,45 +1,45 @@
-// Swept moves of the oracle (docs/collisions.md): tested all along the way.
+// Swept moves of the oracle (docs/collisions.md): tested all along the path.
 #include <algorithm>
 
 #include "Oracle.h"
 
 namespace oracle {
 
-/// When does the move meet the other, if it does?
-std::optional<Time> World::hitTime(const Object* p_o, const SweepPath& way, const Object* p_other) {
+/// When does the move hit the other, if it does?
+std::optional<Time> World::hitTime(const Object* p_o, const SweepPath& path, const Object* p_other) {
   const FixedBox others = p_other->getWorldBox(p_other->position);
   // Most are nowhere near.
   const FixedBox& box = p_o->box;
-  if (others.corner.x > std::max(way.from.x, way.to.x) + box.corner.x + box.size.x ||
-      others.corner.y > std::max(way.from.y, way.to.y) + box.corner.y + box.size.y ||
-      others.corner.x + others.size.x < std::min(way.from.x, way.to.x) + box.corner.x ||
-      others.corner.y + others.size.y < std::min(way.from.y, way.to.y) + box.corner.y) {
+  if (others.corner.x > std::max(path.from.x, path.to.x) + box.corner.x + box.size.x ||
+      others.corner.y > std::max(path.from.y, path.to.y) + box.corner.y + box.size.y ||
+      others.corner.x + others.size.x < std::min(path.from.x, path.to.x) + box.corner.x ||
+      others.corner.y + others.size.y < std::min(path.from.y, path.to.y) + box.corner.y) {
     return std::nullopt;
   }
-  if (!isPrecise(p_o, p_other)) return firstTouch(way, box, others);
+  if (!isPrecise(p_o, p_other)) return firstTouch(path, box, others);
 
-  const auto time = firstShare(way, box, p_o->mask, others, p_other->mask);
+  const auto time = firstShare(path, box, p_o->mask, others, p_other->mask);
   ++m_counters.precise_pairs;
   if (!time) ++m_counters.precise_rejected;
   return time;
 }
 
-/// All whom the move meets, first those that it meets first, in creation order if that is at one time.
-World::HitList World::getHits(const Object* p_o, const SweepPath& way) {
+/// All that the move hits, by time, in creation order at equal times.
+World::HitList World::getHits(const Object* p_o, const SweepPath& path) {
   HitList hits;
   if (!p_o->active || !p_o->isSolid()) return hits;
   for (Object* p_other : m_updates) {
     if (p_other == p_o || !p_other->active || !p_other->isSolid()) continue;
-    if (const auto time = hitTime(p_o, way, p_other)) hits.push_back({p_other, *time});
+    if (const auto time = hitTime(p_o, path, p_other)) hits.push_back({p_other, *time});
   }
   std::stable_sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.time < b.time; });
   return hits;
 }
 
 /// Drop what comes later than the first time at which a pair blocks as things stand. Return whether one does.
-bool World::cutAtFirstBlock(HitList& hits, const Object* p_o, const SweepPath& way) const {
+bool World::cutAtFirstBlock(HitList& hits, const Object* p_o, const SweepPath& path) const {
   const auto blocks = [&](const Hit& hit) {
-    const Verdict verdict = judge(p_o, hit.p_other, way);
+    const Verdict verdict = judge(p_o, hit.p_other, path);
     return verdict == Verdict::HARD_BLOCK || verdict == Verdict::SOFT_BLOCK;
   };
   const auto first = std::find_if(hits.begin(), hits.end(), blocks);
@@ -49,18 +49,18 @@ bool World::cutAtFirstBlock(HitList& hits, const Object* p_o, const SweepPath& w
   return true;
 }
 
-int World::moveSwept(Object* p_o, const SweepPath& way) {
+int World::moveSwept(Object* p_o, const SweepPath& path) {
   ++m_counters.swept_moves;
   ObjectList met;
   Time begin;
   bool met_soft = false;
   for (bool last_stage = false; !last_stage;) {
     // The list is fixed before the first event.
-    HitList hits = getHits(p_o, way);
+    HitList hits = getHits(p_o, path);
     std::erase_if(hits, [&](const Hit& hit) {
       return hit.time < begin || std::find(met.begin(), met.end(), hit.p_other) != met.end();
     });
-    last_stage = !cutAtFirstBlock(hits, p_o, way);
+    last_stage = !cutAtFirstBlock(hits, p_o, path);
     if (!last_stage) begin = hits.back().time;
 
     std::optional<Time> blocked;
@@ -72,11 +72,11 @@ int World::moveSwept(Object* p_o, const SweepPath& way) {
         met_soft = true;
         ++m_counters.met_soft;
       }
-      tellBoth(p_o, hit.p_other, way.before(hit.time));
+      sendToBoth(p_o, hit.p_other, path.before(hit.time));
       if (p_o->gone) return -1;
       if (hit.p_other->gone) continue;
 
-      const Verdict verdict = judge(p_o, hit.p_other, way);
+      const Verdict verdict = judge(p_o, hit.p_other, path);
       if (verdict == Verdict::MOVES_OUT) ++m_counters.moved_out;
       if (verdict != Verdict::HARD_BLOCK && verdict != Verdict::SOFT_BLOCK) continue;
       if (!blocked) ++(verdict == Verdict::HARD_BLOCK ? m_counters.blocked_hard : m_counters.blocked_soft);
@@ -85,24 +85,24 @@ int World::moveSwept(Object* p_o, const SweepPath& way) {
 
     if (blocked) {  // stops just before, if it is still where it began
       ++m_counters.swept_blocked;
-      if (p_o->position != way.from) return -1;
-      if (way.before(*blocked) != way.from) ++m_counters.swept_stopped;
-      place(p_o, way.before(*blocked));
+      if (p_o->position != path.from) return -1;
+      if (path.before(*blocked) != path.from) ++m_counters.swept_stopped;
+      place(p_o, path.before(*blocked));
       return -1;
     }
-    // What blocked has given way, if anything did: search the rest of the way, in the world as it is now.
+    // What blocked may be gone: search the rest of the path, in the world as it is now.
     if (!last_stage) ++m_counters.swept_passed_on;
   }
-  place(p_o, way.to);
+  place(p_o, path.to);
   return 0;
 }
 
-/// Whom would the first search of a swept move find first?
+/// What would the first search of a swept move find first?
 Contact World::firstContact(const Object* p_o, FixedVector where) {
-  const SweepPath way{p_o->position, where};
-  const HitList hits = getHits(p_o, way);
+  const SweepPath path{p_o->position, where};
+  const HitList hits = getHits(p_o, path);
   if (hits.empty()) return {nullptr, {1, 1}, where};
-  return {hits.front().p_other, hits.front().time, way.before(hits.front().time)};
+  return {hits.front().p_other, hits.front().time, path.before(hits.front().time)};
 }
 
 }  // namespace oracle

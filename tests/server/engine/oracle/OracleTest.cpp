@@ -26,7 +26,7 @@ constexpr std::int64_t kWorlds = 1'000;
 #else
 constexpr std::int64_t kWorlds = 10'000;
 #endif
-/// Fewer than these need not meet every case.
+/// Fewer than these need not cover every case.
 constexpr std::int64_t kEnough = 200;
 
 std::int64_t setting(const char* name, std::int64_t otherwise) {
@@ -63,8 +63,9 @@ double percent(std::int64_t part, std::int64_t whole) {
 }
 
 void reportBook(const Sum& sum, double seconds) {
-  // Of all calls of moveObject, by update and by handlers: refused because HARD met HARD, met with SOFT as
-  // mover or as other, refused because no soft met SOFT, sent an out event, made by a handler within another.
+  // Of all calls of moveObject, by update and by handlers: refused because HARD hit HARD, collided with SOFT
+  // as mover or as other, refused because no soft hit SOFT, sent an out event, made by a handler within
+  // another.
   const Counters& n = sum.counters;
   const double blocked = percent(n.blocked_hard, n.moves);
   const double soft = percent(n.met_soft, n.moves);
@@ -89,8 +90,8 @@ void reportBook(const Sum& sum, double seconds) {
 
 void reportOptions(const Sum& sum) {
   // Of all moves: swept, and those of Objects at rest. Of swept ones: refused, refused and yet further on
-  // than before, searched again because what blocked gave way. Of pairs whose masks were compared: shared no
-  // cell. Of moves of Objects at rest: touched somebody. Of all pairs: did not block one that moves out.
+  // than before, searched again because what blocked was gone. Of pairs whose masks were compared: shared no
+  // cell. Of moves of Objects at rest: touched another. Of all pairs: did not block one that moves out.
   const Counters& n = sum.counters;
   const double swept = percent(n.swept_moves, n.moves);
   const double blocked = percent(n.swept_blocked, n.swept_moves);

@@ -22,7 +22,7 @@ enum class Temper {
   BULLET,    ///< Dies at a collision, often by its own hand.
   PARENT,    ///< Makes others.
   STUBBORN,  ///< Tries the refused move again from its handler, and again.
-  GLASS,     ///< Gives way to what hits it, mostly.
+  GLASS,     ///< Mostly deletes itself when it is hit.
   DEAF,      ///< Has no handler.
 };
 
@@ -50,7 +50,7 @@ enum class Kind {
   HUGE_BOXES,         ///< Up to 10,000 cells.
   FAR,                ///< Near the ends of the number range, one or both.
   SCATTERED,          ///< Over a million by a million cells, and in a few towns.
-  CROWDED,            ///< Everybody at one point.
+  CROWDED,            ///< All at one point.
   LARGE,              ///< A thousand Objects.
 };
 

@@ -52,7 +52,7 @@ void Script::onStep(int id) {
   comeHome(rng, id);
 }
 
-/// Who has got lost is put back, so that worlds do not run empty, nor anybody out of the number range.
+/// An Object that is far away is put back, so that worlds do not run empty, and none leaves the number range.
 void Script::comeHome(Rng& rng, int id) {
   if (!m_world.isLost(m_actor.getPosition(id))) return;
   m_actor.setAcceleration(id, {});

@@ -5,12 +5,12 @@
 
 namespace oracle {
 
-/// Whom an action is for: mostly oneself, else the other of the collision, else anybody. -1 is nobody.
+/// The target of an action: mostly the Object itself, else the other of the collision, else any. -1 is none.
 int Script::someone(Rng& rng, int self, int other) const {
-  const int whom = rng.below(10);
+  const int roll = rng.below(10);
   int id = self;
-  if (whom >= 5 && whom < 8 && other >= 0) id = other;
-  if (whom >= 8 && !m_present.empty()) {
+  if (roll >= 5 && roll < 8 && other >= 0) id = other;
+  if (roll >= 8 && !m_present.empty()) {
     id = m_present[static_cast<std::size_t>(rng.below(static_cast<int>(m_present.size())))];
   }
   return isPresent(id) ? id : -1;
@@ -65,7 +65,7 @@ void Script::act(Rng& rng, int self, int other) {
     case 22:
       if (m_world.options.scripts_sweep) m_actor.setSweptCollisions(rng.chance(50));
       return;
-    default:  // far enough to meet somebody on the way, but never on and on
+    default:  // far enough to hit others on the path, but never on and on
       if (m_world.kind == Kind::FAR && rng.chance(50)) return move(id, m_world.randomPosition(rng));
       if (m_world.isLost(m_actor.getPosition(id))) return;
       return move(id, m_actor.getPosition(id) + m_world.randomVelocity(rng));

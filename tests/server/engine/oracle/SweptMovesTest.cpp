@@ -53,7 +53,7 @@ TEST_F(SweptMovesTest, WhatIsHitComesInTheOrderOfTimeThenOfCreation) {
   make(30, 10, df::SOFT);
   make(20, 10.5, df::SOFT);
   make(20, 9.5, df::SOFT);
-  make(25, 12, df::SOFT);  // beside the way
+  make(25, 12, df::SOFT);  // beside the path
   make(22, 10, df::SPECTRAL);
   EXPECT_EQ(m_world.moveObject(p_mover, cells(40, 10)), 0);
   EXPECT_EQ(p_mover->position, cells(40, 10));
@@ -62,7 +62,7 @@ TEST_F(SweptMovesTest, WhatIsHitComesInTheOrderOfTimeThenOfCreation) {
 
 // "it ends with the first time at which a pair blocks", and "everyone else hit at that very time still
 // hears".
-TEST_F(SweptMovesTest, WhatIsHitLaterThanWhatBlocksHearsNothing) {
+TEST_F(SweptMovesTest, WhatIsHitLaterThanWhatBlocksGetsNoEvent) {
   Object* p_mover = makeSwept(10, 10);
   make(25, 10, df::SOFT);
   make(20, 10, df::HARD);
@@ -91,7 +91,7 @@ TEST_F(SweptMovesTest, BothAxesAreWhereTheyWereJustBefore) {
 }
 
 // "counts, at time 0, only if the move closes the gap or the boxes touch at the end, too".
-TEST_F(SweptMovesTest, WhoLeavesAWallIsFreeAndWhoSlidesAlongItIsNot) {
+TEST_F(SweptMovesTest, LeavingAWallIsFreeAndSlidingAlongItIsNot) {
   Object* p_o = makeSwept(10, 10);
   make(11, 10)->box = boxOf(1, 6);
   EXPECT_EQ(m_world.moveObject(p_o, cells(9, 10)), 0);    // away
@@ -109,11 +109,11 @@ TEST_F(SweptMovesTest, WhoLeavesAWallIsFreeAndWhoSlidesAlongItIsNot) {
 }
 
 // "one inside another may leave by the shortest way", if it does it in one move.
-TEST_F(SweptMovesTest, WhoIsInsideMayLeaveByTheShortestWay) {
+TEST_F(SweptMovesTest, ObjectInsideMayLeaveByTheShortestPath) {
   Object* p_o = makeSwept(12, 10);
   make(10, 10)->box = boxOf(6, 6);
   EXPECT_EQ(m_world.moveObject(p_o, cells(13.25, 10)), -1);  // not out yet
-  EXPECT_EQ(m_world.moveObject(p_o, cells(5, 10)), -1);      // the long way: deeper at first
+  EXPECT_EQ(m_world.moveObject(p_o, cells(5, 10)), -1);      // the long path: deeper at first
   EXPECT_EQ(p_o->position, cells(12, 10));
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10)), 0);
 }
@@ -134,7 +134,7 @@ TEST_F(SweptMovesTest, BrokenGlassLetsTheArrowThroughToTheNext) {
 }
 
 // "in the world as it is then, for Objects not yet met in this move".
-TEST_F(SweptMovesTest, TheRestOfTheWayIsSearchedInTheWorldAsItIsThen) {
+TEST_F(SweptMovesTest, TheRestOfThePathIsSearchedInTheWorldAsItIsThen) {
   Object* p_arrow = makeSwept(10, 10);
   Object* p_glass = makeGlass(20);
   Object* p_met = makeGlass(15, df::SOFT);
@@ -153,7 +153,7 @@ TEST_F(SweptMovesTest, TheRestOfTheWayIsSearchedInTheWorldAsItIsThen) {
   EXPECT_EQ(p_arrow->position, cells(39, 10) - kUnit);
 }
 
-// A list that nothing ends is all there is: what appears on the way meanwhile is not met.
+// A list that nothing ends is all there is: what appears on the path meanwhile is not met.
 TEST_F(SweptMovesTest, WithoutABlockThereIsOneSearch) {
   Object* p_arrow = makeSwept(10, 10);
   makeGlass(20, df::SOFT);
@@ -193,7 +193,7 @@ TEST_F(SweptMovesTest, AMoverThatNoLongerCollidesPassesOnToTheTarget) {
   EXPECT_EQ(p_ghost->position, cells(50, 10));
 }
 
-TEST_F(SweptMovesTest, ABlockedMoverThatIsPlacedOutsideTheWorldHearsIt) {
+TEST_F(SweptMovesTest, ABlockedMoverThatIsPlacedOutsideTheWorldGetsAnOutEvent) {
   Object* p_o = makeSwept(70, 10);
   make(90, 10);
   EXPECT_EQ(m_world.moveObject(p_o, cells(100, 10)), -1);
@@ -201,7 +201,7 @@ TEST_F(SweptMovesTest, ABlockedMoverThatIsPlacedOutsideTheWorldHearsIt) {
 }
 
 // "nothing moves, nobody hears": the first that is hit, whether or not it blocks.
-TEST_F(SweptMovesTest, FirstContactTellsWhomWhenAndWhere) {
+TEST_F(SweptMovesTest, FirstContactHasObjectTimeAndPosition) {
   Object* p_o = make(10, 10);
   makeGlass(40);
   Object* p_foam = makeGlass(21, df::SOFT);

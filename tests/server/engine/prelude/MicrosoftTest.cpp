@@ -58,14 +58,14 @@ TEST(Microsoft, SaysWhyAFileIsNotOpened) {
   std::fclose(p_file);
 }
 
-TEST(Microsoft, TellsTheLocalTime) {
+TEST(Microsoft, ReturnsTheLocalTime) {
   const std::time_t noon = 1000000000;
   std::tm local{};
   EXPECT_EQ(localtime_s(&local, &noon), 0);
   EXPECT_EQ(std::mktime(&local), noon);
 }
 
-TEST(Microsoft, KnowsTheWorkingDirectory) {
+TEST(Microsoft, ReturnsTheWorkingDirectory) {
   char path[4096];
   ASSERT_NE(_getcwd(path, sizeof(path)), nullptr);
   EXPECT_EQ(std::string(path), std::filesystem::current_path().string());

@@ -46,7 +46,7 @@ TEST_F(PublishedHeader, StringsAreLoggedAsTheyAre) {
 }
 
 // A string that a header declares inline would be one for library and game; and of the two C++20 sets it up
-// before anything runs, C++17 only if nobody has done so yet: it would stay empty in a game of C++17.
+// before anything runs, C++17 only if it is not set yet: it would stay empty in a game of C++17.
 TEST(PublishedHeaderStrings, AreEachTranslationUnitsOwn) {
   for (const char* name : {"CONFIG_FILENAME", "WINDOW_TITLE_DEFAULT", "FONT_FILE_DEFAULT", "LOGFILE_DEFAULT",
                            "DRAGONFLY_PORT", "UNDEFINED_STATE"}) {

@@ -122,7 +122,7 @@ TEST_F(AnimationTest, TransparentCharactersShowWhatIsBehindAndBlanksDoNot) {
   EXPECT_EQ(world.renderView({}).rowText(10).substr(8, 5), ".a. b");
 }
 
-TEST_F(AnimationTest, BoxBecomesTheSpritesUnlessToldOtherwise) {
+TEST_F(AnimationTest, BoxBecomesTheSpritesUnlessSwitchedOff) {
   Sprite s = sprite({"abcd"});
   Object o;
   o.setSprite(&s, false);
@@ -186,7 +186,7 @@ TEST_F(AnimationTest, ObjectsMayGoAndComeWhileTheyAreAnimated) {
   EXPECT_EQ(objects[3]->getSpriteIndex(), 1);
   WM.removeObject(objects[0]);
   world.tick();
-  EXPECT_EQ(objects[0]->getSpriteIndex(), 1);  // nobody's
+  EXPECT_EQ(objects[0]->getSpriteIndex(), 1);  // in no world
   EXPECT_EQ(objects[2]->getSpriteIndex(), 0);
   WM.insertObject(objects[0]);
   objects[2]->setSprite(nullptr);

@@ -78,7 +78,7 @@ TEST_F(SpriteFile, OldFormat) {
   }
 }
 
-TEST_F(SpriteFile, TroubleIsToldWithFileAndLine) {
+TEST_F(SpriteFile, ErrorsAreLoggedWithFileAndLine) {
   const std::pair<const char*, const char*> kBad[] = {
       {"bad-short-row.txt", ":8: the row has 2 characters instead of 3"},
       {"bad-no-height.txt", ":4: height is missing"},

@@ -1,4 +1,4 @@
-// The pause as a vote of those who play.
+// The pause as a vote of the players.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -26,8 +26,8 @@ class PauseTest : public WorldTest {
     world.tick();
   }
   /// One tick in which these (counted from 0) press the key.
-  void press(const std::vector<std::size_t>& who) {
-    for (const std::size_t i : who) world.key(players[i], Keyboard::P, KEY_PRESSED);
+  void press(const std::vector<std::size_t>& voters) {
+    for (const std::size_t i : voters) world.key(players[i], Keyboard::P, KEY_PRESSED);
     world.tick();
   }
   const Notes& notes() const { return world.view().notes; }
@@ -69,12 +69,12 @@ TEST_F(PauseTest, HalfOfThemIsNotEnough) {
   EXPECT_TRUE(world.isPaused());
 }
 
-TEST_F(PauseTest, WhoPressesTwiceHasOneVote) {
+TEST_F(PauseTest, PressingTwiceIsOneVote) {
   join(3);
   press({1, 1, 1});
   press({1});
   EXPECT_FALSE(world.isPaused());
-  EXPECT_EQ(notes(), Notes{}) << "so nobody can fill the others' screens";
+  EXPECT_EQ(notes(), Notes{}) << "so a player cannot fill the others' screens";
 }
 
 TEST_F(PauseTest, VotesAreForgottenAfterTenSeconds) {
@@ -89,7 +89,7 @@ TEST_F(PauseTest, VotesAreForgottenAfterTenSeconds) {
   EXPECT_TRUE(world.isPaused());
 }
 
-TEST_F(PauseTest, WhoLeavesIsNotCountedAnyMore) {
+TEST_F(PauseTest, PlayersThatLeaveAreNotCountedAnyMore) {
   join(4);
   press({0, 1});
   EXPECT_FALSE(world.isPaused()) << "two of four";
@@ -99,7 +99,7 @@ TEST_F(PauseTest, WhoLeavesIsNotCountedAnyMore) {
   EXPECT_EQ(notes(), Notes{"pause: 2 of 3"});
 }
 
-TEST_F(PauseTest, WhoLeavesTakesHisVoteAlong) {
+TEST_F(PauseTest, PlayersThatLeaveLoseTheirVote) {
   join(3);
   press({0});
   world.leave(players[0]);
@@ -109,7 +109,7 @@ TEST_F(PauseTest, WhoLeavesTakesHisVoteAlong) {
   EXPECT_EQ(notes(), Notes{"pause: 1 of 2"});
 }
 
-TEST_F(PauseTest, WhenNobodyIsLeftTheGameGoesOn) {
+TEST_F(PauseTest, WhenNoPlayerIsLeftTheGameGoesOn) {
   join(2);
   press({0, 1});
   ASSERT_TRUE(world.isPaused());
@@ -121,7 +121,7 @@ TEST_F(PauseTest, WhenNobodyIsLeftTheGameGoesOn) {
   EXPECT_FALSE(world.isPaused());
 }
 
-TEST_F(PauseTest, WhoIsNotHeardIsNotAskedEither) {
+TEST_F(PauseTest, OnlyPlayersWhoseKeysCountCanVote) {
   join(3);
   world.extras().heard_player = players[1];
   press({1});
@@ -141,17 +141,17 @@ TEST_F(PauseTest, AKeyOfTheGamesOwnIsObeyed) {
   EXPECT_TRUE(world.isPaused());
 }
 
-TEST_F(PauseTest, WhoComesOrGoesInAPauseIsHeardOf) {
+TEST_F(PauseTest, JoinsAndLeavesInAPauseAreSent) {
   join(1);
   press({0});
-  Probe game("game", &heard);
+  Probe game("game", &received);
   for (const std::string& type : {std::string(JOIN_EVENT), std::string(LEAVE_EVENT), std::string(STEP_EVENT)})
     game.registerInterest(type);
   join(1);
   world.leave(players[1]);
   world.tick();
   EXPECT_TRUE(world.isPaused());
-  EXPECT_EQ(heard, (std::vector<std::string>{"game:df-join", "game:df-leave"}));
+  EXPECT_EQ(received, (std::vector<std::string>{"game:df-join", "game:df-leave"}));
 }
 
 }  // namespace

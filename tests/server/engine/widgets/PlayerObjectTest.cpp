@@ -25,12 +25,12 @@ struct Ferry : PlayerObject<Boat> {
     setSolidness(SPECTRAL);
     setPosition(Vector(5, 5));
   }
-  void step() override { heard.push_back("step"); }
+  void step() override { received.push_back("step"); }
   void keyboard(const EventKeyboard& event) override {
-    heard.push_back(event.getKey() == Keyboard::A ? "A" : "key");
+    received.push_back(event.getKey() == Keyboard::A ? "A" : "key");
   }
   void mouse(const EventMouse& event) override { setPosition(event.getMousePosition()); }
-  std::vector<std::string> heard;
+  std::vector<std::string> received;
 };
 
 class PlayerObjects : public testing::Test {
@@ -42,7 +42,7 @@ class PlayerObjects : public testing::Test {
   World::Scope scope;
 };
 
-TEST_F(PlayerObjects, EverybodyWhoComesGetsOne) {
+TEST_F(PlayerObjects, EachPlayerThatJoinsGetsOne) {
   EXPECT_TRUE(WM.objectsOfType("Boat").isEmpty());
   const std::uint32_t ann = world.join("ann", RED), bob = world.join("bob", BLUE);
   world.tick();
@@ -53,15 +53,15 @@ TEST_F(PlayerObjects, EverybodyWhoComesGetsOne) {
   EXPECT_EQ(ferryOf(bob)->getColor(), world.getPlayer(bob)->getColor());
 }
 
-TEST_F(PlayerObjects, EachHearsItsPlayerOnly) {
+TEST_F(PlayerObjects, EachGetsItsPlayersInputOnly) {
   const std::uint32_t ann = world.join("ann", RED), bob = world.join("bob", BLUE);
   world.tick();
-  ferryOf(ann)->heard.clear(), ferryOf(bob)->heard.clear();
+  ferryOf(ann)->received.clear(), ferryOf(bob)->received.clear();
   world.key(ann, Keyboard::A, KEY_PRESSED);
   world.mouse(bob, CLICKED, Mouse::LEFT, 9, 7);
   world.tick();
-  EXPECT_EQ(ferryOf(ann)->heard, (std::vector<std::string>{"step", "A"}));
-  EXPECT_EQ(ferryOf(bob)->heard, (std::vector<std::string>{"step"}));
+  EXPECT_EQ(ferryOf(ann)->received, (std::vector<std::string>{"step", "A"}));
+  EXPECT_EQ(ferryOf(bob)->received, (std::vector<std::string>{"step"}));
   EXPECT_EQ(ferryOf(ann)->getPosition(), Vector(5, 5));
   EXPECT_EQ(ferryOf(bob)->getPosition(), Vector(9, 7));
 }
@@ -86,7 +86,7 @@ TEST_F(PlayerObjects, ItGoesWithItsPlayer) {
   EXPECT_EQ(p_left->getPlayer(), world.getPlayer(bob));
 }
 
-// In the tick in which its player leaves, it may still be stepped by the game's own hand: there is nobody.
+// In the tick in which its player leaves, the game may still step it: getPlayer() is null.
 TEST_F(PlayerObjects, WithoutAPlayerItDoesNotStep) {
   const std::uint32_t ann = world.join("ann", RED);
   world.tick();
@@ -95,10 +95,10 @@ TEST_F(PlayerObjects, WithoutAPlayerItDoesNotStep) {
   world.leave(ann);
   world.tick();
   world.tick();
-  p_ferry->heard.clear();
+  p_ferry->received.clear();
   world.tick();
   EXPECT_EQ(p_ferry->getPlayer(), nullptr);
-  EXPECT_TRUE(p_ferry->heard.empty());
+  EXPECT_TRUE(p_ferry->received.empty());
 }
 
 }  // namespace

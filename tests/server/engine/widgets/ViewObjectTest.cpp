@@ -151,7 +151,7 @@ TEST_F(ViewObjectTest, TextEntryTakesKeysUntilReturn) {
   EXPECT_NE(row(1).find("Name: Ab-_7"), std::string::npos) << row(1);
 }
 
-TEST_F(ViewObjectTest, TextEntryMadeForAPlayersKeyHearsThatPlayer) {
+TEST_F(ViewObjectTest, TextEntryMadeForAPlayersKeyTakesThatPlayersKeys) {
   const std::uint32_t ann = world.join("ann", RED);
   const std::uint32_t bob = world.join("bob", BLUE);
   world.tick();
@@ -178,10 +178,10 @@ TEST_F(ViewObjectTest, TextEntryMadeForAPlayersKeyHearsThatPlayer) {
   world.tick();
   world.key(bob, Keyboard::RETURN, KEY_PRESSED);
   world.tick();
-  EXPECT_EQ(p_entry->entered, std::vector<std::string>{"a"}) << "somebody has to finish";
+  EXPECT_EQ(p_entry->entered, std::vector<std::string>{"a"}) << "any player can finish";
 }
 
-TEST_F(ViewObjectTest, TextEntryOfNobodyHearsEverybodyUntilItIsGivenToSomebody) {
+TEST_F(ViewObjectTest, TextEntryWithoutAPlayerTakesAllKeysUntilItGetsOne) {
   const std::uint32_t ann = world.join("ann", RED);
   const std::uint32_t bob = world.join("bob", BLUE);
   Entry entry;
@@ -257,25 +257,25 @@ TEST_F(ViewObjectTest, ButtonLightsUpUnderTheMouseAndIsClicked) {
 }
 
 TEST_F(ViewObjectTest, PauseStopsStepsMovesAndInputUntilItIsPressedAgain) {
-  Probe mover("mover", &heard, Vector(5, 5));
+  Probe mover("mover", &received, Vector(5, 5));
   mover.setVelocity(Vector(1, 0));
   mover.registerInterest(STEP_EVENT);
   mover.registerInterest(KEYBOARD_EVENT);
   mover.on_draw = [](Probe& p) { DM.drawCh(p.getPosition(), '@', RED); };
   new Pause(Keyboard::P);
   press(Keyboard::P);
-  heard.clear();
+  received.clear();
   EXPECT_TRUE(world.isPaused());
   for (int i = 0; i < 3; ++i) world.tick();
   press(Keyboard::A);
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
   expectAt(mover, 5, 5);
   EXPECT_EQ(row(5), "     @");
   EXPECT_EQ(world.getStepCount(), 3);
   press(Keyboard::P);
   world.tick();
   expectAt(mover, 6, 5);
-  EXPECT_FALSE(heard.empty());
+  EXPECT_FALSE(received.empty());
 }
 
 TEST_F(ViewObjectTest, GameGoesOnWhenThePauseIsDeleted) {

@@ -6,7 +6,7 @@
 namespace df::test {
 namespace {
 
-using Heard = std::vector<std::string>;
+using Received = std::vector<std::string>;
 
 class Capture : public WorldTest {
  protected:
@@ -15,7 +15,7 @@ class Capture : public WorldTest {
     p->setSolidness(SPECTRAL);
     p->setAltitude(altitude);
     p->on_draw = [this](Probe& self) {
-      heard.push_back(self.getType());
+      received.push_back(self.getType());
       DM.drawCh(self.getPosition(), self.getType()[0], RED);
     };
     return p;
@@ -34,7 +34,7 @@ TEST_F(Capture, DrawsByAltitudeThenCreation) {
   make("d", 3, 3, 4);
   make("b", 3, 3, 2);
   GM.tick();
-  EXPECT_EQ(heard, (Heard{"a", "b", "c", "d"}));
+  EXPECT_EQ(received, (Received{"a", "b", "c", "d"}));
   EXPECT_EQ(world.renderView({}).at(3, 3).ch, U'd');
   EXPECT_EQ(world.renderView({}).at(3, 3).color, RED);
 }
@@ -46,19 +46,19 @@ TEST_F(Capture, InactiveInvisibleAndFarOnesAreNotDrawn) {
   make("d", 80.5, 3);  // its box touches the view
   make("e", 80.75, 3);
   WM.draw();
-  EXPECT_EQ(heard, (Heard{"d"}));
+  EXPECT_EQ(received, (Received{"d"}));
 }
 
 TEST_F(Capture, WhatAPlayersViewShowsIsDrawn) {
   WM.setBoundary(Box(Vector(0, 0), 500, 500));
   Probe* a = make("a", 300, 300);
   GM.tick();
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
   const std::uint32_t ann = world.join("ann", RED);
   GM.tick();
   WM.getPlayer(ann)->setObject(a);
   GM.tick();
-  EXPECT_EQ(heard, (Heard{"a"}));
+  EXPECT_EQ(received, (Received{"a"}));
   EXPECT_EQ(world.renderPlayer(ann).at(40, 12).ch, U'a');
   EXPECT_EQ(world.renderPlayer(0).at(40, 12).ch, U' ');
 }
@@ -97,16 +97,16 @@ TEST_F(Capture, StaticLookIsDrawnOnceAndMovesAlong) {
   a->setStaticLook();
   a->setVelocity(Vector(1, 0));
   for (int i = 0; i < 3; ++i) GM.tick();
-  EXPECT_EQ(heard, (Heard{"a"}));
+  EXPECT_EQ(received, (Received{"a"}));
   EXPECT_EQ(world.renderView({}).at(6, 3).ch, U'a');
   ASSERT_EQ(world.view().drawn.size(), 1u);
   EXPECT_EQ(world.view().drawn[0].count, 1u);
   a->setStaticLook();
   GM.tick();
-  EXPECT_EQ(heard, (Heard{"a", "a"}));
+  EXPECT_EQ(received, (Received{"a", "a"}));
 }
 
-TEST_F(Capture, CommandsNameWhoDrewThem) {
+TEST_F(Capture, CommandsNameTheObjectThatDrewThem) {
   Probe* a = make("a", 3, 3);
   Object plain;  // of type Object itself: draws nothing, is not asked
   Probe* silent = make("s", 4, 4);
@@ -144,14 +144,14 @@ TEST_F(Capture, DrawMayDeleteAndThrow) {
 TEST_F(Capture, DrawCannotBeginATickOrAnotherPicture) {
   Probe* a = make("a", 3, 3);
   a->on_draw = [this](Probe& self) {
-    heard.push_back("draw");
+    received.push_back("draw");
     WM.draw();
     GM.tick();
     DM.drawCh(self.getPosition(), 'a');
   };
   WM.draw();
   GM.tick();
-  EXPECT_EQ(heard, (Heard{"draw", "draw"}));
+  EXPECT_EQ(received, (Received{"draw", "draw"}));
   EXPECT_EQ(GM.getStepCount(), 1);
   EXPECT_EQ(world.view().commands.size(), 1u);
 }

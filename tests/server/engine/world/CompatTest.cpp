@@ -1,4 +1,4 @@
-// Where the published engine differs from the book, and how a world is told to behave like it.
+// Where the published engine differs from the book, and how a world is set to behave like it.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -83,7 +83,7 @@ TEST_F(CompatTest, ABoxBesideItsPositionLeavesWhileThePositionIsInside) {
   EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0)), Vector(81, 10));
 }
 
-TEST_F(CompatTest, WhoWasPlacedOutsideLeavesOnlyAfterComingIn) {
+TEST_F(CompatTest, ObjectPlacedOutsideLeavesOnlyAfterComingIn) {
   world.setCompat();
   EXPECT_EQ(leavesAt(Vector(82, 10), Vector(1, 0)), std::nullopt);
   EXPECT_EQ(leavesAt(Vector(85, 10), Vector(-2.5, 0)), Vector(-2.5, 10));
@@ -91,16 +91,16 @@ TEST_F(CompatTest, WhoWasPlacedOutsideLeavesOnlyAfterComingIn) {
 
 TEST_F(CompatTest, SpritelessNeighboursDoNotTouchThere) {
   world.setCompat();
-  Probe a("a", &heard, Vector(10, 10));
-  Probe b("b", &heard, Vector(12, 10));
+  Probe a("a", &received, Vector(10, 10));
+  Probe b("b", &received, Vector(12, 10));
   EXPECT_EQ(WM.moveObject(&a, Vector(11, 10)), 0);
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
   EXPECT_EQ(a.getBox().getCorner(), Vector(-0.5, -0.5));
   EXPECT_FLOAT_EQ(a.getBox().getHorizontal(), 0.99F);
   EXPECT_FLOAT_EQ(a.getBox().getVertical(), 0.99F);
   world.setCompat(false);
-  Probe c("c", &heard, Vector(13, 12));
-  Probe d("d", &heard, Vector(15, 12));
+  Probe c("c", &received, Vector(13, 12));
+  Probe d("d", &received, Vector(15, 12));
   EXPECT_EQ(WM.moveObject(&c, Vector(14, 12)), -1);
 }
 
@@ -153,7 +153,7 @@ TEST_F(WorldTest, AGameThatIsOverForOnePlayerGoesOnForTheOthers) {
   EXPECT_FALSE(world.isGameOver());
   EXPECT_EQ(world.takeLeavers(), std::vector<std::uint32_t>{bob});
   EXPECT_TRUE(world.takeLeavers().empty());
-  GM.setGameOver();  // nobody's key
+  GM.setGameOver();  // outside any player's input
   EXPECT_TRUE(world.isGameOver());
   GM.setGameOver(false);
   world.setGameOverLeaves(false);

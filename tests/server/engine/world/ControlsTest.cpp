@@ -17,7 +17,7 @@ Controls arrows(int wait = 0) {
   return Controls().onKey(LEFTARROW).step(-1, 0).every(wait).onKey(RIGHTARROW).step(1, 0).every(wait);
 }
 
-/// A player who steers a ship at (10,10).
+/// A player that steers a ship at (10,10).
 class DeclaredControls : public WorldTest {
  protected:
   DeclaredControls() : id(world.join("ann", RED)) {
@@ -31,7 +31,7 @@ class DeclaredControls : public WorldTest {
   }
 
   std::uint32_t id;
-  Probe ship{"ship", &heard, Vector(10, 10)};
+  Probe ship{"ship", &received, Vector(10, 10)};
 };
 
 TEST_F(DeclaredControls, AKeyMovesTheObjectBeforeItsEventIsSent) {
@@ -65,21 +65,21 @@ TEST_F(DeclaredControls, WithoutControlsKeysAreTheGamesAlone) {
   EXPECT_EQ(player().facts().steering.p_table, nullptr);
 }
 
-TEST_F(DeclaredControls, AHardObjectBlocksAStepAndBothHear) {
+TEST_F(DeclaredControls, AHardObjectBlocksAStepAndBothGetTheEvent) {
   player().setControls(arrows());
-  const Probe wall("wall", &heard, Vector(11.5, 10));
+  const Probe wall("wall", &received, Vector(11.5, 10));
   press(RIGHTARROW);
   expectAt(ship, 10, 10);
-  EXPECT_EQ(heard, (std::vector<std::string>{"ship:df-collision", "wall:df-collision"}));
+  EXPECT_EQ(received, (std::vector<std::string>{"ship:df-collision", "wall:df-collision"}));
 }
 
-TEST_F(DeclaredControls, ASoftObjectLetsAStepPassAndHears) {
+TEST_F(DeclaredControls, ASoftObjectLetsAStepPassAndGetsTheEvent) {
   player().setControls(arrows());
-  Probe fog("fog", &heard, Vector(11.5, 10));
+  Probe fog("fog", &received, Vector(11.5, 10));
   fog.setSolidness(SOFT);
   press(RIGHTARROW);
   expectAt(ship, 11, 10);
-  EXPECT_EQ(heard, (std::vector<std::string>{"ship:df-collision", "fog:df-collision"}));
+  EXPECT_EQ(received, (std::vector<std::string>{"ship:df-collision", "fog:df-collision"}));
   ship.setPosition(Vector(10, 10));
   ship.setNoSoft();
   press(RIGHTARROW);
@@ -92,7 +92,7 @@ TEST_F(DeclaredControls, AStepOutOfTheWorldSendsOneOutEvent) {
   press(LEFTARROW);
   press(LEFTARROW);
   expectAt(ship, -2, 10);
-  EXPECT_EQ(heard, (std::vector<std::string>{"ship:df-out"}));
+  EXPECT_EQ(received, (std::vector<std::string>{"ship:df-out"}));
 }
 
 TEST_F(DeclaredControls, TheViewFollowsStepsAsMoves) {
@@ -124,7 +124,7 @@ TEST_F(DeclaredControls, VelocitiesAndDrivesMoveInTheSameTick) {
   EXPECT_EQ(ship.getSpeed(), 0.5f);
 }
 
-TEST_F(DeclaredControls, OnlyThePlayersOwnKeysMoveHisObject) {
+TEST_F(DeclaredControls, OnlyThePlayersOwnKeysMoveTheirObject) {
   player().setControls(arrows());
   const std::uint32_t bob = world.join("bob", GREEN);
   world.key(bob, RIGHTARROW, KEY_PRESSED);

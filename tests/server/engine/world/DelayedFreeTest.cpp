@@ -12,7 +12,7 @@
 namespace df::test {
 namespace {
 
-/// Is this built with what stops everybody who asks a deleted Object?
+/// Is this built with a sanitizer that stops every access to a deleted Object?
 constexpr bool isWatched() {
 #if defined(__SANITIZE_ADDRESS__)
   return true;
@@ -26,7 +26,7 @@ constexpr bool isWatched() {
 class DelayedFreeTest : public WorldTest {
  protected:
   void SetUp() override {
-    if (isWatched()) GTEST_SKIP() << "a sanitizer stops who asks a deleted Object, as it should";
+    if (isWatched()) GTEST_SKIP() << "a sanitizer stops accesses to a deleted Object, as it should";
     world.setCompat();
   }
 };
@@ -41,13 +41,13 @@ TEST(DelayedFree, KeepSoManyAndNoMore) {
     freed.free(blocks.back(), kAlign);
     EXPECT_EQ(freed.size(), std::min(i + 1, DelayedFree::kKept));
   }
-  // Nobody was given one of those that are kept.
+  // A new allocation is none of those that are kept.
   void* const p_fresh = ::operator new(200, kAlign);
   for (std::size_t i = 10; i < blocks.size(); ++i) EXPECT_NE(p_fresh, blocks[i]);
   ::operator delete(p_fresh, kAlign);
 }
 
-TEST_F(DelayedFreeTest, WhoIsGoneStillAnswers) {
+TEST_F(DelayedFreeTest, GettersOfADeletedObjectStillWork) {
   Object* p_gone = new Probe("gone", nullptr, Vector(3, 4));
   p_gone->setVelocity(Vector(1, 0));
   Shape shape;
@@ -74,7 +74,7 @@ TEST_F(DelayedFreeTest, WhoIsGoneStillAnswers) {
   EXPECT_EQ(p_gone->eventHandler(&step), 0);
 }
 
-TEST_F(DelayedFreeTest, DeletingItAgainSparesWhoHasItsSlot) {
+TEST_F(DelayedFreeTest, DeletingItAgainSparesTheNextObjectOfItsSlot) {
   Object* p_gone = new Probe("gone");
   WM.markForDelete(p_gone);
   world.update();

@@ -41,8 +41,8 @@ class Reacting : public Object {
   std::function<void(Reacting&, const EventCollision&)> m_reaction;
 };
 
-/// The way of a small crowd around `origin`, relative to it, and its collisions.
-std::vector<FixedVector> wayAround(Vector origin, bool swept, int& collisions) {
+/// The path of a small crowd around `origin`, relative to it, and its collisions.
+std::vector<FixedVector> pathAround(Vector origin, bool swept, int& collisions) {
   World world;
   const World::Scope scope(world);
   world.setLogSink([](const std::string&) {});
@@ -60,26 +60,26 @@ std::vector<FixedVector> wayAround(Vector origin, bool swept, int& collisions) {
     if (i % 3 == 0) p_o->setSolidness(SOFT);
     crowd.push_back(p_o);
   }
-  std::vector<FixedVector> way;
+  std::vector<FixedVector> path;
   for (int tick = 0; tick < 60; ++tick) {
     WM.update();
     for (const Reacting* p_o : crowd)
-      way.push_back(world.store().position(p_o->key().slot) - *toFixed(origin));
+      path.push_back(world.store().position(p_o->key().slot) - *toFixed(origin));
   }
   for (const Reacting* p_o : crowd) collisions += p_o->collisions;
   world.shutDown();
-  return way;
+  return path;
 }
 
 // Read from the store: a double has no room for 2^-32 cell at 2e9.
 TEST_F(Extremes, APathTwoBillionCellsAwayIsTheSameAsAtTheOrigin) {
   for (const bool swept : {false, true}) {
     int here = 0;
-    const std::vector<FixedVector> way = wayAround(Vector(0, 0), swept, here);
+    const std::vector<FixedVector> path = pathAround(Vector(0, 0), swept, here);
     EXPECT_GT(here, 100);
     for (const double x : {1.99999e9, -1.99999e9, 63.0, 1e6}) {
       int there = 0;
-      EXPECT_TRUE(wayAround(Vector(x, -x / 2), swept, there) == way) << x << (swept ? " swept" : "");
+      EXPECT_TRUE(pathAround(Vector(x, -x / 2), swept, there) == path) << x << (swept ? " swept" : "");
       EXPECT_EQ(there, here);
     }
   }

@@ -30,7 +30,7 @@ class FindFree : public WorldTest {
     return p;
   }
 
-  /// What it should find, among offsets of up to `reach` cells, with a look at everybody for each.
+  /// What it should find, among offsets of up to `reach` cells, testing all Objects for each.
   static std::optional<Vector> lookEverywhere(Box box, Vector near, int reach) {
     std::vector<std::tuple<int, int, int>> offsets;
     for (int y = -reach; y <= reach; ++y) {
@@ -57,7 +57,7 @@ class FindFree : public WorldTest {
   }
 };
 
-TEST_F(FindFree, WhereNobodyIsItIsThePlaceItself) {
+TEST_F(FindFree, InAnEmptyWorldItIsThePlaceItself) {
   EXPECT_EQ(WM.findFree(kCharacter, Vector(3.25, 4.5)), Vector(3.25, 4.5));
 }
 
@@ -72,7 +72,7 @@ TEST_F(FindFree, TakesTheNearestThenTheHighestThenTheLeftmost) {
   EXPECT_EQ(WM.findFree(kCharacter, Vector(10.5, 10)), Vector(11.5, 10));  // half a cell apart
 }
 
-TEST_F(FindFree, SoftOnesAreInTheWayAndSpectralAndInactiveOnesAreNot) {
+TEST_F(FindFree, SoftOnesTakeRoomAndSpectralAndInactiveOnesDoNot) {
   Object* p = make(10, 10, SOFT);
   EXPECT_NE(WM.findFree(kCharacter, Vector(10, 10)), Vector(10, 10));
   p->setSolidness(SPECTRAL);
@@ -118,7 +118,7 @@ TEST_F(FindFree, BoxesOfAnySizeFit) {
   EXPECT_EQ(WM.findFree(Box(Vector(), 0, 0), Vector(0, 2.5)), Vector(0, 3.5));
 }
 
-TEST_F(FindFree, SeesWhatALookAtEverybodySees) {
+TEST_F(FindFree, FindsWhatATestOfAllObjectsFinds) {
   std::mt19937 random(7);
   const auto within = [&](double low, double high) {
     return std::uniform_real_distribution<>(low, high)(random);

@@ -5,7 +5,7 @@ namespace {
 
 class FirstContact : public SweptWorld {};
 
-TEST_F(FirstContact, LooksAheadAndMovesNobody) {
+TEST_F(FirstContact, MovesNothingAndSendsNothing) {
   Probe* a = make("a", 10, 10);
   make("beside", 12, 12, SOFT);
   Probe* b = make("b", 20, 10, SOFT);
@@ -15,10 +15,10 @@ TEST_F(FirstContact, LooksAheadAndMovesNobody) {
   EXPECT_EQ(contact.time, 9.0 / 40);
   EXPECT_EQ(contact.position, Vector(19 - kUnit, 10));
   expectAt(*a, 10, 10);
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
 }
 
-TEST_F(FirstContact, WithNobodyIsTheTarget) {
+TEST_F(FirstContact, WithoutAContactIsTheTarget) {
   Probe* a = make("a", 10, 10);
   Probe* b = make("b", 20, 10);
   const auto expectNobody = [&](const Object* p_o, Vector where) {

@@ -9,7 +9,7 @@
 namespace df::test {
 namespace {
 
-/// Compares what the grid finds on random ways with what a look at everybody finds.
+/// Compares what the grid finds on random paths with what a test of all Objects finds.
 class Hits : public WorldTest {
  protected:
   double within(double low, double high) { return std::uniform_real_distribution<>(low, high)(random); }
@@ -21,7 +21,7 @@ class Hits : public WorldTest {
       auto* p = new Object;
       const double x = centre.x() + within(-extent, extent);
       const double y = centre.y() + within(-extent, extent);
-      // On whole and half cells many meet at the same time, and at edges.
+      // On whole and half cells many touch at the same time, and at edges.
       p->setPosition(oneIn(2) ? Vector(std::round(2 * x) / 2, std::round(2 * y) / 2) : Vector(x, y));
       if (!oneIn(3)) p->setBox(Box(Vector(within(-size, size), -1), within(0, size), within(0, size)));
       p->setSolidness(oneIn(4) ? HARD : SOFT);
@@ -32,7 +32,7 @@ class Hits : public WorldTest {
     }
   }
 
-  std::vector<Hit> lookAtAll(const Object& mover, const SweepPath& way, HitList::End end, Moment since,
+  std::vector<Hit> lookAtAll(const Object& mover, const SweepPath& path, HitList::End end, Moment since,
                              const KeySet& met) const {
     const WorldStore& store = world.store();
     std::vector<Hit> hits;
@@ -41,10 +41,10 @@ class Hits : public WorldTest {
       const ObjectKey key = p->key();
       if (p == &mover || !store.collides(key.slot) || met.contains(key)) continue;
       const CollisionRule pair(store, mover.key().slot, key.slot);
-      const auto moment = pair.firstMeeting(way.sweep());
+      const auto moment = pair.firstMeeting(path.sweep());
       if (!moment || *moment < since) continue;
       hits.push_back({*moment, store.order(key.slot), key});
-      const bool ends = end == HitList::kFirst || pair.blocks(way.from(), way.to());
+      const bool ends = end == HitList::kFirst || pair.blocks(path.from(), path.to());
       if (ends && (!last || *moment < *last)) last = *moment;
     }
     std::erase_if(hits, [&](const Hit& hit) { return last && hit.moment > *last; });
@@ -57,12 +57,12 @@ class Hits : public WorldTest {
   void compare(Object& mover, FixedVector to, HitList::End end) {
     const WorldStore& store = world.store();
     const ObjectKey key = mover.key();
-    const SweepPath way(store.box(key.slot), store.position(key.slot), to);
+    const SweepPath path(store.box(key.slot), store.position(key.slot), to);
     Moment since;
     KeySet met;
     for (int stage = 0; stage < 4; ++stage) {
-      const std::vector<Hit> expected = lookAtAll(mover, way, end, since, met);
-      list.fill(store, key.slot, way, end, since, &met);
+      const std::vector<Hit> expected = lookAtAll(mover, path, end, since, met);
+      list.fill(store, key.slot, path, end, since, &met);
       ASSERT_EQ(list.hits().size(), expected.size());
       for (std::size_t i = 0; i < expected.size(); ++i) {
         ASSERT_EQ(list.hits()[i].key, expected[i].key);
@@ -126,8 +126,8 @@ TEST_F(Hits, AtTheEndOfTheNumberRangeAreAllFoundInOrder) {
   EXPECT_GT(found, 500u);
 }
 
-// Where doubles no longer tell the ends of the way apart.
-TEST_F(Hits, OfAWayOfAFewUnitsAtTheEndOfTheNumberRangeAreFound) {
+// Where doubles no longer distinguish the ends of the path.
+TEST_F(Hits, OfAPathOfAFewUnitsAtTheEndOfTheNumberRangeAreFound) {
   const Vector far(-1999999000, 1999999000);
   auto* p_mover = new Object;
   objects.push_back(p_mover);
@@ -152,7 +152,7 @@ TEST_F(Hits, OfAWayOfAFewUnitsAtTheEndOfTheNumberRangeAreFound) {
   EXPECT_GT(found, 100u);
 }
 
-TEST_F(Hits, OfAWayAcrossTheWholeWorldAreFound) {
+TEST_F(Hits, OfAPathAcrossTheWholeWorldAreFound) {
   crowd(300, Vector(), 3, 10);
   auto* p_mover = new Object;
   objects.push_back(p_mover);
@@ -165,7 +165,7 @@ TEST_F(Hits, OfAWayAcrossTheWholeWorldAreFound) {
   EXPECT_GT(found, 4u);
 }
 
-TEST_F(Hits, OfAWayOfNoLengthAreWhatIsTouched) {
+TEST_F(Hits, OfAPathOfNoLengthAreWhatIsTouched) {
   crowd(300, Vector(), 20, 5);
   compareMany(Vector(), 20, 0, 200);
   EXPECT_GT(found, 200u);

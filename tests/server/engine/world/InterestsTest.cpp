@@ -6,7 +6,7 @@
 namespace df::test {
 namespace {
 
-using Heard = std::vector<std::string>;
+using Received = std::vector<std::string>;
 
 class Interests : public WorldTest {
  protected:
@@ -19,18 +19,18 @@ class Interests : public WorldTest {
 };
 
 TEST_F(Interests, EventsGoToTheRegisteredInOrderOfRegistration) {
-  Probe a("a", &heard);
-  Probe b("b", &heard);
-  Probe c("c", &heard);
+  Probe a("a", &received);
+  Probe b("b", &received);
+  Probe c("c", &received);
   c.registerInterest("ping");
   a.registerInterest("ping");
   EXPECT_EQ(WM.onEvent(&ping), 2);
-  EXPECT_EQ(heard, (Heard{"c:ping", "a:ping"}));
+  EXPECT_EQ(received, (Received{"c:ping", "a:ping"}));
   EXPECT_EQ(WM.onEvent(nullptr), 0);
 }
 
 TEST_F(Interests, RegisteringTwiceIsOnceAndUnregisteringEnds) {
-  Probe a("a", &heard);
+  Probe a("a", &received);
   EXPECT_EQ(a.registerInterest("ping"), 0);
   EXPECT_EQ(a.registerInterest("ping"), 0);
   EXPECT_EQ(WM.onEvent(&ping), 1);
@@ -40,8 +40,8 @@ TEST_F(Interests, RegisteringTwiceIsOnceAndUnregisteringEnds) {
   EXPECT_EQ(WM.onEvent(&ping), 0);
 }
 
-TEST_F(Interests, InactiveHearNothing) {
-  Probe a("a", &heard);
+TEST_F(Interests, InactiveGetNoEvents) {
+  Probe a("a", &received);
   a.registerInterest("ping");
   a.setActive(false);
   EXPECT_EQ(WM.onEvent(&ping), 0);
@@ -50,21 +50,21 @@ TEST_F(Interests, InactiveHearNothing) {
 }
 
 TEST_F(Interests, NewcomersWaitAndTheDeletedAreSkipped) {
-  auto* p_a = new Probe("a", &heard);
-  auto* p_b = new Probe("b", &heard);
-  auto* p_c = new Probe("c", &heard);
+  auto* p_a = new Probe("a", &received);
+  auto* p_b = new Probe("b", &received);
+  auto* p_c = new Probe("c", &received);
   for (Probe* p : {p_a, p_b, p_c}) p->registerInterest("ping");
   p_a->on_event = [&](Probe&, const Event&) {
     delete std::exchange(p_b, nullptr);
-    (new Probe("late", &heard))->registerInterest("ping");
+    (new Probe("late", &received))->registerInterest("ping");
   };
   EXPECT_EQ(WM.onEvent(&ping), 2);
-  EXPECT_EQ(heard, (Heard{"a:ping", "c:ping"}));
+  EXPECT_EQ(received, (Received{"a:ping", "c:ping"}));
 }
 
 TEST_F(Interests, HandlerMayDeleteItselfAndSendMore) {
-  auto* p_a = new Probe("a", &heard);
-  Probe b("b", &heard);
+  auto* p_a = new Probe("a", &received);
+  Probe b("b", &received);
   p_a->registerInterest("ping");
   b.registerInterest("pong");
   p_a->on_event = [&](Probe& self, const Event&) {
@@ -73,12 +73,12 @@ TEST_F(Interests, HandlerMayDeleteItselfAndSendMore) {
     delete &self;
   };
   WM.onEvent(&ping);
-  EXPECT_EQ(heard, (Heard{"a:ping", "b:pong"}));
+  EXPECT_EQ(received, (Received{"a:ping", "b:pong"}));
   EXPECT_EQ(WM.onEvent(&ping), 0);
 }
 
 TEST_F(Interests, RemovalEndsInterestEvenAfterReturning) {
-  Probe a("a", &heard);
+  Probe a("a", &received);
   a.registerInterest("ping");
   WM.removeObject(&a);
   EXPECT_EQ(a.registerInterest("ping"), -1);
@@ -89,10 +89,10 @@ TEST_F(Interests, RemovalEndsInterestEvenAfterReturning) {
 TEST_F(Interests, ManyComersAndGoersKeepTheOrder) {
   std::vector<std::unique_ptr<Probe>> probes;
   for (int i = 0; i < 200; ++i) {
-    probes.push_back(std::make_unique<Probe>(std::to_string(i), &heard));
+    probes.push_back(std::make_unique<Probe>(std::to_string(i), &received));
     probes.back()->registerInterest("ping");
   }
-  Heard expected;
+  Received expected;
   for (int i = 0; i < 200; ++i) {
     if (i % 3 == 0) {
       probes[i].reset();
@@ -103,7 +103,7 @@ TEST_F(Interests, ManyComersAndGoersKeepTheOrder) {
     }
   }
   WM.onEvent(&ping);
-  EXPECT_EQ(heard, expected);
+  EXPECT_EQ(received, expected);
 }
 
 TEST_F(Interests, StepEventCountsTheTicks) {
@@ -120,14 +120,14 @@ TEST_F(Interests, StepEventCountsTheTicks) {
 }
 
 TEST_F(Interests, HandlerThatThrowsIsQuarantinedAndTheTickGoesOn) {
-  auto* p_bad = new Probe("bad", &heard);
-  Probe good("good", &heard);
+  auto* p_bad = new Probe("bad", &received);
+  Probe good("good", &received);
   p_bad->registerInterest(STEP_EVENT);
   good.registerInterest(STEP_EVENT);
   p_bad->on_event = [](Probe&, const Event&) { throw 42; };
   GM.tick();
   GM.tick();
-  EXPECT_EQ(heard, (Heard{"bad:df-step", "good:df-step", "good:df-step"}));
+  EXPECT_EQ(received, (Received{"bad:df-step", "good:df-step", "good:df-step"}));
   EXPECT_EQ(logged("bad"), 1);
   EXPECT_EQ(world.getObjectCount(), 1);
 }

@@ -75,7 +75,7 @@ TEST_F(Layers, TheBooksMovesSkipBodies) {
   EXPECT_EQ(p_body->getPosition(), Vector(2, 0.375)) << "no body any more: the book's";
 }
 
-TEST_F(Layers, WhoWatchesCanWorkOutABodysFlight) {
+TEST_F(Layers, AClientCanComputeABodysFlight) {
   Object body;
   Object* const p_body = &body;
   layer->add(*p_body);
@@ -94,7 +94,7 @@ TEST_F(Layers, WhoWatchesCanWorkOutABodysFlight) {
   }
 }
 
-TEST_F(Layers, ABodyStandsInTheWayOfOthers) {
+TEST_F(Layers, ABodyBlocksOthers) {
   Object body, plain;
   Object *const p_body = &body, *const p_plain = &plain;
   layer->add(*p_body);
@@ -105,7 +105,7 @@ TEST_F(Layers, ABodyStandsInTheWayOfOthers) {
   EXPECT_EQ(p_plain->getPosition(), Vector(3, 0));
 }
 
-TEST_F(Layers, WhoDiesInAStepIsDeletedInTheSameUpdate) {
+TEST_F(Layers, AnObjectMarkedInAStepIsDeletedInTheSameUpdate) {
   class Reaper : public Layer {
    public:
     void step(World& world) override {

@@ -6,14 +6,14 @@
 namespace df::test {
 namespace {
 
-using Heard = std::vector<std::string>;
+using Received = std::vector<std::string>;
 
 class MayMoveOut : public WorldTest {
  protected:
   MayMoveOut() {
-    wall = new Probe("wall", &heard, Vector(20, 10));
+    wall = new Probe("wall", &received, Vector(20, 10));
     wall->setBox(Box(Vector(-5, -5), 10, 10));
-    a = new Probe("a", &heard, Vector(23, 10));  // inside, nearest to the right side
+    a = new Probe("a", &received, Vector(23, 10));  // inside, nearest to the right side
   }
 
   Probe* wall;
@@ -25,10 +25,10 @@ TEST_F(MayMoveOut, WithoutItOnePlacedInsideCannotLeaveStepByStep) {
   expectAt(*a, 23, 10);
 }
 
-TEST_F(MayMoveOut, LeavesStepByStepAndBothHear) {
+TEST_F(MayMoveOut, LeavesStepByStepAndBothGetTheEvent) {
   a->setMayMoveOut();
   EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "wall:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "wall:df-collision"}));
   EXPECT_EQ(WM.moveObject(a, Vector(25, 10)), 0);
   EXPECT_EQ(WM.moveObject(a, Vector(26, 10)), 0);
   expectAt(*a, 26, 10);
@@ -43,7 +43,7 @@ TEST_F(MayMoveOut, DoesNotLetItDeeperIn) {
 
 TEST_F(MayMoveOut, DoesNotLetItIntoWhatItDidNotTouch) {
   a->setMayMoveOut();
-  new Probe("b", &heard, Vector(25, 10));
+  new Probe("b", &received, Vector(25, 10));
   EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1);
   expectAt(*a, 23, 10);
 }
@@ -71,15 +71,15 @@ TEST_F(MayMoveOut, LeavesWithUpdate) {
 TEST_F(MayMoveOut, SweptOneLeavesAndIsStoppedByTheNextWall) {
   a->setSwept();
   a->setMayMoveOut();
-  new Probe("next", &heard, Vector(40, 10));
+  new Probe("next", &received, Vector(40, 10));
   EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "wall:df-collision"}));  // they still touch at the end
+  EXPECT_EQ(received, (Received{"a:df-collision", "wall:df-collision"}));  // they still touch at the end
   EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
   EXPECT_EQ(a->getPosition().y(), 10);
   EXPECT_NEAR(a->getPosition().x(), 39, 1e-9);
 }
 
-TEST_F(MayMoveOut, SweptOneIsBlockedAtOnceOnTheWayIn) {
+TEST_F(MayMoveOut, SweptOneIsBlockedAtOnceWhenItMovesIn) {
   a->setSwept();
   a->setMayMoveOut();
   EXPECT_EQ(WM.moveObject(a, Vector(19, 10)), -1);

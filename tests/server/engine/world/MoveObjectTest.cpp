@@ -7,12 +7,12 @@
 namespace df::test {
 namespace {
 
-using Heard = std::vector<std::string>;
+using Received = std::vector<std::string>;
 
 class MoveObject : public WorldTest {
  protected:
   Probe* make(const std::string& name, double x, double y, Solidness solidness = HARD) {
-    auto* p = new Probe(name, &heard, Vector(x, y));
+    auto* p = new Probe(name, &received, Vector(x, y));
     p->setSolidness(solidness);
     return p;
   }
@@ -22,7 +22,7 @@ TEST_F(MoveObject, FreeMoverMoves) {
   Probe* a = make("a", 10, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(12.5, 9)), 0);
   expectAt(*a, 12.5, 9);
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
 }
 
 TEST_F(MoveObject, BlockedMoverKeepsItsPosition) {
@@ -31,7 +31,7 @@ TEST_F(MoveObject, BlockedMoverKeepsItsPosition) {
   EXPECT_EQ(WM.moveObject(a, Vector(14.5, 10)), -1);
   expectAt(*a, 10, 10);
   expectAt(*b, 15, 10);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
 }
 
 TEST_F(MoveObject, TouchingEdgesCollideAndAHairApartDoesNot) {
@@ -41,14 +41,14 @@ TEST_F(MoveObject, TouchingEdgesCollideAndAHairApartDoesNot) {
   EXPECT_EQ(WM.moveObject(a, Vector(14 - 1.0 / 1024 / 1024, 11)), 0);
 }
 
-TEST_F(MoveObject, SoftPairsMoveAndBothHear) {
+TEST_F(MoveObject, SoftPairsMoveAndBothGetTheEvent) {
   for (const auto& [mover, other] : {std::pair{SOFT, SOFT}, std::pair{SOFT, HARD}, std::pair{HARD, SOFT}}) {
-    heard.clear();
+    received.clear();
     Probe* a = make("a", 10, 10, mover);
     Probe* b = make("b", 15, 10, other);
     EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
     expectAt(*a, 15, 10);
-    EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+    EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
     delete a;
     delete b;
   }
@@ -59,7 +59,7 @@ TEST_F(MoveObject, SpectralNeverCollides) {
   Probe* b = make("b", 15, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
   EXPECT_EQ(WM.moveObject(b, Vector(15.5, 10)), 0);
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
 }
 
 TEST_F(MoveObject, NoSoftMoverIsBlockedBySoft) {
@@ -67,19 +67,19 @@ TEST_F(MoveObject, NoSoftMoverIsBlockedBySoft) {
   Probe* b = make("b", 15, 10, SOFT);
   a->setNoSoft();
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
   // Only the mover's setting counts.
   EXPECT_EQ(WM.moveObject(b, Vector(10, 10)), 0);
 }
 
-TEST_F(MoveObject, AllOverlappedHearInCreationOrderEvenIfTheFirstBlocks) {
+TEST_F(MoveObject, AllOverlappedGetEventsInCreationOrderEvenIfTheFirstBlocks) {
   make("b", 15, 10);
   make("c", 15.5, 10, SOFT);
   Probe* a = make("a", 10, 10);
   make("d", 16, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(15.5, 10)), -1);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision", "a:df-collision", "c:df-collision",
-                          "a:df-collision", "d:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision", "a:df-collision", "c:df-collision",
+                                "a:df-collision", "d:df-collision"}));
 }
 
 TEST_F(MoveObject, CollisionEventNamesMoverOtherAndTarget) {
@@ -144,15 +144,15 @@ TEST_F(MoveObject, ListMemberDeletedByHandIsSkipped) {
   Probe* a = make("a", 10, 10, SOFT);
   b->on_event = [&](Probe&, const Event&) { delete std::exchange(c, nullptr); };
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
 }
 
-TEST_F(MoveObject, OtherDeletedByTheMoverHearsNothingAndBlocksNothing) {
+TEST_F(MoveObject, OtherDeletedByTheMoverGetsNoEventAndBlocksNothing) {
   Probe* a = make("a", 10, 10);
   Probe* b = make("b", 15, 10);
   a->on_event = [&](Probe&, const Event&) { delete b; };
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision"}));
 }
 
 TEST_F(MoveObject, MoverDeletedByHandEndsTheMove) {
@@ -162,7 +162,7 @@ TEST_F(MoveObject, MoverDeletedByHandEndsTheMove) {
   make("d", 15, 10);
   c->on_event = [&](Probe&, const Event&) { delete a; };
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision", "a:df-collision", "c:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision", "a:df-collision", "c:df-collision"}));
 }
 
 TEST_F(MoveObject, MoverMayDeleteItself) {
@@ -170,7 +170,7 @@ TEST_F(MoveObject, MoverMayDeleteItself) {
   make("b", 15, 10);
   a->on_event = [](Probe& self, const Event&) { delete &self; };
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
-  EXPECT_EQ(heard, (Heard{"a:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision"}));
 }
 
 TEST_F(MoveObject, MoverMarkedForDeleteGoesOn) {
@@ -186,32 +186,32 @@ TEST_F(MoveObject, NewcomersAtTheTargetAreNotInTheFixedList) {
   Probe* b = make("b", 15, 10);
   b->on_event = [&](Probe&, const Event&) { make("late", 15, 10, SOFT); };
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
 }
 
-TEST_F(MoveObject, InactiveNeitherCollidesNorHears) {
+TEST_F(MoveObject, InactiveNeitherCollidesNorGetsEvents) {
   Probe* a = make("a", 10, 10);
   Probe* b = make("b", 15, 10);
   b->setActive(false);
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
   b->setActive(true);
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
 }
 
-TEST_F(MoveObject, MemberMadeInactiveMeanwhileHearsNothing) {
+TEST_F(MoveObject, MemberMadeInactiveMeanwhileGetsNoEvents) {
   Probe* a = make("a", 10, 10, SOFT);
   Probe* b = make("b", 15, 10);
   a->on_event = [&](Probe&, const Event&) { b->setActive(false); };
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision"}));
 }
 
 TEST_F(MoveObject, MovingToWhereItIsTestsCollisions) {
   Probe* a = make("a", 10, 10, SOFT);
   make("b", 10, 10);
   EXPECT_EQ(WM.moveObject(a, a->getPosition()), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
 }
 
 TEST_F(MoveObject, NestedDeeperThan32IsRefused) {
@@ -235,14 +235,14 @@ TEST_F(MoveObject, NestedDeeperThan32IsRefused) {
 TEST_F(MoveObject, OutOnceWhenItLeavesAndNotOnReentry) {
   Probe* a = make("a", 78, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(79.99, 10)), 0);
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
   EXPECT_EQ(WM.moveObject(a, Vector(80, 10)), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-out"}));
+  EXPECT_EQ(received, (Received{"a:df-out"}));
   WM.moveObject(a, Vector(90, 10));
   WM.moveObject(a, Vector(70, 10));
-  EXPECT_EQ(heard.size(), 1u);
+  EXPECT_EQ(received.size(), 1u);
   WM.moveObject(a, Vector(70, -0.001));
-  EXPECT_EQ(heard.size(), 2u);
+  EXPECT_EQ(received.size(), 2u);
 }
 
 TEST_F(MoveObject, NoOutEventWhenPlacedOutsideOrBySetPosition) {
@@ -250,7 +250,7 @@ TEST_F(MoveObject, NoOutEventWhenPlacedOutsideOrBySetPosition) {
   WM.moveObject(a, Vector(-6, 10));
   a->setPosition(Vector(5, 5));
   a->setPosition(Vector(-5, 5));
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
 }
 
 TEST_F(MoveObject, OutIsJudgedJustBeforeTheFinalSet) {
@@ -260,7 +260,7 @@ TEST_F(MoveObject, OutIsJudgedJustBeforeTheFinalSet) {
     if (isCollision(e)) self.setPosition(Vector(-10, 10));  // outside already: the set takes it nowhere new
   };
   EXPECT_EQ(WM.moveObject(a, Vector(81.5, 10)), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
 }
 
 TEST_F(MoveObject, OutHandlerSeesThePositionOutsideAndMayDelete) {
@@ -278,7 +278,7 @@ TEST_F(MoveObject, OutFollowsTheBoundaryWithItsCorner) {
   ASSERT_EQ(WM.setBoundary(Box(Vector(100, 100), 10, 10)), 0);
   Probe* a = make("a", 100, 100);
   WM.moveObject(a, Vector(99.9, 100));
-  EXPECT_EQ(heard, (Heard{"a:df-out"}));
+  EXPECT_EQ(received, (Received{"a:df-out"}));
 }
 
 TEST_F(MoveObject, TargetOutOfRangeIsRefused) {

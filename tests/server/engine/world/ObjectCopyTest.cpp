@@ -19,9 +19,9 @@ class Card : public Object {
     setType("Card");
     registerInterest("turn");
   }
-  int eventHandler(const Event*) override { return ++heard; }
+  int eventHandler(const Event*) override { return ++received; }
   int cost;
-  int heard = 0;
+  int received = 0;
 };
 
 TEST_F(ObjectCopy, HasTheSameAttributesAndAnotherId) {
@@ -67,10 +67,10 @@ TEST_F(ObjectCopy, IsNotInTheWorld) {
   turn.setType("turn");
   EXPECT_EQ(WM.onEvent(&turn), 1);
   world.update();
-  EXPECT_EQ(card.heard, 1);
+  EXPECT_EQ(card.received, 1);
   expectAt(card, 1, 0);
   for (const Card& copy : hand) {
-    EXPECT_EQ(copy.heard, 0);
+    EXPECT_EQ(copy.received, 0);
     expectAt(copy, 0, 0);
   }
   EXPECT_EQ(WM.markForDelete(hand.data()), -1);
@@ -107,7 +107,7 @@ TEST_F(ObjectCopy, AssignmentKeepsPlaceInterestsAndId) {
   Event turn;
   turn.setType("turn");
   EXPECT_EQ(WM.onEvent(&turn), 1);
-  EXPECT_EQ(card.heard, 1);
+  EXPECT_EQ(card.received, 1);
 }
 
 TEST_F(ObjectCopy, AViewObjectTakesItsTextAlong) {

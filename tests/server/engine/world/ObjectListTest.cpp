@@ -116,7 +116,7 @@ TEST_F(ObjectListTest, IteratorSkipsTheDeadAndSurvivesDeletionInTheLoop) {
         visited.push_back(i);
         objects[i].reset();
         if (i == 2) objects[3].reset();
-        EXPECT_EQ(li.isDone(), i == 4);  // asking in between loses nobody
+        EXPECT_EQ(li.isDone(), i == 4);  // asking in between skips none
         break;
       }
     }

@@ -103,21 +103,21 @@ void build(std::vector<std::unique_ptr<Object>>& wall, int height) {
 TEST_F(ObjectText, WalksRoundAWallToItsTarget) {
   std::vector<std::unique_ptr<Object>> wall;
   build(wall, 20);
-  Probe walker("walker", &heard, Vector(10, 5));
+  Probe walker("walker", &received, Vector(10, 5));
   walker.setBox(Box(Vector(-0.4, -0.4), 0.8, 0.8));
   walker.setSpeed(0.7);
   walker.pathTo(Vector(30, 5));
-  EXPECT_EQ(heard, std::vector<std::string>{"walker:df-path"});
+  EXPECT_EQ(received, std::vector<std::string>{"walker:df-path"});
   EXPECT_TRUE(walker.getFollowPath());
   int ticks = 0;
   for (; walker.getFollowPath() && ticks < 200; ++ticks) world.tick();
   EXPECT_EQ(walker.getPosition(), Vector(30, 5));
   EXPECT_EQ(walker.getVelocity(), Vector());
-  EXPECT_EQ(heard.size(), 1u);  // it has touched nothing
+  EXPECT_EQ(received.size(), 1u);  // it has touched nothing
   EXPECT_GT(ticks, 50);
 }
 
-TEST_F(ObjectText, NoWayIsTold) {
+TEST_F(ObjectText, AnEventSaysThatThereIsNoPath) {
   std::vector<std::unique_ptr<Object>> wall;
   build(wall, 24);
   Probe walker("walker", nullptr, Vector(10, 5));

@@ -8,11 +8,11 @@
 namespace df::test {
 namespace {
 
-using Heard = std::vector<std::string>;
+using Received = std::vector<std::string>;
 
 class Players : public WorldTest {
  protected:
-  Players() : listener("listener", &heard) {
+  Players() : listener("listener", &received) {
     listener.setSolidness(SPECTRAL);
     for (const std::string& type : {JOIN_EVENT, LEAVE_EVENT, KEYBOARD_EVENT, MSE_EVENT}) {
       listener.registerInterest(type);
@@ -50,7 +50,7 @@ TEST_F(Players, JoinReturnsTheIdAtOnceAndTheEventComesNextTick) {
 TEST_F(Players, PlayerExistsUntilJustAfterTheLeaveEvent) {
   const std::uint32_t ann = joined("ann");
   world.leave(ann);
-  world.key(ann, Keyboard::A, KEY_PRESSED);  // after leaving: nobody's
+  world.key(ann, Keyboard::A, KEY_PRESSED);  // after leaving: ignored
   bool seen = false;
   listener.on_event = [&](Probe&, const Event& e) {
     seen = WM.getPlayer(dynamic_cast<const EventLeave&>(e).getPlayer()) != nullptr;
@@ -61,20 +61,20 @@ TEST_F(Players, PlayerExistsUntilJustAfterTheLeaveEvent) {
   world.leave(ann);
   world.leave(77);
   GM.tick();
-  EXPECT_EQ(heard, (Heard{"listener:df-join", "listener:df-leave"}));
+  EXPECT_EQ(received, (Received{"listener:df-join", "listener:df-leave"}));
   EXPECT_EQ(world.join("eve", RED), ann + 1);
 }
 
 TEST_F(Players, InputComesAfterTheStepEventInTheOrderItCame) {
   listener.registerInterest(STEP_EVENT);
   const std::uint32_t ann = joined("ann");
-  heard.clear();
+  received.clear();
   world.mouse(ann, CLICKED, Mouse::LEFT, 3, 4);
   world.key(ann, Keyboard::A, KEY_PRESSED);
   world.leave(ann);
   GM.tick();
-  EXPECT_EQ(heard,
-            (Heard{"listener:df-step", "listener:df-mouse", "listener:df-keyboard", "listener:df-leave"}));
+  EXPECT_EQ(received,
+            (Received{"listener:df-step", "listener:df-mouse", "listener:df-keyboard", "listener:df-leave"}));
 }
 
 TEST_F(Players, KeysNameTheirPlayer) {
@@ -112,7 +112,7 @@ TEST_F(Players, MousePositionIsInWorldCoordinates) {
   GM.tick();
   // The corner, at (160.5, 88), shows cell 161 in its first column.
   EXPECT_EQ(seen, Vector(164, 92));
-  EXPECT_EQ(heard, (Heard{"listener:df-join", "listener:df-mouse"}));
+  EXPECT_EQ(received, (Received{"listener:df-join", "listener:df-mouse"}));
 }
 
 TEST_F(Players, WithoutObjectTheyShareTheWorldsView) {
@@ -212,12 +212,12 @@ TEST_F(Players, TextsAreCheckedAndShownToOnePlayerOnly) {
   EXPECT_TRUE(player.facts().texts.empty());
 }
 
-TEST_F(Players, NothingHappensWhenNobodyCares) {
+TEST_F(Players, NothingHappensWithoutRegisteredInterests) {
   WM.removeObject(&listener);
   const std::uint32_t ann = world.join("ann", RED);
   world.key(ann, Keyboard::A, KEY_PRESSED);
   GM.tick();
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
   EXPECT_EQ(WM.getPlayers().size(), 1u);
 }
 

@@ -6,12 +6,12 @@
 namespace df::test {
 namespace {
 
-using Heard = std::vector<std::string>;
+using Received = std::vector<std::string>;
 
 class Precise : public WorldTest {
  protected:
   Probe* make(const std::string& name, double x, double y, const std::vector<std::string>& rows = {}) {
-    auto* p = new Probe(name, &heard, Vector(x, y));
+    auto* p = new Probe(name, &received, Vector(x, y));
     if (rows.empty()) return p;
     p->setBox(Box(Vector(-0.5, -0.5), static_cast<double>(rows[0].size()), static_cast<double>(rows.size())));
     EXPECT_EQ(p->setMask(rows), 0);
@@ -30,14 +30,14 @@ TEST_F(Precise, HolesDoNotCollide) {
   Probe* a = make("a", 30, 12);
   EXPECT_EQ(WM.moveObject(a, Vector(12, 12)), 0);
   expectAt(*a, 12, 12);
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
 }
 
 TEST_F(Precise, SetCharactersDo) {
   makeCorner(10, 10);
   Probe* a = make("a", 30, 12);
   EXPECT_EQ(WM.moveObject(a, Vector(12, 10)), -1);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "corner:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "corner:df-collision"}));
 }
 
 TEST_F(Precise, WithoutItTheMaskCountsForNothing) {
@@ -53,7 +53,7 @@ TEST_F(Precise, EitherOfTheTwoMakesThePairPrecise) {
   a->setPrecise();
   EXPECT_EQ(WM.moveObject(a, Vector(12, 12)), 0);
   EXPECT_EQ(WM.moveObject(corner, Vector(10, 10)), 0);
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
 }
 
 TEST_F(Precise, OthersInTheSameWorldCollideAsAlways) {
@@ -61,7 +61,7 @@ TEST_F(Precise, OthersInTheSameWorldCollideAsAlways) {
   make("b", 40, 12);
   Probe* a = make("a", 30, 12);
   EXPECT_EQ(WM.moveObject(a, Vector(39, 12)), -1);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
 }
 
 TEST_F(Precise, CharactersSideBySideShareNoCell) {
@@ -118,7 +118,7 @@ TEST_F(Precise, SweptOneFliesThroughTheHoles) {
   Probe* a = make("a", 10, 9);
   a->setSwept();
   EXPECT_EQ(WM.moveObject(a, Vector(40, 10)), 0);
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
   EXPECT_EQ(WM.moveObject(a, Vector(0, 12)), -1);
 }
 

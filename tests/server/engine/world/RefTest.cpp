@@ -66,7 +66,7 @@ TEST_F(Reference, IsNotFooledByASuccessorInTheSamePlace) {
   p_next->~Probe();
 }
 
-TEST_F(Reference, ToNobodyIsNull) {
+TEST_F(Reference, DefaultIsNull) {
   const Ref<Probe> none;
   const Ref<Probe> null = nullptr;
   EXPECT_FALSE(none);
@@ -136,7 +136,7 @@ TEST_F(Reference, SurvivesTheWorldAndItsObjects) {
   EXPECT_FALSE(ref);
 }
 
-TEST_F(Reference, ShutDownLeavesNobody) {
+TEST_F(Reference, ShutDownMakesAllNull) {
   const Ref<Probe> ref = new Probe;
   world.shutDown();
   EXPECT_FALSE(ref);

@@ -6,24 +6,25 @@
 namespace df::test {
 namespace {
 
-using Heard = std::vector<std::string>;
+using Received = std::vector<std::string>;
 
 class RestContacts : public WorldTest {
  protected:
   Probe* make(const std::string& name, double x, Solidness solidness = HARD) {
-    auto* p = new Probe(name, &heard, Vector(x, 10));
+    auto* p = new Probe(name, &received, Vector(x, 10));
     p->setSolidness(solidness);
     return p;
   }
 };
 
-TEST_F(RestContacts, OneAtRestHearsOfWhatTouchesItAtEachTurn) {
+TEST_F(RestContacts, OneAtRestGetsACollisionAtEachTurn) {
   Probe* mine = make("mine", 10);
   mine->setRestContacts();
   make("b", 11, SOFT);
   make("apart", 12.5);
   for (int i = 0; i < 2; ++i) WM.update();
-  EXPECT_EQ(heard, (Heard{"mine:df-collision", "b:df-collision", "mine:df-collision", "b:df-collision"}));
+  EXPECT_EQ(received,
+            (Received{"mine:df-collision", "b:df-collision", "mine:df-collision", "b:df-collision"}));
   expectAt(*mine, 10, 10);
 }
 
@@ -34,7 +35,7 @@ TEST_F(RestContacts, AreOffByDefaultAndCanBeSwitchedOff) {
   mine->setRestContacts();
   mine->setRestContacts(false);
   WM.update();
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
 }
 
 TEST_F(RestContacts, OneThatMovesIsTestedOnceAsAlways) {
@@ -43,11 +44,11 @@ TEST_F(RestContacts, OneThatMovesIsTestedOnceAsAlways) {
   mine->setVelocity(Vector(1, 0));
   make("b", 12, SOFT);
   WM.update();
-  EXPECT_EQ(heard.size(), 2u);
+  EXPECT_EQ(received.size(), 2u);
   expectAt(*mine, 11, 10);
 }
 
-TEST_F(RestContacts, SpectralAndInactiveOnesHearNothing) {
+TEST_F(RestContacts, SpectralAndInactiveOnesGetNoEvents) {
   Probe* mine = make("mine", 10, SPECTRAL);
   mine->setRestContacts();
   make("b", 11);
@@ -55,7 +56,7 @@ TEST_F(RestContacts, SpectralAndInactiveOnesHearNothing) {
   mine->setSolidness(HARD);
   mine->setActive(false);
   WM.update();
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
 }
 
 TEST_F(RestContacts, AreTheSameForASweptOne) {
@@ -64,7 +65,7 @@ TEST_F(RestContacts, AreTheSameForASweptOne) {
   mine->setSwept();
   make("b", 11);
   WM.update();
-  EXPECT_EQ(heard, (Heard{"mine:df-collision", "b:df-collision"}));
+  EXPECT_EQ(received, (Received{"mine:df-collision", "b:df-collision"}));
 }
 
 TEST_F(RestContacts, HandlersMayDeleteBoth) {
@@ -85,7 +86,7 @@ TEST_F(RestContacts, OneAtRestStillAccelerates) {
   mine->setAcceleration(Vector(0.5, 0));
   make("b", 9, SOFT);
   WM.update();
-  EXPECT_EQ(heard.size(), 2u);
+  EXPECT_EQ(received.size(), 2u);
   EXPECT_EQ(mine->getVelocity(), Vector(0.5, 0));
 }
 

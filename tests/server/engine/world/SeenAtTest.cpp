@@ -57,7 +57,7 @@ TEST_F(SeenAt, IsWhereTheBoxIsDrawn) {
   EXPECT_EQ(names(WM.objectsSeenAt(Vector(19, 11))), Names{});
 }
 
-TEST_F(SeenAt, LooksBackOnlyWhileAnInputIsHandledOfWhichSomebodyKnows) {
+TEST_F(SeenAt, GoesBackOnlyWhileAnInputWithAKnownTickIsHandled) {
   TenToTheLeft hindsight(world);
   world.setLagCompensation(&hindsight);
   const std::uint32_t ann = world.join("ann", RED);
@@ -103,7 +103,7 @@ TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
   world.mouse(bob, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   GM.tick();
   EXPECT_EQ(clicks, (std::vector<Vector>{Vector(37, 3), Vector(30, 5), Vector(30, 5)}))
-      << "of whom nobody says what he saw, the present view counts";
+      << "if no one says what the player saw, the present view counts";
   world.setLagCompensation(nullptr);
 }
 

@@ -111,7 +111,7 @@ TEST_F(SoundTest, WhatIsUnloadedStops) {
   EXPECT_EQ(world.view().sounds[1], (SoundPlayed{"theme", SoundPlayed::kStop, true, false, 0}));
 }
 
-TEST_F(SoundTest, MoreThanAnybodyHearsIsCounted) {
+TEST_F(SoundTest, SoundsBeyondTheLimitAreCounted) {
   RM.loadSound(kFile, "fire");
   world.setWatched(true);
   Probe probe;

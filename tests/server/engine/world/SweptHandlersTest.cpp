@@ -7,14 +7,14 @@ namespace {
 
 class SweptHandlers : public SweptWorld {};
 
-TEST_F(SweptHandlers, HardenedOneBlocksAndLaterOnesAreNotTold) {
+TEST_F(SweptHandlers, HardenedOneBlocksAndLaterOnesGetNoEvent) {
   Probe* b = make("b", 15, 10, SOFT);
   make("also", 15, 10, SOFT);
   make("c", 20, 10, SOFT);
   Probe* a = makeSwept("a", 10, 10);
   b->on_event = [](Probe& self, const Event&) { self.setSolidness(HARD); };
   EXPECT_EQ(WM.moveObject(a, Vector(30, 10)), -1);
-  EXPECT_EQ(heard, pairs("a", {"b", "also"}));
+  EXPECT_EQ(received, pairs("a", {"b", "also"}));
   expectAt(*a, 14 - kUnit, 10);
 }
 
@@ -25,7 +25,7 @@ TEST_F(SweptHandlers, PassesOnWhenTheGlassIsDeleted) {
   make("wall", 30, 10);
   glass->on_event = [](Probe& self, const Event&) { delete &self; };
   EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
-  EXPECT_EQ(heard, pairs("a", {"glass", "near", "wall"}));
+  EXPECT_EQ(received, pairs("a", {"glass", "near", "wall"}));
   expectAt(*a, 29 - kUnit, 10);
 }
 
@@ -35,21 +35,21 @@ TEST_F(SweptHandlers, PassesOnWhenTheGlassTurnsSoftAndMeetsItOnce) {
   make("soft", 15, 10, SOFT);
   glass->on_event = [](Probe& self, const Event&) { self.setSolidness(SOFT); };
   EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), 0);
-  EXPECT_EQ(heard, pairs("a", {"soft", "glass"}));
+  EXPECT_EQ(received, pairs("a", {"soft", "glass"}));
   expectAt(*a, 50, 10);
 }
 
-TEST_F(SweptHandlers, BreaksAsManyGlassesAsStandInItsWay) {
+TEST_F(SweptHandlers, BreaksAllGlassesOnItsPath) {
   Probe* a = makeSwept("a", 10, 10);
   for (int i = 0; i < 60; ++i) {
     make("glass", 20 + 0.5 * i, 10)->on_event = [](Probe& self, const Event&) { delete &self; };
   }
   EXPECT_EQ(WM.moveObject(a, Vector(70, 10)), 0);
-  EXPECT_EQ(heard.size(), 120u);
+  EXPECT_EQ(received.size(), 120u);
   expectAt(*a, 70, 10);
 }
 
-TEST_F(SweptHandlers, SearchesTheRestOfTheWayInTheWorldAsItIsThen) {
+TEST_F(SweptHandlers, SearchesTheRestOfThePathInTheWorldAsItIsThen) {
   Probe* a = makeSwept("a", 10, 10);
   Probe* glass = make("glass", 20, 10);
   Probe* aside = make("aside", 30, 20);
@@ -62,7 +62,7 @@ TEST_F(SweptHandlers, SearchesTheRestOfTheWayInTheWorldAsItIsThen) {
     delete &self;
   };
   EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
-  EXPECT_EQ(heard, pairs("a", {"glass", "new", "aside"}));
+  EXPECT_EQ(received, pairs("a", {"glass", "new", "aside"}));
   expectAt(*a, 39 - kUnit, 10);
 }
 
@@ -77,9 +77,9 @@ TEST_F(SweptHandlers, OneThatWasMetIsNotMetAgainFurtherOn) {
     self.setPosition(Vector(40, 10));
     self.setSolidness(SOFT);
   };
-  heard.clear();
+  received.clear();
   EXPECT_EQ(WM.moveObject(a, Vector(60, 10)), 0);
-  EXPECT_EQ(heard, pairs("a", {"glass"}));
+  EXPECT_EQ(received, pairs("a", {"glass"}));
 }
 
 TEST_F(SweptHandlers, MoverThatTurnsSpectralPassesToItsTarget) {
@@ -88,11 +88,11 @@ TEST_F(SweptHandlers, MoverThatTurnsSpectralPassesToItsTarget) {
   make("wall", 30, 10);
   a->on_event = [](Probe& self, const Event&) { self.setSolidness(SPECTRAL); };
   EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), 0);
-  EXPECT_EQ(heard, pairs("a", {"glass"}));
+  EXPECT_EQ(received, pairs("a", {"glass"}));
   expectAt(*a, 50, 10);
 }
 
-TEST_F(SweptHandlers, MoverThatGrowsHasItsNewBoxOnTheRestOfTheWay) {
+TEST_F(SweptHandlers, MoverThatGrowsHasItsNewBoxOnTheRestOfThePath) {
   Probe* a = makeSwept("a", 10, 10);
   Probe* glass = make("glass", 20, 10);
   make("wall", 30, 14);
@@ -104,7 +104,7 @@ TEST_F(SweptHandlers, MoverThatGrowsHasItsNewBoxOnTheRestOfTheWay) {
   expectAt(*a, 25.5 - kUnit, 10);
 }
 
-TEST_F(SweptHandlers, GlassThatIsAlwaysPutUpAnewStopsTheMoverInTheEnd) {
+TEST_F(SweptHandlers, GlassThatIsReplacedEachTimeStopsTheMoverInTheEnd) {
   Probe* a = makeSwept("a", 10, 10);
   make("glass", 20, 10);
   int glasses = 0;
@@ -124,7 +124,7 @@ TEST_F(SweptHandlers, DeletedMoverEndsTheMove) {
   make("c", 30, 10, SOFT);
   a->on_event = [](Probe& self, const Event&) { delete &self; };
   EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
-  EXPECT_EQ(heard, (Heard{"a:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision"}));
 }
 
 TEST_F(SweptHandlers, BlockedMoverStaysWhereAHandlerPutIt) {
@@ -153,8 +153,8 @@ TEST_F(SweptHandlers, NestedMovesHaveListsOfTheirOwn) {
     WM.moveObject(&self, Vector(40, 10));
   };
   EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision", "b:df-collision", "on both ways:df-collision",
-                          "a:df-collision", "on both ways:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision", "b:df-collision",
+                                "on both ways:df-collision", "a:df-collision", "on both ways:df-collision"}));
 }
 
 TEST_F(SweptHandlers, NestedDeeperThan32IsRefused) {

@@ -23,7 +23,7 @@ TEST_F(SweptMoves, BlockedMoverStandsOneUnitBeforeTheContact) {
   make("b", 20, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
   expectAt(*a, 19 - kUnit, 10);
-  EXPECT_EQ(heard, pairs("a", {"b"}));
+  EXPECT_EQ(received, pairs("a", {"b"}));
   EXPECT_TRUE(WM.getCollisions(a, a->getPosition()).isEmpty());
 }
 
@@ -42,7 +42,7 @@ TEST_F(SweptMoves, MoveThatTouchesExactlyAtItsEndIsBlockedThere) {
   EXPECT_EQ(WM.moveObject(a, Vector(19 - kUnit, 9)), 0);
 }
 
-TEST_F(SweptMoves, EventTellsThePositionJustBeforeTheContact) {
+TEST_F(SweptMoves, EventHasThePositionJustBeforeTheContact) {
   Probe* a = makeSwept("a", 10, 10);
   Probe* b = make("b", 20, 10);
   int seen = 0;
@@ -60,7 +60,7 @@ TEST_F(SweptMoves, EventTellsThePositionJustBeforeTheContact) {
   EXPECT_EQ(seen, 2);
 }
 
-TEST_F(SweptMoves, SoftOnesOnTheWayHearInTheOrderOfTimeThenCreation) {
+TEST_F(SweptMoves, SoftOnesOnThePathGetEventsInTheOrderOfTimeThenCreation) {
   make("far", 40, 10, SOFT);
   make("second", 20, 10.5, SOFT);
   make("third", 20, 9.5, SOFT);
@@ -69,21 +69,21 @@ TEST_F(SweptMoves, SoftOnesOnTheWayHearInTheOrderOfTimeThenCreation) {
   Probe* a = makeSwept("a", 10, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(60, 10)), 0);
   expectAt(*a, 60, 10);
-  EXPECT_EQ(heard, pairs("a", {"first", "second", "third", "far"}));
+  EXPECT_EQ(received, pairs("a", {"first", "second", "third", "far"}));
 }
 
-TEST_F(SweptMoves, BlockedMoverIsNotToldOfWhatLiesBehind) {
+TEST_F(SweptMoves, BlockedMoverGetsNoEventOfWhatLiesBehind) {
   make("behind", 30, 10, SOFT);
   makeWall("wall", 25);
   make("at once", 25, 10, SOFT);
   make("before", 15, 10, SOFT);
   Probe* a = makeSwept("a", 10, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(60, 10)), -1);
-  EXPECT_EQ(heard, pairs("a", {"before", "wall", "at once"}));
+  EXPECT_EQ(received, pairs("a", {"before", "wall", "at once"}));
   expectAt(*a, 24 - kUnit, 10);
 }
 
-TEST_F(SweptMoves, NoSoftMoverIsBlockedOnTheWay) {
+TEST_F(SweptMoves, NoSoftMoverIsBlockedOnThePath) {
   Probe* a = makeSwept("a", 10, 10);
   a->setNoSoft();
   make("b", 20, 10, SOFT);
@@ -96,7 +96,7 @@ TEST_F(SweptMoves, MaySlideAlongAWallAndLeaveIt) {
   makeWall("wall", 20);
   Probe* a = makeSwept("a", 10, 10);
   WM.moveObject(a, Vector(30, 10));
-  heard.clear();
+  received.clear();
   EXPECT_EQ(WM.moveObject(a, Vector(19 - kUnit, 15)), 0);
   expectAt(*a, 19 - kUnit, 15);
   a->setPosition(Vector(19, 15));  // touching
@@ -105,7 +105,7 @@ TEST_F(SweptMoves, MaySlideAlongAWallAndLeaveIt) {
   a->setPosition(Vector(19, 20));
   EXPECT_EQ(WM.moveObject(a, Vector(19, 30)), 0);  // off its end
   expectAt(*a, 19, 30);
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
 }
 
 TEST_F(SweptMoves, TouchingMoverIsBlockedAtOnceIfItMovesCloser) {
@@ -113,7 +113,7 @@ TEST_F(SweptMoves, TouchingMoverIsBlockedAtOnceIfItMovesCloser) {
   Probe* a = makeSwept("a", 10, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(20, 10)), -1);
   expectAt(*a, 10, 10);
-  EXPECT_EQ(heard, pairs("a", {"b"}));
+  EXPECT_EQ(received, pairs("a", {"b"}));
 }
 
 TEST_F(SweptMoves, OthersStandWhereTheyAreNow) {
@@ -139,7 +139,7 @@ TEST_F(SweptMoves, MoversThatCrossInOneTickMeet) {
   expectAt(*b, 20, 10);
 }
 
-TEST_F(SweptMoves, SwitchOfTheWorldSweepsEverybody) {
+TEST_F(SweptMoves, SwitchOfTheWorldSweepsAll) {
   make("wall", 20, 10);
   Probe* a = make("a", 10, 10);
   EXPECT_FALSE(WM.getSweptCollisions());
@@ -162,7 +162,7 @@ TEST_F(SweptMoves, BlockedMoverGoesOnTryingAndIsBlocked) {
   for (int i = 0; i < 4; ++i) WM.update();
   expectAt(*a, 19 - kUnit, 10);
   EXPECT_EQ(a->getVelocity(), Vector(5, 0));
-  EXPECT_EQ(heard.size(), 6u);
+  EXPECT_EQ(received.size(), 6u);
 }
 
 TEST_F(SweptMoves, HoldsAtAnySpeed) {
@@ -206,16 +206,16 @@ TEST_F(SweptMoves, HoldsAtTheEndOfTheNumberRange) {
 TEST_F(SweptMoves, OutEventComesOnceAtTheTargetOrWhereItStops) {
   Probe* a = makeSwept("a", 70, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(100, 10)), 0);
-  EXPECT_EQ(heard, (Heard{"a:df-out"}));
+  EXPECT_EQ(received, (Received{"a:df-out"}));
   make("beyond", 90, 10);
   a->setPosition(Vector(70, 10));
-  heard.clear();
+  received.clear();
   double x = 0;
   a->on_event = [&](Probe& self, const Event& e) {
     if (!isCollision(e)) x = self.getPosition().x();
   };
   EXPECT_EQ(WM.moveObject(a, Vector(100, 10)), -1);
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "beyond:df-collision", "a:df-out"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "beyond:df-collision", "a:df-out"}));
   EXPECT_EQ(x, 89 - kUnit);
 }
 

@@ -8,7 +8,7 @@
 
 namespace df::test {
 
-using Heard = std::vector<std::string>;
+using Received = std::vector<std::string>;
 
 /// The distance of neighbouring positions, in cells.
 inline constexpr double kUnit = 1 / 4294967296.0;
@@ -16,7 +16,7 @@ inline constexpr double kUnit = 1 / 4294967296.0;
 class SweptWorld : public WorldTest {
  protected:
   Probe* make(const std::string& name, double x, double y, Solidness solidness = HARD) {
-    auto* p = new Probe(name, &heard, Vector(x, y));
+    auto* p = new Probe(name, &received, Vector(x, y));
     p->setSolidness(solidness);
     return p;
   }
@@ -31,8 +31,8 @@ class SweptWorld : public WorldTest {
     p->setBox(Box(Vector(-0.5, -0.5), 1, 24));
     return p;
   }
-  static Heard pairs(const std::string& mover, const std::vector<std::string>& others) {
-    Heard list;
+  static Received pairs(const std::string& mover, const std::vector<std::string>& others) {
+    Received list;
     for (const std::string& other : others) {
       list.push_back(mover + ":df-collision");
       list.push_back(other + ":df-collision");

@@ -4,12 +4,12 @@
 namespace df::test {
 namespace {
 
-using Heard = std::vector<std::string>;
+using Received = std::vector<std::string>;
 
 class Update : public WorldTest {
  protected:
   Probe* make(const std::string& name, double x, double y, Vector velocity = {}) {
-    auto* p = new Probe(name, &heard, Vector(x, y));
+    auto* p = new Probe(name, &received, Vector(x, y));
     p->setVelocity(velocity);
     return p;
   }
@@ -74,21 +74,21 @@ TEST_F(Update, HeadOnMoversRaiseFourEvents) {
   make("a", 10, 10, Vector(1, 0));
   make("b", 11.5, 10, Vector(-1, 0));
   WM.update();
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision", "b:df-collision", "a:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision", "b:df-collision", "a:df-collision"}));
 }
 
 TEST_F(Update, HardObjectPushingAWallRaisesAPairEveryTick) {
   make("wall", 12, 10);
   make("a", 10.75, 10, Vector(1, 0));
   for (int i = 0; i < 3; ++i) WM.update();
-  EXPECT_EQ(heard.size(), 6u);
+  EXPECT_EQ(received.size(), 6u);
 }
 
 TEST_F(Update, ObjectsAtRestRaiseNothing) {
   make("a", 10, 10);
   make("b", 10, 10);
   WM.update();
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
 }
 
 TEST_F(Update, InactiveIsNotMoved) {
@@ -158,35 +158,35 @@ TEST_F(Update, BornInAStepHandlerIsMovedInTheSameTickWithoutAStepEvent) {
   };
   GM.tick();
   expectAt(*born, 35, 10);
-  EXPECT_EQ(heard, (Heard{"a:df-step"}));
+  EXPECT_EQ(received, (Received{"a:df-step"}));
   GM.tick();
-  EXPECT_EQ(heard, (Heard{"a:df-step", "a:df-step", "born:df-step"}));
+  EXPECT_EQ(received, (Received{"a:df-step", "a:df-step", "born:df-step"}));
 }
 
-TEST_F(Update, MarkedObjectMovesCollidesAndHearsUntilTheEnd) {
+TEST_F(Update, MarkedObjectMovesCollidesAndGetsEventsUntilTheEnd) {
   Probe* a = make("a", 10, 10, Vector(1, 0));
   Probe* b = make("b", 11.5, 10);
   WM.markForDelete(a);
   EXPECT_EQ(WM.markForDelete(a), 0);  // twice is once
   WM.markForDelete(b);
   WM.update();
-  EXPECT_EQ(heard, (Heard{"a:df-collision", "b:df-collision"}));
+  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
   EXPECT_EQ(world.getObjectCount(), 0);
 }
 
 TEST_F(Update, DeletionsGoInOrderOfTheMarks) {
   struct Dying : Object {
-    Dying(std::string n, Heard* list) : name(std::move(n)), p_list(list) {}
+    Dying(std::string n, Received* list) : name(std::move(n)), p_list(list) {}
     ~Dying() override { p_list->push_back(name); }
     std::string name;
-    Heard* p_list;
+    Received* p_list;
   };
-  Object* a = new Dying("a", &heard);
-  Object* b = new Dying("b", &heard);
+  Object* a = new Dying("a", &received);
+  Object* b = new Dying("b", &received);
   WM.markForDelete(b);
   WM.markForDelete(a);
   WM.update();
-  EXPECT_EQ(heard, (Heard{"b", "a"}));
+  EXPECT_EQ(received, (Received{"b", "a"}));
 }
 
 TEST_F(Update, MarkOfAnObjectDeletedByHandDoesNotHitItsSuccessor) {

@@ -210,7 +210,7 @@ TEST_F(WorldLife, AGameMayAddAManager) {
   EXPECT_EQ(music.startUp(), 0);
   EXPECT_TRUE(music.isStarted());
   EXPECT_EQ(music.getType(), "Music");
-  Probe p("p", &heard);
+  Probe p("p", &received);
   p.registerInterest("song");
   Event song;
   song.setType("song");
