@@ -262,11 +262,7 @@ class WorldStore : public ObjectFlags {
   void touch(Slot s) {
     if (m_watched) noteChange(s);
   }
-  void noteChange(Slot s) {
-    if (has(s, kDirty)) return;
-    m_cards[s].flags |= kDirty;
-    m_dirty.push_back(s);
-  }
+  void noteChange(Slot s);
   void settleChanged(Slot s, FixedVector velocity, bool blocked);
   void file(Slot s);
   void classify(Slot s);

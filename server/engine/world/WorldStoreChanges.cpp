@@ -19,6 +19,12 @@ void WorldStore::setWatched(bool watched) {
   }
 }
 
+void WorldStore::noteChange(Slot s) {
+  if (has(s, kDirty)) return;
+  m_cards[s].flags |= kDirty;
+  m_dirty.push_back(s);
+}
+
 void WorldStore::report(WorldView& view) {
   for (Slot s : m_dirty) {
     m_cards[s].flags &= static_cast<std::uint32_t>(~kDirty);
