@@ -81,12 +81,12 @@ double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, 
          1e-15 * (length(offset) + length(relative_displacement));
 }
 
-ImpactTime timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
-                        const RigidMotion& motion_b, Vec2 offset, double target) {
+TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
+                          const RigidMotion& motion_b, Vec2 offset, double target) {
   const Vec2 way = motion_b.displacement - motion_a.displacement;
   const double tolerance = impactTolerance(a, b, offset, way), radii = a.radius + b.radius;
   const double speed = length(way);
-  ImpactTime result;
+  TimeOfImpact result;
   const double around = a.reach + b.reach + radii + target;
   const Span span = nearTimes(offset, way, around * (1 + 1e-6) + 16 * tolerance);
   if (span.from > span.to) return result;
@@ -105,7 +105,7 @@ ImpactTime timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const
       level = gap - 4 * tolerance;
     }
     const auto hit = [&] {
-      result.status = ImpactStatus::kHit;
+      result.status = TimeOfImpactStatus::kHit;
       result.time = time, result.gap = gap, result.normal = s.normal;
       return result;
     };
@@ -130,7 +130,7 @@ ImpactTime timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const
     time += safe;
   }
   --result.iterations;
-  result.status = ImpactStatus::kUnresolved;
+  result.status = TimeOfImpactStatus::kUnresolved;
   result.time = time;
   return result;
 }

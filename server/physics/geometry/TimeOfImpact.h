@@ -19,14 +19,14 @@ struct RigidMotion {
   double turn = 0;  ///< radians
 };
 
-enum class ImpactStatus : std::uint8_t {
+enum class TimeOfImpactStatus : std::uint8_t {
   kApart,       ///< they do not touch
   kHit,         ///< they touch at `time`
   kUnresolved,  ///< still apart at `time`, and not known any further: out of iterations. To be counted.
 };
 
-struct ImpactTime {
-  ImpactStatus status = ImpactStatus::kApart;
+struct TimeOfImpact {
+  TimeOfImpactStatus status = TimeOfImpactStatus::kApart;
   bool touched_before = false;  ///< they touched or overlapped at time 0
   double time = 1;              ///< never late
   double gap = 0;               ///< between the surfaces at `time`, if they hit
@@ -43,7 +43,7 @@ double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, 
 /// tolerance of it. A pair that is as near as that at time 0 hits when it has come nearer by another four
 /// tolerances: one that slides, rests or separates does not. `offset` is from A's origin to B's at time 0;
 /// everything is finite and the displacements are up to 1e9 cells.
-ImpactTime timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
-                        const RigidMotion& motion_b, Vec2 offset, double target = 0);
+TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
+                          const RigidMotion& motion_b, Vec2 offset, double target = 0);
 
 }  // namespace naiad::physics

@@ -320,8 +320,8 @@ void ImpactWorld::sortEvents() {
   for (std::size_t i = 0; i < kept; ++i) m_events[i].order = static_cast<int>(i);
 }
 
-ImpactStatus ImpactWorld::step(double dt) {
-  if (!(dt > 0 && dt < 1e12)) return ImpactStatus::kRefused;
+ImpactStepStatus ImpactWorld::step(double dt) {
+  if (!(dt > 0 && dt < 1e12)) return ImpactStepStatus::kRefused;
   const std::int64_t frozen_before = m_counters.quarantined;
   ++m_counters.ticks;
   m_stepped = dt;
@@ -342,7 +342,7 @@ ImpactStatus ImpactWorld::step(double dt) {
     m_motions[id].has_reach = false;
   }
   sortEvents();
-  return m_counters.quarantined == frozen_before ? ImpactStatus::kDone : ImpactStatus::kQuarantined;
+  return m_counters.quarantined == frozen_before ? ImpactStepStatus::kDone : ImpactStepStatus::kQuarantined;
 }
 
 }  // namespace naiad::physics

@@ -38,7 +38,7 @@ struct ImpactCounters {
   std::int64_t quarantined = 0;  ///< bodies frozen
 };
 
-enum class ImpactStatus : std::uint8_t {
+enum class ImpactStepStatus : std::uint8_t {
   kDone,
   kQuarantined,  ///< done, and at least one body had to be frozen
   kRefused       ///< not a time; nothing happened
@@ -83,7 +83,7 @@ class ImpactWorld {
   void setReach(int id, const Place& centre, Vec2 half);
 
   /// Goes on by `dt` > 0 ticks, or until a body would leave its reach.
-  ImpactStatus step(double dt = 1);
+  ImpactStepStatus step(double dt = 1);
   /// How far the last step went on.
   double stepped() const { return m_stepped; }
 

@@ -104,10 +104,10 @@ void RigidWorld::forecastPair(int one, int other, double h) {
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(of_b.shapes.size()); ++j) {
       if (!has_met && !has_turned && isSolved(a, b, i, j)) continue;
       ++m_counters.sweeps;
-      const ImpactTime impact =
+      const TimeOfImpact impact =
           timeOfImpact(of_a.shapes[at(i)], motion_a, of_b.shapes[at(j)], motion_b, offset);
-      if (impact.status == ImpactStatus::kApart) continue;
-      if (impact.status == ImpactStatus::kUnresolved) ++m_counters.unresolved;
+      if (impact.status == TimeOfImpactStatus::kApart) continue;
+      if (impact.status == TimeOfImpactStatus::kUnresolved) ++m_counters.unresolved;
       const double time = start + (1 - start) * impact.time;
       if (time < first.time) first = {time, a, b, i, j, impact.normal};
     }

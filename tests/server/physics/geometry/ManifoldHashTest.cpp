@@ -46,7 +46,7 @@ TEST(Manifold, AndAllGeometryIsTheSameBitsEverywhere) {
             hash.add(std::uint64_t{m.points[k].id});
       }
     }
-    const ImpactTime impact = timeOfImpact(a, motion_a, b, motion_b, 3 * offset);
+    const TimeOfImpact impact = timeOfImpact(a, motion_a, b, motion_b, 3 * offset);
     hash.add(impact.time), hash.add(impact.gap), hash.add(impact.normal);
     const RayHit hit = castRay(a, offset, motion_a.displacement);
     hash.add(hit.fraction), hash.add(hit.normal);

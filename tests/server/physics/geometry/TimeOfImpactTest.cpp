@@ -54,7 +54,7 @@ struct Tally {
 
 // Judges one scene against `samples` slow looks at it.
 void judge(const Scene& s, int samples, Tally& tally, int i) {
-  const ImpactTime result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
+  const TimeOfImpact result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
   const Vec2 way = s.motion_b.displacement - s.motion_a.displacement;
   const double tolerance = 4 * impactTolerance(s.a, s.b, s.offset, way) + 1e-12;
   tally.iterations += result.iterations;
@@ -64,9 +64,9 @@ void judge(const Scene& s, int samples, Tally& tally, int i) {
     ASSERT_LE(gapAt(s, 0), tolerance) << i;
     return;
   }
-  if (result.status == ImpactStatus::kUnresolved) {
+  if (result.status == TimeOfImpactStatus::kUnresolved) {
     ++tally.unresolved;
-  } else if (result.status == ImpactStatus::kHit) {
+  } else if (result.status == TimeOfImpactStatus::kHit) {
     ++tally.hits;
     // They do touch then …
     ASSERT_LE(gapAt(s, result.time), tolerance) << i;
@@ -133,13 +133,13 @@ TEST(TimeOfImpact, IsTheClosedFormForCircles) {
     const long double passes = (vx * y - vy * x) / std::sqrt(vx * vx + vy * vy);
     const long double inside = r * r - passes * passes;
     if (x * x + y * y <= r * r * 1.0001L || std::fabs(inside) < 1e-3L) continue;
-    const ImpactTime result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
+    const TimeOfImpact result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
     const long double vv = vx * vx + vy * vy, t = (-(x * vx + y * vy) - std::sqrt(inside * vv)) / vv;
     if (inside < 0 || t < 0 || t > 1) {
-      ASSERT_EQ(result.status, ImpactStatus::kApart) << i;
+      ASSERT_EQ(result.status, TimeOfImpactStatus::kApart) << i;
     } else {
       ++hits;
-      ASSERT_EQ(result.status, ImpactStatus::kHit) << i;
+      ASSERT_EQ(result.status, TimeOfImpactStatus::kHit) << i;
       // The error of the place, not of the time, is what matters.
       ASSERT_LE(std::fabs(static_cast<double>(result.time - t)) * length(way),
                 40 * impactTolerance(s.a, s.b, s.offset, way));
@@ -157,20 +157,20 @@ ConvexShape box(double half) {
 TEST(TimeOfImpact, APairThatTouchesAndPartsOrSlidesDoesNotHit) {
   const ConvexShape a = box(0.5), b = box(0.5);
   for (const Vec2 way : {Vec2{0, -1}, {5, 0}, {-1e6, 0}, {3, -1e-9}, {0, 0}, {1e6, -1e6}}) {
-    const ImpactTime result = timeOfImpact(a, {}, b, {way, {}, 0}, {0, -1});
+    const TimeOfImpact result = timeOfImpact(a, {}, b, {way, {}, 0}, {0, -1});
     EXPECT_TRUE(result.touched_before);
-    EXPECT_EQ(result.status, ImpactStatus::kApart) << way.x << ", " << way.y;
+    EXPECT_EQ(result.status, TimeOfImpactStatus::kApart) << way.x << ", " << way.y;
   }
   for (const Vec2 way : {Vec2{0, 1}, {0.4, 1e-3}, {0, 1e6}}) {
-    const ImpactTime result = timeOfImpact(a, {}, b, {way, {}, 0}, {0, -1});
+    const TimeOfImpact result = timeOfImpact(a, {}, b, {way, {}, 0}, {0, -1});
     EXPECT_TRUE(result.touched_before);
-    ASSERT_EQ(result.status, ImpactStatus::kHit);
+    ASSERT_EQ(result.status, TimeOfImpactStatus::kHit);
     EXPECT_LE(result.time * length(way), 1e-5);
     EXPECT_NEAR(result.normal.y, -1, 1e-12);
   }
   // Overlapping and parting; overlapping and sinking in.
-  EXPECT_EQ(timeOfImpact(a, {}, b, {{0, -3}, {}, 0}, {0, -0.9}).status, ImpactStatus::kApart);
-  EXPECT_EQ(timeOfImpact(a, {}, b, {{0, 0.3}, {}, 0}, {0, -0.9}).status, ImpactStatus::kHit);
+  EXPECT_EQ(timeOfImpact(a, {}, b, {{0, -3}, {}, 0}, {0, -0.9}).status, TimeOfImpactStatus::kApart);
+  EXPECT_EQ(timeOfImpact(a, {}, b, {{0, 0.3}, {}, 0}, {0, -0.9}).status, TimeOfImpactStatus::kHit);
 }
 
 // Pairs that touch at the start: what counts from there on is whether they come nearer.
@@ -187,17 +187,17 @@ TEST(TimeOfImpact, APairThatTouchesHitsWhenItComesNearer) {
     s.offset -= (first.distance - (s.a.radius + s.b.radius)) * first.normal;
     // Moved along the normal of overlapping or distant shapes they need not touch yet.
     if (std::fabs(gapAt(s, 0)) > 1e-12) continue;
-    const ImpactTime result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
+    const TimeOfImpact result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
     ASSERT_TRUE(result.touched_before);
-    ASSERT_NE(result.status, ImpactStatus::kUnresolved) << i;
+    ASSERT_NE(result.status, TimeOfImpactStatus::kUnresolved) << i;
     // Cores that overlap have no gap for the slow way to tell: below minus the radii it is the same for all.
     const double tolerance = 8 * impactTolerance(s.a, s.b, s.offset, s.motion_b.displacement) + 1e-12;
     for (int k = 0; k <= 400; ++k) {
       const double t = k / 400.0;
-      if (result.status == ImpactStatus::kHit && t >= result.time) break;
+      if (result.status == TimeOfImpactStatus::kHit && t >= result.time) break;
       ASSERT_GT(gapAt(s, t), -tolerance) << i << " at " << t;
     }
-    result.status == ImpactStatus::kHit ? ++(result.time > 1e-3 ? late : hits) : ++apart;
+    result.status == TimeOfImpactStatus::kHit ? ++(result.time > 1e-3 ? late : hits) : ++apart;
   }
   EXPECT_GT(hits, 1000);
   EXPECT_GT(late, 500);
@@ -206,8 +206,8 @@ TEST(TimeOfImpact, APairThatTouchesHitsWhenItComesNearer) {
 
 TEST(TimeOfImpact, StopsAtTheTargetDistance) {
   const ConvexShape a = box(0.5), b = box(0.5);
-  const ImpactTime result = timeOfImpact(a, {}, b, {{0, 10}, {}, 0}, {0.3, -6}, 0.25);
-  ASSERT_EQ(result.status, ImpactStatus::kHit);
+  const TimeOfImpact result = timeOfImpact(a, {}, b, {{0, 10}, {}, 0}, {0.3, -6}, 0.25);
+  ASSERT_EQ(result.status, TimeOfImpactStatus::kHit);
   EXPECT_NEAR(result.time, 0.475, 1e-12);
   EXPECT_NEAR(result.gap, 0.25, 1e-9);
 }
@@ -216,8 +216,8 @@ TEST(TimeOfImpact, SwappedItIsTheSameTime) {
   SplitMix64 random(8);
   for (int i = 0; i < 20000; ++i) {
     const Scene s = anyScene(random, 10, 2);
-    const ImpactTime there = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
-    const ImpactTime back = timeOfImpact(s.b, s.motion_b, s.a, s.motion_a, -s.offset);
+    const TimeOfImpact there = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
+    const TimeOfImpact back = timeOfImpact(s.b, s.motion_b, s.a, s.motion_a, -s.offset);
     ASSERT_EQ(there.status, back.status);
     ASSERT_NEAR(there.time, back.time, 1e-9) << i;
   }
@@ -231,10 +231,10 @@ TEST(TimeOfImpact, ABulletThroughAThinWallAtAnySpeed) {
   for (int i = 0; i < 100000; ++i) {
     const double speed = std::pow(10, between(random, 0, 6)), at = between(random, 0.01, 0.99);
     const RigidMotion motion = {{speed, between(random, -5, 5)}, anyRotation(random), between(random, -6, 6)};
-    const ImpactTime result = timeOfImpact(wall, {}, bullet, motion, {-speed * at, 0});
-    ASSERT_NE(result.status, ImpactStatus::kApart) << i;
+    const TimeOfImpact result = timeOfImpact(wall, {}, bullet, motion, {-speed * at, 0});
+    ASSERT_NE(result.status, TimeOfImpactStatus::kApart) << i;
     if (!result.touched_before) {
-      ASSERT_EQ(result.status, ImpactStatus::kHit) << i;
+      ASSERT_EQ(result.status, TimeOfImpactStatus::kHit) << i;
       ASSERT_LT(result.time, at);
       ASSERT_GT(result.time, at - 0.1 / speed);
     }

@@ -107,7 +107,7 @@ TEST(ImpactProperty, NothingOverlapsAndWhatIsKeptIsKept) {
     fill(world, scene);
     const Kept before = keptOf(world);
     for (int tick = 0; tick < 20; ++tick) {
-      ASSERT_EQ(world.step(), ImpactStatus::kDone) << seed;
+      ASSERT_EQ(world.step(), ImpactStepStatus::kDone) << seed;
       ASSERT_LE(deepestOverlap(world), 1e-9) << seed << ' ' << tick;
     }
     const Kept after = keptOf(world);
@@ -165,7 +165,7 @@ TEST(ImpactProperty, ASceneFarAwayChangesNothing) {
     fill(last, other, 100000);
     for (int tick = 0; tick < 20; ++tick) {
       alone.step();
-      EXPECT_EQ(first.step(), tick == 0 ? ImpactStatus::kQuarantined : ImpactStatus::kDone);
+      EXPECT_EQ(first.step(), tick == 0 ? ImpactStepStatus::kQuarantined : ImpactStepStatus::kDone);
       last.step();
     }
     for (int i = 0; i < alone.idLimit(); ++i) {
@@ -208,7 +208,7 @@ TEST(ImpactProperty, TheScenesThatOnceWentWrongGoWell) {
     ImpactWorld world;
     fill(world, randomScene(seed));
     for (int tick = 0; tick < 40; ++tick) {
-      ASSERT_EQ(world.step(), ImpactStatus::kDone) << seed;
+      ASSERT_EQ(world.step(), ImpactStepStatus::kDone) << seed;
       ASSERT_LE(deepestOverlap(world), 1e-9) << seed;
     }
   }
@@ -281,15 +281,15 @@ TEST(ImpactProperty, BadNumbersAreRefused) {
     body = good;
     body.place.dx = bad;
     EXPECT_FALSE(world.set(id, body));
-    EXPECT_EQ(world.step(bad), ImpactStatus::kRefused);
+    EXPECT_EQ(world.step(bad), ImpactStepStatus::kRefused);
   }
   ImpactBody point;
   point.half = {0, 0};
   EXPECT_EQ(world.add(point), -1);
   EXPECT_EQ(world.body(id), good);
-  EXPECT_EQ(world.step(0), ImpactStatus::kRefused);
-  EXPECT_EQ(world.step(5e-324), ImpactStatus::kDone);
-  EXPECT_EQ(world.step(1e6), ImpactStatus::kDone);
+  EXPECT_EQ(world.step(0), ImpactStepStatus::kRefused);
+  EXPECT_EQ(world.step(5e-324), ImpactStepStatus::kDone);
+  EXPECT_EQ(world.step(1e6), ImpactStepStatus::kDone);
 }
 
 // Hundreds of bodies in one place: bounded, deterministic, and none of them flies off.

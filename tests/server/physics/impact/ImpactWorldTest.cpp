@@ -48,7 +48,7 @@ TEST(ImpactWorld, ABallBouncesAsHighAsItMustAndStopsAtZenosTime) {
   const double fall = std::sqrt(2 * 10 / 10.0) * kTicks, bounce = std::sqrt(2 * kGravity * 10);
   double stopped = -1;
   for (int tick = 1; tick < 600; ++tick) {
-    ASSERT_EQ(world.step(), ImpactStatus::kDone);
+    ASSERT_EQ(world.step(), ImpactStepStatus::kDone);
     // Where the closed form says: the flight that this moment lies in.
     double begin = fall, speed = 0.8 * bounce, height = 0;
     if (tick < fall) {
@@ -131,7 +131,7 @@ TEST(ImpactWorld, GalperinsBilliardCountsTheDigitsOfPi) {
       std::int64_t most = 0;
       for (int tick = 0; tick < 40; ++tick) {
         const std::int64_t before = world.counters().impacts;
-        EXPECT_EQ(world.step(), ImpactStatus::kDone);
+        EXPECT_EQ(world.step(), ImpactStepStatus::kDone);
         most = std::max(most, world.counters().impacts - before);
       }
       EXPECT_EQ(world.counters().impacts, digits[k]);
@@ -190,7 +190,7 @@ TEST(ImpactWorld, AStackThatFallsTogetherStands) {
     for (int i = 0; i < 10; ++i) {
       world.add(falling(moving(box({0, -0.7 - 1.1 * i}), {}, restitution)));
     }
-    for (int tick = 0; tick < 600; ++tick) EXPECT_EQ(world.step(), ImpactStatus::kDone);
+    for (int tick = 0; tick < 600; ++tick) EXPECT_EQ(world.step(), ImpactStepStatus::kDone);
     for (int i = 0; i < 10; ++i) EXPECT_NEAR(at(world, i + 1).y, -0.5 - i, 1e-9) << restitution;
     EXPECT_LT(world.counters().impacts, 100000);
   }
