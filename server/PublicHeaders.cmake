@@ -83,11 +83,10 @@ set(naiad_public_headers
 # Physics in a folder behind: it has a Field.h, too, and other names that a game may want for itself.
 set(naiad_physics_headers
   server/physics/body/Body.h
-  server/physics/body/BodyForm.h
+  server/physics/body/BodyDrawing.h
   server/physics/body/BodyJoint.h
   server/physics/body/EventContactEnd.h
   server/physics/body/Field.h
-  server/physics/body/Metric.h
   server/physics/body/PhysicsManager.h
   server/physics/body/Seconds.h
   server/physics/body/SoftObject.h
@@ -117,14 +116,6 @@ set(naiad_detail_headers
   server/engine/world/Settings.h
   server/engine/world/WorldScope.h
   server/engine/world/WorldView.h
-  server/physics/body/BodyDrawing.h
-  server/physics/body/BodyJoints.h
-  server/physics/flight/FlightField.h
-  server/physics/flight/FlightFree.h
-  server/physics/geometry/Mat22.h
-  server/physics/geometry/Place.h
-  server/physics/joint/Joint.h
-  shared/math/DoubleDouble.h
   shared/values/Dialect.h)
 
 # Made by the build: each brings detail/EventNetworks.h.

@@ -137,7 +137,7 @@ Vector Body::getPosition() const {
   return m_table->metric.cellsOf(row().place);
 }
 
-Vector Body::getWayFrom(Vector point) const {
+Vector Body::getDisplacementFrom(Vector point) const {
   if (!toFixed(point)) return {};
   absorb();
   return m_table->metric.toCells(row().place - m_table->metric.placeAtCells(point));
@@ -194,7 +194,7 @@ int Body::setSpring(Vector anchor, double stiffness, double damping) {
 int Body::setField(const Field* p_field, Vector origin) {
   if (!toFixed(origin)) return refuseAs("setField");
   BodyMedium& medium = m_table->medium(m_index);
-  medium.field = p_field != nullptr ? &p_field->forces() : nullptr;
+  medium.field = p_field != nullptr ? p_field->m_forces.get() : nullptr;
   medium.field_origin = m_table->metric.placeAtCells(origin);
   m_table->classify(m_index);
   return 0;

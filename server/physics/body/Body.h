@@ -7,10 +7,10 @@
 //   PM.setGravity(df::Vector(0, 0.02));
 //
 // Within a tick a body's path is exact where mathematics has a formula for it (docs/physics/flight.md), so no
-// step is too long. HARD bodies hit, rest on and slide along each other and HARD Objects; SOFT ones hear of
-// contacts and push nobody; SPECTRAL ones touch nothing (docs/physics/bodies.md). Units: cells, ticks, and a
-// mass of the game's choosing; Seconds.h converts. All the rest of an Object works as ever; a velocity or a
-// position that is set from outside is taken over in the next tick.
+// step is too long. HARD bodies hit, rest on and slide along each other and HARD Objects; SOFT ones get
+// contact events and push nothing; SPECTRAL ones touch nothing (docs/physics/bodies.md). Units: cells, ticks,
+// and a mass of the game's choosing; Seconds.h converts. All the rest of an Object works as ever; a velocity
+// or a position that is set from outside is taken over in the next tick.
 //
 // Setters return 0, or -1 for numbers that are not finite or out of range: then nothing changes, and the
 // world counts it (World::getRefusals).
@@ -20,10 +20,10 @@
 #include <memory>
 #include <vector>
 
+#include "BodyDrawing.h"
 #include "ConvexShape.h"
 #include "Object.h"
 #include "Vector.h"
-#include "detail/BodyDrawing.h"
 
 namespace naiad::physics {
 class BodyLook;
@@ -44,32 +44,33 @@ class Body : public Object {
   Body& operator=(const Body&) = delete;
   ~Body() override;
 
-  /// 1e-30 … 1e30.
+  /// 1e-30 … 1e30, in the game's unit; 1 by default.
   int setMass(double mass);
   double getMass() const;
-  /// How much of the world's gravity it feels; 1 by default, 0: none. Any finite number to ±1e30.
+  /// Factor of the world's gravity (PM.setGravity), −1e30 … 1e30; 1 by default, 0: none.
   int setGravityScale(double scale);
   double getGravityScale() const;
-  /// Nothing pushes or slows it, gravity neither: it goes on as its velocity and spin say, like a lift or a
-  /// mill. Off by default.
+  /// A kinematic body keeps its velocity and spin, whatever pushes it, and gravity does not move it: a lift,
+  /// a mill. Off by default.
   void setKinematic(bool kinematic = true);
   bool isKinematic() const;
 
   // How it touches.
 
-  /// How much of the speed of an impact is left, 0 (clay, the default) … 1 (nothing is lost). Of two bodies
-  /// the larger number counts.
+  /// Coefficient of restitution: how much of the speed of an impact is left, 0 (clay, the default) … 1
+  /// (nothing is lost). Of two bodies the larger number counts.
   int setRestitution(double restitution);
   double getRestitution() const;
   /// Coulomb's µ, 0 (ice) … 1e30; 0.5 by default. Of two bodies the geometric mean counts.
   int setFriction(double friction);
   double getFriction() const;
-  /// Have this body (and no other for that) hear when contacts end, by an EventContactEnd. Off by default.
+  /// Does this body get an EventContactEnd when a contact ends? Off by default.
   void setContactEnds(bool contact_ends = true);
   bool hasContactEnds() const;
 
-  // Its shape: the Object's box, unless one of these says otherwise. Each of them also fits the Object's box
-  // around the shape. Lengths are in cells, as positions are, but a radius is in widths of a cell.
+  // Its shape: the Object's box, unless one of these sets another. Each of them also fits the Object's box
+  // around the shape. Lengths are in cells, as positions are, but a radius is in widths of a cell. A shape is
+  // at least 1e-6 widths of a cell wide and reaches at most 1e7 from the position; anything else is refused.
 
   /// The Object's own box again, whatever setBox() makes of it; its middle need not be the position.
   int setBoxShape();
@@ -78,14 +79,16 @@ class Body : public Object {
   /// A circle around the position, as round as a cell's aspect lets it look.
   int setCircle(double radius);
   /// A convex polygon of 3 to 16 corners, in order either way round, moved so that the position is its centre
-  /// of mass.
+  /// of mass. -1 also if it is not convex.
   int setPolygon(const std::vector<Vector>& corners);
   /// One more part, so that the body is a compound. `centre` and `corners` count from the centre of mass of
   /// what was there; then all is moved so that the position is the centre of mass of the whole.
   int addCircle(double radius, Vector centre);
+  /// `angle` in radians, −1e6 … 1e6.
   int addBoxShape(double width, double height, Vector centre, double angle = 0);
   int addPolygon(const std::vector<Vector>& corners);
-  /// What it consists of, about the position and not turned; empty: the Object's box. For who draws it.
+  /// Its shapes in widths of a cell, relative to the position and not turned, for a class that draws them;
+  /// empty: the Object's box. Copy it to keep it: a change of any body may move it.
   const std::vector<naiad::physics::ConvexShape>& getShapes() const;
 
   // How it turns. Angles are in radians, clockwise on the screen.
@@ -94,43 +97,50 @@ class Body : public Object {
   /// is that of its shape, evenly filled with its mass.
   void setTurning(bool turning = true);
   bool isTurning() const;
-  /// Any finite angle to ±1e6; what getAngle() says lies in [−π, π].
+  /// −1e6 … 1e6; getAngle() returns it in [−π, π].
   int setAngle(double angle);
   double getAngle() const;
-  /// Radians per tick, to ±1e6.
+  /// Radians per tick, −1e6 … 1e6.
   int setSpin(double spin);
   double getSpin() const;
-  /// Mass · (widths of a cell)².
+  /// Moment of inertia about the centre of mass, in mass · (widths of a cell)².
   double getInertia() const;
 
-  /// All digits of what the body's position and velocity are, where Object's are rounded to 2^-32 cell.
+  // In doubles, where an Object's position and velocity are rounded to 2^-32 cell.
+
+  /// Cells, to ±2e9. Thaws a frozen body.
   int setPosition(Vector position) override;
   Vector getPosition() const;
-  /// The way from a point of the world to the position: all digits, also where a coordinate has none left.
-  Vector getWayFrom(Vector point) const;
+  /// From a point of the world to the position, in cells: as exact far from the origin as near it. (0,0) for
+  /// a point out of range.
+  Vector getDisplacementFrom(Vector point) const;
+  [[deprecated("say getDisplacementFrom")]] Vector getWayFrom(Vector point) const {
+    return getDisplacementFrom(point);
+  }
+  /// Cells per tick, to ±16777216. Thaws a frozen body.
   int setVelocity(Vector velocity);
   Vector getVelocity() const;
 
-  /// Push it during the next tick; several pushes add up. Mass · cells per tick².
+  /// Push it during the next tick; several pushes add up, to ±1e30. Mass · cells per tick².
   int applyForce(Vector force);
-  /// Change its velocity at once, by impulse / mass. Mass · cells per tick.
+  /// Change its velocity at once, by impulse / mass. Mass · cells per tick. -1 if it would be too fast.
   int applyImpulse(Vector impulse);
   /// The same at a point of the world, which also turns it if it may turn.
   int applyImpulseAt(Vector impulse, Vector where);
-  /// Turn it during the next tick; several torques add up. Force · widths of a cell.
+  /// Turn it during the next tick; several torques add up, to ±1e30. Force · widths of a cell.
   int applyTorque(double torque);
 
-  /// The air: force over mass is `linear` · velocity + `quadratic` · velocity · |velocity|. Both >= 0; per
-  /// tick, and per metric cell.
+  /// Drag: force over mass is `linear` · velocity + `quadratic` · velocity · |velocity|. Per tick, and per
+  /// width of a cell; both 0 … 1e30, 0 by default.
   int setDrag(double linear, double quadratic = 0);
-  /// A spring of rest length 0 to a point of the world: force over mass is `stiffness` · way + `damping` ·
-  /// velocity. Per tick² and per tick, both >= 0, as stiff as you like; 0 and 0: none.
+  /// A spring of rest length 0 to a point of the world: force over mass is `stiffness` · displacement +
+  /// `damping` · velocity. Per tick² and per tick, both 0 … 1e30; 0 and 0: none.
   int setSpring(Vector anchor, double stiffness, double damping = 0);
-  /// A field around `origin`. Null: none. It must outlive the body or its next setField().
+  /// A field around `origin` (cells). Null: none. The field must outlive the body or its next setField().
   int setField(const Field* p_field, Vector origin = Vector());
 
-  /// Its motion could not be worked out (a field that is not finite, say): it stands until its position or
-  /// velocity is set.
+  /// Is it in quarantine, because its motion has no finite solution (a field's singularity, say)? It stands
+  /// until its position or velocity is set.
   bool isFrozen() const;
 
   // How it appears, unless its class has a draw() of its own: its shape, in character cells, at its angle.
@@ -141,7 +151,7 @@ class Body : public Object {
   /// As a sprite that turns with it: rows (UTF-8) of up to 128 characters around the position; blanks are
   /// holes. Return 0, else -1.
   int setDrawing(const std::vector<std::string>& rows, Color color = COLOR_DEFAULT);
-  /// What turns evenly, however fast, is told to watchers once, as what flies straight is.
+  /// A constant spin is sent to watchers once, as a constant velocity is.
   int draw() override;
 
  private:

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "ConvexShape.h"
-#include "Rotation.h"
+#include "physics/geometry/ConvexShape.h"
+#include "physics/geometry/Rotation.h"
 
 namespace naiad::physics {
 

@@ -10,7 +10,7 @@ namespace df {
 
 namespace {
 
-using naiad::physics::BodyJoints;
+using naiad::physics::JointEntry;
 using naiad::physics::JointKind;
 
 constexpr double kMax = 1e30;
@@ -25,7 +25,7 @@ bool isOneOf(JointKind kind, JointKind first, JointKind second, JointKind third)
 
 }  // namespace
 
-BodyJoints::Entry* Joint::find() const {
+JointEntry* Joint::find() const {
   return m_table != nullptr ? m_table->joints.find(m_key) : nullptr;
 }
 
@@ -40,7 +40,7 @@ int Joint::remove() {
 }
 
 int Joint::setBreakForce(double force) {
-  BodyJoints::Entry* p_entry = find();
+  JointEntry* p_entry = find();
   if (p_entry == nullptr || !(force >= 0)) return -1;
   p_entry->joint.break_force = force;
   ++p_entry->tunings;
@@ -48,7 +48,7 @@ int Joint::setBreakForce(double force) {
 }
 
 int Joint::setBreakTorque(double torque) {
-  BodyJoints::Entry* p_entry = find();
+  JointEntry* p_entry = find();
   if (p_entry == nullptr || !(torque >= 0)) return -1;
   p_entry->joint.break_torque = torque;
   ++p_entry->tunings;
@@ -56,7 +56,7 @@ int Joint::setBreakTorque(double torque) {
 }
 
 int Joint::setLength(double length) {
-  BodyJoints::Entry* p_entry = find();
+  JointEntry* p_entry = find();
   if (p_entry == nullptr || !isSize(length)) return -1;
   const JointKind kind = p_entry->joint.kind;
   if (!isOneOf(kind, JointKind::kDistance, JointKind::kRope, JointKind::kSpring)) return -1;
@@ -68,12 +68,12 @@ int Joint::setLength(double length) {
 }
 
 double Joint::getLength() const {
-  const BodyJoints::Entry* p_entry = find();
+  const JointEntry* p_entry = find();
   return p_entry != nullptr ? p_entry->joint.length : 0;
 }
 
 int Joint::setStiffness(double stiffness, double damping) {
-  BodyJoints::Entry* p_entry = find();
+  JointEntry* p_entry = find();
   if (p_entry == nullptr || !isSize(stiffness) || !isSize(damping)) return -1;
   const JointKind kind = p_entry->joint.kind;
   if (kind != JointKind::kSpring && kind != JointKind::kMouse) return -1;
@@ -84,7 +84,7 @@ int Joint::setStiffness(double stiffness, double damping) {
 }
 
 int Joint::setSpeed(double speed) {
-  BodyJoints::Entry* p_entry = find();
+  JointEntry* p_entry = find();
   if (p_entry == nullptr || p_entry->joint.kind != JointKind::kMotor || !(std::abs(speed) <= kMax)) return -1;
   p_entry->joint.speed = speed;
   ++p_entry->tunings;
@@ -92,7 +92,7 @@ int Joint::setSpeed(double speed) {
 }
 
 int Joint::setStrength(double strength) {
-  BodyJoints::Entry* p_entry = find();
+  JointEntry* p_entry = find();
   if (p_entry == nullptr || !(strength >= 0)) return -1;
   const JointKind kind = p_entry->joint.kind;
   if (kind != JointKind::kMotor && kind != JointKind::kMouse) return -1;
@@ -103,7 +103,7 @@ int Joint::setStrength(double strength) {
 }
 
 int Joint::setLimits(double lower, double upper) {
-  BodyJoints::Entry* p_entry = find();
+  JointEntry* p_entry = find();
   const bool good = lower <= upper && lower > -std::numbers::pi && upper < std::numbers::pi;
   if (p_entry == nullptr || p_entry->joint.kind != JointKind::kAngleLimit || !good) return -1;
   p_entry->joint.lower = lower;
@@ -113,7 +113,7 @@ int Joint::setLimits(double lower, double upper) {
 }
 
 int Joint::setTarget(Vector target) {
-  BodyJoints::Entry* p_entry = find();
+  JointEntry* p_entry = find();
   if (p_entry == nullptr || p_entry->joint.kind != JointKind::kMouse) return -1;
   if (!toFixed(target)) return -1;
   p_entry->joint.target = m_table->metric.placeAtCells(target);
@@ -122,12 +122,12 @@ int Joint::setTarget(Vector target) {
 }
 
 Vector Joint::getForce() const {
-  const BodyJoints::Entry* p_entry = find();
+  const JointEntry* p_entry = find();
   return p_entry != nullptr ? m_table->metric.toCells(p_entry->joint.force) : Vector();
 }
 
 double Joint::getTorque() const {
-  const BodyJoints::Entry* p_entry = find();
+  const JointEntry* p_entry = find();
   return p_entry != nullptr ? p_entry->joint.torque : 0;
 }
 

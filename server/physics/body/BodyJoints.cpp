@@ -11,7 +11,7 @@ JointKey BodyJoints::add(const Joint& joint, Place anchor) {
     index = m_free.back();
     m_free.pop_back();
   }
-  Entry& entry = m_entries[index];
+  JointEntry& entry = m_entries[index];
   entry.joint = joint;
   entry.anchor = anchor;
   if (++entry.generation == 0) entry.generation = 1;
@@ -21,9 +21,9 @@ JointKey BodyJoints::add(const Joint& joint, Place anchor) {
   return {index, entry.generation};
 }
 
-BodyJoints::Entry* BodyJoints::find(JointKey key) {
+JointEntry* BodyJoints::find(JointKey key) {
   if (key.generation == 0 || key.index >= m_entries.size()) return nullptr;
-  Entry& entry = m_entries[key.index];
+  JointEntry& entry = m_entries[key.index];
   return entry.used && entry.generation == key.generation ? &entry : nullptr;
 }
 
@@ -41,7 +41,7 @@ void BodyJoints::remove(JointKey key) {
 void BodyJoints::removeOf(int row) {
   if (m_count == 0) return;
   for (std::uint32_t i = 0; i < m_entries.size(); ++i) {
-    const Entry& entry = m_entries[i];
+    const JointEntry& entry = m_entries[i];
     if (entry.used && (entry.joint.a == row || entry.joint.b == row)) drop(i);
   }
 }

@@ -7,39 +7,34 @@
 #include <cstdint>
 #include <vector>
 
-#include "detail/Joint.h"
-#include "detail/Place.h"
+#include "physics/body/BodyJoint.h"
+#include "physics/geometry/Place.h"
+#include "physics/joint/Joint.h"
 
 namespace naiad::physics {
 
-/// Which joint: a number that is used again, and a generation that is not.
-struct JointKey {
-  std::uint32_t index = 0;
-  std::uint32_t generation = 0;  ///< 0: none
+struct JointEntry {
+  Joint joint;   ///< a and b are rows, or BodyJoints::kWorld
+  Place anchor;  ///< of a joint with the world: where on it; the joint's anchor there is 0
+  std::uint32_t generation = 0;
+  bool used = false;
+  std::uint32_t tunings = 0;  ///< how often the game has changed a number of it
 };
 
 class BodyJoints {
  public:
   static constexpr int kWorld = -1;  ///< in the place of a body's row
 
-  struct Entry {
-    Joint joint;   ///< a and b are rows, or kWorld
-    Place anchor;  ///< of a joint with the world: where on it; the joint's anchor there is 0
-    std::uint32_t generation = 0;
-    bool used = false;
-    std::uint32_t tunings = 0;  ///< how often the game has changed a number of it
-  };
-
   JointKey add(const Joint& joint, Place anchor);
   /// Null once it is removed, broken, or one of its bodies is gone.
-  Entry* find(JointKey key);
+  JointEntry* find(JointKey key);
   void remove(JointKey key);
   /// A body dies: its joints go with it.
   void removeOf(int row);
 
   /// Used or not; in an order that depends on the calls so far alone.
-  std::vector<Entry>& entries() { return m_entries; }
-  const std::vector<Entry>& entries() const { return m_entries; }
+  std::vector<JointEntry>& entries() { return m_entries; }
+  const std::vector<JointEntry>& entries() const { return m_entries; }
   int count() const { return m_count; }
   /// Counts what came, went or was changed in kind: groups have to be found anew.
   std::uint64_t changes() const { return m_changes; }
@@ -48,7 +43,7 @@ class BodyJoints {
  private:
   void drop(std::uint32_t index);
 
-  std::vector<Entry> m_entries;
+  std::vector<JointEntry> m_entries;
   std::vector<std::uint32_t> m_free;
   int m_count = 0;
   std::uint64_t m_changes = 0;

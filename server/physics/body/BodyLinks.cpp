@@ -48,15 +48,15 @@ void BodyLinks::prepare(BodyTable& table) {
 }
 
 void BodyLinks::collect(BodyTable& table) {
-  const std::vector<BodyJoints::Entry>& entries = table.joints.entries();
+  const std::vector<JointEntry>& entries = table.joints.entries();
   std::size_t rows = 0;
-  for (const BodyJoints::Entry& entry : entries) {
+  for (const JointEntry& entry : entries) {
     if (!entry.used) continue;
     for (const int row : {entry.joint.a, entry.joint.b}) rows = std::max(rows, at(row + 1));
   }
   m_kinds.assign(rows, kNoJoint);
   std::vector<int> joints_of(rows, 0);
-  for (const BodyJoints::Entry& entry : entries) {
+  for (const JointEntry& entry : entries) {
     if (!entry.used) continue;
     for (const int row : {entry.joint.a, entry.joint.b}) {
       if (row != BodyJoints::kWorld) ++joints_of[at(row)], m_kinds[at(row)] = kJoined;
@@ -69,7 +69,7 @@ void BodyLinks::collect(BodyTable& table) {
   m_entry_of.clear();
   m_tunings.clear();
   for (std::uint32_t i = 0; i < entries.size(); ++i) {
-    const BodyJoints::Entry& entry = entries[i];
+    const JointEntry& entry = entries[i];
     if (!entry.used) continue;
     const bool is_spring = entry.joint.kind == JointKind::kSpring && entry.joint.a == BodyJoints::kWorld;
     if (is_spring && joints_of[at(entry.joint.b)] == 1 && entry.joint.anchor_b == Vec2{}) {
@@ -138,9 +138,9 @@ void BodyLinks::load(const BodyTable& table, const std::vector<BodyPlan>& plans,
 void BodyLinks::step(BodyTable& table, std::vector<BodyPlan>& plans, const std::vector<double>& unit_inertias,
                      const std::vector<BodyMeeting>& meetings, BodyContacts& contacts) {
   load(table, plans, unit_inertias);
-  std::vector<BodyJoints::Entry>& entries = table.joints.entries();
+  std::vector<JointEntry>& entries = table.joints.entries();
   for (std::size_t i = 0; i < m_joints.size(); ++i) {
-    BodyJoints::Entry& entry = entries[m_entry_of[i]];
+    JointEntry& entry = entries[m_entry_of[i]];
     if (std::exchange(m_tunings[i], entry.tunings) == entry.tunings) continue;
     Joint joint = entry.joint;
     joint.a = m_joints[i].a;
@@ -176,9 +176,9 @@ void BodyLinks::store(BodyTable& table, std::vector<BodyPlan>& plans) {
       plans[at(m_plan_of[at(body)])].p_failure = "what it is joined with cannot be worked out";
     }
   }
-  std::vector<BodyJoints::Entry>& entries = table.joints.entries();
+  std::vector<JointEntry>& entries = table.joints.entries();
   for (std::size_t i = 0; i < m_joints.size(); ++i) {
-    BodyJoints::Entry& entry = entries[m_entry_of[i]];
+    JointEntry& entry = entries[m_entry_of[i]];
     entry.joint.force = m_joints[i].force;
     entry.joint.torque = m_joints[i].torque;
     if (m_joints[i].is_broken) table.joints.remove({m_entry_of[i], entry.generation});

@@ -18,7 +18,7 @@ class BodyLinks {
   /// Is the row's body one of those that step() moves?
   bool isJoined(BodyTable::Index row) const { return row < m_kinds.size() && m_kinds[row] == kJoined; }
   /// The joint, if its only one is a spring from the world to its middle; else null.
-  const BodyJoints::Entry* hangsOn(const BodyTable& table, BodyTable::Index row) const {
+  const JointEntry* hangsOn(const BodyTable& table, BodyTable::Index row) const {
     if (row >= m_kinds.size() || m_kinds[row] < 0) return nullptr;
     return &table.joints.entries()[static_cast<std::size_t>(m_kinds[row])];
   }

@@ -1,4 +1,4 @@
-// Sent to a Body or SoftBody that asked for it (setContactEnds) when something that it touched has left it.
+// Sent to a Body or SoftBody that asked for it (setContactEnds) when a contact has ended.
 //
 // As an EventCollision it comes after all bodies have moved, in the order of (time, ids); a bounce within a
 // tick begins a contact and ends it.
@@ -13,7 +13,7 @@ inline const EventType CONTACT_END_EVENT("df-contact-end");
 
 class EventContactEnd : public Event {
  public:
-  /// Between nobody and nobody.
+  /// Without Objects.
   EventContactEnd() : EventContactEnd(nullptr, nullptr) {}
   /// The contact of `p_o1`, a Body or SoftBody, with `p_o2`.
   EventContactEnd(Object* p_o1, Object* p_o2) : Event(&CONTACT_END_EVENT), m_p_obj1(p_o1), m_p_obj2(p_o2) {}

@@ -1,49 +1,41 @@
 // A field of force that a game defines: gravity towards a planet, wind, a magnet.
 //
 //   class Planet : public df::Field {
-//     df::Vector accelerationAt(df::Vector way, df::Vector, double) const override {
-//       const double r = std::hypot(way.x(), way.y());
-//       return df::Vector(-way.x() / (r * r * r), -way.y() / (r * r * r));
+//     df::Vector accelerationAt(df::Vector d, df::Vector, double) const override {
+//       const double r = std::hypot(d.x(), d.y());
+//       return df::Vector(-d.x() / (r * r * r), -d.y() / (r * r * r));
 //     }
 //   };
 #pragma once
 
-#include "Metric.h"
+#include <memory>
+
 #include "Vector.h"
-#include "detail/FlightField.h"
+
+namespace naiad::physics {
+class ForceField;
+}
 
 namespace df {
 
-/// A body is told of it by Body::setField(). It must outlive the bodies in it.
+/// Body::setField() puts a body into it. It must outlive the bodies in it.
 class Field {
  public:
-  Field() = default;
+  Field();
   Field(const Field&) = delete;
   Field& operator=(const Field&) = delete;
-  virtual ~Field() = default;
+  virtual ~Field();
 
-  /// What it does to a body, in metric cells per tick² (Metric.h: y counts as much as x): of its place
-  /// relative to the field's origin and its velocity, metric as well, and of the time in ticks. A pure
-  /// function of these: it is called several times per tick, and for states that the body never reaches.
-  virtual Vector accelerationAt(Vector way, Vector velocity, double time) const = 0;
-
-  /// The same for the integrators.
-  const naiad::physics::ForceField& forces() const { return m_forces; }
+  /// The acceleration of a body, in widths of a cell per tick². `displacement` is from the field's origin to
+  /// the body, in widths of a cell both ways (a row of cells is PM.getAspect() of them high); `velocity` is
+  /// in the same per tick; `time` is in ticks since the world's first. It must be a pure function of these:
+  /// it is called several times per tick, and for states that the body never reaches. A body whose
+  /// acceleration is not finite is frozen (Body::isFrozen).
+  virtual Vector accelerationAt(Vector displacement, Vector velocity, double time) const = 0;
 
  private:
-  class Forces : public naiad::physics::ForceField {
-   public:
-    explicit Forces(const Field& field) : m_field(field) {}
-    naiad::physics::Vec2 acceleration(naiad::physics::Vec2 way, naiad::physics::Vec2 velocity,
-                                      double time) const override {
-      const Vector a = m_field.accelerationAt({way.x, way.y}, {velocity.x, velocity.y}, time);
-      return {a.x(), a.y()};
-    }
-
-   private:
-    const Field& m_field;
-  };
-  Forces m_forces{*this};
+  friend class Body;
+  std::unique_ptr<naiad::physics::ForceField> m_forces;  ///< the same for the integrators
 };
 
 }  // namespace df

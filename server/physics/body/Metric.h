@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "Fixed.h"
-#include "Vec2.h"
-#include "Vector.h"
-#include "detail/Place.h"
+#include "physics/geometry/Place.h"
+#include "physics/geometry/Vec2.h"
+#include "shared/values/Fixed.h"
+#include "shared/values/Vector.h"
 
 namespace naiad::physics {
 

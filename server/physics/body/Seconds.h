@@ -1,4 +1,5 @@
-// Thinking in seconds: the engine counts in ticks, 30 of them to a second (GameManager's frame of 33 ms).
+// Conversions from seconds: the engine counts in ticks, 30 of them to a second (GameManager's frame of 33
+// ms).
 //
 //   ball.setVelocity(df::perSecond(df::Vector(15, 0)));             // cells per second
 //   PM.setGravity(df::perSecondSquared(df::Vector(0, 18)));         // cells per second per second

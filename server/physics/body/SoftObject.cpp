@@ -212,7 +212,7 @@ int SoftBody::attach(int node, Body* p_body) {
   absorb();
   detach(node);
   const naiad::physics::Metric& metric = m_table->metric();
-  const Vec2 body_way = metric.fromCells(p_body->getWayFrom(metric.cellsOf(body().place)));
+  const Vec2 body_way = metric.fromCells(p_body->getDisplacementFrom(metric.cellsOf(body().place)));
   const Vec2 way = body().nodes[at(node)].offset - body_way;
   const Vec2 anchor = inverse(naiad::physics::rotationBy(p_body->getAngle())) * way;
   const auto obstacle = static_cast<int>(p_body->key().slot);

@@ -8,13 +8,13 @@
 //   p_rope->attach(10, p_crate);
 //
 // A soft body consists of nodes, points with mass, and what holds them together. Its position is its centre
-// of mass, its velocity that one's, its box goes around it; what the game sets of the first two moves the
-// whole, pins too. It hits HARD bodies and HARD Objects and other soft bodies, and they hear of it by an
-// EventCollision, once when a contact begins, and on request by an EventContactEnd. To the book's moves it is
-// nothing: it is SPECTRAL.
+// of mass, its velocity that of the centre, its box goes around it; setting position or velocity moves the
+// whole, pins too. It hits HARD bodies and HARD Objects and other soft bodies, and both sides get an
+// EventCollision, once when a contact begins, and on request by an EventContactEnd. The book's moves pass
+// through it: it is SPECTRAL.
 //
 // Units: positions in cells, lengths in widths of a cell, times in ticks, mass in the game's unit. The
-// stiffness is told as an acceleration (widths of a cell per tick²), so that it does not depend on the mass.
+// stiffness is given as an acceleration (widths of a cell per tick²), so that it does not depend on the mass.
 //
 // Setters return 0, or -1 for numbers that are not finite or out of range: then nothing changes, and the
 // world counts it (World::getRefusals). A constructor counts it too, and takes its default instead.
@@ -24,10 +24,10 @@
 #include <memory>
 #include <vector>
 
+#include "BodyDrawing.h"
 #include "Color.h"
 #include "Object.h"
 #include "Vector.h"
-#include "detail/BodyDrawing.h"
 
 namespace naiad::physics {
 class SoftTable;
@@ -46,42 +46,44 @@ class SoftBody : public Object {
   SoftBody& operator=(const SoftBody&) = delete;
   ~SoftBody() override;
 
+  /// In the game's unit.
   double getMass() const;
-  /// How much of the world's gravity it feels; 1 by default. To ±1e6.
+  /// Factor of the world's gravity (PM.setGravity), −1e6 … 1e6; 1 by default.
   int setGravityScale(double scale);
-  /// Coulomb's µ, 0 … 1e6; 0.5 by default. Of a pair the geometric mean counts.
+  /// Coulomb's µ, 0 … 1e6; 0.5 by default. Of two bodies the geometric mean counts.
   int setFriction(double friction);
-  /// The air: speeds fall as exp(-drag · ticks). 0.02 by default, to 1e6.
+  /// Drag: speeds fall as exp(-drag · ticks). 0 … 1e6 per tick, 0.02 by default.
   int setDrag(double drag);
 
-  /// Change the velocity of the whole at once, by impulse / mass. Mass · cells per tick.
+  /// Change the velocity of the whole at once, by impulse / mass. Mass · cells per tick, to ±1e9.
   int applyImpulse(Vector impulse);
   /// The same for one node alone.
   int applyImpulse(int node, Vector impulse);
-  /// Push the whole during the next tick, each node by its mass; several pushes add up. Mass · cells per
-  /// tick².
+  /// Push the whole during the next tick, each node by its mass; several pushes add up, to ±1e9. Mass · cells
+  /// per tick².
   int applyForce(Vector force);
-  /// The same for one node alone: what pulls at a beam's end for good is applied in each tick.
+  /// The same for one node alone. For a lasting force, apply it in each tick.
   int applyForce(int node, Vector force);
 
-  /// Does it hear of contacts' ends, too (EventContactEnd)? Off by default.
+  /// Does it get an EventContactEnd when a contact ends? Off by default.
   void setContactEnds(bool contact_ends = true) { m_has_contact_ends = contact_ends; }
   bool hasContactEnds() const { return m_has_contact_ends; }
 
   // Its nodes: 0 … getNodeCount() - 1.
 
   int getNodeCount() const;
-  /// (0,0) if there is no such node.
+  /// In cells, and in cells per tick; (0,0) if there is no such node.
   Vector getNodePosition(int node) const;
   Vector getNodeVelocity(int node) const;
-  /// The node that is nearest to a point.
+  /// The node that is nearest to a point; -1 for a point out of range.
   int getNearestNode(Vector where) const;
-  /// Hold a node where it is, whatever pulls at it; or let it go.
+  /// Hold a node where it is, whatever pulls at it; or release it.
   int pin(int node, bool pinned = true);
   bool isPinned(int node) const;
-  /// Tie a node to the point of a body where it is now; both feel it. The two do not collide with each
-  /// other. It ends when the body does. At most one body per node: the last one.
+  /// Join a node to the point of a body where it is now; it pulls at both. The two do not collide with each
+  /// other. It ends when the body does. A node has at most one body: the last one.
   int attach(int node, Body* p_body);
+  /// -1 also if it was not attached.
   int detach(int node);
 
   // Dragging, as a mouse does: the node that is nearest to a point follows a target, with at most `strength`
@@ -93,10 +95,10 @@ class SoftBody : public Object {
   void release();
   bool isGrabbed() const;
 
-  /// Its motion could not be worked out: it stands, and meets nobody, until its position or velocity is set.
-  /// Then it comes back in the shape in which it was made.
+  /// Is it in quarantine, because its motion has no finite solution? It stands and collides with nothing
+  /// until its position or velocity is set; then it is back in the shape in which it was made.
   bool isFrozen() const;
-  /// It has come to rest, and costs next to nothing until something touches or changes it.
+  /// Has it come to rest? It costs next to nothing until something touches or changes it.
   bool isAsleep() const;
 
   /// As its lines (OUTLINE), with what they enclose (FILL), or not at all. `ch`: of what characters; 0: by

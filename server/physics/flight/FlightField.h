@@ -1,9 +1,9 @@
 // Flight through a field of force that a game defines.
 #pragma once
 
-#include "Integrator.h"
-#include "detail/FlightFree.h"
-#include "detail/Mat22.h"
+#include "physics/flight/FlightFree.h"
+#include "physics/geometry/Mat22.h"
+#include "physics/numerics/Integrator.h"
 
 namespace naiad::physics {
 

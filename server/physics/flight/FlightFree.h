@@ -5,7 +5,7 @@
 // Place.h.
 #pragma once
 
-#include "Vec2.h"
+#include "physics/geometry/Vec2.h"
 
 namespace naiad::physics {
 

@@ -1,7 +1,7 @@
 // A 2×2 matrix: Jacobians, effective masses.
 #pragma once
 
-#include "Vec2.h"
+#include "physics/geometry/Vec2.h"
 
 namespace naiad::physics {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "Vec2.h"
-#include "detail/DoubleDouble.h"
+#include "physics/geometry/Vec2.h"
+#include "shared/math/DoubleDouble.h"
 
 namespace naiad::physics {
 

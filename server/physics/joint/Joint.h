@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "Rotation.h"
-#include "detail/Place.h"
+#include "physics/geometry/Place.h"
+#include "physics/geometry/Rotation.h"
 
 namespace naiad::physics {
 

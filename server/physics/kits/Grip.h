@@ -1,11 +1,11 @@
-// What a pointer holds, be it rigid or soft: grab, drag, let go.
+// A pointer's hold on a body, rigid or soft: grab, drag, release.
 //
 //   m_grip.grab(event.getMousePosition());    // what lies there
 //   m_grip.dragTo(event.getMousePosition());  // as the mouse moves
 //   m_grip.release();                         // it flies on as fast as it was dragged
 //
-// A body hangs on a mouse joint, a soft body by its node that is nearest. It lets go when it is destroyed,
-// and by itself when what it holds is gone.
+// A Body is held by a mouse joint, a SoftBody by its nearest node. The grip releases it when the grip is
+// destroyed, and when the body is.
 #pragma once
 
 #include "BodyJoint.h"
@@ -26,11 +26,12 @@ class Grip {
   Grip& operator=(const Grip&) = delete;
   ~Grip() { release(); }
 
-  /// Lets go, and takes hold of the first Body or SoftBody at `where`, as the player saw it whose input is
-  /// handled (WM.objectsSeenAt). `strength` > 0 per mass: cells per tick². A soft body that somebody else
-  /// drags is left to him. Return 0, else -1: nothing is there, or a number is out of range.
+  /// Releases what it holds, and takes hold of the first Body or SoftBody at `where` (cells), in the state
+  /// that the player saw whose input is handled (WM.objectsSeenAt). `strength` > 0: the greatest force over
+  /// mass, in cells per tick². A soft body that another grip holds is skipped. Return 0, else -1: nothing is
+  /// there, or a number is out of range.
   int grab(Vector where, double strength = kUsualStrength);
-  /// Where it is to go. -1 if nothing is held, or the place is out of range.
+  /// Pulls it towards `where`. Return 0, else -1: nothing is held, or the place is out of range.
   int dragTo(Vector where);
   void release();
   bool isHolding() const;

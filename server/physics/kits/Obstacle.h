@@ -10,8 +10,8 @@ namespace df {
 
 class Obstacle : public Object {
  public:
-  /// Of `width` by `height` whole cells, `corner` the one on the upper left, all drawn as `ch`. Numbers out
-  /// of range leave it where, or as large as, an Object is at first.
+  /// Of `width` by `height` whole cells, `corner` the one on the upper left, all drawn as `ch`. For numbers
+  /// out of range it keeps the position or the box of a new Object.
   Obstacle(Vector corner, int width, int height, char ch = '#', Color color = COLOR_DEFAULT);
 
   int draw() override;

@@ -9,8 +9,8 @@
 
 namespace df {
 
-/// Ten Bodies that may turn, joined by hinges that bend no farther than ours. The world owns them, as all
-/// that is made with new; the joints go with them.
+/// Ten Bodies that may turn, joined by hinges with a human's limits. The world owns them, like every Object
+/// made with new; the joints go with them.
 struct Ragdoll {
   Body* p_head = nullptr;
   Body* p_trunk = nullptr;

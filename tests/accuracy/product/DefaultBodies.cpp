@@ -79,7 +79,7 @@ class DefaultBodies : public Simulation {
       state.position = m_places[static_cast<std::size_t>(index)];
       return state;
     }
-    const df::Vector way = p_body->getWayFrom(cells(m_origin)), velocity = p_body->getVelocity();
+    const df::Vector way = p_body->getDisplacementFrom(cells(m_origin)), velocity = p_body->getVelocity();
     state.position = {way.x(), way.y()};
     state.velocity = {velocity.x() / m_tick, velocity.y() / m_tick};
     state.angle = p_body->getAngle();

@@ -30,7 +30,7 @@ class BodyCradle : public BodyScene {
   /// How fast it was or will be at its lowest, of what the first one is there.
   double speedOfEnergy(int i) const {
     const Listener* p_ball = balls.at(static_cast<std::size_t>(i));
-    const Vector v = speedOf(p_ball), way = p_ball->getWayFrom(hung.at(static_cast<std::size_t>(i)));
+    const Vector v = speedOf(p_ball), way = p_ball->getDisplacementFrom(hung.at(static_cast<std::size_t>(i)));
     const double energy = 0.5 * (v.x() * v.x() + v.y() * v.y()) - kGravity * way.y();
     return std::sqrt(std::max(0.0, energy / (kGravity * kRod * (1 - std::cos(kAngle)))));
   }
@@ -73,7 +73,7 @@ TEST_F(BodyCradle, WhoHangsSideBySideIsStill) {
   ticks(300);
   for (int i = 0; i < kBalls; ++i) {
     const Listener* p_ball = balls.at(static_cast<std::size_t>(i));
-    EXPECT_EQ(p_ball->getWayFrom(hung.at(static_cast<std::size_t>(i))), Vector()) << i;
+    EXPECT_EQ(p_ball->getDisplacementFrom(hung.at(static_cast<std::size_t>(i))), Vector()) << i;
     EXPECT_EQ(p_ball->getVelocity(), Vector()) << i;
     EXPECT_TRUE(p_ball->notes.empty()) << i;
   }
@@ -110,12 +110,13 @@ TEST_F(BodyCradle, IsTheSameFarAway) {
   balls[0]->setVelocity(perSecond(Vector(-2, 0)));
   ticks(120);
   std::array<Vector, kBalls> near;
-  for (std::size_t i = 0; i < kBalls; ++i) near.at(i) = balls.at(i)->getWayFrom(hung.at(i));
+  for (std::size_t i = 0; i < kBalls; ++i) near.at(i) = balls.at(i)->getDisplacementFrom(hung.at(i));
   for (Listener* p_ball : balls) delete p_ball;
   hang(0, 1, 1, Vector(1e6, -1e6));
   balls[0]->setVelocity(perSecond(Vector(-2, 0)));
   ticks(120);
-  for (std::size_t i = 0; i < kBalls; ++i) EXPECT_EQ(balls.at(i)->getWayFrom(hung.at(i)), near.at(i)) << i;
+  for (std::size_t i = 0; i < kBalls; ++i)
+    EXPECT_EQ(balls.at(i)->getDisplacementFrom(hung.at(i)), near.at(i)) << i;
 }
 
 // Half the speed of approach is left: of each pair the impact takes a quarter of what moves against its
@@ -133,7 +134,8 @@ TEST_F(BodyCradle, WhoPressOnOneAnotherAreKeptApart) {
     hang(0, 0.99, restitution);
     ticks(300);
     for (std::size_t i = 0; i + 1 < kBalls; ++i) {
-      const Vector way = balls.at(i + 1)->getWayFrom(hung.at(i)) - balls.at(i)->getWayFrom(hung.at(i));
+      const Vector way =
+          balls.at(i + 1)->getDisplacementFrom(hung.at(i)) - balls.at(i)->getDisplacementFrom(hung.at(i));
       EXPECT_GT(std::hypot(way.x(), way.y()), 0.98) << restitution << " " << i;
       EXPECT_LT(std::abs(speedOf(balls.at(i)).x()), 3) << restitution << " " << i;
     }

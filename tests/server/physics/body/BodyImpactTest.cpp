@@ -192,7 +192,7 @@ TEST_F(BodyImpacts, FarAwayIsAsHere) {
     std::vector<Vector> path;
     for (int i = 0; i < 150; ++i) {
       ticks(1);
-      path.push_back(p_ball->getWayFrom(origin));
+      path.push_back(p_ball->getDisplacementFrom(origin));
     }
     delete p_ball;
     delete p_floor;

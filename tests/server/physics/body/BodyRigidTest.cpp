@@ -32,7 +32,7 @@ TEST_F(BodyRigids, ADiscRollsDownASlope) {
   p_disc->setTurning();
   const Vector start = p_disc->getPosition();
   ticks(60);
-  const Vector way = p_disc->getWayFrom(start), v = speedOf(p_disc);
+  const Vector way = p_disc->getDisplacementFrom(start), v = speedOf(p_disc);
   const double right = 10 * std::sin(angle) * 4 / 3;
   EXPECT_NEAR(std::hypot(way.x(), way.y()) / right, 1, 1e-3);
   EXPECT_NEAR(std::hypot(v.x(), v.y()), 30 * p_disc->getSpin() * 0.5, 1e-3);
@@ -48,7 +48,7 @@ TEST_F(BodyRigids, ACrateSlidesDownASlope) {
   p_crate->setTurning();
   const Vector start = p_crate->getPosition();
   ticks(60);
-  const Vector way = p_crate->getWayFrom(start);
+  const Vector way = p_crate->getDisplacementFrom(start);
   EXPECT_NEAR(std::hypot(way.x(), way.y()) / (20 * (std::sin(angle) - 0.5 * std::cos(angle))), 1, 1e-3);
 }
 
@@ -62,7 +62,7 @@ TEST_F(BodyRigids, FrictionHoldsUpToItsAngle) {
     p_crate->setTurning();
     const Vector start = p_crate->getPosition();
     for (int i = 0; i < 120; ++i) there.update();
-    const Vector way = p_crate->getWayFrom(start);
+    const Vector way = p_crate->getDisplacementFrom(start);
     delete p_crate;
     delete p_slope;
     return std::hypot(way.x(), way.y());
