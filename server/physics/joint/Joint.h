@@ -25,6 +25,10 @@ struct JointBody {
   double torque = 0;
 };
 
+inline bool isMovable(const JointBody& body) {
+  return body.inverse_mass > 0 || body.inverse_inertia > 0;
+}
+
 enum class JointKind : std::uint8_t {
   kDistance,    ///< a rod: the anchors stay `length` > 0 apart
   kRope,        ///< the anchors are at most `length` > 0 apart; catching is inelastic

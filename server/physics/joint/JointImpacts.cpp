@@ -23,10 +23,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-bool isMovable(const JointBody& body) {
-  return body.inverse_mass > 0 || body.inverse_inertia > 0;
-}
-
 Vec2 offsetOf(const JointPair& pair, std::span<const JointBody> bodies) {
   return bodies[at(pair.b)].place - bodies[at(pair.a)].place;
 }

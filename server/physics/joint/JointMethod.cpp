@@ -1,9 +1,13 @@
 #include "physics/joint/JointMethod.h"
 
+#include <algorithm>
+
 namespace naiad::physics {
 
 namespace {
 
+// Yoshida 1990 (three stages of order 4; seven of order 6, his solution A), Suzuki 1990, Kahan and Li 1997.
+// Lengths over the step; the middle one makes the sum 1.
 constexpr double kOne[] = {1.0};
 constexpr double kY1 = 1.3512071919596576340;  // 1 / (2 − ∛2)
 constexpr double kYoshidaFour[] = {kY1, 1 - 2 * kY1, kY1};
@@ -34,6 +38,10 @@ std::span<const double> stagesOf(JointMethod method) {
     default:
       return kOne;
   }
+}
+
+int repeatsOf(const JointOptions& options) {
+  return std::max(1, options.substeps / static_cast<int>(stagesOf(options.method).size()));
 }
 
 }  // namespace naiad::physics

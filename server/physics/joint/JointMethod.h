@@ -29,5 +29,7 @@ struct JointOptions {
 
 /// The lengths of the stages of a method, their sum is 1.
 std::span<const double> stagesOf(JointMethod method);
+/// How often a step repeats them.
+int repeatsOf(const JointOptions& options);
 
 }  // namespace naiad::physics

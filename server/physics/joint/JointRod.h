@@ -1,13 +1,17 @@
 // Two points on a rod: RATTLE in closed form, for the smallest of all trees (a pendulum, a dumb-bell).
 //
-// The centre of mass flies exactly; the way from one end to the other goes by RATTLE. In the plane that is a
-// direction and a rate of turning: half a kick turns faster, a stage over h turns by the angle whose sine is
-// h times the rate, half a kick follows. (The position equation's multiplier, put in, says that.)
+// The centre of mass flies exactly; the displacement from one end to the other goes by RATTLE. In the plane
+// that is a direction and a rate of turning: half a kick turns faster, a stage over h turns by the angle
+// whose sine is h times the rate, half a kick follows. (That follows from the position equation's
+// multiplier.)
 #pragma once
 
 #include <cmath>
 
 #include "physics/geometry/Vec2.h"
+#include "physics/joint/Joint.h"
+#include "physics/joint/JointCounters.h"
+#include "physics/joint/JointMethod.h"
 
 namespace naiad::physics {
 
@@ -18,6 +22,8 @@ struct JointRod {
   Vec2 acceleration;  ///< of b against a, without the rod
   double gain = 0;    ///< of the rate, by that: direction × acceleration
   Vec2 pull;          ///< sum of the rod's impulses on b, per reduced mass
+
+  static constexpr double kMinCosineSquared = 0.01;  ///< a stage turns by less than 84°
 
   JointRod(Vec2 its_direction, Vec2 velocity, Vec2 its_acceleration)
       : direction(its_direction),
@@ -32,7 +38,7 @@ struct JointRod {
   bool advance(double h, double per_h) {
     const double kick = 0.5 * h, kicked = rate + kick * gain, sine = h * kicked;
     const double under_root = 1 - sine * sine;
-    if (!(under_root > 0.01)) return false;
+    if (!(under_root > kMinCosineSquared)) return false;
     const double cosine = std::sqrt(under_root);
     const Vec2 next = cosine * direction + sine * perpendicular(direction);
     gain = cross(next, acceleration);
@@ -44,5 +50,10 @@ struct JointRod {
     return true;
   }
 };
+
+/// Moves two bodies on one rod over h > 0, and writes the joint's force. False, and nothing has changed,
+/// where it is not for this method: a body turns, the rod is stretched, or turns too far in a stage.
+bool stepRod(JointBody& a, JointBody& b, Joint& joint, double h, Vec2 gravity, const JointOptions& options,
+             JointCounters& counters);
 
 }  // namespace naiad::physics

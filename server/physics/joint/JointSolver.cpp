@@ -13,10 +13,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-bool isMovable(const JointBody& body) {
-  return body.inverse_mass > 0 || body.inverse_inertia > 0;
-}
-
 int rootOf(std::vector<int>& parent, int i) {
   while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
   return i;

@@ -1,4 +1,4 @@
-// A stage of RATTLE, and what happens where it does not converge.
+// A stage of RATTLE, and its halves where it does not converge.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,11 +9,13 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxIterations = 25;
-constexpr int kMaxHalvings = 5;
-constexpr int kFree = 3;       // iterations whose rate does not matter
-constexpr double kSlow = 0.4;  // a worse rate gives up
-constexpr int kMaxActiveSets = 16;
+constexpr int kMaxIterations = 25;  // of Newton: at the worst rate that is accepted, ten digits
+constexpr int kMaxHalvings = 5;     // of a stage, to 1/32
+constexpr int kFree = 3;            // first iterations, whose rate of convergence does not matter
+constexpr double kSlow = 0.4;       // residual over the last one: a worse rate gives up
+constexpr double kDiverged = 1e30;  // a residual above this gives up, before it overflows
+constexpr double kStalled = 20;     // tolerances: a residual that stalls below this is taken for rounding
+constexpr int kMaxActiveSets = 16;  // tries; in the second half of them rows are only released
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -21,340 +23,168 @@ std::size_t at(int i) {
 
 }  // namespace
 
-void JointIsland::save() {
-  m_place_before = m_place;
-  m_velocity_before = m_velocity;
-  if (m_is_turning) {
-    m_rotation_before = m_rotation;
-    m_spin_before = m_spin;
-  }
+void JointIsland::move(double h) {
+  m_motion.move(h);
+  if (m_motion.is_turning) m_constraints.setArms(m_motion);
+}
+
+void JointIsland::applyImpulses(const std::vector<double>& impulse) {
+  m_motion.applyImpulses(m_constraints.rows, impulse.data(), !m_constraints.rods.empty());
 }
 
 void JointIsland::restore() {
-  m_place = m_place_before;
-  m_velocity = m_velocity_before;
-  if (m_is_turning) {
-    m_rotation = m_rotation_before;
-    m_spin = m_spin_before;
-    setArms();
-  }
-  for (const int row : m_soft) m_value[at(row)] = m_value_before[at(row)];
-  std::fill(m_multiplier.begin(), m_multiplier.end(), 0.0);
-}
-
-void JointIsland::kick(double h) {
-  for (std::size_t i = 0; i < m_velocity.size(); ++i) m_velocity[i] += h * m_acceleration[i];
-  if (!m_is_turning) return;
-  for (std::size_t i = 0; i < m_spin.size(); ++i) m_spin[i] += h * m_turn_acceleration[i];
-}
-
-void JointIsland::move(double h) {
-  for (std::size_t i = 0; i < m_place.size(); ++i) m_place[i] = m_place_before[i] + h * m_velocity[i];
-  if (!m_is_turning) return;
-  for (std::size_t i = 0; i < m_spin.size(); ++i) {
-    if (m_spin[i] != 0) m_rotation[i] = turned(m_rotation_before[i], h * m_spin[i]);
-  }
-  setArms();
-}
-
-void JointIsland::apply(const double* impulse) {
-  if (!m_is_turning && !m_rods.empty()) {
-    for (const JointRow& row : m_rows) {
-      const Vec2 push = *impulse++ * row.n;
-      m_velocity[at(row.b)] += m_mass[at(row.b)].inverse_mass * push;
-      m_velocity[at(row.a)] -= m_mass[at(row.a)].inverse_mass * push;
-    }
-    return;
-  }
-  for (const JointRow& row : m_rows) {
-    const double s = *impulse++;
-    const JointMass& b = m_mass[at(row.b)];
-    m_velocity[at(row.b)] += (b.inverse_mass * s) * row.n;
-    if (m_is_turning) m_spin[at(row.b)] += b.inverse_inertia * s * row.jb;
-    if (row.a < 0) continue;
-    const JointMass& a = m_mass[at(row.a)];
-    m_velocity[at(row.a)] -= (a.inverse_mass * s) * row.n;
-    if (m_is_turning) m_spin[at(row.a)] += a.inverse_inertia * s * row.ja;
-  }
-}
-
-void JointIsland::record(const std::vector<double>& impulse) {
-  for (std::size_t i = 0; i < m_rows.size(); ++i) {
-    const JointRow& row = m_rows[i];
-    const std::size_t link = at(m_link_of[i]);
-    m_force[link] += impulse[i] * row.n;
-    if (row.n == Vec2{}) m_torque[link] += impulse[i] * row.jb;
-  }
+  m_motion.restore();
+  if (m_motion.is_turning) m_constraints.setArms(m_motion);
+  for (const int row : m_constraints.soft) m_constraints.value[at(row)] = m_constraints.value_before[at(row)];
+  std::fill(m_constraints.multiplier.begin(), m_constraints.multiplier.end(), 0.0);
 }
 
 void JointIsland::factor(bool is_for_positions, JointCounters& counters, double regularisation) {
-  const std::uint8_t* is_out = is_for_positions || m_is_smooth ? m_is_out.data() : m_is_out_second.data();
-  const double* softness = is_for_positions && !m_soft.empty() ? m_diagonal.data() : nullptr;
+  const JointConstraints& its = m_constraints;
+  const std::uint8_t* is_out = is_for_positions || its.is_smooth ? its.is_out.data() : m_is_out_second.data();
+  const double* softness = is_for_positions && !its.soft.empty() ? its.diagonal.data() : nullptr;
   counters.dependent += static_cast<std::uint64_t>(
-      m_matrix.factor(m_rows.data(), m_mass.data(), is_out, softness, regularisation));
-  m_is_factored = regularisation == 0 && (is_for_positions || m_is_smooth);
+      m_matrix.factor(its.rows.data(), m_motion.mass.data(), is_out, softness, regularisation));
+  m_is_factored = regularisation == 0 && (is_for_positions || its.is_smooth);
 }
 
-// Simplified: the matrix of the start, whose error is of the order of the angle turned in a stage. That it
-// converges slowly says that h does not resolve the motion, and Newton's exact method, which would converge
-// there, buys its places with energy (measured on a rope with a thousandfold weight).
-bool JointIsland::newton(double h, JointCounters& counters) {
-  const int rows = static_cast<int>(m_rows.size());
+// Simplified: the matrix of the start, whose error is of the order of the angle turned in a stage. Slow
+// convergence means that h does not resolve the motion; Newton's exact method would converge there, but at
+// the cost of energy (measured on a rope with a thousandfold weight).
+bool JointIsland::iterateNewton(double h, JointCounters& counters) {
+  JointConstraints& its = m_constraints;
+  const int rows = static_cast<int>(its.rows.size());
   const double to_impulse = -1 / h;
   double last = kNoLimit;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     move(h);
-    evaluate<false>();
+    its.evaluate<false>(m_motion);
     double worst = 0;
     bool is_finite = true;
-    if (m_is_smooth) {
-      for (std::size_t i = 0; i < m_rows.size(); ++i) {
-        const double rest = m_value[i];
+    if (its.is_smooth) {
+      for (std::size_t i = 0; i < its.rows.size(); ++i) {
+        const double rest = its.value[i];
         worst = std::max(worst, std::abs(rest));
         is_finite &= rest - rest == 0;
         m_rest[i] = rest * to_impulse;
       }
     } else {
       for (int row = 0; row < rows; ++row) {
-        const double rest = m_is_out[at(row)] != 0 ? 0 : residual(row, h);
+        const double rest = its.is_out[at(row)] != 0 ? 0 : its.residual(row, m_motion, h);
         worst = std::max(worst, std::abs(rest));
         is_finite &= rest - rest == 0;
         m_rest[at(row)] = rest * to_impulse;
       }
     }
-    if (!is_finite || worst > 1e30) return false;
+    if (!is_finite || worst > kDiverged) return false;
     if (worst <= m_tolerance) return true;
-    if (iteration >= kFree && worst > kSlow * last) return worst <= 20 * m_tolerance;
+    if (iteration >= kFree && worst > kSlow * last) return worst <= kStalled * m_tolerance;
     last = worst;
     ++counters.iterations;
     m_matrix.solve(m_rest.data());
-    for (std::size_t i = 0; i < m_rows.size(); ++i) m_multiplier[i] += m_rest[i];
-    apply(m_rest.data());
+    for (std::size_t i = 0; i < its.rows.size(); ++i) its.multiplier[i] += m_rest[i];
+    applyImpulses(m_rest);
   }
   return false;
 }
 
-// Does a multiplier leave its bounds, or a held one want to come back? Then the sets have changed.
-bool JointIsland::changeActiveSet(double h, bool may_clamp) {
-  bool has_changed = false;
-  for (const int row : m_one_sided) {
-    const double s = m_multiplier[at(row)];
-    std::int8_t& side = m_side[at(row)];
-    const std::int8_t before = side;
-    if (side == 0) {
-      if (may_clamp && s < m_low[at(row)]) side = -1;
-      if (may_clamp && s > m_high[at(row)]) side = 1;
-    } else if (side < 0 ? residual(row, h) < -m_tolerance : residual(row, h) > m_tolerance) {
-      side = 0;
-    }
-    if (side == before) continue;
-    has_changed = true;
-    m_is_out[at(row)] = side != 0 ? 1 : 0;
-    m_multiplier[at(row)] = side == 0 ? 0 : side < 0 ? m_low[at(row)] : m_high[at(row)];
-  }
-  return has_changed;
-}
-
-bool JointIsland::positions(double h, JointCounters& counters) {
+bool JointIsland::solvePositions(double h, JointCounters& counters) {
   for (int pass = 0; pass < kMaxActiveSets; ++pass) {
-    if (!m_is_smooth || !m_is_factored) factor(true, counters);
-    if (pass > 0) {
-      m_velocity = m_kicked;
-      m_spin = m_spin_kicked;
-    }
-    apply(m_multiplier.data());
-    if (!newton(h, counters)) return false;
-    if (m_one_sided.empty() || !changeActiveSet(h, pass < kMaxActiveSets / 2)) return true;
+    if (!m_constraints.is_smooth || !m_is_factored) factor(true, counters);
+    if (pass > 0) m_motion.restoreKicked();
+    applyImpulses(m_constraints.multiplier);
+    if (!iterateNewton(h, counters)) return false;
+    if (m_constraints.one_sided.empty()) return true;
+    const bool may_clamp = pass < kMaxActiveSets / 2;
+    if (!m_constraints.changeActiveSet(m_motion, h, may_clamp, m_tolerance)) return true;
   }
   ++counters.unsettled;
   return true;
 }
 
 // The rows that hold velocities: hard ones, and one-sided ones that have pulled in the first half. Those that
-// would push in the second half are let go.
+// would push in the second half are released.
 void JointIsland::projectVelocities(JointCounters& counters) {
-  if (!m_one_sided.empty()) {
-    m_kicked = m_velocity;
-    m_spin_kicked = m_spin;
-  }
+  constexpr int kRounds = 3;  // of iterative refinement: more than one only if the matrix is ill-conditioned
+  constexpr double kRefined = 1e-12;  // of the first residual: nothing left to refine
+  const JointConstraints& its = m_constraints;
+  if (!its.one_sided.empty()) m_motion.saveKicked();
   for (int pass = 0; pass < kMaxActiveSets; ++pass) {
     factor(false, counters);
-    const std::uint8_t* is_out = m_is_smooth ? m_is_out.data() : m_is_out_second.data();
+    const std::uint8_t* is_out = its.is_smooth ? its.is_out.data() : m_is_out_second.data();
     std::fill(m_second.begin(), m_second.end(), 0.0);
     double first = 0;
-    for (int round = 0; round < 3; ++round) {  // more than once only if the matrix is bad
+    for (int round = 0; round < kRounds; ++round) {
       double worst = 0;
-      for (std::size_t i = 0; i < m_rows.size(); ++i) {
-        const double rest = is_out[i] != 0 ? 0 : targetSpeed(static_cast<int>(i)) - speedAlong(m_rows[i]);
+      for (std::size_t i = 0; i < its.rows.size(); ++i) {
+        const double rest =
+            is_out[i] != 0 ? 0 : its.targetSpeed(static_cast<int>(i)) - m_motion.speedAlong(its.rows[i]);
         worst = std::max(worst, std::abs(rest));
         m_rest[i] = rest;
       }
-      if (round > 0 && worst <= 1e-12 * first) break;
+      if (round > 0 && worst <= kRefined * first) break;
       first = round == 0 ? worst : first;
       m_matrix.solve(m_rest.data());
-      for (std::size_t i = 0; i < m_rows.size(); ++i) m_second[i] += m_rest[i];
-      apply(m_rest.data());
+      for (std::size_t i = 0; i < its.rows.size(); ++i) m_second[i] += m_rest[i];
+      applyImpulses(m_rest);
     }
     bool has_changed = false;
-    for (const int row : m_one_sided) {
+    for (const int row : its.one_sided) {
       if (m_is_out_second[at(row)] != 0) continue;
       const double s = m_second[at(row)];
-      if (s >= m_low[at(row)] && s <= m_high[at(row)]) continue;
+      if (s >= its.low[at(row)] && s <= its.high[at(row)]) continue;
       m_is_out_second[at(row)] = 1;
       has_changed = true;
     }
     if (!has_changed) break;
-    m_velocity = m_kicked;
-    m_spin = m_spin_kicked;
+    m_motion.restoreKicked();
   }
 }
 
-void JointIsland::velocities(double h, JointCounters& counters) {
-  record(m_multiplier);
-  evaluate<true>();
-  kick(0.5 * h);
-  if (!m_is_smooth) {
-    for (std::size_t i = 0; i < m_rows.size(); ++i) {
-      const bool is_again = m_kind[i] == Kind::kSoft || (m_kind[i] == Kind::kMotor && m_side[i] != 0);
-      m_rest[i] = is_again ? m_multiplier[i] : 0;
-      m_is_out_second[i] = m_kind[i] == Kind::kSoft || m_side[i] != 0 ? 1 : 0;
+void JointIsland::finishVelocities(double h, JointCounters& counters) {
+  using Kind = JointConstraints::Kind;
+  JointConstraints& its = m_constraints;
+  its.addForces(its.multiplier);
+  its.evaluate<true>(m_motion);
+  m_motion.kick(0.5 * h);
+  if (!its.is_smooth) {
+    for (std::size_t i = 0; i < its.rows.size(); ++i) {
+      const bool is_again = its.kind[i] == Kind::kSoft || (its.kind[i] == Kind::kMotor && its.side[i] != 0);
+      m_rest[i] = is_again ? its.multiplier[i] : 0;
+      m_is_out_second[i] = its.kind[i] == Kind::kSoft || its.side[i] != 0 ? 1 : 0;
     }
-    apply(m_rest.data());
-    record(m_rest);
+    applyImpulses(m_rest);
+    its.addForces(m_rest);
   }
   projectVelocities(counters);
-  record(m_second);
+  its.addForces(m_second);
 }
 
 bool JointIsland::stage(double h, JointCounters& counters) {
   ++counters.stages;
-  save();
-  kick(0.5 * h);
+  m_motion.save();
+  m_motion.kick(0.5 * h);
   const double ratio = h / m_last_h;
-  for (double& s : m_multiplier) s *= ratio;
+  for (double& s : m_constraints.multiplier) s *= ratio;
   m_last_h = h;
-  if (!m_is_smooth) {
-    prepareRows(h);
-    m_kicked = m_velocity;
-    m_spin_kicked = m_spin;
+  if (!m_constraints.is_smooth) {
+    m_constraints.prepare(m_motion, h);
+    m_motion.saveKicked();
   }
-  if (!positions(h, counters)) {
+  if (!solvePositions(h, counters)) {
     restore();
     return false;
   }
-  velocities(h, counters);
+  finishVelocities(h, counters);
   return true;
 }
 
 bool JointIsland::advance(double h, int depth, JointCounters& counters) {
-  if (m_is_beyond) return regularisedStage(h, counters);
+  if (m_is_regularised) return regularisedStage(h, counters);
   if (stage(h, counters)) return true;
   if (depth == kMaxHalvings) return regularisedStage(h, counters);
   ++counters.halved;
   return advance(0.5 * h, depth + 1, counters) && advance(0.5 * h, depth + 1, counters);
-}
-
-double JointIsland::kineticEnergy() const {
-  double sum = 0;
-  for (std::size_t i = 0; i < m_mass.size(); ++i) {
-    if (m_mass[i].inverse_mass > 0) sum += 0.5 * lengthSquared(m_velocity[i]) / m_mass[i].inverse_mass;
-    if (m_mass[i].inverse_inertia > 0) sum += 0.5 * m_spin[i] * m_spin[i] / m_mass[i].inverse_inertia;
-  }
-  return sum;
-}
-
-double JointIsland::workSince(const std::vector<Vec2>& places) const {
-  double work = 0;
-  for (std::size_t i = 0; i < m_mass.size(); ++i) {
-    if (m_mass[i].inverse_mass > 0)
-      work += dot(m_acceleration[i], m_place[i] - places[i]) / m_mass[i].inverse_mass;
-  }
-  return work;
-}
-
-// Gauss–Newton from where the bodies are to the nearest place that fulfils the constraints, as impulses.
-bool JointIsland::projectPlaces(double h, JointCounters& counters) {
-  constexpr double kRegularisation = 1e-9;
-  constexpr int kRounds = 12;
-  for (int round = 0; round < kRounds; ++round) {
-    evaluate<true>();
-    const std::uint8_t* is_out = m_is_smooth ? m_is_out.data() : m_is_out_second.data();
-    double worst = 0;
-    for (std::size_t i = 0; i < m_rows.size(); ++i) {
-      const double rest = is_out[i] != 0 ? 0 : m_value[i];
-      worst = std::max(worst, std::abs(rest));
-      m_rest[i] = -rest / h;
-    }
-    if (worst <= 20 * m_tolerance) return true;
-    if (!(worst <= 1e15)) return false;
-    factor(false, counters, kRegularisation);
-    m_matrix.solve(m_rest.data());
-    apply(m_rest.data());
-    move(h);
-  }
-  return false;
-}
-
-// Nobody is faster than the heaviest: what is left of a light chain's whirling on a great weight.
-void JointIsland::slowLightOnes() {
-  double least = kNoLimit, most = 0;
-  for (std::size_t i = 0; i < m_mass.size(); ++i) {
-    if (!(m_mass[i].inverse_mass > 0) || m_mass[i].inverse_mass >= least) continue;
-    least = m_mass[i].inverse_mass;
-    most = length(m_velocity[i]);
-  }
-  for (std::size_t i = 0; i < m_mass.size(); ++i) {
-    const double speed = length(m_velocity[i]);
-    if (m_mass[i].inverse_mass > 0 && speed > most) m_velocity[i] *= most / speed;
-    if (m_mass[i].inverse_inertia > 0) m_spin[i] = 0;
-  }
-}
-
-// Free flight, then the nearest place that fulfils the constraints (fast projection: Goldenthal et al. 2007);
-// the velocity is what that way takes, projected. Backward Euler in effect: it damps what h does not resolve.
-// If even that finds no place, the light bodies are slowed, and at last all stay where they are. A last bound
-// keeps the energy from growing by more than the forces' work.
-bool JointIsland::regularisedStage(double h, JointCounters& counters) {
-  ++counters.regularised;
-  m_is_beyond = true;
-  save();
-  const double energy = kineticEnergy();
-  kick(h);
-  if (!m_is_smooth) m_is_out_second = m_is_out;
-  for (const int row : m_soft) m_is_out_second[at(row)] = 1;
-  for (const int row : m_one_sided) {
-    if (m_kind[at(row)] == Kind::kMotor) m_is_out_second[at(row)] = 1;
-  }
-  move(h);
-  bool is_found = projectPlaces(h, counters);
-  if (!is_found) {
-    m_velocity = m_velocity_before;
-    if (m_is_turning) m_spin = m_spin_before;
-    kick(h);
-    slowLightOnes();
-    move(h);
-    is_found = projectPlaces(h, counters);
-  }
-  if (!is_found) {
-    restore();
-    for (std::size_t i = 0; i < m_mass.size(); ++i) {
-      if (m_mass[i].inverse_mass > 0) m_velocity[i] = {};
-      if (m_mass[i].inverse_inertia > 0) m_spin[i] = 0;
-    }
-  }
-  evaluate<true>();
-  projectVelocities(counters);
-  const double after = kineticEnergy(), most = std::max(0.0, energy + workSince(m_place_before));
-  if (after > most) {
-    const double scale = std::sqrt(most / after);
-    for (std::size_t i = 0; i < m_mass.size(); ++i) {
-      if (m_mass[i].inverse_mass > 0) m_velocity[i] *= scale;
-      if (m_mass[i].inverse_inertia > 0) m_spin[i] *= scale;
-    }
-  }
-  std::fill(m_multiplier.begin(), m_multiplier.end(), 0.0);
-  m_is_factored = false;
-  return after - after == 0;
 }
 
 }  // namespace naiad::physics
