@@ -59,7 +59,7 @@ void BodyIslands::join(const BodyTable& table, const std::vector<BodyPlan>& plan
   const auto planOf = [&](int row) {
     return row >= 0 && row < static_cast<int>(m_plan_of.size()) ? m_plan_of[at(row)] : -1;
   };
-  for (const JointEntry& entry : table.joints.entries()) {
+  for (const naiad::physics::JointEntry& entry : table.joints.entries()) {
     if (!entry.used) continue;
     const int a = planOf(entry.joint.a), b = planOf(entry.joint.b);
     if (a < 0 || b < 0 || plans[at(a)].is_kinematic || plans[at(b)].is_kinematic) continue;
@@ -69,7 +69,7 @@ void BodyIslands::join(const BodyTable& table, const std::vector<BodyPlan>& plan
 
 bool BodyIslands::areJoined(const BodyTable& table, int row_a, int row_b) const {
   const auto& entries = table.joints.entries();
-  return std::any_of(entries.begin(), entries.end(), [&](const JointEntry& entry) {
+  return std::any_of(entries.begin(), entries.end(), [&](const naiad::physics::JointEntry& entry) {
     const int a = entry.joint.a, b = entry.joint.b;
     return entry.used && ((a == row_a && b == row_b) || (a == row_b && b == row_a));
   });

@@ -117,7 +117,7 @@ void BodyLayer::fly(Plan& plan) {
   const BodyMedium& medium = std::as_const(*m_table).medium(plan.index);
   const auto time = static_cast<double>(m_table->ticks);
   IntegratorStatus status = IntegratorStatus::kDone;
-  const JointEntry* p_spring = row.is_kinematic ? nullptr : m_links.hangsOn(*m_table, plan.index);
+  const naiad::physics::JointEntry* p_spring = row.is_kinematic ? nullptr : m_links.hangsOn(*m_table, plan.index);
   plan.is_bent = !row.is_kinematic && (p_spring != nullptr || row.flight != FlightKind::kFree);
   if (!plan.is_bent) {
     plan.flown = naiad::physics::flyFree(row.velocity, plan.push, 1);

@@ -165,10 +165,10 @@ void BodyRigids::takeObstacles(const WorldStore& store, const BodyTable& table,
 
 // A joint is here if one of its bodies is.
 void BodyRigids::takeJoints(const BodyTable& table) {
-  const std::vector<JointEntry>& entries = table.joints.entries();
+  const std::vector<naiad::physics::JointEntry>& entries = table.joints.entries();
   if (m_joint_seats.size() < entries.size()) m_joint_seats.resize(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const JointEntry& entry = entries[i];
+    const naiad::physics::JointEntry& entry = entries[i];
     JointSeat& seat = m_joint_seats[i];
     const int a = rigidOf(entry.joint.a), b = rigidOf(entry.joint.b);
     const bool is_world_a = entry.joint.a == BodyJoints::kWorld;
@@ -257,12 +257,12 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyPlan>& plans, const Bo
       plan.acceleration = body.velocity - plan.start_velocity;
     }
   }
-  const std::vector<JointEntry>& entries = std::as_const(table).joints.entries();
+  const std::vector<naiad::physics::JointEntry>& entries = std::as_const(table).joints.entries();
   for (std::size_t i = 0; i < m_joint_seats.size() && i < entries.size(); ++i) {
     const JointSeat& seat = m_joint_seats[i];
     if (seat.id < 0 || !entries[i].used || entries[i].generation != seat.generation) continue;
     const RawJoint& joint = m_world.joint(seat.id);
-    JointEntry& entry = table.joints.entries()[i];
+    naiad::physics::JointEntry& entry = table.joints.entries()[i];
     entry.joint.force = joint.force;
     entry.joint.torque = joint.torque;
     if (joint.is_broken) table.joints.remove({static_cast<std::uint32_t>(i), seat.generation});
