@@ -11,7 +11,6 @@ DatagramService::DatagramService(std::unique_ptr<DatagramSocket> socket, Now now
     m_received = m_now();
     m_gate.receive(path, packet, m_received);
   });
-  m_socket->expect([this](std::string_view packet) { m_gate.expect(packet); });
 }
 
 DatagramService::~DatagramService() = default;

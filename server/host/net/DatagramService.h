@@ -36,8 +36,6 @@ class DatagramService {
     void send(std::string_view packet) override;
     std::optional<std::size_t> room() const override { return m_link.path() ? m_link.room() : std::nullopt; }
     std::string peerAddress() const override;
-    /// send() is about to be called.
-    void prefetch() const override { m_link.prefetch(); }
 
     bool renew(const KeyExporter& exporter, Epoch epoch);
     bool renew(const ReliableChannel& stream, Epoch epoch) override;

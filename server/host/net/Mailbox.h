@@ -40,10 +40,6 @@ class Batch {
     m_begin += item.size;
     return true;
   }
-  /// The one that is read after `n` others; null if there are not so many.
-  const Header* ahead(std::size_t n) const {
-    return m_read + n < m_items.size() ? &m_items[m_read + n].header : nullptr;
-  }
   bool empty() const { return m_items.empty(); }
   /// Memory in use, in bytes.
   std::size_t size() const { return m_bytes.size() + m_items.size() * sizeof(Item); }

@@ -25,8 +25,6 @@ constexpr std::chrono::milliseconds kUnproven{50};
 /// Between two ticks the tick thread looks at the clock this often.
 constexpr std::chrono::microseconds kHelping{200};
 constexpr int kMinServed = 64;
-/// Orders whose memory is fetched before their turn.
-constexpr std::size_t kAhead = 2;
 
 }  // namespace
 
@@ -79,7 +77,6 @@ bool NetworkThread::serve(Clock::time_point enough) {
       if (!m_serving_batch.read(notice, bytes)) break;
     }
     m_came = notice.came;
-    prefetchNear();
     onNotice(notice, bytes);
     more = served % kMinServed == 0 && Clock::now() >= enough;
   }
@@ -104,19 +101,6 @@ void NetworkThread::onNotice(const Notice& notice, std::string_view bytes) {
   if (notice.kind == Notice::kClosed) return stream.ended(notice.reason);
   stream.m_end.in -= bytes.size() + kNoticeBytes;
   stream.deliver(bytes);
-}
-
-// As in prefetch(): which sessions are next is known.
-void NetworkThread::prefetchNear() const {
-  const auto channelOf = [this](const Notice* notice) -> const RelayedDatagrams* {
-    if (notice == nullptr || notice->kind != Notice::kDatagram) return nullptr;
-    const NearDatagrams& near = m_near_datagrams[notice->place];
-    return near.id == notice->id ? near.channel : nullptr;
-  };
-  if (const RelayedDatagrams* soon = channelOf(m_serving_batch.ahead(2 * kAhead)))
-    prefetchMemory(soon, sizeof(RelayedDatagrams));
-  const RelayedDatagrams* next = channelOf(m_serving_batch.ahead(kAhead));
-  if (next != nullptr && next->m_on_soon) next->m_on_soon();
 }
 
 void NetworkThread::send(std::optional<Clock::time_point> tick_began) {
@@ -218,17 +202,8 @@ void NetworkThread::obey() {
   Order order;
   std::string_view bytes;
   while (m_taken.read(order, bytes)) {
-    prefetch();
     obey(order, bytes);
   }
-}
-
-// What is sealed for a session has left the cache since the last tick, and the order says whose turn comes.
-void NetworkThread::prefetch() const {
-  if (const Order* soon = m_taken.ahead(2 * kAhead)) prefetchMemory(soon->datagrams, sizeof(DatagramsEnd));
-  const Order* next = m_taken.ahead(kAhead);
-  if (next != nullptr && next->kind == Order::kSendDatagram && next->datagrams->channel)
-    next->datagrams->channel->prefetch();
 }
 
 void NetworkThread::obey(const Order& order, std::string_view bytes) {

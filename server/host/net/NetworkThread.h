@@ -171,14 +171,12 @@ class NetworkThread {
   bool isFull() const { return m_order_box.size() + m_orders.size() > m_limits.mailbox; }
   void send(std::optional<Clock::time_point> tick_began);
   void onNotice(const Notice& notice, std::string_view bytes);
-  void prefetchNear() const;
   void wakeHome();
 
   // On the network thread.
   void run();
   void obey();
   void obey(const Order& order, std::string_view bytes);
-  void prefetch() const;
   void endTurn();
   void meet(std::unique_ptr<ReliableChannel> channel);
   void onFrame(StreamEnd& end, std::string_view frame);

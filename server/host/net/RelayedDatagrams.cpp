@@ -19,10 +19,6 @@ void RelayedDatagrams::start(std::function<void(std::string_view)> on_packet) {
   m_on_packet = std::move(on_packet);
 }
 
-void RelayedDatagrams::expect(std::function<void()> on_soon) {
-  m_on_soon = std::move(on_soon);
-}
-
 void RelayedDatagrams::send(std::string_view packet) {
   if (m_network.isFull()) {
     ++m_network.m_out_dropped;

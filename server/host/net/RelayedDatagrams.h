@@ -20,10 +20,8 @@ class RelayedDatagrams : public SealedChannel {
   RelayedDatagrams& operator=(const RelayedDatagrams&) = delete;
 
   void start(std::function<void(std::string_view packet)> on_packet) override;
-  void expect(std::function<void()> on_soon) override;
   void send(std::string_view packet) override;
   std::optional<std::size_t> room() const override;
-  void prefetch() const override { __builtin_prefetch(&m_end.room); }
   /// The address may change with every packet, and is the network thread's to know.
   std::string peerAddress() const override { return "datagrams " + std::to_string(m_end.id); }
 
@@ -39,7 +37,6 @@ class RelayedDatagrams : public SealedChannel {
   NetworkThread::DatagramsEnd& m_end;
   Epoch m_epoch;
   std::function<void(std::string_view)> m_on_packet;
-  std::function<void()> m_on_soon;
 };
 
 }  // namespace naiad

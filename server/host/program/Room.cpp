@@ -10,9 +10,6 @@ namespace naiad {
 
 namespace {
 
-/// Sessions whose memory is fetched before their turn.
-constexpr std::size_t kAhead = 1;
-
 wire::ServerMessage line(const std::string& text) {
   wire::ServerMessage message;
   message.mutable_chat()->set_text(text);  // from nobody: the server says it
@@ -102,20 +99,15 @@ void Room::publish(TruthWriter* p_truth) {
   m_publisher.update(m_p_port->view());
   m_p_port->published(m_publisher);
   const std::vector<df::PlayerFacts>& players = m_p_port->view().players;
-  m_by_player.clear();
-  forEachPlaying([this](Session& session) { m_by_player.push_back(&session); });
   auto found = players.begin();
-  for (std::size_t i = 0; i < m_by_player.size(); ++i) {
-    if (i + 2 * kAhead < m_by_player.size()) m_by_player[i + 2 * kAhead]->prefetch();
-    if (i + kAhead < m_by_player.size()) m_by_player[i + kAhead]->prefetchParts();
-    Session& session = *m_by_player[i];
+  forEachPlaying([&](Session& session) {
     while (found != players.end() && found->id < session.player()) ++found;  // both are in order
-    if (found == players.end() || found->id != session.player()) continue;   // joins with the next tick
+    if (found == players.end() || found->id != session.player()) return;     // joins with the next tick
     // The truth first: whoever compares must find it once the snapshot has arrived.
     if (p_truth != nullptr) p_truth->write(m_publisher.tick(), found->id, m_p_port->renderPlayer(found->id));
     session.setControls(found->steering.p_table);
     session.sendTick(m_publisher, *found);
-  }
+  });
   m_sound_news.tick(m_p_port->view(), soundTeller());
   tellNotes();
 }

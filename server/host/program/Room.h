@@ -89,8 +89,7 @@ class Room {
   std::unique_ptr<WorldPort> m_p_port;
   Publisher m_publisher;
   SoundNews m_sound_news;
-  std::vector<Session*> m_members;    ///< by player; those that are ending among them
-  std::vector<Session*> m_by_player;  ///< those that play; for one tick
+  std::vector<Session*> m_members;  ///< by player; those that are ending among them
   bool m_first_only;
   bool m_watched = false;
   bool m_ticking = false;

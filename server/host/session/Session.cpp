@@ -125,13 +125,6 @@ void Session::startDatagrams(std::unique_ptr<SealedChannel> datagrams) {
   m_datagrams = std::move(datagrams);
   if (m_datagrams == nullptr) return;
   m_datagrams->start([this](std::string_view bytes) { onDatagram(bytes); });
-  m_datagrams->expect([this] { prefetchHearing(); });
-}
-
-void Session::prefetchHearing() const {
-  prefetchMemory(this, reinterpret_cast<const char*>(&m_last_resize) - reinterpret_cast<const char*>(this));
-  m_sender.prefetchNumbers();
-  m_transport.prefetch();
 }
 
 void Session::answer(const wire::Welcome& welcome) {

@@ -26,7 +26,6 @@
 #include "naiad.pb.h"
 #include "shared/net/base/Channel.h"
 #include "shared/net/base/IdleTimer.h"
-#include "shared/net/base/Prefetch.h"
 #include "shared/net/stream/ReliableFrames.h"
 #include "shared/replica/UpdateCodec.h"
 
@@ -138,18 +137,6 @@ class Session {
     if (m_controls != controls) m_controls = controls;
   }
 
-  /// So that memory is not waited for: sendTick() will be called after those of some other sessions. First
-  /// prefetch(), and when that has arrived prefetchParts(); both change nothing.
-  void prefetch() const {
-    prefetchMemory(this, reinterpret_cast<const char*>(&m_last_resize) - reinterpret_cast<const char*>(this));
-    m_sender.prefetch();
-    m_transport.prefetch();
-  }
-  void prefetchParts() const {
-    m_sender.prefetchParts();
-    if (m_datagrams != nullptr) m_datagrams->prefetch();
-  }
-
   /// Note a published tick, and send what is owed unless the client is still busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player);
   void send(const wire::ServerMessage& message);
@@ -189,7 +176,6 @@ class Session {
   void takeStream(Session& other);
   void answer(const wire::Welcome& welcome);
   void startDatagrams(std::unique_ptr<SealedChannel> datagrams);
-  void prefetchHearing() const;
   void releaseKeys();
   void checkGreeting(Clock::time_point now);
   void checkSilence(Clock::time_point now);
@@ -217,7 +203,6 @@ class Session {
   void skipTick();
   void end();
 
-  // What every tick looks at comes first, close together: a server has thousands of these.
   State m_state = State::kGreeting;
   std::uint32_t m_player = 0;
   bool m_told_gone = false;

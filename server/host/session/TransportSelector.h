@@ -12,7 +12,6 @@
 #include <chrono>
 #include <cstdint>
 
-#include "shared/net/base/Prefetch.h"
 #include "shared/replica/Acks.h"
 
 namespace naiad {
@@ -40,11 +39,6 @@ class TransportSelector {
   /// Another address or stream: find out again, soon.
   void renewed(Time now) { m_began = now; }
 
-  /// So that memory is not waited for: the questions below are about to be asked.
-  void prefetch() const {
-    prefetchMemory(&m_acked,
-                   reinterpret_cast<const char*>(this + 1) - reinterpret_cast<const char*>(&m_acked));
-  }
   /// Do datagrams pass?
   bool isOpen(Time now) const { return m_open && now - m_last_ack < kIdleTimer; }
   /// Is it time to try whether they do? `only`: there is no other way.

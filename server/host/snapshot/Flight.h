@@ -35,10 +35,6 @@ class Flight {
     snapshot.names.clear();
     return snapshot;
   }
-  /// add() is about to be called.
-  void prefetchNext() const {
-    if (m_count < m_snapshots.size()) __builtin_prefetch(&m_snapshots[m_count], 1);
-  }
   /// Null if it is settled.
   Snapshot* find(std::uint32_t number) {
     for (std::size_t i = m_count; i > 0; --i) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <utility>
 
 namespace naiad {
 
@@ -99,15 +98,7 @@ void Interest::forget(std::uint32_t id, std::uint32_t slot) {
 void Interest::noteChanges() {
   thread_local ChangeIndex::Marks marks;
   markChanges(marks);
-  Changes changes;
-  std::size_t count = 0;
-  ChangeIndex::forEachMarked(marks, [&](std::size_t i) {
-    const Publisher::Change& change = m_p_publisher->changes()[i];
-    m_p_known->prefetchSlot(change.slot);
-    changes[count++] = &change;
-    if (count == changes.size()) noteChanges(changes, std::exchange(count, 0));
-  });
-  noteChanges(changes, count);
+  ChangeIndex::forEachMarked(marks, [this](std::size_t i) { noteChange(m_p_publisher->changes()[i]); });
 }
 
 // Those of objects that may come or may be known.
@@ -123,18 +114,8 @@ void Interest::markChanges(ChangeIndex::Marks& marks) const {
   }
 }
 
-// What this client knows has left the cache since the last tick: it is fetched for all of them at once.
-void Interest::noteChanges(const Changes& changes, std::size_t count) {
-  std::array<std::uint32_t, std::tuple_size_v<Changes>> ids;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t slot = changes[i]->slot;
-    ids[i] = mayBeKnown(slot) ? m_p_known->find(slot) : KnownObjects::kNobody;
-    if (ids[i] != KnownObjects::kNobody) m_p_known->prefetch(ids[i]);
-  }
-  for (std::size_t i = 0; i < count; ++i) noteChange(*changes[i], ids[i]);
-}
-
-void Interest::noteChange(const Publisher::Change& change, std::uint32_t id) {
+void Interest::noteChange(const Publisher::Change& change) {
+  const std::uint32_t id = mayBeKnown(change.slot) ? m_p_known->find(change.slot) : KnownObjects::kNobody;
   if (id == KnownObjects::kNobody) {
     if (change.groups != 0) consider(change.slot);
     return;

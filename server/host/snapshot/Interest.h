@@ -18,7 +18,6 @@
 
 #include "host/snapshot/KnownObjects.h"
 #include "host/snapshot/Publisher.h"
-#include "shared/net/base/Prefetch.h"
 
 namespace naiad {
 
@@ -34,9 +33,6 @@ class Interest {
   /// To be called after every update of the publisher: owes `known` what changed, births and deaths.
   void update(const Publisher& publisher, const Focus& focus, KnownObjects& known);
 
-  /// So that memory is not waited for: update() is about to be called.
-  void prefetch() const { prefetchMemory(m_candidates.data(), m_candidates.size() * sizeof(std::uint32_t)); }
-
   /// Is the object in the view, or will it be after `look_ahead` ticks?
   static bool isVisible(const Publisher::Model& model, std::uint32_t tick, std::uint32_t look_ahead,
                         const CellRect& window);
@@ -50,11 +46,9 @@ class Interest {
   /// Cells to spare around a view that moves.
   static constexpr std::int64_t kSpare = 4;
 
-  using Changes = std::array<const Publisher::Change*, 32>;
   void noteChanges();
   void markChanges(ChangeIndex::Marks& marks) const;
-  void noteChanges(const Changes& changes, std::size_t count);
-  void noteChange(const Publisher::Change& change, std::uint32_t id);
+  void noteChange(const Publisher::Change& change);
   void consider(std::uint32_t slot);
   void judgeCandidates();
   bool isSearchDue() const;

@@ -46,10 +46,6 @@ class KnownObjects {
 
   /// The id under which the client knows, or is about to be told of, the object in `slot`; kNobody if none.
   std::uint32_t find(std::uint32_t slot) const { return m_ids.find(slot); }
-  /// So that memory is not waited for: find(slot) is about to be called; at(id) is.
-  void prefetchSlot(std::uint32_t slot) const { m_ids.prefetch(slot); }
-  void prefetch(std::uint32_t id) const { __builtin_prefetch(&m_known[id], 1); }
-  void prefetchOwing() const { __builtin_prefetch(m_owing.data(), 1); }
   const Known& at(std::uint32_t id) const { return m_known[id]; }
   std::size_t idCount() const { return m_known.size(); }
   std::size_t aliveCount() const { return m_alive; }

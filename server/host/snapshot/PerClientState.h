@@ -15,19 +15,12 @@
 #include "host/snapshot/KnownObjects.h"
 #include "host/snapshot/OriginChoice.h"
 #include "host/snapshot/Publisher.h"
-#include "shared/net/base/Prefetch.h"
 #include "shared/replica/SnapshotCodec.h"
 
 namespace naiad {
 
 class PerClientState {
  public:
-  /// So that memory is not waited for: note() and check() are about to be called.
-  void prefetch() const {
-    prefetchMemory(this, reinterpret_cast<const char*>(&m_texts) - reinterpret_cast<const char*>(this));
-    prefetchMemory(&m_table,
-                   reinterpret_cast<const char*>(this + 1) - reinterpret_cast<const char*>(&m_table));
-  }
   /// Note one published tick and what this player sees of it.
   void note(const Publisher& publisher, const df::PlayerFacts& player);
   /// The newest input that the game has had, and in which tick.

@@ -36,7 +36,6 @@ SnapshotSender::Desk& SnapshotSender::desk() {
 
 void SnapshotSender::note(const Publisher& publisher, const df::PlayerFacts& player) {
   m_tick = publisher.tick();
-  m_known.prefetchSlot(player.followed.slot);
   m_per_client.note(publisher, player);
   if (!m_began) m_last_tick = m_tick - kKeepAlive;
   m_began = true;
@@ -108,22 +107,6 @@ void SnapshotSender::makeQueue(const Publisher& publisher, const Room& room) {
   });
   std::transform(m_p_desk->ranked.begin(), m_p_desk->ranked.end(), m_p_desk->queue.begin(),
                  [](const auto& r) { return r.second; });
-}
-
-void SnapshotSender::prefetch() const {
-  // Moments are written one at a time, later.
-  prefetchMemory(&m_known, sizeof m_known);
-  m_per_client.prefetch();
-  prefetchMemory(&m_names,
-                 reinterpret_cast<const char*>(&m_moments) - reinterpret_cast<const char*>(&m_names));
-  prefetchMemory(&m_shown, reinterpret_cast<const char*>(this + 1) - reinterpret_cast<const char*>(&m_shown));
-}
-
-void SnapshotSender::prefetchParts() const {
-  m_known.prefetchOwing();
-  m_interest.prefetch();
-  __builtin_prefetch(&m_moments[m_next_number % kMaxMoments], 1);
-  m_flight.prefetchNext();
 }
 
 void SnapshotSender::build(const Publisher& publisher, Room room, Packets& packets) {
@@ -321,7 +304,6 @@ void SnapshotSender::acknowledge(const AckWindow& acks) {
 }
 
 void SnapshotSender::arrived(const Flight::Snapshot& snapshot) {
-  for (const KnownObjects::Sent& sent : snapshot.objects) m_known.prefetch(sent.id);
   m_per_client.arrived(snapshot.number, snapshot.probe);
   for (const KnownObjects::Sent& sent : snapshot.objects) m_known.arrived(sent, snapshot.number);
   for (const auto& [id, sum] : snapshot.names) m_names.arrived(id, sum, snapshot.number);

@@ -92,13 +92,6 @@ class SnapshotSender {
     return {packets.begin(), packets.end()};
   }
 
-  /// So that memory is not waited for: the client's turn comes after the next ones. First prefetch(), and
-  /// when that has arrived prefetchParts(); both change nothing.
-  void prefetch() const;
-  void prefetchParts() const;
-  /// The same for newestNumber().
-  void prefetchNumbers() const { __builtin_prefetch(&m_next_number, 1); }
-
   /// A snapshot at the publisher's tick that carries nothing, to find out whether datagrams pass. Its loss
   /// says nothing of the line.
   Packet probe(const Publisher& publisher);

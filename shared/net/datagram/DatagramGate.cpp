@@ -28,13 +28,6 @@ void DatagramGate::remove(ConnectionId id) {
   }
 }
 
-void DatagramGate::expect(std::string_view packet) const {
-  SealedHeader header;
-  if (readSealedHeader(SealDirection::kClientToServer, packet, header) != HeaderFault::kNone) return;
-  const auto found = doors_.find(header.id);
-  if (found != doors_.end()) found->second.link->prefetch();
-}
-
 void DatagramGate::receive(const Path& path, std::string_view packet, Time now) {
   SealedHeader header;
   switch (readSealedHeader(SealDirection::kClientToServer, packet, header)) {

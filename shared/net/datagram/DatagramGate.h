@@ -59,9 +59,6 @@ class DatagramGate {
   void remove(ConnectionId id);
   bool has(ConnectionId id) const { return doors_.contains(id); }
 
-  /// The packet is among those that will be received next: have the session's memory fetched. Changes
-  /// nothing.
-  void expect(std::string_view packet) const;
   /// A packet arrived.
   void receive(const Path& path, std::string_view packet, Time now);
 

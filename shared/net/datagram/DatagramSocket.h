@@ -21,10 +21,6 @@ class DatagramSocket {
 
   /// Begin to receive. Call once.
   virtual void start(OnPacket on_packet) = 0;
-  /// Be shown packets shortly before they are handed on, where several came at once, so that memory need not
-  /// be waited for. Nobody is shown all of them; this way nobody any.
-  using OnSoon = std::function<void(std::string_view packet)>;
-  virtual void expect(OnSoon on_soon) { (void)on_soon; }
   /// Queue one packet of 1 … 1200 bytes (else std::length_error) for path.remote, to leave from path.local;
   /// any local address lets the system choose. A full batch leaves at once, the rest with flush().
   virtual void send(const Path& path, std::string_view packet) = 0;

@@ -20,7 +20,6 @@
 #include <string_view>
 #include <utility>
 
-#include "shared/net/base/Prefetch.h"
 #include "shared/net/datagram/DatagramKeys.h"
 #include "shared/net/datagram/LinkPing.h"
 #include "shared/net/datagram/PathGuard.h"
@@ -107,11 +106,6 @@ class SealedLink {
   std::optional<LinkPing::Millis> takeRoundTrip() { return ping_.takeRoundTrip(); }
   /// Something of the link's own (a challenge, an answer) is due: seal an empty payload if there is no other.
   bool wantsToSend(Time now) const;
-
-  /// So that memory is not waited for: a packet is about to be opened or sealed. Changes nothing.
-  void prefetch() const {
-    prefetchMemory(this, reinterpret_cast<const char*>(&previous_) - reinterpret_cast<const char*>(this));
-  }
 
   /// The largest payload that always fits a packet: 1164 bytes for clients, 1172 for servers.
   std::size_t maxPayload() const;

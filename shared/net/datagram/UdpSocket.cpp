@@ -15,8 +15,6 @@ namespace {
 using asio::ip::udp;
 
 constexpr int kBatchesPerWakeUp = 4;
-/// Packets between being shown to OnSoon and to OnPacket.
-constexpr int kSoon = 2;
 
 int setOption(int descriptor, int level, int option, int value) {
   return ::setsockopt(descriptor, level, option, &value, sizeof value);
@@ -56,7 +54,6 @@ struct UdpSocket::State : std::enable_shared_from_this<State> {
   std::optional<UdpSendBatch> outgoing;
   std::optional<UdpReceiveBatch> incoming;
   OnPacket on_packet;  // as long-lived as this, for a callback may destroy the socket
-  OnSoon on_soon;
   bool started = false;
   std::uint64_t opened = 0;  // so that a wait for an earlier descriptor is told from one for this
   UdpCounters counters;
@@ -118,7 +115,6 @@ bool UdpSocket::State::receiveBatch() {
   }
   const std::uint64_t number = opened;
   for (int i = 0; i < count; ++i) {
-    if (on_soon && i + kSoon < count) on_soon(incoming->packet(i + kSoon));
     if (incoming->tooLarge(i)) {
       ++counters.too_large;
       continue;
@@ -145,10 +141,6 @@ void UdpSocket::start(OnPacket on_packet) {
   state_->started = true;
   state_->on_packet = std::move(on_packet);
   state_->wait();
-}
-
-void UdpSocket::expect(OnSoon on_soon) {
-  state_->on_soon = std::move(on_soon);
 }
 
 void UdpSocket::send(const Path& path, std::string_view packet) {

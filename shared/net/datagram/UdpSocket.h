@@ -34,7 +34,6 @@ class UdpSocket : public DatagramSocket {
   UdpSocket& operator=(const UdpSocket&) = delete;
 
   void start(OnPacket on_packet) override;
-  void expect(OnSoon on_soon) override;
   void send(const Path& path, std::string_view packet) override;
   void flush() override;
   void reopen() override;
