@@ -310,8 +310,8 @@ std::string Bot::describe() const {
   const Session* far = m_place.host.find(player());
   if (far == nullptr) return text + " the server has no such session";
   return text + (far->isDetached() ? " far detached" : "") +
-         (far->passage().isOpen(now()) ? " far open" : " far closed") + " rtt " +
-         std::to_string(far->passage().roundTrip().count());
+         (far->transport().isOpen(now()) ? " far open" : " far closed") + " rtt " +
+         std::to_string(far->transport().roundTrip().count());
 }
 
 }  // namespace naiad::soak

@@ -122,7 +122,7 @@ bool Soak::isQuiet(Bot& bot) const {
   if (session == nullptr || session->state() != ClientSession::State::kPlaying) return false;
   if (session->isDetached() || !session->hasDatagrams(timeOf(m_clock))) return false;
   const Session* far = m_host.find(bot.player());
-  return far != nullptr && far->passage().isOpen(timeOf(m_clock)) &&
+  return far != nullptr && far->transport().isOpen(timeOf(m_clock)) &&
          m_judge.rightInARow(bot.player()) >= kRightInTheEnd;
 }
 

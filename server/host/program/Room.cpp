@@ -83,7 +83,7 @@ void Room::applyInputs() {
       if (input.is_mouse) {
         m_p_port->mouse(session.player(), static_cast<df::EventMouseAction>(input.action),
                         static_cast<df::Mouse::Button>(int{input.button} - 1), input.x, input.y,
-                        session.seenWith(input));
+                        session.viewedTick(input));
       } else {
         m_p_port->key(session.player(), static_cast<df::Keyboard::Key>(input.key),
                       static_cast<df::EventKeyboardAction>(input.action));

@@ -412,7 +412,7 @@ TEST_F(SessionWithTwoStreams, TheSecondIsWelcomedAndNobodyJoins) {
 TEST_F(SessionWithTwoStreams, SmallSnapshotsGoOnBothLargeOnesOnTheFirst) {
   tick();
   ASSERT_EQ(snapshots(first).size(), 1u);
-  ASSERT_GT(snapshots(first)[0].size(), Session::kMaxOnSecond) << "all of a world";
+  ASSERT_GT(snapshots(first)[0].size(), SnapshotDelivery::kMaxOnSecond) << "all of a world";
   EXPECT_TRUE(snapshots(second).empty());
   acknowledge(first);
   forget();

@@ -231,9 +231,9 @@ TEST_F(SessionTest, ARepeatedOrLateInputIsIgnoredAndCounted) {
 
 TEST_F(SessionTest, EndsAtMoreInputsThanTheQueueHolds) {
   greet();
-  for (std::uint32_t id = 1; id <= Session::kMaxQueuedInputs; ++id) hear(key(id));
+  for (std::uint32_t id = 1; id <= ReceivedInputs::kMaxQueued; ++id) hear(key(id));
   EXPECT_EQ(session.state(), Session::State::kPlaying);
-  hear(key(Session::kMaxQueuedInputs + 1));
+  hear(key(ReceivedInputs::kMaxQueued + 1));
   EXPECT_TRUE(ended());
   EXPECT_EQ(lastSent().goodbye().sentence(), "Too many keys at once.");
   EXPECT_EQ(counters.input_floods, 1u);

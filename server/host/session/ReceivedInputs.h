@@ -1,0 +1,55 @@
+// The inputs that a client sent and the world has not had yet: in order, each id once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "host/session/PressedKeys.h"
+#include "shared/replica/UpdateCodec.h"
+#include "shared/values/ControlTable.h"
+
+namespace naiad {
+
+class ReceivedInputs {
+ public:
+  static constexpr std::size_t kMaxQueued = 64;
+  static constexpr int kPerTick = 16;
+  /// An input that asks for a tick farther ahead is applied at once.
+  static constexpr std::int32_t kMaxEarly = 8;
+
+  enum class Verdict { kQueued, kRepeated, kTooMany };
+  Verdict add(const Input& input);
+  /// Call `apply(input)` for up to kPerTick inputs that are due in the world's next tick.
+  template <class Apply>
+  void takeDue(std::uint32_t tick, Apply apply) {
+    for (int i = 0; i < kPerTick && !m_queue.empty() && !isTooEarly(m_queue.front(), tick); ++i) {
+      apply(m_queue.front());
+      m_queue.pop_front();
+    }
+  }
+  /// Queue the release of all keys that are down, in the tick `tick`.
+  void releaseKeys(std::uint32_t tick);
+  /// Another world begins: forget keys and controls, and drop what is queued. The last id dropped.
+  std::optional<std::uint32_t> clear();
+
+  /// The player steers by declared controls (null: does not). Keys in them wait for the tick that they ask
+  /// for, since the client's prediction has applied them there.
+  void setControls(const std::shared_ptr<const df::ControlTable>& controls) {
+    if (m_controls != controls) m_controls = controls;
+  }
+  /// The id received last; 0: none.
+  std::uint32_t newest() const { return m_newest; }
+
+ private:
+  bool isTooEarly(const Input& input, std::uint32_t tick) const;
+
+  std::deque<Input> m_queue;
+  std::uint32_t m_newest = 0;
+  PressedKeys m_pressed;  ///< once all of m_queue is applied
+  std::shared_ptr<const df::ControlTable> m_controls;
+};
+
+}  // namespace naiad

@@ -1,0 +1,152 @@
+#include "host/session/SnapshotDelivery.h"
+
+#include <algorithm>
+
+#include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/replica/Limits.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr SnapshotSender::Room kStreamRoom{64, kMaxSnapshot, false};
+constexpr SnapshotSender::Room kSecondRoom{1, SnapshotDelivery::kMaxOnSecond, false};
+/// At 30 Hz more than a megabit per second.
+constexpr std::size_t kDatagramsPerTick = 4;
+
+/// The sessions of a thread send one after the other, so that one buffer is enough.
+SnapshotSender::Packets& packetsOfThread() {
+  thread_local SnapshotSender::Packets packets;
+  return packets;
+}
+
+std::string frameOf(const SnapshotSender::Packet& packet) {
+  wire::ServerMessage message;
+  message.set_snapshot(packet.bytes);
+  return message.SerializeAsString();
+}
+
+}  // namespace
+
+void SnapshotDelivery::sendTick(const Publisher& publisher, const df::PlayerFacts& player,
+                                StreamPair& streams, Time now) {
+  m_tick = publisher.tick();
+  settleAcks();
+  m_sender.note(publisher, player);
+  if (usesDatagrams(now)) return sendDatagrams(publisher, streams, now);
+  if (m_datagrams != nullptr && m_datagrams->room() &&
+      m_transport.wantsProbe(now, streams.first() == nullptr)) {
+    sendProbe(publisher, now);
+  }
+  sendOnStreams(publisher, streams, now);
+}
+
+void SnapshotDelivery::sendProbe(const Publisher& publisher, Time now) {
+  const SnapshotSender::Packet probe = m_sender.probe(publisher);
+  noteSent(probe, true, now);
+  m_datagrams->send(probe.bytes);
+}
+
+void SnapshotDelivery::sendDatagrams(const Publisher& publisher, StreamPair& streams, Time now) {
+  const std::uint32_t interval = m_transport.interval(m_sender.loss(), now);
+  const auto room = m_datagrams->room();
+  if (publisher.tick() % interval != 0 || !room) return;
+  const std::size_t bytes = std::min(*room, kMaxDatagramSnapshot);
+  SnapshotSender::Packets& packets = packetsOfThread();
+  m_sender.build(publisher, {kDatagramsPerTick, bytes, streams.isFirstIdle()}, packets);
+  for (const SnapshotSender::Packet& packet : packets) {
+    noteSent(packet, !packet.large, now);
+    count(packet);
+    packet.large ? streams.sendFirst(frameOf(packet)) : m_datagrams->send(packet.bytes);
+  }
+  if (m_sender.isThrottled()) skipTick();
+}
+
+void SnapshotDelivery::sendOnStreams(const Publisher& publisher, StreamPair& streams, Time now) {
+  if (streams.first() == nullptr) return;
+  // If the first stream only waits for a packet to be sent again, the second goes on alone. A large snapshot
+  // goes on the first, and nothing overtakes it.
+  const bool first = streams.isFirstIdle();
+  const bool second = streams.isSecondIdle() && !m_sender.awaitsLarge();
+  if (!first && !second) return skipTick();
+  SnapshotSender::Packets& packets = packetsOfThread();
+  m_sender.build(publisher, first ? kStreamRoom : kSecondRoom, packets);
+  const bool small = packets.size() == 1 && packets.back().bytes.size() <= kMaxOnSecond;
+  for (const SnapshotSender::Packet& packet : packets) {
+    noteSent(packet, false, now);
+    count(packet);
+    const std::string frame = frameOf(packet);
+    if (first) streams.sendFirst(frame);
+    if (second && small) streams.sendSecond(frame);
+    if (streams.hasSecond() && !small) m_sender.wentByStream(packet.number);
+  }
+  if (m_sender.isThrottled()) skipTick();
+}
+
+void SnapshotDelivery::noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Time now) {
+  m_transport.sent(packet.number, as_datagram, now);
+  m_ticks.note(packet.number, packet.tick);
+}
+
+void SnapshotDelivery::count(const SnapshotSender::Packet& packet) {
+  ++m_counters.snapshots;
+  m_counters.snapshot_bytes += packet.bytes.size();
+}
+
+void SnapshotDelivery::skipTick() {
+  ++m_skipped_ticks;
+  ++m_counters.skipped_ticks;
+}
+
+void SnapshotDelivery::acknowledge(const AckWindow& acks, bool by_datagram, Time now) {
+  settleAcks();
+  m_acks = acks;
+  m_transport.acknowledged(acks, by_datagram, now);
+}
+
+// What an acknowledgement settles is spread over memory that the session's turn in the tick needs anyway, so
+// it waits for that turn.
+void SnapshotDelivery::settleAcks() {
+  if (m_acks) m_sender.acknowledge(*m_acks);
+  m_acks.reset();
+}
+
+void SnapshotDelivery::compareChecksum(const AckWindow& acks, std::uint64_t checksum, Time now) {
+  if (m_last_checksum && now - *m_last_checksum < kChecksumEvery) {
+    ++m_counters.checksums_dropped;
+    return;
+  }
+  m_last_checksum = now;
+  settleAcks();
+  if (m_sender.isRight(acks, checksum) != false) return;
+  ++m_counters.divergences;
+  requestReset(now);
+}
+
+void SnapshotDelivery::requestReset(Time now) {
+  if (m_last_reset && now - *m_last_reset < kResetEvery) {
+    ++m_counters.resets_dropped;
+    return;
+  }
+  m_last_reset = now;
+  ++m_counters.resets;
+  reset();
+}
+
+void SnapshotDelivery::reset() {
+  m_acks.reset();
+  m_sender.reset();
+}
+
+void SnapshotDelivery::loseStream() {
+  settleAcks();
+  m_sender.loseLarge();
+}
+
+void SnapshotDelivery::restart(Time now) {
+  reset();
+  m_transport = TransportSelector(now);
+}
+
+}  // namespace naiad
