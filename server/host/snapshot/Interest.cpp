@@ -54,7 +54,7 @@ std::uint32_t staysFor(df::Fixed position, df::Fixed velocity, std::int64_t low,
 
 bool Interest::isVisible(const Publisher::Model& model, std::uint32_t tick, std::uint32_t look_ahead,
                          const CellRect& window) {
-  if (model.reach > Publisher::kWide) return true;
+  if (model.reach > Publisher::Model::kWide) return true;
   const CellRect rect = window.grownBy(model.reach);
   const CellPosition now = cellAt(model.state.motion, tick);
   if (rect.contains(now)) return true;
@@ -197,7 +197,7 @@ bool Interest::isOwn(std::uint32_t id, std::uint32_t slot) const {
 }
 
 std::uint32_t Interest::leavesAfter(const Publisher::Model& model, const CellRect& outer) const {
-  if (model.reach > Publisher::kWide) return kLongest;
+  if (model.reach > Publisher::Model::kWide) return kLongest;
   const Motion& motion = model.state.motion;
   if (motion.acceleration != df::FixedVector{}) return 0;
   const CellRect rect = outer.grownBy(model.reach);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <utility>
 
 #include "host/snapshot/MotionFit.h"
 #include "shared/replica/Acks.h"
@@ -12,25 +10,11 @@ namespace naiad {
 
 namespace {
 
-/// Cells from the object's own that its look reaches, rounded up.
-std::int32_t reachOf(const Look& look) {
-  const std::int32_t most = look.sequence.reach();
-  return (most >> kGlyphUnitBits) + (most == 0 ? 0 : 1);
-}
-
-/// Does it move by more than a cell in a tick, or may it soon?
-bool isFast(const Motion& motion) {
-  const auto above = [](df::Fixed v) { return v > df::kFixedOne || v < -df::kFixedOne; };
-  return motion.acceleration != df::FixedVector{} || above(motion.velocity.x) || above(motion.velocity.y);
-}
-
 /// Paths are fitted for at least so many ticks, and after a turn for at most so many.
 constexpr std::uint32_t kShortestHorizon = 64;
 constexpr std::uint32_t kHorizonAfterTurn = 512;
 /// A path that outlives its model's horizon gets one for so many times its age.
 constexpr std::uint32_t kPatience = 8;
-/// Cells that a view object reaches, so that it is of interest to everybody wherever his view is.
-constexpr std::int32_t kOnEveryView = 1 << 20;
 /// More distinct offsets than this make a fit slow and coarse numbers unlikely.
 constexpr std::size_t kMaxOffsets = 6;
 
@@ -68,18 +52,12 @@ void Publisher::mark(std::uint32_t slot, Tracked& tracked, std::uint8_t groups) 
 
 void Publisher::update(const df::WorldView& view) {
   m_tick = view.tick;
-  ++m_update;
+  m_outlooks.clear();
+  m_motions.clear();
   const bool is_color = view.background >= df::BLACK && view.background <= df::WHITE;
   m_world = {view.boundary, view.view_width, view.view_height, is_color ? view.background : df::BLACK};
   m_changes.clear();
-  m_exact.clear();
-  bool controls = false;
-  for (const df::PlayerFacts& player : view.players) {
-    if (player.followed.generation != 0) m_exact.push_back(player.followed);
-    if (player.steering.object.generation != 0) m_exact.push_back(player.steering.object);
-    controls = controls || player.steering.p_table != nullptr;
-  }
-  std::sort(m_exact.begin(), m_exact.end(), [](auto a, auto b) { return a.slot < b.slot; });
+  const bool controls = m_exact.notePlayers(view.players);
 
   for (const df::ObjectKey key : view.vanished) bury(key);
   for (const df::ObjectFacts& facts : view.changed) takeFacts(facts);
@@ -91,8 +69,8 @@ void Publisher::update(const df::WorldView& view) {
   takeLoose(view);
   correctUndrawn(view);
   if (controls) setExactSolids(true);
-  if (std::exchange(m_solids_are_coarse, false)) keepSolidsExact();
-  for (const df::ObjectKey key : m_exact) keepExact(key);
+  if (m_exact.takeNewSolids()) keepSolidsExact();
+  for (const df::ObjectKey key : m_exact.keys()) keepExact(key);
 
   m_change_index.clear();
   for (Change& change : m_changes) {
@@ -106,88 +84,31 @@ void Publisher::finish(Change& change) {
   change.groups = tracked.model.alive ? tracked.changed : 0;
   if ((change.groups & (kMotion | kLook)) != 0) file(change.slot, tracked);
   if ((change.groups & kMotion) != 0) fit(tracked);
-  if ((change.groups & kLook) != 0) meet(tracked.model);
+  if ((change.groups & kLook) != 0) m_looks.enter(tracked.model, m_tick);
   if (change.groups == 0 || (change.groups & kMotion) != 0) {
-    list(m_fast, change.slot, tracked.fast, tracked.model.alive && isFast(tracked.model.state.motion));
+    m_index.fileMotion(change.slot, tracked.model, tracked.membership);
   }
-  if (!tracked.fast) {
-    const df::FixedVector v = tracked.model.state.motion.velocity;
-    m_speed = {std::max(m_speed.x, std::abs(v.x)), std::max(m_speed.y, std::abs(v.y))};
-  }
+  m_index.noteSpeed(tracked.model, tracked.membership);
   change.sweep = CompactRect(sweepOf(tracked.model, m_tick, kSweep));
   tracked.changed = 0;
   tracked.touched = false;
 }
 
-CellRect Publisher::sweepOf(const Model& model, std::uint32_t tick, std::uint32_t ticks) {
-  constexpr std::int64_t kEverywhere = INT32_MAX;
-  if (model.reach > kWide) return {-kEverywhere, -kEverywhere, kEverywhere, kEverywhere};
-  const Motion& motion = model.state.motion;
-  const bool straight = motion.acceleration == df::FixedVector{};
-  const df::FixedVector velocity = straight ? motion.velocity : rebase(motion, tick).velocity;
-  const df::FixedVector at = positionAt(motion, tick);
-  constexpr std::int64_t kFar = 1 << 30;
-  constexpr std::int64_t kFine = df::kFixedOne >> 8;
-  // Cells that it gets away, at most.
-  const auto way = [ticks](df::Fixed v, df::Fixed a) {
-    const std::int64_t n = ticks;
-    const std::int64_t speed = (std::abs(v) + n * std::abs(a) + kFine - 1) / kFine;
-    return v == 0 && a == 0 ? 0 : std::min(std::int64_t{kFar}, (speed * n >> 8) + 1);
-  };
-  const std::int64_t x = df::cellOf(at.x);
-  const std::int64_t y = df::cellOf(at.y);
-  const std::int64_t dx = way(velocity.x, motion.acceleration.x);
-  const std::int64_t dy = way(velocity.y, motion.acceleration.y);
-  return CellRect{x - (straight && velocity.x > 0 ? 0 : dx), y - (straight && velocity.y > 0 ? 0 : dy),
-                  x + 1 + (straight && velocity.x < 0 ? 0 : dx),
-                  y + 1 + (straight && velocity.y < 0 ? 0 : dy)}
-      .grownBy(model.reach);
-}
-
 const SharedMotion& Publisher::share(std::uint32_t slot) const {
-  m_shared.resize(m_models.size() + 1);
-  Shared& shared = m_shared[std::min<std::size_t>(slot, m_models.size())];
-  shared = {m_update, shareMotion(rebase(find(slot)->state.motion, m_tick))};
-  return shared.motion;
+  return m_motions.put(cacheIndex(slot), m_models.size() + 1,
+                       shareMotion(rebase(find(slot)->state.motion, m_tick)));
 }
 
 const Publisher::Outlook& Publisher::workOut(std::uint32_t slot, std::uint32_t soon,
                                              std::uint32_t later) const {
   if (soon != m_soon || later != m_later) {
-    ++m_update;
+    m_outlooks.clear();
     m_soon = soon;
     m_later = later;
   }
-  m_outlooks.resize(m_models.size() + 1);
-  Remembered& known = m_outlooks[std::min<std::size_t>(slot, m_models.size())];
-  known.update = m_update;
-  known.outlook = {};
   const Model* model = find(slot);
-  if (model == nullptr) return known.outlook;
-  known.outlook.generation = model->generation;
-  known.outlook.later = CompactRect(sweepOf(*model, m_tick, later));
-  if (model->reach > kWide) {
-    known.outlook.soon = known.outlook.later;
-    return known.outlook;
-  }
-  const Motion& motion = model->state.motion;
-  const df::FixedVector now = positionAt(motion, m_tick);
-  const df::FixedVector then = isMoving(motion) ? positionAt(motion, m_tick + soon) : now;
-  const std::int64_t left = std::min(df::cellOf(now.x), df::cellOf(then.x));
-  const std::int64_t top = std::min(df::cellOf(now.y), df::cellOf(then.y));
-  const std::int64_t right = std::max(df::cellOf(now.x), df::cellOf(then.x));
-  const std::int64_t bottom = std::max(df::cellOf(now.y), df::cellOf(then.y));
-  known.outlook.soon = CompactRect(CellRect{left, top, right + 1, bottom + 1}.grownBy(model->reach));
-  return known.outlook;
-}
-
-// Put the slot into the list, or take it out.
-void Publisher::list(std::vector<std::uint32_t>& slots, std::uint32_t slot, bool& is_in, bool should_be) {
-  if (is_in == should_be) return;
-  is_in = should_be;
-  if (should_be) return slots.push_back(slot);
-  *std::find(slots.begin(), slots.end(), slot) = slots.back();
-  slots.pop_back();
+  return m_outlooks.put(cacheIndex(slot), m_models.size() + 1,
+                        model != nullptr ? outlookOf(*model, m_tick, soon, later) : Outlook{});
 }
 
 void Publisher::bury(df::ObjectKey key) {
@@ -207,14 +128,10 @@ void Publisher::takePath(Tracked& tracked, const Motion& truth) {
 
 bool Publisher::isExact(const Tracked& tracked) const {
   const Model& model = tracked.model;
-  if (m_exact_solids && model.state.body.solidness != df::SPECTRAL && !isMoving(tracked.truth)) return true;
-  const auto slot = static_cast<std::uint32_t>(&tracked - m_models.data());
-  auto found = std::lower_bound(m_exact.begin(), m_exact.end(), slot,
-                                [](df::ObjectKey key, std::uint32_t s) { return key.slot < s; });
-  for (; found != m_exact.end() && found->slot == slot; ++found) {
-    if (found->generation == model.generation) return true;
+  if (m_exact.hasSolids() && model.state.body.solidness != df::SPECTRAL && !isMoving(tracked.truth)) {
+    return true;
   }
-  return false;
+  return m_exact.contains({static_cast<std::uint32_t>(&tracked - m_models.data()), model.generation});
 }
 
 // Whom a player follows may have had a coarse model until now.
@@ -272,16 +189,10 @@ void Publisher::fit(Tracked& tracked) {
       fitMotion(tracked.model.state.motion, std::span(offsets).first(count), horizon);
 }
 
-// Keep track of how far the object's characters reach and where it is.
+// The object's reach or place in the index may have changed.
 void Publisher::file(std::uint32_t slot, Tracked& tracked) {
-  Model& model = tracked.model;
-  model.reach = !model.alive ? 0 : model.state.body.on_view ? kOnEveryView : reachOf(model.state.look);
-  const bool wide = model.alive && (slot == kLooseSlot || model.reach > kWide);
-  list(m_wide, slot, tracked.wide, wide);
-  if (slot == kLooseSlot) return;
-  if (wide || !model.alive) return m_grid.remove(slot);
-  m_reach = std::max(m_reach, model.reach);
-  m_grid.put(slot, {df::cellOf(tracked.truth.position.x), df::cellOf(tracked.truth.position.y)});
+  tracked.model.reach = reachOf(tracked.model);
+  m_index.file(slot, tracked.model, tracked.truth.position, tracked.membership);
 }
 
 void Publisher::takeFacts(const df::ObjectFacts& facts) {
@@ -306,8 +217,7 @@ void Publisher::takeFacts(const df::ObjectFacts& facts) {
     mark(facts.key.slot, *tracked, kAllGroups);
     return;
   }
-  if (!tracked->wide)
-    m_grid.put(facts.key.slot, {df::cellOf(truth.position.x), df::cellOf(truth.position.y)});
+  m_index.move(facts.key.slot, truth.position, tracked->membership);
   if (model.state.body != body) {
     model.state.body = body;
     file(facts.key.slot, *tracked);  // it may be a view object from now on
@@ -317,7 +227,7 @@ void Publisher::takeFacts(const df::ObjectFacts& facts) {
     model.state.look.altitude = facts.altitude;
     mark(facts.key.slot, *tracked, kLook);
   }
-  if (m_exact_solids && isExact(*tracked)) keepExact(facts.key);
+  if (m_exact.hasSolids() && isExact(*tracked)) keepExact(facts.key);
 }
 
 }  // namespace naiad

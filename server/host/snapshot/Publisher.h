@@ -8,34 +8,28 @@
 // bits and draw the same cells for as long as the path may be expected to last.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "engine/world/WorldView.h"
 #include "host/snapshot/ChangeIndex.h"
-#include "host/snapshot/InterestGrid.h"
-#include "shared/replica/Limits.h"
+#include "host/snapshot/ExactObjects.h"
+#include "host/snapshot/LookCatalogue.h"
+#include "host/snapshot/ModelIndex.h"
+#include "host/snapshot/PublishedModel.h"
+#include "host/snapshot/TickCache.h"
+#include "host/snapshot/ViewMoves.h"
 #include "shared/replica/MotionCodec.h"
 #include "shared/replica/Records.h"
 
 namespace naiad {
 
-/// The slot under which characters drawn outside any object's draw() are published.
-inline constexpr std::uint32_t kLooseSlot = kMaxSlots - 1;
-
 class Publisher {
  public:
-  /// One slot of the published world.
-  struct Model {
-    std::uint32_t generation = 0;
-    bool alive = false;
-    ObjectState state;
-    std::uint64_t look_sum = 0;  ///< of the sequence; 0 if it is one character or none
-    bool recurs = false;         ///< it has been seen before, or changes by itself: worth a name
-    std::int32_t reach = 0;      ///< cells from its own that its characters may be drawn in, at most
-  };
+  using Model = PublishedModel;
+  using Outlook = ModelOutlook;
   /// What an update changed about a slot; groups 0: the object is gone.
   struct Change {
     std::uint32_t slot = 0;
@@ -43,12 +37,6 @@ class Publisher {
     CompactRect sweep;  ///< sweepOf() for kSweep ticks, so that not every client has to find out
   };
   static constexpr std::uint32_t kSweep = 16;
-  /// Where something of a model may be drawn: worked out once in a tick, however many clients ask.
-  struct Outlook {
-    std::uint32_t generation = 0;  ///< 0: nothing lives there
-    CompactRect soon;              ///< now, or at the end of some ticks
-    CompactRect later;             ///< at any time in these and some more
-  };
 
   /// Take in one tick of the world. `changes()` then lists what clients have to be told.
   void update(const df::WorldView& view);
@@ -67,36 +55,23 @@ class Publisher {
     }
     if (m_loose.model.alive) visit(kLooseSlot, m_loose.model);
   }
-  /// `soon`, `later`: ticks from now. The answer is remembered for the numbers asked for last; valid until
-  /// the next update or question.
+  /// Where something of the model in `slot` may be drawn, now, in `soon` ticks and up to `later` ticks. It is
+  /// remembered for the numbers of ticks asked for last; valid until the next update or question.
   const Outlook& outlook(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const {
-    const std::size_t index = slot < m_models.size() ? slot : m_models.size();
-    const bool known = soon == m_soon && later == m_later && index < m_outlooks.size() &&
-                       m_outlooks[index].update == m_update;
-    return known ? m_outlooks[index].outlook : workOut(slot, soon, later);
+    const Outlook* known = soon == m_soon && later == m_later ? m_outlooks.find(cacheIndex(slot)) : nullptr;
+    return known != nullptr ? *known : workOut(slot, soon, later);
   }
-  /// The motion of the model in `slot`, where one lives, at tick() and in bits. They are the same for all
-  /// clients, so they are worked out once. Valid until the next call.
+  /// The motion of the model in `slot`, where one lives, at tick() and in bits. Valid until the next call.
   const SharedMotion& sharedMotion(std::uint32_t slot) const {
-    const std::size_t index = std::min<std::size_t>(slot, m_models.size());
-    const bool known = index < m_shared.size() && m_shared[index].update == m_update;
-    return known ? m_shared[index].motion : share(slot);
+    const SharedMotion* known = m_motions.find(cacheIndex(slot));
+    return known != nullptr ? *known : share(slot);
   }
   const WorldRecord& world() const { return m_world; }
-  /// Call `visit(slot)` for every live model of which something may be drawn in `rect` within so many ticks,
-  /// and for some around it, but those well inside `inner` may be left out. Models that are wide or faster
-  /// than a cell per tick are visited wherever they are; some models twice.
+  /// ModelIndex::forEachNear() among the models.
   template <class Visit>
   void forEachNear(const CellRect& rect, std::uint32_t ticks, const CellRect& inner, Visit visit) const {
-    const std::int64_t x = m_reach + cellsIn(ticks, m_speed.x);
-    const std::int64_t y = m_reach + cellsIn(ticks, m_speed.y);
-    m_grid.forEachNear({rect.left - x, rect.top - y, rect.right + x, rect.bottom + y}, inner, visit);
-    for (const std::vector<std::uint32_t>* slots : {&m_wide, &m_fast}) {
-      for (const std::uint32_t slot : *slots) visit(slot);
-    }
+    m_index.forEachNear(rect, ticks, inner, visit);
   }
-  /// The cells in which something of the model may be drawn from `tick` to `ticks` later, and some more.
-  static CellRect sweepOf(const Model& model, std::uint32_t tick, std::uint32_t ticks);
 
   /// All slots but the loose one are below this.
   std::size_t slotCount() const { return m_models.size(); }
@@ -105,13 +80,7 @@ class Publisher {
 
   /// Positions of solid objects that stand still are to be exact, since clients predict moves among them. On
   /// from the first player with controls on.
-  void setExactSolids(bool exact) {
-    m_solids_are_coarse = m_solids_are_coarse || (exact && !m_exact_solids);
-    m_exact_solids = exact;
-  }
-
-  /// Models that reach more cells than this are in everybody's interest.
-  static constexpr std::int32_t kWide = 24;
+  void setExactSolids(bool exact) { m_exact.setSolids(exact); }
 
   /// Models corrected because they would have drawn a wrong cell, since the start.
   std::uint64_t correctionCount() const { return m_corrections; }
@@ -124,8 +93,7 @@ class Publisher {
     Motion truth;           ///< where the object was last reported, and how it went on from there
     Motion path;            ///< where its present straight path began
     std::uint32_t run = 0;  ///< ticks that the path before lasted
-    bool wide = false;      ///< in m_wide
-    bool fast = false;      ///< in m_fast
+    ModelIndex::Membership membership;
     bool shown = true;
     std::uint32_t drawn = 0;      ///< newest tick in which its draw() ran
     std::uint32_t off_views = 0;  ///< until this tick nothing of its look can come into a view
@@ -133,10 +101,8 @@ class Publisher {
     bool touched = false;  ///< in m_changes already
   };
 
-  /// Cells that something gets away, rounded up.
-  static std::int64_t cellsIn(std::uint32_t ticks, df::Fixed speed) {
-    return (std::int64_t{ticks} * speed >> df::kFixedBits) + 1;
-  }
+  /// In the caches; the loose one's is the last.
+  std::size_t cacheIndex(std::uint32_t slot) const { return std::min<std::size_t>(slot, m_models.size()); }
   const SharedMotion& share(std::uint32_t slot) const;
   const Outlook& workOut(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const;
   Tracked* track(std::uint32_t slot);
@@ -151,7 +117,6 @@ class Publisher {
   void correctLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn,
                    const Look* told);
   void capture(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn);
-  bool haveViewsJumped(const df::WorldView& view);
   void correctUndrawn(const df::WorldView& view);
   void correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::WorldView& view);
   void takePath(Tracked& tracked, const Motion& truth);
@@ -159,47 +124,23 @@ class Publisher {
   void keepExact(df::ObjectKey key);
   void fit(Tracked& tracked);
   void file(std::uint32_t slot, Tracked& tracked);
-  void meet(Model& model);
-  void intern(Sequence& sequence);
   bool isExact(const Tracked& tracked) const;
   void finish(Change& change);
-  static void list(std::vector<std::uint32_t>& slots, std::uint32_t slot, bool& is_in, bool should_be);
 
   std::vector<Tracked> m_models;
-  std::vector<std::uint32_t> m_look_at;    ///< by slot: the tick in which correctUndrawn() must look at it
-  std::vector<df::FixedVector> m_corners;  ///< of the views, a tick ago
-  std::int32_t m_view_width = 0;
-  std::int32_t m_view_height = 0;
+  std::vector<std::uint32_t> m_look_at;  ///< by slot: the tick in which correctUndrawn() must look at it
+  ViewMoves m_views;
   Tracked m_loose;
   std::vector<df::DrawCommand> m_off_view;  ///< scratch
   std::vector<Change> m_changes;
   ChangeIndex m_change_index;
-  std::unordered_map<std::uint64_t, std::uint32_t>
-      m_appearances;                                        ///< by sum: the tick they were last taken on
-  std::unordered_map<std::uint64_t, Sequence> m_sequences;  ///< by sum: some of those that are published
-  InterestGrid m_grid;
-  std::vector<std::uint32_t> m_wide;   ///< models that reach farther than kWide, and the loose one
-  std::vector<std::uint32_t> m_fast;   ///< models that move by more than a cell per tick, or are accelerated
-  std::int32_t m_reach = 0;            ///< of the others, the farthest so far
-  df::FixedVector m_speed;             ///< of those not in m_fast, the highest so far, each way
-  std::vector<df::ObjectKey> m_exact;  ///< followed by a player: their views and predictions need them exact
-  bool m_exact_solids = false;
-  bool m_solids_are_coarse = false;  ///< exactness was asked for since the last update
+  LookCatalogue m_looks;
+  ModelIndex m_index;
+  ExactObjects m_exact;
   std::uint64_t m_newest_order = 0;
-  /// A cache, by slot; the last one is the loose one's.
-  struct Remembered {
-    std::uint32_t update = 0;
-    Outlook outlook;
-  };
-  mutable std::vector<Remembered> m_outlooks;
-  /// Another one, by slot likewise.
-  struct Shared {
-    std::uint32_t update = 0;
-    SharedMotion motion;
-  };
-  mutable std::vector<Shared> m_shared;
-  mutable std::uint32_t m_update = 1;  ///< counts updates, and changes of the next two
-  mutable std::uint32_t m_soon = 0;
+  mutable TickCache<Outlook> m_outlooks;
+  mutable TickCache<SharedMotion> m_motions;
+  mutable std::uint32_t m_soon = 0;  ///< of m_outlooks
   mutable std::uint32_t m_later = 0;
   WorldRecord m_world;
   std::uint32_t m_tick = 0;

@@ -2,12 +2,10 @@
 // is taken from them.
 #include <algorithm>
 #include <cstdlib>
-#include <utility>
 
 #include "host/snapshot/LookCapture.h"
 #include "host/snapshot/Publisher.h"
 #include "shared/replica/Acks.h"
-#include "shared/replica/LookCodec.h"
 
 namespace naiad {
 
@@ -52,37 +50,7 @@ std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, c
 
 /// An object that stands and shows nothing need not be looked at for so many ticks.
 constexpr std::uint32_t kNeverLook = 1u << 20;
-/// Appearances remembered, to tell those that recur; with so many, those not taken on for so many ticks go.
-constexpr std::size_t kMaxKnownAppearances = 16'384;
-constexpr std::uint32_t kForgetAfter = 9'000;
-/// Looks kept to be shared, whether anybody still has them or not.
-constexpr std::size_t kMaxShared = 2'048;
-
 }  // namespace
-
-// Has this appearance been seen before? Texts that change all the time never have.
-void Publisher::meet(Model& model) {
-  Look& look = model.state.look;
-  model.look_sum = 0;
-  model.recurs = false;
-  intern(look.sequence);
-  if (look.sequence.empty() || isSingleCharacter(look.sequence)) return;
-  model.look_sum = look.sequence.sum();
-  const auto [known, fresh] = m_appearances.try_emplace(model.look_sum, m_tick);
-  model.recurs = !fresh || look.sequence.size() > 1;
-  known->second = m_tick;
-  if (m_appearances.size() <= kMaxKnownAppearances) return;
-  std::erase_if(m_appearances, [this](const auto& a) { return m_tick - a.second > kForgetAfter; });
-  if (m_appearances.size() > kMaxKnownAppearances) m_appearances.clear();
-}
-
-// Objects that look the same share the memory of it: it is compared with what they draw in every tick.
-void Publisher::intern(Sequence& sequence) {
-  if (sequence.empty()) return;
-  if (m_sequences.size() >= kMaxShared) m_sequences.clear();
-  const auto [known, fresh] = m_sequences.try_emplace(sequence.sum(), sequence);
-  if (!fresh && known->second == sequence) sequence = known->second;
-}
 
 void Publisher::takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn, const Look* told) {
   if (drawn.key.generation == 0 || drawn.key.slot >= m_models.size()) return;
@@ -169,24 +137,8 @@ void Publisher::takeLoose(const df::WorldView& view) {
   correctLook(kLooseSlot, m_loose, loose, nullptr);
 }
 
-// Has a view come, or gone farther than a cell?
-bool Publisher::haveViewsJumped(const df::WorldView& view) {
-  const std::vector<df::PlayerFacts>& players = view.players;
-  bool jumped = players.size() != m_corners.size();
-  m_corners.resize(players.size());
-  for (std::size_t i = 0; i < players.size(); ++i) {
-    const df::FixedVector moved{players[i].view_corner.x - m_corners[i].x,
-                                players[i].view_corner.y - m_corners[i].y};
-    jumped = jumped || std::max(std::abs(moved.x), std::abs(moved.y)) > df::kFixedOne;
-    m_corners[i] = players[i].view_corner;
-  }
-  const bool resized = std::exchange(m_view_width, view.view_width) != view.view_width ||
-                       std::exchange(m_view_height, view.view_height) != view.view_height;
-  return jumped || resized;
-}
-
 void Publisher::correctUndrawn(const df::WorldView& view) {
-  const bool jumped = haveViewsJumped(view);
+  const bool jumped = m_views.note(view);
   for (std::uint32_t slot = 0; slot < m_look_at.size(); ++slot) {
     if (isNewer(m_look_at[slot], m_tick) && !(jumped && m_models[slot].drawn != m_tick)) continue;
     Tracked& tracked = m_models[slot];

@@ -140,7 +140,7 @@ TEST(Publisher, AViewObjectStandsWhereverTheViewsGo) {
   const CellPosition cell =
       glyphCell(positionAt(model.state.motion, scene.publisher.tick()), model.state.look.sequence[0][0]);
   EXPECT_EQ(cell, (CellPosition{38, 1}));
-  EXPECT_GT(model.reach, Publisher::kWide) << "so everybody is told of it";
+  EXPECT_GT(model.reach, Publisher::Model::kWide) << "so it is sent to every client";
 }
 
 TEST(Publisher, ABackgroundThatIsNoColourIsNone) {
