@@ -1,41 +1,40 @@
-// How often somebody may be wrong: few tries per address and time, in a table that does not grow.
+// Limits failed logins per address prefix.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
-#include <map>
+#include <optional>
 
-#include "shared/net/base/AddressPrefix.h"
+#include "shared/net/base/PerAddress.h"
 
 namespace naiad {
 
-/// A try under way counts as wrong until it is known; otherwise many at once would get around the limit.
+/// Not a token bucket: only the outcome of a try says whether it counts, and a window is what the player is
+/// promised. A try under way counts as wrong until it is known; else many at once would evade the limit.
 class LoginRateLimit {
  public:
   using Time = std::chrono::steady_clock::time_point;
   enum class Answer { kAllowed, kTooMany, kWait };
 
   LoginRateLimit(int wrong_per_window, std::chrono::seconds window, std::size_t prefixes)
-      : wrong_per_window_(wrong_per_window), window_(window), prefixes_(prefixes) {}
+      : wrong_per_window_(wrong_per_window), window_(window), table_(prefixes) {}
 
-  /// kAllowed: finish() must follow. kTooMany: was wrong too often. kWait: might have been, with those under
-  /// way.
-  Answer begin(const AddressPrefix& from, Time now);
-  void finish(const AddressPrefix& from, bool right);
+  /// kAllowed: finishTry() must follow. kTooMany: too many wrong tries. kWait: there may be too many,
+  /// counting those under way.
+  Answer beginTry(const AddressPrefix& from, Time now);
+  void finishTry(const AddressPrefix& from, bool right);
   std::size_t size() const { return table_.size(); }
 
  private:
   struct Entry {
-    Time since;  // the first try of the window
+    std::optional<Time> since;  ///< the first try of the window
     int wrong = 0;
     int under_way = 0;
   };
-  void makeRoom(Time now);
 
   int wrong_per_window_;
   std::chrono::seconds window_;
-  std::size_t prefixes_;
-  std::map<AddressPrefix, Entry> table_;
+  PerAddress<Entry> table_;
 };
 
 }  // namespace naiad

@@ -54,7 +54,7 @@ struct PasswordCheck::State {
 void PasswordCheck::State::onCompared(std::uint64_t number, std::optional<bool> right) {
   const auto job = pending.extract(number);
   const auto& [from, done] = job.mapped();
-  tries.finish(from, right.value_or(true));
+  tries.finishTry(from, right.value_or(true));
   ++(!right ? counters.busy : *right ? counters.right : counters.wrong);
   done(!right ? Answer::kBusy : *right ? Answer::kRight : Answer::kWrong);
 }
@@ -135,7 +135,7 @@ void PasswordCheck::check(const AddressPrefix& from, std::string password,
     });
   };
   const bool full = state_->pending.size() >= state_->limits.queue;
-  const auto allowed = full ? LoginRateLimit::Answer::kWait : state_->tries.begin(from, now);
+  const auto allowed = full ? LoginRateLimit::Answer::kWait : state_->tries.beginTry(from, now);
   if (allowed == LoginRateLimit::Answer::kTooMany) {
     ++state_->counters.too_many;
     return answer_later(Answer::kTooMany);

@@ -6,7 +6,7 @@
 namespace naiad {
 
 DatagramService::DatagramService(std::unique_ptr<DatagramSocket> socket, Now now, Random random)
-    : m_socket(std::move(socket)), m_now(std::move(now)), m_random(std::move(random)), m_gate(m_random()) {
+    : m_socket(std::move(socket)), m_now(std::move(now)), m_random(std::move(random)) {
   m_socket->start([this](const Path& path, std::string_view packet) {
     m_received = m_now();
     m_gate.receive(path, packet, m_received);

@@ -1,21 +1,21 @@
 #include "shared/net/base/AddressPrefix.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 #include <system_error>
 
 namespace naiad {
 
+AddressPrefix::AddressPrefix(const Bytes& address) {
+  const bool mapped = std::equal(kMappedIPv4.begin(), kMappedIPv4.end(), address.begin());
+  std::memcpy(&bits_, address.data() + (mapped ? sizeof bits_ : 0), sizeof bits_);
+}
+
 AddressPrefix AddressPrefix::of(const asio::ip::address& address) {
-  AddressPrefix prefix;
-  const asio::ip::address plain = unmapped(address);
-  prefix.is_v6_ = plain.is_v6();
-  if (prefix.is_v6_) {
-    std::ranges::copy_n(plain.to_v6().to_bytes().begin(), 8, prefix.bytes_.begin());
-  } else {
-    std::ranges::copy(plain.to_v4().to_bytes(), prefix.bytes_.begin());
-  }
-  return prefix;
+  const auto six =
+      address.is_v6() ? address.to_v6() : asio::ip::make_address_v6(asio::ip::v4_mapped, address.to_v4());
+  return AddressPrefix(six.to_bytes());
 }
 
 std::optional<AddressPrefix> AddressPrefix::ofEndpoint(std::string_view text) {

@@ -1,34 +1,37 @@
-// Who is one peer, for limits per address: an IPv4 address, or an IPv6 network of 64 bits.
+// The key of limits per address: an IPv4 address, or an IPv6 network of 64 bits.
 #pragma once
 
 #include <array>
 #include <asio/ip/address.hpp>
 #include <compare>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 
 namespace naiad {
 
-/// A household has one IPv4 address, or a /64 of which it can use any address: so these are what limits count
-/// by.
+/// The bytes in front of an IPv4 address that is mapped into IPv6: ::ffff:a.b.c.d.
+inline constexpr std::array<std::uint8_t, 12> kMappedIPv4{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
+
+/// A household has one IPv4 address, or a /64 of which it can use any address: limits count by these.
 class AddressPrefix {
  public:
+  /// The network-order bytes of an IPv6 address, or of an IPv4 address mapped into IPv6 (::ffff:a.b.c.d).
+  using Bytes = std::array<std::uint8_t, 16>;
+
+  AddressPrefix() = default;
+  explicit AddressPrefix(const Bytes& address);
   /// The /32 of an IPv4 address (mapped into IPv6 or not), the /64 of an IPv6 address.
   static AddressPrefix of(const asio::ip::address& address);
   /// Of "127.0.0.1:40000" or "[::1]:40000", as ReliableChannel::peerAddress() gives it. Nothing for other
   /// texts.
   static std::optional<AddressPrefix> ofEndpoint(std::string_view text);
 
-  friend bool operator==(const AddressPrefix&, const AddressPrefix&) = default;
-  friend bool operator<(const AddressPrefix& a, const AddressPrefix& b) {
-    return a.is_v6_ != b.is_v6_ ? b.is_v6_ : a.bytes_ < b.bytes_;
-  }
+  friend auto operator<=>(const AddressPrefix&, const AddressPrefix&) = default;
 
  private:
-  bool is_v6_ = false;
-  std::array<std::uint8_t, 8> bytes_{};
+  /// The lower half of a mapped IPv4 address, else the upper half. They cannot be equal: 0::/8 is reserved.
+  std::uint64_t bits_ = 0;
 };
 
 /// IPv4 mapped into IPv6 as IPv4, everything else as it is.

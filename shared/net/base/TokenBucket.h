@@ -1,4 +1,4 @@
-// A leaky allowance: so many per second in the long run, so many at once.
+// A token bucket: limits a rate in the long run, and how much may come at once. Time is passed in.
 #pragma once
 
 #include <algorithm>
@@ -8,15 +8,29 @@ namespace naiad {
 
 struct BucketRate {
   double per_second = 0;
-  double burst = 0;  ///< what a bucket holds, and begins with
+  double burst = 0;  ///< tokens that a bucket holds, and begins with
 };
 
+/// Refilled by time alone. The rate is passed in, so that a table of buckets does not repeat it.
 class TokenBucket {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Take one, if there is one. `now` may be earlier than in the last call: then nothing is added.
-  bool take(const BucketRate& rate, Time now) {
+  /// Takes one token, if there is one. `now` may be earlier than in the last call: nothing is added then.
+  bool takeToken(const BucketRate& rate, Time now) {
+    refill(rate, now);
+    if (tokens_ < 1) return false;
+    tokens_ -= 1;
+    return true;
+  }
+  /// Takes one token even if there is none. The debt is at most a burst.
+  void forceToken(const BucketRate& rate, Time now) {
+    refill(rate, now);
+    tokens_ = std::max(tokens_ - 1, -rate.burst);
+  }
+
+ private:
+  void refill(const BucketRate& rate, Time now) {
     if (!begun_) {
       begun_ = true;
       tokens_ = rate.burst;
@@ -26,15 +40,8 @@ class TokenBucket {
       tokens_ = std::min(rate.burst, tokens_ + elapsed * rate.per_second);
       last_ = now;
     }
-    if (tokens_ < 1) return false;
-    tokens_ -= 1;
-    return true;
   }
 
-  /// When it was asked last.
-  Time last() const { return last_; }
-
- private:
   double tokens_ = 0;
   Time last_{};
   bool begun_ = false;

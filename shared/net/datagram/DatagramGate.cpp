@@ -6,9 +6,6 @@
 
 namespace naiad {
 
-DatagramGate::DatagramGate(std::uint64_t seed, DatagramGateRates rates)
-    : rates_(rates), prefixes_(rates.prefix, seed) {}
-
 bool DatagramGate::add(SealedLink& link, OnPayload on_payload) {
   const auto [place, added] = doors_.try_emplace(link.id());
   if (added) {
@@ -70,13 +67,13 @@ void DatagramGate::receive(const Path& path, std::string_view packet, Time now) 
 /// possible.
 bool DatagramGate::allowed(Door& door, const Path& path, Time now) {
   if (door.link->isValidated(path)) {
-    if (door.own.take(rates_.session, now)) return true;
+    if (door.own.takeToken(rates_.session, now)) return true;
     ++counters_.session_flood;
-  } else if (!door.claimed.take(rates_.claimed, now)) {
+  } else if (!door.claimed.takeToken(rates_.claimed, now)) {
     ++counters_.claimed_flood;
-  } else if (!prefixes_.take(prefixKeyOf(path.remote), now)) {
+  } else if (!prefixes_.use(path.remote.prefix()).takeToken(rates_.prefix, now)) {
     ++counters_.prefix_flood;
-  } else if (!strangers_.take(rates_.strangers, now)) {
+  } else if (!strangers_.takeToken(rates_.strangers, now)) {
     ++counters_.stranger_flood;
   } else {
     return true;

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "shared/net/base/PerAddress.h"
 #include "shared/net/base/TokenBucket.h"
 #include "shared/net/datagram/Path.h"
-#include "shared/net/datagram/PrefixBuckets.h"
 #include "shared/net/datagram/SealedLink.h"
 
 namespace naiad {
@@ -50,8 +50,10 @@ class DatagramGate {
   /// An authentic payload, valid during the call. The callee may add and remove sessions, its own too.
   using OnPayload = std::function<void(std::string_view payload)>;
 
-  /// `seed`: unpredictable, see PrefixBuckets.
-  explicit DatagramGate(std::uint64_t seed, DatagramGateRates rates = {});
+  /// Unproven prefixes whose allowance is remembered.
+  static constexpr std::size_t kPrefixes = 4096;
+
+  explicit DatagramGate(DatagramGateRates rates = {}) : rates_(rates) {}
 
   /// Packets with the link's id go through `link` (a server's), which must live until removed. False, and
   /// nothing changes, if there is such an id already: draw another.
@@ -80,7 +82,7 @@ class DatagramGate {
   Doors doors_;
   const Door* open_ = nullptr;  ///< whose payload is being delivered
   Doors::node_type leaving_;    ///< the same, if it was removed meanwhile
-  PrefixBuckets prefixes_;
+  PerAddress<TokenBucket> prefixes_{kPrefixes};
   TokenBucket strangers_;
   DatagramGateCounters counters_;
 };

@@ -7,8 +7,6 @@
 namespace naiad {
 namespace {
 
-constexpr std::array<std::uint8_t, 12> kMappedPrefix{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
-
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
   return hash ^ (hash >> 32);
@@ -17,11 +15,11 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
 }  // namespace
 
 bool Endpoint::isIPv4() const {
-  return std::equal(kMappedPrefix.begin(), kMappedPrefix.end(), address.begin());
+  return std::equal(kMappedIPv4.begin(), kMappedIPv4.end(), address.begin());
 }
 
 bool Endpoint::isAny() const {
-  const auto begin = address.begin() + (isIPv4() ? kMappedPrefix.size() : 0);
+  const auto begin = address.begin() + (isIPv4() ? kMappedIPv4.size() : 0);
   return std::all_of(begin, address.end(), [](std::uint8_t byte) { return byte == 0; });
 }
 
@@ -37,8 +35,8 @@ std::optional<Endpoint> makeEndpoint(std::string_view address, std::uint16_t por
     return endpoint;
   }
   const auto four = parsed.to_v4().to_bytes();
-  std::copy(kMappedPrefix.begin(), kMappedPrefix.end(), endpoint.address.begin());
-  std::copy(four.begin(), four.end(), endpoint.address.begin() + kMappedPrefix.size());
+  std::copy(kMappedIPv4.begin(), kMappedIPv4.end(), endpoint.address.begin());
+  std::copy(four.begin(), four.end(), endpoint.address.begin() + kMappedIPv4.size());
   return endpoint;
 }
 
@@ -47,11 +45,6 @@ std::string toString(const Endpoint& endpoint) {
   const asio::ip::address_v6 six(endpoint.address, endpoint.scope);
   if (endpoint.isIPv4()) return asio::ip::make_address_v4(asio::ip::v4_mapped, six).to_string() + port;
   return "[" + six.to_string() + "]" + port;
-}
-
-PrefixKey prefixKeyOf(const Endpoint& endpoint) {
-  // The lower half of a mapped address is no network that anybody has (0::/8 is reserved).
-  return {endpoint.half(endpoint.isIPv4() ? 1 : 0)};
 }
 
 std::string toString(const Path& path) {

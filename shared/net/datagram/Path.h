@@ -11,6 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "shared/net/base/AddressPrefix.h"
+
 namespace naiad {
 
 /// An IP address and a UDP port. IPv4 addresses are kept as IPv6 ones (::ffff:a.b.c.d), so that an address is
@@ -33,6 +35,7 @@ struct Endpoint {
   }
 
   bool isIPv4() const;
+  AddressPrefix prefix() const { return AddressPrefix(address); }
   /// No particular address: :: or 0.0.0.0.
   bool isAny() const;
 };
@@ -43,13 +46,6 @@ std::optional<Endpoint> makeEndpoint(std::string_view address, std::uint16_t por
 std::string toString(const Endpoint& endpoint);
 /// The inverse; nothing if the text is none.
 std::optional<Endpoint> endpointFromText(std::string_view text);
-
-/// What a host can be expected to own as a whole: an IPv4 address, or an IPv6 network of 64 bits.
-struct PrefixKey {
-  std::uint64_t bits = 0;
-  friend auto operator<=>(const PrefixKey&, const PrefixKey&) = default;
-};
-PrefixKey prefixKeyOf(const Endpoint& endpoint);
 
 /// Both ends of a datagram, as this side sees them. A reply goes along the path its cause came by, so it
 /// leaves from the address that was addressed.

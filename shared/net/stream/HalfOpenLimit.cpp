@@ -6,17 +6,17 @@ namespace naiad {
 
 HalfOpenLimit::Answer HalfOpenLimit::admit(const AddressPrefix& prefix) {
   if (count_ >= most_) return Answer::kFull;
-  const auto place = by_prefix_.find(prefix);
-  if ((place == by_prefix_.end() ? 0 : place->second) >= most_per_prefix_) return Answer::kFullForPrefix;
-  ++by_prefix_[prefix];
+  const std::size_t* const held = by_prefix_.find(prefix);
+  if (held != nullptr && *held >= most_per_prefix_) return Answer::kFullForPrefix;
+  ++by_prefix_.use(prefix);
   ++count_;
   return Answer::kAdmitted;
 }
 
 void HalfOpenLimit::release(const AddressPrefix& prefix) {
-  const auto place = by_prefix_.find(prefix);
-  if (place == by_prefix_.end()) throw std::logic_error("released more than was admitted");
-  if (--place->second == 0) by_prefix_.erase(place);
+  std::size_t* const held = by_prefix_.find(prefix);
+  if (held == nullptr) throw std::logic_error("released more than was admitted");
+  if (--*held == 0) by_prefix_.erase(prefix);
   --count_;
 }
 

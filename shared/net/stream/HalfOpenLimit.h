@@ -2,9 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 
-#include "shared/net/base/AddressPrefix.h"
+#include "shared/net/base/PerAddress.h"
 
 namespace naiad {
 
@@ -13,7 +12,7 @@ class HalfOpenLimit {
   enum class Answer { kAdmitted, kFull, kFullForPrefix };
 
   HalfOpenLimit(std::size_t most, std::size_t most_per_prefix)
-      : most_(most), most_per_prefix_(most_per_prefix) {}
+      : most_(most), most_per_prefix_(most_per_prefix), by_prefix_(most) {}
 
   /// kAdmitted counts one more, until release().
   Answer admit(const AddressPrefix& prefix);
@@ -25,7 +24,7 @@ class HalfOpenLimit {
   std::size_t most_;
   std::size_t most_per_prefix_;
   std::size_t count_ = 0;
-  std::map<AddressPrefix, std::size_t> by_prefix_;  // none is zero
+  PerAddress<std::size_t> by_prefix_;  // none is zero, so none is ever evicted
 };
 
 }  // namespace naiad

@@ -165,24 +165,24 @@ TEST(LoginRateLimit, ForgetsTheOldestWhenItIsFull) {
   Time now{};
   for (int i = 0; i < 1000; ++i) {
     now += 1ms;
-    EXPECT_EQ(limit.begin(prefix(i), now), LoginRateLimit::Answer::kAllowed);
-    limit.finish(prefix(i), false);
+    EXPECT_EQ(limit.beginTry(prefix(i), now), LoginRateLimit::Answer::kAllowed);
+    limit.finishTry(prefix(i), false);
     EXPECT_LE(limit.size(), 100u);
   }
-  EXPECT_EQ(limit.begin(prefix(999), now), LoginRateLimit::Answer::kTooMany);
-  EXPECT_EQ(limit.begin(prefix(0), now), LoginRateLimit::Answer::kAllowed);
+  EXPECT_EQ(limit.beginTry(prefix(999), now), LoginRateLimit::Answer::kTooMany);
+  EXPECT_EQ(limit.beginTry(prefix(0), now), LoginRateLimit::Answer::kAllowed);
 }
 
 TEST(LoginRateLimit, WindowBeginsWithTheFirstTry) {
   LoginRateLimit limit(2, 60s, 100);
   Time now{};
   for (int i = 0; i < 2; ++i) {
-    EXPECT_EQ(limit.begin(prefix(1), now), LoginRateLimit::Answer::kAllowed);
-    limit.finish(prefix(1), false);
+    EXPECT_EQ(limit.beginTry(prefix(1), now), LoginRateLimit::Answer::kAllowed);
+    limit.finishTry(prefix(1), false);
     now += 30s;
   }
-  EXPECT_EQ(limit.begin(prefix(1), now - 1ms), LoginRateLimit::Answer::kTooMany);
-  EXPECT_EQ(limit.begin(prefix(1), now), LoginRateLimit::Answer::kAllowed);
+  EXPECT_EQ(limit.beginTry(prefix(1), now - 1ms), LoginRateLimit::Answer::kTooMany);
+  EXPECT_EQ(limit.beginTry(prefix(1), now), LoginRateLimit::Answer::kAllowed);
 }
 
 }  // namespace

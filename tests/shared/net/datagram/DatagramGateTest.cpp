@@ -65,7 +65,7 @@ Path anywhere(SplitMix64& rng) {
 }
 
 TEST(DatagramGate, FindsTheSessionByItsId) {
-  DatagramGate gate(1);
+  DatagramGate gate;
   Guest ann(gate, 1), ben(gate, 2);
   ann.say("from ann");
   ben.say("from ben");
@@ -75,7 +75,7 @@ TEST(DatagramGate, FindsTheSessionByItsId) {
 }
 
 TEST(DatagramGate, IdsAreUniqueAndCanBeGivenUp) {
-  DatagramGate gate(1);
+  DatagramGate gate;
   Guest ann(gate, 1);
   SealedLink other({.role = SealedLink::Role::kServer, .id = {1}, .random = [] { return 0; }, .limits = {}});
   EXPECT_FALSE(gate.add(other, [](std::string_view) { FAIL(); }));
@@ -88,7 +88,7 @@ TEST(DatagramGate, IdsAreUniqueAndCanBeGivenUp) {
 }
 
 TEST(DatagramGate, RefusalsAreCountedWhereTheyHappen) {
-  DatagramGate gate(1);
+  DatagramGate gate;
   Guest ann(gate, 1);
   const std::string packet = ann.seal("x");
   const auto receive = [&](const std::string& bytes) { gate.receive(ann.home, bytes, ann.now); };
@@ -114,7 +114,7 @@ TEST(DatagramGate, RefusalsAreCountedWhereTheyHappen) {
 }
 
 TEST(DatagramGate, HandlerMayRemoveItsSession) {
-  DatagramGate gate(1);
+  DatagramGate gate;
   int calls = 0;
   SealedLink link(
       {.role = SealedLink::Role::kServer, .id = kSession, .random = [] { return 0; }, .limits = {}});
@@ -130,7 +130,7 @@ TEST(DatagramGate, HandlerMayRemoveItsSession) {
 }
 
 TEST(DatagramGate, ForgersWhoKnowNoIdReachNoCryptography) {
-  DatagramGate gate(1);
+  DatagramGate gate;
   Guest ann(gate, 1);
   SplitMix64 rng(3);
   for (int i = 0; i < 100'000; ++i) gate.receive(anywhere(rng), forgedFor({rng.next()}, rng), ann.now);
@@ -140,7 +140,7 @@ TEST(DatagramGate, ForgersWhoKnowNoIdReachNoCryptography) {
 }
 
 TEST(DatagramGate, ForgedFloodLeavesAProvenSessionUnharmed) {
-  DatagramGate gate(1);
+  DatagramGate gate;
   Guest ann(gate, 1), ben(gate, 2);
   ann.settle();
   ben.settle();
@@ -163,7 +163,7 @@ TEST(DatagramGate, ForgedFloodLeavesAProvenSessionUnharmed) {
 }
 
 TEST(DatagramGate, FloodForOneSessionDoesNotKeepOthersFromRoaming) {
-  DatagramGate gate(1);
+  DatagramGate gate;
   Guest ann(gate, 1), ben(gate, 2);
   ann.settle();
   ben.settle();
@@ -176,7 +176,7 @@ TEST(DatagramGate, FloodForOneSessionDoesNotKeepOthersFromRoaming) {
 TEST(DatagramGate, FloodFromOnePrefixStaysThere) {
   DatagramGateRates rates;
   rates.prefix = {.per_second = 1, .burst = 50};
-  DatagramGate gate(1, rates);
+  DatagramGate gate(rates);
   std::vector<std::unique_ptr<Guest>> guests;
   for (std::uint64_t i = 1; i <= 20; ++i) guests.push_back(std::make_unique<Guest>(gate, i));
   SplitMix64 rng(3);
@@ -199,7 +199,7 @@ TEST(DatagramGate, FloodFromOnePrefixStaysThere) {
 TEST(DatagramGate, StrangersHaveOneLimitInAll) {
   DatagramGateRates rates;
   rates.strangers = {.per_second = 10, .burst = 100};
-  DatagramGate gate(1, rates);
+  DatagramGate gate(rates);
   std::vector<std::unique_ptr<Guest>> guests;
   for (std::uint64_t i = 1; i <= 20; ++i) guests.push_back(std::make_unique<Guest>(gate, i));
   guests[0]->settle();
@@ -216,7 +216,7 @@ TEST(DatagramGate, StrangersHaveOneLimitInAll) {
 }
 
 TEST(DatagramGate, SessionHasAnAllowanceOfItsOwn) {
-  DatagramGate gate(1);
+  DatagramGate gate;
   Guest ann(gate, 1), ben(gate, 2);
   ann.settle();
   ben.settle();
@@ -231,7 +231,7 @@ TEST(DatagramGate, SessionHasAnAllowanceOfItsOwn) {
 }
 
 TEST(DatagramGate, ReplaysSpendNothing) {
-  DatagramGate gate(1);
+  DatagramGate gate;
   Guest ann(gate, 1);
   ann.settle();
   const std::string packet = ann.seal("once");
@@ -242,7 +242,7 @@ TEST(DatagramGate, ReplaysSpendNothing) {
 }
 
 TEST(DatagramGate, EveryPacketIsCountedOnce) {
-  DatagramGate gate(1);
+  DatagramGate gate;
   Guest ann(gate, 1);
   SplitMix64 rng(6);
   for (int i = 0; i < 20'000; ++i, ann.now += std::chrono::microseconds(rng.below(2000))) {

@@ -47,9 +47,9 @@ TEST(Endpoint, EveryPartTellsApart) {
   EXPECT_EQ(paths.size(), 4u);
 }
 
-TEST(PrefixKey, IsTheAddressForIPv4AndTheNetworkForIPv6) {
+TEST(Endpoint, PrefixIsTheAddressForIPv4AndTheNetworkForIPv6) {
   const auto prefix = [](const char* text, std::uint16_t port = 1) {
-    return prefixKeyOf(*makeEndpoint(text, port));
+    return makeEndpoint(text, port)->prefix();
   };
   EXPECT_EQ(prefix("10.0.0.1", 1), prefix("10.0.0.1", 2));
   EXPECT_NE(prefix("10.0.0.1"), prefix("10.0.0.2"));

@@ -91,7 +91,7 @@ struct Ledger {
 
 struct World {
   explicit World(const LinkConditions& conditions, int count)
-      : network(clock, conditions, 9), socket(network.open(kServer)), gate(123) {
+      : network(clock, conditions, 9), socket(network.open(kServer)) {
     socket->start([this](const Path& path, std::string_view packet) {
       ledger.from[path.remote] += packet.size();
       gate.receive(path, packet, timeOf(clock));

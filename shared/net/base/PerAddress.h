@@ -1,0 +1,61 @@
+// One value for each of the address prefixes that were used last, in bounded memory.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <iterator>
+#include <list>
+#include <map>
+#include <utility>
+
+#include "shared/net/base/AddressPrefix.h"
+
+namespace naiad {
+
+/// When the table is full, the least recently used prefix is evicted and would begin again with a fresh
+/// value. Forged addresses can at most reset the limits of others, never use them up. A lookup
+/// costs O(log capacity) whichever prefixes an attacker chooses.
+template <class T>
+class PerAddress {
+ public:
+  explicit PerAddress(std::size_t capacity) : capacity_(capacity) { assert(capacity_ > 0); }
+  PerAddress(const PerAddress&) = delete;
+  PerAddress& operator=(const PerAddress&) = delete;
+
+  /// The value of `prefix`, made if there is none. It becomes the most recently used one. Valid until it is
+  /// erased or evicted.
+  T& use(const AddressPrefix& prefix) {
+    if (const auto found = index_.find(prefix); found != index_.end()) {
+      order_.splice(order_.end(), order_, found->second);
+      return found->second->second;
+    }
+    if (order_.size() == capacity_) {
+      index_.erase(order_.front().first);
+      order_.pop_front();
+    }
+    order_.emplace_back(prefix, T{});
+    index_.emplace(prefix, std::prev(order_.end()));
+    return order_.back().second;
+  }
+  /// Null if there is none. This is not a use.
+  T* find(const AddressPrefix& prefix) {
+    const auto found = index_.find(prefix);
+    return found != index_.end() ? &found->second->second : nullptr;
+  }
+  void erase(const AddressPrefix& prefix) {
+    const auto found = index_.find(prefix);
+    if (found == index_.end()) return;
+    order_.erase(found->second);
+    index_.erase(found);
+  }
+  std::size_t size() const { return order_.size(); }
+
+ private:
+  using Order = std::list<std::pair<AddressPrefix, T>>;
+
+  std::size_t capacity_;
+  Order order_;  ///< the least recently used first
+  std::map<AddressPrefix, typename Order::iterator> index_;
+};
+
+}  // namespace naiad

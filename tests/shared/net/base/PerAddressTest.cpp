@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include "shared/net/base/PerAddress.h"
+#include "shared/net/base/TokenBucket.h"
+#include "shared/values/SplitMix64.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using Time = TokenBucket::Time;
+
+constexpr Time kStart{1h};
+constexpr BucketRate kRate{.per_second = 1, .burst = 3};
+
+/// A /64 of its own for each number.
+AddressPrefix prefix(std::uint64_t number) {
+  AddressPrefix::Bytes bytes{};
+  for (std::size_t i = 0; i < 8; ++i) bytes[i] = static_cast<std::uint8_t>(number >> (56 - 8 * i));
+  return AddressPrefix(bytes);
+}
+
+struct PerAddressTest {
+  bool takeToken(std::uint64_t number, Time now) { return buckets.use(prefix(number)).takeToken(kRate, now); }
+  PerAddress<TokenBucket> buckets{4096};
+  SplitMix64 rng{2};
+};
+
+TEST(PerAddress, PrefixesDoNotTouchEachOther) {
+  PerAddressTest table;
+  for (std::uint64_t number = 0; number < 100; ++number) {
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(table.takeToken(number, kStart), i < 3);
+  }
+}
+
+TEST(PerAddress, FloodOfPrefixesOnlyFillsBuckets) {
+  PerAddressTest table;
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(table.takeToken(42, kStart), i < 3);
+  for (int i = 0; i < 100'000; ++i) EXPECT_TRUE(table.takeToken(table.rng.next(), kStart + 1ms));
+  EXPECT_TRUE(table.takeToken(42, kStart + 2ms));
+  EXPECT_EQ(table.buckets.size(), 4096u);
+}
+
+TEST(PerAddress, BusyPrefixKeepsItsPlace) {
+  PerAddressTest table;
+  int taken = 0;
+  Time now = kStart;
+  for (int i = 0; i < 100'000; ++i, now += 1us) {
+    table.takeToken(table.rng.next(), now);
+    if (i % 100 == 0) taken += table.takeToken(42, now);
+  }
+  EXPECT_EQ(taken, 3);
+}
+
+TEST(PerAddress, EvictsTheLeastRecentlyUsed) {
+  PerAddress<int> table(2);
+  table.use(prefix(1)) = 10;
+  table.use(prefix(2)) = 20;
+  EXPECT_EQ(table.use(prefix(1)), 10);
+  table.use(prefix(3)) = 30;
+  EXPECT_EQ(table.find(prefix(2)), nullptr);
+  EXPECT_NE(table.find(prefix(1)), nullptr);
+  EXPECT_EQ(*table.find(prefix(3)), 30);
+}
+
+TEST(PerAddress, ErasedPrefixesMakeRoom) {
+  PerAddress<int> table(2);
+  table.use(prefix(1)) = 10;
+  table.use(prefix(2)) = 20;
+  table.erase(prefix(1));
+  table.erase(prefix(9));
+  EXPECT_EQ(table.size(), 1u);
+  EXPECT_EQ(table.use(prefix(3)), 0);
+  EXPECT_EQ(*table.find(prefix(2)), 20);
+}
+
+}  // namespace
+}  // namespace naiad
