@@ -143,7 +143,7 @@ void ClientSession::onDatagram(std::string_view bytes, Time now) {
   m_counters.bytes_in += bytes.size();
   ++m_counters.datagrams_in;
   if (const auto sample = m_datagrams->takeRoundTrip()) {
-    m_round_trip.note(*sample);
+    m_round_trip.note(*sample, now);
     noteRoundTrip(*sample);
   }
   takeSnapshot(bytes, now);

@@ -22,12 +22,8 @@ std::optional<RoundTrip::Millis> RoundTrip::pong(std::uint64_t token, Time now) 
   if (ping == m_open.end()) return std::nullopt;
   const Millis sample = now - ping->second;
   m_open.erase(m_open.begin(), std::next(ping));
-  note(sample);
+  note(sample, now);
   return sample;
-}
-
-void RoundTrip::note(Millis sample) {
-  m_smoothed = m_smoothed.count() == 0 ? sample : m_smoothed + (sample - m_smoothed) / 8;
 }
 
 RoundTrip::Millis RoundTrip::waiting(Time now) const {
@@ -35,7 +31,7 @@ RoundTrip::Millis RoundTrip::waiting(Time now) const {
 }
 
 std::chrono::milliseconds RoundTrip::shown() const {
-  const auto whole = std::chrono::ceil<std::chrono::milliseconds>(m_smoothed);
+  const auto whole = std::chrono::ceil<std::chrono::milliseconds>(smoothed());
   return std::min<std::chrono::milliseconds>(whole, std::chrono::milliseconds(99999));
 }
 

@@ -6,6 +6,8 @@
 #include <map>
 #include <optional>
 
+#include "shared/net/base/LinkStats.h"
+
 namespace naiad {
 
 class RoundTrip {
@@ -18,21 +20,21 @@ class RoundTrip {
   /// The answer came. The time it took; nothing if it was answered before, or made up.
   std::optional<Millis> pong(std::uint64_t token, Time now);
   /// A time that was measured otherwise.
-  void note(Millis sample);
+  void note(Millis sample, Time now) { m_stats.addSample(sample, now); }
   /// Another stream: what was under way is lost.
   void forgetPings() { m_open.clear(); }
 
   /// How long the oldest unanswered ping has been under way; zero if there is none.
   Millis waiting(Time now) const;
   /// Smoothed; zero before the first measurement.
-  Millis smoothed() const { return m_smoothed; }
+  Millis smoothed() const { return m_stats.smoothed(); }
   /// The same in whole milliseconds, rounded up: less than one is a measurement too.
   std::chrono::milliseconds shown() const;
 
  private:
   std::map<std::uint64_t, Time> m_open;  ///< unanswered, by token
   std::uint64_t m_next_token = 1;
-  Millis m_smoothed{0};
+  LinkStats m_stats;
 };
 
 }  // namespace naiad

@@ -5,7 +5,7 @@
 namespace naiad {
 
 bool UpdateTiming::datagramGoes(Time now) {
-  m_last_sent = now;
+  m_probe.probeSent(now);
   if (now - m_last_ping < kPingEvery) return false;
   m_last_ping = now;
   return true;
@@ -21,15 +21,6 @@ bool UpdateTiming::snapshotApplied(bool gap, Time now) {
   if (!hasDatagrams(now) || m_unacknowledged >= kAckEvery || gap) return true;
   m_acknowledge_at = now + kAckDelay;
   return false;
-}
-
-bool UpdateTiming::isProbeDue(Time now, bool only) const {
-  return now - m_last_datagram >= kQuiet && now - m_last_sent >= probeInterval(now, only);
-}
-
-std::chrono::milliseconds UpdateTiming::probeInterval(Time now, bool only) const {
-  if (now - m_attached < kPassing || hasDatagrams(now)) return kFirstProbes;
-  return only || now - m_last_datagram < kEagerFor ? kEagerProbes : kProbeEvery;
 }
 
 bool UpdateTiming::takeRepeat(Time now) {

@@ -2,9 +2,10 @@
 // passed in.
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <optional>
+
+#include "shared/net/base/PathProbe.h"
 
 namespace naiad {
 
@@ -12,27 +13,21 @@ class UpdateTiming {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr std::chrono::milliseconds kPassing{1000};     ///< without a datagram: they do not pass
-  static constexpr std::chrono::milliseconds kProbeEvery{1000};  ///< then
+  static constexpr std::chrono::milliseconds kPassing = PathProbe::kOpenFor;  ///< after a datagram
   /// After so long without datagrams it is worth while to arrange oneself.
   static constexpr std::chrono::milliseconds kOnStreamOnly{3000};
   /// So long without a datagram is odd: the server may not know our address any more.
   static constexpr std::chrono::milliseconds kQuiet{400};
   /// After a snapshot on the stream it is open for so long whether the server hears datagrams.
   static constexpr std::chrono::milliseconds kUndecided{500};
-  static constexpr std::chrono::milliseconds kFirstProbes{100};  ///< in the first second
-  /// While datagrams came a moment ago, or there is no other way: on a line that loses most, a probe now and
-  /// then hardly ever gets through both ways.
-  static constexpr std::chrono::milliseconds kEagerProbes{250};
-  static constexpr std::chrono::seconds kEagerFor{10};
   static constexpr std::chrono::milliseconds kRepeatInput{10};  ///< a new input is sent again after this
   static constexpr int kAckEvery = 3;                           ///< snapshots that come as datagrams
   static constexpr std::chrono::milliseconds kAckDelay{50};     ///< of the last one, at most
   static constexpr std::chrono::milliseconds kPingEvery{1000};  ///< by datagram
 
   /// There is a stream, another one perhaps.
-  void attached(Time now) { m_attached = now; }
-  void datagramCame(Time now) { m_last_datagram = now; }
+  void attached(Time now) { m_probe.renew(now); }
+  void datagramCame(Time now) { m_probe.addEvidence(now); }
   void streamSnapshotCame(Time now) { m_last_streamed = now; }
   /// A datagram goes out, with an update. True if it shall carry a ping.
   bool datagramGoes(Time now);
@@ -45,15 +40,15 @@ class UpdateTiming {
   bool snapshotApplied(bool gap, Time now);
 
   /// Do datagrams come?
-  bool hasDatagrams(Time now) const { return now - m_last_datagram < kPassing; }
+  bool hasDatagrams(Time now) const { return m_probe.isOpen(now); }
   /// The server sent on the stream just now: it may not hear datagrams.
   bool isUndecided(Time now) const { return now - m_last_streamed < kUndecided; }
   /// Everything has come on the stream for a while, since datagrams do not pass.
   bool isOnStreamOnly(Time now) const {
-    return isUndecided(now) && now - std::max(m_last_datagram, m_attached) >= kOnStreamOnly;
+    return isUndecided(now) && now - m_probe.lastChange() >= kOnStreamOnly;
   }
   /// It is time to find out whether they pass. `only`: there is no other way.
-  bool isProbeDue(Time now, bool only = false) const;
+  bool isProbeDue(Time now, bool only = false) const { return m_probe.isDue(now, only); }
   bool isAckDue(Time now) const { return m_acknowledge_at && now >= *m_acknowledge_at; }
   /// True once when new inputs should be sent again.
   bool takeRepeat(Time now);
@@ -61,13 +56,9 @@ class UpdateTiming {
   std::optional<Time> nextWake() const;
 
  private:
-  std::chrono::milliseconds probeInterval(Time now, bool only) const;
-
-  Time m_attached{};
-  Time m_last_datagram{};
+  PathProbe m_probe{kQuiet};
   Time m_last_streamed{};
-  Time m_last_sent{};        ///< datagram
-  Time m_last_ping{};        ///< likewise
+  Time m_last_ping{};        ///< by datagram
   int m_unacknowledged = 0;  ///< snapshots
   std::optional<Time> m_acknowledge_at;
   std::optional<Time> m_repeat_at;

@@ -7,7 +7,6 @@ namespace naiad {
 
 namespace {
 
-constexpr std::chrono::seconds kShortestAge{5};  ///< two of these are kept
 constexpr TransportSelector::Millis kFullQueue{50};
 constexpr double kMuchLoss = 0.15;
 constexpr std::chrono::seconds kBadFor{1};
@@ -17,7 +16,7 @@ constexpr std::chrono::seconds kGoodFor{5};
 
 void TransportSelector::sent(std::uint32_t number, bool as_datagram, Time now) {
   m_sent[number % kKept] = {number, as_datagram, true, false, now};
-  if (as_datagram && !isOpen(now)) m_last_probe = now;
+  if (as_datagram && !isOpen(now)) m_probe.probeSent(now);
 }
 
 // Most of a window was in the one before, which came the same way: only what is new in it is looked at.
@@ -40,29 +39,16 @@ void TransportSelector::acknowledged(const AckWindow& acks, bool by_datagram, Ti
 void TransportSelector::noteArrival(std::uint32_t number, bool newest, bool by_datagram, Time now) {
   Sent& sent = m_sent[number % kKept];
   if (sent.number != number || number == 0) return;
-  if (sent.open && newest) measure(now - sent.at, now);
+  if (sent.open && newest) m_stats.addSample(now - sent.at, now);
   sent.open = false;
   if (!sent.as_datagram || !by_datagram || sent.confirmed) return;
   sent.confirmed = true;
   // What was sent before the line fell silent says nothing of it now.
-  if (now - sent.at < kIdleTimer + kIdleTimer) {
-    m_open = true;
-    m_last_ack = now;
-  }
-}
-
-void TransportSelector::measure(Millis sample, Time now) {
-  m_round_trip = m_round_trip.count() == 0 ? sample : m_round_trip + (sample - m_round_trip) / 8;
-  if (now - m_shortest_since >= kShortestAge) {
-    m_shortest_before = m_shortest;
-    m_shortest = sample;
-    m_shortest_since = now;
-  }
-  m_shortest = std::min(m_shortest, sample);
+  if (now - sent.at < 2 * PathProbe::kOpenFor) m_probe.addEvidence(now);
 }
 
 std::uint32_t TransportSelector::interval(double loss, Time now) {
-  const bool bad = m_round_trip - shortestRoundTrip() > kFullQueue || loss > kMuchLoss;
+  const bool bad = roundTrip() - shortestRoundTrip() > kFullQueue || loss > kMuchLoss;
   if (bad != m_bad) (bad ? m_bad_since : m_good_since) = now;
   m_bad = bad;
   if (bad && now - m_bad_since >= kBadFor && m_rung + 1 < kIntervals.size()) {

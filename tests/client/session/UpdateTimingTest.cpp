@@ -26,8 +26,8 @@ TEST(UpdateTiming, ProbesEagerlyForAWhileAfterDatagramsCame) {
   timing.datagramCame(start);
   EXPECT_EQ(probes(timing, start, start + UpdateTiming::kQuiet, false), 0);
   EXPECT_NEAR(probes(timing, start + UpdateTiming::kQuiet, start + UpdateTiming::kPassing, false), 6, 1);
-  EXPECT_NEAR(probes(timing, start + 1s, start + UpdateTiming::kEagerFor, false), 36, 1);
-  EXPECT_NEAR(probes(timing, start + UpdateTiming::kEagerFor, start + 20s, false), 10, 1);
+  EXPECT_NEAR(probes(timing, start + 1s, start + PathProbe::kEagerFor, false), 36, 1);
+  EXPECT_NEAR(probes(timing, start + PathProbe::kEagerFor, start + 20s, false), 10, 1);
 }
 
 TEST(UpdateTiming, ProbesEagerlyAsLongAsThereIsNoOtherWay) {

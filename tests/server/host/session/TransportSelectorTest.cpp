@@ -91,7 +91,7 @@ TEST_F(TransportSelectorTest, ClosesAfterASecondWithoutAcknowledgement) {
   EXPECT_TRUE(passage.wantsProbe(now));
   send(true);
   EXPECT_FALSE(passage.wantsProbe(now));
-  now += TransportSelector::kEagerProbes - 1ms;
+  now += PathProbe::kEagerProbes - 1ms;
   EXPECT_FALSE(passage.wantsProbe(now));
   now += 1ms;
   EXPECT_TRUE(passage.wantsProbe(now));
@@ -128,7 +128,7 @@ TEST_F(TransportSelectorTest, ProbesOftenAgainAfterAnotherStream) {
 
 TEST_F(TransportSelectorTest, ProbesEagerlyForAWhileAfterItWasOpen) {
   open();
-  now += TransportSelector::kIdleTimer;
+  now += PathProbe::kOpenFor;
   int eager = 0;
   int late = 0;
   for (int ms = 1000; ms < 20'000; ms += 10, now += 10ms) {
