@@ -39,7 +39,7 @@ void SealedDatagrams::start(std::function<void(std::string_view packet)> on_pack
 }
 
 void SealedDatagrams::send(std::string_view packet) {
-  const auto outgoing = m_link.seal(packet, m_now());
+  const auto outgoing = m_link.seal(packet, m_now(), m_socket->nextPacket());
   if (!outgoing) return;
   m_socket->send(outgoing->path, outgoing->packet);
   m_socket->flush();

@@ -77,8 +77,9 @@ void DatagramService::Channel::start(std::function<void(std::string_view)> on_pa
 }
 
 void DatagramService::Channel::send(std::string_view packet) {
-  if (const auto outgoing = m_link.seal(packet, m_service.m_now())) {
-    m_service.m_socket->send(outgoing->path, outgoing->packet);
+  DatagramSocket& socket = *m_service.m_socket;
+  if (const auto outgoing = m_link.seal(packet, m_service.m_now(), socket.nextPacket())) {
+    socket.send(outgoing->path, outgoing->packet);
   }
 }
 

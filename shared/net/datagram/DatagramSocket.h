@@ -24,6 +24,9 @@ class DatagramSocket {
   /// Queue one packet of 1 … 1200 bytes (else std::length_error) for path.remote, to leave from path.local;
   /// any local address lets the system choose. A full batch leaves at once, the rest with flush().
   virtual void send(const Path& path, std::string_view packet) = 0;
+  /// Where the next packet may be written, so that send() need not copy it: kMaxDatagram bytes, valid until
+  /// the next call of send(), flush() or reopen(). Null if the socket has no such memory.
+  virtual char* nextPacket() { return nullptr; }
   /// Send what is queued. What the system does not take at once is dropped, as any datagram may be.
   virtual void flush() = 0;
   /// Take another free port, as a client does when its network has changed. What is queued or was not read

@@ -206,7 +206,7 @@ bool SealedLink::wantsToSend(Time now) const {
   return due && room().has_value();
 }
 
-std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, Time now) {
+std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, Time now, char* memory) {
   assert(payload.size() <= maxPayload());
   expire(now);
   if (!guard_.current()) {
@@ -222,16 +222,16 @@ std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, T
     ++counters_.over_budget;
     return std::nullopt;
   }
-  auto& sealed = options_.scratch->sealed;
-  const std::size_t prefix = writeSealedPrefix(sends(), keys->epoch, options_.id, sealed.data());
-  char* const text = sealed.data() + prefix + 2;
+  char* const sealed = memory != nullptr ? memory : options_.scratch->sealed.data();
+  const std::size_t prefix = writeSealedPrefix(sends(), keys->epoch, options_.id, sealed);
+  char* const text = sealed + prefix + 2;
   const std::size_t least = payload.size() + overhead();
   const std::size_t fields = writeFields(text, std::min(kMaxDatagram, guard_.budget()) - least, now);
   std::copy(payload.begin(), payload.end(), text + fields);
-  const std::size_t size = keys->sealer.seal(sealed.data(), prefix, fields + payload.size());
+  const std::size_t size = keys->sealer.seal(sealed, prefix, fields + payload.size());
   guard_.sent(size, now);
   ++counters_.sealed;
-  return Outgoing{*guard_.current(), {sealed.data(), size}};
+  return Outgoing{*guard_.current(), {sealed, size}};
 }
 
 /// `spare`: bytes that the packet may still have beyond overhead() and the payload.

@@ -96,10 +96,12 @@ class SealedLink {
 
   struct Outgoing {
     Path path;
-    std::string_view packet;  ///< valid until the next seal() with this scratch
+    std::string_view packet;  ///< in `memory`; in the scratch valid until the next seal() with it
   };
-  /// Seal at most maxPayload() bytes. Nothing if it may not be sent now; the reason is counted.
-  std::optional<Outgoing> seal(std::string_view payload, Time now);
+  /// Seals at most maxPayload() bytes. Nothing if it may not be sent now; the reason is counted.
+  /// `memory`: where the packet is made, kMaxDatagram bytes that do not overlap the payload; null: the
+  /// scratch.
+  std::optional<Outgoing> seal(std::string_view payload, Time now, char* memory = nullptr);
   /// Clients only: measure the round trip with the next packet that has a byte to spare.
   void ping() { ping_.ask(); }
   /// The round trip measured since the last call, without what the server waited before it answered.

@@ -1,6 +1,7 @@
 #include "shared/net/datagram/UdpBatch.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <cstring>
 
@@ -69,11 +70,17 @@ UdpSendBatch::UdpSendBatch(bool six) : six_(six), slots_(std::make_unique<std::a
   }
 }
 
+char* UdpSendBatch::nextPacket() {
+  assert(!full());
+  return (*slots_)[count_].bytes.data();
+}
+
 bool UdpSendBatch::add(const Path& path, std::string_view packet) {
+  assert(!full() && packet.size() <= kMaxDatagram);
   if (!six_ && !path.remote.isIPv4()) return false;
   Slot& slot = (*slots_)[count_];
   msghdr& header = headers_[count_].msg_hdr;
-  std::copy(packet.begin(), packet.end(), slot.bytes.begin());
+  if (packet.data() != slot.bytes.data()) std::copy(packet.begin(), packet.end(), slot.bytes.begin());
   slot.part.iov_len = packet.size();
   slot.address = {};
   if (six_) {

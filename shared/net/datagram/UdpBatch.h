@@ -48,6 +48,8 @@ class UdpSendBatch {
   explicit UdpSendBatch(bool six);
 
   bool full() const { return count_ == kUdpBatch; }
+  /// Memory of the next packet, kMaxDatagram bytes: add() copies nothing that is there. Not when full.
+  char* nextPacket();
   /// False, and nothing is added, if a socket of this family cannot reach that address. Not when full.
   bool add(const Path& path, std::string_view packet);
   /// Hand everything to the kernel, without blocking. The batch is empty afterwards, whatever happened.

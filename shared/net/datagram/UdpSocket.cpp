@@ -152,6 +152,10 @@ void UdpSocket::send(const Path& path, std::string_view packet) {
   if (state_->outgoing->full()) flush();
 }
 
+char* UdpSocket::nextPacket() {
+  return state_->outgoing ? state_->outgoing->nextPacket() : nullptr;
+}
+
 void UdpSocket::flush() {
   if (state_->socket.is_open()) state_->outgoing->send(state_->socket.native_handle(), state_->counters);
 }

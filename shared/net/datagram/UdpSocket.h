@@ -35,6 +35,7 @@ class UdpSocket : public DatagramSocket {
 
   void start(OnPacket on_packet) override;
   void send(const Path& path, std::string_view packet) override;
+  char* nextPacket() override;
   void flush() override;
   void reopen() override;
   Endpoint localEndpoint() const override;

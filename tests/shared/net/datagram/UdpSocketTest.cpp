@@ -158,6 +158,22 @@ TEST_F(UdpSocketTest, NothingLeavesBeforeTheFlushOrAFullBatch) {
   ASSERT_TRUE(arrive(context, server, kUdpBatch + 1));
 }
 
+TEST_F(UdpSocketTest, PacketsMadeInItsMemoryArriveBesideCopies) {
+  Peer server(context, {}), client(context, {});
+  const Path path{{}, server.at("127.0.0.1")};
+  for (std::size_t i = 0; i < 2 * kUdpBatch; ++i) {
+    const std::string packet = "packet " + std::to_string(i);
+    char* const memory = client.socket.nextPacket();
+    const bool in_place = i % 3 != 0;
+    if (in_place) packet.copy(memory, packet.size());
+    client.socket.send(path, in_place ? std::string_view(memory, packet.size()) : packet);
+  }
+  ASSERT_TRUE(arrive(context, server, 2 * kUdpBatch));
+  for (std::size_t i = 0; i < 2 * kUdpBatch; ++i) {
+    EXPECT_EQ(server.received[i].packet, "packet " + std::to_string(i));
+  }
+}
+
 TEST_F(UdpSocketTest, OneWakeUpReadsABoundedNumber) {
   Peer server(context, {}), client(context, {});
   for (int i = 0; i < 400; ++i) client.socket.send({{}, server.at("127.0.0.1")}, "x");
