@@ -12,7 +12,7 @@ Replica* WorldFeed::replicaFor(std::string_view bytes, Time now) {
   if (m_next && m_next_epoch == header->epoch) return &*m_next;
   if (!isNewer(header->number, (m_next ? *m_next : m_replica).newest().number)) return nullptr;
   m_next_epoch = header->epoch;
-  m_next = Replica::anew(m_replica.newest());
+  m_next = Replica::continuing(m_replica.newest());
   m_reset_at = now;
   ++m_resets;
   return &*m_next;

@@ -28,7 +28,10 @@ class WorldFeed {
 
   /// `near`: what the snapshots to come count on from. `epoch`: theirs.
   explicit WorldFeed(const SnapshotContext& near = {}, std::uint8_t epoch = 0)
-      : m_replica(Replica::anew(near)), m_epoch(epoch), m_before(near.number), m_complete(near.number) {}
+      : m_replica(Replica::continuing(near)),
+        m_epoch(epoch),
+        m_before(near.number),
+        m_complete(near.number) {}
 
   /// What became of a snapshot.
   enum class Taken {

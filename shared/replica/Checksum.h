@@ -1,8 +1,7 @@
 // The sum by which server and client make sure that they mean the same world.
 //
 // Every group of every object a client holds gives 64 bits; the sum of all of them, modulo 2^64, depends on
-// no order, and each side keeps it up to date group by group. It is no defence against anybody, only against
-// mistakes.
+// no order, and each side keeps it up to date group by group. It guards against mistakes, not attacks.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,8 @@ namespace naiad {
 std::uint64_t lifeSum(std::uint32_t id, std::uint8_t generation, std::uint64_t order);
 /// Any base tick of the same path gives the same sum.
 std::uint64_t motionSum(std::uint32_t id, const Motion& motion);
-/// A clock that goes round may be told at any tick; one that stops, as it was told: see rebase().
+/// For a clock that goes round, any start that shows the same gives the same sum; for one that stops, only
+/// the start that was sent. See rebase().
 std::uint64_t lookSum(std::uint32_t id, const Look& look);
 std::uint64_t bodySum(std::uint32_t id, const Body& body);
 

@@ -1,5 +1,5 @@
-// Controls <-> bytes and bits: the table a game declares for a player, and the exact state of what he steers.
-// The writing side asserts, the reading side checks everything.
+// Controls <-> bytes and bits: the table a game declares for a player, and the exact state of what they
+// steer. The writing side asserts, the reading side checks everything.
 //
 // A table is rare, so it is bytes; numbers are varints, signed ones zig-zag (Bytes.h):
 //
@@ -40,7 +40,7 @@ inline constexpr std::size_t kMaxControlRecordBytes = 160;
 struct ControlRecord {
   std::uint32_t tick = 0;
   std::uint32_t slot = 0;          ///< of the world; on the wire and from there on the client's id
-  std::uint32_t generation = 0;    ///< likewise; 0: he steers nothing
+  std::uint32_t generation = 0;    ///< likewise; 0: they steer nothing
   std::uint32_t newest_input = 0;  ///< the newest input of this player that has reached the game; 0: none
   df::FixedVector position;
   df::FixedVector velocity;  ///< what the next tick tries to add, blocked or not

@@ -59,7 +59,7 @@ class Sequence {
   std::size_t glyphCount() const { return empty() ? 0 : m_p_data->glyphs; }
   /// What it counts towards limits of memory: its glyphs, and three for each appearance beyond the first.
   std::size_t weight() const { return empty() ? 0 : m_p_data->glyphs + 3 * (m_p_data->frames.size() - 1); }
-  /// Of all they say; PROTOCOL.md ("Checksum") tells how. 0 if there are none.
+  /// Of all they say; PROTOCOL.md ("Checksum") says how. 0 if there are none.
   std::uint64_t sum() const { return empty() ? 0 : m_p_data->sum; }
   /// Farthest that a glyph lies from the object on an axis, in glyph units.
   std::int32_t reach() const { return empty() ? 0 : m_p_data->reach; }

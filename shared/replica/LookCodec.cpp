@@ -40,7 +40,7 @@ constexpr int kFrameCountOrder = 3;
 constexpr int kFrameBits = 8;
 constexpr int kTicksOrder = 3;
 constexpr int kAgeOrder = 6;
-constexpr int kAngleCodeBits = 3;  ///< of the angle, 4 (code + 1) upper bits are told
+constexpr int kAngleCodeBits = 3;  ///< of the angle, 4 (code + 1) upper bits are sent
 constexpr int kSpinWidthBits = 6;
 constexpr std::int64_t kGlyphStep = 1 << kGlyphUnitBits;
 constexpr df::Fixed kMaxBoxCorner = df::Fixed{1'000'001} << df::kFixedBits;
@@ -188,16 +188,16 @@ void writeSelector(BitWriter& out, const Selector& selector, std::uint32_t tick,
       break;
   }
   const int zeros = selector.angle == 0 ? 32 : std::countr_zero(selector.angle);
-  const int told = 32 - std::min(zeros / 4 * 4, 28);
-  out.bits(static_cast<std::uint64_t>(told / 4 - 1), kAngleCodeBits);
-  out.bits(selector.angle >> (32 - told), told);
+  const int sent = 32 - std::min(zeros / 4 * 4, 28);
+  out.bits(static_cast<std::uint64_t>(sent / 4 - 1), kAngleCodeBits);
+  out.bits(selector.angle >> (32 - sent), sent);
   const auto magnitude = static_cast<std::uint32_t>(selector.spin < 0 ? ~selector.spin : selector.spin);
   const int width = selector.spin == 0 ? 0 : std::bit_width(magnitude) + 1;
   out.bits(static_cast<std::uint64_t>(width), kSpinWidthBits);
   out.signedBits(selector.spin, width);
 }
 
-// Whether it fits its sequence cannot be told here: a name may be explained later.
+// Whether it fits its sequence is not known here: a name may be explained later.
 Selector readSelector(BitReader& in, std::uint32_t tick) {
   Selector selector;
   if (in.flag()) return selector;
@@ -214,8 +214,8 @@ Selector readSelector(BitReader& in, std::uint32_t tick) {
           tick - static_cast<std::uint32_t>(in.golomb(kAgeOrder, kMaxFrames * kMaxTicksPerFrame - 1));
       break;
     case Selector::kAngle: {
-      const int told = 4 * (static_cast<int>(in.bits(kAngleCodeBits)) + 1);
-      selector.angle = static_cast<std::uint32_t>(in.bits(told) << (32 - told));
+      const int sent = 4 * (static_cast<int>(in.bits(kAngleCodeBits)) + 1);
+      selector.angle = static_cast<std::uint32_t>(in.bits(sent) << (32 - sent));
       const int width = static_cast<int>(in.bits(kSpinWidthBits));
       if (width > 32) in.fail();
       selector.spin = in.ok() ? static_cast<std::int32_t>(in.signedBits(width)) : 0;

@@ -48,7 +48,7 @@ struct Selector {
   std::uint32_t age(std::uint32_t tick, std::size_t frames) const;
   /// The same from `tick` on, counted from the latest start that shows it so.
   Selector rebased(std::uint32_t tick, std::size_t frames) const;
-  /// May it be told at `tick`? It fits, and its age is no more than age() gives: one meaning, one spelling.
+  /// May it be sent at `tick`? It fits, and its age is no more than age() gives: one meaning, one spelling.
   bool isTellable(std::uint32_t tick, std::size_t frames) const {
     return fits(frames) && *this == rebased(tick, frames);
   }

@@ -1,4 +1,4 @@
-// Mixes numbers into 64 bits, one after the other: what checksums are made of. No defence against anybody.
+// Mixes numbers into 64 bits, one after the other: what checksums are made of. No defence against attacks.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 //
 // At the base tick the object is at `position`; each tick position += velocity, then velocity +=
 // acceleration (the book's order). After n ticks that is p + n·w + n(n−1)/2·a, in integers, so evaluating
-// the closed form equals stepping bit for bit and nobody needs to step.
+// the closed form equals stepping bit for bit and no end needs to step.
 #pragma once
 
 #include <cstdint>

@@ -65,7 +65,7 @@ struct WorldRecord {
   friend bool operator==(const WorldRecord&, const WorldRecord&) = default;
 };
 
-/// Where this client's view is, and whom it follows.
+/// Where this client's view is, and which object it follows.
 struct ViewRecord {
   df::FixedVector corner;
   bool follows = false;         ///< else `id` and `generation` are 0
@@ -114,7 +114,7 @@ struct Records {
   std::vector<OriginRecord> origins;
   std::vector<TextRecord> texts;
   std::vector<df::ControlTable> tables;  ///< the player's own controls; at most one is sent
-  std::vector<ControlRecord> controls;   ///< and what he steers; at most one is sent
+  std::vector<ControlRecord> controls;   ///< and what they steer; at most one is sent
   std::vector<SequenceRecord> sequences;
   std::vector<ObjectRecord> objects;  ///< by ascending id
 };

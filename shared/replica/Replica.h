@@ -38,8 +38,8 @@ class Replica {
 
   /// `tick`: one near those of the snapshots to come (the welcome names it).
   explicit Replica(std::uint32_t tick = 0) : m_context{0, tick, 0} {}
-  /// Of a world that comes anew in a session that goes on: numbers, ticks and inputs continue from `near`.
-  static Replica anew(const SnapshotContext& near) {
+  /// Empty, for a session that goes on with a new world: numbers, ticks and inputs continue from `near`.
+  static Replica continuing(const SnapshotContext& near) {
     Replica replica;
     replica.m_context = near;
     return replica;
@@ -65,10 +65,10 @@ class Replica {
   /// The object that the view follows; null if there is none.
   const ObjectState* followed() const;
 
-  /// The player's own controls, and the newest number that told them; 0: none has yet.
+  /// The player's own controls, and the newest number that carried them; 0: none has yet.
   const df::ControlTable& controlTable() const { return m_table; }
   std::uint32_t controlTableNumber() const { return m_table_newest; }
-  /// What the player steers, by the client's ids, and the newest number that told it; 0: none has yet.
+  /// What the player steers, by the client's ids, and the newest number that carried it; 0: none has yet.
   const ControlRecord& control() const { return m_control; }
   std::uint32_t controlNumber() const { return m_control_newest; }
 

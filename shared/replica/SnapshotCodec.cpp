@@ -17,7 +17,7 @@ namespace naiad {
 //             | extras 1 | objects: exp-Golomb(3) | order of ids 4, if any | each object
 //   extras    rare ones 1 (world 1, view 1, table 1, origins 2, texts 5, then those) | control 1
 //   table     length 10 | bytes (ControlCodec.h)
-//   control   newest input 16, unless the header tells it | state (ControlCodec.h)
+//   control   newest input 16, unless the header has it | state (ControlCodec.h)
 //   object    id − last id − 1: exp-Golomb(order) | kind | parts
 //   kind      00 motion, 01 look, 10 birth, 110 death, 111 and a bit each for motion, look, body
 //   birth     generation 2 | order − origin's: signed exp-Golomb(10) | motion | look | body

@@ -17,12 +17,12 @@ namespace naiad {
 /// What a snapshot says of itself. On the wire numbers, ticks and inputs have their 16 low bits only; the
 /// reader restores them near those it knows, so it must not fall behind by 2^15.
 struct SnapshotHeader {
-  std::uint32_t number = 0;      ///< never 0
-  std::uint32_t tick = 0;        ///< the records hold at its end
-  std::uint8_t epoch = 0;        ///< 0 … 3; another one than before: forget the world, it comes anew
-  bool complete = true;          ///< the sender owes nothing that this snapshot does not carry
-  bool tells_input = false;      ///< the next two are set
-  std::uint32_t input = 0;       ///< newest input that reached the game
+  std::uint32_t number = 0;  ///< never 0
+  std::uint32_t tick = 0;    ///< the records hold at its end
+  std::uint8_t epoch = 0;    ///< 0 … 3; another one than before: forget the world, all of it comes again
+  bool complete = true;      ///< nothing is pending that this snapshot does not carry
+  bool tells_input = false;  ///< the next two are set
+  std::uint32_t input = 0;   ///< newest input that reached the game
   std::uint32_t input_tick = 0;  ///< the tick that it was applied in, at most 63 before `tick`, else that
 };
 
@@ -63,7 +63,7 @@ class SnapshotWriter {
   void write(const TextRecord& record);
   /// A table of controls, as writeControlTable() wrote it.
   void writeTable(std::string_view bytes);
-  /// It must hold at the header's tick, its newest input be the header's if that tells one.
+  /// It must hold at the header's tick, its newest input be the header's if that has one.
   void write(const ControlRecord& record);
 
   /// The bits of an object's record but for its id. `motion` must hold at the header's tick; that of `state`

@@ -1,5 +1,4 @@
-// What the receiver of snapshots has been told to count from and to draw: origins and sequences of
-// appearances, by name.
+// What snapshots have named for their receiver: origins to count from, sequences of appearances to draw.
 #pragma once
 
 #include <array>

@@ -52,7 +52,7 @@ class SteeredCopy : public Steered {
   std::vector<df::FixedVector> m_trail;
 };
 
-/// Ticks after which a state that still changes by itself is sent anew.
+/// Ticks after which a state that still changes by itself is sent again.
 inline constexpr int kMaxCoasting = 30;
 
 /// What a client that knows `known` and hears no more takes for true at `tick`, where nothing is in the way;

@@ -28,7 +28,7 @@ Axes driven(const ControlTable& table) {
   return axes;
 }
 
-/// The velocity with which something that nobody drives any more gets to the next whole cell.
+/// The velocity with which something that is no longer driven gets to the next whole cell.
 Fixed glide(Fixed position, Fixed velocity) {
   constexpr Fixed kFraction = df::kFixedOne - 1;
   const Fixed passed = position & kFraction;
@@ -51,7 +51,7 @@ bool isOutside(const ControlTable& table, df::FixedVector p) {
                            isOutside(p.y, table.bounds.corner.y, table.bounds.size.y));
 }
 
-/// What the drives ask for; and whoever's velocity it is, it ends at the bounds, each axis by itself.
+/// The velocity that the drives ask for. Any velocity, a drive's or not, ends at the bounds, axis by axis.
 void setOff(const ControlTable& table, const ControlState& state, Steered& object) {
   const Axes axes = driven(table);
   const df::FixedVector at = object.position();

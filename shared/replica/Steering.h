@@ -26,8 +26,8 @@ class Steered {
 void beginControlTick(const df::ControlTable& table, df::ControlState& state, Steered& object);
 
 /// A key did something. A drive acts at once when its key is pressed; if the key is only reported as still
-/// down, or goes up, with the next tick. Return whether a row of the table is for it (and there is somebody
-/// to steer).
+/// down, or goes up, with the next tick. Return whether a row of the table is for it (and there is an
+/// object to steer).
 bool applyControlKey(const df::ControlTable& table, df::ControlState& state, df::Keyboard::Key key,
                      df::EventKeyboardAction action, Steered& object);
 

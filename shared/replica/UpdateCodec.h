@@ -29,7 +29,7 @@ struct Input {
 struct ClientUpdate {
   AckWindow acks;                         ///< newest 0: nothing arrived yet
   std::optional<std::uint64_t> checksum;  ///< of the replica that has just what `acks` says
-  bool wants_reset = false;               ///< the world is beyond repair: send it anew
+  bool wants_reset = false;               ///< the world is beyond repair: send all of it again
   std::vector<Input> inputs;              ///< those that no snapshot has acknowledged, with ids in a row
 };
 

@@ -22,7 +22,7 @@ df::FixedVector followView(const ViewFrame& frame, df::FixedVector target);
 df::FixedVector clampView(const ViewFrame& frame, df::FixedVector corner);
 
 /// The published model of a following view: its corner at `tick`, if it was `frame.corner` at `known` and
-/// the followed object moves by `motion` (null: nobody is followed, the view stays). It depends on the two
+/// the followed object moves by `motion` (null: nothing is followed, the view stays). It depends on the two
 /// newest records alone, not on when they arrived, so a client that lost some draws the same view; where
 /// the true view differs (a path that turned in between), the server sends a new record.
 df::FixedVector viewCornerAt(const ViewFrame& frame, std::uint32_t known, const Motion* motion,

@@ -1,4 +1,4 @@
-// How a player's keys move his Object, as data: what a game declares (Controls.h), the server runs on the
+// How a player's keys move their Object, as data: what a game declares (Controls.h), the server runs on the
 // Object, and the client runs ahead of the server's answer on its own copy. Steering.h has the one function
 // that both run.
 //

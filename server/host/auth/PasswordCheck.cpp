@@ -30,7 +30,7 @@ struct Secret {
 }  // namespace
 
 /// The owner's side, with all callbacks: none is touched, copied or destroyed by the worker. What the worker
-/// posts knows it weakly, and does nothing after the end.
+/// posts has a weak pointer to it, and does nothing after the end.
 struct PasswordCheck::State {
   State(asio::any_io_executor executor, const Limits& with_limits)
       : owner(std::move(executor)),

@@ -1,7 +1,7 @@
-// Asks whether a player knows the server's password, without anybody waiting for it.
+// Checks the server's password without blocking the caller.
 //
 // A guess costs 64 MiB and 0.1 s by design, so it is made on a thread of its own, one at a time, from a short
-// queue, and nobody gets many.
+// queue, and LoginRateLimit counts the wrong ones.
 #pragma once
 
 #include <asio/any_io_executor.hpp>
@@ -31,7 +31,7 @@ class PasswordCheck {
     std::size_t queue = 8;            ///< guesses that wait or are being made
     int wrong_per_window = 5;         ///< from one IPv4 address or IPv6 /64; right ones do not count
     std::chrono::seconds window{60};  ///< from the first wrong one
-    std::size_t prefixes = 1024;      ///< remembered at once; then the oldest is forgotten
+    std::size_t prefixes = 1024;      ///< remembered at once; then the least recently used is forgotten
   };
   struct Counters {
     std::uint64_t right = 0, wrong = 0, too_many = 0, busy = 0;
@@ -45,7 +45,7 @@ class PasswordCheck {
   PasswordCheck(const PasswordCheck&) = delete;
   PasswordCheck& operator=(const PasswordCheck&) = delete;
 
-  /// `from`: who asks. `done` is called once, posted to the owner, never from inside.
+  /// `from`: the client's address. `done` is called once, posted to the owner, never from inside.
   void check(const AddressPrefix& from, std::string password, std::chrono::steady_clock::time_point now,
              std::function<void(Answer)> done);
 

@@ -12,7 +12,7 @@ namespace naiad {
 
 /// 128 unpredictable bits, good for one return: until the client has proved that it got the next one. (Were
 /// they void at once, an answer lost on a bad line would cost the session.) Only their SHA-256 is kept, so
-/// that what a server remembers is of no use to whoever reads it.
+/// that what a server remembers is of no use to a reader.
 class ResumeTokens {
  public:
   static constexpr std::size_t kBytes = 16;

@@ -1,4 +1,4 @@
-// A seed that nobody knows before.
+// A seed that cannot be predicted.
 #pragma once
 
 #include <cstdint>

@@ -69,7 +69,7 @@ ServerIdentity ServerIdentity::loadOrMake(const fs::path& directory,
                        certificate.string() +
                        " to begin with a new key that players will have to trust anew.");
       }
-      makeFile(key, makeKeyPem());  // if somebody was faster, theirs is loaded
+      makeFile(key, makeKeyPem());  // if another process was faster, its key is loaded
     }
     const std::string key_pem = readKey(key);
     if (!fs::exists(certificate)) makeFile(certificate, makeCertificatePem(key_pem, now));

@@ -60,9 +60,9 @@ class DatagramService {
 
   /// Keys come from the stream's exporter (DatagramKeys.h). Null if it has none to give.
   std::unique_ptr<Channel> open(const KeyExporter& exporter, AeadId aead);
-  /// The same with an id that was drawn already; null also if somebody has that.
+  /// The same with an id that was drawn already; null also if it is in use.
   std::unique_ptr<Channel> open(const KeyExporter& exporter, AeadId aead, ConnectionId id);
-  /// Let go what was sent since the last call, and the link's own packets.
+  /// Hand the kernel what was sent since the last call, and the link's own packets.
   void flush();
   /// Some address is being challenged: flush() is to be called now and then even if nothing is sent.
   bool isUnproven() const { return !m_unproven.empty(); }

@@ -71,7 +71,7 @@ template <class Header>
 class Mailbox {
  public:
   /// Leave all of `batch` here. It comes back empty.
-  void put(Batch<Header>& batch) {
+  void putBatch(Batch<Header>& batch) {
     const std::lock_guard lock(m_mutex);
     if (m_waiting.empty()) {
       std::swap(m_waiting, batch);
@@ -82,12 +82,12 @@ class Mailbox {
     m_size = m_waiting.size();
   }
   /// Fetch what is here. `batch` has to be empty.
-  void take(Batch<Header>& batch) {
+  void takeBatch(Batch<Header>& batch) {
     const std::lock_guard lock(m_mutex);
     std::swap(m_waiting, batch);
     m_size = 0;
   }
-  /// Bytes that nobody has fetched yet.
+  /// Bytes that were not fetched yet.
   std::size_t size() const { return m_size; }
 
  private:

@@ -34,8 +34,9 @@ NetworkThread::NetworkThread(asio::io_context& home, const std::string& address,
       m_on_channel(std::move(on_channel)),
       m_limits(limits),
       m_port(openServerPort(
-          m_io, address, port, [this](std::unique_ptr<ReliableChannel> channel) { meet(std::move(channel)); },
-          options, std::move(tls))) {}
+          m_io, address, port,
+          [this](std::unique_ptr<ReliableChannel> channel) { meetStream(std::move(channel)); }, options,
+          std::move(tls))) {}
 
 NetworkThread::~NetworkThread() {
   stop();
@@ -54,13 +55,13 @@ void NetworkThread::stop() {
     asio::post(m_io, [] {});
     m_thread.join();
   }
-  // Nobody obeys any more, but what is to be kept or given back still is.
-  m_order_box.put(m_orders);
-  obey();
+  // No order is carried out any more, but what it hands over is still kept or released.
+  m_order_box.putBatch(m_orders);
+  obeyOrders();
 }
 
 void NetworkThread::closeListener() {
-  give({.kind = Order::kCloseListener});
+  giveOrder({.kind = Order::kCloseListener});
 }
 
 // ---- the tick thread --------------------------------------------------------------------------------------
@@ -73,7 +74,7 @@ bool NetworkThread::serve(Clock::time_point enough) {
   std::string_view bytes;
   for (int served = 1; !more; ++served) {
     if (!m_serving_batch.read(notice, bytes)) {
-      m_notice_box.take(m_serving_batch);
+      m_notice_box.takeBatch(m_serving_batch);
       if (!m_serving_batch.read(notice, bytes)) break;
     }
     m_came = notice.came;
@@ -107,10 +108,10 @@ void NetworkThread::send(std::optional<Clock::time_point> tick_began) {
   if (m_orders.empty()) return;
   if (tick_began) {
     const auto began = static_cast<std::uint64_t>(tick_began->time_since_epoch().count());
-    give({.kind = Order::kTickEnd, .number = began});
+    giveOrder({.kind = Order::kTickEnd, .number = began});
   }
-  m_order_box.put(m_orders);
-  if (!m_woken.exchange(true)) asio::post(m_io, [this] { obey(); });
+  m_order_box.putBatch(m_orders);
+  if (!m_woken.exchange(true)) asio::post(m_io, [this] { obeyOrders(); });
 }
 
 void NetworkThread::wakeHome() {
@@ -134,14 +135,15 @@ std::unique_ptr<SealedChannel> NetworkThread::openDatagrams(const ReliableChanne
   m_free_places.pop_back();
   end->connection = randomBits();
   end->aead = aead;
-  give({.kind = Order::kOpenDatagrams, .stream = &relayed->m_end, .datagrams = end, .number = kFirstEpoch});
+  giveOrder(
+      {.kind = Order::kOpenDatagrams, .stream = &relayed->m_end, .datagrams = end, .number = kFirstEpoch});
   return std::make_unique<RelayedDatagrams>(*this, *end, kFirstEpoch);
 }
 
 bool NetworkThread::renewDatagrams(DatagramsEnd& end, const ReliableChannel& stream, Epoch epoch) {
   const auto* relayed = dynamic_cast<const RelayedStream*>(&stream);
   if (relayed == nullptr) return false;
-  give({.kind = Order::kRenew, .stream = &relayed->m_end, .datagrams = &end, .number = epoch});
+  giveOrder({.kind = Order::kRenew, .stream = &relayed->m_end, .datagrams = &end, .number = epoch});
   return true;
 }
 
@@ -183,7 +185,7 @@ void NetworkThread::endTurn() {
   }
   noteUnsent();
   if (m_notices.empty()) return;
-  m_notice_box.put(m_notices);
+  m_notice_box.putBatch(m_notices);
   if (std::exchange(m_urgent, false)) wakeHome();
 }
 
@@ -196,17 +198,17 @@ void NetworkThread::noteUnsent() {
   });
 }
 
-void NetworkThread::obey() {
+void NetworkThread::obeyOrders() {
   m_woken = false;  // before they are taken, so that later ones wake again
-  m_order_box.take(m_taken);
+  m_order_box.takeBatch(m_taken);
   Order order;
   std::string_view bytes;
   while (m_taken.read(order, bytes)) {
-    obey(order, bytes);
+    obeyOrder(order, bytes);
   }
 }
 
-void NetworkThread::obey(const Order& order, std::string_view bytes) {
+void NetworkThread::obeyOrder(const Order& order, std::string_view bytes) {
   StreamEnd* const stream = order.stream;
   DatagramsEnd* const datagrams = order.datagrams;
   switch (order.kind) {
@@ -285,7 +287,7 @@ void NetworkThread::openDatagrams(DatagramsEnd& end, const StreamEnd& stream) {
 void NetworkThread::noteRoom(DatagramsEnd& end) {
   const auto room = end.channel->room();
   const std::int32_t now = room ? static_cast<std::int32_t>(*room) : -1;
-  // Nothing else follows from it, and it hardly ever changes.
+  // Relaxed: nothing else depends on it. Compared first: it hardly ever changes.
   if (end.room.load(std::memory_order_relaxed) != now) end.room.store(now, std::memory_order_relaxed);
 }
 
@@ -294,7 +296,7 @@ void NetworkThread::notice(const Notice& notice, std::string_view bytes) {
   m_urgent = m_urgent || notice.kind != Notice::kDatagram;
 }
 
-void NetworkThread::meet(std::unique_ptr<ReliableChannel> channel) {
+void NetworkThread::meetStream(std::unique_ptr<ReliableChannel> channel) {
   if (m_unmet >= m_limits.unmet || isInFull()) {
     ++m_counters.unmet;
     return;
@@ -321,7 +323,7 @@ void NetworkThread::onFrame(StreamEnd& end, std::string_view frame) {
   notice({.kind = Notice::kFrame, .id = end.id, .came = Clock::now()}, frame);
 }
 
-// By itself, or because it has to.
+// The stream ended by itself, or is made to end.
 void NetworkThread::onClosed(StreamEnd& end, CloseReason reason) {
   end.channel.reset();
   notice({.kind = Notice::kClosed, .reason = reason, .id = end.id, .came = Clock::now()});

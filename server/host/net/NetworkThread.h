@@ -12,9 +12,8 @@
 // Everything here is bounded, and what is over a bound is counted:
 //   datagrams, either way         dropped while the mailbox is full (Limits::mailbox)
 //   a stream's frames             the stream ends (CloseReason::kOverflow) when more than Limits::stream_in
-//   bytes of
-//                                 it wait for the tick thread, or its own queue is full (TcpOptions), or the
-//                                 mailbox is
+//                                 bytes of it wait for the tick thread, or its own queue (TcpOptions) or the
+//                                 mailbox is full
 //   connections                   hung up on while Limits::unmet wait for the tick thread
 #pragma once
 
@@ -89,7 +88,7 @@ class NetworkThread {
   /// Call back for what came, but no longer than until `enough` (and for a least number of messages). False:
   /// there is more.
   bool serve(Clock::time_point enough);
-  /// Let what was sent go.
+  /// Hand over what was sent.
   void flush() { send(std::nullopt); }
   /// The same at the end of a tick that began at `began`.
   void flushTick(Clock::time_point began) { send(began); }
@@ -167,7 +166,7 @@ class NetworkThread {
 
   // On the tick thread.
   bool renewDatagrams(DatagramsEnd& end, const ReliableChannel& stream, Epoch epoch);
-  void give(const Order& order, std::string_view bytes = {}) { m_orders.add(order, bytes); }
+  void giveOrder(const Order& order, std::string_view bytes = {}) { m_orders.add(order, bytes); }
   bool isFull() const { return m_order_box.size() + m_orders.size() > m_limits.mailbox; }
   void send(std::optional<Clock::time_point> tick_began);
   void onNotice(const Notice& notice, std::string_view bytes);
@@ -175,10 +174,10 @@ class NetworkThread {
 
   // On the network thread.
   void run();
-  void obey();
-  void obey(const Order& order, std::string_view bytes);
+  void obeyOrders();
+  void obeyOrder(const Order& order, std::string_view bytes);
   void endTurn();
-  void meet(std::unique_ptr<ReliableChannel> channel);
+  void meetStream(std::unique_ptr<ReliableChannel> channel);
   void onFrame(StreamEnd& end, std::string_view frame);
   void onClosed(StreamEnd& end, CloseReason reason);
   void openDatagrams(DatagramsEnd& end, const StreamEnd& stream);
@@ -219,7 +218,7 @@ class NetworkThread {
   Batch<Order> m_orders;
   Batch<Notice> m_serving_batch;
   std::unordered_map<std::uint64_t, RelayedStream*> m_near_streams;
-  /// Places are used again, ids are not: what is still on the way when a session goes reaches nobody.
+  /// Places are used again, ids are not: what is still on the way when a session goes reaches no channel.
   struct NearDatagrams {
     std::uint64_t id = 0;
     RelayedDatagrams* channel = nullptr;

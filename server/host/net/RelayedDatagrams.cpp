@@ -12,7 +12,7 @@ RelayedDatagrams::RelayedDatagrams(NetworkThread& network, NetworkThread::Datagr
 RelayedDatagrams::~RelayedDatagrams() {
   m_network.m_near_datagrams[m_end.place] = {};
   m_network.m_free_places.push_back(m_end.place);
-  m_network.give({.kind = NetworkThread::Order::kDropDatagrams, .datagrams = &m_end});
+  m_network.giveOrder({.kind = NetworkThread::Order::kDropDatagrams, .datagrams = &m_end});
 }
 
 void RelayedDatagrams::start(std::function<void(std::string_view)> on_packet) {
@@ -24,7 +24,7 @@ void RelayedDatagrams::send(std::string_view packet) {
     ++m_network.m_out_dropped;
     return;
   }
-  m_network.give({.kind = NetworkThread::Order::kSendDatagram, .datagrams = &m_end}, packet);
+  m_network.giveOrder({.kind = NetworkThread::Order::kSendDatagram, .datagrams = &m_end}, packet);
 }
 
 std::optional<std::size_t> RelayedDatagrams::room() const {

@@ -20,7 +20,7 @@ RelayedStream::RelayedStream(NetworkThread& network, NetworkThread::StreamEnd& e
 
 RelayedStream::~RelayedStream() {
   m_network.m_near_streams.erase(m_end.id);
-  m_network.give({.kind = NetworkThread::Order::kDropStream, .stream = &m_end});
+  m_network.giveOrder({.kind = NetworkThread::Order::kDropStream, .stream = &m_end});
 }
 
 void RelayedStream::start(Callbacks callbacks) {
@@ -32,11 +32,11 @@ void RelayedStream::send(std::string_view frame) {
   if (onTheWay() + frame.size() > kMaxOnTheWay || m_network.isFull()) {
     ++m_network.m_clogged;
     m_closed = true;
-    return m_network.give({.kind = NetworkThread::Order::kCut, .stream = &m_end});
+    return m_network.giveOrder({.kind = NetworkThread::Order::kCut, .stream = &m_end});
   }
   m_given += kFrameHeaderSize + frame.size();
   m_idle = false;
-  m_network.give({.kind = NetworkThread::Order::kSendFrame, .stream = &m_end}, frame);
+  m_network.giveOrder({.kind = NetworkThread::Order::kSendFrame, .stream = &m_end}, frame);
 }
 
 std::size_t RelayedStream::unsentBytes() const {
@@ -50,11 +50,11 @@ std::size_t RelayedStream::unsentBytes() const {
 
 void RelayedStream::close() {
   if (std::exchange(m_closed, true)) return;
-  m_network.give({.kind = NetworkThread::Order::kClose, .stream = &m_end});
+  m_network.giveOrder({.kind = NetworkThread::Order::kClose, .stream = &m_end});
 }
 
 void RelayedStream::setReceiveLimit(std::size_t bytes) {
-  m_network.give({.kind = NetworkThread::Order::kReceiveLimit, .stream = &m_end, .number = bytes});
+  m_network.giveOrder({.kind = NetworkThread::Order::kReceiveLimit, .stream = &m_end, .number = bytes});
 }
 
 void RelayedStream::deliver(std::string_view frame) {

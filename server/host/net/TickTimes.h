@@ -33,7 +33,7 @@ class TickTimes {
     for (const auto& n : m_counts) all += n;
     return all;
   }
-  /// Begin anew.
+  /// Forget all.
   void reset() {
     for (auto& n : m_counts) n = 0;
   }

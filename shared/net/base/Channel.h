@@ -2,7 +2,7 @@
 //
 // A ReliableChannel carries frames in order, each whole or not at all; a DatagramChannel carries packets
 // that may be lost, doubled or reordered. TCP and a lossy in-process link in virtual time stand behind
-// them; the protocol code cannot tell which. Neither interface blocks, and neither is thread-safe:
+// them; the protocol code is the same for both. Neither interface blocks, and neither is thread-safe:
 // callbacks come on the thread that runs the channel's event loop.
 #pragma once
 

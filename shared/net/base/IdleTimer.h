@@ -1,4 +1,4 @@
-// For how long the other end of a line has not been heard, by somebody who listened.
+// How long the other end of a line has been silent while this end listened.
 //
 // A process that gets no processor hears nothing, and when it goes on, what came in the meantime still waits
 // to be read. So time counts as silence only as far as this end looked at the clock in it.

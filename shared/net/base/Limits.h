@@ -1,4 +1,4 @@
-// Sizes and counts of frames and messages, to which both ends hold each other. PROTOCOL.md lists them; those
+// Sizes and counts of frames and messages, which both ends enforce. PROTOCOL.md lists them; those
 // of snapshots are in shared/replica/Limits.h.
 #pragma once
 

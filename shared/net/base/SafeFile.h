@@ -13,8 +13,8 @@ namespace naiad {
 /// Also throws if it has more than `most` bytes.
 std::optional<std::string> readSmallFile(const std::filesystem::path& path, std::size_t most);
 
-/// Replace or make the file, mode 0600, so that it is either the old or the new one whenever one looks, after
-/// a crash too.
+/// Replace or make the file, mode 0600, so that a reader finds either the old or the new one, after a crash
+/// too.
 void replaceFile(const std::filesystem::path& path, std::string_view content);
 
 /// The same, but false, and nothing changed, if there is one already.

@@ -63,8 +63,8 @@ void DatagramGate::receive(const Path& path, std::string_view packet, Time now) 
   leaving_ = {};
 }
 
-/// What it takes from is in the order of who is to blame, so that a flood spends as little of others as
-/// possible.
+/// The buckets are asked from the narrowest to the widest, so that a flood spends as little as possible of
+/// what others share.
 bool DatagramGate::allowed(Door& door, const Path& path, Time now) {
   if (door.link->isValidated(path)) {
     if (door.own.takeToken(rates_.session, now)) return true;

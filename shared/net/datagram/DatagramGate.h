@@ -1,10 +1,10 @@
-// The server's door for datagrams: finds the session a packet is for, and keeps floods away from the
-// cryptography. Whatever is refused is counted, and never answered.
+// The server's entry for datagrams: finds the session of a packet, and keeps floods away from the
+// cryptography. What is refused is counted, and never answered.
 //
-// The order is: length, kind, connection id, replay window, allowance, authentication. So a forger who knows
-// no connection id costs a look into a table. One who does may spend the allowance of strangers, of which
-// that session and his prefix have shares of their own; packets that come from where a session has proved to
-// be use that session's own allowance, which nobody else can spend.
+// The order is: length, kind, connection id, replay window, token buckets, authentication. A forged packet
+// without a known connection id costs one look-up. One with it spends tokens of all unproven addresses, of
+// which that session and that prefix have a share each. Packets from a session's proven path use that
+// session's own bucket, which no other address can empty.
 #pragma once
 
 #include <chrono>

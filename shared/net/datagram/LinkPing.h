@@ -23,16 +23,16 @@ class LinkPing {
     std::uint8_t held_millis = 0;
   };
 
-  /// The next packet shall carry one.
+  /// Makes the next packet carry a ping.
   void ask() { m_asked = true; }
   bool isAsked() const { return m_asked; }
-  /// It goes with the packet that is sent now: its token.
+  /// The token for the packet that is sent now.
   std::uint8_t sent(Time now) {
     m_asked = false;
     m_sent = now;
     return ++m_token;
   }
-  /// An echo came. One of another ping, or a second one, says nothing.
+  /// An echo came. One of another ping, or a second one, is ignored.
   void answered(const Echo& echo, Time now) {
     if (!m_sent || echo.token != m_token) return;
     const Millis held(echo.held_millis);
@@ -53,12 +53,12 @@ class LinkEcho {
  public:
   using Time = LinkPing::Time;
 
-  /// Longer held ones are not worth an answer.
+  /// A ping held for longer is not answered.
   static constexpr std::chrono::milliseconds kMaxHeld{255};
 
-  void note(std::uint8_t token, Time now) { m_waiting = {token, now}; }
-  /// What the packet that is sent now shall carry.
-  std::optional<LinkPing::Echo> take(Time now) {
+  void notePing(std::uint8_t token, Time now) { m_waiting = {token, now}; }
+  /// The echo for the packet that is sent now.
+  std::optional<LinkPing::Echo> takeEcho(Time now) {
     const auto waiting = std::exchange(m_waiting, std::nullopt);
     if (!waiting || now - waiting->second > kMaxHeld) return std::nullopt;
     const auto held = std::chrono::floor<std::chrono::milliseconds>(now - waiting->second);

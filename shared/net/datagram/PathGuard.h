@@ -1,10 +1,10 @@
-// Where a session's datagrams go, and how much may go there before that address has proved that it wants
-// them.
+// Where a session's datagrams go, and how many bytes may go there before that address is validated.
 //
-// The path of the newest authentic packet is the current one. Whoever can copy a packet can make it come from
-// somewhere else, so a path that has not answered a challenge yet gets at most three times the bytes that
-// came from it (RFC 9000, 8.1, 8.2 and 9.3). The path validated last is remembered: a copy that overtakes its
-// original moves the session for one packet only, and coming back costs nothing.
+// The path of the newest authentic packet is the current one. A copied packet can be made to come from
+// anywhere, so a path that has not answered a challenge yet gets at most three times the bytes that came from
+// it (RFC 9000, 8.1, 8.2 and 9.3). This is no token bucket: bytes refill it, not time. The path validated
+// last is remembered: a copy that overtakes its original moves the session for one packet only, and coming
+// back costs nothing.
 #pragma once
 
 #include <chrono>
@@ -47,7 +47,7 @@ class PathGuard {
   /// Bytes that may be sent now; no limit once validated.
   std::size_t budget() const;
   void sent(std::size_t bytes, Time now);
-  /// It is time to challenge the path, even if there is nothing else to say.
+  /// It is time to challenge the path, even with an empty packet.
   bool wantsChallenge(Time now) const;
 
  private:

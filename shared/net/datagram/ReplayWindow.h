@@ -14,7 +14,7 @@ std::uint64_t restoreSequence(std::uint64_t expected, std::uint16_t wire);
 /// make the window forget, or shut out, what is real. (RFC 4303, 3.4.3.)
 class ReplayWindow {
  public:
-  /// The newest number and those before it that are still told apart.
+  /// Numbers that are still distinguished, the newest included.
   static constexpr std::uint64_t kSize = 1024;
 
   enum class Verdict : std::uint8_t { kNew, kSeen, kTooOld };

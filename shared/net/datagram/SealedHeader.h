@@ -1,11 +1,10 @@
 // The bytes in front of every sealed datagram.
 //
-//   client to server   [kind 4 bits | epoch 4 bits] [connection id, 8 bytes] [sequence, 2 bytes] ciphertext
-//   tag server to client   [kind 4 bits | epoch 4 bits]                          [sequence, 2 bytes]
-//   ciphertext tag
+//   to server   [kind 4 bits | epoch 4 bits] [connection id, 8 bytes] [sequence, 2 bytes] ciphertext tag
+//   to client   [kind 4 bits | epoch 4 bits]                          [sequence, 2 bytes] ciphertext tag
 //
 // The kind is the upper half of the first byte, the lowest four bits of the epoch the lower half. Numbers are
-// little-endian. The kind also tells the direction, so that a packet thrown back at its sender is refused
+// little-endian. The kind also gives the direction, so that a packet thrown back at its sender is refused
 // before any key is touched. The server needs no id on the way back: a client has one session.
 #pragma once
 

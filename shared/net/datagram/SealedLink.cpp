@@ -70,7 +70,7 @@ SealedLink::Keys* SealedLink::sendingKeys() {
   return newest_ && !newest_->sealer.exhausted() ? &*newest_ : nullptr;
 }
 
-SealedLink::Keys* SealedLink::find(Epoch epoch_bits) {
+SealedLink::Keys* SealedLink::findKeys(Epoch epoch_bits) {
   if (newest_ && (newest_->epoch & kEpochMask) == epoch_bits) return &*newest_;
   if (previous_ && (previous_->epoch & kEpochMask) == epoch_bits) return &*previous_;
   return nullptr;
@@ -82,7 +82,7 @@ bool SealedLink::plausible(std::string_view packet, Time now) {
   return admit(packet, now) != nullptr;
 }
 
-/// Everything that is cheap, in the order of what it costs. None if the packet is refused; that is counted.
+/// The cheap checks, the cheapest first. Null if the packet is refused; that is counted.
 SealedLink::Keys* SealedLink::admit(std::string_view packet, Time now) {
   expire(now);
   SealedHeader header;
@@ -103,7 +103,7 @@ SealedLink::Keys* SealedLink::admit(std::string_view packet, Time now) {
     ++counters_.wrong_id;
     return nullptr;
   }
-  Keys* const keys = find(header.epoch_bits);
+  Keys* const keys = findKeys(header.epoch_bits);
   if (!keys) {
     ++counters_.unknown_epoch;
     return nullptr;
@@ -148,8 +148,8 @@ std::optional<std::string_view> SealedLink::open(const Path& path, std::string_v
   if (keys == &*newest_) confirmed_ = true;
   if (isServer()) notePath(path, packet.size(), {keys->epoch, sequence});
   if (fields->answer) noteAnswer(*fields->answer);
-  if (fields->challenge) owed_answer_ = fields->challenge;
-  if (fields->ping) echo_.note(*fields->ping, now);
+  if (fields->challenge) pending_answer_ = fields->challenge;
+  if (fields->ping) echo_.notePing(*fields->ping, now);
   if (fields->echo) ping_.answered(*fields->echo, now);
   return fields->payload;
 }
@@ -157,7 +157,7 @@ std::optional<std::string_view> SealedLink::open(const Path& path, std::string_v
 std::optional<SealedLink::Fields> SealedLink::readFields(std::string_view text) const {
   const auto flags = static_cast<unsigned char>(text[0]);
   text.remove_prefix(1);
-  // A server never is challenged, and a client is never answered; servers do not ping.
+  // Only servers challenge, only clients answer; only clients ping, only servers echo.
   if (flags & ~(isServer() ? kHasAnswer | kHasPing : kHasChallenge | kHasEcho)) return std::nullopt;
   Fields fields;
   if (flags & kHasChallenge && !(fields.challenge = takeField(text))) return std::nullopt;
@@ -192,7 +192,7 @@ std::size_t SealedLink::maxPayload() const {
 
 /// Bytes of the next packet that are not payload.
 std::size_t SealedLink::overhead() const {
-  const bool field = isServer() ? !guard_.validated() : owed_answer_.has_value();
+  const bool field = isServer() ? !guard_.validated() : pending_answer_.has_value();
   return smallestSealedPacket(sends()) + (field ? kFieldSize : 0);
 }
 
@@ -202,7 +202,7 @@ std::optional<std::size_t> SealedLink::room() const {
 }
 
 bool SealedLink::wantsToSend(Time now) const {
-  const bool due = isServer() ? guard_.wantsChallenge(now) : owed_answer_.has_value();
+  const bool due = isServer() ? guard_.wantsChallenge(now) : pending_answer_.has_value();
   return due && room().has_value();
 }
 
@@ -242,9 +242,9 @@ std::size_t SealedLink::writeFields(char* out, std::size_t spare, Time now) {
     out[0] = kHasChallenge;
     storeLittleEndian(guard_.challenge(), out + size);
     size += kFieldSize;
-  } else if (!isServer() && owed_answer_) {
+  } else if (!isServer() && pending_answer_) {
     out[0] = kHasAnswer;
-    storeLittleEndian(*std::exchange(owed_answer_, std::nullopt), out + size);
+    storeLittleEndian(*std::exchange(pending_answer_, std::nullopt), out + size);
     size += kFieldSize;
   }
   return size + writePing(out, out + size, spare, now);
@@ -256,7 +256,7 @@ std::size_t SealedLink::writePing(char* flags, char* out, std::size_t spare, Tim
     out[0] = static_cast<char>(ping_.sent(now));
     return 1;
   }
-  const auto echo = isServer() && spare >= 2 ? echo_.take(now) : std::nullopt;
+  const auto echo = isServer() && spare >= 2 ? echo_.takeEcho(now) : std::nullopt;
   if (!echo) return 0;
   *flags = static_cast<char>(*flags | kHasEcho);
   out[0] = static_cast<char>(echo->token);

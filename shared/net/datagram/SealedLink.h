@@ -154,7 +154,7 @@ class SealedLink {
   void expire(Time now);
   Keys* sendingKeys();
   const Keys* sendingKeys() const { return const_cast<SealedLink*>(this)->sendingKeys(); }
-  Keys* find(Epoch epoch_bits);
+  Keys* findKeys(Epoch epoch_bits);
   Keys* admit(std::string_view packet, Time now);
   bool accept(OpenResult result);
   std::optional<Fields> readFields(std::string_view text) const;
@@ -170,7 +170,7 @@ class SealedLink {
   bool confirmed_ = false;                                        // the other end has the newest keys
   std::optional<std::pair<Epoch, std::uint64_t>> newest_number_;  // of the authentic packets
   PathGuard guard_;
-  std::optional<PathChallenge> owed_answer_;
+  std::optional<PathChallenge> pending_answer_;
   LinkPing ping_;
   LinkEcho echo_;
   SealedLinkCounters counters_;

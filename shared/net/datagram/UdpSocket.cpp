@@ -24,7 +24,7 @@ int setOption(int descriptor, int level, int option, int value) {
 bool setOptions(int descriptor, bool six, const UdpOptions& options) {
   setOption(descriptor, SOL_SOCKET, SO_RCVBUF, options.buffer);
   setOption(descriptor, SOL_SOCKET, SO_SNDBUF, options.buffer);
-  // Don't fragment, and don't believe ICMP about smaller packets either: anyone can send that.
+  // No fragments. ICMP about smaller packets is ignored too: any machine can send that.
   const bool four_whole = setOption(descriptor, IPPROTO_IP, IP_MTU_DISCOVER, IP_PMTUDISC_PROBE) == 0;
   if (!six) return four_whole && setOption(descriptor, IPPROTO_IP, IP_PKTINFO, 1) == 0;
   return setOption(descriptor, IPPROTO_IPV6, IPV6_MTU_DISCOVER, IPV6_PMTUDISC_PROBE) == 0 &&
@@ -55,7 +55,7 @@ struct UdpSocket::State : std::enable_shared_from_this<State> {
   std::optional<UdpReceiveBatch> incoming;
   OnPacket on_packet;  // as long-lived as this, for a callback may destroy the socket
   bool started = false;
-  std::uint64_t opened = 0;  // so that a wait for an earlier descriptor is told from one for this
+  std::uint64_t opened = 0;  // distinguishes a wait for an earlier descriptor from one for this
   UdpCounters counters;
 };
 

@@ -1,4 +1,4 @@
-// How many connections may be between "accepted" and "handshake done", in all and from one place.
+// Limits connections between "accepted" and "handshake done", in all and per address prefix.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ namespace naiad {
 /// The sender's end. Not thread-safe.
 class ReliableFrames {
  public:
-  /// Kept at most, in bytes with their headers: who has missed more cannot go on.
+  /// Kept at most, in bytes with their headers: a peer that has missed more cannot go on.
   static constexpr std::size_t kMax = std::size_t{64} * 1024;
 
   /// The number of the next frame; never 0.

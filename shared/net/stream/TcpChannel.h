@@ -4,8 +4,8 @@
 // what cannot leave yet waits in the channel's queue, where unsentBytes() counts it and a server can skip
 // a snapshot instead of piling up old ones. Frames sent in one turn of the event loop share a segment.
 //
-// TcpConnector.h and TcpListener.h make channels from addresses; this header is for who has a socket. What is
-// said here holds for both kinds of channel; the tests run over both.
+// TcpConnector.h and TcpListener.h make channels from addresses; this header is for sockets that are
+// connected already. What is said here holds for both kinds of channel; the tests run over both.
 #pragma once
 
 #include <asio/ip/address.hpp>
@@ -33,11 +33,10 @@ namespace naiad {
 ///               Frames that arrive after close() are dropped.
 ///  - kPeer      the peer ended the stream between two frames. What was queued here is dropped.
 ///  - kProtocol  an empty frame, one over the limit, or the stream ended within a frame; with TLS also what
-///  is
-///               no TLS, or was tampered with.
+///               is no TLS, or was tampered with.
 ///  - kError     reset, unreachable; with TLS also an alert from the peer, and a connection that ended
-///  between two
-///               frames without close_notify (RFC 8446 6.1). Frames that came before it are delivered first.
+///               between two frames without close_notify (RFC 8446 6.1). Frames that came before it are
+///               delivered first.
 ///  - kOverflow  send() exceeded TcpOptions::send_cap.
 ///
 /// With TLS, unsentBytes() counts payload while it waits here, and whole records (22 bytes more each) in the

@@ -123,7 +123,7 @@ void TcpConnector::Attempt::tryNext() {
 
 void TcpConnector::Attempt::onConnected(const std::error_code& error) {
   std::error_code ignored;
-  // A port that nobody listens on may be the very one the kernel picks for us; TCP then connects to itself.
+  // A port without a listener may be the very one the kernel picks for us; TCP then connects to itself.
   const bool myself = !error && socket.local_endpoint(ignored) == socket.remote_endpoint(ignored);
   if (myself || error == asio::error::connection_refused) {
     last_problem = "Nothing listens on " + target() + " (connection refused).";

@@ -43,7 +43,7 @@ class ListenError : public std::runtime_error {
 /// and tries again, while the connections wait in the kernel's backlog.
 ///
 /// With TLS, handshakes run side by side, and a connection is given out when its own is done: in the order in
-/// which they finish. A slow one holds up nobody.
+/// which they finish. A slow one delays no other.
 ///
 /// Thread: the one that runs `context`, which must outlive the listener. The listener may be destroyed at
 /// any time, in its own callback too. Channels it gave out do not depend on it.

@@ -1,4 +1,5 @@
-// What can be set on a TCP channel, whoever made it: TcpConnector, TcpListener or makeTcpChannel().
+// What can be set on a TCP channel, whichever of these made it: TcpConnector, TcpListener or
+// makeTcpChannel().
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What a channel told its owner, for tests to look at.
+// Records what a channel reported to its owner.
 #pragma once
 
 #include <optional>

@@ -307,7 +307,7 @@ TEST(LookCodec, ClocksOlderThanTheirRoundAreRefused) {
   }
 }
 
-// What has to be told when a body's turning changes: a name, an angle to a frame's fraction, and the spin.
+// What has to be sent when a body's turning changes: a name, an angle to a frame's fraction, and the spin.
 TEST(LookCodec, AnotherTurningOfANamedSequenceIsShort) {
   const Appearance a{{256, 0, U'a', df::RED}};
   BitWriter out;

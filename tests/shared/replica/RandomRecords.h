@@ -65,7 +65,7 @@ class RandomRecords {
     look.selector = selector(look.sequence.size());
     return look;
   }
-  /// For so many frames, as it is told in tick 0.
+  /// For so many frames, as it is sent in tick 0.
   Selector selector(std::size_t frames) {
     const std::size_t first = m_rng.below(frames);
     if (frames == 1 || chance(0.3)) return Selector::fixed(first);

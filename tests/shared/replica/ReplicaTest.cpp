@@ -176,7 +176,7 @@ TEST(Replica, KeepsNamesForTheSnapshotsToCome) {
   const std::string names = snapshot(2, 1, origin, {LookForm::kNamed, 9}, false);
   const std::string redefines = snapshot(3, 1, origin, {LookForm::kDefined, 9}, false);
   Snapshot out;
-  EXPECT_EQ(replica.read(names, out), ReadResult::kMalformed) << "before it was told";
+  EXPECT_EQ(replica.read(names, out), ReadResult::kMalformed) << "before it was sent";
   ASSERT_EQ(replica.read(defines, out), ReadResult::kOk);
   EXPECT_EQ(replica.read(names, out), ReadResult::kMalformed) << "reading is not applying";
   ASSERT_EQ(replica.read(defines, out), ReadResult::kOk);
@@ -235,11 +235,11 @@ TEST(Replica, IsBoundedWhateverItIsSent) {
 TEST(Replica, LooksAreBoundedInAll) {
   Replica replica;
   ObjectState huge = character(1, 1, U'x');
-  const auto anew = [&huge] { huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})}; };
+  const auto makeCopy = [&huge] { huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})}; };
   const std::uint32_t fits = kMaxReplicaGlyphs / 8192;
   std::uint32_t number = 0;
   for (std::uint32_t id = 0; id < fits + 10; ++id) {
-    anew();  // equal, but not shared
+    makeCopy();  // equal, but not shared
     apply(replica, ++number, 0, birth(id, 1, huge));
   }
   EXPECT_EQ(replica.overflowCount(), 10u);
@@ -252,7 +252,7 @@ TEST(Replica, LooksAreBoundedInAll) {
   look.objects.push_back({2, 0, kLook, character(1, 1, U'x')});
   apply(replica, ++number, 0, look);
   for (std::uint32_t id = fits; id < fits + 3; ++id) {
-    anew();
+    makeCopy();
     apply(replica, ++number, 0, birth(id, 2, huge));
   }
   EXPECT_EQ(replica.overflowCount(), 11u) << "three large looks went, two small ones came";

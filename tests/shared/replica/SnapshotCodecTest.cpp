@@ -78,7 +78,7 @@ TEST(SnapshotCodec, PositionsAndOrdersAreCountedFromAnOrigin) {
     ASSERT_EQ(readSnapshot(bytes, test::near(head), vocabulary, out), ReadResult::kOk);
     expectSame(records, out.records);
     if (HasFatalFailure()) FAIL() << "round " << i;
-    ASSERT_EQ(read(bytes, test::near(head), out), ReadResult::kMalformed) << "an origin that nobody set";
+    ASSERT_EQ(read(bytes, test::near(head), out), ReadResult::kMalformed) << "an origin that was never set";
   }
 }
 

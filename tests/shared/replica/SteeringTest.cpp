@@ -218,7 +218,7 @@ TEST_F(Steering, KeysWithoutARowAreNotHandled) {
   drive(B, cells(1, 0));
   df::ControlState state;
   SteeredCopy copy = ship();
-  EXPECT_FALSE(applyControlKey(table, state, A, KEY_PRESSED, copy));  // nobody to steer
+  EXPECT_FALSE(applyControlKey(table, state, A, KEY_PRESSED, copy));  // nothing to steer
   state.steering = true;
   EXPECT_TRUE(applyControlKey(table, state, A, KEY_PRESSED, copy));
   EXPECT_FALSE(applyControlKey(table, state, A, KEY_RELEASED, copy));

@@ -46,7 +46,7 @@ class VirtualNetwork {
 
   /// From one socket to another.
   LinkCounters counters(const DatagramSocket& from, const DatagramSocket& to) const;
-  /// Packets to an address where nobody was, when they were sent or when they arrived.
+  /// Packets to an address without a socket, when they were sent or when they arrived.
   std::uint64_t unroutable() const;
 
  private:

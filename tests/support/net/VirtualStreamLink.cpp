@@ -162,7 +162,7 @@ void VirtualStreamLink::State::depart(Side& side) {
 
 void VirtualStreamLink::State::transmit(Side& side, const Item& item, Time retry_after) {
   Side& receiver = opposite(side);
-  if (receiver.phase == Phase::kClosed) return;  // nobody acknowledges, nobody tries for ever
+  if (receiver.phase == Phase::kClosed) return;  // no acknowledgement, and no endless retries
   bool lost = false;
   for (std::size_t sent = 0; sent == 0 || sent < item.size(); sent += kSegment) {
     if (side.rng.unit() < side.conditions.loss) lost = true;

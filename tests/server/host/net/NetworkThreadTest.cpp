@@ -136,7 +136,7 @@ TEST_F(NetworkThreadTest, UnsentBytesStayWhileAPeerDoesNotRead) {
     quiet = now == before && now >= 100'000 ? quiet + 1 : 0;
     before = now;
   }
-  EXPECT_TRUE(runUntil([&] { return near[0]->unsentBytes() == 0; })) << "now that he reads";
+  EXPECT_TRUE(runUntil([&] { return near[0]->unsentBytes() == 0; })) << "now that the peer reads";
 }
 
 TEST_F(NetworkThreadTest, AStreamThatSaysMoreThanIsTakenEndsAloneAndIsCounted) {
@@ -148,7 +148,7 @@ TEST_F(NetworkThreadTest, AStreamThatSaysMoreThanIsTakenEndsAloneAndIsCounted) {
   ASSERT_TRUE(runUntil([&] { return near.size() == 2; }));
   for (int i = 0; i < 500; ++i) loud->channel->send(std::string(100, 'x'));
   quiet->channel->send("still here");
-  ASSERT_TRUE(runUntil([&] { return loud->closed; }, true)) << "although nobody takes anything";
+  ASSERT_TRUE(runUntil([&] { return loud->closed; }, true)) << "although nothing is taken";
   ASSERT_TRUE(runUntil([&] { return closed.size() == 1 && !heard.empty() && heard.back() == "still here"; }));
   EXPECT_EQ(closed[0], CloseReason::kOverflow);
   EXPECT_LE(heard.size(), 10'000u / 100);
@@ -222,7 +222,7 @@ TEST_F(NetworkThreadTest, DatagramsHaveTheirStreamsKeysAndThoseOfTheNext) {
   ASSERT_NE(datagrams, nullptr);
   std::vector<std::string> came;
   datagrams->start([&](std::string_view bytes) { came.emplace_back(bytes); });
-  EXPECT_FALSE(datagrams->room()) << "nobody is known to be there";
+  EXPECT_FALSE(datagrams->room()) << "no address is known yet";
   network->flush();
 
   FarDatagrams client_end(client, network->port(), datagrams->id());
@@ -292,7 +292,7 @@ TEST_F(NetworkThreadTest, DatagramsThatFindTheMailboxFullAreDroppedAndCounted) {
   EXPECT_LE(network->counters().datagrams_out_dropped, 12u);
   for (int i = 0; i < 60; ++i) client_end.send(std::string(1000, 'x'));
   EXPECT_TRUE(runUntil(
-      [&] {  // nobody takes them
+      [&] {  // they are not taken
         network->start();
         client.run_for(1ms);
         network->stop();

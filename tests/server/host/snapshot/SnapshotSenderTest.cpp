@@ -208,7 +208,7 @@ TEST(SnapshotSender, AResetTellsTheNewestInputAgain) {
   const auto packets = direct.sender.build(direct.publisher);
   ASSERT_FALSE(packets.empty());
   Snapshot snapshot;
-  ASSERT_EQ(Replica::anew(direct.reader().newest()).read(packets[0].bytes, snapshot), ReadResult::kOk);
+  ASSERT_EQ(Replica::continuing(direct.reader().newest()).read(packets[0].bytes, snapshot), ReadResult::kOk);
   EXPECT_TRUE(snapshot.header.tells_input);
   EXPECT_EQ(snapshot.header.input, 7u);
 }

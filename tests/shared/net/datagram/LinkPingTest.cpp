@@ -67,7 +67,7 @@ TEST(LinkPing, AServerThatHeldItLongerThanItTookIsNotBelieved) {
 TEST(LinkPing, WaitsForAPacketWithRoom) {
   LinkPair pair;
   pair.toServer(pair.fromClient("here"));
-  pair.toClient(pair.fromServer("who?"));  // owes an answer of 8 bytes
+  pair.toClient(pair.fromServer("who?"));  // an answer of 8 bytes is pending
   pair.client.ping();
   const std::string full(pair.client.maxPayload(), 'x');
   EXPECT_EQ(pair.toServer(pair.fromClient(full)), full);

@@ -124,7 +124,7 @@ struct World {
 
 TEST(SealedSoak, CleanNetworkLosesNothing) {
   World world({.delay = 30ms}, 5);
-  world.run(20);  // everybody's address is proven by then
+  world.run(20);  // every address is proven by then
   for (const auto& player : world.players) {
     player->heard_up.clear();
     player->heard_down.clear();

@@ -23,7 +23,7 @@ struct TcpConnectorTest : testing::Test {
   bool runUntilDone() {
     return runUntil(context, [&] { return calls > 0; });
   }
-  /// A port of 127.0.0.1 on which nobody listens any more.
+  /// A port of 127.0.0.1 without a listener.
   std::uint16_t closedPort() {
     return TcpListener(context, "127.0.0.1", 0, [](auto) {}).port();
   }

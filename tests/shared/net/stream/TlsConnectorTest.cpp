@@ -52,7 +52,7 @@ TEST_F(TlsConnectorTest, ChainVerifiesForTheNameItWasMadeFor) {
     EXPECT_EQ(trusting.peerFacts()->chain_verifies, verifies) << host;
     EXPECT_EQ(trusting.peerFacts()->chain_problem.empty(), verifies) << host;
   }
-  joinAs("game.test", connector);  // who does not trust that authority
+  joinAs("game.test", connector);  // this client does not trust that authority
   EXPECT_FALSE(connector.peerFacts()->chain_verifies);
 }
 

@@ -1,4 +1,4 @@
-// A listener that does TLS, and those who come to it.
+// A listener that does TLS, and its clients.
 #pragma once
 
 #include <gtest/gtest.h>
