@@ -1,7 +1,7 @@
 // What a bot does: a tiny language for key presses, clicks and chat.
 //
-//   press KEY              press and let go a tick later
-//   hold KEY TICKS         press, keep down for TICKS ticks, let go
+//   press KEY              press, and release a tick later
+//   hold KEY TICKS         press, keep down for TICKS ticks, release
 //   wait TICKS
 //   click X Y [BUTTON]     at a cell of the view; BUTTON: left (default), right, middle
 //   move X Y               move the mouse there

@@ -1,5 +1,4 @@
 // dfbot: players without a screen, for tests, demonstrations and load.
-#include <CLI/CLI.hpp>
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <cstdio>
@@ -17,6 +16,7 @@
 #include "client/session/ExitCode.h"
 #include "client/session/TrustOptions.h"
 #include "shared/net/base/SafeText.h"
+#include "shared/options/Options.h"
 #include "shared/values/Version.h"
 
 namespace {
@@ -196,7 +196,7 @@ int run(const BotOptions& options) {
   while (true) {
     context.restart();
     context.run_one_for(std::chrono::milliseconds(5));
-    // Not until nothing is ready any more: a server that floods must not keep the bots for ever.
+    // For a limited time: a server that floods must not keep the bots here for ever.
     for (const auto enough = Clock::now() + kServing; Clock::now() < enough && context.poll_one() > 0;) {
     }
     const Clock::time_point now = Clock::now();
@@ -225,44 +225,51 @@ int run(const BotOptions& options) {
   const Clock::time_point end = Clock::now();
   for (const auto& bot : bots) bot->leave();
   context.restart();
-  context.run_for(std::chrono::milliseconds(1000));  // until the servers have heard it
+  context.run_for(std::chrono::milliseconds(1000));  // ends early, when the channels have closed
   return report(options, bots, end);
+}
+
+/// The options, in the order of --help.
+std::vector<naiad::Option> optionsOf(BotOptions& bot, std::string& server, std::string& script) {
+  std::vector<naiad::Option> options = {
+      naiad::serverOption(server),
+      {.name = "--clients",
+       .target = &bot.clients,
+       .help = "How many players join (default 1)",
+       .range = naiad::OptionRange{1, 1000, true}},
+      {.name = "--seconds",
+       .target = &bot.seconds,
+       .help = "How long to play once all have joined (default 5)",
+       .range = naiad::OptionRange{0, 86400.0 * 365}},
+      {.name = "--ticks",
+       .target = &bot.ticks,
+       .help = "… or how many ticks of the server",
+       .excludes = "--seconds"},
+      {"--script", &script, "What to do: a file, or the script itself (see below)"},
+      {.name = "--random",
+       .target = &bot.random_seed,
+       .help = "Random input instead, from this seed",
+       .excludes = "--script"},
+      {"--name", &bot.name, "Name in the game (with several clients: numbered)", "NAIAD_NAME"}};
+  for (naiad::Option& option : naiad::trustOptions(bot.trust, bot.session)) options.push_back(option);
+  options.push_back({"--game", &bot.game, "The game wanted; refused if another one runs", "NAIAD_GAME"});
+  options.push_back({.name = "--truth",
+                     .target = &bot.truth_file,
+                     .help = "Compare every tick seen with this file, as dfserver --truth FILE writes it",
+                     .type = "FILE"});
+  options.push_back({"--quiet", &bot.quiet, "Do not print the last screen"});
+  return options;
 }
 
 int start(int argc, char** argv) {
   BotOptions options;
   std::string server;
   std::string script;
-  CLI::App app("Join a Naiad server with scripted or random players and no screen.", "dfbot");
-  app.set_version_flag("--version", std::string("dfbot ") + naiad::kVersion);
-  app.add_option("server", server, "Where the server is: HOST[:PORT], [::1]:PORT (port 9876 by default)")
-      ->required()
-      ->type_name("HOST[:PORT]")
-      ->envname("NAIAD_SERVER");
-  app.add_option("--clients", options.clients, "How many players join (default 1)")
-      ->check(CLI::Range(1, 1000));
-  auto* seconds =
-      app.add_option("--seconds", options.seconds, "How long to play once all have joined (default 5)")
-          ->check(CLI::Range(0.0, 86400.0 * 365));
-  app.add_option("--ticks", options.ticks, "… or how many ticks of the server")->excludes(seconds);
-  auto* script_option =
-      app.add_option("--script", script, "What to do: a file, or the script itself (see below)");
-  app.add_option("--random", options.random_seed, "Random input instead, from this seed")
-      ->excludes(script_option);
-  app.add_option("--name", options.name, "Name in the game (with several clients: numbered)")
-      ->envname("NAIAD_NAME");
-  naiad::addTrustOptions(app, options.trust, options.session);
-  app.add_option("--game", options.game, "The game wanted; refused if another one runs")
-      ->envname("NAIAD_GAME");
-  app.add_option("--truth", options.truth_file,
-                 "Compare every tick seen with this file, as dfserver --truth FILE writes it")
-      ->type_name("FILE");
-  app.add_flag("--quiet", options.quiet, "Do not print the last screen");
-  app.footer(std::string(kScriptHelp) + naiad::kExitCodeHelp);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? naiad::kExitLeft : naiad::kExitUsage;
+  const naiad::Program program{"dfbot", "Join a Naiad server with scripted or random players and no screen.",
+                               std::string(kScriptHelp) + naiad::kExitCodeHelp};
+  const naiad::Parsed parsed = naiad::parseOptions(program, optionsOf(options, server, script), argc, argv);
+  if (parsed != naiad::Parsed::kRun) {
+    return parsed == naiad::Parsed::kDone ? naiad::kExitLeft : naiad::kExitUsage;
   }
 
   const auto address = naiad::ServerAddress::parse(server);
@@ -272,12 +279,12 @@ int start(int argc, char** argv) {
   }
   options.address = *address;
   if (!script.empty()) {
-    auto parsed = naiad::BotScript::parse(scriptText(script));
-    if (const auto* error = std::get_if<naiad::ScriptError>(&parsed)) {
+    auto read = naiad::BotScript::parse(scriptText(script));
+    if (const auto* error = std::get_if<naiad::ScriptError>(&read)) {
       return complain(naiad::kExitUsage, "script, line " + std::to_string(error->line) + ", column " +
                                              std::to_string(error->column) + ": " + error->message);
     }
-    options.script = std::get<naiad::BotScript>(std::move(parsed));
+    options.script = std::get<naiad::BotScript>(std::move(read));
   }
   return run(options);
 }

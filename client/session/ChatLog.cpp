@@ -4,10 +4,10 @@
 
 namespace naiad {
 
-void ChatLog::note(ChatMessage message, const std::vector<PlayerLine>& players, const WelcomeMessage& self,
-                   Time now) {
+void ChatLog::addMessage(ChatMessage message, const std::vector<PlayerLine>& players,
+                         const WelcomeMessage& self, Time now) {
   ChatEntry entry{"", df::COLOR_DEFAULT, std::move(message.text), now};
-  if (message.player != 0) entry.name.assign(1, '?');  // somebody who has left already
+  if (message.player != 0) entry.name.assign(1, '?');  // has left already
   for (const PlayerLine& player : players) {
     if (message.player == 0 || player.player != message.player) continue;
     entry.name = player.name;

@@ -1,4 +1,4 @@
-// What was said lately, by whom and in which colour.
+// The newest lines of chat, with their speakers and colours.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace naiad {
 
-/// A line of chat and when it came.
+/// A line of chat and when it arrived.
 struct ChatEntry {
   std::string name;  ///< of the speaker; empty: the server
   df::Color color = df::COLOR_DEFAULT;
@@ -27,11 +27,11 @@ class ChatLog {
 
   static constexpr std::size_t kMax = 100;  ///< lines kept
 
-  /// Somebody of `players`, or who plays here (`self`), or the server said something.
-  void note(ChatMessage message, const std::vector<PlayerLine>& players, const WelcomeMessage& self,
-            Time now);
+  /// A line of a player (one of `players`, or this one, `self`) or of the server.
+  void addMessage(ChatMessage message, const std::vector<PlayerLine>& players, const WelcomeMessage& self,
+                  Time now);
   /// A line of the client's own.
-  void say(std::string text, Time now) { add({"", df::COLOR_DEFAULT, std::move(text), now}); }
+  void addNotice(std::string text, Time now) { add({"", df::COLOR_DEFAULT, std::move(text), now}); }
 
   /// Oldest first.
   const std::deque<ChatEntry>& entries() const { return m_entries; }

@@ -25,7 +25,7 @@ Connection::Connection(asio::io_context& context, ServerAddress address, Session
     try {
       return std::make_unique<UdpSocket>(context, udp);
     } catch (const ListenError&) {
-      return nullptr;  // the stream will do
+      return nullptr;  // the stream is enough
     }
   };
 }
@@ -39,14 +39,14 @@ void Connection::attempt() {
   m_connector.connect(m_address.host, m_address.port, kConnectTimeout,
                       [this](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
                         if (!channel) return attemptFailed(error);
-                        const std::string refusal = judge();
+                        const std::string refusal = whyUntrusted();
                         if (refusal.empty()) return attach(std::move(channel));
                         finish(State::kRefused, refusal);
                       });
 }
 
-// Whom did we reach? A sentence if that is not who it should be: then nothing is sent there.
-std::string Connection::judge() const {
+// Why the server that was reached is not trusted; empty if it is. Nothing is sent to one that is not.
+std::string Connection::whyUntrusted() const {
   if (m_trust.insecure || !m_connector.peerFacts()) return {};
   try {
     const KnownServers known(m_trust.known_servers.empty() ? KnownServers::defaultPath()
@@ -59,7 +59,7 @@ std::string Connection::judge() const {
   }
 }
 
-// Nothing depends on it: what fails is tried again later. Only the session's server gets to see its token.
+// A failure is harmless: the attempt is repeated later. The session's token is sent to its own server only.
 void Connection::openSecond() {
   m_second_connector.connect(m_address.host, m_address.port, kConnectTimeout,
                              [this](std::unique_ptr<ReliableChannel> channel, const std::string&) {
@@ -78,7 +78,7 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
   chooseToken(options);
   m_pending = std::make_unique<ClientSession>(std::move(channel), options, Clock::now());
   if (m_observer) m_observer(*m_pending);
-  // A stream may change hands: what it says is for the session that owns it.
+  // A stream may pass to another session: each frame is for its present owner.
   const auto owner = [this, p_channel]() -> ClientSession* {
     if (m_pending && m_pending->owns(p_channel)) return m_pending.get();
     return m_session && m_session->owns(p_channel) ? m_session.get() : nullptr;
@@ -87,8 +87,8 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
                    ClientSession* session = owner();
                    if (session == nullptr) return;
                    session->receive(frame, Clock::now());
-                   noteToken(*session);
-                   // What follows on a stream that resumes is for the session that goes on.
+                   saveToken(*session);
+                   // The next frames of a stream that resumes are for the session that goes on.
                    if (session == m_pending.get() && session->isResumed()) checkPending();
                  },
                  [owner](CloseReason reason) {
@@ -96,7 +96,7 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
                  }});
 }
 
-// Only the server that gave a token gets to see it.
+// A token is sent only to the server that gave it.
 void Connection::chooseToken(SessionOptions& options) const {
   if (m_session && m_session->isDetached()) {
     if (m_token_key != m_key) return;
@@ -108,7 +108,7 @@ void Connection::chooseToken(SessionOptions& options) const {
   }
 }
 
-void Connection::noteToken(const ClientSession& session) {
+void Connection::saveToken(const ClientSession& session) {
   if (session.state() != ClientSession::State::kPlaying || session.welcome().resume_token == m_token) return;
   m_token = session.welcome().resume_token;
   m_token_key = m_key;
@@ -210,7 +210,7 @@ bool Connection::isOver() const {
 }
 
 void Connection::finish(State state, const std::string& sentence) {
-  // A session that was lost, or whose server was not let near, may still be there.
+  // A session that was lost, or whose server was refused, may still exist on the server.
   const bool ended = state == State::kEnded || state == State::kLeft;
   if (m_p_file != nullptr && ended) m_p_file->remove();
   m_connector.cancel();

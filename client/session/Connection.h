@@ -2,12 +2,12 @@
 //
 //   kJoining --picture--> kJoined --lost--> kSearching --picture--> kJoined
 //   kJoining --no answer--> kUnreachable   any --Refused--> kRefused   any --Goodbye--> kEnded
-//   kSearching --60 s in vain--> kLost
+//   kSearching --60 s without success--> kLost
 //
 // While searching, session() is still the lost one, so that its last picture can stay on the screen under a
-// banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another stream is
-// sought behind its back, and where the server knows it still, nobody notices. The waiting time between
-// attempts doubles from 0.25 s to 2 s. A refusal is never argued with.
+// banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another
+// stream is opened, and if the server still knows the session, the player notices nothing. The waiting time
+// between attempts doubles from 0.25 s to 2 s. After a refusal it does not try again.
 //
 // Thread: the one that runs the io_context, which must outlive the Connection.
 #pragma once
@@ -26,10 +26,10 @@
 
 namespace naiad {
 
-/// How a client makes sure whom it talks to.
+/// How a client makes sure that it talks to the right server.
 struct ServerTrust {
   bool insecure = false;                   ///< plain TCP, loopback only, no datagrams: for tests
-  std::optional<Fingerprint> fingerprint;  ///< the server's key, if the player knows it
+  std::optional<Fingerprint> fingerprint;  ///< the server's key, if the player gave it
   std::filesystem::path known_servers;     ///< pins; empty: the user's file
 };
 
@@ -54,9 +54,9 @@ class Connection {
   void start();
   /// Time-outs, pings, the next attempt. Call about ten times a second, and after every event.
   void update(Time now);
-  /// Leave on purpose. Let the io_context run for a moment so that the server hears it.
+  /// Leave on purpose. Run the io_context for a moment so that the message is sent.
   void leave();
-  /// Tell the server the terminal's size, now and when joining again.
+  /// Send the terminal's size, now and when joining again.
   void resize(int columns, int rows);
   /// Called for each session as it is made, before it receives anything. For recorders.
   void onSession(std::function<void(ClientSession&)> observer) { m_observer = std::move(observer); }
@@ -76,10 +76,10 @@ class Connection {
  private:
   void attempt();
   void openSecond();
-  std::string judge() const;
+  std::string whyUntrusted() const;
   void attach(std::unique_ptr<ReliableChannel> channel);
   void chooseToken(SessionOptions& options) const;
-  void noteToken(const ClientSession& session);
+  void saveToken(const ClientSession& session);
   void attemptFailed(const std::string& sentence);
   void checkPending();
   void finish(State state, const std::string& sentence);

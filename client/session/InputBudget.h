@@ -1,7 +1,7 @@
 // How many inputs a client may send: a token bucket that stays below what a server tolerates.
 //
-// A server applies 16 inputs a tick, keeps 64 waiting and ends the session of who sends more. A mouse at
-// 1000 reports a second or a text pasted into the game must not cost the player the game.
+// A server applies 16 inputs a tick, keeps 64 waiting and ends the session of a client that sends more. A
+// mouse at 1000 reports a second or a text pasted into the game must not cost the player the game.
 #pragma once
 
 #include <chrono>

@@ -4,8 +4,13 @@
 
 namespace naiad {
 
-void InputOutbox::goOnAfter(std::uint32_t id) {
+void InputOutbox::start(std::uint32_t id, std::chrono::microseconds tick) {
   m_next = id + 1;
+  m_budget.setTick(tick);
+}
+
+bool InputOutbox::admitInput(bool urgent, InputBudget::Time now) {
+  return !isFull(urgent) && m_budget.spend(now, urgent);
 }
 
 const Input& InputOutbox::add(Input input) {
@@ -14,7 +19,7 @@ const Input& InputOutbox::add(Input input) {
   return m_inputs.back();
 }
 
-std::optional<Input> InputOutbox::taken(std::uint32_t id) {
+std::optional<Input> InputOutbox::removeUpTo(std::uint32_t id) {
   std::optional<Input> found;
   for (; !m_inputs.empty() && !isNewer(m_inputs.front().id, id); m_inputs.pop_front()) {
     if (m_inputs.front().id == id) found = m_inputs.front();

@@ -11,18 +11,18 @@ constexpr std::size_t kMaxOpen = 20;
 
 }  // namespace
 
-std::uint64_t RoundTrip::ping(Time now) {
+std::uint64_t RoundTrip::startPing(Time now) {
   if (m_open.size() >= kMaxOpen) m_open.erase(m_open.begin());
   m_open.emplace(m_next_token, now);
   return m_next_token++;
 }
 
-std::optional<RoundTrip::Millis> RoundTrip::pong(std::uint64_t token, Time now) {
+std::optional<RoundTrip::Millis> RoundTrip::endPing(std::uint64_t token, Time now) {
   const auto ping = m_open.find(token);
   if (ping == m_open.end()) return std::nullopt;
   const Millis sample = now - ping->second;
   m_open.erase(m_open.begin(), std::next(ping));
-  note(sample, now);
+  m_stats.addSample(sample, now);
   return sample;
 }
 

@@ -16,12 +16,12 @@ class RoundTrip {
   using Millis = std::chrono::duration<double, std::milli>;
 
   /// A ping goes out: its token.
-  std::uint64_t ping(Time now);
-  /// The answer came. The time it took; nothing if it was answered before, or made up.
-  std::optional<Millis> pong(std::uint64_t token, Time now);
+  std::uint64_t startPing(Time now);
+  /// Its answer came. The time it took; nothing if the token is unknown or was answered before.
+  std::optional<Millis> endPing(std::uint64_t token, Time now);
   /// A time that was measured otherwise.
-  void note(Millis sample, Time now) { m_stats.addSample(sample, now); }
-  /// Another stream: what was under way is lost.
+  void addSample(Millis sample, Time now) { m_stats.addSample(sample, now); }
+  /// Another stream: open pings are lost.
   void forgetPings() { m_open.clear(); }
 
   /// How long the oldest unanswered ping has been under way; zero if there is none.

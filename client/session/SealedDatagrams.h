@@ -18,7 +18,7 @@ class SealedDatagrams : public DatagramChannel {
   using Time = std::chrono::steady_clock::time_point;
   using Now = std::function<Time()>;
 
-  /// `server`: where the server hears datagrams. `id`: from its welcome.
+  /// `server`: where the server receives datagrams. `id`: from its welcome.
   SealedDatagrams(std::unique_ptr<DatagramSocket> socket, const Endpoint& server, ConnectionId id, Now now,
                   SealLimits limits = {});
 
@@ -30,7 +30,7 @@ class SealedDatagrams : public DatagramChannel {
   void send(std::string_view packet) override;
   std::optional<std::size_t> room() const override { return m_link.room(); }
   std::string peerAddress() const override { return toString(m_server); }
-  /// Measure the round trip with the next packet, and take what the last one said.
+  /// Measure the round trip with the next packet; takeRoundTrip() has the result.
   void ping() { m_link.ping(); }
   std::optional<LinkPing::Millis> takeRoundTrip() { return m_link.takeRoundTrip(); }
   /// True once for each epoch, when a key of it nears its limit: it is time for another stream.
@@ -43,7 +43,7 @@ class SealedDatagrams : public DatagramChannel {
   Endpoint m_server;
   Now m_now;
   SealedLink m_link;
-  std::optional<Epoch> m_left_epoch;  ///< takeNewEpochDue() has told of it
+  std::optional<Epoch> m_left_epoch;  ///< takeNewEpochDue() has returned true for it
 };
 
 }  // namespace naiad

@@ -1,7 +1,7 @@
 // A second stream beside that of the session, where datagrams do not pass.
 //
 // TCP delivers in order, so a lost packet holds up all that comes after it for a round trip and more. The
-// same snapshots and updates go on both streams; both wait at the same time only seldom. What needs order
+// same snapshots and updates go on both streams; they seldom wait at the same time. What needs order
 // (chat, players, music) stays on the first.
 //
 // Pure: the owner connects, and passes time in.
@@ -34,15 +34,15 @@ class SecondStream {
   SecondStream(const SecondStream&) = delete;
   SecondStream& operator=(const SecondStream&) = delete;
 
-  /// May one be opened now? Says yes once for each attempt.
+  /// May one be opened now? True once for each attempt.
   bool takeAttempt(Time now);
-  /// Say hello on `channel`; `on_snapshot` gets what comes on it once the server has said yes. A server that
-  /// sends anything else there loses this stream, nothing more.
+  /// Say hello on `channel`; `on_snapshot` gets its snapshots once the server has accepted it. A server
+  /// that sends anything else there loses this stream, nothing more.
   void start(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
              std::function<void(std::string_view bytes)> on_snapshot);
   /// Give it up if it is silent. Call now and then.
   void update(Time now);
-  /// The server has said yes.
+  /// The server has accepted it.
   bool isOpen() const { return m_open; }
   /// A snapshot came, on either stream. True if it is among the last ones that did: it came on the other.
   bool isRepeat(std::string_view snapshot);

@@ -2,7 +2,7 @@
 //
 // A server may be hostile or broken. readServerMessage() is the only place where bytes from the network
 // become values: numbers out of range, too many entries or malformed records make the whole message bad;
-// texts are made fit for a terminal (SafeText.h), never refused, for a strange name is no reason to leave.
+// texts are made safe for a terminal (SafeText.h), never refused: a strange name is no reason to leave.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@
 
 namespace naiad {
 
-/// What a session is at that another process goes on with.
+/// Where a process continues a session that another process began.
 struct Continuation {
   std::uint32_t snapshot = 0;    ///< number of the newest
   std::uint8_t world_epoch = 0;  ///< 0 … 3
@@ -41,14 +41,14 @@ struct WelcomeMessage {
   std::uint32_t epoch = 0;                   ///< of their keys
   std::string resume_token;                  ///< empty: the session ends with its stream
   bool resumed = false;                      ///< an earlier session goes on
-  std::chrono::milliseconds grace{0};        ///< the server waits so long for another stream
+  std::chrono::milliseconds grace{0};        ///< how long the server waits for another stream
   std::optional<Continuation> continuation;  ///< for a process that was not there before
-  std::uint32_t received = 0;                ///< for one that was: newest kept frame that came
+  std::uint32_t received = 0;                ///< for one that was: newest reliable frame received
   bool second_stream = false;                ///< the server takes one; or: this is it
 };
 
 struct RefusedMessage {
-  bool for_now = false;  ///< another try in a moment may do
+  bool for_now = false;  ///< another attempt in a moment may succeed
   std::string sentence;
 };
 
@@ -71,13 +71,13 @@ struct PlayerLine {
 
 struct PlayersMessage {
   std::vector<PlayerLine> players;
-  std::uint32_t number = 0;  ///< of a kept frame (ReliableFrames.h); 0: it is none
+  std::uint32_t number = 0;  ///< of a reliable frame (ReliableFrames.h); 0: it is none
 };
 
 struct ChatMessage {
   std::uint32_t player = 0;  ///< 0: the server itself
   std::string text;
-  std::uint32_t number = 0;  ///< of a kept frame; 0: it is none
+  std::uint32_t number = 0;  ///< of a reliable frame; 0: it is none
 };
 
 /// A sound or a piece of music began, paused or stopped.
@@ -87,18 +87,18 @@ struct SoundLine {
   Action action = Action::kPlay;
   bool music = false;        ///< else a sound
   bool loop = false;         ///< again and again
-  std::uint32_t player = 0;  ///< whose doing it was; 0: nobody's
+  std::uint32_t player = 0;  ///< that caused it; 0: none
   friend bool operator==(const SoundLine&, const SoundLine&) = default;
 };
 
 struct SoundsMessage {
   std::vector<SoundLine> sounds;  ///< in the order in which it happened
-  std::uint32_t number = 0;       ///< of a kept frame; 0: it is none
+  std::uint32_t number = 0;       ///< of a reliable frame; 0: it is none
 };
 
 struct PongMessage {
   std::uint64_t token = 0;
-  std::uint32_t received = 0;  ///< newest of our kept frames that came
+  std::uint32_t received = 0;  ///< newest of the client's reliable frames that arrived
 };
 
 using ServerMessageValue = std::variant<WelcomeMessage, RefusedMessage, GoodbyeMessage, SnapshotMessage,

@@ -22,23 +22,23 @@ struct SessionOptions {
   std::string program;          ///< "dfclient 0.1.0", for the server's log
   int columns = 0;              ///< terminal size in cells; 0: all of the view is of interest
   int rows = 0;
-  std::string password;        ///< of the server, if it wants one
+  std::string password;        ///< of the server, if it needs one
   std::string resume_token;    ///< of an earlier welcome: go on with that session
   bool fresh = false;          ///< with nothing but the token: an earlier process had the session
-  std::uint32_t received = 0;  ///< else: number of the newest kept frame that came
+  std::uint32_t received = 0;  ///< else: number of the newest reliable frame received
   bool second_stream = false;  ///< with the token: a stream beside that of the session
   /// Makes a socket for datagrams to an endpoint; empty: no datagrams (a Connection that encrypts puts UDP
   /// there). May return null.
   std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> open_socket;
   /// After how many datagrams new keys are wanted; smaller ones are for tests.
   SealLimits seal_limits;
-  /// For what comes as a datagram; another clock is for tests in virtual time.
+  /// The clock for datagrams; tests in virtual time set another one.
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 
 /// The first message of a stream.
 wire::ClientMessage helloOf(const SessionOptions& options);
-/// The terminal's size, in cells; what is no size becomes one.
+/// The terminal's size, in cells; clamped to what the wire can carry.
 wire::ClientMessage resizeOf(int columns, int rows);
 
 }  // namespace naiad

@@ -4,19 +4,19 @@
 
 namespace naiad {
 
-bool UpdateTiming::datagramGoes(Time now) {
+bool UpdateTiming::noteDatagramSent(Time now) {
   m_probe.probeSent(now);
   if (now - m_last_ping < kPingEvery) return false;
   m_last_ping = now;
   return true;
 }
 
-void UpdateTiming::updateMade() {
+void UpdateTiming::noteUpdateSent() {
   m_unacknowledged = 0;
   m_acknowledge_at.reset();
 }
 
-bool UpdateTiming::snapshotApplied(bool gap, Time now) {
+bool UpdateTiming::noteSnapshotApplied(bool gap, Time now) {
   ++m_unacknowledged;
   if (!hasDatagrams(now) || m_unacknowledged >= kAckEvery || gap) return true;
   m_acknowledge_at = now + kAckDelay;

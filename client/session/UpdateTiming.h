@@ -1,5 +1,4 @@
-// When a client says what has arrived and what its player did, and whether datagrams pass. Pure: time is
-// passed in.
+// When a client sends acknowledgements and inputs, and whether datagrams pass. Pure: time is passed in.
 #pragma once
 
 #include <chrono>
@@ -14,40 +13,40 @@ class UpdateTiming {
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr std::chrono::milliseconds kPassing = PathProbe::kOpenFor;  ///< after a datagram
-  /// After so long without datagrams it is worth while to arrange oneself.
+  /// After so long without datagrams a second stream is worth opening.
   static constexpr std::chrono::milliseconds kOnStreamOnly{3000};
-  /// So long without a datagram is odd: the server may not know our address any more.
+  /// So long without a datagram is unusual: the server may have lost the client's address.
   static constexpr std::chrono::milliseconds kQuiet{400};
-  /// After a snapshot on the stream it is open for so long whether the server hears datagrams.
+  /// For so long after a snapshot on the stream it is undecided whether the server receives datagrams.
   static constexpr std::chrono::milliseconds kUndecided{500};
   static constexpr std::chrono::milliseconds kRepeatInput{10};  ///< a new input is sent again after this
   static constexpr int kAckEvery = 3;                           ///< snapshots that come as datagrams
   static constexpr std::chrono::milliseconds kAckDelay{50};     ///< of the last one, at most
   static constexpr std::chrono::milliseconds kPingEvery{1000};  ///< by datagram
 
-  /// There is a stream, another one perhaps.
-  void attached(Time now) { m_probe.renew(now); }
-  void datagramCame(Time now) { m_probe.addEvidence(now); }
-  void streamSnapshotCame(Time now) { m_last_streamed = now; }
-  /// A datagram goes out, with an update. True if it shall carry a ping.
-  bool datagramGoes(Time now);
-  /// An update is made, for either way.
-  void updateMade();
-  /// The player did something.
-  void inputMade(Time now) { m_repeat_at = now + kRepeatInput; }
-  /// A snapshot was applied. `gap`: the one before it is missing. True if it is to be acknowledged at once:
-  /// not each of them, unless something is missing.
-  bool snapshotApplied(bool gap, Time now);
+  /// The session has a stream, the first or another one.
+  void noteAttached(Time now) { m_probe.renew(now); }
+  void noteDatagram(Time now) { m_probe.addEvidence(now); }
+  void noteStreamSnapshot(Time now) { m_last_streamed = now; }
+  /// A datagram is sent, with an update. True if it is to carry a ping.
+  bool noteDatagramSent(Time now);
+  /// An update is sent, on any path.
+  void noteUpdateSent();
+  /// There is a new input.
+  void noteInput(Time now) { m_repeat_at = now + kRepeatInput; }
+  /// A snapshot was applied. `gap`: the one before it is missing. True if it is to be
+  /// acknowledged at once: every third one, or one after a gap.
+  bool noteSnapshotApplied(bool gap, Time now);
 
   /// Do datagrams come?
   bool hasDatagrams(Time now) const { return m_probe.isOpen(now); }
-  /// The server sent on the stream just now: it may not hear datagrams.
+  /// The server sent on the stream just now: it may not receive datagrams.
   bool isUndecided(Time now) const { return now - m_last_streamed < kUndecided; }
   /// Everything has come on the stream for a while, since datagrams do not pass.
   bool isOnStreamOnly(Time now) const {
     return isUndecided(now) && now - m_probe.lastChange() >= kOnStreamOnly;
   }
-  /// It is time to find out whether they pass. `only`: there is no other way.
+  /// It is time to find out whether they pass. `only`: there is no stream.
   bool isProbeDue(Time now, bool only = false) const { return m_probe.isDue(now, only); }
   bool isAckDue(Time now) const { return m_acknowledge_at && now >= *m_acknowledge_at; }
   /// True once when new inputs should be sent again.

@@ -11,12 +11,12 @@ std::vector<KeyAction> HeldKeys::setRealReleases(bool real, Time) {
   return out;
 }
 
-std::vector<KeyAction> HeldKeys::take(const KeyEvent& event, Time now) {
+std::vector<KeyAction> HeldKeys::takeKey(const KeyEvent& event, Time now) {
   std::vector<KeyAction> out = expire(now);
   if (event.key == df::Keyboard::UNDEFINED_KEY) return out;
   const auto held = m_held.find(event.key);
   if (event.action == KeyEvent::Action::kRelease) {
-    // A release without a press belongs to a key that was pressed for somebody else (a text line).
+    // A release without a press belongs to a key that was pressed for a text line.
     if (held == m_held.end()) return out;
     m_held.erase(held);
     out.push_back({event.key, df::KEY_RELEASED});

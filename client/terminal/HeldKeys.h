@@ -1,7 +1,7 @@
 // From a terminal's key presses to the book's three actions: pressed, held down, released.
 //
-// Most terminals tell only that a key typed a character; a held key types it again and again, after a
-// pause of about half a second. So an up is guessed from silence:
+// Most terminals report only that a key typed a character; a held key types it again and again, after a
+// pause of about half a second. So a release is guessed from silence:
 //   - the first byte is KEY_PRESSED
 //   - a second one before the release time has passed means the key is held: KEY_DOWN once per tick
 //   - KEY_RELEASED comes 1.5 times the learned repeat interval (>= 80 ms) after the last byte
@@ -20,7 +20,7 @@
 
 namespace naiad {
 
-/// What the game hears about a key.
+/// A key's action, as the game receives it.
 struct KeyAction {
   df::Keyboard::Key key = df::Keyboard::UNDEFINED_KEY;
   df::EventKeyboardAction action = df::UNDEFINED_KEYBOARD_ACTION;
@@ -43,7 +43,7 @@ class HeldKeys {
   std::vector<KeyAction> setRealReleases(bool real, Time now);
 
   /// A key event as decoded at `now`. Events without a key give nothing.
-  std::vector<KeyAction> take(const KeyEvent& event, Time now);
+  std::vector<KeyAction> takeKey(const KeyEvent& event, Time now);
   /// Releases that are due by now. Call at deadline().
   std::vector<KeyAction> expire(Time now);
   /// When expire() will have something to do; the far future if never.

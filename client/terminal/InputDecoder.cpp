@@ -289,7 +289,7 @@ void InputDecoder::takeX10(unsigned char byte, Events& out) {
 }
 
 void InputDecoder::emitMouse(Events& out, int code, int x, int y, bool released) {
-  if (m_pasting || code >= 64) return;  // the wheel and further buttons mean nothing to a game
+  if (m_pasting || code >= 64) return;  // the wheel and further buttons are not the game's
   static constexpr std::array<df::Mouse::Button, 4> kButtons = {
       df::Mouse::LEFT, df::Mouse::MIDDLE, df::Mouse::RIGHT, df::Mouse::UNDEFINED_MOUSE_BUTTON};
   MouseEvent event;

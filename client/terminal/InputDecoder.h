@@ -1,14 +1,14 @@
 // Terminal bytes to events: what the player's terminal sends, in any of the dialects in use.
 //
 // ncurses would decode keys too, but not key releases, not mouse motion under every TERM, and it waits a
-// second after an ESC. So the client reads fd 0 itself and this decoder, which knows no terminal and no
-// clock, gives the bytes their meaning:
+// second after an ESC. So the client reads fd 0 itself, and this decoder, which uses neither a terminal nor a
+// clock, decodes the bytes:
 //   - plain characters, control bytes, UTF-8, Alt as an ESC before the character
 //   - cursor, editing and function keys of xterm, rxvt, the Linux console (CSI and SS3), with modifiers
 //   - the kitty keyboard protocol (press, repeat, release, alternate keys, text) and its query's answer
 //   - the mouse as SGR (1006) and as X10 bytes
-// Unknown sequences, pasted text, terminal answers and focus reports are swallowed whole: a byte of a
-// sequence never comes out as a key. Memory is bounded whatever arrives.
+// Unknown sequences, pasted text, terminal answers and focus reports are dropped whole: a byte of a
+// sequence never becomes a key. Memory is bounded whatever arrives.
 #pragma once
 
 #include <chrono>
@@ -26,8 +26,8 @@ namespace naiad {
 /// Modifier keys held with a key, as a sum of bits.
 enum Modifier : std::uint8_t { kShift = 1, kAlt = 2, kControl = 4, kSuper = 8 };
 
-/// A key, as far as the terminal tells. Terminals without the kitty protocol send only presses (and cannot
-/// tell a repeat from a press: HeldKeys guesses).
+/// A key, as the terminal reports it. Terminals without the kitty protocol report only presses, and repeats
+/// as presses: HeldKeys guesses the rest.
 struct KeyEvent {
   enum class Action : std::uint8_t { kPress, kRepeat, kRelease };
   df::Keyboard::Key key = df::Keyboard::UNDEFINED_KEY;  ///< undefined for characters that have no key
@@ -47,7 +47,7 @@ struct MouseEvent {
   friend bool operator==(const MouseEvent&, const MouseEvent&) = default;
 };
 
-/// The answer to `CSI ? u`: the terminal speaks the kitty keyboard protocol; `flags` are those in force.
+/// The answer to `CSI ? u`: the terminal supports the kitty keyboard protocol; `flags` are those in force.
 struct KittyAnswer {
   int flags = 0;
   friend bool operator==(const KittyAnswer&, const KittyAnswer&) = default;

@@ -1,6 +1,6 @@
-// What the terminal shall show, cell by cell, before ncurses makes escape sequences of the difference.
+// What the terminal is to show, cell by cell, before ncurses makes escape sequences of the difference.
 //
-// Composing a picture needs no terminal, so the layout can be tested; Screen puts it out.
+// Composing a picture needs no terminal, so the layout can be tested; Screen shows it.
 #pragma once
 
 #include <optional>
@@ -47,7 +47,7 @@ class Picture {
   /// Row `y` as UTF-8, for tests.
   std::string rowText(int y) const;
 
-  /// Where the terminal's cursor shall be seen; nowhere by default.
+  /// Where the terminal's cursor is shown; nowhere by default.
   std::optional<CellPosition> cursor;
 
  private:

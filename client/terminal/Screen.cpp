@@ -51,7 +51,7 @@ Screen::Screen(Options options) : m_ascii(options.ascii), m_colors(options.color
   m_colors = m_colors && has_colors();
   if (m_colors) {
     start_color();
-    // The player's own background, where the terminal can; black has to be told from it.
+    // The terminal's own background, where that is supported; black must differ from it.
     const bool has_default = use_default_colors() == OK;
     for (int c = df::BLACK; c < df::kColorCount; ++c) {
       const auto color = static_cast<df::Color>(c);
@@ -69,7 +69,7 @@ Screen::~Screen() {
   end();
 }
 
-// Nothing of the player's own colours on it: white on cyan has to be that, whatever his terminal writes with.
+// Pairs without the terminal's default colours: white on cyan must look so on every terminal.
 void Screen::setBackground(df::Color background) {
   if (!m_colors || background == df::BLACK || background == m_background) return;
   m_background = background;
@@ -123,7 +123,7 @@ void Screen::put(int x, int y, const PictureCell& cell) {
   if (cell.style == Style::kBold) attributes |= A_BOLD;
   if (cell.style == Style::kReverse) attributes |= A_REVERSE;
   const short pair = m_colors ? pairOf(cell.color, cell.background == df::BLACK) : static_cast<short>(0);
-  // Whatever got here, nothing but one drawable character reaches the terminal.
+  // Only one drawable character may reach the terminal, whatever is in the cell.
   const char32_t safe = df::isDrawable(cell.ch) ? cell.ch : U'?';
   const wchar_t text[2] = {m_ascii ? static_cast<wchar_t>(asciiFor(safe)) : static_cast<wchar_t>(safe),
                            L'\0'};

@@ -1,5 +1,9 @@
 // Puts pictures on the terminal with ncurses, which sends only what changed.
 //
+// Only cells that differ from the last picture are passed to ncurses. ncurses compares again, but making its
+// cells costs more than that: without the first comparison a frame takes 1.8 times as long at 80x24, 3.8
+// times at 200x60.
+//
 // ncurses is used for output alone: it never reads the keyboard and sets no signal handlers (the
 // TerminalGuard's are there first). One Screen at a time; all calls on one thread.
 #pragma once
@@ -34,7 +38,7 @@ class Screen {
   void ring();
   /// The terminal's size may have changed. True if it has.
   bool readSize();
-  /// Send everything anew with the next show(): somebody else has written on the terminal.
+  /// Redraw everything with the next show(): another program has written on the terminal.
   void redrawAll() { m_redraw = true; }
   /// Back to the normal screen, for a while (suspended) or for good; show() returns from it.
   void end();

@@ -21,13 +21,13 @@ constexpr std::string_view kKittyQuery = "\033[?u";
 constexpr std::string_view kKittyPush = "\033[>31u";
 constexpr std::string_view kKittyPop = "\033[<u";
 constexpr std::string_view kModesOff = "\033[?1006l\033[?1003l\033[?2004l";
-// For the ways out on which ncurses cannot be asked: plain colours, cursor on, normal screen.
+// For exits that cannot call ncurses: plain colours, cursor on, normal screen.
 constexpr std::string_view kScreenOff = "\033[m\033[?25h\033[?1049l";
 
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
 constexpr int kReported[] = {SIGINT, SIGTERM, SIGHUP, SIGWINCH, SIGTSTP, SIGCONT};
 
-// What the handlers need. Only lock-free, already initialised things.
+// What the signal handlers read: lock-free and initialised before they are installed.
 termios g_original;
 volatile sig_atomic_t g_taken = 0;
 volatile sig_atomic_t g_modes_on = 0;
@@ -126,7 +126,7 @@ void TerminalGuard::setRaw() {
   tcsetattr(STDIN_FILENO, TCSANOW, &raw);
 }
 
-// TCSAFLUSH: bytes of the mouse that are still under way must not end up in the shell's command line.
+// TCSAFLUSH: mouse reports that are still arriving must not end up in the shell's command line.
 void TerminalGuard::setOriginal() {
   tcsetattr(STDIN_FILENO, TCSAFLUSH, &g_original);
 }
@@ -167,7 +167,8 @@ bool TerminalGuard::kittyPushed() const {
 
 void TerminalGuard::stopProcess() {
   install(SIGTSTP, SIG_DFL, 0);
-  // The whole group, as the terminal does it: who waits for us (a script, sudo) must stop as well.
+  // The whole group, as the terminal does it: a parent that waits for this process (a script, sudo) must stop
+  // as well.
   kill(0, SIGTSTP);
   installHandlers();
 }

@@ -1,10 +1,10 @@
-// Takes the terminal for the client and gives it back on every way out but SIGKILL.
+// Takes the terminal for the client and restores it on every exit but SIGKILL.
 //
 // Taking: raw mode (termios), mouse reports and bracketed paste (escape sequences written by hand), the
-// kitty keyboard protocol once the terminal has said that it knows it. Screen, made after the guard and
+// kitty keyboard protocol once the terminal has said that it supports it. Screen, made after the guard and
 // destroyed before, owns the alternate screen; for crashes the guard can leave that too.
 //
-// Giving back: restore() in order, also called by the destructor and at exit(). SIGSEGV, SIGBUS, SIGABRT,
+// Restoring: restore() in order, also called by the destructor and at exit(). SIGSEGV, SIGBUS, SIGABRT,
 // SIGFPE and SIGILL write a prebuilt byte string and call tcsetattr, both async-signal-safe, then die of
 // the signal. All other signals come out of signalFd() as bytes for the event loop; a second SIGTERM,
 // SIGHUP or SIGINT, before the loop acted on the first, restores and kills at once.
@@ -45,18 +45,18 @@ class TerminalGuard {
   /// Have keys reported with their releases (kitty flags 1+2+4+8+16), or as text again.
   void pushKitty();
   void popKitty();
-  /// Ask again whether the terminal speaks the protocol.
+  /// Ask again whether the terminal supports the protocol.
   void queryKitty();
   bool kittyPushed() const;
 
   /// Stop this process as Ctrl-Z does to others; returns when it is continued. The terminal must have been
-  /// given back before.
+  /// restored before.
   void stopProcess();
   /// Readable when a signal came: one byte per signal, its number.
   int signalFd() const;
   /// What a normal restore() does between leaving the modes and restoring termios: end the screen.
   void onRestore(std::function<void()> end_screen) { m_end_screen = std::move(end_screen); }
-  /// Give the terminal back; harmless when done already.
+  /// Restore the terminal; does nothing the second time.
   void restore();
 
   /// Write all of `size` bytes to the terminal. Gives up when it is gone.

@@ -2,7 +2,7 @@
 //
 // One line for each server, "host:port fingerprint" (ServerAddress.h, Fingerprint.h); empty lines and those
 // that begin with
-// '#' are comments. What is neither is kept as it is and reported, never lost: somebody's pin may be in it.
+// '#' are comments. Any other line is kept as it is and reported: it may be a damaged pin.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ enum class Trust {
 
 struct Verdict {
   Trust trust;
-  /// For people. Where the server is refused: what that means, and what to do.
+  /// For people. If the server is refused: the reason, and what to do.
   std::string sentence;
 
   bool accepted() const { return trust != Trust::kChanged && trust != Trust::kGivenUnequal; }
@@ -52,12 +52,12 @@ class KnownServers {
   /// The file is made, 0600, when the first server is admitted; so are its directories.
   explicit KnownServers(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// What to think of the server at `host`:`port`, as the player named it. `given`: the fingerprint that the
+  /// The verdict on the server at `host`:`port`, as the player named it. `given`: the fingerprint that the
   /// player named, if any; it counts most, then the chain, then the pin. Writes nothing.
   Verdict judge(const std::string& host, std::uint16_t port, const PeerFacts& facts,
                 const std::optional<Fingerprint>& given) const;
-  /// The same, and if the server is accepted its key is the pinned one from now on. Nobody gets between the
-  /// judgement and the pin.
+  /// The same, and if the server is accepted its key is the pinned one from now on. Judgement and pin are
+  /// atomic.
   Verdict admit(const std::string& host, std::uint16_t port, const PeerFacts& facts,
                 const std::optional<Fingerprint>& given) const;
 

@@ -42,7 +42,7 @@ PinLines::Line PinLines::parse(std::string_view text) {
   const std::size_t second = rest.find_first_not_of(kBlanks, blank);
   const auto address = ServerAddress::parse(std::string(rest.substr(0, blank)));
   const auto key = Fingerprint::parse(rest.substr(second));
-  // Only as it is written here: a line that means the same but looks different is not found by name.
+  // Compared as written: the same address in another spelling is not found.
   if (!address || !key || address->text() != rest.substr(0, blank)) return line;
   line.server = lowerCase(address->text());
   line.key = key;

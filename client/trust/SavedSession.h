@@ -1,5 +1,4 @@
-// What of a session outlives the client's process, as text in a file: whose it is, and the token that goes on
-// with it.
+// What of a session outlives the client's process, as text in a file: its server, name and resume token.
 #pragma once
 
 #include <chrono>
@@ -16,11 +15,11 @@ struct SavedSession {
   using Time = std::chrono::system_clock::time_point;
 
   std::string server;  ///< "host:port", ServerAddress::canonicalText() of what the player named
-  Fingerprint key;     ///< of the server that gave the token; no other gets to see it
+  Fingerprint key;     ///< of the server that gave the token, which no other is sent
   std::string name;    ///< the wanted one
   std::string token;   ///< 1 to 64 bytes
-  std::chrono::milliseconds grace{0};  ///< the server waits so long
-  Time alive{};                        ///< the session was well, to a millisecond
+  std::chrono::milliseconds grace{0};  ///< how long the server waits for a stream
+  Time alive{};                        ///< when the session was last alive, to a millisecond
 
   /// May the session still be there?
   bool isWithinGrace(Time now) const { return now - alive <= grace; }

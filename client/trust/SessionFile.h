@@ -1,8 +1,8 @@
-// Where a running client keeps what its successor needs if it is killed: one file for each, locked as long as
-// the client runs, so that a second terminal cannot take the session of the first.
+// Where a running client keeps what a later one needs to resume its session if it is killed: one file for
+// each client, locked while it runs, so that a second terminal cannot take the session of the first.
 //
-// Files are 0600 in a directory of the user's own. What is damaged, or not this user's alone, is not used,
-// and said so: the player then plays as a new one. Nothing here throws.
+// Files are 0600 in a directory of the user's own. A damaged file, or one that others can read, is not
+// used but reported: the player then joins as a new one. Nothing here throws.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class SessionFile {
   /// The directory is made with the first save().
   SessionFile(std::filesystem::path directory, std::string server, const std::optional<std::string>& name,
               Time now);
-  /// The file stays: whoever leaves in order removes it.
+  /// The file stays; a client that leaves in order removes it.
   ~SessionFile();
   SessionFile(const SessionFile&) = delete;
   SessionFile& operator=(const SessionFile&) = delete;
@@ -40,12 +40,12 @@ class SessionFile {
   std::string tokenFor(const Fingerprint& key) const;
   /// The session's token is another one now. `session.server` and `alive` are filled in.
   void save(SavedSession session, Time now);
-  /// The session is well. Call about once a second.
+  /// The session is alive. Call about once a second.
   void refresh(Time now);
   /// The session is over.
   void remove();
 
-  /// What was not right, a sentence each.
+  /// Problems with files, a sentence each.
   const std::vector<std::string>& problems() const { return m_problems; }
 
  private:
@@ -62,7 +62,7 @@ class SessionFile {
   std::string m_server;
   std::filesystem::path m_path;
   int m_file = -1;     ///< locked; −1: none yet
-  bool m_off = false;  ///< it does not work here
+  bool m_off = false;  ///< files do not work here
   std::optional<SavedSession> m_saved;
   std::vector<std::string> m_problems;
 };

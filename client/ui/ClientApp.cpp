@@ -7,13 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <utility>
 
 #include "client/terminal/Screen.h"
 #include "client/terminal/TerminalGuard.h"
-#include "client/world/DrawnPlacement.h"
-#include "client/world/ExtrapolationClamp.h"
 
 namespace naiad {
 namespace {
@@ -36,7 +33,9 @@ SessionOptions withTerminalSize(SessionOptions options) {
 ClientApp::ClientApp(Options options)
     : m_options(std::move(options)),
       m_connection(m_context, m_options.address, withTerminalSize(m_options.session), true, m_options.trust),
-      m_sounds(m_options.sound) {
+      m_sounds(m_options.sound),
+      m_player(m_connection),
+      m_composer(m_connection, m_controls, m_sounds) {
   if (m_options.p_session_file != nullptr) m_connection.keepIn(*m_options.p_session_file);
 }
 
@@ -51,12 +50,10 @@ ClientApp::Outcome ClientApp::run() {
     m_context.run_one_until(nextDeadline(Clock::now()));
     const Time now = Clock::now();
     m_connection.update(now);
-    take(m_decoder.flush(now), now);
-    sendKeys(m_held.expire(now), now);
-    sendHeld(now);
-    sendMove(now);
-    hearSounds(now);
-    m_dirty = m_dirty || !(look(now) == m_drawn);
+    takeEvents(m_decoder.flush(now), now);
+    m_player.update(now);
+    noticeSounds(now);
+    m_dirty = m_dirty || m_composer.isStale(now);
     if (m_dirty && now - m_last_frame >= kFrame) drawFrame(now);
   }
   return leaveTerminal();
@@ -92,7 +89,7 @@ ClientApp::Outcome ClientApp::leaveTerminal() {
   if (m_leaving) {
     m_connection.leave();
     m_context.restart();
-    m_context.run_for(kFarewell);  // ends as soon as the server has heard it
+    m_context.run_for(kFarewell);  // ends early, when the channel has closed
   }
   return outcome();
 }
@@ -139,7 +136,7 @@ void ClientApp::readInput() {
     return;
   }
   const Time now = Clock::now();
-  take(m_decoder.feed({bytes.data(), static_cast<std::size_t>(count)}, now), now);
+  takeEvents(m_decoder.feed({bytes.data(), static_cast<std::size_t>(count)}, now), now);
 }
 
 void ClientApp::takeSignals() {
@@ -171,23 +168,23 @@ void ClientApp::takeSignals() {
   }
 }
 
-void ClientApp::take(const std::vector<TerminalEvent>& events, Time now) {
+void ClientApp::takeEvents(const std::vector<TerminalEvent>& events, Time now) {
   for (const TerminalEvent& event : events) {
     if (const auto* key = std::get_if<KeyEvent>(&event)) takeKey(*key, now);
-    if (const auto* mouse = std::get_if<MouseEvent>(&event)) takeMouse(*mouse, now);
+    if (const auto* mouse = std::get_if<MouseEvent>(&event)) m_player.moveMouse(*mouse, m_placement, now);
     if (std::holds_alternative<KittyAnswer>(event)) takeKittyAnswer(now);
   }
 }
 
 void ClientApp::takeKey(const KeyEvent& event, Time now) {
-  const ClientControls::Result result = m_controls.take(event);
-  if (result == ClientControls::Result::kGame) return sendKeys(m_held.take(event, now), now);
+  const ClientControls::Result result = m_controls.takeKey(event);
+  if (result == ClientControls::Result::kGame) return m_player.pressKey(event, now);
   m_dirty = true;
   switch (result) {
     case ClientControls::Result::kOpened:
       // Text needs what the keyboard layout makes of the keys, and the game must see no key stay down.
-      sendKeys(m_held.releaseAll(), now);
-      sendKeys(m_held.setRealReleases(false, now), now);
+      m_player.releaseKeys(now);
+      m_player.setRealReleases(false, now);
       if (m_guard->kittyPushed()) m_guard->popKitty();
       break;
     case ClientControls::Result::kSay:
@@ -210,53 +207,19 @@ void ClientApp::takeKey(const KeyEvent& event, Time now) {
 void ClientApp::takeKittyAnswer(Time now) {
   if (m_controls.chatOpen()) return;
   m_guard->pushKitty();
-  sendKeys(m_held.setRealReleases(true, now), now);
+  m_player.setRealReleases(true, now);
 }
 
-void ClientApp::takeMouse(const MouseEvent& event, Time now) {
-  ClientSession* session = m_connection.session();
-  if (event.action == MouseEvent::Action::kRelease) m_button = df::Mouse::UNDEFINED_MOUSE_BUTTON;
-  const auto cell = m_placement.toView(event.x, event.y);
-  if (!cell || session == nullptr) return;
-  if (!(*cell == m_pointer)) m_move = m_pointer = *cell;
-  if (event.action != MouseEvent::Action::kPress) return;
-  m_button = event.button;
-  session->sendMouse(df::CLICKED, event.button, cell->x, cell->y, now);
-}
-
-void ClientApp::sendKeys(const std::vector<KeyAction>& actions, Time now) {
+void ClientApp::noticeSounds(Time now) {
   ClientSession* session = m_connection.session();
   if (session == nullptr) return;
-  for (const KeyAction& action : actions) session->sendKey(action.key, action.action, now);
-}
-
-/// Once per tick: keys and the mouse button that are being held.
-void ClientApp::sendHeld(Time now) {
-  if (now < m_next_key_tick) return;
-  m_next_key_tick = std::max(m_next_key_tick + tickLength(), now + tickLength() / 2);
-  sendKeys(m_held.tick(), now);
-  if (m_button != df::Mouse::UNDEFINED_MOUSE_BUTTON && m_connection.session() != nullptr) {
-    m_connection.session()->sendMouse(df::PRESSED, m_button, m_pointer.x, m_pointer.y, now);
-  }
-}
-
-/// The newest place of the mouse, at most once a frame: more would only fill the server's queue.
-void ClientApp::sendMove(Time now) {
-  if (!m_move || now - m_last_move < kFrame || m_connection.session() == nullptr) return;
-  const CellPosition cell = *std::exchange(m_move, std::nullopt);
-  m_last_move = now;
-  m_connection.session()->sendMouse(df::MOVED, df::Mouse::UNDEFINED_MOUSE_BUTTON, cell.x, cell.y, now);
-}
-
-void ClientApp::hearSounds(Time now) {
-  ClientSession* session = m_connection.session();
-  if (session == nullptr) return;
-  for (const SoundLine& sound : session->takeSounds()) m_sounds.hear(sound, session->welcome().player, now);
+  for (const SoundLine& sound : session->takeSounds())
+    m_sounds.addSound(sound, session->welcome().player, now);
   if (m_sounds.takeBell()) m_screen->ring();
 }
 
 void ClientApp::suspend() {
-  sendKeys(m_held.releaseAll(), Clock::now());
+  m_player.releaseKeys(Clock::now());
   m_guard->leaveModes();
   m_screen->end();
   m_guard->setOriginal();
@@ -267,111 +230,32 @@ void ClientApp::suspend() {
 void ClientApp::resume() {
   const Time now = Clock::now();
   m_guard->setRaw();
-  sendKeys(m_held.setRealReleases(false, now), now);
+  m_player.setRealReleases(false, now);
   if (m_screen->readSize()) m_connection.resize(m_screen->columns(), m_screen->rows());
   m_screen->redrawAll();
   drawFrame(now);
   m_guard->enterModes();
 }
 
-ClientApp::Seen ClientApp::look(Time now) {
-  Seen seen;
-  seen.connection = m_connection.revision();
-  ClientSession* session = m_connection.session();
-  if (session == nullptr) return seen;
-  seen.session = session->revision();
-  seen.tick = session->displayTick(now);
-  if (session->isPredicting()) seen.predicted = session->predictedTick(now);
-  const bool waiting = m_connection.state() == Connection::State::kSearching || session->isSilent(now);
-  if (waiting) {
-    seen.silence = std::chrono::floor<std::chrono::milliseconds>(session->clock().silence(now)).count() / 100;
-  }
-  seen.chat_lines = recentChat(now).size();
-  seen.note = m_sounds.note(now);
-  return seen;
-}
-
-std::vector<ChatEntry> ClientApp::recentChat(Time now) {
-  std::vector<ChatEntry> recent;
-  const ClientSession* session = m_connection.session();
-  if (session == nullptr) return recent;
-  for (const ChatEntry& entry : session->chat()) {
-    if (m_controls.chatOpen() || now - entry.at < kChatShown) recent.push_back(entry);
-  }
-  return recent;
-}
-
-std::string ClientApp::banner(Time now) {
-  if (m_controls.prefixed()) return "Ctrl-]: t chat  p players  h help  s status  q leave";
-  ClientSession* session = m_connection.session();
-  const bool searching = m_connection.state() == Connection::State::kSearching;
-  // A session may go on by datagrams while its stream is sought again: nobody need know.
-  if (session == nullptr || !(session->isSilent(now) || (searching && !session->hasDatagrams(now))))
-    return "";
-  const auto tenths =
-      std::chrono::floor<std::chrono::milliseconds>(session->clock().silence(now)).count() / 100;
-  char text[96];
-  std::snprintf(text, sizeof text,
-                searching ? "Server lost, looking for it again: %lld.%lld s"
-                          : "No news from the server for %lld.%lld s",
-                static_cast<long long>(tenths / 10), static_cast<long long>(tenths % 10));
-  return text;
-}
-
 void ClientApp::drawFrame(Time now) {
-  m_drawn = look(now);
   m_dirty = false;
   m_last_frame = now;
-  ScreenModel model;
-  model.banner = banner(now);
-  if (ClientSession* session = m_connection.session()) {
-    const Replica& replica = session->replica();
-    const ExtrapolationClamp clamp(replica, session->clock().newestTick(), m_drawn.tick);
-    const DrawnPlacement placement(replica, session->predict(now), clamp);
-    model.view = replica.render(m_drawn.tick, &placement);
-    model.focus = replica.focus(m_drawn.tick, &placement);
-    model.background = replica.background();
-    model.has_view = true;
-    model.round_trip = session->roundTrip();
-    model.tick = m_drawn.tick;
-    model.score = session->score();
-    model.server = session->welcome().server + " at " + m_connection.address().text();
-    model.game = session->welcome().game;
-    model.self = session->welcome().player;
-    model.players = session->players();
-    model.help = session->welcome().help;
-    model.chat = recentChat(now);
-    model.note = m_drawn.note;
-  }
-  model.status_shown = m_controls.statusShown();
-  model.panel = m_controls.panel();
-  model.chat_open = m_controls.chatOpen();
-  model.chat_text = m_controls.chatText();
-  const ScreenLayout layout = layOut(model, m_screen->columns(), m_screen->rows());
+  const ScreenLayout layout = layOut(m_composer.composeFrame(now), m_screen->columns(), m_screen->rows());
   m_placement = layout.placement;
   m_screen->show(layout.picture);
 }
 
 ClientApp::Time ClientApp::nextDeadline(Time now) {
-  Time next = std::min(now + kHousekeeping, m_held.deadline());
+  Time next = std::min(now + kHousekeeping, m_player.deadline());
   if (const auto due = m_decoder.deadline()) next = std::min(next, *due);
-  next = std::min(next, m_next_key_tick);
-  if (m_connection.session() != nullptr)
-    next = std::min(next, m_connection.session()->nextWake().value_or(next));
-  if (m_move) next = std::min(next, m_last_move + kFrame);
-  if (m_dirty) next = std::min(next, m_last_frame + kFrame);
-  // One's own object runs on by a clock of its own.
-  if (m_connection.session() != nullptr && m_connection.session()->isPredicting()) {
+  const ClientSession* session = m_connection.session();
+  // A predicted object moves by a clock of its own.
+  if (m_dirty || (session != nullptr && session->isPredicting()))
     next = std::min(next, m_last_frame + kFrame);
-  }
+  if (session == nullptr) return next;
+  next = std::min(next, session->nextWake().value_or(next));
   // A tick that passes without news can still change the picture.
-  if (m_connection.session() != nullptr) next = std::min(next, m_connection.session()->clock().nextTick(now));
-  return next;
-}
-
-std::chrono::microseconds ClientApp::tickLength() {
-  return m_connection.session() != nullptr ? m_connection.session()->welcome().tick
-                                           : std::chrono::microseconds(33333);
+  return std::min(next, session->clock().nextTick(now));
 }
 
 }  // namespace naiad

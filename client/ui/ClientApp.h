@@ -9,16 +9,15 @@
 #include <asio/posix/stream_descriptor.hpp>
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "client/session/Connection.h"
 #include "client/session/ExitCode.h"
-#include "client/terminal/HeldKeys.h"
 #include "client/terminal/InputDecoder.h"
 #include "client/ui/ClientControls.h"
-#include "client/ui/ScreenLayout.h"
+#include "client/ui/FrameComposer.h"
+#include "client/ui/PlayerInput.h"
 #include "client/ui/SoundNotes.h"
 
 namespace naiad {
@@ -32,7 +31,7 @@ class ClientApp {
     ServerAddress address;
     SessionOptions session;  ///< the terminal's size is filled in here
     ServerTrust trust;
-    SessionFile* p_session_file = nullptr;  ///< for a successor; null: none shall go on
+    SessionFile* p_session_file = nullptr;  ///< for a later client to resume from; null: none
     bool ascii = false;
     bool mouse = true;
     bool colors = true;
@@ -42,7 +41,7 @@ class ClientApp {
   struct Outcome {
     ExitCode code = kExitLeft;
     std::string sentence;  ///< for stderr, once the terminal is restored; may be empty
-    int signal = 0;        ///< the signal that ended it and still has to be died of; 0: none
+    int signal = 0;        ///< the signal that ended it, to be raised again; 0: none
   };
 
   explicit ClientApp(Options options);
@@ -54,17 +53,6 @@ class ClientApp {
  private:
   using Clock = std::chrono::steady_clock;
   using Time = Clock::time_point;
-  /// What a frame depends on; another value means that there is something to draw.
-  struct Seen {
-    std::uint64_t connection = 0;
-    std::uint64_t session = 0;
-    std::uint32_t tick = 0;
-    std::uint32_t predicted = 0;
-    std::int64_t silence = 0;  ///< in tenths of a second, once it is shown
-    std::size_t chat_lines = 0;
-    std::string note;
-    friend bool operator==(const Seen&, const Seen&) = default;
-  };
 
   void join();
   void takeTerminal();
@@ -74,22 +62,14 @@ class ClientApp {
   void waitForSignal();
   void readInput();
   void takeSignals();
-  void take(const std::vector<TerminalEvent>& events, Time now);
+  void takeEvents(const std::vector<TerminalEvent>& events, Time now);
   void takeKey(const KeyEvent& event, Time now);
-  void takeMouse(const MouseEvent& event, Time now);
   void takeKittyAnswer(Time now);
-  void sendKeys(const std::vector<KeyAction>& actions, Time now);
-  void sendHeld(Time now);
-  void sendMove(Time now);
-  void hearSounds(Time now);
+  void noticeSounds(Time now);
   void suspend();
   void resume();
-  Seen look(Time now);
-  std::vector<ChatEntry> recentChat(Time now);
-  std::string banner(Time now);
   void drawFrame(Time now);
   Time nextDeadline(Time now);
-  std::chrono::microseconds tickLength();
 
   Options m_options;
   asio::io_context m_context{1};
@@ -100,18 +80,13 @@ class ClientApp {
   asio::posix::stream_descriptor m_input{m_context};
   asio::posix::stream_descriptor m_signals{m_context};
   InputDecoder m_decoder;
-  HeldKeys m_held;
   ClientControls m_controls;
   ViewPlacement m_placement;
   SoundNotes m_sounds;
+  PlayerInput m_player;
+  FrameComposer m_composer;
 
-  df::Mouse::Button m_button = df::Mouse::UNDEFINED_MOUSE_BUTTON;  ///< held down
-  CellPosition m_pointer;                                          ///< the mouse, in view cells
-  std::optional<CellPosition> m_move;                              ///< not told to the server yet
-  Time m_last_move{};
-  Time m_next_key_tick{};
   Time m_last_frame{};
-  Seen m_drawn;
   bool m_dirty = true;
   bool m_leaving = false;
   int m_signal = 0;

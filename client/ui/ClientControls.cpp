@@ -23,7 +23,7 @@ bool isModifierKey(Key key) {
 
 }  // namespace
 
-ClientControls::Result ClientControls::take(const KeyEvent& event) {
+ClientControls::Result ClientControls::takeKey(const KeyEvent& event) {
   // The game ignores releases of keys that it never saw go down, so they may all go there.
   if (event.action == KeyEvent::Action::kRelease) return Result::kGame;
   if (isControl(event, C)) return Result::kLeave;

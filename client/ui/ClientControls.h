@@ -1,4 +1,4 @@
-// The client's own keys: what belongs to the client, and what to the game.
+// The client's own keys: which belong to the client, and which to the game.
 //
 // One prefix (Ctrl-]) opens the client's commands, so that every other key is the game's; besides it only
 // Ctrl-C and Ctrl-Z have a fixed meaning. While a chat line is open, keys write text.
@@ -25,11 +25,11 @@ inline constexpr const char* kClientKeyHelp[] = {
 
 class ClientControls {
  public:
-  /// What the program must do about a key. The panels and the chat line are kept here.
+  /// What the program must do about a key; panels and chat line change here.
   enum class Result {
     kGame,    ///< the key is the game's
     kTaken,   ///< something to be drawn may have changed
-    kOpened,  ///< a chat line was opened: release the game's keys, let the terminal send text
+    kOpened,  ///< a chat line was opened: release the game's keys, switch the terminal to text
     kClosed,  ///< the chat line was closed without text
     kSay,     ///< the chat line was closed with Return: send takeChat()
     kLeave,
@@ -37,7 +37,7 @@ class ClientControls {
   };
 
   /// Decide about one key event.
-  Result take(const KeyEvent& event);
+  Result takeKey(const KeyEvent& event);
 
   Panel panel() const { return m_panel; }
   bool statusShown() const { return m_status; }

@@ -17,7 +17,7 @@ std::optional<SoundMode> soundModeFrom(std::string_view name) {
   return std::nullopt;
 }
 
-void SoundNotes::hear(const SoundLine& sound, std::uint32_t self, Time now) {
+void SoundNotes::addSound(const SoundLine& sound, std::uint32_t self, Time now) {
   if (m_mode == SoundMode::kOff) return;
   if (sound.action != SoundLine::Action::kPlay) {
     if (m_note == textOf(sound)) m_noted_at.reset();  // it is over

@@ -1,5 +1,5 @@
-// What a player notices of the game's sounds: a short note, the terminal's bell, or nothing. No game may ring
-// without end or make a note flicker: both have a pace of their own.
+// How a player notices the game's sounds: a short note, the terminal's bell, or nothing. Both are limited in
+// rate, so that no game can ring without end or make the note flicker.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ namespace naiad {
 
 enum class SoundMode : std::uint8_t {
   kNote,  ///< its name in the status line, for a moment
-  kBell,  ///< the note, and the bell for sounds (not music) of this player's or nobody's doing
+  kBell,  ///< the note, and the bell for sounds (not music) of this player or of no player
   kOff,
 };
 
@@ -26,7 +26,7 @@ class SoundNotes {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// So long a note is seen, and so long at least before another takes its place.
+  /// A note is shown for this long, and for at least kMin before another replaces it.
   static constexpr std::chrono::milliseconds kShown{1500};
   static constexpr std::chrono::milliseconds kMin{300};
   /// The bell rings at most once in this time.
@@ -34,8 +34,8 @@ class SoundNotes {
 
   explicit SoundNotes(SoundMode mode) : m_mode(mode) {}
 
-  /// Something sounded; `self`: the player here.
-  void hear(const SoundLine& sound, std::uint32_t self, Time now);
+  /// The game sounded; `self`: this player's id.
+  void addSound(const SoundLine& sound, std::uint32_t self, Time now);
   /// The note to show: "sound: fire", "music: theme"; empty: none.
   std::string note(Time now) const;
   /// Is the bell to ring now? True once.
@@ -46,7 +46,7 @@ class SoundNotes {
 
   SoundMode m_mode;
   std::string m_note;
-  bool m_of_others = false;  ///< the note is of another player's doing
+  bool m_of_others = false;  ///< another player caused it
   std::optional<Time> m_noted_at;
   std::optional<Time> m_rang_at;
   bool m_rings = false;

@@ -15,7 +15,7 @@ DisplayClock::Duration DisplayClock::due(std::uint32_t tick) const {
   return m_length * distance(m_anchor, tick);
 }
 
-void DisplayClock::note(std::uint32_t tick, Time now) {
+void DisplayClock::noteSnapshot(std::uint32_t tick, Time now) {
   m_last_arrival = now;
   if (!m_started) {
     m_started = true;
@@ -27,7 +27,8 @@ void DisplayClock::note(std::uint32_t tick, Time now) {
   m_newest = tick;
   Time expected = m_anchor_time + due(tick);
   const Duration late = now - expected;
-  // An early arrival is proof; a late one may be jitter. A second off means the server paused or jumped.
+  // An early arrival corrects the anchor at once; a late one may be jitter. A difference of a second means
+  // that the server paused or jumped.
   if (late < Duration::zero() || late > std::chrono::seconds(1)) {
     expected = now;
   } else {
@@ -44,7 +45,7 @@ std::uint32_t DisplayClock::displayTick(Time now) {
   const auto ahead = static_cast<std::int32_t>(std::min<std::int64_t>(elapsed / m_length, allowed));
   const std::uint32_t wanted = m_newest + static_cast<std::uint32_t>(ahead);
   const std::int32_t step = distance(m_shown, wanted);
-  // Backwards only when the last answer is further ahead than any answer may be.
+  // Backwards only if the last tick shown is further ahead than any may be.
   const bool too_far_ahead = distance(m_newest, m_shown) > allowed;
   if (step > 0 || too_far_ahead) m_shown = wanted;
   return m_shown;

@@ -1,8 +1,8 @@
 // A drawing rule for ticks that have not arrived yet: what is HARD is not drawn inside what is HARD.
 //
-// Models fly on until the server says otherwise, also into walls, which the server's objects do not. So
-// a HARD object is drawn where it was one tick before it would first touch another HARD one that it did not
-// touch in the newest known tick. The models stay as they are.
+// Extrapolated objects fly into walls; on the server they are blocked. So a HARD object is drawn where it was
+// one tick before it would first touch another HARD one that it did not touch in the newest known tick. The
+// models stay as they are.
 //
 // Made for one picture: the objects are sorted into cells once, then each looks only at its neighbours.
 #pragma once
@@ -57,7 +57,7 @@ class ExtrapolationClamp {
   std::vector<std::uint32_t> m_large;                   ///< indices of those in too many cells
 };
 
-/// Where the clamp, made anew, draws this one object. For more than one, make it once.
+/// Where a clamp made for this call draws one object. For several objects, make the clamp once.
 df::FixedVector clampedPosition(const Replica& replica, const ObjectState& object, std::uint32_t known,
                                 std::uint32_t drawn);
 

@@ -1,9 +1,9 @@
-// In which tick will the server take in a key that is pressed now?
+// Estimates the tick in which the server will apply a key that is pressed now.
 //
-// It goes out now, and the server's tick is by then what the newest snapshot said, and what has passed since,
-// and a round trip: half of it for that snapshot's way here, half for the key's way there. A margin on top
-// makes up for jitter: it grows when an input came too late for the tick it asked for, and shrinks with each
-// that did not, so that one in forty may be late (more than that is loss, which no margin helps).
+// That is the tick of the newest snapshot, plus the time since its arrival, plus a round trip: half for the
+// snapshot's delay, half for the key's. A margin on top makes up for jitter: it grows when an input came too
+// late for the tick it asked for, and shrinks with each that did not, so that one in forty may be late (more
+// are due to loss, which no margin helps).
 #pragma once
 
 #include <array>
@@ -24,9 +24,9 @@ class InputTickEstimator {
   static constexpr double kGrow = 0.15;
   static constexpr double kShrink = 0.004;
 
-  /// The shortest of the last few counts: longer ones waited somewhere.
+  /// The shortest of the last few samples counts: longer ones include queueing.
   void noteRoundTrip(Millis sample);
-  /// The server took an input in at the end of `taken`; it had asked for `asked`.
+  /// The server applied an input in tick `taken`; the input had asked for `asked`.
   void noteTaken(std::uint32_t asked, std::uint32_t taken);
   /// The tick, for a key pressed at `now`.
   std::uint32_t tickFor(const DisplayClock& clock, DisplayClock::Duration tick_length, Time now) const;

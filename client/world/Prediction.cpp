@@ -11,7 +11,7 @@
 
 namespace naiad {
 
-void Prediction::take(const ControlRecord& record) {
+void Prediction::applyControl(const ControlRecord& record) {
   if (m_known && !isNewer(record.tick, m_known->tick)) return;
   const bool same = m_known && m_known->slot == record.slot && m_known->generation == record.generation;
   if (const Guess& made = guess(record.tick); same && made.made && made.tick == record.tick) {
@@ -31,7 +31,7 @@ void Prediction::press(std::uint32_t id, df::Keyboard::Key key, df::EventKeyboar
     ++m_counters.unpredicted;
     return;
   }
-  // The server takes inputs in in their order, so none comes before the one sent earlier.
+  // The server applies inputs in the order they were sent.
   if (!m_inputs.empty() && isNewer(m_inputs.back().tick, tick)) tick = m_inputs.back().tick;
   m_inputs.push_back({id, key, action, tick});
 }
@@ -54,7 +54,7 @@ void Prediction::run(const Replica& replica, std::uint32_t tick) {
 
 void Prediction::replay(const Replica& replica, const ObjectState& own, std::uint32_t tick) {
   ControlRecord start = *m_known;
-  // Whoever is not told anything for so long may take it that nothing changed.
+  // The server publishes changes within this time, so silence means that nothing has changed.
   if (isNewer(tick, start.tick + kMaxAhead)) start.tick = tick - kMaxAhead;
   m_from = start.tick;
   const std::uint32_t ticks = isNewer(tick, start.tick) ? tick - start.tick : 0;

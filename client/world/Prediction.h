@@ -1,14 +1,14 @@
-// The player's own object, ahead of the server's answer: where it will be when the keys that are on their
-// way have arrived.
+// The player's own object, ahead of the server's answer: where it will be when the keys already sent have
+// arrived.
 //
-// The server says now and then what the object exactly was at the end of a tick, and which inputs had
-// reached the game by then (ControlRecord). From there run() replays all that the server has not yet
-// answered, through the same table, against what is solid in the replica. It begins anew each time: when
-// the server saw something otherwise, the next picture is simply the new replay.
+// The server sends now and then the exact state of the object at the end of a tick, and which inputs had
+// reached the game by then (ControlRecord). From there run() replays all inputs that the server has not yet
+// acknowledged, through the same table, against the solid objects of the replica. Each run starts from the
+// newest state, so a misprediction needs no correction of its own.
 //
-// The tick to run to is the one in which the server will take in a key that is pressed now: so much ahead of
-// the newest snapshot as a round trip and the server's margin take. Then a key is seen in the next frame,
-// however long the way.
+// The tick to run to is the one in which the server will apply a key that is pressed now: ahead of the newest
+// snapshot by a round trip and a margin for jitter. So a key shows in the next frame, whatever the round
+// trip.
 //
 // Pure: no clock, no I/O; ticks are serial numbers. Not thread-safe. Bounded whatever the server sends.
 #pragma once
@@ -28,28 +28,28 @@ namespace naiad {
 
 class Prediction {
  public:
-  /// Ticks that are replayed at most: kMaxCoasting and two seconds' way there and back.
+  /// Ticks that are replayed at most: kMaxCoasting and a round trip of two seconds.
   static constexpr std::uint32_t kMaxAhead = 90;
   /// Inputs without an answer that are kept at most; further ones are not predicted.
   static constexpr std::size_t kMaxInputs = 64;
 
   struct Counters {
-    std::uint64_t confirmed = 0;     ///< answers that said what had been predicted for their tick
-    std::uint64_t mispredicted = 0;  ///< answers that said something else
+    std::uint64_t confirmed = 0;     ///< answers equal to the prediction for their tick
+    std::uint64_t mispredicted = 0;  ///< answers that differ from it
     std::uint64_t unpredicted = 0;   ///< inputs beyond kMaxInputs
   };
 
   /// The controls that the game declared, as they arrive; one without rows ends the prediction.
   void setTable(df::ControlTable table) { m_table = std::move(table); }
   /// An answer; an older one than the last is ignored.
-  void take(const ControlRecord& record);
-  /// The player did this; it was sent as input `id` (newer than all before), and the server should take it
-  /// in in the tick that ends as `tick`.
+  void applyControl(const ControlRecord& record);
+  /// The player did this; it was sent as input `id` (newer than all before), and the server should apply
+  /// it in the tick that ends as `tick`.
   void press(std::uint32_t id, df::Keyboard::Key key, df::EventKeyboardAction action, std::uint32_t tick);
   /// Forget everything but the counters: another session.
   void reset();
 
-  /// Find out where the object is at the end of `tick`. The replica should be as new as the last answer.
+  /// Predict the object's state at the end of `tick`. The replica should be as new as the last answer.
   void run(const Replica& replica, std::uint32_t tick);
 
   /// Did the last run() find an object to predict?

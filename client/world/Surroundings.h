@@ -1,4 +1,4 @@
-// What stands in the way of the player's own object, as the replica believes it to be.
+// What can block the player's own object, according to the replica.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace naiad {
 
-/// The box of an object at this position, in world coordinates; nothing beyond 10^9 cells, where nothing is
-/// in anybody's way.
+/// The box of an object at this position, in world coordinates; nothing beyond 10^9 cells, where nothing
+/// can block.
 std::optional<df::FixedBox> boxAt(const Body& body, df::FixedVector position);
 
 /// The smallest box around where the object is in the ticks from `first` to `last`, both included; nothing

@@ -4,34 +4,36 @@
 
 namespace naiad {
 
-// Numbers count on through all epochs: what is not newer than all of a world is of one before it, and late.
-// (Of two streams one may lag behind by several worlds.)
+// Numbers continue through all epochs: a snapshot of another epoch that is not newer than all of this world
+// is late and of an earlier world. (One of two streams may lag behind by several worlds.)
 Replica* WorldFeed::replicaFor(std::string_view bytes, Time now) {
+  const auto epoch = peekEpoch(bytes);
+  if (!epoch || *epoch == m_epoch) return &m_replica;
+  if (m_next && m_next_epoch == *epoch) return &*m_next;
   const auto header = peekHeader(bytes, m_replica.newest());
-  if (!header || header->epoch == m_epoch) return &m_replica;
-  if (m_next && m_next_epoch == header->epoch) return &*m_next;
+  if (!header) return &m_replica;
   if (!isNewer(header->number, (m_next ? *m_next : m_replica).newest().number)) return nullptr;
-  m_next_epoch = header->epoch;
+  m_next_epoch = *epoch;
   m_next = Replica::continuing(m_replica.newest());
   m_reset_at = now;
   ++m_resets;
   return &*m_next;
 }
 
-// A complete snapshot may overtake those that it completes: one goes as a datagram and they on the stream.
-void WorldFeed::noteFirst(const SnapshotHeader& header, Time now) {
+// A complete snapshot may overtake those that it completes: it may come as a datagram and they on the stream.
+void WorldFeed::trackFirstWorld(const SnapshotHeader& header, Time now) {
   if (!m_began) m_began = now;
   m_came.note(header.number);
   if (header.complete && isNewer(header.number, m_complete)) m_complete = header.number;
   m_whole = m_complete != m_before;
-  // What is older than the window was sent again before the server called anything complete.
+  // What is older than the window was sent again before the server called any snapshot complete.
   for (std::uint32_t n = m_complete; m_whole && n != m_before && m_came.newest - n <= 64; --n) {
     m_whole = m_came.has(n);
   }
 }
 
-WorldFeed::Taken WorldFeed::take(std::string_view bytes, Time now, SnapshotHeader& header,
-                                 const std::function<void(std::uint32_t)>& before) {
+WorldFeed::Taken WorldFeed::applySnapshot(std::string_view bytes, Time now, SnapshotHeader& header,
+                                          const std::function<void(std::uint32_t)>& before) {
   Replica* replica = replicaFor(bytes, now);
   if (replica == nullptr) return Taken::kIgnored;
   Snapshot snapshot;
@@ -48,7 +50,7 @@ WorldFeed::Taken WorldFeed::take(std::string_view bytes, Time now, SnapshotHeade
   header = snapshot.header;
   if (before) before(header.tick);
   replica->apply(snapshot);
-  if (!m_whole && replica == &m_replica) noteFirst(header, now);
+  if (!m_whole && replica == &m_replica) trackFirstWorld(header, now);
   if (replica == &m_replica || !(header.complete || now - m_reset_at >= kPatience)) {
     return Taken::kApplied;
   }

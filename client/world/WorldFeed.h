@@ -1,9 +1,9 @@
-// The client's world as the snapshots tell it, resets included: which replica a snapshot is for, and which
-// one is shown.
+// The client's world as the snapshots describe it, resets included: which replica a snapshot is for, and
+// which replica is shown.
 //
-// The first world is nothing to show before it is whole: births may take several snapshots, and on a thin
-// line a while. A snapshot of the next epoch begins a world that comes anew. It grows in a replica of its own
-// while the old one is shown. Both wait until the world is complete or the player has waited long enough.
+// The first world is not shown before it is complete: births may take several snapshots, and some time on a
+// slow line. A snapshot of the next epoch begins another world, in a replica of its own, while the old one is
+// shown. Both are shown incomplete if the player has waited for kPatience.
 #pragma once
 
 #include <chrono>
@@ -21,12 +21,12 @@ class WorldFeed {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Then a world that is not complete is shown.
+  /// After this time a world that is not complete is shown.
   static constexpr std::chrono::milliseconds kPatience{500};
-  /// Snapshots in a row that mean what is gone: then the world is to come anew.
+  /// After so many stale snapshots in a row the client asks for the world again.
   static constexpr int kMaxStale = 30;
 
-  /// `near`: what the snapshots to come count on from. `epoch`: theirs.
+  /// `near`: the numbers that the next snapshots continue from. `epoch`: theirs.
   explicit WorldFeed(const SnapshotContext& near = {}, std::uint8_t epoch = 0)
       : m_replica(Replica::continuing(near)),
         m_epoch(epoch),
@@ -38,13 +38,13 @@ class WorldFeed {
     kApplied,
     kShown,      ///< applied, and another world is shown from now on
     kIgnored,    ///< of an epoch that is over
-    kStale,      ///< it means what is gone
+    kStale,      ///< it refers to what newer snapshots have replaced
     kMalformed,  ///< the server is broken
   };
-  /// Read and apply a snapshot; `header` is what it said of itself. `before` is called just before it is
+  /// Read and apply a snapshot; `header` becomes its header. `before` is called just before it is
   /// applied.
-  Taken take(std::string_view bytes, Time now, SnapshotHeader& header,
-             const std::function<void(std::uint32_t tick)>& before);
+  Taken applySnapshot(std::string_view bytes, Time now, SnapshotHeader& header,
+                      const std::function<void(std::uint32_t tick)>& before);
 
   /// The one to show.
   const Replica& shown() const { return m_replica; }
@@ -52,16 +52,16 @@ class WorldFeed {
   bool hasPicture(Time now) const { return m_whole || (m_began && now - *m_began >= kPatience); }
   /// Is another one about to replace it?
   bool isChanging() const { return m_next.has_value(); }
-  /// So many stale ones came in a row that the world should be sent anew.
+  /// So many stale ones came in a row that the world should be sent again.
   bool wantsReset() const { return m_stale_in_a_row >= kMaxStale; }
-  /// This was the last straw: ask for it now.
+  /// Only the last stale one made it so: ask for it now.
   bool wantsResetNow() const { return wantsReset() && m_stale_in_a_row % kMaxStale == 0; }
-  /// Worlds that came anew.
+  /// Worlds begun after the first.
   std::uint64_t resets() const { return m_resets; }
 
  private:
   Replica* replicaFor(std::string_view bytes, Time now);
-  void noteFirst(const SnapshotHeader& header, Time now);
+  void trackFirstWorld(const SnapshotHeader& header, Time now);
 
   Replica m_replica;
   std::uint8_t m_epoch;

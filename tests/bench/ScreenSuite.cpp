@@ -101,7 +101,7 @@ void measure(const Case& c, bool quick) {
     }
     for (std::size_t p = 0; i >= kWarmUp && p < facts.size(); ++p) {
       LinkedClient& client = *clients[p];
-      client.displayClock().setWay(c.ahead ? link.delay : 0us);
+      client.displayClock().setDelay(c.ahead ? link.delay : 0us);
       const std::uint32_t drawn =
           std::max(client.displayClock().displayTick(client.now()), client.displayClock().newestTick());
       seen.add(truths[p].front(), client.replica().render(drawn));

@@ -11,6 +11,7 @@
 
 #include "Script.h"
 #include "shared/net/base/Limits.h"
+#include "shared/replica/Limits.h"
 #include "shared/replica/Bits.h"
 #include "shared/replica/Limits.h"
 

@@ -105,10 +105,10 @@ TEST_F(PredictionPlay, AKeyShowsInTheNextFrameAndComesTrue) {
   EXPECT_EQ(counters.unpredicted, 0u);
   EXPECT_GE(counters.confirmed, 10u);
   // Nothing is in the way: only a key that came too late may have been shown otherwise than it happened.
-  const bool none_late = ann.session().takeInClock().margin() == InputTickEstimator::kMinMargin;
+  const bool none_late = ann.session().inputTickEstimator().margin() == InputTickEstimator::kMinMargin;
   EXPECT_TRUE(counters.mispredicted == 0 || !none_late) << counters.mispredicted;
   std::printf("confirmed=%d mispredicted=%d margin=%.2f\n", static_cast<int>(counters.confirmed),
-              static_cast<int>(counters.mispredicted), ann.session().takeInClock().margin());
+              static_cast<int>(counters.mispredicted), ann.session().inputTickEstimator().margin());
 }
 
 }  // namespace

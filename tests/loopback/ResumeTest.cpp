@@ -131,7 +131,7 @@ TEST_F(Resume, TheRoundTripIsMeasuredWithoutAStream) {
   TestClient ann(context, proxy->port(), player("ann"));
   ASSERT_TRUE(settle(ann));
   ASSERT_TRUE(losesItsStream(ann));
-  EXPECT_LT(ann.session().takeInClock().shortestRoundTrip().count(), 40);
+  EXPECT_LT(ann.session().inputTickEstimator().shortestRoundTrip().count(), 40);
   const auto before = ann.session().roundTrip();
   valve->delay = std::chrono::milliseconds(100);
   const auto longer = before + std::chrono::milliseconds(40);

@@ -40,7 +40,7 @@ TEST_F(BackgroundTest, IsTheTerminalsOwnUntilTheGameWantsAnother) {
   terminal.forget();
   server.send(onBlue());
   EXPECT_TRUE(terminal.waitFor("\033[44m")) << terminal.output();
-  EXPECT_TRUE(terminal.waitFor("NAIAD-HERE")) << "all of it is drawn anew";
+  EXPECT_TRUE(terminal.waitFor("NAIAD-HERE")) << "everything is redrawn";
 }
 
 TEST_F(BackgroundTest, IsNoneWithoutColours) {

@@ -39,8 +39,8 @@ class Terminal {
     return i + 1;
   }
 
-  // CSI … with a final byte, or ESC with intermediates. Strings (OSC, DCS, APC, PM, SOS) are nobody's
-  // business.
+  // CSI … with a final byte, or ESC with intermediates. Strings (OSC, DCS, APC, PM, SOS) are not
+  // looked at.
   std::size_t sequence(const std::u32string& s, std::size_t i) {
     if (i >= s.size()) return i;
     std::string text(1, static_cast<char>(s[i]));

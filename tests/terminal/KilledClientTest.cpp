@@ -108,7 +108,7 @@ TEST_F(KilledClientTest, GoesOnWithItsShipAndItsPoints) {
   EXPECT_EQ(said.find("joined"), said.rfind("joined")) << said;
 
   terminal = join();
-  EXPECT_EQ(terminal->output().find(kBack), std::string::npos) << "who left has left";
+  EXPECT_EQ(terminal->output().find(kBack), std::string::npos) << "a player that left does not come back";
 }
 
 TEST_F(KilledClientTest, IsForgottenIfThePlayerWantsIt) {

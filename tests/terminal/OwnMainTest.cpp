@@ -118,7 +118,7 @@ TEST_F(OwnMain, PlaysOnAfterATitleWithARunOfItsOwn) {
   expectOrderlyEnd(*game);
 }
 
-TEST_F(OwnMain, WhoLeavesAtTheTitleHasLeft) {
+TEST_F(OwnMain, LeavingAtTheTitleEndsTheSession) {
   auto game = start({{"LONE_TITLE", "1"}});
   ASSERT_TRUE(game->waitFor("TITLE")) << game->output();
   game->type(kCtrlC);
@@ -182,7 +182,7 @@ TEST_F(OwnMain, OneKeyDoesNotEndEverybodysGame) {
   bob->type("q");
   EXPECT_EQ(WEXITSTATUS(bob->waitForExit()), 4);
   EXPECT_TRUE(has(bob->output(), "For you, the game is over.")) << bob->output();
-  ann->type("q");  // nobody is at the server's own terminal, so it stays for who comes next
+  ann->type("q");  // no player is at the server's own terminal, so it waits for the next one
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
   auto carl = join("carl");
   carl->type("x");  // this is the game itself
@@ -200,7 +200,7 @@ TEST_F(OwnMain, UnlessTheHostWantsThat) {
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
 }
 
-/// Type to the right until the walker takes its first step, in a world that begins anew meanwhile. Slowly:
+/// Type to the right until the walker takes its first step, in a world that restarts meanwhile. Slowly:
 /// keys that come in haste are one that is held.
 void walkAgain(PtyTerminal& player) {
   for (int i = 0; i < 20 && player.newOutput().find('$') == std::string::npos; ++i) {
@@ -274,7 +274,7 @@ TEST_F(OwnMain, TheFirstPlaysAndTheOthersWaitForTheirTurn) {
   ASSERT_TRUE(bob->waitFor("now.")) << bob->output();
   bob->forget();
   bob->type(kRight);
-  ASSERT_TRUE(bob->waitFor("%")) << bob->output() << "what he typed as a spectator went nowhere";
+  ASSERT_TRUE(bob->waitFor("%")) << bob->output() << "the keys of a spectator had no effect";
   bob->type("x");
   expectOrderlyEnd(*game);
 }
@@ -317,7 +317,7 @@ TEST_F(OwnMain, ATerminalThatCannotDrawLeavesAServer) {
   expectOrderlyEnd(*game);
 }
 
-TEST_F(OwnMain, IsCompatibleUnlessSomebodySaysOtherwise) {
+TEST_F(OwnMain, IsCompatibleUnlessAskedOtherwise) {
   constexpr const char* kYes = "published engine: yes";
   constexpr const char* kNo = "published engine: no";
   EXPECT_TRUE(has(startServer()->output(), kYes));
@@ -335,7 +335,7 @@ TEST_F(OwnMain, WhatMakesNoSenseIsOneLineAndACode) {
       << game->output();
 }
 
-TEST_F(OwnMain, APortThatIsTakenMattersOnlyToWhoAskedForIt) {
+TEST_F(OwnMain, APortThatIsTakenMattersOnlyIfItWasAskedFor) {
   auto first = startServer();
   std::string join_line = read("join");
   const std::string port = join_line.substr(10, join_line.find(' ') - 10);

@@ -178,7 +178,7 @@ TEST_F(TerminalRestoreTest, WithoutATerminalTypeItSaysSo) {
   EXPECT_TRUE(sameModes(unknown.originalModes(), unknown.currentModes()));
 }
 
-TEST_F(TerminalRestoreTest, NobodyThere) {
+TEST_F(TerminalRestoreTest, NoServer) {
   PtyTerminal::Options with = options();
   with.command[1] = "127.0.0.1:1";
   PtyTerminal terminal(with);

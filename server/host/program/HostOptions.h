@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <set>
-#include <stdexcept>
 #include <string>
 
 #include "shared/net/base/Limits.h"
+#include "shared/options/Options.h"
 
 namespace naiad {
 
@@ -50,12 +50,6 @@ enum class CommandLine { kRun, kListGames, kDone, kUsageError };
 /// Fill `options` from the command line, the environment and --config FILE (in this order of precedence).
 /// Help, version and usage errors are printed here.
 CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options);
-
-/// An option has a value that makes no sense; what() is a sentence that names it.
-class OptionError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// The value of a key in df-config.txt, empty if there is none.
 using ConfigValue = std::function<std::string(const std::string& key)>;

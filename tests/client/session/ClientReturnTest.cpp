@@ -120,7 +120,7 @@ TEST_F(ClientReturn, MuchIsAcknowledgedAtOnce) {
   join();
   const std::size_t before = log->sent.size();
   std::uint32_t number = 0;
-  for (std::size_t bytes = 0; bytes < ClientSession::kMuchKept;) {
+  for (std::size_t bytes = 0; bytes < ReliableInbox::kMuchKept;) {
     EXPECT_EQ(log->sent.size(), before);
     const wire::ServerMessage message = line(std::string(200, 'x'), ++number);
     bytes += message.ByteSizeLong();

@@ -242,7 +242,7 @@ TEST_F(ClientSessionTest, ASilentGameThatCanBeResumedIsWaitedFor) {
   EXPECT_FALSE(session->sentence().empty());
 }
 
-TEST_F(ClientSessionTest, AWorldThatComesAnewCountsOnFromTheNumbersBefore) {
+TEST_F(ClientSessionTest, AWorldSentAgainContinuesTheNumbers) {
   join();
   snapshot(20'000, 10);
   receive(snapshotMessage(40'000, 11, 20'000));
@@ -321,7 +321,7 @@ TEST_F(ClientSessionTest, AHeldKeyIsNoFloodAfterTheServerStalled) {
     session->sendKey(df::Keyboard::SPACE, df::KEY_DOWN, now);
     now += 33ms;
   }
-  EXPECT_EQ(session->counters().inputs, ClientSession::kMaxUnapplied) << "a server lets no more than 64 wait";
+  EXPECT_EQ(session->counters().inputs, InputOutbox::kMax) << "a server lets no more than 64 wait";
   EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_RELEASED, now)) << "or it would stay down";
   const std::uint32_t newest = lastInput().id;
   EXPECT_FALSE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
@@ -348,7 +348,7 @@ TEST_F(ClientSessionTest, SoundsAreHandedOnOnce) {
   EXPECT_EQ(session->counters().repeated_frames, 1u);
   message.clear_number();
   for (int i = 0; i < 100; ++i) receive(message);
-  EXPECT_EQ(session->takeSounds().size(), ClientSession::kMaxUnheard);
+  EXPECT_EQ(session->takeSounds().size(), ReliableInbox::kMaxUnheard);
   EXPECT_EQ(session->counters().sounds, 101u);
 }
 

@@ -16,9 +16,9 @@ TEST(InputOutbox, KeepsInputsUntilTheGameHasHadThem) {
   EXPECT_TRUE(outbox.isEmpty());
   for (int i = 0; i < 4; ++i) outbox.add({});
   EXPECT_EQ(ids(outbox.all()), (std::vector<std::uint32_t>{1, 2, 3, 4}));
-  EXPECT_EQ(outbox.taken(2)->id, 2u);
-  EXPECT_FALSE(outbox.taken(2));
-  EXPECT_FALSE(outbox.taken(1));
+  EXPECT_EQ(outbox.removeUpTo(2)->id, 2u);
+  EXPECT_FALSE(outbox.removeUpTo(2));
+  EXPECT_FALSE(outbox.removeUpTo(1));
   EXPECT_EQ(ids(outbox.all()), (std::vector<std::uint32_t>{3, 4}));
 }
 
@@ -28,7 +28,7 @@ TEST(InputOutbox, SendsEachOnceOnAStream) {
   outbox.add({});
   EXPECT_EQ(ids(outbox.takeForStream()), (std::vector<std::uint32_t>{1, 2}));
   outbox.add({});
-  outbox.taken(1);
+  outbox.removeUpTo(1);
   EXPECT_EQ(ids(outbox.takeForStream()), std::vector<std::uint32_t>{3});
   EXPECT_TRUE(outbox.takeForStream().empty());
   outbox.restartStream();
@@ -37,11 +37,11 @@ TEST(InputOutbox, SendsEachOnceOnAStream) {
 
 TEST(InputOutbox, GoesOnAfterTheIdsOfAnotherProcess) {
   InputOutbox outbox;
-  outbox.goOnAfter(0xFFFFFFF0);
+  outbox.start(0xFFFFFFF0, std::chrono::milliseconds(33));
   outbox.add({});
   EXPECT_EQ(ids(outbox.all()), std::vector<std::uint32_t>{0xFFFFFFF1});
   EXPECT_EQ(ids(outbox.takeForStream()), std::vector<std::uint32_t>{0xFFFFFFF1});
-  EXPECT_TRUE(outbox.taken(0xFFFFFFF1));
+  EXPECT_TRUE(outbox.removeUpTo(0xFFFFFFF1));
 }
 
 TEST(InputOutbox, HasRoomLeftForKeysThatGoUp) {

@@ -10,38 +10,6 @@ namespace {
 using namespace std::chrono_literals;
 using Time = SecondStream::Time;
 
-/// A channel to which a test can speak.
-struct Line {
-  std::vector<wire::ClientMessage> sent;
-  ReliableChannel::Callbacks callbacks;
-  std::size_t unsent = 0;
-  bool destroyed = false;
-
-  void say(const wire::ServerMessage& message) const {
-    const auto on_frame = callbacks.on_frame;  // the callee may destroy the channel
-    on_frame(message.SerializeAsString());
-  }
-};
-
-class LineChannel : public ReliableChannel {
- public:
-  explicit LineChannel(Line& line) : m_line(line) {}
-  ~LineChannel() override { m_line.destroyed = true; }
-  void start(Callbacks callbacks) override { m_line.callbacks = std::move(callbacks); }
-  void send(std::string_view frame) override {
-    wire::ClientMessage message;
-    ASSERT_TRUE(message.ParseFromArray(frame.data(), static_cast<int>(frame.size())));
-    m_line.sent.push_back(message);
-  }
-  std::size_t unsentBytes() const override { return m_line.unsent; }
-  void close() override {}
-  std::string peerAddress() const override { return "fake"; }
-  void setReceiveLimit(std::size_t) override {}
-
- private:
-  Line& m_line;
-};
-
 class SecondStreamTest : public ClientSessionFixture {
  protected:
   SecondStreamTest() {
@@ -49,7 +17,7 @@ class SecondStreamTest : public ClientSessionFixture {
     options.resume_token = "token";
     options.second_stream = true;
     options.now = [this] { return now; };
-    stream.start(std::make_unique<LineChannel>(line), options,
+    stream.start(std::make_unique<FakeChannel>(line), options,
                  [this](std::string_view bytes) { snapshots.emplace_back(bytes); });
   }
   static wire::ServerMessage yes() {
@@ -58,59 +26,59 @@ class SecondStreamTest : public ClientSessionFixture {
     return message;
   }
 
-  Line line;
+  std::shared_ptr<FakeChannel::Log> line = std::make_shared<FakeChannel::Log>();
   std::vector<std::string> snapshots;
   SecondStream stream;
 };
 
 TEST_F(SecondStreamTest, SaysHelloAndWaitsForAYes) {
-  ASSERT_EQ(line.sent.size(), 1u);
-  EXPECT_TRUE(line.sent[0].hello().second_stream());
-  EXPECT_EQ(line.sent[0].hello().resume_token(), "token");
+  ASSERT_EQ(line->sent.size(), 1u);
+  EXPECT_TRUE(line->sent[0].hello().second_stream());
+  EXPECT_EQ(line->sent[0].hello().resume_token(), "token");
   stream.send("anything");
-  EXPECT_EQ(line.sent.size(), 1u);
+  EXPECT_EQ(line->sent.size(), 1u);
   EXPECT_FALSE(stream.isOpen());
-  line.say(yes());
+  line->receive(yes());
   EXPECT_TRUE(stream.isOpen());
-  line.say(snapshotMessage(1, 1));
+  line->receive(snapshotMessage(1, 1));
   EXPECT_EQ(snapshots.size(), 1u);
 }
 
 TEST_F(SecondStreamTest, AServerThatTookItForAnotherPlayersHelloLosesIt) {
-  line.say(welcomeMessage());
+  line->receive(welcomeMessage());
   EXPECT_FALSE(stream.isOpen());
-  EXPECT_TRUE(line.destroyed);
+  EXPECT_TRUE(line->destroyed);
 }
 
 TEST_F(SecondStreamTest, NothingButSnapshotsComesOnIt) {
   wire::ServerMessage chat;
   chat.mutable_chat()->set_text("hello");
   for (const wire::ServerMessage& message : {snapshotMessage(1, 1), chat, yes(), wire::ServerMessage{}}) {
-    Line other;
+    const auto other = std::make_shared<FakeChannel::Log>();
     SecondStream hears;
-    hears.start(std::make_unique<LineChannel>(other), {},
+    hears.start(std::make_unique<FakeChannel>(other), {},
                 [this](std::string_view bytes) { snapshots.emplace_back(bytes); });
-    if (!message.has_snapshot()) other.say(yes());
-    other.say(message);
+    if (!message.has_snapshot()) other->receive(yes());
+    other->receive(message);
     EXPECT_FALSE(hears.isOpen()) << message.what_case();
-    EXPECT_TRUE(other.destroyed);
+    EXPECT_TRUE(other->destroyed);
   }
   EXPECT_TRUE(snapshots.empty()) << "none before the yes";
 }
 
 TEST_F(SecondStreamTest, WhatWaitsOnItIsNotWaitedFor) {
-  line.say(yes());
-  line.unsent = 1;
+  line->receive(yes());
+  line->unsent = 1;
   stream.send(wire::ClientMessage().SerializeAsString());
-  EXPECT_EQ(line.sent.size(), 1u);
-  line.unsent = 0;
+  EXPECT_EQ(line->sent.size(), 1u);
+  line->unsent = 0;
   stream.send(wire::ClientMessage().SerializeAsString());
-  EXPECT_EQ(line.sent.size(), 2u);
+  EXPECT_EQ(line->sent.size(), 2u);
 }
 
 TEST_F(SecondStreamTest, MayEndAtAnyTime) {
-  line.say(yes());
-  const auto on_closed = line.callbacks.on_closed;
+  line->receive(yes());
+  const auto on_closed = line->callbacks.on_closed;
   on_closed(CloseReason::kError);
   EXPECT_FALSE(stream.isOpen());
   stream.send("anything");
@@ -130,13 +98,13 @@ TEST_F(SecondStreamTest, OneThatLastedMayBeReplacedSoon) {
   for (const auto& [lasts, attempts_then] : {std::pair{1s, 1}, {100s, 4}}) {
     SecondStream again;
     for (int i = 0; i < 600; ++i, now += 1s) again.takeAttempt(now);
-    Line other;
+    const auto other = std::make_shared<FakeChannel::Log>();
     SessionOptions options;
     options.now = [this] { return now; };
-    again.start(std::make_unique<LineChannel>(other), options, [](std::string_view) {});
-    other.say(yes());
+    again.start(std::make_unique<FakeChannel>(other), options, [](std::string_view) {});
+    other->receive(yes());
     now += lasts;
-    other.say(snapshotMessage(1, 1));
+    other->receive(snapshotMessage(1, 1));
     EXPECT_TRUE(again.isOpen());
     again.close();
     now += SecondStream::kLastPause;
@@ -149,18 +117,18 @@ TEST_F(SecondStreamTest, OneThatLastedMayBeReplacedSoon) {
 TEST_F(SecondStreamTest, OneThatIsSilentIsGivenUp) {
   now += SecondStream::kIdleTimer - 1ms;
   stream.update(now);
-  EXPECT_FALSE(line.destroyed);
-  line.say(yes());
+  EXPECT_FALSE(line->destroyed);
+  line->receive(yes());
   for (int i = 0; i < 5; ++i) {
     now += SecondStream::kIdleTimer - 1ms;
     stream.update(now);
     EXPECT_TRUE(stream.isOpen());
-    line.say(snapshotMessage(1, 1));
+    line->receive(snapshotMessage(1, 1));
   }
   now += SecondStream::kIdleTimer;
   stream.update(now);
   EXPECT_FALSE(stream.isOpen());
-  EXPECT_TRUE(line.destroyed);
+  EXPECT_TRUE(line->destroyed);
 }
 
 TEST_F(SecondStreamTest, KnowsTheLastSnapshotsAgain) {

@@ -194,7 +194,7 @@ TEST(ServerMessages, MoreSoundsThanMayBeAreRefused) {
   EXPECT_FALSE(readServerMessage(message.SerializeAsString()));
 }
 
-TEST(ServerMessages, SoundsThatDoWhatNobodyKnowsAreRefused) {
+TEST(ServerMessages, SoundsWithUnknownActionsAreRefused) {
   wire::ServerMessage message;
   message.mutable_sounds()->add_sounds()->set_action(static_cast<wire::Sound::Action>(3));
   EXPECT_FALSE(readServerMessage(message.SerializeAsString()));

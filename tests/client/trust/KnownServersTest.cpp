@@ -93,7 +93,7 @@ TEST_F(KnownServersTest, ChainIsTrustedAndGuardsAgainstALesserCertificateLater) 
   EXPECT_EQ(admit(selfSigned('c')), Trust::kChanged);
 }
 
-TEST_F(KnownServersTest, ServersAreToldApartByHostAndPort) {
+TEST_F(KnownServersTest, ServersAreDistinguishedByHostAndPort) {
   admit(selfSigned('a'));
   EXPECT_EQ(servers->admit("game.test", 9877, selfSigned('b'), {}).trust, Trust::kFirstUse);
   EXPECT_EQ(admit(selfSigned('c'), {}, "other.test"), Trust::kFirstUse);

@@ -65,7 +65,7 @@ class SessionFileTest : public testing::Test {
 TEST_F(SessionFileTest, WhatAKilledClientLeavesTheNextOneFinds) {
   auto first = open();
   EXPECT_EQ(first->tokenFor(keyOf('a')), "");
-  EXPECT_FALSE(fs::exists(directory)) << "nothing is made for one who only looks";
+  EXPECT_FALSE(fs::exists(directory)) << "reading makes no directory";
   const std::string another("\0\n\xff and so on", 12);
   first->save(session("token"), now);
   first->save(session(another), now);
@@ -126,7 +126,7 @@ TEST_F(SessionFileTest, TheGraceCountsFromWhenTheSessionWasLastWell) {
   EXPECT_EQ(open()->tokenFor(keyOf('a')), "token");
 }
 
-TEST_F(SessionFileTest, WhoLeavesLeavesNothing) {
+TEST_F(SessionFileTest, LeavingInOrderRemovesTheFile) {
   auto file = open();
   file->save(session("token"), now);
   file->remove();
@@ -190,7 +190,7 @@ TEST_F(SessionFileTest, WhatOthersCanReadIsNotUsed) {
   EXPECT_EQ(file->tokenFor(keyOf('a')), "");
   ASSERT_EQ(file->problems().size(), 1u);
   EXPECT_EQ(file->problems()[0], path.string() + " is not used: it is not a file of yours alone.");
-  EXPECT_TRUE(fs::exists(path)) << "whoever did that may want to see it";
+  EXPECT_TRUE(fs::exists(path)) << "it is kept for the user to look at";
   file->save(session("mine"), now);
   EXPECT_EQ(files().size(), 2u) << "play goes on with a file of its own";
 }

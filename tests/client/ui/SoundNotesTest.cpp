@@ -14,7 +14,7 @@ constexpr std::uint32_t kSelf = 3;
 class SoundNotesTest : public testing::Test {
  protected:
   void hear(const std::string& label, std::uint32_t player = 0) {
-    notes.hear({label, SoundLine::Action::kPlay, false, false, player}, kSelf, now);
+    notes.addSound({label, SoundLine::Action::kPlay, false, false, player}, kSelf, now);
   }
   std::string note() const { return notes.note(now); }
 
@@ -64,8 +64,8 @@ TEST_F(SoundNotesTest, TheBellRingsOnceASecondAtMost) {
 
 TEST_F(SoundNotesTest, TheBellRingsNeitherForMusicNorForOthers) {
   hear("theirs", 7);
-  notes.hear({"theme", SoundLine::Action::kPlay, true, true, 0}, kSelf, now);
-  notes.hear({"fire", SoundLine::Action::kStop, false, false, 0}, kSelf, now);
+  notes.addSound({"theme", SoundLine::Action::kPlay, true, true, 0}, kSelf, now);
+  notes.addSound({"fire", SoundLine::Action::kStop, false, false, 0}, kSelf, now);
   EXPECT_FALSE(notes.takeBell());
   hear("mine", kSelf);
   EXPECT_TRUE(notes.takeBell());
@@ -73,11 +73,11 @@ TEST_F(SoundNotesTest, TheBellRingsNeitherForMusicNorForOthers) {
 }
 
 TEST_F(SoundNotesTest, WhatStopsIsNoNoteAndTakesItsOwnAway) {
-  notes.hear({"theme", SoundLine::Action::kPlay, true, true, 0}, kSelf, now);
+  notes.addSound({"theme", SoundLine::Action::kPlay, true, true, 0}, kSelf, now);
   EXPECT_EQ(note(), "music: theme");
-  notes.hear({"fire", SoundLine::Action::kStop, false, false, 0}, kSelf, now);
+  notes.addSound({"fire", SoundLine::Action::kStop, false, false, 0}, kSelf, now);
   EXPECT_EQ(note(), "music: theme");
-  notes.hear({"theme", SoundLine::Action::kPause, true, false, 0}, kSelf, now);
+  notes.addSound({"theme", SoundLine::Action::kPause, true, false, 0}, kSelf, now);
   EXPECT_EQ(note(), "");
 }
 

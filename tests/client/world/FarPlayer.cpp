@@ -84,7 +84,7 @@ void FarPlayer::receive(const SnapshotSender::Packet& packet) {
   }
   if (replica.controlNumber() != m_control_known) {
     m_control_known = replica.controlNumber();
-    prediction.take(replica.control());
+    prediction.applyControl(replica.control());
     ++states;
   }
 }

@@ -1,5 +1,5 @@
-// A real world with a player who is far away: snapshots go down and inputs go up through plain queues that
-// delay and lose, one step of a tick each; his client predicts.
+// A real world with a player on a distant client that predicts: snapshots and inputs pass through plain
+// queues with delay and loss, one step per tick.
 //
 // In step n the server makes tick n, then the client draws a frame: its own object as it will be at the end
 // of tick n + lead, the tick before the one in which the server takes in what is pressed in this frame.

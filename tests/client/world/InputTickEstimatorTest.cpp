@@ -13,7 +13,7 @@ constexpr DisplayClock::Duration kTick = std::chrono::milliseconds(40);
 class InputTickEstimatorTest : public testing::Test {
  protected:
   InputTickEstimatorTest() {
-    for (std::uint32_t tick = 100; tick <= 200; ++tick, now += kTick) clock.note(tick, now);
+    for (std::uint32_t tick = 100; tick <= 200; ++tick, now += kTick) clock.noteSnapshot(tick, now);
     now -= kTick;
   }
   /// How far ahead of the newest tick a key is asked for.

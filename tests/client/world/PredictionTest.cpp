@@ -52,7 +52,7 @@ class PredictionTest : public testing::Test {
                   {S, KEY_PRESSED, df::ControlEffect::kStep, true, true, cells(0, 1)}};
     prediction.setTable(table);
     hear(objects({object(kOwnSlot, cells(10, 10))}));
-    prediction.take(answer(kTick, 0, cells(10, 10)));
+    prediction.applyControl(answer(kTick, 0, cells(10, 10)));
   }
   void hear(Records records) { apply(replica, ++number, std::move(records)); }
   static ControlRecord answer(std::uint32_t tick, std::uint32_t newest, FixedVector at) {
@@ -80,7 +80,7 @@ TEST_F(PredictionTest, NothingIsPredictedWithoutTableStateOrObject) {
   Prediction other;
   other.run(replica, kTick);
   EXPECT_FALSE(other.isActive());
-  other.take(answer(kTick, 0, cells(10, 10)));
+  other.applyControl(answer(kTick, 0, cells(10, 10)));
   other.run(replica, kTick);
   EXPECT_FALSE(other.isActive());
   other.setTable(table);
@@ -90,7 +90,7 @@ TEST_F(PredictionTest, NothingIsPredictedWithoutTableStateOrObject) {
   EXPECT_FALSE(other.isActive());
   ControlRecord nobody = answer(kTick + 1, 0, {});
   nobody.generation = 0;
-  other.take(nobody);
+  other.applyControl(nobody);
   other.run(replica, kTick + 1);
   EXPECT_FALSE(other.isActive());
 }
@@ -105,7 +105,7 @@ TEST_F(PredictionTest, AnInputCountsFromItsTickOn) {
 TEST_F(PredictionTest, NoInputComesBeforeOneThatWasSentEarlier) {
   prediction.press(1, D, KEY_PRESSED, kTick + 5);
   prediction.press(2, S, KEY_PRESSED, kTick + 3);
-  prediction.take(answer(kTick + 1, 1, cells(10, 10)));
+  prediction.applyControl(answer(kTick + 1, 1, cells(10, 10)));
   EXPECT_EQ(at(kTick + 4), cells(10, 10));
   EXPECT_EQ(at(kTick + 5), cells(10, 11));
 }
@@ -114,7 +114,7 @@ TEST_F(PredictionTest, AnswersTakeTheirInputsAway) {
   prediction.press(1, D, KEY_PRESSED, kTick + 2);
   prediction.press(2, S, KEY_PRESSED, kTick + 6);
   EXPECT_EQ(at(kTick + 8), cells(11, 11));
-  prediction.take(answer(kTick + 3, 1, cells(11, 10)));
+  prediction.applyControl(answer(kTick + 3, 1, cells(11, 10)));
   EXPECT_EQ(prediction.unanswered(), 1u);
   EXPECT_EQ(at(kTick + 8), cells(11, 11));
   EXPECT_EQ(prediction.counters().confirmed, 1u);
@@ -124,7 +124,7 @@ TEST_F(PredictionTest, AnswersTakeTheirInputsAway) {
 TEST_F(PredictionTest, AnInputThatIsLateIsExpectedWithTheNextTick) {
   prediction.press(1, D, KEY_PRESSED, kTick + 2);
   EXPECT_EQ(at(kTick + 6), cells(11, 10));
-  prediction.take(answer(kTick + 4, 0, cells(10, 10)));  // it has not arrived
+  prediction.applyControl(answer(kTick + 4, 0, cells(10, 10)));  // it has not arrived
   EXPECT_EQ(prediction.counters().mispredicted, 1u);
   EXPECT_EQ(at(kTick + 4), cells(10, 10));
   EXPECT_EQ(at(kTick + 5), cells(11, 10));
@@ -134,30 +134,30 @@ TEST_F(PredictionTest, TheNextPictureIsTheNewReplay) {
   prediction.press(1, D, KEY_PRESSED, kTick + 2);
   prediction.press(2, D, KEY_PRESSED, kTick + 5);
   at(kTick + 5);
-  prediction.take(answer(kTick + 3, 1, cells(30, 5)));  // somebody carried the ship away
+  prediction.applyControl(answer(kTick + 3, 1, cells(30, 5)));  // another object carried the ship away
   EXPECT_EQ(prediction.counters().mispredicted, 1u);
   EXPECT_EQ(at(kTick + 6), cells(31, 5));
 }
 
 TEST_F(PredictionTest, OlderAnswersAreIgnored) {
-  prediction.take(answer(kTick + 3, 0, cells(12, 10)));
-  prediction.take(answer(kTick + 2, 0, cells(50, 10)));
-  prediction.take(answer(kTick + 3, 0, cells(50, 10)));
+  prediction.applyControl(answer(kTick + 3, 0, cells(12, 10)));
+  prediction.applyControl(answer(kTick + 2, 0, cells(50, 10)));
+  prediction.applyControl(answer(kTick + 3, 0, cells(50, 10)));
   EXPECT_EQ(at(kTick + 4), cells(12, 10));
 }
 
 TEST_F(PredictionTest, TicksAndInputsMayWrapAround) {
   prediction.reset();
   prediction.setTable(table);
-  prediction.take(answer(UINT32_MAX - 1, UINT32_MAX - 1, cells(10, 10)));
+  prediction.applyControl(answer(UINT32_MAX - 1, UINT32_MAX - 1, cells(10, 10)));
   prediction.press(UINT32_MAX, D, KEY_PRESSED, UINT32_MAX);
   prediction.press(1, D, KEY_PRESSED, 1);
   EXPECT_EQ(at(2), cells(12, 10));
-  prediction.take(answer(3, 1, cells(12, 10)));
+  prediction.applyControl(answer(3, 1, cells(12, 10)));
   EXPECT_EQ(prediction.unanswered(), 0u);
 }
 
-TEST_F(PredictionTest, WhoHasMovedIsDecidedByTheOrderOfCreation) {
+TEST_F(PredictionTest, TheOrderOfCreationDecidesWhichObjectsHaveMoved) {
   // Two blocks leave the cells on the right, one tick after the other key could use them.
   table.rows[0] = {D, KEY_PRESSED, df::ControlEffect::kVelocity, true, true, cells(1, 0)};
   prediction.setTable(table);
@@ -166,7 +166,7 @@ TEST_F(PredictionTest, WhoHasMovedIsDecidedByTheOrderOfCreation) {
     apply(around, 1, objects({object(kOwnSlot, cells(10, 10)), object(slot, cells(12, 10), cells(1, 0))}));
     Prediction ship;
     ship.setTable(table);
-    ship.take(answer(kTick, 0, cells(10, 10)));
+    ship.applyControl(answer(kTick, 0, cells(10, 10)));
     ship.press(1, D, KEY_PRESSED, kTick + 1);
     ship.run(around, kTick + 1);
     EXPECT_EQ(ship.position(), cells(wanted, 10)) << "slot " << slot;
@@ -187,7 +187,7 @@ TEST_F(PredictionTest, HardBlocksSoftDoesNotAndNoSoftMinds) {
     apply(around, 1, objects({me, object(1, cells(12, 10), {}, other)}));
     Prediction ship;
     ship.setTable(table);
-    ship.take(answer(kTick, 0, cells(10, 10)));
+    ship.applyControl(answer(kTick, 0, cells(10, 10)));
     ship.press(1, D, KEY_PRESSED, kTick + 1);
     ship.run(around, kTick + 1);
     EXPECT_EQ(ship.position(), cells(wanted, 10)) << own << no_soft << other;
@@ -209,7 +209,7 @@ TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
   ControlRecord record = answer(kTick + 1, 0, {kFar, -kFar});
   record.velocity = {kFast, -kFast};
   record.acceleration = {kFast, -kFast};
-  prediction.take(record);
+  prediction.applyControl(record);
   prediction.press(1, D, KEY_PRESSED, kTick + 3);
   prediction.run(replica, kTick + 90);
   EXPECT_EQ(prediction.position(), (FixedVector{kFar, -kFar}));

@@ -49,11 +49,11 @@ class WorldFeedTest : public testing::Test {
     BitWriter bits;
     out.encode(bits, kAllGroups, 1, state, state.motion);
     if (born) out.object(number % 1000, bits);
-    return feed.take(out.finish(), now, header, nullptr);
+    return feed.applySnapshot(out.finish(), now, header, nullptr);
   }
 };
 
-TEST_F(WorldFeedTest, TheFirstPictureWaitsForTheWholeWorld) {
+TEST_F(WorldFeedTest, TheFirstPictureWaitsForTheCompleteWorld) {
   EXPECT_FALSE(hasPicture());
   birth(1, false);
   birth(2, false);
@@ -116,7 +116,7 @@ TEST_F(WorldFeedTest, ASessionThatGoesOnCountsFromWhereItWas) {
   EXPECT_EQ(shown(), 2u);
 }
 
-TEST_F(WorldFeedTest, AWorldThatComesAnewIsTheFirstPictureIfThereWasNone) {
+TEST_F(WorldFeedTest, AWorldSentAgainIsTheFirstPictureIfThereWasNone) {
   birth(1, false);
   birth(2, false, 1);
   EXPECT_FALSE(hasPicture());
@@ -126,7 +126,7 @@ TEST_F(WorldFeedTest, AWorldThatComesAnewIsTheFirstPictureIfThereWasNone) {
   EXPECT_EQ(feed.resets(), 1u);
 }
 
-TEST_F(WorldFeedTest, AWorldThatComesAnewIsShownOnceItIsWhole) {
+TEST_F(WorldFeedTest, AWorldSentAgainIsShownOnceItIsComplete) {
   birth(1, true);
   birth(2, false, 1);
   EXPECT_TRUE(hasPicture());

@@ -1,0 +1,103 @@
+// What a session sends.
+#include "client/session/ClientSession.h"
+#include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/replica/Limits.h"
+
+namespace naiad {
+
+void ClientSession::sendPing(Time now) {
+  if (!m_link.hasStream()) return;
+  m_inbox.noteAcknowledged();
+  wire::ClientMessage message;
+  message.mutable_ping()->set_token(m_liveness.startPing(now));
+  message.mutable_ping()->set_rtt_millis(static_cast<std::uint32_t>(roundTrip().count()));
+  message.mutable_ping()->set_received(m_inbox.newestFrame());
+  m_link.send(message);
+}
+
+bool ClientSession::sendKey(df::Keyboard::Key key, df::EventKeyboardAction action, Time now) {
+  if (key < 0 || key >= df::Keyboard::kKeyCount || action < 0) return false;
+  Input input;
+  input.key = static_cast<std::uint8_t>(key);
+  input.action = static_cast<std::uint8_t>(action);
+  return sendInput(input, action == df::KEY_RELEASED, now);
+}
+
+bool ClientSession::sendMouse(df::EventMouseAction action, df::Mouse::Button button, int x, int y, Time now) {
+  if (action < 0 || x < 0 || y < 0 || x >= kMaxViewWidth || y >= kMaxViewHeight) return false;
+  Input input;
+  input.is_mouse = true;
+  input.action = static_cast<std::uint8_t>(action);
+  input.button = static_cast<std::uint8_t>(button + 1);
+  input.x = static_cast<std::uint16_t>(x);
+  input.y = static_cast<std::uint16_t>(y);
+  return sendInput(input, false, now);
+}
+
+bool ClientSession::sendInput(Input input, bool urgent, Time now) {
+  if (m_state != State::kPlaying) return false;
+  if (m_link.isStuck() || !m_inputs.admitInput(urgent, now)) {
+    ++m_counters.inputs_dropped;
+    return false;
+  }
+  input.tick = input.is_mouse ? displayTick(now) : predictedTick(now);
+  input.snapshot = m_world.acks().newest;
+  ++m_counters.inputs;
+  input = m_inputs.add(input);
+  if (!input.is_mouse) {
+    m_world.predictInput(input);
+    ++m_revision;
+  }
+  m_timing.noteInput(now);
+  sendUpdate(now);
+  return true;
+}
+
+std::string ClientSession::nextUpdate(bool in_order, Time now) {
+  m_timing.noteUpdateSent();
+  ClientUpdate update;
+  update.acks = m_world.acks();
+  // Unless each update arrives, in order, every one carries all unacknowledged inputs.
+  update.inputs = in_order ? m_inputs.takeForStream() : m_inputs.all();
+  update.wants_reset = m_world.feed().wantsReset();
+  update.checksum = m_world.takeChecksum(now);
+  return writeUpdate(update);
+}
+
+void ClientSession::sendProbe(Time now) {
+  const bool ping = m_timing.noteDatagramSent(now);
+  m_link.sendDatagram(nextUpdate(false, now), ping);
+}
+
+// Datagrams may pass in one direction only: while the server sends on the stream, updates go there, too.
+void ClientSession::sendUpdate(Time now) {
+  if (hasDatagrams(now)) {
+    sendProbe(now);
+    if (!m_timing.isUndecided(now)) return;
+  }
+  if (m_link.hasStream()) m_link.sendUpdate(nextUpdate(!m_link.hasSecondStream(), now));
+}
+
+void ClientSession::sendChat(const std::string& text) {
+  const std::string safe = safeText(text, kMaxChatLength);
+  if (m_state != State::kPlaying || safe.find_first_not_of(' ') == std::string::npos) return;
+  wire::ClientMessage message;
+  message.mutable_chat()->set_text(safe);
+  if (!m_link.sendReliable(message)) ++m_counters.chat_dropped;
+}
+
+void ClientSession::sendResize(int columns, int rows) {
+  if (m_state == State::kPlaying) m_link.send(resizeOf(columns, rows));
+}
+
+void ClientSession::leave() {
+  if (isOver()) return;
+  wire::ClientMessage message;
+  message.mutable_leave();
+  m_link.send(message);
+  finish(State::kLeft, "");
+}
+
+}  // namespace naiad

@@ -1,0 +1,62 @@
+#include "client/session/ReceivedWorld.h"
+
+namespace naiad {
+
+void ReceivedWorld::start(const WelcomeMessage& welcome, const Continuation& from) {
+  m_tick = welcome.tick;
+  m_clock = DisplayClock(m_tick);
+  m_feed = WorldFeed({from.snapshot, welcome.tick_now, from.input}, from.world_epoch);
+}
+
+ReceivedWorld::Taken ReceivedWorld::applySnapshot(std::string_view bytes, Time now, InputOutbox& inputs,
+                                                  const std::function<void(std::uint32_t)>& before) {
+  const Taken taken = m_feed.applySnapshot(bytes, now, m_header, before);
+  if (taken != Taken::kApplied && taken != Taken::kShown) return taken;
+  if (taken == Taken::kShown) m_table_known = m_control_known = 0;
+  m_acks.note(m_header.number);
+  m_clock.noteSnapshot(m_header.tick, now);
+  if (m_header.tells_input) {
+    const auto input = inputs.removeUpTo(m_header.input);
+    if (input) m_input_ticks.noteTaken(input->tick, m_header.input_tick);
+  }
+  applyControls();
+  return taken;
+}
+
+void ReceivedWorld::applyControls() {
+  if (replica().controlTableNumber() != m_table_known) {
+    m_table_known = replica().controlTableNumber();
+    m_prediction.setTable(replica().controlTable());
+  }
+  if (replica().controlNumber() != m_control_known) {
+    m_control_known = replica().controlNumber();
+    m_prediction.applyControl(replica().control());
+  }
+}
+
+std::optional<std::uint64_t> ReceivedWorld::takeChecksum(Time now) {
+  if (now < m_next_checksum || m_acks.newest == 0 || m_feed.isChanging()) return std::nullopt;
+  m_next_checksum = now + kChecksumEvery;
+  return replica().checksum();
+}
+
+void ReceivedWorld::noteRoundTrip(InputTickEstimator::Millis sample) {
+  m_input_ticks.noteRoundTrip(sample);
+  m_clock.setDelay(std::chrono::duration_cast<DisplayClock::Duration>(m_input_ticks.shortestRoundTrip() / 2));
+}
+
+void ReceivedWorld::predictInput(const Input& input) {
+  m_prediction.press(input.id, static_cast<df::Keyboard::Key>(input.key),
+                     static_cast<df::EventKeyboardAction>(input.action), input.tick);
+}
+
+const Prediction& ReceivedWorld::predict(Time now) {
+  m_prediction.run(replica(), predictedTick(now));
+  return m_prediction;
+}
+
+std::uint32_t ReceivedWorld::predictedTick(Time now) const {
+  return m_input_ticks.tickFor(m_clock, m_tick, now);
+}
+
+}  // namespace naiad

@@ -1,0 +1,41 @@
+#include "client/session/ReliableInbox.h"
+
+namespace naiad {
+
+bool ReliableInbox::isNew(std::uint32_t number) {
+  if (m_received.take(number)) return true;
+  ++m_counters.repeated_frames;
+  return false;
+}
+
+void ReliableInbox::takePlayers(PlayersMessage&& message) {
+  if (isNew(message.number)) m_players = std::move(message.players);
+}
+
+void ReliableInbox::takeChat(ChatMessage&& message, const WelcomeMessage& self, Time now) {
+  if (!isNew(message.number)) return;
+  m_chat.addMessage(std::move(message), m_players, self, now);
+  ++m_counters.chat_lines;
+}
+
+void ReliableInbox::takeSounds(SoundsMessage&& message) {
+  if (!isNew(message.number)) return;
+  m_counters.sounds += message.sounds.size();
+  for (SoundLine& sound : message.sounds) m_sounds.push_back(std::move(sound));
+  if (m_sounds.size() <= kMaxUnheard) return;
+  m_sounds.erase(m_sounds.begin(), m_sounds.end() - static_cast<std::ptrdiff_t>(kMaxUnheard));
+}
+
+bool ReliableInbox::noteFrameSize(std::size_t bytes) {
+  m_unacknowledged_bytes += bytes;
+  return m_unacknowledged_bytes >= kMuchKept;
+}
+
+std::int32_t ReliableInbox::scoreOf(std::uint32_t player) const {
+  for (const PlayerLine& line : m_players) {
+    if (line.player == player) return line.score;
+  }
+  return 0;
+}
+
+}  // namespace naiad

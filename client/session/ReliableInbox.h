@@ -1,0 +1,59 @@
+// What the server sends reliably: the list of players, chat and sounds. Each frame counts once, although it
+// may come again on the session's next stream.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/session/ChatLog.h"
+#include "client/session/ServerMessages.h"
+#include "client/session/SessionCounters.h"
+#include "shared/net/stream/ReliableFrames.h"
+
+namespace naiad {
+
+class ReliableInbox {
+ public:
+  using Time = ChatLog::Time;
+
+  static constexpr std::size_t kMaxUnheard = 32;  ///< sounds kept until takeSounds()
+  /// So many bytes of reliable frames are acknowledged at once, not with the next ping.
+  static constexpr std::size_t kMuchKept = std::size_t{8} * 1024;
+
+  /// `counters` must outlive the inbox.
+  explicit ReliableInbox(SessionCounters& counters) : m_counters(counters) {}
+
+  void takePlayers(PlayersMessage&& message);
+  void takeChat(ChatMessage&& message, const WelcomeMessage& self, Time now);
+  void takeSounds(SoundsMessage&& message);
+  /// A line of the client's own in the chat.
+  void addNotice(std::string text, Time now) { m_chat.addNotice(std::move(text), now); }
+
+  /// Number of the newest reliable frame received; 0: none.
+  std::uint32_t newestFrame() const { return m_received.newest(); }
+  /// A new reliable frame had this size. True if it is time to acknowledge.
+  bool noteFrameSize(std::size_t bytes);
+  /// All received frames are acknowledged now.
+  void noteAcknowledged() { m_unacknowledged_bytes = 0; }
+
+  const std::vector<PlayerLine>& players() const { return m_players; }
+  /// Points of this player in the newest list.
+  std::int32_t scoreOf(std::uint32_t player) const;
+  const ChatLog& chat() const { return m_chat; }
+  /// Sounds since the last call, oldest first; the newest kMaxUnheard of them.
+  std::vector<SoundLine> fetchSounds() { return std::exchange(m_sounds, {}); }
+
+ private:
+  bool isNew(std::uint32_t number);
+
+  SessionCounters& m_counters;
+  ReliableFramesHeard m_received;
+  std::size_t m_unacknowledged_bytes = 0;
+  std::vector<PlayerLine> m_players;
+  ChatLog m_chat;
+  std::vector<SoundLine> m_sounds;
+};
+
+}  // namespace naiad

@@ -1,0 +1,53 @@
+// Whether the server is still there: how long it has been silent, and how long pings take on the stream.
+#pragma once
+
+#include <chrono>
+
+#include "client/session/RoundTrip.h"
+#include "shared/net/base/IdleTimer.h"
+
+namespace naiad {
+
+class StreamLiveness {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  static constexpr std::chrono::seconds kPingInterval{1};
+  /// Interval of pings while datagrams pass, which measure the round trip, too.
+  static constexpr std::chrono::seconds kSeldomPing{5};
+  /// A stream on which a ping stays unanswered for so long is taken to be dead.
+  static constexpr std::chrono::seconds kStreamSilence{10};
+
+  explicit StreamLiveness(Time now) : m_last_ping(now), m_idle(now) {}
+
+  /// The server was heard, on any path.
+  void noteHeard(Time now) { m_idle.heard(now); }
+  /// Deadlines are about to be looked at (IdleTimer.h).
+  void listen(Time now) { m_idle.listen(now); }
+  IdleTimer::Duration silence(Time now) const { return m_idle.at(now); }
+
+  /// There is a new stream: pings of the old one are lost, and the next one is due at once.
+  void startStream(Time now);
+  /// No ping of this stream counts any more.
+  void forgetPings() { m_round_trip.forgetPings(); }
+  /// Does the oldest ping wait too long? `has_datagrams`: the server is alive, so it is the stream that is
+  /// not.
+  bool isStreamDead(Time now, bool has_datagrams) const;
+  bool isPingDue(Time now, bool has_datagrams) const;
+  /// A ping goes out: its token.
+  std::uint64_t startPing(Time now);
+  std::optional<RoundTrip::Millis> endPing(std::uint64_t token, Time now) {
+    return m_round_trip.endPing(token, now);
+  }
+  /// A round trip measured with datagrams.
+  void noteRoundTrip(RoundTrip::Millis sample, Time now) { m_round_trip.addSample(sample, now); }
+  /// Smoothed, rounded up; zero before the first measurement.
+  std::chrono::milliseconds roundTrip() const { return m_round_trip.shown(); }
+
+ private:
+  RoundTrip m_round_trip;
+  Time m_last_ping;
+  IdleTimer m_idle;
+};
+
+}  // namespace naiad

@@ -1,0 +1,90 @@
+#include "client/ui/FrameComposer.h"
+
+#include <cstdio>
+
+#include "client/world/DrawnPlacement.h"
+#include "client/world/ExtrapolationClamp.h"
+
+namespace naiad {
+namespace {
+
+std::int64_t tenthsOfSilence(const ClientSession& session, FrameComposer::Time now) {
+  return std::chrono::floor<std::chrono::milliseconds>(session.clock().silence(now)).count() / 100;
+}
+
+}  // namespace
+
+FrameComposer::FrameState FrameComposer::currentState(Time now) {
+  FrameState state;
+  state.connection = m_connection.revision();
+  ClientSession* session = m_connection.session();
+  if (session == nullptr) return state;
+  state.session = session->revision();
+  state.tick = session->displayTick(now);
+  if (session->isPredicting()) state.predicted = session->predictedTick(now);
+  const bool waiting = m_connection.state() == Connection::State::kSearching || session->isSilent(now);
+  if (waiting) {
+    state.silence = tenthsOfSilence(*session, now);
+  }
+  state.chat_lines = recentChat(now).size();
+  state.note = m_sounds.note(now);
+  return state;
+}
+
+std::vector<ChatEntry> FrameComposer::recentChat(Time now) const {
+  std::vector<ChatEntry> recent;
+  const ClientSession* session = m_connection.session();
+  if (session == nullptr) return recent;
+  for (const ChatEntry& entry : session->chat()) {
+    if (m_controls.chatOpen() || now - entry.at < kChatShown) recent.push_back(entry);
+  }
+  return recent;
+}
+
+std::string FrameComposer::banner(Time now) const {
+  if (m_controls.prefixed()) return "Ctrl-]: t chat  p players  h help  s status  q leave";
+  ClientSession* session = m_connection.session();
+  const bool searching = m_connection.state() == Connection::State::kSearching;
+  // A session that goes on by datagrams while its stream is sought again needs no banner.
+  if (session == nullptr || !(session->isSilent(now) || (searching && !session->hasDatagrams(now))))
+    return "";
+  const std::int64_t tenths = tenthsOfSilence(*session, now);
+  char text[96];
+  std::snprintf(text, sizeof text,
+                searching ? "Server lost, looking for it again: %lld.%lld s"
+                          : "No news from the server for %lld.%lld s",
+                static_cast<long long>(tenths / 10), static_cast<long long>(tenths % 10));
+  return text;
+}
+
+ScreenModel FrameComposer::composeFrame(Time now) {
+  m_composed = currentState(now);
+  ScreenModel model;
+  model.banner = banner(now);
+  if (ClientSession* session = m_connection.session()) {
+    const Replica& replica = session->replica();
+    const ExtrapolationClamp clamp(replica, session->clock().newestTick(), m_composed.tick);
+    const DrawnPlacement placement(replica, session->predict(now), clamp);
+    model.view = replica.render(m_composed.tick, &placement);
+    model.focus = replica.focus(m_composed.tick, &placement);
+    model.background = replica.background();
+    model.has_view = true;
+    model.round_trip = session->roundTrip();
+    model.tick = m_composed.tick;
+    model.score = session->score();
+    model.server = session->welcome().server + " at " + m_connection.address().text();
+    model.game = session->welcome().game;
+    model.self = session->welcome().player;
+    model.players = session->players();
+    model.help = session->welcome().help;
+    model.chat = recentChat(now);
+    model.note = m_composed.note;
+  }
+  model.status_shown = m_controls.statusShown();
+  model.panel = m_controls.panel();
+  model.chat_open = m_controls.chatOpen();
+  model.chat_text = m_controls.chatText();
+  return model;
+}
+
+}  // namespace naiad

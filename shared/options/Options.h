@@ -1,0 +1,77 @@
+// The table of a program's options, which feeds its command line, its environment and its --help.
+//
+// A program lists its options as values, in the order of --help; parseOptions() does the rest.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace naiad {
+
+/// Stores a text; returns what is wrong with it, or nothing.
+using StoreText = std::function<std::string(const std::string& text)>;
+
+/// Where the value of an option goes. A bool makes it a flag without a value.
+using OptionTarget = std::variant<bool*, int*, std::int64_t*, double*, std::string*, std::filesystem::path*,
+                                  std::optional<double>*, std::optional<std::uint32_t>*,
+                                  std::optional<std::uint64_t>*, StoreText>;
+
+/// The values that a number may have.
+struct OptionRange {
+  double least = 0;
+  double most = 0;
+  bool whole = false;  ///< say so in --help
+};
+
+struct Option {
+  std::string name;  ///< "--port"; without dashes: a required argument
+  OptionTarget target;
+  std::string help;
+  std::string environment{};           ///< variable that sets it, too; empty: none
+  std::optional<OptionRange> range{};  ///< none: any number
+  std::vector<std::string> one_of{};   ///< what a text may be; empty: anything
+  std::string type{};                  ///< of the value, for --help; empty: by the target
+  std::string excludes{};              ///< name of an earlier option that must not be given as well
+  bool shows_default = false;          ///< --help says what the target holds before parsing
+  std::string default_text{};          ///< what --help says instead
+  bool hidden = false;                 ///< not in --help
+  bool* p_given = nullptr;             ///< becomes true if the option was given
+};
+
+struct Program {
+  std::string name;         ///< "dfserver"
+  std::string purpose;      ///< the first line of --help
+  std::string footer;       ///< the end of --help
+  bool has_config = false;  ///< --config FILE gives options, too
+};
+
+enum class Parsed {
+  kRun,
+  kDone,        ///< --help or --version: printed
+  kUsageError,  ///< wrong usage: printed
+};
+
+/// Store the options from the command line, the environment and the file of --config, in this order of
+/// precedence. Prints help, version and usage errors.
+Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
+                    const char* const* argv);
+
+/// An option has a value that makes no sense; what() is a sentence that names it.
+class OptionError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Store the options from arguments of the form "--name=value" alone. Throws OptionError.
+void parseArguments(const std::vector<Option>& options, std::vector<std::string> arguments);
+
+/// The value that the option's target holds, as text.
+std::string currentValue(const Option& option);
+
+}  // namespace naiad
