@@ -58,6 +58,8 @@ build() {
   shift
   command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1  # another checkout has use for the same objects
+  # Without these ccache stores nothing that is compiled with a precompiled header.
+  export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
   log=$(mktemp)
   say "building ($preset)"
   if ! { (cd "$root" && cmake --preset "$preset" "${launcher[@]}" ${CMAKE_EXTRA:-}) >"$log" 2>&1 &&
