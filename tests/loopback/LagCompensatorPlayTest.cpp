@@ -1,4 +1,4 @@
-// Who clicks on what he sees hits it, however far the server is and however fast the target.
+// A click on what the player sees hits it, however far the server is and however fast the target.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ struct Click {
   double corner = 0;  ///< where the view is by then that scrolls
 };
 
-/// A character that flies to and fro in its row, and notes what clicks in that row hit.
+/// A character that flies to and fro in its row, and records what clicks in that row hit.
 class Target : public df::Object {
  public:
   Target(std::vector<Click>& clicks, int row, double speed) : m_clicks(clicks), m_speed(speed) {
@@ -173,20 +173,22 @@ TEST_F(LagCompensatorPlay, AClickHitsWhatWasOnTheScreen) {
   ASSERT_TRUE(plays(ann));
   int judged = 0;
   int fast = 0;
-  int hits_now = 0;  ///< on the fast one, had nobody looked back
-  for (std::size_t i = 0; i < 80 && judged < 30; ++i) {
+  int hits_now = 0;  ///< on the fast one, without compensation
+  const auto end = Clock::now() + kPatience;
+  for (std::size_t i = 0; judged < 30 && Clock::now() < end; ++i) {
     const std::uint32_t tick = ann.newestTick();
     ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() >= tick + 3; }));
     const int row = i % 2 == 0 ? kSlow : kFast;
-    const std::uint32_t drawn = ann.session().displayTick(Clock::now());
+    const auto present = Clock::now();  // of the picture and of the click in it
+    const std::uint32_t drawn = ann.session().displayTick(present);
     const df::Canvas picture = ann.session().replica().render(drawn);
     int x = 0;
     while (x < 80 && picture.at(x, row).ch != '#') ++x;
     ASSERT_LT(x, 80);
-    ASSERT_TRUE(ann.session().sendMouse(df::CLICKED, df::Mouse::LEFT, x, row, Clock::now()));
+    ASSERT_TRUE(ann.session().sendMouse(df::CLICKED, df::Mouse::LEFT, x, row, present));
     std::vector<Click> now;
     ASSERT_TRUE(clicked(ann, i + 1, now));
-    // On a machine that is too busy the click comes later than anybody looks back.
+    // On a busy machine a click may come later than the server compensates for.
     const Click& click = now.back();
     if (click.tick - drawn > LagCompensator::kMaxBehind) continue;
     ++judged;
@@ -217,22 +219,26 @@ TEST_F(LagCompensatorScrolling, AClickHitsWhatWasOnTheScreen) {
   TestClient ann(context, proxy.port(), annsSetup());
   ASSERT_TRUE(plays(ann));
   int judged = 0;
-  for (std::size_t i = 0; i < 40 && judged < 15; ++i) {
+  const auto end = Clock::now() + kPatience;
+  for (std::size_t i = 0; judged < 15 && Clock::now() < end; ++i) {
     const std::uint32_t tick = ann.newestTick();
     ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() >= tick + 3; }));
     const Replica& replica = ann.session().replica();
-    const std::uint32_t drawn = ann.session().displayTick(Clock::now());
+    const auto present = Clock::now();  // of the picture and of the click in it
+    const std::uint32_t drawn = ann.session().displayTick(present);
     const df::Canvas picture = replica.render(drawn);
     const std::int32_t corner = replica.viewCorner(drawn).x;
     int x = 20;
     while (x < 60 && picture.at(x, kPillars).ch != '#') ++x;
     ASSERT_LT(x, 60);
-    ASSERT_TRUE(ann.session().sendMouse(df::CLICKED, df::Mouse::LEFT, x, kPillars, Clock::now()));
+    ASSERT_TRUE(ann.session().sendMouse(df::CLICKED, df::Mouse::LEFT, x, kPillars, present));
     std::vector<Click> now;
     ASSERT_TRUE(clicked(ann, i + 1, now));
+    // On a busy machine a click may come later than the server compensates for, or the server may be behind
+    // the picture, in which the client drew the view ahead.
+    const auto behind = static_cast<std::int32_t>(now.back().tick - drawn);
+    if (behind < 2 || behind > static_cast<std::int32_t>(LagCompensator::kMaxBehind)) continue;
     EXPECT_GT(now.back().corner, corner + 0.5) << "the view has not gone on";
-    // On a machine that is too busy the click comes later than anybody looks back.
-    if (now.back().tick - drawn > LagCompensator::kMaxBehind) continue;
     ++judged;
     EXPECT_TRUE(now.back().hit_as_drawn)
         << "click " << i << ", drawn " << drawn << ", taken in after " << now.back().tick;

@@ -1,5 +1,8 @@
 #include "TestClient.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace naiad::test {
 
 ClientSetup insecurely(const std::string& name) {
@@ -35,15 +38,25 @@ void TestClient::record(ClientSession& session, std::uint32_t tick) {
 
 bool serveUntil(asio::io_context& context, std::initializer_list<TestClient*> clients,
                 const std::function<bool()>& done) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  return timeUntil(context, clients, done).has_value();
+}
+
+std::optional<std::chrono::nanoseconds> timeUntil(asio::io_context& context,
+                                                  std::initializer_list<TestClient*> clients,
+                                                  const std::function<bool()>& done) {
+  constexpr std::chrono::nanoseconds kMaxTurn = std::chrono::milliseconds(10);
+  auto now = std::chrono::steady_clock::now();
+  const auto end = now + kPatience;
+  std::chrono::nanoseconds took{0};
   while (!done()) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now > end) return false;
+    if (now > end) return std::nullopt;
     for (TestClient* client : clients) client->connection().update(now);
     context.restart();
     context.run_one_for(std::chrono::milliseconds(5));
+    const auto before = std::exchange(now, std::chrono::steady_clock::now());
+    took += std::min<std::chrono::nanoseconds>(now - before, kMaxTurn);
   }
-  return true;
+  return took;
 }
 
 }  // namespace naiad::test

@@ -17,7 +17,8 @@
 namespace naiad::test {
 namespace {
 
-constexpr std::chrono::seconds kPatience{10};
+/// Long enough for a loaded machine; a test that needs it has failed anyway.
+constexpr std::chrono::seconds kPatience{30};
 using Clock = std::chrono::steady_clock;
 
 [[noreturn]] void runChild(int slave, const PtyTerminal::Options& options) {
@@ -96,13 +97,26 @@ bool PtyTerminal::readOnce(std::chrono::milliseconds timeout) {
 
 bool PtyTerminal::waitFor(const std::string& text) {
   const auto end = Clock::now() + kPatience;
-  while (m_output.find(text, m_mark) == std::string::npos) {
+  while (!hasWritten(text)) {
     if (Clock::now() > end) return false;
     const bool more = readOnce(std::chrono::milliseconds(50));
     if (!more && !m_reaped && waitpid(m_pid, &m_status, WNOHANG) == m_pid) m_reaped = true;
-    if (!more && m_reaped) return m_output.find(text, m_mark) != std::string::npos;
+    if (!more && m_reaped) return hasWritten(text);
   }
   return true;
+}
+
+bool PtyTerminal::waitForLater(const std::string& text) {
+  const auto end = Clock::now() + kPatience;
+  while (!hasWritten(text) && Clock::now() < end) readOnce(std::chrono::milliseconds(50));
+  return hasWritten(text);
+}
+
+bool PtyTerminal::waitForOriginalModes() {
+  const auto end = Clock::now() + kPatience;
+  while (!sameModes(m_original, currentModes()) && Clock::now() < end)
+    readOnce(std::chrono::milliseconds(50));
+  return sameModes(m_original, currentModes());
 }
 
 void PtyTerminal::read(std::chrono::milliseconds time) {

@@ -36,13 +36,17 @@ class PtyTerminal {
   /// Send the program a signal.
   void signal(int number);
 
-  /// Read until everything read so far contains `text`; false after 10 s or when the program is gone.
+  /// Read until everything read so far contains `text`; false after 30 s or when the program is gone.
   bool waitFor(const std::string& text);
+  /// The same, but goes on when the program is gone: another one that it started writes the text.
+  bool waitForLater(const std::string& text);
+  /// Read until the modes are those before the program began; false after 30 s.
+  bool waitForOriginalModes();
   /// The same for what comes after the last forget().
   void forget() { m_mark = m_output.size(); }
   /// Read for a while, whatever comes.
   void read(std::chrono::milliseconds time);
-  /// Read until the program has ended; its wait status. -1 if it has not within 10 s.
+  /// Read until the program has ended; its wait status. -1 if it has not within 30 s.
   int waitForExit();
 
   /// Everything the program wrote since the start, and since the last forget().
@@ -54,6 +58,7 @@ class PtyTerminal {
   pid_t pid() const { return m_pid; }
 
  private:
+  bool hasWritten(const std::string& text) const { return m_output.find(text, m_mark) != std::string::npos; }
   bool readOnce(std::chrono::milliseconds timeout);
 
   int m_master = -1;

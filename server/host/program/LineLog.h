@@ -2,9 +2,13 @@
 #pragma once
 
 #include <fstream>
+#include <functional>
 #include <string>
 
 namespace naiad {
+
+/// Where log lines go.
+using LogLine = std::function<void(const std::string& line)>;
 
 class LineLog {
  public:

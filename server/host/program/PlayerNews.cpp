@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {
@@ -20,49 +21,55 @@ void add(wire::ServerMessage& message, const df::PlayerFacts& player,
 
 }  // namespace
 
+PlayerNews::PlayerNews() : m_best(std::make_unique<wire::ServerMessage>()) {}
+
+PlayerNews::~PlayerNews() = default;
+
 void PlayerNews::tick(std::uint32_t tick, const std::vector<df::PlayerFacts>& players,
-                      const RoundTrip& round_trip, const Tell& tell) {
-  if (players.size() > kMaxPlayers) return tellSome(tick, players, round_trip, tell);
-  if (tick % kEvery == 0) tellAll(players, round_trip, tell);
+                      const RoundTrip& round_trip, const Send& send) {
+  if (players.size() > kMaxPlayers) return sendToSome(tick, players, round_trip, send);
+  if (tick % kEvery == 0) sendToAll(players, round_trip, send);
 }
 
-void PlayerNews::tellAll(const std::vector<df::PlayerFacts>& players, const RoundTrip& round_trip,
-                         const Tell& tell) {
+void PlayerNews::sendToAll(const std::vector<df::PlayerFacts>& players, const RoundTrip& round_trip,
+                           const Send& send) {
   wire::ServerMessage message;
   message.mutable_players();
   for (const df::PlayerFacts& player : players) add(message, player, round_trip);
   std::string bytes = message.SerializeAsString();
-  if (bytes == m_told) return;
-  m_told = std::move(bytes);
-  for (const df::PlayerFacts& player : players) tell(player.id, message);
+  if (bytes == m_sent) return;
+  m_sent = std::move(bytes);
+  for (const df::PlayerFacts& player : players) send(player.id, message);
 }
 
-// In each tick other ones, so that no tick has to tell all.
-void PlayerNews::tellSome(std::uint32_t tick, const std::vector<df::PlayerFacts>& players,
-                          const RoundTrip& round_trip, const Tell& tell) {
-  m_told.clear();
-  if (tick % kEvery == 0 || m_best.players().players().empty()) {
-    std::vector<const df::PlayerFacts*> best;
-    best.reserve(players.size());
-    for (const df::PlayerFacts& player : players) best.push_back(&player);
-    const auto middle = best.begin() + kCrowdEntries;
-    std::partial_sort(best.begin(), middle, best.end(), [](const auto* a, const auto* b) {
-      return a->score != b->score ? a->score > b->score : a->id < b->id;
-    });
-    best.erase(middle, best.end());
-    m_best.Clear();
-    for (const df::PlayerFacts* player : best) add(m_best, *player, round_trip);
-  }
+// To other players in each tick, so that no tick has to send to all.
+void PlayerNews::sendToSome(std::uint32_t tick, const std::vector<df::PlayerFacts>& players,
+                            const RoundTrip& round_trip, const Send& send) {
+  m_sent.clear();
+  if (tick % kEvery == 0 || m_best->players().players().empty()) findBest(players, round_trip);
   for (const df::PlayerFacts& player : players) {
     if ((tick + player.id) % kCrowdEvery != 0) continue;
-    const auto& told = m_best.players().players();
-    const bool among = std::any_of(told.begin(), told.end(), [&](const wire::PlayerEntry& entry) {
+    const auto& best = m_best->players().players();
+    const bool among = std::any_of(best.begin(), best.end(), [&](const wire::PlayerEntry& entry) {
       return entry.player() == player.id;
     });
-    if (!among) add(m_best, player, round_trip);
-    tell(player.id, m_best);
-    if (!among) m_best.mutable_players()->mutable_players()->RemoveLast();
+    if (!among) add(*m_best, player, round_trip);
+    send(player.id, *m_best);
+    if (!among) m_best->mutable_players()->mutable_players()->RemoveLast();
   }
+}
+
+void PlayerNews::findBest(const std::vector<df::PlayerFacts>& players, const RoundTrip& round_trip) {
+  std::vector<const df::PlayerFacts*> best;
+  best.reserve(players.size());
+  for (const df::PlayerFacts& player : players) best.push_back(&player);
+  const auto middle = best.begin() + kCrowdEntries;
+  std::partial_sort(best.begin(), middle, best.end(), [](const auto* a, const auto* b) {
+    return a->score != b->score ? a->score > b->score : a->id < b->id;
+  });
+  best.erase(middle, best.end());
+  m_best->Clear();
+  for (const df::PlayerFacts* player : best) add(*m_best, *player, round_trip);
 }
 
 }  // namespace naiad

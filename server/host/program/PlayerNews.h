@@ -1,19 +1,23 @@
-// Who plays, told to all who play: now and then, and bounded however many they are.
+// Sends players the list of players: now and then, and bounded however many they are.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/world/WorldView.h"
-#include "naiad.pb.h"
 
 namespace naiad {
 
-/// Up to kMaxPlayers all hear of all, every half second if anything is new. In a larger crowd each hears
-/// every five seconds of those with the highest scores and of himself: his list stays a screenful, and what
-/// all lists cost grows with the crowd, not with its square. Not thread-safe.
+namespace wire {
+class ServerMessage;
+}
+
+/// Up to kMaxPlayers, every player gets the list of all, every half second if it has changed. In a larger
+/// crowd each gets, every five seconds, those with the highest scores and their own entry: the list stays a
+/// screenful, and what all lists cost grows with the crowd, not with its square. Not thread-safe.
 class PlayerNews {
  public:
   static constexpr std::uint32_t kEvery = 15;        ///< ticks
@@ -22,21 +26,25 @@ class PlayerNews {
 
   /// Round trip of a player in milliseconds; 0: not known.
   using RoundTrip = std::function<std::uint32_t(std::uint32_t player)>;
-  using Tell = std::function<void(std::uint32_t player, const wire::ServerMessage& message)>;
+  using Send = std::function<void(std::uint32_t player, const wire::ServerMessage& message)>;
 
-  /// The end of a tick: call `tell` for everybody who is to hear something now.
+  PlayerNews();
+  ~PlayerNews();
+
+  /// The end of a tick: call `send` for each player that is to get a list now.
   void tick(std::uint32_t tick, const std::vector<df::PlayerFacts>& players, const RoundTrip& round_trip,
-            const Tell& tell);
-  /// Somebody may have missed what was told: tell it again although nothing is new.
-  void repeat() { m_told.clear(); }
+            const Send& send);
+  /// A client may have missed the last list: send the next one even if nothing has changed.
+  void repeat() { m_sent.clear(); }
 
  private:
-  void tellAll(const std::vector<df::PlayerFacts>& players, const RoundTrip& round_trip, const Tell& tell);
-  void tellSome(std::uint32_t tick, const std::vector<df::PlayerFacts>& players, const RoundTrip& round_trip,
-                const Tell& tell);
+  void sendToAll(const std::vector<df::PlayerFacts>& players, const RoundTrip& round_trip, const Send& send);
+  void sendToSome(std::uint32_t tick, const std::vector<df::PlayerFacts>& players,
+                  const RoundTrip& round_trip, const Send& send);
+  void findBest(const std::vector<df::PlayerFacts>& players, const RoundTrip& round_trip);
 
-  std::string m_told;          ///< as last sent to all, serialised
-  wire::ServerMessage m_best;  ///< of a crowd
+  std::string m_sent;                           ///< the last list for all, serialised
+  std::unique_ptr<wire::ServerMessage> m_best;  ///< of a crowd
 };
 
 }  // namespace naiad

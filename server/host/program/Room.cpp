@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 wire::ServerMessage line(const std::string& text) {
   wire::ServerMessage message;
-  message.mutable_chat()->set_text(text);  // from nobody: the server says it
+  message.mutable_chat()->set_text(text);  // without a player: the server's
   return message;
 }
 
@@ -23,12 +24,12 @@ bool isBefore(const Session* p_session, std::uint32_t player) {
 }  // namespace
 
 Room::Room(std::unique_ptr<WorldPort> port, bool first_only)
-    : m_p_port(std::move(port)), m_first_only(first_only) {}
+    : m_p_port(std::move(port)), m_turn(first_only) {}
 
 void Room::add(Session& session) {
   m_members.insert(std::lower_bound(m_members.begin(), m_members.end(), session.player(), isBefore),
                    &session);
-  tellTurn(session);
+  announceTurn(session);
 }
 
 void Room::remove(const Session& session) {
@@ -41,9 +42,9 @@ bool Room::has(const Session& session) const {
 
 Session* Room::find(std::uint32_t player) const {
   const auto found = std::lower_bound(m_members.begin(), m_members.end(), player, isBefore);
-  const bool is_he = found != m_members.end() && (*found)->player() == player &&
+  const bool plays = found != m_members.end() && (*found)->player() == player &&
                      (*found)->state() == Session::State::kPlaying;
-  return is_he ? *found : nullptr;
+  return plays ? *found : nullptr;
 }
 
 bool Room::isEmpty() const {
@@ -64,7 +65,7 @@ void Room::dismiss(const std::string& sentence) const {
 // ---- ticks ------------------------------------------------------------------------------------------------
 
 bool Room::beginTick(bool truth) {
-  giveTurn();
+  passTurn();
   applyInputs();
   if (!m_p_port->isReady()) return false;
   const bool watched = !isEmpty();
@@ -79,7 +80,7 @@ void Room::applyInputs() {
   const std::uint32_t next = m_p_port->nextTick();
   forEachPlaying([this, next](Session& session) {
     session.takeInputs(next, [&](const Input& input) {
-      if (!isHeard(session, input)) return;
+      if (!m_turn.isHeard(session.player(), input)) return;
       if (input.is_mouse) {
         m_p_port->mouse(session.player(), static_cast<df::EventMouseAction>(input.action),
                         static_cast<df::Mouse::Button>(int{input.button} - 1), input.x, input.y,
@@ -98,43 +99,43 @@ void Room::publish(TruthWriter* p_truth) {
   if (!m_watched) return;
   m_publisher.update(m_p_port->view());
   m_p_port->published(m_publisher);
+  sendSnapshots(p_truth);
+  m_sound_news.tick(m_p_port->view(), soundSender());
+  sendNotes();
+}
+
+void Room::sendSnapshots(TruthWriter* p_truth) {
   const std::vector<df::PlayerFacts>& players = m_p_port->view().players;
   auto found = players.begin();
   forEachPlaying([&](Session& session) {
     while (found != players.end() && found->id < session.player()) ++found;  // both are in order
     if (found == players.end() || found->id != session.player()) return;     // joins with the next tick
-    // The truth first: whoever compares must find it once the snapshot has arrived.
+    // The truth first: a test that compares must find it once the snapshot has arrived.
     if (p_truth != nullptr) p_truth->write(m_publisher.tick(), found->id, m_p_port->renderPlayer(found->id));
     session.setControls(found->steering.p_table);
     session.sendTick(m_publisher, *found);
   });
-  m_sound_news.tick(m_p_port->view(), soundTeller());
-  tellNotes();
 }
 
-SoundNews::Tell Room::soundTeller() const {
+SoundNews::Send Room::soundSender() const {
   return [this](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
-    return tellSounds(player, message, lasts);
+    Session* p_session = find(player);
+    if (p_session == nullptr) return false;
+    if (!lasts) return p_session->sendFleeting(message);
+    p_session->sendKept(message);
+    return true;
   };
 }
 
-bool Room::tellSounds(std::uint32_t player, const wire::ServerMessage& message, bool lasts) const {
-  Session* p_session = find(player);
-  if (p_session == nullptr) return false;
-  if (!lasts) return p_session->sendFleeting(message);
-  p_session->sendKept(message);
-  return true;
-}
-
-// What the engine itself has to say to the players.
-void Room::tellNotes() const {
+// Lines of the engine's own for the players.
+void Room::sendNotes() const {
   for (const std::string& note : m_p_port->view().notes) say(safeText(note, kMaxChatLength));
 }
 
 void Room::changeWorld(std::unique_ptr<WorldPort> port) {
   m_p_port = std::move(port);
   m_publisher = Publisher();
-  m_sound_news.changeWorld(soundTeller());
+  m_sound_news.changeWorld(soundSender());
   m_watched = m_ticking = false;
   m_ticks = 0;
   forEachPlaying([this](Session& session) {
@@ -145,30 +146,22 @@ void Room::changeWorld(std::unique_ptr<WorldPort> port) {
 
 // ---- whose turn it is -------------------------------------------------------------------------------------
 
-// Of those who are there, the one who came first.
-void Room::giveTurn() {
-  if (!m_first_only) return;
+// It is the turn of the first of the connected players.
+void Room::passTurn() {
+  if (!m_turn.isOneOnly()) return;
   const Session* p_first = nullptr;
   forEachPlaying([&p_first](const Session& session) {
     if (p_first == nullptr && !session.isDetached()) p_first = &session;
   });
   const std::uint32_t turn = p_first != nullptr ? p_first->player() : 0;
   m_p_port->setHeard(turn);
-  if (turn == m_turn) return;
-  m_turn_before = std::exchange(m_turn, turn);
-  if (p_first != nullptr && m_turn_before != 0) say(p_first->name() + " plays now.");
+  if (m_turn.passTo(turn)) say(p_first->name() + " plays now.");
 }
 
-void Room::tellTurn(Session& session) const {
-  const Session* p_first = m_turn != 0 ? find(m_turn) : nullptr;
+void Room::announceTurn(Session& session) const {
+  const Session* p_first = m_turn.player() != 0 ? find(m_turn.player()) : nullptr;
   if (p_first != nullptr)
     session.sendKept(line(p_first->name() + " plays; you watch until it is your turn."));
-}
-
-bool Room::isHeard(const Session& session, const Input& input) const {
-  if (!m_first_only || session.player() == m_turn) return true;
-  const bool lets_go = !input.is_mouse && input.action == df::KEY_RELEASED;
-  return lets_go && session.player() == m_turn_before;
 }
 
 }  // namespace naiad

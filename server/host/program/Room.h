@@ -1,7 +1,7 @@
-// Those who play in one world, that world, and what they have been told of it.
+// A world, the players in it, and what they have been sent of it.
 //
 // A host has one room, or one for each player (HostOptions::players). Sessions belong to the host; a room
-// knows those that play in it, and forgets them when it is told to.
+// lists those that play in it until remove().
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/program/InputTurn.h"
 #include "host/program/SoundNews.h"
 #include "host/session/Session.h"
 #include "host/snapshot/Publisher.h"
@@ -19,7 +20,7 @@ namespace naiad {
 
 class Room {
  public:
-  /// `first_only`: of several players, only the first one's keys are heard.
+  /// `first_only`: of several players, only the first one's input is heard.
   Room(std::unique_ptr<WorldPort> port, bool first_only);
   Room(const Room&) = delete;
   Room& operator=(const Room&) = delete;
@@ -29,16 +30,17 @@ class Room {
 
   // Players.
 
-  /// The world's next tick makes a player of this name; he belongs to the room with add(). Return his id.
+  /// The world's next tick makes a player of this name; add() makes their session one of the room's. Return
+  /// the player's id.
   std::uint32_t join(std::uint32_t player, const std::string& name, df::Color color) {
     return m_p_port->join(player, name, color);
   }
-  /// He was welcomed. Players are added in the order of their ids.
+  /// The session was welcomed. Sessions are added in the order of their players' ids.
   void add(Session& session);
-  /// Forget the session, if it is one of this room's: it is about to be destroyed.
+  /// The session, if it is one of this room's, is about to be destroyed.
   void remove(const Session& session);
   bool has(const Session& session) const;
-  /// Null if he does not play here.
+  /// Null if the player does not play here.
   Session* find(std::uint32_t player) const;
   bool isEmpty() const;
   /// Call `visit(session)` for all that play, by player.
@@ -50,51 +52,47 @@ class Room {
   }
   /// A line from the server to all that play.
   void say(const std::string& text) const;
-  /// The player may have missed what sounds: he is told anew what goes on.
+  /// The player's client may have missed sounds: send again what is playing.
   void repeatSounds(std::uint32_t player) { m_sound_news.repeat(player); }
-  /// What was told of this world's sounds so far.
   const SoundNews& sounds() const { return m_sound_news; }
   /// End the sessions of all that play.
   void dismiss(const std::string& sentence) const;
 
   // Ticks.
 
-  /// Hand on what the players did, and begin a tick if the world is ready for one. False: it is not. `truth`:
+  /// Pass on the players' input, and begin a tick if the world is ready for one. False: it is not. `truth`:
   /// publish() will have a TruthWriter.
   bool beginTick(bool truth);
-  /// The world's tick has ended: tell everybody what is to be told. The truth goes to `p_truth`, if there is
+  /// The world's tick has ended: send snapshots, sounds and notes. The truth goes to `p_truth`, if there is
   /// one.
   void publish(TruthWriter* p_truth);
   /// A tick has begun and not ended.
   bool isTicking() const { return m_ticking; }
-  /// The newest tick that was told.
+  /// The newest tick that was begun.
   std::uint32_t tick() const { return m_p_port->nextTick() - 1; }
   /// Ticks of the present world.
   std::uint64_t ticks() const { return m_ticks; }
 
-  /// The world has ended; was its round a short one? Return how many have been in a row.
+  /// The world has ended. Return how many short rounds there have been in a row.
   int countShortRounds(bool is_short) { return m_short_rounds = is_short ? m_short_rounds + 1 : 0; }
-  /// Another world: all who play join that, and are told it from the beginning.
+  /// Go on with another world: all players join it, and are sent it from the beginning.
   void changeWorld(std::unique_ptr<WorldPort> port);
 
  private:
-  void giveTurn();
-  void tellTurn(Session& session) const;
-  bool tellSounds(std::uint32_t player, const wire::ServerMessage& message, bool lasts) const;
-  SoundNews::Tell soundTeller() const;
-  void tellNotes() const;
-  bool isHeard(const Session& session, const Input& input) const;
+  void passTurn();
+  void announceTurn(Session& session) const;
   void applyInputs();
+  void sendSnapshots(TruthWriter* p_truth);
+  SoundNews::Send soundSender() const;
+  void sendNotes() const;
 
   std::unique_ptr<WorldPort> m_p_port;
   Publisher m_publisher;
   SoundNews m_sound_news;
   std::vector<Session*> m_members;  ///< by player; those that are ending among them
-  bool m_first_only;
+  InputTurn m_turn;
   bool m_watched = false;
   bool m_ticking = false;
-  std::uint32_t m_turn = 0;         ///< the player whose input is heard, if only one's is; 0: nobody
-  std::uint32_t m_turn_before = 0;  ///< whose was before him: keys that he held are let go
   std::uint64_t m_ticks = 0;
   int m_short_rounds = 0;
 };

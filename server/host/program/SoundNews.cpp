@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 
@@ -12,19 +13,19 @@ namespace {
 
 static_assert(SoundNews::kPerTick <= kMaxSounds);
 
-/// A client that missed it would go on as if nothing had happened.
+/// A client that missed it would go on playing something else than the game does.
 bool lasts(const df::SoundPlayed& sound) {
   return sound.music || sound.loop || sound.what != df::SoundPlayed::kPlay;
 }
 
-/// What lasts counts as three: it is kept for who is away for a minute, and must not fill what may be kept.
+/// What lasts counts as three: it is kept for clients that are away, and must not fill what may be kept.
 constexpr std::uint32_t kLastingCounts = 3;
 
 std::uint32_t costOf(const df::SoundPlayed& sound) {
   return SoundNews::kTicksForOne * (lasts(sound) ? kLastingCounts : 1);
 }
 
-/// The lower, the sooner the player hears it.
+/// The lower, the sooner it is sent to the player.
 int rankOf(const df::SoundPlayed& sound, std::uint32_t player) {
   if (lasts(sound)) return 0;
   if (sound.player == player) return 1;
@@ -48,7 +49,7 @@ void add(wire::ServerMessage& message, const df::SoundPlayed& played) {
 
 }  // namespace
 
-void SoundNews::tick(const df::WorldView& view, const Tell& tell) {
+void SoundNews::tick(const df::WorldView& view, const Send& send) {
   gather(view);
   std::swap(m_listeners, m_listeners_before);
   m_listeners.clear();
@@ -56,8 +57,8 @@ void SoundNews::tick(const df::WorldView& view, const Tell& tell) {
   for (const df::PlayerFacts& player : view.players) {  // by id, too
     while (before != m_listeners_before.end() && before->player < player.id) ++before;
     const bool is_new = before == m_listeners_before.end() || before->player != player.id;
-    Listener& listener = m_listeners.emplace_back(is_new ? welcome(player.id, view, tell) : *before);
-    if (!m_now.empty()) tellSounds(listener, is_new, view.tick, tell);
+    Listener& listener = m_listeners.emplace_back(is_new ? addListener(player.id, view, send) : *before);
+    if (!m_now.empty()) sendSounds(listener, is_new, view.tick, send);
   }
 }
 
@@ -92,18 +93,19 @@ void SoundNews::noteLasting(const df::SoundPlayed& sound) {
   m_lasting.push_back(sound);
 }
 
-SoundNews::Listener SoundNews::welcome(std::uint32_t player, const df::WorldView& view, const Tell& tell) {
+SoundNews::Listener SoundNews::addListener(std::uint32_t player, const df::WorldView& view,
+                                           const Send& send) {
   wire::ServerMessage message;
   for (const df::SoundPlayed& sound : view.playing) {
     noteLasting(sound);
     if (message.sounds().sounds_size() < static_cast<int>(kMaxSounds)) add(message, sound);
   }
-  if (!view.playing.empty()) send(player, message, true, tell);
+  if (!view.playing.empty()) sendMessage(player, message, true, send);
   return {player, kAtOnce * kTicksForOne, view.tick};
 }
 
-// Who is new knows already what goes on.
-void SoundNews::tellSounds(Listener& listener, bool is_new, std::uint32_t tick, const Tell& tell) {
+// A new player has got what loops with the list of what is playing.
+void SoundNews::sendSounds(Listener& listener, bool is_new, std::uint32_t tick, const Send& send) {
   listener.credit = std::min(listener.credit + (tick - listener.tick), kAtOnce * kTicksForOne);
   listener.tick = tick;
   m_chosen.assign(m_now.size(), false);
@@ -129,21 +131,22 @@ void SoundNews::tellSounds(Listener& listener, bool is_new, std::uint32_t tick, 
     for (std::size_t i = 0; i < m_now.size(); ++i) {
       if (m_chosen[i] && lasts(*m_now[i]) == lasting) add(message, *m_now[i]);
     }
-    if (message.has_sounds()) send(listener.player, message, lasting, tell);
+    if (message.has_sounds()) sendMessage(listener.player, message, lasting, send);
   }
 }
 
-void SoundNews::send(std::uint32_t player, const wire::ServerMessage& message, bool lasts, const Tell& tell) {
+void SoundNews::sendMessage(std::uint32_t player, const wire::ServerMessage& message, bool lasts,
+                            const Send& send) {
   const auto count = static_cast<std::uint64_t>(message.sounds().sounds_size());
-  (tell(player, message, lasts) ? m_told : m_dropped) += count;
+  (send(player, message, lasts) ? m_sent : m_dropped) += count;
 }
 
-void SoundNews::changeWorld(const Tell& tell) {
+void SoundNews::changeWorld(const Send& send) {
   wire::ServerMessage message;
   for (const df::SoundPlayed& sound : m_lasting)
     add(message, {sound.label, df::SoundPlayed::kStop, sound.music, sound.loop, 0});
   if (message.has_sounds()) {
-    for (const Listener& listener : m_listeners) send(listener.player, message, true, tell);
+    for (const Listener& listener : m_listeners) sendMessage(listener.player, message, true, send);
   }
   m_lasting.clear();
   m_listeners.clear();

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "host/program/PlayerNews.h"
+#include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {
@@ -20,8 +21,8 @@ class PlayerNewsTest : public testing::Test {
       facts.push_back(player);
     }
   }
-  /// Who was told in these ticks, and what last.
-  std::map<std::uint32_t, std::vector<std::string>> told(std::uint32_t from, std::uint32_t to) {
+  /// The last list that each player got in these ticks.
+  std::map<std::uint32_t, std::vector<std::string>> listsSent(std::uint32_t from, std::uint32_t to) {
     std::map<std::uint32_t, std::vector<std::string>> heard;
     for (std::uint32_t tick = from; tick < to; ++tick) {
       news.tick(
@@ -40,35 +41,35 @@ class PlayerNewsTest : public testing::Test {
   int messages = 0;
 };
 
-TEST_F(PlayerNewsTest, AllHearOfAllWhenSomethingIsNew) {
+TEST_F(PlayerNewsTest, AllGetTheWholeListWhenItHasChanged) {
   play(3);
-  EXPECT_EQ(told(1, 16).size(), 3u);
-  EXPECT_EQ(told(16, 100).size(), 0u) << "nothing new";
+  EXPECT_EQ(listsSent(1, 16).size(), 3u);
+  EXPECT_EQ(listsSent(16, 100).size(), 0u) << "nothing has changed";
   news.repeat();
-  EXPECT_EQ(told(100, 120).size(), 3u);
+  EXPECT_EQ(listsSent(100, 120).size(), 3u);
   facts[1].score = 7;
-  const auto heard = told(120, 150);
+  const auto heard = listsSent(120, 150);
   EXPECT_EQ(heard.at(3), (std::vector<std::string>{"1", "2", "3"}));
 }
 
-TEST_F(PlayerNewsTest, InACrowdEachHearsOfTheBestAndOfHimself) {
+TEST_F(PlayerNewsTest, InACrowdEachGetsTheBestAndTheirOwnEntry) {
   const int many = static_cast<int>(kMaxPlayers) + 800;
   play(many);
   facts[899].score = 5;
-  const auto heard = told(1, 1 + PlayerNews::kCrowdEvery);
-  EXPECT_EQ(heard.size(), facts.size()) << "everybody has had his turn";
+  const auto heard = listsSent(1, 1 + PlayerNews::kCrowdEvery);
+  EXPECT_EQ(heard.size(), facts.size()) << "each player got one";
   EXPECT_EQ(messages, many) << "once";
   EXPECT_EQ(heard.at(500).size(), PlayerNews::kCrowdEntries + 1);
   EXPECT_EQ(heard.at(500).front(), "900");
   EXPECT_EQ(heard.at(500).back(), "500");
-  EXPECT_EQ(heard.at(900).size(), PlayerNews::kCrowdEntries) << "among the best himself";
+  EXPECT_EQ(heard.at(900).size(), PlayerNews::kCrowdEntries) << "is among the best";
 }
 
-TEST_F(PlayerNewsTest, NoTickTellsMoreThanItsShare) {
+TEST_F(PlayerNewsTest, NoTickSendsMoreThanItsShare) {
   play(1500);
   for (std::uint32_t tick = 1; tick < 400; ++tick) {
     messages = 0;
-    told(tick, tick + 1);
+    listsSent(tick, tick + 1);
     EXPECT_LE(messages, 10) << tick;
   }
 }

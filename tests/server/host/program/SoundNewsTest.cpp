@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/program/SoundNews.h"
+#include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/stream/ReliableFrames.h"
 
@@ -68,7 +69,7 @@ TEST_F(SoundNewsTest, AllHearOfASoundInTheTickInWhichItIs) {
   EXPECT_EQ(last.sounds().sounds(0).player(), 2u);
   tick();
   EXPECT_TRUE(once.empty());
-  EXPECT_EQ(news.told(), 2u);
+  EXPECT_EQ(news.sent(), 2u);
   EXPECT_EQ(news.dropped(), 0u);
 }
 
@@ -118,8 +119,8 @@ TEST_F(SoundNewsTest, InTheLongRunTenASecondAreHeardAndTheRestIsCounted) {
     heard += once[1].size();
   }
   EXPECT_EQ(heard, SoundNews::kAtOnce + 299 / SoundNews::kTicksForOne);
-  EXPECT_EQ(news.told(), heard);
-  EXPECT_EQ(news.told() + news.dropped(), 600u);
+  EXPECT_EQ(news.sent(), heard);
+  EXPECT_EQ(news.sent() + news.dropped(), 600u);
 }
 
 // Somebody who is away for a minute must not lose his session because of a noisy game.
@@ -211,7 +212,7 @@ TEST_F(SoundNewsTest, WhatCannotBeSentIsCounted) {
   sends = false;
   sound("fire");
   tick();
-  EXPECT_EQ(news.told(), 0u);
+  EXPECT_EQ(news.sent(), 0u);
   EXPECT_EQ(news.dropped(), 2u);
 }
 

@@ -1,28 +1,27 @@
-// What a host says of itself when it has ended.
-#include "host/program/Host.h"
+#include "host/program/NetworkReport.h"
+
 #include "host/session/Counters.h"
 
 namespace naiad {
 
-// What came to the door and was not let in.
-void Host::logRefusals() const {
-  const TcpListener::Counters& streams = m_network.streamCounters();
+void logRefusals(const NetworkThread& network, const LogLine& log) {
+  const TcpListener::Counters& streams = network.streamCounters();
   std::string text = listCounters({{"failed_accepts", streams.failed_accepts},
                                    {"handshakes_failed", streams.handshakes_failed},
                                    {"handshakes_late", streams.handshakes_late},
                                    {"refused_half_open", streams.refused_half_open},
                                    {"refused_from_prefix", streams.refused_from_prefix}});
-  if (!text.empty()) m_log("streams: " + text);
-  const RelayCounters relay = m_network.counters();
+  if (!text.empty()) log("streams: " + text);
+  const RelayCounters relay = network.counters();
   text = listCounters({{"datagrams_in_dropped", relay.datagrams_in_dropped},
                        {"datagrams_out_dropped", relay.datagrams_out_dropped},
                        {"streams_overflowed", relay.streams_overflowed},
                        {"streams_clogged", relay.streams_clogged},
                        {"unmet", relay.unmet},
                        {"keyless", relay.keyless}});
-  if (!text.empty()) m_log("between the threads: " + text);
-  if (!m_network.hasDatagrams()) return;
-  const DatagramGateCounters gate = m_network.gateCounters();
+  if (!text.empty()) log("between the threads: " + text);
+  if (!network.hasDatagrams()) return;
+  const DatagramGateCounters gate = network.gateCounters();
   text = listCounters({{"delivered", gate.delivered},
                        {"too_short", gate.too_short},
                        {"too_long", gate.too_long},
@@ -33,7 +32,7 @@ void Host::logRefusals() const {
                        {"prefix_flood", gate.prefix_flood},
                        {"stranger_flood", gate.stranger_flood},
                        {"refused", gate.refused}});
-  if (!text.empty()) m_log("datagrams: " + text);
+  if (!text.empty()) log("datagrams: " + text);
 }
 
 }  // namespace naiad

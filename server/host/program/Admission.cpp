@@ -1,0 +1,251 @@
+#include "host/program/Admission.h"
+
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "host/program/TickClock.h"
+#include "host/session/Names.h"
+#include "naiad.pb.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/values/Version.h"
+
+namespace naiad {
+
+namespace {
+
+/// How to seal datagrams for `channel`, if there is one.
+void describe(const SealedChannel* channel, wire::Welcome& welcome) {
+  if (channel == nullptr) return;
+  welcome.set_connection_id(channel->id());
+  welcome.set_aead(static_cast<std::uint32_t>(channel->aead()));
+  welcome.set_epoch(channel->epoch());
+}
+
+/// The colours that players get, in turn; black would not be seen.
+constexpr df::Color kPlayerColors[] = {df::CYAN, df::GREEN, df::MAGENTA, df::YELLOW,
+                                       df::RED,  df::BLUE,  df::WHITE};
+
+df::Color colorOf(std::uint64_t nth) {
+  return kPlayerColors[nth % std::size(kPlayerColors)];
+}
+
+std::string versionSentence(std::uint32_t version) {
+  return "This server speaks version " + std::to_string(kProtocolVersion) +
+         " of the protocol, your client version " + std::to_string(version) + ". Please update the " +
+         (version < kProtocolVersion ? "client." : "server.");
+}
+
+}  // namespace
+
+Admission::Admission(Setup setup, const asio::any_io_executor& executor)
+    : m_setup(std::move(setup)), m_counters(m_setup.counters) {
+  const std::string& password = m_setup.options.password;
+  if (!password.empty())
+    m_password = std::make_unique<PasswordCheck>(executor, PasswordHash::fromText(password));
+}
+
+void Admission::judgeHello(Session& session, const wire::Hello& hello) {
+  if (!checkHello(session, hello)) return;
+  if (hello.second_stream()) return addSecondStream(session, hello);
+  if (!hello.resume_token().empty() && resumeSession(session, hello)) return;
+  if (m_password) return checkPassword(session, hello);
+  admitPlayer(session, hello);
+}
+
+bool Admission::checkHello(Session& session, const wire::Hello& hello) {
+  if (hello.protocol() != kProtocolVersion) {
+    ++m_counters.refused_version;
+    session.refuse(wire::Refused::VERSION, versionSentence(hello.protocol()));
+    return false;
+  }
+  if (!hello.game().empty() && hello.game() != m_setup.game) {
+    ++m_counters.refused_game;
+    session.refuse(wire::Refused::GAME,
+                   "This server plays \"" + m_setup.game + "\", not \"" + cleanName(hello.game()) + "\".");
+    return false;
+  }
+  return true;
+}
+
+// ---- password ---------------------------------------------------------------------------------------------
+
+void Admission::checkPassword(Session& session, const wire::Hello& hello) {
+  const auto on_answer = [this, id = session.id(), hello](PasswordCheck::Answer answer) {
+    Session* p_waiting = m_setup.sessions.find(id);
+    if (p_waiting == nullptr || p_waiting->state() != Session::State::kGreeting) return;
+    applyPasswordAnswer(*p_waiting, hello, answer);
+  };
+  const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
+  m_password->check(prefix, hello.password(), Session::Clock::now(), on_answer);
+}
+
+void Admission::applyPasswordAnswer(Session& session, const wire::Hello& hello,
+                                    PasswordCheck::Answer answer) {
+  switch (answer) {
+    case PasswordCheck::Answer::kRight:
+      return admitPlayer(session, hello);
+    case PasswordCheck::Answer::kWrong:
+      ++m_counters.refused_password;
+      return session.refuse(wire::Refused::PASSWORD, hello.password().empty()
+                                                         ? "This server wants a password."
+                                                         : "That is not this server's password.");
+    case PasswordCheck::Answer::kTooMany:
+      ++m_counters.refused_password;
+      return session.refuse(wire::Refused::PASSWORD, "Too many wrong passwords. Try again in a minute.");
+    case PasswordCheck::Answer::kBusy:
+      return session.refuse(wire::Refused::BUSY, "The server is busy. Try again in a moment.");
+  }
+}
+
+// ---- sessions that go on ----------------------------------------------------------------------------------
+
+// False: the token is of no session that could go on.
+bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
+  if (m_tokens.isElsewhere(hello.resume_token())) {
+    ++m_counters.refused_elsewhere;
+    session.refuse(wire::Refused::ELSEWHERE, "You went on playing in another terminal.");
+    return true;
+  }
+  const auto id = m_tokens.redeem(hello.resume_token());
+  Session* p_before = id ? m_setup.sessions.find(*id) : nullptr;
+  if (p_before == nullptr || p_before->state() != Session::State::kPlaying) {
+    ++m_counters.unknown_tokens;
+    return false;
+  }
+  wire::Welcome welcome = p_before->welcomed();
+  welcome.set_resumed(true);
+  if (const Room* p_room = m_setup.rooms.roomOf(*p_before)) welcome.set_tick(p_room->tick());
+  welcome.set_resume_token(m_tokens.issue(p_before->id()));
+  welcome.set_aead(0);
+  hello.fresh() ? restartSession(*p_before, session, hello, welcome)
+                : continueSession(*p_before, session, hello, welcome);
+  return true;
+}
+
+void Admission::restartSession(Session& before, Session& session, const wire::Hello& hello,
+                               wire::Welcome& welcome) {
+  m_tokens.noteRestart(before.id());
+  auto datagrams = openDatagrams(session, hello);
+  describe(datagrams.get(), welcome);
+  before.restart(session, welcome, std::move(datagrams));
+  m_setup.on_new_client();
+  if (Room* p_room = m_setup.rooms.roomOf(before)) p_room->repeatSounds(before.player());
+  m_setup.log(before.name() + " is back from " + before.address() + ", with another client");
+}
+
+void Admission::continueSession(Session& before, Session& session, const wire::Hello& hello,
+                                wire::Welcome& welcome) {
+  if (SealedChannel* p_datagrams = before.datagrams()) {
+    const Epoch epoch = p_datagrams->epoch() + 1;
+    welcome.set_connection_id(p_datagrams->id());
+    if (p_datagrams->renew(*session.stream(), epoch)) describe(p_datagrams, welcome);
+  }
+  before.adopt(session, welcome, hello.received());
+  m_setup.log(before.name() + " is back from " + before.address());
+}
+
+// The token is that of a session that has its stream. Without one the client is refused: it asked for a
+// second stream, so it is not a new player.
+void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
+  const auto id = m_tokens.holderOf(hello.resume_token());
+  Session* p_first = id ? m_setup.sessions.find(*id) : nullptr;
+  if (p_first == nullptr || p_first->state() != Session::State::kPlaying || p_first->isDetached()) {
+    ++m_counters.unknown_tokens;
+    return session.refuse(wire::Refused::BAD_REQUEST, "There is no stream for this one to go beside.");
+  }
+  m_setup.log(p_first->name() + " has a second stream, from " + session.address());
+  p_first->accompany(session);
+}
+
+// ---- new players ------------------------------------------------------------------------------------------
+
+void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
+  if (!checkLimits(session)) return;
+  const std::string wanted = cleanName(hello.player_name());
+  if (wanted.empty()) {
+    ++m_counters.refused_name;
+    return session.refuse(wire::Refused::NAME, "A player needs a name of 1 to 16 printable characters.");
+  }
+  Room* p_room = m_setup.rooms.roomForNewPlayer();
+  if (p_room == nullptr)
+    return session.refuse(wire::Refused::BUSY, "The server cannot begin another world. Try again later.");
+  const std::string name = freeName(wanted);
+  wire::Welcome welcome = welcomeTo(*p_room, name);
+  std::unique_ptr<SealedChannel> datagrams = openDatagrams(session, hello);
+  describe(datagrams.get(), welcome);
+  const auto grace = std::chrono::duration_cast<std::chrono::milliseconds>(
+      std::chrono::duration<double>(m_setup.options.grace));
+  session.setGrace(grace);
+  welcome.set_grace_millis(static_cast<std::uint32_t>(grace.count()));
+  if (m_setup.options.grace > 0) {
+    welcome.set_resume_token(m_tokens.issue(session.id()));
+    welcome.set_second_stream(true);
+  }
+  session.welcome(welcome, std::move(datagrams));
+  p_room->add(session);
+  m_setup.on_new_client();
+  m_setup.log(name + " joined from " + session.address() + " with " +
+              safeText(hello.program(), kMaxProgramLength));
+}
+
+// False: the session was refused.
+bool Admission::checkLimits(Session& session) {
+  const int max_players = m_setup.options.max_players;
+  const int max_per_address = m_setup.options.max_per_address;
+  if (m_setup.sessions.playing() >= static_cast<std::size_t>(max_players)) {
+    ++m_counters.refused_full;
+    session.refuse(wire::Refused::FULL,
+                   "The server is full (" + std::to_string(max_players) + " players). Try again later.");
+    return false;
+  }
+  // A player whose connection broke does not count, so that they do not keep others of their network out.
+  if (m_setup.sessions.connectedFrom(session.address()) >= static_cast<std::size_t>(max_per_address)) {
+    ++m_counters.refused_address;
+    session.refuse(wire::Refused::FULL, "There are " + std::to_string(max_per_address) +
+                                            " players from your address already. Try again later.");
+    return false;
+  }
+  return true;
+}
+
+std::string Admission::freeName(const std::string& wanted) const {
+  std::vector<std::string> taken;
+  m_setup.sessions.forEachPlaying([&](const Session& other) { taken.push_back(other.name()); });
+  return uniqueName(wanted, taken);
+}
+
+// A player of this name joins the room's world.
+wire::Welcome Admission::welcomeTo(Room& room, const std::string& name) {
+  const df::Color color = colorOf(m_counters.joined++);
+  const std::uint32_t player = room.join(m_next_player, name, color);
+  m_next_player = player + 1;
+  const TickLength tick = TickLength::fromMicros(m_setup.options.frame_micros);
+  wire::Welcome welcome;
+  welcome.set_player(player);
+  welcome.set_name(name);
+  welcome.set_game(m_setup.game);
+  welcome.set_tick_micros(static_cast<std::uint32_t>(tick.times(1) / std::chrono::microseconds(1)));
+  welcome.set_view_width(static_cast<std::uint32_t>(m_p_world->getWindowWidth()));
+  welcome.set_view_height(static_cast<std::uint32_t>(m_p_world->getWindowHeight()));
+  welcome.set_color(static_cast<std::uint32_t>(color));
+  welcome.set_tick(room.tick());
+  welcome.set_server(safeText(m_setup.options.name, kMaxProgramLength - 20) + " (dfserver " + kVersion + ")");
+  for (const std::string& line : m_p_world->getHelp()) {
+    if (welcome.help_size() < static_cast<int>(kMaxHelpLines)) {
+      welcome.add_help(safeText(line, kMaxHelpLength));
+    }
+  }
+  return welcome;
+}
+
+// With the first cipher of the client's list that there is.
+std::unique_ptr<SealedChannel> Admission::openDatagrams(const Session& session,
+                                                        const wire::Hello& hello) const {
+  for (const std::uint32_t wanted : hello.aeads()) {
+    if (const auto aead = aeadFromWire(wanted)) return m_setup.open_datagrams(*session.stream(), *aead);
+  }
+  return nullptr;
+}
+
+}  // namespace naiad

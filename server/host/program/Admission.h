@@ -1,0 +1,75 @@
+// Judges hellos: which client plays, which one goes on with its session, which one is refused and why.
+#pragma once
+
+#include <asio/any_io_executor.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "engine/world/World.h"
+#include "host/auth/PasswordCheck.h"
+#include "host/auth/ResumeTokens.h"
+#include "host/net/SealedChannel.h"
+#include "host/program/HostOptions.h"
+#include "host/program/LineLog.h"
+#include "host/program/Rooms.h"
+#include "host/program/SessionTable.h"
+
+namespace naiad {
+
+/// A hello passes in this order: protocol version and game; then the token of a session, which needs no
+/// password; then the password; then the limits on players, and the name. Every refusal has a counter. Not
+/// thread-safe.
+class Admission {
+ public:
+  /// What it works with; all of it outlives the Admission.
+  struct Setup {
+    const HostOptions& options;
+    std::string game;  ///< that is played; a hello may ask for one by name
+    SessionTable& sessions;
+    Rooms& rooms;
+    Counters& counters;
+    LogLine log;
+    /// A channel for datagrams, with keys from this stream; null if there are none.
+    std::function<std::unique_ptr<SealedChannel>(const ReliableChannel& stream, AeadId aead)> open_datagrams;
+    /// A client plays that has no list of players yet.
+    std::function<void()> on_new_client;
+  };
+
+  /// `executor` runs what is left of a judgement once a password has been checked.
+  Admission(Setup setup, const asio::any_io_executor& executor);
+
+  /// The world whose window and help go into welcomes. Before the first hello.
+  void setWorld(const df::World& world) { m_p_world = &world; }
+
+  /// Refuse or welcome the session that heard this hello: now, or once its password has been checked.
+  void judgeHello(Session& session, const wire::Hello& hello);
+  /// The client has the token that it was sent last (Session::takeProof).
+  void confirmToken(const Session& session) { m_tokens.confirm(session.id()); }
+  /// The session is over: nobody can go on with it.
+  void forgetSession(const Session& session) { m_tokens.forget(session.id()); }
+
+ private:
+  bool checkHello(Session& session, const wire::Hello& hello);
+  void checkPassword(Session& session, const wire::Hello& hello);
+  void applyPasswordAnswer(Session& session, const wire::Hello& hello, PasswordCheck::Answer answer);
+  bool resumeSession(Session& session, const wire::Hello& hello);
+  void restartSession(Session& before, Session& session, const wire::Hello& hello, wire::Welcome& welcome);
+  void continueSession(Session& before, Session& session, const wire::Hello& hello, wire::Welcome& welcome);
+  void addSecondStream(Session& session, const wire::Hello& hello);
+  void admitPlayer(Session& session, const wire::Hello& hello);
+  bool checkLimits(Session& session);
+  std::string freeName(const std::string& wanted) const;
+  wire::Welcome welcomeTo(Room& room, const std::string& name);
+  std::unique_ptr<SealedChannel> openDatagrams(const Session& session, const wire::Hello& hello) const;
+
+  Setup m_setup;
+  Counters& m_counters;
+  const df::World* m_p_world = nullptr;
+  std::unique_ptr<PasswordCheck> m_password;  ///< null: none is needed
+  ResumeTokens m_tokens;
+  std::uint32_t m_next_player = 1;
+};
+
+}  // namespace naiad

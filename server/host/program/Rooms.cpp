@@ -1,0 +1,199 @@
+#include "host/program/Rooms.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "host/world/WorldInProcess.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr std::uint64_t kShortestRound = 30;  ///< ticks; a shorter one has hardly begun
+constexpr int kMaxShortRounds = 5;            ///< in a row
+
+}  // namespace
+
+Rooms::Rooms(const HostOptions& options, const SessionTable& sessions, Counters& counters, LogLine log,
+             std::function<void()> on_late_tick)
+    : m_options(options),
+      m_sessions(sessions),
+      m_counters(counters),
+      m_log(std::move(log)),
+      m_on_late_tick(std::move(on_late_tick)) {
+  if (m_options.truth_file.empty()) return;
+  m_truth.emplace(m_options.truth_file);
+  if (!m_truth->isGood())
+    throw std::runtime_error("The truth file " + m_options.truth_file + " cannot be written.");
+}
+
+void Rooms::open(df::World& world) {
+  if (!m_new_world) {
+    openRoom(std::make_unique<WorldInProcess>(world));
+  } else if (!isPrivate()) {
+    openRoom(m_new_world());
+  }
+}
+
+Room& Rooms::openRoom(std::unique_ptr<WorldPort> port) {
+  Room& room = *m_rooms.emplace_back(std::make_unique<Room>(std::move(port), m_options.players == "first"));
+  watchWorld(room);
+  return room;
+}
+
+void Rooms::watchWorld(Room& room) {
+  room.port().setOnTick([this, &room] { endTick(room); });
+  room.port().look(tickNumber());
+}
+
+// ---- players ----------------------------------------------------------------------------------------------
+
+Room* Rooms::roomForNewPlayer() {
+  if (!isPrivate()) return m_rooms.front().get();
+  try {
+    return &openRoom(m_new_world());
+  } catch (const std::system_error& error) {
+    m_log(std::string("no world for another player: ") + error.what());
+    return nullptr;
+  }
+}
+
+Room* Rooms::roomOf(const Session& session) const {
+  const auto found = std::find_if(m_rooms.begin(), m_rooms.end(),
+                                  [&session](const auto& room) { return room->has(session); });
+  return found != m_rooms.end() ? found->get() : nullptr;
+}
+
+Session* Rooms::findPlayer(std::uint32_t player) const {
+  for (const auto& room : m_rooms) {
+    if (Session* p_session = room->find(player)) return p_session;
+  }
+  return nullptr;
+}
+
+void Rooms::leave(const Session& session) {
+  if (Room* p_room = roomOf(session)) {
+    isPrivate() ? p_room->port().close() : p_room->port().leave(session.player());
+  }
+}
+
+void Rooms::removeSession(const Session& session) {
+  if (Room* p_room = roomOf(session)) p_room->remove(session);
+}
+
+const std::vector<df::PlayerFacts>& Rooms::players() {
+  if (m_rooms.size() == 1) return m_rooms.front()->port().view().players;
+  m_players.clear();
+  for (const auto& room : m_rooms) {
+    const auto& players = room->port().view().players;
+    m_players.insert(m_players.end(), players.begin(), players.end());
+  }
+  std::sort(m_players.begin(), m_players.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return m_players;
+}
+
+// ---- ticks ------------------------------------------------------------------------------------------------
+
+void Rooms::beginTicks() {
+  m_in_begin = true;
+  for (const auto& room : m_rooms) {
+    if (!room->beginTick(m_truth.has_value())) ++m_counters.late_worlds;
+  }
+  m_in_begin = false;
+}
+
+bool Rooms::isTicking() const {
+  return std::any_of(m_rooms.begin(), m_rooms.end(), [](const auto& room) { return room->isTicking(); });
+}
+
+void Rooms::endTick(Room& room) {
+  dismissLeavers(room);
+  publish(room);
+  if (!m_in_begin) m_on_late_tick();
+}
+
+void Rooms::publish(Room& room) {
+  const std::uint64_t sent = room.sounds().sent();
+  const std::uint64_t dropped = room.sounds().dropped();
+  room.publish(m_truth ? &*m_truth : nullptr);
+  m_counters.sounds += room.sounds().sent() - sent;
+  m_counters.sounds_dropped += room.sounds().dropped() - dropped;
+  if (m_truth && !m_truth->isGood()) {
+    m_log("the truth file " + m_options.truth_file + " cannot be written any more; it ends here");
+    m_truth.reset();
+  }
+}
+
+// The game is over for players who pressed the key that ends it; the others play on.
+void Rooms::dismissLeavers(Room& room) {
+  for (const std::uint32_t leaver : room.port().takeLeavers()) {
+    if (hasLastPlayer()) {
+      room.port().endGame();
+    } else if (Session* p_session = room.find(leaver)) {
+      p_session->goodbye("For you, the game is over.");
+    }
+  }
+}
+
+// ---- rounds -----------------------------------------------------------------------------------------------
+
+void Rooms::checkWorlds() {
+  if (!m_new_world) return;
+  for (const auto& room : m_rooms) {
+    room->port().look(tickNumber());
+    const auto end = room->port().end();
+    if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
+  }
+  if (!isPrivate()) return;
+  std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->port().end(); });
+}
+
+// No further round for a player alone in the game's own terminal. Nor for a game that ends again and again as
+// soon as it begins: it would do so for ever.
+void Rooms::endRound(Room& room, const WorldEnd& end) {
+  m_log("the round is over: the game " + end.text);
+  const bool is_short = room.ticks() < kShortestRound;
+  const int short_rounds = room.countShortRounds(is_short);
+  const bool hopeless = short_rounds >= kMaxShortRounds || (is_short && m_counters.joined == 0);
+  const bool failed = end.why != WorldEnd::kGameOver;
+  const std::string how = failed ? "The game " + end.text : "The round is over";
+  if (m_options.on_game_over == "restart" && !hasLastPlayer() && !hopeless && beginRound(room)) {
+    return room.say(how + (failed ? "; the next round begins." : "; the next one begins."));
+  }
+  const std::string sentence = failed ? how + "." : "The game is over.";
+  if (isPrivate()) return room.dismiss(sentence);
+  m_failure = failed ? end.text : std::string();
+  m_last_sentence = sentence;
+  m_over = true;
+}
+
+bool Rooms::beginRound(Room& room) {
+  const std::uint64_t sent = room.sounds().sent();
+  try {
+    room.changeWorld(m_new_world());
+  } catch (const std::system_error& error) {
+    m_log(std::string("there is no next round: ") + error.what());
+    return false;
+  }
+  m_counters.sounds += room.sounds().sent() - sent;
+  watchWorld(room);
+  return true;
+}
+
+// ---- the end ----------------------------------------------------------------------------------------------
+
+bool Rooms::isOver() const {
+  return m_new_world ? m_over : m_rooms.front()->port().isGameOver();
+}
+
+void Rooms::closeWorlds() {
+  for (const auto& room : m_rooms) {
+    room->port().close();
+    room->port().look(tickNumber());
+  }
+  std::erase_if(m_rooms, [this](const auto& room) { return !m_new_world || room->port().end(); });
+}
+
+}  // namespace naiad

@@ -1,0 +1,107 @@
+// The rooms of a host: one for all players or one for each, and the rounds that are played in them
+// (docs/rounds.md).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/program/HostOptions.h"
+#include "host/program/LineLog.h"
+#include "host/program/Room.h"
+#include "host/program/SessionTable.h"
+#include "host/session/Counters.h"
+#include "shared/replica/TruthFile.h"
+
+namespace df {
+class World;
+}
+
+namespace naiad {
+
+/// Not thread-safe.
+class Rooms {
+ public:
+  /// Makes a world; throws std::system_error if it cannot.
+  using NewWorld = std::function<std::unique_ptr<WorldPort>()>;
+
+  /// All of these outlive the Rooms. `on_late_tick`: a tick has ended after beginTicks() had returned. Throws
+  /// std::runtime_error for a truth file that cannot be written.
+  Rooms(const HostOptions& options, const SessionTable& sessions, Counters& counters, LogLine log,
+        std::function<void()> on_late_tick);
+
+  /// Play in such worlds, not in the one that open() is given. Before open().
+  void setWorlds(NewWorld new_world) { m_new_world = std::move(new_world); }
+  /// When the game is over for a player who is alone, it is over for all.
+  void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
+
+  // Players.
+
+  /// Null: there can be no world for another player.
+  Room* roomForNewPlayer();
+  /// Null for sessions that do not play.
+  Room* roomOf(const Session& session) const;
+  /// Null if there is none.
+  Session* findPlayer(std::uint32_t player) const;
+  /// The player leaves; with them goes a world of their own.
+  void leave(const Session& session);
+  /// The session is about to be destroyed.
+  void removeSession(const Session& session);
+  /// The players of all rooms, by id. Valid until the next call or tick.
+  const std::vector<df::PlayerFacts>& players();
+
+  // Ticks and rounds.
+
+  /// The first room; with worlds of their own each player opens one.
+  void open(df::World& world);
+  /// Begin another round where a world has ended. Once a tick.
+  void checkWorlds();
+  void beginTicks();
+  /// A room's tick has begun and not ended.
+  bool isTicking() const;
+
+  // The end.
+
+  /// No round is played any more, and none will be.
+  bool isOver() const;
+  /// Why, for players; empty if the game ended in this process.
+  const std::string& lastSentence() const { return m_last_sentence; }
+  /// How the last world failed, like "crashed (SIGABRT)"; empty if it did not.
+  const std::string& failure() const { return m_failure; }
+  /// End all worlds. One in a process of its own takes time: call again until isEmpty().
+  void closeWorlds();
+  bool isEmpty() const { return m_rooms.empty(); }
+  void clear() { m_rooms.clear(); }
+
+ private:
+  bool isPrivate() const { return m_new_world && m_options.players == "private"; }
+  std::uint32_t tickNumber() const { return static_cast<std::uint32_t>(m_counters.ticks); }
+  bool hasLastPlayer() const { return m_ends_with_last && m_sessions.connected() <= 1; }
+  Room& openRoom(std::unique_ptr<WorldPort> port);
+  void watchWorld(Room& room);
+  void endTick(Room& room);
+  void publish(Room& room);
+  void dismissLeavers(Room& room);
+  void endRound(Room& room, const WorldEnd& end);
+  bool beginRound(Room& room);
+
+  const HostOptions& m_options;
+  const SessionTable& m_sessions;
+  Counters& m_counters;
+  LogLine m_log;
+  std::function<void()> m_on_late_tick;
+  NewWorld m_new_world;  ///< empty: the world of this process
+  std::vector<std::unique_ptr<Room>> m_rooms;
+  std::vector<df::PlayerFacts> m_players;  ///< of several rooms
+  std::optional<TruthWriter> m_truth;
+  bool m_ends_with_last = false;
+  bool m_in_begin = false;
+  bool m_over = false;  ///< there is no next round
+  std::string m_last_sentence;
+  std::string m_failure;
+};
+
+}  // namespace naiad

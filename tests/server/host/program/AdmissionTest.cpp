@@ -1,0 +1,216 @@
+#include <gtest/gtest.h>
+
+#include <asio/executor_work_guard.hpp>
+#include <asio/io_context.hpp>
+#include <deque>
+#include <optional>
+
+#include "Clients.h"
+#include "engine/world/World.h"
+#include "host/program/Admission.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using test::Client;
+using test::helloOf;
+
+class AdmissionTest : public testing::Test {
+ protected:
+  AdmissionTest() {
+    world.setLogSink([](const std::string&) {});
+    options.max_players = 3;
+  }
+
+  Admission& admission() {
+    if (!m_admission) {
+      rooms.open(world);
+      m_admission.emplace(
+          Admission::Setup{options, "maze", sessions, rooms, counters,
+                           [this](const std::string& line) { log.push_back(line); },
+                           [](const ReliableChannel&, AeadId) { return nullptr; }, [this] { ++new_clients; }},
+          io.get_executor());
+      m_admission->setWorld(world);
+    }
+    return *m_admission;
+  }
+  Client& greet(const wire::Hello& hello, const std::string& address = "192.0.2.1:1") {
+    admission();
+    Client& client = clients.emplace_back();
+    client.address = address;
+    sessions.add(std::make_unique<test::ClientChannel>(client), events(), now);
+    client.greet(hello);
+    return client;
+  }
+  static wire::Hello returning(const Client& client) {
+    wire::Hello hello = helloOf("Ann");
+    hello.set_resume_token(client.welcome().resume_token());
+    return hello;
+  }
+  Session& sessionOf(std::uint64_t id) { return *sessions.find(id); }
+
+  HostOptions options;
+  SessionTable::Clock::time_point now = SessionTable::Clock::now();
+  df::World world;
+  const df::World::Scope scope{world};
+  asio::io_context io;
+  Counters counters;
+  std::deque<Client> clients;
+  std::vector<std::string> log;
+  int new_clients = 0;
+  SessionTable sessions{16, counters, [this](Session& session) { rooms.removeSession(session); }};
+  Rooms rooms{options, sessions, counters, [](const std::string&) {}, [] {}};
+
+ private:
+  Session::Events events() {
+    return {[this](Session& session, const wire::Hello& hello) { m_admission->judgeHello(session, hello); },
+            [](Session&, const std::string&) {},
+            [this](Session& session) { m_admission->forgetSession(session); }, [this] { return now; }};
+  }
+
+  std::optional<Admission> m_admission;
+};
+
+TEST_F(AdmissionTest, AHelloMakesAPlayerWhoIsWelcomed) {
+  const Client& ann = greet(helloOf("Ann"));
+  const Client& bob = greet(helloOf("Ann"));
+  ASSERT_TRUE(ann.isWelcome() && bob.isWelcome());
+  EXPECT_EQ(ann.welcome().name(), "Ann");
+  EXPECT_NE(bob.welcome().name(), "Ann") << "names differ";
+  EXPECT_NE(ann.welcome().player(), bob.welcome().player());
+  EXPECT_NE(ann.welcome().color(), bob.welcome().color());
+  EXPECT_EQ(ann.welcome().game(), "maze");
+  EXPECT_EQ(ann.welcome().grace_millis(), 60'000u);
+  EXPECT_NE(rooms.findPlayer(ann.welcome().player()), nullptr);
+  EXPECT_EQ(counters.joined, 2u);
+  EXPECT_EQ(new_clients, 2);
+}
+
+TEST_F(AdmissionTest, AnotherVersionOrGameIsRefused) {
+  wire::Hello other_version = helloOf("Ann");
+  other_version.set_protocol(kProtocolVersion + 1);
+  EXPECT_EQ(greet(other_version).refusal(), wire::Refused::VERSION);
+  EXPECT_EQ(counters.refused_version, 1u);
+  wire::Hello other_game = helloOf("Ann");
+  other_game.set_game("tron");
+  EXPECT_EQ(greet(other_game).refusal(), wire::Refused::GAME);
+  EXPECT_EQ(counters.refused_game, 1u);
+}
+
+TEST_F(AdmissionTest, ANameWithoutPrintableCharactersIsRefused) {
+  EXPECT_EQ(greet(helloOf(" \t ")).refusal(), wire::Refused::NAME);
+  EXPECT_EQ(counters.refused_name, 1u);
+  EXPECT_EQ(counters.joined, 0u);
+}
+
+TEST_F(AdmissionTest, NoMorePlayersThanTheServerOrOneAddressMayHave) {
+  options.max_per_address = 1;
+  EXPECT_TRUE(greet(helloOf("Ann"), "192.0.2.1:1").isWelcome());
+  EXPECT_EQ(greet(helloOf("Bob"), "192.0.2.1:2").refusal(), wire::Refused::FULL);
+  EXPECT_EQ(counters.refused_address, 1u);
+  EXPECT_TRUE(greet(helloOf("Bob"), "192.0.2.2:1").isWelcome());
+  EXPECT_TRUE(greet(helloOf("Cid"), "192.0.2.3:1").isWelcome());
+  EXPECT_EQ(greet(helloOf("Dan"), "192.0.2.4:1").refusal(), wire::Refused::FULL);
+  EXPECT_EQ(counters.refused_full, 1u);
+}
+
+TEST_F(AdmissionTest, APlayerWhoseStreamBrokeDoesNotKeepTheirAddressFull) {
+  options.max_per_address = 1;
+  greet(helloOf("Ann")).drop();
+  EXPECT_TRUE(greet(helloOf("Bob")).isWelcome());
+}
+
+TEST_F(AdmissionTest, ATokenContinuesItsSessionOnAnotherStream) {
+  Client& ann = greet(helloOf("Ann"));
+  ann.drop();
+  const Client& back = greet(returning(ann));
+  ASSERT_TRUE(back.isWelcome());
+  EXPECT_TRUE(back.welcome().resumed());
+  EXPECT_EQ(back.welcome().player(), ann.welcome().player());
+  EXPECT_NE(back.welcome().resume_token(), ann.welcome().resume_token());
+  EXPECT_FALSE(sessionOf(1).isDetached());
+  EXPECT_EQ(sessions.playing(), 1u);
+}
+
+TEST_F(AdmissionTest, ATokenIsVoidOnceTheNextOneIsConfirmed) {
+  Client& ann = greet(helloOf("Ann"));
+  ann.drop();
+  greet(returning(ann));
+  admission().confirmToken(sessionOf(1));
+  const Client& late = greet(returning(ann));
+  EXPECT_EQ(counters.unknown_tokens, 1u);
+  EXPECT_NE(late.welcome().player(), ann.welcome().player()) << "a new player";
+}
+
+TEST_F(AdmissionTest, AProcessWhoseSessionWentOnElsewhereIsRefused) {
+  Client& ann = greet(helloOf("Ann"));
+  wire::Hello fresh = returning(ann);
+  fresh.set_fresh(true);
+  const Client& other = greet(fresh);
+  ASSERT_TRUE(other.isWelcome());
+  EXPECT_EQ(new_clients, 2);
+  admission().confirmToken(sessionOf(1));
+  EXPECT_EQ(greet(returning(ann)).refusal(), wire::Refused::ELSEWHERE);
+  EXPECT_EQ(counters.refused_elsewhere, 1u);
+}
+
+TEST_F(AdmissionTest, NothingGoesOnWithASessionThatWasForgotten) {
+  Client& ann = greet(helloOf("Ann"));
+  admission().forgetSession(sessionOf(1));
+  greet(returning(ann));
+  EXPECT_EQ(counters.unknown_tokens, 1u);
+  EXPECT_EQ(sessions.playing(), 2u);
+}
+
+TEST_F(AdmissionTest, ASecondStreamNeedsTheTokenOfASessionThatHasItsFirst) {
+  wire::Hello second = helloOf("Ann");
+  second.set_second_stream(true);
+  second.set_resume_token("no token");
+  EXPECT_EQ(greet(second).refusal(), wire::Refused::BAD_REQUEST);
+  Client& ann = greet(helloOf("Ann"));
+  second.set_resume_token(ann.welcome().resume_token());
+  greet(second);
+  EXPECT_TRUE(sessionOf(2).hasSecondStream());
+  ann.drop();
+  EXPECT_EQ(greet(second).refusal(), wire::Refused::BAD_REQUEST);
+  EXPECT_EQ(counters.unknown_tokens, 2u);
+  EXPECT_EQ(counters.joined, 1u);
+}
+
+TEST_F(AdmissionTest, APasswordIsNeededByNewPlayersOnly) {
+  options.password = "open sesame";
+  const auto work = asio::make_work_guard(io);
+  const auto answered = [this](const Client& client) {
+    for (int i = 0; i < 100 && client.received.empty(); ++i) io.run_one_for(1s);
+    return !client.received.empty();
+  };
+  wire::Hello hello = helloOf("Ann");
+  hello.set_password("open barley");
+  Client& wrong = greet(hello);
+  EXPECT_TRUE(wrong.received.empty()) << "it is being checked";
+  ASSERT_TRUE(answered(wrong));
+  EXPECT_EQ(wrong.refusal(), wire::Refused::PASSWORD);
+  EXPECT_EQ(counters.refused_password, 1u);
+  hello.set_password(options.password);
+  Client& right = greet(hello);
+  ASSERT_TRUE(answered(right));
+  ASSERT_TRUE(right.isWelcome());
+  right.drop();
+  EXPECT_TRUE(greet(returning(right)).isWelcome()) << "at once, by its token";
+}
+
+TEST_F(AdmissionTest, APasswordThatWasCheckedAfterItsClientLeftAdmitsNoPlayer) {
+  options.password = "open sesame";
+  const auto work = asio::make_work_guard(io);
+  wire::Hello hello = helloOf("Ann");
+  hello.set_password(options.password);
+  greet(hello).drop();
+  sessions.sweep();
+  ASSERT_EQ(io.run_one_for(60s), 1u) << "the answer";
+  EXPECT_EQ(counters.joined, 0u);
+  EXPECT_TRUE(sessions.isEmpty());
+}
+
+}  // namespace
+}  // namespace naiad
