@@ -5,20 +5,18 @@
 #include <utility>
 
 #include "physics/body/BodyObstacles.h"
+#include "physics/geometry/Index.h"
 
 namespace df {
 
 namespace {
 
+using naiad::physics::at;
 using naiad::physics::BodyJoints;
 using naiad::physics::BodyPlan;
 using naiad::physics::BodyTable;
 using naiad::physics::BodyWay;
 using naiad::physics::Vec2;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 

@@ -2,15 +2,9 @@
 
 #include <utility>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
-
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
 
 int BodyLinks::bodyOf(int row) {
   if (row != BodyJoints::kWorld && m_body_of[at(row)] >= 0) return m_body_of[at(row)];

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "physics/geometry/Index.h"
+
 namespace df {
 
 namespace {
 
+using naiad::physics::at;
 using naiad::physics::BodyContact;
 using naiad::physics::BodyContacts;
 using naiad::physics::BodyForm;
@@ -22,10 +25,6 @@ using naiad::physics::RigidEvent;
 using naiad::physics::ShapeStatus;
 using naiad::physics::Vec2;
 using RawJoint = naiad::physics::Joint;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool takesPart(const BodyPlan& plan) {
   return plan.way == BodyWay::kRigid || plan.is_near_rigid;

@@ -3,14 +3,11 @@
 #include <cmath>
 
 #include "physics/body/BodyLinks.h"
+#include "physics/geometry/Index.h"
 
 namespace naiad::physics {
 
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool isBefore(const BodyPlan& a, const BodyPlan& b) {
   return a.order < b.order;

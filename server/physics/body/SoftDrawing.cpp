@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/managers/DisplayManager.h"
+#include "physics/geometry/Index.h"
 #include "shared/values/Vector.h"
 
 namespace naiad::physics {
@@ -57,8 +58,6 @@ class Pen {
   }
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
   void fillRow(const std::vector<int>& boundary, std::int64_t y) {
     const auto middle = static_cast<double>(y);
     m_crossings.clear();

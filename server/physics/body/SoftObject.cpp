@@ -10,11 +10,13 @@
 #include "physics/body/SoftDrawing.h"
 #include "physics/body/SoftLayer.h"
 #include "physics/body/SoftTable.h"
+#include "physics/geometry/Index.h"
 
 namespace df {
 
 namespace {
 
+using naiad::physics::at;
 using naiad::physics::SoftHand;
 using naiad::physics::SoftHold;
 using naiad::physics::SoftPull;
@@ -26,10 +28,6 @@ constexpr double kMaxForce = 1e9;
 
 bool isUsable(Vector v) {
   return std::fabs(v.x()) <= kMaxForce && std::fabs(v.y()) <= kMaxForce;  // not if it is no number
-}
-
-std::size_t at(int node) {
-  return static_cast<std::size_t>(node);
 }
 
 }  // namespace

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
 
 bool isFinite(double x) {
   return x - x == 0;
-}
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
 }
 
 // The edge's direction turned outwards. Along an axis the result is exact, for √(x²) is |x|.

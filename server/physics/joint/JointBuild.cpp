@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cstddef>
 
+#include "physics/geometry/Index.h"
 #include "physics/joint/JointConstraints.h"
 
 namespace naiad::physics {
@@ -10,10 +11,6 @@ namespace naiad::physics {
 namespace {
 
 constexpr double kCalm = 0.25;  // of (frequency · step)², no unit: see JointConstraints::isCalm
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 // The force that is calm in a step of length one: the frequency at which a force turns a lever is the root of
 // force over (lever · effective mass).

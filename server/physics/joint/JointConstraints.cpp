@@ -4,13 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 // The sine of the angle, made monotone beyond a right angle.
 double bentSine(Rotation r) {

@@ -3,17 +3,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "physics/geometry/Index.h"
 #include "physics/joint/JointIsland.h"
 
 namespace naiad::physics {
-
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
 
 // Gauss–Newton from where the bodies are to the nearest place that fulfils the constraints, as impulses.
 bool JointIsland::projectPlaces(double h, JointCounters& counters) {

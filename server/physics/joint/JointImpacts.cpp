@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
@@ -18,10 +20,6 @@ constexpr int kMaxLooks = 256;
 constexpr int kTries = 8;
 constexpr int kMaxImpacts = 256;  // in a step, and so many more for each pair
 constexpr int kMaxPerPair = 16;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 Vec2 offsetOf(const JointPair& pair, std::span<const JointBody> bodies) {
   return bodies[at(pair.b)].place - bodies[at(pair.a)].place;

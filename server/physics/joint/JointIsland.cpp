@@ -4,15 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "physics/geometry/Index.h"
 #include "physics/joint/JointRod.h"
 
 namespace naiad::physics {
 
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 // A step that does not converge is repeated with twice as many stages, to 16 times.
 constexpr int kFiner = 2, kFinest = 16;

@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
-
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
 
 JointMotion::JointMotion(std::span<const int> bodies, std::span<const JointBody> all_bodies)
     : body(bodies.begin(), bodies.end()) {

@@ -5,13 +5,11 @@
 #include <cstddef>
 #include <numeric>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 int rootOf(std::vector<int>& parent, int i) {
   while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "physics/geometry/Index.h"
 #include "physics/joint/JointIsland.h"
 
 namespace naiad::physics {
@@ -16,10 +17,6 @@ constexpr double kSlow = 0.4;       // residual over the last one: a worse rate 
 constexpr double kDiverged = 1e30;  // a residual above this gives up, before it overflows
 constexpr double kStalled = 20;     // tolerances: a residual that stalls below this is taken for rounding
 constexpr int kMaxActiveSets = 16;  // tries; in the second half of them rows are only released
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 

@@ -5,15 +5,13 @@
 #include <set>
 #include <utility>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
 
 using Neighbours = std::vector<std::vector<int>>;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool isMovable(std::span<const JointMass> masses, int body) {
   return body >= 0 && (masses[at(body)].inverse_mass > 0 || masses[at(body)].inverse_inertia > 0);

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 /// LDLᵀ within a band: n · band² / 2 multiplications to decompose, 2 · n · band to solve. Allocates in
@@ -59,8 +61,6 @@ class SoftBand {
   }
 
  private:
-  static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
   int m_size = 0;
   int m_band = 0;
   std::vector<double> m_entries;  // column by column, from the diagonal down; decomposed: L, and 1/D

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
@@ -11,10 +13,6 @@ constexpr double kPullRate = 0.3;  // of a joint's error, undone in a sub-step
 constexpr double kResolved = 1;    // up to this (h·ω)² a spring swings; beyond, it is damped
 
 const RigidState kGround = {};
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool isAngleRow(JointKind kind, int k) {
   return kind == JointKind::kMotor || kind == JointKind::kAngleLimit ||

@@ -1,14 +1,11 @@
 #include "physics/soft/SoftBuild.h"
 
+#include "physics/geometry/Index.h"
 #include "physics/geometry/Rotation.h"
 
 namespace naiad::physics {
 
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool isCount(int count) {
   return count >= 1 && count <= kMaxSoftNodes;

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Index.h"
 #include "physics/geometry/ShapeQuery.h"
 
 namespace naiad::physics {
 
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 // What a node does relative to an obstacle, in the obstacle's axes.
 struct LocalWay {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/geometry/Index.h"
 #include "physics/numerics/SoftBand.h"
 #include "physics/soft/SoftBody.h"
 
@@ -48,7 +49,6 @@ class SoftElastic {
   double beta() const { return m_beta; }
 
  private:
-  static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
   void addMass(const SoftBody& body);
   void addStretches(const SoftBody& body);
   void addBends(const SoftBody& body);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
@@ -19,10 +21,6 @@ constexpr double kNearlySettled = 1e-4;
 /// radius.
 constexpr double kRecovery = 0.2;
 constexpr double kMaxRecovery = 0.02;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 double along(const SoftElastic& elastic, const SoftPoint& point, Vec2 axis, const double* rows) {
   double sum = 0;

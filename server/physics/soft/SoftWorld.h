@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/geometry/Index.h"
 #include "physics/soft/SoftBody.h"
 #include "physics/soft/SoftContact.h"
 #include "physics/soft/SoftCrowd.h"
@@ -122,7 +123,6 @@ class SoftWorld {
     }
   };
 
-  static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
   bool isLive(int id) const {
     const State& state = m_states[at(id)];
     return state.exists && !state.is_frozen && !state.is_out;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ContactScene.h"
+#include "physics/geometry/Index.h"
 
 namespace lab {
 
@@ -20,6 +21,7 @@ constexpr double kMaxPenalty = 1e9;
 constexpr double kMargin = 5e-4;    // m of overlap in which contacts live
 constexpr double kSticking = 0.01;  // m
 
+using naiad::physics::at;
 using Row = std::array<double, 3>;  // by x, y, angle
 
 double along(const Row& row, const Row& way) {
@@ -56,8 +58,6 @@ class Avbd : public ContactSolver {
   }
 
  private:
-  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
   void substep(ContactScene& scene, double h) {
     scene.find(0, 0);
     collect(scene);

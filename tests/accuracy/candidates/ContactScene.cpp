@@ -5,18 +5,17 @@
 #include <numeric>
 #include <tuple>
 
+#include "physics/geometry/Index.h"
+
 namespace lab {
 
 namespace {
 
 namespace physics = naiad::physics;
+using physics::at;
 
 Vec2 from(Vec v) {
   return {v.x, v.y};
-}
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
 }
 
 auto keyOf(const ContactPair& pair) {

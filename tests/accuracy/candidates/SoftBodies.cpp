@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "Method.h"
+#include "physics/geometry/Index.h"
 #include "physics/soft/SoftBuild.h"
 #include "physics/soft/SoftElastic.h"
 #include "physics/soft/SoftForces.h"
@@ -16,15 +17,12 @@ namespace lab {
 namespace {
 
 namespace physics = naiad::physics;
+using physics::at;
 
 constexpr double kPerSecond = 30;  // ticks
 constexpr double kPerSecondSquared = kPerSecond * kPerSecond;
 /// A rod's, in N/m: what hangs here stretches it by less than 1e-6.
 constexpr double kRod = 1e9;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 physics::Vec2 toTicks(Vec v, double scale) {
   return {v.x * scale, v.y * scale};
