@@ -29,29 +29,39 @@ def duration(ns):
     return f"{ns:.3g} ns"
 
 
+def number(value):
+    """A coordinate: a tenth of a pixel, without a zero behind the point."""
+    digits = f"{value:.1f}".removesuffix(".0")
+    return "0" if digits == "-0" else digits
+
+
 def text(x, y, words, size=13, colour=INK, anchor="start", weight="normal", turn=None):
-    rotate = f' transform="rotate({turn:.1f} {x:.1f} {y:.1f})"' if turn is not None else ""
-    return (f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size}" fill="{colour}" text-anchor="{anchor}" '
-            f'font-weight="{weight}"{rotate}>{html.escape(words)}</text>')
+    """What is as the page has it (size 13, INK, from the left) is not repeated."""
+    more = "".join(f' {name}="{value}"' for name, value, usual in
+                   (("font-size", size, 13), ("fill", colour, INK), ("text-anchor", anchor, "start"),
+                    ("font-weight", weight, "normal")) if value != usual)
+    rotate = f' transform="rotate({number(turn)} {number(x)} {number(y)})"' if turn is not None else ""
+    return f'<text x="{number(x)}" y="{number(y)}"{more}{rotate}>{html.escape(words)}</text>'
 
 
 def line(x1, y1, x2, y2, colour, width=1.0, dashes=""):
+    thick = f' stroke-width="{number(width)}"' if width != 1 else ""
     dash = f' stroke-dasharray="{dashes}"' if dashes else ""
-    return (f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="{colour}" '
-            f'stroke-width="{width}"{dash}/>')
+    return (f'<line x1="{number(x1)}" y1="{number(y1)}" x2="{number(x2)}" y2="{number(y2)}" stroke="{colour}"'
+            f'{thick}{dash}/>')
 
 
 def polyline(points, colour, width):
-    path = " ".join(f"{px:.1f},{py:.1f}" for px, py in points)
+    path = " ".join(f"{number(px)},{number(py)}" for px, py in points)
     return (f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="{width}" '
-            'stroke-linejoin="round" stroke-linecap="round"/>')
+            'stroke-linejoin="round"/>')
 
 
 def page(width, height, title, parts):
     """The whole picture on white."""
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
            f'viewBox="0 0 {width} {height}" font-family="system-ui, -apple-system, Segoe UI, Helvetica, Arial, '
-           f'sans-serif" role="img">',
+           f'sans-serif" font-size="13" fill="{INK}" role="img">',
            f"<title>{html.escape(title)}</title>",
            f'<rect width="{width}" height="{height}" fill="#ffffff"/>']
     return "\n".join(out + parts + ["</svg>"])

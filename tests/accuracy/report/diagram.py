@@ -2,7 +2,7 @@
 
 import math
 
-from svg import GRID, INK, MUTED, Axis, duration, line, page, polyline, text
+from svg import GRID, INK, MUTED, Axis, duration, line, number, page, polyline, text
 
 WIDTH, HEIGHT = 900, 520
 LEFT, RIGHT, TOP, BOTTOM = 92, 214, 84, 72
@@ -43,21 +43,25 @@ def styles(methods):
     return {method: STYLES[method] if method in STYLES else next(spare) for method in methods}
 
 
-def marker(x, y, shape, colour, size=4.6, hollow=False):
-    fill, stroke = ("#ffffff", colour) if hollow else (colour, colour)
-    paint = f'fill="{fill}" stroke="{stroke}" stroke-width="1.6"'
-    s = size
-    if shape == "circle":
-        return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{s * 0.85:.1f}" {paint}/>'
-    if shape in ("cross", "plus"):
-        d = s * 0.8
-        ends = [(-d, -d, d, d), (-d, d, d, -d)] if shape == "cross" else [(-s, 0, s, 0), (0, -s, 0, s)]
-        return "".join(line(x + a, y + b, x + c, y + e, colour, 2.2) for a, b, c, e in ends)
-    corners = {"square": [(-1, -1), (1, -1), (1, 1), (-1, 1)], "triangle": [(0, -1.15), (1.1, 0.85), (-1.1, 0.85)],
-               "down": [(0, 1.15), (1.1, -0.85), (-1.1, -0.85)], "diamond": [(0, -1.3), (1.2, 0), (0, 1.3), (-1.2, 0)]}
-    s *= 0.85
-    points = " ".join(f"{x + a * s:.1f},{y + b * s:.1f}" for a, b in corners[shape])
-    return f'<polygon points="{points}" {paint}/>'
+# Outlines from a point's place on, as a piece of a path.
+OUTLINES = {
+    "circle": "m-3.9 0a3.9 3.9 0 1 1 0 .01z",
+    "square": "m-3.9-3.9h7.8v7.8h-7.8z",
+    "triangle": "m0-4.5l4.3 7.8h-8.6z",
+    "down": "m0 4.5l4.3-7.8h-8.6z",
+    "diamond": "m0-5.1l4.7 5.1-4.7 5.1-4.7-5.1z",
+    "cross": "m-3.7-3.7l7.4 7.4m0-7.4l-7.4 7.4",
+    "plus": "m-4.6 0h9.2m-4.6-4.6v9.2",
+}
+
+
+def markers(places, shape, colour, hollow=False):
+    """All markers of a curve in one path."""
+    if not places:
+        return []
+    fill, width = ("#ffffff" if hollow else colour, 1.6) if shape not in ("cross", "plus") else ("none", 2.2)
+    pieces = "".join(f"M{number(x)} {number(y)}{OUTLINES[shape]}" for x, y in places)
+    return [f'<path d="{pieces}" fill="{fill}" stroke="{colour}" stroke-width="{width}"/>']
 
 
 def power_of_ten(exponent):
@@ -85,13 +89,14 @@ def ranges(points, metric):
 def frame(x, y, metric, title, subtitle):
     right = WIDTH - RIGHT
     out = [text(LEFT, 30, title, 18, weight="600"), text(LEFT, 51, subtitle, 12.5, MUTED)]
+    across = "".join(f"M{LEFT} {number(y(value))}H{right}" for value in y.decades())
+    up = "".join(f"M{number(x(value))} {TOP}V{HEIGHT - BOTTOM}" for value in x.decades())
+    out.append(f'<path d="{across}{up}" stroke="{GRID}"/>')
     for value in y.decades():
-        out.append(line(LEFT, y(value), right, y(value), GRID))
         out.append(text(LEFT - 10, y(value) + 4.5, duration(value * 1e3), anchor="end", colour=MUTED))
     decades = x.decades()
     every = max(1, math.ceil(len(decades) / 9))
     for index, value in enumerate(decades):
-        out.append(line(x(value), TOP, x(value), HEIGHT - BOTTOM, GRID))
         if index % every == 0:
             exponent = power_of_ten(round(math.log10(value)))
             out.append(text(x(value), HEIGHT - BOTTOM + 20, exponent, anchor="middle", colour=MUTED))
@@ -189,10 +194,12 @@ def curve(points, style, x, y):
         if len(run) > 1:
             out.append(polyline(run, colour, width))
         run = []
-    for point, (px, py, edge) in zip(points, places):
-        if point["cpu_us_max"] > 0:
-            out.append(line(px, y(point["cpu_us_min"]), px, y(point["cpu_us_max"]), colour, 1))
-        out.append(marker(px, py, shape, colour, hollow=edge))
+    spans = "".join(f'M{number(px)} {number(y(point["cpu_us_min"]))}V{number(y(point["cpu_us_max"]))}'
+                    for point, (px, _, _) in zip(points, places) if point["cpu_us_max"] > 0)
+    if spans:
+        out.append(f'<path d="{spans}" stroke="{colour}"/>')
+    out += markers([(px, py) for px, py, edge in places if edge], shape, colour, hollow=True)
+    out += markers([(px, py) for px, py, edge in places if not edge], shape, colour)
     return out
 
 
@@ -203,7 +210,7 @@ def legend(methods, labels, chosen):
     for method in methods:
         colour, shape, width = chosen[method]
         out.append(line(left, at, left + 28, at, colour, width))
-        out.append(marker(left + 14, at, shape, colour))
+        out += markers([(left + 14, at)], shape, colour)
         out.append(text(left + 38, at + 4.5, labels.get(method, method), 13, INK))
         at += 23
     out.append(text(left, at + 12, "points: sub-steps a tick,", 11.5, MUTED))
