@@ -16,8 +16,8 @@ using naiad::physics::BodyMedium;
 using naiad::physics::BodyRow;
 using naiad::physics::Vec2;
 
-constexpr double kMinMass = 1e-30;
-constexpr double kMax = 1e30;
+constexpr double kMinMass = 1e-30;  // its inverse is kMax
+constexpr double kMax = 1e30;       // of any number: products of two stay finite
 
 bool isUsable(double value) {
   return std::abs(value) <= kMax;  // not if it is no number
@@ -35,9 +35,9 @@ Body::Body() : m_table(BodyLayer::of(*getWorld()).table()), m_index(m_table->add
   WorldStore& store = getWorld()->store();
   store.set(key().slot, WorldStore::kBody, true);
   BodyRow& mine = row();
-  mine.told_position = store.position(key().slot);
-  mine.told_velocity = store.velocity(key().slot);
-  mine.place = m_table->metric.placeOf(mine.told_position);
+  mine.published_position = store.position(key().slot);
+  mine.published_velocity = store.velocity(key().slot);
+  mine.place = m_table->metric.placeOf(mine.published_position);
 }
 
 Body::~Body() {
@@ -60,7 +60,8 @@ void Body::absorb() const {
   }
   const auto position = toFixed(Object::getPosition());
   const auto velocity = toFixed(Object::getVelocity(), kMaxVelocityCells);
-  m_table->absorb(m_index, position.value_or(row().told_position), velocity.value_or(row().told_velocity));
+  m_table->absorb(m_index, position.value_or(row().published_position),
+                  velocity.value_or(row().published_velocity));
 }
 
 int Body::setMass(double mass) {
@@ -127,7 +128,7 @@ int Body::setPosition(Vector position) {
   if (Object::setPosition(position) != 0) return -1;
   BodyRow& mine = row();
   mine.place = m_table->metric.placeAtCells(position);
-  mine.told_position = *toFixed(position);
+  mine.published_position = *toFixed(position);
   mine.frozen = false;
   return 0;
 }
@@ -147,7 +148,7 @@ int Body::setVelocity(Vector velocity) {
   if (Object::setVelocity(velocity) != 0) return -1;
   BodyRow& mine = row();
   mine.velocity = m_table->metric.fromCells(velocity);
-  mine.told_velocity = *toFixed(velocity, kMaxVelocityCells);
+  mine.published_velocity = *toFixed(velocity, kMaxVelocityCells);
   mine.frozen = false;
   return 0;
 }

@@ -151,7 +151,7 @@ class Body : public Object {
   /// As a sprite that turns with it: rows (UTF-8) of up to 128 characters around the position; blanks are
   /// holes. Return 0, else -1.
   int setDrawing(const std::vector<std::string>& rows, Color color = COLOR_DEFAULT);
-  /// A constant spin is sent to watchers once, as a constant velocity is.
+  /// A constant spin is sent to clients once, as a constant velocity is.
   int draw() override;
 
  private:

@@ -13,8 +13,8 @@ std::vector<BodyContacts::Touch>::iterator BodyContacts::find(const BodyContact&
                           });
 }
 
-void BodyContacts::begin() {
-  m_news.clear();
+void BodyContacts::beginTick() {
+  m_changes.clear();
 }
 
 void BodyContacts::add(const BodyContact& contact) {
@@ -23,11 +23,11 @@ void BodyContacts::add(const BodyContact& contact) {
       at != m_touching.end() && at->contact.first == contact.first && at->contact.second == contact.second;
   if (is_known == contact.is_begin) {
     if (!is_known) return;
-    at->doubt = 0;
+    at->ticks_left = 0;
     at->contact.by = contact.by;
     return;
   }
-  m_news.push_back(contact);
+  m_changes.push_back(contact);
   if (!contact.is_begin) {
     count(at->contact, -1);
     m_touching.erase(at);
@@ -46,45 +46,46 @@ void BodyContacts::add(const BodyContact& contact) {
 
 void BodyContacts::count(const BodyContact& contact, int by) {
   for (const df::ObjectKey key : {contact.first, contact.second}) {
-    const auto at = m_touchers.begin() + (toucher(key) - m_touchers.cbegin());
-    if (at == m_touchers.end() || at->key != key) {
-      m_touchers.insert(at, {key, by});
+    const auto at = m_touch_counts.begin() + (findCount(key) - m_touch_counts.cbegin());
+    if (at == m_touch_counts.end() || at->key != key) {
+      m_touch_counts.insert(at, {key, by});
     } else if (at->count += by; at->count == 0) {
-      m_touchers.erase(at);
+      m_touch_counts.erase(at);
     }
   }
 }
 
-std::vector<BodyContacts::Toucher>::const_iterator BodyContacts::toucher(df::ObjectKey key) const {
-  return std::lower_bound(m_touchers.begin(), m_touchers.end(), key, [](const Toucher& its, df::ObjectKey k) {
-    return its.key.slot != k.slot ? its.key.slot < k.slot : its.key.generation < k.generation;
-  });
+std::vector<BodyContacts::TouchCount>::const_iterator BodyContacts::findCount(df::ObjectKey key) const {
+  return std::lower_bound(
+      m_touch_counts.begin(), m_touch_counts.end(), key, [](const TouchCount& its, df::ObjectKey k) {
+        return its.key.slot != k.slot ? its.key.slot < k.slot : its.key.generation < k.generation;
+      });
 }
 
-void BodyContacts::doubtFor(df::ObjectKey key, int ticks, const BodyWay* p_by) {
+void BodyContacts::expireIn(df::ObjectKey key, int ticks, const BodySolver* p_by) {
   for (Touch& touch : m_touching) {
     const bool is_its = touch.contact.first == key || touch.contact.second == key;
-    if (!is_its || (p_by != nullptr && (touch.contact.by != *p_by || touch.doubt > 0))) continue;
-    touch.doubt = ticks;
+    if (!is_its || (p_by != nullptr && (touch.contact.by != *p_by || touch.ticks_left > 0))) continue;
+    touch.ticks_left = ticks;
   }
 }
 
 bool BodyContacts::isTouching(df::ObjectKey key) const {
-  const auto at = toucher(key);
-  return at != m_touchers.end() && at->key == key;
+  const auto at = findCount(key);
+  return at != m_touch_counts.end() && at->key == key;
 }
 
-std::vector<BodyContact>& BodyContacts::finish() {
-  if (m_touching.empty()) return m_news;
+std::vector<BodyContact>& BodyContacts::finishTick() {
+  if (m_touching.empty()) return m_changes;
   std::erase_if(m_touching, [this](Touch& touch) {
-    if (touch.doubt == 0 || --touch.doubt > 0) return false;
+    if (touch.ticks_left == 0 || --touch.ticks_left > 0) return false;
     count(touch.contact, -1);
-    m_news.push_back(touch.contact);
-    m_news.back().time = 0;
-    m_news.back().is_begin = false;
+    m_changes.push_back(touch.contact);
+    m_changes.back().time = 0;
+    m_changes.back().is_begin = false;
     return true;
   });
-  return m_news;
+  return m_changes;
 }
 
 }  // namespace naiad::physics

@@ -1,28 +1,28 @@
-// Who of the HARD ones touches whom, whichever solver found it out: so that a body that is handed from one
-// solver to another neither hears twice of what it lies on, nor never that it has left it.
+// Which HARD bodies and Objects touch, whichever solver found it: a body that changes its solver gets neither
+// a second EventCollision for what it lies on, nor misses the EventContactEnd.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "physics/body/BodyPlan.h"
+#include "physics/body/BodyState.h"
 
 namespace naiad::physics {
 
 class BodyContacts {
  public:
   /// A tick begins.
-  void begin();
-  /// What a solver found; from each in the order of time. Of no news, nothing is kept.
+  void beginTick();
+  /// What a solver found; from each in the order of time. What is known already changes nothing.
   void add(const BodyContact& contact);
-  /// Somebody is gone: what he touches ends with this tick.
-  void doubt(df::ObjectKey key) { doubtFor(key, 1, nullptr); }
+  /// The body or obstacle is gone: its contacts end with this tick.
+  void expire(df::ObjectKey key) { expireIn(key, 1, nullptr); }
   /// The same for what this solver found.
-  void doubt(df::ObjectKey key, BodyWay by) { doubtFor(key, 1, &by); }
-  /// Somebody was handed to another solver: what he touches ends, unless that one finds it soon.
-  void hand(df::ObjectKey key) { doubtFor(key, kPatience, nullptr); }
-  /// The tick ends: the news.
-  std::vector<BodyContact>& finish();
+  void expire(df::ObjectKey key, BodySolver by) { expireIn(key, 1, &by); }
+  /// The body was handed to another solver: its contacts end, unless that solver finds them soon.
+  void handOver(df::ObjectKey key) { expireIn(key, kHandOverTicks, nullptr); }
+  /// The tick ends: contacts that began or ended in it.
+  std::vector<BodyContact>& finishTick();
 
   /// About the logarithm of how many touch something.
   bool isTouching(df::ObjectKey key) const;
@@ -31,21 +31,21 @@ class BodyContacts {
  private:
   struct Touch {
     BodyContact contact;
-    int doubt = 0;  // ticks until it ends, unless somebody finds it; 0: none
+    int ticks_left = 0;  // ticks until it ends, unless a solver finds it again; 0: it lasts
   };
-  struct Toucher {
+  struct TouchCount {
     df::ObjectKey key;
     int count;  // of what it touches
   };
-  static constexpr int kPatience = 3;  // a solver may see a touch first, and feel it a tick later
-  void doubtFor(df::ObjectKey key, int ticks, const BodyWay* p_by);
+  static constexpr int kHandOverTicks = 3;  // ticks: a solver may find a contact a tick before it presses
+  void expireIn(df::ObjectKey key, int ticks, const BodySolver* p_by);
   std::vector<Touch>::iterator find(const BodyContact& contact);
   void count(const BodyContact& contact, int by);
-  std::vector<Toucher>::const_iterator toucher(df::ObjectKey key) const;
+  std::vector<TouchCount>::const_iterator findCount(df::ObjectKey key) const;
 
-  std::vector<Touch> m_touching;    // by the slots of the two
-  std::vector<Toucher> m_touchers;  // by keys
-  std::vector<BodyContact> m_news;
+  std::vector<Touch> m_touching;           // by the slots of the two
+  std::vector<TouchCount> m_touch_counts;  // by keys
+  std::vector<BodyContact> m_changes;
 };
 
 }  // namespace naiad::physics

@@ -23,7 +23,7 @@ bool hearsEnds(const WorldStore& store, ObjectKey key) {
   return p_soft != nullptr && p_soft->hasContactEnds();
 }
 
-void tellEnd(World& world, const BodyContact& contact) {
+void sendContactEnd(World& world, const BodyContact& contact) {
   const WorldStore& store = world.store();
   const EventContactEnd event(store.object(contact.first.slot), store.object(contact.second.slot));
   if (hearsEnds(store, contact.first)) {
@@ -35,7 +35,7 @@ void tellEnd(World& world, const BodyContact& contact) {
 
 }  // namespace
 
-void tellContacts(World& world, std::vector<BodyContact>& contacts) {
+void sendContactEvents(World& world, std::vector<BodyContact>& contacts) {
   std::stable_sort(contacts.begin(), contacts.end(), [](const BodyContact& a, const BodyContact& b) {
     if (a.time != b.time) return a.time < b.time;
     if (a.first_order != b.first_order) return a.first_order < b.first_order;
@@ -45,7 +45,7 @@ void tellContacts(World& world, std::vector<BodyContact>& contacts) {
   for (const BodyContact& contact : contacts) {
     if (!store.isCurrent(contact.first) || !store.isCurrent(contact.second)) continue;
     if (!contact.is_begin) {
-      tellEnd(world, contact);
+      sendContactEnd(world, contact);
       continue;
     }
     const std::uint32_t slot = contact.first.slot;

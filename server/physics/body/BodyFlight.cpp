@@ -16,15 +16,18 @@ class Everything : public ForceField {
   Everything(const BodyMedium& medium, Vec2 acceleration, Vec2 to_anchor, Vec2 to_field)
       : m_medium(medium), m_acceleration(acceleration), m_to_anchor(to_anchor), m_to_field(to_field) {}
 
-  Vec2 acceleration(Vec2 way, Vec2 velocity, double time) const override {
-    Vec2 a = m_acceleration - m_medium.spring.stiffness * (way - m_to_anchor) - damping(velocity) * velocity;
-    if (m_medium.field != nullptr) a += m_medium.field->acceleration(way - m_to_field, velocity, time);
+  Vec2 acceleration(Vec2 displacement, Vec2 velocity, double time) const override {
+    Vec2 a = m_acceleration - m_medium.spring.stiffness * (displacement - m_to_anchor) -
+             damping(velocity) * velocity;
+    if (m_medium.field != nullptr)
+      a += m_medium.field->acceleration(displacement - m_to_field, velocity, time);
     return a;
   }
-  bool jacobian(Vec2 way, Vec2 velocity, double time, Mat22& by_position, Mat22& by_velocity) const override {
+  bool jacobian(Vec2 displacement, Vec2 velocity, double time, Mat22& by_position,
+                Mat22& by_velocity) const override {
     // Differences see a field without a Jacobian and all the rest together.
     if (m_medium.field != nullptr &&
-        !m_medium.field->jacobian(way - m_to_field, velocity, time, by_position, by_velocity)) {
+        !m_medium.field->jacobian(displacement - m_to_field, velocity, time, by_position, by_velocity)) {
       return false;
     }
     if (m_medium.field == nullptr) by_position = by_velocity = Mat22{};
@@ -57,16 +60,16 @@ class LongSpring : public ForceField {
   LongSpring(double length, Spring spring, const ForceField* p_field, Vec2 to_field)
       : m_length(length), m_spring(spring), m_p_field(p_field), m_to_field(to_field) {}
 
-  Vec2 acceleration(Vec2 way, Vec2 velocity, double time) const override {
+  Vec2 acceleration(Vec2 displacement, Vec2 velocity, double time) const override {
     Vec2 a;
-    const double distance = length(way);
+    const double distance = length(displacement);
     if (distance > 0) {
-      const Vec2 along = way / distance;
+      const Vec2 along = displacement / distance;
       const double pull =
           m_spring.stiffness * (distance - m_length) + m_spring.damping * dot(along, velocity);
       a = -pull * along;
     }
-    if (m_p_field != nullptr) a += m_p_field->acceleration(way - m_to_field, velocity, time);
+    if (m_p_field != nullptr) a += m_p_field->acceleration(displacement - m_to_field, velocity, time);
     return a;
   }
 
@@ -79,10 +82,11 @@ class LongSpring : public ForceField {
 
 // Can it be treated as if it stayed on this side of the anchor, on one line with it? Undamped it would get
 // farthest.
-bool staysOnLine(Vec2 way, Vec2 velocity, Vec2 acceleration, double spring_length, double stiffness) {
-  const double distance = length(way);
+bool staysOnLine(Vec2 displacement, Vec2 velocity, Vec2 acceleration, double spring_length,
+                 double stiffness) {
+  const double distance = length(displacement);
   if (distance == 0 || stiffness == 0) return false;
-  if (cross(way, velocity) != 0 || cross(way, acceleration) != 0) return false;
+  if (cross(displacement, velocity) != 0 || cross(displacement, acceleration) != 0) return false;
   const double pull = length(acceleration) / stiffness;
   const double swing =
       std::abs(distance - spring_length) + 2 * pull + length(velocity) / std::sqrt(stiffness);
@@ -95,13 +99,13 @@ IntegratorStatus flyHanging(const BodyRow& row, const BodyMedium& medium, const 
                             Vec2 acceleration, double time, const IntegratorOptions& options, Flown& flown,
                             IntegratorCounters& counters) {
   const Spring own = {row.inverse_mass * spring.stiffness, row.inverse_mass * spring.damping};
-  const Vec2 way = row.place - anchor;
+  const Vec2 displacement = row.place - anchor;
   const bool is_plain = row.flight == FlightKind::kFree || row.flight == FlightKind::kLinearDrag;
-  const bool is_linear =
-      spring.length == 0 || staysOnLine(way, row.velocity, acceleration, spring.length, own.stiffness);
+  const bool is_linear = spring.length == 0 ||
+                         staysOnLine(displacement, row.velocity, acceleration, spring.length, own.stiffness);
   if (is_plain && is_linear) {
-    const Vec2 rest = spring.length == 0 ? Vec2{} : (spring.length / length(way)) * way;
-    flown = flySpring(way - rest, row.velocity, acceleration,
+    const Vec2 rest = spring.length == 0 ? Vec2{} : (spring.length / length(displacement)) * displacement;
+    flown = flySpring(displacement - rest, row.velocity, acceleration,
                       {own.stiffness, own.damping + medium.linear_drag}, 1);
     const bool finite = isFinite(flown.displacement) && isFinite(flown.velocity);
     return finite ? IntegratorStatus::kDone : IntegratorStatus::kNotFinite;

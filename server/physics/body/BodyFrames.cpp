@@ -150,9 +150,13 @@ class Drawing {
   };
 
   // A distance in this direction, in cells.
-  double inCells(double distance, Vec2 way) const {
-    const double size = length(way);
-    return size > 0 ? distance * std::sqrt(way.x * way.x + way.y * way.y / (m_aspect * m_aspect)) / size : 0;
+  double inCells(double distance, Vec2 direction) const {
+    const double size = length(direction);
+    return size > 0 ? distance *
+                          std::sqrt(direction.x * direction.x +
+                                    direction.y * direction.y / (m_aspect * m_aspect)) /
+                          size
+                    : 0;
   }
 
   // How far the edge of the shape passes the point, and in which direction.
@@ -163,11 +167,11 @@ class Drawing {
     const Vec2 b = shape.vertices[at(following(i, shape.count))];
     const Vec2 along = b - a;
     const double part = std::clamp(dot(p - a, along) / lengthSquared(along), 0.0, 1.0);
-    const Vec2 way = p - (a + part * along);
-    const Vec2 across = lengthSquared(way) > 0 ? way : Vec2{along.y, -along.x};
-    const double distance = inCells(std::abs(length(way) - shape.radius), across);
+    const Vec2 direction = p - (a + part * along);
+    const Vec2 across = lengthSquared(direction) > 0 ? direction : Vec2{along.y, -along.x};
+    const double distance = inCells(std::abs(length(direction) - shape.radius), across);
     const bool round = shape.radius > 0.5 && (part == 0 || part == 1);
-    return {distance, round ? Vec2{-way.y, way.x} : along};
+    return {distance, round ? Vec2{-direction.y, direction.x} : along};
   }
 
   char32_t edgeAt(Cell cell) const {

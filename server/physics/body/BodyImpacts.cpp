@@ -9,8 +9,8 @@ namespace {
 
 using naiad::physics::BodyContacts;
 using naiad::physics::BodyForm;
-using naiad::physics::BodyPlan;
 using naiad::physics::BodyRow;
+using naiad::physics::BodyState;
 using naiad::physics::BodyTable;
 using naiad::physics::ConvexShape;
 using naiad::physics::ImpactBody;
@@ -21,8 +21,9 @@ using naiad::physics::Place;
 using naiad::physics::Rotation;
 using naiad::physics::Vec2;
 
-constexpr int kMaxRounds = 100;  // then nobody looks any farther
-constexpr double kRoom = 0.25;   // around what a body reaches by itself, metric cells
+constexpr int kMaxRounds =
+    100;  // of stepping and searching for obstacles; then no more are searched in this tick
+constexpr double kRoom = 0.25;  // around what a body reaches by itself, metric cells
 
 Vec2 sizeOf(Vec2 a) {
   return {std::fabs(a.x), std::fabs(a.y)};
@@ -63,96 +64,98 @@ bool BodyImpacts::canHave(const BodyForm& form, const Metric& metric, const Fixe
   return true;
 }
 
-void BodyImpacts::begin() {
-  m_entrants.clear();
-  m_plan_of.clear();
-  for (Seat& seat : m_seats) seat.is_taken = false;
+void BodyImpacts::beginTick() {
+  m_active.clear();
+  m_state_of.clear();
+  for (Proxy& proxy : m_proxies) proxy.is_used = false;
 }
 
 // Only constant accelerations are known there. A path that is none gets one that begins and ends where it
 // does, as fast as it does; on something it lies on, one that begins and ends as fast as it does.
-void BodyImpacts::adapt(const BodyPlan& plan, const BodyRow& row, ImpactBody& body) {
-  body.velocity = plan.start_velocity;
-  body.acceleration = plan.push;
-  const Seat& seat = m_seats[plan.index];
+void BodyImpacts::adapt(const BodyState& state, const BodyRow& row, ImpactBody& body) {
+  body.velocity = state.start_velocity;
+  body.acceleration = state.push;
+  const Proxy& proxy = m_proxies[state.index];
   if (row.inverse_mass == 0) return;
-  if (!plan.is_bent) return;
-  body.acceleration = plan.flown.velocity - plan.start_velocity;
-  if (seat.id >= 0 && m_world.isTouching(seat.id)) return;
-  body.velocity = 2 * plan.flown.displacement - plan.flown.velocity;
-  body.acceleration = 2 * (plan.flown.velocity - plan.flown.displacement);
+  if (!state.is_bent) return;
+  body.acceleration = state.flown.velocity - state.start_velocity;
+  if (proxy.id >= 0 && m_world.isTouching(proxy.id)) return;
+  body.velocity = 2 * state.flown.displacement - state.flown.velocity;
+  body.acceleration = 2 * (state.flown.velocity - state.flown.displacement);
 }
 
-bool BodyImpacts::enter(const BodyPlan& plan, const BodyRow& row, ImpactBody body, Vec2 offset) {
-  if (plan.index >= m_seats.size()) m_seats.resize(plan.index + 1);
-  Seat& seat = m_seats[plan.index];
-  if (seat.id >= 0 && seat.order != row.order) {  // the one before is gone
-    m_world.remove(seat.id);
-    seat = {};
+bool BodyImpacts::add(const BodyState& state, const BodyRow& row, ImpactBody body, Vec2 offset) {
+  if (state.index >= m_proxies.size()) m_proxies.resize(state.index + 1);
+  Proxy& proxy = m_proxies[state.index];
+  if (proxy.id >= 0 && proxy.order != row.order) {  // the one before is gone
+    m_world.remove(proxy.id);
+    proxy = {};
   }
-  seat.order = row.order;
-  seat.is_taken = true;
-  adapt(plan, row, body);
-  // What the table was told comes back as it was, without another rounding.
-  const bool is_as_told = seat.id >= 0 && seat.row_place == row.place && seat.offset == offset;
-  body.place = is_as_told ? seat.world_place : row.place + offset;
-  seat.offset = offset;
+  proxy.order = row.order;
+  proxy.is_used = true;
+  adapt(state, row, body);
+  // An unchanged place comes back as it was, without another rounding.
+  const bool is_unchanged = proxy.id >= 0 && proxy.row_place == row.place && proxy.offset == offset;
+  body.place = is_unchanged ? proxy.world_place : row.place + offset;
+  proxy.offset = offset;
   body.inverse_mass = row.inverse_mass;
   body.restitution = row.restitution;
   body.friction = row.friction;
-  if (!isSound(body)) return seat.is_taken = false;
-  m_entrants.push_back({plan.index, body, {}, {}});
+  if (!isSound(body)) return proxy.is_used = false;
+  m_active.push_back({state.index, body, {}, {}});
   return true;
 }
 
-// Those who came and went. Ids are given in the order of construction.
-void BodyImpacts::sitDown() {
-  for (Seat& seat : m_seats) {
-    if (seat.is_taken || seat.id < 0) continue;
-    m_world.remove(seat.id);
-    seat.id = -1;
+// Adds the bodies that are new and removes those that are gone. Ids are given in the order of construction.
+void BodyImpacts::updateBodies() {
+  for (Proxy& proxy : m_proxies) {
+    if (proxy.is_used || proxy.id < 0) continue;
+    m_world.remove(proxy.id);
+    proxy.id = -1;
   }
-  for (const Entrant& entrant : m_entrants) {
-    Seat& seat = m_seats[entrant.index];
-    if (seat.id < 0) {
-      seat.id = m_world.add(entrant.body);
+  for (const ActiveBody& active : m_active) {
+    Proxy& proxy = m_proxies[active.index];
+    if (proxy.id < 0) {
+      proxy.id = m_world.add(active.body);
     } else {
-      m_world.set(seat.id, entrant.body);
+      m_world.set(proxy.id, active.body);
     }
   }
 }
 
-void BodyImpacts::know(int id, ObjectKey key, std::uint64_t order, int plan) {
-  if (id >= static_cast<int>(m_who.size())) m_who.resize(static_cast<std::size_t>(id) + 1);
-  m_who[static_cast<std::size_t>(id)] = {key, order, plan};
+void BodyImpacts::identify(int id, ObjectKey key, std::uint64_t order, int state) {
+  if (id >= static_cast<int>(m_identities.size())) m_identities.resize(static_cast<std::size_t>(id) + 1);
+  m_identities[static_cast<std::size_t>(id)] = {key, order, state};
 }
 
-// What stands where it may get in the time left, `room` times as fast as it is now.
-void BodyImpacts::look(World& world, const BodyTable& table, Entrant& entrant, double left, double room) {
-  const Seat& seat = m_seats[entrant.index];
-  const ImpactBody& body = m_world.body(seat.id);
+// Marks the obstacles that it may reach in the time left, at `room` times its present speed.
+void BodyImpacts::findObstacles(World& world, const BodyTable& table, ActiveBody& active, double left,
+                                double room) {
+  const Proxy& proxy = m_proxies[active.index];
+  const ImpactBody& body = m_world.body(proxy.id);
   const Vec2 half = halfOf(body) + Vec2{kRoom, kRoom} + room * left * sizeOf(body.velocity) +
                     (0.5 * left * left) * sizeOf(body.acceleration);
-  const Vec2 away = sizeOf(body.place - entrant.looked) + half;
-  if (away.x > entrant.looked_half.x || away.y > entrant.looked_half.y) {
-    entrant.looked = body.place;
-    entrant.looked_half = half;
+  const Vec2 away = sizeOf(body.place - active.search_centre) + half;
+  if (away.x > active.search_half.x || away.y > active.search_half.y) {
+    active.search_centre = body.place;
+    active.search_half = half;
     m_found.clear();
     const WorldStore& store = world.store();
-    store.touching(regionOf(table.metric, entrant.looked, half), table.row(entrant.index).key.slot, m_found);
+    store.touching(regionOf(table.metric, active.search_centre, half), table.row(active.index).key.slot,
+                   m_found);
     for (const ObjectKey key : m_found) {
-      if (BodyObstacles::isOne(store, key)) m_obstacles.note(key);
+      if (BodyObstacles::isObstacle(store, key)) m_obstacles.markNear(key);
     }
   }
-  m_world.setReach(seat.id, entrant.looked, entrant.looked_half);
+  m_world.setReach(proxy.id, active.search_centre, active.search_half);
 }
 
-void BodyImpacts::takeObstacles(World& world, const BodyTable& table, BodyContacts& contacts) {
+void BodyImpacts::updateObstacles(World& world, const BodyTable& table, BodyContacts& contacts) {
   const WorldStore& store = world.store();
   for (BodyObstacles::Obstacle& obstacle : m_obstacles.all()) {
     if (!obstacle.is_near) {
       if (obstacle.id >= 0) m_world.remove(obstacle.id);
-      contacts.doubt(obstacle.key, naiad::physics::BodyWay::kImpact);
+      contacts.expire(obstacle.key, naiad::physics::BodySolver::kImpact);
       continue;
     }
     const FixedBox box = store.box(obstacle.key.slot);
@@ -168,73 +171,73 @@ void BodyImpacts::takeObstacles(World& world, const BodyTable& table, BodyContac
       m_world.remove(obstacle.id);
       obstacle.id = -1;
     }
-    if (obstacle.id >= 0) know(obstacle.id, obstacle.key, store.order(obstacle.key.slot), -1);
+    if (obstacle.id >= 0) identify(obstacle.id, obstacle.key, store.order(obstacle.key.slot), -1);
   }
-  m_obstacles.forgetFar();
+  m_obstacles.removeFar();
 }
 
-void BodyImpacts::step(World& world, const BodyTable& table, std::vector<BodyPlan>& plans,
+void BodyImpacts::step(World& world, const BodyTable& table, std::vector<BodyState>& states,
                        BodyContacts& contacts) {
-  m_had_entrants = !m_entrants.empty();
-  sitDown();
-  m_plan_of.clear();
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    if (plans[i].way == naiad::physics::BodyWay::kImpact) {
-      know(m_seats[plans[i].index].id, plans[i].key, plans[i].order, static_cast<int>(i));
-      plans[i].is_touched = m_world.isTouching(m_seats[plans[i].index].id);
-      m_plan_of.push_back(static_cast<int>(i));
+  m_was_active = !m_active.empty();
+  updateBodies();
+  m_state_of.clear();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i].solver == naiad::physics::BodySolver::kImpact) {
+      identify(m_proxies[states[i].index].id, states[i].key, states[i].order, static_cast<int>(i));
+      states[i].is_touched = m_world.isTouching(m_proxies[states[i].index].id);
+      m_state_of.push_back(static_cast<int>(i));
     }
   }
-  m_obstacles.begin();
+  m_obstacles.beginTick();
   double done = 0;
   for (int round = 0;; ++round) {
     const double left = 1 - done;
-    for (Entrant& entrant : m_entrants) {
-      const bool looks = entrant.body.inverse_mass > 0 && round < kMaxRounds;
-      if (looks) look(world, table, entrant, left, round == 0 ? 1 : 2);
+    for (ActiveBody& active : m_active) {
+      const bool searches = active.body.inverse_mass > 0 && round < kMaxRounds;
+      if (searches) findObstacles(world, table, active, left, round == 0 ? 1 : 2);
     }
-    takeObstacles(world, table, contacts);
+    updateObstacles(world, table, contacts);
     m_world.step(left);
-    collect(done, plans, contacts);
+    collect(done, states, contacts);
     done += m_world.stepped();
     if (m_world.stepped() == left || done >= 1) break;
   }
-  finish(plans);
+  finish(states);
 }
 
-void BodyImpacts::collect(double since, std::vector<BodyPlan>& plans, BodyContacts& contacts) const {
+void BodyImpacts::collect(double since, std::vector<BodyState>& states, BodyContacts& contacts) const {
   for (const ImpactEvent& event : m_world.events()) {
-    const Who* p_first = &m_who[static_cast<std::size_t>(event.first)];
-    const Who* p_second = &m_who[static_cast<std::size_t>(event.second)];
-    for (const Who* p_who : {p_first, p_second}) {
-      if (p_who->plan < 0) continue;
-      BodyPlan& plan = plans[static_cast<std::size_t>(p_who->plan)];
-      plan.is_touched = plan.is_struck = true;
+    const Identity* p_first = &m_identities[static_cast<std::size_t>(event.first)];
+    const Identity* p_second = &m_identities[static_cast<std::size_t>(event.second)];
+    for (const Identity* p_identity : {p_first, p_second}) {
+      if (p_identity->state < 0) continue;
+      BodyState& state = states[static_cast<std::size_t>(p_identity->state)];
+      state.is_touched = state.contacts_changed = true;
     }
-    const bool is_swapped = p_first->plan < 0 || (p_second->plan >= 0 && p_second->order < p_first->order);
+    const bool is_swapped = p_first->state < 0 || (p_second->state >= 0 && p_second->order < p_first->order);
     if (is_swapped) std::swap(p_first, p_second);
     contacts.add({since + event.time, p_first->key, p_second->key, p_first->order, p_second->order,
-                  event.impulse, event.is_begin, naiad::physics::BodyWay::kImpact});
+                  event.impulse, event.is_begin, naiad::physics::BodySolver::kImpact});
   }
 }
 
-void BodyImpacts::finish(std::vector<BodyPlan>& plans) {
-  for (const int at : m_plan_of) {
-    BodyPlan& plan = plans[static_cast<std::size_t>(at)];
-    Seat& seat = m_seats[plan.index];
-    const ImpactBody& body = m_world.body(seat.id);
-    if (m_world.isFrozen(seat.id)) plan.p_failure = "too many impacts in one tick";
-    plan.is_touched = plan.is_touched || m_world.isTouching(seat.id);
-    if (!plan.is_touched) {  // exactly as on its own
-      plan.place = plan.start + plan.flown.displacement;
-      plan.velocity = plan.flown.velocity;
+void BodyImpacts::finish(std::vector<BodyState>& states) {
+  for (const int at : m_state_of) {
+    BodyState& state = states[static_cast<std::size_t>(at)];
+    Proxy& proxy = m_proxies[state.index];
+    const ImpactBody& body = m_world.body(proxy.id);
+    if (m_world.isFrozen(proxy.id)) state.p_failure = "too many impacts in one tick";
+    state.is_touched = state.is_touched || m_world.isTouching(proxy.id);
+    if (!state.is_touched) {  // exactly as on its own
+      state.place = state.start + state.flown.displacement;
+      state.velocity = state.flown.velocity;
     } else {
-      plan.place = seat.offset == Vec2{} ? body.place : body.place + -seat.offset;
-      plan.velocity = body.velocity;
-      plan.acceleration = m_world.acceleration(seat.id);
+      state.place = proxy.offset == Vec2{} ? body.place : body.place + -proxy.offset;
+      state.velocity = body.velocity;
+      state.acceleration = m_world.acceleration(proxy.id);
     }
-    seat.row_place = plan.place;
-    seat.world_place = plan.is_touched ? body.place : plan.place + seat.offset;
+    proxy.row_place = state.place;
+    proxy.world_place = state.is_touched ? body.place : state.place + proxy.offset;
   }
 }
 

@@ -1,4 +1,4 @@
-// The bodies of an ImpactWorld, and what stands in their way.
+// The bodies that an ImpactWorld moves, and their obstacles: keeps that world in step with the table.
 #pragma once
 
 #include <vector>
@@ -6,7 +6,7 @@
 #include "engine/world/World.h"
 #include "physics/body/BodyContacts.h"
 #include "physics/body/BodyObstacles.h"
-#include "physics/body/BodyPlan.h"
+#include "physics/body/BodyState.h"
 #include "physics/impact/ImpactWorld.h"
 
 namespace df {
@@ -20,60 +20,62 @@ class BodyImpacts {
   static bool canHave(const naiad::physics::BodyForm& form, const naiad::physics::Metric& metric,
                       const FixedBox& box, naiad::physics::ImpactBody& body, naiad::physics::Vec2& offset);
 
-  /// Nobody takes part, until he enters.
-  void begin();
-  /// Takes part in this tick: with the shape in `body`, the rest is filled in here. False if its numbers are
-  /// beyond what can be calculated with.
-  bool enter(const naiad::physics::BodyPlan& plan, const naiad::physics::BodyRow& row,
-             naiad::physics::ImpactBody body, naiad::physics::Vec2 offset);
-  /// Neither now, nor until now.
-  bool isEmpty() const { return m_entrants.empty() && !m_had_entrants; }
-  /// Lets a tick pass for those who entered, and appends what they touched. Plans get places and velocities.
+  /// No body takes part in this tick, until it is added.
+  void beginTick();
+  /// The body takes part in this tick: with the shape in `body`, the rest is filled in here. False if its
+  /// numbers are beyond what can be calculated with.
+  bool add(const naiad::physics::BodyState& state, const naiad::physics::BodyRow& row,
+           naiad::physics::ImpactBody body, naiad::physics::Vec2 offset);
+  /// No body takes part, nor did one in the last tick.
+  bool isEmpty() const { return m_active.empty() && !m_was_active; }
+  /// Steps the bodies that were added by a tick, and appends their contacts. `states` get places and
+  /// velocities.
   void step(World& world, const naiad::physics::BodyTable& table,
-            std::vector<naiad::physics::BodyPlan>& plans, naiad::physics::BodyContacts& contacts);
+            std::vector<naiad::physics::BodyState>& states, naiad::physics::BodyContacts& contacts);
 
   const naiad::physics::ImpactCounters& counters() const { return m_world.counters(); }
 
  private:
-  struct Seat {               // by index of the table
-    std::uint64_t order = 0;  // of the body's construction: who sits here
+  struct Proxy {              // by index of the table
+    std::uint64_t order = 0;  // of the body's construction: which body it stands for
     int id = -1;
-    bool is_taken = false;              // in this tick
-    naiad::physics::Place row_place;    // what the table was told last,
+    bool is_used = false;               // in this tick
+    naiad::physics::Place row_place;    // what the table got last,
     naiad::physics::Place world_place;  // which is this to the ImpactWorld,
     naiad::physics::Vec2 offset;        // with this between them
   };
-  struct Entrant {
+  struct ActiveBody {
     Index index;
     naiad::physics::ImpactBody body;
-    naiad::physics::Place looked;  // where it was looked around for obstacles, and how far
-    naiad::physics::Vec2 looked_half;
+    naiad::physics::Place search_centre;  // where obstacles were searched, and how far
+    naiad::physics::Vec2 search_half;
   };
-  struct Who {  // by id
+  struct Identity {  // by id
     ObjectKey key;
     std::uint64_t order = 0;
-    int plan = -1;  // −1: an obstacle
+    int state = -1;  // −1: an obstacle
   };
 
-  void adapt(const naiad::physics::BodyPlan& plan, const naiad::physics::BodyRow& row,
+  void adapt(const naiad::physics::BodyState& state, const naiad::physics::BodyRow& row,
              naiad::physics::ImpactBody& body);
-  void sitDown();
-  void look(World& world, const naiad::physics::BodyTable& table, Entrant& entrant, double left, double room);
-  void takeObstacles(World& world, const naiad::physics::BodyTable& table,
-                     naiad::physics::BodyContacts& contacts);
-  void know(int id, ObjectKey key, std::uint64_t order, int plan);
-  void collect(double since, std::vector<naiad::physics::BodyPlan>& plans,
+  void updateBodies();
+  void findObstacles(World& world, const naiad::physics::BodyTable& table, ActiveBody& active, double left,
+                     double room);
+  void updateObstacles(World& world, const naiad::physics::BodyTable& table,
+                       naiad::physics::BodyContacts& contacts);
+  void identify(int id, ObjectKey key, std::uint64_t order, int state);
+  void collect(double since, std::vector<naiad::physics::BodyState>& states,
                naiad::physics::BodyContacts& contacts) const;
-  void finish(std::vector<naiad::physics::BodyPlan>& plans);
+  void finish(std::vector<naiad::physics::BodyState>& states);
 
   naiad::physics::ImpactWorld m_world;
-  std::vector<Seat> m_seats;
-  std::vector<Entrant> m_entrants;
-  std::vector<int> m_plan_of;  // by entrant
-  std::vector<Who> m_who;
+  std::vector<Proxy> m_proxies;
+  std::vector<ActiveBody> m_active;
+  std::vector<int> m_state_of;  // by active body
+  std::vector<Identity> m_identities;
   BodyObstacles m_obstacles;
   std::vector<ObjectKey> m_found;
-  bool m_had_entrants = false;
+  bool m_was_active = false;
 };
 
 }  // namespace df

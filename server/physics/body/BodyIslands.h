@@ -1,9 +1,9 @@
-// Which solver a body goes to in this tick: by whom it may touch, and whom those may touch.
+// Which solver moves a body in this tick: decided by what it may touch, and what that may touch.
 //
-// Bodies that joints connect, or whose ways in this tick may meet, are one island. An island in which nobody
-// turns, has a shape of his own or is joined goes to the event-exact ImpactWorld; one in which nobody can
-// touch anything, to the JointSolver or nowhere; one of circles that bounce, some of them joined, to the
-// JointSolver from impact to impact; the others to the RigidWorld.
+// Bodies that joints connect, or whose paths in this tick may cross, are one island. An island without
+// turning bodies, shapes of their own and joints goes to the event-exact ImpactWorld; one in which no body
+// can touch anything, to the JointSolver or to each body's own flight; one of circles that bounce, some of
+// them joined, to the JointSolver from impact to impact; the others to the RigidWorld.
 #pragma once
 
 #include <vector>
@@ -11,22 +11,22 @@
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyContacts.h"
 #include "physics/body/BodyLinks.h"
-#include "physics/body/BodyPlan.h"
+#include "physics/body/BodyState.h"
 #include "physics/broadphase/ImpactTree.h"
 
 namespace df {
 
 class BodyIslands {
  public:
-  /// Sets the ways of `plans`, and who of the kinematic ones is near a rigid one. Not needed while no HARD
+  /// Sets the solvers of `states`, and which kinematic bodies are near rigid ones. Not needed while no HARD
   /// body is joined or more than a box or a circle.
-  void choose(const WorldStore& store, const naiad::physics::BodyTable& table,
-              const naiad::physics::BodyLinks& links, const naiad::physics::BodyContacts& contacts,
-              std::vector<naiad::physics::BodyPlan>& plans);
-  /// Nobody meets anybody: instead of choose().
-  void skip() { m_meetings.clear(); }
-  /// Of those on the way kStruck, by group.
-  const std::vector<naiad::physics::BodyMeeting>& meetings() const { return m_meetings; }
+  void chooseSolvers(const WorldStore& store, const naiad::physics::BodyTable& table,
+                     const naiad::physics::BodyLinks& links, const naiad::physics::BodyContacts& contacts,
+                     std::vector<naiad::physics::BodyState>& states);
+  /// No islands: instead of chooseSolvers().
+  void skip() { m_candidates.clear(); }
+  /// Of bodies with solver kJointImpacts, by group.
+  const std::vector<naiad::physics::BodyCandidatePair>& candidates() const { return m_candidates; }
 
  private:
   struct Group {
@@ -37,30 +37,31 @@ class BodyIslands {
     double fastest = 0;
   };
 
-  int rootOf(int plan);
+  int rootOf(int state);
   void unite(int a, int b);
-  void gather(const std::vector<naiad::physics::BodyPlan>& plans);
-  void join(const naiad::physics::BodyTable& table, const std::vector<naiad::physics::BodyPlan>& plans);
-  void connect(const naiad::physics::BodyTable& table, const std::vector<naiad::physics::BodyPlan>& plans);
-  void judge(const naiad::physics::BodyTable& table, const naiad::physics::BodyLinks& links,
-             const naiad::physics::BodyContacts& contacts,
-             const std::vector<naiad::physics::BodyPlan>& plans);
-  bool widen(std::vector<naiad::physics::BodyPlan>& plans);
-  void meet(std::vector<naiad::physics::BodyPlan>& plans);
+  void findPairs(const std::vector<naiad::physics::BodyState>& states);
+  void uniteJointed(const naiad::physics::BodyTable& table,
+                    const std::vector<naiad::physics::BodyState>& states);
+  void connect(const naiad::physics::BodyTable& table, const std::vector<naiad::physics::BodyState>& states);
+  void classifyGroups(const naiad::physics::BodyTable& table, const naiad::physics::BodyLinks& links,
+                      const naiad::physics::BodyContacts& contacts,
+                      const std::vector<naiad::physics::BodyState>& states);
+  bool widenReaches(std::vector<naiad::physics::BodyState>& states);
+  void collectCandidates(std::vector<naiad::physics::BodyState>& states);
   bool areJoined(const naiad::physics::BodyTable& table, int row_a, int row_b) const;
-  void lookAround(const WorldStore& store, const naiad::physics::BodyTable& table,
-                  const std::vector<naiad::physics::BodyPlan>& plans);
+  void findObstacles(const WorldStore& store, const naiad::physics::BodyTable& table,
+                     const std::vector<naiad::physics::BodyState>& states);
 
-  std::vector<int> m_parent;  // by plan
+  std::vector<int> m_parent;  // by state
   std::vector<Group> m_groups;
-  std::vector<int> m_plan_of;  // by row of the table
+  std::vector<int> m_state_of;  // by row of the table
   naiad::physics::ImpactTree m_tree;
   std::vector<naiad::physics::SweptBox> m_boxes;
   std::vector<int> m_ids;
   std::vector<std::pair<int, int>> m_pairs;  // whose reaches overlap …
   std::vector<std::pair<int, int>>
       m_touchable;  // … of which one can be pushed, and no joint keeps them apart
-  std::vector<naiad::physics::BodyMeeting> m_meetings;
+  std::vector<naiad::physics::BodyCandidatePair> m_candidates;
   std::vector<ObjectKey> m_found;
 };
 

@@ -13,7 +13,7 @@ namespace {
 using naiad::physics::JointEntry;
 using naiad::physics::JointKind;
 
-constexpr double kMax = 1e30;
+constexpr double kMax = 1e30;  // of any number: products of two stay finite
 
 bool isSize(double value) {
   return value >= 0 && value <= kMax;
@@ -98,7 +98,7 @@ int Joint::setStrength(double strength) {
   if (kind != JointKind::kMotor && kind != JointKind::kMouse) return -1;
   p_entry->joint.max_force = strength;
   ++p_entry->tunings;
-  m_table->joints.markChanged();  // a mouse without a bound needs no search for who is at it
+  m_table->joints.markChanged();  // a mouse without a bound needs no search of an active set
   return 0;
 }
 

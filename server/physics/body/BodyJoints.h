@@ -1,6 +1,6 @@
-// The joints of a world's bodies: which there are, and between whom.
+// The joints of a world's bodies.
 //
-// Of bodies the table knows their rows (BodyTable.h). A joint of a body with the world has a place of its own
+// Of bodies the table knows their rows (BodyTable.h). A joint of a body with the world has its own place
 // there, so that a scene that is moved by whole cells behaves the same.
 #pragma once
 
@@ -32,11 +32,11 @@ class BodyJoints {
   /// A body dies: its joints go with it.
   void removeOf(int row);
 
-  /// Used or not; in an order that depends on the calls so far alone.
+  /// Used or not; their order depends only on the calls before.
   std::vector<JointEntry>& entries() { return m_entries; }
   const std::vector<JointEntry>& entries() const { return m_entries; }
   int count() const { return m_count; }
-  /// Counts what came, went or was changed in kind: groups have to be found anew.
+  /// Counts what came, went or was changed in kind: groups have to be found again.
   std::uint64_t changes() const { return m_changes; }
   void markChanged() { ++m_changes; }
 

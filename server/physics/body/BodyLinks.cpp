@@ -16,16 +16,16 @@ int BodyLinks::bodyOf(int row) {
   return body;
 }
 
-// Groups that may touch something are somebody else's.
-void BodyLinks::leaveOut(BodyTable& table, const std::vector<BodyPlan>& plans) {
-  bool is_other = findGuests(plans);
-  m_has_left_out = !m_guests.empty();
+// Groups that may touch something are moved by another solver.
+void BodyLinks::leaveOut(BodyTable& table, const std::vector<BodyState>& states) {
+  bool is_other = findFreeBodies(states);
+  m_has_left_out = !m_free_bodies.empty();
   m_is_rigid.resize(m_kinds.size(), 0);
-  for (const BodyPlan& plan : plans) {
-    if (!isJoined(plan.index) || plan.is_kinematic) continue;
-    const std::uint8_t is_rigid = plan.way == BodyWay::kRigid ? 1 : 0;
-    is_other = is_other || m_is_rigid[plan.index] != is_rigid;
-    m_is_rigid[plan.index] = is_rigid;
+  for (const BodyState& state : states) {
+    if (!isJoined(state.index) || state.is_kinematic) continue;
+    const std::uint8_t is_rigid = state.solver == BodySolver::kRigid ? 1 : 0;
+    is_other = is_other || m_is_rigid[state.index] != is_rigid;
+    m_is_rigid[state.index] = is_rigid;
     m_has_left_out = m_has_left_out || is_rigid != 0;
   }
   if (!is_other) return;
@@ -83,19 +83,19 @@ void BodyLinks::collect(BodyTable& table) {
     m_entry_of.push_back(i);
     m_tunings.push_back(entry.tunings);
   }
-  for (const BodyTable::Index guest : m_guests) {
-    if (guest >= m_body_of.size()) m_body_of.resize(guest + 1, -1);
-    bodyOf(static_cast<int>(guest));
+  for (const BodyTable::Index free_body : m_free_bodies) {
+    if (free_body >= m_body_of.size()) m_body_of.resize(free_body + 1, -1);
+    bodyOf(static_cast<int>(free_body));
   }
 }
 
-// Who takes no part stands, and holds what hangs on him.
-void BodyLinks::load(const BodyTable& table, const std::vector<BodyPlan>& plans,
+// Inactive bodies are treated as static; bodies jointed to them stay attached.
+void BodyLinks::load(const BodyTable& table, const std::vector<BodyState>& states,
                      const std::vector<double>& unit_inertias) {
-  m_plan_of.assign(m_bodies.size(), -1);
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    const int body = bodyAt(plans[i].index);
-    if (body >= 0) m_plan_of[at(body)] = static_cast<int>(i);
+  m_state_of.assign(m_bodies.size(), -1);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const int body = bodyAt(states[i].index);
+    if (body >= 0) m_state_of[at(body)] = static_cast<int>(i);
   }
   for (std::size_t i = 0; i < m_bodies.size(); ++i) {
     if (m_row_of[i] == BodyJoints::kWorld) continue;
@@ -107,14 +107,14 @@ void BodyLinks::load(const BodyTable& table, const std::vector<BodyPlan>& plans,
     next.place = row.place;
     next.rotation = form.rotation;
     next.inverse_mass = 0;
-    if (m_plan_of[i] >= 0) {
-      const BodyPlan& plan = plans[at(m_plan_of[i])];
-      const double unit_inertia = unit_inertias[at(m_plan_of[i])];
+    if (m_state_of[i] >= 0) {
+      const BodyState& state = states[at(m_state_of[i])];
+      const double unit_inertia = unit_inertias[at(m_state_of[i])];
       next.velocity = row.velocity;
       next.spin = form.spin;
       next.inverse_mass = row.inverse_mass;
       next.inverse_inertia = unit_inertia > 0 ? row.inverse_mass / unit_inertia : 0;
-      next.force = row.mass * plan.push;
+      next.force = row.mass * state.push;
       next.torque = form.torque;
       if (!isValid(next)) {
         next = {};
@@ -129,9 +129,10 @@ void BodyLinks::load(const BodyTable& table, const std::vector<BodyPlan>& plans,
   }
 }
 
-void BodyLinks::step(BodyTable& table, std::vector<BodyPlan>& plans, const std::vector<double>& unit_inertias,
-                     const std::vector<BodyMeeting>& meetings, BodyContacts& contacts) {
-  load(table, plans, unit_inertias);
+void BodyLinks::step(BodyTable& table, std::vector<BodyState>& states,
+                     const std::vector<double>& unit_inertias,
+                     const std::vector<BodyCandidatePair>& candidates, BodyContacts& contacts) {
+  load(table, states, unit_inertias);
   std::vector<JointEntry>& entries = table.joints.entries();
   for (std::size_t i = 0; i < m_joints.size(); ++i) {
     JointEntry& entry = entries[m_entry_of[i]];
@@ -144,30 +145,30 @@ void BodyLinks::step(BodyTable& table, std::vector<BodyPlan>& plans, const std::
   }
   if (!m_is_connected) m_is_connected = m_solver.connect(m_bodies, m_joints) == 0;
   m_is_moved.clear();
-  if (m_is_connected && !meetings.empty()) strike(table, plans, meetings, contacts);
+  if (m_is_connected && !candidates.empty()) stepImpacts(table, states, candidates, contacts);
   if (m_is_connected) m_solver.step(m_bodies, m_joints, 1, {}, {}, m_is_moved);
-  store(table, plans);
+  store(table, states);
 }
 
-void BodyLinks::store(BodyTable& table, std::vector<BodyPlan>& plans) {
+void BodyLinks::store(BodyTable& table, std::vector<BodyState>& states) {
   for (std::size_t i = 0; i < m_bodies.size(); ++i) {
-    if (m_plan_of[i] < 0) continue;
-    BodyPlan& plan = plans[at(m_plan_of[i])];
-    if (plan.way != BodyWay::kJoined && plan.way != BodyWay::kStruck) continue;
+    if (m_state_of[i] < 0) continue;
+    BodyState& state = states[at(m_state_of[i])];
+    if (state.solver != BodySolver::kJoints && state.solver != BodySolver::kJointImpacts) continue;
     const JointBody& body = m_bodies[i];
-    plan.place = body.place;
-    plan.velocity = body.velocity;
-    plan.rotation = body.rotation;
-    plan.spin = body.spin;
-    plan.acceleration = plan.is_struck ? Vec2{} : body.velocity - plan.start_velocity;
-    const bool is_held = body.inverse_mass == 0 && table.row(plan.index).inverse_mass > 0;
-    if (is_held || !m_is_connected) plan.p_failure = "its numbers are beyond what joints can hold";
+    state.place = body.place;
+    state.velocity = body.velocity;
+    state.rotation = body.rotation;
+    state.spin = body.spin;
+    state.acceleration = state.contacts_changed ? Vec2{} : body.velocity - state.start_velocity;
+    const bool is_held = body.inverse_mass == 0 && table.row(state.index).inverse_mass > 0;
+    if (is_held || !m_is_connected) state.p_failure = "its numbers are beyond what joints can hold";
   }
   for (const JointIsland& island : m_solver.islands()) {
     if (!island.isFrozen()) continue;
     for (const int body : island.bodies()) {
-      if (m_plan_of[at(body)] < 0) continue;
-      plans[at(m_plan_of[at(body)])].p_failure = "what it is joined with cannot be worked out";
+      if (m_state_of[at(body)] < 0) continue;
+      states[at(m_state_of[at(body)])].p_failure = "what it is joined with cannot be worked out";
     }
   }
   std::vector<JointEntry>& entries = table.joints.entries();

@@ -57,12 +57,12 @@ void BodyLook::update(const BodyForm& form, const df::FixedBox& box, double aspe
       m_turns || form.is_turning || form.spin != 0 || (m_made && !(form.rotation == m_rotation));
   if (turns != m_turns || !isUpToDate(form, box, aspect)) {
     m_turns = turns;
-    drawAnew(form, box, aspect);
+    redraw(form, box, aspect);
   }
   if (m_turn.frames.size() > 1) choose(form, tick);
 }
 
-void BodyLook::drawAnew(const BodyForm& form, const df::FixedBox& box, double aspect) {
+void BodyLook::redraw(const BodyForm& form, const df::FixedBox& box, double aspect) {
   m_made = m_new_frames = true;
   m_shapes = form.shapes;
   m_box = box;
@@ -79,8 +79,8 @@ void BodyLook::drawAnew(const BodyForm& form, const df::FixedBox& box, double as
   }
 }
 
-// The angle is told with as few bits as its error allows, but the spin exactly: what turns freely may do so
-// for ever.
+// The angle is published with as few bits as its error allows, but the spin exactly: what turns freely may do
+// so for ever.
 void BodyLook::choose(const BodyForm& form, std::uint32_t tick) {
   const std::uint32_t angle = m_turn.repeats * integerAngle(angleOf(form.rotation));
   const auto width = static_cast<std::uint32_t>((std::uint64_t{1} << 32) / m_turn.frames.size());

@@ -1,8 +1,8 @@
 // What a Body looks like: the pictures of its turn, and which of them is shown.
 //
 // The picture shown follows a selector (naiad::Selector), an integer function of the tick: as long as the
-// body turns as that says, to within a part of a picture, the selector stays, and no watcher has to be told
-// anything. So what is on the screen is always what the selector says, on the server too.
+// body turns as that says, to within a part of a picture, the selector stays, and nothing has to be
+// published. So what is on the screen is always what the selector says, on the server too.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class BodyLook {
 
  private:
   bool isUpToDate(const BodyForm& form, const df::FixedBox& box, double aspect) const;
-  void drawAnew(const BodyForm& form, const df::FixedBox& box, double aspect);
+  void redraw(const BodyForm& form, const df::FixedBox& box, double aspect);
   void choose(const BodyForm& form, std::uint32_t tick);
 
   FrameStyle m_style;

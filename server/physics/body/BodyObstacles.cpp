@@ -6,7 +6,7 @@ namespace df {
 
 namespace {
 
-// Within what the store's numbers hold.
+// Clamped to the range of the store's numbers.
 FixedVector clamped(const naiad::physics::Metric& metric, const naiad::physics::Place& place) {
   if (metric.isInRange(place)) return metric.fixedOf(place);
   const Vector at = metric.cellsOf(place);
@@ -16,11 +16,11 @@ FixedVector clamped(const naiad::physics::Metric& metric, const naiad::physics::
 
 }  // namespace
 
-void BodyObstacles::begin() {
+void BodyObstacles::beginTick() {
   for (Obstacle& obstacle : m_all) obstacle.is_near = false;
 }
 
-void BodyObstacles::note(ObjectKey key) {
+void BodyObstacles::markNear(ObjectKey key) {
   const auto at =
       std::lower_bound(m_all.begin(), m_all.end(), key,
                        [](const Obstacle& obstacle, ObjectKey k) { return obstacle.key.slot < k.slot; });
@@ -34,8 +34,7 @@ void BodyObstacles::note(ObjectKey key) {
 
 FixedBox regionOf(const naiad::physics::Metric& metric, const naiad::physics::Place& centre,
                   naiad::physics::Vec2 half) {
-  // So far nobody looks, and the box's size stays a number.
-  constexpr double kFarthest = 1 << 28;
+  constexpr double kFarthest = 1 << 28;  // metric cells to either side: the box's size stays in range
   const naiad::physics::Vec2 reach = {std::min(half.x, kFarthest), std::min(half.y, kFarthest)};
   const FixedVector low = clamped(metric, centre + -reach), high = clamped(metric, centre + reach);
   return {{low.x - 1, low.y - 1}, {high.x - low.x + 2, high.y - low.y + 2}};

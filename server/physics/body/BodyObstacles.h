@@ -1,8 +1,7 @@
-// The Objects without mass that bodies may run into in this tick: HARD ones near them, as a solver knows
-// them.
+// The obstacles of a solver: HARD Objects without mass that bodies may run into in this tick.
 //
-// They are found by the world's own grid, and kept while something is near. Whoever has no bodies near costs
-// nothing.
+// They are found by the world's own grid, and kept while a body is near. An Object without bodies near it
+// costs nothing.
 #pragma once
 
 #include <vector>
@@ -20,17 +19,17 @@ class BodyObstacles {
     bool is_near = true;
   };
 
-  /// Nothing is near, until it is noted.
-  void begin();
-  void note(ObjectKey key);
+  /// No obstacle is near, until it is marked.
+  void beginTick();
+  void markNear(ObjectKey key);
   /// Ordered by slot. The solver takes in those without an id, and drops those that are not near.
   std::vector<Obstacle>& all() { return m_all; }
-  void forgetFar() {
+  void removeFar() {
     std::erase_if(m_all, [](const Obstacle& obstacle) { return !obstacle.is_near; });
   }
 
   /// Is the Object one: solid, HARD, and no body?
-  static bool isOne(const WorldStore& store, ObjectKey key) {
+  static bool isObstacle(const WorldStore& store, ObjectKey key) {
     return store.isCurrent(key) && store.collides(key.slot) && store.solidness(key.slot) == HARD &&
            !store.has(key.slot, WorldStore::kBody);
   }

@@ -15,10 +15,10 @@ using naiad::physics::BodyContact;
 using naiad::physics::BodyContacts;
 using naiad::physics::BodyForm;
 using naiad::physics::BodyJoints;
-using naiad::physics::BodyPlan;
 using naiad::physics::BodyRow;
+using naiad::physics::BodySolver;
+using naiad::physics::BodyState;
 using naiad::physics::BodyTable;
-using naiad::physics::BodyWay;
 using naiad::physics::ConvexShape;
 using naiad::physics::RigidBody;
 using naiad::physics::RigidEvent;
@@ -26,72 +26,73 @@ using naiad::physics::ShapeStatus;
 using naiad::physics::Vec2;
 using RawJoint = naiad::physics::Joint;
 
-bool takesPart(const BodyPlan& plan) {
-  return plan.way == BodyWay::kRigid || plan.is_near_rigid;
+bool takesPart(const BodyState& state) {
+  return state.solver == BodySolver::kRigid || state.is_near_rigid;
 }
 
 }  // namespace
 
 int BodyRigids::rigidOf(int row) const {
-  if (row < 0 || row >= static_cast<int>(m_seats.size())) return -1;
-  return m_seats[at(row)].is_taken ? m_seats[at(row)].id : -1;
+  if (row < 0 || row >= static_cast<int>(m_proxies.size())) return -1;
+  return m_proxies[at(row)].is_used ? m_proxies[at(row)].id : -1;
 }
 
-void BodyRigids::know(int id, ObjectKey key, std::uint64_t order, int plan) {
-  if (id >= static_cast<int>(m_who.size())) m_who.resize(at(id) + 1);
-  m_who[at(id)] = {key, order, plan};
+void BodyRigids::identify(int id, ObjectKey key, std::uint64_t order, int state) {
+  if (id >= static_cast<int>(m_identities.size())) m_identities.resize(at(id) + 1);
+  m_identities[at(id)] = {key, order, state};
 }
 
-// What it looks like to the others: nothing, unless it is HARD.
-void BodyRigids::shape(Seat& seat, const BodyTable& table, const BodyPlan& plan, const FixedBox& box,
+// Its shapes for the others: none, unless it is HARD.
+void BodyRigids::shape(Proxy& proxy, const BodyTable& table, const BodyState& state, const FixedBox& box,
                        const RigidBody& body) {
-  const BodyForm& form = table.form(plan.index);
+  const BodyForm& form = table.form(state.index);
   const bool is_box = form.shapes.empty();
-  const std::uint32_t version = plan.is_hard ? form.version + 1 : 0;
-  if (seat.id >= 0 && seat.version == version && (!is_box || seat.box == box)) return;
+  const std::uint32_t version = state.is_hard ? form.version + 1 : 0;
+  if (proxy.id >= 0 && proxy.version == version && (!is_box || proxy.box == box)) return;
   m_shapes.clear();
-  if (plan.is_hard && !is_box) m_shapes = form.shapes;
-  if (plan.is_hard && is_box) {
+  if (state.is_hard && !is_box) m_shapes = form.shapes;
+  if (state.is_hard && is_box) {
     const Vec2 half = 0.5 * table.metric.fromCells(Vector::fromFixed(box.size));
     const Vec2 centre = table.metric.fromCells(Vector::fromFixed(box.corner)) + half;
     ConvexShape made;
     if (makeBox(half.x, half.y, centre, {}, 0, made) == ShapeStatus::kOk) m_shapes.push_back(made);
   }
-  seat.version = version;
-  seat.box = box;
-  if (seat.id < 0) {
-    seat.id = m_world.add(body, m_shapes);
+  proxy.version = version;
+  proxy.box = box;
+  if (proxy.id < 0) {
+    proxy.id = m_world.add(body, m_shapes);
   } else {
-    m_world.setShapes(seat.id, m_shapes);
+    m_world.setShapes(proxy.id, m_shapes);
   }
 }
 
-void BodyRigids::sitDown(const WorldStore& store, const BodyTable& table, const std::vector<BodyPlan>& plans,
-                         const std::vector<double>& unit_inertias) {
-  for (Seat& seat : m_seats) seat.is_taken = false;
-  for (const BodyPlan& plan : plans) {
-    if (!takesPart(plan)) continue;
-    if (plan.index >= m_seats.size()) m_seats.resize(plan.index + 1);
-    Seat& seat = m_seats[plan.index];
-    const std::uint64_t order = table.row(plan.index).order;
-    if (seat.id >= 0 && seat.order != order) {  // the one before is gone
-      m_world.remove(seat.id);
-      seat.id = -1;
+void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
+                              const std::vector<BodyState>& states,
+                              const std::vector<double>& unit_inertias) {
+  for (Proxy& proxy : m_proxies) proxy.is_used = false;
+  for (const BodyState& state : states) {
+    if (!takesPart(state)) continue;
+    if (state.index >= m_proxies.size()) m_proxies.resize(state.index + 1);
+    Proxy& proxy = m_proxies[state.index];
+    const std::uint64_t order = table.row(state.index).order;
+    if (proxy.id >= 0 && proxy.order != order) {  // the one before is gone
+      m_world.remove(proxy.id);
+      proxy.id = -1;
     }
-    seat.order = order;
-    seat.is_taken = true;
+    proxy.order = order;
+    proxy.is_used = true;
   }
-  for (Seat& seat : m_seats) {
-    if (seat.is_taken || seat.id < 0) continue;
-    m_world.remove(seat.id);
-    seat.id = -1;
+  for (Proxy& proxy : m_proxies) {
+    if (proxy.is_used || proxy.id < 0) continue;
+    m_world.remove(proxy.id);
+    proxy.id = -1;
   }
   m_count = 0;
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    const BodyPlan& plan = plans[i];
-    if (!takesPart(plan)) continue;
-    const BodyRow& row = table.row(plan.index);
-    const BodyForm& form = table.form(plan.index);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const BodyState& state = states[i];
+    if (!takesPart(state)) continue;
+    const BodyRow& row = table.row(state.index);
+    const BodyForm& form = table.form(state.index);
     RigidBody body;
     body.place = row.place;
     body.velocity = row.velocity;
@@ -99,41 +100,42 @@ void BodyRigids::sitDown(const WorldStore& store, const BodyTable& table, const 
     body.spin = form.spin;
     body.inverse_mass = row.inverse_mass;
     body.inverse_inertia = unit_inertias[i] > 0 ? row.inverse_mass / unit_inertias[i] : 0;
-    if (!plan.is_kinematic) body.acceleration = plan.is_bent ? plan.flown.velocity - row.velocity : plan.push;
+    if (!state.is_kinematic)
+      body.acceleration = state.is_bent ? state.flown.velocity - row.velocity : state.push;
     body.torque = form.torque;
     body.friction = row.friction;
     body.restitution = row.restitution;
-    Seat& seat = m_seats[plan.index];
-    shape(seat, table, plan, store.box(plan.key.slot), body);
-    if (seat.id < 0) continue;
-    m_world.set(seat.id, body);
-    know(seat.id, plan.key, plan.order, static_cast<int>(i));
+    Proxy& proxy = m_proxies[state.index];
+    shape(proxy, table, state, store.box(state.key.slot), body);
+    if (proxy.id < 0) continue;
+    m_world.set(proxy.id, body);
+    identify(proxy.id, state.key, state.order, static_cast<int>(i));
     ++m_count;
   }
 }
 
-// Who is hit by somebody faster may get as far as he.
-void BodyRigids::takeObstacles(const WorldStore& store, const BodyTable& table,
-                               const std::vector<BodyPlan>& plans, BodyContacts& contacts) {
-  m_obstacles.begin();
-  m_surroundings.begin();
+// A body that is hit by a faster one may get as far as that.
+void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table,
+                                 const std::vector<BodyState>& states, BodyContacts& contacts) {
+  m_obstacles.beginTick();
+  m_surroundings.clear();
   Vec2 fastest;
-  for (const BodyPlan& plan : plans) {
-    if (plan.way != BodyWay::kRigid) continue;
-    fastest = {std::max(fastest.x, std::fabs(plan.start_velocity.x)),
-               std::max(fastest.y, std::fabs(plan.start_velocity.y))};
+  for (const BodyState& state : states) {
+    if (state.solver != BodySolver::kRigid) continue;
+    fastest = {std::max(fastest.x, std::fabs(state.start_velocity.x)),
+               std::max(fastest.y, std::fabs(state.start_velocity.y))};
   }
-  for (const BodyPlan& plan : plans) {
-    if (plan.way != BodyWay::kRigid || !plan.is_hard) continue;
-    m_surroundings.ask(regionOf(table.metric, plan.start, plan.reach + fastest));
+  for (const BodyState& state : states) {
+    if (state.solver != BodySolver::kRigid || !state.is_hard) continue;
+    m_surroundings.addRegion(regionOf(table.metric, state.start, state.reach + fastest));
   }
-  m_surroundings.answer(store, [&](std::size_t /*number*/, ObjectKey key) {
-    if (BodyObstacles::isOne(store, key)) m_obstacles.note(key);
+  m_surroundings.query(store, [&](std::size_t /*number*/, ObjectKey key) {
+    if (BodyObstacles::isObstacle(store, key)) m_obstacles.markNear(key);
   });
   for (BodyObstacles::Obstacle& obstacle : m_obstacles.all()) {
     if (!obstacle.is_near) {
       if (obstacle.id >= 0) m_world.remove(obstacle.id);
-      contacts.doubt(obstacle.key, BodyWay::kRigid);
+      contacts.expire(obstacle.key, BodySolver::kRigid);
       continue;
     }
     const std::uint32_t slot = obstacle.key.slot;
@@ -157,114 +159,116 @@ void BodyRigids::takeObstacles(const WorldStore& store, const BodyTable& table,
       if (at(obstacle.id) >= m_obstacle_boxes.size()) m_obstacle_boxes.resize(at(obstacle.id) + 1);
       m_obstacle_boxes[at(obstacle.id)] = box;
     }
-    know(obstacle.id, obstacle.key, store.order(slot), -1);
+    identify(obstacle.id, obstacle.key, store.order(slot), -1);
   }
-  m_obstacles.forgetFar();
+  m_obstacles.removeFar();
 }
 
 // A joint is here if one of its bodies is.
-void BodyRigids::takeJoints(const BodyTable& table) {
+void BodyRigids::updateJoints(const BodyTable& table) {
   const std::vector<naiad::physics::JointEntry>& entries = table.joints.entries();
-  if (m_joint_seats.size() < entries.size()) m_joint_seats.resize(entries.size());
+  if (m_joint_proxies.size() < entries.size()) m_joint_proxies.resize(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const naiad::physics::JointEntry& entry = entries[i];
-    JointSeat& seat = m_joint_seats[i];
+    JointProxy& proxy = m_joint_proxies[i];
     const int a = rigidOf(entry.joint.a), b = rigidOf(entry.joint.b);
     const bool is_world_a = entry.joint.a == BodyJoints::kWorld;
     const bool is_world_b = entry.joint.b == BodyJoints::kWorld;
     const bool is_here = entry.used && (a >= 0 || is_world_a) && (b >= 0 || is_world_b);
-    if (seat.id >= 0 && (!is_here || seat.generation != entry.generation || !m_world.jointExists(seat.id))) {
-      m_world.removeJoint(seat.id);
-      if (seat.anchor >= 0) m_world.remove(seat.anchor);
-      seat = {};
+    if (proxy.id >= 0 &&
+        (!is_here || proxy.generation != entry.generation || !m_world.jointExists(proxy.id))) {
+      m_world.removeJoint(proxy.id);
+      if (proxy.anchor >= 0) m_world.remove(proxy.anchor);
+      proxy = {};
     }
     if (!is_here) continue;
     RawJoint joint = entry.joint;
-    if (seat.id < 0 && (is_world_a || is_world_b)) {
+    if (proxy.id < 0 && (is_world_a || is_world_b)) {
       RigidBody anchor;
       anchor.place = entry.anchor;
       anchor.inverse_mass = 0;
-      seat.anchor = m_world.add(anchor, std::span<const ConvexShape>());
+      proxy.anchor = m_world.add(anchor, std::span<const ConvexShape>());
     }
-    joint.a = is_world_a ? seat.anchor : a;
-    joint.b = is_world_b ? seat.anchor : b;
-    if (seat.id < 0) {
-      seat.id = m_world.addJoint(joint);
-    } else if (seat.tunings != entry.tunings) {
-      m_world.setJoint(seat.id, joint);
+    joint.a = is_world_a ? proxy.anchor : a;
+    joint.b = is_world_b ? proxy.anchor : b;
+    if (proxy.id < 0) {
+      proxy.id = m_world.addJoint(joint);
+    } else if (proxy.tunings != entry.tunings) {
+      m_world.setJoint(proxy.id, joint);
     }
-    seat.generation = entry.generation;
-    seat.tunings = entry.tunings;
+    proxy.generation = entry.generation;
+    proxy.tunings = entry.tunings;
   }
 }
 
-void BodyRigids::step(const WorldStore& store, BodyTable& table, std::vector<BodyPlan>& plans,
+void BodyRigids::step(const WorldStore& store, BodyTable& table, std::vector<BodyState>& states,
                       const std::vector<double>& unit_inertias, BodyContacts& contacts) {
-  sitDown(store, table, plans, unit_inertias);
-  takeObstacles(store, table, plans, contacts);
-  takeJoints(table);
+  updateBodies(store, table, states, unit_inertias);
+  updateObstacles(store, table, states, contacts);
+  updateJoints(table);
   if (m_count == 0) return;
-  for (BodyPlan& plan : plans) {
-    if (plan.way == BodyWay::kRigid) plan.is_touched = contacts.isTouching(plan.key);
+  for (BodyState& state : states) {
+    if (state.solver == BodySolver::kRigid) state.is_touched = contacts.isTouching(state.key);
   }
   m_world.step(1);
-  collect(plans, contacts);
-  finish(table, plans, contacts);
+  collect(states, contacts);
+  finish(table, states, contacts);
 }
 
-void BodyRigids::collect(std::vector<BodyPlan>& plans, BodyContacts& contacts) const {
+void BodyRigids::collect(std::vector<BodyState>& states, BodyContacts& contacts) const {
   for (const RigidEvent& event : m_world.events()) {
-    const Who* p_first = &m_who[at(event.first)];
-    const Who* p_second = &m_who[at(event.second)];
-    for (const Who* p_who : {p_first, p_second}) {
-      if (p_who->plan >= 0) plans[at(p_who->plan)].is_touched = plans[at(p_who->plan)].is_struck = true;
+    const Identity* p_first = &m_identities[at(event.first)];
+    const Identity* p_second = &m_identities[at(event.second)];
+    for (const Identity* p_identity : {p_first, p_second}) {
+      if (p_identity->state >= 0)
+        states[at(p_identity->state)].is_touched = states[at(p_identity->state)].contacts_changed = true;
     }
-    const bool is_swapped = p_first->plan < 0 || (p_second->plan >= 0 && p_second->order < p_first->order);
+    const bool is_swapped = p_first->state < 0 || (p_second->state >= 0 && p_second->order < p_first->order);
     if (is_swapped) std::swap(p_first, p_second);
     contacts.add({event.time, p_first->key, p_second->key, p_first->order, p_second->order, event.impulse,
-                  event.is_begin, BodyWay::kRigid});
+                  event.is_begin, BodySolver::kRigid});
   }
 }
 
-void BodyRigids::finish(BodyTable& table, std::vector<BodyPlan>& plans, const BodyContacts& contacts) {
-  for (BodyPlan& plan : plans) {
-    if (plan.way != BodyWay::kRigid) continue;
-    const Seat& seat = m_seats[plan.index];
-    if (seat.id < 0) {
-      plan.p_failure = "its numbers are beyond what can be calculated with";
+void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const BodyContacts& contacts) {
+  for (BodyState& state : states) {
+    if (state.solver != BodySolver::kRigid) continue;
+    const Proxy& proxy = m_proxies[state.index];
+    if (proxy.id < 0) {
+      state.p_failure = "its numbers are beyond what can be calculated with";
       continue;
     }
-    if (m_world.isFrozen(seat.id)) plan.p_failure = "what happens to it cannot be worked out";
-    const RigidBody& body = m_world.body(seat.id);
-    const Vec2 pushed = body.velocity - (plan.start_velocity + body.acceleration);
-    const double rounding = 1e-9 * (length(plan.start_velocity) + length(body.acceleration));
-    const bool is_touched = plan.is_touched || plan.is_joined || contacts.isTouching(plan.key);
+    if (m_world.isFrozen(proxy.id)) state.p_failure = "what happens to it cannot be worked out";
+    const RigidBody& body = m_world.body(proxy.id);
+    const Vec2 pushed = body.velocity - (state.start_velocity + body.acceleration);
+    const double rounding = 1e-9 * (length(state.start_velocity) + length(body.acceleration));
+    const bool is_touched = state.is_touched || state.is_joined || contacts.isTouching(state.key);
     if (!is_touched && length(pushed) <= rounding) {  // exactly as on its own
-      plan.place = plan.start + plan.flown.displacement;
-      plan.velocity = plan.flown.velocity;
+      state.place = state.start + state.flown.displacement;
+      state.velocity = state.flown.velocity;
       continue;
     }
-    plan.turns_alone = false;
-    plan.place = body.place;
-    plan.velocity = body.velocity;
-    plan.rotation = body.rotation;
-    plan.spin = body.spin;
+    state.turns_alone = false;
+    state.place = body.place;
+    state.velocity = body.velocity;
+    state.rotation = body.rotation;
+    state.spin = body.spin;
     const bool is_still = body.velocity == Vec2{} && body.spin == 0;
     if (is_still) {
-      plan.acceleration = {};
-    } else if (!plan.is_struck) {
-      plan.acceleration = body.velocity - plan.start_velocity;
+      state.acceleration = {};
+    } else if (!state.contacts_changed) {
+      state.acceleration = body.velocity - state.start_velocity;
     }
   }
   const std::vector<naiad::physics::JointEntry>& entries = std::as_const(table).joints.entries();
-  for (std::size_t i = 0; i < m_joint_seats.size() && i < entries.size(); ++i) {
-    const JointSeat& seat = m_joint_seats[i];
-    if (seat.id < 0 || !entries[i].used || entries[i].generation != seat.generation) continue;
-    const RawJoint& joint = m_world.joint(seat.id);
+  for (std::size_t i = 0; i < m_joint_proxies.size() && i < entries.size(); ++i) {
+    const JointProxy& proxy = m_joint_proxies[i];
+    if (proxy.id < 0 || !entries[i].used || entries[i].generation != proxy.generation) continue;
+    const RawJoint& joint = m_world.joint(proxy.id);
     naiad::physics::JointEntry& entry = table.joints.entries()[i];
     entry.joint.force = joint.force;
     entry.joint.torque = joint.torque;
-    if (joint.is_broken) table.joints.remove({static_cast<std::uint32_t>(i), seat.generation});
+    if (joint.is_broken) table.joints.remove({static_cast<std::uint32_t>(i), proxy.generation});
   }
 }
 

@@ -1,11 +1,11 @@
-// The bodies of a RigidWorld, their joints, and what stands in their way.
+// The bodies that a RigidWorld moves, their joints and obstacles: keeps that world in step with the table.
 #pragma once
 
 #include <vector>
 
 #include "physics/body/BodyContacts.h"
 #include "physics/body/BodyObstacles.h"
-#include "physics/body/BodyPlan.h"
+#include "physics/body/BodyState.h"
 #include "physics/body/BodySurroundings.h"
 #include "physics/rigid/RigidWorld.h"
 
@@ -13,47 +13,48 @@ namespace df {
 
 class BodyRigids {
  public:
-  /// Does anybody take part, or has anybody until now?
+  /// Does no body take part, and did none in the last tick?
   bool isEmpty() const { return m_count == 0; }
-  /// Lets a tick pass for the plans that go this way, with the kinematic ones near them. `unit_inertias` by
-  /// plan; 0: it does not turn.
+  /// Steps the bodies with solver kRigid by a tick, with the kinematic ones near them. `unit_inertias` by
+  /// state; 0: it does not turn.
   void step(const WorldStore& store, naiad::physics::BodyTable& table,
-            std::vector<naiad::physics::BodyPlan>& plans, const std::vector<double>& unit_inertias,
+            std::vector<naiad::physics::BodyState>& states, const std::vector<double>& unit_inertias,
             naiad::physics::BodyContacts& contacts);
 
   const naiad::physics::RigidCounters& counters() const { return m_world.counters(); }
 
  private:
-  struct Seat {  // by row of the table
+  struct Proxy {  // by row of the table
     std::uint64_t order = 0;
     int id = -1;
-    bool is_taken = false;
+    bool is_used = false;
     std::uint32_t version = 0;  // of the form
     FixedBox box;               // of the Object, if that is its shape
   };
-  struct JointSeat {  // by entry of the table's joints
+  struct JointProxy {  // by entry of the table's joints
     std::uint32_t generation = 0;
     std::uint32_t tunings = 0;
     int id = -1;
     int anchor = -1;  // the body that stands for the world
   };
-  struct Who {  // by id
+  struct Identity {  // by id
     ObjectKey key;
     std::uint64_t order = 0;
-    int plan = -1;  // −1: an obstacle
+    int state = -1;  // −1: an obstacle
   };
 
-  void sitDown(const WorldStore& store, const naiad::physics::BodyTable& table,
-               const std::vector<naiad::physics::BodyPlan>& plans, const std::vector<double>& unit_inertias);
-  void shape(Seat& seat, const naiad::physics::BodyTable& table, const naiad::physics::BodyPlan& plan,
+  void updateBodies(const WorldStore& store, const naiad::physics::BodyTable& table,
+                    const std::vector<naiad::physics::BodyState>& states,
+                    const std::vector<double>& unit_inertias);
+  void shape(Proxy& proxy, const naiad::physics::BodyTable& table, const naiad::physics::BodyState& state,
              const FixedBox& box, const naiad::physics::RigidBody& body);
-  void takeObstacles(const WorldStore& store, const naiad::physics::BodyTable& table,
-                     const std::vector<naiad::physics::BodyPlan>& plans,
-                     naiad::physics::BodyContacts& contacts);
-  void takeJoints(const naiad::physics::BodyTable& table);
-  void know(int id, ObjectKey key, std::uint64_t order, int plan);
-  void collect(std::vector<naiad::physics::BodyPlan>& plans, naiad::physics::BodyContacts& contacts) const;
-  void finish(naiad::physics::BodyTable& table, std::vector<naiad::physics::BodyPlan>& plans,
+  void updateObstacles(const WorldStore& store, const naiad::physics::BodyTable& table,
+                       const std::vector<naiad::physics::BodyState>& states,
+                       naiad::physics::BodyContacts& contacts);
+  void updateJoints(const naiad::physics::BodyTable& table);
+  void identify(int id, ObjectKey key, std::uint64_t order, int state);
+  void collect(std::vector<naiad::physics::BodyState>& states, naiad::physics::BodyContacts& contacts) const;
+  void finish(naiad::physics::BodyTable& table, std::vector<naiad::physics::BodyState>& states,
               const naiad::physics::BodyContacts& contacts);
   int rigidOf(int row) const;
 
@@ -61,9 +62,9 @@ class BodyRigids {
   static constexpr double kSleepSpeed = 1e-5;
 
   naiad::physics::RigidWorld m_world{naiad::physics::RigidOptions{.sleep_speed = kSleepSpeed}};
-  std::vector<Seat> m_seats;
-  std::vector<JointSeat> m_joint_seats;
-  std::vector<Who> m_who;
+  std::vector<Proxy> m_proxies;
+  std::vector<JointProxy> m_joint_proxies;
+  std::vector<Identity> m_identities;
   BodyObstacles m_obstacles;
   std::vector<FixedBox> m_obstacle_boxes;  // by id
   BodySurroundings m_surroundings;

@@ -7,8 +7,9 @@ namespace df {
 
 namespace {
 
-constexpr int kTileBits = kFixedBits + 3;  // regions that begin in the same 8 by 8 cells are one place …
-constexpr Fixed kLargest = Fixed{1} << kTileBits;  // … if none is larger than that
+// Regions that begin in the same 8 by 8 cells, and are not larger than that, are asked for together.
+constexpr int kTileBits = kFixedBits + 3;
+constexpr Fixed kLargest = Fixed{1} << kTileBits;
 
 bool isLarge(const FixedBox& region) {
   return region.size.x > kLargest || region.size.y > kLargest;
@@ -23,36 +24,36 @@ FixedBox around(const FixedBox& a, const FixedBox& b) {
 
 }  // namespace
 
-void BodySurroundings::ask(const FixedBox& region) {
-  const auto number = static_cast<std::uint32_t>(m_asked.size());
-  m_asked.push_back({region.corner.x >> kTileBits, region.corner.y >> kTileBits, number, region});
+void BodySurroundings::addRegion(const FixedBox& region) {
+  const auto number = static_cast<std::uint32_t>(m_regions.size());
+  m_regions.push_back({region.corner.x >> kTileBits, region.corner.y >> kTileBits, number, region});
 }
 
 void BodySurroundings::search(const WorldStore& store) {
-  constexpr WorldStore::Slot kNobody = ~WorldStore::Slot{0};
+  constexpr WorldStore::Slot kNoSlot = ~WorldStore::Slot{0};
   m_found.clear();
-  std::sort(m_asked.begin(), m_asked.end(), [](const Asked& a, const Asked& b) {
+  std::sort(m_regions.begin(), m_regions.end(), [](const Region& a, const Region& b) {
     return std::tie(a.tile_y, a.tile_x, a.number) < std::tie(b.tile_y, b.tile_x, b.number);
   });
-  for (std::size_t i = 0, end = 0; i < m_asked.size(); i = end) {
-    const Asked& first = m_asked[i];
+  for (std::size_t i = 0, end = 0; i < m_regions.size(); i = end) {
+    const Region& first = m_regions[i];
     FixedBox place = first.region;
-    const auto isBeside = [&](const Asked& asked) {
-      return asked.tile_x == first.tile_x && asked.tile_y == first.tile_y && !isLarge(first.region) &&
-             !isLarge(asked.region);
+    const auto isBeside = [&](const Region& region) {
+      return region.tile_x == first.tile_x && region.tile_y == first.tile_y && !isLarge(first.region) &&
+             !isLarge(region.region);
     };
-    for (end = i + 1; end < m_asked.size() && isBeside(m_asked[end]); ++end) {
-      place = around(place, m_asked[end].region);
+    for (end = i + 1; end < m_regions.size() && isBeside(m_regions[end]); ++end) {
+      place = around(place, m_regions[end].region);
     }
     m_near.clear();
-    store.touching(place, kNobody, m_near);
+    store.touching(place, kNoSlot, m_near);
     std::erase_if(m_near, [&](ObjectKey key) { return store.has(key.slot, WorldStore::kBody); });
     for (std::size_t k = i; k < end; ++k) {
       std::uint32_t turn = 0;
       for (const ObjectKey key : m_near) {
         const bool is_near =
-            intersects(store.worldBox(key.slot, store.position(key.slot)), m_asked[k].region);
-        if (is_near) m_found.push_back({m_asked[k].number, turn, key});
+            intersects(store.worldBox(key.slot, store.position(key.slot)), m_regions[k].region);
+        if (is_near) m_found.push_back({m_regions[k].number, turn, key});
         ++turn;
       }
     }

@@ -1,7 +1,7 @@
 // The Objects without mass that are near many bodies.
 //
-// The world's grid is asked once for bodies that are in one place, not once for each: a heap would find
-// itself each time, which is no news.
+// The world's grid is asked once for bodies that are in one place, not once for each: in a heap each question
+// would find the heap again.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@ namespace df {
 
 class BodySurroundings {
  public:
-  void begin() { m_asked.clear(); }
-  /// Asks for what touches `region`. The first since begin() has number 0, the next 1, and so on.
-  void ask(const FixedBox& region);
+  void clear() { m_regions.clear(); }
+  /// Adds a region to the next query. The first since clear() has number 0, the next 1, and so on.
+  void addRegion(const FixedBox& region);
   /// Calls visit(number, key) for each Object in the store's grid that is no body and touches the region of
   /// that number, edges included: by numbers, then in creation order.
   template <class Visit>
-  void answer(const WorldStore& store, Visit visit) {
+  void query(const WorldStore& store, Visit visit) {
     search(store);
     for (const Found& found : m_found) visit(static_cast<std::size_t>(found.number), found.key);
   }
 
  private:
-  struct Asked {
+  struct Region {
     std::int64_t tile_x, tile_y;
     std::uint32_t number;
     FixedBox region;
@@ -37,7 +37,7 @@ class BodySurroundings {
   };
   void search(const WorldStore& store);
 
-  std::vector<Asked> m_asked;
+  std::vector<Region> m_regions;
   std::vector<Found> m_found;
   std::vector<ObjectKey> m_near;
 };

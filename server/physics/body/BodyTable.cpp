@@ -57,14 +57,14 @@ double BodyTable::unitInertia(Index index, const df::FixedBox& box) const {
 
 void BodyTable::absorb(Index index, df::FixedVector position, df::FixedVector velocity) {
   BodyRow& row = m_rows[index];
-  if (position != row.told_position) {
+  if (position != row.published_position) {
     row.place = metric.placeOf(position);
-    row.told_position = position;
+    row.published_position = position;
     row.frozen = false;
   }
-  if (velocity != row.told_velocity) {
+  if (velocity != row.published_velocity) {
     row.velocity = metric.fromCells(df::Vector::fromFixed(velocity));
-    row.told_velocity = velocity;
+    row.published_velocity = velocity;
     row.frozen = false;
   }
 }

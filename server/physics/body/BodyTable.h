@@ -1,8 +1,8 @@
 // The bodies of a world: what the physics knows of each, beside what the store knows of all Objects.
 //
-// A scene without bodies has no table. A body has a row from construction to destruction; rows of the dead
-// are used again, and `order` tells who came when. Counted: by the layer and by each Body, so that a Body
-// that outlives its world goes on working.
+// A scene without bodies has no table. A body has a row from construction to destruction; rows of
+// deleted bodies are used again; `order` is the order of construction. Counted: by the layer and by each
+// Body, so that a Body that outlives its world goes on working.
 #pragma once
 
 #include <cstdint>
@@ -40,11 +40,11 @@ inline constexpr double kUsualFriction = 0.5;
 struct BodyRow {
   df::ObjectKey key;
   const df::Object* p_object = nullptr;
-  std::uint64_t order = 0;    ///< of construction
-  std::uint8_t last_way = 0;  ///< a BodyWay: who moved it in the last step
-  Place place;                ///< the Object's position
-  Vec2 velocity;              ///< metric cells per tick
-  Vec2 force;                 ///< for the next step, mass · metric cells per tick²
+  std::uint64_t order = 0;       ///< of construction
+  std::uint8_t last_solver = 0;  ///< the BodySolver that moved it in the last step
+  Place place;                   ///< the Object's position
+  Vec2 velocity;                 ///< metric cells per tick
+  Vec2 force;                    ///< for the next step, mass · metric cells per tick²
   double mass = 1;
   double inverse_mass = 1;  ///< 0 for a kinematic one
   double gravity_scale = 1;
@@ -53,12 +53,12 @@ struct BodyRow {
   FlightKind flight = FlightKind::kFree;
   bool used = false;
   bool is_kinematic = false;
-  bool hears_ends = false;  ///< of contacts
-  bool meets_soft = false;  ///< a soft body has pushed it since its last step: no case for event-exactness
-  bool frozen = false;      ///< quarantined: stands until the game sets its place or velocity
+  bool hears_ends = false;    ///< of contacts
+  bool touches_soft = false;  ///< a soft body has pushed it since its last step: no case for event-exactness
+  bool frozen = false;        ///< quarantined: stands until the game sets its place or velocity
   df::FixedVector
-      told_position;  ///< as the store was told last; other than what it holds now: the game moved it
-  df::FixedVector told_velocity;
+      published_position;  ///< as the store got it last; if it holds another now, the game moved the body
+  df::FixedVector published_velocity;
 };
 
 /// Of those that use it.
@@ -71,7 +71,7 @@ struct BodyMedium {
   Place field_origin;
 };
 
-/// What happened so far.
+/// Since the world was made.
 struct BodyCounters {
   std::uint64_t quarantined = 0;  ///< bodies that were frozen
   IntegratorCounters integrator;
@@ -109,7 +109,7 @@ class BodyTable {
   double obstacle_restitution = 0;
   IntegratorOptions integrator;
   BodyCounters counters;
-  std::int64_t ticks = 0;  ///< steps so far: the time of fields
+  std::int64_t ticks = 0;  ///< steps since the world was made: the time of fields
   int soft_bodies = 0;     ///< they live in the same metric
 
  private:

@@ -20,8 +20,8 @@ using Part = naiad::physics::ConvexShape;  // df::Shape is what spriteless Objec
 using naiad::physics::ShapeStatus;
 using naiad::physics::Vec2;
 
-constexpr double kMaxAngle = 1e6;
-constexpr double kMax = 1e30;
+constexpr double kMaxAngle = 1e6;  // rad, and per tick: a double still resolves 1e-10 rad
+constexpr double kMax = 1e30;      // of torques and impulses: products of two stay finite
 
 }  // namespace
 
@@ -29,7 +29,7 @@ BodyForm& Body::form() const {
   return m_table->form(m_index);
 }
 
-// The Object's box goes around the shape, whatever way it turns.
+// The Object's box goes around the shape at any angle.
 void Body::fitBox() {
   const BodyForm& its = form();
   if (its.shapes.empty()) return;

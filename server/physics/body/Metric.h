@@ -15,7 +15,7 @@ namespace naiad::physics {
 
 class Metric {
  public:
-  static constexpr double kMinAspect = 0.25;
+  static constexpr double kMinAspect = 0.25;  ///< height over width of a character cell
   static constexpr double kMaxAspect = 4;
 
   /// `aspect`: height of a cell over its width, kMinAspect … kMaxAspect. Where it is a whole number, or a
@@ -31,7 +31,7 @@ class Metric {
   Place placeOf(df::FixedVector position) const;
   /// Rounded to nearest. `place` lies within df::kMaxCells: see isInRange().
   df::FixedVector fixedOf(const Place& place) const;
-  /// A position that fixedOf() can tell?
+  /// Can fixedOf() express it?
   bool isInRange(const Place& place) const;
   /// A position in cells, all its digits.
   Place placeAtCells(df::Vector position) const;

@@ -32,7 +32,7 @@ Joint PhysicsManager::refuseJoint(const char* what) const {
   return {};
 }
 
-// Fills in who and where: each point relative to its body, turned back.
+// Fills in bodies and anchors: each point relative to its body, turned back.
 Joint PhysicsManager::add(const char* what, RawJoint joint, Body* p_a, Body* p_b, Vector point_a,
                           Vector point_b) const {
   if (p_b == nullptr && joint.kind != JointKind::kSlider && joint.kind != JointKind::kMotor) {
@@ -109,10 +109,10 @@ Joint PhysicsManager::addWeld(Body* p_a, Body* p_b, Vector point) {
 
 Joint PhysicsManager::addSlider(Body* p_a, Body* p_b, Vector point, Vector axis) {
   RawJoint joint = jointOf(JointKind::kSlider);
-  const Vec2 way = BodyLayer::of(World::current()).table()->metric.fromCells(axis);
-  const double size = length(way);
+  const Vec2 direction = BodyLayer::of(World::current()).table()->metric.fromCells(axis);
+  const double size = length(direction);
   if (p_b == nullptr || !(size > 1e-30 && size < 1e30)) return refuseJoint("addSlider");
-  joint.axis = way / size;
+  joint.axis = direction / size;
   return add("addSlider", joint, p_a, p_b, point, point);
 }
 

@@ -13,7 +13,7 @@ using naiad::physics::BodyTable;
 using naiad::physics::IntegratorOptions;
 using naiad::physics::Metric;
 
-constexpr double kMax = 1e30;
+constexpr double kMax = 1e30;  // of any number: products of two stay finite
 
 BodyTable& table() {
   return *BodyLayer::of(World::current()).table();

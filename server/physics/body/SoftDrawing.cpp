@@ -13,16 +13,17 @@ namespace {
 
 using Cell = SoftDrawn::Cell;
 
-constexpr int kMaxSteps = 2000;  // of one line, and rows of a filling
-constexpr std::size_t kMaxCells = 8000;
+// They bound the cost of a picture.
+constexpr int kMaxSteps = 2000;          // cells of one line, rows of a filling
+constexpr std::size_t kMaxCells = 8000;  // of a picture
 
 // By how steep it is on the screen; the borders are at 22.5° and 67.5°.
-char32_t lineChar(Vec2 way) {
-  constexpr double kFlat = 0.4142135623730951;
-  const double x = std::fabs(way.x), y = std::fabs(way.y);
+char32_t lineChar(Vec2 direction) {
+  constexpr double kFlat = 0.4142135623730951;  // tan 22.5°
+  const double x = std::fabs(direction.x), y = std::fabs(direction.y);
   if (y <= kFlat * x) return U'-';
   if (x <= kFlat * y) return U'|';
-  return (way.x > 0) == (way.y > 0) ? U'\\' : U'/';
+  return (direction.x > 0) == (direction.y > 0) ? U'\\' : U'/';
 }
 
 std::int64_t cellOf(double at) {
@@ -36,13 +37,14 @@ class Pen {
   }
 
   void line(int a, int b) {
-    const df::Vector from = m_points[at(a)], way = m_points[at(b)] - from;
-    const char32_t ch = m_drawn.ch != 0 ? m_drawn.ch : lineChar(m_metric.fromCells(way));
-    const double longer = std::max(std::fabs(way.x()), std::fabs(way.y()));
+    const df::Vector from = m_points[at(a)], displacement = m_points[at(b)] - from;
+    const char32_t ch = m_drawn.ch != 0 ? m_drawn.ch : lineChar(m_metric.fromCells(displacement));
+    const double longer = std::max(std::fabs(displacement.x()), std::fabs(displacement.y()));
     const int steps = static_cast<int>(std::min(std::ceil(longer), static_cast<double>(kMaxSteps)));
     for (int i = 0; i <= steps; ++i) {
       const double part = steps > 0 ? static_cast<double>(i) / steps : 0;
-      m_drawn.cells.push_back({cellOf(from.x() + part * way.x()), cellOf(from.y() + part * way.y()), ch});
+      m_drawn.cells.push_back(
+          {cellOf(from.x() + part * displacement.x()), cellOf(from.y() + part * displacement.y()), ch});
     }
   }
 
@@ -83,7 +85,7 @@ class Pen {
 };
 
 bool isUpToDate(const SoftDrawn& drawn, const SoftBody& body, const Metric& metric) {
-  constexpr double kSlack = 0.05;
+  constexpr double kSlack = 0.05;  // cells: what is at rest looks still
   if (drawn.nodes.size() != body.nodes.size()) return false;
   for (std::size_t i = 0; i < body.nodes.size(); ++i) {
     const df::Vector moved = metric.toCells(body.place + body.nodes[i].offset - drawn.nodes[i]);
@@ -103,7 +105,7 @@ void redraw(SoftDrawn& drawn, const SoftBody& body, const Metric& metric) {
   for (std::size_t i = 1; i < body.boundary.size(); ++i) pen.line(body.boundary[i - 1], body.boundary[i]);
   if (body.is_closed) pen.line(body.boundary.back(), body.boundary.front());
   if (body.is_closed && drawn.drawing == df::BodyDrawing::FILL) pen.fill(body.boundary);
-  // Where two meet, the first one stays: lines before the filling.
+  // Of two characters in one cell the first one stays: lines before the filling.
   const auto isBefore = [](const Cell& a, const Cell& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; };
   std::stable_sort(drawn.cells.begin(), drawn.cells.end(), isBefore);
   const auto isSame = [](const Cell& a, const Cell& b) { return a.y == b.y && a.x == b.x; };

@@ -27,7 +27,8 @@ struct SoftDrawn {
   std::vector<Cell> cells;   ///< by rows, each once
 };
 
-/// Draw it anew if a node has moved by more than a twentieth of a cell since: so what is at rest looks still.
+/// Draw it again if a node has moved by more than a twentieth of a cell since: so what is at rest looks
+/// still.
 void redraw(SoftDrawn& drawn, const SoftBody& body, const Metric& metric);
 /// Put it on the screen, for the Object whose draw() is running. Return 0, or -1 if some of it is too far
 /// away.

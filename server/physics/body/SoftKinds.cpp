@@ -15,8 +15,8 @@ using naiad::physics::Metric;
 using naiad::physics::Place;
 using naiad::physics::Vec2;
 
-constexpr double kMin = 1e-6, kMax = 1e6;
-constexpr double kUsualDrag = 0.02;
+constexpr double kMin = 1e-6, kMax = 1e6;  // of mass and stiffness
+constexpr double kUsualDrag = 0.02;        // per tick
 constexpr double kUsualFriction = 0.5;
 
 naiad::physics::SoftBody withUsual(naiad::physics::SoftBody body) {
@@ -32,18 +32,18 @@ int countFor(double length, double each, int least, int most) {
 
 struct Line {
   Place from;
-  Vec2 way;
+  Vec2 displacement;
 };
 
 // What has no length is as long as one cell.
 Line lineOf(Vector from, Vector to) {
-  constexpr double kLongest = 1e5;
+  constexpr double kLongest = 1e5;  // metric cells
   const Metric metric(PM.getAspect());
   Line line = {metric.placeAtCells(from), {}};
-  line.way = metric.placeAtCells(to) - line.from;
-  const double far = length(line.way);
-  if (!(far > 1e-3)) line.way = {1, 0};
-  if (far > kLongest) line.way = line.way * (kLongest / far);
+  line.displacement = metric.placeAtCells(to) - line.from;
+  const double far = length(line.displacement);
+  if (!(far > 1e-3)) line.displacement = {1, 0};
+  if (far > kLongest) line.displacement = line.displacement * (kLongest / far);
   return line;
 }
 
@@ -55,9 +55,9 @@ Rope::Rope(Vector from, Vector to, double mass, double stiffness, int links) {
   mass = checked("Rope: mass", mass, kMin, kMax, 1);
   stiffness = checked("Rope: stiffness", stiffness, kMin, kMax, 20);
   links = static_cast<int>(checked("Rope: links", links, 0, 200, 0));
-  if (links == 0) links = countFor(length(line.way), 1, 2, 100);
+  if (links == 0) links = countFor(length(line.displacement), 1, 2, 100);
   naiad::physics::SoftBody body =
-      naiad::physics::makeRope(line.from, line.way, links, mass, stiffness * mass);
+      naiad::physics::makeRope(line.from, line.displacement, links, mass, stiffness * mass);
   body.radius = std::min(body.radius, 0.25);
   make(withUsual(body));
 }
@@ -69,11 +69,11 @@ Beam::Beam(Vector from, Vector to, double mass, double stiffness, bool is_clampe
   mass = checked("Beam: mass", mass, kMin, kMax, 1);
   stiffness = checked("Beam: stiffness", stiffness, kMin, kMax, 1);
   if (elements != 0) elements = static_cast<int>(checked("Beam: elements", elements, 2, 100, 0));
-  const double whole = length(line.way);
+  const double whole = length(line.displacement);
   if (elements == 0) elements = countFor(whole, 1.5, 4, 32);
-  constexpr double kTensile = 1000;
+  constexpr double kTensile = 1000;  // over its weight stiffness: a beam bends, and hardly stretches
   naiad::physics::SoftBody body =
-      naiad::physics::makeBeam(line.from, line.way, elements, stiffness * mass * whole * whole / 8,
+      naiad::physics::makeBeam(line.from, line.displacement, elements, stiffness * mass * whole * whole / 8,
                                kTensile * stiffness * mass, mass / whole, is_clamped);
   body.radius = std::min(body.radius, 0.25);
   make(withUsual(body));
@@ -89,7 +89,8 @@ Cloth::Cloth(Vector corner, double width, double height, double mass, double sti
   mass = checked("Cloth: mass", mass, kMin, kMax, 1);
   stiffness = checked("Cloth: stiffness", stiffness, kMin, kMax, 5);
   const Vec2 across = metric.fromCells(Vector(width, 0)), down = metric.fromCells(Vector(0, height));
-  constexpr double kMesh = 2.5;
+  constexpr double kMesh =
+      2.5;  // metric cells: 16 by 4 meshes cost half a millisecond a tick (docs/physics/soft.md)
   m_columns = countFor(across.x, kMesh, 2, 24) + 1;
   m_rows = countFor(down.y, kMesh, 2, 24) + 1;
   m_is_upright = m_rows > m_columns;  // the builder wants the long side first
@@ -116,8 +117,8 @@ Blob::Blob(Vector where, double radius, double mass, double stiffness) {
   mass = checked("Blob: mass", mass, kMin, kMax, 1);
   stiffness = checked("Blob: stiffness", stiffness, kMin, kMax, 1);
   const double load = stiffness * mass;
-  constexpr double kGirth = 6.283185307179586;
-  constexpr double kBend = 0.02;
+  constexpr double kGirth = 6.283185307179586;  // 2π
+  constexpr double kBend = 0.02;                // of the skin, in load · radius²
   naiad::physics::SoftBody body =
       naiad::physics::makeBlob(place, radius, countFor(kGirth * radius, 1.5, 10, 32), mass, 0,
                                2 * load / radius, 2 * load, kBend * load * radius * radius);

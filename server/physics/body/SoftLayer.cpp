@@ -15,22 +15,22 @@ namespace {
 
 using naiad::physics::Metric;
 using naiad::physics::MovedObject;
-using naiad::physics::SoftHold;
+using naiad::physics::SoftAttachedNode;
+using naiad::physics::SoftEntry;
 using naiad::physics::SoftNode;
+using naiad::physics::SoftNodeForce;
 using naiad::physics::SoftObstacle;
-using naiad::physics::SoftPull;
-using naiad::physics::SoftSeat;
 using naiad::physics::SoftStatus;
 using naiad::physics::SoftTable;
 using naiad::physics::SoftWorld;
 using naiad::physics::Vec2;
 
-constexpr double kRoom = 0.5;            // around a soft body, so that what comes near is seen in time
-constexpr double kStillSpeed = 2e-3;     // cells per tick, of what lies or hangs
-constexpr double kFloatingSpeed = 1e-6;  // the same of what does not
-constexpr int kSinceTouch = 10;          // ticks
-constexpr int kStillTicks = 30;          // until it sleeps
-constexpr double kStillWay = 0.02;       // what nobody is told of a body that is that slow
+constexpr double kRoom = 0.5;            // metric cells around a soft body in which obstacles are searched
+constexpr double kStillSpeed = 2e-3;     // metric cells per tick: slower is still, of what lies or hangs
+constexpr double kFloatingSpeed = 1e-6;  // the same of what floats: without contact nothing stops it
+constexpr int kSinceTouch = 10;          // ticks: what touched something so recently lies on it
+constexpr int kStillTicks = 30;          // ticks of stillness until it sleeps: a second
+constexpr double kStillDistance = 0.02;  // cells: a smaller move of a still body is not published
 
 bool takesPart(const WorldStore& store, ObjectKey key) {
   constexpr std::uint32_t kNeeded = WorldStore::kInWorld | WorldStore::kActive | WorldStore::kBody;
@@ -39,7 +39,7 @@ bool takesPart(const WorldStore& store, ObjectKey key) {
 
 // Around all nodes, with some room, so that it need not follow each of their movements.
 FixedBox boxOf(SoftTable& table, int id, FixedVector position, const FixedBox& before) {
-  constexpr double kMargin = 0.25, kLargest = 1e6;
+  constexpr double kMargin = 0.25, kLargest = 1e6;  // cells: around the nodes; of the box
   const naiad::physics::SoftBody& body = table.world().body(id);
   const Metric& metric = table.metric();
   const Vector middle = metric.toCells(metric.placeOf(position) - body.place);
@@ -71,23 +71,23 @@ SoftLayer& SoftLayer::of(World& world) {
   return *world.findLayer<SoftLayer>();
 }
 
-void SoftLayer::tellAtOnce(World& world, SoftTable& table, int id) {
-  SoftSeat& seat = table.seat(id);
+void SoftLayer::publishNow(World& world, SoftTable& table, int id) {
+  SoftEntry& entry = table.entry(id);
   WorldStore& store = world.store();
-  if (table.metric().isInRange(seat.centre)) {
-    store.setPosition(seat.key.slot, table.metric().fixedOf(seat.centre));
+  if (table.metric().isInRange(entry.centre)) {
+    store.setPosition(entry.key.slot, table.metric().fixedOf(entry.centre));
   }
-  seat.told_position = store.position(seat.key.slot);
-  seat.told_velocity = store.velocity(seat.key.slot);
-  store.setBox(seat.key.slot, boxOf(table, id, seat.told_position, store.box(seat.key.slot)));
+  entry.published_position = store.position(entry.key.slot);
+  entry.published_velocity = store.velocity(entry.key.slot);
+  store.setBox(entry.key.slot, boxOf(table, id, entry.published_position, store.box(entry.key.slot)));
 }
 
 void SoftLayer::step(World& world) {
   SoftTable& table = *m_table;
   SoftWorld& soft = table.world();
   m_moved.clear();
-  m_news.clear();
-  m_meetings.begin();
+  m_contact_changes.clear();
+  m_obstacles.clear();
   m_reaches.assign(static_cast<std::size_t>(table.idLimit()), {});
   m_rests.assign(static_cast<std::size_t>(table.idLimit()), 0);
   if (m_gravity != table.bodies().gravity && soft.setGravity(table.bodies().gravity)) {
@@ -97,79 +97,156 @@ void SoftLayer::step(World& world) {
   for (int id = 0; id < table.idLimit(); ++id) prepare(world, id);
   wakeByOthers();
   for (int id = 0; id < table.idLimit(); ++id) {
-    SoftSeat& seat = table.seat(id);
-    if (seat.is_in && !seat.is_asleep) push(id);
-    if (seat.p_object != nullptr) soft.setOut(id, !seat.is_in || seat.is_asleep);
+    SoftEntry& entry = table.entry(id);
+    if (entry.is_in && !entry.is_asleep) push(id);
+    if (entry.p_object != nullptr) soft.setOut(id, !entry.is_in || entry.is_asleep);
   }
-  soft.step(1, m_meetings.obstacles());
-  tellOfCrowd(world);
-  m_touches.collect(world.store(), table, m_meetings, m_news);
+  soft.step(1, m_obstacles.all());
+  logCrowd(world);
+  m_contacts.collect(world.store(), table, m_obstacles, m_contact_changes);
   findLoads();
-  m_meetings.apply(world, m_bodies, table, m_moved);
+  m_obstacles.apply(world, m_bodies, table, m_moved);
   for (int id = 0; id < table.idLimit(); ++id) {
-    if (table.seat(id).is_in && !table.seat(id).is_asleep) settle(world, id);
+    if (table.entry(id).is_in && !table.entry(id).is_asleep) settle(world, id);
   }
   rest();
   // Only now do handlers run.
   for (const MovedObject& moved : m_moved) {
     if (takesPart(world.store(), moved.key)) world.place(moved.key, moved.where);
   }
-  if (!m_news.empty()) tellContacts(world, m_news);
+  if (!m_contact_changes.empty()) sendContactEvents(world, m_contact_changes);
 }
 
 // Once: it counts on in SoftCounters::crowded.
-void SoftLayer::tellOfCrowd(World& world) {
-  if (m_has_told_of_crowd || m_table->world().counters().crowded == 0) return;
-  m_has_told_of_crowd = true;
+void SoftLayer::logCrowd(World& world) {
+  if (m_has_logged_crowd || m_table->world().counters().crowded == 0) return;
+  m_has_logged_crowd = true;
   world.log("physics: too many soft bodies in one place: some pass through one another until there is room");
 }
 
-// Does it take part, and what is around it?
+// Decides whether it takes part, and gathers what is around it.
 void SoftLayer::prepare(const World& world, int id) {
-  SoftSeat& seat = m_table->seat(id);
-  seat.is_in = false;
-  if (seat.p_object == nullptr) return;
+  SoftEntry& entry = m_table->entry(id);
+  entry.is_in = false;
+  if (entry.p_object == nullptr) return;
   const WorldStore& store = world.store();
-  if (!store.isCurrent(seat.key)) seat.key = seat.p_object->key();  // removed; perhaps inserted again
-  if (!takesPart(store, seat.key)) return;
-  m_table->absorb(id, store.position(seat.key.slot), store.velocity(seat.key.slot));
-  std::erase_if(seat.holds, [&](const SoftHold& hold) {
-    if (store.isCurrent(hold.key)) return false;
-    m_table->world().detach(hold.attachment);
+  if (!store.isCurrent(entry.key)) entry.key = entry.p_object->key();  // removed; perhaps inserted again
+  if (!takesPart(store, entry.key)) return;
+  m_table->absorb(id, store.position(entry.key.slot), store.velocity(entry.key.slot));
+  std::erase_if(entry.attached_nodes, [&](const SoftAttachedNode& attached) {
+    if (store.isCurrent(attached.key)) return false;
+    m_table->world().detach(attached.attachment);
     m_table->wake(id);
     return true;
   });
-  if (seat.is_frozen) return;
-  seat.is_in = true;
-  double gravity = length(m_gravity) * std::fabs(seat.gravity_scale) + length(seat.force) / seat.mass;
+  if (entry.is_frozen) return;
+  entry.is_in = true;
+  double gravity = length(m_gravity) * std::fabs(entry.gravity_scale) + length(entry.force) / entry.mass;
   const std::vector<SoftNode>& nodes = m_table->world().body(id).nodes;
-  for (const SoftPull& pull : seat.pulls) {
+  for (const SoftNodeForce& pull : entry.node_forces) {
     gravity += length(pull.force) / nodes[static_cast<std::size_t>(pull.node)].mass;
   }
-  const double far = kRoom + seat.top_speed + gravity;
+  const double far = kRoom + entry.top_speed + gravity;
   const Vec2 reach = m_table->reach(id) + Vec2{far, far};
   m_reaches[static_cast<std::size_t>(id)] = reach;
-  m_meetings.gather(world, m_bodies, *m_table, id, reach);
-  if (seat.is_asleep && m_meetings.surrounding() != seat.surrounding) m_table->wake(id);
-  seat.surrounding = m_meetings.surrounding();
-  m_meetings.addHand(*m_table, seat, id);
+  m_obstacles.gather(world, m_bodies, *m_table, id, reach);
+  if (entry.is_asleep && m_obstacles.surrounding() != entry.surrounding) m_table->wake(id);
+  entry.surrounding = m_obstacles.surrounding();
+  m_obstacles.addGrab(*m_table, entry, id);
+}
+
+// Gravity is the world's; what differs from it pulls at the nodes.
+void SoftLayer::push(int id) {
+  SoftEntry& entry = m_table->entry(id);
+  const Vec2 acceleration = (entry.gravity_scale - 1) * m_gravity + entry.force / entry.mass;
+  entry.force = {};
+  const bool pulls = acceleration != Vec2{} || !entry.node_forces.empty();
+  if (!pulls && !entry.has_forces) return;
+  entry.has_forces = pulls;
+  const std::vector<SoftNode>& nodes = m_table->world().body(id).nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Vec2 force = nodes[i].mass * acceleration;
+    for (const SoftNodeForce& pull : entry.node_forces) {
+      if (static_cast<std::size_t>(pull.node) == i) force += pull.force;
+    }
+    // As a whole, once: a force that changes makes the solver forget the past.
+    m_table->world().setForce(id, static_cast<int>(i), force);
+  }
+  entry.node_forces.clear();
+}
+
+void SoftLayer::settle(World& world, int id) {
+  if (m_table->world().isFrozen(id)) return freeze(world, id);
+  m_table->measure(id);
+  const SoftEntry& entry = m_table->entry(id);
+  const auto velocity = toFixed(m_table->metric().toCells(entry.velocity), kMaxVelocityCells);
+  if (!velocity || !m_table->metric().isInRange(entry.centre)) return freeze(world, id);
+  publish(world, id);
+}
+
+// It stands, so that nothing of it spreads.
+void SoftLayer::freeze(World& world, int id) {
+  SoftEntry& entry = m_table->entry(id);
+  ++m_table->bodies().counters.quarantined;
+  entry.is_frozen = true;
+  entry.is_in = false;
+  entry.velocity = {};
+  entry.published_velocity = {};
+  world.store().setVelocity(entry.key.slot, {});
+  world.store().setAcceleration(entry.key.slot, {});
+  m_table->world().setOut(id, true);
+  const Object* p_object = world.find(entry.key);
+  world.log("physics: a " + (p_object != nullptr ? p_object->getType() : "soft body") +
+            " is frozen: its motion cannot be worked out");
+}
+
+void SoftLayer::publish(World& world, int id) {
+  SoftEntry& entry = m_table->entry(id);
+  WorldStore& store = world.store();
+  const Metric& metric = m_table->metric();
+  const FixedVector position = metric.fixedOf(entry.centre);
+  const Vector moved = metric.toCells(entry.centre - metric.placeOf(entry.published_position));
+  const std::vector<SoftNode>& nodes = m_table->world().body(id).nodes;
+  const bool is_held = entry.grab.attachment >= 0 || !entry.attached_nodes.empty() ||
+                       std::any_of(nodes.begin(), nodes.end(), [](const SoftNode& n) { return n.is_pinned; });
+  entry.since_touch = m_table->world().isTouching(id) ? 0 : entry.since_touch + 1;
+  const bool is_carried = is_held || entry.since_touch < kSinceTouch;
+  const bool is_slow = entry.top_speed < (is_carried ? kStillSpeed : kFloatingSpeed);
+  entry.still = is_slow ? entry.still + 1 : 0;
+  const bool is_calm =
+      is_slow && std::fabs(moved.x()) < kStillDistance && std::fabs(moved.y()) < kStillDistance;
+  if (!is_calm) entry.published_position = position;
+  entry.published_velocity =
+      is_slow ? FixedVector{}
+              : toFixed(metric.toCells(entry.velocity), kMaxVelocityCells).value_or(FixedVector{});
+  const bool is_free = !is_slow && !is_held && entry.since_touch > 0;
+  const Vec2 gravity = is_free ? entry.gravity_scale * m_gravity : Vec2{};
+  store.setVelocity(entry.key.slot, entry.published_velocity);
+  store.setAcceleration(entry.key.slot,
+                        toFixed(metric.toCells(gravity), kMaxVelocityCells).value_or(FixedVector{}));
+  store.set(entry.key.slot, WorldStore::kDerive, true);
+  const FixedBox before = store.box(entry.key.slot);
+  const FixedBox box = boxOf(*m_table, id, entry.published_position, before);
+  if (!(box == before)) store.setBox(entry.key.slot, box);
+  if (entry.published_position != store.position(entry.key.slot))
+    m_moved.push_back({entry.key, entry.published_position});
 }
 
 bool SoftLayer::areNear(int a, int b) {
-  const Vec2 way = m_table->seat(a).centre - m_table->seat(b).centre;
+  const Vec2 offset = m_table->entry(a).centre - m_table->entry(b).centre;
   const Vec2 reach = m_reaches[static_cast<std::size_t>(a)] + m_reaches[static_cast<std::size_t>(b)];
-  return std::fabs(way.x) <= reach.x && std::fabs(way.y) <= reach.y;
+  return std::fabs(offset.x) <= reach.x && std::fabs(offset.y) <= reach.y;
 }
 
-// Who sleeps beside somebody who is awake, and not about to sleep himself, is awake.
+// A sleeping body beside one that is awake wakes.
 void SoftLayer::wakeByOthers() {
   SoftTable& table = *m_table;
   for (bool is_changed = true; is_changed;) {
     is_changed = false;
     for (int id = 0; id < table.idLimit(); ++id) {
-      if (!table.seat(id).is_in || !table.seat(id).is_asleep) continue;
+      if (!table.entry(id).is_in || !table.entry(id).is_asleep) continue;
       for (int other = 0; other < table.idLimit(); ++other) {
-        if (other == id || !table.seat(other).is_in || table.seat(other).is_asleep || !areNear(id, other)) {
+        if (other == id || !table.entry(other).is_in || table.entry(other).is_asleep || !areNear(id, other)) {
           continue;
         }
         table.wake(id);
@@ -180,86 +257,11 @@ void SoftLayer::wakeByOthers() {
   }
 }
 
-// Gravity is the world's; what differs from it pulls at the nodes.
-void SoftLayer::push(int id) {
-  SoftSeat& seat = m_table->seat(id);
-  const Vec2 acceleration = (seat.gravity_scale - 1) * m_gravity + seat.force / seat.mass;
-  seat.force = {};
-  const bool pulls = acceleration != Vec2{} || !seat.pulls.empty();
-  if (!pulls && !seat.has_forces) return;
-  seat.has_forces = pulls;
-  const std::vector<SoftNode>& nodes = m_table->world().body(id).nodes;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    Vec2 force = nodes[i].mass * acceleration;
-    for (const SoftPull& pull : seat.pulls) {
-      if (static_cast<std::size_t>(pull.node) == i) force += pull.force;
-    }
-    // As a whole, once: a force that changes makes the solver forget the past.
-    m_table->world().setForce(id, static_cast<int>(i), force);
-  }
-  seat.pulls.clear();
-}
-
-void SoftLayer::settle(World& world, int id) {
-  if (m_table->world().isFrozen(id)) return freeze(world, id);
-  m_table->measure(id);
-  const SoftSeat& seat = m_table->seat(id);
-  const auto velocity = toFixed(m_table->metric().toCells(seat.velocity), kMaxVelocityCells);
-  if (!velocity || !m_table->metric().isInRange(seat.centre)) return freeze(world, id);
-  tell(world, id);
-}
-
-// It stands, so that nothing of it spreads.
-void SoftLayer::freeze(World& world, int id) {
-  SoftSeat& seat = m_table->seat(id);
-  ++m_table->bodies().counters.quarantined;
-  seat.is_frozen = true;
-  seat.is_in = false;
-  seat.velocity = {};
-  seat.told_velocity = {};
-  world.store().setVelocity(seat.key.slot, {});
-  world.store().setAcceleration(seat.key.slot, {});
-  m_table->world().setOut(id, true);
-  const Object* p_object = world.find(seat.key);
-  world.log("physics: a " + (p_object != nullptr ? p_object->getType() : "soft body") +
-            " is frozen: its motion cannot be worked out");
-}
-
-void SoftLayer::tell(World& world, int id) {
-  SoftSeat& seat = m_table->seat(id);
-  WorldStore& store = world.store();
-  const Metric& metric = m_table->metric();
-  const FixedVector position = metric.fixedOf(seat.centre);
-  const Vector moved = metric.toCells(seat.centre - metric.placeOf(seat.told_position));
-  const std::vector<SoftNode>& nodes = m_table->world().body(id).nodes;
-  const bool is_held = seat.hand.attachment >= 0 || !seat.holds.empty() ||
-                       std::any_of(nodes.begin(), nodes.end(), [](const SoftNode& n) { return n.is_pinned; });
-  seat.since_touch = m_table->world().isTouching(id) ? 0 : seat.since_touch + 1;
-  const bool is_carried = is_held || seat.since_touch < kSinceTouch;
-  const bool is_slow = seat.top_speed < (is_carried ? kStillSpeed : kFloatingSpeed);
-  seat.still = is_slow ? seat.still + 1 : 0;
-  const bool is_calm = is_slow && std::fabs(moved.x()) < kStillWay && std::fabs(moved.y()) < kStillWay;
-  if (!is_calm) seat.told_position = position;
-  seat.told_velocity =
-      is_slow ? FixedVector{}
-              : toFixed(metric.toCells(seat.velocity), kMaxVelocityCells).value_or(FixedVector{});
-  const bool is_free = !is_slow && !is_held && seat.since_touch > 0;
-  const Vec2 gravity = is_free ? seat.gravity_scale * m_gravity : Vec2{};
-  store.setVelocity(seat.key.slot, seat.told_velocity);
-  store.setAcceleration(seat.key.slot,
-                        toFixed(metric.toCells(gravity), kMaxVelocityCells).value_or(FixedVector{}));
-  store.set(seat.key.slot, WorldStore::kDerive, true);
-  const FixedBox before = store.box(seat.key.slot);
-  const FixedBox box = boxOf(*m_table, id, seat.told_position, before);
-  if (!(box == before)) store.setBox(seat.key.slot, box);
-  if (seat.told_position != store.position(seat.key.slot)) m_moved.push_back({seat.key, seat.told_position});
-}
-
 bool SoftLayer::mayRest(int id) const {
-  const SoftSeat& seat = m_table->seat(id);
-  return seat.is_in &&
-         (seat.is_asleep || (seat.still >= kStillTicks && !seat.is_loaded && seat.holds.empty() &&
-                             seat.hand.attachment < 0 && seat.surrounding != 0));
+  const SoftEntry& entry = m_table->entry(id);
+  return entry.is_in && (entry.is_asleep ||
+                         (entry.still >= kStillTicks && !entry.is_loaded && entry.attached_nodes.empty() &&
+                          entry.grab.attachment < 0 && entry.surrounding != 0));
 }
 
 // Neighbours fall asleep together, or not at all.
@@ -271,7 +273,7 @@ void SoftLayer::rest() {
     for (int id = 0; id < table.idLimit(); ++id) {
       char& rests = m_rests[static_cast<std::size_t>(id)];
       for (int other = 0; other < table.idLimit() && rests != 0; ++other) {
-        const bool keeps_up = other != id && table.seat(other).is_in &&
+        const bool keeps_up = other != id && table.entry(other).is_in &&
                               m_rests[static_cast<std::size_t>(other)] == 0 && areNear(id, other);
         if (!keeps_up) continue;
         rests = 0;
@@ -280,24 +282,24 @@ void SoftLayer::rest() {
     }
   }
   for (int id = 0; id < table.idLimit(); ++id) {
-    SoftSeat& seat = table.seat(id);
-    if (m_rests[static_cast<std::size_t>(id)] == 0 || seat.is_asleep) continue;
+    SoftEntry& entry = table.entry(id);
+    if (m_rests[static_cast<std::size_t>(id)] == 0 || entry.is_asleep) continue;
     naiad::physics::SoftBody body = table.world().body(id);
     for (SoftNode& node : body.nodes) node.velocity = {};
     table.set(id, body);
     table.measure(id);
-    seat.is_asleep = true;
+    entry.is_asleep = true;
   }
 }
 
-// On whom does something press that could move?
+// Marks the bodies that something movable presses on.
 void SoftLayer::findLoads() {
-  for (int id = 0; id < m_table->idLimit(); ++id) m_table->seat(id).is_loaded = false;
-  for (const SoftObstacle& obstacle : m_meetings.obstacles()) {
+  for (int id = 0; id < m_table->idLimit(); ++id) m_table->entry(id).is_loaded = false;
+  for (const SoftObstacle& obstacle : m_obstacles.all()) {
     if (obstacle.inverse_mass == 0 || obstacle.impulse == Vec2{}) continue;
     for (int id = 0; id < m_table->idLimit(); ++id) {
-      SoftSeat& seat = m_table->seat(id);
-      seat.is_loaded = seat.is_loaded || m_table->world().isTouching(id, obstacle.id);
+      SoftEntry& entry = m_table->entry(id);
+      entry.is_loaded = entry.is_loaded || m_table->world().isTouching(id, obstacle.id);
     }
   }
 }

@@ -17,14 +17,14 @@ namespace df {
 namespace {
 
 using naiad::physics::at;
-using naiad::physics::SoftHand;
-using naiad::physics::SoftHold;
-using naiad::physics::SoftPull;
-using naiad::physics::SoftSeat;
+using naiad::physics::SoftAttachedNode;
+using naiad::physics::SoftEntry;
+using naiad::physics::SoftGrab;
+using naiad::physics::SoftNodeForce;
 using naiad::physics::Vec2;
 
-constexpr double kMaxRatio = 1e6;
-constexpr double kMaxForce = 1e9;
+constexpr double kMaxRatio = 1e6;  // of gravity scale, friction, drag
+constexpr double kMaxForce = 1e9;  // of forces and impulses: the solver's limit is 1e12 (kLargestSoft)
 
 bool isUsable(Vector v) {
   return std::fabs(v.x()) <= kMaxForce && std::fabs(v.y()) <= kMaxForce;  // not if it is no number
@@ -49,7 +49,7 @@ void SoftBody::make(const naiad::physics::SoftBody& body) {
     refuseAs("make");
     return;
   }
-  SoftLayer::tellAtOnce(*getWorld(), *m_table, m_id);
+  SoftLayer::publishNow(*getWorld(), *m_table, m_id);
 }
 
 double SoftBody::checked(const char* what, double value, double least, double most, double usual) const {
@@ -59,14 +59,14 @@ double SoftBody::checked(const char* what, double value, double least, double mo
 }
 
 Vector SoftBody::checked(const char* what, Vector position) const {
-  constexpr double kFarthest = 1e9;
+  constexpr double kFarthest = 1e9;  // cells from the origin
   if (std::fabs(position.x()) <= kFarthest && std::fabs(position.y()) <= kFarthest) return position;
   refuseAs(what);
   return {};
 }
 
-SoftSeat& SoftBody::seat() const {
-  return m_table->seat(m_id);
+SoftEntry& SoftBody::entry() const {
+  return m_table->entry(m_id);
 }
 
 const naiad::physics::SoftBody& SoftBody::body() const {
@@ -95,12 +95,12 @@ int SoftBody::change(Change change) {
 }
 
 double SoftBody::getMass() const {
-  return m_id < 0 ? 0 : seat().mass;
+  return m_id < 0 ? 0 : entry().mass;
 }
 
 int SoftBody::setGravityScale(double scale) {
   if (m_id < 0 || !(std::fabs(scale) <= kMaxRatio)) return refuseAs("setGravityScale");
-  seat().gravity_scale = scale;
+  entry().gravity_scale = scale;
   m_table->wake(m_id);
   return 0;
 }
@@ -118,8 +118,8 @@ int SoftBody::setDrag(double drag) {
 int SoftBody::applyImpulse(Vector impulse) {
   if (m_id < 0 || !isUsable(impulse)) return refuseAs("applyImpulse");
   absorb();
-  if (seat().is_frozen) return 0;
-  const Vec2 velocity = seat().velocity + m_table->metric().fromCells(impulse) / seat().mass;
+  if (entry().is_frozen) return 0;
+  const Vec2 velocity = entry().velocity + m_table->metric().fromCells(impulse) / entry().mass;
   if (!toFixed(m_table->metric().toCells(velocity), kMaxVelocityCells)) return refuseAs("applyImpulse");
   m_table->setVelocity(m_id, velocity);
   return 0;
@@ -137,23 +137,23 @@ int SoftBody::applyImpulse(int node, Vector impulse) {
 
 int SoftBody::applyForce(Vector force) {
   if (m_id < 0) return -1;
-  const Vector sum = m_table->metric().toCells(seat().force) + force;
+  const Vector sum = m_table->metric().toCells(entry().force) + force;
   if (!isUsable(force) || !isUsable(sum)) return refuseAs("applyForce");
-  seat().force = m_table->metric().fromCells(sum);
+  entry().force = m_table->metric().fromCells(sum);
   m_table->wake(m_id);
   return 0;
 }
 
 int SoftBody::applyForce(int node, Vector force) {
   if (!hasNode(node) || !isUsable(force)) return refuseAs("applyForce");
-  std::vector<SoftPull>& pulls = seat().pulls;
+  std::vector<SoftNodeForce>& forces = entry().node_forces;
   const auto same =
-      std::find_if(pulls.begin(), pulls.end(), [&](const SoftPull& p) { return p.node == node; });
-  const Vec2 before = same == pulls.end() ? Vec2{} : same->force;
+      std::find_if(forces.begin(), forces.end(), [&](const SoftNodeForce& p) { return p.node == node; });
+  const Vec2 before = same == forces.end() ? Vec2{} : same->force;
   const Vec2 sum = before + m_table->metric().fromCells(force);
   if (!isUsable(m_table->metric().toCells(sum))) return refuseAs("applyForce");
-  if (same == pulls.end()) {
-    pulls.push_back({node, sum});
+  if (same == forces.end()) {
+    forces.push_back({node, sum});
   } else {
     same->force = sum;
   }
@@ -180,11 +180,11 @@ Vector SoftBody::getNodeVelocity(int node) const {
 int SoftBody::getNearestNode(Vector where) const {
   if (m_id < 0 || !toFixed(where)) return -1;
   absorb();
-  const Vec2 way = m_table->metric().placeAtCells(where) - body().place;
+  const Vec2 offset = m_table->metric().placeAtCells(where) - body().place;
   int nearest = 0;
   for (int node = 1; node < getNodeCount(); ++node) {
-    const double away = lengthSquared(body().nodes[at(node)].offset - way);
-    if (away < lengthSquared(body().nodes[at(nearest)].offset - way)) nearest = node;
+    const double away = lengthSquared(body().nodes[at(node)].offset - offset);
+    if (away < lengthSquared(body().nodes[at(nearest)].offset - offset)) nearest = node;
   }
   return nearest;
 }
@@ -210,13 +210,13 @@ int SoftBody::attach(int node, Body* p_body) {
   absorb();
   detach(node);
   const naiad::physics::Metric& metric = m_table->metric();
-  const Vec2 body_way = metric.fromCells(p_body->getDisplacementFrom(metric.cellsOf(body().place)));
-  const Vec2 way = body().nodes[at(node)].offset - body_way;
-  const Vec2 anchor = inverse(naiad::physics::rotationBy(p_body->getAngle())) * way;
+  const Vec2 body_offset = metric.fromCells(p_body->getDisplacementFrom(metric.cellsOf(body().place)));
+  const Vec2 offset = body().nodes[at(node)].offset - body_offset;
+  const Vec2 anchor = inverse(naiad::physics::rotationBy(p_body->getAngle())) * offset;
   const auto obstacle = static_cast<int>(p_body->key().slot);
   const int attachment = m_table->world().attach({m_id, node, obstacle, anchor});
   if (attachment < 0) return refuseAs("attach");
-  seat().holds.push_back({attachment, node, p_body->key()});
+  entry().attached_nodes.push_back({attachment, node, p_body->key()});
   m_table->wake(m_id);
   return 0;
 }
@@ -224,9 +224,9 @@ int SoftBody::attach(int node, Body* p_body) {
 int SoftBody::detach(int node) {
   if (!hasNode(node)) return -1;
   int result = -1;
-  std::erase_if(seat().holds, [&](const SoftHold& hold) {
-    if (hold.node != node) return false;
-    m_table->world().detach(hold.attachment);
+  std::erase_if(entry().attached_nodes, [&](const SoftAttachedNode& attached) {
+    if (attached.node != node) return false;
+    m_table->world().detach(attached.attachment);
     result = 0;
     return true;
   });
@@ -238,43 +238,43 @@ int SoftBody::grab(Vector where, double strength) {
   const int node = getNearestNode(where);
   if (node < 0 || !(strength >= 0 && strength <= kMaxForce)) return refuseAs("grab");
   release();
-  SoftHand hand;
-  hand.attachment = m_table->world().attach({m_id, node, SoftLayer::handOf(m_id), {}});
-  if (hand.attachment < 0) return refuseAs("grab");
-  hand.place = body().place + body().nodes[at(node)].offset;
-  hand.velocity = body().nodes[at(node)].velocity;
-  hand.target = hand.place;
-  hand.strength = strength;
-  seat().hand = hand;
+  SoftGrab grab;
+  grab.attachment = m_table->world().attach({m_id, node, SoftLayer::grabIdOf(m_id), {}});
+  if (grab.attachment < 0) return refuseAs("grab");
+  grab.place = body().place + body().nodes[at(node)].offset;
+  grab.velocity = body().nodes[at(node)].velocity;
+  grab.target = grab.place;
+  grab.strength = strength;
+  entry().grab = grab;
   m_table->wake(m_id);
   return 0;
 }
 
 int SoftBody::dragTo(Vector target) {
   if (!isGrabbed() || !toFixed(target)) return -1;
-  seat().hand.target = m_table->metric().placeAtCells(target);
+  entry().grab.target = m_table->metric().placeAtCells(target);
   m_table->wake(m_id);
   return 0;
 }
 
 void SoftBody::release() {
   if (!isGrabbed()) return;
-  m_table->world().detach(seat().hand.attachment);
-  seat().hand = {};
+  m_table->world().detach(entry().grab.attachment);
+  entry().grab = {};
 }
 
 bool SoftBody::isGrabbed() const {
-  return m_id >= 0 && seat().hand.attachment >= 0;
+  return m_id >= 0 && entry().grab.attachment >= 0;
 }
 
 bool SoftBody::isFrozen() const {
   absorb();
-  return m_id >= 0 && seat().is_frozen;
+  return m_id >= 0 && entry().is_frozen;
 }
 
 bool SoftBody::isAsleep() const {
   absorb();
-  return m_id >= 0 && seat().is_asleep;
+  return m_id >= 0 && entry().is_asleep;
 }
 
 int SoftBody::setDrawing(BodyDrawing drawing, char32_t ch, Color color) {

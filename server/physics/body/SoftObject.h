@@ -33,7 +33,7 @@ namespace naiad::physics {
 class SoftTable;
 struct SoftBody;
 struct SoftDrawn;
-struct SoftSeat;
+struct SoftEntry;
 }  // namespace naiad::physics
 
 namespace df {
@@ -116,7 +116,7 @@ class SoftBody : public Object {
 
  private:
   bool hasNode(int node) const { return node >= 0 && node < getNodeCount(); }
-  naiad::physics::SoftSeat& seat() const;
+  naiad::physics::SoftEntry& entry() const;
   const naiad::physics::SoftBody& body() const;
   template <class Change>
   int change(Change change);

@@ -9,8 +9,8 @@ namespace naiad::physics {
 int SoftTable::add(const df::Object* p_object, df::ObjectKey key, const SoftBody& body) {
   const int id = m_world.add(body);
   if (id < 0) return -1;
-  if (id >= idLimit()) m_seats.resize(static_cast<std::size_t>(id) + 1);
-  SoftSeat& its = seat(id);
+  if (id >= idLimit()) m_entries.resize(static_cast<std::size_t>(id) + 1);
+  SoftEntry& its = entry(id);
   its = {};
   its.key = key;
   its.p_object = p_object;
@@ -24,7 +24,7 @@ int SoftTable::add(const df::Object* p_object, df::ObjectKey key, const SoftBody
 
 void SoftTable::remove(int id) {
   m_world.remove(id);
-  seat(id) = {};
+  entry(id) = {};
   --m_bodies->soft_bodies;
 }
 
@@ -36,7 +36,7 @@ bool SoftTable::set(int id, const SoftBody& body) {
 
 void SoftTable::measure(int id) {
   const SoftBody& body = m_world.body(id);
-  SoftSeat& its = seat(id);
+  SoftEntry& its = entry(id);
   double mass = 0, most = 0;
   Vec2 offset, momentum;
   for (const SoftNode& node : body.nodes) {
@@ -53,7 +53,7 @@ void SoftTable::measure(int id) {
 
 // It comes back as it was made, for what had to be frozen may be a knot.
 void SoftTable::thaw(int id) {
-  SoftSeat& its = seat(id);
+  SoftEntry& its = entry(id);
   if (!its.is_frozen) return;
   its.is_frozen = false;
   SoftBody body = m_world.body(id);
@@ -68,14 +68,14 @@ void SoftTable::thaw(int id) {
 void SoftTable::moveTo(int id, const Place& centre) {
   thaw(id);
   SoftBody body = m_world.body(id);
-  body.place = body.place + (centre - seat(id).centre);
+  body.place = body.place + (centre - entry(id).centre);
   set(id, body);
   measure(id);
 }
 
 void SoftTable::setVelocity(int id, Vec2 velocity) {
   thaw(id);
-  const Vec2 change = velocity - seat(id).velocity;
+  const Vec2 change = velocity - entry(id).velocity;
   SoftBody body = m_world.body(id);
   for (SoftNode& node : body.nodes) {
     if (!node.is_pinned) node.velocity += change;
@@ -85,20 +85,21 @@ void SoftTable::setVelocity(int id, Vec2 velocity) {
 }
 
 void SoftTable::absorb(int id, df::FixedVector position, df::FixedVector velocity) {
-  SoftSeat& its = seat(id);
-  if (position != its.told_position) moveTo(id, metric().placeOf(position));
-  if (velocity != its.told_velocity) setVelocity(id, metric().fromCells(df::Vector::fromFixed(velocity)));
-  its.told_position = position;
-  its.told_velocity = velocity;
+  SoftEntry& its = entry(id);
+  if (position != its.published_position) moveTo(id, metric().placeOf(position));
+  if (velocity != its.published_velocity)
+    setVelocity(id, metric().fromCells(df::Vector::fromFixed(velocity)));
+  its.published_position = position;
+  its.published_velocity = velocity;
 }
 
 Vec2 SoftTable::reach(int id) const {
   const SoftBody& body = m_world.body(id);
-  const Vec2 middle = m_seats[static_cast<std::size_t>(id)].centre - body.place;
+  const Vec2 middle = m_entries[static_cast<std::size_t>(id)].centre - body.place;
   Vec2 most;
   for (const SoftNode& node : body.nodes) {
-    const Vec2 way = node.offset - middle;
-    most = {std::max(most.x, std::fabs(way.x)), std::max(most.y, std::fabs(way.y))};
+    const Vec2 offset = node.offset - middle;
+    most = {std::max(most.x, std::fabs(offset.x)), std::max(most.y, std::fabs(offset.y))};
   }
   return most + Vec2{body.radius, body.radius};
 }

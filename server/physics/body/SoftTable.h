@@ -15,9 +15,9 @@ class Object;
 
 namespace naiad::physics {
 
-/// What drags a node: a mass without a shape on a spring to the target, which holds the node.
-struct SoftHand {
-  int attachment = -1;  ///< −1: it holds nothing
+/// The grab constraint: a mass without a shape on a spring to the target, to which the node is attached.
+struct SoftGrab {
+  int attachment = -1;  ///< −1: nothing is grabbed
   Place place;
   Place target;
   Vec2 velocity;
@@ -25,33 +25,34 @@ struct SoftHand {
 };
 
 /// A node that is held to a body of the same world.
-struct SoftHold {
+struct SoftAttachedNode {
   int attachment = -1;
   int node = 0;
   df::ObjectKey key;
 };
 
-/// What pulls at one node in the next step.
-struct SoftPull {
+/// The external force on one node in the next step.
+struct SoftNodeForce {
   int node = 0;
   Vec2 force;
 };
 
 /// By id in the SoftWorld.
-struct SoftSeat {
+struct SoftEntry {
   df::ObjectKey key;
-  const df::Object* p_object = nullptr;  ///< null: nobody sits here
+  const df::Object* p_object = nullptr;  ///< null: the entry is free
   SoftBody made;                         ///< as it was built, to come back to after a quarantine
-  df::FixedVector told_position;  ///< as the store was told last; other than what it holds: the game moved it
-  df::FixedVector told_velocity;
+  df::FixedVector
+      published_position;  ///< as the store got it last; if it holds another now, the game moved the body
+  df::FixedVector published_velocity;
   Place centre;  ///< of mass
   Vec2 velocity;
-  Vec2 force;                   ///< on the whole, for the next step
-  std::vector<SoftPull> pulls;  ///< on single nodes, for the next step
+  Vec2 force;                              ///< on the whole, for the next step
+  std::vector<SoftNodeForce> node_forces;  ///< on single nodes, for the next step
   double mass = 1;
   double gravity_scale = 1;
   double top_speed = 0;     ///< of its nodes
-  bool has_forces = false;  ///< are its nodes pulled at?
+  bool has_forces = false;  ///< are there external forces on its nodes?
   bool is_in = false;       ///< does it take part?
   bool is_frozen = false;
   bool is_asleep = false;
@@ -59,8 +60,8 @@ struct SoftSeat {
   int still = 0;                  ///< ticks that it hardly moved
   int since_touch = 0;            ///< ticks
   std::uint64_t surrounding = 0;  ///< a sum over what was near when it fell asleep
-  SoftHand hand;
-  std::vector<SoftHold> holds;
+  SoftGrab grab;
+  std::vector<SoftAttachedNode> attached_nodes;
 };
 
 /// Counted: by the layer and by each soft Object, which may outlive its world.
@@ -71,14 +72,14 @@ class SoftTable {
   /// −1 if the body is not sound.
   int add(const df::Object* p_object, df::ObjectKey key, const SoftBody& body);
   void remove(int id);
-  SoftSeat& seat(int id) { return m_seats[static_cast<std::size_t>(id)]; }
-  /// Limit of ids; some may be nobody's.
-  int idLimit() const { return static_cast<int>(m_seats.size()); }
+  SoftEntry& entry(int id) { return m_entries[static_cast<std::size_t>(id)]; }
+  /// Limit of ids; some are free.
+  int idLimit() const { return static_cast<int>(m_entries.size()); }
   SoftWorld& world() { return m_world; }
   BodyTable& bodies() { return *m_bodies; }
   const Metric& metric() const { return m_bodies->metric; }
 
-  /// Takes in a changed body. What happens to it is open again. False if it is not sound.
+  /// Replaces the body and wakes it. False if it is not sound.
   bool set(int id, const SoftBody& body);
   /// Centre of mass, its velocity and the fastest node, from the nodes.
   void measure(int id);
@@ -88,8 +89,8 @@ class SoftTable {
   /// What the game has done by the Object's setters: the store holds these now.
   void absorb(int id, df::FixedVector position, df::FixedVector velocity);
   void wake(int id) {
-    seat(id).is_asleep = false;
-    seat(id).still = 0;
+    entry(id).is_asleep = false;
+    entry(id).still = 0;
   }
   /// As far as it reaches from its centre of mass, each way, its thickness included.
   Vec2 reach(int id) const;
@@ -99,7 +100,7 @@ class SoftTable {
 
   std::shared_ptr<BodyTable> m_bodies;
   SoftWorld m_world;
-  std::vector<SoftSeat> m_seats;
+  std::vector<SoftEntry> m_entries;
 };
 
 }  // namespace naiad::physics

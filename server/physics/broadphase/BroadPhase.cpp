@@ -49,7 +49,7 @@ void BroadPhase::markChanged(std::int32_t proxy) {
   m_changed.push_back(proxy);
 }
 
-// Of two changed ones, the one with the smaller number finds the pair.
+// Of two changed proxies, the one with the smaller number finds the pair.
 void BroadPhase::findPairs(std::int32_t proxy) {
   const Proxy& own = m_proxies[index(proxy)];
   m_tree.query(m_tree.bounds(own.leaf), [&](std::uint32_t value) {

@@ -1,4 +1,5 @@
-// Which bodies may touch: pairs of bounds that overlap, kept from step to step and told in the order of ids.
+// Which bodies may touch: pairs of bounds that overlap, kept from step to step and listed in the order of
+// ids.
 #pragma once
 
 #include <cstdint>
@@ -44,8 +45,8 @@ class BroadPhase {
   }
   /// visit(id, limit) → new limit, as of BroadPhaseTree.
   template <class Visit>
-  void castRay(const Place& from, Vec2 way, Visit&& visit) const {
-    m_tree.castRay(from, way,
+  void castRay(const Place& from, Vec2 displacement, Visit&& visit) const {
+    m_tree.castRay(from, displacement,
                    [&](std::uint32_t proxy, double limit) { return visit(m_proxies[proxy].id, limit); });
   }
 

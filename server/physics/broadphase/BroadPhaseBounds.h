@@ -18,8 +18,8 @@ struct GridBounds {
   friend constexpr bool operator==(const GridBounds& a, const GridBounds& b) = default;
 };
 
-inline constexpr std::int64_t kGridUnits = 16;
-/// Bounds end here, whatever they are of: 2^48 cells from the body's own.
+inline constexpr std::int64_t kGridUnits = 16;  ///< per metric cell
+/// Bounds are clamped to 2^48 cells around the body's own, so that they fit their numbers.
 inline constexpr double kMaxGridUnits = 0x1p52;
 
 constexpr bool overlap(const GridBounds& a, const GridBounds& b) {

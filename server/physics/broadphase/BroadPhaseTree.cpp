@@ -58,7 +58,7 @@ std::int32_t BroadPhaseTree::bestSibling(const GridBounds& bounds) const {
       const std::int64_t direct = perimeter(unite(of_child, bounds)), cost = direct + inherited;
       if (cost < best_cost) best_cost = cost, best = child;
       const std::int64_t grown = direct - perimeter(of_child);
-      // What any place below this child costs at least; equals are told apart by how far their middles are.
+      // The least cost of any place below this child; the distance of the middles decides between equal ones.
       const std::int64_t bound = node(child).isLeaf() ? cost : inherited + grown + own;
       const std::int64_t far =
           std::abs(of_child.lower_x + of_child.upper_x - bounds.lower_x - bounds.upper_x) +
@@ -146,7 +146,7 @@ void BroadPhaseTree::rotate(std::int32_t i) {
   node(other).bounds = unite(node(node(other).child[0]).bounds, node(node(other).child[1]).bounds);
 }
 
-bool rayMeets(const GridBounds& bounds, const Place& from, Vec2 way, double limit) {
+bool rayHits(const GridBounds& bounds, const Place& from, Vec2 displacement, double limit) {
   // Relative to the start, one unit wider, which is more than rounding can do.
   const std::int64_t x = from.cell_x * kGridUnits, y = from.cell_y * kGridUnits;
   double enter = 0, leave = limit;
@@ -158,8 +158,8 @@ bool rayMeets(const GridBounds& bounds, const Place& from, Vec2 way, double limi
     leave = std::min(leave, std::max(a, b));
     return true;
   };
-  return slab(bounds.lower_x - x, bounds.upper_x - x, from.dx * kGridUnits, way.x * kGridUnits) &&
-         slab(bounds.lower_y - y, bounds.upper_y - y, from.dy * kGridUnits, way.y * kGridUnits) &&
+  return slab(bounds.lower_x - x, bounds.upper_x - x, from.dx * kGridUnits, displacement.x * kGridUnits) &&
+         slab(bounds.lower_y - y, bounds.upper_y - y, from.dy * kGridUnits, displacement.y * kGridUnits) &&
          enter <= leave;
 }
 

@@ -1,8 +1,12 @@
-// A binary tree of bounds: finds what overlaps a box or a ray without asking everybody.
+// A dynamic tree of bounds: finds what overlaps a box or a ray, for bodies that come, go and move one by one.
 //
-// Leaves are inserted where they enlarge the tree least, and on the way back up a node and its niece change
+// Leaves are inserted where they enlarge the tree least; then, up to the root, a node and its niece change
 // places if that makes the tree smaller (surface area heuristic; cf. E. Catto, "Dynamic bounding volume
 // hierarchies", 2019). Its form follows from the order of calls alone. Memory is kept, never given back.
+//
+// The problem is to keep the pairs of a scene that hardly changes: a RigidWorld's bodies, with widened bounds
+// in whole numbers. ImpactTree.h is rebuilt from all the swept boxes of a tick instead; the world's grid
+// (engine/collision) knows Objects' boxes in cells, not bodies' bounds.
 #pragma once
 
 #include <cstdint>
@@ -26,16 +30,16 @@ class BroadPhaseTree {
   const GridBounds& bounds(std::int32_t leaf) const { return m_nodes[index(leaf)].bounds; }
   std::uint32_t value(std::int32_t leaf) const { return m_nodes[index(leaf)].value; }
 
-  /// Calls visit(value) for every leaf that overlaps, in an order that only the calls so far determine.
+  /// Calls visit(value) for every leaf that overlaps, in an order that depends only on the calls before.
   template <class Visit>
   void query(const GridBounds& bounds, Visit&& visit) const;
 
-  /// Calls visit(value, limit) for leaves that the way from `from` along `way` (fractions 0 … limit) meets;
-  /// it returns the new limit, which may be smaller: below 0 ends the search.
+  /// Calls visit(value, limit) for leaves that the ray from `from` over `displacement` (fractions 0 … limit)
+  /// hits; it returns the new limit, which may be smaller: below 0 ends the search.
   template <class Visit>
-  void castRay(const Place& from, Vec2 way, Visit&& visit) const;
+  void castRay(const Place& from, Vec2 displacement, Visit&& visit) const;
 
-  /// Is everything where it belongs? For tests: it looks at every node.
+  /// Are all invariants kept? For tests: it visits every node.
   bool isSound() const;
   std::int32_t height() const;
 
@@ -63,7 +67,7 @@ class BroadPhaseTree {
   std::vector<Node> m_nodes;
   std::int32_t m_root = kNone;
   std::int32_t m_free = kNone;
-  std::int32_t m_spare = kNone;  // the inner node that a leaf on the move takes along
+  std::int32_t m_spare = kNone;  // the inner node that a leaf keeps while it is moved
   mutable std::vector<std::int32_t> m_stack;
 };
 
@@ -92,11 +96,11 @@ void BroadPhaseTree::query(const GridBounds& bounds, Visit&& visit) const {
   }
 }
 
-/// Does the way come into the bounds at a fraction from 0 to `limit`? May say yes for a near miss.
-bool rayMeets(const GridBounds& bounds, const Place& from, Vec2 way, double limit);
+/// Does the ray enter the bounds at a fraction from 0 to `limit`? A near miss may count as a hit.
+bool rayHits(const GridBounds& bounds, const Place& from, Vec2 displacement, double limit);
 
 template <class Visit>
-void BroadPhaseTree::castRay(const Place& from, Vec2 way, Visit&& visit) const {
+void BroadPhaseTree::castRay(const Place& from, Vec2 displacement, Visit&& visit) const {
   if (m_root == kNone) return;
   double limit = 1;
   m_stack.clear();
@@ -104,7 +108,7 @@ void BroadPhaseTree::castRay(const Place& from, Vec2 way, Visit&& visit) const {
   while (!m_stack.empty() && limit >= 0) {
     const Node& here = node(m_stack.back());
     m_stack.pop_back();
-    if (!rayMeets(here.bounds, from, way, limit)) continue;
+    if (!rayHits(here.bounds, from, displacement, limit)) continue;
     if (here.isLeaf()) {
       limit = std::min(limit, visit(here.value, limit));
     } else {

@@ -5,7 +5,7 @@
 namespace naiad::physics {
 
 void ImpactTree::update(const std::vector<SweptBox>& boxes, const std::vector<int>& ids, int id_count) {
-  constexpr double kSpread = 1.3;  // a tree this much larger than when it was built is not worth keeping
+  constexpr double kSpread = 1.3;  // of the size when it was built: a larger tree is rebuilt, not refitted
   m_boxes = &boxes;
   if (!ids.empty() && ids == m_ids) {
     for (std::size_t i = 0; i < ids.size(); ++i) m_nodes[m_leaf_of[ids[i]]].box = boxes[i];

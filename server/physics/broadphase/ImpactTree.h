@@ -1,6 +1,10 @@
-// The broad phase of the event-exact storey: a tree of boxes, each around what a body sweeps in a tick.
+// The broad phase of bodies that do not turn: a tree of boxes, each around what a body sweeps in a tick.
 //
-// The order in which a query finds bodies depends on the whole scene; nobody may let a result depend on it.
+// The problem is all pairs of swept boxes at once, and again whenever an impact gives a body another path:
+// the tree is built or refitted for a whole tick, and boxes only grow within it. BroadPhaseTree.h keeps its
+// pairs from tick to tick, which pays where widened bounds hardly change.
+//
+// The order in which a query finds bodies depends on the whole scene; no result may depend on it.
 #pragma once
 
 #include <cstdint>
@@ -32,12 +36,12 @@ constexpr SweptBox join(const SweptBox& a, const SweptBox& b) {
 class ImpactTree {
  public:
   /// Takes `boxes[i]` for the bodies `ids[i]`, ids below `id_count`. Refits the old tree if the ids are the
-  /// same and its boxes have not spread too far, and builds it anew otherwise.
+  /// same and its boxes have not spread too far, and rebuilds it otherwise.
   void update(const std::vector<SweptBox>& boxes, const std::vector<int>& ids, int id_count);
 
   const SweptBox& box(int id) const { return m_nodes[m_leaf_of[id]].box; }
 
-  /// Lets the box of a body grow to take in `box`.
+  /// Enlarges the box of a body by `box`.
   void grow(int id, const SweptBox& box);
 
   /// Calls found(id) for every body whose box overlaps `box`.

@@ -14,7 +14,7 @@ namespace math = df::math;
 
 namespace {
 
-constexpr int kTerms = 15;
+constexpr int kTerms = 15;  // of the series below for |z| <= 0.5: the next is below rounding
 
 // 1 / 2!, 1 / 3! …
 constexpr std::array<double, kTerms> kCoefficients = [] {
@@ -61,13 +61,13 @@ FlownOnLine fall(double v, double a, double q, double t) {
 LinearDragFlow::LinearDragFlow(double drag, double t) {
   assert(drag >= 0 && t >= 0);
   const double z = -drag * t;
-  m_left = math::exp(z);
+  m_velocity_response = math::exp(z);
   if (z > -0.5) {
-    m_way_of_push = t * t * secondRemainder(z);
-    m_way = t - drag * m_way_of_push;
+    m_integral_response = t * t * secondRemainder(z);
+    m_displacement_response = t - drag * m_integral_response;
   } else {
-    m_way = -math::expm1(z) / drag;
-    m_way_of_push = (t - m_way) / drag;
+    m_displacement_response = -math::expm1(z) / drag;
+    m_integral_response = (t - m_displacement_response) / drag;
   }
 }
 
@@ -100,7 +100,7 @@ FlownOnLine flyQuadraticDragOnLine(double velocity, double acceleration, double 
 
 namespace {
 
-// Way and velocity under quadratic drag.
+// Displacement and velocity under quadratic drag.
 struct QuadraticDrag {
   Vec2 acceleration;
   double drag;

@@ -15,13 +15,14 @@ class LinearDragFlow {
   LinearDragFlow(double drag, double t);
 
   Flown operator()(Vec2 velocity, Vec2 acceleration) const {
-    return {m_way * velocity + m_way_of_push * acceleration, m_left * velocity + m_way * acceleration};
+    return {m_displacement_response * velocity + m_integral_response * acceleration,
+            m_velocity_response * velocity + m_displacement_response * acceleration};
   }
 
  private:
-  double m_left;         // e^−ct
-  double m_way;          // its integral
-  double m_way_of_push;  // the integral of that
+  double m_velocity_response;      // e^−ct
+  double m_displacement_response;  // its integral
+  double m_integral_response;      // the integral of that
 };
 
 inline Flown flyLinearDrag(Vec2 velocity, Vec2 acceleration, double drag, double t) {
@@ -37,9 +38,9 @@ struct FlownOnLine {
 FlownOnLine flyQuadraticDragOnLine(double velocity, double acceleration, double drag, double t);
 
 /// The same in the plane. Along one line (no acceleration, no velocity, or both parallel) the closed form;
-/// otherwise, for there is none, error-controlled integration to about 1e-12 of way and velocity (1e-9 where
-/// drag is so strong that the implicit method takes over). `counters` adds up what the integration took. A
-/// status other than kDone: `flown` is where it stopped.
+/// otherwise, for there is none, error-controlled integration to about 1e-12 of displacement and velocity
+/// (1e-9 where drag is so strong that the implicit method takes over). `counters` adds up what the
+/// integration took. A status other than kDone: `flown` is where it stopped.
 IntegratorStatus flyQuadraticDrag(Vec2 velocity, Vec2 acceleration, double drag, double t, Flown& flown,
                                   IntegratorCounters& counters);
 

@@ -1,8 +1,8 @@
 // How a body moves while nothing touches it: under a constant force.
 //
-// All flights are pure functions of what holds at the start and of the time since then, so that who looks for
-// an impact may ask for any moment of a tick. They give the way since the start instead of a position: see
-// Place.h.
+// All flights are pure functions of what holds at the start and of the time since then, so that a
+// search for an impact may ask for any moment of a tick. They give the displacement since the start instead
+// of a position: see Place.h.
 #pragma once
 
 #include "physics/geometry/Vec2.h"

@@ -26,7 +26,7 @@ SpringFlow::SpringFlow(Spring spring, double t) : m_stiffness(spring.stiffness) 
 
 namespace {
 
-constexpr int kTerms = 24;
+constexpr int kTerms = 24;  // of the series for short steps: the next is below rounding
 
 constexpr std::array<double, kTerms + 2> kInverse = [] {
   std::array<double, kTerms + 2> inverse{};
@@ -39,20 +39,20 @@ constexpr std::array<double, kTerms + 2> kInverse = [] {
 // Short steps: Taylor's series, in which nothing cancels however small stiffness and damping are.
 void SpringFlow::series(double damping, double t) {
   const double z = damping * t, w = m_stiffness * t * t;
-  double before = 0, term = 1;  // of the way, over t: the powers n − 1 and n
-  double left = 1, way = 1, way_of_push = 0.5;
+  double before = 0, term = 1;  // of the displacement, over t: the powers n − 1 and n
+  double left = 1, displacement = 1, integral = 0.5;
   for (int n = 1; n < kTerms; ++n) {
     const double next = -(z * term + w * kInverse[n] * before) * kInverse[n + 1];
     before = term;
     term = next;
     left += (n + 1) * term;
-    way += term;
-    way_of_push += term * kInverse[n + 2];
+    displacement += term;
+    integral += term * kInverse[n + 2];
     if (std::fabs(term) + std::fabs(before) < 1e-18) break;
   }
-  m_left = left;
-  m_way = t * way;
-  m_way_of_push = t * t * way_of_push;
+  m_velocity_response = left;
+  m_displacement_response = t * displacement;
+  m_integral_response = t * t * integral;
 }
 
 // Two decays. The slow rate comes from the product of both, not from a difference.
@@ -62,13 +62,13 @@ void SpringFlow::overdamped(double damping, double t) {
   const double fast = half + split, slow = m_stiffness / fast;
   const double decay_slow = math::exp(-slow * t), decay_fast = math::exp(-fast * t);
   const double width = 2 * split;
-  m_way = decay_slow * (width * t > 0x1p-500 ? -math::expm1(-width * t) / width : t);
-  m_left = decay_fast - slow * m_way;
+  m_displacement_response = decay_slow * (width * t > 0x1p-500 ? -math::expm1(-width * t) / width : t);
+  m_velocity_response = decay_fast - slow * m_displacement_response;
   if (fast > 2 * slow) {
-    const double way_slow = slow * t > 0x1p-500 ? -math::expm1(-slow * t) / slow : t;
-    m_way_of_push = (way_slow + math::expm1(-fast * t) / fast) / width;
+    const double displacement_slow = slow * t > 0x1p-500 ? -math::expm1(-slow * t) / slow : t;
+    m_integral_response = (displacement_slow + math::expm1(-fast * t) / fast) / width;
   } else {
-    m_way_of_push = (1 - (decay_slow + slow * m_way)) / m_stiffness;
+    m_integral_response = (1 - (decay_slow + slow * m_displacement_response)) / m_stiffness;
   }
 }
 
@@ -84,9 +84,9 @@ void SpringFlow::underdamped(double damping, double t) {
   const double cosine = circle.cosine * rest.cosine - circle.sine * rest.sine;
   const double decay = math::exp(-half * t);
   const double swing = phase.hi > 0x1p-500 ? sine / frequency.hi : t;
-  m_way = decay * swing;
-  m_left = decay * (cosine - half * swing);
-  m_way_of_push = (1 - decay * (cosine + half * swing)) / m_stiffness;
+  m_displacement_response = decay * swing;
+  m_velocity_response = decay * (cosine - half * swing);
+  m_integral_response = (1 - decay * (cosine + half * swing)) / m_stiffness;
 }
 
 namespace {

@@ -21,10 +21,11 @@ class SpringFlow {
  public:
   SpringFlow(Spring spring, double t);
 
-  /// `offset` is the way from the spring's fixed point to the body, `acceleration` what else pushes it.
+  /// `offset` is from the spring's fixed point to the body, `acceleration` what else pushes it.
   Flown operator()(Vec2 offset, Vec2 velocity, Vec2 acceleration) const {
     const Vec2 pull = acceleration - m_stiffness * offset;
-    return {m_way_of_push * pull + m_way * velocity, m_way * pull + m_left * velocity};
+    return {m_integral_response * pull + m_displacement_response * velocity,
+            m_displacement_response * pull + m_velocity_response * velocity};
   }
 
  private:
@@ -33,10 +34,10 @@ class SpringFlow {
   void underdamped(double damping, double t);
 
   double m_stiffness;
-  // The answers at t to a kick at 0: its velocity, its way, and the integral of that.
-  double m_left;
-  double m_way;
-  double m_way_of_push;
+  // The response at t to a unit velocity at 0: velocity, displacement, and the integral of that.
+  double m_velocity_response;
+  double m_displacement_response;
+  double m_integral_response;
 };
 
 inline Flown flySpring(Vec2 offset, Vec2 velocity, Vec2 acceleration, Spring spring, double t) {
@@ -57,7 +58,7 @@ class PairFlow {
   /// >= 0; a body with 0 keeps its velocity, whatever pushes it.
   PairFlow(double stiffness, double damping, double inverse_mass_first, double inverse_mass_second, double t);
 
-  /// `offset` is the way from the first to the second.
+  /// `offset` is from the first to the second.
   FlownPair operator()(Vec2 offset, Vec2 velocity_first, Vec2 velocity_second, Vec2 acceleration_first,
                        Vec2 acceleration_second) const;
 

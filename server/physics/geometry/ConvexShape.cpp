@@ -149,7 +149,7 @@ ShapeStatus makePolygon(std::span<const Vec2> points, double radius, ConvexShape
 }
 
 ShapeStatus makeHull(std::span<const Vec2> points, double radius, ConvexShape& shape) {
-  constexpr std::size_t kMax = 4096;
+  constexpr std::size_t kMax = 4096;  // points: 200 kB of stack, and corners are left out in quadratic time
   if (points.empty()) return ShapeStatus::kTooFew;
   if (points.size() > kMax) return ShapeStatus::kTooMany;
   for (const Vec2 p : points) {

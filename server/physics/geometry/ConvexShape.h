@@ -2,7 +2,7 @@
 //
 // Every shape is a core of up to 16 points and a radius around it: one point is a circle, two are a capsule,
 // more are a polygon. So there is one kind of shape and one algorithm for each question. A compound is
-// several shapes whose points are told relative to the same body.
+// several shapes whose points are relative to the same body.
 #pragma once
 
 #include <array>
@@ -14,8 +14,9 @@
 
 namespace naiad::physics {
 
-inline constexpr int kMaxVertices = 16;
-/// A shape is at least this wide and at most this far from its body's origin (metric cells).
+inline constexpr int kMaxVertices = 16;  ///< enough for what looks round; a real circle is a radius
+/// Metric cells: a shape is at least this wide and at most this far from its body's origin. Between the two
+/// lie 13 of a double's 16 digits.
 inline constexpr double kSmallestShape = 1e-6;
 inline constexpr double kLargestShape = 1e7;
 /// Each corner rises at least this part of the polygon's size above the line between its neighbours.

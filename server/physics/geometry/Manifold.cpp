@@ -53,7 +53,7 @@ End cutAt(double along, const End& near, const End& far) {
 }
 
 // The part of the other shape's edge that faces the reference edge.
-bool facePoints(const TurnedShape& owner, const TurnedShape& other, Vec2 way, const FaceSeparation& face,
+bool facePoints(const TurnedShape& owner, const TurnedShape& other, Vec2 offset, const FaceSeparation& face,
                 bool owner_is_a, double speculative, Manifold& manifold) {
   const Vec2 n = owner.normals[at(face.edge)], tangent = perpendicular(n);
   const std::int32_t next = following(face.edge, owner.count), before = preceding(face.support, other.count);
@@ -64,8 +64,8 @@ bool facePoints(const TurnedShape& owner, const TurnedShape& other, Vec2 way, co
   const double start = dot(n, first), begin = dot(tangent, first), end = dot(tangent, second) - begin;
   const auto endAt = [&](std::int32_t vertex, std::int32_t owner_vertex) -> End {
     const Vec2 v = other.vertices[at(vertex)];
-    return {dot(tangent, way) + (dot(tangent, v) - begin), dot(n, way) + (dot(n, v) - start), v, owner_vertex,
-            vertex};
+    return {dot(tangent, offset) + (dot(tangent, v) - begin), dot(n, offset) + (dot(n, v) - start), v,
+            owner_vertex, vertex};
   };
   End lower = endAt(low, face.edge), upper = endAt(high, next);
   const double radii = owner.radius + other.radius;
@@ -84,7 +84,7 @@ bool facePoints(const TurnedShape& owner, const TurnedShape& other, Vec2 way, co
     const double gap = point.distance - radii;
     if (gap <= speculative) {
       ManifoldPoint& out = manifold.points[at(manifold.count++)];
-      const Vec2 on_other = point.core - (other.radius + 0.5 * gap) * n, on_owner = way + on_other;
+      const Vec2 on_other = point.core - (other.radius + 0.5 * gap) * n, on_owner = offset + on_other;
       out.anchor_a = owner_is_a ? on_owner : on_other;
       out.anchor_b = owner_is_a ? on_other : on_owner;
       out.separation = gap;
@@ -99,16 +99,16 @@ bool facePoints(const TurnedShape& owner, const TurnedShape& other, Vec2 way, co
 }
 
 // Is the kept edge still the one to use? Fills `face` if so.
-bool stillGood(const TurnedShape& owner, const TurnedShape& other, Vec2 way, std::uint8_t edge, double best,
-               FaceSeparation& face) {
+bool stillGood(const TurnedShape& owner, const TurnedShape& other, Vec2 offset, std::uint8_t edge,
+               double best, FaceSeparation& face) {
   if (edge >= owner.count) return false;
-  face = faceSeparation(owner, edge, other, way);
+  face = faceSeparation(owner, edge, other, offset);
   if (face.distance < best - kFaceHysteresis * std::min(owner.reach, other.reach)) return false;
   if (face.distance <= 0) return true;
   // Apart, the kept edge must have something in front of it.
   const Vec2 first = owner.vertices[at(edge)],
              side = owner.vertices[at(following(edge, owner.count))] - first;
-  const double along = dot(way + (other.vertices[at(face.support)] - first), side);
+  const double along = dot(offset + (other.vertices[at(face.support)] - first), side);
   return along >= 0 && along <= lengthSquared(side);
 }
 

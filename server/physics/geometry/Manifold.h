@@ -15,7 +15,7 @@ struct ManifoldPoint {
   Vec2 anchor_a;          ///< midway between the surfaces, from A's origin, in the axes of the world
   Vec2 anchor_b;          ///< the same point from B's origin
   double separation = 0;  ///< along the normal; > 0 is a gap
-  /// Which corners meet here: vertex of A, vertex of B. The same while the contact lasts, whichever edge the
+  /// Which corners touch here: vertex of A, vertex of B. The same while the contact lasts, whichever edge the
   /// normal is taken from, so that a solver can go on from the last step's impulse.
   std::uint32_t id = 0;
 };
@@ -29,7 +29,8 @@ struct ReferenceFace {
   friend constexpr bool operator==(ReferenceFace a, ReferenceFace b) = default;
 };
 
-/// A kept edge may be worse than the best by this part of the smaller shape's reach.
+/// A kept edge may be worse than the best by this part of the smaller shape's reach: far above rounding, far
+/// below what is seen.
 inline constexpr double kFaceHysteresis = 1e-3;
 
 struct Manifold {

@@ -24,7 +24,7 @@ struct Place {
   friend constexpr bool operator==(const Place& a, const Place& b) = default;
 };
 
-/// The way from b to a. Exact whenever the difference has no more digits than a double.
+/// The displacement from b to a. Exact whenever the difference has no more digits than a double.
 constexpr Vec2 operator-(const Place& a, const Place& b) {
   return {static_cast<double>(a.cell_x - b.cell_x) + (a.dx - b.dx),
           static_cast<double>(a.cell_y - b.cell_y) + (a.dy - b.dy)};

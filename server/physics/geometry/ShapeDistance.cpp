@@ -119,14 +119,14 @@ Separation separationFrom(const TurnedShape& a, const TurnedShape& b, Vec2 offse
   const FaceSeparation& face = of_a ? face_a : face_b;
   const TurnedShape& owner = of_a ? a : b;
   const TurnedShape& other = of_a ? b : a;
-  const Vec2 way = of_a ? offset : -offset;
+  const Vec2 to_other = of_a ? offset : -offset;
   // Polygons that overlap have no corners that are nearest. Two capsules' cores have no area to overlap with;
   // if they cross, the best edge has the other's nearest end in front of it.
   const bool flat = a.count <= 2 && b.count <= 2;
   if (face.distance <= 0 && !flat) return fromFace(face, owner, of_a);
   const std::int32_t next = following(face.edge, owner.count);
   const Vec2 first = owner.vertices[at(face.edge)], second = owner.vertices[at(next)];
-  const Vec2 out = way + (other.vertices[at(face.support)] - first), edge = second - first;
+  const Vec2 out = to_other + (other.vertices[at(face.support)] - first), edge = second - first;
   const double along = dot(out, edge);
   if (along >= 0 && along <= lengthSquared(edge)) return fromFace(face, owner, of_a);
 

@@ -30,7 +30,7 @@ struct FaceSeparation {
 };
 
 /// One edge of `shape` against all of `other`, whose origin is `offset` from the shape's. The supports are
-/// compared before the way between the bodies is added, so that equal sizes cancel exactly.
+/// compared before the offset between the bodies is added, so that equal sizes cancel exactly.
 FaceSeparation faceSeparation(const TurnedShape& shape, std::int32_t edge, const TurnedShape& other,
                               Vec2 offset);
 /// The best one; ends early with one beyond `enough`. Nothing (−∞) for a shape without edges.

@@ -11,25 +11,25 @@ std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
 }
 
-// The earliest entry wins; a way that leaves meets nothing.
-void enterDisc(Vec2 centre, double radius, Vec2 from, Vec2 way, RayHit& best) {
-  const double long_way = length(way);
-  const Vec2 along = way / long_way, out = from - centre;
+// The earliest entry wins; a ray that leaves hits nothing.
+void enterDisc(Vec2 centre, double radius, Vec2 from, Vec2 displacement, RayHit& best) {
+  const double distance = length(displacement);
+  const Vec2 along = displacement / distance, out = from - centre;
   const double passes = cross(along, out), inside = (radius - passes) * (radius + passes);
   if (radius == 0 || inside < 0) return;
-  const double fraction = (-dot(out, along) - std::sqrt(inside)) / long_way;
+  const double fraction = (-dot(out, along) - std::sqrt(inside)) / distance;
   if (!(fraction >= 0) || fraction > 1 || (best.hit && fraction >= best.fraction)) return;
-  const Vec2 normal = out + fraction * way;
+  const Vec2 normal = out + fraction * displacement;
   best = {true, fraction, normal / length(normal)};
 }
 
-void enterEdge(Vec2 first, Vec2 second, Vec2 normal, Vec2 from, Vec2 way, RayHit& best) {
-  const double rate = dot(normal, way), height = dot(normal, from - first);
+void enterEdge(Vec2 first, Vec2 second, Vec2 normal, Vec2 from, Vec2 displacement, RayHit& best) {
+  const double rate = dot(normal, displacement), height = dot(normal, from - first);
   if (rate >= 0 || height < 0) return;
   const double fraction = -height / rate;
   if (fraction > 1 || (best.hit && fraction >= best.fraction)) return;
-  // Which side the ends of the edge lie on is asked of the way itself, so that no corner lets it through.
-  if (cross(first - from, way) > 0 || cross(second - from, way) < 0) return;
+  // The sides of the edge's ends are taken from the ray itself, so that no corner lets it through.
+  if (cross(first - from, displacement) > 0 || cross(second - from, displacement) < 0) return;
   best = {true, fraction, normal};
 }
 
@@ -62,15 +62,15 @@ bool contains(const ConvexShape& shape, Vec2 point) {
   return closestPoint(shape, point).distance <= 0;
 }
 
-RayHit castRay(const ConvexShape& shape, Vec2 from, Vec2 way) {
+RayHit castRay(const ConvexShape& shape, Vec2 from, Vec2 displacement) {
   if (contains(shape, from)) return {true, 0, {}};
   RayHit best;
   for (std::int32_t i = 0; i < shape.count; ++i) {
-    enterDisc(shape.vertices[at(i)], shape.radius, from, way, best);
+    enterDisc(shape.vertices[at(i)], shape.radius, from, displacement, best);
     if (shape.count == 1) break;
     const Vec2 normal = shape.normals[at(i)], out = shape.radius * normal;
     enterEdge(shape.vertices[at(i)] + out, shape.vertices[at(following(i, shape.count))] + out, normal, from,
-              way, best);
+              displacement, best);
   }
   return best;
 }

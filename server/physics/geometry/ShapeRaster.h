@@ -20,7 +20,7 @@ struct CellSpan {
 /// `centre` is where the body's origin is, in metric cells from the centre of cell (0, 0) of the result: any
 /// cell near it that the caller counts from. A cell is 1 wide and `aspect` > 0 high. `spans` is replaced:
 /// rows from top to bottom, none of them empty, none left out between two others that are not empty unless
-/// the shape is thinner than a cell there. Nothing beyond `furthest` cells is looked at.
+/// the shape is thinner than a cell there. Nothing beyond `furthest` cells is examined.
 void rasterise(const TurnedShape& shape, Vec2 centre, double aspect, std::vector<CellSpan>& spans,
                std::int32_t furthest = 4096);
 

@@ -19,12 +19,12 @@ struct Span {
 };
 
 // While the circles around the bodies' origins overlap: nothing else can touch. Empty: from > to.
-Span nearTimes(Vec2 offset, Vec2 way, double reach) {
-  const double speed = length(way);
+Span nearTimes(Vec2 offset, Vec2 displacement, double reach) {
+  const double speed = length(displacement);
   if (speed == 0) return lengthSquared(offset) <= reach * reach ? Span{0, 1} : Span{1, 0};
-  const double passes = cross(way, offset) / speed, inside = (reach - passes) * (reach + passes);
+  const double passes = cross(displacement, offset) / speed, inside = (reach - passes) * (reach + passes);
   if (inside < 0) return {1, 0};
-  const double middle = -dot(offset, way) / speed / speed, half = std::sqrt(inside) / speed;
+  const double middle = -dot(offset, displacement) / speed / speed, half = std::sqrt(inside) / speed;
   return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
 }
 
@@ -60,7 +60,7 @@ struct Corners {
 double safeTime(const Corners& a, const Corners& b, double place, double speed, double bend, double longest) {
   double time = longest;
   std::int32_t last_a = -1, last_b = -1;
-  // Each round takes the worst pair at the time found so far; each pair's way is concave, so its root is
+  // Each round takes the worst pair at the time found so far; each pair's path is concave, so its root is
   // final.
   for (std::int32_t round = 0; round < kMaxVertices * kMaxVertices; ++round) {
     const std::int32_t i = a.foremost(time), j = b.foremost(time);
@@ -83,12 +83,12 @@ double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, 
 
 TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
                           const RigidMotion& motion_b, Vec2 offset, double target) {
-  const Vec2 way = motion_b.displacement - motion_a.displacement;
-  const double tolerance = impactTolerance(a, b, offset, way), radii = a.radius + b.radius;
-  const double speed = length(way);
+  const Vec2 displacement = motion_b.displacement - motion_a.displacement;
+  const double tolerance = impactTolerance(a, b, offset, displacement), radii = a.radius + b.radius;
+  const double speed = length(displacement);
   TimeOfImpact result;
   const double around = a.reach + b.reach + radii + target;
-  const Span span = nearTimes(offset, way, around * (1 + 1e-6) + 16 * tolerance);
+  const Span span = nearTimes(offset, displacement, around * (1 + 1e-6) + 16 * tolerance);
   if (span.from > span.to) return result;
 
   TurnedShape turned_a, turned_b;
@@ -97,7 +97,7 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
     const bool first = result.iterations == 1;
     if (first || motion_a.turn != 0) turn(a, turned(motion_a.start, motion_a.turn * time), turned_a);
     if (first || motion_b.turn != 0) turn(b, turned(motion_b.start, motion_b.turn * time), turned_b);
-    const Vec2 apart = offset + time * way;
+    const Vec2 apart = offset + time * displacement;
     const Separation s = separation(turned_a, turned_b, apart);
     const double gap = s.distance - radii;
     if (first && time == 0 && gap <= target + tolerance) {
@@ -116,17 +116,17 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
                                                             : 0;
     const double turn_a = motion_a.turn - axis_turn, turn_b = motion_b.turn - axis_turn;
     const double left = span.to - time;
-    // No way along the axis bends more than this: the corners about their origins, and these about the axis.
-    const double farthest = std::max(length(apart), length(offset + span.to * way));
+    // No path along the axis bends more than this: the corners about their origins, and these about the axis.
+    const double farthest = std::max(length(apart), length(offset + span.to * displacement));
     const double bend = a.reach * turn_a * turn_a + b.reach * turn_b * turn_b +
                         std::fabs(axis_turn) * (farthest * std::fabs(axis_turn) + 2 * speed);
     // A's corners count forwards along the axis, B's backwards.
     const Corners of_a(turned_a, s.normal, turn_a), of_b(turned_b, -s.normal, turn_b);
     const double place = dot(s.normal, apart) - radii - level;
-    const double rate = dot(s.normal, way) + axis_turn * dot(perpendicular(s.normal), apart);
+    const double rate = dot(s.normal, displacement) + axis_turn * dot(perpendicular(s.normal), apart);
     const double safe = safeTime(of_a, of_b, place, rate, bend, left);
     if (safe >= left) return result;
-    if (time + safe == time) return hit();  // nearer than time can tell
+    if (time + safe == time) return hit();  // nearer than a double of time resolves
     time += safe;
   }
   --result.iterations;

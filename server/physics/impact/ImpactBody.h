@@ -1,4 +1,4 @@
-// What the event-exact storey moves: bodies that do not rotate, axis-aligned boxes and circles.
+// What an ImpactWorld moves: bodies that do not rotate, axis-aligned boxes and circles.
 #pragma once
 
 #include <cmath>
@@ -27,7 +27,7 @@ struct ImpactBody {
 
 /// May the body be taken in? Everything finite and below 1e30, sizes below 1e12.
 inline bool isSound(const ImpactBody& body) {
-  constexpr double kLargest = 1e30;
+  constexpr double kLargest = 1e30;  // squares and products of two stay finite
   const auto isSmall = [](double x) { return std::fabs(x) <= kLargest; };  // false for NaN
   const bool has_size = body.shape == ImpactShape::kCircle
                             ? body.half.x > 0

@@ -1,4 +1,4 @@
-// What happens when bodies of an ImpactWorld meet, and while they lie on one another.
+// What happens when bodies of an ImpactWorld touch, and while they lie on one another.
 #include <algorithm>
 #include <utility>
 
@@ -6,29 +6,29 @@
 
 namespace naiad::physics {
 
-ImpactWorld::Meeting ImpactWorld::meet(int a, int b, ImpactAxis axis) const {
+ImpactWorld::PairState ImpactWorld::pairState(int a, int b, ImpactAxis axis) const {
   const ImpactBody &first = m_bodies[a], &second = m_bodies[b];
-  Meeting meeting;
-  meeting.touch = touchOf(first, second, second.place - first.place, axis);
-  meeting.velocity = second.velocity - first.velocity;
-  meeting.approach = -dot(meeting.velocity, meeting.touch.normal);
-  meeting.rest_speed = restSpeed(first.velocity, second.velocity);
-  return meeting;
+  PairState state;
+  state.touch = touchOf(first, second, second.place - first.place, axis);
+  state.velocity = second.velocity - first.velocity;
+  state.approach = -dot(state.velocity, state.touch.normal);
+  state.rest_speed = restSpeed(first.velocity, second.velocity);
+  return state;
 }
 
 // Would the bounce be too slow, or not rise high enough, to be one?
-bool ImpactWorld::isSoft(int a, int b, const Meeting& meeting) const {
+bool ImpactWorld::isSoft(int a, int b, const PairState& state) const {
   const double restitution = restitutionOf(m_bodies[a], m_bodies[b]);
-  const double bounce = restitution * meeting.approach;
-  if (bounce <= meeting.rest_speed) return true;
+  const double bounce = restitution * state.approach;
+  if (bounce <= state.rest_speed) return true;
   if (restitution < 1 &&
       (m_motions[a].events_at_once > kMaxAtOnce || m_motions[b].events_at_once > kMaxAtOnce)) {
     return true;  // nothing has moved since: the height left is none
   }
-  double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, meeting.touch.normal);
+  double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, state.touch.normal);
   if (restitution < 1) {  // what falls together collapses together: nothing presses, and there is no end
     for (const int id : {a, b}) {
-      pressing = std::max(pressing, std::fabs(dot(m_bodies[id].acceleration, meeting.touch.normal)));
+      pressing = std::max(pressing, std::fabs(dot(m_bodies[id].acceleration, state.touch.normal)));
     }
   }
   return pressing > 0 && bounce * bounce <= 2 * pressing * kRestHeight;
@@ -37,10 +37,10 @@ bool ImpactWorld::isSoft(int a, int b, const Meeting& meeting) const {
 void ImpactWorld::collide(int a, int b, ImpactAxis axis, double now) {
   ++m_counters.impacts;
   ImpactBody &first = m_bodies[a], &second = m_bodies[b];
-  Meeting meeting = meet(a, b, axis);
+  PairState state = pairState(a, b, axis);
   const double masses = first.inverse_mass + second.inverse_mass;
-  if (std::fabs(meeting.touch.gap) <= 2 * kImpactSlop) {  // what the moment's rounding leaves
-    const Vec2 by = (meeting.touch.gap / masses) * meeting.touch.normal;
+  if (std::fabs(state.touch.gap) <= 2 * kImpactSlop) {  // what the moment's rounding leaves
+    const Vec2 by = (state.touch.gap / masses) * state.touch.normal;
     if (first.inverse_mass > 0) first.place = first.place + first.inverse_mass * by;
     if (second.inverse_mass > 0) second.place = second.place + -second.inverse_mass * by;
   }
@@ -49,32 +49,32 @@ void ImpactWorld::collide(int a, int b, ImpactAxis axis, double now) {
   if (is_new) contact = makeContact(a, b, axis);
   m_contacts[contact].axis = axis;
   double impulse = 0;
-  if (meeting.approach < 0) {
-    const double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, meeting.touch.normal);
-    // They part, but not by what a double can tell: the next impact is this one.
-    if (pressing > 0 && meeting.approach * meeting.approach <= 2 * pressing * kRestHeight) {
-      const Vec2 pull = (meeting.approach / masses) * meeting.touch.normal;
+  if (state.approach < 0) {
+    const double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, state.touch.normal);
+    // They part, but by less than a double resolves: the next impact would be this one again.
+    if (pressing > 0 && state.approach * state.approach <= 2 * pressing * kRestHeight) {
+      const Vec2 pull = (state.approach / masses) * state.touch.normal;
       first.velocity -= first.inverse_mass * pull;
       second.velocity += second.inverse_mass * pull;
     }
-  } else if (isSoft(a, b, meeting)) {
-    if (meeting.approach > 0) impulse = pushGroup(contact, now);
+  } else if (isSoft(a, b, state)) {
+    if (state.approach > 0) impulse = pushGroup(contact, now);
   } else {
-    pushPair(a, b, meeting);
-    impulse = (1 + restitutionOf(first, second)) * meeting.approach / masses;
+    pushPair(a, b, state);
+    impulse = (1 + restitutionOf(first, second)) * state.approach / masses;
   }
-  if (is_new) m_events.push_back({now, a, b, true, impulse, meeting.touch.normal});
+  if (is_new) m_events.push_back({now, a, b, true, impulse, state.touch.normal});
 }
 
-void ImpactWorld::pushPair(int a, int b, const Meeting& meeting) {
+void ImpactWorld::pushPair(int a, int b, const PairState& state) {
   ImpactBody &first = m_bodies[a], &second = m_bodies[b];
   const double masses = first.inverse_mass + second.inverse_mass;
-  const double impulse = (1 + restitutionOf(first, second)) * meeting.approach / masses;
-  Vec2 push = impulse * meeting.touch.normal;
+  const double impulse = (1 + restitutionOf(first, second)) * state.approach / masses;
+  Vec2 push = impulse * state.touch.normal;
   const double friction = frictionOf(first, second);
   if (friction > 0) {
-    const Vec2 along = perpendicular(meeting.touch.normal);
-    const double stop = -dot(meeting.velocity, along) / masses;
+    const Vec2 along = perpendicular(state.touch.normal);
+    const double stop = -dot(state.velocity, along) / masses;
     push += std::clamp(stop, -friction * impulse, friction * impulse) * along;
   }
   first.velocity -= first.inverse_mass * push;
@@ -86,20 +86,20 @@ void ImpactWorld::stopSliding(int a, int b) {
   const int contact = findContact(a, b);
   if (contact < 0) return;
   ImpactBody &first = m_bodies[a], &second = m_bodies[b];
-  const Meeting meeting = meet(a, b, m_contacts[contact].axis);
-  const Vec2 along = perpendicular(meeting.touch.normal);
-  const double slip = dot(meeting.velocity, along);
-  if (std::fabs(slip) > 10 * meeting.rest_speed) return;
+  const PairState state = pairState(a, b, m_contacts[contact].axis);
+  const Vec2 along = perpendicular(state.touch.normal);
+  const double slip = dot(state.velocity, along);
+  if (std::fabs(slip) > 10 * state.rest_speed) return;
   const Vec2 push = (-slip / (first.inverse_mass + second.inverse_mass)) * along;
   first.velocity -= first.inverse_mass * push;
   second.velocity += second.inverse_mass * push;
 }
 
-bool ImpactWorld::keepsContact(const Contact& contact, const Meeting& meeting) const {
+bool ImpactWorld::keepsContact(const Contact& contact, const PairState& state) const {
   const bool are_boxes = m_bodies[contact.first].shape == ImpactShape::kBox &&
                          m_bodies[contact.second].shape == ImpactShape::kBox;
-  return meeting.touch.gap <= 2 * kImpactSlop && meeting.approach >= -meeting.rest_speed &&
-         !(are_boxes && meeting.touch.overlap <= 1.01 * kImpactSlop);
+  return state.touch.gap <= 2 * kImpactSlop && state.approach >= -state.rest_speed &&
+         !(are_boxes && state.touch.overlap <= 1.01 * kImpactSlop);
 }
 
 int ImpactWorld::localOf(int id) {
@@ -133,8 +133,8 @@ void ImpactWorld::gather(int body, double now, bool is_impact, int own_contact) 
       if (contact.is_listed) continue;
       advance(other, now);
       if (m_motions[other].is_frozen) continue;
-      const Meeting meeting = meet(contact.first, contact.second, contact.axis);
-      if (!keepsContact(contact, meeting)) {
+      const PairState state = pairState(contact.first, contact.second, contact.axis);
+      if (!keepsContact(contact, state)) {
         if (!is_impact) {
           markChanged(contact.first);
           markChanged(contact.second);
@@ -143,9 +143,9 @@ void ImpactWorld::gather(int body, double now, bool is_impact, int own_contact) 
         continue;
       }
       if (is_impact) {
-        if (at != own_contact && !isSoft(contact.first, contact.second, meeting)) continue;
+        if (at != own_contact && !isSoft(contact.first, contact.second, state)) continue;
       } else {
-        contact.is_resting = meeting.approach <= meeting.rest_speed;
+        contact.is_resting = state.approach <= state.rest_speed;
         if (!contact.is_resting) continue;  // it is about to be hit
       }
       contact.is_listed = true;
@@ -161,7 +161,7 @@ void ImpactWorld::gather(int body, double now, bool is_impact, int own_contact) 
   for (const int id : m_group) m_group_masses.push_back(m_bodies[id].inverse_mass);
 }
 
-// Rows go by ids, and so do the sums over a body's rows, whatever way the group was found.
+// Rows go by ids, and so do the sums over a body's rows, whatever the order in which the group was found.
 void ImpactWorld::solveGroup(Purpose purpose) {
   m_rest.rows().clear();
   for (const int c : m_group_contacts) addRows(m_contacts[c], purpose);
@@ -175,26 +175,26 @@ void ImpactWorld::partGroup(double now) {
   bool is_needed = false;
   for (const int c : m_group_contacts) {
     const Contact& contact = m_contacts[c];
-    const double gap = meet(contact.first, contact.second, contact.axis).touch.gap;
+    const double gap = pairState(contact.first, contact.second, contact.axis).touch.gap;
     is_needed = is_needed || (gap < -0.5 * kImpactSlop && gap > -kDeepest);
   }
   if (!is_needed) return;
   solveGroup(Purpose::kPlace);
   for (std::size_t i = 0; i < m_group.size(); ++i) {
-    const Vec2 way = m_rest.change(static_cast<int>(i));
-    if (way == Vec2{}) continue;
+    const Vec2 displacement = m_rest.change(static_cast<int>(i));
+    if (displacement == Vec2{}) continue;
     const int id = m_group[i];
     advance(id, now);
-    m_bodies[id].place = m_bodies[id].place + way;
+    m_bodies[id].place = m_bodies[id].place + displacement;
     markChanged(id);
   }
 }
 
 void ImpactWorld::addRows(const Contact& contact, Purpose purpose) {
-  const Meeting meeting = meet(contact.first, contact.second, contact.axis);
-  const Vec2 normal = meeting.touch.normal, along = perpendicular(normal);
+  const PairState state = pairState(contact.first, contact.second, contact.axis);
+  const Vec2 normal = state.touch.normal, along = perpendicular(normal);
   const Vec2 pull = m_bodies[contact.second].acceleration - m_bodies[contact.first].acceleration;
-  const double slip = dot(meeting.velocity, along);
+  const double slip = dot(state.velocity, along);
   std::vector<RestRow>& rows = m_rest.rows();
   RestRow row;
   row.first = localOf(contact.first);
@@ -202,8 +202,8 @@ void ImpactWorld::addRows(const Contact& contact, Purpose purpose) {
   row.direction = normal;
   // The normal turns while they slide around one another.
   const bool is_impact = purpose == Purpose::kImpact;
-  row.bias = is_impact ? -meeting.approach : dot(pull, normal) + slip * slip * meeting.touch.curvature;
-  if (purpose == Purpose::kPlace) row.bias = meeting.touch.gap > -kDeepest ? meeting.touch.gap : 0;
+  row.bias = is_impact ? -state.approach : dot(pull, normal) + slip * slip * state.touch.curvature;
+  if (purpose == Purpose::kPlace) row.bias = state.touch.gap > -kDeepest ? state.touch.gap : 0;
   const double friction = frictionOf(m_bodies[contact.first], m_bodies[contact.second]);
   rows.push_back(row);
   if (friction == 0 || purpose == Purpose::kPlace) return;
@@ -211,7 +211,7 @@ void ImpactWorld::addRows(const Contact& contact, Purpose purpose) {
   row.friction = friction;
   row.direction = along;
   row.bias = is_impact ? slip : dot(pull, along);
-  if (!is_impact && std::fabs(slip) > meeting.rest_speed) row.slip = slip > 0 ? 1 : -1;
+  if (!is_impact && std::fabs(slip) > state.rest_speed) row.slip = slip > 0 ? 1 : -1;
   rows.push_back(row);
 }
 
@@ -293,12 +293,12 @@ void ImpactWorld::settleGroup(int body, double now) {
 // Takes away what rounding has left of the speeds of a contact that presses.
 void ImpactWorld::calm(const Contact& contact) {
   ImpactBody &first = m_bodies[contact.first], &second = m_bodies[contact.second];
-  const Meeting meeting = meet(contact.first, contact.second, contact.axis);
+  const PairState state = pairState(contact.first, contact.second, contact.axis);
   const double masses = first.inverse_mass + second.inverse_mass;
-  const Vec2 along = perpendicular(meeting.touch.normal);
-  const double slip = dot(meeting.velocity, along);
-  Vec2 left = -meeting.approach * meeting.touch.normal;
-  if (std::fabs(slip) <= meeting.rest_speed && frictionOf(first, second) > 0) left += slip * along;
+  const Vec2 along = perpendicular(state.touch.normal);
+  const double slip = dot(state.velocity, along);
+  Vec2 left = -state.approach * state.touch.normal;
+  if (std::fabs(slip) <= state.rest_speed && frictionOf(first, second) > 0) left += slip * along;
   if (left == Vec2{}) return;
   first.velocity += (first.inverse_mass / masses) * left;
   second.velocity -= (second.inverse_mass / masses) * left;
@@ -360,9 +360,9 @@ void ImpactWorld::dropContact(int c) {
 
 void ImpactWorld::endContact(int c, double now) {
   const Contact contact = m_contacts[c];
-  const Meeting meeting = meet(contact.first, contact.second, contact.axis);
+  const PairState state = pairState(contact.first, contact.second, contact.axis);
   dropContact(c);
-  m_events.push_back({now, contact.first, contact.second, false, 0, meeting.touch.normal});
+  m_events.push_back({now, contact.first, contact.second, false, 0, state.touch.normal});
 }
 
 }  // namespace naiad::physics

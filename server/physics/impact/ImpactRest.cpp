@@ -7,12 +7,12 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kUnbounded = 1e300;
-constexpr double kRegular = 1e-12;  // of a row's own coupling, so that equal rows have one answer
-constexpr int kFrictionRounds = 200;
-constexpr int kSweeps = 400;
-constexpr int kRefinements = 10;
-constexpr int kMaxStored = 4'000'000;  // of the factor; 32 MB
+constexpr double kUnbounded = 1e300;  // a bound that no push reaches
+constexpr double kRegular = 1e-12;    // of the diagonal, so that rows that say the same have one solution
+constexpr int kFrictionRounds = 200;  // of pressures and friction cones by turns: slow where a body is wedged
+constexpr int kSweeps = 400;          // of Gauss and Seidel, where the direct solution fails (`unconverged`)
+constexpr int kRefinements = 10;  // iterative refinement: each round takes out most of what kRegular put in
+constexpr int kMaxStored = 4'000'000;  // entries of the factor: 32 MB; a larger group is swept
 
 }  // namespace
 
@@ -190,7 +190,7 @@ bool RestSolver::solveWithinBounds() {
   return false;
 }
 
-// True if they are where they were. How far they go of the way is Irons and Tuck's (1969) factor: the
+// True if they are where they were. The relaxation is Irons and Tuck's (1969) factor: the
 // iteration is linear most of the time, and slow where a body is wedged.
 bool RestSolver::setFrictionBounds(int round) {
   double largest = 0, product = 0, square = 0;
@@ -222,7 +222,7 @@ bool RestSolver::setFrictionBounds(int round) {
   return false;
 }
 
-// Projected Gauss and Seidel: what is left when the direct way fails.
+// Projected Gauss and Seidel: what is left when the direct solution fails.
 void RestSolver::sweep() {
   updateChange();
   for (int round = 0; round < kSweeps; ++round) {

@@ -16,7 +16,7 @@ struct RestRow {
   double bias;          ///< what the difference of velocities (or accelerations) along it is without any push
   int normal = -1;      ///< of a friction row: the index of its contact's row, which comes before it
   double friction = 0;  ///< of a friction row: µ
-  double slip = 0;      ///< of a friction row: 0 holds within the cone; ±1: slides that way already
+  double slip = 0;      ///< of a friction row: 0 holds within the cone; ±1: slides in that direction already
   double push = 0;      ///< the result; before solve(): a guess, of which only the sign counts
 };
 
@@ -40,7 +40,7 @@ class RestSolver {
   }
 
  private:
-  static constexpr double kRounding = 1e-14;
+  static constexpr double kRounding = 1e-14;  // of the sum of all pushes: some fifty units in the last place
   enum class Side : std::uint8_t { kFree, kLow, kHigh };
 
   bool solveWithinBounds();

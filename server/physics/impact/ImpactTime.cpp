@@ -8,7 +8,7 @@ namespace naiad::physics {
 
 namespace {
 
-// The moments at which both axes overlap: the meet of the axes' intervals.
+// The moments at which both axes overlap: the intersection of the axes' intervals.
 struct Overlap {
   Interval when;
   bool is_y_last;  // the axis that came last
@@ -16,9 +16,9 @@ struct Overlap {
 
 int overlapIntervals(const RelativeMotion& m, Vec2 half, double horizon, Overlap out[5]) {
   Interval xs[3], ys[3];
-  const int nx = insideIntervals(m.way.x, m.velocity.x, m.acceleration.x, half.x, horizon, xs);
+  const int nx = insideIntervals(m.offset.x, m.velocity.x, m.acceleration.x, half.x, horizon, xs);
   if (nx == 0) return 0;
-  const int ny = insideIntervals(m.way.y, m.velocity.y, m.acceleration.y, half.y, horizon, ys);
+  const int ny = insideIntervals(m.offset.y, m.velocity.y, m.acceleration.y, half.y, horizon, ys);
   int count = 0;
   for (int i = 0, j = 0; i < nx && j < ny;) {
     const double begin = std::max(xs[i].begin, ys[j].begin), end = std::min(xs[i].end, ys[j].end);
@@ -36,11 +36,12 @@ double entryBefore(double r, double v, double a, double half, double inside) {
 }
 
 RelativeMotion movedOn(const RelativeMotion& m, double s) {
-  return {m.way + s * m.velocity + (0.5 * s * s) * m.acceleration, m.velocity + s * m.acceleration,
+  return {m.offset + s * m.velocity + (0.5 * s * s) * m.acceleration, m.velocity + s * m.acceleration,
           m.acceleration};
 }
 
-// The first moment at which |way| falls below the radius less the slop, taken back to the radius. −1: never.
+// The first moment at which |offset| falls below the radius less the slop, taken back to the radius. −1:
+// never.
 double circleEntry(const RelativeMotion& m, double radius, double horizon, bool is_resting) {
   const double inner = radius - kImpactSlop;
   if (!(inner > 0)) return -1;
@@ -50,7 +51,7 @@ double circleEntry(const RelativeMotion& m, double radius, double horizon, bool 
     // From near the circle the squares are small: no digit is lost to a far start.
     const double start = near[i].when.begin, length = near[i].when.end - start;
     const RelativeMotion here = movedOn(m, start);
-    const Vec2 r = here.way, v = here.velocity, a = 0.5 * here.acceleration;
+    const Vec2 r = here.offset, v = here.velocity, a = 0.5 * here.acceleration;
     const int degree = a == Vec2{} ? 2 : 4;
     double c[5] = {lengthSquared(r) - inner * inner, 2 * dot(r, v), lengthSquared(v) + 2 * dot(r, a),
                    2 * dot(v, a), lengthSquared(a)};
@@ -71,8 +72,8 @@ ImpactForecast boxEntry(const RelativeMotion& m, Vec2 reach, double horizon, boo
   const bool is_y = overlap[0].is_y_last;
   const ImpactAxis axis = is_y ? ImpactAxis::kY : ImpactAxis::kX;
   if (is_resting || deep == 0) return {deep, axis};
-  return {is_y ? entryBefore(m.way.y, m.velocity.y, m.acceleration.y, reach.y, deep)
-               : entryBefore(m.way.x, m.velocity.x, m.acceleration.x, reach.x, deep),
+  return {is_y ? entryBefore(m.offset.y, m.velocity.y, m.acceleration.y, reach.y, deep)
+               : entryBefore(m.offset.x, m.velocity.x, m.acceleration.x, reach.x, deep),
           axis};
 }
 
@@ -89,39 +90,39 @@ ImpactForecast roundedBoxEntry(const RelativeMotion& m, Vec2 half, double radius
   if (overlapIntervals(m, {half.x + inner, half.y}, horizon, overlap) > 0) {
     const double deep = overlap[0].when.begin;
     const bool is_face = !is_resting && !overlap[0].is_y_last;
-    take(is_face ? entryBefore(m.way.x, m.velocity.x, m.acceleration.x, half.x + radius, deep) : deep);
+    take(is_face ? entryBefore(m.offset.x, m.velocity.x, m.acceleration.x, half.x + radius, deep) : deep);
   }
   if (overlapIntervals(m, {half.x, half.y + inner}, horizon, overlap) > 0) {
     const double deep = overlap[0].when.begin;
     const bool is_face = !is_resting && overlap[0].is_y_last;
-    take(is_face ? entryBefore(m.way.y, m.velocity.y, m.acceleration.y, half.y + radius, deep) : deep);
+    take(is_face ? entryBefore(m.offset.y, m.velocity.y, m.acceleration.y, half.y + radius, deep) : deep);
   }
   for (const Vec2 corner : {Vec2{-half.x, -half.y}, Vec2{half.x, -half.y}, Vec2{-half.x, half.y}, half}) {
-    take(circleEntry({m.way - corner, m.velocity, m.acceleration}, radius, horizon, is_resting));
+    take(circleEntry({m.offset - corner, m.velocity, m.acceleration}, radius, horizon, is_resting));
   }
   return first;
 }
 
-ImpactTouch centreTouch(Vec2 way, double radius) {
-  const double distance = length(way);
+ImpactTouch centreTouch(Vec2 offset, double radius) {
+  const double distance = length(offset);
   if (distance == 0) return {{0, 1}, -radius};
-  return {way / distance, distance - radius, 1 / distance};
+  return {offset / distance, distance - radius, 1 / distance};
 }
 
-ImpactTouch boxTouch(Vec2 way, Vec2 reach, ImpactAxis axis) {
-  const double gap_x = std::fabs(way.x) - reach.x, gap_y = std::fabs(way.y) - reach.y;
+ImpactTouch boxTouch(Vec2 offset, Vec2 reach, ImpactAxis axis) {
+  const double gap_x = std::fabs(offset.x) - reach.x, gap_y = std::fabs(offset.y) - reach.y;
   if (axis == ImpactAxis::kX || (axis == ImpactAxis::kNearest && gap_x > gap_y)) {
-    return {{way.x < 0 ? -1.0 : 1.0, 0}, gap_x, 0, -gap_y};
+    return {{offset.x < 0 ? -1.0 : 1.0, 0}, gap_x, 0, -gap_y};
   }
-  return {{0, way.y < 0 ? -1.0 : 1.0}, gap_y, 0, -gap_x};
+  return {{0, offset.y < 0 ? -1.0 : 1.0}, gap_y, 0, -gap_x};
 }
 
 // From the box to the circle.
-ImpactTouch roundedBoxTouch(Vec2 way, Vec2 half, double radius) {
-  const Vec2 nearest = {std::clamp(way.x, -half.x, half.x), std::clamp(way.y, -half.y, half.y)};
-  const Vec2 out = way - nearest;
+ImpactTouch roundedBoxTouch(Vec2 offset, Vec2 half, double radius) {
+  const Vec2 nearest = {std::clamp(offset.x, -half.x, half.x), std::clamp(offset.y, -half.y, half.y)};
+  const Vec2 out = offset - nearest;
   if (out.x != 0 && out.y != 0) return centreTouch(out, radius);
-  ImpactTouch touch = boxTouch(way, half, ImpactAxis::kNearest);
+  ImpactTouch touch = boxTouch(offset, half, ImpactAxis::kNearest);
   touch.gap -= radius;
   touch.overlap = 1;
   return touch;
@@ -147,7 +148,7 @@ bool areCircles(const ImpactBody& a, const ImpactBody& b) {
 
 // The first moment at which |r + v·s + ½a·s²| crosses `half`, if it is clearly off it now.
 double crossingOf(double r, double v, double a, double half, double horizon) {
-  constexpr double kClear = 1e-12;
+  constexpr double kClear = 1e-12;  // metric cells: nearer than this it is on the edge now, within rounding
   const double off = std::fabs(r) - half;
   if (std::fabs(off) <= kClear) return -1;
   Interval stretches[3];
@@ -158,20 +159,20 @@ double crossingOf(double r, double v, double a, double half, double horizon) {
 
 }  // namespace
 
-ImpactTouch touchOf(const ImpactBody& a, const ImpactBody& b, Vec2 way, ImpactAxis axis) {
-  if (areBoxes(a, b)) return boxTouch(way, a.half + b.half, axis);
-  if (areCircles(a, b)) return centreTouch(way, a.half.x + b.half.x);
+ImpactTouch touchOf(const ImpactBody& a, const ImpactBody& b, Vec2 offset, ImpactAxis axis) {
+  if (areBoxes(a, b)) return boxTouch(offset, a.half + b.half, axis);
+  if (areCircles(a, b)) return centreTouch(offset, a.half.x + b.half.x);
   const BoxAndCircle pair = boxAndCircle(a, b);
-  if (!pair.is_turned) return roundedBoxTouch(way, pair.half, pair.radius);
-  ImpactTouch touch = roundedBoxTouch(-way, pair.half, pair.radius);
+  if (!pair.is_turned) return roundedBoxTouch(offset, pair.half, pair.radius);
+  ImpactTouch touch = roundedBoxTouch(-offset, pair.half, pair.radius);
   touch.normal = -touch.normal;
   return touch;
 }
 
 ImpactForecast forecastImpact(const ImpactBody& a, const ImpactBody& b, const RelativeMotion& motion,
                               double horizon, double rest_speed, bool is_resting) {
-  const ImpactTouch now = touchOf(a, b, motion.way);
-  const double depth = std::min(now.gap, 0.0);  // whoever begins inside goes no deeper
+  const ImpactTouch now = touchOf(a, b, motion.offset);
+  const double depth = std::min(now.gap, 0.0);  // a body that begins inside goes no deeper
   if (now.gap <= 0 && now.overlap > kImpactSlop && dot(motion.velocity, now.normal) < -rest_speed) {
     if (!areBoxes(a, b)) return {0, ImpactAxis::kNearest};
     return {0, now.normal.x != 0 ? ImpactAxis::kX : ImpactAxis::kY};
@@ -186,7 +187,7 @@ ImpactForecast forecastImpact(const ImpactBody& a, const ImpactBody& b, const Re
   }
   const BoxAndCircle pair = boxAndCircle(a, b);
   const RelativeMotion seen =
-      pair.is_turned ? RelativeMotion{-motion.way, -motion.velocity, -motion.acceleration} : motion;
+      pair.is_turned ? RelativeMotion{-motion.offset, -motion.velocity, -motion.acceleration} : motion;
   if (pair.radius + depth <= 0) {  // the centre is inside: only the face that is nearest counts
     Vec2 reach = pair.half;
     (now.normal.x != 0 ? reach.x : reach.y) += pair.radius + depth;
@@ -200,12 +201,12 @@ double forecastEdge(const ImpactBody& a, const ImpactBody& b, const RelativeMoti
   if (areCircles(a, b)) return -1;
   if (areBoxes(a, b)) {
     const Vec2 reach = a.half + b.half - Vec2{kImpactSlop, kImpactSlop};
-    return axis == ImpactAxis::kX ? crossingOf(m.way.y, m.velocity.y, m.acceleration.y, reach.y, horizon)
-                                  : crossingOf(m.way.x, m.velocity.x, m.acceleration.x, reach.x, horizon);
+    return axis == ImpactAxis::kX ? crossingOf(m.offset.y, m.velocity.y, m.acceleration.y, reach.y, horizon)
+                                  : crossingOf(m.offset.x, m.velocity.x, m.acceleration.x, reach.x, horizon);
   }
   const Vec2 half = boxAndCircle(a, b).half;
-  const double x = crossingOf(m.way.x, m.velocity.x, m.acceleration.x, half.x, horizon);
-  const double y = crossingOf(m.way.y, m.velocity.y, m.acceleration.y, half.y, horizon);
+  const double x = crossingOf(m.offset.x, m.velocity.x, m.acceleration.x, half.x, horizon);
+  const double y = crossingOf(m.offset.y, m.velocity.y, m.acceleration.y, half.y, horizon);
   return x < 0 || (y >= 0 && y < x) ? y : x;
 }
 

@@ -1,22 +1,28 @@
-// How two bodies touch, and when they next will.
+// How two bodies that do not turn touch, and when they next will.
+//
+// The time-of-impact finder for axis-aligned boxes and circles under constant accelerations, for any time to
+// come. The gap then is a polynomial of time of degree at most four (ImpactRoots.h), so the moment is exact
+// to rounding, as an event queue needs it: TimeOfImpact.h finds a safe moment near it, and on straight paths
+// only.
 #pragma once
 
 #include "physics/impact/ImpactBody.h"
 
 namespace naiad::physics {
 
-/// How deep bodies may be in one another before it counts. What grazes less deep passes: a body that slides
-/// over the seam of two tiles meets no edge.
+/// Metric cells: how deep bodies may be in one another before it counts, a quarter of the world's unit (2^-32
+/// cell). What grazes less deep passes: a body that slides
+/// over the seam of two tiles hits no edge.
 inline constexpr double kImpactSlop = 0x1p-34;
 
 /// The motion of a second body as seen from a first, from a moment on.
 struct RelativeMotion {
-  Vec2 way;
+  Vec2 offset;  ///< from the first body to the second
   Vec2 velocity;
   Vec2 acceleration;
 };
 
-/// Which way two boxes touch. Anything else: by where they are.
+/// The axis along which two boxes touch. Anything else: by where they are.
 enum class ImpactAxis : std::uint8_t { kNearest, kX, kY };
 
 /// A moment's geometry.
@@ -27,10 +33,11 @@ struct ImpactTouch {
   double overlap = 1;    ///< across the normal; boxes: how far they stay over one another
 };
 
-ImpactTouch touchOf(const ImpactBody& a, const ImpactBody& b, Vec2 way,
+ImpactTouch touchOf(const ImpactBody& a, const ImpactBody& b, Vec2 offset,
                     ImpactAxis axis = ImpactAxis::kNearest);
 
-/// Below this the two neither approach nor part: rounding of their velocities.
+/// Cells per tick. Below this the two neither approach nor part: rounding of their velocities, a few units in
+/// the last place.
 inline double restSpeed(Vec2 velocity_a, Vec2 velocity_b) {
   return 1e-12 + 2e-15 * (std::fabs(velocity_a.x) + std::fabs(velocity_a.y) + std::fabs(velocity_b.x) +
                           std::fabs(velocity_b.y));

@@ -6,7 +6,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kFarthest = 1e15;  // in one tick; beyond it a Place cannot count
+constexpr double kFarthest = 1e15;  // metric cells in one tick: below the 2^51 that a Place can be moved by
 
 // How far a body gets to either side along one axis.
 void widen(double v, double a, double t, double& low, double& high) {
@@ -44,7 +44,7 @@ bool ImpactWorld::set(int id, const ImpactBody& body) {
   if (!exists(id) || !isSound(body)) return false;
   Motion& motion = m_motions[id];
   if (m_bodies[id] == body && !motion.is_frozen) return true;
-  if (isPushed(id) != (body.inverse_mass > 0)) {  // contacts are listed by who can be pushed
+  if (isPushed(id) != (body.inverse_mass > 0)) {  // contacts are listed by the bodies that can be pushed
     remove(id);
     motion.exists = true;
   }
@@ -74,12 +74,12 @@ void ImpactWorld::advance(int id, double time) {
   motion.time = time;
   if (!(t > 0) || !isMoving(id)) return;
   ImpactBody& body = m_bodies[id];
-  const Vec2 way = t * body.velocity + (0.5 * t * t) * motion.acceleration;
-  if (!(std::fabs(way.x) < kFarthest && std::fabs(way.y) < kFarthest)) {
+  const Vec2 displacement = t * body.velocity + (0.5 * t * t) * motion.acceleration;
+  if (!(std::fabs(displacement.x) < kFarthest && std::fabs(displacement.y) < kFarthest)) {
     freeze(id);
     return;
   }
-  body.place = body.place + way;
+  body.place = body.place + displacement;
   body.velocity += t * motion.acceleration;
 }
 
@@ -231,7 +231,7 @@ void ImpactWorld::forecastPair(int i, int j, double now) {
   const int first = std::min(i, j), second = std::max(i, j);
   const ImpactBody &a = m_bodies[first], &b = m_bodies[second];
   const RelativeMotion motion = relative(first, second, now);
-  if (isPushed(first) && isPushed(second) && touchOf(a, b, motion.way).gap < -kDeepest) {
+  if (isPushed(first) && isPushed(second) && touchOf(a, b, motion.offset).gap < -kDeepest) {
     ++m_counters.overlaps;
     return;
   }
@@ -250,7 +250,7 @@ void ImpactWorld::forecastPair(int i, int j, double now) {
   if (is_resting) {
     const ImpactAxis axis = m_contacts[found].axis;
     take(forecastEdge(a, b, motion, axis, left), Kind::kEdge);
-    const Vec2 along = perpendicular(touchOf(a, b, motion.way, axis).normal);
+    const Vec2 along = perpendicular(touchOf(a, b, motion.offset, axis).normal);
     const double slip = dot(motion.velocity, along), gain = dot(motion.acceleration, along);
     if (std::fabs(slip) > rest_speed && slip * gain < 0) take(-slip / gain, Kind::kStop);
   }

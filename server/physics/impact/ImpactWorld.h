@@ -1,7 +1,7 @@
 // Bodies that do not rotate, event by event: the exact moment of every impact, and the rest of the tick used.
 //
 // Between events each body flies in closed form (FlightFree.h). A queue gives the next event of all pairs; it
-// is handled, and only the pairs of the bodies that it changed are looked at again. Bodies that lie on one
+// is handled, and only the pairs of the bodies that it changed are examined again. Bodies that lie on one
 // another get the accelerations that keep them so (ImpactRest.h) and then fly like any other until something
 // changes. Results depend on ids, places relative to one another, and inputs alone.
 #pragma once
@@ -31,10 +31,10 @@ struct ImpactEvent {
 struct ImpactCounters {
   std::int64_t ticks = 0;
   std::int64_t impacts = 0;
-  std::int64_t forecasts = 0;    ///< pairs looked at
+  std::int64_t forecasts = 0;    ///< pairs examined
   std::int64_t overlaps = 0;     ///< of those, how many were too deep in one another to be kept apart
   std::int64_t rest_solves = 0;  ///< groups of resting bodies
-  std::int64_t unconverged = 0;  ///< of those, how many got an approximate answer
+  std::int64_t unconverged = 0;  ///< of those, how many got an approximate solution
   std::int64_t quarantined = 0;  ///< bodies frozen
 };
 
@@ -47,15 +47,17 @@ enum class ImpactStepStatus : std::uint8_t {
 /// Not thread-safe. No allocation in step() once the scene has shown what it needs.
 class ImpactWorld {
  public:
-  /// More events than this for one body in one tick, and it is frozen where it is.
+  /// More events than this for one body in one tick, and it is frozen where it is: a bound on the time of a
+  /// tick.
   static constexpr int kMaxEvents = 1'000'000;
-  /// A bounce that would not rise higher than this (cells) ends in rest.
+  /// A bounce that would not rise higher than this (cells) ends in rest: the Zeno guard. Far below the
+  /// world's unit of 2^-32 cell.
   static constexpr double kRestHeight = 1e-11;
-  /// Nor does one that follows so many others of the same body in the same moment, unless it is elastic.
+  /// So does one that follows as many others of the same body in the same moment, unless it is elastic.
   static constexpr int kMaxAtOnce = 32;
 
   /// Two bodies that were put into one another deeper than this pass until they have parted. (What cannot be
-  /// pushed lets nobody deeper in.)
+  /// pushed lets no body go deeper.)
   static constexpr double kDeepest = 1e-6;
 
   /// Returns the id, the lowest free one, or −1 if the body is not sound.
@@ -69,7 +71,7 @@ class ImpactWorld {
   bool exists(int id) const {
     return id >= 0 && id < static_cast<int>(m_bodies.size()) && m_motions[id].exists;
   }
-  /// Is the body in quarantine? It is kept as it is and nothing meets it, until set().
+  /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
   bool isFrozen(int id) const { return m_motions[id].is_frozen; }
   /// Does the body, which can be pushed, touch anything?
   bool isTouching(int id) const { return m_motions[id].first_contact >= 0; }
@@ -79,7 +81,7 @@ class ImpactWorld {
   int idLimit() const { return static_cast<int>(m_bodies.size()); }
 
   /// For the next step: the world is known `half` to either side of `centre`, and if an impact sends the body
-  /// out of that, the step ends there. Everywhere, unless told.
+  /// out of that, the step ends there. Everywhere, unless it is set.
   void setReach(int id, const Place& centre, Vec2 half);
 
   /// Goes on by `dt` > 0 ticks, or until a body would leave its reach.
@@ -100,13 +102,13 @@ class ImpactWorld {
     int events = 0;          // in this tick
     int events_at_once = 0;  // at the moment of the last one
     double last_event = -1;
-    int local = -1;  // index in the group at hand
+    int local = -1;  // index in the current group
     bool has_reach = false;
     bool exists = false;
     bool is_frozen = false;
     bool is_dirty = false;    // set() since the last step
     bool is_changed = false;  // in m_changed
-    bool is_visited = false;  // by the settling at hand
+    bool is_visited = false;  // by the current settle()
   };
   struct Reach {
     Place centre;
@@ -133,7 +135,7 @@ class ImpactWorld {
     Kind kind;
     ImpactAxis axis;
   };
-  struct Meeting {  // two bodies at a moment
+  struct PairState {  // of two bodies at a moment
     ImpactTouch touch;
     Vec2 velocity;
     double approach;  // > 0 if they do
@@ -163,15 +165,15 @@ class ImpactWorld {
   // ImpactContact.cpp
   void collide(int a, int b, ImpactAxis axis, double now);
   void stopSliding(int a, int b);
-  void pushPair(int a, int b, const Meeting& meeting);
+  void pushPair(int a, int b, const PairState& state);
   double pushGroup(int contact, double now);
   void settle(double now);
   void settleGroup(int body, double now);
   void calm(const Contact& contact);
   void gather(int body, double now, bool is_impact, int own_contact);
-  bool keepsContact(const Contact& contact, const Meeting& meeting) const;
-  bool isSoft(int a, int b, const Meeting& meeting) const;
-  Meeting meet(int a, int b, ImpactAxis axis) const;
+  bool keepsContact(const Contact& contact, const PairState& state) const;
+  bool isSoft(int a, int b, const PairState& state) const;
+  PairState pairState(int a, int b, ImpactAxis axis) const;
   void addRows(const Contact& contact, Purpose purpose);
   void solveGroup(Purpose purpose);
   void partGroup(double now);
@@ -184,7 +186,7 @@ class ImpactWorld {
 
   std::vector<ImpactBody> m_bodies;
   std::vector<Motion> m_motions;
-  std::vector<Reach> m_reaches;  // by id; only as many as were told
+  std::vector<Reach> m_reaches;  // by id; only as many as were set
   std::vector<Contact> m_contacts;
   int m_free_contact = -1;
   std::vector<ImpactEvent> m_events;
@@ -194,7 +196,7 @@ class ImpactWorld {
   double m_stepped = 0;
   bool m_is_beyond = false;                     // a body's reach
   std::int64_t m_origin_x = 0, m_origin_y = 0;  // of the broad phase
-  std::vector<int> m_ids;                       // who takes part
+  std::vector<int> m_ids;                       // those that take part
   std::vector<SweptBox> m_boxes;
   ImpactTree m_tree;
   std::vector<Pending> m_queue;
@@ -202,7 +204,7 @@ class ImpactWorld {
   std::vector<int> m_changed;
 
   RestSolver m_rest;
-  std::vector<int> m_group;           // bodies of the group at hand
+  std::vector<int> m_group;           // bodies of the current group
   std::vector<int> m_group_contacts;  // and what holds them together
   std::vector<double> m_group_masses;
 };

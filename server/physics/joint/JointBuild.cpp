@@ -10,7 +10,9 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kCalm = 0.25;  // of (frequency · step)², no unit: see JointConstraints::isCalm
+// Of (frequency · step)², no unit: half a radian in a step. Above it composed steps gain nothing
+// (JointConstraints::isCalm).
+constexpr double kCalm = 0.25;
 
 // The force that is calm in a step of length one: the frequency at which a force turns a lever is the root of
 // force over (lever · effective mass).

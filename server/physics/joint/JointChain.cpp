@@ -7,11 +7,11 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxIterations = 25;
-constexpr int kFree = 3;           // iterations whose rate does not matter
-constexpr double kSlow = 0.4;      // a worse rate gives up
-constexpr double kCertain = 0.02;  // of the tolerance: what is foreseen to be below it is not looked at
-constexpr double kBad = 1e-3;      // of the diagonal: smaller pivots lose too many digits
+constexpr int kMaxIterations = 25;  // of Newton, as in JointStage.cpp
+constexpr int kFree = 3;            // first iterations, whose rate of convergence does not matter
+constexpr double kSlow = 0.4;       // residual over the last one: a worse rate gives up
+constexpr double kCertain = 0.02;   // of the tolerance: a residual predicted below this is not computed
+constexpr double kBad = 1e-3;       // of the diagonal: smaller pivots lose too many digits
 
 }  // namespace
 
@@ -129,9 +129,9 @@ bool JointChain::newton(double h, std::uint64_t& iterations) {
     double lower = 0;
     for (Link& rod : m_rods) {
       ++node;
-      const Pair next = node->before + h * node->velocity, way = next - place;
+      const Pair next = node->before + h * node->velocity, offset = next - place;
       place = next;
-      const double value = (dot(way, way) - rod.square) * rod.half_inverse_length;
+      const double value = (dot(offset, offset) - rod.square) * rod.half_inverse_length;
       worst = std::max(worst, std::abs(value));
       sum += std::abs(value);
       rest = value * to_impulse - lower * rest;

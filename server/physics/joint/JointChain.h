@@ -33,7 +33,7 @@ class JointChain {
             std::span<const double> multiplier, double tolerance);
   /// Takes out of the velocities what the rods do not allow.
   Status project();
-  /// A stage over h != 0. After anything but kDone, load anew.
+  /// A stage over h != 0. After anything but kDone, load again.
   Status stage(double h, std::uint64_t& iterations);
   /// `multiplier` per unit of time; `force` sums the impulses on b, and is by what `place_of` says of a rod.
   void store(std::span<Vec2> place, std::span<Vec2> velocity, std::span<double> multiplier,

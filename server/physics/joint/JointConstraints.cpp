@@ -156,7 +156,8 @@ template void JointConstraints::evaluate<false>(const JointMotion& motion);
 // trapezoidal rule. Where h does not resolve the oscillation (h²·k over the effective mass above 4), backward
 // Euler damps it instead of letting it ring.
 void JointConstraints::prepare(const JointMotion& motion, double h) {
-  constexpr double kIdle = 1e-280;  // a row whose stiffness times h is below this exerts no force
+  constexpr double kIdle =
+      1e-280;  // force per length: a row whose stiffness times h is below this exerts no force
   for (const int row : soft) {
     const Joint& joint = jointOf(row);
     const bool is_resolved = h < 0 || h * h * joint.stiffness * inverseEffectiveMass(motion, row) <= 4;

@@ -11,7 +11,7 @@ namespace naiad::physics {
 // Gauss–Newton from where the bodies are to the nearest place that fulfils the constraints, as impulses.
 bool JointIsland::projectPlaces(double h, JointCounters& counters) {
   constexpr double kRegularisation = 1e-9;  // of the diagonal: keeps dependent rows apart
-  constexpr int kRounds = 12;
+  constexpr int kRounds = 12;        // of Gauss–Newton; quadratic near the solution, so a bound alone
   constexpr double kNear = 20;       // tolerances: near enough for a stage that is not exact
   constexpr double kLargest = 1e15;  // metric cells: beyond it positions have no digits left
   const JointConstraints& its = m_constraints;

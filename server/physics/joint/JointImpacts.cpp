@@ -9,16 +9,19 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kDeepest = 1e-6;  // of the reach: overlap that is only let no deeper
-constexpr double kTouch = 1e-9;    // a gap below this is none
-constexpr double kSink = 1e-11;    // what places may lose before somebody is struck
-constexpr double kSlow = 1e-9;     // per unit of time: who meets more slowly does not bounce
-constexpr double kInstant = 1e-9;  // times less apart than this are one moment
-constexpr double kMeets = 1e-13;   // of a gap, where it counts as found
-constexpr double kStride = 0.25;   // of the reach: how far two move between two looks
-constexpr int kMaxLooks = 256;
-constexpr int kTries = 8;
-constexpr int kMaxImpacts = 256;  // in a step, and so many more for each pair
+constexpr double kDeepest = 1e-6;  // of the reach: deeper overlap at the start is not for this method
+constexpr double kTouch = 1e-9;    // metric cells: a gap below this counts as touching
+constexpr double kSink =
+    1e-11;  // metric cells: rounding of the places, by which a pair may come nearer unnoticed
+constexpr double kSlow = 1e-9;     // metric cells per unit of time: a slower approach does not bounce
+constexpr double kInstant = 1e-9;  // units of time: impacts less apart than this are simultaneous
+constexpr double kFound = 1e-13;   // metric cells: the gap at which Newton's method ends
+constexpr double kStride = 0.25;  // of the reach: how far the two move between two samples of their distance,
+                                  // so that no pass is missed in between
+constexpr int kMaxSamples = 256;  // of a pair and flight; bounds the cost of very fast pairs
+constexpr int kTries = 8;         // Newton iterations for a moment; also flights in a row that take no time
+// More impacts in a step than kMaxImpacts + kMaxPerPair · pairs: the step is given up, for the RigidWorld.
+constexpr int kMaxImpacts = 256;
 constexpr int kMaxPerPair = 16;
 
 Vec2 offsetOf(const JointPair& pair, std::span<const JointBody> bodies) {
@@ -43,7 +46,7 @@ double approachOf(const JointPair& pair, std::span<const JointBody> bodies) {
   return -dot(normalOf(pair, bodies), speedOf(pair, bodies));
 }
 
-// The way from one to the other, as the cubic that begins and ends where and as fast as they do.
+// The displacement from one to the other, as the cubic that begins and ends with their places and velocities.
 struct Path {
   Vec2 start, slope, bend, rest;
 
@@ -57,10 +60,10 @@ struct Path {
   bool isClosing(double s) const { return dot(at(s), slope + s * (2 * bend + (3 * s) * rest)) < 0; }
 
   // When is the square first below `square`? 2: never.
-  double firstBelow(double square, int looks) const {
+  double firstBelow(double square, int samples) const {
     double low = 0;
-    for (int i = 1; i <= looks; ++i) {
-      double high = static_cast<double>(i) / looks;
+    for (int i = 1; i <= samples; ++i) {
+      double high = static_cast<double>(i) / samples;
       if (squareAt(high) >= square && isClosing(low) && !isClosing(high)) {
         double nearest = low;  // somewhere between them they are nearest
         for (int k = 0; k < 40; ++k) {
@@ -69,7 +72,7 @@ struct Path {
         }
       }
       if (squareAt(high) < square) return bisect(low, high, square);
-      low = static_cast<double>(i) / looks;
+      low = static_cast<double>(i) / samples;
     }
     return 2;
   }
@@ -84,7 +87,7 @@ struct Path {
 
 }  // namespace
 
-// Who takes part, and is all of it for this method?
+// Collects the bodies, joints and islands that take part. False if something is not for this method.
 bool JointImpacts::gather(std::span<const JointBody> bodies, std::span<const Joint> joints) {
   m_islands.clear();
   m_bodies.clear();
@@ -137,8 +140,8 @@ void JointImpacts::fly(std::span<JointBody> bodies, std::span<Joint> joints, dou
   }
 }
 
-// Who meets first on the way from m_before to where they are now? −1: nobody. −2: it cannot be told.
-int JointImpacts::findMeeting(std::span<const JointBody> bodies, double left, double& time) const {
+// The pair that touches first between m_before and the present places. −1: none. −2: it cannot be decided.
+int JointImpacts::findImpact(std::span<const JointBody> bodies, double left, double& time) const {
   const auto before = [&](int body) -> const JointBody& {
     const auto found = std::lower_bound(m_bodies.begin(), m_bodies.end(), body);
     return m_before[static_cast<std::size_t>(found - m_bodies.begin())];
@@ -150,15 +153,15 @@ int JointImpacts::findMeeting(std::span<const JointBody> bodies, double left, do
     const JointBody &a = before(pair.a), &b = before(pair.b);
     const Vec2 from = b.place - a.place, rate = left * (b.velocity - a.velocity);
     const Vec2 to = offsetOf(pair, bodies), to_rate = left * speedOf(pair, bodies);
-    const double way = length(to - from) + length(rate) + length(to_rate);
+    const double travel = length(to - from) + length(rate) + length(to_rate);
     const double radius = pair.reach + m_floor[at(i)] - kSink;
-    if (length(from) - way > radius) continue;
-    const double looks = std::ceil(way / (kStride * pair.reach)) + 1;
-    if (!(looks <= kMaxLooks)) return -2;
+    if (length(from) - travel > radius) continue;
+    const double samples = std::ceil(travel / (kStride * pair.reach)) + 1;
+    if (!(samples <= kMaxSamples)) return -2;
     const Path path(from, rate, to, to_rate);
-    const double met = path.firstBelow(radius * radius, static_cast<int>(looks));
-    if (met >= first_time) continue;
-    first_time = met;
+    const double crossing = path.firstBelow(radius * radius, static_cast<int>(samples));
+    if (crossing >= first_time) continue;
+    first_time = crossing;
     first = i;
   }
   time = first_time * left;
@@ -166,8 +169,8 @@ int JointImpacts::findMeeting(std::span<const JointBody> bodies, double left, do
 }
 
 // The cubic is not their path: from its moment to the right one, by Newton's method.
-bool JointImpacts::approachMeeting(int pair, std::span<JointBody> bodies, std::span<Joint> joints,
-                                   double left, double& time) {
+bool JointImpacts::refineImpact(int pair, std::span<JointBody> bodies, std::span<Joint> joints, double left,
+                                double& time) {
   const JointPair& its = m_pairs[at(pair)];
   double gap = 0;
   for (int i = 0; i < kTries; ++i) {
@@ -179,7 +182,7 @@ bool JointImpacts::approachMeeting(int pair, std::span<JointBody> bodies, std::s
     fly(bodies, joints, time);
     gap = gapOf(its, bodies) - m_floor[at(pair)];
     const double closing = approachOf(its, bodies);
-    if (std::abs(gap) <= kMeets || !(closing > kSlow)) break;
+    if (std::abs(gap) <= kFound || !(closing > kSlow)) break;
     const double next = std::clamp(time + gap / closing, 0.0, left);
     if (next == time) break;
     time = next;
@@ -187,24 +190,25 @@ bool JointImpacts::approachMeeting(int pair, std::span<JointBody> bodies, std::s
   return gap > -kTouch;
 }
 
-// By how much the two part along `direction` for a unit impulse; m_change has what it does to everybody.
-double JointImpacts::answer(const JointPair& pair, Vec2 direction, std::span<JointBody> bodies,
-                            std::span<Joint> joints) {
-  m_answering.clear();
+// The speed at which the two part along `direction` after a unit impulse: the inverse effective mass of the
+// pair with its joints. m_change gets what the impulse does to each body.
+double JointImpacts::inverseEffectiveMass(const JointPair& pair, Vec2 direction, std::span<JointBody> bodies,
+                                          std::span<Joint> joints) {
+  m_responding.clear();
   const auto localOf = [&](int body) {
     return static_cast<int>(std::lower_bound(m_bodies.begin(), m_bodies.end(), body) - m_bodies.begin());
   };
   const int islands[] = {m_solver->islandOf(pair.a), m_solver->islandOf(pair.b)};
   const bool is_same = islands[0] >= 0 && islands[0] == islands[1];
   for (int k = 0; k < 2; ++k) {
-    if (islands[k] < 0) m_answering.push_back(localOf(k == 0 ? pair.a : pair.b));
+    if (islands[k] < 0) m_responding.push_back(localOf(k == 0 ? pair.a : pair.b));
     if (islands[k] < 0 || (k == 1 && is_same)) continue;
     for (const int body : m_solver->islands()[at(islands[k])].bodies()) {
-      if (isMovable(bodies[at(body)])) m_answering.push_back(localOf(body));
+      if (isMovable(bodies[at(body)])) m_responding.push_back(localOf(body));
     }
   }
   m_change.resize(m_bodies.size());
-  for (const int local : m_answering) {
+  for (const int local : m_responding) {
     JointBody& body = bodies[at(m_bodies[at(local)])];
     m_change[at(local)] = {body.velocity, body.spin};
     body.velocity = {};
@@ -217,7 +221,7 @@ double JointImpacts::answer(const JointPair& pair, Vec2 direction, std::span<Joi
     if (islands[k] >= 0 && !(k == 1 && is_same)) m_solver->holdIsland(islands[k], bodies, joints);
   }
   const double parting = dot(direction, b.velocity - a.velocity);
-  for (const int local : m_answering) {
+  for (const int local : m_responding) {
     JointBody& body = bodies[at(m_bodies[at(local)])];
     std::swap(body.velocity, m_change[at(local)].velocity);
     std::swap(body.spin, m_change[at(local)].spin);
@@ -225,34 +229,36 @@ double JointImpacts::answer(const JointPair& pair, Vec2 direction, std::span<Joi
   return parting;
 }
 
-void JointImpacts::apply(double impulse, std::span<JointBody> bodies) const {
-  for (const int local : m_answering) {
+void JointImpacts::applyImpulse(double impulse, std::span<JointBody> bodies) const {
+  for (const int local : m_responding) {
     JointBody& body = bodies[at(m_bodies[at(local)])];
     body.velocity += impulse * m_change[at(local)].velocity;
     body.spin += impulse * m_change[at(local)].spin;
   }
 }
 
-void JointImpacts::strike(int index, std::span<JointBody> bodies, std::span<Joint> joints, double now) {
+void JointImpacts::resolveImpact(int index, std::span<JointBody> bodies, std::span<Joint> joints,
+                                 double now) {
   const JointPair& pair = m_pairs[at(index)];
   const Vec2 normal = normalOf(pair, bodies), tangent = perpendicular(normal);
   const double approach = -dot(normal, speedOf(pair, bodies));
-  const double parting = answer(pair, normal, bodies, joints);
+  const double parting = inverseEffectiveMass(pair, normal, bodies, joints);
   if (!(parting > 0)) return;
   const double restitution = approach > kSlow ? pair.restitution : 0;
   const double impulse = (1 + restitution) * approach / parting;
-  apply(impulse, bodies);
+  applyImpulse(impulse, bodies);
   m_impacts.push_back({now, index, impulse});
   if (pair.friction == 0) return;
   const double slip = dot(tangent, speedOf(pair, bodies));
-  const double sliding = slip == 0 ? 0 : answer(pair, tangent, bodies, joints);
+  const double sliding = slip == 0 ? 0 : inverseEffectiveMass(pair, tangent, bodies, joints);
   if (!(sliding > 0)) return;
   const double most = pair.friction * impulse;
-  apply(std::clamp(-slip / sliding, -most, most), bodies);
+  applyImpulse(std::clamp(-slip / sliding, -most, most), bodies);
 }
 
-// All impacts of one moment, the hardest first, then by order; `forced` has met though it may be slow.
-bool JointImpacts::strikeAll(std::span<JointBody> bodies, std::span<Joint> joints, double now, int forced) {
+// All impacts of one moment, the hardest first, then by order; `forced` is an impact even if it is slow.
+bool JointImpacts::resolveImpacts(std::span<JointBody> bodies, std::span<Joint> joints, double now,
+                                  int forced) {
   const std::size_t most = kMaxImpacts + kMaxPerPair * m_pairs.size();
   while (m_impacts.size() <= most) {
     int hardest = -1;
@@ -266,7 +272,7 @@ bool JointImpacts::strikeAll(std::span<JointBody> bodies, std::span<Joint> joint
     }
     if (hardest < 0 && forced >= 0 && approachOf(m_pairs[at(forced)], bodies) > 0) hardest = forced;
     if (hardest < 0) return true;
-    strike(hardest, bodies, joints, now);
+    resolveImpact(hardest, bodies, joints, now);
     forced = hardest == forced ? -1 : forced;
   }
   return false;
@@ -274,17 +280,17 @@ bool JointImpacts::strikeAll(std::span<JointBody> bodies, std::span<Joint> joint
 
 bool JointImpacts::run(std::span<JointBody> bodies, std::span<Joint> joints, double h) {
   double now = 0;
-  int at_once = 0;  // flights in a row that led nowhere
-  if (!strikeAll(bodies, joints, 0, -1)) return false;
+  int at_once = 0;  // flights in a row that took no time
+  if (!resolveImpacts(bodies, joints, 0, -1)) return false;
   while (h - now > kInstant) {
     const double left = h - now;
     double flown = left;
     save(bodies);
     fly(bodies, joints, left);
-    const int met = findMeeting(bodies, left, flown);
-    if (met == -2) return false;
-    if (met < 0) flown = left;
-    if (met >= 0 && !approachMeeting(met, bodies, joints, left, flown)) return false;
+    const int pair = findImpact(bodies, left, flown);
+    if (pair == -2) return false;
+    if (pair < 0) flown = left;
+    if (pair >= 0 && !refineImpact(pair, bodies, joints, left, flown)) return false;
     if (flown > 0) {
       for (std::size_t i = 0; i < m_joints.size(); ++i) {
         m_force[i] += flown * joints[at(m_joints[i])].force;
@@ -292,9 +298,9 @@ bool JointImpacts::run(std::span<JointBody> bodies, std::span<Joint> joints, dou
       }
     }
     now += flown;
-    if (met < 0) break;
+    if (pair < 0) break;
     at_once = flown > 0 ? 0 : at_once + 1;
-    if (at_once > kTries || !strikeAll(bodies, joints, now, met)) return false;
+    if (at_once > kTries || !resolveImpacts(bodies, joints, now, pair)) return false;
   }
   for (std::size_t i = 0; i < m_joints.size(); ++i) {
     joints[at(m_joints[i])].force = m_force[i] / h;

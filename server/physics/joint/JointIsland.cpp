@@ -11,7 +11,7 @@ namespace naiad::physics {
 
 namespace {
 
-// A step that does not converge is repeated with twice as many stages, to 16 times.
+// A step that does not converge is repeated with twice as many stages, up to 16 times as many.
 constexpr int kFiner = 2, kFinest = 16;
 constexpr int kPatience = 3;  // converged steps until longer stages are tried again
 

@@ -37,7 +37,7 @@ class JointIsland {
   void hold(std::span<JointBody> bodies, std::span<const Joint> joints, JointCounters& counters);
 
   bool isFrozen() const { return m_is_frozen; }
-  /// Do all its joints hold both ways, with any force?
+  /// Do all its joints push and pull, with any force?
   bool isTwoSided() const { return m_constraints.one_sided.empty(); }
   /// Indices of its joints, as they were given.
   void appendJoints(std::vector<int>& joints) const {

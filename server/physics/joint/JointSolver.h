@@ -1,9 +1,8 @@
-// Bodies that are joined, all of them: which belong together, and a step of each group.
+// All jointed bodies of a scene: finds their islands, and steps each of them.
 //
-// The arrays belong to the caller; the solver keeps what it has found out about who is joined to whom, and
-// room to work in. A step allocates nothing, except for the one after a joint broke. Groups do not see each
-// other: what happens in one, a quarantine too, leaves the bits of the others alone. Any thread, one at a
-// time.
+// The arrays belong to the caller; the solver keeps the islands and its working memory. A step allocates
+// nothing, except for the one after a joint broke. Islands are independent: what happens in one, a quarantine
+// too, leaves the bits of the others alone. Any thread, one at a time.
 #pragma once
 
 #include <span>
@@ -15,15 +14,15 @@ namespace naiad::physics {
 
 class JointSolver {
  public:
-  /// Finds the groups. To be called when bodies or joints came, went, or changed in anything but place,
+  /// Finds the islands. To be called when bodies or joints came, went, or changed in anything but place,
   /// velocity, rotation, spin, force, torque, target, speed, stiffness, damping, limits and strength. Frozen
-  /// groups get another chance. Returns −1 and changes nothing if a joint or a body is not valid, else 0.
+  /// islands get another chance. Returns −1 and changes nothing if a joint or a body is not valid, else 0.
   int connect(std::span<const JointBody> bodies, std::span<const Joint> joints);
 
   /// Moves every body that is joined over h > 0, also immovable ones that have a velocity, and writes forces
   /// into the joints; others are left alone. Gravity is an acceleration for all bodies with mass. Returns −1
   /// and does nothing if h, gravity or the arrays' sizes are not usable, else 0.
-  /// Islands with `is_moved` (by island; empty: none) have gone on already.
+  /// Islands with `is_moved` (by island; empty: none) have been stepped already and are skipped.
   int step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
            JointOptions options = {}, std::span<const std::uint8_t> is_moved = {});
 
@@ -31,7 +30,7 @@ class JointSolver {
   void stepIsland(int island, std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity) {
     m_islands[static_cast<std::size_t>(island)].step(bodies, joints, h, gravity, {}, m_counters);
   }
-  /// Takes out of its velocities what its joints do not allow.
+  /// Projects its velocities onto those that its joints allow.
   void holdIsland(int island, std::span<JointBody> bodies, std::span<const Joint> joints) {
     m_islands[static_cast<std::size_t>(island)].hold(bodies, joints, m_counters);
   }

@@ -15,7 +15,7 @@ constexpr int kMaxHalvings = 5;     // of a stage, to 1/32
 constexpr int kFree = 3;            // first iterations, whose rate of convergence does not matter
 constexpr double kSlow = 0.4;       // residual over the last one: a worse rate gives up
 constexpr double kDiverged = 1e30;  // a residual above this gives up, before it overflows
-constexpr double kStalled = 20;     // tolerances: a residual that stalls below this is taken for rounding
+constexpr double kStalled = 20;     // in tolerances: a residual that stalls below this is rounding
 constexpr int kMaxActiveSets = 16;  // tries; in the second half of them rows are only released
 
 }  // namespace

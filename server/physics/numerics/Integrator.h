@@ -46,14 +46,14 @@ struct IntegratorOptions {
   /// absolute + relative · |component|.
   double relative = 1e-12;
   double absolute = 1e-12;
-  /// The same for the implicit method, whose order makes the last digits dear.
+  /// The same for the implicit method, whose order makes the last digits expensive.
   double stiff_relative = 1e-8;
   double stiff_absolute = 1e-10;
 
   /// The explicit method gives up in a call when it needs more derivatives than this, or will at the pace of
   /// its steps.
   int max_evaluations = 30000;
-  /// The implicit method gives up after so many steps, rejected ones among them.
+  /// The implicit method gives up after as many steps, rejected ones among them.
   int max_steps = 20000;
 };
 

@@ -11,9 +11,11 @@ namespace naiad::physics {
 
 namespace automatic {
 
-/// What a smooth motion never needs in one call: above it the implicit method may be the better one.
+/// Derivatives that a smooth motion never needs in one call: above it the implicit method may be the better
+/// one.
 inline constexpr int kManyEvaluations = 1500;
-/// Steps in which it must show that. A motion that oscillates for good would take it many more.
+/// Steps of the implicit method in which it must finish the call. A lasting oscillation would take it many
+/// more.
 inline constexpr int kTrialSteps = 300;
 
 /// Extrapolation; when that is slow, Radau on trial; then extrapolation again, up to the limit; at last Radau

@@ -17,14 +17,14 @@
 
 namespace naiad::physics {
 
-/// The largest component of `error` over what is allowed for a step from `y` to `y` + `way`; +∞ if it is not
-/// a number.
+/// The largest component of `error` over what is allowed for a step from `y` to `y` + `increment`; +∞ if it
+/// is not a number.
 template <int N>
-double scaledError(const StateVector<N>& error, const StateVector<N>& y, const StateVector<N>& way,
+double scaledError(const StateVector<N>& error, const StateVector<N>& y, const StateVector<N>& increment,
                    double absolute, double relative) {
   double largest = 0;
   for (int i = 0; i < N; ++i) {
-    const double size = std::max(std::fabs(y[i]), std::fabs(y[i] + way[i]));
+    const double size = std::max(std::fabs(y[i]), std::fabs(y[i] + increment[i]));
     const double scaled = std::fabs(error[i]) / (absolute + relative * size);
     if (!(scaled <= 1e300)) return HUGE_VAL;
     largest = std::max(largest, scaled);
@@ -40,7 +40,7 @@ bool isUsable(const StateVector<N>& y) {
 
 namespace extrapolation {
 
-inline constexpr int kColumns = 8;
+inline constexpr int kColumns = 8;  ///< of the table: order 16 at most
 inline constexpr int kMaxSubsteps = 2 * kColumns;
 
 /// Row i (of 2(i + 1) sub-steps) is corrected in column j by its difference to the row before, times
@@ -112,7 +112,7 @@ class Step {
     const auto bend = [&](const StateVector<N>& a, const StateVector<N>& b, const StateVector<N>& c) {
       StateVector<N> difference;
       for (int i = 0; i < N; ++i) difference[i] = length / n * (a[i] - 2 * b[i] + c[i]);
-      return scaledError<N>(difference, y, way(), m_options.absolute, m_options.relative);
+      return scaledError<N>(difference, y, increment(), m_options.absolute, m_options.relative);
     };
     const double first = bend(rate, m_slope[1], m_slope[2]);
     const double last = bend(rate_at_end, m_slope[n - 1], m_slope[n - 2]);
@@ -123,7 +123,7 @@ class Step {
                                   bend(m_slope[n - 4], m_slope[n - 3], m_slope[n - 2]));
   }
 
-  const StateVector<N>& way() const { return m_row[m_columns - 1]; }
+  const StateVector<N>& increment() const { return m_row[m_columns - 1]; }
   int columns() const { return m_columns; }
   /// Derivatives taken, without the one at the start.
   int evaluations() const { return evaluationsOf(m_columns) - 1; }
@@ -144,7 +144,7 @@ class Step {
   }
 
  private:
-  // The way of the modified midpoint rule with n sub-steps, n even.
+  // The increment of the modified midpoint rule with n sub-steps, n even.
   StateVector<N> midpoints(double t, const StateVector<N>& y, const StateVector<N>& rate, double length,
                            int n) {
     const double h = length / n;
@@ -161,7 +161,8 @@ class Step {
   const System& m_system;
   const IntegratorOptions& m_options;
   int m_columns = 0;
-  std::array<StateVector<N>, kColumns> m_row;  // the last row of the table: the step's way in column 1, 2 …
+  std::array<StateVector<N>, kColumns>
+      m_row;  // the last row of the table: the step's increment in column 1, 2 …
   std::array<StateVector<N>, kMaxSubsteps> m_slope;  // of the last row, at its sub-steps but the ends
   std::array<double, kColumns + 1> m_errors{};
 };
@@ -197,7 +198,7 @@ IntegratorStatus integrateByExtrapolation(const System& system, double& t, doubl
     if (is_accepted) {
       const double at_end = length == whole ? end : t + length;
       StateVector<N> next = y;
-      for (int i = 0; i < N; ++i) next[i] += step.way()[i];
+      for (int i = 0; i < N; ++i) next[i] += step.increment()[i];
       has_jump = !evaluate(at_end, next, rate_at_end) || step.missesJump(y, rate, rate_at_end, length);
       is_accepted = !has_jump;
       if (is_accepted) {

@@ -1,8 +1,9 @@
 // Radau IIA with three stages: implicit, of order 5, L-stable, error-controlled. For stiff systems.
 //
-// Hairer and Wanner, "Solving Ordinary Differential Equations II", IV.8: the stages' ways are the unknowns, a
-// simplified Newton iteration with one decomposition per step, and an error estimate of order 3 that is
-// filtered by the stiff part itself. Dimensions here are small, so the 3N equations are solved as they stand.
+// Hairer and Wanner, "Solving Ordinary Differential Equations II", IV.8: the stages' increments are the
+// unknowns, a simplified Newton iteration with one decomposition per step, and an error estimate of order 3
+// that is filtered by the stiff part itself. Dimensions here are small, so the 3N equations are solved as
+// they stand.
 #pragma once
 
 #include "physics/numerics/IntegratorRadauStep.h"

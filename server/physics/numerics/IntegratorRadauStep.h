@@ -20,15 +20,16 @@ inline constexpr std::array<std::array<double, 3>, 3> kWeights = {{
 }};
 /// The real eigenvalue of the weights: (6 + ∛81 − ∛9) / 30.
 inline constexpr double kGamma = 0.27488882959532694;
-/// How the stages' ways enter the error estimate, times kGamma.
+/// How the stages' increments enter the error estimate, times kGamma.
 inline constexpr std::array<double, 3> kErrorWeights = {-(13 + 7 * kRoot6) / 3, (-13 + 7 * kRoot6) / 3,
                                                         -1.0 / 3};
-inline constexpr int kMaxNewton = 10;
+inline constexpr int kMaxNewton = 10;  ///< iterations; slower convergence shortens the step instead
 
 template <int N>
 using Stages = std::array<StateVector<N>, 3>;
 
-/// The polynomial through (0, 0) and the stages' ways at their nodes, at `s` steps after the step's start.
+/// The polynomial through (0, 0) and the stages' increments at their nodes, at `s` steps after the step's
+/// start.
 template <int N>
 StateVector<N> continued(const Stages<N>& stages, double s) {
   StateVector<N> value{};
@@ -67,7 +68,7 @@ class Step {
   bool solve(double t, const StateVector<N>& y, double length) {
     if (!m_has_jacobian) findJacobian(t, y);
     m_has_jacobian = true;
-    m_ways = predicted(length);
+    m_increments = predicted(length);
     const bool has_converged = decompose(length) && iterate(t, y, length);
     if (!has_converged) m_last_length = 0;
     return has_converged;
@@ -81,12 +82,12 @@ class Step {
     }
     if (!m_filter.decompose()) return HUGE_VAL;
     const StateVector<N> estimate = filtered(m_rate, length);
-    const double size = scaledError<N>(estimate, y, m_ways[2], m_absolute, m_relative);
+    const double size = scaledError<N>(estimate, y, m_increments[2], m_absolute, m_relative);
     if (!is_careful || size < 1 || size > 1e100) return size;
     StateVector<N> at = y, rate;
     for (int m = 0; m < N; ++m) at[m] += estimate[m];
     evaluate(t, at, rate);
-    return scaledError<N>(filtered(rate, length), y, m_ways[2], m_absolute, m_relative);
+    return scaledError<N>(filtered(rate, length), y, m_increments[2], m_absolute, m_relative);
   }
 
   double nextFactor(double error) const {
@@ -96,8 +97,8 @@ class Step {
 
   /// Accept the step; `t` is its end.
   void advance(double t, StateVector<N>& y, double length, bool is_last) {
-    for (int m = 0; m < N; ++m) y[m] += m_ways[2][m];
-    m_last_ways = m_ways;
+    for (int m = 0; m < N; ++m) y[m] += m_increments[2][m];
+    m_last_increments = m_increments;
     m_last_length = length;
     if (is_last) return;
     evaluate(t, y, m_rate);
@@ -133,13 +134,13 @@ class Step {
 
   // The last step's polynomial, continued.
   Stages<N> predicted(double length) const {
-    Stages<N> ways{};
-    if (m_last_length == 0) return ways;
+    Stages<N> increments{};
+    if (m_last_length == 0) return increments;
     for (int i = 0; i < 3; ++i) {
-      ways[i] = continued<N>(m_last_ways, 1 + length / m_last_length * kNodes[i]);
-      for (int m = 0; m < N; ++m) ways[i][m] -= m_last_ways[2][m];
+      increments[i] = continued<N>(m_last_increments, 1 + length / m_last_length * kNodes[i]);
+      for (int m = 0; m < N; ++m) increments[i][m] -= m_last_increments[2][m];
     }
-    return ways;
+    return increments;
   }
 
   // I − h·A⊗J.
@@ -182,7 +183,7 @@ class Step {
     Stages<N> rates;
     for (int i = 0; i < 3; ++i) {
       StateVector<N> at = y;
-      for (int m = 0; m < N; ++m) at[m] += m_ways[i][m];
+      for (int m = 0; m < N; ++m) at[m] += m_increments[i][m];
       evaluate(t + length * kNodes[i], at, rates[i]);
     }
     StateVector<3 * N> change;
@@ -190,7 +191,7 @@ class Step {
       for (int m = 0; m < N; ++m) {
         const double sum =
             kWeights[i][0] * rates[0][m] + kWeights[i][1] * rates[1][m] + kWeights[i][2] * rates[2][m];
-        change[i * N + m] = length * sum - m_ways[i][m];
+        change[i * N + m] = length * sum - m_increments[i][m];
       }
     }
     m_newton.solve(change);
@@ -199,7 +200,7 @@ class Step {
       StateVector<N> part;
       for (int m = 0; m < N; ++m) {
         part[m] = change[i * N + m];
-        m_ways[i][m] += part[m];
+        m_increments[i][m] += part[m];
       }
       size = std::max(size, scaled(part, y));
     }
@@ -211,7 +212,7 @@ class Step {
     StateVector<N> estimate;
     for (int m = 0; m < N; ++m) {
       double sum = length * rate[m];
-      for (int i = 0; i < 3; ++i) sum += kErrorWeights[i] * m_ways[i][m];
+      for (int i = 0; i < 3; ++i) sum += kErrorWeights[i] * m_increments[i][m];
       estimate[m] = kGamma * sum;
     }
     m_filter.solve(estimate);
@@ -229,9 +230,9 @@ class Step {
   bool m_has_jacobian = false;
   DenseSolve<3 * N> m_newton;
   DenseSolve<N> m_filter;
-  Stages<N> m_ways{};
+  Stages<N> m_increments{};
   int m_iterations = 0;
-  Stages<N> m_last_ways{};  // of the accepted step before, for the prediction
+  Stages<N> m_last_increments{};  // of the accepted step before, for the prediction
   double m_last_length = 0;
 };
 

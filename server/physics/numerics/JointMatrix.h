@@ -23,7 +23,7 @@ struct JointRow {
   int b = -1;
 };
 
-/// What a body answers to an impulse. Both 0: an immovable one.
+/// Inverse mass and inertia of a body. Both 0: an immovable one.
 struct JointMass {
   double inverse_mass = 0;
   double inverse_inertia = 0;
@@ -47,7 +47,7 @@ class JointMatrix {
   /// From right-hand side to solution, in place.
   void solve(double* x) const;
 
-  /// Does each row meet the next one, and no other?
+  /// Does each row share a body with the next one, and with no other?
   bool isChain() const { return m_is_chain; }
   /// Entries below the diagonal that are not zero in the factor, and in the matrix.
   int filled() const { return static_cast<int>(m_row.size()); }
@@ -62,7 +62,7 @@ class JointMatrix {
 
   int m_size = 0;
   int m_entries = 0;
-  bool m_is_chain = false;   // each row meets the next one and no other
+  bool m_is_chain = false;   // each row shares a body with the next one, and with no other
   std::vector<int> m_begin;  // of each column in m_row and m_lower
   std::vector<int> m_row;
   std::vector<int> m_targets;  // of the updates in the order of factoring; ~row for a diagonal one

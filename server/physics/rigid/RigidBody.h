@@ -1,4 +1,4 @@
-// What the storey of rigid bodies moves: bodies that turn, push one another, slide and roll.
+// What a RigidWorld moves: bodies that turn, push one another, slide and roll.
 #pragma once
 
 #include <cmath>

@@ -15,7 +15,7 @@ struct RigidState {
   double spin = 0;
   double inverse_mass = 0;  ///< both 0 for what nothing pushes
   double inverse_inertia = 0;
-  Vec2 way;              ///< from where the step began
+  Vec2 displacement;     ///< from where the step began
   Rotation turn;         ///< likewise
   Vec2 kick;             ///< what half a sub-step of acceleration adds to the velocity
   double spin_kick = 0;  ///< likewise
@@ -75,7 +75,7 @@ struct ContactConstraint {
   double slop = 0;                 ///< overlap that is left
   bool may_fly = false;            ///< what turns and bounces goes from impact to impact
   bool is_deep = false;            ///< there is overlap to undo
-  double most_push = 0;            ///< the greatest speed at which overlap is undone
+  double max_push_speed = 0;       ///< the greatest speed at which overlap is undone
   double coupling = 0;             ///< of two normals
   double inverse_determinant = 0;  ///< of their matrix; 0: one after the other
   double first_time = -1;          ///< within the step, when the first impulse was exchanged

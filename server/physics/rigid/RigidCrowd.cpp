@@ -1,7 +1,7 @@
 // Bodies that lie in one another by the dozen, as when a game makes all of them in one place: each is pushed
 // by the nearest, and passes through the rest until there is room. What a crowd costs grows with the number
-// of its bodies, not with the number of their pairs. Who lies side by side with others touches none but the
-// nearest of them.
+// of its bodies, not with the number of their pairs. A body that lies beside others touches only the nearest
+// of them.
 #include <algorithm>
 #include <tuple>
 
@@ -11,7 +11,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr std::uint32_t kMaxOthers = 12;  // discs of one size that touch a disc are six
+constexpr std::uint32_t kMaxOthers = 12;  // twice the six discs of one size that can touch a disc
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void RigidWorld::thinCrowds() {
     if (m_others[at(pair.a)] <= kMaxOthers || m_others[at(pair.b)] <= kMaxOthers || !areHeaped(pair))
       continue;
     const double square = lengthSquared(m_bodies[at(pair.b)].place - m_bodies[at(pair.a)].place);
-    // Of those in the same place everybody begins with another one.
+    // Of bodies in one place each begins with another one.
     m_choices.push_back({pair.a, square, static_cast<std::uint32_t>(pair.b - pair.a), i});
     m_choices.push_back({pair.b, square, static_cast<std::uint32_t>(pair.a - pair.b), i});
     pair.is_passed = true;

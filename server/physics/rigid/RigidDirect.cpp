@@ -7,8 +7,10 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kStiffness = 1e4;  // of a row, in the greatest mass
-constexpr int kRounds = 16;
+// Of a row, in units of the greatest mass: each round divides what is left by about as much, and 1e4 leaves
+// the matrix enough of a double's digits.
+constexpr double kStiffness = 1e4;
+constexpr int kRounds = 16;  // of factorisation and solution; a group that takes more is swept
 
 std::size_t at(std::int64_t i) {
   return static_cast<std::size_t>(i);
@@ -123,7 +125,7 @@ double RigidDirect::speedOf(const DirectRow& row) const {
 }
 
 // Which rows push with their stiffness, which are at a bound, and what each exerts at the present velocities.
-// Did none change? A row that would go from one bound to the other stops between them on the way.
+// Did none change? A row that would go from one bound to the other stops between them first.
 bool RigidDirect::setForces(bool is_first) {
   bool is_same = !is_first;
   for (std::size_t i = 0; i < m_rows.size(); ++i) {

@@ -2,7 +2,7 @@
 // tall stacks, heavy on light, chains.
 //
 // The unknowns are the velocities. Every row pulls like a very stiff spring on top of what is known of its
-// impulse (augmented Lagrangian; semi-smooth Newton for who pushes, sticks or slips), so rows that say the
+// impulse (augmented Lagrangian; semi-smooth Newton for which rows push, stick or slip), so rows that say the
 // same twice do no harm, and the matrix has three rows a body, however many contacts there are. It is
 // factored within its envelope, in the order of Cuthill and McKee: a stack or a chain costs its length.
 #pragma once
@@ -31,7 +31,7 @@ struct DirectRow {
 
 class RigidDirect {
  public:
-  /// Start anew with these bodies.
+  /// Starts again with these bodies.
   void begin(std::span<const int> bodies, std::span<const RigidState> states);
   /// Local index of a body, −1 if it is immovable or not one of them.
   std::int32_t localOf(int body) const;

@@ -9,15 +9,21 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMinWait = 8;  // steps after one that led to nothing, twice as many each time …
+// After a direct solution that failed, or would cost too much, a group is swept for kMinWait steps, and for
+// twice as many each further time, up to kMaxWait: a heap must not cost both in every step.
+constexpr int kMinWait = 8;
 constexpr int kMaxWait = 256;
-constexpr double kSmallCost = 1e4;  // … at more than so many multiplications
-// Of the speed that half a sub-step adds: what a sweep may still change …
-constexpr double kSpeedError = 1e-6;
-constexpr int kSingleSweeps = 16;
-constexpr int kJointSweeps = 8;
-constexpr int kCrowdSweeps = 4;
-constexpr double kDirectTolerance = 1e-6;  // … and what may be left when all is solved at once
+constexpr double kSmallCost =
+    1e4;  // multiplications: a failure that cost less is tried again in the next step
+// Relative to the speed that acceleration adds in half a sub-step, the natural unit of what rest must
+// balance.
+constexpr double kSpeedError = 1e-6;  // of a single contact: change of a sweep at which sweeps end
+constexpr double kDirectTolerance =
+    1e-6;  // of a direct solution: error that is left; sets the sag of a stack
+// Sweeps of Gauss and Seidel where a group is not solved directly.
+constexpr int kSingleSweeps = 16;  // at most, of one contact alone
+constexpr int kJointSweeps = 8;    // of a group with joints
+constexpr int kCrowdSweeps = 4;    // of a moving heap (docs/physics/rigid.md)
 
 }  // namespace
 

@@ -9,8 +9,9 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kPullRate = 0.3;  // of a joint's error, undone in a sub-step
-constexpr double kResolved = 1;    // up to this (h·ω)² a spring swings; beyond, it is damped
+constexpr double kPullRate =
+    0.3;                         // of a joint's error, undone in a sub-step, as of overlap (RigidSolver.cpp)
+constexpr double kResolved = 1;  // up to this (h·ω)² a spring swings; beyond, it is damped
 
 const RigidState kGround = {};
 
@@ -42,7 +43,7 @@ void push(const RigidRow& row, std::span<RigidState> states, double impulse) {
 
 // Rows that hold something fast.
 void prepareHard(RigidRow& row, double h) {
-  const double mass = row.answer > 0 ? 1 / row.answer : 0;
+  const double mass = row.inverse_effective_mass > 0 ? 1 / row.inverse_effective_mass : 0;
   // One-sided: on the free side the value may come to 0, and no farther. What did not come to it in the first
   // half is left to the next sub-step.
   const bool is_free = row.side * row.value > 0, is_idle = is_free && row.impulse == 0;
@@ -53,7 +54,8 @@ void prepareHard(RigidRow& row, double h) {
 }
 
 void prepareMotor(RigidRow& row, const Joint& joint, double h) {
-  const double mass = row.answer > 0 ? 1 / row.answer : 0, most = joint.max_force * h;
+  const double mass = row.inverse_effective_mass > 0 ? 1 / row.inverse_effective_mass : 0,
+               most = joint.max_force * h;
   row.half[0] = {joint.speed, 0, mass, -0.5 * most, 0.5 * most, 0};
   row.half[1] = {joint.speed, 0, mass, -most, most, 0};
 }
@@ -71,12 +73,13 @@ void prepareSoft(RigidRow& row, const Joint& joint, double h) {
     const auto soften = [&](double target, double softness) {
       part.target = target;
       part.softness = softness;
-      part.mass = row.answer + softness > 0 ? 1 / (row.answer + softness) : 0;
+      part.mass = row.inverse_effective_mass + softness > 0 ? 1 / (row.inverse_effective_mass + softness) : 0;
     };
-    if (h * h * k * row.answer > kResolved || 2 * h * c * row.answer > kResolved) {
+    if (h * h * k * row.inverse_effective_mass > kResolved ||
+        2 * h * c * row.inverse_effective_mass > kResolved) {
       part.low = -most, part.high = most;
       if (half == 0) soften(-k * row.value / (c + h * k), 1 / (h * (c + h * k)));
-    } else if (h * c * row.answer > 1e-9) {
+    } else if (h * c * row.inverse_effective_mass > 1e-9) {
       soften(-k * row.value / c, 2 / (h * c));
     } else {
       part.given = std::clamp(-0.5 * h * k * row.value, -0.5 * most, 0.5 * most);
@@ -157,7 +160,7 @@ void RigidJoints::place(const Link& link, const RigidState& a, const RigidState&
   const Joint& joint = m_entries[at(link.id)].joint;
   RigidRow* const rows = m_rows.data() + link.row;
   const Vec2 arm_a = a.turn * link.arm_a, arm_b = b.turn * link.arm_b;
-  const Vec2 way = link.offset + (b.way - a.way) + (arm_b - arm_a);
+  const Vec2 offset = link.offset + (b.displacement - a.displacement) + (arm_b - arm_a);
   const auto along = [&](RigidRow& row, Vec2 n, Vec2 lever_a, double value) {
     row.n = n;
     row.ja = -cross(lever_a, n), row.jb = cross(arm_b, n);
@@ -174,8 +177,8 @@ void RigidJoints::place(const Link& link, const RigidState& a, const RigidState&
     case JointKind::kRope:
     case JointKind::kSpring:
       if (link.count == 1) {
-        const double distance = length(way);
-        along(rows[0], distance > 1e-12 ? way / distance : Vec2{1, 0}, arm_a, distance - joint.length);
+        const double distance = length(offset);
+        along(rows[0], distance > 1e-12 ? offset / distance : Vec2{1, 0}, arm_a, distance - joint.length);
         rows[0].side = link.kind == JointKind::kRope ? -1 : 0;
         break;
       }
@@ -183,13 +186,13 @@ void RigidJoints::place(const Link& link, const RigidState& a, const RigidState&
     case JointKind::kHinge:
     case JointKind::kWeld:
     case JointKind::kMouse:
-      along(rows[0], {1, 0}, arm_a, way.x);
-      along(rows[1], {0, 1}, arm_a, way.y);
+      along(rows[0], {1, 0}, arm_a, offset.x);
+      along(rows[1], {0, 1}, arm_a, offset.y);
       if (link.kind == JointKind::kWeld) angle(rows[2], bentSine(between));
       break;
     case JointKind::kSlider: {
       const Vec2 n = perpendicular(a.turn * link.axis);
-      along(rows[0], n, arm_a + way, dot(n, way));
+      along(rows[0], n, arm_a + offset, dot(n, offset));
       angle(rows[1], bentSine(between));
       break;
     }
@@ -206,8 +209,8 @@ void RigidJoints::place(const Link& link, const RigidState& a, const RigidState&
   }
   for (int k = 0; k < link.count; ++k) {
     RigidRow& row = rows[k];
-    row.answer = (a.inverse_mass + b.inverse_mass) * lengthSquared(row.n) +
-                 a.inverse_inertia * row.ja * row.ja + b.inverse_inertia * row.jb * row.jb;
+    row.inverse_effective_mass = (a.inverse_mass + b.inverse_mass) * lengthSquared(row.n) +
+                                 a.inverse_inertia * row.ja * row.ja + b.inverse_inertia * row.jb * row.jb;
   }
 }
 
@@ -270,12 +273,12 @@ double RigidJoints::solve(int link, std::span<RigidState> states, bool is_second
 
 void RigidJoints::hold(std::span<RigidState> states) const {
   for (const RigidRow& row : m_rows) {
-    if (row.is_soft || row.side != 0 || row.answer == 0) continue;
+    if (row.is_soft || row.side != 0 || row.inverse_effective_mass == 0) continue;
     const RigidState& a = row.a >= 0 ? states[at(row.a)] : kGround;
     const RigidState& b = states[at(row.b)];
     if (!a.is_pushed && !b.is_pushed) continue;
     const double speed = dot(row.n, b.push - a.push) + row.jb * b.push_spin + row.ja * a.push_spin;
-    const double impulse = -speed / row.answer;
+    const double impulse = -speed / row.inverse_effective_mass;
     const auto give = [&](RigidState& s, double sign, double lever) {
       if (s.inverse_mass == 0 && s.inverse_inertia == 0) return;
       s.push += (sign * s.inverse_mass * impulse) * row.n;

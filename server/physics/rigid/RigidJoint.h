@@ -16,23 +16,23 @@ namespace naiad::physics {
 struct RigidRowHalf {
   double target = 0;
   double softness = 0;
-  double mass = 0;           ///< 1 / (what the bodies answer + softness); 0: this half does nothing more
+  double mass = 0;  ///< effective mass: 1 / (J·M⁻¹·Jᵀ + softness); 0: this half does nothing more
   double low = 0, high = 0;  ///< of the impulse since the sub-step began
   double given = 0;          ///< an impulse that does not depend on the velocities
 };
 
 /// One scalar constraint on two bodies.
 struct RigidRow {
-  std::int32_t a = -1, b = -1;  ///< a: −1 for a mouse
-  Vec2 n;                       ///< b feels +n, a −n
-  double ja = 0, jb = 0;        ///< on the spins, signs included
-  double value = 0;             ///< the constraint's
-  double answer = 0;            ///< J·M⁻¹·Jᵀ
-  int side = 0;                 ///< ±1: only impulses of this sign, when the value would pass 0
-  bool is_soft = false;         ///< starts from no impulse
-  double impulse = 0;           ///< since the sub-step began; between sub-steps, of the last one
-  double before = 0;            ///< of the first half, in the second
-  double warm = 0;              ///< what each half starts from
+  std::int32_t a = -1, b = -1;        ///< a: −1 for a mouse
+  Vec2 n;                             ///< b feels +n, a −n
+  double ja = 0, jb = 0;              ///< on the spins, signs included
+  double value = 0;                   ///< the constraint's
+  double inverse_effective_mass = 0;  ///< J·M⁻¹·Jᵀ
+  int side = 0;                       ///< ±1: only impulses of this sign, when the value would pass 0
+  bool is_soft = false;               ///< starts from no impulse
+  double impulse = 0;                 ///< since the sub-step began; between sub-steps, of the last one
+  double before = 0;                  ///< of the first half, in the second
+  double warm = 0;                    ///< what each half starts from
   std::array<RigidRowHalf, 2> half;
 };
 

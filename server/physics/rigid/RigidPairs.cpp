@@ -1,4 +1,4 @@
-// Who touches whom: contacts are kept from step to step, become constraints within one, and are told of.
+// Contacts: kept from step to step, constraints within one, published as events.
 #include <algorithm>
 #include <cmath>
 
@@ -9,14 +9,14 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kMaxPush = 2;    // of the thinner body, per tick: how fast overlap is undone at most
-constexpr double kSlop = 1e-8;    // of the thinner body: overlap that is left
-constexpr double kLinger = 0.01;  // of the thinner body: a gap that does not end a contact
+// In thicknesses of the thinner body.
+constexpr double kMaxPush = 2;    // per tick: the greatest speed at which overlap is undone
+constexpr double kSlop = 1e-8;    // overlap that is left, so that a contact at rest stays one
+constexpr double kLinger = 0.01;  // a larger gap ends a contact
+constexpr double kLook = 0.25;    // least margin of the search for contacts in a moving heap (RigidStep.cpp)
 
-constexpr double kLook = 0.25;  // of its thickness: how far around a restless body is looked, at least
-
-// A constraint that was found within the step, as told from the start of the step.
-void tellFromStart(ContactConstraint& c, Vec2 start, const RigidState& a, const RigidState& b) {
+// A constraint that was found within the step, in the coordinates of the start of the step.
+void measureFromStart(ContactConstraint& c, Vec2 start, const RigidState& a, const RigidState& b) {
   c.offset = start;
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[static_cast<std::size_t>(i)];
@@ -99,7 +99,7 @@ void RigidWorld::updatePairs() {
   m_late_before.clear();
 }
 
-// A pair of which one wakes the other may make others worth a look.
+// A pair of which one body wakes the other may give work to further pairs.
 void RigidWorld::updateContacts(double dt) {
   std::size_t before = 0;
   do {
@@ -117,7 +117,7 @@ ContactConstraint& RigidWorld::addConstraint(int a, int b) {
   c.friction = std::sqrt(one.friction * other.friction);
   c.restitution = std::max(one.restitution, other.restitution);
   const double thickness = std::min(m_extras[at(a)].thickness, m_extras[at(b)].thickness);
-  c.most_push = kMaxPush * thickness;
+  c.max_push_speed = kMaxPush * thickness;
   c.slop = kSlop * thickness;
   c.may_fly = !m_extras[at(a)].is_in_crowd && !m_extras[at(b)].is_in_crowd;
   return c;
@@ -141,7 +141,7 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
   }
   const RigidState &state_a = m_states[at(pair.a)], &state_b = m_states[at(pair.b)];
   const Vec2 start = m_bodies[at(pair.b)].place - m_bodies[at(pair.a)].place;
-  const Vec2 offset = start + (state_b.way - state_a.way);
+  const Vec2 offset = start + (state_b.displacement - state_a.displacement);
   const double margin = a.margin + b.margin;
   const double reach = a.reach + b.reach + margin;
   if (lengthSquared(offset) > reach * reach) {
@@ -180,7 +180,7 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
       ContactConstraint& c = addConstraint(pair.a, pair.b);
       c.pair = index, c.contact = contact;
       beginConstraint(a.turned[at(i)], b.turned[at(j)], offset, manifold, c);
-      if (m_time > 0) tellFromStart(c, start, state_a, state_b);
+      if (m_time > 0) measureFromStart(c, start, state_a, state_b);
       for (std::int32_t k = 0; k < c.count; ++k) {
         ContactPoint& p = c.points[at(k)];
         if (m_time == 0) m_deepest = std::max(m_deepest, -p.separation);
@@ -215,12 +215,12 @@ bool RigidWorld::isRestless(const ContactConstraint& c) const {
   return c.pair >= 0 || findPair(c.a, c.b) >= 0;
 }
 
-// Between sub-steps: contacts of bodies that move in a heap are found anew.
-void RigidWorld::lookAgain(double dt) {
+// Between sub-steps: finds the contacts of bodies that move in a heap again.
+void RigidWorld::updateHeapContacts(double dt) {
   for (const ContactConstraint& c : m_constraints) {
     if (!isRestless(c)) continue;
     storeContact(c, m_h);
-    tellBegin(c, dt);
+    publishBegin(c, dt);
   }
   std::erase_if(m_constraints, [&](const ContactConstraint& c) { return isRestless(c); });
   for (const int id : m_active) {
@@ -234,7 +234,7 @@ void RigidWorld::lookAgain(double dt) {
         std::max(kLook * extra.thickness, 1.1 * m_h * (length(s.velocity) + std::fabs(s.spin) * extra.reach));
     extra.margin = std::min(extra.margin, 2 * extra.thickness);
     extra.moved = extra.rolled = 0;
-    extra.looked_at = s.way;
+    extra.search_displacement = s.displacement;
   }
   for (Pair& pair : m_pairs) {
     if (m_extras[at(pair.a)].is_restless || m_extras[at(pair.b)].is_restless) {
@@ -261,7 +261,7 @@ void RigidWorld::storeContact(const ContactConstraint& c, double h) {
   }
 }
 
-void RigidWorld::tellBegin(const ContactConstraint& c, double dt) {
+void RigidWorld::publishBegin(const ContactConstraint& c, double dt) {
   const double impulse = c.points[0].total + c.points[1].total;
   const double linger = kLinger * std::min(m_extras[at(c.a)].thickness, m_extras[at(c.b)].thickness);
   std::int32_t index = c.pair >= 0 ? c.pair : findPair(c.a, c.b);
@@ -290,7 +290,7 @@ void RigidWorld::tellBegin(const ContactConstraint& c, double dt) {
   m_events.push_back({std::min(std::max(c.first_time, 0.0), dt), c.a, c.b, true, impulse, c.first_normal});
 }
 
-void RigidWorld::tellEnds(double dt) {
+void RigidWorld::publishEnds(double dt) {
   for (Pair& pair : m_pairs) {
     if (!pair.is_seen || !pair.is_touching || pair.is_pushing || pair.is_near) continue;
     pair.is_touching = false;

@@ -1,4 +1,4 @@
-// Which bodies hang together, and which of these groups may sleep.
+// Which bodies form a group, and which groups may sleep.
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +10,12 @@ namespace {
 
 enum : std::uint8_t { kIsHeld = 1, kIsDriven = 2, kIsAdrift = 4 };
 
-constexpr double kDirectBudget = 5000;  // multiplications per constraint and sub-step
-constexpr int kCrowd = 32;              // bodies
-constexpr double kCreep = 1e-6;         // cells per tick that a group at rest may gain while it is watched
-constexpr double kMinKick = 1e-5;       // cells per tick
+// What a direct solution of a group may cost, in multiplications per constraint and sub-step: a stack's band
+// fits, a wide heap is swept.
+constexpr double kDirectBudget = 5000;
+constexpr int kCrowd = 32;         // bodies: a group of as many, or with joints, counts as large
+constexpr double kCreep = 1e-6;    // cells per tick that a group at rest may gain while it is watched
+constexpr double kMinKick = 1e-5;  // cells per tick: a floor for tolerances where nothing accelerates
 
 }  // namespace
 
@@ -195,7 +197,7 @@ void RigidWorld::wakeRing(int id) {
   } while (member != id);
 }
 
-// Whoever may lean on it.
+// Bodies that may lean on it.
 void RigidWorld::wakeNeighbours(int id) {
   for (const Pair& pair : m_pairs) {
     if (pair.first < 0 || (pair.a != id && pair.b != id)) continue;

@@ -8,10 +8,11 @@ namespace naiad::physics {
 namespace {
 
 constexpr double kPushRate = 0.3;  // of an overlap, undone in a sub-step
-// A bounce ends in rest when it is slower than so many sub-steps of the acceleration.
+// In sub-steps of the acceleration: a slower bounce ends in rest, since its flight would not last a sub-step.
 constexpr double kRestSteps = 2;
-constexpr double kBend = 1e-6;  // of the speed of an impact, that is due to turning
-constexpr double kAnySpeed = -1e12;
+constexpr double kBend =
+    1e-6;  // of an impact's speed: a larger share of turning bends the path off its parabola
+constexpr double kAnySpeed = -1e12;  // a target that no contact reaches: it does not push
 
 std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
@@ -65,7 +66,7 @@ void setPair(ContactConstraint& c, const RigidState& a, const RigidState& b) {
   if (determinant > 1e-3 * product) c.inverse_determinant = 1 / determinant;
 }
 
-// How a point that is about to meet would bounce: along the normal everything is a fall with constant
+// How a point that is about to touch would bounce: along the normal everything is a fall with constant
 // acceleration, so both where it ends and how fast are known.
 void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState& a, const RigidState& b,
                    double h) {
@@ -74,7 +75,7 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
       2 / h * (dot(c.normal, b.kick - a.kick) + p.normal_b * b.spin_kick - p.normal_a * a.spin_kick);
   const double square = speed * speed - 2 * gain * gap;
   if (!(square > 0)) return;
-  const double impact = std::sqrt(square);  // the speed of approach when they meet
+  const double impact = std::sqrt(square);  // the speed of approach when they touch
   const double time = speed < 0 ? 2 * gap / (impact - speed) : gain < 0 ? -(speed + impact) / gain : h;
   const double leaving = c.restitution * impact;
   if (!(time < h) || !(leaving > kRestSteps * h * std::fabs(gain))) return;
@@ -188,7 +189,7 @@ void beginConstraint(const TurnedShape& a, const TurnedShape& b, Vec2 offset, co
 
 void refresh(ContactConstraint& c, std::span<const RigidState> bodies) {
   const RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
-  const Vec2 apart = c.offset + (b.way - a.way);
+  const Vec2 apart = c.offset + (b.displacement - a.displacement);
   if (c.kind == ContactKind::kFaceA) c.normal = a.turn * c.first_normal;
   if (c.kind == ContactKind::kFaceB) c.normal = b.turn * c.first_normal;
   for (std::int32_t i = 0; i < c.count; ++i) {
@@ -228,7 +229,7 @@ bool beginSubstep(ContactConstraint& c, std::span<const RigidState> bodies, doub
       p.target = p.is_bending ? kAnySpeed : p.separation > 0 ? -p.separation / h : 0;
     }
     // What does not overlap may not be pushed together, either.
-    p.push = p.separation < -c.slop ? std::min(-kPushRate * (p.separation + c.slop) / h, c.most_push)
+    p.push = p.separation < -c.slop ? std::min(-kPushRate * (p.separation + c.slop) / h, c.max_push_speed)
                                     : -(p.separation + c.slop) / h;
     p.push_impulse = 0;
     is_deep = is_deep || p.push > 0;

@@ -19,7 +19,10 @@ void beginConstraint(const TurnedShape& a, const TurnedShape& b, Vec2 offset, co
 /// Where it is now, and the masses that follow from it.
 void refresh(ContactConstraint& constraint, std::span<const RigidState> bodies);
 
-/// Before a sub-step over `h`: what normal speeds it must lead to. Pushes nobody. Is there overlap to undo?
+/// Before a sub-step over `h`: sets the normal speeds that it must lead to. Applies no impulse. Is there
+/// overlap to undo? A point that will bounce within the sub-step gets its time of impact here, by a
+/// quadratic: along the normal of a known contact it falls with a constant acceleration, so it needs no
+/// search (TimeOfImpact.h).
 bool beginSubstep(ContactConstraint& constraint, std::span<const RigidState> bodies, double h);
 /// After half a kick: half of the last impulses.
 void beginFirstHalf(ContactConstraint& constraint, std::span<RigidState> bodies);

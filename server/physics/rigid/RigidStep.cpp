@@ -1,4 +1,4 @@
-// A RigidWorld's step and its sub-steps: who moves how far, and in which order.
+// A RigidWorld's step and its sub-steps: how far each body moves, and in which order.
 #include <algorithm>
 #include <cmath>
 
@@ -9,17 +9,22 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kFarthest = 1e9;  // in one step; beyond it times of impact are not known
+constexpr double kFarthest = 1e9;  // metric cells in one step: the limit of timeOfImpact()
 constexpr double kMaxTurn = 1e9;   // rad, likewise
-constexpr double kSlack = 0.02;    // of its thickness, how far around a body is looked in any case
-constexpr int kPushSweeps = 8;     // where there are joints
-constexpr int kCrowdPushSweeps = 2;
-constexpr double kBoundsSlack = 0.1;
-// Of a large group someone moves by more than this part of its thickness in a step: each of its bodies …
+// Distances below are in thicknesses of a body: the least half width of its shapes.
+constexpr double kSlack = 0.02;  // least margin of the search for contacts
+constexpr double kBoundsSlack =
+    0.1;  // by which the tree's bounds are wider, so that small moves leave them alone
+// Sweeps that undo overlap; one, without joints or a moving heap.
+constexpr int kPushSweeps = 8;       // where there are joints
+constexpr int kCrowdPushSweeps = 2;  // where a heap moves
+// A large group in which a body moves by more than kRestless in a step is a moving heap: the contacts of
+// those of its bodies that move by less than kFast in a sub-step are searched again in every sub-step.
 constexpr double kRestless = 0.25;
-constexpr double kLook = 0.25;  // … is looked around so far in every sub-step, at least
-constexpr double kFast = 2;     // … if it does not go farther than that in one …
-constexpr double kPass = 0.5;   // … and swept if it moves by more than that part in a sub-step
+constexpr double kFast = 2;
+constexpr double kLook = 0.25;  // least margin of that search
+constexpr double kPass =
+    0.5;  // most that such a body moves in a sub-step: it passes nothing of half its size
 
 }  // namespace
 
@@ -31,10 +36,10 @@ void RigidWorld::beginBody(int id, double dt) {
   double spin_gain = 0;
   if (body.inverse_mass > 0) acceleration = body.acceleration + body.inverse_mass * body.force;
   if (body.inverse_inertia > 0) spin_gain = body.inverse_inertia * body.torque;
-  const Vec2 way = dt * body.velocity + (0.5 * dt * dt) * acceleration;
+  const Vec2 displacement = dt * body.velocity + (0.5 * dt * dt) * acceleration;
   const double angle = dt * (std::fabs(body.spin) + 0.5 * dt * std::fabs(spin_gain));
   const double gained = dt * dt * (std::fabs(acceleration.x) + std::fabs(acceleration.y));
-  if (!(std::fabs(way.x) + std::fabs(way.y) + gained < kFarthest && angle < kMaxTurn)) {
+  if (!(std::fabs(displacement.x) + std::fabs(displacement.y) + gained < kFarthest && angle < kMaxTurn)) {
     freeze(id);
     return;
   }
@@ -55,11 +60,11 @@ void RigidWorld::beginBody(int id, double dt) {
     state.spin_keep = kept(body.angular_damping);
   }
   extra.moved = extra.rolled = extra.travelled = 0;
-  extra.looked_at = {};
+  extra.search_displacement = {};
   extra.is_restless = false;
   extra.part = 1;
   if (extra.proxy < 0) return;
-  const double movement = length(way) + std::min(angle, 2.0) * extra.reach;
+  const double movement = length(displacement) + std::min(angle, 2.0) * extra.reach;
   extra.margin = extra.scope = std::min(movement, extra.thickness) + kSlack * extra.thickness;
   const double steps = m_options.substeps;
   extra.is_fast = movement > kRestless * extra.thickness;
@@ -104,7 +109,7 @@ void RigidWorld::beginStep(double dt) {
     }
   }
   for (std::size_t i = 0; i < m_active.size(); ++i) beginBody(m_active[i], dt);
-  if (m_active_changed) {  // someone was frozen
+  if (m_active_changed) {  // a body was frozen
     std::erase_if(m_active, [&](int id) {
       Extra& extra = m_extras[at(id)];
       if (extra.is_frozen) extra.is_active = false;
@@ -135,7 +140,7 @@ void RigidWorld::pushOut(double h) {
   for (const int id : m_active) {
     RigidState& s = m_states[at(id)];
     if (!s.is_pushed) continue;
-    s.way += h * s.push;
+    s.displacement += h * s.push;
     s.turn = turned(s.turn, h * s.push_spin);
     s.push = {};
     s.push_spin = 0;
@@ -153,11 +158,11 @@ void RigidWorld::solve(bool is_second) {
 void RigidWorld::move(int id, double h) {
   RigidState& s = m_states[at(id)];
   const double time = m_extras[at(id)].part * h;
-  s.way += time * s.velocity;
+  s.displacement += time * s.velocity;
   s.turn = turned(s.turn, time * s.spin);
 }
 
-// Whoever got farther than it was looked around for goes impact by impact.
+// A body that moves farther than its contacts were searched for goes from impact to impact.
 void RigidWorld::drift(double h) {
   m_flights.clear();
   for (const int id : m_active) {
@@ -225,12 +230,12 @@ void RigidWorld::finishStep(double dt) {
   for (const int id : m_active) {
     RigidBody& body = m_bodies[at(id)];
     const RigidState& s = m_states[at(id)];
-    if (!isFinite(s.velocity) || !isFinite(s.way) || !(s.spin - s.spin == 0) ||
-        !(std::fabs(s.way.x) + std::fabs(s.way.y) < 1e12)) {
+    if (!isFinite(s.velocity) || !isFinite(s.displacement) || !(s.spin - s.spin == 0) ||
+        !(std::fabs(s.displacement.x) + std::fabs(s.displacement.y) < 1e12)) {
       freeze(id);
       continue;
     }
-    body.place = body.place + s.way;
+    body.place = body.place + s.displacement;
     if (s.turn != Rotation{}) body.rotation = renormalised(s.turn * body.rotation);
     if (isMovable(id)) {
       body.velocity = s.velocity;
@@ -239,9 +244,9 @@ void RigidWorld::finishStep(double dt) {
   }
   for (const ContactConstraint& c : m_constraints) {
     storeContact(c, m_h);
-    tellBegin(c, dt);
+    publishBegin(c, dt);
   }
-  tellEnds(dt);
+  publishEnds(dt);
   m_counters.broken += m_joints.end(dt, m_h);
   sleep(dt);
   for (const int id : m_dirty) m_extras[at(id)].is_dirty = false;
@@ -262,7 +267,7 @@ void RigidWorld::stepOnce(double dt) {
   findIslands();
   gatherIslands(true);
   for (int i = 0; i < m_options.substeps; ++i) {
-    if (i > 0 && m_is_restless) lookAgain(dt);
+    if (i > 0 && m_is_restless) updateHeapContacts(dt);
     substep(m_h);
   }
   finishStep(dt);

@@ -1,4 +1,4 @@
-// Fast bodies: through a sub-step from impact to impact, so that nothing is passed and no time is lost.
+// Fast bodies: through a sub-step from impact to impact, so that none passes another and no time is lost.
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +10,16 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxImpacts = 64;  // of a body in a sub-step; then it waits for the next one
-constexpr int kMaxBounces = 32;  // then it bounces no more
-constexpr double kMaxTurn = 40;  // rad in a sub-step that are looked at
-constexpr double kTouch = 1e-6;  // of the thinner body: within this gap an impact is one
-constexpr int kImpactSweeps = 8;
-constexpr double kLanded = 0.5;   // of its thickness: how far a body goes at most after it has landed
-constexpr double kMaxRoll = 0.5;  // of the thinner body: how far its corners go before others may touch
+// Of a body in a sub-step: after kMaxBounces impacts it bounces no more, after kMaxImpacts it waits for the
+// next sub-step. They bound the cost of a body that is caught in a corner.
+constexpr int kMaxImpacts = 64;
+constexpr int kMaxBounces = 32;
+constexpr double kMaxTurn = 40;   // rad in a sub-step that are swept: bounds the iterations of timeOfImpact()
+constexpr int kImpactSweeps = 8;  // over the two points of an impact
+// In thicknesses of the thinner body.
+constexpr double kTouch = 1e-6;   // gap at which an impact is found
+constexpr double kLanded = 0.5;   // how far a body moves at most after it has landed in a large group
+constexpr double kMaxRoll = 0.5;  // how far corners turn before others than those found may touch
 
 }  // namespace
 
@@ -37,14 +40,14 @@ RigidWorld::Pose RigidWorld::poseAt(int id, double time, double h) const {
   } else {
     left *= m_extras[at(id)].part;
   }
-  if (left == 0) return {s.way, s.turn};
-  return {s.way + left * s.velocity, turned(s.turn, left * s.spin)};
+  if (left == 0) return {s.displacement, s.turn};
+  return {s.displacement + left * s.velocity, turned(s.turn, left * s.spin)};
 }
 
 void RigidWorld::advance(int id, double time, double h) {
   RigidState& s = m_states[at(id)];
   const Pose pose = poseAt(id, time, h);
-  s.way = pose.way;
+  s.displacement = pose.displacement;
   s.turn = pose.turn;
   Flight& flight = m_flights[at(m_extras[at(id)].flight)];
   flight.time = time;
@@ -89,16 +92,17 @@ void RigidWorld::forecastPair(int one, int other, double h) {
       (flight_a != nullptr && flight_a->is_bending) || (flight_b != nullptr && flight_b->is_bending);
   const bool has_turned =
       is_bending || of_a.rolled + of_b.rolled > kMaxRoll * std::min(of_a.thickness, of_b.thickness);
-  // At the start of the step they were farther apart than they were looked around for, if nothing keeps them
+  // At the start of the step they were farther apart than contacts were searched for, if nothing keeps them
   // apart now. Have they come nearer by more than that?
   if (!has_met && !has_turned && of_a.is_restless == of_b.is_restless) {
-    const Vec2 nearer = (poseAt(b, 1, h).way - of_b.looked_at) - (poseAt(a, 1, h).way - of_a.looked_at);
+    const Vec2 nearer = (poseAt(b, 1, h).displacement - of_b.search_displacement) -
+                        (poseAt(a, 1, h).displacement - of_a.search_displacement);
     const double most = of_a.margin + of_b.margin - of_a.rolled - of_b.rolled;
     if (most > 0 && lengthSquared(nearer) < most * most) return;
   }
   const RigidMotion motion_a = motionOf(a, flight_a), motion_b = motionOf(b, flight_b);
-  const Vec2 offset =
-      (m_bodies[at(b)].place - m_bodies[at(a)].place) + (poseAt(b, start, h).way - poseAt(a, start, h).way);
+  const Vec2 offset = (m_bodies[at(b)].place - m_bodies[at(a)].place) +
+                      (poseAt(b, start, h).displacement - poseAt(a, start, h).displacement);
   Impact first;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(of_a.shapes.size()); ++i) {
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(of_b.shapes.size()); ++j) {
@@ -120,7 +124,7 @@ void RigidWorld::forecast(int id, double h) {
   const Flight flight = m_flights[at(extra.flight)];
   if (extra.proxy < 0 || flight.is_held || flight.has_landed) return;
   const Place& place = m_bodies[at(id)].place;
-  const Vec2 from = m_states[at(id)].way, to = poseAt(id, 1, h).way;
+  const Vec2 from = m_states[at(id)].displacement, to = poseAt(id, 1, h).displacement;
   const double reach = extra.reach + kTouch * extra.thickness;
   const Bounds swept = {{std::min(from.x, to.x) - reach, std::min(from.y, to.y) - reach},
                         {std::max(from.x, to.x) + reach, std::max(from.y, to.y) + reach}};
@@ -147,7 +151,7 @@ void RigidWorld::wakeInFlight(int id) {
   m_states[at(id)].inverse_inertia = m_bodies[at(id)].inverse_inertia;
 }
 
-void RigidWorld::meet(const Impact& impact, double h) {
+void RigidWorld::handleImpact(const Impact& impact, double h) {
   const int a = impact.a, b = impact.b;
   ++m_counters.impacts;
   int most = 0;
@@ -163,7 +167,8 @@ void RigidWorld::meet(const Impact& impact, double h) {
   TurnedShape turned_a, turned_b;
   turn(of_a.shapes[at(impact.shape_a)], one.turn * m_bodies[at(a)].rotation, turned_a);
   turn(of_b.shapes[at(impact.shape_b)], other.turn * m_bodies[at(b)].rotation, turned_b);
-  const Vec2 start = m_bodies[at(b)].place - m_bodies[at(a)].place, offset = start + (other.way - one.way);
+  const Vec2 start = m_bodies[at(b)].place - m_bodies[at(a)].place,
+             offset = start + (other.displacement - one.displacement);
   Manifold manifold;
   const double touch = kTouch * std::min(of_a.thickness, of_b.thickness) + 1e-12 * length(offset);
   const auto giveUp = [&] {
@@ -174,7 +179,7 @@ void RigidWorld::meet(const Impact& impact, double h) {
   ContactConstraint& c = addConstraint(a, b);
   beginConstraint(turned_a, turned_b, offset, manifold, c);
   c.first_time = m_time + impact.time * h;
-  // As told from the start of the step.
+  // In the coordinates of the start of the step.
   c.offset = start;
   for (std::int32_t i = 0; i < c.count; ++i) {
     c.points[at(i)].core_a = inverse(one.turn) * c.points[at(i)].core_a;
@@ -183,15 +188,15 @@ void RigidWorld::meet(const Impact& impact, double h) {
   if (c.kind == ContactKind::kFaceA) c.first_normal = inverse(one.turn) * c.first_normal;
   if (c.kind == ContactKind::kFaceB) c.first_normal = inverse(other.turn) * c.first_normal;
   refresh(c, m_states);
-  strike(c, most > kMaxBounces ? 0 : c.restitution, impact.time);
+  applyImpact(c, most > kMaxBounces ? 0 : c.restitution, impact.time);
   if (most > kMaxImpacts) giveUp();
   for (const int id : {a, b}) {
     if (isMovable(id) && m_extras[at(id)].is_in_crowd) land(id, h);
   }
 }
 
-// What has met something in a large group flies no more, or every body of the group would: it goes on, not
-// too far, and is looked around anew before the next sub-step.
+// A body that has hit something in a large group is swept no more, or every body of the group would be: it
+// moves on a little, and its contacts are searched again before the next sub-step.
 void RigidWorld::land(int id, double h) {
   Extra& extra = m_extras[at(id)];
   Flight& flight = m_flights[at(extra.flight)];
@@ -205,7 +210,7 @@ void RigidWorld::land(int id, double h) {
 
 // The impact's impulses, at once. Velocities are those of the middle of the sub-step: what acceleration adds
 // until then, or has added since, is not there at the impact.
-void RigidWorld::strike(ContactConstraint& c, double restitution, double time) {
+void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double time) {
   RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[at(i)];
@@ -234,13 +239,13 @@ void RigidWorld::sweep(double h) {
       return x.a != y.a ? x.a < y.a : x.b < y.b;
     };
     const Impact next = *std::min_element(m_impacts.begin(), m_impacts.end(), isBefore);
-    meet(next, h);
+    handleImpact(next, h);
     std::erase_if(m_impacts, [&](const Impact& i) {
       const auto isOf = [&](int id) { return isMovable(id) && (i.a == id || i.b == id); };
       return isOf(next.a) || isOf(next.b);
     });
     for (const int id : {next.a, next.b}) {
-      if (isMovable(id)) forecast(id, h);  // nothing changes the way of the others
+      if (isMovable(id)) forecast(id, h);  // nothing changes the path of the others
     }
   }
 }

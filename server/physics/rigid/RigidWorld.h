@@ -2,7 +2,7 @@
 //
 // A step is divided into a few sub-steps. What touches what is found once per step and followed in closed
 // form through the sub-steps (RigidSolver.h); contacts and joints are solved for together. A body that moves
-// farther than it was looked around for is swept, moment of impact by moment of impact (RigidSweep.cpp).
+// farther than its contacts were searched for is swept, from impact to impact (RigidSweep.cpp).
 // Groups that have come to rest sleep, exactly still. Results depend on ids, places relative to one another,
 // and inputs alone.
 #pragma once
@@ -36,7 +36,7 @@ struct RigidCounters {
   std::int64_t ticks = 0;
   std::int64_t contacts = 0;         ///< manifolds solved for, once per step each
   std::int64_t sweeps = 0;           ///< pairs whose time of impact was asked for
-  std::int64_t looks = 0;            ///< bodies that were looked around again within a step
+  std::int64_t looks = 0;            ///< bodies whose contacts were searched again within a step
   std::int64_t impacts = 0;          ///< of fast bodies, handled at their moment
   std::int64_t passed = 0;           ///< pairs in crowds that were left out, once per step each
   std::int64_t held = 0;             ///< times that a fast body had to wait for the next sub-step
@@ -64,7 +64,8 @@ struct RigidOptions {
 /// Not thread-safe. No allocation in step() once the scene has shown what it needs.
 class RigidWorld {
  public:
-  static constexpr double kLongestStep = 32;  ///< ticks
+  static constexpr double kLongestStep =
+      32;  ///< ticks; longer ones are divided: at once they throw heaps apart
 
   explicit RigidWorld(RigidOptions options = {}) : m_options(options) {}
 
@@ -82,7 +83,7 @@ class RigidWorld {
   const RigidBody& body(int id) const { return m_bodies[at(id)]; }
   std::span<const ConvexShape> shapes(int id) const { return m_extras[at(id)].shapes; }
   bool exists(int id) const { return id >= 0 && id < idLimit() && m_extras[at(id)].exists; }
-  /// Is the body in quarantine? It is kept as it is and nothing meets it, until set().
+  /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
   bool isFrozen(int id) const { return m_extras[at(id)].is_frozen; }
   bool isAsleep(int id) const { return m_extras[at(id)].is_asleep; }
   /// Wakes it and what sleeps with it.
@@ -118,22 +119,22 @@ class RigidWorld {
     std::vector<ConvexShape> shapes;
     std::vector<TurnedShape> turned;
     std::int32_t proxy = -1;
-    double reach = 0;        // of all shapes from the centre
-    double thickness = 0;    // the least half width of any shape
-    double size = 0;         // the radius of a disc of the same area
-    double margin = 0;       // how far around it was looked in this step
-    double moved = 0;        // how far any of its points has got in this step, at most
-    double rolled = 0;       // the part of it that is due to turning
-    Vec2 looked_at;          // its way when it was last looked around it
-    double travelled = 0;    // how far any of its points has got in the whole step, at most
-    double part = 1;         // of the sub-step that it moves, if it is restless
-    double scope = 0;        // how far around it the broad phase looked in this step
-    double still = 0;        // ticks
-    double first_speed = 0;  // when it began to be still
-    double budget = 0;       // of the group of which it is the root, for solving at once
-    int wait = 0;            // steps until its group may be solved at once again …
-    int patience = 0;        // … and how many they were the last time
-    int ring = -1;           // the next body that fell asleep with it
+    double reach = 0;          // of all shapes from the centre
+    double thickness = 0;      // the least half width of any shape
+    double size = 0;           // the radius of a disc of the same area
+    double margin = 0;         // how far around it contacts were searched in this step
+    double moved = 0;          // how far any of its points has got in this step, at most
+    double rolled = 0;         // the part of it that is due to turning
+    Vec2 search_displacement;  // its displacement at the last search
+    double travelled = 0;      // how far any of its points has got in the whole step, at most
+    double part = 1;           // of the sub-step that it moves, if it is restless
+    double scope = 0;          // how far around it the broad phase searched in this step
+    double still = 0;          // ticks
+    double first_speed = 0;    // when it began to be still
+    double budget = 0;         // of the group of which it is the root, for solving at once
+    int wait = 0;              // steps until its group may be solved at once again …
+    int patience = 0;          // … and how many they were the last time
+    int ring = -1;             // the next body that fell asleep with it
     bool exists = false;
     bool is_frozen = false;
     bool is_asleep = false;
@@ -141,9 +142,9 @@ class RigidWorld {
     bool is_active = false;  // in m_active
     bool is_fast = false;
     bool is_in_crowd = false;  // in a group that is large or has joints, in the last step
-    bool is_crowded = false;   // … and someone in it was fast
+    bool is_crowded = false;   // … and a body of it was fast
     bool is_in_heap = false;   // … and it has no joints: it is never solved at once
-    bool is_restless = false;  // in a moving heap: looked around in every sub-step
+    bool is_restless = false;  // in a moving heap: contacts are searched in every sub-step
     int flight = -1;           // in m_flights: it moves impact by impact in this sub-step
   };
   struct Pair {
@@ -156,7 +157,7 @@ class RigidWorld {
     bool is_pushing = false;  // in this step
     bool is_near = false;     // at the end of this step
   };
-  struct Choice {  // of one in a crowd: whom it is pushed by
+  struct Choice {  // of a body in a crowd: one that may push it
     std::int32_t by;
     double square;  // of the distance
     std::uint32_t turn;
@@ -224,14 +225,14 @@ class RigidWorld {
   void updateContacts(double dt);
   void updatePair(std::int32_t index, double dt);
   bool isRestless(const ContactConstraint& constraint) const;
-  void lookAgain(double dt);
+  void updateHeapContacts(double dt);
   ContactConstraint& addConstraint(int a, int b);
   std::int32_t makeContact();
   void dropContacts(Pair& pair);
   std::int32_t findPair(std::int32_t a, std::int32_t b) const;
   void storeContact(const ContactConstraint& constraint, double h);
-  void tellBegin(const ContactConstraint& constraint, double dt);
-  void tellEnds(double dt);
+  void publishBegin(const ContactConstraint& constraint, double dt);
+  void publishEnds(double dt);
 
   // RigidCrowd.cpp
   bool areHeaped(const Pair& pair) const;
@@ -239,7 +240,7 @@ class RigidWorld {
 
   // RigidSweep.cpp
   struct Pose {
-    Vec2 way;
+    Vec2 displacement;
     Rotation turn;
   };
   void sweep(double h);
@@ -249,9 +250,9 @@ class RigidWorld {
   void forecast(int id, double h);
   void forecastPair(int a, int b, double h);
   bool isSolved(int a, int b, int shape_a, int shape_b) const;
-  void meet(const Impact& impact, double h);
+  void handleImpact(const Impact& impact, double h);
   void land(int id, double h);
-  void strike(ContactConstraint& constraint, double restitution, double time);
+  void applyImpact(ContactConstraint& constraint, double restitution, double time);
   void wakeInFlight(int id);
   void hold(int id);
 
@@ -280,7 +281,7 @@ class RigidWorld {
   std::vector<int> m_dirty;   // ids of immovable ones that were set
   RigidJoints m_joints;
   std::vector<Late> m_late, m_late_before;
-  std::vector<std::uint32_t> m_others;  // by body: so many are where it is
+  std::vector<std::uint32_t> m_others;  // by body: how many are where it is
   std::vector<Choice> m_choices;
   std::vector<Flight> m_flights;
   std::vector<Impact> m_impacts;
@@ -301,7 +302,7 @@ class RigidWorld {
   double m_deepest = 0;
   double m_h = 0;
   bool m_active_changed = false;
-  bool m_is_restless = false;  // someone is
+  bool m_is_restless = false;  // a body is
   bool m_joints_changed = false;
 };
 

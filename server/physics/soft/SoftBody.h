@@ -32,7 +32,7 @@ struct SoftStretch {
 /// A spring against bending at b, in the corner a, b, c: moment = stiffness · (angle − rest angle) + damping
 /// · its rate. The angle is 0 where the corner is straight.
 struct SoftBend {
-  int a = 0;  ///< −1: a clamp; `direction` then stands for the way from a to b
+  int a = 0;  ///< −1: a clamp; `direction` then stands for the direction from a to b
   int b = 0;
   int c = 0;
   double rest_angle = 0;  ///< −π … π
@@ -59,7 +59,7 @@ struct SoftBody {
   double rest_area = 0;  ///< > 0 if there is pressure or bulk
 };
 
-inline constexpr int kMaxSoftNodes = 4096;
+inline constexpr int kMaxSoftNodes = 4096;    ///< a tick's cost grows with nodes · band²
 inline constexpr double kLargestSoft = 1e12;  ///< of sizes, speeds, masses, forces and stiffness
 
 /// May it be taken in? Everything finite and within kLargestSoft, indices in range, nothing of zero size.

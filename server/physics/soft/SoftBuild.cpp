@@ -16,14 +16,14 @@ void connect(SoftBody& body, int a, int b, double ea) {
   if (ea != 0) body.stretches.push_back({a, b, rest, ea / rest, 0});
 }
 
-SoftBody line(const Place& from, Vec2 way, int links, double mass, double ea) {
+SoftBody line(const Place& from, Vec2 displacement, int links, double mass, double ea) {
   SoftBody body;
   body.place = from;
   if (!isCount(links)) return body;  // without nodes, and refused
-  body.radius = 0.25 * length(way) / links;
+  body.radius = 0.25 * length(displacement) / links;
   for (int i = 0; i <= links; ++i) {
     SoftNode node;
-    node.offset = static_cast<double>(i) / links * way;
+    node.offset = static_cast<double>(i) / links * displacement;
     node.mass = mass / links * (i == 0 || i == links ? 0.5 : 1);
     body.nodes.push_back(node);
     body.boundary.push_back(i);
@@ -42,8 +42,8 @@ void bendLine(SoftBody& body, double ei) {
 
 }  // namespace
 
-SoftBody makeRope(const Place& from, Vec2 way, int links, double mass, double stretch, double bend) {
-  SoftBody body = line(from, way, links, mass, stretch);
+SoftBody makeRope(const Place& from, Vec2 displacement, int links, double mass, double stretch, double bend) {
+  SoftBody body = line(from, displacement, links, mass, stretch);
   bendLine(body, bend);
   return body;
 }
@@ -51,11 +51,11 @@ SoftBody makeRope(const Place& from, Vec2 way, int links, double mass, double st
 // Mass and bending are integrals along the beam that become sums over nodes. With plain halves at the ends,
 // tip deflection and first frequency of 8 elements are off by 0.8 % and 1.3 %; Gregory's weights do away with
 // that term (of second order).
-SoftBody makeBeam(const Place& from, Vec2 way, int elements, double ei, double ea, double density,
+SoftBody makeBeam(const Place& from, Vec2 displacement, int elements, double ei, double ea, double density,
                   bool is_clamped) {
   constexpr double kEnd = 5.0 / 12, kNext = 13.0 / 12;
-  const double whole = length(way), element = whole / elements;
-  SoftBody body = line(from, way, elements, density * whole, ea);
+  const double whole = length(displacement), element = whole / elements;
+  SoftBody body = line(from, displacement, elements, density * whole, ea);
   bendLine(body, ei);
   if (body.nodes.empty()) return body;
   const bool is_fine = elements >= 4;
@@ -69,7 +69,7 @@ SoftBody makeBeam(const Place& from, Vec2 way, int elements, double ei, double e
   if (ei == 0) return body;
   const double share = is_fine ? kEnd : 0.5;
   if (is_fine) body.bends[0].stiffness = ei / (kNext * element);
-  body.bends.push_back({-1, 0, 1, 0, ei / (share * element), 0, way / whole});
+  body.bends.push_back({-1, 0, 1, 0, ei / (share * element), 0, displacement / whole});
   return body;
 }
 

@@ -8,10 +8,11 @@
 
 namespace naiad::physics {
 
-/// A rope or chain of equal links from `from`, where its place is, by `way`. The mass is spread evenly: half
-/// a link's on each end. `stretch` is EA (a link's stiffness is EA over its length), `bend` is EI; 0 for
-/// none.
-SoftBody makeRope(const Place& from, Vec2 way, int links, double mass, double stretch, double bend = 0);
+/// A rope or chain of equal links from `from`, where its place is, over `displacement`. The mass is spread
+/// evenly: half a link's on each end. `stretch` is EA (a link's stiffness is EA over its length), `bend` is
+/// EI; 0 for none.
+SoftBody makeRope(const Place& from, Vec2 displacement, int links, double mass, double stretch,
+                  double bend = 0);
 
 /// A grid of (columns + 1) × (rows + 1) nodes; node (i, j) is number j + i · (rows + 1), so that the long
 /// side should be the columns'. Threads along and across have the stiffness `stretch` each, diagonals
@@ -27,7 +28,7 @@ SoftBody makeBlob(const Place& centre, double radius, int nodes, double mass, do
 /// A beam of `elements` equal ones with bending stiffness `ei` (Young's modulus times second moment of area),
 /// tensile stiffness `ea`, and `density` as mass per length. Clamped, its first node is pinned and its
 /// direction there held; both ends are free otherwise.
-SoftBody makeBeam(const Place& from, Vec2 way, int elements, double ei, double ea, double density,
+SoftBody makeBeam(const Place& from, Vec2 displacement, int elements, double ei, double ea, double density,
                   bool is_clamped);
 
 }  // namespace naiad::physics

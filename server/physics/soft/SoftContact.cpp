@@ -11,11 +11,11 @@ namespace naiad::physics {
 namespace {
 
 // What a node does relative to an obstacle, in the obstacle's axes.
-struct LocalWay {
+struct LocalPath {
   Vec2 from;
-  Vec2 way;
+  Vec2 displacement;
 };
-LocalWay localWay(const SoftBody& body, Vec2 from, Vec2 to, const SoftPose& rigid, double h) {
+LocalPath localPath(const SoftBody& body, Vec2 from, Vec2 to, const SoftPose& rigid, double h) {
   const Vec2 origin = rigid.place - body.place;
   const Vec2 start = inverse(rigid.rotation) * (from - origin);
   const Rotation later = turned(rigid.rotation, h * rigid.spin);
@@ -53,19 +53,19 @@ void findNode(const SoftView& soft, int node, const SoftPose& rigid, int shape_i
               std::vector<SoftRow>& rows) {
   const SoftBody& body = *soft.body;
   const ConvexShape& shape = rigid.obstacle->shapes[at(shape_index)];
-  const LocalWay local = localWay(body, body.nodes[at(node)].offset, soft.ends[node], rigid, h);
-  const double skin = kSoftSkin * body.radius, travel = length(local.way);
+  const LocalPath local = localPath(body, body.nodes[at(node)].offset, soft.ends[node], rigid, h);
+  const double skin = kSoftSkin * body.radius, travel = length(local.displacement);
   const SurfacePoint near = closestPoint(shape, local.from);
   double gap = near.distance - body.radius;
   Vec2 normal = near.normal;
-  if (gap > travel + skin || gap + dot(normal, local.way) > skin) return;
-  if (gap > body.radius) {  // from afar: where it would strike
+  if (gap > travel + skin || gap + dot(normal, local.displacement) > skin) return;
+  if (gap > body.radius) {  // from afar: where it would hit
     ConvexShape thick = shape;
     thick.radius += body.radius;
-    const RayHit hit = castRay(thick, local.from, local.way);
+    const RayHit hit = castRay(thick, local.from, local.displacement);
     if (!hit.hit) return;
     normal = hit.normal;
-    gap = -dot(normal, local.way) * hit.fraction;
+    gap = -dot(normal, local.displacement) * hit.fraction;
   }
   const Vec2 out = rigid.rotation * normal;
   SoftRow row = rowAgainst(rigid, body, body.nodes[at(node)].offset - (gap + body.radius) * out, out);
@@ -110,7 +110,7 @@ void findCorners(const SoftView& soft, int segment, const SoftPose& rigid, int s
 
 struct Nearest {
   int segment = -1;
-  double part = 0;      // of the way along it
+  double part = 0;      // of its length
   double distance = 0;  // negative inside
   Vec2 normal;
 };
@@ -231,17 +231,17 @@ void findContacts(const SoftView& a, const SoftView& b, std::vector<SoftRow>& ro
   }
 }
 
-double freeWay(const SoftBody& body, Vec2 from, Vec2 to, const SoftPose& rigid, double h) {
-  const LocalWay local = localWay(body, from, to, rigid, h);
+double freeFraction(const SoftBody& body, Vec2 from, Vec2 to, const SoftPose& rigid, double h) {
+  const LocalPath local = localPath(body, from, to, rigid, h);
   double free = 1;
-  if (!(lengthSquared(local.way) > 0)) return free;
+  if (!(lengthSquared(local.displacement) > 0)) return free;
   for (const ConvexShape& shape : rigid.obstacle->shapes) {
     // It stops a little before the surface, so that it is not found inside the next time; if it is nearer
     // than that already, a little less before it.
     for (const double part : {0.5, 0.25, 0.1, 0.01, 0.0}) {
       ConvexShape thick = shape;
       thick.radius += part * body.radius;
-      const RayHit hit = castRay(thick, local.from, local.way);
+      const RayHit hit = castRay(thick, local.from, local.displacement);
       if (hit.hit && hit.normal == Vec2{}) continue;  // it starts in it
       if (hit.hit && hit.fraction < free) free = hit.fraction;
       break;

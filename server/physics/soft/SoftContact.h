@@ -62,7 +62,7 @@ struct SoftRow {
 struct SoftView {
   const SoftBody* body = nullptr;
   int id = 0;
-  const Vec2* ends = nullptr;  ///< offsets of nodes at the end, if nothing is in the way
+  const Vec2* ends = nullptr;  ///< offsets of nodes at the end, if nothing stops them
   Vec2 lower, upper;           ///< around both, radius included, from the body's place
 };
 
@@ -77,18 +77,19 @@ struct SoftPose {
   double reach = 0;
 };
 
-/// Contacts closer than this part of a radius are looked after before they touch.
+/// Of a radius: contacts closer than this get a row before they touch.
 inline constexpr double kSoftSkin = 0.1;
 
-/// Do the bounds of two bodies meet within the sub-step?
+/// Do the bounds of two bodies overlap within the sub-step?
 bool mayMeet(const SoftView& a, const SoftView& b);
 /// Append what may touch within `h` ticks.
 void findContacts(const SoftView& soft, const SoftPose& rigid, double h, std::vector<SoftRow>& rows);
 /// Nodes of `a` against the boundary of `b`.
 void findContacts(const SoftView& a, const SoftView& b, std::vector<SoftRow>& rows);
 
-/// The part of a node's way from `from` to `to` (offsets from the body's place) that is free of the obstacle;
-/// 1 if all is, or if it starts in it.
-double freeWay(const SoftBody& body, Vec2 from, Vec2 to, const SoftPose& rigid, double h);
+/// The part of a node's path from `from` to `to` (offsets from the body's place) that is free of the
+/// obstacle; 1 if all is, or if it starts in it. The time-of-impact finder for nodes: a ray per shape, in the
+/// obstacle's axes (ShapeQuery.h).
+double freeFraction(const SoftBody& body, Vec2 from, Vec2 to, const SoftPose& rigid, double h);
 
 }  // namespace naiad::physics

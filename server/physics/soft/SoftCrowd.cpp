@@ -19,9 +19,9 @@ void SoftCrowd::gather(const std::vector<SoftView>& views, std::size_t which) {
   std::size_t before = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (i == which || !mayMeet(view, views[i])) continue;
-    const Vec2 way = (views[i].body->place - view.body->place) + (middleOf(views[i]) - middleOf(view));
+    const Vec2 offset = (views[i].body->place - view.body->place) + (middleOf(views[i]) - middleOf(view));
     before += i < which ? 1 : 0;
-    m_others.push_back({i, lengthSquared(way), m_others.size()});
+    m_others.push_back({i, lengthSquared(offset), m_others.size()});
   }
   for (Other& other : m_others) {
     other.turn = other.turn < before ? other.turn + m_others.size() - before : other.turn - before;

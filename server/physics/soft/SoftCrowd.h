@@ -1,9 +1,9 @@
 // Which contacts with other soft bodies count where too many of them are in one place.
 //
-// A body among others is looked at node by node against each of them. Hundreds in one place would be more
-// contacts than anybody can solve for; so in a crowd a body meets those that are nearest, and of its contacts
-// with them the deepest count. It passes through the rest until there is room. What a crowd costs grows with
-// the number of its bodies, not with the number of their pairs; and who is in none notices nothing.
+// A body among others is tested node by node against each of them. Hundreds in one place would be too many
+// contacts to solve for; so in a crowd a body touches only the nearest others, and the deepest of its
+// contacts with them count. It passes through the rest until there is room. What a crowd costs grows with the
+// number of its bodies, not with the number of their pairs; a body in no crowd is not affected.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ namespace naiad::physics {
 
 class SoftCrowd {
  public:
-  /// So many others, or half as many as its own nodes if that is more, make a crowd of one; as many contacts
-  /// of its nodes with them count.
+  /// A body among more others than this, or than half as many as its own nodes, is in a crowd; as many
+  /// contacts of its nodes with them count. No more bodies of one size lie around one in a plane than six.
   static constexpr int kMaxOthers = 8;
 
   /// Appends the contacts of the nodes of `views[which]` with the other bodies. False if it is in a crowd,
@@ -26,11 +26,11 @@ class SoftCrowd {
   struct Other {
     std::size_t index;  // of its view
     double square;      // of the distance
-    std::size_t turn;   // of those in the same place everybody begins with another one
+    std::size_t turn;   // of bodies in one place each begins with another one
   };
   void gather(const std::vector<SoftView>& views, std::size_t which);
 
-  std::vector<Other> m_others;  // whose bounds meet
+  std::vector<Other> m_others;  // whose bounds overlap
 };
 
 }  // namespace naiad::physics

@@ -8,7 +8,7 @@ namespace naiad::physics {
 
 namespace {
 
-// Along a line nodes are neighbours as they are. Around a ring, the two ways round alternate.
+// Along a line nodes are neighbours as they are. Around a ring, the two directions alternate.
 std::vector<int> folded(int count) {
   std::vector<int> order(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// How far a soft body's springs are from rest, and which way they push: shared by step and energy.
+// How far a soft body's springs are from rest, and in which direction they push: shared by step and energy.
 #pragma once
 
 #include <cmath>
@@ -16,10 +16,10 @@ struct SoftSpan {
 
 /// Nodes in one place count as a millionth apart.
 inline SoftSpan spanOf(const SoftBody& body, const SoftStretch& s) {
-  const Vec2 way =
+  const Vec2 offset =
       body.nodes[static_cast<std::size_t>(s.b)].offset - body.nodes[static_cast<std::size_t>(s.a)].offset;
-  const double far = length(way), least = 1e-6 * s.rest_length;
-  return far > least ? SoftSpan{far, way / far} : SoftSpan{least, {1, 0}};
+  const double far = length(offset), least = 1e-6 * s.rest_length;
+  return far > least ? SoftSpan{far, offset / far} : SoftSpan{least, {1, 0}};
 }
 
 struct SoftCorner {
@@ -45,7 +45,7 @@ inline SoftCorner cornerOf(const SoftBody& body, const SoftBend& s) {
   return corner;
 }
 
-/// Inside the boundary; negative if it runs the other way round.
+/// Inside the boundary; negative if it runs from y to x.
 inline double areaOf(const SoftBody& body) {
   double twice = 0;
   const Vec2 from = body.nodes[static_cast<std::size_t>(body.boundary[0])].offset;

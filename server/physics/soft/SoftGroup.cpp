@@ -8,22 +8,23 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxIterations = 12;
+constexpr int kMaxIterations = 12;  // of Newton; links of stiffness 1e10 take three (docs/physics/soft.md)
 /// With contacts an iteration costs more, and the next sub-step makes good what is left.
 constexpr int kMaxContactIterations = 4;
 /// Offsets are found to this part of a radius, and with contacts or attachments to that.
 constexpr double kTolerance = 1e-9;
 constexpr double kContactTolerance = 1e-6;
 
-bool isMovable(const SoftPush& push) {
+bool isMovable(const SoftObstacleMotion& push) {
   return push.inverse_mass > 0 || push.inverse_inertia > 0;
 }
 
 }  // namespace
 
 void SoftWorld::substep(double h, std::span<SoftObstacle> obstacles) {
-  for (std::size_t i = 0; i < obstacles.size(); ++i) m_pushes[i].velocity += h * obstacles[i].acceleration;
-  look(h, obstacles);
+  for (std::size_t i = 0; i < obstacles.size(); ++i)
+    m_obstacle_motions[i].velocity += h * obstacles[i].acceleration;
+  updateViews(h, obstacles);
   findRows(h, obstacles);
   for (const SoftView& view : m_views) {
     State& state = m_states[at(view.id)];
@@ -39,7 +40,7 @@ void SoftWorld::substep(double h, std::span<SoftObstacle> obstacles) {
   }
   findGroups();
   solveGroups(h);
-  for (const SoftRow& row : m_rows) note(row, h, obstacles);
+  for (const SoftRow& row : m_rows) recordRow(row, h, obstacles);
   for (const SoftView& view : m_views) {
     if (!isLive(view.id)) continue;
     stopNodes(view.id, h, obstacles);
@@ -55,14 +56,14 @@ void SoftWorld::substep(double h, std::span<SoftObstacle> obstacles) {
 // Groups are what rows connect, through bodies and movable obstacles.
 void SoftWorld::findGroups() {
   const int bodies = idLimit();
-  m_links.resize(at(bodies) + m_pushes.size());
+  m_links.resize(at(bodies) + m_obstacle_motions.size());
   for (std::size_t i = 0; i < m_links.size(); ++i) m_links[i] = static_cast<int>(i);
   const auto root = [&](int i) {
     while (m_links[at(i)] != i) i = m_links[at(i)] = m_links[at(m_links[at(i)])];
     return i;
   };
   for (const SoftRow& row : m_rows) {
-    const bool joins = row.b.body >= 0 || isMovable(m_pushes[at(row.obstacle)]);
+    const bool joins = row.b.body >= 0 || isMovable(m_obstacle_motions[at(row.obstacle)]);
     if (!joins) continue;
     const int a = root(row.a.body), b = root(row.b.body >= 0 ? row.b.body : bodies + row.obstacle);
     m_links[at(std::max(a, b))] = std::min(a, b);
@@ -117,7 +118,8 @@ bool SoftWorld::iterate(double h, bool& is_settled) {
     return false;
   }
   const bool has_rows = !m_group_rows.empty();
-  is_settled = !has_rows || m_solver.solve({m_bodies, m_elastics, m_pushes, h}, m_group, m_group_rows);
+  is_settled =
+      !has_rows || m_solver.solve({m_bodies, m_elastics, m_obstacle_motions, h}, m_group, m_group_rows);
   for (const int id : m_group) {
     const std::span<const double> change = has_rows ? m_solver.changeOf(id) : m_elastics[at(id)].change();
     for (const double c : change) {
@@ -132,12 +134,12 @@ bool SoftWorld::iterate(double h, bool& is_settled) {
 }
 
 // What a row has done: on obstacles, for the energy's account, and for events.
-void SoftWorld::note(const SoftRow& row, double h, std::span<SoftObstacle> obstacles) {
+void SoftWorld::recordRow(const SoftRow& row, double h, std::span<SoftObstacle> obstacles) {
   if (row.forces[0] == 0 && row.forces[1] == 0) return;
   const Vec2 impulse = h * (row.forces[0] * row.axes[0] + row.forces[1] * row.axes[1]);
   if (row.obstacle >= 0) {
     SoftObstacle& obstacle = obstacles[at(row.obstacle)];
-    SoftPush& push = m_pushes[at(row.obstacle)];
+    SoftObstacleMotion& push = m_obstacle_motions[at(row.obstacle)];
     const double twist = cross(row.lever, impulse);
     obstacle.impulse -= impulse;
     obstacle.angular_impulse -= twist;
@@ -165,18 +167,19 @@ void SoftWorld::note(const SoftRow& row, double h, std::span<SoftObstacle> obsta
 
 void SoftWorld::moveObstacles(double h, std::span<SoftObstacle> obstacles) {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    obstacles[i].displacement += h * m_pushes[i].velocity;
-    obstacles[i].turn += h * m_pushes[i].spin;
+    obstacles[i].displacement += h * m_obstacle_motions[i].velocity;
+    obstacles[i].turn += h * m_obstacle_motions[i].spin;
   }
 }
 
-// No node ends its way through an obstacle, whatever led it there.
+// No node ends its path through an obstacle, whatever led it there.
 void SoftWorld::stopNodes(int id, double h, std::span<SoftObstacle> obstacles) {
   SoftBody& body = m_bodies[at(id)];
   for (const int node : body.boundary) {
     if (body.nodes[at(node)].is_pinned) continue;
     for (SoftPose& pose : m_poses) {
-      pose.velocity = m_pushes[at(pose.index)].velocity, pose.spin = m_pushes[at(pose.index)].spin;
+      pose.velocity = m_obstacle_motions[at(pose.index)].velocity,
+      pose.spin = m_obstacle_motions[at(pose.index)].spin;
       stopNode(id, node, pose, h, obstacles[at(pose.index)]);
     }
   }
@@ -185,21 +188,21 @@ void SoftWorld::stopNodes(int id, double h, std::span<SoftObstacle> obstacles) {
 void SoftWorld::stopNode(int id, int node, const SoftPose& pose, double h, SoftObstacle& obstacle) {
   SoftBody& body = m_bodies[at(id)];
   Vec2& offset = body.nodes[at(node)].offset;
-  const Vec2 from = m_elastics[at(id)].startOf(node), way = offset - from;
+  const Vec2 from = m_elastics[at(id)].startOf(node), displacement = offset - from;
   const Vec2 apart = from - (pose.place - body.place);
-  const double reach = pose.reach + length(way) + h * length(pose.velocity);
+  const double reach = pose.reach + length(displacement) + h * length(pose.velocity);
   if (lengthSquared(apart) > reach * reach) return;
   for (const SoftRow& row : m_rows) {
     const bool is_held = row.is_attachment && row.a.body == id;
     if (is_held && row.obstacle == pose.index) return;
   }
-  const double free = freeWay(body, from, offset, pose, h);
+  const double free = freeFraction(body, from, offset, pose, h);
   if (free == 1) return;
   const Vec2 carried = h * (pose.velocity + cross(pose.spin, apart));  // it goes where the surface goes
-  const Vec2 stopped = from + carried + free * (way - carried);
+  const Vec2 stopped = from + carried + free * (displacement - carried);
   const Vec2 impulse = body.nodes[at(node)].mass / m_elastics[at(id)].beta() * (stopped - offset);
   const double twist = cross(apart, impulse);
-  SoftPush& push = m_pushes[at(pose.index)];
+  SoftObstacleMotion& push = m_obstacle_motions[at(pose.index)];
   obstacle.impulse -= impulse;
   obstacle.angular_impulse -= twist;
   push.velocity -= push.inverse_mass * impulse;

@@ -9,8 +9,8 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxSweeps = 60;
-/// In a crowd there are fewer: no more than so many rows are settled, but eight sweeps always are.
+constexpr int kMaxSweeps = 60;  // of Gauss and Seidel in an iteration; the next one goes on from there
+/// In a crowd there are fewer: sweeps times rows stay below this, but eight sweeps are always done.
 constexpr int kMaxSettlings = 40'000;
 constexpr int kMinSweeps = 8;
 /// Sweeps end when no force moves its row by more than this part of a radius …
@@ -47,7 +47,7 @@ void SoftRowSolver::gather(const Scene& scene, const std::vector<int>& group) {
     m_sizes[at(id)] = change.size();
     m_changes.insert(m_changes.end(), change.begin(), change.end());
   }
-  m_pushed = scene.pushes;
+  m_motions = scene.obstacle_motions;
   m_responses.clear();
 }
 
@@ -82,7 +82,7 @@ void SoftRowSolver::push(const Scene& scene, const SoftRow& row, int axis, doubl
     for (std::size_t i = 0; i < m_sizes[at(point.body)]; ++i) change[i] += force * response[i];
   }
   if (row.obstacle < 0) return;
-  SoftPush& rigid = m_pushed[at(row.obstacle)];
+  SoftObstacleMotion& rigid = m_motions[at(row.obstacle)];
   const Vec2 impulse = scene.h * force * row.axes[axis];
   rigid.velocity -= rigid.inverse_mass * impulse;
   rigid.spin -= rigid.inverse_inertia * cross(row.lever, impulse);
@@ -98,7 +98,7 @@ double SoftRowSolver::moved(const Scene& scene, const SoftRow& row, int axis) co
     sum += (side == 0 ? 1 : -1) * along(scene.elastics[at(point.body)], point, row.axes[axis], change);
   }
   if (row.obstacle < 0) return sum;
-  const SoftPush& rigid = m_pushed[at(row.obstacle)];
+  const SoftObstacleMotion& rigid = m_motions[at(row.obstacle)];
   return sum - scene.h * dot(row.axes[axis], rigid.velocity + cross(rigid.spin, row.lever));
 }
 
@@ -118,7 +118,7 @@ double SoftRowSolver::fixedGap(const Scene& scene, const SoftRow& row, int axis)
   return gap + (depth - recovered);
 }
 
-double SoftRowSolver::give(const Scene& scene, const SoftRow& row, int axis) const {
+double SoftRowSolver::compliance(const Scene& scene, const SoftRow& row, int axis) const {
   double sum = 0;
   for (int side = 0; side < 2; ++side) {
     const SoftPoint& point = sideOf(row, side);
@@ -127,7 +127,7 @@ double SoftRowSolver::give(const Scene& scene, const SoftRow& row, int axis) con
     sum += (side == 0 ? 1 : -1) * along(scene.elastics[at(point.body)], point, row.axes[axis], response);
   }
   if (row.obstacle < 0) return sum;
-  const SoftPush& rigid = scene.pushes[at(row.obstacle)];
+  const SoftObstacleMotion& rigid = scene.obstacle_motions[at(row.obstacle)];
   const double twist = cross(row.lever, row.axes[axis]);
   return sum + scene.h * scene.h * (rigid.inverse_mass + rigid.inverse_inertia * twist * twist);
 }
@@ -136,16 +136,16 @@ double SoftRowSolver::give(const Scene& scene, const SoftRow& row, int axis) con
 double SoftRowSolver::settle(const Scene& scene, std::size_t index, SoftRow& row) {
   double most = 0;
   for (int axis = 0; axis < 2; ++axis) {
-    const double gives = m_gives[2 * index + at(axis)];
+    const double compliance = m_compliances[2 * index + at(axis)];
     const bool is_free = axis == 1 && !row.is_attachment && row.friction == 0;
-    if (is_free || !(gives > 1e-300)) continue;
-    double force = row.forces[axis] - (m_gaps[2 * index + at(axis)] + moved(scene, row, axis)) / gives;
+    if (is_free || !(compliance > 1e-300)) continue;
+    double force = row.forces[axis] - (m_gaps[2 * index + at(axis)] + moved(scene, row, axis)) / compliance;
     if (!row.is_attachment) {
       const double limit = row.friction * row.forces[0];
       force = axis == 0 ? std::max(0.0, force) : std::clamp(force, -limit, limit);
     }
     const double more = force - row.forces[axis];
-    most = std::max(most, gives * std::fabs(more));
+    most = std::max(most, compliance * std::fabs(more));
     push(scene, row, axis, more);
     row.forces[axis] = force;
   }
@@ -155,14 +155,14 @@ double SoftRowSolver::settle(const Scene& scene, std::size_t index, SoftRow& row
 bool SoftRowSolver::solve(const Scene& scene, const std::vector<int>& group, std::vector<SoftRow*>& rows) {
   gather(scene, group);
   m_gaps.clear();
-  m_gives.clear();
+  m_compliances.clear();
   double scale = 1e300;
   for (SoftRow* row : rows) {
     respond(scene, *row);
     scale = std::min(scale, scene.bodies[at(row->a.body)].radius);
     for (int axis = 0; axis < 2; ++axis) {
       m_gaps.push_back(fixedGap(scene, *row, axis));
-      m_gives.push_back(give(scene, *row, axis));
+      m_compliances.push_back(compliance(scene, *row, axis));
       push(scene, *row, axis, row->forces[axis]);
     }
   }

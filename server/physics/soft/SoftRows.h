@@ -1,7 +1,7 @@
 // The forces of contacts and attachments within one group of soft bodies, all at once.
 //
-// Each row knows how all bodies of the group give way to it, as a whole and implicitly: a column of the
-// inverse of the bodies' own systems. So a stiff beam on two supports is as easy as a ball. What is left is a
+// Each row has the compliance of all bodies of the group, as a whole and implicitly: a column of the inverse
+// of the bodies' own systems. So a stiff beam on two supports is as easy as a ball. What is left is a
 // complementarity problem with friction, as large as the number of contacts, swept by Gauss and Seidel, there
 // and back.
 #pragma once
@@ -15,7 +15,7 @@
 namespace naiad::physics {
 
 /// An obstacle's motion within a sub-step.
-struct SoftPush {
+struct SoftObstacleMotion {
   Vec2 velocity;  ///< at its end, without contacts
   double spin = 0;
   double inverse_mass = 0;
@@ -28,7 +28,7 @@ class SoftRowSolver {
   struct Scene {
     const std::vector<SoftBody>& bodies;
     const std::vector<SoftElastic>& elastics;
-    const std::vector<SoftPush>& pushes;
+    const std::vector<SoftObstacleMotion>& obstacle_motions;
     double h;
   };
 
@@ -45,16 +45,16 @@ class SoftRowSolver {
   void push(const Scene& scene, const SoftRow& row, int axis, double force);
   double moved(const Scene& scene, const SoftRow& row, int axis) const;
   double fixedGap(const Scene& scene, const SoftRow& row, int axis) const;
-  double give(const Scene& scene, const SoftRow& row, int axis) const;
+  double compliance(const Scene& scene, const SoftRow& row, int axis) const;
   double settle(const Scene& scene, std::size_t index, SoftRow& row);
 
   std::vector<double> m_responses;    // to a force of one along each axis of each row
-  std::vector<double> m_changes;      // of the bodies' offsets, so far
+  std::vector<double> m_changes;      // of the bodies' offsets
   std::vector<std::size_t> m_begins;  // by body: where its part of them begins
   std::vector<std::size_t> m_sizes;
-  std::vector<SoftPush> m_pushed;  // obstacles' motion, so far
-  std::vector<double> m_gaps;      // two per row: that which does not change
-  std::vector<double> m_gives;     // two per row: displacement by a force of one
+  std::vector<SoftObstacleMotion> m_motions;  // obstacles' motion
+  std::vector<double> m_gaps;                 // two per row: that which does not change
+  std::vector<double> m_compliances;          // two per row: displacement by a force of one
 };
 
 }  // namespace naiad::physics

@@ -114,7 +114,7 @@ void SoftWorld::freeze(int id) {
 
 // The place follows, so that offsets keep their digits.
 void SoftWorld::recentre(int id) {
-  constexpr double kFar = 1024;
+  constexpr double kFar = 1024;  // metric cells: offsets keep 13 digits behind the point
   SoftBody& body = m_bodies[at(id)];
   const Vec2 first = body.nodes[0].offset;
   if (std::fabs(first.x) < kFar && std::fabs(first.y) < kFar) return;
@@ -138,10 +138,10 @@ SoftStatus SoftWorld::step(double dt, std::span<SoftObstacle> obstacles) {
     obstacle.impulse = obstacle.displacement = {};
     obstacle.angular_impulse = obstacle.turn = 0;
   }
-  m_pushes.resize(obstacles.size());
+  m_obstacle_motions.resize(obstacles.size());
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const SoftObstacle& o = obstacles[i];
-    m_pushes[i] = {o.velocity, o.spin, o.inverse_mass, o.inverse_inertia};
+    m_obstacle_motions[i] = {o.velocity, o.spin, o.inverse_mass, o.inverse_inertia};
   }
   for (int id = 0; id < idLimit(); ++id) {
     if (!isLive(id)) continue;
@@ -183,7 +183,7 @@ void SoftWorld::publish() {
   const std::size_t touching = m_touching.size();
   for (const Touch& touch : m_touched) {
     if (isOut(touch)) {
-      m_touching.push_back(touch);  // theirs go on, and are no news when they are back
+      m_touching.push_back(touch);  // those contacts go on, and do not begin again later
     } else if (!std::binary_search(m_touching.begin(),
                                    m_touching.begin() + static_cast<std::ptrdiff_t>(touching), touch,
                                    [](const Touch& a, const Touch& b) { return a.key < b.key; })) {

@@ -26,7 +26,7 @@ struct SoftEvent {
   double impulse;  ///< when it begins: the sum along the normals, in this step
 };
 
-/// A node that is held to a point of an obstacle, both ways.
+/// A node that is held to a point of an obstacle; it pulls at both.
 struct SoftAttachment {
   int body = -1;
   int node = 0;
@@ -55,7 +55,7 @@ enum class SoftStatus : std::uint8_t {
 /// Not thread-safe. No allocation in step() once the scene has shown what it needs.
 class SoftWorld {
  public:
-  static constexpr int kDefaultSubsteps = 4;
+  static constexpr int kDefaultSubsteps = 4;  ///< of a tick
   /// A body with a node that would go farther than this within a sub-step is frozen (cells).
   static constexpr double kFarthest = 1e12;
 
@@ -69,11 +69,11 @@ class SoftWorld {
   bool exists(int id) const { return id >= 0 && id < idLimit() && m_states[at(id)].exists; }
   /// Offsets are from body(id).place, which follows the body in whole cells.
   const SoftBody& body(int id) const { return m_bodies[at(id)]; }
-  /// Is the body in quarantine? It is kept as it is and nothing meets it, until set().
+  /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
   bool isFrozen(int id) const { return m_states[at(id)].is_frozen; }
   int idLimit() const { return static_cast<int>(m_bodies.size()); }
-  /// Leave it out of steps: it stays as it is, nothing meets it, and what it touches counts as touched. Not
-  /// kept over set().
+  /// Leave it out of steps: it stays as it is, collides with nothing, and what it touches counts as touched.
+  /// Not kept over set().
   void setOut(int id, bool is_out) { m_states[at(id)].is_out = is_out; }
   /// Did it touch anything in the last step that it took part in?
   bool isTouching(int id) const;
@@ -106,7 +106,7 @@ class SoftWorld {
     bool exists = false;
     bool is_frozen = false;
     bool is_out = false;
-    bool is_fresh = true;       // changed from outside: the budget is to be found anew
+    bool is_fresh = true;       // changed from outside: the budget is to be computed again
     bool is_worked_on = false;  // in this sub-step, by what is not the body itself
     int group = -1;
   };
@@ -132,8 +132,8 @@ class SoftWorld {
   void recentre(int id);
   void start(int id);
 
-  // SoftSight.cpp
-  void look(double h, std::span<SoftObstacle> obstacles);
+  // SoftDetection.cpp
+  void updateViews(double h, std::span<SoftObstacle> obstacles);
   void findRows(double h, std::span<SoftObstacle> obstacles);
   void findAttachments(std::span<SoftObstacle> obstacles);
 
@@ -147,7 +147,7 @@ class SoftWorld {
   void stopNodes(int id, double h, std::span<SoftObstacle> obstacles);
   void stopNode(int id, int node, const SoftPose& pose, double h, SoftObstacle& obstacle);
   bool limitEnergy(int id);
-  void note(const SoftRow& row, double h, std::span<SoftObstacle> obstacles);
+  void recordRow(const SoftRow& row, double h, std::span<SoftObstacle> obstacles);
   void publish();
 
   std::vector<SoftBody> m_bodies;
@@ -162,11 +162,11 @@ class SoftWorld {
   std::vector<Touch> m_touching;  // in this step
   std::vector<Touch> m_touched;   // in the last one
 
-  // Of the sub-step at hand.
+  // Of the current sub-step.
   std::vector<SoftView> m_views;
   std::vector<Vec2> m_ends;
   std::vector<SoftPose> m_poses;
-  std::vector<SoftPush> m_pushes;
+  std::vector<SoftObstacleMotion> m_obstacle_motions;
   SoftCrowd m_crowd;
   std::vector<SoftRow> m_rows;
   std::vector<SoftRow> m_earlier;  // of the one before, by key

@@ -1,4 +1,4 @@
-// A world of bodies to try things in: a unit is a metre both ways, and times are told in seconds.
+// A world of bodies to try things in: a unit is a metre both ways, and times are in seconds.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ class BodyScene : public testing::Test {
   World::Scope scope;
 };
 
-/// Writes down what it is told of contacts.
+/// Records its contact events.
 class Listener : public Body {
  public:
   struct Note {

@@ -1,4 +1,4 @@
-// Shapes of every kind, and slow, obvious answers about them.
+// Shapes of every kind, and slow, obvious results about them.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What Objects hear of contacts of bodies, and what handlers may do.
+// The contact events of bodies, and what handlers may do.
 #include "engine/events/EventOut.h"
 #include "tests/server/physics/BodyScene.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 class BodyContacts : public BodyScene {};
 
-TEST_F(BodyContacts, BothHearOnceWithTheImpulse) {
+TEST_F(BodyContacts, BothGetOneEventWithTheImpulse) {
   auto* p_a = ball<Listener>(Vector(0, 0), Vector(6, 0));
   auto* p_b = ball<Listener>(Vector(2, 0), Vector(0, 0));
   p_b->setContactEnds();
@@ -63,7 +63,7 @@ TEST_F(BodyContacts, OneThatStepsAsideDoesSo) {
   EXPECT_GT(p_crate->getPosition().y(), 9);
 }
 
-TEST_F(BodyContacts, SoftOnesHearAndPushNobody) {
+TEST_F(BodyContacts, SoftBodiesGetEventsAndPushNothing) {
   auto* p_soft = ball<Listener>(Vector(3, 0), Vector(0, 0));
   p_soft->setSolidness(SOFT);
   p_soft->setContactEnds();
@@ -80,7 +80,7 @@ TEST_F(BodyContacts, SoftOnesHearAndPushNobody) {
   EXPECT_EQ(p_ball->notes[1].p_second, p_mist);
 }
 
-TEST_F(BodyContacts, AFastOneHearsOfTheMistItFlewThrough) {
+TEST_F(BodyContacts, AFastBodyGetsAnEventForTheMistItFlewThrough) {
   auto* p_ball = ball<Listener>(Vector(0, 0), Vector(3000, 0));
   wall(Vector(30, 0), Vector(0.1, 5))->setSolidness(SOFT);
   ticks(2);
@@ -198,7 +198,7 @@ TEST_F(BodyContacts, TheAspectCountsForWhatIsHit) {
   there.shutDown();
 }
 
-TEST_F(BodyContacts, LeavingTheWorldIsHeardAndNoWall) {
+TEST_F(BodyContacts, LeavingTheWorldIsAnEventAndNoWall) {
   class Leaver : public Listener {
    public:
     int eventHandler(const Event* p_e) override {

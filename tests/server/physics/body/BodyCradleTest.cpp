@@ -1,4 +1,4 @@
-// Newton's cradle and its relatives through WM.update(): jointed circles strike one another one by one.
+// Newton's cradle and its relatives through WM.update(): jointed circles hit one another one by one.
 #include <array>
 
 #include "tests/server/physics/BodyScene.h"
@@ -20,18 +20,19 @@ class BodyCradle : public BodyScene {
     for (int i = 0; i < kBalls; ++i) {
       const Vector pivot = origin + Vector(i * apart, 0);
       const double angle = i < raised ? -kAngle : 0;
-      const Vector way(kRod * std::sin(angle), kRod * std::cos(angle));
-      balls.at(static_cast<std::size_t>(i)) = ball<Listener>(pivot + way, Vector());
+      const Vector offset(kRod * std::sin(angle), kRod * std::cos(angle));
+      balls.at(static_cast<std::size_t>(i)) = ball<Listener>(pivot + offset, Vector());
       balls.at(static_cast<std::size_t>(i))->setRestitution(restitution);
-      PM.addDistance(nullptr, balls.at(static_cast<std::size_t>(i)), pivot, pivot + way);
+      PM.addDistance(nullptr, balls.at(static_cast<std::size_t>(i)), pivot, pivot + offset);
       hung.at(static_cast<std::size_t>(i)) = pivot + Vector(0, kRod);
     }
   }
   /// How fast it was or will be at its lowest, of what the first one is there.
   double speedOfEnergy(int i) const {
     const Listener* p_ball = balls.at(static_cast<std::size_t>(i));
-    const Vector v = speedOf(p_ball), way = p_ball->getDisplacementFrom(hung.at(static_cast<std::size_t>(i)));
-    const double energy = 0.5 * (v.x() * v.x() + v.y() * v.y()) - kGravity * way.y();
+    const Vector v = speedOf(p_ball),
+                 offset = p_ball->getDisplacementFrom(hung.at(static_cast<std::size_t>(i)));
+    const double energy = 0.5 * (v.x() * v.x() + v.y() * v.y()) - kGravity * offset.y();
     return std::sqrt(std::max(0.0, energy / (kGravity * kRod * (1 - std::cos(kAngle)))));
   }
 
@@ -68,7 +69,7 @@ TEST_F(BodyCradle, TwoStrikeAndTwoLeave) {
   for (int i = 0; i < kBalls; ++i) EXPECT_NEAR(speedOfEnergy(i), i >= kBalls - 2 ? 1 : 0, 1e-3) << i;
 }
 
-TEST_F(BodyCradle, WhoHangsSideBySideIsStill) {
+TEST_F(BodyCradle, BallsThatHangSideBySideAreStill) {
   hang(0);
   ticks(300);
   for (int i = 0; i < kBalls; ++i) {
@@ -79,12 +80,12 @@ TEST_F(BodyCradle, WhoHangsSideBySideIsStill) {
   }
 }
 
-TEST_F(BodyCradle, EveryStrikeIsToldOnceToBoth) {
+TEST_F(BodyCradle, EveryImpactIsOneEventForBoth) {
   hang(1);
   ticks(45);
   for (std::size_t i = 0; i < kBalls; ++i) {
-    const std::size_t strikes = i == 0 || i == kBalls - 1 ? 1 : 2;
-    ASSERT_EQ(balls.at(i)->notes.size(), strikes) << i;
+    const std::size_t impacts = i == 0 || i == kBalls - 1 ? 1 : 2;
+    ASSERT_EQ(balls.at(i)->notes.size(), impacts) << i;
     const double speed = std::sqrt(2 * kGravity * kRod * (1 - std::cos(kAngle))) / 30;
     for (const Listener::Note& note : balls.at(i)->notes) {
       EXPECT_TRUE(note.is_begin);
@@ -93,7 +94,7 @@ TEST_F(BodyCradle, EveryStrikeIsToldOnceToBoth) {
   }
 }
 
-// Fast enough that those who are struck get out of where they would have been looked for.
+// So fast that balls that are hit leave the region that was searched for them.
 TEST_F(BodyCradle, AFreeBallStrikesIt) {
   PM.setGravity(Vector());
   hang(0);
@@ -128,15 +129,15 @@ TEST_F(BodyCradle, LossIsThatOfEachImpactAlone) {
   EXPECT_NEAR(speedOfEnergy(kBalls - 1), left, 1e-3);
 }
 
-// Too near for their rods: they press on one another, and no sequence of bounces is an answer to that.
-TEST_F(BodyCradle, WhoPressOnOneAnotherAreKeptApart) {
+// Too near for their rods: they press on one another, and no sequence of bounces solves that.
+TEST_F(BodyCradle, BallsThatPressOnOneAnotherAreKeptApart) {
   for (const double restitution : {0.5, 1.0}) {
     hang(0, 0.99, restitution);
     ticks(300);
     for (std::size_t i = 0; i + 1 < kBalls; ++i) {
-      const Vector way =
+      const Vector offset =
           balls.at(i + 1)->getDisplacementFrom(hung.at(i)) - balls.at(i)->getDisplacementFrom(hung.at(i));
-      EXPECT_GT(std::hypot(way.x(), way.y()), 0.98) << restitution << " " << i;
+      EXPECT_GT(std::hypot(offset.x(), offset.y()), 0.98) << restitution << " " << i;
       EXPECT_LT(std::abs(speedOf(balls.at(i)).x()), 3) << restitution << " " << i;
     }
     for (Listener* p_ball : balls) delete p_ball;

@@ -1,5 +1,5 @@
 // What no game should do, done to each kind of body: it stays bounded, it is the same every time, what cannot
-// be worked out is frozen, counted and named in the log, and nobody else notices.
+// be worked out is frozen, counted and named in the log, and no other body is affected.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -232,7 +232,7 @@ TEST(BodyExtremes, AForceBeyondAllBoundsFreezesWhatItPushes) {
   }
 }
 
-// Hundreds of one kind in one place. Nobody flies off, nobody is frozen, and it is the same every time.
+// Hundreds of one kind in one place. None flies off, none is frozen, and it is the same every time.
 class InOnePlace : public testing::TestWithParam<Kind> {};
 
 TEST_P(InOnePlace, HundredsStayBounded) {

@@ -12,9 +12,9 @@ namespace df::test {
 namespace {
 
 class Whirl : public Field {
-  Vector accelerationAt(Vector way, Vector velocity, double time) const override {
-    return Vector(-0.01 * way.x() + 0.02 * velocity.y(),
-                  -0.01 * way.y() - (0.02 + 1e-5 * time) * velocity.x());
+  Vector accelerationAt(Vector displacement, Vector velocity, double time) const override {
+    return Vector(-0.01 * displacement.x() + 0.02 * velocity.y(),
+                  -0.01 * displacement.y() - (0.02 + 1e-5 * time) * velocity.x());
   }
 };
 

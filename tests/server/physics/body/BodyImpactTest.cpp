@@ -1,4 +1,4 @@
-// What happens when bodies meet, through WM.update(): the problems of the laboratory that need no rotation,
+// What happens when bodies touch, through WM.update(): the problems of the laboratory that need no rotation,
 // with its targets as bounds.
 #include <bit>
 #include <cstdint>
@@ -72,7 +72,7 @@ TEST_F(BodyImpacts, AnObliqueBlowGoesAlongTheLineOfCentres) {
   }
 }
 
-// Problem 8c: who is struck flies far within the tick, to walls that were not near.
+// Problem 8c: the struck ball flies far within the tick, to walls that were not near.
 TEST_F(BodyImpacts, GalperinsBilliardCountsThePi) {
   long right = 3;
   double mass = 1;
@@ -121,9 +121,9 @@ TEST_F(BodyImpacts, FrictionHoldsUpToItsAngleAndSlidesBeyond) {
     PM.setGravity(perSecondSquared(Vector(10 * std::sin(angle), 10 * std::cos(angle))));
     Body* p_crate = crate(Vector(0, -0.25), Vector(0.5, 0.25));
     ticks(n);
-    const double way = p_crate->getPosition().x();
+    const double displacement = p_crate->getPosition().x();
     delete p_crate;
-    return way;
+    return displacement;
   };
   const double threshold = std::atan(0.5), hundredth = 0.01 * std::numbers::pi / 180;
   EXPECT_EQ(slides(threshold - hundredth, 120), 0);
@@ -175,8 +175,8 @@ TEST_F(BodyImpacts, TheRestOfTheTickIsUsed) {
 }
 
 class UpperHalf : public Field {
-  Vector accelerationAt(Vector way, Vector /*velocity*/, double /*time*/) const override {
-    return way.y() > 8 ? Vector() : perSecondSquared(Vector(0, -10));
+  Vector accelerationAt(Vector displacement, Vector /*velocity*/, double /*time*/) const override {
+    return displacement.y() > 8 ? Vector() : perSecondSquared(Vector(0, -10));
   }
 };
 
@@ -236,7 +236,7 @@ TEST_F(BodyImpacts, AClosedSystemKeepsItsMomentum) {
 }
 
 // Problem 18.
-TEST_F(BodyImpacts, BadNumbersChangeNobodyElse) {
+TEST_F(BodyImpacts, BadNumbersChangeNoOtherBody) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const auto run = [&](int poison) {
     World there;

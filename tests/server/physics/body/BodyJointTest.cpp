@@ -45,7 +45,7 @@ TEST_F(BodyJoints, AnUndampedSpringKeepsAmplitudeAndPhase) {
   }
 }
 
-// Problem 4, where the phase is still told by a double.
+// Problem 4, where a double still resolves the phase.
 TEST_F(BodyJoints, AStiffSpringIsExactAtAnyStiffness) {
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   for (const double stiffness : {1e2, 1e6, 1e10}) {

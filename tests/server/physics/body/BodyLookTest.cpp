@@ -1,4 +1,4 @@
-// How bodies look: pictures at some angles, turns made of pictures, and what a watcher is told.
+// How bodies look: pictures at some angles, turns made of pictures, and what is published of them.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -115,7 +115,7 @@ TEST(BodyLook, SymmetricShapesShowTheirSequenceSeveralTimesInATurn) {
   EXPECT_EQ(drawTurn(std::vector{circle(3)}, kAspect, {}).frames.size(), 1u);
 }
 
-TEST(BodyLook, EveryTurnMayBeTold) {
+TEST(BodyLook, EveryTurnMayBePublished) {
   FrameStyle style;
   for (const df::BodyDrawing how : {df::BodyDrawing::OUTLINE, df::BodyDrawing::FILL}) {
     style.how = how;
@@ -209,8 +209,8 @@ class DrawnBody : public testing::Test {
     body.setPosition(df::Vector(30, 12));
     body.setSolidness(df::SPECTRAL);
   }
-  /// How many looks are told in so many ticks; checks that what is published draws what the world drew.
-  int tell(int ticks, double spin) {
+  /// How many looks are published in `ticks`; checks that what is published draws what the world drew.
+  int countLooks(int ticks, double spin) {
     int looks = 0;
     body.setSpin(spin);
     for (int i = 0; i < ticks; ++i) {
@@ -240,40 +240,40 @@ class DrawnBody : public testing::Test {
   double m_angle = 0;
 };
 
-TEST_F(DrawnBody, WhatTurnsIsToldOnceAndAnotherSpinOnce) {
+TEST_F(DrawnBody, WhatTurnsIsPublishedOnceAndAnotherSpinOnce) {
   body.setBoxShape(10, 4);
-  EXPECT_EQ(tell(1000, 0.05), 1);
-  EXPECT_EQ(tell(1000, 0.05), 0);
-  EXPECT_EQ(tell(1000, -0.3), 1);
-  EXPECT_EQ(tell(1000, 0), 1);
+  EXPECT_EQ(countLooks(1000, 0.05), 1);
+  EXPECT_EQ(countLooks(1000, 0.05), 0);
+  EXPECT_EQ(countLooks(1000, -0.3), 1);
+  EXPECT_EQ(countLooks(1000, 0), 1);
 }
 
-// The engine turns it: after its birth nothing is told but where it flies, ever more rarely.
+// The engine turns it: after its birth only its path is published, ever more rarely.
 TEST_F(DrawnBody, WhatTurnsAndFliesFreelyCostsNoRecord) {
   body.setBoxShape(10, 4);
   body.setTurning();
   body.setSpin(0.05);
   body.setVelocity(df::Vector(0.01, 0));
-  std::size_t told = 0;
+  std::size_t published = 0;
   for (int i = 0; i < 1000; ++i) {
     world.tick();
     publisher.update(world.view());
-    told += publisher.changes().size();
+    published += publisher.changes().size();
     for (const Publisher::Change& change : publisher.changes())
       ASSERT_EQ(change.groups, i == 0 ? +kAllGroups : +kMotion) << i;
   }
   EXPECT_NEAR(between(body.getAngle(), std::remainder(50.0, 2 * kPi)), 0, 1e-9);
-  EXPECT_LE(told, 4u) << "a path that outlives its horizon is told anew";
+  EXPECT_LE(published, 4u) << "a path that outlives its horizon is published again";
 }
 
 TEST_F(DrawnBody, ACircleAndASpriteLikewise) {
   body.setCircle(4);
-  EXPECT_EQ(tell(500, 0.05), 1);
+  EXPECT_EQ(countLooks(500, 0.05), 1);
   body.setDrawing({"<==", "|o>"}, df::RED);
-  EXPECT_EQ(tell(500, 0.05), 1);
+  EXPECT_EQ(countLooks(500, 0.05), 1);
 }
 
-TEST_F(DrawnBody, DrawingsThatNobodyCanSeeAreRefused) {
+TEST_F(DrawnBody, InvisibleDrawingsAreRefused) {
   EXPECT_EQ(body.setDrawing(df::BodyDrawing::OUTLINE, U'\n'), -1);
   EXPECT_EQ(body.setDrawing(df::BodyDrawing::SPRITE), -1);
   EXPECT_EQ(body.setDrawing(std::vector<std::string>{}), -1);

@@ -1,4 +1,4 @@
-// Bodies that turn, through WM.update(): that they reach their solver, and what games are told of it.
+// Bodies that turn, through WM.update(): that they reach their solver, and the events that games get.
 #include <numbers>
 
 #include "physics/body/BodyLayer.h"
@@ -32,9 +32,9 @@ TEST_F(BodyRigids, ADiscRollsDownASlope) {
   p_disc->setTurning();
   const Vector start = p_disc->getPosition();
   ticks(60);
-  const Vector way = p_disc->getDisplacementFrom(start), v = speedOf(p_disc);
+  const Vector displacement = p_disc->getDisplacementFrom(start), v = speedOf(p_disc);
   const double right = 10 * std::sin(angle) * 4 / 3;
-  EXPECT_NEAR(std::hypot(way.x(), way.y()) / right, 1, 1e-3);
+  EXPECT_NEAR(std::hypot(displacement.x(), displacement.y()) / right, 1, 1e-3);
   EXPECT_NEAR(std::hypot(v.x(), v.y()), 30 * p_disc->getSpin() * 0.5, 1e-3);
 }
 
@@ -48,8 +48,10 @@ TEST_F(BodyRigids, ACrateSlidesDownASlope) {
   p_crate->setTurning();
   const Vector start = p_crate->getPosition();
   ticks(60);
-  const Vector way = p_crate->getDisplacementFrom(start);
-  EXPECT_NEAR(std::hypot(way.x(), way.y()) / (20 * (std::sin(angle) - 0.5 * std::cos(angle))), 1, 1e-3);
+  const Vector displacement = p_crate->getDisplacementFrom(start);
+  EXPECT_NEAR(
+      std::hypot(displacement.x(), displacement.y()) / (20 * (std::sin(angle) - 0.5 * std::cos(angle))), 1,
+      1e-3);
 }
 
 // Problem 12: and what has hardly begun to slide does not fall asleep.
@@ -62,17 +64,17 @@ TEST_F(BodyRigids, FrictionHoldsUpToItsAngle) {
     p_crate->setTurning();
     const Vector start = p_crate->getPosition();
     for (int i = 0; i < 120; ++i) there.update();
-    const Vector way = p_crate->getDisplacementFrom(start);
+    const Vector displacement = p_crate->getDisplacementFrom(start);
     delete p_crate;
     delete p_slope;
-    return std::hypot(way.x(), way.y());
+    return std::hypot(displacement.x(), displacement.y());
   };
   const double threshold = std::atan(0.5), hundredth = 0.01 * std::numbers::pi / 180;
   EXPECT_LT(wayAt(threshold - hundredth, world), 1e-4);
   EXPECT_GT(wayAt(threshold + hundredth, world), 5e-3);
 }
 
-// Problem 10, up to what a game meets.
+// Problem 10, as far as games need it.
 TEST_F(BodyRigids, AHeavyCrateRestsOnALightOne) {
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   wall(Vector(0, 5), Vector(100, 5));
@@ -118,7 +120,7 @@ TEST_F(BodyRigids, TheOthersStayWhereAllIsExact) {
 }
 
 // A crate that does not turn lies on the floor; one that does comes, and both are handed to the RigidWorld.
-TEST_F(BodyRigids, WhoIsHandedOnHearsNothingTwice) {
+TEST_F(BodyRigids, AChangeOfSolverSendsNoEventTwice) {
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   Object* p_floor = wall(Vector(0, 5), Vector(100, 5));
   auto* p_crate = crate<Listener>(Vector(0, -0.75));

@@ -34,9 +34,9 @@ std::vector<Answer> oneByOne(const WorldStore& store, const std::vector<FixedBox
 std::vector<Answer> together(BodySurroundings& surroundings, const WorldStore& store,
                              const std::vector<FixedBox>& regions) {
   std::vector<Answer> all;
-  surroundings.begin();
-  for (const FixedBox& region : regions) surroundings.ask(region);
-  surroundings.answer(store, [&](std::size_t number, ObjectKey key) { all.push_back({number, key}); });
+  surroundings.clear();
+  for (const FixedBox& region : regions) surroundings.addRegion(region);
+  surroundings.query(store, [&](std::size_t number, ObjectKey key) { all.push_back({number, key}); });
   return all;
 }
 

@@ -121,7 +121,7 @@ TEST_F(Bodies, TheSettersOfAnObjectAreTakenOver) {
   expectNear(p_body->getPosition(), Vector(11, 4.5), 1e-9);
 }
 
-TEST_F(Bodies, HearWhenTheyLeaveTheWorldAndMayDieOfIt) {
+TEST_F(Bodies, GetAnEventWhenTheyLeaveTheWorldAndMayBeDeletedInIt) {
   class Leaver : public Body {
    public:
     int eventHandler(const Event* p_e) override {
@@ -143,9 +143,9 @@ TEST_F(Bodies, HearWhenTheyLeaveTheWorldAndMayDieOfIt) {
 class Planet : public Field {
  public:
   explicit Planet(double pull) : m_pull(pull) {}
-  Vector accelerationAt(Vector way, Vector /*velocity*/, double /*time*/) const override {
-    const double r = std::sqrt(way.x() * way.x() + way.y() * way.y());
-    return {-m_pull * way.x() / (r * r * r), -m_pull * way.y() / (r * r * r)};
+  Vector accelerationAt(Vector displacement, Vector /*velocity*/, double /*time*/) const override {
+    const double r = std::sqrt(displacement.x() * displacement.x() + displacement.y() * displacement.y());
+    return {-m_pull * displacement.x() / (r * r * r), -m_pull * displacement.y() / (r * r * r)};
   }
 
  private:

@@ -12,13 +12,13 @@ namespace naiad::physics {
 namespace {
 
 BodyContact contactOf(df::ObjectKey first, df::ObjectKey second, bool is_begin) {
-  return {0, first, second, first.slot, second.slot, 0, is_begin, BodyWay::kRigid};
+  return {0, first, second, first.slot, second.slot, 0, is_begin, BodySolver::kRigid};
 }
 
 using Pair = std::pair<df::ObjectKey, df::ObjectKey>;
 
 // Contacts begin and end at random, slots change hands, bodies vanish: the same as from a plain list.
-TEST(BodyTouching, IsKnownOfEverybodyAtAnyTime) {
+TEST(BodyTouching, IsKnownOfEveryBodyAtAnyTime) {
   constexpr std::uint32_t kSlots = 12;
   SplitMix64 random(9);
   const auto below = [&](std::uint32_t limit) { return static_cast<std::uint32_t>(random.next() % limit); };
@@ -28,7 +28,7 @@ TEST(BodyTouching, IsKnownOfEverybodyAtAnyTime) {
   std::fill(std::begin(generation), std::end(generation), 1);
   int touched = 0;
   for (int tick = 0; tick < 3000; ++tick) {
-    contacts.begin();
+    contacts.beginTick();
     const std::uint32_t a = below(kSlots), b = below(kSlots);
     const Pair pair = {{std::min(a, b), generation[std::min(a, b)]},
                        {std::max(a, b), generation[std::max(a, b)]}};
@@ -44,16 +44,16 @@ TEST(BodyTouching, IsKnownOfEverybodyAtAnyTime) {
         plain.push_back(pair);
       }
     }
-    if (below(10) == 0) {  // somebody goes, and his slot is another's; what he touched may be told late
+    if (below(10) == 0) {  // a body is deleted, and its slot is used again; its contacts may end late
       const std::uint32_t slot = below(kSlots);
       const df::ObjectKey gone = {slot, generation[slot]};
       if (below(2) == 0) {
-        contacts.doubt(gone);
+        contacts.expire(gone);
         std::erase_if(plain, [&](const Pair& old) { return old.first == gone || old.second == gone; });
       }
       ++generation[slot];
     }
-    contacts.finish();
+    contacts.finishTick();
     for (std::uint32_t slot = 0; slot < kSlots; ++slot) {
       for (std::uint32_t g = generation[slot] > 3 ? generation[slot] - 3 : 1; g <= generation[slot]; ++g) {
         const df::ObjectKey key = {slot, g};

@@ -85,7 +85,7 @@ TEST_F(SoftObjects, ABlobFallsLikeABody) {
   EXPECT_LT(box.getVertical(), 5.5);
 }
 
-TEST_F(SoftObjects, ABlobComesToRestOnAFloorAndBothHear) {
+TEST_F(SoftObjects, ABlobComesToRestOnAFloorAndBothGetEvents) {
   auto* p_floor = new Hearing<Floor>(Vector(0, 20));
   auto* p_blob = new Hearing<Blob>(Vector(20, 15), 3);
   ticks(100);
@@ -160,7 +160,7 @@ TEST_F(SoftObjects, ACrateLiesOnARopeBridge) {
   EXPECT_NEAR(lowest(*p_rope), y + 0.5, 0.3);
 }
 
-TEST_F(SoftObjects, WhatLiesOnARopeIsToldTheSameInEachTick) {
+TEST_F(SoftObjects, WhatLiesOnARopeIsPublishedTheSameInEachTick) {
   auto* p_rope = new Rope(Vector(10, 10), Vector(30, 10), 1, 50);
   p_rope->pin(0);
   p_rope->pin(p_rope->getNodeCount() - 1);
@@ -176,12 +176,12 @@ TEST_F(SoftObjects, WhatLiesOnARopeIsToldTheSameInEachTick) {
   for (int i = 0; i < 60; ++i) {
     world.tick();
     for (const ObjectFacts& facts : world.view().changed) {
-      const ObjectFacts& told = facts.key == p_rope->key() ? of_rope : of_crate;
-      EXPECT_EQ(facts.key, told.key);
-      EXPECT_EQ(facts.position, told.position);
-      EXPECT_EQ(facts.velocity, told.velocity);
-      EXPECT_EQ(facts.acceleration, told.acceleration);
-      EXPECT_EQ(facts.box, told.box);
+      const ObjectFacts& published = facts.key == p_rope->key() ? of_rope : of_crate;
+      EXPECT_EQ(facts.key, published.key);
+      EXPECT_EQ(facts.position, published.position);
+      EXPECT_EQ(facts.velocity, published.velocity);
+      EXPECT_EQ(facts.acceleration, published.acceleration);
+      EXPECT_EQ(facts.box, published.box);
     }
     ASSERT_EQ(world.view().commands.size(), before.size());
     for (std::size_t k = 0; k < before.size(); ++k) {
@@ -234,7 +234,7 @@ TEST_F(SoftObjects, ABlowKeepsTheMomentum) {
   EXPECT_GT(p_crate->getVelocity().x(), 0.05);
 }
 
-TEST_F(SoftObjects, TwoBlobsHearOfEachOther) {
+TEST_F(SoftObjects, TwoBlobsGetEventsOfEachOther) {
   PM.setGravity(Vector(0, 0));
   auto* p_left = new Hearing<Blob>(Vector(10, 10), 2);
   auto* p_right = new Hearing<Blob>(Vector(20, 10), 2);
@@ -298,7 +298,7 @@ TEST_F(SoftObjects, WhatIsAttachedSwingsWithoutRubbingOnTheRope) {
   EXPECT_EQ(p_ball->heard, 0);
 }
 
-TEST_F(SoftObjects, WhoIsDraggedFollowsThePointer) {
+TEST_F(SoftObjects, AGrabbedBodyFollowsThePointer) {
   PM.setGravity(Vector(0, 0));
   auto* p_blob = new Blob(Vector(20, 10), 2);
   EXPECT_EQ(p_blob->dragTo(Vector(30, 10)), -1);
@@ -498,7 +498,7 @@ TEST_F(SoftObjects, AForceAtItsEndBendsABeam) {
     }
     EXPECT_NEAR(p_beam->getNodePosition(elements).y() - 100.0 * elements, expected, 0.01 * expected)
         << elements;
-    for (int i = 0; i < 1000; ++i) ticks(1);  // it was told each time
+    for (int i = 0; i < 1000; ++i) ticks(1);  // it was published each time
     EXPECT_NEAR(p_beam->getNodePosition(elements).y() - 100.0 * elements, 0, 0.05 * expected) << elements;
   }
 }

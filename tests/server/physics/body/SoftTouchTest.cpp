@@ -1,4 +1,4 @@
-// What Objects hear of the contacts of soft bodies.
+// The contact events of soft bodies.
 #include <gtest/gtest.h>
 
 #include "physics/body/SoftObject.h"
@@ -7,7 +7,7 @@
 namespace df::test {
 namespace {
 
-// Counts who comes and goes.
+// Counts contacts that begin and end.
 template <class Base>
 struct Hearing : Base {
   using Base::Base;
@@ -78,7 +78,7 @@ TEST_F(SoftTouch, WhatLiesHasBegunAndNotEnded) {
   EXPECT_EQ(p_blob->ended, begun);
 }
 
-TEST_F(SoftTouch, OnlyWhoAsksHearsOfEnds) {
+TEST_F(SoftTouch, EndsAreSentOnlyOnRequest) {
   auto* p_left = new Hearing<Blob>(Vector(0, 0), 2);
   auto* p_right = new Hearing<Blob>(Vector(6, 0), 2);
   p_right->setContactEnds();
@@ -92,7 +92,7 @@ TEST_F(SoftTouch, OnlyWhoAsksHearsOfEnds) {
   EXPECT_EQ(p_right->ended, p_right->begun);
 }
 
-// Who is gone ends nothing; and who comes to its place in the solver is news.
+// A deleted body ends no contact; another body that gets its id in the solver begins new ones.
 TEST_F(SoftTouch, WhatIsDeletedEndsNothing) {
   PM.setGravity(Vector(0, 0.02));
   auto* p_floor = new Hearing<Body>;

@@ -13,7 +13,7 @@ namespace {
 using test::anyVec;
 using test::between;
 
-// Bodies that fly about in a field, some of them at rest, with what the broad phase is told about them.
+// Bodies that fly about in a field, some of them at rest, with their entries in the broad phase.
 struct Body {
   Place place;
   Vec2 velocity;
@@ -124,16 +124,16 @@ TEST(BroadPhase, QueriesFindWhatAllAgainstAllFinds) {
   std::vector<Body> bodies = someBodies(random, 500, 60, 0);
   for (std::size_t i = 0; i < bodies.size(); ++i)
     bodies[i].proxy = broad.add(idOf(i), tight(bodies[i]), true);
-  int met = 0;
+  int hits = 0;
   for (int k = 0; k < 2000; ++k) {
     const GridBounds area = gridBounds(placeAt(anyVec(random, 60)), {{-2, -1}, {3, 4}}, 0);
     std::set<std::uint32_t> found, truth;
     broad.query(area, [&](std::uint32_t id) { EXPECT_TRUE(found.insert(id).second); });
     const Place from = placeAt(anyVec(random, 60));
-    const Vec2 way = k % 10 == 0 ? Vec2{0, 50} : anyVec(random, 80);
+    const Vec2 displacement = k % 10 == 0 ? Vec2{0, 50} : anyVec(random, 80);
     std::set<std::uint32_t> on_way;
     double nearest = 2;
-    broad.castRay(from, way, [&](std::uint32_t id, double limit) {
+    broad.castRay(from, displacement, [&](std::uint32_t id, double limit) {
       on_way.insert(id);
       return limit;
     });
@@ -141,28 +141,28 @@ TEST(BroadPhase, QueriesFindWhatAllAgainstAllFinds) {
       if (overlap(area, tight(bodies[i]))) truth.insert(idOf(i));
       ConvexShape box;
       ASSERT_EQ(makeBox(bodies[i].half.x, bodies[i].half.y, {}, {}, 0, box), ShapeStatus::kOk);
-      const RayHit hit = castRay(box, from - bodies[i].place, way);
+      const RayHit hit = castRay(box, from - bodies[i].place, displacement);
       if (!hit.hit) continue;
-      ++met;
+      ++hits;
       nearest = std::min(nearest, hit.fraction);
       EXPECT_TRUE(on_way.count(idOf(i))) << k;
     }
     EXPECT_EQ(found, truth);
-    // The nearest hit is found, too, if each hit cuts the way short.
+    // The nearest hit is found, too, if each hit cuts the ray short.
     double best = 2;
-    broad.castRay(from, way, [&](std::uint32_t id, double limit) {
+    broad.castRay(from, displacement, [&](std::uint32_t id, double limit) {
       for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (idOf(i) != id) continue;
         ConvexShape box;
         EXPECT_EQ(makeBox(bodies[i].half.x, bodies[i].half.y, {}, {}, 0, box), ShapeStatus::kOk);
-        const RayHit hit = castRay(box, from - bodies[i].place, way);
+        const RayHit hit = castRay(box, from - bodies[i].place, displacement);
         if (hit.hit) best = std::min(best, hit.fraction);
       }
       return std::min(best, limit);
     });
     EXPECT_EQ(best, nearest);
   }
-  EXPECT_GT(met, 2000);
+  EXPECT_GT(hits, 2000);
 }
 
 TEST(BroadPhase, FarFromTheOriginItFindsTheSame) {

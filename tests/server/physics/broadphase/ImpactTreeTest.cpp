@@ -18,7 +18,7 @@ struct Boxes {
   int limit = 0;
 };
 
-// Most of them small, some large, some in one place; every third id is nobody's.
+// Most of them small, some large, some in one place; every third id is free.
 Boxes randomBoxes(SplitMix64& random, int count, double spread) {
   Boxes made;
   for (int i = 0; i < count; ++i) {
@@ -72,8 +72,8 @@ TEST(ImpactTree, FindsEveryPairOfThoseThatMove) {
     std::sort(pairs.begin(), pairs.end());
     ASSERT_EQ(pairs, allPairs(made)) << tick;
     for (SweptBox& box : made.boxes) {
-      const Vec2 way = test::anyVec(random, 1);
-      box = {box.low + way, box.high + way};
+      const Vec2 displacement = test::anyVec(random, 1);
+      box = {box.low + displacement, box.high + displacement};
     }
   }
 }

@@ -31,14 +31,14 @@ TEST(LinearDrag, IsExactFromNoDragToDragThatStopsAtOnce) {
   for (const double t : {1.0, 1.0 / 30, 2.0, 1e4}) {
     for (double c = 1e-300; c < 1e300; c *= 3.7) {
       const Flown flown = flyLinearDrag({10, 0}, {0, -7}, c, t);
-      const Quad left = expq(-q(c) * q(t)), way = -expm1q(-q(c) * q(t)) / q(c);
+      const Quad left = expq(-q(c) * q(t)), displacement = -expm1q(-q(c) * q(t)) / q(c);
       const auto relative = [&](double value, Quad truth) {
         if (fabsq(truth) < q(1e-300)) return std::fabs(value) < 1e-290 ? 0.0 : 1.0;
         return static_cast<double>(fabsq((q(value) - truth) / truth));
       };
       for (const double error :
            {relative(flown.velocity.x, 10 * left) / std::fmax(1, std::fmin(c * t, 750)),
-            relative(flown.displacement.x, 10 * way), relative(flown.velocity.y, -7 * way),
+            relative(flown.displacement.x, 10 * displacement), relative(flown.velocity.y, -7 * displacement),
             relative(flown.displacement.y, -7 * wayOfPush(q(c), q(t)))}) {
         worst = std::fmax(worst, error);
         EXPECT_LE(error, 1e-14) << c << ", " << t;
@@ -68,7 +68,7 @@ TEST(LinearDrag, EndsWhereTheFormulaSaysInManySteps) {
 
 // Quadratic drag along a line, by other formulas than the product's.
 FlownOnLine referenceOnLine(double velocity, double acceleration, double drag, double time) {
-  Quad v = q(velocity), t = q(time), way = 0;
+  Quad v = q(velocity), t = q(time), displacement = 0;
   const Quad a = q(acceleration), c = q(drag);
   if (a == 0) {
     return {static_cast<double>((v < 0 ? -1 : 1) * logq(1 + c * fabsq(v) * t) / c),
@@ -79,17 +79,17 @@ FlownOnLine referenceOnLine(double velocity, double acceleration, double drag, d
     const Quad angle = atanq(-v / limit), rate = sqrtq(a * c);
     const Quad until = angle / rate;
     const Quad used = t < until ? t : until;
-    way = -logq(cosq(angle - rate * used) / cosq(angle)) / c;
+    displacement = -logq(cosq(angle - rate * used) / cosq(angle)) / c;
     v = -limit * tanq(angle - rate * used);
     t -= used;
-    if (t == 0) return {static_cast<double>(way), static_cast<double>(v)};
+    if (t == 0) return {static_cast<double>(displacement), static_cast<double>(v)};
     v = 0;
   }
   const Quad phase = sqrtq(a * c) * t;
   const Quad w = v / limit;
-  way += logq(coshq(phase) + w * sinhq(phase)) / c;
+  displacement += logq(coshq(phase) + w * sinhq(phase)) / c;
   const Quad end = limit * (w + tanhq(phase)) / (1 + w * tanhq(phase));
-  return {static_cast<double>(way), static_cast<double>(end)};
+  return {static_cast<double>(displacement), static_cast<double>(end)};
 }
 
 TEST(QuadraticDrag, AlongALineIsTheClosedForm) {
@@ -101,7 +101,7 @@ TEST(QuadraticDrag, AlongALineIsTheClosedForm) {
           if (a == 0 && v == 0) continue;
           const FlownOnLine own = flyQuadraticDragOnLine(v, a, c, t);
           const FlownOnLine truth = referenceOnLine(v, a, c, t);
-          // the way there and back may cancel
+          // the paths there and back may cancel
           const double scale = std::fmax(std::fabs(truth.displacement),
                                          v < 0 ? 0.01 * std::fabs(v) * t / (1 + c * -v * t) : 0);
           const double error = std::fmax(
@@ -151,10 +151,10 @@ TEST(QuadraticDrag, AcrossGravityIsWithinTheTolerance) {
         place = place + flown.displacement;
         velocity = flown.velocity;
       }
-      const Vec2 way = place - Place{};
-      const double error =
-          length({way.x - static_cast<double>(truth[0]), way.y - static_cast<double>(truth[1])}) /
-          length(way);
+      const Vec2 displacement = place - Place{};
+      const double error = length({displacement.x - static_cast<double>(truth[0]),
+                                   displacement.y - static_cast<double>(truth[1])}) /
+                           length(displacement);
       worst = std::fmax(worst, error);
       EXPECT_LE(error, 1e-10);
     }

@@ -21,9 +21,9 @@ TEST(FlightFree, BallisticFlightEndsWhereTheFormulaSays) {
       place = place + flown.displacement;
       velocity = flown.velocity;
     }
-    const Vec2 way = place - Place{};
-    EXPECT_LE(std::fabs(way.x - 6), 6e-12);
-    EXPECT_LE(std::fabs(way.y - 20), 20e-12);
+    const Vec2 displacement = place - Place{};
+    EXPECT_LE(std::fabs(displacement.x - 6), 6e-12);
+    EXPECT_LE(std::fabs(displacement.y - 20), 20e-12);
     EXPECT_LE(length(velocity - Vec2{3, 0}), 20e-12);
   }
 }

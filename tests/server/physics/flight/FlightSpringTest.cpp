@@ -78,7 +78,7 @@ TEST(Spring, StiffAndDampedStaysOnTheExponential) {
           v = f.velocity.x;
           if (rate == 480 && i % 16 != 0) continue;
           const QuadState truth = reference(k, c, gravity, 1, 0, i * q(h));
-          // Without much of a spring the body falls far: relative to the way.
+          // Without much of a spring the body falls far: relative to the displacement.
           const double scale = std::fmax(1, std::fabs(static_cast<double>(truth.x)));
           worst = std::fmax(worst, std::fabs(static_cast<double>(q(x) - truth.x)) / scale);
           worst = std::fmax(worst,
@@ -151,9 +151,9 @@ TEST(Spring, WithoutStiffnessIsLinearDragAndWithoutAnythingFree) {
   EXPECT_EQ(free.velocity, (Vec2{1, 14}));
   for (const double c : {1e-9, 0.3, 40.0}) {
     const Flown f = flySpring({5, 5}, {1, 0}, {0, 1}, {0, c}, 2);
-    const Quad way = -expm1q(-2 * q(c)) / q(c);
-    EXPECT_NEAR(f.displacement.x, static_cast<double>(way), 1e-15);
-    EXPECT_NEAR(f.velocity.y, static_cast<double>(way), 1e-15);
+    const Quad displacement = -expm1q(-2 * q(c)) / q(c);
+    EXPECT_NEAR(f.displacement.x, static_cast<double>(displacement), 1e-15);
+    EXPECT_NEAR(f.velocity.y, static_cast<double>(displacement), 1e-15);
   }
 }
 

@@ -215,8 +215,8 @@ TEST(ShapeQuery, ARayStopsAtTheSurface) {
   int hits = 0, misses = 0;
   for (int i = 0; i < 100000; ++i) {
     const ConvexShape shape = anyShape(random);
-    const Vec2 from = anyVec(random, 4), way = anyVec(random, 8);
-    const RayHit hit = castRay(shape, from, way);
+    const Vec2 from = anyVec(random, 4), displacement = anyVec(random, 8);
+    const RayHit hit = castRay(shape, from, displacement);
     const std::vector<Vec2> core = test::placed(shape, {}, {});
     if (contains(shape, from)) {
       ASSERT_TRUE(hit.hit && hit.fraction == 0 && hit.normal == Vec2{});
@@ -224,12 +224,13 @@ TEST(ShapeQuery, ARayStopsAtTheSurface) {
     }
     hit.hit ? ++hits : ++misses;
     if (hit.hit) {
-      ASSERT_NEAR(closestPoint(shape, from + hit.fraction * way).distance, 0, 1e-12) << i;
-      ASSERT_LT(dot(hit.normal, way), 0) << i;
-      ASSERT_LE(length(closestPoint(shape, from + hit.fraction * way).normal - hit.normal), 1e-3) << i;
+      ASSERT_NEAR(closestPoint(shape, from + hit.fraction * displacement).distance, 0, 1e-12) << i;
+      ASSERT_LT(dot(hit.normal, displacement), 0) << i;
+      ASSERT_LE(length(closestPoint(shape, from + hit.fraction * displacement).normal - hit.normal), 1e-3)
+          << i;
     }
-    // Nothing of the way before the hit is inside: as a capsule without a radius it keeps its distance.
-    const Vec2 end = from + (hit.hit ? hit.fraction : 1) * way;
+    // No part of the ray before the hit is inside: as a capsule without a radius it keeps its distance.
+    const Vec2 end = from + (hit.hit ? hit.fraction : 1) * displacement;
     ASSERT_GE(test::slowDistance(core, {from, end}), shape.radius - 1e-12) << i;
   }
   EXPECT_GT(hits, 5000);

@@ -73,12 +73,13 @@ TEST(ShapeDistance, HoldsForParallelEdgesAndPointsOnOneLine) {
       }
     }
     const Rotation q = random.unit() < 0.3 ? Rotation{} : anyRotation(random);
-    const Vec2 way = q * Vec2{coarse(3), coarse(3)};
+    const Vec2 displacement = q * Vec2{coarse(3), coarse(3)};
     TurnedShape a, b;
     turn(shapes[0], q, a);
     turn(shapes[1], q, b);
-    const double truth = test::slowDistance(test::placed(shapes[0], q, {}), test::placed(shapes[1], q, way));
-    const Separation s = separation(a, b, way);
+    const double truth =
+        test::slowDistance(test::placed(shapes[0], q, {}), test::placed(shapes[1], q, displacement));
+    const Separation s = separation(a, b, displacement);
     if (truth > 1e-12) {
       ASSERT_NEAR(s.distance, truth, 1e-13) << i;
     } else {
@@ -262,7 +263,7 @@ TEST(Manifold, IdsAndNormalStayWhileBoxesRockOnEachOther) {
     EXPECT_EQ(m.points[1].id, first.points[1].id);
     EXPECT_LE(length(m.normal - first.normal), 2e-5);
     kept = m.reference;
-    // Without memory the owner may change, the corners that meet do not.
+    // Without memory the owner may change, the corners that touch do not.
     ASSERT_TRUE(collide(a, b, {0.1, -0.999}, 0.05, {}, m));
     ASSERT_EQ(m.count, 2);
     const auto has = [&](std::uint32_t id) { return m.points[0].id == id || m.points[1].id == id; };

@@ -27,7 +27,7 @@ struct Scene {
   Vec2 offset;
 };
 
-// The gap at a time, by the slow way and with the library's own sine.
+// The gap at a time, by the slow method and with the library's own sine.
 double gapAt(const Scene& s, double t) {
   const auto rotation = [&](const RigidMotion& m) {
     return m.start * Rotation{std::cos(m.turn * t), std::sin(m.turn * t)};
@@ -36,13 +36,13 @@ double gapAt(const Scene& s, double t) {
                        s.offset + t * (s.motion_b.displacement - s.motion_a.displacement));
 }
 
-// Aimed so that about half of them meet: the paths cross near the origin of A at some time.
+// Aimed so that about half of them hit: the paths cross near the origin of A at some time.
 Scene anyScene(SplitMix64& random, double speed, double spin) {
   Scene s = {anyShape(random), anyShape(random), {}, {}, {}};
   s.motion_a = {anyVec(random, speed), anyRotation(random), between(random, -spin, spin)};
   s.motion_b = {anyVec(random, speed), anyRotation(random), between(random, -spin, spin)};
-  const Vec2 way = s.motion_b.displacement - s.motion_a.displacement;
-  s.offset = anyVec(random, 3) - between(random, -0.3, 1.3) * way;
+  const Vec2 displacement = s.motion_b.displacement - s.motion_a.displacement;
+  s.offset = anyVec(random, 3) - between(random, -0.3, 1.3) * displacement;
   return s;
 }
 
@@ -52,11 +52,11 @@ struct Tally {
   int most = 0;
 };
 
-// Judges one scene against `samples` slow looks at it.
+// Judges one scene against `samples` slow samples of it.
 void judge(const Scene& s, int samples, Tally& tally, int i) {
   const TimeOfImpact result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
-  const Vec2 way = s.motion_b.displacement - s.motion_a.displacement;
-  const double tolerance = 4 * impactTolerance(s.a, s.b, s.offset, way) + 1e-12;
+  const Vec2 displacement = s.motion_b.displacement - s.motion_a.displacement;
+  const double tolerance = 4 * impactTolerance(s.a, s.b, s.offset, displacement) + 1e-12;
   tally.iterations += result.iterations;
   tally.most = std::max(tally.most, result.iterations);
   if (result.touched_before) {
@@ -75,10 +75,10 @@ void judge(const Scene& s, int samples, Tally& tally, int i) {
     ++tally.apart;
     ASSERT_EQ(result.time, 1);
   }
-  // … and never before. What could touch are the circles around the origins: looked at finely while they
-  // meet.
-  const double reach = s.a.reach + s.b.reach + s.a.radius + s.b.radius, speed = length(way);
-  const double middle = speed > 0 ? -dot(s.offset, way) / (speed * speed) : 0.5;
+  // … and never before. What could touch are the circles around the origins: sampled finely while they
+  // overlap.
+  const double reach = s.a.reach + s.b.reach + s.a.radius + s.b.radius, speed = length(displacement);
+  const double middle = speed > 0 ? -dot(s.offset, displacement) / (speed * speed) : 0.5;
   const double half = speed > 0 ? reach / speed : 1;
   const double from = std::clamp(middle - half, 0.0, 1.0), to = std::clamp(middle + half, 0.0, 1.0);
   for (int k = 0; k <= samples; ++k) {
@@ -126,10 +126,11 @@ TEST(TimeOfImpact, IsTheClosedFormForCircles) {
     ASSERT_EQ(makeCircle(between(random, 0.01, 1), {}, s.a), ShapeStatus::kOk);
     ASSERT_EQ(makeCircle(between(random, 0.01, 1), {}, s.b), ShapeStatus::kOk);
     const double speed = std::pow(10, between(random, -2, 6));
-    const Vec2 way = anyVec(random, speed);
-    s.motion_b.displacement = way;
-    s.offset = anyVec(random, 2) - between(random, 0, 1.2) * way;
-    const long double x = s.offset.x, y = s.offset.y, vx = way.x, vy = way.y, r = s.a.radius + s.b.radius;
+    const Vec2 displacement = anyVec(random, speed);
+    s.motion_b.displacement = displacement;
+    s.offset = anyVec(random, 2) - between(random, 0, 1.2) * displacement;
+    const long double x = s.offset.x, y = s.offset.y, vx = displacement.x, vy = displacement.y,
+                      r = s.a.radius + s.b.radius;
     const long double passes = (vx * y - vy * x) / std::sqrt(vx * vx + vy * vy);
     const long double inside = r * r - passes * passes;
     if (x * x + y * y <= r * r * 1.0001L || std::fabs(inside) < 1e-3L) continue;
@@ -141,8 +142,8 @@ TEST(TimeOfImpact, IsTheClosedFormForCircles) {
       ++hits;
       ASSERT_EQ(result.status, TimeOfImpactStatus::kHit) << i;
       // The error of the place, not of the time, is what matters.
-      ASSERT_LE(std::fabs(static_cast<double>(result.time - t)) * length(way),
-                40 * impactTolerance(s.a, s.b, s.offset, way));
+      ASSERT_LE(std::fabs(static_cast<double>(result.time - t)) * length(displacement),
+                40 * impactTolerance(s.a, s.b, s.offset, displacement));
     }
   }
   EXPECT_GT(hits, 50000);
@@ -156,16 +157,16 @@ ConvexShape box(double half) {
 
 TEST(TimeOfImpact, APairThatTouchesAndPartsOrSlidesDoesNotHit) {
   const ConvexShape a = box(0.5), b = box(0.5);
-  for (const Vec2 way : {Vec2{0, -1}, {5, 0}, {-1e6, 0}, {3, -1e-9}, {0, 0}, {1e6, -1e6}}) {
-    const TimeOfImpact result = timeOfImpact(a, {}, b, {way, {}, 0}, {0, -1});
+  for (const Vec2 displacement : {Vec2{0, -1}, {5, 0}, {-1e6, 0}, {3, -1e-9}, {0, 0}, {1e6, -1e6}}) {
+    const TimeOfImpact result = timeOfImpact(a, {}, b, {displacement, {}, 0}, {0, -1});
     EXPECT_TRUE(result.touched_before);
-    EXPECT_EQ(result.status, TimeOfImpactStatus::kApart) << way.x << ", " << way.y;
+    EXPECT_EQ(result.status, TimeOfImpactStatus::kApart) << displacement.x << ", " << displacement.y;
   }
-  for (const Vec2 way : {Vec2{0, 1}, {0.4, 1e-3}, {0, 1e6}}) {
-    const TimeOfImpact result = timeOfImpact(a, {}, b, {way, {}, 0}, {0, -1});
+  for (const Vec2 displacement : {Vec2{0, 1}, {0.4, 1e-3}, {0, 1e6}}) {
+    const TimeOfImpact result = timeOfImpact(a, {}, b, {displacement, {}, 0}, {0, -1});
     EXPECT_TRUE(result.touched_before);
     ASSERT_EQ(result.status, TimeOfImpactStatus::kHit);
-    EXPECT_LE(result.time * length(way), 1e-5);
+    EXPECT_LE(result.time * length(displacement), 1e-5);
     EXPECT_NEAR(result.normal.y, -1, 1e-12);
   }
   // Overlapping and parting; overlapping and sinking in.
@@ -190,7 +191,7 @@ TEST(TimeOfImpact, APairThatTouchesHitsWhenItComesNearer) {
     const TimeOfImpact result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
     ASSERT_TRUE(result.touched_before);
     ASSERT_NE(result.status, TimeOfImpactStatus::kUnresolved) << i;
-    // Cores that overlap have no gap for the slow way to tell: below minus the radii it is the same for all.
+    // Cores that overlap have no gap for the slow method: below minus the radii it is the same for all.
     const double tolerance = 8 * impactTolerance(s.a, s.b, s.offset, s.motion_b.displacement) + 1e-12;
     for (int k = 0; k <= 400; ++k) {
       const double t = k / 400.0;

@@ -156,7 +156,7 @@ TEST(ImpactProperty, ASceneFarAwayChangesNothing) {
     fill(alone, scene);
     fill(first, other, 100000);
     ImpactBody wild;
-    wild.velocity = {1e29, 0};  // passes through every scene in its first tick, if anybody lets it
+    wild.velocity = {1e29, 0};  // passes through every scene in its first tick, if nothing stops it
     wild.place = placeAt({-1e6, 0});
     first.add(wild);
     const int offset = first.idLimit();
@@ -202,7 +202,7 @@ TEST(ImpactProperty, AClosedSystemKeepsItsMomentum) {
   EXPECT_GT(world.counters().impacts, 100);
 }
 
-// One that came for ever: a bounce of a height below what a double can tell.
+// One that came for ever: a bounce of a height that a double does not resolve.
 TEST(ImpactProperty, TheScenesThatOnceWentWrongGoWell) {
   for (const std::uint64_t seed : {98U, 371U, 377U, 758U, 9444U}) {
     ImpactWorld world;
@@ -249,9 +249,9 @@ TEST(ImpactProperty, NothingTunnels) {
     world.add(is_first ? target : bullet);
     world.step();
     ++shots;
-    const Vec2 way = world.body(1 - a).place - world.body(a).place;
+    const Vec2 displacement = world.body(1 - a).place - world.body(a).place;
     const Vec2 gone = world.body(1 - a).velocity - world.body(a).velocity;
-    const ImpactTouch touch = touchOf(world.body(a), world.body(1 - a), way);
+    const ImpactTouch touch = touchOf(world.body(a), world.body(1 - a), displacement);
     ASSERT_EQ(world.counters().impacts > 0, true) << i;
     ASSERT_GE(touch.gap, -1e-9) << i;
     ASSERT_GE(dot(gone, touch.normal), -1e-6 * speed) << i;

@@ -235,7 +235,7 @@ TEST(ImpactWorld, ASlidingBoxStopsWhereItsFrictionSays) {
   }
 }
 
-// What moves as told carries and pushes, and feels nothing.
+// A kinematic body carries and pushes, and nothing pushes it.
 TEST(ImpactWorld, APlatformCarriesAndPushes) {
   ImpactWorld world;
   ImpactBody platform = fixed(box({0, 1}, {5, 1}));
@@ -297,7 +297,7 @@ TEST(ImpactWorld, ABoxLeavesTheEdgeAtItsMoment) {
   EXPECT_NEAR(at(world, id).x, 6, 1e-12);
 }
 
-TEST(ImpactWorld, TellsWhenContactsBeginAndEnd) {
+TEST(ImpactWorld, ReportsWhenContactsBeginAndEnd) {
   ImpactWorld world;
   const int wall = world.add(fixed(box({10, 0}, {1, 5})));
   ImpactBody body = moving(box({8, 0}), {0.8, 0}, 0.5);
@@ -355,7 +355,7 @@ TEST(ImpactWorld, ABallBetweenTwoWedgesStaysOrPartsThem) {
       // Energy: what the upper ball loses in height is motion now, for nothing bounces and nothing rubs.
       double energy = 0;
       for (int i = 1; i <= 3; ++i) energy += 0.5 * lengthSquared(world.body(i).velocity);
-      // The force keeps its direction from one look at the contact to the next: first order.
+      // The force keeps its direction from one event of the contact to the next: first order.
       EXPECT_NEAR(energy / (kGravity * (at(world, id).y + height)), 1, 3e-2);
       EXPECT_GT(at(world, 2).x, 0.7);
       EXPECT_NEAR(at(world, 1).x, -at(world, 2).x, 1e-9);
@@ -380,7 +380,7 @@ TEST(ImpactWorld, ABallWithItsCentreInAWallGoesOut) {
   }
 }
 
-// An impact that sends somebody farther than the world is known ends the step there.
+// An impact that sends a body farther than obstacles were searched ends the step there.
 TEST(ImpactWorld, AStepEndsWhereAReachDoes) {
   ImpactWorld world;
   world.add(moving(ball({-2, 0}), {3, 0}, 1));

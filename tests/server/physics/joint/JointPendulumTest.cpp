@@ -181,7 +181,7 @@ TEST(JointPendulum, DoubleOneFollowsTheAngles) {
   EXPECT_LE(drift, 1e-10);
 }
 
-// The cradle's part that joints have: pendulums of one length keep in step, to the last bit, whoever else
+// The cradle's part that joints have: pendulums of one length keep in step, to the last bit, whatever else
 // swings.
 TEST(JointPendulum, CradleOnRodsKeepsInStep) {
   JointScene scene;

@@ -82,7 +82,7 @@ struct JointScene {
     }
     return sum;
   }
-  Vec2 anchorWay(const Joint& joint) const {
+  Vec2 anchorOffset(const Joint& joint) const {
     const JointBody &a = body(joint.a), &b = body(joint.b);
     return (b.place - a.place) + (b.rotation * joint.anchor_b - a.rotation * joint.anchor_a);
   }
@@ -91,24 +91,25 @@ struct JointScene {
     double worst = 0;
     for (const Joint& joint : joints) {
       if (joint.is_broken || joint.kind == JointKind::kMouse) continue;
-      const Vec2 way = anchorWay(joint);
+      const Vec2 displacement = anchorOffset(joint);
       const Rotation turned = inverse(body(joint.a).rotation * joint.reference) * body(joint.b).rotation;
       double gap = 0;
       switch (joint.kind) {
         case JointKind::kDistance:
-          gap = std::abs(length(way) - joint.length);
+          gap = std::abs(length(displacement) - joint.length);
           break;
         case JointKind::kRope:
-          gap = std::max(0.0, length(way) - joint.length);
+          gap = std::max(0.0, length(displacement) - joint.length);
           break;
         case JointKind::kWeld:
-          gap = std::max(length(way), std::abs(turned.s));
+          gap = std::max(length(displacement), std::abs(turned.s));
           break;
         case JointKind::kHinge:
-          gap = length(way);
+          gap = length(displacement);
           break;
         case JointKind::kSlider:
-          gap = std::max(std::abs(cross(body(joint.a).rotation * joint.axis, way)), std::abs(turned.s));
+          gap = std::max(std::abs(cross(body(joint.a).rotation * joint.axis, displacement)),
+                         std::abs(turned.s));
           break;
         default:
           break;

@@ -1,4 +1,4 @@
-// Many bodies: random trees and loops, closed systems, redundant rows, and numbers that nobody should pass.
+// Many bodies: random trees and loops, closed systems, redundant rows, and numbers that are out of range.
 #include <gtest/gtest.h>
 
 #include "JointScene.h"
@@ -18,8 +18,8 @@ JointScene randomTree(SceneRandom& random, int count, bool is_free) {
   is_free ? scene.rigid({0, 0}, 1, 0.5) : scene.point({0, 0}, 0);
   for (int i = 1; i < count; ++i) {
     const int parent = random.below(i);
-    const Vec2 way = {random.between(-1, 1), random.between(-1, 1)};
-    const Vec2 place = scene.at(parent) + way + Vec2{0.1, 0.1};
+    const Vec2 displacement = {random.between(-1, 1), random.between(-1, 1)};
+    const Vec2 place = scene.at(parent) + displacement + Vec2{0.1, 0.1};
     const double mass = random.between(0.3, 3), inertia = random.between(0.1, 1);
     const int child = random() < 0.25 ? scene.point(place, mass) : scene.rigid(place, mass, inertia);
     scene.bodies.back().velocity = {random.between(-1, 1), random.between(-1, 1)};
@@ -30,9 +30,9 @@ JointScene randomTree(SceneRandom& random, int count, bool is_free) {
     if (choice < 0.25 || !may_turn) {
       scene.join(JointKind::kDistance, parent, child, length(scene.at(child) - scene.at(parent)));
     } else if (choice < 0.8) {
-      scene.joinAt(JointKind::kHinge, parent, child, scene.at(parent) + 0.5 * way);
+      scene.joinAt(JointKind::kHinge, parent, child, scene.at(parent) + 0.5 * displacement);
     } else if (choice < 0.9) {
-      scene.joinAt(JointKind::kWeld, parent, child, scene.at(parent) + 0.5 * way);
+      scene.joinAt(JointKind::kWeld, parent, child, scene.at(parent) + 0.5 * displacement);
     } else {
       scene.join(JointKind::kSlider, parent, child).axis = {0.6, 0.8};
       scene.joints.back().anchor_a = scene.at(child) - scene.at(parent);

@@ -64,7 +64,7 @@ TEST_F(Grips, TheMassMakesNoDifference) {
   EXPECT_NEAR(gone[1], gone[0], 1e-6);
 }
 
-TEST_F(Grips, NothingIsThereOrSomebodyElseHasIt) {
+TEST_F(Grips, NothingIsThereOrAnotherGripHoldsIt) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   new Blob(Vector(3, 4), 2);
   wall(Vector(20, 20), Vector(1, 1));

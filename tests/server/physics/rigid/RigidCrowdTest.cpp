@@ -68,7 +68,7 @@ TEST(RigidCrowd, TheyComeApart) {
   EXPECT_LT(spread(world), 100);
 }
 
-// Two that touch are left out of one another's crowds: as long as they are, nobody hears that they parted.
+// Two that touch are left out of one another's crowds: as long as they are, no event says that they parted.
 TEST(RigidCrowd, NoContactEndsWhileTheyAreOneInAnother) {
   RigidWorld world(sleepless());
   for (const double x : {0.0, 0.5}) {
@@ -99,7 +99,7 @@ TEST(RigidCrowd, WhatLiesSideBySideIsNone) {
 }
 
 // A tray that holds a hundred marbles is near all of them.
-TEST(RigidCrowd, ATrayMeetsAllItsMarbles) {
+TEST(RigidCrowd, ATrayTouchesAllItsMarbles) {
   RigidWorld world = onFloor();
   std::vector<ConvexShape> tray(3);
   makeBox(12, 0.5, {}, {}, 0, tray[0]);

@@ -50,7 +50,7 @@ TEST(RigidTumbler, ABoxOfBoxesTurns) {
   EXPECT_LT(deepest, 0.3 * 2 * kHalf);  // as Box2D with four times the steps: 0.076 of 0.25
   EXPECT_LT(sum / (kTicks - kFallen), 0.1 * 2 * kHalf);
   EXPECT_LT(fastest, std::sqrt(2 * kGravityPerTick * 4 * kRadius));  // nothing is thrown
-  EXPECT_GT(world.counters().looks, 1000);           // this is about what looks around in every sub-step …
+  EXPECT_GT(world.counters().looks, 1000);           // this is about contacts searched in every sub-step …
   EXPECT_LT(world.counters().impacts, 20 * kTicks);  // … and does not fly from impact to impact
 }
 
@@ -81,8 +81,8 @@ TEST(RigidTumbler, ACloudThatFallsTogetherKeepsItsMomentum) {
     return sum;
   };
   const Momentum before = momentum();
-  // Without restitution what meets loses energy. Sweeps do not settle a shock within one sub-step, so that a
-  // few per cent of what it took come back.
+  // Without restitution what collides loses energy. Sweeps do not settle a shock within one sub-step, so that
+  // a few per cent of what it took come back.
   double least = before.energy;
   for (int tick = 0; tick < 60; ++tick) {
     world.step();

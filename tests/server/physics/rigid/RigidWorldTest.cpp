@@ -78,8 +78,8 @@ TEST(RigidWorld, SlidesAndRollsAsItShould) {
     body.rotation = rotationBy(angle);
     const int id = world.add(body, crate);
     for (int tick = 0; tick < 60; ++tick) world.step();
-    const double way = length(whereIs(world, id) - 0.25 * up);
-    EXPECT_NEAR(way / (2 * 10 * (std::sin(angle) - 0.5 * std::cos(angle))), 1, 1e-9);
+    const double displacement = length(whereIs(world, id) - 0.25 * up);
+    EXPECT_NEAR(displacement / (2 * 10 * (std::sin(angle) - 0.5 * std::cos(angle))), 1, 1e-9);
   }
   {
     RigidWorld world(sleepless());
@@ -133,7 +133,7 @@ TEST(RigidWorld, AnElasticBoxTumblesForEver) {
   EXPECT_GT(world.counters().impacts, 20);
 }
 
-// Nothing is passed, at any speed, turning or not, whoever moves.
+// Nothing is passed, at any speed, turning or not, whichever body moves.
 TEST(RigidWorld, NothingGoesThrough) {
   std::uint64_t state = 1;
   const auto uniform = [&] {
@@ -326,7 +326,7 @@ TEST(RigidWorld, WhatSpeedsUpDoesNotSleep) {
   }
 }
 
-TEST(RigidWorld, TellsWhenContactsBeginAndEnd) {
+TEST(RigidWorld, ReportsWhenContactsBeginAndEnd) {
   RigidWorld world(sleepless());
   const int wall = world.add(immovable({10, 0}), boxShape(1, 5));
   RigidBody body = movable({8, 0}, boxShape(0.5, 0.5), 2);

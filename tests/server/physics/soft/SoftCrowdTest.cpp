@@ -77,17 +77,17 @@ TEST(SoftCrowd, ItsContactsGrowWithItsBodiesAndNotWithTheirPairs) {
   }
 }
 
-// In one place each begins with another one, so that all are met by as many.
-TEST(SoftCrowd, NobodyBearsMoreThanOthers) {
+// In one place each begins with another one, so that all have as many contacts.
+TEST(SoftCrowd, NoBodyHasMoreContactsThanOthers) {
   constexpr int kMany = 60;
   const Crowd many(kMany, 0);
-  std::vector<int> met(kMany, 0);
-  for (const SoftRow& row : many.rows) ++met[static_cast<std::size_t>(row.b.body)];
-  for (const int times : met) EXPECT_LE(times, SoftCrowd::kMaxOthers * SoftCrowd::kMaxOthers);
-  EXPECT_GT(*std::min_element(met.begin(), met.end()), 0);
+  std::vector<int> times_touched(kMany, 0);
+  for (const SoftRow& row : many.rows) ++times_touched[static_cast<std::size_t>(row.b.body)];
+  for (const int times : times_touched) EXPECT_LE(times, SoftCrowd::kMaxOthers * SoftCrowd::kMaxOthers);
+  EXPECT_GT(*std::min_element(times_touched.begin(), times_touched.end()), 0);
 }
 
-// In a row where each overlaps a score of others, the nearest are met, and of the contacts the deepest.
+// In a row where each overlaps a score of others, the nearest count, and of their contacts the deepest.
 TEST(SoftCrowd, TheNearestAreMet) {
   const Crowd row(100, 0.1);
   for (const SoftRow& contact : row.rows) {

@@ -1,4 +1,4 @@
-// What a SoftWorld sees at the start of a sub-step: where everything is, and who may touch whom.
+// Collision detection of a SoftWorld at the start of a sub-step: where everything is, and what may touch.
 #include <algorithm>
 #include <cmath>
 
@@ -6,8 +6,8 @@
 
 namespace naiad::physics {
 
-// Where everything is, and would be; what is out of all bounds is frozen before anybody meets it.
-void SoftWorld::look(double h, std::span<SoftObstacle> obstacles) {
+// Where everything is, and would be; a body out of all bounds is frozen before another can touch it.
+void SoftWorld::updateViews(double h, std::span<SoftObstacle> obstacles) {
   std::size_t nodes = 0;
   for (int id = 0; id < idLimit(); ++id) nodes += m_bodies[at(id)].nodes.size();
   m_ends.resize(nodes);
@@ -22,9 +22,9 @@ void SoftWorld::look(double h, std::span<SoftObstacle> obstacles) {
     bool is_near = true;
     for (const SoftNode& node : body.nodes) {
       const Vec2 acceleration = m_gravity + node.force / node.mass;
-      const Vec2 way = h * (node.is_pinned ? node.velocity : node.velocity + h * acceleration);
-      is_near = is_near && std::fabs(way.x) <= kFarthest && std::fabs(way.y) <= kFarthest;
-      const Vec2 end = m_ends[used++] = node.offset + way;
+      const Vec2 displacement = h * (node.is_pinned ? node.velocity : node.velocity + h * acceleration);
+      is_near = is_near && std::fabs(displacement.x) <= kFarthest && std::fabs(displacement.y) <= kFarthest;
+      const Vec2 end = m_ends[used++] = node.offset + displacement;
       lower = {std::min({lower.x, node.offset.x, end.x}), std::min({lower.y, node.offset.y, end.y})};
       upper = {std::max({upper.x, node.offset.x, end.x}), std::max({upper.y, node.offset.y, end.y})};
     }
@@ -45,8 +45,8 @@ void SoftWorld::look(double h, std::span<SoftObstacle> obstacles) {
                   static_cast<int>(i),
                   o.place + o.displacement,
                   turned(o.rotation, o.turn),
-                  m_pushes[i].velocity,
-                  m_pushes[i].spin,
+                  m_obstacle_motions[i].velocity,
+                  m_obstacle_motions[i].spin,
                   reach};
   }
 }
@@ -72,7 +72,7 @@ void SoftWorld::findAttachments(std::span<SoftObstacle> obstacles) {
     if (held.body < 0 || !isLive(held.body)) continue;
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
       if (obstacles[k].id != held.obstacle) continue;
-      // Who holds on to it does not collide with it, as with joints.
+      // A body that is attached to it does not collide with it, as with joints.
       std::erase_if(m_rows, [&](const SoftRow& row) {
         return row.obstacle == static_cast<int>(k) && !row.is_attachment && row.a.body == held.body;
       });
