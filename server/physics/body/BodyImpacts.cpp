@@ -163,8 +163,8 @@ void BodyImpacts::updateObstacles(World& world, const BodyTable& table, BodyCont
     body.half = 0.5 * table.metric.fromCells(Vector::fromFixed(box.size));
     body.place = table.metric.placeOf(store.position(obstacle.key.slot) + box.corner) + body.half;
     body.inverse_mass = 0;
-    body.friction = table.obstacle_friction;
-    body.restitution = table.obstacle_restitution;
+    body.friction = table.settings.obstacle_friction;
+    body.restitution = table.settings.obstacle_restitution;
     if (obstacle.id < 0) {
       obstacle.id = m_world.add(body);
     } else if (!m_world.set(obstacle.id, body)) {  // it has no size any more

@@ -96,8 +96,8 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   state.rotation = form.rotation;
   state.spin = form.spin;
   if (!row.is_kinematic) {
-    state.push = row.gravity_scale * m_table->gravity + row.inverse_mass * row.force;
-    state.acceleration = row.gravity_scale * m_table->gravity;
+    state.push = row.gravity_scale * m_table->settings.gravity + row.inverse_mass * row.force;
+    state.acceleration = row.gravity_scale * m_table->settings.gravity;
   }
   row.force = {};
   const bool turns = form.is_turning && !row.is_kinematic;
@@ -123,10 +123,10 @@ void BodyLayer::fly(State& state) {
   if (!state.is_bent) {
     state.flown = naiad::physics::flyFree(row.velocity, state.push, 1);
   } else if (p_spring != nullptr) {
-    status = flyHanging(row, medium, p_spring->joint, p_spring->anchor, state.push, time, m_table->integrator,
-                        state.flown, m_table->counters.integrator);
+    status = flyHanging(row, medium, p_spring->joint, p_spring->anchor, state.push, time,
+                        m_table->settings.integrator, state.flown, m_table->counters.integrator);
   } else {
-    status = flyBody(row, medium, state.push, time, 1, m_table->integrator, state.flown,
+    status = flyBody(row, medium, state.push, time, 1, m_table->settings.integrator, state.flown,
                      m_table->counters.integrator);
   }
   if (status != IntegratorStatus::kDone) state.p_failure = "what moves it cannot be worked out";

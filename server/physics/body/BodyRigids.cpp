@@ -144,8 +144,8 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
     RigidBody body;
     body.place = table.metric.placeOf(store.position(slot) + box.corner) + half;
     body.inverse_mass = 0;
-    body.friction = table.obstacle_friction;
-    body.restitution = table.obstacle_restitution;
+    body.friction = table.settings.obstacle_friction;
+    body.restitution = table.settings.obstacle_restitution;
     const bool is_known = obstacle.id >= 0;
     if (is_known && m_obstacle_boxes[at(obstacle.id)].size == box.size) {
       m_world.set(obstacle.id, body);

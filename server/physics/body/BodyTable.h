@@ -71,6 +71,14 @@ struct BodyMedium {
   Place field_origin;
 };
 
+/// Of a world, set by its game (PhysicsManager).
+struct BodySettings {
+  Vec2 gravity;                               ///< metric cells per tick²
+  double obstacle_friction = kUsualFriction;  ///< of HARD Objects without mass
+  double obstacle_restitution = 0;            ///< likewise
+  IntegratorOptions integrator;
+};
+
 /// Since the world was made.
 struct BodyCounters {
   std::uint64_t quarantined = 0;  ///< bodies that were frozen
@@ -104,10 +112,7 @@ class BodyTable {
 
   BodyJoints joints;
   Metric metric;
-  Vec2 gravity;                               ///< metric cells per tick²
-  double obstacle_friction = kUsualFriction;  ///< of HARD Objects without mass
-  double obstacle_restitution = 0;
-  IntegratorOptions integrator;
+  BodySettings settings;
   BodyCounters counters;
   std::int64_t ticks = 0;  ///< steps since the world was made: the time of fields
   int soft_bodies = 0;     ///< they live in the same metric

@@ -41,12 +41,12 @@ int PhysicsManager::setGravity(Vector gravity) {
     World::current().refuse(getType(), "setGravity");
     return -1;
   }
-  table().gravity = table().metric.fromCells(gravity);
+  table().settings.gravity = table().metric.fromCells(gravity);
   return 0;
 }
 
 Vector PhysicsManager::getGravity() const {
-  return table().metric.toCells(table().gravity);
+  return table().metric.toCells(table().settings.gravity);
 }
 
 int PhysicsManager::setAspect(double aspect) {
@@ -57,7 +57,7 @@ int PhysicsManager::setAspect(double aspect) {
   }
   const Vector gravity = getGravity();
   table().metric = Metric(aspect);
-  table().gravity = table().metric.fromCells(gravity);
+  table().settings.gravity = table().metric.fromCells(gravity);
   return 0;
 }
 
@@ -70,12 +70,12 @@ int PhysicsManager::setIntegrator(const IntegratorOptions& options) {
     World::current().refuse(getType(), "setIntegrator");
     return -1;
   }
-  table().integrator = options;
+  table().settings.integrator = options;
   return 0;
 }
 
 const IntegratorOptions& PhysicsManager::getIntegrator() const {
-  return table().integrator;
+  return table().settings.integrator;
 }
 
 int PhysicsManager::setObstacleFriction(double friction) {
@@ -83,12 +83,12 @@ int PhysicsManager::setObstacleFriction(double friction) {
     World::current().refuse(getType(), "setObstacleFriction");
     return -1;
   }
-  table().obstacle_friction = friction;
+  table().settings.obstacle_friction = friction;
   return 0;
 }
 
 double PhysicsManager::getObstacleFriction() const {
-  return table().obstacle_friction;
+  return table().settings.obstacle_friction;
 }
 
 int PhysicsManager::setObstacleRestitution(double restitution) {
@@ -96,12 +96,12 @@ int PhysicsManager::setObstacleRestitution(double restitution) {
     World::current().refuse(getType(), "setObstacleRestitution");
     return -1;
   }
-  table().obstacle_restitution = restitution;
+  table().settings.obstacle_restitution = restitution;
   return 0;
 }
 
 double PhysicsManager::getObstacleRestitution() const {
-  return table().obstacle_restitution;
+  return table().settings.obstacle_restitution;
 }
 
 int PhysicsManager::getBodyCount() const {

@@ -19,7 +19,6 @@ using naiad::physics::SoftAttachedNode;
 using naiad::physics::SoftEntry;
 using naiad::physics::SoftNode;
 using naiad::physics::SoftNodeForce;
-using naiad::physics::SoftObstacle;
 using naiad::physics::SoftStatus;
 using naiad::physics::SoftTable;
 using naiad::physics::SoftWorld;
@@ -29,7 +28,6 @@ constexpr double kRoom = 0.5;            // metric cells around a soft body in w
 constexpr double kStillSpeed = 2e-3;     // metric cells per tick: slower is still, of what lies or hangs
 constexpr double kFloatingSpeed = 1e-6;  // the same of what floats: without contact nothing stops it
 constexpr int kSinceTouch = 10;          // ticks: what touched something so recently lies on it
-constexpr int kStillTicks = 30;          // ticks of stillness until it sleeps: a second
 constexpr double kStillDistance = 0.02;  // cells: a smaller move of a still body is not published
 
 bool takesPart(const WorldStore& store, ObjectKey key) {
@@ -88,14 +86,13 @@ void SoftLayer::step(World& world) {
   m_moved.clear();
   m_contact_changes.clear();
   m_obstacles.clear();
-  m_reaches.assign(static_cast<std::size_t>(table.idLimit()), {});
-  m_rests.assign(static_cast<std::size_t>(table.idLimit()), 0);
-  if (m_gravity != table.bodies().gravity && soft.setGravity(table.bodies().gravity)) {
-    m_gravity = table.bodies().gravity;
+  m_sleep.begin(table.idLimit());
+  if (m_gravity != table.bodies().settings.gravity && soft.setGravity(table.bodies().settings.gravity)) {
+    m_gravity = table.bodies().settings.gravity;
     for (int id = 0; id < table.idLimit(); ++id) table.wake(id);
   }
   for (int id = 0; id < table.idLimit(); ++id) prepare(world, id);
-  wakeByOthers();
+  m_sleep.wakeNeighbours(table);
   for (int id = 0; id < table.idLimit(); ++id) {
     SoftEntry& entry = table.entry(id);
     if (entry.is_in && !entry.is_asleep) push(id);
@@ -104,12 +101,12 @@ void SoftLayer::step(World& world) {
   soft.step(1, m_obstacles.all());
   logCrowd(world);
   m_contacts.collect(world.store(), table, m_obstacles, m_contact_changes);
-  findLoads();
+  m_sleep.findLoads(table, m_obstacles.all());
   m_obstacles.apply(world, m_bodies, table, m_moved);
   for (int id = 0; id < table.idLimit(); ++id) {
     if (table.entry(id).is_in && !table.entry(id).is_asleep) settle(world, id);
   }
-  rest();
+  m_sleep.update(table);
   // Only now do handlers run.
   for (const MovedObject& moved : m_moved) {
     if (takesPart(world.store(), moved.key)) world.place(moved.key, moved.where);
@@ -148,7 +145,7 @@ void SoftLayer::prepare(const World& world, int id) {
   }
   const double far = kRoom + entry.top_speed + gravity;
   const Vec2 reach = m_table->reach(id) + Vec2{far, far};
-  m_reaches[static_cast<std::size_t>(id)] = reach;
+  m_sleep.setReach(id, reach);
   m_obstacles.gather(world, m_bodies, *m_table, id, reach);
   if (entry.is_asleep && m_obstacles.surrounding() != entry.surrounding) m_table->wake(id);
   entry.surrounding = m_obstacles.surrounding();
@@ -230,78 +227,6 @@ void SoftLayer::publish(World& world, int id) {
   if (!(box == before)) store.setBox(entry.key.slot, box);
   if (entry.published_position != store.position(entry.key.slot))
     m_moved.push_back({entry.key, entry.published_position});
-}
-
-bool SoftLayer::areNear(int a, int b) {
-  const Vec2 offset = m_table->entry(a).centre - m_table->entry(b).centre;
-  const Vec2 reach = m_reaches[static_cast<std::size_t>(a)] + m_reaches[static_cast<std::size_t>(b)];
-  return std::fabs(offset.x) <= reach.x && std::fabs(offset.y) <= reach.y;
-}
-
-// A sleeping body beside one that is awake wakes.
-void SoftLayer::wakeByOthers() {
-  SoftTable& table = *m_table;
-  for (bool is_changed = true; is_changed;) {
-    is_changed = false;
-    for (int id = 0; id < table.idLimit(); ++id) {
-      if (!table.entry(id).is_in || !table.entry(id).is_asleep) continue;
-      for (int other = 0; other < table.idLimit(); ++other) {
-        if (other == id || !table.entry(other).is_in || table.entry(other).is_asleep || !areNear(id, other)) {
-          continue;
-        }
-        table.wake(id);
-        is_changed = true;
-        break;
-      }
-    }
-  }
-}
-
-bool SoftLayer::mayRest(int id) const {
-  const SoftEntry& entry = m_table->entry(id);
-  return entry.is_in && (entry.is_asleep ||
-                         (entry.still >= kStillTicks && !entry.is_loaded && entry.attached_nodes.empty() &&
-                          entry.grab.attachment < 0 && entry.surrounding != 0));
-}
-
-// Neighbours fall asleep together, or not at all.
-void SoftLayer::rest() {
-  SoftTable& table = *m_table;
-  for (int id = 0; id < table.idLimit(); ++id) m_rests[static_cast<std::size_t>(id)] = mayRest(id) ? 1 : 0;
-  for (bool is_changed = true; is_changed;) {
-    is_changed = false;
-    for (int id = 0; id < table.idLimit(); ++id) {
-      char& rests = m_rests[static_cast<std::size_t>(id)];
-      for (int other = 0; other < table.idLimit() && rests != 0; ++other) {
-        const bool keeps_up = other != id && table.entry(other).is_in &&
-                              m_rests[static_cast<std::size_t>(other)] == 0 && areNear(id, other);
-        if (!keeps_up) continue;
-        rests = 0;
-        is_changed = true;
-      }
-    }
-  }
-  for (int id = 0; id < table.idLimit(); ++id) {
-    SoftEntry& entry = table.entry(id);
-    if (m_rests[static_cast<std::size_t>(id)] == 0 || entry.is_asleep) continue;
-    naiad::physics::SoftBody body = table.world().body(id);
-    for (SoftNode& node : body.nodes) node.velocity = {};
-    table.set(id, body);
-    table.measure(id);
-    entry.is_asleep = true;
-  }
-}
-
-// Marks the bodies that something movable presses on.
-void SoftLayer::findLoads() {
-  for (int id = 0; id < m_table->idLimit(); ++id) m_table->entry(id).is_loaded = false;
-  for (const SoftObstacle& obstacle : m_obstacles.all()) {
-    if (obstacle.inverse_mass == 0 || obstacle.impulse == Vec2{}) continue;
-    for (int id = 0; id < m_table->idLimit(); ++id) {
-      SoftEntry& entry = m_table->entry(id);
-      entry.is_loaded = entry.is_loaded || m_table->world().isTouching(id, obstacle.id);
-    }
-  }
 }
 
 }  // namespace df

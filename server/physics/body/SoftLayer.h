@@ -12,6 +12,7 @@
 #include "physics/body/BodyState.h"
 #include "physics/body/SoftContacts.h"
 #include "physics/body/SoftObstacles.h"
+#include "physics/body/SoftSleep.h"
 #include "physics/body/SoftTable.h"
 
 namespace df {
@@ -35,27 +36,21 @@ class SoftLayer : public Layer {
  private:
   void prepare(const World& world, int id);
   void push(int id);
-  void wakeByOthers();
   void settle(World& world, int id);
   void freeze(World& world, int id);
   void publish(World& world, int id);
-  void rest();
-  bool mayRest(int id) const;
-  bool areNear(int a, int b);
-  void findLoads();
   void logCrowd(World& world);
 
   BodyLayer& m_bodies;  // lives as long: it is a layer of the same world, and came before
   std::shared_ptr<naiad::physics::SoftTable> m_table;
   SoftObstacles m_obstacles;
   SoftContacts m_contacts;
+  naiad::physics::SoftSleep m_sleep;
   naiad::physics::Vec2 m_gravity;
   bool m_has_logged_crowd = false;
   // Of this step; kept for their memory.
   std::vector<naiad::physics::MovedObject> m_moved;
   std::vector<naiad::physics::BodyContact> m_contact_changes;
-  std::vector<naiad::physics::Vec2> m_reaches;  // by id
-  std::vector<char> m_rests;                    // likewise
 };
 
 }  // namespace df

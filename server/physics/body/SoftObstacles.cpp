@@ -100,7 +100,7 @@ void SoftObstacles::addObject(const World& world, const BodyTable& table, Object
   SoftObstacle obstacle;
   obstacle.id = static_cast<int>(key.slot);
   obstacle.place = table.metric.placeOf(store.position(key.slot) + box.corner) + half;
-  obstacle.friction = table.obstacle_friction;
+  obstacle.friction = table.settings.obstacle_friction;
   Source source;
   source.key = key;
   source.shape = static_cast<int>(m_shapes.size());
