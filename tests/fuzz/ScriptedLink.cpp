@@ -83,7 +83,7 @@ void ScriptedLink::tick(Fate fate, Script* p_script) {
   m_now += std::chrono::milliseconds(33);
   m_world.tick();
   m_publisher.update(m_world.view());
-  m_sender.note(m_publisher, m_world.view().players[0]);
+  m_sender.applyTick(m_publisher, m_world.view().players[0]);
   for (const SnapshotSender::Packet& packet : m_sender.build(m_publisher)) {
     REQUIRE(packet.bytes.size() <= (packet.large ? kMaxSnapshot : kMaxDatagramSnapshot));
     if (packet.large) {  // goes on the stream, which loses nothing
@@ -178,7 +178,7 @@ void ScriptedLink::answer(bool arrives) {
   const auto read = readUpdate(*plain, {m_sender.newestNumber(), m_publisher.tick(), 0});
   REQUIRE(read && read->acks.newest == m_acks.newest && read->acks.mask == m_acks.mask);
   if (read->acks.newest != 0) m_sender.acknowledge(read->acks);
-  REQUIRE(m_sender.isRight(read->acks, *read->checksum) != std::optional(false));
+  REQUIRE(m_sender.matchesChecksum(read->acks, *read->checksum) != std::optional(false));
 }
 
 // As a client asks for that lost all hope; not before it has seen the reset before.
@@ -205,7 +205,7 @@ void ScriptedLink::requireSame() const {
     REQUIRE(rebase(entry->state.motion, tick) == rebase(model->state.motion, tick));
   });
   REQUIRE(m_replica.aliveCount() == alive);
-  REQUIRE(m_sender.isRight(m_acks, m_replica.checksum()) != std::optional(false));
+  REQUIRE(m_sender.matchesChecksum(m_acks, m_replica.checksum()) != std::optional(false));
   REQUIRE(countDifferences(m_world.picture(), m_replica.render(tick)) == 0);
 }
 

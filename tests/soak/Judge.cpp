@@ -63,7 +63,7 @@ void Judge::look(Bot& bot, const SnapshotHeader& header, const AckWindow& acks) 
 bool Judge::settle(std::uint32_t player, Account& account, const Waiting& waiting) {
   const Session* session = m_host.find(player);
   if (session == nullptr) return true;
-  const std::optional<bool> right = session->sender().isRight(waiting.acks, waiting.checksum);
+  const std::optional<bool> right = session->sender().matchesChecksum(waiting.acks, waiting.checksum);
   if (!right) return false;
   if (!*right) ++m_tally.wrong_checksums;
   ++m_tally.compared;

@@ -10,8 +10,8 @@ namespace naiad {
 
 namespace {
 
-constexpr SnapshotSender::Room kStreamRoom{64, kMaxSnapshot, false};
-constexpr SnapshotSender::Room kSecondRoom{1, SnapshotDelivery::kMaxOnSecond, false};
+constexpr PacketLimits kStreamRoom{64, kMaxSnapshot, false};
+constexpr PacketLimits kSecondRoom{1, SnapshotDelivery::kMaxOnSecond, false};
 /// At 30 Hz more than a megabit per second.
 constexpr std::size_t kDatagramsPerTick = 4;
 
@@ -33,7 +33,7 @@ void SnapshotDelivery::sendTick(const Publisher& publisher, const df::PlayerFact
                                 StreamPair& streams, Time now) {
   m_tick = publisher.tick();
   settleAcks();
-  m_sender.note(publisher, player);
+  m_sender.applyTick(publisher, player);
   if (usesDatagrams(now)) return sendDatagrams(publisher, streams, now);
   if (m_datagrams != nullptr && m_datagrams->room() &&
       m_transport.wantsProbe(now, streams.first() == nullptr)) {
@@ -68,7 +68,7 @@ void SnapshotDelivery::sendOnStreams(const Publisher& publisher, StreamPair& str
   // If the first stream only waits for a packet to be sent again, the second goes on alone. A large snapshot
   // goes on the first, and nothing overtakes it.
   const bool first = streams.isFirstIdle();
-  const bool second = streams.isSecondIdle() && !m_sender.awaitsLarge();
+  const bool second = streams.isSecondIdle() && !m_sender.hasLargeInFlight();
   if (!first && !second) return skipTick();
   SnapshotSender::Packets& packets = packetsOfThread();
   m_sender.build(publisher, first ? kStreamRoom : kSecondRoom, packets);
@@ -79,14 +79,14 @@ void SnapshotDelivery::sendOnStreams(const Publisher& publisher, StreamPair& str
     const std::string frame = frameOf(packet);
     if (first) streams.sendFirst(frame);
     if (second && small) streams.sendSecond(frame);
-    if (streams.hasSecond() && !small) m_sender.wentByStream(packet.number);
+    if (streams.hasSecond() && !small) m_sender.markLarge(packet.number);
   }
   if (m_sender.isThrottled()) skipTick();
 }
 
 void SnapshotDelivery::noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Time now) {
   m_transport.sent(packet.number, as_datagram, now);
-  m_ticks.note(packet.number, packet.tick);
+  m_ticks.recordSent(packet.number, packet.tick);
 }
 
 void SnapshotDelivery::count(const SnapshotSender::Packet& packet) {
@@ -119,7 +119,7 @@ void SnapshotDelivery::compareChecksum(const AckWindow& acks, std::uint64_t chec
   }
   m_last_checksum = now;
   settleAcks();
-  if (m_sender.isRight(acks, checksum) != false) return;
+  if (m_sender.matchesChecksum(acks, checksum) != false) return;
   ++m_counters.divergences;
   requestReset(now);
 }
@@ -141,7 +141,7 @@ void SnapshotDelivery::reset() {
 
 void SnapshotDelivery::loseStream() {
   settleAcks();
-  m_sender.loseLarge();
+  m_sender.requeueLarge();
 }
 
 void SnapshotDelivery::restart(Time now) {

@@ -4,26 +4,26 @@
 
 namespace naiad {
 
-void AckedControl::tell(const ControlRecord& record) {
-  m_told = true;
+void AckedControl::setSent(const ControlRecord& record) {
+  m_has_record = true;
   m_at_rest = false;
   m_coasted = 0;
-  m_then = record;
+  m_model = record;
 }
 
-bool AckedControl::implies(const ControlRecord& truth, const df::ControlTable& table) {
-  if (!m_told) return false;
-  for (; m_coasted < kMaxCoasting && !m_at_rest && m_then.tick != truth.tick; ++m_coasted) {
-    SteeredCopy copy(m_then, table);
+bool AckedControl::implies(const ControlRecord& actual, const df::ControlTable& table) {
+  if (!m_has_record) return false;
+  for (; m_coasted < kMaxCoasting && !m_at_rest && m_model.tick != actual.tick; ++m_coasted) {
+    SteeredCopy copy(m_model, table);
     copy.begin();
     copy.finish();
     ControlRecord next = copy.now();
-    m_then.tick = next.tick;
-    m_at_rest = next == m_then;
-    m_then = next;
+    m_model.tick = next.tick;
+    m_at_rest = next == m_model;
+    m_model = next;
   }
-  m_then.tick = truth.tick;
-  return m_then == truth;
+  m_model.tick = actual.tick;
+  return m_model == actual;
 }
 
 }  // namespace naiad

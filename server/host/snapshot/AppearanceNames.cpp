@@ -24,16 +24,16 @@ LookForm AppearanceNames::formOf(std::uint64_t hash, std::size_t glyphs, std::ui
     m_glyphs += glyphs;
   }
   const Name& name = found->second;
-  const bool here = name.used == snapshot;  // this snapshot has it already
-  return {name.confirmed || here ? LookForm::kNamed : LookForm::kDefined, name.id};
+  const bool in_this_one = name.used == snapshot;  // this snapshot has it already
+  return {name.confirmed || in_this_one ? LookForm::kNamed : LookForm::kDefined, name.id};
 }
 
-void AppearanceNames::wrote(std::uint64_t hash, std::uint32_t snapshot) {
+void AppearanceNames::markUsed(std::uint64_t hash, std::uint32_t snapshot) {
   const auto found = m_names.find(hash);
   if (found != m_names.end()) found->second.used = snapshot;
 }
 
-// Within one snapshot an id has one meaning: what is used in it keeps its id.
+// Within one snapshot an id has one meaning, so what it uses keeps its id.
 bool AppearanceNames::retireOldest(std::uint32_t snapshot) {
   const auto oldest = std::min_element(m_names.begin(), m_names.end(), [](const auto& a, const auto& b) {
     return isNewer(b.second.used, a.second.used);
@@ -45,9 +45,9 @@ bool AppearanceNames::retireOldest(std::uint32_t snapshot) {
   return true;
 }
 
-void AppearanceNames::arrived(std::uint32_t id, std::uint64_t hash, std::uint32_t snapshot) {
+void AppearanceNames::confirmArrival(std::uint32_t id, std::uint64_t hash, std::uint32_t snapshot) {
   const auto found = m_names.find(hash);
-  if (found == m_names.end() || found->second.id != id || isNewer(found->second.given, snapshot)) return;
+  if (found == m_names.end() || found->second.id != id || isNewer(found->second.assigned, snapshot)) return;
   found->second.confirmed = true;
 }
 

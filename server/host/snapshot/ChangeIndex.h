@@ -1,5 +1,5 @@
-// What changed in a tick, arranged so that each of thousands of clients finds what concerns it without a look
-// at all of it.
+// The changes of a tick, indexed so that each of thousands of clients finds those that concern it without
+// examining all.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace naiad {
 
-/// A bit for each slot, modulo their number: who is not in there for sure?
+/// A set of slots with a bit for each slot modulo kBits: a slot whose bit is clear is not in it.
 class SlotBits {
  public:
   static constexpr std::uint32_t kBits = 4096;
@@ -55,7 +55,7 @@ class ChangeIndex {
     m_bottom.push_back(sweep.bottom);
   }
 
-  /// Mark those whose sweeps meet the rectangle, and no others.
+  /// Mark the changes whose sweeps meet the rectangle, and no others.
   void markMeeting(CompactRect rect, Marks& marks) const {
     marks.assign((m_left.size() + 7) / 8 * 8, 0);
     const std::size_t count = m_left.size();
@@ -70,7 +70,7 @@ class ChangeIndex {
           static_cast<int>(top[i] < rect.bottom) & static_cast<int>(rect.top < bottom[i]));
     }
   }
-  /// Mark those about one of these slots too, which all lie below SlotBits::kBits.
+  /// Mark also the changes of these slots, all of which are below SlotBits::kBits.
   void markShared(const SlotBits& slots, Marks& marks) const {
     m_slots.forEachShared(slots, [&](std::uint32_t bit) { marks[m_index[bit]] = 1; });
   }

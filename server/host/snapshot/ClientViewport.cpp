@@ -11,18 +11,20 @@ namespace naiad {
 
 namespace {
 
-/// Cells around the view in which somebody who predicts is told of what he might bump into.
-constexpr std::int32_t kUnseen = 2;
-/// So many ticks the client's picture of the player may be off: it draws what was a while ago, or predicts
-/// what will be.
+/// Cells around the view whose objects a predicting client needs, since it may collide with them.
+constexpr std::int32_t kCollisionMargin = 2;
+/// Ticks by which the client's picture of the player may differ from the server's: it draws the past, or
+/// predicts.
 constexpr double kOffTicks = 12;
-/// Cells that it may be off at once: a key that moves in steps.
+/// Cells by which it may differ at once: a key that moves in steps.
 constexpr std::int64_t kMinSpare = 6;
-/// Ticks until a spare that is needed no more shrinks by a cell.
+/// Ticks after which a spare that is no longer needed shrinks by a cell.
 constexpr std::uint32_t kShrinkEvery = 8;
 
-int clampedSize(std::uint32_t cells, int least, int most) {
-  return cells == 0 ? most : std::clamp(static_cast<int>(std::min<std::uint32_t>(cells, 1000)), least, most);
+int clampedSize(std::uint32_t cells, int min_cells, int max_cells) {
+  return cells == 0
+             ? max_cells
+             : std::clamp(static_cast<int>(std::min<std::uint32_t>(cells, 1000)), min_cells, max_cells);
 }
 
 }  // namespace
@@ -32,10 +34,10 @@ void ClientViewport::setTerminal(std::uint32_t columns, std::uint32_t rows) {
   m_y.cells = clampedSize(rows, kMinRows, kMaxViewHeight);
 }
 
-// Fast at once and slowly back, since the client learns later of a player who stops.
+// Grows at once and shrinks slowly, since the client learns late that a player has stopped.
 void ClientViewport::Axis::noteSpeed(double cells_per_tick, std::uint32_t tick) {
-  const double most = std::min(std::abs(cells_per_tick) * kOffTicks, double{kMaxViewWidth});
-  const std::int64_t wanted = kMinSpare + static_cast<std::int64_t>(std::ceil(most));
+  const double max_cells = std::min(std::abs(cells_per_tick) * kOffTicks, double{kMaxViewWidth});
+  const std::int64_t wanted = kMinSpare + static_cast<std::int64_t>(std::ceil(max_cells));
   spare = std::max(wanted, spare - (tick % kShrinkEvery == 0 ? 1 : 0));
 }
 
@@ -74,19 +76,19 @@ CellRect ClientViewport::update(const Publisher& publisher, const df::PlayerFact
     m_x.noteSpeed(df::toCells(motion.velocity.x), publisher.tick());
     m_y.noteSpeed(df::toCells(motion.velocity.y), publisher.tick());
     const df::FixedVector now = positionAt(motion, publisher.tick());
-    const df::FixedVector then = positionAt(motion, publisher.tick() + look_ahead);
+    const df::FixedVector next = positionAt(motion, publisher.tick() + look_ahead);
     const ViewFrame frame{player.view_corner,
                           {df::fromCells(world.view_width), df::fromCells(world.view_height)},
                           world.boundary};
-    const df::FixedVector later = followView(frame, then);
+    const df::FixedVector later = followView(frame, next);
     const std::int64_t dx =
         std::clamp<std::int64_t>(df::cellOf(later.x) - left, -world.view_width, world.view_width);
     const std::int64_t dy =
         std::clamp<std::int64_t>(df::cellOf(later.y) - top, -world.view_height, world.view_height);
     cover(left, top, df::cellOf(now.x), df::cellOf(now.y));
-    cover(left + dx, top + dy, df::cellOf(then.x), df::cellOf(then.y));
+    cover(left + dx, top + dy, df::cellOf(next.x), df::cellOf(next.y));
   }
-  return player.steering.p_table != nullptr ? window.grownBy(kUnseen) : window;
+  return player.steering.p_table != nullptr ? window.grownBy(kCollisionMargin) : window;
 }
 
 }  // namespace naiad

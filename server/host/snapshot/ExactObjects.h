@@ -1,5 +1,4 @@
-// The objects whose published positions are exact to the bit, since a client's view or prediction needs them
-// so.
+// The objects whose published positions are exact to the bit, as a client's view or prediction needs them.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +14,7 @@ class ExactObjects {
  public:
   /// Take in one tick: the objects that players follow or steer. Returns whether any player steers by
   /// declared controls.
-  bool notePlayers(std::span<const df::PlayerFacts> players) {
+  bool updatePlayers(std::span<const df::PlayerFacts> players) {
     m_keys.clear();
     bool controls = false;
     for (const df::PlayerFacts& player : players) {
@@ -35,7 +34,7 @@ class ExactObjects {
     return false;
   }
 
-  /// Solid objects that stand still are to be exact, too.
+  /// Solid objects that stand still are exact, too.
   void setSolids(bool exact) {
     m_solids_are_new = m_solids_are_new || (exact && !m_solids);
     m_solids = exact;

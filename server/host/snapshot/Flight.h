@@ -1,6 +1,7 @@
-// The snapshots of one client that are on their way: what each carried, until it is known whether it arrived.
+// One client's snapshots in flight: the contents of each, until it is known whether it arrived.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -10,21 +11,22 @@
 
 namespace naiad {
 
-/// In the order they were sent. Memory of those that are settled is used again.
+/// In the order they were sent. Memory of settled snapshots is used again.
 class Flight {
  public:
   struct Snapshot {
     std::uint32_t number = 0;
-    bool large = false;
+    bool large = false;  ///< on a stream: late rather than lost
     bool empty = true;
     bool probe = false;
     std::vector<KnownObjects::Sent> objects;
     std::vector<std::pair<std::uint32_t, std::uint64_t>> names;  ///< ids of appearances defined, their sums
   };
+  /// At most so many are in flight; the oldest beyond that counts as lost.
+  static constexpr std::size_t kMaxSnapshots = 64;
 
   std::size_t size() const { return m_count; }
-  const Snapshot& at(std::size_t i) const { return m_snapshots[i]; }
-  /// One more takes off; it becomes newest().
+  /// Add a snapshot that is about to be written; it becomes newest().
   Snapshot& add(std::uint32_t number) {
     if (m_count == m_snapshots.size()) m_snapshots.emplace_back();
     Snapshot& snapshot = m_snapshots[m_count++];
@@ -35,16 +37,22 @@ class Flight {
     snapshot.names.clear();
     return snapshot;
   }
-  /// Null if it is settled.
-  Snapshot* find(std::uint32_t number) {
-    for (std::size_t i = m_count; i > 0; --i) {
-      if (m_snapshots[i - 1].number == number) return &m_snapshots[i - 1];
-    }
-    return nullptr;
-  }
   Snapshot& newest() { return m_snapshots[m_count - 1]; }
   void removeNewest() { --m_count; }
-  /// Remove those for which `settle(snapshot)` says so.
+  /// The snapshot goes on a stream. Ignored if it is settled.
+  void markLarge(std::uint32_t number) {
+    for (std::size_t i = m_count; i > 0; --i) {
+      if (m_snapshots[i - 1].number == number) m_snapshots[i - 1].large = true;
+    }
+  }
+  bool hasLarge() const {
+    return std::any_of(begin(), end(), [](const Snapshot& snapshot) { return snapshot.large; });
+  }
+  /// Does any of them carry something?
+  bool hasContent() const {
+    return std::any_of(begin(), end(), [](const Snapshot& snapshot) { return !snapshot.empty; });
+  }
+  /// Remove those for which `settle(snapshot)` returns true, called from the oldest to the newest.
   template <class Settle>
   void removeIf(Settle settle) {
     std::size_t kept = 0;
@@ -57,6 +65,9 @@ class Flight {
   }
 
  private:
+  const Snapshot* begin() const { return m_snapshots.data(); }
+  const Snapshot* end() const { return m_snapshots.data() + m_count; }
+
   std::vector<Snapshot> m_snapshots;  ///< the first m_count are in use
   std::size_t m_count = 0;
 };

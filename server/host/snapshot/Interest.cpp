@@ -7,7 +7,7 @@ namespace naiad {
 
 namespace {
 
-/// Longer than this nobody stays without being looked at.
+/// Ticks after which a known object is examined again, at most.
 constexpr std::uint32_t kLongest = 1u << 20;
 
 bool isDue(std::uint32_t due, std::uint32_t tick) {
@@ -37,13 +37,13 @@ CellPosition cellAt(const Motion& motion, std::uint32_t tick) {
   return {df::cellOf(at.x), df::cellOf(at.y)};
 }
 
-/// Ticks that a coordinate surely stays between two cells; 0 if it is not even there.
+/// A lower bound of the ticks that a coordinate stays between two cells; 0 if it is not there.
 std::uint32_t staysFor(df::Fixed position, df::Fixed velocity, std::int64_t low, std::int64_t high) {
   const std::int64_t cell = df::cellOf(position);
   if (cell < low || cell >= high) return 0;
   if (velocity == 0) return kLongest;
   const std::int64_t cells = velocity > 0 ? high - 1 - cell : cell - low;
-  // A cell further than it has to be to leave the last one, and the half that cells are shifted by.
+  // One cell less, since cells are shifted by a half and the last one is left only beyond its end.
   if (cells <= 1 || velocity < -df::fromCells(1 << 20) || velocity > df::fromCells(1 << 20)) return 0;
   const std::uint64_t ticks = (static_cast<std::uint64_t>(cells - 1) << df::kFixedBits) /
                               static_cast<std::uint64_t>(std::abs(velocity));
@@ -72,26 +72,26 @@ void Interest::update(const Publisher& publisher, const Focus& focus, KnownObjec
   m_window = CompactRect(focus.window);
   noteChanges();
   judgeCandidates();
-  if (isSearchDue()) search();
+  if (isSearchDue()) searchView();
   for (const df::ObjectKey own : focus.own) {
     const Publisher::Model* model = own.generation != 0 ? publisher.find(own.slot) : nullptr;
     if (model == nullptr || model->generation != own.generation) continue;
-    if (!isKnown(own.slot)) learn(own.slot, own.generation);
+    if (!isKnown(own.slot)) addObject(own.slot, own.generation);
   }
-  m_seen = focus.window;
+  m_last_window = focus.window;
 }
 
-void Interest::learn(std::uint32_t slot, std::uint32_t generation) {
-  const std::uint32_t id = m_p_known->learn(slot, generation, m_tick);
-  if (id == KnownObjects::kNobody) return;
+void Interest::addObject(std::uint32_t slot, std::uint32_t generation) {
+  const std::uint32_t id = m_p_known->addObject(slot, generation, m_tick);
+  if (id == KnownObjects::kNone) return;
   if (id >= m_stays.size()) m_stays.resize(std::size_t{id} + 1);
   m_stays[id] = {m_tick, slot};
   m_known_bits.set(slot);
 }
 
-void Interest::forget(std::uint32_t id, std::uint32_t slot) {
-  m_p_known->forget(id, m_tick);
-  m_stays[id].slot = KnownObjects::kNobody;
+void Interest::removeObject(std::uint32_t id, std::uint32_t slot) {
+  m_p_known->removeObject(id, m_tick);
+  m_stays[id].slot = KnownObjects::kNone;
   if (bitsAreExact()) m_known_bits.clear(slot);
 }
 
@@ -101,10 +101,10 @@ void Interest::noteChanges() {
   ChangeIndex::forEachMarked(marks, [this](std::size_t i) { noteChange(m_p_publisher->changes()[i]); });
 }
 
-// Those of objects that may come or may be known.
+// Mark the changes of objects that may be known or may enter the view.
 void Interest::markChanges(ChangeIndex::Marks& marks) const {
   const ChangeIndex& index = m_p_publisher->changeIndex();
-  // The publisher looks so far ahead for all clients at once.
+  // The publisher has computed sweeps of kSweep ticks for all clients at once.
   const bool sweeps_suffice = kGap + m_focus.look_ahead <= Publisher::kSweep;
   index.markMeeting(sweeps_suffice ? CompactRect(m_covered) : CompactRect::everywhere(), marks);
   if (bitsAreExact()) return index.markShared(m_known_bits, marks);
@@ -115,69 +115,69 @@ void Interest::markChanges(ChangeIndex::Marks& marks) const {
 }
 
 void Interest::noteChange(const Publisher::Change& change) {
-  const std::uint32_t id = mayBeKnown(change.slot) ? m_p_known->find(change.slot) : KnownObjects::kNobody;
-  if (id == KnownObjects::kNobody) {
-    if (change.groups != 0) consider(change.slot);
+  const std::uint32_t id = mayBeKnown(change.slot) ? m_p_known->find(change.slot) : KnownObjects::kNone;
+  if (id == KnownObjects::kNone) {
+    if (change.groups != 0) considerObject(change.slot);
     return;
   }
   const Publisher::Model* model = m_p_publisher->find(change.slot);
   if (model != nullptr && model->generation == m_p_known->at(id).generation) {
-    m_p_known->owe(id, change.groups, m_tick);
+    m_p_known->addPending(id, change.groups, m_tick);
     if ((change.groups & (kMotion | kLook)) != 0) m_stays[id].until = m_tick;
     return;
   }
-  forget(id, change.slot);
-  if (model != nullptr) consider(change.slot);
+  removeObject(id, change.slot);
+  if (model != nullptr) considerObject(change.slot);
 }
 
-// Learn of the object, which the client does not know, if it can be seen; watch it if that may come.
-void Interest::consider(std::uint32_t slot) {
+// Add the object, which the client does not know, if it is visible, and watch it if it may become so.
+void Interest::considerObject(std::uint32_t slot) {
   const Publisher::Outlook& outlook = this->outlook(slot);
   if (!outlook.later.meets(CompactRect(m_covered))) return;
   if (!outlook.soon.meets(m_window)) return m_candidates.push_back(slot);
-  learn(slot, outlook.generation);
+  addObject(slot, outlook.generation);
 }
 
 void Interest::judgeCandidates() {
   std::erase_if(m_candidates, [this](std::uint32_t slot) {
     const Publisher::Outlook& outlook = this->outlook(slot);
-    if (!outlook.soon.meets(m_window)) return outlook.generation == 0;  // most of them
-    if (outlook.generation != 0 && !isKnown(slot)) learn(slot, outlook.generation);
+    if (!outlook.soon.meets(m_window)) return outlook.generation == 0;  // of most candidates
+    if (outlook.generation != 0 && !isKnown(slot)) addObject(slot, outlook.generation);
     return true;
   });
 }
 
 bool Interest::isSearchDue() const {
-  return !m_began || (m_tick + m_focus.stagger) % kGap == 0 || !isInside(m_focus.window, m_covered);
+  return !m_has_searched || (m_tick + m_focus.stagger) % kGap == 0 || !isInside(m_focus.window, m_covered);
 }
 
-void Interest::search() {
-  const bool moved = m_began && !isSame(m_focus.window, m_searched);
+void Interest::searchView() {
+  const bool moved = m_has_searched && !isSame(m_focus.window, m_searched);
   const CellRect outer = m_focus.window.grownBy(kHysteresis);
-  if (moved || !m_began) {
+  if (moved || !m_has_searched) {
     for (Stay& stay : m_stays) stay.until = m_tick;
   }
-  m_began = true;
+  m_has_searched = true;
   m_searched = m_focus.window;
   m_covered = m_focus.window.grownBy(moved ? kSpare : 0);
-  forgetThoseOutside(outer, moved);
+  removeOutside(outer, moved);
   m_candidates.clear();
   const CompactRect covered(m_covered);
-  m_p_publisher->forEachNear(m_covered, kGap + m_focus.look_ahead, shared(m_seen, m_focus.window),
+  m_p_publisher->forEachNear(m_covered, kGap + m_focus.look_ahead, shared(m_last_window, m_focus.window),
                              [this, &covered](std::uint32_t slot) {
                                if (isKnown(slot) || !outlook(slot).later.meets(covered)) return;
-                               consider(slot);
+                               considerObject(slot);
                              });
 }
 
-// A view that has moved since the last search will have moved at the next: then all are looked at again
-// anyway.
-void Interest::forgetThoseOutside(const CellRect& outer, bool moves) {
+// A view that has moved since the last search will probably have moved at the next, which examines all
+// objects again.
+void Interest::removeOutside(const CellRect& outer, bool moves) {
   m_known_bits.clear();
   const CompactRect around(outer);
   for (std::uint32_t id = 0; id < m_stays.size(); ++id) {
     Stay& stay = m_stays[id];
-    if (stay.slot == KnownObjects::kNobody) continue;
+    if (stay.slot == KnownObjects::kNone) continue;
     m_known_bits.set(stay.slot);
     if (!isDue(stay.until, m_tick)) continue;
     const bool own = isOwn(id, stay.slot);
@@ -185,7 +185,7 @@ void Interest::forgetThoseOutside(const CellRect& outer, bool moves) {
       const bool again = own || moves;
       stay.until = m_tick + (again ? 0 : leavesAfter(*m_p_publisher->find(stay.slot), outer));
     } else {
-      forget(id, stay.slot);
+      removeObject(id, stay.slot);
     }
   }
 }

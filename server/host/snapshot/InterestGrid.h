@@ -1,4 +1,4 @@
-// Where the published objects are, coarsely: who could be seen in a rectangle of cells?
+// A coarse grid of the published objects: which of them could be seen in a rectangle of cells?
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,8 @@ struct CellRect {
   }
 };
 
-/// The same in half the memory, for those that are compared by the thousand. Cells beyond its type, where no
-/// position is, are taken for the last ones.
+/// The same in half the memory, since thousands are compared. Cells beyond its type, where no position is,
+/// are clamped.
 struct CompactRect {
   CompactRect() = default;
   explicit CompactRect(const CellRect& rect)
@@ -39,7 +39,7 @@ struct CompactRect {
   /// Meets nothing.
   static CompactRect nowhere() { return CompactRect({INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN}); }
   bool meets(const CompactRect& other) const {
-    // Each is as likely as not: no branches.
+    // No branches, since none would be predictable.
     return static_cast<int>(left < other.right) & static_cast<int>(other.left < right) &
            static_cast<int>(top < other.bottom) & static_cast<int>(other.top < bottom);
   }
@@ -58,7 +58,7 @@ struct CompactRect {
 /// Slots filed by their cell, in blocks of 16 by 8 cells. Memory follows the number of slots.
 class InterestGrid {
  public:
-  /// File `slot` where it is now; cheap if it has not left its block.
+  /// File `slot` at its present cell; cheap if it has not left its block.
   void put(std::uint32_t slot, CellPosition cell);
   void remove(std::uint32_t slot);
 
@@ -77,7 +77,7 @@ class InterestGrid {
     const auto visitAll = [&visit](const std::vector<std::uint32_t>& block) {
       for (const std::uint32_t slot : block) visit(slot);
     };
-    // A rectangle of more blocks than there are is answered by all of them.
+    // A rectangle of more blocks than there are is compared with each of them.
     if (static_cast<std::uint64_t>(right - left + 1) * static_cast<std::uint64_t>(bottom - top + 1) >=
         m_blocks.size()) {
       for (const auto& [key, block] : m_blocks) {
@@ -109,7 +109,7 @@ class InterestGrid {
   }
 
   using Block = std::vector<std::uint32_t>;
-  /// What was found last under keys that share a place; null: nothing.
+  /// The last result for the keys that share this place of the cache; null: no block.
   struct Found {
     std::uint64_t key = 0;
     const Block* block = nullptr;

@@ -12,20 +12,28 @@ namespace {
 
 constexpr int kLifeIndex = 0;
 
-}  // namespace
-
-void KnownObjects::enqueue(std::uint32_t id, std::uint32_t tick) {
-  Known& known = m_known[id];
-  if (known.owed == 0) known.since = tick;
-  if (known.queued) return;
-  known.queued = true;
-  m_owing.push_back(id);
+/// Of the look as a snapshot of `tick` carries it. Only clocks depend on the tick; other looks are not
+/// copied.
+std::uint64_t lookSumAt(std::uint32_t id, const Look& look, std::uint32_t tick) {
+  const Selector::Kind kind = look.selector.kind;
+  const bool clock = kind == Selector::kClock || kind == Selector::kClockOnce;
+  return clock ? lookSum(id, rebase(look, tick)) : lookSum(id, look);
 }
 
-std::uint32_t KnownObjects::learn(std::uint32_t slot, std::uint32_t generation, std::uint32_t tick) {
+}  // namespace
+
+void KnownObjects::queueId(std::uint32_t id, std::uint32_t tick) {
+  Known& known = m_known[id];
+  if (known.pending == 0) known.pending_since = tick;
+  if (known.queued) return;
+  known.queued = true;
+  m_pending_ids.push_back(id);
+}
+
+std::uint32_t KnownObjects::addObject(std::uint32_t slot, std::uint32_t generation, std::uint32_t tick) {
   auto id = static_cast<std::uint32_t>(m_known.size());
   if (m_free.empty()) {
-    if (id >= kMaxSlots) return kNobody;
+    if (id >= kMaxSlots) return kNone;
     m_known.emplace_back();
   } else {
     id = m_free.top();
@@ -38,93 +46,94 @@ std::uint32_t KnownObjects::learn(std::uint32_t slot, std::uint32_t generation, 
   known.life = Life::kBorn;
   m_ids.insert(slot, id);
   ++m_alive;
-  enqueue(id, tick);
-  known.owed = kAllGroups;
+  queueId(id, tick);
+  known.pending = kAllGroups;
   return id;
 }
 
-void KnownObjects::owe(std::uint32_t id, std::uint8_t groups, std::uint32_t tick) {
+void KnownObjects::addPending(std::uint32_t id, std::uint8_t groups, std::uint32_t tick) {
   if (groups == 0) return;
-  enqueue(id, tick);
-  m_known[id].owed |= groups;
+  queueId(id, tick);
+  m_known[id].pending |= groups;
 }
 
-void KnownObjects::forget(std::uint32_t id, std::uint32_t tick) {
-  Told& known = m_known[id];
+void KnownObjects::removeObject(std::uint32_t id, std::uint32_t tick) {
+  Entry& known = m_known[id];
   m_ids.erase(known.slot);
   --m_alive;
-  if (known.life == Life::kBorn && known.sent[kLifeIndex] == 0) return release(id);  // it never heard of it
+  if (known.life == Life::kBorn && known.sent[kLifeIndex] == 0) return releaseId(id);
   known.life = Life::kDying;
-  known.owed = 0;
+  known.pending = 0;
   known.unconfirmed = 0;
-  enqueue(id, tick);
-  known.owed = kLife;
+  queueId(id, tick);
+  known.pending = kLife;
 }
 
-void KnownObjects::release(std::uint32_t id) {
-  Told& known = m_known[id];
+void KnownObjects::releaseId(std::uint32_t id) {
+  Entry& known = m_known[id];
   known.life = Life::kFree;
-  known.owed = 0;
+  known.pending = 0;
   known.unconfirmed = 0;
   known.sent = {};
   m_free.push(id);
 }
 
-void KnownObjects::oweUnconfirmed(std::uint32_t tick) {
+void KnownObjects::requeueUnconfirmed(std::uint32_t tick) {
   for (std::uint32_t id = 0; id < m_known.size(); ++id) {
-    if (m_known[id].unconfirmed != 0) owe(id, m_known[id].unconfirmed, tick);
+    if (m_known[id].unconfirmed != 0) addPending(id, m_known[id].unconfirmed, tick);
   }
 }
 
-std::uint8_t KnownObjects::due(std::uint32_t id) const {
+std::uint8_t KnownObjects::groupsToSend(std::uint32_t id) const {
   const Known& known = m_known[id];
   if (known.life == Life::kDying) return kDeath;
-  return known.life == Life::kBorn ? kAllGroups : known.owed;
+  return known.life == Life::kBorn ? kAllGroups : known.pending;
 }
 
-KnownObjects::Sent KnownObjects::paid(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state,
-                                      std::uint32_t tick) {
-  Told& known = m_known[id];
-  const std::uint8_t groups = due(id);
+KnownObjects::Sent KnownObjects::markSent(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state,
+                                          const Motion& motion, std::uint32_t tick) {
+  Entry& known = m_known[id];
+  const std::uint8_t groups = groupsToSend(id);
   if (groups == kDeath) {
     for (std::uint64_t& sum : known.sums) m_checksum -= std::exchange(sum, 0);
     known.sent[kLifeIndex] = brief(snapshot);
   } else {
-    if ((groups & kLife) != 0) carry(known, 0, snapshot, lifeSum(id, generationOf(known), state.order));
-    if ((groups & kMotion) != 0) carry(known, 1, snapshot, motionSum(id, rebase(state.motion, tick)));
-    if ((groups & kLook) != 0) carry(known, 2, snapshot, lookSum(id, rebase(state.look, tick)));
-    if ((groups & kBody) != 0) carry(known, 3, snapshot, bodySum(id, state.body));
+    if ((groups & kLife) != 0) recordSum(known, 0, snapshot, lifeSum(id, generationOf(known), state.order));
+    if ((groups & kMotion) != 0) recordSum(known, 1, snapshot, motionSum(id, motion));
+    if ((groups & kLook) != 0) recordSum(known, 2, snapshot, lookSumAt(id, state.look, tick));
+    if ((groups & kBody) != 0) recordSum(known, 3, snapshot, bodySum(id, state.body));
   }
   known.unconfirmed |= groups == kDeath ? +kLife : groups;
-  known.owed = 0;
+  known.pending = 0;
   return {id, known.birth, groups};
 }
 
-// What is carried again as it was is confirmed by any snapshot since it was so.
-void KnownObjects::carry(Told& told, std::size_t group, std::uint32_t snapshot, std::uint64_t sum) {
+// A group that is sent again unchanged is confirmed by any snapshot since the first that carried it so.
+void KnownObjects::recordSum(Entry& entry, std::size_t group, std::uint32_t snapshot, std::uint64_t sum) {
   constexpr std::uint32_t kMax = std::numeric_limits<std::uint8_t>::max();  // none of these is in flight
-  const bool first = told.sent[group] == 0 || told.sums[group] != sum;
-  const std::uint32_t since = first ? 0 : told.since_first[group] + before(told.sent[group], brief(snapshot));
-  told.since_first[group] = static_cast<std::uint8_t>(std::min(since, kMax));
-  told.sent[group] = brief(snapshot);
-  m_checksum += sum - told.sums[group];
-  told.sums[group] = sum;
+  const bool first = entry.sent[group] == 0 || entry.sums[group] != sum;
+  const std::uint32_t since =
+      first ? 0 : entry.since_first[group] + before(entry.sent[group], brief(snapshot));
+  entry.since_first[group] = static_cast<std::uint8_t>(std::min(since, kMax));
+  entry.sent[group] = brief(snapshot);
+  m_checksum += sum - entry.sums[group];
+  entry.sums[group] = sum;
 }
 
-void KnownObjects::sweepOwing() {
-  std::erase_if(m_owing, [this](std::uint32_t id) {
+void KnownObjects::trimPending() {
+  std::erase_if(m_pending_ids, [this](std::uint32_t id) {
     Known& known = m_known[id];
-    if (known.owed != 0) return false;
+    if (known.pending != 0) return false;
     known.queued = false;
     return true;
   });
 }
 
-void KnownObjects::arrived(const Sent& sent, std::uint32_t snapshot) {
-  Told& known = m_known[sent.id];
+void KnownObjects::confirmArrival(const Sent& sent, std::uint32_t snapshot) {
+  Entry& known = m_known[sent.id];
   if (known.birth != sent.birth || known.life == Life::kFree) return;
   if (sent.groups == kDeath) {
-    if (known.life == Life::kDying) release(sent.id);
+    if (known.life == Life::kDying) releaseId(sent.id);
     return;
   }
   if (known.life == Life::kDying) return;
@@ -135,8 +144,8 @@ void KnownObjects::arrived(const Sent& sent, std::uint32_t snapshot) {
   if ((sent.groups & kLife) != 0) known.life = Life::kAlive;
 }
 
-bool KnownObjects::lost(const Sent& sent, std::uint32_t snapshot, std::uint32_t tick) {
-  Told& known = m_known[sent.id];
+bool KnownObjects::requeueLost(const Sent& sent, std::uint32_t snapshot, std::uint32_t tick) {
+  Entry& known = m_known[sent.id];
   if (known.birth != sent.birth || known.life == Life::kFree) return false;
   const bool dying = known.life == Life::kDying;
   if (dying != (sent.groups == kDeath)) return false;
@@ -148,7 +157,7 @@ bool KnownObjects::lost(const Sent& sent, std::uint32_t snapshot, std::uint32_t 
   missing &= known.unconfirmed;
   // A birth that was lost after another one arrived leaves its other groups, if they are the newest.
   if (known.life == Life::kAlive) missing &= ~kLife;
-  owe(sent.id, missing, tick);
+  addPending(sent.id, missing, tick);
   return missing != 0;
 }
 

@@ -6,29 +6,29 @@
 
 namespace naiad {
 
-void LagCompensator::note(const Publisher& publisher, const df::WorldView& view) {
-  const bool goes_on = m_began && publisher.tick() == m_tick + 1;
+void LagCompensator::recordTick(const Publisher& publisher, const df::WorldView& view) {
+  const bool continues = m_has_ticks && publisher.tick() == m_tick + 1;
   m_tick = publisher.tick();
-  m_began = true;
-  if (!goes_on) {
+  m_has_ticks = true;
+  if (!continues) {
     m_histories.clear();
     m_views = {};
     publisher.forEach(
-        [this](std::uint32_t slot, const Publisher::Model& model) { learn(slot, model, true); });
-    return noteViews(publisher, view);
+        [this](std::uint32_t slot, const Publisher::Model& model) { recordModel(slot, model, true); });
+    return recordViews(publisher, view);
   }
   for (const Publisher::Change& change : publisher.changes()) {
     const Publisher::Model* p_model = publisher.find(change.slot);
     if (p_model == nullptr) {
-      forget(change.slot);
+      clearHistory(change.slot);
     } else {
-      learn(change.slot, *p_model, (change.groups & (kLife | kMotion)) != 0);
+      recordModel(change.slot, *p_model, (change.groups & (kLife | kMotion)) != 0);
     }
   }
-  noteViews(publisher, view);
+  recordViews(publisher, view);
 }
 
-void LagCompensator::noteViews(const Publisher& publisher, const df::WorldView& view) {
+void LagCompensator::recordViews(const Publisher& publisher, const df::WorldView& view) {
   Views& now = m_views[m_tick % m_views.size()];
   now.tick = m_tick;
   now.size = {df::fromCells(publisher.world().view_width), df::fromCells(publisher.world().view_height)};
@@ -44,20 +44,20 @@ void LagCompensator::noteViews(const Publisher& publisher, const df::WorldView& 
   }
 }
 
-void LagCompensator::learn(std::uint32_t slot, const Publisher::Model& model, bool moved) {
+void LagCompensator::recordModel(std::uint32_t slot, const Publisher::Model& model, bool moved) {
   if (slot == kLooseSlot) return;  // no object
   if (slot >= m_histories.size()) m_histories.resize(std::size_t{slot} + 1);
   History& history = m_histories[slot];
   if (history.generation != model.generation) history = {model.generation, m_tick, {}};
   if (!moved && !history.motions.empty()) return;
   history.motions.push_back({m_tick, model.state.motion});
-  // What another one followed within the time kept, nobody need remember.
+  // A motion that was replaced before the oldest tick kept is not needed.
   while (history.motions.size() > 1 && !isNewer(history.motions[1].since, m_tick - kTicks)) {
     history.motions.pop_front();
   }
 }
 
-void LagCompensator::forget(std::uint32_t slot) {
+void LagCompensator::clearHistory(std::uint32_t slot) {
   if (slot < m_histories.size()) m_histories[slot] = {};
 }
 
@@ -71,22 +71,22 @@ std::optional<df::FixedVector> LagCompensator::positionOf(df::ObjectKey object,
 
   const auto known = std::find_if(history.motions.rbegin(), history.motions.rend(),
                                   [base](const Known& k) { return !isNewer(k.since, base); });
-  const Known& then = known != history.motions.rend() ? *known : history.motions.front();
-  return positionAt(then.motion, drawnOf(seen));
+  const Known& newest = known != history.motions.rend() ? *known : history.motions.front();
+  return positionAt(newest.motion, drawnOf(seen));
 }
 
 std::optional<df::FixedVector> LagCompensator::viewCornerOf(std::uint32_t player,
                                                             const df::ViewedTick& seen) const {
   if (!seen.known) return std::nullopt;
   const std::uint32_t base = baseOf(seen);
-  const Views& then = m_views[base % m_views.size()];
-  if (then.tick != base) return std::nullopt;
+  const Views& views = m_views[base % m_views.size()];
+  if (views.tick != base) return std::nullopt;
   const auto found =
-      std::lower_bound(then.players.begin(), then.players.end(), player,
+      std::lower_bound(views.players.begin(), views.players.end(), player,
                        [](const PlayerView& view, std::uint32_t id) { return view.player < id; });
-  if (found == then.players.end() || found->player != player) return std::nullopt;
+  if (found == views.players.end() || found->player != player) return std::nullopt;
   const Motion* p_followed = found->followed ? &*found->followed : nullptr;
-  return viewCornerAt({found->corner, then.size, then.boundary}, base, p_followed, drawnOf(seen));
+  return viewCornerAt({found->corner, views.size, views.boundary}, base, p_followed, drawnOf(seen));
 }
 
 std::uint32_t LagCompensator::baseOf(const df::ViewedTick& seen) const {

@@ -6,7 +6,7 @@ namespace naiad {
 
 namespace {
 
-/// Above this number of looks, those that were not entered for kForgetAfter ticks are forgotten.
+/// Above this number of looks, those not entered for kForgetAfter ticks are forgotten.
 constexpr std::size_t kMaxRemembered = 16'384;
 constexpr std::uint32_t kForgetAfter = 9'000;
 /// Sequences kept to be shared, whether an object still has them or not.
@@ -15,7 +15,7 @@ constexpr std::size_t kMaxShared = 2'048;
 }  // namespace
 
 // A text that changes all the time never recurs.
-void LookCatalogue::enter(PublishedModel& model, std::uint32_t tick) {
+void LookCatalogue::enterLook(PublishedModel& model, std::uint32_t tick) {
   Look& look = model.state.look;
   model.look_sum = 0;
   model.recurs = false;
@@ -30,7 +30,7 @@ void LookCatalogue::enter(PublishedModel& model, std::uint32_t tick) {
   if (m_last_used.size() > kMaxRemembered) m_last_used.clear();
 }
 
-// Objects that look the same share the memory of it: it is compared with what they draw in every tick.
+// Objects that look the same share one copy, since every tick compares it with what they draw.
 void LookCatalogue::share(Sequence& sequence) {
   if (sequence.empty()) return;
   if (m_sequences.size() >= kMaxShared) m_sequences.clear();

@@ -10,13 +10,13 @@ namespace naiad {
 
 class LookCatalogue {
  public:
-  /// The model has another look: find its sum and whether it recurs, and share its memory.
-  void enter(PublishedModel& model, std::uint32_t tick);
+  /// The model has a new look: compute its sum, find out whether it recurs, and share its memory.
+  void enterLook(PublishedModel& model, std::uint32_t tick);
 
  private:
   void share(Sequence& sequence);
 
-  std::unordered_map<std::uint64_t, std::uint32_t> m_last_used;  ///< by sum: the tick of the last enter()
+  std::unordered_map<std::uint64_t, std::uint32_t> m_last_used;  ///< by sum: the tick of the last enterLook()
   std::unordered_map<std::uint64_t, Sequence> m_sequences;       ///< by sum: some of those that are published
 };
 

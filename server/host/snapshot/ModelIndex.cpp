@@ -24,14 +24,14 @@ bool isFast(const Motion& motion) {
 
 }  // namespace
 
-void ModelIndex::file(std::uint32_t slot, const PublishedModel& model, df::FixedVector position,
-                      Membership& membership) {
+void ModelIndex::fileModel(std::uint32_t slot, const PublishedModel& model, df::FixedVector position,
+                           Membership& membership) {
   const bool wide = model.alive && (slot == kLooseSlot || model.reach > PublishedModel::kWide);
   setListed(m_wide, slot, membership.wide, wide);
   if (slot == kLooseSlot) return;
   if (wide || !model.alive) return m_grid.remove(slot);
   m_reach = std::max(m_reach, model.reach);
-  move(slot, position, membership);
+  fileMove(slot, position, membership);
 }
 
 void ModelIndex::fileMotion(std::uint32_t slot, const PublishedModel& model, Membership& membership) {

@@ -1,4 +1,5 @@
-// Where the published models are: near a rectangle of cells, or so wide or fast that no place says enough.
+// The published models by place: those near a rectangle of cells, and those too wide or fast to have one
+// place.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +12,17 @@ namespace naiad {
 
 class ModelIndex {
  public:
-  /// In which lists a model is; kept beside the model.
+  /// The lists that a model is in; kept beside the model.
   struct Membership {
     bool wide = false;
     bool fast = false;
   };
 
   /// The model was born or died, or its reach changed. `position`: of its object.
-  void file(std::uint32_t slot, const PublishedModel& model, df::FixedVector position,
-            Membership& membership);
+  void fileModel(std::uint32_t slot, const PublishedModel& model, df::FixedVector position,
+                 Membership& membership);
   /// The object has moved.
-  void move(std::uint32_t slot, df::FixedVector position, const Membership& membership) {
+  void fileMove(std::uint32_t slot, df::FixedVector position, const Membership& membership) {
     if (!membership.wide) m_grid.put(slot, {df::cellOf(position.x), df::cellOf(position.y)});
   }
   /// The model died or has another motion.
@@ -52,7 +53,7 @@ class ModelIndex {
   std::vector<std::uint32_t> m_wide;  ///< models that reach farther than kWide, and the loose one
   std::vector<std::uint32_t> m_fast;  ///< models that move by more than a cell per tick, or are accelerated
   std::int32_t m_reach = 0;           ///< of those that are not wide, the farthest so far
-  df::FixedVector m_speed;            ///< of those that are not fast, the highest so far, each way
+  df::FixedVector m_speed;            ///< of those that are not fast, the highest so far on each axis
 };
 
 }  // namespace naiad

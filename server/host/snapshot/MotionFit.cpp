@@ -16,14 +16,14 @@ constexpr Fixed kHalf = df::kFixedOne / 2;
 /// Far more than a view is wide; keeps every sum below within the type.
 constexpr Fixed kFastest = Fixed{4096} * df::kFixedOne;
 
-/// A tick after the first, and where in its cell a character then is.
+/// A tick after the first, and the place of a character within its cell in that tick.
 struct Place {
   Fixed tick = 0;
   Fixed within = 0;
 };
 
-/// One half of the convex hull of places, by tick: those that bound what a line may do. Of the places of a
-/// straight path modulo a cell there are only few, however many ticks it takes.
+/// One half of the convex hull of places, by tick: they bound the lines that draw the same cells. A straight
+/// path modulo a cell has only few, however many ticks it takes.
 class HalfHull {
  public:
   /// `side`: 1 for the lower half, −1 for the upper one.
@@ -44,7 +44,7 @@ class HalfHull {
   }
 
  private:
-  /// Does the last place lie inside, now that this one follows?
+  /// Does the last place lie inside the hull once `next` is added?
   bool isWithin(Place next) const {
     const Place& last = m_places.back();
     const Place& before = m_places[m_places.size() - 2];
@@ -65,15 +65,15 @@ class AxisFit {
       : m_position(position), m_velocity(velocity), m_horizon(velocity == 0 ? 0 : horizon) {
     Fixed place = position + kHalf;
     for (std::uint32_t n = 0; n <= m_horizon; ++n, place += velocity) {
-      Fixed least = df::kFixedOne;
-      Fixed most = 0;
+      Fixed low = df::kFixedOne;
+      Fixed high = 0;
       for (const Fixed offset : offsets) {
         const Fixed within = (place + offset) & (df::kFixedOne - 1);
-        least = std::min(least, within);
-        most = std::max(most, within);
+        low = std::min(low, within);
+        high = std::max(high, within);
       }
-      m_lower.add({n, least});
-      m_upper.add({n, most});
+      m_lower.add({n, low});
+      m_upper.add({n, high});
     }
   }
 

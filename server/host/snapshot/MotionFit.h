@@ -1,5 +1,5 @@
-// Which short numbers draw the same path: the published model need not be where an object is, only in the
-// same cells.
+// Fits a motion in few bits to a path: the published model has to draw the same cells, not to be at the same
+// position.
 #pragma once
 
 #include <cstdint>

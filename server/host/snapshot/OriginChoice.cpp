@@ -21,15 +21,15 @@ std::int32_t bitsFor(std::int32_t extent) {
 
 }  // namespace
 
-std::uint32_t OriginChoice::note(CellPosition view_corner, const WorldRecord& world,
-                                 std::uint64_t newest_order) {
+std::uint32_t OriginChoice::updateWindow(CellPosition view_corner, const WorldRecord& world,
+                                         std::uint64_t newest_order) {
   const Origin& newest = m_origins[m_newest];
   if (m_newest != 0 && covers(newest.corner.x, newest.x_bits, view_corner.x, world.view_width) &&
       covers(newest.corner.y, newest.y_bits, view_corner.y, world.view_height) &&
       newest_order - newest.order < kFarOrder) {
     return 0;
   }
-  // A slot that is still on its way may be set anew, since no snapshot names it yet.
+  // A slot that is unconfirmed may be set again, since no snapshot names it yet.
   const bool pending = m_newest != m_slot;
   if (!pending) m_newest = m_newest % kOriginSlots + 1;
   Origin& origin = m_origins[m_newest];
@@ -41,7 +41,7 @@ std::uint32_t OriginChoice::note(CellPosition view_corner, const WorldRecord& wo
   return m_newest;
 }
 
-void OriginChoice::arrived(std::uint32_t slot) {
+void OriginChoice::confirmArrival(std::uint32_t slot) {
   if (slot == m_newest) m_slot = m_newest;
 }
 

@@ -1,7 +1,7 @@
-// From where one client's positions are counted: a window around its view, so that they take few bits.
+// The origin of one client's positions: a window around its view, so that positions take few bits.
 //
-// A view that leaves the window gets another one, in another slot; snapshots name it only once the client has
-// confirmed it.
+// A view that leaves the window gets another one, in another slot. Snapshots name the new slot only once the
+// client has confirmed it.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@ namespace naiad {
 
 class OriginChoice {
  public:
-  /// The view is here now. The slot that the client has to be told of anew; 0: none.
-  std::uint32_t note(CellPosition view_corner, const WorldRecord& world, std::uint64_t newest_order);
-  /// The client has what the slot holds now.
-  void arrived(std::uint32_t slot);
+  /// The view has moved. Returns the slot whose window has to be sent; 0: none.
+  std::uint32_t updateWindow(CellPosition view_corner, const WorldRecord& world, std::uint64_t newest_order);
+  /// The client has received the slot as it is now.
+  void confirmArrival(std::uint32_t slot);
 
   /// The slot that snapshots name; 0: none yet.
   std::uint32_t slot() const { return m_slot; }

@@ -13,28 +13,28 @@ bool sameCell(df::FixedVector a, df::FixedVector b) {
   return df::cellOf(a.x) == df::cellOf(b.x) && df::cellOf(a.y) == df::cellOf(b.y);
 }
 
-/// The id under which the client was told of the object, or is about to be; kNobody if it is not.
+/// The id of the object, whose birth was sent or is pending; kNone if it has none.
 std::uint32_t idOf(df::ObjectKey object, const KnownObjects& known) {
-  const std::uint32_t id = object.generation != 0 ? known.find(object.slot) : KnownObjects::kNobody;
-  const bool same = id != KnownObjects::kNobody && known.at(id).generation == object.generation;
-  return same ? id : KnownObjects::kNobody;
+  const std::uint32_t id = object.generation != 0 ? known.find(object.slot) : KnownObjects::kNone;
+  const bool same = id != KnownObjects::kNone && known.at(id).generation == object.generation;
+  return same ? id : KnownObjects::kNone;
 }
 
 }  // namespace
 
-// ---- what there is to tell --------------------------------------------------------------------------------
+// ---- what is pending --------------------------------------------------------------------------------------
 
-void PerClientState::note(const Publisher& publisher, const df::PlayerFacts& player) {
-  notePlayer(player);
-  if (m_world != publisher.world() || (m_states[kWorld].sent == 0 && !isOwed(kWorld))) {
+void PerClientState::applyTick(const Publisher& publisher, const df::PlayerFacts& player) {
+  applyPlayer(player);
+  if (m_world != publisher.world() || (m_states[kWorld].sent == 0 && !isPending(kWorld))) {
     m_world = publisher.world();
-    owe(kWorld);
+    markPending(kWorld);
   }
-  noteOrigin(publisher);
+  applyOrigin(publisher);
 }
 
 // Strings and tables are copied only when they change.
-void PerClientState::notePlayer(const df::PlayerFacts& player) {
+void PerClientState::applyPlayer(const df::PlayerFacts& player) {
   m_player.id = player.id;
   m_player.followed = player.followed;
   m_player.view_corner = player.view_corner;
@@ -46,15 +46,15 @@ void PerClientState::notePlayer(const df::PlayerFacts& player) {
   m_player.steering.acceleration = steering.acceleration;
   if (steering.p_table != m_player.steering.p_table) {
     m_player.steering.p_table = steering.p_table;
-    noteTable();
+    applyTable();
   }
   if (player.texts != m_player.texts) {
     m_player.texts = player.texts;
-    noteTexts(player.texts);
+    applyTexts(player.texts);
   }
 }
 
-void PerClientState::noteTexts(const std::vector<df::PlayerText>& now) {
+void PerClientState::applyTexts(const std::vector<df::PlayerText>& now) {
   std::array<df::PlayerText, kMaxTexts> texts;
   for (const df::PlayerText& text : now) {
     if (text.id < kMaxTexts) texts[text.id] = text;
@@ -64,27 +64,27 @@ void PerClientState::noteTexts(const std::vector<df::PlayerText>& now) {
     const bool silent = texts[i].text.empty() && m_texts[i].text.empty();
     if (silent || texts[i] == m_texts[i]) continue;
     m_texts[i] = texts[i];
-    owe(kTexts + i);
+    markPending(kTexts + i);
   }
 }
 
-// One who never had controls need not be told of none.
-void PerClientState::noteTable() {
+// A client that never had controls needs no empty table.
+void PerClientState::applyTable() {
   const df::ControlTable* p_table = m_player.steering.p_table.get();
   std::string bytes;
   writeControlTable(bytes, p_table != nullptr ? *p_table : df::ControlTable{});
   if (bytes == m_table) return;
   m_table = bytes;
-  owe(kTable);
-  owe(kControl);
+  markPending(kTable);
+  markPending(kControl);
 }
 
-void PerClientState::noteOrigin(const Publisher& publisher) {
+void PerClientState::applyOrigin(const Publisher& publisher) {
   const CellPosition corner{df::cellOf(m_player.view_corner.x), df::cellOf(m_player.view_corner.y)};
-  const std::uint32_t slot = m_origins.note(corner, publisher.world(), publisher.newestOrder());
+  const std::uint32_t slot = m_origins.updateWindow(corner, publisher.world(), publisher.newestOrder());
   if (slot == 0) return;
   m_states[kOrigins + slot - 1] = {};
-  owe(kOrigins + slot - 1);
+  markPending(kOrigins + slot - 1);
 }
 
 void PerClientState::noteInput(std::uint32_t id, std::uint32_t tick) {
@@ -92,45 +92,45 @@ void PerClientState::noteInput(std::uint32_t id, std::uint32_t tick) {
   m_input = id;
   m_input_tick = tick;
   m_states[kInput] = {};
-  owe(kInput);
+  markPending(kInput);
 }
 
-void PerClientState::check(const Publisher& publisher, const KnownObjects& known) {
-  checkView(publisher, known);
-  checkControl(publisher.tick(), known);
+void PerClientState::queueCorrections(const Publisher& publisher, const KnownObjects& known) {
+  queueView(publisher, known);
+  queueControl(publisher.tick(), known);
 }
 
-// The followed object's model, if the client was told of the object.
+// Null if the client does not know the followed object.
 const Motion* PerClientState::followedMotion(const Publisher& publisher, const KnownObjects& known) const {
-  if (idOf(m_player.followed, known) == KnownObjects::kNobody) return nullptr;
+  if (idOf(m_player.followed, known) == KnownObjects::kNone) return nullptr;
   return &publisher.find(m_player.followed.slot)->state.motion;
 }
 
 // The view is a model too: it is sent where following the published object would show the wrong cells.
-void PerClientState::checkView(const Publisher& publisher, const KnownObjects& known) {
+void PerClientState::queueView(const Publisher& publisher, const KnownObjects& known) {
   const Motion* motion = followedMotion(publisher, known);
-  ViewRecord truth{m_player.view_corner, motion != nullptr, 0, 0};
-  const std::uint32_t id = truth.follows ? known.find(m_player.followed.slot) : 0;
-  if (truth.follows) {
-    truth.id = id;
-    truth.generation = KnownObjects::generationOf(known.at(id));
+  ViewRecord actual{m_player.view_corner, motion != nullptr, 0, 0};
+  const std::uint32_t id = actual.follows ? known.find(m_player.followed.slot) : 0;
+  if (actual.follows) {
+    actual.id = id;
+    actual.generation = KnownObjects::generationOf(known.at(id));
   }
-  bool right = m_states[kView].sent != 0 && truth.follows == m_view.follows && truth.id == m_view.id &&
-               truth.generation == m_view.generation;
-  if (right && motion != nullptr && motion->tick != publisher.tick()) {
+  bool correct = m_states[kView].sent != 0 && actual.follows == m_view.follows && actual.id == m_view.id &&
+                 actual.generation == m_view.generation;
+  if (correct && motion != nullptr && motion->tick != publisher.tick()) {
     // A motion that is sent late gets a new base, and following it from there may lead elsewhere.
-    right = (known.at(id).owed & kMotion) == 0;
+    correct = (known.at(id).pending & kMotion) == 0;
   }
-  if (right) {
+  if (correct) {
     const ViewFrame frame{m_view.corner,
                           {df::fromCells(m_world.view_width), df::fromCells(m_world.view_height)},
                           m_world.boundary};
-    right = sameCell(viewCornerAt(frame, m_view_tick, motion, publisher.tick()), truth.corner);
+    correct = sameCell(viewCornerAt(frame, m_view_tick, motion, publisher.tick()), actual.corner);
   }
-  if (right && !isOwed(kView)) return;
-  m_view = truth;
+  if (correct && !isPending(kView)) return;
+  m_view = actual;
   m_view_tick = publisher.tick();
-  owe(kView);
+  markPending(kView);
 }
 
 ControlRecord PerClientState::controlNow(std::uint32_t tick, const KnownObjects& known) const {
@@ -140,7 +140,7 @@ ControlRecord PerClientState::controlNow(std::uint32_t tick, const KnownObjects&
   now.newest_input = m_input;
   now.state = facts.state;
   const std::uint32_t id = idOf(facts.object, known);
-  if (id == KnownObjects::kNobody) return now;
+  if (id == KnownObjects::kNone) return now;
   now.slot = id;
   now.generation = KnownObjects::generationOf(known.at(id));
   now.position = facts.position;
@@ -149,92 +149,92 @@ ControlRecord PerClientState::controlNow(std::uint32_t tick, const KnownObjects&
   return now;
 }
 
-// What is steered is sent where the client could not have worked it out.
-void PerClientState::checkControl(std::uint32_t tick, const KnownObjects& known) {
+// The state of the steered object is sent where the client could not have computed it.
+void PerClientState::queueControl(std::uint32_t tick, const KnownObjects& known) {
   const df::ControlTable* p_table = m_player.steering.p_table.get();
   if (p_table == nullptr) {
-    m_owed &= ~(1u << kControl);
+    m_pending &= ~(1u << kControl);
     return;
   }
   m_control = controlNow(tick, known);
-  if (!m_acked_control.implies(m_control, *p_table)) owe(kControl);
+  if (!m_acked_control.implies(m_control, *p_table)) markPending(kControl);
 }
 
-// ---- telling it -------------------------------------------------------------------------------------------
+// ---- sending it -------------------------------------------------------------------------------------------
 
-void PerClientState::tellInput(SnapshotHeader& header) const {
+void PerClientState::writeInput(SnapshotHeader& header) const {
   const State& input = m_states[kInput];
-  if (!isOwed(kInput) && (input.sent == 0 || input.arrived)) return;
+  if (!isPending(kInput) && (input.sent == 0 || input.arrived)) return;
   header.tells_input = true;
   header.input = m_input;
   header.input_tick = m_input_tick;
 }
 
 bool PerClientState::write(SnapshotWriter& writer, std::uint32_t number, std::size_t limit, bool repeats) {
-  const std::uint32_t before = m_owed;
-  if (isOwed(kInput)) pay(kInput, number, repeats);  // the header names it
-  for (std::uint32_t left = m_owed; left != 0; left &= left - 1) {
+  const std::uint32_t before = m_pending;
+  if (isPending(kInput)) markSent(kInput, number, repeats);  // the header names it
+  for (std::uint32_t left = m_pending; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
-    const std::size_t most = i == kTable ? 8 * m_table.size() + 16 : kMaxBits;
-    if (!writer.hasRoom(most, 0, limit)) continue;
+    const std::size_t max_bits = i == kTable ? 8 * m_table.size() + 16 : kMaxBits;
+    if (!writer.hasRoom(max_bits, 0, limit)) continue;
     write(i, writer);
-    pay(i, number, repeats);
+    markSent(i, number, repeats);
   }
-  return m_owed != before;
+  return m_pending != before;
 }
 
-void PerClientState::write(std::size_t single, SnapshotWriter& writer) {
-  if (single == kWorld) writer.write(m_world);
-  if (single == kView) writer.write(m_view);
-  if (single == kTable) writer.writeTable(m_table);
-  if (single == kControl) {
+void PerClientState::write(std::size_t part, SnapshotWriter& writer) {
+  if (part == kWorld) writer.write(m_world);
+  if (part == kView) writer.write(m_view);
+  if (part == kTable) writer.writeTable(m_table);
+  if (part == kControl) {
     writer.write(m_control);
-    m_acked_control.tell(m_control);
+    m_acked_control.setSent(m_control);
   }
-  if (single >= kOrigins && single < kTexts) {
-    const auto slot = static_cast<std::uint32_t>(single - kOrigins + 1);
+  if (part >= kOrigins && part < kTexts) {
+    const auto slot = static_cast<std::uint32_t>(part - kOrigins + 1);
     writer.write(OriginRecord{slot, m_origins.at(slot)});
   }
-  if (single >= kTexts) {
-    const df::PlayerText& text = m_texts[single - kTexts];
+  if (part >= kTexts) {
+    const df::PlayerText& text = m_texts[part - kTexts];
     writer.write(TextRecord{text.id, text.x, text.y, text.color, text.text});
   }
 }
 
-void PerClientState::pay(std::size_t single, std::uint32_t number, bool repeats) {
-  m_owed &= ~(1u << single);
-  m_states[single] = {number, false};
-  const bool small = single == kView || single == kControl || single >= kTexts;
-  const bool again = (m_repeated & (1u << single)) != 0;
-  if (repeats && small && !again) m_ahead |= 1u << single;
+void PerClientState::markSent(std::size_t part, std::uint32_t number, bool repeats) {
+  m_pending &= ~(1u << part);
+  m_states[part] = {number, false};
+  const bool small = part == kView || part == kControl || part >= kTexts;
+  const bool again = (m_repeated & (1u << part)) != 0;
+  if (repeats && small && !again) m_to_repeat |= 1u << part;
 }
 
-void PerClientState::repeatAhead() {
+void PerClientState::queueRepeats() {
   m_repeated = 0;
-  for (std::uint32_t left = std::exchange(m_ahead, 0) & ~m_owed; left != 0; left &= left - 1) {
+  for (std::uint32_t left = std::exchange(m_to_repeat, 0) & ~m_pending; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
     if (m_states[i].arrived) continue;
     m_repeated |= 1u << i;
-    owe(i);
+    markPending(i);
   }
 }
 
-void PerClientState::arrived(std::uint32_t number, bool probe) {
-  // All snapshots since it was paid tell the input, until one is known to have arrived.
+void PerClientState::confirmArrival(std::uint32_t number, bool probe) {
+  // All snapshots since the first name the input, until one is known to have arrived.
   State& input = m_states[kInput];
   if (!probe && input.sent != 0 && !isNewer(input.sent, number)) input.arrived = true;
   for (std::size_t i = 0; i < kCount; ++i) {
-    if (m_states[i].sent != number || isOwed(i)) continue;
+    if (m_states[i].sent != number || isPending(i)) continue;
     m_states[i].arrived = true;
-    if (i >= kOrigins && i < kTexts) m_origins.arrived(static_cast<std::uint32_t>(i - kOrigins + 1));
+    if (i >= kOrigins && i < kTexts) m_origins.confirmArrival(static_cast<std::uint32_t>(i - kOrigins + 1));
   }
 }
 
-bool PerClientState::lost(std::uint32_t number) {
+bool PerClientState::requeueLost(std::uint32_t number) {
   bool missing = false;
   for (std::size_t i = 0; i < kCount; ++i) {
-    if (m_states[i].sent != number || isOwed(i)) continue;
-    owe(i);
+    if (m_states[i].sent != number || isPending(i)) continue;
+    markPending(i);
     missing = true;
   }
   return missing;

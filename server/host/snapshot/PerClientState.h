@@ -1,8 +1,8 @@
-// What one client is told beside objects: the world, its view, its controls, its newest input, its texts, and
-// from where positions are counted.
+// What one client receives beside objects: the world, its view, its controls, its newest input, its texts,
+// and the origins that positions are counted from.
 //
-// Each of these is owed as a whole when it changes, paid when a snapshot carries it, and owed again when that
-// snapshot is lost, in its newest state.
+// Each part is pending as a whole when it changes, is sent when a snapshot carries it, and is pending again
+// when that snapshot is lost, in its newest state.
 #pragma once
 
 #include <array>
@@ -21,33 +21,32 @@ namespace naiad {
 
 class PerClientState {
  public:
-  /// Note one published tick and what this player sees of it.
-  void note(const Publisher& publisher, const df::PlayerFacts& player);
-  /// The newest input that the game has had, and in which tick.
+  /// Take in one published tick and what this player sees of it.
+  void applyTick(const Publisher& publisher, const df::PlayerFacts& player);
+  /// The newest input that the game has had, and its tick.
   void noteInput(std::uint32_t id, std::uint32_t tick);
-  /// Owe what this client could not work out for itself: its view, the state of what it steers. Once a tick,
-  /// before write(), and after `known` was told of the tick.
-  void check(const Publisher& publisher, const KnownObjects& known);
+  /// Mark as pending what this client cannot compute: its view, the state of the object that it steers. Once
+  /// a tick, before write(), and after `known` has taken in the tick.
+  void queueCorrections(const Publisher& publisher, const KnownObjects& known);
 
-  /// Let the header name the newest input until the client is known to have heard of it.
-  void tellInput(SnapshotHeader& header) const;
-  /// Write what is owed and fits in a snapshot of `limit` bytes; what did is paid by snapshot `number`. With
-  /// `repeats`, what is small and matters at once is to be sent once more by repeatAhead(). Whether anything
-  /// was paid.
+  /// Name the newest input in the header, until the client is known to have received it.
+  void writeInput(SnapshotHeader& header) const;
+  /// Write what is pending and fits into snapshot `number`, which has `limit` bytes. With `repeats`, what is
+  /// small and urgent is sent once more by queueRepeats(). Returns whether anything was sent.
   bool write(SnapshotWriter& writer, std::uint32_t number, std::size_t limit, bool repeats);
-  /// Owe again what write() said was to be repeated, unless it is known to have arrived. Once a tick.
-  void repeatAhead();
+  /// Mark as pending what write() chose to repeat, unless it is known to have arrived. Once a tick.
+  void queueRepeats();
 
   /// The snapshot arrived; `probe`: it carried nothing.
-  void arrived(std::uint32_t number, bool probe);
-  /// The snapshot was lost. Whether something is owed again because of it.
-  bool lost(std::uint32_t number);
+  void confirmArrival(std::uint32_t number, bool probe);
+  /// The snapshot was lost. Returns whether anything is pending again because of it.
+  bool requeueLost(std::uint32_t number);
 
-  bool isOwing() const { return m_owed != 0; }
-  /// More than what is owed takes, unless it is a table of controls, which waits for room.
-  std::size_t mostBits() const { return static_cast<std::size_t>(std::popcount(m_owed)) * kMaxBits; }
+  bool hasPending() const { return m_pending != 0; }
+  /// An upper bound of the bits that are pending, without a table of controls, which waits for room.
+  std::size_t maxPendingBits() const { return static_cast<std::size_t>(std::popcount(m_pending)) * kMaxBits; }
 
-  /// As last noted. Of name, colour, score and window nothing is kept.
+  /// As of the last tick, without name, colour, score and window.
   const df::PlayerFacts& player() const { return m_player; }
   const WorldRecord& world() const { return m_world; }
   const OriginChoice& origins() const { return m_origins; }
@@ -71,26 +70,26 @@ class PerClientState {
   };
   static_assert(kCount <= 32);
 
-  /// None takes more: a text of kMaxViewWidth characters.
+  /// Of any part but the table: a text of kMaxViewWidth characters is the longest.
   static constexpr std::size_t kMaxBits = 15 * kMaxViewWidth + 64;
 
-  bool isOwed(std::size_t single) const { return (m_owed >> single & 1) != 0; }
-  void owe(std::size_t single) { m_owed |= 1u << single; }
-  void pay(std::size_t single, std::uint32_t number, bool repeats);
-  void write(std::size_t single, SnapshotWriter& writer);
-  void notePlayer(const df::PlayerFacts& player);
-  void noteTexts(const std::vector<df::PlayerText>& now);
-  void noteTable();
-  void noteOrigin(const Publisher& publisher);
+  bool isPending(std::size_t part) const { return (m_pending >> part & 1) != 0; }
+  void markPending(std::size_t part) { m_pending |= 1u << part; }
+  void markSent(std::size_t part, std::uint32_t number, bool repeats);
+  void write(std::size_t part, SnapshotWriter& writer);
+  void applyPlayer(const df::PlayerFacts& player);
+  void applyTexts(const std::vector<df::PlayerText>& now);
+  void applyTable();
+  void applyOrigin(const Publisher& publisher);
   const Motion* followedMotion(const Publisher& publisher, const KnownObjects& known) const;
-  void checkView(const Publisher& publisher, const KnownObjects& known);
+  void queueView(const Publisher& publisher, const KnownObjects& known);
   ControlRecord controlNow(std::uint32_t tick, const KnownObjects& known) const;
-  void checkControl(std::uint32_t tick, const KnownObjects& known);
+  void queueControl(std::uint32_t tick, const KnownObjects& known);
 
   std::array<State, kCount> m_states;
-  std::uint32_t m_owed = 0;      ///< a bit each
-  std::uint32_t m_ahead = 0;     ///< to be repeated in the next tick
-  std::uint32_t m_repeated = 0;  ///< that this tick repeats
+  std::uint32_t m_pending = 0;    ///< a bit for each part
+  std::uint32_t m_to_repeat = 0;  ///< to be repeated in the next tick
+  std::uint32_t m_repeated = 0;   ///< that this tick repeats
   WorldRecord m_world;
   ViewRecord m_view;              ///< as last sent
   std::uint32_t m_view_tick = 0;  ///< the tick at which m_view holds
@@ -99,8 +98,8 @@ class PerClientState {
   std::uint32_t m_input_tick = 0;
   df::PlayerFacts m_player;
   std::array<df::PlayerText, kMaxTexts> m_texts;
-  std::string m_table;      ///< the player's controls as last told, encoded; empty: none
-  ControlRecord m_control;  ///< to be told, if owed
+  std::string m_table;      ///< the player's controls as last sent, encoded; empty: none
+  ControlRecord m_control;  ///< to be sent, if pending
   AckedControl m_acked_control;
 };
 

@@ -10,7 +10,7 @@ namespace {
 /// The reach of a view object, so that it is of interest to every client wherever its view is.
 constexpr std::int32_t kOnEveryView = 1 << 20;
 
-/// Cells that a motion covers in `ticks`, at most.
+/// An upper bound of the cells that a motion covers in `ticks`.
 std::int64_t cellsCovered(df::Fixed velocity, df::Fixed acceleration, std::int64_t ticks) {
   constexpr std::int64_t kFar = 1 << 30;
   constexpr std::int64_t kFine = df::kFixedOne >> 8;
@@ -24,8 +24,8 @@ std::int64_t cellsCovered(df::Fixed velocity, df::Fixed acceleration, std::int64
 std::int32_t reachOf(const PublishedModel& model) {
   if (!model.alive) return 0;
   if (model.state.body.on_view) return kOnEveryView;
-  const std::int32_t most = model.state.look.sequence.reach();
-  return (most >> kGlyphUnitBits) + (most == 0 ? 0 : 1);
+  const std::int32_t units = model.state.look.sequence.reach();
+  return (units >> kGlyphUnitBits) + (units == 0 ? 0 : 1);
 }
 
 CellRect sweepOf(const PublishedModel& model, std::uint32_t tick, std::uint32_t ticks) {
@@ -56,11 +56,11 @@ ModelOutlook outlookOf(const PublishedModel& model, std::uint32_t tick, std::uin
   }
   const Motion& motion = model.state.motion;
   const df::FixedVector now = positionAt(motion, tick);
-  const df::FixedVector then = isMoving(motion) ? positionAt(motion, tick + soon) : now;
-  const std::int64_t left = std::min(df::cellOf(now.x), df::cellOf(then.x));
-  const std::int64_t top = std::min(df::cellOf(now.y), df::cellOf(then.y));
-  const std::int64_t right = std::max(df::cellOf(now.x), df::cellOf(then.x));
-  const std::int64_t bottom = std::max(df::cellOf(now.y), df::cellOf(then.y));
+  const df::FixedVector end = isMoving(motion) ? positionAt(motion, tick + soon) : now;
+  const std::int64_t left = std::min(df::cellOf(now.x), df::cellOf(end.x));
+  const std::int64_t top = std::min(df::cellOf(now.y), df::cellOf(end.y));
+  const std::int64_t right = std::max(df::cellOf(now.x), df::cellOf(end.x));
+  const std::int64_t bottom = std::max(df::cellOf(now.y), df::cellOf(end.y));
   outlook.soon = CompactRect(CellRect{left, top, right + 1, bottom + 1}.grownBy(model.reach));
   return outlook;
 }

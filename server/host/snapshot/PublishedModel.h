@@ -1,4 +1,4 @@
-// One slot of the published world, and where something of it may be drawn.
+// One slot of the published world, and the cells in which it may be drawn.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +24,9 @@ struct PublishedModel {
   std::int32_t reach = 0;      ///< cells from its own that its characters may be drawn in, at most
 };
 
-/// Where something of a model may be drawn.
+/// The cells in which something of a model may be drawn.
 struct ModelOutlook {
-  std::uint32_t generation = 0;  ///< 0: nothing lives there
+  std::uint32_t generation = 0;  ///< 0: the slot is empty
   CompactRect soon;              ///< now, or at the end of some ticks
   CompactRect later;             ///< at any time in these and some more
 };

@@ -13,9 +13,9 @@ namespace {
 /// Paths are fitted for at least so many ticks, and after a turn for at most so many.
 constexpr std::uint32_t kShortestHorizon = 64;
 constexpr std::uint32_t kHorizonAfterTurn = 512;
-/// A path that outlives its model's horizon gets one for so many times its age.
+/// A path that outlives its model's horizon gets a new one of so many times its age.
 constexpr std::uint32_t kPatience = 8;
-/// More distinct offsets than this make a fit slow and coarse numbers unlikely.
+/// With more distinct offsets than this a fit is slow and rarely finds coarse numbers.
 constexpr std::size_t kMaxOffsets = 6;
 
 }  // namespace
@@ -32,18 +32,18 @@ Publisher::Tracked* Publisher::track(std::uint32_t slot) {
   }
   if (slot >= m_models.size()) {
     m_models.resize(std::size_t{slot} + 1);
-    m_look_at.resize(m_models.size(), m_tick);
+    m_examine_at.resize(m_models.size(), m_tick);
   }
   return &m_models[slot];
 }
 
-// What moves is reported every tick, so what was not reported stands still.
+// Moving objects are reported every tick, so an object that was not reported stands still.
 Motion Publisher::truthNow(const Tracked& tracked) const {
   if (tracked.truth.tick == m_tick) return tracked.truth;
   return {m_tick, tracked.truth.position, {}, {}};
 }
 
-void Publisher::mark(std::uint32_t slot, Tracked& tracked, std::uint8_t groups) {
+void Publisher::markChanged(std::uint32_t slot, Tracked& tracked, std::uint8_t groups) {
   tracked.changed |= groups;
   if (tracked.touched) return;
   tracked.touched = true;
@@ -57,16 +57,16 @@ void Publisher::update(const df::WorldView& view) {
   const bool is_color = view.background >= df::BLACK && view.background <= df::WHITE;
   m_world = {view.boundary, view.view_width, view.view_height, is_color ? view.background : df::BLACK};
   m_changes.clear();
-  const bool controls = m_exact.notePlayers(view.players);
+  const bool controls = m_exact.updatePlayers(view.players);
 
-  for (const df::ObjectKey key : view.vanished) bury(key);
-  for (const df::ObjectFacts& facts : view.changed) takeFacts(facts);
-  auto told = view.looks.begin();
+  for (const df::ObjectKey key : view.vanished) removeObject(key);
+  for (const df::ObjectFacts& facts : view.changed) applyFacts(facts);
+  auto declared = view.looks.begin();
   for (const df::DrawnObject& drawn : view.drawn) {
-    const bool tells = told != view.looks.end() && &view.drawn[told->drawn] == &drawn;
-    takeDrawing(view, drawn, tells ? (told++)->p_look.get() : nullptr);
+    const bool declares = declared != view.looks.end() && &view.drawn[declared->drawn] == &drawn;
+    applyDrawing(view, drawn, declares ? (declared++)->p_look.get() : nullptr);
   }
-  takeLoose(view);
+  applyLoose(view);
   correctUndrawn(view);
   if (controls) setExactSolids(true);
   if (m_exact.takeNewSolids()) keepSolidsExact();
@@ -74,17 +74,17 @@ void Publisher::update(const df::WorldView& view) {
 
   m_change_index.clear();
   for (Change& change : m_changes) {
-    finish(change);
+    finishChange(change);
     m_change_index.add(change.slot, change.groups != 0 ? change.sweep : CompactRect::nowhere());
   }
 }
 
-void Publisher::finish(Change& change) {
+void Publisher::finishChange(Change& change) {
   Tracked& tracked = change.slot == kLooseSlot ? m_loose : m_models[change.slot];
   change.groups = tracked.model.alive ? tracked.changed : 0;
-  if ((change.groups & (kMotion | kLook)) != 0) file(change.slot, tracked);
-  if ((change.groups & kMotion) != 0) fit(tracked);
-  if ((change.groups & kLook) != 0) m_looks.enter(tracked.model, m_tick);
+  if ((change.groups & (kMotion | kLook)) != 0) fileModel(change.slot, tracked);
+  if ((change.groups & kMotion) != 0) fitModel(tracked);
+  if ((change.groups & kLook) != 0) m_looks.enterLook(tracked.model, m_tick);
   if (change.groups == 0 || (change.groups & kMotion) != 0) {
     m_index.fileMotion(change.slot, tracked.model, tracked.membership);
   }
@@ -94,13 +94,13 @@ void Publisher::finish(Change& change) {
   tracked.touched = false;
 }
 
-const SharedMotion& Publisher::share(std::uint32_t slot) const {
+const SharedMotion& Publisher::shareMotionOf(std::uint32_t slot) const {
   return m_motions.put(cacheIndex(slot), m_models.size() + 1,
                        shareMotion(rebase(find(slot)->state.motion, m_tick)));
 }
 
-const Publisher::Outlook& Publisher::workOut(std::uint32_t slot, std::uint32_t soon,
-                                             std::uint32_t later) const {
+const Publisher::Outlook& Publisher::computeOutlook(std::uint32_t slot, std::uint32_t soon,
+                                                    std::uint32_t later) const {
   if (soon != m_soon || later != m_later) {
     m_outlooks.clear();
     m_soon = soon;
@@ -111,16 +111,16 @@ const Publisher::Outlook& Publisher::workOut(std::uint32_t slot, std::uint32_t s
                         model != nullptr ? outlookOf(*model, m_tick, soon, later) : Outlook{});
 }
 
-void Publisher::bury(df::ObjectKey key) {
+void Publisher::removeObject(df::ObjectKey key) {
   if (key.slot >= m_models.size()) return;
   Tracked& tracked = m_models[key.slot];
   if (!tracked.model.alive || tracked.model.generation != key.generation) return;
   tracked.model.alive = false;
-  file(key.slot, tracked);
-  mark(key.slot, tracked, 0);
+  fileModel(key.slot, tracked);
+  markChanged(key.slot, tracked, 0);
 }
 
-void Publisher::takePath(Tracked& tracked, const Motion& truth) {
+void Publisher::applyPath(Tracked& tracked, const Motion& truth) {
   if (rebase(tracked.path, m_tick) == truth) return;
   tracked.run = m_tick - tracked.path.tick;
   tracked.path = truth;
@@ -134,7 +134,7 @@ bool Publisher::isExact(const Tracked& tracked) const {
   return m_exact.contains({static_cast<std::uint32_t>(&tracked - m_models.data()), model.generation});
 }
 
-// Whom a player follows may have had a coarse model until now.
+// An object that a player begins to follow may have had a coarse model.
 void Publisher::keepExact(df::ObjectKey key) {
   if (key.slot >= m_models.size()) return;
   Tracked& tracked = m_models[key.slot];
@@ -142,13 +142,13 @@ void Publisher::keepExact(df::ObjectKey key) {
   const Motion truth = truthNow(tracked);
   if (rebase(tracked.model.state.motion, m_tick) == truth) return;
   tracked.model.state.motion = truth;
-  // Sooner than planned, not later: in this tick it may still turn out not to be drawn.
-  if (isNewer(m_look_at[key.slot], m_tick + 1)) m_look_at[key.slot] = m_tick + 1;
+  // In the next tick at the latest, but not in this one, in which it may still turn out not to be drawn.
+  if (isNewer(m_examine_at[key.slot], m_tick + 1)) m_examine_at[key.slot] = m_tick + 1;
   tracked.off_views = m_tick;
-  mark(key.slot, tracked, kMotion);
+  markChanged(key.slot, tracked, kMotion);
 }
 
-// Those published before anybody predicted.
+// Solids that were published before any client predicted.
 void Publisher::keepSolidsExact() {
   for (std::uint32_t slot = 0; slot < m_models.size(); ++slot) {
     const Tracked& tracked = m_models[slot];
@@ -156,8 +156,8 @@ void Publisher::keepSolidsExact() {
   }
 }
 
-// Coarser numbers for a motion that was just taken over from the world.
-void Publisher::fit(Tracked& tracked) {
+// Find coarser numbers for a motion that was just copied from the world.
+void Publisher::fitModel(Tracked& tracked) {
   if (&tracked == &m_loose || isExact(tracked)) return;
   const Sequence& sequence = tracked.model.state.look.sequence;
   std::array<df::FixedVector, kMaxOffsets> offsets{};  // the position's own cell, first of all
@@ -189,43 +189,43 @@ void Publisher::fit(Tracked& tracked) {
       fitMotion(tracked.model.state.motion, std::span(offsets).first(count), horizon);
 }
 
-// The object's reach or place in the index may have changed.
-void Publisher::file(std::uint32_t slot, Tracked& tracked) {
+// To be called when the object's reach or place in the index may have changed.
+void Publisher::fileModel(std::uint32_t slot, Tracked& tracked) {
   tracked.model.reach = reachOf(tracked.model);
-  m_index.file(slot, tracked.model, tracked.truth.position, tracked.membership);
+  m_index.fileModel(slot, tracked.model, tracked.truth.position, tracked.membership);
 }
 
-void Publisher::takeFacts(const df::ObjectFacts& facts) {
+void Publisher::applyFacts(const df::ObjectFacts& facts) {
   Tracked* tracked = track(facts.key.slot);
   if (tracked == nullptr) return;
   Model& model = tracked->model;
   const Motion truth{m_tick, facts.position, facts.velocity, facts.acceleration};
   const df::Solidness solidness = facts.on_view ? df::SPECTRAL : facts.solidness;
   const Body body{facts.box, solidness, facts.no_soft, facts.on_view};
-  m_look_at[facts.key.slot] = m_tick;
+  m_examine_at[facts.key.slot] = m_tick;
   if (tracked->truth.velocity != facts.velocity || tracked->shown != facts.shown) tracked->off_views = m_tick;
   tracked->truth = truth;
   tracked->shown = facts.shown;
-  takePath(*tracked, truth);
+  applyPath(*tracked, truth);
 
   if (!model.alive || model.generation != facts.key.generation) {
     model = {facts.key.generation, true, {facts.order, truth, {{}, facts.altitude}, body}};
     m_newest_order = std::max(m_newest_order, facts.order);
     tracked->path = truth;
     tracked->run = 0;
-    file(facts.key.slot, *tracked);
-    mark(facts.key.slot, *tracked, kAllGroups);
+    fileModel(facts.key.slot, *tracked);
+    markChanged(facts.key.slot, *tracked, kAllGroups);
     return;
   }
-  m_index.move(facts.key.slot, truth.position, tracked->membership);
+  m_index.fileMove(facts.key.slot, truth.position, tracked->membership);
   if (model.state.body != body) {
     model.state.body = body;
-    file(facts.key.slot, *tracked);  // it may be a view object from now on
-    mark(facts.key.slot, *tracked, kBody);
+    fileModel(facts.key.slot, *tracked);  // it may be a view object from now on
+    markChanged(facts.key.slot, *tracked, kBody);
   }
   if (model.state.look.altitude != facts.altitude) {
     model.state.look.altitude = facts.altitude;
-    mark(facts.key.slot, *tracked, kLook);
+    markChanged(facts.key.slot, *tracked, kLook);
   }
   if (m_exact.hasSolids() && isExact(*tracked)) keepExact(facts.key);
 }

@@ -1,10 +1,10 @@
-// The published models: what every client is told about every object, one model for all of them.
+// The published models: one of each object, the same for all clients.
 //
-// Clients extrapolate a model exactly as the publisher does, so the publisher knows what is on their
-// screens. After each tick it compares that with the world and changes a model only where it would draw
-// something in a wrong cell, or where a look or a body changed. Objects in straight flight cost nothing.
+// Clients extrapolate a model exactly as the publisher does, so the publisher knows what is on their screens.
+// After each tick it compares that with the world. It changes a model only where the model would draw a wrong
+// cell, or where a look or a body changed, so objects in straight flight cost nothing.
 //
-// A model says what an object draws, not where it is to the last bit: MotionFit finds numbers that take few
+// A model says what an object draws, not its position to the last bit: MotionFit finds numbers that take few
 // bits and draw the same cells for as long as the path may be expected to last.
 #pragma once
 
@@ -34,18 +34,18 @@ class Publisher {
   struct Change {
     std::uint32_t slot = 0;
     std::uint8_t groups = 0;
-    CompactRect sweep;  ///< sweepOf() for kSweep ticks, so that not every client has to find out
+    CompactRect sweep;  ///< sweepOf() for kSweep ticks, computed once for all clients
   };
   static constexpr std::uint32_t kSweep = 16;
 
-  /// Take in one tick of the world. `changes()` then lists what clients have to be told.
+  /// Take in one tick of the world. Then `changes()` lists what is new for clients.
   void update(const df::WorldView& view);
 
   std::uint32_t tick() const { return m_tick; }
   const std::vector<Change>& changes() const { return m_changes; }
-  /// The same, arranged to be searched.
+  /// The same, indexed for searches.
   const ChangeIndex& changeIndex() const { return m_change_index; }
-  /// The model in `slot`; null if nothing lives there.
+  /// The model in `slot`; null if the slot is empty.
   const Model* find(std::uint32_t slot) const;
   /// Call `visit(slot, model)` for every live model, in slot order.
   template <class Visit>
@@ -55,16 +55,17 @@ class Publisher {
     }
     if (m_loose.model.alive) visit(kLooseSlot, m_loose.model);
   }
-  /// Where something of the model in `slot` may be drawn, now, in `soon` ticks and up to `later` ticks. It is
-  /// remembered for the numbers of ticks asked for last; valid until the next update or question.
+  /// The cells in which the model in `slot` may be drawn, now, in `soon` ticks and up to `later` ticks. The
+  /// results for the last pair of numbers are cached; the reference is valid until the next update() or
+  /// outlook().
   const Outlook& outlook(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const {
-    const Outlook* known = soon == m_soon && later == m_later ? m_outlooks.find(cacheIndex(slot)) : nullptr;
-    return known != nullptr ? *known : workOut(slot, soon, later);
+    const Outlook* cached = soon == m_soon && later == m_later ? m_outlooks.find(cacheIndex(slot)) : nullptr;
+    return cached != nullptr ? *cached : computeOutlook(slot, soon, later);
   }
-  /// The motion of the model in `slot`, where one lives, at tick() and in bits. Valid until the next call.
+  /// The motion of the live model in `slot`, at tick() and encoded. Valid until the next call.
   const SharedMotion& sharedMotion(std::uint32_t slot) const {
-    const SharedMotion* known = m_motions.find(cacheIndex(slot));
-    return known != nullptr ? *known : share(slot);
+    const SharedMotion* cached = m_motions.find(cacheIndex(slot));
+    return cached != nullptr ? *cached : shareMotionOf(slot);
   }
   const WorldRecord& world() const { return m_world; }
   /// ModelIndex::forEachNear() among the models.
@@ -78,8 +79,8 @@ class Publisher {
   /// The highest creation order published so far.
   std::uint64_t newestOrder() const { return m_newest_order; }
 
-  /// Positions of solid objects that stand still are to be exact, since clients predict moves among them. On
-  /// from the first player with controls on.
+  /// Positions of solid objects that stand still are exact, since clients predict moves among them. Set with
+  /// the first player who has controls.
   void setExactSolids(bool exact) { m_exact.setSolids(exact); }
 
   /// Models corrected because they would have drawn a wrong cell, since the start.
@@ -90,45 +91,45 @@ class Publisher {
  private:
   struct Tracked {
     Model model;
-    Motion truth;           ///< where the object was last reported, and how it went on from there
-    Motion path;            ///< where its present straight path began
-    std::uint32_t run = 0;  ///< ticks that the path before lasted
+    Motion truth;           ///< position and velocity as last reported
+    Motion path;            ///< at the beginning of its present straight path
+    std::uint32_t run = 0;  ///< ticks that the previous path lasted
     ModelIndex::Membership membership;
     bool shown = true;
     std::uint32_t drawn = 0;      ///< newest tick in which its draw() ran
-    std::uint32_t off_views = 0;  ///< until this tick nothing of its look can come into a view
+    std::uint32_t off_views = 0;  ///< until this tick its look cannot enter a view
     std::uint8_t changed = 0;
     bool touched = false;  ///< in m_changes already
   };
 
-  /// In the caches; the loose one's is the last.
+  /// In the caches, where the loose one is the last.
   std::size_t cacheIndex(std::uint32_t slot) const { return std::min<std::size_t>(slot, m_models.size()); }
-  const SharedMotion& share(std::uint32_t slot) const;
-  const Outlook& workOut(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const;
+  const SharedMotion& shareMotionOf(std::uint32_t slot) const;
+  const Outlook& computeOutlook(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const;
   Tracked* track(std::uint32_t slot);
   Motion truthNow(const Tracked& tracked) const;
-  void mark(std::uint32_t slot, Tracked& tracked, std::uint8_t groups);
-  void bury(df::ObjectKey key);
-  void takeFacts(const df::ObjectFacts& facts);
-  void takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn, const Look* told);
-  std::span<const df::DrawCommand> takeOffView(std::span<const df::DrawCommand> drawn,
-                                               df::FixedVector corner);
-  void takeLoose(const df::WorldView& view);
+  void markChanged(std::uint32_t slot, Tracked& tracked, std::uint8_t groups);
+  void removeObject(df::ObjectKey key);
+  void applyFacts(const df::ObjectFacts& facts);
+  void applyDrawing(const df::WorldView& view, const df::DrawnObject& drawn, const Look* declared);
+  std::span<const df::DrawCommand> relativeToView(std::span<const df::DrawCommand> drawn,
+                                                  df::FixedVector corner);
+  void applyLoose(const df::WorldView& view);
   void correctLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn,
-                   const Look* told);
-  void capture(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn);
+                   const Look* declared);
+  void captureLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn);
   void correctUndrawn(const df::WorldView& view);
   void correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::WorldView& view);
-  void takePath(Tracked& tracked, const Motion& truth);
+  void applyPath(Tracked& tracked, const Motion& truth);
   void keepSolidsExact();
   void keepExact(df::ObjectKey key);
-  void fit(Tracked& tracked);
-  void file(std::uint32_t slot, Tracked& tracked);
+  void fitModel(Tracked& tracked);
+  void fileModel(std::uint32_t slot, Tracked& tracked);
   bool isExact(const Tracked& tracked) const;
-  void finish(Change& change);
+  void finishChange(Change& change);
 
   std::vector<Tracked> m_models;
-  std::vector<std::uint32_t> m_look_at;  ///< by slot: the tick in which correctUndrawn() must look at it
+  std::vector<std::uint32_t> m_examine_at;  ///< by slot: the tick in which correctUndrawn() must examine it
   ViewMoves m_views;
   Tracked m_loose;
   std::vector<df::DrawCommand> m_off_view;  ///< scratch

@@ -1,5 +1,5 @@
-// The Publisher's looks: what was drawn becomes what clients are told to draw, and what is not drawn any more
-// is taken from them.
+// The Publisher's looks: what was drawn becomes a published look, and a look that is no longer drawn is
+// removed.
 #include <algorithm>
 #include <cstdlib>
 
@@ -28,7 +28,8 @@ bool landsInAView(const Appearance& appearance, df::FixedVector position, const 
   });
 }
 
-/// Ticks that nothing of the model, off all views now, can come into one, if these move by a cell per tick.
+/// Ticks in which the model, outside of all views now, cannot enter one, if views move by at most a cell per
+/// tick.
 std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, const df::WorldView& view) {
   constexpr std::int64_t kFar = 1 << 20;
   const Motion motion = rebase(model.state.motion, tick);
@@ -48,60 +49,61 @@ std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, c
   return free <= 0 ? 0 : static_cast<std::uint32_t>(free / (speed + 1));
 }
 
-/// An object that stands and shows nothing need not be looked at for so many ticks.
-constexpr std::uint32_t kNeverLook = 1u << 20;
+/// An object that stands still and shows nothing is not examined for so many ticks.
+constexpr std::uint32_t kNeverExamine = 1u << 20;
 }  // namespace
 
-void Publisher::takeDrawing(const df::WorldView& view, const df::DrawnObject& drawn, const Look* told) {
+void Publisher::applyDrawing(const df::WorldView& view, const df::DrawnObject& drawn, const Look* declared) {
   if (drawn.key.generation == 0 || drawn.key.slot >= m_models.size()) return;
   Tracked& tracked = m_models[drawn.key.slot];
   if (!tracked.model.alive || tracked.model.generation != drawn.key.generation) return;
   tracked.drawn = tracked.off_views = m_tick;
-  m_look_at[drawn.key.slot] = m_tick + 1;  // unless it is drawn again
+  m_examine_at[drawn.key.slot] = m_tick + 1;  // unless it is drawn again
   std::span<const df::DrawCommand> commands{view.commands.data() + drawn.first, drawn.count};
-  if (drawn.on_view) commands = takeOffView(commands, view.corner);
-  correctLook(drawn.key.slot, tracked, commands, told);
+  if (drawn.on_view) commands = relativeToView(commands, view.corner);
+  correctLook(drawn.key.slot, tracked, commands, declared);
 }
 
-// What was drawn in the world's own view, as it is in every view.
-std::span<const df::DrawCommand> Publisher::takeOffView(std::span<const df::DrawCommand> drawn,
-                                                        df::FixedVector corner) {
+// Commands drawn in the world's own view, relative to its corner, as every view has them.
+std::span<const df::DrawCommand> Publisher::relativeToView(std::span<const df::DrawCommand> drawn,
+                                                           df::FixedVector corner) {
   m_off_view.assign(drawn.begin(), drawn.end());
   for (df::DrawCommand& command : m_off_view) command.position = command.position - corner;
   return m_off_view;
 }
 
 void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn,
-                            const Look* told) {
+                            const Look* declared) {
   ObjectState& state = tracked.model.state;
   const df::FixedVector truth = tracked.truth.position;
   const df::FixedVector modelled = positionAt(state.motion, m_tick);
   if (sameCell(modelled, truth) && drawsTheSame(state.look, m_tick, modelled, drawn)) return;
 
-  // A path that turned is the usual cause: try the known look at the true place before making a new one.
+  // The usual cause is a path that turned: try the known look at the true position before making a new one.
   if (!sameCell(modelled, truth) || drawsTheSame(state.look, m_tick, truth, drawn)) {
     state.motion = truthNow(tracked);
-    mark(slot, tracked, kMotion);
+    markChanged(slot, tracked, kMotion);
     ++m_corrections;
     if (drawsTheSame(state.look, m_tick, truth, drawn)) return;
   }
   const Look before = state.look;
-  // What it says of itself counts if it is what it drew: a draw() of its own may have added to it.
-  if (told != nullptr && drawsTheSame(*told, m_tick, truth, drawn)) {
-    state.look.sequence = told->sequence;
-    state.look.selector = told->selector;
+  // A declared look counts if it is what was drawn: the object's own draw() may have added to it.
+  if (declared != nullptr && drawsTheSame(*declared, m_tick, truth, drawn)) {
+    state.look.sequence = declared->sequence;
+    state.look.selector = declared->selector;
     if (!drawsTheSame(state.look, m_tick, positionAt(state.motion, m_tick), drawn)) {
-      state.motion = truthNow(tracked);  // fitted anew, for the new look
-      mark(slot, tracked, kMotion);
+      state.motion = truthNow(tracked);  // fitted again, for the new look
+      markChanged(slot, tracked, kMotion);
     }
   } else {
-    capture(slot, tracked, drawn);
+    captureLook(slot, tracked, drawn);
   }
-  // A drawing too large to be described whole is cut the same way each time, and not news each time.
-  if (state.look != before) mark(slot, tracked, kLook);
+  // A drawing that is too large for a record is cut the same way each time, so that it is not a change each
+  // time.
+  if (state.look != before) markChanged(slot, tracked, kLook);
 }
 
-void Publisher::capture(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn) {
+void Publisher::captureLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn) {
   ObjectState& state = tracked.model.state;
   const df::FixedVector truth = tracked.truth.position;
   state.look.selector = {};
@@ -111,15 +113,15 @@ void Publisher::capture(std::uint32_t slot, Tracked& tracked, std::span<const df
   Appearance appearance = captureAppearance(truth, drawn);
   state.look.sequence = {appearance};
   if (modelled != truth && !drawsTheSame(state.look, m_tick, modelled, drawn)) {
-    state.motion = truthNow(tracked);  // fitted anew, for the new look
+    state.motion = truthNow(tracked);  // fitted again, for the new look
     modelled = truth;
-    mark(slot, tracked, kMotion);
+    markChanged(slot, tracked, kMotion);
   }
   if (!drawsTheSame(state.look, m_tick, modelled, drawn)) appearance = captureCells(modelled, drawn);
   state.look.sequence = fitToRecord(std::move(appearance));
 }
 
-void Publisher::takeLoose(const df::WorldView& view) {
+void Publisher::applyLoose(const df::WorldView& view) {
   std::vector<df::DrawCommand> loose;
   for (const df::DrawnObject& drawn : view.drawn) {
     if (drawn.key.generation != 0) continue;
@@ -128,28 +130,28 @@ void Publisher::takeLoose(const df::WorldView& view) {
   }
   if (loose.empty() && !m_loose.model.alive) return;
   if (!m_loose.model.alive) {
-    // Far below everything, and never moving: each glyph's offset says where it is.
+    // Below all objects, and never moving: each glyph's offset is its place.
     m_loose.model = {1, true, {0, {m_tick, loose.front().position, {}, {}}, {{}, 0}, {}}};
     m_loose.model.state.body.solidness = df::SPECTRAL;
     m_loose.truth = m_loose.model.state.motion;
-    mark(kLooseSlot, m_loose, kAllGroups);
+    markChanged(kLooseSlot, m_loose, kAllGroups);
   }
   correctLook(kLooseSlot, m_loose, loose, nullptr);
 }
 
 void Publisher::correctUndrawn(const df::WorldView& view) {
-  const bool jumped = m_views.note(view);
-  for (std::uint32_t slot = 0; slot < m_look_at.size(); ++slot) {
-    if (isNewer(m_look_at[slot], m_tick) && !(jumped && m_models[slot].drawn != m_tick)) continue;
+  const bool jumped = m_views.updateViews(view);
+  for (std::uint32_t slot = 0; slot < m_examine_at.size(); ++slot) {
+    if (isNewer(m_examine_at[slot], m_tick) && !(jumped && m_models[slot].drawn != m_tick)) continue;
     Tracked& tracked = m_models[slot];
-    m_look_at[slot] = m_tick + kNeverLook;
+    m_examine_at[slot] = m_tick + kNeverExamine;
     if (!tracked.model.alive) continue;
     if (jumped) tracked.off_views = m_tick;
     correctUndrawn(slot, tracked, view);
     const bool standing = !isMoving(tracked.model.state.motion);
     const bool blank = tracked.model.state.look.sequence.empty();
-    m_look_at[slot] = !standing ? m_tick + 1 : blank ? m_tick + kNeverLook : tracked.off_views;
-    if (m_look_at[slot] == m_tick) ++m_look_at[slot];
+    m_examine_at[slot] = !standing ? m_tick + 1 : blank ? m_tick + kNeverExamine : tracked.off_views;
+    if (m_examine_at[slot] == m_tick) ++m_examine_at[slot];
   }
 }
 
@@ -157,10 +159,10 @@ void Publisher::correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::W
   ObjectState& state = tracked.model.state;
   if (!sameCell(positionAt(state.motion, m_tick), tracked.truth.position)) {
     state.motion = truthNow(tracked);
-    mark(slot, tracked, kMotion);
+    markChanged(slot, tracked, kMotion);
     ++m_corrections;
   }
-  // draw() did not run, so nothing of it may show; off every view its look can wait there unseen.
+  // draw() did not run, so nothing may show. Outside of every view the look may stay, unseen.
   const Appearance* appearance = state.look.select(m_tick);
   if (appearance == nullptr) return;
   if (tracked.shown && tracked.changed == 0 && isNewer(tracked.off_views, m_tick)) return;
@@ -171,7 +173,7 @@ void Publisher::correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::W
   }
   state.look.sequence = {};
   state.look.selector = {};
-  mark(slot, tracked, kLook);
+  markChanged(slot, tracked, kLook);
 }
 
 }  // namespace naiad

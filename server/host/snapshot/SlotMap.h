@@ -30,7 +30,7 @@ class SlotMap {
   void erase(std::uint32_t slot) {
     std::size_t hole = home(slot);
     while (m_entries[hole].slot != slot) hole = next(hole);
-    // Close the gap: whoever lies behind it and could not be found any more moves up.
+    // Close the gap: entries behind it that could not be found any more move up.
     for (std::size_t i = next(hole); m_entries[i].slot != kNone; i = next(i)) {
       const std::size_t wanted = home(m_entries[i].slot);
       const bool reachable = hole < i ? wanted > hole && wanted <= i : wanted > hole || wanted <= i;

@@ -1,4 +1,4 @@
-// Values by slot that are the same for all clients in a tick: worked out when the first one asks.
+// Values by slot that are the same for all clients in a tick, computed when the first client asks.
 #pragma once
 
 #include <cstddef>

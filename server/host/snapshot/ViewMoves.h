@@ -1,4 +1,4 @@
-// Do all views move slowly enough to foresee what comes into them?
+// Finds out whether all views move slowly enough to predict what enters them.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace naiad {
 class ViewMoves {
  public:
   /// Take in one tick. Returns whether a view has appeared or moved by more than a cell, or was resized.
-  bool note(const df::WorldView& view) {
+  bool updateViews(const df::WorldView& view) {
     bool jumped = view.players.size() != m_corners.size();
     m_corners.resize(view.players.size());
     for (std::size_t i = 0; i < m_corners.size(); ++i) {

@@ -54,7 +54,7 @@ void WorldInProcess::published(const Publisher& publisher) {
     m_world.isLookingBack() ? static_cast<void>(m_lag_compensator.emplace()) : m_lag_compensator.reset();
     m_world.setLagCompensation(m_lag_compensator ? &*m_lag_compensator : nullptr);
   }
-  if (m_lag_compensator) m_lag_compensator->note(publisher, m_world.view());
+  if (m_lag_compensator) m_lag_compensator->recordTick(publisher, m_world.view());
 }
 
 std::vector<std::uint32_t> WorldInProcess::takeLeavers() {

@@ -110,7 +110,7 @@ void WorldServer::lookBack(const WorldTurn& turn, df::World& world) {
 bool WorldServer::answer(const WorldTurn& turn, df::World& world) {
   if (m_publisher) {
     m_publisher->update(world.view());
-    m_lag_compensator.note(*m_publisher, world.view());
+    m_lag_compensator.recordTick(*m_publisher, world.view());
   }
   WorldAnswer answer;
   answer.game_over = world.isGameOver();

@@ -25,7 +25,7 @@ LinkedClient::LinkedClient(VirtualClock& clock, const LinkConditions& conditions
 void LinkedClient::tick(const Publisher& publisher, const df::PlayerFacts& player) {
   m_tick = publisher.tick();
   const auto begin = std::chrono::steady_clock::now();
-  m_sender.note(publisher, player);
+  m_sender.applyTick(publisher, player);
   const std::vector<SnapshotSender::Packet> packets = m_sender.build(publisher);
   encode += std::chrono::steady_clock::now() - begin;
   for (const SnapshotSender::Packet& packet : packets) {

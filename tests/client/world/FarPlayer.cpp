@@ -14,7 +14,7 @@ FarPlayer::FarPlayer(const Way& way, std::uint64_t seed) : rng(seed), m_way(way)
   m_player = world.join("far", df::RED);
   world.tick();
   m_publisher.update(world.view());
-  m_sender.note(m_publisher, world.view().players[0]);
+  m_sender.applyTick(m_publisher, world.view().players[0]);
 }
 
 void FarPlayer::step() {
@@ -66,7 +66,7 @@ void FarPlayer::checkFrame() {
 
 void FarPlayer::serve() {
   m_publisher.update(world.view());
-  m_sender.note(m_publisher, world.view().players[0]);
+  m_sender.applyTick(m_publisher, world.view().players[0]);
   for (SnapshotSender::Packet& packet : m_sender.build(m_publisher)) {
     if (!isLost()) m_down.push_back({tick() + m_way.down, std::move(packet)});
   }

@@ -11,10 +11,10 @@ constexpr std::size_t kLargest = kMaxVocabularyGlyphs / 2 / 8;
 
 class AppearanceNamesTest : public testing::Test {
  protected:
-  /// Ask, and write as told.
+  /// Write the appearance in the form that it has now.
   LookForm write(std::uint64_t hash, std::uint32_t snapshot, std::size_t glyphs = 10) {
     const LookForm form = names.formOf(hash, glyphs, snapshot);
-    if (form.kind != LookForm::kSpelled) names.wrote(hash, snapshot);
+    if (form.kind != LookForm::kSpelled) names.markUsed(hash, snapshot);
     return form;
   }
 
@@ -27,7 +27,7 @@ TEST_F(AppearanceNamesTest, DefinesUntilADefinitionArrived) {
   const LookForm second = write(111, 2);
   EXPECT_EQ(second.kind, LookForm::kDefined);
   EXPECT_EQ(second.id, first.id);
-  names.arrived(first.id, 111, 1);
+  names.confirmArrival(first.id, 111, 1);
   const LookForm third = write(111, 3);
   EXPECT_EQ(third.kind, LookForm::kNamed);
   EXPECT_EQ(third.id, first.id);
@@ -36,15 +36,15 @@ TEST_F(AppearanceNamesTest, DefinesUntilADefinitionArrived) {
 TEST_F(AppearanceNamesTest, WithinOneSnapshotOneDefinitionIsEnough) {
   EXPECT_EQ(write(111, 1).kind, LookForm::kDefined);
   EXPECT_EQ(write(111, 1).kind, LookForm::kNamed);
-  EXPECT_EQ(write(111, 2).kind, LookForm::kDefined) << "the one before may be lost";
+  EXPECT_EQ(write(111, 2).kind, LookForm::kDefined) << "the previous one may be lost";
 }
 
-TEST_F(AppearanceNamesTest, WhatWasAskedForButNotWrittenIsNotThere) {
+TEST_F(AppearanceNamesTest, AFormThatWasNotWrittenDefinesNothing) {
   EXPECT_EQ(names.formOf(111, 10, 1).kind, LookForm::kDefined);
   EXPECT_EQ(names.formOf(111, 10, 1).kind, LookForm::kDefined);
 }
 
-TEST_F(AppearanceNamesTest, AppearancesHaveIdsOfTheirOwn) {
+TEST_F(AppearanceNamesTest, DifferentAppearancesHaveDifferentIds) {
   std::set<std::uint32_t> ids;
   for (std::uint64_t hash = 1; hash <= kMaxAppearances; ++hash) {
     const LookForm form = write(hash, static_cast<std::uint32_t>(hash), 2);
@@ -55,12 +55,12 @@ TEST_F(AppearanceNamesTest, AppearancesHaveIdsOfTheirOwn) {
   EXPECT_EQ(ids.size(), kMaxAppearances);
 }
 
-TEST_F(AppearanceNamesTest, TheLeastRecentlyUsedGivesItsIdAway) {
+TEST_F(AppearanceNamesTest, TheLeastRecentlyUsedIdIsReassigned) {
   std::uint32_t snapshot = 0;
   std::uint32_t second = 0;
   for (std::uint64_t hash = 1; hash <= kMaxAppearances; ++hash) {
     const LookForm form = write(hash, ++snapshot, 2);
-    names.arrived(form.id, hash, snapshot);
+    names.confirmArrival(form.id, hash, snapshot);
     if (hash == 2) second = form.id;
   }
   EXPECT_EQ(write(1, ++snapshot, 2).kind, LookForm::kNamed);  // so 2 is the oldest
@@ -75,7 +75,7 @@ TEST_F(AppearanceNamesTest, ALateArrivalDoesNotConfirmTheNextUnderTheId) {
   std::uint32_t snapshot = 0;
   for (std::uint64_t hash = 1; hash <= 8; ++hash) write(hash, ++snapshot, kLargest);
   const LookForm next = write(9, ++snapshot, kLargest);  // instead of 1
-  names.arrived(next.id, 1, 1);
+  names.confirmArrival(next.id, 1, 1);
   EXPECT_EQ(write(9, ++snapshot, kLargest).kind, LookForm::kDefined);
 }
 
@@ -87,9 +87,9 @@ TEST_F(AppearanceNamesTest, AnEarlierDefinitionDoesNotConfirmALaterOne) {
   for (std::uint64_t hash = 2; hash <= 8; ++hash) write(hash, ++snapshot, kLargest);
   const LookForm again = write(1, ++snapshot, kLargest);  // instead of 9
   ASSERT_EQ(again.id, first.id);
-  names.arrived(first.id, 1, 1);
+  names.confirmArrival(first.id, 1, 1);
   EXPECT_EQ(write(1, ++snapshot, kLargest).kind, LookForm::kDefined);
-  names.arrived(first.id, 1, snapshot);
+  names.confirmArrival(first.id, 1, snapshot);
   EXPECT_EQ(write(1, ++snapshot, kLargest).kind, LookForm::kNamed);
 }
 
@@ -100,7 +100,7 @@ TEST_F(AppearanceNamesTest, GlyphsAreBoundedInAll) {
     const LookForm form = write(hash, ++snapshot, kLargest);
     EXPECT_EQ(form.kind, LookForm::kDefined);
     EXPECT_LT(form.id, 8u) << "eight of this size are all that is known at a time";
-    names.arrived(form.id, hash, snapshot);
+    names.confirmArrival(form.id, hash, snapshot);
   }
   for (std::uint64_t hash = 13; hash <= 20; ++hash)
     EXPECT_EQ(write(hash, 99, kLargest).kind, LookForm::kNamed);
@@ -108,15 +108,15 @@ TEST_F(AppearanceNamesTest, GlyphsAreBoundedInAll) {
 }
 
 // Else the client would take the new appearance for the old one where the snapshot names that.
-TEST_F(AppearanceNamesTest, AnIdMeansOneThingInASnapshot) {
-  for (std::uint64_t hash = 1; hash <= 8; ++hash) names.arrived(write(hash, 1, kLargest).id, hash, 1);
+TEST_F(AppearanceNamesTest, AnIdHasOneMeaningInASnapshot) {
+  for (std::uint64_t hash = 1; hash <= 8; ++hash) names.confirmArrival(write(hash, 1, kLargest).id, hash, 1);
   for (std::uint64_t hash = 1; hash <= 8; ++hash) EXPECT_EQ(write(hash, 2, kLargest).kind, LookForm::kNamed);
   EXPECT_EQ(write(9, 2, kLargest).kind, LookForm::kSpelled) << "all ids are in use";
   EXPECT_EQ(write(9, 3, kLargest).kind, LookForm::kDefined);
 }
 
-TEST_F(AppearanceNamesTest, AClientThatForgotIsToldAnew) {
-  names.arrived(write(111, 1).id, 111, 1);
+TEST_F(AppearanceNamesTest, AResetClientGetsDefinitionsAgain) {
+  names.confirmArrival(write(111, 1).id, 111, 1);
   names.clear();
   EXPECT_EQ(write(111, 2).kind, LookForm::kDefined);
 }

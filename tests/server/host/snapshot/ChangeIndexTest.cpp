@@ -22,7 +22,7 @@ std::vector<std::size_t> marked(const ChangeIndex::Marks& marks) {
   return all;
 }
 
-TEST(ChangeIndex, MarksWhatALookAtEachChangeWould) {
+TEST(ChangeIndex, MarksWhatAnExaminationOfEachChangeWould) {
   SplitMix64 rng(1);
   ChangeIndex index;
   ChangeIndex::Marks marks;

@@ -65,7 +65,7 @@ TEST(ClientViewport, ALargeTerminalShowsTheViewAndNoMore) {
   }
 }
 
-TEST(ClientViewport, ASmallTerminalShowsTheMiddleOfAViewThatFollowsNobody) {
+TEST(ClientViewport, ASmallTerminalShowsTheMiddleOfAViewThatFollowsNothing) {
   Scene scene;
   ClientViewport window;
   window.setTerminal(40, 24);
@@ -77,7 +77,7 @@ TEST(ClientViewport, ASmallTerminalShowsTheMiddleOfAViewThatFollowsNobody) {
   EXPECT_EQ(rect.bottom, 74);
 }
 
-TEST(ClientViewport, ASmallTerminalShowsWhomTheViewFollows) {
+TEST(ClientViewport, ASmallTerminalShowsTheObjectThatTheViewFollows) {
   Scene scene;
   scene.follow();
   scene.put(150, 60, 0);
@@ -93,7 +93,7 @@ TEST(ClientViewport, ASmallTerminalShowsWhomTheViewFollows) {
   EXPECT_LT(rect.bottom, 74);
 }
 
-TEST(ClientViewport, NobodyShowsLessThanTheLeastTerminal) {
+TEST(ClientViewport, TheSmallestTerminalIsTheLowerLimit) {
   Scene scene;
   ClientViewport window;
   window.setTerminal(1, 1);
@@ -147,7 +147,7 @@ struct SmallClient {
     for (int i = 0; i < ticks; ++i) {
       world.tick();
       publisher.update(world.view());
-      sender.note(publisher, world.view().players[0]);
+      sender.applyTick(publisher, world.view().players[0]);
       truth.emplace(publisher.tick(), world.picture(0));
       on_their_way.push_back(sender.build(publisher));
       most_known = std::max(most_known, sender.knownCount());
@@ -182,7 +182,7 @@ struct SmallClient {
   }
 };
 
-TEST(ClientViewport, WhatASmallTerminalShowsIsRightAndCostsLess) {
+TEST(ClientViewport, ASmallTerminalIsDrawnRightAndCostsLess) {
   std::size_t small_bytes = 0;
   std::size_t full_bytes = 0;
   std::size_t small_known = 0;
@@ -206,16 +206,16 @@ TEST(ClientViewport, WhatASmallTerminalShowsIsRightAndCostsLess) {
   std::printf("bytes %zu of %zu, known %zu of %zu\n", small_bytes, full_bytes, small_known, full_known);
 }
 
-TEST(ClientViewport, ATerminalThatGrowsIsToldTheRest) {
+TEST(ClientViewport, ATerminalThatGrowsReceivesTheRest) {
   test::DirectSender direct(700);
   direct.sender.setTerminal(20, 10);
   direct.tick();
   EXPECT_LT(direct.sender.knownCount(), 450u);
   direct.sender.reset();
-  direct.note();
+  direct.skip();
   EXPECT_LT(direct.sender.knownCount(), 450u) << "a reset forgets the world, not the terminal";
   direct.sender.setTerminal(80, 24);
-  direct.note();
+  direct.skip();
   EXPECT_EQ(direct.sender.knownCount(), 700u);
 }
 

@@ -33,20 +33,20 @@ class DirectSender {
   }
 
   df::WorldView& view() { return m_view; }
-  std::vector<SnapshotSender::Packet> tick(SnapshotSender::Room room = {}) {
-    note();
-    std::vector<SnapshotSender::Packet> packets = sender.build(publisher, room);
+  std::vector<SnapshotSender::Packet> tick(PacketLimits limits = {}) {
+    skip();
+    std::vector<SnapshotSender::Packet> packets = sender.build(publisher, limits);
     for (const SnapshotSender::Packet& packet : packets) read(packet);
     return packets;
   }
   /// A tick in which nothing is sent: the client is busy.
-  void note() {
+  void skip() {
     ++m_view.tick;
     m_view.players[0] = player;
     publisher.update(m_view);
     m_view.changed.clear();
     m_view.vanished.clear();
-    sender.note(publisher, player);
+    sender.applyTick(publisher, player);
   }
   /// The records of a packet that tick() gave, as a client reads them that got all.
   const Records& decoded(const SnapshotSender::Packet& packet) const { return m_records.at(packet.number); }

@@ -39,7 +39,7 @@ TEST(InterestGrid, CompactRectanglesMeetAsTheyWouldInFull) {
   EXPECT_FALSE(rect.meets(CompactRect(CellRect{kFar, -kFar, 2 * kFar, kFar})));
 }
 
-TEST(InterestGrid, FindsWhoComesToABlockThatWasFoundEmpty) {
+TEST(InterestGrid, FindsAnObjectThatEntersABlockFoundEmptyBefore) {
   InterestGrid grid;
   const CellRect rect{0, 0, 1, 1};
   for (std::uint32_t slot = 0; slot < 40; ++slot)
@@ -96,7 +96,7 @@ TEST(InterestGrid, FindsAllInARectangleOnceAndNothingFarAway) {
   }
 }
 
-TEST(InterestGrid, LooksIntoFewBlocksOnly) {
+TEST(InterestGrid, SearchesFewBlocksOnly) {
   InterestGrid grid;
   std::uint32_t slot = 0;
   for (std::int32_t x = -1000; x < 1000; x += 32) {
@@ -106,7 +106,7 @@ TEST(InterestGrid, LooksIntoFewBlocksOnly) {
   EXPECT_EQ(near(grid, {-5000, -5000, 5000, 5000}).size(), slot);
 }
 
-TEST(InterestGrid, RemovingWhatIsNotThereChangesNothing) {
+TEST(InterestGrid, RemovingAnUnfiledSlotChangesNothing) {
   InterestGrid grid;
   grid.remove(7);
   grid.put(3, {1, 1});

@@ -35,8 +35,9 @@ class Window {
   std::int64_t m_dy = 0;
 };
 
-// In every tick whoever the plain rule lets in is known; whoever it has not let in for a whole gap is not.
-void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stands, std::size_t& looked_at) {
+// In every tick an object that the plain rule admits is known, and one that it has not admitted for a whole
+// gap is not.
+void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stands, std::size_t& compared) {
   SplitMix64 rng(seed);
   test::SimulatedWorld world(config, seed);
   Publisher publisher;
@@ -54,7 +55,7 @@ void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stand
     interest.update(publisher, {rect, {own, {}}, 4, static_cast<std::uint32_t>(seed)}, known);
     publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) {
       const std::uint32_t id = known.find(slot);
-      const bool is_known = id != KnownObjects::kNobody && known.at(id).generation == model.generation;
+      const bool is_known = id != KnownObjects::kNone && known.at(id).generation == model.generation;
       const bool is_own = own == df::ObjectKey{slot, model.generation};
       if (is_own || Interest::isVisible(model, tick, 4, rect)) {
         ASSERT_TRUE(is_known) << "tick " << tick << ", slot " << slot;
@@ -62,7 +63,7 @@ void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stand
       std::uint32_t& last = near[std::uint64_t{slot} << 32 | model.generation];
       if (is_own || Interest::isVisible(model, tick, 4, rect.grownBy(Interest::kHysteresis))) last = tick;
       if (is_known) {
-        ++looked_at;
+        ++compared;
         ASSERT_LE(tick - last, Interest::kGap) << "tick " << tick << ", slot " << slot;
       }
     });
@@ -75,29 +76,29 @@ void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stand
 }
 
 TEST(Interest, EqualsThePlainRuleInEveryTick) {
-  std::size_t looked_at = 0;
+  std::size_t compared = 0;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     test::WorldConfig config;
     config.objects = 20 + 5 * (seed % 30);
     config.turn = config.vanish = config.block = 0.02 * static_cast<double>(seed % 4);
-    expectPlain(config, seed, seed % 3 == 0, looked_at);
+    expectPlain(config, seed, seed % 3 == 0, compared);
     if (testing::Test::HasFatalFailure()) return;
   }
-  EXPECT_GT(looked_at, 100'000u);
+  EXPECT_GT(compared, 100'000u);
 }
 
 TEST(Interest, EqualsThePlainRuleWhereNothingEverTurns) {
-  std::size_t looked_at = 0;
+  std::size_t compared = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     test::WorldConfig config;
     config.objects = 150;
     config.turn = config.block = config.restyle = config.reshape = config.vanish = config.hide = 0;
-    expectPlain(config, seed, seed % 2 == 0, looked_at);
+    expectPlain(config, seed, seed % 2 == 0, compared);
     if (testing::Test::HasFatalFailure()) return;
   }
-  EXPECT_GT(looked_at, 10'000u);
+  EXPECT_GT(compared, 10'000u);
 }
 
 }  // namespace

@@ -13,13 +13,13 @@
 namespace naiad {
 namespace {
 
-/// A random world, what is published of it, and the memory under test.
+/// A random world, what is published of it, and the compensator under test.
 class LagCompensatorTest : public testing::Test {
  protected:
   void tick() {
     world.tick();
     publisher.update(world.view());
-    memory.note(publisher, world.view());
+    compensator.recordTick(publisher, world.view());
     auto& models = published[world.tickNumber()];
     publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) { models[slot] = model; });
   }
@@ -29,11 +29,11 @@ class LagCompensatorTest : public testing::Test {
 
   test::SimulatedWorld world{{}, 5};
   Publisher publisher;
-  LagCompensator memory;
+  LagCompensator compensator;
   std::map<std::uint32_t, std::map<std::uint32_t, Publisher::Model>> published;  // by tick, by slot
 };
 
-TEST_F(LagCompensatorTest, SaysWhereAClientThatKnewTheBaseDrewIt) {
+TEST_F(LagCompensatorTest, ReturnsThePositionThatAClientWithTheBaseDrew) {
   SplitMix64 rng(1);
   int there = 0;
   int not_born = 0;
@@ -46,7 +46,7 @@ TEST_F(LagCompensatorTest, SaysWhereAClientThatKnewTheBaseDrewIt) {
       const df::ViewedTick picture =
           seen(static_cast<std::uint32_t>(rng.below(LagCompensator::kTicks)),
                static_cast<std::uint32_t>(rng.below(LagCompensator::kMaxBehind + 1)));
-      const auto where = memory.positionOf({slot, model.generation}, picture);
+      const auto where = compensator.positionOf({slot, model.generation}, picture);
       const auto& known = published[picture.base];
       const auto then = known.find(slot);
       if (then == known.end() || then->second.generation != model.generation) {
@@ -65,25 +65,25 @@ TEST_F(LagCompensatorTest, SaysWhereAClientThatKnewTheBaseDrewIt) {
   EXPECT_GT(not_born, 1000);
 }
 
-TEST_F(LagCompensatorTest, WhatIsTooLongAgoOrYetToComeDoesNotCount) {
+TEST_F(LagCompensatorTest, OldAndFutureTicksAreClamped) {
   for (int i = 0; i < 200; ++i) tick();
   int objects = 0;
   publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) {
     if (slot == kLooseSlot) return;
     const df::ObjectKey key{slot, model.generation};
     const auto same = [&](const df::ViewedTick& a, const df::ViewedTick& b) {
-      EXPECT_EQ(memory.positionOf(key, a), memory.positionOf(key, b));
+      EXPECT_EQ(compensator.positionOf(key, a), compensator.positionOf(key, b));
     };
     same(seen(0, 0), seen(0, static_cast<std::uint32_t>(-5)));  // drawn ahead of the server
     same(seen(0, LagCompensator::kMaxBehind), seen(0, LagCompensator::kMaxBehind + 20));
     same(seen(LagCompensator::kTicks, 3),
-         seen(LagCompensator::kTicks + 100, 3));  // as old a base as is remembered
+         seen(LagCompensator::kTicks + 100, 3));  // the oldest base that is kept
     ++objects;
   });
   EXPECT_GT(objects, 10);
 }
 
-TEST_F(LagCompensatorTest, WhoSaysNothingAndWhoIsGoneWasNotSeen) {
+TEST_F(LagCompensatorTest, WithoutAViewedTickOrAnObjectThereIsNoPosition) {
   tick();
   tick();
   std::map<std::uint32_t, Publisher::Model> before = published[world.tickNumber()];
@@ -93,26 +93,26 @@ TEST_F(LagCompensatorTest, WhoSaysNothingAndWhoIsGoneWasNotSeen) {
     if (slot == kLooseSlot) continue;
     const Publisher::Model* p_now = publisher.find(slot);
     if (p_now != nullptr && p_now->generation == model.generation) {
-      EXPECT_FALSE(memory.positionOf({slot, model.generation}, {}));
+      EXPECT_FALSE(compensator.positionOf({slot, model.generation}, {}));
       continue;
     }
-    EXPECT_FALSE(memory.positionOf({slot, model.generation}, seen(0, 0)));
+    EXPECT_FALSE(compensator.positionOf({slot, model.generation}, seen(0, 0)));
     ++gone;
   }
   EXPECT_GT(gone, 5);
-  EXPECT_FALSE(memory.positionOf({5000, 1}, seen(0, 0)));
+  EXPECT_FALSE(compensator.positionOf({5000, 1}, seen(0, 0)));
 }
 
-TEST_F(LagCompensatorTest, ALeftOutTickEmptiesTheMemory) {
+TEST_F(LagCompensatorTest, AGapBetweenTicksClearsTheHistory) {
   for (int i = 0; i < 50; ++i) tick();
   world.tick();
   publisher.update(world.view());
   tick();
   publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) {
     if (slot == kLooseSlot) return;
-    EXPECT_EQ(memory.positionOf({slot, model.generation}, seen(0, 0)),
+    EXPECT_EQ(compensator.positionOf({slot, model.generation}, seen(0, 0)),
               positionAt(model.state.motion, world.tickNumber()));
-    EXPECT_FALSE(memory.positionOf({slot, model.generation}, seen(1, 0)));
+    EXPECT_FALSE(compensator.positionOf({slot, model.generation}, seen(1, 0)));
   });
 }
 
@@ -120,7 +120,8 @@ CellPosition cellAt(df::FixedVector position) {
   return {df::cellOf(position.x), df::cellOf(position.y)};
 }
 
-/// Players with views that follow things, all of whom hear everything, and what they knew at each tick.
+/// Players with views that follow objects, who receive all snapshots, and what their clients knew at each
+/// tick.
 class LagCompensatorViews : public testing::Test {
  protected:
   static constexpr std::size_t kPlayers = 3;
@@ -128,9 +129,9 @@ class LagCompensatorViews : public testing::Test {
   void tick() {
     world.tick();
     publisher.update(world.view());
-    memory.note(publisher, world.view());
+    compensator.recordTick(publisher, world.view());
     for (std::size_t i = 0; i < kPlayers; ++i) {
-      senders[i].note(publisher, player(i));
+      senders[i].applyTick(publisher, player(i));
       for (const auto& packet : senders[i].build(publisher, {64, kMaxSnapshot, false})) {
         Snapshot snapshot;
         ASSERT_EQ(replicas[i].read(packet.bytes, snapshot), ReadResult::kOk);
@@ -145,7 +146,7 @@ class LagCompensatorViews : public testing::Test {
 
   test::SimulatedWorld world{{.width = 200, .height = 80, .players = kPlayers, .refollow = 0.02}, 7};
   Publisher publisher;
-  LagCompensator memory;
+  LagCompensator compensator;
   std::vector<SnapshotSender> senders{kPlayers, SnapshotSender(Resend::kOnGap)};
   std::vector<Replica> replicas{kPlayers};
   std::map<std::uint32_t, std::vector<Replica>> known;  ///< by tick, one for each player
@@ -162,13 +163,14 @@ TEST_F(LagCompensatorViews, AreWhereTheClientThatKnewTheBaseDrewThem) {
       const auto drawn_age = static_cast<std::uint32_t>(rng.below(LagCompensator::kMaxBehind + 1));
       const auto base_age = drawn_age + static_cast<std::uint32_t>(rng.below(LagCompensator::kMaxBehind + 1));
       const df::ViewedTick seen{true, world.tickNumber() - base_age, world.tickNumber() - drawn_age};
-      const Replica& then = known.at(seen.base)[i];
-      const ObjectState* p_followed = then.followed();
-      // A client leaves out how it came where it is, which matters only if that was not straight.
+      const Replica& replica = known.at(seen.base)[i];
+      const ObjectState* p_followed = replica.followed();
+      // The client does not know how the object came to its place, which matters only if its path was not
+      // straight.
       if (p_followed != nullptr && !(p_followed->motion.acceleration == df::FixedVector{})) continue;
-      const auto corner = memory.viewCornerOf(player(i).id, seen);
+      const auto corner = compensator.viewCornerOf(player(i).id, seen);
       ASSERT_TRUE(corner);
-      EXPECT_EQ(cellAt(*corner), then.viewCorner(seen.drawn))
+      EXPECT_EQ(cellAt(*corner), replica.viewCorner(seen.drawn))
           << "tick " << world.tickNumber() << ", player " << i << ", " << base_age << ", " << drawn_age;
       ++compared;
       scrolled += cellAt(*corner) == cellAt(player(i).view_corner) ? 0 : 1;
@@ -179,42 +181,42 @@ TEST_F(LagCompensatorViews, AreWhereTheClientThatKnewTheBaseDrewThem) {
   std::printf("compared=%d scrolled=%d\n", compared, scrolled);
 }
 
-TEST_F(LagCompensatorViews, OfWhoIsUnknownOrTooLongAgoNothingIsSaid) {
+TEST_F(LagCompensatorViews, UnknownPlayersHaveNoViewAndOldTicksAreClamped) {
   for (int t = 0; t < 50; ++t) ASSERT_NO_FATAL_FAILURE(tick());
   const std::uint32_t now = world.tickNumber();
   const std::uint32_t id = player(1).id;
-  EXPECT_TRUE(memory.viewCornerOf(id, {true, now, now}));
-  EXPECT_FALSE(memory.viewCornerOf(id, {}));
-  EXPECT_FALSE(memory.viewCornerOf(999, {true, now, now}));
-  EXPECT_EQ(memory.viewCornerOf(id, {true, now - 1000, now}),
-            memory.viewCornerOf(id, {true, now - LagCompensator::kTicks, now}));
-  EXPECT_EQ(memory.viewCornerOf(id, {true, now - 20, now - 100}),
-            memory.viewCornerOf(id, {true, now - 20, now - LagCompensator::kMaxBehind}));
+  EXPECT_TRUE(compensator.viewCornerOf(id, {true, now, now}));
+  EXPECT_FALSE(compensator.viewCornerOf(id, {}));
+  EXPECT_FALSE(compensator.viewCornerOf(999, {true, now, now}));
+  EXPECT_EQ(compensator.viewCornerOf(id, {true, now - 1000, now}),
+            compensator.viewCornerOf(id, {true, now - LagCompensator::kTicks, now}));
+  EXPECT_EQ(compensator.viewCornerOf(id, {true, now - 20, now - 100}),
+            compensator.viewCornerOf(id, {true, now - 20, now - LagCompensator::kMaxBehind}));
 }
 
-TEST_F(LagCompensatorViews, AreWhereTheyAreForWhoSteersWhatTheyFollow) {
+TEST_F(LagCompensatorViews, AreNotCompensatedForAPlayerWhoSteersTheFollowedObject) {
   for (int t = 0; t < 50; ++t) ASSERT_NO_FATAL_FAILURE(tick());
   df::WorldView view = world.view();
   df::PlayerFacts& steers = view.players[0];
   steers.followed = {3, 1};
   steers.steering.object = steers.followed;
-  memory.note(publisher, view);
+  compensator.recordTick(publisher, view);
   const df::ViewedTick seen{true, world.tickNumber(), world.tickNumber()};
-  EXPECT_TRUE(memory.viewCornerOf(steers.id, seen)) << "by no declared controls";
+  EXPECT_TRUE(compensator.viewCornerOf(steers.id, seen)) << "by no declared controls";
   steers.steering.p_table = std::make_shared<const df::ControlTable>();
-  memory.note(publisher, view);
-  EXPECT_FALSE(memory.viewCornerOf(steers.id, seen)) << "the client draws it ahead";
-  EXPECT_TRUE(memory.viewCornerOf(view.players[1].id, seen));
+  compensator.recordTick(publisher, view);
+  EXPECT_FALSE(compensator.viewCornerOf(steers.id, seen)) << "the client draws it ahead";
+  EXPECT_TRUE(compensator.viewCornerOf(view.players[1].id, seen));
   steers.steering.object = {4, 1};
-  memory.note(publisher, view);
-  EXPECT_TRUE(memory.viewCornerOf(steers.id, seen)) << "he follows another one than he steers";
+  compensator.recordTick(publisher, view);
+  EXPECT_TRUE(compensator.viewCornerOf(steers.id, seen)) << "the view follows another object than they steer";
 }
 
 TEST(SnapshotTicksTest, KnowsTheLastSnapshotsOnly) {
   SnapshotTicks ticks;
   EXPECT_FALSE(ticks.tickOf(0));
   EXPECT_FALSE(ticks.tickOf(1));
-  for (std::uint32_t number = 1; number <= 300; ++number) ticks.note(number, 1000 + number);
+  for (std::uint32_t number = 1; number <= 300; ++number) ticks.recordSent(number, 1000 + number);
   EXPECT_EQ(ticks.tickOf(300), 1300u);
   EXPECT_EQ(ticks.tickOf(200), 1200u);
   EXPECT_FALSE(ticks.tickOf(100));

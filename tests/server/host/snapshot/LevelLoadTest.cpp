@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 constexpr auto kTick = 33'333us;
 constexpr auto kDelay = 50ms;
 /// As Session sends datagrams.
-constexpr SnapshotSender::Room kRoom{4, kMaxDatagramSnapshot, true};
+constexpr PacketLimits kLimits{4, kMaxDatagramSnapshot, true};
 /// Of IP, UDP and the seal, on each datagram.
 constexpr std::size_t kPacketBytes = 28 + 28;
 
@@ -34,13 +34,13 @@ class Client {
         m_link(clock, conditions(), seed),
         m_server_end(m_link.takeEnd(LinkEnd::kServer)),
         m_client_end(m_link.takeEnd(LinkEnd::kClient)) {
-    m_client_end->start([this](std::string_view packet) { hear(packet.substr(kPacketBytes)); });
+    m_client_end->start([this](std::string_view packet) { receive(packet.substr(kPacketBytes)); });
     m_server_end->start([this](std::string_view packet) { acknowledge(packet); });
   }
 
   void tick(const Publisher& publisher, const df::PlayerFacts& player) {
-    m_sender.note(publisher, player);
-    for (const SnapshotSender::Packet& packet : m_sender.build(publisher, kRoom)) {
+    m_sender.applyTick(publisher, player);
+    for (const SnapshotSender::Packet& packet : m_sender.build(publisher, kLimits)) {
       EXPECT_FALSE(packet.large);
       ++packets;
       bytes += packet.bytes.size() + kPacketBytes;
@@ -56,7 +56,7 @@ class Client {
   std::size_t bytes = 0;
   VirtualClock::Time complete_at{};  ///< when the replica first had `wanted` objects
   std::size_t wanted = 0;
-  std::chrono::microseconds latest{0};  ///< way of the slowest snapshot
+  std::chrono::microseconds latest{0};  ///< delay of the slowest snapshot
 
  private:
   static LinkConditions conditions() {
@@ -66,13 +66,13 @@ class Client {
     line.queue = 16'384;
     return line;
   }
-  void hear(std::string_view packet) {
+  void receive(std::string_view packet) {
     Snapshot snapshot;
     ASSERT_EQ(replica.read(packet, snapshot), ReadResult::kOk);
     replica.apply(snapshot);
     m_acks.note(snapshot.header.number);
-    const auto way = m_clock.now() - m_sent_at[snapshot.header.number % m_sent_at.size()];
-    latest = std::max(latest, std::chrono::duration_cast<std::chrono::microseconds>(way));
+    const auto delay = m_clock.now() - m_sent_at[snapshot.header.number % m_sent_at.size()];
+    latest = std::max(latest, std::chrono::duration_cast<std::chrono::microseconds>(delay));
     if (wanted != 0 && replica.aliveCount() >= wanted && complete_at == VirtualClock::Time{})
       complete_at = m_clock.now();
     m_client_end->send("ack");
@@ -106,7 +106,7 @@ class LevelLoad {
     return {df::fromCells(x), df::fromCells(y)};
   }
   void load(int count) {
-    for (int i = 0; i < count; ++i) {  // nobody leaves the view in the next ten ticks
+    for (int i = 0; i < count; ++i) {  // none leaves the view in the next ten ticks
       const auto speed = [this] {
         return static_cast<df::Fixed>(m_rng.below(df::kFixedOne)) - df::kFixedOne / 2;
       };
@@ -148,7 +148,7 @@ class LevelLoad {
   SplitMix64 m_rng{700};
 };
 
-TEST(LevelLoad, SevenHundredBirthsArriveWithinThreeTicksAndDisturbNobody) {
+TEST(LevelLoad, SevenHundredBirthsArriveWithinThreeTicksAndDelayNoOtherClient) {
   LevelLoad scene;
   for (std::uint64_t i = 0; i < 2; ++i) scene.clients.push_back(std::make_unique<Client>(scene.clock, i));
   Client& loading = *scene.clients[0];
@@ -169,7 +169,7 @@ TEST(LevelLoad, SevenHundredBirthsArriveWithinThreeTicksAndDisturbNobody) {
               loading.packets - before);
   EXPECT_LE(took, kDelay + 3 * kTick);
   EXPECT_EQ(loading.dropped(), 0u);
-  EXPECT_LE(other.latest, usual + 1ms) << "the other one's snapshots are not late";
+  EXPECT_LE(other.latest, usual + 1ms) << "the other client's snapshots are not late";
   EXPECT_GT(other.packets, 0u);
 }
 

@@ -65,7 +65,7 @@ TEST(LookCapture, NoticesEveryKindOfDifference) {
   }
 }
 
-TEST(LookCapture, LeavesOutWhatIsTooFarAway) {
+TEST(LookCapture, LeavesOutDistantCharacters) {
   const std::vector<df::DrawCommand> commands = {{at(8192, 0), U'a', df::RED}, {at(8193, 0), U'b', df::RED}};
   EXPECT_EQ(captureAppearance(at(0, 0), commands).size(), 1u);
   EXPECT_EQ(captureCells(at(0, 0), commands).size(), 1u);

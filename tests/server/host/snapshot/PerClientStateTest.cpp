@@ -18,7 +18,7 @@ df::FixedVector at(double x, double y) {
   return test::cellsAt(x, y);
 }
 
-/// Singles by themselves, for somebody who looks at an empty world.
+/// The state of a client whose player looks at an empty world.
 class Alone {
  public:
   Alone() {
@@ -30,14 +30,14 @@ class Alone {
   Records tick(std::size_t limit = kMaxDatagramSnapshot, bool repeats = false) {
     ++m_view.tick;
     m_publisher.update(m_view);
-    singles.note(m_publisher, player);
-    singles.repeatAhead();
-    singles.check(m_publisher, m_known);
+    state.applyTick(m_publisher, player);
+    state.queueRepeats();
+    state.queueCorrections(m_publisher, m_known);
     SnapshotHeader header{++number, m_view.tick, 0, true, false, 0, 0};
-    singles.tellInput(header);
+    state.writeInput(header);
     SnapshotWriter writer;
     writer.begin(header, 0, {});
-    took = singles.write(writer, number, limit, repeats);
+    sent_any = state.write(writer, number, limit, repeats);
     Snapshot snapshot;
     EXPECT_EQ(Replica().read(writer.finish(), snapshot), ReadResult::kOk);
     tells_input = snapshot.header.tells_input;
@@ -45,10 +45,10 @@ class Alone {
   }
   void say(const std::string& text) { player.texts = {{0, 1, 1, df::WHITE, text}}; }
 
-  PerClientState singles;
+  PerClientState state;
   df::PlayerFacts player;
   std::uint32_t number = 0;  ///< of the newest snapshot
-  bool took = false;
+  bool sent_any = false;
   bool tells_input = false;
 
  private:
@@ -60,40 +60,40 @@ class Alone {
 TEST(PerClientState, WorldViewAndOriginComeFirstAndOnce) {
   Alone scene;
   Records records = scene.tick();
-  EXPECT_TRUE(scene.took);
+  EXPECT_TRUE(scene.sent_any);
   EXPECT_EQ(records.worlds.size(), 1u);
   EXPECT_EQ(records.views.size(), 1u);
   EXPECT_EQ(records.origins.size(), 1u);
   EXPECT_TRUE(records.texts.empty());
-  EXPECT_FALSE(scene.singles.isOwing());
+  EXPECT_FALSE(scene.state.hasPending());
   records = scene.tick();
-  EXPECT_FALSE(scene.took);
+  EXPECT_FALSE(scene.sent_any);
   EXPECT_TRUE(records.worlds.empty());
 }
 
-TEST(PerClientState, OnlyTheNewestSendingOfOneCanBeMissed) {
+TEST(PerClientState, OnlyTheNewestSendingCanBeLost) {
   Alone scene;
   scene.tick();
   scene.say("old");
   scene.tick();
   scene.say("new");
   scene.tick();
-  EXPECT_FALSE(scene.singles.lost(2)) << "the next one replaced it";
-  EXPECT_FALSE(scene.singles.isOwing());
-  EXPECT_TRUE(scene.singles.lost(3));
+  EXPECT_FALSE(scene.state.requeueLost(2)) << "the next one replaced it";
+  EXPECT_FALSE(scene.state.hasPending());
+  EXPECT_TRUE(scene.state.requeueLost(3));
   EXPECT_EQ(scene.tick().texts.at(0).text, "new");
 }
 
-TEST(PerClientState, WhatDoesNotFitWaits) {
+TEST(PerClientState, APartThatDoesNotFitWaits) {
   Alone scene;
   const Records records = scene.tick(60);
-  EXPECT_FALSE(scene.took);
+  EXPECT_FALSE(scene.sent_any);
   EXPECT_TRUE(records.worlds.empty());
-  EXPECT_TRUE(scene.singles.isOwing());
+  EXPECT_TRUE(scene.state.hasPending());
   EXPECT_EQ(scene.tick().worlds.size(), 1u);
 }
 
-TEST(PerClientState, WhatIsRepeatedAheadComesOnceMore) {
+TEST(PerClientState, ARepeatedPartIsSentOnceMore) {
   Alone scene;
   scene.tick();
   scene.say("quick");
@@ -107,24 +107,24 @@ TEST(PerClientState, WhatHasArrivedIsNotRepeated) {
   scene.tick();
   scene.say("quick");
   scene.tick(kMaxDatagramSnapshot, true);
-  scene.singles.arrived(scene.number, false);
+  scene.state.confirmArrival(scene.number, false);
   EXPECT_TRUE(scene.tick(kMaxDatagramSnapshot, true).texts.empty());
 }
 
-TEST(PerClientState, EverySnapshotTellsTheInputUntilOneHasArrived) {
+TEST(PerClientState, EverySnapshotNamesTheInputUntilOneHasArrived) {
   Alone scene;
   scene.tick();
   EXPECT_FALSE(scene.tells_input);
-  scene.singles.noteInput(7, 2);
+  scene.state.noteInput(7, 2);
   for (int i = 0; i < 3; ++i) {
     scene.tick();
     EXPECT_TRUE(scene.tells_input);
   }
-  scene.singles.arrived(1, false);
-  scene.singles.arrived(scene.number, true);
+  scene.state.confirmArrival(1, false);
+  scene.state.confirmArrival(scene.number, true);
   scene.tick();
-  EXPECT_TRUE(scene.tells_input) << "neither an older one nor a probe told it";
-  scene.singles.arrived(scene.number, false);
+  EXPECT_TRUE(scene.tells_input) << "neither an older one nor a probe named it";
+  scene.state.confirmArrival(scene.number, false);
   scene.tick();
   EXPECT_FALSE(scene.tells_input);
 }
@@ -224,7 +224,7 @@ TEST(PerClientState, TextsAreSentWhenTheyChange) {
   EXPECT_TRUE(direct.tick().empty());
 }
 
-/// A player who steers the only object by declared controls, and what his client knows.
+/// A player who steers the only object by declared controls, and what their client knows.
 class Steering {
  public:
   Steering() {
@@ -241,7 +241,7 @@ class Steering {
 
   df::SteeringFacts& steering() { return direct.player.steering; }
   const df::ControlTable& table() const { return m_table; }
-  /// One tick in which the object is moved by its velocity. Returns whether the state was told.
+  /// One tick in which the object is moved by its velocity. Returns whether the state was sent.
   bool tick(df::FixedVector velocity, bool arrives = true) {
     m_facts.position = m_facts.position + velocity;
     m_facts.velocity = velocity;
@@ -249,18 +249,18 @@ class Steering {
     steering().position = m_facts.position;
     steering().velocity = velocity;
     steering().state.x.pull = velocity.x;
-    bool told = false;
+    bool sent = false;
     for (const SnapshotSender::Packet& packet : direct.tick()) {
-      told = told || !direct.decoded(packet).controls.empty();
+      sent = sent || !direct.decoded(packet).controls.empty();
       Snapshot snapshot;
       if (!arrives || replica.read(packet.bytes, snapshot) != ReadResult::kOk) continue;
       replica.apply(snapshot);
       acks.note(packet.number);
     }
     direct.sender.acknowledge(acks);
-    return told;
+    return sent;
   }
-  /// What the client works out is what is.
+  /// The client computes the actual state.
   void expectKnown() {
     const std::uint32_t now = direct.publisher.tick();
     const ControlRecord known = coast(replica.control(), replica.controlTable(), now);
@@ -282,7 +282,7 @@ class Steering {
   df::ObjectFacts m_facts;
 };
 
-TEST(PerClientState, ControlsAreToldOnceAndTheStateWhereItCannotBeWorkedOut) {
+TEST(PerClientState, ControlsAreSentOnceAndTheirStateWhereItCannotBeComputed) {
   Steering scene;
   EXPECT_TRUE(scene.tick({}));
   EXPECT_EQ(scene.replica.controlTable(), scene.table());
@@ -294,11 +294,11 @@ TEST(PerClientState, ControlsAreToldOnceAndTheStateWhereItCannotBeWorkedOut) {
     EXPECT_FALSE(scene.tick(at(1, 0))) << "straight on, tick " << i;
     scene.expectKnown();
   }
-  EXPECT_TRUE(scene.tick(at(1, 0))) << "nobody coasts longer";
+  EXPECT_TRUE(scene.tick(at(1, 0))) << "the longest coasting";
   EXPECT_EQ(scene.replica.controlTableNumber(), 1u) << "the table came once";
 }
 
-TEST(PerClientState, AnInputThatChangedNothingIsAnsweredToo) {
+TEST(PerClientState, AnInputThatChangedNothingIsConfirmedToo) {
   Steering scene;
   scene.tick({});
   scene.direct.sender.noteInput(7, scene.direct.publisher.tick() + 1);
@@ -307,18 +307,18 @@ TEST(PerClientState, AnInputThatChangedNothingIsAnsweredToo) {
   EXPECT_FALSE(scene.tick({}));
 }
 
-TEST(PerClientState, ControlsThatWereLostComeAgain) {
+TEST(PerClientState, LostControlsAreSentAgain) {
   Steering scene;
   scene.tick({}, false);
   for (int i = 0; i < 5; ++i) scene.tick({}, false);
-  bool told = false;
-  for (int i = 0; i < 40; ++i) told = scene.tick(at(i % 7 == 0 ? 1 : 0, 0)) || told;
-  EXPECT_TRUE(told);
+  bool sent = false;
+  for (int i = 0; i < 40; ++i) sent = scene.tick(at(i % 7 == 0 ? 1 : 0, 0)) || sent;
+  EXPECT_TRUE(sent);
   EXPECT_EQ(scene.replica.controlTable(), scene.table());
   scene.expectKnown();
 }
 
-TEST(PerClientState, ControlsThatEndAreToldAsATableWithoutRows) {
+TEST(PerClientState, ControlsThatEndAreSentAsATableWithoutRows) {
   Steering scene;
   scene.tick({});
   scene.steering() = {};

@@ -49,10 +49,10 @@ class Scene {
                                    df::Fixed{glyph.dy} * (df::kFixedOne / 256)};
       commands.push_back({position + offset, glyph.ch, glyph.color});
     }
-    says(look);
+    declares(look);
     drew({slot, 1}, commands);
   }
-  void says(const Look& look) {
+  void declares(const Look& look) {
     m_view.looks.push_back(
         {static_cast<std::uint32_t>(m_view.drawn.size()), std::make_shared<const Look>(look)});
   }
@@ -81,8 +81,8 @@ std::uint8_t groupsOf(const std::vector<Publisher::Change>& changes, std::uint32
   return 0xFF;
 }
 
-// Whoever asks, in whatever tick.
-TEST(Publisher, AMotionForAllClientsIsTheModelsOwnNow) {
+// For any number of calls, in any tick.
+TEST(Publisher, TheSharedMotionIsThatOfTheModelAtTheTick) {
   Scene scene;
   const auto expectShared = [&scene](std::uint32_t slot) {
     const Motion now = rebase(scene.publisher.find(slot)->state.motion, scene.publisher.tick());
@@ -135,7 +135,7 @@ TEST(Publisher, AViewObjectStandsWhereverTheViewsGo) {
   }
   const Publisher::Model& model = *scene.publisher.find(1);
   EXPECT_TRUE(model.state.body.on_view);
-  EXPECT_EQ(model.state.body.solidness, df::SPECTRAL) << "nobody meets it";
+  EXPECT_EQ(model.state.body.solidness, df::SPECTRAL) << "no object meets it";
   ASSERT_EQ(model.state.look.sequence.glyphCount(), 1u);
   const CellPosition cell =
       glyphCell(positionAt(model.state.motion, scene.publisher.tick()), model.state.look.sequence[0][0]);
@@ -242,7 +242,7 @@ TEST(Publisher, AnObjectThatIsNotReportedStandsStillEvenIfItLastMoved) {
   EXPECT_FALSE(isMoving(scene.publisher.find(0)->state.motion));
 }
 
-TEST(Publisher, SolidObjectsThatStandAreExactOnceSomebodyPredicts) {
+TEST(Publisher, SolidObjectsThatStandAreExactOnceAClientPredicts) {
   Scene scene;
   const df::FixedVector position = at(10.3, 10.2);
   scene.changed(0, position);
@@ -335,7 +335,7 @@ TEST(Publisher, ASolidObjectThatStopsAndHidesIsHiddenAtOnce) {
   EXPECT_EQ(scene.publisher.find(0)->state.look.select(0), nullptr);
 }
 
-TEST(Publisher, WhatLeavesEveryViewKeepsItsLook) {
+TEST(Publisher, AnObjectThatLeavesEveryViewKeepsItsLook) {
   Scene scene;
   df::FixedVector position = at(78, 5);
   const df::FixedVector velocity = at(1, 0);
@@ -416,7 +416,7 @@ void expectSamePictures(const test::WorldConfig& config, std::uint64_t seed, int
     for (std::size_t p = 0; p < clients.size(); ++p) {
       Client& client = clients[p];
       if (i < static_cast<int>(p) * 30) continue;  // joins late
-      client.sender.note(publisher, world.view().players[p]);
+      client.sender.applyTick(publisher, world.view().players[p]);
       for (int round = 0; round < 3 && (round == 0 || !client.sender.isSettled()); ++round) {
         for (const SnapshotSender::Packet& packet : client.sender.build(publisher)) {
           Snapshot snapshot;
@@ -481,8 +481,8 @@ Sequence wheel() {
   return Sequence(frames);
 }
 
-// By any selector: it is told once, and right for ever after.
-TEST(Publisher, WhatChangesByItselfIsToldOnce) {
+// With any selector it is published once, and drawn right from then on.
+TEST(Publisher, ALookThatChangesByItselfIsPublishedOnce) {
   for (const Selector& selector :
        {Selector::clock(1, 3), Selector::clock(1, 5, false), Selector::turning(1, 123456789, 98765432),
         Selector::turning(1, 0, -1'000'003), Selector::fixed(2)}) {
@@ -500,7 +500,7 @@ TEST(Publisher, WhatChangesByItselfIsToldOnce) {
   }
 }
 
-TEST(Publisher, AnotherPaceIsToldWithTheFirstFrameThatItShowsOtherwise) {
+TEST(Publisher, AnotherPaceIsPublishedWithTheFirstFrameThatDiffers) {
   Scene scene;
   Look look{wheel(), 2, Selector::turning(1, 0, 1 << 24)};  // a frame takes 64 ticks
   scene.changed(0, at(10, 10));
@@ -508,26 +508,26 @@ TEST(Publisher, AnotherPaceIsToldWithTheFirstFrameThatItShowsOtherwise) {
   scene.publish();
   const Look before = look;
   look.selector = Selector::turning(scene.view().tick, before.selector.angleAt(scene.view().tick), 1 << 25);
-  int told = 0;
+  int published = 0;
   for (int i = 0; i < 500; ++i) {
     const std::uint32_t tick = scene.view().tick + 1;
     scene.showed(0, at(10, 10), look);
     const auto changes = scene.publish();
-    const bool differs = told == 0 && look.select(tick) != before.select(tick);
+    const bool differs = published == 0 && look.select(tick) != before.select(tick);
     ASSERT_EQ(changes.size(), differs ? 1u : 0u) << tick;
     if (!differs) continue;
-    ++told;
+    ++published;
     EXPECT_EQ(changes[0].groups, kLook);
     EXPECT_TRUE(scene.publisher.find(0)->state.look.sequence.isSharedWith(look.sequence));
   }
-  EXPECT_EQ(told, 1);
+  EXPECT_EQ(published, 1);
 }
 
-TEST(Publisher, WhatADrawOfItsOwnAddsIsWhatCounts) {
+TEST(Publisher, ADrawnLookOverridesTheDeclaredOne) {
   Scene scene;
   const Look look{wheel(), 2, Selector::clock(1, 3)};
   scene.changed(0, at(10, 10));
-  scene.says(look);
+  scene.declares(look);
   scene.drew({0, 1}, {{at(10, 10), U'?', df::RED}});
   scene.publish();
   const Look& published = scene.publisher.find(0)->state.look;
@@ -539,7 +539,7 @@ TEST(Publisher, WhatADrawOfItsOwnAddsIsWhatCounts) {
   EXPECT_EQ(published.selector, look.selector);
 }
 
-TEST(Publisher, ATurningThingThatFliesOverFractionsOfCellsIsToldOnce) {
+TEST(Publisher, ATurningObjectThatFliesOverFractionsOfCellsIsPublishedOnce) {
   Scene scene;
   const Look look{wheel(), 2, Selector::turning(1, 5, 55'555'555)};
   df::FixedVector position = at(1.25, 3.5);

@@ -14,7 +14,7 @@ TEST(SlotMap, IsEmptyAtFirst) {
   EXPECT_EQ(map.find(12345), SlotMap::kNone);
 }
 
-TEST(SlotMap, AgreesWithAMapOfTheLibrary) {
+TEST(SlotMap, AgreesWithTheStandardMap) {
   for (const std::uint32_t spread : {1u, 128u, 4096u}) {  // the hash leaves low bits out
     SplitMix64 rng(spread);
     SlotMap map;

@@ -68,7 +68,7 @@ TEST(SnapshotSender, UntilABirthIsAcknowledgedEveryRecordIsABirth) {
 
 TEST(SnapshotSender, AnObjectThatDiedBeforeItWasSentIsNeverMentioned) {
   DirectSender direct(2);
-  direct.note();
+  direct.skip();
   direct.view().vanished.push_back({0, 1});
   const auto snapshots = direct.tick();
   ASSERT_EQ(snapshots.size(), 1u);
@@ -102,7 +102,7 @@ TEST(SnapshotSender, ALostSnapshotIsSentAgainInItsNewestState) {
     }
   }
   ASSERT_FALSE(again.empty());
-  EXPECT_EQ(empty, 1u) << "the first gap tells";
+  EXPECT_EQ(empty, 1u) << "the first gap means a loss";
   const ObjectRecord record = direct.decoded(again[0]).objects.at(0);
   EXPECT_EQ(record.groups, kMotion);
   // What is sent is the published model: near the true place, and in its cell for as long as it may last.
@@ -133,7 +133,7 @@ TEST(SnapshotSender, AnyAcknowledgementsAreHarmless) {
     for (int i = 0; i < 60; ++i) {
       world.tick();
       publisher.update(world.view());
-      sender.note(publisher, world.view().players[0]);
+      sender.applyTick(publisher, world.view().players[0]);
       for (const auto& packet : sender.build(publisher)) {
         ASSERT_LE(packet.bytes.size(), packet.large ? kMaxSnapshot : kMaxDatagramSnapshot);
       }
@@ -175,36 +175,36 @@ TEST(SnapshotSender, AProbeCarriesNothingAndMayBeLost) {
   EXPECT_EQ(direct.sender.resentCount(), 0u);
 }
 
-TEST(SnapshotSender, WhatIsLostWhileItIsOwedAnewIsNoDivergence) {
+TEST(SnapshotSender, ALossOfWhatIsPendingAgainIsNoDivergence) {
   DirectSender direct(1);
   direct.tick();
   direct.acknowledge(1);
   const std::uint64_t before = direct.reader().checksum();
   direct.view().vanished.push_back({0, 1});
-  df::ObjectFacts heir;
-  heir.key = {1, 1};
-  heir.order = 2;
-  heir.position = at(3, 3);
-  direct.view().changed.push_back(heir);
+  df::ObjectFacts second_object;
+  second_object.key = {1, 1};
+  second_object.order = 2;
+  second_object.position = at(3, 3);
+  direct.view().changed.push_back(second_object);
   const auto second = direct.tick();  // a death and a birth, which do not arrive
   ASSERT_EQ(second.size(), 1u);
   const auto third = direct.sender.probe(direct.publisher).number;
   const auto fourth = direct.sender.probe(direct.publisher).number;
   const auto fifth = direct.sender.probe(direct.publisher).number;
   direct.view().vanished.push_back({1, 1});
-  direct.note();  // the death of the heir is owed, and not sent yet
+  direct.skip();  // the death of the second object is pending, and not sent yet
   const AckWindow acks{fifth, 0b1011};
   ASSERT_TRUE(acks.has(fourth) && acks.has(third) && !acks.has(second[0].number) && acks.has(1));
   direct.acknowledge(acks.newest, acks.mask);
-  EXPECT_NE(direct.sender.isRight(acks, before), std::optional<bool>(false));
+  EXPECT_NE(direct.sender.matchesChecksum(acks, before), std::optional<bool>(false));
 }
 
-TEST(SnapshotSender, AResetTellsTheNewestInputAgain) {
+TEST(SnapshotSender, AResetNamesTheNewestInputAgain) {
   DirectSender direct(1);
   direct.sender.noteInput(7, 1);
   direct.tick();
   direct.sender.reset();
-  direct.note();
+  direct.skip();
   const auto packets = direct.sender.build(direct.publisher);
   ASSERT_FALSE(packets.empty());
   Snapshot snapshot;

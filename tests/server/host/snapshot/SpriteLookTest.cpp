@@ -65,7 +65,7 @@ class Show {
   std::size_t tick() {
     world.tick();
     m_publisher.update(world.view());
-    m_sender.note(m_publisher, world.getPlayer(m_player)->facts());
+    m_sender.applyTick(m_publisher, world.getPlayer(m_player)->facts());
     std::size_t bytes = 0;
     for (const SnapshotSender::Packet& packet : m_sender.build(m_publisher)) {
       Snapshot snapshot;
@@ -75,6 +75,7 @@ class Show {
       bytes += packet.bytes.size();
     }
     m_sender.acknowledge(m_acks);
+    EXPECT_EQ(m_sender.known().checksum(), m_replica.checksum());
     const df::Canvas wanted = world.renderPlayer(m_player);
     const df::Canvas seen = m_replica.render(static_cast<std::uint32_t>(world.getStepCount()));
     EXPECT_EQ(countDifferences(wanted, seen), 0) << "tick " << world.getStepCount() << "\n"
@@ -109,7 +110,7 @@ std::size_t flight(int slowdown) {
     p_o->setPosition(df::Vector(53 + i % 25, 2 + i % 19 + 0.25 * (i % 3)));
     p_o->setVelocity(df::Vector(-0.125, 0));
   }
-  show.ticks(100);  // told, and fitted
+  show.ticks(100);  // published, and fitted
   return show.ticks(300);
 }
 
@@ -177,7 +178,7 @@ TEST(SpriteLook, EachPaceIsDrawnFrameByFrame) {
   show.ticks(200);
 }
 
-TEST(SpriteLook, WhatAGameDoesToAnAnimationShowsInTheSameTick) {
+TEST(SpriteLook, AChangeOfAnAnimationShowsInTheSameTick) {
   Show show;
   df::Sprite sprite = saucer(4);
   df::Sprite other = makeSprite({"xx", "yy", "zz"}, 2, 2);
@@ -244,7 +245,7 @@ TEST(SpriteLook, ASpriteThatBlinksCostsNothing) {
   EXPECT_EQ(show.ticks(100), idle(100));
 }
 
-TEST(SpriteLook, ASpriteThatDrawsNothingIsNothing) {
+TEST(SpriteLook, ASpriteThatDrawsNothingHasNoLook) {
   Show show;
   df::Sprite sprite = makeSprite({"~", "~"}, 1, 2, '~');
   df::Object object;
@@ -255,7 +256,7 @@ TEST(SpriteLook, ASpriteThatDrawsNothingIsNothing) {
 }
 
 // Own characters around the sprite, by a draw() of one's own.
-TEST(SpriteLook, WhatIsDrawnBesideTheSpriteIsShown) {
+TEST(SpriteLook, CharactersDrawnBesideTheSpriteAreShown) {
   Show show;
   struct Named : df::Object {
     int draw() override { return Object::draw() + DM.drawCh(getPosition() + df::Vector(0, -2), 'N'); }

@@ -1,0 +1,41 @@
+// One client's replica as the server knows it: what was sent, and what is pending.
+#pragma once
+
+#include <cstdint>
+
+#include "host/snapshot/AppearanceNames.h"
+#include "host/snapshot/Flight.h"
+#include "host/snapshot/KnownObjects.h"
+#include "host/snapshot/PerClientState.h"
+
+namespace naiad {
+
+struct ClientReplica {
+  /// What a lost snapshot makes pending again.
+  struct Requeued {
+    std::size_t objects = 0;
+    bool any = false;  ///< objects or client state
+  };
+
+  bool hasPending() const { return state.hasPending() || !objects.pendingIds().empty(); }
+  void confirmArrival(const Flight::Snapshot& snapshot) {
+    state.confirmArrival(snapshot.number, snapshot.probe);
+    for (const KnownObjects::Sent& sent : snapshot.objects) objects.confirmArrival(sent, snapshot.number);
+    for (const auto& [id, sum] : snapshot.names) names.confirmArrival(id, sum, snapshot.number);
+  }
+  Requeued requeueLost(const Flight::Snapshot& snapshot, std::uint32_t tick) {
+    Requeued requeued;
+    requeued.any = state.requeueLost(snapshot.number);
+    for (const KnownObjects::Sent& sent : snapshot.objects) {
+      if (objects.requeueLost(sent, snapshot.number, tick)) ++requeued.objects;
+    }
+    requeued.any = requeued.any || requeued.objects > 0;
+    return requeued;
+  }
+
+  KnownObjects objects;
+  PerClientState state;
+  AppearanceNames names;
+};
+
+}  // namespace naiad

@@ -1,0 +1,52 @@
+// The encoded snapshots of one client and tick.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "shared/replica/Limits.h"
+
+namespace naiad {
+
+struct SnapshotPacket {
+  std::uint32_t number = 0;
+  std::uint32_t tick = 0;
+  bool large = false;  ///< exceeds the datagram's limit: for the stream
+  std::string bytes;
+};
+
+/// What a tick may send.
+struct PacketLimits {
+  /// Bits of a snapshot beside the record of its only object, at most.
+  static constexpr std::size_t kMaxOverheadBits = 256;
+
+  std::size_t packets = 64;                  ///< at most so many
+  std::size_t bytes = kMaxDatagramSnapshot;  ///< of each
+  bool large = true;                         ///< one of them may exceed `bytes`, up to kMaxSnapshot
+};
+
+/// Memory of cleared packets is used again.
+class SnapshotPackets {
+ public:
+  SnapshotPacket& add() {
+    if (m_count == m_all.size()) m_all.emplace_back();
+    SnapshotPacket& packet = m_all[m_count++];
+    packet.large = false;
+    return packet;
+  }
+  void removeLast() { --m_count; }
+  void clear() { m_count = 0; }
+  std::size_t size() const { return m_count; }
+  bool empty() const { return m_count == 0; }
+  const SnapshotPacket* begin() const { return m_all.data(); }
+  const SnapshotPacket* end() const { return m_all.data() + m_count; }
+  const SnapshotPacket& back() const { return m_all[m_count - 1]; }
+
+ private:
+  std::vector<SnapshotPacket> m_all;  ///< the first m_count are in use
+  std::size_t m_count = 0;
+};
+
+}  // namespace naiad

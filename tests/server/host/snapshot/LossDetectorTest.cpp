@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include "host/snapshot/LossDetector.h"
+
+namespace naiad {
+namespace {
+
+Flight::Snapshot snapshotOf(std::uint32_t number, bool large = false, bool probe = false) {
+  Flight::Snapshot snapshot;
+  snapshot.number = number;
+  snapshot.large = large;
+  snapshot.probe = probe;
+  return snapshot;
+}
+
+TEST(LossDetector, TheFirstGapMeansALoss) {
+  const LossDetector losses;
+  EXPECT_TRUE(losses.isLost(snapshotOf(5), {6, 0}));
+  EXPECT_FALSE(losses.isLost(snapshotOf(7), {6, 0})) << "sent later than the newest that arrived";
+}
+
+TEST(LossDetector, ALargeSnapshotIsLateRatherThanLost) {
+  const LossDetector losses;
+  EXPECT_FALSE(losses.isLost(snapshotOf(5, true), {4 + Flight::kMaxSnapshots, 0}));
+  EXPECT_TRUE(losses.isLost(snapshotOf(5, true), {5 + Flight::kMaxSnapshots, 0}));
+}
+
+TEST(LossDetector, ALateArrivalMakesItPatient) {
+  LossDetector losses;
+  losses.recordOutcome(snapshotOf(5), true);
+  losses.recordLateArrivals({7, 0b01});
+  EXPECT_EQ(losses.estimator().patience(), 1) << "5 is still missing";
+  losses.recordLateArrivals({7, 0b11});
+  EXPECT_EQ(losses.estimator().patience(), LossEstimator::kPatience);
+  EXPECT_FALSE(losses.isLost(snapshotOf(8), {9, 0}));
+  EXPECT_TRUE(losses.isLost(snapshotOf(8), {8 + LossEstimator::kPatience, 0}));
+}
+
+TEST(LossDetector, AProbeSaysNothingOfTheLine) {
+  LossDetector losses;
+  losses.recordOutcome(snapshotOf(5, false, true), true);
+  EXPECT_EQ(losses.estimator().loss(), 0);
+  losses.recordOutcome(snapshotOf(6), true);
+  EXPECT_GT(losses.estimator().loss(), 0);
+}
+
+}  // namespace
+}  // namespace naiad
