@@ -37,7 +37,7 @@ class ClientReturn : public ClientSessionFixture {
     return lines;
   }
   const wire::Ping* lastPing() const {
-    for (auto message = log->sent.rbegin(); message != log->sent.rend(); ++message) {
+    for (auto message = log.sent.rbegin(); message != log.sent.rend(); ++message) {
       if (message->has_ping()) return &message->ping();
     }
     return nullptr;
@@ -46,8 +46,7 @@ class ClientReturn : public ClientSessionFixture {
 
 TEST_F(ClientReturn, AHelloOfAnotherProcessSaysSo) {
   restart(Continuation{});
-  const auto& hello =
-      log->sent[log->sent.size() - 2].has_hello() ? log->sent[log->sent.size() - 2] : log->sent[1];
+  const auto& hello = log.sent[log.sent.size() - 2].has_hello() ? log.sent[log.sent.size() - 2] : log.sent[1];
   EXPECT_TRUE(hello.hello().fresh());
   EXPECT_EQ(hello.hello().resume_token(), "0123456789abcdef");
   EXPECT_EQ(heard(), std::vector<std::string>{"You are back in your old session."});
@@ -118,15 +117,15 @@ TEST_F(ClientReturn, ReliableFramesAreTakenOnceAndAcknowledged) {
 
 TEST_F(ClientReturn, MuchIsAcknowledgedAtOnce) {
   join();
-  const std::size_t before = log->sent.size();
+  const std::size_t before = log.sent.size();
   std::uint32_t number = 0;
   for (std::size_t bytes = 0; bytes < ReliableInbox::kMuchKept;) {
-    EXPECT_EQ(log->sent.size(), before);
+    EXPECT_EQ(log.sent.size(), before);
     const wire::ServerMessage message = line(std::string(200, 'x'), ++number);
     bytes += message.ByteSizeLong();
     receive(message);
   }
-  ASSERT_EQ(log->sent.size(), before + 1);
+  ASSERT_EQ(log.sent.size(), before + 1);
   EXPECT_EQ(lastPing()->received(), session->receivedFrames());
 }
 
@@ -144,7 +143,7 @@ TEST_F(ClientReturn, LinesWaitForAStreamAndAreSaidAgainUntilAcknowledged) {
   ASSERT_TRUE(session->isDetached());
   session->sendChat("three");
 
-  auto next = std::make_shared<FakeChannel::Log>();
+  MessageLine<wire::ClientMessage> next;
   SessionOptions options;
   options.resume_token = "token";
   options.received = session->receivedFrames();
@@ -154,10 +153,11 @@ TEST_F(ClientReturn, LinesWaitForAStreamAndAreSaidAgainUntilAcknowledged) {
   pending.receive(welcome.SerializeAsString(), now);
   session->adopt(pending, now);
   std::vector<std::string> said;
-  for (const wire::ClientMessage& message : next->sent) {
+  for (const wire::ClientMessage& message : next.sent) {
     if (message.has_chat()) said.push_back(message.chat().text() + " " + std::to_string(message.number()));
   }
   EXPECT_EQ(said, (std::vector<std::string>{"two 2", "three 3"}));
+  session.reset();  // `next` must outlive its channel
 }
 
 TEST_F(ClientReturn, TooMuchThatWaitsIsNotTaken) {

@@ -6,10 +6,11 @@
 #include <chrono>
 #include <memory>
 
-#include "FakeChannel.h"
 #include "client/session/ClientSession.h"
+#include "naiad.pb.h"
 #include "shared/replica/SnapshotCodec.h"
 #include "shared/replica/UpdateCodec.h"
+#include "tests/support/MessageLine.h"
 
 namespace naiad::test {
 
@@ -24,6 +25,8 @@ class ClientSessionFixture : public testing::Test {
     options.rows = 40;
     session = std::make_unique<ClientSession>(std::make_unique<FakeChannel>(log), options, now);
   }
+
+  void TearDown() override { EXPECT_EQ(log.sent_late, 0u); }
 
   void receive(const wire::ServerMessage& message) { session->receive(message.SerializeAsString(), now); }
 
@@ -70,10 +73,10 @@ class ClientSessionFixture : public testing::Test {
     EXPECT_EQ(session->state(), ClientSession::State::kEnded);
     EXPECT_FALSE(session->sentence().empty());
     EXPECT_EQ(session->counters().bad_messages, 1u);
-    EXPECT_TRUE(log->closed);
+    EXPECT_TRUE(log.closed);
   }
 
-  const wire::ClientMessage& last() const { return log->sent.back(); }
+  const wire::ClientMessage& last() const { return log.sent.back(); }
   /// The last message, which must be an update.
   ClientUpdate lastUpdate() const {
     EXPECT_EQ(last().what_case(), wire::ClientMessage::kUpdate);
@@ -88,7 +91,7 @@ class ClientSessionFixture : public testing::Test {
     return update.inputs.empty() ? Input{} : update.inputs.back();
   }
 
-  std::shared_ptr<FakeChannel::Log> log = std::make_shared<FakeChannel::Log>();
+  MessageLine<wire::ClientMessage> log;
   ClientSession::Time now = ClientSession::Time{} + std::chrono::hours(1);
   std::unique_ptr<ClientSession> session;
 };

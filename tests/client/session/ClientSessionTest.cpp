@@ -21,9 +21,9 @@ class ClientSessionTest : public test::ClientSessionFixture {
 };
 
 TEST_F(ClientSessionTest, SaysHelloFirst) {
-  ASSERT_EQ(log->sent.size(), 1u);
-  ASSERT_TRUE(log->sent[0].has_hello());
-  const wire::Hello& hello = log->sent[0].hello();
+  ASSERT_EQ(log.sent.size(), 1u);
+  ASSERT_TRUE(log.sent[0].has_hello());
+  const wire::Hello& hello = log.sent[0].hello();
   EXPECT_EQ(hello.magic(), kHelloMagic);
   EXPECT_EQ(hello.protocol(), kProtocolVersion);
   EXPECT_EQ(hello.player_name(), "Ada");
@@ -31,7 +31,7 @@ TEST_F(ClientSessionTest, SaysHelloFirst) {
   EXPECT_EQ(hello.program(), "test 1");
   EXPECT_EQ(hello.columns(), 100u);
   EXPECT_EQ(hello.rows(), 40u);
-  EXPECT_EQ(log->receive_limit, kMaxServerFrame);
+  EXPECT_EQ(log.receive_limit, kMaxServerFrame);
   EXPECT_EQ(session->state(), State::kGreeting);
 }
 
@@ -51,7 +51,7 @@ TEST_F(ClientSessionTest, RefusalKeepsItsSentence) {
   receive(message);
   EXPECT_EQ(session->state(), State::kRefused);
   EXPECT_EQ(session->sentence(), "The server is full (4 players).");
-  EXPECT_TRUE(log->closed);
+  EXPECT_TRUE(log.closed);
 }
 
 TEST_F(ClientSessionTest, GoodbyeKeepsItsSentence) {
@@ -134,12 +134,12 @@ TEST_F(ClientSessionTest, AStaleSnapshotIsDroppedAndNotAcknowledged) {
   };
   receive(bare(1, 0, true));
   receive(bare(3, 0, true));
-  const std::size_t sent = log->sent.size();
+  const std::size_t sent = log.sent.size();
   receive(bare(2, 1, false));
   EXPECT_EQ(session->state(), State::kPlaying);
   EXPECT_EQ(session->counters().stale_snapshots, 1u);
   EXPECT_EQ(session->counters().snapshots, 2u);
-  EXPECT_EQ(log->sent.size(), sent);
+  EXPECT_EQ(log.sent.size(), sent);
   receive(bare(4, 1, false));
   EXPECT_EQ(lastUpdate().acks.newest, 4u);
   EXPECT_EQ(lastUpdate().acks.mask, 0b101u);
@@ -198,9 +198,9 @@ TEST_F(ClientSessionTest, MeasuresTheRoundTrip) {
 
 TEST_F(ClientSessionTest, SendsOnePingASecond) {
   join();
-  const std::size_t before = log->sent.size();
+  const std::size_t before = log.sent.size();
   for (int i = 0; i < 50; ++i) session->update(now += 100ms);
-  EXPECT_EQ(log->sent.size() - before, 5u);
+  EXPECT_EQ(log.sent.size() - before, 5u);
 }
 
 TEST_F(ClientSessionTest, GivesUpASilentServer) {
@@ -297,7 +297,7 @@ TEST_F(ClientSessionTest, LeavingTellsTheServer) {
   join();
   session->leave();
   EXPECT_TRUE(last().has_leave());
-  EXPECT_TRUE(log->closed);
+  EXPECT_TRUE(log.closed);
   EXPECT_EQ(session->state(), State::kLeft);
   session->closed(CloseReason::kLocal);
   EXPECT_EQ(session->state(), State::kLeft);

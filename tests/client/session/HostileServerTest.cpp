@@ -39,9 +39,9 @@ TEST_F(HostileServerTest, ChatIsCutFilteredAndBounded) {
 
 TEST_F(HostileServerTest, SendsOnlyDrawableChat) {
   join();
-  const std::size_t before = log->sent.size();
+  const std::size_t before = log.sent.size();
   session->sendChat("   ");
-  EXPECT_EQ(log->sent.size(), before);
+  EXPECT_EQ(log.sent.size(), before);
   session->sendChat("a\033b" + std::string(400, 'c'));
   EXPECT_EQ(last().chat().text().substr(0, 4), "a?bc");
   EXPECT_EQ(last().chat().text().size(), kMaxChatLength);
@@ -62,9 +62,9 @@ TEST_F(HostileServerTest, HostileNamesAreMadeHarmless) {
 TEST_F(HostileServerTest, EndsOnBytesThatAreNoMessage) {
   session->receive("\xff\xff\xff garbage", now);
   expectRejected();
-  const std::size_t sent = log->sent.size();
+  const std::size_t sent = log.sent.size();
   join();
-  EXPECT_EQ(log->sent.size(), sent) << "nothing is heard after the end";
+  EXPECT_EQ(log.sent.size(), sent) << "nothing is heard after the end";
   EXPECT_EQ(session->state(), State::kEnded);
 }
 
@@ -121,7 +121,7 @@ TEST_F(HostileServerTest, EndsOnAWelcomeOutOfRange) {
   };
   for (const auto& lie : lies) {
     SetUp();
-    log->closed = false;
+    log.closed = false;
     wire::ServerMessage message = welcomeMessage();
     lie(*message.mutable_welcome());
     receive(message);
@@ -151,7 +151,7 @@ TEST_F(HostileServerTest, SurvivesMutatedMessages) {
     if (random() % 4 == 0) frame.resize(random() % frame.size());
     session->receive(frame, now);
     session->replica().render(session->displayTick(now + 1s));
-    log->sent.clear();
+    log.sent.clear();
   }
 }
 

@@ -26,59 +26,59 @@ class SecondStreamTest : public ClientSessionFixture {
     return message;
   }
 
-  std::shared_ptr<FakeChannel::Log> line = std::make_shared<FakeChannel::Log>();
+  MessageLine<wire::ClientMessage> line;
   std::vector<std::string> snapshots;
   SecondStream stream;
 };
 
 TEST_F(SecondStreamTest, SaysHelloAndWaitsForAYes) {
-  ASSERT_EQ(line->sent.size(), 1u);
-  EXPECT_TRUE(line->sent[0].hello().second_stream());
-  EXPECT_EQ(line->sent[0].hello().resume_token(), "token");
+  ASSERT_EQ(line.sent.size(), 1u);
+  EXPECT_TRUE(line.sent[0].hello().second_stream());
+  EXPECT_EQ(line.sent[0].hello().resume_token(), "token");
   stream.send("anything");
-  EXPECT_EQ(line->sent.size(), 1u);
+  EXPECT_EQ(line.sent.size(), 1u);
   EXPECT_FALSE(stream.isOpen());
-  line->receive(yes());
+  line.receive(yes());
   EXPECT_TRUE(stream.isOpen());
-  line->receive(snapshotMessage(1, 1));
+  line.receive(snapshotMessage(1, 1));
   EXPECT_EQ(snapshots.size(), 1u);
 }
 
 TEST_F(SecondStreamTest, AServerThatTookItForAnotherPlayersHelloLosesIt) {
-  line->receive(welcomeMessage());
+  line.receive(welcomeMessage());
   EXPECT_FALSE(stream.isOpen());
-  EXPECT_TRUE(line->destroyed);
+  EXPECT_TRUE(line.destroyed);
 }
 
 TEST_F(SecondStreamTest, NothingButSnapshotsComesOnIt) {
   wire::ServerMessage chat;
   chat.mutable_chat()->set_text("hello");
   for (const wire::ServerMessage& message : {snapshotMessage(1, 1), chat, yes(), wire::ServerMessage{}}) {
-    const auto other = std::make_shared<FakeChannel::Log>();
+    MessageLine<wire::ClientMessage> other;
     SecondStream hears;
     hears.start(std::make_unique<FakeChannel>(other), {},
                 [this](std::string_view bytes) { snapshots.emplace_back(bytes); });
-    if (!message.has_snapshot()) other->receive(yes());
-    other->receive(message);
+    if (!message.has_snapshot()) other.receive(yes());
+    other.receive(message);
     EXPECT_FALSE(hears.isOpen()) << message.what_case();
-    EXPECT_TRUE(other->destroyed);
+    EXPECT_TRUE(other.destroyed);
   }
   EXPECT_TRUE(snapshots.empty()) << "none before the yes";
 }
 
 TEST_F(SecondStreamTest, WhatWaitsOnItIsNotWaitedFor) {
-  line->receive(yes());
-  line->unsent = 1;
+  line.receive(yes());
+  line.unsent = 1;
   stream.send(wire::ClientMessage().SerializeAsString());
-  EXPECT_EQ(line->sent.size(), 1u);
-  line->unsent = 0;
+  EXPECT_EQ(line.sent.size(), 1u);
+  line.unsent = 0;
   stream.send(wire::ClientMessage().SerializeAsString());
-  EXPECT_EQ(line->sent.size(), 2u);
+  EXPECT_EQ(line.sent.size(), 2u);
 }
 
 TEST_F(SecondStreamTest, MayEndAtAnyTime) {
-  line->receive(yes());
-  const auto on_closed = line->callbacks.on_closed;
+  line.receive(yes());
+  const auto on_closed = line.callbacks.on_closed;
   on_closed(CloseReason::kError);
   EXPECT_FALSE(stream.isOpen());
   stream.send("anything");
@@ -96,15 +96,15 @@ TEST_F(SecondStreamTest, AttemptsThatFailBecomeSeldom) {
 
 TEST_F(SecondStreamTest, OneThatLastedMayBeReplacedSoon) {
   for (const auto& [lasts, attempts_then] : {std::pair{1s, 1}, {100s, 4}}) {
+    MessageLine<wire::ClientMessage> other;
     SecondStream again;
     for (int i = 0; i < 600; ++i, now += 1s) again.takeAttempt(now);
-    const auto other = std::make_shared<FakeChannel::Log>();
     SessionOptions options;
     options.now = [this] { return now; };
     again.start(std::make_unique<FakeChannel>(other), options, [](std::string_view) {});
-    other->receive(yes());
+    other.receive(yes());
     now += lasts;
-    other->receive(snapshotMessage(1, 1));
+    other.receive(snapshotMessage(1, 1));
     EXPECT_TRUE(again.isOpen());
     again.close();
     now += SecondStream::kLastPause;
@@ -117,18 +117,18 @@ TEST_F(SecondStreamTest, OneThatLastedMayBeReplacedSoon) {
 TEST_F(SecondStreamTest, OneThatIsSilentIsGivenUp) {
   now += SecondStream::kIdleTimer - 1ms;
   stream.update(now);
-  EXPECT_FALSE(line->destroyed);
-  line->receive(yes());
+  EXPECT_FALSE(line.destroyed);
+  line.receive(yes());
   for (int i = 0; i < 5; ++i) {
     now += SecondStream::kIdleTimer - 1ms;
     stream.update(now);
     EXPECT_TRUE(stream.isOpen());
-    line->receive(snapshotMessage(1, 1));
+    line.receive(snapshotMessage(1, 1));
   }
   now += SecondStream::kIdleTimer;
   stream.update(now);
   EXPECT_FALSE(stream.isOpen());
-  EXPECT_TRUE(line->destroyed);
+  EXPECT_TRUE(line.destroyed);
 }
 
 TEST_F(SecondStreamTest, KnowsTheLastSnapshotsAgain) {

@@ -11,17 +11,20 @@
 
 #include <memory>
 
-#include "FakeChannel.h"
+#include "FakeSealed.h"
 #include "Require.h"
 #include "Script.h"
 #include "host/session/Session.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
+#include "tests/support/FakeChannel.h"
 
 namespace naiad::fuzz {
 namespace {
 
 using namespace std::chrono_literals;
+using test::FakeChannel;
+using test::FakeLine;
 
 constexpr std::uint8_t kSecond = 252, kOther = 253, kClosed = 254, kBusy = 255;
 constexpr auto kSteering = static_cast<df::Keyboard::Key>(5);

@@ -39,7 +39,7 @@ class AdmissionTest : public testing::Test {
     admission();
     Client& client = clients.emplace_back();
     client.address = address;
-    sessions.add(std::make_unique<test::ClientChannel>(client), events(), now);
+    sessions.add(std::make_unique<test::FakeChannel>(client), events(), now);
     client.greet(hello);
     return client;
   }
@@ -182,13 +182,13 @@ TEST_F(AdmissionTest, APasswordIsNeededByNewPlayersOnly) {
   options.password = "open sesame";
   const auto work = asio::make_work_guard(io);
   const auto answered = [this](const Client& client) {
-    for (int i = 0; i < 100 && client.received.empty(); ++i) io.run_one_for(1s);
-    return !client.received.empty();
+    for (int i = 0; i < 100 && client.sent.empty(); ++i) io.run_one_for(1s);
+    return !client.sent.empty();
   };
   wire::Hello hello = helloOf("Ann");
   hello.set_password("open barley");
   Client& wrong = greet(hello);
-  EXPECT_TRUE(wrong.received.empty()) << "it is being checked";
+  EXPECT_TRUE(wrong.sent.empty()) << "it is being checked";
   ASSERT_TRUE(answered(wrong));
   EXPECT_EQ(wrong.refusal(), wire::Refused::PASSWORD);
   EXPECT_EQ(counters.refused_password, 1u);

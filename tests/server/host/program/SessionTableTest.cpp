@@ -15,7 +15,7 @@ class SessionTableTest : public testing::Test {
   Client& connect(const std::string& address = "192.0.2.1:1") {
     Client& client = clients.emplace_back();
     client.address = address;
-    table.add(std::make_unique<test::ClientChannel>(client), events(), now);
+    table.add(std::make_unique<test::FakeChannel>(client), events(), now);
     return client;
   }
   Client& play(const std::string& address = "192.0.2.1:1") {

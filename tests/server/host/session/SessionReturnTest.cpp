@@ -8,39 +8,15 @@
 #include "host/session/Session.h"
 #include "shared/net/base/Limits.h"
 #include "tests/server/host/snapshot/SimulatedWorld.h"
+#include "tests/support/MessageLine.h"
 
 namespace naiad {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// What a channel did and was told; outlives it.
-struct Wire {
-  std::vector<wire::ServerMessage> sent;
-  std::size_t unsent = 0;
-  bool closed = false;
-  bool destroyed = false;
-  ReliableChannel::Callbacks callbacks;
-};
-
-class FakeChannel : public ReliableChannel {
- public:
-  explicit FakeChannel(Wire& wire) : m_wire(wire) {}
-  ~FakeChannel() override { m_wire.destroyed = true; }
-  void start(Callbacks callbacks) override { m_wire.callbacks = std::move(callbacks); }
-  void send(std::string_view frame) override {
-    wire::ServerMessage message;
-    ASSERT_TRUE(message.ParseFromArray(frame.data(), static_cast<int>(frame.size())));
-    if (!m_wire.closed) m_wire.sent.push_back(message);
-  }
-  std::size_t unsentBytes() const override { return m_wire.unsent; }
-  void close() override { m_wire.closed = true; }
-  std::string peerAddress() const override { return "fake:1"; }
-  void setReceiveLimit(std::size_t) override {}
-
- private:
-  Wire& m_wire;
-};
+using test::FakeChannel;
+using Wire = test::MessageLine<wire::ServerMessage>;
 
 class SessionReturn : public testing::Test {
  protected:

@@ -15,36 +15,15 @@
 #include "shared/values/SplitMix64.h"
 #include "tests/server/host/snapshot/SimulatedWorld.h"
 #include "tests/support/HostileTexts.h"
+#include "tests/support/MessageLine.h"
 
 namespace naiad {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// What the channel did and was told; outlives the channel.
-struct Wire {
-  std::vector<std::string> sent;
-  std::size_t unsent = 0;
-  std::size_t receive_limit = 0;
-  bool closed = false;
-  ReliableChannel::Callbacks callbacks;
-};
-
-class FakeChannel : public ReliableChannel {
- public:
-  explicit FakeChannel(Wire& wire) : m_wire(wire) {}
-  void start(Callbacks callbacks) override { m_wire.callbacks = std::move(callbacks); }
-  void send(std::string_view frame) override {
-    if (!m_wire.closed) m_wire.sent.emplace_back(frame);
-  }
-  std::size_t unsentBytes() const override { return m_wire.unsent; }
-  void close() override { m_wire.closed = true; }
-  std::string peerAddress() const override { return "fake:1"; }
-  void setReceiveLimit(std::size_t bytes) override { m_wire.receive_limit = bytes; }
-
- private:
-  Wire& m_wire;
-};
+using test::FakeChannel;
+using Wire = test::MessageLine<wire::ServerMessage>;
 
 class SessionTest : public testing::Test {
  protected:
@@ -117,10 +96,8 @@ class SessionTest : public testing::Test {
     return ids;
   }
   wire::ServerMessage lastSent() const {
-    wire::ServerMessage message;
     EXPECT_FALSE(line.sent.empty());
-    EXPECT_TRUE(line.sent.empty() || message.ParseFromString(line.sent.back()));
-    return message;
+    return line.sent.empty() ? wire::ServerMessage() : line.sent.back();
   }
   bool ended() const { return session.state() == Session::State::kEnding && line.closed; }
 
@@ -481,10 +458,8 @@ TEST_F(SessionTest, AHelloThatNobodyGetsRoundToJudgeIsToldToTryAgain) {
   EXPECT_EQ(waiting.state(), Session::State::kGreeting);
   listenUntil(waiting, Session::kJudgeTimeout + 1ms);
   EXPECT_TRUE(waiting_line.closed);
-  wire::ServerMessage answer;
   ASSERT_EQ(waiting_line.sent.size(), 1u);
-  ASSERT_TRUE(answer.ParseFromString(waiting_line.sent[0]));
-  EXPECT_EQ(answer.refused().reason(), wire::Refused::BUSY);
+  EXPECT_EQ(waiting_line.sent[0].refused().reason(), wire::Refused::BUSY);
   EXPECT_EQ(counters.login_timeouts, 1u);
 }
 
@@ -535,8 +510,7 @@ TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentAndCatchesUpAfter) {
   };
   const auto receive = [&] {
     for (; read < line.sent.size(); ++read) {
-      wire::ServerMessage message;
-      ASSERT_TRUE(message.ParseFromString(line.sent[read]));
+      const wire::ServerMessage& message = line.sent[read];
       ASSERT_EQ(message.what_case(), wire::ServerMessage::kSnapshot);
       Snapshot snapshot;
       ASSERT_EQ(replica.read(message.snapshot(), snapshot), ReadResult::kOk);

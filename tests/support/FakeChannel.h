@@ -1,0 +1,49 @@
+// A ReliableChannel that leads nowhere: the test plays the other end.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "shared/net/base/Channel.h"
+
+namespace naiad::test {
+
+/// What a FakeChannel was used for, and what it reports. Must outlive the channel.
+struct FakeLine {
+  ReliableChannel::Callbacks callbacks;
+  std::string address = "fake:1";
+  std::size_t receive_limit = 0;
+  std::size_t unsent = 0;  ///< what unsentBytes() returns
+  bool closed = false;
+  bool destroyed = false;
+  std::function<void(std::string_view frame)> on_send;  ///< empty: frames are dropped
+
+  /// The other end sends this.
+  template <class Message>
+  void receive(const Message& message) const {
+    const auto on_frame = callbacks.on_frame;  // the callee may destroy the channel
+    on_frame(message.SerializeAsString());
+  }
+};
+
+class FakeChannel : public ReliableChannel {
+ public:
+  explicit FakeChannel(FakeLine& line) : m_line(line) {}
+  ~FakeChannel() override { m_line.destroyed = true; }
+  void start(Callbacks callbacks) override { m_line.callbacks = std::move(callbacks); }
+  void send(std::string_view frame) override {
+    if (m_line.on_send) m_line.on_send(frame);
+  }
+  std::size_t unsentBytes() const override { return m_line.unsent; }
+  void close() override { m_line.closed = true; }
+  std::string peerAddress() const override { return m_line.address; }
+  void setReceiveLimit(std::size_t bytes) override { m_line.receive_limit = bytes; }
+
+ private:
+  FakeLine& m_line;
+};
+
+}  // namespace naiad::test

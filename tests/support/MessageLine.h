@@ -1,0 +1,31 @@
+// The messages that went out on a FakeChannel.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "tests/support/FakeChannel.h"
+
+namespace naiad::test {
+
+/// Every frame that is sent has to be a Message.
+template <class Message>
+struct MessageLine : FakeLine {
+  MessageLine() {
+    on_send = [this](std::string_view frame) {
+      Message message;
+      EXPECT_TRUE(message.ParseFromArray(frame.data(), static_cast<int>(frame.size())));
+      closed ? void(++sent_late) : sent.push_back(std::move(message));
+    };
+  }
+  MessageLine(const MessageLine&) = delete;
+  MessageLine& operator=(const MessageLine&) = delete;
+
+  std::vector<Message> sent;  ///< while the line was open
+  std::size_t sent_late = 0;  ///< after close(): a real channel drops such frames
+};
+
+}  // namespace naiad::test
