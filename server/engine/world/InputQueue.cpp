@@ -1,5 +1,6 @@
 #include "engine/world/InputQueue.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/events/EventKeyboard.h"
@@ -10,6 +11,27 @@
 #include "engine/world/World.h"
 
 namespace df {
+
+std::uint32_t InputQueue::push(Input input) {
+  if (input.kind == kJoin) {
+    input.player = std::max(input.player, m_world.m_next_player);
+    m_world.m_next_player = input.player + 1;
+  }
+  const std::uint32_t player = input.player;
+  if (isPossible(input)) m_inputs.push_back(std::move(input));
+  return player;
+}
+
+bool InputQueue::isPossible(const Input& input) const {
+  if (input.kind == kKey) {
+    return input.key >= 0 && input.key < Keyboard::kKeyCount && input.key_action >= KEY_PRESSED &&
+           input.key_action <= KEY_DOWN;
+  }
+  if (input.kind != kMouse) return true;
+  return input.mouse_action >= CLICKED && input.mouse_action <= MOVED &&
+         input.button >= Mouse::UNDEFINED_MOUSE_BUTTON && input.button <= Mouse::MIDDLE && input.x >= 0 &&
+         input.y >= 0 && input.x < m_world.getWindowWidth() && input.y < m_world.getWindowHeight();
+}
 
 void InputQueue::drain() {
   std::vector<Input> inputs;

@@ -1,9 +1,9 @@
-// What players did since the last tick, in the order it came.
+// What players did since the last tick, in the order it came. An input waits here for the next tick only: a
+// host decides which tick that is (ReceivedInputs.h).
 #pragma once
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/world/LagCompensation.h"
@@ -34,12 +34,15 @@ class InputQueue {
 
   explicit InputQueue(World& world) : m_world(world) {}
 
-  void push(Input input) { m_inputs.push_back(std::move(input)); }
+  /// Queue it, unless no player can have sent it: unknown keys, buttons and actions, clicks outside the view.
+  /// Return the player's id; for a join, that is the first free one that is not before `input.player`.
+  std::uint32_t push(Input input);
   void clear() { m_inputs.clear(); }
   /// Send the events of all that waits. What is pushed meanwhile waits for the next time.
   void drain();
 
  private:
+  bool isPossible(const Input& input) const;
   void handle(const Input& input);
   void sendKey(const Input& input);
   void sendMouse(const Input& input);

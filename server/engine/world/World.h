@@ -261,6 +261,8 @@ class World {
   const WorldStore& store() const { return *m_p_store; }
   Interests& interests() { return *m_interests; }
   Views& views() { return *m_views; }
+  /// Where join(), leave(), key() and mouse() put their input.
+  InputQueue& inputs() { return *m_input; }
   /// Run the eventHandler() of an Object in the world; see deliver(). Defined in InterestDispatch.h.
   inline void runHandler(ObjectKey key, Object& object, const Event& event);
   /// Note what the Object's class overrides.

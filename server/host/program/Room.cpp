@@ -17,6 +17,22 @@ wire::ServerMessage line(const std::string& text) {
   return message;
 }
 
+df::InputQueue::Input inputOf(const Session& session, const Input& input) {
+  if (!input.is_mouse) {
+    return {.kind = df::InputQueue::kKey,
+            .player = session.player(),
+            .key = static_cast<df::Keyboard::Key>(input.key),
+            .key_action = static_cast<df::EventKeyboardAction>(input.action)};
+  }
+  return {.kind = df::InputQueue::kMouse,
+          .player = session.player(),
+          .seen = session.viewedTick(input),
+          .button = static_cast<df::Mouse::Button>(int{input.button} - 1),
+          .mouse_action = static_cast<df::EventMouseAction>(input.action),
+          .x = input.x,
+          .y = input.y};
+}
+
 bool isBefore(const Session* p_session, std::uint32_t player) {
   return p_session->player() < player;
 }
@@ -80,15 +96,7 @@ void Room::applyInputs() {
   const std::uint32_t next = m_p_port->nextTick();
   forEachPlaying([this, next](Session& session) {
     session.takeInputs(next, [&](const Input& input) {
-      if (!m_turn.isHeard(session.player(), input)) return;
-      if (input.is_mouse) {
-        m_p_port->mouse(session.player(), static_cast<df::EventMouseAction>(input.action),
-                        static_cast<df::Mouse::Button>(int{input.button} - 1), input.x, input.y,
-                        session.viewedTick(input));
-      } else {
-        m_p_port->key(session.player(), static_cast<df::Keyboard::Key>(input.key),
-                      static_cast<df::EventKeyboardAction>(input.action));
-      }
+      if (m_turn.isHeard(session.player(), input)) m_p_port->addInput(inputOf(session, input));
     });
   });
 }
@@ -140,7 +148,7 @@ void Room::changeWorld(std::unique_ptr<WorldPort> port) {
   m_ticks = 0;
   forEachPlaying([this](Session& session) {
     session.beginWorld();
-    m_p_port->join(session.player(), session.name(), static_cast<df::Color>(session.welcomed().color()));
+    join(session.player(), session.name(), static_cast<df::Color>(session.welcomed().color()));
   });
 }
 

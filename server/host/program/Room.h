@@ -33,8 +33,11 @@ class Room {
   /// The world's next tick makes a player of this name; add() makes their session one of the room's. Return
   /// the player's id.
   std::uint32_t join(std::uint32_t player, const std::string& name, df::Color color) {
-    return m_p_port->join(player, name, color);
+    return m_p_port->addInput(
+        {.kind = df::InputQueue::kJoin, .player = player, .name = name, .color = color});
   }
+  /// The player leaves the world in its next tick.
+  void leave(std::uint32_t player) { m_p_port->addInput({.kind = df::InputQueue::kLeave, .player = player}); }
   /// The session was welcomed. Sessions are added in the order of their players' ids.
   void add(Session& session);
   /// The session, if it is one of this room's, is about to be destroyed.

@@ -75,7 +75,7 @@ Session* Rooms::findPlayer(std::uint32_t player) const {
 
 void Rooms::leave(const Session& session) {
   if (Room* p_room = roomOf(session)) {
-    isPrivate() ? p_room->port().close() : p_room->port().leave(session.player());
+    isPrivate() ? p_room->port().close() : p_room->leave(session.player());
   }
 }
 

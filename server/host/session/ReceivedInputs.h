@@ -1,4 +1,8 @@
 // The inputs that a client sent and the world has not had yet: in order, each id once.
+//
+// They wait here, and not in the world's InputQueue, which lasts for one tick. The limits are a client's, and
+// are enforced as its updates arrive, while a world in a process of its own answers later. A snapshot
+// acknowledges the inputs of its tick, so the host has to know which these are.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +36,7 @@ class ReceivedInputs {
   }
   /// Queue the release of all keys that are down, in the tick `tick`.
   void releaseKeys(std::uint32_t tick);
-  /// Another world begins: forget keys and controls, and drop what is queued. The last id dropped.
+  /// Another world begins: drop keys, controls and queued inputs. Return the last id dropped.
   std::optional<std::uint32_t> clear();
 
   /// The player steers by declared controls (null: does not). Keys in them wait for the tick that they ask
@@ -48,7 +52,7 @@ class ReceivedInputs {
 
   std::deque<Input> m_queue;
   std::uint32_t m_newest = 0;
-  PressedKeys m_pressed;  ///< once all of m_queue is applied
+  PressedKeys m_pressed;  ///< after all of m_queue
   std::shared_ptr<const df::ControlTable> m_controls;
 };
 

@@ -1,5 +1,7 @@
 #include "host/world/WorldInProcess.h"
 
+#include <utility>
+
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 
@@ -9,21 +11,8 @@ WorldInProcess::~WorldInProcess() {
   m_world.setLagCompensation(nullptr);
 }
 
-std::uint32_t WorldInProcess::join(std::uint32_t player, const std::string& name, df::Color color) {
-  return m_world.join(name, color, player);
-}
-
-void WorldInProcess::leave(std::uint32_t player) {
-  m_world.leave(player);
-}
-
-void WorldInProcess::key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) {
-  m_world.key(player, key, action);
-}
-
-void WorldInProcess::mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x,
-                           int y, const df::ViewedTick& seen) {
-  m_world.mouse(player, action, button, x, y, seen);
+std::uint32_t WorldInProcess::addInput(df::InputQueue::Input input) {
+  return m_world.inputs().push(std::move(input));
 }
 
 void WorldInProcess::setHeard(std::uint32_t player) {

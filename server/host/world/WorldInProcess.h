@@ -20,11 +20,7 @@ class WorldInProcess : public WorldPort {
   WorldInProcess(const WorldInProcess&) = delete;
   WorldInProcess& operator=(const WorldInProcess&) = delete;
 
-  std::uint32_t join(std::uint32_t player, const std::string& name, df::Color color) override;
-  void leave(std::uint32_t player) override;
-  void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) override;
-  void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x, int y,
-             const df::ViewedTick& seen) override;
+  std::uint32_t addInput(df::InputQueue::Input input) override;
   void setHeard(std::uint32_t player) override;
   void endGame() override;
   bool isReady() const override { return true; }

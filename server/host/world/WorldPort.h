@@ -10,11 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/world/LagCompensation.h"
+#include "engine/world/InputQueue.h"
 #include "engine/world/WorldView.h"
 #include "shared/values/Canvas.h"
-#include "shared/values/Color.h"
-#include "shared/values/Keyboard.h"
 
 namespace naiad {
 
@@ -40,12 +38,9 @@ class WorldPort {
 
   // Input, in the order it came. It counts from nextTick() on.
 
-  /// Return the player's id: `player`, or the next one that is free if the world has had that one.
-  virtual std::uint32_t join(std::uint32_t player, const std::string& name, df::Color color) = 0;
-  virtual void leave(std::uint32_t player) = 0;
-  virtual void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) = 0;
-  virtual void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x,
-                     int y, const df::ViewedTick& seen) = 0;
+  /// Return the player's id: that of the input, but for a join the next free one if the world has had that
+  /// one.
+  virtual std::uint32_t addInput(df::InputQueue::Input input) = 0;
   /// From the next tick on only this player's input comes; 0: everybody's.
   virtual void setHeard(std::uint32_t player) = 0;
   /// The game is to be over at the end of the next tick.

@@ -45,33 +45,15 @@ void WorldProcess::kill() {
 
 // ---- down -------------------------------------------------------------------------------------------------
 
-// Who joins a world that has ended joins the next one (Room::changeWorld).
-std::uint32_t WorldProcess::join(std::uint32_t player, const std::string& name, df::Color color) {
-  if (m_state < State::kEnding) {
-    m_turn.inputs.push_back({.kind = df::InputQueue::kJoin, .player = player, .name = name, .color = color});
-  }
+// Players who join a world that has ended join the next one (Room::changeWorld).
+std::uint32_t WorldProcess::addInput(df::InputQueue::Input input) {
+  const std::uint32_t player = input.player;
+  const bool lasts = input.kind == df::InputQueue::kJoin || input.kind == df::InputQueue::kLeave;
+  if (m_state >= State::kEnding || (!lasts && m_turn.inputs.size() >= kMaxInputs)) return player;
+  input.seen.base -= m_later;
+  input.seen.drawn -= m_later;
+  m_turn.inputs.push_back(std::move(input));
   return player;
-}
-
-void WorldProcess::leave(std::uint32_t player) {
-  if (m_state < State::kEnding) m_turn.inputs.push_back({.kind = df::InputQueue::kLeave, .player = player});
-}
-
-void WorldProcess::key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) {
-  if (!takesInput()) return;
-  m_turn.inputs.push_back({.kind = df::InputQueue::kKey, .player = player, .key = key, .key_action = action});
-}
-
-void WorldProcess::mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x,
-                         int y, const df::ViewedTick& seen) {
-  if (!takesInput()) return;
-  m_turn.inputs.push_back({.kind = df::InputQueue::kMouse,
-                           .player = player,
-                           .seen = {seen.known, seen.base - m_later, seen.drawn - m_later},
-                           .button = button,
-                           .mouse_action = action,
-                           .x = x,
-                           .y = y});
 }
 
 void WorldProcess::tick(bool watched, bool truth) {

@@ -37,11 +37,7 @@ class WorldProcess : public WorldPort {
   WorldProcess(const WorldProcess&) = delete;
   WorldProcess& operator=(const WorldProcess&) = delete;
 
-  std::uint32_t join(std::uint32_t player, const std::string& name, df::Color color) override;
-  void leave(std::uint32_t player) override;
-  void key(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) override;
-  void mouse(std::uint32_t player, df::EventMouseAction action, df::Mouse::Button button, int x, int y,
-             const df::ViewedTick& seen) override;
+  std::uint32_t addInput(df::InputQueue::Input input) override;
   void setHeard(std::uint32_t player) override { m_turn.heard_player = player; }
   void endGame() override { m_turn.ends_game = true; }
   bool isReady() const override { return m_state == State::kReady; }
@@ -70,7 +66,6 @@ class WorldProcess : public WorldPort {
     kEnded,
   };
 
-  bool takesInput() const { return m_state < State::kEnding && m_turn.inputs.size() < kMaxInputs; }
   void readHead();
   void readFields();
   void onFrame();

@@ -63,8 +63,8 @@ void WorldServer::run(df::World& world) {
       world.log("The host said what no host says; the game is over.");
       break;
     }
-    lookBack(*turn, world);
-    take(*turn, world);
+    updateLagCompensation(*turn, world);
+    applyTurn(*turn, world);
     world.tick();
     goes_on = answer(*turn, world) && !world.isGameOver();
   }
@@ -73,24 +73,8 @@ void WorldServer::run(df::World& world) {
   close();
 }
 
-void WorldServer::take(const WorldTurn& turn, df::World& world) {
-  using Queue = df::InputQueue;
-  for (const Queue::Input& input : turn.inputs) {
-    switch (input.kind) {
-      case Queue::kJoin:
-        world.join(input.name, input.color, input.player);
-        break;
-      case Queue::kLeave:
-        world.leave(input.player);
-        break;
-      case Queue::kKey:
-        world.key(input.player, input.key, input.key_action);
-        break;
-      case Queue::kMouse:
-        world.mouse(input.player, input.mouse_action, input.button, input.x, input.y, input.seen);
-        break;
-    }
-  }
+void WorldServer::applyTurn(const WorldTurn& turn, df::World& world) {
+  for (const df::InputQueue::Input& input : turn.inputs) world.inputs().push(input);
   if (turn.heard_player != 0 || world.findExtras() != nullptr) {
     world.extras().heard_player = turn.heard_player;
   }
@@ -98,7 +82,7 @@ void WorldServer::take(const WorldTurn& turn, df::World& world) {
   world.setWatched(turn.watched);
 }
 
-void WorldServer::lookBack(const WorldTurn& turn, df::World& world) {
+void WorldServer::updateLagCompensation(const WorldTurn& turn, df::World& world) {
   const bool wanted = turn.watched && world.isLookingBack();
   if (wanted == m_publisher.has_value()) return;
   wanted ? static_cast<void>(m_publisher.emplace()) : m_publisher.reset();

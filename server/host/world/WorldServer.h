@@ -26,8 +26,8 @@ class WorldServer : public df::Runner {
  private:
   bool receive(std::string& fields) const;
   bool send(const std::string& frame) const;
-  void take(const WorldTurn& turn, df::World& world);
-  void lookBack(const WorldTurn& turn, df::World& world);
+  void applyTurn(const WorldTurn& turn, df::World& world);
+  void updateLagCompensation(const WorldTurn& turn, df::World& world);
   bool answer(const WorldTurn& turn, df::World& world);
   void close();
 
@@ -35,8 +35,8 @@ class WorldServer : public df::Runner {
   bool m_leaves;
   ViewWriter m_views;
   std::string m_frame;
-  // A game that looks back asks in the middle of a tick, so what clients have been told is worked out here,
-  // too.
+  // A game that uses lag compensation asks in the middle of a tick, so the published models are computed
+  // here, too.
   std::optional<Publisher> m_publisher;
   LagCompensator m_lag_compensator;
 };
