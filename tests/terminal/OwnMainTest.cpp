@@ -147,7 +147,7 @@ TEST_F(OwnMain, LeavesTheTerminalInOrderWhenItCrashes) {
   game->type("c");
   const int status = game->waitForExit();
   EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT) << status;
-  // The client ends by itself, some time after the game.
+  // The client ends after the game, by itself.
   EXPECT_TRUE(game->waitForLater("\033[?1049l")) << game->output();
   EXPECT_TRUE(game->waitForOriginalModes());
 }
@@ -283,7 +283,7 @@ TEST_F(OwnMain, WithoutATerminalItIsAServerThatASignalEnds) {
       {"/bin/sh", "-c", "\"$0\" </dev/null >\"$1\" 2>&1 & pid=$!; trap 'kill -TERM $pid' TERM; wait; wait",
        programPath("lone_game"), m_home / "out"});
   PtyTerminal shell(options);
-  for (int i = 0; i < 200 && !has(read("join"), "fingerprint"); ++i) shell.read(50ms);
+  ASSERT_TRUE(shell.waitUntil([this] { return has(read("join"), "fingerprint"); }));
   auto ann = join("ann");
   shell.signal(SIGTERM);
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);

@@ -107,16 +107,17 @@ bool PtyTerminal::waitFor(const std::string& text) {
 }
 
 bool PtyTerminal::waitForLater(const std::string& text) {
-  const auto end = Clock::now() + kPatience;
-  while (!hasWritten(text) && Clock::now() < end) readOnce(std::chrono::milliseconds(50));
-  return hasWritten(text);
+  return waitUntil([&] { return hasWritten(text); });
 }
 
 bool PtyTerminal::waitForOriginalModes() {
+  return waitUntil([this] { return sameModes(m_original, currentModes()); });
+}
+
+bool PtyTerminal::waitUntil(const std::function<bool()>& done) {
   const auto end = Clock::now() + kPatience;
-  while (!sameModes(m_original, currentModes()) && Clock::now() < end)
-    readOnce(std::chrono::milliseconds(50));
-  return sameModes(m_original, currentModes());
+  while (!done() && Clock::now() < end) readOnce(std::chrono::milliseconds(50));
+  return done();
 }
 
 void PtyTerminal::read(std::chrono::milliseconds time) {

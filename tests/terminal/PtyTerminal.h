@@ -7,6 +7,7 @@
 #include <termios.h>
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -42,7 +43,9 @@ class PtyTerminal {
   bool waitForLater(const std::string& text);
   /// Read until the modes are those before the program began; false after 30 s.
   bool waitForOriginalModes();
-  /// The same for what comes after the last forget().
+  /// Read until `done`; false after 30 s.
+  bool waitUntil(const std::function<bool()>& done);
+  /// From now on waitFor() and waitForLater() look at later output only.
   void forget() { m_mark = m_output.size(); }
   /// Read for a while, whatever comes.
   void read(std::chrono::milliseconds time);

@@ -10,8 +10,6 @@
 namespace naiad::test {
 namespace {
 
-using namespace std::chrono_literals;
-
 class TerminalRestoreTest : public testing::Test {
  protected:
   PtyTerminal::Options options() const {
@@ -85,7 +83,8 @@ TEST_F(TerminalRestoreTest, AfterACrash) {
     with.environment["ASAN_OPTIONS"] = "handle_segv=0:handle_abort=0:handle_sigbus=0";
     PtyTerminal terminal(with);
     join(terminal);
-    terminal.read(200ms);
+    ASSERT_TRUE(terminal.waitUntil([&] { return terminal.output().find("\033[>31u") != std::string::npos; }))
+        << "the keyboard mode is set";
     terminal.signal(number);
     const int status = terminal.waitForExit();
     EXPECT_TRUE(WIFSIGNALED(status)) << "it still dies of it";
