@@ -15,7 +15,7 @@
 #include "engine/world/World.h"
 #include "host/program/GameModule.h"
 #include "net/LinkedClient.h"
-#include "server/games/Crowd.h"
+#include "server/games/RandomPlayers.h"
 
 namespace bench {
 
@@ -50,10 +50,10 @@ class Stage : public df::Runner {
 double ticksPerSecond(const GameModule& game, int ticks) {
   double nanoseconds = 0;
   const Stage stage(game, [&](df::World& world) {
-    Crowd crowd(world, kSeed, kPlayers);
+    RandomPlayers players(world, kSeed, kPlayers);
     const double begin = cpuNanoseconds();
     for (int t = 0; t < ticks; ++t) {
-      crowd.play();
+      players.play();
       world.tick();
     }
     nanoseconds = cpuNanoseconds() - begin;
@@ -65,11 +65,11 @@ double ticksPerSecond(const GameModule& game, int ticks) {
 std::uint64_t hashOf(const GameModule& game) {
   PictureHash hash;
   const Stage stage(game, [&](df::World& world) {
-    Crowd crowd(world, kSeed, kPlayers);
+    RandomPlayers players(world, kSeed, kPlayers);
     for (int t = 0; t < 1000; ++t) {
-      crowd.play();
+      players.play();
       world.tick();
-      for (const std::uint32_t player : crowd.players()) hash.add(world.renderPlayer(player));
+      for (const std::uint32_t player : players.players()) hash.add(world.renderPlayer(player));
     }
   });
   return hash.value();
@@ -88,11 +88,11 @@ Cost costOfPlayers(const GameModule& game, int ticks) {
     LinkConditions link;
     link.delay = 50ms;
     Publisher publisher;
-    Crowd crowd(world, kSeed, kPlayers);
+    RandomPlayers players(world, kSeed, kPlayers);
     std::map<std::uint32_t, std::unique_ptr<LinkedClient>> clients;
     world.setWatched(true);
     for (int t = 0; t < ticks; ++t) {
-      crowd.play();
+      players.play();
       const double begin = cpuNanoseconds();
       world.tick();
       publisher.update(world.view());

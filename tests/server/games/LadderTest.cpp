@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <string>
 
-#include "Crowd.h"
 #include "HostedGame.h"
+#include "RandomPlayers.h"
 
 int breakout_main();
 int bullethell_main();
@@ -40,11 +40,11 @@ TEST_P(Ladder, AThousandTicksShowTheSamePicturesEverywhere) {
   hostGame(
       GetParam().main, 7,
       [&](df::World& world) {
-        Crowd crowd(world, 7, 4);
+        RandomPlayers players(world, 7, 4);
         for (; ticks < 1000; ++ticks) {
-          crowd.play();
+          players.play();
           world.tick();
-          for (const std::uint32_t player : crowd.players()) hash.add(world.renderPlayer(player));
+          for (const std::uint32_t player : players.players()) hash.add(world.renderPlayer(player));
         }
       },
       GetParam().name);
@@ -59,18 +59,18 @@ TEST_P(Ladder, EightPlayersThatComeAndGoBreakNothing) {
     hostGame(
         GetParam().main, seed,
         [&](df::World& world) {
-          Crowd crowd(world, seed, 8);
+          RandomPlayers players(world, seed, 8);
           int quarantined = 0;
           world.setLogSink(
               [&](const std::string& line) { quarantined += line.find("failed") != std::string::npos; });
           for (int t = 0; t < 800; ++t) {
-            crowd.play();
+            players.play();
             world.tick();
             ASSERT_LT(world.getObjectCount(), 2200);
           }
           EXPECT_EQ(quarantined, 0);
           EXPECT_EQ(world.getRefusals(), 0u);
-          for (const std::uint32_t player : crowd.players()) world.leave(player);
+          for (const std::uint32_t player : players.players()) world.leave(player);
           for (int t = 0; t < 100; ++t) world.tick();
         },
         GetParam().name);

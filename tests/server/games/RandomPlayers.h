@@ -1,4 +1,4 @@
-// Players that press anything at random, come and go as they like; and what they see, as one number.
+// Players that press random keys, join and leave at random; and a hash of what they see.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 namespace naiad {
 
 /// Some keys, the mouse, a join and a leave, now and then.
-class Crowd {
+class RandomPlayers {
  public:
-  Crowd(df::World& world, std::uint64_t seed, std::size_t most)
+  RandomPlayers(df::World& world, std::uint64_t seed, std::size_t most)
       : m_world(world), m_random(seed), m_most(most) {}
 
   void play() {
