@@ -1,4 +1,4 @@
-// Who came and went, as the game saw it.
+// Counts the players who join and leave, as the game sees it.
 #pragma once
 
 #include <atomic>

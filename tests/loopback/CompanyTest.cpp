@@ -61,7 +61,7 @@ TEST(Company, StalledClientCostsTheOthersNothing) {
   stalled.send(RawClient::hello("mud"));
   bob.keepPictures(false);
 
-  // Nobody reads for `mud`, and nobody acknowledges.
+  // `mud` is not served: it neither reads nor acknowledges.
   const std::uint32_t begin = ann.newestTick();
   ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return ann.newestTick() > begin + kFiveSeconds; }));
   // All that time the others had every tick, and the right picture.
@@ -143,7 +143,7 @@ TEST(Company, RefusalsAreSentencesAPersonUnderstands) {
   EXPECT_EQ(refusalOf(server.port(), RawClient::hello("late")).reason(), Reason::FULL);
 }
 
-TEST(Company, PlayersAreToldWhenTheServerEnds) {
+TEST(Company, PlayersGetAGoodbyeWhenTheServerEnds) {
   TestServer server([](df::World& world) { populateBusyWorld(world, 5); });
   asio::io_context context;
   TestClient ann(context, server.port(), "ann");

@@ -1,4 +1,4 @@
-// Who joins a world that takes many snapshots sees nothing of it before he sees all of it.
+// A player who joins a world that takes many snapshots sees nothing of it before all of it has arrived.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kObjects = 3000;
 
-/// A word that no other one says, so that each takes its own place in a snapshot.
+/// A word of its own, so that each object takes its own place in a snapshot.
 struct Word : df::Object {
   explicit Word(int number) : text("word " + std::to_string(number)) {
     setSolidness(df::SPECTRAL);
@@ -48,7 +48,7 @@ TEST(FirstPicture, IsTheWholeWorld) {
   const auto held = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - *first);
   EXPECT_GE(frames, 3u);
   EXPECT_LT(at_first, kObjects);
-  // On a machine that is too busy somebody may have had to wait for longer than anybody is made to.
+  // On a busy machine the snapshots may take longer than the client waits for the rest of a picture.
   if (held < WorldFeed::kPatience) {
     EXPECT_EQ(ann.session().replica().aliveCount(), kObjects);
   }

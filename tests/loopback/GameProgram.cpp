@@ -66,7 +66,7 @@ GameProgram::GameProgram(const std::string& name, std::map<std::string, std::str
   if (error != 0) throw std::system_error(error, std::generic_category(), words.front());
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (m_port == 0 && !hasEnded() && std::chrono::steady_clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // between two looks
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // before the file is read again
     std::ifstream(m_directory / "port") >> m_port;
   }
 }

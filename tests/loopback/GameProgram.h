@@ -21,10 +21,10 @@ class GameProgram {
   GameProgram& operator=(const GameProgram&) = delete;
 
   std::uint16_t port() const { return m_port; }
-  /// Wait for its end; as waitpid() tells it.
+  /// Wait for its end. Return its status, as of waitpid().
   int wait();
   void signal(int number) const;
-  /// What it has said so far.
+  /// Its log so far.
   std::string log() const;
   std::filesystem::path directory() const { return m_directory; }
 

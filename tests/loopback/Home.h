@@ -32,7 +32,7 @@ class Home {
     options.frame_micros = 5000;
     return options;
   }
-  /// A player who pins what he sees here, and comes back when he is lost.
+  /// A player who pins server keys in this home, and comes back when the connection breaks.
   ClientSetup player(const std::string& name) const {
     ClientSetup setup;
     setup.options.name = name;

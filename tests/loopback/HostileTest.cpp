@@ -1,4 +1,4 @@
-// Hostile bytes end the connection they came on, are counted, and change nothing for anybody else.
+// Hostile bytes end the connection they came on, are counted, and change nothing for other players.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -157,7 +157,7 @@ TEST(Hostile, KeyFloodEndsTheSession) {
   EXPECT_EQ(server.counters().input_floods, 1u);
 }
 
-TEST(Hostile, AFloodOfMessagesEndsItsSessionAndStopsNobodyElsesWorld) {
+TEST(Hostile, AFloodOfMessagesEndsItsSessionAndStopsNoOthersWorld) {
   TestServer server([](df::World& world) { populateBusyWorld(world, 5); });
   asio::io_context context;
   TestClient ann(context, server.port(), "ann");

@@ -22,7 +22,7 @@ namespace {
 using asio::ip::udp;
 using Clock = std::chrono::steady_clock;
 
-/// Keeps what it sends, so that somebody else can send it again.
+/// Keeps what it sends, so that an attacker can send it again.
 class Sniffed : public DatagramSocket {
  public:
   Sniffed(std::unique_ptr<DatagramSocket> socket, std::vector<std::string>& seen)
@@ -120,7 +120,7 @@ TEST_F(HostileTls, GarbageAndForgeriesAreNeverAnswered) {
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
 }
 
-TEST_F(HostileTls, ADatagramThatWasHeldBackMovesNobody) {
+TEST_F(HostileTls, ADatagramThatWasHeldBackMovesNoPlayer) {
   TestServer server([](df::World& world) { populateBusyWorld(world, 20); }, home.server());
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(settle(ann));
@@ -145,7 +145,7 @@ TEST_F(HostileTls, ADatagramThatWasHeldBackMovesNobody) {
   EXPECT_TRUE(settle(ann));
 }
 
-TEST_F(HostileTls, AFloodOfDatagramsStopsNobodysGame) {
+TEST_F(HostileTls, AFloodOfDatagramsStopsNoPlayersGame) {
   TestServer server([](df::World& world) { populateBusyWorld(world, 20); }, home.server());
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(settle(ann));

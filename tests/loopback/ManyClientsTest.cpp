@@ -21,7 +21,7 @@ namespace {
 using asio::ip::udp;
 using Clock = std::chrono::steady_clock;
 
-class Crowd : public testing::Test {
+class ManyClients : public testing::Test {
  protected:
   static std::function<void(df::World&)> world() {
     return [](df::World& w) { populateBusyWorld(w, 5); };
@@ -30,7 +30,7 @@ class Crowd : public testing::Test {
   asio::io_context context;
 };
 
-TEST_F(Crowd, AClassOf64BehindOneAddressPlays) {
+TEST_F(ManyClients, AClassOf64BehindOneAddressPlays) {
   TestServer server(world(), fastOptions());
   std::vector<std::unique_ptr<RawClient>> pupils;
   for (int i = 0; i < 64; ++i) {
@@ -47,7 +47,7 @@ TEST_F(Crowd, AClassOf64BehindOneAddressPlays) {
   EXPECT_EQ(server.counters().refused_address, 0u);
 }
 
-TEST_F(Crowd, OneAddressHasItsShareOfThePlaces) {
+TEST_F(ManyClients, OneAddressHasItsShareOfThePlaces) {
   HostOptions options = fastOptions();
   options.max_players = 8;
   options.max_per_address = 2;
@@ -70,7 +70,7 @@ TEST_F(Crowd, OneAddressHasItsShareOfThePlaces) {
   EXPECT_TRUE(answerTo(fourth).has_welcome());
 }
 
-TEST_F(Crowd, AClaimedSizeIsNoAdvantage) {
+TEST_F(ManyClients, AClaimedSizeIsNoAdvantage) {
   TestServer server(world(), fastOptions());
   wire::ClientMessage hello = RawClient::hello("ann");
   hello.mutable_hello()->set_columns(4'000'000'000u);
@@ -85,8 +85,8 @@ TEST_F(Crowd, AClaimedSizeIsNoAdvantage) {
   EXPECT_LE(answer->welcome().view_height(), static_cast<unsigned>(window.second));
 }
 
-/// A guess that takes a while: nobody knows the password, so it is compared to the end.
-TEST_F(Crowd, TheWorldGoesOnWhileAPasswordIsCompared) {
+/// A wrong password takes as long to compare as the right one.
+TEST_F(ManyClients, TheWorldGoesOnWhileAPasswordIsCompared) {
   HostOptions options = fastOptions();
   options.frame_micros = 1000;
   options.password = PasswordHash::of("the right one", {.memory_kib = 8 * 1024, .passes = 12}).text();
@@ -103,7 +103,7 @@ TEST_F(Crowd, TheWorldGoesOnWhileAPasswordIsCompared) {
   EXPECT_EQ(answer->refused().reason(), wire::Refused::PASSWORD);
 }
 
-/// Keeps the newest datagram that a client sent: what somebody on the way would have.
+/// Keeps the newest datagram that a client sent, as an eavesdropper could.
 class Overheard : public DatagramSocket {
  public:
   Overheard(std::unique_ptr<DatagramSocket> socket, std::string& newest)
@@ -122,7 +122,7 @@ class Overheard : public DatagramSocket {
   std::string& m_newest;
 };
 
-TEST_F(Crowd, ASpooferOfManyAddressesLocksNobodyOut) {
+TEST_F(ManyClients, ASpooferOfManyAddressesLocksNoPlayerOut) {
   TestServer server(world(), home.server());
   const auto valve = std::make_shared<Valve>();
   std::string overheard;
@@ -158,7 +158,7 @@ TEST_F(Crowd, ASpooferOfManyAddressesLocksNobodyOut) {
       ++sent;
     }
   });
-  // She plays on; somebody else gets in, gets datagrams, and moves to another port.
+  // Ann plays on; another player gets in, gets datagrams, and moves to another port.
   const auto bobs = std::make_shared<Valve>();
   ClientSetup other = home.player("bob");
   other.options.open_socket = through(context, bobs);

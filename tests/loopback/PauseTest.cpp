@@ -1,4 +1,4 @@
-// The pause of a game with players: who decides, and what they read.
+// The pause of a game with players: which of them decide, and what they read.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ class PausePlay : public testing::Test {
   std::optional<TestClient> ann, bob;
 };
 
-TEST_F(PausePlay, IsAVoteAndEverybodyReadsHowItStands) {
+TEST_F(PausePlay, IsAVoteAndAllPlayersReadHowItStands) {
   start("together");
   pressP(*ann);
   ASSERT_TRUE(until([this] { return reads(*ann, "pause: 1 of 2") && reads(*bob, "pause: 1 of 2"); }));
@@ -52,9 +52,9 @@ TEST_F(PausePlay, IsAVoteAndEverybodyReadsHowItStands) {
   EXPECT_TRUE(isPaused());
 }
 
-TEST_F(PausePlay, WhoPlaysWhileOthersWatchDecidesAlone) {
+TEST_F(PausePlay, ThePlayerWhomOthersWatchDecidesAlone) {
   start("first");
-  pressP(*bob);  // who only watches
+  pressP(*bob);  // only watches
   pressP(*ann);
   ASSERT_TRUE(until([this] { return isPaused(); }));
   EXPECT_FALSE(reads(*ann, "pause: 1 of 2"));

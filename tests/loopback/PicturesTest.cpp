@@ -46,7 +46,7 @@ TEST(Loopback, TwoClientsSeeTheSameWorldAndALateOneCatchesUp) {
   expectSame(ann, server, 150);
   expectSame(bob, server, 150);
   expectSame(cal, server, 150);
-  // No player has a text of his own yet, so all see exactly the same.
+  // No player has a text of their own yet, so all see exactly the same.
   int shared = 0;
   std::uint64_t different = 0;
   for (const auto& [tick, picture] : cal.pictures()) {
@@ -89,7 +89,7 @@ TEST(Loopback, AWindowThatShakesIsSeenShaking) {
   EXPECT_GT(shaken, 0);
 }
 
-/// Flies to the right through a world larger than its player's view, who follows it.
+/// Flies to the right through a world larger than its player's view, which follows it.
 struct Scout : df::Object {
   explicit Scout(df::Vector at) {
     setSolidness(df::SPECTRAL);

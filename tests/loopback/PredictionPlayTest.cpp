@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// Gives everybody a boat with declared controls.
+/// Gives each player a boat with declared controls.
 class Boatyard : public df::Object {
  public:
   Boatyard() {
@@ -104,7 +104,7 @@ TEST_F(PredictionPlay, AKeyShowsInTheNextFrameAndComesTrue) {
   const Prediction::Counters& counters = ann.session().predict(Clock::now()).counters();
   EXPECT_EQ(counters.unpredicted, 0u);
   EXPECT_GE(counters.confirmed, 10u);
-  // Nothing is in the way: only a key that came too late may have been shown otherwise than it happened.
+  // No obstacle is near: only a key that came too late may have been shown otherwise than it happened.
   const bool none_late = ann.session().inputTickEstimator().margin() == InputTickEstimator::kMinMargin;
   EXPECT_TRUE(counters.mispredicted == 0 || !none_late) << counters.mispredicted;
   std::printf("confirmed=%d mispredicted=%d margin=%.2f\n", static_cast<int>(counters.confirmed),

@@ -39,7 +39,7 @@ std::optional<std::string> RawClient::readExactly(std::size_t count) {
                    [&](const asio::error_code& error, std::size_t) { result = error; });
   m_context.restart();
   m_context.run_for(std::chrono::seconds(30));
-  if (!result) {  // let go of the buffer before it goes
+  if (!result) {  // the buffer must outlive the read
     m_timed_out = true;
     m_socket.cancel();
     m_context.restart();

@@ -1,4 +1,4 @@
-// A session outlives its stream: the game notices nothing, the player keeps his ship.
+// A session outlives its stream: the game notices nothing, the player keeps their ship.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,7 +72,7 @@ class Resume : public testing::Test {
   std::unique_ptr<StreamProxy> proxy;
 };
 
-TEST_F(Resume, ABrokenStreamIsReplacedAndNobodyNotices) {
+TEST_F(Resume, ABrokenStreamIsReplacedUnnoticed) {
   start(home.server());
   TestClient ann(context, proxy->port(), player("ann"));
   ASSERT_TRUE(settle(ann));
@@ -168,7 +168,7 @@ TEST_F(Resume, AStreamThatFallsSilentIsReplaced) {
   EXPECT_EQ(census.leaves, 0);
 }
 
-TEST_F(Resume, WhoMissedThePlayerListGetsIt) {
+TEST_F(Resume, AClientThatMissedThePlayerListGetsIt) {
   start(home.server());
   TestClient ann(context, proxy->port(), player("ann"));
   ASSERT_TRUE(settle(ann));
@@ -186,7 +186,7 @@ TEST_F(Resume, WhoMissedThePlayerListGetsIt) {
   EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return lists(ann, "bob"); }));
 }
 
-TEST_F(Resume, WhoDoesNotComeBackLeavesWhenTheGraceIsOver) {
+TEST_F(Resume, AClientThatDoesNotComeBackLeavesWhenTheGraceIsOver) {
   HostOptions options = home.server();
   options.grace = 0.5;
   start(options);
@@ -201,7 +201,7 @@ TEST_F(Resume, WhoDoesNotComeBackLeavesWhenTheGraceIsOver) {
   EXPECT_EQ(server->inWorld([](df::World& world) { return world.objectsOfType("Ship").getCount(); }), 0);
 }
 
-TEST_F(Resume, WhoLeavesOnPurposeIsGoneAtOnce) {
+TEST_F(Resume, AClientThatLeavesOnPurposeIsGoneAtOnce) {
   start(home.server());
   TestClient ann(context, proxy->port(), player("ann"));
   ASSERT_TRUE(settle(ann));
@@ -234,7 +234,7 @@ TEST_F(Resume, ATokenWorksOnce) {
   EXPECT_TRUE(keyWorks(ann));
 }
 
-TEST_F(Resume, AGuessedTokenIsNobodys) {
+TEST_F(Resume, AGuessedTokenResumesNoSession) {
   start(home.server());
   TestClient ann(context, proxy->port(), player("ann"));
   ASSERT_TRUE(settle(ann));

@@ -110,7 +110,7 @@ class Return : public testing::Test {
     return serveUntil(context, {&client}, [&] { return client.newestTick() >= until; }) &&
            seesTheTruth(client) && server->counters().divergences == 0;
   }
-  void expectNobodyCameOrWent(int players = 1) {
+  void expectNoJoinOrLeave(int players = 1) {
     EXPECT_EQ(census.joins, players);
     EXPECT_EQ(census.leaves, 0);
     EXPECT_EQ(server->counters().joined, static_cast<std::uint64_t>(players));
@@ -134,7 +134,7 @@ class Return : public testing::Test {
   std::unique_ptr<StreamProxy> proxy;
 };
 
-TEST_F(Return, WhoWasKilledHasHisObjectBack) {
+TEST_F(Return, APlayerWhoseClientWasKilledHasTheirObjectBack) {
   start();
   auto ann = client("ann");
   ASSERT_TRUE(onDatagrams(*ann));
@@ -158,7 +158,7 @@ TEST_F(Return, WhoWasKilledHasHisObjectBack) {
   EXPECT_EQ(keys.pressed, 6);
   EXPECT_EQ(ann->session().counters().resets, 0u);
   EXPECT_EQ(server->inWorld([](df::World& world) { return world.objectsOfType("Ship").getCount(); }), 1);
-  expectNobodyCameOrWent();
+  expectNoJoinOrLeave();
 }
 
 TEST_F(Return, WithoutDatagramsToo) {
@@ -172,10 +172,10 @@ TEST_F(Return, WithoutDatagramsToo) {
   ASSERT_TRUE(joins(*ann));
   EXPECT_TRUE(scores(*ann, 2) && press(*ann, 1));
   EXPECT_TRUE(playsOn(*ann));
-  expectNobodyCameOrWent();
+  expectNoJoinOrLeave();
 }
 
-TEST_F(Return, BeforeTheServerKnowsThatAnybodyWasKilled) {
+TEST_F(Return, BeforeTheServerKnowsThatTheClientWasKilled) {
   start();
   auto ann = client("ann");
   ASSERT_TRUE(onDatagrams(*ann));
@@ -187,7 +187,7 @@ TEST_F(Return, BeforeTheServerKnowsThatAnybodyWasKilled) {
   EXPECT_TRUE(scores(*ann, 2) && press(*ann, 1));
   EXPECT_TRUE(playsOn(*ann));
   EXPECT_EQ(server->counters().detached, 0u);
-  expectNobodyCameOrWent();
+  expectNoJoinOrLeave();
 }
 
 TEST_F(Return, AStreamThatBreaksAfterwardsIsReplacedAsEver) {
@@ -204,10 +204,10 @@ TEST_F(Return, AStreamThatBreaksAfterwardsIsReplacedAsEver) {
   EXPECT_TRUE(press(*ann, 2));
   EXPECT_TRUE(playsOn(*ann));
   EXPECT_EQ(server->counters().restarted, 1u);
-  expectNobodyCameOrWent();
+  expectNoJoinOrLeave();
 }
 
-TEST_F(Return, KeysOfTheKilledAreLetGo) {
+TEST_F(Return, KeysOfAKilledClientAreReleased) {
   start();
   auto ann = client("ann");
   ASSERT_TRUE(onDatagrams(*ann));
@@ -224,7 +224,7 @@ TEST_F(Return, KeysOfTheKilledAreLetGo) {
   ann->session().sendKey(df::Keyboard::B, df::KEY_PRESSED, Clock::now());
   ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return keys.pressed == 4; }));
   EXPECT_TRUE(playsOn(*ann));
-  EXPECT_EQ(keys.released, 3) << "those that are gone go once, and who is here holds what he holds";
+  EXPECT_EQ(keys.released, 3) << "each key is released once, and a client that is back keeps its own pressed";
   proxy->stall();
   ann.reset();
   ann = client("ann");
@@ -241,8 +241,8 @@ TEST_F(Return, ASecondTerminalDoesNotTakeTheSessionOfOneThatRuns) {
   ASSERT_TRUE(serveUntil(context, {ann.get(), other.get()}, [&] { return other->joined(); }));
   EXPECT_NE(other->player(), ann->player());
   EXPECT_EQ(other->session().welcome().name, "ann2");
-  expectNobodyCameOrWent(2);
-  // Killed both, each comes back as somebody.
+  expectNoJoinOrLeave(2);
+  // Both are killed: each comes back in one of the two sessions.
   const std::uint32_t ids = ann->player() + other->player();
   ann.reset();
   other.reset();
@@ -252,7 +252,7 @@ TEST_F(Return, ASecondTerminalDoesNotTakeTheSessionOfOneThatRuns) {
       serveUntil(context, {ann.get(), other.get()}, [&] { return ann->joined() && other->joined(); }));
   EXPECT_NE(other->player(), ann->player());
   EXPECT_EQ(other->player() + ann->player(), ids);
-  expectNobodyCameOrWent(2);
+  expectNoJoinOrLeave(2);
 }
 
 TEST_F(Return, AnotherNameIsAnotherPlayer) {
@@ -266,7 +266,7 @@ TEST_F(Return, AnotherNameIsAnotherPlayer) {
   EXPECT_EQ(server->counters().restarted, 0u);
 }
 
-TEST_F(Return, WhoProvesTheTokenElsewhereIsTheOne) {
+TEST_F(Return, TheSessionGoesToTheClientThatProvesTheToken) {
   start();
   auto ann = client("ann");
   ASSERT_TRUE(onDatagrams(*ann));
@@ -282,7 +282,7 @@ TEST_F(Return, WhoProvesTheTokenElsewhereIsTheOne) {
   EXPECT_EQ(ann->connection().sentence(), kElsewhere);
   EXPECT_TRUE(scores(*elsewhere, 2) && press(*elsewhere, 1));
   EXPECT_TRUE(playsOn(*elsewhere));
-  expectNobodyCameOrWent();
+  expectNoJoinOrLeave();
   // The first has not kept what is void.
   EXPECT_TRUE(std::filesystem::exists(home.sessions()));
   for (const auto& entry : std::filesystem::directory_iterator(home.sessions())) {
@@ -290,7 +290,7 @@ TEST_F(Return, WhoProvesTheTokenElsewhereIsTheOne) {
   }
 }
 
-TEST_F(Return, WhoWasCutOffMeanwhileIsToldAndStays) {
+TEST_F(Return, AClientThatWasCutOffMeanwhileGetsTheReasonAndStaysOut) {
   start();
   auto ann = client("ann");
   ASSERT_TRUE(onDatagrams(*ann));
@@ -312,7 +312,7 @@ TEST_F(Return, WhoWasCutOffMeanwhileIsToldAndStays) {
   EXPECT_EQ(ann->connection().sentence(), kElsewhere);
   EXPECT_EQ(server->counters().refused_elsewhere, 1u);
   EXPECT_TRUE(playsOn(elsewhere));
-  expectNobodyCameOrWent();
+  expectNoJoinOrLeave();
 }
 
 TEST_F(Return, AnotherServerDoesNotGetToSeeTheToken) {
@@ -330,7 +330,7 @@ TEST_F(Return, AnotherServerDoesNotGetToSeeTheToken) {
   EXPECT_EQ(impostor.counters().unknown_tokens, 0u);
 }
 
-TEST_F(Return, AfterTheGraceHeIsANewPlayer) {
+TEST_F(Return, AfterTheGraceTheyAreANewPlayer) {
   HostOptions options = home.server();
   options.grace = 0.3;
   start(options);
@@ -346,7 +346,7 @@ TEST_F(Return, AfterTheGraceHeIsANewPlayer) {
   EXPECT_TRUE(linesOf(*ann).empty());
 }
 
-TEST_F(Return, WhoLeftOnPurposeIsANewPlayer) {
+TEST_F(Return, APlayerWhoLeftOnPurposeIsANewPlayer) {
   start();
   auto ann = client("ann");
   ASSERT_TRUE(onDatagrams(*ann));
@@ -359,7 +359,7 @@ TEST_F(Return, WhoLeftOnPurposeIsANewPlayer) {
   EXPECT_EQ(server->counters().unknown_tokens, 0u) << "nothing was kept";
 }
 
-TEST_F(Return, WhatWasSaidWithoutAStreamArrivesOnceAndInOrder) {
+TEST_F(Return, ChatSentWithoutAStreamArrivesOnceAndInOrder) {
   start();
   auto ann = client("ann");
   ASSERT_TRUE(onDatagrams(*ann));

@@ -62,7 +62,7 @@ class Rounds : public testing::Test {
     const auto mains = numberAfter(row, "mains=");
     const auto steps = numberAfter(row, "steps=");
     const auto process = numberAfter(row, "process=");
-    // What begins anew may be there in part.
+    // The first pictures of a round may be incomplete.
     if (!mains || !steps || !process || row.find(';') == std::string::npos) return {};
     return {*mains, *steps, *process};
   }
@@ -114,17 +114,17 @@ class RoundEnd : public Rounds {
 
     const auto began = Clock::now();
     press(*ann, key);
-    const auto is_anew = [&](TestClient& client) {
+    const auto is_next_round = [&](TestClient& client) {
       const Shown now = shown(client);
       return now.steps == 0 && now.process != before.process;
     };
-    ASSERT_TRUE(serve([&] { return is_anew(*ann) && is_anew(*bob); })) << game->log();
+    ASSERT_TRUE(serve([&] { return is_next_round(*ann) && is_next_round(*bob); })) << game->log();
     const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - began);
     std::printf("next_round_ms=%lld\n", static_cast<long long>(took.count()));
     EXPECT_EQ(shown(*ann).mains, 1) << "a global is what it was";
     EXPECT_EQ(kill(before.process, 0), -1) << "the round before has a process still";
 
-    EXPECT_EQ(&ann->session(), p_session) << "she had to join again";
+    EXPECT_EQ(&ann->session(), p_session) << "ann had to join again";
     EXPECT_EQ(ann->player(), player);
     EXPECT_EQ(ann->session().counters().resets, 1u);
     EXPECT_EQ(bob->session().counters().resets, 1u);
@@ -134,7 +134,7 @@ class RoundEnd : public Rounds {
     EXPECT_TRUE(serve([&] { return (theme_of_ann += theme(*ann)) == "+-+"; })) << theme_of_ann;
     EXPECT_TRUE(serve([&] { return (theme_of_bob += theme(*bob)) == "+-+"; })) << theme_of_bob;
     press(*bob, df::Keyboard::RIGHTARROW);
-    EXPECT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << "his keys are heard";
+    EXPECT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << "bob's keys arrive";
     const auto lists = [&](const std::string& name) {
       const auto& players = ann->session().players();
       return std::any_of(players.begin(), players.end(),
@@ -183,7 +183,7 @@ TEST_F(Rounds, WhatPlayersSeeIsWhatTheWorldsDraw) {
   }
   EXPECT_GT(compared, 100);
   EXPECT_LE(wrong, numberAfter(game->log(), "skipped_ticks=").value_or(0))
-      << "more than the server skipped for her";
+      << "more than the server skipped for this client";
 }
 
 TEST_F(Rounds, AGameThatNeverBeginsEndsTheServer) {
@@ -212,7 +212,7 @@ TEST_F(Rounds, PrivateWorldsCrashAlone) {
   EXPECT_NE(shown(*ann).process, shown(*bob).process);
   press(*bob, df::Keyboard::RIGHTARROW);
   ASSERT_TRUE(serve([&] { return shown(*bob).steps == 1; }));
-  EXPECT_EQ(shown(*ann).steps, 0) << "it is his world";
+  EXPECT_EQ(shown(*ann).steps, 0) << "ann has a world of her own";
   const int process = shown(*bob).process;
 
   bob->forgetPictures();
@@ -229,7 +229,7 @@ TEST_F(Rounds, PrivateWorldsCrashAlone) {
   EXPECT_EQ(shown(*carl).steps, 0);
 }
 
-TEST_F(Rounds, WhoLeavesAPrivateWorldEndsIt) {
+TEST_F(Rounds, APlayerWhoLeavesAPrivateWorldEndsIt) {
   start({{"NAIAD_PLAYERS", "private"}});
   auto ann = join("ann");
   auto bob = join("bob");

@@ -136,7 +136,7 @@ TEST_F(SealedPlay, WithDatagramsBlockedASecondStreamIsOpened) {
   EXPECT_TRUE(keyWorks(ann));
 }
 
-TEST_F(SealedPlay, WhoBreaksOffHasASecondStreamAgain) {
+TEST_F(SealedPlay, AClientThatBreaksOffHasASecondStreamAgain) {
   valve->up = valve->down = false;
   TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
   StreamProxy proxy(context, server.port());

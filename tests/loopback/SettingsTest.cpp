@@ -1,4 +1,4 @@
-// What a game asks for in its settings, and what its players are told of it; who may end it.
+// What a game asks for in its settings, what its clients get of it, and which players may end it.
 #include <gtest/gtest.h>
 
 #include "TestClient.h"
@@ -22,7 +22,7 @@ std::chrono::microseconds tickToldWith(int frame_time_millis, int frame_micros) 
   return client.session().welcome().tick;
 }
 
-TEST(Settings, TheFrameTimeOfTheGameCountsAndIsTold) {
+TEST(Settings, TheFrameTimeOfTheGameCountsAndIsInTheWelcome) {
   EXPECT_EQ(tickToldWith(5, 0), std::chrono::milliseconds(5));
   EXPECT_EQ(tickToldWith(50, 3000), std::chrono::milliseconds(3)) << "the host's own counts more";
   EXPECT_EQ(tickToldWith(33, 0), std::chrono::microseconds(33333))

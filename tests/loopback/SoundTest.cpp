@@ -1,4 +1,4 @@
-// What a game sounds reaches everybody who plays.
+// A game's sounds reach all players.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::vector<std::string> heardBy(TestClient& client, std::vector<std::string>& h
   return heard;
 }
 
-TEST(SoundPlay, ReachesEverybodyAndNewcomersHearWhatGoesOn) {
+TEST(SoundPlay, ReachesAllPlayersAndNewcomersHearWhatGoesOn) {
   TestServer server([](df::World&) { new Band; });
   asio::io_context context;
   TestClient ann(context, server.port(), "ann");

@@ -21,13 +21,13 @@ class StreamProxy {
   std::uint16_t port() const { return m_acceptor.local_endpoint().port(); }
   /// Both ends of all present connections lose them.
   void cut();
-  /// Nothing goes through the present connections any more, and nobody hears of it.
+  /// Nothing goes through the present connections any more, and neither end gets an error.
   void stall();
   /// The same for the one that was made first.
   void stallOldest();
-  /// Later connections are hung up on.
+  /// Closed: later connections are closed at once.
   void setOpen(bool open) { m_open = open; }
-  /// What comes is passed on so much later, each way.
+  /// Bytes are delayed by this, in each direction.
   void setDelay(std::chrono::milliseconds delay) { m_delay = delay; }
   /// Later connections lead to another server.
   void setServer(std::uint16_t port) { m_server_port = port; }

@@ -16,14 +16,14 @@ namespace naiad::test {
 /// Long enough for a loaded machine under a sanitizer; a test that needs it has failed anyway.
 inline constexpr std::chrono::seconds kPatience{30};
 
-/// How a client comes: as itself, to whom, and whether it comes back.
+/// A client's options, the keys it trusts, and whether it comes back.
 struct ClientSetup {
   SessionOptions options;
   ServerTrust trust;
   bool rejoin = false;
   std::filesystem::path sessions;  ///< where session files lie; empty: nowhere
 };
-/// Plain TCP, once.
+/// Plain TCP, without coming back.
 ClientSetup insecurely(const std::string& name);
 
 /// Destroying it is as if its process was killed.

@@ -18,8 +18,8 @@
 
 namespace naiad::test {
 
-/// Options for tests: any free port, plain TCP, who is gone is gone, short ticks so that a thousand of them
-/// take seconds.
+/// Options for tests: any free port, plain TCP, no grace, short ticks so that a thousand of them take
+/// seconds.
 HostOptions fastOptions();
 
 class TestServer {
@@ -30,12 +30,12 @@ class TestServer {
 
   std::uint16_t port() const { return m_host->port(); }
   std::optional<Fingerprint> fingerprint() const { return m_host->fingerprint(); }
-  /// Run `look` on the server's thread between two ticks and return what it returns.
-  template <class Look>
-  auto inWorld(Look look) {
-    std::promise<decltype(look(std::declval<df::World&>()))> answer;
-    m_host->post([&](df::World& world) { answer.set_value(look(world)); });
-    return answer.get_future().get();
+  /// Run `job` on the server's thread between two ticks and return what it returns.
+  template <class Job>
+  auto inWorld(Job job) {
+    std::promise<decltype(job(std::declval<df::World&>()))> result;
+    m_host->post([&](df::World& world) { result.set_value(job(world)); });
+    return result.get_future().get();
   }
   Counters counters() {
     return inWorld([this](df::World&) { return m_host->counters(); });
@@ -48,9 +48,9 @@ class TestServer {
   std::uint64_t skippedTicks(std::uint32_t player) {
     return inWorld([this, player](df::World&) { return m_host->skippedTicks(player); });
   }
-  /// What the book's draw path shows `player` at the end of `tick`, if that tick happened with him.
+  /// What the book's draw path shows `player` at the end of `tick`, if they were in that tick.
   std::optional<df::Canvas> truth(std::uint32_t tick, std::uint32_t player) const;
-  /// End the server and wait for it; players are told `sentence`.
+  /// End the server with this sentence to the players, and wait for it.
   void stop(const std::string& sentence);
 
  private:

@@ -1,4 +1,4 @@
-// Who is let in, and who is trusted: passwords, pins, fingerprints.
+// Which players are let in, and which servers are trusted: passwords, pins, fingerprints.
 #include <gtest/gtest.h>
 
 #include "BusyWorld.h"
@@ -56,7 +56,7 @@ TEST_F(TrustTest, RightWrongAndMissingPasswords) {
   EXPECT_EQ(server.counters().joined, 1u);
 }
 
-TEST_F(TrustTest, WhoGuessesTooOftenWaitsEvenWithTheRightPassword) {
+TEST_F(TrustTest, AnAddressThatGuessesTooOftenWaitsEvenWithTheRightPassword) {
   HostOptions options = home.server();
   options.password = quick("xyzzy");
   TestServer server(world(), options);
@@ -100,9 +100,9 @@ TEST_F(TrustTest, AnotherKeyIsRefusedLoudly) {
   EXPECT_EQ(server->counters().joined, 0u);
 
   // The host says that this is the key now.
-  ClientSetup told = home.player("ann");
-  told.trust.fingerprint = server->fingerprint();
-  EXPECT_EQ(refusal(port, told), "");
+  ClientSetup informed = home.player("ann");
+  informed.trust.fingerprint = server->fingerprint();
+  EXPECT_EQ(refusal(port, informed), "");
   EXPECT_EQ(refusal(port, home.player("ann")), "");
 }
 

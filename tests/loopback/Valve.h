@@ -15,13 +15,13 @@ namespace naiad::test {
 struct Valve {
   bool up = true;                      ///< what is sent reaches the server
   bool down = true;                    ///< what it sends reaches the client
-  std::chrono::milliseconds delay{0};  ///< each way
+  std::chrono::milliseconds delay{0};  ///< in each direction
   std::uint16_t server_port = 0;       ///< where they really go; 0: where they should
   std::uint64_t sent = 0;              ///< let through
   std::uint64_t arrived = 0;           ///< likewise
   DatagramSocket* p_socket = nullptr;  ///< the newest one
 
-  /// They come from another port from now on, and nobody is told, as when a NAT forgets.
+  /// They come from another port from now on, without notice, as when a NAT forgets.
   void rebind() { p_socket->reopen(); }
 };
 

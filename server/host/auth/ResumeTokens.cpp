@@ -34,20 +34,20 @@ std::string ResumeTokens::issue(std::uint64_t session) {
   return token;
 }
 
-std::optional<std::uint64_t> ResumeTokens::find(const std::string& hash) const {
+std::optional<std::uint64_t> ResumeTokens::sessionOf(const std::string& hash) const {
   const auto found = m_sessions.find(hash);
   return found != m_sessions.end() ? std::optional(found->second) : std::nullopt;
 }
 
 std::optional<std::uint64_t> ResumeTokens::holderOf(const std::string& token) const {
   const std::string hash = hashOf(token);
-  const auto session = find(hash);
+  const auto session = sessionOf(hash);
   return session && m_hashes.at(*session).newest == hash ? session : std::nullopt;
 }
 
 std::optional<std::uint64_t> ResumeTokens::redeem(const std::string& token) {
   const std::string hash = hashOf(token);
-  const auto session = find(hash);
+  const auto session = sessionOf(hash);
   if (!session) return std::nullopt;
   Hashes& hashes = m_hashes.at(*session);
   if (hashes.redeemed != hash) dropRedeemed(hashes);

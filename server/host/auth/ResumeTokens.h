@@ -40,7 +40,7 @@ class ResumeTokens {
     std::string elsewhere;   ///< the last one void that another process redeemed
     bool restarted = false;  ///< `redeemed` was, by another process
   };
-  std::optional<std::uint64_t> find(const std::string& hash) const;
+  std::optional<std::uint64_t> sessionOf(const std::string& hash) const;
   void drop(std::string& hash);
   void dropRedeemed(Hashes& hashes);
 

@@ -60,14 +60,14 @@ ServerIdentity ServerIdentity::loadOrMake(const fs::path& directory,
     makeDirectory(directory);
     const fs::path key = directory / "key.pem";
     const fs::path certificate = directory / "certificate.pem";
-    const bool had_certificate = fs::exists(certificate);  // looked at first, for it is made last
+    // Checked before the key: another process that starts at the same time makes the certificate last.
+    const bool had_certificate = fs::exists(certificate);
     if (!fs::exists(key)) {
       if (had_certificate) {
         throw TlsError("The key " + key.string() +
                        " is missing, though its certificate is there. Bring it back, or "
                        "remove " +
-                       certificate.string() +
-                       " to begin with a new key that players will have to trust anew.");
+                       certificate.string() + " to begin with a new key that players have to trust again.");
       }
       makeFile(key, makeKeyPem());  // if another process was faster, its key is loaded
     }

@@ -79,7 +79,7 @@ class DatagramService {
   DatagramGate m_gate;
   std::shared_ptr<SealScratch> m_scratch = std::make_shared<SealScratch>();
   Time m_received{};
-  std::vector<Channel*> m_unproven;  ///< whose address has not answered yet
+  std::vector<Channel*> m_unproven;  ///< channels whose address has not answered yet
 };
 
 }  // namespace naiad

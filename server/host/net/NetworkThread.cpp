@@ -19,10 +19,10 @@ namespace {
 constexpr int kTurn = 64;
 /// What a notice of a frame takes beside the frame, so that many small ones fill a bound, too.
 constexpr std::size_t kNoticeBytes = 32;
-/// Unsent bytes are looked at so often while there are any, addresses challenged so often while one is new.
+/// How often unsent bytes are counted while there are any, and new addresses challenged.
 constexpr std::chrono::milliseconds kBusy{2};
 constexpr std::chrono::milliseconds kUnproven{50};
-/// Between two ticks the tick thread looks at the clock this often.
+/// The tick thread serves notices between two ticks for this long at a time.
 constexpr std::chrono::microseconds kHelping{200};
 constexpr int kMinServed = 64;
 
@@ -97,14 +97,14 @@ void NetworkThread::onNotice(const Notice& notice, std::string_view bytes) {
     return;
   }
   const auto found = m_near_streams.find(notice.id);
-  if (found == m_near_streams.end()) return;  // let go of in the meantime
+  if (found == m_near_streams.end()) return;  // destroyed in the meantime
   RelayedStream& stream = *found->second;
-  if (notice.kind == Notice::kClosed) return stream.ended(notice.reason);
+  if (notice.kind == Notice::kClosed) return stream.reportEnd(notice.reason);
   stream.m_end.in -= bytes.size() + kNoticeBytes;
   stream.deliver(bytes);
 }
 
-void NetworkThread::send(std::optional<Clock::time_point> tick_began) {
+void NetworkThread::sendOrders(std::optional<Clock::time_point> tick_began) {
   if (m_orders.empty()) return;
   if (tick_began) {
     const auto began = static_cast<std::uint64_t>(tick_began->time_since_epoch().count());
@@ -189,7 +189,7 @@ void NetworkThread::endTurn() {
   if (std::exchange(m_urgent, false)) wakeHome();
 }
 
-// Streams that have been sent something, until the kernel has let go of it.
+// Counts the unsent bytes of the streams that had some at the last count, or have been sent more since.
 void NetworkThread::noteUnsent() {
   std::erase_if(m_busy, [](StreamEnd* end) {
     end->unsent = end->channel ? end->channel->unsentBytes() : 0;
@@ -276,11 +276,11 @@ void NetworkThread::openDatagrams(DatagramsEnd& end, const StreamEnd& stream) {
       ++m_counters.datagrams_in_dropped;
       return;
     }
-    notice({.kind = Notice::kDatagram,
-            .place = p_end->place,
-            .id = p_end->id,
-            .came = m_port.datagrams->received()},
-           bytes);
+    addNotice({.kind = Notice::kDatagram,
+               .place = p_end->place,
+               .id = p_end->id,
+               .came = m_port.datagrams->received()},
+              bytes);
   });
 }
 
@@ -291,7 +291,7 @@ void NetworkThread::noteRoom(DatagramsEnd& end) {
   if (end.room.load(std::memory_order_relaxed) != now) end.room.store(now, std::memory_order_relaxed);
 }
 
-void NetworkThread::notice(const Notice& notice, std::string_view bytes) {
+void NetworkThread::addNotice(const Notice& notice, std::string_view bytes) {
   m_notices.add(notice, bytes);
   m_urgent = m_urgent || notice.kind != Notice::kDatagram;
 }
@@ -308,7 +308,7 @@ void NetworkThread::meetStream(std::unique_ptr<ReliableChannel> channel) {
   end->peer = channel->peerAddress();
   end->channel = std::move(channel);
   m_streams.emplace(p_end, std::move(end));
-  notice({.kind = Notice::kMet, .id = p_end->id, .stream = p_end, .came = Clock::now()});
+  addNotice({.kind = Notice::kMet, .id = p_end->id, .stream = p_end, .came = Clock::now()});
   p_end->channel->start({[this, p_end](std::string_view frame) { onFrame(*p_end, frame); },
                          [this, p_end](CloseReason reason) { onClosed(*p_end, reason); }});
 }
@@ -320,13 +320,13 @@ void NetworkThread::onFrame(StreamEnd& end, std::string_view frame) {
     return onClosed(end, CloseReason::kOverflow);
   }
   end.in += bytes;
-  notice({.kind = Notice::kFrame, .id = end.id, .came = Clock::now()}, frame);
+  addNotice({.kind = Notice::kFrame, .id = end.id, .came = Clock::now()}, frame);
 }
 
 // The stream ended by itself, or is made to end.
 void NetworkThread::onClosed(StreamEnd& end, CloseReason reason) {
   end.channel.reset();
-  notice({.kind = Notice::kClosed, .reason = reason, .id = end.id, .came = Clock::now()});
+  addNotice({.kind = Notice::kClosed, .reason = reason, .id = end.id, .came = Clock::now()});
 }
 
 }  // namespace naiad

@@ -10,7 +10,7 @@
 // served between two.
 //
 // Everything here is bounded, and what is over a bound is counted:
-//   datagrams, either way         dropped while the mailbox is full (Limits::mailbox)
+//   datagrams, each direction     dropped while the mailbox is full (Limits::mailbox)
 //   a stream's frames             the stream ends (CloseReason::kOverflow) when more than Limits::stream_in
 //                                 bytes of it wait for the tick thread, or its own queue (TcpOptions) or the
 //                                 mailbox is full
@@ -89,9 +89,9 @@ class NetworkThread {
   /// there is more.
   bool serve(Clock::time_point enough);
   /// Hand over what was sent.
-  void flush() { send(std::nullopt); }
+  void flush() { sendOrders(std::nullopt); }
   /// The same at the end of a tick that began at `began`.
-  void flushTick(Clock::time_point began) { send(began); }
+  void flushTick(Clock::time_point began) { sendOrders(began); }
   /// When what is being served came; now, if nothing is.
   Clock::time_point now() const { return m_serving ? m_came : Clock::now(); }
 
@@ -124,7 +124,7 @@ class NetworkThread {
     bool busy = false;                     ///< in m_busy
     std::atomic<std::size_t> unsent = 0;   ///< of what was taken over
     std::atomic<std::uint64_t> taken = 0;  ///< bytes that came over from the tick thread, ever
-    std::atomic<std::size_t> in = 0;       ///< bytes on their way to it
+    std::atomic<std::size_t> in = 0;       ///< bytes in transit to it
   };
   /// The same of a session's datagrams.
   struct DatagramsEnd {
@@ -168,7 +168,7 @@ class NetworkThread {
   bool renewDatagrams(DatagramsEnd& end, const ReliableChannel& stream, Epoch epoch);
   void giveOrder(const Order& order, std::string_view bytes = {}) { m_orders.add(order, bytes); }
   bool isFull() const { return m_order_box.size() + m_orders.size() > m_limits.mailbox; }
-  void send(std::optional<Clock::time_point> tick_began);
+  void sendOrders(std::optional<Clock::time_point> tick_began);
   void onNotice(const Notice& notice, std::string_view bytes);
   void wakeHome();
 
@@ -182,7 +182,7 @@ class NetworkThread {
   void onClosed(StreamEnd& end, CloseReason reason);
   void openDatagrams(DatagramsEnd& end, const StreamEnd& stream);
   void noteRoom(DatagramsEnd& end);
-  void notice(const Notice& notice, std::string_view bytes = {});
+  void addNotice(const Notice& notice, std::string_view bytes = {});
   bool isInFull() const { return m_notice_box.size() + m_notices.size() > m_limits.mailbox; }
   void noteUnsent();
 
@@ -196,7 +196,7 @@ class NetworkThread {
   ServerPort m_port;
   std::unordered_map<const StreamEnd*, std::unique_ptr<StreamEnd>> m_streams;
   std::unordered_map<const DatagramsEnd*, std::unique_ptr<DatagramsEnd>> m_datagrams;
-  std::vector<StreamEnd*> m_busy;  ///< those with bytes unsent, when last looked at
+  std::vector<StreamEnd*> m_busy;  ///< those with bytes unsent, at the last count
   Batch<Order> m_taken;
   Batch<Notice> m_notices;
   std::uint64_t m_newest_stream = 0;
@@ -218,7 +218,7 @@ class NetworkThread {
   Batch<Order> m_orders;
   Batch<Notice> m_serving_batch;
   std::unordered_map<std::uint64_t, RelayedStream*> m_near_streams;
-  /// Places are used again, ids are not: what is still on the way when a session goes reaches no channel.
+  /// Places are used again, ids are not: notices still in transit when a session ends reach no channel.
   struct NearDatagrams {
     std::uint64_t id = 0;
     RelayedDatagrams* channel = nullptr;

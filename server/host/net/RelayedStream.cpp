@@ -8,8 +8,8 @@ namespace naiad {
 
 namespace {
 
-/// What may be on the way to the network thread; over there the channel has a queue of its own.
-constexpr std::size_t kMaxOnTheWay = TcpOptions{}.send_cap;
+/// Bytes in transit to the network thread, at most; there the channel has a queue of its own.
+constexpr std::size_t kMaxInTransit = TcpOptions{}.send_cap;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void RelayedStream::start(Callbacks callbacks) {
 
 void RelayedStream::send(std::string_view frame) {
   if (m_closed) return;
-  if (onTheWay() + frame.size() > kMaxOnTheWay || m_network.isFull()) {
+  if (inTransit() + frame.size() > kMaxInTransit || m_network.isFull()) {
     ++m_network.m_clogged;
     m_closed = true;
     return m_network.giveOrder({.kind = NetworkThread::Order::kCut, .stream = &m_end});
@@ -42,8 +42,8 @@ void RelayedStream::send(std::string_view frame) {
 std::size_t RelayedStream::unsentBytes() const {
   if (m_idle) return 0;
   // In this order: what is taken over in between counts twice rather than not at all.
-  const std::size_t way = onTheWay();
-  const std::size_t unsent = way + m_end.unsent;
+  const std::size_t in_transit = inTransit();
+  const std::size_t unsent = in_transit + m_end.unsent;
   m_idle = unsent == 0;
   return unsent;
 }
@@ -62,7 +62,7 @@ void RelayedStream::deliver(std::string_view frame) {
   if (!m_closed && callbacks && callbacks->on_frame) callbacks->on_frame(frame);
 }
 
-void RelayedStream::ended(CloseReason reason) {
+void RelayedStream::reportEnd(CloseReason reason) {
   m_closed = true;
   const auto callbacks = std::move(m_callbacks);
   if (callbacks && callbacks->on_closed) callbacks->on_closed(reason);

@@ -11,8 +11,8 @@
 namespace naiad {
 
 /// Thread: the one that ticks. Callbacks come from NetworkThread::serve(), frames leave with its flush().
-/// unsentBytes() counts what waits on the way to the network thread and what that one knew to be unsent when
-/// it looked last, which it does after every batch and every few milliseconds while anything is.
+/// unsentBytes() counts the bytes on the way to the network thread and those that it had unsent at its last
+/// count, which it makes after every batch and every few milliseconds while there are any.
 /// exportSecret() gives nothing: keys are made over there (NetworkThread::openDatagrams).
 class RelayedStream : public ReliableChannel {
  public:
@@ -32,9 +32,9 @@ class RelayedStream : public ReliableChannel {
   friend class NetworkThread;
 
   /// Bytes that the network thread has not taken over yet.
-  std::size_t onTheWay() const { return static_cast<std::size_t>(m_given - m_end.taken); }
+  std::size_t inTransit() const { return static_cast<std::size_t>(m_given - m_end.taken); }
   void deliver(std::string_view frame);
-  void ended(CloseReason reason);
+  void reportEnd(CloseReason reason);
 
   NetworkThread& m_network;
   NetworkThread::StreamEnd& m_end;

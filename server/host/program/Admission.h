@@ -47,7 +47,7 @@ class Admission {
   void judgeHello(Session& session, const wire::Hello& hello);
   /// The client has the token that it was sent last (Session::takeProof).
   void confirmToken(const Session& session) { m_tokens.confirm(session.id()); }
-  /// The session is over: nobody can go on with it.
+  /// The session is over: its token is void.
   void forgetSession(const Session& session) { m_tokens.forget(session.id()); }
 
  private:

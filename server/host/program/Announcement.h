@@ -1,4 +1,4 @@
-// What a server says when it begins: where it is and how to join, to people and to scripts.
+// Tells people and scripts, at a server's start, its address and how to join.
 #pragma once
 
 #include <string>

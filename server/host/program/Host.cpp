@@ -97,7 +97,7 @@ void Host::setWorlds(NewWorld new_world) {
 
 // The server's loop: serve sockets until the next tick is due, then tick.
 void Host::run(df::World& world) {
-  begin(world);
+  beginGame(world);
   const StopSignals signals;
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   const auto work = asio::make_work_guard(m_io);  // or waiting for a deadline would end at once
@@ -108,10 +108,10 @@ void Host::run(df::World& world) {
     if (isDue(schedule)) tick();
   }
   drain();
-  end(world);
+  endGame(world);
 }
 
-void Host::begin(df::World& world) {
+void Host::beginGame(df::World& world) {
   m_p_world = &world;
   adoptSettings(world);
   m_admission.setWorld(world);
@@ -119,7 +119,7 @@ void Host::begin(df::World& world) {
   m_empty_since = Clock::now();
 }
 
-void Host::end(df::World& world) {
+void Host::endGame(df::World& world) {
   m_rooms.clear();
   world.setGameOverLeaves(false);
   m_p_world = nullptr;
@@ -153,7 +153,7 @@ bool Host::isDue(TickClock& schedule) {
   const Clock::time_point now = Clock::now();
   if (now < schedule.deadline()) return false;
   m_counters.late_ticks += now - schedule.deadline() > kLate ? 1 : 0;
-  m_counters.rebased_ticks += schedule.begin(now) ? 1 : 0;
+  m_counters.rebased_ticks += schedule.beginTick(now) ? 1 : 0;
   return true;
 }
 
@@ -203,7 +203,7 @@ void Host::sweep() {
   if (connected() > 0) m_empty_since = Clock::now();
 }
 
-// ---- what sessions ask for --------------------------------------------------------------------------------
+// ---- callbacks of sessions --------------------------------------------------------------------------------
 
 Session::Events Host::sessionEvents() {
   return {[this](Session& session, const wire::Hello& hello) { m_admission.judgeHello(session, hello); },

@@ -69,8 +69,8 @@ class Host : public df::Runner {
   void run(df::World& world) override;
   /// End run() after the present tick, with this sentence to the players. Callable from another thread.
   void stop(const std::string& sentence);
-  /// Call `job` on the host's thread, between two ticks. Callable from another thread (tests look at a
-  /// running world this way).
+  /// Call `job` on the host's thread, between two ticks. Callable from another thread (tests inspect a
+  /// running world with it).
   void post(std::function<void(df::World&)> job);
   /// Called after every tick, on the host's thread.
   void setObserver(std::function<void(df::World&)> observer) { m_observer = std::move(observer); }
@@ -81,8 +81,8 @@ class Host : public df::Runner {
   Session::Events sessionEvents();
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);
-  void begin(df::World& world);
-  void end(df::World& world);
+  void beginGame(df::World& world);
+  void endGame(df::World& world);
   void adoptSettings(df::World& world);
   void serveUntil(Clock::time_point deadline);
   bool isDue(TickClock& schedule);

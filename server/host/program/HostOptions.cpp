@@ -48,19 +48,19 @@ std::vector<Row> tableOf(HostOptions& o) {
        ""},  // there the game's frame_time is in milliseconds
       {{"--ticks", &o.ticks, "Stop after this many ticks; 0 never", "NAIAD_TICKS", OptionRange{0, 2e9}}},
       {{"--exit-when-empty", &o.exit_when_empty,
-        "Stop this many seconds after the last player left (a minute if nobody ever comes); 0 never",
+        "Stop this many seconds after the last player left (a minute if no player ever joins); 0 never",
         "NAIAD_EXIT_WHEN_EMPTY", OptionRange{0, 1e6}}},
       {{"--players",
         &o.players,
-        "Whose keys and mouse the game hears: together = everybody's; first = the first one's, while the "
+        "Whose keys and mouse the game hears: together = all players'; first = the first one's, while the "
         "others watch and wait for their turn; private = a world for each player, in a process of its own",
         "NAIAD_PLAYERS",
         {},
         {"together", "first", "private"}}},
       {{"--on-game-over",
         &o.on_game_over,
-        "When the game is over because of a key or click of one player among several: leave = it is for him "
-        "alone; exit = for everybody. restart = as leave, and when the game itself is over or crashes, the "
+        "When the game is over because of a key or click of one player among several: leave = it is for them "
+        "alone; exit = for all. restart = as leave, and when the game itself is over or crashes, the "
         "next round begins, in a process of its own; players stay connected",
         "NAIAD_ON_GAME_OVER",
         {},

@@ -28,7 +28,7 @@ struct HostOptions {
   double exit_when_empty = 0;        ///< seconds after the last player left; 0: never
   std::string players = "together";  ///< whose input the game hears: "together", "first" or "private"
   std::string on_game_over =
-      "leave";              ///< by one player among several: "leave" (for him), "exit" or "restart"
+      "leave";              ///< by one player among several: "leave" (for them alone), "exit" or "restart"
   bool insecure = false;    ///< plain TCP, loopback only, no datagrams: for tests
   std::string certificate;  ///< PEM file; with `key`. Empty: a key of its own, made on the first start
   std::string key;          ///< PEM file

@@ -1,4 +1,4 @@
-// Which player's input the game hears, if it hears one player only (HostOptions::players, "first").
+// Which player's input reaches the game, if only one player's does (HostOptions::players, "first").
 #pragma once
 
 #include <cstdint>

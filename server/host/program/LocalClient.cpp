@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kPatienceMillis = 2000;  // for a client that was told that the game is over
+constexpr int kPatienceMillis = 2000;  // for a client to end after the game's goodbye
 
 bool isProgram(const fs::path& path) {
   std::error_code error;
@@ -65,7 +65,7 @@ bool LocalClient::hasTerminal() {
          tcgetpgrp(STDIN_FILENO) == getpgrp();
 }
 
-std::optional<fs::path> LocalClient::find() {
+std::optional<fs::path> LocalClient::findProgram() {
   if (const char* p_named = std::getenv("NAIAD_CLIENT")) {
     return isProgram(p_named) ? std::optional<fs::path>(p_named) : std::nullopt;
   }

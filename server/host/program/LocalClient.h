@@ -18,13 +18,13 @@ class LocalClient {
   static bool hasTerminal();
   /// The program: what the environment names (NAIAD_CLIENT), else the one installed or built with this
   /// library, else one on the PATH. Nothing if there is none.
-  static std::optional<std::filesystem::path> find();
+  static std::optional<std::filesystem::path> findProgram();
 
   /// Start it. It has the terminal from now on; what the game prints goes to `log_file`. The server's
   /// password goes by the environment, which other users do not see. Throws std::system_error.
   LocalClient(const std::filesystem::path& program, const std::vector<std::string>& arguments,
               const std::string& password, const std::string& log_file);
-  /// Ends it, if it has not heard that the game is over, and gives the terminal back to the game.
+  /// Ends it, if it does not end by itself, and gives the terminal back to the game.
   ~LocalClient();
   LocalClient(const LocalClient&) = delete;
   LocalClient& operator=(const LocalClient&) = delete;

@@ -1,5 +1,4 @@
-// While a client draws in this process's terminal, what the game prints goes elsewhere, and what it reads is
-// nothing.
+// While a client draws in this process's terminal, the game's output goes to a file, and its input is empty.
 #pragma once
 
 #include <string>

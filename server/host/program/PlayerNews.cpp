@@ -9,8 +9,8 @@ namespace naiad {
 
 namespace {
 
-void add(wire::ServerMessage& message, const df::PlayerFacts& player,
-         const PlayerNews::RoundTrip& round_trip) {
+void addEntry(wire::ServerMessage& message, const df::PlayerFacts& player,
+              const PlayerNews::RoundTrip& round_trip) {
   wire::PlayerEntry& entry = *message.mutable_players()->add_players();
   entry.set_player(player.id);
   entry.set_name(player.name);
@@ -35,7 +35,7 @@ void PlayerNews::sendToAll(const std::vector<df::PlayerFacts>& players, const Ro
                            const Send& send) {
   wire::ServerMessage message;
   message.mutable_players();
-  for (const df::PlayerFacts& player : players) add(message, player, round_trip);
+  for (const df::PlayerFacts& player : players) addEntry(message, player, round_trip);
   std::string bytes = message.SerializeAsString();
   if (bytes == m_sent) return;
   m_sent = std::move(bytes);
@@ -53,7 +53,7 @@ void PlayerNews::sendToSome(std::uint32_t tick, const std::vector<df::PlayerFact
     const bool among = std::any_of(best.begin(), best.end(), [&](const wire::PlayerEntry& entry) {
       return entry.player() == player.id;
     });
-    if (!among) add(*m_best, player, round_trip);
+    if (!among) addEntry(*m_best, player, round_trip);
     send(player.id, *m_best);
     if (!among) m_best->mutable_players()->mutable_players()->RemoveLast();
   }
@@ -69,7 +69,7 @@ void PlayerNews::findBest(const std::vector<df::PlayerFacts>& players, const Rou
   });
   best.erase(middle, best.end());
   m_best->Clear();
-  for (const df::PlayerFacts* player : best) add(*m_best, *player, round_trip);
+  for (const df::PlayerFacts* player : best) addEntry(*m_best, *player, round_trip);
 }
 
 }  // namespace naiad

@@ -1,4 +1,4 @@
-// Sends players the list of players: now and then, and bounded however many they are.
+// Sends players the list of players: periodically, with a limit for large crowds.
 #pragma once
 
 #include <cstdint>

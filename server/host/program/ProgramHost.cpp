@@ -51,7 +51,7 @@ void addFolders(df::World& world) {
   world.addResourceFolder(folder.parent_path().string());
 }
 
-/// On the usual port; if that is taken and nobody asked for it, on any.
+/// On the usual port; if that is taken and no option asked for it, on any free one.
 std::unique_ptr<Host> openHost(HostOptions options, bool port_given, const Host::Log& log) {
   try {
     return std::make_unique<Host>(options, programName(), log);
@@ -62,7 +62,7 @@ std::unique_ptr<Host> openHost(HostOptions options, bool port_given, const Host:
   return std::make_unique<Host>(options, programName(), log);
 }
 
-/// The help screen of clients is where a player can look it up while he plays.
+/// So that players can look it up on the help screen of their clients.
 void addToHelp(df::World& world, const std::vector<std::string>& lines) {
   std::vector<std::string> help = world.getHelp();
   for (const std::string& line : lines) {
@@ -74,12 +74,13 @@ void addToHelp(df::World& world, const std::vector<std::string>& lines) {
 }
 
 /// Lets the client in the terminal, if there is one, and the game end each other.
-class Company {
+class TerminalPlayer {
  public:
-  Company(Host& host, const HostOptions& options, const std::string& log_file, const df::World::LogSink& log)
+  TerminalPlayer(Host& host, const HostOptions& options, const std::string& log_file,
+                 const df::World::LogSink& log)
       : m_host(host), m_log(log) {
     if (!options.local_client || !LocalClient::hasTerminal()) return;
-    const auto program = LocalClient::find();
+    const auto program = LocalClient::findProgram();
     if (!program) {
       std::cout << "There is no dfclient to play with in this terminal (NAIAD_CLIENT can name it)."
                 << std::endl;
@@ -97,13 +98,13 @@ class Company {
   }
 
   /// Once a tick.
-  void look() {
-    if (m_client && m_client->hasEnded()) onEnd();
+  void update() {
+    if (m_client && m_client->hasEnded()) endClient();
     if (m_local_left && m_host.connected() == 0) m_host.stop("The game is over.");
   }
 
  private:
-  void onEnd() {
+  void endClient() {
     const bool failed = m_client->hasFailed();
     m_client.reset();
     m_host.setEndsWithLast(false);
@@ -150,8 +151,8 @@ void ProgramHost::startUp(df::World& world) {
             (m_options.headless ? ", headless" : ""));
 }
 
-// random_seed is for rand(): 0 takes the time, -1 leaves it alone. The engine's own dice are never the same
-// twice, unless somebody wants that; without players, everybody does.
+// random_seed is for rand(): 0 takes the time, -1 leaves it alone. The engine's own random numbers differ
+// from run to run, unless an option gives a seed; without players they are the same.
 void ProgramHost::seed(df::World& world) const {
   const int random_seed = df::Config::getInstance().getRandomSeed();
   std::uint64_t seed = static_cast<std::uint64_t>(m_options.seed);
@@ -177,7 +178,7 @@ void ProgramHost::run(df::World& world) {
   } catch (const std::exception& error) {
     fail(kFile, error.what());
   }
-  // Players have left, or somebody has stopped the server: no more of the game, whatever its main() says.
+  // Players have left, or a signal has stopped the server: no more of the game, whatever its main() does.
   m_stopped = !world.isGameOver();
 }
 
@@ -203,8 +204,8 @@ void ProgramHost::serve(df::World& world) {
   addToHelp(world, how);
 
   if (wantsWorlds(m_options)) host->setWorlds(startWorlds());
-  Company company(*host, m_options, df::Config::getInstance().getLogFile(), log);
-  host->setObserver([&company](df::World&) { company.look(); });
+  TerminalPlayer terminal_player(*host, m_options, df::Config::getInstance().getLogFile(), log);
+  host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });
   host->run(world);
   world.setHelp(help);
   if (!host->failure().empty()) fail(kGameFailed, "the game " + host->failure());

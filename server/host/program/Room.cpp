@@ -106,7 +106,7 @@ void Room::publish(TruthWriter* p_truth) {
   ++m_ticks;
   if (!m_watched) return;
   m_publisher.update(m_p_port->view());
-  m_p_port->published(m_publisher);
+  m_p_port->notePublished(m_publisher);
   sendSnapshots(p_truth);
   m_sound_news.tick(m_p_port->view(), soundSender());
   sendNotes();

@@ -45,7 +45,7 @@ Room& Rooms::openRoom(std::unique_ptr<WorldPort> port) {
 
 void Rooms::watchWorld(Room& room) {
   room.port().setOnTick([this, &room] { endTick(room); });
-  room.port().look(tickNumber());
+  room.port().checkProcess(tickNumber());
 }
 
 // ---- players ----------------------------------------------------------------------------------------------
@@ -142,7 +142,7 @@ void Rooms::dismissLeavers(Room& room) {
 void Rooms::checkWorlds() {
   if (!m_new_world) return;
   for (const auto& room : m_rooms) {
-    room->port().look(tickNumber());
+    room->port().checkProcess(tickNumber());
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }
@@ -191,7 +191,7 @@ bool Rooms::isOver() const {
 void Rooms::closeWorlds() {
   for (const auto& room : m_rooms) {
     room->port().close();
-    room->port().look(tickNumber());
+    room->port().checkProcess(tickNumber());
   }
   std::erase_if(m_rooms, [this](const auto& room) { return !m_new_world || room->port().end(); });
 }

@@ -32,7 +32,7 @@ void SessionTable::add(std::unique_ptr<ReliableChannel> channel, Session::Events
   m_sessions.back()->start(std::move(events));
 }
 
-// Connections that have not said hello count, too: they must not be a way round the limit. The oldest of them
+// Connections that have not said hello count, too, or they would evade the limit. The oldest of them
 // goes, since a player says hello at once: a crowd of silent connections cannot lock players out.
 bool SessionTable::makeRoom() {
   if (m_sessions.size() >= m_max_sessions) sweep();

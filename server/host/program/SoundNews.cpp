@@ -38,7 +38,7 @@ wire::Sound::Action actionOf(const df::SoundPlayed& sound) {
   return sound.what == df::SoundPlayed::kStop ? wire::Sound::STOP : wire::Sound::PLAY;
 }
 
-void add(wire::ServerMessage& message, const df::SoundPlayed& played) {
+void addSound(wire::ServerMessage& message, const df::SoundPlayed& played) {
   wire::Sound& sound = *message.mutable_sounds()->add_sounds();
   sound.set_label(safeText(played.label, kMaxSoundLabel));
   sound.set_action(actionOf(played));
@@ -50,7 +50,7 @@ void add(wire::ServerMessage& message, const df::SoundPlayed& played) {
 }  // namespace
 
 void SoundNews::tick(const df::WorldView& view, const Send& send) {
-  gather(view);
+  gatherSounds(view);
   std::swap(m_listeners, m_listeners_before);
   m_listeners.clear();
   auto before = m_listeners_before.begin();
@@ -62,7 +62,7 @@ void SoundNews::tick(const df::WorldView& view, const Send& send) {
   }
 }
 
-void SoundNews::gather(const df::WorldView& view) {
+void SoundNews::gatherSounds(const df::WorldView& view) {
   m_now.clear();
   m_left_out = view.sounds_lost;
   for (const df::SoundPlayed& sound : view.sounds) {
@@ -98,7 +98,7 @@ SoundNews::Listener SoundNews::addListener(std::uint32_t player, const df::World
   wire::ServerMessage message;
   for (const df::SoundPlayed& sound : view.playing) {
     noteLasting(sound);
-    if (message.sounds().sounds_size() < static_cast<int>(kMaxSounds)) add(message, sound);
+    if (message.sounds().sounds_size() < static_cast<int>(kMaxSounds)) addSound(message, sound);
   }
   if (!view.playing.empty()) sendMessage(player, message, true, send);
   return {player, kAtOnce * kTicksForOne, view.tick};
@@ -109,7 +109,7 @@ void SoundNews::sendSounds(Listener& listener, bool is_new, std::uint32_t tick, 
   listener.credit = std::min(listener.credit + (tick - listener.tick), kAtOnce * kTicksForOne);
   listener.tick = tick;
   m_chosen.assign(m_now.size(), false);
-  std::size_t most = kPerTick;
+  std::size_t room = kPerTick;
   std::size_t left = m_now.size();
   for (int rank = 0; rank < kRanks; ++rank) {
     for (std::size_t i = 0; i < m_now.size(); ++i) {
@@ -118,9 +118,9 @@ void SoundNews::sendSounds(Listener& listener, bool is_new, std::uint32_t tick, 
         --left;
         continue;
       }
-      if (most == 0 || listener.credit < costOf(*m_now[i])) continue;
+      if (room == 0 || listener.credit < costOf(*m_now[i])) continue;
       m_chosen[i] = true;
-      --most;
+      --room;
       --left;
       listener.credit -= costOf(*m_now[i]);
     }
@@ -129,7 +129,7 @@ void SoundNews::sendSounds(Listener& listener, bool is_new, std::uint32_t tick, 
   for (const bool lasting : {true, false}) {
     wire::ServerMessage message;
     for (std::size_t i = 0; i < m_now.size(); ++i) {
-      if (m_chosen[i] && lasts(*m_now[i]) == lasting) add(message, *m_now[i]);
+      if (m_chosen[i] && lasts(*m_now[i]) == lasting) addSound(message, *m_now[i]);
     }
     if (message.has_sounds()) sendMessage(listener.player, message, lasting, send);
   }
@@ -144,7 +144,7 @@ void SoundNews::sendMessage(std::uint32_t player, const wire::ServerMessage& mes
 void SoundNews::changeWorld(const Send& send) {
   wire::ServerMessage message;
   for (const df::SoundPlayed& sound : m_lasting)
-    add(message, {sound.label, df::SoundPlayed::kStop, sound.music, sound.loop, 0});
+    addSound(message, {sound.label, df::SoundPlayed::kStop, sound.music, sound.loop, 0});
   if (message.has_sounds()) {
     for (const Listener& listener : m_listeners) sendMessage(listener.player, message, true, send);
   }

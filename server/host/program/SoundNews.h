@@ -1,4 +1,4 @@
-// Sends players what the game sounds: bounded, however much that is.
+// Sends players the game's sounds, with a limit per player.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ class SoundNews {
     std::uint32_t tick = 0;    ///< at whose end that was the credit
   };
 
-  void gather(const df::WorldView& view);
+  void gatherSounds(const df::WorldView& view);
   void noteLasting(const df::SoundPlayed& sound);
   Listener addListener(std::uint32_t player, const df::WorldView& view, const Send& send);
   void sendSounds(Listener& listener, bool is_new, std::uint32_t tick, const Send& send);

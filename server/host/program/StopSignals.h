@@ -5,8 +5,8 @@
 
 namespace naiad {
 
-/// Installed while it lives; a signal asks all that are. A game that hangs in a handler never comes back to
-/// look at isAsked(), so the second signal has its default effect and ends the process at once.
+/// Installed while it lives; a signal asks all that are. A game that hangs in a handler never returns to a
+/// check of isAsked(), so the second signal has its default effect and ends the process at once.
 class StopSignals {
  public:
   StopSignals();

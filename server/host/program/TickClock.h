@@ -1,4 +1,4 @@
-// When ticks are due: absolute deadlines, 30 a second unless told otherwise.
+// When ticks are due: absolute deadlines, 30 a second by default.
 #pragma once
 
 #include <chrono>
@@ -32,7 +32,7 @@ class TickClock {
   Clock::time_point deadline() const { return m_origin + m_length.times(m_count); }
 
   /// A tick begins at `now`: go on to the next deadline. Return true if the schedule was re-based.
-  bool begin(Clock::time_point now) {
+  bool beginTick(Clock::time_point now) {
     const bool rebased = now - deadline() >= m_length.times(1);
     if (rebased) {
       m_origin = now;

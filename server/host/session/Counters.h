@@ -11,7 +11,7 @@ namespace naiad {
 struct Counters {
   std::uint64_t connections = 0;         ///< accepted by the listener
   std::uint64_t joined = 0;              ///< welcomed
-  std::uint64_t turned_away = 0;         ///< hung up without a word: too many connections
+  std::uint64_t turned_away = 0;         ///< closed without an answer: too many connections
   std::uint64_t refused_version = 0;     ///< wrong protocol version
   std::uint64_t refused_full = 0;        ///< no place left
   std::uint64_t refused_address = 0;     ///< too many players from one address
@@ -35,14 +35,14 @@ struct Counters {
   std::uint64_t stuck_streams = 0;      ///< not taken in for 10 s: ended
   std::uint64_t graces_expired = 0;     ///< clients that did not come back in time
   std::uint64_t refused_password = 0;   ///< missing or wrong
-  std::uint64_t divergences = 0;        ///< a client held another world than it was sent: sent anew
-  std::uint64_t resets = 0;             ///< worlds sent anew, on request or after a divergence
+  std::uint64_t divergences = 0;        ///< a client's world was not what it was sent: reset
+  std::uint64_t resets = 0;             ///< worlds sent again, on request or after a divergence
   std::uint64_t resets_dropped = 0;     ///< sooner than two seconds after the last one: ignored
   std::uint64_t checksums_dropped = 0;  ///< more often than four a second, or on two streams: ignored
   std::uint64_t repeated_inputs = 0;    ///< applied before: ignored
   std::uint64_t chat_dropped = 0;       ///< faster than three lines a second: ignored
-  std::uint64_t sounds = 0;             ///< told, each counted for each player
-  std::uint64_t sounds_dropped = 0;     ///< too many, or the stream was broken or busy: not told
+  std::uint64_t sounds = 0;             ///< sent, each counted for each player
+  std::uint64_t sounds_dropped = 0;     ///< too many, or the stream was broken or busy: not sent
   std::uint64_t resizes_deferred = 0;   ///< replaced by a newer one before they were taken over
   std::uint64_t snapshots = 0;          ///< sent
   std::uint64_t snapshot_bytes = 0;     ///< of their frames
@@ -51,7 +51,7 @@ struct Counters {
   std::uint64_t ticks = 0;
   std::uint64_t late_ticks = 0;     ///< began more than 5 ms after their deadline
   std::uint64_t late_worlds = 0;    ///< ticks that began while a world's process was not ready for one
-  std::uint64_t rebased_ticks = 0;  ///< a whole tick late: the schedule starts anew
+  std::uint64_t rebased_ticks = 0;  ///< a whole tick late: the schedule starts again
 
   /// "connections=3 joined=2 …", only what is not zero.
   std::string summary() const;

@@ -1,4 +1,4 @@
-// Names that are different bytes and the same to the eye: Cyrillic "Аnn" and Latin "Ann", "Ilse" and "llse".
+// Finds names that differ in bytes but look the same: Cyrillic "Аnn" and Latin "Ann", "Ilse" and "llse".
 #pragma once
 
 #include <string>

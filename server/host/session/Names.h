@@ -1,4 +1,4 @@
-// Player names and chat: what a stranger may put on other people's screens.
+// Cleans player names and chat: strangers send them, and other players' terminals show them.
 #pragma once
 
 #include <string>

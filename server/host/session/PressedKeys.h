@@ -1,5 +1,5 @@
-// The keys that a player holds down, as far as the server has heard: who is cut off, or whose client is
-// killed, lets them go.
+// The keys that a player holds down, by the inputs received. A client that is cut off or killed sends no
+// releases, so the server makes them.
 #pragma once
 
 #include <bitset>
@@ -12,12 +12,10 @@ namespace naiad {
 
 class PressedKeys {
  public:
-  /// The player did this.
-  void note(const Input& input) {
+  void noteInput(const Input& input) {
     if (!input.is_mouse) m_down.set(input.key, input.action != df::KEY_RELEASED);
   }
-  /// Call `release(input)` for each key that is down, in their order, with an input that lets it go; then
-  /// none is.
+  /// Call `release(input)` with a release of each key that is down, by key. No key is down afterwards.
   template <class Release>
   void releaseAll(Release release) {
     for (std::size_t key = 0; key < m_down.size() && m_down.any(); ++key) {

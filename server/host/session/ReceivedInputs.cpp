@@ -11,7 +11,7 @@ ReceivedInputs::Verdict ReceivedInputs::add(const Input& input) {
   if (m_queue.size() >= kMaxQueued) return Verdict::kTooMany;
   m_newest = input.id;
   m_queue.push_back(input);
-  m_pressed.note(input);
+  m_pressed.noteInput(input);
   return Verdict::kQueued;
 }
 

@@ -20,7 +20,7 @@ void Session::start(Events events) {
       kMaxHelloFrame);
 }
 
-// ---- the hello and its answer -----------------------------------------------------------------------------
+// ---- the welcome or refusal -------------------------------------------------------------------------------
 
 void Session::refuse(wire::Refused::Reason reason, const std::string& sentence) {
   wire::ServerMessage message;
@@ -38,7 +38,7 @@ void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChanne
   m_welcome = welcome;
   m_welcome.clear_resume_token();
   m_state = State::kPlaying;
-  answer(welcome);
+  sendWelcome(welcome);
   startDatagrams(std::move(datagrams));
 }
 
@@ -48,7 +48,7 @@ void Session::startDatagrams(std::unique_ptr<SealedChannel> datagrams) {
   m_delivery.datagrams()->start([this](std::string_view bytes) { onDatagram(bytes); });
 }
 
-void Session::answer(const wire::Welcome& welcome) {
+void Session::sendWelcome(const wire::Welcome& welcome) {
   m_streams.setReceiveLimit(kMaxClientFrame);
   wire::ServerMessage message;
   *message.mutable_welcome() = welcome;
@@ -65,7 +65,7 @@ void Session::adopt(Session& other, wire::Welcome welcome, std::uint32_t receive
   m_delivery.loseStream();
   m_kept.acknowledge(received);
   welcome.set_received(m_kept_heard.newest());
-  answer(welcome);
+  sendWelcome(welcome);
   m_kept.forEach([this](const std::string& frame) { m_streams.sendFirst(frame); });
 }
 
@@ -86,7 +86,7 @@ void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<Sea
   from.set_snapshot(sender().newestNumber());
   from.set_world_epoch(sender().epoch());
   from.set_input(m_inputs.newest());
-  answer(welcome);
+  sendWelcome(welcome);
   ++m_counters.restarted;
 }
 

@@ -1,4 +1,4 @@
-// One client on the server's side: its streams, its state (STATES.md), what it sent and what it is sent.
+// One client on the server's side: its streams, its state (STATES.md), its inputs and its snapshots.
 //
 // A session is more than its stream: when that breaks, the session goes on over datagrams, or waits, until
 // the client comes back on another stream and adopt() gives it to the session, or the grace time is over.
@@ -44,19 +44,19 @@ class Session {
   enum class State { kGreeting, kPlaying, kEnding, kGone };
 
   static constexpr std::chrono::seconds kLoginTimeout{5};
-  /// A hello that waits to be judged is answered before its client gives up on an answer (after 5 s).
+  /// A hello is judged before its client stops waiting for an answer (after 5 s).
   static constexpr std::chrono::seconds kJudgeTimeout{4};
   static constexpr std::chrono::seconds kIdleTimeout{15};
   /// After this silence the keys of a player without a stream are released.
   static constexpr std::chrono::seconds kSuspend{1};
-  /// With more than this unsent on the stream nothing arrives at once.
+  /// With more than this unsent on the stream, a message arrives too late for sendFleeting().
   static constexpr std::size_t kMaxBeforeFleeting = std::size_t{4} * 1024;
 
   Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now);
   /// Names the session for as long as the host runs.
   void setId(std::uint64_t id) { m_id = id; }
   std::uint64_t id() const { return m_id; }
-  /// Begin to receive. Not in the constructor, so that callbacks find a finished session.
+  /// Begin to receive. Not in the constructor: callbacks need a finished session.
   void start(Events events);
 
   /// Answer the hello with a refusal; the connection ends.
@@ -78,7 +78,7 @@ class Session {
   bool hasSecondStream() const { return m_streams.hasSecond(); }
   /// Another world begins: the client forgets what it knows, and its inputs to the one before are dropped.
   void beginWorld();
-  /// Wait this long for a client whose stream broke. 0: do not.
+  /// How long to wait for the client after its stream broke; 0: not at all.
   void setGrace(std::chrono::milliseconds grace) { m_grace = grace; }
   /// The stream is broken; the client may come back.
   bool isDetached() const { return m_state == State::kPlaying && m_streams.first() == nullptr; }
@@ -122,7 +122,7 @@ class Session {
   /// `replaces`: it makes the last message obsolete that was sent with this flag.
   void sendKept(wire::ServerMessage message, bool replaces = false);
 
-  /// Send it if that can be at once: it is worth nothing later. Whether it was sent.
+  /// Send it if it can arrive at once; late, it is worthless. Return whether it was sent.
   bool sendFleeting(const wire::ServerMessage& message);
 
   State state() const { return m_state; }
@@ -145,7 +145,7 @@ class Session {
   void onClosed(CloseReason reason);
   void detach(Clock::time_point now);
   void takeStream(Session& other);
-  void answer(const wire::Welcome& welcome);
+  void sendWelcome(const wire::Welcome& welcome);
   void startDatagrams(std::unique_ptr<SealedChannel> datagrams);
   void releaseKeys() { m_inputs.releaseKeys(m_delivery.tick()); }
   void checkGreeting(Clock::time_point now);

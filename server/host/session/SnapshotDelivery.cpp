@@ -85,7 +85,7 @@ void SnapshotDelivery::sendOnStreams(const Publisher& publisher, StreamPair& str
 }
 
 void SnapshotDelivery::noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Time now) {
-  m_transport.sent(packet.number, as_datagram, now);
+  m_transport.noteSent(packet.number, as_datagram, now);
   m_ticks.recordSent(packet.number, packet.tick);
 }
 
@@ -102,7 +102,7 @@ void SnapshotDelivery::skipTick() {
 void SnapshotDelivery::acknowledge(const AckWindow& acks, bool by_datagram, Time now) {
   settleAcks();
   m_acks = acks;
-  m_transport.acknowledged(acks, by_datagram, now);
+  m_transport.acknowledge(acks, by_datagram, now);
 }
 
 // What an acknowledgement settles is spread over memory that the session's turn in the tick needs anyway, so

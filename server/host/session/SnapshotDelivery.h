@@ -1,6 +1,6 @@
-// One client's snapshots on their way: by datagram where datagrams pass, else on the streams.
+// Sends one client's snapshots: by datagram where datagrams pass, else on the streams.
 //
-// Acknowledgements, checksums and requests for a reset come back the same way.
+// Acknowledgements, checksums and requests for a reset arrive on the same transports.
 #pragma once
 
 #include <chrono>
@@ -52,7 +52,7 @@ class SnapshotDelivery {
   /// What was sent on the first stream is lost with it.
   void loseStream();
   /// The client is on another stream: find out again whether datagrams pass.
-  void renewTransport(Time now) { m_transport.renewed(now); }
+  void renewTransport(Time now) { m_transport.renew(now); }
   /// Another process of the client, which knows nothing of this one's transport.
   void restart(Time now);
 

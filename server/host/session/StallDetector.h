@@ -6,8 +6,8 @@
 
 namespace naiad {
 
-/// A stream with more than kMuch unsent that for kPatience has not come nearer to its end has stuck. Slow is
-/// no crime: each byte less than ever since the pile began starts the time anew. Pure.
+/// A stream is stuck if more than kMuch is unsent and that has not become less for kPatience. A slow stream
+/// is not: each new minimum restarts the time. Pure.
 class StallDetector {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -15,8 +15,8 @@ class StallDetector {
   static constexpr std::size_t kMuch = std::size_t{64} * 1024;  ///< bytes
   static constexpr std::chrono::seconds kPatience{10};
 
-  /// At `now` the stream has so many bytes unsent. True if it has stuck.
-  bool note(std::size_t unsent, Time now) {
+  /// At `now` the stream has so many bytes unsent. True if it is stuck.
+  bool addSample(std::size_t unsent, Time now) {
     if (unsent <= kMuch || m_least == 0 || unsent < m_least) {
       m_least = unsent <= kMuch ? 0 : unsent;
       m_since = now;
@@ -28,7 +28,7 @@ class StallDetector {
   void restart() { m_least = 0; }
 
  private:
-  std::size_t m_least = 0;  ///< bytes unsent, at least, since there were too many; 0: there are not
+  std::size_t m_least = 0;  ///< the minimum since more than kMuch was unsent; 0: no more than that is
   Time m_since{};
 };
 

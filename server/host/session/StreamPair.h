@@ -53,7 +53,7 @@ class StreamPair {
   bool isFirstIdle() const { return isIdle(m_first.get()); }
   bool isSecondIdle() const { return isIdle(m_second.get()); }
   /// To be asked once a tick. Has the first stream taken in nothing for too long (StallDetector.h)?
-  bool isStalled(Time now) { return m_first != nullptr && m_stall.note(m_first->unsentBytes(), now); }
+  bool isStalled(Time now) { return m_first != nullptr && m_stall.addSample(m_first->unsentBytes(), now); }
   /// The address of the first stream, or that of the last one.
   std::string peerAddress() const { return m_first != nullptr ? m_first->peerAddress() : m_address; }
 

@@ -14,13 +14,13 @@ constexpr std::chrono::seconds kGoodFor{5};
 
 }  // namespace
 
-void TransportSelector::sent(std::uint32_t number, bool as_datagram, Time now) {
+void TransportSelector::noteSent(std::uint32_t number, bool as_datagram, Time now) {
   m_sent[number % kKept] = {number, as_datagram, true, false, now};
   if (as_datagram && !isOpen(now)) m_probe.probeSent(now);
 }
 
-// Most of a window was in the one before, which came the same way: only what is new in it is looked at.
-void TransportSelector::acknowledged(const AckWindow& acks, bool by_datagram, Time now) {
+// Most of a window was in the one before, which came by the same transport: only what is new in it counts.
+void TransportSelector::acknowledge(const AckWindow& acks, bool by_datagram, Time now) {
   AckWindow& before = m_acked[by_datagram ? 1 : 0];
   const std::uint32_t ahead = acks.newest - before.newest;
   const bool follows = before.newest != 0 && !isNewer(before.newest, acks.newest) && ahead <= 64;

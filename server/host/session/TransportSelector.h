@@ -1,5 +1,5 @@
-// Which way a session's snapshots take, and what is known of that way: do datagrams pass, how long is the
-// round trip, how much is lost, and so how often to send.
+// Whether a session's snapshots go by datagram or on the stream, and how often: by what is known of the link,
+// its round trip and its losses.
 //
 // A session starts on the stream. Once a second, and at first more often, it sends a snapshot as a datagram;
 // when one of those is acknowledged by a datagram, snapshots go as datagrams from then on, until none of them
@@ -25,15 +25,15 @@ class TransportSelector {
   explicit TransportSelector(Time now) : m_probe(PathProbe::kOpenFor, now) {}
 
   /// Snapshot `number` was sent, as a datagram or on the stream.
-  void sent(std::uint32_t number, bool as_datagram, Time now);
+  void noteSent(std::uint32_t number, bool as_datagram, Time now);
   /// The client acknowledged, by a datagram or on the stream.
-  void acknowledged(const AckWindow& acks, bool by_datagram, Time now);
+  void acknowledge(const AckWindow& acks, bool by_datagram, Time now);
   /// Another address or stream: find out again, soon.
-  void renewed(Time now) { m_probe.renew(now); }
+  void renew(Time now) { m_probe.renew(now); }
 
   /// Do datagrams pass?
   bool isOpen(Time now) const { return m_probe.isOpen(now); }
-  /// Is it time to try whether they do? `only`: there is no other way.
+  /// Is it time to try whether they do? `only`: there is no stream.
   bool wantsProbe(Time now, bool only = false) const { return m_probe.isDue(now, only); }
 
   /// From sending to acknowledgement, smoothed; 0 before the first.

@@ -48,12 +48,12 @@ std::string spell(const Sequence& sequence) {
   return bits.bytes();
 }
 
-bool isTellable(const Look& look) {
+bool isEncodable(const Look& look) {
   return !look.sequence.empty() && look.sequence.size() <= kMaxFrames &&
          look.sequence.glyphCount() <= kMaxGlyphs && look.selector.fits(look.sequence.size());
 }
 
-/// The same look in a world whose ticks come `later`.
+/// The same look in a world whose tick numbers are higher by `later`.
 Selector delayed(Selector selector, std::uint32_t later) {
   if (selector.kind == Selector::kClock || selector.kind == Selector::kClockOnce) selector.start += later;
   if (selector.kind == Selector::kAngle) selector.angle -= static_cast<std::uint32_t>(selector.spin) * later;
@@ -241,13 +241,13 @@ struct ViewFields {
     }
     if (in.ok()) sequence = known.m_sequences[number];
   }
-  // Those that cannot be told are left out: what draw() drew counts anyway.
+  // Looks that a snapshot could not carry are left out: the characters that draw() drew count anyway.
   static void looks(FieldWriter& out, ViewWriter& known, const df::WorldView& view) {
-    std::vector<df::PublishedLook> told;
+    std::vector<df::PublishedLook> encodable;
     for (const df::PublishedLook& look : view.looks) {
-      if (isTellable(*look.p_look)) told.push_back(look);
+      if (isEncodable(*look.p_look)) encodable.push_back(look);
     }
-    out.list(told, [&known](FieldWriter& f, const df::PublishedLook& look) {
+    out.list(encodable, [&known](FieldWriter& f, const df::PublishedLook& look) {
       f.number(look.drawn);
       f.number(look.p_look->altitude, 0, df::MAX_ALTITUDE);
       selector(f, look.p_look->selector);
@@ -255,15 +255,15 @@ struct ViewFields {
     });
   }
   static void looks(FieldReader& in, ViewReader& known, df::WorldView& view) {
-    in.list(view.looks, [&known](FieldReader& f, df::PublishedLook& told) {
+    in.list(view.looks, [&known](FieldReader& f, df::PublishedLook& published) {
       Look look;
-      f.number(told.drawn);
+      f.number(published.drawn);
       f.number(look.altitude, 0, df::MAX_ALTITUDE);
       selector(f, look.selector);
       sequence(f, known, look.sequence);
       f.require(look.selector.fits(look.sequence.size()));
       look.selector = delayed(look.selector, known.m_later);
-      told.p_look = std::make_shared<const Look>(std::move(look));
+      published.p_look = std::make_shared<const Look>(std::move(look));
     });
   }
   /// What is right only together.

@@ -1,7 +1,7 @@
 // A WorldView <-> the fields of a frame (WorldFrame.h).
 //
-// Everything is told whole in each tick, but for what many ticks share: sequences of a look and tables of
-// controls have numbers, given when they are told first.
+// Each tick's frame has everything, but for what many ticks share: sequences of looks and tables of controls
+// are written once, with a number, and later by that number.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ class ViewWriter {
 
 class ViewReader {
  public:
-  /// `later`: ticks by which those of the views that are read come later than those that are written.
+  /// `later`: is added to the tick numbers of views.
   explicit ViewReader(std::uint32_t later = 0) : m_later(later) {}
   /// The reader fails where anything is wrong; `view` and this are good for nothing then.
   void read(FieldReader& in, df::WorldView& view);

@@ -2,14 +2,14 @@
 //
 //   frame   length of the rest (4, low byte first), at most kMaxWorldFrame | fields
 //
-// What a struct consists of is said once, for both ends, by a function that visits its fields:
+// A function that visits a struct's fields describes it once, for both ends:
 //
 //   template <class Fields, class T>          // a FieldWriter and a const T, or a FieldReader and a T
 //   void visit(Fields& f, T& facts) { f.flag(facts.shown); f.number(facts.id, 1, 9); … }
 //
-// so a new field is one line. Both ends are built from one source, so there are no versions. But a world is
-// somebody's game: a reader checks every number, and a writer cuts what is out of range to it, so that no
-// game is refused for a coordinate.
+// so a new field is one line. Both ends are built from one source, so there are no versions. But a world runs
+// a game's code: a reader checks every number, and a writer clamps each to its range, so that no game is
+// refused for a coordinate.
 #pragma once
 
 #include <algorithm>

@@ -26,7 +26,7 @@ void WorldInProcess::endGame() {
 void WorldInProcess::tick(bool watched, bool /*truth*/) {
   m_world.setWatched(watched);
   m_world.tick();
-  ticked();
+  reportTick();
 }
 
 std::uint32_t WorldInProcess::nextTick() const {
@@ -37,8 +37,8 @@ const df::WorldView& WorldInProcess::view() const {
   return m_world.view();
 }
 
-// Only a game that asked for it pays for the memory.
-void WorldInProcess::published(const Publisher& publisher) {
+// A game that does not use lag compensation needs no memory for it.
+void WorldInProcess::notePublished(const Publisher& publisher) {
   if (m_world.isLookingBack() != m_lag_compensator.has_value()) {
     m_world.isLookingBack() ? static_cast<void>(m_lag_compensator.emplace()) : m_lag_compensator.reset();
     m_world.setLagCompensation(m_lag_compensator ? &*m_lag_compensator : nullptr);

@@ -27,7 +27,7 @@ class WorldInProcess : public WorldPort {
   void tick(bool watched, bool truth) override;
   std::uint32_t nextTick() const override;
   const df::WorldView& view() const override;
-  void published(const Publisher& publisher) override;
+  void notePublished(const Publisher& publisher) override;
   std::vector<std::uint32_t> takeLeavers() override;
   bool isGameOver() const override;
   df::Canvas renderPlayer(std::uint32_t player) const override;

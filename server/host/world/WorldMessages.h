@@ -1,4 +1,4 @@
-// What a host and a world in a process of its own tell each other, as frames (WorldFrame.h).
+// The messages between a host and a world in a process of its own, as frames (WorldFrame.h).
 //
 //   world → host   ready                     once, when the game has come to GM.run()
 //   host → world   turn: inputs, and tick
@@ -27,7 +27,7 @@ struct WorldTurn {
   bool watched = false;                       ///< the answer is to have a view
   bool wants_truth = false;                   ///< and pictures
   bool ends_game = false;
-  std::uint32_t heard_player = 0;  ///< the only one whose input comes; 0: everybody's does
+  std::uint32_t heard_player = 0;  ///< only their input comes; 0: all players' does
 };
 
 /// What one player sees.

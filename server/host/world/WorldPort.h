@@ -24,7 +24,7 @@ struct WorldEnd {
     kGameOver,  ///< the game said so, or its process ended in order
     kCrashed,   ///< a signal or an error code
     kHung,      ///< it did not answer in time
-    kBroken,    ///< it sent what no world sends
+    kBroken,    ///< it sent a malformed frame
   } why = kGameOver;
   std::string text;  ///< for the log and for players, like "crashed (SIGABRT)"
 };
@@ -41,7 +41,7 @@ class WorldPort {
   /// Return the player's id: that of the input, but for a join the next free one if the world has had that
   /// one.
   virtual std::uint32_t addInput(df::InputQueue::Input input) = 0;
-  /// From the next tick on only this player's input comes; 0: everybody's.
+  /// From the next tick on only this player's input comes; 0: all players'.
   virtual void setHeard(std::uint32_t player) = 0;
   /// The game is to be over at the end of the next tick.
   virtual void endGame() = 0;
@@ -57,9 +57,9 @@ class WorldPort {
   virtual std::uint32_t nextTick() const = 0;
   /// What the last watched tick changed. Valid until the next one begins.
   virtual const df::WorldView& view() const = 0;
-  /// The models that clients have been told of since the last tick: for a game that looks back.
-  virtual void published(const Publisher& publisher) = 0;
-  /// Those who wanted to leave since this was asked last.
+  /// These models have been published for the last tick: for games that use lag compensation.
+  virtual void notePublished(const Publisher& publisher) = 0;
+  /// The players who wanted to leave since the last call.
   virtual std::vector<std::uint32_t> takeLeavers() = 0;
   virtual bool isGameOver() const = 0;
   /// What this player sees, as the engine drew it in the last tick.
@@ -67,15 +67,15 @@ class WorldPort {
 
   // Its end.
 
-  /// Is it still alive? Once in each tick of the host's, ready or not; `tick` is its number.
-  virtual void look(std::uint32_t /*tick*/) {}
+  /// Look after the world's process. Once in each tick of the host, ready or not; `tick` is its number.
+  virtual void checkProcess(std::uint32_t /*tick*/) {}
   /// How it ended; nothing while it lives.
   virtual std::optional<WorldEnd> end() const { return std::nullopt; }
   /// Let it come to its end; end() says when it has.
   virtual void close() {}
 
  protected:
-  void ticked() {
+  void reportTick() {
     if (m_on_tick) m_on_tick();
   }
 

@@ -15,8 +15,8 @@ namespace naiad {
 
 namespace {
 
-/// Between two looks no more time than this counts.
-constexpr std::chrono::milliseconds kMaxBetweenLooks{100};
+/// The time between two checks counts up to this: if the host itself was held up, the world was not late.
+constexpr std::chrono::milliseconds kMaxBetweenChecks{100};
 
 std::string nameOf(int signal) {
   const char* p_name = sigabbrev_np(signal);
@@ -28,7 +28,7 @@ std::string nameOf(int signal) {
 WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started)
     : m_socket(home, asio::local::stream_protocol(), started.socket),
       m_process(started.process),
-      m_looked(Clock::now()) {
+      m_checked_at(Clock::now()) {
   readHead();
 }
 
@@ -67,7 +67,7 @@ void WorldProcess::tick(bool watched, bool truth) {
   if (!writeTurn(std::exchange(m_turn, {}), m_out)) return fail(WorldEnd::kBroken, "was asked too much");
   m_state = State::kTicking;
   m_waited = {};
-  // What becomes of it, the answer tells.
+  // A failure shows when the answer is read.
   asio::async_write(m_socket, asio::buffer(m_out), [](const asio::error_code&, std::size_t) {});
 }
 
@@ -112,7 +112,7 @@ void WorldProcess::onFrame() {
     m_state = State::kEnding;
     m_expected = true;
   }
-  if (!starts) ticked();
+  if (!starts) reportTick();
 }
 
 std::vector<std::uint32_t> WorldProcess::takeLeavers() {
@@ -161,18 +161,18 @@ std::chrono::nanoseconds WorldProcess::patience() const {
   return std::chrono::nanoseconds::max();
 }
 
-void WorldProcess::look(std::uint32_t tick) {
+void WorldProcess::checkProcess(std::uint32_t tick) {
   if (!m_began) m_next_tick = std::max(tick, 1u);
   if (m_state == State::kEnded) return;
   const Clock::time_point now = Clock::now();
-  m_waited += std::min<std::chrono::nanoseconds>(now - m_looked, kMaxBetweenLooks);
-  m_looked = now;
+  m_waited += std::min<std::chrono::nanoseconds>(now - m_checked_at, kMaxBetweenChecks);
+  m_checked_at = now;
   if (int status = 0; m_process > 0 && waitpid(m_process, &status, WNOHANG) == m_process) {
     m_process = -1;
     m_status = status;
     m_waited = {};
   }
-  // What it said last comes before its end, unless a process that it has left behind keeps the line open.
+  // Its last frames are read first, unless a child that it left behind keeps the socket open.
   if (m_status && (m_state == State::kEnding || m_waited > kEndTime)) return finish(*m_status);
   if (m_waited <= patience()) return;
   if (m_state == State::kEnding) return kill();

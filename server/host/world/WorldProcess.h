@@ -1,7 +1,7 @@
 // A world in a process of its own, over a Unix socket (WorldMessages.h). The other end is a WorldServer.
 //
-// A world that does not answer in time is killed; one that crashes has ended, and so has one that sends what
-// no world sends. None of it costs the host more than that world.
+// A world that does not answer in time, or sends a malformed frame, is killed; one that crashes has ended.
+// The host goes on without it.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -45,12 +45,12 @@ class WorldProcess : public WorldPort {
   /// Before the first tick: that of the host's. From there on it counts its own.
   std::uint32_t nextTick() const override { return m_next_tick; }
   const df::WorldView& view() const override { return m_view; }
-  /// The world's own process looks back.
-  void published(const Publisher& /*publisher*/) override {}
+  /// Lag compensation is done in the world's own process.
+  void notePublished(const Publisher& /*publisher*/) override {}
   std::vector<std::uint32_t> takeLeavers() override;
   bool isGameOver() const override { return m_answer.game_over; }
   df::Canvas renderPlayer(std::uint32_t player) const override;
-  void look(std::uint32_t tick) override;
+  void checkProcess(std::uint32_t tick) override;
   std::optional<WorldEnd> end() const override { return m_end; }
   void close() override;
 
@@ -81,10 +81,10 @@ class WorldProcess : public WorldPort {
   std::optional<int> m_status;        ///< then
   std::optional<WorldEnd> m_failure;  ///< why it was killed
   std::optional<WorldEnd> m_end;
-  Clock::time_point m_looked;
-  std::chrono::nanoseconds m_waited{0};  ///< in this state; time in which nobody looked does not count
+  Clock::time_point m_checked_at;
+  std::chrono::nanoseconds m_waited{0};  ///< in this state; time between two checks counts up to a limit
   std::uint32_t m_next_tick = 1;
-  std::uint32_t m_later = 0;  ///< by which ticks here come later than the world's own
+  std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
   bool m_expected = false;  ///< to end: the game is over, or the host closed it
   WorldTurn m_turn;         ///< the next one

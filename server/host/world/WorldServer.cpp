@@ -60,7 +60,7 @@ void WorldServer::run(df::World& world) {
   for (std::string fields; goes_on && receive(fields);) {
     const auto turn = readTurn(fields);
     if (!turn) {
-      world.log("The host said what no host says; the game is over.");
+      world.log("The host sent a malformed turn; the game is over.");
       break;
     }
     updateLagCompensation(*turn, world);
@@ -88,7 +88,7 @@ void WorldServer::updateLagCompensation(const WorldTurn& turn, df::World& world)
   wanted ? static_cast<void>(m_publisher.emplace()) : m_publisher.reset();
   m_lag_compensator = LagCompensator();
   world.setLagCompensation(wanted ? &m_lag_compensator : nullptr);
-  world.setWatched(false);  // so that it is told from the beginning
+  world.setWatched(false);  // the next view has every Object as changed
 }
 
 bool WorldServer::answer(const WorldTurn& turn, df::World& world) {
@@ -106,7 +106,7 @@ bool WorldServer::answer(const WorldTurn& turn, df::World& world) {
     }
   }
   if (!writeAnswer(answer, turn.watched ? &world.view() : nullptr, m_views, m_frame)) {
-    world.log("The world is too large to be told in " + std::to_string(kMaxWorldFrame) +
+    world.log("The world does not fit in a frame of " + std::to_string(kMaxWorldFrame) +
               " bytes; the game is over.");
     return false;
   }

@@ -121,7 +121,7 @@ std::optional<int> takeWorldSocket() {
   const bool good = error == std::errc() && end == text.data() + text.size() && socket > STDERR_FILENO;
   unsetenv(kVariable);  // programs that the game starts are no worlds
   if (!good || fcntl(socket, F_SETFD, FD_CLOEXEC) != 0) return std::nullopt;
-  // Should the host be killed while the game hangs, nobody else would end it.
+  // If the host is killed while the game hangs, nothing else ends this process.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   return socket;
 }

@@ -13,8 +13,8 @@ namespace {
 
 using Receiver = std::function<void(std::string_view)>;
 
-struct Way {
-  Way(const LinkConditions& conditions, std::uint64_t seed) : line(conditions, seed) {}
+struct Direction {
+  Direction(const LinkConditions& conditions, std::uint64_t seed) : line(conditions, seed) {}
 
   LossyLine line;
   std::shared_ptr<Receiver> receiver;  // shared with the call that is running
@@ -29,31 +29,31 @@ std::size_t indexOf(LinkEnd end) {
 
 struct LossyDatagramLink::State : std::enable_shared_from_this<State> {
   State(VirtualClock& virtual_clock, const LinkConditions& conditions, std::uint64_t seed)
-      : clock(virtual_clock), ways{Way(conditions, seed), Way(conditions, ~seed)} {}
+      : clock(virtual_clock), directions{Direction(conditions, seed), Direction(conditions, ~seed)} {}
 
   void send(LinkEnd from, std::string_view packet);
-  void arrive(Way& way, std::uint64_t number, std::string_view packet);
-  Way& from(LinkEnd end) { return ways[indexOf(end)]; }
-  Way& to(LinkEnd end) { return ways[1 - indexOf(end)]; }
+  void arrive(Direction& direction, std::uint64_t number, std::string_view packet);
+  Direction& from(LinkEnd end) { return directions[indexOf(end)]; }
+  Direction& to(LinkEnd end) { return directions[1 - indexOf(end)]; }
 
   VirtualClock& clock;
-  std::array<Way, 2> ways;  // by sending end
+  std::array<Direction, 2> directions;  // by sending end
 };
 
 void LossyDatagramLink::State::send(LinkEnd end, std::string_view packet) {
   if (packet.size() > kMaxDatagram) throw std::length_error("a packet may not exceed 1200 bytes");
-  Way& way = from(end);
-  const LossyLine::Fate fate = way.line.send(clock.now(), packet.size());
+  Direction& direction = from(end);
+  const LossyLine::Fate fate = direction.line.send(clock.now(), packet.size());
   for (int i = 0; i < fate.copies; ++i) {
-    clock.schedule(fate.arrivals[i], [self = shared_from_this(), &way, number = fate.number,
-                                      copy = std::string(packet)] { self->arrive(way, number, copy); });
+    clock.schedule(fate.arrivals[i], [self = shared_from_this(), &direction, number = fate.number,
+                                      copy = std::string(packet)] { self->arrive(direction, number, copy); });
   }
 }
 
-void LossyDatagramLink::State::arrive(Way& way, std::uint64_t number, std::string_view packet) {
-  const auto receiver = way.receiver;  // the call may destroy the end
-  if (!receiver) return way.line.dropped();
-  way.line.delivered(number);
+void LossyDatagramLink::State::arrive(Direction& direction, std::uint64_t number, std::string_view packet) {
+  const auto receiver = direction.receiver;  // the call may destroy the end
+  if (!receiver) return direction.line.dropped();
+  direction.line.delivered(number);
   if (*receiver) (*receiver)(packet);
 }
 

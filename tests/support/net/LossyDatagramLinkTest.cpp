@@ -82,7 +82,7 @@ TEST(LossyDatagramLink, DirectionsHaveTheirOwnConditions) {
   EXPECT_EQ(bench.link.counters(LinkEnd::kServer).dropped, 5u);
 }
 
-TEST(LossyDatagramLink, LosesTheShareItWasToldTo) {
+TEST(LossyDatagramLink, LosesTheShareThatWasSet) {
   for (const double loss : {0.0, 0.02, 0.3, 1.0}) {
     Bench bench({.loss = loss});
     bench.sendMany(20'000, 1us);
@@ -92,7 +92,7 @@ TEST(LossyDatagramLink, LosesTheShareItWasToldTo) {
   }
 }
 
-TEST(LossyDatagramLink, DuplicatesTheShareItWasToldTo) {
+TEST(LossyDatagramLink, DuplicatesTheShareThatWasSet) {
   Bench bench({.delay = 1ms, .duplicate = 0.1});
   bench.sendMany(20'000, 1us);
   EXPECT_NEAR(static_cast<double>(bench.counters().duplicated) / 20'000, 0.1, 0.01);
@@ -214,7 +214,7 @@ TEST(LossyDatagramLink, EveryPacketIsAccountedFor) {
   }
 }
 
-TEST(LossyDatagramLink, PacketsToNobodyAreDropped) {
+TEST(LossyDatagramLink, PacketsWithoutAReceiverAreDropped) {
   Bench bench({});
   bench.server->send("client has not started");
   bench.client->send("server goes away");

@@ -22,7 +22,7 @@ enum class LinkEnd { kClient, kServer };
 /// A pair of DatagramChannels.
 class LossyDatagramLink {
  public:
-  /// The same conditions both ways; setConditions() sets each.
+  /// The same conditions in both directions; setConditions() sets each.
   LossyDatagramLink(VirtualClock& clock, const LinkConditions& conditions, std::uint64_t seed);
   ~LossyDatagramLink();
 

@@ -1,4 +1,4 @@
-// Time that passes when a test says so.
+// Time that a test advances.
 //
 // Everything that happens in virtual time is an action in one queue. Advancing the clock runs what became
 // due, in time order and, for equal times, in the order in which it was scheduled, so a run is the same

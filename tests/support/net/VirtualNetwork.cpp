@@ -35,9 +35,9 @@ struct VirtualNetwork::State : std::enable_shared_from_this<State> {
   void move(Number number, Endpoint address);
   void remove(Number number);
   void send(Number from, const Endpoint& to, std::string_view packet);
-  void arrive(const Endpoint& from, const Endpoint& to, std::string_view packet, const Pair* way,
+  void arrive(const Endpoint& from, const Endpoint& to, std::string_view packet, const Pair* pair,
               std::uint64_t index);
-  LossyLine& line(const Pair& way);
+  LossyLine& line(const Pair& pair);
   Node* at(const Endpoint& address);
   Endpoint freePort(Endpoint address);
 
@@ -90,9 +90,9 @@ Node* VirtualNetwork::State::at(const Endpoint& address) {
   return found == addresses.end() ? nullptr : &nodes.at(found->second);
 }
 
-LossyLine& VirtualNetwork::State::line(const Pair& way) {
-  const std::uint64_t own = std::uint64_t{way.first} << 32 | way.second;
-  return lines.try_emplace(way, conditions, SplitMix64(seed ^ own).next()).first->second;
+LossyLine& VirtualNetwork::State::line(const Pair& pair) {
+  const std::uint64_t own = std::uint64_t{pair.first} << 32 | pair.second;
+  return lines.try_emplace(pair, conditions, SplitMix64(seed ^ own).next()).first->second;
 }
 
 void VirtualNetwork::State::send(Number from, const Endpoint& to, std::string_view packet) {
@@ -103,30 +103,30 @@ void VirtualNetwork::State::send(Number from, const Endpoint& to, std::string_vi
     ++unroutable;
     return;
   }
-  const Pair way{from, target->second};
-  const LossyLine::Fate fate = line(way).send(clock.now(), packet.size());
+  const Pair pair{from, target->second};
+  const LossyLine::Fate fate = line(pair).send(clock.now(), packet.size());
   for (int i = 0; i < fate.copies; ++i) {
     if (sender.blocked_out) {
-      line(way).dropped();
+      line(pair).dropped();
       continue;
     }
     clock.schedule(fate.arrivals[static_cast<std::size_t>(i)],
-                   [self = shared_from_this(), source = sender.address, to, way, number = fate.number,
-                    copy = std::string(packet)] { self->arrive(source, to, copy, &way, number); });
+                   [self = shared_from_this(), source = sender.address, to, pair, number = fate.number,
+                    copy = std::string(packet)] { self->arrive(source, to, copy, &pair, number); });
   }
 }
 
-/// `way`: whose line it came over; none if the sender is forged.
+/// `pair`: the line it came over; null if the sender is forged.
 void VirtualNetwork::State::arrive(const Endpoint& from, const Endpoint& to, std::string_view packet,
-                                   const Pair* way, std::uint64_t index) {
+                                   const Pair* pair, std::uint64_t index) {
   const Node* const node = at(to);
   if (!node) ++unroutable;
   const auto receiver = node && !node->blocked_in ? node->receiver : nullptr;
   if (!receiver) {
-    if (way) line(*way).dropped();
+    if (pair) line(*pair).dropped();
     return;
   }
-  if (way) line(*way).delivered(index);
+  if (pair) line(*pair).delivered(index);
   (*receiver)(Path{.local = to, .remote = from}, packet);
 }
 
@@ -191,7 +191,7 @@ void VirtualNetwork::block(const DatagramSocket& socket, bool outgoing, bool inc
 
 void VirtualNetwork::setConditions(const LinkConditions& conditions) {
   state_->conditions = conditions;
-  for (auto& [way, line] : state_->lines) line.setConditions(conditions);
+  for (auto& [pair, line] : state_->lines) line.setConditions(conditions);
 }
 
 void VirtualNetwork::setConditions(const DatagramSocket& from, const DatagramSocket& to,

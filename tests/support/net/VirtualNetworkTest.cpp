@@ -105,7 +105,7 @@ TEST(VirtualNetwork, ReopeningTakesAnotherPort) {
   EXPECT_EQ(bench.ann.arrivals.size(), 1u);
 }
 
-TEST(VirtualNetwork, EachWayCanBeBlockedByItself) {
+TEST(VirtualNetwork, EachDirectionCanBeBlockedByItself) {
   for (const bool outgoing : {false, true}) {
     for (const bool incoming : {false, true}) {
       Bench bench({});

@@ -71,7 +71,7 @@ TEST_F(ServerIdentityTest, OtherDirectoriesHaveOtherKeys) {
   EXPECT_NE(loadOrMake().fingerprint(), ServerIdentity::loadOrMake(base / "other", kNow).fingerprint());
 }
 
-TEST_F(ServerIdentityTest, CertificateMayBeMadeAnewForTheSameKey) {
+TEST_F(ServerIdentityTest, CertificateMayBeMadeAgainForTheSameKey) {
   const Fingerprint first = loadOrMake().fingerprint();
   fs::remove(directory / "certificate.pem");
   EXPECT_EQ(loadOrMake().fingerprint(), first);

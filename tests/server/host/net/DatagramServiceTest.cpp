@@ -242,7 +242,7 @@ TEST_F(DatagramServiceTest, FollowsToAnotherAddressOnceThatHasAnswered) {
 TEST_F(DatagramServiceTest, AnAddressThatDoesNotAnswerGetsLittle) {
   const auto channel = open(1, one);
   Client ann(*this, *channel, 1, "10.0.0.2");
-  ann.send("I pretend to be somebody else");
+  ann.send("I pretend to be another client");
   network.block(*ann.socket, false, true);
   std::size_t bytes = 0;
   network.setTap([&](const Endpoint& from, const Endpoint&, std::string_view packet) {

@@ -114,7 +114,7 @@ TEST_F(NetworkThreadTest, FramesCrossBothWaysInOrder) {
   EXPECT_EQ(closed, std::vector<CloseReason>{CloseReason::kLocal});
 }
 
-TEST_F(NetworkThreadTest, WhoIsLetGoOfIsHungUpOn) {
+TEST_F(NetworkThreadTest, AChannelThatIsDestroyedHangsUp) {
   listen();
   const auto far = connect();
   ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
@@ -139,7 +139,7 @@ TEST_F(NetworkThreadTest, UnsentBytesStayWhileAPeerDoesNotRead) {
   EXPECT_TRUE(runUntil([&] { return near[0]->unsentBytes() == 0; })) << "now that the peer reads";
 }
 
-TEST_F(NetworkThreadTest, AStreamThatSaysMoreThanIsTakenEndsAloneAndIsCounted) {
+TEST_F(NetworkThreadTest, AStreamThatSendsMoreThanIsServedEndsAloneAndIsCounted) {
   NetworkThread::Limits limits;
   limits.stream_in = 10'000;
   listen(limits);
@@ -156,7 +156,7 @@ TEST_F(NetworkThreadTest, AStreamThatSaysMoreThanIsTakenEndsAloneAndIsCounted) {
   EXPECT_EQ(network->counters().streams_overflowed, 1u);
 }
 
-TEST_F(NetworkThreadTest, AStreamThatIsToldMoreThanItTakesEndsAndIsCounted) {
+TEST_F(NetworkThreadTest, AStreamThatIsSentMoreThanItTakesEndsAndIsCounted) {
   listen();
   const auto far = connect();
   ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
@@ -168,7 +168,7 @@ TEST_F(NetworkThreadTest, AStreamThatIsToldMoreThanItTakesEndsAndIsCounted) {
   EXPECT_EQ(network->counters().streams_clogged, 1u);
 }
 
-TEST_F(NetworkThreadTest, ConnectionsThatNobodyMeetsAreBounded) {
+TEST_F(NetworkThreadTest, ConnectionsThatAreNotServedAreBounded) {
   NetworkThread::Limits limits;
   limits.unmet = 3;
   listen(limits);
@@ -263,7 +263,7 @@ TEST_F(NetworkThreadTest, AStreamThatIsGoneGivesNoKeys) {
   ASSERT_TRUE(runUntil([&] { return !closed.empty(); }));
   datagrams = network->openDatagrams(*near[0], AeadId::kAes128Gcm);
   ASSERT_NE(datagrams, nullptr);
-  datagrams->send("to nobody");
+  datagrams->send("to no receiver");
   network->flush();
   network->stop();
   EXPECT_FALSE(datagrams->room());

@@ -1,4 +1,4 @@
-// The command line of dfserver: what would start a server that nobody meant is an error.
+// The command line of dfserver: what would start a server by mistake is an error.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -36,7 +36,7 @@ class SoundNewsTest : public testing::Test {
     });
     view.sounds.clear();
   }
-  /// The world ends; what is told of it is marked with a minus where it is a stop.
+  /// The world ends. Labels get a minus for a stop, else a plus.
   void changeWorld() {
     once.clear();
     lasting.clear();
@@ -99,12 +99,12 @@ TEST_F(SoundNewsTest, TheSameSeveralTimesInATickIsOnce) {
 TEST_F(SoundNewsTest, OfTooManyInATickThoseThatMatterMostAreHeard) {
   tick();
   for (int i = 0; i < 3; ++i) sound("theirs " + std::to_string(i), 2);
-  sound("nobody's");
+  sound("no player's");
   sound("mine", 1);
   view.sounds.push_back({"theme", df::SoundPlayed::kPlay, true, true, 2});
   tick();
   EXPECT_EQ(lasting[1], Labels{"theme"});
-  EXPECT_EQ(once[1], (Labels{"theirs 0", "nobody's", "mine"})) << "in the order in which they were";
+  EXPECT_EQ(once[1], (Labels{"theirs 0", "no player's", "mine"})) << "in the order in which they were";
   EXPECT_EQ(once[2], (Labels{"theirs 0", "theirs 1", "theirs 2"}));
   EXPECT_EQ(news.dropped(), 4u);
 }
@@ -123,7 +123,7 @@ TEST_F(SoundNewsTest, InTheLongRunTenASecondAreHeardAndTheRestIsCounted) {
   EXPECT_EQ(news.sent() + news.dropped(), 600u);
 }
 
-// Somebody who is away for a minute must not lose his session because of a noisy game.
+// A player who is away for a minute must not lose their session because of a noisy game.
 TEST_F(SoundNewsTest, WhatIsKeptForAMinuteIsFarFromWhatMayBeKept) {
   play(1);
   std::size_t bytes = 0;
@@ -138,7 +138,7 @@ TEST_F(SoundNewsTest, WhatIsKeptForAMinuteIsFarFromWhatMayBeKept) {
   EXPECT_LT(bytes, ReliableFrames::kMax / 2);
 }
 
-TEST_F(SoundNewsTest, WhoIsNewHearsOfWhatGoesOn) {
+TEST_F(SoundNewsTest, ANewPlayerGetsWhatIsPlaying) {
   const df::SoundPlayed theme{"theme", df::SoundPlayed::kPlay, true, true, 0};
   view.playing = {theme};
   view.sounds = {theme, {"jingle", df::SoundPlayed::kPlay, true, false, 0}};
@@ -174,7 +174,7 @@ TEST_F(SoundNewsTest, WithTheWorldEndsWhatLastedInIt) {
   EXPECT_TRUE(once.empty());
   EXPECT_FALSE(last.sounds().sounds(0).music());
   EXPECT_TRUE(last.sounds().sounds(0).loop());
-  EXPECT_EQ(last.sounds().sounds(0).player(), 0u) << "it is nobody's doing";
+  EXPECT_EQ(last.sounds().sounds(0).player(), 0u) << "no player caused it";
   EXPECT_TRUE(last.sounds().sounds(1).music());
 
   changeWorld();
@@ -216,7 +216,7 @@ TEST_F(SoundNewsTest, WhatCannotBeSentIsCounted) {
   EXPECT_EQ(news.dropped(), 2u);
 }
 
-TEST_F(SoundNewsTest, MoreThanAnybodyCouldTellApartIsCounted) {
+TEST_F(SoundNewsTest, SoundsBeyondTheNumberConsideredAreCounted) {
   play(1);
   for (int i = 0; i < 200; ++i) sound(std::to_string(i));
   view.sounds_lost = 7;

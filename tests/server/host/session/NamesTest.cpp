@@ -82,7 +82,7 @@ TEST(Names, LookAlikesAreTaken) {
   }
 }
 
-TEST(Names, WhatIsToldApartIsNotTaken) {
+TEST(Names, DistinguishableNamesAreNotTaken) {
   for (const auto& [name, taken] :
        std::initializer_list<std::pair<const char*, const char*>>{{"Ann", "Anna"},
                                                                   {"Zoe", "Zoë"},

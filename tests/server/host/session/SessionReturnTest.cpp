@@ -85,12 +85,12 @@ class SessionReturn : public testing::Test {
     message.set_update(writeUpdate(update));
     say(line, message);
   }
-  void tell(const std::string& text) {
+  void sendChat(const std::string& text) {
     wire::ServerMessage message;
     message.mutable_chat()->set_text(text);
     session->sendKept(message);
   }
-  static std::vector<std::string> told(const Wire& line) {
+  static std::vector<std::string> chatOf(const Wire& line) {
     std::vector<std::string> texts;
     for (const wire::ServerMessage& message : line.sent) {
       if (message.has_chat()) texts.push_back(message.chat().text());
@@ -116,15 +116,16 @@ class SessionReturn : public testing::Test {
   std::unique_ptr<Session> session;
 };
 
-TEST_F(SessionReturn, WhatWasNotAcknowledgedIsSaidAgainOnTheNextStream) {
-  for (const char* text : {"a", "b", "c"}) tell(text);
-  EXPECT_EQ(told(first), (std::vector<std::string>{"a", "b", "c"}));
+TEST_F(SessionReturn, UnacknowledgedMessagesAreSentAgainOnTheNextStream) {
+  for (const char* text : {"a", "b", "c"}) sendChat(text);
+  EXPECT_EQ(chatOf(first), (std::vector<std::string>{"a", "b", "c"}));
   ping(first, 1);
   breakStream(first);
-  tell("d");
+  sendChat("d");
   const auto other = make(second);
   greet(second, "token", false, 2);
-  EXPECT_EQ(told(second), (std::vector<std::string>{"c", "d"})) << "b came, though that was not said in time";
+  EXPECT_EQ(chatOf(second), (std::vector<std::string>{"c", "d"}))
+      << "b had arrived; its acknowledgement came with the hello";
   EXPECT_EQ(second.sent[0].what_case(), wire::ServerMessage::kWelcome) << "the answer first";
   EXPECT_EQ(second.sent[1].number(), 3u);
 }
@@ -144,12 +145,12 @@ TEST_F(SessionReturn, WhatIsOnlyWorthSomethingAtOnceIsSentAtOnceOrNotAtAll) {
   EXPECT_EQ(second.sent.size(), 1u) << "the welcome";
 }
 
-TEST_F(SessionReturn, OfPlayerListsTheNewestIsSaidAgain) {
+TEST_F(SessionReturn, OfPlayerListsTheNewestIsSentAgain) {
   for (const std::uint32_t player : {1u, 2u}) {
     wire::ServerMessage list;
     list.mutable_players()->add_players()->set_player(player);
     session->sendKept(list, true);
-    tell("line");
+    sendChat("line");
   }
   breakStream(first);
   const auto other = make(second);
@@ -174,7 +175,7 @@ TEST_F(SessionReturn, WhatComesTwiceIsTakenOnce) {
   EXPECT_EQ(second.sent.back().pong().received(), 3u);
 }
 
-TEST_F(SessionReturn, WhatWasSaidInAMinuteMayComeAtOnce) {
+TEST_F(SessionReturn, TheChatOfAMinuteMayComeAtOnce) {
   breakStream(first);
   now += 20s;
   session->checkDeadlines(now);
@@ -188,9 +189,9 @@ TEST_F(SessionReturn, WhatWasSaidInAMinuteMayComeAtOnce) {
   EXPECT_EQ(counters.chat_dropped, 70u);
 }
 
-TEST_F(SessionReturn, WhoCannotTakeInWhatIsKeptIsTold) {
+TEST_F(SessionReturn, AClientThatCannotTakeInWhatIsKeptGetsAGoodbye) {
   const std::string line(1000, 'x');
-  while (session->state() == Session::State::kPlaying && first.sent.size() < 1000) tell(line);
+  while (session->state() == Session::State::kPlaying && first.sent.size() < 1000) sendChat(line);
   EXPECT_EQ(session->state(), Session::State::kEnding);
   EXPECT_EQ(first.sent.size(), 1u + 64 + 1) << "welcome, 64 KiB, goodbye";
   EXPECT_EQ(first.sent.back().goodbye().sentence(), "More was said than your connection could take in.");
@@ -198,10 +199,10 @@ TEST_F(SessionReturn, WhoCannotTakeInWhatIsKeptIsTold) {
   EXPECT_EQ(gone, 1);
 }
 
-TEST_F(SessionReturn, WhoAcknowledgesNeverOverflows) {
+TEST_F(SessionReturn, AClientThatAcknowledgesNeverOverflows) {
   const std::string line(1000, 'x');
   for (std::uint32_t i = 1; i <= 1000; ++i) {
-    tell(line);
+    sendChat(line);
     if (i % 32 != 0) continue;
     session->checkDeadlines(now);
     ping(first, i);
@@ -209,16 +210,16 @@ TEST_F(SessionReturn, WhoAcknowledgesNeverOverflows) {
   EXPECT_EQ(session->state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionReturn, AnAcknowledgementOfWhatWasNeverSaidIsNone) {
-  tell("a");
+TEST_F(SessionReturn, AnAcknowledgementOfUnsentMessagesIsIgnored) {
+  sendChat("a");
   ping(first, 77);
   breakStream(first);
   const auto other = make(second);
   greet(second, "token", false, 9);
-  EXPECT_EQ(told(second), std::vector<std::string>{"a"});
+  EXPECT_EQ(chatOf(second), std::vector<std::string>{"a"});
 }
 
-TEST_F(SessionReturn, WhoTakesInNothingButSpeaksIsEnded) {
+TEST_F(SessionReturn, AClientThatTakesInNothingButSendsIsEnded) {
   first.unsent = 100'000;
   for (int i = 0; i < 99; ++i, now += 100ms) {
     ping(first, 0);
@@ -234,7 +235,7 @@ TEST_F(SessionReturn, WhoTakesInNothingButSpeaksIsEnded) {
   EXPECT_EQ(first.sent.back().goodbye().sentence(), "Your end takes in too little of what the server sends.");
 }
 
-TEST_F(SessionReturn, WhoIsSilentAsWellMayComeBack) {
+TEST_F(SessionReturn, AClientThatIsSilentAsWellMayComeBack) {
   first.unsent = 100'000;
   for (int i = 0; i < 160; ++i, now += 100ms) session->checkDeadlines(now);
   EXPECT_TRUE(session->isDetached());
@@ -242,10 +243,10 @@ TEST_F(SessionReturn, WhoIsSilentAsWellMayComeBack) {
   EXPECT_EQ(counters.detached, 1u);
 }
 
-TEST_F(SessionReturn, AnotherProcessIsToldWhereToGoOn) {
+TEST_F(SessionReturn, TheWelcomeOfAnotherProcessSaysWhereToGoOn) {
   key(first, 1, df::Keyboard::A, df::KEY_PRESSED);
   key(first, 2, df::Keyboard::A, df::KEY_RELEASED);
-  tell("old");
+  sendChat("old");
   chatLine(first, "mine", 5);
   breakStream(first);
   const auto other = make(second);
@@ -261,14 +262,14 @@ TEST_F(SessionReturn, AnotherProcessIsToldWhereToGoOn) {
   EXPECT_EQ(welcome.received(), 0u);
   chatLine(second, "a new process counts from 1", 1);
   EXPECT_EQ(chat.size(), 2u);
-  tell("new");
-  EXPECT_EQ(told(second), std::vector<std::string>{"new"});
+  sendChat("new");
+  EXPECT_EQ(chatOf(second), std::vector<std::string>{"new"});
   EXPECT_EQ(counters.restarted, 1u);
   EXPECT_EQ(counters.resumed, 1u);
   EXPECT_EQ(gone, 0);
 }
 
-TEST_F(SessionReturn, WhoIsStillThereIsToldThatHeWentOnElsewhere) {
+TEST_F(SessionReturn, AProcessThatIsStillThereGetsAGoodbye) {
   const auto other = make(second);
   greet(second, "token", true);
   EXPECT_EQ(first.sent.back().goodbye().sentence(), "You went on playing in another terminal.");
@@ -281,7 +282,7 @@ TEST_F(SessionReturn, WhoIsStillThereIsToldThatHeWentOnElsewhere) {
   first.callbacks.on_closed(CloseReason::kPeer);
   EXPECT_EQ(other->state(), Session::State::kGone);
   EXPECT_EQ(session->state(), Session::State::kPlaying);
-  EXPECT_EQ(gone, 0) << "nobody left";
+  EXPECT_EQ(gone, 0) << "no player left";
 }
 
 TEST_F(SessionReturn, ItsTokenIsNotRemembered) {
@@ -289,14 +290,14 @@ TEST_F(SessionReturn, ItsTokenIsNotRemembered) {
   EXPECT_TRUE(session->welcomed().resume_token().empty());
 }
 
-TEST_F(SessionReturn, KeysOfWhoIsCutOffAreLetGoInTheirTurn) {
+TEST_F(SessionReturn, KeysOfAClientThatIsCutOffAreReleasedInTheirTurn) {
   key(first, 1, df::Keyboard::B, df::KEY_PRESSED);
   key(first, 2, df::Keyboard::A, df::KEY_DOWN);
   key(first, 3, df::Keyboard::C, df::KEY_PRESSED);
   key(first, 4, df::Keyboard::C, df::KEY_RELEASED);
   const std::string a = std::to_string(int{df::Keyboard::A});
   const std::string b = std::to_string(int{df::Keyboard::B});
-  breakStream(first);  // without datagrams nobody is there
+  breakStream(first);  // without datagrams the client is gone
   const auto inputs = taken();
   ASSERT_EQ(inputs.size(), 6u);
   EXPECT_EQ(inputs[4], a + " up");
@@ -305,7 +306,7 @@ TEST_F(SessionReturn, KeysOfWhoIsCutOffAreLetGoInTheirTurn) {
   EXPECT_TRUE(taken().empty()) << "once";
 }
 
-TEST_F(SessionReturn, KeysOfTheOldProcessAreLetGoBeforeTheNewOnePresses) {
+TEST_F(SessionReturn, KeysOfTheOldProcessAreReleasedBeforeTheNewOnePresses) {
   key(first, 1, df::Keyboard::A, df::KEY_PRESSED);
   const auto other = make(second);
   greet(second, "token", true);
@@ -337,7 +338,7 @@ class SessionWithTwoStreams : public SessionReturn {
     publisher.update(world.view());
     session->sendTick(publisher, world.view().players[0]);
   }
-  /// The world has come, and nothing is owed but what happens from now on.
+  /// The world has come, and nothing is pending but what happens from now on.
   void settle() {
     tick();
     acknowledge(first);
@@ -372,7 +373,7 @@ class SessionWithTwoStreams : public SessionReturn {
   Publisher publisher;
 };
 
-TEST_F(SessionWithTwoStreams, TheSecondIsWelcomedAndNobodyJoins) {
+TEST_F(SessionWithTwoStreams, TheSecondIsWelcomedAndNoPlayerJoins) {
   ASSERT_EQ(second.sent.size(), 1u);
   EXPECT_TRUE(second.sent[0].welcome().second_stream());
   EXPECT_EQ(second.sent[0].welcome().resume_token(), "") << "the one that was shown stays good";
@@ -436,7 +437,7 @@ TEST_F(SessionWithTwoStreams, OneThatWaitsDoesNotHoldUpTheOther) {
 
 TEST_F(SessionWithTwoStreams, WhatElseWaitsOnTheFirstDoesNotHoldUpTheSecond) {
   settle();
-  tell(std::string(200, 'x'));
+  sendChat(std::string(200, 'x'));
   first.unsent = 10'000;
   for (int i = 0; i < 5; ++i) tick();
   EXPECT_EQ(snapshots(second).size(), 5u);

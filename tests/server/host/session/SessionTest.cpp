@@ -335,7 +335,7 @@ TEST_F(SessionTest, ChatIsCleanedAndThreeLinesASecond) {
   EXPECT_EQ(chat.size(), 4u);
 }
 
-TEST_F(SessionTest, TheWorldComesAnewOnceInTwoSeconds) {
+TEST_F(SessionTest, TheWorldIsResetAtMostOnceInTwoSeconds) {
   greet();
   ClientUpdate update;
   update.wants_reset = true;
@@ -442,7 +442,7 @@ TEST_F(SessionTest, AHelloThatCameWhileTheServerDidNotRunIsHeard) {
   EXPECT_EQ(counters.login_timeouts + counters.idle_timeouts, 0u);
 }
 
-TEST_F(SessionTest, AHelloThatNobodyGetsRoundToJudgeIsToldToTryAgain) {
+TEST_F(SessionTest, AHelloThatIsNotJudgedInTimeIsRefusedAsBusy) {
   Wire waiting_line;
   Session waiting(std::make_unique<FakeChannel>(waiting_line), counters, now);
   int hellos = 0;

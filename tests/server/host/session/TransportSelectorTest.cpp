@@ -9,18 +9,18 @@ using namespace std::chrono_literals;
 
 class TransportSelectorTest : public testing::Test {
  protected:
-  TransportSelectorTest() : passage(now) {}
+  TransportSelectorTest() : selector(now) {}
 
   std::uint32_t send(bool as_datagram) {
-    passage.sent(++number, as_datagram, now);
+    selector.noteSent(++number, as_datagram, now);
     return number;
   }
-  void hear(std::uint32_t newest, std::uint64_t mask = 0) { passage.acknowledged({newest, mask}, true, now); }
-  void hearOnStream(std::uint32_t newest) { passage.acknowledged({newest, 0}, false, now); }
+  void hear(std::uint32_t newest, std::uint64_t mask = 0) { selector.acknowledge({newest, mask}, true, now); }
+  void hearOnStream(std::uint32_t newest) { selector.acknowledge({newest, 0}, false, now); }
   void open() {
     send(true);
     hear(number);
-    ASSERT_TRUE(passage.isOpen(now));
+    ASSERT_TRUE(selector.isOpen(now));
   }
   /// Ticks of 30 Hz with datagrams, each acknowledged after `round_trip`.
   std::uint32_t run(std::chrono::milliseconds time, std::chrono::milliseconds round_trip, double loss = 0) {
@@ -29,23 +29,23 @@ class TransportSelectorTest : public testing::Test {
       const std::uint32_t sent = send(true);
       now += round_trip;
       hear(sent);
-      interval = passage.interval(loss, now);
+      interval = selector.interval(loss, now);
       if (round_trip < 33ms) now += 33ms - round_trip;
     }
     return interval;
   }
 
   TransportSelector::Time now{std::chrono::hours(1)};
-  TransportSelector passage;
+  TransportSelector selector;
   std::uint32_t number = 0;
 };
 
 TEST_F(TransportSelectorTest, BeginsClosedAndProbesSoonThenEverySecond) {
-  EXPECT_FALSE(passage.isOpen(now));
+  EXPECT_FALSE(selector.isOpen(now));
   int early = 0;
   int late = 0;
   for (int ms = 0; ms < 5000; ms += 10, now += 10ms) {
-    if (!passage.wantsProbe(now)) continue;
+    if (!selector.wantsProbe(now)) continue;
     send(true);
     ++(ms < 1000 ? early : late);
   }
@@ -57,44 +57,44 @@ TEST_F(TransportSelectorTest, OneAcknowledgedProbeOpensIt) {
   const std::uint32_t probe = send(true);
   const std::uint32_t streamed = send(false);
   hear(streamed);
-  EXPECT_FALSE(passage.isOpen(now)) << "what went on the stream says nothing of datagrams";
+  EXPECT_FALSE(selector.isOpen(now)) << "what went on the stream says nothing of datagrams";
   hear(streamed, 1);
   EXPECT_EQ(probe + 1, streamed);
-  EXPECT_TRUE(passage.isOpen(now));
-  EXPECT_FALSE(passage.wantsProbe(now));
+  EXPECT_TRUE(selector.isOpen(now));
+  EXPECT_FALSE(selector.wantsProbe(now));
 }
 
 TEST_F(TransportSelectorTest, WhatIsAcknowledgedOnTheStreamShowsOneDirectionOnly) {
   const std::uint32_t probe = send(true);
   now += 20ms;
   hearOnStream(probe);
-  EXPECT_FALSE(passage.isOpen(now));
-  EXPECT_EQ(passage.roundTrip(), 20ms);
+  EXPECT_FALSE(selector.isOpen(now));
+  EXPECT_EQ(selector.roundTrip(), 20ms);
   now += 20ms;
   hear(probe);
-  EXPECT_TRUE(passage.isOpen(now)) << "whichever came first";
-  EXPECT_EQ(passage.roundTrip(), 20ms);
+  EXPECT_TRUE(selector.isOpen(now)) << "whichever came first";
+  EXPECT_EQ(selector.roundTrip(), 20ms);
   for (int i = 0; i < 10; ++i) {
     now += 100ms;
     hearOnStream(send(true));
   }
-  EXPECT_FALSE(passage.isOpen(now));
+  EXPECT_FALSE(selector.isOpen(now));
 }
 
 TEST_F(TransportSelectorTest, ClosesAfterASecondWithoutAcknowledgement) {
   open();
   now += 999ms;
   send(true);
-  EXPECT_TRUE(passage.isOpen(now));
+  EXPECT_TRUE(selector.isOpen(now));
   now += 1ms;
-  EXPECT_FALSE(passage.isOpen(now));
-  EXPECT_TRUE(passage.wantsProbe(now));
+  EXPECT_FALSE(selector.isOpen(now));
+  EXPECT_TRUE(selector.wantsProbe(now));
   send(true);
-  EXPECT_FALSE(passage.wantsProbe(now));
+  EXPECT_FALSE(selector.wantsProbe(now));
   now += PathProbe::kEagerProbes - 1ms;
-  EXPECT_FALSE(passage.wantsProbe(now));
+  EXPECT_FALSE(selector.wantsProbe(now));
   now += 1ms;
-  EXPECT_TRUE(passage.wantsProbe(now));
+  EXPECT_TRUE(selector.wantsProbe(now));
 }
 
 TEST_F(TransportSelectorTest, TheSameAcknowledgementDoesNotKeepItOpen) {
@@ -103,27 +103,27 @@ TEST_F(TransportSelectorTest, TheSameAcknowledgementDoesNotKeepItOpen) {
     now += 100ms;
     hear(number);
   }
-  EXPECT_FALSE(passage.isOpen(now));
+  EXPECT_FALSE(selector.isOpen(now));
 }
 
 TEST_F(TransportSelectorTest, WhatWasSentLongAgoDoesNotOpenIt) {
   const std::uint32_t old = send(true);
   now += 2000ms;
   hear(old);
-  EXPECT_FALSE(passage.isOpen(now));
+  EXPECT_FALSE(selector.isOpen(now));
   const std::uint32_t recent = send(true);
   now += 1999ms;
   hear(recent);
-  EXPECT_TRUE(passage.isOpen(now));
+  EXPECT_TRUE(selector.isOpen(now));
 }
 
 TEST_F(TransportSelectorTest, ProbesOftenAgainAfterAnotherStream) {
   now += 10s;
   send(true);
   now += 100ms;
-  EXPECT_FALSE(passage.wantsProbe(now));
-  passage.renewed(now);
-  EXPECT_TRUE(passage.wantsProbe(now));
+  EXPECT_FALSE(selector.wantsProbe(now));
+  selector.renew(now);
+  EXPECT_TRUE(selector.wantsProbe(now));
 }
 
 TEST_F(TransportSelectorTest, ProbesEagerlyForAWhileAfterItWasOpen) {
@@ -132,7 +132,7 @@ TEST_F(TransportSelectorTest, ProbesEagerlyForAWhileAfterItWasOpen) {
   int eager = 0;
   int late = 0;
   for (int ms = 1000; ms < 20'000; ms += 10, now += 10ms) {
-    if (!passage.wantsProbe(now)) continue;
+    if (!selector.wantsProbe(now)) continue;
     send(true);
     ++(ms < 10'000 ? eager : late);
   }
@@ -144,14 +144,14 @@ TEST_F(TransportSelectorTest, ProbesEagerlyAsLongAsThereIsNoOtherWay) {
   now += 60s;
   send(true);
   now += 250ms;
-  EXPECT_FALSE(passage.wantsProbe(now, false));
-  EXPECT_TRUE(passage.wantsProbe(now, true));
+  EXPECT_FALSE(selector.wantsProbe(now, false));
+  EXPECT_TRUE(selector.wantsProbe(now, true));
 }
 
-TEST_F(TransportSelectorTest, NumbersNobodySentChangeNothing) {
+TEST_F(TransportSelectorTest, NumbersThatWereNotSentChangeNothing) {
   hear(77, ~std::uint64_t{0});
-  EXPECT_FALSE(passage.isOpen(now));
-  EXPECT_EQ(passage.roundTrip().count(), 0);
+  EXPECT_FALSE(selector.isOpen(now));
+  EXPECT_EQ(selector.roundTrip().count(), 0);
 }
 
 TEST_F(TransportSelectorTest, MeasuresTheRoundTripOfTheNewest) {
@@ -161,17 +161,17 @@ TEST_F(TransportSelectorTest, MeasuresTheRoundTripOfTheNewest) {
   now += 40ms;
   hear(second, 1);
   EXPECT_EQ(first + 1, second);
-  EXPECT_EQ(passage.roundTrip(), 40ms);
-  EXPECT_EQ(passage.shortestRoundTrip(), 40ms);
+  EXPECT_EQ(selector.roundTrip(), 40ms);
+  EXPECT_EQ(selector.shortestRoundTrip(), 40ms);
 }
 
 TEST_F(TransportSelectorTest, TheShortestRoundTripIsForgottenAfterTenSeconds) {
   run(1s, 20ms);
-  EXPECT_EQ(passage.shortestRoundTrip(), 20ms);
+  EXPECT_EQ(selector.shortestRoundTrip(), 20ms);
   run(4s, 80ms);
-  EXPECT_EQ(passage.shortestRoundTrip(), 20ms);
+  EXPECT_EQ(selector.shortestRoundTrip(), 20ms);
   run(11s, 80ms);
-  EXPECT_EQ(passage.shortestRoundTrip(), 80ms);
+  EXPECT_EQ(selector.shortestRoundTrip(), 80ms);
 }
 
 TEST_F(TransportSelectorTest, AQueueThatGrowsLowersTheRateStepByStep) {

@@ -151,12 +151,12 @@ TEST(WorldMessages, ViewsCrossWhole) {
     expectSame(view, sent);
     if (i == 0) first = frame.size();
     if (i > 0) {
-      EXPECT_LT(frame.size(), first) << "sequences and tables were told before";
+      EXPECT_LT(frame.size(), first) << "sequences and tables were written before";
     }
   }
 }
 
-TEST(WorldMessages, NumbersAreGivenAnewWhenThereAreTooMany) {
+TEST(WorldMessages, NumbersStartAgainWhenThereAreTooMany) {
   ViewWriter writer;
   ViewReader reader;
   df::WorldView sent = fullView();

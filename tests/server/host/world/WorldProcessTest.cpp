@@ -21,7 +21,7 @@ class WorldProcessTest : public testing::Test {
     while (!world.end() && std::chrono::steady_clock::now() < end) {
       m_io.restart();
       m_io.run_one_for(std::chrono::milliseconds(5));
-      world.look(1);
+      world.checkProcess(1);
       if (world.isReady()) world.tick(true, false);
     }
     return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there"});
@@ -42,7 +42,7 @@ TEST_F(WorldProcessTest, OneThatFailsHasCrashed) {
   EXPECT_EQ(play("kill -SEGV $$").text, "crashed (SIGSEGV)");
 }
 
-TEST_F(WorldProcessTest, OneThatSendsWhatNoWorldSendsIsKilled) {
+TEST_F(WorldProcessTest, OneThatSendsAMalformedFrameIsKilled) {
   // Four gigabytes; something before it is ready; an answer to nothing; a bad answer.
   for (const char* p_sent :
        {"\\377\\377\\377\\377", "\\1\\0\\0\\0x", "\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0"}) {

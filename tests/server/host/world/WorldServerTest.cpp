@@ -108,14 +108,14 @@ class WorldServerTest : public testing::Test {
   std::thread m_thread;
 };
 
-TEST_F(WorldServerTest, TicksOnceForEachTurnAndTellsItIfItIsWatched) {
+TEST_F(WorldServerTest, TicksOnceForEachTurnAndSendsAViewIfItIsWatched) {
   EXPECT_FALSE(turn({}, false).has_view);
   EXPECT_TRUE(turn({join(7)}).has_view);
   EXPECT_EQ(view.tick, 2u);
   ASSERT_EQ(view.changed.size(), 1u);
   EXPECT_EQ(view.changed[0].position.x, df::fromCells(12));
   ASSERT_EQ(view.players.size(), 1u);
-  EXPECT_EQ(view.players[0].id, 7u) << "the host says who is who";
+  EXPECT_EQ(view.players[0].id, 7u) << "the host gives the ids";
   turn();
   EXPECT_EQ(view.tick, 3u);
 }
@@ -123,7 +123,7 @@ TEST_F(WorldServerTest, TicksOnceForEachTurnAndTellsItIfItIsWatched) {
 TEST_F(WorldServerTest, AClickHitsWhatWasOnThePlayersScreen) {
   turn({join(7)});
   while (view.tick < 12) turn();
-  // He saw tick 10, by what he knew of tick 8: there it was in cell 20, and by now it is elsewhere.
+  // The player saw tick 10, by the models of tick 8: there it was in cell 20, and by now it is elsewhere.
   df::InputQueue::Input click{.kind = df::InputQueue::kMouse,
                               .player = 7,
                               .seen = {true, 8, 10},
@@ -175,7 +175,7 @@ TEST_F(WorldServerTest, IsOverWhenTheHostIsGone) {
   EXPECT_TRUE(over);
 }
 
-TEST_F(WorldServerTest, IsOverWhenTheHostSaysWhatNoneSays) {
+TEST_F(WorldServerTest, IsOverAfterAMalformedTurn) {
   send(std::string("\1\0\0\0\xff", 5));
   EXPECT_EQ(receive(), "end");
   end();
