@@ -11,8 +11,7 @@
 namespace naiad::physics {
 
 /// Metric cells: how deep bodies may be in one another before it counts, a quarter of the world's unit (2^-32
-/// cell). What grazes less deep passes: a body that slides
-/// over the seam of two tiles hits no edge.
+/// cell). What grazes less deep passes: a body that slides over the seam of two tiles hits no edge.
 inline constexpr double kImpactSlop = 0x1p-34;
 
 /// The motion of a second body as seen from a first, from a moment on.
