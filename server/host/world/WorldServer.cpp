@@ -66,7 +66,7 @@ void WorldServer::run(df::World& world) {
     updateLagCompensation(*turn, world);
     applyTurn(*turn, world);
     world.tick();
-    goes_on = answer(*turn, world) && !world.isGameOver();
+    goes_on = sendAnswer(*turn, world) && !world.isGameOver();
   }
   world.setGameOver();
   world.setLagCompensation(nullptr);
@@ -91,7 +91,7 @@ void WorldServer::updateLagCompensation(const WorldTurn& turn, df::World& world)
   world.setWatched(false);  // the next view has every Object as changed
 }
 
-bool WorldServer::answer(const WorldTurn& turn, df::World& world) {
+bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
   if (m_publisher) {
     m_publisher->update(world.view());
     m_lag_compensator.recordTick(*m_publisher, world.view());

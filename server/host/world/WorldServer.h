@@ -28,7 +28,7 @@ class WorldServer : public df::Runner {
   bool send(const std::string& frame) const;
   void applyTurn(const WorldTurn& turn, df::World& world);
   void updateLagCompensation(const WorldTurn& turn, df::World& world);
-  bool answer(const WorldTurn& turn, df::World& world);
+  bool sendAnswer(const WorldTurn& turn, df::World& world);
   void close();
 
   int m_socket;
