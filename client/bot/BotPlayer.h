@@ -1,4 +1,4 @@
-// Plays a script, or random input, tick by tick: says what a bot does now.
+// Plays a script, or random input, tick by tick.
 #pragma once
 
 #include <cstdint>

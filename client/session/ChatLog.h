@@ -30,7 +30,7 @@ class ChatLog {
   /// A line of a player (one of `players`, or this one, `self`) or of the server.
   void addMessage(ChatMessage message, const std::vector<PlayerLine>& players, const WelcomeMessage& self,
                   Time now);
-  /// A line of the client's own.
+  /// A line of the client itself.
   void addNotice(std::string text, Time now) { add({"", df::COLOR_DEFAULT, std::move(text), now}); }
 
   /// Oldest first.

@@ -28,7 +28,7 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
   if (!fresh) m_welcome.continuation.reset();
   const Continuation from = m_welcome.continuation.value_or(Continuation{});
   if (fresh && m_welcome.resumed) {
-    if (!m_welcome.continuation) return reject("no word of where the session goes on");
+    if (!m_welcome.continuation) return reject("no continuation of the session");
     m_inbox.addNotice("You are back in your old session.", now);
   }
   m_world.start(m_welcome, from);
@@ -109,7 +109,7 @@ void ClientSession::startSecond(std::unique_ptr<ReliableChannel> channel) {
                      [this](std::string_view bytes) { receiveOnSecond(bytes, m_link.now()); });
 }
 
-// It does not count as hearing the server: the death of the first stream must still be noticed.
+// It does not count as a sign of life: the death of the first stream must still be noticed.
 void ClientSession::receiveOnSecond(std::string_view bytes, Time now) {
   if (m_state != State::kPlaying) return;
   m_counters.bytes_in += bytes.size() + kFrameHeaderSize;
@@ -120,19 +120,19 @@ void ClientSession::receiveOnSecond(std::string_view bytes, Time now) {
 }
 
 void ClientSession::applySnapshot(std::string_view bytes, Time now) {
-  const ReceivedWorld::Taken taken = m_world.applySnapshot(bytes, now, m_inputs, m_before_observer);
+  const ReceivedWorld::Result result = m_world.applySnapshot(bytes, now, m_inputs, m_before_observer);
   m_counters.resets = m_world.feed().resets();
-  switch (taken) {
-    case ReceivedWorld::Taken::kApplied:
-    case ReceivedWorld::Taken::kShown:
+  switch (result) {
+    case ReceivedWorld::Result::kApplied:
+    case ReceivedWorld::Result::kShown:
       break;
-    case ReceivedWorld::Taken::kIgnored:
+    case ReceivedWorld::Result::kIgnored:
       return;
-    case ReceivedWorld::Taken::kStale:
+    case ReceivedWorld::Result::kStale:
       ++m_counters.stale_snapshots;
       if (m_world.feed().wantsResetNow()) sendUpdate(now);
       return;
-    case ReceivedWorld::Taken::kMalformed:
+    case ReceivedWorld::Result::kMalformed:
       return reject("a malformed snapshot");
   }
   ++m_counters.snapshots;
@@ -202,7 +202,7 @@ void ClientSession::update(Time now) {
   }
 }
 
-// Give up a stream that is of no use any more, or keep it alive.
+// Drop a stream that is dead or has used up its keys, or keep it alive.
 void ClientSession::updateStream(Time now) {
   if (m_liveness.isStreamDead(now, hasDatagrams(now))) {
     m_liveness.forgetPings();

@@ -4,7 +4,7 @@
 //       |                     +--channel closed, 15 s of silence--> kLost
 //       +--Refused--> kRefused          (a bad message ends any state in kEnded; leave() in kLeft)
 //
-// The session uses neither sockets nor a clock: its owner passes it every frame and every time (Connection
+// The session uses neither sockets nor a clock: its owner passes it each frame and the time (Connection
 // for the programs; tests do it by hand). Everything received passes readServerMessage() first.
 // Not thread-safe. Memory is bounded whatever the server sends.
 #pragma once
@@ -69,7 +69,7 @@ class ClientSession {
   bool hasSecondStream() const { return m_link.hasSecondStream(); }
   /// Do datagrams come from the server?
   bool hasDatagrams(Time now) const { return m_link.hasDatagrams() && m_timing.hasDatagrams(now); }
-  /// Has the server been heard lately, on any path?
+  /// Did the server send anything lately, on any path?
   bool isHeard(Time now) const {
     return m_state == State::kPlaying && m_liveness.silence(now) < UpdateTiming::kPassing;
   }
@@ -81,7 +81,8 @@ class ClientSession {
   std::optional<Time> nextWake() const { return m_timing.nextWake(); }
 
   // What the player does.
-  /// Send a key or mouse action of the player, at once. False if it was not sent: not playing, or too many.
+  /// Send a key or mouse action of the player immediately. False if it was not sent: not playing, or too
+  /// many.
   bool sendKey(df::Keyboard::Key key, df::EventKeyboardAction action, Time now);
   /// `x`, `y`: cell of the view.
   bool sendMouse(df::EventMouseAction action, df::Mouse::Button button, int x, int y, Time now);
@@ -89,7 +90,7 @@ class ClientSession {
   /// waits for the next one.
   void sendChat(const std::string& text);
   void sendResize(int columns, int rows);
-  /// Leave on purpose: the server hears of it, and the channel closes after what is queued.
+  /// Leave on purpose: send a leave message, and close the channel after what is queued.
   void leave();
 
   // How the session stands.
@@ -110,7 +111,7 @@ class ClientSession {
   // What the server says.
   const std::vector<PlayerLine>& players() const { return m_inbox.players(); }
   const std::deque<ChatEntry>& chat() const { return m_inbox.chat().entries(); }
-  /// Sounds since the last call, oldest first; the newest ReliableInbox::kMaxUnheard of them.
+  /// Sounds since the last call, oldest first; the newest ReliableInbox::kMaxSounds of them.
   std::vector<SoundLine> takeSounds() { return m_inbox.fetchSounds(); }
   /// Points of this player, from the newest player list.
   std::int32_t score() const { return m_inbox.scoreOf(m_welcome.player); }

@@ -6,11 +6,14 @@ namespace naiad {
 
 void InputOutbox::start(std::uint32_t id, std::chrono::microseconds tick) {
   m_next = id + 1;
-  m_budget.setTick(tick);
+  m_rate.per_second = kPerTick / std::chrono::duration<double>(tick).count();
 }
 
-bool InputOutbox::admitInput(bool urgent, InputBudget::Time now) {
-  return !isFull(urgent) && m_budget.spend(now, urgent);
+bool InputOutbox::admitInput(bool urgent, TokenBucket::Time now) {
+  if (isFull(urgent)) return false;
+  if (!urgent) return m_bucket.takeToken(m_rate, now);
+  m_bucket.forceToken(m_rate, now);
+  return true;
 }
 
 const Input& InputOutbox::add(Input input) {

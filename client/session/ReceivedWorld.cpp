@@ -8,19 +8,19 @@ void ReceivedWorld::start(const WelcomeMessage& welcome, const Continuation& fro
   m_feed = WorldFeed({from.snapshot, welcome.tick_now, from.input}, from.world_epoch);
 }
 
-ReceivedWorld::Taken ReceivedWorld::applySnapshot(std::string_view bytes, Time now, InputOutbox& inputs,
-                                                  const std::function<void(std::uint32_t)>& before) {
-  const Taken taken = m_feed.applySnapshot(bytes, now, m_header, before);
-  if (taken != Taken::kApplied && taken != Taken::kShown) return taken;
-  if (taken == Taken::kShown) m_table_known = m_control_known = 0;
-  m_acks.note(m_header.number);
+ReceivedWorld::Result ReceivedWorld::applySnapshot(std::string_view bytes, Time now, InputOutbox& inputs,
+                                                   const std::function<void(std::uint32_t)>& before) {
+  const Result result = m_feed.applySnapshot(bytes, now, m_header, before);
+  if (result != Result::kApplied && result != Result::kShown) return result;
+  if (result == Result::kShown) m_table_known = m_control_known = 0;
+  m_acks.addReceived(m_header.number);
   m_clock.noteSnapshot(m_header.tick, now);
-  if (m_header.tells_input) {
+  if (m_header.has_input) {
     const auto input = inputs.removeUpTo(m_header.input);
     if (input) m_input_ticks.noteTaken(input->tick, m_header.input_tick);
   }
   applyControls();
-  return taken;
+  return result;
 }
 
 void ReceivedWorld::applyControls() {
@@ -43,11 +43,6 @@ std::optional<std::uint64_t> ReceivedWorld::takeChecksum(Time now) {
 void ReceivedWorld::noteRoundTrip(InputTickEstimator::Millis sample) {
   m_input_ticks.noteRoundTrip(sample);
   m_clock.setDelay(std::chrono::duration_cast<DisplayClock::Duration>(m_input_ticks.shortestRoundTrip() / 2));
-}
-
-void ReceivedWorld::predictInput(const Input& input) {
-  m_prediction.press(input.id, static_cast<df::Keyboard::Key>(input.key),
-                     static_cast<df::EventKeyboardAction>(input.action), input.tick);
 }
 
 const Prediction& ReceivedWorld::predict(Time now) {

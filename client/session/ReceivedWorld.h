@@ -20,7 +20,7 @@ namespace naiad {
 class ReceivedWorld {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  using Taken = WorldFeed::Taken;
+  using Result = WorldFeed::Result;
 
   static constexpr std::chrono::seconds kChecksumEvery{1};
 
@@ -28,9 +28,9 @@ class ReceivedWorld {
   void start(const WelcomeMessage& welcome, const Continuation& from);
 
   /// Read and apply a snapshot; `before` is called just before. Its inputs leave `inputs`.
-  Taken applySnapshot(std::string_view bytes, Time now, InputOutbox& inputs,
-                      const std::function<void(std::uint32_t tick)>& before);
-  /// What the newest snapshot to be applied said of itself.
+  Result applySnapshot(std::string_view bytes, Time now, InputOutbox& inputs,
+                       const std::function<void(std::uint32_t tick)>& before);
+  /// Of the snapshot that was applied last.
   const SnapshotHeader& header() const { return m_header; }
   /// Is the snapshot before the newest one missing?
   bool hasGap() const { return (m_acks.mask & 1) == 0; }
@@ -46,8 +46,8 @@ class ReceivedWorld {
   void noteRoundTrip(InputTickEstimator::Millis sample);
   const InputTickEstimator& inputTicks() const { return m_input_ticks; }
 
-  /// The player did this; it is part of the prediction from now on.
-  void predictInput(const Input& input);
+  /// A key that was just sent is part of the prediction from now on.
+  void predictInput(const Input& input) { m_prediction.addInput(input); }
   /// Predict up to the tick in which the server will apply a key pressed now.
   const Prediction& predict(Time now);
   std::uint32_t predictedTick(Time now) const;

@@ -22,8 +22,8 @@ void ReliableInbox::takeSounds(SoundsMessage&& message) {
   if (!isNew(message.number)) return;
   m_counters.sounds += message.sounds.size();
   for (SoundLine& sound : message.sounds) m_sounds.push_back(std::move(sound));
-  if (m_sounds.size() <= kMaxUnheard) return;
-  m_sounds.erase(m_sounds.begin(), m_sounds.end() - static_cast<std::ptrdiff_t>(kMaxUnheard));
+  if (m_sounds.size() <= kMaxSounds) return;
+  m_sounds.erase(m_sounds.begin(), m_sounds.end() - static_cast<std::ptrdiff_t>(kMaxSounds));
 }
 
 bool ReliableInbox::noteFrameSize(std::size_t bytes) {

@@ -18,8 +18,8 @@ class ReliableInbox {
  public:
   using Time = ChatLog::Time;
 
-  static constexpr std::size_t kMaxUnheard = 32;  ///< sounds kept until takeSounds()
-  /// So many bytes of reliable frames are acknowledged at once, not with the next ping.
+  static constexpr std::size_t kMaxSounds = 32;  ///< sounds kept until takeSounds()
+  /// So many bytes of reliable frames are acknowledged immediately, not with the next ping.
   static constexpr std::size_t kMuchKept = std::size_t{8} * 1024;
 
   /// `counters` must outlive the inbox.
@@ -28,7 +28,7 @@ class ReliableInbox {
   void takePlayers(PlayersMessage&& message);
   void takeChat(ChatMessage&& message, const WelcomeMessage& self, Time now);
   void takeSounds(SoundsMessage&& message);
-  /// A line of the client's own in the chat.
+  /// Add a line of the client itself to the chat.
   void addNotice(std::string text, Time now) { m_chat.addNotice(std::move(text), now); }
 
   /// Number of the newest reliable frame received; 0: none.
@@ -42,7 +42,7 @@ class ReliableInbox {
   /// Points of this player in the newest list.
   std::int32_t scoreOf(std::uint32_t player) const;
   const ChatLog& chat() const { return m_chat; }
-  /// Sounds since the last call, oldest first; the newest kMaxUnheard of them.
+  /// Sounds since the last call, oldest first; the newest kMaxSounds of them.
   std::vector<SoundLine> fetchSounds() { return std::exchange(m_sounds, {}); }
 
  private:

@@ -17,9 +17,9 @@ class RoundTrip {
 
   /// A ping goes out: its token.
   std::uint64_t startPing(Time now);
-  /// Its answer came. The time it took; nothing if the token is unknown or was answered before.
+  /// Its pong arrived. The time it took; nothing if the token is unknown or its pong has arrived before.
   std::optional<Millis> endPing(std::uint64_t token, Time now);
-  /// A time that was measured otherwise.
+  /// A round trip measured by other means.
   void addSample(Millis sample, Time now) { m_stats.addSample(sample, now); }
   /// Another stream: open pings are lost.
   void forgetPings() { m_open.clear(); }

@@ -33,7 +33,7 @@ void SealedDatagrams::start(std::function<void(std::string_view packet)> on_pack
   m_socket->start([this, on_packet = std::move(on_packet)](const Path& path, std::string_view packet) {
     const auto payload = m_link.open(path, packet, m_now());
     if (!payload) return;
-    if (m_link.wantsToSend(m_now())) send({});  // the answer to a challenge
+    if (m_link.wantsToSend(m_now())) send({});  // the response to a challenge
     if (!payload->empty()) on_packet(*payload);
   });
 }

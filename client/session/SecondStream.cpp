@@ -30,7 +30,7 @@ void SecondStream::start(std::unique_ptr<ReliableChannel> channel, const Session
 }
 
 void SecondStream::update(Time now) {
-  if (now - m_last_heard >= kIdleTimer) close();
+  if (now - m_last_heard >= kMaxSilence) close();
 }
 
 void SecondStream::receive(std::string_view frame, Time now) {

@@ -26,8 +26,8 @@ class SecondStream {
   /// Between two attempts, at first; doubled with each up to kLastPause, unless the one before lasted longer.
   static constexpr std::chrono::seconds kFirstPause{2};
   static constexpr std::chrono::seconds kLastPause{64};
-  /// Silence after which it is given up, and no answer to the hello.
-  static constexpr std::chrono::seconds kIdleTimer{5};
+  /// It is closed after this much silence, be it in answer to the hello or later.
+  static constexpr std::chrono::seconds kMaxSilence{5};
 
   SecondStream() = default;
   ~SecondStream() { close(); }
@@ -40,7 +40,7 @@ class SecondStream {
   /// that sends anything else there loses this stream, nothing more.
   void start(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
              std::function<void(std::string_view bytes)> on_snapshot);
-  /// Give it up if it is silent. Call now and then.
+  /// Close it if it is silent. Call now and then.
   void update(Time now);
   /// The server has accepted it.
   bool isOpen() const { return m_open; }
@@ -57,7 +57,7 @@ class SecondStream {
   std::unique_ptr<ReliableChannel> m_channel;
   std::function<void(std::string_view)> m_on_snapshot;
   bool m_open = false;
-  /// Of the last snapshots; fewer than there are numbers before one is written alike again.
+  /// Of the last snapshots; fewer than it takes until the 16 bits of a number repeat.
   std::array<std::size_t, 64> m_hashes{};
   std::size_t m_heard = 0;
   std::chrono::seconds m_pause = kFirstPause;

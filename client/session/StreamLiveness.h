@@ -20,18 +20,18 @@ class StreamLiveness {
 
   explicit StreamLiveness(Time now) : m_last_ping(now), m_idle(now) {}
 
-  /// The server was heard, on any path.
+  /// Something arrived from the server, on any path.
   void noteHeard(Time now) { m_idle.heard(now); }
-  /// Deadlines are about to be looked at (IdleTimer.h).
+  /// Deadlines are about to be checked (IdleTimer.h).
   void listen(Time now) { m_idle.listen(now); }
   IdleTimer::Duration silence(Time now) const { return m_idle.at(now); }
 
-  /// There is a new stream: pings of the old one are lost, and the next one is due at once.
+  /// There is a new stream: pings of the old one are lost, and the next one is due now.
   void startStream(Time now);
   /// No ping of this stream counts any more.
   void forgetPings() { m_round_trip.forgetPings(); }
-  /// Does the oldest ping wait too long? `has_datagrams`: the server is alive, so it is the stream that is
-  /// not.
+  /// Does the oldest ping wait too long? `has_datagrams`: the server is alive, so the stream is
+  /// dead.
   bool isStreamDead(Time now, bool has_datagrams) const;
   bool isPingDue(Time now, bool has_datagrams) const;
   /// A ping goes out: its token.

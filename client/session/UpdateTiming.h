@@ -35,10 +35,10 @@ class UpdateTiming {
   /// There is a new input.
   void noteInput(Time now) { m_repeat_at = now + kRepeatInput; }
   /// A snapshot was applied. `gap`: the one before it is missing. True if it is to be
-  /// acknowledged at once: every third one, or one after a gap.
+  /// acknowledged immediately: every third one, or one after a gap.
   bool noteSnapshotApplied(bool gap, Time now);
 
-  /// Do datagrams come?
+  /// Do datagrams arrive?
   bool hasDatagrams(Time now) const { return m_probe.isOpen(now); }
   /// The server sent on the stream just now: it may not receive datagrams.
   bool isUndecided(Time now) const { return now - m_last_streamed < kUndecided; }
@@ -46,7 +46,7 @@ class UpdateTiming {
   bool isOnStreamOnly(Time now) const {
     return isUndecided(now) && now - m_probe.lastChange() >= kOnStreamOnly;
   }
-  /// It is time to find out whether they pass. `only`: there is no stream.
+  /// It is time to test whether they pass. `only`: there is no stream.
   bool isProbeDue(Time now, bool only = false) const { return m_probe.isDue(now, only); }
   bool isAckDue(Time now) const { return m_acknowledge_at && now >= *m_acknowledge_at; }
   /// True once when new inputs should be sent again.

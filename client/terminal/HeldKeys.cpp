@@ -4,7 +4,7 @@
 
 namespace naiad {
 
-std::vector<KeyAction> HeldKeys::setRealReleases(bool real, Time) {
+std::vector<KeyAction> HeldKeys::setRealReleases(bool real) {
   if (real == m_real) return {};
   std::vector<KeyAction> out = releaseAll();
   m_real = real;
@@ -16,7 +16,7 @@ std::vector<KeyAction> HeldKeys::takeKey(const KeyEvent& event, Time now) {
   if (event.key == df::Keyboard::UNDEFINED_KEY) return out;
   const auto held = m_held.find(event.key);
   if (event.action == KeyEvent::Action::kRelease) {
-    // A release without a press belongs to a key that was pressed for a text line.
+    // The key was pressed while a text line was open.
     if (held == m_held.end()) return out;
     m_held.erase(held);
     out.push_back({event.key, df::KEY_RELEASED});

@@ -36,11 +36,11 @@ class HeldKeys {
   static constexpr std::chrono::milliseconds kMinRelease{80};
   /// … nor later than this, however slow the repeats.
   static constexpr std::chrono::milliseconds kMaxRelease{250};
-  /// Keys that report KEY_DOWN at once; further ones are still pressed and released.
+  /// Keys that report KEY_DOWN in one tick; further ones are still pressed and released.
   static constexpr std::size_t kMaxHeld = 6;
 
   /// The terminal reports releases (kitty): stop guessing. Releases all keys when it changes.
-  std::vector<KeyAction> setRealReleases(bool real, Time now);
+  std::vector<KeyAction> setRealReleases(bool real);
 
   /// A key event as decoded at `now`. Events without a key give nothing.
   std::vector<KeyAction> takeKey(const KeyEvent& event, Time now);

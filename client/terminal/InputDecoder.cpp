@@ -76,7 +76,7 @@ KeyEvent kittyKey(const Numbers& numbers) {
 
 std::vector<TerminalEvent> InputDecoder::feed(std::string_view bytes, Time now) {
   Events out = flush(now);
-  for (const char c : bytes) take(static_cast<unsigned char>(c), out);
+  for (const char c : bytes) takeByte(static_cast<unsigned char>(c), out);
   if (!bytes.empty()) m_last = now;
   return out;
 }
@@ -91,7 +91,7 @@ std::vector<TerminalEvent> InputDecoder::flush(Time now) {
   }
   m_pasting = false;
   m_meta = false;
-  begin(State::kGround);
+  enterState(State::kGround);
   return out;
 }
 
@@ -101,7 +101,7 @@ std::optional<InputDecoder::Time> InputDecoder::deadline() const {
   return std::nullopt;
 }
 
-void InputDecoder::begin(State state) {
+void InputDecoder::enterState(State state) {
   m_state = state;
   m_overlong = false;
   m_parameters.clear();
@@ -109,7 +109,7 @@ void InputDecoder::begin(State state) {
   if (state == State::kGround) m_meta = false;
 }
 
-void InputDecoder::take(unsigned char byte, Events& out) {
+void InputDecoder::takeByte(unsigned char byte, Events& out) {
   switch (m_state) {
     case State::kGround:
       return takeGround(byte, out);
@@ -125,33 +125,33 @@ void InputDecoder::take(unsigned char byte, Events& out) {
     case State::kLinuxFunction: {
       const bool known = byte >= 'A' && byte <= 'E';
       if (known) emitKey(out, {static_cast<df::Keyboard::Key>(df::Keyboard::F1 + (byte - 'A'))});
-      return begin(State::kGround);
+      return enterState(State::kGround);
     }
     case State::kString:
-      if (byte == 0x1B) return begin(State::kStringEscape);
-      if (byte == 0x07 || byte == 0x18 || byte == 0x1A) begin(State::kGround);
+      if (byte == 0x1B) return enterState(State::kStringEscape);
+      if (byte == 0x07 || byte == 0x18 || byte == 0x1A) enterState(State::kGround);
       return;
     case State::kStringEscape:
       // ST is ESC \; any other ESC has ended the string and begins something new.
-      if (byte == '\\') return begin(State::kGround);
-      begin(State::kEscape);
+      if (byte == '\\') return enterState(State::kGround);
+      enterState(State::kEscape);
       return takeEscape(byte, out);
   }
 }
 
 void InputDecoder::takeGround(unsigned char byte, Events& out) {
-  if (byte == 0x1B) return begin(State::kEscape);
+  if (byte == 0x1B) return enterState(State::kEscape);
   if (byte < 0x20 || byte == 0x7F) return emitKey(out, keyOfControl(byte));
   if (byte < 0x80) return emitKey(out, keyOfCharacter(byte));
   if (byte >= 0xC2 && byte < 0xF5) {
-    begin(State::kUtf8);
+    enterState(State::kUtf8);
     m_utf8.push_back(static_cast<char>(byte));
   }
 }
 
 void InputDecoder::takeUtf8(unsigned char byte, Events& out) {
   if ((byte & 0xC0) != 0x80) {  // a broken character; this byte may begin a good one
-    begin(State::kGround);
+    enterState(State::kGround);
     return takeGround(byte, out);
   }
   m_utf8.push_back(static_cast<char>(byte));
@@ -159,7 +159,7 @@ void InputDecoder::takeUtf8(unsigned char byte, Events& out) {
   const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
   if (m_utf8.size() < length) return;
   const std::u32string decoded = df::decodeUtf8(m_utf8);
-  begin(State::kGround);
+  enterState(State::kGround);
   if (decoded.size() == 1 && isText(static_cast<int>(decoded[0]))) {
     emitKey(out, {df::Keyboard::UNDEFINED_KEY, decoded[0]});
   }
@@ -172,20 +172,20 @@ void InputDecoder::takeEscape(unsigned char byte, Events& out) {
       m_meta = true;  // the Escape key twice, or rxvt's Alt with a cursor key
       return;
     case '[':
-      return begin(State::kCsi);
+      return enterState(State::kCsi);
     case 'O':
-      return begin(State::kSs3);
+      return enterState(State::kSs3);
     case ']':
     case 'P':
     case 'X':
     case '^':
     case '_':
-      return begin(State::kString);
+      return enterState(State::kString);
     default:
       break;
   }
   if (m_meta) emitKey(out, keyOfControl(0x1B));
-  begin(State::kGround);
+  enterState(State::kGround);
   if (byte >= 0x80) return takeGround(byte, out);
   KeyEvent event = byte < 0x20 || byte == 0x7F ? keyOfControl(byte) : keyOfCharacter(byte);
   event.modifiers |= kAlt;
@@ -196,9 +196,9 @@ void InputDecoder::takeEscape(unsigned char byte, Events& out) {
 void InputDecoder::takeSequence(unsigned char byte, Events& out) {
   if (byte == 0x1B) {
     m_meta = false;
-    return begin(State::kEscape);
+    return enterState(State::kEscape);
   }
-  if (byte == 0x18 || byte == 0x1A) return begin(State::kGround);
+  if (byte == 0x18 || byte == 0x1A) return enterState(State::kGround);
   if (byte < 0x20 || byte >= 0x7F) return;
   // rxvt ends shifted editing keys with '$', which is no final byte anywhere else.
   const bool rxvt_shift =
@@ -217,14 +217,14 @@ void InputDecoder::takeSequence(unsigned char byte, Events& out) {
 
 void InputDecoder::finishSequence(unsigned char final, Events& out) {
   const bool ss3 = m_state == State::kSs3;
-  if (m_overlong) return begin(State::kGround);
-  if (!ss3 && m_parameters.empty() && final == '[') return begin(State::kLinuxFunction);
-  if (!ss3 && m_parameters.empty() && final == 'M') return begin(State::kX10Mouse);
+  if (m_overlong) return enterState(State::kGround);
+  if (!ss3 && m_parameters.empty() && final == '[') return enterState(State::kLinuxFunction);
+  if (!ss3 && m_parameters.empty() && final == 'M') return enterState(State::kX10Mouse);
   if (!ss3 && (final == '~' || final == '^' || final == '@' || final == '$')) {
     if (final == '^' || final == '@') m_parameters += ";5";  // rxvt's control
     if (final == '$') m_parameters += ";2";
     finishTilde(out);
-    return begin(State::kGround);
+    return enterState(State::kGround);
   }
   const char prefix = m_parameters.empty() ? '\0' : m_parameters[0];
   if (!ss3 && prefix == '<' && (final == 'M' || final == 'm')) {
@@ -232,19 +232,19 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
     const auto& f = numbers.field;
     const bool complete = numbers.well_formed && f[0][0] >= 0 && f[1][0] > 0 && f[2][0] > 0;
     if (complete) emitMouse(out, f[0][0], f[1][0] - 1, f[2][0] - 1, final == 'm');
-    return begin(State::kGround);
+    return enterState(State::kGround);
   }
   if (!ss3 && prefix == '?' && final == 'u') {
     const Numbers numbers = parseNumbers(std::string_view(m_parameters).substr(1));
-    if (numbers.well_formed && !m_pasting) out.emplace_back(KittyAnswer{std::max(numbers.field[0][0], 0)});
-    return begin(State::kGround);
+    if (numbers.well_formed && !m_pasting) out.emplace_back(KittyReply{std::max(numbers.field[0][0], 0)});
+    return enterState(State::kGround);
   }
   Numbers numbers = parseNumbers(m_parameters);
-  if (!numbers.well_formed) return begin(State::kGround);
+  if (!numbers.well_formed) return enterState(State::kGround);
   if (!ss3 && final == 'u') {
     KeyEvent event = kittyKey(numbers);
     if (event.key != df::Keyboard::UNDEFINED_KEY || event.ch != 0) emitKey(out, event);
-    return begin(State::kGround);
+    return enterState(State::kGround);
   }
   KeyEvent event{keyOfFinal(static_cast<char>(final), ss3)};
   // Some terminals write SS3 5 P instead of CSI 1 ; 5 P.
@@ -256,7 +256,7 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
   // In a cursor position report the first number is a row; a key has 1 or nothing there.
   const bool is_key = ss3 || numbers.field[0][0] <= 1;
   if (event.key != df::Keyboard::UNDEFINED_KEY && is_key) emitKey(out, event);
-  begin(State::kGround);
+  enterState(State::kGround);
 }
 
 void InputDecoder::finishTilde(Events& out) {
@@ -285,7 +285,7 @@ void InputDecoder::takeX10(unsigned char byte, Events& out) {
     const bool released = (code & 3) == 3 && (code & 32) == 0;
     emitMouse(out, released ? code & ~3 : code, x, y, released);
   }
-  begin(State::kGround);
+  enterState(State::kGround);
 }
 
 void InputDecoder::emitMouse(Events& out, int code, int x, int y, bool released) {

@@ -5,9 +5,9 @@
 // clock, decodes the bytes:
 //   - plain characters, control bytes, UTF-8, Alt as an ESC before the character
 //   - cursor, editing and function keys of xterm, rxvt, the Linux console (CSI and SS3), with modifiers
-//   - the kitty keyboard protocol (press, repeat, release, alternate keys, text) and its query's answer
+//   - the kitty keyboard protocol (press, repeat, release, alternate keys, text) and the reply to its query
 //   - the mouse as SGR (1006) and as X10 bytes
-// Unknown sequences, pasted text, terminal answers and focus reports are dropped whole: a byte of a
+// Unknown sequences, pasted text, terminal replies and focus reports are dropped whole: a byte of a
 // sequence never becomes a key. Memory is bounded whatever arrives.
 #pragma once
 
@@ -47,13 +47,13 @@ struct MouseEvent {
   friend bool operator==(const MouseEvent&, const MouseEvent&) = default;
 };
 
-/// The answer to `CSI ? u`: the terminal supports the kitty keyboard protocol; `flags` are those in force.
-struct KittyAnswer {
+/// The reply to `CSI ? u`: the terminal supports the kitty keyboard protocol; `flags` are those in force.
+struct KittyReply {
   int flags = 0;
-  friend bool operator==(const KittyAnswer&, const KittyAnswer&) = default;
+  friend bool operator==(const KittyReply&, const KittyReply&) = default;
 };
 
-using TerminalEvent = std::variant<KeyEvent, MouseEvent, KittyAnswer>;
+using TerminalEvent = std::variant<KeyEvent, MouseEvent, KittyReply>;
 
 class InputDecoder {
  public:
@@ -61,7 +61,7 @@ class InputDecoder {
 
   /// An ESC that nothing follows for this long is the Escape key.
   static constexpr std::chrono::milliseconds kEscapeDelay{25};
-  /// A sequence that stops in the middle for this long is given up.
+  /// A sequence that stops in the middle for this long is dropped.
   static constexpr std::chrono::milliseconds kSequenceDelay{500};
 
   /// Decode `bytes`, read at `now`. Sequences may be split anywhere between calls.
@@ -87,7 +87,7 @@ class InputDecoder {
   };
   using Events = std::vector<TerminalEvent>;
 
-  void take(unsigned char byte, Events& out);
+  void takeByte(unsigned char byte, Events& out);
   void takeGround(unsigned char byte, Events& out);
   void takeEscape(unsigned char byte, Events& out);
   void takeSequence(unsigned char byte, Events& out);
@@ -97,7 +97,7 @@ class InputDecoder {
   void finishTilde(Events& out);
   void emitKey(Events& out, KeyEvent event);
   void emitMouse(Events& out, int code, int x, int y, bool released);
-  void begin(State state);
+  void enterState(State state);
 
   State m_state = State::kGround;
   bool m_overlong = false;  ///< the sequence is too long to be one of ours: swallow to its end

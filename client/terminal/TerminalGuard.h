@@ -7,7 +7,7 @@
 // Restoring: restore() in order, also called by the destructor and at exit(). SIGSEGV, SIGBUS, SIGABRT,
 // SIGFPE and SIGILL write a prebuilt byte string and call tcsetattr, both async-signal-safe, then die of
 // the signal. All other signals come out of signalFd() as bytes for the event loop; a second SIGTERM,
-// SIGHUP or SIGINT, before the loop acted on the first, restores and kills at once.
+// SIGHUP or SIGINT, before the loop acted on the first, restores and kills immediately.
 //
 // One guard at a time: signal handlers need a static place for what they restore.
 #pragma once

@@ -1,8 +1,7 @@
 // The keys of the servers that this user has played on: a server that changes its key is not trusted.
 //
 // One line for each server, "host:port fingerprint" (ServerAddress.h, Fingerprint.h); empty lines and those
-// that begin with
-// '#' are comments. Any other line is kept as it is and reported: it may be a damaged pin.
+// that begin with '#' are comments. Any other line is kept as it is and reported: it may be a damaged pin.
 #pragma once
 
 #include <cstdint>

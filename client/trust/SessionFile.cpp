@@ -43,18 +43,18 @@ SessionFile::SessionFile(fs::path directory, std::string server, const std::opti
   std::error_code error;
   if (!fs::exists(m_directory, error) || !isDirectoryOurs()) return;
   try {
-    look(name, now);
+    findSession(name, now);
   } catch (const std::system_error& failure) {
     complain(m_directory, std::string("cannot be used: ") + failure.what());
   }
 }
 
 SessionFile::~SessionFile() {
-  letGo();
+  closeFile();
 }
 
 // Under a lock: a file that is being made is not locked for a moment.
-void SessionFile::look(const std::optional<std::string>& name, Time now) {
+void SessionFile::findSession(const std::optional<std::string>& name, Time now) {
   const FileLock lock(m_directory / "lock");
   int looked = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(m_directory)) {
@@ -80,7 +80,7 @@ void SessionFile::consider(const fs::path& path, const std::optional<std::string
     ::close(file);
     return;
   }
-  letGo();
+  closeFile();
   m_file = file;
   m_path = path;
   m_saved = std::move(saved);
@@ -165,11 +165,11 @@ void SessionFile::write(Time now) {
 
 void SessionFile::remove() {
   if (m_file >= 0) ::unlink(m_path.c_str());
-  letGo();
+  closeFile();
   m_saved.reset();
 }
 
-void SessionFile::letGo() {
+void SessionFile::closeFile() {
   if (m_file >= 0) ::close(m_file);
   m_file = -1;
 }

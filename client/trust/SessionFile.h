@@ -26,8 +26,8 @@ class SessionFile {
   /// $XDG_STATE_HOME/naiad/sessions, or the same in ~/.local/state; nothing if the environment names neither.
   static std::optional<std::filesystem::path> defaultDirectory();
 
-  /// Take over the newest file that a client left there which does not run any more and played at `server`
-  /// (ServerAddress::canonicalText()), by this name if one is given. Those whose grace is over are removed.
+  /// Take over the newest file in the directory whose client does not run any more and played at `server`
+  /// (ServerAddress::canonicalText()), under `name` if one is given. Files past their grace are removed.
   /// The directory is made with the first save().
   SessionFile(std::filesystem::path directory, std::string server, const std::optional<std::string>& name,
               Time now);
@@ -49,13 +49,13 @@ class SessionFile {
   const std::vector<std::string>& problems() const { return m_problems; }
 
  private:
-  void look(const std::optional<std::string>& name, Time now);
+  void findSession(const std::optional<std::string>& name, Time now);
   void consider(const std::filesystem::path& path, const std::optional<std::string>& name, Time now);
   std::optional<SavedSession> readOpen(int file, const std::filesystem::path& path);
   bool isDirectoryOurs();
   void makeOwn();
   void write(Time now);
-  void letGo();
+  void closeFile();
   void complain(const std::filesystem::path& path, const std::string& what);
 
   std::filesystem::path m_directory;

@@ -172,7 +172,7 @@ void ClientApp::takeEvents(const std::vector<TerminalEvent>& events, Time now) {
   for (const TerminalEvent& event : events) {
     if (const auto* key = std::get_if<KeyEvent>(&event)) takeKey(*key, now);
     if (const auto* mouse = std::get_if<MouseEvent>(&event)) m_player.moveMouse(*mouse, m_placement, now);
-    if (std::holds_alternative<KittyAnswer>(event)) takeKittyAnswer(now);
+    if (std::holds_alternative<KittyReply>(event)) takeKittyReply(now);
   }
 }
 
@@ -204,7 +204,7 @@ void ClientApp::takeKey(const KeyEvent& event, Time now) {
   }
 }
 
-void ClientApp::takeKittyAnswer(Time now) {
+void ClientApp::takeKittyReply(Time now) {
   if (m_controls.chatOpen()) return;
   m_guard->pushKitty();
   m_player.setRealReleases(true, now);
@@ -249,7 +249,7 @@ ClientApp::Time ClientApp::nextDeadline(Time now) {
   Time next = std::min(now + kHousekeeping, m_player.deadline());
   if (const auto due = m_decoder.deadline()) next = std::min(next, *due);
   const ClientSession* session = m_connection.session();
-  // A predicted object moves by a clock of its own.
+  // A predicted object moves between snapshots, too.
   if (m_dirty || (session != nullptr && session->isPredicting()))
     next = std::min(next, m_last_frame + kFrame);
   if (session == nullptr) return next;

@@ -64,7 +64,7 @@ class ClientApp {
   void takeSignals();
   void takeEvents(const std::vector<TerminalEvent>& events, Time now);
   void takeKey(const KeyEvent& event, Time now);
-  void takeKittyAnswer(Time now);
+  void takeKittyReply(Time now);
   void noticeSounds(Time now);
   void suspend();
   void resume();

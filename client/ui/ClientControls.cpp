@@ -28,22 +28,22 @@ ClientControls::Result ClientControls::takeKey(const KeyEvent& event) {
   if (event.action == KeyEvent::Action::kRelease) return Result::kGame;
   if (isControl(event, C)) return Result::kLeave;
   if (isControl(event, Z)) return Result::kSuspend;
-  if (m_prefixed) return isModifierKey(event.key) ? Result::kTaken : takeCommand(event);
+  if (m_prefixed) return isModifierKey(event.key) ? Result::kHandled : takeCommand(event);
   if (isControl(event, RIGHTBRACKET) && event.action == KeyEvent::Action::kPress) {
     m_prefixed = true;
-    return Result::kTaken;
+    return Result::kHandled;
   }
   if (m_chat_open) return takeChatKey(event);
   if (m_panel != Panel::kNone && event.key == ESCAPE) {
     m_panel = Panel::kNone;
-    return Result::kTaken;
+    return Result::kHandled;
   }
   return Result::kGame;
 }
 
 ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
   // A held Ctrl-] repeats; that is not its own command.
-  if (event.action == KeyEvent::Action::kRepeat) return Result::kTaken;
+  if (event.action == KeyEvent::Action::kRepeat) return Result::kHandled;
   m_prefixed = false;
   const bool question = event.ch == U'?';
   if (question) return toggle(Panel::kHelp);
@@ -54,12 +54,12 @@ ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
       return toggle(Panel::kPlayers);
     case S:
       m_status = !m_status;
-      return Result::kTaken;
+      return Result::kHandled;
     case Q:
       return Result::kLeave;
     case C:
     case T:
-      if (m_chat_open) return Result::kTaken;
+      if (m_chat_open) return Result::kHandled;
       m_chat_open = true;
       m_text.clear();
       return Result::kOpened;
@@ -67,12 +67,12 @@ ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
       break;
   }
   m_panel = Panel::kNone;
-  return Result::kTaken;
+  return Result::kHandled;
 }
 
 ClientControls::Result ClientControls::toggle(Panel panel) {
   m_panel = m_panel == panel ? Panel::kNone : panel;
-  return Result::kTaken;
+  return Result::kHandled;
 }
 
 ClientControls::Result ClientControls::takeChatKey(const KeyEvent& event) {
@@ -87,7 +87,7 @@ ClientControls::Result ClientControls::takeChatKey(const KeyEvent& event) {
   } else if (event.ch != 0 && df::isDrawable(event.ch) && m_text.size() < kMaxChatLength) {
     m_text.push_back(event.ch);
   }
-  return Result::kTaken;
+  return Result::kHandled;
 }
 
 std::string ClientControls::chatText() const {

@@ -27,7 +27,7 @@ FrameComposer::FrameState FrameComposer::currentState(Time now) {
     state.silence = tenthsOfSilence(*session, now);
   }
   state.chat_lines = recentChat(now).size();
-  state.note = m_sounds.note(now);
+  state.note = m_sounds.shownNote(now);
   return state;
 }
 
@@ -45,7 +45,7 @@ std::string FrameComposer::banner(Time now) const {
   if (m_controls.prefixed()) return "Ctrl-]: t chat  p players  h help  s status  q leave";
   ClientSession* session = m_connection.session();
   const bool searching = m_connection.state() == Connection::State::kSearching;
-  // A session that goes on by datagrams while its stream is sought again needs no banner.
+  // A session that goes on by datagrams while it looks for another stream needs no banner.
   if (session == nullptr || !(session->isSilent(now) || (searching && !session->hasDatagrams(now))))
     return "";
   const std::int64_t tenths = tenthsOfSilence(*session, now);

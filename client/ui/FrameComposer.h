@@ -21,7 +21,7 @@ class FrameComposer {
   FrameComposer(Connection& connection, const ClientControls& controls, const SoundNotes& sounds)
       : m_connection(connection), m_controls(controls), m_sounds(sounds) {}
 
-  /// Would a frame composed now differ from the last one? Changes of the controls are not looked at.
+  /// Would a frame composed now differ from the last one? Changes of the controls are not considered.
   bool isStale(Time now) { return !(currentState(now) == m_composed); }
   ScreenModel composeFrame(Time now);
 

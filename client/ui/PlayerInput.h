@@ -24,11 +24,11 @@ class PlayerInput {
 
   void pressKey(const KeyEvent& event, Time now) { sendKeys(m_held.takeKey(event, now), now); }
   void moveMouse(const MouseEvent& event, const ViewPlacement& placement, Time now);
-  /// Release all keys: they are not the game's any more.
+  /// Release all keys: the game gets no more of them for now.
   void releaseKeys(Time now) { sendKeys(m_held.releaseAll(), now); }
   /// The terminal reports releases from now on, or does not.
-  void setRealReleases(bool real, Time now) { sendKeys(m_held.setRealReleases(real, now), now); }
-  /// Send what is due: guessed releases, held keys and buttons once a tick, the newest place of the mouse.
+  void setRealReleases(bool real, Time now) { sendKeys(m_held.setRealReleases(real), now); }
+  /// Send what is due: guessed releases, held keys and buttons once a tick, the newest position of the mouse.
   void update(Time now);
   /// When update() has something to do.
   Time deadline() const;

@@ -89,7 +89,7 @@ void drawChat(Picture& picture, const ScreenModel& model, int bottom) {
     const std::string prompt = "say: ";
     picture.fill(0, y, picture.width(), 1, Style::kReverse);
     int x = picture.write(0, y, prompt, picture.width(), df::COLOR_DEFAULT, Style::kReverse);
-    // Of a long text the end is seen.
+    // The end of a long text is shown.
     std::u32string text = df::decodeUtf8(model.chat_text);
     const int room = std::max(picture.width() - x - 1, 1);
     if (static_cast<int>(text.size()) > room) text.erase(0, text.size() - static_cast<std::size_t>(room));

@@ -12,7 +12,7 @@
 
 namespace naiad {
 
-/// Chat lines are seen this long; all recent ones while the chat line is open.
+/// Chat lines are shown this long; all recent ones while the chat line is open.
 inline constexpr std::chrono::seconds kChatShown{8};
 
 /// Everything that can be seen, as values. Texts must be safe (SafeText.h).

@@ -31,7 +31,7 @@ void SoundNotes::addSound(const SoundLine& sound, std::uint32_t self, Time now) 
   m_rings = true;
 }
 
-// One's own, and what is meant for all, takes the place of what others do at once.
+// Sounds of this player, and those meant for all, replace those of other players without a delay.
 void SoundNotes::show(const SoundLine& sound, bool others, Time now) {
   const bool fresh = m_noted_at && now - *m_noted_at < kMin;
   if (fresh && (others || !m_of_others)) return;
@@ -40,7 +40,7 @@ void SoundNotes::show(const SoundLine& sound, bool others, Time now) {
   m_noted_at = now;
 }
 
-std::string SoundNotes::note(Time now) const {
+std::string SoundNotes::shownNote(Time now) const {
   return m_noted_at && now - *m_noted_at < kShown ? m_note : std::string();
 }
 

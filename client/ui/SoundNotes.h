@@ -34,10 +34,10 @@ class SoundNotes {
 
   explicit SoundNotes(SoundMode mode) : m_mode(mode) {}
 
-  /// The game sounded; `self`: this player's id.
+  /// The game played a sound; `self`: this player's id.
   void addSound(const SoundLine& sound, std::uint32_t self, Time now);
   /// The note to show: "sound: fire", "music: theme"; empty: none.
-  std::string note(Time now) const;
+  std::string shownNote(Time now) const;
   /// Is the bell to ring now? True once.
   bool takeBell() { return std::exchange(m_rings, false); }
 
@@ -46,7 +46,7 @@ class SoundNotes {
 
   SoundMode m_mode;
   std::string m_note;
-  bool m_of_others = false;  ///< another player caused it
+  bool m_of_others = false;  ///< of another player's action
   std::optional<Time> m_noted_at;
   std::optional<Time> m_rang_at;
   bool m_rings = false;

@@ -86,8 +86,8 @@ int play(const naiad::ClientApp::Options& options, bool attached) {
 /// The options, in the order of --help.
 std::vector<naiad::Option> optionsOf(CommandLine& line) {
   naiad::ClientApp::Options& play = line.play;
-  const naiad::StoreText store_sound = [&play](const std::string& word) -> std::string {
-    const auto mode = naiad::soundModeFrom(word);
+  const naiad::StoreText store_sound = [&play](const std::string& name) -> std::string {
+    const auto mode = naiad::soundModeFrom(name);
     if (mode) play.sound = *mode;
     return mode ? "" : "bell, note or off is wanted";
   };

@@ -27,7 +27,7 @@ void DisplayClock::noteSnapshot(std::uint32_t tick, Time now) {
   m_newest = tick;
   Time expected = m_anchor_time + due(tick);
   const Duration late = now - expected;
-  // An early arrival corrects the anchor at once; a late one may be jitter. A difference of a second means
+  // An early arrival corrects the anchor fully; a late one may be jitter. A difference of a second means
   // that the server paused or jumped.
   if (late < Duration::zero() || late > std::chrono::seconds(1)) {
     expected = now;

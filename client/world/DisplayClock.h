@@ -24,7 +24,7 @@ class DisplayClock {
   /// How far it runs ahead in any case, to make up for the delay of the snapshots.
   static constexpr std::chrono::milliseconds kMaxLead{50};
   /// Silence that counts as a broken line.
-  static constexpr std::chrono::milliseconds kIdleTimer{500};
+  static constexpr std::chrono::milliseconds kSilence{500};
 
   explicit DisplayClock(Duration tick_length) : m_length(tick_length) {}
 
@@ -39,8 +39,8 @@ class DisplayClock {
   double ticksSinceNewest(Time now) const;
   /// The newest tick of any snapshot; 0 before the first.
   std::uint32_t newestTick() const { return m_newest; }
-  /// No snapshot for kIdleTimer (never before the first).
-  bool isSilent(Time now) const { return m_started && now - m_last_arrival >= kIdleTimer; }
+  /// No snapshot for kSilence (never before the first).
+  bool isSilent(Time now) const { return m_started && now - m_last_arrival >= kSilence; }
   /// How long ago the last snapshot came; zero before the first.
   Duration silence(Time now) const { return m_started ? now - m_last_arrival : Duration::zero(); }
   /// When displayTick() will next return another tick, for a timer.

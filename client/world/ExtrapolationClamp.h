@@ -1,10 +1,11 @@
-// A drawing rule for ticks that have not arrived yet: what is HARD is not drawn inside what is HARD.
+// A drawing rule for ticks that have not arrived yet: HARD objects are not drawn inside one another.
 //
 // Extrapolated objects fly into walls; on the server they are blocked. So a HARD object is drawn where it was
 // one tick before it would first touch another HARD one that it did not touch in the newest known tick. The
 // models stay as they are.
 //
-// Made for one picture: the objects are sorted into cells once, then each looks only at its neighbours.
+// Made for one picture: the objects are sorted into cells once, then each is tested against its neighbours
+// only.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace naiad {
 
 class ExtrapolationClamp {
  public:
-  /// Ticks that are looked at, at most; the rest of a longer extrapolation is drawn as modelled.
+  /// Ticks that are tested, at most; the rest of a longer extrapolation is drawn as modelled.
   static constexpr std::uint32_t kMaxTicks = 16;
 
   /// For the picture of `drawn`, when the newest snapshot was of `known`. The replica must outlive this and

@@ -25,15 +25,14 @@ void Prediction::applyControl(const ControlRecord& record) {
   }
 }
 
-void Prediction::press(std::uint32_t id, df::Keyboard::Key key, df::EventKeyboardAction action,
-                       std::uint32_t tick) {
+void Prediction::addInput(Input input) {
   if (m_inputs.size() >= kMaxInputs) {
     ++m_counters.unpredicted;
     return;
   }
   // The server applies inputs in the order they were sent.
-  if (!m_inputs.empty() && isNewer(m_inputs.back().tick, tick)) tick = m_inputs.back().tick;
-  m_inputs.push_back({id, key, action, tick});
+  if (!m_inputs.empty() && isNewer(m_inputs.back().tick, input.tick)) input.tick = m_inputs.back().tick;
+  m_inputs.push_back(input);
 }
 
 void Prediction::reset() {
@@ -64,11 +63,12 @@ void Prediction::replay(const Replica& replica, const ObjectState& own, std::uin
   SteeredCopy copy(start, m_table, &surroundings);
   auto input = m_inputs.begin();
   for (std::uint32_t i = 0; i < ticks; ++i) {
-    copy.begin();
+    copy.beginTick();
     const std::uint32_t now = copy.now().tick;
     for (; input != m_inputs.end() && !isNewer(input->tick, now); ++input)
-      copy.key(input->key, input->action);
-    copy.finish();
+      copy.applyKey(static_cast<df::Keyboard::Key>(input->key),
+                    static_cast<df::EventKeyboardAction>(input->action));
+    copy.finishTick();
     guess(now) = {true, now, copy.position()};
   }
   m_position = copy.position();

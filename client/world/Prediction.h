@@ -1,10 +1,9 @@
-// The player's own object, ahead of the server's answer: where it will be when the keys already sent have
-// arrived.
+// The player's own object, ahead of the snapshots: where it will be when the keys already sent have arrived.
 //
 // The server sends now and then the exact state of the object at the end of a tick, and which inputs had
 // reached the game by then (ControlRecord). From there run() replays all inputs that the server has not yet
 // acknowledged, through the same table, against the solid objects of the replica. Each run starts from the
-// newest state, so a misprediction needs no correction of its own.
+// newest state, so a misprediction needs no separate correction.
 //
 // The tick to run to is the one in which the server will apply a key that is pressed now: ahead of the newest
 // snapshot by a round trip and a margin for jitter. So a key shows in the next frame, whatever the round
@@ -23,6 +22,7 @@
 #include "shared/replica/ControlCodec.h"
 #include "shared/replica/Replica.h"
 #include "shared/replica/SteeredCopy.h"
+#include "shared/replica/UpdateCodec.h"
 
 namespace naiad {
 
@@ -30,26 +30,26 @@ class Prediction {
  public:
   /// Ticks that are replayed at most: kMaxCoasting and a round trip of two seconds.
   static constexpr std::uint32_t kMaxAhead = 90;
-  /// Inputs without an answer that are kept at most; further ones are not predicted.
+  /// Pending inputs, at most; further ones are not predicted.
   static constexpr std::size_t kMaxInputs = 64;
 
   struct Counters {
-    std::uint64_t confirmed = 0;     ///< answers equal to the prediction for their tick
-    std::uint64_t mispredicted = 0;  ///< answers that differ from it
+    std::uint64_t confirmed = 0;     ///< states equal to the prediction for their tick
+    std::uint64_t mispredicted = 0;  ///< states that differ from it
     std::uint64_t unpredicted = 0;   ///< inputs beyond kMaxInputs
   };
 
   /// The controls that the game declared, as they arrive; one without rows ends the prediction.
   void setTable(df::ControlTable table) { m_table = std::move(table); }
-  /// An answer; an older one than the last is ignored.
+  /// The exact state of the object; one that is older than the last is ignored.
   void applyControl(const ControlRecord& record);
-  /// The player did this; it was sent as input `id` (newer than all before), and the server should apply
-  /// it in the tick that ends as `tick`.
-  void press(std::uint32_t id, df::Keyboard::Key key, df::EventKeyboardAction action, std::uint32_t tick);
+  /// A key input as it was sent: its id is newer than all before, and the server should apply it in the tick
+  /// that ends as `input.tick`.
+  void addInput(Input input);
   /// Forget everything but the counters: another session.
   void reset();
 
-  /// Predict the object's state at the end of `tick`. The replica should be as new as the last answer.
+  /// Predict the object's state at the end of `tick`. The replica should be as new as the last state.
   void run(const Replica& replica, std::uint32_t tick);
 
   /// Did the last run() find an object to predict?
@@ -59,20 +59,14 @@ class Prediction {
   /// Where it is at the end of the last run()'s tick, and with what velocity it goes on.
   df::FixedVector position() const { return m_position; }
   df::FixedVector velocity() const { return m_velocity; }
-  /// Where the view is then that follows it.
+  /// Where the view that follows it is then.
   df::FixedVector viewCorner(const Replica& replica) const;
-  /// Inputs that no answer has covered yet.
-  std::size_t unanswered() const { return m_inputs.size(); }
+  /// Inputs that no exact state includes yet.
+  std::size_t pendingInputs() const { return m_inputs.size(); }
   const Counters& counters() const { return m_counters; }
 
  private:
-  struct Input {
-    std::uint32_t id;
-    df::Keyboard::Key key;
-    df::EventKeyboardAction action;
-    std::uint32_t tick;
-  };
-  /// What was predicted for a tick, kept until the answer comes.
+  /// What was predicted for a tick, kept until its exact state arrives.
   struct Guess {
     bool made = false;
     std::uint32_t tick = 0;

@@ -14,8 +14,8 @@ namespace naiad {
 /// can block.
 std::optional<df::FixedBox> boxAt(const Body& body, df::FixedVector position);
 
-/// The smallest box around where the object is in the ticks from `first` to `last`, both included; nothing
-/// if that is nowhere.
+/// The smallest box around all boxes of the object in the ticks from `first` to `last`, both included;
+/// nothing if it has none.
 std::optional<df::FixedBox> boxAlong(const ObjectState& object, std::uint32_t first, std::uint32_t last);
 
 class Surroundings : public Barriers {

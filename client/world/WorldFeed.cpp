@@ -22,43 +22,43 @@ Replica* WorldFeed::replicaFor(std::string_view bytes, Time now) {
 
 // A complete snapshot may overtake those that it completes: it may come as a datagram and they on the stream.
 void WorldFeed::trackFirstWorld(const SnapshotHeader& header, Time now) {
-  if (!m_began) m_began = now;
-  m_came.note(header.number);
+  if (!m_first_at) m_first_at = now;
+  m_arrived.addReceived(header.number);
   if (header.complete && isNewer(header.number, m_complete)) m_complete = header.number;
-  m_whole = m_complete != m_before;
+  m_first_complete = m_complete != m_before;
   // What is older than the window was sent again before the server called any snapshot complete.
-  for (std::uint32_t n = m_complete; m_whole && n != m_before && m_came.newest - n <= 64; --n) {
-    m_whole = m_came.has(n);
+  for (std::uint32_t n = m_complete; m_first_complete && n != m_before && m_arrived.newest - n <= 64; --n) {
+    m_first_complete = m_arrived.has(n);
   }
 }
 
-WorldFeed::Taken WorldFeed::applySnapshot(std::string_view bytes, Time now, SnapshotHeader& header,
-                                          const std::function<void(std::uint32_t)>& before) {
+WorldFeed::Result WorldFeed::applySnapshot(std::string_view bytes, Time now, SnapshotHeader& header,
+                                           const std::function<void(std::uint32_t)>& before) {
   Replica* replica = replicaFor(bytes, now);
-  if (replica == nullptr) return Taken::kIgnored;
+  if (replica == nullptr) return Result::kIgnored;
   Snapshot snapshot;
   switch (replica->read(bytes, snapshot)) {
     case ReadResult::kOk:
       break;
     case ReadResult::kStale:
       ++m_stale_in_a_row;
-      return Taken::kStale;
+      return Result::kStale;
     case ReadResult::kMalformed:
-      return Taken::kMalformed;
+      return Result::kMalformed;
   }
   m_stale_in_a_row = 0;
   header = snapshot.header;
   if (before) before(header.tick);
   replica->apply(snapshot);
-  if (!m_whole && replica == &m_replica) trackFirstWorld(header, now);
+  if (!m_first_complete && replica == &m_replica) trackFirstWorld(header, now);
   if (replica == &m_replica || !(header.complete || now - m_reset_at >= kPatience)) {
-    return Taken::kApplied;
+    return Result::kApplied;
   }
-  m_whole = true;
+  m_first_complete = true;
   m_replica = std::move(*m_next);
   m_next.reset();
   m_epoch = m_next_epoch;
-  return Taken::kShown;
+  return Result::kShown;
 }
 
 }  // namespace naiad

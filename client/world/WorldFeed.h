@@ -2,7 +2,7 @@
 // which replica is shown.
 //
 // The first world is not shown before it is complete: births may take several snapshots, and some time on a
-// slow line. A snapshot of the next epoch begins another world, in a replica of its own, while the old one is
+// slow line. A snapshot of the next epoch begins another world, in a second replica, while the old one is
 // shown. Both are shown incomplete if the player has waited for kPatience.
 #pragma once
 
@@ -34,27 +34,29 @@ class WorldFeed {
         m_complete(near.number) {}
 
   /// What became of a snapshot.
-  enum class Taken {
+  enum class Result {
     kApplied,
     kShown,      ///< applied, and another world is shown from now on
     kIgnored,    ///< of an epoch that is over
-    kStale,      ///< it refers to what newer snapshots have replaced
+    kStale,      ///< it uses an origin or a name that a newer snapshot has replaced
     kMalformed,  ///< the server is broken
   };
   /// Read and apply a snapshot; `header` becomes its header. `before` is called just before it is
   /// applied.
-  Taken applySnapshot(std::string_view bytes, Time now, SnapshotHeader& header,
-                      const std::function<void(std::uint32_t tick)>& before);
+  Result applySnapshot(std::string_view bytes, Time now, SnapshotHeader& header,
+                       const std::function<void(std::uint32_t tick)>& before);
 
   /// The one to show.
   const Replica& shown() const { return m_replica; }
   /// Is there enough of the first world to show it? Once true, it stays so.
-  bool hasPicture(Time now) const { return m_whole || (m_began && now - *m_began >= kPatience); }
+  bool hasPicture(Time now) const {
+    return m_first_complete || (m_first_at && now - *m_first_at >= kPatience);
+  }
   /// Is another one about to replace it?
   bool isChanging() const { return m_next.has_value(); }
-  /// So many stale ones came in a row that the world should be sent again.
+  /// Were so many snapshots in a row stale that the world should be sent again?
   bool wantsReset() const { return m_stale_in_a_row >= kMaxStale; }
-  /// Only the last stale one made it so: ask for it now.
+  /// The last stale one reached that number: ask now.
   bool wantsResetNow() const { return wantsReset() && m_stale_in_a_row % kMaxStale == 0; }
   /// Worlds begun after the first.
   std::uint64_t resets() const { return m_resets; }
@@ -72,11 +74,11 @@ class WorldFeed {
   int m_stale_in_a_row = 0;
 
   // Of the first world only.
-  std::uint32_t m_before;       ///< number of the newest snapshot that was sent before those to come
-  std::uint32_t m_complete;     ///< the newest that was complete; m_before: none yet
-  AckWindow m_came;             ///< what has come
-  std::optional<Time> m_began;  ///< when the first came
-  bool m_whole = false;
+  std::uint32_t m_before;          ///< number of the newest snapshot that was sent before those to come
+  std::uint32_t m_complete;        ///< the newest that was complete; m_before: none yet
+  AckWindow m_arrived;             ///< of this world
+  std::optional<Time> m_first_at;  ///< when the first arrived
+  bool m_first_complete = false;
 };
 
 }  // namespace naiad

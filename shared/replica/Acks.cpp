@@ -2,8 +2,8 @@
 
 namespace naiad {
 
-void AckWindow::note(std::uint32_t number) {
-  if (newest == 0) {  // the first; it may be any, where a session is gone on with
+void AckWindow::addReceived(std::uint32_t number) {
+  if (newest == 0) {  // the first; any number where a session is resumed
     newest = number;
     return;
   }

@@ -26,8 +26,8 @@ struct AckWindow {
   std::uint32_t newest = 0;
   std::uint64_t mask = 0;
 
-  /// Note that `number` arrived; older than the window is ignored.
-  void note(std::uint32_t number);
+  /// `number` arrived; one older than the window is ignored.
+  void addReceived(std::uint32_t number);
   /// Is `number` known to have arrived?
   bool has(std::uint32_t number) const;
 };

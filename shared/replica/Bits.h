@@ -19,7 +19,7 @@
 
 namespace naiad {
 
-/// Keeps its memory when cleared, so that one that is used again and again allocates nothing.
+/// Keeps its memory when cleared, so that a reused one allocates nothing.
 class BitWriter {
  public:
   /// The `count` low bits of `value`; the others must be zero. count: 0 … 64.
@@ -81,7 +81,7 @@ class BitWriter {
     m_pending = 0;
     m_pending_count = 0;
   }
-  /// The same into a string whose memory is used again.
+  /// The same into a string whose memory is reused.
   void bytes(std::string& all) const {
     all.resize(m_words.size() * 8 + static_cast<std::size_t>(m_pending_count + 7) / 8);
     char* at = all.data();

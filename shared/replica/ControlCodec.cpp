@@ -23,7 +23,7 @@ enum TableFlag : std::uint8_t { kBounded = 1, kWholeCells = 2 };
 constexpr int kGenerationOrder = 1;
 constexpr int kIdOrder = 6;
 constexpr int kPullOrder = 33;
-constexpr int kIdleTimerOrder = 2;
+constexpr int kSilenceOrder = 2;
 constexpr int kWaitOrder = 3;
 
 void writeVector(ByteWriter& out, df::FixedVector v) {
@@ -85,7 +85,7 @@ void writeState(BitWriter& out, const df::ControlState& state, df::FixedVector v
   out.flag(state.steering);
   writeLever(out, state.x, velocity.x);
   writeLever(out, state.y, velocity.y);
-  out.golomb(state.silence, kIdleTimerOrder);
+  out.golomb(state.silence, kSilenceOrder);
   std::uint64_t waiting = 0;
   for (std::size_t i = 0; i < df::kControlGroups; ++i) waiting |= (state.wait[i] > 0 ? 1u : 0u) << i;
   out.flag(waiting != 0);
@@ -101,7 +101,7 @@ df::ControlState readState(BitReader& in, df::FixedVector velocity) {
   state.steering = in.flag();
   state.x = readLever(in, velocity.x);
   state.y = readLever(in, velocity.y);
-  state.silence = static_cast<std::uint16_t>(in.golomb(kIdleTimerOrder, df::kMaxControlTicks));
+  state.silence = static_cast<std::uint16_t>(in.golomb(kSilenceOrder, df::kMaxControlTicks));
   if (!in.flag()) return state;
   const std::uint64_t waiting = in.bits(df::kControlGroups);
   for (std::size_t i = 0; i < df::kControlGroups; ++i) {

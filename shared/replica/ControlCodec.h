@@ -40,7 +40,7 @@ inline constexpr std::size_t kMaxControlRecordBytes = 160;
 struct ControlRecord {
   std::uint32_t tick = 0;
   std::uint32_t slot = 0;          ///< of the world; on the wire and from there on the client's id
-  std::uint32_t generation = 0;    ///< likewise; 0: they steer nothing
+  std::uint32_t generation = 0;    ///< likewise; 0: the player steers nothing
   std::uint32_t newest_input = 0;  ///< the newest input of this player that has reached the game; 0: none
   df::FixedVector position;
   df::FixedVector velocity;  ///< what the next tick tries to add, blocked or not
@@ -55,7 +55,7 @@ void writeControlTable(std::string& out, const df::ControlTable& table);
 /// Nothing if anything is missing, out of range or left over.
 std::optional<df::ControlTable> readControlTable(std::string_view bytes);
 
-/// Append the state. Its tick and newest input are the snapshot's business and not written; its position is
+/// Append the state. Its tick and newest input are the snapshot's and not written; its position is
 /// counted from `origin`.
 void writeControlRecord(BitWriter& out, const ControlRecord& record, const Origin& origin);
 /// The reader fails where a number is out of range.

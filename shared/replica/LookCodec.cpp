@@ -197,7 +197,7 @@ void writeSelector(BitWriter& out, const Selector& selector, std::uint32_t tick,
   out.signedBits(selector.spin, width);
 }
 
-// Whether it fits its sequence is not known here: a name may be explained later.
+// Whether it fits its sequence is not known here: a name may be defined later.
 Selector readSelector(BitReader& in, std::uint32_t tick) {
   Selector selector;
   if (in.flag()) return selector;

@@ -19,10 +19,10 @@ struct LookForm {
 
 /// `tick`: of the snapshot; clocks count from it.
 void writeLook(BitWriter& out, const Look& look, LookForm form, std::uint32_t tick);
-/// `define` is called for a sequence that gets an id, `find` for one that is named: it returns the sequence,
-/// or null where there is none (then the caller has to look it up, and whether the selector isTellable()).
+/// `define` is called for a sequence that gets an id, `find_named` for one that is named: it returns it,
+/// or null if unknown yet (then the caller has to resolve it, and whether the selector isCanonical()).
 template <class Define, class FindNamed>
-Look readLook(BitReader& in, std::uint32_t tick, Define define, FindNamed find);
+Look readLook(BitReader& in, std::uint32_t tick, Define define, FindNamed find_named);
 
 void writeSequence(BitWriter& out, const Sequence& sequence);
 Sequence readSequence(BitReader& in);
@@ -57,7 +57,7 @@ Appearance readSingle(BitReader& in);
 }  // namespace look_codec
 
 template <class Define, class FindNamed>
-Look readLook(BitReader& in, std::uint32_t tick, Define define, FindNamed find) {
+Look readLook(BitReader& in, std::uint32_t tick, Define define, FindNamed find_named) {
   Look look;
   look.altitude = look_codec::readAltitude(in);
   switch (look_codec::readKind(in)) {
@@ -71,17 +71,17 @@ Look readLook(BitReader& in, std::uint32_t tick, Define define, FindNamed find) 
       const auto id = defines ? static_cast<std::uint32_t>(in.bits(kAppearanceIdBits)) : 0;
       look.sequence = readSequence(in);
       look.selector = readSelector(in, tick);
-      if (!look.selector.isTellable(tick, look.sequence.size())) in.fail();
+      if (!look.selector.isCanonical(tick, look.sequence.size())) in.fail();
       if (defines && in.ok()) define(id, look.sequence);
       break;
     }
     case look_codec::Kind::kNamed: {
       const auto id = static_cast<std::uint32_t>(in.bits(kAppearanceIdBits));
       look.selector = readSelector(in, tick);
-      const Sequence* sequence = in.ok() ? find(id) : nullptr;
+      const Sequence* sequence = in.ok() ? find_named(id) : nullptr;
       if (sequence == nullptr) return look;
       look.sequence = *sequence;
-      if (!look.selector.isTellable(tick, look.sequence.size())) in.fail();
+      if (!look.selector.isCanonical(tick, look.sequence.size())) in.fail();
       break;
     }
   }

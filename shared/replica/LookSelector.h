@@ -49,7 +49,7 @@ struct Selector {
   /// The same from `tick` on, counted from the latest start that shows it so.
   Selector rebased(std::uint32_t tick, std::size_t frames) const;
   /// May it be sent at `tick`? It fits, and its age is no more than age() gives: one meaning, one spelling.
-  bool isTellable(std::uint32_t tick, std::size_t frames) const {
+  bool isCanonical(std::uint32_t tick, std::size_t frames) const {
     return fits(frames) && *this == rebased(tick, frames);
   }
 

@@ -1,5 +1,5 @@
 // Where things are drawn, if not where their models say: what a client adds to the picture by itself, like
-// the prediction of its own object. A drawing rule, never part of the replica.
+// the prediction of the player's object. A drawing rule, never part of the replica.
 #pragma once
 
 #include <cstdint>

@@ -33,7 +33,7 @@ void Replica::apply(const Snapshot& snapshot) {
     m_context.number = number;
     if (isNewer(tick, m_context.tick)) m_context.tick = tick;
   }
-  if (snapshot.header.tells_input && isNewer(snapshot.header.input, m_context.input)) {
+  if (snapshot.header.has_input && isNewer(snapshot.header.input, m_context.input)) {
     m_context.input = snapshot.header.input;
   }
   for (const WorldRecord& world : records.worlds) {

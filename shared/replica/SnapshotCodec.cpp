@@ -13,7 +13,7 @@ namespace naiad {
 
 // The layout, drawn out in PROTOCOL.md:
 //
-//   snapshot  number 16 | tick 16 | epoch 2 | complete 1 | tells input 1 (input 16, age 6) | origin slot 2
+//   snapshot  number 16 | tick 16 | epoch 2 | complete 1 | has input 1 (input 16, age 6) | origin slot 2
 //             | extras 1 | objects: exp-Golomb(3) | order of ids 4, if any | each object
 //   extras    rare ones 1 (world 1, view 1, table 1, origins 2, texts 5, then those) | control 1
 //   table     length 10 | bytes (ControlCodec.h)
@@ -111,8 +111,8 @@ TextRecord readText(BitReader& in) {
 class ObjectReader {
  public:
   ObjectReader(BitReader& in, const SnapshotHeader& header, const Origin& origin,
-               const SnapshotDictionary& vocabulary, Records& records)
-      : m_in(in), m_header(header), m_origin(origin), m_dictionary(vocabulary), m_records(records) {}
+               const SnapshotDictionary& dictionary, Records& records)
+      : m_in(in), m_header(header), m_origin(origin), m_dictionary(dictionary), m_records(records) {}
 
   void read() {
     const std::uint64_t count = m_in.golomb(kObjectCountOrder, m_in.bitsLeft());
@@ -174,14 +174,14 @@ class ObjectReader {
         });
   }
 
-  // A name may be explained behind its use, since objects come by id.
+  // A name may be defined after its use, since objects come by id.
   void resolve() {
     for (const auto& [object, id] : m_named) {
       const Sequence* sequence = find(id);
       if (sequence == nullptr) continue;
       Look& look = m_records.objects[object].state.look;
       look.sequence = *sequence;
-      if (!look.selector.isTellable(m_header.tick, look.sequence.size())) m_in.fail();
+      if (!look.selector.isCanonical(m_header.tick, look.sequence.size())) m_in.fail();
     }
   }
 
@@ -211,8 +211,8 @@ SnapshotHeader readHeader(BitReader& in, const SnapshotContext& context) {
   header.tick = restored(in.bits(kLowBits), context.tick);
   header.epoch = static_cast<std::uint8_t>(in.bits(2));
   header.complete = in.flag();
-  header.tells_input = in.flag();
-  if (header.tells_input) {
+  header.has_input = in.flag();
+  if (header.has_input) {
     header.input = restored(in.bits(kLowBits), context.input);
     header.input_tick = header.tick - static_cast<std::uint32_t>(in.bits(kAgeBits));
   }
@@ -247,7 +247,7 @@ void readExtras(BitReader& in, const SnapshotContext& context, const Origin& ori
   if (in.flag()) readRareExtras(in, out.records);
   if (!in.flag()) return;
   const SnapshotHeader& header = out.header;
-  const std::uint32_t input = header.tells_input ? header.input : restored(in.bits(kLowBits), context.input);
+  const std::uint32_t input = header.has_input ? header.input : restored(in.bits(kLowBits), context.input);
   out.records.controls.push_back(readControlRecord(in, header.tick, origin));
   out.records.controls.back().newest_input = input;
 }
@@ -255,16 +255,16 @@ void readExtras(BitReader& in, const SnapshotContext& context, const Origin& ori
 }  // namespace
 
 ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context,
-                        const SnapshotDictionary& vocabulary, Snapshot& out) {
+                        const SnapshotDictionary& dictionary, Snapshot& out) {
   out = {};
   BitReader in(bytes);
   out.header = readHeader(in, context);
   Origin origin;
-  const auto known = vocabulary.find(out.header.number, static_cast<std::uint32_t>(in.bits(2)), origin);
+  const auto known = dictionary.find(out.header.number, static_cast<std::uint32_t>(in.bits(2)), origin);
   if (known == SnapshotDictionary::Find::kUnknown || !in.ok()) return ReadResult::kMalformed;
   if (known == SnapshotDictionary::Find::kStale) return ReadResult::kStale;
   if (in.flag()) readExtras(in, context, origin, out);
-  ObjectReader objects(in, out.header, origin, vocabulary, out.records);
+  ObjectReader objects(in, out.header, origin, dictionary, out.records);
   objects.read();
   if (!in.atEnd()) return ReadResult::kMalformed;
   return objects.isStale() ? ReadResult::kStale : ReadResult::kOk;
@@ -284,7 +284,7 @@ std::optional<std::uint8_t> peekEpoch(std::string_view bytes) {
   return epoch;
 }
 
-void SnapshotWriter::begin(const SnapshotHeader& header, std::uint32_t slot, const Origin& origin) {
+void SnapshotWriter::beginSnapshot(const SnapshotHeader& header, std::uint32_t slot, const Origin& origin) {
   m_header = header;
   m_origin_slot = slot;
   m_origin = origin;
@@ -350,8 +350,8 @@ void SnapshotWriter::writeTable(std::string_view bytes) {
 
 void SnapshotWriter::write(const ControlRecord& record) {
   assert(m_control.bitCount() == 0 && record.tick == m_header.tick);
-  assert(!m_header.tells_input || m_header.input == record.newest_input);
-  if (!m_header.tells_input) m_control.bits(record.newest_input & 0xFFFF, kLowBits);
+  assert(!m_header.has_input || m_header.input == record.newest_input);
+  if (!m_header.has_input) m_control.bits(record.newest_input & 0xFFFF, kLowBits);
   writeControlRecord(m_control, record, m_origin);
   m_bits += m_control.bitCount();
 }
@@ -444,8 +444,8 @@ void SnapshotWriter::finish(std::string& bytes) {
   m_out.bits(m_header.tick & 0xFFFF, kLowBits);
   m_out.bits(m_header.epoch, 2);
   m_out.flag(m_header.complete);
-  m_out.flag(m_header.tells_input);
-  if (m_header.tells_input) {
+  m_out.flag(m_header.has_input);
+  if (m_header.has_input) {
     constexpr std::uint32_t kMaxAge = (1u << kAgeBits) - 1;
     m_out.bits(m_header.input & 0xFFFF, kLowBits);
     m_out.bits(std::min(m_header.tick - m_header.input_tick, kMaxAge), kAgeBits);

@@ -14,14 +14,14 @@
 
 namespace naiad {
 
-/// What a snapshot says of itself. On the wire numbers, ticks and inputs have their 16 low bits only; the
+/// The header of a snapshot. On the wire numbers, ticks and inputs have their 16 low bits only; the
 /// reader restores them near those it knows, so it must not fall behind by 2^15.
 struct SnapshotHeader {
   std::uint32_t number = 0;  ///< never 0
   std::uint32_t tick = 0;    ///< the records hold at its end
-  std::uint8_t epoch = 0;    ///< 0 … 3; another one than before: forget the world, all of it comes again
+  std::uint8_t epoch = 0;    ///< 0 … 3; another one than before: forget the world, all of it is sent again
   bool complete = true;      ///< nothing is pending that this snapshot does not carry
-  bool tells_input = false;  ///< the next two are set
+  bool has_input = false;    ///< the next two are set
   std::uint32_t input = 0;   ///< newest input that reached the game
   std::uint32_t input_tick = 0;  ///< the tick that it was applied in, at most 63 before `tick`, else that
 };
@@ -40,23 +40,23 @@ struct Snapshot {
 
 enum class ReadResult {
   kOk,
-  kStale,      ///< names what a newer snapshot has replaced: drop it, do not acknowledge it
+  kStale,      ///< uses a name that a newer snapshot has replaced: drop it, do not acknowledge it
   kMalformed,  ///< bytes that no honest server sends; `out` is unspecified
 };
 
-/// Read a snapshot. `vocabulary` must be that of the epoch of the snapshot; it is not changed.
+/// Read a snapshot. `dictionary` must be that of the epoch of the snapshot; it is not changed.
 ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context,
-                        const SnapshotDictionary& vocabulary, Snapshot& out);
+                        const SnapshotDictionary& dictionary, Snapshot& out);
 /// The epoch of a snapshot, before it is read; nothing if the bytes are too few.
 std::optional<std::uint8_t> peekEpoch(std::string_view bytes);
-/// What a snapshot says of itself, without its records; nothing if the bytes are too few or malformed.
+/// The header without the records; nothing if the bytes are too few or malformed.
 std::optional<SnapshotHeader> peekHeader(std::string_view bytes, const SnapshotContext& context);
 
 /// Puts a snapshot together, in any order.
 class SnapshotWriter {
  public:
   /// Positions and orders are counted from `origin`, which the client knows under `slot` (0: Origin{}).
-  void begin(const SnapshotHeader& header, std::uint32_t slot, const Origin& origin);
+  void beginSnapshot(const SnapshotHeader& header, std::uint32_t slot, const Origin& origin);
   void write(const WorldRecord& record);
   void write(const ViewRecord& record);
   void write(const OriginRecord& record);
@@ -67,7 +67,7 @@ class SnapshotWriter {
   void write(const ControlRecord& record);
 
   /// The bits of an object's record but for its id. `motion` must hold at the header's tick; that of `state`
-  /// is not looked at.
+  /// is ignored.
   void encode(BitWriter& out, std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
               const Motion& motion, LookForm form = {}) const;
   /// Add an encoded record. Each id at most once.
@@ -83,14 +83,14 @@ class SnapshotWriter {
   /// `last_id`?
   bool hasRoom(std::size_t more, std::uint32_t last_id, std::size_t bytes) const;
   bool isEmpty() const { return m_objects.empty() && m_bits == kHeaderBits; }
-  /// The last word on SnapshotHeader::complete.
+  /// Overrides SnapshotHeader::complete of beginSnapshot().
   void setComplete(bool complete) { m_header.complete = complete; }
   std::string finish() {
     std::string bytes;
     finish(bytes);
     return bytes;
   }
-  /// The same into a string whose memory is used again.
+  /// The same into a string whose memory is reused.
   void finish(std::string& bytes);
 
  private:

@@ -34,7 +34,7 @@ bool SnapshotDictionary::define(std::uint32_t number, const SequenceRecord& reco
   Named<Sequence>& named = m_sequences[record.id];
   if (named.number != 0 && !isNewer(number, named.number)) return true;
   const std::size_t glyphs = m_glyphs - named.value.weight() + record.sequence.weight();
-  if (glyphs > kMaxVocabularyGlyphs) return false;
+  if (glyphs > kMaxDictionaryGlyphs) return false;
   m_glyphs = glyphs;
   named = {number, record.sequence};
   return true;

@@ -1,4 +1,4 @@
-// What snapshots have named for their receiver: origins to count from, sequences of appearances to draw.
+// What snapshots have defined for their receiver: origins to count from, sequences of appearances to draw.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@ namespace naiad {
 inline constexpr int kAppearanceIdBits = 12;
 inline constexpr std::uint32_t kMaxAppearances = 1u << kAppearanceIdBits;
 /// Glyphs of all named sequences together (Sequence::weight); a definition beyond that is refused.
-inline constexpr std::size_t kMaxVocabularyGlyphs = 65'536;
+inline constexpr std::size_t kMaxDictionaryGlyphs = 65'536;
 
 /// Each entry keeps the number of the snapshot that set it. A snapshot that names an entry which a newer one
-/// has set since is *stale*: what it meant is gone, so it must be dropped unacknowledged, as if it were lost.
+/// has set since is *stale*: the old value is gone, so it must be dropped unacknowledged, as if it were lost.
 class SnapshotDictionary {
  public:
   enum class Find { kFound, kStale, kUnknown };
@@ -26,8 +26,8 @@ class SnapshotDictionary {
   /// The sequence that snapshot `number` means by `id`; it stays valid until the next define().
   Find find(std::uint32_t number, std::uint32_t id, const Sequence*& out) const;
 
-  /// Take in what snapshot `number` set; older numbers than the newest of an entry are ignored. False if the
-  /// vocabulary is full.
+  /// Store a definition of snapshot `number`; numbers older than the newest of an entry are ignored. False if
+  /// the dictionary is full.
   void define(std::uint32_t number, const OriginRecord& record);
   bool define(std::uint32_t number, const SequenceRecord& record);
 

@@ -15,16 +15,16 @@ SteeredCopy::SteeredCopy(const ControlRecord& known, const df::ControlTable& tab
                          const Barriers* p_barriers)
     : m_table(table), m_p_barriers(p_barriers), m_now(known) {}
 
-void SteeredCopy::begin() {
+void SteeredCopy::beginTick() {
   ++m_now.tick;
   beginControlTick(m_table, m_now.state, *this);
 }
 
-void SteeredCopy::key(df::Keyboard::Key key, df::EventKeyboardAction action) {
+void SteeredCopy::applyKey(df::Keyboard::Key key, df::EventKeyboardAction action) {
   applyControlKey(m_table, m_now.state, key, action, *this);
 }
 
-void SteeredCopy::finish() {
+void SteeredCopy::finishTick() {
   if (m_now.velocity != df::FixedVector{}) move(m_now.position + m_now.velocity, true);
   const df::FixedVector next = m_now.velocity + m_now.acceleration;
   if (isWithin(next, df::kMaxVelocityCells)) m_now.velocity = next;
@@ -40,8 +40,8 @@ void SteeredCopy::move(df::FixedVector to, bool in_update) {
 ControlRecord coast(const ControlRecord& known, const df::ControlTable& table, std::uint32_t tick) {
   SteeredCopy copy(known, table);
   for (int i = 0; i < kMaxCoasting && copy.now().tick != tick; ++i) {
-    copy.begin();
-    copy.finish();
+    copy.beginTick();
+    copy.finishTick();
   }
   ControlRecord then = copy.now();
   then.tick = tick;

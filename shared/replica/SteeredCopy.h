@@ -1,9 +1,9 @@
-// A copy of what a player steers, that runs ahead of what is known of it: on the client to draw it, on the
+// A copy of the object that a player steers, ahead of its last known state: on the client to draw it, on the
 // server to find out what the client draws.
 //
-// One tick is begin(), key() for each input, finish(): the order of World::tick(). It equals the engine's
-// object to the last bit as long as nothing but the table, its own motion and the barriers change its path;
-// handlers of the game, swept moves, masks and setMayMoveOut() are not known here.
+// One tick is beginTick(), applyKey() for each input, finishTick(): the order of World::tick(). It equals the
+// engine's object to the last bit as long as nothing but the table, its own motion and the barriers change
+// its path; handlers of the game, swept moves, masks and setMayMoveOut() are not known here.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace naiad {
 
-/// What stands in the way of a copy.
+/// What blocks a copy.
 class Barriers {
  public:
   virtual ~Barriers() = default;
@@ -29,13 +29,13 @@ class SteeredCopy : public Steered {
   SteeredCopy(const ControlRecord& known, const df::ControlTable& table,
               const Barriers* p_barriers = nullptr);
 
-  void begin();
-  void key(df::Keyboard::Key key, df::EventKeyboardAction action);
-  void finish();
+  void beginTick();
+  void applyKey(df::Keyboard::Key key, df::EventKeyboardAction action);
+  void finishTick();
 
-  /// The state after the last finish(); its newest_input is the caller's business.
+  /// The state after the last finishTick(); its newest_input is left to the caller.
   const ControlRecord& now() const { return m_now; }
-  /// All places it was put since the beginning, for the view that follows it.
+  /// All positions since the beginning, for the view that follows it.
   const std::vector<df::FixedVector>& trail() const { return m_trail; }
 
   df::FixedVector position() const override { return m_now.position; }
@@ -55,8 +55,8 @@ class SteeredCopy : public Steered {
 /// Ticks after which a state that still changes by itself is sent again.
 inline constexpr int kMaxCoasting = 30;
 
-/// What a client that knows `known` and hears no more takes for true at `tick`, where nothing is in the way;
-/// after kMaxCoasting ticks: that nothing changes any more. A server need not send a state that equals it.
+/// The state that a client which knows only `known` assumes at `tick`: no keys, no obstacles, and no change
+/// after kMaxCoasting ticks (dead reckoning). A server need not send a state that equals it.
 ControlRecord coast(const ControlRecord& known, const df::ControlTable& table, std::uint32_t tick);
 
 }  // namespace naiad

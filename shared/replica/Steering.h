@@ -21,12 +21,12 @@ class Steered {
   virtual void moveTo(df::FixedVector position) = 0;
 };
 
-/// A tick begins: waits get shorter, keys that went up in the last tick no longer pull, keyboards that have
-/// been silent for too long are let go; then the drives and the bounds set the velocity.
+/// A tick begins: waits get shorter, keys that went up in the last tick no longer pull, a keyboard that has
+/// been silent for too long releases its drives; then the drives and the bounds set the velocity.
 void beginControlTick(const df::ControlTable& table, df::ControlState& state, Steered& object);
 
-/// A key did something. A drive acts at once when its key is pressed; if the key is only reported as still
-/// down, or goes up, with the next tick. Return whether a row of the table is for it (and there is an
+/// Apply an action of a key. A drive acts immediately when its key is pressed, and with the next tick when
+/// the key is reported as held or goes up. Returns whether a row of the table is for the key (and there is an
 /// object to steer).
 bool applyControlKey(const df::ControlTable& table, df::ControlState& state, df::Keyboard::Key key,
                      df::EventKeyboardAction action, Steered& object);

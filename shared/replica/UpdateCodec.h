@@ -15,7 +15,7 @@ namespace naiad {
 /// One key or mouse action. Ids count up from 1 in a session; the server applies each once, in order.
 struct Input {
   std::uint32_t id = 0;
-  std::uint32_t tick = 0;      ///< of a key: the one that should take it in; of the mouse: the one drawn
+  std::uint32_t tick = 0;      ///< of a key: the one that should apply it; of the mouse: the one drawn
   std::uint32_t snapshot = 0;  ///< the newest snapshot applied then
   bool is_mouse = false;
   std::uint8_t action = 0;  ///< df::EventKeyboardAction or df::EventMouseAction

@@ -32,7 +32,7 @@ inline const Origin& preludeOrigin(std::uint64_t slot) {
 /// text, the names, and six objects.
 inline std::string preludeSnapshot() {
   SnapshotWriter writer;
-  writer.begin({1, kPreludeTick, 0, true, false, 0, 0}, 0, {});
+  writer.beginSnapshot({1, kPreludeTick, 0, true, false, 0, 0}, 0, {});
   writer.write(WorldRecord{{{}, {df::fromCells(120), df::fromCells(50)}}, 40, 20, df::BLACK});
   writer.write(ViewRecord{{df::fromCells(3), 0}, true, 0, 1});
   for (std::uint32_t slot = 1; slot <= kOriginSlots; ++slot) {

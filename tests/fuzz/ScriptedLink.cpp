@@ -162,7 +162,7 @@ void ScriptedLink::hear(const std::string& bytes) {
   REQUIRE(result != ReadResult::kMalformed);
   if (result == ReadResult::kStale) return;
   m_replica.apply(snapshot);
-  m_acks.note(snapshot.header.number);
+  m_acks.addReceived(snapshot.header.number);
 }
 
 void ScriptedLink::answer(bool arrives) {

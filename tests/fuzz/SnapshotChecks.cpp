@@ -44,7 +44,7 @@ void requireGood(const ObjectRecord& record, std::uint32_t tick) {
   const Look& look = record.state.look;
   REQUIRE(look.altitude >= 0 && look.altitude < 256 && look.sequence.size() <= kMaxFrames);
   requireGood(look.sequence);
-  REQUIRE(look.selector.isTellable(tick, look.sequence.size()));
+  REQUIRE(look.selector.isCanonical(tick, look.sequence.size()));
   const Body& body = record.state.body;
   REQUIRE(body.box.size.x >= 0 && body.box.size.y >= 0);
   REQUIRE(static_cast<unsigned>(body.solidness) <= df::SPECTRAL);
@@ -94,7 +94,7 @@ void requireSameWhenWrittenAgain(const Snapshot& snapshot) {
           ReadResult::kOk);
   REQUIRE(again.header.number == header.number && again.header.tick == header.tick);
   REQUIRE(again.header.epoch == header.epoch && again.header.complete == header.complete);
-  REQUIRE(again.header.tells_input == header.tells_input && again.header.input == header.input);
+  REQUIRE(again.header.has_input == header.has_input && again.header.input == header.input);
   REQUIRE(again.header.input_tick == header.input_tick);
   REQUIRE(again.records.worlds == records.worlds && again.records.views == records.views);
   REQUIRE(again.records.origins == records.origins && again.records.texts == records.texts);

@@ -97,7 +97,7 @@ TEST_F(PredictionPlay, AKeyShowsInTheNextFrameAndComesTrue) {
   }
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
     shown(ann);
-    return ann.session().predict(Clock::now()).unanswered() == 0;
+    return ann.session().predict(Clock::now()).pendingInputs() == 0;
   }));
   EXPECT_EQ(shown(ann), real());
   EXPECT_EQ(real(), (start + df::FixedVector{df::fromCells(x), 0}));

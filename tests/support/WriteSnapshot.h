@@ -11,7 +11,7 @@ namespace naiad::test {
 inline std::string writeSnapshot(const SnapshotHeader& header, const Records& records, std::uint32_t slot = 0,
                                  const Origin& origin = {}) {
   SnapshotWriter out;
-  out.begin(header, slot, origin);
+  out.beginSnapshot(header, slot, origin);
   for (const WorldRecord& record : records.worlds) out.write(record);
   for (const ViewRecord& record : records.views) out.write(record);
   for (const OriginRecord& record : records.origins) out.write(record);

@@ -15,7 +15,7 @@ wire::ServerMessage onBlue() {
   header.number = 2;
   header.tick = 101;
   SnapshotWriter out;
-  out.begin(header, 0, {});
+  out.beginSnapshot(header, 0, {});
   out.write(WorldRecord{{{}, {df::fromCells(80), df::fromCells(24)}}, 80, 24, df::BLUE});
   wire::ServerMessage message;
   message.set_snapshot(out.finish());

@@ -71,7 +71,7 @@ void FakeServer::welcome() {
   header.number = 1;
   header.tick = 100;
   SnapshotWriter out;
-  out.begin(header, 0, {});
+  out.beginSnapshot(header, 0, {});
   WorldRecord world;
   world.boundary = {{}, {df::fromCells(80), df::fromCells(24)}};
   out.write(world);
@@ -90,7 +90,7 @@ void FakeServer::welcome() {
   m_channel->send(snapshot.SerializeAsString());
 }
 
-bool FakeServer::heard(const std::function<bool(const wire::ClientMessage&)>& wanted) {
+bool FakeServer::hasReceived(const std::function<bool(const wire::ClientMessage&)>& wanted) {
   std::unique_lock lock(m_mutex);
   return m_changed.wait_for(lock, std::chrono::seconds(10), [this, &wanted] {
     for (const wire::ClientMessage& message : m_messages) {
@@ -101,7 +101,7 @@ bool FakeServer::heard(const std::function<bool(const wire::ClientMessage&)>& wa
 }
 
 bool FakeServer::heardInput(const std::function<bool(const Input&)>& wanted) {
-  return heard([&wanted](const wire::ClientMessage& message) {
+  return hasReceived([&wanted](const wire::ClientMessage& message) {
     const auto update =
         message.what_case() == wire::ClientMessage::kUpdate ? readUpdate(message.update(), {}) : std::nullopt;
     return update && std::any_of(update->inputs.begin(), update->inputs.end(), wanted);

@@ -1,5 +1,5 @@
 // A server of one picture, for tests of the client's terminal: says Welcome, sends one object and keeps
-// count of what it hears. Runs in its own thread.
+// count of the messages it receives. Runs in its own thread.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -28,7 +28,7 @@ class FakeServer {
   std::string address() const { return "127.0.0.1:" + std::to_string(m_port); }
 
   /// Wait until the client sent a message for which `wanted` holds; false after 10 s.
-  bool heard(const std::function<bool(const wire::ClientMessage&)>& wanted);
+  bool hasReceived(const std::function<bool(const wire::ClientMessage&)>& wanted);
   /// Wait until an input arrived for which `wanted` holds.
   bool heardInput(const std::function<bool(const Input&)>& wanted);
   /// Wait until a key action arrived.
@@ -37,7 +37,7 @@ class FakeServer {
   void onWelcome(std::function<void(wire::ServerMessage&)> change);
   /// Send the client a message.
   void send(const wire::ServerMessage& message);
-  /// Hang up without a word.
+  /// Hang up without a goodbye.
   void drop();
 
  private:

@@ -135,7 +135,7 @@ TEST_F(HostileTextTest, ChatAndNamesOfEveryClassReachTheTerminalHarmless) {
   expectHarmless(terminal, "chat and names");
 }
 
-TEST_F(HostileTextTest, LastWordsOfEveryClassReachTheTerminalHarmless) {
+TEST_F(HostileTextTest, GoodbyesOfEveryClassReachTheTerminalHarmless) {
   for (const std::string& hostile : gathered()) {
     PtyTerminal terminal(options());
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE"));

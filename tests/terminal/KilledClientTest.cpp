@@ -122,7 +122,7 @@ TEST_F(KilledClientTest, IsForgottenIfThePlayerWantsIt) {
   EXPECT_NE(said.find("ann2 joined"), std::string::npos) << said;
 }
 
-TEST_F(KilledClientTest, AFileThatOthersCanReadIsRefusedInWords) {
+TEST_F(KilledClientTest, AFileThatOthersCanReadIsReported) {
   auto terminal = join();
   kill(*terminal);
   namespace fs = std::filesystem;

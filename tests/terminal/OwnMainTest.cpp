@@ -1,4 +1,4 @@
-// A game with a main() of its own that knows of no network (lone/game.cpp): what it is when it is started,
+// A game with its own main(), written without a network (lone/game.cpp): what it is when it is started,
 // alone in a terminal, without one, headless, and loaded by dfserver. Real processes, terminals and sockets.
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -174,7 +174,7 @@ TEST_F(OwnMain, ItsOwnClientKnowsThePassword) {
   expectOrderlyEnd(*game);
 }
 
-TEST_F(OwnMain, OneKeyDoesNotEndEverybodysGame) {
+TEST_F(OwnMain, OneKeyDoesNotEndTheGameForAll) {
   auto game = startServer();
   auto ann = join("ann");
   auto bob = join("bob");
@@ -189,7 +189,7 @@ TEST_F(OwnMain, OneKeyDoesNotEndEverybodysGame) {
   expectOrderlyEnd(*game);
 }
 
-TEST_F(OwnMain, UnlessTheHostWantsThat) {
+TEST_F(OwnMain, OneKeyEndsTheGameForAllIfTheHostWantsThat) {
   configure("on_game_over:exit,\n");
   auto game = startServer();
   auto ann = join("ann");

@@ -54,7 +54,7 @@ TEST_F(TerminalSoundTest, RingsTheBellOnceHoweverManyThereAre) {
   EXPECT_LE(bells(terminal), 3) << "fifty sounds within a moment";
 }
 
-TEST_F(TerminalSoundTest, IsNothingIfNothingIsWanted) {
+TEST_F(TerminalSoundTest, IsNothingIfSwitchedOff) {
   PtyTerminal terminal(options("off"));
   play(terminal);
   EXPECT_EQ(terminal.output().find("pew"), std::string::npos);

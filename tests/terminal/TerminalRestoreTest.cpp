@@ -49,7 +49,7 @@ TEST_F(TerminalRestoreTest, AfterLeaving) {
   const int status = terminal.waitForExit();
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
-  EXPECT_TRUE(server.heard([](const wire::ClientMessage& m) { return m.has_leave(); }));
+  EXPECT_TRUE(server.hasReceived([](const wire::ClientMessage& m) { return m.has_leave(); }));
   expectRestored(terminal);
 }
 
@@ -113,7 +113,7 @@ TEST_F(TerminalRestoreTest, KittyKeysHaveRealReleases) {
   PtyTerminal::Options with = options();
   with.answer_kitty = true;
   PtyTerminal terminal(with);
-  ASSERT_TRUE(terminal.waitFor("\033[>31u")) << "pushed after the answer";
+  ASSERT_TRUE(terminal.waitFor("\033[>31u")) << "pushed after the reply";
   terminal.type("\033[97u");
   EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_PRESSED));
   EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_DOWN));
@@ -124,8 +124,8 @@ TEST_F(TerminalRestoreTest, KittyKeysHaveRealReleases) {
   terminal.type("\033[93;5u\033[93;5:3u\033[116u");  // Ctrl-] t
   ASSERT_TRUE(terminal.waitFor("\033[<u")) << "text needs the terminal's own keyboard layout";
   terminal.type("hi\r");
-  EXPECT_TRUE(
-      server.heard([](const wire::ClientMessage& m) { return m.has_chat() && m.chat().text() == "hi"; }));
+  EXPECT_TRUE(server.hasReceived(
+      [](const wire::ClientMessage& m) { return m.has_chat() && m.chat().text() == "hi"; }));
   EXPECT_TRUE(terminal.waitFor("\033[>31u"));
   terminal.type("\033[99;5u");
   EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 0);
@@ -144,7 +144,7 @@ TEST_F(TerminalRestoreTest, PlainKeysMouseAndResize) {
   }));
   terminal.resize(15, 5);
   EXPECT_TRUE(terminal.waitFor("too small"));
-  EXPECT_TRUE(server.heard(
+  EXPECT_TRUE(server.hasReceived(
       [](const wire::ClientMessage& m) { return m.has_resize() && m.resize().columns() == 15; }));
   terminal.forget();
   terminal.resize(90, 28);
@@ -156,7 +156,7 @@ TEST_F(TerminalRestoreTest, FindsALostServerAgain) {
   join(terminal);
   server.drop();
   EXPECT_TRUE(terminal.waitFor("looking for it"));
-  EXPECT_TRUE(server.heard(
+  EXPECT_TRUE(server.hasReceived(
       [hellos = 0](const wire::ClientMessage& m) mutable { return m.has_hello() && ++hellos == 2; }));
   terminal.type("\x03");
   EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 0);

@@ -15,8 +15,8 @@ bool AckedControl::implies(const ControlRecord& actual, const df::ControlTable& 
   if (!m_has_record) return false;
   for (; m_coasted < kMaxCoasting && !m_at_rest && m_model.tick != actual.tick; ++m_coasted) {
     SteeredCopy copy(m_model, table);
-    copy.begin();
-    copy.finish();
+    copy.beginTick();
+    copy.finishTick();
     ControlRecord next = copy.now();
     m_model.tick = next.tick;
     m_at_rest = next == m_model;

@@ -25,7 +25,7 @@ class AppearanceNames {
 
  private:
   /// Half of what the client holds, since it keeps the old meaning of an id until the id has a new one.
-  static constexpr std::size_t kMaxGlyphs = kMaxVocabularyGlyphs / 2;
+  static constexpr std::size_t kMaxGlyphs = kMaxDictionaryGlyphs / 2;
   struct Name {
     std::uint32_t id = 0;
     std::size_t glyphs = 0;

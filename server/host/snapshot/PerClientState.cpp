@@ -165,7 +165,7 @@ void PerClientState::queueControl(std::uint32_t tick, const KnownObjects& known)
 void PerClientState::writeInput(SnapshotHeader& header) const {
   const State& input = m_states[kInput];
   if (!isPending(kInput) && (input.sent == 0 || input.arrived)) return;
-  header.tells_input = true;
+  header.has_input = true;
   header.input = m_input;
   header.input_tick = m_input_tick;
 }

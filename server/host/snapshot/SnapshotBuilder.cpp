@@ -28,7 +28,7 @@ void SnapshotBuilder::beginSnapshot(const SnapshotHeader& header, ClientReplica&
   m_p_replica = &replica;
   m_p_flight = &flight;
   m_p_redundancy = redundancy;
-  m_writer.begin(header, replica.state.origins().slot(), replica.state.origins().window());
+  m_writer.beginSnapshot(header, replica.state.origins().slot(), replica.state.origins().window());
 }
 
 void SnapshotBuilder::writeState(std::size_t limit) {

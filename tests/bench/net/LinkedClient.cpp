@@ -51,7 +51,7 @@ void LinkedClient::clientHears(std::string_view bytes) {
   if (m_replica.read(bytes, snapshot) != ReadResult::kOk) return;
   if (on_snapshot) on_snapshot(snapshot);
   m_replica.apply(snapshot);
-  m_acks.note(snapshot.header.number);
+  m_acks.addReceived(snapshot.header.number);
   m_display.noteSnapshot(snapshot.header.tick, now());
   ClientUpdate update;
   update.acks = m_acks;

@@ -70,7 +70,7 @@ TEST_F(TruthFileTest, IgnoresAnUnfinishedRecord) {
   }
 }
 
-TEST_F(TruthFileTest, RefusesWhatIsNoTruthFile) {
+TEST_F(TruthFileTest, RefusesOtherFiles) {
   for (const char* text : {"hello\n", "tick 1 player 1 4 2 9\n", "tick 1 player 1 -4 2\n",
                            "tick 1 player 1 99999 99999\n", "tick 1 player 1 2 1\nabc\n..\n\n",
                            "tick 1 player 1 2 1\nab\n9.\n\n", "tick 1 player 1 2 1\nab\n11\nx\n"}) {
@@ -137,7 +137,7 @@ TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
   EXPECT_FALSE(recorder.compare(path + "-none", 1).readable);
 }
 
-TEST_F(TruthFileTest, RecorderLeavesOutWhatTheServerSaysIsNotWhole) {
+TEST_F(TruthFileTest, RecorderLeavesOutIncompleteTicks) {
   const Replica replica;
   TruthRecorder recorder;
   const auto take = [&](std::uint32_t tick, bool complete, bool skips) {

@@ -52,7 +52,7 @@ TEST_F(ClientReturn, AHelloOfAnotherProcessSaysSo) {
   EXPECT_EQ(heard(), std::vector<std::string>{"You are back in your old session."});
 }
 
-TEST_F(ClientReturn, NumbersGoOnFromWhereTheyWere) {
+TEST_F(ClientReturn, NumbersContinueFromTheWelcome) {
   for (const std::uint32_t at : {70'000u, 0x80000005u, 0xFFFF0000u}) {
     restart(Continuation{at, 2, at + 9});
     ASSERT_EQ(session->state(), ClientSession::State::kPlaying);
@@ -61,7 +61,7 @@ TEST_F(ClientReturn, NumbersGoOnFromWhereTheyWere) {
     header.tick = 5;
     header.epoch = 2;
     SnapshotWriter out;
-    out.begin(header, 0, {});
+    out.beginSnapshot(header, 0, {});
     wire::ServerMessage message;
     message.set_snapshot(out.finish());
     receive(message);
@@ -77,7 +77,7 @@ TEST_F(ClientReturn, NumbersGoOnFromWhereTheyWere) {
   }
 }
 
-TEST_F(ClientReturn, AServerThatLeavesOutWhereToGoOnIsBroken) {
+TEST_F(ClientReturn, AWelcomeWithoutContinuationIsRejected) {
   restart(std::nullopt);
   EXPECT_EQ(session->state(), ClientSession::State::kEnded);
 }
@@ -99,7 +99,7 @@ TEST_F(ClientReturn, AWorldEpochOutOfRangeIsRefused) {
   expectRejected();
 }
 
-TEST_F(ClientReturn, ReliableFramesAreTakenOnceAndAcknowledged) {
+TEST_F(ClientReturn, ReliableFramesCountOnceAndAreAcknowledged) {
   join();
   receive(line("one", 1));
   receive(line("two", 2));
@@ -115,7 +115,7 @@ TEST_F(ClientReturn, ReliableFramesAreTakenOnceAndAcknowledged) {
   EXPECT_EQ(lastPing()->received(), 2u);
 }
 
-TEST_F(ClientReturn, MuchIsAcknowledgedAtOnce) {
+TEST_F(ClientReturn, LargeAmountsAreAcknowledgedImmediately) {
   join();
   const std::size_t before = log.sent.size();
   std::uint32_t number = 0;
@@ -129,7 +129,7 @@ TEST_F(ClientReturn, MuchIsAcknowledgedAtOnce) {
   EXPECT_EQ(lastPing()->received(), session->receivedFrames());
 }
 
-TEST_F(ClientReturn, LinesWaitForAStreamAndAreSaidAgainUntilAcknowledged) {
+TEST_F(ClientReturn, ChatWaitsForAStreamAndIsSentAgainUntilAcknowledged) {
   wire::ServerMessage welcome = welcomeMessage();
   welcome.mutable_welcome()->set_resume_token("token");
   receive(welcome);
@@ -160,7 +160,7 @@ TEST_F(ClientReturn, LinesWaitForAStreamAndAreSaidAgainUntilAcknowledged) {
   session.reset();  // `next` must outlive its channel
 }
 
-TEST_F(ClientReturn, TooMuchThatWaitsIsNotTaken) {
+TEST_F(ClientReturn, ChatBeyondTheLimitIsDropped) {
   wire::ServerMessage welcome = welcomeMessage();
   welcome.mutable_welcome()->set_resume_token("token");
   receive(welcome);

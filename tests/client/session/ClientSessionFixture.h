@@ -52,11 +52,11 @@ class ClientSessionFixture : public testing::Test {
     SnapshotHeader header;
     header.number = number;
     header.tick = tick;
-    header.tells_input = input != 0;
+    header.has_input = input != 0;
     header.input = input;
     header.input_tick = tick;
     SnapshotWriter out;
-    out.begin(header, 0, {});
+    out.beginSnapshot(header, 0, {});
     ObjectState state;
     state.motion = {tick, {df::fromCells(10), df::fromCells(4)}, {}, {}};
     state.look.sequence = {{Glyph{0, 0, U'@', df::RED}}};

@@ -89,7 +89,7 @@ TEST_F(ClientSessionTest, ObserverSeesTheReplicaBeforeTheSnapshot) {
   EXPECT_EQ(seen, (std::vector<std::pair<std::uint32_t, std::size_t>>{{100, 0}, {101, 1}}));
 }
 
-TEST_F(ClientSessionTest, InputsAreNumberedFromOneAndNameWhatWasSeen) {
+TEST_F(ClientSessionTest, InputsAreNumberedFromOneAndNameTheNewestSnapshot) {
   join();
   snapshot(7, 100);
   EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
@@ -126,7 +126,7 @@ TEST_F(ClientSessionTest, AStaleSnapshotIsDroppedAndNotAcknowledged) {
     header.number = number;
     header.tick = 100;
     SnapshotWriter out;
-    out.begin(header, slot, {});
+    out.beginSnapshot(header, slot, {});
     if (sets) out.write(OriginRecord{1, {}});
     wire::ServerMessage message;
     message.set_snapshot(out.finish());
@@ -145,7 +145,7 @@ TEST_F(ClientSessionTest, AStaleSnapshotIsDroppedAndNotAcknowledged) {
   EXPECT_EQ(lastUpdate().acks.mask, 0b101u);
 }
 
-TEST_F(ClientSessionTest, SendsNoInputBeforeTheWelcomeNorKeysThatAreNone) {
+TEST_F(ClientSessionTest, SendsNoInputBeforeTheWelcomeAndNoInvalidKeys) {
   EXPECT_FALSE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
   join();
   EXPECT_FALSE(session->sendKey(df::Keyboard::UNDEFINED_KEY, df::KEY_PRESSED, now));
@@ -251,11 +251,11 @@ TEST_F(ClientSessionTest, AWorldSentAgainContinuesTheNumbers) {
   header.number = 40'002;
   header.tick = 13;
   header.epoch = 1;
-  header.tells_input = true;
+  header.has_input = true;
   header.input = 40'001;
   header.input_tick = 13;
   SnapshotWriter out;
-  out.begin(header, 0, {});
+  out.beginSnapshot(header, 0, {});
   wire::ServerMessage message;
   message.set_snapshot(out.finish());
   receive(message);
@@ -266,7 +266,7 @@ TEST_F(ClientSessionTest, AWorldSentAgainContinuesTheNumbers) {
   EXPECT_EQ(lastUpdate().acks.newest, 40'002u);
 }
 
-TEST_F(ClientSessionTest, AWorldAfterTheNextIsCaughtUpWith) {
+TEST_F(ClientSessionTest, AWorldSeveralResetsLaterIsAccepted) {
   join();
   snapshot(1, 10);
   for (const auto& [number, epoch, resets] :
@@ -277,12 +277,12 @@ TEST_F(ClientSessionTest, AWorldAfterTheNextIsCaughtUpWith) {
     header.epoch = static_cast<std::uint8_t>(epoch);
     header.complete = true;
     SnapshotWriter out;
-    out.begin(header, 0, {});
+    out.beginSnapshot(header, 0, {});
     wire::ServerMessage message;
     message.set_snapshot(out.finish());
     receive(message);
     EXPECT_EQ(session->counters().resets, resets)
-        << "55 is late, of the epoch before; 70 is three worlds further";
+        << "55 is late, of the epoch before; 70 begins the world after next";
   }
   EXPECT_EQ(session->replica().newest().number, 70u);
 }
@@ -293,7 +293,7 @@ TEST_F(ClientSessionTest, ClosedChannelIsALostServer) {
   EXPECT_EQ(session->state(), State::kLost);
 }
 
-TEST_F(ClientSessionTest, LeavingTellsTheServer) {
+TEST_F(ClientSessionTest, LeavingSendsALeaveMessage) {
   join();
   session->leave();
   EXPECT_TRUE(last().has_leave());
@@ -348,7 +348,7 @@ TEST_F(ClientSessionTest, SoundsAreHandedOnOnce) {
   EXPECT_EQ(session->counters().repeated_frames, 1u);
   message.clear_number();
   for (int i = 0; i < 100; ++i) receive(message);
-  EXPECT_EQ(session->takeSounds().size(), ReliableInbox::kMaxUnheard);
+  EXPECT_EQ(session->takeSounds().size(), ReliableInbox::kMaxSounds);
   EXPECT_EQ(session->counters().sounds, 101u);
 }
 

@@ -11,7 +11,7 @@ std::vector<std::uint32_t> ids(const std::vector<Input>& inputs) {
   return found;
 }
 
-TEST(InputOutbox, KeepsInputsUntilTheGameHasHadThem) {
+TEST(InputOutbox, KeepsInputsUntilTheyAreAcknowledged) {
   InputOutbox outbox;
   EXPECT_TRUE(outbox.isEmpty());
   for (int i = 0; i < 4; ++i) outbox.add({});
@@ -35,7 +35,7 @@ TEST(InputOutbox, SendsEachOnceOnAStream) {
   EXPECT_EQ(ids(outbox.takeForStream()), (std::vector<std::uint32_t>{2, 3}));
 }
 
-TEST(InputOutbox, GoesOnAfterTheIdsOfAnotherProcess) {
+TEST(InputOutbox, ContinuesTheIdsOfAnotherProcess) {
   InputOutbox outbox;
   outbox.start(0xFFFFFFF0, std::chrono::milliseconds(33));
   outbox.add({});
@@ -44,7 +44,7 @@ TEST(InputOutbox, GoesOnAfterTheIdsOfAnotherProcess) {
   EXPECT_TRUE(outbox.removeUpTo(0xFFFFFFF1));
 }
 
-TEST(InputOutbox, HasRoomLeftForKeysThatGoUp) {
+TEST(InputOutbox, KeepsRoomForKeyReleases) {
   InputOutbox outbox;
   while (!outbox.isFull(false)) outbox.add({});
   EXPECT_EQ(outbox.all().size(), InputOutbox::kMax);

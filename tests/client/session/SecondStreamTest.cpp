@@ -31,7 +31,7 @@ class SecondStreamTest : public ClientSessionFixture {
   SecondStream stream;
 };
 
-TEST_F(SecondStreamTest, SaysHelloAndWaitsForAYes) {
+TEST_F(SecondStreamTest, SaysHelloAndWaitsForTheWelcome) {
   ASSERT_EQ(line.sent.size(), 1u);
   EXPECT_TRUE(line.sent[0].hello().second_stream());
   EXPECT_EQ(line.sent[0].hello().resume_token(), "token");
@@ -44,29 +44,29 @@ TEST_F(SecondStreamTest, SaysHelloAndWaitsForAYes) {
   EXPECT_EQ(snapshots.size(), 1u);
 }
 
-TEST_F(SecondStreamTest, AServerThatTookItForAnotherPlayersHelloLosesIt) {
+TEST_F(SecondStreamTest, AWelcomeToANewPlayerClosesIt) {
   line.receive(welcomeMessage());
   EXPECT_FALSE(stream.isOpen());
   EXPECT_TRUE(line.destroyed);
 }
 
-TEST_F(SecondStreamTest, NothingButSnapshotsComesOnIt) {
+TEST_F(SecondStreamTest, OnlySnapshotsAreAcceptedOnIt) {
   wire::ServerMessage chat;
   chat.mutable_chat()->set_text("hello");
   for (const wire::ServerMessage& message : {snapshotMessage(1, 1), chat, yes(), wire::ServerMessage{}}) {
     MessageLine<wire::ClientMessage> other;
-    SecondStream hears;
-    hears.start(std::make_unique<FakeChannel>(other), {},
+    SecondStream second;
+    second.start(std::make_unique<FakeChannel>(other), {},
                 [this](std::string_view bytes) { snapshots.emplace_back(bytes); });
     if (!message.has_snapshot()) other.receive(yes());
     other.receive(message);
-    EXPECT_FALSE(hears.isOpen()) << message.what_case();
+    EXPECT_FALSE(second.isOpen()) << message.what_case();
     EXPECT_TRUE(other.destroyed);
   }
   EXPECT_TRUE(snapshots.empty()) << "none before the yes";
 }
 
-TEST_F(SecondStreamTest, WhatWaitsOnItIsNotWaitedFor) {
+TEST_F(SecondStreamTest, NothingIsSentWhileBytesWaitOnIt) {
   line.receive(yes());
   line.unsent = 1;
   stream.send(wire::ClientMessage().SerializeAsString());
@@ -94,7 +94,7 @@ TEST_F(SecondStreamTest, AttemptsThatFailBecomeSeldom) {
   EXPECT_FALSE(stream.takeAttempt(now)) << "there is one";
 }
 
-TEST_F(SecondStreamTest, OneThatLastedMayBeReplacedSoon) {
+TEST_F(SecondStreamTest, AStreamThatLastedMayBeReplacedSoon) {
   for (const auto& [lasts, attempts_then] : {std::pair{1s, 1}, {100s, 4}}) {
     MessageLine<wire::ClientMessage> other;
     SecondStream again;
@@ -114,24 +114,24 @@ TEST_F(SecondStreamTest, OneThatLastedMayBeReplacedSoon) {
   }
 }
 
-TEST_F(SecondStreamTest, OneThatIsSilentIsGivenUp) {
-  now += SecondStream::kIdleTimer - 1ms;
+TEST_F(SecondStreamTest, ASilentStreamIsGivenUp) {
+  now += SecondStream::kMaxSilence - 1ms;
   stream.update(now);
   EXPECT_FALSE(line.destroyed);
   line.receive(yes());
   for (int i = 0; i < 5; ++i) {
-    now += SecondStream::kIdleTimer - 1ms;
+    now += SecondStream::kMaxSilence - 1ms;
     stream.update(now);
     EXPECT_TRUE(stream.isOpen());
     line.receive(snapshotMessage(1, 1));
   }
-  now += SecondStream::kIdleTimer;
+  now += SecondStream::kMaxSilence;
   stream.update(now);
   EXPECT_FALSE(stream.isOpen());
   EXPECT_TRUE(line.destroyed);
 }
 
-TEST_F(SecondStreamTest, KnowsTheLastSnapshotsAgain) {
+TEST_F(SecondStreamTest, RecognisesRepeatedSnapshots) {
   EXPECT_FALSE(stream.isRepeat("0"));
   for (int i = 1; i < 64; ++i) EXPECT_FALSE(stream.isRepeat(std::to_string(i)));
   for (int i = 0; i < 64; ++i) EXPECT_TRUE(stream.isRepeat(std::to_string(i)));
@@ -139,7 +139,7 @@ TEST_F(SecondStreamTest, KnowsTheLastSnapshotsAgain) {
   EXPECT_FALSE(stream.isRepeat("0")) << "long ago";
 }
 
-TEST_F(SecondStreamTest, ASessionWithoutDatagramsOfItsOwnWantsNone) {
+TEST_F(SecondStreamTest, ASessionWithoutKeysForDatagramsOpensNone) {
   wire::ServerMessage message = welcomeMessage();
   message.mutable_welcome()->set_second_stream(true);
   receive(message);

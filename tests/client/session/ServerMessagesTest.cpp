@@ -119,12 +119,12 @@ std::vector<wire::ServerMessage> validMessages(const std::string& text) {
   return all;
 }
 
-TEST(ServerMessages, ValidOnesAreTakenIn) {
+TEST(ServerMessages, ValidMessagesAreRead) {
   for (const wire::ServerMessage& message : validMessages("Ann"))
     EXPECT_TRUE(readServerMessage(message.SerializeAsString())) << message.what_case();
 }
 
-TEST(ServerMessages, MutatedOnesAreRefusedOrGood) {
+TEST(ServerMessages, MutatedMessagesAreRefusedOrValid) {
   SplitMix64 random(3);
   std::size_t taken = 0;
   for (int i = 0; i < 40'000; ++i) {
@@ -183,7 +183,7 @@ TEST(ServerMessages, EveryNumberHasItsRange) {
   }
 }
 
-TEST(ServerMessages, MoreSoundsThanMayBeAreRefused) {
+TEST(ServerMessages, TooManySoundsAreRefused) {
   wire::ServerMessage message = validMessages("fire")[7];
   const auto value = readServerMessage(message.SerializeAsString());
   ASSERT_TRUE(value);

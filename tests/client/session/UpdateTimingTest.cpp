@@ -30,7 +30,7 @@ TEST(UpdateTiming, ProbesEagerlyForAWhileAfterDatagramsCame) {
   EXPECT_NEAR(probes(timing, start + PathProbe::kEagerFor, start + 20s, false), 10, 1);
 }
 
-TEST(UpdateTiming, ProbesEagerlyAsLongAsThereIsNoOtherWay) {
+TEST(UpdateTiming, ProbesEagerlyWhileThereIsNoStream) {
   const Time start{1h};
   UpdateTiming timing;
   timing.noteAttached(start - 60s);

@@ -68,7 +68,7 @@ TEST(HeldKeys, KeysAreIndependent) {
 
 TEST(HeldKeys, RealReleasesPassThrough) {
   HeldKeys keys;
-  keys.setRealReleases(true, kStart);
+  keys.setRealReleases(true);
   EXPECT_EQ(keys.takeKey({A}, kStart), (Actions{{A, df::KEY_PRESSED}}));
   EXPECT_EQ(keys.tick(), (Actions{{A, df::KEY_DOWN}}));
   EXPECT_TRUE(keys.takeKey(repeated(A), kStart + 400ms).empty());
@@ -80,27 +80,27 @@ TEST(HeldKeys, RealReleasesPassThrough) {
 
 TEST(HeldKeys, ReleaseOfAKeyThatWasNotDownIsIgnored) {
   HeldKeys keys;
-  keys.setRealReleases(true, kStart);
+  keys.setRealReleases(true);
   EXPECT_TRUE(keys.takeKey(released(T), kStart).empty());
 }
 
 TEST(HeldKeys, LeavesNoKeyDownWhenTheModeChanges) {
   HeldKeys keys;
   keys.takeKey({A}, kStart);
-  EXPECT_EQ(keys.setRealReleases(true, kStart), (Actions{{A, df::KEY_RELEASED}}));
+  EXPECT_EQ(keys.setRealReleases(true), (Actions{{A, df::KEY_RELEASED}}));
   keys.takeKey({B}, kStart);
   EXPECT_EQ(keys.releaseAll(), (Actions{{B, df::KEY_RELEASED}}));
   EXPECT_TRUE(keys.releaseAll().empty());
 }
 
-TEST(HeldKeys, FewKeysAreDownAtOnce) {
+TEST(HeldKeys, NumberOfHeldKeysIsBounded) {
   HeldKeys keys;
-  keys.setRealReleases(true, kStart);
+  keys.setRealReleases(true);
   for (int k = A; k <= Z; ++k) keys.takeKey({static_cast<Key>(k)}, kStart);
   EXPECT_EQ(keys.tick().size(), HeldKeys::kMaxHeld);
 }
 
-TEST(HeldKeys, CharactersWithoutAKeyAreNothing) {
+TEST(HeldKeys, CharactersWithoutAKeyAreIgnored) {
   HeldKeys keys;
   EXPECT_TRUE(keys.takeKey({UNDEFINED_KEY, U'é'}, kStart).empty());
 }

@@ -137,7 +137,7 @@ const std::vector<Case>& cases() {
        {key(LEFTSHIFT, 0, kShift), key(LEFTSHIFT, 0, 0, Action::kRelease)}},
       {"kitty keypad 5", "\033[57404u", {key(NUM5, U'5')}},
       {"kitty Cyrillic with the US key", "\033[1092::97u", {key(A, U'ф')}},
-      {"kitty answer", "\033[?31u", {KittyAnswer{31}}},
+      {"kitty reply", "\033[?31u", {KittyReply{31}}},
       {"modify other keys", "\033[27;5;99~", {key(C, 0, kControl)}},
       {"UTF-8 of two, three and four bytes",
        "é€😀",
@@ -148,7 +148,7 @@ const std::vector<Case>& cases() {
       {"device attributes", "\033[?62;22c\033[>41;354;0c", {}},
       {"cursor position", "\033[12;40R", {}},
       {"mode report", "\033[?2026;2$y", {}},
-      {"colour answer", "\033]11;rgb:0000/0000/0000\033\\\033]10;x\007", {}},
+      {"colour reply", "\033]11;rgb:0000/0000/0000\033\\\033]10;x\007", {}},
       {"device control string", "\033P1$r0m\033\\x", {key(X, U'x')}},
       {"unknown sequences", "\033[99~\033[1;2;3;4;5;6y\033[=5;3!p\033Oz", {}},
       {"cancelled sequence", "\033[12\030a", {key(A, U'a')}},
@@ -162,7 +162,7 @@ TEST(InputDecoder, DecodesEveryForm) {
   for (const Case& c : cases()) EXPECT_EQ(decode(c.bytes), c.events) << c.name;
 }
 
-TEST(InputDecoder, DoesNotCareWhereSequencesAreSplit) {
+TEST(InputDecoder, SequencesMayBeSplitAnywhere) {
   for (const Case& c : cases()) {
     for (std::size_t at = 0; at <= c.bytes.size(); ++at) {
       EXPECT_EQ(decodeSplit(c.bytes, at), c.events) << c.name << " split at " << at;
@@ -189,7 +189,7 @@ TEST(InputDecoder, EscapeIsAKeyOnlyAfter25Milliseconds) {
   EXPECT_TRUE(decoder.flush(kStart + 24ms).empty());
   EXPECT_EQ(decoder.flush(kStart + 25ms), Events{key(ESCAPE)});
   EXPECT_FALSE(decoder.deadline());
-  // What comes later is a key of its own, not part of a sequence.
+  // What comes later is a separate key, not part of a sequence.
   EXPECT_EQ(decoder.feed("a", kStart + 26ms), Events{key(A, U'a')});
 }
 

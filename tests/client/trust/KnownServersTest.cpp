@@ -126,7 +126,7 @@ TEST_F(KnownServersTest, FileIsForItsOwnerAlone) {
   EXPECT_EQ(facts.st_mode & 0777U, 0600U);
 }
 
-TEST_F(KnownServersTest, WhatIsKnownNeedsNoWriting) {
+TEST_F(KnownServersTest, KnownServersAreNotWrittenAgain) {
   admit(selfSigned('a'));
   fs::remove(path.string() + ".lock");
   EXPECT_EQ(admit(selfSigned('a')), Trust::kPinned);
@@ -156,7 +156,7 @@ TEST_F(KnownServersTest, ThreadsLoseNoPinOfEachOther) {
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), kThreads * kServers);
 }
 
-TEST_F(KnownServersTest, ProcessesThatMeetAServerAtOnceAgreeOnOneKey) {
+TEST_F(KnownServersTest, ProcessesThatPinAServerTogetherAgreeOnOneKey) {
   constexpr int kProcesses = 8;
   std::vector<pid_t> children;
   for (int i = 0; i < kProcesses; ++i) {

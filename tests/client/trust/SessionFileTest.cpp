@@ -62,7 +62,7 @@ class SessionFileTest : public testing::Test {
   SessionFile::Time now{std::chrono::hours(24 * 365 * 50)};
 };
 
-TEST_F(SessionFileTest, WhatAKilledClientLeavesTheNextOneFinds) {
+TEST_F(SessionFileTest, TheNextClientFindsTheFileOfAKilledOne) {
   auto first = open();
   EXPECT_EQ(first->tokenFor(keyOf('a')), "");
   EXPECT_FALSE(fs::exists(directory)) << "reading makes no directory";
@@ -86,7 +86,7 @@ TEST_F(SessionFileTest, WhatAKilledClientLeavesTheNextOneFinds) {
   EXPECT_TRUE(second->problems().empty());
 }
 
-TEST_F(SessionFileTest, OnlyOfTheSameServerAndTheNameGiven) {
+TEST_F(SessionFileTest, FindsOnlyFilesOfTheSameServerAndName) {
   leave("here");
   EXPECT_EQ(open("elsewhere.example:9876")->tokenFor(keyOf('a')), "");
   EXPECT_EQ(open(kServer, "bob")->tokenFor(keyOf('a')), "");
@@ -94,7 +94,7 @@ TEST_F(SessionFileTest, OnlyOfTheSameServerAndTheNameGiven) {
   EXPECT_EQ(open()->tokenFor(keyOf('a')), "here");
 }
 
-TEST_F(SessionFileTest, OfSeveralTheNewestAndEachOnce) {
+TEST_F(SessionFileTest, FindsTheNewestOfSeveralAndEachOnce) {
   leave("old");
   now += 5s;
   leave("new");
@@ -106,7 +106,7 @@ TEST_F(SessionFileTest, OfSeveralTheNewestAndEachOnce) {
   EXPECT_EQ(open()->tokenFor(keyOf('a')), "");
 }
 
-TEST_F(SessionFileTest, WhatIsPastItsGraceIsRemoved) {
+TEST_F(SessionFileTest, FilesPastTheirGraceAreRemoved) {
   leave("token");
   now += 60s;
   EXPECT_EQ(open()->tokenFor(keyOf('a')), "token");
@@ -117,7 +117,7 @@ TEST_F(SessionFileTest, WhatIsPastItsGraceIsRemoved) {
   EXPECT_TRUE(late->problems().empty()) << "nothing is wrong with that";
 }
 
-TEST_F(SessionFileTest, TheGraceCountsFromWhenTheSessionWasLastWell) {
+TEST_F(SessionFileTest, TheGraceCountsFromWhenTheSessionWasLastAlive) {
   auto running = open();
   running->save(session("token"), now);
   for (int i = 0; i < 100; ++i) running->refresh(now += 2s);
@@ -139,7 +139,7 @@ TEST_F(SessionFileTest, LeavingInOrderRemovesTheFile) {
   EXPECT_EQ(files().size(), 1u);
 }
 
-TEST_F(SessionFileTest, DamagedOnesAreRefusedInWordsAndRemoved) {
+TEST_F(SessionFileTest, DamagedFilesAreReportedAndRemoved) {
   leave("token");
   const fs::path path = files()[0];
   const std::string good = content(path);
@@ -182,7 +182,7 @@ TEST_F(SessionFileTest, EveryByteThatChangesIsNoticedOrHarmless) {
   }
 }
 
-TEST_F(SessionFileTest, WhatOthersCanReadIsNotUsed) {
+TEST_F(SessionFileTest, FilesThatOthersCanReadAreNotUsed) {
   leave("token");
   const fs::path path = files()[0];
   fs::permissions(path, fs::perms::group_read, fs::perm_options::add);
@@ -192,10 +192,10 @@ TEST_F(SessionFileTest, WhatOthersCanReadIsNotUsed) {
   EXPECT_EQ(file->problems()[0], path.string() + " is not used: it is not a file of yours alone.");
   EXPECT_TRUE(fs::exists(path)) << "it is kept for the user to look at";
   file->save(session("mine"), now);
-  EXPECT_EQ(files().size(), 2u) << "play goes on with a file of its own";
+  EXPECT_EQ(files().size(), 2u) << "play goes on with another file";
 }
 
-TEST_F(SessionFileTest, ADirectoryOfOthersToo) {
+TEST_F(SessionFileTest, DirectoriesOfOthersAreNotUsed) {
   leave("token");
   fs::permissions(directory, fs::perms::others_write, fs::perm_options::add);
   auto file = open();
@@ -217,7 +217,7 @@ TEST_F(SessionFileTest, LinksAreNotFollowed) {
   EXPECT_TRUE(fs::exists(elsewhere));
 }
 
-TEST_F(SessionFileTest, WhereNothingCanBeWrittenThatIsSaidOnce) {
+TEST_F(SessionFileTest, AFailureToWriteIsReportedOnce) {
   put(home / "state", "a file where a directory should be");
   auto file = open();
   for (int i = 0; i < 3; ++i) file->save(session("token"), now);

@@ -14,7 +14,7 @@ KeyEvent typed(Key key, char32_t ch) {
   return {key, ch};
 }
 
-TEST(ClientControls, OrdinaryKeysAreTheGames) {
+TEST(ClientControls, OrdinaryKeysGoToTheGame) {
   ClientControls controls;
   EXPECT_EQ(controls.takeKey(typed(Q, U'q')), Result::kGame);
   EXPECT_EQ(controls.takeKey({ESCAPE}), Result::kGame);
@@ -23,9 +23,9 @@ TEST(ClientControls, OrdinaryKeysAreTheGames) {
 
 TEST(ClientControls, PrefixOpensCommands) {
   ClientControls controls;
-  EXPECT_EQ(controls.takeKey(kPrefix), Result::kTaken);
+  EXPECT_EQ(controls.takeKey(kPrefix), Result::kHandled);
   EXPECT_TRUE(controls.prefixed());
-  EXPECT_EQ(controls.takeKey(typed(P, U'p')), Result::kTaken);
+  EXPECT_EQ(controls.takeKey(typed(P, U'p')), Result::kHandled);
   EXPECT_FALSE(controls.prefixed());
   EXPECT_EQ(controls.panel(), Panel::kPlayers);
   controls.takeKey(kPrefix);
@@ -46,7 +46,7 @@ TEST(ClientControls, PrefixTwiceClosesEverything) {
   controls.takeKey(kPrefix);
   controls.takeKey(typed(P, U'p'));
   controls.takeKey(kPrefix);
-  EXPECT_EQ(controls.takeKey(kPrefix), Result::kTaken);
+  EXPECT_EQ(controls.takeKey(kPrefix), Result::kHandled);
   EXPECT_FALSE(controls.prefixed());
   EXPECT_EQ(controls.panel(), Panel::kNone);
 }

@@ -178,7 +178,7 @@ TEST(ScreenLayout, ChatLineShowsTheEndOfALongText) {
   EXPECT_EQ(layout.picture.at(0, 21).color, df::GREEN);
 }
 
-TEST(AsciiFallback, FindsALikeness) {
+TEST(AsciiFallback, MapsACharacterToASimilarOne) {
   EXPECT_EQ(asciiFor(U'a'), 'a');
   EXPECT_EQ(asciiFor(U'─'), '-');
   EXPECT_EQ(asciiFor(U'│'), '|');

@@ -13,18 +13,18 @@ constexpr std::uint32_t kSelf = 3;
 
 class SoundNotesTest : public testing::Test {
  protected:
-  void hear(const std::string& label, std::uint32_t player = 0) {
+  void sound(const std::string& label, std::uint32_t player = 0) {
     notes.addSound({label, SoundLine::Action::kPlay, false, false, player}, kSelf, now);
   }
-  std::string note() const { return notes.note(now); }
+  std::string note() const { return notes.shownNote(now); }
 
   SoundNotes::Time now{1h};
   SoundNotes notes{SoundMode::kBell};
 };
 
-TEST_F(SoundNotesTest, ANoteIsSeenForAMoment) {
+TEST_F(SoundNotesTest, ANoteIsShownForAMoment) {
   EXPECT_EQ(note(), "");
-  hear("fire");
+  sound("fire");
   EXPECT_EQ(note(), "sound: fire");
   now += SoundNotes::kShown - 1ms;
   EXPECT_EQ(note(), "sound: fire");
@@ -33,46 +33,46 @@ TEST_F(SoundNotesTest, ANoteIsSeenForAMoment) {
 }
 
 TEST_F(SoundNotesTest, NotesDoNotFlicker) {
-  hear("fire");
+  sound("fire");
   now += SoundNotes::kMin - 1ms;
-  hear("boom");
+  sound("boom");
   EXPECT_EQ(note(), "sound: fire");
   now += 1ms;
-  hear("boom");
+  sound("boom");
   EXPECT_EQ(note(), "sound: boom");
 }
 
-TEST_F(SoundNotesTest, OnesOwnIsSeenRatherThanWhatOthersDo) {
-  hear("theirs", 7);
+TEST_F(SoundNotesTest, OwnSoundsReplaceThoseOfOthers) {
+  sound("theirs", 7);
   EXPECT_EQ(note(), "sound: theirs");
-  hear("more of theirs", 8);
+  sound("more of theirs", 8);
   EXPECT_EQ(note(), "sound: theirs");
-  hear("mine", kSelf);
+  sound("mine", kSelf);
   EXPECT_EQ(note(), "sound: mine");
-  hear("theirs", 7);
+  sound("theirs", 7);
   EXPECT_EQ(note(), "sound: mine");
 }
 
 TEST_F(SoundNotesTest, TheBellRingsOnceASecondAtMost) {
   int rings = 0;
   for (int i = 0; i < 300; ++i, now += 10ms) {
-    hear("fire", i % 2 == 0 ? 0 : kSelf);
+    sound("fire", i % 2 == 0 ? 0 : kSelf);
     rings += notes.takeBell() ? 1 : 0;
   }
   EXPECT_EQ(rings, 3);
 }
 
 TEST_F(SoundNotesTest, TheBellRingsNeitherForMusicNorForOthers) {
-  hear("theirs", 7);
+  sound("theirs", 7);
   notes.addSound({"theme", SoundLine::Action::kPlay, true, true, 0}, kSelf, now);
   notes.addSound({"fire", SoundLine::Action::kStop, false, false, 0}, kSelf, now);
   EXPECT_FALSE(notes.takeBell());
-  hear("mine", kSelf);
+  sound("mine", kSelf);
   EXPECT_TRUE(notes.takeBell());
   EXPECT_FALSE(notes.takeBell());
 }
 
-TEST_F(SoundNotesTest, WhatStopsIsNoNoteAndTakesItsOwnAway) {
+TEST_F(SoundNotesTest, AStoppedSoundShowsNoNoteAndEndsItsOwn) {
   notes.addSound({"theme", SoundLine::Action::kPlay, true, true, 0}, kSelf, now);
   EXPECT_EQ(note(), "music: theme");
   notes.addSound({"fire", SoundLine::Action::kStop, false, false, 0}, kSelf, now);
@@ -81,15 +81,15 @@ TEST_F(SoundNotesTest, WhatStopsIsNoNoteAndTakesItsOwnAway) {
   EXPECT_EQ(note(), "");
 }
 
-TEST_F(SoundNotesTest, ModesAreWhatTheyAreCalled) {
+TEST_F(SoundNotesTest, ModesAreParsedByName) {
   EXPECT_EQ(soundModeFrom("bell"), SoundMode::kBell);
   EXPECT_EQ(soundModeFrom("loud"), std::nullopt);
   notes = SoundNotes(*soundModeFrom("note"));
-  hear("fire");
+  sound("fire");
   EXPECT_EQ(note(), "sound: fire");
   EXPECT_FALSE(notes.takeBell());
   notes = SoundNotes(*soundModeFrom("off"));
-  hear("fire");
+  sound("fire");
   EXPECT_EQ(note(), "");
 }
 

@@ -62,7 +62,7 @@ TEST(DisplayClock, JitterDoesNotShakeThePicture) {
 TEST(DisplayClock, FollowsAServerThatLostTime) {
   DisplayClock clock(kTick);
   clock.noteSnapshot(100, kStart);
-  // From now on everything is 150 ms late, for good.
+  // From now on everything stays 150 ms late.
   std::uint32_t tick = 101;
   Time now = kStart;
   for (int i = 0; i < 300; ++i, ++tick) {

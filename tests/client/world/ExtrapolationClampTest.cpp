@@ -43,7 +43,7 @@ class ExtrapolationClampTest : public testing::Test {
   std::uint32_t m_number = 0;
 };
 
-TEST_F(ExtrapolationClampTest, WhatFliesIntoAWallIsDrawnBeforeIt) {
+TEST_F(ExtrapolationClampTest, AnObjectThatFliesIntoAWallIsDrawnBeforeIt) {
   const auto ball = add(at(10, 5), at(1, 0));
   add(at(14, 5));
   EXPECT_EQ(clamped(ball, 0), at(10, 5));
@@ -52,7 +52,7 @@ TEST_F(ExtrapolationClampTest, WhatFliesIntoAWallIsDrawnBeforeIt) {
   EXPECT_EQ(clamped(ball, 8), at(12, 5));
 }
 
-TEST_F(ExtrapolationClampTest, OnlyWhatIsHardMindsAndIsMinded) {
+TEST_F(ExtrapolationClampTest, OnlyHardObjectsBlockAndAreBlocked) {
   const auto ghost = add(at(10, 5), at(1, 0), df::SOFT);
   const auto ball = add(at(10, 9), at(1, 0));
   add(at(14, 5));
@@ -62,7 +62,7 @@ TEST_F(ExtrapolationClampTest, OnlyWhatIsHardMindsAndIsMinded) {
   EXPECT_EQ(clamped(ball, 6), at(16, 9));
 }
 
-TEST_F(ExtrapolationClampTest, WhatTouchedBeforeIsNoObstacle) {
+TEST_F(ExtrapolationClampTest, ObjectsThatTouchAlreadyDoNotBlock) {
   const auto ball = add(at(10, 5), at(0, 1));
   add(at(11, 5), {}, df::HARD, {{-kFixedOne / 2, -kFixedOne * 8}, {kFixedOne, kFixedOne * 16}});
   EXPECT_EQ(clamped(ball, 5), at(10, 10));

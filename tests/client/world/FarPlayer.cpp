@@ -6,11 +6,11 @@
 
 namespace naiad::test {
 
-FarPlayer::FarPlayer(const Way& way, std::uint64_t seed) : rng(seed), m_way(way) {
+FarPlayer::FarPlayer(const LinkDelays& delays, std::uint64_t seed) : rng(seed), m_delays(delays) {
   world.setLogSink([](const std::string&) {});
   world.setSeed(seed);
   world.setWatched(true);
-  m_sender.setLookAhead(lead() + m_way.down);
+  m_sender.setLookAhead(lead() + m_delays.down);
   m_player = world.join("far", df::RED);
   world.tick();
   m_publisher.update(world.view());
@@ -26,11 +26,11 @@ void FarPlayer::step() {
   draw();
 }
 
-void FarPlayer::meetAll() {
+void FarPlayer::stepUntilAllKnown() {
   const auto knowsAll = [this] {
     return m_sender.knownCount() > 1 && replica.aliveCount() == m_sender.knownCount();
   };
-  for (std::uint32_t i = 0; i < m_way.down + m_way.up; ++i) step();
+  for (std::uint32_t i = 0; i < m_delays.down + m_delays.up; ++i) step();
   for (int i = 0; i < 1000 && !knowsAll(); ++i) step();
   ASSERT_TRUE(knowsAll());
   for (std::uint32_t i = 0; i <= lead(); ++i) step();  // what was shown before comes true, or not
@@ -46,7 +46,8 @@ void FarPlayer::takeInputs() {
   }
   for (auto next = m_waiting.find(m_applied + 1); next != m_waiting.end() && next->second.tick <= now;
        next = m_waiting.find(m_applied + 1)) {
-    world.key(m_player, next->second.key, next->second.action);
+    world.key(m_player, static_cast<df::Keyboard::Key>(next->second.key),
+              static_cast<df::EventKeyboardAction>(next->second.action));
     late_inputs += next->second.tick < now ? 1 : 0;
     m_sender.noteInput(++m_applied, now);
     m_waiting.erase(next);
@@ -68,7 +69,7 @@ void FarPlayer::serve() {
   m_publisher.update(world.view());
   m_sender.applyTick(m_publisher, world.view().players[0]);
   for (SnapshotSender::Packet& packet : m_sender.build(m_publisher)) {
-    if (!isLost()) m_down.push_back({tick() + m_way.down, std::move(packet)});
+    if (!isLost()) m_down.push_back({tick() + m_delays.down, std::move(packet)});
   }
 }
 
@@ -76,8 +77,8 @@ void FarPlayer::receive(const SnapshotSender::Packet& packet) {
   Snapshot snapshot;
   ASSERT_EQ(replica.read(packet.bytes, snapshot), ReadResult::kOk);
   replica.apply(snapshot);
-  m_acks.note(packet.number);
-  if (snapshot.header.tells_input) m_answered = std::max(m_answered, snapshot.header.input);
+  m_acks.addReceived(packet.number);
+  if (snapshot.header.has_input) m_acknowledged = std::max(m_acknowledged, snapshot.header.input);
   if (replica.controlTableNumber() != m_table_known) {
     m_table_known = replica.controlTableNumber();
     prediction.setTable(replica.controlTable());
@@ -93,24 +94,27 @@ void FarPlayer::draw() {
   for (; !m_down.empty() && m_down.front().arrives <= tick(); m_down.pop_front()) {
     receive(m_down.front().packet);
   }
-  while (!m_unanswered.empty() && m_unanswered.front().id <= m_answered) m_unanswered.pop_front();
+  while (!m_pending.empty() && m_pending.front().id <= m_acknowledged) m_pending.pop_front();
   const bool lost = isLost();
   if (!lost) {
-    m_up.push_back({tick() + m_way.up, {m_unanswered.begin(), m_unanswered.end()}, m_acks});
+    m_up.push_back({tick() + m_delays.up, {m_pending.begin(), m_pending.end()}, m_acks});
   }
   prediction.run(replica, shownTick());
   if (!prediction.isActive() || tick() < compared_from) return;
   const ExtrapolationClamp clamp(replica, tick(), tick());
   const DrawnPlacement placement(replica, prediction, clamp);
-  m_frames[shownTick()] = {prediction.position(), replica.viewCorner(tick() - m_way.down, &placement)};
+  m_frames[shownTick()] = {prediction.position(), replica.viewCorner(tick() - m_delays.down, &placement)};
 }
 
 void FarPlayer::press(df::Keyboard::Key key, df::EventKeyboardAction action) {
-  const Input input{m_next_id++, key, action, shownTick() + 1};
+  const Input input{.id = m_next_id++,
+                    .tick = shownTick() + 1,
+                    .action = static_cast<std::uint8_t>(action),
+                    .key = static_cast<std::uint8_t>(key)};
   ++inputs;
-  prediction.press(input.id, key, action, input.tick);
-  m_unanswered.push_back(input);
-  if (!isLost()) m_up.push_back({tick() + m_way.up, {input}, m_acks});
+  prediction.addInput(input);
+  m_pending.push_back(input);
+  if (!isLost()) m_up.push_back({tick() + m_delays.up, {input}, m_acks});
 }
 
 }  // namespace naiad::test

@@ -2,7 +2,7 @@
 // queues with delay and loss, one step per tick.
 //
 // In step n the server makes tick n, then the client draws a frame: its own object as it will be at the end
-// of tick n + lead, the tick before the one in which the server takes in what is pressed in this frame.
+// of tick n + lead, the tick before the one in which the server applies what is pressed in this frame.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,9 @@
 
 namespace naiad::test {
 
-/// Delays in ticks, each way; probability of loss, each way; how many repeats of an input may be lost before
-/// it comes too late.
-struct Way {
+/// Delays in ticks and probability of loss, in each direction; how many repeats of an input may be lost
+/// before it comes too late.
+struct LinkDelays {
   std::uint32_t down = 3;
   std::uint32_t up = 3;
   double loss = 0;
@@ -32,19 +32,19 @@ struct Way {
 
 class FarPlayer {
  public:
-  FarPlayer(const Way& way, std::uint64_t seed);
+  FarPlayer(const LinkDelays& delays, std::uint64_t seed);
   ~FarPlayer() { world.shutDown(); }
 
   df::Player& player() { return *world.getPlayer(m_player); }
   /// One tick and one frame.
   void step();
-  /// Step until the client has heard of all that is of interest to it.
-  void meetAll();
+  /// Step until the client knows every object of interest to it.
+  void stepUntilAllKnown();
   /// In the frame that has just been drawn.
   void press(df::Keyboard::Key key, df::EventKeyboardAction action = df::KEY_PRESSED);
 
   std::uint32_t tick() const { return static_cast<std::uint32_t>(world.getStepCount()); }
-  std::uint32_t lead() const { return m_way.up + m_way.margin; }
+  std::uint32_t lead() const { return m_delays.up + m_delays.margin; }
   std::uint32_t shownTick() const { return tick() + lead(); }
 
   df::World world;
@@ -59,7 +59,7 @@ class FarPlayer {
   int wrong = 0;                    ///< of these, in how many the object was shown elsewhere than it then was
   int wrong_views = 0;              ///< … or the view
   int inputs = 0;
-  int late_inputs = 0;  ///< taken in after the tick they were meant for
+  int late_inputs = 0;  ///< applied after the tick they were meant for
   int states = 0;       ///< states of the player that arrived
   int ticks = 0;
 
@@ -67,12 +67,6 @@ class FarPlayer {
   struct Down {
     std::uint32_t arrives;
     SnapshotSender::Packet packet;
-  };
-  struct Input {
-    std::uint32_t id;
-    df::Keyboard::Key key;
-    df::EventKeyboardAction action;
-    std::uint32_t tick;
   };
   struct Up {
     std::uint32_t arrives;
@@ -84,14 +78,14 @@ class FarPlayer {
     CellPosition corner;
   };
 
-  bool isLost() { return rng.unit() < m_way.loss; }
+  bool isLost() { return rng.unit() < m_delays.loss; }
   void serve();
   void takeInputs();
   void checkFrame();
   void receive(const SnapshotSender::Packet& packet);
   void draw();
 
-  Way m_way;
+  LinkDelays m_delays;
   std::uint32_t m_player;
   Publisher m_publisher;
   SnapshotSender m_sender{Resend::kAhead};
@@ -104,8 +98,8 @@ class FarPlayer {
   std::uint32_t m_control_known = 0;
   AckWindow m_acks;
   std::uint32_t m_next_id = 1;
-  std::uint32_t m_answered = 0;
-  std::deque<Input> m_unanswered;
+  std::uint32_t m_acknowledged = 0;
+  std::deque<Input> m_pending;
   std::map<std::uint32_t, Frame> m_frames;  // shown, by tick
 };
 

@@ -24,7 +24,7 @@ class InputTickEstimatorTest : public testing::Test {
   InputTickEstimator take_in;
 };
 
-TEST_F(InputTickEstimatorTest, WithoutAWayItIsTheNextTick) {
+TEST_F(InputTickEstimatorTest, WithoutDelayItIsTheNextTick) {
   EXPECT_EQ(ahead(), 1u);
 }
 

@@ -51,11 +51,11 @@ class PredictionTest : public testing::Test {
     table.rows = {{D, KEY_PRESSED, df::ControlEffect::kStep, true, true, cells(1, 0)},
                   {S, KEY_PRESSED, df::ControlEffect::kStep, true, true, cells(0, 1)}};
     prediction.setTable(table);
-    hear(objects({object(kOwnSlot, cells(10, 10))}));
-    prediction.applyControl(answer(kTick, 0, cells(10, 10)));
+    applyRecords(objects({object(kOwnSlot, cells(10, 10))}));
+    prediction.applyControl(state(kTick, 0, cells(10, 10)));
   }
-  void hear(Records records) { apply(replica, ++number, std::move(records)); }
-  static ControlRecord answer(std::uint32_t tick, std::uint32_t newest, FixedVector at) {
+  void applyRecords(Records records) { apply(replica, ++number, std::move(records)); }
+  static ControlRecord state(std::uint32_t tick, std::uint32_t newest, FixedVector at) {
     ControlRecord record;
     record.tick = tick;
     record.slot = kOwnSlot;
@@ -64,6 +64,16 @@ class PredictionTest : public testing::Test {
     record.position = at;
     record.state.steering = true;
     return record;
+  }
+  void press(std::uint32_t id, df::Keyboard::Key key, df::EventKeyboardAction action, std::uint32_t tick) {
+    press(prediction, id, key, action, tick);
+  }
+  static void press(Prediction& p, std::uint32_t id, df::Keyboard::Key key, df::EventKeyboardAction action,
+                    std::uint32_t tick) {
+    p.addInput({.id = id,
+                .tick = tick,
+                .action = static_cast<std::uint8_t>(action),
+                .key = static_cast<std::uint8_t>(key)});
   }
   FixedVector at(std::uint32_t tick) {
     prediction.run(replica, tick);
@@ -80,7 +90,7 @@ TEST_F(PredictionTest, NothingIsPredictedWithoutTableStateOrObject) {
   Prediction other;
   other.run(replica, kTick);
   EXPECT_FALSE(other.isActive());
-  other.applyControl(answer(kTick, 0, cells(10, 10)));
+  other.applyControl(state(kTick, 0, cells(10, 10)));
   other.run(replica, kTick);
   EXPECT_FALSE(other.isActive());
   other.setTable(table);
@@ -88,73 +98,73 @@ TEST_F(PredictionTest, NothingIsPredictedWithoutTableStateOrObject) {
   EXPECT_TRUE(other.isActive());
   other.run(Replica(), kTick);
   EXPECT_FALSE(other.isActive());
-  ControlRecord nobody = answer(kTick + 1, 0, {});
-  nobody.generation = 0;
-  other.applyControl(nobody);
+  ControlRecord nothing = state(kTick + 1, 0, {});
+  nothing.generation = 0;
+  other.applyControl(nothing);
   other.run(replica, kTick + 1);
   EXPECT_FALSE(other.isActive());
 }
 
 TEST_F(PredictionTest, AnInputCountsFromItsTickOn) {
-  prediction.press(1, D, KEY_PRESSED, kTick + 5);
+  press(1, D, KEY_PRESSED, kTick + 5);
   EXPECT_EQ(at(kTick + 4), cells(10, 10));
   EXPECT_EQ(at(kTick + 5), cells(11, 10));
   EXPECT_EQ(at(kTick + 9), cells(11, 10));
 }
 
 TEST_F(PredictionTest, NoInputComesBeforeOneThatWasSentEarlier) {
-  prediction.press(1, D, KEY_PRESSED, kTick + 5);
-  prediction.press(2, S, KEY_PRESSED, kTick + 3);
-  prediction.applyControl(answer(kTick + 1, 1, cells(10, 10)));
+  press(1, D, KEY_PRESSED, kTick + 5);
+  press(2, S, KEY_PRESSED, kTick + 3);
+  prediction.applyControl(state(kTick + 1, 1, cells(10, 10)));
   EXPECT_EQ(at(kTick + 4), cells(10, 10));
   EXPECT_EQ(at(kTick + 5), cells(10, 11));
 }
 
-TEST_F(PredictionTest, AnswersTakeTheirInputsAway) {
-  prediction.press(1, D, KEY_PRESSED, kTick + 2);
-  prediction.press(2, S, KEY_PRESSED, kTick + 6);
+TEST_F(PredictionTest, AControlStateRemovesTheInputsThatItCovers) {
+  press(1, D, KEY_PRESSED, kTick + 2);
+  press(2, S, KEY_PRESSED, kTick + 6);
   EXPECT_EQ(at(kTick + 8), cells(11, 11));
-  prediction.applyControl(answer(kTick + 3, 1, cells(11, 10)));
-  EXPECT_EQ(prediction.unanswered(), 1u);
+  prediction.applyControl(state(kTick + 3, 1, cells(11, 10)));
+  EXPECT_EQ(prediction.pendingInputs(), 1u);
   EXPECT_EQ(at(kTick + 8), cells(11, 11));
   EXPECT_EQ(prediction.counters().confirmed, 1u);
   EXPECT_EQ(prediction.counters().mispredicted, 0u);
 }
 
 TEST_F(PredictionTest, AnInputThatIsLateIsExpectedWithTheNextTick) {
-  prediction.press(1, D, KEY_PRESSED, kTick + 2);
+  press(1, D, KEY_PRESSED, kTick + 2);
   EXPECT_EQ(at(kTick + 6), cells(11, 10));
-  prediction.applyControl(answer(kTick + 4, 0, cells(10, 10)));  // it has not arrived
+  prediction.applyControl(state(kTick + 4, 0, cells(10, 10)));  // it has not arrived
   EXPECT_EQ(prediction.counters().mispredicted, 1u);
   EXPECT_EQ(at(kTick + 4), cells(10, 10));
   EXPECT_EQ(at(kTick + 5), cells(11, 10));
 }
 
 TEST_F(PredictionTest, TheNextPictureIsTheNewReplay) {
-  prediction.press(1, D, KEY_PRESSED, kTick + 2);
-  prediction.press(2, D, KEY_PRESSED, kTick + 5);
+  press(1, D, KEY_PRESSED, kTick + 2);
+  press(2, D, KEY_PRESSED, kTick + 5);
   at(kTick + 5);
-  prediction.applyControl(answer(kTick + 3, 1, cells(30, 5)));  // another object carried the ship away
+  prediction.applyControl(state(kTick + 3, 1, cells(30, 5)));  // another object carried the ship away
   EXPECT_EQ(prediction.counters().mispredicted, 1u);
   EXPECT_EQ(at(kTick + 6), cells(31, 5));
 }
 
-TEST_F(PredictionTest, OlderAnswersAreIgnored) {
-  prediction.applyControl(answer(kTick + 3, 0, cells(12, 10)));
-  prediction.applyControl(answer(kTick + 2, 0, cells(50, 10)));
-  prediction.applyControl(answer(kTick + 3, 0, cells(50, 10)));
+TEST_F(PredictionTest, OlderControlStatesAreIgnored) {
+  prediction.applyControl(state(kTick + 3, 0, cells(12, 10)));
+  prediction.applyControl(state(kTick + 2, 0, cells(50, 10)));
+  prediction.applyControl(state(kTick + 3, 0, cells(50, 10)));
   EXPECT_EQ(at(kTick + 4), cells(12, 10));
 }
 
 TEST_F(PredictionTest, TicksAndInputsMayWrapAround) {
   prediction.reset();
   prediction.setTable(table);
-  prediction.applyControl(answer(UINT32_MAX - 1, UINT32_MAX - 1, cells(10, 10)));
-  prediction.press(UINT32_MAX, D, KEY_PRESSED, UINT32_MAX);
-  prediction.press(1, D, KEY_PRESSED, 1);
+  prediction.applyControl(state(UINT32_MAX - 1, UINT32_MAX - 1, cells(10, 10)));
+  press(UINT32_MAX, D, KEY_PRESSED, UINT32_MAX);
+  press(1, D, KEY_PRESSED, 1);
   EXPECT_EQ(at(2), cells(12, 10));
-  prediction.applyControl(answer(3, 1, cells(12, 10)));
-  EXPECT_EQ(prediction.unanswered(), 0u);
+  prediction.applyControl(state(3, 1, cells(12, 10)));
+  EXPECT_EQ(prediction.pendingInputs(), 0u);
 }
 
 TEST_F(PredictionTest, TheOrderOfCreationDecidesWhichObjectsHaveMoved) {
@@ -166,14 +176,14 @@ TEST_F(PredictionTest, TheOrderOfCreationDecidesWhichObjectsHaveMoved) {
     apply(around, 1, objects({object(kOwnSlot, cells(10, 10)), object(slot, cells(12, 10), cells(1, 0))}));
     Prediction ship;
     ship.setTable(table);
-    ship.applyControl(answer(kTick, 0, cells(10, 10)));
-    ship.press(1, D, KEY_PRESSED, kTick + 1);
+    ship.applyControl(state(kTick, 0, cells(10, 10)));
+    press(ship, 1, D, KEY_PRESSED, kTick + 1);
     ship.run(around, kTick + 1);
     EXPECT_EQ(ship.position(), cells(wanted, 10)) << "slot " << slot;
   }
 }
 
-TEST_F(PredictionTest, HardBlocksSoftDoesNotAndNoSoftMinds) {
+TEST_F(PredictionTest, HardBlocksAndSoftBlocksOnlyNoSoft) {
   for (const auto& [own, no_soft, other, wanted] : {std::tuple{df::HARD, false, df::HARD, 10},
                                                     {df::HARD, false, df::SOFT, 11},
                                                     {df::SOFT, false, df::HARD, 11},
@@ -187,16 +197,16 @@ TEST_F(PredictionTest, HardBlocksSoftDoesNotAndNoSoftMinds) {
     apply(around, 1, objects({me, object(1, cells(12, 10), {}, other)}));
     Prediction ship;
     ship.setTable(table);
-    ship.applyControl(answer(kTick, 0, cells(10, 10)));
-    ship.press(1, D, KEY_PRESSED, kTick + 1);
+    ship.applyControl(state(kTick, 0, cells(10, 10)));
+    press(ship, 1, D, KEY_PRESSED, kTick + 1);
     ship.run(around, kTick + 1);
     EXPECT_EQ(ship.position(), cells(wanted, 10)) << own << no_soft << other;
   }
 }
 
 TEST_F(PredictionTest, InputsAndTicksAreBounded) {
-  for (std::uint32_t id = 1; id <= 100; ++id) prediction.press(id, D, KEY_PRESSED, kTick + 1);
-  EXPECT_EQ(prediction.unanswered(), Prediction::kMaxInputs);
+  for (std::uint32_t id = 1; id <= 100; ++id) press(id, D, KEY_PRESSED, kTick + 1);
+  EXPECT_EQ(prediction.pendingInputs(), Prediction::kMaxInputs);
   EXPECT_EQ(prediction.counters().unpredicted, 100 - Prediction::kMaxInputs);
   EXPECT_EQ(at(kTick + 1'000'000), cells(10 + static_cast<int>(Prediction::kMaxInputs), 10));
 }
@@ -204,13 +214,13 @@ TEST_F(PredictionTest, InputsAndTicksAreBounded) {
 TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
   constexpr df::Fixed kFar = df::fromCells(2'000'000'000);
   constexpr df::Fixed kFast = df::fromCells(1 << 24);
-  hear(
+  applyRecords(
       objects({object(8, {INT64_MAX, INT64_MIN}, {INT64_MAX, 1}), object(9, {kFar, kFar}, {kFast, -kFast})}));
-  ControlRecord record = answer(kTick + 1, 0, {kFar, -kFar});
+  ControlRecord record = state(kTick + 1, 0, {kFar, -kFar});
   record.velocity = {kFast, -kFast};
   record.acceleration = {kFast, -kFast};
   prediction.applyControl(record);
-  prediction.press(1, D, KEY_PRESSED, kTick + 3);
+  press(1, D, KEY_PRESSED, kTick + 3);
   prediction.run(replica, kTick + 90);
   EXPECT_EQ(prediction.position(), (FixedVector{kFar, -kFar}));
   EXPECT_EQ(prediction.velocity(), record.velocity);
@@ -225,8 +235,8 @@ TEST_F(PredictionTest, ThePictureShowsTheShipAndTheViewWhereTheyWillBe) {
   Records records = objects({object(1, cells(40, 10))});
   records.worlds = {{{{}, cells(200, 24)}, 30, 12}};
   records.views = {{cells(0, 4), true, kOwnSlot, 1}};
-  hear(std::move(records));
-  for (std::uint32_t i = 1; i <= 20; ++i) prediction.press(i, D, KEY_PRESSED, kTick + 1);
+  applyRecords(std::move(records));
+  for (std::uint32_t i = 1; i <= 20; ++i) press(i, D, KEY_PRESSED, kTick + 1);
   at(kTick + 1);
   const ExtrapolationClamp clamp(replica, kTick, kTick);
   const DrawnPlacement placement(replica, prediction, clamp);

@@ -76,7 +76,7 @@ void playAtRandom(FarPlayer& far, int steps) {
   }
 }
 
-Way anyWay(SplitMix64& rng) {
+LinkDelays anyDelays(SplitMix64& rng) {
   const auto ticks = [&] { return static_cast<std::uint32_t>(rng.below(10)); };
   return {ticks(), ticks(), 0, 1};
 }
@@ -91,17 +91,17 @@ void playAmongWalls(FarPlayer& far, int steps) {
   p_ship->setSolidness(anySolidness(far.rng));
   p_ship->setNoSoft(far.rng.below(4) == 0);
   if (far.rng.below(6) == 0) p_ship->setAcceleration(Vector(0, 0.01));
-  far.meetAll();
+  far.stepUntilAllKnown();
   far.compared = far.wrong = far.wrong_views = 0;
   playAtRandom(far, steps);
 }
 
-TEST(PredictionWorld, WithAllElseAtRestEveryFrameComesTrue) {
+TEST(PredictionWorld, EveryFrameIsRightWhileAllElseIsAtRest) {
   int inputs = 0;
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SplitMix64 rng(seed);
-    FarPlayer far(anyWay(rng), seed);
+    FarPlayer far(anyDelays(rng), seed);
     playAmongWalls(far, 300);
     EXPECT_EQ(far.late_inputs, 0);
     EXPECT_EQ(far.wrong, 0) << "seed " << seed;
@@ -128,7 +128,7 @@ TEST(PredictionWorld, LossThatTheMarginCoversChangesNothing) {
   EXPECT_GT(inputs, 1500);
 }
 
-TEST(PredictionWorld, StatesThatTheClientKnowsByItselfNeedNotBeSent) {
+TEST(PredictionWorld, StatesThatTheClientPredictsAreNotSent) {
   int states = 0;
   int ticks = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -156,7 +156,7 @@ class Shuttle : public Object {
   }
 };
 
-TEST(PredictionWorld, WhatMovesInTheWayIsCorrectedWithinARoundTrip) {
+TEST(PredictionWorld, MovingObstaclesAreCorrectedWithinARoundTrip) {
   int wrong = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     FarPlayer far({4, 4, 0, 1}, seed);
@@ -196,10 +196,10 @@ TEST(PredictionWorld, LateInputsAreCorrectedAndTheShipNeverDiverges) {
     playAmongWalls(far, 200);
     late += far.late_inputs;
     mispredicted += far.prediction.counters().mispredicted;
-    for (int n = 0; n < 80; ++n) far.step();  // hands off: all answers arrive, and
+    for (int n = 0; n < 80; ++n) far.step();  // no keys: all states arrive, and
     const df::FixedVector at = far.prediction.position();
     far.prediction.run(far.replica, far.tick() + far.lead());
-    EXPECT_EQ(far.prediction.unanswered(), 0u);
+    EXPECT_EQ(far.prediction.pendingInputs(), 0u);
     EXPECT_EQ(far.prediction.position(), at);
     far.wrong = 0;
     for (int n = 0; n < 20; ++n) far.step();
@@ -209,22 +209,22 @@ TEST(PredictionWorld, LateInputsAreCorrectedAndTheShipNeverDiverges) {
   EXPECT_GT(mispredicted, 20u);
 }
 
-TEST(PredictionWorld, AKeyIsSeenInTheNextFrameHoweverLongTheWay) {
-  for (const std::uint32_t one_way : {0u, 1u, 3u, 10u, 25u}) {
-    FarPlayer far({one_way, one_way, 0, 2}, 1);
+TEST(PredictionWorld, AKeyIsSeenInTheNextFrameHoweverLongTheDelay) {
+  for (const std::uint32_t delay : {0u, 1u, 3u, 10u, 25u}) {
+    FarPlayer far({delay, delay, 0, 2}, 1);
     launch(far, Controls().onKey(df::Keyboard::D).step(1, 0).onKey(df::Keyboard::S).drive(0, 1));
-    for (std::uint32_t n = 0; n < one_way + 3; ++n) far.step();
+    for (std::uint32_t n = 0; n < delay + 3; ++n) far.step();
     ASSERT_TRUE(far.prediction.isActive());
     const df::FixedVector start = far.prediction.position();
     far.press(df::Keyboard::D);
     far.step();
-    EXPECT_EQ(far.prediction.position(), (start + df::FixedVector{df::kFixedOne, 0})) << one_way;
+    EXPECT_EQ(far.prediction.position(), (start + df::FixedVector{df::kFixedOne, 0})) << delay;
     far.press(df::Keyboard::S);
     far.step();
-    EXPECT_EQ(far.prediction.position(), (start + df::FixedVector{df::kFixedOne, df::kFixedOne})) << one_way;
-    for (std::uint32_t n = 0; n < 2 * one_way + 10; ++n) far.step();
+    EXPECT_EQ(far.prediction.position(), (start + df::FixedVector{df::kFixedOne, df::kFixedOne})) << delay;
+    for (std::uint32_t n = 0; n < 2 * delay + 10; ++n) far.step();
     EXPECT_EQ(far.wrong, 0);
-    EXPECT_EQ(far.prediction.unanswered(), 0u);
+    EXPECT_EQ(far.prediction.pendingInputs(), 0u);
   }
 }
 

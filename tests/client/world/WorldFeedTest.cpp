@@ -23,7 +23,7 @@ class WorldFeedTest : public testing::Test {
   bool hasPicture() const { return feed.hasPicture(now); }
 
   /// One of another epoch, and what became of it.
-  WorldFeed::Taken of(std::uint8_t epoch, std::uint32_t number, bool complete) {
+  WorldFeed::Result of(std::uint8_t epoch, std::uint32_t number, bool complete) {
     return taken(number, complete, epoch, true);
   }
 
@@ -32,17 +32,17 @@ class WorldFeedTest : public testing::Test {
 
  private:
   void take(std::uint32_t number, bool complete, std::uint8_t epoch, bool born) {
-    const WorldFeed::Taken became = taken(number, complete, epoch, born);
-    EXPECT_TRUE(became == WorldFeed::Taken::kApplied || became == WorldFeed::Taken::kShown);
+    const WorldFeed::Result became = taken(number, complete, epoch, born);
+    EXPECT_TRUE(became == WorldFeed::Result::kApplied || became == WorldFeed::Result::kShown);
   }
-  WorldFeed::Taken taken(std::uint32_t number, bool complete, std::uint8_t epoch, bool born) {
+  WorldFeed::Result taken(std::uint32_t number, bool complete, std::uint8_t epoch, bool born) {
     SnapshotHeader header;
     header.number = number;
     header.tick = 100;
     header.epoch = epoch;
     header.complete = complete;
     SnapshotWriter out;
-    out.begin(header, 0, {});
+    out.beginSnapshot(header, 0, {});
     ObjectState state;
     state.motion = {header.tick, {}, {}, {}};
     state.look.sequence = {{Glyph{0, 0, U'@', df::RED}}};
@@ -66,7 +66,7 @@ TEST_F(WorldFeedTest, TheFirstPictureWaitsForTheCompleteWorld) {
   EXPECT_TRUE(hasPicture()) << "what is born later is another matter";
 }
 
-TEST_F(WorldFeedTest, ACompleteOneThatOvertookTheOthersWaitsForThem) {
+TEST_F(WorldFeedTest, ACompleteSnapshotThatOvertookOthersWaitsForThem) {
   probe(4, true);
   EXPECT_FALSE(hasPicture()) << "it came as a datagram; the world is on the stream";
   birth(1, false);
@@ -78,7 +78,7 @@ TEST_F(WorldFeedTest, ACompleteOneThatOvertookTheOthersWaitsForThem) {
   EXPECT_EQ(shown(), 3u);
 }
 
-TEST_F(WorldFeedTest, WhatComesOfAnIncompleteWorldIsShownAfterAWhile) {
+TEST_F(WorldFeedTest, AnIncompleteWorldIsShownAfterAWhile) {
   now += 10min;
   EXPECT_FALSE(hasPicture()) << "nothing has come";
   birth(1, false);
@@ -90,7 +90,7 @@ TEST_F(WorldFeedTest, WhatComesOfAnIncompleteWorldIsShownAfterAWhile) {
   EXPECT_EQ(shown(), 2u);
 }
 
-TEST_F(WorldFeedTest, OneThatIsMissingIsWaitedForNoLonger) {
+TEST_F(WorldFeedTest, AMissingSnapshotIsWaitedForNoLonger) {
   birth(1, false);
   birth(3, true);
   now += WorldFeed::kPatience - 1ms;
@@ -99,7 +99,7 @@ TEST_F(WorldFeedTest, OneThatIsMissingIsWaitedForNoLonger) {
   EXPECT_TRUE(hasPicture());
 }
 
-TEST_F(WorldFeedTest, MoreSnapshotsThanAreRememberedAreAWholeWorld) {
+TEST_F(WorldFeedTest, MoreSnapshotsThanTheWindowMakeACompleteWorld) {
   for (std::uint32_t number = 1; number < 200; ++number) birth(number, false);
   EXPECT_FALSE(hasPicture());
   birth(200, true);
@@ -138,27 +138,27 @@ TEST_F(WorldFeedTest, AWorldSentAgainIsShownOnceItIsComplete) {
   EXPECT_FALSE(feed.isChanging());
 }
 
-TEST_F(WorldFeedTest, WhatIsLateByAnyNumberOfWorldsIsIgnored) {
-  using Taken = WorldFeed::Taken;
+TEST_F(WorldFeedTest, SnapshotsOfAnyEarlierWorldAreIgnored) {
+  using Result = WorldFeed::Result;
   birth(1, true);
-  EXPECT_EQ(of(1, 5, true), Taken::kShown);
-  EXPECT_EQ(of(2, 8, true), Taken::kShown);
+  EXPECT_EQ(of(1, 5, true), Result::kShown);
+  EXPECT_EQ(of(2, 8, true), Result::kShown);
   for (const auto& [epoch, number] : {std::pair{0, 2}, {0, 4}, {1, 6}, {1, 7}, {3, 3}})
     EXPECT_EQ(of(static_cast<std::uint8_t>(epoch), static_cast<std::uint32_t>(number), true),
-              Taken::kIgnored);
+              Result::kIgnored);
   EXPECT_EQ(feed.resets(), 2u);
-  EXPECT_EQ(of(2, 9, true), Taken::kApplied);
+  EXPECT_EQ(of(2, 9, true), Result::kApplied);
   EXPECT_EQ(shown(), 2u);
 }
 
-TEST_F(WorldFeedTest, AWorldThatIsAwaitedGivesWayToANewerOneOnly) {
-  using Taken = WorldFeed::Taken;
+TEST_F(WorldFeedTest, APendingWorldIsReplacedOnlyByANewerOne) {
+  using Result = WorldFeed::Result;
   birth(1, true);
-  EXPECT_EQ(of(1, 2, false), Taken::kApplied);
-  EXPECT_EQ(of(2, 5, false), Taken::kApplied);
-  EXPECT_EQ(of(1, 4, true), Taken::kIgnored) << "late, on another way";
-  EXPECT_EQ(of(0, 3, true), Taken::kApplied) << "to the one that is shown still";
-  EXPECT_EQ(of(2, 6, true), Taken::kShown);
+  EXPECT_EQ(of(1, 2, false), Result::kApplied);
+  EXPECT_EQ(of(2, 5, false), Result::kApplied);
+  EXPECT_EQ(of(1, 4, true), Result::kIgnored) << "late, on another path";
+  EXPECT_EQ(of(0, 3, true), Result::kApplied) << "to the one that is shown still";
+  EXPECT_EQ(of(2, 6, true), Result::kShown);
   EXPECT_EQ(shown(), 2u) << "of 5 and 6";
   EXPECT_EQ(feed.resets(), 2u);
 }

@@ -32,7 +32,7 @@ void requireGood(const MouseEvent& event) {
   REQUIRE(event.button >= df::Mouse::UNDEFINED_MOUSE_BUTTON && event.button <= df::Mouse::MIDDLE);
 }
 
-void requireGood(const KittyAnswer& answer) {
+void requireGood(const KittyReply& answer) {
   REQUIRE(answer.flags >= 0);
 }
 

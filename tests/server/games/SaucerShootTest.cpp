@@ -248,16 +248,16 @@ TEST(SaucerShoot, AShipsControlsForetellItsPath) {
       const df::ControlTable table = *world.getPlayer(player)->facts().steering.p_table;
       for (int t = 0; t < 500; ++t) {
         SteeredCopy copy(recordOf(world, player), table);
-        copy.begin();
+        copy.beginTick();
         for (int k = random.below(3); k > 0; --k) {
           static constexpr Key kKeys[] = {df::Keyboard::W, df::Keyboard::LEFTARROW, df::Keyboard::S,
                                           df::Keyboard::D, df::Keyboard::SPACE};
           const Key key = kKeys[random.below(5)];
           const auto action = static_cast<df::EventKeyboardAction>(random.below(3));
           world.key(player, key, action);
-          copy.key(key, action);
+          copy.applyKey(key, action);
         }
-        copy.finish();
+        copy.finishTick();
         const bool could_steer = copy.now().state.steering;
         world.tick();
         if (world.getPlayer(player)->getObject() == nullptr) break;  // the round is over

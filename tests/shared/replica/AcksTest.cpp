@@ -19,7 +19,7 @@ TEST(Acks, KnowNothingAtFirst) {
 
 TEST(Acks, BitIOfTheMaskIsNewestMinusOneMinusI) {
   AckWindow acks;
-  for (const std::uint32_t number : {1u, 2u, 5u, 4u}) acks.note(number);
+  for (const std::uint32_t number : {1u, 2u, 5u, 4u}) acks.addReceived(number);
   EXPECT_EQ(acks.newest, 5u);
   EXPECT_EQ(acks.mask, 0b1101u);
 }
@@ -35,7 +35,7 @@ TEST(Acks, AgreeWithASetOfTheLast65Numbers) {
       next += 1 + static_cast<std::uint32_t>(rng.below(5) == 0 ? rng.below(80) : rng.below(2));
       const auto late = static_cast<std::uint32_t>(rng.below(90));
       const std::uint32_t number = next > late ? next - late : next;
-      acks.note(number);
+      acks.addReceived(number);
       if (number >= newest || newest - number <= 64) heard.insert(number);
       newest = std::max(newest, number);
       ASSERT_EQ(acks.newest, newest);
@@ -50,7 +50,7 @@ TEST(Acks, AgreeWithASetOfTheLast65Numbers) {
 
 TEST(Acks, DuplicatesChangeNothing) {
   AckWindow acks;
-  for (const std::uint32_t number : {1u, 3u, 3u, 1u}) acks.note(number);
+  for (const std::uint32_t number : {1u, 3u, 3u, 1u}) acks.addReceived(number);
   EXPECT_EQ(acks.newest, 3u);
   EXPECT_EQ(acks.mask, 0b10u);
 }
@@ -59,8 +59,8 @@ TEST(Acks, RememberAcrossTheWrap) {
   AckWindow acks;
   acks.newest = 0xFFFFFFFE;
   acks.mask = 1;
-  acks.note(0xFFFFFFFF);
-  acks.note(2);  // 0 is never used
+  acks.addReceived(0xFFFFFFFF);
+  acks.addReceived(2);  // 0 is never used
   EXPECT_EQ(acks.newest, 2u);
   EXPECT_TRUE(acks.has(0xFFFFFFFF));
   EXPECT_TRUE(acks.has(0xFFFFFFFE));
@@ -72,10 +72,10 @@ TEST(Acks, RememberAcrossTheWrap) {
 
 TEST(Acks, AJumpOfTheWholeWindowKeepsTheLastBit) {
   AckWindow acks;
-  acks.note(1);
-  acks.note(65);
+  acks.addReceived(1);
+  acks.addReceived(65);
   EXPECT_TRUE(acks.has(1));
-  acks.note(66);
+  acks.addReceived(66);
   EXPECT_FALSE(acks.has(1));
   EXPECT_TRUE(acks.has(65));
 }
@@ -83,11 +83,11 @@ TEST(Acks, AJumpOfTheWholeWindowKeepsTheLastBit) {
 TEST(Acks, TheFirstMayBeAny) {
   for (const std::uint32_t first : {1u, 65u, 0x80000000u, 0xFFFFFFFFu}) {
     AckWindow acks;
-    acks.note(first);
+    acks.addReceived(first);
     EXPECT_EQ(acks.newest, first);
     EXPECT_EQ(acks.mask, 0u) << "nothing before it came";
     EXPECT_TRUE(acks.has(first));
-    acks.note(first - 2);
+    acks.addReceived(first - 2);
     EXPECT_EQ(acks.newest, first);
     EXPECT_EQ(acks.mask, 2u);
   }

@@ -108,7 +108,7 @@ TEST(Checksum, EveryFieldMatters) {
   EXPECT_EQ(sums.size(), std::size(changes) + 2);
 }
 
-TEST(Checksum, AnyTickAtWhichALookIsToldGivesTheSameSum) {
+TEST(Checksum, AnyTickAtWhichALookIsSentGivesTheSameSum) {
   RandomRecords random(3);
   for (int i = 0; i < 2000; ++i) {
     const Look look = random.look();

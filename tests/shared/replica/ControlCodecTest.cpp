@@ -76,7 +76,7 @@ TEST(ControlCodec, AMovingShipCostsSomeFortyBytes) {
   EXPECT_LE(written(record).size(), 44u);
 }
 
-TEST(ControlCodec, WhatIsCutOrTooLongIsRefused) {
+TEST(ControlCodec, TruncatedAndOverlongBytesAreRefused) {
   SplitMix64 rng(2);
   for (int i = 0; i < 300; ++i) {
     const std::string table = written(randomTable(rng));

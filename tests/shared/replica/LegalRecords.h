@@ -30,7 +30,7 @@ inline bool isLegal(const Look& look, std::uint32_t tick) {
   };
   return look.altitude >= 0 && look.altitude <= 255 && look.sequence.size() <= kMaxFrames &&
          look.sequence.glyphCount() <= kMaxGlyphs &&
-         (look.sequence.empty() || look.selector.isTellable(tick, look.sequence.size())) &&
+         (look.sequence.empty() || look.selector.isCanonical(tick, look.sequence.size())) &&
          std::all_of(look.sequence.begin(), look.sequence.end(), [&](const Appearance& a) {
            return a.size() <= kMaxGlyphs && std::all_of(a.begin(), a.end(), glyph);
          });

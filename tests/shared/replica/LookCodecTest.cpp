@@ -60,7 +60,7 @@ TEST(LookCodec, RandomLooksSurviveTheRoundTrip) {
   }
 }
 
-TEST(LookCodec, ADefinitionTellsIdAndSequence) {
+TEST(LookCodec, ADefinitionGivesIdAndSequence) {
   const Look look = word("saucer");
   const Met met = read(write(look, {LookForm::kDefined, 4095}));
   EXPECT_TRUE(met.whole);
@@ -70,7 +70,7 @@ TEST(LookCodec, ADefinitionTellsIdAndSequence) {
   EXPECT_FALSE(met.named);
 }
 
-TEST(LookCodec, ANameStandsForWhatIsKnown) {
+TEST(LookCodec, ANameStandsForItsSequence) {
   Look look = word("saucer");
   look.altitude = 4;
   const std::string bytes = write(look, {LookForm::kNamed, 77});

@@ -100,13 +100,13 @@ TEST(MotionCodec, NumbersBeyondTheirRangeAreRefused) {
   EXPECT_FALSE(isRead({0, {}, {1, 0}, {0, -kMaxWireVelocity - 1}}));
 }
 
-TEST(MotionCodec, WhatIsShortIsKeptForAllClients) {
+TEST(MotionCodec, ShortMotionsAreSharedByAllClients) {
   EXPECT_EQ(shareMotion({1, at(3, 4), {}, {}}).count, 2 + 4);  // kind, and no fraction
   EXPECT_GT(shareMotion({1, at(3.5, 4.25), at(0.25, 0), {}}).count, 0);
   EXPECT_EQ(shareMotion({1, at(1.0 / 3, 1.0 / 3), at(1.0 / 3, 0), {}}).count, 0) << "too long";
 }
 
-TEST(MotionCodec, WhatLiesInTheWindowOnAWholeCellIsShort) {
+TEST(MotionCodec, WholeCellsInTheWindowAreShort) {
   const Origin window{{-10, 5}, 7, 5, 0};
   for (const double x : {-10.0, 0.0, 117.0}) {
     EXPECT_EQ(bitsOf({0, at(x, 5), {}, {}}, window), 1u + 7 + 5 + 2 + 4);

@@ -44,10 +44,10 @@ std::string exampleSnapshot() {
   SnapshotHeader header;
   header.number = 3;
   header.tick = 100;
-  header.tells_input = true;
+  header.has_input = true;
   header.input = 2;
   header.input_tick = 99;
-  out.begin(header, 1, kConfirmed);
+  out.beginSnapshot(header, 1, kConfirmed);
   out.write(WorldRecord{{at(0, 0), at(80, 24)}, 80, 24, df::BLUE});
   out.write(ViewRecord{at(0, 0), true, 5, 1});
   out.write(OriginRecord{2, {{-30, -10}, 8, 6, 7}});
@@ -82,7 +82,7 @@ ClientUpdate exampleUpdate() {
   return update;
 }
 
-/// A frame with what a client hears when a round begins.
+/// A frame with the sounds that a client gets when a round begins.
 std::string exampleSounds() {
   wire::ServerMessage message;
   wire::Sound& theme = *message.mutable_sounds()->add_sounds();
@@ -161,7 +161,7 @@ TEST(ProtocolBytes, FrameIsAsTheDocumentSays) {
   SnapshotHeader header;
   header.number = 4;
   header.tick = 105;
-  out.begin(header, 0, {});
+  out.beginSnapshot(header, 0, {});
   wire::ServerMessage message;
   message.set_snapshot(out.finish());
   EXPECT_EQ(hexOfBits(example(3).bits), hex(message.snapshot()));
@@ -196,10 +196,10 @@ TEST(ProtocolBytes, Version4StaysAsItIs) {
 
 // What is frozen must also be read as what it was.
 TEST(ProtocolBytes, TheExamplesAreReadAsTheyWereMeant) {
-  SnapshotDictionary vocabulary;
-  vocabulary.define(2, OriginRecord{1, kConfirmed});
+  SnapshotDictionary dictionary;
+  dictionary.define(2, OriginRecord{1, kConfirmed});
   Snapshot snapshot;
-  ASSERT_EQ(readSnapshot(exampleSnapshot(), {2, 99, 1}, vocabulary, snapshot), ReadResult::kOk);
+  ASSERT_EQ(readSnapshot(exampleSnapshot(), {2, 99, 1}, dictionary, snapshot), ReadResult::kOk);
   ASSERT_EQ(snapshot.records.objects.size(), 4u);
   EXPECT_EQ(snapshot.records.objects[1].state.motion.position, at(123.25, 4.75));
   const Look& animated = snapshot.records.objects[0].state.look;
@@ -247,7 +247,7 @@ TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
       {"kMaxUpdate", kMaxUpdate},
       {"kOriginSlots", kOriginSlots},
       {"kMaxAppearances", kMaxAppearances},
-      {"kMaxVocabularyGlyphs", kMaxVocabularyGlyphs},
+      {"kMaxDictionaryGlyphs", kMaxDictionaryGlyphs},
       {"kMaxFrames", kMaxFrames},
       {"kMaxTicksPerFrame", kMaxTicksPerFrame},
       {"kMaxReplicaObjects", kMaxReplicaObjects},

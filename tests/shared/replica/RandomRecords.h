@@ -156,8 +156,8 @@ class RandomRecords {
     header.tick = static_cast<std::uint32_t>(m_rng.next());
     header.epoch = static_cast<std::uint8_t>(m_rng.below(4));
     header.complete = chance(0.5);
-    header.tells_input = chance(0.5);
-    if (!header.tells_input) return header;
+    header.has_input = chance(0.5);
+    if (!header.has_input) return header;
     header.input = static_cast<std::uint32_t>(m_rng.next());
     header.input_tick = header.tick - static_cast<std::uint32_t>(m_rng.below(64));
     return header;

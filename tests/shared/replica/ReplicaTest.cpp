@@ -139,7 +139,7 @@ TEST(Replica, KnowsTheNewestOfWhatItApplied) {
     Snapshot snapshot;
     snapshot.header.number = number;
     snapshot.header.tick = tick;
-    snapshot.header.tells_input = id != 0;
+    snapshot.header.has_input = id != 0;
     snapshot.header.input = id;
     replica.apply(snapshot);
   };
@@ -164,7 +164,7 @@ TEST(Replica, KeepsNamesForTheSnapshotsToCome) {
     SnapshotWriter out;
     SnapshotHeader header;
     header.number = number;
-    out.begin(header, slot, origin);
+    out.beginSnapshot(header, slot, origin);
     if (sets_origin) out.write(OriginRecord{1, {{-5, -5}, 4, 4, 0}});
     BitWriter bits;
     out.encode(bits, kAllGroups, 1, word, word.motion, form);

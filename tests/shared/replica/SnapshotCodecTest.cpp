@@ -32,7 +32,7 @@ void expectSame(const SnapshotHeader& a, const SnapshotHeader& b) {
   ASSERT_EQ(a.tick, b.tick);
   ASSERT_EQ(a.epoch, b.epoch);
   ASSERT_EQ(a.complete, b.complete);
-  ASSERT_EQ(a.tells_input, b.tells_input);
+  ASSERT_EQ(a.has_input, b.has_input);
   ASSERT_EQ(a.input, b.input);
   ASSERT_EQ(a.input_tick, b.input_tick);
 }
@@ -71,11 +71,11 @@ TEST(SnapshotCodec, PositionsAndOrdersAreCountedFromAnOrigin) {
     const SnapshotHeader head = random.header();
     const OriginRecord origin = random.originRecord();
     const Records records = random.records(head.tick);
-    SnapshotDictionary vocabulary;
-    vocabulary.define(head.number - 1 == 0 ? 0xFFFFFFFF : head.number - 1, origin);
+    SnapshotDictionary dictionary;
+    dictionary.define(head.number - 1 == 0 ? 0xFFFFFFFF : head.number - 1, origin);
     const std::string bytes = writeSnapshot(head, records, origin.slot, origin.origin);
     Snapshot out;
-    ASSERT_EQ(readSnapshot(bytes, test::near(head), vocabulary, out), ReadResult::kOk);
+    ASSERT_EQ(readSnapshot(bytes, test::near(head), dictionary, out), ReadResult::kOk);
     expectSame(records, out.records);
     if (HasFatalFailure()) FAIL() << "round " << i;
     ASSERT_EQ(read(bytes, test::near(head), out), ReadResult::kMalformed) << "an origin that was never set";
@@ -87,7 +87,7 @@ TEST(SnapshotCodec, NumbersAreRestoredNearThoseKnown) {
     for (const std::int32_t apart : {-32768, -1, 1, 32767}) {
       SnapshotHeader head = header(known + static_cast<std::uint32_t>(apart), known - 1);
       if (head.number == 0) continue;
-      head.tells_input = true;
+      head.has_input = true;
       head.input = known + 9;
       head.input_tick = head.tick - 63;
       Snapshot out;
@@ -97,9 +97,9 @@ TEST(SnapshotCodec, NumbersAreRestoredNearThoseKnown) {
   }
 }
 
-TEST(SnapshotCodec, AnInputLongAgoIsSaidToBe63TicksOld) {
+TEST(SnapshotCodec, AnInputLongAgoIsSentAs63TicksOld) {
   SnapshotHeader head = header(3, 1000);
-  head.tells_input = true;
+  head.has_input = true;
   head.input = 7;
   head.input_tick = 900;
   Snapshot out;
@@ -167,9 +167,9 @@ TEST(SnapshotCodec, EverySingleBitFlipIsRefusedOrLegal) {
 
 TEST(SnapshotCodec, RandomBytesAreRefusedOrLegal) {
   RandomRecords random(15);
-  SnapshotDictionary vocabulary;
-  vocabulary.define(1, OriginRecord{1, random.origin()});
-  vocabulary.define(1, SequenceRecord{0, {Appearance(3, Glyph{0, 0, U'x', df::RED})}});
+  SnapshotDictionary dictionary;
+  dictionary.define(1, OriginRecord{1, random.origin()});
+  dictionary.define(1, SequenceRecord{0, {Appearance(3, Glyph{0, 0, U'x', df::RED})}});
   int accepted = 0;
   for (int i = 0; i < 100'000; ++i) {
     std::string bytes(random.rng().below(60), '\0');
@@ -178,7 +178,7 @@ TEST(SnapshotCodec, RandomBytesAreRefusedOrLegal) {
       if (i % 2 == 1 || random.chance(0.05)) byte = static_cast<char>(random.rng().next());
     }
     Snapshot out;
-    const ReadResult result = readSnapshot(bytes, {1, 1, 1}, vocabulary, out);
+    const ReadResult result = readSnapshot(bytes, {1, 1, 1}, dictionary, out);
     ASSERT_TRUE(result != ReadResult::kOk || test::isLegal(out.records, out.header.tick));
     accepted += result == ReadResult::kOk ? 1 : 0;
   }
@@ -244,11 +244,11 @@ TEST(SnapshotCodec, OrdersOutOfRangeAreRefused) {
     records.objects.push_back({1, 0, kAllGroups, {}});
     records.objects[0].state.order = order;
     records.objects[0].state.motion.tick = 5;
-    SnapshotDictionary vocabulary;
-    vocabulary.define(1, OriginRecord{1, {{}, 0, 0, 10}});
+    SnapshotDictionary dictionary;
+    dictionary.define(1, OriginRecord{1, {{}, 0, 0, 10}});
     Snapshot out;
     const std::string bytes = writeSnapshot(header(2, 5), records, 1, {{}, 0, 0, written_from});
-    return readSnapshot(bytes, {1, 5, 0}, vocabulary, out) == ReadResult::kOk;
+    return readSnapshot(bytes, {1, 5, 0}, dictionary, out) == ReadResult::kOk;
   };
   const std::uint64_t last = (std::uint64_t{1} << 48) - 1;
   EXPECT_TRUE(isRead(0, 10));
@@ -319,7 +319,7 @@ std::set<std::uint32_t> someIds(RandomRecords& random, std::size_t count) {
   return ids;
 }
 
-TEST(SnapshotCodec, WhatHasRoomFits) {
+TEST(SnapshotCodec, ARecordThatHasRoomFits) {
   RandomRecords random(16);
   double filled = 0;
   int full = 0;
@@ -331,7 +331,7 @@ TEST(SnapshotCodec, WhatHasRoomFits) {
     const std::uint32_t last = random.chance(0.5) ? kMaxSlots - 1 : *std::max_element(ids.begin(), ids.end());
     SnapshotWriter out;
     const SnapshotHeader head = random.header();
-    out.begin(head, 0, {});
+    out.beginSnapshot(head, 0, {});
     if (random.chance(0.3)) out.write(random.view());
     if (random.chance(0.3)) out.write(random.text());
     if (!out.hasRoom(0, last, bytes)) continue;
@@ -362,8 +362,8 @@ TEST(SnapshotCodec, EvenTheDearestIdsFitWhereThereIsRoom) {
     for (const std::uint32_t count : {1u, 2u, 5u, 30u, 300u}) {
       SnapshotWriter out;
       SnapshotHeader head = header(0xFFFF, 1);
-      head.tells_input = true;
-      out.begin(head, 0, {});
+      head.has_input = true;
+      out.beginSnapshot(head, 0, {});
       std::uint32_t id = 0;
       std::size_t bytes = 0;
       for (std::uint32_t i = 0; i < count; ++i) {

@@ -27,21 +27,21 @@ class SnapshotNames : public testing::Test {
     m_header = {};
     m_header.number = number;
     m_header.tick = 100;
-    writer.begin(m_header, 0, {});
+    writer.beginSnapshot(m_header, 0, {});
   }
   void look(std::uint32_t id, const char* text, LookForm form) {
     BitWriter bits;
     writer.encode(bits, kLook, 0, drawnAs(text), {}, form);
     writer.object(id, std::move(bits));
   }
-  ReadResult read() { return readSnapshot(writer.finish(), {m_header.number, 100, 0}, vocabulary, snapshot); }
+  ReadResult read() { return readSnapshot(writer.finish(), {m_header.number, 100, 0}, dictionary, snapshot); }
   const Look& lookOf(std::size_t object) const { return snapshot.records.objects.at(object).state.look; }
   void know(std::uint32_t number, std::uint32_t id, const char* text) {
-    vocabulary.define(number, SequenceRecord{id, drawnAs(text).look.sequence});
+    dictionary.define(number, SequenceRecord{id, drawnAs(text).look.sequence});
   }
 
   SnapshotWriter writer;
-  SnapshotDictionary vocabulary;
+  SnapshotDictionary dictionary;
   Snapshot snapshot;
 
  private:
@@ -88,7 +88,7 @@ TEST_F(SnapshotNames, ANameThatWasGivenAwaySinceIsStale) {
   EXPECT_EQ(read(), ReadResult::kStale);
 }
 
-TEST_F(SnapshotNames, ANameThatNobodyDefinedIsMalformed) {
+TEST_F(SnapshotNames, AnUndefinedNameIsMalformed) {
   know(49, 7, "saucer");
   look(3, "saucer", {kNamed, 6});
   EXPECT_EQ(read(), ReadResult::kMalformed);
@@ -106,7 +106,7 @@ TEST_F(SnapshotNames, ATruncatedSnapshotIsMalformedEvenIfStale) {
   look(3, "saucer", {kNamed, 7});
   const std::string bytes = writer.finish();
   for (std::size_t length = 0; length < bytes.size(); ++length) {
-    EXPECT_EQ(readSnapshot(std::string_view(bytes).substr(0, length), {50, 100, 0}, vocabulary, snapshot),
+    EXPECT_EQ(readSnapshot(std::string_view(bytes).substr(0, length), {50, 100, 0}, dictionary, snapshot),
               ReadResult::kMalformed);
   }
 }
@@ -129,7 +129,7 @@ TEST_F(SnapshotNames, OriginsAreKnownStaleOrUnknown) {
 
 // Few bytes name much: it is not unfolded.
 TEST_F(SnapshotNames, LooksOfOneNameShareTheirSequence) {
-  vocabulary.define(49, SequenceRecord{7, {Appearance(kMaxGlyphs, Glyph{0, 0, U'#', df::RED})}});
+  dictionary.define(49, SequenceRecord{7, {Appearance(kMaxGlyphs, Glyph{0, 0, U'#', df::RED})}});
   for (std::uint32_t id = 0; id < 1000; ++id) look(id, "saucer", {kNamed, 7});
   look(1000, "new", {kDefined, 8});
   look(1001, "new", {kNamed, 8});
@@ -154,9 +154,9 @@ TEST_F(SnapshotNames, ASelectorMustFitWhatItsNameStandsFor) {
     return read();
   };
   const Appearance a{{256, 0, U'a', df::RED}};
-  vocabulary.define(49, SequenceRecord{7, {a, a}});
-  vocabulary.define(49, SequenceRecord{8, {a, a, a}});
-  vocabulary.define(49, SequenceRecord{9, {a}});
+  dictionary.define(49, SequenceRecord{7, {a, a}});
+  dictionary.define(49, SequenceRecord{8, {a, a, a}});
+  dictionary.define(49, SequenceRecord{9, {a}});
   for (const bool here : {false, true}) {
     EXPECT_EQ(isRead(Selector::fixed(1), 7, here), ReadResult::kOk);
     EXPECT_EQ(isRead(Selector::fixed(2), 7, here), ReadResult::kMalformed);
@@ -196,7 +196,7 @@ TEST_F(SnapshotNames, RandomDefinitionsAndUsesUnfoldAsTheyWere) {
     ASSERT_EQ(read(), ReadResult::kOk);
     for (std::size_t i = 0; i < used.size(); ++i) ASSERT_EQ(lookOf(i), states[used[i]].look);
     for (const SequenceRecord& record : snapshot.records.sequences)
-      ASSERT_TRUE(vocabulary.define(50 + round, record));
+      ASSERT_TRUE(dictionary.define(50 + round, record));
   }
 }
 

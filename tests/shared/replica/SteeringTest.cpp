@@ -45,14 +45,14 @@ class Steering : public testing::Test {
     return SteeredCopy(start, table, p_barriers);
   }
   static void press(SteeredCopy& copy, df::Keyboard::Key key, df::EventKeyboardAction action = KEY_PRESSED) {
-    copy.begin();
-    copy.key(key, action);
-    copy.finish();
+    copy.beginTick();
+    copy.applyKey(key, action);
+    copy.finishTick();
   }
   static void pass(SteeredCopy& copy, int ticks) {
     for (int i = 0; i < ticks; ++i) {
-      copy.begin();
-      copy.finish();
+      copy.beginTick();
+      copy.finishTick();
     }
   }
 
@@ -64,13 +64,13 @@ class Steering : public testing::Test {
 TEST_F(Steering, AStepIsOneMoveInItsTickAndTwoAreTwo) {
   row(A, ControlEffect::kStep, cells(1, 0));
   SteeredCopy copy = ship();
-  copy.begin();
-  copy.key(A, KEY_PRESSED);
+  copy.beginTick();
+  copy.applyKey(A, KEY_PRESSED);
   EXPECT_EQ(copy.position(), cells(11, 10));
-  copy.key(A, KEY_PRESSED);
-  copy.key(A, KEY_RELEASED);
-  copy.key(B, KEY_PRESSED);
-  copy.finish();
+  copy.applyKey(A, KEY_PRESSED);
+  copy.applyKey(A, KEY_RELEASED);
+  copy.applyKey(B, KEY_PRESSED);
+  copy.finishTick();
   EXPECT_EQ(copy.position(), cells(12, 10));
 }
 
@@ -128,10 +128,10 @@ TEST_F(Steering, ADriveLastsAsLongAsItsKey) {
 TEST_F(Steering, AKeyThatGoesDownAndUpInOneTickCountsInIt) {
   drive(A, {kFixedOne / 2, 0});
   SteeredCopy copy = ship();
-  copy.begin();
-  copy.key(A, KEY_PRESSED);
-  copy.key(A, KEY_RELEASED);
-  copy.finish();
+  copy.beginTick();
+  copy.applyKey(A, KEY_PRESSED);
+  copy.applyKey(A, KEY_RELEASED);
+  copy.finishTick();
   pass(copy, 3);
   EXPECT_EQ(copy.position().x, fromCells(10) + kFixedOne / 2);
 }
@@ -147,7 +147,7 @@ TEST_F(Steering, OfTwoKeysOfAnAxisTheLastOnePressedWins) {
   EXPECT_EQ(copy.velocity().x, kFixedOne);
 }
 
-TEST_F(Steering, WhatIsLetGoGlidesToTheNextWholeCellAndNeverBeyond) {
+TEST_F(Steering, AReleasedDriveGlidesToTheNextWholeCellAndNeverBeyond) {
   table.whole_cells = true;
   for (const df::Fixed speed : {kFixedOne / 3, kFixedOne / 2, kFixedOne * 2 / 7, kFixedOne}) {
     for (const int sign : {1, -1}) {
@@ -184,7 +184,7 @@ TEST_F(Steering, NoKeyLeadsOutOfTheBounds) {
   EXPECT_EQ(other.position(), cells(10, 12));  // each axis by itself: 3 to the left would have been outside
 }
 
-TEST_F(Steering, ASilentKeyboardLetsGo) {
+TEST_F(Steering, ASilentKeyboardReleasesItsDrives) {
   table.patience = 4;
   drive(A, cells(1, 0));
   SteeredCopy copy = ship();
@@ -199,7 +199,7 @@ TEST_F(Steering, ASilentKeyboardLetsGo) {
   EXPECT_EQ(copy.velocity(), cells(0, 0));
 }
 
-TEST_F(Steering, WhoDoesNotSteerRemembersWhichKeysAreDown) {
+TEST_F(Steering, APlayerThatSteersNothingRemembersWhichKeysAreDown) {
   steering = false;
   drive(A, cells(1, 0));
   row(B, ControlEffect::kStep, cells(0, 1), 5);

@@ -33,7 +33,7 @@ TEST(Fixed, RefusesWhatIsNotFiniteOrBeyondTheLimit) {
   EXPECT_FALSE(toFixed(7.5, 7.0));
 }
 
-TEST(Fixed, SurvivesTheWayThroughDoublesUpTo2To21Cells) {
+TEST(Fixed, SurvivesTheRoundTripThroughDoublesUpTo2To21Cells) {
   naiad::SplitMix64 rng(1);
   for (int i = 0; i < 10'000; ++i) {
     const Fixed value = static_cast<Fixed>(rng.below(std::uint64_t{1} << 54)) - (Fixed{1} << 53);

@@ -1,4 +1,4 @@
-// A game for one, as students write them: it knows of no network and no players, and keeps what it knows in
+// A game for one, as students write them: it has no network and no players, and keeps what it knows in
 // globals. What it is good for is in OwnMainTest.cpp.
 #include <stdlib.h>
 

@@ -128,12 +128,12 @@ std::size_t LightBot::receive(Time now) {
 void LightBot::takeSnapshot(std::string_view snapshot, Time now) {
   const auto header = peekHeader(snapshot, m_context);
   if (!header) return;
-  m_acks.note(header->number);
+  m_acks.addReceived(header->number);
   ++m_snapshots;
   if (m_first == 0) m_first = header->number;
   if (isNewer(header->number, m_context.number)) m_context.number = header->number;
   if (isNewer(header->tick, m_context.tick)) m_context.tick = header->tick;
-  if (header->tells_input) {
+  if (header->has_input) {
     if (isNewer(header->input, m_context.input)) m_context.input = header->input;
     std::erase_if(m_inputs, [&](const Input& input) { return !isNewer(input.id, m_context.input); });
   }

@@ -349,7 +349,7 @@ class SessionWithTwoStreams : public SessionReturn {
     second.sent.clear();
   }
   void acknowledge(Wire& line) {
-    for (std::uint32_t n = acks.newest + 1; n <= session->sender().newestNumber(); ++n) acks.note(n);
+    for (std::uint32_t n = acks.newest + 1; n <= session->sender().newestNumber(); ++n) acks.addReceived(n);
     ClientUpdate update;
     update.acks = acks;
     say(line, messageOf(update));

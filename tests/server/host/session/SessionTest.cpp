@@ -515,7 +515,7 @@ TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentAndCatchesUpAfter) {
       Snapshot snapshot;
       ASSERT_EQ(replica.read(message.snapshot(), snapshot), ReadResult::kOk);
       replica.apply(snapshot);
-      acks.note(snapshot.header.number);
+      acks.addReceived(snapshot.header.number);
     }
     ClientUpdate update;
     update.acks = acks;
@@ -557,7 +557,7 @@ TEST_F(SessionTest, SnapshotsNameTheNewestInputThatReachedTheGame) {
   session.sendTick(publisher, world.view().players[0]);
   Snapshot snapshot;
   ASSERT_EQ(Replica(world.tickNumber()).read(lastSent().snapshot(), snapshot), ReadResult::kOk);
-  EXPECT_TRUE(snapshot.header.tells_input);
+  EXPECT_TRUE(snapshot.header.has_input);
   EXPECT_EQ(snapshot.header.input, 4u);
   EXPECT_EQ(snapshot.header.input_tick, world.tickNumber());
 }

@@ -7,7 +7,7 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kLargest = kMaxVocabularyGlyphs / 2 / 8;
+constexpr std::size_t kLargest = kMaxDictionaryGlyphs / 2 / 8;
 
 class AppearanceNamesTest : public testing::Test {
  protected:

@@ -157,7 +157,7 @@ struct SmallClient {
         Snapshot snapshot;
         ASSERT_EQ(replica.read(packet.bytes, snapshot), ReadResult::kOk);
         replica.apply(snapshot);
-        acks.note(packet.number);
+        acks.addReceived(packet.number);
       }
       on_their_way.pop_front();
       sender.acknowledge(acks);

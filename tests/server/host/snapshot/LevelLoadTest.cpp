@@ -70,7 +70,7 @@ class Client {
     Snapshot snapshot;
     ASSERT_EQ(replica.read(packet, snapshot), ReadResult::kOk);
     replica.apply(snapshot);
-    m_acks.note(snapshot.header.number);
+    m_acks.addReceived(snapshot.header.number);
     const auto delay = m_clock.now() - m_sent_at[snapshot.header.number % m_sent_at.size()];
     latest = std::max(latest, std::chrono::duration_cast<std::chrono::microseconds>(delay));
     if (wanted != 0 && replica.aliveCount() >= wanted && complete_at == VirtualClock::Time{})

@@ -36,11 +36,11 @@ class Alone {
     SnapshotHeader header{++number, m_view.tick, 0, true, false, 0, 0};
     state.writeInput(header);
     SnapshotWriter writer;
-    writer.begin(header, 0, {});
+    writer.beginSnapshot(header, 0, {});
     sent_any = state.write(writer, number, limit, repeats);
     Snapshot snapshot;
     EXPECT_EQ(Replica().read(writer.finish(), snapshot), ReadResult::kOk);
-    tells_input = snapshot.header.tells_input;
+    has_input = snapshot.header.has_input;
     return snapshot.records;
   }
   void say(const std::string& text) { player.texts = {{0, 1, 1, df::WHITE, text}}; }
@@ -49,7 +49,7 @@ class Alone {
   df::PlayerFacts player;
   std::uint32_t number = 0;  ///< of the newest snapshot
   bool sent_any = false;
-  bool tells_input = false;
+  bool has_input = false;
 
  private:
   df::WorldView m_view;
@@ -114,19 +114,19 @@ TEST(PerClientState, WhatHasArrivedIsNotRepeated) {
 TEST(PerClientState, EverySnapshotNamesTheInputUntilOneHasArrived) {
   Alone scene;
   scene.tick();
-  EXPECT_FALSE(scene.tells_input);
+  EXPECT_FALSE(scene.has_input);
   scene.state.noteInput(7, 2);
   for (int i = 0; i < 3; ++i) {
     scene.tick();
-    EXPECT_TRUE(scene.tells_input);
+    EXPECT_TRUE(scene.has_input);
   }
   scene.state.confirmArrival(1, false);
   scene.state.confirmArrival(scene.number, true);
   scene.tick();
-  EXPECT_TRUE(scene.tells_input) << "neither an older one nor a probe named it";
+  EXPECT_TRUE(scene.has_input) << "neither an older one nor a probe named it";
   scene.state.confirmArrival(scene.number, false);
   scene.tick();
-  EXPECT_FALSE(scene.tells_input);
+  EXPECT_FALSE(scene.has_input);
 }
 
 enum class Arrival { kLost, kDownOnly, kBothWays };
@@ -155,7 +155,7 @@ class Following {
       Snapshot snapshot;
       if (arrival == Arrival::kLost || replica.read(packet.bytes, snapshot) != ReadResult::kOk) continue;
       replica.apply(snapshot);
-      acks.note(packet.number);
+      acks.addReceived(packet.number);
     }
     if (arrival == Arrival::kBothWays) direct.sender.acknowledge(acks);
   }
@@ -255,7 +255,7 @@ class Steering {
       Snapshot snapshot;
       if (!arrives || replica.read(packet.bytes, snapshot) != ReadResult::kOk) continue;
       replica.apply(snapshot);
-      acks.note(packet.number);
+      acks.addReceived(packet.number);
     }
     direct.sender.acknowledge(acks);
     return sent;

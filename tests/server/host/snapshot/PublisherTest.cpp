@@ -422,7 +422,7 @@ void expectSamePictures(const test::WorldConfig& config, std::uint64_t seed, int
           Snapshot snapshot;
           ASSERT_EQ(client.replica.read(packet.bytes, snapshot), ReadResult::kOk);
           client.replica.apply(snapshot);
-          client.acks.note(packet.number);
+          client.acks.addReceived(packet.number);
         }
         client.sender.acknowledge(client.acks);
       }

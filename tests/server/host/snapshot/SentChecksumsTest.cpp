@@ -18,7 +18,7 @@ class SentChecksumsTest : public testing::Test {
   static AckWindow allBut(std::uint32_t missing) {
     AckWindow acks;
     for (std::uint32_t number = 1; number <= 6; ++number) {
-      if (number != missing) acks.note(number);
+      if (number != missing) acks.addReceived(number);
     }
     return acks;
   }

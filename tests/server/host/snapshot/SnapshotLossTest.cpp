@@ -112,7 +112,7 @@ class LossyPair {
     if (result == ReadResult::kStale) return;
     replica.apply(snapshot);
     checkLives(snapshot.header.number);
-    m_acks.note(snapshot.header.number);
+    m_acks.addReceived(snapshot.header.number);
     ClientUpdate update;
     update.acks = m_acks;
     update.checksum = replica.checksum();

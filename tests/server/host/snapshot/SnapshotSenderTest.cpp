@@ -209,7 +209,7 @@ TEST(SnapshotSender, AResetNamesTheNewestInputAgain) {
   ASSERT_FALSE(packets.empty());
   Snapshot snapshot;
   ASSERT_EQ(Replica::continuing(direct.reader().newest()).read(packets[0].bytes, snapshot), ReadResult::kOk);
-  EXPECT_TRUE(snapshot.header.tells_input);
+  EXPECT_TRUE(snapshot.header.has_input);
   EXPECT_EQ(snapshot.header.input, 7u);
 }
 

@@ -71,7 +71,7 @@ class Show {
       Snapshot snapshot;
       EXPECT_EQ(m_replica.read(packet.bytes, snapshot), ReadResult::kOk);
       m_replica.apply(snapshot);
-      m_acks.note(packet.number);
+      m_acks.addReceived(packet.number);
       bytes += packet.bytes.size();
     }
     m_sender.acknowledge(m_acks);

@@ -125,7 +125,7 @@ TEST(BodyLook, EveryTurnMayBePublished) {
       EXPECT_LE(turn.frames.size(), kMaxFrames);
       if (turn.frames.size() > 1) {
         EXPECT_LE(encodedBits(turn.frames), 8 * kMaxLookBytes);
-        EXPECT_LE(turn.frames.weight(), kMaxVocabularyGlyphs / 16) << "else it gets no name";
+        EXPECT_LE(turn.frames.weight(), kMaxDictionaryGlyphs / 16) << "else it gets no name";
       }
     }
   }
