@@ -5,6 +5,7 @@
 
 #include "engine/world/Player.h"
 #include "host/session/Names.h"
+#include "naiad.pb.h"
 
 namespace naiad::soak {
 

@@ -1,5 +1,6 @@
 #include "host/session/Session.h"
 
+#include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {
@@ -9,7 +10,18 @@ Session::Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, C
       m_streams(std::move(channel)),
       m_activity(now),
       m_chat(now),
-      m_delivery(counters, now) {}
+      m_delivery(counters, now),
+      m_welcome(std::make_unique<wire::Welcome>()) {}
+
+Session::~Session() = default;
+
+std::uint32_t Session::player() const {
+  return m_welcome->player();
+}
+
+const std::string& Session::name() const {
+  return m_welcome->name();
+}
 
 void Session::start(Events events) {
   m_events = std::move(events);
@@ -22,7 +34,7 @@ void Session::start(Events events) {
 
 // ---- the welcome or refusal -------------------------------------------------------------------------------
 
-void Session::refuse(wire::Refused::Reason reason, const std::string& sentence) {
+void Session::refuse(wire::Refused_Reason reason, const std::string& sentence) {
   wire::ServerMessage message;
   message.mutable_refused()->set_reason(reason);
   message.mutable_refused()->set_sentence(sentence);
@@ -35,8 +47,8 @@ std::string Session::exportSecret(std::string_view label, std::string_view conte
 }
 
 void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChannel> datagrams) {
-  m_welcome = welcome;
-  m_welcome.clear_resume_token();
+  *m_welcome = welcome;
+  m_welcome->clear_resume_token();
   m_state = State::kPlaying;
   sendWelcome(welcome);
   startDatagrams(std::move(datagrams));
@@ -96,7 +108,7 @@ void Session::accompany(Session& other) {
   other.m_state = State::kGone;
   ++m_counters.second_streams;
   wire::ServerMessage message;
-  *message.mutable_welcome() = m_welcome;
+  *message.mutable_welcome() = *m_welcome;
   message.mutable_welcome()->set_second_stream(true);
   m_streams.sendSecond(message.SerializeAsString());
 }

@@ -21,12 +21,20 @@
 #include "host/session/ResizeRequest.h"
 #include "host/session/SnapshotDelivery.h"
 #include "host/session/StreamPair.h"
-#include "naiad.pb.h"
 #include "shared/net/base/Channel.h"
 #include "shared/net/stream/ReliableFrames.h"
 #include "shared/replica/UpdateCodec.h"
 
 namespace naiad {
+
+namespace wire {
+class ClientMessage;
+class Hello;
+class Ping;
+enum Refused_Reason : int;
+class ServerMessage;
+class Welcome;
+}  // namespace wire
 
 class Session {
  public:
@@ -53,6 +61,7 @@ class Session {
   static constexpr std::size_t kMaxBeforeFleeting = std::size_t{4} * 1024;
 
   Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now);
+  ~Session();
   /// Names the session for as long as the host runs.
   void setId(std::uint64_t id) { m_id = id; }
   std::uint64_t id() const { return m_id; }
@@ -60,7 +69,7 @@ class Session {
   void start(Events events);
 
   /// Answer the hello with a refusal; the connection ends.
-  void refuse(wire::Refused::Reason reason, const std::string& sentence);
+  void refuse(wire::Refused_Reason reason, const std::string& sentence);
   /// Answer the hello: the client plays from now on. With `datagrams` if there are to be any.
   void welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChannel> datagrams = nullptr);
   /// The client is back: take over the stream on which `other` heard its hello, answer the hello, and send
@@ -86,7 +95,7 @@ class Session {
   /// welcome. True once for each stream.
   bool takeProof() { return m_activity.takeProof(); }
   /// As it was sent, but without the resume token, of which only the hash is kept (ResumeTokens).
-  const wire::Welcome& welcomed() const { return m_welcome; }
+  const wire::Welcome& welcomed() const { return *m_welcome; }
   SealedChannel* datagrams() { return m_delivery.datagrams(); }
   /// Null while detached.
   const ReliableChannel* stream() const { return m_streams.first(); }
@@ -126,8 +135,8 @@ class Session {
   bool sendFleeting(const wire::ServerMessage& message);
 
   State state() const { return m_state; }
-  std::uint32_t player() const { return m_welcome.player(); }
-  const std::string& name() const { return m_welcome.name(); }
+  std::uint32_t player() const;
+  const std::string& name() const;
   std::string address() const { return m_streams.peerAddress(); }
   /// Ticks at whose end this client was not up to date, since it was busy with earlier bytes.
   std::uint64_t skippedTicks() const { return m_delivery.skippedTicks(); }
@@ -178,7 +187,7 @@ class Session {
   SnapshotDelivery m_delivery;
   std::chrono::milliseconds m_grace{0};
   std::uint64_t m_id = 0;
-  wire::Welcome m_welcome;
+  std::unique_ptr<wire::Welcome> m_welcome;
 };
 
 }  // namespace naiad

@@ -6,6 +6,7 @@
 
 #include "host/session/Names.h"
 #include "host/session/Session.h"
+#include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {

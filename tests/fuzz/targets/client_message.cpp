@@ -15,6 +15,7 @@
 #include "Require.h"
 #include "Script.h"
 #include "host/session/Session.h"
+#include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
 #include "tests/support/FakeChannel.h"

@@ -53,7 +53,7 @@ class Play {
                   .id = kSession,
                   .random = [this] { return ++m_challenge; },
                   .limits = m_limits}),
-        m_gate(7, {.session = {250, 20}, .claimed = {32, 12}, .prefix = {40, 8}, .strangers = {60, 10}}) {
+        m_gate({.session = {250, 20}, .claimed = {32, 12}, .prefix = {40, 8}, .strangers = {60, 10}}) {
     m_client.setServerPath(pathOf(200));
     REQUIRE(m_gate.add(m_server, [this](std::string_view payload) { m_heard.emplace(payload); }));
     REQUIRE(!m_gate.add(m_server, {}));

@@ -8,6 +8,7 @@
 #include "Clients.h"
 #include "engine/world/World.h"
 #include "host/program/Admission.h"
+#include "naiad.pb.h"
 
 namespace naiad {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "Clients.h"
 #include "host/program/SessionTable.h"
+#include "naiad.pb.h"
 
 namespace naiad {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/session/Session.h"
+#include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 #include "tests/server/host/snapshot/SimulatedWorld.h"
 #include "tests/support/MessageLine.h"

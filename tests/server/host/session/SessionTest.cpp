@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/session/Session.h"
+#include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
 #include "shared/replica/Replica.h"
