@@ -31,7 +31,8 @@ struct FakeLine {
 
 class FakeChannel : public ReliableChannel {
  public:
-  explicit FakeChannel(FakeLine& line) : m_line(line) {}
+  /// A line may have several channels, one after the other.
+  explicit FakeChannel(FakeLine& line) : m_line(line) { m_line.closed = false; }
   ~FakeChannel() override { m_line.destroyed = true; }
   void start(Callbacks callbacks) override { m_line.callbacks = std::move(callbacks); }
   void send(std::string_view frame) override {

@@ -46,9 +46,9 @@ class ControlApplier : public naiad::Steered {
 void beginControlTick(World& world) {
   for (const auto& [id, p_player] : world.views().players()) {
     if (p_player->m_p_controls == nullptr) continue;
-    ControlApplier helm(world, p_player->m_object);
-    p_player->m_control_state.steering = p_player->m_steers && helm.isManned();
-    naiad::beginControlTick(*p_player->m_p_controls, p_player->m_control_state, helm);
+    ControlApplier applier(world, p_player->m_object);
+    p_player->m_control_state.steering = p_player->m_steers && applier.isManned();
+    naiad::beginControlTick(*p_player->m_p_controls, p_player->m_control_state, applier);
   }
 }
 
@@ -56,9 +56,9 @@ bool handleKey(World& world, Player& player, Keyboard::Key key, EventKeyboardAct
   // Held on to: a handler that the move calls may declare other controls.
   const std::shared_ptr<const ControlTable> p_controls = player.m_p_controls;
   if (p_controls == nullptr) return false;
-  ControlApplier helm(world, player.m_object);
-  player.m_control_state.steering = player.m_steers && helm.isManned();
-  return naiad::applyControlKey(*p_controls, player.m_control_state, key, action, helm);
+  ControlApplier applier(world, player.m_object);
+  player.m_control_state.steering = player.m_steers && applier.isManned();
+  return naiad::applyControlKey(*p_controls, player.m_control_state, key, action, applier);
 }
 
 }  // namespace df

@@ -48,9 +48,8 @@ class Ref {
   /// To an Object that is in the world; one that is not reads as null until it is inserted.
   Ref(T* p_o) : m_base(p_o), m_p_object(p_o) {}
   /// To the same Object, as one of its base classes.
-  template <class U>
-  requires std::is_convertible_v<U*, T*> Ref(const Ref<U>& other)
-      : m_base(other.m_base), m_p_object(other.m_p_object) {}
+  template <class U, class = std::enable_if_t<std::is_convertible_v<U*, T*>>>
+  Ref(const Ref<U>& other) : m_base(other.m_base), m_p_object(other.m_p_object) {}
 
   /// Null if the Object is gone.
   T* get() const { return m_base.isInWorld() ? m_p_object : nullptr; }

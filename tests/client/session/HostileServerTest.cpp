@@ -121,7 +121,6 @@ TEST_F(HostileServerTest, EndsOnAWelcomeOutOfRange) {
   };
   for (const auto& lie : lies) {
     SetUp();
-    log.closed = false;
     wire::ServerMessage message = welcomeMessage();
     lie(*message.mutable_welcome());
     receive(message);

@@ -113,7 +113,7 @@ TEST_F(MoveObject, HandlerThatHardensThePairBlocksIt) {
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
 }
 
-TEST_F(MoveObject, CollisionRuleIsJudgedRightAfterItsOwnHandlers) {
+TEST_F(MoveObject, TheCollisionRuleIsAppliedRightAfterTheHandlersOfAPair) {
   make("b", 15, 10);
   Probe* c = make("c", 15, 10, SOFT);
   Probe* a = make("a", 10, 10);

@@ -58,8 +58,8 @@ TEST_F(SeenAt, IsWhereTheBoxIsDrawn) {
 }
 
 TEST_F(SeenAt, GoesBackOnlyWhileAnInputWithAKnownTickIsHandled) {
-  TenToTheLeft hindsight(world);
-  world.setLagCompensation(&hindsight);
+  TenToTheLeft compensation(world);
+  world.setLagCompensation(&compensation);
   const std::uint32_t ann = world.join("ann", RED);
   Probe dot("dot", nullptr, Vector(40, 5));
   dot.registerInterest(MSE_EVENT);
@@ -70,15 +70,15 @@ TEST_F(SeenAt, GoesBackOnlyWhileAnInputWithAKnownTickIsHandled) {
   world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   GM.tick();
   EXPECT_EQ(at_click, Names{"dot"});
-  EXPECT_EQ(hindsight.last.base, 70u);
-  EXPECT_EQ(hindsight.last.drawn, 74u);
+  EXPECT_EQ(compensation.last.base, 70u);
+  EXPECT_EQ(compensation.last.drawn, 74u);
   world.mouse(ann, CLICKED, Mouse::LEFT, 40, 5);
   GM.tick();
   EXPECT_EQ(at_click, Names{"dot"});
   world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5);
   GM.tick();
   EXPECT_EQ(at_click, Names{});
-  hindsight.hidden = dot.key();
+  compensation.hidden = dot.key();
   world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   GM.tick();
   EXPECT_EQ(at_click, Names{});
@@ -87,8 +87,8 @@ TEST_F(SeenAt, GoesBackOnlyWhileAnInputWithAKnownTickIsHandled) {
 }
 
 TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
-  TenToTheLeft hindsight(world);
-  world.setLagCompensation(&hindsight);
+  TenToTheLeft compensation(world);
+  world.setLagCompensation(&compensation);
   const std::uint32_t ann = world.join("ann", RED);
   const std::uint32_t bob = world.join("bob", BLUE);
   Probe dot("dot", nullptr, Vector(40, 5));
@@ -97,7 +97,7 @@ TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
   dot.on_event = [&](Probe&, const Event& e) {
     clicks.push_back(static_cast<const EventMouse&>(e).getMousePosition());
   };
-  hindsight.corner = toFixed(Vector(6.6, -2));  // cell 7
+  compensation.corner = toFixed(Vector(6.6, -2));  // cell 7
   world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5);
   world.mouse(bob, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});

@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 const IdleTimer::Time kBegin{1000s};
 
-TEST(IdleTimer, LastsSinceSomethingCame) {
+TEST(IdleTimer, LastsSinceTheLastMessage) {
   IdleTimer silence(kBegin);
   EXPECT_EQ(silence.at(kBegin + 300ms), 300ms);
   silence.heard(kBegin + 400ms);
@@ -17,13 +17,13 @@ TEST(IdleTimer, LastsSinceSomethingCame) {
   EXPECT_EQ(silence.at(kBegin + 600ms), 200ms);
 }
 
-TEST(IdleTimer, CountsAllOfItForWhoListensOften) {
+TEST(IdleTimer, CountsAllSilenceIfPolledOften) {
   IdleTimer silence(kBegin);
   for (auto at = kBegin; at <= kBegin + 10s; at += IdleTimer::kMaxAtOnce) silence.listen(at);
   EXPECT_EQ(silence.at(kBegin + 10s), 10s);
 }
 
-TEST(IdleTimer, CountsLittleOfTheTimeInWhichNobodyListened) {
+TEST(IdleTimer, CountsLittleOfTheTimeWithoutPolls) {
   IdleTimer silence(kBegin);
   silence.listen(kBegin + 1h);
   EXPECT_EQ(silence.at(kBegin + 1h), IdleTimer::kMaxAtOnce);

@@ -88,7 +88,7 @@ TEST_F(TcpConnectorTest, UnknownNameGivesASentence) {
   EXPECT_EQ(error.find("The host name \"" + host + "\" could not be found ("), 0u) << error;
 }
 
-TEST_F(TcpConnectorTest, IdleTimerEndsInATimeout) {
+TEST_F(TcpConnectorTest, SilenceEndsInATimeout) {
   // A full backlog: the kernel leaves further connections unanswered.
   tcp::acceptor acceptor(context, tcp::v4());
   acceptor.bind({asio::ip::address_v4::loopback(), 0});
