@@ -11,7 +11,6 @@
 
 #include "Script.h"
 #include "shared/net/base/Limits.h"
-#include "shared/replica/Limits.h"
 #include "shared/replica/Bits.h"
 #include "shared/replica/Limits.h"
 

@@ -57,7 +57,7 @@ TEST_F(SecondStreamTest, OnlySnapshotsAreAcceptedOnIt) {
     MessageLine<wire::ClientMessage> other;
     SecondStream second;
     second.start(std::make_unique<FakeChannel>(other), {},
-                [this](std::string_view bytes) { snapshots.emplace_back(bytes); });
+                 [this](std::string_view bytes) { snapshots.emplace_back(bytes); });
     if (!message.has_snapshot()) other.receive(yes());
     other.receive(message);
     EXPECT_FALSE(second.isOpen()) << message.what_case();

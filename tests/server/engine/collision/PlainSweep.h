@@ -107,7 +107,8 @@ inline std::vector<Visit> tellingVisits(const Move& move, const FixedBox& other,
   std::vector<Visit> visits;
   for (const Moment time : times) {
     const auto along = [time](std::uint64_t length) {
-      return static_cast<std::uint64_t>(static_cast<WideUnsigned>(length) * time.numerator / time.denominator);
+      return static_cast<std::uint64_t>(static_cast<WideUnsigned>(length) * time.numerator /
+                                        time.denominator);
     };
     visits.push_back(
         {time, {goOn(move.from.x, move.to.x, along(way_x)), goOn(move.from.y, move.to.y, along(way_y))}});
