@@ -71,7 +71,7 @@ struct Guard : Object {
   }
 };
 
-/// Every player has one. It has the colour of who hit it last, and earns him the points.
+/// Every player has one. It has the colour of the player who hit it last, and earns them the points.
 struct Ball : Object {
   const std::uint32_t home;
   std::uint32_t shooter;
@@ -148,7 +148,7 @@ struct Ball : Object {
     const ObjectList paddles = WM.objectsOfType("Paddle");
     for (int i = 0; i < paddles.getCount(); ++i) {
       const auto* p_paddle = static_cast<const Guard*>(paddles[i]);
-      if (p_paddle->side == side) shooter = p_paddle->player;  // he pays for it
+      if (p_paddle->side == side) shooter = p_paddle->player;  // it costs them
     }
     earn(-10);
     rest = kServeTicks;

@@ -136,7 +136,7 @@ struct Runner : Object {
     if (standing && getVelocity().y() != 0) fall(0);
     const Vector pull(0, standing ? 0 : kGravity);
     if (getAcceleration() != pull) setAcceleration(pull);
-    // Who runs against a wall falls on, or climbs on, all the same.
+    // A runner at a wall falls on, or climbs on, all the same.
     if (std::exchange(beside, false) && !standing)
       WM.moveObject(this, getPosition() + Vector(0, getVelocity().y()));
   }
@@ -157,7 +157,7 @@ struct Runner : Object {
     if (thing.ch == 'F') p_player->setText(1, Vector(30, 0), "You have reached the flag!", MAGENTA);
     if (thing.ch == '^') p_player->setText(1, Vector(30, 0), "Ouch. Mind the spikes.", RED);
     done = thing.ch != 'o';
-    if (done) WM.markForDelete(this);  // the land makes him another one
+    if (done) WM.markForDelete(this);  // the land makes another one
   }
   int draw() override { return DM.drawCh(getPosition(), '@', color); }
 };

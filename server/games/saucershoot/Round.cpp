@@ -49,7 +49,7 @@ void Round::step() {
   for (int i = 0; i < heroes.getCount(); ++i) {
     if (!static_cast<const Hero*>(heroes[i])->isSpent()) return;
   }
-  // Where nobody is left, nobody has to be told.
+  // Without players there is none to tell.
   const EventRound end(heroes.isEmpty() ? EventRound::TITLE : EventRound::OVER);
   WM.onEvent(&end);
 }

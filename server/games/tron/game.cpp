@@ -1,6 +1,6 @@
 // Tron: each cycle leaves a wall behind it. Turn in time; who rides longest wins the round. Where only one
-// player is, a robot rides against him. Shows: rounds that players join when they come, many Objects at rest,
-// one class for players and robots.
+// player is, a robot rides against them. Shows: rounds that players join when they come, many Objects at
+// rest, one class for players and robots.
 #include <array>
 
 #include "DisplayManager.h"
@@ -72,7 +72,7 @@ struct Cycle : Object {
     }
   }
   int turn(int new_way) {
-    if ((new_way + 2) % 4 != way) wish = new_way;  // nobody rides back into his own wall
+    if ((new_way + 2) % 4 != way) wish = new_way;  // not back into its own wall
     return 1;
   }
   /// Cells until something is in the way, up to `most`.

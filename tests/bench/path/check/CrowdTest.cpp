@@ -78,7 +78,7 @@ TEST(Status, CounterCanBeReadBack) {
   EXPECT_EQ(counterIn(picture), std::nullopt);
 }
 
-TEST(Status, MarkerTellsArrowsModuloFour) {
+TEST(Status, MarkerDistinguishesArrowsModuloFour) {
   for (std::uint32_t arrows = 0; arrows < 9; ++arrows) {
     Picture picture;
     const MarkerCell cell = markerAfter(arrows);

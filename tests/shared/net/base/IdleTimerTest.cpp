@@ -31,7 +31,7 @@ TEST(IdleTimer, CountsLittleOfTheTimeWithoutPolls) {
   EXPECT_EQ(silence.at(kBegin + 1h + 100ms), IdleTimer::kMaxAtOnce + 100ms);
 }
 
-TEST(IdleTimer, BeginsAnewWithWhatIsReadAfterAnAbsence) {
+TEST(IdleTimer, RestartsWithTheFirstReadAfterAnAbsence) {
   IdleTimer silence(kBegin);
   silence.heard(kBegin + 1h);
   silence.listen(kBegin + 1h + 1ms);

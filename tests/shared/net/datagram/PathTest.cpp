@@ -35,7 +35,7 @@ TEST(Endpoint, KnowsAnyAddress) {
   EXPECT_FALSE(makeEndpoint("::1", 0)->isAny());
 }
 
-TEST(Endpoint, EveryPartTellsApart) {
+TEST(Endpoint, EveryPartDistinguishes) {
   const Endpoint base = *makeEndpoint("fe80::1%1", 5);
   std::unordered_set<Endpoint> all{base};
   for (const char* other : {"fe80::1%2", "fe80::2%1", "fe80:0:0:1::1%1", "::ffff:1.2.3.4"}) {

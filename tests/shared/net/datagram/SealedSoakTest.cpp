@@ -210,7 +210,7 @@ TEST(SealedSoak, OneBlockedWayLeavesTheOtherOpen) {
   EXPECT_LE(player.heard_down.size(), down_then + 1);
 }
 
-TEST(SealedSoak, NothingIsEverSentToWhoOnlyForges) {
+TEST(SealedSoak, ForgersAreNeverSentAnything) {
   World world({}, 3);
   SplitMix64 rng(5);
   const Endpoint forger = *makeEndpoint("203.0.113.9", 53);

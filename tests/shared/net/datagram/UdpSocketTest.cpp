@@ -183,7 +183,7 @@ TEST_F(UdpSocketTest, OneWakeUpReadsABoundedNumber) {
   ASSERT_TRUE(arrive(context, server, 400));
 }
 
-TEST_F(UdpSocketTest, PortNobodyListensOnIsNoError) {
+TEST_F(UdpSocketTest, AClosedPortIsNoError) {
   std::uint16_t free_port = 0;
   { free_port = Peer(context, {}).socket.localEndpoint().port; }
   Peer server(context, {}), client(context, {});

@@ -21,7 +21,7 @@ TEST(Fingerprint, TextComesBackTheSame) {
   EXPECT_EQ(Fingerprint::parse(upper), key);
 }
 
-TEST(Fingerprint, KeysAreToldApart) {
+TEST(Fingerprint, DifferentKeysDiffer) {
   EXPECT_NE(of(testIdentity()), of(TestIdentity::make("naiad.test")));
 }
 

@@ -103,7 +103,7 @@ TEST_F(TcpListenerTest, PortCanBeTakenAgainRightAfterItsConnectionsEnded) {
   EXPECT_NO_THROW(TcpListener(context, "127.0.0.1", port, keep()));
 }
 
-TEST_F(TcpListenerTest, ClosedListenerAcceptsNobody) {
+TEST_F(TcpListenerTest, AClosedListenerAcceptsNoConnection) {
   TcpListener listener(context, "127.0.0.1", 0, keep());
   listener.close();
   EXPECT_THROW(connectTo(listener), std::system_error);
