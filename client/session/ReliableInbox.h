@@ -18,7 +18,7 @@ class ReliableInbox {
  public:
   using Time = ChatLog::Time;
 
-  static constexpr std::size_t kMaxSounds = 32;  ///< sounds kept until takeSounds()
+  static constexpr std::size_t kMaxSounds = 32;  ///< sounds kept until fetchSounds()
   /// So many bytes of reliable frames are acknowledged immediately, not with the next ping.
   static constexpr std::size_t kMuchKept = std::size_t{8} * 1024;
 

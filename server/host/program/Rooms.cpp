@@ -51,6 +51,7 @@ void Rooms::watchWorld(Room& room) {
 // ---- players ----------------------------------------------------------------------------------------------
 
 Room* Rooms::roomForNewPlayer() {
+  if (m_closing) return nullptr;
   if (!isPrivate()) return m_rooms.front().get();
   try {
     return &openRoom(m_new_world());
@@ -189,6 +190,7 @@ bool Rooms::isOver() const {
 }
 
 void Rooms::closeWorlds() {
+  m_closing = true;
   for (const auto& room : m_rooms) {
     room->port().close();
     room->port().checkProcess(tickNumber());

@@ -40,7 +40,7 @@ class Rooms {
 
   // Players.
 
-  /// Null: there can be no world for another player.
+  /// Null: there can be no world for another player, or the worlds are being closed.
   Room* roomForNewPlayer();
   /// Null for sessions that do not play.
   Room* roomOf(const Session& session) const;
@@ -100,6 +100,7 @@ class Rooms {
   bool m_ends_with_last = false;
   bool m_in_begin = false;
   bool m_over = false;  ///< there is no next round
+  bool m_closing = false;
   std::string m_last_sentence;
   std::string m_failure;
 };

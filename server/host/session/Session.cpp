@@ -15,10 +15,6 @@ Session::Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, C
 
 Session::~Session() = default;
 
-std::uint32_t Session::player() const {
-  return m_welcome->player();
-}
-
 const std::string& Session::name() const {
   return m_welcome->name();
 }
@@ -48,6 +44,7 @@ std::string Session::exportSecret(std::string_view label, std::string_view conte
 
 void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChannel> datagrams) {
   *m_welcome = welcome;
+  m_player = welcome.player();
   m_welcome->clear_resume_token();
   m_state = State::kPlaying;
   sendWelcome(welcome);

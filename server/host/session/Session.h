@@ -135,7 +135,7 @@ class Session {
   bool sendFleeting(const wire::ServerMessage& message);
 
   State state() const { return m_state; }
-  std::uint32_t player() const;
+  std::uint32_t player() const { return m_player; }
   const std::string& name() const;
   std::string address() const { return m_streams.peerAddress(); }
   /// Ticks at whose end this client was not up to date, since it was busy with earlier bytes.
@@ -172,6 +172,7 @@ class Session {
   void end();
 
   State m_state = State::kGreeting;
+  std::uint32_t m_player = 0;  ///< of m_welcome, which is seldom in the cache
   bool m_reported_gone = false;
   bool m_greeted = false;  ///< the hello has come
   std::uint32_t m_rtt_millis = 0;

@@ -13,9 +13,8 @@ namespace naiad {
 
 class PendingQueue {
  public:
-  /// Take all pending ids. They are in order of urgency unless snapshots of `limit` bytes need only one.
+  /// Take all pending ids: by id if one snapshot of `limit` bytes holds them all, else by urgency.
   void fill(const ClientReplica& replica, const Publisher& publisher, std::size_t limit);
-  void clear() { m_ids.clear(); }
   bool empty() const { return m_ids.empty(); }
   std::uint32_t front() const { return m_ids.back(); }
   void pop() { m_ids.pop_back(); }

@@ -67,13 +67,13 @@ SnapshotBuilder::Record SnapshotBuilder::stageRecord(std::uint32_t id, const Pub
   const KnownObjects::Known& known = m_p_replica->objects.at(id);
   Record record;
   record.id = id;
-  if (known.life == KnownObjects::Life::kDying) {
+  record.p_model = known.life == KnownObjects::Life::kDying ? nullptr : publisher.find(known.slot);
+  if (record.p_model == nullptr) {
     record.bits = m_writer.stage(kDeath, 0, kNoState, kNoMotion);
     return record;
   }
   const std::uint8_t groups = m_p_replica->objects.groupsToSend(id);
-  const Publisher::Model& model = *publisher.find(known.slot);
-  record.p_model = &model;
+  const Publisher::Model& model = *record.p_model;
   if ((groups & kLook) != 0 && model.recurs) {
     record.form =
         m_p_replica->names.formOf(model.look_sum, model.state.look.sequence.weight(), m_header.number);

@@ -13,7 +13,6 @@ bool JointIsland::projectPlaces(double h, JointCounters& counters) {
   constexpr double kRegularisation = 1e-9;  // of the diagonal: keeps dependent rows apart
   constexpr int kRounds = 12;        // of Gauss–Newton; quadratic near the solution, so a bound alone
   constexpr double kNear = 20;       // tolerances: near enough for a stage that is not exact
-  constexpr double kLargest = 1e15;  // metric cells: beyond it positions have no digits left
   const JointConstraints& its = m_constraints;
   for (int round = 0; round < kRounds; ++round) {
     m_constraints.evaluate<true>(m_motion);
@@ -25,7 +24,7 @@ bool JointIsland::projectPlaces(double h, JointCounters& counters) {
       m_rest[i] = -rest / h;
     }
     if (worst <= kNear * m_tolerance) return true;
-    if (!(worst <= kLargest)) return false;
+    if (!(worst <= kMaxJointMotion)) return false;
     factor(false, counters, kRegularisation);
     m_matrix.solve(m_rest.data());
     applyImpulses(m_rest);

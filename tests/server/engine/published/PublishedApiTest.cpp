@@ -54,6 +54,7 @@
 #include "PathFind.h"
 #include "Pause.h"
 #include "Precipitation.h"
+#include "Ref.h"
 #include "ResourceManager.h"
 #include "SceneGraph.h"
 #include "Shape.h"
@@ -321,6 +322,8 @@ void worldManager(Object* p_o) {
   WM.solidObjects();
   WM.objectsAtPosition(Vector(1, 1));
   WM.getSceneGraph().activeObjects();
+  const Ref<Object> ref = p_o;  // not of the published engine, but for games in its C++
+  if (ref != nullptr && NULL != ref.get() && p_o != ref.get() && ref != p_o) LM.writeLog(1, "another one");
   WM.removeObject(p_o);
   WM.insertObject(p_o);
   WM.setBoundary(Box(Vector(), 80, 24));

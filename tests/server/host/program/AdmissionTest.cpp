@@ -2,8 +2,12 @@
 
 #include <asio/executor_work_guard.hpp>
 #include <asio/io_context.hpp>
+#include <chrono>
 #include <deque>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "Clients.h"
 #include "engine/world/World.h"
@@ -211,6 +215,13 @@ TEST_F(AdmissionTest, APasswordThatWasCheckedAfterItsClientLeftAdmitsNoPlayer) {
   ASSERT_EQ(io.run_one_for(60s), 1u) << "the answer";
   EXPECT_EQ(counters.joined, 0u);
   EXPECT_TRUE(sessions.isEmpty());
+}
+
+TEST_F(AdmissionTest, AHelloThatComesAfterTheWorldsWereClosedIsRefused) {
+  admission();
+  rooms.closeWorlds();
+  EXPECT_EQ(greet(helloOf("Ann")).refusal(), wire::Refused::BUSY);
+  EXPECT_EQ(counters.joined, 0u);
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <deque>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "Clients.h"
 #include "host/program/SessionTable.h"

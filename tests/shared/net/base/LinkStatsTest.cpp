@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "shared/net/base/LinkStats.h"
 
 namespace naiad {

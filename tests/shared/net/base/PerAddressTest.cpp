@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "shared/net/base/PerAddress.h"
 #include "shared/net/base/TokenBucket.h"
 #include "shared/values/SplitMix64.h"
