@@ -62,11 +62,21 @@ class Ref {
   friend bool operator==(const Ref& a, const Object* p_b) { return a.get() == p_b; }
   friend bool operator==(const Ref& a, std::nullptr_t) { return !a; }
 #if __cplusplus < 202002L
-  friend bool operator!=(const Ref& a, const Ref& b) { return !(a == b); }
-  friend bool operator!=(const Ref& a, const Object* p_b) { return !(a == p_b); }
-  friend bool operator!=(const Ref& a, std::nullptr_t) { return static_cast<bool>(a); }
-  friend bool operator==(std::nullptr_t, const Ref& a) { return !a; }
-  friend bool operator!=(std::nullptr_t, const Ref& a) { return static_cast<bool>(a); }
+  friend bool operator!=(const Ref& a, const Ref& b) {
+    return !(a == b);
+  }
+  friend bool operator!=(const Ref& a, const Object* p_b) {
+    return !(a == p_b);
+  }
+  friend bool operator!=(const Ref& a, std::nullptr_t) {
+    return static_cast<bool>(a);
+  }
+  friend bool operator==(std::nullptr_t, const Ref& a) {
+    return !a;
+  }
+  friend bool operator!=(std::nullptr_t, const Ref& a) {
+    return static_cast<bool>(a);
+  }
 #endif
 
  private:

@@ -11,8 +11,8 @@ namespace naiad::physics {
 // Gauss–Newton from where the bodies are to the nearest place that fulfils the constraints, as impulses.
 bool JointIsland::projectPlaces(double h, JointCounters& counters) {
   constexpr double kRegularisation = 1e-9;  // of the diagonal: keeps dependent rows apart
-  constexpr int kRounds = 12;        // of Gauss–Newton; quadratic near the solution, so a bound alone
-  constexpr double kNear = 20;       // tolerances: near enough for a stage that is not exact
+  constexpr int kRounds = 12;   // of Gauss–Newton; quadratic near the solution, so a bound alone
+  constexpr double kNear = 20;  // tolerances: near enough for a stage that is not exact
   const JointConstraints& its = m_constraints;
   for (int round = 0; round < kRounds; ++round) {
     m_constraints.evaluate<true>(m_motion);
