@@ -12,7 +12,7 @@ namespace {
 
 __extension__ typedef unsigned __int128 Wide;
 
-constexpr double kHalfPi = 0x1.921fb54442d18p+0;
+constexpr double kHalfPiHead = 0x1.921fb54442d18p+0;
 constexpr double kHalfPiTail = 0x1.1a62633145c07p-54;
 
 // An angle as a multiple of a right angle, modulo 4, and the rest in [−π/4, π/4] (a little beyond, when
@@ -98,7 +98,7 @@ Reduced reduceLarge(double x) {
       weight *= 0x1p32;
     }
   }
-  DoubleDouble rest = fraction * DoubleDouble{kHalfPi, kHalfPiTail};
+  DoubleDouble rest = fraction * DoubleDouble{kHalfPiHead, kHalfPiTail};
   if (beyond_half) rest = -rest;
   if (bits >> 63) {
     rest = -rest;

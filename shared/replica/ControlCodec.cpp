@@ -15,9 +15,6 @@ using df::ControlEffect;
 using df::ControlRow;
 using df::ControlTable;
 
-constexpr df::Fixed kMaxPosition = static_cast<df::Fixed>(df::kMaxCells) * df::kFixedOne;
-constexpr df::Fixed kMaxVelocity = static_cast<df::Fixed>(df::kMaxVelocityCells) * df::kFixedOne;
-
 enum TableFlag : std::uint8_t { kBounded = 1, kWholeCells = 2 };
 
 constexpr int kGenerationOrder = 1;
@@ -112,10 +109,6 @@ df::ControlState readState(BitReader& in, df::FixedVector velocity) {
   return state;
 }
 
-bool isWithin(df::FixedVector v, df::Fixed most) {
-  return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most;
-}
-
 }  // namespace
 
 void writeControlTable(std::string& out, const ControlTable& table) {
@@ -143,9 +136,9 @@ std::optional<ControlTable> readControlTable(std::string_view bytes) {
   table.whole_cells = (flags & kWholeCells) != 0;
   table.patience = static_cast<std::uint16_t>(in.upTo(df::kMaxControlTicks));
   if (table.bounded) {
-    table.bounds.corner = readVector(in, kMaxPosition);
-    table.bounds.size.x = static_cast<df::Fixed>(in.upTo(static_cast<std::uint64_t>(kMaxPosition)));
-    table.bounds.size.y = static_cast<df::Fixed>(in.upTo(static_cast<std::uint64_t>(kMaxPosition)));
+    table.bounds.corner = readVector(in, df::kMaxPosition);
+    table.bounds.size.x = static_cast<df::Fixed>(in.upTo(static_cast<std::uint64_t>(df::kMaxPosition)));
+    table.bounds.size.y = static_cast<df::Fixed>(in.upTo(static_cast<std::uint64_t>(df::kMaxPosition)));
   }
   for (std::size_t i = 0; i < rows && in.ok(); ++i) table.rows.push_back(readRow(in));
   if (!in.ok() || !in.atEnd() || !isValid(table)) return std::nullopt;
@@ -168,8 +161,8 @@ ControlRecord readControlRecord(BitReader& in, std::uint32_t tick, const Origin&
   record.position = motion.position;
   record.velocity = motion.velocity;
   record.acceleration = motion.acceleration;
-  if (!isWithin(record.position, kMaxPosition) || !isWithin(record.velocity, kMaxVelocity) ||
-      !isWithin(record.acceleration, kMaxVelocity)) {
+  if (!isWithin(record.position, df::kMaxPosition) || !isWithin(record.velocity, df::kMaxVelocity) ||
+      !isWithin(record.acceleration, df::kMaxVelocity)) {
     in.fail();
   }
   record.state = readState(in, record.velocity);

@@ -19,17 +19,13 @@ enum MotionKind : std::uint8_t { kStill = 0, kLinear = 1, kAccelerated = 2 };
 /// The numbers of bits behind the point that four bits can name.
 constexpr std::array<int, 16> kFractions = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 16, 22, 32};
 constexpr int kFractionCodeBits = 4;
-constexpr int kCellOrder = 10;
+constexpr int kFarOrder = 10;
 
 int codeFor(df::FixedVector v) {
   const auto all = static_cast<std::uint64_t>(v.x) | static_cast<std::uint64_t>(v.y);
   const int needed = std::max(0, df::kFixedBits - std::countr_zero(all));
   return static_cast<int>(std::lower_bound(kFractions.begin(), kFractions.end(), needed) -
                           kFractions.begin());
-}
-
-bool isWithin(df::FixedVector v, df::Fixed most) {
-  return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most;
 }
 
 /// Bits that a number takes in two's complement; 0 for 0.
@@ -87,8 +83,8 @@ void writePosition(BitWriter& out, df::FixedVector position, const Origin& origi
     out.bits(static_cast<std::uint64_t>(x), origin.x_bits);
     out.bits(static_cast<std::uint64_t>(y), origin.y_bits);
   } else {
-    out.signedGolomb(x, kCellOrder);
-    out.signedGolomb(y, kCellOrder);
+    out.signedGolomb(x, kFarOrder);
+    out.signedGolomb(y, kFarOrder);
   }
 }
 
@@ -108,7 +104,7 @@ CellPosition readCell(BitReader& in, const Origin& origin) {
   constexpr std::int64_t kMaxCells = std::int64_t{1} << 32;
   const bool near = in.flag();
   const auto cell = [&](int bits) {
-    return near ? static_cast<std::int64_t>(in.bits(bits)) : in.signedGolomb(kCellOrder, kMaxCells);
+    return near ? static_cast<std::int64_t>(in.bits(bits)) : in.signedGolomb(kFarOrder, kMaxCells);
   };
   const std::int64_t x = cell(origin.x_bits) + origin.corner.x;
   const std::int64_t y = cell(origin.y_bits) + origin.corner.y;

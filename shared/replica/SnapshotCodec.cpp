@@ -72,14 +72,14 @@ WorldRecord readWorld(BitReader& in) {
   return record;
 }
 
-constexpr int kIdOrder = 6;
+constexpr int kFollowedIdOrder = 6;
 
 ViewRecord readView(BitReader& in) {
   ViewRecord record;
   record.corner = readVector(in, kMaxWirePosition);
   record.follows = in.flag();
   if (!record.follows) return record;
-  record.id = static_cast<std::uint32_t>(in.golomb(kIdOrder, kMaxSlots - 1));
+  record.id = static_cast<std::uint32_t>(in.golomb(kFollowedIdOrder, kMaxSlots - 1));
   record.generation = static_cast<std::uint8_t>(in.bits(2));
   return record;
 }
@@ -310,7 +310,7 @@ void SnapshotWriter::write(const ViewRecord& record) {
   writeVector(m_view, record.corner);
   m_view.flag(record.follows);
   if (record.follows) {
-    m_view.golomb(record.id, kIdOrder);
+    m_view.golomb(record.id, kFollowedIdOrder);
     m_view.bits(record.generation, 2);
   }
   m_bits += m_view.bitCount();

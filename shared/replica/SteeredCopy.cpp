@@ -2,15 +2,6 @@
 
 namespace naiad {
 
-namespace {
-
-bool isWithin(df::FixedVector v, double cells) {
-  const auto most = static_cast<df::Fixed>(cells) * df::kFixedOne;
-  return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most;
-}
-
-}  // namespace
-
 SteeredCopy::SteeredCopy(const ControlRecord& known, const df::ControlTable& table,
                          const Barriers* p_barriers)
     : m_table(table), m_p_barriers(p_barriers), m_now(known) {}
@@ -27,11 +18,11 @@ void SteeredCopy::applyKey(df::Keyboard::Key key, df::EventKeyboardAction action
 void SteeredCopy::finishTick() {
   if (m_now.velocity != df::FixedVector{}) move(m_now.position + m_now.velocity, true);
   const df::FixedVector next = m_now.velocity + m_now.acceleration;
-  if (isWithin(next, df::kMaxVelocityCells)) m_now.velocity = next;
+  if (isWithin(next, df::kMaxVelocity)) m_now.velocity = next;
 }
 
 void SteeredCopy::move(df::FixedVector to, bool in_update) {
-  if (!isWithin(to, df::kMaxCells)) return;
+  if (!isWithin(to, df::kMaxPosition)) return;
   if (m_p_barriers != nullptr && m_p_barriers->block(to, m_now.tick, in_update)) return;
   m_now.position = to;
   m_trail.push_back(to);

@@ -16,7 +16,7 @@ namespace naiad {
 //           acknowledged: exp-Golomb(3) | mouse 1 | key 7, action 2, or action 2, button 2, x 9, y 8
 namespace {
 
-constexpr int kLowBits = 16;
+constexpr int kTickBits = 16;
 constexpr int kMaxNamed = 8;  ///< snapshots that have not arrived
 constexpr int kKeyBits = 7;
 constexpr int kTickOrder = 2;
@@ -75,13 +75,13 @@ void readWhat(BitReader& in, Input& input) {
 void readInputs(BitReader& in, const UpdateContext& context, ClientUpdate& update) {
   const std::uint64_t count = in.golomb(0, kMaxUpdateInputs);
   if (count == 0) return;
-  std::uint32_t id = restored(in.bits(kLowBits), context.input);
+  std::uint32_t id = restored(in.bits(kTickBits), context.input);
   std::uint32_t tick = 0;
   for (std::uint64_t i = 0; i < count && in.ok(); ++i, ++id) {
     Input input;
     if (id == 0) return in.fail();
     input.id = id;
-    tick = i == 0 ? restored(in.bits(kLowBits), context.tick)
+    tick = i == 0 ? restored(in.bits(kTickBits), context.tick)
                   : tick + static_cast<std::uint32_t>(in.signedGolomb(kTickOrder, kMaxTicksApart));
     input.tick = tick;
     input.snapshot = update.acks.newest - static_cast<std::uint32_t>(in.golomb(kSnapshotOrder, kOldestBase));
@@ -96,7 +96,7 @@ std::string writeUpdate(const ClientUpdate& update) {
   BitWriter out;
   out.flag(update.acks.newest != 0);
   if (update.acks.newest != 0) {
-    out.bits(update.acks.newest & 0xFFFF, kLowBits);
+    out.bits(update.acks.newest & 0xFFFF, kTickBits);
     writeMask(out, update.acks.mask);
   }
   out.flag(update.checksum.has_value());
@@ -104,12 +104,12 @@ std::string writeUpdate(const ClientUpdate& update) {
   out.flag(update.wants_reset);
   const std::size_t count = std::min(update.inputs.size(), kMaxUpdateInputs);
   out.golomb(count, 0);
-  if (count > 0) out.bits(update.inputs[0].id & 0xFFFF, kLowBits);
+  if (count > 0) out.bits(update.inputs[0].id & 0xFFFF, kTickBits);
   for (std::size_t i = 0; i < count; ++i) {
     const Input& input = update.inputs[i];
     assert(input.id == update.inputs[0].id + i);
     if (i == 0) {
-      out.bits(input.tick & 0xFFFF, kLowBits);
+      out.bits(input.tick & 0xFFFF, kTickBits);
     } else {
       const auto apart = static_cast<std::int32_t>(input.tick - update.inputs[i - 1].tick);
       out.signedGolomb(std::clamp<std::int64_t>(apart, -kMaxTicksApart, kMaxTicksApart), kTickOrder);
@@ -126,7 +126,7 @@ std::optional<ClientUpdate> readUpdate(std::string_view bytes, const UpdateConte
   BitReader in(bytes);
   ClientUpdate update;
   if (in.flag()) {
-    update.acks.newest = restored(in.bits(kLowBits), context.snapshot);
+    update.acks.newest = restored(in.bits(kTickBits), context.snapshot);
     update.acks.mask = readMask(in);
     if (update.acks.newest == 0) in.fail();
   }

@@ -6,10 +6,6 @@ namespace df {
 
 namespace {
 
-bool isWithin(FixedVector v, Fixed most) {
-  return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most;
-}
-
 bool isValid(const ControlRow& row) {
   if (row.key < 0 || row.key >= Keyboard::kKeyCount) return false;
   if (row.action < KEY_PRESSED || row.action > KEY_DOWN) return false;

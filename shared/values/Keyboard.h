@@ -1,4 +1,5 @@
 // Keys and mouse buttons: names the game reads and numbers the wire carries (book, Listings 4.84 to 4.88).
+// All have int as their type, so that one cast from any number can be compared with those that exist.
 #pragma once
 
 #include "detail/Dialect.h"
@@ -8,7 +9,7 @@ namespace df {
 namespace Keyboard {
 
 /// Keys by name. Values are fixed: they travel on the wire; new ones are added at the end.
-enum Key {
+enum Key : int {
   UNDEFINED_KEY = -1,
   SPACE = 0,
   RETURN,
@@ -105,7 +106,7 @@ inline constexpr int kKeyCount = PAGEDOWN + 1;
 }  // namespace Keyboard
 
 /// What happened to a key.
-enum EventKeyboardAction {
+enum EventKeyboardAction : int {
   UNDEFINED_KEYBOARD_ACTION = -1,
   KEY_PRESSED = 0,  ///< The key went down.
   KEY_RELEASED,     ///< The key went up.
@@ -114,7 +115,7 @@ enum EventKeyboardAction {
 
 namespace Mouse {
 
-enum Button {
+enum Button : int {
   UNDEFINED_MOUSE_BUTTON = -1,
   LEFT = 0,
   RIGHT,
@@ -126,7 +127,7 @@ using EventMouseButton = Button;
 }  // namespace Mouse
 
 /// What the mouse did.
-enum EventMouseAction {
+enum EventMouseAction : int {
   UNDEFINED_MOUSE_ACTION = -1,
   CLICKED = 0,  ///< A button went down.
   PRESSED,      ///< A button is being held.

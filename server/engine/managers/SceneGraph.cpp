@@ -7,7 +7,7 @@ namespace df {
 namespace {
 
 template <class Wanted>
-ObjectList pick(Wanted wanted) {
+ObjectList pickObjects(Wanted wanted) {
   const ObjectList all = World::current().getAllObjects(true);
   ObjectList list;
   for (int i = 0; i < all.getCount(); ++i) {
@@ -23,7 +23,7 @@ ObjectList SceneGraph::activeObjects() const {
 }
 
 ObjectList SceneGraph::inactiveObjects() const {
-  return pick([](const Object& o) { return !o.isActive(); });
+  return pickObjects([](const Object& o) { return !o.isActive(); });
 }
 
 ObjectList SceneGraph::solidObjects() const {
@@ -31,7 +31,8 @@ ObjectList SceneGraph::solidObjects() const {
 }
 
 ObjectList SceneGraph::visibleObjects(int altitude) const {
-  return pick([=](const Object& o) { return o.isActive() && o.isVisible() && o.getAltitude() == altitude; });
+  return pickObjects(
+      [=](const Object& o) { return o.isActive() && o.isVisible() && o.getAltitude() == altitude; });
 }
 
 ObjectList SceneGraph::objectsOfType(const std::string& type) const {

@@ -11,7 +11,7 @@ namespace df {
 namespace {
 
 template <class Wanted>
-ObjectList pick(Wanted wanted) {
+ObjectList pickByBox(Wanted wanted) {
   const ObjectList all = World::current().getAllObjects();
   ObjectList list;
   for (int i = 0; i < all.getCount(); ++i) {
@@ -61,19 +61,19 @@ int WorldManager::markForDelete(const ObjectList& obj_list) {
 }
 
 ObjectList WorldManager::objectsAtPosition(Vector where) const {
-  return pick([&](const Box& box) { return boxContainsPosition(box, where); });
+  return pickByBox([&](const Box& box) { return boxContainsPosition(box, where); });
 }
 
 ObjectList WorldManager::objectsInBox(Box box) const {
-  return pick([&](const Box& other) { return boxIntersectsBox(box, other); });
+  return pickByBox([&](const Box& other) { return boxIntersectsBox(box, other); });
 }
 
 ObjectList WorldManager::objectsOnLine(Line line) const {
-  return pick([&](const Box& box) { return lineIntersectsBox(line, box); });
+  return pickByBox([&](const Box& box) { return lineIntersectsBox(line, box); });
 }
 
 ObjectList WorldManager::objectsInCircle(Circle circle) const {
-  return pick([&](const Box& box) { return circleIntersectsBox(circle, box); });
+  return pickByBox([&](const Box& box) { return circleIntersectsBox(circle, box); });
 }
 
 SceneGraph& WorldManager::getSceneGraph() const {

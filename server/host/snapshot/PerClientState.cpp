@@ -9,10 +9,6 @@ namespace naiad {
 
 namespace {
 
-bool sameCell(df::FixedVector a, df::FixedVector b) {
-  return df::cellOf(a.x) == df::cellOf(b.x) && df::cellOf(a.y) == df::cellOf(b.y);
-}
-
 /// The id of the object, whose birth was sent or is pending; kNone if it has none.
 std::uint32_t idOf(df::ObjectKey object, const KnownObjects& known) {
   const std::uint32_t id = object.generation != 0 ? known.find(object.slot) : KnownObjects::kNone;
@@ -125,7 +121,7 @@ void PerClientState::queueView(const Publisher& publisher, const KnownObjects& k
     const ViewFrame frame{m_view.corner,
                           {df::fromCells(m_world.view_width), df::fromCells(m_world.view_height)},
                           m_world.boundary};
-    correct = sameCell(viewCornerAt(frame, m_view_tick, motion, publisher.tick()), actual.corner);
+    correct = df::isSameCell(viewCornerAt(frame, m_view_tick, motion, publisher.tick()), actual.corner);
   }
   if (correct && !isPending(kView)) return;
   m_view = actual;

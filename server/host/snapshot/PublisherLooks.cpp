@@ -11,10 +11,6 @@ namespace naiad {
 
 namespace {
 
-bool sameCell(df::FixedVector a, df::FixedVector b) {
-  return df::cellOf(a.x) == df::cellOf(b.x) && df::cellOf(a.y) == df::cellOf(b.y);
-}
-
 /// Would any glyph of the appearance fall into any player's view?
 bool landsInAView(const Appearance& appearance, df::FixedVector position, const df::WorldView& view) {
   return std::any_of(view.players.begin(), view.players.end(), [&](const df::PlayerFacts& player) {
@@ -77,10 +73,10 @@ void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, std::span<cons
   ObjectState& state = tracked.model.state;
   const df::FixedVector truth = tracked.truth.position;
   const df::FixedVector modelled = positionAt(state.motion, m_tick);
-  if (sameCell(modelled, truth) && drawsTheSame(state.look, m_tick, modelled, drawn)) return;
+  if (df::isSameCell(modelled, truth) && drawsTheSame(state.look, m_tick, modelled, drawn)) return;
 
   // The usual cause is a path that turned: try the known look at the true position before making a new one.
-  if (!sameCell(modelled, truth) || drawsTheSame(state.look, m_tick, truth, drawn)) {
+  if (!df::isSameCell(modelled, truth) || drawsTheSame(state.look, m_tick, truth, drawn)) {
     state.motion = truthNow(tracked);
     markChanged(slot, tracked, kMotion);
     ++m_corrections;
@@ -157,7 +153,7 @@ void Publisher::correctUndrawn(const df::WorldView& view) {
 
 void Publisher::correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::WorldView& view) {
   ObjectState& state = tracked.model.state;
-  if (!sameCell(positionAt(state.motion, m_tick), tracked.truth.position)) {
+  if (!df::isSameCell(positionAt(state.motion, m_tick), tracked.truth.position)) {
     state.motion = truthNow(tracked);
     markChanged(slot, tracked, kMotion);
     ++m_corrections;

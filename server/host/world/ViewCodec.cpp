@@ -24,11 +24,9 @@ constexpr df::Fixed cells(std::int64_t count) {
 constexpr df::Fixed kMaxPosition = cells(2'010'000'000);
 /// Of a view, so that two are not too far apart to be subtracted.
 constexpr df::Fixed kMaxCorner = cells(1'000'000'000);
-constexpr df::Fixed kMaxVelocity = cells(1 << 24);
 constexpr std::int64_t kMaxOrder = (std::int64_t{1} << 48) - 1;
 constexpr std::int64_t kLastCharacter = 0x10FFFF;
 constexpr std::size_t kMaxText = 4 * std::size_t{kMaxViewWidth};
-constexpr std::size_t kMaxName = 4 * kMaxNameLength;
 constexpr std::size_t kMaxLabel = 256;
 constexpr std::size_t kMaxNote = 4 * kMaxChatLength;
 constexpr std::int64_t kMaxShake = 1000;
@@ -85,8 +83,8 @@ struct ViewFields {
     key(f, facts.key);
     f.number(facts.order, 0, kMaxOrder);
     visitVector(f, facts.position, kMaxPosition);
-    visitVector(f, facts.velocity, kMaxVelocity);
-    visitVector(f, facts.acceleration, kMaxVelocity);
+    visitVector(f, facts.velocity, df::kMaxVelocity);
+    visitVector(f, facts.acceleration, df::kMaxVelocity);
     box(f, facts.box);
     f.number(facts.solidness, df::HARD, df::SPECTRAL);
     f.flag(facts.no_soft);
@@ -147,13 +145,13 @@ struct ViewFields {
     key(f, steering.object);
     control(f, steering.state);
     visitVector(f, steering.position, kMaxPosition);
-    visitVector(f, steering.velocity, kMaxVelocity);
-    visitVector(f, steering.acceleration, kMaxVelocity);
+    visitVector(f, steering.velocity, df::kMaxVelocity);
+    visitVector(f, steering.acceleration, df::kMaxVelocity);
   }
   template <class F, class Tables, class T>
   static void player(F& f, Tables& tables, T& player) {
     f.number(player.id, 1, kMost32);
-    f.text(player.name, kMaxName);
+    f.text(player.name, kMaxNameBytes);
     color(f, player.color);
     f.number(player.score, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
     key(f, player.followed);

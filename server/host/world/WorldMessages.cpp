@@ -9,8 +9,6 @@ namespace {
 
 using Input = df::InputQueue::Input;
 
-constexpr std::size_t kMaxName = 4 * kMaxNameLength;
-
 template <class F, class T>
 void visitSeen(F& f, T& seen) {
   f.flag(seen.known);
@@ -24,7 +22,7 @@ void visitInput(F& f, T& input) {
   f.number(input.player);
   switch (input.kind) {
     case df::InputQueue::kJoin:
-      f.text(input.name, kMaxName);
+      f.text(input.name, kMaxNameBytes);
       return f.number(input.color, df::BLACK, df::WHITE);
     case df::InputQueue::kLeave:
       return;

@@ -6,6 +6,7 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyLayer.h"
+#include "physics/body/BodyLimits.h"
 #include "physics/body/Field.h"
 
 namespace df {
@@ -16,18 +17,7 @@ using naiad::physics::BodyMedium;
 using naiad::physics::BodyRow;
 using naiad::physics::Vec2;
 
-constexpr double kMinMass = 1e-30;  // its inverse is kMax
-constexpr double kMax = 1e30;       // of any number: products of two stay finite
-
-bool isUsable(double value) {
-  return std::abs(value) <= kMax;  // not if it is no number
-}
-bool isUsable(Vector v) {
-  return isUsable(v.x()) && isUsable(v.y());
-}
-bool isUsableSize(double value) {
-  return value >= 0 && value <= kMax;
-}
+constexpr double kMinMass = 1e-30;  // its inverse is kMaxOfBody
 
 }  // namespace
 
@@ -65,7 +55,7 @@ void Body::absorb() const {
 }
 
 int Body::setMass(double mass) {
-  if (!(mass >= kMinMass && mass <= kMax)) return refuseAs("setMass");
+  if (!(mass >= kMinMass && mass <= kMaxOfBody)) return refuseAs("setMass");
   row().mass = mass;
   row().inverse_mass = row().is_kinematic ? 0 : 1 / mass;
   m_table->joints.markChanged();

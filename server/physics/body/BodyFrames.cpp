@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "physics/geometry/Index.h"
 #include "physics/geometry/ShapeRaster.h"
 #include "shared/replica/Limits.h"
 #include "shared/replica/LookCodec.h"
@@ -33,10 +34,6 @@ struct Cell {
   }
 };
 using Picture = std::map<Cell, char32_t>;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::int32_t rounded(double x) {
   return static_cast<std::int32_t>(std::clamp(std::floor(x + 0.5), -1e6, 1e6));

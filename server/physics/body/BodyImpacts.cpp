@@ -29,10 +29,6 @@ Vec2 sizeOf(Vec2 a) {
   return {std::fabs(a.x), std::fabs(a.y)};
 }
 
-Vec2 halfOf(const ImpactBody& body) {
-  return body.shape == ImpactShape::kCircle ? Vec2{body.half.x, body.half.x} : body.half;
-}
-
 // A polygon that is a box along the axes around the origin: its half size.
 bool isUpright(const ConvexShape& shape, Vec2& half) {
   if (shape.count != 4 || shape.radius != 0) return false;
@@ -133,7 +129,7 @@ void BodyImpacts::findObstacles(World& world, const BodyTable& table, ActiveBody
                                 double room) {
   const Proxy& proxy = m_proxies[active.index];
   const ImpactBody& body = m_world.body(proxy.id);
-  const Vec2 half = halfOf(body) + Vec2{kRoom, kRoom} + room * left * sizeOf(body.velocity) +
+  const Vec2 half = halfExtentOf(body) + Vec2{kRoom, kRoom} + room * left * sizeOf(body.velocity) +
                     (0.5 * left * left) * sizeOf(body.acceleration);
   const Vec2 away = sizeOf(body.place - active.search_centre) + half;
   if (away.x > active.search_half.x || away.y > active.search_half.y) {

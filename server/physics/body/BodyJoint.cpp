@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "physics/body/BodyLimits.h"
 #include "physics/body/BodyTable.h"
 #include "shared/values/Fixed.h"
 
@@ -12,12 +13,6 @@ namespace {
 
 using naiad::physics::JointEntry;
 using naiad::physics::JointKind;
-
-constexpr double kMax = 1e30;  // of any number: products of two stay finite
-
-bool isSize(double value) {
-  return value >= 0 && value <= kMax;
-}
 
 bool isOneOf(JointKind kind, JointKind first, JointKind second, JointKind third) {
   return kind == first || kind == second || kind == third;
@@ -57,7 +52,7 @@ int Joint::setBreakTorque(double torque) {
 
 int Joint::setLength(double length) {
   JointEntry* p_entry = find();
-  if (p_entry == nullptr || !isSize(length)) return -1;
+  if (p_entry == nullptr || !isUsableSize(length)) return -1;
   const JointKind kind = p_entry->joint.kind;
   if (!isOneOf(kind, JointKind::kDistance, JointKind::kRope, JointKind::kSpring)) return -1;
   if (length == 0 && kind != JointKind::kSpring) return -1;
@@ -74,7 +69,7 @@ double Joint::getLength() const {
 
 int Joint::setStiffness(double stiffness, double damping) {
   JointEntry* p_entry = find();
-  if (p_entry == nullptr || !isSize(stiffness) || !isSize(damping)) return -1;
+  if (p_entry == nullptr || !isUsableSize(stiffness) || !isUsableSize(damping)) return -1;
   const JointKind kind = p_entry->joint.kind;
   if (kind != JointKind::kSpring && kind != JointKind::kMouse) return -1;
   p_entry->joint.stiffness = stiffness;
@@ -85,7 +80,7 @@ int Joint::setStiffness(double stiffness, double damping) {
 
 int Joint::setSpeed(double speed) {
   JointEntry* p_entry = find();
-  if (p_entry == nullptr || p_entry->joint.kind != JointKind::kMotor || !(std::abs(speed) <= kMax)) return -1;
+  if (p_entry == nullptr || p_entry->joint.kind != JointKind::kMotor || !isUsable(speed)) return -1;
   p_entry->joint.speed = speed;
   ++p_entry->tunings;
   return 0;

@@ -10,6 +10,7 @@
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyEvents.h"
 #include "physics/body/BodyFlight.h"
+#include "physics/body/BodyLimits.h"
 
 namespace df {
 
@@ -29,13 +30,7 @@ using naiad::physics::IntegratorStatus;
 using naiad::physics::Vec2;
 
 constexpr double kFarthest = 1e12;  // metric cells in a tick: below the 2^51 that a Place can be moved by
-constexpr double kMaxSpin = 1e6;    // rad per tick: the limit of Body::setSpin()
 constexpr const char* kBeyond = "it has left all bounds of place or velocity";
-
-bool takesPart(const WorldStore& store, ObjectKey key) {
-  constexpr std::uint32_t kNeeded = WorldStore::kInWorld | WorldStore::kActive | WorldStore::kBody;
-  return store.isCurrent(key) && (store.flags(key.slot) & kNeeded) == kNeeded;
-}
 
 }  // namespace
 

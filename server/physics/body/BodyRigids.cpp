@@ -26,7 +26,7 @@ using naiad::physics::ShapeStatus;
 using naiad::physics::Vec2;
 using RawJoint = naiad::physics::Joint;
 
-bool takesPart(const BodyState& state) {
+bool isSteppedAsRigid(const BodyState& state) {
   return state.solver == BodySolver::kRigid || state.is_near_rigid;
 }
 
@@ -71,7 +71,7 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
                               const std::vector<double>& unit_inertias) {
   for (Proxy& proxy : m_proxies) proxy.is_used = false;
   for (const BodyState& state : states) {
-    if (!takesPart(state)) continue;
+    if (!isSteppedAsRigid(state)) continue;
     if (state.index >= m_proxies.size()) m_proxies.resize(state.index + 1);
     Proxy& proxy = m_proxies[state.index];
     const std::uint64_t order = table.row(state.index).order;
@@ -90,7 +90,7 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
   m_count = 0;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyState& state = states[i];
-    if (!takesPart(state)) continue;
+    if (!isSteppedAsRigid(state)) continue;
     const BodyRow& row = table.row(state.index);
     const BodyForm& form = table.form(state.index);
     RigidBody body;

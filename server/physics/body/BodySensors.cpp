@@ -21,10 +21,6 @@ using naiad::physics::Place;
 using naiad::physics::RelativeMotion;
 using naiad::physics::Vec2;
 
-Vec2 halfOf(const ImpactBody& body) {
-  return body.shape == ImpactShape::kCircle ? Vec2{body.half.x, body.half.x} : body.half;
-}
-
 // The shape of the Object's box, and its middle.
 Vec2 boxOf(const Metric& metric, const FixedBox& box, ImpactBody& body) {
   body.shape = ImpactShape::kBox;
@@ -74,7 +70,7 @@ void BodySensors::findObjectPairs(const WorldStore& store, const Metric& metric)
     const Mover& mover = m_movers[i];
     if (mover.displacement == Vec2{} && !mover.is_soft) continue;
     const Vec2 middle = 0.5 * mover.displacement;
-    const Vec2 half = halfOf(mover.shape) + Vec2{std::fabs(middle.x), std::fabs(middle.y)};
+    const Vec2 half = halfExtentOf(mover.shape) + Vec2{std::fabs(middle.x), std::fabs(middle.y)};
     m_asking.push_back(i);
     m_surroundings.addRegion(regionOf(metric, mover.shape.place + middle, half));
   }

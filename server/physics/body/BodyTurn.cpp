@@ -6,6 +6,7 @@
 #include "engine/world/WorldStore.h"
 #include "physics/body/Body.h"
 #include "physics/body/BodyLayer.h"
+#include "physics/body/BodyLimits.h"
 #include "physics/geometry/Mass.h"
 #include "physics/geometry/ShapeQuery.h"
 
@@ -20,8 +21,7 @@ using Part = naiad::physics::ConvexShape;  // df::Shape is what spriteless Objec
 using naiad::physics::ShapeStatus;
 using naiad::physics::Vec2;
 
-constexpr double kMaxAngle = 1e6;  // rad, and per tick: a double still resolves 1e-10 rad
-constexpr double kMax = 1e30;      // of torques and impulses: products of two stay finite
+constexpr double kMaxAngle = 1e6;  // rad: a double still resolves 1e-10
 
 }  // namespace
 
@@ -33,7 +33,7 @@ BodyForm& Body::form() const {
 void Body::fitBox() {
   const BodyForm& its = form();
   if (its.shapes.empty()) return;
-  Vec2 lower = {kMax, kMax}, upper = {-kMax, -kMax};
+  Vec2 lower = {kMaxOfBody, kMaxOfBody}, upper = {-kMaxOfBody, -kMaxOfBody};
   for (const Part& shape : its.shapes) {
     naiad::physics::TurnedShape turned;
     turn(shape, its.rotation, turned);
@@ -158,7 +158,7 @@ double Body::getAngle() const {
 }
 
 int Body::setSpin(double spin) {
-  if (!(std::abs(spin) <= kMaxAngle)) return refuseAs("setSpin");
+  if (!(std::abs(spin) <= kMaxSpin)) return refuseAs("setSpin");
   form().spin = spin;
   return 0;
 }
@@ -174,7 +174,7 @@ double Body::getInertia() const {
 
 int Body::applyTorque(double torque) {
   const double sum = form().torque + torque;
-  if (!(std::abs(torque) <= kMax && std::abs(sum) <= kMax)) return refuseAs("applyTorque");
+  if (!isUsable(torque) || !isUsable(sum)) return refuseAs("applyTorque");
   form().torque = sum;
   return 0;
 }
@@ -187,7 +187,7 @@ int Body::applyImpulseAt(Vector impulse, Vector where) {
   const double inertia = getInertia();
   const double spin =
       getSpin() + (turns && inertia > 0 ? cross(arm, m_table->metric.fromCells(impulse)) / inertia : 0);
-  if (!(std::abs(spin) <= kMaxAngle)) return refuseAs("applyImpulseAt");
+  if (!(std::abs(spin) <= kMaxSpin)) return refuseAs("applyImpulseAt");
   if (applyImpulse(impulse) != 0) return -1;
   if (turns) form().spin = spin;
   return 0;

@@ -4,6 +4,7 @@
 
 #include "engine/world/World.h"
 #include "physics/body/BodyLayer.h"
+#include "physics/body/BodyLimits.h"
 
 namespace df {
 
@@ -13,8 +14,6 @@ using naiad::physics::BodyTable;
 using naiad::physics::IntegratorOptions;
 using naiad::physics::Metric;
 
-constexpr double kMax = 1e30;  // of any number: products of two stay finite
-
 BodyTable& table() {
   return *BodyLayer::of(World::current()).table();
 }
@@ -23,7 +22,7 @@ bool isTolerance(double value) {
   return value > 0 && value <= 1;
 }
 
-bool isUsable(const IntegratorOptions& o) {
+bool areUsable(const IntegratorOptions& o) {
   return o.substeps >= 1 && o.substeps <= 10'000 && isTolerance(o.relative) && isTolerance(o.absolute) &&
          isTolerance(o.stiff_relative) && isTolerance(o.stiff_absolute) && o.max_evaluations >= 1 &&
          o.max_steps >= 1 && o.max_evaluations <= 10'000'000 && o.max_steps <= 10'000'000;
@@ -37,7 +36,7 @@ PhysicsManager& PhysicsManager::getInstance() {
 }
 
 int PhysicsManager::setGravity(Vector gravity) {
-  if (!(std::abs(gravity.x()) <= kMax && std::abs(gravity.y()) <= kMax)) {
+  if (!isUsable(gravity)) {
     World::current().refuse(getType(), "setGravity");
     return -1;
   }
@@ -66,7 +65,7 @@ double PhysicsManager::getAspect() const {
 }
 
 int PhysicsManager::setIntegrator(const IntegratorOptions& options) {
-  if (!isUsable(options)) {
+  if (!areUsable(options)) {
     World::current().refuse(getType(), "setIntegrator");
     return -1;
   }
@@ -79,7 +78,7 @@ const IntegratorOptions& PhysicsManager::getIntegrator() const {
 }
 
 int PhysicsManager::setObstacleFriction(double friction) {
-  if (!(friction >= 0 && friction <= kMax)) {
+  if (!isUsableSize(friction)) {
     World::current().refuse(getType(), "setObstacleFriction");
     return -1;
   }

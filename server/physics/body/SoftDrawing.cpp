@@ -11,8 +11,6 @@ namespace naiad::physics {
 
 namespace {
 
-using Cell = SoftDrawn::Cell;
-
 // They bound the cost of a picture.
 constexpr int kMaxSteps = 2000;          // cells of one line, rows of a filling
 constexpr std::size_t kMaxCells = 8000;  // of a picture
@@ -106,9 +104,13 @@ void redraw(SoftDrawn& drawn, const SoftBody& body, const Metric& metric) {
   if (body.is_closed) pen.line(body.boundary.back(), body.boundary.front());
   if (body.is_closed && drawn.drawing == df::BodyDrawing::FILL) pen.fill(body.boundary);
   // Of two characters in one cell the first one stays: lines before the filling.
-  const auto isBefore = [](const Cell& a, const Cell& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; };
+  const auto isBefore = [](const SoftDrawn::Cell& a, const SoftDrawn::Cell& b) {
+    return a.y != b.y ? a.y < b.y : a.x < b.x;
+  };
   std::stable_sort(drawn.cells.begin(), drawn.cells.end(), isBefore);
-  const auto isSame = [](const Cell& a, const Cell& b) { return a.y == b.y && a.x == b.x; };
+  const auto isSame = [](const SoftDrawn::Cell& a, const SoftDrawn::Cell& b) {
+    return a.y == b.y && a.x == b.x;
+  };
   drawn.cells.erase(std::unique(drawn.cells.begin(), drawn.cells.end(), isSame), drawn.cells.end());
   if (drawn.cells.size() > kMaxCells) drawn.cells.resize(kMaxCells);
 }
@@ -116,7 +118,7 @@ void redraw(SoftDrawn& drawn, const SoftBody& body, const Metric& metric) {
 int put(const SoftDrawn& drawn) {
   if (drawn.drawing == df::BodyDrawing::NONE) return 0;
   int result = 0;
-  for (const Cell& cell : drawn.cells) {
+  for (const SoftDrawn::Cell& cell : drawn.cells) {
     const df::Vector where(static_cast<double>(cell.x), static_cast<double>(cell.y));
     if (DM.drawCh(where, cell.ch, drawn.color) != 0) result = -1;
   }

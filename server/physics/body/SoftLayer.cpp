@@ -8,6 +8,7 @@
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyEvents.h"
 #include "physics/body/BodyLayer.h"
+#include "physics/body/BodyLimits.h"
 
 namespace df {
 
@@ -24,16 +25,11 @@ using naiad::physics::SoftTable;
 using naiad::physics::SoftWorld;
 using naiad::physics::Vec2;
 
-constexpr double kRoom = 0.5;            // metric cells around a soft body in which obstacles are searched
+constexpr double kSearchRoom = 0.5;      // metric cells around a soft body in which obstacles are searched
 constexpr double kStillSpeed = 2e-3;     // metric cells per tick: slower is still, of what lies or hangs
 constexpr double kFloatingSpeed = 1e-6;  // the same of what floats: without contact nothing stops it
 constexpr int kSinceTouch = 10;          // ticks: what touched something so recently lies on it
 constexpr double kStillDistance = 0.02;  // cells: a smaller move of a still body is not published
-
-bool takesPart(const WorldStore& store, ObjectKey key) {
-  constexpr std::uint32_t kNeeded = WorldStore::kInWorld | WorldStore::kActive | WorldStore::kBody;
-  return store.isCurrent(key) && (store.flags(key.slot) & kNeeded) == kNeeded;
-}
 
 // Around all nodes, with some room, so that it need not follow each of their movements.
 FixedBox boxOf(SoftTable& table, int id, FixedVector position, const FixedBox& before) {
@@ -143,7 +139,7 @@ void SoftLayer::prepare(const World& world, int id) {
   for (const SoftNodeForce& pull : entry.node_forces) {
     gravity += length(pull.force) / nodes[static_cast<std::size_t>(pull.node)].mass;
   }
-  const double far = kRoom + entry.top_speed + gravity;
+  const double far = kSearchRoom + entry.top_speed + gravity;
   const Vec2 reach = m_table->reach(id) + Vec2{far, far};
   m_sleep.setReach(id, reach);
   m_obstacles.gather(world, m_bodies, *m_table, id, reach);

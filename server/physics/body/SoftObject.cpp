@@ -26,7 +26,7 @@ using naiad::physics::Vec2;
 constexpr double kMaxRatio = 1e6;  // of gravity scale, friction, drag
 constexpr double kMaxForce = 1e9;  // of forces and impulses: the solver's limit is 1e12 (kLargestSoft)
 
-bool isUsable(Vector v) {
+bool isUsableForce(Vector v) {
   return std::fabs(v.x()) <= kMaxForce && std::fabs(v.y()) <= kMaxForce;  // not if it is no number
 }
 
@@ -116,7 +116,7 @@ int SoftBody::setDrag(double drag) {
 }
 
 int SoftBody::applyImpulse(Vector impulse) {
-  if (m_id < 0 || !isUsable(impulse)) return refuseAs("applyImpulse");
+  if (m_id < 0 || !isUsableForce(impulse)) return refuseAs("applyImpulse");
   absorb();
   if (entry().is_frozen) return 0;
   const Vec2 velocity = entry().velocity + m_table->metric().fromCells(impulse) / entry().mass;
@@ -126,7 +126,7 @@ int SoftBody::applyImpulse(Vector impulse) {
 }
 
 int SoftBody::applyImpulse(int node, Vector impulse) {
-  if (!hasNode(node) || !isUsable(impulse)) return refuseAs("applyImpulse");
+  if (!hasNode(node) || !isUsableForce(impulse)) return refuseAs("applyImpulse");
   absorb();
   if (!m_table->world().applyImpulse(m_id, node, m_table->metric().fromCells(impulse))) {
     return refuseAs("applyImpulse");
@@ -138,20 +138,20 @@ int SoftBody::applyImpulse(int node, Vector impulse) {
 int SoftBody::applyForce(Vector force) {
   if (m_id < 0) return -1;
   const Vector sum = m_table->metric().toCells(entry().force) + force;
-  if (!isUsable(force) || !isUsable(sum)) return refuseAs("applyForce");
+  if (!isUsableForce(force) || !isUsableForce(sum)) return refuseAs("applyForce");
   entry().force = m_table->metric().fromCells(sum);
   m_table->wake(m_id);
   return 0;
 }
 
 int SoftBody::applyForce(int node, Vector force) {
-  if (!hasNode(node) || !isUsable(force)) return refuseAs("applyForce");
+  if (!hasNode(node) || !isUsableForce(force)) return refuseAs("applyForce");
   std::vector<SoftNodeForce>& forces = entry().node_forces;
   const auto same =
       std::find_if(forces.begin(), forces.end(), [&](const SoftNodeForce& p) { return p.node == node; });
   const Vec2 before = same == forces.end() ? Vec2{} : same->force;
   const Vec2 sum = before + m_table->metric().fromCells(force);
-  if (!isUsable(m_table->metric().toCells(sum))) return refuseAs("applyForce");
+  if (!isUsableForce(m_table->metric().toCells(sum))) return refuseAs("applyForce");
   if (same == forces.end()) {
     forces.push_back({node, sum});
   } else {

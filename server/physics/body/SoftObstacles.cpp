@@ -6,6 +6,7 @@
 
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyLayer.h"
+#include "physics/body/BodyLimits.h"
 #include "physics/body/BodyObstacles.h"
 
 namespace df {
@@ -27,7 +28,6 @@ using naiad::physics::SoftTable;
 using naiad::physics::SoftWorld;
 using naiad::physics::Vec2;
 
-constexpr double kMaxSpin = 1e6;  // rad per tick: the limit of Body::setSpin()
 // The sub-steps change an obstacle's velocity first, and then move it: so it is half a sub-step ahead.
 constexpr double kAhead = 0.5 / SoftWorld::kDefaultSubsteps;
 

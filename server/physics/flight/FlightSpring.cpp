@@ -26,11 +26,11 @@ SpringFlow::SpringFlow(Spring spring, double t) : m_stiffness(spring.stiffness) 
 
 namespace {
 
-constexpr int kTerms = 24;  // of the series for short steps: the next is below rounding
+constexpr int kShortTerms = 24;  // of the series for short steps: the next is below rounding
 
-constexpr std::array<double, kTerms + 2> kInverse = [] {
-  std::array<double, kTerms + 2> inverse{};
-  for (int n = 1; n < kTerms + 2; ++n) inverse[n] = 1.0 / n;
+constexpr std::array<double, kShortTerms + 2> kInverse = [] {
+  std::array<double, kShortTerms + 2> inverse{};
+  for (int n = 1; n < kShortTerms + 2; ++n) inverse[n] = 1.0 / n;
   return inverse;
 }();
 
@@ -41,7 +41,7 @@ void SpringFlow::series(double damping, double t) {
   const double z = damping * t, w = m_stiffness * t * t;
   double before = 0, term = 1;  // of the displacement, over t: the powers n − 1 and n
   double left = 1, displacement = 1, integral = 0.5;
-  for (int n = 1; n < kTerms; ++n) {
+  for (int n = 1; n < kShortTerms; ++n) {
     const double next = -(z * term + w * kInverse[n] * before) * kInverse[n + 1];
     before = term;
     term = next;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "physics/geometry/Index.h"
 #include "physics/geometry/ShapeDistance.h"
 
 namespace naiad::physics {
@@ -9,10 +10,6 @@ namespace naiad::physics {
 namespace {
 
 using Owner = ReferenceFace::Owner;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::uint32_t idOf(std::int32_t vertex_a, std::int32_t vertex_b) {
   return static_cast<std::uint32_t>(vertex_a) << 8 | static_cast<std::uint32_t>(vertex_b);

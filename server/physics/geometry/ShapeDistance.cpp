@@ -1,12 +1,10 @@
 #include "physics/geometry/ShapeDistance.h"
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 struct Nearest {
   double squared = std::numeric_limits<double>::infinity();

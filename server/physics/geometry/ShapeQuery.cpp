@@ -3,13 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 // The earliest entry wins; a ray that leaves hits nothing.
 void enterDisc(Vec2 centre, double radius, Vec2 from, Vec2 displacement, RayHit& best) {

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 // Where a level line crosses the shape. What bounds it is straight or an arc of a disc that lies in the
 // shape, so the outermost crossings are those of the shape.

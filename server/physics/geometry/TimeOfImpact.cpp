@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Index.h"
 #include "physics/geometry/ShapeDistance.h"
 
 namespace naiad::physics {
 
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 struct Span {
   double from;

@@ -39,6 +39,11 @@ inline bool isSound(const ImpactBody& body) {
          std::fabs(body.place.dx) <= 1 && std::fabs(body.place.dy) <= 1;
 }
 
+/// Half of the box around it.
+constexpr Vec2 halfExtentOf(const ImpactBody& body) {
+  return body.shape == ImpactShape::kCircle ? Vec2{body.half.x, body.half.x} : body.half;
+}
+
 constexpr double restitutionOf(const ImpactBody& a, const ImpactBody& b) {
   return a.restitution > b.restitution ? a.restitution : b.restitution;
 }

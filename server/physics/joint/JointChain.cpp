@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/joint/Newton.h"
+
 namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxIterations = 25;  // of Newton, as in JointStage.cpp
-constexpr int kFree = 3;            // first iterations, whose rate of convergence does not matter
-constexpr double kSlow = 0.4;       // residual over the last one: a worse rate gives up
-constexpr double kCertain = 0.02;   // of the tolerance: a residual predicted below this is not computed
-constexpr double kBad = 1e-3;       // of the diagonal: smaller pivots lose too many digits
+constexpr double kCertain = 0.02;  // of the tolerance: a residual predicted below this is not computed
+constexpr double kBad = 1e-3;      // of the diagonal: smaller pivots lose too many digits
 
 }  // namespace
 
@@ -122,7 +121,7 @@ JointChain::Status JointChain::project() {
 bool JointChain::newton(double h, std::uint64_t& iterations) {
   const double to_impulse = -1 / h;
   double last = 0;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0; iteration < newton::kMaxIterations; ++iteration) {
     double worst = 0, sum = 0, rest = 0;
     const Node* node = m_nodes.data();
     Pair place = node->before + h * node->velocity;
@@ -140,7 +139,7 @@ bool JointChain::newton(double h, std::uint64_t& iterations) {
     }
     if (!(sum <= 1e30)) return false;
     if (worst <= m_tolerance) return true;
-    if (iteration >= kFree && worst > kSlow * last) return worst <= 20 * m_tolerance;
+    if (iteration >= newton::kFree && worst > newton::kSlow * last) return worst <= 20 * m_tolerance;
     ++iterations;
     rest = 0;
     for (std::size_t i = m_rods.size(); i-- > 0;) {

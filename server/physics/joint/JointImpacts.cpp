@@ -13,9 +13,9 @@ constexpr double kDeepest = 1e-6;  // of the reach: deeper overlap at the start 
 constexpr double kTouch = 1e-9;    // metric cells: a gap below this counts as touching
 constexpr double kSink =
     1e-11;  // metric cells: rounding of the places, by which a pair may come nearer unnoticed
-constexpr double kSlow = 1e-9;     // metric cells per unit of time: a slower approach does not bounce
-constexpr double kInstant = 1e-9;  // units of time: impacts less apart than this are simultaneous
-constexpr double kFound = 1e-13;   // metric cells: the gap at which Newton's method ends
+constexpr double kRestSpeed = 1e-9;  // metric cells per unit of time: a slower approach does not bounce
+constexpr double kInstant = 1e-9;    // units of time: impacts less apart than this are simultaneous
+constexpr double kFound = 1e-13;     // metric cells: the gap at which Newton's method ends
 constexpr double kStride = 0.25;  // of the reach: how far the two move between two samples of their distance,
                                   // so that no pass is missed in between
 constexpr int kMaxSamples = 256;  // of a pair and flight; bounds the cost of very fast pairs
@@ -182,7 +182,7 @@ bool JointImpacts::refineImpact(int pair, std::span<JointBody> bodies, std::span
     fly(bodies, joints, time);
     gap = gapOf(its, bodies) - m_floor[at(pair)];
     const double closing = approachOf(its, bodies);
-    if (std::abs(gap) <= kFound || !(closing > kSlow)) break;
+    if (std::abs(gap) <= kFound || !(closing > kRestSpeed)) break;
     const double next = std::clamp(time + gap / closing, 0.0, left);
     if (next == time) break;
     time = next;
@@ -244,7 +244,7 @@ void JointImpacts::resolveImpact(int index, std::span<JointBody> bodies, std::sp
   const double approach = -dot(normal, speedOf(pair, bodies));
   const double parting = inverseEffectiveMass(pair, normal, bodies, joints);
   if (!(parting > 0)) return;
-  const double restitution = approach > kSlow ? pair.restitution : 0;
+  const double restitution = approach > kRestSpeed ? pair.restitution : 0;
   const double impulse = (1 + restitution) * approach / parting;
   applyImpulse(impulse, bodies);
   m_impacts.push_back({now, index, impulse});
@@ -262,7 +262,7 @@ bool JointImpacts::resolveImpacts(std::span<JointBody> bodies, std::span<Joint> 
   const std::size_t most = kMaxImpacts + kMaxPerPair * m_pairs.size();
   while (m_impacts.size() <= most) {
     int hardest = -1;
-    double greatest = kSlow;
+    double greatest = kRestSpeed;
     for (int i = 0; i < static_cast<int>(m_pairs.size()); ++i) {
       if (i != forced && gapOf(m_pairs[at(i)], bodies) > m_floor[at(i)] + kTouch) continue;
       const double approach = approachOf(m_pairs[at(i)], bodies);

@@ -5,15 +5,13 @@
 
 #include "physics/geometry/Index.h"
 #include "physics/joint/JointIsland.h"
+#include "physics/joint/Newton.h"
 
 namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxIterations = 25;  // of Newton: at the worst rate that is accepted, ten digits
 constexpr int kMaxHalvings = 5;     // of a stage, to 1/32
-constexpr int kFree = 3;            // first iterations, whose rate of convergence does not matter
-constexpr double kSlow = 0.4;       // residual over the last one: a worse rate gives up
 constexpr double kDiverged = 1e30;  // a residual above this gives up, before it overflows
 constexpr double kStalled = 20;     // in tolerances: a residual that stalls below this is rounding
 constexpr int kMaxActiveSets = 16;  // tries; in the second half of them rows are only released
@@ -53,7 +51,7 @@ bool JointIsland::iterateNewton(double h, JointCounters& counters) {
   const int rows = static_cast<int>(its.rows.size());
   const double to_impulse = -1 / h;
   double last = kNoLimit;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0; iteration < newton::kMaxIterations; ++iteration) {
     move(h);
     its.evaluate<false>(m_motion);
     double worst = 0;
@@ -75,7 +73,7 @@ bool JointIsland::iterateNewton(double h, JointCounters& counters) {
     }
     if (!is_finite || worst > kDiverged) return false;
     if (worst <= m_tolerance) return true;
-    if (iteration >= kFree && worst > kSlow * last) return worst <= kStalled * m_tolerance;
+    if (iteration >= newton::kFree && worst > newton::kSlow * last) return worst <= kStalled * m_tolerance;
     last = worst;
     ++counters.iterations;
     m_matrix.solve(m_rest.data());

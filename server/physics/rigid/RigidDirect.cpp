@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
@@ -11,10 +13,6 @@ namespace {
 // the matrix enough of a double's digits.
 constexpr double kStiffness = 1e4;
 constexpr int kRounds = 16;  // of factorisation and solution; a group that takes more is swept
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 // The row's Jacobian at one of its bodies.
 struct Lever {

@@ -13,7 +13,6 @@ namespace {
 constexpr double kMaxPush = 2;    // per tick: the greatest speed at which overlap is undone
 constexpr double kSlop = 1e-8;    // overlap that is left, so that a contact at rest stays one
 constexpr double kLinger = 0.01;  // a larger gap ends a contact
-constexpr double kLook = 0.25;    // least margin of the search for contacts in a moving heap (RigidStep.cpp)
 
 // A constraint that was found within the step, in the coordinates of the start of the step.
 void measureFromStart(ContactConstraint& c, Vec2 start, const RigidState& a, const RigidState& b) {
@@ -230,8 +229,8 @@ void RigidWorld::updateHeapContacts(double dt) {
     turnShapes(id, s.turn * m_bodies[at(id)].rotation);
     if (!extra.is_restless) continue;
     ++m_counters.looks;
-    extra.margin =
-        std::max(kLook * extra.thickness, 1.1 * m_h * (length(s.velocity) + std::fabs(s.spin) * extra.reach));
+    extra.margin = std::max(kLeastMargin * extra.thickness,
+                            1.1 * m_h * (length(s.velocity) + std::fabs(s.spin) * extra.reach));
     extra.margin = std::min(extra.margin, 2 * extra.thickness);
     extra.moved = extra.rolled = 0;
     extra.search_displacement = s.displacement;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Index.h"
+
 namespace naiad::physics {
 
 namespace {
@@ -13,10 +15,6 @@ constexpr double kRestSteps = 2;
 constexpr double kBend =
     1e-6;  // of an impact's speed: a larger share of turning bends the path off its parabola
 constexpr double kAnySpeed = -1e12;  // a target that no contact reaches: it does not push
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 double normalSpeed(const ContactPoint& p, Vec2 n, const RigidState& a, const RigidState& b) {
   return dot(n, b.velocity - a.velocity) + (p.normal_b * b.spin - p.normal_a * a.spin);

@@ -9,8 +9,8 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kFarthest = 1e9;  // metric cells in one step: the limit of timeOfImpact()
-constexpr double kMaxTurn = 1e9;   // rad, likewise
+constexpr double kFarthest = 1e9;      // metric cells in one step: the limit of timeOfImpact()
+constexpr double kFarthestTurn = 1e9;  // rad, likewise
 // Distances below are in thicknesses of a body: the least half width of its shapes.
 constexpr double kSlack = 0.02;  // least margin of the search for contacts
 constexpr double kBoundsSlack =
@@ -22,7 +22,6 @@ constexpr int kCrowdPushSweeps = 2;  // where a heap moves
 // those of its bodies that move by less than kFast in a sub-step are searched again in every sub-step.
 constexpr double kRestless = 0.25;
 constexpr double kFast = 2;
-constexpr double kLook = 0.25;  // least margin of that search
 constexpr double kPass =
     0.5;  // most that such a body moves in a sub-step: it passes nothing of half its size
 
@@ -39,7 +38,8 @@ void RigidWorld::beginBody(int id, double dt) {
   const Vec2 displacement = dt * body.velocity + (0.5 * dt * dt) * acceleration;
   const double angle = dt * (std::fabs(body.spin) + 0.5 * dt * std::fabs(spin_gain));
   const double gained = dt * dt * (std::fabs(acceleration.x) + std::fabs(acceleration.y));
-  if (!(std::fabs(displacement.x) + std::fabs(displacement.y) + gained < kFarthest && angle < kMaxTurn)) {
+  if (!(std::fabs(displacement.x) + std::fabs(displacement.y) + gained < kFarthest &&
+        angle < kFarthestTurn)) {
     freeze(id);
     return;
   }
@@ -70,7 +70,7 @@ void RigidWorld::beginBody(int id, double dt) {
   extra.is_fast = movement > kRestless * extra.thickness;
   if (extra.is_crowded && movement < kFast * steps * extra.thickness) {
     extra.is_restless = m_is_restless = true;
-    extra.margin = std::max(kLook * extra.thickness, 1.1 / steps * movement);
+    extra.margin = std::max(kLeastMargin * extra.thickness, 1.1 / steps * movement);
     extra.scope = movement + extra.thickness;
   }
   const Bounds bounds = turnShapes(id, body.rotation);

@@ -13,6 +13,7 @@
 
 #include "physics/broadphase/BroadPhase.h"
 #include "physics/geometry/ConvexShape.h"
+#include "physics/geometry/Index.h"
 #include "physics/joint/Joint.h"
 #include "physics/rigid/RigidBody.h"
 #include "physics/rigid/RigidContact.h"
@@ -115,6 +116,9 @@ class RigidWorld {
   double deepest() const { return m_deepest; }
 
  private:
+  /// In a body's thickness: the least margin of the search for contacts in a moving heap.
+  static constexpr double kLeastMargin = 0.25;
+
   struct Extra {
     std::vector<ConvexShape> shapes;
     std::vector<TurnedShape> turned;
@@ -194,7 +198,6 @@ class RigidWorld {
     Vec2 normal;
   };
 
-  static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
   bool isMovable(int id) const { return physics::isMovable(m_bodies[at(id)]); }
   bool isMoving(int id) const { return m_bodies[at(id)].velocity != Vec2{} || m_bodies[at(id)].spin != 0; }
 

@@ -8,14 +8,8 @@ namespace naiad::physics {
 
 namespace {
 
-bool isSmall(double x) {
-  return std::fabs(x) <= kLargestSoft;  // false for NaN
-}
-bool isSmall(Vec2 v) {
-  return isSmall(v.x) && isSmall(v.y);
-}
 bool isLoad(double x) {
-  return x >= 0 && isSmall(x);
+  return x >= 0 && isSmallSoft(x);
 }
 
 }  // namespace
@@ -25,26 +19,27 @@ bool isSound(const SoftBody& body) {
   if (count < 1 || count > kMaxSoftNodes || body.boundary.size() > body.nodes.size()) return false;
   const auto isNode = [count](int i) { return i >= 0 && i < count; };
   bool is_sound = std::fabs(body.place.dx) <= 1 && std::fabs(body.place.dy) <= 1 && body.radius >= 1e-6 &&
-                  isSmall(body.radius) && isLoad(body.friction) && isLoad(body.drag) &&
-                  isSmall(body.pressure) && isLoad(body.bulk);
+                  isSmallSoft(body.radius) && isLoad(body.friction) && isLoad(body.drag) &&
+                  isSmallSoft(body.pressure) && isLoad(body.bulk);
   for (const SoftNode& node : body.nodes) {
-    is_sound = is_sound && isSmall(node.offset) && isSmall(node.velocity) && isSmall(node.force) &&
-               node.mass >= 1e-12 && isSmall(node.mass);
+    is_sound = is_sound && isSmallSoft(node.offset) && isSmallSoft(node.velocity) &&
+               isSmallSoft(node.force) && node.mass >= 1e-12 && isSmallSoft(node.mass);
   }
   for (const SoftStretch& s : body.stretches) {
     is_sound = is_sound && isNode(s.a) && isNode(s.b) && s.a != s.b && s.rest_length >= 1e-9 &&
-               isSmall(s.rest_length) && isLoad(s.stiffness) && isLoad(s.damping);
+               isSmallSoft(s.rest_length) && isLoad(s.stiffness) && isLoad(s.damping);
   }
   for (const SoftBend& s : body.bends) {
     const bool is_clamp = s.a == -1;
     is_sound = is_sound && isNode(s.b) && isNode(s.c) && s.b != s.c && (is_clamp || isNode(s.a)) &&
                s.a != s.b && s.a != s.c && std::fabs(s.rest_angle) <= 3.2 && isLoad(s.stiffness) &&
-               isLoad(s.damping) && isSmall(s.direction) && (!is_clamp || lengthSquared(s.direction) > 1e-12);
+               isLoad(s.damping) && isSmallSoft(s.direction) &&
+               (!is_clamp || lengthSquared(s.direction) > 1e-12);
   }
   for (const int node : body.boundary) is_sound = is_sound && isNode(node);
   if (body.is_closed && body.boundary.size() < 3) return false;
   const bool has_gas = body.pressure != 0 || body.bulk != 0;
-  return is_sound && (!has_gas || (body.is_closed && body.rest_area >= 1e-9 && isSmall(body.rest_area)));
+  return is_sound && (!has_gas || (body.is_closed && body.rest_area >= 1e-9 && isSmallSoft(body.rest_area)));
 }
 
 double energyOf(const SoftBody& body, Vec2 gravity) {

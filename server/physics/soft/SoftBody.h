@@ -4,6 +4,7 @@
 // per tick², EA mass · cell per tick² and EI mass · cell³ per tick². SoftBuild.h makes the usual bodies.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "physics/geometry/Place.h"
@@ -61,6 +62,13 @@ struct SoftBody {
 
 inline constexpr int kMaxSoftNodes = 4096;    ///< a tick's cost grows with nodes · band²
 inline constexpr double kLargestSoft = 1e12;  ///< of sizes, speeds, masses, forces and stiffness
+/// False for NaN.
+inline bool isSmallSoft(double x) {
+  return std::fabs(x) <= kLargestSoft;
+}
+inline bool isSmallSoft(Vec2 v) {
+  return isSmallSoft(v.x) && isSmallSoft(v.y);
+}
 
 /// May it be taken in? Everything finite and within kLargestSoft, indices in range, nothing of zero size.
 bool isSound(const SoftBody& body);

@@ -160,12 +160,11 @@ bool overlap(Vec2 lower, Vec2 upper, Vec2 other_lower, Vec2 other_upper) {
 }  // namespace
 
 bool isSound(const SoftObstacle& obstacle) {
-  const auto isSmall = [](double x) { return std::fabs(x) <= kLargestSoft; };
-  const auto isFine = [&](Vec2 v) { return isSmall(v.x) && isSmall(v.y); };
+  const auto isFine = [&](Vec2 v) { return isSmallSoft(v.x) && isSmallSoft(v.y); };
   const double square = lengthSquared({obstacle.rotation.c, obstacle.rotation.s});
-  return isFine(obstacle.velocity) && isSmall(obstacle.spin) && isFine(obstacle.acceleration) &&
-         obstacle.inverse_mass >= 0 && isSmall(obstacle.inverse_mass) && obstacle.inverse_inertia >= 0 &&
-         isSmall(obstacle.inverse_inertia) && obstacle.friction >= 0 && isSmall(obstacle.friction) &&
+  return isFine(obstacle.velocity) && isSmallSoft(obstacle.spin) && isFine(obstacle.acceleration) &&
+         obstacle.inverse_mass >= 0 && isSmallSoft(obstacle.inverse_mass) && obstacle.inverse_inertia >= 0 &&
+         isSmallSoft(obstacle.inverse_inertia) && obstacle.friction >= 0 && isSmallSoft(obstacle.friction) &&
          std::fabs(obstacle.place.dx) <= 1 && std::fabs(obstacle.place.dy) <= 1 &&
          std::fabs(square - 1) < 1e-6;
 }

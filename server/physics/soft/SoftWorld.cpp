@@ -5,13 +5,7 @@
 
 namespace naiad::physics {
 
-namespace {
-
-bool isSmall(Vec2 v) {
-  return std::fabs(v.x) <= kLargestSoft && std::fabs(v.y) <= kLargestSoft;  // false for NaN
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void SoftWorld::start(int id) {
   m_elastics[at(id)].prepare(m_bodies[at(id)]);
@@ -51,7 +45,8 @@ bool SoftWorld::remove(int id) {
 }
 
 bool SoftWorld::setForce(int id, int node, Vec2 force) {
-  if (!exists(id) || node < 0 || at(node) >= m_bodies[at(id)].nodes.size() || !isSmall(force)) return false;
+  if (!exists(id) || node < 0 || at(node) >= m_bodies[at(id)].nodes.size() || !isSmallSoft(force))
+    return false;
   if (m_bodies[at(id)].nodes[at(node)].force == force) return true;
   m_bodies[at(id)].nodes[at(node)].force = force;
   m_elastics[at(id)].forgetHistory();
@@ -63,7 +58,7 @@ bool SoftWorld::applyImpulse(int id, int node, Vec2 impulse) {
   if (!exists(id) || node < 0 || at(node) >= m_bodies[at(id)].nodes.size()) return false;
   SoftNode& hit = m_bodies[at(id)].nodes[at(node)];
   const Vec2 velocity = hit.velocity + impulse / hit.mass;
-  if (!isSmall(velocity)) return false;
+  if (!isSmallSoft(velocity)) return false;
   if (hit.is_pinned) return true;
   hit.velocity = velocity;
   m_elastics[at(id)].forgetHistory();
@@ -72,7 +67,7 @@ bool SoftWorld::applyImpulse(int id, int node, Vec2 impulse) {
 }
 
 bool SoftWorld::setGravity(Vec2 gravity) {
-  if (!isSmall(gravity)) return false;
+  if (!isSmallSoft(gravity)) return false;
   m_gravity = gravity;
   for (State& state : m_states) state.is_fresh = true;
   for (SoftElastic& elastic : m_elastics) elastic.forgetHistory();
@@ -87,7 +82,7 @@ bool SoftWorld::setSubsteps(int substeps) {
 
 int SoftWorld::attach(const SoftAttachment& attachment) {
   if (!exists(attachment.body) || attachment.node < 0 ||
-      at(attachment.node) >= m_bodies[at(attachment.body)].nodes.size() || !isSmall(attachment.anchor)) {
+      at(attachment.node) >= m_bodies[at(attachment.body)].nodes.size() || !isSmallSoft(attachment.anchor)) {
     return -1;
   }
   int id = 0;

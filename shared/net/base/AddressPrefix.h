@@ -3,7 +3,6 @@
 
 #include <array>
 #include <asio/ip/address.hpp>
-#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -27,7 +26,8 @@ class AddressPrefix {
   /// texts.
   static std::optional<AddressPrefix> ofEndpoint(std::string_view text);
 
-  friend auto operator<=>(const AddressPrefix&, const AddressPrefix&) = default;
+  friend bool operator==(const AddressPrefix&, const AddressPrefix&) = default;
+  friend bool operator<(const AddressPrefix& a, const AddressPrefix& b) { return a.bits_ < b.bits_; }
 
  private:
   /// The lower half of a mapped IPv4 address, else the upper half. They cannot be equal: 0::/8 is reserved.

@@ -19,6 +19,7 @@ inline constexpr std::size_t kMaxHelloFrame = 1024;
 /// Names and chat, in characters.
 inline constexpr std::size_t kMaxNameLength = 16;
 inline constexpr std::size_t kMaxChatLength = 200;
+inline constexpr std::size_t kMaxNameBytes = 4 * kMaxNameLength;  ///< as UTF-8
 /// Sentences for people (refusals, goodbyes), names of games and programs, in characters.
 inline constexpr std::size_t kMaxSentenceLength = 300;
 inline constexpr std::size_t kMaxProgramLength = 40;

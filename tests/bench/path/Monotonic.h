@@ -2,11 +2,16 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <ctime>
 
 namespace bench::path {
 
 using Nanoseconds = std::chrono::nanoseconds;
+
+constexpr Nanoseconds fromMilliseconds(double value) {
+  return Nanoseconds(static_cast<std::int64_t>(value * 1e6));
+}
 
 /// CLOCK_MONOTONIC, the same in all namespaces.
 inline Nanoseconds monotonicNow() {

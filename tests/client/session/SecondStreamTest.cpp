@@ -88,10 +88,10 @@ TEST_F(SecondStreamTest, MayEndAtAnyTime) {
 TEST_F(SecondStreamTest, AttemptsThatFailBecomeSeldom) {
   SecondStream closed;
   int attempts = 0;
-  Time now{1h};
-  for (int i = 0; i < 600; ++i, now += 1s) attempts += closed.takeAttempt(now) ? 1 : 0;
+  Time time{1h};
+  for (int i = 0; i < 600; ++i, time += 1s) attempts += closed.takeAttempt(time) ? 1 : 0;
   EXPECT_NEAR(attempts, 13, 2) << "2, 4, … 64 s, and then every 64 s";
-  EXPECT_FALSE(stream.takeAttempt(now)) << "there is one";
+  EXPECT_FALSE(stream.takeAttempt(time)) << "there is one";
 }
 
 TEST_F(SecondStreamTest, AStreamThatLastedMayBeReplacedSoon) {

@@ -23,7 +23,7 @@ using Action = KeyEvent::Action;
 using Events = std::vector<TerminalEvent>;
 using Time = InputDecoder::Time;
 
-const Time kStart = Time{} + 1h;
+const Time kFed = Time{} + 1h;
 
 void append(Events& all, const Events& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -32,9 +32,9 @@ void append(Events& all, const Events& more) {
 /// Decode `bytes`, arriving in two pieces, and let time pass.
 Events decodeSplit(const std::string& bytes, std::size_t at) {
   InputDecoder decoder;
-  Events events = decoder.feed(bytes.substr(0, at), kStart);
-  append(events, decoder.feed(bytes.substr(at), kStart + 5ms));
-  append(events, decoder.flush(kStart + 2s));
+  Events events = decoder.feed(bytes.substr(0, at), kFed);
+  append(events, decoder.feed(bytes.substr(at), kFed + 5ms));
+  append(events, decoder.flush(kFed + 2s));
   return events;
 }
 
@@ -174,7 +174,7 @@ TEST(InputDecoder, DecodesByteByByte) {
   for (const Case& c : cases()) {
     InputDecoder decoder;
     Events events;
-    Time now = kStart;
+    Time now = kFed;
     for (const char byte : c.bytes) append(events, decoder.feed(std::string(1, byte), now += 1ms));
     append(events, decoder.flush(now + 2s));
     EXPECT_EQ(events, c.events) << c.name;
@@ -183,34 +183,34 @@ TEST(InputDecoder, DecodesByteByByte) {
 
 TEST(InputDecoder, EscapeIsAKeyOnlyAfter25Milliseconds) {
   InputDecoder decoder;
-  EXPECT_TRUE(decoder.feed("\033", kStart).empty());
+  EXPECT_TRUE(decoder.feed("\033", kFed).empty());
   ASSERT_TRUE(decoder.deadline());
-  EXPECT_EQ(*decoder.deadline(), kStart + 25ms);
-  EXPECT_TRUE(decoder.flush(kStart + 24ms).empty());
-  EXPECT_EQ(decoder.flush(kStart + 25ms), Events{key(ESCAPE)});
+  EXPECT_EQ(*decoder.deadline(), kFed + 25ms);
+  EXPECT_TRUE(decoder.flush(kFed + 24ms).empty());
+  EXPECT_EQ(decoder.flush(kFed + 25ms), Events{key(ESCAPE)});
   EXPECT_FALSE(decoder.deadline());
   // What comes later is a separate key, not part of a sequence.
-  EXPECT_EQ(decoder.feed("a", kStart + 26ms), Events{key(A, U'a')});
+  EXPECT_EQ(decoder.feed("a", kFed + 26ms), Events{key(A, U'a')});
 }
 
 TEST(InputDecoder, LateBytesDoNotJoinAnExpiredEscape) {
   InputDecoder decoder;
-  decoder.feed("\033", kStart);
-  EXPECT_EQ(decoder.feed("a", kStart + 30ms), (Events{key(ESCAPE), key(A, U'a')}));
+  decoder.feed("\033", kFed);
+  EXPECT_EQ(decoder.feed("a", kFed + 30ms), (Events{key(ESCAPE), key(A, U'a')}));
 }
 
 TEST(InputDecoder, AbandonedSequenceIsForgotten) {
   InputDecoder decoder;
-  EXPECT_TRUE(decoder.feed("\033[1;", kStart).empty());
-  EXPECT_TRUE(decoder.flush(kStart + 499ms).empty());
-  EXPECT_TRUE(decoder.flush(kStart + 500ms).empty());
-  EXPECT_EQ(decoder.feed("a", kStart + 501ms), Events{key(A, U'a')});
+  EXPECT_TRUE(decoder.feed("\033[1;", kFed).empty());
+  EXPECT_TRUE(decoder.flush(kFed + 499ms).empty());
+  EXPECT_TRUE(decoder.flush(kFed + 500ms).empty());
+  EXPECT_EQ(decoder.feed("a", kFed + 501ms), Events{key(A, U'a')});
 }
 
 TEST(InputDecoder, RandomBytesNeitherCrashNorGrow) {
   std::mt19937 random(7);
   InputDecoder decoder;
-  Time now = kStart;
+  Time now = kFed;
   // Half of the bytes from those that begin and end sequences, so that deep states are reached.
   const std::string frequent = "\033\033\033[[[OM<?;:0123456789uAm~P]\\\007$";
   for (int i = 0; i < 300000; ++i) {

@@ -4,6 +4,7 @@
 #include "client/world/Surroundings.h"
 #include "shared/values/SplitMix64.h"
 #include "shared/values/Vector.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
@@ -11,12 +12,9 @@ namespace {
 using df::FixedVector;
 using df::fromCells;
 using df::kFixedOne;
+using test::cellsAt;
 
 constexpr std::uint32_t kKnown = 50;
-
-FixedVector at(double x, double y) {
-  return *df::toFixed(df::Vector(x, y));
-}
 
 class ExtrapolationClampTest : public testing::Test {
  protected:
@@ -44,41 +42,41 @@ class ExtrapolationClampTest : public testing::Test {
 };
 
 TEST_F(ExtrapolationClampTest, AnObjectThatFliesIntoAWallIsDrawnBeforeIt) {
-  const auto ball = add(at(10, 5), at(1, 0));
-  add(at(14, 5));
-  EXPECT_EQ(clamped(ball, 0), at(10, 5));
-  EXPECT_EQ(clamped(ball, 2), at(12, 5));
-  EXPECT_EQ(clamped(ball, 3), at(12, 5));  // at 13 it would touch the wall
-  EXPECT_EQ(clamped(ball, 8), at(12, 5));
+  const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
+  add(cellsAt(14, 5));
+  EXPECT_EQ(clamped(ball, 0), cellsAt(10, 5));
+  EXPECT_EQ(clamped(ball, 2), cellsAt(12, 5));
+  EXPECT_EQ(clamped(ball, 3), cellsAt(12, 5));  // at 13 it would touch the wall
+  EXPECT_EQ(clamped(ball, 8), cellsAt(12, 5));
 }
 
 TEST_F(ExtrapolationClampTest, OnlyHardObjectsBlockAndAreBlocked) {
-  const auto ghost = add(at(10, 5), at(1, 0), df::SOFT);
-  const auto ball = add(at(10, 9), at(1, 0));
-  add(at(14, 5));
-  add(at(14, 9), {}, df::SOFT);
-  add(at(15, 9), {}, df::SPECTRAL);
-  EXPECT_EQ(clamped(ghost, 6), at(16, 5));
-  EXPECT_EQ(clamped(ball, 6), at(16, 9));
+  const auto ghost = add(cellsAt(10, 5), cellsAt(1, 0), df::SOFT);
+  const auto ball = add(cellsAt(10, 9), cellsAt(1, 0));
+  add(cellsAt(14, 5));
+  add(cellsAt(14, 9), {}, df::SOFT);
+  add(cellsAt(15, 9), {}, df::SPECTRAL);
+  EXPECT_EQ(clamped(ghost, 6), cellsAt(16, 5));
+  EXPECT_EQ(clamped(ball, 6), cellsAt(16, 9));
 }
 
 TEST_F(ExtrapolationClampTest, ObjectsThatTouchAlreadyDoNotBlock) {
-  const auto ball = add(at(10, 5), at(0, 1));
-  add(at(11, 5), {}, df::HARD, {{-kFixedOne / 2, -kFixedOne * 8}, {kFixedOne, kFixedOne * 16}});
-  EXPECT_EQ(clamped(ball, 5), at(10, 10));
+  const auto ball = add(cellsAt(10, 5), cellsAt(0, 1));
+  add(cellsAt(11, 5), {}, df::HARD, {{-kFixedOne / 2, -kFixedOne * 8}, {kFixedOne, kFixedOne * 16}});
+  EXPECT_EQ(clamped(ball, 5), cellsAt(10, 10));
 }
 
 TEST_F(ExtrapolationClampTest, WallsThatMoveAreWhereTheyAreAtThatTick) {
-  const auto ball = add(at(10, 5), at(1, 0));
-  add(at(14, 5), at(0, 2));  // out of the way in time
-  EXPECT_EQ(clamped(ball, 6), at(16, 5));
+  const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
+  add(cellsAt(14, 5), cellsAt(0, 2));  // out of the way in time
+  EXPECT_EQ(clamped(ball, 6), cellsAt(16, 5));
 }
 
 TEST_F(ExtrapolationClampTest, LongExtrapolationsAndThePastAreAsModelled) {
-  const auto ball = add(at(10, 5), at(1, 0));
-  add(at(14, 5));
-  EXPECT_EQ(clamped(ball, ExtrapolationClamp::kMaxTicks + 1), at(27, 5));
-  EXPECT_EQ(clampedPosition(replica, replica.find(ball)->state, kKnown, kKnown - 2), at(8, 5));
+  const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
+  add(cellsAt(14, 5));
+  EXPECT_EQ(clamped(ball, ExtrapolationClamp::kMaxTicks + 1), cellsAt(27, 5));
+  EXPECT_EQ(clampedPosition(replica, replica.find(ball)->state, kKnown, kKnown - 2), cellsAt(8, 5));
 }
 
 /// The rule in its plainest form: all against all, tick by tick.
@@ -113,7 +111,8 @@ TEST_F(ExtrapolationClampTest, EqualsThePlainRuleForRandomCrowds) {
       const double y = rng.unit() * 80 - 40;
       const double vx = rng.below(2) == 0 ? 0 : rng.unit() * 4 - 2;
       const double vy = rng.below(2) == 0 ? 0 : rng.unit() * 2 - 1;
-      add(at(x, y), at(vx, vy), static_cast<df::Solidness>(rng.below(3)), {at(-w / 2, -h / 2), at(w, h)});
+      add(cellsAt(x, y), cellsAt(vx, vy), static_cast<df::Solidness>(rng.below(3)),
+          {cellsAt(-w / 2, -h / 2), cellsAt(w, h)});
     }
     const auto drawn = kKnown + 1 + static_cast<std::uint32_t>(rng.below(8));
     const ExtrapolationClamp clamp(replica, kKnown, drawn);

@@ -8,19 +8,19 @@ namespace naiad {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr DisplayClock::Duration kTick = std::chrono::milliseconds(40);
+constexpr DisplayClock::Duration kTickTime = std::chrono::milliseconds(40);
 
 class InputTickEstimatorTest : public testing::Test {
  protected:
   InputTickEstimatorTest() {
-    for (std::uint32_t tick = 100; tick <= 200; ++tick, now += kTick) clock.noteSnapshot(tick, now);
-    now -= kTick;
+    for (std::uint32_t tick = 100; tick <= 200; ++tick, now += kTickTime) clock.noteSnapshot(tick, now);
+    now -= kTickTime;
   }
   /// How far ahead of the newest tick a key is asked for.
-  std::uint32_t ahead() const { return take_in.tickFor(clock, kTick, now) - clock.newestTick(); }
+  std::uint32_t ahead() const { return take_in.tickFor(clock, kTickTime, now) - clock.newestTick(); }
 
   DisplayClock::Time now{std::chrono::hours(1)};
-  DisplayClock clock{kTick};
+  DisplayClock clock{kTickTime};
   InputTickEstimator take_in;
 };
 
@@ -33,7 +33,7 @@ TEST_F(InputTickEstimatorTest, ARoundTripMakesItLater) {
   EXPECT_EQ(ahead(), 3u);
   InputTickEstimator far;
   far.noteRoundTrip(400ms);
-  EXPECT_EQ(far.tickFor(clock, kTick, now) - clock.newestTick(), 11u);
+  EXPECT_EQ(far.tickFor(clock, kTickTime, now) - clock.newestTick(), 11u);
 }
 
 TEST_F(InputTickEstimatorTest, TheShortestOfTheLastEightCounts) {
@@ -47,13 +47,13 @@ TEST_F(InputTickEstimatorTest, TheShortestOfTheLastEightCounts) {
 }
 
 TEST_F(InputTickEstimatorTest, TimeThatPassesMakesItLater) {
-  now += 3 * kTick;
+  now += 3 * kTickTime;
   EXPECT_EQ(ahead(), 4u);
 }
 
 TEST_F(InputTickEstimatorTest, ASilentLineDoesNotMakeItEndless) {
-  now += 1000 * kTick;
-  EXPECT_EQ(ahead(), 1 + DisplayClock::kMaxAhead / kTick);
+  now += 1000 * kTickTime;
+  EXPECT_EQ(ahead(), 1 + DisplayClock::kMaxAhead / kTickTime);
   take_in.noteRoundTrip(std::chrono::hours(1));
   EXPECT_EQ(ahead(), 61u);
 }

@@ -13,7 +13,7 @@ using df::kFixedOne;
 using df::Keyboard::D;
 using df::Keyboard::S;
 
-constexpr std::uint32_t kTick = 100;
+constexpr std::uint32_t kFirstTick = 100;
 constexpr std::uint32_t kOwnSlot = 7;
 
 FixedVector cells(int x, int y) {
@@ -24,7 +24,7 @@ ObjectRecord object(std::uint32_t slot, FixedVector at, FixedVector velocity = {
                     df::Solidness solidness = df::HARD) {
   ObjectRecord record{slot, 1, kAllGroups, {}};
   record.state.order = slot;
-  record.state.motion = {kTick, at, velocity, {}};
+  record.state.motion = {kFirstTick, at, velocity, {}};
   record.state.look.sequence = {{Glyph{0, 0, U'@', df::WHITE}}};
   record.state.body = {{{-kFixedOne / 2, -kFixedOne / 2}, {kFixedOne, kFixedOne}}, solidness, false};
   return record;
@@ -39,7 +39,7 @@ Records objects(std::vector<ObjectRecord> list) {
 void apply(Replica& replica, std::uint32_t number, Records records) {
   Snapshot snapshot;
   snapshot.header.number = number;
-  snapshot.header.tick = kTick;
+  snapshot.header.tick = kFirstTick;
   snapshot.records = std::move(records);
   replica.apply(snapshot);
 }
@@ -52,7 +52,7 @@ class PredictionTest : public testing::Test {
                   {S, KEY_PRESSED, df::ControlEffect::kStep, true, true, cells(0, 1)}};
     prediction.setTable(table);
     applyRecords(objects({object(kOwnSlot, cells(10, 10))}));
-    prediction.applyControl(state(kTick, 0, cells(10, 10)));
+    prediction.applyControl(state(kFirstTick, 0, cells(10, 10)));
   }
   void applyRecords(Records records) { apply(replica, ++number, std::move(records)); }
   static ControlRecord state(std::uint32_t tick, std::uint32_t newest, FixedVector at) {
@@ -88,72 +88,72 @@ class PredictionTest : public testing::Test {
 
 TEST_F(PredictionTest, NothingIsPredictedWithoutTableStateOrObject) {
   Prediction other;
-  other.run(replica, kTick);
+  other.run(replica, kFirstTick);
   EXPECT_FALSE(other.isActive());
-  other.applyControl(state(kTick, 0, cells(10, 10)));
-  other.run(replica, kTick);
+  other.applyControl(state(kFirstTick, 0, cells(10, 10)));
+  other.run(replica, kFirstTick);
   EXPECT_FALSE(other.isActive());
   other.setTable(table);
-  other.run(replica, kTick);
+  other.run(replica, kFirstTick);
   EXPECT_TRUE(other.isActive());
-  other.run(Replica(), kTick);
+  other.run(Replica(), kFirstTick);
   EXPECT_FALSE(other.isActive());
-  ControlRecord nothing = state(kTick + 1, 0, {});
+  ControlRecord nothing = state(kFirstTick + 1, 0, {});
   nothing.generation = 0;
   other.applyControl(nothing);
-  other.run(replica, kTick + 1);
+  other.run(replica, kFirstTick + 1);
   EXPECT_FALSE(other.isActive());
 }
 
 TEST_F(PredictionTest, AnInputCountsFromItsTickOn) {
-  press(1, D, KEY_PRESSED, kTick + 5);
-  EXPECT_EQ(at(kTick + 4), cells(10, 10));
-  EXPECT_EQ(at(kTick + 5), cells(11, 10));
-  EXPECT_EQ(at(kTick + 9), cells(11, 10));
+  press(1, D, KEY_PRESSED, kFirstTick + 5);
+  EXPECT_EQ(at(kFirstTick + 4), cells(10, 10));
+  EXPECT_EQ(at(kFirstTick + 5), cells(11, 10));
+  EXPECT_EQ(at(kFirstTick + 9), cells(11, 10));
 }
 
 TEST_F(PredictionTest, NoInputComesBeforeOneThatWasSentEarlier) {
-  press(1, D, KEY_PRESSED, kTick + 5);
-  press(2, S, KEY_PRESSED, kTick + 3);
-  prediction.applyControl(state(kTick + 1, 1, cells(10, 10)));
-  EXPECT_EQ(at(kTick + 4), cells(10, 10));
-  EXPECT_EQ(at(kTick + 5), cells(10, 11));
+  press(1, D, KEY_PRESSED, kFirstTick + 5);
+  press(2, S, KEY_PRESSED, kFirstTick + 3);
+  prediction.applyControl(state(kFirstTick + 1, 1, cells(10, 10)));
+  EXPECT_EQ(at(kFirstTick + 4), cells(10, 10));
+  EXPECT_EQ(at(kFirstTick + 5), cells(10, 11));
 }
 
 TEST_F(PredictionTest, AControlStateRemovesTheInputsThatItCovers) {
-  press(1, D, KEY_PRESSED, kTick + 2);
-  press(2, S, KEY_PRESSED, kTick + 6);
-  EXPECT_EQ(at(kTick + 8), cells(11, 11));
-  prediction.applyControl(state(kTick + 3, 1, cells(11, 10)));
+  press(1, D, KEY_PRESSED, kFirstTick + 2);
+  press(2, S, KEY_PRESSED, kFirstTick + 6);
+  EXPECT_EQ(at(kFirstTick + 8), cells(11, 11));
+  prediction.applyControl(state(kFirstTick + 3, 1, cells(11, 10)));
   EXPECT_EQ(prediction.pendingInputs(), 1u);
-  EXPECT_EQ(at(kTick + 8), cells(11, 11));
+  EXPECT_EQ(at(kFirstTick + 8), cells(11, 11));
   EXPECT_EQ(prediction.counters().confirmed, 1u);
   EXPECT_EQ(prediction.counters().mispredicted, 0u);
 }
 
 TEST_F(PredictionTest, AnInputThatIsLateIsExpectedWithTheNextTick) {
-  press(1, D, KEY_PRESSED, kTick + 2);
-  EXPECT_EQ(at(kTick + 6), cells(11, 10));
-  prediction.applyControl(state(kTick + 4, 0, cells(10, 10)));  // it has not arrived
+  press(1, D, KEY_PRESSED, kFirstTick + 2);
+  EXPECT_EQ(at(kFirstTick + 6), cells(11, 10));
+  prediction.applyControl(state(kFirstTick + 4, 0, cells(10, 10)));  // it has not arrived
   EXPECT_EQ(prediction.counters().mispredicted, 1u);
-  EXPECT_EQ(at(kTick + 4), cells(10, 10));
-  EXPECT_EQ(at(kTick + 5), cells(11, 10));
+  EXPECT_EQ(at(kFirstTick + 4), cells(10, 10));
+  EXPECT_EQ(at(kFirstTick + 5), cells(11, 10));
 }
 
 TEST_F(PredictionTest, TheNextPictureIsTheNewReplay) {
-  press(1, D, KEY_PRESSED, kTick + 2);
-  press(2, D, KEY_PRESSED, kTick + 5);
-  at(kTick + 5);
-  prediction.applyControl(state(kTick + 3, 1, cells(30, 5)));  // another object carried the ship away
+  press(1, D, KEY_PRESSED, kFirstTick + 2);
+  press(2, D, KEY_PRESSED, kFirstTick + 5);
+  at(kFirstTick + 5);
+  prediction.applyControl(state(kFirstTick + 3, 1, cells(30, 5)));  // another object carried the ship away
   EXPECT_EQ(prediction.counters().mispredicted, 1u);
-  EXPECT_EQ(at(kTick + 6), cells(31, 5));
+  EXPECT_EQ(at(kFirstTick + 6), cells(31, 5));
 }
 
 TEST_F(PredictionTest, OlderControlStatesAreIgnored) {
-  prediction.applyControl(state(kTick + 3, 0, cells(12, 10)));
-  prediction.applyControl(state(kTick + 2, 0, cells(50, 10)));
-  prediction.applyControl(state(kTick + 3, 0, cells(50, 10)));
-  EXPECT_EQ(at(kTick + 4), cells(12, 10));
+  prediction.applyControl(state(kFirstTick + 3, 0, cells(12, 10)));
+  prediction.applyControl(state(kFirstTick + 2, 0, cells(50, 10)));
+  prediction.applyControl(state(kFirstTick + 3, 0, cells(50, 10)));
+  EXPECT_EQ(at(kFirstTick + 4), cells(12, 10));
 }
 
 TEST_F(PredictionTest, TicksAndInputsMayWrapAround) {
@@ -176,9 +176,9 @@ TEST_F(PredictionTest, TheOrderOfCreationDecidesWhichObjectsHaveMoved) {
     apply(around, 1, objects({object(kOwnSlot, cells(10, 10)), object(slot, cells(12, 10), cells(1, 0))}));
     Prediction ship;
     ship.setTable(table);
-    ship.applyControl(state(kTick, 0, cells(10, 10)));
-    press(ship, 1, D, KEY_PRESSED, kTick + 1);
-    ship.run(around, kTick + 1);
+    ship.applyControl(state(kFirstTick, 0, cells(10, 10)));
+    press(ship, 1, D, KEY_PRESSED, kFirstTick + 1);
+    ship.run(around, kFirstTick + 1);
     EXPECT_EQ(ship.position(), cells(wanted, 10)) << "slot " << slot;
   }
 }
@@ -197,18 +197,18 @@ TEST_F(PredictionTest, HardBlocksAndSoftBlocksOnlyNoSoft) {
     apply(around, 1, objects({me, object(1, cells(12, 10), {}, other)}));
     Prediction ship;
     ship.setTable(table);
-    ship.applyControl(state(kTick, 0, cells(10, 10)));
-    press(ship, 1, D, KEY_PRESSED, kTick + 1);
-    ship.run(around, kTick + 1);
+    ship.applyControl(state(kFirstTick, 0, cells(10, 10)));
+    press(ship, 1, D, KEY_PRESSED, kFirstTick + 1);
+    ship.run(around, kFirstTick + 1);
     EXPECT_EQ(ship.position(), cells(wanted, 10)) << own << no_soft << other;
   }
 }
 
 TEST_F(PredictionTest, InputsAndTicksAreBounded) {
-  for (std::uint32_t id = 1; id <= 100; ++id) press(id, D, KEY_PRESSED, kTick + 1);
+  for (std::uint32_t id = 1; id <= 100; ++id) press(id, D, KEY_PRESSED, kFirstTick + 1);
   EXPECT_EQ(prediction.pendingInputs(), Prediction::kMaxInputs);
   EXPECT_EQ(prediction.counters().unpredicted, 100 - Prediction::kMaxInputs);
-  EXPECT_EQ(at(kTick + 1'000'000), cells(10 + static_cast<int>(Prediction::kMaxInputs), 10));
+  EXPECT_EQ(at(kFirstTick + 1'000'000), cells(10 + static_cast<int>(Prediction::kMaxInputs), 10));
 }
 
 TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
@@ -216,17 +216,17 @@ TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
   constexpr df::Fixed kFast = df::fromCells(1 << 24);
   applyRecords(
       objects({object(8, {INT64_MAX, INT64_MIN}, {INT64_MAX, 1}), object(9, {kFar, kFar}, {kFast, -kFast})}));
-  ControlRecord record = state(kTick + 1, 0, {kFar, -kFar});
+  ControlRecord record = state(kFirstTick + 1, 0, {kFar, -kFar});
   record.velocity = {kFast, -kFast};
   record.acceleration = {kFast, -kFast};
   prediction.applyControl(record);
-  press(1, D, KEY_PRESSED, kTick + 3);
-  prediction.run(replica, kTick + 90);
+  press(1, D, KEY_PRESSED, kFirstTick + 3);
+  prediction.run(replica, kFirstTick + 90);
   EXPECT_EQ(prediction.position(), (FixedVector{kFar, -kFar}));
   EXPECT_EQ(prediction.velocity(), record.velocity);
-  const ExtrapolationClamp clamp(replica, kTick, kTick + 8);
+  const ExtrapolationClamp clamp(replica, kFirstTick, kFirstTick + 8);
   for (const auto& [slot, entry] : replica.entries()) {
-    EXPECT_EQ(clamp.positionOf(entry.state), positionAt(entry.state.motion, kTick + 8));
+    EXPECT_EQ(clamp.positionOf(entry.state), positionAt(entry.state.motion, kFirstTick + 8));
   }
 }
 
@@ -236,17 +236,18 @@ TEST_F(PredictionTest, ThePictureShowsTheShipAndTheViewWhereTheyWillBe) {
   records.worlds = {{{{}, cells(200, 24)}, 30, 12}};
   records.views = {{cells(0, 4), true, kOwnSlot, 1}};
   applyRecords(std::move(records));
-  for (std::uint32_t i = 1; i <= 20; ++i) press(i, D, KEY_PRESSED, kTick + 1);
-  at(kTick + 1);
-  const ExtrapolationClamp clamp(replica, kTick, kTick);
+  for (std::uint32_t i = 1; i <= 20; ++i) press(i, D, KEY_PRESSED, kFirstTick + 1);
+  at(kFirstTick + 1);
+  const ExtrapolationClamp clamp(replica, kFirstTick, kFirstTick);
   const DrawnPlacement placement(replica, prediction, clamp);
-  EXPECT_EQ(replica.viewCorner(kTick), (CellPosition{0, 4}));
-  EXPECT_EQ(replica.viewCorner(kTick, &placement), (CellPosition{10, 4}));  // 30 is two thirds of the view
-  EXPECT_EQ(replica.focus(kTick, &placement), (CellPosition{20, 6}));
-  const df::Canvas picture = replica.render(kTick, &placement);
+  EXPECT_EQ(replica.viewCorner(kFirstTick), (CellPosition{0, 4}));
+  EXPECT_EQ(replica.viewCorner(kFirstTick, &placement),
+            (CellPosition{10, 4}));  // 30 is two thirds of the view
+  EXPECT_EQ(replica.focus(kFirstTick, &placement), (CellPosition{20, 6}));
+  const df::Canvas picture = replica.render(kFirstTick, &placement);
   EXPECT_EQ(picture.at(20, 6).ch, U'@');
   EXPECT_EQ(picture.at(10, 6).ch, U' ');
-  EXPECT_EQ(replica.render(kTick).at(10, 6).ch, U'@');
+  EXPECT_EQ(replica.render(kFirstTick).at(10, 6).ch, U'@');
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ class Walker : public Object {
   Walker() {
     setType("Walker");
     setPosition(Vector(40, 12));
+    setAltitude(MAX_ALTITUDE);  // or a Drifter that passes would hide a part of the text
     registerInterest(KEYBOARD_EVENT);
     registerInterest(STEP_EVENT);
   }

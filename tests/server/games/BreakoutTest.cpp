@@ -37,10 +37,6 @@ std::set<Keyboard::Key> follow(const World& world, const Object& paddle) {
   return {};
 }
 
-bool shows(const World& world, std::uint32_t player, const std::string& text) {
-  return world.renderPlayer(player).text().find(text) != std::string::npos;
-}
-
 class BreakoutFor : public ::testing::TestWithParam<int> {};
 
 TEST_P(BreakoutFor, BotsClearTheFirstLevel) {

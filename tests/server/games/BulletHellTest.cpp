@@ -58,10 +58,6 @@ std::set<Keyboard::Key> dodge(const World& world, const Object& ship) {
   return p_best != nullptr ? p_best->keys : std::set<Keyboard::Key>{};
 }
 
-bool shows(const World& world, std::uint32_t player, const std::string& text) {
-  return world.renderPlayer(player).text().find(text) != std::string::npos;
-}
-
 TEST(BulletHell, ABotThatDodgesBeatsTheFirstBoss) {
   hostGame(bullethell_main, 1, [](World& world) {
     const std::uint32_t ann = world.join("ann", RED);

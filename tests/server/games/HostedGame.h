@@ -37,6 +37,11 @@ inline void hostGame(int (*game_main)(), std::uint64_t seed, std::function<void(
   game_main();
 }
 
+/// Does the player see this text?
+inline bool shows(const df::World& world, std::uint32_t player, const std::string& text) {
+  return world.renderPlayer(player).text().find(text) != std::string::npos;
+}
+
 inline void tick(df::World& world, int count) {
   for (int i = 0; i < count; ++i) world.tick();
 }

@@ -49,10 +49,6 @@ std::uint32_t joinAndWait(df::World& world) {
   return player;
 }
 
-bool shows(df::World& world, std::uint32_t player, const std::string& text) {
-  return world.renderPlayer(player).text().find(text) != std::string::npos;
-}
-
 /// So many ticks without a saucer near the ship.
 void tickInPeace(df::World& world, int count) {
   for (int t = 0; t < count; ++t) {

@@ -9,6 +9,10 @@
 
 namespace naiad::physics {
 
+inline Quad q(double x) {
+  return static_cast<Quad>(x);
+}
+
 template <int N>
 using QuadVector = std::array<Quad, N>;
 

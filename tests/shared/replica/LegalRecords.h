@@ -9,7 +9,7 @@
 
 namespace naiad::test {
 
-inline bool isWithin(df::FixedVector v, std::int64_t most_cells) {
+inline bool isWithinCells(df::FixedVector v, std::int64_t most_cells) {
   const df::Fixed most = most_cells << df::kFixedBits;
   return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most;
 }
@@ -19,8 +19,8 @@ inline bool isLegal(df::Color color) {
 }
 
 inline bool isLegal(const Motion& m, std::uint32_t tick) {
-  return m.tick == tick && isWithin(m.position, 2'100'000'000) && isWithin(m.velocity, 1 << 25) &&
-         isWithin(m.acceleration, 1 << 25);
+  return m.tick == tick && isWithinCells(m.position, 2'100'000'000) && isWithinCells(m.velocity, 1 << 25) &&
+         isWithinCells(m.acceleration, 1 << 25);
 }
 
 inline bool isLegal(const Look& look, std::uint32_t tick) {
@@ -37,9 +37,9 @@ inline bool isLegal(const Look& look, std::uint32_t tick) {
 }
 
 inline bool isLegal(const Body& body) {
-  return isWithin(body.box.corner, 1'000'001) && isWithin(body.box.size, 1'000'001) && body.box.size.x >= 0 &&
-         body.box.size.y >= 0 && body.solidness >= df::HARD && body.solidness <= df::SPECTRAL &&
-         (!body.on_view || body.solidness == df::SPECTRAL);
+  return isWithinCells(body.box.corner, 1'000'001) && isWithinCells(body.box.size, 1'000'001) &&
+         body.box.size.x >= 0 && body.box.size.y >= 0 && body.solidness >= df::HARD &&
+         body.solidness <= df::SPECTRAL && (!body.on_view || body.solidness == df::SPECTRAL);
 }
 
 inline bool isLegal(const ObjectRecord& record, std::uint32_t tick) {
@@ -52,13 +52,14 @@ inline bool isLegal(const ObjectRecord& record, std::uint32_t tick) {
 }
 
 inline bool isLegal(const WorldRecord& r) {
-  return isWithin(r.boundary.corner, 2'100'000'000) && r.boundary.size.x >= 0 && r.boundary.size.y >= 0 &&
-         r.view_width >= kMinViewWidth && r.view_width <= kMaxViewWidth && r.view_height >= kMinViewHeight &&
-         r.view_height <= kMaxViewHeight && r.background >= df::BLACK && r.background <= df::WHITE;
+  return isWithinCells(r.boundary.corner, 2'100'000'000) && r.boundary.size.x >= 0 &&
+         r.boundary.size.y >= 0 && r.view_width >= kMinViewWidth && r.view_width <= kMaxViewWidth &&
+         r.view_height >= kMinViewHeight && r.view_height <= kMaxViewHeight && r.background >= df::BLACK &&
+         r.background <= df::WHITE;
 }
 
 inline bool isLegal(const ViewRecord& r) {
-  return isWithin(r.corner, 2'100'000'000) && r.id < kMaxSlots && r.generation < 4 &&
+  return isWithinCells(r.corner, 2'100'000'000) && r.id < kMaxSlots && r.generation < 4 &&
          (r.follows || (r.id == 0 && r.generation == 0));
 }
 

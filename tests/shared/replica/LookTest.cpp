@@ -6,20 +6,18 @@
 #include "shared/replica/Look.h"
 #include "shared/values/SplitMix64.h"
 #include "shared/values/Vector.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
 
+using test::cellsAt;
 constexpr std::int32_t kCell = 1 << kGlyphUnitBits;
 
-df::FixedVector at(double x, double y) {
-  return *df::toFixed(df::Vector(x, y));
-}
-
 TEST(Look, PlacesGlyphsByTheFloorOfAHalfMore) {
-  EXPECT_EQ(glyphCell(at(3.25, -2.5), {}), (CellPosition{3, -2}));
-  EXPECT_EQ(glyphCell(at(3.25, 0), {kCell / 4, 0, U'x', df::RED}), (CellPosition{4, 0}));
-  EXPECT_EQ(glyphCell(at(3.25, 0), {kCell / 4 - 1, -kCell, U'x', df::RED}), (CellPosition{3, -1}));
+  EXPECT_EQ(glyphCell(cellsAt(3.25, -2.5), {}), (CellPosition{3, -2}));
+  EXPECT_EQ(glyphCell(cellsAt(3.25, 0), {kCell / 4, 0, U'x', df::RED}), (CellPosition{4, 0}));
+  EXPECT_EQ(glyphCell(cellsAt(3.25, 0), {kCell / 4 - 1, -kCell, U'x', df::RED}), (CellPosition{3, -1}));
 }
 
 TEST(Look, HalfCellOffsetsAgreeWithRealNumbersEverywhere) {
@@ -29,9 +27,9 @@ TEST(Look, HalfCellOffsetsAgreeWithRealNumbersEverywhere) {
     const double y = (rng.unit() - 0.5) * 1000;
     const double dx = static_cast<double>(static_cast<int>(rng.below(20)) - 10) / 2;
     const Glyph glyph{static_cast<std::int32_t>(dx * kCell), 0, U'x', df::RED};
-    const CellPosition cell = glyphCell(at(x, y), glyph);
-    ASSERT_EQ(cell.x, static_cast<int>(std::floor(df::toCells(at(x, y).x) + dx + 0.5)));
-    ASSERT_EQ(cell.y, static_cast<int>(std::floor(df::toCells(at(x, y).y) + 0.5)));
+    const CellPosition cell = glyphCell(cellsAt(x, y), glyph);
+    ASSERT_EQ(cell.x, static_cast<int>(std::floor(df::toCells(cellsAt(x, y).x) + dx + 0.5)));
+    ASSERT_EQ(cell.y, static_cast<int>(std::floor(df::toCells(cellsAt(x, y).y) + 0.5)));
   }
 }
 

@@ -4,15 +4,13 @@
 #include "RandomRecords.h"
 #include "shared/replica/MotionCodec.h"
 #include "shared/values/Vector.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
 
+using test::cellsAt;
 using test::RandomRecords;
-
-df::FixedVector at(double x, double y) {
-  return *df::toFixed(df::Vector(x, y));
-}
 
 std::size_t bitsOf(const Motion& motion, const Origin& origin) {
   BitWriter out;
@@ -101,22 +99,22 @@ TEST(MotionCodec, NumbersBeyondTheirRangeAreRefused) {
 }
 
 TEST(MotionCodec, ShortMotionsAreSharedByAllClients) {
-  EXPECT_EQ(shareMotion({1, at(3, 4), {}, {}}).count, 2 + 4);  // kind, and no fraction
-  EXPECT_GT(shareMotion({1, at(3.5, 4.25), at(0.25, 0), {}}).count, 0);
-  EXPECT_EQ(shareMotion({1, at(1.0 / 3, 1.0 / 3), at(1.0 / 3, 0), {}}).count, 0) << "too long";
+  EXPECT_EQ(shareMotion({1, cellsAt(3, 4), {}, {}}).count, 2 + 4);  // kind, and no fraction
+  EXPECT_GT(shareMotion({1, cellsAt(3.5, 4.25), cellsAt(0.25, 0), {}}).count, 0);
+  EXPECT_EQ(shareMotion({1, cellsAt(1.0 / 3, 1.0 / 3), cellsAt(1.0 / 3, 0), {}}).count, 0) << "too long";
 }
 
 TEST(MotionCodec, WholeCellsInTheWindowAreShort) {
   const Origin window{{-10, 5}, 7, 5, 0};
   for (const double x : {-10.0, 0.0, 117.0}) {
-    EXPECT_EQ(bitsOf({0, at(x, 5), {}, {}}, window), 1u + 7 + 5 + 2 + 4);
-    EXPECT_EQ(bitsOf({0, at(x, 36), {}, {}}, window), 1u + 7 + 5 + 2 + 4);
+    EXPECT_EQ(bitsOf({0, cellsAt(x, 5), {}, {}}, window), 1u + 7 + 5 + 2 + 4);
+    EXPECT_EQ(bitsOf({0, cellsAt(x, 36), {}, {}}, window), 1u + 7 + 5 + 2 + 4);
   }
-  EXPECT_GT(bitsOf({0, at(118, 5), {}, {}}, window), 24u) << "the window ends";
-  EXPECT_GT(bitsOf({0, at(0, 37), {}, {}}, window), 24u);
-  EXPECT_GT(bitsOf({0, at(-11, 5), {}, {}}, window), 24u);
+  EXPECT_GT(bitsOf({0, cellsAt(118, 5), {}, {}}, window), 24u) << "the window ends";
+  EXPECT_GT(bitsOf({0, cellsAt(0, 37), {}, {}}, window), 24u);
+  EXPECT_GT(bitsOf({0, cellsAt(-11, 5), {}, {}}, window), 24u);
   // A quarter of a cell a tick: 2 bits behind the point, and a sign.
-  EXPECT_LE(bitsOf({0, at(0, 5), at(-0.25, 0), {}}, window), 32u);
+  EXPECT_LE(bitsOf({0, cellsAt(0, 5), cellsAt(-0.25, 0), {}}, window), 32u);
 }
 
 TEST(MotionCodec, AFractionTakesAtLeastTheBitsItHas) {

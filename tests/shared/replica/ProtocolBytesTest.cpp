@@ -17,10 +17,12 @@
 #include "shared/replica/UpdateCodec.h"
 #include "shared/values/Keyboard.h"
 #include "shared/values/Vector.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
 
+using test::cellsAt;
 std::string hex(const std::string& bytes) {
   static constexpr char kDigits[] = "0123456789abcdef";
   std::string text;
@@ -31,10 +33,6 @@ std::string hex(const std::string& bytes) {
     text += kDigits[byte & 15];
   }
   return text;
-}
-
-df::FixedVector at(double x, double y) {
-  return *df::toFixed(df::Vector(x, y));
 }
 
 const Origin kConfirmed{{-10, 0}, 7, 5, 4};
@@ -48,8 +46,8 @@ std::string exampleSnapshot() {
   header.input = 2;
   header.input_tick = 99;
   out.beginSnapshot(header, 1, kConfirmed);
-  out.write(WorldRecord{{at(0, 0), at(80, 24)}, 80, 24, df::BLUE});
-  out.write(ViewRecord{at(0, 0), true, 5, 1});
+  out.write(WorldRecord{{cellsAt(0, 0), cellsAt(80, 24)}, 80, 24, df::BLUE});
+  out.write(ViewRecord{cellsAt(0, 0), true, 5, 1});
   out.write(OriginRecord{2, {{-30, -10}, 8, 6, 7}});
   out.write(TextRecord{0, 1, 0, df::GREEN, "Hi"});
   const auto object = [&](std::uint32_t id, std::uint8_t groups, const ObjectState& state, LookForm form) {
@@ -59,12 +57,12 @@ std::string exampleSnapshot() {
   };
   ObjectState saucer;
   saucer.order = 7;
-  saucer.motion = {100, at(10, 12), at(-0.5, 0), {}};
+  saucer.motion = {100, cellsAt(10, 12), cellsAt(-0.5, 0), {}};
   const Glyph head{0, 0, U'@', df::CYAN};
   saucer.look = {{{head, {256, 0, U'>', df::CYAN}}, {head}}, 2, Selector::clock(96, 3)};
   object(5, kAllGroups, saucer, {LookForm::kDefined, 9});
   ObjectState turned;
-  turned.motion = {100, at(123.25, 4.75), {}, {}};
+  turned.motion = {100, cellsAt(123.25, 4.75), {}, {}};
   object(6, kMotion, turned, {});
   saucer.look.altitude = 4;
   saucer.look.selector = Selector::turning(0, 1u << 29, 1 << 20);
@@ -201,7 +199,7 @@ TEST(ProtocolBytes, TheExamplesAreReadAsTheyWereMeant) {
   Snapshot snapshot;
   ASSERT_EQ(readSnapshot(exampleSnapshot(), {2, 99, 1}, dictionary, snapshot), ReadResult::kOk);
   ASSERT_EQ(snapshot.records.objects.size(), 4u);
-  EXPECT_EQ(snapshot.records.objects[1].state.motion.position, at(123.25, 4.75));
+  EXPECT_EQ(snapshot.records.objects[1].state.motion.position, cellsAt(123.25, 4.75));
   const Look& animated = snapshot.records.objects[0].state.look;
   const Look& turning = snapshot.records.objects[2].state.look;
   EXPECT_TRUE(turning.sequence.isSharedWith(animated.sequence));

@@ -7,18 +7,16 @@
 #include "RandomRecords.h"
 #include "shared/replica/Replica.h"
 #include "shared/values/Vector.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
 
+using test::cellsAt;
 using test::RandomRecords;
 
-df::FixedVector at(double x, double y) {
-  return *df::toFixed(df::Vector(x, y));
-}
-
 ObjectState character(double x, double y, char32_t ch, std::int32_t altitude = 2, std::uint64_t order = 1) {
-  return {order, {0, at(x, y), {}, {}}, {{{{0, 0, ch, df::CYAN}}}, altitude}, {}};
+  return {order, {0, cellsAt(x, y), {}, {}}, {{{{0, 0, ch, df::CYAN}}}, altitude}, {}};
 }
 
 Records birth(std::uint32_t id, std::uint8_t generation, const ObjectState& state) {
@@ -65,7 +63,7 @@ TEST(Replica, DrawsByAltitudeThenCreationOrderThenTexts) {
 TEST(Replica, ExtrapolatesBetweenSnapshots) {
   Replica replica;
   ObjectState state = character(10, 5, U'@');
-  state.motion = {100, at(10, 5), at(0.5, 0), at(0, 0.25)};
+  state.motion = {100, cellsAt(10, 5), cellsAt(0.5, 0), cellsAt(0, 0.25)};
   apply(replica, 1, 100, birth(7, 1, state));
   EXPECT_EQ(replica.render(100).at(10, 5).ch, U'@');
   EXPECT_EQ(replica.render(104).at(12, 7).ch, U'@');  // 5 + 6 × 0.25 = 6.5
@@ -76,7 +74,7 @@ TEST(Replica, IgnoresOlderRecordsOfAGroup) {
   apply(replica, 1, 0, birth(7, 1, character(1, 0, U'@')));
   apply(replica, 5, 0, motion(7, 9));
   apply(replica, 3, 0, motion(7, 4));
-  EXPECT_EQ(replica.find(7)->state.motion.position, at(9, 0));
+  EXPECT_EQ(replica.find(7)->state.motion.position, cellsAt(9, 0));
   EXPECT_EQ(replica.find(7)->state.look.sequence[0][0].ch, U'@') << "a motion is no look";
 }
 
@@ -97,7 +95,7 @@ TEST(Replica, ALateDeathDoesNotKillTheNextUnderTheId) {
   apply(replica, 2, 0, motion(7, 30));
   ASSERT_NE(replica.find(7), nullptr);
   EXPECT_EQ(replica.find(7)->generation, 2u);
-  EXPECT_EQ(replica.find(7)->state.motion.position, at(2, 0));
+  EXPECT_EQ(replica.find(7)->state.motion.position, cellsAt(2, 0));
   EXPECT_EQ(replica.aliveCount(), 1u);
 }
 
@@ -106,7 +104,7 @@ TEST(Replica, ARepeatedBirthIsTheSameObject) {
   apply(replica, 1, 0, birth(7, 1, character(1, 0, U'a')));
   apply(replica, 3, 0, motion(7, 9));
   apply(replica, 2, 0, birth(7, 1, character(5, 0, U'b')));
-  EXPECT_EQ(replica.find(7)->state.motion.position, at(9, 0)) << "the motion was newer";
+  EXPECT_EQ(replica.find(7)->state.motion.position, cellsAt(9, 0)) << "the motion was newer";
   EXPECT_EQ(replica.find(7)->state.look.sequence[0][0].ch, U'b') << "the look was not";
   EXPECT_EQ(replica.aliveCount(), 1u);
 }
@@ -126,7 +124,7 @@ TEST(Replica, NumbersWrap) {
   apply(replica, 0xFFFFFFFE, 0, birth(7, 3, character(1, 0, U'a')));
   apply(replica, 0xFFFFFFFF, 0, motion(7, 2));
   apply(replica, 1, 0, motion(7, 3));
-  EXPECT_EQ(replica.find(7)->state.motion.position, at(3, 0));
+  EXPECT_EQ(replica.find(7)->state.motion.position, cellsAt(3, 0));
   apply(replica, 2, 0, death(7));
   apply(replica, 0xFFFFFFFF, 0, birth(7, 0, character(4, 0, U'b')));
   EXPECT_EQ(replica.find(7), nullptr);
@@ -184,7 +182,7 @@ TEST(Replica, KeepsNamesForTheSnapshotsToCome) {
   ASSERT_EQ(replica.read(names, out), ReadResult::kOk);
   replica.apply(out);
   EXPECT_EQ(replica.find(2)->state.look, word.look);
-  EXPECT_EQ(replica.find(2)->state.motion.position, at(1, 1));
+  EXPECT_EQ(replica.find(2)->state.motion.position, cellsAt(1, 1));
   ASSERT_EQ(replica.read(redefines, out), ReadResult::kOk);
   replica.apply(out);
   EXPECT_EQ(replica.read(names, out), ReadResult::kStale);
@@ -210,9 +208,9 @@ TEST(Replica, AnEmptyTextIsGone) {
 TEST(Replica, FollowsTheObjectOfTheViewRecord) {
   Replica replica;
   Records records = birth(7, 1, character(50, 12, U'@'));
-  records.worlds.push_back({{at(0, 0), at(400, 24)}, 60, 20});
-  records.views.push_back({at(20, 0), true, 7, 1});
-  records.objects[0].state.motion = {10, at(50, 12), at(1, 0), {}};
+  records.worlds.push_back({{cellsAt(0, 0), cellsAt(400, 24)}, 60, 20});
+  records.views.push_back({cellsAt(20, 0), true, 7, 1});
+  records.objects[0].state.motion = {10, cellsAt(50, 12), cellsAt(1, 0), {}};
   apply(replica, 1, 10, records);
   EXPECT_EQ(replica.viewCorner(20), (CellPosition{20, 0}));
   EXPECT_EQ(replica.viewCorner(40), (CellPosition{40, 0}));

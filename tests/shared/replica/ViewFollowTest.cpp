@@ -5,41 +5,39 @@
 #include "shared/replica/ViewFollow.h"
 #include "shared/values/SplitMix64.h"
 #include "shared/values/Vector.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
 
-df::FixedVector at(double x, double y) {
-  return *df::toFixed(df::Vector(x, y));
-}
-
+using test::cellsAt;
 ViewFrame frame(double x, double y) {
-  return {at(x, y), at(60, 30), {at(0, 0), at(200, 100)}};
+  return {cellsAt(x, y), cellsAt(60, 30), {cellsAt(0, 0), cellsAt(200, 100)}};
 }
 
 TEST(ViewFollow, StaysWhileTheObjectIsInTheInnerThird) {
-  EXPECT_EQ(followView(frame(50, 40), at(70, 50)), at(50, 40));
-  EXPECT_EQ(followView(frame(50, 40), at(90, 60)), at(50, 40));
+  EXPECT_EQ(followView(frame(50, 40), cellsAt(70, 50)), cellsAt(50, 40));
+  EXPECT_EQ(followView(frame(50, 40), cellsAt(90, 60)), cellsAt(50, 40));
 }
 
 TEST(ViewFollow, MovesByJustAsMuchAsItTakes) {
-  EXPECT_EQ(followView(frame(50, 40), at(69, 50)), at(49, 40));
-  EXPECT_EQ(followView(frame(50, 40), at(90.25, 60)), at(50.25, 40));
-  EXPECT_EQ(followView(frame(50, 40), at(70, 49)), at(50, 39));
-  EXPECT_EQ(followView(frame(50, 40), at(70, 62.5)), at(50, 42.5));
+  EXPECT_EQ(followView(frame(50, 40), cellsAt(69, 50)), cellsAt(49, 40));
+  EXPECT_EQ(followView(frame(50, 40), cellsAt(90.25, 60)), cellsAt(50.25, 40));
+  EXPECT_EQ(followView(frame(50, 40), cellsAt(70, 49)), cellsAt(50, 39));
+  EXPECT_EQ(followView(frame(50, 40), cellsAt(70, 62.5)), cellsAt(50, 42.5));
 }
 
 TEST(ViewFollow, StaysInsideTheBoundary) {
-  EXPECT_EQ(followView(frame(50, 40), at(3, 3)), at(0, 0));
-  EXPECT_EQ(followView(frame(50, 40), at(1000, 1000)), at(140, 70));
-  EXPECT_EQ(clampView(frame(0, 0), at(-5, 90)), at(0, 70));
+  EXPECT_EQ(followView(frame(50, 40), cellsAt(3, 3)), cellsAt(0, 0));
+  EXPECT_EQ(followView(frame(50, 40), cellsAt(1000, 1000)), cellsAt(140, 70));
+  EXPECT_EQ(clampView(frame(0, 0), cellsAt(-5, 90)), cellsAt(0, 70));
 }
 
 TEST(ViewFollow, BeginsAtTheCornerOfABoundarySmallerThanTheView) {
   ViewFrame f = frame(50, 40);
-  f.boundary = {at(-10, 5), at(59, 30)};
-  EXPECT_EQ(clampView(f, at(50, 40)), at(-10, 5));
-  EXPECT_EQ(followView(f, at(55, 77)), at(-10, 5));
+  f.boundary = {cellsAt(-10, 5), cellsAt(59, 30)};
+  EXPECT_EQ(clampView(f, cellsAt(50, 40)), cellsAt(-10, 5));
+  EXPECT_EQ(followView(f, cellsAt(55, 77)), cellsAt(-10, 5));
 }
 
 TEST(ViewFollow, ExtremesSaturate) {
@@ -50,7 +48,7 @@ TEST(ViewFollow, ExtremesSaturate) {
   const auto any = [&] { return some[rng.below(5)]; };
   for (int i = 0; i < 2000; ++i) {
     const df::Fixed width = any();
-    const ViewFrame f{{any(), any()}, at(60, 30), {{any(), any()}, {width < 0 ? 0 : width, most}}};
+    const ViewFrame f{{any(), any()}, cellsAt(60, 30), {{any(), any()}, {width < 0 ? 0 : width, most}}};
     const df::FixedVector corner = followView(f, {any(), any()});
     EXPECT_GE(corner.x, f.boundary.corner.x);
     EXPECT_GE(corner.y, f.boundary.corner.y);
@@ -58,10 +56,10 @@ TEST(ViewFollow, ExtremesSaturate) {
 }
 
 TEST(ViewFollow, ModelStaysWithoutAnObjectAndInThePast) {
-  const Motion away{10, at(190, 90), at(1, 1), {}};
-  EXPECT_EQ(viewCornerAt(frame(50, 40), 10, nullptr, 99), at(50, 40));
-  EXPECT_EQ(viewCornerAt(frame(50, 40), 10, &away, 10), at(50, 40));
-  EXPECT_EQ(viewCornerAt(frame(50, 40), 10, &away, 9), at(50, 40));
+  const Motion away{10, cellsAt(190, 90), cellsAt(1, 1), {}};
+  EXPECT_EQ(viewCornerAt(frame(50, 40), 10, nullptr, 99), cellsAt(50, 40));
+  EXPECT_EQ(viewCornerAt(frame(50, 40), 10, &away, 10), cellsAt(50, 40));
+  EXPECT_EQ(viewCornerAt(frame(50, 40), 10, &away, 9), cellsAt(50, 40));
 }
 
 TEST(ViewFollow, ModelOfAStraightPathEqualsFollowingEachStep) {
@@ -69,7 +67,7 @@ TEST(ViewFollow, ModelOfAStraightPathEqualsFollowingEachStep) {
   for (int i = 0; i < 500; ++i) {
     const auto number = [&](double most) { return (rng.unit() - 0.5) * 2 * most; };
     const std::uint32_t known = 0xFFFFFFF0u + static_cast<std::uint32_t>(rng.below(32));
-    const Motion motion{known, at(100 + number(90), 50 + number(45)), at(number(3), number(2)), {}};
+    const Motion motion{known, cellsAt(100 + number(90), 50 + number(45)), cellsAt(number(3), number(2)), {}};
     ViewFrame stepped = frame(70 + number(70), 35 + number(35));
     stepped.corner = clampView(stepped, stepped.corner);
     const ViewFrame start = stepped;
@@ -83,10 +81,10 @@ TEST(ViewFollow, ModelOfAStraightPathEqualsFollowingEachStep) {
 
 TEST(ViewFollow, ModelBeginsAtTheBaseOfANewerMotion) {
   // The object came from the left at tick 5; where it would have been before does not matter.
-  const Motion motion{5, at(100, 55), at(-10, 0), {}};
-  EXPECT_EQ(viewCornerAt(frame(50, 40), 1, &motion, 5), at(60, 40));
-  EXPECT_EQ(viewCornerAt(frame(50, 40), 1, &motion, 7), at(60, 40));
-  EXPECT_EQ(viewCornerAt(frame(50, 40), 1, &motion, 8), at(50, 40));
+  const Motion motion{5, cellsAt(100, 55), cellsAt(-10, 0), {}};
+  EXPECT_EQ(viewCornerAt(frame(50, 40), 1, &motion, 5), cellsAt(60, 40));
+  EXPECT_EQ(viewCornerAt(frame(50, 40), 1, &motion, 7), cellsAt(60, 40));
+  EXPECT_EQ(viewCornerAt(frame(50, 40), 1, &motion, 8), cellsAt(50, 40));
 }
 
 }  // namespace

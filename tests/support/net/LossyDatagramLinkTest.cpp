@@ -14,15 +14,15 @@ namespace {
 using namespace std::chrono_literals;
 using Time = VirtualClock::Time;
 
-struct Arrival {
+struct LinkArrival {
   Time when;
   std::string packet;
-  friend bool operator==(const Arrival&, const Arrival&) = default;
+  friend bool operator==(const LinkArrival&, const LinkArrival&) = default;
 };
 
 /// A link with both ends taken, and what arrived at the server's.
-struct Bench {
-  explicit Bench(const LinkConditions& conditions, std::uint64_t seed = 1)
+struct LinkBench {
+  explicit LinkBench(const LinkConditions& conditions, std::uint64_t seed = 1)
       : link(clock, conditions, seed),
         client(link.takeEnd(LinkEnd::kClient)),
         server(link.takeEnd(LinkEnd::kServer)) {
@@ -41,7 +41,7 @@ struct Bench {
   const LinkCounters& counters() const { return link.counters(LinkEnd::kClient); }
   std::vector<int> numbers() const {
     std::vector<int> all;
-    for (const Arrival& arrival : arrivals) all.push_back(std::stoi(arrival.packet));
+    for (const LinkArrival& arrival : arrivals) all.push_back(std::stoi(arrival.packet));
     return all;
   }
 
@@ -49,20 +49,20 @@ struct Bench {
   LossyDatagramLink link;
   std::unique_ptr<DatagramChannel> client;
   std::unique_ptr<DatagramChannel> server;
-  std::vector<Arrival> arrivals;
+  std::vector<LinkArrival> arrivals;
 };
 
 TEST(LossyDatagramLink, PerfectLinkDeliversAtTheNextAdvance) {
-  Bench bench({});
+  LinkBench bench({});
   bench.client->send("a");
   bench.client->send("b");
   EXPECT_TRUE(bench.arrivals.empty());
   bench.clock.advanceBy(0us);
-  EXPECT_EQ(bench.arrivals, (std::vector<Arrival>{{0us, "a"}, {0us, "b"}}));
+  EXPECT_EQ(bench.arrivals, (std::vector<LinkArrival>{{0us, "a"}, {0us, "b"}}));
 }
 
 TEST(LossyDatagramLink, DelayIsOneWayAndExact) {
-  Bench bench({.delay = 50ms});
+  LinkBench bench({.delay = 50ms});
   Time echoed{};
   bench.client->start([&](std::string_view) { echoed = bench.clock.now(); });
   bench.server->start([&](std::string_view packet) { bench.server->send(packet); });
@@ -73,7 +73,7 @@ TEST(LossyDatagramLink, DelayIsOneWayAndExact) {
 }
 
 TEST(LossyDatagramLink, DirectionsHaveTheirOwnConditions) {
-  Bench bench({.delay = 50ms});
+  LinkBench bench({.delay = 50ms});
   bench.link.setConditions(LinkEnd::kServer, {.loss = 1});
   bench.sendMany(10, 1ms);
   for (int i = 0; i < 5; ++i) bench.server->send("x");
@@ -84,7 +84,7 @@ TEST(LossyDatagramLink, DirectionsHaveTheirOwnConditions) {
 
 TEST(LossyDatagramLink, LosesTheShareThatWasSet) {
   for (const double loss : {0.0, 0.02, 0.3, 1.0}) {
-    Bench bench({.loss = loss});
+    LinkBench bench({.loss = loss});
     bench.sendMany(20'000, 1us);
     EXPECT_NEAR(static_cast<double>(bench.counters().dropped) / 20'000, loss, 0.012) << loss;
     EXPECT_EQ(bench.counters().delivered, bench.arrivals.size());
@@ -93,7 +93,7 @@ TEST(LossyDatagramLink, LosesTheShareThatWasSet) {
 }
 
 TEST(LossyDatagramLink, DuplicatesTheShareThatWasSet) {
-  Bench bench({.delay = 1ms, .duplicate = 0.1});
+  LinkBench bench({.delay = 1ms, .duplicate = 0.1});
   bench.sendMany(20'000, 1us);
   EXPECT_NEAR(static_cast<double>(bench.counters().duplicated) / 20'000, 0.1, 0.01);
   EXPECT_EQ(bench.arrivals.size(), 20'000 + bench.counters().duplicated);
@@ -102,7 +102,7 @@ TEST(LossyDatagramLink, DuplicatesTheShareThatWasSet) {
 }
 
 TEST(LossyDatagramLink, SecondCopiesHaveTheirOwnJitter) {
-  Bench bench({.jitter = 1s, .duplicate = 1});
+  LinkBench bench({.jitter = 1s, .duplicate = 1});
   bench.client->send("x");
   bench.clock.advanceBy(2s);
   ASSERT_EQ(bench.arrivals.size(), 2u);
@@ -110,10 +110,10 @@ TEST(LossyDatagramLink, SecondCopiesHaveTheirOwnJitter) {
 }
 
 TEST(LossyDatagramLink, JitterStaysInItsRangeAndReorders) {
-  Bench bench({.delay = 10ms, .jitter = 20ms});
+  LinkBench bench({.delay = 10ms, .jitter = 20ms});
   bench.sendMany(2000, 1ms);
   Time least = 1h, most{};
-  for (const Arrival& arrival : bench.arrivals) {
+  for (const LinkArrival& arrival : bench.arrivals) {
     const Time took = arrival.when - std::stoi(arrival.packet) * 1ms;
     least = std::min(least, took);
     most = std::max(most, took);
@@ -134,7 +134,7 @@ TEST(LossyDatagramLink, JitterStaysInItsRangeAndReorders) {
 }
 
 TEST(LossyDatagramLink, WithoutReorderingJitterKeepsTheOrder) {
-  Bench bench({.delay = 10ms, .jitter = 20ms, .reorder = false, .duplicate = 0.2});
+  LinkBench bench({.delay = 10ms, .jitter = 20ms, .reorder = false, .duplicate = 0.2});
   bench.sendMany(2000, 1ms);
   const auto numbers = bench.numbers();
   EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
@@ -142,7 +142,7 @@ TEST(LossyDatagramLink, WithoutReorderingJitterKeepsTheOrder) {
 }
 
 TEST(LossyDatagramLink, RateSpacesPacketsOut) {
-  Bench bench({.delay = 5ms, .rate = 10'000});
+  LinkBench bench({.delay = 5ms, .rate = 10'000});
   for (int i = 0; i < 10; ++i) bench.client->send(std::string(1000, 'x'));
   bench.clock.advanceBy(10s);
   ASSERT_EQ(bench.arrivals.size(), 10u);
@@ -150,20 +150,20 @@ TEST(LossyDatagramLink, RateSpacesPacketsOut) {
 }
 
 TEST(LossyDatagramLink, RateHoldsOverManySmallPackets) {
-  Bench bench({.rate = 3'000'000, .queue = 1 << 30});
+  LinkBench bench({.rate = 3'000'000, .queue = 1 << 30});
   for (int i = 0; i < 30'000; ++i) bench.client->send("1234567");  // 2⅓ µs each
   bench.clock.advanceBy(10s);
   EXPECT_NEAR(static_cast<double>(bench.arrivals.back().when.count()), 70'000, 20);
 }
 
 TEST(LossyDatagramLink, QueueDropsWhatDoesNotFit) {
-  Bench bench({.rate = 10'000, .queue = 3000});
+  LinkBench bench({.rate = 10'000, .queue = 3000});
   for (int i = 0; i < 10; ++i) bench.client->send(std::to_string(i) + std::string(999, 'x'));
   bench.clock.advanceBy(150ms);  // half of the second is still on the line
   for (int i = 0; i < 2; ++i) bench.client->send("z" + std::string(999, 'x'));
   bench.clock.advanceBy(10s);
   std::string order;
-  for (const Arrival& arrival : bench.arrivals) order += arrival.packet[0];
+  for (const LinkArrival& arrival : bench.arrivals) order += arrival.packet[0];
   EXPECT_EQ(order, "012z");
   EXPECT_EQ(bench.counters().dropped, 8u);
 }
@@ -171,7 +171,7 @@ TEST(LossyDatagramLink, QueueDropsWhatDoesNotFit) {
 TEST(LossyDatagramLink, SameSeedGivesTheSameDeliveries) {
   const LinkConditions bad{.delay = 30ms, .jitter = 40ms, .loss = 0.1, .duplicate = 0.1, .rate = 50'000};
   const auto run = [&](std::uint64_t seed) {
-    Bench bench(bad, seed);
+    LinkBench bench(bad, seed);
     bench.sendMany(1000, 2ms);
     return bench.arrivals;
   };
@@ -180,12 +180,12 @@ TEST(LossyDatagramLink, SameSeedGivesTheSameDeliveries) {
 }
 
 TEST(LossyDatagramLink, LossLeavesTheFateOfOtherPacketsAlone) {
-  Bench clean({.jitter = 40ms});
-  Bench lossy({.jitter = 40ms, .loss = 0.2});
+  LinkBench clean({.jitter = 40ms});
+  LinkBench lossy({.jitter = 40ms, .loss = 0.2});
   clean.sendMany(500, 1ms);
   lossy.sendMany(500, 1ms);
   EXPECT_LT(lossy.arrivals.size(), clean.arrivals.size());
-  for (const Arrival& arrival : lossy.arrivals) {
+  for (const LinkArrival& arrival : lossy.arrivals) {
     EXPECT_NE(std::find(clean.arrivals.begin(), clean.arrivals.end(), arrival), clean.arrivals.end());
   }
 }
@@ -193,14 +193,14 @@ TEST(LossyDatagramLink, LossLeavesTheFateOfOtherPacketsAlone) {
 TEST(LossyDatagramLink, EveryPacketIsAccountedFor) {
   SplitMix64 rng(11);
   for (int round = 0; round < 200; ++round) {
-    Bench bench({.delay = Time(rng.below(50'000)),
-                 .jitter = Time(rng.below(50'000)),
-                 .reorder = rng.below(2) == 0,
-                 .loss = rng.unit(),
-                 .duplicate = rng.unit(),
-                 .rate = rng.below(3) == 0 ? 0 : 1 + rng.below(20'000),
-                 .queue = rng.below(5000)},
-                rng.next());
+    LinkBench bench({.delay = Time(rng.below(50'000)),
+                     .jitter = Time(rng.below(50'000)),
+                     .reorder = rng.below(2) == 0,
+                     .loss = rng.unit(),
+                     .duplicate = rng.unit(),
+                     .rate = rng.below(3) == 0 ? 0 : 1 + rng.below(20'000),
+                     .queue = rng.below(5000)},
+                    rng.next());
     for (int i = 0; i < 200; ++i) {
       bench.client->send(std::string(rng.below(1201), 'x'));
       bench.clock.advanceBy(Time(rng.below(20'000)));
@@ -215,7 +215,7 @@ TEST(LossyDatagramLink, EveryPacketIsAccountedFor) {
 }
 
 TEST(LossyDatagramLink, PacketsWithoutAReceiverAreDropped) {
-  Bench bench({});
+  LinkBench bench({});
   bench.server->send("client has not started");
   bench.client->send("server goes away");
   bench.server.reset();
@@ -225,7 +225,7 @@ TEST(LossyDatagramLink, PacketsWithoutAReceiverAreDropped) {
 }
 
 TEST(LossyDatagramLink, EndMayBeDestroyedInItsCallback) {
-  Bench bench({});
+  LinkBench bench({});
   int calls = 0;
   bench.server->start([&, marker = std::string(100, 'm')](std::string_view) {
     bench.server.reset();
@@ -253,7 +253,7 @@ TEST(LossyDatagramLink, EndsOutliveTheLink) {
 }
 
 TEST(LossyDatagramLink, RefusesPacketsOverTheLimit) {
-  Bench bench({});
+  LinkBench bench({});
   EXPECT_NO_THROW(bench.client->send(std::string(1200, 'x')));
   EXPECT_THROW(bench.client->send(std::string(1201, 'x')), std::length_error);
 }

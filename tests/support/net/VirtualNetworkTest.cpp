@@ -17,11 +17,11 @@ Endpoint at(const char* address, std::uint16_t port = 9876) {
   return *makeEndpoint(address, port);
 }
 
-struct Arrival {
+struct NetworkArrival {
   Time when;
   Path path;
   std::string packet;
-  friend bool operator==(const Arrival&, const Arrival&) = default;
+  friend bool operator==(const NetworkArrival&, const NetworkArrival&) = default;
 };
 
 struct Host {
@@ -37,11 +37,11 @@ struct Host {
   }
 
   std::unique_ptr<DatagramSocket> socket;
-  std::vector<Arrival> arrivals;
+  std::vector<NetworkArrival> arrivals;
 };
 
-struct Bench {
-  explicit Bench(const LinkConditions& conditions, std::uint64_t seed = 1)
+struct NetworkBench {
+  explicit NetworkBench(const LinkConditions& conditions, std::uint64_t seed = 1)
       : network(clock, conditions, seed),
         server(network, clock, at("10.0.0.1")),
         ann(network, clock, at("10.0.0.2", 0)),
@@ -53,11 +53,11 @@ struct Bench {
 };
 
 TEST(VirtualNetwork, DeliversByAddressWithBothEndsOfThePath) {
-  Bench bench({.delay = 20ms});
+  NetworkBench bench({.delay = 20ms});
   bench.ann.send(at("10.0.0.1"), "to the server");
   bench.clock.advanceBy(1s);
   const Path path{.local = at("10.0.0.1"), .remote = bench.ann.socket->localEndpoint()};
-  EXPECT_EQ(bench.server.arrivals, (std::vector<Arrival>{{20ms, path, "to the server"}}));
+  EXPECT_EQ(bench.server.arrivals, (std::vector<NetworkArrival>{{20ms, path, "to the server"}}));
   EXPECT_TRUE(bench.ben.arrivals.empty());
   bench.server.send(path.remote, "back");
   bench.clock.advanceBy(1s);
@@ -66,7 +66,7 @@ TEST(VirtualNetwork, DeliversByAddressWithBothEndsOfThePath) {
 }
 
 TEST(VirtualNetwork, NothingLeavesBeforeTheFlush) {
-  Bench bench({});
+  NetworkBench bench({});
   bench.ann.socket->send({{}, at("10.0.0.1")}, "waits");
   bench.clock.advanceBy(1s);
   EXPECT_TRUE(bench.server.arrivals.empty());
@@ -76,7 +76,7 @@ TEST(VirtualNetwork, NothingLeavesBeforeTheFlush) {
 }
 
 TEST(VirtualNetwork, PacketsToAnAddressThatWasLeftAreLost) {
-  Bench bench({.delay = 20ms});
+  NetworkBench bench({.delay = 20ms});
   const Endpoint old = bench.ann.socket->localEndpoint();
   bench.server.send(old, "under way");
   bench.network.rebind(*bench.ann.socket, at("10.9.9.9", 1234));
@@ -94,7 +94,7 @@ TEST(VirtualNetwork, PacketsToAnAddressThatWasLeftAreLost) {
 }
 
 TEST(VirtualNetwork, ReopeningTakesAnotherPort) {
-  Bench bench({});
+  NetworkBench bench({});
   const Endpoint old = bench.ann.socket->localEndpoint();
   bench.ann.socket->reopen();
   const Endpoint now = bench.ann.socket->localEndpoint();
@@ -108,7 +108,7 @@ TEST(VirtualNetwork, ReopeningTakesAnotherPort) {
 TEST(VirtualNetwork, EachDirectionCanBeBlockedByItself) {
   for (const bool outgoing : {false, true}) {
     for (const bool incoming : {false, true}) {
-      Bench bench({});
+      NetworkBench bench({});
       bench.network.block(*bench.ann.socket, outgoing, incoming);
       bench.ann.send(at("10.0.0.1"), "out");
       bench.server.send(bench.ann.socket->localEndpoint(), "in");
@@ -121,7 +121,7 @@ TEST(VirtualNetwork, EachDirectionCanBeBlockedByItself) {
 }
 
 TEST(VirtualNetwork, PairsHaveConditionsOfTheirOwn) {
-  Bench bench({.delay = 10ms});
+  NetworkBench bench({.delay = 10ms});
   bench.network.setConditions(*bench.ann.socket, *bench.server.socket, {.delay = 50ms});
   bench.network.setConditions(*bench.server.socket, *bench.ann.socket, {.loss = 1});
   bench.ann.send(at("10.0.0.1"), "slow");
@@ -139,7 +139,7 @@ TEST(VirtualNetwork, PairsHaveConditionsOfTheirOwn) {
 }
 
 TEST(VirtualNetwork, SpoofedPacketsBearTheForgedSender) {
-  Bench bench({.loss = 1});
+  NetworkBench bench({.loss = 1});
   bench.network.spoof(at("10.0.0.2", 7), at("10.0.0.1"), "forged");
   EXPECT_TRUE(bench.server.arrivals.empty());
   bench.clock.advanceBy(0us);
@@ -148,7 +148,7 @@ TEST(VirtualNetwork, SpoofedPacketsBearTheForgedSender) {
 }
 
 TEST(VirtualNetwork, TapSeesWhatIsSentLostOrNot) {
-  Bench bench({.loss = 1});
+  NetworkBench bench({.loss = 1});
   std::vector<std::string> seen;
   bench.network.setTap([&](const Endpoint& from, const Endpoint& to, std::string_view packet) {
     seen.push_back(toString(from) + " " + toString(to) + " " + std::string(packet));
@@ -158,7 +158,7 @@ TEST(VirtualNetwork, TapSeesWhatIsSentLostOrNot) {
 }
 
 TEST(VirtualNetwork, AddressesBelongToOneSocket) {
-  Bench bench({});
+  NetworkBench bench({});
   EXPECT_THROW(bench.network.open(at("10.0.0.1")), std::logic_error);
   EXPECT_THROW(bench.network.rebind(*bench.ann.socket, at("10.0.0.1")), std::logic_error);
   bench.server.socket.reset();
@@ -166,7 +166,7 @@ TEST(VirtualNetwork, AddressesBelongToOneSocket) {
 }
 
 TEST(VirtualNetwork, SizesAreThoseOfDatagrams) {
-  Bench bench({});
+  NetworkBench bench({});
   EXPECT_THROW(bench.ann.send(at("10.0.0.1"), ""), std::length_error);
   EXPECT_THROW(bench.ann.send(at("10.0.0.1"), std::string(1201, 'x')), std::length_error);
   EXPECT_NO_THROW(bench.ann.send(at("10.0.0.1"), std::string(1200, 'x')));
@@ -191,7 +191,7 @@ TEST(VirtualNetwork, SocketMayBeDestroyedInItsCallbackAndOutliveTheNetwork) {
 
 TEST(VirtualNetwork, SameSeedGivesTheSameDeliveriesAndAllAreAccountedFor) {
   const auto run = [](std::uint64_t seed) {
-    Bench bench({.delay = 30ms, .jitter = 40ms, .loss = 0.1, .duplicate = 0.1}, seed);
+    NetworkBench bench({.delay = 30ms, .jitter = 40ms, .loss = 0.1, .duplicate = 0.1}, seed);
     for (int i = 0; i < 500; ++i) {
       bench.ann.send(at("10.0.0.1"), "a" + std::to_string(i));
       bench.ben.send(at("10.0.0.1"), "b" + std::to_string(i));

@@ -16,8 +16,8 @@ using namespace std::chrono_literals;
 using namespace std::string_literals;
 using Time = VirtualClock::Time;
 
-struct Bench {
-  explicit Bench(const LinkConditions& conditions, std::uint64_t seed = 1)
+struct StreamBench {
+  explicit StreamBench(const LinkConditions& conditions, std::uint64_t seed = 1)
       : link(clock, conditions, seed),
         client(link.takeEnd(LinkEnd::kClient)),
         server(link.takeEnd(LinkEnd::kServer)) {
@@ -47,7 +47,7 @@ std::string frameOnLine(std::size_t bytes) {
 }
 
 TEST(VirtualStreamLink, DelaysFramesAndNothingElse) {
-  Bench bench({.delay = 50ms});
+  StreamBench bench({.delay = 50ms});
   bench.client->send("one");
   bench.clock.advanceTo(10ms);
   bench.client->send("two");
@@ -60,12 +60,12 @@ TEST(VirtualStreamLink, AnythingSentArrivesOnceAndInOrder) {
   SplitMix64 rng(5);
   std::uint64_t lost = 0, held_back = 0;
   for (int round = 0; round < 100; ++round) {
-    Bench bench({.delay = Time(rng.below(100'000)),
-                 .jitter = Time(rng.below(100'000)),
-                 .loss = rng.unit() * 0.3,
-                 .rate = rng.below(2) * (10'000 + rng.below(100'000)),
-                 .window = 1 + rng.below(30'000)},
-                rng.next());
+    StreamBench bench({.delay = Time(rng.below(100'000)),
+                       .jitter = Time(rng.below(100'000)),
+                       .loss = rng.unit() * 0.3,
+                       .rate = rng.below(2) * (10'000 + rng.below(100'000)),
+                       .window = 1 + rng.below(30'000)},
+                      rng.next());
     std::vector<std::string> sent;
     for (int i = 0; i < 100; ++i) {
       sent.push_back(std::to_string(i) + std::string(rng.below(3000), 'x'));
@@ -83,7 +83,7 @@ TEST(VirtualStreamLink, AnythingSentArrivesOnceAndInOrder) {
 }
 
 TEST(VirtualStreamLink, LossHoldsUpWhatCameAfterIt) {
-  Bench bench({.delay = 20ms});
+  StreamBench bench({.delay = 20ms});
   bench.link.setConditions(LinkEnd::kClient, {.delay = 20ms, .loss = 1});
   bench.client->send("lost");
   bench.clock.advanceTo(10ms);
@@ -97,7 +97,7 @@ TEST(VirtualStreamLink, LossHoldsUpWhatCameAfterIt) {
 }
 
 TEST(VirtualStreamLink, RetransmissionWaitsTwoRoundTripsAndBacksOff) {
-  Bench bench({.delay = 100ms, .loss = 1});
+  StreamBench bench({.delay = 100ms, .loss = 1});
   bench.client->send("lost twice");  // at 0, at 400 ms, then at 1200 ms
   bench.clock.advanceTo(500ms);
   bench.link.setConditions(LinkEnd::kClient, {.delay = 100ms});
@@ -106,7 +106,7 @@ TEST(VirtualStreamLink, RetransmissionWaitsTwoRoundTripsAndBacksOff) {
 }
 
 TEST(VirtualStreamLink, RateSpacesFramesOutAndShowsAsUnsentBytes) {
-  Bench bench({.delay = 5ms, .rate = 10'000});
+  StreamBench bench({.delay = 5ms, .rate = 10'000});
   for (int i = 0; i < 10; ++i) bench.client->send(frameOnLine(1000));
   EXPECT_EQ(bench.client->unsentBytes(), 10'000u);
   bench.clock.advanceTo(499ms);
@@ -120,7 +120,7 @@ TEST(VirtualStreamLink, RateSpacesFramesOutAndShowsAsUnsentBytes) {
 }
 
 TEST(VirtualStreamLink, WindowLimitsWhatIsUnderWay) {
-  Bench bench({.delay = 50ms, .window = 2000});
+  StreamBench bench({.delay = 50ms, .window = 2000});
   for (int i = 0; i < 6; ++i) bench.client->send(frameOnLine(1000));
   EXPECT_EQ(bench.client->unsentBytes(), 4000u);
   bench.clock.advanceTo(1s);
@@ -128,7 +128,7 @@ TEST(VirtualStreamLink, WindowLimitsWhatIsUnderWay) {
 }
 
 TEST(VirtualStreamLink, OutageShowsAsUnsentBytesAndThenOverflows) {
-  Bench bench({.loss = 1});
+  StreamBench bench({.loss = 1});
   bool grew = false;
   for (int i = 0; i < 30 && !bench.at_client.closed; ++i) {
     bench.client->send(std::string(50'000, 'x'));
@@ -144,7 +144,7 @@ TEST(VirtualStreamLink, OutageShowsAsUnsentBytesAndThenOverflows) {
 }
 
 TEST(VirtualStreamLink, SurvivesAnOutage) {
-  Bench bench({.delay = 50ms});
+  StreamBench bench({.delay = 50ms});
   bench.link.setConditions(LinkEnd::kClient, {.delay = 50ms, .loss = 1});
   for (int i = 0; i < 150; ++i) {
     bench.client->send(std::to_string(i));
@@ -173,7 +173,7 @@ TEST(VirtualStreamLink, FramesWaitForAReceiverThatStartsLate) {
 }
 
 TEST(VirtualStreamLink, CloseFlushesAndBothEndsHear) {
-  Bench bench({.delay = 50ms, .rate = 10'000});
+  StreamBench bench({.delay = 50ms, .rate = 10'000});
   for (int i = 0; i < 5; ++i) bench.client->send(frameOnLine(1000));
   bench.client->close();
   bench.client->send("too late");
@@ -191,7 +191,7 @@ TEST(VirtualStreamLink, CloseFlushesAndBothEndsHear) {
 }
 
 TEST(VirtualStreamLink, CloseGivesUpAfterASecond) {
-  Bench bench({.rate = 1000});
+  StreamBench bench({.rate = 1000});
   for (int i = 0; i < 5; ++i) bench.client->send(frameOnLine(1000));
   bench.client->close();
   bench.clock.advanceTo(999ms);
@@ -205,7 +205,7 @@ TEST(VirtualStreamLink, CloseGivesUpAfterASecond) {
 }
 
 TEST(VirtualStreamLink, DestroyedAfterCloseItStillFlushes) {
-  Bench bench({.rate = 10'000});
+  StreamBench bench({.rate = 10'000});
   for (int i = 0; i < 5; ++i) bench.client->send(frameOnLine(1000));
   bench.client->close();
   bench.client.reset();
@@ -216,14 +216,14 @@ TEST(VirtualStreamLink, DestroyedAfterCloseItStillFlushes) {
 }
 
 TEST(VirtualStreamLink, DestroyingHangsUp) {
-  Bench bench({.delay = 50ms});
+  StreamBench bench({.delay = 50ms});
   bench.client.reset();
   bench.clock.advanceTo(50ms);
   EXPECT_EQ(bench.at_server.closed, CloseReason::kPeer);
 }
 
 TEST(VirtualStreamLink, NothingIsSentAgainToAnEndThatIsGone) {
-  Bench bench({.loss = 1});
+  StreamBench bench({.loss = 1});
   bench.link.setConditions(LinkEnd::kServer, {});
   bench.client->send("lost");
   bench.server.reset();
@@ -233,7 +233,7 @@ TEST(VirtualStreamLink, NothingIsSentAgainToAnEndThatIsGone) {
 }
 
 TEST(VirtualStreamLink, FrameOverTheReceiveLimitBreaksTheProtocol) {
-  Bench bench({});
+  StreamBench bench({});
   bench.server->setReceiveLimit(4);
   for (const char* frame : {"four", "fives", "six"}) bench.client->send(frame);
   bench.clock.advanceBy(1s);
@@ -255,13 +255,13 @@ TEST(VirtualStreamLink, StartsWithTheLimitOfAServerBeforeLogin) {
 }
 
 TEST(VirtualStreamLink, RefusesSizesThatAreNoFrame) {
-  Bench bench({});
+  StreamBench bench({});
   EXPECT_THROW(bench.client->send(""), std::length_error);
   EXPECT_THROW(bench.client->send(std::string(kMaxFramePayload + 1, 'x')), std::length_error);
 }
 
 TEST(VirtualStreamLink, BrokenConnectionEndsBothWithAnError) {
-  Bench bench({.delay = 50ms});
+  StreamBench bench({.delay = 50ms});
   bench.client->send("never");
   bench.link.breakConnection();
   EXPECT_FALSE(bench.at_client.closed);
@@ -294,7 +294,7 @@ TEST(VirtualStreamLink, EndMayBeDestroyedInItsCallbacks) {
 
 TEST(VirtualStreamLink, SameSeedGivesTheSameDeliveries) {
   const auto run = [](std::uint64_t seed) {
-    Bench bench({.delay = 30ms, .jitter = 40ms, .loss = 0.1}, seed);
+    StreamBench bench({.delay = 30ms, .jitter = 40ms, .loss = 0.1}, seed);
     for (int i = 0; i < 300; ++i) {
       bench.client->send(std::to_string(i));
       bench.clock.advanceBy(2ms);

@@ -3,16 +3,13 @@
 #include <cmath>
 #include <memory>
 
+#include "tests/bench/path/Monotonic.h"
 #include "tests/bench/path/judge/FrameJudge.h"
 #include "tests/bench/path/scene/Crowd.h"
 #include "tests/bench/path/scene/Status.h"
 
 namespace bench::path {
 namespace {
-
-Nanoseconds ms(double value) {
-  return Nanoseconds(static_cast<std::int64_t>(value * 1e6));
-}
 
 /// Ten ticks of a crowd, one every 100 ms from 100 ms on.
 class FrameJudgeTest : public testing::Test {
@@ -21,7 +18,7 @@ class FrameJudgeTest : public testing::Test {
     Crowd crowd(3);
     for (int i = 1; i <= 10; ++i) {
       crowd.tick();
-      m_truth->publish(crowd.ticks(), ms(100.0 * i), drawScene(crowd));
+      m_truth->publish(crowd.ticks(), fromMilliseconds(100.0 * i), drawScene(crowd));
     }
   }
   const Picture& scene(std::uint32_t tick) const { return m_truth->find(tick)->picture; }
@@ -37,12 +34,12 @@ class FrameJudgeTest : public testing::Test {
 };
 
 TEST_F(FrameJudgeTest, RightFramesCountOnce) {
-  m_judge.look(scene(4), ms(450));
-  m_judge.look(scene(4), ms(460));
-  m_judge.look(scene(5), ms(550));
+  m_judge.look(scene(4), fromMilliseconds(450));
+  m_judge.look(scene(4), fromMilliseconds(460));
+  m_judge.look(scene(5), fromMilliseconds(550));
   ASSERT_EQ(m_judge.shown().size(), 2u);
-  EXPECT_EQ(m_judge.shown()[0].at, ms(450));
-  EXPECT_EQ(m_judge.shown()[0].start, ms(400));
+  EXPECT_EQ(m_judge.shown()[0].at, fromMilliseconds(450));
+  EXPECT_EQ(m_judge.shown()[0].start, fromMilliseconds(400));
   EXPECT_EQ(m_judge.shown()[1].tick, 5u);
   EXPECT_TRUE(m_judge.refused().empty());
 }
@@ -55,39 +52,39 @@ TEST_F(FrameJudgeTest, EchoAndMarkerAreNotJudged) {
 }
 
 TEST_F(FrameJudgeTest, CrowdMayBeTwoTicksFromTheCounter) {
-  m_judge.look(mixed(6, 4), ms(700));
+  m_judge.look(mixed(6, 4), fromMilliseconds(700));
   EXPECT_EQ(m_judge.shown().size(), 1u);
-  m_judge.look(mixed(8, 5), ms(800));
+  m_judge.look(mixed(8, 5), fromMilliseconds(800));
   EXPECT_EQ(m_judge.shown().size(), 1u);
   EXPECT_LT(m_judge.lastLikeness(), FrameJudge::kLikenessPercent);
 }
 
 TEST_F(FrameJudgeTest, TornFrameIsRefusedUnlessItGetsRight) {
   Picture torn = mixed(9, 5);
-  m_judge.look(torn, ms(600));
+  m_judge.look(torn, fromMilliseconds(600));
   EXPECT_TRUE(m_judge.shown().empty());
-  m_judge.look(scene(5), ms(610));
+  m_judge.look(scene(5), fromMilliseconds(610));
   ASSERT_EQ(m_judge.shown().size(), 1u);
-  EXPECT_EQ(m_judge.shown()[0].at, ms(610));
+  EXPECT_EQ(m_judge.shown()[0].at, fromMilliseconds(610));
   EXPECT_TRUE(m_judge.refused().empty());
-  m_judge.look(mixed(10, 6), ms(700));
-  m_judge.look(scene(7), ms(800));
+  m_judge.look(mixed(10, 6), fromMilliseconds(700));
+  m_judge.look(scene(7), fromMilliseconds(800));
   EXPECT_EQ(m_judge.refused().size(), 1u);
 }
 
 TEST_F(FrameJudgeTest, ColoursCount) {
   Picture screen = scene(4);
   for (Cell& cell : screen.cells) cell.color = 1;
-  m_judge.look(screen, ms(450));
+  m_judge.look(screen, fromMilliseconds(450));
   EXPECT_TRUE(m_judge.shown().empty());
 }
 
 TEST_F(FrameJudgeTest, CountersThatNeverWereOrGoBackAreIgnored) {
-  m_judge.look(scene(6), ms(650));
-  m_judge.look(mixed(6, 5), ms(660));
+  m_judge.look(scene(6), fromMilliseconds(650));
+  m_judge.look(mixed(6, 5), fromMilliseconds(660));
   Picture future = scene(6);
   future.at(5, kStatusRow).ch = '9';
-  m_judge.look(future, ms(670));
+  m_judge.look(future, fromMilliseconds(670));
   EXPECT_EQ(m_judge.shown().size(), 1u);
   EXPECT_TRUE(m_judge.refused().empty());
 }
@@ -97,9 +94,10 @@ TEST(Fluency, OfAScreenThatStandsStillForAWhile) {
   std::vector<Shown> shown;
   for (int i = 0; i < 10; ++i) {
     if (i != 5 && i != 6)
-      shown.push_back({ms(100.0 * i + 50), ms(100.0 * i), static_cast<std::uint32_t>(i + 1)});
+      shown.push_back(
+          {fromMilliseconds(100.0 * i + 50), fromMilliseconds(100.0 * i), static_cast<std::uint32_t>(i + 1)});
   }
-  const Fluency fluency = fluencyOf(shown, ms(50), ms(1050));
+  const Fluency fluency = fluencyOf(shown, fromMilliseconds(50), fromMilliseconds(1050));
   EXPECT_DOUBLE_EQ(fluency.frames_per_second, 7);  // the first was there before
   EXPECT_NEAR(fluency.freeze_ms, 300, 1);
   EXPECT_NEAR(fluency.staleness_p50_ms, 113, 15);
@@ -107,13 +105,16 @@ TEST(Fluency, OfAScreenThatStandsStillForAWhile) {
 }
 
 TEST(Fluency, AnEndWithoutFramesIsAFreeze) {
-  const Fluency fluency = fluencyOf({{ms(10), ms(0), 1}}, ms(20), ms(520));
+  const Fluency fluency = fluencyOf({{fromMilliseconds(10), fromMilliseconds(0), 1}}, fromMilliseconds(20),
+                                    fromMilliseconds(520));
   EXPECT_NEAR(fluency.freeze_ms, 510, 1e-9);
   EXPECT_EQ(fluency.frames_per_second, 0);
 }
 
 TEST(Fluency, IsUnknownBeforeTheFirstFrame) {
-  EXPECT_TRUE(std::isnan(fluencyOf({{ms(100), ms(0), 1}}, ms(20), ms(520)).staleness_p50_ms));
+  EXPECT_TRUE(std::isnan(fluencyOf({{fromMilliseconds(100), fromMilliseconds(0), 1}}, fromMilliseconds(20),
+                                   fromMilliseconds(520))
+                             .staleness_p50_ms));
 }
 
 }  // namespace

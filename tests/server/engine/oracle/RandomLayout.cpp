@@ -10,8 +10,6 @@ namespace oracle {
 
 namespace {
 
-constexpr Fixed kOne = df::kFixedOne;
-
 Kind randomKind(Rng& rng) {
   const int which = rng.below(1000);
   if (which < 2) return Kind::LARGE;

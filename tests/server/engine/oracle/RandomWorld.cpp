@@ -5,8 +5,6 @@
 
 namespace oracle {
 
-static constexpr Fixed kOne = df::kFixedOne;
-
 Spec RandomWorld::randomSpec(Rng& rng) const {
   Spec spec;
   spec.position = randomPosition(rng);

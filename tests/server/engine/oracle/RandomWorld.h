@@ -15,6 +15,8 @@ namespace oracle {
 using df::FixedVector;
 using df::Solidness;
 
+inline constexpr df::Fixed kOne = df::kFixedOne;
+
 /// How an Object's handler behaves.
 enum class Temper {
   QUIET,     ///< Hardly ever does anything.

@@ -8,28 +8,26 @@
 #include "SimulatedWorld.h"
 #include "host/snapshot/ClientViewport.h"
 #include "shared/replica/ViewCrop.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
 
-df::FixedVector at(double x, double y) {
-  return test::cellsAt(x, y);
-}
-
+using test::cellsAt;
 /// A view of 80 by 24 at (100, 50) in a large world, and a ship that it follows.
 class Scene {
  public:
   Scene() {
-    m_view.boundary = {at(0, 0), at(400, 200)};
+    m_view.boundary = {cellsAt(0, 0), cellsAt(400, 200)};
     m_ship.key = {0, 1};
     m_ship.order = 1;
     player.id = 1;
-    player.view_corner = at(100, 50);
+    player.view_corner = cellsAt(100, 50);
     put(140, 62, 0);
   }
   void put(double x, double y, double speed) {
-    m_ship.position = at(x, y);
-    m_ship.velocity = at(speed, 0);
+    m_ship.position = cellsAt(x, y);
+    m_ship.velocity = cellsAt(speed, 0);
     m_view.changed.push_back(m_ship);
   }
   void follow() { player.followed = m_ship.key; }

@@ -9,12 +9,9 @@
 #include "host/snapshot/SnapshotSender.h"
 #include "shared/replica/Replica.h"
 #include "shared/values/Vector.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad::test {
-
-inline df::FixedVector cellsAt(double x, double y) {
-  return *df::toFixed(df::Vector(x, y));
-}
 
 /// By hand, without a link.
 class DirectSender {

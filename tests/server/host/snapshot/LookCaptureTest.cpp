@@ -7,30 +7,29 @@
 #include "shared/replica/LookCodec.h"
 #include "shared/values/SplitMix64.h"
 #include "shared/values/Vector.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
 
-df::FixedVector at(double x, double y) {
-  return *df::toFixed(df::Vector(x, y));
-}
-
+using test::cellsAt;
 TEST(LookCapture, KeepsCharactersColoursAndOffsets) {
-  const std::vector<df::DrawCommand> commands = {{at(10.25, 4), U'a', df::RED},
-                                                 {at(8.75, 5), U'é', df::BLUE}};
-  const Appearance appearance = captureAppearance(at(10.25, 4), commands);
+  const std::vector<df::DrawCommand> commands = {{cellsAt(10.25, 4), U'a', df::RED},
+                                                 {cellsAt(8.75, 5), U'é', df::BLUE}};
+  const Appearance appearance = captureAppearance(cellsAt(10.25, 4), commands);
   EXPECT_EQ(appearance, (Appearance{{0, 0, U'a', df::RED}, {-384, 256, U'é', df::BLUE}}));
 }
 
 TEST(LookCapture, HalfCellOffsetsStayRightWhereverTheObjectGoes) {
   SplitMix64 rng(1);
-  const Look look{{captureAppearance(at(0, 0), std::vector<df::DrawCommand>{{at(-0.5, 0), U'<', df::RED},
-                                                                            {at(0.5, 0), U'>', df::RED}})},
-                  2};
+  const Look look{
+      {captureAppearance(cellsAt(0, 0), std::vector<df::DrawCommand>{{cellsAt(-0.5, 0), U'<', df::RED},
+                                                                     {cellsAt(0.5, 0), U'>', df::RED}})},
+      2};
   for (int i = 0; i < 2000; ++i) {
-    const df::FixedVector where = at((rng.unit() - 0.5) * 500, (rng.unit() - 0.5) * 500);
-    const std::vector<df::DrawCommand> commands = {{where + at(-0.5, 0), U'<', df::RED},
-                                                   {where + at(0.5, 0), U'>', df::RED}};
+    const df::FixedVector where = cellsAt((rng.unit() - 0.5) * 500, (rng.unit() - 0.5) * 500);
+    const std::vector<df::DrawCommand> commands = {{where + cellsAt(-0.5, 0), U'<', df::RED},
+                                                   {where + cellsAt(0.5, 0), U'>', df::RED}};
     ASSERT_TRUE(drawsTheSame(look, 0, where, commands));
   }
 }
@@ -38,48 +37,50 @@ TEST(LookCapture, HalfCellOffsetsStayRightWhereverTheObjectGoes) {
 TEST(LookCapture, CellsAreRightAtTheCapturedPositionWhateverTheOffset) {
   SplitMix64 rng(2);
   for (int i = 0; i < 2000; ++i) {
-    const df::FixedVector where = at((rng.unit() - 0.5) * 500, (rng.unit() - 0.5) * 500);
+    const df::FixedVector where = cellsAt((rng.unit() - 0.5) * 500, (rng.unit() - 0.5) * 500);
     std::vector<df::DrawCommand> commands;
     for (int k = 0; k < 5; ++k) {
-      commands.push_back({where + at((rng.unit() - 0.5) * 9, (rng.unit() - 0.5) * 9), U'x', df::RED});
+      commands.push_back({where + cellsAt((rng.unit() - 0.5) * 9, (rng.unit() - 0.5) * 9), U'x', df::RED});
     }
     ASSERT_TRUE(drawsTheSame(Look{{captureCells(where, commands)}, 2}, 0, where, commands));
   }
 }
 
 TEST(LookCapture, NoticesEveryKindOfDifference) {
-  const std::vector<df::DrawCommand> commands = {{at(1, 1), U'a', df::RED}, {at(2, 1), U'b', df::RED}};
-  const Look look{{captureAppearance(at(1, 1), commands)}, 2};
-  ASSERT_TRUE(drawsTheSame(look, 0, at(1, 1), commands));
-  EXPECT_FALSE(drawsTheSame(look, 0, at(2, 1), commands));
-  EXPECT_FALSE(drawsTheSame(look, 0, at(1, 1), std::span(commands).first(1)));
-  EXPECT_FALSE(drawsTheSame(look, 0, at(1, 1), {}));
-  EXPECT_FALSE(drawsTheSame(Look{}, 0, at(1, 1), commands));
-  EXPECT_TRUE(drawsTheSame(Look{}, 0, at(1, 1), {}));
+  const std::vector<df::DrawCommand> commands = {{cellsAt(1, 1), U'a', df::RED},
+                                                 {cellsAt(2, 1), U'b', df::RED}};
+  const Look look{{captureAppearance(cellsAt(1, 1), commands)}, 2};
+  ASSERT_TRUE(drawsTheSame(look, 0, cellsAt(1, 1), commands));
+  EXPECT_FALSE(drawsTheSame(look, 0, cellsAt(2, 1), commands));
+  EXPECT_FALSE(drawsTheSame(look, 0, cellsAt(1, 1), std::span(commands).first(1)));
+  EXPECT_FALSE(drawsTheSame(look, 0, cellsAt(1, 1), {}));
+  EXPECT_FALSE(drawsTheSame(Look{}, 0, cellsAt(1, 1), commands));
+  EXPECT_TRUE(drawsTheSame(Look{}, 0, cellsAt(1, 1), {}));
   for (int change = 0; change < 3; ++change) {
     std::vector<df::DrawCommand> other = commands;
     if (change == 0) other[1].ch = U'c';
     if (change == 1) other[1].color = df::BLUE;
-    if (change == 2) other[1].position = at(2, 2);
-    EXPECT_FALSE(drawsTheSame(look, 0, at(1, 1), other)) << change;
+    if (change == 2) other[1].position = cellsAt(2, 2);
+    EXPECT_FALSE(drawsTheSame(look, 0, cellsAt(1, 1), other)) << change;
   }
 }
 
 TEST(LookCapture, LeavesOutDistantCharacters) {
-  const std::vector<df::DrawCommand> commands = {{at(8192, 0), U'a', df::RED}, {at(8193, 0), U'b', df::RED}};
-  EXPECT_EQ(captureAppearance(at(0, 0), commands).size(), 1u);
-  EXPECT_EQ(captureCells(at(0, 0), commands).size(), 1u);
+  const std::vector<df::DrawCommand> commands = {{cellsAt(8192, 0), U'a', df::RED},
+                                                 {cellsAt(8193, 0), U'b', df::RED}};
+  EXPECT_EQ(captureAppearance(cellsAt(0, 0), commands).size(), 1u);
+  EXPECT_EQ(captureCells(cellsAt(0, 0), commands).size(), 1u);
 }
 
 TEST(LookCapture, OppositeEndsOfTheWorldAreTooFarApart) {
-  const std::vector<df::DrawCommand> commands = {{at(2e9, -2e9), U'a', df::RED}};
-  EXPECT_TRUE(captureAppearance(at(-2e9, 2e9), commands).empty());
-  EXPECT_TRUE(captureCells(at(-2e9, 2e9), commands).empty());
+  const std::vector<df::DrawCommand> commands = {{cellsAt(2e9, -2e9), U'a', df::RED}};
+  EXPECT_TRUE(captureAppearance(cellsAt(-2e9, 2e9), commands).empty());
+  EXPECT_TRUE(captureCells(cellsAt(-2e9, 2e9), commands).empty());
 }
 
 TEST(LookCapture, CutsAtTheLargestAppearance) {
-  const std::vector<df::DrawCommand> commands(kMaxGlyphs + 5, {at(0, 0), U'x', df::RED});
-  EXPECT_EQ(captureAppearance(at(0, 0), commands).size(), kMaxGlyphs);
+  const std::vector<df::DrawCommand> commands(kMaxGlyphs + 5, {cellsAt(0, 0), U'x', df::RED});
+  EXPECT_EQ(captureAppearance(cellsAt(0, 0), commands).size(), kMaxGlyphs);
 }
 
 TEST(LookCapture, FitsALookIntoARecordByCuttingItsEnd) {

@@ -9,15 +9,13 @@
 #include "shared/replica/MotionCodec.h"
 #include "shared/values/SplitMix64.h"
 #include "shared/values/Vector.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
 
+using test::cellsAt;
 using Offsets = std::vector<df::FixedVector>;
-
-df::FixedVector at(double x, double y) {
-  return *df::toFixed(df::Vector(x, y));
-}
 
 int bitsOf(df::FixedVector v) {
   const auto all = static_cast<std::uint64_t>(v.x) | static_cast<std::uint64_t>(v.y);
@@ -98,7 +96,7 @@ TEST(MotionFit, DrawsTheSameCellsUpToTheHorizonWithNoMoreBits) {
 TEST(MotionFit, ShortNumbersStayAsTheyAre) {
   const Offsets offsets(1);
   for (const double v : {0.25, -0.25, 0.5, 1.0, -3.0, 0.75}) {
-    const Motion truth{10, at(5, 7), at(v, 0), {}};
+    const Motion truth{10, cellsAt(5, 7), cellsAt(v, 0), {}};
     const Motion fitted = fitMotion(truth, offsets, 64);
     EXPECT_EQ(fitted.velocity, truth.velocity) << v;
     EXPECT_EQ(bitsOf(fitted.position), 0);
@@ -108,18 +106,18 @@ TEST(MotionFit, ShortNumbersStayAsTheyAre) {
 TEST(MotionFit, WhatStandsStillIsDrawnFromItsCell) {
   const Motion truth{10, {df::fromCells(5) + 12345, df::fromCells(-7) - 54321}, {}, {}};
   const Motion fitted = fitMotion(truth, Offsets(1), 64);
-  EXPECT_EQ(fitted.position, at(5, -7));
+  EXPECT_EQ(fitted.position, cellsAt(5, -7));
   EXPECT_EQ(fitted.velocity, df::FixedVector{});
 }
 
 TEST(MotionFit, OffsetsOfHalfACellMatter) {
-  const Motion truth{10, at(5.25, 3), {}, {}};
-  EXPECT_EQ(fitMotion(truth, Offsets{at(0, 0)}, 64).position, at(5, 3));
+  const Motion truth{10, cellsAt(5.25, 3), {}, {}};
+  EXPECT_EQ(fitMotion(truth, Offsets{cellsAt(0, 0)}, 64).position, cellsAt(5, 3));
   // Drawn in cells 5 and 6; from (5, 3) they would be the same, from (5.5, 3) both to the right.
-  const Offsets offsets{at(0, 0), at(0.25, 0), at(0.125, 0)};
+  const Offsets offsets{cellsAt(0, 0), cellsAt(0.25, 0), cellsAt(0.125, 0)};
   const Motion fitted = fitMotion(truth, offsets, 64);
   EXPECT_TRUE(drawsTheSame(truth, fitted, offsets, 64));
-  EXPECT_NE(fitted.position, at(5, 3));
+  EXPECT_NE(fitted.position, cellsAt(5, 3));
 }
 
 TEST(MotionFit, TheTruthIsReturnedWhereNothingIsTried) {

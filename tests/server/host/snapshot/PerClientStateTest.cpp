@@ -8,21 +8,19 @@
 #include "host/snapshot/PerClientState.h"
 #include "shared/replica/SteeredCopy.h"
 #include "shared/replica/ViewFollow.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
 
+using test::cellsAt;
 using test::DirectSender;
-
-df::FixedVector at(double x, double y) {
-  return test::cellsAt(x, y);
-}
 
 /// The state of a client whose player looks at an empty world.
 class Alone {
  public:
   Alone() {
-    m_view.boundary = {at(0, 0), at(80, 24)};
+    m_view.boundary = {cellsAt(0, 0), cellsAt(80, 24)};
     player.id = 1;
     m_view.players.push_back(player);
   }
@@ -135,21 +133,21 @@ enum class Arrival { kLost, kDownOnly, kBothWays };
 class Following {
  public:
   Following() {
-    direct.view().boundary = {at(0, 0), at(400, 24)};
+    direct.view().boundary = {cellsAt(0, 0), cellsAt(400, 24)};
     direct.player.followed = {0, 1};
-    direct.player.view_corner = at(60, 0);
+    direct.player.view_corner = cellsAt(60, 0);
     m_facts.key = {0, 1};
     m_facts.order = 1;
-    m_facts.position = at(100, 5);
+    m_facts.position = cellsAt(100, 5);
     direct.view().changed.push_back(m_facts);
   }
 
   /// One tick in which the object is put at `x`, to fly on with `velocity`.
   void tick(double x, double velocity, Arrival arrival) {
-    m_facts.position = at(x, 5);
-    m_facts.velocity = at(velocity, 0);
+    m_facts.position = cellsAt(x, 5);
+    m_facts.velocity = cellsAt(velocity, 0);
     direct.view().changed.push_back(m_facts);
-    const ViewFrame frame{direct.player.view_corner, at(80, 24), direct.view().boundary};
+    const ViewFrame frame{direct.player.view_corner, cellsAt(80, 24), direct.view().boundary};
     direct.player.view_corner = followView(frame, m_facts.position);
     for (const SnapshotSender::Packet& packet : direct.tick()) {
       Snapshot snapshot;
@@ -230,10 +228,10 @@ class Steering {
   Steering() {
     m_table.rows.resize(1);
     m_table.rows[0].effect = df::ControlEffect::kDrive;
-    m_table.rows[0].value = at(1, 0);
+    m_table.rows[0].value = cellsAt(1, 0);
     m_facts.key = {0, 1};
     m_facts.order = 1;
-    m_facts.position = at(10, 5);
+    m_facts.position = cellsAt(10, 5);
     steering().p_table = std::make_shared<df::ControlTable>(m_table);
     steering().object = {0, 1};
     steering().state.steering = true;
@@ -289,12 +287,12 @@ TEST(PerClientState, ControlsAreSentOnceAndTheirStateWhereItCannotBeComputed) {
   EXPECT_EQ(scene.replica.controlNumber(), 1u);
   scene.expectKnown();
   for (int i = 0; i < 40; ++i) EXPECT_FALSE(scene.tick({})) << "at rest, tick " << i;
-  EXPECT_TRUE(scene.tick(at(1, 0)));
+  EXPECT_TRUE(scene.tick(cellsAt(1, 0)));
   for (int i = 0; i < 30; ++i) {
-    EXPECT_FALSE(scene.tick(at(1, 0))) << "straight on, tick " << i;
+    EXPECT_FALSE(scene.tick(cellsAt(1, 0))) << "straight on, tick " << i;
     scene.expectKnown();
   }
-  EXPECT_TRUE(scene.tick(at(1, 0))) << "the longest coasting";
+  EXPECT_TRUE(scene.tick(cellsAt(1, 0))) << "the longest coasting";
   EXPECT_EQ(scene.replica.controlTableNumber(), 1u) << "the table came once";
 }
 
@@ -312,7 +310,7 @@ TEST(PerClientState, LostControlsAreSentAgain) {
   scene.tick({}, false);
   for (int i = 0; i < 5; ++i) scene.tick({}, false);
   bool sent = false;
-  for (int i = 0; i < 40; ++i) sent = scene.tick(at(i % 7 == 0 ? 1 : 0, 0)) || sent;
+  for (int i = 0; i < 40; ++i) sent = scene.tick(cellsAt(i % 7 == 0 ? 1 : 0, 0)) || sent;
   EXPECT_TRUE(sent);
   EXPECT_EQ(scene.replica.controlTable(), scene.table());
   scene.expectKnown();
@@ -334,7 +332,7 @@ TEST(PerClientState, AShipThatTurnsCostsLittle) {
   scene.direct.sender.noteInput(7, scene.direct.publisher.tick() + 1);
   const std::uint32_t before = scene.replica.controlNumber();
   BitWriter bits;
-  ASSERT_TRUE(scene.tick(at(1, 0)));
+  ASSERT_TRUE(scene.tick(cellsAt(1, 0)));
   ASSERT_GT(scene.replica.controlNumber(), before);
   Origin origin;
   origin.x_bits = 7;

@@ -7,19 +7,17 @@
 #include "host/snapshot/SnapshotSender.h"
 #include "shared/replica/Replica.h"
 #include "shared/values/Vector.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
 
-df::FixedVector at(double x, double y) {
-  return *df::toFixed(df::Vector(x, y));
-}
-
+using test::cellsAt;
 /// A WorldView by hand, of one player who sees cells (0, 0) to (79, 23).
-class Scene {
+class ViewScene {
  public:
-  Scene() {
-    m_view.boundary = {at(0, 0), at(80, 24)};
+  ViewScene() {
+    m_view.boundary = {cellsAt(0, 0), cellsAt(80, 24)};
     m_view.players.push_back({});
     m_view.players[0].id = 1;
   }
@@ -83,7 +81,7 @@ std::uint8_t groupsOf(const std::vector<Publisher::Change>& changes, std::uint32
 
 // For any number of calls, in any tick.
 TEST(Publisher, TheSharedMotionIsThatOfTheModelAtTheTick) {
-  Scene scene;
+  ViewScene scene;
   const auto expectShared = [&scene](std::uint32_t slot) {
     const Motion now = rebase(scene.publisher.find(slot)->state.motion, scene.publisher.tick());
     for (int asked = 0; asked < 2; ++asked) {
@@ -94,11 +92,11 @@ TEST(Publisher, TheSharedMotionIsThatOfTheModelAtTheTick) {
     writeMotion(other, now, Origin{});
     EXPECT_EQ(one.bytes(), other.bytes());
   };
-  scene.changed(1, at(10, 10), at(0.25, 0));
-  scene.changed(2, at(20, 5));
+  scene.changed(1, cellsAt(10, 10), cellsAt(0.25, 0));
+  scene.changed(2, cellsAt(20, 5));
   for (int tick = 0; tick < 20; ++tick) {
-    if (tick == 7) scene.changed(2, at(20, 5), at(0, 0.5));
-    if (tick == 12) scene.changed(40, at(1, 1), at(0.125, 0.5));
+    if (tick == 7) scene.changed(2, cellsAt(20, 5), cellsAt(0, 0.5));
+    if (tick == 12) scene.changed(40, cellsAt(1, 1), cellsAt(0.125, 0.5));
     scene.publish();
     expectShared(1);
     expectShared(2);
@@ -107,9 +105,9 @@ TEST(Publisher, TheSharedMotionIsThatOfTheModelAtTheTick) {
 }
 
 TEST(Publisher, StraightFlightIsPublishedOnce) {
-  Scene scene;
-  df::FixedVector position = at(5, 5);
-  const df::FixedVector velocity = at(0.3, 0.1);
+  ViewScene scene;
+  df::FixedVector position = cellsAt(5, 5);
+  const df::FixedVector velocity = cellsAt(0.3, 0.1);
   scene.changed(0, position, velocity);
   scene.drew(0, position);
   EXPECT_EQ(groupsOf(scene.publish(), 0), kAllGroups);
@@ -123,13 +121,13 @@ TEST(Publisher, StraightFlightIsPublishedOnce) {
 }
 
 TEST(Publisher, AViewObjectStandsWhereverTheViewsGo) {
-  Scene scene;
+  ViewScene scene;
   for (int i = 0; i < 50; ++i) {
-    const df::FixedVector corner = at(100 + 0.3 * i, 7.5);  // of the world's own view
+    const df::FixedVector corner = cellsAt(100 + 0.3 * i, 7.5);  // of the world's own view
     scene.view().corner = corner;
-    scene.view().players[0].view_corner = at(-3.0 * i, 900);  // far from there
-    scene.changed(1, at(40, 1)).on_view = true;
-    scene.drew(1, corner + at(38, 1), U'H');
+    scene.view().players[0].view_corner = cellsAt(-3.0 * i, 900);  // far from there
+    scene.changed(1, cellsAt(40, 1)).on_view = true;
+    scene.drew(1, corner + cellsAt(38, 1), U'H');
     scene.view().drawn.back().on_view = true;
     EXPECT_EQ(scene.publish().size(), i == 0 ? 1u : 0u) << "tick " << i;
   }
@@ -144,7 +142,7 @@ TEST(Publisher, AViewObjectStandsWhereverTheViewsGo) {
 }
 
 TEST(Publisher, ABackgroundThatIsNoColourIsNone) {
-  Scene scene;
+  ViewScene scene;
   const auto published = [&scene](df::Color background) {
     scene.view().background = background;
     scene.publish();
@@ -156,10 +154,10 @@ TEST(Publisher, ABackgroundThatIsNoColourIsNone) {
 }
 
 TEST(Publisher, AcceleratedFlightIsPublishedOnce) {
-  Scene scene;
-  df::FixedVector position = at(5, 5);
-  df::FixedVector velocity = at(0, 0);
-  const df::FixedVector acceleration = at(0.01, 0.003);
+  ViewScene scene;
+  df::FixedVector position = cellsAt(5, 5);
+  df::FixedVector velocity = cellsAt(0, 0);
+  const df::FixedVector acceleration = cellsAt(0.01, 0.003);
   for (int i = 0; i < 60; ++i) {
     scene.changed(0, position, velocity).acceleration = acceleration;
     scene.drew(0, position);
@@ -170,14 +168,14 @@ TEST(Publisher, AcceleratedFlightIsPublishedOnce) {
 }
 
 TEST(Publisher, ATurnIsCorrectedExactlyWhenTheCellWouldBeWrong) {
-  Scene scene;
-  df::FixedVector position = at(10, 10);
-  df::FixedVector velocity = at(0.125, 0);
+  ViewScene scene;
+  df::FixedVector position = cellsAt(10, 10);
+  df::FixedVector velocity = cellsAt(0.125, 0);
   Motion modelled{1, position, velocity, {}};
   int corrections = 0;
   for (int i = 0; i < 200; ++i) {
-    if (i == 20) velocity = at(0.0625, 0.0625);  // a turn that shows only after some ticks
-    if (i == 90) velocity = at(-0.125, 0);
+    if (i == 20) velocity = cellsAt(0.0625, 0.0625);  // a turn that shows only after some ticks
+    if (i == 90) velocity = cellsAt(-0.125, 0);
     scene.changed(0, position, velocity);
     scene.drew(0, position);
     const auto changes = scene.publish();
@@ -205,46 +203,46 @@ TEST(Publisher, ATurnIsCorrectedExactlyWhenTheCellWouldBeWrong) {
 }
 
 TEST(Publisher, ATurnOfAnObjectThatDrawsNothingIsCorrectedToo) {
-  Scene scene;
-  scene.changed(0, at(10, 10), at(1, 0));
+  ViewScene scene;
+  scene.changed(0, cellsAt(10, 10), cellsAt(1, 0));
   scene.drew({0, 1}, {});
   scene.publish();
-  scene.changed(0, at(11, 10), at(0, 1));
+  scene.changed(0, cellsAt(11, 10), cellsAt(0, 1));
   scene.drew({0, 1}, {});
   EXPECT_TRUE(scene.publish().empty());
-  scene.changed(0, at(11, 11), at(0, 1));
+  scene.changed(0, cellsAt(11, 11), cellsAt(0, 1));
   scene.drew({0, 1}, {});
   EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
 }
 
 TEST(Publisher, ABlockedObjectIsPublishedAsStandingStill) {
-  Scene scene;
-  scene.changed(0, at(10, 10), at(1, 0));
-  scene.drew(0, at(10, 10));
+  ViewScene scene;
+  scene.changed(0, cellsAt(10, 10), cellsAt(1, 0));
+  scene.drew(0, cellsAt(10, 10));
   scene.publish();
-  scene.changed(0, at(10, 10));  // blocked: no velocity
-  scene.drew(0, at(10, 10));
+  scene.changed(0, cellsAt(10, 10));  // blocked: no velocity
+  scene.drew(0, cellsAt(10, 10));
   EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
   EXPECT_FALSE(isMoving(scene.publisher.find(0)->state.motion));
   for (int i = 0; i < 10; ++i) {  // not reported again while it stands
-    scene.drew(0, at(10, 10));
+    scene.drew(0, cellsAt(10, 10));
     EXPECT_TRUE(scene.publish().empty());
   }
 }
 
 TEST(Publisher, AnObjectThatIsNotReportedStandsStillEvenIfItLastMoved) {
-  Scene scene;
-  scene.changed(0, at(10, 10), at(1, 0));
-  scene.drew(0, at(10, 10));
+  ViewScene scene;
+  scene.changed(0, cellsAt(10, 10), cellsAt(1, 0));
+  scene.drew(0, cellsAt(10, 10));
   scene.publish();
-  scene.drew(0, at(10, 10));
+  scene.drew(0, cellsAt(10, 10));
   EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
   EXPECT_FALSE(isMoving(scene.publisher.find(0)->state.motion));
 }
 
 TEST(Publisher, SolidObjectsThatStandAreExactOnceAClientPredicts) {
-  Scene scene;
-  const df::FixedVector position = at(10.3, 10.2);
+  ViewScene scene;
+  const df::FixedVector position = cellsAt(10.3, 10.2);
   scene.changed(0, position);
   scene.drew(0, position);
   scene.publish();
@@ -254,51 +252,51 @@ TEST(Publisher, SolidObjectsThatStandAreExactOnceAClientPredicts) {
   EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
   EXPECT_EQ(scene.publisher.find(0)->state.motion.position, position);
   // One that comes to rest within its cell is exact again.
-  scene.changed(0, position, at(0.1, 0));
+  scene.changed(0, position, cellsAt(0.1, 0));
   scene.drew(0, position);
   scene.publish();
-  scene.changed(0, position + at(0.05, 0));
-  scene.drew(0, position + at(0.05, 0));
+  scene.changed(0, position + cellsAt(0.05, 0));
+  scene.drew(0, position + cellsAt(0.05, 0));
   EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
-  EXPECT_EQ(scene.publisher.find(0)->state.motion.position, position + at(0.05, 0));
+  EXPECT_EQ(scene.publisher.find(0)->state.motion.position, position + cellsAt(0.05, 0));
 }
 
 TEST(Publisher, ANewCharacterIsALookAndNothingElse) {
-  Scene scene;
-  scene.changed(0, at(10, 10));
-  scene.drew(0, at(10, 10), U'a');
+  ViewScene scene;
+  scene.changed(0, cellsAt(10, 10));
+  scene.drew(0, cellsAt(10, 10), U'a');
   scene.publish();
-  scene.drew(0, at(10, 10), U'b');
+  scene.drew(0, cellsAt(10, 10), U'b');
   EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
   EXPECT_EQ(scene.publisher.find(0)->state.look.sequence[0][0].ch, U'b');
   EXPECT_EQ(scene.publisher.correctionCount(), 0u);
 }
 
 TEST(Publisher, BoxAndAltitudeAreBodyAndLook) {
-  Scene scene;
-  scene.changed(0, at(10, 10));
-  scene.drew(0, at(10, 10));
+  ViewScene scene;
+  scene.changed(0, cellsAt(10, 10));
+  scene.drew(0, cellsAt(10, 10));
   scene.publish();
-  scene.changed(0, at(10, 10)).box = {at(-1, -1), at(2, 2)};
-  scene.drew(0, at(10, 10));
+  scene.changed(0, cellsAt(10, 10)).box = {cellsAt(-1, -1), cellsAt(2, 2)};
+  scene.drew(0, cellsAt(10, 10));
   EXPECT_EQ(groupsOf(scene.publish(), 0), kBody);
-  df::ObjectFacts& facts = scene.changed(0, at(10, 10));
-  facts.box = {at(-1, -1), at(2, 2)};
+  df::ObjectFacts& facts = scene.changed(0, cellsAt(10, 10));
+  facts.box = {cellsAt(-1, -1), cellsAt(2, 2)};
   facts.altitude = 4;
-  scene.drew(0, at(10, 10));
+  scene.drew(0, cellsAt(10, 10));
   EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
   EXPECT_EQ(scene.publisher.find(0)->state.look.altitude, 4);
 }
 
 TEST(Publisher, AHalfCellSpriteFliesFree) {
-  Scene scene;
-  df::FixedVector position = at(5.3, 5.1);
-  const df::FixedVector velocity = at(0.37, 0.11);
+  ViewScene scene;
+  df::FixedVector position = cellsAt(5.3, 5.1);
+  const df::FixedVector velocity = cellsAt(0.37, 0.11);
   std::size_t corrections = 0;
   for (int i = 0; i < 1000; ++i) {
     scene.changed(0, position, velocity);
     std::vector<df::DrawCommand> sprite;
-    for (int k = 0; k < 4; ++k) sprite.push_back({position + at(k - 1.5, -0.5), U'#', df::RED});
+    for (int k = 0; k < 4; ++k) sprite.push_back({position + cellsAt(k - 1.5, -0.5), U'#', df::RED});
     scene.drew({0, 1}, sprite);
     const std::size_t changes = scene.publish().size();
     ASSERT_TRUE(i == 0 || changes == 0 || i >= 64) << "tick " << i;
@@ -311,34 +309,34 @@ TEST(Publisher, AHalfCellSpriteFliesFree) {
 }
 
 TEST(Publisher, AHiddenObjectLosesItsLookAndGetsItBack) {
-  Scene scene;
-  scene.changed(0, at(10, 10));
-  scene.drew(0, at(10, 10));
+  ViewScene scene;
+  scene.changed(0, cellsAt(10, 10));
+  scene.drew(0, cellsAt(10, 10));
   scene.publish();
-  scene.changed(0, at(10, 10)).shown = false;
+  scene.changed(0, cellsAt(10, 10)).shown = false;
   EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
   EXPECT_EQ(scene.publisher.find(0)->state.look.select(0), nullptr);
   EXPECT_TRUE(scene.publish().empty());
-  scene.changed(0, at(10, 10));
-  scene.drew(0, at(10, 10));
+  scene.changed(0, cellsAt(10, 10));
+  scene.drew(0, cellsAt(10, 10));
   EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
 }
 
 TEST(Publisher, ASolidObjectThatStopsAndHidesIsHiddenAtOnce) {
-  Scene scene;
+  ViewScene scene;
   scene.view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
-  scene.changed(0, at(10.3, 10), at(0.2, 0));
-  scene.drew(0, at(10.3, 10));
+  scene.changed(0, cellsAt(10.3, 10), cellsAt(0.2, 0));
+  scene.drew(0, cellsAt(10.3, 10));
   scene.publish();
-  scene.changed(0, at(10.35, 10)).shown = false;  // its path has to be made exact in the same tick
+  scene.changed(0, cellsAt(10.35, 10)).shown = false;  // its path has to be made exact in the same tick
   EXPECT_EQ(groupsOf(scene.publish(), 0), kLook | kMotion);
   EXPECT_EQ(scene.publisher.find(0)->state.look.select(0), nullptr);
 }
 
 TEST(Publisher, AnObjectThatLeavesEveryViewKeepsItsLook) {
-  Scene scene;
-  df::FixedVector position = at(78, 5);
-  const df::FixedVector velocity = at(1, 0);
+  ViewScene scene;
+  df::FixedVector position = cellsAt(78, 5);
+  const df::FixedVector velocity = cellsAt(1, 0);
   for (int i = 0; i < 20; ++i) {
     scene.changed(0, position, velocity);
     if (df::cellOf(position.x) < 80) scene.drew(0, position);
@@ -350,11 +348,11 @@ TEST(Publisher, AnObjectThatLeavesEveryViewKeepsItsLook) {
 }
 
 TEST(Publisher, ADeathAndABirthInOneSlotAreOneChangeToTheNewGeneration) {
-  Scene scene;
-  scene.changed(3, at(10, 10));
+  ViewScene scene;
+  scene.changed(3, cellsAt(10, 10));
   scene.publish();
   scene.view().vanished.push_back({3, 1});
-  scene.changed(3, at(11, 11)).key.generation = 2;
+  scene.changed(3, cellsAt(11, 11)).key.generation = 2;
   const auto changes = scene.publish();
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].groups, kAllGroups);
@@ -367,9 +365,9 @@ TEST(Publisher, ADeathAndABirthInOneSlotAreOneChangeToTheNewGeneration) {
 }
 
 TEST(Publisher, LooseCharactersShareOneObjectBeneathAll) {
-  Scene scene;
-  scene.drew({}, {{at(5, 5), U'x', df::RED}});
-  scene.drew({}, {{at(60, 20), U'y', df::RED}});
+  ViewScene scene;
+  scene.drew({}, {{cellsAt(5, 5), U'x', df::RED}});
+  scene.drew({}, {{cellsAt(60, 20), U'y', df::RED}});
   EXPECT_EQ(groupsOf(scene.publish(), kLooseSlot), kAllGroups);
   const ObjectState& state = scene.publisher.find(kLooseSlot)->state;
   ASSERT_EQ(state.look.sequence[0].size(), 2u);
@@ -381,9 +379,9 @@ TEST(Publisher, LooseCharactersShareOneObjectBeneathAll) {
 }
 
 TEST(Publisher, ADrawingTooLargeToDescribeIsSentOnce) {
-  Scene scene;
-  const std::vector<df::DrawCommand> flood(kMaxGlyphs + 100, {at(5, 5), U'█', df::RED});
-  scene.changed(0, at(5, 5));
+  ViewScene scene;
+  const std::vector<df::DrawCommand> flood(kMaxGlyphs + 100, {cellsAt(5, 5), U'█', df::RED});
+  scene.changed(0, cellsAt(5, 5));
   scene.drew({0, 1}, flood);
   EXPECT_EQ(scene.publish().size(), 1u);
   for (int i = 0; i < 3; ++i) {
@@ -393,8 +391,8 @@ TEST(Publisher, ADrawingTooLargeToDescribeIsSentOnce) {
 }
 
 TEST(Publisher, SlotsBeyondTheLastAreRefusedAndCounted) {
-  Scene scene;
-  scene.changed(kLooseSlot, at(5, 5));
+  ViewScene scene;
+  scene.changed(kLooseSlot, cellsAt(5, 5));
   EXPECT_TRUE(scene.publish().empty());
   EXPECT_EQ(scene.publisher.refusedCount(), 1u);
   EXPECT_EQ(scene.publisher.find(kLooseSlot), nullptr);
@@ -486,32 +484,32 @@ TEST(Publisher, ALookThatChangesByItselfIsPublishedOnce) {
   for (const Selector& selector :
        {Selector::clock(1, 3), Selector::clock(1, 5, false), Selector::turning(1, 123456789, 98765432),
         Selector::turning(1, 0, -1'000'003), Selector::fixed(2)}) {
-    Scene scene;
+    ViewScene scene;
     const Look look{wheel(), 2, selector};
-    scene.changed(0, at(10, 10));
-    scene.showed(0, at(10, 10), look);
+    scene.changed(0, cellsAt(10, 10));
+    scene.showed(0, cellsAt(10, 10), look);
     ASSERT_EQ(scene.publish().size(), 1u);
     EXPECT_EQ(scene.publisher.find(0)->state.look, look);
     EXPECT_TRUE(scene.publisher.find(0)->recurs) << "worth a name from the beginning";
     for (int i = 0; i < 5000; ++i) {
-      scene.showed(0, at(10, 10), look);
+      scene.showed(0, cellsAt(10, 10), look);
       ASSERT_TRUE(scene.publish().empty()) << i;
     }
   }
 }
 
 TEST(Publisher, AnotherPaceIsPublishedWithTheFirstFrameThatDiffers) {
-  Scene scene;
+  ViewScene scene;
   Look look{wheel(), 2, Selector::turning(1, 0, 1 << 24)};  // a frame takes 64 ticks
-  scene.changed(0, at(10, 10));
-  scene.showed(0, at(10, 10), look);
+  scene.changed(0, cellsAt(10, 10));
+  scene.showed(0, cellsAt(10, 10), look);
   scene.publish();
   const Look before = look;
   look.selector = Selector::turning(scene.view().tick, before.selector.angleAt(scene.view().tick), 1 << 25);
   int published = 0;
   for (int i = 0; i < 500; ++i) {
     const std::uint32_t tick = scene.view().tick + 1;
-    scene.showed(0, at(10, 10), look);
+    scene.showed(0, cellsAt(10, 10), look);
     const auto changes = scene.publish();
     const bool differs = published == 0 && look.select(tick) != before.select(tick);
     ASSERT_EQ(changes.size(), differs ? 1u : 0u) << tick;
@@ -524,26 +522,26 @@ TEST(Publisher, AnotherPaceIsPublishedWithTheFirstFrameThatDiffers) {
 }
 
 TEST(Publisher, ADrawnLookOverridesTheDeclaredOne) {
-  Scene scene;
+  ViewScene scene;
   const Look look{wheel(), 2, Selector::clock(1, 3)};
-  scene.changed(0, at(10, 10));
+  scene.changed(0, cellsAt(10, 10));
   scene.declares(look);
-  scene.drew({0, 1}, {{at(10, 10), U'?', df::RED}});
+  scene.drew({0, 1}, {{cellsAt(10, 10), U'?', df::RED}});
   scene.publish();
   const Look& published = scene.publisher.find(0)->state.look;
   EXPECT_EQ(published.sequence, (Sequence{{{0, 0, U'?', df::RED}}}));
   EXPECT_EQ(published.selector, Selector{});
-  scene.showed(0, at(10, 10), look);
+  scene.showed(0, cellsAt(10, 10), look);
   scene.publish();
   EXPECT_EQ(published.sequence, wheel());
   EXPECT_EQ(published.selector, look.selector);
 }
 
 TEST(Publisher, ATurningObjectThatFliesOverFractionsOfCellsIsPublishedOnce) {
-  Scene scene;
+  ViewScene scene;
   const Look look{wheel(), 2, Selector::turning(1, 5, 55'555'555)};
-  df::FixedVector position = at(1.25, 3.5);
-  const df::FixedVector velocity = at(0.3, 0.07);
+  df::FixedVector position = cellsAt(1.25, 3.5);
+  const df::FixedVector velocity = cellsAt(0.3, 0.07);
   scene.changed(0, position, velocity);
   scene.showed(0, position, look);
   scene.publish();

@@ -5,20 +5,13 @@
 
 #include "shared/replica/ViewFollow.h"
 #include "shared/values/Vector.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad::test {
 
-namespace {
-
-df::FixedVector fixed(double x, double y) {
-  return *df::toFixed(df::Vector(x, y));
-}
-
-}  // namespace
-
 SimulatedWorld::SimulatedWorld(const WorldConfig& config, std::uint64_t seed)
     : m_config(config), m_rng(seed) {
-  m_view.boundary = {{0, 0}, fixed(config.width, config.height)};
+  m_view.boundary = {{0, 0}, cellsAt(config.width, config.height)};
   m_view.view_width = config.view_width;
   m_view.view_height = config.view_height;
   for (std::uint32_t id = 1; id <= config.players; ++id) {
@@ -76,8 +69,8 @@ void SimulatedWorld::bear() {
   thing.alive = true;
   thing.facts.key = {slot, generation};
   thing.facts.order = m_next_order++;
-  thing.facts.position = fixed(between(-5, m_config.width + 5), between(-5, m_config.height + 5));
-  thing.facts.box = {fixed(-8, -1), fixed(16, 2)};  // covers every look
+  thing.facts.position = cellsAt(between(-5, m_config.width + 5), between(-5, m_config.height + 5));
+  thing.facts.box = {cellsAt(-8, -1), cellsAt(16, 2)};  // covers every look
   turn(thing);
   restyle(thing);
   m_order.push_back(slot);
@@ -98,10 +91,10 @@ void SimulatedWorld::follow(df::PlayerFacts& player) {
   if (m_order.empty() || chance(0.2)) return;
   const Thing& thing = m_things[m_order[m_rng.below(m_order.size())]];
   player.followed = thing.facts.key;
-  const ViewFrame frame{player.view_corner, fixed(m_config.view_width, m_config.view_height),
+  const ViewFrame frame{player.view_corner, cellsAt(m_config.view_width, m_config.view_height),
                         m_view.boundary};
   player.view_corner =
-      clampView(frame, thing.facts.position - fixed(m_config.view_width / 2.0, m_config.view_height / 2.0));
+      clampView(frame, thing.facts.position - cellsAt(m_config.view_width / 2.0, m_config.view_height / 2.0));
 }
 
 void SimulatedWorld::turn(Thing& thing) {
@@ -109,9 +102,9 @@ void SimulatedWorld::turn(Thing& thing) {
   thing.acceleration = {};
   const double kind = m_rng.unit();
   if (kind < 0.3) return;
-  thing.velocity = fixed(between(-1, 1), between(-0.5, 0.5));
-  if (kind < 0.5) thing.velocity = fixed(chance(0.5) ? 1 : -1, 0);
-  if (kind > 0.9) thing.acceleration = fixed(between(-0.05, 0.05), between(-0.02, 0.02));
+  thing.velocity = cellsAt(between(-1, 1), between(-0.5, 0.5));
+  if (kind < 0.5) thing.velocity = cellsAt(chance(0.5) ? 1 : -1, 0);
+  if (kind > 0.9) thing.acceleration = cellsAt(between(-0.05, 0.05), between(-0.02, 0.02));
 }
 
 void SimulatedWorld::restyle(Thing& thing) {
@@ -124,11 +117,11 @@ void SimulatedWorld::restyle(Thing& thing) {
   if (kind < 0.5) {
     thing.look.push_back({{}, letter, color});
   } else if (kind < 0.7) {  // a sprite of even width: its cells lie at half offsets
-    for (int i = 0; i < 4; ++i) thing.look.push_back({fixed(i - 1.5, 0), letter, color});
+    for (int i = 0; i < 4; ++i) thing.look.push_back({cellsAt(i - 1.5, 0), letter, color});
   } else if (kind < 0.8) {  // a string, blanks included
-    for (int i = 0; i < 6; ++i) thing.look.push_back({fixed(i - 3, 1), i == 3 ? U' ' : U'A' + i, color});
+    for (int i = 0; i < 6; ++i) thing.look.push_back({cellsAt(i - 3, 1), i == 3 ? U' ' : U'A' + i, color});
   } else if (kind < 0.9) {  // at an offset that no 1/256 expresses
-    thing.look.push_back({fixed(between(-1, 1), between(-1, 1)), letter, color});
+    thing.look.push_back({cellsAt(between(-1, 1), between(-1, 1)), letter, color});
   }  // else: draws nothing
 }
 
@@ -170,10 +163,10 @@ bool SimulatedWorld::meddle(Thing& thing) {
     thing.facts.altitude = static_cast<int>(m_rng.below(5));
     thing.facts.solidness = static_cast<df::Solidness>(m_rng.below(3));
     thing.facts.no_soft = chance(0.5);
-    thing.facts.box.size = fixed(16 + between(0, 2), 2);
+    thing.facts.box.size = cellsAt(16 + between(0, 2), 2);
   }
   if (chance(m_config.turn / 10))
-    thing.facts.position = fixed(between(0, m_config.width), between(0, m_config.height));
+    thing.facts.position = cellsAt(between(0, m_config.width), between(0, m_config.height));
   const df::ObjectFacts& after = thing.facts;
   return before.position != after.position || before.shown != after.shown ||
          before.altitude != after.altitude || before.solidness != after.solidness ||
@@ -197,7 +190,7 @@ bool SimulatedWorld::move(Thing& thing, bool quiet) {
   facts.acceleration = thing.acceleration;
   for (df::PlayerFacts& player : m_view.players) {
     if (player.followed != facts.key) continue;
-    const ViewFrame frame{player.view_corner, fixed(m_config.view_width, m_config.view_height),
+    const ViewFrame frame{player.view_corner, cellsAt(m_config.view_width, m_config.view_height),
                           m_view.boundary};
     player.view_corner = followView(frame, facts.position);
   }
@@ -208,7 +201,7 @@ void SimulatedWorld::scribble() {
   m_view.drawn.push_back({{}, static_cast<std::uint32_t>(m_view.commands.size()), 0});
   for (auto n = 1 + m_rng.below(5); n > 0; --n) {
     m_view.commands.push_back(
-        {fixed(between(0, m_config.width), between(0, m_config.height)), U'*', df::YELLOW});
+        {cellsAt(between(0, m_config.width), between(0, m_config.height)), U'*', df::YELLOW});
     ++m_view.drawn.back().count;
   }
 }
@@ -236,7 +229,7 @@ void SimulatedWorld::draw() {
           std::any_of(m_view.players.begin(), m_view.players.end(), [&](const df::PlayerFacts& player) {
             const df::FixedVector corner{df::fromCells(df::cellOf(player.view_corner.x)),
                                          df::fromCells(df::cellOf(player.view_corner.y))};
-            return df::intersects(box, {corner, fixed(m_config.view_width, m_config.view_height)});
+            return df::intersects(box, {corner, cellsAt(m_config.view_width, m_config.view_height)});
           });
       if (!in_view) continue;
       if (thing.p_told != nullptr) {

@@ -6,15 +6,13 @@
 #include "DirectSender.h"
 #include "SimulatedWorld.h"
 #include "host/snapshot/SnapshotSender.h"
+#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
 
+using test::cellsAt;
 using test::DirectSender;
-
-df::FixedVector at(double x, double y) {
-  return test::cellsAt(x, y);
-}
 
 TEST(SnapshotSender, RespectsTheRecordLimitFor700Births) {
   DirectSender direct(700);
@@ -53,13 +51,13 @@ TEST(SnapshotSender, UntilABirthIsAcknowledgedEveryRecordIsABirth) {
   df::ObjectFacts facts;
   facts.key = {0, 1};
   facts.order = 1;
-  facts.position = at(9, 9);
+  facts.position = cellsAt(9, 9);
   direct.view().changed.push_back(facts);
   auto snapshots = direct.tick();
   ASSERT_EQ(snapshots.size(), 1u);
   EXPECT_EQ(direct.decoded(snapshots[0]).objects[0].groups, kAllGroups);
   direct.acknowledge(2, 0);
-  facts.position = at(12, 9);
+  facts.position = cellsAt(12, 9);
   direct.view().changed.push_back(facts);
   snapshots = direct.tick();
   ASSERT_EQ(snapshots.size(), 1u);
@@ -84,8 +82,8 @@ TEST(SnapshotSender, ALostSnapshotIsSentAgainInItsNewestState) {
   df::ObjectFacts facts;
   facts.key = {0, 1};
   facts.order = 1;
-  facts.position = at(9, 9);
-  facts.velocity = at(1, 0);
+  facts.position = cellsAt(9, 9);
+  facts.velocity = cellsAt(1, 0);
   direct.view().changed.push_back(facts);
   ASSERT_EQ(direct.tick().size(), 1u);  // number 2 gets lost
   std::uint32_t empty = 0;
@@ -184,7 +182,7 @@ TEST(SnapshotSender, ALossOfWhatIsPendingAgainIsNoDivergence) {
   df::ObjectFacts second_object;
   second_object.key = {1, 1};
   second_object.order = 2;
-  second_object.position = at(3, 3);
+  second_object.position = cellsAt(3, 3);
   direct.view().changed.push_back(second_object);
   const auto second = direct.tick();  // a death and a birth, which do not arrive
   ASSERT_EQ(second.size(), 1u);

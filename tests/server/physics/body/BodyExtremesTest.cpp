@@ -12,13 +12,13 @@
 
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"
+#include "tests/support/NotANumber.h"
 
 namespace df::test {
 namespace {
 
 using Bits = std::vector<std::uint64_t>;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Made = std::vector<Object*>;

@@ -8,6 +8,7 @@
 #include "physics/body/Field.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/server/physics/BodyScene.h"
+#include "tests/support/NotANumber.h"
 
 namespace df::test {
 namespace {
@@ -237,7 +238,6 @@ TEST_F(BodyImpacts, AClosedSystemKeepsItsMomentum) {
 
 // Problem 18.
 TEST_F(BodyImpacts, BadNumbersChangeNoOtherBody) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const auto run = [&](int poison) {
     World there;
     const World::Scope inside(there);

@@ -8,11 +8,10 @@
 #include "engine/world/World.h"
 #include "physics/body/Body.h"
 #include "physics/body/PhysicsManager.h"
+#include "tests/support/NotANumber.h"
 
 namespace df {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class BodyShapes : public testing::Test {
  protected:

@@ -17,12 +17,10 @@
 #include "physics/body/PhysicsManager.h"
 #include "physics/body/Seconds.h"
 #include "shared/replica/Motion.h"
+#include "tests/support/NotANumber.h"
 
 namespace df {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Bodies : public testing::Test {
  protected:

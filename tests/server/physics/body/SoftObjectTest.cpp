@@ -13,11 +13,10 @@
 #include "physics/body/PhysicsManager.h"
 #include "physics/body/SoftLayer.h"
 #include "physics/body/SoftObject.h"
+#include "tests/support/NotANumber.h"
 
 namespace df {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class SoftObjects : public testing::Test {
  protected:

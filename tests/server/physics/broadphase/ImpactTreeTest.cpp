@@ -10,7 +10,7 @@
 namespace naiad::physics {
 namespace {
 
-using Pairs = std::vector<std::pair<int, int>>;
+using ItemPairs = std::vector<std::pair<int, int>>;
 
 struct Boxes {
   std::vector<SweptBox> boxes;
@@ -31,8 +31,8 @@ Boxes randomBoxes(SplitMix64& random, int count, double spread) {
   return made;
 }
 
-Pairs allPairs(const Boxes& of) {
-  Pairs pairs;
+ItemPairs allPairs(const Boxes& of) {
+  ItemPairs pairs;
   for (std::size_t i = 0; i < of.boxes.size(); ++i) {
     for (std::size_t k = i + 1; k < of.boxes.size(); ++k) {
       if (overlaps(of.boxes[i], of.boxes[k])) pairs.emplace_back(of.ids[i], of.ids[k]);
@@ -50,7 +50,7 @@ TEST(ImpactTree, FindsEveryPairOnce) {
     for (const double spread : {0.0, 5.0, 100.0}) {
       const Boxes made = randomBoxes(random, count, spread);
       tree.update(made.boxes, made.ids, made.limit);
-      Pairs pairs;
+      ItemPairs pairs;
       tree.queryPairs([&](int i, int j) { pairs.emplace_back(i, j); });
       std::sort(pairs.begin(), pairs.end());
       ASSERT_EQ(pairs, allPairs(made)) << count << ' ' << spread;
@@ -67,7 +67,7 @@ TEST(ImpactTree, FindsEveryPairOfThoseThatMove) {
   Boxes made = randomBoxes(random, 200, 30);
   for (int tick = 0; tick < 50; ++tick) {
     tree.update(made.boxes, made.ids, made.limit);
-    Pairs pairs;
+    ItemPairs pairs;
     tree.queryPairs([&](int i, int j) { pairs.emplace_back(i, j); });
     std::sort(pairs.begin(), pairs.end());
     ASSERT_EQ(pairs, allPairs(made)) << tick;

@@ -10,10 +10,6 @@
 namespace naiad::physics {
 namespace {
 
-Quad q(double x) {
-  return static_cast<Quad>(x);
-}
-
 // ∫∫ of e^−ct in quadruple precision, by a series where the formula would cancel.
 Quad wayOfPush(Quad c, Quad t) {
   const Quad z = c * t;

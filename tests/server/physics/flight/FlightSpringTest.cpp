@@ -10,10 +10,6 @@
 namespace naiad::physics {
 namespace {
 
-Quad q(double x) {
-  return static_cast<Quad>(x);
-}
-
 // x and v at t of x″ = a − kx − cx′, from the characteristic roots.
 struct QuadState {
   Quad x, v;

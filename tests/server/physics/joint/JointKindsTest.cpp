@@ -7,9 +7,8 @@ namespace naiad::physics {
 namespace {
 
 using test::JointScene;
+using test::kDown;
 using test::kTick;
-
-constexpr Vec2 kDown = {0, 10};
 
 double angleAt(const JointScene& scene, int body) {
   return angleOf(scene.body(body).rotation);

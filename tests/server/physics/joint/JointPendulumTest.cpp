@@ -9,9 +9,8 @@ namespace naiad::physics {
 namespace {
 
 using test::JointScene;
+using test::kDown;
 using test::kTick;
-
-constexpr Vec2 kDown = {0, 10};
 
 JointScene pendulum() {
   JointScene scene;

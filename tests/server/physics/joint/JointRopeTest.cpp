@@ -7,9 +7,8 @@ namespace naiad::physics {
 namespace {
 
 using test::JointScene;
+using test::kDown;
 using test::ropeOf;
-
-constexpr Vec2 kDown = {0, 10};
 
 TEST(JointRope, WithAWeightKeepsLengthAndEnergy) {
   for (const double ratio : {1.0, 100.0, 1000.0}) {

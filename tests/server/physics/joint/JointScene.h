@@ -11,6 +11,7 @@
 namespace naiad::physics::test {
 
 inline constexpr double kTick = 1.0 / 30;
+inline constexpr Vec2 kDown = {0, 10};  // gravity
 
 struct JointScene {
   std::vector<JointBody> bodies;

@@ -8,9 +8,8 @@ namespace naiad::physics {
 namespace {
 
 using test::JointScene;
+using test::kDown;
 using test::SceneRandom;
-
-constexpr Vec2 kDown = {0, 10};
 
 // A tree of `count` bodies, free or hung on an immovable one, with any of the hard joints.
 JointScene randomTree(SceneRandom& random, int count, bool is_free) {

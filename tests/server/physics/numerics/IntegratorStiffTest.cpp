@@ -11,10 +11,6 @@
 namespace naiad::physics {
 namespace {
 
-Quad q(double x) {
-  return static_cast<Quad>(x);
-}
-
 void print(const char* name, double error, const IntegratorCounters& c) {
   std::printf(
       "stiff %s: error %.2g, %lld derivatives, %lld steps, %lld rejected, %lld Jacobians, %lld Newton "

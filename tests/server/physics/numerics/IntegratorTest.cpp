@@ -11,10 +11,6 @@
 namespace naiad::physics {
 namespace {
 
-Quad q(double x) {
-  return static_cast<Quad>(x);
-}
-
 struct Kepler : ForceField {
   Vec2 acceleration(Vec2 p, Vec2, double) const override {
     const double r2 = lengthSquared(p);

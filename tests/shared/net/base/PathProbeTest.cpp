@@ -9,34 +9,34 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr PathProbe::Time kStart{1h};
+constexpr PathProbe::Time kProbed{1h};
 
 TEST(PathProbe, IsOpenForASecondAfterEvidence) {
-  PathProbe probe(PathProbe::kOpenFor, kStart);
-  EXPECT_FALSE(probe.isOpen(kStart));
-  probe.addEvidence(kStart);
-  EXPECT_TRUE(probe.isOpen(kStart + 999ms));
-  EXPECT_FALSE(probe.isDue(kStart + 999ms, true));
-  EXPECT_FALSE(probe.isOpen(kStart + 1s));
-  EXPECT_TRUE(probe.isDue(kStart + 1s, false));
+  PathProbe probe(PathProbe::kOpenFor, kProbed);
+  EXPECT_FALSE(probe.isOpen(kProbed));
+  probe.addEvidence(kProbed);
+  EXPECT_TRUE(probe.isOpen(kProbed + 999ms));
+  EXPECT_FALSE(probe.isDue(kProbed + 999ms, true));
+  EXPECT_FALSE(probe.isOpen(kProbed + 1s));
+  EXPECT_TRUE(probe.isDue(kProbed + 1s, false));
 }
 
 TEST(PathProbe, MayBeginWhileThePathIsStillOpen) {
-  PathProbe probe(400ms, kStart - 1min);
-  probe.addEvidence(kStart);
-  EXPECT_FALSE(probe.isDue(kStart + 399ms, true));
-  EXPECT_TRUE(probe.isDue(kStart + 400ms, false));
-  probe.probeSent(kStart + 400ms);
-  EXPECT_FALSE(probe.isDue(kStart + 499ms, false));
-  EXPECT_TRUE(probe.isDue(kStart + 500ms, false));
+  PathProbe probe(400ms, kProbed - 1min);
+  probe.addEvidence(kProbed);
+  EXPECT_FALSE(probe.isDue(kProbed + 399ms, true));
+  EXPECT_TRUE(probe.isDue(kProbed + 400ms, false));
+  probe.probeSent(kProbed + 400ms);
+  EXPECT_FALSE(probe.isDue(kProbed + 499ms, false));
+  EXPECT_TRUE(probe.isDue(kProbed + 500ms, false));
 }
 
 TEST(PathProbe, WithoutEvidenceEverThereIsNothingToBeEagerAbout) {
-  PathProbe probe(400ms, kStart - 1min);
-  probe.probeSent(kStart);
-  EXPECT_FALSE(probe.isDue(kStart + 999ms, false));
-  EXPECT_TRUE(probe.isDue(kStart + 250ms, true)) << "there is no other way";
-  EXPECT_TRUE(probe.isDue(kStart + 1s, false));
+  PathProbe probe(400ms, kProbed - 1min);
+  probe.probeSent(kProbed);
+  EXPECT_FALSE(probe.isDue(kProbed + 999ms, false));
+  EXPECT_TRUE(probe.isDue(kProbed + 250ms, true)) << "there is no other way";
+  EXPECT_TRUE(probe.isDue(kProbed + 1s, false));
 }
 
 }  // namespace

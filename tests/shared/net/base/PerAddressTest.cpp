@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 using Time = TokenBucket::Time;
 
-constexpr Time kStart{1h};
+constexpr Time kFirst{1h};
 constexpr BucketRate kRate{.per_second = 1, .burst = 3};
 
 /// A /64 of its own for each number.
@@ -31,22 +31,22 @@ struct PerAddressTest {
 TEST(PerAddress, PrefixesDoNotTouchEachOther) {
   PerAddressTest table;
   for (std::uint64_t number = 0; number < 100; ++number) {
-    for (int i = 0; i < 5; ++i) EXPECT_EQ(table.takeToken(number, kStart), i < 3);
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(table.takeToken(number, kFirst), i < 3);
   }
 }
 
 TEST(PerAddress, FloodOfPrefixesOnlyFillsBuckets) {
   PerAddressTest table;
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(table.takeToken(42, kStart), i < 3);
-  for (int i = 0; i < 100'000; ++i) EXPECT_TRUE(table.takeToken(table.rng.next(), kStart + 1ms));
-  EXPECT_TRUE(table.takeToken(42, kStart + 2ms));
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(table.takeToken(42, kFirst), i < 3);
+  for (int i = 0; i < 100'000; ++i) EXPECT_TRUE(table.takeToken(table.rng.next(), kFirst + 1ms));
+  EXPECT_TRUE(table.takeToken(42, kFirst + 2ms));
   EXPECT_EQ(table.buckets.size(), 4096u);
 }
 
 TEST(PerAddress, BusyPrefixKeepsItsPlace) {
   PerAddressTest table;
   int taken = 0;
-  Time now = kStart;
+  Time now = kFirst;
   for (int i = 0; i < 100'000; ++i, now += 1us) {
     table.takeToken(table.rng.next(), now);
     if (i % 100 == 0) taken += table.takeToken(42, now);

@@ -10,35 +10,35 @@ namespace {
 using namespace std::chrono_literals;
 using Time = TokenBucket::Time;
 
-constexpr Time kStart{1h};
+constexpr Time kFull{1h};
 
 TEST(TokenBucket, GivesItsBurstAndThenItsRate) {
   const BucketRate rate{.per_second = 10, .burst = 5};
   TokenBucket bucket;
   int taken = 0;
-  for (int i = 0; i < 20; ++i) taken += bucket.takeToken(rate, kStart);
+  for (int i = 0; i < 20; ++i) taken += bucket.takeToken(rate, kFull);
   EXPECT_EQ(taken, 5);
-  for (int i = 1; i <= 10'000; ++i) taken += bucket.takeToken(rate, kStart + i * 1ms);
+  for (int i = 1; i <= 10'000; ++i) taken += bucket.takeToken(rate, kFull + i * 1ms);
   EXPECT_EQ(taken, 105);
-  for (int i = 0; i < 20; ++i) taken += bucket.takeToken(rate, kStart + 1h);
+  for (int i = 0; i < 20; ++i) taken += bucket.takeToken(rate, kFull + 1h);
   EXPECT_EQ(taken, 110);
 }
 
 TEST(TokenBucket, TimeThatGoesBackGivesNothing) {
   const BucketRate rate{.per_second = 1000, .burst = 1};
   TokenBucket bucket;
-  EXPECT_TRUE(bucket.takeToken(rate, kStart));
-  EXPECT_FALSE(bucket.takeToken(rate, kStart - 1h));
-  EXPECT_FALSE(bucket.takeToken(rate, kStart));
-  EXPECT_TRUE(bucket.takeToken(rate, kStart + 1ms));
+  EXPECT_TRUE(bucket.takeToken(rate, kFull));
+  EXPECT_FALSE(bucket.takeToken(rate, kFull - 1h));
+  EXPECT_FALSE(bucket.takeToken(rate, kFull));
+  EXPECT_TRUE(bucket.takeToken(rate, kFull + 1ms));
 }
 
 TEST(TokenBucket, ForcedTokensMakeADebtOfAtMostABurst) {
   const BucketRate rate{.per_second = 1, .burst = 3};
   TokenBucket bucket;
-  for (int i = 0; i < 100; ++i) bucket.forceToken(rate, kStart);
-  EXPECT_FALSE(bucket.takeToken(rate, kStart + 3s));
-  EXPECT_TRUE(bucket.takeToken(rate, kStart + 4s));
+  for (int i = 0; i < 100; ++i) bucket.forceToken(rate, kFull);
+  EXPECT_FALSE(bucket.takeToken(rate, kFull + 3s));
+  EXPECT_TRUE(bucket.takeToken(rate, kFull + 4s));
 }
 
 }  // namespace

@@ -8,11 +8,9 @@
 namespace naiad::test {
 namespace {
 
-constexpr ConnectionId kId{0x0123456789abcdef};
-
 // Made with HMAC-SHA256 and a few lines of Python, from exporter_master_secret 00 01 … 1f.
 TEST(DatagramKeys, KnownAnswersOfAes) {
-  const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kAes128Gcm, kId, 0x13);
+  const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kAes128Gcm, kKnownId, 0x13);
   EXPECT_EQ(toHex(keys.client.key.data(), 16), "4bf58675aeb5d26a6fb351d2ba56c3d4");
   EXPECT_EQ(toHex(keys.client.iv.data(), 12), "84784d40194d0940a7028eaf");
   EXPECT_EQ(toHex(keys.server.key.data(), 16), "8ebd5d909a24e84b1f9686b6ddfe75f1");
@@ -20,7 +18,7 @@ TEST(DatagramKeys, KnownAnswersOfAes) {
 }
 
 TEST(DatagramKeys, KnownAnswersOfChaCha) {
-  const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kChaCha20Poly1305, kId, 0x13);
+  const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kChaCha20Poly1305, kKnownId, 0x13);
   EXPECT_EQ(toHex(keys.client.key.data(), 32),
             "1bc0cc8be1216a553b07211a30a06e3986c4f21d15c63c5cd08f3cde5ea50e01");
   EXPECT_EQ(toHex(keys.client.iv.data(), 12), "d891b999d7072a7ac76783af");
@@ -38,7 +36,7 @@ TEST(DatagramKeys, ExporterIsAskedForWhatThePageSays) {
     asked = bytes;
     return std::string(bytes, 'k');
   };
-  deriveDatagramKeys(spy, AeadId::kChaCha20Poly1305, kId, 0x13);
+  deriveDatagramKeys(spy, AeadId::kChaCha20Poly1305, kKnownId, 0x13);
   EXPECT_EQ(label, "EXPERIMENTAL-naiad-datagram");
   EXPECT_EQ(toHex(context), "0400000002efcdab896745230113000000");
   EXPECT_EQ(asked, 88u);
@@ -64,7 +62,7 @@ TEST(DatagramKeys, NoTwoSessionsEpochsOrCiphersShareKeys) {
 TEST(DatagramKeys, ExporterThatFailsIsAnError) {
   for (const std::size_t size : {0u, 55u, 57u}) {
     const KeyExporter broken = [&](auto, auto, std::size_t) { return std::string(size, 'k'); };
-    EXPECT_THROW(deriveDatagramKeys(broken, AeadId::kAes128Gcm, kId, 0), KeyExportError) << size;
+    EXPECT_THROW(deriveDatagramKeys(broken, AeadId::kAes128Gcm, kKnownId, 0), KeyExportError) << size;
   }
 }
 

@@ -18,8 +18,10 @@ KeyExporter tlsExporter(std::string secret);
 /// The one that the known answers were made with: the bytes 0, 1, … 31.
 KeyExporter knownExporter();
 
+inline constexpr ConnectionId kKnownId{0x0123456789abcdef};
+
 /// Keys of an epoch of a session with knownExporter().
-DatagramKeys knownKeys(AeadId aead, ConnectionId id = {0x0123456789abcdef}, Epoch epoch = 0x13);
+DatagramKeys knownKeys(AeadId aead, ConnectionId id = kKnownId, Epoch epoch = 0x13);
 
 inline constexpr AeadId kBothAeads[] = {AeadId::kAes128Gcm, AeadId::kChaCha20Poly1305};
 

@@ -16,12 +16,11 @@ namespace {
 
 using namespace std::string_literals;
 
-constexpr ConnectionId kId{0x0123456789abcdef};
 constexpr std::size_t kHeader = 11;
 
 std::string sealWith(Sealer& sealer, std::string_view payload, SealDirection direction) {
   std::string packet(kMaxDatagram, '\0');
-  const std::size_t prefix = writeSealedPrefix(direction, 0x13, kId, packet.data());
+  const std::size_t prefix = writeSealedPrefix(direction, 0x13, kKnownId, packet.data());
   packet.replace(prefix + 2, payload.size(), payload);
   packet.resize(sealer.seal(packet.data(), prefix, payload.size()));
   return packet;
@@ -93,7 +92,7 @@ const KnownAnswer kKnownAnswers[] = {
 
 TEST(Seal, KnownAnswers) {
   for (const KnownAnswer& known : kKnownAnswers) {
-    const DatagramKeys keys = knownKeys(known.aead, kId, 0x13);
+    const DatagramKeys keys = knownKeys(known.aead, kKnownId, 0x13);
     Sealer sealer(known.direction == SealDirection::kClientToServer ? keys.client : keys.server);
     std::vector<std::string> packets;
     for (int number = 0; number <= 258; ++number) {
@@ -198,7 +197,7 @@ TEST(Seal, OtherKeysOpenNothing) {
     Sealer sealer(keys.client);
     const std::string packet = sealWith(sealer, "hello");
     for (const SealKey& other :
-         {keys.server, knownKeys(aead, kId, 0x14).client, knownKeys(aead, {1}, 0x13).client}) {
+         {keys.server, knownKeys(aead, kKnownId, 0x14).client, knownKeys(aead, {1}, 0x13).client}) {
       Opener opener(other);
       EXPECT_EQ(openWith(opener, packet), OpenResult::kForged);
     }
@@ -275,7 +274,7 @@ TEST(Seal, PacketsCostNoAllocation) {
     Opener opener(keys.client);
     char packet[kMaxDatagram] = {}, payload[kMaxDatagram];
     const auto one = [&](bool forge) {
-      const std::size_t prefix = writeSealedPrefix(SealDirection::kClientToServer, 0, kId, packet);
+      const std::size_t prefix = writeSealedPrefix(SealDirection::kClientToServer, 0, kKnownId, packet);
       const std::size_t size = sealer.seal(packet, prefix, 100);
       packet[50] = static_cast<char>(packet[50] ^ (forge ? 1 : 0));
       std::uint64_t sequence = 0;

@@ -1,0 +1,7 @@
+// What is not a finite number, for tests of what is refused.
+#pragma once
+
+#include <limits>
+
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
