@@ -19,9 +19,9 @@ class ScriptedLink {
 
   /// What the script says, for at most `ticks` ticks.
   void run(Script& script, int ticks);
-  /// Nothing new happens and nothing is lost, until nothing is owed, for so many ticks at most.
+  /// Nothing new happens and nothing is lost, until nothing is pending, for so many ticks at most.
   void heal(int ticks);
-  /// The replica holds what the server thinks it was told, and draws what the world draws.
+  /// The replica holds what the server thinks was sent to it, and draws what the world draws.
   void requireSame() const;
 
   /// Called with each snapshot that the client got, before it was read.

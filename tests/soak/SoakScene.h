@@ -1,7 +1,7 @@
 // The game of the soak: everything that can be seen happens in it, and it hears every key.
 //
 // Creatures of many looks fly, bounce, turn, are blocked, blink, die and are born on a map three screens
-// wide. Every player has a ship that his view follows; every second one steers it by declared controls.
+// wide. Every player has a ship that the view follows; every second one steers it by declared controls.
 #pragma once
 
 #include <cstdint>

@@ -38,7 +38,7 @@ class VirtualHost {
   /// The socket through which all datagrams of the server go.
   const DatagramSocket& socket() const { return *m_p_socket; }
   const DatagramService& datagrams() const { return *m_datagrams; }
-  /// The session of a player; null if he has none (any more).
+  /// The session of a player; null if there is none (any more).
   Session* find(std::uint32_t player) const;
   /// Players, those in their grace time included.
   std::size_t playing() const;

@@ -1,4 +1,4 @@
-// What the network does to one client: drawn at random, drawn anew now and then.
+// What the network does to one client: drawn at random, drawn again now and then.
 #pragma once
 
 #include <chrono>

@@ -203,7 +203,7 @@ struct Court : Object {
       for (int column = 0; column < 9; ++column)
         new Brick(Vector(23.5 + 4 * column, 9 + row), kColors[static_cast<std::size_t>(row)]);
     const ObjectList balls = WM.objectsOfType("Ball");
-    for (int i = 0; i < balls.getCount(); ++i) {  // they begin anew, a little faster
+    for (int i = 0; i < balls.getCount(); ++i) {  // they begin again, a little faster
       auto* p_ball = static_cast<Ball*>(balls[i]);
       p_ball->rest = kServeTicks;
       p_ball->setVelocity(Vector());

@@ -1,6 +1,6 @@
 // Augmented vertex block descent: body by body, the energy of inertia and of stiff springs with multipliers
 // goes down (Giles, Diaz, Yuksel 2025, with the numbers of the authors' plane demonstration; ten iterations a
-// step). A sub-step is a step of the method, with contacts found anew.
+// step). A sub-step is a step of the method, with contacts found again.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -115,7 +115,7 @@ class Play {
   }
 
  private:
-  // Once: what the channel was told before is lost with it.
+  // Once: what the channel was given before is lost with it.
   void openSecond() {
     if (m_session.state() != Session::State::kPlaying || m_second.callbacks.on_frame) return;
     Session other(std::make_unique<FakeChannel>(m_second), m_counters, m_now);
