@@ -249,7 +249,8 @@ void Bot::press() {
   if (m_random.below(3000) == 0) session.sendChat("all is well with " + std::to_string(m_number));
 }
 
-// The server lets go of the keys of one who is cut off; that may come before their own release of the same key.
+// The server lets go of the keys of one who is cut off; that may come before their own release of the same
+// key.
 void Bot::heard(const Heard& what) {
   const bool is_release = !what.is_mouse && what.action == df::KEY_RELEASED;
   const bool is_next = !m_unheard.empty() && m_unheard.front().what == what.what &&

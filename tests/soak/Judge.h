@@ -1,8 +1,8 @@
 // Holds what clients show against what the server drew.
 //
-// A picture counts if everything has been sent to its client by then. The client alone cannot know: what a lost
-// snapshot said may still be on its way again. So the server is asked, as for the checksum of the protocol,
-// with exactly what has arrived; while it cannot tell yet, the picture waits.
+// A picture counts if everything has been sent to its client by then. The client alone cannot know: what a
+// lost snapshot said may still be on its way again. So the server is asked, as for the checksum of the
+// protocol, with exactly what has arrived; while it cannot tell yet, the picture waits.
 #pragma once
 
 #include <array>
