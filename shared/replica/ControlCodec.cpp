@@ -6,6 +6,7 @@
 #include "shared/replica/Bytes.h"
 #include "shared/replica/Limits.h"
 #include "shared/replica/MotionCodec.h"
+#include "shared/values/FixedRange.h"
 
 namespace naiad {
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdlib>
 
+#include "shared/values/FixedRange.h"
+
 namespace naiad {
 
 // The layout, drawn out in PROTOCOL.md:

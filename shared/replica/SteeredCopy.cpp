@@ -1,5 +1,7 @@
 #include "shared/replica/SteeredCopy.h"
 
+#include "shared/values/FixedRange.h"
+
 namespace naiad {
 
 SteeredCopy::SteeredCopy(const ControlRecord& known, const df::ControlTable& table,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shared/values/FixedRange.h"
+
 namespace df {
 
 namespace {

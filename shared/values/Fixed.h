@@ -28,9 +28,6 @@ inline constexpr Fixed kFixedOne = Fixed{1} << kFixedBits;
 inline constexpr double kMaxCells = 2e9;
 /// Largest magnitude of a velocity or acceleration component, in cells per tick (2^24).
 inline constexpr double kMaxVelocityCells = 16777216.0;
-/// The same as fixed-point numbers.
-inline constexpr Fixed kMaxPosition = static_cast<Fixed>(kMaxCells) * kFixedOne;
-inline constexpr Fixed kMaxVelocity = static_cast<Fixed>(kMaxVelocityCells) * kFixedOne;
 
 /// A pair of coordinates. Plain data; arithmetic is exact as long as the ranges above are kept.
 struct FixedVector {
@@ -94,14 +91,6 @@ inline std::optional<Fixed> toFixed(double cells, double limit = kMaxCells) {
 constexpr std::int32_t cellOf(Fixed value) {
   const auto shifted = static_cast<std::uint64_t>(value) + static_cast<std::uint64_t>(kFixedOne / 2);
   return static_cast<std::int32_t>(static_cast<Fixed>(shifted) >> kFixedBits);
-}
-constexpr bool isSameCell(FixedVector a, FixedVector b) {
-  return cellOf(a.x) == cellOf(b.x) && cellOf(a.y) == cellOf(b.y);
-}
-
-/// No coordinate is farther from 0 than `most`.
-constexpr bool isWithin(FixedVector v, Fixed most) {
-  return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most;
 }
 
 #endif

@@ -12,14 +12,15 @@
 namespace naiad::fuzz {
 namespace {
 
-bool isWithin(df::FixedVector v, df::Fixed most) {
+bool staysWithin(df::FixedVector v, df::Fixed most) {
   return std::max(v.x, v.y) <= most && std::min(v.x, v.y) >= -most;
 }
 
 void requireGood(const Motion& motion, std::uint32_t tick) {
   REQUIRE(motion.tick == tick);
-  REQUIRE(isWithin(motion.position, kMaxWirePosition));
-  REQUIRE(isWithin(motion.velocity, kMaxWireVelocity) && isWithin(motion.acceleration, kMaxWireVelocity));
+  REQUIRE(staysWithin(motion.position, kMaxWirePosition));
+  REQUIRE(staysWithin(motion.velocity, kMaxWireVelocity) &&
+          staysWithin(motion.acceleration, kMaxWireVelocity));
 }
 
 void requireGood(const Appearance& appearance) {

@@ -4,6 +4,7 @@
 
 #include "shared/replica/Acks.h"
 #include "shared/replica/ViewFollow.h"
+#include "shared/values/FixedRange.h"
 
 namespace naiad {
 

@@ -6,6 +6,7 @@
 #include "host/snapshot/LookCapture.h"
 #include "host/snapshot/Publisher.h"
 #include "shared/replica/Acks.h"
+#include "shared/values/FixedRange.h"
 
 namespace naiad {
 

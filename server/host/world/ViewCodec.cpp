@@ -11,6 +11,7 @@
 #include "shared/replica/ControlCodec.h"
 #include "shared/replica/Limits.h"
 #include "shared/replica/LookCodec.h"
+#include "shared/values/FixedRange.h"
 
 namespace naiad {
 

@@ -1,0 +1,20 @@
+// The largest places and velocities as fixed-point numbers, and what is compared with such.
+#pragma once
+
+#include "shared/values/Fixed.h"
+
+namespace df {
+
+inline constexpr Fixed kMaxPosition = static_cast<Fixed>(kMaxCells) * kFixedOne;
+inline constexpr Fixed kMaxVelocity = static_cast<Fixed>(kMaxVelocityCells) * kFixedOne;
+
+/// No coordinate is farther from 0 than `most`.
+constexpr bool isWithin(FixedVector v, Fixed most) {
+  return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most;
+}
+
+constexpr bool isSameCell(FixedVector a, FixedVector b) {
+  return cellOf(a.x) == cellOf(b.x) && cellOf(a.y) == cellOf(b.y);
+}
+
+}  // namespace df
