@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "Line.h"
+#include "ResultLine.h"
 #include "Suite.h"
 #include "capacity/suite/Worker.h"
 #include "path/suite/Subprocess.h"

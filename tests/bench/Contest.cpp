@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "Clock.h"
+#include "ElapsedTime.h"
 
 namespace bench {
 

@@ -7,15 +7,15 @@
 #include <memory>
 #include <string>
 
-#include "Clock.h"
-#include "Line.h"
+#include "ElapsedTime.h"
+#include "ResultLine.h"
 #include "Suite.h"
 #include "engine/world/Player.h"
 #include "engine/world/Runner.h"
 #include "engine/world/World.h"
 #include "host/program/GameModule.h"
 #include "net/LinkedClient.h"
-#include "server/games/RandomPlayers.h"
+#include "tests/server/games/RandomPlayers.h"
 
 namespace bench {
 

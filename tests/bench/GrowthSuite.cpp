@@ -3,8 +3,8 @@
 #include <string>
 
 #include "Contest.h"
-#include "Line.h"
 #include "NaiadEngine.h"
+#include "ResultLine.h"
 #include "Scene.h"
 #include "Suite.h"
 #include "peers/ChipmunkTuning.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "Clock.h"
 #include "Contest.h"
-#include "Line.h"
+#include "ElapsedTime.h"
+#include "ResultLine.h"
 #include "Scene.h"
 #include "Suite.h"
 #include "engine/events/EventOut.h"

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "Line.h"
+#include "ResultLine.h"
 #include "Suite.h"
 
 namespace bench {

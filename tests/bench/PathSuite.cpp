@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "Line.h"
+#include "ResultLine.h"
 #include "Suite.h"
 #include "path/suite/Measurement.h"
 #include "path/suite/Peers.h"

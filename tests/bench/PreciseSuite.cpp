@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "Bins.h"
-#include "Clock.h"
 #include "Contest.h"
+#include "ElapsedTime.h"
 #include "Glyphs.h"
-#include "Line.h"
+#include "ResultLine.h"
 #include "Suite.h"
 #include "engine/events/EventOut.h"
 #include "engine/managers/WorldManager.h"

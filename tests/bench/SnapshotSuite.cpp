@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "Line.h"
+#include "ResultLine.h"
 #include "Suite.h"
 #include "net/BusyScene.h"
 #include "net/LinkedClient.h"

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "Casts.h"
-#include "Clock.h"
 #include "Contest.h"
 #include "Course.h"
-#include "Line.h"
+#include "ElapsedTime.h"
+#include "ResultLine.h"
 #include "Suite.h"
 #include "peers/Box2dCasts.h"
 

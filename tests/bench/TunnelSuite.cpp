@@ -3,8 +3,8 @@
 // counts.
 #include <string>
 
-#include "Line.h"
 #include "Range.h"
+#include "ResultLine.h"
 #include "Shots.h"
 #include "Suite.h"
 #include "shared/values/SplitMix64.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "Contest.h"
-#include "Line.h"
 #include "NaiadEngine.h"
+#include "ResultLine.h"
 #include "Scene.h"
 #include "Suite.h"
 #include "peers/ChipmunkTuning.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "Line.h"
+#include "ResultLine.h"
 #include "Suite.h"
 
 namespace {

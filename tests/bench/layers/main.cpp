@@ -11,11 +11,11 @@
 #include <string>
 
 #include "Heap.h"
-#include "Scene.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
+#include "tests/bench/Scene.h"
 
 namespace bench {
 

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "Clock.h"
+#include "ElapsedTime.h"
 #include "Peers.h"
 
 namespace bench {

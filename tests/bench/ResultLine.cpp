@@ -1,4 +1,4 @@
-#include "Line.h"
+#include "ResultLine.h"
 
 #include <unistd.h>
 
