@@ -19,6 +19,7 @@ struct ClientReplica {
 
   bool hasPending() const { return state.hasPending() || !objects.pendingIds().empty(); }
   void confirmArrival(const Flight::Snapshot& snapshot) {
+    for (const KnownObjects::Sent& sent : snapshot.objects) objects.prefetch(sent.id);
     state.confirmArrival(snapshot.number, snapshot.probe);
     for (const KnownObjects::Sent& sent : snapshot.objects) objects.confirmArrival(sent, snapshot.number);
     for (const auto& [id, sum] : snapshot.names) names.confirmArrival(id, sum, snapshot.number);

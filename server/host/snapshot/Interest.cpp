@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace naiad {
 
@@ -98,7 +99,27 @@ void Interest::removeObject(std::uint32_t id, std::uint32_t slot) {
 void Interest::noteChanges() {
   thread_local ChangeIndex::Marks marks;
   markChanges(marks);
-  ChangeIndex::forEachMarked(marks, [this](std::size_t i) { noteChange(m_p_publisher->changes()[i]); });
+  Changes changes;
+  std::size_t count = 0;
+  ChangeIndex::forEachMarked(marks, [&](std::size_t i) {
+    const Publisher::Change& change = m_p_publisher->changes()[i];
+    m_p_known->prefetchSlot(change.slot);
+    changes[count++] = &change;
+    if (count == changes.size()) noteChanges(changes, std::exchange(count, 0));
+  });
+  noteChanges(changes, count);
+}
+
+// What is known of so many objects is fetched at once: one after another would cost 7 % of a server's
+// capacity.
+void Interest::noteChanges(const Changes& changes, std::size_t count) {
+  std::array<std::uint32_t, std::tuple_size_v<Changes>> ids;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t slot = changes[i]->slot;
+    ids[i] = mayBeKnown(slot) ? m_p_known->find(slot) : KnownObjects::kNone;
+    if (ids[i] != KnownObjects::kNone) m_p_known->prefetch(ids[i]);
+  }
+  for (std::size_t i = 0; i < count; ++i) noteChange(*changes[i], ids[i]);
 }
 
 // Mark the changes of objects that may be known or may enter the view.
@@ -114,8 +135,7 @@ void Interest::markChanges(ChangeIndex::Marks& marks) const {
   }
 }
 
-void Interest::noteChange(const Publisher::Change& change) {
-  const std::uint32_t id = mayBeKnown(change.slot) ? m_p_known->find(change.slot) : KnownObjects::kNone;
+void Interest::noteChange(const Publisher::Change& change, std::uint32_t id) {
   if (id == KnownObjects::kNone) {
     if (change.groups != 0) considerObject(change.slot);
     return;

@@ -47,9 +47,11 @@ class Interest {
   /// Cells to spare around a view that moves.
   static constexpr std::int64_t kSpare = 4;
 
+  using Changes = std::array<const Publisher::Change*, 32>;
   void noteChanges();
   void markChanges(ChangeIndex::Marks& marks) const;
-  void noteChange(const Publisher::Change& change);
+  void noteChanges(const Changes& changes, std::size_t count);
+  void noteChange(const Publisher::Change& change, std::uint32_t id);
   void considerObject(std::uint32_t slot);
   void judgeCandidates();
   bool isSearchDue() const;

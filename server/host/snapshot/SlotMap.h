@@ -18,6 +18,10 @@ class SlotMap {
       if (m_entries[i].slot == kNone) return kNone;
     }
   }
+  /// Have memory fetched: find() will be asked for `slot`.
+  void prefetch(std::uint32_t slot) const {
+    if (!m_entries.empty()) __builtin_prefetch(&m_entries[home(slot)]);
+  }
   /// `slot` must not be filed.
   void insert(std::uint32_t slot, std::uint32_t id) {
     if (2 * (m_count + 1) > m_entries.size()) grow();
