@@ -11,6 +11,11 @@
 
 namespace naiad {
 
+/// Are both drawn in the same character cell?
+constexpr bool isSameCell(df::FixedVector a, df::FixedVector b) {
+  return df::cellOf(a.x) == df::cellOf(b.x) && df::cellOf(a.y) == df::cellOf(b.y);
+}
+
 struct Motion {
   std::uint32_t tick = 0;  ///< the tick at which `position` and `velocity` hold
   df::FixedVector position;

@@ -13,8 +13,4 @@ constexpr bool isWithin(FixedVector v, Fixed most) {
   return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most;
 }
 
-constexpr bool isSameCell(FixedVector a, FixedVector b) {
-  return cellOf(a.x) == cellOf(b.x) && cellOf(a.y) == cellOf(b.y);
-}
-
 }  // namespace df

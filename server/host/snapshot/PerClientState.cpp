@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "shared/replica/Acks.h"
+#include "shared/replica/Motion.h"
 #include "shared/replica/ViewFollow.h"
-#include "shared/values/FixedRange.h"
 
 namespace naiad {
 
@@ -122,7 +122,7 @@ void PerClientState::queueView(const Publisher& publisher, const KnownObjects& k
     const ViewFrame frame{m_view.corner,
                           {df::fromCells(m_world.view_width), df::fromCells(m_world.view_height)},
                           m_world.boundary};
-    correct = df::isSameCell(viewCornerAt(frame, m_view_tick, motion, publisher.tick()), actual.corner);
+    correct = isSameCell(viewCornerAt(frame, m_view_tick, motion, publisher.tick()), actual.corner);
   }
   if (correct && !isPending(kView)) return;
   m_view = actual;

@@ -6,7 +6,7 @@
 #include "host/snapshot/LookCapture.h"
 #include "host/snapshot/Publisher.h"
 #include "shared/replica/Acks.h"
-#include "shared/values/FixedRange.h"
+#include "shared/replica/Motion.h"
 
 namespace naiad {
 
@@ -74,10 +74,10 @@ void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, std::span<cons
   ObjectState& state = tracked.model.state;
   const df::FixedVector truth = tracked.truth.position;
   const df::FixedVector modelled = positionAt(state.motion, m_tick);
-  if (df::isSameCell(modelled, truth) && drawsTheSame(state.look, m_tick, modelled, drawn)) return;
+  if (isSameCell(modelled, truth) && drawsTheSame(state.look, m_tick, modelled, drawn)) return;
 
   // The usual cause is a path that turned: try the known look at the true position before making a new one.
-  if (!df::isSameCell(modelled, truth) || drawsTheSame(state.look, m_tick, truth, drawn)) {
+  if (!isSameCell(modelled, truth) || drawsTheSame(state.look, m_tick, truth, drawn)) {
     state.motion = truthNow(tracked);
     markChanged(slot, tracked, kMotion);
     ++m_corrections;
@@ -154,7 +154,7 @@ void Publisher::correctUndrawn(const df::WorldView& view) {
 
 void Publisher::correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::WorldView& view) {
   ObjectState& state = tracked.model.state;
-  if (!df::isSameCell(positionAt(state.motion, m_tick), tracked.truth.position)) {
+  if (!isSameCell(positionAt(state.motion, m_tick), tracked.truth.position)) {
     state.motion = truthNow(tracked);
     markChanged(slot, tracked, kMotion);
     ++m_corrections;
