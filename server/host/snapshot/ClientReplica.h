@@ -19,6 +19,8 @@ struct ClientReplica {
 
   bool hasPending() const { return state.hasPending() || !objects.pendingIds().empty(); }
   void confirmArrival(const Flight::Snapshot& snapshot) {
+    // All at once, since they have left the cache: waiting for each took 3.5 % of the time with 1,500
+    // clients.
     for (const KnownObjects::Sent& sent : snapshot.objects) objects.prefetch(sent.id);
     state.confirmArrival(snapshot.number, snapshot.probe);
     for (const KnownObjects::Sent& sent : snapshot.objects) objects.confirmArrival(sent, snapshot.number);

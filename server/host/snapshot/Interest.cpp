@@ -110,8 +110,8 @@ void Interest::noteChanges() {
   noteChanges(changes, count);
 }
 
-// What is known of so many objects is fetched at once: one after another would cost 7 % of a server's
-// capacity.
+// What this client knows of them has left the cache since its last turn, so it is fetched for many at once:
+// with 1,500 clients, waiting for each took 3.5 % of the server's time.
 void Interest::noteChanges(const Changes& changes, std::size_t count) {
   std::array<std::uint32_t, std::tuple_size_v<Changes>> ids;
   for (std::size_t i = 0; i < count; ++i) {

@@ -47,7 +47,7 @@ class KnownObjects {
   /// The id of the object in `slot`, whose birth was sent or is pending; kNone if there is none.
   std::uint32_t find(std::uint32_t slot) const { return m_ids.find(slot); }
   const Known& at(std::uint32_t id) const { return m_known[id]; }
-  /// Have memory fetched that has left the cache since the client's last turn: for find(), and for an id.
+  /// Have the memory of find(slot) fetched, or of what is known of `id`. Both change nothing.
   void prefetchSlot(std::uint32_t slot) const { m_ids.prefetch(slot); }
   void prefetch(std::uint32_t id) const { __builtin_prefetch(&m_known[id], 1); }
   std::size_t idCount() const { return m_known.size(); }

@@ -17,7 +17,7 @@ using naiad::physics::BodyMedium;
 using naiad::physics::BodyRow;
 using naiad::physics::Vec2;
 
-constexpr double kMinMass = 1e-30;  // its inverse is kMaxOfBody
+constexpr double kMinMass = 1e-30;  // its inverse is kMaxBodyNumber
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void Body::absorb() const {
 }
 
 int Body::setMass(double mass) {
-  if (!(mass >= kMinMass && mass <= kMaxOfBody)) return refuseAs("setMass");
+  if (!(mass >= kMinMass && mass <= kMaxBodyNumber)) return refuseAs("setMass");
   row().mass = mass;
   row().inverse_mass = row().is_kinematic ? 0 : 1 / mass;
   m_table->joints.markChanged();

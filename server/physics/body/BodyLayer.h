@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/world/Layer.h"
+#include "engine/world/WorldStore.h"
 #include "physics/body/BodyContacts.h"
 #include "physics/body/BodyImpacts.h"
 #include "physics/body/BodyIslands.h"
@@ -19,6 +20,12 @@
 #include "physics/body/BodyTable.h"
 
 namespace df {
+
+/// Of what is a body, rigid or soft: is it there, and neither inactive nor about to be deleted?
+inline bool takesPart(const WorldStore& store, ObjectKey key) {
+  constexpr std::uint32_t kNeeded = WorldStore::kInWorld | WorldStore::kActive | WorldStore::kBody;
+  return store.isCurrent(key) && (store.flags(key.slot) & kNeeded) == kNeeded;
+}
 
 class BodyLayer : public Layer {
  public:

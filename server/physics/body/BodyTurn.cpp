@@ -33,7 +33,7 @@ BodyForm& Body::form() const {
 void Body::fitBox() {
   const BodyForm& its = form();
   if (its.shapes.empty()) return;
-  Vec2 lower = {kMaxOfBody, kMaxOfBody}, upper = {-kMaxOfBody, -kMaxOfBody};
+  Vec2 lower = {kMaxBodyNumber, kMaxBodyNumber}, upper = {-kMaxBodyNumber, -kMaxBodyNumber};
   for (const Part& shape : its.shapes) {
     naiad::physics::TurnedShape turned;
     turn(shape, its.rotation, turned);

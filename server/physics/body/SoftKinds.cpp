@@ -15,8 +15,8 @@ using naiad::physics::Metric;
 using naiad::physics::Place;
 using naiad::physics::Vec2;
 
-constexpr double kMinOfSoft = 1e-6, kMaxOfSoft = 1e6;  // of mass and stiffness
-constexpr double kUsualDrag = 0.02;                    // per tick
+constexpr double kMinMaterial = 1e-6, kMaxMaterial = 1e6;  // of mass and stiffness
+constexpr double kUsualDrag = 0.02;                        // per tick
 constexpr double kUsualFriction = 0.5;
 
 naiad::physics::SoftBody withUsual(naiad::physics::SoftBody body) {
@@ -52,8 +52,8 @@ Line lineOf(Vector from, Vector to) {
 Rope::Rope(Vector from, Vector to, double mass, double stiffness, int links) {
   setType("Rope");
   const Line line = lineOf(checked("Rope: from", from), checked("Rope: to", to));
-  mass = checked("Rope: mass", mass, kMinOfSoft, kMaxOfSoft, 1);
-  stiffness = checked("Rope: stiffness", stiffness, kMinOfSoft, kMaxOfSoft, 20);
+  mass = checked("Rope: mass", mass, kMinMaterial, kMaxMaterial, 1);
+  stiffness = checked("Rope: stiffness", stiffness, kMinMaterial, kMaxMaterial, 20);
   links = static_cast<int>(checked("Rope: links", links, 0, 200, 0));
   if (links == 0) links = countFor(length(line.displacement), 1, 2, 100);
   naiad::physics::SoftBody body =
@@ -66,8 +66,8 @@ Rope::Rope(Vector from, Vector to, double mass, double stiffness, int links) {
 Beam::Beam(Vector from, Vector to, double mass, double stiffness, bool is_clamped, int elements) {
   setType("Beam");
   const Line line = lineOf(checked("Beam: from", from), checked("Beam: to", to));
-  mass = checked("Beam: mass", mass, kMinOfSoft, kMaxOfSoft, 1);
-  stiffness = checked("Beam: stiffness", stiffness, kMinOfSoft, kMaxOfSoft, 1);
+  mass = checked("Beam: mass", mass, kMinMaterial, kMaxMaterial, 1);
+  stiffness = checked("Beam: stiffness", stiffness, kMinMaterial, kMaxMaterial, 1);
   if (elements != 0) elements = static_cast<int>(checked("Beam: elements", elements, 2, 100, 0));
   const double whole = length(line.displacement);
   if (elements == 0) elements = countFor(whole, 1.5, 4, 32);
@@ -86,8 +86,8 @@ Cloth::Cloth(Vector corner, double width, double height, double mass, double sti
   const Place place = metric.placeAtCells(checked("Cloth: corner", corner));
   width = checked("Cloth: width", width, 0.5, 1000, 10);
   height = checked("Cloth: height", height, 0.5, 1000, 5);
-  mass = checked("Cloth: mass", mass, kMinOfSoft, kMaxOfSoft, 1);
-  stiffness = checked("Cloth: stiffness", stiffness, kMinOfSoft, kMaxOfSoft, 5);
+  mass = checked("Cloth: mass", mass, kMinMaterial, kMaxMaterial, 1);
+  stiffness = checked("Cloth: stiffness", stiffness, kMinMaterial, kMaxMaterial, 5);
   const Vec2 across = metric.fromCells(Vector(width, 0)), down = metric.fromCells(Vector(0, height));
   constexpr double kMesh =
       2.5;  // metric cells: 16 by 4 meshes cost half a millisecond a tick (docs/physics/soft.md)
@@ -114,8 +114,8 @@ Blob::Blob(Vector where, double radius, double mass, double stiffness) {
   const Metric metric(PM.getAspect());
   const Place place = metric.placeAtCells(checked("Blob: where", where));
   radius = checked("Blob: radius", radius, 0.1, 1000, 2);
-  mass = checked("Blob: mass", mass, kMinOfSoft, kMaxOfSoft, 1);
-  stiffness = checked("Blob: stiffness", stiffness, kMinOfSoft, kMaxOfSoft, 1);
+  mass = checked("Blob: mass", mass, kMinMaterial, kMaxMaterial, 1);
+  stiffness = checked("Blob: stiffness", stiffness, kMinMaterial, kMaxMaterial, 1);
   const double load = stiffness * mass;
   constexpr double kGirth = 6.283185307179586;  // 2π
   constexpr double kBend = 0.02;                // of the skin, in load · radius²

@@ -8,7 +8,6 @@
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyEvents.h"
 #include "physics/body/BodyLayer.h"
-#include "physics/body/BodyLimits.h"
 
 namespace df {
 

@@ -1,4 +1,4 @@
-// What a world in a process of its own sends its host, and what it is sent: somebody's game may be at the
+// What a world in a process of its own sends its host, and what it is sent: a stranger's game may be at the
 // other end.
 //
 //   input   0 turn, 1 answers (1) | turn: its fields; answers: each length (2) | fields
