@@ -47,7 +47,7 @@ struct Counters {
   std::uint64_t snapshots = 0;          ///< sent
   std::uint64_t snapshot_bytes = 0;     ///< of their frames
   std::uint64_t skipped_ticks =
-      0;  ///< a client with unsent or unacknowledged bytes was not brought up to date
+      0;  ///< a client with unsent or unacknowledged bytes, or on a full line, was not brought up to date
   std::uint64_t ticks = 0;
   std::uint64_t late_ticks = 0;     ///< began more than 5 ms after their deadline
   std::uint64_t late_worlds = 0;    ///< ticks that began while a world's process was not ready for one

@@ -138,7 +138,7 @@ class Session {
   std::uint32_t player() const { return m_player; }
   const std::string& name() const;
   std::string address() const { return m_streams.peerAddress(); }
-  /// Ticks at whose end this client was not up to date, since it was busy with earlier bytes.
+  /// Ticks at whose end this client was not up to date, since it or its line was busy with earlier bytes.
   std::uint64_t skippedTicks() const { return m_delivery.skippedTicks(); }
   /// The round trip the client measured last, in milliseconds; 0: not yet.
   std::uint32_t rttMillis() const { return m_rtt_millis; }

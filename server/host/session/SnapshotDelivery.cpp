@@ -51,7 +51,7 @@ void SnapshotDelivery::sendProbe(const Publisher& publisher, Time now) {
 void SnapshotDelivery::sendDatagrams(const Publisher& publisher, StreamPair& streams, Time now) {
   const std::uint32_t interval = m_transport.interval(m_sender.loss(), now);
   const auto room = m_datagrams->room();
-  if (publisher.tick() % interval != 0 || !room) return;
+  if (publisher.tick() % interval != 0 || !room) return skipTick();
   const std::size_t bytes = std::min(*room, kMaxDatagramSnapshot);
   SnapshotSender::Packets& packets = packetsOfThread();
   m_sender.build(publisher, {kDatagramsPerTick, bytes, streams.isFirstIdle()}, packets);

@@ -61,7 +61,7 @@ class SnapshotDelivery {
   std::uint32_t tick() const { return m_tick; }
   /// The tick of a snapshot; none if it is not remembered.
   std::optional<std::uint32_t> tickOf(std::uint32_t snapshot) const { return m_ticks.tickOf(snapshot); }
-  /// Ticks at whose end the client was not up to date, since it was busy with earlier bytes.
+  /// Ticks at whose end the client was not up to date, since it or its line was busy with earlier bytes.
   std::uint64_t skippedTicks() const { return m_skipped_ticks; }
   const TransportSelector& transport() const { return m_transport; }
   const SnapshotSender& sender() const { return m_sender; }
