@@ -1,0 +1,151 @@
+"""For what is left: whose fault it is, and which line to change."""
+import os
+import re
+
+OURS, THEIRS, OTHER, SYSTEM, UNCLEAR = "Naiad", "the game", "another engine", "another system", "Naiad or the game"
+
+_MISSING_FILE = re.compile(r"^'?(?P<file>[^\s:']+)'?(?:: No such file or directory| file not found)")
+_NAMED = [re.compile(pattern) for pattern in (
+    r"has no member named '(?P<name>\w+)'", r"'(?P<name>\w+)' is not a member of", r"'(?P<name>\w+)' in namespace 'df'", r"no (?:type|member) named '(?P<name>\w+)'",
+    r"'(?:df::)?(?P<name>\w+)' (?:was not declared|does not name|has not been declared)", r"undeclared identifier '(?P<name>\w+)'",
+    r"unknown type name '(?P<name>\w+)'", r"no matching (?:member )?function for call to '(?:\w+::)*(?P<name>\w+)")]
+_WINDOWS_HEADERS = re.compile(r"^(win\w+|ws2\w+|direct|conio|io|mmsystem|shlobj|shellapi|tlhelp32|psapi|dsound|xinput|fileapi|synchapi|process)\.h$", re.I)
+_WINDOWS_NAMES = re.compile(r"^(\w+_s|__\w*(declspec|stdcall|int64)|_tmain|_T|TCHAR|LPC?W?STR|DWORD|WORD|BOOL|HANDLE|HWND|HINSTANCE|COORD|SOCKET|"
+                            r"WSA\w+|INVALID_\w+|GetAsyncKeyState|Sleep\w*|SetConsole\w*|GetStdHandle|CONSOLE_\w+|PlaySound\w*|MessageBox\w*|"
+                            r"_getch|_kbhit|VK_\w+|closesocket|ioctlsocket|_access|_mkdir|_getcwd|MAX_PATH|TEXT|SND_\w+|DebugBreak|OutputDebugString\w*)$")
+_MAC_HEADERS = re.compile(r"(CoreFoundation|ApplicationServices|Cocoa|mach|mach-o|TargetConditionals|Carbon|AppKit|Foundation|CoreGraphics)\b")
+_NETWORK_HEADERS = re.compile(r'#\s*include\s*[<"](winsock2?|ws2tcpip|sys/socket|netinet/in|arpa/inet|netdb)\.h[>"]', re.I)
+NETWORK_SENTENCE = ("it brings a network of its own and needs none here: the whole game runs on the server, and every dfclient that joins sees "
+                    "it and presses keys; EventKeyboard::getPlayer() says who pressed. Take out these files and what calls them")
+
+
+def missing_name(text):
+    """The name that a message misses, or None."""
+    for pattern in _NAMED:
+        match = pattern.search(text)
+        if match:
+            return match.group("name")
+    return None
+
+
+def missing_file(text):
+    match = _MISSING_FILE.match(text)
+    return match.group("file") if match else None
+
+
+class Blame:
+    """Judges errors of the compiler and the linker.
+
+    with_engine(unit) compiles a unit against the engine's headers that came in the folder, and returns its diagnostics, or
+    None if there are none; `own_engine` says that these are of an engine of the author's own.
+    """
+
+    def __init__(self, naiad, own_engine, engine_text, with_engine):
+        self._naiad, self._own, self._engine_text, self._with_engine = naiad, own_engine, engine_text, with_engine
+        self._checked = {}
+
+    def error(self, unit, diagnostic):
+        """(whose fault it is, what to do about it) for an error of the compiler."""
+        file, name = missing_file(diagnostic.text), missing_name(diagnostic.text)
+        if file:
+            return self._file(os.path.basename(file.replace("\\", "/")), file)
+        if name and _WINDOWS_NAMES.match(name):
+            return SYSTEM, f"{name} is Windows' or Microsoft's: {_instead(name)}"
+        if self._is_gone_with_engine(unit, diagnostic):
+            if self._own:
+                return OTHER, f"the engine in this folder has {name or 'it'}, the published one may not: write it with what Naiad's headers have"
+            return OURS, f"the published engine takes this line and Naiad does not{f' (no {name})' if name else ''}: please report it"
+        if name and self._is_engines(name, diagnostic.text):
+            if "no matching" in diagnostic.text or self._naiad.header_of(name):
+                return UNCLEAR, f"Naiad has {name} and not for these arguments: compare them with the headers, else report it"
+            return OURS, f"the published engine has {name} and Naiad does not: please report it"
+        if name and self._own and re.search(rf"\b{name}\b", self._engine_text):
+            return OTHER, f"{name} is of the engine that came in this folder: the published engine has no such name"
+        return THEIRS, _advice(diagnostic.text, name)
+
+    def _is_engines(self, name, text):
+        """Whether the published engine has the name that a message misses."""
+        owner = re.search(r"'(?:class |struct |const )*(?:df::)?(\w+)[ *&]*' has no member|call to '(?:df::)?(\w+)::", text)
+        if owner:
+            one = owner.group(1) or owner.group(2)
+            known = self._naiad.header_of(one) is not None
+            return self._naiad.was_published(name, (one,) if known else ("Object", "ViewObject", "Event", "Manager"))
+        if "call to" in text:
+            return self._naiad.header_of(name) is not None and f"df::{name}" in text
+        return self._naiad.was_published(name)
+
+    def _file(self, base, path):
+        if _WINDOWS_HEADERS.match(base) or base.lower() in ("winsock2.h", "ws2tcpip.h", "winsock.h"):
+            return SYSTEM, f"{base} is Windows' own: take out what uses it"
+        if _MAC_HEADERS.match(path):
+            return SYSTEM, f"{path} is macOS' own: take out what uses it"
+        if self._naiad.was_published(base):
+            return OURS, f"the published engine has {base} and Naiad does not: please report it"
+        return THEIRS, f"{base} is not in the folder: add it, or take out this line and what needs it"
+
+    def _is_gone_with_engine(self, unit, diagnostic):
+        if unit is None:
+            return False
+        if unit.name not in self._checked:
+            self._checked[unit.name] = self._with_engine(unit)
+        found = self._checked[unit.name]
+        # Where the check itself stops at a file that is not there, it says nothing of the rest.
+        if found is None or any(one.kind == "fatal error" for one in found):
+            return False
+        return not any(one.is_error and (one.file, one.line) == (diagnostic.file, diagnostic.line) for one in found)
+
+    def symbol(self, symbol):
+        """The same for a symbol that no object defines."""
+        plain = re.sub(r"\(.*", "", symbol).replace("[abi:cxx11]", "")
+        parts = [part for part in re.split(r"::|\s", plain) if part]
+        name = parts[-1] if parts else plain
+        if plain.strip() in ("main", "WinMain"):
+            return THEIRS, "no file of the program has a main()"
+        if "df" in parts[:1] or (len(parts) > 1 and self._naiad.header_of(parts[-2]) and not self._own):
+            if self._own:
+                return OTHER, f"{plain} is of the engine that came in this folder"
+            return (OURS, f"the published engine has {plain} and Naiad does not: please report it") \
+                if self._naiad.was_published(name) else (THEIRS, f"{plain} is declared and nowhere defined")
+        if symbol.startswith("__imp_") or _WINDOWS_NAMES.match(name):
+            return SYSTEM, f"{plain} is Windows' own"
+        return THEIRS, f"{plain} is declared, and no source in the folder defines it: add its file, or write it"
+
+
+def _instead(name):
+    if name.endswith("_s"):
+        return f"write {name[:-2]}(), with the arguments that it takes"
+    if re.match(r"GetAsyncKeyState|_getch|_kbhit|VK_", name):
+        return "keys are events (EventKeyboard)"
+    if re.match(r"SOCKET|WSA|closesocket|ioctlsocket|INVALID_", name):
+        return "no network is needed here, see below"
+    return "take it out"
+
+
+def _advice(text, name):
+    """What a student can do about an error of their own."""
+    for pattern, advice in (
+            (r"is ambiguous", f"write ::{name or 'X'} for the game's own, or take out `using namespace`"),
+            (r"marked 'override', but does not override", "give it the arguments of the engine's function: int eventHandler(const df::Event *p_e)"),
+            (r"invalid conversion from 'const ", "add the const that is missing"),
+            (r"invalid new-expression of abstract class|abstract", "write the functions that its base leaves open"),
+            (r"redefinition of|multiple definition", "define it once: #pragma once in headers, functions in a .cpp"),
+            (r"expected ", "the line, or the one before it, is not C++"),
+            (r"no matching function|no declaration matches|candidate expects", "compare the arguments with the declaration"),
+            (r"was not declared|does not name a type|has not been declared|undeclared|unknown type",
+             f"{name or 'the name'} is nowhere declared: include its header, or correct the name"),
+            (r"has no member named", f"the class has no {name}: correct the name"),
+            (r"cannot convert|could not convert", "the types do not fit")):
+        if re.search(pattern, text):
+            return advice
+    return "correct this line"
+
+
+def networks(sources, names):
+    """The sources that bring a network of their own: (file, line) of each first include."""
+    found = []
+    for name in names:
+        for number, line in enumerate(sources.text(name).split("\n"), 1):
+            if _NETWORK_HEADERS.search(line):
+                found.append((name, number))
+                break
+    return found

@@ -1,0 +1,62 @@
+"""Commands with a deadline, a limit of what they print, and nothing left behind. Never through a shell."""
+import os
+import resource
+import selectors
+import signal
+import subprocess
+import time
+
+MAX_OUTPUT = 1 << 20  # bytes that are kept; the rest is read and thrown away
+
+
+class Result:
+    """What became of a command: its exit code (negative: the signal), what it printed, whether the deadline ended it."""
+
+    def __init__(self, code, output, timed_out):
+        self.code, self.output, self.timed_out = code, output, timed_out
+
+
+def limit_self():
+    """Limits that compilers inherit: a source that asks for endless memory or output must not take the machine down."""
+    for what, most in ((resource.RLIMIT_CORE, 0), (resource.RLIMIT_FSIZE, 1 << 30), (resource.RLIMIT_AS, 3 << 30)):
+        hard = resource.getrlimit(what)[1]
+        soft = most if hard == resource.RLIM_INFINITY else min(most, hard)
+        resource.setrlimit(what, (soft, hard))
+
+
+def run(argv, cwd=None, env=None, timeout=120.0):
+    """Runs argv without input, in a process group of its own, which is ended with it."""
+    process = subprocess.Popen(argv, cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, start_new_session=True)
+    kept, timed_out = bytearray(), False
+    deadline = time.monotonic() + timeout
+    try:
+        with selectors.DefaultSelector() as selector:
+            selector.register(process.stdout, selectors.EVENT_READ)
+            while True:
+                left = deadline - time.monotonic()
+                if left <= 0 or not selector.select(left):
+                    timed_out = True
+                    break
+                chunk = os.read(process.stdout.fileno(), 1 << 16)
+                if not chunk:
+                    break
+                kept += chunk[:MAX_OUTPUT - len(kept)]
+        if not timed_out:
+            try:
+                process.wait(max(deadline - time.monotonic(), 0.1))
+            except subprocess.TimeoutExpired:
+                timed_out = True
+    finally:
+        end_group(process.pid)
+        process.wait()
+        process.stdout.close()
+    return Result(process.returncode, kept.decode("utf-8", "replace"), timed_out)
+
+
+def end_group(group):
+    """Ends every process of a group at once."""
+    try:
+        os.killpg(group, signal.SIGKILL)
+    except (ProcessLookupError, PermissionError):
+        pass

@@ -1,0 +1,132 @@
+"""Compiling and linking, and what the compiler said."""
+import concurrent.futures
+import os
+import re
+import shutil
+import time
+import zlib
+
+from .bounded import run
+
+_LINE = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?:(?P<column>\d+):)? (?P<kind>fatal error|error|warning|note): (?P<text>.*)$")
+_WITHIN = re.compile(r"^.+?: (?:In|At) (?P<within>.*):$")
+STANDARDS = ("gnu++20", "gnu++17", "gnu++14")  # what dragonfly::dragonfly asks for, then what games were written in
+
+
+class Diagnostic:
+    """One message: where, what, and the notes that belong to it. `within` is the function that it is in, as g++ names it."""
+
+    def __init__(self, file, line, column, kind, text, within):
+        self.file, self.line, self.column, self.kind, self.text, self.within = file, line, column, kind, text, within
+        self.notes = []  # (file, text)
+
+    @property
+    def is_error(self):
+        return "error" in self.kind
+
+    @property
+    def key(self):
+        return self.file, self.line, self.text
+
+
+def parse(output):
+    """The diagnostics of a compiler's output, with paths as the copy has them."""
+    found, within = [], ""
+    for line in output.splitlines():
+        match = _LINE.match(line)
+        if not match:
+            place = _WITHIN.match(line)
+            within = place.group("within") if place else within
+            continue
+        name = os.path.normpath(match.group("file"))
+        if match.group("kind") == "note":
+            if found:
+                found[-1].notes.append((name, match.group("text")))
+            continue
+        found.append(Diagnostic(name, int(match.group("line")), int(match.group("column") or 1), match.group("kind"),
+                                match.group("text"), within))
+    return found
+
+
+class Unit:
+    """One source of the program: how it is compiled, and what came of it."""
+
+    def __init__(self, name):
+        self.name, self.standard, self.permissive = name, STANDARDS[0], False
+        self.forced = []  # headers that are included before all else
+        self.object, self.output, self.diagnostics, self.timed_out = None, "", [], False
+
+    @property
+    def errors(self):
+        return [one for one in self.diagnostics if one.is_error]
+
+
+class Compiler:
+    """Compiles units of a copy at the same time, as many as there are processors."""
+
+    def __init__(self, program, root, objects, naiad, folders, seconds=120, total_seconds=900):
+        self.program, self.root, self.objects, self.naiad, self.folders = program, root, objects, naiad, folders
+        self.seconds, self.deadline = seconds, time.monotonic() + total_seconds
+        self.definitions, self.extra = [], []
+        self.is_gcc = "clang" not in os.path.basename(os.path.realpath(shutil.which(program) or program))
+        self._launcher = [found] if (found := shutil.which("ccache")) else []
+        # Paths are relative to the copy, so that the same folder is found in ccache wherever its copy lies.
+        self._environment = {**os.environ, "LC_ALL": "C", "CCACHE_BASEDIR": root, "CCACHE_NOHASHDIR": "1"}
+        os.makedirs(objects, exist_ok=True)
+
+    def compile(self, units, progress=lambda done, all: None):
+        """Compiles these units again."""
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+            for count, _ in enumerate(pool.map(self._compile, units), 1):
+                progress(count, len(units))
+
+    def _compile(self, unit):
+        unit.object, result = self._object(unit), None
+        left = self.deadline - time.monotonic()
+        if left > 0:
+            result = run(self._launcher + self._command(unit), self.root, self._environment, min(self.seconds, left))
+        if result is None or result.timed_out:
+            unit.object, unit.timed_out, unit.diagnostics = None, True, []
+            return
+        unit.timed_out, unit.output, unit.diagnostics = False, result.output, parse(result.output)
+        if result.code != 0:
+            unit.object = None
+            if not unit.errors:  # the compiler itself failed
+                said = result.output.strip().splitlines()
+                unit.diagnostics.append(Diagnostic(unit.name, 0, 1, "error", said[-1] if said else "the compiler crashed", ""))
+
+    def _object(self, unit):
+        return os.path.join(self.objects, re.sub(r"\W", "_", unit.name)[-80:] + f"_{zlib.crc32(os.fsencode(unit.name)):08x}.o")
+
+    def _command(self, unit):
+        command = [self.program, "-std=" + unit.standard, "-g1", "-O0", "-fPIC", "-fmax-errors=30" if self.is_gcc else "-ferror-limit=30"]
+        if self.is_gcc:
+            command += ["-fdiagnostics-column-unit=byte", "-fno-diagnostics-show-caret", "-fdiagnostics-color=never"]
+        else:
+            command += ["-fno-caret-diagnostics", "-fno-color-diagnostics", "-Wno-everything", "-Wreturn-type"]
+        if unit.permissive:
+            command.append("-fpermissive")
+        command += self.definitions + self.extra
+        for header in unit.forced:
+            command += ["-include", header]
+        for folder in self.folders:
+            command += ["-iquote", "./" + folder]
+        command += ["-I", self.naiad.include, "-I", os.path.join(self.naiad.include, "physics")]
+        return command + ["-c", "./" + unit.name, "-o", self._object(unit)]
+
+    def link(self, units, program):
+        """Links the objects. Returns what the linker said, or None if it went well."""
+        result = run([self.program] + self.extra + [unit.object for unit in units] +
+                     ["-L", self.naiad.lib, "-ldragonfly", "-Wl,-rpath," + self.naiad.lib, "-pthread", "-o", program],
+                     self.root, self._environment, self.seconds)
+        return None if result.code == 0 and not result.timed_out else result.output
+
+    def check_with(self, unit, include):
+        """The errors of a unit against another engine's headers."""
+        forced, unit.forced = unit.forced, []  # ours
+        command = [word for word in self._command(unit) if word != "-c"]
+        unit.forced = forced
+        at = command.index("-I")
+        command = command[:at] + ["-I", include] + command[at:] + ["-fsyntax-only"]
+        left = self.deadline - time.monotonic()
+        return parse(run(command, self.root, self._environment, min(self.seconds, left)).output) if left > 0 else None

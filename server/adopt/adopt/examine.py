@@ -1,0 +1,26 @@
+"""Reads what an address sanitizer printed."""
+import re
+
+_WHAT = re.compile(r"ERROR: AddressSanitizer: ([\w-]+)(.*)")
+_FRAME = re.compile(r"^\s*#\d+ 0x[0-9a-f]+ in .*? (\S.*?):(\d+)(?::\d+)?\s*$")
+_WORDS = {"SEGV": "a bad pointer", "heap-use-after-free": "used after it was deleted", "heap-buffer-overflow": "beyond the end of an array",
+          "stack-buffer-overflow": "beyond the end of an array", "global-buffer-overflow": "beyond the end of an array",
+          "stack-overflow": "a function calls itself without end", "FPE": "a division by zero", "ABRT": "abort()",
+          "attempting double-free": "deleted twice"}
+
+
+def frame_of(printed, files):
+    """("file:line", what happened) of the innermost function of the game in a report, or None."""
+    what = _WHAT.search(printed)
+    if not what:
+        return None
+    known = set(files)
+    for line in printed[what.end():].splitlines():
+        match = _FRAME.match(line)
+        if not match:
+            continue
+        path = match.group(1)
+        name = next((one for one in known if path == one or path.endswith("/" + one)), None)
+        if name:
+            return f"{name}:{match.group(2)}", _WORDS.get(what.group(1), what.group(1).replace("-", " "))
+    return None

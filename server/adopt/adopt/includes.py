@@ -1,0 +1,93 @@
+"""#include lines that Windows takes and Linux does not: backslashes, other case, paths to an engine that is not there."""
+import os
+import re
+
+from .folder import is_source
+
+_INCLUDE = re.compile(r'^(\s*#\s*include\s*)(["<])([^">]+)[">](.*)$', re.S)
+# Visual Studio's own, of no meaning elsewhere.
+_DROPPED = {"stdafx.h", "pch.h", "targetver.h", "tchar.h", "sdkddkver.h", "crtdbg.h", "afxwin.h", "resource.h"}
+
+
+class Includes:
+    """Rewrites the include lines of the game's sources, each on its own line."""
+
+    def __init__(self, sources, folders, naiad, system_folders):
+        self._sources, self._folders, self._naiad, self._system = sources, folders, naiad, system_folders
+        self._names, self._by_lower, self._by_base = set(sources.files), {}, {}
+        for name in sources.files:
+            self._by_lower.setdefault(name.lower(), name)
+            self._by_base.setdefault(os.path.basename(name).lower(), []).append(name)
+        self._ours = {name.lower(): name for name in naiad.headers}
+
+    def treat(self):
+        """Returns [(file, line number, before, after, why)]."""
+        done = []
+        for name in self._sources.files:
+            for number, line in enumerate(self._sources.text(name).split("\n"), 1):
+                match = _INCLUDE.match(line.rstrip("\r"))
+                change = self._change(name, match) if match else None
+                if change:
+                    after, why = change
+                    self._sources.replace(name, number, after)
+                    done.append((name, number, line.strip(), after.strip(), why))
+        return done
+
+    def _change(self, name, match):
+        begin, mark, written, rest = match.groups()
+        path = written.strip().replace("\\", "/")
+        if mark == "<" and self._is_systems(path):
+            return None
+        goal = self._goal(os.path.dirname(name), path)
+        if goal is None:
+            if os.path.basename(path).lower() in _DROPPED:
+                return f"//{begin}{mark}{written}{'>' if mark == '<' else mark}{rest}", "Visual Studio's own header"
+            return None
+        found, is_ours = goal
+        if found == written and (mark == '"' or is_ours):
+            return None
+        if "\\" in written:
+            why = "a backslash parts no folders here"
+        elif found == written:
+            why = "a file of the game is named in quotation marks"
+        elif found.lower() == path.lower():
+            why = "upper and lower case differ here"
+        else:
+            why = "the engine's headers are Naiad's" if is_ours else "where the file is"
+        return f'{begin}"{found}"{rest}', why
+
+    def _is_systems(self, path):
+        return path in self._naiad.headers or path.startswith("SFML/") or \
+            any(os.path.exists(os.path.join(folder, path)) for folder in self._system)
+
+    def _goal(self, here, path):
+        """How the file that is meant is written, and whether it is ours; None if there is no such file."""
+        places = [os.path.normpath(os.path.join(folder, path)) for folder in [here] + self._folders]
+        if any(place in self._names for place in places):
+            return path, False
+        if path in self._naiad.headers:
+            return path, True
+        for place in places:
+            real = self._by_lower.get(place.lower())
+            if real:
+                return self._spelt(path, real, here), False
+        if path.lower() in self._ours:
+            return self._ours[path.lower()], True
+        base = os.path.basename(path).lower()
+        if len(self._by_base.get(base, ())) == 1:
+            return os.path.relpath(self._by_base[base][0], here or "."), False
+        if base in self._ours and "sfml" not in path.lower():
+            return self._ours[base], True
+        return None
+
+    @staticmethod
+    def _spelt(path, real, here):
+        """The path as it was written, in the case of the file."""
+        return real[len(real) - len(path):] if real.lower().endswith(path.lower()) else os.path.relpath(real, here or ".")
+
+
+def header_folders(sources, program):
+    """The folders with headers, the program's own first."""
+    home = os.path.dirname(program.main)
+    folders = {os.path.dirname(name) for name in sources.files if not is_source(name)}
+    return sorted(folders, key=lambda folder: (folder != home, folder.count("/"), folder))

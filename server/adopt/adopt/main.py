@@ -1,0 +1,136 @@
+"""dragonfly-adopt: the order of things, and the command line."""
+import argparse
+import os
+import re
+import shutil
+import signal
+import sys
+import tempfile
+
+from . import bounded
+from .adoption import Adoption
+from .folder import FolderError, Limits
+from .naiad import Installation
+
+RUNS, FAILS, USAGE = 0, 1, 2
+
+DESCRIPTION = """\
+Builds and runs a game that was written for the published Dragonfly engine (4.2 to 4.22), or says what is in its way.
+
+The folder is only read. A private copy of it is treated: copies of the engine are left out, names of files get the case that
+they have, lines that only other compilers take are changed. It is compiled with Naiad's headers, linked with its library, and
+started as a server, where a player presses random keys. Makefiles and project files are read and never run; the game runs in a
+sandbox without a network, from which it cannot write anywhere.
+"""
+EPILOG = """\
+The table says what was done and, for each thing that is left, the file, the line, what to do, and whose fault it is:
+  the game          it does not compile with the published engine either, or lacks a file
+  another engine    it was written for an engine of its author's own, whose copy is in the folder
+  another system    it uses what only Windows or macOS has
+  Naiad             the published engine takes it and Naiad does not: please report it
+
+Exit codes:
+  0  it runs
+  1  it does not build, or does not run
+  2  wrong usage
+
+Example: dragonfly-adopt ~/games/asteroids --keep ~/games/asteroids-naiad
+"""
+
+
+class Usage(Exception):
+    """Wrong usage; the text is the sentence."""
+
+
+def _parser():
+    parser = argparse.ArgumentParser(prog="dragonfly-adopt", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="FOLDER", help="the folder with the game")
+    parser.add_argument("--keep", metavar="DIR", help="keep the treated copy, with the program in it, as this new folder")
+    parser.add_argument("--main", metavar="FILE", help="the file with main() of the program to build, if there are several")
+    parser.add_argument("--seconds", metavar="N", type=float, default=10.0, help="how long to run it (default 10; 0: only build it)")
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the random keys (default 1)")
+    parser.add_argument("--keys", metavar="SCRIPT", help="what to press instead: a script, or a file of one, as dfbot --script takes it")
+    parser.add_argument("--cxx", metavar="COMPILER", help="the compiler (default: $CXX, else g++, else clang++)")
+    parser.add_argument("--unconfined", action="store_true", help="run the game without the sandbox, where the kernel has none: only one that you trust")
+    parser.add_argument("--json", action="store_true", help="print JSON instead of the table")
+    parser.add_argument("--quiet", action="store_true", help="no progress on stderr")
+    return parser
+
+
+def _compiler(asked):
+    for name in [asked] if asked else [os.environ.get("CXX"), "g++", "clang++"]:
+        if name and shutil.which(name):
+            return shutil.which(name)
+    raise Usage(f"no compiler {asked}" if asked else "no compiler: install g++")
+
+
+def _check(options):
+    if not os.path.isdir(options.folder):
+        raise Usage(f"{options.folder}: no such folder")
+    if not 0 <= options.seconds <= 3600:
+        raise Usage(f"--seconds {options.seconds:g}: from 0 to 3600")
+    if options.keep:
+        top, keep = os.path.realpath(options.folder), os.path.realpath(options.keep)
+        if os.path.lexists(options.keep):
+            raise Usage(f"--keep {options.keep}: is there already")
+        if (keep + os.sep).startswith(top + os.sep):
+            raise Usage(f"--keep {options.keep}: lies in the game's folder, which stays as it is")
+        if not os.path.isdir(os.path.dirname(keep)):
+            raise Usage(f"--keep {options.keep}: {os.path.dirname(keep)} is no folder")
+    if options.keys and os.path.isfile(options.keys):
+        with open(options.keys, encoding="utf-8", errors="replace") as file:
+            options.keys = file.read(1 << 20)
+
+
+def _progress(quiet):
+    if quiet:
+        return lambda text: None
+    if sys.stderr.isatty():
+        def say(text):
+            sys.stderr.write(f"\r\x1b[K{text}")
+            sys.stderr.flush()
+        return say
+    last = [""]
+
+    def say_once(text):
+        step = re.sub(r" \d+ of ", " ", text)  # into a file: a line for each step
+        if text and step != last[0]:
+            sys.stderr.write(step + "\n")
+        last[0] = step
+    return say_once
+
+
+def main(include, lib, bin_folder, names, arguments=None):
+    """Runs the command line. The folders are those of the installation."""
+    arguments = sys.argv[1:] if arguments is None else arguments
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    try:
+        _check(options)
+        compiler = _compiler(options.cxx)
+    except Usage as error:
+        sys.stderr.write(f"dragonfly-adopt: {error}\nTry dragonfly-adopt --help.\n")
+        return USAGE
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))  # so that the scratch folder goes, too
+    bounded.limit_self()
+    say = _progress(options.quiet)
+    scratch = tempfile.mkdtemp(prefix="dragonfly-adopt-")
+    try:
+        adoption = Adoption(options, Installation(include, lib, bin_folder, names), compiler, scratch, say, Limits())
+        report = adoption.run()
+        if options.keep:
+            shutil.move(adoption.tree, options.keep)
+            report.add("kept", options.keep, "the treated copy" + (f"; the program is {adoption.program_path}" if adoption.program_path else ""))
+    except FolderError as error:
+        say("")
+        sys.stderr.write(f"dragonfly-adopt: {error}\n")
+        return USAGE
+    except KeyboardInterrupt:
+        say("")
+        return 128 + signal.SIGINT
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+    say("")
+    (report.write_json if options.json else report.write)(sys.stdout)
+    return RUNS if report.result in ("runs", "builds; it was not to run") else FAILS

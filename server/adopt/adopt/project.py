@@ -1,0 +1,167 @@
+"""Which sources make a program: what a Makefile or a project file lists. These files are read as text and never run."""
+import html
+import os
+import re
+
+from .folder import is_source
+
+_MAIN = re.compile(r"\b(?:int|void|auto|INT)\s+(?:WINAPI\s+|APIENTRY\s+|CALLBACK\s+)?(main|wmain|_tmain|WinMain|wWinMain)\s*\(")
+_RUN = re.compile(r"(?:\bGM\s*\.|->|\.|::)\s*run\s*\(")
+_SOURCE_WORD = r"[^\s\"'<>|;,()=:]+\.(?:cpp|cc|cxx|c\+\+|C)\b"
+_ASIDE = re.compile(r"(^|[/ _-])(tests?|testing|unit-?tests?|old|backup|tutorial|examples?|saucer[-_ ]?shoot|template|unused|archive)"
+                    r"([/ _.-]|$)", re.I)
+MAX_PROJECT_FILE = 1 << 20
+
+
+class SourceList:
+    """What one file lists: `sources` that are there, `missing` that are not, `unread` what would have had to be run."""
+
+    def __init__(self, file, sources, missing, unread=()):
+        self.file, self.sources, self.missing, self.unread = file, sources, missing, list(unread)
+
+
+class Program:
+    """One program: its `main` file, its sources with main first, the list they come from (or None), what it leaves out."""
+
+    def __init__(self, main, sources, source_list, left_out):
+        self.main, self.sources, self.source_list, self.left_out = main, sources, source_list, left_out
+
+
+def is_project_file(name):
+    base = os.path.basename(name).lower()
+    return (base.startswith(("makefile", "gnumakefile", "cmakelists")) and not base.endswith(".bak")) or \
+        base.endswith((".mk", ".vcxproj", ".vcproj", ".cbp", ".pro")) or base == "project.pbxproj"
+
+
+def read_lists(root, files, sources):
+    """What the project files among `files` list, each resolved to files of `sources`, upper and lower case alike."""
+    by_lower = {name.lower(): name for name in sources}
+    lists = []
+    for name in filter(is_project_file, files):
+        path = os.path.join(root, name)
+        if os.path.getsize(path) > MAX_PROJECT_FILE:
+            continue
+        with open(path, "rb") as file:
+            text = file.read().decode("utf-8-sig", "replace")
+        words, unread = _words(name, text)
+        deep = "GLOB_RECURSE" in text and os.path.basename(name).lower().startswith("cmakelists")
+        found, missing = [], []
+        for word in words:
+            here = _resolve(os.path.dirname(name), word, by_lower, deep)
+            if here is None:
+                missing.append(word)
+            else:
+                found += [one for one in here if one not in found]
+        if found or missing:
+            lists.append(SourceList(name, found, missing, unread))
+    return lists
+
+
+def _words(name, text):
+    """The sources that a project file names, and its calls of other programs."""
+    base = os.path.basename(name).lower()
+    if base.endswith((".vcxproj", ".vcproj")):
+        words = re.findall(r"<(?:ClCompile|File)\s[^>]*?(?:Include|RelativePath)\s*=\s*\"([^\"]*)\"", text)
+        return _only_sources(html.unescape(word) for word in words), []
+    if base.endswith(".cbp"):
+        return _only_sources(html.unescape(word) for word in re.findall(r"<Unit\s+filename=\"([^\"]*)\"", text)), []
+    if base == "project.pbxproj":
+        return ["**/" + word for word in _only_sources(re.findall(r"/\* ([^*/]+) in Sources \*/", text))], []
+    text = re.sub(r"\\\r?\n", " ", re.sub(r"(?m)(?<!\\)#.*$", "", text))
+    unread = re.findall(r"\$\((?:shell|eval|call|file|guile)\b[^\n]*", text)
+    text = re.sub(r"\$\((?:shell|eval|call|file|guile)\b[^\n]*", " ", text)
+    # Rules that look at sources for other ends than to build the program.
+    text = re.sub(r"(?m)^\t.*(?:makedepend|-MM|\brm\b|\btar\b|\bzip\b|clang-format).*$", "", text)
+    return _expanded(_with_variables(text)), unread
+
+
+def _with_variables(text):
+    """Variables of one word are put in, once: SRC = src, set(SRC src)."""
+    found = re.findall(r"(?m)^\s*([\w.-]+)\s*[:?]?:?=[ \t]*([^\s$()]{1,100})[ \t\r]*$", text)
+    found += re.findall(r"\bset\s*\(\s*([\w.-]+)\s+\"?([^\s$()\"]{1,100})\"?\s*\)", text)
+    variables = dict(found[:100])
+    return re.sub(r"\$[({]([\w.-]+)[)}]", lambda match: variables.get(match.group(1), match.group()), text)
+
+
+def _expanded(text):
+    """The words of a Makefile that name sources: themselves, as patterns, or as the objects that are made of them."""
+    plain = re.sub(r"\$[({](?:wildcard|CMAKE_CURRENT_SOURCE_DIR|CMAKE_SOURCE_DIR|PROJECT_SOURCE_DIR|SRC_?DIR|SRCDIR)[)}]?", " ./ ", text)
+    words = re.findall(_SOURCE_WORD, re.sub(r"\./\s+/?", "./", plain))
+    objects = re.findall(r"(?<![\w%*$])([\w./-]+)\.o\b", plain)
+    names = _only_sources(words)
+    if not names:
+        names = [name + ".cpp" for name in dict.fromkeys(objects)]
+    return names
+
+
+def _only_sources(words):
+    return list(dict.fromkeys(word for word in words if is_source(word) and "%" not in word and "$" not in word))
+
+
+def _resolve(folder, word, by_lower, deep):
+    """The sources that a word of a project file in `folder` means; None if there is none. deep: patterns go into folders."""
+    word = word.replace("\\", "/")
+    path = os.path.normpath(os.path.join(folder, word)).lower()
+    if "*" in path and not word.startswith("**/"):
+        any_name = ".*" if deep else "[^/]*"
+        pattern = re.compile("".join(any_name if part == "*" else re.escape(part) for part in re.split(r"(\*)", path)) + r"\Z")
+        return [name for lower, name in by_lower.items() if pattern.match(lower)] or None
+    if path in by_lower:
+        return [by_lower[path]]
+    # Lists name files where they once were, on another machine.
+    same = [name for lower, name in by_lower.items() if os.path.basename(lower) == os.path.basename(word).lower()]
+    return same if len(same) == 1 else None
+
+
+def mains(sources, code):
+    """The files with a main()."""
+    return [name for name in sources if _MAIN.search(code(name))]
+
+
+def has_run(names, code):
+    """Whether some file calls run(), as a game must."""
+    return any(_RUN.search(code(name)) for name in names)
+
+
+def programs(sources, lists, code):
+    """The programs of a folder, the likeliest game first."""
+    all_mains = mains(sources, code)
+    found = [_program(main, all_mains, sources, lists) for main in all_mains]
+
+    def order(program):
+        return (not has_run(program.sources, code), bool(_ASIDE.search(program.main)), "client" in program.main.lower(),
+                program.source_list is None, -len(program.sources), program.main.count("/"), program.main)
+
+    return sorted(found, key=order)
+
+
+def _program(main, all_mains, sources, lists):
+    others = set(all_mains) - {main}
+    fitting = [one for one in lists if main in one.sources]
+    if fitting:
+        best = max(fitting, key=lambda one: (len(set(one.sources) - others), -len(one.missing), -one.file.count("/")))
+        taken = [name for name in best.sources if name not in others]
+        left_out = [(name, f"not listed in {best.file}") for name in sources if name not in best.sources and name not in others]
+    else:
+        best, (taken, left_out) = None, _around(main, others, sources)
+    taken.remove(main)
+    return Program(main, [main] + taken, best, left_out)
+
+
+def _around(main, others, sources):
+    """Without a list: all sources but those in folders of other programs; of several with one name the nearest."""
+    home = os.path.dirname(main)
+    foreign = {os.path.dirname(other) for other in others} - {home}
+    foreign = {folder for folder in foreign if not (home + "/").startswith(folder + "/") and folder}
+    taken, left_out, nearest = [], [], {}
+    for name in sorted(sources, key=lambda one: (os.path.dirname(one) != home, one.count("/"), one)):
+        if name in others:
+            continue
+        if any(name.startswith(folder + "/") for folder in foreign):
+            left_out.append((name, "in the folder of another program"))
+        elif os.path.basename(name).lower() in nearest:
+            left_out.append((name, f"there is {nearest[os.path.basename(name).lower()]}, too"))
+        else:
+            nearest[os.path.basename(name).lower()] = name
+            taken.append(name)
+    return taken, left_out

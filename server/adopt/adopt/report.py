@@ -1,0 +1,63 @@
+"""What is said at the end: a table for people, or JSON."""
+import json
+
+from .text import shown
+
+_INDENT = 12  # columns before the text
+
+
+class Row:
+    """One entry of the table.
+
+    what: "program", "left out", "treated", "built", "ran", "left", "note", "kept"; where: file:line, or empty; text: what was
+    done or is wrong; whose: for what is left, whose fault it is; line: the source line; change: what it became, or what to do.
+    """
+
+    def __init__(self, what, where, text, whose, line, change):
+        self.what, self.where, self.text, self.whose, self.line, self.change = what, where, text, whose, line.strip(), change
+
+
+class Report:
+    """Rows and a result: "runs", "builds" (but does not run), "does not build", "is no game"."""
+
+    def __init__(self, folder):
+        self.folder, self.rows, self.result, self.reason = folder, [], "is no game", ""
+
+    def add(self, what, where="", text="", whose="", line="", change=""):
+        self.rows.append(Row(what, where, text, whose, line, change))
+
+    def has_left(self, where):
+        return any(row.what == "left" and row.where == where for row in self.rows)
+
+    def write(self, out):
+        out.write(f"dragonfly-adopt {shown(self.folder)}\n\n")
+        last = ""
+        for row in self.rows:
+            label = row.what if row.what != last else ""
+            last = row.what
+            whose = f" [fault: {row.whose}]" if row.whose else ""
+            where = shown(row.where) + whose + (": " if row.text and (row.where or whose) else "")
+            _wrapped(out, where + shown(row.text, 400), f"  {label}")
+            if row.line:
+                out.write(" " * _INDENT + "| " + shown(row.line) + "\n")
+            if row.change:
+                mark = "> " if row.what == "treated" else "-> "
+                _wrapped(out, mark + shown(row.change, 400))
+        out.write(f"\nresult: {self.result}" + (f" ({shown(self.reason, 400)})" if self.reason else "") + "\n")
+
+    def write_json(self, out):
+        names = ("what", "where", "whose", "text", "line", "change")
+        rows = [{name: shown(getattr(row, name), 400) for name in names} for row in self.rows]
+        json.dump({"folder": shown(self.folder), "result": self.result, "reason": shown(self.reason, 400), "rows": rows}, out, indent=1)
+        out.write("\n")
+
+
+def _wrapped(out, text, label=""):
+    """Words in lines of 100 columns, indented as the table is."""
+    line = label.ljust(_INDENT)
+    for word in text.split():
+        if len(line) + len(word) > 100 and line.strip():
+            out.write(line.rstrip() + "\n")
+            line = " " * _INDENT + "  "
+        line += word + " "
+    out.write(line.rstrip() + "\n")

@@ -1,0 +1,69 @@
+"""Sources as lines that can be changed in place: no treatment adds or removes a line, so that numbers stay the student's."""
+import os
+import re
+
+# Comments, strings and characters. Each alternative matches to the end of what it begins, closed or not: linear time.
+_NOT_CODE = re.compile(r'//[^\n]*|/\*.*?(?:\*/|\Z)|"(?:\\.|[^"\\\n])*"?|\'(?:\\.|[^\'\\\n])*\'?', re.S)
+
+
+def code_only(text):
+    """The text with comments and strings blanked out; lines and columns stay."""
+    return _NOT_CODE.sub(lambda match: re.sub(r"[^\n]", " ", match.group()), text)
+
+
+def shown(text, most=160):
+    """A foreign text as it may be printed on a terminal: on one line, without control characters, not too long."""
+    text = "".join(character if character.isprintable() else f"\\x{ord(character) & 0xff:02x}" for character in text)
+    return text if len(text) <= most else text[:most - 1] + "…"
+
+
+class Sources:
+    """The code files of the copy, read once, written back when they are changed."""
+
+    def __init__(self, root, files):
+        self.root, self.files, self.recoded = root, sorted(files), []
+        self._lines = {name: self._read(name) for name in self.files}
+
+    def _read(self, name):
+        with open(os.path.join(self.root, name), "rb") as file:
+            data = file.read()
+        for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16")):
+            if data.startswith(mark):
+                text = data.decode(encoding, "replace")
+                self.recoded.append(name)
+                break
+        else:
+            text = data.decode("utf-8", "surrogateescape")
+        lines = text.split("\n")
+        if name in self.recoded:
+            self._write(name, lines)
+        return lines
+
+    def _write(self, name, lines):
+        path = os.path.join(self.root, name)
+        if os.path.islink(path):
+            os.unlink(path)  # a file of its own from now on
+        with open(path, "wb") as file:
+            file.write("\n".join(lines).encode("utf-8", "surrogateescape"))
+
+    def text(self, name):
+        return "\n".join(self._lines[name])
+
+    def code(self, name):
+        return code_only(self.text(name))
+
+    def line(self, name, number):
+        lines = self._lines.get(name, ())
+        return lines[number - 1].rstrip("\r") if 0 < number <= len(lines) else ""
+
+    def replace(self, name, number, line):
+        end = "\r" if self._lines[name][number - 1].endswith("\r") else ""
+        self._lines[name][number - 1] = line + end
+        self._write(name, self._lines[name])
+
+    def find(self, pattern, names=None):
+        """Yields (file, line number, match) for a regular expression in code lines, comments and strings left out."""
+        for name in names if names is not None else self.files:
+            for number, line in enumerate(self.code(name).split("\n"), 1):
+                for match in re.finditer(pattern, line):
+                    yield name, number, match

@@ -1,0 +1,236 @@
+"""What can be changed in the copy so that it compiles, found by what the compiler says. Each change stays on its line."""
+import re
+
+_NAME = r"'(?:df::)?(?P<name>\w+)(?:<[^']*>)?'"
+_UNKNOWN = [re.compile(pattern) for pattern in (
+    _NAME + r" was not declared in this scope", _NAME + r" does not name a type", _NAME + r" has not been declared",
+    r"unknown type name " + _NAME, r"use of undeclared identifier " + _NAME)]
+_NOT_IN_DF = [re.compile(pattern) for pattern in (
+    r"'(?P<name>\w+)' is not a member of 'df'", r"'(?P<name>\w+)' in namespace 'df' does not name", r"no (?:type|member) named '(?P<name>\w+)' in namespace 'df'",
+    r"'df::(?P<name>\w+)' has not been declared", r"incomplete type '(?:class |struct |const )*df::(?P<name>\w+)'",
+    r"'(?:class |struct |const )*df::(?P<name>\w+)[ \w]*' has (?:initializer but )?incomplete type")]
+_EXTRA = re.compile(r"extra qualification (?:'[\w:]+::' )?on member '(?P<name>~?\w+)'")
+_CONFLICT = re.compile(r"conflicting return type specified for 'virtual (?P<type>.+?) (?:\w+::)*(?P<class>\w+)::(?P<name>\w+)\(")
+_OVERRIDDEN = re.compile(r"overridden function is 'virtual (?P<type>.+?) (?:\w+::)+\w+\(")
+_FORGOT = re.compile(r"did you forget to '#include <(?P<header>[\w./]+)>'|is defined in header '<(?P<known>[\w./]+)>'")
+_NO_BASE = re.compile(r"is an inaccessible base of '(?P<class>\w+)'")
+_NO_NEW = re.compile(r"operator new.* is (?:inaccessible|private)")
+_AMBIGUOUS = re.compile(r"reference to '(?P<name>\w+)' is ambiguous")
+_NUMBER = re.compile(r"'(?:virtual |static |constexpr )*(?:unsigned |signed |long |short )*(?:int|bool|float|double|char|long|unsigned|short)\b [\w:~]+\(")
+
+
+class Change:
+    """One thing that was done: where, the line before and after (or what stands for it), and why."""
+
+    def __init__(self, file, line, before, after, why):
+        self.file, self.line, self.before, self.after, self.why = file, line, before.strip(), after.strip(), why
+
+
+class Treatments:
+    """Looks at diagnostics, changes the copy, and remembers what it changed."""
+
+    def __init__(self, sources, compiler, naiad):
+        self._sources, self._compiler, self._naiad = sources, compiler, naiad
+        self.changes, self._returns, self._tried = [], {}, set()
+        self._kinds = (self._extra_qualification, self._return_type, self._missing_return, self._empty_return, self._void_main,
+                       self._missing_header, self._missing_prefix, self._private_base, self._ambiguous)
+
+    def treat(self, units):
+        """Treats what these units' diagnostics say. Returns the units to compile again."""
+        definitions = len(self._compiler.definitions)
+        again, touched = [], set()
+        for unit in units:
+            before = len(self.changes), len(unit.forced)
+            files = self._treat_unit(unit, touched)
+            if files or (len(self.changes), len(unit.forced)) != before:
+                again.append(unit)
+            touched |= files
+        if len(self._compiler.definitions) > definitions:
+            return list(units)
+        files = {file for file, _ in touched}
+        return [unit for unit in units if unit in again or (unit.errors and touched) or unit.name in files or
+                any(one.file in files for one in unit.diagnostics)]
+
+    def _treat_unit(self, unit, touched):
+        """Returns the lines that were changed. Lines that another unit changed wait, for their columns may have moved; of one
+        line several unknown names can be treated at once, from right to left."""
+        lines = {}
+        for diagnostic in sorted(unit.diagnostics, key=lambda one: (one.file, one.line, -one.column)):
+            place = diagnostic.file, diagnostic.line
+            is_name = any(pattern.search(diagnostic.text) for pattern in _UNKNOWN)
+            if place in touched or (place in lines and not (is_name and lines[place])):
+                continue
+            before = [(one.file, one.line, one.after) for one in self.changes]
+            if self._treat_one(unit, diagnostic):
+                for one in self.changes:
+                    if (one.file, one.line, one.after) not in before:
+                        lines[one.file, one.line] = is_name
+        return set(lines)
+
+    def _treat_one(self, unit, diagnostic):
+        if diagnostic.file not in self._sources.files:
+            return False
+        key = (unit.name,) + diagnostic.key + (diagnostic.column, self._sources.line(diagnostic.file, diagnostic.line))
+        if key in self._tried:
+            return False
+        self._tried.add(key)
+        return any(kind(unit, diagnostic) for kind in self._kinds)
+
+    def _edit(self, diagnostic, after, why):
+        before = self._sources.line(diagnostic.file, diagnostic.line)
+        if after == before:
+            return False
+        self._sources.replace(diagnostic.file, diagnostic.line, after)
+        same = [one for one in self.changes if (one.file, one.line) == (diagnostic.file, diagnostic.line)]
+        if same:
+            same[0].after = after.strip()
+            self.changes.remove(same[0])
+            self.changes.append(same[0])
+        else:
+            self.changes.append(Change(diagnostic.file, diagnostic.line, before, after, why))
+        return True
+
+    def _at(self, diagnostic):
+        """The line, and what stands before and behind the column (bytes, as compilers count)."""
+        data = self._sources.line(diagnostic.file, diagnostic.line).encode("utf-8", "surrogateescape")
+        cut = max(diagnostic.column - 1, 0)
+        return data[:cut].decode("utf-8", "surrogateescape"), data[cut:].decode("utf-8", "surrogateescape")
+
+    def _extra_qualification(self, _, diagnostic):
+        match = _EXTRA.search(diagnostic.text)
+        if not match:
+            return False
+        line = self._sources.line(diagnostic.file, diagnostic.line)
+        after = re.sub(r"\b(?:\w+\s*::\s*)+(?=" + re.escape(match.group("name")) + r"\s*\()", "", line, count=1)
+        return self._edit(diagnostic, after, "a class does not name itself before its own members; only MSVC takes it")
+
+    def _return_type(self, _, diagnostic):
+        match = _CONFLICT.search(diagnostic.text)
+        goal = next((found.group("type") for _, text in diagnostic.notes if (found := _OVERRIDDEN.search(text))), None)
+        if not match or not goal:
+            return False
+        name, old = match.group("name"), match.group("type")
+        if name == "draw" and old == "void" and not any(self._sources.find(r"\bint\s+(?:\w+\s*::\s*)?draw\s*\(")):
+            if "-DDF_DRAW=void" not in self._compiler.definitions:
+                self._compiler.definitions.append("-DDF_DRAW=void")
+                self.changes.append(Change(diagnostic.file, diagnostic.line, "void draw()", "-DDF_DRAW=void",
+                                           "as in the earliest engines, draw() returns nothing: one flag for all"))
+            return True
+        done = False
+        declared = rf"\b{re.escape(old)}(\s+(?:{match.group('class')}\s*::\s*)?{name}\s*\()"
+        for file, number, found in list(self._sources.find(declared)):
+            if file == diagnostic.file and number == diagnostic.line or f"{match.group('class')}" in found.group():
+                place = type(diagnostic)(file, number, 1, "error", "", "")
+                line = re.sub(declared, goal + r"\1", self._sources.line(file, number), count=1)
+                done |= self._edit(place, line, f"returns what the engine's {name}() returns")
+        return done
+
+    def _missing_return(self, _, diagnostic):
+        if not ("no return statement in function" in diagnostic.text or "control reaches end of non-void" in diagnostic.text or
+                "non-void function does not return" in diagnostic.text or "non-void lambda does not return" in diagnostic.text):
+            return False
+        before, behind = self._at(diagnostic)
+        if not behind.startswith("}"):
+            return False
+        value = "0" if _NUMBER.search(diagnostic.within) else "{}"
+        place = (diagnostic.file, diagnostic.line)
+        self._returns[place] = self._returns.get(place, self._sources.line(*place))
+        return self._edit(diagnostic, before + f"return {value}; " + behind, "a function ends without return")
+
+    def _empty_return(self, _, diagnostic):
+        if "return-statement with no value" not in diagnostic.text and "should return a value" not in diagnostic.text:
+            return False
+        before, behind = self._at(diagnostic)
+        after = re.sub(r"^return\s*;", "return 0;" if "'int'" in diagnostic.text else "return {};", behind)
+        return self._edit(diagnostic, before + after, "return without a value")
+
+    def _void_main(self, _, diagnostic):
+        if "'::main' must return 'int'" not in diagnostic.text and "'main' must return 'int'" not in diagnostic.text:
+            return False
+        line = self._sources.line(diagnostic.file, diagnostic.line)
+        return self._edit(diagnostic, re.sub(r"\bvoid(\s+main\b)", r"int\1", line), "main() returns int")
+
+    def _missing_header(self, unit, diagnostic):
+        """A name of the engine or of C++ whose header comes along elsewhere."""
+        if not diagnostic.is_error:
+            return False
+        for pattern in _NOT_IN_DF:
+            match = pattern.search(diagnostic.text)
+            if match:
+                return self._force(unit, diagnostic, self._naiad.header_of(match.group("name"))) or \
+                    self._scope(diagnostic, match.group("name"))
+        hint = next((found for _, text in diagnostic.notes if (found := _FORGOT.search(text))), None)
+        return bool(hint) and self._force(unit, diagnostic, hint.group("header") or hint.group("known"))
+
+    def _force(self, unit, diagnostic, header):
+        if not header or header in unit.forced:
+            return False
+        unit.forced.append(header)
+        name = f'"{header.rsplit("/", 1)[-1]}"' if header.startswith("/") else f"<{header}>"
+        if not any(one.file == diagnostic.file and name in one.after for one in self.changes):
+            self.changes.append(Change(diagnostic.file, diagnostic.line, self._sources.line(diagnostic.file, diagnostic.line),
+                                       f"#include {name}", "a header that came along with another one"))
+        return True
+
+    def _scope(self, diagnostic, name):
+        scope = self._naiad.scope_of(name)
+        if not scope:
+            return False
+        line = self._sources.line(diagnostic.file, diagnostic.line)
+        return self._edit(diagnostic, re.sub(rf"\bdf\s*::\s*{name}\b", f"df::{scope}::{name}", line), "an enumerator has its type before it")
+
+    def _missing_prefix(self, _, diagnostic):
+        if not diagnostic.is_error:
+            return False
+        before, behind = self._at(diagnostic)
+        if "expected class-name before" in diagnostic.text:
+            return self._bases(diagnostic, before)
+        for pattern in _UNKNOWN:
+            match = pattern.search(diagnostic.text)
+            if match and self._naiad.header_of(match.group("name")) and re.match(rf"{match.group('name')}\b", behind) \
+                    and not re.search(r"(::|\.|->)\s*$", before):
+                return self._edit(diagnostic, before + "df::" + behind, "the engine's names stand in df::")
+        return False
+
+    def _bases(self, diagnostic, before):
+        match = re.search(r":\s*(?:(?:public|protected|private|virtual)\s+)*(\w+)\s*$", before)
+        if not match or not self._naiad.header_of(match.group(1)):
+            return False
+        _, behind = self._at(diagnostic)
+        return self._edit(diagnostic, before[:match.start(1)] + "df::" + before[match.start(1):] + behind,
+                          "the engine's names stand in df::")
+
+    def _private_base(self, _, diagnostic):
+        match = _NO_BASE.search(diagnostic.text)
+        name = match.group("class") if match else None
+        if not name and _NO_NEW.search(diagnostic.text):
+            made = re.search(r"\bnew\s+(\w+)", self._sources.line(diagnostic.file, diagnostic.line))
+            name = made.group(1) if made else None
+        if not name:
+            return False
+        declared = rf"\bclass\s+{name}\s*:\s*(?=[\w:])(?!public\b|protected\b|private\b|virtual\b)"
+        for file, number, _ in list(self._sources.find(declared)):
+            line = re.sub(f"({declared})", r"\1public ", self._sources.line(file, number), count=1)
+            return self._edit(type(diagnostic)(file, number, 1, "error", "", ""), line, "a base without a word before it is private")
+        return False
+
+    def _ambiguous(self, _, diagnostic):
+        match = _AMBIGUOUS.search(diagnostic.text)
+        if not match or not any(file in self._sources.files for file, _ in diagnostic.notes):
+            return False
+        before, behind = self._at(diagnostic)
+        if not re.match(rf"{match.group('name')}\b", behind) or before.rstrip().endswith("::"):
+            return False
+        return self._edit(diagnostic, before + "::" + behind, "the game's own one of two names that are alike")
+
+    def undo_returns(self, units):
+        """Takes back a return that does not compile either. Returns whether there was one."""
+        undone = False
+        for unit in units:
+            for diagnostic in unit.errors:
+                place = (diagnostic.file, diagnostic.line)
+                if place in self._returns:
+                    self._sources.replace(*place, self._returns.pop(place))
+                    self.changes = [one for one in self.changes if (one.file, one.line) != place]
+                    undone = True
+        return undone

@@ -1,0 +1,198 @@
+"""Runs the built game as a server without a terminal, with a player that presses keys, in the sandbox."""
+import os
+import re
+import shutil
+import stat
+import subprocess
+import time
+
+from . import sandbox
+from .bounded import end_group
+from .keys import random_script
+
+START_SECONDS = 20  # until it listens
+END_SECONDS = 8  # until it has ended after SIGTERM
+MAX_ROUNDS = 20
+_TICKS = re.compile(r"\bbot ok .*\bticks=(\d+) objects=(\d+)")
+_LOG_BYTES = 64 << 10
+_ASAN = "detect_leaks=0:alloc_dealloc_mismatch=0:detect_odr_violation=0:handle_segv=2:handle_abort=2:handle_sigfpe=2:" \
+        "handle_sigill=2:handle_sigbus=2:hard_rss_limit_mb=3072:exitcode=77"
+
+
+class Trial:
+    """How the game is run.
+
+    tree: the treated copy, with the program in it as `program`; folder: of the copy, where it is started; seconds: how long.
+    """
+
+    def __init__(self, tree, program, folder, naiad, seconds, seed, keys, named_keys, examined=False):
+        self.tree, self.program, self.folder, self.naiad = tree, program, folder, naiad
+        self.seconds, self.seed, self.keys, self.named_keys, self.examined = seconds, seed, keys, named_keys, examined
+        self.game, self.tmp = "/game", "/tmp"  # as the sandbox has them
+
+    def run(self, root, confined=True):
+        """Runs it in a sandbox made on the empty folder `root`, or without. Returns the Outcome."""
+        if not confined:
+            self.game = os.path.join(root, "game")
+            self.tmp = os.path.join(root, "tmp")
+            for folder in (self.game, self.tmp):
+                shutil.rmtree(folder, ignore_errors=True)
+                os.makedirs(folder)
+            return Outcome(**self.inside())
+        megabytes = 96 + _megabytes(self.tree)
+        timeout = self.seconds + START_SECONDS + END_SECONDS + 30
+        shown = (self.tree, self.naiad.lib, self.naiad.bin)
+        answer = sandbox.run(self.inside, root, shown, timeout, megabytes)
+        return Outcome(**answer) if answer else Outcome("hangs", text="the sandbox itself had to be ended")
+
+    def inside(self):
+        """In the sandbox, as its process 1. Returns what Outcome takes."""
+        shutil.copytree(self.tree, self.game, symlinks=True, dirs_exist_ok=True)
+        started = time.monotonic()
+        ticks = objects = rounds = 0
+        while True:
+            rounds += 1
+            left = self.seconds - (time.monotonic() - started)
+            one = self._round(rounds, max(left, 1.0))
+            ticks += one.pop("ticks")
+            objects = max(objects, one.pop("objects"))
+            again = one["state"] == "over" and rounds < MAX_ROUNDS and time.monotonic() - started < self.seconds - 1
+            # A game that is over before anybody could play does not become a better one.
+            if not again or one["seconds"] < 0.2:
+                return {**one, "ticks": ticks, "objects": objects, "rounds": rounds, "log": self._log(),
+                        "printed": _ends(f"{self.tmp}/game.{rounds}.out")}
+
+    def _environment(self, number):
+        names = {"PATH": "/usr/bin:/bin", "HOME": f"{self.tmp}/home", "LC_ALL": "C.UTF-8", "TERM": "dumb", "NAIAD_PORT": "0",
+                 "NAIAD_ADDRESS": "127.0.0.1", "NAIAD_PORT_FILE": f"{self.tmp}/port.{number}", "NAIAD_INSECURE": "1",
+                 "NAIAD_LOCAL_CLIENT": "0", "NAIAD_HEADLESS": "0", "NAIAD_PLAYERS": "together", "NAIAD_ON_GAME_OVER": "leave",
+                 "NAIAD_SEED": str(self.seed), "NAIAD_TICKS": "0", "NAIAD_EXIT_WHEN_EMPTY": "0"}
+        return {**names, "ASAN_OPTIONS": _ASAN} if self.examined else names
+
+    def _round(self, number, seconds):
+        os.makedirs(f"{self.tmp}/home", exist_ok=True)
+        memory = 0 if self.examined else sandbox.MEMORY
+        cpu = int(self.seconds * 2) + 60
+        began = time.monotonic()
+        with open(f"{self.tmp}/game.{number}.out", "wb") as output:
+            game = subprocess.Popen([os.path.join(self.game, self.program)], cwd=os.path.join(self.game, self.folder),
+                                    env=self._environment(number), stdin=subprocess.DEVNULL, stdout=output, stderr=output,
+                                    start_new_session=True, preexec_fn=lambda: sandbox.limits(cpu, memory))
+        try:
+            return self._judge(game, seconds, number, began)
+        finally:
+            end_group(game.pid)
+
+    def _judge(self, game, seconds, number, began):
+        """Plays, ends the game, says how it went."""
+        port = _wait_for_port(game, f"{self.tmp}/port.{number}")
+        if port is None:
+            code = game.poll()
+            state = "deaf" if code is None else "crashed" if code < 0 or code == 77 else "unplayed" if code == 0 else "failed"
+            return {"state": state, "code": code, "seconds": time.monotonic() - began, "ticks": 0, "objects": 0, "text": ""}
+        said = self._play(game, port, seconds, number)
+        found = _TICKS.search(said)
+        ticks, objects = (int(found.group(1)), int(found.group(2))) if found else (0, 0)
+        return {**_end(game, ticks), "seconds": time.monotonic() - began, "ticks": ticks, "objects": objects,
+                "text": said[-500:]}
+
+    def _play(self, game, port, seconds, number):
+        script = f"{self.tmp}/keys"
+        with open(script, "w", encoding="utf-8") as file:
+            file.write(self.keys or random_script(self.named_keys, self.seed + number - 1, int(seconds * 30) + 30))
+        bot = subprocess.Popen([os.path.join(self.naiad.bin, "dfbot"), f"127.0.0.1:{port}", "--insecure", "--seconds", f"{seconds:.1f}",
+                                "--script", script, "--quiet", "--name", "adopt"], env=self._environment(0), cwd=self.tmp,
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                               preexec_fn=lambda: sandbox.limits(600))
+        deadline = time.monotonic() + seconds + 15
+        while bot.poll() is None and game.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.02)  # until one of them ends
+        if game.poll() is not None:
+            try:
+                bot.wait(3)
+            except subprocess.TimeoutExpired:
+                pass
+        if bot.poll() is None:
+            bot.kill()
+        return bot.communicate()[0].decode("utf-8", "replace")
+
+    def _log(self):
+        """What the engine logged: the file that df-config.txt names, or the usual one."""
+        name = "dragonfly.log"
+        folder = os.path.join(self.game, self.folder)
+        try:
+            with open(os.path.join(folder, "df-config.txt"), encoding="utf-8", errors="replace") as file:
+                match = re.search(r"(?m)^\s*logfile\s*:\s*([\w.-]+)\s*,", file.read(_LOG_BYTES))
+                name = match.group(1) if match else name
+        except OSError:
+            pass
+        return _ends(os.path.join(folder, name))
+
+
+class Outcome:
+    """How it went.
+
+    state: "played" to the end of the time, "over" (the game ended in order), "unplayed" (main() ended without a game),
+    "failed" (main() ended with an error), "crashed", "deaf" (never listened), "hangs".
+    """
+
+    def __init__(self, state, code=0, seconds=0.0, ticks=0, objects=0, rounds=1, text="", log="", printed="", ended_well=True):
+        self.state, self.code, self.seconds, self.ticks, self.objects, self.rounds = state, code, seconds, ticks, objects, rounds
+        self.text, self.log, self.printed, self.ended_well = text, log, printed, ended_well
+
+    @property
+    def runs(self):
+        return self.state in ("played", "over") and self.ticks > 0 or self.state == "over" and self.seconds >= 0.2
+
+
+def _wait_for_port(game, path):
+    deadline = time.monotonic() + START_SECONDS
+    while time.monotonic() < deadline and game.poll() is None:
+        try:
+            with open(path, encoding="ascii") as file:
+                text = file.read()
+            if text.strip().isdigit() and text.endswith("\n"):
+                return int(text)
+        except OSError:
+            pass
+        time.sleep(0.02)  # until it listens or ends
+    return None
+
+
+def _end(game, ticks):
+    """Ends the game if it has not ended itself."""
+    code = game.poll()
+    if code is not None:
+        state = "over" if code == 0 else "crashed" if code < 0 or code == 77 else "failed"
+        return {"state": state, "code": code}
+    game.terminate()
+    try:
+        code = game.wait(END_SECONDS)
+    except subprocess.TimeoutExpired:
+        game.kill()
+        return {"state": "hangs", "code": None}
+    if ticks == 0:
+        return {"state": "hangs", "code": code}
+    return {"state": "played", "code": code, "ended_well": code >= 0 and code != 77}
+
+
+def _ends(path):
+    """Begin and end of a file that the game wrote; it may have made anything of it."""
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    except OSError:
+        return ""
+    with os.fdopen(descriptor, "rb") as file:
+        status = os.fstat(descriptor)
+        if not stat.S_ISREG(status.st_mode):
+            return ""
+        data = file.read(_LOG_BYTES)
+        if status.st_size > _LOG_BYTES:
+            file.seek(max(status.st_size - _LOG_BYTES, _LOG_BYTES))
+            data += b"\n" + file.read(_LOG_BYTES)
+        return data.decode("utf-8", "replace")
+
+
+def _megabytes(folder):
+    total = sum(os.lstat(os.path.join(place, name)).st_size for place, _, names in os.walk(folder) for name in names)
+    return (total >> 20) + 1

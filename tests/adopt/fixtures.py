@@ -1,0 +1,244 @@
+"""Small games with one construct each, as {file: text}. Text is written as UTF-8 unless it is bytes."""
+import os
+
+MAIN = """#include "GameManager.h"
+#include "LogManager.h"
+#include "ResourceManager.h"
+#include "WorldManager.h"
+#include "Hero.h"
+int main(int argc, char *argv[]) {
+  if (GM.startUp()) return 1;
+  RM.loadSprite("sprites/hero-spr.txt", "hero");
+  new Hero;
+  GM.run();
+  GM.shutDown();
+  return 0;
+}
+"""
+HERO_H = """#include "EventKeyboard.h"
+#include "Object.h"
+class Hero : public df::Object {
+ public:
+  Hero();
+  int eventHandler(const df::Event *p_e);
+};
+"""
+HERO = """#include "Hero.h"
+Hero::Hero() { setSprite("hero"); setPosition(df::Vector(10, 10)); registerInterest(df::KEYBOARD_EVENT); }
+int Hero::eventHandler(const df::Event *p_e) {
+  if (p_e->getType() != df::KEYBOARD_EVENT) return 0;
+  const auto *p_k = dynamic_cast<const df::EventKeyboard *>(p_e);
+  if (p_k->getKey() == df::Keyboard::RIGHTARROW) setPosition(getPosition() + df::Vector(1, 0));
+  return 1;
+}
+"""
+SPRITE = "frames 1\nwidth 3\nheight 1\ncolor green\n<=>\nend\neof\n"
+
+# In one file, as one compile tells of it all. Nothing of it is a fault of the engine.
+ALONE = """#include "GameManager.h"
+#include "Object.h"
+#include "WorldManager.h"
+"""
+
+
+def write(folder, files):
+    """Makes a folder of these files."""
+    for name, text in files.items():
+        path = os.path.join(folder, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "wb") as file:
+            file.write(text if isinstance(text, bytes) else text.encode("utf-8"))
+
+
+def engine_header(name):
+    """What a copy of the published engine's header looks like from far. It does not compile."""
+    return f"#pragma once\nnamespace df {{\nclass {name} {{ a copy that must not be taken }};\n}}\n"
+
+
+# Written with Visual Studio on Windows, with the engine beside it, packed on a Mac.
+WINDOWS = {
+    "src/game.cpp": MAIN.replace('"Hero.h"', '"..\\Things\\hero.H"').replace('"WorldManager.h"', '"worldmanager.h"'),
+    "Things/Hero.h": """#include "stdafx.h"
+#include "../dragonfly/include/EventKeyboard.h"
+#include "../dragonfly/include/Object.h"
+class Hero : public df::Object {
+ public:
+  Hero();
+  int Hero::eventHandler(const df::Event *p_e);
+  const Vector &home() const;
+ private:
+  df::Vector m_home;
+};
+""",
+    "Things/Hero.cpp": HERO.replace("  return 1;\n}", "}") + "const df::Vector &Hero::home() const { return m_home; }\n",
+    "Things/Unused.cpp": "this is not C++\n",
+    "dragonfly/include/Object.h": engine_header("Object"),
+    "dragonfly/include/EventKeyboard.h": engine_header("EventKeyboard"),
+    "dragonfly/lib/libdragonfly-linux64.a": b"!<arch>\n",
+    "__MACOSX/src/._game.cpp": b"\0\5\26\7",
+    "src/._game.cpp": b"\0\5\26\7",
+    "Makefile": "GAMESRC= Things/Hero.cpp\nGAME= src/game.cpp\nX := $(shell touch SHELL_RAN)\n"
+                "all: $(GAMESRC:.cpp=.o)\n\tg++ $(GAME) $(GAMESRC) -ldragonfly; touch RECIPE_RAN\ndepend:\n\tmakedepend *.cpp Things/*.cpp\n",
+    "sprites/hero-spr.txt": SPRITE,
+}
+
+# An early engine's game, in UTF-16 as Visual Studio may save it; its handler deletes by chance nothing.
+EARLY = {
+    "game.cpp": ("\ufeff" + ALONE + """class Hero : public df::Object {
+ public:
+  void draw() { DM.drawCh(getPosition(), '@', df::WHITE); }
+};
+int main() { GM.startUp(); (new Hero)->setPosition(df::Vector(5, 5)); GM.run(); GM.shutDown(); return 0; }
+""").replace('#include "Object.h"', '#include "DisplayManager.h"\n#include "Object.h"').encode("utf-16-le"),
+}
+
+MIXED_DRAW = {
+    "game.cpp": ALONE + """struct Hero : df::Object { int draw() { return 0; } };
+struct Wall : df::Object {
+  void draw() {
+    if (!isActive()) return;
+  }
+};
+int main() { GM.startUp(); new Hero; new Wall; GM.run(); GM.shutDown(); return 0; }
+"""}
+
+MISSING_SPRITE = {
+    "game.cpp": ALONE.replace("Object.h", "ResourceManager.h") + """int main() {
+  GM.startUp();
+  RM.loadSprite("sprites/not-there.txt", "hero");
+  RM.loadSprite("sprites/torn-spr.txt", "torn");
+  // RM.loadSprite("sprites/commented.txt", "out");
+  GM.run();
+  GM.shutDown();
+}
+""",
+    "sprites/torn-spr.txt": "frames 1\nwidth 3\nheight 2\ncolor green\n<=>\n<=\nend\neof\n"}
+
+NETWORK = {
+    "game.cpp": ALONE + '#include "Net.h"\nint main() { GM.startUp(); Net net; GM.run(); GM.shutDown(); return 0; }\n',
+    "Net.h": "#pragma once\n#include <winsock2.h>\nclass Net { SOCKET s; public: Net(); };\n",
+    "Net.cpp": '#include "Net.h"\nNet::Net() { WSADATA d; WSAStartup(MAKEWORD(2, 2), &d); }\n'}
+
+CRASH = {
+    "game.cpp": ALONE + """#include "ResourceManager.h"
+void greet(df::Sound *p_sound) {
+  p_sound->play();
+}
+int main() {
+  GM.startUp();
+  int *p_lives = nullptr;
+  *p_lives = 3;
+  GM.run();
+}
+"""}
+
+NO_RUN = {"game.cpp": ALONE + "int main() { GM.startUp(); new df::Object; GM.shutDown(); return 0; }\n"}
+
+NO_FILE = {"game.cpp": '#include "GameManager.h"\n#include "Level.h"\nint main() { GM.startUp(); Level level; GM.run(); }\n'}
+
+# Of the author's own engine, which has what the published one has not; in part with its own names.
+OWN_ENGINE = {
+    "game.cpp": ALONE + """int main() {
+  GM.startUp();
+  WM.startTheParty(3);
+  GM.run();
+}
+""",
+    **{f"engine/{name}.h": f"namespace df {{ class {name} {{ public: void startTheParty(int); }}; }}\n"
+       for name in ("GameManager", "WorldManager", "LogManager", "DisplayManager", "Object")},
+    **{f"engine/{name}.cpp": f'#include "{name}.h"\nvoid df::{name}::startTheParty(int) {{}}\n'
+       for name in ("GameManager", "WorldManager", "LogManager", "DisplayManager", "Object")}}
+
+# The Makefile is older than the game: it does not list what is needed.
+STALE_LIST = {"game.cpp": MAIN, "Hero.h": HERO_H, "Hero.cpp": HERO, "sprites/hero-spr.txt": SPRITE,
+              "Makefile": "game: game.cpp\n\tg++ game.cpp -o game\n"}
+
+# Only MSVC takes it, and there is no treatment of its own.
+PERMISSIVE = {"game.cpp": ALONE + "int count(int n = 1);\nint count(int n = 1) { return n; }\n"
+              "int main() { GM.startUp(); GM.run(); GM.shutDown(); return count() - 1; }\n"}
+
+# It tries what the sandbox forbids, and prints what of it was possible.
+PRISONER = {
+    "game.cpp": ALONE + r"""#include <arpa/inet.h>
+#include <fcntl.h>
+#include <sys/mount.h>
+#include <sys/socket.h>
+#include <unistd.h>
+struct Prisoner : df::Object {};
+int main() {
+  GM.startUp();
+  const char *places[] = {"/usr/naiad-adopt", "/etc/naiad-adopt", "/home/naiad-adopt", OUTSIDE "/escaped"};
+  for (const char *place : places) {
+    // In the sandbox /etc is a folder in memory.
+    if (open(place, O_CREAT | O_WRONLY, 0600) >= 0 && std::string(place).find("/etc") != 0) printf("WROTE %s\n", place);
+  }
+  if (open(OUTSIDE "/secret", O_RDONLY) >= 0) printf("READ secret\n");
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(PORT);
+  inet_pton(AF_INET, "127.0.0.1", &to.sin_addr);
+  if (connect(socket(AF_INET, SOCK_STREAM, 0), (sockaddr *)&to, sizeof to) == 0) printf("CONNECTED\n");
+  if (mount(nullptr, "/usr", nullptr, MS_REMOUNT | MS_BIND, nullptr) == 0) printf("MOUNTED\n");
+  if (fork() == 0) {
+    setsid();
+    for (;;) pause();
+  }
+  fflush(stdout);
+  printf("TRIED\n");
+  fflush(stdout);
+  return 3;
+}
+"""}
+
+# Names without df::, headers that used to come along, a base that is private by mistake, enumerators of a scoped type, a name
+# that the game and the engine have, a setter of another type, main() of another type;
+# and a source that is no longer used.
+NAMES = {
+    "game.cpp": ALONE + """#include <math.h>
+class Contact { public: int touch() { return 1; } };
+using namespace df;
+Contact first_contact;
+void main() {
+  GM.startUp();
+  GM.run();
+  GM.shutDown();
+}
+""",
+    "Hero.cpp": """#include "Hero.h"
+Hero::Hero() { setPosition(Vector(1, 2) + Vector(3, 4)); }
+int Hero::eventHandler(const df::Event *p_e) {
+  const df::EventStep *p_s = (const df::EventStep *)p_e;
+  if (p_s->getStepCount() == strlen("x")) return (int)df::SYNC_OBJECT;
+  return 0;
+}
+df::Object *made() { return new Thing; }
+""",
+    "Hero.h": """#include "Object.h"
+#include "NetworkNode.h"
+class Hero : public Object {
+ public:
+  Hero();
+  int eventHandler(const df::Event *p_e);
+  void setActive(bool active) {}
+};
+class Thing : df::Object {};
+""",
+    "Old.cpp": '#include "Forgotten.h"\nForgotten forgotten;\n'}
+
+# With a copy of the engine's headers beside it, which has a name that Naiad lacks. (Here one that no engine has.)
+BUNDLE = {
+    "game.cpp": """#include "GameManager.h"
+#include "Object.h"
+int main() {
+  GM.startUp();
+  df::Object hero;
+  hero.shineLikeInRelease99();
+  hero.misspelt();
+  GM.run();
+}
+""",
+    "df/include/GameManager.h": "#pragma once\n#define GM df::GameManager()\n"
+                                "namespace df { class GameManager { public: int startUp(); void run(); }; }\n",
+    "df/include/Object.h": "#pragma once\nnamespace df { class Object { public: int shineLikeInRelease99(); }; }\n",
+    **{f"df/include/{name}.h": "#pragma once\nnamespace df {}\n"
+       for name in ("WorldManager", "LogManager", "Event", "Box", "Vector", "Sprite", "Frame", "Music", "Sound", "Clock")}}
