@@ -6,17 +6,25 @@ OURS, THEIRS, OTHER, SYSTEM, UNCLEAR = "Naiad", "the game", "another engine", "a
 
 _MISSING_FILE = re.compile(r"^'?(?P<file>[^\s:']+)'?(?:: No such file or directory| file not found)")
 _NAMED = [re.compile(pattern) for pattern in (
-    r"has no member named '(?P<name>\w+)'", r"'(?P<name>\w+)' is not a member of", r"'(?P<name>\w+)' in namespace 'df'", r"no (?:type|member) named '(?P<name>\w+)'",
-    r"'(?:df::)?(?P<name>\w+)' (?:was not declared|does not name|has not been declared)", r"undeclared identifier '(?P<name>\w+)'",
+    r"has no member named '(?P<name>\w+)'", r"'(?P<name>\w+)' is not a member of",
+    r"'(?P<name>\w+)' in namespace 'df'",
+    r"no (?:type|member) named '(?P<name>\w+)'",
+    r"'(?:df::)?(?P<name>\w+)' (?:was not declared|does not name|has not been declared)",
+    r"undeclared identifier '(?P<name>\w+)'",
     r"unknown type name '(?P<name>\w+)'", r"no matching (?:member )?function for call to '(?:\w+::)*(?P<name>\w+)")]
-_WINDOWS_HEADERS = re.compile(r"^(win\w+|ws2\w+|direct|conio|io|mmsystem|shlobj|shellapi|tlhelp32|psapi|dsound|xinput|fileapi|synchapi|process)\.h$", re.I)
-_WINDOWS_NAMES = re.compile(r"^(\w+_s|__\w*(declspec|stdcall|int64)|_tmain|_T|TCHAR|LPC?W?STR|DWORD|WORD|BOOL|HANDLE|HWND|HINSTANCE|COORD|SOCKET|"
-                            r"WSA\w+|INVALID_\w+|GetAsyncKeyState|Sleep\w*|SetConsole\w*|GetStdHandle|CONSOLE_\w+|PlaySound\w*|MessageBox\w*|"
-                            r"_getch|_kbhit|VK_\w+|closesocket|ioctlsocket|_access|_mkdir|_getcwd|MAX_PATH|TEXT|SND_\w+|DebugBreak|OutputDebugString\w*)$")
-_MAC_HEADERS = re.compile(r"(CoreFoundation|ApplicationServices|Cocoa|mach|mach-o|TargetConditionals|Carbon|AppKit|Foundation|CoreGraphics)\b")
+_WINDOWS_HEADERS = re.compile(r"^(win\w+|ws2\w+|direct|conio|io|mmsystem|shlobj|shellapi|"
+                              r"tlhelp32|psapi|dsound|xinput|fileapi|synchapi|process)\.h$", re.I)
+_WINDOWS_NAMES = re.compile(r"^(\w+_s|__\w*(declspec|stdcall|int64)|_tmain|_T|TCHAR|LPC?W?STR|"
+                            r"DWORD|WORD|BOOL|HANDLE|HWND|HINSTANCE|COORD|SOCKET|"
+                            r"WSA\w+|INVALID_\w+|GetAsyncKeyState|Sleep\w*|"
+                            r"SetConsole\w*|GetStdHandle|CONSOLE_\w+|PlaySound\w*|MessageBox\w*|"
+                            r"_getch|_kbhit|VK_\w+|closesocket|ioctlsocket|_access|"
+                            r"_mkdir|_getcwd|MAX_PATH|TEXT|SND_\w+|DebugBreak|OutputDebugString\w*)$")
+_MAC_HEADERS = re.compile(r"(CoreFoundation|ApplicationServices|Cocoa|mach|mach-o|TargetConditionals|"
+                          r"Carbon|AppKit|Foundation|CoreGraphics)\b")
 _NETWORK_HEADERS = re.compile(r'#\s*include\s*[<"](winsock2?|ws2tcpip|sys/socket|netinet/in|arpa/inet|netdb)\.h[>"]', re.I)
-NETWORK_SENTENCE = ("it brings a network of its own and needs none here: the whole game runs on the server, and every dfclient that joins sees "
-                    "it and presses keys; EventKeyboard::getPlayer() says who pressed. Take out these files and what calls them")
+NETWORK_SENTENCE = ("it brings a network of its own and needs none here: the whole game runs on the server, and every "
+                    "dfclient that joins sees it and presses keys; EventKeyboard::getPlayer() says who pressed. Take out these files and what calls them")
 
 
 def missing_name(text):
@@ -53,8 +61,10 @@ class Blame:
             return SYSTEM, f"{name} is Windows' or Microsoft's: {_instead(name)}"
         if self._is_gone_with_engine(unit, diagnostic):
             if self._own:
-                return OTHER, f"the engine in this folder has {name or 'it'}, the published one may not: write it with what Naiad's headers have"
-            return OURS, f"the published engine takes this line and Naiad does not{f' (no {name})' if name else ''}: please report it"
+                return OTHER, (f"the engine in this folder has {name or 'it'}, the published one may not: write it with "
+                               "what Naiad's headers have")
+            lacks = f" (no {name})" if name else ""
+            return OURS, f"the published engine takes this line and Naiad does not{lacks}: please report it"
         if name and self._is_engines(name, diagnostic.text):
             if "no matching" in diagnostic.text or self._naiad.header_of(name):
                 return UNCLEAR, f"Naiad has {name} and not for these arguments: compare them with the headers, else report it"
@@ -125,7 +135,8 @@ def _advice(text, name):
     """What a student can do about an error of their own."""
     for pattern, advice in (
             (r"is ambiguous", f"write ::{name or 'X'} for the game's own, or take out `using namespace`"),
-            (r"marked 'override', but does not override", "give it the arguments of the engine's function: int eventHandler(const df::Event *p_e)"),
+            (r"marked 'override', but does not override",
+             "give it the arguments of the engine's function: int eventHandler(const df::Event *p_e)"),
             (r"invalid conversion from 'const ", "add the const that is missing"),
             (r"invalid new-expression of abstract class|abstract", "write the functions that its base leaves open"),
             (r"redefinition of|multiple definition", "define it once: #pragma once in headers, functions in a .cpp"),

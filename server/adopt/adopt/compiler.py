@@ -8,7 +8,8 @@ import zlib
 
 from .bounded import run
 
-_LINE = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?:(?P<column>\d+):)? (?P<kind>fatal error|error|warning|note): (?P<text>.*)$")
+_LINE = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?:(?P<column>\d+):)? "
+                   r"(?P<kind>fatal error|error|warning|note): (?P<text>.*)$")
 _WITHIN = re.compile(r"^.+?: (?:In|At) (?P<within>.*):$")
 STANDARDS = ("gnu++20", "gnu++17", "gnu++14")  # what dragonfly::dragonfly asks for, then what games were written in
 
@@ -60,6 +61,12 @@ class Unit:
     def errors(self):
         return [one for one in self.diagnostics if one.is_error]
 
+    def again(self):
+        """The same source with the same options, not yet compiled."""
+        other = Unit(self.name)
+        other.standard, other.permissive, other.forced = self.standard, self.permissive, self.forced
+        return other
+
 
 class Compiler:
     """Compiles units of a copy at the same time, as many as there are processors."""
@@ -99,7 +106,8 @@ class Compiler:
         return os.path.join(self.objects, re.sub(r"\W", "_", unit.name)[-80:] + f"_{zlib.crc32(os.fsencode(unit.name)):08x}.o")
 
     def _command(self, unit):
-        command = [self.program, "-std=" + unit.standard, "-g1", "-O0", "-fPIC", "-fmax-errors=30" if self.is_gcc else "-ferror-limit=30"]
+        command = [self.program, "-std=" + unit.standard, "-g1", "-O0", "-fPIC"]
+        command.append("-fmax-errors=30" if self.is_gcc else "-ferror-limit=30")
         if self.is_gcc:
             command += ["-fdiagnostics-column-unit=byte", "-fno-diagnostics-show-caret", "-fdiagnostics-color=never"]
         else:

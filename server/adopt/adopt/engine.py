@@ -1,4 +1,4 @@
-"""What of a folder is the engine and not the game: copies of the published engine's headers, or an engine of the author's own."""
+"""What of a folder is the engine and not the game: copies of the published engine's headers, or an engine of one's own."""
 import os
 import re
 

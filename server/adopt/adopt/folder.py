@@ -9,8 +9,8 @@ HEADERS = (".h", ".hpp", ".hh", ".hxx", ".inl", ".ipp")
 # What version control, editors and build systems leave behind.
 JUNK_FOLDERS = {"__macosx", ".git", ".svn", ".hg", ".vs", ".idea", ".vscode", "cmakefiles", "node_modules", ".ds_store"}
 JUNK_FOLDER = re.compile(r"cmake-build-|sfml([-_ .]?\d.*)?$|.*\.(dsym|app|tlog)$", re.I)
-JUNK_FILE = re.compile(r"(\._.*|\.ds_store|thumbs\.db|desktop\.ini)$|.*\.(o|obj|pdb|ilk|idb|ipch|pch|sdf|suo|exe|dll|so|dylib|lib|a|exp|"
-                       r"tlog|zip|rar|7z|tar|gz|db|sqlite|vsidx|iobj|ipdb)$", re.I)
+JUNK_FILE = re.compile(r"(\._.*|\.ds_store|thumbs\.db|desktop\.ini)$|.*\.(o|obj|pdb|ilk|idb|ipch|pch|sdf|suo|exe|dll|so|dylib|lib|a|"
+                       r"exp|tlog|zip|rar|7z|tar|gz|db|sqlite|vsidx|iobj|ipdb)$", re.I)
 
 
 class Limits:

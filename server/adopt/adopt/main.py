@@ -8,9 +8,13 @@ import sys
 import tempfile
 
 from . import bounded
-from .adoption import Adoption
+from .building import Building
 from .folder import FolderError, Limits
+from .game import PROGRAM, Game
 from .naiad import Installation
+from .report import Report
+from .running import Running
+from .verdicts import Verdicts
 
 RUNS, FAILS, USAGE = 0, 1, 2
 
@@ -48,11 +52,14 @@ def _parser():
     parser.add_argument("folder", metavar="FOLDER", help="the folder with the game")
     parser.add_argument("--keep", metavar="DIR", help="keep the treated copy, with the program in it, as this new folder")
     parser.add_argument("--main", metavar="FILE", help="the file with main() of the program to build, if there are several")
-    parser.add_argument("--seconds", metavar="N", type=float, default=10.0, help="how long to run it (default 10; 0: only build it)")
+    parser.add_argument("--seconds", metavar="N", type=float, default=10.0,
+                        help="how long to run it (default 10; 0: only build it)")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the random keys (default 1)")
-    parser.add_argument("--keys", metavar="SCRIPT", help="what to press instead: a script, or a file of one, as dfbot --script takes it")
+    parser.add_argument("--keys", metavar="SCRIPT",
+                        help="what to press instead: a script, or a file of one, as dfbot --script takes it")
     parser.add_argument("--cxx", metavar="COMPILER", help="the compiler (default: $CXX, else g++, else clang++)")
-    parser.add_argument("--unconfined", action="store_true", help="run the game without the sandbox, where the kernel has none: only one that you trust")
+    parser.add_argument("--unconfined", action="store_true",
+                        help="run the game without the sandbox, where the kernel has none: only one that you trust")
     parser.add_argument("--json", action="store_true", help="print JSON instead of the table")
     parser.add_argument("--quiet", action="store_true", help="no progress on stderr")
     return parser
@@ -101,6 +108,23 @@ def _progress(quiet):
     return say_once
 
 
+def adopt(game, compiler, options, say):
+    """One folder from copy to verdict, which is in the game's report."""
+    say("copying")
+    game.take_in()
+    if not game.choose_program(options.main):
+        return
+    building = Building(game, compiler, say)
+    built = building.build()
+    Verdicts(game, building).say(built)
+    if built:
+        Running(game, building, options, say).run()
+    if options.keep:
+        shutil.move(game.tree, options.keep)
+        program = f"; the program is {os.path.join(options.keep, PROGRAM)}" if built else ""
+        game.report.add("kept", options.keep, f"the treated copy{program}")
+
+
 def main(include, lib, bin_folder, names, arguments=None):
     """Runs the command line. The folders are those of the installation."""
     arguments = sys.argv[1:] if arguments is None else arguments
@@ -117,11 +141,8 @@ def main(include, lib, bin_folder, names, arguments=None):
     say = _progress(options.quiet)
     scratch = tempfile.mkdtemp(prefix="dragonfly-adopt-")
     try:
-        adoption = Adoption(options, Installation(include, lib, bin_folder, names), compiler, scratch, say, Limits())
-        report = adoption.run()
-        if options.keep:
-            shutil.move(adoption.tree, options.keep)
-            report.add("kept", options.keep, "the treated copy" + (f"; the program is {adoption.program_path}" if adoption.program_path else ""))
+        naiad, report = Installation(include, lib, bin_folder, names), Report(options.folder)
+        adopt(Game(options.folder, scratch, naiad, report, Limits()), compiler, options, say)
     except FolderError as error:
         say("")
         sys.stderr.write(f"dragonfly-adopt: {error}\n")

@@ -6,9 +6,11 @@ import subprocess
 from .text import code_only
 
 _DECLARED = re.compile(r"^\s*(?:template\s*<[^>]*>\s*)?(?:class|struct|enum(?:\s+class)?)\s+(\w+)", re.M)
-_FUNCTION = re.compile(r"^(?=[\w\[])(?:\[\[nodiscard\]\] )?(?:inline |constexpr |const |extern |static )*[\w:<>,*& ]+?[ *&](\w+)\s*[(={;]", re.M)
+_FUNCTION = re.compile(r"^(?=[\w\[])(?:\[\[nodiscard\]\] )?(?:inline |constexpr |const |extern |static )*"
+                       r"[\w:<>,*& ]+?[ *&](\w+)\s*[(={;]", re.M)
 _SCOPED = re.compile(r"\benum\s+class\s+(\w+)[^{;]*\{([^}]*)\}")
-_NOT_NAMES = {"if", "for", "while", "return", "switch", "operator", "public", "private", "protected", "default", "using", "namespace"}
+_NOT_NAMES = {"if", "for", "while", "return", "switch", "operator", "public", "private", "protected",
+              "default", "using", "namespace"}
 
 
 class Installation:

@@ -8,7 +8,8 @@ from .folder import is_source
 _MAIN = re.compile(r"\b(?:int|void|auto|INT)\s+(?:WINAPI\s+|APIENTRY\s+|CALLBACK\s+)?(main|wmain|_tmain|WinMain|wWinMain)\s*\(")
 _RUN = re.compile(r"(?:\bGM\s*\.|->|\.|::)\s*run\s*\(")
 _SOURCE_WORD = r"[^\s\"'<>|;,()=:]+\.(?:cpp|cc|cxx|c\+\+|C)\b"
-_ASIDE = re.compile(r"(^|[/ _-])(tests?|testing|unit-?tests?|old|backup|tutorial|examples?|saucer[-_ ]?shoot|template|unused|archive)"
+_ASIDE = re.compile(r"(^|[/ _-])(tests?|testing|unit-?tests?|old|backup|tutorial|examples?|"
+                    r"saucer[-_ ]?shoot|template|unused|archive)"
                     r"([/ _.-]|$)", re.I)
 MAX_PROJECT_FILE = 1 << 20
 
@@ -85,7 +86,8 @@ def _with_variables(text):
 
 def _expanded(text):
     """The words of a Makefile that name sources: themselves, as patterns, or as the objects that are made of them."""
-    plain = re.sub(r"\$[({](?:wildcard|CMAKE_CURRENT_SOURCE_DIR|CMAKE_SOURCE_DIR|PROJECT_SOURCE_DIR|SRC_?DIR|SRCDIR)[)}]?", " ./ ", text)
+    here = "wildcard|CMAKE_CURRENT_SOURCE_DIR|CMAKE_SOURCE_DIR|PROJECT_SOURCE_DIR"
+    plain = re.sub(r"\$[({](?:" + here + r")[)}]?", " ./ ", text)
     words = re.findall(_SOURCE_WORD, re.sub(r"\./\s+/?", "./", plain))
     objects = re.findall(r"(?<![\w%*$])([\w./-]+)\.o\b", plain)
     names = _only_sources(words)

@@ -3,6 +3,7 @@ import json
 
 from .text import shown
 
+MAX_ROWS = 12  # of one kind
 _INDENT = 12  # columns before the text
 
 
@@ -26,6 +27,13 @@ class Report:
     def add(self, what, where="", text="", whose="", line="", change=""):
         self.rows.append(Row(what, where, text, whose, line, change))
 
+    def add_left(self, where, whose, text, change, line=""):
+        """A row for what is left: whose fault it is, and what to do."""
+        self.add("left", where, text, whose, line, change)
+
+    def fail(self, result, reason):
+        self.result, self.reason = result, reason
+
     def has_left(self, where):
         return any(row.what == "left" and row.where == where for row in self.rows)
 
@@ -48,7 +56,8 @@ class Report:
     def write_json(self, out):
         names = ("what", "where", "whose", "text", "line", "change")
         rows = [{name: shown(getattr(row, name), 400) for name in names} for row in self.rows]
-        json.dump({"folder": shown(self.folder), "result": self.result, "reason": shown(self.reason, 400), "rows": rows}, out, indent=1)
+        answer = {"folder": shown(self.folder), "result": self.result, "reason": shown(self.reason, 400), "rows": rows}
+        json.dump(answer, out, indent=1)
         out.write("\n")
 
 

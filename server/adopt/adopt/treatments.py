@@ -6,17 +6,20 @@ _UNKNOWN = [re.compile(pattern) for pattern in (
     _NAME + r" was not declared in this scope", _NAME + r" does not name a type", _NAME + r" has not been declared",
     r"unknown type name " + _NAME, r"use of undeclared identifier " + _NAME)]
 _NOT_IN_DF = [re.compile(pattern) for pattern in (
-    r"'(?P<name>\w+)' is not a member of 'df'", r"'(?P<name>\w+)' in namespace 'df' does not name", r"no (?:type|member) named '(?P<name>\w+)' in namespace 'df'",
+    r"'(?P<name>\w+)' is not a member of 'df'", r"'(?P<name>\w+)' in namespace 'df' does not name",
+    r"no (?:type|member) named '(?P<name>\w+)' in namespace 'df'",
     r"'df::(?P<name>\w+)' has not been declared", r"incomplete type '(?:class |struct |const )*df::(?P<name>\w+)'",
     r"'(?:class |struct |const )*df::(?P<name>\w+)[ \w]*' has (?:initializer but )?incomplete type")]
 _EXTRA = re.compile(r"extra qualification (?:'[\w:]+::' )?on member '(?P<name>~?\w+)'")
-_CONFLICT = re.compile(r"conflicting return type specified for 'virtual (?P<type>.+?) (?:\w+::)*(?P<class>\w+)::(?P<name>\w+)\(")
+_CONFLICT = re.compile(r"conflicting return type specified for 'virtual (?P<type>.+?) (?:\w+::)*"
+                       r"(?P<class>\w+)::(?P<name>\w+)\(")
 _OVERRIDDEN = re.compile(r"overridden function is 'virtual (?P<type>.+?) (?:\w+::)+\w+\(")
 _FORGOT = re.compile(r"did you forget to '#include <(?P<header>[\w./]+)>'|is defined in header '<(?P<known>[\w./]+)>'")
 _NO_BASE = re.compile(r"is an inaccessible base of '(?P<class>\w+)'")
 _NO_NEW = re.compile(r"operator new.* is (?:inaccessible|private)")
 _AMBIGUOUS = re.compile(r"reference to '(?P<name>\w+)' is ambiguous")
-_NUMBER = re.compile(r"'(?:virtual |static |constexpr )*(?:unsigned |signed |long |short )*(?:int|bool|float|double|char|long|unsigned|short)\b [\w:~]+\(")
+_NUMBER = re.compile(r"'(?:virtual |static |constexpr )*(?:unsigned |signed |long |short )*"
+                     r"(?:int|bool|float|double|char|long|unsigned|short)\b [\w:~]+\(")
 
 
 class Change:
@@ -177,7 +180,8 @@ class Treatments:
         if not scope:
             return False
         line = self._sources.line(diagnostic.file, diagnostic.line)
-        return self._edit(diagnostic, re.sub(rf"\bdf\s*::\s*{name}\b", f"df::{scope}::{name}", line), "an enumerator has its type before it")
+        after = re.sub(rf"\bdf\s*::\s*{name}\b", f"df::{scope}::{name}", line)
+        return self._edit(diagnostic, after, "an enumerator has its type before it")
 
     def _missing_prefix(self, _, diagnostic):
         if not diagnostic.is_error:
@@ -211,7 +215,8 @@ class Treatments:
         declared = rf"\bclass\s+{name}\s*:\s*(?=[\w:])(?!public\b|protected\b|private\b|virtual\b)"
         for file, number, _ in list(self._sources.find(declared)):
             line = re.sub(f"({declared})", r"\1public ", self._sources.line(file, number), count=1)
-            return self._edit(type(diagnostic)(file, number, 1, "error", "", ""), line, "a base without a word before it is private")
+            place = type(diagnostic)(file, number, 1, "error", "", "")
+            return self._edit(place, line, "a base without a word before it is private")
         return False
 
     def _ambiguous(self, _, diagnostic):

@@ -100,7 +100,8 @@ class Trial:
         script = f"{self.tmp}/keys"
         with open(script, "w", encoding="utf-8") as file:
             file.write(self.keys or random_script(self.named_keys, self.seed + number - 1, int(seconds * 30) + 30))
-        bot = subprocess.Popen([os.path.join(self.naiad.bin, "dfbot"), f"127.0.0.1:{port}", "--insecure", "--seconds", f"{seconds:.1f}",
+        bot = subprocess.Popen([os.path.join(self.naiad.bin, "dfbot"), f"127.0.0.1:{port}", "--insecure", "--seconds",
+                                f"{seconds:.1f}",
                                 "--script", script, "--quiet", "--name", "adopt"], env=self._environment(0), cwd=self.tmp,
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                preexec_fn=lambda: sandbox.limits(600))
@@ -137,7 +138,8 @@ class Outcome:
     """
 
     def __init__(self, state, code=0, seconds=0.0, ticks=0, objects=0, rounds=1, text="", log="", printed="", ended_well=True):
-        self.state, self.code, self.seconds, self.ticks, self.objects, self.rounds = state, code, seconds, ticks, objects, rounds
+        self.state, self.code, self.seconds = state, code, seconds
+        self.ticks, self.objects, self.rounds = ticks, objects, rounds
         self.text, self.log, self.printed, self.ended_well = text, log, printed, ended_well
 
     @property

@@ -1,0 +1,135 @@
+"""Compiles and links a game, treating its copy on the way."""
+import os
+import re
+
+from .compiler import STANDARDS, Compiler, Unit
+from .includes import Includes, header_folders
+from .naiad import system_headers
+from .treatments import Treatments
+
+MAX_ROUNDS = 12  # of treating and compiling again
+MAX_LINKS = 6  # of looking for sources that no list names
+
+
+class Building:
+    """The build of a game's program: its `units`, the `compiler`, what the `includes` and `treatments` changed."""
+
+    def __init__(self, game, compiler, say):
+        self._game, self._say = game, say
+        folders = header_folders(game.sources, game.program)
+        self.includes = Includes(game.sources, folders, game.naiad, system_headers(compiler)).treat()
+        self.compiler = Compiler(compiler, game.tree, os.path.join(game.scratch, "objects"), game.naiad, folders)
+        self._treatments = Treatments(game.sources, self.compiler, game.naiad)
+        self.units = [Unit(name) for name in game.program.sources]
+        self.said = None  # by the linker, if it failed
+
+    @property
+    def changes(self):
+        return sorted(self._treatments.changes, key=lambda one: (one.file, one.line))
+
+    @property
+    def broken(self):
+        return [unit for unit in self.units if unit.object is None]
+
+    def build(self):
+        """Returns whether there is a program."""
+        self._compile(self.units)
+        self._link()
+        if self._game.program.source_list is None:
+            self._leave_out_what_nothing_needs()
+        return not self.broken and self.said is None
+
+    def _compile(self, pending):
+        """Compiles these, and treats them until nothing changes; then as older C++, then with -fpermissive."""
+        label = "compiling"
+        for _ in range(MAX_ROUNDS):
+            self.compiler.compile(pending, lambda done, count: self._say(f"{label} {done} of {count}"))
+            label = "treating"
+            undone = self._treatments.undo_returns(self.units)
+            pending = self._treatments.treat(self.units)
+            if undone:
+                pending = list(dict.fromkeys(pending + self.broken))
+            if not pending:
+                break
+        for standard in STANDARDS[1:]:
+            self._retry("standard", standard, lambda unit: any(one.line for one in unit.errors))
+        self._retry("permissive", True,
+                    lambda unit: unit.errors and all("[-fpermissive]" in one.text for one in unit.errors))
+
+    def _retry(self, option, value, fits):
+        """Compiles what failed with another option, and keeps that where it helps."""
+        before = {unit: (unit.diagnostics, getattr(unit, option)) for unit in self.broken if fits(unit)}
+        for unit in before:
+            setattr(unit, option, value)
+        self.compiler.compile(list(before))
+        for unit, (diagnostics, old) in before.items():
+            if unit.object is None:
+                setattr(unit, option, old)
+            if unit.object is None or unit.permissive:
+                unit.diagnostics = diagnostics
+
+    def _link(self):
+        """Links; sources that no list names and that define what is missing are taken."""
+        for _ in range(MAX_LINKS):
+            if self.broken:
+                return
+            self._say("linking")
+            self.said = self.compiler.link(self.units, self._game.program_path)
+            more = self._definers(undefined(self.said)) if self.said is not None else []
+            if not more:
+                return
+            units = [Unit(name) for name in more]
+            self.units += units
+            for name in more:
+                self._game.report.add("treated", name, "is taken, too: it defines what the listed sources use")
+            self._compile(units)
+
+    def _definers(self, symbols):
+        """Sources outside of the program that define these symbols."""
+        taken = {unit.name for unit in self.units}
+        code = {name: self._game.sources.code(name) for name in self._game.all_sources if name not in taken}
+        others = [name for name, text in code.items() if not re.search(r"\bmain\s*\(", text)]
+        found = []
+        for symbol, _ in symbols:
+            pattern = _definition(symbol)
+            found += [name for name in others if name not in found and pattern.search(code[name])][:1]
+        return found
+
+    def _leave_out_what_nothing_needs(self):
+        """Without a list, a source that does not compile may be one that is no longer used."""
+        good, bad = [unit for unit in self.units if unit.object], self.broken
+        if not bad or self.units[0] in bad or self.compiler.link(good, self._game.program_path) is not None:
+            return
+        for unit in bad:
+            first = f"{unit.errors[0].file}:{unit.errors[0].line}: {unit.errors[0].text}" if unit.errors else "it takes too long"
+            self._game.report.add("left out", unit.name, f"it does not compile, and nothing needs it ({first})")
+        self.units = good
+
+    def build_examined(self, program):
+        """Builds it again with an address sanitizer. Returns whether that went well."""
+        self.compiler.extra = ["-fsanitize=address", "-fno-omit-frame-pointer"]
+        self.compiler.objects += "-examined"
+        os.makedirs(self.compiler.objects, exist_ok=True)
+        units = [unit.again() for unit in self.units]
+        self.compiler.compile(units)
+        return all(unit.object for unit in units) and self.compiler.link(units, program) is None
+
+
+def undefined(said):
+    """[(symbol, place)] of what the linker did not find, each symbol once."""
+    found = {}
+    for line in said.splitlines():
+        match = re.search(r"^(?:/\S*ld: )?(?P<place>.*?):? ?undefined reference to [`'](?P<symbol>.+)'", line)
+        if match:
+            found.setdefault(match.group("symbol"), match.group("place").rstrip(": "))
+    return list(found.items())
+
+
+def _definition(symbol):
+    """What the definition of a symbol looks like in a source."""
+    table = re.match(r"(?:vtable|typeinfo|VTT|non-virtual thunk) (?:for|to) (.*)", symbol)
+    plain = re.sub(r"\(.*|<.*|\[abi:\w+\]", "", table.group(1) if table else symbol).strip()
+    parts = [re.escape(part) for part in plain.split("::")[-2:]]
+    if table:
+        return re.compile(rf"\b{parts[-1]}\s*::\s*~?\w+\s*\(")
+    return re.compile(r"\b" + r"\s*::\s*".join(parts) + (r"\s*\(" if "(" in symbol else r"\b"))

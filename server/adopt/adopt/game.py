@@ -1,0 +1,94 @@
+"""What is known of the folder: its copy, its sources, the program that they make."""
+import os
+import shutil
+
+from . import blame as faults
+from .engine import EngineCopies, stem
+from .folder import copy_folder, is_code, is_source
+from .project import programs, read_lists
+from .report import MAX_ROWS
+from .text import Sources
+
+PROGRAM = "naiad-game"  # the name of what is built
+
+
+class Game:
+    """A folder taken in. The copy lies in `tree`, files of an engine in `engine_tree`; `report` has what is said of it."""
+
+    def __init__(self, folder, scratch, naiad, report, limits):
+        self.folder, self.scratch, self.naiad, self.report, self._limits = folder, scratch, naiad, report, limits
+        self.tree, self.engine_tree = os.path.join(scratch, "copy"), os.path.join(scratch, "engine")
+        self.files, self.sources, self.all_sources, self.engine, self.program = [], None, [], None, None
+
+    @property
+    def program_path(self):
+        return os.path.join(self.tree, PROGRAM)
+
+    def take_in(self):
+        """Copies the folder, and puts aside what of it is an engine."""
+        copy = copy_folder(self.folder, self.tree, self._limits)
+        self.engine = EngineCopies(self.tree, [name for name in copy.files if is_code(name)], self.naiad.headers)
+        self._say_left_out(copy.left_out)
+        for name in self.engine.files:
+            os.makedirs(os.path.join(self.engine_tree, os.path.dirname(name)), exist_ok=True)
+            shutil.move(copy.path(name), os.path.join(self.engine_tree, name))
+        for folder, count in sorted(self.engine.folders().items())[:MAX_ROWS]:
+            what = "an engine of the author's own" if self.engine.own else "a copy of the engine"
+            self.report.add("left out", folder, f"{count} file{'s' * (count > 1)} of {what}: Naiad's are taken")
+        gone = set(self.engine.files)
+        self.files = [name for name in copy.files if name not in gone]
+        self.sources = Sources(self.tree, [name for name in self.files if is_code(name)])
+        for name in self.sources.recoded:
+            self.report.add("treated", name, "was in UTF-16, is in UTF-8 now")
+
+    def _say_left_out(self, left_out):
+        """Files that a build or a system made are one row; what might be missed has a row each."""
+        usual = [one for one in left_out if one[1].startswith(("a product", "a folder of a system"))]
+        rest = [one for one in left_out if one not in usual]
+        for path, reason in rest[:MAX_ROWS]:
+            self.report.add("left out", path, reason)
+        if len(rest) > MAX_ROWS:
+            self.report.add("left out", "", f"and {len(rest) - MAX_ROWS} more of the kind")
+        if usual:
+            self.report.add("left out", "", f"{len(usual)} products of builds, editors and systems, such as {usual[0][0]}")
+
+    def choose_program(self, main):
+        """Chooses the program: that of `main`, or the likeliest. Returns whether there is one."""
+        self.all_sources = [name for name in self.sources.files if is_source(name)]
+        if not self.all_sources:
+            self.report.fail("is no game", "there is no C++ source in the folder" + (" but that of an engine" * self.engine.own))
+            return False
+        lists = read_lists(self.tree, self.files, self.all_sources)
+        found = programs(self.all_sources, lists, self.sources.code)
+        if main:
+            wanted = (os.path.normpath(main), os.path.relpath(main, self.folder))
+            found = [one for one in found if one.main in wanted]
+        if not found:
+            self.report.add_left("", faults.THEIRS, f"there is no main() in {main or 'the sources of the folder'}",
+                                 "add the file with int main()")
+            self.report.fail("does not build", "no main()")
+            return False
+        self.program = found[0]
+        self._say_program(found)
+        return True
+
+    def _say_program(self, found):
+        program = self.program
+        origin = f"as {program.source_list.file} lists them" if program.source_list else "all that are there"
+        count = len(program.sources) - 1
+        self.report.add("program", program.main, f"and {count} more source{'s' * (count != 1)}, {origin}" if count
+                        else f"the only source, {origin}")
+        for other in found[1:MAX_ROWS]:
+            self.report.add("program", other.main, "another one, not tried: --main takes it")
+        if program.source_list:
+            self._say_list(program.source_list)
+        for name, reason in program.left_out[:MAX_ROWS]:
+            self.report.add("left out", name, reason)
+
+    def _say_list(self, source_list):
+        for call in source_list.unread[:3]:
+            self.report.add("note", source_list.file, f"not run: {call}")
+        known = {stem(name) for name in self.engine.files + self.files}
+        for word in source_list.missing[:MAX_ROWS]:
+            if stem(word.replace("\\", "/")) not in known:
+                self.report.add("note", source_list.file, f"lists {word}, which is not there")

@@ -1,0 +1,127 @@
+"""Runs a game that was built, and says how it went."""
+import os
+
+from . import blame as faults
+from . import sandbox
+from .examine import frame_of
+from .files import missing_files, refused_sprites, run_folder
+from .game import PROGRAM
+from .keys import keys_of
+from .project import has_run
+from .report import MAX_ROWS
+from .trial import START_SECONDS, Trial
+
+_CRASH_ADVICE = ("look at the pointers of this line: what getSound(), getSprite() or objectWithId() did not find is null, "
+                 "and a deleted Object is no more")
+_NOTED_LINES = 4  # of what a game printed, and of what was logged
+
+
+class Running:
+    """The run of a built game. `options` are those of the command line."""
+
+    def __init__(self, game, building, options, say):
+        self._game, self._building, self._options, self._say, self._report = game, building, options, say, game.report
+        self._names = [unit.name for unit in building.units]
+        self._folder = run_folder(game.files, game.sources, game.program)
+        self._root = os.path.join(game.scratch, "root")
+
+    def run(self):
+        """Writes the rows and the result."""
+        self._say_missing()
+        if self._options.seconds == 0:
+            self._report.result = "builds; it was not to run"
+            return
+        os.makedirs(self._root, exist_ok=True)
+        reason = None if self._options.unconfined else sandbox.why_unavailable(self._root)
+        if reason:
+            self._report.fail("builds", f"not run: this kernel gives no sandbox to this user ({reason}); --unconfined runs a "
+                                        "game that you trust")
+            return
+        named_keys = keys_of(self._game.sources.code(name) for name in self._game.sources.files)
+        trial = Trial(self._game.tree, PROGRAM, self._folder, self._game.naiad, self._options.seconds, self._options.seed,
+                      self._options.keys, named_keys)
+        self._say(f"running it for {self._options.seconds:g} s")
+        outcome = trial.run(self._root, confined=not self._options.unconfined)
+        self._say_outcome(outcome)
+        if not outcome.runs:
+            self._explain(outcome, trial)
+
+    def _say_missing(self):
+        if not has_run(self._names, self._game.sources.code):
+            self._report.add_left(self._game.program.main, faults.THEIRS, "nothing calls GM.run()",
+                                  "GM.run(); between startUp() and shutDown()")
+        missing = missing_files(self._game.files, self._game.sources, self._names, self._folder)
+        for file, line, path in missing[:MAX_ROWS]:
+            self._report.add_left(f"{file}:{line}", faults.THEIRS, f"{path} is not in the folder",
+                                  "add the file, or correct its name", self._game.sources.line(file, line))
+
+    def _say_outcome(self, outcome):
+        for file, line, text in refused_sprites(outcome.log, self._folder)[:MAX_ROWS]:
+            self._report.add_left(f"{file}:{line}", faults.THEIRS, text, "correct this line of the sprite")
+        seconds, rounds = self._options.seconds, f", {outcome.rounds} times" if outcome.rounds > 1 else ""
+        text = {
+            "played": f"{outcome.ticks} ticks in {seconds:g} s with random keys, {outcome.objects} Objects in view at the end",
+            "over": f"it ended in order after {outcome.seconds:.1f} s{rounds}, as games do when they are over",
+            "unplayed": "main() ended at once, with 0: no game began",
+            "failed": f"main() ended with {outcome.code}",
+            "crashed": f"it crashed after {outcome.seconds:.1f} s{_signal_of(outcome.code)}",
+            "deaf": f"it did not begin to run within {START_SECONDS} s: it computes or waits before GM.run()",
+            "hangs": f"it stood still after {outcome.ticks} ticks and could only be killed"}[outcome.state]
+        self._report.add("ran", f"in {self._folder}/" if self._folder else "", text)
+        if outcome.runs:
+            self._report.result = "runs"
+            if not outcome.ended_well:
+                self._report.add("note", "", "it crashes when it ends, behind GM.run()")
+            return
+        self._report.fail("builds", {
+            "crashed": "it crashes", "unplayed": "it never calls GM.run()", "failed": "it ends with an error",
+            "deaf": "it never listens", "hangs": "it hangs"}.get(outcome.state, "it is over before it can be played"))
+
+    def _explain(self, outcome, trial):
+        main = self._game.program.main
+        if outcome.state == "unplayed":
+            if not self._report.has_left(main):
+                self._report.add_left(main, faults.THEIRS, "main() returns before a game has run",
+                                      "GM.startUp() must return 0, and GM.run() be reached; what it printed is below")
+        elif outcome.state == "crashed":
+            self._say_crash(outcome, trial)
+        else:
+            text = {"failed": "it ends with an error", "deaf": "it never listens", "over": "it is over at once"}.get(
+                outcome.state, "a handler does not return")
+            self._report.add_left(main, faults.UNCLEAR, text, "what it printed and logged is below")
+        for name, said in (("printed", outcome.printed), ("logged", outcome.log)):
+            for line in [line for line in said.splitlines() if line.strip()][-_NOTED_LINES:]:
+                self._report.add("note", name, line)
+
+    def _say_crash(self, outcome, trial):
+        """Builds it again with an address sanitizer, which says where."""
+        frame = self._crash_place(trial)
+        if frame:
+            place, what = frame
+            file, _, line = place.rpartition(":")
+            self._report.add_left(place, faults.THEIRS, what, _CRASH_ADVICE, self._game.sources.line(file, int(line)))
+        else:
+            self._report.add_left(self._game.program.main, faults.UNCLEAR,
+                                  f"it crashes{_signal_of(outcome.code)}, and where cannot be said",
+                                  "compile it with -g -fsanitize=address and run it")
+
+    def _crash_place(self, trial):
+        self._say("it crashed: building it again, to see where")
+        program = self._game.program_path
+        plain = program + ".plain"
+        os.rename(program, plain)
+        try:
+            if not self._building.build_examined(program):
+                return None
+            trial.examined = True
+            self._say("running it again, to see where it crashes")
+            printed = trial.run(self._root, confined=not self._options.unconfined).printed
+            return frame_of(printed, self._game.sources.files)
+        finally:
+            os.replace(plain, program)
+
+
+def _signal_of(code):
+    names = {4: "an illegal instruction", 6: "abort()", 7: "a bus error", 8: "a division by zero", 11: "a segmentation fault",
+             24: "too much processor time", 25: "a file of more than 32 MiB"}
+    return f": {names.get(-code, f'signal {-code}')}" if code is not None and code < 0 else ""
