@@ -3,7 +3,7 @@ import os
 import re
 
 from .folder import is_source
-from .text import code_only
+from .text import code_only, decoded
 
 # Headers of published releases that are not among ours, or not in every release of ours.
 PUBLISHED_HEADERS = """Splash SplashDragonfly PathManager QuadtreeNode EventCustomNetwork EventNetworkCustom Grid Justification
@@ -48,7 +48,7 @@ class EngineCopies:
     @staticmethod
     def _read(root, name):
         with open(os.path.join(root, name), "rb") as file:
-            return code_only(file.read().decode("latin-1"))
+            return code_only(decoded(file.read())[0])
 
     def folders(self):
         """{folder: how many files of it are an engine's}"""

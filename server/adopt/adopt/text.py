@@ -17,6 +17,13 @@ def shown(text, most=160):
     return text if len(text) <= most else text[:most - 1] + "…"
 
 
+def decoded(data):
+    """The text of a source, and whether it was in UTF-16, as Visual Studio may save it."""
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return data.decode("utf-16", "replace"), True
+    return data.decode("utf-8", "surrogateescape"), False
+
+
 class Sources:
     """The code files of the copy, read once, written back when they are changed."""
 
@@ -26,16 +33,10 @@ class Sources:
 
     def _read(self, name):
         with open(os.path.join(self.root, name), "rb") as file:
-            data = file.read()
-        for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16")):
-            if data.startswith(mark):
-                text = data.decode(encoding, "replace")
-                self.recoded.append(name)
-                break
-        else:
-            text = data.decode("utf-8", "surrogateescape")
+            text, was_wide = decoded(file.read())
         lines = text.split("\n")
-        if name in self.recoded:
+        if was_wide:
+            self.recoded.append(name)
             self._write(name, lines)
         return lines
 

@@ -13,6 +13,10 @@ _NOT_IN_DF = [re.compile(pattern) for pattern in (
 _EXTRA = re.compile(r"extra qualification (?:'[\w:]+::' )?on member '(?P<name>~?\w+)'")
 _CONFLICT = re.compile(r"conflicting return type specified for 'virtual (?P<type>.+?) (?:\w+::)*"
                        r"(?P<class>\w+)::(?P<name>\w+)\(")
+_CLANG_CONFLICT = re.compile(r"function '(?P<name>\w+)' has a different return type \('(?P<type>.+?)'\) than the function it overrides "
+                             r"\(which has return type '(?P<goal>.+?)'\)")
+_CLANG_DEFINITION = re.compile(r"return type of out-of-line definition of '(?:\w+::)*(?P<class>\w+)::(?P<name>\w+)' differs from that in "
+                               r"the declaration")
 _OVERRIDDEN = re.compile(r"overridden function is 'virtual (?P<type>.+?) (?:\w+::)+\w+\(")
 _FORGOT = re.compile(r"did you forget to '#include <(?P<header>[\w./]+)>'|is defined in header '<(?P<known>[\w./]+)>'")
 _NO_BASE = re.compile(r"is an inaccessible base of '(?P<class>\w+)'")
@@ -34,7 +38,7 @@ class Treatments:
 
     def __init__(self, sources, compiler, naiad):
         self._sources, self._compiler, self._naiad = sources, compiler, naiad
-        self.changes, self._returns, self._tried = [], {}, set()
+        self.changes, self._returns, self._types, self._tried = [], {}, {}, set()
         self._kinds = (self._extra_qualification, self._return_type, self._missing_return, self._empty_return, self._void_main,
                        self._missing_header, self._missing_prefix, self._private_base, self._ambiguous)
 
@@ -111,7 +115,7 @@ class Treatments:
         match = _CONFLICT.search(diagnostic.text)
         goal = next((found.group("type") for _, text in diagnostic.notes if (found := _OVERRIDDEN.search(text))), None)
         if not match or not goal:
-            return False
+            return self._clang_return_type(diagnostic)
         name, old = match.group("name"), match.group("type")
         if name == "draw" and old == "void" and not any(self._sources.find(r"\bint\s+(?:\w+\s*::\s*)?draw\s*\(")):
             if "-DDF_DRAW=void" not in self._compiler.definitions:
@@ -127,6 +131,22 @@ class Treatments:
                 line = re.sub(declared, goal + r"\1", self._sources.line(file, number), count=1)
                 done |= self._edit(place, line, f"returns what the engine's {name}() returns")
         return done
+
+    def _clang_return_type(self, diagnostic):
+        """clang names no class: the declaration first, then each definition that does not fit it any more."""
+        match = _CLANG_CONFLICT.search(diagnostic.text)
+        if match:
+            name, old, goal = match.group("name"), match.group("type"), match.group("goal")
+            self._types[name] = old, goal
+        else:
+            match = _CLANG_DEFINITION.search(diagnostic.text)
+            if not match or match.group("name") not in self._types:
+                return False
+            name = match.group("name")
+            old, goal = self._types[name]
+        line = self._sources.line(diagnostic.file, diagnostic.line)
+        after = re.sub(rf"\b{re.escape(old)}(\s+(?:\w+\s*::\s*)*{name}\s*\()", goal + r"\1", line, count=1)
+        return self._edit(diagnostic, after, f"returns what the engine's {name}() returns")
 
     def _missing_return(self, _, diagnostic):
         if not ("no return statement in function" in diagnostic.text or "control reaches end of non-void" in diagnostic.text or
