@@ -5,6 +5,7 @@ import re
 from .folder import is_source
 
 _INCLUDE = re.compile(r'^(\s*#\s*include\s*)(["<])([^">]+)[">](.*)$', re.S)
+MAX_FOLDERS = 200  # in which headers are looked for
 # Visual Studio's own, of no meaning elsewhere.
 _DROPPED = {"stdafx.h", "pch.h", "targetver.h", "tchar.h", "sdkddkver.h", "crtdbg.h", "afxwin.h", "resource.h"}
 
@@ -90,4 +91,4 @@ def header_folders(sources, program):
     """The folders with headers, the program's own first."""
     home = os.path.dirname(program.main)
     folders = {os.path.dirname(name) for name in sources.files if not is_source(name)}
-    return sorted(folders, key=lambda folder: (folder != home, folder.count("/"), folder))
+    return sorted(folders, key=lambda folder: (folder != home, folder.count("/"), folder))[:MAX_FOLDERS]

@@ -12,6 +12,7 @@ _ASIDE = re.compile(r"(^|[/ _-])(tests?|testing|unit-?tests?|old|backup|tutorial
                     r"saucer[-_ ]?shoot|template|unused|archive)"
                     r"([/ _.-]|$)", re.I)
 MAX_PROJECT_FILE = 1 << 20
+MAX_PROGRAMS = 24  # that are looked at; a folder has rarely more than three
 
 
 class SourceList:
@@ -128,7 +129,7 @@ def has_run(names, code):
 def programs(sources, lists, code):
     """The programs of a folder, the likeliest game first."""
     all_mains = mains(sources, code)
-    found = [_program(main, all_mains, sources, lists) for main in all_mains]
+    found = [_program(main, all_mains, sources, lists) for main in all_mains[:MAX_PROGRAMS]]
 
     def order(program):
         return (not has_run(program.sources, code), bool(_ASIDE.search(program.main)), "client" in program.main.lower(),
@@ -143,7 +144,8 @@ def _program(main, all_mains, sources, lists):
     if fitting:
         best = max(fitting, key=lambda one: (len(set(one.sources) - others), -len(one.missing), -one.file.count("/")))
         taken = [name for name in best.sources if name not in others]
-        left_out = [(name, f"not listed in {best.file}") for name in sources if name not in best.sources and name not in others]
+        listed = set(best.sources)
+        left_out = [(name, f"not listed in {best.file}") for name in sources if name not in listed and name not in others]
     else:
         best, (taken, left_out) = None, _around(main, others, sources)
     taken.remove(main)

@@ -29,6 +29,7 @@ class Sources:
 
     def __init__(self, root, files):
         self.root, self.files, self.recoded = root, sorted(files), []
+        self._code = {}  # of files that have not been changed since
         self._lines = {name: self._read(name) for name in self.files}
 
     def _read(self, name):
@@ -51,7 +52,9 @@ class Sources:
         return "\n".join(self._lines[name])
 
     def code(self, name):
-        return code_only(self.text(name))
+        if name not in self._code:
+            self._code[name] = code_only(self.text(name))
+        return self._code[name]
 
     def line(self, name, number):
         lines = self._lines.get(name, ())
@@ -60,6 +63,7 @@ class Sources:
     def replace(self, name, number, line):
         end = "\r" if self._lines[name][number - 1].endswith("\r") else ""
         self._lines[name][number - 1] = line + end
+        self._code.pop(name, None)
         self._write(name, self._lines[name])
 
     def find(self, pattern, names=None):
