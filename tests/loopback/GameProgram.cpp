@@ -35,8 +35,10 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
 
 }  // namespace
 
-GameProgram::GameProgram(const std::string& name, std::map<std::string, std::string> environment)
+GameProgram::GameProgram(const std::string& name, std::map<std::string, std::string> environment,
+                         const std::vector<std::string>& arguments)
     : m_directory(makeDirectory()) {
+  std::filesystem::create_directory(playFolder());
   environment.insert({{"NAIAD_ADDRESS", "127.0.0.1"},
                       {"NAIAD_PORT", "0"},
                       {"NAIAD_PORT_FILE", m_directory / "port"},
@@ -53,9 +55,11 @@ GameProgram::GameProgram(const std::string& name, std::map<std::string, std::str
   std::vector<std::string> entries;
   for (const auto& [key, value] : environment) entries.push_back(key + "=" + value);
   std::vector<std::string> words{std::string(NAIAD_BINARY_DIR) + "/" + name};
+  words.insert(words.end(), arguments.begin(), arguments.end());
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   const std::string output = m_directory / "output";
+  posix_spawn_file_actions_addchdir_np(&actions, playFolder().c_str());
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_APPEND,
                                    0600);

@@ -7,14 +7,17 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace naiad::test {
 
 class GameProgram {
  public:
   /// Start `name` of the build's programs, without a terminal, with these variables in its environment. It
-  /// listens on a free port of 127.0.0.1, and a tick takes 5 ms.
-  GameProgram(const std::string& name, std::map<std::string, std::string> environment);
+  /// listens on a free port of 127.0.0.1, and a tick takes 5 ms. `arguments`: of its command line. It works
+  /// in playFolder(), where nothing is.
+  GameProgram(const std::string& name, std::map<std::string, std::string> environment,
+              const std::vector<std::string>& arguments = {});
   /// SIGTERM, if it has not ended.
   ~GameProgram();
   GameProgram(const GameProgram&) = delete;
@@ -26,7 +29,10 @@ class GameProgram {
   void signal(int number) const;
   /// Its log so far.
   std::string log() const;
+  /// Its key is in identity/key.pem there.
   std::filesystem::path directory() const { return m_directory; }
+  std::filesystem::path playFolder() const { return m_directory / "play"; }
+  pid_t process() const { return m_process; }
 
  private:
   bool hasEnded();

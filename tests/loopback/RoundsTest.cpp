@@ -187,7 +187,9 @@ TEST_F(Rounds, WhatPlayersSeeIsWhatTheWorldsDraw) {
 }
 
 TEST_F(Rounds, AGameThatNeverBeginsEndsTheServer) {
-  GameProgram hopeless("rounds_game", {{"NAIAD_ON_GAME_OVER", "restart"}, {"ROUNDS_CRASH_AT_ONCE", "1"}});
+  GameProgram hopeless("rounds_game", {{"NAIAD_ON_GAME_OVER", "restart"},
+                                       {"ROUNDS_CRASH_AT_ONCE", "1"},
+                                       {"NAIAD_WORLD_ENVIRONMENT", "ROUNDS_CRASH_AT_ONCE"}});
   const int status = hopeless.wait();
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status << hopeless.log();
   EXPECT_NE(hopeless.log().find("the game crashed (SIGABRT)"), std::string::npos) << hopeless.log();
@@ -203,6 +205,16 @@ TEST_F(Rounds, TheEndOfTheServerIsTheEndOfItsWorld) {
   const int status = game->wait();
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status << game->log();
   EXPECT_EQ(kill(process, 0), -1);
+}
+
+TEST_F(Rounds, AServerThatIsKilledLeavesNoWorld) {
+  start({{"NAIAD_ON_GAME_OVER", "restart"}});
+  auto ann = join("ann");
+  const int process = shown(*ann).process;
+  EXPECT_EQ(kill(process, 0), 0);
+  game->signal(SIGKILL);
+  game->wait();
+  EXPECT_TRUE(serve([&] { return kill(process, 0) == -1; }));
 }
 
 TEST_F(Rounds, PrivateWorldsCrashAlone) {

@@ -40,18 +40,21 @@ fs::path locate(const std::string& game) {
 
 }  // namespace
 
-GameModule::GameModule(const std::string& game) {
-  const fs::path path = locate(game);
-  m_name = path.stem().string();
-  m_folder = fs::absolute(path).parent_path();
-  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+GameModule::GameModule(const std::string& game) : m_path(find(game)) {
+  m_name = nameOf(m_path);
+  void* handle = dlopen(m_path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw GameError("The game cannot be loaded: " + std::string(dlerror()));
   m_main = reinterpret_cast<Main>(dlsym(handle, "main"));
-  if (m_main == nullptr) throw GameError("The game " + path.string() + " has no main().");
+  if (m_main == nullptr) throw GameError("The game " + m_path.string() + " has no main().");
 }
 
-std::vector<std::string> GameModule::resourceFolders() const {
-  return {(m_folder / m_name).string(), m_folder.string(), m_folder.parent_path().string()};
+fs::path GameModule::find(const std::string& game) {
+  return fs::absolute(locate(game)).lexically_normal();
+}
+
+std::vector<std::string> GameModule::resourceFolders(const fs::path& module) {
+  const fs::path folder = module.parent_path();
+  return {(folder / nameOf(module)).string(), folder.string(), folder.parent_path().string()};
 }
 
 int GameModule::main() const {

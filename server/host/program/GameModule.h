@@ -20,11 +20,18 @@ class GameModule {
   /// `game`: the name of a shipped game, or a path (anything with a slash). Throws GameError.
   explicit GameModule(const std::string& game);
 
+  // Without loading it, which would run its static constructors:
+
+  /// The module's absolute path. Throws GameError if a shipped game of this name is not there.
+  static std::filesystem::path find(const std::string& game);
   /// "saucershoot": the file's name without folder and ending.
+  static std::string nameOf(const std::filesystem::path& module) { return module.stem().string(); }
+  static std::vector<std::string> resourceFolders(const std::filesystem::path& module);
+
   const std::string& name() const { return m_name; }
   /// Where its files are (sprites, sounds): a folder of the module's name beside it, the one it is in itself,
   /// and the one above, for many build in a folder of their own.
-  std::vector<std::string> resourceFolders() const;
+  std::vector<std::string> resourceFolders() const { return resourceFolders(m_path); }
   /// Run the game's main() on this thread; what it returns.
   int main() const;
 
@@ -34,7 +41,7 @@ class GameModule {
  private:
   using Main = int (*)(int, char**);
   std::string m_name;
-  std::filesystem::path m_folder;  // that the module is in
+  std::filesystem::path m_path;  // absolute
   Main m_main = nullptr;
 };
 

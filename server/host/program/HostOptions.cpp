@@ -65,6 +65,21 @@ std::vector<Row> tableOf(HostOptions& o) {
         "NAIAD_ON_GAME_OVER",
         {},
         {"leave", "exit", "restart"}}},
+      {{"--sandbox",
+        &o.sandbox,
+        "Games in processes of their own cannot connect, reach this user's other processes, or open files "
+        "that are not the game's, as far as the kernel has Landlock and seccomp; off: they can do what this "
+        "user can",
+        "NAIAD_SANDBOX",
+        {},
+        {"on", "off"}}},
+      {{"--world-memory", &o.world_memory,
+        "MiB of addresses that a game in a process of its own may have; 0: no limit", "NAIAD_WORLD_MEMORY",
+        OptionRange{0, 1 << 20}}},
+      {{"--world-environment", &o.world_environment,
+        "Names of variables, with commas between, that games in processes of their own find in their "
+        "environment, beside the usual ones",
+        "NAIAD_WORLD_ENVIRONMENT"}},
       {{"--insecure", &o.insecure, "Without encryption or datagrams, on loopback only (for tests)",
         "NAIAD_INSECURE"}},
       {{"--certificate", &o.certificate,

@@ -28,17 +28,20 @@ struct HostOptions {
   double exit_when_empty = 0;        ///< seconds after the last player left; 0: never
   std::string players = "together";  ///< whose input the game hears: "together", "first" or "private"
   std::string on_game_over =
-      "leave";              ///< by one player among several: "leave" (for them alone), "exit" or "restart"
-  bool insecure = false;    ///< plain TCP, loopback only, no datagrams: for tests
-  std::string certificate;  ///< PEM file; with `key`. Empty: a key of its own, made on the first start
-  std::string key;          ///< PEM file
-  std::string identity;     ///< directory of the key of its own; empty: the user's
-  std::string password;     ///< that players need: itself, or its Argon2id hash; empty: none
-  double grace = 60;        ///< seconds that a player whose connection broke may take to come back
-  std::string join_file;    ///< write what to pass to dfclient here once listening
-  std::string truth_file;   ///< write what each player should see, tick by tick
-  std::string port_file;    ///< write the port number here once listening
-  std::string log_file;     ///< append log lines here instead of stderr
+      "leave";                 ///< by one player among several: "leave" (for them alone), "exit" or "restart"
+  std::string sandbox = "on";  ///< of worlds in processes of their own: "on" or "off"
+  int world_memory = 4096;     ///< MiB of addresses for each of them; 0: no limit
+  std::string world_environment;  ///< names of variables that they get, too, with commas between
+  bool insecure = false;          ///< plain TCP, loopback only, no datagrams: for tests
+  std::string certificate;        ///< PEM file; with `key`. Empty: a key of its own, made on the first start
+  std::string key;                ///< PEM file
+  std::string identity;           ///< directory of the key of its own; empty: the user's
+  std::string password;           ///< that players need: itself, or its Argon2id hash; empty: none
+  double grace = 60;              ///< seconds that a player whose connection broke may take to come back
+  std::string join_file;          ///< write what to pass to dfclient here once listening
+  std::string truth_file;         ///< write what each player should see, tick by tick
+  std::string port_file;          ///< write the port number here once listening
+  std::string log_file;           ///< append log lines here instead of stderr
   // Of games that are programs themselves:
   bool headless = false;     ///< no network and no players
   bool local_client = true;  ///< in a terminal: attach a client there

@@ -193,6 +193,9 @@ void ProgramHost::serve(df::World& world) {
   if (!m_options.log_file.empty() || !LocalClient::hasTerminal()) lines.emplace(m_options.log_file);
   // What the game itself logs goes to its own file, as ever.
   const Host::Log log = [&](const std::string& line) { lines ? (*lines)(line) : world.log(line); };
+  std::shared_ptr<const WorldLauncher> launcher;
+  if (wantsWorlds(m_options))
+    launcher = launchProgram(m_options, df::Config::getInstance().getLogFile(), log);
   const std::unique_ptr<Host> host = openHost(m_options, m_given.count("port") > 0, log);
   writeWhereabouts(m_options, *host);
   log(programName() + " is a server on " + host->address());
@@ -203,7 +206,7 @@ void ProgramHost::serve(df::World& world) {
   const std::vector<std::string> help = world.getHelp();
   addToHelp(world, how);
 
-  if (wantsWorlds(m_options)) host->setWorlds(startWorlds());
+  if (launcher != nullptr) host->setWorlds(startWorlds(launcher));
   TerminalPlayer terminal_player(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });
   host->run(world);

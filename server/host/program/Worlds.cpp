@@ -1,9 +1,63 @@
 #include "host/program/Worlds.h"
 
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "host/program/GameModule.h"
+#include "host/program/WorldSandbox.h"
 #include "host/world/WorldProcess.h"
 #include "host/world/WorldStart.h"
 
 namespace naiad {
+
+namespace {
+
+constexpr const char* kThisProgram = "/proc/self/exe";
+constexpr std::chrono::milliseconds kBetweenChecks{10};
+
+std::vector<std::string> ownArguments() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  const std::string all{std::istreambuf_iterator<char>(file), {}};
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin < all.size(); begin += words.back().size() + 1) {
+    words.emplace_back(all.data() + begin);
+  }
+  return words;
+}
+
+/// What a world needs of dfserver's options; the others are the front's.
+std::vector<std::string> moduleArguments(const HostOptions& options, const std::string& module) {
+  std::vector<std::string> words{"dfserver", "--game=" + module, "--players=" + options.players,
+                                 "--on-game-over=" + options.on_game_over};
+  if (options.seed != 0) words.push_back("--seed=" + std::to_string(options.seed));
+  if (!options.log_file.empty()) words.push_back("--log=" + options.log_file);
+  return words;
+}
+
+std::string gameSettings() {
+  const char* p_named = std::getenv("DRAGONFLY_CONFIG");
+  return p_named != nullptr ? p_named : "df-config.txt";
+}
+
+std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const GamePlace& place,
+                                            std::vector<std::string> arguments, const LogLine& log) {
+  const WorldSandbox made = makeWorldSandbox(options, place);
+  auto launcher = std::make_shared<const WorldLauncher>(WorldProgram{
+      kThisProgram, std::move(arguments), makeWorldEnvironment(options), firstDirectory(), made.sandbox});
+  if (!made.sandbox.on) {
+    log("games in processes of their own have no sandbox: they can do what this user can");
+    return launcher;
+  }
+  hideProcess();
+  if (const std::string gaps = sandboxGaps(launcher->support()); !gaps.empty()) log(gaps);
+  if (launcher->support().landlock == 0) return launcher;
+  for (const std::string& note : made.notes) log(note);
+  return launcher;
+}
+
+}  // namespace
 
 bool wantsWorlds(const HostOptions& options) {
   return options.on_game_over == "restart" || options.players == "private";
@@ -13,9 +67,43 @@ bool leavesAlone(const HostOptions& options) {
   return options.on_game_over != "exit";
 }
 
-Host::NewWorld startWorlds() {
-  return
-      [](asio::io_context& home) { return std::make_unique<WorldProcess>(home, startThisProgramAsWorld()); };
+std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, const std::string& module,
+                                                  const std::string& config, const LogLine& log) {
+  GamePlace place;
+  place.files = {module, gameSettings()};
+  place.folders = GameModule::resourceFolders(module);
+  place.logs = {options.log_file};
+  place.secrets = {config};
+  return launch(options, place, moduleArguments(options, module), log);
+}
+
+std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, const std::string& log_file,
+                                                   const LogLine& log) {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::read_symlink(kThisProgram, error).parent_path();
+  GamePlace place;
+  place.files = {gameSettings()};
+  if (!error) place.folders = {folder.string(), folder.parent_path().string()};
+  place.logs = {log_file};
+  place.is_program = true;
+  return launch(options, place, ownArguments(), log);
+}
+
+Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher) {
+  return [launcher = std::move(launcher)](asio::io_context& home) {
+    return std::make_unique<WorldProcess>(home, launcher->start());
+  };
+}
+
+Preview previewWorld(const WorldLauncher& launcher) {
+  asio::io_context home;
+  WorldProcess world(home, launcher.start());
+  while (!world.ready() && !world.end()) {
+    home.restart();
+    home.run_one_for(kBetweenChecks);
+    world.checkProcess(1);
+  }
+  return {world.ready(), world.end().value_or(WorldEnd())};
 }
 
 }  // namespace naiad

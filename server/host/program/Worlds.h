@@ -1,8 +1,14 @@
 // When a game gets worlds in processes of their own, and what starts them.
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include "host/program/Host.h"
 #include "host/program/HostOptions.h"
+#include "host/world/WorldLauncher.h"
+#include "host/world/WorldMessages.h"
+#include "host/world/WorldPort.h"
 
 namespace naiad {
 
@@ -10,7 +16,24 @@ namespace naiad {
 bool wantsWorlds(const HostOptions& options);
 /// Does a key that ends the game end it for its player alone?
 bool leavesAlone(const HostOptions& options);
-/// For Host::setWorlds(): each is this program, started again.
-Host::NewWorld startWorlds();
+
+/// What starts the worlds of dfserver with this module, whose path is absolute; this process does not load
+/// it. `config`: the file of --config, or empty. Better called before this process has threads and secrets;
+/// from then on its memory is closed to its worlds. Throws std::system_error.
+std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, const std::string& module,
+                                                  const std::string& config, const LogLine& log);
+/// The same for this program, which is the game. `log_file`: the game's own.
+std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, const std::string& log_file,
+                                                   const LogLine& log);
+
+/// For Host::setWorlds().
+Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher);
+
+/// Runs the game until GM.run(), in a world that is ended then. What it has set up; or how it ended before.
+struct Preview {
+  std::optional<WorldReady> ready;
+  WorldEnd end;
+};
+Preview previewWorld(const WorldLauncher& launcher);
 
 }  // namespace naiad

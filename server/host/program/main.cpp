@@ -1,4 +1,5 @@
-// dfserver: loads a game, installs the host as its runner, and calls the game's main().
+// dfserver: loads a game, installs the host as its runner, and calls the game's main(). With worlds in
+// processes of their own it does so in each of those, and is their front.
 #include <google/protobuf/stubs/logging.h>
 
 #include <exception>
@@ -7,12 +8,14 @@
 #include "engine/managers/GameManager.h"
 #include "engine/managers/LogManager.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
 #include "host/auth/Seed.h"
 #include "host/program/Announcement.h"
 #include "host/program/GameModule.h"
 #include "host/program/Host.h"
 #include "host/program/HostOptions.h"
 #include "host/program/LineLog.h"
+#include "host/program/WorldSandbox.h"
 #include "host/program/Worlds.h"
 #include "host/world/WorldServer.h"
 #include "host/world/WorldStart.h"
@@ -63,21 +66,62 @@ ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runne
   return play(game);
 }
 
-int serve(naiad::HostOptions options) {
-  naiad::LineLog log(options.log_file);
-  const naiad::GameModule game(options.game);
-  if (const auto socket = naiad::takeWorldSocket()) {
-    naiad::WorldServer world(*socket, naiad::leavesAlone(options));
-    return play(game, " in a world of its own", world, options, log);
-  }
-  naiad::Host host(options, game.name(), [&log](const std::string& line) { log(line); });
-  if (naiad::wantsWorlds(options)) host.setWorlds(naiad::startWorlds());
+void announce(const naiad::HostOptions& options, const naiad::Host& host) {
   naiad::writeWhereabouts(options, host);
   for (const std::string& line : naiad::howToJoin(host)) std::cout << line << std::endl;
-  const ExitCode code = play(game, " on " + host.address(), host, options, log);
-  if (host.failure().empty()) return code;
-  std::cerr << "dfserver: the game " << host.failure() << "\n";
+}
+
+/// The world of which players see the size and the help when they join; no game ticks in it.
+void setUp(df::World& world, const naiad::WorldReady& ready) {
+  world.setWindow(ready.window_width, ready.window_height);
+  world.setCompat(ready.compat);
+  world.setHelp(ready.help);
+  world.extras().settings.frame_time = ready.frame_millis;
+}
+
+ExitCode failGame(const std::string& how) {
+  std::cerr << "dfserver: the game " << how << "\n";
   return kGameFailed;
+}
+
+/// How a game ended before anybody could play.
+ExitCode failPreview(const naiad::WorldEnd& end) {
+  if (end.why == naiad::WorldEnd::kGameOver) return kOk;
+  if (end.exit_code == kNoGame) return kNoGame;  // and it has said why
+  return failGame(end.text);
+}
+
+/// The game is loaded in its worlds alone: here it would have this process's key before it begins.
+int serveWorlds(const naiad::HostOptions& options, const std::string& config, naiad::LineLog& lines) {
+  const naiad::LogLine log = [&lines](const std::string& line) { lines(line); };
+  const auto module = naiad::GameModule::find(options.game);
+  const auto launcher = naiad::launchModule(options, module.string(), config, log);
+  const naiad::Preview preview = naiad::previewWorld(*launcher);
+  if (!preview.ready) return failPreview(preview.end);
+  const std::string name = naiad::GameModule::nameOf(module);
+  naiad::Host host(options, name, log);
+  host.setWorlds(naiad::startWorlds(launcher));
+  announce(options, host);
+  log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +
+      ", in worlds of their own");
+  df::World& world = df::World::current();
+  setUp(world, *preview.ready);
+  host.run(world);
+  return host.failure().empty() ? kOk : failGame(host.failure());
+}
+
+int serve(naiad::HostOptions options, const std::string& config) {
+  naiad::LineLog log(options.log_file);
+  if (const auto socket = naiad::takeWorldSocket()) {
+    naiad::WorldServer world(*socket, naiad::leavesAlone(options));
+    return play(naiad::GameModule(options.game), " in a world of its own", world, options, log);
+  }
+  if (naiad::wantsWorlds(options)) return serveWorlds(options, config, log);
+  const naiad::GameModule game(options.game);
+  naiad::Host host(options, game.name(), [&log](const std::string& line) { log(line); });
+  announce(options, host);
+  const ExitCode code = play(game, " on " + host.address(), host, options, log);
+  return host.failure().empty() ? code : failGame(host.failure());
 }
 
 }  // namespace
@@ -97,8 +141,10 @@ int main(int argc, char** argv) {
     case naiad::CommandLine::kRun:
       break;
   }
+  const std::string config = naiad::configFileOf(argc, argv);
+  naiad::hidePassword(argc, argv);
   try {
-    return serve(options);
+    return serve(options, config);
   } catch (const naiad::GameError& error) {
     std::cerr << "dfserver: " << error.what() << "\n";
     return kNoGame;

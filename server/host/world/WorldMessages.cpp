@@ -1,5 +1,7 @@
 #include "host/world/WorldMessages.h"
 
+#include <utility>
+
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
 
@@ -8,6 +10,15 @@ namespace naiad {
 namespace {
 
 using Input = df::InputQueue::Input;
+
+template <class F, class T>
+void visitReady(F& f, T& ready) {
+  f.number(ready.window_width, kMinViewWidth, kMaxViewWidth);
+  f.number(ready.window_height, kMinViewHeight, kMaxViewHeight);
+  f.number(ready.frame_millis, 1, kMaxFrameMillis);
+  f.flag(ready.compat);
+  f.list(ready.help, [](F& in, auto& line) { in.text(line, kMaxHelpLength); });
+}
 
 template <class F, class T>
 void visitSeen(F& f, T& seen) {
@@ -88,6 +99,22 @@ void visitAnswer(F& f, T& answer) {
 }
 
 }  // namespace
+
+void writeReady(const WorldReady& ready, std::string& frame) {
+  FieldWriter out(frame);
+  WorldReady cut = ready;
+  if (cut.help.size() > kMaxHelpLines) cut.help.resize(kMaxHelpLines);
+  visitReady(out, std::as_const(cut));
+  out.finish();
+}
+
+std::optional<WorldReady> readReady(std::string_view fields) {
+  FieldReader in(fields);
+  WorldReady ready;
+  visitReady(in, ready);
+  in.require(ready.help.size() <= kMaxHelpLines);
+  return in.isWhole() ? std::optional(std::move(ready)) : std::nullopt;
+}
 
 bool writeTurn(const WorldTurn& turn, std::string& frame) {
   FieldWriter out(frame);

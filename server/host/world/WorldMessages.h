@@ -1,6 +1,6 @@
 // The messages between a host and a world in a process of its own, as frames (WorldFrame.h).
 //
-//   world → host   ready                     once, when the game has come to GM.run()
+//   world → host   ready: what the game has set up      once, when it has come to GM.run()
 //   host → world   turn: inputs, and tick
 //   world → host   answer: how the tick ended; a turn has one answer, and no turn is sent before it
 //
@@ -20,6 +20,16 @@
 #include "shared/values/Canvas.h"
 
 namespace naiad {
+
+/// What the game has set up for players who join.
+struct WorldReady {
+  int window_width = 80;
+  int window_height = 24;
+  int frame_millis = 33;  ///< as df-config.txt writes it, up to kMaxFrameMillis
+  bool compat = false;
+  std::vector<std::string> help;  ///< at most kMaxHelpLines of kMaxHelpLength bytes
+};
+inline constexpr int kMaxFrameMillis = 1000;
 
 /// Inputs, and a tick.
 struct WorldTurn {
@@ -44,9 +54,13 @@ struct WorldAnswer {
   std::vector<WorldPicture> pictures;  ///< by player
 };
 
-/// Make `frame` a whole frame. False: it would be too long.
+// Writers make `frame` a whole frame. False: it would be too long. Readers return nothing if anything is
+// missing, out of range or left over.
+
+void writeReady(const WorldReady& ready, std::string& frame);
+std::optional<WorldReady> readReady(std::string_view fields);
+
 bool writeTurn(const WorldTurn& turn, std::string& frame);
-/// Nothing if anything is missing, out of range or left over.
 std::optional<WorldTurn> readTurn(std::string_view fields);
 
 /// `p_view` if the answer has one.

@@ -26,7 +26,8 @@ struct WorldEnd {
     kHung,      ///< it did not answer in time
     kBroken,    ///< it sent a malformed frame
   } why = kGameOver;
-  std::string text;  ///< for the log and for players, like "crashed (SIGABRT)"
+  std::string text;   ///< for the log and for players, like "crashed (SIGABRT)"
+  int exit_code = 0;  ///< of kCrashed, unless it was a signal
 };
 
 class WorldPort {

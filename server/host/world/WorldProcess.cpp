@@ -1,8 +1,11 @@
 #include "host/world/WorldProcess.h"
 
+#include <poll.h>
 #include <signal.h>
 #include <string.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <asio/buffer.hpp>
@@ -18,6 +21,9 @@ namespace {
 /// The time between two checks counts up to this: if the host itself was held up, the world was not late.
 constexpr std::chrono::milliseconds kMaxBetweenChecks{100};
 
+/// For a keeper to end a world with all that it has started.
+constexpr int kKillMillis = 5'000;
+
 std::string nameOf(int signal) {
   const char* p_name = sigabbrev_np(signal);
   return p_name != nullptr ? "SIG" + std::string(p_name) : std::to_string(signal);
@@ -27,20 +33,32 @@ std::string nameOf(int signal) {
 
 WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started)
     : m_socket(home, asio::local::stream_protocol(), started.socket),
+      m_keeper(started.keeper),
       m_process(started.process),
       m_checked_at(Clock::now()) {
   readHead();
 }
 
 WorldProcess::~WorldProcess() {
-  if (m_process <= 0) return;
-  kill();
-  int status = 0;
-  while (waitpid(m_process, &status, 0) < 0 && errno == EINTR) continue;
+  if (!m_status) {
+    kill();
+    takeStatus(kKillMillis);
+  }
+  ::close(m_keeper);
 }
 
+// The keeper takes it as the end of the host.
 void WorldProcess::kill() {
-  if (m_process > 0) ::kill(m_process, SIGKILL);
+  ::shutdown(m_keeper, SHUT_WR);
+}
+
+// Without its keeper a world does not live: as if it had been killed.
+std::optional<int> WorldProcess::takeStatus(int patience_millis) const {
+  pollfd readable{m_keeper, POLLIN, 0};
+  if (::poll(&readable, 1, patience_millis) <= 0) return std::nullopt;
+  KeeperEnd end;
+  const bool whole = ::recv(m_keeper, &end, sizeof end, MSG_DONTWAIT) == sizeof end;
+  return whole ? end.status : SIGKILL;
 }
 
 // ---- down -------------------------------------------------------------------------------------------------
@@ -98,8 +116,11 @@ void WorldProcess::readFields() {
 void WorldProcess::onFrame() {
   if (m_state >= State::kEnding) return;
   const bool starts = m_state == State::kStarting;
-  if (m_state == State::kReady || starts != m_in.empty()) return fail(WorldEnd::kBroken, "spoke out of turn");
-  if (!starts) {
+  if (m_state == State::kReady) return fail(WorldEnd::kBroken, "spoke out of turn");
+  if (starts) {
+    m_ready = readReady(m_in);
+    if (!m_ready) return fail(WorldEnd::kBroken, "sent what no world sends");
+  } else {
     auto answer = readAnswer(m_in, *m_views, m_view);
     if (!answer) return fail(WorldEnd::kBroken, "sent what no world sends");
     answer->leavers.insert(answer->leavers.begin(), m_answer.leavers.begin(), m_answer.leavers.end());
@@ -167,12 +188,11 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
   const Clock::time_point now = Clock::now();
   m_waited += std::min<std::chrono::nanoseconds>(now - m_checked_at, kMaxBetweenChecks);
   m_checked_at = now;
-  if (int status = 0; m_process > 0 && waitpid(m_process, &status, WNOHANG) == m_process) {
-    m_process = -1;
-    m_status = status;
-    m_waited = {};
+  if (!m_status) {
+    m_status = takeStatus(0);
+    if (m_status) m_waited = {};
   }
-  // Its last frames are read first, unless a child that it left behind keeps the socket open.
+  // Its last frames are read first.
   if (m_status && (m_state == State::kEnding || m_waited > kEndTime)) return finish(*m_status);
   if (m_waited <= patience()) return;
   if (m_state == State::kEnding) return kill();
@@ -188,7 +208,8 @@ void WorldProcess::finish(int status) {
   } else if (WIFSIGNALED(status) && !(m_expected && WTERMSIG(status) == SIGKILL)) {
     m_end = WorldEnd{WorldEnd::kCrashed, "crashed (" + nameOf(WTERMSIG(status)) + ")"};
   } else if (WIFEXITED(status) && WEXITSTATUS(status) != 0) {
-    m_end = WorldEnd{WorldEnd::kCrashed, "ended with code " + std::to_string(WEXITSTATUS(status))};
+    m_end = WorldEnd{WorldEnd::kCrashed, "ended with code " + std::to_string(WEXITSTATUS(status)),
+                     WEXITSTATUS(status)};
   } else {
     m_end = WorldEnd{WorldEnd::kGameOver, "is over"};
   }

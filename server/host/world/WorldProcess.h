@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "host/world/WorldLauncher.h"
 #include "host/world/WorldMessages.h"
 #include "host/world/WorldPort.h"
-#include "host/world/WorldStart.h"
 
 namespace naiad {
 
@@ -30,9 +30,9 @@ class WorldProcess : public WorldPort {
   /// Keys and clicks that wait for a world, at most; those beyond are dropped.
   static constexpr std::size_t kMaxInputs = 16'384;
 
-  /// Takes over the process and the socket. `home` runs its handlers.
+  /// Takes over the process and the sockets. `home` runs its handlers.
   WorldProcess(asio::io_context& home, const StartedWorld& started);
-  /// Kills it, if it has not ended.
+  /// Kills it and all that it has started, if it has not ended.
   ~WorldProcess() override;
   WorldProcess(const WorldProcess&) = delete;
   WorldProcess& operator=(const WorldProcess&) = delete;
@@ -56,6 +56,8 @@ class WorldProcess : public WorldPort {
 
   /// For tests that watch the process itself.
   pid_t process() const { return m_process; }
+  /// What the game has set up by GM.run(); nothing before.
+  const std::optional<WorldReady>& ready() const { return m_ready; }
 
  private:
   enum class State {
@@ -72,13 +74,16 @@ class WorldProcess : public WorldPort {
   void hangUp();
   void fail(WorldEnd::Why why, const std::string& text);
   void finish(int status);
+  std::optional<int> takeStatus(int patience_millis) const;
   std::chrono::nanoseconds patience() const;
   void kill();
 
   asio::local::stream_protocol::socket m_socket;
-  pid_t m_process;  ///< until it was waited for
+  int m_keeper;     ///< the socket of its keeper
+  pid_t m_process;  ///< not a child of this one
   State m_state = State::kStarting;
-  std::optional<int> m_status;        ///< then
+  std::optional<WorldReady> m_ready;
+  std::optional<int> m_status;        ///< once it and all that it had started have ended
   std::optional<WorldEnd> m_failure;  ///< why it was killed
   std::optional<WorldEnd> m_end;
   Clock::time_point m_checked_at;

@@ -23,6 +23,17 @@ bool receiveAll(int socket, char* to, std::size_t count) {
   return true;
 }
 
+WorldReady readyOf(const df::World& world) {
+  WorldReady ready;
+  ready.window_width = world.getWindowWidth();
+  ready.window_height = world.getWindowHeight();
+  if (const df::WorldExtras* p_extras = world.findExtras())
+    ready.frame_millis = p_extras->settings.frame_time;
+  ready.compat = world.compat();
+  ready.help = world.getHelp();
+  return ready;
+}
+
 }  // namespace
 
 WorldServer::~WorldServer() {
@@ -55,7 +66,7 @@ bool WorldServer::send(const std::string& frame) const {
 
 void WorldServer::run(df::World& world) {
   world.setGameOverLeaves(m_leaves);
-  FieldWriter(m_frame).finish();  // ready
+  writeReady(readyOf(world), m_frame);
   bool goes_on = send(m_frame);
   for (std::string fields; goes_on && receive(fields);) {
     const auto turn = readTurn(fields);

@@ -2,11 +2,15 @@
 // other end.
 //
 //   input   0 turn, 1 answers (1) | turn: its fields; answers: each length (2) | fields
+//
+// The fields of a turn are read as what a game has set up, too.
 #include "Require.h"
 #include "Script.h"
 #include "host/snapshot/LookCapture.h"
 #include "host/snapshot/Publisher.h"
 #include "host/world/WorldMessages.h"
+#include "shared/net/base/Limits.h"
+#include "shared/replica/Limits.h"
 
 namespace naiad::fuzz {
 namespace {
@@ -24,6 +28,20 @@ void tryTurn(std::string_view bytes) {
   const auto same = readTurn(fieldsOf(frame));
   REQUIRE(same && same->inputs.size() == turn->inputs.size());
   REQUIRE(writeTurn(*same, again));
+  REQUIRE(again == frame);
+}
+
+void tryReady(std::string_view bytes) {
+  const auto ready = readReady(bytes);
+  if (!ready) return;
+  REQUIRE(ready->window_width >= kMinViewWidth && ready->window_width <= kMaxViewWidth);
+  REQUIRE(ready->help.size() <= kMaxHelpLines);
+  std::string frame;
+  std::string again;
+  writeReady(*ready, frame);
+  const auto same = readReady(fieldsOf(frame));
+  REQUIRE(same);
+  writeReady(*same, again);
   REQUIRE(again == frame);
 }
 
@@ -88,6 +106,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (!script.flag()) {
     const fuzz::Exactly bytes(script.rest());
     fuzz::tryTurn(bytes.view());
+    fuzz::tryReady(bytes.view());
     return 0;
   }
   fuzz::Host host;

@@ -8,6 +8,8 @@
 
 #include "host/snapshot/Publisher.h"
 #include "host/world/WorldMessages.h"
+#include "shared/net/base/Limits.h"
+#include "shared/replica/Limits.h"
 #include "shared/values/SplitMix64.h"
 
 namespace naiad {
@@ -183,6 +185,33 @@ TEST(WorldMessages, TicksOfALaterWorldAreLater) {
       EXPECT_EQ(*view.looks[i].p_look->select(tick + kLater), *p_sent) << tick;
     }
   }
+}
+
+TEST(WorldMessages, WhatAGameHasSetUpCrossesWholeAndInItsRange) {
+  WorldReady sent{100, 30, 50, true, {"left and right", std::string(kMaxHelpLength + 5, 'x')}};
+  std::string frame;
+  writeReady(sent, frame);
+  const auto ready = readReady(fieldsOf(frame));
+  ASSERT_TRUE(ready);
+  EXPECT_EQ(ready->window_width, 100);
+  EXPECT_EQ(ready->window_height, 30);
+  EXPECT_EQ(ready->frame_millis, 50);
+  EXPECT_TRUE(ready->compat);
+  EXPECT_EQ(ready->help, (std::vector<std::string>{"left and right", std::string(kMaxHelpLength, 'x')}));
+  for (std::size_t length = 0; length < frame.size() - kWorldFrameHead; ++length) {
+    EXPECT_FALSE(readReady(fieldsOf(frame).substr(0, length))) << length;
+  }
+  for (std::size_t bit = 0; bit < (frame.size() - kWorldFrameHead) * 8; ++bit) {
+    std::string flipped(fieldsOf(frame));
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
+    const auto read = readReady(flipped);
+    EXPECT_TRUE(!read || (read->window_width <= kMaxViewWidth && read->window_height <= kMaxViewHeight &&
+                          read->frame_millis <= kMaxFrameMillis && read->help.size() <= kMaxHelpLines))
+        << bit;
+  }
+  sent.help.assign(kMaxHelpLines + 1, "x");
+  writeReady(sent, frame);
+  EXPECT_EQ(readReady(fieldsOf(frame)).value_or(WorldReady()).help.size(), kMaxHelpLines);
 }
 
 TEST(WorldMessages, AnswersCrossWhole) {

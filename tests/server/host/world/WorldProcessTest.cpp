@@ -4,18 +4,39 @@
 
 #include <asio/io_context.hpp>
 #include <chrono>
+#include <cstdio>
 #include <string>
 
+#include "host/world/WorldLauncher.h"
 #include "host/world/WorldProcess.h"
 
 namespace naiad {
 namespace {
 
+/// For printf: a frame that says that the game is ready.
+std::string readyFrame() {
+  std::string frame;
+  writeReady({}, frame);
+  std::string escaped;
+  for (const char byte : frame) {
+    char octal[5];
+    std::snprintf(octal, sizeof octal, "\\%03o", static_cast<unsigned char>(byte));
+    escaped += octal;
+  }
+  return escaped;
+}
+
 class WorldProcessTest : public testing::Test {
  protected:
+  static WorldProgram shell(const std::string& script) {
+    WorldProgram program{"/bin/sh", {"sh", "-c", script}, {"PATH=/usr/bin:/bin"}, "/", {}};
+    program.sandbox.on = false;
+    return program;
+  }
   /// Start it, and give it a turn when it is ready, until it has ended. How it did.
   WorldEnd play(const std::string& script) {
-    WorldProcess world(m_io, startWorld("/bin/sh", {"sh", "-c", script}));
+    const WorldLauncher launcher(shell(script));
+    WorldProcess world(m_io, launcher.start());
     world.setOnTick([this] { ++ticks; });
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (!world.end() && std::chrono::steady_clock::now() < end) {
@@ -43,7 +64,7 @@ TEST_F(WorldProcessTest, OneThatFailsHasCrashed) {
 }
 
 TEST_F(WorldProcessTest, OneThatSendsAMalformedFrameIsKilled) {
-  // Four gigabytes; something before it is ready; an answer to nothing; a bad answer.
+  // Four gigabytes; nothing that says that it is ready, in two ways; an answer to nothing; a bad answer.
   for (const char* p_sent :
        {"\\377\\377\\377\\377", "\\1\\0\\0\\0x", "\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0"}) {
     EXPECT_EQ(play("printf '" + std::string(p_sent) + "' >&3; exec sleep 100").why, WorldEnd::kBroken)
@@ -61,7 +82,8 @@ TEST_F(WorldProcessTest, OneThatHangsUpAndStaysIsKilled) {
 }
 
 TEST_F(WorldProcessTest, AProgramThatIsNotThereIsAnError) {
-  EXPECT_THROW(startWorld("/nonexistent/game", {"game"}), std::system_error);
+  const WorldLauncher launcher({"/nonexistent/game", {"game"}, {}, "/", {}});
+  EXPECT_THROW(launcher.start(), std::system_error);
 }
 
 TEST_F(WorldProcessTest, AnAnswerIsATick) {
@@ -69,7 +91,8 @@ TEST_F(WorldProcessTest, AnAnswerIsATick) {
   // pictures, no view.
   const std::string answer =
       "dd bs=8 count=1 <&3 2>/dev/null >/dev/null; printf '\\4\\0\\0\\0\\0\\0\\0\\0' >&3; ";
-  EXPECT_EQ(play("printf '\\0\\0\\0\\0' >&3; " + answer + answer + "exit 0").why, WorldEnd::kGameOver);
+  EXPECT_EQ(play("printf '" + readyFrame() + "' >&3; " + answer + answer + "exit 0").why,
+            WorldEnd::kGameOver);
   EXPECT_EQ(ticks, 2);
 }
 

@@ -55,6 +55,8 @@ class WorldServerTest : public testing::Test {
       world.setLogSink([](const std::string&) {});
       const df::World::Scope scope(world);
       world.setLookingBack(true);
+      world.setHelp({"fly"});
+      world.setWindow(80, 30);
       auto* p_flyer = new Flyer(hits);
       if (scrolls) {
         world.setBoundary(df::Box(df::Vector(), 400, 24));
@@ -64,7 +66,7 @@ class WorldServerTest : public testing::Test {
       over = world.isGameOver();
       world.shutDown();
     });
-    EXPECT_EQ(receive(), "") << "ready";
+    ready = readReady(receive());
   }
   ~WorldServerTest() override { end(); }
   void end() {
@@ -101,12 +103,20 @@ class WorldServerTest : public testing::Test {
   int hits = 0;
   bool over = false;
   df::WorldView view;
+  std::optional<WorldReady> ready;
 
  private:
   int m_socket = -1;
   ViewReader m_views;
   std::thread m_thread;
 };
+
+TEST_F(WorldServerTest, SaysWhatTheGameHasSetUp) {
+  ASSERT_TRUE(ready);
+  EXPECT_EQ(ready->window_width, 80);
+  EXPECT_EQ(ready->window_height, 30);
+  EXPECT_EQ(ready->help, std::vector<std::string>{"fly"});
+}
 
 TEST_F(WorldServerTest, TicksOnceForEachTurnAndSendsAViewIfItIsWatched) {
   EXPECT_FALSE(turn({}, false).has_view);

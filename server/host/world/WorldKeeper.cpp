@@ -1,0 +1,268 @@
+#include "host/world/WorldKeeper.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/signalfd.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "host/world/Descendants.h"
+#include "host/world/WordPointers.h"
+#include "host/world/WorldStart.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr int kFailure = STDERR_FILENO + 2;  ///< in the world's process, until its program is executed
+constexpr int kFirstFree = kFailure + 1;
+constexpr int kFront = STDERR_FILENO + 1;  ///< in the launcher: its end of the front's socket
+
+/// Everything that was open, but this; from then on it is `to`.
+void keepOnly(int descriptor, int to) {
+  if (descriptor != to) dup2(descriptor, to);
+  fcntl(to, F_SETFD, FD_CLOEXEC);
+  close_range(static_cast<unsigned>(to) + 1, ~0u, 0);
+}
+
+/// Those that end a server in order are for the front alone.
+void ignoreSignals() {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGUSR1, SIGUSR2, SIGTSTP})
+    signal(number, SIG_IGN);
+  signal(SIGCHLD, SIG_DFL);
+}
+
+/// A descriptor that is readable when a child has ended.
+int watchChildren() {
+  sigset_t child;
+  sigemptyset(&child);
+  sigaddset(&child, SIGCHLD);
+  sigprocmask(SIG_BLOCK, &child, nullptr);
+  return signalfd(-1, &child, SFD_CLOEXEC | SFD_NONBLOCK);
+}
+
+/// Should memory run out, a world's is to be freed before the front's.
+void standInFront() {
+  const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+  if (file < 0) return;
+  [[maybe_unused]] const ssize_t written = write(file, "300", 3);
+  close(file);
+}
+
+/// Nothing if the front has gone.
+std::optional<WorldDescriptors> receiveDescriptors(int from) {
+  char byte = 0;
+  iovec data{&byte, 1};
+  WorldDescriptors numbers;
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof numbers)> room{};
+  msghdr message{};
+  message.msg_iov = &data;
+  message.msg_iovlen = 1;
+  message.msg_control = room.data();
+  message.msg_controllen = room.size();
+  ssize_t got = 0;
+  while ((got = recvmsg(from, &message, MSG_CMSG_CLOEXEC)) < 0 && errno == EINTR) continue;
+  const cmsghdr* p_head = CMSG_FIRSTHDR(&message);
+  if (got != 1 || p_head == nullptr || p_head->cmsg_len != CMSG_LEN(sizeof numbers)) return std::nullopt;
+  std::memcpy(&numbers, CMSG_DATA(p_head), sizeof numbers);
+  return numbers;
+}
+
+// ---- the world's process, before it executes its program --------------------------------------------------
+
+[[noreturn]] void fail(int failure, int error) {
+  [[maybe_unused]] const ssize_t written = write(failure, &error, sizeof error);
+  _exit(127);
+}
+
+/// From 3 to 6 are what this is about, so that none of them is closed before it is copied.
+int moveUp(int descriptor) {
+  return fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstFree);
+}
+
+void arrangeDescriptors(const WorldDescriptors& theirs, int failure) {
+  const int world = moveUp(theirs.world);
+  const int output = moveUp(theirs.output);
+  const int error = moveUp(theirs.error);
+  dup2(moveUp(failure), kFailure);
+  fcntl(kFailure, F_SETFD, FD_CLOEXEC);
+  dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+  dup2(output, STDOUT_FILENO);
+  dup2(error, STDERR_FILENO);
+  dup2(world, kWorldSocket);
+  close_range(kFirstFree, ~0u, 0);
+}
+
+void restoreSignals() {
+  for (int number = 1; number < NSIG; ++number) signal(number, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
+[[noreturn]] void runWorld(const WorldDescriptors& descriptors, int failure, pid_t keeper,
+                           const WorldProgram& program, const SandboxSupport& support) {
+  arrangeDescriptors(descriptors, failure);
+  setsid();
+  restoreSignals();
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != keeper) fail(kFailure, ECHILD);
+  if (chdir(program.directory.c_str()) != 0) fail(kFailure, errno);
+  std::vector<std::string> words = program.arguments;
+  std::vector<std::string> entries = program.environment;
+  entries.push_back(worldSocketEntry());
+  const std::vector<char*> arguments = pointersTo(words);
+  const std::vector<char*> environment = pointersTo(entries);
+  if (program.sandbox.on) {
+    if (const int error = enterSandbox(program.sandbox, support); error != 0) fail(kFailure, error);
+  }
+  execve(program.program.c_str(), arguments.data(), environment.data());
+  fail(kFailure, errno);
+}
+
+// ---- the keeper -------------------------------------------------------------------------------------------
+
+/// False once the front has closed it.
+template <class Message>
+bool sendTo(int front, const Message& message) {
+  return send(front, &message, sizeof message, MSG_NOSIGNAL) == sizeof message;
+}
+
+/// Has this child ended? It is not waited for. Others that have are.
+bool hasEnded(pid_t world) {
+  siginfo_t facts{};
+  while (waitid(P_ALL, 0, &facts, WEXITED | WNOHANG | WNOWAIT) == 0 && facts.si_pid != 0) {
+    if (facts.si_pid == world) return true;
+    waitpid(facts.si_pid, nullptr, WNOHANG);
+    facts.si_pid = 0;
+  }
+  return false;
+}
+
+void waitForEnd(pid_t world, int front, int children) {
+  pollfd either[2] = {{front, POLLIN | POLLRDHUP, 0}, {children, POLLIN, 0}};
+  while (!hasEnded(world)) {
+    if (poll(either, 2, -1) < 0) continue;
+    if (either[0].revents != 0) return;
+    signalfd_siginfo facts{};
+    [[maybe_unused]] const ssize_t got = read(children, &facts, sizeof facts);
+  }
+}
+
+[[noreturn]] void runKeeper(const WorldDescriptors& descriptors, const WorldProgram& program,
+                            const SandboxSupport& support) {
+  prctl(PR_SET_NAME, "df-keeper");
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  const int children = watchChildren();
+  int failure[2];
+  if (children < 0 || pipe2(failure, O_CLOEXEC) != 0) {
+    sendTo(descriptors.keeper, KeeperStart{errno, -1});
+    _exit(1);
+  }
+  const pid_t self = getpid();
+  const pid_t world = fork();
+  if (world == 0) runWorld(descriptors, failure[1], self, program, support);
+  KeeperStart begun{world < 0 ? errno : 0, world};
+  for (const int one : {failure[1], descriptors.world, descriptors.output, descriptors.error}) close(one);
+  ssize_t got = 0;
+  int error = 0;
+  while ((got = read(failure[0], &error, sizeof error)) < 0 && errno == EINTR) continue;
+  if (got == sizeof error) begun.error = error;
+  close(failure[0]);
+  const bool wanted = sendTo(descriptors.keeper, begun);
+  if (world > 0 && wanted && begun.error == 0) waitForEnd(world, descriptors.keeper, children);
+  if (world > 0) sendTo(descriptors.keeper, KeeperEnd{endDescendants(world)});
+  _exit(0);
+}
+
+// ---- the launcher -----------------------------------------------------------------------------------------
+
+class Launcher {
+ public:
+  Launcher(const WorldProgram& program, const SandboxSupport& support)
+      : m_program(program), m_support(support), m_children(watchChildren()) {
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
+  }
+
+  /// Until the front has gone.
+  void run() {
+    pollfd either[2] = {{kFront, POLLIN, 0}, {m_children, POLLIN, 0}};
+    while (true) {
+      if (poll(either, 2, -1) < 0) continue;
+      if (either[1].revents != 0) waitForChildren();
+      if (either[0].revents == 0) continue;
+      const auto descriptors = receiveDescriptors(kFront);
+      if (!descriptors) return;
+      startKeeper(*descriptors);
+    }
+  }
+
+ private:
+  void startKeeper(const WorldDescriptors& descriptors) {
+    const pid_t keeper = fork();
+    if (keeper == 0) {
+      close(kFront);
+      close(m_children);
+      runKeeper(descriptors, m_program, m_support);
+    }
+    if (keeper < 0) sendTo(descriptors.keeper, KeeperStart{errno, -1});
+    if (keeper > 0) m_keepers.insert(keeper);
+    descriptors.closeAll();
+  }
+
+  // A keeper that was killed leaves its world's processes, which come here one after the other.
+  void waitForChildren() {
+    signalfd_siginfo facts{};
+    [[maybe_unused]] const ssize_t got = read(m_children, &facts, sizeof facts);
+    bool strays = false;
+    int status = 0;
+    for (pid_t child = 0; (child = waitpid(-1, &status, WNOHANG)) > 0;) {
+      const bool was_keeper = m_keepers.erase(child) > 0;
+      strays = strays || !was_keeper || WIFSIGNALED(status);
+    }
+    if (!strays) return;
+    for (const Descendant& one : findDescendants()) {
+      if (m_keepers.count(one.branch) == 0) kill(one.process, SIGKILL);
+    }
+  }
+
+  const WorldProgram& m_program;
+  const SandboxSupport m_support;
+  const int m_children;
+  std::set<pid_t> m_keepers;
+};
+
+}  // namespace
+
+void WorldDescriptors::closeAll() const {
+  for (const int one : {world, keeper, output, error}) close(one);
+}
+
+void runLauncher(int front, const WorldProgram& program) {
+  const int null = open("/dev/null", O_RDWR | O_CLOEXEC);
+  const int away = fcntl(front, F_DUPFD_CLOEXEC, 3);
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, number);
+  keepOnly(away, kFront);
+  setsid();
+  prctl(PR_SET_NAME, "df-launcher");
+  standInFront();
+  hideProcess();
+  ignoreSignals();
+  const SandboxSupport support = program.sandbox.on ? findSandboxSupport() : SandboxSupport{};
+  sendTo(kFront, support);
+  Launcher(program, support).run();
+  _exit(0);
+}
+
+}  // namespace naiad

@@ -1,0 +1,137 @@
+#include "host/world/WorldLauncher.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+#include <system_error>
+#include <utility>
+
+#include "host/world/WorldKeeper.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr int kStartMillis = 10'000;  ///< until a program is executed
+
+void require(bool good, const char* what) {
+  if (!good) throw std::system_error(errno, std::generic_category(), what);
+}
+
+/// A descriptor that is closed at the end of its block.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : m_number(number) {}
+  ~Descriptor() {
+    if (m_number >= 0) close(m_number);
+  }
+  Descriptor(Descriptor&& other) noexcept : m_number(std::exchange(other.m_number, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(m_number, other.m_number);
+    return *this;
+  }
+  int get() const { return m_number; }
+  int release() { return std::exchange(m_number, -1); }
+
+ private:
+  int m_number;
+};
+
+std::pair<Descriptor, Descriptor> socketPair(int type, const char* what) {
+  int ends[2];
+  require(socketpair(AF_UNIX, type | SOCK_CLOEXEC, 0, ends) == 0, what);
+  return {Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
+/// Where the world may write what it prints. A terminal's descriptor would let it read what is typed there.
+Descriptor outputOf(int number) {
+  if (isatty(number) == 1) {
+    const std::string path = "/proc/self/fd/" + std::to_string(number);
+    if (const int again = open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC); again >= 0)
+      return Descriptor(again);
+  } else if (const int same = fcntl(number, F_DUPFD_CLOEXEC, 3); same >= 0) {
+    return Descriptor(same);
+  }
+  return Descriptor(open("/dev/null", O_WRONLY | O_CLOEXEC));
+}
+
+bool sendDescriptors(int to, const WorldDescriptors& numbers) {
+  char byte = 0;
+  iovec data{&byte, 1};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof numbers)> room{};
+  msghdr message{};
+  message.msg_iov = &data;
+  message.msg_iovlen = 1;
+  message.msg_control = room.data();
+  message.msg_controllen = room.size();
+  cmsghdr* p_head = CMSG_FIRSTHDR(&message);
+  p_head->cmsg_level = SOL_SOCKET;
+  p_head->cmsg_type = SCM_RIGHTS;
+  p_head->cmsg_len = CMSG_LEN(sizeof numbers);
+  std::memcpy(CMSG_DATA(p_head), &numbers, sizeof numbers);
+  ssize_t sent = 0;
+  while ((sent = sendmsg(to, &message, MSG_NOSIGNAL)) < 0 && errno == EINTR) continue;
+  return sent == 1;
+}
+
+/// False: too late, or the other end was closed.
+template <class Message>
+bool receive(int from, Message& message) {
+  pollfd readable{from, POLLIN, 0};
+  while (true) {
+    const int count = poll(&readable, 1, kStartMillis);
+    if (count < 0 && errno == EINTR) continue;
+    errno = count == 0 ? ETIMEDOUT : ECONNRESET;
+    return count > 0 && recv(from, &message, sizeof message, MSG_WAITALL) == sizeof message;
+  }
+}
+
+}  // namespace
+
+WorldLauncher::WorldLauncher(WorldProgram program) {
+  auto [ours, theirs] = socketPair(SOCK_SEQPACKET, "the launcher of worlds");
+  m_process = fork();
+  require(m_process >= 0, "the launcher of worlds");
+  if (m_process == 0) runLauncher(theirs.get(), program);
+  theirs = Descriptor();
+  m_socket = ours.release();
+  if (receive(m_socket, m_support)) return;
+  close(m_socket);
+  ::kill(m_process, SIGKILL);
+  waitpid(m_process, nullptr, 0);
+  throw std::system_error(ECHILD, std::generic_category(), "the launcher of worlds");
+}
+
+WorldLauncher::~WorldLauncher() {
+  close(m_socket);
+  ::kill(m_process, SIGKILL);  // a copy of this process may hold the socket, too
+  while (waitpid(m_process, nullptr, 0) < 0 && errno == EINTR) continue;
+}
+
+StartedWorld WorldLauncher::start() const {
+  constexpr const char* kWhat = "a new world";
+  auto [our_world, their_world] = socketPair(SOCK_STREAM, kWhat);
+  auto [our_keeper, their_keeper] = socketPair(SOCK_STREAM, kWhat);
+  const Descriptor output = outputOf(STDOUT_FILENO);
+  const Descriptor error = outputOf(STDERR_FILENO);
+  std::cout.flush();
+  require(sendDescriptors(m_socket, {their_world.get(), their_keeper.get(), output.get(), error.get()}),
+          kWhat);
+  their_world = Descriptor();
+  their_keeper = Descriptor();
+  KeeperStart begun;
+  require(receive(our_keeper.get(), begun), kWhat);
+  if (begun.error != 0) throw std::system_error(begun.error, std::generic_category(), kWhat);
+  return {begun.process, our_world.release(), our_keeper.release()};
+}
+
+}  // namespace naiad

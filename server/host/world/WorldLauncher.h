@@ -1,0 +1,71 @@
+// Starts the processes of worlds, and sees to it that none of theirs is left when they end.
+//
+//   front ── launcher ── keeper ── world ── what the world starts
+//
+// The launcher is a small copy of the front from before it had keys, passwords of players or threads. It
+// makes a keeper for each world. The keeper starts the world in its sandbox, and is the subreaper of all that
+// descends from it. When the world has ended, or the front closes or shuts down its end of the keeper's
+// socket, by whatever death, the keeper ends all of them, also those that left the world's process group.
+// Worlds cannot signal or trace any of the three.
+//
+// On the keeper's socket the front reads KeeperStart, then one KeeperEnd.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/world/Sandbox.h"
+
+namespace naiad {
+
+/// The process of a world.
+struct WorldProgram {
+  std::string program;                   ///< an absolute path
+  std::vector<std::string> arguments;    ///< its name first
+  std::vector<std::string> environment;  ///< "NAME=value"; WorldStart.h adds the socket's number
+  std::string directory;
+  Sandbox sandbox;
+};
+
+struct StartedWorld {
+  pid_t process = -1;
+  int socket = -1;  ///< our end of the world's; the caller's to close
+  int keeper = -1;  ///< of the keeper's; the caller's to close, which ends the world
+};
+
+struct KeeperStart {
+  std::int32_t error = 0;  ///< errno; then the world was not started
+  std::int32_t process = -1;
+};
+
+struct KeeperEnd {
+  std::int32_t status = 0;  ///< as of waitpid()
+};
+
+class WorldLauncher {
+ public:
+  /// Starts the launcher: better before this process has threads, much memory and secrets. Throws
+  /// std::system_error.
+  explicit WorldLauncher(WorldProgram program);
+  /// Its keepers and worlds stay as long as their sockets are open.
+  ~WorldLauncher();
+  WorldLauncher(const WorldLauncher&) = delete;
+  WorldLauncher& operator=(const WorldLauncher&) = delete;
+
+  /// Start a world with an empty standard input and the present standard output and error; with a session of
+  /// its own: a Ctrl-C in the terminal is for the front. Waits until its program is executed. Throws
+  /// std::system_error.
+  StartedWorld start() const;
+  /// As found out by the launcher; all of it if there is no sandbox.
+  const SandboxSupport& support() const { return m_support; }
+
+ private:
+  int m_socket = -1;
+  pid_t m_process = -1;
+  SandboxSupport m_support;
+};
+
+}  // namespace naiad

@@ -1,0 +1,247 @@
+// A game's author attacks the server that hosts it (hostile/game.cpp), in private worlds: what each attempt
+// comes to, while the server and another player's world go on. Real processes and sockets.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <sstream>
+
+#include "GameProgram.h"
+#include "Home.h"
+#include "TestClient.h"
+#include "host/world/Sandbox.h"
+
+namespace naiad::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kPassword = "open-sesame";
+constexpr int kMemory = 1024;  ///< MiB
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+struct Line {
+  pid_t process = 0;
+  std::string text;
+};
+
+/// A process that has ended may still be waited for by another.
+bool isAlive(pid_t process) {
+  if (kill(process, 0) != 0 && errno == ESRCH) return false;
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  const std::string all{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t state = all.rfind(')');
+  return state != std::string::npos && state + 2 < all.size() && all[state + 2] != 'Z';
+}
+
+std::string readAll(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// dfserver with that game; ann and bob play, each in a world.
+class HostileGame : public testing::Test {
+ protected:
+  HostileGame() : support(findSandboxSupport()) {}
+
+  void start(std::map<std::string, std::string> environment = {},
+             const std::vector<std::string>& arguments = {}) {
+    environment.insert({{"NAIAD_GAME", NAIAD_BINARY_DIR "/../lib/hostile_module.so"},
+                        {"NAIAD_PLAYERS", "private"},
+                        {"NAIAD_WORLD_MEMORY", std::to_string(kMemory)}});
+    game = std::make_unique<GameProgram>("dfserver", std::move(environment), arguments);
+    ASSERT_NE(game->port(), 0) << game->log();
+    std::ofstream(game->playFolder() / "front.new") << game->process();
+    std::filesystem::rename(game->playFolder() / "front.new", game->playFolder() / "front");
+    bob = join("bob");
+    ann = join("ann");
+  }
+  std::unique_ptr<TestClient> join(const std::string& name) {
+    ClientSetup setup = home.player(name);
+    setup.options.password = kPassword;
+    auto client = std::make_unique<TestClient>(context, game->port(), setup);
+    clients.push_back(client.get());
+    EXPECT_TRUE(serve([&] { return client->joined() && client->newestTick() > 3; }))
+        << game->log() << readAll(game->playFolder() / "report");
+    return client;
+  }
+  bool serve(const std::function<bool()>& done) {
+    const auto end = Clock::now() + kPatience;
+    while (!done()) {
+      if (Clock::now() > end) return false;
+      for (TestClient* client : clients) client->connection().update(Clock::now());
+      context.restart();
+      context.run_one_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
+  std::vector<Line> report() const {
+    std::vector<Line> lines;
+    std::ifstream file(game->playFolder() / "report");
+    Line line;
+    while (file >> line.process && std::getline(file >> std::ws, line.text)) lines.push_back(line);
+    return lines;
+  }
+  /// The worlds that are attacking, in the order of their players.
+  std::vector<pid_t> worlds() const {
+    std::vector<pid_t> found;
+    for (const Line& line : report()) {
+      if (line.text == "attacked") found.push_back(line.process);
+    }
+    return found;
+  }
+  /// What became of an attempt, by the last world that made it; empty if it was not made.
+  std::string result(const std::string& attempt) const {
+    std::string found;
+    for (const Line& line : report()) {
+      if (line.text.starts_with(attempt + ": ")) found = line.text.substr(attempt.size() + 2);
+    }
+    return found;
+  }
+  void expectRefused(const std::vector<std::string>& attempts) const {
+    for (const std::string& attempt : attempts) EXPECT_EQ(result(attempt), "refused") << attempt;
+  }
+  /// A world and what it has started: two that have gone to sessions of their own, one without a parent.
+  std::vector<pid_t> processesOf(pid_t world) const {
+    std::vector<pid_t> all{world};
+    for (const Line& line : report()) {
+      if (line.text == "child of " + std::to_string(world)) all.push_back(line.process);
+    }
+    EXPECT_EQ(all.size(), 3u);
+    return all;
+  }
+  static bool areAlive(const std::vector<pid_t>& all) { return std::all_of(all.begin(), all.end(), isAlive); }
+  static bool areGone(const std::vector<pid_t>& all) { return std::none_of(all.begin(), all.end(), isAlive); }
+  /// bob's world has ticked since, and the server lives.
+  void expectTheOthersPlay() {
+    const std::uint32_t then = bob->newestTick();
+    EXPECT_TRUE(serve([&] { return bob->newestTick() > then + 50; })) << game->log();
+    EXPECT_TRUE(isAlive(game->process()));
+    EXPECT_EQ(bob->session().counters().resets, 0u);
+  }
+
+  const SandboxSupport support;
+  Home home;
+  asio::io_context context;
+  std::unique_ptr<GameProgram> game;
+  std::unique_ptr<TestClient> bob;
+  std::unique_ptr<TestClient> ann;
+  std::vector<TestClient*> clients;
+};
+
+TEST_F(HostileGame, OpensNoFilesButItsOwn) {
+  if (support.landlock == 0) GTEST_SKIP() << "this kernel has no Landlock";
+  start();
+  const std::string key = readAll(game->directory() / "identity/key.pem");
+  EXPECT_NE(key.find("PRIVATE KEY"), std::string::npos);
+  expectRefused({"read the key", "empty the key", "list the server's folder", "make a file elsewhere",
+                 "make a folder elsewhere", "make a link", "link the key"});
+  if (support.landlock >= 3) expectRefused({"empty the log"});
+  if (!kSanitized) {
+    expectRefused(
+        {"read the front's memory", "read the front's environment", "read the front's command line"});
+  }
+  expectRefused({"read /etc/passwd"});
+  for (const char* allowed : {"write into its own folder", "read what it wrote", "read a library"}) {
+    EXPECT_EQ(result(allowed), "done") << allowed;
+  }
+  expectTheOthersPlay();
+}
+
+TEST_F(HostileGame, ReachesNoSocketAndNoOtherProcess) {
+  if (support.filter == 0) GTEST_SKIP() << "this kernel has no seccomp";
+  start();
+  expectRefused({"make readable the key", "socket", "local socket", "datagram sockets", "trace the front",
+                 "read memory", "write memory", "limit the front", "slow down the front", "move the front",
+                 "outlive its keeper", "kill the front", "kill its keeper"});
+  expectRefused({"bpf", "mount", "keyctl", "perf_event_open", "unshare", "userfaultfd", "io_uring_setup",
+                 "a call of tomorrow"});
+  for (const char* needed : {"thread", "child", "getrandom", "personality", "program"}) {
+    EXPECT_EQ(result(needed), "done") << needed;
+  }
+  expectTheOthersPlay();
+}
+
+TEST_F(HostileGame, GetsNoMoreMemoryAndDescriptorsThanItsShare) {
+  start();
+  const auto number = [this](const char* what) {
+    const std::string text = result(what);
+    return text.empty() ? -1 : std::stoi(text);
+  };
+  EXPECT_GT(number("descriptors"), 10);
+  EXPECT_LE(number("descriptors"), 1024);
+  if (!kSanitized) {
+    EXPECT_GE(number("megabytes"), kMemory / 4);
+    EXPECT_LE(number("megabytes"), kMemory);
+  }
+  EXPECT_EQ(number("core"), 0);
+  expectTheOthersPlay();
+}
+
+TEST_F(HostileGame, IsLoadedByItsWorldsAlone) {
+  start();
+  const std::vector<Line> lines = report();
+  EXPECT_FALSE(lines.empty());
+  for (const Line& line : lines) EXPECT_NE(line.process, game->process()) << line.text;
+  EXPECT_EQ(readAll("/proc/" + std::to_string(game->process()) + "/maps").find("hostile_module"),
+            std::string::npos);
+}
+
+TEST_F(HostileGame, LearnsNoPassword) {
+  start({{"NAIAD_PASSWORD", "not this one"}, {"SECRET_OF_MINE", kPassword}},
+        {"--password", kPassword, "--world-environment", "NAIAD_PASSWORD,HOME"});
+  ASSERT_EQ(worlds().size(), 2u);
+  const std::filesystem::path world = "/proc/" + std::to_string(worlds().back());
+  const std::filesystem::path front = "/proc/" + std::to_string(game->process());
+  EXPECT_NE(readAll(world / "cmdline").find("hostile_module"), std::string::npos);
+  EXPECT_NE(readAll(world / "environ").find("NAIAD_WORLD_SOCKET"), std::string::npos);
+  for (const auto& path : {world / "cmdline", world / "environ", front / "cmdline"}) {
+    EXPECT_EQ(readAll(path).find(kPassword), std::string::npos) << path;
+    EXPECT_EQ(readAll(path).find("not this one"), std::string::npos) << path;
+  }
+}
+
+TEST_F(HostileGame, ItsChildrenEndWithIt) {
+  start();
+  ASSERT_EQ(worlds().size(), 2u);
+  const std::vector<pid_t> of_bob = processesOf(worlds()[0]);
+  const std::vector<pid_t> of_ann = processesOf(worlds()[1]);
+  EXPECT_TRUE(areAlive(of_ann));
+  ann->connection().leave();
+  EXPECT_TRUE(serve([&] { return areGone(of_ann); })) << game->log();
+  EXPECT_TRUE(areAlive(of_bob));
+  expectTheOthersPlay();
+
+  game->signal(SIGKILL);
+  game->wait();
+  EXPECT_TRUE(serve([&] { return areGone(of_bob); })) << "the server could not end them any more";
+}
+
+TEST_F(HostileGame, ItsChildrenEndWithItsKeeper) {
+  start();
+  ASSERT_EQ(worlds().size(), 2u);
+  const std::vector<pid_t> of_ann = processesOf(worlds()[1]);
+  const std::string stat = readAll("/proc/" + std::to_string(of_ann[0]) + "/stat");
+  pid_t keeper = 0;
+  std::istringstream(stat.substr(stat.rfind(')') + 3)) >> keeper;
+  ASSERT_GT(keeper, 1);
+  kill(keeper, SIGKILL);
+  EXPECT_TRUE(serve([&] { return areGone(of_ann); }));
+  EXPECT_TRUE(serve([&] { return ann->connection().state() == Connection::State::kEnded; })) << game->log();
+  EXPECT_EQ(ann->connection().sentence(), "The game crashed (SIGKILL).");
+  expectTheOthersPlay();
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,105 @@
+// The filter by itself, in processes of the tests' own; without Landlock it has to do more.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <functional>
+#include <string>
+
+#include "host/world/Sandbox.h"
+#include "host/world/SystemCallFilter.h"
+
+namespace naiad {
+namespace {
+
+class SystemCallFilterTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (findSandboxSupport().filter == 0) GTEST_SKIP() << "this kernel has no seccomp";
+  }
+  /// The status of a process that enters the filter and does this. It exits with what `act` returns.
+  static int run(FilterScene scene, const std::function<int()>& act) {
+    const pid_t child = fork();
+    if (child == 0) {
+      scene.self = getpid();
+      scene.traces_itself = true;  // the filter under test may run with a sanitizer
+      prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+      _exit(installSystemCallFilter(makeSystemCallFilter(scene)) != 0 ? 99 : act());
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return status;
+  }
+  /// 0: all of `calls` failed with EPERM; else which of them did not, from 1 on.
+  static int firstAllowed(const std::vector<std::function<long()>>& calls) {
+    for (std::size_t i = 0; i < calls.size(); ++i) {
+      if (calls[i]() != -1 || errno != EPERM) return static_cast<int>(i) + 1;
+    }
+    return 0;
+  }
+};
+
+TEST_F(SystemCallFilterTest, WithoutLandlockNoOtherProcessIsSignalled) {
+  const pid_t other = getpid();
+  const int status = run({}, [other] {
+    return firstAllowed({[other] { return kill(other, 0); }, [] { return kill(-1, 0); },
+                         [] { return kill(1, 0); }, [other] { return kill(-other, 0); },
+                         [other] { return syscall(SYS_tkill, other, 0); },
+                         [other] { return syscall(SYS_tgkill, other, other, 0); },
+                         [] { return fcntl(STDIN_FILENO, F_SETOWN, 1); }});
+  });
+  EXPECT_EQ(status, 0) << WEXITSTATUS(status);
+}
+
+TEST_F(SystemCallFilterTest, ACrashIsStillTheSignalThatItWas) {
+  const int aborted = run({}, []() -> int { abort(); });
+  EXPECT_TRUE(WIFSIGNALED(aborted) && WTERMSIG(aborted) == SIGABRT) << aborted;
+  const int killed = run({}, [] { return kill(getpid(), SIGTERM); });
+  EXPECT_TRUE(WIFSIGNALED(killed) && WTERMSIG(killed) == SIGTERM) << killed;
+}
+
+TEST_F(SystemCallFilterTest, WithoutLandlockNoReadableFileIsEmptied) {
+  const std::string path = testing::TempDir() + "naiad-filter-" + std::to_string(getpid());
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT, 0600);
+  ASSERT_EQ(write(file, "text", 4), 4);
+  close(file);
+  const int status = run({}, [&path] {
+    return firstAllowed(
+        {[&] { return open(path.c_str(), O_RDONLY | O_TRUNC); }, [&] { return truncate(path.c_str(), 0); }});
+  });
+  EXPECT_EQ(status, 0) << WEXITSTATUS(status);
+  struct stat facts {};
+  EXPECT_EQ(stat(path.c_str(), &facts), 0);
+  EXPECT_EQ(facts.st_size, 4);
+  const int written = run({}, [&path] { return open(path.c_str(), O_WRONLY | O_TRUNC) >= 0 ? 0 : 1; });
+  EXPECT_EQ(written, 0) << "whether this may be written, Landlock decides";
+  unlink(path.c_str());
+}
+
+TEST_F(SystemCallFilterTest, ProgramsOfTheOtherKindsOfTheProcessorAreRefused) {
+#ifdef __x86_64__
+  const int status = run({}, [] { return firstAllowed({[] { return syscall(0x4000'0000 + SYS_getpid); }}); });
+  EXPECT_EQ(status, 0) << WEXITSTATUS(status);
+#else
+  GTEST_SKIP() << "it has none";
+#endif
+}
+
+TEST_F(SystemCallFilterTest, NewerCallsLookAsIfTheyWereNotThere) {
+  const int status = run({}, [] {
+    for (const long call : {435L, 437L, 463L, 1000L}) {  // clone3 and openat2 have older ones in their place
+      if (syscall(call, 0, 0, 0, 0) != -1 || errno != ENOSYS) return static_cast<int>(call % 200);
+    }
+    return 0;
+  });
+  EXPECT_EQ(status, 0) << WEXITSTATUS(status);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,133 @@
+// The processes around a world, with a shell for the world.
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "host/world/WorldLauncher.h"
+
+namespace naiad {
+namespace {
+
+constexpr int kPatienceMillis = 30'000;
+
+WorldProgram shell(const std::string& script) {
+  WorldProgram program{"/bin/sh", {"sh", "-c", script}, {"PATH=/usr/bin:/bin"}, "/", {}};
+  program.sandbox.on = false;
+  return program;
+}
+
+/// What the world writes on its socket, up to a line's end or its own.
+std::string readLine(int socket) {
+  std::string line;
+  pollfd readable{socket, POLLIN, 0};
+  for (char byte = 0; poll(&readable, 1, kPatienceMillis) > 0 && recv(socket, &byte, 1, 0) == 1;) {
+    if (byte == '\n') break;
+    line += byte;
+  }
+  return line;
+}
+
+/// Its status once it and its descendants have ended; nothing if that takes too long.
+std::optional<int> waitForEnd(const StartedWorld& world) {
+  pollfd readable{world.keeper, POLLIN, 0};
+  KeeperEnd end;
+  if (poll(&readable, 1, kPatienceMillis) <= 0) return std::nullopt;
+  if (recv(world.keeper, &end, sizeof end, MSG_WAITALL) != sizeof end) return std::nullopt;
+  return end.status;
+}
+
+void closeBoth(const StartedWorld& world) {
+  close(world.socket);
+  close(world.keeper);
+}
+
+bool isGone(pid_t process) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMillis);
+  while (kill(process, 0) == 0 && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before it is asked again
+  return kill(process, 0) == -1 && errno == ESRCH;
+}
+
+TEST(WorldLauncher, ReportsHowAWorldEnded) {
+  const WorldLauncher launcher(shell("read word <&3; test \"$word\" = end && exit 7; kill -SEGV $$"));
+  for (const auto& [word, is_exit] : {std::pair("end\n", true), {"crash\n", false}}) {
+    const StartedWorld world = launcher.start();
+    EXPECT_EQ(send(world.socket, word, strlen(word), MSG_NOSIGNAL), static_cast<ssize_t>(strlen(word)));
+    const auto status = waitForEnd(world);
+    ASSERT_TRUE(status);
+    EXPECT_TRUE(is_exit ? WIFEXITED(*status) && WEXITSTATUS(*status) == 7
+                        : WIFSIGNALED(*status) && WTERMSIG(*status) == SIGSEGV)
+        << *status;
+    closeBoth(world);
+  }
+}
+
+TEST(WorldLauncher, WhatAWorldLeavesEndsBeforeItsEndIsReported) {
+  const WorldLauncher launcher(shell("setsid sh -c 'echo $$ >&3; exec sleep 1000' & read word <&3; exit 0"));
+  const StartedWorld world = launcher.start();
+  const pid_t left = std::stoi(readLine(world.socket));
+  EXPECT_EQ(kill(left, 0), 0);
+  EXPECT_EQ(send(world.socket, "\n", 1, MSG_NOSIGNAL), 1);
+  EXPECT_EQ(waitForEnd(world), 0);
+  EXPECT_EQ(kill(left, 0), -1);
+  closeBoth(world);
+}
+
+TEST(WorldLauncher, WhoeverClosesTheKeepersSocketEndsTheWorld) {
+  const WorldLauncher launcher(shell("(setsid sh -c 'echo $$ >&3; exec sleep 1000' &) ; exec sleep 1000"));
+  const StartedWorld shut = launcher.start();
+  const pid_t of_shut = std::stoi(readLine(shut.socket));
+  const StartedWorld closed = launcher.start();
+  const pid_t of_closed = std::stoi(readLine(closed.socket));
+
+  shutdown(shut.keeper, SHUT_WR);
+  EXPECT_EQ(waitForEnd(shut), SIGKILL);
+  EXPECT_EQ(kill(of_shut, 0), -1);
+  EXPECT_EQ(kill(of_closed, 0), 0) << "that of another world";
+  closeBoth(closed);
+  EXPECT_TRUE(isGone(of_closed));
+  EXPECT_TRUE(isGone(closed.process));
+  closeBoth(shut);
+}
+
+TEST(WorldLauncher, AGameThatForksOnAndOnEnds) {
+  // Each leaves its group and starts two more, whose parents have ended then.
+  const std::string script =
+      "echo $1 >&3; test $1 -lt 7 && for i in 1 2; do setsid sh -c \"$0\" \"$0\" $(($1 + 1)) & done; exec "
+      "sleep 1000";
+  WorldProgram program = shell(script);
+  program.arguments.insert(program.arguments.end(), {script, "0"});
+  const WorldLauncher launcher(program);
+  const StartedWorld world = launcher.start();
+  while (readLine(world.socket) != "7") continue;  // most of 255 have begun
+  shutdown(world.keeper, SHUT_WR);
+  EXPECT_EQ(waitForEnd(world), SIGKILL);
+  while (!readLine(world.socket).empty()) continue;
+  char byte = 0;
+  EXPECT_EQ(recv(world.socket, &byte, 1, MSG_DONTWAIT), 0) << "one of them has it open still";
+  closeBoth(world);
+}
+
+TEST(WorldLauncher, HasASessionOfItsOwnAndOnlyItsDescriptors) {
+  const WorldLauncher launcher(shell(
+      "read pid comm state ppid pgrp session tty rest < /proc/$$/stat; for n in 0 1 2 3 4 5 6 7 8 9 10; do "
+      "test -e /proc/$$/fd/$n && set -- $* $n; done; "
+      "echo $(($$ == pgrp)) $(($$ == session)) $tty, $*, $(readlink /proc/$$/fd/0) >&3"));
+  const StartedWorld world = launcher.start();
+  EXPECT_EQ(readLine(world.socket), "1 1 0, 0 1 2 3, /dev/null");
+  EXPECT_EQ(waitForEnd(world), 0);
+  closeBoth(world);
+}
+
+}  // namespace
+}  // namespace naiad
