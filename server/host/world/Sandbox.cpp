@@ -61,6 +61,9 @@ void limitResources(const Sandbox& sandbox) {
 
 // For a server that root has started: nothing is left of it but the user's id.
 void dropCapabilities() {
+  __user_cap_header_struct asked{_LINUX_CAPABILITY_VERSION_3, 0};
+  __user_cap_data_struct had[2] = {};
+  if (syscall(SYS_capget, &asked, had) == 0 && had[0].permitted == 0 && had[1].permitted == 0) return;
   prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
   __user_cap_header_struct head{_LINUX_CAPABILITY_VERSION_3, 0};
   const __user_cap_data_struct none[2] = {};
@@ -90,14 +93,31 @@ int filterCalls(int landlock) {
   return installSystemCallFilter(makeSystemCallFilter(scene));
 }
 
-/// In the process that tries it out; each finding is written before the next trial, which may kill it.
-void reportSupport(int to) {
-  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  std::int32_t landlock = landlockVersion();
-  if (landlock > 0 && LandlockRules(landlock).enforce() != 0) landlock = 0;
-  if (write(to, &landlock, sizeof landlock) < 0) return;
-  const std::int32_t filter = filterCalls(landlock) == 0 ? 1 : 0;
-  if (write(to, &filter, sizeof filter) < 0) return;
+std::int32_t tryLandlock() {
+  const int version = landlockVersion();
+  return version > 0 && LandlockRules(version).enforce() == 0 ? version : 0;
+}
+
+std::int32_t tryFilter() {
+  return filterCalls(0) == 0 ? 1 : 0;
+}
+
+/// What it finds in a process of its own; 0 if a host that forbids the call ends that process.
+std::int32_t findInTrial(std::int32_t (*p_find)()) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return 0;
+  const pid_t trial = fork();
+  if (trial == 0) {
+    prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+    const std::int32_t found = p_find();
+    _exit(write(ends[1], &found, sizeof found) == sizeof found ? 0 : 1);
+  }
+  close(ends[1]);
+  std::int32_t found = 0;
+  if (read(ends[0], &found, sizeof found) != sizeof found) found = 0;
+  close(ends[0]);
+  while (trial > 0 && waitpid(trial, nullptr, 0) < 0 && errno == EINTR) continue;
+  return found;
 }
 
 }  // namespace
@@ -114,21 +134,7 @@ const std::vector<std::string>& systemFolders() {
 }
 
 SandboxSupport findSandboxSupport() {
-  SandboxSupport support;
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return support;
-  const pid_t trial = fork();
-  if (trial == 0) {
-    reportSupport(ends[1]);
-    _exit(0);
-  }
-  close(ends[1]);
-  for (std::int32_t* p_finding : {&support.landlock, &support.filter}) {
-    if (read(ends[0], p_finding, sizeof *p_finding) != sizeof *p_finding) break;
-  }
-  close(ends[0]);
-  while (trial > 0 && waitpid(trial, nullptr, 0) < 0 && errno == EINTR) continue;
-  return support;
+  return {findInTrial(tryLandlock), findInTrial(tryFilter)};
 }
 
 std::string sandboxGaps(const SandboxSupport& support) {

@@ -24,7 +24,7 @@ struct SandboxSupport {
   std::int32_t filter = 0;    ///< 1: seccomp
 };
 
-/// Try it out, in a process that ends then. For a process without threads.
+/// Try it out, in processes that end then. For a process without threads.
 SandboxSupport findSandboxSupport();
 
 /// A sentence for the log if something is missing; else empty.

@@ -21,7 +21,7 @@ namespace naiad {
 
 namespace {
 
-constexpr int kStartMillis = 10'000;  ///< until a program is executed
+constexpr int kStartMillis = 10'000;  ///< of the launcher
 
 void require(bool good, const char* what) {
   if (!good) throw std::system_error(errno, std::generic_category(), what);
@@ -126,12 +126,7 @@ StartedWorld WorldLauncher::start() const {
   std::cout.flush();
   require(sendDescriptors(m_socket, {their_world.get(), their_keeper.get(), output.get(), error.get()}),
           kWhat);
-  their_world = Descriptor();
-  their_keeper = Descriptor();
-  KeeperStart begun;
-  require(receive(our_keeper.get(), begun), kWhat);
-  if (begun.error != 0) throw std::system_error(begun.error, std::generic_category(), kWhat);
-  return {begun.process, our_world.release(), our_keeper.release()};
+  return {our_world.release(), our_keeper.release()};
 }
 
 }  // namespace naiad

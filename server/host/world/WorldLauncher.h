@@ -31,13 +31,13 @@ struct WorldProgram {
 };
 
 struct StartedWorld {
-  pid_t process = -1;
   int socket = -1;  ///< our end of the world's; the caller's to close
   int keeper = -1;  ///< of the keeper's; the caller's to close, which ends the world
 };
 
+/// The world's program is executed, or cannot be.
 struct KeeperStart {
-  std::int32_t error = 0;  ///< errno; then the world was not started
+  std::int32_t error = 0;  ///< errno; then nothing was started
   std::int32_t process = -1;
 };
 
@@ -56,8 +56,8 @@ class WorldLauncher {
   WorldLauncher& operator=(const WorldLauncher&) = delete;
 
   /// Start a world with an empty standard input and the present standard output and error; with a session of
-  /// its own: a Ctrl-C in the terminal is for the front. Waits until its program is executed. Throws
-  /// std::system_error.
+  /// its own: a Ctrl-C in the terminal is for the front. Does not wait: the keeper says what comes of it.
+  /// Throws std::system_error if there is no launcher any more.
   StartedWorld start() const;
   /// As found out by the launcher; all of it if there is no sandbox.
   const SandboxSupport& support() const { return m_support; }

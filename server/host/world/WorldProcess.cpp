@@ -11,7 +11,7 @@
 #include <asio/buffer.hpp>
 #include <asio/read.hpp>
 #include <asio/write.hpp>
-#include <cerrno>
+#include <system_error>
 #include <utility>
 
 namespace naiad {
@@ -34,7 +34,6 @@ std::string nameOf(int signal) {
 WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started)
     : m_socket(home, asio::local::stream_protocol(), started.socket),
       m_keeper(started.keeper),
-      m_process(started.process),
       m_checked_at(Clock::now()) {
   readHead();
 }
@@ -42,7 +41,7 @@ WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started)
 WorldProcess::~WorldProcess() {
   if (!m_status) {
     kill();
-    takeStatus(kKillMillis);
+    readKeeper(kKillMillis);
   }
   ::close(m_keeper);
 }
@@ -52,13 +51,28 @@ void WorldProcess::kill() {
   ::shutdown(m_keeper, SHUT_WR);
 }
 
-// Without its keeper a world does not live: as if it had been killed.
-std::optional<int> WorldProcess::takeStatus(int patience_millis) const {
+/// Nothing yet, or never: without its keeper a world does not live.
+template <class Message>
+std::optional<Message> WorldProcess::takeFromKeeper(int patience_millis) {
   pollfd readable{m_keeper, POLLIN, 0};
   if (::poll(&readable, 1, patience_millis) <= 0) return std::nullopt;
-  KeeperEnd end;
-  const bool whole = ::recv(m_keeper, &end, sizeof end, MSG_DONTWAIT) == sizeof end;
-  return whole ? end.status : SIGKILL;
+  Message message;
+  if (::recv(m_keeper, &message, sizeof message, MSG_DONTWAIT) == sizeof message) return message;
+  m_status = SIGKILL;  // as if it had been killed
+  return std::nullopt;
+}
+
+void WorldProcess::readKeeper(int patience_millis) {
+  if (!m_started) {
+    const auto start = takeFromKeeper<KeeperStart>(patience_millis);
+    if (!start) return;
+    m_started = true;
+    if (start->error != 0) {
+      m_failure = WorldEnd{WorldEnd::kCrashed,
+                           "could not be started: " + std::generic_category().message(start->error)};
+    }
+  }
+  if (const auto end = takeFromKeeper<KeeperEnd>(patience_millis)) m_status = end->status;
 }
 
 // ---- down -------------------------------------------------------------------------------------------------
@@ -189,7 +203,7 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
   m_waited += std::min<std::chrono::nanoseconds>(now - m_checked_at, kMaxBetweenChecks);
   m_checked_at = now;
   if (!m_status) {
-    m_status = takeStatus(0);
+    readKeeper(0);
     if (m_status) m_waited = {};
   }
   // Its last frames are read first.

@@ -54,8 +54,6 @@ class WorldProcess : public WorldPort {
   std::optional<WorldEnd> end() const override { return m_end; }
   void close() override;
 
-  /// For tests that watch the process itself.
-  pid_t process() const { return m_process; }
   /// What the game has set up by GM.run(); nothing before.
   const std::optional<WorldReady>& ready() const { return m_ready; }
 
@@ -74,13 +72,15 @@ class WorldProcess : public WorldPort {
   void hangUp();
   void fail(WorldEnd::Why why, const std::string& text);
   void finish(int status);
-  std::optional<int> takeStatus(int patience_millis) const;
+  void readKeeper(int patience_millis);
+  template <class Message>
+  std::optional<Message> takeFromKeeper(int patience_millis);
   std::chrono::nanoseconds patience() const;
   void kill();
 
   asio::local::stream_protocol::socket m_socket;
-  int m_keeper;     ///< the socket of its keeper
-  pid_t m_process;  ///< not a child of this one
+  int m_keeper;            ///< the socket of its keeper
+  bool m_started = false;  ///< as the keeper says
   State m_state = State::kStarting;
   std::optional<WorldReady> m_ready;
   std::optional<int> m_status;        ///< once it and all that it had started have ended

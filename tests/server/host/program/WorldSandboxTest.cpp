@@ -87,8 +87,8 @@ TEST_F(WorldSandboxTest, LinksToSpritesAreFollowedWithinAProject) {
 
 TEST_F(WorldSandboxTest, TheWorkingDirectoryIsWritableUnlessItHoldsTheServer) {
   const WorldSandbox made = makeWorldSandbox(options, place);
-  EXPECT_TRUE(has(made.sandbox.writable, fs::canonical(firstDirectory()).string()) != made.notes.size() > 0)
-      << "writable, or the log says why not";
+  const bool writable = has(made.sandbox.writable, fs::canonical(firstDirectory()).string());
+  EXPECT_EQ(writable, made.notes.empty()) << "or the log says why not";
   options.identity = firstDirectory() + "/identity";
   const WorldSandbox reserved = makeWorldSandbox(options, place);
   EXPECT_TRUE(reserved.sandbox.writable.empty());

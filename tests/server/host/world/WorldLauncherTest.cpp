@@ -37,6 +37,16 @@ std::string readLine(int socket) {
   return line;
 }
 
+/// Its number; -1 if it was not started.
+pid_t waitForStart(const StartedWorld& world) {
+  pollfd readable{world.keeper, POLLIN, 0};
+  KeeperStart begun;
+  if (poll(&readable, 1, kPatienceMillis) <= 0) return -1;
+  return recv(world.keeper, &begun, sizeof begun, MSG_WAITALL) == sizeof begun && begun.error == 0
+             ? begun.process
+             : -1;
+}
+
 /// Its status once it and its descendants have ended; nothing if that takes too long.
 std::optional<int> waitForEnd(const StartedWorld& world) {
   pollfd readable{world.keeper, POLLIN, 0};
@@ -63,6 +73,7 @@ TEST(WorldLauncher, ReportsHowAWorldEnded) {
   for (const auto& [word, is_exit] : {std::pair("end\n", true), {"crash\n", false}}) {
     const StartedWorld world = launcher.start();
     EXPECT_EQ(send(world.socket, word, strlen(word), MSG_NOSIGNAL), static_cast<ssize_t>(strlen(word)));
+    EXPECT_GT(waitForStart(world), 1);
     const auto status = waitForEnd(world);
     ASSERT_TRUE(status);
     EXPECT_TRUE(is_exit ? WIFEXITED(*status) && WEXITSTATUS(*status) == 7
@@ -78,6 +89,7 @@ TEST(WorldLauncher, WhatAWorldLeavesEndsBeforeItsEndIsReported) {
   const pid_t left = std::stoi(readLine(world.socket));
   EXPECT_EQ(kill(left, 0), 0);
   EXPECT_EQ(send(world.socket, "\n", 1, MSG_NOSIGNAL), 1);
+  EXPECT_GT(waitForStart(world), 1);
   EXPECT_EQ(waitForEnd(world), 0);
   EXPECT_EQ(kill(left, 0), -1);
   closeBoth(world);
@@ -88,15 +100,18 @@ TEST(WorldLauncher, WhoeverClosesTheKeepersSocketEndsTheWorld) {
   const StartedWorld shut = launcher.start();
   const pid_t of_shut = std::stoi(readLine(shut.socket));
   const StartedWorld closed = launcher.start();
+  const pid_t process = waitForStart(closed);
+  ASSERT_GT(process, 1);
   const pid_t of_closed = std::stoi(readLine(closed.socket));
 
   shutdown(shut.keeper, SHUT_WR);
+  EXPECT_GT(waitForStart(shut), 1);
   EXPECT_EQ(waitForEnd(shut), SIGKILL);
   EXPECT_EQ(kill(of_shut, 0), -1);
   EXPECT_EQ(kill(of_closed, 0), 0) << "that of another world";
   closeBoth(closed);
   EXPECT_TRUE(isGone(of_closed));
-  EXPECT_TRUE(isGone(closed.process));
+  EXPECT_TRUE(isGone(process));
   closeBoth(shut);
 }
 
@@ -111,6 +126,7 @@ TEST(WorldLauncher, AGameThatForksOnAndOnEnds) {
   const StartedWorld world = launcher.start();
   while (readLine(world.socket) != "7") continue;  // most of 255 have begun
   shutdown(world.keeper, SHUT_WR);
+  EXPECT_GT(waitForStart(world), 1);
   EXPECT_EQ(waitForEnd(world), SIGKILL);
   while (!readLine(world.socket).empty()) continue;
   char byte = 0;
@@ -125,6 +141,7 @@ TEST(WorldLauncher, HasASessionOfItsOwnAndOnlyItsDescriptors) {
       "echo $(($$ == pgrp)) $(($$ == session)) $tty, $*, $(readlink /proc/$$/fd/0) >&3"));
   const StartedWorld world = launcher.start();
   EXPECT_EQ(readLine(world.socket), "1 1 0, 0 1 2 3, /dev/null");
+  EXPECT_GT(waitForStart(world), 1);
   EXPECT_EQ(waitForEnd(world), 0);
   closeBoth(world);
 }

@@ -34,8 +34,9 @@ class WorldProcessTest : public testing::Test {
     return program;
   }
   /// Start it, and give it a turn when it is ready, until it has ended. How it did.
-  WorldEnd play(const std::string& script) {
-    const WorldLauncher launcher(shell(script));
+  WorldEnd play(const std::string& script) { return play(shell(script)); }
+  WorldEnd play(const WorldProgram& program) {
+    const WorldLauncher launcher(program);
     WorldProcess world(m_io, launcher.start());
     world.setOnTick([this] { ++ticks; });
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
@@ -82,8 +83,13 @@ TEST_F(WorldProcessTest, OneThatHangsUpAndStaysIsKilled) {
 }
 
 TEST_F(WorldProcessTest, AProgramThatIsNotThereIsAnError) {
-  const WorldLauncher launcher({"/nonexistent/game", {"game"}, {}, "/", {}});
-  EXPECT_THROW(launcher.start(), std::system_error);
+  for (const bool sandbox : {false, true}) {
+    WorldProgram program{"/nonexistent/game", {"game"}, {}, "/", {}};
+    program.sandbox.on = sandbox;
+    const WorldEnd end = play(program);
+    EXPECT_EQ(end.why, WorldEnd::kCrashed);
+    EXPECT_EQ(end.text, "could not be started: No such file or directory");
+  }
 }
 
 TEST_F(WorldProcessTest, AnAnswerIsATick) {
