@@ -29,8 +29,9 @@ void WorldInProcess::tick(bool watched, bool /*truth*/) {
   reportTick();
 }
 
+// The view keeps the number of the last tick that was watched.
 std::uint32_t WorldInProcess::nextTick() const {
-  return m_world.view().tick + 1;
+  return static_cast<std::uint32_t>(m_world.getStepCount()) + 1;
 }
 
 const df::WorldView& WorldInProcess::view() const {

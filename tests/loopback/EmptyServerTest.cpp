@@ -1,0 +1,59 @@
+// The first player of a server that stood empty for long: ticks that nobody watched count, too.
+#include <gtest/gtest.h>
+
+#include "TestClient.h"
+#include "TestServer.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/world/Object.h"
+#include "host/world/WorldInProcess.h"
+
+namespace naiad::test {
+namespace {
+
+/// More than half of what 16 bits count, and less than all: 18 to 36 minutes at 30 Hz.
+constexpr std::uint32_t kEmptyTicks = 40'000;
+
+/// Moves, so that a wrong tick draws it in a wrong place.
+struct Walker : df::Object {
+  Walker() {
+    setSolidness(df::SPECTRAL);
+    setPosition(df::Vector(1, 5));
+    setVelocity(df::Vector(0.05F, 0));
+  }
+  int draw() override { return DM.drawCh(getPosition(), '@', df::CYAN); }
+};
+
+TEST(EmptyServer, UnwatchedTicksCount) {
+  df::World world;
+  const df::World::Scope scope(world);
+  WorldInProcess port(world);
+  EXPECT_EQ(port.nextTick(), 1u);
+  for (int i = 0; i < 5; ++i) port.tick(false, false);
+  EXPECT_EQ(port.nextTick(), 6u);
+  port.tick(true, false);
+  EXPECT_EQ(port.view().tick, 6u);
+  EXPECT_EQ(port.nextTick(), 7u);
+}
+
+TEST(EmptyServer, TheFirstPlayerAfterHalfAnHourSeesTheTickOfTheServer) {
+  TestServer server([](df::World& world) {
+    for (std::uint32_t i = 0; i < kEmptyTicks; ++i) world.tick();
+    new Walker;
+  });
+  asio::io_context context;
+  TestClient ann(context, server.port(), "ann");
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined() && ann.pictures().size() >= 30; }));
+  int compared = 0;
+  for (const auto& [tick, picture] : ann.pictures()) {
+    EXPECT_GT(tick, kEmptyTicks);
+    EXPECT_LT(tick, kEmptyTicks + 20'000);
+    const auto truth = server.truth(tick, ann.player());
+    if (!truth) continue;
+    ++compared;
+    EXPECT_EQ(picture.text(), truth->text()) << "tick " << tick;
+  }
+  EXPECT_GE(compared, 20);
+}
+
+}  // namespace
+}  // namespace naiad::test
