@@ -13,16 +13,13 @@ constexpr std::int64_t kCellWidth = 4;  // in characters
 constexpr std::int64_t kCellHeight = 2;
 constexpr std::int64_t kMaxCells = 64;
 
+// Work, in units of a box that is computed or compared.
+constexpr std::size_t kCellWork = 2;    // to sort an object into a cell
+constexpr std::size_t kLookupWork = 4;  // to find a cell
+constexpr std::size_t kMaxIndexWork = ExtrapolationClamp::kMaxWork / 2;
+
 std::uint64_t cellKey(std::int64_t x, std::int64_t y) {
   return static_cast<std::uint64_t>(x) << 32 | static_cast<std::uint32_t>(y);
-}
-
-/// The boxes of an object from the tick `first` on, which boxAlong() found to be somewhere.
-void appendPlaces(std::vector<df::FixedBox>& out, const ObjectState& object, std::uint32_t first,
-                  std::uint32_t ticks) {
-  for (std::uint32_t i = 0; i <= ticks; ++i) {
-    out.push_back(df::translate(object.body.box, positionAt(object.motion, first + i)));
-  }
 }
 
 }  // namespace
@@ -42,40 +39,88 @@ ExtrapolationClamp::ExtrapolationClamp(const Replica& replica, std::uint32_t kno
   m_ticks = drawn - known;
   for (const auto& [slot, entry] : replica.entries()) {
     if (!entry.alive || entry.state.body.solidness != df::HARD) continue;
-    const auto along = boxAlong(entry.state, known, drawn);
-    if (!along) continue;
-    m_solids.push_back({entry.state.order, *along, cellsOf(*along), m_places.size()});
-    appendPlaces(m_places, entry.state, known, m_ticks);
+    if (!addSolid(entry.state)) break;
   }
-  for (std::uint32_t i = 0; i < m_solids.size(); ++i) sort(m_solids[i], i);
   std::sort(m_cells.begin(), m_cells.end());
+  clampAll();
 }
 
-void ExtrapolationClamp::sort(const Solid& solid, std::uint32_t index) {
+/// False: there is no room for further ones.
+bool ExtrapolationClamp::addSolid(const ObjectState& object) {
+  const bool moves = isMoving(object.motion);
+  const std::uint32_t last = moves ? m_drawn : m_known;
+  m_work += moves ? 2 * m_ticks : 1;
+  m_exhausted = m_work > kMaxIndexWork;
+  if (m_exhausted) return false;
+  const auto along = boxAlong(object, m_known, last);
+  if (!along) return true;
+  m_solids.push_back({&object, *along, cellsOf(*along), m_places.size(), moves});
+  // boxAlong() found it to be somewhere in all these ticks.
+  for (std::uint32_t tick = m_known; tick != last + 1; ++tick) {
+    m_places.push_back(df::translate(object.body.box, positionAt(object.motion, tick)));
+  }
+  addToIndex(m_solids.back(), static_cast<std::uint32_t>(m_solids.size() - 1));
+  return true;
+}
+
+void ExtrapolationClamp::addToIndex(const Solid& solid, std::uint32_t index) {
   if (solid.range.count() > kMaxCells) {
     m_large.push_back(index);
     return;
   }
+  m_work += kCellWork * static_cast<std::size_t>(solid.range.count());
   for (std::int64_t y = solid.range.top; y <= solid.range.bottom; ++y) {
     for (std::int64_t x = solid.range.left; x <= solid.range.right; ++x)
       m_cells.emplace_back(cellKey(x, y), index);
   }
 }
 
-/// Calls `visit` once for each solid that may touch the box.
+void ExtrapolationClamp::clampAll() {
+  const auto movers = static_cast<std::size_t>(
+      std::count_if(m_solids.begin(), m_solids.end(), [](const Solid& solid) { return solid.moves; }));
+  if (movers == 0) return;
+  const std::size_t share = (kMaxWork - std::min(m_work, kMaxWork)) / movers;
+  std::size_t allowed = m_work;  // what those before have not used is for the next ones
+  for (const Solid& mover : m_solids) {
+    if (!mover.moves) continue;
+    allowed += share;
+    std::uint32_t first = m_ticks + 1;  // the tick in which it would first be blocked
+    forEachNear(mover, allowed, [&](const Solid& other) {
+      if (other.p_state->order == mover.p_state->order || !df::intersects(mover.along, other.along)) return;
+      first = firstTouch(mover, other, first);
+    });
+    if (first > m_ticks) continue;
+    m_held[mover.p_state] = positionAt(mover.p_state->motion, m_known + first - 1);
+  }
+}
+
+/// Calls `visit` once for each solid that may touch the mover, until the work is what is allowed.
 template <class Visit>
-void ExtrapolationClamp::forEachNear(const df::FixedBox& box, Visit visit) const {
-  const Range range = cellsOf(box);
+void ExtrapolationClamp::forEachNear(const Solid& mover, std::size_t allowed, Visit visit) {
+  const auto add = [this, allowed](std::size_t work) {
+    m_work += work;
+    m_exhausted = m_exhausted || m_work > allowed;
+    return m_work <= allowed;
+  };
+  const Range& range = mover.range;
   if (range.count() > kMaxCells) {
-    for (const Solid& solid : m_solids) visit(solid);
+    for (const Solid& solid : m_solids) {
+      if (!add(1)) return;
+      visit(solid);
+    }
     return;
   }
-  for (const std::uint32_t index : m_large) visit(m_solids[index]);
+  for (const std::uint32_t index : m_large) {
+    if (!add(1)) return;
+    visit(m_solids[index]);
+  }
   for (std::int64_t y = range.top; y <= range.bottom; ++y) {
     for (std::int64_t x = range.left; x <= range.right; ++x) {
+      if (!add(kLookupWork)) return;
       const Cell key = cellKey(x, y);
       auto at = std::lower_bound(m_cells.begin(), m_cells.end(), std::pair<Cell, std::uint32_t>(key, 0));
       for (; at != m_cells.end() && at->first == key; ++at) {
+        if (!add(1)) return;
         const Solid& solid = m_solids[at->second];
         // Of the cells that the two share, the first one counts.
         if (x == std::max(range.left, solid.range.left) && y == std::max(range.top, solid.range.top))
@@ -87,32 +132,24 @@ void ExtrapolationClamp::forEachNear(const df::FixedBox& box, Visit visit) const
 
 /// The first tick after known, counted from there, in which the mover would touch the other, as that is at
 /// the mover's turn; `before` if there is none before that, or if they touch already.
-std::uint32_t ExtrapolationClamp::firstTouch(const std::vector<df::FixedBox>& mover, std::uint64_t order,
-                                             const Solid& other, std::uint32_t before) const {
-  const df::FixedBox* p_other = &m_places[other.places];
-  if (df::intersects(mover[0], p_other[0])) return before;
-  const std::uint32_t late = other.order < order ? 0 : 1;  // those created later have not moved yet
+std::uint32_t ExtrapolationClamp::firstTouch(const Solid& mover, const Solid& other, std::uint32_t before) {
+  ++m_work;
+  if (df::intersects(placeOf(mover, 0), placeOf(other, 0))) return before;
+  // Those created later have not moved yet.
+  const std::uint32_t late = other.p_state->order < mover.p_state->order ? 0 : 1;
   for (std::uint32_t i = 1; i < before; ++i) {
-    if (df::intersects(mover[i], p_other[i - late])) return i;
+    ++m_work;
+    if (df::intersects(placeOf(mover, i), placeOf(other, i - late))) return i;
   }
   return before;
 }
 
 df::FixedVector ExtrapolationClamp::positionOf(const ObjectState& object) const {
-  const df::FixedVector modelled = positionAt(object.motion, m_drawn);
-  if (m_ticks == 0 || object.body.solidness != df::HARD || !isMoving(object.motion)) return modelled;
-  const auto along = boxAlong(object, m_known, m_drawn);
-  if (!along) return modelled;
-
-  std::vector<df::FixedBox> mover;
-  mover.reserve(m_ticks + 1);
-  appendPlaces(mover, object, m_known, m_ticks);
-  std::uint32_t first = m_ticks + 1;  // the tick in which it would first be blocked
-  forEachNear(*along, [&](const Solid& other) {
-    if (other.order == object.order || !df::intersects(*along, other.along)) return;
-    first = firstTouch(mover, object.order, other, first);
-  });
-  return positionAt(object.motion, m_known + first - 1);
+  if (!m_held.empty()) {
+    const auto held = m_held.find(&object);
+    if (held != m_held.end()) return held->second;
+  }
+  return positionAt(object.motion, m_drawn);
 }
 
 df::FixedVector clampedPosition(const Replica& replica, const ObjectState& object, std::uint32_t known,

@@ -44,20 +44,29 @@ Surroundings::Surroundings(const Replica& replica, const ObjectState& own, const
                            df::FixedVector reach, std::uint32_t first, std::uint32_t last)
     : m_own(own) {
   const df::FixedBox around{from.corner - reach, from.size + reach + reach};
+  const std::size_t ticks = last - first + 1;
   for (const auto& [slot, entry] : replica.entries()) {
     if (!entry.alive || entry.state.order == own.order || !blocks(own.body, entry.state.body)) continue;
+    m_work += entry.state.motion.acceleration != df::FixedVector{} ? ticks : 1;
+    if (m_work > kMaxWork / 2) break;  // the rest is for block()
     const auto box = boxAlong(entry.state, first, last);
-    if (box && df::intersects(*box, around)) m_others.push_back(&entry.state);
+    if (box && df::intersects(*box, around)) m_others.push_back({*box, &entry.state});
   }
 }
 
 bool Surroundings::block(df::FixedVector to, std::uint32_t tick, bool in_update) const {
   const auto own = boxAt(m_own.body, to);
-  return own && std::any_of(m_others.begin(), m_others.end(), [&](const ObjectState* p_other) {
-           const bool has_moved = in_update && p_other->order < m_own.order;
-           const auto box = boxAt(p_other->body, positionAt(p_other->motion, has_moved ? tick : tick - 1));
-           return box && df::intersects(*own, *box);
-         });
+  if (!own) return false;
+  for (const Other& other : m_others) {
+    if (++m_work > kMaxWork) return false;
+    if (!df::intersects(*own, other.along)) continue;
+    ++m_work;
+    const bool has_moved = in_update && other.p_state->order < m_own.order;
+    const auto box =
+        boxAt(other.p_state->body, positionAt(other.p_state->motion, has_moved ? tick : tick - 1));
+    if (box && df::intersects(*own, *box)) return true;
+  }
+  return false;
 }
 
 }  // namespace naiad

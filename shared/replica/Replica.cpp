@@ -1,6 +1,7 @@
 #include "shared/replica/Replica.h"
 
 #include <algorithm>
+#include <compare>
 
 #include "shared/replica/Checksum.h"
 
@@ -23,6 +24,47 @@ df::FixedVector placed(const ObjectState& object, std::uint32_t tick, const Plac
   return p_placement != nullptr ? p_placement->positionOf(object, tick) : positionAt(object.motion, tick);
 }
 
+/// An object in the view.
+struct Shown {
+  df::FixedVector at;
+  CellPosition from;  ///< of the view's corner, in the cells that its glyphs count in
+  const Appearance* p_glyphs;
+};
+
+struct DrawingOrder {
+  std::int32_t altitude;
+  std::uint64_t order;
+  std::uint32_t index;  ///< of its Shown
+  friend auto operator<=>(const DrawingOrder&, const DrawingOrder&) = default;
+};
+
+/// May a glyph of an object at `at` be on the canvas?
+bool reaches(const Sequence& sequence, df::FixedVector at, CellPosition from, const df::Canvas& canvas) {
+  // A glyph lies at most a cell beyond its whole cells, and so does the fraction of its object's place.
+  const std::int64_t cells = (sequence.reach() >> kGlyphUnitBits) + 2;
+  const std::int64_t x = std::int64_t{df::cellOf(at.x)} - from.x;
+  const std::int64_t y = std::int64_t{df::cellOf(at.y)} - from.y;
+  return x >= -cells && y >= -cells && x < canvas.width() + cells && y < canvas.height() + cells;
+}
+
+/// Those drawn last, in any order.
+void keepTopmost(std::vector<DrawingOrder>& order) {
+  const auto kept = order.end() - static_cast<std::ptrdiff_t>(kMaxDrawnObjects);
+  std::nth_element(order.begin(), kept, order.end());
+  order.erase(order.begin(), kept);
+}
+
+void draw(df::Canvas& canvas, const Shown& object) {
+  for (const Glyph& glyph : *object.p_glyphs) {
+    const CellPosition cell = glyphCell(object.at, glyph);
+    const std::int64_t x = std::int64_t{cell.x} - object.from.x;
+    const std::int64_t y = std::int64_t{cell.y} - object.from.y;
+    if (x >= 0 && y >= 0 && x < canvas.width() && y < canvas.height()) {
+      canvas.put(static_cast<int>(x), static_cast<int>(y), {glyph.ch, glyph.color});
+    }
+  }
+}
+
 }  // namespace
 
 void Replica::apply(const Snapshot& snapshot) {
@@ -31,7 +73,7 @@ void Replica::apply(const Snapshot& snapshot) {
   const Records& records = snapshot.records;
   if (supersedes(number, m_context.number)) {
     m_context.number = number;
-    if (isNewer(tick, m_context.tick)) m_context.tick = tick;
+    noteTick(tick);
   }
   if (snapshot.header.has_input && isNewer(snapshot.header.input, m_context.input)) {
     m_context.input = snapshot.header.input;
@@ -172,27 +214,26 @@ CellPosition Replica::focus(std::uint32_t tick, const Placement* p_placement) co
 df::Canvas Replica::render(std::uint32_t tick, const Placement* p_placement) const {
   df::Canvas canvas(viewWidth(), viewHeight());
   const CellPosition corner = viewCorner(tick, p_placement);
-
-  std::vector<const ObjectState*> shown;
-  shown.reserve(m_alive);
+  std::vector<Shown> shown;
+  std::vector<DrawingOrder> order;
   for (const auto& [id, entry] : m_entries) {
-    if (entry.alive && entry.state.look.select(tick) != nullptr) shown.push_back(&entry.state);
+    const Look& look = entry.state.look;
+    const Appearance* p_glyphs = entry.alive ? look.select(tick) : nullptr;
+    if (p_glyphs == nullptr) continue;
+    const df::FixedVector at = placed(entry.state, tick, p_placement);
+    const CellPosition from = entry.state.body.on_view ? CellPosition{} : corner;
+    if (!reaches(look.sequence, at, from, canvas)) continue;
+    order.push_back({look.altitude, entry.state.order, static_cast<std::uint32_t>(shown.size())});
+    shown.push_back({at, from, p_glyphs});
   }
-  std::sort(shown.begin(), shown.end(), [](const ObjectState* a, const ObjectState* b) {
-    return a->look.altitude != b->look.altitude ? a->look.altitude < b->look.altitude : a->order < b->order;
-  });
-  for (const ObjectState* state : shown) {
-    const df::FixedVector at = placed(*state, tick, p_placement);
-    const CellPosition from = state->body.on_view ? CellPosition{} : corner;
-    for (const Glyph& glyph : *state->look.select(tick)) {
-      const CellPosition cell = glyphCell(at, glyph);
-      const std::int64_t x = std::int64_t{cell.x} - from.x;
-      const std::int64_t y = std::int64_t{cell.y} - from.y;
-      if (x >= 0 && y >= 0 && x < canvas.width() && y < canvas.height()) {
-        canvas.put(static_cast<int>(x), static_cast<int>(y), {glyph.ch, glyph.color});
-      }
-    }
+  if (order.size() > kMaxDrawnObjects) keepTopmost(order);
+  std::sort(order.begin(), order.end());
+  std::size_t first = order.size();
+  for (std::size_t glyphs = 0; first > 0; --first) {
+    glyphs += shown[order[first - 1].index].p_glyphs->size();
+    if (glyphs > kMaxDrawnGlyphs) break;
   }
+  for (std::size_t i = first; i < order.size(); ++i) draw(canvas, shown[order[i].index]);
   for (const auto& [id, text] : m_texts) {
     int x = text.x;
     for (const char32_t ch : df::decodeUtf8(text.text)) canvas.put(x++, text.y, {ch, text.color});

@@ -25,6 +25,11 @@ inline constexpr std::size_t kMaxReplicaObjects = 1u << 17;
 /// beyond its first as three more; a look beyond that is ignored and counted.
 inline constexpr std::size_t kMaxReplicaGlyphs = 1u << 21;
 
+/// One picture has at most so many objects and so many glyphs, those on top: a view of 400 x 150 cells has
+/// 60,000.
+inline constexpr std::size_t kMaxDrawnObjects = 1u << 16;
+inline constexpr std::size_t kMaxDrawnGlyphs = 1u << 19;
+
 class Replica {
  public:
   /// One remembered object. The newest number applied is kept per group; a death counts for all of them,
@@ -52,8 +57,14 @@ class Replica {
   /// Apply what was read. Order of arrival does not matter, nor does a second time.
   void apply(const Snapshot& snapshot);
 
+  /// Snapshots to come are of ticks near this one, if it is newer than all that were applied.
+  void noteTick(std::uint32_t tick) {
+    if (isNewer(tick, m_context.tick)) m_context.tick = tick;
+  }
+
   /// Draw the player's view as it is at `tick`: objects by altitude, then creation order, then texts.
-  /// The canvas has the size of the view. With a placement, things are drawn where it says.
+  /// The canvas has the size of the view. With a placement, things are drawn where it says. Of more than
+  /// kMaxDrawnObjects objects that reach into the view, or kMaxDrawnGlyphs glyphs, the lowest are left out.
   df::Canvas render(std::uint32_t tick, const Placement* p_placement = nullptr) const;
 
   /// Where the view's upper left corner is at `tick`, in whole world cells.
@@ -77,7 +88,7 @@ class Replica {
   /// Behind all characters of the view.
   df::Color background() const { return m_world.background; }
   std::size_t aliveCount() const { return m_alive; }
-  /// The newest snapshot, tick and input that were applied.
+  /// The newest snapshot, tick and input that were applied, or the tick of noteTick().
   const SnapshotContext& newest() const { return m_context; }
   /// The live object with this id; null if there is none.
   const Entry* find(std::uint32_t id) const;

@@ -28,7 +28,9 @@ FakeServer::~FakeServer() {
 void FakeServer::accept() {
   m_acceptor.async_accept([this](const std::error_code& error, tcp::socket socket) {
     if (error) return;
-    m_channel = makeTcpChannel(std::move(socket), TcpOptions{.receive_limit = kMaxClientFrame});
+    ++m_connections;
+    m_channel = makeTcpChannel(std::move(socket),
+                               TcpOptions{.send_cap = 64u << 20, .receive_limit = kMaxClientFrame});
     m_channel->start({[this](std::string_view frame) { onFrame(frame); }, [](CloseReason) {}});
     accept();
   });
@@ -66,6 +68,7 @@ void FakeServer::welcome() {
     if (m_change) m_change(message);
   }
   m_channel->send(message.SerializeAsString());
+  if (m_withholds) return;
 
   SnapshotHeader header;
   header.number = 1;
@@ -108,6 +111,14 @@ bool FakeServer::heardInput(const std::function<bool(const Input&)>& wanted) {
   });
 }
 
+bool FakeServer::heardAcknowledged(std::uint32_t number) {
+  return hasReceived([number](const wire::ClientMessage& message) {
+    const auto update =
+        message.what_case() == wire::ClientMessage::kUpdate ? readUpdate(message.update(), {}) : std::nullopt;
+    return update && update->acks.newest == number;
+  });
+}
+
 bool FakeServer::heardKey(int key, int action) {
   return heardInput(
       [=](const Input& input) { return !input.is_mouse && input.key == key && input.action == action; });
@@ -120,6 +131,39 @@ void FakeServer::onWelcome(std::function<void(wire::ServerMessage&)> change) {
 
 void FakeServer::send(const wire::ServerMessage& message) {
   asio::post(m_context, [this, bytes = message.SerializeAsString()] { m_channel->send(bytes); });
+}
+
+std::uint32_t FakeServer::sendWorld(const std::vector<ObjectState>& objects, const df::ControlTable* p_table,
+                                    const ControlRecord* p_control) {
+  constexpr std::size_t kAtOnce = 200;  // fit into a snapshot
+  // All have the look of the first, which goes out once.
+  constexpr std::uint32_t kName = 1;
+  std::vector<std::string> frames;
+  SnapshotHeader header;
+  header.number = 1;
+  header.tick = 100;
+  for (std::size_t first = 0; first < objects.size(); first += kAtOnce) {
+    ++header.number;
+    SnapshotWriter out;
+    out.beginSnapshot(header, 0, {});
+    std::string table;
+    if (p_table != nullptr) writeControlTable(table, *p_table);
+    if (first == 0 && p_table != nullptr) out.writeTable(table);
+    if (first == 0 && p_control != nullptr) out.write(*p_control);
+    for (std::size_t i = first; i < std::min(first + kAtOnce, objects.size()); ++i) {
+      const LookForm form{i == 0 ? LookForm::kDefined : LookForm::kNamed, kName};
+      BitWriter bits;
+      out.encode(bits, kAllGroups, 1, objects[i], objects[i].motion, form);
+      out.object(static_cast<std::uint32_t>(100 + i), std::move(bits));
+    }
+    wire::ServerMessage snapshot;
+    snapshot.set_snapshot(out.finish());
+    frames.push_back(snapshot.SerializeAsString());
+  }
+  asio::post(m_context, [this, frames = std::move(frames)] {
+    for (const std::string& frame : frames) m_channel->send(frame);
+  });
+  return header.number;
 }
 
 void FakeServer::drop() {

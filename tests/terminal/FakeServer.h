@@ -4,6 +4,7 @@
 
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -15,6 +16,7 @@
 
 #include "naiad.pb.h"
 #include "shared/net/base/Channel.h"
+#include "shared/replica/Records.h"
 #include "shared/replica/UpdateCodec.h"
 
 namespace naiad::test {
@@ -37,6 +39,16 @@ class FakeServer {
   void onWelcome(std::function<void(wire::ServerMessage&)> change);
   /// Send the client a message.
   void send(const wire::ServerMessage& message);
+  /// Send the client these objects, with ids from 100 on and all with the look of the first, and the records,
+  /// in as many snapshots as they take. The number of the last one.
+  std::uint32_t sendWorld(const std::vector<ObjectState>& objects, const df::ControlTable* p_table = nullptr,
+                          const ControlRecord* p_control = nullptr);
+  /// Wait until the client has acknowledged this snapshot.
+  bool heardAcknowledged(std::uint32_t number);
+  /// No picture after the welcome, from the next client on.
+  void withholdPictures() { m_withholds = true; }
+  /// How many have connected.
+  int connections() const { return m_connections; }
   /// Hang up without a goodbye.
   void drop();
 
@@ -53,6 +65,8 @@ class FakeServer {
   std::condition_variable m_changed;
   std::vector<wire::ClientMessage> m_messages;
   std::function<void(wire::ServerMessage&)> m_change;  ///< of the welcome
+  std::atomic<bool> m_withholds = false;
+  std::atomic<int> m_connections = 0;
   std::thread m_thread;
 };
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "client/world/ExtrapolationClamp.h"
 #include "client/world/Surroundings.h"
 #include "shared/values/SplitMix64.h"
@@ -116,6 +118,7 @@ TEST_F(ExtrapolationClampTest, EqualsThePlainRuleForRandomCrowds) {
     }
     const auto drawn = kKnown + 1 + static_cast<std::uint32_t>(rng.below(8));
     const ExtrapolationClamp clamp(replica, kKnown, drawn);
+    ASSERT_FALSE(clamp.isExhausted());
     for (const auto& [slot, entry] : replica.entries()) {
       const FixedVector wanted = plainly(replica, entry.state, drawn);
       EXPECT_EQ(clamp.positionOf(entry.state), wanted) << "seed " << seed << " slot " << slot;
@@ -123,6 +126,75 @@ TEST_F(ExtrapolationClampTest, EqualsThePlainRuleForRandomCrowds) {
     }
   }
   EXPECT_GT(held, 300);
+}
+
+/// `count` small objects that fly about in one spot.
+class CrowdedSpotTest : public ExtrapolationClampTest {
+ protected:
+  void fill(int count) {
+    SplitMix64 rng(7);
+    Snapshot snapshot;
+    snapshot.header.number = 1'000'000;
+    snapshot.header.tick = kKnown;
+    for (int i = 0; i < count; ++i) {
+      ObjectRecord record{static_cast<std::uint32_t>(1000 + i), 1, kAllGroups, {}};
+      record.state.order = record.id;
+      record.state.motion = {kKnown,
+                             cellsAt(40 + rng.unit(), 12 + rng.unit()),
+                             cellsAt(rng.unit() * 0.4 - 0.2, rng.unit() * 0.2 - 0.1),
+                             {}};
+      record.state.body = {{{0, 0}, {kFixedOne / 50, kFixedOne / 50}}, df::HARD, false};
+      snapshot.records.objects.push_back(record);
+    }
+    replica.apply(snapshot);
+  }
+};
+
+TEST_F(CrowdedSpotTest, OfTwoHundredIsAsThePlainRuleSays) {
+  fill(200);
+  const ExtrapolationClamp clamp(replica, kKnown, kKnown + 8);
+  ASSERT_FALSE(clamp.isExhausted());
+  int held = 0;
+  for (const auto& [slot, entry] : replica.entries()) {
+    const FixedVector wanted = plainly(replica, entry.state, kKnown + 8);
+    EXPECT_EQ(clamp.positionOf(entry.state), wanted) << "slot " << slot;
+    held += wanted != positionAt(entry.state.motion, kKnown + 8) ? 1 : 0;
+  }
+  EXPECT_GT(held, 20);
+}
+
+// A unit of work is some ten nanoseconds, whatever the processor: the test counts and does not measure.
+TEST_F(CrowdedSpotTest, TakesABoundedAmountOfWorkHoweverManyThereAre) {
+  for (const int count : {1'000, 4'000, 48'000}) {
+    replica = Replica();
+    fill(count);
+    const ExtrapolationClamp clamp(replica, kKnown, kKnown + ExtrapolationClamp::kMaxTicks);
+    EXPECT_TRUE(clamp.isExhausted()) << count;
+    EXPECT_LE(clamp.work(), ExtrapolationClamp::kMaxWork + 1'000) << count;
+    for (const auto& [slot, entry] : replica.entries()) {
+      // Wherever on its path: it is drawn.
+      const FixedVector drawn = clamp.positionOf(entry.state);
+      const FixedVector from = positionAt(entry.state.motion, kKnown);
+      EXPECT_LE(std::abs(drawn.x - from.x), fromCells(4)) << slot;
+    }
+  }
+}
+
+TEST_F(CrowdedSpotTest, DoesNotTakeTheWorkThatOthersNeed) {
+  fill(2'000);
+  const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
+  add(cellsAt(14, 5));
+  const ExtrapolationClamp clamp(replica, kKnown, kKnown + 8);
+  ASSERT_TRUE(clamp.isExhausted());
+  EXPECT_EQ(clamp.positionOf(replica.find(ball)->state), cellsAt(12, 5)) << "before its wall";
+}
+
+TEST_F(CrowdedSpotTest, OfLargeObjectsIsBoundedToo) {
+  for (int i = 0; i < 3'000; ++i) {
+    add(cellsAt(i % 50, i % 20), cellsAt(0.1, 0.1), df::HARD, {cellsAt(-50, -50), cellsAt(100, 100)});
+  }
+  const ExtrapolationClamp clamp(replica, kKnown, kKnown + 8);
+  EXPECT_LE(clamp.work(), ExtrapolationClamp::kMaxWork + 1'000);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "client/world/DrawnPlacement.h"
 #include "client/world/Prediction.h"
+#include "client/world/Surroundings.h"
 
 namespace naiad {
 namespace {
@@ -248,6 +249,23 @@ TEST_F(PredictionTest, ThePictureShowsTheShipAndTheViewWhereTheyWillBe) {
   EXPECT_EQ(picture.at(20, 6).ch, U'@');
   EXPECT_EQ(picture.at(10, 6).ch, U' ');
   EXPECT_EQ(replica.render(kFirstTick).at(10, 6).ch, U'@');
+}
+
+// Two thousand steps in each frame (64 keys of 32 rows), all of which a pile of objects may block.
+TEST_F(PredictionTest, WorkIsBoundedHoweverManyObjectsAreInTheWay) {
+  std::vector<ObjectRecord> pile;
+  for (std::uint32_t slot = 1000; slot < 49'000; ++slot) {
+    pile.push_back(object(slot, cells(12, 10)));
+    pile.back().state.motion.acceleration = {1, 0};
+  }
+  applyRecords(objects(pile));
+  const ObjectState& own = replica.find(kOwnSlot)->state;
+  const df::FixedBox from = *boxAt(own.body, cells(10, 10));
+  const Surroundings surroundings(replica, own, from, cells(5, 5), kFirstTick, kFirstTick + 90);
+  EXPECT_LE(surroundings.work(), Surroundings::kMaxWork);
+  EXPECT_TRUE(surroundings.block(cells(12, 10), kFirstTick + 1, true)) << "those in its room still block";
+  for (int i = 0; i < 2'000; ++i) (void)surroundings.block(cells(10, 10), kFirstTick + 1, false);
+  EXPECT_LE(surroundings.work(), Surroundings::kMaxWork + 2'100);
 }
 
 }  // namespace

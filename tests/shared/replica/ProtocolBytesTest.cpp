@@ -250,6 +250,8 @@ TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
       {"kMaxTicksPerFrame", kMaxTicksPerFrame},
       {"kMaxReplicaObjects", kMaxReplicaObjects},
       {"kMaxReplicaGlyphs", kMaxReplicaGlyphs},
+      {"kMaxDrawnObjects", kMaxDrawnObjects},
+      {"kMaxDrawnGlyphs", kMaxDrawnGlyphs},
   };
   const std::string text = document();
   std::map<std::string, std::uint64_t> listed;

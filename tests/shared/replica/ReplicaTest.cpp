@@ -230,6 +230,54 @@ TEST(Replica, IsBoundedWhateverItIsSent) {
   EXPECT_EQ(replica.overflowCount(), 10u);
 }
 
+TEST(Replica, OnePictureHasABoundedNumberOfGlyphsThoseOnTop) {
+  // Shared by all: little memory, and much to draw.
+  const Sequence large{Appearance(8192, Glyph{0, 0, U'#', df::RED})};
+  const std::uint32_t fits = kMaxDrawnGlyphs / 8192;
+  Records records;
+  for (std::uint32_t id = 0; id < fits + 10; ++id) {
+    ObjectState state;
+    state.order = id;
+    state.motion.position = cellsAt(static_cast<int>(id) % 80, static_cast<int>(id) / 80);
+    state.look.sequence = large;
+    records.objects.push_back({id, 1, kAllGroups, state});
+  }
+  Replica replica;
+  apply(replica, 1, 0, records);
+  const df::Canvas picture = replica.render(0);
+  for (std::uint32_t id = 0; id < fits + 10; ++id) {
+    const char32_t ch = picture.at(static_cast<int>(id) % 80, static_cast<int>(id) / 80).ch;
+    EXPECT_EQ(ch, id < 10 ? U' ' : U'#') << id;
+  }
+}
+
+TEST(Replica, OnePictureHasABoundedNumberOfObjectsThoseOnTop) {
+  Records records;
+  for (std::uint32_t id = 0; id < kMaxDrawnObjects + 2; ++id) {
+    records.objects.push_back({id, 1, kAllGroups, character(id < 3 ? static_cast<int>(id) : 5, 0, U'x')});
+    records.objects.back().state.order = id;
+  }
+  Replica replica;
+  apply(replica, 1, 0, records);
+  EXPECT_EQ(replica.render(0).text().substr(0, 6), "  x  x");
+}
+
+TEST(Replica, WhatReachesIntoTheViewIsDrawn) {
+  // One glyph at each end of a long look, and the object outside of the view on every side.
+  Replica replica;
+  std::uint32_t id = 0;
+  for (const auto& [x, y, dx, dy] : {std::array{-100, 3, 100, 0}, std::array{190, 4, -190, 0},
+                                     std::array{5, -60, 0, 60}, std::array{6, 99, 0, -99}}) {
+    ObjectState state;
+    state.motion.position = cellsAt(x, y);
+    state.look.sequence = {{Glyph{dx << kGlyphUnitBits, dy << kGlyphUnitBits, U'@', df::RED}}};
+    apply(replica, id + 1, 0, birth(id, 1, state));
+    ++id;
+  }
+  const df::Canvas picture = replica.render(0);
+  for (const auto& [x, y] : {std::pair{0, 3}, {0, 4}, {5, 0}, {6, 0}}) EXPECT_EQ(picture.at(x, y).ch, U'@');
+}
+
 TEST(Replica, LooksAreBoundedInAll) {
   Replica replica;
   ObjectState huge = character(1, 1, U'x');
