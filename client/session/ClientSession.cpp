@@ -6,7 +6,7 @@ namespace naiad {
 
 ClientSession::ClientSession(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
                              Time now)
-    : m_link(std::move(channel), options, m_counters), m_liveness(now) {}
+    : m_link(std::move(channel), options, m_counters), m_liveness(now), m_picture_wait(now) {}
 
 void ClientSession::receive(std::string_view frame, Time now) {
   if (isOver()) return;
@@ -34,6 +34,7 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
   m_world.start(m_welcome, from);
   m_inputs.start(from.input, m_welcome.tick);
   m_state = State::kPlaying;
+  m_picture_wait.heard(now);
   m_liveness.startStream(now);
   m_timing.noteAttached(now);
   if (!m_welcome.resumed || m_welcome.continuation) openDatagrams(now);
@@ -150,6 +151,7 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   m_welcome.connection_id = welcome.connection_id;
   m_welcome.aead = welcome.aead;
   m_welcome.epoch = welcome.epoch;
+  m_world.resume(welcome.tick_now);
   m_liveness.noteHeard(now);
   m_liveness.startStream(now);  // its first ping proves to the server that the new token has arrived
   m_timing.noteAttached(now);
@@ -191,6 +193,8 @@ void ClientSession::update(Time now) {
     }
     return;
   }
+  m_picture_wait.listen(now);
+  if (pictureWait(now) >= kPictureTimeout) return giveUpPicture();
   if (m_timing.takeRepeat(now) && !m_inputs.isEmpty() && hasDatagrams(now)) sendUpdate(now);
   if (m_timing.isAckDue(now)) sendUpdate(now);
   if (m_link.hasDatagrams() && m_timing.isProbeDue(now, !m_link.hasStream())) sendProbe(now);
@@ -215,6 +219,18 @@ void ClientSession::updateStream(Time now) {
     return closed(CloseReason::kError);  // the line may be down for a while; the session waits for another
   }
   if (m_liveness.isPingDue(now, hasDatagrams(now))) sendPing(now);
+}
+
+IdleTimer::Duration ClientSession::pictureWait(Time now) const {
+  const bool waits = m_state == State::kPlaying && !hasPicture(now);
+  return waits ? m_picture_wait.at(now) : IdleTimer::Duration::zero();
+}
+
+// Leaves, so that the server does not keep a place for a client that will not come back.
+void ClientSession::giveUpPicture() {
+  sendLeave();
+  finish(State::kLost, "The server let you in, but sent no picture of the game in " +
+                           std::to_string(kPictureTimeout.count()) + " s.");
 }
 
 void ClientSession::reject(const std::string& what) {

@@ -26,6 +26,7 @@
 #include "client/session/ServerLink.h"
 #include "client/session/StreamLiveness.h"
 #include "client/session/UpdateTiming.h"
+#include "shared/net/base/IdleTimer.h"
 #include "shared/replica/UpdateCodec.h"
 #include "shared/values/Keyboard.h"
 
@@ -41,6 +42,9 @@ class ClientSession {
   static constexpr std::chrono::seconds kIdleTimeout{15};
   /// Silence after which a session without a stream is given up.
   static constexpr std::chrono::seconds kDetachedTimeout{60};
+  /// A welcome is followed by a picture within this time, or the session is given up. A world in a process of
+  /// its own may take 30 s to begin.
+  static constexpr std::chrono::seconds kPictureTimeout{45};
 
   /// Takes the connected channel and says hello. The owner starts the channel and passes what it delivers
   /// to receive() and closed().
@@ -119,6 +123,8 @@ class ClientSession {
   // The world.
   /// There is a picture to show: all of the world has come, or as much as came in half a second.
   bool hasPicture(Time now) const { return m_world.feed().hasPicture(now); }
+  /// How long the welcome has not been followed by a picture; zero once it was.
+  IdleTimer::Duration pictureWait(Time now) const;
   const Replica& replica() const { return m_world.replica(); }
   const DisplayClock& clock() const { return m_world.clock(); }
   /// The tick to draw now.
@@ -161,12 +167,15 @@ class ClientSession {
   void sendUpdate(Time now);
   void sendProbe(Time now);
   void sendPing(Time now);
+  void sendLeave();
+  void giveUpPicture();
   void updateStream(Time now);
   std::string nextUpdate(bool in_order, Time now);
 
   SessionCounters m_counters;
   ServerLink m_link;
   StreamLiveness m_liveness;
+  IdleTimer m_picture_wait;  ///< since the welcome
   UpdateTiming m_timing;
   ReceivedWorld m_world;
   ReliableInbox m_inbox{m_counters};

@@ -94,10 +94,14 @@ void ClientSession::sendResize(int columns, int rows) {
 
 void ClientSession::leave() {
   if (isOver()) return;
+  sendLeave();
+  finish(State::kLeft, "");
+}
+
+void ClientSession::sendLeave() {
   wire::ClientMessage message;
   message.mutable_leave();
   m_link.send(message);
-  finish(State::kLeft, "");
 }
 
 }  // namespace naiad

@@ -183,6 +183,10 @@ void Connection::checkPending() {
     ++m_revision;
     return;
   }
+  if (m_pending->isDetached() && !m_pending->isHeard(Clock::now())) {
+    m_pending.reset();
+    return attemptFailed("The connection to the server was lost before its first picture.");
+  }
   if (!m_pending->isOver()) return;
   const std::unique_ptr<ClientSession> over = std::move(m_pending);
   const bool again = over->isRefusedForNow() && m_state == State::kSearching;

@@ -68,6 +68,10 @@ class Connection {
   const std::string& sentence() const { return m_sentence; }
   /// The session to show; null before the first picture.
   ClientSession* session() { return m_session.get(); }
+  /// How long a server that let the client in has not sent a first picture; zero while there is no such one.
+  Clock::duration pictureWait(Time now) const {
+    return m_pending ? m_pending->pictureWait(now) : Clock::duration::zero();
+  }
   /// The state can change, or a new session can replace session(), only in update() and from the
   /// io_context; this counts both.
   std::uint64_t revision() const { return m_revision; }

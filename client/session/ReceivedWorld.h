@@ -26,6 +26,8 @@ class ReceivedWorld {
 
   /// The welcome came; snapshots count on from `from`.
   void start(const WelcomeMessage& welcome, const Continuation& from);
+  /// The session was resumed in tick `tick_now`: this process may have stood still since the last snapshot.
+  void resume(std::uint32_t tick_now) { m_feed.noteTick(tick_now); }
 
   /// Read and apply a snapshot; `before` is called just before. Its inputs leave `inputs`.
   Result applySnapshot(std::string_view bytes, Time now, InputOutbox& inputs,

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <asio/signal_set.hpp>
 #include <cerrno>
+#include <cstdio>
 #include <utility>
 
 #include "client/terminal/Screen.h"
@@ -18,6 +20,7 @@ namespace {
 constexpr std::chrono::milliseconds kFrame{16};  // at most 60 frames a second
 constexpr std::chrono::milliseconds kHousekeeping{100};
 constexpr std::chrono::milliseconds kFarewell{500};
+constexpr std::chrono::seconds kPictureNotice{2};  // of waiting for the first picture
 
 SessionOptions withTerminalSize(SessionOptions options) {
   winsize size{};
@@ -43,6 +46,7 @@ ClientApp::~ClientApp() = default;
 
 ClientApp::Outcome ClientApp::run() {
   join();
+  if (m_leaving) sayFarewell();
   if (m_connection.isOver()) return outcome();
   takeTerminal();
   while (!m_leaving && !m_connection.isOver()) {
@@ -54,17 +58,28 @@ ClientApp::Outcome ClientApp::run() {
     m_player.update(now);
     noticeSounds(now);
     m_dirty = m_dirty || m_composer.isStale(now);
-    if (m_dirty && now - m_last_frame >= kFrame) drawFrame(now);
+    if (m_dirty && now >= m_next_frame) drawFrame(now);
   }
   return leaveTerminal();
 }
 
 /// Connect before the terminal is touched, so that an error is an ordinary line in an ordinary shell.
 void ClientApp::join() {
+  asio::signal_set ends(m_context, SIGINT, SIGTERM, SIGHUP);
+  ends.async_wait([this, &ends](const std::error_code& error, int signal) {
+    if (error) return;
+    m_leaving = true;
+    m_signal = signal;
+    ends.clear();  // the next one ends the process at once
+  });
   m_connection.start();
-  while (m_connection.state() == Connection::State::kJoining) {
+  bool said = false;
+  while (!m_leaving && m_connection.state() == Connection::State::kJoining) {
     m_context.run_one_for(kHousekeeping);
-    m_connection.update(Clock::now());
+    const Time now = Clock::now();
+    m_connection.update(now);
+    if (m_connection.pictureWait(now) < kPictureNotice || std::exchange(said, true)) continue;
+    std::fprintf(stderr, "dfclient: The server let you in; its first picture is awaited. Ctrl-C leaves.\n");
   }
 }
 
@@ -85,13 +100,15 @@ ClientApp::Outcome ClientApp::leaveTerminal() {
   m_guard->restore();
   m_input.close();
   m_signals.close();
-  m_work.reset();
-  if (m_leaving) {
-    m_connection.leave();
-    m_context.restart();
-    m_context.run_for(kFarewell);  // ends early, when the channel has closed
-  }
+  if (m_leaving) sayFarewell();
   return outcome();
+}
+
+void ClientApp::sayFarewell() {
+  m_work.reset();
+  m_connection.leave();
+  m_context.restart();
+  m_context.run_for(kFarewell);  // ends early, when the channel has closed
 }
 
 ClientApp::Outcome ClientApp::outcome() const {
@@ -239,10 +256,12 @@ void ClientApp::resume() {
 
 void ClientApp::drawFrame(Time now) {
   m_dirty = false;
-  m_last_frame = now;
   const ScreenLayout layout = layOut(m_composer.composeFrame(now), m_screen->columns(), m_screen->rows());
   m_placement = layout.placement;
   m_screen->show(layout.picture);
+  // After a frame that took long, as much time is for everything else.
+  const Time end = Clock::now();
+  m_next_frame = std::max(now + kFrame, end + (end - now));
 }
 
 ClientApp::Time ClientApp::nextDeadline(Time now) {
@@ -250,8 +269,7 @@ ClientApp::Time ClientApp::nextDeadline(Time now) {
   if (const auto due = m_decoder.deadline()) next = std::min(next, *due);
   const ClientSession* session = m_connection.session();
   // A predicted object moves between snapshots, too.
-  if (m_dirty || (session != nullptr && session->isPredicting()))
-    next = std::min(next, m_last_frame + kFrame);
+  if (m_dirty || (session != nullptr && session->isPredicting())) next = std::min(next, m_next_frame);
   if (session == nullptr) return next;
   next = std::min(next, session->nextWake().value_or(next));
   // A tick that passes without news can still change the picture.

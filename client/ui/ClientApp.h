@@ -57,6 +57,7 @@ class ClientApp {
   void join();
   void takeTerminal();
   Outcome leaveTerminal();
+  void sayFarewell();
   Outcome outcome() const;
   void waitForInput();
   void waitForSignal();
@@ -86,7 +87,7 @@ class ClientApp {
   PlayerInput m_player;
   FrameComposer m_composer;
 
-  Time m_last_frame{};
+  Time m_next_frame{};  ///< not before
   bool m_dirty = true;
   bool m_leaving = false;
   int m_signal = 0;

@@ -61,4 +61,9 @@ WorldFeed::Result WorldFeed::applySnapshot(std::string_view bytes, Time now, Sna
   return Result::kShown;
 }
 
+void WorldFeed::noteTick(std::uint32_t tick) {
+  m_replica.noteTick(tick);
+  if (m_next) m_next->noteTick(tick);
+}
+
 }  // namespace naiad

@@ -46,6 +46,9 @@ class WorldFeed {
   Result applySnapshot(std::string_view bytes, Time now, SnapshotHeader& header,
                        const std::function<void(std::uint32_t tick)>& before);
 
+  /// The server's tick is at least this one: snapshots to come have the low bits of ticks near it.
+  void noteTick(std::uint32_t tick);
+
   /// The one to show.
   const Replica& shown() const { return m_replica; }
   /// Is there enough of the first world to show it? Once true, it stays so.

@@ -160,6 +160,26 @@ TEST_F(ClientReturn, ChatWaitsForAStreamAndIsSentAgainUntilAcknowledged) {
   session.reset();  // `next` must outlive its channel
 }
 
+TEST_F(ClientReturn, AfterALongStandstillTicksCountFromTheWelcome) {
+  wire::ServerMessage welcome = welcomeMessage();
+  welcome.mutable_welcome()->set_resume_token("token");
+  receive(welcome);
+  snapshot(1, 100);
+  session->closed(CloseReason::kError);
+  MessageLine<wire::ClientMessage> next;
+  SessionOptions options;
+  options.resume_token = "token";
+  ClientSession pending(std::make_unique<FakeChannel>(next), options, now);
+  welcome.mutable_welcome()->set_resumed(true);
+  welcome.mutable_welcome()->set_tick(40'000);  // with a long grace time, 22 minutes at 30 Hz
+  pending.receive(welcome.SerializeAsString(), now);
+  session->adopt(pending, now);
+  snapshot(2, 40'001);
+  EXPECT_EQ(session->replica().newest().tick, 40'001u);
+  EXPECT_EQ(session->clock().newestTick(), 40'001u);
+  session.reset();  // `next` must outlive its channel
+}
+
 TEST_F(ClientReturn, ChatBeyondTheLimitIsDropped) {
   wire::ServerMessage welcome = welcomeMessage();
   welcome.mutable_welcome()->set_resume_token("token");

@@ -44,6 +44,40 @@ TEST_F(ClientSessionTest, PlaysAfterTheWelcome) {
   EXPECT_TRUE(last().has_ping()) << "the round trip is measured from the start";
 }
 
+TEST_F(ClientSessionTest, AWelcomeWithoutAPictureIsGivenUpInWords) {
+  join();
+  wire::ServerMessage pong;
+  pong.mutable_pong()->set_token(12345);
+  const auto welcomed = now;
+  const auto end = now + ClientSession::kPictureTimeout;
+  for (now += 100ms; now < end; now += 100ms) {
+    if ((end - now) % 1s == 0s) receive(pong);  // otherwise silent, the server is there
+    session->update(now);
+    ASSERT_EQ(session->state(), State::kPlaying);
+    EXPECT_EQ(session->pictureWait(now), now - welcomed);
+  }
+  now = end;
+  session->update(now);
+  EXPECT_EQ(session->state(), State::kLost);
+  EXPECT_EQ(session->sentence(), "The server let you in, but sent no picture of the game in 45 s.");
+  EXPECT_TRUE(last().has_leave()) << "it keeps no place";
+  EXPECT_TRUE(log.closed);
+}
+
+TEST_F(ClientSessionTest, WithAPictureItWaitsForNone) {
+  join();
+  snapshot(1, 10);
+  now += WorldFeed::kPatience;
+  EXPECT_EQ(session->pictureWait(now), 0s);
+  wire::ServerMessage pong;
+  pong.mutable_pong()->set_token(12345);
+  for (const auto end = now + 2 * ClientSession::kPictureTimeout; now < end; now += 100ms) {
+    receive(pong);
+    session->update(now);
+  }
+  EXPECT_EQ(session->state(), State::kPlaying);
+}
+
 TEST_F(ClientSessionTest, RefusalKeepsItsSentence) {
   wire::ServerMessage message;
   message.mutable_refused()->set_reason(wire::Refused::FULL);
@@ -232,6 +266,7 @@ TEST_F(ClientSessionTest, ASilentGameThatCanBeResumedIsWaitedFor) {
   wire::ServerMessage message = welcomeMessage();
   message.mutable_welcome()->set_resume_token(std::string(16, 't'));
   receive(message);
+  snapshot(1, 10);
   listenUntil(now + 15s);
   EXPECT_EQ(session->state(), State::kPlaying);
   EXPECT_TRUE(session->isDetached());
