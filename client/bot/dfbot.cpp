@@ -1,4 +1,5 @@
 // dfbot: players without a screen, for tests, demonstrations and load.
+#include <algorithm>
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <cstdio>
@@ -24,6 +25,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kServing{20};  // of frames in one turn
+/// A server sends a snapshot every kKeepAliveTicks at least, later if the line is bad. Longer silence at the
+/// end, or of a connection that broke, means that the server crashed or hangs.
+constexpr std::chrono::seconds kPatience{5};
+constexpr int kKeepAliveTicks = 5;
 
 constexpr const char* kScriptHelp =
     "Scripts (--script FILE or --script TEXT), durations in ticks:\n"
@@ -59,6 +64,7 @@ class Bot {
       session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
         if (!m_options.truth_file.empty()) m_recorder.beforeSnapshot(session.replica(), tick);
         if (!m_first_tick) m_first_tick = tick;
+        m_heard_at = Clock::now();
       });
       session.onAfterSnapshot([this, &session](const naiad::SnapshotHeader& header, const naiad::AckWindow&) {
         m_recorder.afterSnapshot(header.tick, header.complete, !session.hasDatagrams(Clock::now()));
@@ -91,6 +97,20 @@ class Bot {
   naiad::Connection& connection() { return m_connection; }
   const naiad::TruthRecorder& recorder() const { return m_recorder; }
   Clock::time_point joinedAt() const { return m_joined_at; }
+
+  /// Has a snapshot come since then?
+  bool isHeardSince(Clock::time_point then) const { return m_heard_at > then; }
+  /// No snapshot for longer than any server that works leaves a client without.
+  bool isSilent(Clock::time_point now) {
+    const naiad::ClientSession* session = m_connection.session();
+    if (session == nullptr) return false;
+    return now - m_heard_at > kPatience + 2 * kKeepAliveTicks * session->welcome().tick;
+  }
+  /// The stream broke, and nothing comes by datagram either.
+  bool isCutOff(Clock::time_point now) {
+    const naiad::ClientSession* session = m_connection.session();
+    return session != nullptr && session->isDetached() && !session->isHeard(now);
+  }
 
  private:
   static naiad::SessionOptions sessionOptions(const BotOptions& options, int index) {
@@ -129,6 +149,7 @@ class Bot {
   naiad::TruthRecorder m_recorder;
   std::optional<std::uint32_t> m_first_tick;
   Clock::time_point m_joined_at{};
+  Clock::time_point m_heard_at{};
   Clock::time_point m_next_tick{};
   std::unique_ptr<naiad::ScriptPlayer> m_script;
   std::unique_ptr<naiad::RandomPlayer> m_random;
@@ -146,6 +167,31 @@ int complain(naiad::ExitCode code, const std::string& sentence) {
   return code;
 }
 
+/// What all bots saw against the truth file, and why that proves nothing or the contrary; empty: all is well.
+struct Proof {
+  naiad::TruthRecorder::Comparison compared{.readable = true};
+  std::string fault;
+};
+
+Proof compareWithTruth(const BotOptions& options, const std::vector<std::unique_ptr<Bot>>& bots) {
+  Proof proof;
+  for (std::size_t i = 0; i < bots.size(); ++i) {
+    const std::uint32_t player = bots[i]->connection().session()->welcome().player;
+    const auto one = bots[i]->recorder().compare(options.truth_file, player);
+    proof.compared += one;
+    if (one.ticks == 0 && proof.fault.empty()) {
+      proof.fault = "no tick that bot " + std::to_string(i + 1) + " saw is in the truth file " +
+                    options.truth_file + ": nothing was compared";
+    }
+  }
+  if (!proof.compared.readable) proof.fault = "cannot read the truth file " + options.truth_file;
+  if (proof.compared.wrong != 0) {
+    proof.fault = std::to_string(proof.compared.wrong) + " wrong cells, the first at tick " +
+                  std::to_string(proof.compared.first_wrong_tick);
+  }
+  return proof;
+}
+
 /// The last screen of the first bot and the summary line.
 int report(const BotOptions& options, std::vector<std::unique_ptr<Bot>>& bots, Clock::time_point now) {
   naiad::ClientSession& first = *bots[0]->connection().session();
@@ -158,31 +204,23 @@ int report(const BotOptions& options, std::vector<std::unique_ptr<Bot>>& bots, C
     total.snapshots += counters.snapshots;
     total.chat_lines += counters.chat_lines;
   }
+  const bool compares = !options.truth_file.empty();
+  const Proof proof = compares ? compareWithTruth(options, bots) : Proof();
   const std::chrono::duration<double> played = now - bots[0]->joinedAt();
   const double per_client = static_cast<double>(total.bytes_in) / static_cast<double>(bots.size());
-  std::printf("bot ok clients=%zu ticks=%u objects=%zu score=%d bytes_per_s=%.0f snapshots=%llu chat=%llu",
-              bots.size(), bots[0]->ticks(), first.replica().aliveCount(), first.score(),
-              per_client / std::max(played.count(), 0.001), static_cast<unsigned long long>(total.snapshots),
+  std::printf("bot %s clients=%zu ticks=%u objects=%zu score=%d bytes_per_s=%.0f snapshots=%llu chat=%llu",
+              proof.fault.empty() ? "ok" : "failed", bots.size(), bots[0]->ticks(),
+              first.replica().aliveCount(), first.score(), per_client / std::max(played.count(), 0.001),
+              static_cast<unsigned long long>(total.snapshots),
               static_cast<unsigned long long>(total.chat_lines));
-  int code = naiad::kExitLeft;
-  if (!options.truth_file.empty()) {
-    naiad::TruthRecorder::Comparison compared{.readable = true};
-    for (const auto& bot : bots) {
-      const std::uint32_t player = bot->connection().session()->welcome().player;
-      compared += bot->recorder().compare(options.truth_file, player);
-    }
+  if (compares) {
     std::printf(" compared_ticks=%llu compared_cells=%llu wrong_cells=%llu moving=%zu",
-                static_cast<unsigned long long>(compared.ticks),
-                static_cast<unsigned long long>(compared.cells),
-                static_cast<unsigned long long>(compared.wrong), bots[0]->recorder().movingCount());
-    if (!compared.readable)
-      code = complain(naiad::kExitUsage, "cannot read the truth file " + options.truth_file);
-    if (compared.first_wrong_tick != 0) {
-      std::fprintf(stderr, "dfbot: first wrong cell at tick %u\n", compared.first_wrong_tick);
-    }
+                static_cast<unsigned long long>(proof.compared.ticks),
+                static_cast<unsigned long long>(proof.compared.cells),
+                static_cast<unsigned long long>(proof.compared.wrong), bots[0]->recorder().movingCount());
   }
   std::printf("\n");
-  return code;
+  return proof.fault.empty() ? naiad::kExitLeft : complain(naiad::kExitUnproven, proof.fault);
 }
 
 int run(const BotOptions& options) {
@@ -193,6 +231,7 @@ int run(const BotOptions& options) {
   for (int i = 0; i < options.clients; ++i) bots.push_back(std::make_unique<Bot>(context, options, i));
 
   std::optional<Clock::time_point> all_joined;
+  std::optional<Clock::time_point> played_at;
   while (true) {
     context.restart();
     context.run_one_for(std::chrono::milliseconds(5));
@@ -215,12 +254,22 @@ int run(const BotOptions& options) {
         default:
           joined = joined && connection.state() == State::kJoined;
       }
+      if (bot->isCutOff(now)) return complain(naiad::kExitEnded, "The connection to the server was lost.");
     }
     if (joined && !all_joined) all_joined = now;
     if (!all_joined) continue;
     const std::chrono::duration<double> played = now - *all_joined;
-    if (options.ticks ? bots[0]->ticks() >= *options.ticks : played.count() >= options.seconds.value_or(5))
-      break;
+    const bool enough =
+        options.ticks ? bots[0]->ticks() >= *options.ticks : played.count() >= options.seconds.value_or(5);
+    if (enough && !played_at) played_at = now;
+    if (!played_at) continue;
+    // A server that crashed or hangs by now sends no further snapshot.
+    const auto isAlive = [&](const auto& bot) { return bot->isHeardSince(*played_at); };
+    if (std::all_of(bots.begin(), bots.end(), isAlive)) break;
+    const auto isSilent = [now](const auto& bot) { return bot->isSilent(now); };
+    if (std::any_of(bots.begin(), bots.end(), isSilent)) {
+      return complain(naiad::kExitEnded, "The server was there, but sends nothing any more.");
+    }
   }
   const Clock::time_point end = Clock::now();
   for (const auto& bot : bots) bot->leave();

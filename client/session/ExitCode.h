@@ -10,6 +10,7 @@ enum ExitCode {
   kExitRefused = 3,      ///< the server refused; its sentence is on stderr
   kExitEnded = 4,        ///< the server ended the game, or was lost for good
   kExitNoTerminal = 5,   ///< standard input or output is no terminal that can be drawn on
+  kExitUnproven = 6,     ///< what the bot saw is not what the truth file says, or could not be compared
 };
 
 /// The part of --help that both programs share.
@@ -17,6 +18,7 @@ inline constexpr const char* kExitCodeHelp =
     "Exit codes:\n"
     "  0  left                      3  refused by the server (its sentence is on stderr)\n"
     "  1  wrong usage               4  the server ended the game, or was lost for good\n"
-    "  2  cannot connect            5  no terminal (dfclient)\n";
+    "  2  cannot connect            5  no terminal (dfclient)\n"
+    "  6  wrong cells, or nothing to compare (dfbot --truth)\n";
 
 }  // namespace naiad
