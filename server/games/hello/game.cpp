@@ -46,6 +46,7 @@ struct Door : Object {  // where players come in and go out
 
 int main() {
   GM.startUp();
+  GM.setHelp({"Hello: everybody who joins is an @.", "", "arrows   walk; walls and others block"});
   for (int x = 0; x < 80; ++x)
     for (int y = 0; y < 24; ++y)
       if (x % 79 == 0 || y % 23 == 0 || (y == 12 && x % 20 > 3)) (new Wall)->setPosition(Vector(x, y));

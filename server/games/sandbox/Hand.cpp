@@ -21,9 +21,8 @@ Hand::Hand(df::Player& player) : PlayerObject(player) {
   setSolidness(df::SPECTRAL);
   setAltitude(4);
   setPosition(df::Vector(40, 10));
-  player.setText(
-      0, df::Vector(1, 0),
-      "drag: left button  shoot: right  C crate  B ball  R ragdoll  X blob  G: vote to turn gravity");
+  player.setText(0, df::Vector(1, 0),
+                 "left drag  right shoot  C crate  B ball  R ragdoll  X blob  G gravity (a vote)");
 }
 
 void Hand::step() {
