@@ -89,7 +89,7 @@ std::vector<TerminalEvent> InputDecoder::flush(Time now) {
     if (m_meta) emitKey(out, keyOfControl(0x1B));
     emitKey(out, keyOfControl(0x1B));
   }
-  m_pasting = false;
+  endPaste(out);
   m_meta = false;
   enterState(State::kGround);
   return out;
@@ -97,7 +97,8 @@ std::vector<TerminalEvent> InputDecoder::flush(Time now) {
 
 std::optional<InputDecoder::Time> InputDecoder::deadline() const {
   if (m_state == State::kEscape && !m_pasting) return m_last + kEscapeDelay;
-  if (m_state != State::kGround || m_pasting) return m_last + kSequenceDelay;
+  if (m_pasting) return m_last + kPasteDelay;
+  if (m_state != State::kGround) return m_last + kSequenceDelay;
   return std::nullopt;
 }
 
@@ -141,6 +142,7 @@ void InputDecoder::takeByte(unsigned char byte, Events& out) {
 
 void InputDecoder::takeGround(unsigned char byte, Events& out) {
   if (byte == 0x1B) return enterState(State::kEscape);
+  if (m_pasting && byte < 0x80) return addPasted(byte);
   if (byte < 0x20 || byte == 0x7F) return emitKey(out, keyOfControl(byte));
   if (byte < 0x80) return emitKey(out, keyOfCharacter(byte));
   if (byte >= 0xC2 && byte < 0xF5) {
@@ -161,6 +163,7 @@ void InputDecoder::takeUtf8(unsigned char byte, Events& out) {
   const std::u32string decoded = df::decodeUtf8(m_utf8);
   enterState(State::kGround);
   if (decoded.size() == 1 && isText(static_cast<int>(decoded[0]))) {
+    if (m_pasting) return addPasted(decoded[0]);
     emitKey(out, {df::Keyboard::UNDEFINED_KEY, decoded[0]});
   }
 }
@@ -264,7 +267,7 @@ void InputDecoder::finishTilde(Events& out) {
   if (!numbers.well_formed) return;
   const int number = numbers.field[0][0];
   if (number == 200) m_pasting = true;
-  if (number == 201) m_pasting = false;
+  if (number == 201) endPaste(out);
   KeyEvent event{keyOfTilde(number)};
   applyModifiers(numbers, event);
   if (m_meta) event.modifiers |= kAlt;
@@ -303,6 +306,20 @@ void InputDecoder::emitMouse(Events& out, int code, int x, int y, bool released)
                  : moved || !has_button ? MouseEvent::Action::kMotion
                                         : MouseEvent::Action::kPress;
   out.emplace_back(event);
+}
+
+void InputDecoder::addPasted(char32_t ch) {
+  const bool rest_of_line_end = ch == U'\n' && m_pasted_return;
+  m_pasted_return = ch == U'\r';
+  if (rest_of_line_end || m_pasted.size() >= kMaxPaste) return;
+  if (ch == U'\r' || ch == U'\n' || ch == U'\t') ch = U' ';
+  if (ch >= U' ' && ch != U'\x7f') m_pasted.push_back(ch);
+}
+
+void InputDecoder::endPaste(Events& out) {
+  if (m_pasting && !m_pasted.empty()) out.emplace_back(PasteEvent{m_pasted});
+  m_pasting = m_pasted_return = false;
+  m_pasted.clear();
 }
 
 void InputDecoder::emitKey(Events& out, KeyEvent event) {

@@ -7,8 +7,9 @@
 //   - cursor, editing and function keys of xterm, rxvt, the Linux console (CSI and SS3), with modifiers
 //   - the kitty keyboard protocol (press, repeat, release, alternate keys, text) and the reply to its query
 //   - the mouse as SGR (1006) and as X10 bytes
-// Unknown sequences, pasted text, terminal replies and focus reports are dropped whole: a byte of a
-// sequence never becomes a key. Memory is bounded whatever arrives.
+//   - pasted text (bracketed paste), which never becomes keys
+// Unknown sequences, terminal replies and focus reports are dropped whole: a byte of a sequence never becomes
+// a key. Memory is bounded whatever arrives.
 #pragma once
 
 #include <chrono>
@@ -53,7 +54,13 @@ struct KittyReply {
   friend bool operator==(const KittyReply&, const KittyReply&) = default;
 };
 
-using TerminalEvent = std::variant<KeyEvent, MouseEvent, KittyReply>;
+/// Text that was pasted, as one event: line ends and tabs are blanks, other control characters are gone.
+struct PasteEvent {
+  std::u32string text;  ///< not more than InputDecoder::kMaxPaste characters
+  friend bool operator==(const PasteEvent&, const PasteEvent&) = default;
+};
+
+using TerminalEvent = std::variant<KeyEvent, MouseEvent, KittyReply, PasteEvent>;
 
 class InputDecoder {
  public:
@@ -63,6 +70,10 @@ class InputDecoder {
   static constexpr std::chrono::milliseconds kEscapeDelay{25};
   /// A sequence that stops in the middle for this long is dropped.
   static constexpr std::chrono::milliseconds kSequenceDelay{500};
+  /// So long may a pasted text pause: what comes later are keys, a Return among them.
+  static constexpr std::chrono::milliseconds kPasteDelay{2000};
+  /// Characters of a pasted text; the rest is dropped.
+  static constexpr std::size_t kMaxPaste = 1000;
 
   /// Decode `bytes`, read at `now`. Sequences may be split anywhere between calls.
   std::vector<TerminalEvent> feed(std::string_view bytes, Time now);
@@ -70,7 +81,7 @@ class InputDecoder {
   std::vector<TerminalEvent> flush(Time now);
   /// When flush() will next have something to do; nothing while no sequence is open.
   std::optional<Time> deadline() const;
-  /// Bytes held back at the moment; never more than 64.
+  /// Bytes of a sequence held back at the moment; never more than 64.
   std::size_t pendingBytes() const { return m_parameters.size() + m_utf8.size(); }
 
  private:
@@ -96,13 +107,17 @@ class InputDecoder {
   void finishSequence(unsigned char final, Events& out);
   void finishTilde(Events& out);
   void emitKey(Events& out, KeyEvent event);
+  void addPasted(char32_t ch);
+  void endPaste(Events& out);
   void emitMouse(Events& out, int code, int x, int y, bool released);
   void enterState(State state);
 
   State m_state = State::kGround;
-  bool m_overlong = false;  ///< the sequence is too long to be one of ours: swallow to its end
-  bool m_meta = false;      ///< an ESC came before the sequence (rxvt's Alt)
-  bool m_pasting = false;   ///< between CSI 200 ~ and CSI 201 ~
+  bool m_overlong = false;       ///< the sequence is too long to be one of ours: swallow to its end
+  bool m_meta = false;           ///< an ESC came before the sequence (rxvt's Alt)
+  bool m_pasting = false;        ///< between CSI 200 ~ and CSI 201 ~
+  std::u32string m_pasted;       ///< since then
+  bool m_pasted_return = false;  ///< the last of it was a CR: an LF belongs to it
   std::string m_parameters;
   std::string m_utf8;
   Time m_last{};

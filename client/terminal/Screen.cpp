@@ -34,16 +34,12 @@ short cursesColor(df::Color color) {
 
 }  // namespace
 
-Screen::Screen(Options options) : m_ascii(options.ascii), m_colors(options.colors) {
+Screen::Screen(const Options& options) : m_ascii(options.ascii), m_colors(options.colors) {
   std::setlocale(LC_CTYPE, "");
   if (std::strcmp(nl_langinfo(CODESET), "UTF-8") != 0) m_ascii = true;
 
-  const char* term = std::getenv("TERM");
-  if (term == nullptr || *term == '\0') {
-    throw std::runtime_error("TERM is not set: what kind of terminal is this?");
-  }
-  if (newterm(nullptr, stdout, stdin) == nullptr) {
-    throw std::runtime_error("TERM=" + std::string(term) + " is no terminal that dfclient can draw on.");
+  if (newterm(const_cast<char*>(options.type.c_str()), stdout, stdin) == nullptr) {
+    throw std::runtime_error("TERM=" + options.type + " is no terminal that dfclient can draw on.");
   }
   curs_set(0);
   leaveok(stdscr, FALSE);
@@ -57,7 +53,9 @@ Screen::Screen(Options options) : m_ascii(options.ascii), m_colors(options.color
       const auto color = static_cast<df::Color>(c);
       short foreground = cursesColor(color);
       if (color == df::COLOR_DEFAULT && has_default) foreground = -1;
-      if (color == df::BLACK && COLORS > 8) foreground = 8;  // bright black is visible on black
+      // Dark on black can hardly be seen, or not at all: their bright variants.
+      if (color == df::BLACK && COLORS > 8) foreground = 8;
+      if (color == df::BLUE && COLORS >= 16) foreground = 12;
       init_pair(pairOf(color, true), foreground,
                 has_default ? static_cast<short>(-1) : static_cast<short>(COLOR_BLACK));
     }
@@ -120,7 +118,9 @@ void Screen::ring() {
 
 void Screen::put(int x, int y, const PictureCell& cell) {
   attr_t attributes = A_NORMAL;
-  if (cell.style == Style::kBold) attributes |= A_BOLD;
+  // With eight colours, bold ones are bright.
+  const bool is_dark = m_colors && COLORS < 16 && cell.color == df::BLUE && cell.background == df::BLACK;
+  if (cell.style == Style::kBold || is_dark) attributes |= A_BOLD;
   if (cell.style == Style::kReverse) attributes |= A_REVERSE;
   const short pair = m_colors ? pairOf(cell.color, cell.background == df::BLACK) : static_cast<short>(0);
   // Only one drawable character may reach the terminal, whatever is in the cell.

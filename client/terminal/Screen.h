@@ -18,13 +18,14 @@ namespace naiad {
 class Screen {
  public:
   struct Options {
+    std::string type;    ///< TerminalType::name
     bool ascii = false;  ///< use the ASCII glyph set even if the locale is UTF-8
     bool colors = true;  ///< false: NO_COLOR
   };
 
-  /// Enters the alternate screen. Throws std::runtime_error, with a sentence for people, if TERM names no
-  /// terminal that can do this.
-  explicit Screen(Options options);
+  /// Enters the alternate screen. Throws std::runtime_error, with a sentence for people, if the terminal
+  /// cannot do this.
+  explicit Screen(const Options& options);
   ~Screen();
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;

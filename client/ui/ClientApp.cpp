@@ -85,9 +85,11 @@ void ClientApp::join() {
 
 void ClientApp::takeTerminal() {
   m_guard = std::make_unique<TerminalGuard>(TerminalGuard::Options{m_options.mouse});
-  m_screen = std::make_unique<Screen>(Screen::Options{m_options.ascii, m_options.colors});
+  m_screen =
+      std::make_unique<Screen>(Screen::Options{m_options.terminal.name, m_options.ascii, m_options.colors});
   m_guard->onRestore([this] { m_screen->end(); });
   m_guard->installHandlers();
+  if (!m_options.terminal.notice.empty()) m_composer.addNotice(m_options.terminal.notice, Clock::now());
   drawFrame(Clock::now());
   m_guard->enterModes();
   m_input.assign(dup(STDIN_FILENO));
@@ -177,6 +179,7 @@ void ClientApp::takeSignals() {
         break;
       case SIGWINCH:
         if (m_screen->readSize()) m_connection.resize(m_screen->columns(), m_screen->rows());
+        m_composer.noteResize(Clock::now());
         m_dirty = true;
         break;
       default:
@@ -189,6 +192,9 @@ void ClientApp::takeEvents(const std::vector<TerminalEvent>& events, Time now) {
   for (const TerminalEvent& event : events) {
     if (const auto* key = std::get_if<KeyEvent>(&event)) takeKey(*key, now);
     if (const auto* mouse = std::get_if<MouseEvent>(&event)) m_player.moveMouse(*mouse, m_placement, now);
+    if (const auto* paste = std::get_if<PasteEvent>(&event)) {
+      m_dirty = m_controls.insertPasted(paste->text) || m_dirty;
+    }
     if (std::holds_alternative<KittyReply>(event)) takeKittyReply(now);
   }
 }
@@ -258,6 +264,7 @@ void ClientApp::drawFrame(Time now) {
   m_dirty = false;
   const ScreenLayout layout = layOut(m_composer.composeFrame(now), m_screen->columns(), m_screen->rows());
   m_placement = layout.placement;
+  m_controls.noteShown(layout.shown);
   m_screen->show(layout.picture);
   // After a frame that took long, as much time is for everything else.
   const Time end = Clock::now();

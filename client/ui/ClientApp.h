@@ -15,6 +15,7 @@
 #include "client/session/Connection.h"
 #include "client/session/ExitCode.h"
 #include "client/terminal/InputDecoder.h"
+#include "client/terminal/TerminalType.h"
 #include "client/ui/ClientControls.h"
 #include "client/ui/FrameComposer.h"
 #include "client/ui/PlayerInput.h"
@@ -32,6 +33,7 @@ class ClientApp {
     SessionOptions session;  ///< the terminal's size is filled in here
     ServerTrust trust;
     SessionFile* p_session_file = nullptr;  ///< for a later client to resume from; null: none
+    TerminalType terminal;
     bool ascii = false;
     bool mouse = true;
     bool colors = true;

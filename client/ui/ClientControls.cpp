@@ -1,5 +1,6 @@
 #include "client/ui/ClientControls.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "shared/net/base/Limits.h"
@@ -38,7 +39,48 @@ ClientControls::Result ClientControls::takeKey(const KeyEvent& event) {
     m_panel = Panel::kNone;
     return Result::kHandled;
   }
+  if (m_panel != Panel::kNone && takeScrollKey(event.key)) return Result::kHandled;
   return Result::kGame;
+}
+
+// The game keeps these keys while there is nothing to scroll.
+bool ClientControls::takeScrollKey(Key key) {
+  if (m_shown.max_scroll <= 0) return false;
+  const int page = std::max(m_shown.page - 1, 1);
+  int to = std::min(m_scroll, m_shown.max_scroll);
+  switch (key) {
+    case UPARROW:
+      to -= 1;
+      break;
+    case DOWNARROW:
+      to += 1;
+      break;
+    case PAGEUP:
+      to -= page;
+      break;
+    case PAGEDOWN:
+      to += page;
+      break;
+    case HOME:
+      to = 0;
+      break;
+    case END:
+      to = m_shown.max_scroll;
+      break;
+    default:
+      return false;
+  }
+  m_scroll = std::clamp(to, 0, m_shown.max_scroll);
+  return true;
+}
+
+bool ClientControls::insertPasted(const std::u32string& text) {
+  if (!m_chat_open) return false;
+  for (const char32_t ch : text) {
+    if (m_text.size() >= kMaxChatLength) break;
+    if (df::isDrawable(ch)) m_text.push_back(ch);
+  }
+  return true;
 }
 
 ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
@@ -53,7 +95,7 @@ ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
     case P:
       return toggle(Panel::kPlayers);
     case S:
-      m_status = !m_status;
+      m_status = m_shown.status ? StatusMode::kNever : StatusMode::kAlways;
       return Result::kHandled;
     case Q:
       return Result::kLeave;
@@ -72,6 +114,7 @@ ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
 
 ClientControls::Result ClientControls::toggle(Panel panel) {
   m_panel = m_panel == panel ? Panel::kNone : panel;
+  m_scroll = 0;
   return Result::kHandled;
 }
 

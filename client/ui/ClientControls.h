@@ -13,6 +13,9 @@ namespace naiad {
 /// What the player has opened over the game.
 enum class Panel : unsigned char { kNone, kPlayers, kHelp };
 
+/// The status line: shown where it covers nothing of the game and else for a moment; always; never.
+enum class StatusMode : unsigned char { kAuto, kAlways, kNever };
+
 /// The lines of the help panel about the client itself.
 inline constexpr const char* kClientKeyHelp[] = {
     "Ctrl-] t   say something to all players (c does the same)",
@@ -21,6 +24,14 @@ inline constexpr const char* kClientKeyHelp[] = {
     "Ctrl-] s   status line on or off",
     "Ctrl-] q   leave the game (Ctrl-C does the same)",
     "Ctrl-Z     suspend; fg comes back",
+    "Esc        close the help or the list",
+};
+
+/// What of the controls the last picture showed.
+struct ShownControls {
+  bool status = true;  ///< a status line
+  int max_scroll = 0;  ///< lines of the open panel that are beyond its end
+  int page = 1;        ///< lines of it that are seen at a time
 };
 
 class ClientControls {
@@ -38,9 +49,15 @@ class ClientControls {
 
   /// Decide about one key event.
   Result takeKey(const KeyEvent& event);
+  /// Pasted text goes into the chat line, up to its limit, if one is open; it never sends. True if it did.
+  bool insertPasted(const std::u32string& text);
+  /// A picture was drawn.
+  void noteShown(const ShownControls& shown) { m_shown = shown; }
 
   Panel panel() const { return m_panel; }
-  bool statusShown() const { return m_status; }
+  /// Lines of the panel that are scrolled out at its top.
+  int scroll() const { return m_scroll; }
+  StatusMode status() const { return m_status; }
   bool chatOpen() const { return m_chat_open; }
   /// Ctrl-] was typed, its command not yet.
   bool prefixed() const { return m_prefixed; }
@@ -52,10 +69,13 @@ class ClientControls {
  private:
   Result takeChatKey(const KeyEvent& event);
   Result takeCommand(const KeyEvent& event);
+  bool takeScrollKey(df::Keyboard::Key key);
   Result toggle(Panel panel);
 
   Panel m_panel = Panel::kNone;
-  bool m_status = true;
+  int m_scroll = 0;
+  StatusMode m_status = StatusMode::kAuto;
+  ShownControls m_shown;
   bool m_prefixed = false;
   bool m_chat_open = false;
   std::u32string m_text;

@@ -28,6 +28,8 @@ FrameComposer::FrameState FrameComposer::currentState(Time now) {
   }
   state.chat_lines = recentChat(now).size();
   state.note = m_sounds.shownNote(now);
+  m_status.update(session->welcome().player, session->roundTrip(), now);
+  state.status = m_controls.status() == StatusMode::kAlways || m_status.isShown(now);
   return state;
 }
 
@@ -38,6 +40,7 @@ std::vector<ChatEntry> FrameComposer::recentChat(Time now) const {
   for (const ChatEntry& entry : session->chat()) {
     if (m_controls.chatOpen() || now - entry.at < kChatShown) recent.push_back(entry);
   }
+  if (!m_notice.text.empty() && now - m_notice.at < kChatShown) recent.push_back(m_notice);
   return recent;
 }
 
@@ -80,8 +83,10 @@ ScreenModel FrameComposer::composeFrame(Time now) {
     model.chat = recentChat(now);
     model.note = m_composed.note;
   }
-  model.status_shown = m_controls.statusShown();
+  model.status_shown = m_controls.status() != StatusMode::kNever;
+  model.status_over_game = m_composed.status;
   model.panel = m_controls.panel();
+  model.scroll = m_controls.scroll();
   model.chat_open = m_controls.chatOpen();
   model.chat_text = m_controls.chatText();
   return model;

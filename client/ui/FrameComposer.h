@@ -4,12 +4,14 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/session/Connection.h"
 #include "client/ui/ClientControls.h"
 #include "client/ui/ScreenLayout.h"
 #include "client/ui/SoundNotes.h"
+#include "client/ui/StatusTimer.h"
 
 namespace naiad {
 
@@ -24,6 +26,10 @@ class FrameComposer {
   /// Would a frame composed now differ from the last one? Changes of the controls are not considered.
   bool isStale(Time now) { return !(currentState(now) == m_composed); }
   ScreenModel composeFrame(Time now);
+  /// Show a line of the client itself among those of the chat, as long as these.
+  void addNotice(std::string text, Time now) { m_notice = {"", df::COLOR_DEFAULT, std::move(text), now}; }
+  /// The terminal has another size: show the status for a moment.
+  void noteResize(Time now) { m_status.show(now); }
 
  private:
   /// What a frame depends on.
@@ -35,6 +41,7 @@ class FrameComposer {
     std::int64_t silence = 0;  ///< in tenths of a second, once it is shown
     std::size_t chat_lines = 0;
     std::string note;
+    bool status = false;  ///< over the game
     friend bool operator==(const FrameState&, const FrameState&) = default;
   };
 
@@ -46,6 +53,8 @@ class FrameComposer {
   const ClientControls& m_controls;
   const SoundNotes& m_sounds;
   FrameState m_composed;
+  ChatEntry m_notice;
+  StatusTimer m_status;
 };
 
 }  // namespace naiad

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 
 #include "shared/net/base/SafeText.h"
 
@@ -65,14 +66,61 @@ void drawStatusRow(Picture& picture, const ScreenModel& model) {
   if (room_for_help) picture.write(help_at, y, help, columnCount(help), df::COLOR_DEFAULT, Style::kReverse);
 }
 
-void drawStatusOverlay(Picture& picture, const ScreenModel& model) {
-  // Here it covers a piece of the game, so it stays short.
+/// Beside the view, from the top down.
+void drawStatusSide(Picture& picture, const ScreenModel& model) {
+  const int x = picture.width() - kSideColumns + 1;
+  const int width = kSideColumns - 1;
+  const auto count = model.players.size();
+  const std::string lines[] = {std::to_string(model.round_trip.count()) + " ms",
+                               std::to_string(count) + (count == 1 ? " player" : " players"),
+                               std::to_string(model.score) + " pts",
+                               "",
+                               "Ctrl-] h",
+                               "helps",
+                               "",
+                               model.note};
+  int y = 0;
+  for (const std::string& line : lines) {
+    if (!line.empty()) picture.write(x, y, safeText(line, static_cast<std::size_t>(width)), width);
+    ++y;
+  }
+}
+
+/// Is there nothing from (x, y) on, `width` cells to the right?
+bool isBlank(const Picture& picture, int x, int y, int width) {
+  for (int i = x; i < x + width; ++i) {
+    if (picture.at(i, y).ch != U' ') return false;
+  }
+  return true;
+}
+
+/// A text in a corner in which the game shows nothing. In none of them: at the lower right if it `must` be.
+bool drawInCorner(Picture& picture, const std::string& text, bool must) {
+  const int width = columnCount(text);
+  const int right = std::max(0, picture.width() - width);
+  const int bottom = picture.height() - 1;
+  const CellPosition corners[] = {{right, bottom}, {right, 0}, {0, bottom}, {0, 0}};
+  const auto* p_corner = std::find_if(std::begin(corners), std::end(corners), [&](CellPosition corner) {
+    return isBlank(picture, corner.x, corner.y, width);
+  });
+  if (p_corner == std::end(corners)) p_corner = corners;
+  if (!must && !isBlank(picture, p_corner->x, p_corner->y, width)) return false;
+  picture.write(p_corner->x, p_corner->y, text, picture.width(), df::COLOR_DEFAULT, Style::kReverse);
+  return true;
+}
+
+/// Where the game takes all of the terminal. True: the status is there.
+bool drawStatusOverGame(Picture& picture, const ScreenModel& model) {
   const std::string note = safeText(model.note, kMaxOverlayNote);
+  if (!model.status_over_game) {
+    if (!note.empty()) drawInCorner(picture, std::string(" ").append(note).append(" "), false);
+    return false;
+  }
+  const auto count = model.players.size();
   const std::string text = (note.empty() ? " " : " " + note + "  ") +
-                           std::to_string(model.round_trip.count()) + "ms t" + std::to_string(model.tick) +
-                           " " + std::to_string(model.players.size()) + "p ^]h ";
-  const int x = std::max(0, picture.width() - columnCount(text));
-  picture.write(x, picture.height() - 1, text, picture.width(), df::COLOR_DEFAULT, Style::kReverse);
+                           std::to_string(model.round_trip.count()) + " ms  " + std::to_string(count) +
+                           (count == 1 ? " player" : " players") + "  Ctrl-] help ";
+  return drawInCorner(picture, text, true);
 }
 
 void drawBanner(Picture& picture, const std::string& banner, int row) {
@@ -111,58 +159,113 @@ void drawChat(Picture& picture, const ScreenModel& model, int bottom) {
   }
 }
 
-/// A framed box in the middle of the terminal, with a title. Returns the first cell inside.
-CellPosition drawBox(Picture& picture, const std::string& title, int inner_width, int inner_height) {
-  const int width = std::min(inner_width + 4, picture.width());
-  const int height = std::min(inner_height + 2, picture.height());
+/// What a panel shows: lines, some of which stay when the others are scrolled.
+struct PanelLines {
+  std::string title;
+  int width = 0;  ///< of the widest, which need not fit
+  int fixed = 0;  ///< lines at the top that stay
+  int count = 0;  ///< of all
+  std::function<void(int line, int x, int y, int width)> draw;
+};
+
+/// How to go on, as much of it as fits on the lower edge.
+std::string panelKeys(bool scrolls, int room) {
+  std::vector<std::string> texts = {"Esc closes", "Esc"};
+  if (scrolls)
+    texts = {"Up, Down, PgUp, PgDn: more   Esc closes", "Up, Down: more  Esc closes", "Up, Down  Esc"};
+  for (const std::string& text : texts) {
+    if (columnCount(text) + 2 <= room) return " " + text + " ";
+  }
+  return "";
+}
+
+/// A framed box in the middle of the terminal. Sets what can be scrolled.
+void drawPanel(Picture& picture, const PanelLines& lines, int scroll, ShownControls& shown) {
+  const int width = std::min(std::max(lines.width, 12) + 4, picture.width());
+  const int height = std::min(lines.count + 2, picture.height());
   const int x = (picture.width() - width) / 2;
   const int y = (picture.height() - height) / 2;
   picture.fill(x, y, width, height);
   picture.frame(x, y, width, height);
-  picture.write(x + 2, y, std::string(" ").append(title).append(" "), width - 4, df::COLOR_DEFAULT,
+  picture.write(x + 2, y, std::string(" ").append(lines.title).append(" "), width - 4, df::COLOR_DEFAULT,
                 Style::kBold);
-  return {x + 2, y + 1};
+  const int inside = height - 2;
+  shown.max_scroll = std::max(lines.count - inside, 0);
+  shown.page = std::max(inside - lines.fixed, 1);
+  const int first = std::clamp(scroll, 0, shown.max_scroll);
+  for (int i = 0; i < inside; ++i) lines.draw(i < lines.fixed ? i : i + first, x + 2, y + 1 + i, width - 4);
+  const std::string keys = panelKeys(shown.max_scroll > 0, width - 2);
+  picture.write(x + width - 2 - columnCount(keys), y + height - 1, keys, width);
 }
 
-void drawPlayers(Picture& picture, const ScreenModel& model) {
+void drawPlayers(Picture& picture, const ScreenModel& model, ShownControls& shown) {
   std::vector<PlayerLine> sorted = model.players;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const PlayerLine& a, const PlayerLine& b) { return a.score > b.score; });
-  const int rows = std::min(static_cast<int>(sorted.size()) + 1, picture.height() - 2);
-  const int inner = std::min(40, picture.width() - 4);
-  const CellPosition at = drawBox(picture, "Players", inner, rows);
-  char line[64];
-  std::snprintf(line, sizeof line, "%10s %8s", "points", "ms");
-  const int numbers = at.x + std::max(0, inner - 19);
-  picture.write(numbers, at.y, line, at.x + inner - numbers);
-  for (int i = 0; i + 1 < rows; ++i) {
-    const PlayerLine& player = sorted[static_cast<std::size_t>(i)];
+  const auto draw = [&](int line, int x, int y, int width) {
+    char text[64];
+    const int numbers = x + std::max(0, width - 19);
+    const int room = x + width - numbers;
+    if (line == 0) {
+      std::snprintf(text, sizeof text, "%10s %8s", "points", "ms");
+      picture.write(numbers, y, text, room);
+      return;
+    }
+    const PlayerLine& player = sorted[static_cast<std::size_t>(line - 1)];
     const Style style = player.player == model.self ? Style::kBold : Style::kPlain;
-    picture.write(at.x, at.y + 1 + i, player.name, inner, player.color, style);
-    std::snprintf(line, sizeof line, " %9d %8u", player.score, player.rtt_millis);
-    picture.write(numbers, at.y + 1 + i, line, at.x + inner - numbers, df::COLOR_DEFAULT, style);
-  }
+    picture.write(x, y, player.name, width, player.color, style);
+    std::snprintf(text, sizeof text, " %9d %8u", player.score, player.rtt_millis);
+    picture.write(numbers, y, text, room, df::COLOR_DEFAULT, style);
+  };
+  drawPanel(picture, {"Players", 40, 1, static_cast<int>(sorted.size()) + 1, draw}, model.scroll, shown);
 }
 
-void drawHelp(Picture& picture, const ScreenModel& model) {
-  std::vector<std::string> lines(std::begin(kClientKeyHelp), std::end(kClientKeyHelp));
-  if (!model.help.empty()) {
-    lines.insert(lines.begin(), "");
-    lines.insert(lines.begin(), model.help.begin(), model.help.end());
+/// Where the explanation of a line like "Ctrl-] h   this help" begins, for lines that continue it.
+std::size_t indentOf(const std::u32string& line, std::size_t width) {
+  const std::size_t gap = line.find(U"  ");
+  const std::size_t text = gap != std::u32string::npos ? line.find_first_not_of(U' ', gap) : gap;
+  return text != std::u32string::npos && text <= width / 2 ? text : 2;
+}
+
+/// Break a line at blanks so that each part has `width` columns at most.
+void wrapInto(std::vector<std::string>& out, const std::string& text, std::size_t width) {
+  std::u32string rest = df::decodeUtf8(text);
+  const std::size_t indent = std::min(indentOf(rest, width), width - 1);
+  while (rest.size() > width) {
+    const std::size_t first = rest.find_first_not_of(U' ');
+    std::size_t end = rest.rfind(U' ', width);
+    if (end == std::u32string::npos || end <= std::max(first, indent)) end = width;  // one long word
+    std::string part;
+    for (const char32_t ch : rest.substr(0, end)) df::appendUtf8(part, ch);
+    out.push_back(part);
+    const std::size_t next = rest.find_first_not_of(U' ', end);
+    rest = next == std::u32string::npos ? U"" : std::u32string(indent, U' ') + rest.substr(next);
   }
-  int inner = 0;
-  for (const std::string& line : lines) inner = std::max(inner, columnCount(line));
-  inner = std::min(inner, picture.width() - 4);
-  const int rows = std::min(static_cast<int>(lines.size()), picture.height() - 2);
-  const CellPosition at =
-      drawBox(picture, model.game.empty() ? "Help" : std::string("Help: ") + model.game, inner, rows);
-  for (int i = 0; i < rows; ++i) picture.write(at.x, at.y + i, lines[static_cast<std::size_t>(i)], inner);
+  std::string part;
+  for (const char32_t ch : rest) df::appendUtf8(part, ch);
+  out.push_back(part);
+}
+
+void drawHelp(Picture& picture, const ScreenModel& model, ShownControls& shown) {
+  std::vector<std::string> whole = model.help;
+  if (!whole.empty()) whole.emplace_back();
+  whole.insert(whole.end(), std::begin(kClientKeyHelp), std::end(kClientKeyHelp));
+  const int room = std::max(picture.width() - 4, 1);
+  PanelLines panel{model.game.empty() ? "Help" : "Help: " + model.game, 0, 0, 0, {}};
+  std::vector<std::string> lines;
+  for (const std::string& line : whole) wrapInto(lines, line, static_cast<std::size_t>(room));
+  for (const std::string& line : lines) panel.width = std::max(panel.width, columnCount(line));
+  panel.count = static_cast<int>(lines.size());
+  panel.draw = [&](int line, int x, int y, int width) {
+    picture.write(x, y, lines[static_cast<std::size_t>(line)], width);
+  };
+  drawPanel(picture, panel, model.scroll, shown);
 }
 
 }  // namespace
 
 ScreenLayout layOut(const ScreenModel& model, int columns, int rows) {
-  ScreenLayout layout{Picture(columns, rows), {}};
+  ScreenLayout layout{Picture(columns, rows), {}, {}};
   Picture& picture = layout.picture;
   if (columns < kMinColumns || rows < kMinRows) {
     drawTooSmall(picture);
@@ -176,13 +279,16 @@ ScreenLayout layOut(const ScreenModel& model, int columns, int rows) {
       placeView(columns, rows, model.view.width(), model.view.height(), model.focus, model.status_shown);
   drawView(picture, model, layout.placement);
   drawChat(picture, model, rows - (layout.placement.status_row ? 2 : 1));
-  if (model.panel == Panel::kPlayers) drawPlayers(picture, model);
-  if (model.panel == Panel::kHelp) drawHelp(picture, model);
+  layout.shown.status = layout.placement.status_row || layout.placement.status_side;
   if (layout.placement.status_row) {
     drawStatusRow(picture, model);
+  } else if (layout.placement.status_side) {
+    drawStatusSide(picture, model);
   } else if (model.status_shown && !model.chat_open) {
-    drawStatusOverlay(picture, model);
+    layout.shown.status = drawStatusOverGame(picture, model);
   }
+  if (model.panel == Panel::kPlayers) drawPlayers(picture, model, layout.shown);
+  if (model.panel == Panel::kHelp) drawHelp(picture, model, layout.shown);
   drawBanner(picture, model.banner, 0);
   return layout;
 }

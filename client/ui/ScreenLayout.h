@@ -23,7 +23,8 @@ struct ScreenModel {
   bool has_view = false;             ///< false before the first snapshot: only the banner is drawn
   std::string banner;                ///< a line over everything; empty: none
 
-  bool status_shown = true;
+  bool status_shown = true;      ///< where it covers nothing of the game
+  bool status_over_game = true;  ///< and where it does
   std::chrono::milliseconds round_trip{0};
   std::uint32_t tick = 0;
   std::int32_t score = 0;
@@ -32,6 +33,7 @@ struct ScreenModel {
   std::string note;  ///< for a moment: what has just sounded; empty: none
 
   Panel panel = Panel::kNone;
+  int scroll = 0;          ///< lines of the panel above its first one, if it has more than fit
   std::uint32_t self = 0;  ///< this player's id
   std::vector<PlayerLine> players;
   std::vector<std::string> help;  ///< the game's own lines
@@ -44,6 +46,7 @@ struct ScreenModel {
 struct ScreenLayout {
   Picture picture;
   ViewPlacement placement;  ///< for the mouse; empty when no view is shown
+  ShownControls shown;
 };
 
 /// Lay out `model` on a terminal of `columns` by `rows` cells.

@@ -27,8 +27,10 @@ ViewPlacement placeView(int columns, int rows, int view_width, int view_height, 
                         bool want_status) {
   ViewPlacement place;
   place.status_row = want_status && rows > view_height;
+  place.status_side = want_status && !place.status_row && columns >= view_width + kSideColumns;
   const int room = rows - (place.status_row ? 1 : 0);
-  placeAxis(columns, view_width, focus.x, place.left, place.view_x, place.width);
+  placeAxis(columns - (place.status_side ? kSideColumns : 0), view_width, focus.x, place.left, place.view_x,
+            place.width);
   placeAxis(room, view_height, focus.y, place.top, place.view_y, place.height);
   place.framed = columns >= view_width + 2 && room >= view_height + 2;
   return place;

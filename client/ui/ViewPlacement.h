@@ -11,6 +11,9 @@ namespace naiad {
 inline constexpr int kMinColumns = 20;
 inline constexpr int kMinRows = 10;
 
+/// Columns beside the view that the status takes if there is no row for it.
+inline constexpr int kSideColumns = 11;
+
 /// Terminal cell (left + i, top + j) shows view cell (view_x + i, view_y + j), for i < width, j < height.
 struct ViewPlacement {
   int left = 0;
@@ -19,8 +22,9 @@ struct ViewPlacement {
   int view_y = 0;
   int width = 0;
   int height = 0;
-  bool framed = false;      ///< a frame of one cell around the view
-  bool status_row = false;  ///< the last row of the terminal is the status line's alone
+  bool framed = false;       ///< a frame of one cell around the view
+  bool status_row = false;   ///< the last row of the terminal is the status line's alone
+  bool status_side = false;  ///< its last kSideColumns columns are, since there is no row
 
   /// The view cell shown at a terminal cell; nothing beside the view.
   std::optional<CellPosition> toView(int column, int row) const;

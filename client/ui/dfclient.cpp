@@ -8,10 +8,12 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/session/TrustOptions.h"
 #include "client/terminal/TerminalGuard.h"
+#include "client/terminal/TerminalType.h"
 #include "client/ui/ClientApp.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/options/Options.h"
@@ -56,15 +58,13 @@ std::size_t printProblems(const naiad::SessionFile* p_file, std::size_t from) {
   return p_file->problems().size();
 }
 
-int play(const naiad::ClientApp::Options& options, bool attached) {
+int play(naiad::ClientApp::Options options, bool attached) {
   if (!naiad::TerminalGuard::isTerminal()) {
     return complain(naiad::kExitNoTerminal,
                     "standard input and output must be a terminal (dfbot needs none).");
   }
-  const char* term = std::getenv("TERM");
-  if (term == nullptr || *term == '\0') {
-    return complain(naiad::kExitNoTerminal, "TERM is not set: what kind of terminal is this?");
-  }
+  // Before the server hears anything: a client that cannot draw must not leave a player behind.
+  options.terminal = naiad::chooseTerminalType(std::getenv("TERM"));
   naiad::ClientApp::Outcome outcome;
   const std::size_t printed = printProblems(options.p_session_file, 0);
   {
@@ -151,7 +151,7 @@ int start(int argc, char** argv) {
     options.p_session_file = &*file;
   }
   try {
-    return play(options, line.attached);
+    return play(std::move(options), line.attached);
   } catch (const std::runtime_error& error) {
     return complain(naiad::kExitNoTerminal, error.what());
   }

@@ -163,20 +163,6 @@ TEST_F(TerminalRestoreTest, FindsALostServerAgain) {
   expectRestored(terminal);
 }
 
-TEST_F(TerminalRestoreTest, WithoutATerminalTypeItSaysSo) {
-  PtyTerminal::Options with = options();
-  with.environment["TERM"] = "";
-  PtyTerminal unset(with);
-  EXPECT_EQ(WEXITSTATUS(unset.waitForExit()), 5);
-  EXPECT_NE(unset.output().find("TERM is not set"), std::string::npos);
-  with.environment["TERM"] = "no-such-terminal";
-  with.environment["ASAN_OPTIONS"] = "detect_leaks=0";  // a newterm() that fails keeps some of its memory
-  PtyTerminal unknown(with);
-  EXPECT_EQ(WEXITSTATUS(unknown.waitForExit()), 5) << unknown.output();
-  EXPECT_NE(unknown.output().find("TERM=no-such-terminal"), std::string::npos) << unknown.output();
-  EXPECT_TRUE(sameModes(unknown.originalModes(), unknown.currentModes()));
-}
-
 TEST_F(TerminalRestoreTest, NoServer) {
   PtyTerminal::Options with = options();
   with.command[1] = "127.0.0.1:1";

@@ -144,7 +144,11 @@ const std::vector<Case>& cases() {
        {key(UNDEFINED_KEY, U'é'), key(UNDEFINED_KEY, U'€'), key(UNDEFINED_KEY, U'😀')}},
       {"broken UTF-8", "\xc3(\xff", {key(NUM9, U'(', kShift)}},
       {"focus", "\033[I\033[O", {}},
-      {"paste", "\033[200~hello\r\033[Aworld\033[201~b", {key(B, U'b')}},
+      {"paste", "\033[200~hello\r\033[Aworld\033[201~b", {PasteEvent{U"hello world"}, key(B, U'b')}},
+      {"paste of several lines",
+       "\033[200~one\r\n\ttwo\nthree \xc3\xbc\xe2\x82\xac\x01\x7f\x03\033[201~",
+       {PasteEvent{U"one  two three ü€"}}},
+      {"paste of nothing", "\033[200~\033[201~", {}},
       {"device attributes", "\033[?62;22c\033[>41;354;0c", {}},
       {"cursor position", "\033[12;40R", {}},
       {"mode report", "\033[?2026;2$y", {}},
@@ -205,6 +209,22 @@ TEST(InputDecoder, AbandonedSequenceIsForgotten) {
   EXPECT_TRUE(decoder.flush(kFed + 499ms).empty());
   EXPECT_TRUE(decoder.flush(kFed + 500ms).empty());
   EXPECT_EQ(decoder.feed("a", kFed + 501ms), Events{key(A, U'a')});
+}
+
+TEST(InputDecoder, APasteIsBounded) {
+  InputDecoder decoder;
+  Events events = decoder.feed("\033[200~" + std::string(100'000, 'x') + "\033[201~", kFed);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(std::get<PasteEvent>(events[0]).text, std::u32string(InputDecoder::kMaxPaste, U'x'));
+}
+
+TEST(InputDecoder, APasteMayPauseAndEndsByItselfWhenItsEndIsLost) {
+  InputDecoder decoder;
+  EXPECT_TRUE(decoder.feed("\033[200~one\r", kFed).empty());
+  EXPECT_TRUE(decoder.feed("two", kFed + 1900ms).empty()) << "a slow line";
+  EXPECT_TRUE(decoder.flush(kFed + 3800ms).empty());
+  EXPECT_EQ(decoder.flush(kFed + 3900ms), Events{PasteEvent{U"one two"}});
+  EXPECT_EQ(decoder.feed("a", kFed + 3901ms), Events{key(A, U'a')});
 }
 
 TEST(InputDecoder, RandomBytesNeitherCrashNorGrow) {

@@ -2,6 +2,7 @@
 
 #include "client/ui/ClientControls.h"
 #include "shared/net/base/Limits.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad {
 namespace {
@@ -36,9 +37,64 @@ TEST(ClientControls, PrefixOpensCommands) {
   EXPECT_EQ(controls.panel(), Panel::kNone);
   controls.takeKey(kPrefix);
   controls.takeKey(typed(S, U's'));
-  EXPECT_FALSE(controls.statusShown());
+  EXPECT_EQ(controls.status(), StatusMode::kNever);
   controls.takeKey(kPrefix);
   EXPECT_EQ(controls.takeKey(typed(Q, U'q')), Result::kLeave);
+}
+
+TEST(ClientControls, TheStatusKeyChangesWhatIsSeen) {
+  ClientControls controls;
+  const auto press = [&controls] {
+    controls.takeKey(kPrefix);
+    controls.takeKey(typed(S, U's'));
+    return controls.status();
+  };
+  EXPECT_EQ(controls.status(), StatusMode::kAuto);
+  controls.noteShown({.status = false});  // there is no room, and the moment is over
+  EXPECT_EQ(press(), StatusMode::kAlways);
+  controls.noteShown({.status = true});
+  EXPECT_EQ(press(), StatusMode::kNever);
+}
+
+TEST(ClientControls, KeysScrollAPanelThatDoesNotFit) {
+  ClientControls controls;
+  EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kGame);
+  controls.takeKey(kPrefix);
+  controls.takeKey(typed(H, U'h'));
+  controls.noteShown({.status = true, .max_scroll = 0, .page = 20});
+  EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kGame) << "all of it is seen";
+  controls.noteShown({.status = true, .max_scroll = 30, .page = 20});
+  EXPECT_EQ(controls.takeKey({UPARROW}), Result::kHandled);
+  EXPECT_EQ(controls.scroll(), 0);
+  EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kHandled);
+  EXPECT_EQ(controls.scroll(), 1);
+  controls.takeKey({PAGEDOWN});
+  EXPECT_EQ(controls.scroll(), 20);
+  controls.takeKey({PAGEDOWN});
+  EXPECT_EQ(controls.scroll(), 30);
+  controls.takeKey({PAGEUP});
+  EXPECT_EQ(controls.scroll(), 11);
+  controls.takeKey({END});
+  EXPECT_EQ(controls.scroll(), 30);
+  controls.takeKey({HOME});
+  EXPECT_EQ(controls.scroll(), 0);
+  EXPECT_EQ(controls.takeKey(typed(A, U'a')), Result::kGame);
+  EXPECT_EQ(controls.takeKey({ESCAPE}), Result::kHandled);
+  EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kGame);
+}
+
+TEST(ClientControls, PastedTextGoesIntoAnOpenChatLineOnly) {
+  ClientControls controls;
+  EXPECT_FALSE(controls.insertPasted(U"secret"));
+  controls.takeKey(kPrefix);
+  controls.takeKey(typed(T, U't'));
+  EXPECT_EQ(controls.chatText(), "");
+  controls.takeKey(typed(X, U'x'));
+  EXPECT_TRUE(controls.insertPasted(U"y\x202Ez ü"));
+  EXPECT_EQ(controls.chatText(), "xyz ü");
+  controls.insertPasted(std::u32string(1000, U'n'));
+  EXPECT_EQ(df::decodeUtf8(controls.chatText()).size(), kMaxChatLength);
+  EXPECT_TRUE(controls.chatOpen()) << "it sends nothing";
 }
 
 TEST(ClientControls, PrefixTwiceClosesEverything) {

@@ -46,15 +46,48 @@ TEST(ScreenLayout, LargeTerminalCentresAndFramesTheView) {
   EXPECT_NE(layout.picture.rowText(29).find("Ctrl-] help"), std::string::npos);
 }
 
-TEST(ScreenLayout, TerminalOfTheViewsSizeShowsAllOfItUnderACompactStatus) {
-  const ScreenLayout layout = layOut(model(), 80, 24);
+TEST(ScreenLayout, TerminalOfTheViewsSizeShowsAllOfItAndTheStatusWhereTheGameShowsNothing) {
+  ScreenModel m = model();
+  const ScreenLayout layout = layOut(m, 80, 24);
   EXPECT_FALSE(layout.placement.framed);
   EXPECT_FALSE(layout.placement.status_row);
+  EXPECT_TRUE(layout.shown.status);
   EXPECT_EQ(layout.picture.at(0, 0).ch, U'A');
-  EXPECT_NE(layout.picture.rowText(23).find("42ms t1200 2p"), std::string::npos);
-  ScreenModel without = model();
-  without.status_shown = false;
-  EXPECT_EQ(layOut(without, 80, 24).picture.at(79, 23).ch, U'Z');
+  EXPECT_EQ(layout.picture.at(79, 23).ch, U'Z') << "a corner that the game uses is the game's";
+  EXPECT_NE(layout.picture.rowText(0).find(" 42 ms  2 players  Ctrl-] help "), std::string::npos);
+  m.view.put(79, 0, {U'Y', df::BLUE});
+  EXPECT_NE(layOut(m, 80, 24).picture.rowText(23).find(" 42 ms  2 players"), std::string::npos);
+  EXPECT_EQ(layOut(m, 80, 24).picture.at(79, 23).ch, U'Z') << "on the left";
+}
+
+TEST(ScreenLayout, WithoutRoomTheStatusIsOverTheGameForAMomentOnly) {
+  ScreenModel m = model();
+  m.status_over_game = false;
+  const ScreenLayout layout = layOut(m, 80, 24);
+  EXPECT_FALSE(layout.shown.status);
+  EXPECT_FALSE(contains(layout.picture, "42 ms"));
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 80; ++x) EXPECT_EQ(layout.picture.at(x, y).ch, m.view.at(x, y).ch) << x << ' ' << y;
+  }
+  EXPECT_TRUE(contains(layOut(m, 80, 25).picture, "42 ms")) << "where it covers nothing it stays";
+  m.status_shown = false;
+  EXPECT_FALSE(contains(layOut(m, 80, 25).picture, "42 ms"));
+}
+
+TEST(ScreenLayout, ColumnsBesideTheViewHoldTheStatusIfThereIsNoRow) {
+  ScreenModel m = model();
+  m.status_over_game = false;
+  m.note = "sound: fire";
+  const ScreenLayout layout = layOut(m, 92, 24);
+  EXPECT_TRUE(layout.placement.status_side);
+  EXPECT_TRUE(layout.shown.status);
+  EXPECT_EQ(layout.placement.width, 80);
+  EXPECT_EQ(layout.picture.at(layout.placement.left, 0).ch, U'A');
+  EXPECT_EQ(layout.picture.at(layout.placement.left + 79, 23).ch, U'Z');
+  for (const char* text : {"42 ms", "2 players", "0 pts", "Ctrl-] h", "sound: fir"}) {
+    EXPECT_TRUE(contains(layout.picture, text)) << text;
+  }
+  EXPECT_FALSE(layOut(m, 90, 24).placement.status_side);
 }
 
 TEST(ScreenLayout, OneRowMoreThanTheViewIsTheStatusLine) {
@@ -69,11 +102,19 @@ TEST(ScreenLayout, ANoteIsInTheStatusLine) {
   const std::string row = layOut(m, 80, 25).picture.rowText(24);
   EXPECT_NE(row.find("sound: fire  Ctrl-] help"), std::string::npos) << row;
   EXPECT_NE(row.find("42 ms   tick 1200   2 players   0 points"), std::string::npos) << row;
-  EXPECT_NE(layOut(m, 80, 24).picture.rowText(23).find(" sound: fire  42ms t1200"), std::string::npos);
+  EXPECT_NE(layOut(m, 80, 24).picture.rowText(0).find(" sound: fire  42 ms"), std::string::npos);
   m.note = "music: " + std::string(40, 'x');
-  EXPECT_NE(layOut(m, 80, 24).picture.rowText(23).find(" music: " + std::string(13, 'x') + "  42ms"),
+  EXPECT_NE(layOut(m, 80, 24).picture.rowText(0).find(" music: " + std::string(13, 'x') + "  42 ms"),
             std::string::npos)
-      << "it must not cover the game";
+      << "it stays short";
+  m.status_over_game = false;
+  EXPECT_NE(layOut(m, 80, 24).picture.rowText(0).find(" music: xxx"), std::string::npos)
+      << "where the game shows nothing";
+  for (int x = 0; x < 80; ++x) {
+    m.view.put(x, 0, {U'=', df::RED});
+    m.view.put(x, 23, {U'=', df::RED});
+  }
+  EXPECT_FALSE(contains(layOut(m, 80, 24).picture, "music")) << "it must not cover the game";
   m.status_shown = false;
   EXPECT_FALSE(contains(layOut(m, 100, 30).picture, "music"));
 }
@@ -163,6 +204,71 @@ TEST(ScreenLayout, HelpShowsTheGamesLinesAndTheClientsKeys) {
   const Picture picture = layOut(m, 80, 24).picture;
   EXPECT_TRUE(contains(picture, "Space fires."));
   EXPECT_TRUE(contains(picture, "leave the game"));
+}
+
+TEST(ScreenLayout, HelpIsWholeInANarrowTerminal) {
+  ScreenModel m = model();
+  m.panel = Panel::kHelp;
+  // 76 characters, the most that a server may send.
+  m.help = {"This line of the game is as long as any can be, and here is its very end: END",
+            "arrows or WASD   move the paddle, which is yours alone, and hold it where you want"};
+  for (const int columns : {80, 76, 60, 40}) {
+    const ScreenLayout layout = layOut(m, columns, 40);
+    EXPECT_EQ(layout.shown.max_scroll, 0) << columns;
+    EXPECT_TRUE(contains(layout.picture, "END")) << columns;
+    EXPECT_TRUE(contains(layout.picture, "want")) << columns;
+    EXPECT_TRUE(contains(layout.picture, "Esc closes")) << columns;
+    EXPECT_TRUE(contains(layout.picture, "close the help")) << columns;
+  }
+}
+
+TEST(ScreenLayout, LinesThatContinueOneStandUnderItsText) {
+  ScreenModel m = model();
+  m.panel = Panel::kHelp;
+  m.help = {};
+  const Picture picture = layOut(m, 50, 40).picture;
+  // "Ctrl-] t   say something to all players (c does the same)"
+  int row = 0;
+  while (row < 40 && picture.rowText(row).find("say something") == std::string::npos) ++row;
+  ASSERT_LT(row, 39);
+  const std::u32string first = df::decodeUtf8(picture.rowText(row));
+  const std::u32string next = df::decodeUtf8(picture.rowText(row + 1));
+  EXPECT_EQ(next.find(U"does"), first.find(U"say")) << picture.rowText(row + 1);
+}
+
+TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
+  ScreenModel m = model();
+  m.panel = Panel::kHelp;
+  for (int i = 0; i < 24; ++i) m.help.push_back("line " + std::to_string(i) + ".");
+  ScreenLayout layout = layOut(m, 76, 24);
+  EXPECT_TRUE(contains(layout.picture, "line 0."));
+  EXPECT_FALSE(contains(layout.picture, "close the help"));
+  EXPECT_TRUE(contains(layout.picture, "Down"));
+  EXPECT_TRUE(contains(layout.picture, "Esc closes"));
+  EXPECT_EQ(layout.shown.max_scroll, 24 + 1 + 7 - 22);
+  EXPECT_EQ(layout.shown.page, 22);
+  m.scroll = layout.shown.max_scroll;
+  layout = layOut(m, 76, 24);
+  EXPECT_FALSE(contains(layout.picture, "line 0."));
+  EXPECT_TRUE(contains(layout.picture, "close the help"));
+  m.scroll = 1000;  // of a smaller terminal
+  EXPECT_TRUE(contains(layOut(m, 76, 24).picture, "close the help"));
+  EXPECT_TRUE(contains(layOut(m, 20, 10).picture, "Down"));
+}
+
+TEST(ScreenLayout, PlayersScrollUnderTheirHead) {
+  ScreenModel m = model();
+  m.panel = Panel::kPlayers;
+  for (std::uint32_t i = 0; i < 64; ++i)
+    m.players.push_back({10 + i, "p" + std::to_string(i), df::RED, -1, 5});
+  ScreenLayout layout = layOut(m, 80, 24);
+  EXPECT_FALSE(contains(layout.picture, "p63"));
+  EXPECT_TRUE(contains(layout.picture, "Esc closes"));
+  m.scroll = layout.shown.max_scroll;
+  layout = layOut(m, 80, 24);
+  EXPECT_TRUE(contains(layout.picture, "p63"));
+  EXPECT_TRUE(contains(layout.picture, "points"));
+  EXPECT_FALSE(contains(layout.picture, "Bob"));
 }
 
 TEST(ScreenLayout, ChatLineShowsTheEndOfALongText) {

@@ -36,6 +36,11 @@ void requireGood(const KittyReply& answer) {
   REQUIRE(answer.flags >= 0);
 }
 
+void requireGood(const PasteEvent& event) {
+  REQUIRE(!event.text.empty() && event.text.size() <= InputDecoder::kMaxPaste);
+  for (const char32_t ch : event.text) REQUIRE(!isControl(ch));
+}
+
 void append(Events& all, const Events& events) {
   for (const TerminalEvent& event : events) {
     std::visit([](const auto& e) { requireGood(e); }, event);

@@ -1,0 +1,65 @@
+#include "client/terminal/TerminalType.h"
+
+#include <curses.h>
+#include <term.h>
+#include <unistd.h>
+
+#include <stdexcept>
+
+#include "shared/values/Canvas.h"
+
+namespace naiad {
+namespace {
+
+constexpr std::size_t kMaxShown = 40;
+
+enum class Kind { kUnknown, kCannotDraw, kDraws };
+
+Kind kindOf(const std::string& name) {
+  int error = 0;
+  TERMINAL* const p_before = cur_term;
+  if (setupterm(const_cast<char*>(name.c_str()), STDOUT_FILENO, &error) != OK) {
+    return error == 1 ? Kind::kCannotDraw : Kind::kUnknown;  // 1: it prints on paper
+  }
+  const char* p_move = tigetstr(const_cast<char*>("cup"));
+  const bool moves = p_move != nullptr && p_move != reinterpret_cast<char*>(-1);
+  TERMINAL* const p_probed = set_curterm(p_before);
+  if (p_probed != nullptr && p_probed != p_before) del_curterm(p_probed);
+  return moves ? Kind::kDraws : Kind::kCannotDraw;
+}
+
+/// A part of a sentence for the terminal itself: harmless, and not too long.
+std::string shown(const std::string& name) {
+  std::string text = "TERM=";
+  std::size_t count = 0;
+  for (const char32_t ch : df::decodeUtf8(name)) {
+    if (++count > kMaxShown) break;
+    df::appendUtf8(text, df::isDrawable(ch) ? ch : U'?');
+  }
+  return text;
+}
+
+}  // namespace
+
+TerminalType chooseTerminalType(const char* p_term) {
+  const std::string term = p_term != nullptr ? p_term : "";
+  if (term.empty()) throw std::runtime_error("TERM is not set: what kind of terminal is this?");
+  // What calls itself so has no description, or a poor one, on purpose.
+  const bool refuses = term == "dumb" || term == "unknown";
+  const Kind kind = refuses ? Kind::kCannotDraw : kindOf(term);
+  if (kind == Kind::kDraws) return {term, ""};
+  if (kind == Kind::kCannotDraw) {
+    throw std::runtime_error(
+        shown(term) + " is a terminal without a cursor that can be moved: nothing can be drawn on it.");
+  }
+  for (const char* p_name : {"xterm-256color", "xterm"}) {
+    if (kindOf(p_name) == Kind::kDraws)
+      return {p_name, shown(term) + " is not known on this system; drawn as " + p_name + "."};
+  }
+  throw std::runtime_error(
+      shown(term) +
+      " is not known on this system, and neither is xterm: are descriptions of terminals "
+      "installed (ncurses-base)?");
+}
+
+}  // namespace naiad

@@ -1,0 +1,20 @@
+// Which description of the terminal ncurses draws with, found out before anything is joined.
+//
+// Terminals name themselves in TERM, and some (kitty, foot, ghostty, wezterm) by names that a system's
+// descriptions do not have yet. They all understand what xterm does.
+#pragma once
+
+#include <string>
+
+namespace naiad {
+
+struct TerminalType {
+  std::string name;    ///< of a description that there is
+  std::string notice;  ///< for the player, if it is not the one that TERM names; else empty
+};
+
+/// For the value of TERM; null if it is not set. Throws std::runtime_error, with a sentence for people, if it
+/// names none, or one on which nothing can be drawn, or if there are no descriptions at all.
+TerminalType chooseTerminalType(const char* p_term);
+
+}  // namespace naiad
