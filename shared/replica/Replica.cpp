@@ -1,7 +1,7 @@
 #include "shared/replica/Replica.h"
 
 #include <algorithm>
-#include <compare>
+#include <tuple>
 
 #include "shared/replica/Checksum.h"
 
@@ -35,7 +35,9 @@ struct DrawingOrder {
   std::int32_t altitude;
   std::uint64_t order;
   std::uint32_t index;  ///< of its Shown
-  friend auto operator<=>(const DrawingOrder&, const DrawingOrder&) = default;
+  friend bool operator<(const DrawingOrder& a, const DrawingOrder& b) {
+    return std::tie(a.altitude, a.order, a.index) < std::tie(b.altitude, b.order, b.index);
+  }
 };
 
 /// May a glyph of an object at `at` be on the canvas?
