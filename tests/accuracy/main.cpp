@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "Line.h"
+#include "ResultLine.h"
 #include "Measurement.h"
 #include "Progress.h"
 #include "Records.h"

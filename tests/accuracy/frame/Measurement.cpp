@@ -12,7 +12,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "Clock.h"
+#include "ElapsedTime.h"
 
 namespace lab {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "Line.h"
+#include "ResultLine.h"
 
 namespace lab {
 

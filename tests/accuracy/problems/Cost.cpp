@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "Clock.h"
+#include "ElapsedTime.h"
 #include "Path.h"
 
 namespace lab {
