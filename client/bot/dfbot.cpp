@@ -285,7 +285,7 @@ std::vector<naiad::Option> optionsOf(BotOptions& bot, std::string& server, std::
       {.name = "--clients",
        .target = &bot.clients,
        .help = "How many players join (default 1)",
-       .range = naiad::OptionRange{1, 1000, true}},
+       .range = naiad::OptionRange{1, 1000}},
       {.name = "--seconds",
        .target = &bot.seconds,
        .help = "How long to play once all have joined (default 5)",

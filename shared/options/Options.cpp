@@ -2,9 +2,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
 #include <sstream>
+#include <string_view>
+#include <system_error>
 #include <type_traits>
 
+#include "shared/options/NearestName.h"
 #include "shared/values/Version.h"
 
 namespace naiad {
@@ -31,8 +37,11 @@ CLI::Option* addTo(CLI::App& app, const Option& row) {
 
 void describe(CLI::App& app, const Option& row, CLI::Option& option) {
   if (row.name.front() != '-') option.required();
-  if (row.range && row.range->whole) {
-    option.check(CLI::Range(static_cast<int>(row.range->least), static_cast<int>(row.range->most)));
+  const bool counts =
+      std::holds_alternative<int*>(row.target) || std::holds_alternative<std::int64_t*>(row.target);
+  if (row.range && counts) {
+    option.check(
+        CLI::Range(static_cast<std::int64_t>(row.range->least), static_cast<std::int64_t>(row.range->most)));
   } else if (row.range) {
     option.check(CLI::Range(row.range->least, row.range->most));
   }
@@ -43,16 +52,135 @@ void describe(CLI::App& app, const Option& row, CLI::Option& option) {
   if (row.hidden) option.group("");
 }
 
+// ---- errors -----------------------------------------------------------------------------------------------
+
+Parsed complain(const Program& program, const std::string& sentence) {
+  std::cerr << program.name << ": " << sentence << "\nRun " << program.name
+            << " --help for more information.\n";
+  return Parsed::kUsageError;
+}
+
+/// What the parser says, without the option's name in front.
+std::string withoutName(const Option& option, const std::string& said) {
+  const std::string prefix = option.name + ": ";
+  return said.starts_with(prefix) ? said.substr(prefix.size()) : said;
+}
+
+bool isOnCommandLine(const Option& option, int argc, const char* const* argv) {
+  return std::any_of(argv + 1, argv + argc, [&option](const char* p_word) {
+    const std::string_view word(p_word);
+    return word == option.name || word.starts_with(option.name + "=");
+  });
+}
+
+/// The parser names the option; the variable that set it is what to look at.
+std::string inWords(const std::vector<Option>& options, const CLI::ParseError& error, int argc,
+                    const char* const* argv) {
+  std::string said = error.what();
+  for (const Option& option : options) {
+    const bool is_meant = said.starts_with(option.name + ": ") && !option.environment.empty();
+    if (is_meant && std::getenv(option.environment.c_str()) != nullptr &&
+        !isOnCommandLine(option, argc, argv))
+      return option.environment + ": " + withoutName(option, said);
+  }
+  return said;
+}
+
+std::vector<std::string> namesOf(const Program& program, const std::vector<Option>& options) {
+  std::vector<std::string> names{"--help", "--version"};
+  if (program.has_config) names.push_back("--config");
+  for (const Option& option : options) {
+    if (!option.hidden && option.name.front() == '-') names.push_back(option.name);
+  }
+  return names;
+}
+
+std::string unknownArgument(const Program& program, const std::vector<Option>& options, const CLI::App& app) {
+  const std::vector<std::string> left = app.remaining();
+  const auto found = std::find_if(left.begin(), left.end(), [](const auto& word) { return word[0] == '-'; });
+  if (found == left.end())
+    return "unexpected argument \"" + (left.empty() ? std::string() : left.front()) + "\"";
+  const std::string name = found->substr(0, found->find('='));
+  const std::string near = nearestName(name, namesOf(program, options));
+  return "there is no option " + name + (near.empty() ? "" : "; did you mean " + near + "?");
+}
+
+// ---- the file of --config ---------------------------------------------------------------------------------
+
+std::string trimmed(const std::string& text) {
+  constexpr const char* kBlanks = " \t\r";
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+/// A value as it stands behind the `=`: in quotes, or up to a # behind a blank. Nothing if quotes do not end.
+std::optional<std::string> configValue(const std::string& text) {
+  if (text.starts_with('"') || text.starts_with('\'')) {
+    const std::size_t end = text.find(text.front(), 1);
+    if (end == std::string::npos) return std::nullopt;
+    const std::string rest = trimmed(text.substr(end + 1));
+    if (!rest.empty() && !rest.starts_with('#')) return std::nullopt;
+    return text.substr(1, end - 1);
+  }
+  for (std::size_t at = text.find('#'); at != std::string::npos; at = text.find('#', at + 1)) {
+    if (at == 0 || text[at - 1] == ' ' || text[at - 1] == '\t') return trimmed(text.substr(0, at));
+  }
+  return text;
+}
+
+/// Stores what a line says, unless the command line or the environment did. Throws OptionError.
+void storeConfigLine(const std::string& line, const std::string& place, const std::vector<Option>& options,
+                     const std::vector<CLI::Option*>& added) {
+  const std::size_t equals = line.find('=');
+  const std::string key = trimmed(line.substr(0, equals));
+  const auto found = std::find_if(options.begin(), options.end(),
+                                  [&key](const Option& row) { return row.name == "--" + key; });
+  if (found == options.end()) {
+    std::vector<std::string> keys;
+    for (const Option& row : options) {
+      if (!row.hidden && row.name.starts_with("--")) keys.push_back(row.name.substr(2));
+    }
+    const std::string near = nearestName(key, keys);
+    throw OptionError(place + ": there is no option \"" + key + '"' +
+                      (near.empty() ? "" : "; did you mean " + near + "?"));
+  }
+  const bool is_flag = std::holds_alternative<bool*>(found->target);
+  if (equals == std::string::npos && !is_flag) throw OptionError(place + ": \"" + key + " = …\" is wanted");
+  const auto value = equals == std::string::npos ? "true" : configValue(trimmed(line.substr(equals + 1)));
+  if (!value) throw OptionError(place + ": the quotes do not end, or something stands behind them");
+  if (added[static_cast<std::size_t>(found - options.begin())]->count() > 0) return;
+  storeValue(*found, *value, place + ": " + key);
+  if (found->p_given != nullptr) *found->p_given = true;
+  if (found->p_place != nullptr) *found->p_place = place;
+}
+
+/// Lines `name = value`; empty ones and those that begin with # or ; are passed over. Throws OptionError.
+void readConfig(const std::string& path, const std::vector<Option>& options,
+                const std::vector<CLI::Option*>& added) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    throw OptionError("--config: " + path + " is not a regular file");  // a pipe would be waited for
+  std::ifstream file(path);
+  if (!file) throw OptionError("--config: " + path + " cannot be read");
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    const std::string place = path + ":" + std::to_string(++number);
+    line = trimmed(line);
+    if (line.empty() || line.front() == '#' || line.front() == ';') continue;
+    storeConfigLine(line, place, options, added);
+  }
+}
+
 }  // namespace
 
 Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
                     const char* const* argv) {
   CLI::App app(program.purpose, program.name);
   app.set_version_flag("--version", program.name + " " + kVersion);
-  if (program.has_config) {
-    app.set_config("--config", "", "Read options from this file (lines like: port = 9876)");
-    app.allow_config_extras(CLI::config_extras_mode::error);  // a misspelt option must not be passed over
-  }
+  std::string config;
+  if (program.has_config)
+    app.add_option("--config", config, "Read options from this file (lines like: port = 9876)");
   app.footer(program.footer);
   std::vector<CLI::Option*> added;
   for (const Option& row : options) {
@@ -62,23 +190,29 @@ Parsed parseOptions(const Program& program, const std::vector<Option>& options, 
   }
   try {
     app.parse(argc, argv);
+    if (!config.empty()) readConfig(config, options, added);
+  } catch (const CLI::ExtrasError&) {
+    return complain(program, unknownArgument(program, options, app));
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? Parsed::kDone : Parsed::kUsageError;
+    if (error.get_exit_code() != 0) return complain(program, inWords(options, error, argc, argv));
+    app.exit(error);
+    return Parsed::kDone;
+  } catch (const OptionError& error) {
+    return complain(program, error.what());
   }
   for (std::size_t i = 0; i < options.size(); ++i) {
-    if (options[i].p_given != nullptr) *options[i].p_given = added[i]->count() > 0;
+    if (options[i].p_given != nullptr && added[i]->count() > 0) *options[i].p_given = true;
   }
   return Parsed::kRun;
 }
 
-void parseArguments(const std::vector<Option>& options, std::vector<std::string> arguments) {
+void storeValue(const Option& option, const std::string& value, const std::string& place) {
   CLI::App app;
-  for (const Option& row : options) describe(app, row, *addTo(app, row));
-  std::reverse(arguments.begin(), arguments.end());  // as the parser wants them
+  describe(app, option, *addTo(app, option));
   try {
-    app.parse(arguments);
+    app.parse(std::vector<std::string>{option.name + "=" + value});
   } catch (const CLI::ParseError& error) {
-    throw OptionError(error.what());
+    throw OptionError(place + ": " + withoutName(option, error.what()));
   }
 }
 

@@ -26,7 +26,6 @@ using OptionTarget = std::variant<bool*, int*, std::int64_t*, double*, std::stri
 struct OptionRange {
   double least = 0;
   double most = 0;
-  bool whole = false;  ///< say so in --help
 };
 
 struct Option {
@@ -42,6 +41,7 @@ struct Option {
   std::string default_text{};          ///< what --help says instead
   bool hidden = false;                 ///< not in --help
   bool* p_given = nullptr;             ///< becomes true if the option was given
+  std::string* p_place = nullptr;      ///< becomes "FILE:LINE" if the file of --config gave it
 };
 
 struct Program {
@@ -58,18 +58,19 @@ enum class Parsed {
 };
 
 /// Store the options from the command line, the environment and the file of --config, in this order of
-/// precedence. Prints help, version and usage errors.
+/// precedence. Prints help, version and usage errors: these on stderr, with the program's name in front, the
+/// file and line of one in the file, and the nearest name where one is not known.
 Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
                     const char* const* argv);
 
-/// An option has a value that makes no sense; what() is a sentence that names it.
+/// An option is not known, or has a value that makes no sense; what() is a sentence that names it.
 class OptionError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Store the options from arguments of the form "--name=value" alone. Throws OptionError.
-void parseArguments(const std::vector<Option>& options, std::vector<std::string> arguments);
+/// Store this value of the option. Throws OptionError, which begins with `place`: where the value stands.
+void storeValue(const Option& option, const std::string& value, const std::string& place);
 
 /// The value that the option's target holds, as text.
 std::string currentValue(const Option& option);

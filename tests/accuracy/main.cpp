@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "ResultLine.h"
 #include "Measurement.h"
 #include "Progress.h"
 #include "Records.h"
+#include "ResultLine.h"
 
 namespace {
 

@@ -36,7 +36,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
 }  // namespace
 
 GameProgram::GameProgram(const std::string& name, std::map<std::string, std::string> environment,
-                         const std::vector<std::string>& arguments)
+                         const std::vector<std::string>& arguments, int errors)
     : m_directory(makeDirectory()) {
   std::filesystem::create_directory(playFolder());
   environment.insert({{"NAIAD_ADDRESS", "127.0.0.1"},
@@ -63,9 +63,13 @@ GameProgram::GameProgram(const std::string& name, std::map<std::string, std::str
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_APPEND,
                                    0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  const int error = posix_spawn(&m_process, words.front().c_str(), &actions, nullptr,
+  posix_spawn_file_actions_adddup2(&actions, errors >= 0 ? errors : STDOUT_FILENO, STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+  const int error = posix_spawn(&m_process, words.front().c_str(), &actions, &attributes,
                                 pointersTo(words).data(), pointersTo(entries).data());
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) throw std::system_error(error, std::generic_category(), words.front());
   const auto end = std::chrono::steady_clock::now() + kPatience;

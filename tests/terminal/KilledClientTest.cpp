@@ -103,8 +103,8 @@ TEST_F(KilledClientTest, GoesOnWithItsShipAndItsPoints) {
   terminal->type("\x03");
   EXPECT_EQ(WEXITSTATUS(terminal->waitForExit()), 0);
   const std::string said = serverSaid();
-  EXPECT_NE(said.find("ann is back"), std::string::npos) << said;
-  EXPECT_NE(said.find("ann left"), std::string::npos) << said;
+  EXPECT_NE(said.find("\"ann\" is back"), std::string::npos) << said;
+  EXPECT_NE(said.find("\"ann\" left"), std::string::npos) << said;
   EXPECT_EQ(said.find("joined"), said.rfind("joined")) << said;
 
   terminal = join();
@@ -119,7 +119,7 @@ TEST_F(KilledClientTest, IsForgottenIfThePlayerWantsIt) {
   EXPECT_EQ(terminal->output().find(kBack), std::string::npos);
   kill(*terminal);
   const std::string said = serverSaid();
-  EXPECT_NE(said.find("ann2 joined"), std::string::npos) << said;
+  EXPECT_NE(said.find("\"ann2\" joined"), std::string::npos) << said;
 }
 
 TEST_F(KilledClientTest, AFileThatOthersCanReadIsReported) {

@@ -106,7 +106,7 @@ TEST_F(OwnMain, InATerminalItIsPlayedThere) {
   EXPECT_FALSE(has(game->output(), "printed in step")) << "it would spoil the picture";
   const std::string log = read("game.log");
   EXPECT_TRUE(has(log, "printed in step 1")) << log;
-  EXPECT_TRUE(has(log, "ann joined")) << log;
+  EXPECT_TRUE(has(log, "\"ann\" joined")) << log;
 }
 
 TEST_F(OwnMain, PlaysOnAfterATitleWithARunOfItsOwn) {
@@ -222,7 +222,7 @@ TEST_F(OwnMain, TheNextRoundIsAFreshProcessAndItsPlayersComeAlong) {
   ASSERT_TRUE(game->waitFor("before the game")) << game->output();
   walkAgain(*ann);
   const std::string log = read("game.log");  // of the server and of both rounds
-  EXPECT_EQ(log.find("ann joined"), log.rfind("ann joined")) << log;
+  EXPECT_EQ(log.find("\"ann\" joined"), log.rfind("\"ann\" joined")) << log;
   EXPECT_TRUE(has(log, "the round is over")) << log;
   EXPECT_FALSE(has(ann->newOutput(), "Server lost")) << ann->output();
   game->signal(SIGTERM);
@@ -330,8 +330,34 @@ TEST_F(OwnMain, WhatMakesNoSenseIsOneLineAndACode) {
   configure("max_players:many,\n");
   auto game = start();
   EXPECT_EQ(WEXITSTATUS(game->waitForExit()), 2) << game->output();
-  EXPECT_TRUE(has(game->output(), "lone_game: environment or df-config.txt: --max-players: "))
+  EXPECT_TRUE(has(game->output(), "lone_game: " + (m_home / "df-config.txt").string() + ":3: max_players: "))
       << game->output();
+}
+
+TEST_F(OwnMain, ListensOnLoopbackAloneUnlessAskedOtherwise) {
+  std::ofstream(m_home / "df-config.txt") << "logfile:" << (m_home / "game.log").string() << ",\n";
+  constexpr const char* kAlone = "From elsewhere nobody can join: it listens on 127.0.0.1:";
+  EXPECT_TRUE(has(startServer({{"NAIAD_ADDRESS", ""}})->output(), kAlone));
+  const std::string open = startServer({{"NAIAD_ADDRESS", ""}, {"NAIAD_PUBLIC", "1"}})->output();
+  EXPECT_FALSE(has(open, kAlone)) << open;
+  EXPECT_TRUE(has(open, "Listening on every address of this machine, port ")) << open;
+}
+
+TEST_F(OwnMain, TheEndOfItsTerminalEndsItInOrder) {
+  auto game = startServer();
+  auto ann = join("ann");
+  game->signal(SIGHUP);
+  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
+  EXPECT_TRUE(has(ann->output(), "The server is shutting down.")) << ann->output();
+  expectOrderlyEnd(*game);
+}
+
+TEST_F(OwnMain, APasswordThatEveryUserCanReadIsWarnedOf) {
+  configure("password:sesame,\n");
+  fs::permissions(m_home / "df-config.txt", fs::perms::owner_all | fs::perms::others_read);
+  startServer();
+  EXPECT_TRUE(has(read("game.log"), "df-config.txt has the password, and every user can read it."))
+      << read("game.log");
 }
 
 TEST_F(OwnMain, APortThatIsTakenMattersOnlyIfItWasAskedFor) {

@@ -1,8 +1,10 @@
 #include "engine/managers/Config.h"
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 #include "engine/sprites/SpriteFile.h"
 #include "engine/world/ConfigText.h"
@@ -88,7 +90,14 @@ Config& Config::getInstance() {
 
 std::string Config::readConfig() {
   const char* p_named = std::getenv("DRAGONFLY_CONFIG");
-  std::ifstream file(p_named != nullptr ? p_named : CONFIG_FILENAME.c_str());
+  const std::string name = p_named != nullptr ? p_named : CONFIG_FILENAME;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(name, error)) {  // to open a pipe would wait for its writer
+    if (std::filesystem::is_fifo(name, error))
+      World::current().log("Configuration: " + name + " is a pipe, and is not read");
+    return {};
+  }
+  std::ifstream file(name);
   std::string text;
   for (std::string line; std::getline(file, line);) {
     const std::size_t first = line.find_first_not_of(" \t\r");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <utility>
 
 #include "engine/world/EventCollision.h"
 #include "engine/world/Object.h"
@@ -12,6 +13,7 @@ namespace df {
 
 inline void World::runHandler(ObjectKey key, Object& object, const Event& event) {
   ++m_handlers;
+  const Event* const p_outer = std::exchange(m_p_handled, &event);
   try {
     object.eventHandler(&event);
   } catch (const std::exception& e) {
@@ -19,6 +21,7 @@ inline void World::runHandler(ObjectKey key, Object& object, const Event& event)
   } catch (...) {
     quarantine(key, "an exception of unknown type");
   }
+  m_p_handled = p_outer;
   --m_handlers;
   if (m_shutdown_pending) finishShutDown();
 }

@@ -1,8 +1,11 @@
 #include "engine/world/LogFile.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <map>
 #include <mutex>
@@ -12,28 +15,46 @@ namespace df {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kRetry{1};  ///< after an open that failed
+
 constinit std::atomic<bool> g_kept = false;
 
-// Empty, and every line goes to its end, wherever that is then.
-std::FILE* openEmpty(const std::string& filename) {
-  const int empty = g_kept ? 0 : O_TRUNC;
-  const int file = ::open(filename.c_str(), O_WRONLY | O_CREAT | empty | O_APPEND | O_CLOEXEC, 0666);
-  return file < 0 ? nullptr : ::fdopen(file, "a");
+/// Without waiting: a pipe whose other end is not read, or not there, must not hold up the game. Neither
+/// takes lines then. Null if it cannot be opened.
+std::FILE* openToWrite(const std::string& filename, int how) {
+  constexpr int kAlways = O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
+  const int file = ::open(filename.c_str(), kAlways | how, 0640);
+  if (file < 0) return nullptr;
+  std::FILE* p_file = ::fdopen(file, "a");
+  if (p_file == nullptr) ::close(file);
+  return p_file;
 }
+
+struct OpenFile {
+  std::FILE* p_file = nullptr;
+  Clock::time_point next_try{};
+};
 
 }  // namespace
 
+// Empty at first, and every line goes to its end, wherever that is then.
 void writeToLogFile(const std::string& filename, const std::string& line, bool flush) {
   static std::mutex* p_mutex = new std::mutex;  // for ever, like the default world
-  static auto* p_files = new std::map<std::string, std::FILE*>;
+  static auto* p_files = new std::map<std::string, OpenFile>;
   const std::lock_guard lock(*p_mutex);
-  const auto [entry, is_new] = p_files->try_emplace(filename);
-  if (is_new) entry->second = openEmpty(filename);
-  std::FILE* p_file = entry->second;
-  if (p_file == nullptr) return;
-  std::fwrite(line.data(), 1, line.size(), p_file);
-  std::fputc('\n', p_file);
-  if (flush) std::fflush(p_file);
+  OpenFile& entry = (*p_files)[filename];
+  if (entry.p_file == nullptr) {
+    const auto now = Clock::now();
+    if (now < entry.next_try) return;
+    entry.next_try = now + kRetry;
+    entry.p_file = openToWrite(filename, O_APPEND | (g_kept ? 0 : O_TRUNC));
+    if (entry.p_file == nullptr) return;
+  }
+  std::fwrite(line.data(), 1, line.size(), entry.p_file);
+  std::fputc('\n', entry.p_file);
+  if (flush) std::fflush(entry.p_file);
 }
 
 void keepLogFiles() {
@@ -44,7 +65,7 @@ bool writeToFile(const std::string& filename, const std::string& line) {
   static std::mutex* p_mutex = new std::mutex;
   static auto* p_known = new std::set<std::string>;
   const std::lock_guard lock(*p_mutex);
-  std::FILE* p_file = std::fopen(filename.c_str(), p_known->insert(filename).second ? "w" : "a");
+  std::FILE* p_file = openToWrite(filename, p_known->insert(filename).second ? O_TRUNC : O_APPEND);
   if (p_file == nullptr) return false;
   std::fwrite(line.data(), 1, line.size(), p_file);
   if (line.empty() || line.back() != '\n') std::fputc('\n', p_file);

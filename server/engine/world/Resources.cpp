@@ -53,8 +53,9 @@ bool Resources::open(const std::string& filename) const {
 
 std::optional<std::string> Resources::read(const std::string& filename) const {
   const std::string path = locate(filename);
+  if (!isFile(path)) return std::nullopt;  // first: to open a pipe would wait for its writer
   std::ifstream file(path, std::ios::binary);
-  if (!isFile(path) || !file) return std::nullopt;
+  if (!file) return std::nullopt;
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 

@@ -265,6 +265,8 @@ class World {
   InputQueue& inputs() { return *m_input; }
   /// Run the eventHandler() of an Object in the world; see deliver(). Defined in InterestDispatch.h.
   inline void runHandler(ObjectKey key, Object& object, const Event& event);
+  /// The event that an eventHandler() is handling; null if none is. For a report on a crash.
+  const Event* handledEvent() const { return m_p_handled; }
   /// Note what the Object's class overrides.
   void learnType(std::uint32_t slot);
   /// Draw a static look again.
@@ -326,7 +328,8 @@ class World {
   bool m_in_tick = false;
   bool m_in_update = false;
   bool m_in_draw = false;
-  int m_handlers = 0;  // eventHandler()s that are running, one inside the other
+  int m_handlers = 0;                  // eventHandler()s that are running, one inside the other
+  const Event* m_p_handled = nullptr;  // by the innermost of them
   bool m_shutdown_pending = false;
 };
 

@@ -1,8 +1,11 @@
 #include "host/auth/ServerIdentity.h"
 
 #include <openssl/ssl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <system_error>
+#include <utility>
 
 #include "host/auth/SelfSigned.h"
 #include "shared/net/base/SafeFile.h"
@@ -41,6 +44,23 @@ auto inWords(Action action) {
   }
 }
 
+/// Who can write in the key's folder can put another key there. Return a warning, or nothing.
+std::string checkDirectory(const fs::path& directory) {
+  struct stat facts {};
+  if (::stat(directory.c_str(), &facts) != 0) return {};  // the next one to look says why
+  const std::string cure = " Run: chmod go-w " + directory.string();
+  if ((facts.st_mode & S_IWOTH) != 0) {
+    throw TlsError("The folder " + directory.string() +
+                   " has the server's key, and every user can write in it." + cure);
+  }
+  if ((facts.st_mode & S_IWGRP) != 0)
+    return "the folder " + directory.string() + " has the server's key, and its group can write in it." +
+           cure;
+  if (facts.st_uid != ::geteuid() && facts.st_uid != 0)
+    return "the folder " + directory.string() + " has the server's key, and belongs to another user.";
+  return {};
+}
+
 void makeDirectory(const fs::path& directory) {
   if (fs::is_directory(directory)) return;
   fs::create_directories(directory);
@@ -58,6 +78,7 @@ ServerIdentity ServerIdentity::loadOrMake(const fs::path& directory,
                                           std::chrono::system_clock::time_point now) {
   return inWords([&] {
     makeDirectory(directory);
+    std::string warning = checkDirectory(directory);
     const fs::path key = directory / "key.pem";
     const fs::path certificate = directory / "certificate.pem";
     // Checked before the key: another process that starts at the same time makes the certificate last.
@@ -73,7 +94,9 @@ ServerIdentity ServerIdentity::loadOrMake(const fs::path& directory,
     }
     const std::string key_pem = readKey(key);
     if (!fs::exists(certificate)) makeFile(certificate, makeCertificatePem(key_pem, now));
-    return ServerIdentity(readCertificate(certificate), key_pem);
+    ServerIdentity identity(readCertificate(certificate), key_pem);
+    identity.warning_ = std::move(warning);
+    return identity;
   });
 }
 

@@ -21,7 +21,8 @@ class ServerIdentity {
 
   /// Load from `directory` (made if missing, 0700), making first what is not there: an ECDSA P-256 key, and a
   /// certificate that is valid from the day before `now` on, without end. Two servers that start there at
-  /// once get the same key. Throws TlsError, with a sentence that says what to do.
+  /// once get the same key. Throws TlsError, with a sentence that says what to do; also if every user can
+  /// write in the directory.
   static ServerIdentity loadOrMake(const std::filesystem::path& directory,
                                    std::chrono::system_clock::time_point now);
   /// Load files from elsewhere, e.g. Let's Encrypt's fullchain.pem and privkey.pem. Throws TlsError, also if
@@ -30,6 +31,8 @@ class ServerIdentity {
 
   /// What players compare.
   const Fingerprint& fingerprint() const { return fingerprint_; }
+  /// What the host should know of the directory: who else can write in it. Empty if nobody can.
+  const std::string& warning() const { return warning_; }
   /// For TcpListener.
   const std::shared_ptr<const TlsContext>& tls() const { return tls_; }
 
@@ -38,6 +41,7 @@ class ServerIdentity {
 
   std::shared_ptr<const TlsContext> tls_;
   Fingerprint fingerprint_;
+  std::string warning_;
 };
 
 }  // namespace naiad

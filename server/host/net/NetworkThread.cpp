@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <asio/post.hpp>
 #include <cassert>
+#include <future>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -147,6 +149,26 @@ bool NetworkThread::renewDatagrams(DatagramsEnd& end, const ReliableChannel& str
   return true;
 }
 
+// What waits longer is left unsent; the jobs own what they touch beside this.
+void NetworkThread::sendLast(const std::string& frame, std::chrono::milliseconds patience) {
+  const auto end = Clock::now() + patience;
+  asio::post(m_io, [this, frame] {
+    for (const auto& [p_end, stream] : m_streams) {
+      if (!stream->channel) continue;
+      stream->channel->send(frame);
+      stream->channel->close();
+    }
+  });
+  for (bool sent = false; !sent && Clock::now() < end;) {
+    const auto answer = std::make_shared<std::promise<bool>>();
+    auto answered = answer->get_future();
+    asio::post(m_io, [this, answer] { answer->set_value(!hasUnsent()); });
+    if (answered.wait_until(end) != std::future_status::ready) return;
+    sent = answered.get();
+    if (!sent) std::this_thread::sleep_for(kBusy);
+  }
+}
+
 RelayCounters NetworkThread::counters() const {
   RelayCounters counters = m_counters;
   counters.datagrams_out_dropped = m_out_dropped;
@@ -195,6 +217,12 @@ void NetworkThread::noteUnsent() {
     end->unsent = end->channel ? end->channel->unsentBytes() : 0;
     end->busy = end->unsent > 0;
     return !end->busy;
+  });
+}
+
+bool NetworkThread::hasUnsent() const {
+  return std::any_of(m_streams.begin(), m_streams.end(), [](const auto& entry) {
+    return entry.second->channel && entry.second->channel->unsentBytes() > 0;
   });
 }
 

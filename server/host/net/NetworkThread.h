@@ -103,6 +103,10 @@ class NetworkThread {
   std::uint16_t port() const { return m_port.streams->port(); }
   std::string address() const { return m_port.streams->address(); }
 
+  /// Send `frame` on all streams, close them, and wait until they are empty, but not longer than `patience`.
+  /// From any thread but the network's, while that runs: for a tick thread that does not return.
+  void sendLast(const std::string& frame, std::chrono::milliseconds patience);
+
   /// How long ticks took, begin to last datagram sent. Thread-safe.
   const TickTimes& tickTimes() const { return m_tick_times; }
   /// What became of every datagram until just now; nothing without them. Thread-safe.
@@ -182,6 +186,7 @@ class NetworkThread {
   void onClosed(StreamEnd& end, CloseReason reason);
   void openDatagrams(DatagramsEnd& end, const StreamEnd& stream);
   void noteRoom(DatagramsEnd& end);
+  bool hasUnsent() const;
   void addNotice(const Notice& notice, std::string_view bytes = {});
   bool isInFull() const { return m_notice_box.size() + m_notices.size() > m_limits.mailbox; }
   void noteUnsent();

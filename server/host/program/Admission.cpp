@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/program/LogText.h"
 #include "host/program/TickClock.h"
 #include "host/session/Names.h"
 #include "naiad.pb.h"
@@ -131,7 +132,7 @@ void Admission::restartSession(Session& before, Session& session, const wire::He
   before.restart(session, welcome, std::move(datagrams));
   m_setup.on_new_client();
   if (Room* p_room = m_setup.rooms.roomOf(before)) p_room->repeatSounds(before.player());
-  m_setup.log(before.name() + " is back from " + before.address() + ", with another client");
+  m_setup.log_client(before.address(), inQuotes(before.name()) + " is back, with another client");
 }
 
 void Admission::continueSession(Session& before, Session& session, const wire::Hello& hello,
@@ -142,7 +143,7 @@ void Admission::continueSession(Session& before, Session& session, const wire::H
     if (p_datagrams->renew(*session.stream(), epoch)) describe(p_datagrams, welcome);
   }
   before.adopt(session, welcome, hello.received());
-  m_setup.log(before.name() + " is back from " + before.address());
+  m_setup.log_client(before.address(), inQuotes(before.name()) + " is back");
 }
 
 // The token is that of a session that has its stream. Without one the client is refused: it asked for a
@@ -154,7 +155,7 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
     ++m_counters.unknown_tokens;
     return session.refuse(wire::Refused::BAD_REQUEST, "There is no stream for this one to go beside.");
   }
-  m_setup.log(p_first->name() + " has a second stream, from " + session.address());
+  m_setup.log_client(session.address(), inQuotes(p_first->name()) + " has a second stream");
   p_first->accompany(session);
 }
 
@@ -185,8 +186,8 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   session.welcome(welcome, std::move(datagrams));
   p_room->add(session);
   m_setup.on_new_client();
-  m_setup.log(name + " joined from " + session.address() + " with " +
-              safeText(hello.program(), kMaxProgramLength));
+  m_setup.log_client(session.address(), inQuotes(name) + " joined with " +
+                                            inQuotes(safeText(hello.program(), kMaxProgramLength)));
 }
 
 // False: the session was refused.

@@ -12,7 +12,6 @@
 #include "host/auth/ResumeTokens.h"
 #include "host/net/SealedChannel.h"
 #include "host/program/HostOptions.h"
-#include "host/program/LineLog.h"
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 
@@ -30,7 +29,8 @@ class Admission {
     SessionTable& sessions;
     Rooms& rooms;
     Counters& counters;
-    LogLine log;
+    /// Log what becomes of the client at this address.
+    std::function<void(const std::string& address, const std::string& text)> log_client;
     /// A channel for datagrams, with keys from this stream; null if there are none.
     std::function<std::unique_ptr<SealedChannel>(const ReliableChannel& stream, AeadId aead)> open_datagrams;
     /// A client plays that has no list of players yet.

@@ -9,10 +9,16 @@ namespace naiad {
 class Host;
 struct HostOptions;
 
-/// "Join from this machine with: dfclient …", and how from elsewhere.
-std::vector<std::string> howToJoin(const Host& host);
-/// HostOptions::port_file and join_file, if they are asked for. Throws std::runtime_error if one cannot be
-/// written.
+/// Which setting lets more or fewer players in: a sentence each.
+struct Openness {
+  std::string how_to_open;
+  std::string how_to_restrict;
+};
+
+/// "Join from this machine with: dfclient …", how from elsewhere, and what is listened on.
+std::vector<std::string> howToJoin(const Host& host, const HostOptions& options, const Openness& openness);
+/// HostOptions::port_file and join_file, if they are asked for: each replaced in one step. Throws
+/// std::runtime_error if one cannot be written.
 void writeWhereabouts(const HostOptions& options, const Host& host);
 
 }  // namespace naiad

@@ -1,5 +1,8 @@
 #include "host/program/Host.h"
 
+#include <signal.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <asio/executor_work_guard.hpp>
 #include <asio/post.hpp>
@@ -8,6 +11,9 @@
 #include "engine/managers/GameManager.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "host/program/BrokenPipes.h"
+#include "host/program/CrashReport.h"
+#include "host/program/LogText.h"
 #include "host/program/NetworkReport.h"
 #include "host/program/OpenFiles.h"
 #include "host/program/StopSignals.h"
@@ -25,6 +31,8 @@ constexpr std::chrono::seconds kDrainTime{1};
 constexpr std::chrono::milliseconds kDrainStep{10};   ///< between two looks at worlds that end
 constexpr std::chrono::seconds kFirstPlayerTime{60};  ///< --exit-when-empty before the first player joins
 constexpr int kLongestFrameMillis = 1000;             ///< as --frame-time
+constexpr int kExitHung = 1;                          ///< as for a game that fails
+constexpr const char* kShuttingDown = "The server is shutting down.";
 
 /// Beside connections: half-open ones, libraries, logs.
 constexpr std::size_t kOtherFiles = 512;
@@ -49,6 +57,16 @@ std::optional<ServerIdentity> identityOf(const HostOptions& options) {
   return ServerIdentity::loadOrMake(directory, std::chrono::system_clock::now());
 }
 
+// As if the signal had not been handled: its sender sees that it was.
+void endBySignal(int signal) {
+  ::signal(signal, SIG_DFL);
+  sigset_t one;
+  sigemptyset(&one);
+  sigaddset(&one, signal);
+  pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
+  ::kill(getpid(), signal);
+}
+
 }  // namespace
 
 Host::Host(HostOptions options, std::string game, Log log)
@@ -64,11 +82,18 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
       m_rooms(m_options, m_sessions, m_counters, m_log, [this] { flush(); }),
-      m_admission({m_options, std::move(game), m_sessions, m_rooms, m_counters, m_log,
+      m_client_log(m_log),
+      m_admission({m_options, std::move(game), m_sessions, m_rooms, m_counters,
+                   [this](const std::string& address, const std::string& text) {
+                     m_client_log.logNews(address, text, m_network.now());
+                   },
                    [this](const auto& stream, AeadId aead) { return m_network.openDatagrams(stream, aead); },
                    [this] { m_player_news.repeat(); }},
                   m_io.get_executor()),
       m_empty_since(Clock::now()) {
+  surviveBrokenPipes();
+  for (const std::string& warning : m_options.warnings) m_log("warning: " + warning);
+  if (m_identity && !m_identity->warning().empty()) m_log("warning: " + m_identity->warning());
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
   const std::size_t wanted = maxConnections(m_options) + static_cast<std::size_t>(m_options.max_players) +
                              kOtherFiles;  // each player may have a second stream
@@ -98,21 +123,44 @@ void Host::setWorlds(NewWorld new_world) {
 // The server's loop: serve sockets until the next tick is due, then tick.
 void Host::run(df::World& world) {
   beginGame(world);
-  const StopSignals signals;
+  StopSignals signals;
+  Watchdog watchdog(signals, m_log, [this](const ForcedEnd& end) { endProcess(end); });
+  m_p_watchdog = &watchdog;
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   const auto work = asio::make_work_guard(m_io);  // or waiting for a deadline would end at once
   m_network.start();
   while (!isOver()) {
     serveUntil(schedule.deadline());
-    if (signals.isAsked()) m_stop_sentence = "The server is shutting down.";
+    heedSignals(signals);
     if (isDue(schedule)) tick();
   }
   drain();
+  m_p_watchdog = nullptr;
   endGame(world);
+}
+
+void Host::heedSignals(StopSignals& signals) {
+  if (signals.isAsked()) m_stop_sentence = kShuttingDown;
+  if (!signals.takeHangUp()) return;
+  LineLog::reopenAll();
+  m_log("SIGHUP: the log goes on in this file (there is no terminal, so the server does too)");
+}
+
+// On the watchdog's thread. The game may hold any lock of the process, so nothing is destroyed.
+void Host::endProcess(const ForcedEnd& end) {
+  m_log(end.hung ? "ended without the game, which does not finish tick " + std::to_string(end.tick)
+                 : std::string("ended at once by a second signal"));
+  wire::ServerMessage message;
+  message.mutable_goodbye()->set_sentence(kShuttingDown);
+  m_network.sendLast(message.SerializeAsString(), kDrainTime);
+  LineLog::waitUntilWritten(kDrainTime);
+  if (!end.hung) endBySignal(end.signal);
+  _exit(kExitHung);
 }
 
 void Host::beginGame(df::World& world) {
   m_p_world = &world;
+  crash::setWorld(&world);
   adoptSettings(world);
   m_admission.setWorld(world);
   m_rooms.open(world);
@@ -122,6 +170,7 @@ void Host::beginGame(df::World& world) {
 void Host::endGame(df::World& world) {
   m_rooms.clear();
   world.setGameOverLeaves(false);
+  crash::setWorld(nullptr);
   m_p_world = nullptr;
 }
 
@@ -164,11 +213,22 @@ void Host::tick() {
   m_network.serve(m_tick_began + kMinService);  // the datagrams since the last one
   checkSessions();
   ++m_counters.ticks;
+  m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
-  m_rooms.beginTicks();
+  tickWorlds();
   sendPlayers();
   flush();
   if (m_observer) m_observer(*m_p_world);
+}
+
+// The game's code runs in here alone, unless it is in processes of its own.
+void Host::tickWorlds() {
+  const std::uint64_t number = m_p_world->view().tick + 1;
+  m_p_watchdog->beginTick(number);
+  crash::noteTick(number);
+  m_rooms.beginTicks();
+  crash::noteTick(0);
+  m_p_watchdog->endTick();
 }
 
 void Host::checkSessions() {
@@ -208,7 +268,10 @@ void Host::sweep() {
 Session::Events Host::sessionEvents() {
   return {[this](Session& session, const wire::Hello& hello) { m_admission.judgeHello(session, hello); },
           [this](Session& session, const std::string& text) { sendChat(session, text); },
-          [this](Session& session) { endSession(session); }, [this] { return m_network.now(); }};
+          [this](Session& session) { endSession(session); }, [this] { return m_network.now(); },
+          [this](Session& session, const std::string& sentence) {
+            m_client_log.logRefusal(session.address(), sentence, m_network.now());
+          }};
 }
 
 void Host::sendChat(const Session& session, const std::string& text) {
@@ -222,7 +285,7 @@ void Host::endSession(Session& session) {
   m_admission.forgetSession(session);
   if (session.player() == 0) return;
   m_rooms.leave(session);
-  m_log(session.name() + " left");
+  m_client_log.logNews(session.address(), inQuotes(session.name()) + " left", m_network.now());
 }
 
 // ---- the end ----------------------------------------------------------------------------------------------
@@ -257,6 +320,7 @@ void Host::drain() {
     m_rooms.closeWorlds();
   }
   m_network.stop();
+  m_client_log.finish();
   m_log("stopped: " + m_counters.summary());
   logRefusals(m_network, m_log);
 }

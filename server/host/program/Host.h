@@ -16,12 +16,14 @@
 #include "host/auth/ServerIdentity.h"
 #include "host/net/NetworkThread.h"
 #include "host/program/Admission.h"
+#include "host/program/ClientLog.h"
 #include "host/program/HostOptions.h"
 #include "host/program/LineLog.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 #include "host/program/TickClock.h"
+#include "host/program/Watchdog.h"
 #include "host/session/Counters.h"
 
 namespace naiad {
@@ -65,7 +67,9 @@ class Host : public df::Runner {
   void setWorlds(NewWorld new_world);
 
   /// Tick the world 30 times a second until the game is over, a signal comes or an option says so; then send
-  /// the players a goodbye and let what is queued drain.
+  /// the players a goodbye and let what is queued drain. If the game does not return from a tick, and a
+  /// signal comes, or if a second one does, the process ends from here, with a goodbye: with code 1, or by
+  /// the signal.
   void run(df::World& world) override;
   /// End run() after the present tick, with this sentence to the players. Callable from another thread.
   void stop(const std::string& sentence);
@@ -87,6 +91,9 @@ class Host : public df::Runner {
   void serveUntil(Clock::time_point deadline);
   bool isDue(TickClock& schedule);
   void tick();
+  void tickWorlds();
+  void heedSignals(StopSignals& signals);
+  [[noreturn]] void endProcess(const ForcedEnd& end);
   void checkSessions();
   void sendPlayers();
   void flush();
@@ -103,7 +110,9 @@ class Host : public df::Runner {
   NetworkThread m_network;
   SessionTable m_sessions;
   Rooms m_rooms;
+  ClientLog m_client_log;
   Admission m_admission;
+  Watchdog* m_p_watchdog = nullptr;  ///< while it runs
   PlayerNews m_player_news;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;

@@ -1,5 +1,7 @@
 #include "host/program/HostOptions.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
@@ -105,16 +107,21 @@ std::vector<Row> tableOf(HostOptions& o) {
        UsedBy::kProgram},
       {{"--local-client", &o.local_client, "Started in a terminal: play there, too", "NAIAD_LOCAL_CLIENT"},
        UsedBy::kProgram},
+      {{"--public", &o.is_public,
+        "Let players of other machines in: listen on every address, not on loopback alone", "NAIAD_PUBLIC"},
+       UsedBy::kProgram},
   };
 }
 
+constexpr const char* kLoopback = "127.0.0.1";
 constexpr int kMinFrameMicros = 1000;  // clients believe no shorter one
 
 const char* const kExitCodes =
     "Exit codes:\n"
-    "  0  ended in order (game over, --ticks, --exit-when-empty, SIGINT or SIGTERM;\n"
-    "     a second signal of the kind ends it at once)\n"
-    "  1  the game's main() returned an error or threw an exception\n"
+    "  0  ended in order (game over, --ticks, --exit-when-empty, SIGINT or SIGTERM, SIGHUP in a terminal;\n"
+    "     a second one ends it at once, with a goodbye, by that signal)\n"
+    "  1  the game's main() returned an error or threw an exception, or the game hung when the server was\n"
+    "     to end\n"
     "  2  wrong usage\n"
     "  3  no such game, or its module cannot be loaded\n"
     "  4  cannot listen on that address and port\n"
@@ -137,18 +144,30 @@ std::string complaint(const HostOptions& options) {
   return {};
 }
 
+bool isHash(const std::string& password) {
+  return password.starts_with("$argon2");
+}
+
 void keepHome(HostOptions& options) {
-  if (options.insecure && options.address == HostOptions().address) options.address = "127.0.0.1";
+  if (options.insecure && options.address == HostOptions().address) options.address = kLoopback;
 }
 
 }  // namespace
 
+void warnOfReaders(const std::string& file, HostOptions& options) {
+  struct stat facts {};
+  if (isHash(options.password) || stat(file.c_str(), &facts) != 0 || (facts.st_mode & S_IROTH) == 0) return;
+  options.warnings.push_back(file + " has the password, and every user can read it. Run: chmod o-r " + file);
+}
+
 CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options) {
   bool list_games = false;
   bool markdown = false;
+  std::string password_place;
   std::vector<Option> all;
   for (Row& row : tableOf(options)) {
     row.option.shows_default = true;
+    if (row.option.name == "--password") row.option.p_place = &password_place;
     if (row.used_by != UsedBy::kProgram) all.push_back(std::move(row.option));
   }
   all.push_back({"--list-games", &list_games, "Print the games that can be named, and exit"});
@@ -166,10 +185,11 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
       return CommandLine::kUsageError;
   }
   if (const std::string wrong = complaint(options); !wrong.empty()) {
-    std::cerr << wrong << "\nRun with --help for more information.\n";
+    std::cerr << "dfserver: " << wrong << "\nRun dfserver --help for more information.\n";
     return CommandLine::kUsageError;
   }
   keepHome(options);
+  if (!password_place.empty()) warnOfReaders(password_place.substr(0, password_place.rfind(':')), options);
   if (markdown) {
     std::cout << hostOptionsMarkdown();
     return CommandLine::kDone;
@@ -177,23 +197,24 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   return list_games ? CommandLine::kListGames : CommandLine::kRun;
 }
 
-std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options) {
+std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,
+                                         const ConfigPlace& place_of) {
   std::set<std::string> given;
-  std::vector<std::string> arguments;
-  std::vector<Option> all;
-  for (Row& row : tableOf(options)) {
+  for (const Row& row : tableOf(options)) {
     if (row.used_by == UsedBy::kServer) continue;
     const std::string key = keyOf(row);
     const char* p_environment = std::getenv(row.option.environment.c_str());
     std::string value = p_environment != nullptr ? p_environment : "";
-    if (value.empty() && !key.empty()) value = value_of(key);
-    if (!value.empty()) {
-      given.insert(row.option.name.substr(2));
-      arguments.push_back(row.option.name + "=" + value);
+    std::string place = row.option.environment;
+    if (value.empty() && !key.empty()) {
+      value = value_of(key);
+      place = value.empty() || !place_of ? key : place_of(key);
     }
-    all.push_back(std::move(row.option));
+    if (value.empty()) continue;
+    given.insert(row.option.name.substr(2));
+    storeValue(row.option, value, place);
   }
-  parseArguments(all, std::move(arguments));
+  if (given.count("address") == 0 && !options.is_public) options.address = kLoopback;
   if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
   keepHome(options);
   return given;
@@ -217,6 +238,7 @@ std::string hostOptionsMarkdown() {
       "Naiad's. It takes the same\noptions from the environment, and where that does not say from its "
       "`df-config.txt`, as lines `key:value,`:\n\n"
       "| df-config.txt | environment | default | meaning |\n|---|---|---|---|\n";
+  defaults.address = kLoopback;
   for (const Row& row : rows) {
     if (row.used_by == UsedBy::kServer) continue;
     const std::string key = keyOf(row);
@@ -227,7 +249,8 @@ std::string hostOptionsMarkdown() {
         " |\n";
   }
   return text +
-         "\nIt exits as its `main()` does, or with 2 for an option that makes no sense, 4 and 5 as above.\n";
+         "\nUnless `address` or `public` says otherwise, it listens on loopback alone.\n"
+         "It exits as its `main()` does, or with 2 for an option that makes no sense, 4 and 5 as above.\n";
 }
 
 }  // namespace naiad

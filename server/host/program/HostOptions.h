@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "shared/net/base/Limits.h"
 #include "shared/options/Options.h"
@@ -42,9 +43,11 @@ struct HostOptions {
   std::string truth_file;         ///< write what each player should see, tick by tick
   std::string port_file;          ///< write the port number here once listening
   std::string log_file;           ///< append log lines here instead of stderr
+  std::vector<std::string> warnings;  ///< about these options, for the log
   // Of games that are programs themselves:
   bool headless = false;     ///< no network and no players
   bool local_client = true;  ///< in a terminal: attach a client there
+  bool is_public = false;    ///< listen on every address unless `address` is given; else on loopback
 };
 
 /// What the command line asked for.
@@ -57,10 +60,18 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
 /// The value of a key in df-config.txt, empty if there is none.
 using ConfigValue = std::function<std::string(const std::string& key)>;
 
+/// Where a key stands, like "df-config.txt:3: port".
+using ConfigPlace = std::function<std::string(const std::string& key)>;
+
 /// Fill `options` for a game that is a program itself: from the environment and, where that does not say,
-/// from df-config.txt. Return the names of the options that one of them gave, without dashes in front. Throws
-/// OptionError.
-std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options);
+/// from df-config.txt. Return the names of the options that one of them gave, without dashes in front. Such a
+/// game listens on loopback, unless told otherwise. Throws OptionError, which begins with the variable or
+/// with place_of(key).
+std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,
+                                         const ConfigPlace& place_of = {});
+
+/// `file` gave the password: add a warning to `options` if every user can read it there, and it is no hash.
+void warnOfReaders(const std::string& file, HostOptions& options);
 
 /// The table of options as Markdown, for docs/dfserver.md.
 std::string hostOptionsMarkdown();

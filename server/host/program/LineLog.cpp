@@ -1,22 +1,267 @@
 #include "host/program/LineLog.h"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <condition_variable>
+#include <cstdint>
+#include <cstdlib>
 #include <ctime>
-#include <iostream>
+#include <mutex>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "host/program/LogText.h"
 
 namespace naiad {
 
-LineLog::LineLog(const std::string& path) {
-  if (path.empty()) return;
-  m_file.open(path, std::ios::app);
-  if (!m_file) throw std::runtime_error("The log file " + path + " cannot be written.");
+namespace {
+
+constexpr std::chrono::milliseconds kRetry{200};        ///< after a write that failed
+constexpr std::chrono::milliseconds kLastChance{1000};  ///< for a writer to end
+constexpr int kPollMillis = 100;                        ///< until the thread asks whether it is to end
+constexpr std::size_t kPipePiece = 4096;                ///< PIPE_BUF: not mixed with what others write there
+constexpr std::size_t kFilePiece = std::size_t{64} << 10;
+
+constinit std::atomic<unsigned> g_openings = 0;       ///< that were asked for by reopenAll()
+constinit std::atomic<std::int64_t> g_unwritten = 0;  ///< bytes, of all logs
+
+std::string timeOfDay() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  localtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S ", &parts);
+  return text;
+}
+
+std::string asLine(std::string_view text) {
+  std::string line = timeOfDay() + oneLine(text);
+  if (line.size() >= LineLog::kMaxLine) line.resize(LineLog::kMaxLine - 1);
+  return line + '\n';
+}
+
+std::string lossLine(std::uint64_t lost, int error) {
+  const std::string why = error == 0 ? "its reader did not read" : std::generic_category().message(error);
+  return asLine(std::to_string(lost) + (lost == 1 ? " log line was" : " log lines were") +
+                " lost: the log could not be written (" + why + ")");
+}
+
+bool isRegular(int file) {
+  struct stat facts {};
+  return fstat(file, &facts) == 0 && S_ISREG(facts.st_mode);
+}
+
+/// -1 with errno; ENXIO: a pipe or the like, whose other end could hold the server up.
+int openLog(const std::string& path) {
+  constexpr int kAppend = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
+  const int file = ::open(path.c_str(), kAppend, 0640);
+  struct stat facts {};
+  if (file < 0 || (fstat(file, &facts) == 0 && (S_ISREG(facts.st_mode) || S_ISCHR(facts.st_mode))))
+    return file;
+  ::close(file);
+  errno = ENXIO;
+  return -1;
+}
+
+/// As much of the beginning of `bytes` as is written at once: whole lines, where they fit.
+std::string_view nextPiece(std::string_view bytes, std::size_t most) {
+  if (bytes.size() <= most) return bytes;
+  const std::size_t end = bytes.rfind('\n', most - 1);
+  return bytes.substr(0, end == std::string_view::npos ? most : end + 1);
+}
+
+}  // namespace
+
+struct LineLog::Shared : std::enable_shared_from_this<Shared> {
+  Shared(std::string log_path, int opened, bool has_thread)
+      : path(std::move(log_path)), file(opened), threaded(has_thread) {}
+  ~Shared() {
+    g_unwritten -= static_cast<std::int64_t>(waiting.size() + out.size());
+    if (!path.empty()) ::close(file);
+  }
+  Shared(const Shared&) = delete;
+  Shared& operator=(const Shared&) = delete;
+
+  void add(const std::string& text);
+  void start();
+  bool keep(const std::string& line);
+  bool writeNow(const std::string& line);
+  void run();
+  void awaitWork();
+  bool write(int patience_millis);
+  bool fail(int why);
+  void reopen();
+
+  const std::string path;  ///< empty: stderr
+  const int file;
+  const bool threaded;
+
+  std::mutex mutex;
+  std::condition_variable changed;
+  // Under the mutex.
+  std::string waiting;
+  std::uint64_t lost = 0;
+  bool started = false;
+  bool closing = false;
+  bool done = false;
+  int error = 0;  ///< as `problem`, for add()
+
+  // The writer's.
+  std::string out;
+  int problem = 0;  ///< of the last write that failed, as errno; 0: its reader does not read
+  unsigned openings = g_openings;
+};
+
+void LineLog::Shared::add(const std::string& text) {
+  std::string line = asLine(text);
+  const std::lock_guard lock(mutex);
+  if (threaded && !std::exchange(started, true)) start();
+  if (lost > 0) line = lossLine(lost, error) + line;
+  if (threaded ? keep(line) : writeNow(line)) {
+    lost = 0;
+  } else {
+    ++lost;
+  }
+}
+
+// With the first line: a server that forks worlds does so before.
+void LineLog::Shared::start() {
+  // A game may call exit() in a handler.
+  [[maybe_unused]] static const int registered = std::atexit([] { waitUntilWritten(kLastChance); });
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);  // signals are for the threads that were there before
+  std::thread([shared = shared_from_this()] { shared->run(); }).detach();
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+bool LineLog::Shared::keep(const std::string& line) {
+  if (waiting.size() + line.size() > kMaxWaiting) return false;
+  waiting += line;
+  g_unwritten += static_cast<std::int64_t>(line.size());
+  changed.notify_one();
+  return true;
+}
+
+// What does not go at once is lost: there is no thread that could try again.
+bool LineLog::Shared::writeNow(const std::string& line) {
+  out = line;
+  g_unwritten += static_cast<std::int64_t>(out.size());
+  const bool written = write(0);
+  g_unwritten -= static_cast<std::int64_t>(out.size());
+  out.clear();
+  error = problem;
+  return written;
+}
+
+// Writes `out`, as far as it goes. False: it did not go on.
+bool LineLog::Shared::write(int patience_millis) {
+  const std::size_t most = isRegular(file) ? kFilePiece : kPipePiece;
+  while (!out.empty()) {
+    pollfd ready{file, POLLOUT, 0};
+    if (poll(&ready, 1, patience_millis) <= 0) return fail(0);
+    const std::string_view piece = nextPiece(out, most);
+    const ssize_t written = ::write(file, piece.data(), piece.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return fail(errno == EAGAIN ? 0 : errno);
+    g_unwritten -= written;
+    out.erase(0, static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+bool LineLog::Shared::fail(int why) {
+  problem = why;
+  return false;
+}
+
+void LineLog::Shared::reopen() {
+  const unsigned asked = g_openings;
+  if (path.empty() || std::exchange(openings, asked) == asked) return;
+  const int opened = openLog(path);
+  if (opened < 0) return;
+  dup3(opened, file, O_CLOEXEC);
+  ::close(opened);
+}
+
+void LineLog::Shared::awaitWork() {
+  std::unique_lock lock(mutex);
+  if (lost > 0 && waiting.empty()) {  // all before them is written
+    waiting = lossLine(std::exchange(lost, 0), error);
+    g_unwritten += static_cast<std::int64_t>(waiting.size());
+  }
+  changed.wait(lock, [this] { return closing || !waiting.empty(); });
+  out = std::exchange(waiting, {});
+}
+
+// The thread.
+void LineLog::Shared::run() {
+  for (;;) {
+    awaitWork();
+    if (out.empty()) break;
+    reopen();
+    while (!write(kPollMillis)) {
+      std::unique_lock lock(mutex);
+      error = problem;
+      if (closing) break;
+      if (problem != 0) changed.wait_for(lock, kRetry, [this] { return closing; });
+      lock.unlock();
+      reopen();
+    }
+    const std::lock_guard lock(mutex);
+    if (closing && !out.empty()) break;
+  }
+  const std::lock_guard lock(mutex);
+  done = true;
+  changed.notify_all();
+}
+
+LineLog::LineLog(const std::string& path, Writer writer) {
+  const int file = path.empty() ? STDERR_FILENO : openLog(path);
+  if (file < 0) {
+    throw std::runtime_error("The log file " + path + " cannot be written: " +
+                             (errno == ENXIO ? "it is a pipe or the like, not a regular file."
+                                             : std::generic_category().message(errno) + "."));
+  }
+  m_shared = std::make_shared<Shared>(path, file, writer == Writer::kThread);
+}
+
+LineLog::~LineLog() {
+  std::unique_lock lock(m_shared->mutex);
+  if (!m_shared->started) return;
+  m_shared->closing = true;
+  m_shared->changed.notify_all();
+  m_shared->changed.wait_for(lock, kLastChance, [this] { return m_shared->done; });
 }
 
 void LineLog::operator()(const std::string& line) {
-  const std::time_t now = std::time(nullptr);
-  char time[32];
-  std::strftime(time, sizeof time, "%Y-%m-%d %H:%M:%S ", std::localtime(&now));
-  (m_file.is_open() ? m_file : std::cerr) << time << line << std::endl;
+  m_shared->add(line);
+}
+
+int LineLog::descriptor() const {
+  return m_shared->file;
+}
+
+void LineLog::reopenAll() {
+  ++g_openings;
+}
+
+void LineLog::waitUntilWritten(std::chrono::milliseconds most) {
+  const auto end = std::chrono::steady_clock::now() + most;
+  while (g_unwritten > 0 && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 }  // namespace naiad

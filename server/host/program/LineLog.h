@@ -1,8 +1,9 @@
-// Log lines with the time of day, to a file or stderr.
+// Log lines with the time of day, to a file or stderr, by a thread of their own: callers never wait.
 #pragma once
 
-#include <fstream>
+#include <chrono>
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace naiad {
@@ -10,14 +11,41 @@ namespace naiad {
 /// Where log lines go.
 using LogLine = std::function<void(const std::string& line)>;
 
+/// A reader that stalls, a full disk or a pipe without a reader costs lines and never time: what does not fit
+/// in kMaxWaiting is dropped, writing is tried again, and once it works a line says how many were lost.
 class LineLog {
  public:
-  /// Append to this file; empty: stderr. Throws std::runtime_error if it cannot be written.
-  explicit LineLog(const std::string& path);
+  /// Who writes. A world in a process of its own has no further threads: there each line is written by its
+  /// caller, or dropped where that would wait.
+  enum class Writer { kThread, kCaller };
+
+  /// Bytes of lines that wait to be written, at most.
+  static constexpr std::size_t kMaxWaiting = std::size_t{1} << 20;
+  /// Bytes of one line, at most; the rest is cut off. So a pipe takes each line as a whole.
+  static constexpr std::size_t kMaxLine = 2048;
+
+  /// Append to this file, made with mode 0640; empty: stderr. Throws std::runtime_error if it cannot be
+  /// written, or is a folder or a pipe.
+  explicit LineLog(const std::string& path, Writer writer = Writer::kThread);
+  /// Waits a second, at most, for what has not been written.
+  ~LineLog();
+  LineLog(const LineLog&) = delete;
+  LineLog& operator=(const LineLog&) = delete;
+
+  /// Log a line; control characters in it are escaped. Any thread.
   void operator()(const std::string& line);
+  /// What the lines are written to. Stays the same when the file is opened again.
+  int descriptor() const;
+
+  /// Every log of this process opens its file again before its next line, as after a rotation of logs. Any
+  /// thread.
+  static void reopenAll();
+  /// Wait until all logs of this process have written their lines, or for so long. Any thread.
+  static void waitUntilWritten(std::chrono::milliseconds most);
 
  private:
-  std::ofstream m_file;
+  struct Shared;
+  std::shared_ptr<Shared> m_shared;  ///< the thread's, too: it may outlive this in a write that does not end
 };
 
 }  // namespace naiad

@@ -1,6 +1,7 @@
 #include "host/program/OutputRedirect.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -19,9 +20,13 @@ void flushAll() {
   std::fflush(stdout);
 }
 
+// A pipe whose other end is not read would hold up the game.
 int openOrNull(const std::string& path) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  return file >= 0 ? file : ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0640);
+  struct stat facts {};
+  if (file >= 0 && fstat(file, &facts) == 0 && S_ISREG(facts.st_mode)) return file;
+  if (file >= 0) ::close(file);
+  return ::open("/dev/null", O_WRONLY | O_CLOEXEC);
 }
 
 }  // namespace

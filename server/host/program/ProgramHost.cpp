@@ -3,8 +3,10 @@
 #include <google/protobuf/stubs/logging.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -16,6 +18,8 @@
 #include "engine/world/World.h"
 #include "host/auth/Seed.h"
 #include "host/program/Announcement.h"
+#include "host/program/BrokenPipes.h"
+#include "host/program/CrashReport.h"
 #include "host/program/Host.h"
 #include "host/program/LineLog.h"
 #include "host/program/LocalClient.h"
@@ -32,13 +36,41 @@ namespace fs = std::filesystem;
 
 enum ExitCode { kGameFailed = 1, kUsage = 2, kCannotListen = 4, kFile = 5 };
 
+constexpr std::chrono::seconds kLogTime{1};  ///< for what was logged before the end
+
+const Openness kOpenness{
+    "NAIAD_PUBLIC=1 in the environment, or public:true, in df-config.txt, lets others in.",
+    "NAIAD_ADDRESS=127.0.0.1 in the environment restricts it to this machine."};
+
 std::string programName() {
   return program_invocation_short_name;
 }
 
 [[noreturn]] void fail(ExitCode code, const std::string& sentence) {
+  LineLog::waitUntilWritten(kLogTime);
   std::cerr << programName() << ": " << sentence << std::endl;
   std::exit(code);
+}
+
+std::string configFile() {
+  const char* p_named = std::getenv("DRAGONFLY_CONFIG");
+  return p_named != nullptr ? p_named : df::CONFIG_FILENAME;
+}
+
+/// "df-config.txt:3: port", for the line that says so; the first word alone where it is not found.
+std::string placeInConfig(const std::string& key) {
+  const std::string name = configFile();
+  std::ifstream lines(name);  // a regular file, or there would be no key
+  const std::string wanted = "," + key + ":";
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    std::erase_if(line, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
+    line.insert(0, 1, ',');  // before the first key, as before the others
+    if (!line.starts_with(",#") && line.find(wanted) != std::string::npos)
+      return name + ":" + std::to_string(number) + ": " + key;
+  }
+  return name + ": " + key;
 }
 
 /// Sprites and sounds are looked for in the working directory, beside the program, and above it: many build
@@ -137,14 +169,18 @@ void ProgramHost::startUp(df::World& world) {
   m_options.name = programName();
   m_options.headless = config.getHeadless();
   try {
-    m_given = readProgramOptions([&config](const std::string& key) { return config.match(key); }, m_options);
+    m_given = readProgramOptions([&config](const std::string& key) { return config.match(key); }, m_options,
+                                 placeInConfig);
   } catch (const OptionError& error) {
-    fail(kUsage, std::string("environment or df-config.txt: ") + error.what());
+    fail(kUsage, error.what());
   }
+  if (m_given.count("password") > 0 && std::getenv("NAIAD_PASSWORD") == nullptr)
+    warnOfReaders(configFile(), m_options);
   if (const auto socket = takeWorldSocket()) {
     m_world_socket = socket;
     df::keepLogFiles();
   }
+  if (!m_options.headless) surviveBrokenPipes();
   addFolders(world);
   seed(world);
   world.log("Naiad " + std::string(kVersion) + ", compat " + (world.compat() ? "on" : "off") +
@@ -196,10 +232,11 @@ void ProgramHost::serve(df::World& world) {
   std::shared_ptr<const WorldLauncher> launcher;
   if (wantsWorlds(m_options))
     launcher = launchProgram(m_options, df::Config::getInstance().getLogFile(), log);
+  const crash::Report crashes(programName(), lines ? lines->descriptor() : -1);
   const std::unique_ptr<Host> host = openHost(m_options, m_given.count("port") > 0, log);
   writeWhereabouts(m_options, *host);
   log(programName() + " is a server on " + host->address());
-  const std::vector<std::string> how = howToJoin(*host);
+  const std::vector<std::string> how = howToJoin(*host, m_options, kOpenness);
   for (const std::string& line : how) std::cout << line << std::endl;
   std::cout << "Compatible with the published engine: " << (world.compat() ? "yes (compat)" : "no")
             << std::endl;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/world/WorldInProcess.h"
+#include "shared/net/base/SafeFile.h"
 
 namespace naiad {
 
@@ -24,6 +25,7 @@ Rooms::Rooms(const HostOptions& options, const SessionTable& sessions, Counters&
       m_log(std::move(log)),
       m_on_late_tick(std::move(on_late_tick)) {
   if (m_options.truth_file.empty()) return;
+  requireRegular(m_options.truth_file);
   m_truth.emplace(m_options.truth_file);
   if (!m_truth->isGood())
     throw std::runtime_error("The truth file " + m_options.truth_file + " cannot be written.");

@@ -1,12 +1,13 @@
-// SIGINT and SIGTERM, while a server runs: the first one asks, the second one kills.
+// SIGINT, SIGTERM and SIGHUP while a server runs: the first one asks it to end, the second one insists.
 #pragma once
 
 #include <csignal>
 
 namespace naiad {
 
-/// Installed while it lives; a signal asks all that are. A game that hangs in a handler never returns to a
-/// check of isAsked(), so the second signal has its default effect and ends the process at once.
+/// Installed while it lives; a signal counts for all that are. SIGHUP asks for the end as the others do if
+/// the process has a controlling terminal when this is made: that terminal is gone. Without one it only asks
+/// for attention (takeHangUp). Where it is ignored (nohup), it stays so.
 class StopSignals {
  public:
   StopSignals();
@@ -14,12 +15,18 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  /// A signal has come since this was installed.
-  bool isAsked() const;
+  /// How many signals have asked for the end since this was installed. Any thread.
+  int count() const;
+  bool isAsked() const { return count() > 0; }
+  /// The last one of them. Any thread.
+  int signal() const;
+  /// A SIGHUP came that does not ask for the end. True once for all that came.
+  bool takeHangUp();
 
  private:
   struct sigaction m_before_int {};
   struct sigaction m_before_term {};
+  struct sigaction m_before_hup {};
 };
 
 }  // namespace naiad

@@ -11,6 +11,8 @@
 #include "engine/world/WorldExtras.h"
 #include "host/auth/Seed.h"
 #include "host/program/Announcement.h"
+#include "host/program/BrokenPipes.h"
+#include "host/program/CrashReport.h"
 #include "host/program/GameModule.h"
 #include "host/program/Host.h"
 #include "host/program/HostOptions.h"
@@ -24,6 +26,9 @@
 namespace {
 
 enum ExitCode { kOk = 0, kGameFailed = 1, kUsage = 2, kNoGame = 3, kCannotListen = 4, kFile = 5 };
+
+const naiad::Openness kOpenness{"--address :: lets others in.",
+                                "--address 127.0.0.1 restricts it to this machine."};
 
 /// What games reach the host by; taken back however the game ends, for their statics outlive the host.
 struct Installed {
@@ -58,7 +63,8 @@ ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runne
               naiad::HostOptions& options, naiad::LineLog& log) {
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(naiad::newSeed());
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
-  const Installed installed(runner, [&log](const std::string& line) { log(line); });
+  // Marked, since a game may log names: a player's could read as a line of the server's own.
+  const Installed installed(runner, [&log](const std::string& line) { log("game: " + line); });
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + where + ", seed " +
@@ -68,7 +74,7 @@ ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runne
 
 void announce(const naiad::HostOptions& options, const naiad::Host& host) {
   naiad::writeWhereabouts(options, host);
-  for (const std::string& line : naiad::howToJoin(host)) std::cout << line << std::endl;
+  for (const std::string& line : naiad::howToJoin(host, options, kOpenness)) std::cout << line << std::endl;
 }
 
 /// The world of which players see the size and the help when they join; no game ticks in it.
@@ -96,6 +102,7 @@ int serveWorlds(const naiad::HostOptions& options, const std::string& config, na
   const naiad::LogLine log = [&lines](const std::string& line) { lines(line); };
   const auto module = naiad::GameModule::find(options.game);
   const auto launcher = naiad::launchModule(options, module.string(), config, log);
+  const naiad::crash::Report crashes("dfserver", lines.descriptor());
   const naiad::Preview preview = naiad::previewWorld(*launcher);
   if (!preview.ready) return failPreview(preview.end);
   const std::string name = naiad::GameModule::nameOf(module);
@@ -111,12 +118,14 @@ int serveWorlds(const naiad::HostOptions& options, const std::string& config, na
 }
 
 int serve(naiad::HostOptions options, const std::string& config) {
-  naiad::LineLog log(options.log_file);
   if (const auto socket = naiad::takeWorldSocket()) {
+    naiad::LineLog log(options.log_file, naiad::LineLog::Writer::kCaller);
     naiad::WorldServer world(*socket, naiad::leavesAlone(options));
     return play(naiad::GameModule(options.game), " in a world of its own", world, options, log);
   }
+  naiad::LineLog log(options.log_file);
   if (naiad::wantsWorlds(options)) return serveWorlds(options, config, log);
+  const naiad::crash::Report crashes("dfserver", log.descriptor());
   const naiad::GameModule game(options.game);
   naiad::Host host(options, game.name(), [&log](const std::string& line) { log(line); });
   announce(options, host);
@@ -129,6 +138,7 @@ int serve(naiad::HostOptions options, const std::string& config) {
 int main(int argc, char** argv) {
   // The library would complain on stderr about every string that a stranger sends in bad UTF-8.
   google::protobuf::SetLogHandler(nullptr);
+  naiad::surviveBrokenPipes();
   naiad::HostOptions options;
   switch (naiad::parseHostOptions(argc, argv, options)) {
     case naiad::CommandLine::kDone:

@@ -31,6 +31,7 @@ void Session::start(Events events) {
 // ---- the welcome or refusal -------------------------------------------------------------------------------
 
 void Session::refuse(wire::Refused_Reason reason, const std::string& sentence) {
+  if (m_events.on_refused) m_events.on_refused(*this, sentence);
   wire::ServerMessage message;
   message.mutable_refused()->set_reason(reason);
   message.mutable_refused()->set_sentence(sentence);

@@ -47,6 +47,8 @@ class Session {
     std::function<void(Session&, const std::string& text)> on_chat;
     std::function<void(Session&)> on_gone;   ///< the session is ending; called once
     std::function<Clock::time_point()> now;  ///< empty: std::chrono::steady_clock
+    /// The client is being refused, with this sentence.
+    std::function<void(Session&, const std::string& sentence)> on_refused = {};
   };
 
   enum class State { kGreeting, kPlaying, kEnding, kGone };

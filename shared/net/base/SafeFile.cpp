@@ -7,7 +7,8 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
+#include <cstdio>
+#include <random>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -19,6 +20,12 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, int error = errno) {
   throw std::system_error(error, std::generic_category(), path.string());
+}
+
+/// A pipe would be waited for, and a device need not end.
+[[noreturn]] void refuseKind(const fs::path& path) {
+  throw std::system_error(EINVAL, std::generic_category(),
+                          path.string() + " is not a regular file, but a folder, a pipe or a device");
 }
 
 class File {
@@ -47,20 +54,36 @@ class File {
   void sync() const {
     if (::fsync(file_) != 0) fail(path_);
   }
+  bool isRegular() const {
+    struct stat facts {};
+    if (::fstat(file_, &facts) != 0) fail(path_);
+    return S_ISREG(facts.st_mode);
+  }
 
  private:
   int file_;
   fs::path path_;
 };
 
+std::string randomSuffix() {
+  char text[10];
+  std::snprintf(text, sizeof text, ".%08x", static_cast<unsigned>(std::random_device()()));
+  return text;
+}
+
+/// Does a crash of the system lose the file?
+enum class Durable { kNo, kYes };
+
 /// A new file beside `path` with a name of its own, gone when this is, unless it was renamed.
 class Draft {
  public:
-  Draft(const fs::path& path, std::string_view content) : name_(path.string() + ".XXXXXX") {
-    const File file(::mkostemp(name_.data(), O_CLOEXEC), name_);  // mode 0600
+  Draft(const fs::path& path, std::string_view content, mode_t mode, Durable durable)
+      : name_(path.string() + randomSuffix()) {
+    constexpr int kNew = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+    const File file(::open(name_.c_str(), kNew, mode), name_);
     try {
       file.write(content);
-      file.sync();
+      if (durable == Durable::kYes) file.sync();
     } catch (...) {
       ::unlink(name_.c_str());
       throw;
@@ -84,9 +107,11 @@ void syncDirectoryOf(const fs::path& path) {
 }  // namespace
 
 std::optional<std::string> readSmallFile(const fs::path& path, std::size_t most) {
-  const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (opened < 0 && errno == ENOENT) return std::nullopt;
+  if (opened < 0 && errno == ENXIO) refuseKind(path);
   const File file(opened, path);
+  if (!file.isRegular()) refuseKind(path);
   std::string content;
   std::array<char, 4096> piece;
   while (const std::size_t size = file.read(piece)) {
@@ -97,19 +122,31 @@ std::optional<std::string> readSmallFile(const fs::path& path, std::size_t most)
 }
 
 void replaceFile(const fs::path& path, std::string_view content) {
-  const Draft draft(path, content);
+  const Draft draft(path, content, 0600, Durable::kYes);
   if (::rename(draft.name(), path.c_str()) != 0) fail(path);
   syncDirectoryOf(path);
 }
 
+void publishFile(const fs::path& path, std::string_view content) {
+  requireRegular(path);
+  const Draft draft(path, content, 0644, Durable::kNo);
+  if (::rename(draft.name(), path.c_str()) != 0) fail(path);
+}
+
 bool makeFile(const fs::path& path, std::string_view content) {
-  const Draft draft(path, content);
+  const Draft draft(path, content, 0600, Durable::kYes);
   if (::link(draft.name(), path.c_str()) != 0) {
     if (errno == EEXIST) return false;
     fail(path);
   }
   syncDirectoryOf(path);
   return true;
+}
+
+void requireRegular(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::exists(status) && !fs::is_regular_file(status)) refuseKind(path);
 }
 
 bool openToOthers(const fs::path& path) {

@@ -10,15 +10,22 @@
 namespace naiad {
 
 /// Throws std::system_error, as all of these, where the system refuses. Nothing if there is no such file.
-/// Also throws if it has more than `most` bytes.
+/// Also throws if it has more than `most` bytes, or is no regular file: a pipe would be waited for.
 std::optional<std::string> readSmallFile(const std::filesystem::path& path, std::size_t most);
 
 /// Replace or make the file, mode 0600, so that a reader finds either the old or the new one, after a crash
 /// too.
 void replaceFile(const std::filesystem::path& path, std::string_view content);
 
-/// The same, but false, and nothing changed, if there is one already.
+/// Replace or make a file that others may read (0644, less what the umask takes), in one step as well. A
+/// symbolic link is replaced, not followed. Throws if there is something that is no regular file.
+void publishFile(const std::filesystem::path& path, std::string_view content);
+
+/// As replaceFile(), but false, and nothing changed, if there is one already.
 bool makeFile(const std::filesystem::path& path, std::string_view content);
+
+/// Throws if there is something of this name that is neither a regular file nor leads to one.
+void requireRegular(const std::filesystem::path& path);
 
 /// True if group or others may read or write it.
 bool openToOthers(const std::filesystem::path& path);

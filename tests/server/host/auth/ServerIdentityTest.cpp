@@ -51,6 +51,28 @@ struct ServerIdentityTest : testing::Test {
   fs::path directory;
 };
 
+TEST_F(ServerIdentityTest, AFolderInWhichEveryUserCanWriteIsRefused) {
+  fs::create_directories(directory);
+  fs::permissions(directory, fs::perms::owner_all | fs::perms::others_write | fs::perms::others_exec);
+  EXPECT_EQ(complaint([&] { loadOrMake(); }),
+            "The folder " + directory.string() +
+                " has the server's key, and every user can write in it. Run: " + "chmod go-w " +
+                directory.string());
+  EXPECT_FALSE(fs::exists(directory / "key.pem"));
+  fs::permissions(directory, fs::perms::owner_all | fs::perms::group_all);
+  EXPECT_NE(loadOrMake().warning().find("its group can write in it"), std::string::npos);
+  fs::permissions(directory, fs::perms::owner_all);
+  EXPECT_EQ(loadOrMake().warning(), "");
+}
+
+TEST_F(ServerIdentityTest, AKeyThatIsAPipeIsNotWaitedFor) {
+  fs::create_directories(base);
+  const fs::path pipe = base / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NE(complaint([&] { ServerIdentity::load(pipe, pipe); }).find("is not a regular file"),
+            std::string::npos);
+}
+
 TEST_F(ServerIdentityTest, IsMadeOnceAndUsedAgain) {
   const Fingerprint first = loadOrMake().fingerprint();
   const std::string key = contentOf(directory / "key.pem");

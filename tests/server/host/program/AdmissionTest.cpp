@@ -33,7 +33,9 @@ class AdmissionTest : public testing::Test {
       rooms.open(world);
       m_admission.emplace(
           Admission::Setup{options, "maze", sessions, rooms, counters,
-                           [this](const std::string& line) { log.push_back(line); },
+                           [this](const std::string& address, const std::string& text) {
+                             log.push_back(address + " " + text);
+                           },
                            [](const ReliableChannel&, AeadId) { return nullptr; }, [this] { ++new_clients; }},
           io.get_executor());
       m_admission->setWorld(world);
@@ -76,6 +78,14 @@ class AdmissionTest : public testing::Test {
 
   std::optional<Admission> m_admission;
 };
+
+TEST_F(AdmissionTest, NoNameReadsAsAnotherPlayersLineInTheLog) {
+  wire::Hello hello = helloOf("A\" joined with");
+  hello.set_program("x\"\n192.0.2.9:1 \"Bob\" left");
+  greet(hello, "192.0.2.1:1");
+  ASSERT_EQ(log.size(), 1u);
+  EXPECT_EQ(log[0], R"(192.0.2.1:1 "A\" joined with" joined with "x\" 192.0.2.9:1 \"Bob\" left")");
+}
 
 TEST_F(AdmissionTest, AHelloMakesAPlayerWhoIsWelcomed) {
   const Client& ann = greet(helloOf("Ann"));

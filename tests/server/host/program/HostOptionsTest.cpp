@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
@@ -52,17 +53,39 @@ TEST(HostOptions, ThoseOfProgramsAreNoneOfDfservers) {
   EXPECT_EQ(parse({"--headless"}, options), CommandLine::kUsageError);
 }
 
+TEST(HostOptions, APasswordThatEveryUserCanReadIsWarnedOf) {
+  namespace fs = std::filesystem;
+  const std::string path = testing::TempDir() + "naiad_host_options-" + std::to_string(getpid()) + ".conf";
+  const auto warnings = [&path](const std::string& text, fs::perms perms) {
+    std::ofstream(path) << text;
+    fs::permissions(path, perms);
+    HostOptions options;
+    EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kRun);
+    return options.warnings;
+  };
+  constexpr fs::perms kOpen = fs::perms::owner_all | fs::perms::others_read;
+  EXPECT_EQ(warnings("password = sesame\n", kOpen),
+            std::vector<std::string>{path + " has the password, and every user can read it. Run: chmod o-r " +
+                                     path});
+  EXPECT_TRUE(warnings("password = sesame\n", fs::perms::owner_all).empty());
+  EXPECT_TRUE(warnings("ticks = 3\n", kOpen).empty());
+  EXPECT_TRUE(warnings("password = $argon2id$v=19$m=8,t=1,p=1$c2FsdHNhbHQ$aGFzaA\n", kOpen).empty());
+  std::remove(path.c_str());
+}
+
 /// Of a game that is a program: what df-config.txt says, and an environment without the variables used here.
 class ProgramOptions : public testing::Test {
  protected:
   ProgramOptions() { clear(); }
   ~ProgramOptions() override { clear(); }
   static void clear() {
-    for (const char* name : {"NAIAD_PORT", "NAIAD_HEADLESS", "NAIAD_FRAME_TIME", "NAIAD_GAME"})
+    for (const char* name :
+         {"NAIAD_PORT", "NAIAD_HEADLESS", "NAIAD_FRAME_TIME", "NAIAD_GAME", "NAIAD_ADDRESS", "NAIAD_PUBLIC"})
       unsetenv(name);
   }
   std::set<std::string> read() {
-    return readProgramOptions([this](const std::string& key) { return config[key]; }, options);
+    return readProgramOptions([this](const std::string& key) { return config[key]; }, options,
+                              [](const std::string& key) { return "df-config.txt:3: " + key; });
   }
   std::string complaint() {
     options = {};
@@ -115,13 +138,34 @@ TEST_F(ProgramOptions, WhichGameIsNoQuestion) {
   EXPECT_EQ(options.game, HostOptions().game);
 }
 
-TEST_F(ProgramOptions, NonsenseIsNamed) {
+TEST_F(ProgramOptions, ListensOnLoopbackUnlessAskedOtherwise) {
+  read();
+  EXPECT_EQ(options.address, "127.0.0.1");
+  options = {};
+  config = {{"public", "true"}};
+  read();
+  EXPECT_EQ(options.address, "::");
+  options = {};
+  config = {{"address", "192.0.2.1"}, {"public", "true"}};
+  read();
+  EXPECT_EQ(options.address, "192.0.2.1");
+  options = {};
+  config.clear();
+  setenv("NAIAD_PUBLIC", "1", 1);
+  read();
+  EXPECT_EQ(options.address, "::");
+}
+
+TEST_F(ProgramOptions, NonsenseIsNamedWithItsPlace) {
   config = {{"port", "70000"}};
-  EXPECT_NE(complaint().find("--port"), std::string::npos) << complaint();
+  EXPECT_EQ(complaint(), "df-config.txt:3: port: Value 70000 not in range 0 to 65535");
+  setenv("NAIAD_PORT", "70001", 1);
+  EXPECT_EQ(complaint(), "NAIAD_PORT: Value 70001 not in range 0 to 65535");
+  unsetenv("NAIAD_PORT");
   config = {{"on_game_over", "dance"}};
-  EXPECT_NE(complaint().find("--on-game-over"), std::string::npos) << complaint();
+  EXPECT_EQ(complaint().rfind("df-config.txt:3: on_game_over: dance not in ", 0), 0u) << complaint();
   config = {{"local_client", "perhaps"}};
-  EXPECT_NE(complaint(), "");
+  EXPECT_EQ(complaint().rfind("df-config.txt:3: local_client: ", 0), 0u) << complaint();
   config = {{"key", "key.pem"}};
   EXPECT_NE(complaint().find("--certificate"), std::string::npos) << complaint();
   config.clear();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
+#include <iterator>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -51,6 +53,39 @@ TEST_F(SafeFileTest, SaysWhatTheSystemRefuses) {
   EXPECT_THROW(readSmallFile(base, 100), std::system_error);
   EXPECT_THROW(replaceFile(base / "none" / "file", "x"), std::system_error);
   EXPECT_THROW(openToOthers(base / "none"), std::system_error);
+}
+
+TEST_F(SafeFileTest, APipeIsNotWaitedFor) {
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_THROW(readSmallFile(path, 100), std::system_error);
+  EXPECT_THROW(publishFile(path, "x"), std::system_error);
+  EXPECT_TRUE(fs::is_fifo(path));
+  EXPECT_THROW(requireRegular("/dev/null"), std::system_error);
+  EXPECT_NO_THROW(requireRegular(base / "none"));
+}
+
+TEST_F(SafeFileTest, WhatIsPublishedReplacesALinkAndIsReadableByAll) {
+  const fs::path other = base / "other";
+  std::ofstream(other) << "precious";
+  fs::create_symlink(other, path);
+  publishFile(path, "new");
+  EXPECT_EQ(readSmallFile(other, 100), "precious") << "the link was followed";
+  EXPECT_EQ(readSmallFile(path, 100), "new");
+  EXPECT_FALSE(fs::is_symlink(path));
+  const mode_t mask = umask(0);
+  umask(mask);
+  struct stat facts {};
+  ASSERT_EQ(stat(path.c_str(), &facts), 0);
+  EXPECT_EQ(facts.st_mode & 0777U, 0644U & ~mask);
+  EXPECT_EQ(filesThere(), 2);
+}
+
+TEST_F(SafeFileTest, AReaderSeesTheOldOrTheNewButNoPart) {
+  publishFile(path, std::string(100'000, 'a'));
+  std::ifstream reader(path);
+  publishFile(path, std::string(100'000, 'b'));
+  const std::string seen{std::istreambuf_iterator<char>(reader), {}};
+  EXPECT_EQ(seen, std::string(100'000, 'a'));
 }
 
 TEST_F(SafeFileTest, LockIsHeldByOneAtATime) {

@@ -1,0 +1,53 @@
+#include "host/program/ClientLog.h"
+
+#include <utility>
+
+#include "host/program/LogText.h"
+#include "shared/net/base/AddressPrefix.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr std::size_t kPrefixes = 1024;  ///< that are remembered
+
+}  // namespace
+
+ClientLog::ClientLog(LogLine log)
+    : m_log(std::move(log)),
+      m_news{"lines on players", kNewsOfAPrefix, kNewsInAll, PerAddress<TokenBucket>(kPrefixes)},
+      m_refusals{"refusals", kRefusalsOfAPrefix, kRefusalsInAll, PerAddress<TokenBucket>(kPrefixes)} {}
+
+void ClientLog::logNews(const std::string& address, const std::string& text, Time now) {
+  log(m_news, address, address + " " + text, now);
+}
+
+void ClientLog::logRefusal(const std::string& address, const std::string& sentence, Time now) {
+  log(m_refusals, address, address + " refused: " + inQuotes(sentence), now);
+}
+
+void ClientLog::log(Kind& kind, const std::string& address, const std::string& line, Time now) {
+  const auto prefix = AddressPrefix::ofEndpoint(address).value_or(AddressPrefix());
+  // The prefix first: one that is over its limit takes nothing from the others.
+  if (kind.prefixes.use(prefix).takeToken(kind.of_a_prefix, now) && kind.all.takeToken(kind.in_all, now))
+    return m_log(line);
+  if (kind.left_out++ == 0) kind.counted_at = now;
+}
+
+void ClientLog::update(Time now) {
+  for (Kind* p_kind : {&m_news, &m_refusals}) {
+    if (p_kind->left_out > 0 && now - p_kind->counted_at >= kCountTime) logCount(*p_kind);
+  }
+}
+
+void ClientLog::finish() {
+  logCount(m_news);
+  logCount(m_refusals);
+}
+
+void ClientLog::logCount(Kind& kind) {
+  if (kind.left_out == 0) return;
+  m_log(std::to_string(std::exchange(kind.left_out, 0)) + " more " + kind.name + " were not logged");
+}
+
+}  // namespace naiad

@@ -1,0 +1,231 @@
+// A server whose log is not read, or whose game crashes or hangs (trouble/game.cpp). Real processes.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <memory>
+
+#include "GameProgram.h"
+#include "Home.h"
+#include "TestClient.h"
+
+namespace naiad::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+constexpr const char* kGoodbye = "The server is shutting down.";
+
+/// A pipe of one page.
+struct Pipe {
+  Pipe() {
+    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    fcntl(ends[1], F_SETPIPE_SZ, 4096);
+  }
+  ~Pipe() {
+    closeReader();
+    close(ends[1]);
+  }
+  void closeReader() {
+    if (ends[0] >= 0) close(ends[0]);
+    ends[0] = -1;
+  }
+  /// From now on nothing goes in until it is read.
+  void fill() const {
+    const std::string page(4096, '#');
+    ASSERT_EQ(write(ends[1], page.data(), page.size()), 4096);
+  }
+  /// What is in it now.
+  std::string read() const {
+    std::string all;
+    char piece[65536];
+    for (pollfd ready{ends[0], POLLIN, 0}; poll(&ready, 1, 0) > 0;) {
+      const ssize_t size = ::read(ends[0], piece, sizeof piece);
+      if (size <= 0) break;
+      all.append(piece, static_cast<std::size_t>(size));
+    }
+    return all;
+  }
+  int ends[2];
+};
+
+class Trouble : public testing::Test {
+ protected:
+  void TearDown() override {
+    if (game) game->signal(SIGKILL);  // nothing is left to see
+  }
+  void start(std::map<std::string, std::string> environment = {}, int errors = -1) {
+    game = std::make_unique<GameProgram>("trouble_game", std::move(environment), std::vector<std::string>{},
+                                         errors);
+    ASSERT_NE(game->port(), 0) << game->log();
+  }
+  std::unique_ptr<TestClient> join(const std::string& name) {
+    auto client = std::make_unique<TestClient>(context, game->port(), home.player(name));
+    clients.push_back(client.get());
+    EXPECT_TRUE(serve([&] { return client->joined(); })) << game->log();
+    return client;
+  }
+  bool serve(const std::function<bool()>& done) {
+    const auto end = Clock::now() + kPatience;
+    while (!done()) {
+      if (Clock::now() > end) return false;
+      for (TestClient* client : clients) client->connection().update(Clock::now());
+      context.restart();
+      context.run_one_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
+  bool logs(const std::string& part) {
+    return serve([&] { return game->log().find(part) != std::string::npos; });
+  }
+  /// Does the world go on?
+  bool ticks(TestClient& client, std::uint32_t count = 100) {
+    const std::uint32_t from = client.newestTick();
+    return serve([&] { return client.newestTick() > from + count; });
+  }
+  bool isDismissed(TestClient& client) {
+    return serve([&] { return client.connection().state() == Connection::State::kEnded; }) &&
+           client.connection().sentence() == kGoodbye;
+  }
+  static void press(TestClient& client, df::Keyboard::Key key) {
+    client.session().sendKey(key, df::KEY_PRESSED, Clock::now());
+  }
+
+  Home home;
+  asio::io_context context;
+  std::unique_ptr<GameProgram> game;
+  std::vector<TestClient*> clients;
+};
+
+// ---- the log ----------------------------------------------------------------------------------------------
+
+TEST_F(Trouble, AReaderOfTheLogThatGoesEndsNobodysGame) {
+  Pipe pipe;
+  start({{"NAIAD_LOG", ""}}, pipe.ends[1]);
+  auto ann = join("ann");
+  pipe.closeReader();
+  auto bob = join("bob");
+  EXPECT_TRUE(ticks(*ann) && ticks(*bob));
+  press(*ann, df::Keyboard::P);
+  EXPECT_TRUE(ticks(*ann) && ticks(*bob));
+  bob->connection().leave();
+  EXPECT_TRUE(ticks(*ann));
+  game->signal(SIGTERM);
+  EXPECT_TRUE(isDismissed(*ann));
+  const int status = game->wait();
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+}
+
+TEST_F(Trouble, AReaderOfTheLogThatStallsHoldsUpNoTick) {
+  Pipe pipe;
+  start({{"NAIAD_LOG", ""}}, pipe.ends[1]);
+  std::string said;
+  ASSERT_TRUE(serve([&] { return (said += pipe.read()).find("is a server on") != std::string::npos; }))
+      << said;
+  pipe.fill();
+  auto ann = join("ann");
+  auto bob = join("bob");
+  EXPECT_TRUE(ticks(*ann, 300) && ticks(*bob));
+  EXPECT_TRUE(serve([&] { return (said += pipe.read()).find("\"bob\" joined") != std::string::npos; }))
+      << said;
+  EXPECT_NE(said.find("\"ann\" joined"), std::string::npos) << "what waited was lost";
+}
+
+TEST_F(Trouble, RefusalsAreLoggedWithTheirAddressFirst) {
+  start({{"NAIAD_MAX_PLAYERS", "1"}});
+  auto ann = join("ann");
+  const ClientSetup bob = home.player("bob");
+  TestClient refused(context, game->port(), bob);
+  clients.push_back(&refused);
+  EXPECT_TRUE(serve([&] { return refused.connection().state() == Connection::State::kRefused; }));
+  EXPECT_TRUE(logs(" refused: \"The server is full (1 players). Try again later.\"\n")) << game->log();
+  EXPECT_TRUE(logs(" \"ann\" joined with \"test\"\n")) << game->log();
+}
+
+// ---- signals ----------------------------------------------------------------------------------------------
+
+TEST_F(Trouble, SighupWithoutATerminalOpensTheLogAgain) {
+  start();
+  auto ann = join("ann");
+  ASSERT_TRUE(logs("\"ann\" joined"));
+  fs::rename(game->directory() / "log", game->directory() / "log.1");
+  game->signal(SIGHUP);
+  EXPECT_TRUE(logs("SIGHUP: the log goes on in this file")) << game->log();
+  EXPECT_EQ(game->log().find("\"ann\" joined"), std::string::npos) << "this is the old file";
+  EXPECT_TRUE(ticks(*ann));
+}
+
+// ---- a game that hangs ------------------------------------------------------------------------------------
+
+TEST_F(Trouble, AGameThatHangsIsReportedAndTheFirstSignalEndsItInOrder) {
+  start();
+  auto ann = join("ann");
+  press(*ann, df::Keyboard::H);
+  ASSERT_TRUE(logs("the game has not finished tick ")) << game->log();
+  game->signal(SIGTERM);
+  EXPECT_TRUE(isDismissed(*ann)) << ann->connection().sentence();
+  const int status = game->wait();
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status << game->log();
+  EXPECT_TRUE(logs("ended without the game, which does not finish tick ")) << game->log();
+}
+
+TEST_F(Trouble, TheSecondSignalEndsAtOnceWithAGoodbye) {
+  start();
+  auto ann = join("ann");
+  ASSERT_TRUE(ticks(*ann, 1));
+  press(*ann, df::Keyboard::H);
+  const auto stands = [&, last = ann->newestTick(), since = Clock::now()]() mutable {
+    if (ann->newestTick() != last) since = Clock::now();
+    last = ann->newestTick();
+    return Clock::now() - since > std::chrono::milliseconds(500);  // 100 ticks
+  };
+  ASSERT_TRUE(serve(stands));
+  game->signal(SIGTERM);
+  game->signal(SIGINT);  // another one: two of a kind may be delivered as one
+  EXPECT_TRUE(isDismissed(*ann)) << ann->connection().sentence();
+  const int status = game->wait();
+  EXPECT_TRUE(WIFSIGNALED(status)) << status << game->log();
+}
+
+// ---- a game that crashes ----------------------------------------------------------------------------------
+
+class Crash : public Trouble {
+ protected:
+  void expectLine(df::Keyboard::Key key, int signal, const std::string& name) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "the sanitizer reports crashes itself";
+#endif
+    start();
+    auto ann = join("ann");
+    ASSERT_TRUE(ticks(*ann, 1));
+    press(*ann, key);
+    serve([&] { return game->log().find("crashed") != std::string::npos; });
+    const int status = game->wait();
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status << game->log();
+    for (const char* file : {"log", "output"}) {
+      std::ifstream in(game->directory() / file);
+      const std::string text{std::istreambuf_iterator<char>(in), {}};
+      const std::string line = " trouble_game: crashed (" + name + ") in tick ";
+      ASSERT_NE(text.find(line), std::string::npos) << file << ": " << text;
+      EXPECT_GT(std::atoi(text.c_str() + text.find(line) + line.size()), 0) << text;
+      EXPECT_NE(text.find(", while an Object handled EventKeyboard\n"), std::string::npos) << text;
+    }
+  }
+};
+
+TEST_F(Crash, ByEndlessRecursionLeavesALine) {
+  expectLine(df::Keyboard::R, SIGSEGV, "SIGSEGV");
+}
+
+TEST_F(Crash, ByAnAbortLeavesALine) {
+  expectLine(df::Keyboard::A, SIGABRT, "SIGABRT");
+}
+
+}  // namespace
+}  // namespace naiad::test

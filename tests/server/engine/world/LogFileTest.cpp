@@ -1,0 +1,94 @@
+// The log files of a game hold up nobody, whatever they are.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "engine/managers/Config.h"
+#include "engine/managers/LogManager.h"
+#include "engine/managers/ResourceManager.h"
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class LogFileTest : public WorldTest {
+ protected:
+  LogFileTest() {
+    std::string name = testing::TempDir() + "naiad-logfile-XXXXXX";
+    base = mkdtemp(name.data());
+    file = base / "game.log";
+    LM.setSink({});
+    LM.setFlush(true);
+    Config::getInstance().setLogFile(file.string());
+  }
+  ~LogFileTest() override { fs::remove_all(base); }
+  std::string read() const {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  fs::path base;
+  fs::path file;
+};
+
+TEST_F(LogFileTest, IsEmptiedAtFirstAndMadeForItsOwnerAndGroup) {
+  std::ofstream(file) << "of yesterday\n";
+  LM.writeLog("first");
+  LM.writeLog("second\n");
+  EXPECT_EQ(read(), "first\nsecond\n");
+  const fs::path other = base / "other.log";
+  Config::getInstance().setLogFile(other.string());
+  LM.writeLog("x");
+  struct stat facts {};
+  ASSERT_EQ(stat(other.c_str(), &facts), 0);
+  EXPECT_EQ(facts.st_mode & 0137, 0u) << std::oct << facts.st_mode;
+}
+
+TEST_F(LogFileTest, APipeThatNobodyReadsHoldsUpNoGame) {
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  LM.writeLog("nobody is there");
+  EXPECT_EQ(LM.writeMyLog(file.string(), "nobody"), -1);
+  const fs::path stalled = base / "stalled";
+  ASSERT_EQ(mkfifo(stalled.c_str(), 0600), 0);
+  const int reader = open(stalled.c_str(), O_RDONLY | O_NONBLOCK);
+  Config::getInstance().setLogFile(stalled.string());
+  const std::string line(1000, 'x');
+  for (int i = 0; i < 1000; ++i) LM.writeLog("%s", line.c_str());  // 64 KiB fit
+  char piece[65536];
+  EXPECT_GT(::read(reader, piece, sizeof piece), 0);
+  while (::read(reader, piece, sizeof piece) > 0) {
+  }
+  LM.writeLog("read again");
+  std::string seen(100, '\0');
+  const ssize_t size = ::read(reader, seen.data(), seen.size());
+  EXPECT_NE(seen.substr(0, size > 0 ? static_cast<std::size_t>(size) : 0).find("read again\n"),
+            std::string::npos);
+  close(reader);
+}
+
+TEST_F(LogFileTest, AFullDiskHoldsUpNoGame) {
+  Config::getInstance().setLogFile("/dev/full");
+  for (int i = 0; i < 100; ++i) LM.writeLog("line %d", i);
+  EXPECT_EQ(LM.writeMyLog("/dev/full", "line"), -1);
+}
+
+TEST_F(LogFileTest, NoPipeIsWaitedForWhereAFileIsRead) {
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  EXPECT_EQ(RM.loadSprite(file.string(), "pipe"), -1);
+  setenv("DRAGONFLY_CONFIG", file.c_str(), 1);
+  Config::getInstance().loadConfig();
+  unsetenv("DRAGONFLY_CONFIG");
+  EXPECT_EQ(Config::getInstance().match("logfile"), "");
+}
+
+}  // namespace
+}  // namespace df::test

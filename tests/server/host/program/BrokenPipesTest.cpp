@@ -1,0 +1,47 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+
+#include "host/program/BrokenPipes.h"
+
+namespace naiad {
+namespace {
+
+/// SIGPIPE as it was, whatever a test does.
+class BrokenPipes : public testing::Test {
+ protected:
+  BrokenPipes() { sigaction(SIGPIPE, nullptr, &m_before); }
+  ~BrokenPipes() override { sigaction(SIGPIPE, &m_before, nullptr); }
+
+ private:
+  struct sigaction m_before {};
+};
+
+TEST_F(BrokenPipes, AWriteFailsAndWhatIsStartedHasTheDefault) {
+  signal(SIGPIPE, SIG_DFL);
+  surviveBrokenPipes();
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  close(ends[0]);
+  EXPECT_EQ(write(ends[1], "x", 1), -1);
+  EXPECT_EQ(errno, EPIPE);
+  close(ends[1]);
+  const int status = std::system("kill -PIPE $$; exit 0");
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGPIPE) << status;
+}
+
+TEST_F(BrokenPipes, AGamesOwnHandlerStays) {
+  const auto handler = [](int) {};
+  signal(SIGPIPE, handler);
+  surviveBrokenPipes();
+  struct sigaction now {};
+  sigaction(SIGPIPE, nullptr, &now);
+  EXPECT_EQ(now.sa_handler, static_cast<void (*)(int)>(handler));
+}
+
+}  // namespace
+}  // namespace naiad

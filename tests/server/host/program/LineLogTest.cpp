@@ -1,0 +1,215 @@
+// A log never holds up its caller, loses lines only when it must, and says so.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "host/program/BrokenPipes.h"
+#include "host/program/LineLog.h"
+#include "host/program/LogText.h"
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+class LineLogTest : public testing::Test {
+ protected:
+  LineLogTest() {
+    std::string name = testing::TempDir() + "naiad-log-XXXXXX";
+    base = mkdtemp(name.data());
+    path = base / "log";
+    surviveBrokenPipes();
+  }
+  ~LineLogTest() override { fs::remove_all(base); }
+
+  std::string read() const {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+  }
+  bool comes(const std::string& part) const {
+    for (const auto end = Clock::now() + 30s; Clock::now() < end; usleep(1000)) {
+      if (read().find(part) != std::string::npos) return true;
+    }
+    return false;
+  }
+
+  fs::path base;
+  fs::path path;
+};
+
+/// The sum of what the log says of lost lines.
+long linesLost(const std::string& text) {
+  constexpr std::string_view kSaid = " log line";
+  long lost = 0;
+  for (std::size_t at = text.find(kSaid); at != std::string::npos; at = text.find(kSaid, at + 1)) {
+    lost += std::stol(text.substr(text.rfind(' ', at - 1)));
+  }
+  return lost;
+}
+
+/// Standard error is a pipe of one page meanwhile.
+class StderrPipe {
+ public:
+  StderrPipe() : m_before(dup(STDERR_FILENO)) {
+    if (pipe(m_ends) != 0) throw std::runtime_error("no pipe");
+    fcntl(m_ends[1], F_SETPIPE_SZ, 4096);
+    dup2(m_ends[1], STDERR_FILENO);
+    close(m_ends[1]);
+  }
+  ~StderrPipe() {
+    dup2(m_before, STDERR_FILENO);
+    close(m_before);
+    closeReader();
+  }
+  void closeReader() {
+    if (m_ends[0] >= 0) close(m_ends[0]);
+    m_ends[0] = -1;
+  }
+  /// Read until `part` has come.
+  std::string readUntil(const std::string& part) {
+    std::string all;
+    const auto end = Clock::now() + 30s;
+    while (all.find(part) == std::string::npos && Clock::now() < end) {
+      pollfd ready{m_ends[0], POLLIN, 0};
+      char piece[65536];
+      if (poll(&ready, 1, 100) <= 0) continue;
+      const ssize_t size = ::read(m_ends[0], piece, sizeof piece);
+      if (size > 0) all.append(piece, static_cast<std::size_t>(size));
+    }
+    return all;
+  }
+
+ private:
+  int m_before;
+  int m_ends[2] = {-1, -1};
+};
+
+TEST_F(LineLogTest, WritesLinesWithTheTimeForItsOwnerAndGroup) {
+  LineLog log(path);
+  log("first");
+  ASSERT_TRUE(comes("first\n"));
+  EXPECT_EQ(read().size(), std::string("2025-01-31 23:59:59 first\n").size()) << read();
+  struct stat facts {};
+  ASSERT_EQ(stat(path.c_str(), &facts), 0);
+  EXPECT_EQ(facts.st_mode & 0137, 0u) << std::oct << facts.st_mode;
+}
+
+TEST_F(LineLogTest, EndsWhenAllIsWritten) {
+  {
+    LineLog log(path);
+    log("last words");
+  }
+  EXPECT_NE(read().find("last words\n"), std::string::npos);
+}
+
+TEST_F(LineLogTest, AReaderThatStallsHoldsUpNobodyAndWhatIsLostIsSaid) {
+  StderrPipe pipe;
+  LineLog log("");
+  const std::string line(1000, 'x');
+  const int kLines = 3 * static_cast<int>(LineLog::kMaxWaiting / line.size());
+  for (int i = 0; i < kLines; ++i) log("line " + std::to_string(i) + ";" + line);  // nobody reads
+  std::string said = pipe.readUntil(" log lines were lost: the log could not be written");
+  EXPECT_NE(said.find("line 0;"), std::string::npos) << "what fits is kept";
+  log("it goes on");
+  said += pipe.readUntil("it goes on");
+  const auto kept = std::count(said.begin(), said.end(), ';');
+  EXPECT_LT(kept, kLines);
+  EXPECT_EQ(linesLost(said), kLines - kept);
+}
+
+TEST_F(LineLogTest, AReaderThatGoesEndsNothing) {
+  StderrPipe pipe;
+  LineLog log("");
+  log("first");
+  pipe.readUntil("first");
+  pipe.closeReader();
+  for (int i = 0; i < 100; ++i) log("nobody reads this");
+}
+
+TEST_F(LineLogTest, AfterAFullDiskItGoesOnAndSaysWhatWasLost) {
+  LineLog log(path);
+  log("before");
+  ASSERT_TRUE(comes("before\n"));
+  // Files may not grow: as a disk that is full.
+  signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  rlimit less = limit;
+  less.rlim_cur = static_cast<rlim_t>(fs::file_size(path));
+  setrlimit(RLIMIT_FSIZE, &less);
+  const std::string line(1000, 'x');
+  const int kLines = 3 * static_cast<int>(LineLog::kMaxWaiting / line.size());
+  for (int i = 0; i < kLines; ++i) log(line);
+  setrlimit(RLIMIT_FSIZE, &limit);
+  EXPECT_TRUE(comes(" log lines were lost: the log could not be written (File too large)"));
+  log("after");
+  EXPECT_TRUE(comes(" after\n"));
+}
+
+TEST_F(LineLogTest, WithoutAThreadWhatWouldWaitIsLostAndCounted) {
+  StderrPipe pipe;
+  LineLog log("", LineLog::Writer::kCaller);
+  const std::string line(1500, 'x');
+  for (int i = 0; i < 100; ++i) log(line);
+  const std::string kept = pipe.readUntil("x\n");
+  log("it goes on");
+  const std::string said = pipe.readUntil("it goes on");
+  EXPECT_EQ(linesLost(said), 100 - std::count(kept.begin(), kept.end(), '\n')) << said;
+}
+
+TEST_F(LineLogTest, OpensItsFileAgainWhenAsked) {
+  LineLog log(path);
+  log("first");
+  ASSERT_TRUE(comes("first\n"));
+  fs::rename(path, base / "log.1");
+  LineLog::reopenAll();
+  log("second");
+  ASSERT_TRUE(comes("second\n"));
+  EXPECT_EQ(read().find("first"), std::string::npos);
+}
+
+TEST_F(LineLogTest, APipeOrAFolderIsRefused) {
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_THROW(LineLog(path.string()), std::runtime_error);
+  EXPECT_THROW(LineLog(base.string()), std::runtime_error);
+  EXPECT_THROW(LineLog((base / "none" / "log").string()), std::runtime_error);
+}
+
+TEST_F(LineLogTest, OneCallIsOneLine) {
+  LineLog log(path);
+  log("one\n2025-01-01 00:00:00 two\x1b[31m\r\xc2\x9b");
+  ASSERT_TRUE(comes("one\\n2025-01-01 00:00:00 two\\x1b[31m\\x0d\\x9b\n")) << read();
+  log(std::string(100'000, 'y') + "z");
+  log("end");
+  ASSERT_TRUE(comes("end\n"));
+  const std::string all = read();
+  EXPECT_LT(all.size(), 3 * LineLog::kMaxLine);
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 3);
+}
+
+TEST(LogText, QuotesSayWhereATextEnds) {
+  EXPECT_EQ(inQuotes("Ann"), "\"Ann\"");
+  EXPECT_EQ(inQuotes("a\" left"), R"("a\" left")");
+  EXPECT_EQ(inQuotes("a\\"), R"("a\\")");
+  EXPECT_EQ(inQuotes("a\nb\x7f"), R"("a\nb\x7f")");
+  EXPECT_EQ(inQuotes("\xc3\xa9\xe2\x82\xac"), "\"\xc3\xa9\xe2\x82\xac\"") << "other characters stay";
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,149 @@
+// What a program says to a command line, an environment or a file that it does not understand.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "shared/options/NearestName.h"
+#include "shared/options/Options.h"
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OptionsTest : public testing::Test {
+ protected:
+  OptionsTest() {
+    std::string folder = testing::TempDir() + "naiad-options-XXXXXX";
+    base = mkdtemp(folder.data());
+    config = base / "naiad.conf";
+    unsetenv("OPTIONS_TEST_PORT");
+  }
+  ~OptionsTest() override {
+    fs::remove_all(base);
+    unsetenv("OPTIONS_TEST_PORT");
+  }
+
+  /// What is on stderr.
+  std::string parse(std::vector<std::string> words) {
+    std::vector<const char*> argv{"dfthing"};
+    for (const std::string& word : words) argv.push_back(word.c_str());
+    const std::vector<Option> options{
+        {.name = "--port",
+         .target = &port,
+         .help = "",
+         .environment = "OPTIONS_TEST_PORT",
+         .range = OptionRange{0, 65535}},
+        {.name = "--max-players", .target = &players, .help = ""},
+        {.name = "--server-name", .target = &name, .help = "", .p_place = &place},
+        {.name = "--quiet", .target = &quiet, .help = "", .p_given = &given},
+        {.name = "--secret", .target = &secret, .help = "", .hidden = true}};
+    testing::internal::CaptureStderr();
+    result = parseOptions({"dfthing", "", "", true}, options, static_cast<int>(argv.size()), argv.data());
+    return testing::internal::GetCapturedStderr();
+  }
+  std::string parseFile(const std::string& text, std::vector<std::string> words = {}) {
+    std::ofstream(config) << text;
+    words.insert(words.end(), {"--config", config.string()});
+    return parse(words);
+  }
+  /// What is said of a line of the file.
+  std::string ofLine(int number, const std::string& text) const {
+    return "dfthing: " + config.string() + ":" + std::to_string(number) + ": " + text +
+           "\nRun dfthing --help for more information.\n";
+  }
+
+  fs::path base;
+  fs::path config;
+  Parsed result = Parsed::kDone;
+  int port = 1;
+  int players = 2;
+  std::string name;
+  std::string place;
+  bool quiet = false;
+  bool given = false;
+  bool secret = false;
+};
+
+constexpr const char* kHelp = "\nRun dfthing --help for more information.\n";
+
+TEST_F(OptionsTest, AnUnknownOptionIsNamedWithTheNearestOne) {
+  EXPECT_EQ(parse({"--max-player", "3"}),
+            std::string("dfthing: there is no option --max-player; did you mean --max-players?") + kHelp);
+  EXPECT_EQ(result, Parsed::kUsageError);
+  EXPECT_EQ(parse({"--maxplayers=3"}),
+            std::string("dfthing: there is no option --maxplayers; did you mean --max-players?") + kHelp);
+  EXPECT_EQ(parse({"--config-file=x"}), std::string("dfthing: there is no option --config-file") + kHelp);
+  EXPECT_EQ(parse({"--secre"}), std::string("dfthing: there is no option --secre") + kHelp) << "hidden";
+  EXPECT_EQ(parse({"what"}), std::string("dfthing: unexpected argument \"what\"") + kHelp);
+}
+
+TEST_F(OptionsTest, AValueOutOfRangeIsNamedWithItsOption) {
+  EXPECT_EQ(parse({"--port", "70000"}),
+            std::string("dfthing: --port: Value 70000 not in range 0 to 65535") + kHelp);
+  setenv("OPTIONS_TEST_PORT", "70000", 1);
+  EXPECT_EQ(parse({}),
+            std::string("dfthing: OPTIONS_TEST_PORT: Value 70000 not in range 0 to 65535") + kHelp);
+  EXPECT_EQ(result, Parsed::kUsageError);
+}
+
+TEST_F(OptionsTest, AFileIsReadLineByLine) {
+  EXPECT_EQ(parseFile("# a comment\n\n; another\r\n port= 70 # seventy\nmax-players =\"3\"\n"
+                      "server-name = 'a \"b\" # c' # d\r\nquiet\n"),
+            "");
+  EXPECT_EQ(result, Parsed::kRun);
+  EXPECT_EQ(port, 70);
+  EXPECT_EQ(players, 3);
+  EXPECT_EQ(name, "a \"b\" # c");
+  EXPECT_EQ(place, config.string() + ":6");
+  EXPECT_TRUE(quiet && given);
+  EXPECT_EQ(parseFile("server-name = pass#word\nquiet = false\n"), "");
+  EXPECT_EQ(name, "pass#word");
+  EXPECT_FALSE(quiet);
+}
+
+TEST_F(OptionsTest, CommandLineAndEnvironmentCountMoreThanTheFile) {
+  setenv("OPTIONS_TEST_PORT", "71", 1);
+  EXPECT_EQ(parseFile("port = 70\nmax-players = 3\nserver-name = x\n", {"--max-players", "4"}), "");
+  EXPECT_EQ(port, 71);
+  EXPECT_EQ(players, 4);
+  EXPECT_EQ(name, "x");
+}
+
+TEST_F(OptionsTest, AnErrorInAFileHasItsFileAndLine) {
+  EXPECT_EQ(parseFile("port = 70\n\nmax-player = 3\n"),
+            ofLine(3, "there is no option \"max-player\"; did you mean max-players?"));
+  EXPECT_EQ(result, Parsed::kUsageError);
+  EXPECT_EQ(parseFile("# x\nport = 70000\n"), ofLine(2, "port: Value 70000 not in range 0 to 65535"));
+  EXPECT_EQ(parseFile("[section]\n"), ofLine(1, "there is no option \"[section]\""));
+  EXPECT_EQ(parseFile("port\n"), ofLine(1, "\"port = …\" is wanted"));
+  EXPECT_EQ(parseFile("server-name = \"x\n"),
+            ofLine(1, "the quotes do not end, or something stands behind them"));
+}
+
+TEST_F(OptionsTest, APipeIsNotWaitedFor) {
+  ASSERT_EQ(mkfifo(config.c_str(), 0600), 0);
+  EXPECT_EQ(parse({"--config", config.string()}),
+            "dfthing: --config: " + config.string() + " is not a regular file" + kHelp);
+  EXPECT_EQ(parse({"--config", (base / "none").string()}),
+            "dfthing: --config: " + (base / "none").string() + " cannot be read" + kHelp);
+}
+
+TEST(NearestName, IsTheOneWithTheFewestChanges) {
+  const std::vector<std::string> names{"--port", "--port-file", "--players", "--password"};
+  EXPECT_EQ(nearestName("--prot", names), "--port") << "two swapped";
+  EXPECT_EQ(nearestName("--player", names), "--players");
+  EXPECT_EQ(nearestName("--pass", names), "--password") << "its beginning";
+  EXPECT_EQ(nearestName("--zzzz", names), "");
+  EXPECT_EQ(nearestName("-p", names), "");
+  EXPECT_EQ(nearestName(std::string(100'000, 'x'), names), "");
+}
+
+}  // namespace
+}  // namespace naiad
