@@ -9,6 +9,18 @@ fail() {
   exit "${2:-1}"
 }
 
+# wrong_option TYPED KNOWN...: say so, with the known one that begins most alike, and end with 2.
+wrong_option() {
+  local typed=$1 known near="" length=2 same
+  shift
+  for known in "$@"; do
+    for ((same = 0; same < ${#typed}; ++same)); do [ "${typed:same:1}" = "${known:same:1}" ] || break; done
+    if [ $same -gt $length ]; then near=$known length=$same; fi
+  done
+  fail "there is no option $typed${near:+; did you mean $near?}
+Run deploy/$(basename "$0") --help for more information." 2
+}
+
 # What it takes to build and run, and what the tests need on top of it (Debian 12 names).
 build_packages="g++ cmake ninja-build libasio-dev libprotobuf-dev protobuf-compiler libncurses-dev libcli11-dev libssl-dev libargon2-dev libicu-dev"
 check_packages="$build_packages ccache libgtest-dev tmux python3 clang clang-format clang-tidy libclang-rt-14-dev ncurses-term"
