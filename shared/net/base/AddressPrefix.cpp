@@ -29,6 +29,25 @@ std::optional<AddressPrefix> AddressPrefix::ofEndpoint(std::string_view text) {
   return of(address);
 }
 
+AddressPrefix AddressPrefix::wide() const {
+  return without(1);
+}
+
+AddressPrefix AddressPrefix::widest() const {
+  return without(isIPv4() ? 1 : 2);
+}
+
+bool AddressPrefix::isIPv4() const {
+  return std::memcmp(&bits_, kMappedIPv4.data() + sizeof bits_, kMappedIPv4.size() - sizeof bits_) == 0;
+}
+
+// The last `bytes` of the eight are zero.
+AddressPrefix AddressPrefix::without(std::size_t bytes) const {
+  AddressPrefix wider = *this;
+  std::memset(reinterpret_cast<char*>(&wider.bits_) + sizeof bits_ - bytes, 0, bytes);
+  return wider;
+}
+
 asio::ip::address unmapped(const asio::ip::address& address) {
   if (address.is_v6() && address.to_v6().is_v4_mapped()) {
     return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <asio/ip/address.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -26,10 +27,18 @@ class AddressPrefix {
   /// texts.
   static std::optional<AddressPrefix> ofEndpoint(std::string_view text);
 
+  /// What a small customer can have: the /24 of an IPv4 address, the /56 of an IPv6 network.
+  AddressPrefix wide() const;
+  /// What a large customer can have: the /24 of an IPv4 address, the /48 of an IPv6 network.
+  AddressPrefix widest() const;
+
   friend bool operator==(const AddressPrefix&, const AddressPrefix&) = default;
   friend bool operator<(const AddressPrefix& a, const AddressPrefix& b) { return a.bits_ < b.bits_; }
 
  private:
+  bool isIPv4() const;
+  AddressPrefix without(std::size_t bytes) const;
+
   /// The lower half of a mapped IPv4 address, else the upper half. They cannot be equal: 0::/8 is reserved.
   std::uint64_t bits_ = 0;
 };

@@ -1,23 +1,89 @@
 #include "shared/net/stream/HalfOpenLimit.h"
 
-#include <stdexcept>
+#include <algorithm>
+#include <utility>
 
 namespace naiad {
 
-HalfOpenLimit::Answer HalfOpenLimit::admit(const AddressPrefix& prefix) {
-  if (count_ >= most_) return Answer::kFull;
-  const std::size_t* const held = by_prefix_.find(prefix);
-  if (held != nullptr && *held >= most_per_prefix_) return Answer::kFullForPrefix;
-  ++by_prefix_.use(prefix);
-  ++count_;
-  return Answer::kAdmitted;
+std::array<AddressPrefix, 3> HalfOpenLimit::widthsOf(const AddressPrefix& prefix) {
+  return {prefix, prefix.wide(), prefix.widest()};
 }
 
-void HalfOpenLimit::release(const AddressPrefix& prefix) {
-  std::size_t* const held = by_prefix_.find(prefix);
-  if (held == nullptr) throw std::logic_error("released more than was admitted");
-  if (--*held == 0) by_prefix_.erase(prefix);
-  --count_;
+HalfOpenLimit::Verdict HalfOpenLimit::judge(const AddressPrefix& prefix) const {
+  using Kind = Verdict::Kind;
+  if (greeted_ >= limits_.in_all) return {Kind::kFull};
+  if (exceedsShare(prefix)) return {Kind::kFullForPrefix};
+  const auto own = groups_[0].find(prefix);
+  if (own != groups_[0].end() && own->second.silent + own->second.greeted >= limits_.per_prefix) {
+    const auto oldest = oldestSilent(prefix);
+    return oldest ? Verdict{Kind::kEndFirst, *oldest} : Verdict{Kind::kFullForPrefix};
+  }
+  if (count() < limits_.in_all) return {};
+  return {Kind::kEndFirst, *oldestOfMostCrowded()};  // there are some, or kFull would have been the verdict
+}
+
+// The widest prefix has at least as many as the others in it.
+bool HalfOpenLimit::exceedsShare(const AddressPrefix& prefix) const {
+  const auto group = groups_.back().find(prefix.widest());
+  return group != groups_.back().end() && group->second.greeted >= limits_.in_all - greeted_;
+}
+
+std::optional<HalfOpenLimit::Id> HalfOpenLimit::oldestSilent(const AddressPrefix& prefix) const {
+  const auto found = std::find_if(by_id_.begin(), by_id_.end(), [&prefix](const auto& entry) {
+    return !entry.second.greeted && entry.second.prefix == prefix;
+  });
+  return found != by_id_.end() ? std::optional(found->first) : std::nullopt;
+}
+
+// The most crowded of the widest prefixes; in it the most crowded narrower one; in that one the oldest.
+std::optional<HalfOpenLimit::Id> HalfOpenLimit::oldestOfMostCrowded() const {
+  std::optional<Id> oldest;
+  std::array<std::size_t, 3> most{};
+  for (const auto& [id, entry] : by_id_) {
+    if (entry.greeted) continue;
+    const auto& groups = entry.groups;
+    const std::array crowd{groups[2]->second.silent, groups[1]->second.silent, groups[0]->second.silent};
+    if (crowd <= most) continue;
+    most = crowd;
+    oldest = id;
+  }
+  return oldest;
+}
+
+void HalfOpenLimit::admit(Id id, const AddressPrefix& prefix) {
+  Entry entry{.prefix = prefix, .groups = {}};
+  const auto widths = widthsOf(prefix);
+  for (std::size_t width = 0; width < widths.size(); ++width) {
+    entry.groups[width] = groups_[width].try_emplace(widths[width]).first;
+    ++entry.groups[width]->second.silent;
+  }
+  by_id_.emplace_hint(by_id_.end(), id, entry);
+}
+
+void HalfOpenLimit::noteHello(Id id) {
+  Entry& entry = by_id_.at(id);
+  if (std::exchange(entry.greeted, true)) return;
+  ++greeted_;
+  for (const auto& group : entry.groups) {
+    --group->second.silent;
+    ++group->second.greeted;
+  }
+}
+
+void HalfOpenLimit::release(Id id) {
+  const Entry& entry = by_id_.at(id);
+  if (entry.greeted) --greeted_;
+  for (std::size_t width = 0; width < entry.groups.size(); ++width) {
+    Group& group = entry.groups[width]->second;
+    --(entry.greeted ? group.greeted : group.silent);
+    if (group.silent + group.greeted == 0) groups_[width].erase(entry.groups[width]);
+  }
+  by_id_.erase(id);
+}
+
+bool HalfOpenLimit::isSilent(Id id) const {
+  const auto found = by_id_.find(id);
+  return found != by_id_.end() && !found->second.greeted;
 }
 
 }  // namespace naiad

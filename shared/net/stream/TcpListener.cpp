@@ -1,12 +1,16 @@
 #include "shared/net/stream/TcpListener.h"
 
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <asio/ip/v6_only.hpp>
 #include <asio/steady_timer.hpp>
 #include <chrono>
+#include <map>
 #include <sstream>
-#include <unordered_set>
 #include <utility>
 
 #include "shared/net/base/AddressPrefix.h"
@@ -32,12 +36,14 @@ struct TcpListener::State : std::enable_shared_from_this<State> {
         on_channel(std::move(callback)),
         options(tcp_options),
         tls(std::move(tls_listening)),
-        half_open(tls.max_half_open, tls.max_half_open_per_prefix) {}
+        strangers({tls.max_half_open, tls.max_half_open_per_prefix}),
+        known({tls.max_half_open_known, tls.max_half_open_per_prefix}) {}
 
   void listen(const std::string& numeric_address, std::uint16_t port);
   void accept();
   void onAccepted(const std::error_code& error, tcp::socket socket);
   void shakeHands(tcp::socket socket);
+  bool makeRoom(HalfOpenLimit& places, const AddressPrefix& prefix);
   void onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream);
   void close();
 
@@ -47,8 +53,10 @@ struct TcpListener::State : std::enable_shared_from_this<State> {
   OnChannel on_channel;  // as long-lived as this, for a callback may destroy the listener
   TcpOptions options;
   TlsListening tls;
-  HalfOpenLimit half_open;
-  std::unordered_set<std::shared_ptr<TlsHandshake>> handshakes;
+  HalfOpenLimit strangers;
+  HalfOpenLimit known;  // by TlsListening::is_known
+  std::map<HalfOpenLimit::Id, std::shared_ptr<TlsHandshake>> handshakes;
+  HalfOpenLimit::Id newest = 0;
   Counters counters;
 };
 
@@ -69,6 +77,10 @@ void TcpListener::State::listen(const std::string& numeric_address, std::uint16_
     acceptor.set_option(asio::ip::v6_only(!address.is_unspecified()), error);
   }
   if (!error) acceptor.bind(endpoint, error);
+  if (!error && tls.context && tls.defer_accept.count() > 0) {
+    const int seconds = static_cast<int>(tls.defer_accept.count());  // where it fails, silence is accepted
+    setsockopt(acceptor.native_handle(), IPPROTO_TCP, TCP_DEFER_ACCEPT, &seconds, sizeof seconds);
+  }
   if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
   if (!error) endpoint = acceptor.local_endpoint(error);
   if (!error) return;
@@ -112,27 +124,52 @@ void TcpListener::State::shakeHands(tcp::socket socket) {
     return;
   }
   const AddressPrefix prefix = AddressPrefix::of(peer.address());
-  const auto answer = half_open.admit(prefix);
-  if (answer != HalfOpenLimit::Answer::kAdmitted) {
-    ++(answer == HalfOpenLimit::Answer::kFull ? counters.refused_half_open : counters.refused_from_prefix);
-    return;
-  }
+  HalfOpenLimit& places = tls.is_known && tls.is_known(prefix) ? known : strangers;
+  if (!makeRoom(places, prefix)) return;
   std::shared_ptr<TlsHandshake> handshake;
   try {
     handshake = std::make_shared<TlsHandshake>(std::make_unique<TlsStream>(std::move(socket), tls.context));
   } catch (const TlsError&) {  // no memory
-    half_open.release(prefix);
     ++counters.handshakes_failed;
     return;
   }
-  handshakes.insert(handshake);
-  handshake->run(tls.handshake_timeout,
-                 [self = shared_from_this(), prefix, shaken = std::weak_ptr(handshake)](
-                     TlsHandshake::End end, std::unique_ptr<TlsStream> stream, const std::string&) {
-                   self->handshakes.erase(shaken.lock());
-                   self->half_open.release(prefix);
-                   self->onHandshake(end, std::move(stream));
-                 });
+  const HalfOpenLimit::Id id = ++newest;
+  places.admit(id, prefix);
+  handshakes[id] = handshake;
+  const bool hasty = places.isCrowded();
+  handshake->run(
+      hasty ? tls.handshake_timeout / 4 : tls.handshake_timeout,
+      [self = shared_from_this(), id, &places](TlsHandshake::End end, std::unique_ptr<TlsStream> stream,
+                                               const std::string&) {
+        self->handshakes.erase(id);
+        places.release(id);
+        self->onHandshake(end, std::move(stream));
+      },
+      [self = shared_from_this(), id, &places, hasty] {
+        places.noteHello(id);
+        if (hasty) self->handshakes.at(id)->setTimeout(self->tls.handshake_timeout / 2);
+      });
+}
+
+// False: there is no place for another connection of this prefix. Each turn ends a silent one, or finds out
+// that it is silent no longer.
+bool TcpListener::State::makeRoom(HalfOpenLimit& places, const AddressPrefix& prefix) {
+  using Kind = HalfOpenLimit::Verdict::Kind;
+  for (;;) {
+    const HalfOpenLimit::Verdict verdict = places.judge(prefix);
+    if (verdict.kind == Kind::kFits) return acceptor.is_open();
+    if (verdict.kind != Kind::kEndFirst) {
+      ++(verdict.kind == Kind::kFull ? counters.refused_half_open : counters.refused_from_prefix);
+      return false;
+    }
+    const std::shared_ptr<TlsHandshake> handshake = handshakes.at(verdict.id);
+    handshake->readAhead();  // its hello may have come, and wait to be read
+    if (!places.isSilent(verdict.id)) continue;
+    handshake->cancel();
+    handshakes.erase(verdict.id);
+    places.release(verdict.id);
+    ++counters.half_open_ended;
+  }
 }
 
 void TcpListener::State::onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream) {
@@ -150,7 +187,7 @@ void TcpListener::State::close() {
   std::error_code ignored;
   acceptor.close(ignored);
   retry.cancel();
-  for (const auto& handshake : std::exchange(handshakes, {})) handshake->cancel();
+  for (const auto& [id, handshake] : std::exchange(handshakes, {})) handshake->cancel();
 }
 
 TcpListener::TcpListener(asio::io_context& context, const std::string& address, std::uint16_t port,
@@ -179,7 +216,7 @@ const TcpListener::Counters& TcpListener::counters() const {
 }
 
 std::size_t TcpListener::halfOpen() const {
-  return state_->half_open.count();
+  return state_->strangers.count() + state_->known.count();
 }
 
 void TcpListener::close() {

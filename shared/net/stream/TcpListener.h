@@ -11,6 +11,7 @@
 #include <string>
 #include <system_error>
 
+#include "shared/net/base/AddressPrefix.h"
 #include "shared/net/base/Channel.h"
 #include "shared/net/stream/TcpOptions.h"
 #include "shared/net/stream/TlsContext.h"
@@ -20,11 +21,19 @@ namespace naiad {
 /// How a listener does TLS.
 struct TlsListening {
   std::shared_ptr<const TlsContext> context;  ///< TlsContext::forServer()
-  /// From accepting a connection to the end of its handshake.
+  /// From accepting a connection to the end of its handshake. While more than half of max_half_open are under
+  /// way, those that come get a quarter of it until their hello is complete, and half of it from then on.
   std::chrono::milliseconds handshake_timeout{5000};
-  /// Connections between these two, in all and from one IPv4 address or IPv6 /64. One more is hung up on.
+  /// Connections between these two, in all and from one IPv4 address or IPv6 /64 (HalfOpenLimit.h). Beyond
+  /// that, silent ones are ended for new ones.
   std::size_t max_half_open = 256;
   std::size_t max_half_open_per_prefix = 64;
+  /// The connections of such prefixes have places of their own, this many, which no other ones can take. May
+  /// be empty. Called from the listener's event loop, once for each connection.
+  std::function<bool(const AddressPrefix& prefix)> is_known = nullptr;
+  std::size_t max_half_open_known = 256;
+  /// A connection that says nothing is left in the kernel for so long (TCP_DEFER_ACCEPT). 0: it is not.
+  std::chrono::seconds defer_accept{1};
 };
 
 /// A listener could not be made. what() is one sentence for people: "Port 9876 on 127.0.0.1 is in use …".
@@ -58,8 +67,9 @@ class TcpListener {
     std::uint64_t handshakes = 0;           ///< TLS: done, given out
     std::uint64_t handshakes_failed = 0;    ///< TLS: no TLS 1.3, no common protocol, hung up …
     std::uint64_t handshakes_late = 0;      ///< TLS: not done in time
-    std::uint64_t refused_half_open = 0;    ///< TLS: max_half_open reached
-    std::uint64_t refused_from_prefix = 0;  ///< TLS: max_half_open_per_prefix reached
+    std::uint64_t half_open_ended = 0;      ///< TLS: silent, while another one needed the place
+    std::uint64_t refused_half_open = 0;    ///< TLS: none was silent, and there was no place
+    std::uint64_t refused_from_prefix = 0;  ///< TLS: the same for connections of that prefix
   };
 
   /// Listens from now on; `on_channel` is called from the event loop. `address`: numeric, IPv4 or IPv6;

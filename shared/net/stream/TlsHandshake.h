@@ -3,6 +3,7 @@
 
 #include <asio/ip/tcp.hpp>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -28,9 +29,13 @@ class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
 
   explicit TlsHandshake(std::unique_ptr<TlsStream> stream);
 
-  /// `timeout` covers all of it, however the bytes dribble in. `done` is called once, from the event loop,
-  /// unless cancelled.
-  void run(std::chrono::milliseconds timeout, Done done);
+  /// `timeout` covers all of it, however the bytes dribble in. `done` is called once, from the event loop or
+  /// readAhead(), unless cancelled. `on_hello`, at a server: the same when the client's hello is complete.
+  void run(std::chrono::milliseconds timeout, Done done, std::function<void()> on_hello = nullptr);
+  /// From now on there is this much time.
+  void setTimeout(std::chrono::milliseconds timeout);
+  /// Take in what has come, without waiting for the event loop.
+  void readAhead();
   /// Hang up; `done` will not be called.
   void cancel();
 
@@ -41,7 +46,9 @@ class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
 
   std::unique_ptr<TlsStream> stream_;
   PatientTimer timer_;
-  Done done_;  // empty: over
+  Done done_;                       // empty: over
+  std::function<void()> on_hello_;  // empty: called, or not wanted
+  std::uint64_t waits_ = 0;         // of which the newest counts
 };
 
 }  // namespace naiad

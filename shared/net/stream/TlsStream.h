@@ -28,6 +28,8 @@ class TlsStream : public ByteStream {
 
   /// Go on with the handshake; kDone when it is complete. Before that, nothing else may be called.
   Outcome handshake();
+  /// For a server before the end of the handshake: the client's hello has come, all of it.
+  bool hasClientHello() const { return bio_.guard && bio_.guard->isComplete(); }
   /// A client does.
   bool speaksFirst() const { return !context_->isServer(); }
   /// After a handshake that failed: why, as the end of a sentence ("it does not speak TLS").

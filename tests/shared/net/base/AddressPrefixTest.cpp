@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "shared/net/base/AddressPrefix.h"
-#include "shared/net/stream/HalfOpenLimit.h"
 
 namespace naiad {
 namespace {
@@ -30,18 +29,15 @@ TEST(AddressPrefix, IsReadFromTheNameOfAPeer) {
   }
 }
 
-TEST(HalfOpenLimit, CountsInAllAndByPrefix) {
-  using Answer = HalfOpenLimit::Answer;
-  HalfOpenLimit limit(3, 2);
-  EXPECT_EQ(limit.admit(of("10.0.0.1")), Answer::kAdmitted);
-  EXPECT_EQ(limit.admit(of("10.0.0.1")), Answer::kAdmitted);
-  EXPECT_EQ(limit.admit(of("10.0.0.1")), Answer::kFullForPrefix);
-  EXPECT_EQ(limit.admit(of("10.0.0.2")), Answer::kAdmitted);
-  EXPECT_EQ(limit.admit(of("10.0.0.3")), Answer::kFull);
-  limit.release(of("10.0.0.1"));
-  EXPECT_EQ(limit.count(), 2u);
-  EXPECT_EQ(limit.admit(of("10.0.0.1")), Answer::kAdmitted);
-  EXPECT_THROW(limit.release(of("10.0.0.3")), std::logic_error);
+TEST(AddressPrefix, HasWiderOnesAsCustomersHave) {
+  EXPECT_EQ(of("192.0.2.1").wide(), of("192.0.2.255").wide());
+  EXPECT_NE(of("192.0.2.1").wide(), of("192.0.3.1").wide());
+  EXPECT_EQ(of("192.0.2.1").widest(), of("192.0.2.255").widest());
+  EXPECT_NE(of("192.0.2.1").widest(), of("192.0.3.1").widest()) << "a /24 is the widest of IPv4";
+  EXPECT_EQ(of("2001:db8:1:200::1").wide(), of("2001:db8:1:2ff::1").wide());
+  EXPECT_NE(of("2001:db8:1:200::1").wide(), of("2001:db8:1:300::1").wide());
+  EXPECT_EQ(of("2001:db8:1:200::1").widest(), of("2001:db8:1:ffff::1").widest());
+  EXPECT_NE(of("2001:db8:1:200::1").widest(), of("2001:db8:2:200::1").widest());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,8 @@
 namespace naiad::test {
 
 struct TlsFixture : testing::Test {
+  /// Silent connections are accepted at once, so that tests of them need not wait for the kernel.
+  TlsFixture() { tls.defer_accept = std::chrono::seconds(0); }
   void listen(const std::string& address = "127.0.0.1") {
     if (!tls.context) tls.context = testServerContext();
     listener = std::make_unique<TcpListener>(
@@ -27,6 +30,21 @@ struct TlsFixture : testing::Test {
     tcp::socket socket(context);
     socket.connect({asio::ip::make_address(address), listener->port()});
     return socket;
+  }
+  /// From an address in 127/8 of its own.
+  tcp::socket knockFrom(const std::string& own) {
+    tcp::socket socket(context, tcp::endpoint(asio::ip::make_address(own), 0));
+    socket.connect({asio::ip::make_address("127.0.0.1"), listener->port()});
+    return socket;
+  }
+  /// The server has hung up on it.
+  static bool isOver(tcp::socket& socket) {
+    std::error_code error;
+    std::array<char, 4096> in;
+    socket.non_blocking(true);
+    while (socket.read_some(asio::buffer(in), error) > 0) {
+    }
+    return error != asio::error::would_block;
   }
   TcpConnector::Done done() {
     return [this](std::unique_ptr<ReliableChannel> made, const std::string& sentence) {

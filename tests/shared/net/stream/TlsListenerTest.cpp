@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <openssl/err.h>
 
+#include <algorithm>
 #include <asio/write.hpp>
 #include <vector>
 
@@ -17,6 +18,7 @@ using TlsListenerTest = TlsFixture;
 
 /// Frames both ways over the newest pair of channels.
 void expectConversation(TlsFixture& t) {
+  ASSERT_TRUE(t.channel) << t.error;
   Recorder here, there;
   t.channel->start(here.callbacks());
   t.accepted.back()->start(there.callbacks());
@@ -178,11 +180,13 @@ TEST_F(TlsListenerTest, IdleConnectionsFromOnePlaceAreLimited) {
   listen();
   std::vector<tcp::socket> flood;
   for (int i = 0; i < 20; ++i) flood.push_back(knock());
-  EXPECT_TRUE(runUntil(context, [&] { return counters().refused_from_prefix == 15; }));
+  EXPECT_TRUE(runUntil(context, [&] { return counters().half_open_ended == 15; }));
   EXPECT_EQ(listener->halfOpen(), 5u);
+  for (std::size_t i = 0; i < flood.size(); ++i) EXPECT_EQ(isOver(flood[i]), i < 15) << "the oldest: " << i;
+  join();         // though its place is crowded
   flood.clear();  // they hang up: place again
   EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 0; }));
-  join();
+  EXPECT_EQ(counters().refused_from_prefix, 0u);
 }
 
 TEST_F(TlsListenerTest, AClassOf64BehindOneAddressMayKnockAtOnce) {
@@ -191,9 +195,9 @@ TEST_F(TlsListenerTest, AClassOf64BehindOneAddressMayKnockAtOnce) {
   std::vector<tcp::socket> pupils;
   for (int i = 0; i < 64; ++i) pupils.push_back(knock());
   EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 64; }));
-  EXPECT_EQ(counters().refused_from_prefix, 0u);
+  EXPECT_EQ(counters().half_open_ended, 0u);
   pupils.push_back(knock());
-  EXPECT_TRUE(runUntil(context, [&] { return counters().refused_from_prefix == 1; }));
+  EXPECT_TRUE(runUntil(context, [&] { return counters().half_open_ended == 1; }));
 }
 
 TEST_F(TlsListenerTest, IdleConnectionsInAllAreLimitedAndTimeOut) {
@@ -203,10 +207,129 @@ TEST_F(TlsListenerTest, IdleConnectionsInAllAreLimitedAndTimeOut) {
   std::vector<tcp::socket> flood;
   for (int i = 0; i < 20; ++i) flood.push_back(knock());
   EXPECT_TRUE(
-      runUntil(context, [&] { return counters().handshakes_late + counters().refused_half_open == 20; }));
+      runUntil(context, [&] { return counters().handshakes_late + counters().half_open_ended == 20; }));
   EXPECT_GE(counters().handshakes_late, 8u);
-  EXPECT_GT(counters().refused_half_open, 0u);
+  EXPECT_GT(counters().half_open_ended, 0u);
   join();
+}
+
+TEST_F(TlsListenerTest, SilentConnectionsOfTheMostCrowdedPlaceMakeRoom) {
+  tls.max_half_open = 8;
+  tls.handshake_timeout = 1h;
+  listen();
+  std::vector<tcp::socket> flood;
+  flood.push_back(knockFrom("127.1.1.1"));
+  for (int i = 0; i < 7; ++i) flood.push_back(knockFrom("127.2.2." + std::to_string(1 + i)));
+  EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 8; }));
+  join();
+  expectConversation(*this);
+  EXPECT_EQ(counters().half_open_ended, 1u);
+  EXPECT_EQ(counters().refused_half_open, 0u);
+  for (std::size_t i = 0; i < flood.size(); ++i) EXPECT_EQ(isOver(flood[i]), i == 1) << i;
+}
+
+TEST_F(TlsListenerTest, AHandshakeWhoseHelloIsCompleteIsNotEndedForOthers) {
+  tls.max_half_open_per_prefix = 4;
+  tls.handshake_timeout = 1h;
+  listen();
+  tcp::socket slow = knock();
+  RawTls client;
+  asio::write(slow, asio::buffer(client.advance()));
+  ASSERT_TRUE(runUntil(context, [&] { return slow.available() > 0; })) << "the server's answer";
+  std::vector<tcp::socket> flood;
+  for (int i = 0; i < 20; ++i) flood.push_back(knock());
+  EXPECT_TRUE(runUntil(context, [&] { return counters().half_open_ended == 17; }));
+  client.shakeHands(context, slow);
+  EXPECT_TRUE(client.done());
+  EXPECT_TRUE(runUntil(context, [&] { return accepted.size() == 1; }));
+}
+
+TEST_F(TlsListenerTest, AHelloThatCameAndWasNotReadYetCounts) {
+  tls.max_half_open_per_prefix = 1;
+  tls.handshake_timeout = 1h;
+  listen();
+  tcp::socket slow = knock();
+  ASSERT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 1; }));
+  tcp::socket next = knock();  // is seen before the hello
+  RawTls client;
+  asio::write(slow, asio::buffer(client.advance()));
+  client.shakeHands(context, slow);
+  EXPECT_TRUE(client.done());
+  EXPECT_EQ(counters().half_open_ended, 0u);
+}
+
+TEST_F(TlsListenerTest, HellosOfFewPlacesLeaveOthersRoom) {
+  tls.max_half_open = 16;
+  tls.handshake_timeout = 1h;
+  listen();
+  RawTls client;
+  const std::string hello = client.advance();
+  std::vector<tcp::socket> flood;
+  const auto& c = counters();
+  for (int i = 0; i < 40; ++i) {
+    flood.push_back(knockFrom("127." + std::to_string(1 + i % 4) + ".1.1"));
+    asio::write(flood.back(), asio::buffer(hello));
+    ASSERT_TRUE(runUntil(context, [&] { return flood.back().available() > 0 || isOver(flood.back()); }));
+  }
+  EXPECT_EQ(listener->halfOpen() + c.refused_from_prefix + c.refused_half_open, 40u);
+  EXPECT_GT(c.refused_from_prefix, 20u);
+  join();
+  expectConversation(*this);
+}
+
+TEST_F(TlsListenerTest, PlacesAreSetAsideForKnownPlaces) {
+  tls.max_half_open = 4;
+  tls.handshake_timeout = 1h;
+  const AddressPrefix own = AddressPrefix::of(asio::ip::make_address("127.0.0.1"));
+  tls.is_known = [own](const AddressPrefix& prefix) { return prefix == own; };
+  listen();
+  RawTls client;
+  const std::string hello = client.advance();
+  std::vector<tcp::socket> flood;
+  for (int i = 0; i < 12; ++i) {
+    flood.push_back(knockFrom("127.1." + std::to_string(i) + ".1"));
+    asio::write(flood.back(), asio::buffer(hello));
+  }
+  ASSERT_TRUE(
+      runUntil(context, [&] { return counters().refused_half_open + counters().refused_from_prefix == 8; }));
+  EXPECT_EQ(listener->halfOpen(), 4u);
+  join();
+  expectConversation(*this);
+}
+
+TEST_F(TlsListenerTest, AboveHalfOfTheLimitThereIsLessPatience) {
+  tls.max_half_open = 8;
+  tls.handshake_timeout = 2s;
+  listen();
+  std::vector<tcp::socket> flood;
+  for (std::size_t i = 1; i <= 8; ++i) {
+    flood.push_back(knockFrom("127." + std::to_string(i) + ".1.1"));
+    ASSERT_TRUE(runUntil(context, [&] { return listener->halfOpen() == i; }));
+  }
+  RawTls client;
+  asio::write(flood[7], asio::buffer(client.advance()));
+  const auto endsAt = [&](std::size_t count) {
+    return runUntil(context, [&] { return counters().handshakes_late == count; });
+  };
+  const auto over = [&](std::size_t first, std::size_t last) {
+    return std::all_of(flood.begin() + static_cast<std::ptrdiff_t>(first),
+                       flood.begin() + static_cast<std::ptrdiff_t>(last), isOver);
+  };
+  ASSERT_TRUE(endsAt(3));
+  EXPECT_TRUE(over(4, 7)) << "the silent ones of the second half, after 0.5 s";
+  ASSERT_TRUE(endsAt(4));
+  EXPECT_TRUE(over(7, 8)) << "the one that has said hello, after 1 s";
+  ASSERT_TRUE(endsAt(8));
+}
+
+TEST_F(TlsListenerTest, ASilentConnectionWaitsInTheKernelFirst) {
+  tls.defer_accept = TlsListening().defer_accept;
+  ASSERT_GT(tls.defer_accept.count(), 0) << "as shipped";
+  listen();
+  tcp::socket silent = knock();
+  join();  // came later, and was accepted: it speaks
+  EXPECT_EQ(listener->halfOpen(), 0u);
+  EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 1; })) << "but it is not forgotten";
 }
 
 TEST_F(TlsListenerTest, SlowHandshakesHoldUpNobody) {

@@ -1,0 +1,274 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "shared/net/stream/HalfOpenLimit.h"
+#include "shared/values/SplitMix64.h"
+
+namespace naiad {
+namespace {
+
+using Id = HalfOpenLimit::Id;
+using Kind = HalfOpenLimit::Verdict::Kind;
+
+AddressPrefix of(const std::string& text) {
+  return AddressPrefix::of(asio::ip::make_address(text));
+}
+
+/// A /64 in a /56 of its own, of a customer who has a /48.
+AddressPrefix customersNetwork(int customer, int network) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "2001:db8:%x:%x00::1", customer, network);
+  return of(text.data());
+}
+
+class HalfOpenLimitTest : public testing::Test {
+ protected:
+  /// As a listener does; the connection that was ended, 0 for none.
+  Id come(const AddressPrefix& prefix) {
+    auto verdict = limit.judge(prefix);
+    const Id ended = verdict.kind == Kind::kEndFirst ? verdict.id : 0;
+    if (ended != 0) limit.release(ended);
+    verdict = limit.judge(prefix);
+    EXPECT_EQ(verdict.kind, Kind::kFits);
+    limit.admit(++newest, prefix);
+    return ended;
+  }
+  /// The client hello comes with the connection. False: it was refused.
+  bool comeWithHello(const AddressPrefix& prefix) {
+    const auto verdict = limit.judge(prefix);
+    if (verdict.kind == Kind::kEndFirst) limit.release(verdict.id);
+    if (verdict.kind == Kind::kFull || verdict.kind == Kind::kFullForPrefix) return false;
+    limit.admit(++newest, prefix);
+    limit.noteHello(newest);
+    return true;
+  }
+  /// How many of `times` from each of `prefixes` in turn get in.
+  int flood(const std::vector<AddressPrefix>& prefixes, int times) {
+    int admitted = 0;
+    for (int i = 0; i < times; ++i) {
+      for (const AddressPrefix& prefix : prefixes) admitted += comeWithHello(prefix) ? 1 : 0;
+    }
+    return admitted;
+  }
+
+  HalfOpenLimit limit{{}};  // 256, 64 of a prefix
+  Id newest = 0;
+};
+
+TEST_F(HalfOpenLimitTest, SilentOnesOfFourAddressesMakeRoomForEveryNewcomer) {
+  for (int i = 0; i < 64; ++i) {
+    for (const char* from : {"198.51.100.1", "198.51.101.1", "198.51.102.1", "198.51.103.1"}) {
+      EXPECT_EQ(come(of(from)), 0u);
+    }
+  }
+  EXPECT_EQ(limit.count(), 256u);
+  EXPECT_EQ(come(of("192.0.2.1")), 1u) << "the oldest of all, since they are equally crowded";
+  EXPECT_EQ(come(of("192.0.2.1")), 2u);
+  EXPECT_EQ(come(of("198.51.103.1")), 4u) << "one of its own: it has as many as a prefix may have";
+}
+
+TEST_F(HalfOpenLimitTest, TheMostCrowdedPrefixLosesItsOldest) {
+  const Id lonely = newest + 1;
+  come(of("192.0.2.1"));
+  for (int i = 0; i < 205; ++i) come(of("203.0." + std::to_string(i) + ".1"));
+  const Id crowd = newest + 1;
+  for (int i = 0; i < 50; ++i) come(of("198.51.100.1"));
+  EXPECT_EQ(come(of("192.0.2.2")), crowd);
+  EXPECT_EQ(come(of("192.0.2.3")), crowd + 1);
+  EXPECT_TRUE(limit.isSilent(lonely)) << "older, but alone";
+}
+
+TEST_F(HalfOpenLimitTest, AddressesOfOneNeighbourhoodCountTogether) {
+  for (int i = 0; i < 10; ++i) come(of("203.0.113.7"));  // the most crowded address
+  const Id crowd = newest + 1;
+  for (int i = 0; i < 246; ++i) come(of("198.51.100." + std::to_string(i)));  // in the most crowded /24
+  EXPECT_EQ(come(of("192.0.2.1")), crowd);
+}
+
+TEST_F(HalfOpenLimitTest, NetworksOfOneCustomerCountTogether) {
+  for (int i = 0; i < 10; ++i) come(of("2001:db8:ff::1"));
+  const Id crowd = newest + 1;
+  for (int i = 0; i < 246; ++i) {
+    come(customersNetwork(1, i));
+  }
+  EXPECT_EQ(come(of("2001:db8:2::1")), crowd);
+}
+
+TEST_F(HalfOpenLimitTest, AConnectionThatHasGreetedIsNeverEnded) {
+  ASSERT_TRUE(comeWithHello(of("198.51.100.1")));
+  const Id greeted = newest;
+  for (int i = 0; i < 1000; ++i) EXPECT_NE(come(of("198.51.100.1")), greeted);
+  for (int i = 0; i < 1000; ++i) EXPECT_NE(come(of("198.51." + std::to_string(i % 200) + ".1")), greeted);
+  EXPECT_EQ(limit.count(), 256u);
+  EXPECT_FALSE(limit.isSilent(greeted));
+  limit.release(greeted);
+  EXPECT_EQ(limit.count(), 255u);
+}
+
+TEST_F(HalfOpenLimitTest, HellosOfFourAddressesLeavePlacesForNewcomers) {
+  const std::vector<AddressPrefix> four{of("198.51.100.1"), of("198.51.101.1"), of("198.51.102.1"),
+                                        of("198.51.103.1")};
+  flood(four, 1000);
+  EXPECT_LE(limit.count(), 208u) << "of 256: each may have as many as all leave";
+  for (int i = 0; i < 40; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
+}
+
+TEST_F(HalfOpenLimitTest, HellosOfManyNetworksOfFourCustomersLeavePlacesForNewcomers) {
+  std::vector<AddressPrefix> many;
+  for (int customer = 0; customer < 4; ++customer) {
+    for (int network = 0; network < 200; ++network) {
+      many.push_back(customersNetwork(customer, network));
+    }
+  }
+  flood(many, 10);
+  EXPECT_LE(limit.count(), 240u) << "one customer after the other: the first has half, the next a quarter, …";
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
+}
+
+TEST_F(HalfOpenLimitTest, AClassOf64BehindOneAddressFits) {
+  EXPECT_EQ(flood({of("192.0.2.1")}, 64), 64);
+  EXPECT_FALSE(comeWithHello(of("192.0.2.1")));
+  EXPECT_TRUE(comeWithHello(of("192.0.2.2")));
+}
+
+TEST_F(HalfOpenLimitTest, ManyMachinesOfOneNetworkFit) {
+  std::vector<AddressPrefix> machines;
+  for (int i = 0; i < 128; ++i) machines.push_back(of("127.0.0." + std::to_string(i)));
+  EXPECT_EQ(flood(machines, 1), 128);
+}
+
+TEST_F(HalfOpenLimitTest, IsFullWhenAllHaveGreeted) {
+  for (int i = 0; i < 256; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
+  EXPECT_EQ(limit.judge(of("203.0.113.1")).kind, Kind::kFull);
+  limit.release(7);
+  EXPECT_TRUE(comeWithHello(of("203.0.113.1")));
+}
+
+TEST_F(HalfOpenLimitTest, IsCrowdedAboveHalfOfTheLimit) {
+  for (int i = 0; i < 128; ++i) come(of("192.0." + std::to_string(i) + ".1"));
+  EXPECT_FALSE(limit.isCrowded());
+  come(of("203.0.113.1"));
+  EXPECT_TRUE(limit.isCrowded());
+  limit.release(3);
+  EXPECT_FALSE(limit.isCrowded());
+}
+
+TEST_F(HalfOpenLimitTest, ReleasesWhatWasAdmittedAndNothingElse) {
+  come(of("192.0.2.1"));
+  limit.release(1);
+  EXPECT_EQ(limit.count(), 0u);
+  EXPECT_THROW(limit.release(1), std::out_of_range);
+  EXPECT_THROW(limit.noteHello(1), std::out_of_range);
+  EXPECT_FALSE(limit.isSilent(1));
+}
+
+/// The same rules, counted from the beginning for each question.
+class NaiveLimit {
+ public:
+  struct Entry {
+    Id id;
+    AddressPrefix prefix;
+    bool greeted;
+  };
+
+  explicit NaiveLimit(HalfOpenLimit::Limits limits) : m_limits(limits) {}
+
+  HalfOpenLimit::Verdict judge(const AddressPrefix& prefix) const {
+    const auto all = [](const Entry&) { return true; };
+    const std::size_t greeted = count(true, all);
+    if (greeted >= m_limits.in_all) return {Kind::kFull};
+    const std::size_t free = m_limits.in_all - greeted;
+    const auto same = [&](const Entry& e) { return e.prefix == prefix; };
+    const auto far = [&](const Entry& e) { return e.prefix.widest() == prefix.widest(); };
+    if (count(true, far) >= free) return {Kind::kFullForPrefix};
+    if (count(true, same) + count(false, same) >= m_limits.per_prefix) {
+      for (const Entry& e : entries) {
+        if (!e.greeted && same(e)) return {Kind::kEndFirst, e.id};
+      }
+      return {Kind::kFullForPrefix};
+    }
+    if (entries.size() < m_limits.in_all) return {Kind::kFits};
+    HalfOpenLimit::Verdict worst{Kind::kEndFirst};
+    std::array<std::size_t, 3> most{};
+    for (const Entry& e : entries) {
+      if (e.greeted) continue;
+      const std::array crowd{
+          count(false, [&](const Entry& o) { return o.prefix.widest() == e.prefix.widest(); }),
+          count(false, [&](const Entry& o) { return o.prefix.wide() == e.prefix.wide(); }),
+          count(false, [&](const Entry& o) { return o.prefix == e.prefix; })};
+      if (crowd > most) {
+        most = crowd;
+        worst.id = e.id;
+      }
+    }
+    return worst;
+  }
+
+  std::vector<Entry> entries;
+
+ private:
+  template <class Of>
+  std::size_t count(bool greeted, Of of) const {
+    return static_cast<std::size_t>(std::count_if(
+        entries.begin(), entries.end(), [&](const Entry& e) { return e.greeted == greeted && of(e); }));
+  }
+
+  HalfOpenLimit::Limits m_limits;
+};
+
+AddressPrefix randomPrefix(SplitMix64& random) {
+  const auto few = [&] { return std::to_string(random.below(3)); };
+  if (random.below(2) == 0) return of("192.0." + few() + "." + few());
+  return of("2001:db8:" + few() + ":" + few() + "0" + few() + "::1");
+}
+
+TEST_F(HalfOpenLimitTest, AgreesWithCountingFromTheBeginning) {
+  SplitMix64 random(16);
+  int ended = 0, refused = 0;
+  for (int round = 0; round < 20; ++round) {
+    const HalfOpenLimit::Limits limits{5 + random.below(30), 3 + random.below(10)};
+    HalfOpenLimit tested(limits);
+    NaiveLimit naive(limits);
+    const auto drop = [&](std::size_t at) {
+      tested.release(naive.entries[at].id);
+      naive.entries.erase(naive.entries.begin() + static_cast<std::ptrdiff_t>(at));
+    };
+    for (int step = 0; step < 1000; ++step) {
+      const std::size_t some = naive.entries.empty() ? 0 : random.below(naive.entries.size());
+      const std::uint64_t what = random.below(8);
+      if (what == 0 && !naive.entries.empty()) drop(some);
+      if (what == 1 && !naive.entries.empty()) {
+        tested.noteHello(naive.entries[some].id);
+        naive.entries[some].greeted = true;
+      }
+      const AddressPrefix prefix = randomPrefix(random);
+      const auto verdict = tested.judge(prefix);
+      const auto expected = naive.judge(prefix);
+      ASSERT_EQ(verdict.kind, expected.kind) << round << " " << step;
+      ASSERT_EQ(verdict.id, expected.id) << round << " " << step;
+      if (verdict.kind == Kind::kEndFirst) {
+        ++ended;
+        drop(static_cast<std::size_t>(std::find_if(naive.entries.begin(), naive.entries.end(),
+                                                   [&](const auto& e) { return e.id == verdict.id; }) -
+                                      naive.entries.begin()));
+      }
+      if (verdict.kind == Kind::kFits || verdict.kind == Kind::kEndFirst) {
+        tested.admit(++newest, prefix);
+        naive.entries.push_back({newest, prefix, false});
+      } else {
+        ++refused;
+      }
+      ASSERT_EQ(tested.count(), naive.entries.size());
+    }
+  }
+  EXPECT_GT(ended, 1000);
+  EXPECT_GT(refused, 50);
+}
+
+}  // namespace
+}  // namespace naiad
