@@ -22,4 +22,21 @@ void LoginRateLimit::finishTry(const AddressPrefix& from, bool right) {
   if (entry->under_way == 0 && entry->wrong == 0) table_.erase(from);
 }
 
+void LoginRateLimit::giveUpTry(const AddressPrefix& from, Time now) {
+  finishTry(from, true);
+  GivenUp& tries = given_up_.use(from);
+  if (!tries.since || now - *tries.since >= window_) tries = {now, 0};
+  ++tries.count;
+}
+
+int LoginRateLimit::wrong(const AddressPrefix& from) {
+  const Entry* const entry = table_.find(from);
+  return entry != nullptr ? entry->wrong : 0;
+}
+
+int LoginRateLimit::givenUp(const AddressPrefix& from, Time now) {
+  const GivenUp* const tries = given_up_.find(from);
+  return tries != nullptr && now - *tries->since < window_ ? tries->count : 0;
+}
+
 }  // namespace naiad

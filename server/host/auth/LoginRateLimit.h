@@ -17,12 +17,18 @@ class LoginRateLimit {
   enum class Answer { kAllowed, kTooMany, kWait };
 
   LoginRateLimit(int wrong_per_window, std::chrono::seconds window, std::size_t prefixes)
-      : wrong_per_window_(wrong_per_window), window_(window), table_(prefixes) {}
+      : wrong_per_window_(wrong_per_window), window_(window), table_(prefixes), given_up_(prefixes) {}
 
   /// kAllowed: finishTry() must follow. kTooMany: too many wrong tries. kWait: there may be too many,
   /// counting those under way.
   Answer beginTry(const AddressPrefix& from, Time now);
   void finishTry(const AddressPrefix& from, bool right);
+  /// The same if nothing was compared, since others came first.
+  void giveUpTry(const AddressPrefix& from, Time now);
+  /// Tries of its window that were wrong; 0 for prefixes that are not remembered.
+  int wrong(const AddressPrefix& from);
+  /// The same for tries that were given up.
+  int givenUp(const AddressPrefix& from, Time now);
   std::size_t size() const { return table_.size(); }
 
  private:
@@ -32,9 +38,15 @@ class LoginRateLimit {
     int under_way = 0;
   };
 
+  struct GivenUp {
+    std::optional<Time> since;
+    int count = 0;
+  };
+
   int wrong_per_window_;
   std::chrono::seconds window_;
   PerAddress<Entry> table_;
+  PerAddress<GivenUp> given_up_;  ///< a table of its own: giving up is free, and must evict no wrong tries
 };
 
 }  // namespace naiad

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "host/auth/LoginRateLimit.h"
+#include "host/auth/PasswordQueue.h"
 
 namespace naiad {
 namespace {
@@ -29,37 +30,7 @@ struct Secret {
 
 }  // namespace
 
-/// The owner's side, with all callbacks: none is touched, copied or destroyed by the worker. What the worker
-/// posts has a weak pointer to it, and does nothing after the end.
-struct PasswordCheck::State {
-  State(asio::any_io_executor executor, const Limits& with_limits)
-      : owner(std::move(executor)),
-        limits(with_limits),
-        tries(limits.wrong_per_window, limits.window, limits.prefixes) {}
-
-  asio::any_io_executor owner;
-  Limits limits;
-  LoginRateLimit tries;
-  Counters counters;
-  struct Pending {
-    AddressPrefix from;
-    std::function<void(Answer)> done;
-  };
-  std::map<std::uint64_t, Pending> pending;  // given to the worker, not answered
-  std::uint64_t newest = 0;
-
-  void onCompared(std::uint64_t number, std::optional<bool> right);
-};
-
-void PasswordCheck::State::onCompared(std::uint64_t number, std::optional<bool> right) {
-  const auto job = pending.extract(number);
-  const auto& [from, done] = job.mapped();
-  tries.finishTry(from, right.value_or(true));
-  ++(!right ? counters.busy : *right ? counters.right : counters.wrong);
-  done(!right ? Answer::kBusy : *right ? Answer::kRight : Answer::kWrong);
-}
-
-/// The thread and its queue.
+/// The thread, and what it was given.
 class PasswordCheck::Worker {
  public:
   struct Job {
@@ -117,42 +88,105 @@ class PasswordCheck::Worker {
   std::thread thread_;  // last: it uses the others
 };
 
-PasswordCheck::PasswordCheck(asio::any_io_executor owner, PasswordHash hash, Limits limits)
-    : state_(std::make_shared<State>(std::move(owner), limits)),
-      worker_(std::make_unique<Worker>(std::move(hash))) {}
+/// The owner's side, with all callbacks: none is touched, copied or destroyed by the worker. What the worker
+/// posts has a weak pointer to it, and does nothing after the end.
+struct PasswordCheck::State : std::enable_shared_from_this<State> {
+  State(asio::any_io_executor executor, const Limits& with_limits, Worker& with_worker)
+      : owner(std::move(executor)),
+        limits(with_limits),
+        worker(with_worker),
+        queue(limits.queue - 1),
+        tries(limits.wrong_per_window, limits.window, limits.prefixes) {}
 
-PasswordCheck::~PasswordCheck() {
-  state_.reset();
+  using Time = LoginRateLimit::Time;
+
+  asio::any_io_executor owner;
+  Limits limits;
+  Worker& worker;
+  PasswordQueue queue;
+  LoginRateLimit tries;
+  Counters counters;
+  struct Guess {
+    AddressPrefix from;
+    std::unique_ptr<Secret> password;  // null: the worker has it
+    std::function<void(Answer)> done;
+  };
+  std::map<PasswordQueue::Id, Guess> guesses;  // not answered
+  bool comparing = false;
+  PasswordQueue::Id newest = 0;
+
+  void answerLater(Answer answer, std::function<void(Answer)> done);
+  void add(bool known, Guess guess, Time now);
+  void compareNext();
+  void onCompared(PasswordQueue::Id id, std::optional<bool> right);
+};
+
+// `done` is destroyed here, too, if there is nothing to answer any more.
+void PasswordCheck::State::answerLater(Answer answer, std::function<void(Answer)> done) {
+  asio::post(owner, [weak = weak_from_this(), answer, call = std::move(done)] {
+    if (!weak.expired()) call(answer);
+  });
 }
 
-void PasswordCheck::check(const AddressPrefix& from, std::string password,
+void PasswordCheck::State::add(bool known, Guess guess, Time now) {
+  const PasswordQueue::Id id = ++newest;
+  const AddressPrefix from = guess.from;
+  guesses.emplace(id, std::move(guess));
+  const auto loser = queue.add({id, from, known, tries.wrong(from), tries.givenUp(from, now)});
+  if (!comparing) return compareNext();  // then there was a place
+  if (!loser) return;
+  Guess lost = std::move(guesses.extract(*loser).mapped());
+  tries.giveUpTry(lost.from, now);
+  ++counters.busy;
+  answerLater(Answer::kBusy, std::move(lost.done));
+}
+
+void PasswordCheck::State::compareNext() {
+  const auto id = queue.takeNext();
+  comparing = id.has_value();
+  if (!comparing) return;
+  // The owner's loop is not out of work while an answer is still to come.
+  auto executor = asio::prefer(owner, asio::execution::outstanding_work.tracked);
+  worker.give({std::move(guesses.at(*id).password),
+               [weak = weak_from_this(), id = *id, executor](std::optional<bool> right) {
+                 asio::post(executor, [weak, id, right] {
+                   if (const auto state = weak.lock()) state->onCompared(id, right);
+                 });
+               }});
+}
+
+void PasswordCheck::State::onCompared(PasswordQueue::Id id, std::optional<bool> right) {
+  const auto guess = guesses.extract(id);
+  const auto& [from, password, done] = guess.mapped();
+  tries.finishTry(from, right.value_or(true));
+  ++(!right ? counters.busy : *right ? counters.right : counters.wrong);
+  compareNext();  // before the callback, which may be the end of this
+  done(!right ? Answer::kBusy : *right ? Answer::kRight : Answer::kWrong);
+}
+
+PasswordCheck::PasswordCheck(asio::any_io_executor owner, PasswordHash hash, Limits limits)
+    : worker_(std::make_unique<Worker>(std::move(hash))),
+      state_(std::make_shared<State>(std::move(owner), limits, *worker_)) {}
+
+PasswordCheck::~PasswordCheck() = default;
+
+void PasswordCheck::check(const AddressPrefix& from, bool known, std::string password,
                           std::chrono::steady_clock::time_point now, std::function<void(Answer)> done) {
   auto secret = std::make_unique<Secret>(std::move(password));
-  const std::weak_ptr<State> weak = state_;
-  const auto answer_later = [&](Answer answer) {
-    asio::post(state_->owner, [weak, answer, call = std::move(done)] {
-      if (!weak.expired()) call(answer);
-    });
-  };
-  const bool full = state_->pending.size() >= state_->limits.queue;
-  const auto allowed = full ? LoginRateLimit::Answer::kWait : state_->tries.beginTry(from, now);
-  if (allowed == LoginRateLimit::Answer::kTooMany) {
-    ++state_->counters.too_many;
-    return answer_later(Answer::kTooMany);
+  if (secret->text.empty() || secret->text.size() > kMaxPassword) {
+    ++state_->counters.unfit;
+    return state_->answerLater(Answer::kWrong, std::move(done));
   }
-  if (allowed == LoginRateLimit::Answer::kWait) {
-    ++state_->counters.busy;
-    return answer_later(Answer::kBusy);
+  switch (state_->tries.beginTry(from, now)) {
+    case LoginRateLimit::Answer::kAllowed:
+      return state_->add(known, {from, std::move(secret), std::move(done)}, now);
+    case LoginRateLimit::Answer::kTooMany:
+      ++state_->counters.too_many;
+      return state_->answerLater(Answer::kTooMany, std::move(done));
+    case LoginRateLimit::Answer::kWait:
+      ++state_->counters.busy;
+      return state_->answerLater(Answer::kBusy, std::move(done));
   }
-  const std::uint64_t number = ++state_->newest;
-  state_->pending.emplace(number, State::Pending{from, std::move(done)});
-  // The owner's loop is not out of work while an answer is still to come.
-  auto executor = asio::prefer(state_->owner, asio::execution::outstanding_work.tracked);
-  worker_->give({std::move(secret), [weak, number, executor](std::optional<bool> right) {
-                   asio::post(executor, [weak, number, right] {
-                     if (const auto state = weak.lock()) state->onCompared(number, right);
-                   });
-                 }});
 }
 
 const PasswordCheck::Counters& PasswordCheck::counters() const {

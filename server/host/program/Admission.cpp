@@ -31,6 +31,10 @@ df::Color colorOf(std::uint64_t nth) {
   return kPlayerColors[nth % std::size(kPlayerColors)];
 }
 
+AddressPrefix prefixOf(const Session& session) {
+  return AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
+}
+
 std::string versionSentence(std::uint32_t version) {
   return "This server speaks version " + std::to_string(kProtocolVersion) +
          " of the protocol, your client version " + std::to_string(version) + ". Please update the " +
@@ -77,8 +81,9 @@ void Admission::checkPassword(Session& session, const wire::Hello& hello) {
     if (p_waiting == nullptr || p_waiting->state() != Session::State::kGreeting) return;
     applyPasswordAnswer(*p_waiting, hello, answer);
   };
-  const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
-  m_password->check(prefix, hello.password(), Session::Clock::now(), on_answer);
+  const AddressPrefix prefix = prefixOf(session);
+  m_password->check(prefix, m_setup.prefixes.count(prefix) > 0, hello.password(), Session::Clock::now(),
+                    on_answer);
 }
 
 void Admission::applyPasswordAnswer(Session& session, const wire::Hello& hello,
@@ -97,6 +102,11 @@ void Admission::applyPasswordAnswer(Session& session, const wire::Hello& hello,
     case PasswordCheck::Answer::kBusy:
       return session.refuse(wire::Refused::BUSY, "The server is busy. Try again in a moment.");
   }
+}
+
+void Admission::forgetSession(const Session& session) {
+  m_tokens.forget(session.id());
+  m_setup.prefixes.forget(session.id());
 }
 
 // ---- sessions that go on ----------------------------------------------------------------------------------
@@ -119,6 +129,7 @@ bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
   if (const Room* p_room = m_setup.rooms.roomOf(*p_before)) welcome.set_tick(p_room->tick());
   welcome.set_resume_token(m_tokens.issue(p_before->id()));
   welcome.set_aead(0);
+  m_setup.prefixes.note(p_before->id(), prefixOf(session));
   hello.fresh() ? restartSession(*p_before, session, hello, welcome)
                 : continueSession(*p_before, session, hello, welcome);
   return true;
@@ -183,6 +194,7 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
     welcome.set_resume_token(m_tokens.issue(session.id()));
     welcome.set_second_stream(true);
   }
+  m_setup.prefixes.note(session.id(), prefixOf(session));
   session.welcome(welcome, std::move(datagrams));
   p_room->add(session);
   m_setup.on_new_client();
@@ -200,8 +212,8 @@ bool Admission::checkLimits(Session& session) {
                    "The server is full (" + std::to_string(max_players) + " players). Try again later.");
     return false;
   }
-  // A player whose connection broke does not count, so that they do not keep others of their network out.
-  if (m_setup.sessions.connectedFrom(session.address()) >= static_cast<std::size_t>(max_per_address)) {
+  // A player whose connection broke counts: their place is kept, and an address must not collect such places.
+  if (m_setup.prefixes.count(prefixOf(session)) >= static_cast<std::size_t>(max_per_address)) {
     ++m_counters.refused_address;
     session.refuse(wire::Refused::FULL, "There are " + std::to_string(max_per_address) +
                                             " players from your address already. Try again later.");

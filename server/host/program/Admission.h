@@ -10,6 +10,7 @@
 #include "engine/world/World.h"
 #include "host/auth/PasswordCheck.h"
 #include "host/auth/ResumeTokens.h"
+#include "host/net/PlayerPrefixes.h"
 #include "host/net/SealedChannel.h"
 #include "host/program/HostOptions.h"
 #include "host/program/Rooms.h"
@@ -28,6 +29,7 @@ class Admission {
     std::string game;  ///< that is played; a hello may ask for one by name
     SessionTable& sessions;
     Rooms& rooms;
+    PlayerPrefixes& prefixes;
     Counters& counters;
     /// Log what becomes of the client at this address.
     std::function<void(const std::string& address, const std::string& text)> log_client;
@@ -48,7 +50,7 @@ class Admission {
   /// The client has the token that it was sent last (Session::takeProof).
   void confirmToken(const Session& session) { m_tokens.confirm(session.id()); }
   /// The session is over: its token is void.
-  void forgetSession(const Session& session) { m_tokens.forget(session.id()); }
+  void forgetSession(const Session& session);
 
  private:
   bool checkHello(Session& session, const wire::Hello& hello);

@@ -34,8 +34,23 @@ constexpr int kLongestFrameMillis = 1000;             ///< as --frame-time
 constexpr int kExitHung = 1;                          ///< as for a game that fails
 constexpr const char* kShuttingDown = "The server is shutting down.";
 
-/// Beside connections: half-open ones, libraries, logs.
-constexpr std::size_t kOtherFiles = 512;
+/// Half-open connections: of a class behind one address, and of as many from there as the host lets in; of a
+/// few such crowds; of all players, if they come back at once. Each takes up to 192 KiB.
+constexpr std::size_t kMinHalfOpenPerPrefix = 64;
+constexpr std::size_t kMinHalfOpen = 256;
+constexpr std::size_t kMaxHalfOpen = 2048;
+
+/// Beside connections: libraries, logs.
+constexpr std::size_t kOtherFiles = 256;
+
+std::size_t halfOpen(const HostOptions& options) {
+  return std::clamp(2 * static_cast<std::size_t>(options.max_per_address), kMinHalfOpen, kMaxHalfOpen);
+}
+
+/// The same from prefixes that have players.
+std::size_t halfOpenKnown(const HostOptions& options) {
+  return std::clamp(static_cast<std::size_t>(options.max_players), halfOpen(options), kMaxHalfOpen);
+}
 
 /// Players, their next connections when they come back, and some clients that have not said hello.
 std::size_t maxConnections(const HostOptions& options) {
@@ -78,12 +93,12 @@ Host::Host(HostOptions options, std::string game, Log log)
           [this](std::unique_ptr<ReliableChannel> channel) {
             m_sessions.add(std::move(channel), sessionEvents(), Clock::now());
           },
-          channelOptions(), m_identity ? TlsListening{m_identity->tls()} : TlsListening{}),
+          channelOptions(), listening()),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
       m_rooms(m_options, m_sessions, m_counters, m_log, [this] { flush(); }),
       m_client_log(m_log),
-      m_admission({m_options, std::move(game), m_sessions, m_rooms, m_counters,
+      m_admission({m_options, std::move(game), m_sessions, m_rooms, m_prefixes, m_counters,
                    [this](const std::string& address, const std::string& text) {
                      m_client_log.logNews(address, text, m_network.now());
                    },
@@ -95,12 +110,27 @@ Host::Host(HostOptions options, std::string game, Log log)
   for (const std::string& warning : m_options.warnings) m_log("warning: " + warning);
   if (m_identity && !m_identity->warning().empty()) m_log("warning: " + m_identity->warning());
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
-  const std::size_t wanted = maxConnections(m_options) + static_cast<std::size_t>(m_options.max_players) +
-                             kOtherFiles;  // each player may have a second stream
+  const std::size_t wanted = maxConnections(m_options) +
+                             static_cast<std::size_t>(m_options.max_players) +  // with second streams
+                             halfOpen(m_options) + halfOpenKnown(m_options) + kOtherFiles;
   if (const std::size_t files = allowOpenFiles(wanted); files < wanted) {
     m_log("only " + std::to_string(files) + " files may be open (ulimit -Hn): too few for " +
           std::to_string(m_options.max_players) + " players and those who come back");
   }
+}
+
+// Half-open connections from prefixes with players have places of their own, so that a crowd of others does
+// not keep players from coming back.
+TlsListening Host::listening() const {
+  TlsListening listening;
+  if (!m_identity) return listening;
+  listening.context = m_identity->tls();
+  listening.max_half_open = halfOpen(m_options);
+  listening.max_half_open_known = halfOpenKnown(m_options);
+  listening.max_half_open_per_prefix = std::clamp(static_cast<std::size_t>(m_options.max_per_address),
+                                                  kMinHalfOpenPerPrefix, listening.max_half_open / 2);
+  listening.is_known = [this](const AddressPrefix& prefix) { return m_prefixes.count(prefix) > 0; };
+  return listening;
 }
 
 std::optional<Fingerprint> Host::fingerprint() const {

@@ -15,6 +15,7 @@
 #include "engine/world/Runner.h"
 #include "host/auth/ServerIdentity.h"
 #include "host/net/NetworkThread.h"
+#include "host/net/PlayerPrefixes.h"
 #include "host/program/Admission.h"
 #include "host/program/ClientLog.h"
 #include "host/program/HostOptions.h"
@@ -82,6 +83,7 @@ class Host : public df::Runner {
  private:
   using Clock = std::chrono::steady_clock;
 
+  TlsListening listening() const;
   Session::Events sessionEvents();
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);
@@ -107,6 +109,7 @@ class Host : public df::Runner {
   Counters m_counters;
   asio::io_context m_io{1};  ///< this thread's handlers; no sockets
   std::optional<ServerIdentity> m_identity;
+  PlayerPrefixes m_prefixes;
   NetworkThread m_network;
   SessionTable m_sessions;
   Rooms m_rooms;

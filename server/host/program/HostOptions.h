@@ -21,7 +21,7 @@ struct HostOptions {
   std::string address = "::";        ///< numeric address to listen on; "::" is all of them, IPv4 too
   int port = kDefaultPort;           ///< 0: any free port
   int max_players = 64;
-  int max_per_address = 64;          ///< players from one IPv4 address or IPv6 /64
+  int max_per_address = 64;          ///< players from one IPv4 address or IPv6 /64, detached ones too
   std::string name = "naiad";        ///< shown in the clients' status line
   std::int64_t seed = 0;             ///< of the world; 0: a new one each time, logged
   int frame_micros = 0;              ///< length of a tick in microseconds; 0: exactly 1/30 s

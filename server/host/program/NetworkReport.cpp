@@ -9,6 +9,7 @@ void logRefusals(const NetworkThread& network, const LogLine& log) {
   std::string text = listCounters({{"failed_accepts", streams.failed_accepts},
                                    {"handshakes_failed", streams.handshakes_failed},
                                    {"handshakes_late", streams.handshakes_late},
+                                   {"half_open_ended", streams.half_open_ended},
                                    {"refused_half_open", streams.refused_half_open},
                                    {"refused_from_prefix", streams.refused_from_prefix}});
   if (!text.empty()) log("streams: " + text);

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "shared/net/base/AddressPrefix.h"
-
 namespace naiad {
 
 namespace {
 
 bool isPlaying(const std::unique_ptr<Session>& session) {
   return session->state() == Session::State::kPlaying;
+}
+
+/// It neither plays nor waits for an answer to its hello.
+bool isIdle(const std::unique_ptr<Session>& session) {
+  return !isPlaying(session) && !(session->state() == Session::State::kGreeting && session->isGreeted());
 }
 
 bool isConnected(const std::unique_ptr<Session>& session) {
@@ -33,12 +36,13 @@ void SessionTable::add(std::unique_ptr<ReliableChannel> channel, Session::Events
 }
 
 // Connections that have not said hello count, too, or they would evade the limit. The oldest of them
-// goes, since a player says hello at once: a crowd of silent connections cannot lock players out.
+// goes, since a player says hello at once: a crowd of silent connections cannot lock players out. A client
+// whose password is being compared has said hello, and stays.
 bool SessionTable::makeRoom() {
   if (m_sessions.size() >= m_max_sessions) sweep();
   if (m_sessions.size() < m_max_sessions) return true;
   ++m_counters.turned_away;
-  const auto idle = std::find_if_not(m_sessions.begin(), m_sessions.end(), isPlaying);
+  const auto idle = std::find_if(m_sessions.begin(), m_sessions.end(), isIdle);
   if (idle == m_sessions.end()) return false;
   m_on_remove(**idle);
   m_sessions.erase(idle);
@@ -66,14 +70,6 @@ std::size_t SessionTable::playing() const {
 
 std::size_t SessionTable::connected() const {
   return static_cast<std::size_t>(std::count_if(m_sessions.begin(), m_sessions.end(), isConnected));
-}
-
-std::size_t SessionTable::connectedFrom(const std::string& address) const {
-  const auto prefix = AddressPrefix::ofEndpoint(address);
-  return static_cast<std::size_t>(
-      std::count_if(m_sessions.begin(), m_sessions.end(), [&prefix](const auto& session) {
-        return isConnected(session) && AddressPrefix::ofEndpoint(session->address()) == prefix;
-      }));
 }
 
 std::uint64_t SessionTable::skippedTicks(std::uint32_t player) const {

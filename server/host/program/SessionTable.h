@@ -21,8 +21,8 @@ class SessionTable {
   /// At most `max_sessions` at once. `on_remove` is called before a session is destroyed.
   SessionTable(std::size_t max_sessions, Counters& counters, std::function<void(Session&)> on_remove);
 
-  /// Start a session on a new connection. If there are too many, the oldest that does not play makes room; if
-  /// all play, the connection is closed.
+  /// Start a session on a new connection. If there are too many, the oldest that neither plays nor waits for
+  /// an answer to its hello makes room; if there is none, the connection is closed.
   void add(std::unique_ptr<ReliableChannel> channel, Session::Events events, Clock::time_point now);
   /// Destroy the sessions that have ended.
   void sweep();
@@ -34,8 +34,6 @@ class SessionTable {
   std::size_t playing() const;
   /// How many play on a connection.
   std::size_t connected() const;
-  /// Of these, how many do so from the same IPv4 address or IPv6 /64.
-  std::size_t connectedFrom(const std::string& address) const;
   /// Ticks skipped for this player (Session::skippedTicks); 0 if there is none.
   std::uint64_t skippedTicks(std::uint32_t player) const;
 

@@ -137,6 +137,8 @@ class Session {
   bool sendFleeting(const wire::ServerMessage& message);
 
   State state() const { return m_state; }
+  /// The hello has come.
+  bool isGreeted() const { return m_greeted; }
   std::uint32_t player() const { return m_player; }
   const std::string& name() const;
   std::string address() const { return m_streams.peerAddress(); }

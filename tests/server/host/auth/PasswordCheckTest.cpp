@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <asio/io_context.hpp>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -28,11 +30,14 @@ struct PasswordCheckTest : testing::Test {
     check = std::make_unique<PasswordCheck>(context.get_executor(), PasswordHash::of("open sesame", cost),
                                             limits);
   }
-  void ask(int from, const std::string& password) {
-    check->check(prefix(from), password, now, [this](Answer answer) {
+  void ask(const AddressPrefix& from, const std::string& password, std::function<void(Answer)> done) {
+    check->check(from, false, password, now, [this, done = std::move(done)](Answer answer) {
       EXPECT_EQ(std::this_thread::get_id(), home);
-      answers.push_back(answer);
+      done(answer);
     });
+  }
+  void ask(int from, const std::string& password) {
+    ask(prefix(from), password, [this](Answer answer) { answers.push_back(answer); });
   }
   /// Ends when all answers are there: the loop has no other work.
   std::vector<Answer> run() {
@@ -133,11 +138,70 @@ TEST_F(PasswordCheckTest, FloodMeetsAShortQueue) {
   EXPECT_EQ(check->counters().busy, 92u);
 }
 
+TEST_F(PasswordCheckTest, WhatCannotBeAPasswordIsNeitherComparedNorCounted) {
+  make({});
+  for (int i = 0; i < 100; ++i) ask(1, i % 2 == 0 ? std::string() : std::string(kMaxPassword + 1, 'x'));
+  EXPECT_TRUE(answers.empty());
+  EXPECT_EQ(run(), std::vector(100, Answer::kWrong));
+  EXPECT_EQ(check->counters().unfit, 100u);
+  EXPECT_EQ(check->counters().wrong, 0u);
+  EXPECT_EQ(check->remembered(), 0u);
+  ask(1, "open sesame");
+  EXPECT_EQ(run(), std::vector{Answer::kRight}) << "it has all of its tries";
+}
+
+/// Attackers who ask again as soon as they have an answer, from a network each.
+TEST_F(PasswordCheckTest, EightyAddressesThatGuessKeepNoPlayerOut) {
+  make({});
+  const auto network = [](int i) {
+    return AddressPrefix::of(asio::ip::address_v4(0x0A000001u + static_cast<unsigned>(i) * 256));
+  };
+  bool over = false;
+  std::uint64_t guesses = 0;
+  std::function<void(int)> attack = [&](int i) {
+    ask(network(i), "guess", [&, i](Answer) {
+      ++guesses;
+      if (!over) attack(i);
+    });
+  };
+  for (int i = 0; i < 80; ++i) attack(i);
+  context.restart();
+  while (check->counters().wrong < 100) context.run_one();
+  EXPECT_GT(check->counters().busy, 100u) << "the places are taken";
+  for (int newcomer = 0; newcomer < 20; ++newcomer) {
+    const std::uint64_t before = check->counters().wrong;
+    std::optional<Answer> answer;
+    ask(network(1000 + newcomer), "open sesame", [&](Answer a) { answer = a; });
+    while (!answer) context.run_one();
+    EXPECT_EQ(*answer, Answer::kRight);
+    EXPECT_LE(check->counters().wrong - before, 1u) << "it waits for the guess that is being made";
+  }
+  // One who comes with them all is one of 81, and asks again when it is sent away.
+  now += 60s;
+  ask(network(2000), "open sesame", [&](Answer a) { EXPECT_EQ(a, Answer::kRight); });
+  over = true;
+  context.run();
+  EXPECT_GT(guesses, 300u);
+}
+
+TEST_F(PasswordCheckTest, PrefixesThatPlayComeFirst) {
+  make({});
+  std::vector<int> order;
+  for (int i = 0; i < 9; ++i) {
+    check->check(AddressPrefix::of(asio::ip::address_v4(0x0A000001u + static_cast<unsigned>(i) * 256)),
+                 i == 8, "open sesame", now, [&, i](Answer answer) {
+                   if (answer == Answer::kRight) order.push_back(i);
+                 });
+  }
+  context.run();
+  EXPECT_EQ(order, (std::vector{0, 8, 1, 2, 3, 4, 5, 6})) << "after the one that was begun; one was too many";
+}
+
 TEST_F(PasswordCheckTest, MayBeDestroyedInItsCallbackAndIsSilentAfterwards) {
   make({});
   int calls = 0;
   for (int i = 0; i < 3; ++i) {
-    check->check(prefix(i), "open sesame", now, [&, marker = std::string(100, 'm')](Answer) {
+    check->check(prefix(i), false, "open sesame", now, [&, marker = std::string(100, 'm')](Answer) {
       check.reset();
       calls += marker.size() == 100;
     });
@@ -153,7 +217,8 @@ TEST_F(PasswordCheckTest, CallbacksDieOnTheOwnersThread) {
   };
   make({});
   for (int i = 0; i < 8; ++i) {
-    check->check(prefix(i), "open sesame", now, [canary = std::make_shared<Canary>(Canary{home})](Answer) {});
+    check->check(prefix(i), false, "open sesame", now,
+                 [canary = std::make_shared<Canary>(Canary{home})](Answer) {});
   }
   context.run_one();
   check.reset();
@@ -171,6 +236,19 @@ TEST(LoginRateLimit, ForgetsTheOldestWhenItIsFull) {
   }
   EXPECT_EQ(limit.beginTry(prefix(999), now), LoginRateLimit::Answer::kTooMany);
   EXPECT_EQ(limit.beginTry(prefix(0), now), LoginRateLimit::Answer::kAllowed);
+}
+
+TEST(LoginRateLimit, TriesThatWereGivenUpAreNotWrong) {
+  LoginRateLimit limit(2, 60s, 100);
+  Time now{};
+  for (int i = 1; i <= 1000; ++i) {
+    EXPECT_EQ(limit.beginTry(prefix(1), now), LoginRateLimit::Answer::kAllowed);
+    limit.giveUpTry(prefix(1), now);
+    EXPECT_EQ(limit.givenUp(prefix(1), now), i);
+  }
+  EXPECT_EQ(limit.wrong(prefix(1)), 0);
+  EXPECT_EQ(limit.givenUp(prefix(1), now + 60s), 0);
+  EXPECT_EQ(limit.size(), 0u) << "and evict none that were";
 }
 
 TEST(LoginRateLimit, WindowBeginsWithTheFirstTry) {

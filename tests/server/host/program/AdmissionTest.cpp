@@ -32,7 +32,7 @@ class AdmissionTest : public testing::Test {
     if (!m_admission) {
       rooms.open(world);
       m_admission.emplace(
-          Admission::Setup{options, "maze", sessions, rooms, counters,
+          Admission::Setup{options, "maze", sessions, rooms, prefixes, counters,
                            [this](const std::string& address, const std::string& text) {
                              log.push_back(address + " " + text);
                            },
@@ -63,6 +63,7 @@ class AdmissionTest : public testing::Test {
   const df::World::Scope scope{world};
   asio::io_context io;
   Counters counters;
+  PlayerPrefixes prefixes;
   std::deque<Client> clients;
   std::vector<std::string> log;
   int new_clients = 0;
@@ -130,10 +131,37 @@ TEST_F(AdmissionTest, NoMorePlayersThanTheServerOrOneAddressMayHave) {
   EXPECT_EQ(counters.refused_full, 1u);
 }
 
-TEST_F(AdmissionTest, APlayerWhoseStreamBrokeDoesNotKeepTheirAddressFull) {
+TEST_F(AdmissionTest, OneAddressCannotCollectThePlacesOfBrokenStreams) {
   options.max_per_address = 1;
-  greet(helloOf("Ann")).drop();
-  EXPECT_TRUE(greet(helloOf("Bob")).isWelcome());
+  Client& ann = greet(helloOf("Ann"));
+  ann.drop();
+  EXPECT_EQ(greet(helloOf("Bob")).refusal(), wire::Refused::FULL);
+  EXPECT_EQ(counters.refused_address, 1u);
+  EXPECT_EQ(sessions.playing(), 1u);
+  EXPECT_TRUE(greet(returning(ann)).isWelcome()) << "coming back takes no place";
+  admission().forgetSession(sessionOf(1));
+  EXPECT_TRUE(greet(helloOf("Cid")).isWelcome());
+}
+
+TEST_F(AdmissionTest, APlayerWhoComesBackIsWelcomeWhereTheirAddressIsFull) {
+  options.max_per_address = 1;
+  Client& ann = greet(helloOf("Ann"), "192.0.2.1:1");
+  greet(helloOf("Bob"), "192.0.2.2:1");
+  ann.drop();
+  EXPECT_TRUE(greet(returning(ann), "192.0.2.2:2").welcome().resumed());
+  EXPECT_EQ(greet(helloOf("Cid"), "192.0.2.1:2").refusal(), wire::Refused::FULL)
+      << "moving on frees no place for another one";
+  EXPECT_EQ(greet(helloOf("Cid"), "192.0.2.2:2").refusal(), wire::Refused::FULL);
+}
+
+TEST_F(AdmissionTest, AMovedPlayerCountsWhereTheyAre) {
+  options.max_per_address = 1;
+  Client& ann = greet(helloOf("Ann"), "192.0.2.1:1");
+  ann.drop();
+  greet(returning(ann), "192.0.2.2:1");
+  EXPECT_EQ(greet(helloOf("Bob"), "192.0.2.2:2").refusal(), wire::Refused::FULL);
+  EXPECT_EQ(greet(helloOf("Bob"), "192.0.2.1:2").refusal(), wire::Refused::FULL);
+  EXPECT_TRUE(greet(helloOf("Bob"), "192.0.2.3:2").isWelcome());
 }
 
 TEST_F(AdmissionTest, ATokenContinuesItsSessionOnAnotherStream) {

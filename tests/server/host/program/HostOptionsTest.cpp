@@ -40,6 +40,17 @@ TEST(HostOptions, ATickThatNoClientWouldBelieveIsAnError) {
   EXPECT_EQ(parse({"--frame-time", "0"}, options), CommandLine::kRun);
 }
 
+TEST(HostOptions, OneAddressMayHaveAllPlaces) {
+  HostOptions options;
+  const std::string most = std::to_string(kMaxServerPlayers);
+  EXPECT_EQ(parse({"--max-players", most.c_str(), "--max-per-address", most.c_str()}, options),
+            CommandLine::kRun);
+  EXPECT_EQ(options.max_per_address, options.max_players);
+  const std::string more = std::to_string(kMaxServerPlayers + 1);
+  EXPECT_EQ(parse({"--max-per-address", more.c_str()}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--max-per-address", "0"}, options), CommandLine::kUsageError);
+}
+
 TEST(HostOptions, WhatIsNoneOfTheWordsIsAnError) {
   HostOptions options;
   EXPECT_EQ(parse({"--players", "nobody"}, options), CommandLine::kUsageError);
