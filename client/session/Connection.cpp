@@ -123,9 +123,9 @@ void Connection::saveToken(const ClientSession& session) {
 
 void Connection::attemptFailed(const std::string& sentence) {
   const Time now = Clock::now();
-  if (m_state == State::kJoining) return finish(State::kUnreachable, sentence);
+  if (m_state == State::kJoining && !m_busy) return finish(State::kUnreachable, sentence);
   if (m_state == State::kLeft) return;
-  if (now - m_lost_at >= kGiveUp) return finish(State::kLost, m_sentence);
+  if (now - m_lost_at >= kGiveUp) return finish(m_busy ? State::kRefused : State::kLost, m_sentence);
   m_next_attempt = now + m_backoff;
   m_backoff = std::min(m_backoff * 2, kLastBackoff);
 }
@@ -171,6 +171,7 @@ void Connection::checkPending() {
     m_pending.reset();
     m_state = State::kJoined;
     m_sentence.clear();
+    m_busy = false;
     if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
     ++m_revision;
     return;
@@ -179,6 +180,7 @@ void Connection::checkPending() {
     m_session = std::move(m_pending);
     m_state = State::kJoined;
     m_sentence.clear();
+    m_busy = false;
     if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
     ++m_revision;
     return;
@@ -189,10 +191,20 @@ void Connection::checkPending() {
   }
   if (!m_pending->isOver()) return;
   const std::unique_ptr<ClientSession> over = std::move(m_pending);
-  const bool again = over->isRefusedForNow() && m_state == State::kSearching;
-  if (over->state() == S::kRefused && !again) return finish(State::kRefused, over->sentence());
+  if (over->isRefusedForNow() && m_state == State::kJoining) return waitForServer(over->sentence());
+  if (over->state() == S::kRefused && !over->isRefusedForNow()) {
+    return finish(State::kRefused, over->sentence());
+  }
   if (over->state() == S::kEnded) return finish(State::kEnded, over->sentence());
   attemptFailed(over->sentence());
+}
+
+// The server is busy, and was not joined yet.
+void Connection::waitForServer(const std::string& sentence) {
+  if (!std::exchange(m_busy, true)) m_lost_at = Clock::now();
+  m_sentence = sentence;
+  ++m_revision;
+  attemptFailed(sentence);
 }
 
 void Connection::leave() {

@@ -3,11 +3,13 @@
 //   kJoining --picture--> kJoined --lost--> kSearching --picture--> kJoined
 //   kJoining --no answer--> kUnreachable   any --Refused--> kRefused   any --Goodbye--> kEnded
 //   kSearching --60 s without success--> kLost
+//   kJoining --Refused (BUSY)--> kJoining --60 s of that--> kRefused
 //
 // While searching, session() is still the lost one, so that its last picture can stay on the screen under a
 // banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another
 // stream is opened, and if the server still knows the session, the player notices nothing. The waiting time
-// between attempts doubles from 0.25 s to 2 s. After a refusal it does not try again.
+// between attempts doubles from 0.25 s to 2 s. A server that is busy is asked again in the same way. After
+// any other refusal it does not try again.
 //
 // Thread: the one that runs the io_context, which must outlive the Connection.
 #pragma once
@@ -64,7 +66,8 @@ class Connection {
   State state() const { return m_state; }
   /// Nothing will happen any more.
   bool isOver() const;
-  /// Why, for people: set in all states that are over but kLeft; while searching, why the server was lost.
+  /// Why, for people: set in all states that are over but kLeft; while searching, why the server was lost;
+  /// while joining, what a busy server said.
   const std::string& sentence() const { return m_sentence; }
   /// The session to show; null before the first picture.
   ClientSession* session() { return m_session.get(); }
@@ -86,6 +89,7 @@ class Connection {
   void saveToken(const ClientSession& session);
   void attemptFailed(const std::string& sentence);
   void checkPending();
+  void waitForServer(const std::string& sentence);
   void finish(State state, const std::string& sentence);
 
   asio::io_context& m_context;
@@ -107,7 +111,8 @@ class Connection {
   std::function<void(ClientSession&)> m_observer;
   std::chrono::milliseconds m_backoff{kFirstBackoff};
   Time m_next_attempt = Time::max();
-  Time m_lost_at{};
+  Time m_lost_at{};  ///< while searching, or joining a server that is busy
+  bool m_busy = false;
   std::uint64_t m_revision = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <asio/signal_set.hpp>
 #include <cerrno>
 #include <cstdio>
+#include <string>
 #include <utility>
 
 #include "client/terminal/Screen.h"
@@ -74,10 +75,16 @@ void ClientApp::join() {
   });
   m_connection.start();
   bool said = false;
+  std::string refusal;
   while (!m_leaving && m_connection.state() == Connection::State::kJoining) {
     m_context.run_one_for(kHousekeeping);
     const Time now = Clock::now();
     m_connection.update(now);
+    if (m_connection.state() != Connection::State::kJoining) break;
+    if (m_connection.sentence() != refusal) {
+      refusal = m_connection.sentence();
+      std::fprintf(stderr, "dfclient: %s (Trying again; Ctrl-C ends.)\n", refusal.c_str());
+    }
     if (m_connection.pictureWait(now) < kPictureNotice || std::exchange(said, true)) continue;
     std::fprintf(stderr, "dfclient: The server let you in; its first picture is awaited. Ctrl-C leaves.\n");
   }
