@@ -186,6 +186,7 @@ TEST(Hostile, AFloodOfMessagesEndsItsSessionAndStopsNoOthersWorld) {
 
 TEST(Hostile, ACrowdOfSilentConnectionsDoesNotLockPlayersOut) {
   HostOptions options = fastOptions();
+  options.grace = HostOptions().grace;
   options.max_players = 1;
   TestServer server([](df::World& world) { populateBusyWorld(world, 5); }, options);
   std::vector<std::unique_ptr<RawClient>> crowd;

@@ -43,6 +43,8 @@ void StreamProxy::accept() {
   m_acceptor.async_accept(line->ends[0], [this, line](const asio::error_code& error) {
     if (error) return;
     asio::error_code refused;
+    line->ends[1].open(tcp::v4(), refused);
+    line->ends[1].bind({m_own_address, 0}, refused);
     if (m_open) line->ends[1].connect({asio::ip::address_v4::loopback(), m_server_port}, refused);
     if (m_open && !refused) {
       for (tcp::socket& end : line->ends) end.set_option(tcp::no_delay(true), refused);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace naiad::test {
@@ -29,6 +30,8 @@ class StreamProxy {
   void setOpen(bool open) { m_open = open; }
   /// Bytes are delayed by this, in each direction.
   void setDelay(std::chrono::milliseconds delay) { m_delay = delay; }
+  /// Later connections come to the server from this address in 127/8.
+  void setOwnAddress(const std::string& address) { m_own_address = asio::ip::make_address(address); }
   /// Later connections lead to another server.
   void setServer(std::uint16_t port) { m_server_port = port; }
   /// Connections so far that went through.
@@ -43,6 +46,7 @@ class StreamProxy {
   asio::io_context& m_context;
   asio::ip::tcp::acceptor m_acceptor;
   std::uint16_t m_server_port;
+  asio::ip::address m_own_address = asio::ip::address_v4::loopback();
   std::vector<std::shared_ptr<Line>> m_lines;
   std::chrono::milliseconds m_delay{0};
   bool m_open = true;

@@ -41,6 +41,7 @@ void TestServer::stop(const std::string& sentence) {
 }
 
 void TestServer::record(df::World& world) {
+  if (!m_draws) return;
   const std::lock_guard lock(m_mutex);
   for (const df::Player* player : world.getPlayers()) {
     m_truth[{static_cast<std::uint32_t>(world.getStepCount()), player->getId()}] =

@@ -50,6 +50,8 @@ class TestServer {
   }
   /// What the book's draw path shows `player` at the end of `tick`, if they were in that tick.
   std::optional<df::Canvas> truth(std::uint32_t tick, std::uint32_t player) const;
+  /// Draw for no player from now on: with many of them it takes longer than all the rest.
+  void drawNothing() { m_draws = false; }
   /// End the server with this sentence to the players, and wait for it.
   void stop(const std::string& sentence);
 
@@ -57,6 +59,7 @@ class TestServer {
   void record(df::World& world);
 
   std::unique_ptr<Host> m_host;
+  std::atomic<bool> m_draws = true;
   mutable std::mutex m_mutex;
   std::map<std::pair<std::uint32_t, std::uint32_t>, df::Canvas> m_truth;  ///< by tick and player
   std::thread m_thread;

@@ -1,0 +1,292 @@
+// Crowds at the door of a server with shipped settings: hostile ones keep no player out and throw none out,
+// and honest ones get in.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "BusyWorld.h"
+#include "Home.h"
+#include "LightClient.h"
+#include "SilentCrowd.h"
+#include "StreamProxy.h"
+#include "TestServer.h"
+#include "Valve.h"
+#include "host/auth/PasswordHash.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::vector<std::string> addresses(int count, const std::function<std::string(int)>& nth) {
+  std::vector<std::string> all;
+  for (int i = 0; i < count; ++i) all.push_back(nth(i));
+  return all;
+}
+
+class CrowdedDoor : public testing::Test {
+ protected:
+  static std::function<void(df::World&)> world(int objects = 20) {
+    return [objects](df::World& w) { populateBusyWorld(w, objects); };
+  }
+  /// A player whose stream comes from an address of its own.
+  struct Visitor {
+    Visitor(asio::io_context& context, const TestServer& server, const std::string& address)
+        : proxy(context, server.port()) {
+      proxy.setOwnAddress(address);
+    }
+    void join(asio::io_context& context, const ClientSetup& setup) {
+      client = std::make_unique<TestClient>(context, proxy.port(), setup);
+    }
+    bool isJudged() { return client->joined() || client->connection().isOver(); }
+
+    StreamProxy proxy;
+    std::unique_ptr<TestClient> client;
+  };
+  bool seesTheTruth(TestClient& client, const TestServer& server, std::initializer_list<TestClient*> all) {
+    client.forgetPictures();
+    return serveUntil(context, all, [&] {
+      if (client.pictures().empty()) return false;
+      const auto& [tick, picture] = *client.pictures().rbegin();
+      const auto truth = server.truth(tick, client.player());
+      return truth && countDifferences(picture, *truth) == 0;
+    });
+  }
+  std::unique_ptr<Visitor> visitor(const TestServer& server, const std::string& address) {
+    return std::make_unique<Visitor>(context, server, address);
+  }
+  std::vector<std::unique_ptr<LightClient>> lightClients(const TestServer& server,
+                                                         const std::vector<std::string>& from) {
+    std::vector<std::unique_ptr<LightClient>> all;
+    for (const std::string& address : from)
+      all.push_back(std::make_unique<LightClient>(context, server.port(), address));
+    return all;
+  }
+  static std::size_t countWelcome(const std::vector<std::unique_ptr<LightClient>>& clients) {
+    return static_cast<std::size_t>(std::count_if(clients.begin(), clients.end(), [](const auto& client) {
+      return client->state() == LightClient::State::kWelcome;
+    }));
+  }
+  bool serve(const std::function<bool()>& done) { return serveUntil(context, {}, done); }
+  /// It joins and is judged.
+  LightClient::State judge(LightClient& client, const std::string& password = {}) {
+    client.join(password);
+    EXPECT_TRUE(serve([&] { return client.state() != LightClient::State::kJoining; }));
+    return client.state();
+  }
+
+  Home home;
+  asio::io_context context;
+};
+
+// ---- half-open connections
+// ----------------------------------------------------------------------------------
+
+struct Flood {
+  const char* name;
+  SilentCrowd::Kind kind;
+  int addresses;
+  const char* form;  ///< of an address; %d: its number
+};
+
+std::ostream& operator<<(std::ostream& out, const Flood& flood) {
+  return out << flood.name;
+}
+
+class HalfOpenCrowd : public CrowdedDoor, public testing::WithParamInterface<Flood> {};
+
+TEST_P(HalfOpenCrowd, KeepsNoPlayerOutAndThrowsNoneOut) {
+  TestServer server(world(), home.server());
+  TestClient ann(context, server.port(), home.player("ann"));
+  const auto bob = visitor(server, "127.8.8.8");
+  bob->join(context, home.player("bob"));
+  ASSERT_TRUE(
+      serveUntil(context, {&ann, bob->client.get()}, [&] { return ann.joined() && bob->client->joined(); }));
+
+  const Flood& flood = GetParam();
+  const auto from = addresses(flood.addresses, [&](int i) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), flood.form, i + 1);
+    return std::string(text.data());
+  });
+  SilentCrowd crowd(server.port(), from, 400 / flood.addresses, flood.kind);
+  const auto all = {&ann, bob->client.get()};
+  ASSERT_TRUE(serveUntil(context, all, [&] { return crowd.hungUp() > 100; })) << "the crowd is at the limit";
+
+  const std::uint32_t began = ann.newestTick();
+  for (int i = 0; i < 3; ++i) {
+    const auto newcomer = visitor(server, "127.9." + std::to_string(i) + ".9");
+    newcomer->join(context, home.player("cid"));
+    TestClient& cid = *newcomer->client;
+    const auto took =
+        timeUntil(context, {&ann, bob->client.get(), &cid}, [&] { return newcomer->isJudged(); });
+    ASSERT_TRUE(took && cid.joined()) << cid.connection().sentence();
+    EXPECT_LT(*took, 1s);
+
+    const std::uint64_t resumed = server.counters().resumed;
+    bob->proxy.cut();
+    const auto back = timeUntil(context, {&ann, bob->client.get(), &cid},
+                                [&] { return server.counters().resumed > resumed && bob->client->joined(); });
+    ASSERT_TRUE(back) << bob->client->connection().sentence();
+    EXPECT_LT(*back, 1s);
+  }
+  ASSERT_TRUE(serveUntil(context, all, [&] { return ann.newestTick() > began + 100; }));
+  EXPECT_TRUE(seesTheTruth(ann, server, all));
+  EXPECT_EQ(server.counters().divergences, 0u);
+  EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
+  EXPECT_EQ(server.counters().joined, 5u);
+  EXPECT_EQ(server.counters().graces_expired, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Floods, HalfOpenCrowd,
+    testing::Values(Flood{"OfFourSilentAddresses", SilentCrowd::Kind::kSilent, 4, "127.%d.1.1"},
+                    Flood{"OfFourAddressesThatBeginAHello", SilentCrowd::Kind::kBegunHello, 4, "127.%d.1.1"},
+                    Flood{"OfFourAddressesThatSayHello", SilentCrowd::Kind::kWholeHello, 4, "127.%d.1.1"},
+                    Flood{"OfOneNeighbourhood", SilentCrowd::Kind::kBegunHello, 200, "127.1.1.%d"},
+                    Flood{"OfOneNeighbourhoodThatSaysHello", SilentCrowd::Kind::kWholeHello, 200,
+                          "127.1.1.%d"},
+                    Flood{"OfTwoHundredNetworks", SilentCrowd::Kind::kBegunHello, 200, "127.1.%d.1"}),
+    [](const auto& flood) { return flood.param.name; });
+
+// ---- honest crowds
+// --------------------------------------------------------------------------------------------
+
+TEST_F(CrowdedDoor, AThousandPlayersWhoReturnAtOnceAreBackInTenSeconds) {
+  HostOptions options = home.server();
+  options.frame_micros = 0;
+  options.max_players = 1000;
+  TestServer server(world(0), options);
+  server.drawNothing();
+  const auto players =
+      lightClients(server, addresses(1000, [](int i) {
+                     return "127.7." + std::to_string(i / 250) + "." + std::to_string(1 + i % 250);
+                   }));
+  for (std::size_t joined = 0; joined < players.size(); joined += 50) {
+    for (std::size_t i = joined; i < joined + 50; ++i) players[i]->join();
+    ASSERT_TRUE(serve([&] { return countWelcome(players) == joined + 50; }));
+  }
+  for (const auto& player : players) player->drop();
+  ASSERT_TRUE(serve([&] { return server.counters().detached == players.size(); }));
+
+  for (const auto& player : players) player->joinUntilWelcome();
+  const auto took = timeUntil(context, {}, [&] { return countWelcome(players) == players.size(); });
+  ASSERT_TRUE(took) << countWelcome(players);
+  EXPECT_LT(*took, 10s);
+  EXPECT_EQ(server.counters().resumed, players.size());
+  EXPECT_TRUE(
+      std::all_of(players.begin(), players.end(), [](const auto& p) { return p->welcome().resumed(); }));
+}
+
+TEST_F(CrowdedDoor, AnAddressThatMayHaveTwoHundredPlayersHasThemAtOnce) {
+  HostOptions options = home.server();
+  options.max_players = options.max_per_address = 200;
+  TestServer server(world(0), options);
+  server.drawNothing();
+  const auto players = lightClients(server, addresses(200, [](int) { return "127.7.7.7"; }));
+  for (const auto& player : players) player->join();
+  ASSERT_TRUE(serve([&] {
+    return std::none_of(players.begin(), players.end(),
+                        [](const auto& p) { return p->state() == LightClient::State::kJoining; });
+  }));
+  EXPECT_EQ(countWelcome(players), players.size());
+}
+
+// ---- places
+// -----------------------------------------------------------------------------------------------------
+
+TEST_F(CrowdedDoor, OneAddressHoldsItsShareOfThePlacesHoweverOftenItComes) {
+  HostOptions options = home.server();
+  options.max_players = 10;
+  options.max_per_address = 2;
+  TestServer server(world(), options);
+  const auto greedy = lightClients(server, addresses(12, [](int) { return "127.1.1.1"; }));
+  for (const auto& client : greedy) {
+    const std::uint64_t detached = server.counters().detached;
+    if (judge(*client) != LightClient::State::kWelcome) continue;
+    client->drop();  // and its place is kept for the grace time
+    ASSERT_TRUE(serve([&] { return server.counters().detached > detached; }));
+  }
+  EXPECT_EQ(server.counters().joined, 2u);
+  EXPECT_EQ(server.counters().refused_address, 10u);
+  EXPECT_EQ(greedy.back()->refusal().reason(), wire::Refused::FULL);
+  EXPECT_EQ(judge(*greedy[1]), LightClient::State::kWelcome) << "one that comes back to its own session";
+  EXPECT_TRUE(greedy[1]->welcome().resumed());
+  const auto others =
+      lightClients(server, addresses(8, [](int i) { return "127.1.1." + std::to_string(2 + i); }));
+  for (const auto& other : others) EXPECT_EQ(judge(*other), LightClient::State::kWelcome);
+}
+
+// ---- passwords
+// --------------------------------------------------------------------------------------------------
+
+/// Addresses that guess, and ask again as soon as they are answered; in a thread of their own.
+class GuessingCrowd {
+ public:
+  GuessingCrowd(std::uint16_t server, const std::vector<std::string>& from) {
+    for (const std::string& address : from) {
+      LightClient& one = *m_all.emplace_back(std::make_unique<LightClient>(m_context, server, address));
+      one.onJudged([this](LightClient& client) {
+        if (client.state() == LightClient::State::kRefused) {
+          ++(client.refusal().reason() == wire::Refused::BUSY ? m_busy : m_wrong);
+        }
+        client.joinAfter(100ms);
+      });
+    }
+    m_thread = std::thread([this] {
+      for (const auto& one : m_all) one->join("plugh");
+      m_context.run();
+    });
+  }
+  ~GuessingCrowd() {
+    m_context.stop();
+    m_thread.join();
+  }
+  GuessingCrowd(const GuessingCrowd&) = delete;
+  GuessingCrowd& operator=(const GuessingCrowd&) = delete;
+
+  int wrong() const { return m_wrong; }
+  int busy() const { return m_busy; }
+
+ private:
+  asio::io_context m_context;
+  std::vector<std::unique_ptr<LightClient>> m_all;
+  std::atomic<int> m_wrong = 0;
+  std::atomic<int> m_busy = 0;
+  std::thread m_thread;
+};
+
+TEST_F(CrowdedDoor, EightyAddressesDoNotCloseAServerWithAPassword) {
+  HostOptions options = home.server();
+  options.password = PasswordHash::of("xyzzy", {.memory_kib = 4 * 1024, .passes = 6}).text();  // some 10 ms
+  TestServer server(world(), options);
+  const auto player = [&](const std::string& name) {
+    ClientSetup setup = home.player(name);
+    setup.options.password = "xyzzy";
+    return setup;
+  };
+  GuessingCrowd crowd(server.port(),
+                      addresses(80, [](int i) { return "127.1." + std::to_string(i) + ".1"; }));
+  ASSERT_TRUE(serve([&] { return crowd.busy() > 80; }));
+  for (int i = 0; i < 3; ++i) {
+    const auto newcomer = visitor(server, "127.9." + std::to_string(i) + ".9");
+    newcomer->join(context, player("ann"));
+    const auto took = timeUntil(context, {newcomer->client.get()}, [&] { return newcomer->isJudged(); });
+    ASSERT_TRUE(took && newcomer->client->joined()) << newcomer->client->connection().sentence();
+    EXPECT_LT(*took, 10s);
+  }
+  EXPECT_EQ(server.counters().joined, 3u);
+  EXPECT_GT(crowd.wrong(), 0);
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,68 @@
+// A client that says hello and then only listens: so light that a thousand of them fit into a test. It comes
+// from an address of its own.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <asio/steady_timer.hpp>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "naiad.pb.h"
+#include "shared/net/base/Channel.h"
+#include "shared/net/stream/TlsHandshake.h"
+
+namespace naiad::test {
+
+class LightClient {
+ public:
+  enum class State { kIdle, kJoining, kWelcome, kRefused, kHungUp };
+
+  /// `address`: in 127/8. Runs in `context`, which must outlive it.
+  LightClient(asio::io_context& context, std::uint16_t server, const std::string& address);
+  ~LightClient();
+  LightClient(const LightClient&) = delete;
+  LightClient& operator=(const LightClient&) = delete;
+
+  /// Connect with TLS and say hello, with the token of the last welcome if there was one.
+  void join(const std::string& password = {});
+  /// The same after a time.
+  void joinAfter(std::chrono::milliseconds pause);
+  /// Until it is welcome, as Connection does: after 0.25 s, 0.5 s, … 2 s.
+  void joinUntilWelcome();
+  /// Hang up, without a goodbye.
+  void drop();
+
+  State state() const { return m_state; }
+  const wire::Welcome& welcome() const { return m_welcome; }
+  const wire::Refused& refusal() const { return m_refused; }
+  /// Connections that were made or refused so far.
+  int attempts() const { return m_attempts; }
+  /// Called when a join ends, one way or the other.
+  void onJudged(std::function<void(LightClient&)> callback) { m_on_judged = std::move(callback); }
+
+ private:
+  void onFrame(std::string_view frame);
+  void end(State state);
+
+  asio::io_context& m_context;
+  asio::ip::tcp::endpoint m_server;
+  asio::ip::tcp::endpoint m_own;
+  asio::steady_timer m_timer;
+  std::shared_ptr<asio::ip::tcp::socket> m_socket;  ///< while it connects
+  std::shared_ptr<TlsHandshake> m_handshake;
+  std::unique_ptr<ReliableChannel> m_channel;
+  State m_state = State::kIdle;
+  std::string m_password;
+  wire::Welcome m_welcome;
+  wire::Refused m_refused;
+  std::function<void(LightClient&)> m_on_judged;
+  int m_attempts = 0;
+  bool m_insists = false;
+  std::chrono::milliseconds m_backoff{250};
+};
+
+}  // namespace naiad::test
