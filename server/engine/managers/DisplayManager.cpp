@@ -99,18 +99,18 @@ bool DisplayManager::setBackgroundColor(Color new_color) {
 }
 
 void DisplayManager::shake(int scale_x, int scale_y, int duration, bool delta) {
-  static constexpr int kMaxCells = 20;
+  static constexpr int kMaxShake = 20;
   const auto cells = [](int pixels, float pixels_per_cell) {
     return std::clamp(static_cast<int>(std::lrint(static_cast<float>(pixels) / pixels_per_cell)), 0,
-                      kMaxCells);
+                      kMaxShake);
   };
   Shaking& shake = World::current().extras().shake;
   const Shaking before = delta ? shake : Shaking{};
   // The least shake that shows is one of a cell.
   const int x = scale_x > 0 ? std::max(1, cells(scale_x, charWidth())) : 0;
   const int y = scale_y > 0 ? std::max(1, cells(scale_y, charHeight())) : 0;
-  shake.scale_x = std::min(before.scale_x + x, kMaxCells);
-  shake.scale_y = std::min(before.scale_y + y, kMaxCells);
+  shake.scale_x = std::min(before.scale_x + x, kMaxShake);
+  shake.scale_y = std::min(before.scale_y + y, kMaxShake);
   shake.ticks = std::clamp(duration, 0, 9000) + before.ticks;
 }
 

@@ -50,9 +50,12 @@ int ViewObject::eventHandler(const Event* p_e) {
 }
 
 int ViewObject::draw() {
-  std::string text = m_view_string;
-  if (m_draw_value) text += (text.empty() ? "" : " ") + std::to_string(m_value);
-  return drawText(m_border ? " " + text + " " : text);
+  std::string text = m_border ? " " : "";
+  text += m_view_string;
+  if (m_draw_value && !m_view_string.empty()) text += ' ';
+  if (m_draw_value) text += std::to_string(m_value);
+  if (m_border) text += ' ';
+  return drawText(text);
 }
 
 int ViewObject::drawText(const std::string& text) const {
@@ -61,7 +64,8 @@ int ViewObject::drawText(const std::string& text) const {
   if (!m_border) return 0;
   const auto length = static_cast<double>(text.size());
   const double left = at.x() - std::floor(length / 2);
-  const std::string bar = "+" + std::string(text.size(), '-') + "+";
+  std::string bar(text.size() + 2, '-');
+  bar.front() = bar.back() = '+';
   for (const double y : {at.y() - 1, at.y() + 1})
     DM.drawString(Vector(left - 1, y), bar, LEFT_JUSTIFIED, m_color);
   DM.drawCh(Vector(left - 1, at.y()), '|', m_color);

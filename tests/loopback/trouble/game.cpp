@@ -11,10 +11,12 @@ using namespace df;
 
 namespace {
 
+volatile bool g_endless = true;
+
 int deeper(int depth) {
   volatile char room[1000];
   room[depth % 1000] = (char)depth;
-  return deeper(depth + 1) + room[0];
+  return g_endless ? deeper(depth + 1) + room[0] : 0;
 }
 
 class Trouble : public Object {
