@@ -124,8 +124,14 @@ void Connection::saveToken(const ClientSession& session) {
 void Connection::attemptFailed(const std::string& sentence) {
   const Time now = Clock::now();
   if (m_state == State::kJoining && !m_busy) return finish(State::kUnreachable, sentence);
-  if (m_state == State::kLeft) return;
-  if (now - m_lost_at >= kGiveUp) return finish(m_busy ? State::kRefused : State::kLost, m_sentence);
+  m_put_off = false;
+  retryLater(now);
+}
+
+void Connection::retryLater(Time now) {
+  if (isOver()) return;
+  if (now - m_lost_at >= kGiveUp)
+    return finish(m_state == State::kJoining ? State::kRefused : State::kLost, m_sentence);
   m_next_attempt = now + m_backoff;
   m_backoff = std::min(m_backoff * 2, kLastBackoff);
 }
@@ -145,6 +151,7 @@ void Connection::update(Time now) {
     m_state = State::kSearching;
     m_sentence = "The connection to the server was lost.";
     m_lost_at = now;
+    m_put_off = false;
     m_backoff = kFirstBackoff;
     m_next_attempt = now;
     ++m_revision;
@@ -156,6 +163,7 @@ void Connection::update(Time now) {
     m_state = State::kSearching;
     m_sentence = m_session->sentence();
     m_lost_at = now;
+    m_put_off = false;
     m_backoff = kFirstBackoff;
     m_next_attempt = now + m_backoff;
     ++m_revision;
@@ -170,6 +178,7 @@ void Connection::checkPending() {
     m_session->adopt(*m_pending, Clock::now());
     m_pending.reset();
     m_state = State::kJoined;
+    m_put_off = false;
     m_sentence.clear();
     m_busy = false;
     if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
@@ -179,6 +188,7 @@ void Connection::checkPending() {
   if (m_pending->state() == S::kPlaying && m_pending->hasPicture(Clock::now())) {
     m_session = std::move(m_pending);
     m_state = State::kJoined;
+    m_put_off = false;
     m_sentence.clear();
     m_busy = false;
     if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
@@ -191,20 +201,20 @@ void Connection::checkPending() {
   }
   if (!m_pending->isOver()) return;
   const std::unique_ptr<ClientSession> over = std::move(m_pending);
-  if (over->isRefusedForNow() && m_state == State::kJoining) return waitForServer(over->sentence());
-  if (over->state() == S::kRefused && !over->isRefusedForNow()) {
-    return finish(State::kRefused, over->sentence());
-  }
+  if (over->isRefusedForNow()) return waitForServer(over->sentence());
+  if (over->state() == S::kRefused) return finish(State::kRefused, over->sentence());
   if (over->state() == S::kEnded) return finish(State::kEnded, over->sentence());
   attemptFailed(over->sentence());
 }
 
-// The server is busy, and was not joined yet.
+// The server is busy, or this client has come back too often: the next attempt may do.
 void Connection::waitForServer(const std::string& sentence) {
-  if (!std::exchange(m_busy, true)) m_lost_at = Clock::now();
+  const Time now = Clock::now();
+  if (m_state == State::kJoining && !std::exchange(m_busy, true)) m_lost_at = now;
+  m_put_off = true;
   m_sentence = sentence;
   ++m_revision;
-  attemptFailed(sentence);
+  retryLater(now);
 }
 
 void Connection::leave() {

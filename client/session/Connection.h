@@ -8,8 +8,8 @@
 // While searching, session() is still the lost one, so that its last picture can stay on the screen under a
 // banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another
 // stream is opened, and if the server still knows the session, the player notices nothing. The waiting time
-// between attempts doubles from 0.25 s to 2 s. A server that is busy is asked again in the same way. After
-// any other refusal it does not try again.
+// between attempts doubles from 0.25 s to 2 s. A server that refuses only for now is asked again in the same
+// way. After any other refusal it does not try again.
 //
 // Thread: the one that runs the io_context, which must outlive the Connection.
 #pragma once
@@ -67,8 +67,10 @@ class Connection {
   /// Nothing will happen any more.
   bool isOver() const;
   /// Why, for people: set in all states that are over but kLeft; while searching, why the server was lost;
-  /// while joining, what a busy server said.
+  /// while isPutOff(), what the server says.
   const std::string& sentence() const { return m_sentence; }
+  /// The server has refused the last attempt for now. The next one comes by itself.
+  bool isPutOff() const { return m_put_off; }
   /// The session to show; null before the first picture.
   ClientSession* session() { return m_session.get(); }
   /// How long a server that let the client in has not sent a first picture; zero while there is no such one.
@@ -88,6 +90,7 @@ class Connection {
   void chooseToken(SessionOptions& options) const;
   void saveToken(const ClientSession& session);
   void attemptFailed(const std::string& sentence);
+  void retryLater(Time now);
   void checkPending();
   void waitForServer(const std::string& sentence);
   void finish(State state, const std::string& sentence);
@@ -111,8 +114,9 @@ class Connection {
   std::function<void(ClientSession&)> m_observer;
   std::chrono::milliseconds m_backoff{kFirstBackoff};
   Time m_next_attempt = Time::max();
-  Time m_lost_at{};  ///< while searching, or joining a server that is busy
-  bool m_busy = false;
+  Time m_lost_at{};     ///< while searching; while joining, when the server first refused for now
+  bool m_busy = false;  ///< while joining: it has refused for now
+  bool m_put_off = false;
   std::uint64_t m_revision = 0;
 };
 

@@ -80,8 +80,7 @@ void ClientApp::join() {
     m_context.run_one_for(kHousekeeping);
     const Time now = Clock::now();
     m_connection.update(now);
-    if (m_connection.state() != Connection::State::kJoining) break;
-    if (m_connection.sentence() != refusal) {
+    if (m_connection.isPutOff() && m_connection.sentence() != refusal) {
       refusal = m_connection.sentence();
       std::fprintf(stderr, "dfclient: %s (Trying again; Ctrl-C ends.)\n", refusal.c_str());
     }

@@ -54,8 +54,9 @@ std::string FrameComposer::banner(Time now) const {
   const std::int64_t tenths = tenthsOfSilence(*session, now);
   char text[96];
   std::snprintf(text, sizeof text,
-                searching ? "Server lost, looking for it again: %lld.%lld s"
-                          : "No news from the server for %lld.%lld s",
+                m_connection.isPutOff() ? "The server asks to wait, trying again: %lld.%lld s"
+                : searching             ? "Server lost, looking for it again: %lld.%lld s"
+                                        : "No news from the server for %lld.%lld s",
                 static_cast<long long>(tenths / 10), static_cast<long long>(tenths % 10));
   return text;
 }

@@ -39,6 +39,10 @@ std::optional<std::uint64_t> ResumeTokens::sessionOf(const std::string& hash) co
   return found != m_sessions.end() ? std::optional(found->second) : std::nullopt;
 }
 
+std::optional<std::uint64_t> ResumeTokens::find(const std::string& token) const {
+  return sessionOf(hashOf(token));
+}
+
 std::optional<std::uint64_t> ResumeTokens::holderOf(const std::string& token) const {
   const std::string hash = hashOf(token);
   const auto session = sessionOf(hash);

@@ -19,9 +19,11 @@ class ResumeTokens {
 
   /// A new token for a session. The one redeemed last stays good until confirm(), any other is void.
   std::string issue(std::uint64_t session);
-  /// The session a token was issued for; nothing if it never was or is void.
+  /// The session a token was issued for; nothing if it never was or is void. Nothing changes.
+  std::optional<std::uint64_t> find(const std::string& token) const;
+  /// The same, and the token is used.
   std::optional<std::uint64_t> redeem(const std::string& token);
-  /// The same if it is the newest one, and it is not used up by this: nothing changes.
+  /// As find(), for the newest one only.
   std::optional<std::uint64_t> holderOf(const std::string& token) const;
   /// The client has got the newest token: the one before is void.
   void confirm(std::uint64_t session);

@@ -118,12 +118,18 @@ bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
     session.refuse(wire::Refused::ELSEWHERE, "You went on playing in another terminal.");
     return true;
   }
-  const auto id = m_tokens.redeem(hello.resume_token());
+  const auto id = m_tokens.find(hello.resume_token());
   Session* p_before = id ? m_setup.sessions.find(*id) : nullptr;
   if (p_before == nullptr || p_before->state() != Session::State::kPlaying) {
     ++m_counters.unknown_tokens;
     return false;
   }
+  if (!p_before->admitResume()) {  // the token stays good for the next attempt
+    session.refuse(wire::Refused::BUSY,
+                   "Your connection breaks too often. The server lets you back in a moment.");
+    return true;
+  }
+  m_tokens.redeem(hello.resume_token());
   wire::Welcome welcome = p_before->welcomed();
   welcome.set_resumed(true);
   if (const Room* p_room = m_setup.rooms.roomOf(*p_before)) welcome.set_tick(p_room->tick());

@@ -279,7 +279,7 @@ void Host::sendPlayers() {
         return p_session != nullptr ? p_session->rttMillis() : 0;
       },
       [this](std::uint32_t player, const wire::ServerMessage& message) {
-        if (Session* p_session = m_rooms.findPlayer(player)) p_session->sendKept(message, true);
+        if (Session* p_session = m_rooms.findPlayer(player)) p_session->sendKept(message);
       });
 }
 

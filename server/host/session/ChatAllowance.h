@@ -3,40 +3,45 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
 
 namespace naiad {
 
+/// One for a session, whatever becomes of its streams: only time refills it. Time is passed in.
 class ChatAllowance {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr int kPerSecond = 3;
-  /// Lines at once from a client that comes back, if it was away long enough to have typed them.
-  static constexpr int kAtOnce = 30;
+  static constexpr double kPerSecond = 3;
+  static constexpr double kAtOnce = 3;
+  /// Lines at once from a client that comes back, if it was silent long enough to have typed them.
+  static constexpr double kSaved = 30;
 
   explicit ChatAllowance(Time now) : m_refilled(now) {}
 
-  /// Once a tick.
-  void refill(Time now) {
-    if (now - m_refilled < std::chrono::seconds(1)) return;
-    m_refilled = now;
-    m_lines = std::max(m_lines, kPerSecond);
-  }
-  /// The client was away for so long: what was typed in that time comes all at once.
-  void allowSaved(Time::duration away) {
-    const std::int64_t seconds = std::chrono::floor<std::chrono::seconds>(away).count();
-    m_lines = static_cast<int>(std::min<std::int64_t>(kPerSecond * (seconds + 1), kAtOnce));
-  }
   /// False if the line is one too many.
-  bool takeLine() {
-    if (m_lines <= 0) return false;
-    --m_lines;
+  bool takeLine(Time now) {
+    refill(now, kAtOnce);
+    if (m_lines < 1) return false;
+    m_lines -= 1;
     return true;
+  }
+  /// The client is back, on another stream, and nothing had come since `silent_since`: what was typed
+  /// meanwhile comes all at once.
+  void refillAfterSilence(Time silent_since, Time now) {
+    refill(silent_since, kAtOnce);
+    refill(now, kSaved);
   }
 
  private:
-  int m_lines = kPerSecond;
+  /// Up to `most` lines; if there are more, they stay.
+  void refill(Time now, double most) {
+    if (now <= m_refilled) return;
+    const double seconds = std::chrono::duration<double>(now - m_refilled).count();
+    m_refilled = now;
+    if (m_lines < most) m_lines = std::min(most, m_lines + seconds * kPerSecond);
+  }
+
+  double m_lines = kAtOnce;
   Time m_refilled;
 };
 

@@ -39,8 +39,8 @@ class ClientActivity {
 
   /// How long the client has been silent, to a tick (IdleTimer.h).
   auto silence(Time now) const { return m_idle.at(now); }
-  /// How long no frame has come.
-  auto streamSilence(Time now) const { return now - m_frame_at; }
+  /// When a frame came last.
+  Time lastFrame() const { return m_frame_at; }
 
   /// A welcome was sent: the next frame proves that the client has read it.
   void awaitProof() { m_awaits_proof = true; }
@@ -53,7 +53,7 @@ class ClientActivity {
   bool m_proved = false;
   int m_messages = 0;  ///< since the last tick
   IdleTimer m_idle;
-  Time m_frame_at;  ///< when a frame came last
+  Time m_frame_at;
 };
 
 }  // namespace naiad

@@ -27,10 +27,12 @@ struct Counters {
   std::uint64_t resumed = 0;             ///< sessions that went on with another stream
   std::uint64_t restarted = 0;           ///< of these: with another process of the client
   std::uint64_t second_streams = 0;      ///< beside the first, where datagrams do not pass
+  std::uint64_t resumes_deferred = 0;    ///< came back more often than allowed: refused for now
   std::uint64_t refused_elsewhere = 0;   ///< came back, but the session goes on in another process
   std::uint64_t unknown_tokens =
       0;  ///< of no session that is still there: a new player, or a guess, or no place for a second stream
-  std::uint64_t kept_overflows = 0;     ///< more was to be kept for a client than may be: ended
+  std::uint64_t kept_overflows = 0;     ///< sounds left out, since too much was kept for a client
+  std::uint64_t chat_left_out = 0;      ///< lines, for the same reason, each counted for each client
   std::uint64_t repeated_frames = 0;    ///< kept frames that had come already: ignored
   std::uint64_t stuck_streams = 0;      ///< not taken in for 10 s: ended
   std::uint64_t graces_expired = 0;     ///< clients that did not come back in time

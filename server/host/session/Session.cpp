@@ -10,6 +10,7 @@ Session::Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, C
       m_streams(std::move(channel)),
       m_activity(now),
       m_chat(now),
+      m_outbox(counters),
       m_delivery(counters, now),
       m_welcome(std::make_unique<wire::Welcome>()) {}
 
@@ -69,14 +70,23 @@ void Session::sendWelcome(const wire::Welcome& welcome) {
 
 // ---- streams that come and go -----------------------------------------------------------------------------
 
+// One that is refused for now was heard of all the same: its grace time starts again.
+bool Session::admitResume() {
+  if (m_resumes.takeToken(kResumeRate, now())) return true;
+  m_activity.noteReturn(now());
+  ++m_counters.resumes_deferred;
+  return false;
+}
+
 void Session::adopt(Session& other, wire::Welcome welcome, std::uint32_t received) {
   takeStream(other);
   other.m_state = State::kGone;
   m_delivery.loseStream();
-  m_kept.acknowledge(received);
+  m_outbox.acknowledge(received);
+  m_outbox.restartStream();
   welcome.set_received(m_kept_heard.newest());
   sendWelcome(welcome);
-  m_kept.forEach([this](const std::string& frame) { m_streams.sendFirst(frame); });
+  sendWaiting();
 }
 
 void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<SealedChannel> datagrams) {
@@ -88,7 +98,7 @@ void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<Sea
   }
   m_delivery.restart(now());
   startDatagrams(std::move(datagrams));
-  m_kept.clear();
+  m_outbox.clear();
   m_kept_heard = {};
   m_rtt_millis = 0;
   releaseKeys();
@@ -116,9 +126,9 @@ void Session::takeStream(Session& other) {
   m_streams.takeFirst(other.m_streams);
   other.m_reported_gone = true;
   const Clock::time_point present = now();
+  m_chat.refillAfterSilence(m_activity.lastFrame(), present);
   m_activity.noteReturn(present);
   m_resize.continueFrom(other.m_resize);
-  m_chat.allowSaved(m_activity.streamSilence(present));
   ++m_counters.resumed;
 }
 
@@ -169,8 +179,8 @@ void Session::reportGone() {
 
 void Session::checkDeadlines(Clock::time_point now) {
   m_activity.endTick(now);
-  m_chat.refill(now);
   checkSilence(now);
+  sendWaiting();
 }
 
 void Session::checkGreeting(Clock::time_point now) {
@@ -225,13 +235,21 @@ void Session::send(const wire::ServerMessage& message) {
   m_streams.sendFirst(message.SerializeAsString());
 }
 
-void Session::sendKept(wire::ServerMessage message, bool replaces) {
+void Session::sendKept(const wire::ServerMessage& message) {
   if (m_state != State::kPlaying) return;
-  message.set_number(m_kept.next());
-  const std::string frame = message.SerializeAsString();
-  if (m_kept.keep(frame, replaces)) return m_streams.sendFirst(frame);
-  ++m_counters.kept_overflows;
-  goodbye("More was said than your connection could take in.");
+  m_outbox.add(message);
+  sendWaiting();
+}
+
+// A little at a time, and in turn with the picture: on a slow line, what others say must neither hold up the
+// game nor fill the stream until it counts as stuck.
+void Session::sendWaiting() {
+  if (m_state != State::kPlaying || stream() == nullptr) return;
+  while (const std::string* p_frame = m_outbox.next()) {
+    if (m_delivery.isHeldUp() || stream()->unsentBytes() > kMaxBeforeFleeting) return;
+    m_streams.sendFirst(*p_frame);
+    m_outbox.noteSent();
+  }
 }
 
 bool Session::sendFleeting(const wire::ServerMessage& message) {

@@ -18,10 +18,12 @@
 #include "host/session/ClientActivity.h"
 #include "host/session/Counters.h"
 #include "host/session/ReceivedInputs.h"
+#include "host/session/ReliableOutbox.h"
 #include "host/session/ResizeRequest.h"
 #include "host/session/SnapshotDelivery.h"
 #include "host/session/StreamPair.h"
 #include "shared/net/base/Channel.h"
+#include "shared/net/base/TokenBucket.h"
 #include "shared/net/stream/ReliableFrames.h"
 #include "shared/replica/UpdateCodec.h"
 
@@ -59,7 +61,11 @@ class Session {
   static constexpr std::chrono::seconds kIdleTimeout{15};
   /// After this silence the keys of a player without a stream are released.
   static constexpr std::chrono::seconds kSuspend{1};
-  /// With more than this unsent on the stream, a message arrives too late for sendFleeting().
+  /// How often a session may go on with another stream, or another process. A line that breaks every second
+  /// is not noticed; each return may cost a world that is sent from the beginning.
+  static constexpr BucketRate kResumeRate{.per_second = 1, .burst = 3};
+  /// With more than this unsent on the stream, a message arrives too late for sendFleeting(), and kept ones
+  /// wait for their turn.
   static constexpr std::size_t kMaxBeforeFleeting = std::size_t{4} * 1024;
 
   Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now);
@@ -74,6 +80,8 @@ class Session {
   void refuse(wire::Refused_Reason reason, const std::string& sentence);
   /// Answer the hello: the client plays from now on. With `datagrams` if there are to be any.
   void welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChannel> datagrams = nullptr);
+  /// The client is back: may it go on now (kResumeRate)? If not, nothing changes, and its session waits on.
+  bool admitResume();
   /// The client is back: take over the stream on which `other` heard its hello, answer the hello, and send
   /// again all reliable frames after number `received`. `other` is Gone afterwards.
   void adopt(Session& other, wire::Welcome welcome, std::uint32_t received);
@@ -129,9 +137,9 @@ class Session {
   /// Note a published tick, and send what is pending unless the client is still busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player);
   void send(const wire::ServerMessage& message);
-  /// Send it so that it arrives, on this stream or another one: it is kept until the client has it.
-  /// `replaces`: it makes the last message obsolete that was sent with this flag.
-  void sendKept(wire::ServerMessage message, bool replaces = false);
+  /// Send it so that it arrives, on this stream or another one: it is kept until the client has it, or left
+  /// out if there is too much (ReliableOutbox.h). For chat, players and sounds.
+  void sendKept(const wire::ServerMessage& message);
 
   /// Send it if it can arrive at once; late, it is worthless. Return whether it was sent.
   bool sendFleeting(const wire::ServerMessage& message);
@@ -159,6 +167,7 @@ class Session {
   void detach(Clock::time_point now);
   void takeStream(Session& other);
   void sendWelcome(const wire::Welcome& welcome);
+  void sendWaiting();
   void startDatagrams(std::unique_ptr<SealedChannel> datagrams);
   void releaseKeys() { m_inputs.releaseKeys(m_delivery.tick()); }
   void checkGreeting(Clock::time_point now);
@@ -187,7 +196,8 @@ class Session {
   ChatAllowance m_chat;
   ResizeRequest m_resize;
   ReceivedInputs m_inputs;
-  ReliableFrames m_kept;
+  TokenBucket m_resumes;
+  ReliableOutbox m_outbox;
   ReliableFramesHeard m_kept_heard;
   SnapshotDelivery m_delivery;
   std::chrono::milliseconds m_grace{0};

@@ -95,11 +95,12 @@ void Session::takeHello(const wire::Hello& hello) {
 
 void Session::takePing(const wire::Ping& ping) {
   m_rtt_millis = std::min<std::uint32_t>(ping.rtt_millis(), 99'999);
-  m_kept.acknowledge(ping.received());
+  m_outbox.acknowledge(ping.received());
   wire::ServerMessage answer;
   answer.mutable_pong()->set_token(ping.token());
   answer.mutable_pong()->set_received(m_kept_heard.newest());
   send(answer);
+  sendWaiting();
 }
 
 bool Session::takeUpdate(std::string_view bytes, bool by_datagram) {
@@ -130,7 +131,7 @@ void Session::takeInput(const Input& input) {
 void Session::takeChat(const std::string& text) {
   const std::string line = cleanChat(text);
   if (line.empty()) return;
-  if (!m_chat.takeLine()) {
+  if (!m_chat.takeLine(now())) {
     ++m_counters.chat_dropped;
     return;
   }

@@ -32,6 +32,7 @@ std::string frameOf(const SnapshotSender::Packet& packet) {
 void SnapshotDelivery::sendTick(const Publisher& publisher, const df::PlayerFacts& player,
                                 StreamPair& streams, Time now) {
   m_tick = publisher.tick();
+  m_held_up = false;
   settleAcks();
   m_sender.applyTick(publisher, player);
   if (usesDatagrams(now)) return sendDatagrams(publisher, streams, now);
@@ -69,7 +70,8 @@ void SnapshotDelivery::sendOnStreams(const Publisher& publisher, StreamPair& str
   // goes on the first, and nothing overtakes it.
   const bool first = streams.isFirstIdle();
   const bool second = streams.isSecondIdle() && !m_sender.hasLargeInFlight();
-  if (!first && !second) return skipTick();
+  m_held_up = !first && !second;
+  if (m_held_up) return skipTick();
   SnapshotSender::Packets& packets = packetsOfThread();
   m_sender.build(publisher, first ? kStreamRoom : kSecondRoom, packets);
   const bool small = packets.size() == 1 && packets.back().bytes.size() <= kMaxOnSecond;
@@ -140,11 +142,14 @@ void SnapshotDelivery::reset() {
 }
 
 void SnapshotDelivery::loseStream() {
+  m_held_up = false;
   settleAcks();
   m_sender.requeueLarge();
 }
 
 void SnapshotDelivery::restart(Time now) {
+  m_held_up = false;
+  m_last_reset = now;
   reset();
   m_transport = TransportSelector(now);
 }

@@ -53,9 +53,12 @@ class SnapshotDelivery {
   void loseStream();
   /// The client is on another stream: find out again whether datagrams pass.
   void renewTransport(Time now) { m_transport.renew(now); }
-  /// Another process of the client, which knows nothing of this one's transport.
+  /// Another process of the client, which knows nothing of this one's transport. The world that it is sent
+  /// counts as a reset.
   void restart(Time now);
 
+  /// The last snapshot was to go on a stream and could not, because of earlier bytes.
+  bool isHeldUp() const { return m_held_up; }
   bool usesDatagrams(Time now) const { return m_datagrams != nullptr && m_transport.isOpen(now); }
   /// The newest published tick.
   std::uint32_t tick() const { return m_tick; }
@@ -83,6 +86,7 @@ class SnapshotDelivery {
   SnapshotSender m_sender{Resend::kAhead};
   TransportSelector m_transport;
   SnapshotTicks m_ticks;
+  bool m_held_up = false;
   std::optional<Time> m_last_reset;
   std::optional<Time> m_last_checksum;
 };

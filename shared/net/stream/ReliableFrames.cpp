@@ -1,6 +1,5 @@
 #include "shared/net/stream/ReliableFrames.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "shared/net/stream/Framing.h"
@@ -12,15 +11,10 @@ std::size_t ReliableFrames::Kept::size() const {
   return frame.size() + kFrameHeaderSize;
 }
 
-bool ReliableFrames::keep(std::string frame, bool replaces) {
-  Kept kept{m_next, replaces, std::move(frame)};
-  const auto before =
-      replaces ? std::find_if(m_kept.begin(), m_kept.end(), [](const Kept& other) { return other.replaces; })
-               : m_kept.end();
-  const std::size_t freed = before != m_kept.end() ? before->size() : 0;
-  if (m_bytes - freed + kept.size() > kMax) return false;
-  m_bytes += kept.size() - freed;
-  if (before != m_kept.end()) m_kept.erase(before);
+bool ReliableFrames::keep(std::string frame) {
+  Kept kept{m_next, std::move(frame)};
+  if (m_bytes + kept.size() > kMax) return false;
+  m_bytes += kept.size();
   m_kept.push_back(std::move(kept));
   if (++m_next == 0) m_next = 1;
   return true;
@@ -32,11 +26,6 @@ void ReliableFrames::acknowledge(std::uint32_t number) {
     m_bytes -= m_kept.front().size();
     m_kept.pop_front();
   }
-}
-
-void ReliableFrames::clear() {
-  m_kept.clear();
-  m_bytes = 0;
 }
 
 bool ReliableFramesHeard::take(std::uint32_t number) {

@@ -2,7 +2,8 @@
 //
 // The sender numbers them, from 1, and keeps each until the other end says that it came; what is left is sent
 // again on the session's next stream. The receiver takes each number once. Numbers are compared as serial
-// numbers (RFC 1982) and may have gaps: a frame that a later one replaces is not sent again.
+// numbers (RFC 1982) and may have gaps: a server leaves out what a later frame replaces, and the oldest chat
+// where there is too much (host/session/ReliableOutbox.h).
 #pragma once
 
 #include <cstddef>
@@ -12,21 +13,18 @@
 
 namespace naiad {
 
-/// The sender's end. Not thread-safe.
+/// A client's end as a sender. Not thread-safe.
 class ReliableFrames {
  public:
-  /// Kept at most, in bytes with their headers: a peer that has missed more cannot go on.
+  /// Kept at most, in bytes with their headers.
   static constexpr std::size_t kMax = std::size_t{64} * 1024;
 
   /// The number of the next frame; never 0.
   std::uint32_t next() const { return m_next; }
-  /// Keep this frame, which has the number next(). `replaces`: it says all that an earlier one said that was
-  /// kept with the same. False, and nothing is kept, if that is more than kMax.
-  bool keep(std::string frame, bool replaces = false);
+  /// Keep this frame, which has the number next(). False, and nothing is kept, if that is more than kMax.
+  bool keep(std::string frame);
   /// The other end has all up to `number`. What was never sent is no acknowledgement.
   void acknowledge(std::uint32_t number);
-  /// Nothing of this is wanted any more; numbers go on.
-  void clear();
   /// Call `send(frame)` for all that is kept, in order.
   template <class Send>
   void forEach(Send send) const {
@@ -38,7 +36,6 @@ class ReliableFrames {
  private:
   struct Kept {
     std::uint32_t number = 0;
-    bool replaces = false;
     std::string frame;
     std::size_t size() const;
   };

@@ -176,6 +176,37 @@ TEST_F(AdmissionTest, ATokenContinuesItsSessionOnAnotherStream) {
   EXPECT_EQ(sessions.playing(), 1u);
 }
 
+TEST_F(AdmissionTest, AClientThatComesBackTooOftenIsRefusedForNowAndItsTokenStaysGood) {
+  Client* p_ann = &greet(helloOf("Ann"));
+  const std::uint32_t player = p_ann->welcome().player();
+  const auto comeBack = [&](bool fresh) {
+    p_ann->drop();
+    wire::Hello hello = returning(*p_ann);
+    hello.set_fresh(fresh);
+    Client& back = greet(hello);
+    if (back.isWelcome()) p_ann = &back;
+    return back.isWelcome();
+  };
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(comeBack(i % 2 == 0));
+  wire::Hello hello = returning(*p_ann);
+  p_ann->drop();
+  for (int i = 0; i < 10; ++i) {
+    hello.set_fresh(i % 2 == 0);
+    EXPECT_EQ(greet(hello).refusal(), wire::Refused::BUSY);
+    sessions.sweep();
+  }
+  EXPECT_EQ(counters.resumes_deferred, 10u);
+  EXPECT_EQ(counters.unknown_tokens, 0u);
+  EXPECT_TRUE(sessionOf(1).isDetached());
+  now += 1s;
+  hello.set_fresh(false);
+  const Client& back = greet(hello);
+  ASSERT_TRUE(back.isWelcome());
+  EXPECT_EQ(back.welcome().player(), player);
+  EXPECT_EQ(counters.resumed, 4u);
+  EXPECT_EQ(sessions.playing(), 1u);
+}
+
 TEST_F(AdmissionTest, ATokenIsVoidOnceTheNextOneIsConfirmed) {
   Client& ann = greet(helloOf("Ann"));
   ann.drop();

@@ -1,6 +1,8 @@
 // A session that goes on with another stream, or with another process of the client; what is kept meanwhile.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -150,7 +152,7 @@ TEST_F(SessionReturn, OfPlayerListsTheNewestIsSentAgain) {
   for (const std::uint32_t player : {1u, 2u}) {
     wire::ServerMessage list;
     list.mutable_players()->add_players()->set_player(player);
-    session->sendKept(list, true);
+    session->sendKept(list);
     sendChat("line");
   }
   breakStream(first);
@@ -190,25 +192,154 @@ TEST_F(SessionReturn, TheChatOfAMinuteMayComeAtOnce) {
   EXPECT_EQ(counters.chat_dropped, 70u);
 }
 
-TEST_F(SessionReturn, AClientThatCannotTakeInWhatIsKeptGetsAGoodbye) {
-  const std::string line(1000, 'x');
-  while (session->state() == Session::State::kPlaying && first.sent.size() < 1000) sendChat(line);
-  EXPECT_EQ(session->state(), Session::State::kEnding);
-  EXPECT_EQ(first.sent.size(), 1u + 64 + 1) << "welcome, 64 KiB, goodbye";
-  EXPECT_EQ(first.sent.back().goodbye().sentence(), "More was said than your connection could take in.");
-  EXPECT_EQ(counters.kept_overflows, 1u);
-  EXPECT_EQ(gone, 1);
+TEST_F(SessionReturn, OnlyTimeRefillsTheChatAllowance) {
+  std::vector<std::unique_ptr<Session>> others;
+  std::deque<Wire> lines;
+  std::uint32_t number = 0;
+  Wire* p_line = &first;
+  for (int i = 0; i < 25; ++i, now += 200ms) {  // it comes back five times a second, for 5 s
+    for (int k = 0; k < 40; ++k) chatLine(*p_line, "line", ++number);
+    breakStream(*p_line);
+    others.push_back(make(lines.emplace_back()));
+    p_line = &lines.back();
+    greet(*p_line, "token");
+    session->checkDeadlines(now);
+  }
+  EXPECT_LE(chat.size(), 3u + 5 * 3);
+  EXPECT_GE(chat.size(), 5u * 3);
+  EXPECT_EQ(counters.chat_dropped + chat.size(), 25u * 40);
+  EXPECT_EQ(session->state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionReturn, AClientThatAcknowledgesNeverOverflows) {
+TEST_F(SessionReturn, AClientThatSendsNothingMaySayWhatWasTypedMeanwhileAndNoMore) {
+  std::uint32_t number = 0;
+  std::vector<std::unique_ptr<Session>> others;
+  std::deque<Wire> lines;
+  Wire* p_line = &first;
+  for (int round = 0; round < 6; ++round) {
+    now += 20s;
+    breakStream(*p_line);
+    others.push_back(make(lines.emplace_back()));
+    p_line = &lines.back();
+    greet(*p_line, "token");
+    for (int k = 0; k < 100; ++k) chatLine(*p_line, "line", ++number);
+  }
+  EXPECT_EQ(chat.size(), 6u * 30);
+}
+
+/// Others may say what they like: a client that takes in nothing keeps its session.
+TEST_F(SessionReturn, AClientThatDoesNotAcknowledgeIsToldHowManyLinesWereLeftOut) {
+  const std::string line(200, 'x');
+  const auto said = [&line](int i) { return std::to_string(i) + " " + line; };
+  for (int i = 0; i < 5'000; ++i) sendChat(said(i));
+  EXPECT_EQ(session->state(), Session::State::kPlaying);
+  EXPECT_EQ(gone, 0);
+  breakStream(first);
+  for (int i = 5'000; i < 10'000; ++i) sendChat(said(i));
+  EXPECT_EQ(session->state(), Session::State::kPlaying);
+  const std::size_t seen = chatOf(first).size();
+  const auto other = make(second);
+  greet(second, "token", false, first.sent.back().number());
+  for (int i = 0; i < 100; ++i) {
+    const std::uint32_t newest = second.sent.back().number();
+    if (newest != 0) ping(second, newest);
+    session->checkDeadlines(now);
+  }
+  std::vector<std::string> rest = chatOf(second);
+  ASSERT_GT(rest.size(), 200u);
+  EXPECT_EQ(rest.back(), said(9'999));
+  EXPECT_EQ(rest.front(),
+            std::to_string(10'000 - seen - (rest.size() - 1)) + " lines of chat were left out.");
+  EXPECT_GT(counters.chat_left_out, 9'000u);
+  EXPECT_EQ(gone, 0);
+}
+
+/// The stream of a client on a slow line holds a little of what others say, and the picture has its turn.
+TEST_F(SessionReturn, ChatOfOthersNeitherClogsASlowStreamNorHoldsUpThePicture) {
+  constexpr std::size_t kPerTick = 300;  // bytes: 72 kbit/s
+  test::SimulatedWorld world({}, 7);
+  Publisher publisher;
+  std::size_t most = 0;
+  std::uint64_t pictures = 0;
+  first.on_send = [&, keep = first.on_send](std::string_view frame) {
+    keep(frame);
+    first.unsent += frame.size();
+    pictures += first.sent.back().what_case() == wire::ServerMessage::kSnapshot ? 1 : 0;
+  };
+  for (int tick = 0; tick < 1'800; ++tick, now += 33ms) {
+    for (int i = 0; i < 6; ++i) sendChat(std::string(200, 'x'));  // of 64 players at their limit
+    first.unsent -= std::min(first.unsent, kPerTick);
+    if (tick % 30 == 0) ping(first, first.sent.back().number());
+    session->checkDeadlines(now);
+    world.tick();
+    publisher.update(world.view());
+    session->sendTick(publisher, world.view().players[0]);
+    if (pictures > 3) most = std::max(most, first.unsent);  // the world has been sent
+  }
+  EXPECT_EQ(session->state(), Session::State::kPlaying);
+  EXPECT_LT(most, 16'000u);
+  EXPECT_GT(pictures, 60u) << "one a second";
+  EXPECT_GT(chatOf(first).size(), 500u);
+  EXPECT_EQ(counters.stuck_streams, 0u);
+}
+
+TEST_F(SessionReturn, ComingBackIsLimitedToOnceASecondInTheLongRun) {
+  int admitted = 0;
+  for (int i = 0; i < 1'000; ++i, now += 10ms) admitted += session->admitResume() ? 1 : 0;
+  EXPECT_GE(admitted, 3 + 9);
+  EXPECT_LE(admitted, 3 + 10);
+  EXPECT_EQ(counters.resumes_deferred + static_cast<std::uint64_t>(admitted), 1'000u);
+  EXPECT_EQ(session->state(), Session::State::kPlaying);
+}
+
+TEST_F(SessionReturn, ALineThatBreaksEveryTwoSecondsIsNotLimited) {
+  for (int i = 0; i < 1'000; ++i, now += 2s) ASSERT_TRUE(session->admitResume());
+}
+
+TEST_F(SessionReturn, AClientThatIsRefusedForNowIsHeardOfAllTheSame) {
+  breakStream(first);
+  for (int i = 0; i < 3; ++i) session->admitResume();
+  for (int i = 0; i < 100; ++i, now += 500ms) session->checkDeadlines(now);
+  for (int i = 0; i < 4; ++i) session->admitResume();  // the last one is one too many
+  for (int i = 0; i < 100; ++i, now += 500ms) session->checkDeadlines(now);
+  EXPECT_EQ(counters.resumes_deferred, 1u);
+  EXPECT_EQ(session->state(), Session::State::kPlaying) << "100 s after the stream broke";
+  for (int i = 0; i < 30; ++i, now += 500ms) session->checkDeadlines(now);
+  EXPECT_EQ(session->state(), Session::State::kGone);
+}
+
+TEST_F(SessionReturn, AWorldSentToAnotherProcessCountsAsAReset) {
+  ClientUpdate update;
+  update.wants_reset = true;
+  wire::ClientMessage wants;
+  wants.set_update(writeUpdate(update));
+  now += 10s;
+  const auto other = make(second);
+  greet(second, "token", true);
+  say(second, wants);
+  EXPECT_EQ(counters.resets, 0u);
+  EXPECT_EQ(counters.resets_dropped, 1u);
+  now += 2s;
+  say(second, wants);
+  EXPECT_EQ(counters.resets, 1u);
+  Wire third;
+  const auto again = make(third);
+  greet(third, "token");  // the same process, on another stream
+  say(third, wants);
+  EXPECT_EQ(counters.resets, 1u) << "two seconds, whatever becomes of the stream";
+}
+
+TEST_F(SessionReturn, AClientThatAcknowledgesMissesNothing) {
   const std::string line(1000, 'x');
   for (std::uint32_t i = 1; i <= 1000; ++i) {
     sendChat(line);
-    if (i % 32 != 0) continue;
+    if (i % 8 != 0) continue;
     session->checkDeadlines(now);
     ping(first, i);
   }
   EXPECT_EQ(session->state(), Session::State::kPlaying);
+  EXPECT_EQ(chatOf(first).size(), 1000u);
+  EXPECT_EQ(counters.chat_left_out, 0u);
 }
 
 TEST_F(SessionReturn, AnAcknowledgementOfUnsentMessagesIsIgnored) {
