@@ -28,7 +28,7 @@ class Home {
     HostOptions options;
     options.port = 0;
     options.address = "127.0.0.1";
-    options.identity = m_directory / identity;
+    options.identity = this->identity(identity);
     options.frame_micros = 5000;
     return options;
   }
@@ -41,6 +41,7 @@ class Home {
     setup.rejoin = true;
     return setup;
   }
+  std::filesystem::path identity(const std::string& name) const { return m_directory / name; }
   std::filesystem::path knownServers() const { return m_directory / "known_servers"; }
   std::filesystem::path sessions() const { return m_directory / "sessions"; }
 

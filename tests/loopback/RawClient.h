@@ -3,16 +3,25 @@
 
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "naiad.pb.h"
+#include "shared/net/stream/SocketBio.h"
+
+struct ssl_st;
 
 namespace naiad::test {
 
 class RawClient {
  public:
-  explicit RawClient(std::uint16_t port);
+  enum class Line { kPlain, kTls };
+
+  /// With TLS the handshake is done afterwards, unless the server has hung up in it.
+  explicit RawClient(std::uint16_t port, Line line = Line::kPlain);
+  RawClient(const RawClient&) = delete;
+  RawClient& operator=(const RawClient&) = delete;
 
   /// Send bytes as they are. Errors (the server hung up) are ignored.
   void sendBytes(const std::string& bytes);
@@ -32,10 +41,18 @@ class RawClient {
   void reset();
 
  private:
+  struct FreeTls {
+    void operator()(ssl_st* tls) const;
+  };
+
   std::optional<std::string> readExactly(std::size_t count);
+  int transfer(bool out, char* bytes, std::size_t count);
+  bool await(bool out);
 
   asio::io_context m_context;
   asio::ip::tcp::socket m_socket{m_context};
+  SocketBio m_bio;
+  std::unique_ptr<ssl_st, FreeTls> m_tls;  ///< null: plain
   bool m_timed_out = false;
 };
 

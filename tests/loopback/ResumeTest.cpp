@@ -6,6 +6,7 @@
 #include "Census.h"
 #include "Compare.h"
 #include "Home.h"
+#include "RecordingServer.h"
 #include "StreamProxy.h"
 #include "TestServer.h"
 #include "Valve.h"
@@ -249,6 +250,61 @@ TEST_F(Resume, AGuessedTokenResumesNoSession) {
   }
   EXPECT_EQ(server->counters().resumed, 0u);
   EXPECT_TRUE(keyWorks(ann));
+}
+
+TEST_F(Resume, AnotherServerInItsPlaceIsToldNotAByte) {
+  start(home.server());
+  RecordingServer impostor(home.identity("another identity"));
+  ClientSetup setup = player("ann");
+  setup.options.password = "xyzzy";
+  TestClient ann(context, proxy->port(), setup);
+  ASSERT_TRUE(settle(ann));
+  proxy->setServer(impostor.port());
+  proxy->cut();  // datagrams still go to the right one
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.finished() >= 1; }));
+  EXPECT_EQ(impostor.heard(), "");
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
+  EXPECT_EQ(ann.connection().state(), Connection::State::kRefused);
+  EXPECT_EQ(server->counters().resumed, 0u);
+}
+
+TEST_F(Resume, AnotherServerBehindASecondStreamIsToldNotAByte) {
+  start(home.server());
+  RecordingServer impostor(home.identity("another identity"));
+  valve->up = valve->down = false;
+  ClientSetup setup = player("ann");
+  setup.options.password = "xyzzy";
+  TestClient ann(context, proxy->port(), setup);
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  proxy->setServer(impostor.port());
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.finished() >= 1; }));
+  EXPECT_EQ(impostor.heard(), "");
+  EXPECT_TRUE(ann.joined()) << "the first stream goes on";
+  EXPECT_FALSE(ann.session().hasSecondStream());
+  EXPECT_TRUE(keyWorks(ann));
+}
+
+TEST_F(Resume, AClientThatIsRefusedForNowComesBackByItself) {
+  start(home.server());
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(settle(ann));
+  const std::uint32_t id = ann.player();
+  // The line breaks as soon as there is one, until the server has had enough of it.
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+    if (ann.joined() && !ann.session().isDetached()) proxy->cut();
+    return ann.connection().isPutOff();
+  }));
+  EXPECT_EQ(ann.connection().state(), Connection::State::kSearching);
+  EXPECT_NE(ann.connection().sentence().find("back in a moment"), std::string::npos);
+  const std::uint64_t resumed = server->counters().resumed;
+  EXPECT_GE(resumed, 3u);
+  ASSERT_TRUE(resumes(ann, resumed + 1));
+  EXPECT_FALSE(ann.connection().isPutOff());
+  EXPECT_EQ(ann.player(), id);
+  EXPECT_TRUE(keyWorks(ann));
+  EXPECT_GE(server->counters().resumes_deferred, 1u);
+  EXPECT_EQ(census.joins, 1);
+  EXPECT_EQ(census.leaves, 0);
 }
 
 }  // namespace

@@ -255,6 +255,27 @@ TEST_F(Return, ASecondTerminalDoesNotTakeTheSessionOfOneThatRuns) {
   expectNoJoinOrLeave(2);
 }
 
+TEST_F(Return, AProcessThatIsRefusedForNowTriesAgainByItself) {
+  start();
+  auto ann = client("ann");
+  ASSERT_TRUE(joins(*ann));
+  const std::uint32_t id = ann->player();
+  bool put_off = false;
+  for (int round = 0; round < 20 && !put_off; ++round) {
+    ann.reset();
+    ann = client("ann");
+    ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] {
+      put_off = put_off || ann->connection().isPutOff();
+      return ann->joined() || put_off;
+    }));
+  }
+  ASSERT_TRUE(put_off);
+  ASSERT_TRUE(joins(*ann));
+  EXPECT_EQ(ann->player(), id);
+  EXPECT_TRUE(playsOn(*ann));
+  expectNoJoinOrLeave();
+}
+
 TEST_F(Return, AnotherNameIsAnotherPlayer) {
   start();
   auto ann = client("ann");

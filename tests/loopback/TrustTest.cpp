@@ -3,6 +3,7 @@
 
 #include "BusyWorld.h"
 #include "Home.h"
+#include "RecordingServer.h"
 #include "StreamProxy.h"
 #include "TestServer.h"
 #include "host/auth/PasswordHash.h"
@@ -119,18 +120,50 @@ TEST_F(TrustTest, AGivenFingerprintCountsMost) {
   EXPECT_EQ(refusal(server.port(), setup), "");
 }
 
+/// The password is the player's best secret, and the hello has it. With a pin from before, or with a key that
+/// the host gave.
+TEST_F(TrustTest, AServerWithAnotherKeyIsToldNotAByte) {
+  RecordingServer impostor(home.identity("another identity"));
+  ClientSetup setup = home.player("ann");
+  setup.options.password = "xyzzy";
+  {
+    TestServer server(world(), home.server());
+    StreamProxy proxy(context, server.port());
+    TestClient ann(context, proxy.port(), setup);
+    ASSERT_TRUE(joins(ann));
+    proxy.setServer(impostor.port());
+    proxy.cut();
+    ann.connection().leave();
+    EXPECT_NE(refusal(proxy.port(), setup).find("HAS CHANGED"), std::string::npos);
+    ASSERT_TRUE(serveUntil(context, {}, [&] { return impostor.finished() >= 1; }));
+  }
+  setup.trust.fingerprint = Fingerprint::parse(std::string(64, 'a'));
+  EXPECT_NE(refusal(impostor.port(), setup), "");
+  ASSERT_TRUE(serveUntil(context, {}, [&] { return impostor.finished() >= 2; }));
+  EXPECT_EQ(impostor.heard(), "");
+
+  // The recorder does hear what is said to it.
+  setup.trust.fingerprint = impostor.fingerprint();
+  auto trusting = std::make_unique<TestClient>(context, impostor.port(), setup);
+  EXPECT_TRUE(serveUntil(context, {trusting.get()},
+                         [&] { return impostor.heard().find("xyzzy") != std::string::npos; }));
+}
+
 TEST_F(TrustTest, AnImpostorInMidGameGetsNoToken) {
   TestServer server(world(), home.server());
-  TestServer impostor(world(), home.server("another identity"));
+  RecordingServer impostor(home.identity("another identity"));
   StreamProxy proxy(context, server.port());
-  TestClient ann(context, proxy.port(), home.player("ann"));
+  ClientSetup setup = home.player("ann");
+  setup.options.password = "xyzzy";
+  TestClient ann(context, proxy.port(), setup);
   ASSERT_TRUE(joins(ann));
   proxy.setServer(impostor.port());
   proxy.cut();
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
   EXPECT_EQ(ann.connection().state(), Connection::State::kRefused);
   EXPECT_NE(ann.connection().sentence().find("HAS CHANGED"), std::string::npos);
-  EXPECT_EQ(impostor.counters().joined, 0u);
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.finished() >= 1; }));
+  EXPECT_EQ(impostor.heard(), "") << "neither token nor password";
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include "ClientSessionFixture.h"
 #include "shared/net/base/Limits.h"
+#include "shared/replica/Limits.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad {
 namespace {
@@ -137,21 +139,81 @@ TEST_F(HostileServerTest, EndsOnAPlayerListOutOfRange) {
   expectRejected();
 }
 
+/// Whatever a message has become on its way: the session plays on in a legal state, or has ended with a
+/// reason.
 TEST_F(HostileServerTest, SurvivesMutatedMessages) {
   std::mt19937 random(11);
-  const std::string seeds[] = {welcomeMessage().SerializeAsString(),
-                               snapshotMessage(1, 100).SerializeAsString()};
-  for (int i = 0; i < 3000; ++i) {
+  wire::ServerMessage players;
+  wire::ServerMessage chat;
+  wire::ServerMessage sounds;
+  wire::ServerMessage pong;
+  wire::ServerMessage refused;
+  wire::ServerMessage goodbye;
+  players.mutable_players()->add_players()->set_player(9);
+  players.mutable_players()->mutable_players(0)->set_name("Bob");
+  chat.mutable_chat()->set_text("hello");
+  sounds.mutable_sounds()->add_sounds()->set_label("fire");
+  pong.mutable_pong()->set_token(1);
+  refused.mutable_refused()->set_sentence("no");
+  goodbye.mutable_goodbye()->set_sentence("bye");
+  const std::string seeds[] = {
+      welcomeMessage().SerializeAsString(), snapshotMessage(2, 101).SerializeAsString(),
+      players.SerializeAsString(),          chat.SerializeAsString(),
+      sounds.SerializeAsString(),           pong.SerializeAsString(),
+      refused.SerializeAsString(),          goodbye.SerializeAsString()};
+  int played_on = 0, rejected = 0, dismissed = 0, changed = 0;
+  for (int i = 0; i < 6000; ++i) {
     SetUp();
+    log.closed = false;
     join();
-    std::string frame = seeds[random() % 2];
+    snapshot(1, 100);
+    ASSERT_EQ(session->state(), State::kPlaying);
+    std::string frame = seeds[random() % std::size(seeds)];
     for (unsigned k = 0; k < 1 + random() % 4; ++k)
       frame[random() % frame.size()] = static_cast<char>(random());
     if (random() % 4 == 0) frame.resize(random() % frame.size());
     session->receive(frame, now);
-    session->replica().render(session->displayTick(now + 1s));
-    log.sent.clear();
+    const SessionCounters& counters = session->counters();
+    switch (session->state()) {
+      case State::kPlaying:
+        ++played_on;
+        EXPECT_EQ(counters.bad_messages, 0u);
+        EXPECT_FALSE(log.closed);
+        EXPECT_TRUE(session->sentence().empty());
+        break;
+      case State::kEnded:
+        EXPECT_TRUE(log.closed);
+        EXPECT_FALSE(session->sentence().empty());
+        EXPECT_LE(df::decodeUtf8(session->sentence()).size(), kMaxSentenceLength);
+        ++(counters.bad_messages == 1 ? rejected : dismissed);
+        EXPECT_LE(counters.bad_messages, 1u);
+        // Nothing that comes now is heard.
+        session->receive(chat.SerializeAsString(), now);
+        EXPECT_EQ(counters.chat_lines, 0u);
+        break;
+      default:
+        ADD_FAILURE() << "state " << static_cast<int>(session->state());
+    }
+    EXPECT_LE(session->replica().aliveCount(), 2u) << "one object, and one that this frame may name";
+    EXPECT_GE(session->replica().aliveCount(), session->counters().bad_messages == 1 ? 1u : 0u);
+    EXPECT_LE(session->chat().size(), 1u);
+    EXPECT_LE(session->players().size(), 1u);
+    EXPECT_LE(session->takeSounds().size(), 1u);
+    EXPECT_EQ(session->welcome().player, 3u);
+    EXPECT_EQ(session->welcome().view_width, 80);
+    const df::Canvas picture = session->replica().render(session->displayTick(now + 1s));
+    EXPECT_LE(picture.width(), kMaxViewWidth);
+    EXPECT_LE(picture.height(), kMaxViewHeight);
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) EXPECT_TRUE(df::isDrawable(picture.at(x, y).ch));
+    }
+    changed += session->chat().empty() && session->players().empty() ? 0 : 1;
+    ASSERT_FALSE(HasFailure()) << "frame " << i;
   }
+  EXPECT_GT(played_on, 500);
+  EXPECT_GT(rejected, 500);
+  EXPECT_GT(dismissed, 50);
+  EXPECT_GT(changed, 100);
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -156,31 +159,145 @@ TEST(ServerMessages, MutatedMessagesAreRefusedOrValid) {
   EXPECT_GT(taken, 1'000u) << "mutations that leave a message";
 }
 
+/// The first and the last number of each range are read as they are, those beside them are refused or, where
+/// a message says so, become something harmless.
 TEST(ServerMessages, EveryNumberHasItsRange) {
-  const std::uint32_t numbers[] = {0, 1, 7, 8, 400, 401, 999, 1'000, 1'000'001, 0x7FFFFFFF, 0xFFFFFFFF};
-  for (const std::uint32_t number : numbers) {
-    auto messages = validMessages("Ann");
-    std::vector<wire::ServerMessage> changed;
-    const auto with = [&](int which, auto change) {
-      changed.push_back(messages[static_cast<std::size_t>(which)]);
-      change(changed.back());
+  constexpr std::uint32_t kLast = 0xFFFFFFFF;
+  const auto width = static_cast<std::uint32_t>(kMaxViewWidth);
+  const auto height = static_cast<std::uint32_t>(kMaxViewHeight);
+  struct Field {
+    const char* name;
+    std::size_t message;
+    std::function<void(wire::ServerMessage&, std::uint32_t)> set;
+    std::function<std::uint32_t(const ServerMessageValue&)> get;
+    std::vector<std::uint32_t> good;
+    std::vector<std::uint32_t> bad;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> changed;  ///< from, to
+  };
+  const auto welcome = [](const ServerMessageValue& value) { return std::get<WelcomeMessage>(value); };
+  const auto player = [](const ServerMessageValue& value) {
+    return std::get<PlayersMessage>(value).players.at(4);
+  };
+  const auto entry = [](wire::ServerMessage& m) { return m.mutable_players()->mutable_players(4); };
+  const Field fields[] = {
+      {"player",
+       0,
+       [](auto& m, auto n) { m.mutable_welcome()->set_player(n); },
+       [&](auto& v) { return welcome(v).player; },
+       {1, 2, kLast},
+       {0},
+       {}},
+      {"tick",
+       0,
+       [](auto& m, auto n) { m.mutable_welcome()->set_tick_micros(n); },
+       [&](auto& v) { return static_cast<std::uint32_t>(welcome(v).tick.count()); },
+       {1'000, 33'333, 1'000'000},
+       {0, 1, 999, 1'000'001, 0x7FFFFFFF, kLast},
+       {}},
+      {"width",
+       0,
+       [](auto& m, auto n) { m.mutable_welcome()->set_view_width(n); },
+       [&](auto& v) { return static_cast<std::uint32_t>(welcome(v).view_width); },
+       {1, width},
+       {0, width + 1, 0x7FFFFFFF, 0x80000001, kLast},
+       {}},
+      {"height",
+       0,
+       [](auto& m, auto n) { m.mutable_welcome()->set_view_height(n); },
+       [&](auto& v) { return static_cast<std::uint32_t>(welcome(v).view_height); },
+       {1, height},
+       {0, height + 1, 0x7FFFFFFF, 0x80000001, kLast},
+       {}},
+      {"colour",
+       0,
+       [](auto& m, auto n) { m.mutable_welcome()->set_color(n); },
+       [&](auto& v) { return static_cast<std::uint32_t>(welcome(v).color); },
+       {0, 7},
+       {8, 0x7FFFFFFF, kLast},
+       {}},
+      {"cipher",
+       0,
+       [](auto& m, auto n) { m.mutable_welcome()->set_aead(n); },
+       [&](auto& v) { return welcome(v).aead; },
+       {0, 1, 2},
+       {},
+       {{3, 0}, {kLast, 0}}},
+      {"grace",
+       0,
+       [](auto& m, auto n) { m.mutable_welcome()->set_grace_millis(n); },
+       [&](auto& v) { return static_cast<std::uint32_t>(welcome(v).grace.count()); },
+       {0, 60'000, 3'600'000},
+       {},
+       {{3'600'001, 3'600'000}, {kLast, 3'600'000}}},
+      {"epoch",
+       0,
+       [](auto& m, auto n) { m.mutable_welcome()->mutable_continuation()->set_world_epoch(n); },
+       [&](auto& v) { return welcome(v).continuation.value().world_epoch; },
+       {0, 3},
+       {4, 256, kLast},
+       {}},
+      {"entry's player",
+       2,
+       [&](auto& m, auto n) { entry(m)->set_player(n); },
+       [&](auto& v) { return player(v).player; },
+       {1, kLast},
+       {0},
+       {}},
+      {"entry's colour",
+       2,
+       [&](auto& m, auto n) { entry(m)->set_color(n); },
+       [&](auto& v) { return static_cast<std::uint32_t>(player(v).color); },
+       {0, 7},
+       {8, kLast},
+       {}},
+      {"entry's round trip",
+       2,
+       [&](auto& m, auto n) { entry(m)->set_rtt_millis(n); },
+       [&](auto& v) { return player(v).rtt_millis; },
+       {0, 99'999},
+       {},
+       {{100'000, 99'999}, {kLast, 99'999}}},
+      {"action",
+       7,
+       [](auto& m, auto n) {
+         m.mutable_sounds()->mutable_sounds(1)->set_action(static_cast<wire::Sound::Action>(n));
+       },
+       [](auto& v) { return static_cast<std::uint32_t>(std::get<SoundsMessage>(v).sounds.at(1).action); },
+       {0, 1, 2},
+       {3, 0x7FFFFFFF, kLast},
+       {}},
+  };
+  const auto messages = validMessages("Ann");
+  for (const Field& field : fields) {
+    const auto read = [&](std::uint32_t number) {
+      SCOPED_TRACE(std::string(field.name) + " " + std::to_string(number));
+      wire::ServerMessage message = messages[field.message];
+      field.set(message, number);
+      const auto value = readServerMessage(message.SerializeAsString());
+      if (value) expectGood(*value);
+      return value ? std::optional(field.get(*value)) : std::nullopt;
     };
-    with(0, [&](auto& m) { m.mutable_welcome()->set_player(number); });
-    with(0, [&](auto& m) { m.mutable_welcome()->set_tick_micros(number); });
-    with(0, [&](auto& m) { m.mutable_welcome()->set_view_width(number); });
-    with(0, [&](auto& m) { m.mutable_welcome()->set_view_height(number); });
-    with(0, [&](auto& m) { m.mutable_welcome()->set_color(number); });
-    with(0, [&](auto& m) { m.mutable_welcome()->set_aead(number); });
-    with(2, [&](auto& m) { m.mutable_players()->mutable_players(4)->set_player(number); });
-    with(2, [&](auto& m) { m.mutable_players()->mutable_players(4)->set_color(number); });
-    with(2, [&](auto& m) { m.mutable_players()->mutable_players(4)->set_rtt_millis(number); });
-    with(7, [&](auto& m) {
-      m.mutable_sounds()->mutable_sounds(1)->set_action(static_cast<wire::Sound::Action>(number));
-    });
-    for (const wire::ServerMessage& message : changed) {
-      if (const auto value = readServerMessage(message.SerializeAsString())) expectGood(*value);
-    }
+    for (const std::uint32_t number : field.good) EXPECT_EQ(read(number), number) << field.name;
+    for (const std::uint32_t number : field.bad)
+      EXPECT_EQ(read(number), std::nullopt) << field.name << number;
+    for (const auto& [from, to] : field.changed) EXPECT_EQ(read(from), to) << field.name << from;
   }
+  const auto counted = [&](std::size_t which, auto add, std::size_t most, auto count) {
+    wire::ServerMessage message = messages[which];
+    while (count(message) < most) add(message);
+    EXPECT_TRUE(readServerMessage(message.SerializeAsString())) << most;
+    add(message);
+    EXPECT_FALSE(readServerMessage(message.SerializeAsString())) << most + 1;
+  };
+  counted(
+      0, [](auto& m) { m.mutable_welcome()->add_help("x"); }, kMaxHelpLines,
+      [](auto& m) { return static_cast<std::size_t>(m.welcome().help_size()); });
+  counted(
+      2, [](auto& m) { m.mutable_players()->add_players()->set_player(1); }, kMaxPlayers,
+      [](auto& m) { return static_cast<std::size_t>(m.players().players_size()); });
+  counted(
+      0, [](auto& m) { m.mutable_welcome()->mutable_resume_token()->push_back('t'); }, 64,
+      [](auto& m) { return m.welcome().resume_token().size(); });
 }
 
 TEST(ServerMessages, TooManySoundsAreRefused) {
