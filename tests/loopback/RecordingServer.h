@@ -26,9 +26,9 @@ class RecordingServer {
 
   std::uint16_t port() const { return m_port; }
   const Fingerprint& fingerprint() const { return m_identity.fingerprint(); }
-  /// Connections with a complete handshake that are over: the client has closed them, and all that it sent
-  /// has been read.
-  int finished() const { return m_finished; }
+  /// So many connections with a complete handshake are over, since the client has closed them, and all that
+  /// it sent has been read; or it has said something.
+  bool isDecided(int connections) const { return m_finished >= connections || !heard().empty(); }
   /// What was in the TLS records of all connections.
   std::string heard() const;
 

@@ -261,7 +261,7 @@ TEST_F(Resume, AnotherServerInItsPlaceIsToldNotAByte) {
   ASSERT_TRUE(settle(ann));
   proxy->setServer(impostor.port());
   proxy->cut();  // datagrams still go to the right one
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.finished() >= 1; }));
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.isDecided(1); }));
   EXPECT_EQ(impostor.heard(), "");
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
   EXPECT_EQ(ann.connection().state(), Connection::State::kRefused);
@@ -277,7 +277,7 @@ TEST_F(Resume, AnotherServerBehindASecondStreamIsToldNotAByte) {
   TestClient ann(context, proxy->port(), setup);
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
   proxy->setServer(impostor.port());
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.finished() >= 1; }));
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.isDecided(1); }));
   EXPECT_EQ(impostor.heard(), "");
   EXPECT_TRUE(ann.joined()) << "the first stream goes on";
   EXPECT_FALSE(ann.session().hasSecondStream());

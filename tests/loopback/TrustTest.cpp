@@ -134,12 +134,15 @@ TEST_F(TrustTest, AServerWithAnotherKeyIsToldNotAByte) {
     proxy.setServer(impostor.port());
     proxy.cut();
     ann.connection().leave();
-    EXPECT_NE(refusal(proxy.port(), setup).find("HAS CHANGED"), std::string::npos);
-    ASSERT_TRUE(serveUntil(context, {}, [&] { return impostor.finished() >= 1; }));
+    TestClient again(context, proxy.port(), setup);
+    EXPECT_NE(refusal(again).find("HAS CHANGED"), std::string::npos);
+    ASSERT_TRUE(serveUntil(context, {&again}, [&] { return impostor.isDecided(1); }));
+    EXPECT_EQ(impostor.heard(), "");
   }
   setup.trust.fingerprint = Fingerprint::parse(std::string(64, 'a'));
-  EXPECT_NE(refusal(impostor.port(), setup), "");
-  ASSERT_TRUE(serveUntil(context, {}, [&] { return impostor.finished() >= 2; }));
+  TestClient informed(context, impostor.port(), setup);
+  EXPECT_NE(refusal(informed), "");
+  ASSERT_TRUE(serveUntil(context, {&informed}, [&] { return impostor.isDecided(2); }));
   EXPECT_EQ(impostor.heard(), "");
 
   // The recorder does hear what is said to it.
@@ -162,7 +165,7 @@ TEST_F(TrustTest, AnImpostorInMidGameGetsNoToken) {
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
   EXPECT_EQ(ann.connection().state(), Connection::State::kRefused);
   EXPECT_NE(ann.connection().sentence().find("HAS CHANGED"), std::string::npos);
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.finished() >= 1; }));
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.isDecided(1); }));
   EXPECT_EQ(impostor.heard(), "") << "neither token nor password";
 }
 
