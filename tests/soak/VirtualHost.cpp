@@ -171,7 +171,7 @@ void VirtualHost::sendPlayers() {
   std::string bytes = message.SerializeAsString();
   if (bytes == m_players_told) return;
   m_players_told = std::move(bytes);
-  forEachPlaying([&](Session& session) { session.sendKept(message, true); });
+  forEachPlaying([&](Session& session) { session.sendKept(message); });
 }
 
 Session* VirtualHost::find(std::uint32_t player) const {

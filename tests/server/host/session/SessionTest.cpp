@@ -368,6 +368,28 @@ TEST_F(SessionTest, ChecksumsAreComparedFourTimesASecond) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
+TEST_F(SessionTest, AsManyMessagesAsAnHonestClientMayNeedAreTakenForEver) {
+  greet();
+  for (int tick = 0; tick < 3'000; ++tick, now += 33ms) {
+    for (int i = 0; i < ClientActivity::kMessagesPerTick; ++i) hear(updateOf({}));
+    session.checkDeadlines(now);
+  }
+  EXPECT_EQ(session.state(), Session::State::kPlaying);
+}
+
+TEST_F(SessionTest, ManyMoreMessagesTickAfterTickEndTheSession) {
+  greet();
+  int ticks = 0;
+  for (; ticks < 100 && session.state() == Session::State::kPlaying; ++ticks, now += 33ms) {
+    for (int i = 0; i < 2 * ClientActivity::kMessagesPerTick; ++i) hear(updateOf({}));
+    session.checkDeadlines(now);
+  }
+  EXPECT_TRUE(ended());
+  EXPECT_NEAR(ticks, 16, 4) << "those at once";
+  EXPECT_EQ(lastSent().goodbye().sentence(), "Too many messages at once.");
+  EXPECT_EQ(counters.message_floods, 1u);
+}
+
 TEST_F(SessionTest, ChatOfNothingCostsNothing) {
   greet();
   for (int i = 0; i < 5; ++i) hear(says(" \t "));
