@@ -50,7 +50,7 @@ class BotExitTest : public testing::Test {
     options.command.insert(options.command.end(), more.begin(), more.end());
     options.columns = 300;
     auto bot = std::make_unique<PtyTerminal>(options);
-    EXPECT_TRUE(m_server->waitFor("bot joined")) << m_server->output();
+    EXPECT_TRUE(m_server->waitFor("\"bot\" joined")) << m_server->output();
     return bot;
   }
   /// The server has sent the bot pictures.

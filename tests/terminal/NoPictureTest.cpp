@@ -36,7 +36,7 @@ TEST(NoPicture, AServerThatIsGoneBeforeItIsSaid) {
   PtyTerminal terminal(options);
   ASSERT_TRUE(server.hasReceived([](const wire::ClientMessage& m) { return m.has_ping(); }));
   server.drop();
-  EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 2);
+  EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 1);
   EXPECT_NE(terminal.output().find("lost before its first picture"), std::string::npos) << terminal.output();
 }
 

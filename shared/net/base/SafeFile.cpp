@@ -2,13 +2,13 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <random>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -66,8 +66,10 @@ class File {
 };
 
 std::string randomSuffix() {
+  unsigned number = 0;
+  if (::getrandom(&number, sizeof number, 0) != sizeof number) number = static_cast<unsigned>(::getpid());
   char text[10];
-  std::snprintf(text, sizeof text, ".%08x", static_cast<unsigned>(std::random_device()()));
+  std::snprintf(text, sizeof text, ".%08x", number);
   return text;
 }
 

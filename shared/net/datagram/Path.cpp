@@ -41,10 +41,14 @@ std::optional<Endpoint> makeEndpoint(std::string_view address, std::uint16_t por
 }
 
 std::string toString(const Endpoint& endpoint) {
-  const std::string port = ":" + std::to_string(endpoint.port);
   const asio::ip::address_v6 six(endpoint.address, endpoint.scope);
-  if (endpoint.isIPv4()) return asio::ip::make_address_v4(asio::ip::v4_mapped, six).to_string() + port;
-  return "[" + six.to_string() + "]" + port;
+  std::string text;
+  if (endpoint.isIPv4()) {
+    text = asio::ip::make_address_v4(asio::ip::v4_mapped, six).to_string();
+  } else {
+    text.append(1, '[').append(six.to_string()).append(1, ']');
+  }
+  return text.append(1, ':').append(std::to_string(endpoint.port));
 }
 
 std::string toString(const Path& path) {
