@@ -59,8 +59,8 @@ std::string configFile() {
 
 /// "df-config.txt:3: port", for the line that says so; the first word alone where it is not found.
 std::string placeInConfig(const std::string& key) {
-  const std::string name = configFile();
-  std::ifstream lines(name);  // a regular file, or there would be no key
+  std::string place = configFile();
+  std::ifstream lines(place);  // a regular file, or there would be no key
   const std::string wanted = "," + key + ":";
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -68,9 +68,9 @@ std::string placeInConfig(const std::string& key) {
     std::erase_if(line, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
     line.insert(0, 1, ',');  // before the first key, as before the others
     if (!line.starts_with(",#") && line.find(wanted) != std::string::npos)
-      return name + ":" + std::to_string(number) + ": " + key;
+      return place.append(":").append(std::to_string(number)).append(": ").append(key);
   }
-  return name + ": " + key;
+  return place.append(": ").append(key);
 }
 
 /// Sprites and sounds are looked for in the working directory, beside the program, and above it: many build

@@ -12,7 +12,7 @@ namespace naiad {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{100};
+constexpr std::chrono::milliseconds kBetweenLooks{100};
 
 }  // namespace
 
@@ -44,7 +44,7 @@ void Watchdog::run() {
   HangWatch watch;
   for (;;) {
     std::unique_lock lock(m_mutex);
-    if (m_changed.wait_for(lock, kLook, [this] { return m_stopping; })) return;
+    if (m_changed.wait_for(lock, kBetweenLooks, [this] { return m_stopping; })) return;
     lock.unlock();
     const Clock::rep since = m_since.load(std::memory_order_acquire);
     const std::uint64_t number = m_tick.load(std::memory_order_relaxed);
