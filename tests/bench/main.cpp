@@ -43,7 +43,7 @@ int run(const std::vector<std::string>& names, const bench::Options& options) {
   if (bench::allEqual()) return 0;
   std::fputs(
       "naiad_bench: something that should be right or the same is not: see equal=0, mismatches, through, "
-      "ghosts\n",
+      "ghosts, failed\n",
       stderr);
   return 1;
 }

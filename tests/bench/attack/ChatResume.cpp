@@ -1,0 +1,129 @@
+#include "ChatResume.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "Guest.h"
+#include "shared/net/base/Limits.h"
+
+namespace bench::attack {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kReady = 8;  // streams ahead
+constexpr auto kStale = 3s;        // the server waits 5 s for a hello
+constexpr auto kAfterRefusal = 100ms;
+constexpr int kLines = 30;  // on each stream
+
+}  // namespace
+
+std::string longLine() {
+  std::string line;
+  for (std::size_t i = 0; i < naiad::kMaxChatLength; ++i) line += "\u2588";
+  return line;
+}
+
+ChatResume::ChatResume() = default;
+ChatResume::~ChatResume() = default;
+
+void ChatResume::begin(const Target& target) {
+  m_p_context = &target.context;
+  m_relay = std::make_unique<Relay>(target.context, target.server.port(),
+                                    Relay::Options{.source = addressIn(4, 0)});
+}
+
+void ChatResume::update(Time now) {
+  while (!m_ready.empty() && (m_ready.front()->over || now - m_ready.front()->since > kStale))
+    m_ready.pop_front();
+  while (m_used.size() > 2) m_used.pop_front();
+  if (m_waiting && m_used.back()->over) m_waiting = false;  // hung up on instead of an answer
+  prepare(now);
+  greet(now);
+}
+
+void ChatResume::prepare(Time now) {
+  while (m_ready.size() < kReady) {
+    auto stream = std::make_unique<Stream>();
+    Stream& made = *stream;
+    made.since = now;
+    naiad::TcpOptions options;
+    options.receive_limit = naiad::kMaxServerFrame;
+    made.connector = std::make_unique<naiad::TcpConnector>(*m_p_context, options, clientTls());
+    made.connector->connect(
+        "127.0.0.1", m_relay->port(), 5s,
+        [this, &made](std::unique_ptr<naiad::ReliableChannel> channel, const std::string&) {
+          made.over = channel == nullptr;
+          if (!channel) return;
+          made.channel = std::move(channel);
+          made.channel->start({[this, &made](std::string_view frame) { receive(made, frame); },
+                               [&made](naiad::CloseReason) { made.over = true; }});
+        });
+    m_ready.push_back(std::move(stream));
+  }
+}
+
+void ChatResume::greet(Time now) {
+  if (m_waiting || now < m_next_hello || m_ready.empty() || !m_ready.front()->channel) return;
+  m_used.push_back(std::move(m_ready.front()));
+  m_ready.pop_front();
+  m_waiting = true;
+  naiad::wire::ClientMessage message;
+  naiad::wire::Hello& hello = *message.mutable_hello();
+  hello.set_magic(naiad::kHelloMagic);
+  hello.set_protocol(naiad::kProtocolVersion);
+  hello.set_player_name("loud");
+  hello.set_program("naiad_attack");
+  hello.set_resume_token(m_token);
+  hello.set_received(m_received);
+  m_used.back()->channel->send(message.SerializeAsString());
+}
+
+void ChatResume::receive(Stream& stream, std::string_view frame) {
+  naiad::wire::ServerMessage message;
+  if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return;
+  m_received = std::max(m_received, message.number());
+  if (message.has_refused()) {
+    ++m_refusals;
+    m_waiting = false;
+    m_next_hello = std::chrono::steady_clock::now() + kAfterRefusal;
+  }
+  if (!message.has_welcome()) return;
+  m_waiting = false;
+  m_token = message.welcome().resume_token();
+  if (message.welcome().resumed()) {
+    ++m_resumes;
+    m_sent = message.welcome().received();
+  } else {
+    m_received = 0;
+    m_sent = 0;
+  }
+  talk(stream);
+  greet(std::chrono::steady_clock::now());
+}
+
+void ChatResume::talk(Stream& stream) {
+  static const std::string s_line = longLine();
+  for (int i = 0; i < kLines; ++i) {
+    naiad::wire::ClientMessage message;
+    message.set_number(++m_sent);
+    message.mutable_chat()->set_text(s_line);
+    stream.channel->send(message.SerializeAsString());
+  }
+  m_said += kLines;
+}
+
+void ChatResume::end() {
+  m_ready.clear();
+  m_used.clear();
+  m_relay.reset();
+}
+
+void ChatResume::addFindings(Findings& findings) {
+  findings.figures.emplace_back("resumes", m_resumes);
+  findings.figures.emplace_back("resumes_refused", m_refusals);
+  findings.figures.emplace_back("lines_sent", m_said);
+}
+
+}  // namespace bench::attack

@@ -1,0 +1,73 @@
+// A player who does no harm: plays at random, and compares what it sees with the truth.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "Relay.h"
+#include "client/bot/BotPlayer.h"
+#include "client/bot/TruthRecorder.h"
+#include "client/session/Connection.h"
+
+namespace bench::attack {
+
+/// A server, as players know it.
+struct Whereabouts {
+  std::uint16_t port = 0;
+  std::string fingerprint;
+  std::string password;       ///< empty: none
+  std::string known_servers;  ///< a file for pins
+};
+
+class HonestPlayer {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// With a relay it is in another place than this machine.
+  HonestPlayer(asio::io_context& context, const Whereabouts& server, const std::string& name,
+               std::optional<Relay::Options> relay);
+
+  void update(Time now);
+  /// Null without one.
+  Relay* relay() { return m_relay.get(); }
+  bool isJoined() const { return m_connection->state() == naiad::Connection::State::kJoined; }
+  /// It plays, and in the session that it began with.
+  bool isInItsSession();
+  /// The connection is over, or goes on as another player.
+  bool isThrownOut();
+  /// Why, for people.
+  const std::string& sentence() const { return m_connection->sentence(); }
+  /// From here on pauses count.
+  void watchPauses(Time now);
+  /// The longest time without news of the world, in milliseconds, until now.
+  double pauseMillis(Time now) const;
+  naiad::ClientSession* session() { return m_connection->session(); }
+
+  /// Send a goodbye. Run the event loop for a moment afterwards.
+  void leave();
+  naiad::TruthRecorder::Comparison compare(const std::string& truth_file) const {
+    return m_recorder.compare(truth_file, m_player);
+  }
+
+ private:
+  void observe(naiad::ClientSession& session);
+  void play(Time now);
+
+  std::unique_ptr<Relay> m_relay;
+  std::unique_ptr<naiad::Connection> m_connection;
+  naiad::TruthRecorder m_recorder;
+  bool m_observed = false;
+  std::uint32_t m_player = 0;  ///< 0: has not joined yet
+  bool m_thrown_out = false;
+  std::optional<naiad::RandomPlayer> m_fingers;
+  Time m_next_tick{};
+  Time m_news{};  ///< when the newest tick came
+  std::uint32_t m_newest = 0;
+  double m_pause_ms = 0;
+};
+
+}  // namespace bench::attack

@@ -1,0 +1,121 @@
+#include "Phase.h"
+
+#include <stdlib.h>
+
+#include <atomic>
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+#include "HeldPlaces.h"
+#include "ServerProcess.h"
+
+namespace bench::attack {
+
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+class Folder {
+ public:
+  Folder() : m_path(std::filesystem::temp_directory_path() / "naiad-attack-XXXXXX") {
+    if (mkdtemp(m_path.data()) == nullptr) throw std::runtime_error("no folder can be made");
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(m_path, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const std::string& path() const { return m_path; }
+
+ private:
+  std::string m_path;
+};
+
+/// The attack's thread.
+class Assault {
+ public:
+  Assault(Attack& attack, ServerProcess& server, std::chrono::seconds duration)
+      : m_thread([this, &attack, &server, duration] {
+          try {
+            attack.begin({m_context, server, duration});
+            while (!m_over) serve(attack);
+          } catch (...) {
+            m_failure = std::current_exception();
+          }
+          attack.end();
+          m_context.restart();
+          m_context.poll();
+        }) {}
+  ~Assault() {
+    m_over = true;
+    if (m_thread.joinable()) m_thread.join();
+  }
+  Assault(const Assault&) = delete;
+  Assault& operator=(const Assault&) = delete;
+
+  /// Throws what went wrong in it.
+  void finish() {
+    m_over = true;
+    m_thread.join();
+    if (m_failure) std::rethrow_exception(m_failure);
+  }
+
+ private:
+  void serve(Attack& attack) {
+    m_context.restart();
+    m_context.run_one_for(10ms);
+    for (const auto enough = Clock::now() + 10ms; Clock::now() < enough && m_context.poll_one() > 0;) {
+    }
+    attack.update(Clock::now());
+  }
+
+  asio::io_context m_context{1};
+  std::atomic<bool> m_over{false};
+  std::exception_ptr m_failure;
+  std::thread m_thread;  // last: it uses the others
+};
+
+/// All but ten seconds: 50 of 60.
+Company::Absence absenceIn(std::chrono::milliseconds duration) {
+  return {duration / 12, duration * 11 / 12};
+}
+
+}  // namespace
+
+PhaseResult runPhase(Attack& attack, bool hostile, std::chrono::seconds duration) {
+  const Folder folder;
+  PhaseResult result;
+  ServerProcess server(attack.setup(), folder.path());
+  Company company({.port = server.port(),
+                   .fingerprint = server.fingerprint(),
+                   .password = server.password(),
+                   .known_servers = folder.path() + "/known_servers"},
+                  HeldPlaces::kName);
+  company.join();
+  const Clock::time_point begin = Clock::now();
+  if (hostile) {
+    Assault assault(attack, server, duration);
+    company.play(duration, absenceIn(duration));
+    result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    assault.finish();
+  } else {
+    company.play(duration, absenceIn(duration));
+    result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+  result.died = !server.isRunning();
+  result.fate = company.leave();
+  const ServerProcess::Counters counters = server.stop();
+  if (const auto ticks = counters.find("ticks"); ticks != counters.end()) {
+    result.ticks = ticks->second;
+    const auto late = counters.find("late_ticks");
+    result.late_ticks = late != counters.end() ? late->second : 0;
+  }
+  company.compare(server.truthFile(), result.fate);
+  return result;
+}
+
+}  // namespace bench::attack

@@ -1,0 +1,138 @@
+#include "PileServer.h"
+
+#include <asio/executor_work_guard.hpp>
+#include <utility>
+
+#include "host/auth/ServerIdentity.h"
+#include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/SnapshotCodec.h"
+#include "shared/values/Color.h"
+
+namespace bench::attack {
+
+namespace {
+
+using namespace naiad;
+
+constexpr std::uint32_t kFirstTick = 100;
+constexpr std::chrono::microseconds kTick{33'333};
+constexpr int kSnapshotsPerTick = 8;  // while objects are left to be sent
+constexpr std::size_t kSendCap = std::size_t{16} << 20;
+
+// Small boxes on a narrow grid, all in step: none ever touches another, but the paths of any two cross, so
+// that a client that looks ahead has to compare each with each.
+constexpr std::uint32_t kRow = 220;
+constexpr df::Fixed kSpacing = df::kFixedOne >> 11;
+constexpr df::Fixed kBox = df::kFixedOne >> 14;
+
+ObjectState objectOf(std::uint32_t n, std::uint32_t tick) {
+  ObjectState object;
+  object.order = n;
+  object.motion.tick = tick;
+  object.motion.position = {
+      df::fromCells(4) + (tick - kFirstTick) * (df::kFixedOne >> 4) + (n % kRow) * kSpacing,
+      df::fromCells(2) + (tick - kFirstTick) * (df::kFixedOne >> 6) + (n / kRow) * kSpacing};
+  object.motion.velocity = {df::kFixedOne >> 4, df::kFixedOne >> 6};
+  object.look.sequence = {Appearance{{0, 0, U'#', df::GREEN}}};
+  object.body.box = {{0, 0}, {kBox, kBox}};
+  return object;
+}
+
+}  // namespace
+
+PileServer::PileServer(const std::string& folder) {
+  const ServerIdentity identity = ServerIdentity::loadOrMake(folder, std::chrono::system_clock::now());
+  m_fingerprint = identity.fingerprint().text();
+  TcpOptions options;
+  options.send_cap = kSendCap;
+  options.receive_limit = kMaxClientFrame;
+  TlsListening tls;
+  tls.context = identity.tls();
+  m_listener = std::make_unique<TcpListener>(
+      m_context, "127.0.0.1", 0,
+      [this](std::unique_ptr<ReliableChannel> channel) {
+        m_channel = std::move(channel);
+        m_channel->start(
+            {[this](std::string_view frame) { receive(frame); }, [this](CloseReason) { m_timer.cancel(); }});
+      },
+      options, tls);
+  m_thread = std::thread([this] {
+    const auto work = asio::make_work_guard(m_context);
+    m_context.run();
+  });
+}
+
+PileServer::~PileServer() {
+  m_context.stop();
+  m_thread.join();
+}
+
+void PileServer::receive(std::string_view frame) {
+  wire::ClientMessage message;
+  if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return;
+  if (message.has_hello()) welcome();
+  if (!message.has_ping()) return;
+  wire::ServerMessage answer;
+  answer.mutable_pong()->set_token(message.ping().token());
+  m_channel->send(answer.SerializeAsString());
+}
+
+void PileServer::welcome() {
+  m_sent = 0;
+  m_number = 0;
+  m_tick = kFirstTick;
+  wire::ServerMessage message;
+  wire::Welcome& welcome = *message.mutable_welcome();
+  welcome.set_player(1);
+  welcome.set_name("victim");
+  welcome.set_game("pile");
+  welcome.set_tick_micros(static_cast<std::uint32_t>(kTick.count()));
+  welcome.set_tick(m_tick);
+  welcome.set_view_width(80);
+  welcome.set_view_height(24);
+  welcome.set_color(df::CYAN);
+  m_channel->send(message.SerializeAsString());
+  tick();
+}
+
+void PileServer::tick() {
+  ++m_tick;
+  sendSnapshot();
+  for (int i = 1; i < kSnapshotsPerTick && m_sent < kObjects; ++i) sendSnapshot();
+  m_timer.expires_after(kTick);
+  m_timer.async_wait([this](const asio::error_code& stopped) {
+    if (!stopped) tick();
+  });
+}
+
+// As many objects as fit, or none if all have been sent.
+void PileServer::sendSnapshot() {
+  SnapshotHeader header;
+  header.number = ++m_number;
+  header.tick = m_tick;
+  SnapshotWriter out;
+  out.beginSnapshot(header, 0, {});
+  if (m_number == 1) {
+    WorldRecord world;
+    world.boundary = {{}, {df::fromCells(80), df::fromCells(24)}};
+    out.write(world);
+  }
+  for (; m_sent < kObjects; ++m_sent) {
+    const std::uint32_t id = m_sent + 1;
+    const ObjectState object = objectOf(id, m_tick);
+    const std::size_t bits = out.stage(kAllGroups, 1, object, shareMotion(object.motion));
+    if (!out.hasRoom(bits, kObjects, kMaxSnapshot)) {
+      out.drop();
+      break;
+    }
+    out.keep(id);
+  }
+  out.setComplete(m_sent == kObjects);
+  wire::ServerMessage message;
+  message.set_snapshot(out.finish());
+  m_channel->send(message.SerializeAsString());
+}
+
+}  // namespace bench::attack

@@ -1,0 +1,21 @@
+// Which programs are attacked: those of this build, unless the environment names others.
+#pragma once
+
+#include <cstdlib>
+#include <string>
+
+namespace bench::attack {
+
+/// NAIAD_ATTACK_DFSERVER and NAIAD_ATTACK_DFCLIENT name other ones, those of an earlier version for example.
+inline std::string programAt(const char* variable, const char* name) {
+  const char* other = std::getenv(variable);
+  return other != nullptr ? other : std::string(NAIAD_BINARY_DIR) + "/" + name;
+}
+inline std::string serverProgram() {
+  return programAt("NAIAD_ATTACK_DFSERVER", "dfserver");
+}
+inline std::string clientProgram() {
+  return programAt("NAIAD_ATTACK_DFCLIENT", "dfclient");
+}
+
+}  // namespace bench::attack

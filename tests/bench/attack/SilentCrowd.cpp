@@ -1,0 +1,100 @@
+#include "SilentCrowd.h"
+
+#include <array>
+#include <asio/ip/tcp.hpp>
+#include <asio/steady_timer.hpp>
+#include <utility>
+
+namespace bench::attack {
+
+namespace {
+
+using asio::ip::tcp;
+
+constexpr int kPerSource = 64;
+constexpr std::chrono::milliseconds kAgain{500};
+
+}  // namespace
+
+/// One connection, again and again.
+class SilentCrowd::Mute : public std::enable_shared_from_this<Mute> {
+ public:
+  Mute(asio::io_context& context, asio::ip::address source, tcp::endpoint server, long long& connects)
+      : m_socket(context),
+        m_timer(context),
+        m_source(std::move(source)),
+        m_server(std::move(server)),
+        m_connects(connects) {}
+
+  void connect() {
+    if (m_over) return;
+    asio::error_code error;
+    m_socket = tcp::socket(m_socket.get_executor());
+    m_socket.open(m_server.protocol(), error);
+    if (!error) m_socket.bind(tcp::endpoint(m_source, 0), error);
+    if (error) return again();
+    m_socket.async_connect(m_server, [self = shared_from_this()](const asio::error_code& failed) {
+      if (failed) return self->again();
+      ++self->m_connects;
+      self->listen();
+    });
+  }
+  void end() {
+    m_over = true;
+    asio::error_code ignored;
+    m_socket.close(ignored);
+    m_timer.cancel();
+  }
+
+ private:
+  void listen() {
+    m_socket.async_read_some(asio::buffer(m_buffer),
+                             [self = shared_from_this()](const asio::error_code& error, std::size_t) {
+                               error ? self->again() : self->listen();
+                             });
+  }
+  void again() {
+    if (m_over) return;
+    asio::error_code ignored;
+    m_socket.close(ignored);
+    m_timer.expires_after(kAgain);
+    m_timer.async_wait([self = shared_from_this()](const asio::error_code& stopped) {
+      if (!stopped) self->connect();
+    });
+  }
+
+  tcp::socket m_socket;
+  asio::steady_timer m_timer;
+  asio::ip::address m_source;
+  tcp::endpoint m_server;
+  long long& m_connects;
+  bool m_over = false;
+  std::array<char, 256> m_buffer{};
+};
+
+SilentCrowd::SilentCrowd(std::vector<std::string> sources, std::string server)
+    : m_sources(std::move(sources)), m_server(std::move(server)) {}
+
+SilentCrowd::~SilentCrowd() = default;
+
+void SilentCrowd::begin(const Target& target) {
+  const tcp::endpoint server(asio::ip::make_address(m_server), target.server.port());
+  for (int i = 0; i < kPerSource; ++i) {
+    for (const std::string& source : m_sources) {
+      m_mutes.push_back(
+          std::make_shared<Mute>(target.context, asio::ip::make_address(source), server, m_connects));
+      m_mutes.back()->connect();
+    }
+  }
+}
+
+void SilentCrowd::end() {
+  for (const auto& mute : m_mutes) mute->end();
+  m_mutes.clear();
+}
+
+void SilentCrowd::addFindings(Findings& findings) {
+  findings.figures.emplace_back("connects", m_connects);
+}
+
+}  // namespace bench::attack

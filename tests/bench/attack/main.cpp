@@ -1,0 +1,202 @@
+// naiad_attack: attacks the real programs with shipped settings while honest players play, and says on one
+// line what became of them. docs/bench.md explains the keys.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ChatResume.h"
+#include "Chatters.h"
+#include "ForkingWorld.h"
+#include "Guest.h"
+#include "HardPile.h"
+#include "HeldPlaces.h"
+#include "LogReader.h"
+#include "LoopbackNamespace.h"
+#include "PasswordCrowd.h"
+#include "Phase.h"
+#include "SilentCrowd.h"
+
+namespace {
+
+using namespace bench::attack;
+using namespace std::chrono_literals;
+
+/// A newcomer should have joined by then, and the world not have stood still for longer.
+constexpr double kMaxWaitMillis = 1000;
+/// Of some 90 ticks that the three honest players see.
+constexpr double kMinComparedPerSecond = 5;
+/// Of all ticks, more than without the attack. On a machine that makes more of them late without one, late
+/// ticks say nothing.
+constexpr double kMaxLateShare = 0.1;
+constexpr double kMaxCalmLateShare = 0.05;
+
+struct Effort {
+  std::chrono::seconds calm{15};
+  std::chrono::seconds attack{60};
+};
+
+const std::vector<std::string> kNetworks6 = {"2001:db8:7:1::1", "2001:db8:7:2::1", "2001:db8:7:3::1",
+                                             "2001:db8:7:4::1"};
+
+using Make = std::function<std::unique_ptr<Attack>()>;
+
+/// All but hard_pile, which is an attack on a client. chat_detached comes twice.
+const std::map<std::string, std::vector<Make>>& attacks() {
+  static const std::map<std::string, std::vector<Make>> s_attacks = {
+      {"silent4", {[] {
+         return std::make_unique<SilentCrowd>(
+             std::vector<std::string>{addressIn(3, 0), addressIn(3, 1), addressIn(3, 2), addressIn(3, 3)},
+             "127.0.0.1");
+       }}},
+      {"silent6", {[] { return std::make_unique<SilentCrowd>(kNetworks6, "::1"); }}},
+      {"chat_resume", {[] { return std::make_unique<ChatResume>(); }}},
+      {"chat_detached",
+       {[] { return std::make_unique<Chatters>(1); }, [] { return std::make_unique<Chatters>(8); }}},
+      {"held_places", {[] { return std::make_unique<HeldPlaces>(); }}},
+      {"log_stall", {[] { return std::make_unique<LogReader>(LogReader::Fault::kStalls); }}},
+      {"log_gone", {[] { return std::make_unique<LogReader>(LogReader::Fault::kEnds); }}},
+      {"password80", {[] { return std::make_unique<PasswordCrowd>(); }}},
+      {"fork300", {[] { return std::make_unique<ForkingWorld>(); }}}};
+  return s_attacks;
+}
+
+double lateShare(const PhaseResult& phase) {
+  return phase.ticks > 0 ? phase.late_ticks / phase.ticks : 0;
+}
+
+bool isQuietMachine(const PhaseResult& calm) {
+  return lateShare(calm) <= kMaxCalmLateShare;
+}
+
+/// What an attack should not be able to do.
+std::vector<std::string> faultsOf(const PhaseResult& calm, const PhaseResult& hot) {
+  std::vector<std::string> faults;
+  if (hot.fate.wrong_cells > 0) faults.emplace_back("wrong_cells");
+  if (static_cast<double>(hot.fate.compared_ticks) < kMinComparedPerSecond * hot.seconds)
+    faults.emplace_back("compared_ticks");
+  if (hot.fate.thrown_out > 0) faults.emplace_back("thrown_out");
+  // A machine that is slow without an attack may be as slow with it.
+  if (hot.fate.newcomer_ms > std::max(kMaxWaitMillis, 2 * calm.fate.newcomer_ms))
+    faults.emplace_back("newcomer_ms");
+  if (hot.fate.pause_ms > std::max(kMaxWaitMillis, 2 * calm.fate.pause_ms)) faults.emplace_back("pause_ms");
+  if (isQuietMachine(calm) && lateShare(hot) > lateShare(calm) + kMaxLateShare)
+    faults.emplace_back("late_ticks");
+  if (hot.died) faults.emplace_back("server_died");
+  if (calm.fate.thrown_out > 0 || calm.fate.newcomers_out > 0 || calm.fate.wrong_cells > 0)
+    faults.emplace_back("calm");
+  return faults;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ",") + word;
+  return text;
+}
+
+void printFaults(const std::vector<std::string>& faults) {
+  std::printf(" failed=%d", faults.empty() ? 0 : 1);
+  if (!faults.empty()) std::printf(" because=%s", joined(faults).c_str());
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+void runAttack(const std::string& name, const Make& make, const Effort& effort) {
+  const std::unique_ptr<Attack> attack = make();
+  const PhaseResult calm = runPhase(*attack, false, effort.calm);
+  const PhaseResult hot = runPhase(*attack, true, effort.attack);
+  Findings findings;
+  attack->addFindings(findings);
+  std::vector<std::string> faults = faultsOf(calm, hot);
+  faults.insert(faults.end(), findings.faults.begin(), findings.faults.end());
+  if (name == "held_places") {
+    findings.figures.emplace_back("held", static_cast<long long>(hot.fate.crowd));
+    if (hot.fate.crowd > HeldPlaces::kAllowed) faults.emplace_back("held");
+  }
+  std::printf(
+      "attack name=%s seconds=%.0f wrong_cells=%llu compared_ticks=%llu thrown_out=%d newcomer_ms=%.0f "
+      "late_ticks=%.0f",
+      name.c_str(), hot.seconds, static_cast<unsigned long long>(hot.fate.wrong_cells),
+      static_cast<unsigned long long>(hot.fate.compared_ticks), hot.fate.thrown_out, hot.fate.newcomer_ms,
+      hot.late_ticks);
+  std::printf(" ticks=%.0f pause_ms=%.0f newcomers=%d newcomers_out=%d chat_lines=%llu server_died=%d",
+              hot.ticks, hot.fate.pause_ms, hot.fate.newcomers, hot.fate.newcomers_out,
+              static_cast<unsigned long long>(hot.fate.chat), hot.died ? 1 : 0);
+  std::printf(" calm_newcomer_ms=%.0f calm_late_ticks=%.0f calm_ticks=%.0f calm_pause_ms=%.0f",
+              calm.fate.newcomer_ms, calm.late_ticks, calm.ticks, calm.fate.pause_ms);
+  for (const auto& [key, value] : findings.figures) std::printf(" %s=%lld", key.c_str(), value);
+  std::printf(" valid=%d", isQuietMachine(calm) ? 1 : 0);
+  printFaults(faults);
+}
+
+void runPile(const Effort& effort) {
+  const PileResult result = runHardPile(effort.attack);
+  std::vector<std::string> faults;
+  if (result.sigterm_ms > kMaxWaitMillis) faults.emplace_back("sigterm_ms");
+  if (result.ctrl_c_ms > kMaxWaitMillis) faults.emplace_back("ctrl_c_ms");
+  std::printf(
+      "attack name=hard_pile seconds=%lld sigterm_ms=%.0f ctrl_c_ms=%.0f objects=%lld client_ended=%d",
+      static_cast<long long>(effort.attack.count()), result.sigterm_ms, result.ctrl_c_ms, result.objects,
+      result.ended ? 1 : 0);
+  printFaults(faults);
+}
+
+int run(const std::string& name, const Effort& effort) {
+  if (name == "hard_pile") {
+    runPile(effort);
+    return 0;
+  }
+  const auto found = attacks().find(name);
+  if (found == attacks().end()) {
+    std::fprintf(stderr, "naiad_attack: there is no attack '%s'\n", name.c_str());
+    return 2;
+  }
+  if (name == "silent6") {
+    if (const auto reason = enterLoopbackNamespace(kNetworks6)) {
+      std::printf("attack name=%s skipped=%s\n", name.c_str(), reason->c_str());
+      return 0;
+    }
+  }
+  for (const Make& make : found->second) runAttack(name, make, effort);
+  return 0;
+}
+
+void allowManyFiles() {
+  rlimit files{};
+  getrlimit(RLIMIT_NOFILE, &files);
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  Effort effort;
+  std::string name;
+  for (const std::string& argument : arguments) {
+    if (argument == "--quick") {
+      effort = {3s, 6s};
+    } else {
+      name = argument;
+    }
+  }
+  if (name.empty()) {
+    std::fprintf(stderr, "usage: naiad_attack [--quick] NAME\n");
+    return 2;
+  }
+  try {
+    allowManyFiles();
+    return run(name, effort);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "naiad_attack: %s: %s\n", name.c_str(), error.what());
+    return 1;
+  }
+}
