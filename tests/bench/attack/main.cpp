@@ -31,6 +31,9 @@ using namespace std::chrono_literals;
 
 /// A newcomer should have joined by then, and the world not have stood still for longer.
 constexpr double kMaxWaitMillis = 1000;
+/// A machine that is slow without an attack may be this many times slower with it: the worst of four times as
+/// many.
+constexpr double kBusyFactor = 4;
 /// Of some 90 ticks that the three honest players see.
 constexpr double kMinComparedPerSecond = 5;
 /// Of all ticks, more than without the attack. On a machine that makes more of them late without one, late
@@ -83,10 +86,12 @@ std::vector<std::string> faultsOf(const PhaseResult& calm, const PhaseResult& ho
   if (static_cast<double>(hot.fate.compared_ticks) < kMinComparedPerSecond * hot.seconds)
     faults.emplace_back("compared_ticks");
   if (hot.fate.thrown_out > 0) faults.emplace_back("thrown_out");
-  // A machine that is slow without an attack may be as slow with it.
-  if (hot.fate.newcomer_ms > std::max(kMaxWaitMillis, 2 * calm.fate.newcomer_ms))
-    faults.emplace_back("newcomer_ms");
-  if (hot.fate.pause_ms > std::max(kMaxWaitMillis, 2 * calm.fate.pause_ms)) faults.emplace_back("pause_ms");
+  const auto isTooLong = [](double millis, double calm_millis) {
+    return millis > std::max(kMaxWaitMillis, kBusyFactor * calm_millis);
+  };
+  if (hot.fate.newcomers_out > 0) faults.emplace_back("newcomers_out");
+  if (isTooLong(hot.fate.newcomer_ms, calm.fate.newcomer_ms)) faults.emplace_back("newcomer_ms");
+  if (isTooLong(hot.fate.pause_ms, calm.fate.pause_ms)) faults.emplace_back("pause_ms");
   if (isQuietMachine(calm) && lateShare(hot) > lateShare(calm) + kMaxLateShare)
     faults.emplace_back("late_ticks");
   if (hot.died) faults.emplace_back("server_died");
