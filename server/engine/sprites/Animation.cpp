@@ -26,7 +26,7 @@ int Animation::paint(Vector position) const {
 
 bool Animation::advance() {
   if (m_p_sprite == nullptr || m_slowdown_count < 0) return false;
-  const int slowdown = m_p_sprite->getSlowdown();
+  const int slowdown = m_p_sprite->getTicksPerFrame();
   if (slowdown < 1 || ++m_slowdown_count < slowdown) return false;
   m_slowdown_count = 0;
   const int before = m_index;

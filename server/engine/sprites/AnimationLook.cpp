@@ -9,7 +9,7 @@ namespace df {
 namespace {
 
 naiad::Selector selectorOf(const Animation& animation, std::uint32_t tick) {
-  const int slowdown = animation.getSprite()->getSlowdown();
+  const int slowdown = animation.getSprite()->getTicksPerFrame();
   const int count = animation.getSlowdownCount();
   const auto index = static_cast<std::size_t>(animation.getIndex());
   const bool still = slowdown < 1 || count < 0 || slowdown > int{naiad::kMaxTicksPerFrame};

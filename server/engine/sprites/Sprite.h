@@ -43,9 +43,14 @@ class Sprite {
   void setLabel(std::string new_label) { m_label = std::move(new_label); }
   const std::string& getLabel() const { return m_label; }
 
-  /// Ticks for which each frame is shown; 0: the first frame is shown for ever.
+  /// Ticks for which each frame is shown; 0: the first frame is shown for ever (compat: as 1).
   void setSlowdown(int new_sprite_slowdown) { m_slowdown = new_sprite_slowdown; }
   int getSlowdown() const { return m_slowdown; }
+  /// A slowdown of 0 or less shows each frame for one tick, as in the published engine. The engine sets it on
+  /// the sprites of a world with compat.
+  void setNeverStill(bool never_still = true) { m_never_still = never_still; }
+  /// Ticks for which each frame is shown, as it counts; 0: the animation stands still.
+  int getTicksPerFrame() const { return m_slowdown > 0 ? m_slowdown : m_never_still ? 1 : 0; }
 
   /// The character that is not drawn; 0: all are, blanks included.
   void setTransparency(char new_transparency);
@@ -73,6 +78,7 @@ class Sprite {
   int m_max_frames;
   Color m_color = COLOR_DEFAULT;
   int m_slowdown = 1;
+  bool m_never_still = false;
   char m_transparency = 0;
   std::vector<Frame> m_frames;
   std::string m_label;

@@ -61,6 +61,8 @@ class Lines {
   }
   /// Trouble with the line taken last.
   [[noreturn]] void fail(const std::string& what) const { throw Trouble{m_next, what}; }
+  /// The line taken last, and what is odd about it.
+  std::string describe(const std::string& what) const { return std::to_string(m_next) + ": " + what; }
 
  private:
   std::vector<std::string> m_lines;
@@ -68,10 +70,14 @@ class Lines {
 };
 
 struct Header {
+  explicit Header(std::vector<std::string>* the_oddities)
+      : p_oddities(the_oddities), slowdown(the_oddities != nullptr ? 0 : 1) {}
+
+  std::vector<std::string>* p_oddities;  // not null: what the published engine takes is taken, and noted here
   std::optional<int> frames;
   std::optional<int> width;
   std::optional<int> height;
-  int slowdown = 1;
+  int slowdown;
   Color color = COLOR_DEFAULT;
   char transparency = 0;
 };
@@ -94,8 +100,27 @@ Color toColor(const Lines& lines, const std::string& text) {
   return color;
 }
 
-int toSlowdown(const Lines& lines, const std::string& text) {
-  return toNumber(lines, "slowdown", text, 0, 1'000'000);
+void takeSlowdown(const Lines& lines, Header& header, const std::string& text) {
+  constexpr int kMost = 1'000'000;
+  if (header.p_oddities == nullptr) {
+    header.slowdown = toNumber(lines, "slowdown", text, 0, kMost);
+    return;
+  }
+  header.slowdown = text.empty() ? 0 : toNumber(lines, "slowdown", text, -1, kMost);
+  if (text.empty()) header.p_oddities->push_back(lines.describe("slowdown has no number, taken as 0"));
+  if (header.slowdown < 0) {
+    header.p_oddities->push_back(
+        lines.describe("slowdown should be 0 to 1000000, not " + text + ", taken as it is"));
+  }
+}
+
+void takeTransparency(const Lines& lines, Header& header, const std::string& text) {
+  if (text.size() > 1) {
+    const std::string trouble = "transparency should be one character, not \"" + text + "\"";
+    if (header.p_oddities == nullptr) lines.fail(trouble);
+    header.p_oddities->push_back(lines.describe(trouble + ", taken as its first one"));
+  }
+  header.transparency = text.empty() ? ' ' : text[0];
 }
 
 void takeField(const Lines& lines, Header& header, const std::string& line) {
@@ -111,10 +136,9 @@ void takeField(const Lines& lines, Header& header, const std::string& line) {
   } else if (key == "color") {
     header.color = toColor(lines, value);
   } else if (key == "slowdown") {
-    header.slowdown = toSlowdown(lines, value);
+    takeSlowdown(lines, header, value);
   } else if (key == "transparency") {
-    if (value.size() > 1) lines.fail("transparency should be one character, not \"" + value + "\"");
-    header.transparency = value.empty() ? ' ' : value[0];
+    takeTransparency(lines, header, value);
   } else {
     lines.fail("there is no field \"" + key + "\"");
   }
@@ -132,6 +156,7 @@ std::unique_ptr<Sprite> newSprite(const Header& header) {
   sprite->setHeight(*header.height);
   sprite->setColor(header.color);
   sprite->setSlowdown(header.slowdown);
+  sprite->setNeverStill(header.p_oddities != nullptr);
   sprite->setTransparency(header.transparency);
   return sprite;
 }
@@ -150,9 +175,8 @@ void readFrame(Lines& lines, Sprite& sprite) {
   sprite.addFrame(Frame(sprite.getWidth(), sprite.getHeight(), std::move(characters)));
 }
 
-std::unique_ptr<Sprite> readWithHeader(Lines& lines) {
+std::unique_ptr<Sprite> readWithHeader(Lines& lines, Header header) {
   lines.expect("<HEADER>");
-  Header header;
   while (lines.peekWord() != "</HEADER>") takeField(lines, header, lines.takeWord("\"</HEADER>\""));
   lines.expect("</HEADER>");
   expectSizes(lines, header);
@@ -170,12 +194,12 @@ std::unique_ptr<Sprite> readWithHeader(Lines& lines) {
   return sprite;
 }
 
-std::unique_ptr<Sprite> readOld(Lines& lines) {
-  Header header;
+std::unique_ptr<Sprite> readOld(Lines& lines, Header header) {
   // The fields end with the last one that a line begins with: rows may look like anything, so it is by their
   // names alone that fields are known.
   constexpr std::array<const char*, 5> kFields{"frames", "width", "height", "color", "slowdown"};
   const auto isField = [&](const std::string& line) {
+    if (header.p_oddities != nullptr && line == "slowdown") return true;
     return std::any_of(kFields.begin(), kFields.end(),
                        [&](const char* field) { return line.rfind(std::string(field) + " ", 0) == 0; });
   };
@@ -190,32 +214,31 @@ std::unique_ptr<Sprite> readOld(Lines& lines) {
   return sprite;
 }
 
-std::unique_ptr<Sprite> readSimple(Lines& lines) {
+std::unique_ptr<Sprite> readSimple(Lines& lines, Header header) {
   const auto number = [&](const char* key, int most) {
     const std::string word = lines.takeWord(key);
     return toNumber(lines, key, word, 1, most);
   };
-  Header header;
   header.frames = number("frames", kMaxSpriteFrames);
   header.width = number("width", kMaxSpriteSide);
   header.height = number("height", kMaxSpriteSide);
-  header.slowdown = toSlowdown(lines, lines.takeWord("slowdown"));
+  takeSlowdown(lines, header, lines.takeWord("slowdown"));
   header.color = toColor(lines, lines.takeWord("a color"));
   auto sprite = newSprite(header);
   for (int i = 0; i < *header.frames; ++i) readFrame(lines, *sprite);
   return sprite;
 }
 
-std::unique_ptr<Sprite> readAny(Lines& lines) {
+std::unique_ptr<Sprite> readAny(Lines& lines, const Header& header) {
   const std::string first = lines.peekWord();
   std::unique_ptr<Sprite> sprite;
   if (first == "<HEADER>") {
-    sprite = readWithHeader(lines);
+    sprite = readWithHeader(lines, header);
   } else if (!first.empty() && std::isdigit(static_cast<unsigned char>(first[0])) != 0) {
-    sprite = readSimple(lines);
+    sprite = readSimple(lines, header);
   } else if (first.rfind("frames", 0) == 0 || first.rfind("width", 0) == 0 || first.rfind("height", 0) == 0 ||
              first.rfind("color", 0) == 0) {
-    sprite = readOld(lines);
+    sprite = readOld(lines, header);
   } else {
     lines.takeWord("\"<HEADER>\", \"frames\" or a number");
     lines.fail("a sprite begins with \"<HEADER>\", \"frames\" or a number");
@@ -238,10 +261,11 @@ Color colorOfName(const std::string& name) {
   return found == kNames.end() ? UNDEFINED_COLOR : static_cast<Color>(found - kNames.begin());
 }
 
-std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error) {
+std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error,
+                                    std::vector<std::string>* p_oddities) {
   Lines lines(text);
   try {
-    auto sprite = readAny(lines);
+    auto sprite = readAny(lines, Header(p_oddities));
     sprite->setLabel(label);
     return sprite;
   } catch (const Trouble& trouble) {

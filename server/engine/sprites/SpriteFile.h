@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/sprites/Sprite.h"
 #include "shared/values/Color.h"
@@ -24,7 +25,11 @@ inline constexpr int kMaxSpriteSide = 1024;
 
 /// The sprite in `text`, with this label. If it is none: null, and in `error` the number of the line where
 /// the trouble is and what it is, as "12: the row has 5 characters instead of 6".
-std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error);
+/// With `p_oddities` the published engine's rules hold: `slowdown -1`, a line `slowdown` with nothing behind
+/// it and `transparency " "` (its first character counts) are taken, and named there in the same form; a
+/// missing slowdown is 0, and the sprite never stands still (Sprite::setNeverStill).
+std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error,
+                                    std::vector<std::string>* p_oddities = nullptr);
 
 /// The colour of this name, in small or capital letters; UNDEFINED_COLOR for none.
 Color colorOfName(const std::string& name);

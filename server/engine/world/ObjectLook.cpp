@@ -30,10 +30,11 @@ void Object::dropExtras() {
 
 // The sprite or the shape is another one.
 void Object::animate() {
-  const Sprite* p_sprite = m_p_extras->animation.getSprite();
+  Sprite* p_sprite = m_p_extras->animation.getSprite();
   m_p_store->set(m_slot, WorldStore::kPainted, p_sprite != nullptr || m_p_extras->shape.has_value());
   World* p_world = getWorld();
   if (p_world == nullptr) return;
+  if (p_sprite != nullptr && p_world->compat()) p_sprite->setNeverStill();  // one that the game has made
   p_world->forgetLook(m_slot);
   if (p_sprite != nullptr && p_sprite->getFrameCount() > 1) {
     p_world->extras().animations.add(*this);

@@ -66,7 +66,11 @@ int Resources::loadSprite(const std::string& filename, const std::string& label)
     return -1;
   }
   std::string error;
-  std::unique_ptr<Sprite> loaded = parseSprite(*text, label, error);
+  std::vector<std::string> oddities;
+  std::unique_ptr<Sprite> loaded = parseSprite(*text, label, error, m_world.compat() ? &oddities : nullptr);
+  for (const std::string& oddity : oddities) {
+    m_world.log("Sprite " + label + ": " + filename + ":" + oddity + " (compat)");
+  }
   if (loaded == nullptr) {
     m_world.log("Sprite " + label + ": " + filename + ":" + error);
     return -1;
