@@ -1,5 +1,7 @@
 # The headers that are installed, and nothing else: what games name, and in detail/ what those cannot do without. A test
-# compiles each of them alone against the installed tree.
+# compiles each of them alone against the installed tree. What a game includes by the name of a public header is a file
+# of a few lines that the build makes: it sets the game's one-letter macros aside (detail/LettersBegin.h), includes the
+# header itself, from text/, and brings them back.
 set(naiad_public_headers
   server/engine/effects/Debris.h
   server/engine/effects/Fader.h
@@ -105,6 +107,8 @@ set(naiad_detail_headers
   server/engine/effects/Particles.h
   server/engine/events/KeyCharacter.h
   server/engine/managers/LogManager.h
+  server/engine/prelude/LettersBegin.h
+  server/engine/prelude/LettersEnd.h
   server/engine/prelude/SfmlDrawing.h
   server/engine/prelude/SfmlInput.h
   server/engine/prelude/SfmlValues.h
