@@ -32,6 +32,10 @@ set(naiad_public_headers
   server/engine/published/LogManager.h
   server/engine/published/NetworkManager.h
   server/engine/published/NetworkNode.h
+  server/engine/published/PathManager.h
+  server/engine/published/QuadtreeNode.h
+  server/engine/published/Splash.h
+  server/engine/published/SplashDragonfly.h
   server/engine/published/State.h
   server/engine/published/StateMachine.h
   server/engine/published/Windows.h
@@ -124,7 +128,7 @@ set(naiad_detail_headers
 
 # Made by the build: each brings detail/EventNetworks.h.
 set(naiad_event_network_headers
-  EventKeyboardNetwork.h EventMouseNetwork.h EventNetworkAccept.h EventNetworkClose.h EventNetworkConnect.h
+  EventCustomNetwork.h EventKeyboardNetwork.h EventMouseNetwork.h EventNetworkAccept.h EventNetworkClose.h EventNetworkConnect.h
   EventNetworkCreate.h EventNetworkCustom.h EventNetworkDelete.h EventNetworkGameOver.h EventNetworkSync.h)
 # Likewise in SFML/: each brings Sfml.h.
 set(naiad_sfml_headers

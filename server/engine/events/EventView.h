@@ -13,8 +13,8 @@ inline const EventType VIEW_EVENT("df-view");
 
 class EventView : public Event {
  public:
-  /// Tag VIEW_EVENT, value 0, not a difference.
-  EventView() : EventView(VIEW_EVENT, 0, false) {}
+  /// Tag VIEW_EVENT (compat: none), value 0, not a difference.
+  EventView();
   /// To the view objects with this text: add the value to theirs, if `new_delta`, else replace it.
   EventView(std::string new_tag, int new_value, bool new_delta)
       : Event(&VIEW_EVENT), m_tag(std::move(new_tag)), m_value(new_value), m_delta(new_delta) {}

@@ -61,6 +61,8 @@ class Config {
   DF_SETTING(float, FontScale, font_scale)
   DF_SETTING(std::string, FontFile, font_file)
   DF_SETTING(bool, ShowMouse, show_mouse)
+  DF_SETTING(int, WindowState, window_state)
+  DF_SETTING(bool, Signals, signals)
   DF_SETTING(bool, Headless, headless)
   DF_SETTING(std::string, LogFile, logfile)
   DF_SETTING(int, RandomSeed, random_seed)

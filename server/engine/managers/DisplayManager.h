@@ -28,6 +28,8 @@ enum Justification {
 
 inline constexpr int WINDOW_HORIZONTAL_PIXELS_DEFAULT = 1024;
 inline constexpr int WINDOW_VERTICAL_PIXELS_DEFAULT = 768;
+/// Titlebar and close button, as bits of the graphics library.
+inline constexpr int WINDOW_STYLE_DEFAULT = 5;
 inline constexpr Color WINDOW_BACKGROUND_COLOR_DEFAULT = BLACK;
 const std::string WINDOW_TITLE_DEFAULT = "Dragonfly";
 const std::string FONT_FILE_DEFAULT = "df-font.ttf";

@@ -21,6 +21,9 @@ namespace df {
 // The macros of the managers say df:: themselves; games write df::GM.run() nevertheless.
 namespace df = ::df;
 
+/// Of the published engine, for games that name it: here there is no limit.
+inline constexpr int MAX_EVENTS = 100;
+
 class Manager {
  public:
   Manager() = default;

@@ -16,6 +16,11 @@
 
 namespace df {
 
+/// Of the published engine, for games that name them: here there are no limits.
+inline constexpr int MAX_SPRITES = 1000;
+inline constexpr int MAX_SOUNDS = 50;
+inline constexpr int MAX_MUSICS = 50;
+
 class ResourceManager : public Manager {
  public:
   static ResourceManager& getInstance();

@@ -125,8 +125,8 @@ ObjectList WorldManager::getCollisions(const Object* p_o, Vector where) const {
   return World::current().getCollisions(p_o, where);
 }
 
-bool WorldManager::isCollision(const Object* p_o, Vector where) const {
-  return !getCollisions(p_o, where).isEmpty();
+WorldManager::Collisions WorldManager::isCollision(const Object* p_o, Vector where) const {
+  return Collisions(getCollisions(p_o, where));
 }
 
 Contact WorldManager::firstContact(const Object* p_o, Vector where) const {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Box.h"
@@ -28,6 +29,14 @@ class Player;  // Player.h
 
 class WorldManager : public Manager {
  public:
+  /// What an Object would collide with: an ObjectList, and true if there is anything in it. Up to 4.14 the
+  /// published engine returned the list, since then the answer; it is both.
+  class Collisions : public ObjectList {
+   public:
+    explicit Collisions(ObjectList found) : ObjectList(std::move(found)) {}
+    operator bool() const { return !isEmpty(); }
+  };
+
   static WorldManager& getInstance();
 
   /// Return 0. The world works without it, too.
@@ -85,8 +94,8 @@ class WorldManager : public Manager {
   /// without p_o itself; where one of the two is precise, the characters must share a cell, too. Whether p_o
   /// is solid does not matter (Listing 4.108). Empty for null and for a position out of range.
   ObjectList getCollisions(const Object* p_o, Vector where) const;
-  /// Would p_o collide at `where`?
-  bool isCollision(const Object* p_o, Vector where) const;
+  /// Would p_o collide at `where`, and with what?
+  Collisions isCollision(const Object* p_o, Vector where) const;
   /// Move p_o to `where` (Listings 4.109, 4.111, 4.113): solid Objects it touches there and itself get
   /// collision events; if none blocks, it moves, and gets an out event if it left the world. Return 0 if it
   /// moved; -1 if blocked, deleted by a handler, not in the world, out of range, or nested more than 32 deep

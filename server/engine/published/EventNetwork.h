@@ -1,5 +1,5 @@
-// Events of the published engine's sockets. They exist so that games compile; the engine sends none
-// (NetworkManager.h says what to use instead).
+// Events of the published engine's sockets. The engine sends those of players that come and go, to games that
+// are servers (NetworkManager.h), and no others.
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
-// The kinds of events of the published engine's sockets. They exist so that games compile; the engine sends
-// none (NetworkManager.h says what to use instead). The build makes a header of the name of each class, as
-// EventNetworkSync.h. EventNetwork.h does not bring them, so that games may have events of these names.
+// The kinds of events of the published engine's sockets. The engine sends those of players that come, go,
+// press keys and use the mouse, to games that are servers (NetworkManager.h), and no others. The build makes
+// a header of the name of each class, as EventNetworkSync.h. EventNetwork.h does not bring them, so that
+// games may have events of these names.
 #pragma once
 
 #include "EventKeyboard.h"
@@ -110,7 +111,10 @@ class EventNetworkCustom : public EventNetwork {
   const void* m_p_message = nullptr;
 };
 
-// Here the input of all players comes as EventKeyboard and EventMouse, with getPlayer().
+/// The name from 4.5 to 4.18.
+using EventCustomNetwork = EventNetworkCustom;
+
+// What a client program would have sent: of the players that are a server's connections (NetworkManager.h).
 
 inline const EventType NETWORK_KEYBOARD_EVENT("df-keyboard-network");
 
@@ -128,6 +132,8 @@ class EventKeyboardNetwork : public EventKeyboard {
 };
 
 inline const EventType NETWORK_MSE_EVENT("df-mouse-network");
+/// The older name.
+inline const EventType NETWORK_MOUSE_EVENT("df-mouse-network");
 
 class EventMouseNetwork : public EventMouse {
  public:

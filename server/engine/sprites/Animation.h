@@ -11,8 +11,20 @@
 
 namespace df {
 
+/// How a frame is turned over before it is drawn.
+enum class Transform {
+  NO_TRANSFORM,
+  HORIZONTAL,  ///< left and right change places
+  VERTICAL,    ///< top and bottom
+  BOTH,
+};
+
 class Animation {
  public:
+  static constexpr Transform HORIZONTAL = Transform::HORIZONTAL;
+  static constexpr Transform VERTICAL = Transform::VERTICAL;
+  static constexpr Transform BOTH = Transform::BOTH;
+
   Animation() = default;
 
   /// From the first frame on. Not owned; null for none.
@@ -30,6 +42,11 @@ class Animation {
   void setSlowdownCount(int new_slowdown_count) { m_slowdown_count = new_slowdown_count; }
   int getSlowdownCount() const { return m_slowdown_count; }
 
+  /// Turn the frames over as they are drawn; characters with a mirror image, as / and <, become it. The box
+  /// stays, and characters are not compared in collisions (Object::setPrecise) while it is on.
+  void setTransform(Transform new_transform) { m_transform = new_transform; }
+  Transform getTransform() const { return m_transform; }
+
   /// The sprite's box; 1 by 1 around the position without one.
   Box getBox() const;
 
@@ -43,7 +60,7 @@ class Animation {
   std::string toString() const;
   friend bool operator==(const Animation& a, const Animation& b) {
     return a.m_p_sprite == b.m_p_sprite && a.m_index == b.m_index &&
-           a.m_slowdown_count == b.m_slowdown_count && a.m_name == b.m_name;
+           a.m_slowdown_count == b.m_slowdown_count && a.m_name == b.m_name && a.m_transform == b.m_transform;
   }
   friend bool operator!=(const Animation& a, const Animation& b) { return !(a == b); }
 
@@ -52,6 +69,7 @@ class Animation {
   int m_index = 0;
   int m_slowdown_count = 0;
   std::string m_name;
+  Transform m_transform = Transform::NO_TRANSFORM;
 };
 
 }  // namespace df

@@ -25,6 +25,7 @@ std::shared_ptr<const naiad::Look> lookOf(const Animation& animation, std::uint3
                                           const std::shared_ptr<const naiad::Look>& before) {
   const Sprite* p_sprite = animation.getSprite();
   if (p_sprite == nullptr || p_sprite->getFrameCount() < 2) return nullptr;
+  if (animation.getTransform() != Transform::NO_TRANSFORM) return nullptr;  // the pictures are others
   if (animation.getIndex() < 0 || animation.getIndex() >= p_sprite->getFrameCount()) return nullptr;
   const naiad::Sequence& pictures = SpritePictures::of(*p_sprite);
   if (pictures.empty()) return nullptr;

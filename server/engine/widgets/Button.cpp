@@ -3,12 +3,14 @@
 #include <cmath>
 
 #include "engine/world/Geometry.h"
+#include "engine/world/World.h"
 
 namespace df {
 
 Button::Button() {
   Object::setType("Button");
   ViewObject::setDrawValue(false);
+  if (World::current().compat()) ViewObject::setLocation(CENTER_CENTER);
   registerInterest(MSE_EVENT);
 }
 

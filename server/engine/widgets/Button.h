@@ -9,12 +9,15 @@ namespace df {
 /// The attribute that a Button adds to a ViewObject's, as a bit.
 enum class ButtonAttribute : unsigned int {
   APPEARANCE = 1 << (ViewObjectAttributeMax + 0),
+  HIGHLIGHT_COLOR = APPEARANCE,
+  DEFAULT_COLOR = APPEARANCE,
 };
 inline constexpr int ButtonAttributeMax = ViewObjectAttributeMax + 1;
 
 class Button : public ViewObject {
  public:
-  /// Without value, in the default colour, red under the mouse; interested in MSE_EVENT.
+  /// Without value, in the default colour, red under the mouse; interested in MSE_EVENT; at the top (compat:
+  /// in the middle of the view).
   Button();
 
   /// It was clicked.

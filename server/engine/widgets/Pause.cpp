@@ -27,7 +27,7 @@ std::vector<std::uint32_t> votersOf(const World& world) {
 }  // namespace
 
 Pause::Pause(int init_pause_key) : m_pause_key(init_pause_key) {
-  Object::setType("df-pause");
+  Object::setType(World::current().compat() ? "Pause" : "df-pause");
   Object::setSolidness(SPECTRAL);
   setVisible(false);
   hearWhilePaused();

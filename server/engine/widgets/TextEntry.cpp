@@ -13,6 +13,10 @@ namespace df {
 TextEntry::TextEntry() : m_player(World::current().inputPlayer()) {
   Object::setType("TextEntry");
   ViewObject::setDrawValue(false);
+  if (World::current().compat()) {
+    m_limit = 1;
+    m_blink_rate = 10;
+  }
   registerInterest(KEYBOARD_EVENT);
 }
 

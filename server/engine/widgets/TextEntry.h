@@ -17,12 +17,20 @@ namespace df {
 enum class TextEntryAttribute : unsigned int {
   TEXT = 1 << (ViewObjectAttributeMax + 0),
   APPEARANCE = 1 << (ViewObjectAttributeMax + 1),
+  ALL_TEXT = TEXT,
+  MODIFIED_TEXT = TEXT,
+  LIMIT = APPEARANCE,
+  CURSOR = APPEARANCE,
+  CURSOR_CHAR = APPEARANCE,
+  BLINK_RATE = APPEARANCE,
+  NUMBERS_ONLY = APPEARANCE,
 };
 inline constexpr int TextEntryAttributeMax = ViewObjectAttributeMax + 2;
 
 class TextEntry : public ViewObject {
  public:
-  /// Empty, for up to 30 characters; interested in KEYBOARD_EVENT; of the player whose input is handled.
+  /// Empty, for up to 30 characters (compat: 1); interested in KEYBOARD_EVENT; of the player whose input is
+  /// handled. The cursor blinks every 15 ticks (compat: 10).
   TextEntry();
 
   /// The player has finished.

@@ -26,11 +26,16 @@ enum ViewObjectLocation {
   BOTTOM_RIGHT,
 };
 
-/// Attributes beyond an Object's.
-enum class ViewObjectAttribute : unsigned int {
-  VALUE = 1 << (ObjectAttributeMax + 0),
-  APPEARANCE = 1 << (ObjectAttributeMax + 1),
-};
+/// Attributes beyond an Object's; those after the second are older names of it.
+DF_ENUM ViewObjectAttribute : unsigned int{
+                                  VALUE = 1 << (ObjectAttributeMax + 0),
+                                  APPEARANCE = 1 << (ObjectAttributeMax + 1),
+                                  VIEW_STRING = APPEARANCE,
+                                  BORDER = APPEARANCE,
+                                  COLOR = APPEARANCE,
+                                  LOCATION = APPEARANCE,
+                                  DRAW_VALUE = APPEARANCE,
+                              };
 inline constexpr int ViewObjectAttributeMax = ObjectAttributeMax + 2;
 
 class ViewObject : public Object {
@@ -69,6 +74,8 @@ class ViewObject : public Object {
   using Object::serialize;
   std::string serialize(std::string attr = "") override;
   int deserialize(std::string s) override;
+  /// They are written whenever the ViewObject is, so they always count as modified.
+  virtual bool isModified(ViewObjectAttribute /*attribute*/) const { return true; }
   std::string toString() const { return m_view_string + " " + std::to_string(m_value); }
 
  protected:

@@ -100,7 +100,11 @@ bool circleIntersectsBox(Circle circle, Box b) {
   const Vector centre = circle.getCenter();
   const Vector nearest(std::clamp(centre.x(), low.x(), low.x() + b.width()),
                        std::clamp(centre.y(), low.y(), low.y() + b.height()));
-  return distance(centre, nearest) <= circle.getRadius();
+  if (distance(centre, nearest) > circle.getRadius()) return false;
+  if (!World::current().compat()) return true;
+  const double room = std::min({centre.x() - low.x(), low.x() + b.width() - centre.x(), centre.y() - low.y(),
+                                low.y() + b.height() - centre.y()});
+  return room <= circle.getRadius();
 }
 
 Vector getNormal(const Object* p_o1, const Object* p_o2) {

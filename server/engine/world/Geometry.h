@@ -41,6 +41,7 @@ bool boxContainsBox(Box b1, Box b2);
 bool lineIntersectsLine(Line line1, Line line2);
 /// Is a part of the segment in the box?
 bool lineIntersectsBox(Line line, Box b);
+/// Do they share a point? (compat: not if the circle lies wholly inside the box.)
 bool circleIntersectsBox(Circle circle, Box b);
 /// From which side Object 1, which moved, came upon Object 2: a vector of length 1 away from Object 2, along
 /// the axis on which their boxes overlap least; (0,0) if they do not touch, or if the position of Object 1 is

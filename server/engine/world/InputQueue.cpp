@@ -9,6 +9,7 @@
 #include "engine/world/EventPlayer.h"
 #include "engine/world/Views.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
 
 namespace df {
 
@@ -33,7 +34,16 @@ bool InputQueue::isPossible(const Input& input) const {
          input.y >= 0 && input.x < m_world.getWindowWidth() && input.y < m_world.getWindowHeight();
 }
 
+// The filter may set another one, or none.
+bool InputQueue::isFiltered(const Event* p_event) {
+  const WorldExtras* p_extras = m_world.findExtras();
+  if (p_extras == nullptr || p_extras->input_filter == nullptr) return false;
+  const auto filter = p_extras->input_filter;
+  return filter(p_event);
+}
+
 void InputQueue::drain() {
+  isFiltered(nullptr);
   std::vector<Input> inputs;
   inputs.swap(m_inputs);
   for (const Input& input : inputs) {
@@ -57,7 +67,7 @@ void InputQueue::handle(const Input& input) {
   if (input.kind == kMouse) sendMouse(input);
   if (input.kind == kLeave) {
     const EventLeave event(input.player);
-    m_world.onEvent(&event);
+    if (!isFiltered(&event)) m_world.onEvent(&event);
     m_world.views().removePlayer(input.player);
   }
 }
@@ -70,7 +80,7 @@ void InputQueue::sendKey(const Input& input) {
   // Declared controls have no effect during a pause, either.
   event.setHandled(!m_world.isPaused() &&
                    handleKey(m_world, *m_world.getPlayer(input.player), input.key, input.key_action));
-  m_world.onEvent(&event);
+  if (!isFiltered(&event)) m_world.onEvent(&event);
 }
 
 void InputQueue::sendMouse(const Input& input) {
@@ -84,7 +94,7 @@ void InputQueue::sendMouse(const Input& input) {
   event.setMousePosition(Vector(static_cast<double>(cellOf(corner.x)) + input.x,
                                 static_cast<double>(cellOf(corner.y)) + input.y));
   event.setPlayer(input.player);
-  m_world.onEvent(&event);
+  if (!isFiltered(&event)) m_world.onEvent(&event);
 }
 
 }  // namespace df

@@ -12,6 +12,7 @@
 
 namespace df {
 
+class Event;
 class World;
 
 class InputQueue {
@@ -43,6 +44,7 @@ class InputQueue {
 
  private:
   bool isPossible(const Input& input) const;
+  bool isFiltered(const Event* p_event);
   void handle(const Input& input);
   void sendKey(const Input& input);
   void sendMouse(const Input& input);

@@ -13,6 +13,23 @@
 
 namespace df {
 
+namespace {
+
+// The published engine compares in floats: a box that touches the boundary to within a float's precision is
+// still inside, whatever the exact sums say.
+[[gnu::noinline]] bool touchesAsFloats(const FixedBox& a, const FixedBox& b) {
+  const auto overlap = [](Fixed a_begin, Fixed a_size, Fixed b_begin, Fixed b_size) {
+    const auto begin_a = static_cast<float>(toCells(a_begin));
+    const auto begin_b = static_cast<float>(toCells(b_begin));
+    return begin_a <= begin_b + static_cast<float>(toCells(b_size)) &&
+           begin_b <= begin_a + static_cast<float>(toCells(a_size));
+  };
+  return overlap(a.corner.x, a.size.x, b.corner.x, b.size.x) &&
+         overlap(a.corner.y, a.size.y, b.corner.y, b.size.y);
+}
+
+}  // namespace
+
 void Mover::moveAll() {
   WorldStore& store = m_world.store();
   const WorldStore::Walk walk(store);
@@ -171,7 +188,7 @@ void Mover::place(ObjectKey mover, FixedVector where) {
 // Would an Object at `where` be inside the world, as out events define it?
 bool Mover::isInWorld(std::uint32_t slot, FixedVector where) const {
   const Views& views = m_world.views();
-  return m_world.compat() ? intersects(m_world.store().worldBox(slot, where), views.boundary())
+  return m_world.compat() ? touchesAsFloats(m_world.store().worldBox(slot, where), views.boundary())
                           : views.isInside(where);
 }
 

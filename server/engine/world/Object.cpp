@@ -152,7 +152,9 @@ int Object::registerInterest(const std::string& event_type) {
 
 int Object::unregisterInterest(const std::string& event_type) {
   World* p_world = getWorld();
-  return p_world != nullptr ? p_world->interests().remove(*this, event_type) : -1;
+  if (p_world == nullptr) return -1;
+  const int result = p_world->interests().remove(*this, event_type);
+  return p_world->compat() ? 0 : result;
 }
 
 int Object::eventHandler(const Event* /*p_e*/) {

@@ -19,6 +19,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "Animation.h"
@@ -40,6 +41,18 @@
 #define DF_DRAW int
 #endif
 
+/// What five setters return that classes may override: setVelocity(), setDirection(), setAcceleration(),
+/// setBox() and setAnimation(). Games of the published engine override, or hide, a `void setVelocity()`;
+/// games made for Naiad, which say -DDF_COMPAT=0 (dragonfly_game() does), get 0 or -1 as from all setters.
+/// -DDF_SETTER=int or =void decides. The library is the same for both.
+#if !defined(DF_SETTER)
+#if defined(DF_COMPAT) && !DF_COMPAT
+#define DF_SETTER int
+#else
+#define DF_SETTER void
+#endif
+#endif
+
 namespace naiad {
 struct Look;
 }
@@ -52,11 +65,13 @@ struct ObjectExtras;
 
 /// Highest altitude; 0 is the lowest, drawn first.
 inline constexpr int MAX_ALTITUDE = 4;
+/// Of the published engine, for games that name it: here an Object may register any number of interests.
+inline constexpr int MAX_OBJ_EVENTS = 100;
 
 class Object {
  public:
-  /// An active, visible, HARD Object of type "Object" at (0,0), altitude 2, at rest, with the box of a
-  /// single character, as the last one in the current world's creation order.
+  /// An active, visible, HARD Object of type "Object" at (0,0) (compat: "(Undefined)" at (1,1)), altitude 2,
+  /// at rest, with the box of a single character, as the last one in the current world's creation order.
   Object();
   /// A copy that is not in the world, so that it is neither drawn nor moved and gets no events: the same
   /// attributes, another id, no interests, no mask or path of its own. WM.insertObject() brings it in.
@@ -93,7 +108,7 @@ class Object {
   /// The bounding box, corner relative to the position. Used for collisions (edges included) and to find
   /// what is in view. Default: corner (-0.5,-0.5), 1 by 1, which equals the book's test for single
   /// characters. Corner and size up to 1e6 cells. Return 0, else -1.
-  int setBox(Box new_box);
+  virtual DF_SETTER setBox(Box new_box);
   Box getBox() const;
 
   // How it moves. Velocity = direction × speed, rounded once to 2^-32 cell when one of them is set.
@@ -103,17 +118,17 @@ class Object {
   int setSpeed(double speed);
   float getSpeed() const;
   /// The direction as it is given, not normalised: (2,0) doubles the velocity. Return 0, else -1.
-  int setDirection(Vector new_direction);
+  virtual DF_SETTER setDirection(Vector new_direction);
   Vector getDirection() const;
   /// Set speed to the length of `new_velocity` and direction to the normalised vector; (0,0) zeroes both.
   /// From the next move on. Return 0, or -1 if a component exceeds 2^24 cells per tick.
-  int setVelocity(Vector new_velocity);
+  virtual DF_SETTER setVelocity(Vector new_velocity);
   /// What WM.update() adds to the position.
   Vector getVelocity() const;
   /// What WM.update() adds to the velocity after each move, blocked or not (position first, with the old
   /// velocity): `setAcceleration(Vector(0, 0.02))` is gravity. Speed and direction follow. A velocity that
   /// would leave its range stays as it is. Return 0, else -1.
-  int setAcceleration(Vector new_acceleration);
+  virtual DF_SETTER setAcceleration(Vector new_acceleration);
   Vector getAcceleration() const;
   /// Velocity += acceleration, as update() does it after each move.
   void accelerate() { setVelocity(getVelocity() + getAcceleration()); }
@@ -157,7 +172,8 @@ class Object {
   bool isActive() const;
   /// An invisible Object is not drawn; everything else goes on. Return 0.
   int setVisible(bool visible = true);
-  bool isVisible() const;
+  /// For games: the engine draws what setVisible() says.
+  virtual bool isVisible() const;
 
   // Its events.
 
@@ -165,7 +181,7 @@ class Object {
   /// eventHandler(). Collision and out events come without it. Registering twice is once. Return 0, or
   /// -1 if the Object is in no world.
   int registerInterest(const std::string& event_type);
-  /// Return 0, or -1 if it was not registered.
+  /// Return 0, or -1 if it was not registered (compat: 0).
   int unregisterInterest(const std::string& event_type);
   /// How many interests it has registered.
   int getEventCount() const { return static_cast<int>(m_p_profile->interests.size()); }
@@ -183,13 +199,14 @@ class Object {
   /// Show this sprite (RM.loadSprite), from its first frame on. Unless `set_box` is false, the box becomes
   /// the sprite's: its size, the position in the middle. Where characters are compared (setPrecise), those of
   /// the frame count. Return 0, or -1 for a label that is not loaded.
-  int setSprite(const std::string& sprite_label, bool set_box = true);
+  virtual int setSprite(std::string sprite_label);
+  int setSprite(const std::string& sprite_label, bool set_box);
   /// The same with a sprite of the game's own, which has to live as long as it is shown; null: none.
   int setSprite(Sprite* p_new_sprite, bool set_box = true);
   /// Null for none.
   Sprite* getSprite() const { return getAnimation().getSprite(); }
   /// The animation, sprite and all. Unless `set_box` is false, the box becomes the sprite's.
-  void setAnimation(const Animation& new_animation, bool set_box = true);
+  virtual DF_SETTER setAnimation(Animation new_animation, bool set_box = true);
   /// A copy: setAnimation() takes it back.
   Animation getAnimation() const;
   /// Which frame shows.
@@ -201,6 +218,13 @@ class Object {
   /// Ticks for which the frame has been shown; -1 stops the animation.
   void setSpriteSlowdownCount(int new_slowdown_count);
   int getSpriteSlowdownCount() const { return getAnimation().getSlowdownCount(); }
+  /// The label of the sprite; setting it changes the name alone.
+  void setSpriteName(std::string new_name);
+  std::string getSpriteName() const { return getAnimation().getName(); }
+  /// Draw the sprite around the position, as by default, or with its upper left character there, and set the
+  /// box so.
+  void setCentered(bool centered = true);
+  bool isCentered() const;
   /// The character of the sprite that is not drawn, for all Objects that share it; 0: all are.
   void setTransparency(char new_transparency = ' ');
   char getTransparency() const;
@@ -222,6 +246,11 @@ class Object {
   /// `attr` names ("pos", "box", …, separated by commas), or all of them for "ALL". Those written count as
   /// not modified from then on.
   virtual std::string serialize(std::string attr = "");
+  /// All of them, or those modified: the first versions' form. (Not for what only converts to bool.)
+  template <class Flag>
+  typename std::enable_if<std::is_same<Flag, bool>::value, std::string>::type serialize(Flag all) {
+    return serialize(std::string(all ? "ALL" : ""));
+  }
   /// The same, of the attributes in the mask `attr`; 0: the modified ones. Return 0, or -1 for null.
   virtual int serialize(std::stringstream* p_ss, unsigned int attr = 0);
   /// Take on what such a text says. Return 0, or -1 if a value was refused.
@@ -262,8 +291,8 @@ class Object {
   /// The world it was made in; null once that is gone.
   World* getWorld() const;
 
-  /// These note which Objects were made with `new`: those the world deletes.
-  /// (Elements of an array made with `new[]` are not.)
+  /// These note which Objects were made with `new`: those the world deletes. (Elements of an array made with
+  /// `new[]` are not.) With compat the memory is cleared: games read members that they never set.
   static void* operator new(std::size_t size);
   static void* operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept;
   static void* operator new(std::size_t, void* p_place) noexcept { return p_place; }
@@ -300,6 +329,7 @@ class Object {
   ObjectExtras& extras();
   void dropExtras();
   void animate();
+  void fitBox();
   const Mask* spriteMask() const;
   std::shared_ptr<const naiad::Look> publishedLook(std::uint32_t tick);
   ObjectAttributes attributes() const;

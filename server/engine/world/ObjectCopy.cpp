@@ -47,6 +47,7 @@ void Object::resemble(const Object& other) {
   const ObjectExtras& theirs = other.m_p_extras != nullptr ? *other.m_p_extras : plain;
   extras().animation = theirs.animation;
   extras().shape = theirs.shape;
+  extras().is_centered = theirs.is_centered;
   extras().avoids_collisions = theirs.avoids_collisions;
   animate();
 }

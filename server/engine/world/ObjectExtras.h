@@ -27,6 +27,7 @@ struct ObjectExtras {
   std::optional<int> id;  ///< that the game chose
   Path path;
   bool hears_while_paused = false;
+  bool is_centered = true;
   bool follows_path = false;
   double path_speed = 0;  ///< with which it set out; its last step to a node may be a short one
   bool avoids_collisions = false;

@@ -76,23 +76,29 @@ constexpr std::align_val_t kLine{64};
 
 // What an Object without a sprite collides with in the published engine: characters one apart do not touch.
 const FixedBox kCompatBox{{-kFixedOne / 2, -kFixedOne / 2}, {*toFixed(0.99), *toFixed(0.99)}};
+const FixedVector kCompatPlace{kFixedOne, kFixedOne};
+
+// Games of the published engine live on memory that happens to be zero there.
+void* cleared(void* p, std::size_t size) {
+  return World::current().compat() ? std::memset(p, 0, size) : p;
+}
 
 }  // namespace
 
 void* Object::operator new(std::size_t size) {
-  void* p = ::operator new(size, kLine);
+  void* p = cleared(::operator new(size, kLine), size);
   t_pending.push(p, size);
   return p;
 }
 
 void* Object::operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept {
   void* p = ::operator new(size, kLine, nothrow);
-  if (p != nullptr) t_pending.push(p, size);
+  if (p != nullptr) t_pending.push(cleared(p, size), size);
   return p;
 }
 
 void* Object::operator new(std::size_t size, std::align_val_t align) {
-  void* p = ::operator new(size, align);
+  void* p = cleared(::operator new(size, align), size);
   t_pending.push(p, size);
   return p;
 }
@@ -121,7 +127,11 @@ Object::Object() : m_p_store(nullptr), m_slot(0), m_p_profile(nullptr) {
   m_p_store = &world.store();
   m_slot = m_p_store->takeSlot(this, t_pending.claim(this));
   m_p_profile = &m_p_store->profile(m_slot);
-  if (world.compat()) m_p_store->setBox(m_slot, kCompatBox);
+  if (world.compat()) {
+    m_p_store->setBox(m_slot, kCompatBox);
+    m_p_store->setPosition(m_slot, kCompatPlace);
+    m_p_profile->type = "(Undefined)";
+  }
   // Here it is still nothing but an Object.
   if (g_p_base_handler == nullptr) g_p_base_handler = handlerOf(*this);
   world.insertObject(this);

@@ -1,5 +1,7 @@
 // The part of Object that shows something of itself: sprite and shape.
 
+#include <utility>
+
 #include "engine/collision/Mask.h"
 #include "engine/sprites/AnimationLook.h"
 #include "engine/world/Geometry.h"
@@ -43,6 +45,10 @@ void Object::animate() {
   }
 }
 
+int Object::setSprite(std::string sprite_label) {
+  return setSprite(sprite_label, true);
+}
+
 int Object::setSprite(const std::string& sprite_label, bool set_box) {
   const World* p_world = getWorld();
   Sprite* p_sprite = p_world != nullptr && p_world->findExtras() != nullptr
@@ -63,10 +69,33 @@ int Object::setSprite(Sprite* p_new_sprite, bool set_box) {
   return 0;
 }
 
-void Object::setAnimation(const Animation& new_animation, bool set_box) {
-  extras().animation = new_animation;
-  if (set_box && new_animation.getSprite() != nullptr) setBox(new_animation.getBox());
+int Object::setAnimation(Animation new_animation, bool set_box) {
+  const bool fits = set_box && new_animation.getSprite() != nullptr;
+  extras().animation = std::move(new_animation);
+  if (fits) fitBox();
   animate();
+  return 0;
+}
+
+// The box of a single character around the position begins half a cell before it.
+void Object::fitBox() {
+  Box box = m_p_extras->animation.getBox();
+  if (!m_p_extras->is_centered) box.setCorner(Vector(-0.5, -0.5));
+  setBox(box);
+}
+
+void Object::setCentered(bool centered) {
+  extras().is_centered = centered;
+  if (getSprite() != nullptr) fitBox();
+  animate();
+}
+
+bool Object::isCentered() const {
+  return m_p_extras == nullptr || m_p_extras->is_centered;
+}
+
+void Object::setSpriteName(std::string new_name) {
+  extras().animation.setName(std::move(new_name));
 }
 
 Animation Object::getAnimation() const {
@@ -121,7 +150,12 @@ int Object::draw() {
   const bool on_view = m_p_store->has(m_slot, WorldStore::kOnView);
   const Vector at = on_view ? viewToWorld(getPosition()) : getPosition();
   int result = 0;
-  if (m_p_extras->animation.getSprite() != nullptr) result = m_p_extras->animation.paint(at);
+  if (const Sprite* p_sprite = m_p_extras->animation.getSprite()) {
+    const Box box = p_sprite->getBox();
+    const Vector to_middle =
+        m_p_extras->is_centered ? Vector() : Vector((box.width() - 1) / 2, (box.height() - 1) / 2);
+    result = m_p_extras->animation.paint(at + to_middle);
+  }
   if (m_p_extras->shape) m_p_extras->shape->draw(at);
   return result;
 }
@@ -129,14 +163,16 @@ int Object::draw() {
 // Null if nothing goes on by itself. What draw() really draws decides whether it counts.
 std::shared_ptr<const naiad::Look> Object::publishedLook(std::uint32_t tick) {
   if (m_p_store->has(m_slot, WorldStore::kFrames)) return m_p_store->frames(m_slot);
-  if (m_p_extras == nullptr || m_p_extras->shape) return nullptr;
+  if (m_p_extras == nullptr || m_p_extras->shape || !m_p_extras->is_centered) return nullptr;
   return m_p_extras->p_look = lookOf(m_p_extras->animation, tick, m_p_extras->p_look);
 }
 
 // In a box that is not the sprite's own, its characters would lie elsewhere than they are drawn.
 const Mask* Object::spriteMask() const {
   const Sprite* p_sprite = getSprite();
-  if (p_sprite == nullptr || getBox() != p_sprite->getBox()) return nullptr;
+  const bool as_drawn = p_sprite != nullptr && isCentered() && getBox() == p_sprite->getBox() &&
+                        m_p_extras->animation.getTransform() == Transform::NO_TRANSFORM;
+  if (!as_drawn) return nullptr;
   return p_sprite->mask(m_p_extras->animation.getIndex());
 }
 

@@ -23,6 +23,8 @@ struct ConfigSettings {
   int window_vertical_chars = WINDOW_VERTICAL_CHARS_DEFAULT;
   Color window_background_color = BLACK;
   int window_style = 5;
+  int window_state = 0;  ///< 0: a window, 1: the whole screen
+  bool signals = true;   ///< whether the engine catches signals
   std::string window_title = "Dragonfly";
   int frame_time = 33;  ///< milliseconds
   float font_scale = 2;

@@ -244,6 +244,8 @@ class World {
   /// joins and leaves, which all get.
   void setPaused(bool paused = true);
   bool isPaused() const;
+  /// Is the picture of a tick being drawn?
+  bool isDrawing() const { return m_in_draw; }
   /// A sound was played; see WorldView.
   void noteSound(SoundPlayed sound);
   /// Sprites, sounds, settings and the like, made at first use.

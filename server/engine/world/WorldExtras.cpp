@@ -65,6 +65,8 @@ void WorldExtras::reset() {
   view_slack = Vector(1.0 / 3, 1.0 / 3);
   paused = false;
   network_said = false;
+  connections = {};
+  input_filter = nullptr;
   random = Random(0xD6A60);
   clock = 0;
 }

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "engine/events/Event.h"
 #include "engine/world/Animations.h"
+#include "engine/world/Connections.h"
 #include "engine/world/Random.h"
 #include "engine/world/Resources.h"
 #include "engine/world/Settings.h"
@@ -52,6 +55,10 @@ struct WorldExtras {
   Vector view_slack{1.0 / 3, 1.0 / 3};  ///< as asked for; it has no effect
   bool paused = false;
   bool network_said = false;  ///< that there are no sockets
+  Connections connections;
+  /// Gets each key, mouse event and leave before the game does, and null before the inputs of a tick. Returns
+  /// true if the game is not to get it.
+  std::function<bool(const Event*)> input_filter;
   Random random{0xD6A60};
   std::int64_t clock = 0;  ///< what a Clock read last, in microseconds of game time
 };

@@ -118,7 +118,7 @@ class Body : public Object {
     return getDisplacementFrom(point);
   }
   /// Cells per tick, to ±16777216. Thaws a frozen body.
-  int setVelocity(Vector velocity);
+  DF_SETTER setVelocity(Vector velocity) override;
   Vector getVelocity() const;
 
   /// Push it during the next tick; several pushes add up, to ±1e30. Mass · cells per tick².

@@ -377,8 +377,8 @@ void managers() {
   spacesToPixels(Vector(config.getWindowHorizontalPixels(), config.getWindowVerticalPixels()));
   pixelsToSpaces(Vector(charWidth(), charHeight()));
   NetworkManager& network_manager = NetworkManager::getInstance();
-  if (network_manager.setServer(true, DRAGONFLY_PORT) == 0 || NM.connect("localhost") >= 0 || NM.isServer())
-    exit(1);
+  if (NM.connect("localhost") >= 0 || NM.isServer()) exit(1);
+  if (network_manager.setServer(true, DRAGONFLY_PORT) != 0 || !NM.isServer()) exit(1);
   NM.setMaxConnections(NM.getNumConnections() + 1);
   NM.isConnected();
   NM.setDelay(1);

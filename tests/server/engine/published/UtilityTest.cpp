@@ -187,8 +187,7 @@ TEST_F(UtilityTest, StateMachineEntersExecutesAndLeaves) {
 }
 
 TEST_F(UtilityTest, SocketsFailAndSayOnceWhatToUseInstead) {
-  EXPECT_EQ(NM.startUp(), -1);
-  EXPECT_EQ(NM.setServer(), -1);
+  EXPECT_EQ(NM.setServer(false), 0);
   EXPECT_EQ(NM.connect("localhost"), -1);
   EXPECT_FALSE(NM.isServer());
   EXPECT_FALSE(NM.isConnected());
@@ -207,8 +206,8 @@ TEST_F(UtilityTest, CompatCharactersOneApartDoNotTouch) {
   b.setSolidness(SPECTRAL);
   a.setSolidness(SPECTRAL);
   Object d;
-  EXPECT_FALSE(WM.isCollision(&c, Vector(1, 0)));
-  EXPECT_TRUE(WM.isCollision(&c, Vector(0.9, 0)));
+  EXPECT_FALSE(WM.isCollision(&c, d.getPosition() + Vector(1, 0)));
+  EXPECT_TRUE(WM.isCollision(&c, d.getPosition() + Vector(0.9, 0)));
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+// In the published engine it shares out the time that searches for paths take. Here Object::pathTo() finds
+// its path in the step in which it is asked, so it has nothing to do.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "Manager.h"
+#include "PathFind.h"
+
+#if !defined(PM)  // PhysicsManager.h has one, too
+#define PM df::PathManager::getInstance()
+#endif
+
+namespace df {
+
+class PathFind;
+
+class PathManager : public Manager {
+ public:
+  static PathManager& getInstance();
+
+  /// Return 0, all of them.
+  int startUp() override;
+  int registerPathFind(PathFind* /*p_path_find*/) { return 0; }
+  int unregisterPathFind(PathFind* /*p_path_find*/) { return 0; }
+  /// Milliseconds; kept, without effect.
+  void setMinCycleTime(int new_min_cycle_time) { m_min_cycle_time = new_min_cycle_time; }
+  int getMinCycleTime() const { return m_min_cycle_time; }
+  void cycle(int /*max_cycle_time*/ = -1) {}
+
+ private:
+  PathManager() { setType("PathManager"); }
+
+  int m_min_cycle_time = 3;
+};
+
+}  // namespace df

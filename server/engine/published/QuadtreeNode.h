@@ -1,0 +1,41 @@
+// A node of the tree in which the published engine keeps Objects by their places. The world here has a grid
+// of its own; a node is a list of Objects with a boundary, and it never splits.
+#pragma once
+
+#include <string>
+
+#include "Box.h"
+#include "Object.h"
+#include "ObjectList.h"
+#include "Vector.h"
+
+namespace df {
+
+inline constexpr int QUADTREE_THRESH_DEFAULT = 1;
+inline constexpr int QUADTREE_MAX_DEPTH = 10;
+
+class QuadtreeNode {
+ public:
+  QuadtreeNode(QuadtreeNode* /*p_parent*/, int depth, Box boundary) : m_depth(depth), m_boundary(boundary) {}
+
+  ObjectList getObjects() const { return m_objects; }
+  Box getBoundary() const { return m_boundary; }
+  int getDepth() const { return m_depth; }
+  /// Return 0, else -1.
+  int insertObject(Object* p_o) { return m_objects.insert(p_o); }
+  int removeObject(Object* p_o) { return m_objects.remove(p_o); }
+  int split() { return 0; }
+  QuadtreeNode* findOwner(Object* /*p_o*/) { return this; }
+  QuadtreeNode* findOwner(Object* /*p_o*/, Vector /*where*/) { return this; }
+  QuadtreeNode* findOwner(Object* /*p_o*/, Box /*box*/) { return this; }
+  /// WM.getCollisions().
+  ObjectList getCollisions(Object* p_o, Vector where) const;
+  std::string toString() const;
+
+ private:
+  int m_depth;
+  Box m_boundary;
+  ObjectList m_objects;
+};
+
+}  // namespace df

@@ -1,0 +1,16 @@
+// Likewise (Splash.h): the dragonfly in it.
+#pragma once
+
+#include "EventStep.h"
+#include "Object.h"
+#include "Splash.h"
+#include "Vector.h"
+
+namespace df {
+
+class SplashDragonfly : public Splash {
+ public:
+  explicit SplashDragonfly(Vector /*end_position*/) {}
+};
+
+}  // namespace df

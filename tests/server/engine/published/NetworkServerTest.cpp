@@ -1,0 +1,192 @@
+// Games that were written as two programs over the published engine's NetworkManager: the server's half is
+// played, with the world's players as its connections.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "engine/managers/Config.h"
+#include "engine/published/EventNetworks.h"
+#include "engine/published/NetworkManager.h"
+#include "engine/published/NetworkNode.h"
+#include "engine/world/Runner.h"
+#include "tests/server/engine/Probe.h"
+
+int orchard_main(int argc, char* argv[]);
+
+namespace df::test {
+namespace {
+
+/// What the host does while the game's main() is in GM.run().
+class Script : public Runner {
+ public:
+  explicit Script(std::function<void()> script) : m_script(std::move(script)) {}
+  void run(World& /*world*/) override { m_script(); }
+
+ private:
+  std::function<void()> m_script;
+};
+
+class NetworkServerTest : public WorldTest {
+ protected:
+  int play(const std::string& role, const std::string& host, std::function<void()> script) {
+    Script runner(std::move(script));
+    world.setRunner(&runner);
+    std::string program = "orchard";
+    std::string first = role;
+    std::string second = host;
+    char* words[] = {program.data(), first.data(), second.data(), nullptr};
+    const int result = orchard_main(host.empty() ? 2 : 3, words);
+    world.setRunner(nullptr);
+    return result;
+  }
+  void point(std::uint32_t player, int x, int y) {
+    world.mouse(player, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, x, y);
+    world.tick();
+  }
+  /// Column and row of the first such character in the picture; (-1,-1) for none.
+  Vector shown(char ch) const {
+    const Canvas canvas = world.renderView({});
+    for (int y = 0; y < canvas.height(); ++y) {
+      for (int x = 0; x < canvas.width(); ++x) {
+        if (canvas.at(x, y).ch == static_cast<char32_t>(ch)) return Vector(x, y);
+      }
+    }
+    return Vector(-1, -1);
+  }
+};
+
+TEST_F(NetworkServerTest, TwoPlayersPlayAGameOfTwoProgramsOnItsServer) {
+  bool played = false;
+  EXPECT_EQ(play("server", "",
+                 [&] {
+                   world.setGameOverLeaves(true);
+                   const std::uint32_t ann = world.join("ann", CYAN);
+                   world.tick();
+                   EXPECT_EQ(WM.objectsOfType("Hand").getCount(), 0) << "it waits for two";
+                   const std::uint32_t bob = world.join("bob", RED);
+                   world.tick();
+                   world.tick();
+                   ASSERT_EQ(WM.objectsOfType("Hand").getCount(), 2);
+                   point(ann, 11, 9);
+                   point(bob, 50, 20);
+                   EXPECT_EQ(shown('A'), Vector(11, 9));
+                   EXPECT_EQ(shown('B'), Vector(50, 20));
+                   point(bob, 50, 6);
+                   EXPECT_EQ(WM.objectsOfType("Apple").getCount(), 6);
+                   EXPECT_NE(world.renderView({}).rowText(1).find("Player 1 10"), std::string::npos);
+                   world.key(ann, Keyboard::SPACE, KEY_PRESSED);
+                   world.tick();
+                   EXPECT_EQ(shown('A'), Vector(40, 12));
+                   EXPECT_EQ(shown('B'), Vector(50, 6));
+                   // "If a client leaves, end": it has left already, and ann goes on.
+                   world.leave(bob);
+                   world.tick();
+                   EXPECT_FALSE(GM.getGameOver());
+                   const std::uint32_t cy = world.join("cy", RED);
+                   world.tick();
+                   world.tick();
+                   point(cy, 30, 15);
+                   EXPECT_EQ(shown('B'), Vector(30, 15)) << "who comes later has the free socket";
+                   played = true;
+                 }),
+            0);
+  EXPECT_TRUE(played);
+  EXPECT_EQ(logged("the players that join are this server's connections"), 1);
+  EXPECT_EQ(logged("made up between them go nowhere"), 1);
+  EXPECT_EQ(logged("failed and is taken out"), 0);
+}
+
+TEST_F(NetworkServerTest, TheClientsHalfSaysThatItIsNotNeeded) {
+  EXPECT_EQ(play("client", "example.org", [&] { EXPECT_TRUE(GM.getGameOver()); }), 0);
+  EXPECT_EQ(logged("NetworkManager::connect: games need no sockets here"), 1);
+}
+
+TEST_F(NetworkServerTest, PlayersBeyondTheLimitWatch) {
+  NM.setServer();
+  NM.setMaxConnections(1);
+  Probe probe("probe", &received);
+  for (const auto& type :
+       {NETWORK_EVENT, NETWORK_ACCEPT_EVENT, NETWORK_CLOSE_EVENT, NETWORK_KEYBOARD_EVENT, KEYBOARD_EVENT})
+    probe.registerInterest(type);
+  const std::uint32_t ann = world.join("ann", CYAN);
+  const std::uint32_t bob = world.join("bob", RED);
+  world.tick();
+  world.tick();
+  EXPECT_EQ(received, (std::vector<std::string>{"probe:df-network-accept", "probe:df-network"}));
+  EXPECT_EQ(NM.getNumConnections(), 1);
+  EXPECT_EQ(NM.getSocket(0), 0);
+  EXPECT_EQ(NM.getSocket(1), -1);
+  received.clear();
+  world.key(ann, Keyboard::A, KEY_PRESSED);
+  world.key(bob, Keyboard::A, KEY_PRESSED);
+  world.tick();
+  EXPECT_EQ(received, (std::vector<std::string>{"probe:df-keyboard-network", "probe:df-keyboard"}));
+  received.clear();
+  world.leave(ann);
+  world.tick();
+  EXPECT_EQ(received, (std::vector<std::string>{"probe:df-network-close", "probe:df-network"}));
+  received.clear();
+  world.tick();
+  EXPECT_EQ(received, (std::vector<std::string>{"probe:df-network-accept", "probe:df-network"}))
+      << "bob comes in";
+  EXPECT_EQ(NM.close(0), 0);
+  EXPECT_EQ(NM.close(0), -1);
+  world.tick();
+  EXPECT_FALSE(NM.isConnected()) << "whose connection was closed watches";
+}
+
+TEST_F(NetworkServerTest, AKeyThatNoObjectTakesFromTheNetworkIsALocalOne) {
+  NM.setServer();
+  Probe quitter("quitter", &received);
+  quitter.registerInterest(KEYBOARD_EVENT);
+  Probe hand("hand", &received);
+  hand.registerInterest(NETWORK_MSE_EVENT);
+  const std::uint32_t ann = world.join("ann", CYAN);
+  world.tick();
+  world.tick();
+  world.key(ann, Keyboard::Q, KEY_PRESSED);
+  world.mouse(ann, CLICKED, Mouse::LEFT, 3, 4);
+  world.tick();
+  EXPECT_EQ(received, (std::vector<std::string>{"quitter:df-keyboard", "hand:df-mouse-network"}));
+}
+
+TEST_F(NetworkServerTest, AServerThatPlaysHasTheFirstPlayerAsItsOwn) {
+  Config::getInstance().loadConfig("server_plays:true,");
+  NM.setServer();
+  Probe hero("hero", &received);
+  hero.registerInterest(KEYBOARD_EVENT);
+  hero.registerInterest(NETWORK_KEYBOARD_EVENT);
+  const std::uint32_t ann = world.join("ann", CYAN);
+  const std::uint32_t bob = world.join("bob", RED);
+  world.tick();
+  world.tick();
+  EXPECT_EQ(NM.getNumConnections(), 1);
+  world.key(ann, Keyboard::A, KEY_PRESSED);
+  world.key(bob, Keyboard::A, KEY_PRESSED);
+  world.tick();
+  EXPECT_EQ(received, (std::vector<std::string>{"hero:df-keyboard", "hero:df-keyboard-network"}));
+}
+
+TEST_F(NetworkServerTest, WhatIsSynchronisedCountsAsWritten) {
+  NM.setServer();
+  NetworkNode node;
+  Probe apple("apple", nullptr, Vector(3, 4));
+  EXPECT_EQ(node.sendMessage(SYNC_OBJECT, &apple), 0) << "nobody is connected";
+  EXPECT_TRUE(apple.isModified(POSITION));
+  world.join("ann", CYAN);
+  world.tick();
+  world.tick();
+  EXPECT_EQ(node.sendMessage(SYNC_OBJECT, &apple), 1);
+  EXPECT_FALSE(apple.isModified(POSITION));
+  apple.setPosition(Vector(5, 5));
+  EXPECT_TRUE(apple.isModified(POSITION));
+  EXPECT_EQ(node.sendMessage(SYNC_OBJECT, &apple, 0u, 7), -1) << "no such socket";
+  NM.setServer(false);
+  EXPECT_EQ(node.sendMessage(SYNC_OBJECT, &apple), -1);
+  EXPECT_FALSE(NM.isConnected());
+}
+
+}  // namespace
+}  // namespace df::test
