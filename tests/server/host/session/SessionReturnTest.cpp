@@ -116,6 +116,7 @@ class SessionReturn : public testing::Test {
   int gone = 0;
   Wire first;
   Wire second;
+  std::deque<Wire> lines;  ///< more of them
   std::unique_ptr<Session> session;
 };
 
@@ -194,7 +195,6 @@ TEST_F(SessionReturn, TheChatOfAMinuteMayComeAtOnce) {
 
 TEST_F(SessionReturn, OnlyTimeRefillsTheChatAllowance) {
   std::vector<std::unique_ptr<Session>> others;
-  std::deque<Wire> lines;
   std::uint32_t number = 0;
   Wire* p_line = &first;
   for (int i = 0; i < 25; ++i, now += 200ms) {  // it comes back five times a second, for 5 s
@@ -214,7 +214,6 @@ TEST_F(SessionReturn, OnlyTimeRefillsTheChatAllowance) {
 TEST_F(SessionReturn, AClientThatSendsNothingMaySayWhatWasTypedMeanwhileAndNoMore) {
   std::uint32_t number = 0;
   std::vector<std::unique_ptr<Session>> others;
-  std::deque<Wire> lines;
   Wire* p_line = &first;
   for (int round = 0; round < 6; ++round) {
     now += 20s;
