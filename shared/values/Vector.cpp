@@ -56,7 +56,11 @@ int Vector::deserialize(std::stringstream* p_ss) {
 }
 
 std::string Vector::toString() const {
-  return "(" + std::to_string(m_x) + "," + std::to_string(m_y) + ")";
+  std::string text = "(";
+  text += std::to_string(m_x);
+  text += ',';
+  text += std::to_string(m_y);
+  return text += ')';
 }
 
 }  // namespace df

@@ -25,7 +25,9 @@ class Installation:
             self._index(header)
 
     def _index(self, header):
-        with open(os.path.join(self.include, header), encoding="utf-8") as file:
+        # Most headers only bring the one of the same name in text/, with the game's macros of one letter set aside.
+        inner = os.path.join(self.include, "text", header)
+        with open(inner if os.path.exists(inner) else os.path.join(self.include, header), encoding="utf-8") as file:
             text = code_only(file.read())
         if "namespace df" not in text:
             return

@@ -80,7 +80,10 @@ char characterOf(Keyboard::Key key, bool shift) {
 
 std::string nameOfKey(Keyboard::Key key) {
   if (isLetter(key) || isDigit(key)) return std::string(1, characterOf(key, false));
-  if (key >= Keyboard::F1 && key <= Keyboard::F12) return "f" + std::to_string(key - Keyboard::F1 + 1);
+  if (key >= Keyboard::F1 && key <= Keyboard::F12) {
+    std::string name = "f";
+    return name += std::to_string(key - Keyboard::F1 + 1);
+  }
   const Typed* p_typed = typed(key);
   return p_typed != nullptr ? p_typed->name : "undefined";
 }

@@ -54,7 +54,8 @@ int TextBox::draw() {
     DM.drawString(corner + Vector(getBorder() ? -1 : 0, y), row, LEFT_JUSTIFIED, getColor());
   }
   if (!getBorder()) return 0;
-  const std::string bar = "+" + std::string(static_cast<std::size_t>(width), '-') + "+";
+  std::string bar(static_cast<std::size_t>(width) + 2, '-');
+  bar.front() = bar.back() = '+';
   DM.drawString(corner + Vector(-1, -1), bar, LEFT_JUSTIFIED, getColor());
   return DM.drawString(corner + Vector(-1, height), bar, LEFT_JUSTIFIED, getColor());
 }

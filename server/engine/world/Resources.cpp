@@ -68,11 +68,10 @@ int Resources::loadSprite(const std::string& filename, const std::string& label)
   std::string error;
   std::vector<std::string> oddities;
   std::unique_ptr<Sprite> loaded = parseSprite(*text, label, error, m_world.compat() ? &oddities : nullptr);
-  for (const std::string& oddity : oddities) {
-    m_world.log("Sprite " + label + ": " + filename + ":" + oddity + " (compat)");
-  }
+  const std::string where = "Sprite " + label + ": " + filename + ":";
+  for (const std::string& oddity : oddities) m_world.log(where + oddity + " (compat)");
   if (loaded == nullptr) {
-    m_world.log("Sprite " + label + ": " + filename + ":" + error);
+    m_world.log(where + error);
     return -1;
   }
   if (sprite(label) == nullptr) m_sprites.push_back(std::move(loaded));

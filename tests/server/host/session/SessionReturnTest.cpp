@@ -320,7 +320,7 @@ TEST_F(SessionReturn, AWorldSentToAnotherProcessCountsAsAReset) {
   now += 2s;
   say(second, wants);
   EXPECT_EQ(counters.resets, 1u);
-  Wire third;
+  Wire& third = lines.emplace_back();
   const auto again = make(third);
   greet(third, "token");  // the same process, on another stream
   say(third, wants);
@@ -624,7 +624,7 @@ TEST_F(SessionWithTwoStreams, TheSecondEndsWithTheFirst) {
 }
 
 TEST_F(SessionWithTwoStreams, AnotherSecondReplacesIt) {
-  Wire third;
+  Wire& third = lines.emplace_back();
   const auto newer = make(third);
   wire::ClientMessage message;
   message.mutable_hello()->set_magic(kHelloMagic);
