@@ -57,7 +57,8 @@ def engine_header(name):
 
 # Written with Visual Studio on Windows, with the engine beside it, packed on a Mac.
 WINDOWS = {
-    "src/game.cpp": MAIN.replace('"Hero.h"', '"..\\Things\\hero.H"').replace('"WorldManager.h"', '"worldmanager.h"'),
+    "src/game.cpp": MAIN.replace('"Hero.h"', '"..\\Things\\hero.H"').replace('"WorldManager.h"', '"worldmanager.h"')
+    .replace("int main", "#include <Player.h>\nint main").replace("new Hero;", "new Hero; (new Player)->start();"),
     "Things/Hero.h": """#include "stdafx.h"
 #include "../dragonfly/include/EventKeyboard.h"
 #include "../dragonfly/include/Object.h"
@@ -71,13 +72,16 @@ class Hero : public df::Object {
 };
 """,
     "Things/Hero.cpp": HERO.replace("  return 1;\n}", "}") + "const df::Vector &Hero::home() const { return m_home; }\n",
+    # A name that Naiad has, too.
+    "Things/Player.h": "#include \"Object.h\"\nusing namespace df;\nclass Player : public Object { public: Vector start() const; };\n",
+    "Things/Player.cpp": "#include \"player.h\"\nVector Player::start() const { return df::Vector(1, 2); }\n",
     "Things/Unused.cpp": "this is not C++\n",
     "dragonfly/include/Object.h": engine_header("Object"),
     "dragonfly/include/EventKeyboard.h": engine_header("EventKeyboard"),
     "dragonfly/lib/libdragonfly-linux64.a": b"!<arch>\n",
     "__MACOSX/src/._game.cpp": b"\0\5\26\7",
     "src/._game.cpp": b"\0\5\26\7",
-    "Makefile": "GAMESRC= Things/Hero.cpp\nGAME= src/game.cpp\nX := $(shell touch SHELL_RAN)\n"
+    "Makefile": "GAMESRC= Things/Hero.cpp Things/Player.cpp\nGAME= src/game.cpp\nX := $(shell touch SHELL_RAN)\n"
                 "all: $(GAMESRC:.cpp=.o)\n\tg++ $(GAME) $(GAMESRC) -ldragonfly; touch RECIPE_RAN\ndepend:\n\tmakedepend *.cpp Things/*.cpp\n",
     "sprites/hero-spr.txt": SPRITE,
 }
@@ -240,5 +244,5 @@ int main() {
     "df/include/GameManager.h": "#pragma once\n#define GM df::GameManager()\n"
                                 "namespace df { class GameManager { public: int startUp(); void run(); }; }\n",
     "df/include/Object.h": "#pragma once\nnamespace df { class Object { public: int shineLikeInRelease99(); }; }\n",
-    **{f"df/include/{name}.h": "#pragma once\nnamespace df {}\n"
+    **{f"df/include/{name}.h": f"#pragma once\nnamespace df {{ class {name} {{}}; }}\n"
        for name in ("WorldManager", "LogManager", "Event", "Box", "Vector", "Sprite", "Frame", "Music", "Sound", "Clock")}}

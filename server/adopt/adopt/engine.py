@@ -5,20 +5,46 @@ import re
 from .folder import is_source
 from .text import code_only, decoded
 
-# Headers of published releases that are not among ours, or not in every release of ours.
-PUBLISHED_HEADERS = """Splash SplashDragonfly PathManager QuadtreeNode EventCustomNetwork EventNetworkCustom Grid Justification
- Solidness Keyboard Sentry GameObject""".split()
+# Headers of early releases, which the list of published names does not have.
+EARLY_HEADERS = {"justification", "solidness", "keyboard", "sentry", "gameobject"}
+WITHOUT_CLASS = {"utility", "splash"}  # these have functions alone
 # An engine of one's own has sources of these; a game has none of them.
 CORE = {"gamemanager", "worldmanager", "displaymanager", "inputmanager", "logmanager", "resourcemanager", "objectlist",
         "objectlistiterator"}
 # A course has its students write these themselves, over the published engine.
 NETWORK = re.compile(r"(networkmanager|networknode|eventnetwork\w*|event\w*network|sentry)$")
-_IN_DF = re.compile(r"\bnamespace\s+df\b")
+_OPENS_DF = re.compile(r"(?<!using )\bnamespace\s+df\s*\{")
 _USES_DF = re.compile(r"\b(namespace\s+df|df\s*::)")
 
 
 def stem(name):
     return os.path.splitext(os.path.basename(name))[0].lower()
+
+
+def published_stems(names):
+    """The stems of the published engine's headers. Naiad has more of its own, whose names a game may use: Player, World, Random."""
+    return {stem(name) for name in names if name.endswith(".h")} | EARLY_HEADERS
+
+
+def _blocks(text):
+    """What stands in the blocks `namespace df { … }` of a code text."""
+    end = 0
+    for begin in _OPENS_DF.finditer(text):
+        if begin.start() < end:
+            continue
+        depth, end = 1, len(text)
+        for brace in re.compile(r"[{}]").finditer(text, begin.end()):
+            depth += 1 if brace.group() == "{" else -1
+            if depth == 0:
+                end = brace.start()
+                break
+        yield text[begin.end():end]
+
+
+def _defines(text, name):
+    """Whether a class, an enumeration or a namespace of this name (any case) is defined, not only announced, in namespace df."""
+    defined = re.compile(r"\b(?:class|struct|enum|namespace)\s+(?:class\s+)?" + re.escape(name) + r"\b[^;{}()]{0,500}\{", re.I)
+    return any(defined.search(block) for block in _blocks(text))
 
 
 class EngineCopies:
@@ -28,22 +54,33 @@ class EngineCopies:
     what the published one has. `without_namespace`: the game speaks to an engine outside of namespace df.
     """
 
-    def __init__(self, root, code_files, our_headers):
+    def __init__(self, root, code_files, published):
         texts = {name: self._read(root, name) for name in code_files}
-        known = {stem(name) for name in our_headers} | {name.lower() for name in PUBLISHED_HEADERS}
-        core = {stem(name) for name in code_files if is_source(name) and stem(name) in CORE}
-        self.own = len(core) >= 3
+        known = published_stems(published)
+        core = [name for name in code_files if is_source(name) and stem(name) in CORE]
+        self.own = len({stem(name) for name in core}) >= 3
+        self._core_folders = {os.path.dirname(name) for name in core}
         brings_network = not self.own and any(is_source(name) and NETWORK.match(stem(name)) for name in code_files)
-        self.files = [name for name, text in texts.items()
-                      if stem(name) in known and self._is_engines(name, text, brings_network)]
+        candidates = [name for name in code_files if stem(name) in known and not (brings_network and NETWORK.match(stem(name)))]
+        headers = [name for name in candidates if not is_source(name) and self._is_engines_header(name, texts[name])]
+        # A source goes with its header: where the header is the game's, so is the source.
+        games = {stem(name) for name in code_files if not is_source(name)} - {stem(name) for name in headers}
+        sources = [name for name in candidates if is_source(name) and self._is_engines_source(name, texts[name], games)]
+        self.files = sorted(headers + sources)
         self.without_namespace = not any(_USES_DF.search(text) for text in texts.values())
 
-    def _is_engines(self, name, text, brings_network):
-        if NETWORK.match(stem(name)) and brings_network:
+    def _is_engines_header(self, name, text):
+        if self.own and stem(name) in CORE:
+            return True
+        return _defines(text, stem(name)) or (stem(name) in WITHOUT_CLASS and any(_blocks(text)))
+
+    def _is_engines_source(self, name, text, games):
+        if not self.own or stem(name) in CORE:
+            return self.own
+        if stem(name) in games:
             return False
-        if is_source(name):
-            return self.own and (_USES_DF.search(text) is not None or stem(name) in CORE)
-        return _IN_DF.search(text) is not None or (self.own and stem(name) in CORE)
+        member = re.compile(r"\bdf\s*::\s*" + re.escape(stem(name)) + r"\s*::", re.I)
+        return os.path.dirname(name) in self._core_folders or _OPENS_DF.search(text) is not None or member.search(text) is not None
 
     @staticmethod
     def _read(root, name):

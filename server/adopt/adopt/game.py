@@ -27,7 +27,7 @@ class Game:
     def take_in(self):
         """Copies the folder, and puts aside what of it is an engine."""
         copy = copy_folder(self.folder, self.tree, self._limits)
-        self.engine = EngineCopies(self.tree, [name for name in copy.files if is_code(name)], self.naiad.headers)
+        self.engine = EngineCopies(self.tree, [name for name in copy.files if is_code(name)], self.naiad.published)
         self._say_left_out(copy.left_out)
         for name in self.engine.files:
             os.makedirs(os.path.join(self.engine_tree, os.path.dirname(name)), exist_ok=True)

@@ -37,7 +37,7 @@ class Includes:
     def _change(self, name, match):
         begin, mark, written, rest = match.groups()
         path = written.strip().replace("\\", "/")
-        if mark == "<" and self._is_systems(path):
+        if mark == "<" and self._is_systems(os.path.dirname(name), path):
             return None
         goal = self._goal(os.path.dirname(name), path)
         if goal is None:
@@ -57,21 +57,27 @@ class Includes:
             why = "the engine's headers are Naiad's" if is_ours else "where the file is"
         return f'{begin}"{found}"{rest}', why
 
-    def _is_systems(self, path):
-        return path in self._naiad.headers or path.startswith("SFML/") or \
-            any(os.path.exists(os.path.join(folder, path)) for folder in self._system)
+    def _is_systems(self, here, path):
+        """Whether <path> is found as it stands: C++'s, or Naiad's where the game has no file of that name."""
+        if path.startswith("SFML/") or any(os.path.exists(os.path.join(folder, path)) for folder in self._system):
+            return True
+        return path in self._naiad.headers and not any(place.lower() in self._by_lower for place in self._places(here, path))
+
+    def _places(self, here, path):
+        return [os.path.normpath(os.path.join(folder, path)) for folder in [here] + self._folders]
 
     def _goal(self, here, path):
-        """How the file that is meant is written, and whether it is ours; None if there is no such file."""
-        places = [os.path.normpath(os.path.join(folder, path)) for folder in [here] + self._folders]
+        """How the file that is meant is written, and whether it is ours; None if there is no such file. The game's own come
+        first, in any case: where it has a Player.h, it does not mean Naiad's."""
+        places = self._places(here, path)
         if any(place in self._names for place in places):
             return path, False
-        if path in self._naiad.headers:
-            return path, True
         for place in places:
             real = self._by_lower.get(place.lower())
             if real:
                 return self._spelt(path, real, here), False
+        if path in self._naiad.headers:
+            return path, True
         if path.lower() in self._ours:
             return self._ours[path.lower()], True
         base = os.path.basename(path).lower()

@@ -38,7 +38,7 @@ class Treatments:
 
     def __init__(self, sources, compiler, naiad):
         self._sources, self._compiler, self._naiad = sources, compiler, naiad
-        self.changes, self._returns, self._types, self._tried = [], {}, {}, set()
+        self.changes, self._returns, self._types, self._tried, self._engines = [], {}, {}, set(), {}
         self._kinds = (self._extra_qualification, self._return_type, self._missing_return, self._empty_return, self._void_main,
                        self._missing_header, self._missing_prefix, self._private_base, self._ambiguous)
 
@@ -211,14 +211,21 @@ class Treatments:
             return self._bases(diagnostic, before)
         for pattern in _UNKNOWN:
             match = pattern.search(diagnostic.text)
-            if match and self._naiad.header_of(match.group("name")) and re.match(rf"{match.group('name')}\b", behind) \
+            if match and self._is_engines(match.group("name")) and re.match(rf"{match.group('name')}\b", behind) \
                     and not re.search(r"(::|\.|->)\s*$", before):
                 return self._edit(diagnostic, before + "df::" + behind, "the engine's names stand in df::")
         return False
 
+    def _is_engines(self, name):
+        """Whether a name without df:: can be the engine's: not where the game has a class of that name."""
+        if name not in self._engines:
+            self._engines[name] = self._naiad.header_of(name) is not None and \
+                not any(self._sources.find(rf"\b(?:class|struct|enum|union)\s+{name}\b(?!\s*;)"))
+        return self._engines[name]
+
     def _bases(self, diagnostic, before):
         match = re.search(r":\s*(?:(?:public|protected|private|virtual)\s+)*(\w+)\s*$", before)
-        if not match or not self._naiad.header_of(match.group(1)):
+        if not match or not self._is_engines(match.group(1)):
             return False
         _, behind = self._at(diagnostic)
         return self._edit(diagnostic, before[:match.start(1)] + "df::" + before[match.start(1):] + behind,
