@@ -19,9 +19,14 @@ class Result:
 def limit_self():
     """Limits that compilers inherit: a source that asks for endless memory or output must not take the machine down."""
     for what, most in ((resource.RLIMIT_CORE, 0), (resource.RLIMIT_FSIZE, 1 << 30), (resource.RLIMIT_AS, 3 << 30)):
-        hard = resource.getrlimit(what)[1]
-        soft = most if hard == resource.RLIM_INFINITY else min(most, hard)
-        resource.setrlimit(what, (soft, hard))
+        limit_to(what, most, for_good=False)
+
+
+def limit_to(what, most, for_good=True):
+    """Limits a resource to `most`, or to less where the system gives less. Not for good: a program may raise it again."""
+    hard = resource.getrlimit(what)[1]
+    soft = most if hard == resource.RLIM_INFINITY else min(most, hard)
+    resource.setrlimit(what, (soft, soft if for_good else hard))
 
 
 def run(argv, cwd=None, env=None, timeout=120.0):

@@ -15,6 +15,8 @@ import struct
 import sys
 import time
 
+from .bounded import limit_to
+
 _libc = ctypes.CDLL(None, use_errno=True)
 _NEWNS, _NEWCGROUP, _NEWUTS, _NEWIPC, _NEWUSER, _NEWPID, _NEWNET = (
     0x20000, 0x2000000, 0x4000000, 0x8000000, 0x10000000, 0x20000000, 0x40000000)
@@ -131,14 +133,20 @@ def _give_up_rights():
         raise SandboxError("no_new_privs: " + os.strerror(ctypes.get_errno()))
 
 
-def limits(seconds, memory=MEMORY):
-    """What a program in the sandbox gets (memory 0: no limit of it); to be called where it is started."""
-    for what, most in ((resource.RLIMIT_CORE, 0), (resource.RLIMIT_FSIZE, 32 << 20), (resource.RLIMIT_NOFILE, 256),
-                       (resource.RLIMIT_NPROC, 128), (resource.RLIMIT_CPU, seconds)):
-        resource.setrlimit(what, (most, most))
-    # A sanitizer takes all the addresses that there are; it has a limit of its own.
-    memory = memory or resource.getrlimit(resource.RLIMIT_AS)[1]
-    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+def limits(seconds, memory=MEMORY, confined=True):
+    """What a program gets (memory 0: no limit of it); to be called where it is started. Not confined: as many processes as the
+    user may have, for outside of a sandbox the limit counts every thread of the user."""
+    limit_to(resource.RLIMIT_CORE, 0)
+    limit_to(resource.RLIMIT_FSIZE, 32 << 20)
+    limit_to(resource.RLIMIT_NOFILE, 256)
+    limit_to(resource.RLIMIT_CPU, seconds)
+    if confined:
+        limit_to(resource.RLIMIT_NPROC, 128)
+    if memory:  # a sanitizer takes all the addresses that there are; it has a limit of its own
+        limit_to(resource.RLIMIT_AS, memory)
+    else:
+        hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+        resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
     _drop_effective()
 
 

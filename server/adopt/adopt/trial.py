@@ -28,10 +28,11 @@ class Trial:
     def __init__(self, tree, program, folder, naiad, seconds, seed, keys, named_keys, examined=False):
         self.tree, self.program, self.folder, self.naiad = tree, program, folder, naiad
         self.seconds, self.seed, self.keys, self.named_keys, self.examined = seconds, seed, keys, named_keys, examined
-        self.game, self.tmp = "/game", "/tmp"  # as the sandbox has them
+        self.game, self.tmp, self.confined = "/game", "/tmp", True  # as the sandbox has them
 
     def run(self, root, confined=True):
         """Runs it in a sandbox made on the empty folder `root`, or without. Returns the Outcome."""
+        self.confined = confined
         if not confined:
             self.game = os.path.join(root, "game")
             self.tmp = os.path.join(root, "tmp")
@@ -77,7 +78,7 @@ class Trial:
         with open(f"{self.tmp}/game.{number}.out", "wb") as output:
             game = subprocess.Popen([os.path.join(self.game, self.program)], cwd=os.path.join(self.game, self.folder),
                                     env=self._environment(number), stdin=subprocess.DEVNULL, stdout=output, stderr=output,
-                                    start_new_session=True, preexec_fn=lambda: sandbox.limits(cpu, memory))
+                                    start_new_session=True, preexec_fn=lambda: sandbox.limits(cpu, memory, self.confined))
         try:
             return self._judge(game, seconds, number, began)
         finally:
@@ -104,7 +105,7 @@ class Trial:
                                 f"{seconds:.1f}",
                                 "--script", script, "--quiet", "--name", "adopt"], env=self._environment(0), cwd=self.tmp,
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                               preexec_fn=lambda: sandbox.limits(600))
+                               preexec_fn=lambda: sandbox.limits(600, confined=self.confined))
         deadline = time.monotonic() + seconds + 15
         while bot.poll() is None and game.poll() is None and time.monotonic() < deadline:
             time.sleep(0.02)  # until one of them ends
