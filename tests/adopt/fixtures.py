@@ -59,7 +59,7 @@ def engine_header(name):
 WINDOWS = {
     "src/game.cpp": MAIN.replace('"Hero.h"', '"..\\Things\\hero.H"').replace('"WorldManager.h"', '"worldmanager.h"')
     .replace("int main", "#include <Player.h>\nint main").replace("new Hero;", "new Hero; (new Player)->start();"),
-    "Things/Hero.h": """#include "stdafx.h"
+    "Things/Hero.h": """\ufeff#include "stdafx.h"
 #include "../dragonfly/include/EventKeyboard.h"
 #include "../dragonfly/include/Object.h"
 class Hero : public df::Object {

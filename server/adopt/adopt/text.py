@@ -18,10 +18,12 @@ def shown(text, most=160):
 
 
 def decoded(data):
-    """The text of a source, and whether it was in UTF-16, as Visual Studio may save it."""
+    """The text of a source, without a byte order mark, and the encoding that it had: Visual Studio saves UTF-16, too."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        return data.decode("utf-16", "replace"), True
-    return data.decode("utf-8", "surrogateescape"), False
+        return data.decode("utf-16", "replace"), "UTF-16"
+    if data.startswith(b"\xef\xbb\xbf"):
+        return data[3:].decode("utf-8", "surrogateescape"), "UTF-8 with a mark"
+    return data.decode("utf-8", "surrogateescape"), "UTF-8"
 
 
 class Sources:
@@ -34,11 +36,12 @@ class Sources:
 
     def _read(self, name):
         with open(os.path.join(self.root, name), "rb") as file:
-            text, was_wide = decoded(file.read())
+            text, encoding = decoded(file.read())
         lines = text.split("\n")
-        if was_wide:
+        if encoding == "UTF-16":
             self.recoded.append(name)
-            self._write(name, lines)
+        if encoding != "UTF-8":
+            self._write(name, lines)  # so that the compiler counts the same columns
         return lines
 
     def _write(self, name, lines):
