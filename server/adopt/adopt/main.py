@@ -14,6 +14,7 @@ from .game import PROGRAM, Game
 from .naiad import Installation
 from .report import Report
 from .running import Running
+from .trial import ScriptError
 from .verdicts import Verdicts
 
 RUNS, FAILS, USAGE = 0, 1, 2
@@ -146,6 +147,10 @@ def main(include, lib, bin_folder, names, arguments=None):
     except FolderError as error:
         say("")
         sys.stderr.write(f"dragonfly-adopt: {error}\n")
+        return USAGE
+    except ScriptError as error:
+        say("")
+        sys.stderr.write(f"dragonfly-adopt: --keys: {error}\nTry dragonfly-adopt --help.\n")
         return USAGE
     except KeyboardInterrupt:
         say("")

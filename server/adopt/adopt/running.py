@@ -66,7 +66,8 @@ class Running:
             "failed": f"main() ended with {outcome.code}",
             "crashed": f"it crashed after {outcome.seconds:.1f} s{_signal_of(outcome.code)}",
             "deaf": f"it did not begin to run within {START_SECONDS} s: it computes or waits before GM.run()",
-            "hangs": f"it stood still after {outcome.ticks} ticks and could only be killed"}[outcome.state]
+            "hangs": f"it stood still after {outcome.ticks} ticks and could only be killed" + f": {outcome.text}" * bool(outcome.text),
+            "refused": f"its player could not play: {outcome.text}"}[outcome.state]
         self._report.add("ran", f"in {self._folder}/" if self._folder else "", text)
         if outcome.runs:
             self._report.result = "runs"
@@ -75,7 +76,8 @@ class Running:
             return
         self._report.fail("builds", {
             "crashed": "it crashes", "unplayed": "it never calls GM.run()", "failed": "it ends with an error",
-            "deaf": "it never listens", "hangs": "it hangs"}.get(outcome.state, "it is over before it can be played"))
+            "deaf": "it never listens", "hangs": "it hangs", "refused": "nobody can play it"}.get(
+                outcome.state, "it is over before it can be played"))
 
     def _explain(self, outcome, trial):
         main = self._game.program.main
@@ -86,8 +88,8 @@ class Running:
         elif outcome.state == "crashed":
             self._say_crash(outcome, trial)
         else:
-            text = {"failed": "it ends with an error", "deaf": "it never listens", "over": "it is over at once"}.get(
-                outcome.state, "a handler does not return")
+            text = {"failed": "it ends with an error", "deaf": "it never listens", "over": "it is over at once",
+                    "refused": "its player could not play"}.get(outcome.state, "a handler does not return")
             self._report.add_left(main, faults.UNCLEAR, text, "what it printed and logged is below")
         for name, said in (("printed", outcome.printed), ("logged", outcome.log)):
             for line in [line for line in said.splitlines() if line.strip()][-_NOTED_LINES:]:

@@ -9,6 +9,7 @@ import time
 from . import sandbox
 from .bounded import end_group
 from .keys import random_script
+from .text import shown
 
 START_SECONDS = 20  # until it listens
 END_SECONDS = 8  # until it has ended after SIGTERM
@@ -17,6 +18,10 @@ _TICKS = re.compile(r"\bbot ok .*\bticks=(\d+) objects=(\d+)")
 _LOG_BYTES = 64 << 10
 _ASAN = "detect_leaks=0:alloc_dealloc_mismatch=0:detect_odr_violation=0:handle_segv=2:handle_abort=2:handle_sigfpe=2:" \
         "handle_sigill=2:handle_sigbus=2:hard_rss_limit_mb=3072:exitcode=77"
+
+
+class ScriptError(Exception):
+    """The keys that were asked for cannot be pressed; the text says why."""
 
 
 class Trial:
@@ -39,12 +44,17 @@ class Trial:
             for folder in (self.game, self.tmp):
                 shutil.rmtree(folder, ignore_errors=True)
                 os.makedirs(folder)
-            return Outcome(**self.inside())
+            return self._checked(self.inside())
         megabytes = 96 + _megabytes(self.tree)
         timeout = self.seconds + START_SECONDS + END_SECONDS + 30
         shown = (self.tree, self.naiad.lib, self.naiad.bin)
         answer = sandbox.run(self.inside, root, shown, timeout, megabytes)
-        return Outcome(**answer) if answer else Outcome("hangs", text="the sandbox itself had to be ended")
+        return self._checked(answer) if answer else Outcome("hangs", text="the sandbox itself had to be ended")
+
+    def _checked(self, answer):
+        if answer["state"] == "refused" and answer["code"] == 2 and self.keys:  # dfbot's wrong usage
+            raise ScriptError(answer["text"])
+        return Outcome(**answer)
 
     def inside(self):
         """In the sandbox, as its process 1. Returns what Outcome takes."""
@@ -91,13 +101,18 @@ class Trial:
             code = game.poll()
             state = "deaf" if code is None else "crashed" if code < 0 or code == 77 else "unplayed" if code == 0 else "failed"
             return {"state": state, "code": code, "seconds": time.monotonic() - began, "ticks": 0, "objects": 0, "text": ""}
-        said = self._play(game, port, seconds, number)
+        said, code = self._play(game, port, seconds, number)
         found = _TICKS.search(said)
         ticks, objects = (int(found.group(1)), int(found.group(2))) if found else (0, 0)
-        return {**_end(game, ticks), "seconds": time.monotonic() - began, "ticks": ticks, "objects": objects,
-                "text": said[-500:]}
+        ended = _end(game, ticks)
+        # The player could not play; of a game that it lost (4) the game's own end says more.
+        if code not in (None, 0, 4) and ended["state"] in ("played", "hangs"):
+            ended = {"state": "refused", "code": code}
+        return {**ended, "seconds": time.monotonic() - began, "ticks": ticks, "objects": objects,
+                "text": _last_line(said) or f"dfbot ended with {code}" if code else ""}
 
     def _play(self, game, port, seconds, number):
+        """What dfbot said, and its exit code; None if it had to be ended."""
         script = f"{self.tmp}/keys"
         with open(script, "w", encoding="utf-8") as file:
             file.write(self.keys or random_script(self.named_keys, self.seed + number - 1, int(seconds * 30) + 30))
@@ -110,13 +125,13 @@ class Trial:
         while bot.poll() is None and game.poll() is None and time.monotonic() < deadline:
             time.sleep(0.02)  # until one of them ends
         if game.poll() is not None:
-            try:
-                bot.wait(3)
-            except subprocess.TimeoutExpired:
-                pass
-        if bot.poll() is None:
+            _wait(bot)
+        elif bot.poll() in (1, 4):  # it lost the game, which may be ending
+            _wait(game)
+        code = bot.poll()
+        if code is None:
             bot.kill()
-        return bot.communicate()[0].decode("utf-8", "replace")
+        return bot.communicate()[0].decode("utf-8", "replace"), code
 
     def _log(self):
         """What the engine logged: the file that df-config.txt names, or the usual one."""
@@ -135,7 +150,8 @@ class Outcome:
     """How it went.
 
     state: "played" to the end of the time, "over" (the game ended in order), "unplayed" (main() ended without a game),
-    "failed" (main() ended with an error), "crashed", "deaf" (never listened), "hangs".
+    "failed" (main() ended with an error), "crashed", "deaf" (never listened), "hangs", "refused" (its player could not play, and
+    `text` says why).
     """
 
     def __init__(self, state, code=0, seconds=0.0, ticks=0, objects=0, rounds=1, text="", log="", printed="", ended_well=True):
@@ -160,6 +176,18 @@ def _wait_for_port(game, path):
             pass
         time.sleep(0.02)  # until it listens or ends
     return None
+
+
+def _wait(process, seconds=3):
+    try:
+        process.wait(seconds)
+    except subprocess.TimeoutExpired:
+        pass
+
+
+def _last_line(said):
+    lines = [line for line in said.splitlines() if line.strip()]
+    return shown(lines[-1].removeprefix("dfbot: "), 500) if lines else ""
 
 
 def _end(game, ticks):
