@@ -57,11 +57,11 @@ def copy_folder(source, target, limits=None):
         _copy_level(copy, limits, descriptor, top, "", 0)
     finally:
         os.close(descriptor)
-    _drop_broken_links(copy)
+    drop_broken_links(copy)
     return copy
 
 
-def _drop_broken_links(copy):
+def drop_broken_links(copy):
     """Of what a link leads to something may have been left out."""
     inside = os.path.realpath(copy.root) + os.sep
     for path in list(copy.files):

@@ -4,7 +4,7 @@ import shutil
 
 from . import blame as faults
 from .engine import EngineCopies, stem
-from .folder import copy_folder, is_code, is_source
+from .folder import copy_folder, drop_broken_links, is_code, is_source
 from .project import programs, read_lists
 from .report import MAX_ROWS
 from .text import Sources
@@ -28,15 +28,17 @@ class Game:
         """Copies the folder, and puts aside what of it is an engine."""
         copy = copy_folder(self.folder, self.tree, self._limits)
         self.engine = EngineCopies(self.tree, [name for name in copy.files if is_code(name)], self.naiad.published)
-        self._say_left_out(copy.left_out)
         for name in self.engine.files:
             os.makedirs(os.path.join(self.engine_tree, os.path.dirname(name)), exist_ok=True)
             shutil.move(copy.path(name), os.path.join(self.engine_tree, name))
+        gone = set(self.engine.files)
+        copy.files = [name for name in copy.files if name not in gone]
+        drop_broken_links(copy)  # some may have led to the engine
+        self.files = copy.files
+        self._say_left_out(copy.left_out)
         for folder, count in sorted(self.engine.folders().items())[:MAX_ROWS]:
             what = "an engine of the author's own" if self.engine.own else "a copy of the engine"
             self.report.add("left out", folder, f"{count} file{'s' * (count > 1)} of {what}: Naiad's are taken")
-        gone = set(self.engine.files)
-        self.files = [name for name in copy.files if name not in gone]
         self.sources = Sources(self.tree, [name for name in self.files if is_code(name)])
         for name in self.sources.recoded:
             self.report.add("treated", name, "was in UTF-16, is in UTF-8 now")

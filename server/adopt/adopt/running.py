@@ -13,6 +13,7 @@ from .trial import START_SECONDS, Trial
 
 _CRASH_ADVICE = ("look at the pointers of this line: what getSound(), getSprite() or objectWithId() did not find is null, "
                  "and a deleted Object is no more")
+FAILURES = (sandbox.SandboxError, RuntimeError, OSError)  # of the sandbox, and of the copy in it
 _NOTED_LINES = 4  # of what a game printed, and of what was logged
 
 
@@ -41,7 +42,11 @@ class Running:
         trial = Trial(self._game.tree, PROGRAM, self._folder, self._game.naiad, self._options.seconds, self._options.seed,
                       self._options.keys, named_keys)
         self._say(f"running it for {self._options.seconds:g} s")
-        outcome = trial.run(self._root, confined=not self._options.unconfined)
+        try:
+            outcome = trial.run(self._root, confined=not self._options.unconfined)
+        except FAILURES as error:
+            self._report.fail("builds", f"not run: {error}")
+            return
         self._say_outcome(outcome)
         if not outcome.runs:
             self._explain(outcome, trial)
@@ -119,6 +124,8 @@ class Running:
             self._say("running it again, to see where it crashes")
             printed = trial.run(self._root, confined=not self._options.unconfined).printed
             return frame_of(printed, self._game.sources.files)
+        except FAILURES:
+            return None
         finally:
             os.replace(plain, program)
 

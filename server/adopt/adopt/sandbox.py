@@ -188,6 +188,9 @@ def _first_process(function, root, shown, megabytes, reader, writer):
             os.wait()
             os._exit(0)
         _libc.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+        # Process 1 gets no signal that it has no handler for; with its parent's, those in it could end it.
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGALRM):
+            signal.signal(number, signal.SIG_DFL)
         _build_root(root, shown, megabytes)
         _loopback_up()
         _change_root(root)
@@ -218,7 +221,10 @@ def _answer(reader, timeout):
         data += chunk
     if not data:
         return None
-    answer = json.loads(data)
+    try:
+        answer = json.loads(data)
+    except ValueError:
+        raise RuntimeError("its answer is torn") from None
     if "sandbox" in answer:
         raise SandboxError(answer["sandbox"])
     if "error" in answer:

@@ -114,7 +114,7 @@ class Trial:
     def _play(self, game, port, seconds, number):
         """What dfbot said, and its exit code; None if it had to be ended."""
         script = f"{self.tmp}/keys"
-        with open(script, "w", encoding="utf-8") as file:
+        with open(script, "w", encoding="utf-8", errors="replace") as file:
             file.write(self.keys or random_script(self.named_keys, self.seed + number - 1, int(seconds * 30) + 30))
         bot = subprocess.Popen([os.path.join(self.naiad.bin, "dfbot"), f"127.0.0.1:{port}", "--insecure", "--seconds",
                                 f"{seconds:.1f}",

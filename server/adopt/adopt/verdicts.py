@@ -41,8 +41,11 @@ class Verdicts:
     def _engine_text(self):
         texts = []
         for name in self._game.engine.files:
-            with open(os.path.join(self._game.engine_tree, name), encoding="latin-1") as file:
-                texts.append(file.read())
+            try:
+                with open(os.path.join(self._game.engine_tree, name), encoding="latin-1") as file:
+                    texts.append(file.read())
+            except OSError:
+                pass  # a link to a file that is the game's
         return "\n".join(texts)
 
     def _against_engine(self, unit):
