@@ -112,10 +112,13 @@ MISSING_SPRITE = {
   RM.loadSprite("sprites/not-there.txt", "hero");
   RM.loadSprite("sprites/torn-spr.txt", "torn");
   // RM.loadSprite("sprites/commented.txt", "out");
+  RM.loadSprite("sprites/odd-spr.txt", "odd");
   GM.run();
   GM.shutDown();
 }
 """,
+    # As the published engine takes it.
+    "sprites/odd-spr.txt": "frames 1\nwidth 1\nheight 1\ncolor green\nslowdown\n@\nend\neof\n",
     "sprites/torn-spr.txt": "frames 1\nwidth 3\nheight 2\ncolor green\n<=>\n<=\nend\neof\n"}
 
 NETWORK = {

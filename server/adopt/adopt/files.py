@@ -46,11 +46,11 @@ def missing_files(files, sources, names, folder):
 
 
 def refused_sprites(log, folder):
-    """[(file, line, text)] of sprites that the engine logged as refused."""
+    """[(file, line, text)] of sprites that the engine logged as refused, not of what compat took as the published engine does."""
     found = {}
     for line in log.splitlines():
         match = _REFUSED.search(line)
-        if match and match.group("line"):
+        if match and match.group("line") and not match.group("text").endswith(" (compat)"):
             file = os.path.normpath(os.path.join(folder, match.group("file").replace("/game/", "")))
             found.setdefault((file, match.group("line"), match.group("text")), None)
     return list(found)
