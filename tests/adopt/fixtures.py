@@ -107,7 +107,7 @@ int main() { GM.startUp(); new Hero; new Wall; GM.run(); GM.shutDown(); return 0
 """}
 
 MISSING_SPRITE = {
-    "game.cpp": ALONE.replace("Object.h", "ResourceManager.h") + """int main() {
+    "run it/game.cpp": ALONE.replace("Object.h", "ResourceManager.h") + """int main() {
   GM.startUp();
   RM.loadSprite("sprites/not-there.txt", "hero");
   RM.loadSprite("sprites/torn-spr.txt", "torn");
@@ -118,8 +118,8 @@ MISSING_SPRITE = {
 }
 """,
     # As the published engine takes it.
-    "sprites/odd-spr.txt": "frames 1\nwidth 1\nheight 1\ncolor green\nslowdown\n@\nend\neof\n",
-    "sprites/torn-spr.txt": "frames 1\nwidth 3\nheight 2\ncolor green\n<=>\n<=\nend\neof\n"}
+    "run it/sprites/odd-spr.txt": "frames 1\nwidth 1\nheight 1\ncolor green\nslowdown\n@\nend\neof\n",
+    "run it/sprites/torn-spr.txt": "frames 1\nwidth 3\nheight 2\ncolor green\n<=>\n<=\nend\neof\n"}
 
 NETWORK = {
     "game.cpp": ALONE + '#include "Net.h"\nint main() { GM.startUp(); Net net; GM.run(); GM.shutDown(); return 0; }\n',

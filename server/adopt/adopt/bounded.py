@@ -9,6 +9,20 @@ import time
 MAX_OUTPUT = 1 << 20  # bytes that are kept; the rest is read and thrown away
 
 
+class Stalled(Exception):
+    """Something of this program itself takes too long; the text says what."""
+
+
+def phase(what, seconds):
+    """From now on `what` must not take longer than this, until the next phase (0 seconds: no limit). The patterns and loops
+    that read a stranger's text have limits of their own; this one is for what those forget."""
+    def stop(*_):
+        raise Stalled(f"{what} takes more than {seconds:g} s")
+
+    signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+
+
 class Result:
     """What became of a command: its exit code (negative: the signal), what it printed, whether the deadline ended it."""
 

@@ -37,12 +37,14 @@ class Building:
         self._link()
         if self._game.program.source_list is None:
             self._leave_out_what_nothing_needs()
+        self._game.sources.flush()
         return not self.broken and self.said is None
 
     def _compile(self, pending):
         """Compiles these, and treats them until nothing changes; then as older C++, then with -fpermissive."""
         label = "compiling"
         for _ in range(MAX_ROUNDS):
+            self._game.sources.flush()
             self.compiler.compile(pending, lambda done, count: self._say(f"{label} {done} of {count}"))
             label = "treating"
             undone = self._treatments.undo_returns(self.units)
@@ -61,6 +63,7 @@ class Building:
         before = {unit: (unit.diagnostics, getattr(unit, option)) for unit in self.broken if fits(unit)}
         for unit in before:
             setattr(unit, option, value)
+        self._game.sources.flush()
         self.compiler.compile(list(before))
         for unit, (diagnostics, old) in before.items():
             if unit.object is None:

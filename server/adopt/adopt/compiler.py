@@ -11,6 +11,7 @@ from .bounded import run
 _LINE = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?:(?P<column>\d+):)? "
                    r"(?P<kind>fatal error|error|warning|note): (?P<text>.*)$")
 _WITHIN = re.compile(r"^.+?: (?:In|At) (?P<within>.*):$")
+MAX_LINE = 4000  # characters of a message: templates have endless names
 STANDARDS = ("gnu++20", "gnu++17", "gnu++14")  # what dragonfly::dragonfly asks for, then what games were written in
 
 
@@ -34,6 +35,7 @@ def parse(output):
     """The diagnostics of a compiler's output, with paths as the copy has them."""
     found, within = [], ""
     for line in output.splitlines():
+        line = line[:MAX_LINE]
         match = _LINE.match(line)
         if not match:
             place = _WITHIN.match(line)

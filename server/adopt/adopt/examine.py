@@ -7,6 +7,7 @@ _WORDS = {"SEGV": "a bad pointer", "heap-use-after-free": "used after it was del
           "stack-buffer-overflow": "beyond the end of an array", "global-buffer-overflow": "beyond the end of an array",
           "stack-overflow": "a function calls itself without end", "FPE": "a division by zero", "ABRT": "abort()",
           "attempting double-free": "deleted twice"}
+MAX_LINE = 1000  # characters: a line of a game is a stranger's
 
 
 def frame_of(printed, files):
@@ -16,7 +17,7 @@ def frame_of(printed, files):
         return None
     known = set(files)
     for line in printed[what.end():].splitlines():
-        match = _FRAME.match(line)
+        match = _FRAME.match(line[:MAX_LINE])
         if not match:
             continue
         path = match.group(1)

@@ -5,6 +5,8 @@ import re
 _NAMED = re.compile(r'"([^"\n]{1,200}\.(?:txt|spr|wav|ogg|mp3|flac|csv|json|dat|map|lvl))"')
 _LOADED = re.compile(r'\bload(?:Sprite|Sound|Music)\s*\(\s*"([^"\n]{1,200})"')
 _REFUSED = re.compile(r"Sprite [^:]*: (?P<file>[^:]+?)(?::(?P<line>\d+))?: (?P<text>.*)")
+MAX_NAMED, MAX_FOLDERS = 2000, 500  # of a folder's game: names of files, and folders in which they may lie
+MAX_LINE = 2000  # characters of a log's line
 
 
 def _plain(path):
@@ -13,21 +15,22 @@ def _plain(path):
 
 def run_folder(files, sources, program):
     """The folder, from the top of the copy, from which most of what the sources name is found."""
-    named = {_plain(path) for name in sources.files for path in _NAMED.findall(sources.text(name))}
+    named = sorted({_plain(path) for name in sources.files for path in _NAMED.findall(sources.text(name))})[:MAX_NAMED]
     there = {name.lower() for name in files}
-    folders = {""} | {os.path.dirname(program.main)}
+    folders = {""}
     for name in files:
         folder = os.path.dirname(name)
-        while folder:
+        while folder and folder not in folders:
             folders.add(folder)
             folder = os.path.dirname(folder)
+    config = {os.path.dirname(name) for name in files if os.path.basename(name) == "df-config.txt"}
 
     def score(folder):
         found = sum(os.path.normpath(os.path.join(folder.lower(), path)) in there for path in named)
-        config = os.path.join(folder, "df-config.txt") in files
-        return -found, not config, folder != os.path.dirname(program.main), folder.count("/"), folder
+        return -found, folder not in config, folder != os.path.dirname(program.main), folder.count("/"), folder
 
-    return min(folders, key=score)
+    tried = sorted(folders, key=lambda one: (one.count("/"), one))[:MAX_FOLDERS]
+    return min(tried + [os.path.dirname(program.main)], key=score)
 
 
 def missing_files(files, sources, names, folder):
@@ -49,7 +52,7 @@ def refused_sprites(log, folder):
     """[(file, line, text)] of sprites that the engine logged as refused, not of what compat took as the published engine does."""
     found = {}
     for line in log.splitlines():
-        match = _REFUSED.search(line)
+        match = _REFUSED.search(line[:MAX_LINE])
         if match and match.group("line") and not match.group("text").endswith(" (compat)"):
             file = os.path.normpath(os.path.join(folder, match.group("file").replace("/game/", "")))
             found.setdefault((file, match.group("line"), match.group("text")), None)

@@ -63,17 +63,20 @@ def copy_folder(source, target, limits=None):
 
 def drop_broken_links(copy):
     """Of what a link leads to something may have been left out."""
-    inside = os.path.realpath(copy.root) + os.sep
-    for path in list(copy.files):
-        full = copy.path(path)
-        if os.path.islink(full) and not (os.path.isfile(full) and os.path.realpath(full).startswith(inside)):
+    inside, kept = os.path.realpath(copy.root) + os.sep, []
+    for path in copy.files:
+        full, reason = copy.path(path), None
+        if os.path.islink(full):
+            if not (os.path.isfile(full) and os.path.realpath(full).startswith(inside)):
+                reason = "a link to what was left out"
+            elif is_source(path):
+                reason = "a link to another source"
+        if reason:
             os.unlink(full)
-            copy.files.remove(path)
-            copy.left_out.append((path, "a link to what was left out"))
-        elif os.path.islink(full) and is_source(path):
-            os.unlink(full)
-            copy.files.remove(path)
-            copy.left_out.append((path, "a link to another source"))
+            copy.left_out.append((path, reason))
+        else:
+            kept.append(path)
+    copy.files = kept
 
 
 def _copy_level(copy, limits, descriptor, top, prefix, depth):

@@ -45,8 +45,9 @@ class Game:
 
     def _say_left_out(self, left_out):
         """Files that a build or a system made are one row; what might be missed has a row each."""
-        usual = [one for one in left_out if one[1].startswith(("a product", "a folder of a system"))]
-        rest = [one for one in left_out if one not in usual]
+        usual, rest = [], []
+        for one in left_out:
+            (usual if one[1].startswith(("a product", "a folder of a system")) else rest).append(one)
         for path, reason in rest[:MAX_ROWS]:
             self.report.add("left out", path, reason)
         if len(rest) > MAX_ROWS:

@@ -2,6 +2,7 @@
 import argparse
 import os
 import re
+import shlex
 import shutil
 import signal
 import sys
@@ -14,10 +15,13 @@ from .game import PROGRAM, Game
 from .naiad import Installation
 from .report import Report
 from .running import Running
+from .text import shown
 from .trial import ScriptError
 from .verdicts import Verdicts
 
 RUNS, FAILS, USAGE = 0, 1, 2
+READ_SECONDS = 120  # for what takes one or two with a student's folder
+BUILD_SECONDS = 1800  # of which the compiler gets 900
 
 DESCRIPTION = """\
 Builds and runs a game that was written for the published Dragonfly engine (4.2 to 4.22), or says what is in its way.
@@ -111,19 +115,39 @@ def _progress(quiet):
 
 def adopt(game, compiler, options, say):
     """One folder from copy to verdict, which is in the game's report."""
+    program = None
+    try:
+        program = _judge(game, compiler, options, say)
+    except bounded.Stalled as error:
+        game.report.fail(game.report.result, str(error))
+    finally:
+        bounded.phase("", 0)
+    if options.keep and os.path.isdir(game.tree):
+        shutil.move(game.tree, options.keep)
+        place, command = program or ("", "")
+        play = f"; to play it: cd {shlex.quote(os.path.normpath(os.path.join(options.keep, place)))} && {command}" if program else ""
+        game.report.add("kept", options.keep, "the treated copy" + play)
+
+
+def _judge(game, compiler, options, say):
+    """Returns the program: (the folder of the copy to start it in, the command), or None."""
+    bounded.phase("reading the folder", READ_SECONDS)
     say("copying")
     game.take_in()
     if not game.choose_program(options.main):
-        return
+        return None
     building = Building(game, compiler, say)
+    game.report.result = "does not build"
+    bounded.phase("building it", BUILD_SECONDS)
     built = building.build()
     Verdicts(game, building).say(built)
-    if built:
-        Running(game, building, options, say).run()
-    if options.keep:
-        shutil.move(game.tree, options.keep)
-        program = f"; the program is {os.path.join(options.keep, PROGRAM)}" if built else ""
-        game.report.add("kept", options.keep, f"the treated copy{program}")
+    if not built:
+        return None
+    game.report.result = "builds"
+    bounded.phase("running it", 2 * options.seconds + BUILD_SECONDS)  # and where it crashes it is built and run again
+    running = Running(game, building, options, say)
+    running.run()
+    return running.folder, os.path.join(os.path.relpath(".", running.folder or "."), PROGRAM)
 
 
 def main(include, lib, bin_folder, names, arguments=None):
@@ -152,6 +176,10 @@ def main(include, lib, bin_folder, names, arguments=None):
         say("")
         sys.stderr.write(f"dragonfly-adopt: --keys: {error}\nTry dragonfly-adopt --help.\n")
         return USAGE
+    except (OSError, MemoryError) as error:
+        say("")
+        sys.stderr.write(f"dragonfly-adopt: {shown(str(error) or 'there is too little memory')}\n")
+        return FAILS
     except KeyboardInterrupt:
         say("")
         return 128 + signal.SIGINT

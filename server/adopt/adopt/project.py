@@ -1,4 +1,8 @@
-"""Which sources make a program: what a Makefile or a project file lists. These files are read as text and never run."""
+"""Which sources make a program: what a Makefile or a project file lists. These files are read as text and never run.
+
+They are a stranger's: no pattern here takes more than linear time, words have a longest length, and there is a most of each kind.
+"""
+import fnmatch
 import html
 import os
 import re
@@ -7,11 +11,17 @@ from .folder import is_source
 
 _MAIN = re.compile(r"\b(?:int|void|auto|INT)\s+(?:WINAPI\s+|APIENTRY\s+|CALLBACK\s+)?(main|wmain|_tmain|WinMain|wWinMain)\s*\(")
 _RUN = re.compile(r"(?:\bGM\s*\.|->|\.|::)\s*run\s*\(")
-_SOURCE_WORD = r"[^\s\"'<>|;,()=:]+\.(?:cpp|cc|cxx|c\+\+|C)\b"
+_SEPARATORS = re.compile(r"[\s\"'<>|;,()=:]+")
+_SOURCE_WORD = re.compile(r".+\.(?:cpp|cc|cxx|c\+\+|C)(?!\w)")
+_OBJECT_WORD = re.compile(r"([\w./-]+)\.o(?!\w)")
 _ASIDE = re.compile(r"(^|[/ _-])(tests?|testing|unit-?tests?|old|backup|tutorial|examples?|"
                     r"saucer[-_ ]?shoot|template|unused|archive)"
                     r"([/ _.-]|$)", re.I)
 MAX_PROJECT_FILE = 1 << 20
+MAX_PROJECT_FILES = 60  # those nearest to the top
+MAX_WORD = 300  # characters of a source's path
+MAX_WORDS = 5000
+MAX_PATTERNS = 40
 MAX_PROGRAMS = 24  # that are looked at; a folder has rarely more than three
 
 
@@ -37,9 +47,9 @@ def is_project_file(name):
 
 def read_lists(root, files, sources):
     """What the project files among `files` list, each resolved to files of `sources`, upper and lower case alike."""
-    by_lower = {name.lower(): name for name in sources}
+    known = _Known(sources)
     lists = []
-    for name in filter(is_project_file, files):
+    for name in sorted(filter(is_project_file, files), key=lambda one: one.count("/"))[:MAX_PROJECT_FILES]:
         path = os.path.join(root, name)
         if os.path.getsize(path) > MAX_PROJECT_FILE:
             continue
@@ -47,15 +57,16 @@ def read_lists(root, files, sources):
             text = file.read().decode("utf-8-sig", "replace")
         words, unread = _words(name, text)
         deep = "GLOB_RECURSE" in text and os.path.basename(name).lower().startswith("cmakelists")
-        found, missing = [], []
-        for word in words:
-            here = _resolve(os.path.dirname(name), word, by_lower, deep)
+        found, missing, patterns = {}, [], 0
+        for word in words[:MAX_WORDS]:
+            patterns += "*" in word
+            here = known.meant(os.path.dirname(name), word, deep) if len(word) <= MAX_WORD and patterns <= MAX_PATTERNS else None
             if here is None:
                 missing.append(word)
             else:
-                found += [one for one in here if one not in found]
+                found.update(dict.fromkeys(here))
         if found or missing:
-            lists.append(SourceList(name, found, missing, unread))
+            lists.append(SourceList(name, list(found), missing, unread))
     return lists
 
 
@@ -63,7 +74,7 @@ def _words(name, text):
     """The sources that a project file names, and its calls of other programs."""
     base = os.path.basename(name).lower()
     if base.endswith((".vcxproj", ".vcproj")):
-        words = re.findall(r"<(?:ClCompile|File)\s[^>]*?(?:Include|RelativePath)\s*=\s*\"([^\"]*)\"", text)
+        words = re.findall(r"<(?:ClCompile|File)\s[^<>]*?(?:Include|RelativePath)\s*=\s*\"([^\"]*)\"", text)
         return _only_sources(html.unescape(word) for word in words), []
     if base.endswith(".cbp"):
         return _only_sources(html.unescape(word) for word in re.findall(r"<Unit\s+filename=\"([^\"]*)\"", text)), []
@@ -79,7 +90,7 @@ def _words(name, text):
 
 def _with_variables(text):
     """Variables of one word are put in, once: SRC = src, set(SRC src)."""
-    found = re.findall(r"(?m)^\s*([\w.-]+)\s*[:?]?:?=[ \t]*([^\s$()]{1,100})[ \t\r]*$", text)
+    found = re.findall(r"(?m)^[ \t]*([\w.-]+)[ \t]*[:?]?:?=[ \t]*([^\s$()]{1,100})[ \t\r]*$", text)
     found += re.findall(r"\bset\s*\(\s*([\w.-]+)\s+\"?([^\s$()\"]{1,100})\"?\s*\)", text)
     variables = dict(found[:100])
     return re.sub(r"\$[({]([\w.-]+)[)}]", lambda match: variables.get(match.group(1), match.group()), text)
@@ -89,10 +100,10 @@ def _expanded(text):
     """The words of a Makefile that name sources: themselves, as patterns, or as the objects that are made of them."""
     here = "wildcard|CMAKE_CURRENT_SOURCE_DIR|CMAKE_SOURCE_DIR|PROJECT_SOURCE_DIR"
     plain = re.sub(r"\$[({](?:" + here + r")[)}]?", " ./ ", text)
-    words = re.findall(_SOURCE_WORD, re.sub(r"\./\s+/?", "./", plain))
-    objects = re.findall(r"(?<![\w%*$])([\w./-]+)\.o\b", plain)
-    names = _only_sources(words)
+    words = [word for word in _SEPARATORS.split(re.sub(r"\./\s+/?", "./", plain)) if len(word) <= MAX_WORD]
+    names = _only_sources(match.group() for word in words if (match := _SOURCE_WORD.match(word)))
     if not names:
+        objects = [match.group(1) for word in words if (match := _OBJECT_WORD.match(word))]
         names = [name + ".cpp" for name in dict.fromkeys(objects)]
     return names
 
@@ -101,19 +112,34 @@ def _only_sources(words):
     return list(dict.fromkeys(word for word in words if is_source(word) and "%" not in word and "$" not in word))
 
 
-def _resolve(folder, word, by_lower, deep):
-    """The sources that a word of a project file in `folder` means; None if there is none. deep: patterns go into folders."""
-    word = word.replace("\\", "/")
-    path = os.path.normpath(os.path.join(folder, word)).lower()
-    if "*" in path and not word.startswith("**/"):
-        any_name = ".*" if deep else "[^/]*"
-        pattern = re.compile("".join(any_name if part == "*" else re.escape(part) for part in re.split(r"(\*)", path)) + r"\Z")
-        return [name for lower, name in by_lower.items() if pattern.match(lower)] or None
-    if path in by_lower:
-        return [by_lower[path]]
-    # Lists name files where they once were, on another machine.
-    same = [name for lower, name in by_lower.items() if os.path.basename(lower) == os.path.basename(word).lower()]
-    return same if len(same) == 1 else None
+class _Known:
+    """The sources that there are, to be found by what a list calls them."""
+
+    def __init__(self, sources):
+        self._by_lower, self._by_base = {name.lower(): name for name in sources}, {}
+        for name in sources:
+            self._by_base.setdefault(os.path.basename(name).lower(), []).append(name)
+
+    def meant(self, folder, word, deep):
+        """The sources that a word of a project file in `folder` means; None if there is none. deep: patterns go into folders."""
+        word = word.replace("\\", "/")
+        path = os.path.normpath(os.path.join(folder, word)).lower()
+        if "*" in path and not word.startswith("**/"):
+            pattern = re.sub(r"\*+", "*", path).replace("[", "[[]")
+            return [name for lower, name in self._by_lower.items() if _fits(lower, pattern, deep)] or None
+        if path in self._by_lower:
+            return [self._by_lower[path]]
+        # Lists name files where they once were, on another machine.
+        same = self._by_base.get(os.path.basename(word).lower(), ())
+        return same if len(same) == 1 else None
+
+
+def _fits(path, pattern, deep):
+    """Whether a path fits a pattern with *, which stays in its folder unless `deep`. fnmatch never tries what it has tried."""
+    if deep:
+        return fnmatch.fnmatchcase(path, pattern)
+    parts, wanted = path.split("/"), pattern.split("/")
+    return len(parts) == len(wanted) and all(fnmatch.fnmatchcase(*pair) for pair in zip(parts, wanted))
 
 
 def mains(sources, code):
@@ -161,7 +187,7 @@ def _around(main, others, sources):
     for name in sorted(sources, key=lambda one: (os.path.dirname(one) != home, one.count("/"), one)):
         if name in others:
             continue
-        if any(name.startswith(folder + "/") for folder in foreign):
+        if any(folder in foreign for folder in _folders_above(name)):
             left_out.append((name, "in the folder of another program"))
         elif os.path.basename(name).lower() in nearest:
             left_out.append((name, f"there is {nearest[os.path.basename(name).lower()]}, too"))
@@ -169,3 +195,8 @@ def _around(main, others, sources):
             nearest[os.path.basename(name).lower()] = name
             taken.append(name)
     return taken, left_out
+
+
+def _folders_above(name):
+    while name := os.path.dirname(name):
+        yield name

@@ -23,7 +23,7 @@ class Running:
     def __init__(self, game, building, options, say):
         self._game, self._building, self._options, self._say, self._report = game, building, options, say, game.report
         self._names = [unit.name for unit in building.units]
-        self._folder = run_folder(game.files, game.sources, game.program)
+        self.folder = run_folder(game.files, game.sources, game.program)
         self._root = os.path.join(game.scratch, "root")
 
     def run(self):
@@ -39,7 +39,7 @@ class Running:
                                         "game that you trust")
             return
         named_keys = keys_of(self._game.sources.code(name) for name in self._game.sources.files)
-        trial = Trial(self._game.tree, PROGRAM, self._folder, self._game.naiad, self._options.seconds, self._options.seed,
+        trial = Trial(self._game.tree, PROGRAM, self.folder, self._game.naiad, self._options.seconds, self._options.seed,
                       self._options.keys, named_keys)
         self._say(f"running it for {self._options.seconds:g} s")
         try:
@@ -55,13 +55,13 @@ class Running:
         if not has_run(self._names, self._game.sources.code):
             self._report.add_left(self._game.program.main, faults.THEIRS, "nothing calls GM.run()",
                                   "GM.run(); between startUp() and shutDown()")
-        missing = missing_files(self._game.files, self._game.sources, self._names, self._folder)
+        missing = missing_files(self._game.files, self._game.sources, self._names, self.folder)
         for file, line, path in missing[:MAX_ROWS]:
             self._report.add_left(f"{file}:{line}", faults.THEIRS, f"{path} is not in the folder",
                                   "add the file, or correct its name", self._game.sources.line(file, line))
 
     def _say_outcome(self, outcome):
-        for file, line, text in refused_sprites(outcome.log, self._folder)[:MAX_ROWS]:
+        for file, line, text in refused_sprites(outcome.log, self.folder)[:MAX_ROWS]:
             self._report.add_left(f"{file}:{line}", faults.THEIRS, text, "correct this line of the sprite")
         seconds, rounds = self._options.seconds, f", {outcome.rounds} times" if outcome.rounds > 1 else ""
         text = {
@@ -73,7 +73,7 @@ class Running:
             "deaf": f"it did not begin to run within {START_SECONDS} s: it computes or waits before GM.run()",
             "hangs": f"it stood still after {outcome.ticks} ticks and could only be killed" + f": {outcome.text}" * bool(outcome.text),
             "refused": f"its player could not play: {outcome.text}"}[outcome.state]
-        self._report.add("ran", f"in {self._folder}/" if self._folder else "", text)
+        self._report.add("ran", f"in {self.folder}/" if self.folder else "", text)
         if outcome.runs:
             self._report.result = "runs"
             if not outcome.ended_well:

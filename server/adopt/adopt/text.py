@@ -27,11 +27,12 @@ def decoded(data):
 
 
 class Sources:
-    """The code files of the copy, read once, written back when they are changed."""
+    """The code files of the copy, read once. What is changed is written back by flush(), before somebody else reads it."""
 
     def __init__(self, root, files):
         self.root, self.files, self.recoded = root, sorted(files), []
         self._code = {}  # of files that have not been changed since
+        self._changed = set()
         self._lines = {name: self._read(name) for name in self.files}
 
     def _read(self, name):
@@ -67,7 +68,13 @@ class Sources:
         end = "\r" if self._lines[name][number - 1].endswith("\r") else ""
         self._lines[name][number - 1] = line + end
         self._code.pop(name, None)
-        self._write(name, self._lines[name])
+        self._changed.add(name)
+
+    def flush(self):
+        """Writes what was changed: once for all lines of a file."""
+        for name in self._changed:
+            self._write(name, self._lines[name])
+        self._changed = set()
 
     def find(self, pattern, names=None):
         """Yields (file, line number, match) for a regular expression in code lines, comments and strings left out."""
