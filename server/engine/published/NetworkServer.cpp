@@ -44,15 +44,19 @@ EventMouseNetwork fromNetwork(const EventMouse& mouse) {
   return event;
 }
 
-// Return whether an Object takes it. What none takes is the local event that it was: so a key to leave works
-// in a game that is played with the mouse.
+// Return whether it ends here. What no Object takes from the network is the local event that it was: so a key
+// to leave works in a game that is played with the mouse. But a server that plays has local events of its own
+// player alone.
 template <class Local>
 bool handOn(World& world, const Local& local) {
-  const int socket = world.extras().connections.socketOf(local.getPlayer());
-  if (socket < 0) return false;
+  const Connections& c = world.extras().connections;
+  const std::uint32_t player = local.getPlayer();
+  const bool is_foreign = c.has_host && player != c.host;
+  const int socket = c.socketOf(player);
+  if (socket < 0) return is_foreign;
   auto event = fromNetwork(local);
   event.setSocket(socket);
-  return world.onEvent(&event) > 0;
+  return world.onEvent(&event) > 0 || is_foreign;
 }
 
 }  // namespace
@@ -95,7 +99,8 @@ void NetworkServer::accept(World& world) {
     }
   }
   const std::string plays = Config::getInstance().match("server_plays");
-  if (plays == "true" || plays == "1") {
+  c.has_host = plays == "true" || plays == "1";
+  if (c.has_host) {
     if (!isThere(there, c.host)) c.host = newcomers.empty() ? 0 : newcomers.front();
     std::erase(newcomers, c.host);
   }

@@ -13,7 +13,9 @@ struct Connections {
   bool is_server = false;
   /// At most so many players are connected; the others watch.
   int limit = 16;
-  /// The player that sits at the server, if the game has one there (NetworkServer.h); 0 for none.
+  /// Is the game's server a player itself (NetworkServer.h)?
+  bool has_host = false;
+  /// The player that sits at the server then; 0 for none.
   std::uint32_t host = 0;
   /// Players whose connection the game has closed.
   std::vector<std::uint32_t> closed;

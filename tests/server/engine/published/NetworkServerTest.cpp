@@ -169,6 +169,28 @@ TEST_F(NetworkServerTest, AServerThatPlaysHasTheFirstPlayerAsItsOwn) {
   EXPECT_EQ(received, (std::vector<std::string>{"hero:df-keyboard", "hero:df-keyboard-network"}));
 }
 
+TEST_F(NetworkServerTest, WhoWatchesDoesNotSteerThePlayerAtTheServer) {
+  Config::getInstance().loadConfig("server_plays:true,");
+  NM.setServer();
+  NM.setMaxConnections(1);
+  Probe hero("hero", &received);
+  hero.registerInterest(KEYBOARD_EVENT);
+  hero.registerInterest(MSE_EVENT);
+  const std::uint32_t ann = world.join("ann", CYAN);
+  const std::uint32_t bob = world.join("bob", RED);
+  const std::uint32_t cy = world.join("cy", GREEN);
+  world.tick();
+  world.tick();
+  world.key(bob, Keyboard::A, KEY_PRESSED);
+  world.key(cy, Keyboard::A, KEY_PRESSED);
+  world.mouse(cy, CLICKED, Mouse::LEFT, 3, 4);
+  world.tick();
+  EXPECT_TRUE(received.empty());
+  world.key(ann, Keyboard::A, KEY_PRESSED);
+  world.tick();
+  EXPECT_EQ(received, (std::vector<std::string>{"hero:df-keyboard"}));
+}
+
 TEST_F(NetworkServerTest, WhatIsSynchronisedCountsAsWritten) {
   NM.setServer();
   NetworkNode node;
