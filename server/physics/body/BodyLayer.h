@@ -39,6 +39,7 @@ class BodyLayer : public Layer {
   const std::vector<naiad::physics::BodyState>& states() const { return m_states; }
   bool isTouching(ObjectKey key) const { return m_contacts.isTouching(key); }
   const naiad::physics::ImpactCounters& impactCounters() const { return m_impacts.counters(); }
+  std::int64_t sensorPairs() const { return m_sensors.pairs(); }
   const naiad::physics::RigidCounters& rigidCounters() const { return m_rigids.counters(); }
   const naiad::physics::JointCounters& jointCounters() const { return m_links.counters(); }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "physics/body/BodyImpacts.h"
 #include "physics/body/BodyObstacles.h"
@@ -19,6 +21,7 @@ using naiad::physics::ImpactShape;
 using naiad::physics::Metric;
 using naiad::physics::Place;
 using naiad::physics::RelativeMotion;
+using naiad::physics::SweptBox;
 using naiad::physics::Vec2;
 
 // The shape of the Object's box, and its middle.
@@ -29,6 +32,11 @@ Vec2 boxOf(const Metric& metric, const FixedBox& box, ImpactBody& body) {
 }
 
 }  // namespace
+
+bool BodySensors::isBefore(const Touch& a, const Touch& b) {
+  return std::tie(a.first.slot, a.second.slot, a.first.generation, a.second.generation) <
+         std::tie(b.first.slot, b.second.slot, b.first.generation, b.second.generation);
+}
 
 BodySensors::Mover BodySensors::moverOf(const WorldStore& store, const BodyTable& table,
                                         const BodyState& state) {
@@ -57,16 +65,46 @@ BodySensors::Mover BodySensors::moverOf(const WorldStore& store, const Metric& m
   return mover;
 }
 
-void BodySensors::add(const Mover& a, const Mover& b) {
-  const bool is_swapped = a.is_body && b.is_body && b.order < a.order;
-  m_pairs.push_back(is_swapped ? Touch{b, a} : Touch{a, b});
+void BodySensors::add(std::size_t a, std::size_t b) {
+  const Mover &one = m_movers[a], &other = m_movers[b];
+  if (one.is_body && other.is_body && other.order < one.order) std::swap(a, b);
+  m_pairs.push_back(
+      {{m_movers[a].key, m_movers[b].key}, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
+}
+
+// A SOFT body and whatever crosses its path. Only the SOFT ones are filed: the others are asked about.
+void BodySensors::findBodyPairs() {
+  m_boxes.clear();
+  m_ids.clear();
+  const auto sweptBox = [&](const Mover& mover) {
+    const Vec2 from = mover.shape.place - m_movers[0].shape.place, to = from + mover.displacement;
+    const Vec2 half = halfExtentOf(mover.shape);
+    const auto margin = [](double x, double y) {  // wider than what rounding takes away
+      return naiad::physics::kImpactSlop + 1e-9 * (1 + std::max(std::fabs(x), std::fabs(y)));
+    };
+    const Vec2 wide = half + Vec2{margin(from.x, to.x), margin(from.y, to.y)};
+    return SweptBox{Vec2{std::min(from.x, to.x), std::min(from.y, to.y)} - wide,
+                    Vec2{std::max(from.x, to.x), std::max(from.y, to.y)} + wide};
+  };
+  for (std::size_t i = 0; i < m_bodies; ++i) {
+    if (!m_movers[i].is_soft) continue;
+    m_ids.push_back(static_cast<int>(i));
+    m_boxes.push_back(sweptBox(m_movers[i]));
+  }
+  if (m_ids.empty()) return;
+  m_soft.update(m_boxes, m_ids, static_cast<int>(m_bodies));
+  m_soft.queryPairs([&](int i, int j) { add(static_cast<std::size_t>(i), static_cast<std::size_t>(j)); });
+  for (std::size_t i = 0; i < m_bodies; ++i) {
+    if (m_movers[i].is_soft) continue;
+    m_soft.query(sweptBox(m_movers[i]), [&](int soft) { add(static_cast<std::size_t>(soft), i); });
+  }
 }
 
 // A body that moves, or is SOFT itself, may begin to touch an Object.
 void BodySensors::findObjectPairs(const WorldStore& store, const Metric& metric) {
   m_asking.clear();
   m_surroundings.clear();
-  for (std::size_t i = 0; i < m_movers.size(); ++i) {
+  for (std::size_t i = 0; i < m_bodies; ++i) {
     const Mover& mover = m_movers[i];
     if (mover.displacement == Vec2{} && !mover.is_soft) continue;
     const Vec2 middle = 0.5 * mover.displacement;
@@ -75,15 +113,70 @@ void BodySensors::findObjectPairs(const WorldStore& store, const Metric& metric)
     m_surroundings.addRegion(regionOf(metric, mover.shape.place + middle, half));
   }
   m_surroundings.query(store, [&](std::size_t number, ObjectKey key) {
-    const Mover& mover = m_movers[m_asking[number]];
-    if (mover.is_soft || store.solidness(key.slot) == SOFT) add(mover, moverOf(store, metric, key));
+    if (!m_movers[m_asking[number]].is_soft && store.solidness(key.slot) != SOFT) return;
+    m_movers.push_back(moverOf(store, metric, key));
+    add(m_asking[number], m_movers.size() - 1);
   });
 }
 
-bool BodySensors::wereTouching(const Touch& touch) const {
-  return std::any_of(m_touching.begin(), m_touching.end(), [&](const Touch& other) {
-    return other.first.key == touch.first.key && other.second.key == touch.second.key;
-  });
+// What touched at the end of the last tick, and is not near any more or stands still now.
+void BodySensors::findPartedPairs(const WorldStore& store, const Metric& metric) {
+  if (m_touching.empty()) return;
+  m_by_slot.clear();
+  for (std::size_t i = 0; i < m_bodies; ++i) m_by_slot.push_back(static_cast<std::uint32_t>(i));
+  std::sort(m_by_slot.begin(), m_by_slot.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return m_movers[a].key.slot < m_movers[b].key.slot; });
+  const auto bodyOf = [&](ObjectKey key) {
+    const auto found = std::lower_bound(
+        m_by_slot.begin(), m_by_slot.end(), key.slot,
+        [&](std::uint32_t index, std::uint32_t slot) { return m_movers[index].key.slot < slot; });
+    return found != m_by_slot.end() && m_movers[*found].key == key ? std::size_t{*found} : m_movers.size();
+  };
+  std::size_t next = 0;
+  const std::size_t listed = m_pairs.size();
+  for (const Touch& touch : m_touching) {
+    while (next < listed && isBefore(m_pairs[next].touch, touch)) ++next;
+    if (next < listed && m_pairs[next].touch == touch) continue;
+    const std::size_t first = bodyOf(touch.first);
+    if (first >= m_bodies) continue;
+    std::size_t second = bodyOf(touch.second);
+    if (second >= m_bodies) {
+      if (!store.isCurrent(touch.second) || !store.collides(touch.second.slot)) continue;
+      second = m_movers.size();
+      m_movers.push_back(moverOf(store, metric, touch.second));
+    }
+    m_pairs.push_back({touch, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(second)});
+  }
+  if (m_pairs.size() > listed) std::sort(m_pairs.begin(), m_pairs.end(), isPairBefore);
+}
+
+// Do the two touch now, and since when?
+void BodySensors::examine(const Pair& pair, bool were_touching, std::vector<BodyContact>& contacts) {
+  const Mover &first = m_movers[pair.a], &second = m_movers[pair.b];
+  const Vec2 offset = second.shape.place - first.shape.place;
+  const Vec2 displacement = second.displacement - first.displacement;
+  const auto touch = [&](Vec2 apart) {
+    return naiad::physics::touchOf(first.shape, second.shape, apart).gap <= naiad::physics::kImpactSlop;
+  };
+  const bool is_touching = touch(offset + displacement);
+  if (is_touching) m_now.push_back(pair.touch);
+  if (is_touching && were_touching) return;
+  BodyContact contact{0, first.key, second.key, first.order, second.order, 0, true};
+  if (!were_touching) {
+    const double time =
+        touch(offset) ? 0
+                      : naiad::physics::forecastImpact(first.shape, second.shape,
+                                                       RelativeMotion{offset, displacement, {}}, 1,
+                                                       naiad::physics::restSpeed(displacement, {}), false)
+                            .time;
+    if (time < 0 && !is_touching) return;
+    contact.time = time < 0 ? 1 : time;
+    contacts.push_back(contact);
+  }
+  if (is_touching) return;
+  contact.time = 1;
+  contact.is_begin = false;
+  contacts.push_back(contact);
 }
 
 void BodySensors::step(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
@@ -93,53 +186,18 @@ void BodySensors::step(const WorldStore& store, const BodyTable& table, const st
   for (const BodyState& state : states) {
     if (state.is_hard || state.is_soft) m_movers.push_back(moverOf(store, table, state));
   }
+  m_bodies = m_movers.size();
   if (m_movers.empty() && m_touching.empty()) return;
+  findBodyPairs();
   findObjectPairs(store, table.metric);
-  for (const Mover& mover : m_movers) {
-    if (!mover.is_soft) continue;
-    for (const Mover& other : m_movers) {
-      const bool is_duplicate = other.is_soft && other.order <= mover.order;
-      if (other.key != mover.key && !is_duplicate) add(mover, other);
-    }
-  }
-  // What a body touched that stands still now.
-  for (const Touch& touch : m_touching) {
-    const bool is_listed = std::any_of(m_pairs.begin(), m_pairs.end(), [&](const Touch& pair) {
-      return pair.first.key == touch.first.key && pair.second.key == touch.second.key;
-    });
-    if (is_listed || touch.second.is_body) continue;
-    const auto at = std::find_if(m_movers.begin(), m_movers.end(),
-                                 [&](const Mover& mover) { return mover.key == touch.first.key; });
-    const ObjectKey other = touch.second.key;
-    if (at == m_movers.end() || !store.isCurrent(other) || !store.collides(other.slot)) continue;
-    add(*at, moverOf(store, table.metric, other));
-  }
+  std::sort(m_pairs.begin(), m_pairs.end(), isPairBefore);
+  findPartedPairs(store, table.metric);
   m_now.clear();
-  for (const Touch& pair : m_pairs) {
-    const Vec2 offset = pair.second.shape.place - pair.first.shape.place;
-    const Vec2 displacement = pair.second.displacement - pair.first.displacement;
-    const bool is_touching =
-        naiad::physics::touchOf(pair.first.shape, pair.second.shape, offset + displacement).gap <=
-        naiad::physics::kImpactSlop;
-    if (is_touching) m_now.push_back(pair);
-    BodyContact contact{0, pair.first.key, pair.second.key, pair.first.order, pair.second.order, 0, true};
-    if (!wereTouching(pair)) {
-      const bool is_inside = naiad::physics::touchOf(pair.first.shape, pair.second.shape, offset).gap <=
-                             naiad::physics::kImpactSlop;
-      const double time =
-          is_inside ? 0
-                    : naiad::physics::forecastImpact(pair.first.shape, pair.second.shape,
-                                                     RelativeMotion{offset, displacement, {}}, 1,
-                                                     naiad::physics::restSpeed(displacement, {}), false)
-                          .time;
-      if (time < 0 && !is_touching) continue;
-      contact.time = time < 0 ? 1 : time;
-      contacts.push_back(contact);
-    }
-    if (is_touching) continue;
-    contact.time = 1;
-    contact.is_begin = false;
-    contacts.push_back(contact);
+  m_examined += static_cast<std::int64_t>(m_pairs.size());
+  std::size_t next = 0;
+  for (const Pair& pair : m_pairs) {
+    while (next < m_touching.size() && isBefore(m_touching[next], pair.touch)) ++next;
+    examine(pair, next < m_touching.size() && m_touching[next] == pair.touch, contacts);
   }
   std::swap(m_touching, m_now);
 }

@@ -7,6 +7,7 @@
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyState.h"
 #include "physics/body/BodySurroundings.h"
+#include "physics/broadphase/ImpactTree.h"
 #include "physics/impact/ImpactBody.h"
 
 namespace df {
@@ -21,6 +22,9 @@ class BodySensors {
             const std::vector<naiad::physics::BodyState>& states,
             std::vector<naiad::physics::BodyContact>& contacts);
 
+  /// Pairs examined since the world was made.
+  std::int64_t pairs() const { return m_examined; }
+
  private:
   struct Mover {
     ObjectKey key;
@@ -31,22 +35,39 @@ class BodySensors {
     naiad::physics::Vec2 displacement;  ///< since then
   };
   struct Touch {
-    Mover first, second;
+    ObjectKey first, second;  ///< a body, and a body made later or an Object
+    friend bool operator==(const Touch& a, const Touch& b) {
+      return a.first == b.first && a.second == b.second;
+    }
+  };
+  struct Pair {
+    Touch touch;
+    std::uint32_t a = 0, b = 0;  ///< indices of movers
   };
 
+  static bool isBefore(const Touch& a, const Touch& b);
+  static bool isPairBefore(const Pair& a, const Pair& b) { return isBefore(a.touch, b.touch); }
   static Mover moverOf(const WorldStore& store, const naiad::physics::BodyTable& table,
                        const naiad::physics::BodyState& state);
   static Mover moverOf(const WorldStore& store, const naiad::physics::Metric& metric, ObjectKey key);
+  void findBodyPairs();
   void findObjectPairs(const WorldStore& store, const naiad::physics::Metric& metric);
-  void add(const Mover& a, const Mover& b);
-  bool wereTouching(const Touch& touch) const;
+  void findPartedPairs(const WorldStore& store, const naiad::physics::Metric& metric);
+  void add(std::size_t a, std::size_t b);
+  void examine(const Pair& pair, bool were_touching, std::vector<naiad::physics::BodyContact>& contacts);
 
-  std::vector<Mover> m_movers;    // bodies, by plan
-  std::vector<Touch> m_pairs;     // to be examined
-  std::vector<Touch> m_touching;  // at the end of the last tick, by order
+  std::vector<Mover> m_movers;    // bodies, by order; behind them the Objects of m_pairs
+  std::size_t m_bodies = 0;       // how many movers are bodies
+  std::vector<Pair> m_pairs;      // to be examined, by slots
+  std::vector<Touch> m_touching;  // at the end of the last tick, by slots
   std::vector<Touch> m_now;
-  std::vector<std::size_t> m_asking;  // movers, by number of their region
+  std::vector<std::uint32_t> m_by_slot;  // the bodies among the movers
+  std::vector<std::size_t> m_asking;     // movers, by number of their region
+  naiad::physics::ImpactTree m_soft;     // of SOFT bodies
+  std::vector<naiad::physics::SweptBox> m_boxes;
+  std::vector<int> m_ids;
   BodySurroundings m_surroundings;
+  std::int64_t m_examined = 0;
 };
 
 }  // namespace df
