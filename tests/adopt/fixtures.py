@@ -156,9 +156,9 @@ OWN_ENGINE = {
     **{f"engine/{name}.cpp": f'#include "{name}.h"\nvoid df::{name}::startTheParty(int) {{}}\n'
        for name in ("GameManager", "WorldManager", "LogManager", "DisplayManager", "Object")}}
 
-# The Makefile is older than the game: it does not list what is needed.
+# The Makefile is older than the game: it does not list what is needed, and lists what is no longer used.
 STALE_LIST = {"game.cpp": MAIN, "Hero.h": HERO_H, "Hero.cpp": HERO, "sprites/hero-spr.txt": SPRITE,
-              "Makefile": "game: game.cpp\n\tg++ game.cpp -o game\n"}
+              "Old.cpp": '#include "Forgotten.h"\nForgotten forgotten;\n', "Makefile": "game: game.cpp\n\tg++ game.cpp Old.cpp -o game\n"}
 
 # Only MSVC takes it, and there is no treatment of its own.
 PERMISSIVE = {"game.cpp": ALONE + "int count(int n = 1);\nint count(int n = 1) { return n; }\n"

@@ -22,6 +22,7 @@ class Building:
         self._treatments = Treatments(game.sources, self.compiler, game.naiad)
         self.units = [Unit(name) for name in game.program.sources]
         self.said = None  # by the linker, if it failed
+        self._given_up = set()  # sources that do not compile
 
     @property
     def changes(self):
@@ -35,8 +36,11 @@ class Building:
         """Returns whether there is a program."""
         self._compile(self.units)
         self._link()
-        if self._game.program.source_list is None:
+        if self.broken:
             self._leave_out_what_nothing_needs()
+        for unit in self.units:
+            if unit.name not in self._game.program.sources:
+                self._game.report.add("treated", unit.name, "is taken, too: it defines what the listed sources use")
         self._game.sources.flush()
         return not self.broken and self.said is None
 
@@ -83,13 +87,11 @@ class Building:
                 return
             units = [Unit(name) for name in more]
             self.units += units
-            for name in more:
-                self._game.report.add("treated", name, "is taken, too: it defines what the listed sources use")
             self._compile(units)
 
     def _definers(self, symbols):
         """Sources outside of the program that define these symbols."""
-        taken = {unit.name for unit in self.units}
+        taken = {unit.name for unit in self.units} | self._given_up
         code = {name: self._game.sources.code(name) for name in self._game.all_sources if name not in taken}
         others = [name for name, text in code.items() if not re.search(r"\bmain\s*\(", text)]
         found = []
@@ -99,14 +101,19 @@ class Building:
         return found
 
     def _leave_out_what_nothing_needs(self):
-        """Without a list, a source that does not compile may be one that is no longer used."""
-        good, bad = [unit for unit in self.units if unit.object], self.broken
-        if not bad or self.units[0] in bad or self.compiler.link(good, self._game.program_path) is not None:
+        """A source that does not compile may be one that is no longer used; lists name such, too."""
+        bad, all_units = self.broken, self.units
+        if self.units[0] in bad:
+            return
+        self._given_up = {unit.name for unit in bad}
+        self.units = [unit for unit in all_units if unit not in bad]
+        self._link()
+        if self.broken or self.said is not None:
+            self.units, self.said = all_units, None
             return
         for unit in bad:
             first = f"{unit.errors[0].file}:{unit.errors[0].line}: {unit.errors[0].text}" if unit.errors else "it takes too long"
             self._game.report.add("left out", unit.name, f"it does not compile, and nothing needs it ({first})")
-        self.units = good
 
     def build_examined(self, program):
         """Builds it again with an address sanitizer. Returns whether that went well."""

@@ -26,10 +26,11 @@ MAX_PROGRAMS = 24  # that are looked at; a folder has rarely more than three
 
 
 class SourceList:
-    """What one file lists: `sources` that are there, `missing` that are not, `unread` what would have had to be run."""
+    """What one file lists: `sources` that are there, `missing` that are not, `unread` what would have had to be run. It is
+    `exact` if it names each of them; a pattern takes also what is no longer used."""
 
-    def __init__(self, file, sources, missing, unread=()):
-        self.file, self.sources, self.missing, self.unread = file, sources, missing, list(unread)
+    def __init__(self, file, sources, missing, unread=(), exact=True):
+        self.file, self.sources, self.missing, self.unread, self.exact = file, sources, missing, list(unread), exact
 
 
 class Program:
@@ -59,14 +60,14 @@ def read_lists(root, files, sources):
         deep = "GLOB_RECURSE" in text and os.path.basename(name).lower().startswith("cmakelists")
         found, missing, patterns = {}, [], 0
         for word in words[:MAX_WORDS]:
-            patterns += "*" in word
+            patterns += _is_pattern(word)
             here = known.meant(os.path.dirname(name), word, deep) if len(word) <= MAX_WORD and patterns <= MAX_PATTERNS else None
             if here is None:
                 missing.append(word)
             else:
                 found.update(dict.fromkeys(here))
         if found or missing:
-            lists.append(SourceList(name, list(found), missing, unread))
+            lists.append(SourceList(name, list(found), missing, unread, exact=patterns == 0))
     return lists
 
 
@@ -74,8 +75,7 @@ def _words(name, text):
     """The sources that a project file names, and its calls of other programs."""
     base = os.path.basename(name).lower()
     if base.endswith((".vcxproj", ".vcproj")):
-        words = re.findall(r"<(?:ClCompile|File)\s[^<>]*?(?:Include|RelativePath)\s*=\s*\"([^\"]*)\"", text)
-        return _only_sources(html.unescape(word) for word in words), []
+        return _only_sources(html.unescape(word) for word in _visual_studio(text)), []
     if base.endswith(".cbp"):
         return _only_sources(html.unescape(word) for word in re.findall(r"<Unit\s+filename=\"([^\"]*)\"", text)), []
     if base == "project.pbxproj":
@@ -86,6 +86,18 @@ def _words(name, text):
     # Rules that look at sources for other ends than to build the program.
     text = re.sub(r"(?m)^\t.*(?:makedepend|-MM|\brm\b|\btar\b|\bzip\b|clang-format).*$", "", text)
     return _expanded(_with_variables(text)), unread
+
+
+def _visual_studio(text):
+    """What Visual Studio compiles: items that are not excluded from the build."""
+    for item in re.split(r"<(?:ClCompile|File)(?=\s)", text)[1:]:
+        tag, _, inner = item.partition(">")
+        path = re.search(r"(?:Include|RelativePath)\s*=\s*\"([^\"]*)\"", tag)
+        if tag.endswith("/"):
+            inner = ""
+        inner = re.split(r"</(?:ClCompile|File)>", inner, maxsplit=1)[0]
+        if path and not re.search(r"<ExcludedFromBuild[^<>]{0,300}>\s*true|\bExcludedFromBuild\s*=\s*\"true", inner, re.I):
+            yield path.group(1)
 
 
 def _with_variables(text):
@@ -112,6 +124,10 @@ def _only_sources(words):
     return list(dict.fromkeys(word for word in words if is_source(word) and "%" not in word and "$" not in word))
 
 
+def _is_pattern(word):
+    return "*" in word and not word.startswith("**/")  # that stands for any folder of Xcode's
+
+
 class _Known:
     """The sources that there are, to be found by what a list calls them."""
 
@@ -124,7 +140,7 @@ class _Known:
         """The sources that a word of a project file in `folder` means; None if there is none. deep: patterns go into folders."""
         word = word.replace("\\", "/")
         path = os.path.normpath(os.path.join(folder, word)).lower()
-        if "*" in path and not word.startswith("**/"):
+        if _is_pattern(word):
             pattern = re.sub(r"\*+", "*", path).replace("[", "[[]")
             return [name for lower, name in self._by_lower.items() if _fits(lower, pattern, deep)] or None
         if path in self._by_lower:
@@ -168,7 +184,7 @@ def _program(main, all_mains, sources, lists):
     others = set(all_mains) - {main}
     fitting = [one for one in lists if main in one.sources]
     if fitting:
-        best = max(fitting, key=lambda one: (len(set(one.sources) - others), -len(one.missing), -one.file.count("/")))
+        best = max(fitting, key=lambda one: (one.exact, len(set(one.sources) - others) - len(one.missing), -one.file.count("/")))
         taken = [name for name in best.sources if name not in others]
         listed = set(best.sources)
         left_out = [(name, f"not listed in {best.file}") for name in sources if name not in listed and name not in others]
