@@ -3,7 +3,8 @@
 //
 // layer=motion, motion_hard: nothing but motion, here and in a build that has no layers (-DNAIAD_LAYERS=OFF).
 // The others: the everyday workload of HARD boxes, in which one Object far from all others uses the layer or
-// does not; bytes_extra and allocations_per_tick are of a world in which all use it.
+// does not; bytes_extra and allocations_per_tick are of a world in which all use it. layer=sprite, wall: one
+// such Object, or sixteen scattered (who=sixteen), larger than a character.
 #include <sys/wait.h>
 
 #include <array>
@@ -19,8 +20,6 @@
 namespace bench {
 
 namespace {
-
-constexpr double kObjects = 10'000;
 
 std::filesystem::path besideThis(const std::string& name) {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
@@ -59,6 +58,7 @@ struct Setting {
   std::string scene;
   std::string layer = "none";
   std::string who = "one";
+  double objects = 10'000;
 
   std::string command(int ticks) const {
     return "'" + program.string() + "' " + scene + " " + layer + " " + who + " " + std::to_string(ticks);
@@ -73,7 +73,7 @@ double instructions(const Setting& setting, int ticks) {
 
 // Building the scene costs the same in a run that is twice as long.
 double instructionsPerObject(const Setting& setting, int ticks) {
-  return (instructions(setting, 2 * ticks) - instructions(setting, ticks)) / ticks / kObjects;
+  return (instructions(setting, 2 * ticks) - instructions(setting, ticks)) / ticks / setting.objects;
 }
 
 struct Heap {
@@ -97,7 +97,7 @@ void report(const std::string& layer, const Setting& with, const Setting& withou
       .add("instructions_extra_percent", 100 * (instructions / without_instructions - 1))
       .add("bytes_extra", heap.bytes_per_object - heapOf(without, ticks).bytes_per_object)
       .add("allocations_per_tick", heap.allocations_per_tick)
-      .add("n", static_cast<long long>(kObjects))
+      .add("n", static_cast<long long>(with.objects))
       .add("scene", with.scene)
       .add("instructions_per_object", instructions)
       .add("bytes_per_object", heap.bytes_per_object);
@@ -117,6 +117,25 @@ void run(const Options& options) {
   for (const std::string layer : {"swept", "precise", "masks", "rest_contacts", "may_move_out"}) {
     progress("layers: " + layer);
     report(layer, {fullProgram(), "hard", layer}, without, instructions, ticks);
+  }
+  for (const auto& [scene, objects] : {std::pair{"hard_1000", 1'000.0}, {"hard_4000", 4'000.0}}) {
+    for (const std::string who : {"one", "sixteen"}) {
+      const Setting characters{fullProgram(), scene, "none", who, objects};
+      const double alone = instructionsPerObject(characters, 5 * ticks);
+      for (const std::string layer : {"sprite", "wall"}) {
+        progress("layers: " + layer + ", " + who + ", " + scene);
+        Setting with = characters;
+        with.layer = layer;
+        const double beside = instructionsPerObject(with, 5 * ticks);
+        Line("layers")
+            .add("layer", layer)
+            .add("who", who)
+            .add("instructions_extra_percent", 100 * (beside / alone - 1))
+            .add("n", static_cast<long long>(objects))
+            .add("scene", std::string(scene))
+            .add("instructions_per_object", beside);
+      }
+    }
   }
 }
 

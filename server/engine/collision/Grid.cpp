@@ -4,6 +4,8 @@
 #include <cassert>
 #include <limits>
 
+#include "engine/collision/GridShade.h"
+
 namespace df {
 
 namespace {
@@ -33,6 +35,8 @@ Grid::Grid(const std::vector<FixedVector>& positions, const std::vector<FixedBox
   }
 }
 
+Grid::~Grid() = default;
+
 FixedVector Grid::largest(int level) {
   if (level == 0) return kCharacterBox.size;
   return {Fixed{1} << (kFixedBits + kFirstWidthBits + 2 * (level - 1)),
@@ -47,6 +51,10 @@ int Grid::levelOf(const FixedBox& box) const {
 }
 
 void Grid::count(const Record& record, int by) {
+  if (record.level > 0) {
+    m_boxes_beside += by;
+    if (record.large) m_large_boxes += by;
+  }
   if (record.character) {
     m_characters += by;
   } else if (record.level == 1) {
@@ -65,6 +73,31 @@ void Grid::weigh() {
   }
 }
 
+// Are the boxes beside the characters so few that it pays to know where they are?
+void Grid::weighShade() {
+  const bool is_needed = m_boxes_beside > 0 && m_levels[0].count > 0;
+  if (!is_needed) return m_p_shade.reset();
+  const bool was_exact = m_p_shade != nullptr && m_p_shade->isExact();
+  const int per_box = was_exact ? Shade::kCharactersPerBox : 2 * Shade::kCharactersPerBox;
+  const bool is_exact = m_large_boxes == 0 && std::int64_t{m_boxes_beside} * per_box <= m_levels[0].count;
+  if (m_p_shade == nullptr || is_exact != was_exact) remakeShade(is_exact);
+}
+
+void Grid::remakeShade(bool is_exact) {
+  m_p_shade = std::make_unique<Shade>(m_levels[0], is_exact);
+  for (Slot s = 0; is_exact && s < m_records.size(); ++s) {
+    if (m_records[s].level > 0) shade(s);
+  }
+}
+
+bool Grid::hasExactShade() const {
+  return m_p_shade != nullptr && m_p_shade->isExact();
+}
+
+void Grid::shade(Slot slot) {
+  m_p_shade->file(m_levels[0], slot, worldBox(slot));
+}
+
 int Grid::size() const {
   int sum = 0;
   for (const Level& level : m_levels) sum += level.count;
@@ -72,7 +105,7 @@ int Grid::size() const {
 }
 
 std::size_t Grid::bytes() const {
-  std::size_t sum = m_records.capacity() * sizeof(Record);
+  std::size_t sum = m_records.capacity() * sizeof(Record) + (m_p_shade != nullptr ? m_p_shade->bytes() : 0);
   for (const Level& level : m_levels) {
     const std::size_t cell = sizeof(Slot) + (level.spots != nullptr ? sizeof(Spot) : 0);
     sum += level.words.capacity() * (sizeof(std::uint64_t) + 64 * cell);
@@ -84,23 +117,27 @@ void Grid::file(Slot slot) {
   if (slot >= m_records.size()) m_records.resize(std::max<std::size_t>(slot + 1, m_records.size() * 2));
   fileAt(slot, levelOf(m_boxes[slot]));
   weigh();
+  weighShade();
 }
 
 void Grid::remove(Slot slot) {
   if (!contains(slot)) return;
   drop(slot);
   weigh();
+  weighShade();
 }
 
 void Grid::fileAt(Slot slot, int number) {
   Level& level = m_levels[static_cast<std::size_t>(number)];
   Record& record = m_records[slot];
   const bool character = m_boxes[slot] == kCharacterBox;
+  const bool large = number > 0 && Shade::isTooLarge(m_boxes[slot]);
   if (record.level == number) {
     count(record, -1);
     record.character = character;
+    record.large = large;
     count(record, 1);
-    return refile(slot, level);
+    return large ? refile(slot, level) : refile(slot);
   }
   drop(slot);
   if (static_cast<std::size_t>(level.count) >= level.words.size() * kBoxesPerWord) {
@@ -110,8 +147,10 @@ void Grid::fileAt(Slot slot, int number) {
   m_occupied |= 1u << number;
   record.level = static_cast<std::int16_t>(number);
   record.character = character;
+  record.large = large;
   count(record, 1);
   link(slot, level, level.cellOf(anchor(slot, number)));
+  if (hasExactShade() && number > 0 && !large) shade(slot);
 }
 
 void Grid::drop(Slot slot) {
@@ -119,6 +158,7 @@ void Grid::drop(Slot slot) {
   const int number = m_records[slot].level;
   Level& level = m_levels[static_cast<std::size_t>(number)];
   unlink(slot, level);
+  if (hasExactShade() && number > 0) m_p_shade->remove(m_levels[0], slot);
   count(m_records[slot], -1);
   m_records[slot].level = -1;
   if (--level.count == 0) m_occupied &= ~(1u << number);
@@ -176,6 +216,7 @@ void Grid::rebuild(int number, std::size_t word_count) {
   for (Slot s = 0; s < m_records.size(); ++s) {
     if (m_records[s].level == number) link(s, level, level.cellOf(anchor(s, number)));
   }
+  if (number == 0 && m_p_shade != nullptr) remakeShade(m_p_shade->isExact());
 }
 
 void Grid::touching(const FixedBox& box, Slot self, std::vector<Slot>& out) const {

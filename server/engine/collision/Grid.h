@@ -16,6 +16,9 @@
 // wherever these are: 32 to 64 cells for each. Only what is occupied is touched. Nothing is allocated when
 // something moves.
 //
+// A character that moves looks at the other levels only where a bit per cell of level 0 says that a box of
+// them may be (GridShade.h). The bits are kept while such boxes are few and small among many characters.
+//
 // The grid reads positions and boxes from the store's arrays; a slot is filed under what they say when
 // file() or refile() is called.
 #pragma once
@@ -48,11 +51,15 @@ class Grid {
 
   /// Both must outlive the grid; slots index them.
   Grid(const std::vector<FixedVector>& positions, const std::vector<FixedBox>& boxes);
+  ~Grid();
 
   /// File `slot` under its position and box, wherever it was filed before.
   void file(Slot slot);
   /// Its position has changed, and nothing else: file it again. It must be filed.
-  void refile(Slot slot) { refile(slot, m_levels[static_cast<std::size_t>(m_records[slot].level)]); }
+  void refile(Slot slot) {
+    refile(slot, m_levels[static_cast<std::size_t>(m_records[slot].level)]);
+    if (m_p_shade != nullptr && m_records[slot].level > 0 && hasExactShade()) shade(slot);
+  }
   /// Forget `slot`, if it was filed.
   void remove(Slot slot);
   bool contains(Slot slot) const { return slot < m_records.size() && m_records[slot].level >= 0; }
@@ -76,6 +83,7 @@ class Grid {
   static FixedVector largest(int level);
 
  private:
+  class Shade;
   static constexpr Slot kNone = 0x7FFFFFFF;
   static constexpr Slot kMore = 0x80000000;      // in a cell's first slot: others follow
   static constexpr Spot kSeveral = 0x8000;       // in a cell's spot: it has several slots, anywhere
@@ -90,6 +98,7 @@ class Grid {
     Slot previous = kNone;
     std::int16_t level = -1;  // not filed
     bool character = false;
+    bool large = false;  // too large to be shaded
   };
 
   struct Level {
@@ -121,6 +130,10 @@ class Grid {
   void count(const Record& record, int by);
   void drop(Slot slot);
   void weigh();
+  void weighShade();
+  void remakeShade(bool is_exact);
+  bool hasExactShade() const;
+  void shade(Slot slot);
   void fileAt(Slot slot, int number);
   void refile(Slot slot, Level& level);
   void link(Slot slot, Level& level, std::uint32_t cell);
@@ -138,8 +151,11 @@ class Grid {
   std::vector<Record> m_records;
   std::uint32_t m_occupied = 0;
   int m_characters = 0;
-  int m_small_boxes = 0;           // of level 1, without characters
-  bool m_characters_apart = true;  // in level 0; else they are in level 1
+  int m_small_boxes = 0;             // of level 1, without characters
+  bool m_characters_apart = true;    // in level 0; else they are in level 1
+  int m_boxes_beside = 0;            // of all levels but 0
+  int m_large_boxes = 0;             // of these, too large to be shaded
+  std::unique_ptr<Shade> m_p_shade;  // null: nothing is filed beside characters, or no characters
   MoverStats m_mover_stats;
   std::vector<Slot> m_found;  // of Steps, when they are many
 };

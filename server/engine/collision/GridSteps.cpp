@@ -11,7 +11,11 @@ bool Grid::Steps::lookAround(Slot s, FixedVector where) {
   m_grid.visitCorners(0, corner - one, corner + one, [&](Slot t) {
     if (t != s && touches(t, where - one)) found(t);
   });
-  if (m_others != 0) lookAtOthers(s, where);
+  if (m_others != 0) {
+    const std::int64_t x = where.x >> kFixedBits;
+    const std::uint32_t word = m_level.wordOf(x, where.y >> kFixedBits);
+    if (mayTouchOthers(word, static_cast<std::uint32_t>(x))) lookAtOthers(s, where);
+  }
   return m_count == 0;
 }
 

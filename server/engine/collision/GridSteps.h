@@ -14,6 +14,7 @@
 #endif
 
 #include "engine/collision/Grid.h"
+#include "engine/collision/GridShade.h"
 #include "shared/values/Fixed.h"
 
 namespace df {
@@ -44,6 +45,10 @@ class Grid::Steps {
   bool gather(Slot s, FixedVector where, unsigned near);
   bool isBoxFree(Slot s, const Record& own, FixedVector where);
   bool lookAround(Slot s, FixedVector where);
+  /// May a character in this cell of level 0, which is in that word, touch boxes of other levels?
+  bool mayTouchOthers(std::uint32_t word, std::uint32_t cell) const {
+    return m_others != 0 && (m_p_shade[word] >> (cell & 63) & 1) != 0;
+  }
   void lookAtOthers(Slot s, FixedVector where);
   void visit(int level, Slot s, const FixedBox& box);
   void test(Slot t, Slot self, FixedVector low, FixedVector high);
@@ -62,6 +67,7 @@ class Grid::Steps {
   std::uint32_t m_word_mask;
   std::uint32_t m_cell_mask;
   std::uint32_t m_others;
+  const std::uint64_t* m_p_shade;  // null if there are no others
   std::uint64_t m_nine_cells = 0;
   // Of the last isFree().
   std::uint32_t m_cell = 0;
@@ -142,7 +148,8 @@ inline Grid::Steps::Steps(Grid& grid)
       m_p_spots(m_level.spots.get()),
       m_word_mask(m_level.word_mask),
       m_cell_mask(m_level.word_mask << 6 | 63),
-      m_others(grid.m_occupied & ~1u) {}
+      m_others(grid.m_occupied & ~1u),
+      m_p_shade(grid.m_p_shade != nullptr ? grid.m_p_shade->words() : nullptr) {}
 
 // A character touches another if the positions are at most one apart on both axes: nine cells. In the inner
 // part of the block it comes from, their numbers follow from its own.
@@ -185,7 +192,7 @@ inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
       return lookAround(s, where);
     }
   }
-  if (m_others != 0) lookAtOthers(s, where);
+  if (mayTouchOthers(m_cell >> 6, m_cell)) lookAtOthers(s, where);
   if (m_count == 0) return true;
   putBack(own);
   return false;

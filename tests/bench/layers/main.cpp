@@ -1,10 +1,11 @@
 // naiad_layers: runs a scene whose Objects use a layer of the engine, or do not; the suite `layers` runs it,
 // alone and in valgrind, and counts.
 //
-//     naiad_layers SCENE LAYER one|all TICKS
+//     naiad_layers SCENE LAYER one|sixteen|all TICKS
 //
-// In a scene of 10,000 there is one Object more, far from all others, under way. It alone uses the layer, or
-// all do. Nobody comes to a border. Prints `allocations_per_tick=… bytes_per_object=…`.
+// In a scene there is one Object more, far from all others, under way, or sixteen more that stand scattered
+// among them. These alone use the layer, or all do. Nobody comes to a border. Prints `allocations_per_tick=…
+// bytes_per_object=…`.
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -21,7 +22,7 @@ namespace bench {
 
 namespace {
 
-constexpr int kObjects = 10'000;
+constexpr int kScattered = 16;
 constexpr int kWarmUpTicks = 8;
 
 using Use = void (*)(df::Object&);
@@ -53,32 +54,53 @@ const std::map<std::string, Use> kLayers = {
        o.setMask({"  ########  ", " ##  ##  ## ", "############", "##   ##   ##"});
        o.setPrecise();
      }},
+    {"sprite", [](df::Object& o) { o.setBox(df::Box(df::Vector(-2.5, -1.5), 5, 3)); }},
+    {"wall", [](df::Object& o) { o.setBox(df::Box(df::Vector(-250, -0.5), 500, 1)); }},
     {"rest_contacts", [](df::Object& o) { o.setRestContacts(); }},
     {"may_move_out", [](df::Object& o) { o.setMayMoveOut(); }},
 };
 
 const std::map<std::string, Scene (*)()> kScenes = {
-    {"moving", [] { return Scene(Mix::MOVING, kObjects, 0.1); }},
-    {"moving_hard", [] { return Scene(Mix::MOVING_HARD, kObjects, 0.0001); }},
-    {"hard", [] { return Scene(Mix::HARD_ONLY, kObjects, 0.1); }},
+    {"moving", [] { return Scene(Mix::MOVING, 10'000, 0.1); }},
+    {"moving_hard", [] { return Scene(Mix::MOVING_HARD, 10'000, 0.0001); }},
+    {"hard", [] { return Scene(Mix::HARD_ONLY, 10'000, 0.1); }},
+    {"hard_1000", [] { return Scene(Mix::HARD_ONLY, 1'000, 0.1); }},
+    {"hard_4000", [] { return Scene(Mix::HARD_ONLY, 4'000, 0.1); }},
 };
 
-void run(const Scene& scene, Use use, bool all, int ticks) {
+// Sixteen that stand, one in the middle of each sixteenth of the scene.
+void scatter(const Scene& scene, Use use) {
+  Body body = scene.bodies.front();
+  body.vx = body.vy = 0;
+  for (int i = 0; i < kScattered; ++i) {
+    body.x = scene.side * (i % 4 + 0.5) / 4;
+    body.y = scene.side * (i / 4 + 0.5) / 4;
+    use(*new Walker(body));
+  }
+}
+
+void run(const Scene& scene, Use use, const std::string& who, int ticks) {
+  const int objects = scene.count();
+
   const long bytes = heapBytes();
   df::World world;
   const df::World::Scope scope(world);
   WM.setBoundary(df::Box(df::Vector(-1e5, -1e5), 5e5, 5e5));
   for (const Body& body : scene.bodies) {
     auto* p_walker = new Walker(body);
-    if (all) use(*p_walker);
+    if (who == "all") use(*p_walker);
   }
-  Body far = scene.bodies.front();
-  far.x = far.y = -1000;
-  far.vx = far.vy = -0.25;
-  use(*new Walker(far));
+  if (who == "sixteen") {
+    scatter(scene, use);
+  } else {
+    Body far = scene.bodies.front();
+    far.x = far.y = -1000;
+    far.vx = far.vy = -0.25;
+    use(*new Walker(far));
+  }
 
   for (int i = 0; i < kWarmUpTicks; ++i) WM.update();
-  const long bytes_per_object = (heapBytes() - bytes) / kObjects;
+  const long bytes_per_object = (heapBytes() - bytes) / objects;
   const long allocations = heapAllocations();
   for (int i = 0; i < ticks; ++i) WM.update();
   const double per_tick = static_cast<double>(heapAllocations() - allocations) / ticks;
@@ -93,10 +115,10 @@ void run(const Scene& scene, Use use, bool all, int ticks) {
 int main(int argc, char** argv) {
   const int ticks = argc == 5 ? std::atoi(argv[4]) : 0;
   if (ticks < 1 || !bench::kScenes.contains(argv[1]) || !bench::kLayers.contains(argv[2])) {
-    std::fputs("usage: naiad_layers SCENE LAYER one|all TICKS\n", stderr);
+    std::fputs("usage: naiad_layers SCENE LAYER one|sixteen|all TICKS\n", stderr);
     return 2;
   }
   const bench::Scene scene = bench::kScenes.at(argv[1])();
-  bench::run(scene, bench::kLayers.at(argv[2]), std::string(argv[3]) == "all", ticks);
+  bench::run(scene, bench::kLayers.at(argv[2]), argv[3], ticks);
   return 0;
 }
