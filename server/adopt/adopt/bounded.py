@@ -24,10 +24,11 @@ def phase(what, seconds):
 
 
 class Result:
-    """What became of a command: its exit code (negative: the signal), what it printed, whether the deadline ended it."""
+    """What became of a command: its exit code (negative: the signal), what it printed and whether that was `cut`, whether the
+    deadline ended it."""
 
-    def __init__(self, code, output, timed_out):
-        self.code, self.output, self.timed_out = code, output, timed_out
+    def __init__(self, code, output, timed_out, cut=False):
+        self.code, self.output, self.timed_out, self.cut = code, output, timed_out, cut
 
 
 def limit_self():
@@ -70,7 +71,7 @@ def run(argv, cwd=None, env=None, timeout=120.0):
         end_group(process.pid)
         process.wait()
         process.stdout.close()
-    return Result(process.returncode, kept.decode("utf-8", "replace"), timed_out)
+    return Result(process.returncode, kept.decode("utf-8", "replace"), timed_out, len(kept) >= MAX_OUTPUT)
 
 
 def end_group(group):

@@ -51,6 +51,16 @@ def parse(output):
     return found
 
 
+def _is_clang(program):
+    """Not by where a link leads: /usr/lib/ccache/clang++ is ccache, and c++ may be either."""
+    if "clang" in os.path.basename(program):
+        return True
+    try:
+        return "clang" in run([program, "--version"], env={**os.environ, "LC_ALL": "C"}, timeout=20).output.lower()
+    except OSError:
+        return False
+
+
 class Unit:
     """One source of the program: how it is compiled, and what came of it."""
 
@@ -77,7 +87,7 @@ class Compiler:
         self.program, self.root, self.objects, self.naiad, self.folders = program, root, objects, naiad, folders
         self.seconds, self.deadline = seconds, time.monotonic() + total_seconds
         self.definitions, self.extra = [], []
-        self.is_gcc = "clang" not in os.path.basename(os.path.realpath(shutil.which(program) or program))
+        self.is_gcc = not _is_clang(program)
         self._launcher = [found] if (found := shutil.which("ccache")) else []
         # Paths are relative to the copy, so that the same folder is found in ccache wherever its copy lies.
         self._environment = {**os.environ, "LC_ALL": "C", "CCACHE_BASEDIR": root, "CCACHE_NOHASHDIR": "1"}
@@ -107,9 +117,9 @@ class Compiler:
     def _object(self, unit):
         return os.path.join(self.objects, re.sub(r"\W", "_", unit.name)[-80:] + f"_{zlib.crc32(os.fsencode(unit.name)):08x}.o")
 
-    def _command(self, unit):
+    def _command(self, unit, max_errors=30):
         command = [self.program, "-std=" + unit.standard, "-g1", "-O0", "-fPIC"]
-        command.append("-fmax-errors=30" if self.is_gcc else "-ferror-limit=30")
+        command.append(("-fmax-errors=" if self.is_gcc else "-ferror-limit=") + str(max_errors))
         if self.is_gcc:
             command += ["-fdiagnostics-column-unit=byte", "-fno-diagnostics-show-caret", "-fdiagnostics-color=never"]
         else:
@@ -132,11 +142,18 @@ class Compiler:
         return None if result.code == 0 and not result.timed_out else result.output
 
     def check_with(self, unit, include):
-        """The errors of a unit against another engine's headers."""
+        """The diagnostics of a unit against another engine's headers; None if the compiler did not come to the end of it, or
+        those headers do not compile themselves, for then a line without an error says nothing."""
         forced, unit.forced = unit.forced, []  # ours
-        command = [word for word in self._command(unit) if word != "-c"]
+        command = [word for word in self._command(unit, max_errors=0) if word != "-c"]
         unit.forced = forced
         at = command.index("-I")
         command = command[:at] + ["-I", include] + command[at:] + ["-fsyntax-only"]
         left = self.deadline - time.monotonic()
-        return parse(run(command, self.root, self._environment, min(self.seconds, left)).output) if left > 0 else None
+        if left <= 0:
+            return None
+        result = run(command, self.root, self._environment, min(self.seconds, left))
+        found = parse(result.output)
+        errors = [one for one in found if one.is_error]
+        complete = not result.timed_out and not result.cut and result.code == (1 if errors else 0)
+        return found if complete and not any(one.file.startswith(include) for one in errors) else None
