@@ -34,13 +34,15 @@ def run_folder(files, sources, program):
 
 
 def missing_files(files, sources, names, folder):
-    """[(file, line, path)] of what is loaded by a name in the source and lies nowhere that Naiad looks."""
+    """[(file, line, path)] of what code, and no comment, loads by a name and lies nowhere that Naiad looks."""
     there = {name.lower() for name in files}
     missing = []
     for name in names:
+        code = sources.code(name).split("\n")
         for number, line in enumerate(sources.text(name).split("\n"), 1):
-            begin = line.find("//")
-            for match in _LOADED.finditer(line if begin < 0 else line[:begin]):
+            for match in _LOADED.finditer(line):
+                if code[number - 1][match.start()] == " ":
+                    continue
                 path = _plain(match.group(1))
                 places = [os.path.normpath(os.path.join(place, path)) for place in (folder.lower(), "")]
                 if not any(place in there for place in places):

@@ -6,9 +6,34 @@ import re
 _NOT_CODE = re.compile(r'//[^\n]*|/\*.*?(?:\*/|\Z)|"(?:\\.|[^"\\\n])*"?|\'(?:\\.|[^\'\\\n])*\'?', re.S)
 
 
+_DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(if|ifdef|ifndef|elif|else|endif)\b(.*)$", re.M)
+_NEVER = re.compile(r"[ \t(]*(?:0|false)[ \t\r)]*$")
+
+
 def code_only(text):
-    """The text with comments and strings blanked out; lines and columns stay."""
-    return _NOT_CODE.sub(lambda match: re.sub(r"[^\n]", " ", match.group()), text)
+    """The text with comments, strings and what stands behind #if 0 blanked out; lines and columns stay."""
+    return _without_dead(_NOT_CODE.sub(lambda match: _blank(match.group()), text))
+
+
+def _blank(text):
+    return re.sub(r"[^\n]", " ", text)
+
+
+def _without_dead(code):
+    parts, begin = [], 0  # begin: of what is not yet in parts
+    open_ifs, dead = 0, None  # dead: how many #if were open where the dead part began, and its begin
+    for found in _DIRECTIVE.finditer(code):
+        word = found.group(1)
+        if dead and word in ("else", "elif", "endif") and open_ifs == dead[0]:
+            parts += [code[begin:dead[1]], _blank(code[dead[1]:found.start()])]
+            begin, dead = found.start(), None
+        if word in ("if", "elif") and not dead and _NEVER.match(found.group(2)):
+            dead = open_ifs + (word == "if"), found.end()
+        open_ifs += {"if": 1, "ifdef": 1, "ifndef": 1, "endif": -1}.get(word, 0)
+    if dead:
+        parts += [code[begin:dead[1]], _blank(code[dead[1]:])]
+        begin = len(code)
+    return "".join(parts) + code[begin:]
 
 
 def shown(text, most=160):
