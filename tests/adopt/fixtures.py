@@ -58,7 +58,7 @@ def engine_header(name):
 # Written with Visual Studio on Windows, with the engine beside it, packed on a Mac.
 WINDOWS = {
     "src/game.cpp": MAIN.replace('"Hero.h"', '"..\\Things\\hero.H"').replace('"WorldManager.h"', '"worldmanager.h"')
-    .replace("int main", "#include <Player.h>\nint main").replace("new Hero;", "new Hero; (new Player)->start();"),
+    .replace("int main(int argc, char *argv[])", "#include <Player.h>\nint _tmain(int argc, _TCHAR *argv[])").replace("new Hero;", "new Hero; (new Player)->start();"),
     "Things/Hero.h": """\ufeff#include "stdafx.h"
 #include "../dragonfly/include/EventKeyboard.h"
 #include "../dragonfly/include/Object.h"

@@ -23,8 +23,10 @@ _WINDOWS_NAMES = re.compile(r"^(\w+_s|__\w*(declspec|stdcall|int64)|_tmain|_T|TC
 _MAC_HEADERS = re.compile(r"(CoreFoundation|ApplicationServices|Cocoa|mach|mach-o|TargetConditionals|"
                           r"Carbon|AppKit|Foundation|CoreGraphics)\b")
 _NETWORK_HEADERS = re.compile(r'#\s*include\s*[<"](winsock2?|ws2tcpip|sys/socket|netinet/in|arpa/inet|netdb)\.h[>"]', re.I)
+_WINDOWS_MAIN = re.compile(r"\b(WINAPI|APIENTRY|w?WinMain)\b")
 NETWORK_SENTENCE = ("it brings a network of its own and needs none here: the whole game runs on the server, and every "
                     "dfclient that joins sees it and presses keys; EventKeyboard::getPlayer() says who pressed. Take out these files and what calls them")
+_MAIN_ADVICE = "programs begin in WinMain() on Windows alone: write int main()"
 
 
 def missing_name(text):
@@ -45,20 +47,24 @@ class Blame:
     """Judges errors of the compiler and the linker.
 
     with_engine(unit) compiles a unit against the engine's headers that came in the folder, and returns its diagnostics, or
-    None if there are none; `own_engine` says that these are of an engine of the author's own.
+    None if there are none; `own_engine` says that these are of an engine of the author's own. `main_code` is that of the
+    program's main file.
     """
 
-    def __init__(self, naiad, own_engine, engine_text, with_engine):
+    def __init__(self, naiad, own_engine, engine_text, with_engine, main_code=""):
+        self._windows_main = _WINDOWS_MAIN.search(main_code) is not None
         self._naiad, self._own, self._engine_text, self._with_engine = naiad, own_engine, engine_text, with_engine
         self._checked = {}
 
-    def error(self, unit, diagnostic):
-        """(whose fault it is, what to do about it) for an error of the compiler."""
+    def error(self, unit, diagnostic, line=""):
+        """(whose fault it is, what to do about it) for an error of the compiler in this line."""
         file, name = missing_file(diagnostic.text), missing_name(diagnostic.text)
         if file:
             return self._file(os.path.basename(file.replace("\\", "/")), file)
         if name and _WINDOWS_NAMES.match(name):
             return SYSTEM, f"{name} is Windows' or Microsoft's: {_instead(name)}"
+        if _WINDOWS_MAIN.search(line):
+            return SYSTEM, _MAIN_ADVICE
         if self._is_gone_with_engine(unit, diagnostic):
             if self._own:
                 return OTHER, (f"the engine in this folder has {name or 'it'}, the published one may not: write it with "
@@ -110,6 +116,8 @@ class Blame:
         parts = [part for part in re.split(r"::|\s", plain) if part]
         name = parts[-1] if parts else plain
         if plain.strip() in ("main", "WinMain"):
+            if self._windows_main:
+                return SYSTEM, _MAIN_ADVICE
             return THEIRS, "no file of the program has a main()"
         if "df" in parts[:1] or (len(parts) > 1 and self._naiad.header_of(parts[-2]) and not self._own):
             if self._own:

@@ -18,7 +18,8 @@ class Verdicts:
 
     def __init__(self, game, building):
         self._game, self._building, self._report = game, building, game.report
-        self._blame = Blame(game.naiad, game.engine.own, self._engine_text(), self._against_engine)
+        self._blame = Blame(game.naiad, game.engine.own, self._engine_text(), self._against_engine,
+                            game.sources.code(game.program.main) if game.program else "")
 
     def say(self, built):
         """The rows of a build that went well or did not."""
@@ -90,8 +91,9 @@ class Verdicts:
             if seen >= MAX_ERRORS:
                 self._report.add("note", unit.name, f"and {len(unit.errors) - seen} more errors")
                 return
-            whose, change = self._blame.error(unit, one)
-            self._report.add_left(place, whose, one.text, change, self._game.sources.line(one.file, one.line))
+            line = self._game.sources.line(one.file, one.line)
+            whose, change = self._blame.error(unit, one, line)
+            self._report.add_left(place, whose, one.text, change, line)
 
     def _say_link_errors(self, said):
         symbols = undefined(said)
