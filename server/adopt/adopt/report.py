@@ -19,7 +19,8 @@ class Row:
 
 
 class Report:
-    """Rows and a result: "runs", "builds" (but does not run), "does not build", "is no game"."""
+    """Rows and a result: "runs", "builds" (but does not run, or cannot be run here), "builds; it was not to run" (--seconds 0),
+    "does not build", "is no game"."""
 
     def __init__(self, folder):
         self.folder, self.rows, self.result, self.reason = folder, [], "is no game", ""
