@@ -96,16 +96,6 @@ int main() { GM.startUp(); (new Hero)->setPosition(df::Vector(5, 5)); GM.run(); 
 """).replace('#include "Object.h"', '#include "DisplayManager.h"\n#include "Object.h"').encode("utf-16-le"),
 }
 
-MIXED_DRAW = {
-    "game.cpp": ALONE + """struct Hero : df::Object { int draw() { return 0; } };
-struct Wall : df::Object {
-  void draw() {
-    if (!isActive()) return;
-  }
-};
-int main() { GM.startUp(); new Hero; new Wall; GM.run(); GM.shutDown(); return 0; }
-"""}
-
 MISSING_SPRITE = {
     "run it/game.cpp": ALONE.replace("Object.h", "ResourceManager.h") + """int main() {
   GM.startUp();
@@ -160,10 +150,6 @@ OWN_ENGINE = {
 STALE_LIST = {"game.cpp": MAIN, "Hero.h": HERO_H, "Hero.cpp": HERO, "sprites/hero-spr.txt": SPRITE,
               "Old.cpp": '#include "Forgotten.h"\nForgotten forgotten;\n', "Makefile": "game: game.cpp\n\tg++ game.cpp Old.cpp -o game\n"}
 
-# Only MSVC takes it, and there is no treatment of its own.
-PERMISSIVE = {"game.cpp": ALONE + "int count(int n = 1);\nint count(int n = 1) { return n; }\n"
-              "int main() { GM.startUp(); GM.run(); GM.shutDown(); return count() - 1; }\n"}
-
 # It tries what the sandbox forbids, and prints what of it was possible.
 PRISONER = {
     "game.cpp": ALONE + r"""#include <arpa/inet.h>
@@ -198,8 +184,8 @@ int main() {
 """}
 
 # Names without df::, headers that used to come along, a base that is private by mistake, enumerators of a scoped type, a name
-# that the game and the engine have, a setter of another type, main() of another type;
-# and a source that is no longer used.
+# that the game and the engine have, a setter of another type, main() of another type; draw() of an early engine beside one of
+# today's, and what only MSVC takes; and a source that is no longer used.
 NAMES = {
     "game.cpp": ALONE + """#include <math.h>
 class Contact { public: int touch() { return 1; } };
@@ -219,6 +205,15 @@ int Hero::eventHandler(const df::Event *p_e) {
   return 0;
 }
 df::Object *made() { return new Thing; }
+struct Crate : df::Object { int draw() { return 0; } };
+struct Wall : df::Object {
+  void draw() {
+    if (!isActive()) return;
+  }
+};
+int count(int n = 1);
+int count(int n = 1) { return n; }
+df::Object *built() { return new Wall; }
 """,
     "Hero.h": """#include "Object.h"
 #include "NetworkNode.h"

@@ -9,6 +9,9 @@ from .naiad import system_headers
 from .treatments import Treatments
 
 MAX_ROUNDS = 12  # of treating and compiling again
+# What is missing from the folder or the engine is so whatever the standard.
+_IN_EVERY_STANDARD = re.compile(r"No such file or directory|file not found|'(?:const )?(?:class |struct )?df::\w+' has no member named|"
+                                r"no member named '\w+' in 'df::\w+'")
 MAX_LINKS = 6  # of looking for sources that no list names
 
 
@@ -47,9 +50,21 @@ class Building:
         return not self.broken and self.said is None
 
     def _compile(self, pending):
-        """Compiles these, and treats them until nothing changes; then as older C++, then with -fpermissive."""
+        """Compiles these, and treats them until nothing changes; then with -fpermissive, then as older C++."""
+        self._treat(pending)
+        helped = self._retry("permissive", True,
+                             lambda unit: unit.errors and all("[-fpermissive]" in one.text for one in unit.errors))
+        for standard in STANDARDS[1:]:
+            helped += self._retry("standard", standard, lambda unit: any(one.line for one in unit.errors) and
+                                  not any(_IN_EVERY_STANDARD.search(one.text) for one in unit.errors))
+        if helped:  # g++ looks for missing returns only where there is no error
+            self._treat(self._treatments.treat(helped))
+
+    def _treat(self, pending):
         label = "compiling"
         for _ in range(MAX_ROUNDS):
+            if not pending:
+                break
             self._game.sources.flush()
             self.compiler.compile(pending, lambda done, count: self._say(f"{label} {done} of {count}"))
             label = "treating"
@@ -57,15 +72,9 @@ class Building:
             pending = self._treatments.treat(self.units)
             if undone:
                 pending = list(dict.fromkeys(pending + self.broken))
-            if not pending:
-                break
-        for standard in STANDARDS[1:]:
-            self._retry("standard", standard, lambda unit: any(one.line for one in unit.errors))
-        self._retry("permissive", True,
-                    lambda unit: unit.errors and all("[-fpermissive]" in one.text for one in unit.errors))
 
     def _retry(self, option, value, fits):
-        """Compiles what failed with another option, and keeps that where it helps."""
+        """Compiles what failed with another option, and keeps that where it helps. Returns these units."""
         before = {unit: (unit.diagnostics, getattr(unit, option)) for unit in self.broken if fits(unit)}
         for unit in before:
             setattr(unit, option, value)
@@ -74,8 +83,10 @@ class Building:
         for unit, (diagnostics, old) in before.items():
             if unit.object is None:
                 setattr(unit, option, old)
-            if unit.object is None or unit.permissive:
                 unit.diagnostics = diagnostics
+            elif option == "permissive":
+                unit.permitted = [one for one in diagnostics if one.is_error]
+        return [unit for unit in before if unit.object]
 
     def _link(self):
         """Links; sources that no list names and that define what is missing are taken."""

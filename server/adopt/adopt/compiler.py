@@ -67,6 +67,7 @@ class Unit:
     def __init__(self, name):
         self.name, self.standard, self.permissive = name, STANDARDS[0], False
         self.forced = []  # headers that are included before all else
+        self.permitted = []  # errors that are none with -fpermissive
         self.object, self.output, self.diagnostics, self.timed_out = None, "", [], False
 
     @property

@@ -72,7 +72,7 @@ class Verdicts:
                 standard = unit.standard.replace("gnu", "C")
                 self._report.add("treated", unit.name, f"compiled as {standard}: as C++20 it has other meanings")
             if unit.object and unit.permissive:
-                for one in unit.errors[:MAX_ERRORS]:
+                for one in unit.permitted[:MAX_ERRORS]:
                     self._report.add("treated", f"{one.file}:{one.line}", "compiled with -fpermissive, as only MSVC takes it: " +
                                      one.text.replace(" [-fpermissive]", ""), line=self._game.sources.line(one.file, one.line))
 
