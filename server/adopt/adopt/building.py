@@ -57,7 +57,7 @@ class Building:
         for standard in STANDARDS[1:]:
             helped += self._retry("standard", standard, lambda unit: any(one.line for one in unit.errors) and
                                   not any(_IN_EVERY_STANDARD.search(one.text) for one in unit.errors))
-        if helped:  # g++ looks for missing returns only where there is no error
+        if helped:  # the compiler may have stopped before it came to functions without a return
             self._treat(self._treatments.treat(helped))
 
     def _treat(self, pending):
