@@ -150,6 +150,24 @@ OWN_ENGINE = {
 STALE_LIST = {"game.cpp": MAIN, "Hero.h": HERO_H, "Hero.cpp": HERO, "sprites/hero-spr.txt": SPRITE,
               "Old.cpp": '#include "Forgotten.h"\nForgotten forgotten;\n', "Makefile": "game: game.cpp\n\tg++ game.cpp Old.cpp -o game\n"}
 
+# A folder in which somebody has worked for a term, without a list of what belongs to it.
+COPIES = {
+    "src/game.cpp": MAIN.replace('#include "Hero.h"', '#include "Hero.h"\n#include "Points.cpp"'), "src/Points.cpp": "int points() { return 3; }\n",
+    "src/include/Hero.h": HERO_H, "src/Hero.Cpp": HERO, **{f"src/Hero{suffix}.cpp": HERO for suffix in (" - Copy", " copy", " (1)", "_old")},
+    "old/Hero.h": "this is no C++ yet\n", "old/Hero.cpp": HERO,
+    "tests/HeroTest.cpp": '#include "../src/include/Hero.h"\nHero::Hero() {}\nint Hero::eventHandler(const df::Event *p_e) { return 7; }\n'}
+
+# Two programs beside each other; one only makes an Object.
+TWO_MAINS = {"Driver.cpp": '#include "hero.h"\nint main() { Hero hero; return 0; }\n', "main.cpp": MAIN, "hero.h": HERO_H, "hero.cpp": HERO,
+             "Again.cpp": '#include "GameManager.h"\nvoid again() { GM.run(); }\n'}
+
+# Visual Studio's folders, and what looks for leaks there.
+STUDIO = {
+    "Project 1/Game/Game.vcxproj": '<ClCompile Include="main.cpp" />\r\n<ClCompile Include="Source Files\\Hero.cpp" />',
+    "Project 1/Game/main.cpp": "#include <vld.h>\n#include <crtdbg.h>\n" + MAIN.replace("  GM.shutDown();", "  GM.shutDown();\n  _CrtDumpMemoryLeaks();"),
+    "Project 1/Game/Header Files/Hero.h": HERO_H.replace('"Object.h"', '"../../dragonfly/include/object.h"'),
+    "Project 1/Game/Source Files/Hero.cpp": HERO.replace("return 0;", 'return _stricmp("a", "A");')}
+
 # It tries what the sandbox forbids, and prints what of it was possible.
 PRISONER = {
     "game.cpp": ALONE + r"""#include <arpa/inet.h>

@@ -2,7 +2,7 @@
 import os
 import re
 
-from . import console
+from . import microsoft
 from .compiler import STANDARDS, Compiler, Unit
 from .includes import Includes, header_folders
 from .naiad import system_headers
@@ -22,7 +22,7 @@ class Building:
         self._game, self._say = game, say
         folders = header_folders(game.sources, game.program)
         self.includes = Includes(game.sources, folders, game.naiad, system_headers(compiler)).treat()
-        self._console = console.treat(game.sources)
+        self._microsoft = microsoft.treat(game.sources)
         self.compiler = Compiler(compiler, game.tree, os.path.join(game.scratch, "objects"), game.naiad, folders)
         self._treatments = Treatments(game.sources, self.compiler, game.naiad)
         self.units = [Unit(name) for name in game.program.sources]
@@ -31,7 +31,7 @@ class Building:
 
     @property
     def changes(self):
-        return sorted(self._console + self._treatments.changes, key=lambda one: (one.file, one.line))
+        return sorted(self._microsoft + self._treatments.changes, key=lambda one: (one.file, one.line))
 
     @property
     def broken(self):

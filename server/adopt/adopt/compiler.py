@@ -133,7 +133,7 @@ class Compiler:
         for folder in self.folders:
             command += ["-iquote", "./" + folder]
         command += ["-I", self.naiad.include, "-I", os.path.join(self.naiad.include, "physics")]
-        return command + ["-c", "./" + unit.name, "-o", self._object(unit)]
+        return command + ["-c", "-x", "c++", "./" + unit.name, "-o", self._object(unit)]  # also Hero.Cpp
 
     def link(self, units, program):
         """Links the objects. Returns what the linker said, or None if it went well."""

@@ -5,7 +5,9 @@ import shutil
 from . import blame as faults
 from .engine import EngineCopies, stem
 from .folder import copy_folder, drop_broken_links, is_code, is_source
-from .project import programs, read_lists
+from .includes import included_sources
+from .programs import programs
+from .project import read_lists
 from .report import MAX_ROWS
 from .text import Sources
 
@@ -62,7 +64,7 @@ class Game:
             self.report.fail("is no game", "there is no C++ source in the folder" + (" but that of an engine" * self.engine.own))
             return False
         lists = read_lists(self.tree, self.files, self.all_sources)
-        found = programs(self.all_sources, lists, self.sources.code)
+        found = programs(self.all_sources, lists, self.sources.code, included_sources(self.sources))
         if main:
             wanted = (os.path.normpath(main), os.path.relpath(main, self.folder))
             found = [one for one in found if one.main in wanted]

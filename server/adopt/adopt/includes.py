@@ -3,11 +3,12 @@ import os
 import re
 
 from .folder import is_source
+from .programs import is_aside
 
 _INCLUDE = re.compile(r'^(\s*#\s*include\s*)(["<])([^">]+)[">](.*)$', re.S)
 MAX_FOLDERS = 200  # in which headers are looked for
 # Visual Studio's own, of no meaning elsewhere.
-_DROPPED = {"stdafx.h", "pch.h", "targetver.h", "tchar.h", "sdkddkver.h", "crtdbg.h", "afxwin.h", "resource.h"}
+_DROPPED = {"stdafx.h", "pch.h", "targetver.h", "tchar.h", "sdkddkver.h", "crtdbg.h", "afxwin.h", "resource.h", "vld.h"}
 
 
 class Includes:
@@ -93,8 +94,23 @@ class Includes:
         return real[len(real) - len(path):] if real.lower().endswith(path.lower()) else os.path.relpath(real, here or ".")
 
 
+def included_sources(sources):
+    """{source: the files that include it}. Such a source is compiled with them."""
+    by_lower = {name.lower(): name for name in sources.files if is_source(name)}
+    found = {}
+    for name in sources.files:
+        for line, code in zip(sources.text(name).split("\n"), sources.code(name).split("\n")):
+            match = _INCLUDE.match(line) if code.lstrip().startswith("#") else None
+            path = match.group(3).strip().replace("\\", "/") if match else ""
+            if is_source(path):
+                goal = by_lower.get(os.path.normpath(os.path.join(os.path.dirname(name), path)).lower())
+                if goal:
+                    found.setdefault(goal, []).append(name)
+    return found
+
+
 def header_folders(sources, program):
-    """The folders with headers, the program's own first."""
+    """The folders with headers, the program's own first, those of tests and leftovers last."""
     home = os.path.dirname(program.main)
     folders = {os.path.dirname(name) for name in sources.files if not is_source(name)}
-    return sorted(folders, key=lambda folder: (folder != home, folder.count("/"), folder))[:MAX_FOLDERS]
+    return sorted(folders, key=lambda folder: (folder != home, is_aside(folder), folder.count("/"), folder))[:MAX_FOLDERS]

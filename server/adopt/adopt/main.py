@@ -150,6 +150,19 @@ def _judge(game, compiler, options, say):
     return running.folder, os.path.join(os.path.relpath(".", running.folder or "."), PROGRAM)
 
 
+def _print(report, as_json):
+    """Returns whether it could be written."""
+    try:
+        (report.write_json if as_json else report.write)(sys.stdout)
+        sys.stdout.flush()
+        return True
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # Python writes the rest when it ends
+        if not isinstance(error, BrokenPipeError):  # as of `| head`
+            sys.stderr.write(f"dragonfly-adopt: {error}\n")
+        return False
+
+
 def main(include, lib, bin_folder, names, arguments=None):
     """Runs the command line. The folders are those of the installation."""
     arguments = sys.argv[1:] if arguments is None else arguments
@@ -186,5 +199,6 @@ def main(include, lib, bin_folder, names, arguments=None):
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
     say("")
-    (report.write_json if options.json else report.write)(sys.stdout)
+    if not _print(report, options.json):
+        return FAILS
     return RUNS if report.result in ("runs", "builds; it was not to run") else FAILS

@@ -10,7 +10,7 @@ _FUNCTION = re.compile(r"^(?=[\w\[])(?:\[\[nodiscard\]\] )?(?:inline |constexpr 
                        r"[\w:<>,*& ]+?[ *&](\w+)\s*[(={;]", re.M)
 _SCOPED = re.compile(r"\benum\s+class\s+(\w+)[^{;]*\{([^}]*)\}")
 _NOT_NAMES = {"if", "for", "while", "return", "switch", "operator", "public", "private", "protected",
-              "default", "using", "namespace"}
+              "default", "using", "namespace", "df"}
 
 
 class Installation:

@@ -1,4 +1,4 @@
-"""Which sources make a program: what a Makefile or a project file lists. These files are read as text and never run.
+"""What Makefiles and project files list. These files are read as text and never run.
 
 They are a stranger's: no pattern here takes more than linear time, words have a longest length, and there is a most of each kind.
 """
@@ -9,20 +9,14 @@ import re
 
 from .folder import is_source
 
-_MAIN = re.compile(r"\b(?:int|void|auto|INT)\s+(?:WINAPI\s+|APIENTRY\s+|CALLBACK\s+)?(main|wmain|_tmain|WinMain|wWinMain)\s*\(")
-_RUN = re.compile(r"(?:\bGM\s*\.|->|\.|::)\s*run\s*\(")
 _SEPARATORS = re.compile(r"[\s\"'<>|;,()=:]+")
 _SOURCE_WORD = re.compile(r".+\.(?:cpp|cc|cxx|c\+\+|C)(?!\w)")
 _OBJECT_WORD = re.compile(r"([\w./-]+)\.o(?!\w)")
-_ASIDE = re.compile(r"(^|[/ _-])(tests?|testing|unit-?tests?|old|backup|tutorial|examples?|"
-                    r"saucer[-_ ]?shoot|template|unused|archive)"
-                    r"([/ _.-]|$)", re.I)
 MAX_PROJECT_FILE = 1 << 20
 MAX_PROJECT_FILES = 60  # those nearest to the top
 MAX_WORD = 300  # characters of a source's path
 MAX_WORDS = 5000
 MAX_PATTERNS = 40
-MAX_PROGRAMS = 24  # that are looked at; a folder has rarely more than three
 
 
 class SourceList:
@@ -31,13 +25,6 @@ class SourceList:
 
     def __init__(self, file, sources, missing, unread=(), exact=True):
         self.file, self.sources, self.missing, self.unread, self.exact = file, sources, missing, list(unread), exact
-
-
-class Program:
-    """One program: its `main` file, its sources with main first, the list they come from (or None), what it leaves out."""
-
-    def __init__(self, main, sources, source_list, left_out):
-        self.main, self.sources, self.source_list, self.left_out = main, sources, source_list, left_out
 
 
 def is_project_file(name):
@@ -156,63 +143,3 @@ def _fits(path, pattern, deep):
         return fnmatch.fnmatchcase(path, pattern)
     parts, wanted = path.split("/"), pattern.split("/")
     return len(parts) == len(wanted) and all(fnmatch.fnmatchcase(*pair) for pair in zip(parts, wanted))
-
-
-def mains(sources, code):
-    """The files with a main()."""
-    return [name for name in sources if _MAIN.search(code(name))]
-
-
-def has_run(names, code):
-    """Whether some file calls run(), as a game must."""
-    return any(_RUN.search(code(name)) for name in names)
-
-
-def programs(sources, lists, code):
-    """The programs of a folder, the likeliest game first."""
-    all_mains = mains(sources, code)
-    found = [_program(main, all_mains, sources, lists) for main in all_mains[:MAX_PROGRAMS]]
-
-    def order(program):
-        return (not has_run(program.sources, code), bool(_ASIDE.search(program.main)), "client" in program.main.lower(),
-                program.source_list is None, -len(program.sources), program.main.count("/"), program.main)
-
-    return sorted(found, key=order)
-
-
-def _program(main, all_mains, sources, lists):
-    others = set(all_mains) - {main}
-    fitting = [one for one in lists if main in one.sources]
-    if fitting:
-        best = max(fitting, key=lambda one: (one.exact, len(set(one.sources) - others) - len(one.missing), -one.file.count("/")))
-        taken = [name for name in best.sources if name not in others]
-        listed = set(best.sources)
-        left_out = [(name, f"not listed in {best.file}") for name in sources if name not in listed and name not in others]
-    else:
-        best, (taken, left_out) = None, _around(main, others, sources)
-    taken.remove(main)
-    return Program(main, [main] + taken, best, left_out)
-
-
-def _around(main, others, sources):
-    """Without a list: all sources but those in folders of other programs; of several with one name the nearest."""
-    home = os.path.dirname(main)
-    foreign = {os.path.dirname(other) for other in others} - {home}
-    foreign = {folder for folder in foreign if not (home + "/").startswith(folder + "/") and folder}
-    taken, left_out, nearest = [], [], {}
-    for name in sorted(sources, key=lambda one: (os.path.dirname(one) != home, one.count("/"), one)):
-        if name in others:
-            continue
-        if any(folder in foreign for folder in _folders_above(name)):
-            left_out.append((name, "in the folder of another program"))
-        elif os.path.basename(name).lower() in nearest:
-            left_out.append((name, f"there is {nearest[os.path.basename(name).lower()]}, too"))
-        else:
-            nearest[os.path.basename(name).lower()] = name
-            taken.append(name)
-    return taken, left_out
-
-
-def _folders_above(name):
-    while name := os.path.dirname(name):
-        yield name

@@ -7,7 +7,7 @@ from .examine import frame_of
 from .files import missing_files, refused_sprites, run_folder
 from .game import PROGRAM
 from .keys import keys_of
-from .project import has_run
+from .programs import has_run
 from .report import MAX_ROWS
 from .trial import START_SECONDS, Trial
 
