@@ -74,14 +74,15 @@ class Hero : public df::Object {
     "Things/Hero.cpp": HERO.replace("  return 1;\n}", "}") + "const df::Vector &Hero::home() const { return m_home; }\n",
     # A name that Naiad has, too.
     "Things/Player.h": "#include \"Object.h\"\nusing namespace df;\nclass Player : public Object { public: Vector start() const; };\n",
-    "Things/Player.cpp": "#include \"player.h\"\nVector Player::start() const { return df::Vector(1, 2); }\n",
+    "Things/Player.cpp": "#include \"player.h\"\nVector Player::start() const { return df::Vector(1, ROCKS); }\n"
+                         "#if defined(WIN32)\n#error\n#endif\n",
     "Things/Unused.cpp": "this is not C++\n",
     "dragonfly/include/Object.h": engine_header("Object"),
     "dragonfly/include/EventKeyboard.h": engine_header("EventKeyboard"),
     "dragonfly/lib/libdragonfly-linux64.a": b"!<arch>\n",
     "__MACOSX/src/._game.cpp": b"\0\5\26\7",
     "src/._game.cpp": b"\0\5\26\7",
-    "Makefile": "GAMESRC= Things/Hero.cpp Things/Player.cpp\nGAME= src/game.cpp\nX := $(shell touch SHELL_RAN)\n"
+    "Makefile": "CXXFLAGS= -g -DROCKS=5 -DWIN32\nGAMESRC= Things/Hero.cpp Things/Player.cpp\nGAME= src/game.cpp\nX := $(shell touch SHELL_RAN)\n"
                 "all: $(GAMESRC:.cpp=.o)\n\tg++ $(GAME) $(GAMESRC) -ldragonfly; touch RECIPE_RAN\ndepend:\n\tmakedepend *.cpp Things/*.cpp\n",
     "sprites/hero-spr.txt": SPRITE,
 }

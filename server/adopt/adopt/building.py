@@ -24,6 +24,8 @@ class Building:
         self.includes = Includes(game.sources, folders, game.naiad, system_headers(compiler)).treat()
         self._microsoft = microsoft.treat(game.sources)
         self.compiler = Compiler(compiler, game.tree, os.path.join(game.scratch, "objects"), game.naiad, folders)
+        if game.program.source_list:
+            self.compiler.definitions += game.program.source_list.definitions
         self._treatments = Treatments(game.sources, self.compiler, game.naiad)
         self.units = [Unit(name) for name in game.program.sources]
         self.said = None  # by the linker, if it failed

@@ -34,8 +34,12 @@ def run_folder(files, sources, program):
 
 
 def missing_files(files, sources, names, folder):
-    """[(file, line, path)] of what code, and no comment, loads by a name and lies nowhere that Naiad looks."""
+    """[(file, line, path, where it lies instead)] of what code, and no comment, loads by a name and lies nowhere that Naiad
+    looks. Where it lies: the one file of that name, as seen from the folder, or ""."""
     there = {name.lower() for name in files}
+    by_base = {}
+    for name in files:
+        by_base.setdefault(os.path.basename(name).lower(), []).append(name)
     missing = []
     for name in names:
         code = sources.code(name).split("\n")
@@ -46,7 +50,8 @@ def missing_files(files, sources, names, folder):
                 path = _plain(match.group(1))
                 places = [os.path.normpath(os.path.join(place, path)) for place in (folder.lower(), "")]
                 if not any(place in there for place in places):
-                    missing.append((name, number, match.group(1)))
+                    same = by_base.get(os.path.basename(path), [])
+                    missing.append((name, number, match.group(1), os.path.relpath(same[0], folder or ".") if len(same) == 1 else ""))
     return missing
 
 

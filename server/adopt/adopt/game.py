@@ -11,6 +11,7 @@ from .project import read_lists
 from .report import MAX_ROWS
 from .text import Sources
 
+ARCHIVES = (".zip", ".rar", ".7z", ".tar", ".gz", ".tgz")
 PROGRAM = "naiad-game"  # the name of what is built
 
 
@@ -20,7 +21,7 @@ class Game:
     def __init__(self, folder, scratch, naiad, report, limits):
         self.folder, self.scratch, self.naiad, self.report, self._limits = folder, scratch, naiad, report, limits
         self.tree, self.engine_tree = os.path.join(scratch, "copy"), os.path.join(scratch, "engine")
-        self.files, self.sources, self.all_sources, self.engine, self.program = [], None, [], None, None
+        self.files, self.sources, self.all_sources, self.engine, self.program, self._archives = [], None, [], None, None, []
 
     @property
     def program_path(self):
@@ -29,6 +30,7 @@ class Game:
     def take_in(self):
         """Copies the folder, and puts aside what of it is an engine."""
         copy = copy_folder(self.folder, self.tree, self._limits)
+        self._archives = [name for name, _ in copy.left_out if name.lower().endswith(ARCHIVES)]
         self.engine = EngineCopies(self.tree, [name for name in copy.files if is_code(name)], self.naiad.published)
         for name in self.engine.files:
             os.makedirs(os.path.join(self.engine_tree, os.path.dirname(name)), exist_ok=True)
@@ -55,13 +57,14 @@ class Game:
         if len(rest) > MAX_ROWS:
             self.report.add("left out", "", f"and {len(rest) - MAX_ROWS} more of the kind")
         if usual:
-            self.report.add("left out", "", f"{len(usual)} products of builds, editors and systems, such as {usual[0][0]}")
+            self.report.add("left out", "", f"{len(usual)} product{'s' * (len(usual) > 1)} of builds, editors and systems, such as {usual[0][0]}")
 
     def choose_program(self, main):
         """Chooses the program: that of `main`, or the likeliest. Returns whether there is one."""
         self.all_sources = [name for name in self.sources.files if is_source(name)]
         if not self.all_sources:
-            self.report.fail("is no game", "there is no C++ source in the folder" + (" but that of an engine" * self.engine.own))
+            unpack = f": unpack {self._archives[0]} first" if self._archives else ""
+            self.report.fail("is no game", "there is no C++ source in the folder" + " but that of an engine" * self.engine.own + unpack)
             return False
         lists = read_lists(self.tree, self.files, self.all_sources)
         found = programs(self.all_sources, lists, self.sources.code, included_sources(self.sources))
@@ -91,6 +94,8 @@ class Game:
             self.report.add("left out", name, reason)
 
     def _say_list(self, source_list):
+        if source_list.definitions:
+            self.report.add("note", source_list.file, "compiled with " + " ".join(source_list.definitions) + ", as it says")
         for call in source_list.unread[:3]:
             self.report.add("note", source_list.file, f"not run: {call}")
         known = {stem(name) for name in self.engine.files + self.files}

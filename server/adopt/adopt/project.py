@@ -17,14 +17,18 @@ MAX_PROJECT_FILES = 60  # those nearest to the top
 MAX_WORD = 300  # characters of a source's path
 MAX_WORDS = 5000
 MAX_PATTERNS = 40
+_DEFINITION = re.compile(r"(?<![^\s\"'(=])-D ?([A-Za-z_]\w{0,60}(?:=[\w.+-]{0,60})?)(?=[\s\"')]|\Z)")
+_OTHER_SYSTEM = re.compile(r"_*(win(32|64|dows|nt)?|msvc|msc_ver|mac|macosx?|osx|apple|darwin)(_|\d|=|\Z)", re.I)
+MAX_DEFINITIONS = 20
 
 
 class SourceList:
     """What one file lists: `sources` that are there, `missing` that are not, `unread` what would have had to be run. It is
-    `exact` if it names each of them; a pattern takes also what is no longer used."""
+    `exact` if it names each of them; a pattern takes also what is no longer used. `definitions` are its -DNAME=VALUE."""
 
-    def __init__(self, file, sources, missing, unread=(), exact=True):
+    def __init__(self, file, sources, missing, unread=(), exact=True, definitions=()):
         self.file, self.sources, self.missing, self.unread, self.exact = file, sources, missing, list(unread), exact
+        self.definitions = list(definitions)
 
 
 def is_project_file(name):
@@ -54,7 +58,7 @@ def read_lists(root, files, sources):
             else:
                 found.update(dict.fromkeys(here))
         if found or missing:
-            lists.append(SourceList(name, list(found), missing, unread, exact=patterns == 0))
+            lists.append(SourceList(name, list(found), missing, unread, patterns == 0, _definitions(text)))
     return lists
 
 
@@ -73,6 +77,12 @@ def _words(name, text):
     # Rules that look at sources for other ends than to build the program.
     text = re.sub(r"(?m)^\t.*(?:makedepend|-MM|\brm\b|\btar\b|\bzip\b|clang-format).*$", "", text)
     return _expanded(_with_variables(text)), unread
+
+
+def _definitions(text):
+    """What a Makefile has the compiler define, but not for other systems."""
+    found = _DEFINITION.findall(re.sub(r"(?m)(?<!\\)#.*$", "", text))
+    return [f"-D{one}" for one in dict.fromkeys(found) if not _OTHER_SYSTEM.match(one)][:MAX_DEFINITIONS]
 
 
 def _visual_studio(text):

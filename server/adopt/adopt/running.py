@@ -56,9 +56,10 @@ class Running:
             self._report.add_left(self._game.program.main, faults.THEIRS, "nothing calls GM.run()",
                                   "GM.run(); between startUp() and shutDown()")
         missing = missing_files(self._game.files, self._game.sources, self._names, self.folder)
-        for file, line, path in missing[:MAX_ROWS]:
+        for file, line, path, instead in missing[:MAX_ROWS]:
             self._report.add_left(f"{file}:{line}", faults.THEIRS, f"{path} is not in the folder",
-                                  "add the file, or correct its name", self._game.sources.line(file, line))
+                                  f"write {instead}" if instead else "add the file, or correct its name",
+                                  self._game.sources.line(file, line))
 
     def _say_outcome(self, outcome):
         for file, line, text in refused_sprites(outcome.log, self.folder)[:MAX_ROWS]:
