@@ -20,7 +20,9 @@ class Includes:
         for name in sources.files:
             self._by_lower.setdefault(name.lower(), name)
             self._by_base.setdefault(os.path.basename(name).lower(), []).append(name)
-        self._ours = {name.lower(): name for name in naiad.headers}
+        self._ours = {}
+        for name in sorted(naiad.headers):  # Vector.h before vector.h
+            self._ours.setdefault(name.lower(), name)
 
     def treat(self):
         """Returns [(file, line number, before, after, why)]."""

@@ -224,7 +224,7 @@ class Treatments:
         return self._engines[name]
 
     def _bases(self, diagnostic, before):
-        match = re.search(r":\s*(?:(?:public|protected|private|virtual)\s+)*(\w+)\s*$", before)
+        match = re.search(r"(?<!:):(?!:)\s*(?:(?:public|protected|private|virtual)\s+)*(\w+)\s*$", before)
         if not match or not self._is_engines(match.group(1)):
             return False
         _, behind = self._at(diagnostic)
