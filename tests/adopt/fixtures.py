@@ -58,7 +58,8 @@ def engine_header(name):
 # Written with Visual Studio on Windows, with the engine beside it, packed on a Mac.
 WINDOWS = {
     "src/game.cpp": MAIN.replace('"Hero.h"', '"..\\Things\\hero.H"').replace('"WorldManager.h"', '"worldmanager.h"')
-    .replace("int main(int argc, char *argv[])", "#include <Player.h>\nint _tmain(int argc, _TCHAR *argv[])").replace("new Hero;", "new Hero; (new Player)->start();"),
+    .replace("int main(int argc, char *argv[])", "#include <Player.h>\nint _tmain(int argc, _TCHAR *argv[])")
+    .replace("new Hero;", "new Hero; (new Player)->start();"),
     "Things/Hero.h": """\ufeff#include "stdafx.h"
 #include "../dragonfly/include/EventKeyboard.h"
 #include "../dragonfly/include/Object.h"
@@ -165,7 +166,8 @@ TWO_MAINS = {"Driver.cpp": '#include "hero.h"\nint main() { Hero hero; return 0;
 # Visual Studio's folders, and what looks for leaks there.
 STUDIO = {
     "Project 1/Game/Game.vcxproj": '<ClCompile Include="main.cpp" />\r\n<ClCompile Include="Source Files\\Hero.cpp" />',
-    "Project 1/Game/main.cpp": "#include <vld.h>\n#include <crtdbg.h>\n" + MAIN.replace("  GM.shutDown();", "  GM.shutDown();\n  _CrtDumpMemoryLeaks();"),
+    "Project 1/Game/main.cpp": "#include <vld.h>\n#include <crtdbg.h>\n" +
+    MAIN.replace("  GM.shutDown();", "  GM.shutDown();\n  _CrtDumpMemoryLeaks();"),
     "Project 1/Game/Header Files/Hero.h": HERO_H.replace('"Object.h"', '"../../dragonfly/include/object.h"'),
     "Project 1/Game/Source Files/Hero.cpp": HERO.replace("return 0;", 'return _stricmp("a", "A");')}
 

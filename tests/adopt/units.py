@@ -1,0 +1,323 @@
+"""Tests of the modules of dragonfly-adopt, one class each. They need no compiler and no sandbox."""
+import os
+import tempfile
+import types
+import unittest
+
+import fixtures
+from adopt import files as filenames
+from adopt import (blame, bounded, compiler, engine, folder, game, includes, keys, microsoft, naiad, programs, project, report, text,
+                   treatments, verdicts)
+from support import MODULES, WORK, run_as_user, within
+
+# Limits itself where the system allows less.
+LIMITED = """
+import resource, sys
+sys.dont_write_bytecode = True
+sys.path.insert(0, sys.argv[1])
+from adopt import sandbox
+resource.setrlimit(resource.RLIMIT_NOFILE, (100, 100))
+resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+sandbox.limits(60)
+print(resource.getrlimit(resource.RLIMIT_NOFILE), resource.getrlimit(resource.RLIMIT_AS)[1] >> 20, resource.getrlimit(resource.RLIMIT_CPU))
+"""
+
+
+class ListsTest(unittest.TestCase):
+    """Project files are read as text."""
+
+    def lists(self, files):
+        place = tempfile.mkdtemp(dir=WORK)
+        fixtures.write(place, files)
+        names = sorted(files)
+        return project.read_lists(place, names, [name for name in names if folder.is_source(name)])
+
+    def test_ProjectFilesOfManyKinds(self):
+        for name, body in (("Makefile", "SRC = src\nGAMESRC = $(SRC)/A.cpp \\\n $(SRC)/b.cpp # C.cpp\nclean:\n\trm src/C.cpp\n"),
+                           ("Makefile", "OBJ = src/A.o src/B.o\ngame: $(OBJ)\n\tg++ $(OBJ)\n.cpp.o:\n\tg++ -c $<\n"),
+                           ("CMakeLists.txt", "set(S src)\nadd_executable(g ${S}/A.cpp\n ${S}/B.cpp)\n"),
+                           ("g.vcxproj", '<ClCompile Include="src\\A.cpp" />\n<ClCompile Include="src\\b.CPP"><X/></ClCompile>\n'
+                                         '<ClInclude Include="src\\C.h"/>'),
+                           ("vs/g.vcxproj", '<ClCompile Include="..\\src\\A.cpp" />\r\n<ClCompile Include="..\\src\\B.cpp" />'),
+                           ("vs/g.vcxproj", '<ClCompile Include="..\\..\\..\\x64\\A.cpp" />\r\n<ClCompile Include="..\\src\\B.cpp" />'),
+                           ("g.cbp", '<Unit filename="src/A.cpp" />\n<Unit filename="src/B.cpp" />'),
+                           ("g.xcodeproj/project.pbxproj", "/* A.cpp in Sources */ = {};\n/* B.cpp in Sources */ = {};")):
+            found = self.lists({name: body, "src/A.cpp": "", "src/B.cpp": "", "src/C.cpp": ""})
+            self.assertEqual([sorted(one.sources) for one in found], [["src/A.cpp", "src/B.cpp"]], (name, body))
+
+    def test_WhatVisualStudioExcludesIsNotListed(self):
+        for name, body in (("g.vcxproj", '<ClCompile Include="A.cpp">\n<Optimization>Disabled</Optimization></ClCompile><ClCompile Include="Old.cpp">\n'
+                                         "<ExcludedFromBuild Condition=\"'$(Configuration)'=='Debug'\">true</ExcludedFromBuild></ClCompile>"
+                                         '<ClCompile Include="B.cpp" /><None Include="x"><ExcludedFromBuild>true</ExcludedFromBuild></None>'),
+                           ("g.vcproj", '<File\n RelativePath=".\\A.cpp"\n>\n</File><File RelativePath=".\\Old.cpp"><FileConfiguration Name="Debug|Win32"'
+                                        ' ExcludedFromBuild="true"></FileConfiguration></File><File RelativePath=".\\B.cpp"></File>')):
+            found = self.lists({name: body, "A.cpp": "", "B.cpp": "", "Old.cpp": ""})
+            self.assertEqual([one.sources for one in found], [["A.cpp", "B.cpp"]], name)
+
+    def test_AListOfNamesIsPreferredToAPattern(self):
+        code = {"game.cpp": "int main() { GM.run(); }", "Hero.cpp": "", "Old.cpp": "", "Older.cpp": ""}
+        files = {**code, "Makefile": "game: *.cpp\n", "CMakeLists.txt": "add_executable(g game.cpp Hero.cpp Gone.cpp Lost.cpp Moved.cpp)",
+                 "g.vcxproj": '<ClCompile Include="game.cpp" /><ClCompile Include="Hero.cpp" />'}
+        found = programs.programs(sorted(code), self.lists(files), code.get)
+        self.assertEqual((found[0].source_list.file, found[0].sources), ("g.vcxproj", ["game.cpp", "Hero.cpp"]))
+
+    def test_DefinitionsAreThoseForThisSystem(self):
+        body = "CC = g++ -DLINUX -D ROCKS=5 -DWIN32 -D__APPLE__ -DOSX=1 -DWINDOW=80 # -DOLD\n" \
+               "X = \"-DQUOTED\" -DTEXT=\\\"a\\\" x-DNO -D1 $(CC) -DLINUX\ngame: A.cpp\n"
+        self.assertEqual(self.lists({"Makefile": body, "A.cpp": ""})[0].definitions, ["-DLINUX", "-DROCKS=5", "-DWINDOW=80", "-DQUOTED"])
+
+    def test_PatternsAndWhatIsNotThere(self):
+        found = self.lists({"Makefile": "SRC = $(wildcard src/*.cpp) Gone.cpp ../../etc/passwd.cpp\n", "src/A.cpp": "", "src/B.cpp": "", "C.cpp": ""})[0]
+        self.assertEqual(sorted(found.sources), ["src/A.cpp", "src/B.cpp"])
+        self.assertEqual(found.missing, ["Gone.cpp", "../../etc/passwd.cpp"])
+        for call, deep in (("GLOB", False), ("GLOB_RECURSE", True)):
+            found = self.lists({"CMakeLists.txt": f"file({call} S src/*.cpp)\n", "src/A.cpp": "", "src/deep/B.cpp": ""})[0]
+            self.assertEqual("src/deep/B.cpp" in found.sources, deep)
+
+    def test_NoListTakesLongToRead(self):
+        for name, body in (("Makefile", "a" * 900_000), ("Makefile", "a/" * 450_000), ("Makefile", "a/b.o-" * 150_000), ("Makefile", "\n" * 900_000),
+                           ("Makefile", "x.cpp " * 150_000), ("CMakeLists.txt", "\\\n" * 300_000), ("g.vcxproj", "<File " * 150_000),
+                           ("g.cbp", "<Unit " * 150_000), ("Makefile", "*a" * 100 + ".cpp"),
+                           ("CMakeLists.txt", "file(GLOB_RECURSE s " + "*a" * 100 + ".cpp)")):
+            with within(self, 3, (name, body[:20])):
+                self.lists({name: body, **{f"{'a' * 200}{number}.cc": "" for number in range(20)}})
+
+    def test_ManyChangesOfOneFileTakeOneWrite(self):
+        place = tempfile.mkdtemp(dir=WORK)
+        fixtures.write(place, {"Hero.h": "", "a.cpp": '#include "hero.h"\n' * 40_000})
+        sources = text.Sources(place, ["Hero.h", "a.cpp"])
+        with within(self, 3, "includes"):
+            self.assertEqual(len(includes.Includes(sources, [""], types.SimpleNamespace(headers=[]), []).treat()), 40_000)
+            sources.flush()
+        with open(os.path.join(place, "a.cpp"), encoding="ascii") as file:
+            self.assertEqual(file.readline(), '#include "Hero.h"\n')
+
+    def test_TheGameIsChosenBeforeTheTutorialBesideIt(self):
+        code = {"saucer-shoot/game.cpp": "int main() { GM.run(); }", "saucer-shoot/Hero.cpp": "", "game.cpp": "int main(int c, char **v) { GM.run(); }",
+                "Hero.cpp": "", "test.cpp": "int main() {}", "Other.cpp": "int mainly(); // int main()"}
+        found = programs.programs(sorted(code), [], lambda name: text.code_only(code[name]))
+        self.assertEqual([one.main for one in found], ["game.cpp", "saucer-shoot/game.cpp", "test.cpp"])
+        self.assertEqual(found[0].sources, ["game.cpp", "Hero.cpp", "Other.cpp"])
+
+
+class EngineTest(unittest.TestCase):
+    """What of a folder is an engine: a class of it in namespace df, and not a name that Naiad has, too."""
+
+    def engine_files(self, files):
+        place = tempfile.mkdtemp(dir=WORK)
+        fixtures.write(place, files)
+        names = naiad._published(os.path.join(MODULES, "adopt", "published-names.txt"))
+        return engine.EngineCopies(place, sorted(files), names).files
+
+    def test_FilesOfTheGameAreKeptWhateverTheirNames(self):
+        for name, body in (("Player.h", "using namespace df;\nclass Player : public Object {};"), ("World.h", "namespace df { class World {}; }"),
+                           ("Path.h", "namespace df { class Path; }\nclass Path {};"), ("Grid.h", "namespace df { class Object; }\nclass Grid {};"),
+                           ("State.h", "using namespace df;\nenum State { A };"), ("utility.h", "using namespace df;\nint sum();")):
+            self.assertEqual(self.engine_files({name: body}), [], name)
+
+    def test_CopiesOfTheEngineAreLeftOut(self):
+        for name, body in (("Object.h", "namespace df {\nclass Object : public Thing {\n};\n}"),
+                           ("object.h", "namespace df\n{\nstruct A {};\nclass Object {};\n}"),
+                           ("Color.h", "namespace df { enum Color { RED }; }"), ("utility.h", "namespace df { int sum(); }"),
+                           ("Solidness.h", "namespace df { enum class Solidness { HARD }; }")):
+            self.assertEqual(self.engine_files({name: body}), [name])
+
+    def test_LinksBetweenGameAndEngineAreDropped(self):
+        place = tempfile.mkdtemp(dir=WORK)
+        fixtures.write(place + "/game", {"dragonfly/Object.h": fixtures.engine_header("Object"), "Base.h": fixtures.engine_header("Event")})
+        os.symlink("dragonfly/Object.h", place + "/game/Thing.h")
+        os.symlink("Base.h", place + "/game/Event.h")
+        ours = types.SimpleNamespace(published=("Object.h", "Event.h"))
+        said = report.Report(place)
+        one = game.Game(place + "/game", place, ours, said, folder.Limits())
+        one.take_in()
+        self.assertEqual((one.engine.files, one.files), (["Event.h", "dragonfly/Object.h"], ["Base.h"]))
+        self.assertIn(("Thing.h", "a link to what was left out"), [(row.where, row.text) for row in said.rows])
+        verdicts.Verdicts(one, None)  # reads what was left out
+
+    def test_BesideAnEngineOfOnesOwnTheGameKeepsItsSources(self):
+        core = {f"engine/{name}.cpp": "" for name in ("GameManager", "LogManager", "WorldManager", "Music")}
+        game = {"Player.cpp": "df::Vector place;", "src/Path.cpp": "df::Vector step;", "Path.h": "class Path {};", "Player.h": "class Player {};"}
+        own = {"more/Box.cpp": "namespace df { int x; }", "more/Shape.cpp": "df::Shape::Shape() {}", "src/ObjectList.cpp": ""}
+        self.assertEqual(self.engine_files({**core, **game, **own}), sorted({**core, **own}))
+        self.assertEqual(self.engine_files({**core, "engine/Button.h": "class Button {};", "engine/Button.cpp": "Button::Button() {}"}), sorted(core))
+
+
+class TextTest(unittest.TestCase):
+    """What is read of sources and compilers."""
+
+    def test_CodeOnlyKeepsPlaces(self):
+        source = 'a /* int main( */ "x\\"y" // z\nb \'"\' "open\nc /* to the end'
+        code = text.code_only(source)
+        self.assertEqual(len(code), len(source))
+        self.assertEqual(code.split(), ["a", "b", "c"])
+
+    def test_CodeThatIsNeverCompiledIsNoCode(self):
+        for source, live in (("a\n#if 0\nb\n#if X\nc\n#else\nd\n#endif\ne\n#else\nf\n#endif\ng", "afg"), ("#if X\na\n#elif (0)\nb\n#endif\nc", "ac"),
+                             ("#ifdef X\n# if false\na\n# endif\nb\n#endif\nc", "bc"), ("a\n#if 0\nb", "a"), ("#if 0 + X\na\n#endif\n#endif\nb", "ab"),
+                             ("#if 0\na\n#elif 0\nb\n#else\nc\n#endif\nd", "cd")):
+            code = text.code_only(source)
+            self.assertEqual("".join(line for line in code.split("\n") if len(line) == 1 and line != " "), live, source)
+            self.assertEqual([len(line) for line in code.split("\n")], [len(line) for line in source.split("\n")])
+
+    def test_AByteOrderMarkIsNoPartOfTheFirstLine(self):
+        place = tempfile.mkdtemp(dir=WORK)
+        fixtures.write(place, {"a.cpp": "\ufeffint a;\n", "b.cpp": "\ufeffint b;\n".encode("utf-16-le")})
+        read = text.Sources(place, ["a.cpp", "b.cpp"])
+        self.assertEqual((read.line("a.cpp", 1), read.line("b.cpp", 1), read.recoded), ("int a;", "int b;", ["b.cpp"]))
+        with open(os.path.join(place, "a.cpp"), "rb") as file:
+            self.assertEqual(file.read(), b"int a;\n")
+
+    def test_ForeignTextCannotSpeakToTheTerminal(self):
+        self.assertEqual(text.shown("a\x1b[2Jb\nc\u202e"), "a\\x1b[2Jb\\x0ac\\x2e")
+
+    def test_DiagnosticsHaveNotesAndTheirFunction(self):
+        found = compiler.parse("./a.cpp: In member function 'int A::f()':\n./a.cpp:3:5: error: 'X' is not a member of 'df'\n/u/h.h:1:2: note: here\n"
+                               "./b c.h:7: warning: odd\n")
+        self.assertEqual([(one.file, one.line, one.column, one.is_error) for one in found], [("a.cpp", 3, 5, True), ("b c.h", 7, 1, False)])
+        self.assertEqual((found[0].within, found[0].notes), ("In member function 'int A::f()'"[3:], [("/u/h.h", "here")]))
+
+    def test_KeysAreThoseOfTheGameButNotThoseThatEndIt(self):
+        found = keys.keys_of(["getKey() == df::Keyboard::Q || Keyboard::T || Keyboard :: Key::NUM1 || Keyboard::EventKeyboard"])
+        self.assertEqual(found, ["NUM1", "T"])
+        self.assertEqual(keys.random_script(found, 5, 60), keys.random_script(found, 5, 60))
+        self.assertNotEqual(keys.random_script(found, 5, 60), keys.random_script(found, 6, 60))
+
+
+class CompilerTest(unittest.TestCase):
+    """What is concluded from how a compiler ends."""
+
+    def compiler(self, body, name="g++", seconds=20):
+        place = tempfile.mkdtemp(dir=WORK)
+        fixtures.write(place, {name: "#!/bin/sh\n" + body + "\n", "include/Object.h": ""})
+        os.chmod(os.path.join(place, name), 0o755)
+        ours = types.SimpleNamespace(include="/ours")
+        return compiler.Compiler(os.path.join(place, name), place, os.path.join(place, "objects"), ours, [], seconds=seconds)
+
+    def check(self, body, seconds=20):
+        one = self.compiler('test "$1" = --version && exit; ' + body, seconds=seconds)
+        found = one.check_with(compiler.Unit("a.cpp"), os.path.join(one.root, "include"))
+        return None if found is None else [diagnostic.text for diagnostic in found]
+
+    def test_OnlyAWholeCheckSaysThatTheEngineInTheFolderTakesALine(self):
+        error = "echo './a.cpp:1:1: error: wrong'; "
+        self.assertEqual((self.check(error + "exit 1"), self.check("exit 0")), (["wrong"], []))
+        for body in (error + "exit 4", error + "kill -9 $$", "exit 1", error + "yes './b.cpp:1:1: note: long' | head -200000; exit 1",
+                     "echo \"$0\" | sed 's,g++$,include/Object.h:1:1: error: torn,'; exit 1", error + "exit 0"):
+            self.assertIsNone(self.check(body), body)
+        self.assertIsNone(self.check(error + "exec sleep 9", seconds=0.3))
+        self.assertNotIn("max-errors=30", self.check("echo \"./a.cpp:1:1: error: $*\"; exit 1")[0])
+
+    def test_ClangIsFoundByItsNameAndItsVersion(self):
+        for name, body, is_gcc in (("clang++-14", "exit 1", False), ("c++", "echo 'Debian clang version 14'", False),
+                                   ("g++", "echo 'g++ (Debian) 12'", True)):
+            self.assertEqual(self.compiler(body, name).is_gcc, is_gcc, name)
+        link = os.path.join(tempfile.mkdtemp(dir=WORK), "clang++")
+        os.symlink(self.compiler("exit 1", "ccache").program, link)
+        self.assertFalse(compiler.Compiler(link, WORK, os.path.join(WORK, "objects"), None, []).is_gcc)
+
+
+class BlameTest(unittest.TestCase):
+    """Whose fault it is."""
+
+    def blame(self, main_code):
+        ours = types.SimpleNamespace(header_of=lambda name: None, was_published=lambda name, classes=(): False)
+        return blame.Blame(ours, False, "", lambda unit: None, main_code)
+
+    def test_AProgramThatBeginsInWinMainIsForAnotherSystem(self):
+        line = "int WINAPI WinMain(HINSTANCE one) {"
+        self.assertEqual(self.blame("int WinMain() {}").symbol("main")[0], "another system")
+        self.assertEqual(self.blame("int tmain() {}").symbol("main"), ("the game", "no file of the program has a main()"))
+        wrong = compiler.Diagnostic("a.cpp", 1, 1, "error", "expected initializer before 'WinMain'", "")
+        self.assertEqual(self.blame(line).error(None, wrong, line)[0], "another system")
+
+
+class MicrosoftTest(unittest.TestCase):
+    """What Visual Studio's templates and library have of their own."""
+
+    def treated(self, *lines):
+        place = tempfile.mkdtemp(dir=WORK)
+        fixtures.write(place, {"a.cpp": "\n".join(lines)})
+        sources = text.Sources(place, ["a.cpp"])
+        microsoft.treat(sources)
+        return tuple(sources.text("a.cpp").split("\n"))
+
+    def test_ItsNamesAreThoseOfCppUnlessTheGameHasItsOwn(self):
+        self.assertEqual(self.treated('int _tmain(int c, _TCHAR* v[]) { puts(_T("_TCHAR")); } // _tmain'),
+                         ('int main(int c, char* v[]) { puts("_TCHAR"); } // _tmain',))
+        self.assertEqual(self.treated("int wmain(int c, wchar_t *v[]);", "wchar_t w; // _tmain"),
+                         ("int main(int c, char *v[]);", "wchar_t w; // _tmain"))
+        self.assertEqual(self.treated("  if (x) _CrtSetDbgFlag ( _CRTDBG_ALLOC | 1 );", "x = _stricmp(a, b);"),
+                         ("  if (x) ;", "x = strcasecmp(a, b);"))
+        for lines in (("#define _T(x) L##x", 'auto x = _T("a");'), ("typedef char TCHAR;", "TCHAR c;"),
+                      ("#define _stricmp strcasecmp", "_stricmp(a, b);"), ('puts("TCHAR");', "int T_tmain;")):
+            self.assertEqual(self.treated(*lines), lines)
+
+
+class TreatmentTest(unittest.TestCase):
+    """What is not changed, and what is."""
+
+    def treated(self, line, message, column):
+        place = tempfile.mkdtemp(dir=WORK)
+        fixtures.write(place, {"a.cpp": line})
+        sources, unit = text.Sources(place, ["a.cpp"]), compiler.Unit("a.cpp")
+        unit.diagnostics = [compiler.Diagnostic("a.cpp", 1, column, "error", message, "")]
+        ours = types.SimpleNamespace(header_of=lambda name: "/ours/" + name + ".h")
+        treatments.Treatments(sources, types.SimpleNamespace(definitions=[]), ours).treat([unit])
+        return sources.line("a.cpp", 1)
+
+    def test_ABaseGetsItsNamespaceOnce(self):
+        for before, after in (("class A : public Thing {", "class A : public df::Thing {"),
+                              ("class A : public df::Thing {", "class A : public df::Thing {")):
+            self.assertEqual(self.treated(before, "expected class-name before '{' token", before.index("{") + 1), after)
+
+    def test_EnginesHeadersAreWrittenAsTheyAre(self):
+        place = tempfile.mkdtemp(dir=WORK)
+        fixtures.write(place, {"a.cpp": '#include "../dragonfly/Vector.h"\n#include "OBJECT.H"\n'})
+        sources = text.Sources(place, ["a.cpp"])
+        includes.Includes(sources, [], types.SimpleNamespace(headers=["Object.h", "Vector.h", "vector.h"]), []).treat()
+        self.assertEqual((sources.line("a.cpp", 1), sources.line("a.cpp", 2)), ('#include "Vector.h"', '#include "Object.h"'))
+
+
+class FilesTest(unittest.TestCase):
+    """What a game loads."""
+
+    def test_WhatDeadCodeLoadsIsNotMissing(self):
+        place = tempfile.mkdtemp(dir=WORK)
+        line = 'RM.loadSprite("{}.txt", "x");'
+        code = "\n".join(("/*", line.format("a"), "*/", "#if 0", line.format("b"), "#else", line.format("c"), "#endif",
+                          'LM.writeLog("// %d", 1); ' + line.format("d"), "// " + line.format("e"), ""))
+        fixtures.write(place, {"game.cpp": code})
+        missing = filenames.missing_files([], text.Sources(place, ["game.cpp"]), ["game.cpp"], "")
+        self.assertEqual(missing, [("game.cpp", 7, "c.txt", ""), ("game.cpp", 9, "d.txt", "")])
+
+    def test_AFileThatLiesElsewhereIsNamed(self):
+        place = tempfile.mkdtemp(dir=WORK)
+        fixtures.write(place, {"game.cpp": 'RM.loadSprite("C:\\\\Users\\\\bob\\\\hero-spr.txt", "hero");'})
+        missing = filenames.missing_files(["run/sprites/Hero-spr.txt"], text.Sources(place, ["game.cpp"]), ["game.cpp"], "run")
+        self.assertEqual(missing[0][3], "sprites/Hero-spr.txt")
+
+    def test_OnlySpritesThatWereRefusedAreTheGamesFault(self):
+        log = "10 Sprite hero: /game/sprites/hero.txt:4: slowdown has no number, taken as 0 (compat)\n" \
+              "11 Sprite wall: sprites/wall.txt:7: the row has 2 characters instead of 3\n"
+        self.assertEqual(filenames.refused_sprites(log, "run"), [("run/sprites/wall.txt", "7", "the row has 2 characters instead of 3")])
+
+
+class BoundedTest(unittest.TestCase):
+    """Commands end, with what they started."""
+
+    def test_EndlessOutputAndTimeAreCut(self):
+        done = bounded.run(["/bin/sh", "-c", "yes & yes"], timeout=0.5)
+        self.assertTrue(done.timed_out)
+        self.assertLessEqual(len(done.output), bounded.MAX_OUTPUT)
+
+    def test_LowerLimitsOfTheSystemStay(self):
+        done = run_as_user(self, LIMITED)
+        self.assertEqual(done.stdout, "(100, 100) 1024 (60, 60)\n", done.stderr)
+
+    def test_ACopyHasALimitOfFilesAndBytes(self):
+        place = tempfile.mkdtemp(dir=WORK)
+        fixtures.write(place, {f"{number}.txt": "x" * 600 for number in range(20)})
+        copy = folder.copy_folder(place, place + ".copy", folder.Limits(entries=10, total_bytes=3000))
+        self.assertEqual(len(copy.files), 5)
+        self.assertEqual([reason for _, reason in copy.left_out][-1], "and all after it: more than 10 files")
