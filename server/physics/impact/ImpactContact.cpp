@@ -134,7 +134,7 @@ void ImpactWorld::gather(int body, double now, bool is_impact, int own_contact) 
       advance(other, now);
       if (m_motions[other].is_frozen) continue;
       const PairState state = pairState(contact.first, contact.second, contact.axis);
-      if (!keepsContact(contact, state)) {
+      if (at != own_contact && !keepsContact(contact, state)) {  // an impact is one even of two corners
         if (!is_impact) {
           markChanged(contact.first);
           markChanged(contact.second);

@@ -6,6 +6,7 @@
 #include "engine/managers/Clock.h"
 #include "engine/managers/LogManager.h"
 #include "engine/published/NetworkManager.h"
+#include "engine/published/NetworkNode.h"
 #include "engine/published/StateMachine.h"
 #include "engine/published/utility.h"
 #include "tests/server/engine/Probe.h"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "physics/body/BodyLayer.h"
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"
 #include "tests/server/physics/rigid/RigidScene.h"
@@ -166,6 +167,28 @@ TEST_F(BodyDegenerate, MassesOfAMillionToOneStayBounded) {
     for (Object* p_object : all) delete p_object;
   }
   EXPECT_EQ(PM.getQuarantineCount(), 0u);
+}
+
+// Boxes that come together corner to corner: their corners hit one another, too, though no side does.
+TEST_F(BodyDegenerate, FourThatMeetInAPointAreNotFrozen) {
+  std::vector<Body*> four;
+  for (int i = 0; i < 4; ++i) {
+    auto* p_body = new Body;
+    p_body->setPosition(Vector((i & 1) != 0 ? 3 : -3, (i & 2) != 0 ? 3 : -3));
+    p_body->setVelocity(Vector((i & 1) != 0 ? -0.1 : 0.1, (i & 2) != 0 ? -0.1 : 0.1));
+    four.push_back(p_body);
+  }
+  ticks(60);
+  EXPECT_LT(BodyLayer::of(world).impactCounters().impacts, 100);
+  EXPECT_EQ(PM.getQuarantineCount(), 0u);
+  Vector momentum;
+  double squares = 0;
+  for (const Body* p_body : four) {
+    momentum = momentum + p_body->getVelocity();
+    squares += std::pow(p_body->getVelocity().getMagnitude(), 2);
+  }
+  EXPECT_LT(momentum.getMagnitude(), 1e-12);
+  EXPECT_LE(squares, 4 * 0.02);
 }
 
 // A tick that lasts a thousand ticks, in the middle of a heap: bounded, and afterwards all is as ever.

@@ -47,7 +47,7 @@ TEST_F(PublicPhysics, ShapesAreReadCornerByCorner) {
   ASSERT_EQ(shapes.size(), 2u);
   EXPECT_EQ(shapes[0].count, 4);
   const naiad::physics::Vec2 diagonal = shapes[0].vertices[2] - shapes[0].vertices[0];
-  EXPECT_EQ(diagonal, naiad::physics::Vec2(4, 1 * PM.getAspect()));
+  EXPECT_EQ(diagonal, (naiad::physics::Vec2{4, 1 * PM.getAspect()}));
   EXPECT_EQ(shapes[1].radius, 1);
   EXPECT_EQ(p_body->setDrawing(BodyDrawing::FILL, U'o'), 0);
 }
