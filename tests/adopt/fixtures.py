@@ -152,7 +152,7 @@ OWN_ENGINE = {
 STALE_LIST = {"game.cpp": MAIN, "Hero.h": HERO_H, "Hero.cpp": HERO, "sprites/hero-spr.txt": SPRITE,
               "Old.cpp": '#include "Forgotten.h"\nForgotten forgotten;\n', "Makefile": "game: game.cpp\n\tg++ game.cpp Old.cpp -o game\n"}
 
-# A folder in which somebody has worked for a term, without a list of what belongs to it.
+# A folder after a term of work, without a list of what belongs to it.
 COPIES = {
     "src/game.cpp": MAIN.replace('#include "Hero.h"', '#include "Hero.h"\n#include "Points.cpp"'), "src/Points.cpp": "int points() { return 3; }\n",
     "src/include/Hero.h": HERO_H, "src/Hero.Cpp": HERO, **{f"src/Hero{suffix}.cpp": HERO for suffix in (" - Copy", " copy", " (1)", "_old")},

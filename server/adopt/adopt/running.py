@@ -82,7 +82,7 @@ class Running:
             return
         self._report.fail("builds", {
             "crashed": "it crashes", "unplayed": "it never calls GM.run()", "failed": "it ends with an error",
-            "deaf": "it never listens", "hangs": "it hangs", "refused": "nobody can play it"}.get(
+            "deaf": "it never listens", "hangs": "it hangs", "refused": "no player can join it"}.get(
                 outcome.state, "it is over before it can be played"))
 
     def _explain(self, outcome, trial):

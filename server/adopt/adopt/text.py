@@ -52,7 +52,7 @@ def decoded(data):
 
 
 class Sources:
-    """The code files of the copy, read once. What is changed is written back by flush(), before somebody else reads it."""
+    """The code files of the copy, read once. What is changed is written back by flush(), before another program reads it."""
 
     def __init__(self, root, files):
         self.root, self.files, self.recoded = root, sorted(files), []

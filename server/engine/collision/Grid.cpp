@@ -53,7 +53,8 @@ int Grid::levelOf(const FixedBox& box) const {
 void Grid::count(const Record& record, int by) {
   if (record.level > 0) {
     m_boxes_beside += by;
-    if (record.large) m_large_boxes += by;
+    m_large_boxes += record.area == 0 ? by : 0;
+    m_shaded_area += by * std::int64_t{record.area};
   }
   if (record.character) {
     m_characters += by;
@@ -73,28 +74,28 @@ void Grid::weigh() {
   }
 }
 
-// Are the boxes beside the characters so few that it pays to know where they are?
+// Do the boxes beside the characters cover so few cells that it pays to know which?
 void Grid::weighShade() {
-  const bool is_needed = m_boxes_beside > 0 && m_levels[0].count > 0;
-  if (!is_needed) return m_p_shade.reset();
+  const std::int64_t characters = m_levels[0].count;
+  if (m_boxes_beside == 0 || characters == 0) return m_p_shade.reset();
   const bool was_exact = m_p_shade != nullptr && m_p_shade->isExact();
-  const int per_box = was_exact ? Shade::kCharactersPerBox : 2 * Shade::kCharactersPerBox;
-  const bool is_exact = m_large_boxes == 0 && std::int64_t{m_boxes_beside} * per_box <= m_levels[0].count;
+  const int most = was_exact ? Shade::kMostCellsPerCharacter : Shade::kMostCellsPerCharacter / 2;
+  const bool is_exact = m_shaded_area <= most * characters;
   if (m_p_shade == nullptr || is_exact != was_exact) remakeShade(is_exact);
+  m_p_shade->cover(m_large_boxes > 0);
 }
 
 void Grid::remakeShade(bool is_exact) {
   m_p_shade = std::make_unique<Shade>(m_levels[0], is_exact);
+  m_p_shade->cover(m_large_boxes > 0);
   for (Slot s = 0; is_exact && s < m_records.size(); ++s) {
     if (m_records[s].level > 0) shade(s);
   }
 }
 
-bool Grid::hasExactShade() const {
-  return m_p_shade != nullptr && m_p_shade->isExact();
-}
-
 void Grid::shade(Slot slot) {
+  if (!m_p_shade->isExact()) return;
+  if (m_records[slot].area == 0) return m_p_shade->remove(m_levels[0], slot);
   m_p_shade->file(m_levels[0], slot, worldBox(slot));
 }
 
@@ -131,13 +132,13 @@ void Grid::fileAt(Slot slot, int number) {
   Level& level = m_levels[static_cast<std::size_t>(number)];
   Record& record = m_records[slot];
   const bool character = m_boxes[slot] == kCharacterBox;
-  const bool large = number > 0 && Shade::isTooLarge(m_boxes[slot]);
+  const std::uint16_t area = number > 0 ? Shade::areaOf(m_boxes[slot]) : std::uint16_t{0};
   if (record.level == number) {
     count(record, -1);
     record.character = character;
-    record.large = large;
+    record.area = area;
     count(record, 1);
-    return large ? refile(slot, level) : refile(slot);
+    return refile(slot);
   }
   drop(slot);
   if (static_cast<std::size_t>(level.count) >= level.words.size() * kBoxesPerWord) {
@@ -145,12 +146,12 @@ void Grid::fileAt(Slot slot, int number) {
   }
   ++level.count;
   m_occupied |= 1u << number;
-  record.level = static_cast<std::int16_t>(number);
+  record.level = static_cast<std::int8_t>(number);
   record.character = character;
-  record.large = large;
+  record.area = area;
   count(record, 1);
   link(slot, level, level.cellOf(anchor(slot, number)));
-  if (hasExactShade() && number > 0 && !large) shade(slot);
+  if (m_p_shade != nullptr && number > 0) shade(slot);
 }
 
 void Grid::drop(Slot slot) {
@@ -158,7 +159,7 @@ void Grid::drop(Slot slot) {
   const int number = m_records[slot].level;
   Level& level = m_levels[static_cast<std::size_t>(number)];
   unlink(slot, level);
-  if (hasExactShade() && number > 0) m_p_shade->remove(m_levels[0], slot);
+  if (m_p_shade != nullptr && number > 0) m_p_shade->remove(m_levels[0], slot);
   count(m_records[slot], -1);
   m_records[slot].level = -1;
   if (--level.count == 0) m_occupied &= ~(1u << number);

@@ -17,7 +17,7 @@
 // something moves.
 //
 // A character that moves looks at the other levels only where a bit per cell of level 0 says that a box of
-// them may be (GridShade.h). The bits are kept while such boxes are few and small among many characters.
+// them may be (GridShade.h). The bits are kept while such boxes cover few cells for the number of characters.
 //
 // The grid reads positions and boxes from the store's arrays; a slot is filed under what they say when
 // file() or refile() is called.
@@ -58,7 +58,7 @@ class Grid {
   /// Its position has changed, and nothing else: file it again. It must be filed.
   void refile(Slot slot) {
     refile(slot, m_levels[static_cast<std::size_t>(m_records[slot].level)]);
-    if (m_p_shade != nullptr && m_records[slot].level > 0 && hasExactShade()) shade(slot);
+    if (m_p_shade != nullptr && m_records[slot].level > 0) shade(slot);
   }
   /// Forget `slot`, if it was filed.
   void remove(Slot slot);
@@ -96,9 +96,9 @@ class Grid {
     std::uint32_t cell = 0;
     Slot next = kNone;
     Slot previous = kNone;
-    std::int16_t level = -1;  // not filed
+    std::int8_t level = -1;  // not filed
     bool character = false;
-    bool large = false;  // too large to be shaded
+    std::uint16_t area = 0;  // beside level 0: of its shade, in cells; 0: too large for one
   };
 
   struct Level {
@@ -132,7 +132,6 @@ class Grid {
   void weigh();
   void weighShade();
   void remakeShade(bool is_exact);
-  bool hasExactShade() const;
   void shade(Slot slot);
   void fileAt(Slot slot, int number);
   void refile(Slot slot, Level& level);
@@ -154,7 +153,8 @@ class Grid {
   int m_small_boxes = 0;             // of level 1, without characters
   bool m_characters_apart = true;    // in level 0; else they are in level 1
   int m_boxes_beside = 0;            // of all levels but 0
-  int m_large_boxes = 0;             // of these, too large to be shaded
+  int m_large_boxes = 0;             // of these, too large for a shade
+  std::int64_t m_shaded_area = 0;    // of the others, in cells
   std::unique_ptr<Shade> m_p_shade;  // null: nothing is filed beside characters, or no characters
   MoverStats m_mover_stats;
   std::vector<Slot> m_found;  // of Steps, when they are many

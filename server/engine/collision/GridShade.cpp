@@ -2,16 +2,25 @@
 
 namespace df {
 
-bool Grid::Shade::isTooLarge(const FixedBox& box) {
+std::uint16_t Grid::Shade::areaOf(const FixedBox& box) {
   const auto cells = [](Fixed size) { return static_cast<std::uint64_t>(size >> kFixedBits) + 3; };
   const std::uint64_t wide = cells(box.size.x), high = cells(box.size.y);
-  return wide > kLargestArea || high > kLargestArea || wide * high > kLargestArea;
+  if (wide > kLargestArea || high > kLargestArea || wide * high > kLargestArea) return 0;
+  return static_cast<std::uint16_t>(wide * high);
 }
 
 Grid::Shade::Shade(const Level& level, bool is_exact)
     : m_is_exact(is_exact),
-      m_words(level.words.size(), is_exact ? 0 : ~std::uint64_t{0}),
-      m_counts(is_exact ? level.words.size() * 64 : 0) {}
+      m_size(level.words.size()),
+      m_words(is_exact ? m_size : 0),
+      m_counts(is_exact ? 64 * m_size : 0) {
+  cover(false);
+}
+
+void Grid::Shade::cover(bool is_covered) {
+  m_are_set = is_covered || !m_is_exact;
+  if (m_are_set && m_ones.empty()) m_ones.assign(m_size, ~std::uint64_t{0});
+}
 
 void Grid::Shade::count(const Level& level, const Area& area, bool is_more) {
   for (std::int64_t y = area.y0; y <= area.y1; ++y) {

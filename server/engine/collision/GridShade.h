@@ -1,4 +1,4 @@
-// Which cells of level 0 a character may not enter without touching a box of another level.
+// In which cells of level 0 a character may touch a box of another level.
 #pragma once
 
 #include <cstddef>
@@ -11,28 +11,32 @@
 namespace df {
 
 /// A bit per cell of level 0: may a character there touch a box of another level? Where it may not, its move
-/// needs no look at the other levels. The bits are exact only while such boxes are few and small; otherwise
-/// all are set. A box that moves costs the cells around it, a character that moves one bit.
+/// needs no look at the other levels. The bits are exact only while such boxes cover few cells; otherwise
+/// all are set, likewise while there is a large box. A box that moves costs the cells around it, a character
+/// that moves one bit. Making one costs as much as the changes that it takes to need another.
 class Grid::Shade {
  public:
-  /// So many boxes at most for a number of characters; with fewer than half as many it begins to be exact.
-  static constexpr int kCharactersPerBox = 8;
-  static constexpr std::size_t kLargestArea = 4096;  ///< cells of one box
+  /// Cells of all boxes, for each character: with more it is not exact any more, with half as many it is
+  /// again.
+  static constexpr int kMostCellsPerCharacter = 8;
+  static constexpr std::uint64_t kLargestArea = 4096;  ///< cells of one box
 
-  /// Is the box too large for it?
-  static bool isTooLarge(const FixedBox& box);
+  /// How many cells a box of this size takes at most; 0: it is too large.
+  static std::uint16_t areaOf(const FixedBox& box);
   /// No box is filed in it yet.
   Shade(const Level& level, bool is_exact);
 
   bool isExact() const { return m_is_exact; }
-  /// A box at its place, wherever it was before. Only of an exact one; likewise remove().
+  /// Sets all bits for now, or no longer. What is filed stays known.
+  void cover(bool is_covered);
+  /// A box at its place, wherever it was before. Only of an exact one.
   void file(const Level& level, Slot slot, const FixedBox& world_box);
   void remove(const Level& level, Slot slot);
   /// As the words of the level.
-  const std::uint64_t* words() const { return m_words.data(); }
+  const std::uint64_t* words() const { return (m_are_set ? m_ones : m_words).data(); }
   std::size_t bytes() const {
-    return m_words.capacity() * sizeof(m_words[0]) + m_counts.capacity() + m_areas.capacity() * sizeof(Area) +
-           m_index.capacity() * sizeof(m_index[0]);
+    return (m_words.capacity() + m_ones.capacity()) * sizeof(m_words[0]) + m_counts.capacity() +
+           m_areas.capacity() * sizeof(Area) + m_index.capacity() * sizeof(m_index[0]);
   }
 
  private:
@@ -46,7 +50,10 @@ class Grid::Shade {
   void count(const Level& level, const Area& area, bool is_more);
 
   bool m_is_exact;
-  std::vector<std::uint64_t> m_words;
+  std::size_t m_size;
+  std::vector<std::uint64_t> m_words;  // empty, unless it is exact
+  std::vector<std::uint64_t> m_ones;   // what counts while all are set; made when first needed
+  bool m_are_set = false;
   std::vector<std::uint8_t> m_counts;  // by cell: of boxes; several may be near, or fall onto the same cells
   std::vector<Area> m_areas;
   std::vector<std::uint32_t> m_index;  // by slot: of its area

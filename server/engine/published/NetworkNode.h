@@ -1,4 +1,4 @@
-// The published engine's end of a socket: an Object that sends and receives messages. Here it is told of
+// The published engine's end of a socket: an Object that sends and receives messages. Here it hears of
 // players that come and go, if the game is a server (NetworkManager.h); messages to clients go nowhere.
 #pragma once
 

@@ -1,5 +1,4 @@
-// Somebody who joins over TLS from an address of their own, without datagrams, and does what they are made
-// to.
+// A client that joins over TLS from an address of its own, without datagrams, and does as it is asked.
 #pragma once
 
 #include <asio/io_context.hpp>

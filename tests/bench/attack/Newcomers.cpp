@@ -10,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kNetwork = 90;
-constexpr auto kRetryDelay = 250ms;  // of one that is told to try again, as dfclient's
+constexpr auto kRetryDelay = 250ms;  // of one that the server asks to wait, as dfclient's
 constexpr auto kLeaveTime = 500ms;   // for the goodbye to get through
 
 }  // namespace

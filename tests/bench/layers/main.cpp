@@ -4,7 +4,7 @@
 //     naiad_layers SCENE LAYER one|sixteen|all TICKS
 //
 // In a scene there is one Object more, far from all others, under way, or sixteen more that stand scattered
-// among them. These alone use the layer, or all do. Nobody comes to a border. Prints `allocations_per_tick=…
+// among them. These alone use the layer, or all do. None comes to a border. Prints `allocations_per_tick=…
 // bytes_per_object=…`.
 #include <cstdio>
 #include <cstdlib>

@@ -195,7 +195,7 @@ TEST_F(NetworkServerTest, WhatIsSynchronisedCountsAsWritten) {
   NM.setServer();
   NetworkNode node;
   Probe apple("apple", nullptr, Vector(3, 4));
-  EXPECT_EQ(node.sendMessage(SYNC_OBJECT, &apple), 0) << "nobody is connected";
+  EXPECT_EQ(node.sendMessage(SYNC_OBJECT, &apple), 0) << "no player is connected";
   EXPECT_TRUE(apple.isModified(POSITION));
   world.join("ann", CYAN);
   world.tick();
