@@ -70,7 +70,7 @@ void Grid::weigh() {
   if (apart == m_characters_apart) return;
   m_characters_apart = apart;
   for (Slot s = 0; s < m_records.size(); ++s) {
-    if (m_records[s].level >= 0 && m_records[s].character) fileAt(s, apart ? 0 : 1);
+    if (contains(s) && m_records[s].character) fileAt(s, apart ? 0 : 1);
   }
 }
 
@@ -89,7 +89,7 @@ void Grid::remakeShade(bool is_exact) {
   m_p_shade = std::make_unique<Shade>(m_levels[0], is_exact);
   m_p_shade->cover(m_large_boxes > 0);
   for (Slot s = 0; is_exact && s < m_records.size(); ++s) {
-    if (m_records[s].level > 0) shade(s);
+    if (contains(s) && m_records[s].level > 0) shade(s);
   }
 }
 
@@ -146,7 +146,7 @@ void Grid::fileAt(Slot slot, int number) {
   }
   ++level.count;
   m_occupied |= 1u << number;
-  record.level = static_cast<std::int8_t>(number);
+  record.level = static_cast<std::uint8_t>(number);
   record.character = character;
   record.area = area;
   count(record, 1);
@@ -161,7 +161,7 @@ void Grid::drop(Slot slot) {
   unlink(slot, level);
   if (m_p_shade != nullptr && number > 0) m_p_shade->remove(m_levels[0], slot);
   count(m_records[slot], -1);
-  m_records[slot].level = -1;
+  m_records[slot].level = kNotFiled;
   if (--level.count == 0) m_occupied &= ~(1u << number);
   // A sixteenth of what would have it grow beyond this size: give memory back.
   const std::size_t few = level.words.size() * kBoxesPerWord / 16;

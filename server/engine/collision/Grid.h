@@ -57,12 +57,12 @@ class Grid {
   void file(Slot slot);
   /// Its position has changed, and nothing else: file it again. It must be filed.
   void refile(Slot slot) {
-    refile(slot, m_levels[static_cast<std::size_t>(m_records[slot].level)]);
+    refile(slot, m_levels[m_records[slot].level]);
     if (m_p_shade != nullptr && m_records[slot].level > 0) shade(slot);
   }
   /// Forget `slot`, if it was filed.
   void remove(Slot slot);
-  bool contains(Slot slot) const { return slot < m_records.size() && m_records[slot].level >= 0; }
+  bool contains(Slot slot) const { return slot < m_records.size() && m_records[slot].level != kNotFiled; }
   int size() const;
   /// What has been done, here and by users of the grid.
   MoverStats& moverStats() { return m_mover_stats; }
@@ -89,6 +89,7 @@ class Grid {
   static constexpr Spot kSeveral = 0x8000;       // in a cell's spot: it has several slots, anywhere
   static constexpr std::size_t kRowOfSpots = 4;  // that are read at a time, three of them for their own sake
   static constexpr std::int64_t kBlock = 64;     // cells per side of the squares that lie flat
+  static constexpr std::uint8_t kNotFiled = 0xff;  // in place of a level
   static constexpr std::size_t kMinWords = 256;
   static constexpr std::size_t kBoxesPerWord = 2;  // at most, on average
 
@@ -96,7 +97,7 @@ class Grid {
     std::uint32_t cell = 0;
     Slot next = kNone;
     Slot previous = kNone;
-    std::int8_t level = -1;  // not filed
+    std::uint8_t level = kNotFiled;
     bool character = false;
     std::uint16_t area = 0;  // beside level 0: of its shade, in cells; 0: too large for one
   };

@@ -29,7 +29,7 @@ void Grid::Steps::lookAtOthers(Slot s, FixedVector where) {
 bool Grid::Steps::isBoxFree(Slot s, const Record& own, FixedVector where) {
   m_count = 0;
   m_lifted = m_plain = false;
-  const Level& level = m_grid.m_levels[static_cast<std::size_t>(own.level)];
+  const Level& level = m_grid.m_levels[own.level];
   const FixedBox box = translate(m_grid.m_boxes[s], where);
   const FixedVector low = box.corner - largest(own.level);
   const FixedVector high = box.corner + box.size;
