@@ -103,6 +103,8 @@ struct Flood {
   SilentCrowd::Kind kind;
   int addresses;
   const char* form;  ///< of an address; %d: its number
+  int connections = 400;
+  bool with_players = false;  ///< one at each address
 };
 
 std::ostream& operator<<(std::ostream& out, const Flood& flood) {
@@ -125,9 +127,12 @@ TEST_P(HalfOpenCrowd, KeepsNoPlayerOutAndThrowsNoneOut) {
     std::snprintf(text.data(), text.size(), flood.form, i + 1);
     return std::string(text.data());
   });
-  SilentCrowd crowd(server.port(), from, 400 / flood.addresses, flood.kind);
+  const auto accomplices = lightClients(server, flood.with_players ? from : std::vector<std::string>());
+  for (const auto& one : accomplices) EXPECT_EQ(judge(*one), LightClient::State::kWelcome);
+  SilentCrowd crowd(server.port(), from, flood.connections / flood.addresses, flood.kind);
   const auto all = {&ann, bob->client.get()};
-  ASSERT_TRUE(serveUntil(context, all, [&] { return crowd.hungUp() > 100; })) << "the crowd is at the limit";
+  ASSERT_TRUE(serveUntil(context, all, [&] { return crowd.hungUp() > 100 || crowd.haveFinished(); }))
+      << "the crowd is at the limit";
 
   const std::uint32_t began = ann.newestTick();
   for (int i = 0; i < 3; ++i) {
@@ -150,7 +155,7 @@ TEST_P(HalfOpenCrowd, KeepsNoPlayerOutAndThrowsNoneOut) {
   EXPECT_TRUE(seesTheTruth(ann, server, all));
   EXPECT_EQ(server.counters().divergences, 0u);
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
-  EXPECT_EQ(server.counters().joined, 5u);
+  EXPECT_EQ(server.counters().joined, 5u + accomplices.size());
   EXPECT_EQ(server.counters().graces_expired, 0u);
 }
 
@@ -162,6 +167,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Flood{"OfOneNeighbourhood", SilentCrowd::Kind::kBegunHello, 200, "127.1.1.%d"},
                     Flood{"OfOneNeighbourhoodThatSaysHello", SilentCrowd::Kind::kWholeHello, 200,
                           "127.1.1.%d"},
+                    Flood{"OfOneNeighbourhoodThatFinishesItsHellosTogether",
+                          SilentCrowd::Kind::kFinishedTogether, 4, "127.1.1.%d", 256},
+                    Flood{"OfPlayersWhoFinishTheirHellosTogether", SilentCrowd::Kind::kFinishedTogether, 4,
+                          "127.1.1.%d", 256, true},
                     Flood{"OfTwoHundredNetworks", SilentCrowd::Kind::kBegunHello, 200, "127.1.%d.1"}),
     [](const auto& flood) { return flood.param.name; });
 

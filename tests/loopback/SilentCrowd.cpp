@@ -1,10 +1,12 @@
 #include "SilentCrowd.h"
 
+#include <algorithm>
 #include <array>
 #include <asio/ip/tcp.hpp>
 #include <asio/steady_timer.hpp>
 #include <asio/write.hpp>
 #include <chrono>
+#include <functional>
 #include <memory>
 
 #include "shared/net/stream/TcpConnector.h"
@@ -49,10 +51,15 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
     socket.bind(own);
     socket.async_connect(server, [self = shared_from_this()](const std::error_code& error) {
       if (error) return self->comeAgain();
-      std::error_code late;
-      if (!self->words.empty()) asio::write(self->socket, asio::buffer(self->words), late);
+      self->say(self->words);
+      self->begun = true;
       self->wait();
+      if (self->on_begun) self->on_begun();
     });
+  }
+  void say(const std::string& bytes) {
+    std::error_code late;
+    if (!bytes.empty()) asio::write(socket, asio::buffer(bytes), late);
   }
   void wait() {
     socket.async_read_some(asio::buffer(in),
@@ -75,6 +82,8 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
   std::atomic<std::uint64_t>& hung_up;
   tcp::endpoint own, server;
   std::string words;
+  bool begun = false;  // once at least
+  std::function<void()> on_begun;
   std::array<char, 4096> in{};
 };
 
@@ -82,16 +91,34 @@ SilentCrowd::SilentCrowd(std::uint16_t server, const std::vector<std::string>& a
                          Kind kind) {
   std::string words = kind == Kind::kSilent ? "" : clientHello();
   if (kind == Kind::kBegunHello) words.resize(words.size() / 2);
+  if (kind == Kind::kFinishedTogether) {
+    m_rest = words.substr(words.size() - 1);
+    words.pop_back();
+  }
   const tcp::endpoint to(asio::ip::address_v4::loopback(), server);
   for (int i = 0; i < each; ++i) {
     for (const std::string& address : addresses) {
       m_all.push_back(std::make_shared<One>(m_context, m_hung_up,
                                             tcp::endpoint(asio::ip::make_address(address), 0), to, words));
+      if (!m_rest.empty()) m_all.back()->on_begun = [this, one = m_all.back().get()] { finishHello(*one); };
     }
   }
   m_thread = std::thread([this] {
     for (const auto& one : m_all) one->come();
     m_context.run();
+  });
+}
+
+// The first hellos are completed when all of them have begun and the server has had time to accept them; from
+// then on each is completed at once.
+void SilentCrowd::finishHello(One& one) {
+  if (m_finished) return one.say(m_rest);
+  if (!std::all_of(m_all.begin(), m_all.end(), [](const auto& other) { return other->begun; })) return;
+  m_timer.expires_after(500ms);
+  m_timer.async_wait([this](const std::error_code& error) {
+    if (error || m_finished) return;
+    for (const auto& other : m_all) other->say(m_rest);
+    m_finished = true;
   });
 }
 

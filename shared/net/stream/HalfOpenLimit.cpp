@@ -1,7 +1,6 @@
 #include "shared/net/stream/HalfOpenLimit.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace naiad {
 
@@ -60,14 +59,17 @@ void HalfOpenLimit::admit(Id id, const AddressPrefix& prefix) {
   by_id_.emplace_hint(by_id_.end(), id, entry);
 }
 
-void HalfOpenLimit::noteHello(Id id) {
+bool HalfOpenLimit::noteHello(Id id) {
   Entry& entry = by_id_.at(id);
-  if (std::exchange(entry.greeted, true)) return;
+  if (entry.greeted) return true;
+  if (exceedsShare(entry.prefix)) return false;
+  entry.greeted = true;
   ++greeted_;
   for (const auto& group : entry.groups) {
     --group->second.silent;
     ++group->second.greeted;
   }
+  return true;
 }
 
 void HalfOpenLimit::release(Id id) {

@@ -4,7 +4,8 @@
 // an attacker, while the hello of an honest client comes with its connection. So silent connections are ended
 // to make room: the oldest one of the most crowded prefix. A connection that has greeted is never ended for
 // another one. Lest these fill all places, a prefix may have no more of them than places are left: one prefix
-// leaves half of the places free, and n that take all they can in turn leave 1/(n + 1).
+// leaves half of the places free, and n that take all they can in turn leave 1/(n + 1). That is judged when a
+// connection comes and again when its hello is complete, for many may begin their hellos before one is.
 //
 // A prefix counts in three widths (AddressPrefix.h), so an IPv6 customer with many networks, or a
 // neighbourhood of rented servers, is as crowded as all of it together.
@@ -47,8 +48,9 @@ class HalfOpenLimit {
   Verdict judge(const AddressPrefix& prefix) const;
   /// Count this one, until release(). `id` is greater than all before.
   void admit(Id id, const AddressPrefix& prefix);
-  /// The client hello of this one is complete. Throws std::out_of_range if it is not admitted.
-  void noteHello(Id id);
+  /// The client hello of this one is complete. False: its prefix has its share of the places, so hang up on
+  /// it; it counts as silent until release(). Throws std::out_of_range if it is not admitted.
+  [[nodiscard]] bool noteHello(Id id);
   /// Once for each admitted. Throws std::out_of_range if it is not.
   void release(Id id);
 

@@ -44,6 +44,7 @@ struct TcpListener::State : std::enable_shared_from_this<State> {
   void onAccepted(const std::error_code& error, tcp::socket socket);
   void shakeHands(tcp::socket socket);
   bool makeRoom(HalfOpenLimit& places, const AddressPrefix& prefix);
+  void hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id);
   void onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream);
   void close();
 
@@ -146,13 +147,22 @@ void TcpListener::State::shakeHands(tcp::socket socket) {
         self->onHandshake(end, std::move(stream));
       },
       [self = shared_from_this(), id, &places, hasty] {
-        places.noteHello(id);
+        if (!places.noteHello(id)) {
+          ++self->counters.refused_from_prefix;
+          return self->hangUp(places, id);
+        }
         if (hasty) self->handshakes.at(id)->setTimeout(self->tls.handshake_timeout / 2);
       });
 }
 
+void TcpListener::State::hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id) {
+  handshakes.at(id)->cancel();
+  handshakes.erase(id);
+  places.release(id);
+}
+
 // False: there is no place for another connection of this prefix. Each turn ends a silent one, or finds out
-// that it is silent no longer.
+// that it is silent no longer, or gone.
 bool TcpListener::State::makeRoom(HalfOpenLimit& places, const AddressPrefix& prefix) {
   using Kind = HalfOpenLimit::Verdict::Kind;
   for (;;) {
@@ -165,9 +175,7 @@ bool TcpListener::State::makeRoom(HalfOpenLimit& places, const AddressPrefix& pr
     const std::shared_ptr<TlsHandshake> handshake = handshakes.at(verdict.id);
     handshake->readAhead();  // its hello may have come, and wait to be read
     if (!places.isSilent(verdict.id)) continue;
-    handshake->cancel();
-    handshakes.erase(verdict.id);
-    places.release(verdict.id);
+    hangUp(places, verdict.id);
     ++counters.half_open_ended;
   }
 }

@@ -69,7 +69,7 @@ class TcpListener {
     std::uint64_t handshakes_late = 0;      ///< TLS: not done in time
     std::uint64_t half_open_ended = 0;      ///< TLS: silent, while another one needed the place
     std::uint64_t refused_half_open = 0;    ///< TLS: none was silent, and there was no place
-    std::uint64_t refused_from_prefix = 0;  ///< TLS: the same for connections of that prefix
+    std::uint64_t refused_from_prefix = 0;  ///< TLS: the prefix has its share of the places
   };
 
   /// Listens from now on; `on_channel` is called from the event loop. `address`: numeric, IPv4 or IPv6;

@@ -44,8 +44,16 @@ class HalfOpenLimitTest : public testing::Test {
     if (verdict.kind == Kind::kEndFirst) limit.release(verdict.id);
     if (verdict.kind == Kind::kFull || verdict.kind == Kind::kFullForPrefix) return false;
     limit.admit(++newest, prefix);
-    limit.noteHello(newest);
+    EXPECT_TRUE(limit.noteHello(newest)) << "judged the same when it came";
     return true;
+  }
+  /// All places are taken by connections that have begun their hellos; then these are completed in turn, and
+  /// who may not go on is hung up on.
+  void beginAndFinishTogether(const std::vector<AddressPrefix>& prefixes) {
+    for (std::size_t i = 0; limit.count() < 256; ++i) come(prefixes[i % prefixes.size()]);
+    for (Id id = 1; id <= newest; ++id) {
+      if (!limit.noteHello(id)) limit.release(id);
+    }
   }
   /// How many of `times` from each of `prefixes` in turn get in.
   int flood(const std::vector<AddressPrefix>& prefixes, int times) {
@@ -130,6 +138,39 @@ TEST_F(HalfOpenLimitTest, HellosOfManyNetworksOfFourCustomersLeavePlacesForNewco
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
 }
 
+TEST_F(HalfOpenLimitTest, NineNetworksThatFillUpOneAfterTheOtherTakeAllPlaces) {
+  int networks = 0;
+  for (; limit.judge(of("203.0.113.1")).kind == Kind::kFits; ++networks) {
+    std::vector<AddressPrefix> network;
+    for (int host = 0; host < 200; ++host)
+      network.push_back(of("198.51." + std::to_string(networks) + "." + std::to_string(host)));
+    flood(network, 10);
+  }
+  EXPECT_EQ(networks, 9) << "as threats.md says";
+}
+
+TEST_F(HalfOpenLimitTest, HellosThatBeginFirstAndFinishTogetherLeavePlacesForNewcomers) {
+  beginAndFinishTogether({of("198.51.100.1"), of("198.51.100.2"), of("198.51.100.3"), of("198.51.100.4")});
+  EXPECT_EQ(limit.count(), 128u) << "one network has half of the places";
+  EXPECT_FALSE(comeWithHello(of("198.51.100.5")));
+  for (int i = 0; i < 40; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
+}
+
+TEST_F(HalfOpenLimitTest, HellosOfFourNetworksThatFinishTogetherLeavePlacesForNewcomers) {
+  beginAndFinishTogether(
+      {customersNetwork(1, 0), customersNetwork(2, 0), customersNetwork(3, 0), customersNetwork(4, 0)});
+  EXPECT_LE(limit.count(), 208u);
+  for (int i = 0; i < 40; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
+}
+
+TEST_F(HalfOpenLimitTest, AHelloThatIsRefusedLeavesItsPlace) {
+  beginAndFinishTogether({of("198.51.100.1"), of("198.51.100.2"), of("198.51.100.3"), of("198.51.100.4")});
+  come(of("192.0.2.1"));
+  EXPECT_TRUE(limit.noteHello(newest)) << "of another network";
+  EXPECT_TRUE(limit.noteHello(newest)) << "asked again, it is what it was";
+  EXPECT_EQ(limit.count(), 129u);
+}
+
 TEST_F(HalfOpenLimitTest, AClassOf64BehindOneAddressFits) {
   EXPECT_EQ(flood({of("192.0.2.1")}, 64), 64);
   EXPECT_FALSE(comeWithHello(of("192.0.2.1")));
@@ -163,7 +204,7 @@ TEST_F(HalfOpenLimitTest, ReleasesWhatWasAdmittedAndNothingElse) {
   limit.release(1);
   EXPECT_EQ(limit.count(), 0u);
   EXPECT_THROW(limit.release(1), std::out_of_range);
-  EXPECT_THROW(limit.noteHello(1), std::out_of_range);
+  EXPECT_THROW((void)limit.noteHello(1), std::out_of_range);
   EXPECT_FALSE(limit.isSilent(1));
 }
 
@@ -182,10 +223,8 @@ class NaiveLimit {
     const auto all = [](const Entry&) { return true; };
     const std::size_t greeted = count(true, all);
     if (greeted >= m_limits.in_all) return {Kind::kFull};
-    const std::size_t free = m_limits.in_all - greeted;
     const auto same = [&](const Entry& e) { return e.prefix == prefix; };
-    const auto far = [&](const Entry& e) { return e.prefix.widest() == prefix.widest(); };
-    if (count(true, far) >= free) return {Kind::kFullForPrefix};
+    if (hasItsShare(prefix)) return {Kind::kFullForPrefix};
     if (count(true, same) + count(false, same) >= m_limits.per_prefix) {
       for (const Entry& e : entries) {
         if (!e.greeted && same(e)) return {Kind::kEndFirst, e.id};
@@ -207,6 +246,11 @@ class NaiveLimit {
       }
     }
     return worst;
+  }
+
+  bool hasItsShare(const AddressPrefix& prefix) const {
+    const std::size_t free = m_limits.in_all - count(true, [](const Entry&) { return true; });
+    return count(true, [&](const Entry& e) { return e.prefix.widest() == prefix.widest(); }) >= free;
   }
 
   std::vector<Entry> entries;
@@ -243,8 +287,9 @@ TEST_F(HalfOpenLimitTest, AgreesWithCountingFromTheBeginning) {
       const std::uint64_t what = random.below(8);
       if (what == 0 && !naive.entries.empty()) drop(some);
       if (what == 1 && !naive.entries.empty()) {
-        tested.noteHello(naive.entries[some].id);
-        naive.entries[some].greeted = true;
+        NaiveLimit::Entry& entry = naive.entries[some];
+        entry.greeted = entry.greeted || !naive.hasItsShare(entry.prefix);
+        ASSERT_EQ(tested.noteHello(entry.id), entry.greeted) << round << " " << step;
       }
       const AddressPrefix prefix = randomPrefix(random);
       const auto verdict = tested.judge(prefix);

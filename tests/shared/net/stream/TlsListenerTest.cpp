@@ -277,6 +277,45 @@ TEST_F(TlsListenerTest, HellosOfFewPlacesLeaveOthersRoom) {
   expectConversation(*this);
 }
 
+/// 16 connections from four addresses of one network begin their hellos, and when all places are theirs, they
+/// finish them.
+std::vector<tcp::socket> finishHellosTogether(TlsFixture& t) {
+  RawTls client;
+  const std::string hello = client.advance();
+  std::vector<tcp::socket> flood;
+  for (int i = 0; i < 16; ++i) {
+    flood.push_back(t.knockFrom("127.1.1." + std::to_string(1 + i % 4)));
+    asio::write(flood.back(), asio::buffer(hello, hello.size() - 1));
+  }
+  EXPECT_TRUE(runUntil(t.context, [&] { return t.listener->halfOpen() == 16; }));
+  for (tcp::socket& one : flood) asio::write(one, asio::buffer(&hello.back(), 1));
+  for (tcp::socket& one : flood)
+    EXPECT_TRUE(runUntil(t.context, [&] { return one.available() > 0 || TlsFixture::isOver(one); }));
+  return flood;
+}
+
+TEST_F(TlsListenerTest, HellosThatFinishTogetherLeaveOthersRoom) {
+  tls.max_half_open = 16;
+  tls.handshake_timeout = 1h;
+  listen();
+  const auto flood = finishHellosTogether(*this);
+  EXPECT_EQ(listener->halfOpen(), 8u);
+  EXPECT_EQ(counters().refused_from_prefix, 8u);
+  join();
+  expectConversation(*this);
+}
+
+TEST_F(TlsListenerTest, HellosOfKnownPlacesThatFinishTogetherLeaveOtherKnownOnesRoom) {
+  tls.max_half_open_known = 16;
+  tls.handshake_timeout = 1h;
+  tls.is_known = [](const AddressPrefix&) { return true; };
+  listen();
+  const auto flood = finishHellosTogether(*this);
+  EXPECT_EQ(counters().refused_from_prefix, 8u);
+  join();
+  expectConversation(*this);
+}
+
 TEST_F(TlsListenerTest, PlacesAreSetAsideForKnownPlaces) {
   tls.max_half_open = 4;
   tls.handshake_timeout = 1h;
