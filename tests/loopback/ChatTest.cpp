@@ -108,5 +108,62 @@ TEST(Chat, AFloodByResumesIsBoundedAndThrowsNobodyOut) {
   EXPECT_EQ(census.leaves, 0);
 }
 
+/// Joins, says all that a new player may say at once, and leaves, again and again.
+class Revenant {
+ public:
+  Revenant(std::uint16_t port, int visits) : m_thread([this, port, visits] { run(port, visits); }) {}
+  ~Revenant() { m_thread.join(); }
+  Revenant(const Revenant&) = delete;
+  Revenant& operator=(const Revenant&) = delete;
+
+  bool isDone() const { return m_done; }
+  std::uint64_t joins() const { return m_joins; }
+
+ private:
+  void run(std::uint16_t port, int visits) {
+    for (int i = 0; i < visits; ++i) {
+      RawClient client(port);
+      client.send(RawClient::hello("revenant"));
+      const auto answer = client.receive();
+      if (!answer || !answer->has_welcome()) continue;
+      ++m_joins;
+      wire::ClientMessage line;
+      line.mutable_chat()->set_text("again");
+      for (std::uint32_t number = 1; number <= 3; ++number) {
+        line.set_number(number);
+        client.send(line);
+      }
+      wire::ClientMessage leave;
+      leave.mutable_leave();
+      client.send(leave);
+      client.waitForHangup();
+    }
+    m_done = true;
+  }
+
+  std::atomic<bool> m_done = false;
+  std::atomic<std::uint64_t> m_joins = 0;
+  std::thread m_thread;
+};
+
+TEST(Chat, WhoLeavesAndJoinsAgainSaysNoMoreThanAnAddressMay) {
+  TestServer server([](df::World&) {});
+  asio::io_context context;
+  TestClient ann(context, server.port(), insecurely("ann"));
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  const auto began = Clock::now();
+  Revenant revenant(server.port(), 200);
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return revenant.isDone(); }));
+  const auto seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  const Counters counters = server.counters();
+  EXPECT_LE(static_cast<double>(revenant.joins()), 128 + 2 * seconds);
+  EXPECT_EQ(counters.refused_busy, 200u - revenant.joins());
+  const std::uint64_t lines = 3 * revenant.joins() - counters.chat_dropped;
+  EXPECT_LE(static_cast<double>(lines), 192 + 16 * seconds);
+  EXPECT_GE(lines, 192u);
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().counters().chat_lines >= lines; }));
+  EXPECT_EQ(ann.session().counters().chat_lines, lines) << "what she heard";
+}
+
 }  // namespace
 }  // namespace naiad::test

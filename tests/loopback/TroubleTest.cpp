@@ -148,6 +148,22 @@ TEST_F(Trouble, RefusalsAreLoggedWithTheirAddressFirst) {
   EXPECT_TRUE(logs(" \"ann\" joined with \"test\"\n")) << game->log();
 }
 
+TEST_F(Trouble, WhatWasRefusedIsLoggedAtTheEnd) {
+  start({{"NAIAD_PASSWORD", "xyzzy"}});
+  for (const std::string password : {"plugh", "", "xyzzy"}) {
+    ClientSetup setup = home.player("ann");
+    setup.options.password = password;
+    TestClient ann(context, game->port(), setup);
+    clients = {&ann};
+    EXPECT_TRUE(serve([&] { return ann.joined() || ann.connection().isOver(); }));
+    clients.clear();
+  }
+  game->signal(SIGTERM);
+  game->wait();
+  EXPECT_NE(game->log().find(" refused_password=2 "), std::string::npos) << game->log();
+  EXPECT_NE(game->log().find("passwords: right=1 wrong=1 unfit=1\n"), std::string::npos) << game->log();
+}
+
 // ---- signals ----------------------------------------------------------------------------------------------
 
 TEST_F(Trouble, SighupWithoutATerminalOpensTheLogAgain) {

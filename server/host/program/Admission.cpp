@@ -44,7 +44,10 @@ std::string versionSentence(std::uint32_t version) {
 }  // namespace
 
 Admission::Admission(Setup setup, const asio::any_io_executor& executor)
-    : m_setup(std::move(setup)), m_counters(m_setup.counters) {
+    : m_setup(std::move(setup)),
+      m_counters(m_setup.counters),
+      m_joins(PrefixRates::joins(m_setup.options.max_per_address)),
+      m_new_worlds(PrefixRates::worlds(m_setup.options.max_per_address, m_setup.options.max_players)) {
   const std::string& password = m_setup.options.password;
   if (!password.empty())
     m_password = std::make_unique<PasswordCheck>(executor, PasswordHash::fromText(password));
@@ -100,8 +103,12 @@ void Admission::applyPasswordAnswer(Session& session, const wire::Hello& hello,
       ++m_counters.refused_password;
       return session.refuse(wire::Refused::PASSWORD, "Too many wrong passwords. Try again in a minute.");
     case PasswordCheck::Answer::kBusy:
-      return session.refuse(wire::Refused::BUSY, "The server is busy. Try again in a moment.");
+      return refuseBusy(session, "The server is busy. Try again in a moment.");
   }
+}
+
+PasswordCheck::Counters Admission::passwordCounters() const {
+  return m_password ? m_password->counters() : PasswordCheck::Counters();
 }
 
 void Admission::forgetSession(const Session& session) {
@@ -185,9 +192,8 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
     ++m_counters.refused_name;
     return session.refuse(wire::Refused::NAME, "A player needs a name of 1 to 16 printable characters.");
   }
-  Room* p_room = m_setup.rooms.roomForNewPlayer();
-  if (p_room == nullptr)
-    return session.refuse(wire::Refused::BUSY, "The server cannot begin another world. Try again later.");
+  Room* p_room = roomFor(session);
+  if (p_room == nullptr) return;
   const std::string name = freeName(wanted);
   wire::Welcome welcome = welcomeTo(*p_room, name);
   std::unique_ptr<SealedChannel> datagrams = openDatagrams(session, hello);
@@ -226,6 +232,32 @@ bool Admission::checkLimits(Session& session) {
     return false;
   }
   return true;
+}
+
+// Null: the session was refused. A client that leaves and joins again has fresh allowances each time, so how
+// often it joins is limited for its address.
+Room* Admission::roomFor(Session& session) {
+  const AddressPrefix prefix = prefixOf(session);
+  const Session::Clock::time_point now = session.now();
+  if (!m_joins.take(prefix, now)) {
+    refuseBusy(session, "Too many players have joined from your address. Try again in a moment.");
+    return nullptr;
+  }
+  if (m_setup.rooms.isPrivate() && !m_new_worlds.take(prefix, now)) {
+    refuseBusy(session, "Too many worlds have begun lately. Try again in a moment.");
+    return nullptr;
+  }
+  std::string problem;
+  Room* p_room = m_setup.rooms.roomForNewPlayer(problem);
+  if (p_room != nullptr) return p_room;
+  if (!problem.empty()) m_setup.log_client(session.address(), "gets no world: " + problem);
+  refuseBusy(session, "The server cannot begin another world. Try again later.");
+  return nullptr;
+}
+
+void Admission::refuseBusy(Session& session, const std::string& sentence) {
+  ++m_counters.refused_busy;
+  session.refuse(wire::Refused::BUSY, sentence);
 }
 
 std::string Admission::freeName(const std::string& wanted) const {

@@ -13,6 +13,7 @@
 #include "host/net/PlayerPrefixes.h"
 #include "host/net/SealedChannel.h"
 #include "host/program/HostOptions.h"
+#include "host/program/PrefixAllowance.h"
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 
@@ -51,6 +52,8 @@ class Admission {
   void confirmToken(const Session& session) { m_tokens.confirm(session.id()); }
   /// The session is over: its token is void.
   void forgetSession(const Session& session);
+  /// What became of passwords; all zero if none is needed.
+  PasswordCheck::Counters passwordCounters() const;
 
  private:
   bool checkHello(Session& session, const wire::Hello& hello);
@@ -62,6 +65,8 @@ class Admission {
   void addSecondStream(Session& session, const wire::Hello& hello);
   void admitPlayer(Session& session, const wire::Hello& hello);
   bool checkLimits(Session& session);
+  Room* roomFor(Session& session);
+  void refuseBusy(Session& session, const std::string& sentence);
   std::string freeName(const std::string& wanted) const;
   wire::Welcome welcomeTo(Room& room, const std::string& name);
   std::unique_ptr<SealedChannel> openDatagrams(const Session& session, const wire::Hello& hello) const;
@@ -71,6 +76,8 @@ class Admission {
   const df::World* m_p_world = nullptr;
   std::unique_ptr<PasswordCheck> m_password;  ///< null: none is needed
   ResumeTokens m_tokens;
+  PrefixAllowance m_joins;
+  PrefixAllowance m_new_worlds;
   std::uint32_t m_next_player = 1;
 };
 

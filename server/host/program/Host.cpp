@@ -57,6 +57,11 @@ std::size_t maxConnections(const HostOptions& options) {
   return static_cast<std::size_t>(options.max_players) * 2 + 16;
 }
 
+/// A private world has its socket and that of its keeper.
+std::size_t worldFiles(const HostOptions& options) {
+  return options.players == "private" ? 2 * Rooms::mostWorlds(options) : 0;
+}
+
 TcpOptions channelOptions() {
   TcpOptions options;
   options.receive_limit = kMaxHelloFrame;
@@ -105,14 +110,15 @@ Host::Host(HostOptions options, std::string game, Log log)
                    [this](const auto& stream, AeadId aead) { return m_network.openDatagrams(stream, aead); },
                    [this] { m_player_news.repeat(); }},
                   m_io.get_executor()),
+      m_chat(PrefixRates::chat(m_options.max_per_address)),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
   for (const std::string& warning : m_options.warnings) m_log("warning: " + warning);
   if (m_identity && !m_identity->warning().empty()) m_log("warning: " + m_identity->warning());
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
-  const std::size_t wanted = maxConnections(m_options) +
-                             static_cast<std::size_t>(m_options.max_players) +  // with second streams
-                             halfOpen(m_options) + halfOpenKnown(m_options) + kOtherFiles;
+  const std::size_t wanted =
+      maxConnections(m_options) + static_cast<std::size_t>(m_options.max_players) +  // with second streams
+      halfOpen(m_options) + halfOpenKnown(m_options) + worldFiles(m_options) + kOtherFiles;
   if (const std::size_t files = allowOpenFiles(wanted); files < wanted) {
     m_log("only " + std::to_string(files) + " files may be open (ulimit -Hn): too few for " +
           std::to_string(m_options.max_players) + " players and those who come back");
@@ -305,6 +311,11 @@ Session::Events Host::sessionEvents() {
 }
 
 void Host::sendChat(const Session& session, const std::string& text) {
+  const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
+  if (!m_chat.take(prefix, m_network.now())) {
+    ++m_counters.chat_dropped;
+    return;
+  }
   wire::ServerMessage message;
   message.mutable_chat()->set_player(session.player());
   message.mutable_chat()->set_text(text);
@@ -352,6 +363,7 @@ void Host::drain() {
   m_network.stop();
   m_client_log.finish();
   m_log("stopped: " + m_counters.summary());
+  logPasswords(m_admission.passwordCounters(), m_log);
   logRefusals(m_network, m_log);
 }
 

@@ -21,6 +21,7 @@
 #include "host/program/HostOptions.h"
 #include "host/program/LineLog.h"
 #include "host/program/PlayerNews.h"
+#include "host/program/PrefixAllowance.h"
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 #include "host/program/TickClock.h"
@@ -115,6 +116,7 @@ class Host : public df::Runner {
   Rooms m_rooms;
   ClientLog m_client_log;
   Admission m_admission;
+  PrefixAllowance m_chat;
   Watchdog* m_p_watchdog = nullptr;  ///< while it runs
   PlayerNews m_player_news;
   std::function<void(df::World&)> m_observer;

@@ -4,6 +4,15 @@
 
 namespace naiad {
 
+void logPasswords(const PasswordCheck::Counters& passwords, const LogLine& log) {
+  const std::string text = listCounters({{"right", passwords.right},
+                                         {"wrong", passwords.wrong},
+                                         {"unfit", passwords.unfit},
+                                         {"too_many", passwords.too_many},
+                                         {"busy", passwords.busy}});
+  if (!text.empty()) log("passwords: " + text);
+}
+
 void logRefusals(const NetworkThread& network, const LogLine& log) {
   const TcpListener::Counters& streams = network.streamCounters();
   std::string text = listCounters({{"failed_accepts", streams.failed_accepts},

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kShortestRound = 30;  ///< ticks; a shorter one has hardly begun
 constexpr int kMaxShortRounds = 5;            ///< in a row
+constexpr std::size_t kEndingWorlds = 8;      ///< of players who left, beside one for each player allowed
 
 }  // namespace
 
@@ -52,13 +53,21 @@ void Rooms::watchWorld(Room& room) {
 
 // ---- players ----------------------------------------------------------------------------------------------
 
-Room* Rooms::roomForNewPlayer() {
+std::size_t Rooms::mostWorlds(const HostOptions& options) {
+  return static_cast<std::size_t>(options.max_players) + kEndingWorlds;
+}
+
+Room* Rooms::roomForNewPlayer(std::string& problem) {
   if (m_closing) return nullptr;
   if (!isPrivate()) return m_rooms.front().get();
+  if (m_rooms.size() >= mostWorlds(m_options)) {
+    problem = "the worlds of those who left have not ended yet";
+    return nullptr;
+  }
   try {
     return &openRoom(m_new_world());
   } catch (const std::system_error& error) {
-    m_log(std::string("no world for another player: ") + error.what());
+    problem = error.what();
     return nullptr;
   }
 }

@@ -40,8 +40,13 @@ class Rooms {
 
   // Players.
 
-  /// Null: there can be no world for another player, or the worlds are being closed.
-  Room* roomForNewPlayer();
+  /// Each player has a world of their own.
+  bool isPrivate() const { return m_new_world && m_options.players == "private"; }
+  /// Worlds at once, where each player has one: those that are ending count.
+  static std::size_t mostWorlds(const HostOptions& options);
+  /// Null: there can be no world for another player, and `problem` says why; it is empty if the worlds are
+  /// being closed.
+  Room* roomForNewPlayer(std::string& problem);
   /// Null for sessions that do not play.
   Room* roomOf(const Session& session) const;
   /// Null if there is none.
@@ -77,7 +82,6 @@ class Rooms {
   void clear() { m_rooms.clear(); }
 
  private:
-  bool isPrivate() const { return m_new_world && m_options.players == "private"; }
   std::uint32_t tickNumber() const { return static_cast<std::uint32_t>(m_counters.ticks); }
   bool hasLastPlayer() const { return m_ends_with_last && m_sessions.connected() <= 1; }
   Room& openRoom(std::unique_ptr<WorldPort> port);

@@ -14,6 +14,7 @@ std::string Counters::summary() const {
       {"refused_game", refused_game},
       {"refused_name", refused_name},
       {"refused_password", refused_password},
+      {"refused_busy", refused_busy},
       {"detached", detached},
       {"resumed", resumed},
       {"restarted", restarted},

@@ -145,6 +145,8 @@ class Session {
   bool sendFleeting(const wire::ServerMessage& message);
 
   State state() const { return m_state; }
+  /// The host's time (Events::now).
+  Clock::time_point now() const { return m_events.now ? m_events.now() : Clock::now(); }
   /// The hello has come.
   bool isGreeted() const { return m_greeted; }
   std::uint32_t player() const { return m_player; }
@@ -173,7 +175,6 @@ class Session {
   void checkGreeting(Clock::time_point now);
   void checkSilence(Clock::time_point now);
   bool acceptMessage();
-  Clock::time_point now() const { return m_events.now ? m_events.now() : Clock::now(); }
   bool dispatch(const wire::ClientMessage& message);
   bool takeUpdate(std::string_view bytes, bool by_datagram);
   void takeInput(const Input& input);

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <asio/executor_work_guard.hpp>
 #include <asio/io_context.hpp>
 #include <chrono>
+#include <cstdio>
 #include <deque>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "Clients.h"
@@ -20,6 +23,37 @@ namespace {
 using namespace std::chrono_literals;
 using test::Client;
 using test::helloOf;
+
+/// A world that is closed at once, or not before the test says so.
+class FakeWorld : public WorldPort {
+ public:
+  FakeWorld(int& worlds, const bool& ends) : m_worlds(worlds), m_ends(ends) { ++m_worlds; }
+  ~FakeWorld() override { --m_worlds; }
+  FakeWorld(const FakeWorld&) = delete;
+  FakeWorld& operator=(const FakeWorld&) = delete;
+
+  std::uint32_t addInput(df::InputQueue::Input input) override { return input.player; }
+  void setHeard(std::uint32_t) override {}
+  void endGame() override {}
+  bool isReady() const override { return false; }
+  void tick(bool, bool) override {}
+  std::uint32_t nextTick() const override { return 1; }
+  const df::WorldView& view() const override { return m_view; }
+  void notePublished(const Publisher&) override {}
+  std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  bool isGameOver() const override { return false; }
+  df::Canvas renderPlayer(std::uint32_t) const override { return {}; }
+  std::optional<WorldEnd> end() const override {
+    return m_closed && m_ends ? std::optional(WorldEnd()) : std::nullopt;
+  }
+  void close() override { m_closed = true; }
+
+ private:
+  int& m_worlds;
+  const bool& m_ends;
+  bool m_closed = false;
+  df::WorldView m_view;
+};
 
 class AdmissionTest : public testing::Test {
  protected:
@@ -56,6 +90,41 @@ class AdmissionTest : public testing::Test {
     return hello;
   }
   Session& sessionOf(std::uint64_t id) { return *sessions.find(id); }
+  /// A player joins from there, and leaves again at once. False: they were refused for now.
+  bool visit(const std::string& address) {
+    Client& client = greet(helloOf("Ann"), address);
+    const bool welcome = client.isWelcome();
+    if (welcome)
+      leave(client);
+    else
+      EXPECT_EQ(client.refusal(), wire::Refused::BUSY);
+    sessions.sweep();
+    rooms.checkWorlds();
+    if (sessions.isEmpty()) clients.clear();
+    return welcome;
+  }
+  static void leave(const Client& client) {
+    wire::ClientMessage message;
+    message.mutable_leave();
+    client.receive(message);
+    client.drop();
+  }
+  int joinClass(int pupils) {
+    int welcome = 0;
+    std::vector<Client*> all;
+    for (int i = 0; i < pupils; ++i) all.push_back(&greet(helloOf("Ann")));
+    for (const Client* client : all) {
+      welcome += client->isWelcome() ? 1 : 0;
+      if (client->isWelcome()) leave(*client);
+    }
+    sessions.sweep();
+    rooms.checkWorlds();
+    return welcome;
+  }
+  void playInPrivate() {
+    options.players = "private";
+    rooms.setWorlds([this] { return std::make_unique<FakeWorld>(worlds, worlds_end); });
+  }
 
   HostOptions options;
   SessionTable::Clock::time_point now = SessionTable::Clock::now();
@@ -67,14 +136,22 @@ class AdmissionTest : public testing::Test {
   std::deque<Client> clients;
   std::vector<std::string> log;
   int new_clients = 0;
-  SessionTable sessions{16, counters, [this](Session& session) { rooms.removeSession(session); }};
-  Rooms rooms{options, sessions, counters, [](const std::string&) {}, [] {}};
+  int worlds = 0;
+  bool worlds_end = true;
+  std::vector<std::string> log_of_rooms;
+  SessionTable sessions{256, counters, [this](Session& session) { rooms.removeSession(session); }};
+  Rooms rooms{options, sessions, counters, [this](const std::string& line) { log_of_rooms.push_back(line); },
+              [] {}};
 
  private:
   Session::Events events() {
     return {[this](Session& session, const wire::Hello& hello) { m_admission->judgeHello(session, hello); },
             [](Session&, const std::string&) {},
-            [this](Session& session) { m_admission->forgetSession(session); }, [this] { return now; }};
+            [this](Session& session) {
+              m_admission->forgetSession(session);
+              if (session.player() != 0) rooms.leave(session);
+            },
+            [this] { return now; }};
   }
 
   std::optional<Admission> m_admission;
@@ -266,6 +343,7 @@ TEST_F(AdmissionTest, APasswordIsNeededByNewPlayersOnly) {
   ASSERT_TRUE(answered(wrong));
   EXPECT_EQ(wrong.refusal(), wire::Refused::PASSWORD);
   EXPECT_EQ(counters.refused_password, 1u);
+  EXPECT_EQ(admission().passwordCounters().wrong, 1u);
   hello.set_password(options.password);
   Client& right = greet(hello);
   ASSERT_TRUE(answered(right));
@@ -284,6 +362,98 @@ TEST_F(AdmissionTest, APasswordThatWasCheckedAfterItsClientLeftAdmitsNoPlayer) {
   ASSERT_EQ(io.run_one_for(60s), 1u) << "the answer";
   EXPECT_EQ(counters.joined, 0u);
   EXPECT_TRUE(sessions.isEmpty());
+}
+
+TEST_F(AdmissionTest, APasswordThatIsNotComparedIsCounted) {
+  options.password = "open sesame";
+  const auto work = asio::make_work_guard(io);
+  wire::Hello hello = helloOf("Ann");
+  hello.set_password("open barley");
+  for (int i = 0; i < 20; ++i) greet(hello, "192.0." + std::to_string(i) + ".1:1");
+  for (int i = 0; i < 100 && counters.refused_busy + counters.refused_password < 20; ++i) io.run_one_for(1s);
+  EXPECT_EQ(counters.refused_busy + counters.refused_password, 20u);
+  EXPECT_GE(counters.refused_busy, 10u) << "eight places";
+  EXPECT_EQ(admission().passwordCounters().busy, counters.refused_busy);
+}
+
+// ---- joining again and again ------------------------------------------------------------------------------
+
+TEST_F(AdmissionTest, AClassOf64BehindOneAddressJoinsLeavesAndJoinsAgainAtOnce) {
+  options.max_players = 64;
+  EXPECT_EQ(joinClass(64), 64);
+  EXPECT_EQ(joinClass(64), 64);
+  EXPECT_EQ(counters.refused_busy, 0u);
+  EXPECT_EQ(joinClass(64), 0) << "enough for now";
+  now += 32s;
+  EXPECT_EQ(joinClass(64), 64);
+}
+
+TEST_F(AdmissionTest, WhoLeavesAndJoinsAgainIsSlowedDown) {
+  int joins = 0;
+  for (int i = 0; i < 1000; ++i, now += 10ms) joins += visit("192.0.2.1:1") ? 1 : 0;
+  EXPECT_LE(joins, 128 + 2 * 10);
+  EXPECT_GE(joins, 128 + 2 * 10 - 1);
+  EXPECT_EQ(counters.refused_busy, 1000u - static_cast<unsigned>(joins));
+  EXPECT_TRUE(visit("192.0.2.2:1")) << "another address";
+}
+
+TEST_F(AdmissionTest, AClientOfManyAddressesIsSlowedDownByItsNetwork) {
+  int joins = 0;
+  for (int i = 0; i < 2000; ++i, now += 5ms) {
+    std::array<char, 64> address{};
+    std::snprintf(address.data(), address.size(), "[2001:db8:1:%x::1]:1", i);
+    joins += visit(address.data()) ? 1 : 0;
+  }
+  EXPECT_LE(joins, 512 + 8 * 10);
+  EXPECT_TRUE(visit("[2001:db8:2::1]:1")) << "another network";
+}
+
+TEST_F(AdmissionTest, AClassOf64HasPrivateWorldsAtOnce) {
+  options.max_players = 64;
+  playInPrivate();
+  EXPECT_EQ(joinClass(64), 64);
+  EXPECT_EQ(worlds, 0) << "they have left";
+  EXPECT_EQ(joinClass(64), 64) << "and are back";
+}
+
+TEST_F(AdmissionTest, NewWorldsAreLimitedForOneAddressAndInAll) {
+  options.max_players = 100;
+  playInPrivate();
+  int joins = 0;
+  for (int i = 0; i < 1000; ++i, now += 10ms) joins += visit("192.0.2.1:1") ? 1 : 0;
+  EXPECT_LE(joins, 128 + 10);
+  EXPECT_GE(joins, 128 + 10 - 1);
+  now += 1h;
+  joins = 0;
+  for (int i = 0; i < 1000; ++i, now += 10ms) {
+    joins += visit("198.51." + std::to_string(i % 200) + ".1:1") ? 1 : 0;
+  }
+  EXPECT_LE(joins, 200 + 8 * 10);
+  EXPECT_GE(joins, 200 + 8 * 10 - 1);
+}
+
+TEST_F(AdmissionTest, WorldsThatDoNotEndArePlacesTaken) {
+  playInPrivate();
+  worlds_end = false;
+  int joins = 0;
+  for (int i = 0; i < 20; ++i, now += 1s) joins += visit("192.0.2.1:1") ? 1 : 0;
+  EXPECT_EQ(joins, 3 + 8) << "one for each player allowed, and a few that are ending";
+  EXPECT_EQ(worlds, 3 + 8);
+  worlds_end = true;
+  rooms.checkWorlds();
+  EXPECT_TRUE(visit("192.0.2.1:1"));
+}
+
+TEST_F(AdmissionTest, AWorldThatCannotBeginIsALineOfItsClient) {
+  options.players = "private";
+  rooms.setWorlds([]() -> std::unique_ptr<WorldPort> {
+    throw std::system_error(std::make_error_code(std::errc::too_many_files_open), "a new world");
+  });
+  EXPECT_EQ(greet(helloOf("Ann")).refusal(), wire::Refused::BUSY);
+  EXPECT_EQ(counters.refused_busy, 1u);
+  ASSERT_EQ(log.size(), 1u);
+  EXPECT_TRUE(log[0].starts_with("192.0.2.1:1 gets no world: a new world: ")) << log[0];
+  EXPECT_TRUE(log_of_rooms.empty()) << "there a client could write without end";
 }
 
 TEST_F(AdmissionTest, AHelloThatComesAfterTheWorldsWereClosedIsRefused) {

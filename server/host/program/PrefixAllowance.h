@@ -1,0 +1,67 @@
+// How often something may happen from one address, and from its network, whoever does it.
+//
+// What a session may do is limited for each session, and a client that leaves and joins again has a new one.
+// These limits stay: they belong to the address. A client with many addresses shares those of its network.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "shared/net/base/AddressPrefix.h"
+#include "shared/net/base/PerAddress.h"
+#include "shared/net/base/TokenBucket.h"
+
+namespace naiad {
+
+/// Not thread-safe. Time is passed in. Memory is bounded: the prefixes and networks used last are remembered.
+class PrefixAllowance {
+ public:
+  using Time = TokenBucket::Time;
+
+  struct Rates {
+    BucketRate of_a_prefix;            ///< an IPv4 address or an IPv6 /64
+    BucketRate of_a_network;           ///< the /24 or /48 that it is in
+    std::optional<BucketRate> in_all;  ///< nothing: no limit
+  };
+  static constexpr std::size_t kPrefixes = 1024;  ///< that are remembered, and as many networks
+
+  explicit PrefixAllowance(const Rates& rates) : m_rates(rates) {}
+
+  /// May it happen once more? Then it counts.
+  bool take(const AddressPrefix& prefix, Time now) {
+    // The narrowest first: what is over its own limit takes nothing from the others.
+    return m_prefixes.use(prefix).takeToken(m_rates.of_a_prefix, now) &&
+           m_networks.use(prefix.widest()).takeToken(m_rates.of_a_network, now) &&
+           (!m_rates.in_all || m_all.takeToken(*m_rates.in_all, now));
+  }
+
+ private:
+  Rates m_rates;
+  PerAddress<TokenBucket> m_prefixes{kPrefixes};
+  PerAddress<TokenBucket> m_networks{kPrefixes};
+  TokenBucket m_all;
+};
+
+/// The allowances of a server that lets so many players in from one address.
+struct PrefixRates {
+  /// A class that joins, leaves and joins again at once; then two in a second.
+  static PrefixAllowance::Rates joins(int max_per_address) {
+    const double crowd = classSize(max_per_address);
+    return {{2, 2 * crowd}, {8, 8 * crowd}, std::nullopt};
+  }
+  /// Private worlds, each a process to start: the same class, then one in a second.
+  static PrefixAllowance::Rates worlds(int max_per_address, int max_players) {
+    const double crowd = classSize(max_per_address);
+    return {{1, 2 * crowd}, {4, 8 * crowd}, BucketRate{8, 2.0 * max_players}};
+  }
+  /// Lines of chat: three at once from each player of a class, and one of each in four seconds.
+  static PrefixAllowance::Rates chat(int max_per_address) {
+    const double crowd = classSize(max_per_address);
+    return {{crowd / 4, 3 * crowd}, {crowd, 12 * crowd}, std::nullopt};
+  }
+
+ private:
+  static double classSize(int max_per_address) { return max_per_address > 64 ? max_per_address : 64; }
+};
+
+}  // namespace naiad

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+
+#include "host/program/PrefixAllowance.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+AddressPrefix of(const std::string& text) {
+  return AddressPrefix::of(asio::ip::make_address(text));
+}
+
+class PrefixAllowanceTest : public testing::Test {
+ protected:
+  /// How many of `times` from there are allowed now.
+  int take(PrefixAllowance& allowance, const std::string& from, int times) const {
+    int taken = 0;
+    for (int i = 0; i < times; ++i) taken += allowance.take(of(from), now) ? 1 : 0;
+    return taken;
+  }
+  PrefixAllowance::Time now{1h};
+};
+
+TEST_F(PrefixAllowanceTest, OneAddressHasItsOwnAndSharesThatOfItsNetwork) {
+  PrefixAllowance allowance({{1, 5}, {2, 8}, std::nullopt});
+  EXPECT_EQ(take(allowance, "192.0.2.1", 100), 5);
+  EXPECT_EQ(take(allowance, "192.0.2.2", 100), 3);
+  EXPECT_EQ(take(allowance, "198.51.100.1", 100), 5);
+  now += 1s;
+  EXPECT_EQ(take(allowance, "192.0.2.1", 100), 1);
+}
+
+TEST_F(PrefixAllowanceTest, WhoIsOverTheirLimitTakesNothingFromTheNetwork) {
+  PrefixAllowance allowance({{1, 5}, {2, 8}, BucketRate{1, 9}});
+  EXPECT_EQ(take(allowance, "192.0.2.1", 100'000), 5);
+  EXPECT_EQ(take(allowance, "192.0.2.2", 100'000), 3);
+  EXPECT_EQ(take(allowance, "198.51.100.1", 100), 1) << "of all";
+}
+
+TEST_F(PrefixAllowanceTest, AClassOf64SpeaksAtOnceAndEachEveryFourSeconds) {
+  PrefixAllowance chat(PrefixRates::chat(64));
+  EXPECT_EQ(take(chat, "192.0.2.1", 64 * 3), 64 * 3);
+  EXPECT_EQ(take(chat, "192.0.2.1", 1), 0);
+  for (int i = 0; i < 10; ++i) {
+    now += 4s;
+    EXPECT_EQ(take(chat, "192.0.2.1", 64), 64);
+  }
+}
+
+TEST_F(PrefixAllowanceTest, AnAddressThatMayHaveMorePlayersHasMore) {
+  PrefixAllowance joins(PrefixRates::joins(200));
+  EXPECT_EQ(take(joins, "192.0.2.1", 400), 400);
+  PrefixAllowance few(PrefixRates::joins(1));
+  EXPECT_EQ(take(few, "192.0.2.1", 400), 128);
+}
+
+}  // namespace
+}  // namespace naiad
