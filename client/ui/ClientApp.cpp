@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <asio/signal_set.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <string>
@@ -14,6 +13,7 @@
 
 #include "client/terminal/Screen.h"
 #include "client/terminal/TerminalGuard.h"
+#include "client/ui/EndSignals.h"
 
 namespace naiad {
 namespace {
@@ -66,12 +66,9 @@ ClientApp::Outcome ClientApp::run() {
 
 /// Connect before the terminal is touched, so that an error is an ordinary line in an ordinary shell.
 void ClientApp::join() {
-  asio::signal_set ends(m_context, SIGINT, SIGTERM, SIGHUP);
-  ends.async_wait([this, &ends](const std::error_code& error, int signal) {
-    if (error) return;
+  const EndSignals ends(m_context, [this](int signal) {
     m_leaving = true;
     m_signal = signal;
-    ends.clear();  // the next one ends the process at once
   });
   m_connection.start();
   bool said = false;
