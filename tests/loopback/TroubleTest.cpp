@@ -6,13 +6,19 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <memory>
+#include <mutex>
+#include <thread>
 
 #include "GameProgram.h"
 #include "Home.h"
 #include "TestClient.h"
+#include "TestServer.h"
+#include "engine/events/EventStep.h"
+#include "engine/world/Object.h"
 
 namespace naiad::test {
 namespace {
@@ -247,6 +253,47 @@ TEST_F(Crash, ByEndlessRecursionLeavesALine) {
 
 TEST_F(Crash, ByAnAbortLeavesALine) {
   expectLine(df::Keyboard::A, SIGABRT, "SIGABRT");
+}
+
+/// A log that a game can hold: as the engine's own is, which writes to a file under a lock.
+struct HeldLog {
+  void operator()(const std::string& line) {
+    if (line.find("the game has not finished tick") != std::string::npos) reported = true;
+    const std::lock_guard lock(mutex);
+  }
+  std::mutex mutex;
+  std::atomic<bool> reported = false;
+};
+
+/// Hangs while it logs; two signals come once that has been reported.
+class HangsWhileItLogs : public df::Object {
+ public:
+  explicit HangsWhileItLogs(HeldLog& log) : m_log(log) { registerInterest(df::STEP_EVENT); }
+  int eventHandler(const df::Event* /*p_e*/) override {
+    const std::lock_guard lock(m_log.mutex);
+    while (!m_log.reported) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    raise(SIGINT);
+    raise(SIGTERM);
+    for (;;) pause();
+  }
+
+ private:
+  HeldLog& m_log;
+};
+
+TEST(TroubleDeathTest, SignalsEndAGameThatHangsInTheLog) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  const auto hang = [] {
+    alarm(30);  // ends what would go on for ever
+    HeldLog log;
+    Host host(fastOptions(), "test", [&log](const std::string& line) { log(line); });
+    df::World world;
+    world.setLogSink([](const std::string&) {});
+    const df::World::Scope scope(world);
+    new HangsWhileItLogs(log);
+    host.run(world);
+  };
+  EXPECT_EXIT(hang(), testing::ExitedWithCode(1), "");  // as a game that hangs ends it
 }
 
 }  // namespace

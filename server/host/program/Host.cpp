@@ -160,7 +160,10 @@ void Host::setWorlds(NewWorld new_world) {
 void Host::run(df::World& world) {
   beginGame(world);
   StopSignals signals;
-  Watchdog watchdog(signals, m_log, [this](const ForcedEnd& end) { endProcess(end); });
+  SideLog side_log(m_log);
+  Watchdog watchdog(
+      signals, [&side_log](const std::string& line) { side_log(line); },
+      [this, &side_log](const ForcedEnd& end) { endProcess(end, side_log); });
   m_p_watchdog = &watchdog;
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   const auto work = asio::make_work_guard(m_io);  // or waiting for a deadline would end at once
@@ -182,13 +185,15 @@ void Host::heedSignals(StopSignals& signals) {
   m_log("SIGHUP: the log goes on in this file (there is no terminal, so the server does too)");
 }
 
-// On the watchdog's thread. The game may hold any lock of the process, so nothing is destroyed.
-void Host::endProcess(const ForcedEnd& end) {
-  m_log(end.hung ? "ended without the game, which does not finish tick " + std::to_string(end.tick)
-                 : std::string("ended at once by a second signal"));
+// On the watchdog's thread. The game may hold any lock of the process, that of the log too, so nothing is
+// destroyed, and the log is not waited for without end.
+void Host::endProcess(const ForcedEnd& end, SideLog& log) {
+  log(end.hung ? "ended without the game, which does not finish tick " + std::to_string(end.tick)
+               : std::string("ended at once by a second signal"));
   wire::ServerMessage message;
   message.mutable_goodbye()->set_sentence(kShuttingDown);
   m_network.sendLast(message.SerializeAsString(), kDrainTime);
+  log.waitUntilLogged(kDrainTime);
   LineLog::waitUntilWritten(kDrainTime);
   if (!end.hung) endBySignal(end.signal);
   _exit(kExitHung);

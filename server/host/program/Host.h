@@ -24,6 +24,7 @@
 #include "host/program/PrefixAllowance.h"
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
+#include "host/program/SideLog.h"
 #include "host/program/TickClock.h"
 #include "host/program/Watchdog.h"
 #include "host/session/Counters.h"
@@ -96,7 +97,7 @@ class Host : public df::Runner {
   void tick();
   void tickWorlds();
   void heedSignals(StopSignals& signals);
-  [[noreturn]] void endProcess(const ForcedEnd& end);
+  [[noreturn]] void endProcess(const ForcedEnd& end, SideLog& log);
   void checkSessions();
   void sendPlayers();
   void flush();

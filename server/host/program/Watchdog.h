@@ -25,7 +25,8 @@ struct ForcedEnd {
 class Watchdog {
  public:
   /// Watches `signals` and the ticks that are reported to it, until it is destroyed. `end` ends the process;
-  /// it is called on the watching thread, and does not return. `log` is called there, too.
+  /// it is called on the watching thread, and does not return. `log` is called there, too, and must not wait
+  /// for anything the game may hold (SideLog.h).
   Watchdog(const StopSignals& signals, LogLine log, std::function<void(const ForcedEnd&)> end);
   ~Watchdog();
   Watchdog(const Watchdog&) = delete;
