@@ -113,15 +113,11 @@ void Room::publish(TruthWriter* p_truth) {
 }
 
 void Room::sendSnapshots(TruthWriter* p_truth) {
-  const std::vector<df::PlayerFacts>& players = m_p_port->view().players;
-  auto found = players.begin();
-  forEachPlaying([&](Session& session) {
-    while (found != players.end() && found->id < session.player()) ++found;  // both are in order
-    if (found == players.end() || found->id != session.player()) return;     // joins with the next tick
+  forEachInWorld([&](Session& session, const df::PlayerFacts& facts) {
     // The truth first: a test that compares must find it once the snapshot has arrived.
-    if (p_truth != nullptr) p_truth->write(m_publisher.tick(), found->id, m_p_port->renderPlayer(found->id));
-    session.setControls(found->steering.p_table);
-    session.sendTick(m_publisher, *found);
+    if (p_truth != nullptr) p_truth->write(m_publisher.tick(), facts.id, m_p_port->renderPlayer(facts.id));
+    session.setControls(facts.steering.p_table);
+    session.sendTick(m_publisher, facts);
   });
 }
 

@@ -53,6 +53,17 @@ class Room {
       if (p_session->state() == Session::State::kPlaying) visit(*p_session);
     }
   }
+  /// Call `visit(session, facts)` for all that play and are in the world's last view, by player. Others whom
+  /// the world reports are left out.
+  template <class Visit>
+  void forEachInWorld(Visit visit) const {
+    const std::vector<df::PlayerFacts>& players = m_p_port->view().players;
+    auto found = players.begin();
+    forEachPlaying([&](Session& session) {
+      while (found != players.end() && found->id < session.player()) ++found;  // both are in order
+      if (found != players.end() && found->id == session.player()) visit(session, *found);
+    });
+  }
   /// A line from the server to all that play.
   void say(const std::string& text) const;
   /// The player's client may have missed sounds: send again what is playing.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/world/WorldInProcess.h"
+#include "naiad.pb.h"
 #include "shared/net/base/SafeFile.h"
 
 namespace naiad {
@@ -95,14 +96,16 @@ void Rooms::removeSession(const Session& session) {
   if (Room* p_room = roomOf(session)) p_room->remove(session);
 }
 
-const std::vector<df::PlayerFacts>& Rooms::players() {
-  if (m_rooms.size() == 1) return m_rooms.front()->port().view().players;
+const std::vector<ListedPlayer>& Rooms::players() {
   m_players.clear();
   for (const auto& room : m_rooms) {
-    const auto& players = room->port().view().players;
-    m_players.insert(m_players.end(), players.begin(), players.end());
+    room->forEachInWorld([this](const Session& session, const df::PlayerFacts& facts) {
+      m_players.push_back({session.player(), session.name(),
+                           static_cast<df::Color>(session.welcomed().color()), facts.score});
+    });
   }
-  std::sort(m_players.begin(), m_players.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  if (m_rooms.size() > 1)
+    std::sort(m_players.begin(), m_players.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return m_players;
 }
 

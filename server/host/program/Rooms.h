@@ -11,6 +11,7 @@
 
 #include "host/program/HostOptions.h"
 #include "host/program/LineLog.h"
+#include "host/program/PlayerNews.h"
 #include "host/program/Room.h"
 #include "host/program/SessionTable.h"
 #include "host/session/Counters.h"
@@ -55,8 +56,9 @@ class Rooms {
   void leave(const Session& session);
   /// The session is about to be destroyed.
   void removeSession(const Session& session);
-  /// The players of all rooms, by id. Valid until the next call or tick.
-  const std::vector<df::PlayerFacts>& players();
+  /// The players of all rooms whose worlds have them, by id. A world has the say in their scores alone: it
+  /// may be a stranger's program. Valid until the next call.
+  const std::vector<ListedPlayer>& players();
 
   // Ticks and rounds.
 
@@ -99,7 +101,7 @@ class Rooms {
   std::function<void()> m_on_late_tick;
   NewWorld m_new_world;  ///< empty: the world of this process
   std::vector<std::unique_ptr<Room>> m_rooms;
-  std::vector<df::PlayerFacts> m_players;  ///< of several rooms
+  std::vector<ListedPlayer> m_players;
   std::optional<TruthWriter> m_truth;
   bool m_ends_with_last = false;
   bool m_in_begin = false;

@@ -15,7 +15,7 @@ class PlayerNewsTest : public testing::Test {
   void play(int players) {
     facts.clear();
     for (int i = 1; i <= players; ++i) {
-      df::PlayerFacts player;
+      ListedPlayer player;
       player.id = static_cast<std::uint32_t>(i);
       player.name = std::to_string(i);
       facts.push_back(player);
@@ -37,7 +37,7 @@ class PlayerNewsTest : public testing::Test {
     return heard;
   }
   PlayerNews news;
-  std::vector<df::PlayerFacts> facts;
+  std::vector<ListedPlayer> facts;
   int messages = 0;
 };
 
@@ -50,6 +50,18 @@ TEST_F(PlayerNewsTest, AllGetTheWholeListWhenItHasChanged) {
   facts[1].score = 7;
   const auto heard = listsSent(120, 150);
   EXPECT_EQ(heard.at(3), (std::vector<std::string>{"1", "2", "3"}));
+}
+
+TEST_F(PlayerNewsTest, AListOfTheLongestNamesFitsInAFrame) {
+  play(static_cast<int>(kMaxPlayers));
+  for (auto& player : facts) {
+    player.id += 100'000;
+    player.name = std::string(kMaxNameBytes, 'x');
+    player.score = -1'000'000'000;
+  }
+  const auto heard = listsSent(1, 16);  // which looks at the length of each
+  EXPECT_EQ(heard.size(), facts.size());
+  EXPECT_GT(heard.begin()->second.size(), kMaxPlayers / 2);
 }
 
 TEST_F(PlayerNewsTest, InACrowdEachGetsTheBestAndTheirOwnEntry) {
