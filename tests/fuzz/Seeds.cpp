@@ -2,6 +2,7 @@
 // target.
 //
 // usage: fuzz_seeds DIRECTORY
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -329,6 +330,31 @@ df::WorldView fullView() {
   return view;
 }
 
+std::string fieldsOf(const df::WorldView& view) {
+  ViewWriter views;
+  std::string frame;
+  writeAnswer({false, {}, true, {}}, &view, views, frame);
+  return frame.substr(kWorldFrameHead);
+}
+
+/// More help lines, and more notes, than there can be.
+void tooMany(Folder& folder) {
+  const std::string lines(kMaxHelpLines + 1, '\0');
+  std::string frame;
+  writeReady({}, frame);
+  frame.back() = static_cast<char>(lines.size());  // the number of lines is the last
+  folder.add('\0' + frame.substr(kWorldFrameHead) + lines);
+
+  df::WorldView view;
+  std::string fields = fieldsOf(view);
+  view.notes = {""};
+  const std::string with_note = fieldsOf(view);
+  const auto count = std::mismatch(fields.begin(), fields.end(), with_note.begin()).first;
+  *count = static_cast<char>(lines.size());
+  fields.insert(count + 1, lines.begin(), lines.end());
+  folder.add('\1' + u16(fields.size()) + fields);
+}
+
 void worlds(Folder folder) {
   SplitMix64 random(15);
   for (std::size_t i = 0; i < 16; ++i) {
@@ -371,6 +397,7 @@ void worlds(Folder folder) {
   std::string frame;
   writeTurn(turn, frame);
   folder.add('\0' + frame.substr(kWorldFrameHead));
+  tooMany(folder);
 }
 
 void datagrams(Folder folder) {

@@ -9,10 +9,6 @@ namespace df {
 
 namespace {
 
-constexpr std::size_t kMaxSounds = 256;  ///< in a tick; more are only counted
-constexpr std::size_t kMaxNotes = 4;     ///< in a tick
-constexpr std::size_t kMaxPlaying = 16;  ///< repeating; the oldest makes room
-
 bool isSame(const SoundPlayed& a, const SoundPlayed& b) {
   return a.music == b.music && a.label == b.label;
 }

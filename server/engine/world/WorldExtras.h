@@ -39,6 +39,10 @@ struct WorldExtras {
   /// Numbers for what is only seen, so that WM.randomInt() gives the same with it and without.
   Random& decoration() { return random; }
 
+  static constexpr std::size_t kMaxSounds = 256;  ///< in a tick; more are only counted
+  static constexpr std::size_t kMaxNotes = 4;     ///< in a tick
+  static constexpr std::size_t kMaxPlaying = 16;  ///< repeating; the oldest makes room
+
   World& world;
   Resources resources;
   Animations animations;

@@ -14,6 +14,8 @@ namespace naiad {
 
 namespace {
 
+static_assert(kMaxServerPlayers <= kMaxViewPlayers);
+
 constexpr const char* kThisProgram = "/proc/self/exe";
 constexpr std::chrono::milliseconds kBetweenChecks{10};
 

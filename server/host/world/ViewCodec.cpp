@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/world/Object.h"
+#include "engine/world/WorldExtras.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Bits.h"
 #include "shared/replica/ControlCodec.h"
@@ -30,6 +31,9 @@ constexpr std::int64_t kLastCharacter = 0x10FFFF;
 constexpr std::size_t kMaxText = 4 * std::size_t{kMaxViewWidth};
 constexpr std::size_t kMaxLabel = 256;
 constexpr std::size_t kMaxNote = 4 * kMaxChatLength;
+/// More than a frame has room for, but for keys of those that vanish.
+constexpr std::size_t kMaxObjects = kMaxSlots;
+constexpr std::size_t kMaxVanished = 4 * std::size_t{kMaxSlots};
 constexpr std::int64_t kMaxShake = 1000;
 constexpr std::int64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
 /// More than any sequence takes that a snapshot could carry.
@@ -157,7 +161,7 @@ struct ViewFields {
     f.number(player.score, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
     key(f, player.followed);
     visitVector(f, player.view_corner, kMaxCorner);
-    f.list(player.texts, [](F& in, auto& element) { text(in, element); });
+    f.list(player.texts, kMaxTexts, [](F& in, auto& element) { text(in, element); });
     steering(f, tables, player.steering);
   }
   template <class F, class T>
@@ -176,17 +180,17 @@ struct ViewFields {
     box(f, view.boundary);
     f.number(view.view_width, kMinViewWidth, kMaxViewWidth);
     f.number(view.view_height, kMinViewHeight, kMaxViewHeight);
-    f.list(view.changed, [](F& in, auto& element) { object(in, element); });
-    f.list(view.vanished, [](F& in, auto& element) { key(in, element); });
-    f.list(view.commands, [](F& in, auto& element) { command(in, element); });
-    f.list(view.drawn, [](F& in, auto& element) { drawn(in, element); });
+    f.list(view.changed, kMaxObjects, [](F& in, auto& element) { object(in, element); });
+    f.list(view.vanished, kMaxVanished, [](F& in, auto& element) { key(in, element); });
+    f.list(view.commands, kMaxObjects, [](F& in, auto& element) { command(in, element); });
+    f.list(view.drawn, kMaxObjects, [](F& in, auto& element) { drawn(in, element); });
     looks(f, tables, view);
-    f.list(view.players, [&tables](F& in, auto& element) { player(in, tables, element); });
+    f.list(view.players, kMaxViewPlayers, [&tables](F& in, auto& element) { player(in, tables, element); });
     visitVector(f, view.corner, kMaxCorner);
-    f.list(view.sounds, [](F& in, auto& element) { sound(in, element); });
+    f.list(view.sounds, df::WorldExtras::kMaxSounds, [](F& in, auto& element) { sound(in, element); });
     f.number(view.sounds_lost);
-    f.list(view.playing, [](F& in, auto& element) { sound(in, element); });
-    f.list(view.notes, [](F& in, auto& element) { in.text(element, kMaxNote); });
+    f.list(view.playing, df::WorldExtras::kMaxPlaying, [](F& in, auto& element) { sound(in, element); });
+    f.list(view.notes, df::WorldExtras::kMaxNotes, [](F& in, auto& element) { in.text(element, kMaxNote); });
     f.number(view.background, df::UNDEFINED_COLOR, df::CUSTOM);
     f.number(view.shake_x, -kMaxShake, kMaxShake);
     f.number(view.shake_y, -kMaxShake, kMaxShake);
@@ -246,7 +250,7 @@ struct ViewFields {
     for (const df::PublishedLook& look : view.looks) {
       if (isEncodable(*look.p_look)) encodable.push_back(look);
     }
-    out.list(encodable, [&known](FieldWriter& f, const df::PublishedLook& look) {
+    out.list(encodable, kMaxObjects, [&known](FieldWriter& f, const df::PublishedLook& look) {
       f.number(look.drawn);
       f.number(look.p_look->altitude, 0, df::MAX_ALTITUDE);
       selector(f, look.p_look->selector);
@@ -254,7 +258,7 @@ struct ViewFields {
     });
   }
   static void looks(FieldReader& in, ViewReader& known, df::WorldView& view) {
-    in.list(view.looks, [&known](FieldReader& f, df::PublishedLook& published) {
+    in.list(view.looks, kMaxObjects, [&known](FieldReader& f, df::PublishedLook& published) {
       Look look;
       f.number(published.drawn);
       f.number(look.altitude, 0, df::MAX_ALTITUDE);

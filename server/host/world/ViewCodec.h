@@ -18,6 +18,9 @@ namespace naiad {
 /// With more numbers than that of one kind, both ends forget them before the next view.
 inline constexpr std::size_t kMaxViewNumbers = 4096;
 
+/// Players of a world, at most, with those who are just leaving it.
+inline constexpr std::size_t kMaxViewPlayers = 32'768;
+
 class ViewWriter {
  public:
   void write(FieldWriter& out, const df::WorldView& view);

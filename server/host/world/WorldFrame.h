@@ -7,8 +7,9 @@
 //   template <class Fields, class T>          // a FieldWriter and a const T, or a FieldReader and a T
 //   void visit(Fields& f, T& facts) { f.flag(facts.shown); f.number(facts.id, 1, 9); … }
 //
-// so a new field is one line. Both ends are built from one source, so there are no versions. But a world runs
-// a game's code: a reader checks every number, and a writer clamps each to its range, so that no game is
+// so a new field is one line. A text and a list have a longest length, which bounds what a frame makes its
+// reader keep and do. Both ends are built from one source, so there are no versions. But a world runs a
+// game's code: a reader checks every number, and a writer clamps each to its range, so that no game is
 // refused for a coordinate.
 #pragma once
 
@@ -63,11 +64,12 @@ class FieldWriter {
     m_bytes.varint(value.size());
     m_bytes.bytes(value);
   }
-  /// Each at least one byte long, by `visit(*this, element)`.
+  /// The first `most` of them, each by `visit(*this, element)`.
   template <class T, class Visit>
-  void list(const std::vector<T>& values, Visit visit) {
-    m_bytes.varint(values.size());
-    for (const T& value : values) visit(*this, value);
+  void list(const std::vector<T>& values, std::size_t most, Visit visit) {
+    const std::size_t count = std::min(values.size(), most);
+    m_bytes.varint(count);
+    for (std::size_t i = 0; i < count; ++i) visit(*this, values[i]);
   }
   static constexpr bool kReads = false;
 
@@ -80,7 +82,7 @@ class FieldWriter {
 class FieldReader {
  public:
   /// Without the length.
-  explicit FieldReader(std::string_view fields) : m_bytes(fields), m_size(fields.size()) {}
+  explicit FieldReader(std::string_view fields) : m_bytes(fields) {}
   bool ok() const { return m_bytes.ok(); }
   /// All was read, and was good.
   bool isWhole() const { return m_bytes.ok() && m_bytes.atEnd(); }
@@ -105,17 +107,17 @@ class FieldReader {
     fail();
   }
   void text(std::string& value, std::size_t most) { value = m_bytes.bytes(m_bytes.upTo(most)); }
+  /// Fails before the list grows if it is to have more than `most`.
   template <class T, class Visit>
-  void list(std::vector<T>& values, Visit visit) {
+  void list(std::vector<T>& values, std::size_t most, Visit visit) {
     values.clear();
-    const std::uint64_t count = m_bytes.upTo(m_size);  // each takes a byte
+    const std::uint64_t count = m_bytes.upTo(most);
     for (std::uint64_t i = 0; i < count && ok(); ++i) visit(*this, values.emplace_back());
   }
   static constexpr bool kReads = true;
 
  private:
   ByteReader m_bytes;
-  std::size_t m_size;
 };
 
 /// A coordinate pair within ±`most` each.

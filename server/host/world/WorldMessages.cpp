@@ -17,7 +17,7 @@ void visitReady(F& f, T& ready) {
   f.number(ready.window_height, kMinViewHeight, kMaxViewHeight);
   f.number(ready.frame_millis, 1, kMaxFrameMillis);
   f.flag(ready.compat);
-  f.list(ready.help, [](F& in, auto& line) { in.text(line, kMaxHelpLength); });
+  f.list(ready.help, kMaxHelpLines, [](F& in, auto& line) { in.text(line, kMaxHelpLength); });
 }
 
 template <class F, class T>
@@ -55,7 +55,7 @@ void visitTurn(F& f, T& turn) {
   f.flag(turn.wants_truth);
   f.flag(turn.ends_game);
   f.number(turn.heard_player);
-  f.list(turn.inputs, [](F& in, auto& input) { visitInput(in, input); });
+  f.list(turn.inputs, kMaxTurnInputs, [](F& in, auto& input) { visitInput(in, input); });
 }
 
 void visitCanvas(FieldWriter& out, const df::Canvas& canvas) {
@@ -90,8 +90,8 @@ void visitCanvas(FieldReader& in, df::Canvas& canvas) {
 template <class F, class T>
 void visitAnswer(F& f, T& answer) {
   f.flag(answer.game_over);
-  f.list(answer.leavers, [](F& in, auto& leaver) { in.number(leaver); });
-  f.list(answer.pictures, [](F& in, auto& picture) {
+  f.list(answer.leavers, kMaxViewPlayers, [](F& in, auto& leaver) { in.number(leaver); });
+  f.list(answer.pictures, kMaxViewPlayers, [](F& in, auto& picture) {
     in.number(picture.player);
     visitCanvas(in, picture.canvas);
   });
@@ -102,9 +102,7 @@ void visitAnswer(F& f, T& answer) {
 
 void writeReady(const WorldReady& ready, std::string& frame) {
   FieldWriter out(frame);
-  WorldReady cut = ready;
-  if (cut.help.size() > kMaxHelpLines) cut.help.resize(kMaxHelpLines);
-  visitReady(out, std::as_const(cut));
+  visitReady(out, ready);
   out.finish();
 }
 
@@ -112,11 +110,11 @@ std::optional<WorldReady> readReady(std::string_view fields) {
   FieldReader in(fields);
   WorldReady ready;
   visitReady(in, ready);
-  in.require(ready.help.size() <= kMaxHelpLines);
   return in.isWhole() ? std::optional(std::move(ready)) : std::nullopt;
 }
 
 bool writeTurn(const WorldTurn& turn, std::string& frame) {
+  if (turn.inputs.size() > kMaxTurnInputs) return false;
   FieldWriter out(frame);
   visitTurn(out, turn);
   return out.finish();

@@ -40,6 +40,9 @@ struct WorldTurn {
   std::uint32_t heard_player = 0;  ///< only their input comes; 0: all players' does
 };
 
+/// The keys and clicks that wait for a world (WorldProcess::kMaxInputs), joins and leaves.
+inline constexpr std::size_t kMaxTurnInputs = std::size_t{1} << 16;
+
 /// What one player sees.
 struct WorldPicture {
   std::uint32_t player = 0;

@@ -6,6 +6,7 @@
 // The fields of a turn are read as what a game has set up, too.
 #include "Require.h"
 #include "Script.h"
+#include "engine/world/WorldExtras.h"
 #include "host/snapshot/LookCapture.h"
 #include "host/snapshot/Publisher.h"
 #include "host/world/WorldMessages.h"
@@ -85,6 +86,7 @@ class Host {
     for (const df::PublishedLook& told : m_view.looks) {
       REQUIRE(told.drawn < m_view.drawn.size() && told.p_look->selector.fits(told.p_look->sequence.size()));
     }
+    REQUIRE(m_view.notes.size() <= df::WorldExtras::kMaxNotes);
     for (const df::PlayerFacts& player : m_view.players) {
       REQUIRE(player.id != 0);
       for (const df::PlayerText& text : player.texts) REQUIRE(text.id < kMaxTexts);

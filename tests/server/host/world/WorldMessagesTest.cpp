@@ -1,7 +1,9 @@
 // What crosses between a host and a world's process: whole, and refused when it is not what the other end
 // writes.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -339,6 +341,45 @@ TEST(WorldMessages, WhatIsOutOfRangeIsCutByTheWriter) {
   ASSERT_TRUE(readAnswer(fieldsOf(frameOf(sent, writer)), reader, view));
   EXPECT_EQ(view.players[0].view_corner.y, -view.players[0].view_corner.x);
   EXPECT_GT(view.players[0].view_corner.x, 0);
+}
+
+/// A varint.
+std::string countOf(std::uint64_t count) {
+  std::string bytes;
+  ByteWriter(bytes).varint(count);
+  return bytes;
+}
+
+/// How much memory this process has taken at once, in MiB.
+long mostMemory() {
+  rusage facts{};
+  getrusage(RUSAGE_SELF, &facts);
+  return facts.ru_maxrss / 1024;
+}
+
+TEST(WorldMessages, AListOfAsManyAsTheFrameHasBytesIsRefusedBeforeItGrows) {
+  constexpr long kMuch = 100;  // 16 Mi strings take 512
+  WorldReady ready;
+  std::string frame;
+  writeReady(ready, frame);
+  std::string fields(fieldsOf(frame));
+  fields.pop_back();  // no help
+  const std::string lines(kMaxWorldFrame - 64, '\0');
+  const long before = mostMemory();
+  EXPECT_FALSE(readReady(fields + countOf(lines.size()) + lines));
+  EXPECT_LT(mostMemory() - before, kMuch);
+
+  df::WorldView view;
+  ViewWriter writer;
+  fields = fieldsOf(frameOf(view, writer));
+  view.notes = {""};
+  const std::string with_note(fieldsOf(frameOf(view, writer)));
+  const auto notes = std::mismatch(fields.begin(), fields.end(), with_note.begin()).first - fields.begin();
+  fields.replace(static_cast<std::size_t>(notes), 1, countOf(lines.size()) + lines);
+  ViewReader reader;
+  const long then = mostMemory();
+  EXPECT_FALSE(readAnswer(fields, reader, view));
+  EXPECT_LT(mostMemory() - then, kMuch);
 }
 
 TEST(WorldMessages, AFrameThatIsTooLongIsNotWritten) {
