@@ -167,6 +167,8 @@ TEST_F(HostileGame, ReachesNoSocketAndNoOtherProcess) {
                  "outlive its keeper", "kill the front", "kill its keeper"});
   expectRefused({"bpf", "mount", "keyctl", "perf_event_open", "unshare", "userfaultfd", "io_uring_setup",
                  "a call of tomorrow"});
+  expectRefused({"change the server's mode", "change the server's owner", "mark the server",
+                 "unmark the server", "flag the server", "seal the server", "lease the server"});
   for (const char* needed : {"thread", "child", "getrandom", "personality", "program"}) {
     EXPECT_EQ(result(needed), "done") << needed;
   }

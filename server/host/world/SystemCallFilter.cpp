@@ -75,12 +75,16 @@ constexpr std::uint32_t kRefused[] = {
     // Files by ways past Landlock, and what it does not decide about.
     __NR_name_to_handle_at,
     __NR_open_by_handle_at,
+    __NR_fchmod,  // by a descriptor, too: one for reading is enough
     __NR_fchmodat,
+    __NR_fchown,
     __NR_fchownat,
     __NR_setxattr,
     __NR_lsetxattr,
+    __NR_fsetxattr,
     __NR_removexattr,
     __NR_lremovexattr,
+    __NR_fremovexattr,
     452,  // fchmodat2
     __NR_inotify_init1,
     __NR_fanotify_init,
@@ -159,6 +163,15 @@ constexpr std::uint32_t kRefusedControls[] = {
     0x8901,      0x8902,  // FIOSETOWN, SIOCSPGRP: signals to others
 };
 
+/// What a descriptor for reading lets the owner of a file do to it, for good.
+constexpr std::uint32_t kRefusedFileControls[] = {
+    0x4004'6602, 0x4008'6602,  // FS_IOC_SETFLAGS, by 32 and 64 bits
+    0x4004'7602, 0x4008'7602,  // FS_IOC_SETVERSION
+    0x401C'5820,               // FS_IOC_FSSETXATTR
+    0x4080'6685,               // FS_IOC_ENABLE_VERITY
+    0x800C'6613,               // FS_IOC_SET_ENCRYPTION_POLICY
+};
+
 constexpr std::uint32_t kNewNamespaces =
     CLONE_NEWNS | CLONE_NEWUTS | CLONE_NEWIPC | CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNET | CLONE_NEWCGROUP;
 
@@ -233,11 +246,6 @@ void limitSignals(FilterWriter& out, pid_t self) {
   limitToSelf(out, __NR_rt_sigqueueinfo, 0, self);
   limitToSelf(out, __NR_rt_tgsigqueueinfo, 0, self);
   out.ifEqual(__NR_tkill, fails(EPERM));
-  out.forCall(__NR_fcntl, kAllow, [&] {
-    out.loadArgument(1);
-    out.ifEqual(F_SETOWN, fails(EPERM));
-    out.ifEqual(15, fails(EPERM));  // F_SETOWN_EX
-  });
 }
 
 // An empty file is written without a right to write if it is opened for reading alone.
@@ -295,6 +303,14 @@ void limitArguments(FilterWriter& out) {
   out.forCall(__NR_ioctl, kAllow, [&] {
     out.loadArgument(1);
     for (const std::uint32_t control : kRefusedControls) out.ifEqual(control, fails(EPERM));
+    for (const std::uint32_t control : kRefusedFileControls) out.ifEqual(control, fails(EPERM));
+  });
+  // Signals to others, and a lease, which holds up whoever opens the file.
+  out.forCall(__NR_fcntl, kAllow, [&] {
+    out.loadArgument(1);
+    out.ifEqual(F_SETOWN, fails(EPERM));
+    out.ifEqual(15, fails(EPERM));  // F_SETOWN_EX
+    out.ifEqual(F_SETLEASE, fails(EPERM));
   });
   // It ends with its keeper, whatever it prefers.
   out.forCall(__NR_prctl, kAllow, [&] {

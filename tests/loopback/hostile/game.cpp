@@ -2,10 +2,13 @@
 // into the file "report" of its working directory, which it may; HostileGameTest.cpp reads it there. Where
 // nothing holds it back it harms that server alone.
 #include <fcntl.h>
+#include <linux/fs.h>
+#include <linux/fsverity.h>
 #include <linux/sched.h>
 #include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/ptrace.h>
@@ -15,6 +18,7 @@
 #include <sys/syscall.h>
 #include <sys/uio.h>
 #include <sys/wait.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -96,6 +100,23 @@ void attackCalls(pid_t front) {
   attempt("a call of tomorrow", syscall(999));
 }
 
+/// What it may read it could change, but for its contents. Nothing is changed where nothing holds it back.
+void attackOpenFiles() {
+  const int server = open("/proc/self/exe", O_RDONLY | O_CLOEXEC);
+  struct stat facts {};
+  if (server < 0 || fstat(server, &facts) != 0) return;
+  attempt("change the server's mode", fchmod(server, facts.st_mode & 07777));
+  attempt("change the server's owner", fchown(server, facts.st_uid, facts.st_gid));
+  attempt("mark the server", fsetxattr(server, "user.naiad", "", 0, XATTR_REPLACE));
+  attempt("unmark the server", fremovexattr(server, "user.naiad"));
+  long flags = 0;
+  ioctl(server, FS_IOC_GETFLAGS, &flags);
+  attempt("flag the server", ioctl(server, FS_IOC_SETFLAGS, &flags));
+  attempt("seal the server", ioctl(server, FS_IOC_ENABLE_VERITY, nullptr));
+  attempt("lease the server", fcntl(server, F_SETLEASE, F_UNLCK));
+  close(server);
+}
+
 void attackProcesses(pid_t front) {
   attempt("kill the front", kill(front, SIGKILL));
   attempt("kill its keeper", kill(getppid(), SIGKILL));
@@ -167,6 +188,7 @@ struct Attack {
     if (front <= 1) return;  // nobody has said yet
     attackFiles(std::to_string(front));
     attackCalls(front);
+    attackOpenFiles();
     attackProcesses(front);
     useRuntime();
     takeEverything();
