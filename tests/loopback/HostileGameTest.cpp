@@ -112,7 +112,8 @@ class HostileGame : public testing::Test {
   void expectRefused(const std::vector<std::string>& attempts) const {
     for (const std::string& attempt : attempts) EXPECT_EQ(result(attempt), "refused") << attempt;
   }
-  /// A world and what it has started: two that have gone to sessions of their own, one without a parent.
+  /// A world and what it has started: two, one without a parent. They go to sessions of their own if they
+  /// may.
   std::vector<pid_t> processesOf(pid_t world) const {
     std::vector<pid_t> all{world};
     for (const Line& line : report()) {
@@ -164,7 +165,8 @@ TEST_F(HostileGame, ReachesNoSocketAndNoOtherProcess) {
   start();
   expectRefused({"make readable the key", "socket", "local socket", "datagram sockets", "trace the front",
                  "read memory", "write memory", "limit the front", "slow down the front", "move the front",
-                 "outlive its keeper", "kill the front", "kill its keeper"});
+                 "outlive its keeper", "hide in /proc", "leave its process group", "kill the front",
+                 "kill its keeper"});
   expectRefused({"bpf", "mount", "keyctl", "perf_event_open", "unshare", "userfaultfd", "io_uring_setup",
                  "a call of tomorrow"});
   expectRefused({"change the server's mode", "change the server's owner", "mark the server",

@@ -9,17 +9,22 @@
 
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstring>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace naiad {
 
 namespace {
 
-constexpr int kRoundMillis = 2;
-constexpr int kMaxRounds = 5'000;  ///< a process that waits for a dead disk cannot be ended
+using Clock = std::chrono::steady_clock;
+
+constexpr int kNapMillis = 2;
+constexpr std::chrono::seconds kLongest{20};  ///< a process that waits for a dead disk cannot be ended
 
 std::optional<pid_t> processOf(const char* name) {
   pid_t process = 0;
@@ -74,19 +79,54 @@ std::vector<Descendant> findDescendants() {
   return found;
 }
 
+std::vector<pid_t> findChildren() {
+  std::vector<pid_t> found;
+  const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return found;  // a kernel that was built without
+  std::string text;
+  char piece[4096];
+  for (ssize_t size = 0; (size = read(file, piece, sizeof piece)) > 0;)
+    text.append(piece, static_cast<std::size_t>(size));
+  close(file);
+  pid_t child = 0;
+  const char* p_end = text.data() + text.size();
+  for (const char* p = text.data(); p < p_end; ++p) {
+    const auto [p_read, error] = std::from_chars(p, p_end, child);
+    if (error == std::errc()) found.push_back(child);
+    p = p_read;
+  }
+  return found;
+}
+
+// With the group that it leads, if it does: what it has started since may be in it still.
+void endChild(pid_t child) {
+  kill(child, SIGKILL);
+  kill(-child, SIGKILL);
+}
+
 int endDescendants(pid_t leader) {
   int status = SIGKILL;
   kill(-leader, SIGKILL);  // all of the group at once: none of it can fork on
   kill(leader, SIGKILL);   // should it have left its group
-  for (int round = 0; round < kMaxRounds; ++round) {
-    int ended = 0;
+  std::set<pid_t> ended;
+  bool naps = false;
+  for (const auto end = Clock::now() + kLongest; Clock::now() < end;) {
+    int how = 0;
     pid_t child = 0;
-    while ((child = waitpid(-1, &ended, WNOHANG)) > 0) {
-      if (child == leader) status = ended;
+    while ((child = waitpid(-1, &how, WNOHANG)) > 0) {
+      if (child == leader) status = how;
+      ended.erase(child);
     }
     if (child < 0 && errno == ECHILD) break;
-    poll(nullptr, 0, kRoundMillis);
-    if (round == 0) continue;  // mostly it was the group alone
+    bool news = false;
+    for (const pid_t one : findChildren()) {
+      if (!ended.insert(one).second) continue;
+      endChild(one);
+      news = true;
+    }
+    if (news) continue;  // one that forks and ends has gone on meanwhile
+    poll(nullptr, 0, kNapMillis);
+    if (!std::exchange(naps, true)) continue;  // mostly it was the group alone
     for (const Descendant& one : findDescendants()) kill(one.process, SIGKILL);
   }
   return status;

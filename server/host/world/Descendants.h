@@ -15,10 +15,18 @@ struct Descendant {
 /// All that are there now, as /proc says. Zombies, too.
 std::vector<Descendant> findDescendants();
 
-/// SIGKILL for all descendants, and for the process group of `leader`, until none is left. For a process
-/// without threads that is a child subreaper (PR_SET_CHILD_SUBREAPER): to it come those whose parents have
-/// ended, whatever group or session they have gone to. Return the status of `leader`, a child that has not
-/// been waited for; that of a SIGKILL if it cannot be had.
+/// Its children, zombies among them, as the kernel lists them for it alone: at once, and however they hide in
+/// /proc. For a process without threads. None on a kernel that keeps no such list.
+std::vector<pid_t> findChildren();
+
+/// SIGKILL for this child, which has not been waited for, and for its process group, if it leads one.
+void endChild(pid_t child);
+
+/// SIGKILL for all descendants, and for the process group of `leader`, until none is left. A descendant
+/// whose parent has ended is a child then, so one that goes from process to process is followed. For a
+/// process without threads that is a child subreaper (PR_SET_CHILD_SUBREAPER): to it come those whose parents
+/// have ended, whatever group or session they have gone to. Return the status of `leader`, a child that has
+/// not been waited for; that of a SIGKILL if it cannot be had.
 int endDescendants(pid_t leader);
 
 }  // namespace naiad

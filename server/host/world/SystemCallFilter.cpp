@@ -56,6 +56,8 @@ constexpr std::uint32_t kRefused[] = {
     __NR_move_pages,
     __NR_migrate_pages,
     __NR_perf_event_open,
+    __NR_setsid,  // all that a world starts stay in its group, which is ended at once
+    __NR_setpgid,
     // Memory that counts for nobody's limit, or is another process's, too.
     __NR_memfd_create,
     447,  // memfd_secret
@@ -312,12 +314,16 @@ void limitArguments(FilterWriter& out) {
     out.ifEqual(15, fails(EPERM));  // F_SETOWN_EX
     out.ifEqual(F_SETLEASE, fails(EPERM));
   });
-  // It ends with its keeper, whatever it prefers.
+  // It ends with its keeper, whatever it prefers, and does not hide from it.
   out.forCall(__NR_prctl, kAllow, [&] {
     out.loadArgument(0);
     out.forCall(PR_SET_PDEATHSIG, fails(EPERM), [&] {
       out.loadArgument(1);
       out.ifEqual(SIGKILL, kAllow);
+    });
+    out.forCall(PR_SET_DUMPABLE, fails(EPERM), [&] {
+      out.loadArgument(1);
+      out.ifEqual(1, kAllow);
     });
   });
   // By a path, the times of any file; without one, of an open file.

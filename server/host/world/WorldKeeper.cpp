@@ -232,6 +232,9 @@ class Launcher {
       strays = strays || !was_keeper || WIFSIGNALED(status);
     }
     if (!strays) return;
+    for (const pid_t child : findChildren()) {
+      if (m_keepers.count(child) == 0) endChild(child);
+    }
     for (const Descendant& one : findDescendants()) {
       if (m_keepers.count(one.branch) == 0) kill(one.process, SIGKILL);
     }

@@ -90,6 +90,13 @@ void attackCalls(pid_t front) {
   CPU_SET(0, &first);
   attempt("move the front", sched_setaffinity(front, sizeof first, &first));
   attempt("outlive its keeper", prctl(PR_SET_PDEATHSIG, 0));
+  attempt("hide in /proc", prctl(PR_SET_DUMPABLE, 0));
+  const pid_t child = fork();
+  if (child == 0) _exit(setsid() < 0 && errno == EPERM && setpgid(0, 0) < 0 && errno == EPERM ? 1 : 0);
+  int status = 0;
+  waitpid(child, &status, 0);
+  errno = EPERM;
+  attempt("leave its process group", WIFEXITED(status) && WEXITSTATUS(status) == 1 ? -1 : 0);
   attempt("bpf", syscall(SYS_bpf, 0, nullptr, 0));
   attempt("mount", syscall(SYS_mount, "none", "nowhere", "tmpfs", 0, nullptr));
   attempt("keyctl", syscall(SYS_keyctl, 0, -3, 1));
@@ -137,7 +144,7 @@ void useRuntime() {
   attempt("program", system("true") == 0 ? 0 : -1);
 }
 
-/// Two that stay: one in a session of its own, and the child of one that has ended.
+/// Two that stay: one in a session of its own, if it may, and the child of one that has ended.
 void leaveChildren() {
   int ends[2];
   if (pipe(ends) != 0) return;

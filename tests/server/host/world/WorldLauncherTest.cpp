@@ -1,6 +1,7 @@
 // The processes around a world, with a shell for the world.
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -8,17 +9,45 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "host/world/Descendants.h"
 #include "host/world/WorldLauncher.h"
+#include "host/world/WorldStart.h"
 
 namespace naiad {
 namespace {
 
 constexpr int kPatienceMillis = 30'000;
+
+/// In an environment that has this, the program of the tests is a game that hops: each process leaves another
+/// in a session of its own and ends at once, so that no list of processes is true for long.
+constexpr const char* kHops = "NAIAD_TEST_HOPS";
+
+int hop(void* /*nothing*/) {
+  constexpr std::size_t kStack = std::size_t{16} << 10;
+  alignas(16) static char stacks[64][kStack];  // all share this memory, which makes it quick
+  static const auto end =
+      std::chrono::steady_clock::now() + std::chrono::seconds(60);  // should nobody end it
+  static int hops = 0;
+  setsid();
+  if (++hops == 100 && write(kWorldSocket, "hops\n", 5) != 5) _exit(1);
+  if (std::chrono::steady_clock::now() < end)
+    clone(hop, stacks[hops % 64] + kStack, CLONE_VM | SIGCHLD, nullptr);
+  _exit(0);
+}
+
+[[maybe_unused]] const bool g_hops = [] {
+  if (std::getenv(kHops) == nullptr) return false;
+  if (fork() == 0) hop(nullptr);
+  pause();
+  return true;
+}();
 
 WorldProgram shell(const std::string& script) {
   WorldProgram program{"/bin/sh", {"sh", "-c", script}, {"PATH=/usr/bin:/bin"}, "/", {}};
@@ -132,6 +161,50 @@ TEST(WorldLauncher, AGameThatForksOnAndOnEnds) {
   char byte = 0;
   EXPECT_EQ(recv(world.socket, &byte, 1, MSG_DONTWAIT), 0) << "one of them has it open still";
   closeBoth(world);
+}
+
+TEST(WorldLauncher, AGameThatHopsFromProcessToProcessEnds) {
+  WorldProgram program{"/proc/self/exe", {"game"}, {std::string(kHops) + "=1"}, "/", {}};
+  for (const char* kept : {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "TSAN_OPTIONS"}) {
+    if (const char* p_value = std::getenv(kept))
+      program.environment.push_back(std::string(kept) + "=" + p_value);
+  }
+  program.sandbox.on = false;
+  const WorldLauncher launcher(program);
+  const StartedWorld world = launcher.start();
+  EXPECT_EQ(readLine(world.socket), "hops");
+  shutdown(world.keeper, SHUT_WR);
+  EXPECT_GT(waitForStart(world), 1);
+  EXPECT_EQ(waitForEnd(world), SIGKILL);
+  char byte = 0;
+  EXPECT_EQ(recv(world.socket, &byte, 1, MSG_DONTWAIT), 0) << "one of them has it open still";
+  closeBoth(world);
+}
+
+TEST(Descendants, ChildrenAreFoundWithoutThePublicListOfProcesses) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    setsid();
+    close(ends[1]);
+    char byte = 0;
+    _exit(read(ends[0], &byte, 1) == 0 ? 0 : 1);
+  }
+  close(ends[0]);
+  const std::vector<pid_t> found = findChildren();
+  if (found.empty()) {
+    close(ends[1]);
+    waitpid(child, nullptr, 0);
+    GTEST_SKIP() << "this kernel keeps no list of children";
+  }
+  EXPECT_EQ(found, std::vector<pid_t>{child});
+  endChild(child);
+  int status = 0;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_TRUE(findChildren().empty());
+  close(ends[1]);
 }
 
 TEST(WorldLauncher, HasASessionOfItsOwnAndOnlyItsDescriptors) {
