@@ -1,5 +1,6 @@
 // A game's author attacks the server that hosts it (hostile/game.cpp), in private worlds: what each attempt
 // comes to, while the server and another player's world go on. Real processes and sockets.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -156,6 +157,27 @@ TEST_F(HostileGame, OpensNoFilesButItsOwn) {
   expectRefused({"read /etc/passwd"});
   for (const char* allowed : {"write into its own folder", "read what it wrote", "read a library"}) {
     EXPECT_EQ(result(allowed), "done") << allowed;
+  }
+  expectTheOthersPlay();
+}
+
+TEST_F(HostileGame, AddsLinesToTheLogAndChangesNone) {
+  start();
+  if (support.landlock > 0) expectRefused({"write into the log", "write into the output"});
+  for (const char* attempt : {"empty the output", "overwrite the output"}) {
+    EXPECT_EQ(result(attempt).substr(0, 5), "error") << "it is a pipe";
+  }
+  EXPECT_EQ(result("print"), "done");
+  const auto logged = [this](const std::string& text) { return game->log().find(text) != std::string::npos; };
+  EXPECT_TRUE(serve([&] { return logged(R"( game: 192.0.2.9:1 "nobody" joined\x1b[2J)"); })) << game->log();
+  EXPECT_TRUE(logged(" game: dfserver ")) << "what the engine logs there";
+  EXPECT_FALSE(logged("\x1b"));
+  // The server's own output is not what the world has: its flags are as they were.
+  const std::string info = readAll("/proc/" + std::to_string(game->process()) + "/fdinfo/2");
+  if (!info.empty()) {  // nobody but root may look
+    const std::size_t at = info.find("flags:");
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_NE(std::stoul(info.substr(at + 6), nullptr, 8) & O_APPEND, 0u);
   }
   expectTheOthersPlay();
 }

@@ -44,8 +44,8 @@ std::string timeOfDay() {
   return text;
 }
 
-std::string asLine(std::string_view text) {
-  std::string line = timeOfDay() + oneLine(text);
+std::string asLine(std::string_view text, bool timed = true) {
+  std::string line = (timed ? timeOfDay() : std::string()) + oneLine(text);
   if (line.size() >= LineLog::kMaxLine) line.resize(LineLog::kMaxLine - 1);
   return line + '\n';
 }
@@ -123,7 +123,7 @@ struct LineLog::Shared : std::enable_shared_from_this<Shared> {
 };
 
 void LineLog::Shared::add(const std::string& text) {
-  std::string line = asLine(text);
+  std::string line = asLine(text, threaded);
   const std::lock_guard lock(mutex);
   if (threaded && !std::exchange(started, true)) start();
   if (lost > 0) line = lossLine(lost, error) + line;

@@ -16,7 +16,7 @@ using LogLine = std::function<void(const std::string& line)>;
 class LineLog {
  public:
   /// Who writes. A world in a process of its own has no further threads: there each line is written by its
-  /// caller, or dropped where that would wait.
+  /// caller, or dropped where that would wait; the time is the front's to add, which copies it into its log.
   enum class Writer { kThread, kCaller };
 
   /// Bytes of lines that wait to be written, at most.

@@ -243,7 +243,7 @@ void ProgramHost::serve(df::World& world) {
   const std::vector<std::string> help = world.getHelp();
   addToHelp(world, how);
 
-  if (launcher != nullptr) host->setWorlds(startWorlds(launcher));
+  if (launcher != nullptr) host->setWorlds(startWorlds(launcher, log));
   TerminalPlayer terminal_player(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });
   host->run(world);

@@ -169,9 +169,19 @@ class Builder {
                                   [&](const fs::path& file) { return holds(folder, file); });
     if (m_place.is_program || own == m_loaded.end()) {
       m_made.sandbox.writable.push_back(folder.string());
+      noteServerFiles(folder);
     } else {
       addReadable(folder);
       note(folder, "write into", "holds " + own->string());
+    }
+  }
+
+  // Landlock gives a folder as a whole.
+  void noteServerFiles(const fs::path& folder) {
+    for (const std::string& file : m_place.server_files) {
+      if (file.empty() || !holds(folder, resolve(file))) continue;
+      m_made.notes.push_back("warning: games in processes of their own can change " + resolve(file).string() +
+                             ", which lies in the folder that they write into");
     }
   }
 

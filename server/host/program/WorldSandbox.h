@@ -15,11 +15,12 @@ namespace naiad {
 
 /// Where a game and its files are. Relative paths begin in the directory of the program's start.
 struct GamePlace {
-  std::vector<std::string> files;    ///< its module, its settings
-  std::vector<std::string> folders;  ///< its resources
-  std::vector<std::string> logs;     ///< that it appends to
-  std::vector<std::string> secrets;  ///< beside those that the options name: files or folders
-  bool is_program = false;           ///< the front's program is the game itself: not kept from being written
+  std::vector<std::string> files;         ///< its module, its settings
+  std::vector<std::string> folders;       ///< its resources
+  std::vector<std::string> logs;          ///< that it appends to
+  std::vector<std::string> server_files;  ///< that the server writes: no world should
+  std::vector<std::string> secrets;       ///< beside those that the options name: files or folders
+  bool is_program = false;  ///< the front's program is the game itself: not kept from being written
 };
 
 struct WorldSandbox {

@@ -34,8 +34,12 @@ std::vector<std::string> moduleArguments(const HostOptions& options, const std::
   std::vector<std::string> words{"dfserver", "--game=" + module, "--players=" + options.players,
                                  "--on-game-over=" + options.on_game_over};
   if (options.seed != 0) words.push_back("--seed=" + std::to_string(options.seed));
-  if (!options.log_file.empty()) words.push_back("--log=" + options.log_file);
   return words;
+}
+
+/// Marked, since a game may print what reads as a line of the server's own.
+LogLine asTheGames(LogLine log) {
+  return [log = std::move(log)](const std::string& line) { log("game: " + line); };
 }
 
 std::string gameSettings() {
@@ -74,7 +78,7 @@ std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, co
   GamePlace place;
   place.files = {module, gameSettings()};
   place.folders = GameModule::resourceFolders(module);
-  place.logs = {options.log_file};
+  place.server_files = {options.log_file, options.join_file, options.port_file, options.truth_file};
   place.secrets = {config};
   return launch(options, place, moduleArguments(options, module), log);
 }
@@ -87,19 +91,20 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
   place.files = {gameSettings()};
   if (!error) place.folders = {folder.string(), folder.parent_path().string()};
   place.logs = {log_file};
+  place.server_files = {options.log_file, options.join_file, options.port_file, options.truth_file};
   place.is_program = true;
   return launch(options, place, ownArguments(), log);
 }
 
-Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher) {
-  return [launcher = std::move(launcher)](asio::io_context& home) {
-    return std::make_unique<WorldProcess>(home, launcher->start());
+Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine log) {
+  return [launcher = std::move(launcher), log = std::move(log)](asio::io_context& home) {
+    return std::make_unique<WorldProcess>(home, launcher->start(), asTheGames(log));
   };
 }
 
-Preview previewWorld(const WorldLauncher& launcher) {
+Preview previewWorld(const WorldLauncher& launcher, const LogLine& log) {
   asio::io_context home;
-  WorldProcess world(home, launcher.start());
+  WorldProcess world(home, launcher.start(), asTheGames(log));
   while (!world.ready() && !world.end()) {
     home.restart();
     home.run_one_for(kBetweenChecks);

@@ -26,14 +26,14 @@ std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, co
 std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, const std::string& log_file,
                                                    const LogLine& log);
 
-/// For Host::setWorlds().
-Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher);
+/// For Host::setWorlds(). What the worlds print goes to `log`, marked as the game's.
+Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine log);
 
 /// Runs the game until GM.run(), in a world that is ended then. What it has set up; or how it ended before.
 struct Preview {
   std::optional<WorldReady> ready;
   WorldEnd end;
 };
-Preview previewWorld(const WorldLauncher& launcher);
+Preview previewWorld(const WorldLauncher& launcher, const LogLine& log);
 
 }  // namespace naiad

@@ -17,6 +17,7 @@
 #include "host/program/Host.h"
 #include "host/program/HostOptions.h"
 #include "host/program/LineLog.h"
+#include "host/program/LogText.h"
 #include "host/program/WorldSandbox.h"
 #include "host/program/Worlds.h"
 #include "host/world/WorldServer.h"
@@ -58,13 +59,13 @@ ExitCode play(const naiad::GameModule& game) {
   return kGameFailed;
 }
 
-/// What is the same for a host and for a world that it has started in another process; `where` it is.
+/// What is the same for a host and for a world that it has started in another process; `where` it is. `mark`:
+/// before lines of the game's own, which may have a player's name and read as a line of the server's.
 ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runner& runner,
-              naiad::HostOptions& options, naiad::LineLog& log) {
+              naiad::HostOptions& options, naiad::LineLog& log, const std::string& mark) {
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(naiad::newSeed());
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
-  // Marked, since a game may log names: a player's could read as a line of the server's own.
-  const Installed installed(runner, [&log](const std::string& line) { log("game: " + line); });
+  const Installed installed(runner, [&log, &mark](const std::string& line) { log(mark + line); });
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + where + ", seed " +
@@ -103,11 +104,15 @@ int serveWorlds(const naiad::HostOptions& options, const std::string& config, na
   const auto module = naiad::GameModule::find(options.game);
   const auto launcher = naiad::launchModule(options, module.string(), config, log);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
-  const naiad::Preview preview = naiad::previewWorld(*launcher);
+  // Why a game cannot be loaded is for whoever has started the server, too.
+  const naiad::Preview preview = naiad::previewWorld(*launcher, [&](const std::string& line) {
+    log(line);
+    if (!options.log_file.empty()) std::cerr << naiad::oneLine(line) << std::endl;
+  });
   if (!preview.ready) return failPreview(preview.end);
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(options, name, log);
-  host.setWorlds(naiad::startWorlds(launcher));
+  host.setWorlds(naiad::startWorlds(launcher, log));
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +
       ", in worlds of their own");
@@ -119,9 +124,10 @@ int serveWorlds(const naiad::HostOptions& options, const std::string& config, na
 
 int serve(naiad::HostOptions options, const std::string& config) {
   if (const auto socket = naiad::takeWorldSocket()) {
-    naiad::LineLog log(options.log_file, naiad::LineLog::Writer::kCaller);
+    naiad::LineLog log("", naiad::LineLog::Writer::kCaller);
     naiad::WorldServer world(*socket, naiad::leavesAlone(options));
-    return play(naiad::GameModule(options.game), " in a world of its own", world, options, log);
+    return play(naiad::GameModule(options.game), " in a world of its own", world, options, log,
+                "");  // the front marks
   }
   naiad::LineLog log(options.log_file);
   if (naiad::wantsWorlds(options)) return serveWorlds(options, config, log);
@@ -129,7 +135,7 @@ int serve(naiad::HostOptions options, const std::string& config) {
   const naiad::GameModule game(options.game);
   naiad::Host host(options, game.name(), [&log](const std::string& line) { log(line); });
   announce(options, host);
-  const ExitCode code = play(game, " on " + host.address(), host, options, log);
+  const ExitCode code = play(game, " on " + host.address(), host, options, log, "game: ");
   return host.failure().empty() ? code : failGame(host.failure());
 }
 

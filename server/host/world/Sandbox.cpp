@@ -78,7 +78,7 @@ void allowFiles(LandlockRules& rules, const Sandbox& sandbox) {
   for (const std::string& path : sandbox.readable) rules.allowReading(path);
   for (const std::string& path : sandbox.writable) rules.allowWriting(path);
   for (const std::string& path : sandbox.appendable) {
-    if (const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666); file >= 0)
+    if (const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0640); file >= 0)
       close(file);
     rules.allowAppending(path);
   }

@@ -10,7 +10,6 @@ struct WorldDescriptors {
   int world = -1;
   int keeper = -1;
   int output = -1;
-  int error = -1;
 
   void closeAll() const;
 };

@@ -11,7 +11,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <iostream>
 #include <system_error>
 #include <utility>
 
@@ -52,16 +51,14 @@ std::pair<Descriptor, Descriptor> socketPair(int type, const char* what) {
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-/// Where the world may write what it prints. A terminal's descriptor would let it read what is typed there.
-Descriptor outputOf(int number) {
-  if (isatty(number) == 1) {
-    const std::string path = "/proc/self/fd/" + std::to_string(number);
-    if (const int again = open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC); again >= 0)
-      return Descriptor(again);
-  } else if (const int same = fcntl(number, F_DUPFD_CLOEXEC, 3); same >= 0) {
-    return Descriptor(same);
-  }
-  return Descriptor(open("/dev/null", O_WRONLY | O_CLOEXEC));
+/// For what a world prints: we read without waiting, and it waits for us. It never has our own output, which
+/// it could cut off or read from: a file or a terminal.
+std::pair<Descriptor, Descriptor> outputPipe(const char* what) {
+  int ends[2];
+  require(pipe2(ends, O_CLOEXEC) == 0, what);
+  std::pair<Descriptor, Descriptor> pair{Descriptor(ends[0]), Descriptor(ends[1])};
+  require(fcntl(ends[0], F_SETFL, O_NONBLOCK) == 0, what);
+  return pair;
 }
 
 bool sendDescriptors(int to, const WorldDescriptors& numbers) {
@@ -121,12 +118,9 @@ StartedWorld WorldLauncher::start() const {
   constexpr const char* kWhat = "a new world";
   auto [our_world, their_world] = socketPair(SOCK_STREAM, kWhat);
   auto [our_keeper, their_keeper] = socketPair(SOCK_STREAM, kWhat);
-  const Descriptor output = outputOf(STDOUT_FILENO);
-  const Descriptor error = outputOf(STDERR_FILENO);
-  std::cout.flush();
-  require(sendDescriptors(m_socket, {their_world.get(), their_keeper.get(), output.get(), error.get()}),
-          kWhat);
-  return {our_world.release(), our_keeper.release()};
+  auto [our_output, their_output] = outputPipe(kWhat);
+  require(sendDescriptors(m_socket, {their_world.get(), their_keeper.get(), their_output.get()}), kWhat);
+  return {our_world.release(), our_keeper.release(), our_output.release()};
 }
 
 }  // namespace naiad

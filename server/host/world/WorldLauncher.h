@@ -33,6 +33,7 @@ struct WorldProgram {
 struct StartedWorld {
   int socket = -1;  ///< our end of the world's; the caller's to close
   int keeper = -1;  ///< of the keeper's; the caller's to close, which ends the world
+  int output = -1;  ///< what it prints, for an OutputRelay; the caller's to close
 };
 
 /// The world's program is executed, or cannot be.
@@ -55,8 +56,8 @@ class WorldLauncher {
   WorldLauncher(const WorldLauncher&) = delete;
   WorldLauncher& operator=(const WorldLauncher&) = delete;
 
-  /// Start a world with an empty standard input and the present standard output and error; with a session of
-  /// its own: a Ctrl-C in the terminal is for the front. Does not wait: the keeper says what comes of it.
+  /// Start a world with an empty standard input, and a pipe for its standard output and error; with a session
+  /// of its own: a Ctrl-C in the terminal is for the front. Does not wait: the keeper says what comes of it.
   /// Throws std::system_error if there is no launcher any more.
   StartedWorld start() const;
   /// As found out by the launcher; all of it if there is no sandbox.

@@ -31,9 +31,10 @@ std::string nameOf(int signal) {
 
 }  // namespace
 
-WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started)
+WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started, OutputRelay::Line print)
     : m_socket(home, asio::local::stream_protocol(), started.socket),
       m_keeper(started.keeper),
+      m_output(started.output, std::move(print)),
       m_checked_at(Clock::now()) {
   readHead();
 }
@@ -200,6 +201,7 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
   if (!m_began) m_next_tick = std::max(tick, 1u);
   if (m_state == State::kEnded) return;
   const Clock::time_point now = Clock::now();
+  m_output.update(now);
   m_waited += std::min<std::chrono::nanoseconds>(now - m_checked_at, kMaxBetweenChecks);
   m_checked_at = now;
   if (!m_status) {
@@ -215,6 +217,7 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
 
 void WorldProcess::finish(int status) {
   m_state = State::kEnded;
+  m_output.finish(Clock::now());
   asio::error_code ignored;
   m_socket.close(ignored);
   if (m_failure) {

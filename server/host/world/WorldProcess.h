@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "host/world/OutputRelay.h"
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldMessages.h"
 #include "host/world/WorldPort.h"
@@ -30,8 +31,9 @@ class WorldProcess : public WorldPort {
   /// Keys and clicks that wait for a world, at most; those beyond are dropped.
   static constexpr std::size_t kMaxInputs = 16'384;
 
-  /// Takes over the process and the sockets. `home` runs its handlers.
-  WorldProcess(asio::io_context& home, const StartedWorld& started);
+  /// Takes over the process and the descriptors. `home` runs its handlers. `print`: gets the lines that it
+  /// prints, from checkProcess(); empty: they are dropped.
+  WorldProcess(asio::io_context& home, const StartedWorld& started, OutputRelay::Line print = {});
   /// Kills it and all that it has started, if it has not ended.
   ~WorldProcess() override;
   WorldProcess(const WorldProcess&) = delete;
@@ -79,7 +81,8 @@ class WorldProcess : public WorldPort {
   void kill();
 
   asio::local::stream_protocol::socket m_socket;
-  int m_keeper;            ///< the socket of its keeper
+  int m_keeper;  ///< the socket of its keeper
+  OutputRelay m_output;
   bool m_started = false;  ///< as the keeper says
   State m_state = State::kStarting;
   std::optional<WorldReady> m_ready;

@@ -124,6 +124,19 @@ void attackOpenFiles() {
   close(server);
 }
 
+/// The server's log is in its standard error, or in a file of its own.
+void attackLog() {
+  attempt("write into the log", tryOpen("../log", O_WRONLY));
+  attempt("write into the output", tryOpen("../output", O_WRONLY));
+  attempt("empty the output", ftruncate(STDERR_FILENO, 0));
+  attempt("overwrite the output", lseek(STDERR_FILENO, 0, SEEK_SET));
+  const int flags = fcntl(STDERR_FILENO, F_GETFL);
+  attempt("hold up those who print", fcntl(STDERR_FILENO, F_SETFL, (flags | O_NONBLOCK) & ~O_APPEND));
+  const std::string line = "192.0.2.9:1 \"nobody\" joined\x1b[2J\n";
+  fcntl(STDERR_FILENO, F_SETFL, flags);
+  attempt("print", write(STDERR_FILENO, line.data(), line.size()));
+}
+
 void attackProcesses(pid_t front) {
   attempt("kill the front", kill(front, SIGKILL));
   attempt("kill its keeper", kill(getppid(), SIGKILL));
@@ -196,6 +209,7 @@ struct Attack {
     attackFiles(std::to_string(front));
     attackCalls(front);
     attackOpenFiles();
+    attackLog();
     attackProcesses(front);
     useRuntime();
     takeEverything();

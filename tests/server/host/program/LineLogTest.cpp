@@ -168,6 +168,7 @@ TEST_F(LineLogTest, WithoutAThreadWhatWouldWaitIsLostAndCounted) {
   const std::string line(1500, 'x');
   for (int i = 0; i < 100; ++i) log(line);
   const std::string kept = pipe.readUntil("x\n");
+  EXPECT_EQ(kept.front(), 'x') << "the time is the front's to add";
   log("it goes on");
   const std::string said = pipe.readUntil("it goes on");
   EXPECT_EQ(linesLost(said), 100 - std::count(kept.begin(), kept.end(), '\n')) << said;

@@ -96,6 +96,15 @@ TEST_F(WorldSandboxTest, TheWorkingDirectoryIsWritableUnlessItHoldsTheServer) {
   EXPECT_NE(reserved.notes[0].find("identity"), std::string::npos) << reserved.notes[0];
 }
 
+TEST_F(WorldSandboxTest, TheServersFilesInTheGamesFolderAreNamed) {
+  place.is_program = true;  // is given the folder even if the server lies there
+  if (makeWorldSandbox(options, place).sandbox.writable.empty()) GTEST_SKIP() << "this folder is not given";
+  place.server_files = {"server.log", (m_folder / "join").string(), ""};
+  const WorldSandbox made = makeWorldSandbox(options, place);
+  ASSERT_EQ(made.notes.size(), 1u) << "the one that lies there";
+  EXPECT_NE(made.notes[0].find((fs::canonical(firstDirectory()) / "server.log").string()), std::string::npos);
+}
+
 TEST_F(WorldSandboxTest, TheEnvironmentIsAFixedChoiceWithoutThePassword) {
   setenv("NAIAD_PASSWORD", "open-sesame", 1);
   setenv("SOMETHING_ELSE", "1", 1);

@@ -88,6 +88,7 @@ std::optional<int> waitForEnd(const StartedWorld& world) {
 void closeBoth(const StartedWorld& world) {
   close(world.socket);
   close(world.keeper);
+  close(world.output);
 }
 
 bool isGone(pid_t process) {

@@ -2,10 +2,12 @@
 // descriptor 3.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldProcess.h"
@@ -37,7 +39,7 @@ class WorldProcessTest : public testing::Test {
   WorldEnd play(const std::string& script) { return play(shell(script)); }
   WorldEnd play(const WorldProgram& program) {
     const WorldLauncher launcher(program);
-    WorldProcess world(m_io, launcher.start());
+    WorldProcess world(m_io, launcher.start(), [this](const std::string& line) { printed.push_back(line); });
     world.setOnTick([this] { ++ticks; });
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (!world.end() && std::chrono::steady_clock::now() < end) {
@@ -50,6 +52,7 @@ class WorldProcessTest : public testing::Test {
   }
 
   int ticks = 0;
+  std::vector<std::string> printed;
 
  private:
   asio::io_context m_io;
@@ -90,6 +93,19 @@ TEST_F(WorldProcessTest, AProgramThatIsNotThereIsAnError) {
     EXPECT_EQ(end.why, WorldEnd::kCrashed);
     EXPECT_EQ(end.text, "could not be started: No such file or directory");
   }
+}
+
+TEST_F(WorldProcessTest, WhatItPrintsIsPassedOnToTheLastLine) {
+  EXPECT_EQ(play("echo one; echo two >&2; printf three; kill -SEGV $$").text, "crashed (SIGSEGV)");
+  EXPECT_EQ(printed, (std::vector<std::string>{"one", "two", "three"}));
+}
+
+TEST_F(WorldProcessTest, OneThatFloodsEndsAsEver) {
+  EXPECT_EQ(play("head -c 2000000 /dev/zero | tr '\\0' '\\n'; echo end; exit 3").text, "ended with code 3");
+  EXPECT_LT(printed.size(), 20'000u);
+  EXPECT_NE(std::find_if(printed.begin(), printed.end(),
+                         [](const std::string& line) { return line.ends_with("are left out"); }),
+            printed.end());
 }
 
 TEST_F(WorldProcessTest, AnAnswerIsATick) {

@@ -1,0 +1,55 @@
+// What a world prints, and the game's log lines among it, to the log of the server.
+//
+// A world has the writing end of a pipe as its standard output and error, and no right on the log file: so it
+// can add lines, each marked as the game's, and cannot change what is there. Of more than the rate lines are
+// dropped and counted; a world that prints faster than it is read waits.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "shared/net/base/TokenBucket.h"
+
+namespace naiad {
+
+/// Not thread-safe.
+class OutputRelay {
+ public:
+  using Clock = std::chrono::steady_clock;
+  using Line = std::function<void(const std::string& line)>;
+
+  /// Lines: what a round's start may print, and in the long run.
+  static constexpr BucketRate kRate{100, 500};
+  /// Bytes of a line; the rest of it is dropped.
+  static constexpr std::size_t kMaxLine = 1000;
+  /// Bytes that one update() reads, at most.
+  static constexpr std::size_t kMaxRead = std::size_t{128} << 10;
+
+  /// Takes over the reading end of a pipe, which does not block; below 0: none. An empty `line` drops all.
+  OutputRelay(int pipe, Line line) : m_pipe(pipe), m_line(std::move(line)) {}
+  ~OutputRelay();
+  OutputRelay(const OutputRelay&) = delete;
+  OutputRelay& operator=(const OutputRelay&) = delete;
+
+  /// Pass on what has come. Once in each tick; waits for nothing.
+  void update(Clock::time_point now);
+  /// The same, when the world has ended: the last line may lack its end.
+  void finish(Clock::time_point now);
+
+ private:
+  void takePiece(std::string_view piece, Clock::time_point now);
+  void endLine(Clock::time_point now);
+  void reportDropped();
+
+  int m_pipe;
+  Line m_line;
+  std::string m_text;  ///< of the line that is not complete
+  TokenBucket m_bucket;
+  std::uint64_t m_dropped = 0;  ///< lines, since the last one that was passed on
+};
+
+}  // namespace naiad
