@@ -1,6 +1,8 @@
 #include "host/program/ProgramHost.h"
 
 #include <google/protobuf/stubs/logging.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
@@ -23,6 +25,7 @@
 #include "host/program/Host.h"
 #include "host/program/LineLog.h"
 #include "host/program/LocalClient.h"
+#include "host/program/LogText.h"
 #include "host/program/Worlds.h"
 #include "host/world/WorldServer.h"
 #include "host/world/WorldStart.h"
@@ -50,6 +53,15 @@ std::string programName() {
   LineLog::waitUntilWritten(kLogTime);
   std::cerr << programName() << ": " << sentence << std::endl;
   std::exit(code);
+}
+
+/// Print what a world has printed, as if the game ran in this process; where that would wait, it is lost.
+void printLine(const std::string& line) {
+  std::cout.flush();
+  pollfd ready{STDOUT_FILENO, POLLOUT, 0};
+  if (poll(&ready, 1, 0) != 1) return;
+  const std::string text = oneLine(line) + "\n";
+  [[maybe_unused]] const ssize_t written = write(STDOUT_FILENO, text.data(), text.size());
 }
 
 std::string configFile() {
@@ -243,7 +255,7 @@ void ProgramHost::serve(df::World& world) {
   const std::vector<std::string> help = world.getHelp();
   addToHelp(world, how);
 
-  if (launcher != nullptr) host->setWorlds(startWorlds(launcher, log));
+  if (launcher != nullptr) host->setWorlds(startWorlds(launcher, printLine));
   TerminalPlayer terminal_player(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });
   host->run(world);

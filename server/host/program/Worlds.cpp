@@ -37,11 +37,6 @@ std::vector<std::string> moduleArguments(const HostOptions& options, const std::
   return words;
 }
 
-/// Marked, since a game may print what reads as a line of the server's own.
-LogLine asTheGames(LogLine log) {
-  return [log = std::move(log)](const std::string& line) { log("game: " + line); };
-}
-
 std::string gameSettings() {
   const char* p_named = std::getenv("DRAGONFLY_CONFIG");
   return p_named != nullptr ? p_named : "df-config.txt";
@@ -96,15 +91,15 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
   return launch(options, place, ownArguments(), log);
 }
 
-Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine log) {
-  return [launcher = std::move(launcher), log = std::move(log)](asio::io_context& home) {
-    return std::make_unique<WorldProcess>(home, launcher->start(), asTheGames(log));
+Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine print) {
+  return [launcher = std::move(launcher), print = std::move(print)](asio::io_context& home) {
+    return std::make_unique<WorldProcess>(home, launcher->start(), print);
   };
 }
 
-Preview previewWorld(const WorldLauncher& launcher, const LogLine& log) {
+Preview previewWorld(const WorldLauncher& launcher, const LogLine& print) {
   asio::io_context home;
-  WorldProcess world(home, launcher.start(), asTheGames(log));
+  WorldProcess world(home, launcher.start(), print);
   while (!world.ready() && !world.end()) {
     home.restart();
     home.run_one_for(kBetweenChecks);

@@ -26,14 +26,15 @@ std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, co
 std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, const std::string& log_file,
                                                    const LogLine& log);
 
-/// For Host::setWorlds(). What the worlds print goes to `log`, marked as the game's.
-Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine log);
+/// For Host::setWorlds(). `print`: gets the lines that worlds print. They may have any bytes, and read as a
+/// line of the server's own.
+Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine print);
 
 /// Runs the game until GM.run(), in a world that is ended then. What it has set up; or how it ended before.
 struct Preview {
   std::optional<WorldReady> ready;
   WorldEnd end;
 };
-Preview previewWorld(const WorldLauncher& launcher, const LogLine& log);
+Preview previewWorld(const WorldLauncher& launcher, const LogLine& print);
 
 }  // namespace naiad

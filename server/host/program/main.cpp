@@ -104,15 +104,17 @@ int serveWorlds(const naiad::HostOptions& options, const std::string& config, na
   const auto module = naiad::GameModule::find(options.game);
   const auto launcher = naiad::launchModule(options, module.string(), config, log);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
+  // Marked, since a game may print what reads as a line of the server's own.
+  const naiad::LogLine print = [&lines](const std::string& line) { lines("game: " + line); };
   // Why a game cannot be loaded is for whoever has started the server, too.
   const naiad::Preview preview = naiad::previewWorld(*launcher, [&](const std::string& line) {
-    log(line);
+    print(line);
     if (!options.log_file.empty()) std::cerr << naiad::oneLine(line) << std::endl;
   });
   if (!preview.ready) return failPreview(preview.end);
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(options, name, log);
-  host.setWorlds(naiad::startWorlds(launcher, log));
+  host.setWorlds(naiad::startWorlds(launcher, print));
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +
       ", in worlds of their own");
