@@ -1,7 +1,6 @@
 #include "LoopbackNamespace.h"
 
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <linux/ipv6.h>
 #include <net/if.h>
 #include <sched.h>
@@ -11,28 +10,13 @@
 
 #include <cstring>
 
+#include "tests/bench/UserMap.h"
+
 namespace bench::attack {
 
 namespace {
 
 constexpr const char* kDevice = "lo";
-
-bool writeText(const char* name, const std::string& text) {
-  const int fd = open(name, O_WRONLY | O_CLOEXEC);
-  if (fd < 0) return false;
-  const bool written = write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  close(fd);
-  return written;
-}
-
-// Files keep their owner: this user is the same inside.
-bool mapUser(uid_t user, gid_t group) {
-  const std::string user_text = std::to_string(user);
-  const std::string group_text = std::to_string(group);
-  return writeText("/proc/self/setgroups", "deny") &&
-         writeText("/proc/self/uid_map", user_text + " " + user_text + " 1") &&
-         writeText("/proc/self/gid_map", group_text + " " + group_text + " 1");
-}
 
 bool bringUp(int socket) {
   ifreq request{};

@@ -31,6 +31,17 @@ class WorldTest : public ::testing::Test {
     for (const std::string& line : lines) count += line.find(text) != std::string::npos ? 1 : 0;
     return count;
   }
+  /// What `row` of the window shows, without blanks, after each of `ticks` ticks.
+  std::string shown(int row, int ticks) {
+    std::string all;
+    for (int i = 0; i < ticks; ++i) {
+      world.tick();
+      std::string text = world.renderView({}).rowText(row);
+      std::erase(text, ' ');
+      all += text;
+    }
+    return all;
+  }
 
   std::vector<std::string> lines;
   std::vector<std::string> received;  // "name:event", for Probes that are given this list

@@ -11,20 +11,14 @@
 
 #include <cstring>
 
+#include "tests/bench/UserMap.h"
+
 namespace bench::path {
 
 namespace {
 
 constexpr int kMtu = 1500;
 const char* const kDevice = "link0";
-
-bool writeText(const char* name, const std::string& text) {
-  const int fd = open(name, O_WRONLY | O_CLOEXEC);
-  if (fd < 0) return false;
-  const bool written = write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  close(fd);
-  return written;
-}
 
 ifreq request(const char* device) {
   ifreq result{};
@@ -80,13 +74,7 @@ void unshareProcesses() {
   const gid_t group = getegid();
   if (user != 0) {
     if (unshare(CLONE_NEWUSER) != 0) throw NotAllowed("user-namespaces-not-allowed");
-    const std::string user_text = std::to_string(user);
-    const std::string group_text = std::to_string(group);
-    if (!writeText("/proc/self/setgroups", "deny") ||
-        !writeText("/proc/self/uid_map", user_text + " " + user_text + " 1") ||
-        !writeText("/proc/self/gid_map", group_text + " " + group_text + " 1")) {
-      throw NotAllowed("user-namespace-cannot-be-mapped");
-    }
+    if (!mapUser(user, group)) throw NotAllowed("user-namespace-cannot-be-mapped");
   }
   if (unshare(CLONE_NEWPID) != 0) throw NotAllowed("process-namespaces-not-allowed");
 }
@@ -109,7 +97,7 @@ void NetworkNamespace::configure(const std::string& address, const std::string& 
   configuration.bringUp("lo");
   if (address.starts_with("127.")) {
     configuration.keepOnlyOwnLoopbackAddress();
-    if (!writeText(("/proc/sys/net/ipv4/conf/" + std::string(kDevice) + "/route_localnet").c_str(), "1")) {
+    if (!writeText("/proc/sys/net/ipv4/conf/" + std::string(kDevice) + "/route_localnet", "1")) {
       throw NotAllowed("loopback-addresses-cannot-be-routed");
     }
   }

@@ -22,27 +22,14 @@ Sprite sprite(const std::vector<std::string>& frames, int slowdown = 1) {
   return s;
 }
 
-class AnimationTest : public WorldTest {
- protected:
-  /// What row 10 shows, without blanks, after each of `ticks` ticks.
-  std::string shown(int ticks) {
-    std::string all;
-    for (int i = 0; i < ticks; ++i) {
-      world.tick();
-      std::string row = world.renderView({}).rowText(10);
-      std::erase(row, ' ');
-      all += row;
-    }
-    return all;
-  }
-};
+class AnimationTest : public WorldTest {};
 
 TEST_F(AnimationTest, EachFrameIsShownForSlowdownTicks) {
   Sprite s = sprite({"a", "b", "c"}, 2);
   Object o;
   o.setPosition(Vector(10, 10));
   EXPECT_EQ(o.setSprite(&s), 0);
-  EXPECT_EQ(shown(9), "aabbccaab");
+  EXPECT_EQ(shown(10, 9), "aabbccaab");
 }
 
 TEST_F(AnimationTest, SlowdownZeroIsNoAnimationAndMinusOneStopsIt) {
@@ -50,15 +37,15 @@ TEST_F(AnimationTest, SlowdownZeroIsNoAnimationAndMinusOneStopsIt) {
   Object o;
   o.setPosition(Vector(10, 10));
   o.setSprite(&still);
-  EXPECT_EQ(shown(4), "aaaa");
+  EXPECT_EQ(shown(10, 4), "aaaa");
   still.setSlowdown(1);
-  EXPECT_EQ(shown(3), "aba");
+  EXPECT_EQ(shown(10, 3), "aba");
   Animation animation = o.getAnimation();
   animation.setSlowdownCount(-1);
   o.setAnimation(animation);
-  EXPECT_EQ(shown(3), "bbb");
+  EXPECT_EQ(shown(10, 3), "bbb");
   o.setSpriteSlowdownCount(0);
-  EXPECT_EQ(shown(3), "bab");
+  EXPECT_EQ(shown(10, 3), "bab");
 }
 
 TEST_F(AnimationTest, GoesOnOutOfSightButNotWhileInactiveOrInvisible) {
@@ -87,9 +74,9 @@ TEST_F(AnimationTest, AnimationOfTheGamesOwnGoesOnWhenItIsDrawn) {
   animation.setSprite(&s);
   Probe probe("probe", nullptr, Vector(5, 10));
   probe.on_draw = [&](Probe& p) { EXPECT_EQ(animation.draw(p.getPosition()), 0); };
-  EXPECT_EQ(shown(3), "aba");
+  EXPECT_EQ(shown(10, 3), "aba");
   probe.on_draw = [&](Probe& p) { p.Object::draw(); };
-  EXPECT_EQ(shown(1), "");  // it has no sprite itself
+  EXPECT_EQ(shown(10, 1), "");  // it has no sprite itself
 }
 
 TEST_F(AnimationTest, SpritesAreDrawnAroundThePosition) {
@@ -169,7 +156,7 @@ TEST_F(AnimationTest, AStaticLookFollowsTheFrame) {
   o.setPosition(Vector(10, 10));
   o.setSprite(&s);
   o.setStaticLook();
-  EXPECT_EQ(shown(3), "aba");
+  EXPECT_EQ(shown(10, 3), "aba");
 }
 
 TEST_F(AnimationTest, ObjectsMayGoAndComeWhileTheyAreAnimated) {

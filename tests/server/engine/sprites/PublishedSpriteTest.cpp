@@ -33,18 +33,11 @@ class PublishedSprite : public WorldTest {
     return RM.loadSprite(m_file.string(), label);
   }
   /// What row 10 shows of an Object with this sprite, without blanks, after each of `ticks` ticks.
-  std::string shown(const std::string& label, int ticks) {
+  std::string shownOf(const std::string& label, int ticks) {
     Object o;
     o.setPosition(Vector(10, 10));
     o.setSprite(label);
-    std::string all;
-    for (int i = 0; i < ticks; ++i) {
-      world.tick();
-      std::string row = world.renderView({}).rowText(10);
-      std::erase(row, ' ');
-      all += row;
-    }
-    return all;
+    return shown(10, ticks);
   }
 
  private:
@@ -90,7 +83,7 @@ TEST_F(PublishedSprite, AFileThatTheBookAllowsGivesNoWarning) {
   ASSERT_EQ(load(withHeader("slowdown 2\ntransparency #\n")), 0);
   EXPECT_EQ(RM.getSprite("s")->getSlowdown(), 2);
   EXPECT_TRUE(lines.empty());
-  EXPECT_EQ(shown("s", 4), "aabb");
+  EXPECT_EQ(shownOf("s", 4), "aabb");
 }
 
 TEST_F(PublishedSprite, SlowdownZeroMinusOneAndMissingAdvanceEveryStep) {
@@ -99,9 +92,9 @@ TEST_F(PublishedSprite, SlowdownZeroMinusOneAndMissingAdvanceEveryStep) {
   ASSERT_EQ(load(withHeader("slowdown -1\n"), "minus"), 0);
   ASSERT_EQ(load(withHeader(""), "missing"), 0);
   EXPECT_EQ(RM.getSprite("missing")->getSlowdown(), 0);
-  EXPECT_EQ(shown("zero", 4), "abab");
-  EXPECT_EQ(shown("minus", 4), "abab");
-  EXPECT_EQ(shown("missing", 4), "abab");
+  EXPECT_EQ(shownOf("zero", 4), "abab");
+  EXPECT_EQ(shownOf("minus", 4), "abab");
+  EXPECT_EQ(shownOf("missing", 4), "abab");
 }
 
 TEST_F(PublishedSprite, ASpriteThatTheGameMakesAdvancesTooAndACountOfMinusOneStopsIt) {
@@ -125,8 +118,8 @@ TEST_F(PublishedSprite, TheBookStandsStillAndAMissingSlowdownIsOne) {
   ASSERT_EQ(load(withHeader("slowdown 0\n"), "zero"), 0);
   ASSERT_EQ(load(withHeader(""), "missing"), 0);
   EXPECT_EQ(RM.getSprite("missing")->getSlowdown(), 1);
-  EXPECT_EQ(shown("zero", 4), "aaaa");
-  EXPECT_EQ(shown("missing", 4), "abab");
+  EXPECT_EQ(shownOf("zero", 4), "aaaa");
+  EXPECT_EQ(shownOf("missing", 4), "abab");
 }
 
 }  // namespace
