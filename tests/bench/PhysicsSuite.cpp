@@ -1,0 +1,158 @@
+// What scenes of rigid bodies cost per tick, against Box2D, and how deep bodies lie in each other meanwhile.
+//
+// Both engines start from the same places and run by turns; every tick counts, from the first.
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "Contest.h"
+#include "ResultLine.h"
+#include "Suite.h"
+#include "physics/Box2dSimulation.h"
+#include "physics/NaiadSimulation.h"
+#include "physics/Run.h"
+#include "physics/Scenes.h"
+
+namespace bench {
+
+namespace {
+
+using physics::Run;
+
+constexpr int kRounds = 3;
+constexpr double kMostSeconds = 20;  // of CPU time, for one run
+constexpr double kAny = std::numeric_limits<double>::infinity();
+
+/// What `ok` asks for.
+struct Target {
+  double least_ratio = 1;
+  double most_overlap = kAny;
+  double most_joint_error = kAny;
+};
+
+struct Level {
+  df::Accuracy accuracy;
+  Target target;
+  const char* skipped = nullptr;  ///< why it is never measured
+  bool quick = true;              ///< also with --quick?
+
+  const char* name() const { return accuracy == df::ACCURACY_FAST ? "fast" : "default"; }
+};
+
+struct Case {
+  const char* name;
+  physics::Scene (*make)();
+  std::vector<Level> levels;
+};
+
+constexpr df::Accuracy kFast = df::ACCURACY_FAST;
+constexpr df::Accuracy kDefault = df::ACCURACY_DEFAULT;
+
+const std::vector<Case> kCases = {
+    {"pyramid60", physics::makePyramid60, {{kFast, {7.5, .036}}, {kDefault, {}}}},
+    {"pyramids100", physics::makePyramids100, {{kFast, {10, .005}}, {kDefault, {}}}},
+    {"tumbler500", physics::makeTumbler500, {{kFast, {3, .063}}, {kDefault, {1, .016}}}},
+    {"heap2000", physics::makeHeap2000, {{kFast, {2.5, .125}}, {kDefault, {}}}},
+    {"heap20000", physics::makeHeap20000, {{kFast, {2.5, .1}}, {kDefault, {}, nullptr, false}}},
+    {"smash", physics::makeSmash, {{kFast, {10, .14}}, {kDefault, {}}}},
+    {"chain100", physics::makeChain100, {{kFast, {}}, {kDefault, {.5, kAny, 1e-9}}}},
+    {"grid100", physics::makeGrid100, {{kFast, {2, kAny, .4}}, {kDefault, {}, "minutes_per_tick"}}},
+};
+
+struct Round {
+  Run ours;
+  Run box2d;
+
+  /// Where one was cut, only the ticks that both ran are compared.
+  std::size_t ticks() const { return std::min(ours.tick_ms.size(), box2d.tick_ms.size()); }
+  double ratio() const { return box2d.meanMs(ticks()) / ours.meanMs(ticks()); }
+};
+
+Round runRound(const physics::Scene& scene, df::Accuracy accuracy) {
+  return {run(scene, *physics::makeNaiad(scene, accuracy), kMostSeconds),
+          run(scene, *physics::makeBox2d(scene), kMostSeconds)};
+}
+
+template <class Value>
+double medianOf(const std::vector<Round>& rounds, Value value) {
+  std::vector<double> values;
+  for (const Round& round : rounds) values.push_back(value(round));
+  return median(values);
+}
+
+// Both engines do the same in each round, so the first one says what the judge saw.
+void addErrors(Line& line, const std::string& prefix, const physics::Scene& scene, const Run& run) {
+  if (run.looks == 0) return;
+  if (scene.collide) line.add(prefix + "overlap_m", run.meanOverlap());
+  if (!scene.hinges.empty()) line.add(prefix + "joint_error_m", run.joint_error);
+}
+
+bool meets(const Target& target, double ratio, const Run& run) {
+  const double overlap = run.overlaps.empty() ? 0 : run.meanOverlap();
+  return !run.cut && run.failed == 0 && ratio >= target.least_ratio && overlap <= target.most_overlap &&
+         run.joint_error <= target.most_joint_error;
+}
+
+void report(Line& line, const Level& level, const physics::Scene& scene, const std::vector<Round>& rounds) {
+  const Run& ours = rounds.front().ours;
+  const double ratio = medianOf(rounds, [](const Round& r) { return r.ratio(); });
+  line.add("ms_per_tick", medianOf(rounds, [](const Round& r) { return r.ours.meanMs(r.ticks()); }));
+  line.add("worst_ms", medianOf(rounds, [](const Round& r) { return r.ours.worstMs(); }));
+  addErrors(line, "", scene, ours);
+  line.add("box2d_ms", medianOf(rounds, [](const Round& r) { return r.box2d.meanMs(r.ticks()); }));
+  addErrors(line, "box2d_", scene, rounds.front().box2d);
+  line.add("box2d_ratio", ratio);
+  if (ours.cut) line.add("cut", 1).add("ticks", static_cast<int>(ours.tick_ms.size()));
+  line.addZero("failed", ours.failed);
+  line.add("ok", meets(level.target, ratio, ours) ? 1 : 0);
+}
+
+void measure(const Case& c, const Level& level, const Options& options) {
+  if (options.quick && !level.quick) return;
+  progress(std::string("physics: ") + c.name + ", " + level.name());
+  const physics::Scene scene = c.make();
+  Line line("physics");
+  line.add("scene", c.name).add("level", level.name()).add("sleep", scene.sleep ? "on" : "off");
+  line.add("bodies", scene.countDynamic());
+  if (level.skipped != nullptr) {
+    line.add("skipped", level.skipped);
+    return;
+  }
+  std::vector<Round> rounds;
+  const std::size_t wanted = options.quick ? 1 : kRounds;
+  while (rounds.size() < wanted && (rounds.empty() || !rounds.back().ours.cut)) {
+    rounds.push_back(runRound(scene, level.accuracy));
+  }
+  report(line, level, scene, rounds);
+}
+
+/// Those that NAIAD_PHYSICS_SCENES names, separated by commas, or all.
+std::vector<Case> wantedCases() {
+  const char* list = std::getenv("NAIAD_PHYSICS_SCENES");
+  if (list == nullptr) return kCases;
+  std::vector<Case> wanted;
+  std::istringstream text(list);
+  for (std::string name; std::getline(text, name, ',');) {
+    const auto found =
+        std::find_if(kCases.begin(), kCases.end(), [&](const Case& c) { return c.name == name; });
+    if (found == kCases.end()) throw std::runtime_error("there is no scene '" + name + "'");
+    wanted.push_back(*found);
+  }
+  return wanted;
+}
+
+const Suite s_suite("physics", "scenes of rigid bodies, against Box2D: time and overlap",
+                    [](const Options& options) {
+                      for (const Case& c : wantedCases()) {
+                        for (const Level& level : c.levels) measure(c, level, options);
+                      }
+                    });
+
+}  // namespace
+
+}  // namespace bench

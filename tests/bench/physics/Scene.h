@@ -1,0 +1,88 @@
+// A scene of rigid bodies, from which both engines build their worlds. Lengths are in metres, times in
+// seconds, masses are areas times densities; y points down. All bodies start upright (angle 0).
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace bench::physics {
+
+/// A box along its body's axes, or a circle.
+struct Part {
+  double half_width = 0;
+  double half_height = 0;
+  double radius = 0;  ///< > 0: a circle
+  double x = 0;       ///< its centre, from the body's centre of mass
+  double y = 0;
+
+  bool isCircle() const { return radius > 0; }
+  double area() const;
+};
+
+enum class Motion { STATIC, KINEMATIC, DYNAMIC };
+
+struct Body {
+  std::vector<Part> parts;
+  double x = 0;
+  double y = 0;
+  Motion motion = Motion::DYNAMIC;
+  double vx = 0;
+  double vy = 0;
+  double spin = 0;  ///< radians per second
+  double density = 1;
+
+  double mass() const;
+};
+
+/// Two bodies turn about a point that they share.
+struct Hinge {
+  int a = kWorld;
+  int b = 0;
+  double x = 0;  ///< where it is at the start, in the world
+  double y = 0;
+
+  static constexpr int kWorld = -1;
+};
+
+/// Where the centres of dynamic bodies belong: those elsewhere went through a wall, or are more than half
+/// inside it.
+struct Room {
+  double left = -std::numeric_limits<double>::infinity();
+  double right = std::numeric_limits<double>::infinity();
+  double top = -std::numeric_limits<double>::infinity();
+  double bottom = std::numeric_limits<double>::infinity();
+  int frame = Hinge::kWorld;  ///< the body in whose axes these are, which turns; else the world's
+
+  bool contains(double x, double y) const { return x > left && x < right && y > top && y < bottom; }
+};
+
+struct Scene {
+  std::vector<Body> bodies;
+  std::vector<Hinge> hinges;
+  Room room;
+  double gravity = 10;  ///< metres per second²
+  int ticks = 0;        ///< that are measured, of kTick each
+  bool sleep = true;    ///< may bodies at rest sleep?
+  bool collide = true;  ///< or does nothing touch anything?
+
+  static constexpr double kTicksPerSecond = 30;
+  static constexpr double kFriction = 0.6;  ///< of everything; restitution is 0
+
+  int countDynamic() const;
+};
+
+/// Where a body is, and the cosine and sine of its angle.
+struct Pose {
+  double x = 0;
+  double y = 0;
+  double cosine = 1;
+  double sine = 0;
+
+  /// A point given in the body's axes, in the world.
+  Pose at(double local_x, double local_y) const {
+    return {x + cosine * local_x - sine * local_y, y + sine * local_x + cosine * local_y, cosine, sine};
+  }
+};
+
+}  // namespace bench::physics
