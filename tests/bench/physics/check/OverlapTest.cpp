@@ -49,7 +49,10 @@ TEST(Overlap, OfTurnedBoxesIsThatOfTheirSides) {
   EXPECT_NEAR(depth(unitBox(), {0, 0}, unitBox(), turned(0.5 + corner - 0.1, 0, eighth)), 0.1, kEps);
   EXPECT_NEAR(depth(unitBox(), turned(0, 0, eighth), unitBox(), turned(0.5, 0.5, eighth)), 1 - corner, kEps);
   // The upright boxes around them overlap; along the turned one's side there is a gap.
-  EXPECT_EQ(depth(unitBox(), {0, 0}, unitBox(), turned(0.9, 0.9, eighth)), 0);
+  for (const double x : {-0.9, 0.9}) {
+    EXPECT_EQ(depth(unitBox(), {0, 0}, unitBox(), turned(x, 0.9, eighth)), 0);
+    EXPECT_EQ(depth(unitBox(), {0, 0}, unitBox(), turned(x, -0.9, eighth)), 0);
+  }
 }
 
 TEST(Overlap, OfACircleIsMeasuredFromItsEdge) {
@@ -63,7 +66,7 @@ TEST(Overlap, OfACircleIsMeasuredFromItsEdge) {
 }
 
 TEST(Overlap, OfCompoundsIsPartByPartAndNotWithThemselves) {
-  Body corner = unitBox(Motion::KINEMATIC);
+  Body corner = unitBox();
   corner.parts = {{.half_width = 2, .half_height = 0.5, .y = 1.9},
                   {.half_width = 0.5, .half_height = 2, .x = 1.9}};
   const double quarter = std::acos(-1.0) / 2;

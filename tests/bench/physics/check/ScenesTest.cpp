@@ -77,13 +77,15 @@ TEST(Run, LooksAfterEachTenthTick) {
 
 TEST(Run, CountsWhatIsThroughAWallFrozenOrNotFinite) {
   const Scene scene = boxOverFloor();
-  Scripted sinking(scene), frozen(scene), lost(scene);
+  Scripted sinking(scene), frozen(scene), lost(scene), dizzy(scene);
   sinking.fall = 0.021;  // at the end alone its centre is in the floor
   frozen.frozen = 1;
   lost.fall = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(run(scene, sinking, 1000).failed, 1);
   EXPECT_EQ(run(scene, frozen, 1000).failed, 1);
+  dizzy.poses.back().sine = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(run(scene, lost, 1000).failed, 1);
+  EXPECT_EQ(run(scene, dizzy, 1000).failed, 1);
 }
 
 TEST(Run, JudgesTheDrumInItsOwnAxes) {
@@ -92,6 +94,8 @@ TEST(Run, JudgesTheDrumInItsOwnAxes) {
   Scripted simulation(scene);
   const double eighth = std::sqrt(0.5);
   simulation.poses = {{0, 0, eighth, eighth}, {9, 9}};
+  EXPECT_EQ(run(scene, simulation, 1000).failed, 1);
+  simulation.poses[1] = {9, -9};
   EXPECT_EQ(run(scene, simulation, 1000).failed, 1);
   simulation.poses[1] = {12, 0};
   EXPECT_EQ(run(scene, simulation, 1000).failed, 0);
