@@ -178,6 +178,7 @@ void WorldStore::setBox(Slot s, FixedBox box) {
 void WorldStore::setSolidness(Slot s, Solidness solidness) {
   if (m_cards[s].solidness == solidness) return;
   m_cards[s].solidness = solidness;
+  if (solidness == SOFT) m_has_had_soft = true;
   file(s);
   touch(s);
 }

@@ -129,6 +129,8 @@ class WorldStore : public ObjectFlags {
   /// inside something has its box there, too.
   bool hasBoxesOffPosition() const { return m_boxes_off; }
   void setSolidness(Slot s, Solidness solidness);
+  /// Has any Object been SOFT since the world was made?
+  bool hasHadSoft() const { return m_has_had_soft; }
   void setAltitude(Slot s, int altitude);
   /// Nothing: the whole box.
   void setMask(Slot s, std::optional<Mask> mask);
@@ -300,6 +302,7 @@ class WorldStore : public ObjectFlags {
   bool m_boxes_off = false;                // see hasBoxesOffPosition()
   int m_precise = 0;                       // Objects that are
   mutable std::vector<Slot> m_candidates;  // scratch of touching()
+  bool m_has_had_soft = false;
 };
 
 }  // namespace df

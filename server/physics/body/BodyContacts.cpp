@@ -4,87 +4,101 @@
 
 namespace naiad::physics {
 
-std::vector<BodyContacts::Touch>::iterator BodyContacts::find(const BodyContact& contact) {
-  return std::lower_bound(m_touching.begin(), m_touching.end(), contact,
-                          [](const Touch& touch, const BodyContact& other) {
-                            const BodyContact& its = touch.contact;
-                            if (its.first.slot != other.first.slot) return its.first.slot < other.first.slot;
-                            return its.second.slot < other.second.slot;
-                          });
-}
-
 void BodyContacts::beginTick() {
   m_changes.clear();
 }
 
 void BodyContacts::add(const BodyContact& contact) {
-  const auto at = find(contact);
+  applyHandOvers();
+  const auto at = m_touching.find(keyOf(contact));
+  const bool is_in_slots = at != m_touching.end();
   const bool is_known =
-      at != m_touching.end() && at->contact.first == contact.first && at->contact.second == contact.second;
+      is_in_slots && at->second.contact.first == contact.first && at->second.contact.second == contact.second;
   if (is_known == contact.is_begin) {
     if (!is_known) return;
-    at->ticks_left = 0;
-    at->contact.by = contact.by;
+    at->second.ticks_left = 0;
+    at->second.contact.by = contact.by;
     return;
   }
   m_changes.push_back(contact);
+  if (is_in_slots) count(at->second.contact, -1);  // it ends, or was of Objects that are gone
   if (!contact.is_begin) {
-    count(at->contact, -1);
     m_touching.erase(at);
     return;
   }
-  const bool is_slot_reused = at != m_touching.end() && at->contact.first.slot == contact.first.slot &&
-                              at->contact.second.slot == contact.second.slot;
-  if (is_slot_reused) {
-    count(at->contact, -1);
-    *at = {contact};
-  } else {
-    m_touching.insert(at, {contact});
-  }
+  m_touching.insert_or_assign(keyOf(contact), Touch{contact});
   count(contact, 1);
 }
 
 void BodyContacts::count(const BodyContact& contact, int by) {
   for (const df::ObjectKey key : {contact.first, contact.second}) {
-    const auto at = m_touch_counts.begin() + (findCount(key) - m_touch_counts.cbegin());
-    if (at == m_touch_counts.end() || at->key != key) {
-      m_touch_counts.insert(at, {key, by});
-    } else if (at->count += by; at->count == 0) {
-      m_touch_counts.erase(at);
+    if (key.slot >= m_counts.size()) m_counts.resize(key.slot + 1);
+    TouchCount& its = m_counts[key.slot];
+    const bool is_free = its.count == 0 && (m_other_counts.empty() || !m_other_counts.contains(nameOf(key)));
+    if (is_free) its.generation = key.generation;
+    if (its.generation == key.generation) {
+      its.count += by;
+    } else if (const auto at = m_other_counts.try_emplace(nameOf(key), 0).first; (at->second += by) == 0) {
+      m_other_counts.erase(at);
     }
   }
 }
 
-std::vector<BodyContacts::TouchCount>::const_iterator BodyContacts::findCount(df::ObjectKey key) const {
-  return std::lower_bound(
-      m_touch_counts.begin(), m_touch_counts.end(), key, [](const TouchCount& its, df::ObjectKey k) {
-        return its.key.slot != k.slot ? its.key.slot < k.slot : its.key.generation < k.generation;
-      });
-}
-
 void BodyContacts::expireIn(df::ObjectKey key, int ticks, const BodySolver* p_by) {
-  for (Touch& touch : m_touching) {
+  applyHandOvers();
+  m_has_expiring = true;
+  for (auto& [slots, touch] : m_touching) {
     const bool is_its = touch.contact.first == key || touch.contact.second == key;
     if (!is_its || (p_by != nullptr && (touch.contact.by != *p_by || touch.ticks_left > 0))) continue;
     touch.ticks_left = ticks;
   }
 }
 
+void BodyContacts::handOverAll() {
+  m_has_expiring = true;
+  for (auto& [slots, touch] : m_touching) touch.ticks_left = kHandOverTicks;
+}
+
+// At once, for all that were handed over: a pile may be, as a whole.
+void BodyContacts::applyHandOvers() {
+  if (m_handed_over.empty()) return;
+  m_has_expiring = true;
+  const auto isBefore = [](df::ObjectKey a, df::ObjectKey b) { return a.slot < b.slot; };
+  std::sort(m_handed_over.begin(), m_handed_over.end(), isBefore);
+  const auto isHandedOver = [&](df::ObjectKey key) {
+    const auto at = std::lower_bound(m_handed_over.begin(), m_handed_over.end(), key, isBefore);
+    return at != m_handed_over.end() && *at == key;
+  };
+  for (auto& [slots, touch] : m_touching) {
+    if (isHandedOver(touch.contact.first) || isHandedOver(touch.contact.second))
+      touch.ticks_left = kHandOverTicks;
+  }
+  m_handed_over.clear();
+}
+
 bool BodyContacts::isTouching(df::ObjectKey key) const {
-  const auto at = findCount(key);
-  return at != m_touch_counts.end() && at->key == key;
+  if (key.slot >= m_counts.size()) return false;
+  const TouchCount& its = m_counts[key.slot];
+  return its.generation == key.generation ? its.count > 0 : m_other_counts.contains(nameOf(key));
 }
 
 std::vector<BodyContact>& BodyContacts::finishTick() {
-  if (m_touching.empty()) return m_changes;
-  std::erase_if(m_touching, [this](Touch& touch) {
-    if (touch.ticks_left == 0 || --touch.ticks_left > 0) return false;
+  applyHandOvers();
+  if (!m_has_expiring) return m_changes;
+  m_has_expiring = false;
+  for (auto at = m_touching.begin(); at != m_touching.end();) {
+    Touch& touch = at->second;
+    if (touch.ticks_left == 0 || --touch.ticks_left > 0) {
+      m_has_expiring = m_has_expiring || touch.ticks_left > 0;
+      ++at;
+      continue;
+    }
     count(touch.contact, -1);
     m_changes.push_back(touch.contact);
     m_changes.back().time = 0;
     m_changes.back().is_begin = false;
-    return true;
-  });
+    at = m_touching.erase(at);
+  }
   return m_changes;
 }
 

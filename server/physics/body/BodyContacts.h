@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "physics/body/BodyState.h"
@@ -20,11 +21,12 @@ class BodyContacts {
   /// The same for what this solver found.
   void expire(df::ObjectKey key, BodySolver by) { expireIn(key, 1, &by); }
   /// The body was handed to another solver: its contacts end, unless that solver finds them soon.
-  void handOver(df::ObjectKey key) { expireIn(key, kHandOverTicks, nullptr); }
+  void handOver(df::ObjectKey key) { m_handed_over.push_back(key); }
+  /// The same of all bodies.
+  void handOverAll();
   /// The tick ends: contacts that began or ended in it.
   std::vector<BodyContact>& finishTick();
 
-  /// About the logarithm of how many touch something.
   bool isTouching(df::ObjectKey key) const;
   bool isEmpty() const { return m_touching.empty(); }
 
@@ -33,18 +35,26 @@ class BodyContacts {
     BodyContact contact;
     int ticks_left = 0;  // ticks until it ends, unless a solver finds it again; 0: it lasts
   };
-  struct TouchCount {
-    df::ObjectKey key;
-    int count;  // of what it touches
+  struct TouchCount {  // by slot
+    std::uint32_t generation = 0;
+    int count = 0;  // of what it touches
   };
   static constexpr int kHandOverTicks = 3;  // ticks: a solver may find a contact a tick before it presses
   void expireIn(df::ObjectKey key, int ticks, const BodySolver* p_by);
-  std::vector<Touch>::iterator find(const BodyContact& contact);
+  static std::uint64_t keyOf(const BodyContact& contact) {
+    return std::uint64_t{contact.first.slot} << 32 | contact.second.slot;
+  }
+  static std::uint64_t nameOf(df::ObjectKey key) { return std::uint64_t{key.slot} << 32 | key.generation; }
+  void applyHandOvers();
   void count(const BodyContact& contact, int by);
-  std::vector<TouchCount>::const_iterator findCount(df::ObjectKey key) const;
 
-  std::vector<Touch> m_touching;           // by the slots of the two
-  std::vector<TouchCount> m_touch_counts;  // by keys
+  std::unordered_map<std::uint64_t, Touch>
+      m_touching;  // in no order: what changes is sorted by those who hear it
+  std::vector<TouchCount> m_counts;
+  std::unordered_map<std::uint64_t, int>
+      m_other_counts;                        // of others in a slot that is counted already, by name
+  std::vector<df::ObjectKey> m_handed_over;  // in this tick, and not yet looked for
+  bool m_has_expiring = false;
   std::vector<BodyContact> m_changes;
 };
 

@@ -190,6 +190,10 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
     if (a.is_kinematic && b.solver == BodySolver::kRigid) a.is_near_rigid = true;
     if (b.is_kinematic && a.solver == BodySolver::kRigid) b.is_near_rigid = true;
   }
+  for (BodyState& state : states) {
+    if (state.is_kinematic && links.isJoined(state.index))
+      state.is_near_rigid = true;  // what hangs on it may be
+  }
 }
 
 }  // namespace df

@@ -57,7 +57,7 @@ void BodyLayer::step(World& world) {
     m_links.step(*m_table, m_states, m_unit_inertias, m_islands.candidates(), m_contacts);
   }
   if (!m_impacts.isEmpty()) m_impacts.step(world, *m_table, m_states, m_contacts);
-  if (m_is_mixed || !m_rigids.isEmpty()) {
+  if (m_is_mixed || m_table->settings.is_fast || !m_rigids.isEmpty()) {
     m_rigids.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
     logCrowd(world);
   }
@@ -139,12 +139,14 @@ void BodyLayer::measure(const WorldStore& store, State& state) {
   constexpr double kRoom = 0.25;  // metric cells around what it reaches on its own
   const BodyForm& form = std::as_const(*m_table).form(state.index);
   const FixedBox box = store.box(state.key.slot);
-  ImpactBody body;
   Vec2 offset;
-  state.is_simple = BodyImpacts::canHave(form, m_table->metric, box, body, offset) &&
-                    !m_table->row(state.index).touches_soft;
-  if (!state.is_simple || state.is_joined) m_is_mixed = true;
-  if (state.is_simple && body.shape == ImpactShape::kCircle) state.radius = body.half.x;
+  if (!m_table->settings.is_fast) {
+    ImpactBody body;
+    state.is_simple = BodyImpacts::canHave(form, m_table->metric, box, body, offset) &&
+                      !m_table->row(state.index).touches_soft;
+    if (!state.is_simple || state.is_joined) m_is_mixed = true;
+    if (state.is_simple && body.shape == ImpactShape::kCircle) state.radius = body.half.x;
+  }
   double reach = 0;
   for (const naiad::physics::ConvexShape& shape : form.shapes)
     reach = std::max(reach, shape.reach + shape.radius);
@@ -158,8 +160,26 @@ void BodyLayer::measure(const WorldStore& store, State& state) {
   state.reach = Vec2{reach + kRoom, reach + kRoom} + path;
 }
 
+// All that may be pushed, and what may push it, is in one SubstepWorld.
+void BodyLayer::chooseFast() {
+  for (State& state : m_states) {
+    if (state.p_failure != nullptr) continue;
+    if (state.is_kinematic) {
+      state.is_near_rigid = state.is_hard || m_links.isJoined(state.index);
+    } else if (state.is_hard || state.is_joined) {
+      state.solver = BodySolver::kRigid;
+    }
+  }
+}
+
 void BodyLayer::chooseSolvers(const WorldStore& store) {
   m_islands.skip();
+  if (m_table->settings.is_fast) {
+    chooseFast();
+    m_links.leaveOut(*m_table, m_states);
+    for (State& state : m_states) assignSolver(store, state);
+    return;
+  }
   if (m_is_mixed) m_islands.chooseSolvers(store, *m_table, m_links, m_contacts, m_states);
   if (m_is_mixed || m_links.hasLeftOut()) m_links.leaveOut(*m_table, m_states);
   for (State& state : m_states) assignSolver(store, state);
@@ -169,7 +189,7 @@ void BodyLayer::chooseSolvers(const WorldStore& store) {
 // again.
 void BodyLayer::assignSolver(const WorldStore& store, State& state) {
   BodyRow& row = m_table->row(state.index);
-  const bool is_for_impacts = state.is_simple && state.p_failure == nullptr &&
+  const bool is_for_impacts = !m_table->settings.is_fast && state.is_simple && state.p_failure == nullptr &&
                               (state.solver == BodySolver::kFlight || state.solver == BodySolver::kImpact);
   if (is_for_impacts) {
     ImpactBody body;

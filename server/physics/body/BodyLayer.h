@@ -41,6 +41,7 @@ class BodyLayer : public Layer {
   const naiad::physics::ImpactCounters& impactCounters() const { return m_impacts.counters(); }
   std::int64_t sensorPairs() const { return m_sensors.pairs(); }
   const naiad::physics::RigidCounters& rigidCounters() const { return m_rigids.counters(); }
+  const naiad::physics::SubstepCounters& substepCounters() const { return m_rigids.substepCounters(); }
   const naiad::physics::JointCounters& jointCounters() const { return m_links.counters(); }
 
  private:
@@ -50,6 +51,7 @@ class BodyLayer : public Layer {
   void fly(State& state);
   void measure(const WorldStore& store, State& state);
   void chooseSolvers(const WorldStore& store);
+  void chooseFast();
   void assignSolver(const WorldStore& store, State& state);
   void turnByTorque(State& state);
   void settle(World& world, State& state);

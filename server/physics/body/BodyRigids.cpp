@@ -16,12 +16,14 @@ using naiad::physics::BodyContacts;
 using naiad::physics::BodyForm;
 using naiad::physics::BodyJoints;
 using naiad::physics::BodyRow;
+using naiad::physics::BodySettings;
 using naiad::physics::BodySolver;
 using naiad::physics::BodyState;
 using naiad::physics::BodyTable;
 using naiad::physics::ConvexShape;
 using naiad::physics::RigidBody;
 using naiad::physics::RigidEvent;
+using naiad::physics::RigidStepper;
 using naiad::physics::ShapeStatus;
 using naiad::physics::Vec2;
 using RawJoint = naiad::physics::Joint;
@@ -60,10 +62,35 @@ void BodyRigids::shape(Proxy& proxy, const BodyTable& table, const BodyState& st
   proxy.version = version;
   proxy.box = box;
   if (proxy.id < 0) {
-    proxy.id = m_world.add(body, m_shapes);
+    proxy.id = m_p_world->addInOrder(state.order, body, m_shapes);
   } else {
-    m_world.setShapes(proxy.id, m_shapes);
+    m_p_world->setShapes(proxy.id, m_shapes);
   }
+}
+
+// What the other world knew is forgotten; its contacts end unless they are found again soon.
+void BodyRigids::chooseWorld(const BodySettings& settings, BodyContacts& contacts) {
+  if (std::exchange(m_may_sleep, settings.may_sleep) != settings.may_sleep) {
+    m_exact.setSleeping(settings.may_sleep);
+    m_fast.setSleeping(settings.may_sleep);
+  }
+  RigidStepper* const p_next = settings.is_fast ? static_cast<RigidStepper*>(&m_fast) : &m_exact;
+  if (m_p_world == p_next) return;
+  for (const JointProxy& proxy : m_joint_proxies) {
+    if (proxy.id >= 0) m_p_world->removeJoint(proxy.id);
+    if (proxy.anchor >= 0) m_p_world->remove(proxy.anchor);
+  }
+  for (const Proxy& proxy : m_proxies) {
+    if (proxy.id >= 0) m_p_world->remove(proxy.id);
+  }
+  for (BodyObstacles::Obstacle& obstacle : m_obstacles.all()) {
+    if (obstacle.id >= 0) m_p_world->remove(obstacle.id);
+    obstacle.id = -1;
+  }
+  contacts.handOverAll();
+  m_joint_proxies.clear();
+  m_proxies.clear();
+  m_p_world = p_next;
 }
 
 void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
@@ -76,7 +103,7 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
     Proxy& proxy = m_proxies[state.index];
     const std::uint64_t order = table.row(state.index).order;
     if (proxy.id >= 0 && proxy.order != order) {  // the one before is gone
-      m_world.remove(proxy.id);
+      m_p_world->remove(proxy.id);
       proxy.id = -1;
     }
     proxy.order = order;
@@ -84,7 +111,7 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
   }
   for (Proxy& proxy : m_proxies) {
     if (proxy.is_used || proxy.id < 0) continue;
-    m_world.remove(proxy.id);
+    m_p_world->remove(proxy.id);
     proxy.id = -1;
   }
   m_count = 0;
@@ -108,7 +135,7 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
     Proxy& proxy = m_proxies[state.index];
     shape(proxy, table, state, store.box(state.key.slot), body);
     if (proxy.id < 0) continue;
-    m_world.set(proxy.id, body);
+    m_p_world->set(proxy.id, body);
     identify(proxy.id, state.key, state.order, static_cast<int>(i));
     ++m_count;
   }
@@ -134,7 +161,7 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
   });
   for (BodyObstacles::Obstacle& obstacle : m_obstacles.all()) {
     if (!obstacle.is_near) {
-      if (obstacle.id >= 0) m_world.remove(obstacle.id);
+      if (obstacle.id >= 0) m_p_world->remove(obstacle.id);
       contacts.expire(obstacle.key, BodySolver::kRigid);
       continue;
     }
@@ -148,13 +175,13 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
     body.restitution = table.settings.obstacle_restitution;
     const bool is_known = obstacle.id >= 0;
     if (is_known && m_obstacle_boxes[at(obstacle.id)].size == box.size) {
-      m_world.set(obstacle.id, body);
+      m_p_world->set(obstacle.id, body);
     } else {
-      if (is_known) m_world.remove(obstacle.id);
+      if (is_known) m_p_world->remove(obstacle.id);
       obstacle.id = -1;
       ConvexShape made;
       if (makeBox(half.x, half.y, {}, {}, 0, made) != ShapeStatus::kOk) continue;
-      obstacle.id = m_world.add(body, made);
+      obstacle.id = m_p_world->addInOrder(store.order(slot), body, std::span(&made, 1));
       if (obstacle.id < 0) continue;
       if (at(obstacle.id) >= m_obstacle_boxes.size()) m_obstacle_boxes.resize(at(obstacle.id) + 1);
       m_obstacle_boxes[at(obstacle.id)] = box;
@@ -176,9 +203,9 @@ void BodyRigids::updateJoints(const BodyTable& table) {
     const bool is_world_b = entry.joint.b == BodyJoints::kWorld;
     const bool is_here = entry.used && (a >= 0 || is_world_a) && (b >= 0 || is_world_b);
     if (proxy.id >= 0 &&
-        (!is_here || proxy.generation != entry.generation || !m_world.jointExists(proxy.id))) {
-      m_world.removeJoint(proxy.id);
-      if (proxy.anchor >= 0) m_world.remove(proxy.anchor);
+        (!is_here || proxy.generation != entry.generation || !m_p_world->jointExists(proxy.id))) {
+      m_p_world->removeJoint(proxy.id);
+      if (proxy.anchor >= 0) m_p_world->remove(proxy.anchor);
       proxy = {};
     }
     if (!is_here) continue;
@@ -187,14 +214,14 @@ void BodyRigids::updateJoints(const BodyTable& table) {
       RigidBody anchor;
       anchor.place = entry.anchor;
       anchor.inverse_mass = 0;
-      proxy.anchor = m_world.add(anchor, std::span<const ConvexShape>());
+      proxy.anchor = m_p_world->addInOrder(0, anchor, {});
     }
     joint.a = is_world_a ? proxy.anchor : a;
     joint.b = is_world_b ? proxy.anchor : b;
     if (proxy.id < 0) {
-      proxy.id = m_world.addJoint(joint);
+      proxy.id = m_p_world->addJoint(joint, false);
     } else if (proxy.tunings != entry.tunings) {
-      m_world.setJoint(proxy.id, joint);
+      m_p_world->setJoint(proxy.id, joint);
     }
     proxy.generation = entry.generation;
     proxy.tunings = entry.tunings;
@@ -203,6 +230,7 @@ void BodyRigids::updateJoints(const BodyTable& table) {
 
 void BodyRigids::step(const WorldStore& store, BodyTable& table, std::vector<BodyState>& states,
                       const std::vector<double>& unit_inertias, BodyContacts& contacts) {
+  chooseWorld(table.settings, contacts);
   updateBodies(store, table, states, unit_inertias);
   updateObstacles(store, table, states, contacts);
   updateJoints(table);
@@ -210,13 +238,13 @@ void BodyRigids::step(const WorldStore& store, BodyTable& table, std::vector<Bod
   for (BodyState& state : states) {
     if (state.solver == BodySolver::kRigid) state.is_touched = contacts.isTouching(state.key);
   }
-  m_world.step(1);
+  m_p_world->step(1);
   collect(states, contacts);
   finish(table, states, contacts);
 }
 
 void BodyRigids::collect(std::vector<BodyState>& states, BodyContacts& contacts) const {
-  for (const RigidEvent& event : m_world.events()) {
+  for (const RigidEvent& event : m_p_world->events()) {
     const Identity* p_first = &m_identities[at(event.first)];
     const Identity* p_second = &m_identities[at(event.second)];
     for (const Identity* p_identity : {p_first, p_second}) {
@@ -238,12 +266,13 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const 
       state.p_failure = "its numbers are beyond what can be calculated with";
       continue;
     }
-    if (m_world.isFrozen(proxy.id)) state.p_failure = "what happens to it cannot be worked out";
-    const RigidBody& body = m_world.body(proxy.id);
+    if (m_p_world->isFrozen(proxy.id)) state.p_failure = "what happens to it cannot be worked out";
+    const RigidBody& body = m_p_world->body(proxy.id);
     const Vec2 pushed = body.velocity - (state.start_velocity + body.acceleration);
     const double rounding = 1e-9 * (length(state.start_velocity) + length(body.acceleration));
     const bool is_touched = state.is_touched || state.is_joined || contacts.isTouching(state.key);
-    if (!is_touched && length(pushed) <= rounding) {  // exactly as on its own
+    const bool is_alone = m_p_world == &m_fast ? !m_fast.isStopped(proxy.id) : length(pushed) <= rounding;
+    if (!is_touched && is_alone) {  // exactly as on its own
       state.place = state.start + state.flown.displacement;
       state.velocity = state.flown.velocity;
       continue;
@@ -264,7 +293,7 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const 
   for (std::size_t i = 0; i < m_joint_proxies.size() && i < entries.size(); ++i) {
     const JointProxy& proxy = m_joint_proxies[i];
     if (proxy.id < 0 || !entries[i].used || entries[i].generation != proxy.generation) continue;
-    const RawJoint& joint = m_world.joint(proxy.id);
+    const RawJoint& joint = m_p_world->joint(proxy.id);
     naiad::physics::JointEntry& entry = table.joints.entries()[i];
     entry.joint.force = joint.force;
     entry.joint.torque = joint.torque;

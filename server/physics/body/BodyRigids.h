@@ -1,4 +1,5 @@
-// The bodies that a RigidWorld moves, their joints and obstacles: keeps that world in step with the table.
+// The bodies that a RigidWorld or a SubstepWorld moves, their joints and obstacles: keeps that world in step
+// with the table.
 #pragma once
 
 #include <vector>
@@ -8,11 +9,16 @@
 #include "physics/body/BodyState.h"
 #include "physics/body/BodySurroundings.h"
 #include "physics/rigid/RigidWorld.h"
+#include "physics/substep/SubstepWorld.h"
 
 namespace df {
 
 class BodyRigids {
  public:
+  BodyRigids() = default;
+  BodyRigids(const BodyRigids&) = delete;
+  BodyRigids& operator=(const BodyRigids&) = delete;
+
   /// Does no body take part, and did none in the last tick?
   bool isEmpty() const { return m_count == 0; }
   /// Steps the bodies with solver kRigid by a tick, with the kinematic ones near them. `unit_inertias` by
@@ -21,7 +27,8 @@ class BodyRigids {
             std::vector<naiad::physics::BodyState>& states, const std::vector<double>& unit_inertias,
             naiad::physics::BodyContacts& contacts);
 
-  const naiad::physics::RigidCounters& counters() const { return m_world.counters(); }
+  const naiad::physics::RigidCounters& counters() const { return m_exact.counters(); }
+  const naiad::physics::SubstepCounters& substepCounters() const { return m_fast.counters(); }
 
  private:
   struct Proxy {  // by row of the table
@@ -43,6 +50,7 @@ class BodyRigids {
     int state = -1;  // −1: an obstacle
   };
 
+  void chooseWorld(const naiad::physics::BodySettings& settings, naiad::physics::BodyContacts& contacts);
   void updateBodies(const WorldStore& store, const naiad::physics::BodyTable& table,
                     const std::vector<naiad::physics::BodyState>& states,
                     const std::vector<double>& unit_inertias);
@@ -61,7 +69,9 @@ class BodyRigids {
   /// Cells per tick. What has just begun to slide down a slope is slow for long, and must not fall asleep.
   static constexpr double kSleepSpeed = 1e-5;
 
-  naiad::physics::RigidWorld m_world{naiad::physics::RigidOptions{.sleep_speed = kSleepSpeed}};
+  naiad::physics::RigidWorld m_exact{naiad::physics::RigidOptions{.sleep_speed = kSleepSpeed}};
+  naiad::physics::SubstepWorld m_fast;
+  naiad::physics::RigidStepper* m_p_world = &m_exact;  // one of both
   std::vector<Proxy> m_proxies;
   std::vector<JointProxy> m_joint_proxies;
   std::vector<Identity> m_identities;
@@ -70,6 +80,7 @@ class BodyRigids {
   BodySurroundings m_surroundings;
   std::vector<naiad::physics::ConvexShape> m_shapes;
   int m_count = 0;
+  bool m_may_sleep = true;
 };
 
 }  // namespace df

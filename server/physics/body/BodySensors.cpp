@@ -181,6 +181,7 @@ void BodySensors::examine(const Pair& pair, bool were_touching, std::vector<Body
 
 void BodySensors::step(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
                        std::vector<BodyContact>& contacts) {
+  if (!store.hasHadSoft() && m_touching.empty()) return;
   m_movers.clear();
   m_pairs.clear();
   for (const BodyState& state : states) {

@@ -77,6 +77,8 @@ struct BodySettings {
   double obstacle_friction = kUsualFriction;  ///< of HARD Objects without mass
   double obstacle_restitution = 0;            ///< likewise
   IntegratorOptions integrator;
+  bool is_fast = false;   ///< bodies are moved by a SubstepWorld
+  bool may_sleep = true;  ///< groups at rest
 };
 
 /// Since the world was made.

@@ -103,6 +103,27 @@ double PhysicsManager::getObstacleRestitution() const {
   return table().settings.obstacle_restitution;
 }
 
+int PhysicsManager::setAccuracy(Accuracy accuracy) {
+  if (accuracy != ACCURACY_DEFAULT && accuracy != ACCURACY_FAST) {
+    World::current().refuse(getType(), "setAccuracy");
+    return -1;
+  }
+  table().settings.is_fast = accuracy == ACCURACY_FAST;
+  return 0;
+}
+
+Accuracy PhysicsManager::getAccuracy() const {
+  return table().settings.is_fast ? ACCURACY_FAST : ACCURACY_DEFAULT;
+}
+
+void PhysicsManager::setSleeping(bool may_sleep) {
+  table().settings.may_sleep = may_sleep;
+}
+
+bool PhysicsManager::isSleeping() const {
+  return table().settings.may_sleep;
+}
+
 int PhysicsManager::getBodyCount() const {
   return static_cast<int>(table().inOrder().size());
 }

@@ -18,6 +18,14 @@ namespace df {
 
 class Body;
 
+/// How bodies are moved. No Object, picture or event is of another kind with one than with the other; paths
+/// differ.
+enum Accuracy {
+  ACCURACY_DEFAULT,  ///< impacts at their moment, joints and piles solved for directly where that is
+                     ///< affordable
+  ACCURACY_FAST,     ///< all HARD and all joined bodies in soft sub-steps (docs/physics/substep.md)
+};
+
 /// Like all managers it works on the current world and holds no state of its own. Setters return 0, or -1 for
 /// numbers that are not finite or out of range: then nothing changes, and the world counts it
 /// (World::getRefusals).
@@ -43,6 +51,14 @@ class PhysicsManager : public Manager {
   double getObstacleFriction() const;
   int setObstacleRestitution(double restitution);
   double getObstacleRestitution() const;
+
+  /// From the next tick on. ACCURACY_DEFAULT at first. −1 for anything else.
+  int setAccuracy(Accuracy accuracy);
+  Accuracy getAccuracy() const;
+  /// May groups of bodies at rest sleep? They cost next to nothing then, and wake when touched. True at
+  /// first.
+  void setSleeping(bool may_sleep);
+  bool isSleeping() const;
 
   // Joints. At least one of the two is a body of the current world; null is the world itself, where a
   // function takes points. Points and directions are in cells, of the world, as the bodies lie now; lengths

@@ -38,9 +38,13 @@ void BroadPhase::remove(std::int32_t proxy) {
 bool BroadPhase::move(std::int32_t proxy, const GridBounds& tight, const GridBounds& wide) {
   const std::int32_t leaf = m_proxies[index(proxy)].leaf;
   if (contains(m_tree.bounds(leaf), tight)) return false;
-  m_tree.move(leaf, wide);
-  markChanged(proxy);
+  set(proxy, wide);
   return true;
+}
+
+void BroadPhase::set(std::int32_t proxy, const GridBounds& bounds) {
+  m_tree.move(m_proxies[index(proxy)].leaf, bounds);
+  markChanged(proxy);
 }
 
 void BroadPhase::markChanged(std::int32_t proxy) {

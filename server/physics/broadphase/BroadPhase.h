@@ -32,6 +32,8 @@ class BroadPhase {
   /// The body is now within `tight`. While that lies in the bounds it has, nothing happens; else it gets
   /// `wide`: `tight` and some room for the moves to come. Returns whether it got them.
   bool move(std::int32_t proxy, const GridBounds& tight, const GridBounds& wide);
+  /// It gets these bounds.
+  void set(std::int32_t proxy, const GridBounds& bounds);
   const GridBounds& bounds(std::int32_t proxy) const { return m_tree.bounds(m_proxies[index(proxy)].leaf); }
 
   /// All pairs, ordered by (id_a, id_b), good until the next call. Pairs whose bounds ceased to overlap are

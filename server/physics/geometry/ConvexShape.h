@@ -70,6 +70,9 @@ struct TurnedShape {
 };
 void turn(const ConvexShape& shape, Rotation rotation, TurnedShape& turned);
 
+/// The least half width, rounding included: what passes it by more is on its other side.
+double thicknessOf(const ConvexShape& shape);
+
 /// Bounds relative to the body's origin.
 struct Bounds {
   Vec2 lower;

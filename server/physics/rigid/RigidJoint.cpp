@@ -15,17 +15,6 @@ constexpr double kResolved = 1;  // up to this (h·ω)² a spring swings; beyond
 
 const RigidState kGround = {};
 
-bool isAngleRow(JointKind kind, int k) {
-  return kind == JointKind::kMotor || kind == JointKind::kAngleLimit ||
-         (kind == JointKind::kWeld && k == 2) || (kind == JointKind::kSlider && k == 1);
-}
-
-// The sine of the angle, made monotone beyond a right angle.
-double bentSine(Rotation r) {
-  if (r.c >= 0) return r.s;
-  return r.s >= 0 ? 2 - r.s : -2 - r.s;
-}
-
 double speedOf(const RigidRow& row, const RigidState& a, const RigidState& b) {
   return dot(row.n, b.velocity - a.velocity) + row.jb * b.spin + row.ja * a.spin;
 }
@@ -158,57 +147,17 @@ void RigidJoints::refresh(std::span<const RigidState> states) {
 
 void RigidJoints::place(const Link& link, const RigidState& a, const RigidState& b) {
   const Joint& joint = m_entries[at(link.id)].joint;
-  RigidRow* const rows = m_rows.data() + link.row;
-  const Vec2 arm_a = a.turn * link.arm_a, arm_b = b.turn * link.arm_b;
-  const Vec2 offset = link.offset + (b.displacement - a.displacement) + (arm_b - arm_a);
-  const auto along = [&](RigidRow& row, Vec2 n, Vec2 lever_a, double value) {
-    row.n = n;
-    row.ja = -cross(lever_a, n), row.jb = cross(arm_b, n);
-    row.value = value;
-  };
-  const auto angle = [&](RigidRow& row, double value) {
-    row.n = {};
-    row.ja = -1, row.jb = 1;
-    row.value = value;
-  };
-  const Rotation between = link.between * (inverse(a.turn) * b.turn);
-  switch (link.kind) {
-    case JointKind::kDistance:
-    case JointKind::kRope:
-    case JointKind::kSpring:
-      if (link.count == 1) {
-        const double distance = length(offset);
-        along(rows[0], distance > 1e-12 ? offset / distance : Vec2{1, 0}, arm_a, distance - joint.length);
-        rows[0].side = link.kind == JointKind::kRope ? -1 : 0;
-        break;
-      }
-      [[fallthrough]];
-    case JointKind::kHinge:
-    case JointKind::kWeld:
-    case JointKind::kMouse:
-      along(rows[0], {1, 0}, arm_a, offset.x);
-      along(rows[1], {0, 1}, arm_a, offset.y);
-      if (link.kind == JointKind::kWeld) angle(rows[2], bentSine(between));
-      break;
-    case JointKind::kSlider: {
-      const Vec2 n = perpendicular(a.turn * link.axis);
-      along(rows[0], n, arm_a + offset, dot(n, offset));
-      angle(rows[1], bentSine(between));
-      break;
-    }
-    case JointKind::kMotor:
-      angle(rows[0], 0);
-      break;
-    case JointKind::kAngleLimit: {
-      const double now = angleOf(between);
-      const bool is_lower = now - joint.lower < joint.upper - now;
-      angle(rows[0], now - (is_lower ? joint.lower : joint.upper));
-      rows[0].side = is_lower ? 1 : -1;
-      break;
-    }
-  }
+  JointFrame frame;
+  frame.arm_a = a.turn * link.arm_a;
+  frame.arm_b = b.turn * link.arm_b;
+  frame.offset = link.offset + (b.displacement - a.displacement) + (frame.arm_b - frame.arm_a);
+  frame.axis = a.turn * link.axis;
+  frame.between = link.between * (inverse(a.turn) * b.turn);
+  SpeedRows rows;
+  placeRows(joint, frame, rows);
   for (int k = 0; k < link.count; ++k) {
-    RigidRow& row = rows[k];
+    RigidRow& row = m_rows[at(link.row + k)];
+    static_cast<SpeedRow&>(row) = rows[at(k)];
     row.inverse_effective_mass = (a.inverse_mass + b.inverse_mass) * lengthSquared(row.n) +
                                  a.inverse_inertia * row.ja * row.ja + b.inverse_inertia * row.jb * row.jb;
   }

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/joint/Joint.h"
+#include "physics/joint/JointRows.h"
 #include "physics/rigid/RigidBody.h"
 #include "physics/rigid/RigidContact.h"
 
@@ -22,13 +22,9 @@ struct RigidRowHalf {
 };
 
 /// One scalar constraint on two bodies.
-struct RigidRow {
+struct RigidRow : SpeedRow {
   std::int32_t a = -1, b = -1;        ///< a: −1 for a mouse
-  Vec2 n;                             ///< b feels +n, a −n
-  double ja = 0, jb = 0;              ///< on the spins, signs included
-  double value = 0;                   ///< the constraint's
   double inverse_effective_mass = 0;  ///< J·M⁻¹·Jᵀ
-  int side = 0;                       ///< ±1: only impulses of this sign, when the value would pass 0
   bool is_soft = false;               ///< starts from no impulse
   double impulse = 0;                 ///< since the sub-step began; between sub-steps, of the last one
   double before = 0;                  ///< of the first half, in the second

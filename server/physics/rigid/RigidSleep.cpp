@@ -180,6 +180,12 @@ void RigidWorld::sleep(double dt) {
   }
 }
 
+void RigidWorld::setSleeping(bool may_sleep) {
+  m_options.may_sleep = may_sleep;
+  if (may_sleep) return;
+  for (int id = 0; id < idLimit(); ++id) wake(id);
+}
+
 void RigidWorld::wake(int id) {
   if (exists(id)) wakeRing(id);
 }

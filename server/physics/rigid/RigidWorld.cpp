@@ -8,26 +8,6 @@
 
 namespace naiad::physics {
 
-namespace {
-
-// The least half width of a shape, about its middle.
-double thicknessOf(const ConvexShape& shape) {
-  if (shape.count < 3) return shape.radius;
-  double least = kLargestShape;
-  for (int i = 0; i < shape.count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const double face = dot(shape.normals[k], shape.vertices[k]);
-    double back = face;
-    for (int j = 0; j < shape.count; ++j) {
-      back = std::min(back, dot(shape.normals[k], shape.vertices[static_cast<std::size_t>(j)]));
-    }
-    least = std::min(least, 0.5 * (face - back));
-  }
-  return least + shape.radius;
-}
-
-}  // namespace
-
 int RigidWorld::add(const RigidBody& body, std::span<const ConvexShape> shapes) {
   if (!isSound(body)) return -1;
   int id = 0;

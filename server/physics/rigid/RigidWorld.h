@@ -14,23 +14,12 @@
 #include "physics/broadphase/BroadPhase.h"
 #include "physics/geometry/ConvexShape.h"
 #include "physics/geometry/Index.h"
-#include "physics/joint/Joint.h"
-#include "physics/rigid/RigidBody.h"
 #include "physics/rigid/RigidContact.h"
 #include "physics/rigid/RigidDirect.h"
 #include "physics/rigid/RigidJoint.h"
+#include "physics/rigid/RigidStepper.h"
 
 namespace naiad::physics {
-
-/// A contact of two bodies began or ended; however many of their shapes take part, it is one.
-struct RigidEvent {
-  double time = 0;  ///< since the start of the step: when the sub-step began, or the moment of a fast impact
-  int first = 0;    ///< the lower id
-  int second = 0;
-  bool is_begin = false;
-  double impulse = 0;  ///< when it begins: along the normal, on second, until the end of the step
-  Vec2 normal;         ///< when it begins: from first to second
-};
 
 /// What has happened since the world was made.
 struct RigidCounters {
@@ -49,12 +38,6 @@ struct RigidCounters {
   std::int64_t broken = 0;           ///< joints
 };
 
-enum class RigidStatus : std::uint8_t {
-  kDone,
-  kQuarantined,  ///< done, and at least one body had to be frozen
-  kRefused       ///< not a time; nothing happened
-};
-
 struct RigidOptions {
   int substeps = 4;  ///< 1 … 64
   bool may_sleep = true;
@@ -63,7 +46,7 @@ struct RigidOptions {
 };
 
 /// Not thread-safe. No allocation in step() once the scene has shown what it needs.
-class RigidWorld {
+class RigidWorld final : public RigidStepper {
  public:
   static constexpr double kLongestStep =
       32;  ///< ticks; longer ones are divided: at once they throw heaps apart
@@ -73,19 +56,23 @@ class RigidWorld {
   /// Shapes are relative to the centre of mass; none: a body that touches nothing, for joints. Returns the
   /// id, the lowest free one, or −1 if the body is not sound.
   int add(const RigidBody& body, std::span<const ConvexShape> shapes);
+  int addInOrder(std::uint64_t /*order*/, const RigidBody& body,
+                 std::span<const ConvexShape> shapes) override {
+    return add(body, shapes);
+  }
   int add(const RigidBody& body, const ConvexShape& shape) { return add(body, std::span(&shape, 1)); }
   /// Replaces a body's state, wakes it and what it lies among, and thaws it. Equal to what there is: nothing
   /// happens. False if there is none, or `body` is not sound; then nothing changes.
-  bool set(int id, const RigidBody& body);
-  bool setShapes(int id, std::span<const ConvexShape> shapes);
+  bool set(int id, const RigidBody& body) override;
+  bool setShapes(int id, std::span<const ConvexShape> shapes) override;
   /// Its contacts end without an event; joints with it go, too. What it carried wakes.
-  bool remove(int id);
+  bool remove(int id) override;
 
-  const RigidBody& body(int id) const { return m_bodies[at(id)]; }
+  const RigidBody& body(int id) const override { return m_bodies[at(id)]; }
   std::span<const ConvexShape> shapes(int id) const { return m_extras[at(id)].shapes; }
   bool exists(int id) const { return id >= 0 && id < idLimit() && m_extras[at(id)].exists; }
   /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
-  bool isFrozen(int id) const { return m_extras[at(id)].is_frozen; }
+  bool isFrozen(int id) const override { return m_extras[at(id)].is_frozen; }
   bool isAsleep(int id) const { return m_extras[at(id)].is_asleep; }
   /// Wakes it and what sleeps with it.
   void wake(int id);
@@ -94,21 +81,22 @@ class RigidWorld {
 
   /// Between bodies that exist; `joint.a` and `joint.b` are ids. Bodies on a joint do not touch each other
   /// unless `may_touch`. Returns the joint's id, the lowest free one, or −1 if it is not valid.
-  int addJoint(const Joint& joint, bool may_touch = false);
+  int addJoint(const Joint& joint, bool may_touch = false) override;
   /// Changes targets, speeds, strengths and lengths: not the kind nor the bodies. Wakes the bodies.
-  bool setJoint(int id, const Joint& joint);
-  bool removeJoint(int id);
-  bool jointExists(int id) const { return m_joints.exists(id); }
+  bool setJoint(int id, const Joint& joint) override;
+  bool removeJoint(int id) override;
+  bool jointExists(int id) const override { return m_joints.exists(id); }
   /// As it was given, with what the last step wrote: force, torque, is_broken. A broken one stays, and does
   /// nothing, until it is removed.
-  const Joint& joint(int id) const { return m_joints.joint(id); }
+  const Joint& joint(int id) const override { return m_joints.joint(id); }
   int jointLimit() const { return m_joints.limit(); }
 
   /// Goes on by `dt` > 0 ticks, up to 1e6; by more than kLongestStep in several equal parts.
-  RigidStatus step(double dt = 1);
+  void setSleeping(bool may_sleep) override;
+  RigidStatus step(double dt = 1) override;
 
   /// Of the last step, by (time, ids).
-  const std::vector<RigidEvent>& events() const { return m_events; }
+  const std::vector<RigidEvent>& events() const override { return m_events; }
   const RigidCounters& counters() const { return m_counters; }
   const RigidOptions& options() const { return m_options; }
 

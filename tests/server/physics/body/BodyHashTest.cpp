@@ -49,8 +49,9 @@ class Noisy : public Body {
 };
 
 constexpr std::uint64_t kHash = 6520666502918001343u;
+constexpr std::uint64_t kFastHash = 5266817044031437835u;
 
-std::uint64_t run(bool may_turn, int count) {
+std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT) {
   World world;
   const World::Scope scope(world);
   world.setLogSink([](const std::string&) {});
@@ -58,6 +59,7 @@ std::uint64_t run(bool may_turn, int count) {
   const Whirl whirl;
   naiad::SplitMix64 random(5);
   const auto any = [&](double size) { return size * (2 * random.unit() - 1); };
+  PM.setAccuracy(accuracy);
   PM.setGravity(perSecondSquared(Vector(0, 20)));
   WM.setBoundary(Box(Vector(-40, -40), 120, 80));
   for (const Box& box : {Box(Vector(-40, 20), 120, 3), Box(Vector(-40, -20), 2, 40),
@@ -111,6 +113,7 @@ TEST(BodyHash, IsTheSameInTwoRuns) {
 // gcc and clang, every level. (RigidWorld is hashed in its own tests.)
 TEST(BodyHash, IsTheSameEverywhere) {
   EXPECT_EQ(run(false, 50), kHash);
+  EXPECT_EQ(run(true, 50, ACCURACY_FAST), kFastHash);
 }
 
 }  // namespace

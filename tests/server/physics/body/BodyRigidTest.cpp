@@ -197,5 +197,26 @@ TEST_F(BodyRigids, BodiesMayDieWhileTheyLieOnEachOther) {
   EXPECT_NEAR(p_new->getPosition().y(), -0.5, 1e-2);
 }
 
+// What it hangs on need not be HARD itself.
+TEST_F(BodyRigids, ALampHangsFromANailThatNothingTouches) {
+  for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
+    PM.setAccuracy(accuracy);
+    PM.setGravity(perSecondSquared(Vector(0, 10)));
+    auto* p_nail = new Body;
+    p_nail->setSolidness(SPECTRAL);
+    p_nail->setKinematic();
+    Body* p_lamp = crate(Vector(0, 3));
+    p_lamp->setTurning();
+    PM.addDistance(p_nail, p_lamp);
+    Object* p_wall = wall(Vector(1, 3), Vector(0.5, 2));  // it leans against this
+    ticks(90);
+    EXPECT_NEAR(p_lamp->getPosition().y(), 3, 0.01);
+    for (Object* p_object : {static_cast<Object*>(p_nail), static_cast<Object*>(p_lamp), p_wall}) {
+      WM.markForDelete(p_object);
+    }
+    ticks(1);
+  }
+}
+
 }  // namespace
 }  // namespace df::test

@@ -1,0 +1,67 @@
+// What moves bodies that turn, a step at a time: RigidWorld or SubstepWorld.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/geometry/ConvexShape.h"
+#include "physics/joint/Joint.h"
+#include "physics/rigid/RigidBody.h"
+
+namespace naiad::physics {
+
+/// A contact of two bodies began or ended; however many of their shapes take part, it is one.
+struct RigidEvent {
+  double time = 0;  ///< since the start of the step: when the sub-step began, or the moment of a fast impact
+  int first = 0;    ///< the lower id
+  int second = 0;
+  bool is_begin = false;
+  double impulse = 0;  ///< when it begins: along the normal, on second, until the end of the step
+  Vec2 normal;         ///< when it begins: from first to second
+};
+
+enum class RigidStatus : std::uint8_t {
+  kDone,
+  kQuarantined,  ///< done, and at least one body had to be frozen
+  kRefused       ///< not a time; nothing happened
+};
+
+/// Not thread-safe.
+class RigidStepper {
+ public:
+  virtual ~RigidStepper() = default;
+
+  /// `order`: unique among the bodies. Shapes are relative to the centre of mass; none: a body that touches
+  /// nothing, for joints. Returns the id, or −1 if the body is not sound.
+  virtual int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) = 0;
+  /// Replaces a body's state, wakes it and what it lies among, and thaws it. Equal to what there is: nothing
+  /// happens. False if there is none, or `body` is not sound; then nothing changes.
+  virtual bool set(int id, const RigidBody& body) = 0;
+  virtual bool setShapes(int id, std::span<const ConvexShape> shapes) = 0;
+  /// Its contacts end without an event; joints with it go, too. What it carried wakes.
+  virtual bool remove(int id) = 0;
+  virtual const RigidBody& body(int id) const = 0;
+  /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
+  virtual bool isFrozen(int id) const = 0;
+
+  /// Between bodies that exist; `joint.a` and `joint.b` are ids. Bodies on a joint do not touch each other
+  /// unless `may_touch`. Returns the joint's id, or −1 if it is not valid.
+  virtual int addJoint(const Joint& joint, bool may_touch) = 0;
+  /// Changes targets, speeds, strengths and lengths: not the kind nor the bodies. Wakes the bodies.
+  virtual bool setJoint(int id, const Joint& joint) = 0;
+  virtual bool removeJoint(int id) = 0;
+  virtual bool jointExists(int id) const = 0;
+  /// As it was given, with what the last step wrote: force, torque, is_broken. A broken one stays, and does
+  /// nothing, until it is removed.
+  virtual const Joint& joint(int id) const = 0;
+
+  /// May groups at rest sleep?
+  virtual void setSleeping(bool may_sleep) = 0;
+  /// Goes on by `dt` > 0 ticks, up to 1e6.
+  virtual RigidStatus step(double dt) = 0;
+  /// Of the last step, by (time, ids).
+  virtual const std::vector<RigidEvent>& events() const = 0;
+};
+
+}  // namespace naiad::physics

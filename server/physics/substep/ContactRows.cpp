@@ -1,0 +1,225 @@
+#include "physics/substep/ContactRows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/geometry/Index.h"
+#include "physics/substep/Softness.h"
+
+namespace naiad::physics {
+
+namespace {
+
+// A contact swings at a quarter of the rate of sub-steps: as fast as they can follow.
+constexpr float kTurnsPerSubstep = 0.25f;
+constexpr float kDampingRatio = 10;
+constexpr float kFastPushes = 20;  // in the greatest speed at which overlap is undone
+
+struct Body {
+  Lanes vx, vy, spin, unused;
+};
+struct Moved {
+  Lanes x, y, c, s;
+};
+
+Lanes loadLow(const SubstepState& state) {
+  Lanes v;
+  __builtin_memcpy(&v, &state.vx, sizeof v);
+  return v;
+}
+Lanes loadHigh(const SubstepState& state) {
+  Lanes v;
+  __builtin_memcpy(&v, &state.x, sizeof v);
+  return v;
+}
+
+Body gather(std::span<const SubstepState> states, const std::array<std::int32_t, kLanes>& of) {
+  Body v = {loadLow(states[at(of[0])]), loadLow(states[at(of[1])]), loadLow(states[at(of[2])]),
+            loadLow(states[at(of[3])])};
+  transpose(v.vx, v.vy, v.spin, v.unused);
+  return v;
+}
+Moved gatherMoved(std::span<const SubstepState> states, const std::array<std::int32_t, kLanes>& of) {
+  Moved m = {loadHigh(states[at(of[0])]), loadHigh(states[at(of[1])]), loadHigh(states[at(of[2])]),
+             loadHigh(states[at(of[3])])};
+  transpose(m.x, m.y, m.c, m.s);
+  return m;
+}
+void scatter(std::span<SubstepState> states, const std::array<std::int32_t, kLanes>& of, Body v) {
+  transpose(v.vx, v.vy, v.spin, v.unused);
+  __builtin_memcpy(&states[at(of[0])].vx, &v.vx, sizeof v.vx);
+  __builtin_memcpy(&states[at(of[1])].vx, &v.vy, sizeof v.vx);
+  __builtin_memcpy(&states[at(of[2])].vx, &v.spin, sizeof v.vx);
+  __builtin_memcpy(&states[at(of[3])].vx, &v.unused, sizeof v.vx);
+}
+
+}  // namespace
+
+void ContactRows::beginBlock() {
+  m_blocks.emplace_back();
+}
+
+std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, const ContactImpulse& memory,
+                              float h) {
+  Block& block = m_blocks.back();
+  const int lane = block.count++;
+  block.a[at(lane)] = row.a, block.b[at(lane)] = row.b;
+  block.inverse_mass_a[lane] = row.inverse_mass_a, block.inverse_mass_b[lane] = row.inverse_mass_b;
+  block.inverse_inertia_a[lane] = row.inverse_inertia_a,
+  block.inverse_inertia_b[lane] = row.inverse_inertia_b;
+  const Vec2 n = manifold.normal;
+  const auto nx = static_cast<float>(n.x), ny = static_cast<float>(n.y);
+  block.nx[lane] = nx, block.ny[lane] = ny;
+  block.vx[lane] = static_cast<float>(row.velocity.x), block.vy[lane] = static_cast<float>(row.velocity.y);
+  block.friction[lane] = row.friction, block.restitution[lane] = row.restitution;
+  block.max_push[lane] = row.max_push;
+  block.rest[lane] = row.rest;
+  block.bounces = block.bounces || row.restitution > 0;
+  const Softness softness =
+      softnessOf(row.is_held ? 2 * kTurnsPerSubstep : kTurnsPerSubstep, kDampingRatio, h);
+  block.rate[lane] = softness.rate;
+  block.mass_scale[lane] = softness.mass_scale;
+  block.impulse_scale[lane] = softness.impulse_scale;
+  block.points = std::max(block.points, manifold.count);
+  for (std::int32_t i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& from = manifold.points[at(i)];
+    Point& to = block.point[at(i)];
+    const auto ax = static_cast<float>(from.anchor_a.x), ay = static_cast<float>(from.anchor_a.y);
+    const auto bx = static_cast<float>(from.anchor_b.x), by = static_cast<float>(from.anchor_b.y);
+    to.ax[lane] = ax, to.ay[lane] = ay, to.bx[lane] = bx, to.by[lane] = by;
+    to.gap[lane] = static_cast<float>(from.separation);
+    to.approach[lane] = nx * (static_cast<float>(row.velocity.x) - row.spin_b * by + row.spin_a * ay) +
+                        ny * (static_cast<float>(row.velocity.y) + row.spin_b * bx - row.spin_a * ax);
+    const float normal_a = ax * ny - ay * nx, normal_b = bx * ny - by * nx;
+    const float tangent_a = ax * nx + ay * ny, tangent_b = bx * nx + by * ny;
+    const float masses = row.inverse_mass_a + row.inverse_mass_b;
+    const float normal =
+        masses + row.inverse_inertia_a * normal_a * normal_a + row.inverse_inertia_b * normal_b * normal_b;
+    const float tangent = masses + row.inverse_inertia_a * tangent_a * tangent_a +
+                          row.inverse_inertia_b * tangent_b * tangent_b;
+    to.normal_mass[lane] = normal > 0 ? 1 / normal : 0;
+    to.tangent_mass[lane] = tangent > 0 ? 1 / tangent : 0;
+    to.normal[lane] = memory.normal[at(i)];
+    to.friction[lane] = memory.friction[at(i)];
+  }
+  return static_cast<std::int32_t>((m_blocks.size() - 1) * kLanes) + lane;
+}
+
+void ContactRows::warmStart(std::span<SubstepState> states) {
+  for (Block& k : m_blocks) {
+    Body a = gather(states, k.a), b = gather(states, k.b);
+    for (std::int32_t i = 0; i < k.points; ++i) {
+      const Point& p = k.point[at(i)];
+      const Lanes px = p.normal * k.nx - p.friction * k.ny;
+      const Lanes py = p.normal * k.ny + p.friction * k.nx;
+      a.vx -= k.inverse_mass_a * px, a.vy -= k.inverse_mass_a * py;
+      a.spin -= k.inverse_inertia_a * (p.ax * py - p.ay * px);
+      b.vx += k.inverse_mass_b * px, b.vy += k.inverse_mass_b * py;
+      b.spin += k.inverse_inertia_b * (p.bx * py - p.by * px);
+    }
+    scatter(states, k.a, a);
+    scatter(states, k.b, b);
+  }
+}
+
+template <bool kIsSoft>
+void ContactRows::solveRows(std::span<SubstepState> states, float h, float time) {
+  const Lanes zero = {}, one = lanesOf(1), inverse_h = lanesOf(1 / h);
+  for (Block& k : m_blocks) {
+    Body a = gather(states, k.a), b = gather(states, k.b);
+    const Moved at_a = gatherMoved(states, k.a), at_b = gatherMoved(states, k.b);
+    const Lanes x = at_b.x - at_a.x + time * k.vx, y = at_b.y - at_a.y + time * k.vy;
+    for (std::int32_t i = 0; i < k.points; ++i) {
+      Point& p = k.point[at(i)];
+      const Lanes vx = k.vx + (b.vx - b.spin * p.by) - (a.vx - a.spin * p.ay);
+      const Lanes vy = k.vy + (b.vy + b.spin * p.bx) - (a.vy + a.spin * p.ax);
+      const Lanes slip = vy * k.nx - vx * k.ny;
+      const Lanes most = k.friction * p.normal;
+      const Lanes wanted = p.friction - p.tangent_mass * slip;
+      const Lanes now = larger(-most, smaller(wanted, most));
+      const Lanes change = now - p.friction;
+      p.friction = now;
+      const Lanes px = -change * k.ny, py = change * k.nx;
+      a.vx -= k.inverse_mass_a * px, a.vy -= k.inverse_mass_a * py;
+      a.spin -= k.inverse_inertia_a * (p.ax * py - p.ay * px);
+      b.vx += k.inverse_mass_b * px, b.vy += k.inverse_mass_b * py;
+      b.spin += k.inverse_inertia_b * (p.bx * py - p.by * px);
+    }
+    for (std::int32_t i = 0; i < k.points; ++i) {
+      Point& p = k.point[at(i)];
+      // The levers turn with their bodies.
+      const Lanes dx = x + (at_b.c * p.bx - at_b.s * p.by - p.bx) - (at_a.c * p.ax - at_a.s * p.ay - p.ax);
+      const Lanes dy = y + (at_b.s * p.bx + at_b.c * p.by - p.by) - (at_a.s * p.ax + at_a.c * p.ay - p.ay);
+      const Lanes gap = p.gap + dx * k.nx + dy * k.ny;
+      const LaneMask is_open = gap > zero;
+      const Lanes soft_bias = kIsSoft ? larger(k.rate * gap, -k.max_push) : zero;
+      const Lanes bias = select(is_open, gap * inverse_h, soft_bias);
+      const Lanes vx = k.vx + (b.vx - b.spin * p.by) - (a.vx - a.spin * p.ay);
+      const Lanes vy = k.vy + (b.vy + b.spin * p.bx) - (a.vy + a.spin * p.ax);
+      const Lanes speed = vx * k.nx + vy * k.ny;
+      // What comes fast is stopped at once: the rest that softness leaves of its speed would carry it
+      // through.
+      const LaneMask is_hard = is_open | (speed < lanesOf(-kFastPushes) * k.max_push);
+      const Lanes mass_scale = kIsSoft ? select(is_hard, one, k.mass_scale) : one;
+      const Lanes impulse_scale = kIsSoft ? select(is_hard, zero, k.impulse_scale) : zero;
+      const Lanes wanted = p.normal - p.normal_mass * mass_scale * (speed + bias) - impulse_scale * p.normal;
+      const Lanes now = larger(wanted, zero);
+      const Lanes change = now - p.normal;
+      p.normal = now;
+      const Lanes px = change * k.nx, py = change * k.ny;
+      a.vx -= k.inverse_mass_a * px, a.vy -= k.inverse_mass_a * py;
+      a.spin -= k.inverse_inertia_a * (p.ax * py - p.ay * px);
+      b.vx += k.inverse_mass_b * px, b.vy += k.inverse_mass_b * py;
+      b.spin += k.inverse_inertia_b * (p.bx * py - p.by * px);
+      // What the soft solution pushes apart without a lasting impulse has touched, too.
+      k.first = select((now > zero) & (k.first < zero), lanesOf(time), k.first);
+      if constexpr (!kIsSoft) p.total += now;
+    }
+    scatter(states, k.a, a);
+    scatter(states, k.b, b);
+  }
+}
+
+template void ContactRows::solveRows<true>(std::span<SubstepState>, float, float);
+template void ContactRows::solveRows<false>(std::span<SubstepState>, float, float);
+
+void ContactRows::bounce(std::span<SubstepState> states) {
+  const Lanes zero = {};
+  for (Block& k : m_blocks) {
+    if (!k.bounces) continue;
+    Body a = gather(states, k.a), b = gather(states, k.b);
+    for (std::int32_t i = 0; i < k.points; ++i) {
+      Point& p = k.point[at(i)];
+      const LaneMask is_hit = (k.restitution > zero) & (p.total > zero) & (p.approach < -k.rest);
+      const Lanes vx = k.vx + (b.vx - b.spin * p.by) - (a.vx - a.spin * p.ay);
+      const Lanes vy = k.vy + (b.vy + b.spin * p.bx) - (a.vy + a.spin * p.ax);
+      const Lanes speed = vx * k.nx + vy * k.ny;
+      const Lanes more = larger(-p.normal_mass * (speed + k.restitution * p.approach), -p.normal);
+      const Lanes change = select(is_hit, more, zero);
+      p.normal += change;
+      p.total += change;
+      const Lanes px = change * k.nx, py = change * k.ny;
+      a.vx -= k.inverse_mass_a * px, a.vy -= k.inverse_mass_a * py;
+      a.spin -= k.inverse_inertia_a * (p.ax * py - p.ay * px);
+      b.vx += k.inverse_mass_b * px, b.vy += k.inverse_mass_b * py;
+      b.spin += k.inverse_inertia_b * (p.bx * py - p.by * px);
+    }
+    scatter(states, k.a, a);
+    scatter(states, k.b, b);
+  }
+}
+
+ContactImpulse ContactRows::impulse(std::int32_t row) const {
+  const Block& k = m_blocks[at(row) / kLanes];
+  const int lane = static_cast<int>(at(row) % kLanes);
+  ContactImpulse result;
+  result.first = k.first[lane];
+  for (std::size_t i = 0; i < 2; ++i) {
+    result.normal[i] = k.point[i].normal[lane];
+    result.friction[i] = k.point[i].friction[lane];
+    result.total += k.point[i].total[lane];
+  }
+  return result;
+}
+
+}  // namespace naiad::physics

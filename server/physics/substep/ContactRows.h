@@ -1,0 +1,84 @@
+// Contacts as rows of a step of soft sub-steps, four pairs of bodies side by side.
+//
+// Each sub-step first solves for velocities with soft contacts, which push overlap out as a damped spring
+// would, then, where the bodies have moved, without that push, so that it leaves no speed behind ("soft step"
+// with relaxation: E. Catto, "Solver2D", 2024; the softness: "Soft constraints", 2011). A contact that is
+// still a gap lets its bodies close it and no more. Numbers are relative to the pair: the speed that two
+// bodies have in common is in none of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/geometry/Manifold.h"
+#include "physics/substep/Lanes.h"
+#include "physics/substep/SubstepBody.h"
+
+namespace naiad::physics {
+
+/// What a step of one contact starts from; one side of it may be immovable.
+struct ContactRow {
+  std::int32_t a = 0, b = 0;  ///< states
+  float inverse_mass_a = 0, inverse_mass_b = 0, inverse_inertia_a = 0, inverse_inertia_b = 0;
+  Vec2 velocity;  ///< of b's centre against a's, at the start of the step
+  float friction = 0, restitution = 0;
+  float max_push = 0;            ///< speed at which overlap is undone, at most
+  float rest = 0;                ///< slower impacts do not bounce
+  float spin_a = 0, spin_b = 0;  ///< at the start of the step
+  bool is_held = false;          ///< an immovable body is in it: stiffer
+};
+
+/// Impulses of a contact: of a sub-step, and all of a step.
+struct ContactImpulse {
+  std::array<float, 2> normal = {}, friction = {};
+  float total = 0;
+  float first = -1;  ///< time within the step of the first one; below 0: there was none
+};
+
+class ContactRows {
+ public:
+  void clear() { m_blocks.clear(); }
+  /// Rows of one block have no movable body in common: at most kLanes of them, then a new block must begin.
+  void beginBlock();
+  /// Returns where its impulses are read from.
+  std::int32_t add(const ContactRow& row, const Manifold& manifold, const ContactImpulse& memory, float h);
+
+  void warmStart(std::span<SubstepState> states);
+  /// `time`: since the step began.
+  void solve(std::span<SubstepState> states, float h, float time, bool is_soft) {
+    is_soft ? solveRows<true>(states, h, time) : solveRows<false>(states, h, time);
+  }
+  /// What came fast enough leaves as its restitution says. After the last sub-step.
+  void bounce(std::span<SubstepState> states);
+  ContactImpulse impulse(std::int32_t row) const;
+  std::size_t blocks() const { return m_blocks.size(); }
+
+ private:
+  template <bool kIsSoft>
+  void solveRows(std::span<SubstepState> states, float h, float time);
+
+  struct Point {
+    Lanes ax = {}, ay = {}, bx = {}, by = {};  // levers about both centres
+    Lanes gap = {};                            // at the start, less what the levers say of it
+    Lanes normal_mass = {}, tangent_mass = {};
+    Lanes normal = {}, friction = {}, total = {};
+    Lanes approach = {};  // normal speed at the start of the step
+  };
+  struct Block {
+    std::array<std::int32_t, kLanes> a = {}, b = {};
+    std::int32_t count = 0;
+    std::int32_t points = 0;  // 2 if any row has two
+    Lanes inverse_mass_a = {}, inverse_mass_b = {}, inverse_inertia_a = {}, inverse_inertia_b = {};
+    Lanes nx = {}, ny = {}, vx = {}, vy = {};
+    Lanes rate = {}, mass_scale = {}, impulse_scale = {};  // softness
+    Lanes friction = {}, restitution = {}, max_push = {}, rest = {};
+    Lanes first = {-1, -1, -1, -1};  // time of the first impulse
+    bool bounces = false;            // any of them
+    std::array<Point, 2> point;
+  };
+  std::vector<Block> m_blocks;
+};
+
+}  // namespace naiad::physics

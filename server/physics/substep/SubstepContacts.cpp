@@ -1,0 +1,312 @@
+// A SubstepWorld's contacts: kept from step to step, coloured and put into rows within one.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "physics/substep/SubstepWorld.h"
+
+namespace naiad::physics {
+
+namespace {
+
+// Bodies of one colour's contacts are all different, so these are solved for side by side. Contacts with what
+// cannot move have colours of their own, and come last: they hold the others.
+constexpr std::int32_t kColours = 64;
+constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
+// In thicknesses of the thinner body.
+constexpr double kMaxPush = 0.2;  // per tick: the greatest speed at which overlap is undone
+constexpr double kLinger = 0.01;  // a larger gap ends a contact
+// In what acceleration adds to a speed in a tick: slower impacts do not bounce.
+constexpr float kRest = 2;
+
+}  // namespace
+
+std::int32_t SubstepWorld::makeMemory() {
+  if (m_free_memory < 0) {
+    m_memory.emplace_back();
+    return static_cast<std::int32_t>(m_memory.size()) - 1;
+  }
+  const std::int32_t memory = m_free_memory;
+  m_free_memory = m_memory[at(memory)].next;
+  m_memory[at(memory)] = {};
+  return memory;
+}
+
+void SubstepWorld::freeMemory(std::int32_t memory) {
+  m_memory[at(memory)].next = m_free_memory;
+  m_free_memory = memory;
+}
+
+void SubstepWorld::dropMemory(Pair& pair) {
+  for (std::int32_t i = pair.first; i >= 0;) {
+    const std::int32_t next = m_memory[at(i)].next;
+    freeMemory(i);
+    i = next;
+  }
+  pair.first = -1;
+}
+
+void SubstepWorld::endPair(Pair& pair) {
+  if (pair.is_touching && m_bodies[at(pair.a)].exists && m_bodies[at(pair.b)].exists) {
+    m_events.push_back({0, pair.low, pair.high, false, 0, {}});
+  }
+  pair.is_touching = pair.is_pushing = false;
+}
+
+std::vector<SubstepWorld::Pair>::const_iterator SubstepWorld::findPair(std::int32_t one,
+                                                                       std::int32_t other) const {
+  const auto key = std::minmax(one, other);
+  const auto found = std::lower_bound(m_pairs.begin(), m_pairs.end(), key, [](const Pair& p, const auto& k) {
+    return std::tie(p.low, p.high) < std::tie(k.first, k.second);
+  });
+  return found != m_pairs.end() && found->low == key.first && found->high == key.second ? found
+                                                                                        : m_pairs.end();
+}
+
+void SubstepWorld::wakeChanged() {
+  if (m_changed.empty()) return;
+  const auto wakeBoth = [&](std::int32_t a, std::int32_t b) {
+    if (!m_bodies[at(a)].is_changed && !m_bodies[at(b)].is_changed) return;
+    for (const std::int32_t id : {a, b}) wakeRing(id);
+  };
+  for (const Pair& pair : m_pairs) {
+    if (pair.first >= 0) wakeBoth(pair.a, pair.b);
+  }
+  for (int j = 0; j < m_joints.limit(); ++j) {
+    if (!m_joints.isWorking(j) || m_joints.joint(j).kind == JointKind::kMouse) continue;
+    wakeBoth(m_joints.joint(j).a, m_joints.joint(j).b);
+  }
+}
+
+void SubstepWorld::updatePairs() {
+  const std::span<const BroadPhasePair> found = m_broad.updatePairs();
+  m_pairs.swap(m_pairs_before);
+  m_pairs.clear();
+  auto old = m_pairs_before.begin();
+  const auto drop = [&] {
+    endPair(*old);
+    dropMemory(*old++);
+  };
+  for (const BroadPhasePair& pair : found) {
+    const auto low = static_cast<std::int32_t>(pair.id_a), high = static_cast<std::int32_t>(pair.id_b);
+    while (old != m_pairs_before.end() && std::tie(old->low, old->high) < std::tie(low, high)) drop();
+    const bool is_new = old == m_pairs_before.end() || old->low != low || old->high != high;
+    if (is_new) {
+      const bool in_order = m_bodies[at(low)].order < m_bodies[at(high)].order;
+      m_pairs.push_back({low, high, in_order ? low : high, in_order ? high : low});
+    } else {
+      m_pairs.push_back(*old++);
+    }
+    Pair& now = m_pairs.back();
+    now.is_seen = false;
+    now.event = -1;
+    if (is_new || m_joints_changed) now.is_jointed = m_joints.keepsApart(low, high);
+  }
+  while (old != m_pairs_before.end()) drop();
+  m_joints_changed = false;
+}
+
+void SubstepWorld::updatePair(std::int32_t index) {
+  Pair& pair = m_pairs[at(index)];
+  const SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
+  const bool is_met = a.state > 0 || b.state > 0 || a.is_changed || b.is_changed;
+  if (pair.is_seen || !is_met || (!isMovable(a) && !isMovable(b))) return;
+  pair.is_seen = true;
+  const Vec2 offset = b.body.place - a.body.place;
+  const double margin = a.margin + b.margin;
+  const double reach = a.reach + b.reach + margin;
+  if (pair.is_jointed || lengthSquared(offset) > reach * reach) {
+    endPair(pair);
+    dropMemory(pair);
+    return;
+  }
+  const double linger = kLinger * std::min(a.thickness, b.thickness);
+  bool is_near = false;
+  std::int32_t old = pair.first, last = -1;
+  pair.first = -1;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(a.turned.size()); ++i) {
+    for (std::int32_t j = 0; j < static_cast<std::int32_t>(b.turned.size()); ++j) {
+      std::int32_t memory = -1;
+      if (old >= 0 && m_memory[at(old)].shape_a == i && m_memory[at(old)].shape_b == j) {
+        memory = old;
+        old = m_memory[at(old)].next;
+      }
+      const ReferenceFace kept = memory >= 0 ? m_memory[at(memory)].reference : ReferenceFace{};
+      Contact& contact = m_contacts.emplace_back();
+      if (!collide(a.turned[at(i)], b.turned[at(j)], offset, margin, kept, contact.manifold)) {
+        m_contacts.pop_back();
+        if (memory >= 0) freeMemory(memory);
+        continue;
+      }
+      if (memory < 0) memory = makeMemory();
+      (last >= 0 ? m_memory[at(last)].next : pair.first) = memory;
+      last = memory;
+      Memory& known = m_memory[at(memory)];
+      known.next = -1;
+      known.shape_a = i, known.shape_b = j;
+      known.reference = contact.manifold.reference;
+      contact.pair = index, contact.memory = memory;
+      contact.a = pair.a, contact.b = pair.b;
+      for (std::int32_t k = 0; k < contact.manifold.count; ++k) {
+        const ManifoldPoint& point = contact.manifold.points[at(k)];
+        is_near = is_near || point.separation <= linger;
+        m_deepest = std::max(m_deepest, -point.separation);
+        for (std::int32_t l = 0; l < known.count; ++l) {
+          if (known.id[at(l)] != point.id) continue;
+          contact.impulse.normal[at(k)] = known.normal[at(l)];
+          contact.impulse.friction[at(k)] = known.friction[at(l)];
+        }
+      }
+    }
+  }
+  if (!is_near && !pair.is_pushing) endPair(pair);
+  pair.is_pushing = false;
+}
+
+// Wakes what is touched by what moves, and all that fell asleep with it. Was there any?
+bool SubstepWorld::wakeTouched(std::size_t first_contact) {
+  const std::size_t before = m_active.size();
+  for (std::size_t i = first_contact; i < m_contacts.size(); ++i) {
+    for (const std::int32_t id : {m_contacts[i].a, m_contacts[i].b}) {
+      if (!m_bodies[at(id)].is_asleep) continue;
+      int member = id;
+      do {
+        m_active.push_back(member);
+        member = m_bodies[at(member)].ring;
+      } while (member != id);
+      wakeRing(id);
+    }
+  }
+  for (std::size_t i = before; i < m_active.size(); ++i) begin(m_active[i]);
+  if (m_active.size() == before) return false;
+  std::sort(m_active.begin(), m_active.end(),
+            [&](int x, int y) { return m_bodies[at(x)].order < m_bodies[at(y)].order; });
+  return true;
+}
+
+// A pair of which one body wakes the other may give work to further pairs.
+void SubstepWorld::updateContacts() {
+  m_contacts.clear();
+  m_deepest = 0;
+  const auto pairs = static_cast<std::int32_t>(m_pairs.size());
+  bool is_sorted = !m_is_shuffled;
+  for (std::size_t first = 0;;) {
+    for (std::int32_t i = 0; i < pairs; ++i) updatePair(i);
+    if (!wakeTouched(first)) break;
+    first = m_contacts.size();
+    is_sorted = false;
+  }
+  for (const std::int32_t id : m_changed) {
+    m_bodies[at(id)].is_changed = false;
+    if (!m_bodies[at(id)].exists) m_free.push_back(id);
+  }
+  m_changed.clear();
+  m_counters.contacts += static_cast<std::int64_t>(m_contacts.size());
+  sequence(is_sorted);
+}
+
+// By the order of the bodies, which may not be that of their ids.
+void SubstepWorld::sequence(bool is_sorted) {
+  m_sequence.resize(m_contacts.size());
+  for (std::size_t i = 0; i < m_sequence.size(); ++i) m_sequence[i] = {0, 0, static_cast<std::int32_t>(i)};
+  if (is_sorted) return;
+  for (Turn& turn : m_sequence) {
+    const Contact& contact = m_contacts[at(turn.contact)];
+    turn.order_a = m_bodies[at(contact.a)].order;
+    turn.order_b = m_bodies[at(contact.b)].order;
+  }
+  std::sort(m_sequence.begin(), m_sequence.end(), [](const Turn& x, const Turn& y) {
+    return std::tie(x.order_a, x.order_b, x.contact) < std::tie(y.order_a, y.order_b, y.contact);
+  });
+}
+
+void SubstepWorld::chooseColours() {
+  std::array<std::int32_t, kUncoloured + 1> counts = {};
+  for (const Turn& turn : m_sequence) {
+    Contact& contact = m_contacts[at(turn.contact)];
+    SubstepBody &a = m_bodies[at(contact.a)], &b = m_bodies[at(contact.b)];
+    const bool moves_a = isMovable(a), moves_b = isMovable(b);
+    if (moves_a && moves_b) {
+      contact.colour = std::countr_one(a.colours | b.colours);
+      const std::uint64_t bit = contact.colour < kColours ? std::uint64_t{1} << contact.colour : 0;
+      a.colours |= bit;
+      b.colours |= bit;
+    } else {
+      SubstepBody& mover = moves_a ? a : b;
+      contact.colour = std::countr_one(mover.held_colours);
+      mover.held_colours |= contact.colour < kColours ? std::uint64_t{1} << contact.colour : 0;
+      contact.colour += contact.colour < kColours ? kColours : 0;
+    }
+    const bool is_coloured =
+        contact.colour < kColours || (!(moves_a && moves_b) && contact.colour < kUncoloured);
+    if (!is_coloured) contact.colour = kUncoloured;
+    ++counts[at(contact.colour)];
+  }
+  std::int32_t start = 0;
+  for (std::int32_t& count : counts) start += std::exchange(count, start);
+  m_by_colour.resize(m_contacts.size());
+  for (const Turn& turn : m_sequence) {
+    m_by_colour[at(counts[at(m_contacts[at(turn.contact)].colour)]++)] = turn.contact;
+  }
+}
+
+void SubstepWorld::fillRows() {
+  m_rows.clear();
+  std::int32_t colour = -1;
+  std::size_t in_block = 0;
+  for (const std::int32_t i : m_by_colour) {
+    Contact& contact = m_contacts[at(i)];
+    if (contact.colour != colour || in_block == kLanes || colour == kUncoloured) {
+      m_rows.beginBlock();
+      in_block = 0;
+      colour = contact.colour;
+    }
+    ++in_block;
+    const SubstepBody &a = m_bodies[at(contact.a)], &b = m_bodies[at(contact.b)];
+    ContactRow row;
+    row.a = a.state, row.b = b.state;
+    row.inverse_mass_a = a.inverse_mass;
+    row.inverse_mass_b = b.inverse_mass;
+    row.inverse_inertia_a = a.inverse_inertia;
+    row.inverse_inertia_b = b.inverse_inertia;
+    row.velocity = b.body.velocity - a.body.velocity;
+    row.spin_a = static_cast<float>(a.body.spin), row.spin_b = static_cast<float>(b.body.spin);
+    row.friction = static_cast<float>(std::sqrt(a.body.friction * b.body.friction));
+    row.restitution = static_cast<float>(std::max(a.body.restitution, b.body.restitution));
+    row.max_push = static_cast<float>(kMaxPush * std::min(a.thickness, b.thickness));
+    row.is_held = !isMovable(a) || !isMovable(b);
+    const auto gain = [&](const SubstepBody& of) {
+      return of.state > 0 ? std::fabs(of.kick_x) + std::fabs(of.kick_y) : 0.0f;
+    };
+    row.rest = kRest * static_cast<float>(m_options.substeps) * std::max(gain(a), gain(b));
+    contact.place = m_rows.add(row, contact.manifold, contact.impulse, m_h);
+  }
+  m_counters.blocks += static_cast<std::int64_t>(m_rows.blocks());
+}
+
+void SubstepWorld::storeContacts() {
+  for (const Contact& contact : m_contacts) {
+    const ContactImpulse impulse = m_rows.impulse(contact.place);
+    Memory& known = m_memory[at(contact.memory)];
+    known.count = contact.manifold.count;
+    for (std::int32_t k = 0; k < known.count; ++k) {
+      known.id[at(k)] = contact.manifold.points[at(k)].id;
+      known.normal[at(k)] = impulse.normal[at(k)];
+      known.friction[at(k)] = impulse.friction[at(k)];
+    }
+    if (impulse.first < 0) continue;
+    Pair& pair = m_pairs[at(contact.pair)];
+    pair.is_pushing = true;
+    if (pair.event >= 0) m_events[at(pair.event)].impulse += double{impulse.total};
+    if (pair.is_touching) continue;
+    pair.is_touching = true;
+    pair.event = static_cast<std::int32_t>(m_events.size());
+    const Vec2 normal = pair.a == pair.low ? contact.manifold.normal : -contact.manifold.normal;
+    m_events.push_back(
+        {std::max(double{impulse.first}, 0.0), pair.low, pair.high, true, double{impulse.total}, normal});
+  }
+}
+
+}  // namespace naiad::physics

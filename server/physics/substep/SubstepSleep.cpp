@@ -1,0 +1,96 @@
+// Which bodies of a SubstepWorld form a group, and which groups may sleep.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/substep/SubstepWorld.h"
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr double kCreep = 1e-6;  // cells per tick that a group at rest may gain while it is watched
+
+bool isMoving(const SubstepBody& b) {
+  return b.body.velocity != Vec2{} || b.body.spin != 0;
+}
+
+}  // namespace
+
+int SubstepWorld::rootOf(int state) {
+  while (m_parent[at(state)] != state) state = m_parent[at(state)] = m_parent[at(m_parent[at(state)])];
+  return state;
+}
+
+void SubstepWorld::unite(const SubstepBody& a, const SubstepBody& b) {
+  if (isMovable(a) && isMovable(b)) {
+    if (a.state == 0 || b.state == 0) return;
+    const int one = rootOf(a.state), other = rootOf(b.state);
+    m_parent[at(std::max(one, other))] = std::min(one, other);
+  }
+}
+
+// A group sleeps when all of it has been still for a while and is not speeding up, and something that cannot
+// move holds it, or nothing pulls at it at all.
+void SubstepWorld::sleep() {
+  if (!m_options.may_sleep) return;
+  m_parent.resize(m_states.size());
+  for (std::size_t i = 0; i < m_parent.size(); ++i) m_parent[i] = static_cast<std::int32_t>(i);
+  const auto forEachHold = [&](auto visit) {
+    for (const Contact& c : m_contacts) {
+      if (m_pairs[at(c.pair)].is_pushing) visit(m_bodies[at(c.a)], m_bodies[at(c.b)]);
+    }
+    m_joints.visitLinks([&](int a, int b) {
+      if (a >= 0) visit(m_bodies[at(a)], m_bodies[at(b)]);
+    });
+  };
+  forEachHold([&](const SubstepBody& a, const SubstepBody& b) { unite(a, b); });
+  m_groups.assign(m_states.size(), {});
+  const auto groupOf = [&](const SubstepBody& b) -> Group& { return m_groups[at(rootOf(b.state))]; };
+  for (const std::int32_t id : m_active) {
+    SubstepBody& b = m_bodies[at(id)];
+    if (b.is_frozen || !isMovable(b)) continue;
+    const double speed = length(b.body.velocity) + std::fabs(b.body.spin) * b.reach;
+    if (b.still == 0) b.first_speed = speed;
+    b.still = speed < m_options.sleep_speed ? b.still + 1 : 0;
+    Group& group = groupOf(b);
+    group.still = std::min(group.still, b.still);
+    group.speed_before = std::max(group.speed_before, b.first_speed);
+    group.speed = std::max(group.speed, speed);
+    group.is_adrift = group.is_adrift || isMoving(b);
+  }
+  const auto lean = [&](const SubstepBody& on, const SubstepBody& member) {
+    if (isMovable(on) || member.state == 0 || !isMovable(member)) return;
+    Group& group = groupOf(member);
+    (isMoving(on) ? group.is_driven : group.is_held) = true;
+  };
+  forEachHold([&](const SubstepBody& a, const SubstepBody& b) {
+    lean(a, b);
+    lean(b, a);
+  });
+  m_joints.visitLinks([&](int a, int b) {
+    if (a < 0 && m_bodies[at(b)].state > 0) groupOf(m_bodies[at(b)]).is_held = true;
+  });
+  for (const std::int32_t id : m_active) {
+    SubstepBody& b = m_bodies[at(id)];
+    if (b.is_frozen || !isMovable(b)) continue;
+    Group& group = groupOf(b);
+    if (group.still < m_options.sleep_delay || group.is_driven || (!group.is_held && group.is_adrift))
+      continue;
+    if (group.speed > group.speed_before + kCreep) {
+      b.still = 0;
+      continue;
+    }
+    b.is_asleep = true;
+    b.body.velocity = {};
+    b.body.spin = 0;
+    b.ring = id;
+    if (group.first >= 0) {
+      std::swap(b.ring, m_bodies[at(group.first)].ring);
+    } else {
+      group.first = id;
+    }
+    m_active_changed = true;
+  }
+}
+
+}  // namespace naiad::physics

@@ -1,0 +1,265 @@
+// A SubstepWorld's step: its sub-steps, and what moves too fast for them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "physics/geometry/TimeOfImpact.h"
+#include "physics/substep/SubstepWorld.h"
+
+namespace naiad::physics {
+
+namespace {
+
+constexpr double kFarthest = 1e9;  // metric cells in a step: the limit of timeOfImpact()
+constexpr double kMaxTurn = 40;    // rad in a step that are swept: bounds the iterations of timeOfImpact()
+// In thicknesses of a body.
+constexpr double kSlack = 0.02;       // least margin of the search for contacts
+constexpr double kMaxPass = 0.5;      // that it may go beyond what was searched: its centre passes nothing
+constexpr double kCore = 0.5;         // radius of the middle of a body that is swept against what it pushes
+constexpr double kBoundsSlack = 0.2;  // by which the tree's bounds are wider: small moves leave them alone
+
+// How far turning moves a corner in this step.
+double rollOf(const SubstepBody& b) {
+  return b.state == 0 ? 0 : std::min(std::fabs(b.turn), 2.0) * b.reach;
+}
+
+}  // namespace
+
+void SubstepWorld::listActive() {
+  if (!m_active_changed) return;
+  m_active_changed = false;
+  m_active.clear();
+  m_is_shuffled = false;
+  std::array<std::uint64_t, 2> last = {};  // of what moves, and of what does not
+  for (int id = 0; id < idLimit(); ++id) {
+    SubstepBody& b = m_bodies[at(id)];
+    b.state = 0;
+    if (b.exists) {
+      std::uint64_t& before = last[isMovable(b) ? 0 : 1];
+      m_is_shuffled = m_is_shuffled || b.order < before;
+      before = b.order;
+    }
+    if (!b.exists || b.is_frozen || b.is_asleep) continue;
+    if (isMovable(b) || b.body.velocity != Vec2{} || b.body.spin != 0) m_active.push_back(id);
+  }
+  if (!m_is_shuffled) return;
+  std::sort(m_active.begin(), m_active.end(),
+            [&](int x, int y) { return m_bodies[at(x)].order < m_bodies[at(y)].order; });
+}
+
+void SubstepWorld::begin(int id) {
+  SubstepBody& b = m_bodies[at(id)];
+  const RigidBody& body = b.body;
+  Vec2 acceleration;
+  double spin_gain = 0;
+  if (body.inverse_mass > 0) acceleration = body.acceleration + body.inverse_mass * body.force;
+  if (body.inverse_inertia > 0) spin_gain = body.inverse_inertia * body.torque;
+  const double path = length(body.velocity) + length(acceleration);
+  const double angle = std::fabs(body.spin) + std::fabs(spin_gain);
+  if (!(path < kFarthest && angle < kFarthest)) return freeze(id);
+  b.state = static_cast<std::int32_t>(m_states.size());
+  SubstepState& state = m_states.emplace_back();
+  state.spin = static_cast<float>(body.spin);
+  b.turn = 0;
+  b.part = 1;
+  b.colours = b.held_colours = 0;
+  b.inverse_mass = inverseOf(body.inverse_mass);
+  b.inverse_inertia = inverseOf(body.inverse_inertia);
+  b.kick_x = static_cast<float>(m_h * acceleration.x);
+  b.kick_y = static_cast<float>(m_h * acceleration.y);
+  b.spin_kick = static_cast<float>(m_h * spin_gain);
+  if (b.proxy < 0) return;
+  const double movement = length(body.velocity + 0.5 * acceleration) + std::min(angle, 2.0) * b.reach;
+  b.margin = std::min(movement, b.thickness) + kSlack * b.thickness;
+  const Bounds bounds = turnShapes(b);
+  const GridBounds wide = gridBounds(body.place, bounds, b.margin + kBoundsSlack * b.thickness);
+  if (std::exchange(b.is_swept, false)) {
+    m_broad.set(b.proxy, wide);
+  } else {
+    m_broad.move(b.proxy, gridBounds(body.place, bounds, b.margin), wide);
+  }
+}
+
+// The rotation by the half angle's tangent: of length one for any angle.
+void SubstepWorld::moveStates() {
+  for (const std::int32_t id : m_active) {
+    SubstepBody& b = m_bodies[at(id)];
+    SubstepState& s = m_states[at(b.state)];
+    s.x += m_h * s.vx, s.y += m_h * s.vy;
+    const float angle = m_h * s.spin;
+    b.turn += double{angle};
+    const float square = 0.25f * angle * angle;
+    const float by = 1 / (1 + square);
+    const float cosine = (1 - square) * by, sine = angle * by;
+    const float c = cosine * s.c - sine * s.s;
+    s.s = sine * s.c + cosine * s.s;
+    s.c = c;
+  }
+}
+
+void SubstepWorld::stepOnce() {
+  m_events.clear();
+  ++m_counters.ticks;
+  m_h = 1 / static_cast<float>(m_options.substeps);
+  wakeChanged();
+  listActive();
+  m_states.assign(1, {});
+  for (const std::int32_t id : m_active) begin(id);
+  std::erase_if(m_active, [&](int id) { return m_bodies[at(id)].is_frozen; });
+  updatePairs();
+  updateContacts();
+  m_joints.begin(m_bodies, m_h);
+  chooseColours();
+  fillRows();
+  float time = 0;
+  m_joints.place(m_states, time);
+  for (int i = 0; i < m_options.substeps; ++i) {
+    for (const std::int32_t id : m_active) {
+      const SubstepBody& b = m_bodies[at(id)];
+      SubstepState& s = m_states[at(b.state)];
+      s.vx += b.kick_x, s.vy += b.kick_y, s.spin += b.spin_kick;
+    }
+    m_joints.warmStart(m_states);
+    m_rows.warmStart(m_states);
+    m_joints.solve(m_states, true);
+    m_rows.solve(m_states, m_h, time, true);
+    moveStates();
+    time += m_h;
+    m_joints.place(m_states, time);
+    m_joints.solve(m_states, false);
+    m_rows.solve(m_states, m_h, time, false);
+  }
+  m_rows.bounce(m_states);
+  finish();
+}
+
+RigidStatus SubstepWorld::step(double dt) {
+  if (!(dt > 0 && dt < 1e6)) return RigidStatus::kRefused;
+  const std::int64_t frozen_before = m_counters.quarantined;
+  m_earlier_events.clear();
+  const double parts = std::max(std::floor(dt), 1.0);
+  for (double done = 0; done < parts; ++done) {
+    stepOnce();
+    if (parts == 1) break;
+    for (RigidEvent& event : m_events) event.time += done;
+    m_earlier_events.insert(m_earlier_events.end(), m_events.begin(), m_events.end());
+  }
+  if (parts > 1) m_events.swap(m_earlier_events);
+  return m_counters.quarantined == frozen_before ? RigidStatus::kDone : RigidStatus::kQuarantined;
+}
+
+Vec2 SubstepWorld::movedBy(const SubstepBody& b) const {
+  if (b.state == 0) return {};
+  const SubstepState& s = m_states[at(b.state)];
+  return b.body.velocity + Vec2{s.x, s.y};
+}
+
+bool SubstepWorld::isFast(const SubstepBody& b) const {
+  const double movement = length(movedBy(b)) + rollOf(b);
+  return movement > b.margin + kMaxPass * b.thickness && movement < kFarthest;
+}
+
+void SubstepWorld::stopFast() {
+  m_fast.clear();
+  for (const std::int32_t id : m_active) {
+    const SubstepBody& b = m_bodies[at(id)];
+    if (b.proxy >= 0 && isFast(b)) m_fast.push_back(id);
+  }
+  for (const std::int32_t id : m_fast) {  // so that they find one another
+    SubstepBody& b = m_bodies[at(id)];
+    m_broad.set(b.proxy, sweptBounds(b));
+    b.is_swept = true;
+  }
+  for (const std::int32_t id : m_fast) {
+    if (isMovable(m_bodies[at(id)])) stop(id);
+  }
+}
+
+GridBounds SubstepWorld::sweptBounds(const SubstepBody& b) const {
+  const Vec2 path = movedBy(b);
+  return gridBounds(b.body.place,
+                    {{std::min(path.x, 0.0) - b.reach, std::min(path.y, 0.0) - b.reach},
+                     {std::max(path.x, 0.0) + b.reach, std::max(path.y, 0.0) + b.reach}},
+                    0);
+}
+
+// Two fast ones that meet both stop there.
+void SubstepWorld::stop(int id) {
+  SubstepBody& b = m_bodies[at(id)];
+  const Vec2 path = movedBy(b);
+  m_near.clear();
+  m_broad.query(sweptBounds(b), [&](std::uint32_t other) {
+    if (static_cast<int>(other) != id) m_near.push_back(static_cast<std::int32_t>(other));
+  });
+  const auto motionOf = [&](const SubstepBody& of) -> RigidMotion {
+    if (of.state == 0) return {{}, of.body.rotation, 0};
+    if (of.part < 1) return {{}, turned(of.body.rotation, of.part * of.turn), 0};  // where it stops
+    return {movedBy(of), of.body.rotation, std::clamp(of.turn, -kMaxTurn, kMaxTurn)};
+  };
+  const RigidMotion motion = {path, b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
+  double first = b.part;
+  std::int32_t met = -1;
+  for (const std::int32_t near : m_near) {
+    const SubstepBody& other = m_bodies[at(near)];
+    const auto pair = findPair(id, near);
+    const bool is_pushing = pair != m_pairs.end() && pair->is_pushing;
+    if (pair != m_pairs.end() && pair->is_jointed) continue;
+    const RigidMotion its = motionOf(other);
+    const Vec2 offset = other.body.place - b.body.place +
+                        (other.state > 0 && other.part < 1 ? other.part * movedBy(other) : Vec2{});
+    const double nearer = length(path - its.displacement) + rollOf(b) + rollOf(other);
+    if (nearer <= b.margin + other.margin + kMaxPass * std::min(b.thickness, other.thickness)) continue;
+    // The rows keep the points apart that they know, yet others may come down in the same tick: what is
+    // pushed may turn, but its middle passes nothing.
+    ConvexShape core;
+    if (is_pushing && makeCircle(kCore * b.thickness, {}, core) != ShapeStatus::kOk) continue;
+    for (const ConvexShape& own :
+         is_pushing ? std::span<const ConvexShape>(&core, 1) : std::span<const ConvexShape>(b.shapes)) {
+      for (const ConvexShape& that : other.shapes) {
+        const TimeOfImpact impact = timeOfImpact(own, motion, that, its, offset);
+        if (impact.status == TimeOfImpactStatus::kApart || impact.time >= first) continue;
+        first = impact.time;
+        met = near;
+      }
+    }
+  }
+  if (first >= b.part) return;
+  b.part = first;
+  ++m_counters.stopped;
+  SubstepBody& other = m_bodies[at(met)];  // what comes the other way stops, too
+  if (other.state > 0 && isMovable(other) && isFast(other)) other.part = std::min(other.part, first);
+}
+
+void SubstepWorld::finish() {
+  storeContacts();
+  stopFast();
+  for (const std::int32_t id : m_active) {
+    SubstepBody& b = m_bodies[at(id)];
+    const SubstepState& s = m_states[at(b.state)];
+    const Vec2 moved = b.part * movedBy(b);
+    const bool is_sound = isFinite(moved) && isFinite(Vec2{s.vx, s.vy}) && isFinite(Vec2{s.spin, b.turn}) &&
+                          std::fabs(moved.x) + std::fabs(moved.y) < 1e12;
+    if (!is_sound) {
+      freeze(id);
+      continue;
+    }
+    b.body.place = b.body.place + moved;
+    if (b.turn != 0) b.body.rotation = turned(b.body.rotation, b.part * b.turn);
+    if (!isMovable(b)) continue;
+    b.body.velocity += Vec2{s.vx, s.vy};
+    b.body.spin += double{s.spin} - double{static_cast<float>(b.body.spin)};
+  }
+  if (const int broken = m_joints.end(); broken > 0) {
+    m_counters.broken += broken;
+    m_joints_changed = true;
+  }
+  sleep();
+  std::sort(m_events.begin(), m_events.end(), [](const RigidEvent& x, const RigidEvent& y) {
+    if (x.time != y.time) return x.time < y.time;
+    if (x.first != y.first) return x.first < y.first;
+    return x.second != y.second ? x.second < y.second : x.is_begin < y.is_begin;
+  });
+}
+
+}  // namespace naiad::physics

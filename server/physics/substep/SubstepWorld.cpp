@@ -1,0 +1,180 @@
+#include "physics/substep/SubstepWorld.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace naiad::physics {
+
+int SubstepWorld::addInOrder(std::uint64_t order, const RigidBody& body,
+                             std::span<const ConvexShape> shapes) {
+  if (!isSound(body)) return -1;
+  int id = idLimit();
+  if (m_free.empty()) {
+    m_bodies.emplace_back();
+  } else {
+    id = m_free.back();
+    m_free.pop_back();
+  }
+  SubstepBody& b = m_bodies[at(id)];
+  b = {};
+  b.body = body;
+  b.body.place = body.place + Vec2{};
+  b.order = order;
+  b.exists = true;
+  b.ring = id;
+  b.shapes.assign(shapes.begin(), shapes.end());
+  measure(b);
+  enter(id);
+  return id;
+}
+
+void SubstepWorld::measure(SubstepBody& b) {
+  b.turned.resize(b.shapes.size());
+  b.reach = 0;
+  b.thickness = b.shapes.empty() ? 0 : kLargestShape;
+  for (const ConvexShape& shape : b.shapes) {
+    b.reach = std::max(b.reach, shape.reach + shape.radius);
+    b.thickness = std::min(b.thickness, thicknessOf(shape));
+  }
+}
+
+Bounds SubstepWorld::turnShapes(SubstepBody& b) {
+  Bounds bounds = {{b.reach, b.reach}, {-b.reach, -b.reach}};
+  for (std::size_t i = 0; i < b.shapes.size(); ++i) {
+    turn(b.shapes[i], b.body.rotation, b.turned[i]);
+    const Bounds own = boundsOf(b.turned[i]);
+    bounds.lower = {std::min(bounds.lower.x, own.lower.x), std::min(bounds.lower.y, own.lower.y)};
+    bounds.upper = {std::max(bounds.upper.x, own.upper.x), std::max(bounds.upper.y, own.upper.y)};
+  }
+  return bounds;
+}
+
+// Into the broad phase.
+void SubstepWorld::enter(int id) {
+  SubstepBody& b = m_bodies[at(id)];
+  b.is_frozen = b.is_asleep = false;
+  b.ring = id;
+  b.still = b.margin = 0;
+  m_active_changed = true;
+  if (!isMovable(b)) markChanged(id);
+  if (b.shapes.empty()) return;
+  const Bounds bounds = turnShapes(b);
+  b.proxy = m_broad.add(static_cast<std::uint32_t>(id), gridBounds(b.body.place, bounds, 0), isMovable(b));
+}
+
+// Out of the broad phase; its contacts are forgotten.
+void SubstepWorld::leave(int id) {
+  SubstepBody& b = m_bodies[at(id)];
+  if (b.proxy >= 0) m_broad.remove(b.proxy);
+  b.proxy = -1;
+  b.state = 0;
+  markChanged(id);
+  m_active_changed = true;
+}
+
+// What lies on it wakes in the next step.
+void SubstepWorld::markChanged(int id) {
+  SubstepBody& b = m_bodies[at(id)];
+  if (!b.is_changed) m_changed.push_back(id);
+  b.is_changed = true;
+}
+
+void SubstepWorld::freeze(int id) {
+  wakeRing(id);
+  leave(id);
+  m_bodies[at(id)].is_frozen = true;
+  ++m_counters.quarantined;
+}
+
+bool SubstepWorld::set(int id, const RigidBody& body) {
+  if (!exists(id) || !isSound(body)) return false;
+  SubstepBody& b = m_bodies[at(id)];
+  if (b.body == body && !b.is_frozen) return true;
+  const bool was_movable = isMovable(b);
+  wakeRing(id);
+  b.still = 0;
+  b.body = body;
+  b.body.place = body.place + Vec2{};
+  m_active_changed = true;
+  if (b.is_frozen || was_movable != isMovable(b)) {
+    leave(id);
+    enter(id);
+  } else if (!was_movable) {
+    markChanged(id);
+  }
+  return true;
+}
+
+bool SubstepWorld::setShapes(int id, std::span<const ConvexShape> shapes) {
+  if (!exists(id)) return false;
+  wakeRing(id);
+  leave(id);
+  SubstepBody& b = m_bodies[at(id)];
+  b.shapes.assign(shapes.begin(), shapes.end());
+  measure(b);
+  enter(id);
+  return true;
+}
+
+// Its id is free again after the next step has dropped its pairs.
+bool SubstepWorld::remove(int id) {
+  if (!exists(id)) return false;
+  wakeRing(id);
+  for (int j = 0; j < m_joints.limit(); ++j) {
+    if (!m_joints.exists(j)) continue;
+    const Joint& joint = m_joints.joint(j);
+    if (joint.b == id || (joint.kind != JointKind::kMouse && joint.a == id)) removeJoint(j);
+  }
+  leave(id);
+  m_bodies[at(id)].exists = false;
+  return true;
+}
+
+void SubstepWorld::wakeRing(int id) {
+  m_bodies[at(id)].still = 0;
+  if (!m_bodies[at(id)].is_asleep) return;
+  m_active_changed = true;
+  int member = id;
+  do {
+    SubstepBody& b = m_bodies[at(member)];
+    b.is_asleep = false;
+    b.still = 0;
+    const int next = b.ring;
+    b.ring = member;
+    member = next;
+  } while (member != id);
+}
+
+void SubstepWorld::setSleeping(bool may_sleep) {
+  m_options.may_sleep = may_sleep;
+  if (may_sleep) return;
+  for (int id = 0; id < idLimit(); ++id) wakeRing(id);
+}
+
+int SubstepWorld::addJoint(const Joint& joint, bool may_touch) {
+  if (!isValid(joint, idLimit()) || !exists(joint.b)) return -1;
+  if (joint.kind != JointKind::kMouse && !exists(joint.a)) return -1;
+  wakeRing(joint.b);
+  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
+  m_joints_changed = true;
+  return m_joints.add(joint, may_touch);
+}
+
+bool SubstepWorld::setJoint(int id, const Joint& joint) {
+  if (!m_joints.exists(id) || !isValid(joint, idLimit()) || !m_joints.set(id, joint)) return false;
+  wakeRing(joint.b);
+  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
+  return true;
+}
+
+bool SubstepWorld::removeJoint(int id) {
+  if (!m_joints.exists(id)) return false;
+  const Joint& joint = m_joints.joint(id);
+  wakeRing(joint.b);
+  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
+  m_joints.remove(id);
+  m_joints_changed = true;
+  return true;
+}
+
+}  // namespace naiad::physics

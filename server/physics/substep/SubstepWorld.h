@@ -1,0 +1,178 @@
+// Bodies that stack, slide, roll and hang on joints, fast rather than exact.
+//
+// What touches what is found once per step and solved for in soft sub-steps (ContactRows.h, SubstepJoints.h),
+// in an order that follows from the bodies' own order alone: groups that do not touch do not see each other.
+// A body that moves farther than its contacts were searched for stops where it first touches something, until
+// the next step. Groups at rest sleep, exactly still.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/broadphase/BroadPhase.h"
+#include "physics/geometry/Index.h"
+#include "physics/rigid/RigidStepper.h"
+#include "physics/substep/ContactRows.h"
+#include "physics/substep/SubstepBody.h"
+#include "physics/substep/SubstepJoints.h"
+
+namespace naiad::physics {
+
+struct SubstepOptions {
+  int substeps = 4;  ///< 1 … 64
+  bool may_sleep = true;
+  double sleep_speed = 1e-3;  ///< cells per tick, of every point of a body: slower counts as still …
+  double sleep_delay = 15;  ///< … and ticks that a group must be still, and not speed up, before it sleeps
+};
+
+/// What has happened since the world was made.
+struct SubstepCounters {
+  std::int64_t ticks = 0;
+  std::int64_t contacts = 0;     ///< manifolds solved for, once per step each
+  std::int64_t blocks = 0;       ///< of rows that were solved side by side
+  std::int64_t stopped = 0;      ///< fast bodies, where they first touched something
+  std::int64_t quarantined = 0;  ///< bodies frozen
+  std::int64_t broken = 0;       ///< joints
+};
+
+class SubstepWorld final : public RigidStepper {
+ public:
+  explicit SubstepWorld(SubstepOptions options = {}) : m_options(options), m_states(1) {}
+
+  /// Of two bodies the one of the lower order comes first in everything.
+  int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) override;
+  bool set(int id, const RigidBody& body) override;
+  bool setShapes(int id, std::span<const ConvexShape> shapes) override;
+  bool remove(int id) override;
+  const RigidBody& body(int id) const override { return m_bodies[at(id)].body; }
+  bool exists(int id) const { return id >= 0 && id < idLimit() && m_bodies[at(id)].exists; }
+  bool isFrozen(int id) const override { return m_bodies[at(id)].is_frozen; }
+  /// Did it move only a part of its way in the last step?
+  bool isStopped(int id) const { return m_bodies[at(id)].state > 0 && m_bodies[at(id)].part < 1; }
+  bool isAsleep(int id) const { return m_bodies[at(id)].is_asleep; }
+  int idLimit() const { return static_cast<int>(m_bodies.size()); }
+
+  int addJoint(const Joint& joint, bool may_touch) override;
+  bool setJoint(int id, const Joint& joint) override;
+  bool removeJoint(int id) override;
+  bool jointExists(int id) const override { return m_joints.exists(id); }
+  const Joint& joint(int id) const override { return m_joints.joint(id); }
+
+  void setSleeping(bool may_sleep) override;
+  /// By whole ticks: `dt` is rounded down, 1 at least.
+  RigidStatus step(double dt) override;
+  const std::vector<RigidEvent>& events() const override { return m_events; }
+  const SubstepCounters& counters() const { return m_counters; }
+  /// How deep the deepest overlap was at the start of the last step.
+  double deepest() const { return m_deepest; }
+
+ private:
+  struct Memory {  // of a contact, from step to step
+    std::int32_t next = -1;
+    std::int32_t shape_a = 0, shape_b = 0;
+    ReferenceFace reference;
+    std::int32_t count = 0;
+    std::array<std::uint32_t, 2> id = {};
+    std::array<float, 2> normal = {}, friction = {};
+  };
+  struct Pair {
+    std::int32_t low, high;  // ids: what the broad phase orders by
+    std::int32_t a, b;       // the same, by the order of the bodies
+    std::int32_t first = -1;
+    bool is_touching = false;
+    bool is_pushing = false;  // in the last step
+    bool is_jointed = false;  // a joint keeps them from touching
+    bool is_seen = false;     // in this step
+    std::int32_t event = -1;  // of this step
+  };
+  struct Turn {  // in the order in which contacts are solved for
+    std::uint64_t order_a, order_b;
+    std::int32_t contact;
+  };
+  struct Contact {  // within a step
+    Manifold manifold;
+    ContactImpulse impulse;
+    std::int32_t pair, memory;
+    std::int32_t a, b;
+    std::int32_t colour;
+    std::int32_t place;  // in the rows
+  };
+
+  // SubstepWorld.cpp
+  void measure(SubstepBody& body);
+  Bounds turnShapes(SubstepBody& body);
+  void enter(int id);
+  void leave(int id);
+  void freeze(int id);
+  void wakeRing(int id);
+  void markChanged(int id);
+
+  // SubstepStep.cpp
+  void stepOnce();
+  void listActive();
+  void begin(int id);
+  void moveStates();
+  void finish();
+  bool isFast(const SubstepBody& body) const;
+  void stopFast();
+  GridBounds sweptBounds(const SubstepBody& body) const;
+  void stop(int id);
+  Vec2 movedBy(const SubstepBody& body) const;
+
+  // SubstepContacts.cpp
+  void updatePairs();
+  void endPair(Pair& pair);
+  void wakeChanged();
+  void updateContacts();
+  bool wakeTouched(std::size_t first_contact);
+  void updatePair(std::int32_t pair);
+  void sequence(bool is_sorted);
+  void chooseColours();
+  void fillRows();
+  void storeContacts();
+  std::int32_t makeMemory();
+  void freeMemory(std::int32_t memory);
+  void dropMemory(Pair& pair);
+  std::vector<Pair>::const_iterator findPair(std::int32_t one, std::int32_t other) const;
+
+  // SubstepSleep.cpp
+  int rootOf(int state);
+  void unite(const SubstepBody& a, const SubstepBody& b);
+  void sleep();
+
+  SubstepOptions m_options;
+  std::vector<SubstepBody> m_bodies;
+  std::vector<std::int32_t> m_free;
+  std::vector<std::int32_t> m_active;  // ids of those that move in this step, by order
+  std::vector<std::int32_t> m_changed;
+  std::vector<std::int32_t> m_near;
+  std::vector<std::int32_t> m_fast;    // in this step
+  std::vector<SubstepState> m_states;  // the first one is of all that does not move
+  BroadPhase m_broad;
+  std::vector<Pair> m_pairs, m_pairs_before;
+  std::vector<Memory> m_memory;
+  std::int32_t m_free_memory = -1;
+  std::vector<Contact> m_contacts;
+  std::vector<Turn> m_sequence;
+  std::vector<std::int32_t> m_by_colour;
+  ContactRows m_rows;
+  SubstepJoints m_joints;
+  std::vector<std::int32_t> m_parent;  // by state
+  struct Group {
+    double still = 1e300;
+    double speed_before = 0, speed = 0;
+    std::int32_t first = -1;
+    bool is_held = false, is_driven = false, is_adrift = false;
+  };
+  std::vector<Group> m_groups;  // by root
+  std::vector<RigidEvent> m_events, m_earlier_events;
+  SubstepCounters m_counters;
+  double m_deepest = 0;
+  float m_h = 0.25f;
+  bool m_active_changed = false;
+  bool m_joints_changed = false;
+  bool m_is_shuffled = false;  // ids are not in the order of the bodies, or of what they lie on
+};
+
+}  // namespace naiad::physics

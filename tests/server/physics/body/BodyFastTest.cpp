@@ -1,0 +1,198 @@
+// The level ACCURACY_FAST, through the public API: events, free flight, changes of level, sleep.
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "physics/body/BodyLayer.h"
+#include "tests/server/physics/BodyScene.h"
+
+namespace df::test {
+namespace {
+
+class BodyFast : public BodyScene {
+ protected:
+  BodyFast() {
+    PM.setGravity(perSecondSquared(Vector(0, 10)));
+    EXPECT_EQ(PM.setAccuracy(ACCURACY_FAST), 0);
+  }
+  const naiad::physics::SubstepCounters& substeps() {
+    return world.findLayer<BodyLayer>()->substepCounters();
+  }
+  const naiad::physics::RigidCounters& rigid() { return world.findLayer<BodyLayer>()->rigidCounters(); }
+
+  static int begins(const Listener* p_listener) {
+    int count = 0;
+    for (const Listener::Note& note : p_listener->notes) count += note.is_begin ? 1 : 0;
+    return count;
+  }
+};
+
+using FlightBits = std::array<std::uint64_t, 6>;
+
+FlightBits flightOf(const Body* p_body) {
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  const Vector place = p_body->getPosition(), velocity = p_body->getVelocity();
+  return {bits(place.x()),    bits(place.y()),          bits(velocity.x()),
+          bits(velocity.y()), bits(p_body->getAngle()), bits(p_body->getSpin())};
+}
+
+TEST_F(BodyFast, TheLevelIsWhatWasSet) {
+  EXPECT_EQ(PM.getAccuracy(), ACCURACY_FAST);
+  const std::uint64_t refusals = world.getRefusals();
+  EXPECT_EQ(PM.setAccuracy(static_cast<Accuracy>(7)), -1);
+  EXPECT_EQ(world.getRefusals(), refusals + 1);
+  EXPECT_EQ(PM.getAccuracy(), ACCURACY_FAST);
+  EXPECT_EQ(PM.setAccuracy(ACCURACY_DEFAULT), 0);
+  EXPECT_EQ(PM.getAccuracy(), ACCURACY_DEFAULT);
+  EXPECT_EQ(world.getRefusals(), refusals + 1);
+
+  EXPECT_TRUE(PM.isSleeping());
+  PM.setSleeping(false);
+  EXPECT_FALSE(PM.isSleeping());
+
+  World other;
+  const World::Scope other_scope(other);
+  EXPECT_EQ(PM.getAccuracy(), ACCURACY_DEFAULT);  // at first, and each world has its own
+  EXPECT_TRUE(PM.isSleeping());
+}
+
+TEST_F(BodyFast, ACrateRestsOnAnObjectAndHearsItOnce) {
+  Object* p_floor = wall(Vector(0, 5), Vector(100, 5));
+  auto* p_crate = crate<Listener>(Vector(0, -2));
+  p_crate->setTurning();
+  ticks(200);
+  ASSERT_EQ(p_crate->notes.size(), 1u);
+  EXPECT_TRUE(p_crate->notes[0].is_begin);
+  EXPECT_EQ(p_crate->notes[0].p_first, p_crate);
+  EXPECT_EQ(p_crate->notes[0].p_second, p_floor);
+  EXPECT_GT(p_crate->notes[0].impulse, 0);
+  EXPECT_NEAR(p_crate->getPosition().y(), -0.5, 5e-3);
+  EXPECT_GT(substeps().contacts, 0);
+  EXPECT_EQ(rigid().ticks, 0);
+}
+
+TEST_F(BodyFast, FreeFlightIsThatOfTheOtherLevel) {
+  const auto fly = [](Accuracy accuracy) {
+    World own;
+    const World::Scope own_scope(own);
+    PM.setAspect(1);
+    PM.setGravity(perSecondSquared(Vector(0, 10)));
+    PM.setAccuracy(accuracy);
+    wall(Vector(0, 40), Vector(100, 5));
+    std::vector<Body*> bodies;
+    for (int i = 0; i < 6; ++i) {
+      Body* p_body = i % 2 == 0 ? crate(Vector(6.3 * i, 0.1 * i)) : ball(Vector(6.3 * i, 0.1 * i), Vector());
+      p_body->setVelocity(perSecond(Vector(0.7 * i, -7.1 - i)));
+      p_body->setTurning(i % 3 != 0);
+      p_body->setSpin(0.03 * i);
+      if (i == 4) p_body->setDrag(0.02);
+      bodies.push_back(p_body);
+    }
+    Body* p_resting = crate(Vector(-50, 34.5));  // something is touched, elsewhere
+    p_resting->setTurning();
+    std::vector<FlightBits> seen;
+    for (int tick = 0; tick < 60; ++tick) {
+      own.update();
+      for (const Body* p_body : bodies) seen.push_back(flightOf(p_body));
+    }
+    own.shutDown();
+    return seen;
+  };
+  const std::vector<FlightBits> exact = fly(ACCURACY_DEFAULT), fast = fly(ACCURACY_FAST);
+  ASSERT_EQ(exact.size(), fast.size());
+  for (std::size_t i = 0; i < exact.size(); ++i) ASSERT_EQ(exact[i], fast[i]) << i;
+}
+
+TEST_F(BodyFast, AChangeOfLevelSendsNoEventTwice) {
+  wall(Vector(0, 5), Vector(100, 5));
+  std::vector<Listener*> pile;
+  for (int row = 0; row < 4; ++row) {
+    for (int i = 0; i < 4 - row; ++i) {
+      pile.push_back(crate<Listener>(Vector(1.1 * i + 0.55 * row, -0.5 - row)));
+      pile.back()->setTurning();
+      pile.back()->setContactEnds();
+    }
+  }
+  ticks(60);
+  for (Listener* p_crate : pile) {
+    EXPECT_GT(begins(p_crate), 0);
+    p_crate->notes.clear();
+  }
+  for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST, ACCURACY_DEFAULT}) {
+    ASSERT_EQ(PM.setAccuracy(accuracy), 0);
+    ticks(20);
+    for (std::size_t i = 0; i < pile.size(); ++i) {
+      EXPECT_TRUE(pile[i]->notes.empty()) << accuracy << ' ' << i;
+      EXPECT_LT(std::fabs(speedOf(pile[i]).y()), 0.1) << accuracy << ' ' << i;
+    }
+  }
+  EXPECT_GT(rigid().ticks, 0);
+  for (std::size_t i = 0; i < pile.size(); ++i) {
+    EXPECT_NEAR(pile[i]->getPosition().y(), -0.5 - (i < 4 ? 0 : i < 7 ? 1 : i < 9 ? 2 : 3), 0.05) << i;
+  }
+  EXPECT_EQ(world.getRefusals(), 0U);
+  for (const std::string& line : log) EXPECT_EQ(line.find("frozen"), std::string::npos) << line;
+}
+
+// With joints, and what hangs on the world: they hold on both sides of a change.
+TEST_F(BodyFast, JointsOutliveAChangeOfLevel) {
+  Body* p_plank = crate(Vector(2, 0), Vector(2, 0.2));
+  p_plank->setTurning();
+  Joint hinge = PM.addHinge(nullptr, p_plank, Vector(0, 0));
+  ASSERT_TRUE(hinge.exists());
+  const auto gapOf = [&] {
+    const Vector place = p_plank->getPosition();
+    const double angle = p_plank->getAngle();
+    return std::hypot(place.x() - 2 * std::cos(angle), place.y() - 2 * std::sin(angle));
+  };
+  for (const Accuracy accuracy : {ACCURACY_FAST, ACCURACY_DEFAULT, ACCURACY_FAST}) {
+    PM.setAccuracy(accuracy);
+    for (int tick = 0; tick < 30; ++tick) {
+      ticks(1);
+      ASSERT_LT(gapOf(), 0.02) << accuracy << ' ' << tick;
+    }
+  }
+  EXPECT_TRUE(hinge.exists());
+  EXPECT_GT(p_plank->getAngle(), 0.5);
+}
+
+TEST_F(BodyFast, ASleepingHeapPublishesNothing) {
+  wall(Vector(0, 5), Vector(100, 5));
+  std::vector<Body*> heap;
+  for (int i = 0; i < 8; ++i) {
+    heap.push_back(crate(Vector(0.1 * (i % 2), -0.5 - i)));
+    heap.back()->setTurning();
+  }
+  ticks(200);
+  world.setWatched(true);
+  world.tick();
+  for (int tick = 0; tick < 20; ++tick) {
+    std::vector<FlightBits> before, after;
+    for (const Body* p_body : heap) before.push_back(flightOf(p_body));
+    world.tick();
+    for (const Body* p_body : heap) after.push_back(flightOf(p_body));
+    ASSERT_EQ(before, after) << tick;
+    ASSERT_TRUE(world.view().changed.empty()) << tick;
+  }
+  const std::int64_t contacts = substeps().contacts;
+  ticks(10);
+  EXPECT_EQ(substeps().contacts, contacts);
+  PM.setSleeping(false);
+  ticks(10);
+  EXPECT_GE(substeps().contacts, contacts + 80);  // each of them, in each tick
+}
+
+TEST_F(BodyFast, AnObjectThatGoesLetsThemFall) {
+  Object* p_floor = wall(Vector(0, 1), Vector(5, 1));
+  wall(Vector(0, 10), Vector(50, 5));
+  auto* p_crate = crate<Listener>(Vector(0, -0.5));
+  p_crate->setTurning();
+  ticks(60);
+  delete p_floor;
+  ticks(60);
+  EXPECT_NEAR(p_crate->getPosition().y(), 4.5, 1e-2);
+  EXPECT_EQ(begins(p_crate), 2);
+}
+
+}  // namespace
+}  // namespace df::test

@@ -1,0 +1,231 @@
+// Rows of contacts side by side: each gets what it would get alone, pushes only, and rubs within its cone.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "physics/substep/ContactRows.h"
+
+namespace naiad::physics {
+namespace {
+
+constexpr float kSubstep = 0.25f;
+
+class Numbers {
+ public:
+  explicit Numbers(std::uint64_t seed) : m_state(seed) {}
+  double between(double low, double high) {
+    m_state = m_state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return low + (high - low) * static_cast<double>(m_state >> 11) * 0x1p-53;
+  }
+  bool chance(double part) { return between(0, 1) < part; }
+
+ private:
+  std::uint64_t m_state;
+};
+
+struct Trial {
+  ContactRow row;
+  Manifold manifold;
+  ContactImpulse memory;
+  SubstepState a, b;
+  float kick = 0;  // what a sub-step adds to b's speed along y
+};
+
+Trial trialOf(std::uint64_t seed) {
+  Numbers numbers(seed);
+  Trial trial;
+  ContactRow& row = trial.row;
+  row.is_held = numbers.chance(0.4);
+  if (!row.is_held) {
+    row.inverse_mass_a = static_cast<float>(numbers.between(0.1, 3));
+    row.inverse_inertia_a = static_cast<float>(numbers.between(0.1, 9));
+    row.spin_a = static_cast<float>(numbers.between(-0.1, 0.1));
+  }
+  row.inverse_mass_b = static_cast<float>(numbers.between(0.1, 3));
+  row.inverse_inertia_b = static_cast<float>(numbers.between(0.1, 9));
+  row.spin_b = static_cast<float>(numbers.between(-0.1, 0.1));
+  row.velocity = {numbers.between(-0.3, 0.3), numbers.between(-0.3, 0.3)};
+  row.friction = static_cast<float>(numbers.between(0, 1));
+  row.restitution = numbers.chance(0.5) ? static_cast<float>(numbers.between(0.1, 1)) : 0;
+  row.max_push = 0.1f;
+  row.rest = 0.02f;
+  const double angle = numbers.between(-3, 3);
+  trial.manifold.normal = {std::cos(angle), std::sin(angle)};
+  trial.manifold.count = numbers.chance(0.6) ? 2 : 1;
+  for (std::size_t i = 0; i < 2; ++i) {
+    ManifoldPoint& point = trial.manifold.points[i];
+    point.anchor_a = {numbers.between(-0.5, 0.5), numbers.between(-0.5, 0.5)};
+    point.anchor_b = {numbers.between(-0.5, 0.5), numbers.between(-0.5, 0.5)};
+    point.separation = numbers.between(-0.05, 0.05);
+    if (static_cast<int>(i) >= trial.manifold.count || numbers.chance(0.3)) continue;
+    trial.memory.normal[i] = static_cast<float>(numbers.between(0, 0.05));
+    trial.memory.friction[i] = static_cast<float>(numbers.between(-0.01, 0.01));
+  }
+  trial.a.spin = row.spin_a;
+  trial.b.spin = row.spin_b;
+  return trial;
+}
+
+struct Outcome {
+  std::vector<std::uint32_t> bits;  // of both bodies and the impulses
+  ContactImpulse impulse;
+};
+
+void moveState(SubstepState& s) {
+  s.x += kSubstep * s.vx, s.y += kSubstep * s.vy;
+  s.c = std::cos(kSubstep * s.spin), s.s = std::sin(kSubstep * s.spin);
+}
+
+// A step of all of them; a colour's rows are packed as many to a block as are asked for.
+std::vector<Outcome> stepOf(const std::vector<Trial>& trials, std::size_t in_block) {
+  std::vector<SubstepState> states(1);
+  ContactRows rows;
+  std::vector<std::int32_t> places;
+  std::vector<ContactRow> packed;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    ContactRow row = trials[i].row;
+    if (!row.is_held) {
+      row.a = static_cast<std::int32_t>(states.size());
+      states.push_back(trials[i].a);
+    }
+    row.b = static_cast<std::int32_t>(states.size());
+    states.push_back(trials[i].b);
+    if (i % in_block == 0) rows.beginBlock();
+    places.push_back(rows.add(row, trials[i].manifold, trials[i].memory, kSubstep));
+    packed.push_back(row);
+  }
+  float time = 0;
+  for (int i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+      states[static_cast<std::size_t>(packed[k].b)].vy += trials[k].kick;
+    }
+    rows.warmStart(states);
+    rows.solve(states, kSubstep, time, true);
+    for (std::size_t s = 1; s < states.size(); ++s) moveState(states[s]);
+    time += kSubstep;
+    rows.solve(states, kSubstep, time, false);
+  }
+  rows.bounce(states);
+  std::vector<Outcome> outcomes;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    Outcome outcome;
+    outcome.impulse = rows.impulse(places[i]);
+    const auto note = [&](float x) { outcome.bits.push_back(std::bit_cast<std::uint32_t>(x + 0.0f)); };
+    for (const std::int32_t s : {packed[i].a, packed[i].b}) {
+      const SubstepState& state = states[static_cast<std::size_t>(s)];
+      for (const float x : {state.vx, state.vy, state.spin, state.x, state.y}) note(x);
+    }
+    const ContactImpulse& j = outcome.impulse;
+    for (const float x : {j.normal[0], j.normal[1], j.friction[0], j.friction[1], j.total, j.first}) note(x);
+    outcomes.push_back(outcome);
+  }
+  return outcomes;
+}
+
+TEST(Lanes, TransposeTurnsRowsIntoColumns) {
+  Lanes a = {0, 1, 2, 3}, b = {10, 11, 12, 13}, c = {20, 21, 22, 23}, d = {30, 31, 32, 33};
+  transpose(a, b, c, d);
+  const std::array<Lanes, 4> columns = {a, b, c, d};
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      EXPECT_EQ(columns[static_cast<std::size_t>(i)][j], static_cast<float>(10 * j + i)) << i << ' ' << j;
+    }
+  }
+}
+
+TEST(Lanes, ComparisonsAreLaneByLane) {
+  const Lanes a = {1, 2, 3, 4}, b = {4, 3, 2, 1};
+  const Lanes high = larger(a, b), low = smaller(a, b);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(high[i], std::max(a[i], b[i])) << i;
+    EXPECT_EQ(low[i], std::min(a[i], b[i])) << i;
+  }
+}
+
+TEST(ContactRows, FourSideBySideGetWhatEachGetsAlone) {
+  std::vector<Trial> trials;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) trials.push_back(trialOf(seed));
+  const std::vector<Outcome> alone = stepOf(trials, 1);
+  for (const std::size_t in_block : {2U, 3U, 4U}) {
+    const std::vector<Outcome> beside = stepOf(trials, in_block);
+    int different = 0;
+    for (std::size_t i = 0; i < trials.size(); ++i) different += alone[i].bits == beside[i].bits ? 0 : 1;
+    EXPECT_EQ(different, 0) << in_block << " in a block";
+  }
+}
+
+TEST(ContactRows, PushesOnlyAndRubsWithinItsCone) {
+  int pushing = 0, sliding = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const Trial trial = trialOf(seed);
+    const ContactImpulse impulse = stepOf({trial}, 1)[0].impulse;
+    EXPECT_GE(impulse.total, 0) << seed;
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_GE(impulse.normal[i], 0) << seed;
+      pushing += impulse.normal[i] > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(pushing, 50);
+  // Pressed evenly by a force of 0.2 per tick: the cone is as wide as the normal impulse says.
+  for (const float slip : {0.0f, 0.1f, 1.0f}) {
+    Trial trial;
+    ContactRow& row = trial.row;
+    row.is_held = true;
+    row.inverse_mass_b = 1, row.inverse_inertia_b = 0;
+    row.friction = 0.5f;
+    row.max_push = 0.1f;
+    row.velocity = {slip, 0};
+    trial.kick = 0.05f;
+    trial.memory.normal[0] = 0.05f;
+    trial.manifold.normal = {0, -1};  // b lies above
+    trial.manifold.count = 1;
+    trial.manifold.points[0].anchor_b = {0, 0.5};
+    const Outcome outcome = stepOf({trial}, 1)[0];
+    const float most = 0.5f * outcome.impulse.normal[0];
+    EXPECT_NEAR(outcome.impulse.normal[0], 0.05f, 1e-4f) << slip;
+    EXPECT_NEAR(outcome.impulse.total, 0.2f, 1e-3f) << slip;
+    EXPECT_LE(std::fabs(outcome.impulse.friction[0]), most * 1.001f) << slip;
+    sliding += slip > 0.5f && std::fabs(outcome.impulse.friction[0]) > 0.99f * most ? 1 : 0;
+  }
+  EXPECT_EQ(sliding, 1);
+}
+
+TEST(ContactRows, AGapMayCloseAndNoMore) {
+  for (const float speed : {0.05f, 0.5f, 5.0f}) {
+    Trial trial;
+    ContactRow& row = trial.row;
+    row.is_held = true;
+    row.inverse_mass_b = 1;
+    row.velocity = {0, -speed};
+    trial.manifold.normal = {0, 1};
+    trial.manifold.count = 1;
+    trial.manifold.points[0].separation = 0.1;
+    const Outcome outcome = stepOf({trial}, 1)[0];
+    const float y = std::bit_cast<float>(outcome.bits[9]);  // of b, less what it moves at its first velocity
+    EXPECT_NEAR(y - speed, speed < 0.1f ? -0.05f : -0.1f, 1e-5f) << speed;
+  }
+}
+
+TEST(ContactRows, OverlapIsUndoneNoFasterThanItsLimit) {
+  Trial trial;
+  ContactRow& row = trial.row;
+  row.is_held = true;
+  row.inverse_mass_b = 1;
+  row.max_push = 0.1f;
+  trial.manifold.normal = {0, 1};
+  trial.manifold.count = 1;
+  trial.manifold.points[0].separation = -5;
+  const Outcome outcome = stepOf({trial}, 1)[0];
+  const float y = std::bit_cast<float>(outcome.bits[9]);
+  EXPECT_GT(y, 0.01f);
+  EXPECT_LE(y, 0.1f * 1.001f);
+  EXPECT_NEAR(std::bit_cast<float>(outcome.bits[6]), 0, 1e-6f);  // no speed is left behind
+}
+
+}  // namespace
+}  // namespace naiad::physics

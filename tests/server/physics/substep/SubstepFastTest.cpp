@@ -1,0 +1,130 @@
+// What moves far in a tick stops where it first touches something.
+#include <gtest/gtest.h>
+
+#include "SubstepScene.h"
+
+namespace naiad::physics {
+namespace {
+
+using namespace test;
+
+enum class BulletKind { kStick, kDisc };
+
+// How many of the shots have their centre beyond the wall at any time.
+int through(BulletKind kind, double speed, double restitution, int shots) {
+  std::uint64_t state = 7;
+  const auto uniform = [&] {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<double>(state >> 11) * 0x1p-53;
+  };
+  int passed = 0;
+  for (int shot = 0; shot < shots; ++shot) {
+    SubstepScene scene;
+    scene.add(immovable({0, 0}), boxShape(0.5, 1e5));  // 1 thick
+    const ConvexShape bullet = kind == BulletKind::kStick ? boxShape(0.6, 0.1) : circleShape(0.25);
+    RigidBody flying = movable({-1.5 - 3 * speed * uniform(), 0}, bullet);
+    const double slant = 1.2 * uniform() - 0.6;
+    flying.velocity = speed * Vec2{std::cos(slant), std::sin(slant)};
+    flying.rotation = rotationBy(6.28 * uniform());
+    flying.spin = 0.6 * uniform() - 0.3;
+    flying.acceleration = {};
+    flying.restitution = restitution;
+    const int id = scene.add(flying, bullet);
+    bool is_through = false, has_met = false;
+    for (int tick = 0; tick < 10; ++tick) {
+      scene.ticks(1);
+      has_met = has_met || !scene.world.events().empty();
+      is_through = is_through || scene.at(id).x > 0;
+    }
+    EXPECT_TRUE(has_met) << speed << ' ' << shot;
+    passed += is_through ? 1 : 0;
+  }
+  return passed;
+}
+
+constexpr int kShots = 300;
+
+void expectNothingThrough(BulletKind kind) {
+  for (const double speed : {1.0, 3.0, 10.0, 100.0, 1e3, 1e4}) {
+    for (const double restitution : {0.0, 1.0}) {
+      EXPECT_EQ(through(kind, speed, restitution, kShots), 0) << speed << ' ' << restitution;
+    }
+  }
+}
+
+TEST(SubstepFast, NoDiscGoesThroughAWall) {
+  expectNothingThrough(BulletKind::kDisc);
+}
+
+TEST(SubstepFast, NoStickGoesThroughAWall) {
+  expectNothingThrough(BulletKind::kStick);
+}
+
+TEST(SubstepFast, StopsWhereItTouchesAndIsFreeInTheNextTick) {
+  SubstepScene scene;
+  scene.add(immovable({10, 0}), boxShape(0.5, 50));
+  const ConvexShape disc = circleShape(0.25);
+  RigidBody ball = movable({0, 0}, disc);
+  ball.velocity = {100, 0};
+  ball.acceleration = {};
+  ball.restitution = 1;
+  const int id = scene.add(ball, disc);
+  scene.ticks(1);
+  EXPECT_TRUE(scene.world.isStopped(id));
+  EXPECT_EQ(scene.world.counters().stopped, 1);
+  EXPECT_NEAR(scene.at(id).x, 9.25, 1e-3);
+  EXPECT_NEAR(scene.world.body(id).velocity.x, 100, 1e-4);
+  scene.ticks(1);
+  EXPECT_FALSE(scene.world.isStopped(id));
+  EXPECT_NEAR(scene.world.body(id).velocity.x, -100, 1e-2);
+}
+
+// Two that meet at once, and one that hits a sleeping stack.
+TEST(SubstepFast, FastOnesMeet) {
+  for (const double speed : {2.0, 30.0, 1e3}) {
+    SubstepScene scene;
+    const ConvexShape crate = boxShape(0.5, 0.5);
+    RigidBody left = movable({-1.7 * speed, 0}, crate), right = movable({1.4 * speed, 0}, crate);
+    left.velocity = {speed, 0}, right.velocity = {-speed, 0};
+    left.acceleration = right.acceleration = {};
+    const int one = scene.add(left, crate), other = scene.add(right, crate);
+    for (int tick = 0; tick < 10; ++tick) {
+      scene.ticks(1);
+      ASSERT_LT(scene.at(one).x, scene.at(other).x) << speed << ' ' << tick;
+    }
+    EXPECT_LT(scene.speed(one), 0.01 * speed);
+  }
+}
+
+TEST(SubstepFast, AFastOneWakesAndPushesWhatItHits) {
+  SubstepScene scene;
+  scene.addFloor();
+  const int crate = scene.addCrate({0, -0.5});
+  scene.ticks(60);
+  ASSERT_TRUE(scene.world.isAsleep(crate));
+  const ConvexShape disc = circleShape(0.3);
+  RigidBody ball = movable({-90, -0.5}, disc);
+  ball.velocity = {40, 0};
+  ball.acceleration = {};
+  const int id = scene.add(ball, disc);
+  for (int tick = 0; tick < 6; ++tick) {
+    scene.ticks(1);
+    ASSERT_LT(scene.at(id).x, scene.at(crate).x);
+  }
+  EXPECT_FALSE(scene.world.isAsleep(crate));
+  EXPECT_GT(scene.world.body(crate).velocity.x, 5);
+}
+
+TEST(SubstepFast, SpeedsBeyondCalculationAreFrozen) {
+  SubstepScene scene;
+  const ConvexShape disc = circleShape(0.3);
+  RigidBody ball = movable({0, 0}, disc);
+  ball.velocity = {1e20, 0};
+  const int id = scene.add(ball, disc);
+  EXPECT_EQ(scene.world.step(1), RigidStatus::kQuarantined);
+  EXPECT_TRUE(scene.world.isFrozen(id));
+  EXPECT_EQ(scene.at(id), Vec2{});
+}
+
+}  // namespace
+}  // namespace naiad::physics

@@ -1,0 +1,203 @@
+// Groups that do not touch do not see each other: a group steps to the same bits alone and among others.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <utility>
+
+#include "SubstepScene.h"
+
+namespace naiad::physics {
+namespace {
+
+using namespace test;
+
+constexpr int kGroupTicks = 200;
+constexpr double kFar = 2000;  // cells between the groups
+
+using Bits = std::array<std::uint64_t, 9>;
+
+Bits bitsOf(const RigidBody& body) {
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  return {static_cast<std::uint64_t>(body.place.cell_x),
+          static_cast<std::uint64_t>(body.place.cell_y),
+          bits(body.place.dx),
+          bits(body.place.dy),
+          bits(body.rotation.c),
+          bits(body.rotation.s),
+          bits(body.velocity.x),
+          bits(body.velocity.y),
+          bits(body.spin)};
+}
+
+struct GroupKind {
+  double restitution = 0;
+  double mass = 1;
+};
+
+// A floor, a group that is watched, and another one that comes and goes. The watched bodies' orders rise with
+// their number; those of the others lie between.
+class Neighbours {
+ public:
+  Neighbours(GroupKind watched, bool has_others, GroupKind others)
+      : m_watched_kind(watched), m_others_kind(others), m_has_others(has_others) {
+    const ConvexShape floor = boxShape(5000, 5);
+    m_world.addInOrder(1, immovable({0, 5}), std::span(&floor, 1));
+  }
+
+  void run(std::vector<Bits>& seen) {
+    for (int tick = 0; tick < kGroupTicks; ++tick) {
+      change(tick);
+      m_world.step(1);
+      for (const int id : m_watched) seen.push_back(bitsOf(m_world.body(id)));
+    }
+  }
+  const SubstepWorld& world() const { return m_world; }
+  const std::vector<int>& watched() const { return m_watched; }
+  bool hasOtherSlept() const { return m_has_other_slept; }
+
+ private:
+  void change(int tick) {
+    if (tick == 0) addWatched(12);
+    if (tick == 45) addWatched(4);
+    if (tick == 110) addWatched(5);
+    if (tick == 150) pushWatched();
+    if (!m_has_others) return;
+    for (const int id : m_others) m_has_other_slept = m_has_other_slept || m_world.isAsleep(id);
+    if (tick == 3) addOthers(20);
+    if (tick == 44) removeOthers(7);
+    if (tick == 60) addOthers(15);
+    if (tick == 109) removeOthers(100);
+    if (tick == 130) addOthers(3);
+  }
+  static RigidBody bodyOf(int i, double left, bool is_disc, GroupKind kind) {
+    const ConvexShape shape = shapeOf(is_disc);
+    RigidBody body =
+        movable({left + 1.05 * (i % 4) + 0.1 * (i % 3), -0.55 - 1.1 * (i / 4)}, shape, kind.mass);
+    body.rotation = rotationBy(0.2 * i);
+    body.restitution = kind.restitution;
+    return body;
+  }
+  static ConvexShape shapeOf(bool is_disc) { return is_disc ? circleShape(0.45) : boxShape(0.5, 0.4); }
+  int add(std::uint64_t order, int i, double left, GroupKind kind) {
+    const bool is_disc = i % 3 == 1;
+    const ConvexShape shape = shapeOf(is_disc);
+    return m_world.addInOrder(order, bodyOf(i, left, is_disc, kind), std::span(&shape, 1));
+  }
+  void hinge(int a, int b) {
+    Joint joint;
+    joint.kind = JointKind::kHinge;
+    joint.a = a, joint.b = b;
+    joint.anchor_a = {0.55, 0}, joint.anchor_b = {-0.55, 0};
+    EXPECT_GE(m_world.addJoint(joint, false), 0);
+  }
+  // The last three hang together: joints that share a body are solved for in the order of their addition.
+  void chain(const std::vector<int>& of) {
+    hinge(of[of.size() - 3], of[of.size() - 2]);
+    hinge(of[of.size() - 2], of.back());
+  }
+  void addWatched(int count) {
+    for (int i = 0; i < count; ++i) {
+      m_order += m_has_others ? 1000 : 1;
+      m_watched.push_back(add(m_order, static_cast<int>(m_watched.size()), 0, m_watched_kind));
+    }
+    chain(m_watched);
+  }
+  // It is asleep by then, or nearly.
+  void pushWatched() {
+    RigidBody body = m_world.body(m_watched[3]);
+    body.velocity = {-0.3, -0.2};
+    EXPECT_TRUE(m_world.set(m_watched[3], body));
+  }
+  void addOthers(int count) {
+    for (int i = 0; i < count; ++i) {
+      m_others.push_back(add(m_order + 1 + m_added++, i, kFar, m_others_kind));
+    }
+    chain(m_others);
+  }
+  void removeOthers(int count) {
+    for (; count > 0 && !m_others.empty(); --count) {
+      EXPECT_TRUE(m_world.remove(m_others.front()));
+      m_others.erase(m_others.begin());
+    }
+  }
+
+  GroupKind m_watched_kind, m_others_kind;
+  bool m_has_others;
+  bool m_has_other_slept = false;
+  SubstepWorld m_world;
+  std::vector<int> m_watched, m_others;
+  std::uint64_t m_order = 10, m_added = 0;
+};
+
+void expectSameBits(GroupKind watched, GroupKind others) {
+  Neighbours alone(watched, false, others), among(watched, true, others);
+  std::vector<Bits> one, other;
+  alone.run(one);
+  among.run(other);
+  ASSERT_EQ(one.size(), other.size());
+  std::size_t different = 0, first = one.size();
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    if (one[i] == other[i]) continue;
+    ++different;
+    first = std::min(first, i);
+  }
+  EXPECT_EQ(different, 0U) << "the first is entry " << first << " of " << one.size();
+  // The scene is what it says: ids were used again, and differ.
+  EXPECT_NE(alone.watched(), among.watched());
+  EXPECT_FALSE(std::is_sorted(among.watched().begin(), among.watched().end()));
+}
+
+TEST(SubstepIsolation, AGroupIsTheSameAloneAndAmongOthers) {
+  expectSameBits({}, {});
+}
+
+// The rows of those that bounce lie beside the rows of those that do not.
+TEST(SubstepIsolation, WhatDoesNotBounceDoesNotSeeWhatBounces) {
+  expectSameBits({}, {.restitution = 0.7});
+  expectSameBits({.restitution = 0.4}, {});
+}
+
+TEST(SubstepIsolation, HeavyOnesElsewhereChangeNothing) {
+  expectSameBits({}, {.mass = 1e6});
+  expectSameBits({}, {.mass = 1e-6});
+}
+
+// Masses that no float can invert, on the same floor.
+TEST(SubstepIsolation, WhatCannotBeCalculatedWithChangesNothing) {
+  for (const double mass : {1e30, 1e37, 1e40, 1e44, 1e60}) {
+    SCOPED_TRACE(mass);
+    expectSameBits({}, {.mass = mass});
+  }
+}
+
+// Four that meet within one tick: who is stopped first follows from their order, whatever their ids are.
+TEST(SubstepIsolation, FastOnesDoNotDependOnIds) {
+  const auto meet = [](std::array<std::size_t, 4> added) {
+    SubstepWorld world;
+    const ConvexShape disc = circleShape(0.4);
+    constexpr std::array<Vec2, 4> kPlaces = {Vec2{-40, 0}, {35, 0.1}, {0.1, -38}, {-0.2, 36}};
+    std::array<int, 4> ids = {};
+    for (const std::size_t i : added) {
+      RigidBody body = movable(kPlaces[i], disc);
+      body.velocity = -0.8 * kPlaces[i];
+      body.acceleration = {};
+      ids[i] = world.addInOrder(i + 1, body, std::span(&disc, 1));
+    }
+    std::vector<Bits> seen;
+    for (int tick = 0; tick < 6; ++tick) {
+      world.step(1);
+      for (const int id : ids) seen.push_back(bitsOf(world.body(id)));
+    }
+    EXPECT_GT(world.counters().stopped, 0);
+    return seen;
+  };
+  const std::vector<Bits> in_order = meet({0, 1, 2, 3});
+  EXPECT_EQ(in_order, meet({3, 1, 0, 2}));
+  EXPECT_EQ(in_order, meet({3, 2, 1, 0}));
+}
+
+}  // namespace
+}  // namespace naiad::physics

@@ -1,0 +1,286 @@
+// What joints hold in a SubstepWorld.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "SubstepScene.h"
+
+namespace naiad::physics {
+namespace {
+
+using namespace test;
+
+// A crate that hangs on a fixed point, and the point.
+struct Hanging : SubstepScene {
+  explicit Hanging(Vec2 where, double spin = 0) : SubstepScene(awake()) {
+    nail = world.addInOrder(++order, immovable({0, 0}), {});
+    RigidBody body = movable(where, crate_shape);
+    body.spin = spin;
+    crate = add(body, crate_shape);
+  }
+  const RigidBody& body() const { return world.body(crate); }
+
+  ConvexShape crate_shape = boxShape(0.4, 0.2);
+  int nail = -1, crate = -1;
+};
+
+TEST(SubstepJoints, AHingeKeepsAPendulumsLength) {
+  Hanging scene({2, 0});
+  const int hinge = scene.join({}, JointKind::kHinge, scene.nail, scene.crate, {}, {-2, 0});
+  ASSERT_EQ(hinge, 0);
+  double worst = 0, lowest = 0, farthest = 0;
+  for (int tick = 0; tick < 300; ++tick) {
+    scene.ticks(1);
+    worst = std::max(worst, scene.gap(hinge));
+    lowest = std::max(lowest, scene.at(scene.crate).y);
+    farthest = std::min(farthest, scene.at(scene.crate).x);
+  }
+  EXPECT_LE(worst, 1e-2);
+  EXPECT_GT(lowest, 1.9);
+  EXPECT_LT(farthest, -1.8);  // it swings to the other side
+}
+
+TEST(SubstepJoints, ADistanceIsKept) {
+  Hanging scene({2, 0});
+  Joint joint;
+  joint.length = 2;
+  const int rod = scene.join(joint, JointKind::kDistance, scene.nail, scene.crate);
+  for (int tick = 0; tick < 300; ++tick) {
+    scene.ticks(1);
+    ASSERT_NEAR(scene.gap(rod), 2, 1e-2) << tick;
+  }
+}
+
+TEST(SubstepJoints, ARopeOnlyPulls) {
+  Hanging scene({0, 0.5});
+  Joint joint;
+  joint.length = 2;
+  const int rope = scene.join(joint, JointKind::kRope, scene.nail, scene.crate);
+  scene.ticks(10);  // slack: it falls freely
+  EXPECT_NEAR(scene.at(scene.crate).y, 0.5 + 0.5 * kGravityPerTick * 100, 0.1 * kGravityPerTick * 100);
+  EXPECT_NEAR(scene.body().velocity.y, 10 * kGravityPerTick, 1e-6);
+  double farthest = 0;
+  for (int tick = 0; tick < 200; ++tick) {
+    scene.ticks(1);
+    farthest = std::max(farthest, scene.gap(rope));
+  }
+  EXPECT_LE(farthest, 2.01);
+  EXPECT_NEAR(scene.at(scene.crate).y, 2, 0.01);
+  EXPECT_NEAR(scene.world.joint(rope).force.y, -kGravityPerTick, 0.02 * kGravityPerTick);
+}
+
+TEST(SubstepJoints, AWeldHoldsPlaceAndAngle) {
+  Hanging scene({2, 0});
+  const int weld = scene.join({}, JointKind::kWeld, scene.nail, scene.crate, {2, 0}, {});
+  for (int tick = 0; tick < 300; ++tick) {
+    scene.ticks(1);
+    ASSERT_LE(scene.gap(weld), 1e-2) << tick;
+    ASSERT_NEAR(scene.body().rotation.s, 0, 1e-2) << tick;
+  }
+}
+
+TEST(SubstepJoints, ASliderSlides) {
+  Hanging scene({0, 0});
+  Joint joint;
+  joint.axis = {0.6, 0.8};
+  ASSERT_GE(scene.join(joint, JointKind::kSlider, scene.nail, scene.crate), 0);
+  scene.ticks(60);
+  const Vec2 at = scene.at(scene.crate);
+  EXPECT_NEAR(cross(joint.axis, at), 0, 1e-2);
+  EXPECT_NEAR(dot(joint.axis, at) / (0.5 * 0.8 * kGravityPerTick * 3600), 1, 0.03);
+  EXPECT_NEAR(scene.body().rotation.s, 0, 1e-2);
+}
+
+TEST(SubstepJoints, AMotorReachesItsSpeed) {
+  Hanging scene({0, 0});
+  ASSERT_GE(scene.join({}, JointKind::kHinge, scene.nail, scene.crate), 0);
+  Joint joint;
+  joint.speed = 0.1;
+  joint.max_force = 0.01 / scene.body().inverse_inertia;
+  const int motor = scene.join(joint, JointKind::kMotor, scene.nail, scene.crate);
+  ASSERT_GE(motor, 0);
+  scene.ticks(5);
+  EXPECT_NEAR(scene.body().spin, 0.05, 1e-4);  // no more than its torque
+  scene.ticks(20);
+  EXPECT_NEAR(scene.body().spin, 0.1, 1e-4);
+  joint = scene.world.joint(motor);
+  joint.speed = -0.1;
+  ASSERT_TRUE(scene.world.setJoint(motor, joint));
+  scene.ticks(40);
+  EXPECT_NEAR(scene.body().spin, -0.1, 1e-4);
+}
+
+TEST(SubstepJoints, AnAngleLimitHolds) {
+  for (const double spin : {0.05, -0.05}) {
+    Hanging scene({0, 0}, spin);
+    ASSERT_GE(scene.join({}, JointKind::kHinge, scene.nail, scene.crate), 0);
+    Joint joint;
+    joint.lower = -0.5, joint.upper = 0.8;
+    ASSERT_GE(scene.join(joint, JointKind::kAngleLimit, scene.nail, scene.crate), 0);
+    for (int tick = 0; tick < 100; ++tick) {
+      scene.ticks(1);
+      const double angle = angleOf(scene.body().rotation);
+      ASSERT_GT(angle, -0.51) << spin << ' ' << tick;
+      ASSERT_LT(angle, 0.81) << spin << ' ' << tick;
+      if (tick != 5) continue;
+      EXPECT_NEAR(scene.body().spin, spin, 1e-6);  // free within it
+    }
+    EXPECT_NEAR(scene.body().spin, 0, 0.01);
+  }
+}
+
+TEST(SubstepJoints, ASpringStaysBounded) {
+  for (int exponent = -2; exponent <= 12; ++exponent) {
+    Hanging scene({3, 0});
+    Joint joint;
+    joint.length = 2;
+    joint.stiffness = std::pow(10.0, exponent);
+    ASSERT_GE(scene.join(joint, JointKind::kSpring, scene.nail, scene.crate), 0);
+    const double reach = 4 + 2 * kGravityPerTick / joint.stiffness;
+    for (int tick = 0; tick < 300; ++tick) {
+      scene.ticks(1);
+      ASSERT_LT(length(scene.at(scene.crate)), reach) << exponent << ' ' << tick;
+      ASSERT_LT(scene.speed(scene.crate), 10) << exponent << ' ' << tick;
+    }
+    EXPECT_EQ(scene.world.counters().quarantined, 0) << exponent;
+    if (exponent < 4) continue;
+    EXPECT_NEAR(length(scene.at(scene.crate)), 2, 1e-2) << exponent;
+  }
+}
+
+TEST(SubstepJoints, AWeakSpringSwingsAtItsRate) {
+  Hanging scene({1, 0});
+  Joint joint;
+  joint.stiffness = 0.01;
+  ASSERT_GE(scene.join(joint, JointKind::kSpring, scene.nail, scene.crate), 0);
+  RigidBody body = scene.body();
+  body.acceleration = {};
+  ASSERT_TRUE(scene.world.set(scene.crate, body));
+  const int half_turn = static_cast<int>(std::lround(std::numbers::pi / 0.1));
+  scene.ticks(half_turn);
+  EXPECT_NEAR(scene.at(scene.crate).x, -1, 0.1);
+}
+
+TEST(SubstepJoints, AMouseDrawsWithNoMoreThanItsForce) {
+  Hanging scene({0, 0});
+  Joint joint;
+  joint.stiffness = 0.1, joint.damping = 0.5;
+  joint.max_force = 0.05;
+  joint.target = placeAt({5, 0});
+  const int mouse = scene.join(joint, JointKind::kMouse, -1, scene.crate);
+  ASSERT_GE(mouse, 0);
+  scene.ticks(1);
+  EXPECT_NEAR(scene.body().velocity.x, 0.05, 1e-4);
+  for (int tick = 0; tick < 300; ++tick) {
+    scene.ticks(1);
+    ASSERT_LE(std::fabs(scene.world.joint(mouse).force.x), 0.05 * 1.001) << tick;
+  }
+  EXPECT_NEAR(scene.at(scene.crate).x, 5, 0.05);
+  EXPECT_NEAR(scene.at(scene.crate).y, kGravityPerTick / 0.1, 0.05);
+}
+
+TEST(SubstepJoints, BreaksAboveItsForceOnly) {
+  for (const double factor : {0.5, 1.5}) {
+    Hanging scene({0, 1});
+    Joint joint;
+    joint.break_force = factor * kGravityPerTick;
+    const int hinge = scene.join(joint, JointKind::kHinge, scene.nail, scene.crate, {}, {0, -1});
+    scene.ticks(30);
+    EXPECT_EQ(scene.world.joint(hinge).is_broken, factor < 1);
+    EXPECT_EQ(scene.world.counters().broken, factor < 1 ? 1 : 0);
+    EXPECT_EQ(scene.at(scene.crate).y > 2, factor < 1);
+    EXPECT_TRUE(scene.world.jointExists(hinge));
+  }
+}
+
+TEST(SubstepJoints, JoinedBodiesDoNotTouch) {
+  for (const bool may_touch : {false, true}) {
+    SubstepScene scene(awake());
+    const ConvexShape crate = boxShape(0.5, 0.5);
+    RigidBody body = movable({0, 0}, crate);
+    body.acceleration = {};
+    const int a = scene.add(body, crate);
+    body.place = placeAt({0.5, 0});
+    const int b = scene.add(body, crate);
+    Joint joint;
+    joint.kind = JointKind::kRope;
+    joint.a = a, joint.b = b;
+    joint.length = 10;
+    const int rope = scene.world.addJoint(joint, may_touch);
+    ASSERT_GE(rope, 0);
+    scene.ticks(30);
+    EXPECT_EQ(length(scene.at(b) - scene.at(a)) > 0.9, may_touch);
+    EXPECT_EQ(scene.world.counters().contacts > 0, may_touch);
+    ASSERT_TRUE(scene.world.removeJoint(rope));
+    scene.ticks(30);
+    EXPECT_GT(length(scene.at(b) - scene.at(a)), 0.9);  // now they do
+  }
+}
+
+TEST(SubstepJoints, WhatHungOnABrokenOneTouchesAgain) {
+  SubstepScene scene(awake());
+  const ConvexShape crate = boxShape(0.5, 0.5);
+  RigidBody body = movable({0, 0}, crate);
+  body.acceleration = {};
+  const int a = scene.add(body, crate);
+  body.place = placeAt({0.5, 0});
+  body.velocity = {0.01, 0};
+  const int b = scene.add(body, crate);
+  Joint joint;
+  joint.break_force = 1e-6;
+  const int hinge = scene.join(joint, JointKind::kHinge, a, b, {0.25, 0}, {-0.25, 0});
+  scene.ticks(40);
+  ASSERT_TRUE(scene.world.joint(hinge).is_broken);
+  EXPECT_GT(scene.world.counters().contacts, 0);
+}
+
+TEST(SubstepJoints, ARemovedBodyTakesItsJoints) {
+  Hanging scene({2, 0});
+  const int hinge = scene.join({}, JointKind::kHinge, scene.nail, scene.crate, {}, {-2, 0});
+  ASSERT_TRUE(scene.world.remove(scene.nail));
+  EXPECT_FALSE(scene.world.jointExists(hinge));
+  scene.ticks(10);
+  EXPECT_EQ(scene.at(scene.crate).x, 2);
+  EXPECT_EQ(scene.world.addJoint({}, false), -1);
+}
+
+TEST(SubstepJoints, AChainBearsALoad) {
+  Hanging scene({0, 0.4});
+  int last = scene.crate;
+  std::vector<int> hinges = {scene.join({}, JointKind::kHinge, scene.nail, last, {}, {0, -0.4})};
+  for (int i = 1; i < 8; ++i) {
+    const double mass = i == 7 ? 10 : 1;
+    const int next = scene.add(movable({0, 0.4 + 0.8 * i}, scene.crate_shape, mass), scene.crate_shape);
+    hinges.push_back(scene.join({}, JointKind::kHinge, last, next, {0, 0.4}, {0, -0.4}));
+    last = next;
+  }
+  scene.ticks(300);
+  for (const int hinge : hinges) EXPECT_LE(scene.gap(hinge), 0.02) << hinge;
+  EXPECT_NEAR(scene.world.joint(hinges[0]).force.y / -kGravityPerTick, 17, 0.5);
+}
+
+// A chain at rest sleeps, and wakes whole when its end is pulled.
+TEST(SubstepJoints, AChainSleepsAndWakes) {
+  Hanging scene({0, 0.4});
+  scene.world.setSleeping(true);
+  std::vector<int> links = {scene.crate};
+  ASSERT_GE(scene.join({}, JointKind::kHinge, scene.nail, scene.crate, {}, {0, -0.4}), 0);
+  for (int i = 1; i < 4; ++i) {
+    links.push_back(scene.add(movable({0, 0.4 + 0.8 * i}, scene.crate_shape), scene.crate_shape));
+    ASSERT_GE(scene.join({}, JointKind::kHinge, links[at(i - 1)], links[at(i)], {0, 0.4}, {0, -0.4}), 0);
+  }
+  scene.ticks(200);
+  for (const int link : links) ASSERT_TRUE(scene.world.isAsleep(link)) << link;
+  RigidBody end = scene.world.body(links.back());
+  end.velocity = {0.3, 0};
+  ASSERT_TRUE(scene.world.set(links.back(), end));
+  scene.ticks(1);
+  for (const int link : links) EXPECT_FALSE(scene.world.isAsleep(link)) << link;
+  EXPECT_GT(std::fabs(scene.at(links[1]).x), 1e-4);
+}
+
+}  // namespace
+}  // namespace naiad::physics

@@ -1,0 +1,54 @@
+// Scenes in a SubstepWorld: crates of 1 cell, 30 ticks a second, g = 10 cells/s².
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "physics/substep/SubstepWorld.h"
+#include "tests/server/physics/rigid/RigidScene.h"
+
+namespace naiad::physics::test {
+
+/// A world whose bodies' orders are given out in turn.
+struct SubstepScene {
+  explicit SubstepScene(SubstepOptions options = {}) : world(options) {}
+
+  int add(const RigidBody& body, const ConvexShape& shape) {
+    return world.addInOrder(++order, body, std::span(&shape, 1));
+  }
+  /// A floor whose surface is y = 0.
+  int addFloor() { return add(immovable({0, 5}), boxShape(1000, 5)); }
+  int addCrate(Vec2 where, double half = 0.5) {
+    const ConvexShape shape = boxShape(half, half);
+    return add(movable(where, shape), shape);
+  }
+  int join(Joint joint, JointKind kind, int a, int b, Vec2 on_a = {}, Vec2 on_b = {}) {
+    joint.kind = kind;
+    joint.a = a, joint.b = b;
+    joint.anchor_a = on_a, joint.anchor_b = on_b;
+    return world.addJoint(joint, false);
+  }
+  void ticks(int n) {
+    for (int i = 0; i < n; ++i) world.step(1);
+  }
+  Vec2 at(int id) const { return world.body(id).place - Place{}; }
+  double speed(int id) const { return length(world.body(id).velocity); }
+  /// How far the joint's anchors are apart.
+  double gap(int joint_id) const {
+    const Joint& joint = world.joint(joint_id);
+    const RigidBody &a = world.body(joint.a), &b = world.body(joint.b);
+    return length((b.place - a.place) + b.rotation * joint.anchor_b - a.rotation * joint.anchor_a);
+  }
+
+  SubstepWorld world;
+  std::uint64_t order = 0;
+};
+
+inline SubstepOptions awake() {
+  SubstepOptions options;
+  options.may_sleep = false;
+  return options;
+}
+
+}  // namespace naiad::physics::test

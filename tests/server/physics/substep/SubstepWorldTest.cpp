@@ -1,0 +1,413 @@
+// What bodies do in a SubstepWorld: they rest, sleep, wake, push, bounce and send events.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "SubstepScene.h"
+
+namespace naiad::physics {
+namespace {
+
+using namespace test;
+
+TEST(SubstepWorld, ADroppedBoxRestsAndSleeps) {
+  SubstepScene scene;
+  scene.addFloor();
+  const int crate = scene.addCrate({0, -1.5});
+  int events = 0;
+  for (int tick = 0; tick < 120; ++tick) {
+    scene.ticks(1);
+    events += static_cast<int>(scene.world.events().size());
+  }
+  EXPECT_EQ(events, 1);
+  ASSERT_TRUE(scene.world.isAsleep(crate));
+  EXPECT_NEAR(scene.at(crate).y, -0.5, 2e-3);
+  const RigidBody before = scene.world.body(crate);
+  EXPECT_EQ(before.velocity, Vec2{});
+  EXPECT_EQ(before.spin, 0);
+  const std::int64_t contacts = scene.world.counters().contacts;
+  for (int tick = 0; tick < 50; ++tick) {
+    scene.ticks(1);
+    EXPECT_TRUE(scene.world.events().empty());
+  }
+  EXPECT_EQ(scene.world.body(crate), before);
+  EXPECT_EQ(scene.world.counters().contacts, contacts);  // nothing was solved for
+}
+
+TEST(SubstepWorld, APyramidStandsAndSleeps) {
+  SubstepScene scene;
+  scene.addFloor();
+  std::vector<int> ids;
+  std::vector<Vec2> starts;
+  for (int row = 0; row < 10; ++row) {
+    for (int i = 0; i < 10 - row; ++i) {
+      starts.push_back({1.1 * i + 0.55 * row, -0.5 - row});
+      ids.push_back(scene.addCrate(starts.back()));
+    }
+  }
+  double worst = 0;
+  for (int tick = 0; tick < 300; ++tick) {
+    scene.ticks(1);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      worst = std::max(worst, length(scene.at(ids[i]) - starts[i]));
+    }
+  }
+  EXPECT_LT(worst, 0.05);
+  for (const int id : ids) EXPECT_TRUE(scene.world.isAsleep(id)) << id;
+}
+
+TEST(SubstepWorld, SleepingCanBeSwitchedOff) {
+  SubstepScene scene;
+  scene.addFloor();
+  const int crate = scene.addCrate({0, -0.5}), other = scene.addCrate({5, -0.5});
+  scene.ticks(60);
+  ASSERT_TRUE(scene.world.isAsleep(crate) && scene.world.isAsleep(other));
+  scene.world.setSleeping(false);
+  EXPECT_FALSE(scene.world.isAsleep(crate) || scene.world.isAsleep(other));
+  for (int tick = 0; tick < 60; ++tick) {
+    scene.ticks(1);
+    ASSERT_FALSE(scene.world.isAsleep(crate) || scene.world.isAsleep(other)) << tick;
+  }
+  scene.world.setSleeping(true);
+  scene.ticks(60);
+  EXPECT_TRUE(scene.world.isAsleep(crate) && scene.world.isAsleep(other));
+}
+
+// Of all pairs in a pile that comes to rest: at most one begin more than ends at any time, and none at rest.
+TEST(SubstepWorld, AContactBeginsOnceAndEndsOnce) {
+  SubstepScene scene(awake());
+  const int floor = scene.addFloor();
+  const int lower = scene.addCrate({0, -0.5}), upper = scene.addCrate({0.2, -1.5});
+  std::vector<RigidEvent> events;
+  const auto go = [&](int n) {
+    events.clear();
+    for (int tick = 0; tick < n; ++tick) {
+      scene.ticks(1);
+      events.insert(events.end(), scene.world.events().begin(), scene.world.events().end());
+    }
+  };
+  go(200);
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_TRUE(events[0].is_begin && events[1].is_begin);
+  EXPECT_GT(events[0].impulse, 0);
+  for (const RigidEvent& event : events) {
+    EXPECT_LT(event.first, event.second);
+    const bool is_with_floor = event.first == floor;
+    EXPECT_EQ(event.second, is_with_floor ? lower : upper);
+    EXPECT_NEAR(event.normal.y, -1, 1e-6);  // to the second one, which lies above
+  }
+  RigidBody lifted = scene.world.body(upper);
+  lifted.velocity = {0, -0.5};
+  ASSERT_TRUE(scene.world.set(upper, lifted));
+  go(20);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_FALSE(events[0].is_begin);
+  EXPECT_EQ(std::pair(events[0].first, events[0].second), std::pair(lower, upper));
+}
+
+// It slides along a wall that it does not press: that is one contact, until it leaves.
+TEST(SubstepWorld, AContactLastsWithoutPressure) {
+  SubstepScene scene(awake());
+  scene.addFloor();
+  const ConvexShape crate = boxShape(0.5, 0.5);
+  RigidBody body = movable({0, -0.6}, crate);
+  body.acceleration = {};
+  body.friction = 0;
+  body.velocity = {0.05, 0.04};
+  const int id = scene.add(body, crate);
+  std::size_t begun = 0;
+  for (int tick = 0; tick < 100; ++tick) {
+    scene.ticks(1);
+    for (const RigidEvent& event : scene.world.events()) {
+      EXPECT_TRUE(event.is_begin) << tick;
+      ++begun;
+    }
+  }
+  EXPECT_EQ(begun, 1U);
+  EXPECT_NEAR(scene.world.body(id).velocity.x, 0.05, 1e-6);
+  EXPECT_NEAR(scene.world.body(id).velocity.y, 0, 1e-6);
+}
+
+TEST(SubstepWorld, WhatIsTouchedWakesWithItsGroup) {
+  SubstepScene scene;
+  scene.addFloor();
+  std::vector<int> stack;
+  for (int i = 0; i < 4; ++i) stack.push_back(scene.addCrate({0, -0.5 - i}));
+  const int apart = scene.addCrate({20, -0.5});
+  scene.ticks(90);
+  for (const int id : stack) ASSERT_TRUE(scene.world.isAsleep(id)) << id;
+  RigidBody ball = movable({-3, -0.5}, circleShape(0.3));
+  ball.velocity = {0.4, 0};
+  const int id = scene.add(ball, circleShape(0.3));
+  int ticks = 0;
+  while (scene.world.isAsleep(stack[0]) && ticks++ < 20) scene.ticks(1);
+  for (const int member : stack) EXPECT_FALSE(scene.world.isAsleep(member)) << member;
+  EXPECT_TRUE(scene.world.isAsleep(apart));
+  scene.world.remove(id);
+}
+
+TEST(SubstepWorld, ARemovedFloorLetsThemFall) {
+  SubstepScene scene;
+  const int floor = scene.addFloor();
+  const int lower = scene.addCrate({0, -0.5}), upper = scene.addCrate({0, -1.5});
+  scene.ticks(90);
+  ASSERT_TRUE(scene.world.isAsleep(lower) && scene.world.isAsleep(upper));
+  const double height = scene.at(upper).y;
+  ASSERT_TRUE(scene.world.remove(floor));
+  scene.ticks(10);
+  EXPECT_NEAR(scene.at(upper).y - height, 0.5 * kGravityPerTick * 100, 0.1 * kGravityPerTick * 100);
+  EXPECT_GT(scene.world.body(lower).velocity.y, 9 * kGravityPerTick);
+  EXPECT_TRUE(scene.world.events().empty());
+}
+
+TEST(SubstepWorld, AKinematicOnePushes) {
+  SubstepScene scene;
+  scene.addFloor();
+  const int crate = scene.addCrate({0, -0.5});
+  scene.ticks(60);
+  ASSERT_TRUE(scene.world.isAsleep(crate));
+  RigidBody piston = immovable({-3, -0.6});
+  piston.velocity = {0.1, 0};
+  const int mover = scene.add(piston, boxShape(0.5, 0.5));
+  scene.ticks(60);
+  EXPECT_EQ(scene.at(mover).x, -3 + 0.1 * 60);
+  EXPECT_NEAR(scene.at(crate).x - scene.at(mover).x, 1, 0.02);
+  EXPECT_NEAR(scene.world.body(crate).velocity.x, 0.1, 0.02);
+  EXPECT_FALSE(scene.world.isAsleep(crate));
+}
+
+// Slower than what counts as still; it lies on a floor that stands.
+TEST(SubstepWorld, WhatIsPushedSlowlyDoesNotSleep) {
+  SubstepScene scene;
+  scene.addFloor();
+  const int crate = scene.addCrate({0, -0.5});
+  RigidBody piston = immovable({-1, -0.6});
+  piston.velocity = {5e-4, 0};
+  scene.add(piston, boxShape(0.5, 0.5));
+  for (int tick = 0; tick < 200; ++tick) {
+    scene.ticks(1);
+    ASSERT_FALSE(scene.world.isAsleep(crate)) << tick;
+  }
+  EXPECT_NEAR(scene.at(crate).x, 0.1, 0.02);
+}
+
+// A platform that carries: friction takes the crate along, and it does not sleep on what moves.
+TEST(SubstepWorld, APlatformCarries) {
+  SubstepScene scene;
+  RigidBody platform = immovable({0, 0.5});
+  const int carrier = scene.add(platform, boxShape(4, 0.5));
+  const int crate = scene.addCrate({0, -0.5});
+  scene.ticks(60);
+  ASSERT_TRUE(scene.world.isAsleep(crate));
+  platform.velocity = {0.05, 0};
+  ASSERT_TRUE(scene.world.set(carrier, platform));
+  scene.ticks(100);
+  EXPECT_FALSE(scene.world.isAsleep(crate));
+  EXPECT_NEAR(scene.at(crate).x, scene.at(carrier).x, 0.5);
+  EXPECT_NEAR(scene.world.body(crate).velocity.x, 0.05, 1e-3);
+  platform = scene.world.body(carrier);
+  platform.velocity = {5e-4, 0};  // slower than what counts as still
+  ASSERT_TRUE(scene.world.set(carrier, platform));
+  scene.ticks(30);
+  const double start = scene.at(crate).x;
+  scene.ticks(100);
+  EXPECT_FALSE(scene.world.isAsleep(crate));
+  EXPECT_NEAR(scene.at(crate).x - start, 0.05, 1e-3);
+}
+
+TEST(SubstepWorld, AnElasticBallReturns) {
+  for (const double height : {3.0, 4.3, 5.0, 5.7, 9.1}) {
+    SubstepScene scene;
+    scene.addFloor();
+    RigidBody ball = movable({0, -0.5 - height}, circleShape(0.5));
+    ball.restitution = 1;
+    const int id = scene.add(ball, circleShape(0.5));
+    int ticks = 0;
+    while (scene.world.body(id).velocity.y >= 0 && ticks++ < 200) scene.ticks(1);
+    double top = 0;
+    while (scene.world.body(id).velocity.y < 0 && ticks++ < 200) {
+      scene.ticks(1);
+      top = std::max(top, -0.5 - scene.at(id).y);
+    }
+    EXPECT_NEAR(top / height, 1, 0.08) << height;
+  }
+}
+
+TEST(SubstepWorld, HalfOfTheSpeedIsLeft) {
+  SubstepScene scene;
+  scene.add(immovable({10, 0}), boxShape(1, 5));
+  RigidBody body = movable({5, 0}, circleShape(0.5));
+  body.acceleration = {};
+  body.velocity = {0.4, 0};
+  body.restitution = 0.5;
+  const int id = scene.add(body, circleShape(0.5));
+  scene.ticks(40);
+  EXPECT_NEAR(scene.world.body(id).velocity.x, -0.2, 0.002);
+}
+
+TEST(SubstepWorld, FrictionHoldsUpToItsAngle) {
+  for (const double off : {-1.0, 1.0}) {
+    SubstepScene scene(awake());
+    const double angle = std::atan(0.5) + off * std::numbers::pi / 180;
+    const Rotation turn = rotationBy(angle);
+    const Vec2 up = turn * Vec2{0, -1};
+    RigidBody slope = immovable(-5.0 * up);
+    slope.rotation = turn;
+    scene.add(slope, boxShape(200, 5));
+    const ConvexShape crate = boxShape(0.5, 0.25);
+    RigidBody body = movable(0.25 * up, crate);
+    body.rotation = turn;
+    const int id = scene.add(body, crate);
+    scene.ticks(120);
+    const double expected = kGravityPerTick * (std::sin(angle) - 0.5 * std::cos(angle)) * 120;
+    if (off < 0) {
+      EXPECT_LT(scene.speed(id), 1e-4);
+    } else {
+      EXPECT_NEAR(scene.speed(id) / expected, 1, 0.05);
+    }
+  }
+}
+
+TEST(SubstepWorld, MomentumOfAClosedSystemStays) {
+  SubstepScene scene(awake());
+  const ConvexShape crate = boxShape(0.5, 0.5), disc = circleShape(0.5);
+  double scale = 0;
+  std::vector<int> ids;
+  for (int i = 0; i < 20; ++i) {
+    const ConvexShape& shape = i % 2 == 0 ? crate : disc;
+    RigidBody body = movable({1.3 * (i % 5), 1.3 * (i / 5)}, shape, 1 + i % 3);
+    body.acceleration = {};
+    body.velocity = Vec2{-0.05 * (i % 5 - 2), -0.05 * (i / 5 - 1.5)} + Vec2{0.01 * (i % 3), 0.01 * (i % 7)};
+    body.restitution = 0.5;
+    scale += length(body.velocity) * (1 + i % 3);
+    ids.push_back(scene.add(body, shape));
+  }
+  const auto momentum = [&] {
+    Vec2 sum;
+    double turning = 0;
+    for (const int id : ids) {
+      const RigidBody& b = scene.world.body(id);
+      sum += b.velocity / b.inverse_mass;
+      turning += cross(scene.at(id), b.velocity) / b.inverse_mass + b.spin / b.inverse_inertia;
+    }
+    return std::pair(sum, turning);
+  };
+  const auto [before, turning_before] = momentum();
+  scene.ticks(300);
+  EXPECT_GT(scene.world.counters().contacts, 50);
+  const auto [after, turning_after] = momentum();
+  EXPECT_LE(length(after - before), 1e-5 * scale);
+  EXPECT_NEAR(turning_after, turning_before, 0.05 * scale);
+}
+
+TEST(SubstepWorld, APileGainsNoEnergy) {
+  SubstepScene scene(awake());
+  scene.addFloor();
+  const ConvexShape crate = boxShape(0.5, 0.4), disc = circleShape(0.45);
+  std::vector<int> ids;
+  for (int i = 0; i < 40; ++i) {
+    const ConvexShape& shape = i % 3 == 0 ? disc : crate;
+    RigidBody body = movable({1.2 * (i % 7) + 0.1 * (i % 2), -1 - 1.3 * (i / 7)}, shape);
+    body.rotation = rotationBy(0.3 * i);
+    ids.push_back(scene.add(body, shape));
+  }
+  const auto energy = [&] {
+    double sum = 0;
+    for (const int id : ids) {
+      const RigidBody& b = scene.world.body(id);
+      sum += -kGravityPerTick * scene.at(id).y + 0.5 * lengthSquared(b.velocity) +
+             0.5 / b.inverse_inertia * b.spin * b.spin;
+    }
+    return sum;
+  };
+  const double start = energy();
+  double highest = start;
+  for (int tick = 0; tick < 300; ++tick) {
+    scene.ticks(1);
+    highest = std::max(highest, energy());
+  }
+  EXPECT_LE(highest, start * (1 + 1e-3));
+  EXPECT_LT(energy(), 0.5 * start);  // it has fallen together
+  EXPECT_LT(scene.world.deepest(), 0.03);
+}
+
+TEST(SubstepWorld, WhatIsNotFiniteIsRefused) {
+  SubstepScene scene;
+  RigidBody body = movable({0, 0}, circleShape(1));
+  body.velocity.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(scene.add(body, circleShape(1)), -1);
+  body.velocity.x = 0;
+  const int id = scene.add(body, circleShape(1));
+  ASSERT_GE(id, 0);
+  body.spin = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(scene.world.set(id, body));
+  EXPECT_EQ(scene.world.body(id).spin, 0);
+  EXPECT_EQ(scene.world.step(std::numeric_limits<double>::infinity()), RigidStatus::kRefused);
+  EXPECT_EQ(scene.world.step(0), RigidStatus::kRefused);
+  EXPECT_EQ(scene.world.counters().ticks, 0);
+}
+
+TEST(SubstepWorld, WhatCannotBeCalculatedWithIsFrozenAlone) {
+  SubstepScene scene;
+  scene.addFloor();
+  const int crate = scene.addCrate({0, -0.5}), above = scene.addCrate({0, -1.5});
+  RigidBody body = movable({0, -2.5}, circleShape(0.5));
+  body.force = {1e30, 0};
+  const int poisoned = scene.add(body, circleShape(0.5));
+  EXPECT_EQ(scene.world.step(1), RigidStatus::kQuarantined);
+  EXPECT_TRUE(scene.world.isFrozen(poisoned));
+  EXPECT_EQ(scene.world.counters().quarantined, 1);
+  const Vec2 place = scene.at(poisoned);
+  scene.ticks(90);
+  EXPECT_EQ(scene.at(poisoned), place);
+  EXPECT_FALSE(scene.world.isFrozen(crate) || scene.world.isFrozen(above));
+  EXPECT_NEAR(scene.at(above).y, -1.5, 5e-3);
+  body.force = {};
+  ASSERT_TRUE(scene.world.set(poisoned, body));
+  EXPECT_FALSE(scene.world.isFrozen(poisoned));
+  scene.ticks(90);
+  EXPECT_NEAR(scene.at(poisoned).y, -2.5, 1e-2);
+}
+
+TEST(SubstepWorld, IdsAreUsedAgain) {
+  SubstepScene scene;
+  scene.addFloor();
+  const int first = scene.addCrate({0, -0.5}), second = scene.addCrate({0, -1.5});
+  scene.ticks(60);
+  ASSERT_TRUE(scene.world.remove(first));
+  EXPECT_FALSE(scene.world.exists(first));
+  EXPECT_FALSE(scene.world.remove(first));
+  scene.ticks(1);
+  EXPECT_TRUE(scene.world.events().empty());  // contacts with it end without an event
+  const int third = scene.addCrate({10, -3});
+  EXPECT_EQ(third, first);
+  const int limit = scene.world.idLimit();
+  scene.ticks(90);
+  EXPECT_NEAR(scene.at(second).y, -0.5, 1e-2);
+  EXPECT_NEAR(scene.at(third).y, -0.5, 1e-2);
+  for (int i = 0; i < 50; ++i) {
+    const int id = scene.addCrate({20, -3});
+    scene.ticks(1);
+    scene.world.remove(id);
+    scene.ticks(1);
+  }
+  EXPECT_LE(scene.world.idLimit(), limit + 1);
+}
+
+TEST(SubstepWorld, LongStepsAreSeveralTicks) {
+  SubstepScene one, other;
+  for (SubstepScene* p_scene : {&one, &other}) {
+    p_scene->addFloor();
+    p_scene->addCrate({0, -2.5});
+  }
+  one.ticks(40);
+  other.world.step(40);
+  EXPECT_EQ(one.world.body(1), other.world.body(1));
+  ASSERT_EQ(other.world.events().size(), 1U);
+  EXPECT_GT(other.world.events()[0].time, 15);
+  EXPECT_LT(other.world.events()[0].time, 25);
+}
+
+}  // namespace
+}  // namespace naiad::physics
