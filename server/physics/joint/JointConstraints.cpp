@@ -5,18 +5,9 @@
 #include <cstddef>
 
 #include "physics/geometry/Index.h"
+#include "physics/joint/JointRows.h"
 
 namespace naiad::physics {
-
-namespace {
-
-// The sine of the angle, made monotone beyond a right angle.
-double bentSine(Rotation r) {
-  if (r.c >= 0) return r.s;
-  return r.s >= 0 ? 2 - r.s : -2 - r.s;
-}
-
-}  // namespace
 
 void JointConstraints::load(const JointMotion& motion, std::span<const Joint> all_joints) {
   joints = all_joints.data();

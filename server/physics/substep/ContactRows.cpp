@@ -10,9 +10,7 @@ namespace naiad::physics {
 
 namespace {
 
-// A contact swings at a quarter of the rate of sub-steps: as fast as they can follow.
-constexpr float kTurnsPerSubstep = 0.25f;
-constexpr float kDampingRatio = 10;
+constexpr float kContactDamping = 10;
 constexpr float kFastPushes = 20;  // in the greatest speed at which overlap is undone
 
 struct Body {
@@ -76,7 +74,7 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
   block.rest[lane] = row.rest;
   block.bounces = block.bounces || row.restitution > 0;
   const Softness softness =
-      softnessOf(row.is_held ? 2 * kTurnsPerSubstep : kTurnsPerSubstep, kDampingRatio, h);
+      softnessOf(row.is_held ? 2 * kFastestTurns : kFastestTurns, kContactDamping, h);
   block.rate[lane] = softness.rate;
   block.mass_scale[lane] = softness.mass_scale;
   block.impulse_scale[lane] = softness.impulse_scale;

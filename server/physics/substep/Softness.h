@@ -7,13 +7,16 @@
 
 namespace naiad::physics {
 
+/// Of a swing, in a sub-step: as fast as sub-steps can follow.
+inline constexpr float kFastestTurns = 0.25f;
+
 struct Softness {
   float rate = 0;           ///< of an error, undone per unit of time
   float mass_scale = 1;     ///< of what a rigid constraint would do
   float impulse_scale = 0;  ///< of the impulse so far, given back
 };
 
-/// `turns`: of the swing in a sub-step over `h`; 1/4 is as fast as sub-steps can follow.
+/// `turns`: of the swing in a sub-step over `h`.
 inline Softness softnessOf(float turns, float damping_ratio, float h) {
   constexpr float kTurn = 6.2831853f;
   const float swing = kTurn * turns;

@@ -10,9 +10,7 @@ namespace naiad::physics {
 
 namespace {
 
-// A joint swings at a quarter of the rate of sub-steps, at most.
-constexpr float kTurnsPerSubstep = 0.25f;
-constexpr float kDampingRatio = 2;
+constexpr float kJointDamping = 2;
 
 constexpr float kResolved = 0.25f;  // up to this (h·ω)² sub-steps follow a swing
 
@@ -234,7 +232,7 @@ void SubstepJoints::prepare(Row& row, const Joint& joint) const {
     row.is_spring = false;
     return;
   }
-  const Softness soft = softnessOf(kTurnsPerSubstep, kDampingRatio, m_h);
+  const Softness soft = softnessOf(kFastestTurns, kJointDamping, m_h);
   row.bias = soft.rate * row.value;
   row.mass_scale = soft.mass_scale;
   row.impulse_scale = soft.impulse_scale;

@@ -139,10 +139,10 @@ class CrowdedSpotTest : public ExtrapolationClampTest {
     for (int i = 0; i < count; ++i) {
       ObjectRecord record{static_cast<std::uint32_t>(1000 + i), 1, kAllGroups, {}};
       record.state.order = record.id;
-      record.state.motion = {kKnown,
-                             cellsAt(40 + rng.unit(), 12 + rng.unit()),
-                             cellsAt(rng.unit() * 0.4 - 0.2, rng.unit() * 0.2 - 0.1),
-                             {}};
+      // In this order with every compiler.
+      const double y = 12 + rng.unit(), x = 40 + rng.unit();
+      const double down = rng.unit() * 0.2 - 0.1, right = rng.unit() * 0.4 - 0.2;
+      record.state.motion = {kKnown, cellsAt(x, y), cellsAt(right, down), {}};
       record.state.body = {{{0, 0}, {kFixedOne / 50, kFixedOne / 50}}, df::HARD, false};
       snapshot.records.objects.push_back(record);
     }
