@@ -73,8 +73,7 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
   block.max_push[lane] = row.max_push;
   block.rest[lane] = row.rest;
   block.bounces = block.bounces || row.restitution > 0;
-  const Softness softness =
-      softnessOf(row.is_held ? 2 * kFastestTurns : kFastestTurns, kContactDamping, h);
+  const Softness softness = softnessOf(row.is_held ? 2 * kFastestTurns : kFastestTurns, kContactDamping, h);
   block.rate[lane] = softness.rate;
   block.mass_scale[lane] = softness.mass_scale;
   block.impulse_scale[lane] = softness.impulse_scale;
