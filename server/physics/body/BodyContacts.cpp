@@ -54,11 +54,6 @@ void BodyContacts::expireIn(df::ObjectKey key, int ticks, const BodySolver* p_by
   }
 }
 
-void BodyContacts::handOverAll() {
-  m_has_expiring = true;
-  for (auto& [slots, touch] : m_touching) touch.ticks_left = kHandOverTicks;
-}
-
 // At once, for all that were handed over: a pile may be, as a whole.
 void BodyContacts::applyHandOvers() {
   if (m_handed_over.empty()) return;

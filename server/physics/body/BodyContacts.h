@@ -22,8 +22,6 @@ class BodyContacts {
   void expire(df::ObjectKey key, BodySolver by) { expireIn(key, 1, &by); }
   /// The body was handed to another solver: its contacts end, unless that solver finds them soon.
   void handOver(df::ObjectKey key) { m_handed_over.push_back(key); }
-  /// The same of all bodies.
-  void handOverAll();
   /// The tick ends: contacts that began or ended in it.
   std::vector<BodyContact>& finishTick();
 

@@ -1,5 +1,6 @@
 #include "physics/body/BodyFlight.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics/flight/FlightDrag.h"
@@ -93,7 +94,59 @@ bool staysOnLine(Vec2 displacement, Vec2 velocity, Vec2 acceleration, double spr
   return swing < spring_length;
 }
 
+// Per tick²: no integrator follows the swing of a stiffer spring that has a length, unless it stays on a
+// line.
+constexpr double kTooStiff = 1e4;
+constexpr double kStiff = 1;             // per tick²: what is softer changes little within a tick
+constexpr double kDifference = 0x1p-20;  // of a length or speed, to see how a field changes
+constexpr double kFarthestPull = 1e12;   // metric cells: a Place can be moved by 2^51
+
+// The least eigenvalue of its symmetric part.
+double leastOf(const Mat22& m) {
+  const double mean = 0.5 * (m.xx + m.yy), across = 0.5 * (m.xy + m.yx), apart = 0.5 * (m.xx - m.yy);
+  return mean - std::sqrt(apart * apart + across * across);
+}
+
+Mat22 differences(const Everything& force, Vec2 velocity, double time, Vec2 at_start, double scale) {
+  const double step = kDifference * scale;
+  const Vec2 by_x = (force.acceleration({step, 0}, velocity, time) - at_start) / step;
+  const Vec2 by_y = (force.acceleration({0, step}, velocity, time) - at_start) / step;
+  return {by_x.x, by_y.x, by_x.y, by_y.y};
+}
+
 }  // namespace
+
+bool pullOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time, Pull& pull) {
+  if (row.flight == FlightKind::kSpring) {
+    pull = {medium.anchor, {medium.spring.stiffness, medium.spring.damping + medium.linear_drag}};
+    return true;
+  }
+  if (row.flight != FlightKind::kField) return false;
+  const Vec2 to_field = medium.field_origin - row.place;
+  const Everything force(medium, acceleration, medium.anchor - row.place, to_field);
+  const Vec2 at_start = force.acceleration({}, row.velocity, time);
+  Mat22 by_position, by_velocity;
+  if (!force.jacobian({}, row.velocity, time, by_position, by_velocity)) {
+    by_position = differences(force, row.velocity, time, at_start, 1 + length(to_field));
+    by_velocity = {};
+  }
+  const double stiffness = -leastOf(by_position), damping = std::max(-leastOf(by_velocity), 0.0);
+  if (!(stiffness > kStiff && stiffness < 1e30 && damping < 1e30)) return false;
+  const Vec2 away = ((at_start - acceleration) + damping * row.velocity) / stiffness;
+  if (!(std::fabs(away.x) < kFarthestPull && std::fabs(away.y) < kFarthestPull)) return false;
+  pull = {row.place + away, {stiffness, damping}};
+  return true;
+}
+
+Joint jointOf(const Pull& pull, double mass) {
+  constexpr double kMost = 1e30;  // that a joint takes
+  Joint joint;
+  joint.kind = JointKind::kMouse;
+  joint.target = pull.to;
+  joint.stiffness = std::min(mass * pull.spring.stiffness, kMost);
+  joint.damping = std::min(mass * pull.spring.damping, kMost);
+  return joint;
+}
 
 IntegratorStatus flyHanging(const BodyRow& row, const BodyMedium& medium, const Joint& spring, Place anchor,
                             Vec2 acceleration, double time, const IntegratorOptions& options, Flown& flown,
@@ -110,6 +163,7 @@ IntegratorStatus flyHanging(const BodyRow& row, const BodyMedium& medium, const 
     const bool finite = isFinite(flown.displacement) && isFinite(flown.velocity);
     return finite ? IntegratorStatus::kDone : IntegratorStatus::kNotFinite;
   }
+  if (own.stiffness > kTooStiff) return IntegratorStatus::kTooManySteps;
   const LongSpring force(spring.length, own, medium.field, medium.field_origin - anchor);
   BodyMedium all = medium;
   all.field = &force;

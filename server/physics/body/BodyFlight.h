@@ -3,6 +3,7 @@
 
 #include "physics/body/BodyTable.h"
 #include "physics/flight/FlightFree.h"
+#include "physics/flight/FlightSpring.h"
 #include "physics/joint/Joint.h"
 #include "physics/numerics/Integrator.h"
 
@@ -14,8 +15,26 @@ IntegratorStatus flyBody(const BodyRow& row, const BodyMedium& medium, Vec2 acce
                          double t, const IntegratorOptions& options, Flown& flown,
                          IntegratorCounters& counters);
 
-/// The same on a spring joint (kSpring) from `anchor`, a point of the world, to its middle. By formula while
-/// it moves along the spring, or if that has length 0; integrated otherwise.
+/// What pulls a body the more, the farther it is away: −k·(x − to) − c·v, beside a constant acceleration.
+struct Pull {
+  Place to;
+  Spring spring;  ///< per unit of mass
+  friend constexpr bool operator==(const Pull& a, const Pull& b) {
+    return a.to == b.to && a.spring.stiffness == b.spring.stiffness && a.spring.damping == b.spring.damping;
+  }
+};
+
+/// For solvers that hold the body against other things, and therefore cannot fly it: is it pulled so that a
+/// force that is constant within a tick would not do? A spring is told exactly; a field is linearised where
+/// it is stiff (more than 1 per tick²), by its Jacobian or three calls of it, with the stiffness of its
+/// steepest direction. What `pull` leaves out is `acceleration`.
+bool pullOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time, Pull& pull);
+
+/// The joint that pulls a body so: a kMouse without a limit, whose b is still to be set.
+Joint jointOf(const Pull& pull, double mass);
+
+/// The same as flyBody() on a spring joint (kSpring) from `anchor`, a point of the world, to its middle. By
+/// formula while it moves along the spring, or if that has length 0; integrated otherwise.
 IntegratorStatus flyHanging(const BodyRow& row, const BodyMedium& medium, const Joint& spring, Place anchor,
                             Vec2 acceleration, double time, const IntegratorOptions& options, Flown& flown,
                             IntegratorCounters& counters);

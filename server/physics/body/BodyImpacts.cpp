@@ -10,6 +10,7 @@ namespace {
 using naiad::physics::BodyContacts;
 using naiad::physics::BodyForm;
 using naiad::physics::BodyRow;
+using naiad::physics::BodySolver;
 using naiad::physics::BodyState;
 using naiad::physics::BodyTable;
 using naiad::physics::ConvexShape;
@@ -124,9 +125,8 @@ void BodyImpacts::identify(int id, ObjectKey key, std::uint64_t order, int state
   m_identities[static_cast<std::size_t>(id)] = {key, order, state};
 }
 
-// Marks the obstacles that it may reach in the time left, at `room` times its present speed.
-void BodyImpacts::findObstacles(World& world, const BodyTable& table, ActiveBody& active, double left,
-                                double room) {
+// Adds the region that it may reach in the time left, at `room` times its present speed.
+void BodyImpacts::searchAround(const BodyTable& table, ActiveBody& active, double left, double room) {
   const Proxy& proxy = m_proxies[active.index];
   const ImpactBody& body = m_world.body(proxy.id);
   const Vec2 half = halfExtentOf(body) + Vec2{kRoom, kRoom} + room * left * sizeOf(body.velocity) +
@@ -135,13 +135,7 @@ void BodyImpacts::findObstacles(World& world, const BodyTable& table, ActiveBody
   if (away.x > active.search_half.x || away.y > active.search_half.y) {
     active.search_centre = body.place;
     active.search_half = half;
-    m_found.clear();
-    const WorldStore& store = world.store();
-    store.touching(regionOf(table.metric, active.search_centre, half), table.row(active.index).key.slot,
-                   m_found);
-    for (const ObjectKey key : m_found) {
-      if (BodyObstacles::isObstacle(store, key)) m_obstacles.markNear(key);
-    }
+    m_surroundings.addRegion(regionOf(table.metric, active.search_centre, half));
   }
   m_world.setReach(proxy.id, active.search_centre, active.search_half);
 }
@@ -151,7 +145,7 @@ void BodyImpacts::updateObstacles(World& world, const BodyTable& table, BodyCont
   for (BodyObstacles::Obstacle& obstacle : m_obstacles.all()) {
     if (!obstacle.is_near) {
       if (obstacle.id >= 0) m_world.remove(obstacle.id);
-      contacts.expire(obstacle.key, naiad::physics::BodySolver::kImpact);
+      contacts.expire(obstacle.key, BodySolver::kImpact);
       continue;
     }
     const FixedBox box = store.box(obstacle.key.slot);
@@ -178,51 +172,76 @@ void BodyImpacts::step(World& world, const BodyTable& table, std::vector<BodySta
   updateBodies();
   m_state_of.clear();
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (states[i].solver == naiad::physics::BodySolver::kImpact) {
+    if (states[i].solver == BodySolver::kImpact) {
       identify(m_proxies[states[i].index].id, states[i].key, states[i].order, static_cast<int>(i));
       states[i].is_touched = m_world.isTouching(m_proxies[states[i].index].id);
       m_state_of.push_back(static_cast<int>(i));
     }
   }
   m_obstacles.beginTick();
+  m_found_contacts.clear();
   double done = 0;
   for (int round = 0;; ++round) {
     const double left = 1 - done;
+    m_surroundings.clear();
     for (ActiveBody& active : m_active) {
       const bool searches = active.body.inverse_mass > 0 && round < kMaxRounds;
-      if (searches) findObstacles(world, table, active, left, round == 0 ? 1 : 2);
+      if (searches) searchAround(table, active, left, round == 0 ? 1 : 2);
     }
+    m_surroundings.query(world.store(), [&](std::size_t /*number*/, ObjectKey key) {
+      if (BodyObstacles::isObstacle(world.store(), key)) m_obstacles.markNear(key);
+    });
     updateObstacles(world, table, contacts);
-    m_world.step(left);
-    collect(done, states, contacts);
+    m_world.step(left, round > 0);
+    collect(done);
     done += m_world.stepped();
     if (m_world.stepped() == left || done >= 1) break;
   }
-  finish(states);
-}
-
-void BodyImpacts::collect(double since, std::vector<BodyState>& states, BodyContacts& contacts) const {
-  for (const ImpactEvent& event : m_world.events()) {
-    const Identity* p_first = &m_identities[static_cast<std::size_t>(event.first)];
-    const Identity* p_second = &m_identities[static_cast<std::size_t>(event.second)];
-    for (const Identity* p_identity : {p_first, p_second}) {
-      if (p_identity->state < 0) continue;
-      BodyState& state = states[static_cast<std::size_t>(p_identity->state)];
-      state.is_touched = state.contacts_changed = true;
-    }
-    const bool is_swapped = p_first->state < 0 || (p_second->state >= 0 && p_second->order < p_first->order);
-    if (is_swapped) std::swap(p_first, p_second);
-    contacts.add({since + event.time, p_first->key, p_second->key, p_first->order, p_second->order,
-                  event.impulse, event.is_begin, naiad::physics::BodySolver::kImpact});
+  for (const int at : m_state_of) {
+    BodyState& state = states[static_cast<std::size_t>(at)];
+    state.is_dear = m_world.isGivenUp(m_proxies[state.index].id);
   }
 }
 
-void BodyImpacts::finish(std::vector<BodyState>& states) {
+void BodyImpacts::passOn(const BodyState& state) {
+  Proxy& proxy = m_proxies[state.index];
+  m_world.remove(proxy.id);
+  proxy.id = -1;
+  proxy.is_used = false;
+}
+
+void BodyImpacts::collect(double since) {
+  for (const ImpactEvent& event : m_world.events()) {
+    const Identity* p_first = &m_identities[static_cast<std::size_t>(event.first)];
+    const Identity* p_second = &m_identities[static_cast<std::size_t>(event.second)];
+    const bool is_swapped = p_first->state < 0 || (p_second->state >= 0 && p_second->order < p_first->order);
+    if (is_swapped) std::swap(p_first, p_second);
+    m_found_contacts.push_back({{since + event.time, p_first->key, p_second->key, p_first->order,
+                                 p_second->order, event.impulse, event.is_begin, BodySolver::kImpact},
+                                {p_first->state, p_second->state}});
+  }
+}
+
+// What happened to bodies that were passed on did not happen.
+void BodyImpacts::finish(std::vector<BodyState>& states, BodyContacts& contacts) {
+  const auto isPassedOn = [&](int state) {
+    return state >= 0 && states[static_cast<std::size_t>(state)].solver != BodySolver::kImpact;
+  };
+  for (const FoundContact& found : m_found_contacts) {
+    if (isPassedOn(found.states[0]) || isPassedOn(found.states[1])) continue;
+    for (const int at : found.states) {
+      if (at < 0) continue;
+      BodyState& state = states[static_cast<std::size_t>(at)];
+      state.is_touched = state.contacts_changed = true;
+    }
+    contacts.add(found.contact);
+  }
   for (const int at : m_state_of) {
     BodyState& state = states[static_cast<std::size_t>(at)];
+    if (state.solver != BodySolver::kImpact) continue;
     Proxy& proxy = m_proxies[state.index];
     const ImpactBody& body = m_world.body(proxy.id);
-    if (m_world.isFrozen(proxy.id)) state.p_failure = "too many impacts in one tick";
+    if (m_world.isFrozen(proxy.id)) state.p_failure = "what happens to it cannot be worked out";
     state.is_touched = state.is_touched || m_world.isTouching(proxy.id);
     if (!state.is_touched) {  // exactly as on its own
       state.place = state.start + state.flown.displacement;

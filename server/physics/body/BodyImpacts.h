@@ -1,18 +1,21 @@
 // The bodies that an ImpactWorld moves, and their obstacles: keeps that world in step with the table.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "engine/world/World.h"
 #include "physics/body/BodyContacts.h"
 #include "physics/body/BodyObstacles.h"
 #include "physics/body/BodyState.h"
+#include "physics/body/BodySurroundings.h"
 #include "physics/impact/ImpactWorld.h"
 
 namespace df {
 
 class BodyImpacts {
  public:
+  BodyImpacts() { m_world.setReserve(naiad::physics::ImpactWorld::kUsualReserve); }
   using Index = naiad::physics::BodyTable::Index;
 
   /// Can an ImpactWorld have a body of this form, and this box of its Object? Then `body` gets the shape, and
@@ -28,10 +31,16 @@ class BodyImpacts {
            naiad::physics::ImpactBody body, naiad::physics::Vec2 offset);
   /// No body takes part, nor did one in the last tick.
   bool isEmpty() const { return m_active.empty() && !m_was_active; }
-  /// Steps the bodies that were added by a tick, and appends their contacts. `states` get places and
-  /// velocities.
+  /// Steps the bodies that were added by a tick. `is_dear` of their states says which were given up, as they
+  /// would have cost too much.
   void step(World& world, const naiad::physics::BodyTable& table,
             std::vector<naiad::physics::BodyState>& states, naiad::physics::BodyContacts& contacts);
+
+  bool hasGivenUp() const { return m_world.hasGivenUp(); }
+  /// Another solver moves the body in this tick: what the step has done to it is forgotten.
+  void passOn(const naiad::physics::BodyState& state);
+  /// Appends the contacts of those that are still here, whose states get places and velocities.
+  void finish(std::vector<naiad::physics::BodyState>& states, naiad::physics::BodyContacts& contacts);
 
   const naiad::physics::ImpactCounters& counters() const { return m_world.counters(); }
 
@@ -55,26 +64,28 @@ class BodyImpacts {
     std::uint64_t order = 0;
     int state = -1;  // −1: an obstacle
   };
+  struct FoundContact {
+    naiad::physics::BodyContact contact;
+    std::array<int, 2> states;  // −1: an obstacle's
+  };
 
   void adapt(const naiad::physics::BodyState& state, const naiad::physics::BodyRow& row,
              naiad::physics::ImpactBody& body);
   void updateBodies();
-  void findObstacles(World& world, const naiad::physics::BodyTable& table, ActiveBody& active, double left,
-                     double room);
+  void searchAround(const naiad::physics::BodyTable& table, ActiveBody& active, double left, double room);
   void updateObstacles(World& world, const naiad::physics::BodyTable& table,
                        naiad::physics::BodyContacts& contacts);
   void identify(int id, ObjectKey key, std::uint64_t order, int state);
-  void collect(double since, std::vector<naiad::physics::BodyState>& states,
-               naiad::physics::BodyContacts& contacts) const;
-  void finish(std::vector<naiad::physics::BodyState>& states);
+  void collect(double since);
 
   naiad::physics::ImpactWorld m_world;
   std::vector<Proxy> m_proxies;
   std::vector<ActiveBody> m_active;
   std::vector<int> m_state_of;  // by active body
   std::vector<Identity> m_identities;
+  std::vector<FoundContact> m_found_contacts;  // in this tick
   BodyObstacles m_obstacles;
-  std::vector<ObjectKey> m_found;
+  BodySurroundings m_surroundings;
   bool m_was_active = false;
 };
 

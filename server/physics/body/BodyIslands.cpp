@@ -18,6 +18,10 @@ using naiad::physics::BodyState;
 using naiad::physics::BodyTable;
 using naiad::physics::Vec2;
 
+// An island of more HARD bodies is moved in soft sub-steps, whose cost grows with its contacts alone: above
+// it, direct solutions are too dear for a tick, and sweeps without them are no better than sub-steps.
+constexpr int kMostBodies = 640;
+
 }  // namespace
 
 int BodyIslands::rootOf(int state) {
@@ -65,12 +69,16 @@ void BodyIslands::uniteJointed(const BodyTable& table, const std::vector<BodySta
   }
 }
 
-bool BodyIslands::areJoined(const BodyTable& table, int row_a, int row_b) const {
-  const auto& entries = table.joints.entries();
-  return std::any_of(entries.begin(), entries.end(), [&](const naiad::physics::JointEntry& entry) {
-    const int a = entry.joint.a, b = entry.joint.b;
-    return entry.used && ((a == row_a && b == row_b) || (a == row_b && b == row_a));
-  });
+bool BodyIslands::areJoined(const BodyTable& table, int row_a, int row_b) {
+  if (m_joint_changes != table.joints.changes()) {
+    m_joint_changes = table.joints.changes();
+    m_joined.clear();
+    for (const naiad::physics::JointEntry& entry : table.joints.entries()) {
+      if (entry.used) m_joined.push_back(std::minmax(entry.joint.a, entry.joint.b));
+    }
+    std::sort(m_joined.begin(), m_joined.end());
+  }
+  return std::binary_search(m_joined.begin(), m_joined.end(), std::pair<int, int>(std::minmax(row_a, row_b)));
 }
 
 // Are there obstacles near the islands that are not for an ImpactWorld?
@@ -105,12 +113,23 @@ void BodyIslands::classifyGroups(const BodyTable& table, const naiad::physics::B
                                  const naiad::physics::BodyContacts& contacts,
                                  const std::vector<BodyState>& states) {
   m_groups.assign(states.size(), {});
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i].is_kinematic || !(states[i].is_dear || states[i].must_be_held)) continue;
+    Group& group = m_groups[at(rootOf(static_cast<int>(i)))];
+    group.is_general = group.is_general || states[i].is_dear;
+    group.is_rigid = group.may_touch = true;
+    group.is_elastic = false;
+  }
   for (const int i : m_ids) {
     const BodyState& state = states[at(i)];
     if (state.is_kinematic) continue;
     Group& group = m_groups[at(rootOf(i))];
-    const bool stays = static_cast<BodySolver>(table.row(state.index).last_solver) == BodySolver::kRigid &&
-                       contacts.isTouching(state.key);
+    const auto last_solver = static_cast<BodySolver>(table.row(state.index).last_solver);
+    const bool may_stay = last_solver == BodySolver::kRigid || last_solver == BodySolver::kSubstep;
+    const bool stays = may_stay && contacts.isTouching(state.key);
+    group.is_general =
+        group.is_general || (stays && last_solver == BodySolver::kSubstep && !m_leaves_substeps);
+    ++group.bodies;
     const bool is_joined = links.isJoined(state.index);
     group.is_rigid = group.is_rigid || !state.is_simple || stays || is_joined;
     group.is_elastic = group.is_elastic && state.radius > 0 && !stays && (is_joined || !state.is_bent);
@@ -159,6 +178,33 @@ void BodyIslands::collectCandidates(std::vector<BodyState>& states) {
   std::sort(m_candidates.begin(), m_candidates.end());
 }
 
+// Which kinematic bodies are on the path of what a RigidWorld or SubstepWorld moves?
+void BodyIslands::markKinematic(std::vector<BodyState>& states) const {
+  for (const auto& [i, j] : m_pairs) {
+    BodyState &a = states[at(i)], &b = states[at(j)];
+    if (a.is_kinematic == b.is_kinematic) continue;
+    BodyState& kinematic = a.is_kinematic ? a : b;
+    const BodySolver solver = (a.is_kinematic ? b : a).solver;
+    if (solver == BodySolver::kRigid) kinematic.is_near_rigid = true;
+    if (solver == BodySolver::kSubstep) kinematic.is_near_substep = true;
+  }
+}
+
+void BodyIslands::passToSubsteps(const BodyTable& table, std::vector<BodyState>& states) {
+  connect(table, states);
+  m_groups.assign(states.size(), {});
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i].is_dear && !states[i].is_kinematic)
+      m_groups[at(rootOf(static_cast<int>(i)))].is_general = true;
+  }
+  for (const int i : m_ids) {
+    BodyState& state = states[at(i)];
+    if (state.solver == BodySolver::kImpact && !state.is_kinematic && m_groups[at(rootOf(i))].is_general)
+      state.solver = BodySolver::kSubstep;
+  }
+  markKinematic(states);
+}
+
 void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
                                 const naiad::physics::BodyLinks& links,
                                 const naiad::physics::BodyContacts& contacts,
@@ -170,13 +216,19 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
     connect(table, states);
     classifyGroups(table, links, contacts, states);
   }
+  m_leaves_substeps = false;
   findObstacles(store, table, states);
   bool has_joint_impacts = false;
+  m_has_general = false;
   for (std::size_t i = 0; i < states.size(); ++i) {
     BodyState& state = states[i];
     const Group& group = m_groups[at(rootOf(static_cast<int>(i)))];
     if (state.p_failure != nullptr || state.is_kinematic) continue;
-    if (group.is_rigid && group.may_touch) {
+    if (group.is_general || (group.is_rigid && group.may_touch && group.bodies > kMostBodies)) {
+      if (!state.is_hard && !state.is_joined) continue;
+      state.solver = BodySolver::kSubstep;
+      m_has_general = true;
+    } else if (group.is_rigid && group.may_touch) {
       const bool is_elastic = group.is_elastic && !group.has_obstacle;
       state.solver = is_elastic ? BodySolver::kJointImpacts : BodySolver::kRigid;
       has_joint_impacts = has_joint_impacts || is_elastic;
@@ -185,14 +237,11 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
     }
   }
   if (has_joint_impacts) collectCandidates(states);
-  for (const auto& [i, j] : m_pairs) {
-    BodyState &a = states[at(i)], &b = states[at(j)];
-    if (a.is_kinematic && b.solver == BodySolver::kRigid) a.is_near_rigid = true;
-    if (b.is_kinematic && a.solver == BodySolver::kRigid) b.is_near_rigid = true;
-  }
+  markKinematic(states);
   for (BodyState& state : states) {
-    if (state.is_kinematic && links.isJoined(state.index))
-      state.is_near_rigid = true;  // what hangs on it may be
+    if (!state.is_kinematic || !links.isJoined(state.index)) continue;
+    state.is_near_rigid = true;  // what hangs on it may be
+    state.is_near_substep = m_has_general;
   }
 }
 

@@ -3,7 +3,8 @@
 // Bodies that joints connect, or whose paths in this tick may cross, are one island. An island without
 // turning bodies, shapes of their own and joints goes to the event-exact ImpactWorld; one in which no body
 // can touch anything, to the JointSolver or to each body's own flight; one of circles that bounce, some of
-// them joined, to the JointSolver from impact to impact; the others to the RigidWorld.
+// them joined, to the JointSolver from impact to impact; the others to the RigidWorld. What would cost one of
+// these more than its size allows goes to the SubstepWorld as a whole, and stays until it touches nothing.
 #pragma once
 
 #include <vector>
@@ -19,18 +20,30 @@ namespace df {
 class BodyIslands {
  public:
   /// Sets the solvers of `states`, and which kinematic bodies are near rigid ones. Not needed while no HARD
-  /// body is joined or more than a box or a circle.
+  /// body is joined or more than a box or a circle, and none was moved by the SubstepWorld.
   void chooseSolvers(const WorldStore& store, const naiad::physics::BodyTable& table,
                      const naiad::physics::BodyLinks& links, const naiad::physics::BodyContacts& contacts,
                      std::vector<naiad::physics::BodyState>& states);
+  /// Of bodies that an ImpactWorld has given up (`is_dear`), all that may touch them in this tick is for the
+  /// SubstepWorld.
+  void passToSubsteps(const naiad::physics::BodyTable& table, std::vector<naiad::physics::BodyState>& states);
   /// No islands: instead of chooseSolvers().
-  void skip() { m_candidates.clear(); }
+  void skip() {
+    m_candidates.clear();
+    m_has_general = false;
+  }
+  /// In the next chooseSolvers() no body stays with the SubstepWorld because it was there.
+  void leaveSubsteps() { m_leaves_substeps = true; }
+  /// Is any body for the SubstepWorld?
+  bool hasGeneral() const { return m_has_general; }
   /// Of bodies with solver kJointImpacts, by group.
   const std::vector<naiad::physics::BodyCandidatePair>& candidates() const { return m_candidates; }
 
  private:
   struct Group {
-    bool is_rigid = false;  // not for an ImpactWorld
+    bool is_rigid = false;    // not for an ImpactWorld
+    bool is_general = false;  // for the SubstepWorld
+    int bodies = 0;           // HARD and free to move
     bool may_touch = false;
     bool has_obstacle = false;
     bool is_elastic = true;  // circles that bounce
@@ -47,11 +60,14 @@ class BodyIslands {
                       const naiad::physics::BodyContacts& contacts,
                       const std::vector<naiad::physics::BodyState>& states);
   bool widenReaches(std::vector<naiad::physics::BodyState>& states);
+  void markKinematic(std::vector<naiad::physics::BodyState>& states) const;
   void collectCandidates(std::vector<naiad::physics::BodyState>& states);
-  bool areJoined(const naiad::physics::BodyTable& table, int row_a, int row_b) const;
+  bool areJoined(const naiad::physics::BodyTable& table, int row_a, int row_b);
   void findObstacles(const WorldStore& store, const naiad::physics::BodyTable& table,
                      const std::vector<naiad::physics::BodyState>& states);
 
+  bool m_has_general = false;
+  bool m_leaves_substeps = false;
   std::vector<int> m_parent;  // by state
   std::vector<Group> m_groups;
   std::vector<int> m_state_of;  // by row of the table
@@ -63,6 +79,8 @@ class BodyIslands {
       m_touchable;  // … of which one can be pushed, and no joint keeps them apart
   std::vector<naiad::physics::BodyCandidatePair> m_candidates;
   std::vector<ObjectKey> m_found;
+  std::vector<std::pair<int, int>> m_joined;  // rows that a joint connects, in order …
+  std::uint64_t m_joint_changes = 0;          // … after as many changes of the joints
 };
 
 }  // namespace df

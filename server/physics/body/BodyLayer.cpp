@@ -30,6 +30,8 @@ using naiad::physics::IntegratorStatus;
 using naiad::physics::Vec2;
 
 constexpr double kFarthest = 1e12;  // metric cells in a tick: below the 2^51 that a Place can be moved by
+constexpr double kFollowed =
+    16;  // per tick²: the JointSolver follows a spring on joints up to this stiffness
 constexpr const char* kBeyond = "it has left all bounds of place or velocity";
 
 }  // namespace
@@ -47,7 +49,7 @@ void BodyLayer::step(World& world) {
   m_states.clear();
   m_unit_inertias.clear();
   m_contacts.beginTick();
-  m_is_mixed = false;
+  m_is_mixed = m_has_pulls = false;
   m_links.prepare(*m_table);
   m_impacts.beginTick();
   for (const BodyTable::Index index : m_table->inOrder()) beginBody(world, index);
@@ -56,11 +58,17 @@ void BodyLayer::step(World& world) {
   if (!m_links.isEmpty()) {
     m_links.step(*m_table, m_states, m_unit_inertias, m_islands.candidates(), m_contacts);
   }
-  if (!m_impacts.isEmpty()) m_impacts.step(world, *m_table, m_states, m_contacts);
-  if (m_is_mixed || m_table->settings.is_fast || !m_rigids.isEmpty()) {
+  if (!m_impacts.isEmpty()) {
+    m_impacts.step(world, *m_table, m_states, m_contacts);
+    if (m_impacts.hasGivenUp()) passOnGivenUp();
+    m_impacts.finish(m_states, m_contacts);
+  }
+  if (m_is_mixed || !m_rigids.isEmpty()) {
     m_rigids.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
     logCrowd(world);
   }
+  if (m_has_substeps || !m_substeps.isEmpty())
+    m_substeps.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
   for (State& state : m_states) settle(world, state);
   for (const Moved& moved : m_moved) {
     if (takesPart(world.store(), moved.key)) world.place(moved.key, moved.where);
@@ -100,8 +108,11 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   fly(state);
   if (state.is_joined) {
     state.solver = BodySolver::kJoints;
+    state.is_dear = m_links.isDear(index);
+    m_is_mixed = m_is_mixed || state.is_dear;
     // What is no constant force counts by what it does in the tick.
-    if (state.is_bent) state.push = state.flown.velocity - row.velocity;
+    if (state.is_bent && !state.is_sprung) state.push = state.flown.velocity - row.velocity;
+    m_has_pulls = m_has_pulls || state.isPulled();
   }
   if (state.is_hard && state.p_failure == nullptr) measure(store, state);
 }
@@ -115,7 +126,16 @@ void BodyLayer::fly(State& state) {
   const naiad::physics::JointEntry* p_spring =
       row.is_kinematic ? nullptr : m_links.hangsOn(*m_table, state.index);
   state.is_bent = !row.is_kinematic && (p_spring != nullptr || row.flight != FlightKind::kFree);
-  if (!state.is_bent) {
+  if (state.is_bent && p_spring == nullptr) {
+    state.is_sprung = pullOf(row, medium, state.push, time, state.pull);
+  } else if (p_spring != nullptr &&
+             (row.flight == FlightKind::kFree || row.flight == FlightKind::kLinearDrag)) {
+    state.is_sprung = true;  // by its joint
+    state.pull.spring.damping = medium.linear_drag;
+  }
+  state.must_be_held = state.is_sprung && (state.is_joined ? state.pull.spring.stiffness > kFollowed
+                                                           : m_contacts.isTouching(state.key));
+  if (!state.is_bent || state.must_be_held) {
     state.flown = naiad::physics::flyFree(row.velocity, state.push, 1);
   } else if (p_spring != nullptr) {
     status = flyHanging(row, medium, p_spring->joint, p_spring->anchor, state.push, time,
@@ -124,6 +144,12 @@ void BodyLayer::fly(State& state) {
     status = flyBody(row, medium, state.push, time, 1, m_table->settings.integrator, state.flown,
                      m_table->counters.integrator);
   }
+  if (status != IntegratorStatus::kDone && state.is_sprung) {  // what solves for it needs no flight
+    state.must_be_held = true;
+    state.flown = naiad::physics::flyFree(row.velocity, state.push, 1);
+    status = IntegratorStatus::kDone;
+  }
+  m_is_mixed = m_is_mixed || state.must_be_held;
   if (status != IntegratorStatus::kDone) state.p_failure = "what moves it cannot be worked out";
   const bool is_near =
       isFinite(state.flown.velocity) && lengthSquared(state.flown.displacement) < kFarthest * kFarthest;
@@ -132,6 +158,13 @@ void BodyLayer::fly(State& state) {
   if (state.is_bent) state.acceleration = state.flown.velocity - row.velocity;
   state.place = row.place + state.flown.displacement;
   state.velocity = state.flown.velocity;
+}
+
+// How far a pull takes it at most: to the other side of where it pulls to.
+Vec2 BodyLayer::swingOf(const State& state) const {
+  if (!state.isPulled()) return {};
+  const Vec2 away = state.start - state.pull.to;
+  return {2 * std::abs(away.x), 2 * std::abs(away.y)};
 }
 
 // Is it one for an ImpactWorld, and how far does it reach?
@@ -143,8 +176,10 @@ void BodyLayer::measure(const WorldStore& store, State& state) {
   if (!m_table->settings.is_fast) {
     ImpactBody body;
     state.is_simple = BodyImpacts::canHave(form, m_table->metric, box, body, offset) &&
-                      !m_table->row(state.index).touches_soft;
-    if (!state.is_simple || state.is_joined) m_is_mixed = true;
+                      !m_table->row(state.index).touches_soft && !state.is_sprung;
+    const bool was_general =
+        m_table->row(state.index).last_solver == static_cast<std::uint8_t>(BodySolver::kSubstep);
+    if (!state.is_simple || state.is_joined || was_general) m_is_mixed = true;
     if (state.is_simple && body.shape == ImpactShape::kCircle) state.radius = body.half.x;
   }
   double reach = 0;
@@ -155,8 +190,9 @@ void BodyLayer::measure(const WorldStore& store, State& state) {
   if (form.shapes.empty() && !state.is_simple) {
     reach += length(m_table->metric.fromCells(Vector::fromFixed(box.corner)));
   }
-  const Vec2 path = {std::abs(state.start_velocity.x) + std::abs(state.flown.displacement.x),
-                     std::abs(state.start_velocity.y) + std::abs(state.flown.displacement.y)};
+  Vec2 path = {std::abs(state.start_velocity.x) + std::abs(state.flown.displacement.x),
+               std::abs(state.start_velocity.y) + std::abs(state.flown.displacement.y)};
+  if (state.must_be_held) path += swingOf(state);
   state.reach = Vec2{reach + kRoom, reach + kRoom} + path;
 }
 
@@ -165,24 +201,44 @@ void BodyLayer::chooseFast() {
   for (State& state : m_states) {
     if (state.p_failure != nullptr) continue;
     if (state.is_kinematic) {
-      state.is_near_rigid = state.is_hard || m_links.isJoined(state.index);
+      state.is_near_substep = state.is_hard || m_links.isJoined(state.index);
     } else if (state.is_hard || state.is_joined) {
-      state.solver = BodySolver::kRigid;
+      state.solver = BodySolver::kSubstep;
+      m_has_substeps = true;
     }
   }
 }
 
 void BodyLayer::chooseSolvers(const WorldStore& store) {
   m_islands.skip();
+  m_has_substeps = false;
+  if (std::exchange(m_was_fast, m_table->settings.is_fast)) m_islands.leaveSubsteps();
   if (m_table->settings.is_fast) {
     chooseFast();
     m_links.leaveOut(*m_table, m_states);
     for (State& state : m_states) assignSolver(store, state);
     return;
   }
-  if (m_is_mixed) m_islands.chooseSolvers(store, *m_table, m_links, m_contacts, m_states);
-  if (m_is_mixed || m_links.hasLeftOut()) m_links.leaveOut(*m_table, m_states);
+  if (m_is_mixed) {
+    m_islands.chooseSolvers(store, *m_table, m_links, m_contacts, m_states);
+    m_has_substeps = m_islands.hasGeneral();
+  }
+  if (m_is_mixed || m_has_pulls || m_links.hasLeftOut()) m_links.leaveOut(*m_table, m_states);
   for (State& state : m_states) assignSolver(store, state);
+}
+
+// Bodies whose impacts would cost too much are moved as a group in soft sub-steps, from where the tick began.
+void BodyLayer::passOnGivenUp() {
+  m_islands.passToSubsteps(*m_table, m_states);
+  m_has_substeps = true;
+  constexpr auto kSubstep = static_cast<std::uint8_t>(BodySolver::kSubstep);
+  for (const State& state : m_states) {
+    BodyRow& row = m_table->row(state.index);
+    if (state.solver != BodySolver::kSubstep || row.last_solver == kSubstep) continue;
+    m_impacts.passOn(state);
+    row.last_solver = kSubstep;
+    m_contacts.handOver(state.key);
+  }
 }
 
 // Hands the body to its solver; if that is another one than in the last tick, its contacts must be found
@@ -252,7 +308,7 @@ void BodyLayer::publish(World& world, const State& state, BodyRow& row, FixedVec
 
 // Once: it counts on in RigidCounters::passed.
 void BodyLayer::logCrowd(World& world) {
-  if (m_has_logged_crowd || m_rigids.counters().passed == 0) return;
+  if (m_has_logged_crowd || m_rigid_world.counters().passed == 0) return;
   m_has_logged_crowd = true;
   world.log("physics: too many bodies in one place: some pass through one another until there is room");
 }

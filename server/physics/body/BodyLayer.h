@@ -2,7 +2,7 @@
 //
 // A world gets this layer with its first Body or its first PM.set…, and has no cost before. Each body is
 // moved by one of several: its own flight if nothing can touch it, an ImpactWorld, a JointSolver, a
-// RigidWorld; which one is decided again in each tick (BodyIslands.h).
+// RigidWorld, a SubstepWorld; which one is decided again in each tick (BodyIslands.h).
 #pragma once
 
 #include <memory>
@@ -18,6 +18,8 @@
 #include "physics/body/BodySensors.h"
 #include "physics/body/BodyState.h"
 #include "physics/body/BodyTable.h"
+#include "physics/rigid/RigidWorld.h"
+#include "physics/substep/SubstepWorld.h"
 
 namespace df {
 
@@ -40,8 +42,8 @@ class BodyLayer : public Layer {
   bool isTouching(ObjectKey key) const { return m_contacts.isTouching(key); }
   const naiad::physics::ImpactCounters& impactCounters() const { return m_impacts.counters(); }
   std::int64_t sensorPairs() const { return m_sensors.pairs(); }
-  const naiad::physics::RigidCounters& rigidCounters() const { return m_rigids.counters(); }
-  const naiad::physics::SubstepCounters& substepCounters() const { return m_rigids.substepCounters(); }
+  const naiad::physics::RigidCounters& rigidCounters() const { return m_rigid_world.counters(); }
+  const naiad::physics::SubstepCounters& substepCounters() const { return m_substep_world.counters(); }
   const naiad::physics::JointCounters& jointCounters() const { return m_links.counters(); }
 
  private:
@@ -49,15 +51,20 @@ class BodyLayer : public Layer {
 
   void beginBody(World& world, naiad::physics::BodyTable::Index index);
   void fly(State& state);
+  naiad::physics::Vec2 swingOf(const State& state) const;
   void measure(const WorldStore& store, State& state);
   void chooseSolvers(const WorldStore& store);
   void chooseFast();
+  void passOnGivenUp();
   void assignSolver(const WorldStore& store, State& state);
   void turnByTorque(State& state);
   void settle(World& world, State& state);
   void publish(World& world, const State& state, naiad::physics::BodyRow& row, FixedVector velocity);
   void quarantine(World& world, State& state, const char* p_why);
   void logCrowd(World& world);
+
+  /// Cells per tick. What has just begun to slide down a slope is slow for long, and must not fall asleep.
+  static constexpr double kSleepSpeed = 1e-5;
 
   struct Moved {
     ObjectKey key;
@@ -67,13 +74,20 @@ class BodyLayer : public Layer {
   naiad::physics::BodyLinks m_links;
   BodyImpacts m_impacts;
   BodyIslands m_islands;
-  BodyRigids m_rigids;
+  naiad::physics::RigidWorld m_rigid_world{naiad::physics::RigidOptions{.sleep_speed = kSleepSpeed}};
+  naiad::physics::SubstepWorld m_substep_world;
+  BodyRigids m_rigids{naiad::physics::BodySolver::kRigid, m_rigid_world};
+  BodyRigids m_substeps{naiad::physics::BodySolver::kSubstep, m_substep_world};
   naiad::physics::BodyContacts m_contacts;
   BodySensors m_sensors;
   // Of this step; kept for their memory.
   std::vector<State> m_states;
   std::vector<double> m_unit_inertias;  // by state; 0: it does not turn
-  bool m_is_mixed = false;              // is any HARD body joined, or more than a box or a circle?
+  // Is any HARD body joined, or more than a box or a circle, or was any moved by the SubstepWorld?
+  bool m_is_mixed = false;
+  bool m_has_pulls = false;  // does a Pull act on any joined body?
+  bool m_was_fast = false;
+  bool m_has_substeps = false;  // is any for the SubstepWorld?
   std::vector<Moved> m_moved;
   bool m_has_logged_crowd = false;
 };

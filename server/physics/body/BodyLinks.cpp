@@ -1,10 +1,19 @@
 #include "physics/body/BodyLinks.h"
 
+#include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "physics/geometry/Index.h"
 
 namespace naiad::physics {
+
+namespace {
+
+// The order of elimination of a net with as many takes some milliseconds to find.
+constexpr int kMostLoops = 32;
+
+}  // namespace
 
 int BodyLinks::bodyOf(int row) {
   if (row != BodyJoints::kWorld && m_body_of[at(row)] >= 0) return m_body_of[at(row)];
@@ -16,14 +25,27 @@ int BodyLinks::bodyOf(int row) {
   return body;
 }
 
+// Collects the joined bodies that springs or stiff fields of their own pull. Have they changed?
+bool BodyLinks::findPulled(const std::vector<BodyState>& states) {
+  m_new_pulled.clear();
+  for (const BodyState& state : states) {
+    if (state.solver == BodySolver::kJoints && state.isPulled()) m_new_pulled.push_back(state.index);
+  }
+  if (m_new_pulled == m_pulled) return false;
+  m_pulled.swap(m_new_pulled);
+  return true;
+}
+
 // Groups that may touch something are moved by another solver.
 void BodyLinks::leaveOut(BodyTable& table, const std::vector<BodyState>& states) {
   bool is_other = findFreeBodies(states);
-  m_has_left_out = !m_free_bodies.empty();
+  is_other = findPulled(states) || is_other;
+  m_has_left_out = !m_free_bodies.empty() || !m_pulled.empty();
   m_is_rigid.resize(m_kinds.size(), 0);
   for (const BodyState& state : states) {
     if (!isJoined(state.index) || state.is_kinematic) continue;
-    const std::uint8_t is_rigid = state.solver == BodySolver::kRigid ? 1 : 0;
+    const std::uint8_t is_rigid =
+        state.solver == BodySolver::kRigid || state.solver == BodySolver::kSubstep ? 1 : 0;
     is_other = is_other || m_is_rigid[state.index] != is_rigid;
     m_is_rigid[state.index] = is_rigid;
     m_has_left_out = m_has_left_out || is_rigid != 0;
@@ -37,8 +59,61 @@ void BodyLinks::prepare(BodyTable& table) {
   if (m_changes == table.joints.changes()) return;
   m_changes = table.joints.changes();
   m_is_rigid.clear();
+  countLoops(table);
   collect(table);
   m_is_connected = false;
+}
+
+// A tree of bodies is factored without fill, and each loop adds some: their number is known before anything
+// is factored. Several joints between the same two bodies are no loop.
+void BodyLinks::countLoops(const BodyTable& table) {
+  m_is_dear.clear();
+  if (table.joints.count() <= kMostLoops) return;
+  std::vector<std::pair<int, int>> edges;  // of a fixed end: kWorld, and the other end
+  const auto fixedOr = [&](int row) {
+    return row == BodyJoints::kWorld || table.row(static_cast<BodyTable::Index>(row)).inverse_mass == 0
+               ? BodyJoints::kWorld
+               : row;
+  };
+  int rows = 0;
+  for (const JointEntry& entry : table.joints.entries()) {
+    if (!entry.used || entry.joint.kind == JointKind::kMouse) continue;
+    const std::pair<int, int> edge = std::minmax(fixedOr(entry.joint.a), fixedOr(entry.joint.b));
+    if (edge.second == BodyJoints::kWorld) continue;
+    edges.push_back(edge);
+    rows = std::max(rows, edge.second + 1);
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<int> parent(at(rows)), loops(at(rows), 0);
+  std::vector<std::uint8_t> is_held(at(rows), 0);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto rootOf = [&](int row) {
+    while (parent[at(row)] != row) row = parent[at(row)] = parent[at(parent[at(row)])];
+    return row;
+  };
+  for (const auto& [a, b] : edges) {
+    const int root = rootOf(b);
+    if (a == BodyJoints::kWorld) {  // all fixed ends of a group are one
+      loops[at(root)] += is_held[at(root)];
+      is_held[at(root)] = 1;
+      continue;
+    }
+    const int other = rootOf(a);
+    if (other == root) {
+      ++loops[at(root)];
+      continue;
+    }
+    const int kept = std::min(root, other), merged = std::max(root, other);
+    parent[at(merged)] = kept;
+    loops[at(kept)] += loops[at(merged)] + (is_held[at(kept)] & is_held[at(merged)]);
+    is_held[at(kept)] |= is_held[at(merged)];
+  }
+  for (int row = 0; row < rows; ++row) {
+    if (loops[at(rootOf(row))] <= kMostLoops) continue;
+    m_is_dear.resize(at(rows), 0);
+    m_is_dear[at(row)] = 1;
+  }
 }
 
 void BodyLinks::collect(BodyTable& table) {
@@ -82,6 +157,13 @@ void BodyLinks::collect(BodyTable& table) {
     m_joints.push_back(joint);
     m_entry_of.push_back(i);
     m_tunings.push_back(entry.tunings);
+  }
+  for (const BodyTable::Index pulled : m_pulled) {
+    if (pulled >= m_body_of.size() || m_body_of[pulled] < 0) continue;
+    m_joints.push_back(jointOf({}, 1));
+    m_joints.back().b = m_body_of[pulled];
+    m_entry_of.push_back(kPull);
+    m_tunings.push_back(0);
   }
   for (const BodyTable::Index free_body : m_free_bodies) {
     if (free_body >= m_body_of.size()) m_body_of.resize(free_body + 1, -1);
@@ -135,6 +217,16 @@ void BodyLinks::step(BodyTable& table, std::vector<BodyState>& states,
   load(table, states, unit_inertias);
   std::vector<JointEntry>& entries = table.joints.entries();
   for (std::size_t i = 0; i < m_joints.size(); ++i) {
+    if (m_entry_of[i] == kPull) {
+      const int state = m_state_of[at(m_joints[i].b)];
+      const BodyState* p_state = state >= 0 ? &states[at(state)] : nullptr;
+      const Pull pull = p_state != nullptr && p_state->isPulled() ? p_state->pull : Pull{};
+      const Joint now = jointOf(pull, p_state != nullptr ? table.row(p_state->index).mass : 1);
+      m_joints[i].target = now.target;
+      m_joints[i].stiffness = now.stiffness;
+      m_joints[i].damping = now.damping;
+      continue;
+    }
     JointEntry& entry = entries[m_entry_of[i]];
     if (std::exchange(m_tunings[i], entry.tunings) == entry.tunings) continue;
     Joint joint = entry.joint;
@@ -173,6 +265,7 @@ void BodyLinks::store(BodyTable& table, std::vector<BodyState>& states) {
   }
   std::vector<JointEntry>& entries = table.joints.entries();
   for (std::size_t i = 0; i < m_joints.size(); ++i) {
+    if (m_entry_of[i] == kPull) continue;
     JointEntry& entry = entries[m_entry_of[i]];
     entry.joint.force = m_joints[i].force;
     entry.joint.torque = m_joints[i].torque;

@@ -17,14 +17,17 @@ class BodyLinks {
   void prepare(BodyTable& table);
   /// Is the row's body one of those that step() moves?
   bool isJoined(BodyTable::Index row) const { return row < m_kinds.size() && m_kinds[row] == kJoined; }
+  /// Does the row's body hang in so many loops of joints that a direct solution would be too dear?
+  bool isDear(BodyTable::Index row) const { return row < m_is_dear.size() && m_is_dear[row] != 0; }
   /// The joint, if its only one is a spring from the world to its middle; else null.
   const JointEntry* hangsOn(const BodyTable& table, BodyTable::Index row) const {
     if (row >= m_kinds.size() || m_kinds[row] < 0) return nullptr;
     return &table.joints.entries()[static_cast<std::size_t>(m_kinds[row])];
   }
   bool isEmpty() const { return m_joints.empty(); }
-  /// Leaves out the groups that a RigidWorld moves.
+  /// Leaves out the groups that a RigidWorld or a SubstepWorld moves.
   void leaveOut(BodyTable& table, const std::vector<BodyState>& states);
+  /// Must leaveOut() be called even if no group touches anything?
   bool hasLeftOut() const { return m_has_left_out; }
 
   /// Steps all jointed bodies, and those that they may hit, by a tick. `unit_inertias` by
@@ -36,9 +39,12 @@ class BodyLinks {
 
  private:
   static constexpr int kNoJoint = -1, kJoined = -2;  // else: the spring that it hangs on
+  static constexpr std::uint32_t kPull = ~0U;
 
   int bodyOf(int row);
+  bool findPulled(const std::vector<BodyState>& states);
   void collect(BodyTable& table);
+  void countLoops(const BodyTable& table);
   void load(const BodyTable& table, const std::vector<BodyState>& states,
             const std::vector<double>& unit_inertias);
   void store(BodyTable& table, std::vector<BodyState>& states);
@@ -61,11 +67,13 @@ class BodyLinks {
   std::vector<int> m_body_of;   // by row
   std::vector<int> m_kinds;     // by row
   std::vector<Joint> m_joints;
-  std::vector<std::uint32_t> m_entry_of;  // by joint
+  std::vector<std::uint32_t> m_entry_of;  // by joint; kPull: it is none of the table's
   std::vector<std::uint32_t> m_tunings;   // by joint, as they were taken over
   std::vector<std::uint8_t> m_is_rigid;   // by row: left out
+  std::vector<std::uint8_t> m_is_dear;    // by row; empty: none is
   std::vector<BodyTable::Index> m_free_bodies,
       m_new_free_bodies;  // not joined, but may be hit by joined ones; in order
+  std::vector<BodyTable::Index> m_pulled, m_new_pulled;  // joined bodies with a pull, in order
   JointImpacts m_impacts;
   std::vector<JointPair> m_pairs;
   std::vector<std::uint8_t> m_is_moved;  // by island

@@ -16,7 +16,6 @@ using naiad::physics::BodyContacts;
 using naiad::physics::BodyForm;
 using naiad::physics::BodyJoints;
 using naiad::physics::BodyRow;
-using naiad::physics::BodySettings;
 using naiad::physics::BodySolver;
 using naiad::physics::BodyState;
 using naiad::physics::BodyTable;
@@ -28,11 +27,12 @@ using naiad::physics::ShapeStatus;
 using naiad::physics::Vec2;
 using RawJoint = naiad::physics::Joint;
 
-bool isSteppedAsRigid(const BodyState& state) {
-  return state.solver == BodySolver::kRigid || state.is_near_rigid;
-}
-
 }  // namespace
+
+bool BodyRigids::isStepped(const BodyState& state) const {
+  return state.solver == m_solver ||
+         (m_solver == BodySolver::kRigid ? state.is_near_rigid : state.is_near_substep);
+}
 
 int BodyRigids::rigidOf(int row) const {
   if (row < 0 || row >= static_cast<int>(m_proxies.size())) return -1;
@@ -62,35 +62,10 @@ void BodyRigids::shape(Proxy& proxy, const BodyTable& table, const BodyState& st
   proxy.version = version;
   proxy.box = box;
   if (proxy.id < 0) {
-    proxy.id = m_p_world->addInOrder(state.order, body, m_shapes);
+    proxy.id = m_world.addInOrder(state.order, body, m_shapes);
   } else {
-    m_p_world->setShapes(proxy.id, m_shapes);
+    m_world.setShapes(proxy.id, m_shapes);
   }
-}
-
-// What the other world knew is forgotten; its contacts end unless they are found again soon.
-void BodyRigids::chooseWorld(const BodySettings& settings, BodyContacts& contacts) {
-  if (std::exchange(m_may_sleep, settings.may_sleep) != settings.may_sleep) {
-    m_exact.setSleeping(settings.may_sleep);
-    m_fast.setSleeping(settings.may_sleep);
-  }
-  RigidStepper* const p_next = settings.is_fast ? static_cast<RigidStepper*>(&m_fast) : &m_exact;
-  if (m_p_world == p_next) return;
-  for (const JointProxy& proxy : m_joint_proxies) {
-    if (proxy.id >= 0) m_p_world->removeJoint(proxy.id);
-    if (proxy.anchor >= 0) m_p_world->remove(proxy.anchor);
-  }
-  for (const Proxy& proxy : m_proxies) {
-    if (proxy.id >= 0) m_p_world->remove(proxy.id);
-  }
-  for (BodyObstacles::Obstacle& obstacle : m_obstacles.all()) {
-    if (obstacle.id >= 0) m_p_world->remove(obstacle.id);
-    obstacle.id = -1;
-  }
-  contacts.handOverAll();
-  m_joint_proxies.clear();
-  m_proxies.clear();
-  m_p_world = p_next;
 }
 
 void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
@@ -98,12 +73,12 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
                               const std::vector<double>& unit_inertias) {
   for (Proxy& proxy : m_proxies) proxy.is_used = false;
   for (const BodyState& state : states) {
-    if (!isSteppedAsRigid(state)) continue;
+    if (!isStepped(state)) continue;
     if (state.index >= m_proxies.size()) m_proxies.resize(state.index + 1);
     Proxy& proxy = m_proxies[state.index];
     const std::uint64_t order = table.row(state.index).order;
     if (proxy.id >= 0 && proxy.order != order) {  // the one before is gone
-      m_p_world->remove(proxy.id);
+      m_world.remove(proxy.id);
       proxy.id = -1;
     }
     proxy.order = order;
@@ -111,13 +86,13 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
   }
   for (Proxy& proxy : m_proxies) {
     if (proxy.is_used || proxy.id < 0) continue;
-    m_p_world->remove(proxy.id);
+    m_world.remove(proxy.id);
     proxy.id = -1;
   }
   m_count = 0;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyState& state = states[i];
-    if (!isSteppedAsRigid(state)) continue;
+    if (!isStepped(state)) continue;
     const BodyRow& row = table.row(state.index);
     const BodyForm& form = table.form(state.index);
     RigidBody body;
@@ -128,14 +103,15 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
     body.inverse_mass = row.inverse_mass;
     body.inverse_inertia = unit_inertias[i] > 0 ? row.inverse_mass / unit_inertias[i] : 0;
     if (!state.is_kinematic)
-      body.acceleration = state.is_bent ? state.flown.velocity - row.velocity : state.push;
+      body.acceleration =
+          state.is_bent && !state.is_sprung ? state.flown.velocity - row.velocity : state.push;
     body.torque = form.torque;
     body.friction = row.friction;
     body.restitution = row.restitution;
     Proxy& proxy = m_proxies[state.index];
     shape(proxy, table, state, store.box(state.key.slot), body);
     if (proxy.id < 0) continue;
-    m_p_world->set(proxy.id, body);
+    m_world.set(proxy.id, body);
     identify(proxy.id, state.key, state.order, static_cast<int>(i));
     ++m_count;
   }
@@ -148,12 +124,12 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
   m_surroundings.clear();
   Vec2 fastest;
   for (const BodyState& state : states) {
-    if (state.solver != BodySolver::kRigid) continue;
+    if (state.solver != m_solver) continue;
     fastest = {std::max(fastest.x, std::fabs(state.start_velocity.x)),
                std::max(fastest.y, std::fabs(state.start_velocity.y))};
   }
   for (const BodyState& state : states) {
-    if (state.solver != BodySolver::kRigid || !state.is_hard) continue;
+    if (state.solver != m_solver || !state.is_hard) continue;
     m_surroundings.addRegion(regionOf(table.metric, state.start, state.reach + fastest));
   }
   m_surroundings.query(store, [&](std::size_t /*number*/, ObjectKey key) {
@@ -161,8 +137,8 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
   });
   for (BodyObstacles::Obstacle& obstacle : m_obstacles.all()) {
     if (!obstacle.is_near) {
-      if (obstacle.id >= 0) m_p_world->remove(obstacle.id);
-      contacts.expire(obstacle.key, BodySolver::kRigid);
+      if (obstacle.id >= 0) m_world.remove(obstacle.id);
+      contacts.expire(obstacle.key, m_solver);
       continue;
     }
     const std::uint32_t slot = obstacle.key.slot;
@@ -175,13 +151,13 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
     body.restitution = table.settings.obstacle_restitution;
     const bool is_known = obstacle.id >= 0;
     if (is_known && m_obstacle_boxes[at(obstacle.id)].size == box.size) {
-      m_p_world->set(obstacle.id, body);
+      m_world.set(obstacle.id, body);
     } else {
-      if (is_known) m_p_world->remove(obstacle.id);
+      if (is_known) m_world.remove(obstacle.id);
       obstacle.id = -1;
       ConvexShape made;
       if (makeBox(half.x, half.y, {}, {}, 0, made) != ShapeStatus::kOk) continue;
-      obstacle.id = m_p_world->addInOrder(store.order(slot), body, std::span(&made, 1));
+      obstacle.id = m_world.addInOrder(store.order(slot), body, std::span(&made, 1));
       if (obstacle.id < 0) continue;
       if (at(obstacle.id) >= m_obstacle_boxes.size()) m_obstacle_boxes.resize(at(obstacle.id) + 1);
       m_obstacle_boxes[at(obstacle.id)] = box;
@@ -191,60 +167,110 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
   m_obstacles.removeFar();
 }
 
-// A joint is here if one of its bodies is.
+// A joint is here if all of its bodies are.
+bool BodyRigids::isHere(const naiad::physics::JointEntry& entry) const {
+  const auto isEndHere = [&](int row) { return row == BodyJoints::kWorld || rigidOf(row) >= 0; };
+  return entry.used && isEndHere(entry.joint.a) && isEndHere(entry.joint.b);
+}
+
+// What is gone, with its body or without, before anything is added: a number is given again at once.
+void BodyRigids::removeJoints(const BodyTable& table, const std::vector<BodyState>& states) {
+  const std::vector<naiad::physics::JointEntry>& entries = table.joints.entries();
+  for (std::size_t i = 0; i < m_joint_proxies.size(); ++i) {
+    JointProxy& proxy = m_joint_proxies[i];
+    if (proxy.id < 0) continue;
+    if (isHere(entries[i]) && proxy.generation == entries[i].generation && m_world.jointExists(proxy.id))
+      continue;
+    m_world.removeJoint(proxy.id);
+    if (proxy.anchor >= 0) m_world.remove(proxy.anchor);
+    proxy = {};
+  }
+  for (PullProxy& proxy : m_pull_proxies) proxy.is_used = false;
+  for (const BodyState& state : states) {
+    if (!isPulledHere(state) || state.index >= m_pull_proxies.size()) continue;
+    PullProxy& proxy = m_pull_proxies[state.index];
+    proxy.is_used = proxy.order == table.row(state.index).order && m_world.jointExists(proxy.id);
+  }
+  for (PullProxy& proxy : m_pull_proxies) {
+    if (proxy.is_used || proxy.id < 0) continue;
+    m_world.removeJoint(proxy.id);
+    proxy = {};
+  }
+}
+
 void BodyRigids::updateJoints(const BodyTable& table) {
   const std::vector<naiad::physics::JointEntry>& entries = table.joints.entries();
   if (m_joint_proxies.size() < entries.size()) m_joint_proxies.resize(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const naiad::physics::JointEntry& entry = entries[i];
+    if (!isHere(entry)) continue;
     JointProxy& proxy = m_joint_proxies[i];
-    const int a = rigidOf(entry.joint.a), b = rigidOf(entry.joint.b);
     const bool is_world_a = entry.joint.a == BodyJoints::kWorld;
     const bool is_world_b = entry.joint.b == BodyJoints::kWorld;
-    const bool is_here = entry.used && (a >= 0 || is_world_a) && (b >= 0 || is_world_b);
-    if (proxy.id >= 0 &&
-        (!is_here || proxy.generation != entry.generation || !m_p_world->jointExists(proxy.id))) {
-      m_p_world->removeJoint(proxy.id);
-      if (proxy.anchor >= 0) m_p_world->remove(proxy.anchor);
-      proxy = {};
-    }
-    if (!is_here) continue;
     RawJoint joint = entry.joint;
     if (proxy.id < 0 && (is_world_a || is_world_b)) {
       RigidBody anchor;
       anchor.place = entry.anchor;
       anchor.inverse_mass = 0;
-      proxy.anchor = m_p_world->addInOrder(0, anchor, {});
+      proxy.anchor = m_world.addInOrder(0, anchor, {});
     }
-    joint.a = is_world_a ? proxy.anchor : a;
-    joint.b = is_world_b ? proxy.anchor : b;
+    joint.a = is_world_a ? proxy.anchor : rigidOf(entry.joint.a);
+    joint.b = is_world_b ? proxy.anchor : rigidOf(entry.joint.b);
     if (proxy.id < 0) {
-      proxy.id = m_p_world->addJoint(joint, false);
+      proxy.id = m_world.addJoint(joint, false);
     } else if (proxy.tunings != entry.tunings) {
-      m_p_world->setJoint(proxy.id, joint);
+      m_world.setJoint(proxy.id, joint);
     }
     proxy.generation = entry.generation;
     proxy.tunings = entry.tunings;
   }
 }
 
+bool BodyRigids::isPulledHere(const BodyState& state) const {
+  return state.solver == m_solver && state.isPulled() && rigidOf(static_cast<int>(state.index)) >= 0;
+}
+
+// A pull is a spring to a point of the world.
+void BodyRigids::updatePulls(const BodyTable& table, const std::vector<BodyState>& states) {
+  for (const BodyState& state : states) {
+    if (!isPulledHere(state)) continue;
+    if (state.index >= m_pull_proxies.size()) m_pull_proxies.resize(state.index + 1);
+    PullProxy& proxy = m_pull_proxies[state.index];
+    const BodyRow& row = table.row(state.index);
+    if (proxy.id >= 0 && proxy.pull == state.pull && proxy.mass == row.mass) continue;
+    RawJoint joint = jointOf(state.pull, row.mass);
+    joint.b = rigidOf(static_cast<int>(state.index));
+    if (proxy.id < 0) {
+      proxy.id = m_world.addJoint(joint, true);
+    } else {
+      m_world.setJoint(proxy.id, joint);
+    }
+    proxy.order = row.order;
+    proxy.pull = state.pull;
+    proxy.mass = row.mass;
+  }
+}
+
 void BodyRigids::step(const WorldStore& store, BodyTable& table, std::vector<BodyState>& states,
                       const std::vector<double>& unit_inertias, BodyContacts& contacts) {
-  chooseWorld(table.settings, contacts);
+  if (std::exchange(m_may_sleep, table.settings.may_sleep) != table.settings.may_sleep)
+    m_world.setSleeping(table.settings.may_sleep);
   updateBodies(store, table, states, unit_inertias);
   updateObstacles(store, table, states, contacts);
+  removeJoints(table, states);
   updateJoints(table);
+  updatePulls(table, states);
   if (m_count == 0) return;
   for (BodyState& state : states) {
-    if (state.solver == BodySolver::kRigid) state.is_touched = contacts.isTouching(state.key);
+    if (state.solver == m_solver) state.is_touched = contacts.isTouching(state.key);
   }
-  m_p_world->step(1);
+  m_world.step(1);
   collect(states, contacts);
   finish(table, states, contacts);
 }
 
 void BodyRigids::collect(std::vector<BodyState>& states, BodyContacts& contacts) const {
-  for (const RigidEvent& event : m_p_world->events()) {
+  for (const RigidEvent& event : m_world.events()) {
     const Identity* p_first = &m_identities[at(event.first)];
     const Identity* p_second = &m_identities[at(event.second)];
     for (const Identity* p_identity : {p_first, p_second}) {
@@ -254,24 +280,25 @@ void BodyRigids::collect(std::vector<BodyState>& states, BodyContacts& contacts)
     const bool is_swapped = p_first->state < 0 || (p_second->state >= 0 && p_second->order < p_first->order);
     if (is_swapped) std::swap(p_first, p_second);
     contacts.add({event.time, p_first->key, p_second->key, p_first->order, p_second->order, event.impulse,
-                  event.is_begin, BodySolver::kRigid});
+                  event.is_begin, m_solver});
   }
 }
 
 void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const BodyContacts& contacts) {
   for (BodyState& state : states) {
-    if (state.solver != BodySolver::kRigid) continue;
+    if (state.solver != m_solver) continue;
     const Proxy& proxy = m_proxies[state.index];
     if (proxy.id < 0) {
       state.p_failure = "its numbers are beyond what can be calculated with";
       continue;
     }
-    if (m_p_world->isFrozen(proxy.id)) state.p_failure = "what happens to it cannot be worked out";
-    const RigidBody& body = m_p_world->body(proxy.id);
+    if (m_world.isFrozen(proxy.id)) state.p_failure = "what happens to it cannot be worked out";
+    const RigidBody& body = m_world.body(proxy.id);
     const Vec2 pushed = body.velocity - (state.start_velocity + body.acceleration);
     const double rounding = 1e-9 * (length(state.start_velocity) + length(body.acceleration));
     const bool is_touched = state.is_touched || state.is_joined || contacts.isTouching(state.key);
-    const bool is_alone = m_p_world == &m_fast ? !m_fast.isStopped(proxy.id) : length(pushed) <= rounding;
+    const bool is_alone =
+        m_solver == BodySolver::kSubstep ? !m_world.isStopped(proxy.id) : length(pushed) <= rounding;
     if (!is_touched && is_alone) {  // exactly as on its own
       state.place = state.start + state.flown.displacement;
       state.velocity = state.flown.velocity;
@@ -293,7 +320,7 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const 
   for (std::size_t i = 0; i < m_joint_proxies.size() && i < entries.size(); ++i) {
     const JointProxy& proxy = m_joint_proxies[i];
     if (proxy.id < 0 || !entries[i].used || entries[i].generation != proxy.generation) continue;
-    const RawJoint& joint = m_p_world->joint(proxy.id);
+    const RawJoint& joint = m_world.joint(proxy.id);
     naiad::physics::JointEntry& entry = table.joints.entries()[i];
     entry.joint.force = joint.force;
     entry.joint.torque = joint.torque;

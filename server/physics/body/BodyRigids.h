@@ -8,27 +8,25 @@
 #include "physics/body/BodyObstacles.h"
 #include "physics/body/BodyState.h"
 #include "physics/body/BodySurroundings.h"
-#include "physics/rigid/RigidWorld.h"
-#include "physics/substep/SubstepWorld.h"
+#include "physics/rigid/RigidStepper.h"
 
 namespace df {
 
 class BodyRigids {
  public:
-  BodyRigids() = default;
+  /// `solver`: kRigid or kSubstep, which `stepper` is.
+  BodyRigids(naiad::physics::BodySolver solver, naiad::physics::RigidStepper& stepper)
+      : m_solver(solver), m_world(stepper) {}
   BodyRigids(const BodyRigids&) = delete;
   BodyRigids& operator=(const BodyRigids&) = delete;
 
   /// Does no body take part, and did none in the last tick?
   bool isEmpty() const { return m_count == 0; }
-  /// Steps the bodies with solver kRigid by a tick, with the kinematic ones near them. `unit_inertias` by
+  /// Steps the bodies with this solver by a tick, with the kinematic ones near them. `unit_inertias` by
   /// state; 0: it does not turn.
   void step(const WorldStore& store, naiad::physics::BodyTable& table,
             std::vector<naiad::physics::BodyState>& states, const std::vector<double>& unit_inertias,
             naiad::physics::BodyContacts& contacts);
-
-  const naiad::physics::RigidCounters& counters() const { return m_exact.counters(); }
-  const naiad::physics::SubstepCounters& substepCounters() const { return m_fast.counters(); }
 
  private:
   struct Proxy {  // by row of the table
@@ -44,13 +42,20 @@ class BodyRigids {
     int id = -1;
     int anchor = -1;  // the body that stands for the world
   };
+  struct PullProxy {  // by row of the table: the joint that pulls it
+    std::uint64_t order = 0;
+    int id = -1;
+    naiad::physics::Pull pull;
+    double mass = 0;
+    bool is_used = false;
+  };
   struct Identity {  // by id
     ObjectKey key;
     std::uint64_t order = 0;
     int state = -1;  // −1: an obstacle
   };
 
-  void chooseWorld(const naiad::physics::BodySettings& settings, naiad::physics::BodyContacts& contacts);
+  bool isStepped(const naiad::physics::BodyState& state) const;
   void updateBodies(const WorldStore& store, const naiad::physics::BodyTable& table,
                     const std::vector<naiad::physics::BodyState>& states,
                     const std::vector<double>& unit_inertias);
@@ -59,21 +64,24 @@ class BodyRigids {
   void updateObstacles(const WorldStore& store, const naiad::physics::BodyTable& table,
                        const std::vector<naiad::physics::BodyState>& states,
                        naiad::physics::BodyContacts& contacts);
+  bool isHere(const naiad::physics::JointEntry& entry) const;
+  bool isPulledHere(const naiad::physics::BodyState& state) const;
+  void removeJoints(const naiad::physics::BodyTable& table,
+                    const std::vector<naiad::physics::BodyState>& states);
   void updateJoints(const naiad::physics::BodyTable& table);
+  void updatePulls(const naiad::physics::BodyTable& table,
+                   const std::vector<naiad::physics::BodyState>& states);
   void identify(int id, ObjectKey key, std::uint64_t order, int state);
   void collect(std::vector<naiad::physics::BodyState>& states, naiad::physics::BodyContacts& contacts) const;
   void finish(naiad::physics::BodyTable& table, std::vector<naiad::physics::BodyState>& states,
               const naiad::physics::BodyContacts& contacts);
   int rigidOf(int row) const;
 
-  /// Cells per tick. What has just begun to slide down a slope is slow for long, and must not fall asleep.
-  static constexpr double kSleepSpeed = 1e-5;
-
-  naiad::physics::RigidWorld m_exact{naiad::physics::RigidOptions{.sleep_speed = kSleepSpeed}};
-  naiad::physics::SubstepWorld m_fast;
-  naiad::physics::RigidStepper* m_p_world = &m_exact;  // one of both
+  naiad::physics::BodySolver m_solver;
+  naiad::physics::RigidStepper& m_world;
   std::vector<Proxy> m_proxies;
   std::vector<JointProxy> m_joint_proxies;
+  std::vector<PullProxy> m_pull_proxies;
   std::vector<Identity> m_identities;
   BodyObstacles m_obstacles;
   std::vector<FixedBox> m_obstacle_boxes;  // by id

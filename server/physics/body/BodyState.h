@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/world/WorldView.h"
+#include "physics/body/BodyFlight.h"
 #include "physics/body/BodyTable.h"
 #include "physics/flight/FlightFree.h"
 
@@ -14,6 +15,7 @@ enum class BodySolver : std::uint8_t {
   kJoints,        ///< JointSolver
   kRigid,         ///< RigidWorld
   kJointImpacts,  ///< JointSolver, from impact to impact (JointImpacts): circles may hit it
+  kSubstep,       ///< SubstepWorld: at ACCURACY_FAST, or what would cost the others too much
 };
 
 struct BodyState {
@@ -23,11 +25,15 @@ struct BodyState {
   BodySolver solver = BodySolver::kFlight;
   bool is_hard = false;
   bool is_soft = false;
+  bool is_dear = false;  ///< on joints, or after impacts, that cost more than their number allows
   bool is_kinematic = false;
   bool is_joined = false;
   bool is_simple = false;           ///< an ImpactWorld can have it
+  bool is_sprung = false;           ///< a spring or a stiff field pulls it: what holds it must know `pull`
+  bool must_be_held = false;        ///< its own flight is not known, or no JointSolver follows its `pull`
   bool is_bent = false;             ///< its own path is not that of a constant acceleration
   bool is_near_rigid = false;       ///< kinematic, and on the path of one in the RigidWorld
+  bool is_near_substep = false;     ///< the same of the SubstepWorld
   bool is_touched = false;          ///< by anything, in this tick or the last one
   bool contacts_changed = false;    ///< a contact began or ended in this tick
   bool turns_alone = true;          ///< nothing turns it but its own torque
@@ -37,6 +43,7 @@ struct BodyState {
   Place start;                      ///< at the beginning of the tick
   Vec2 start_velocity;
   Vec2 push;    ///< gravity and force over mass
+  Pull pull;    ///< if it is sprung
   Vec2 reach;   ///< how far around `start` it gets on its own, its shape included
   Flown flown;  ///< where it would go on its own
   Place place;  ///< at the end
@@ -44,6 +51,9 @@ struct BodyState {
   Rotation rotation;
   double spin = 0;
   Vec2 acceleration;  ///< what clients extrapolate with
+
+  /// Does `pull` act on it, where it does not fly on its own?
+  bool isPulled() const { return is_sprung && (pull.spring.stiffness > 0 || pull.spring.damping > 0); }
 };
 
 /// Two bodies of a group with solver kJointImpacts whose paths may cross in this tick: indices of states.

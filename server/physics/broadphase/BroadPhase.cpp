@@ -1,12 +1,37 @@
 #include "physics/broadphase/BroadPhase.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdlib>
 #include <utility>
 
 namespace naiad::physics {
 
 namespace {
+
+// Bodies that lie in one another by the dozen part in the same way whether each is pushed by all or by the
+// nearest, and all are too many.
+constexpr std::size_t kMostHeaped = 32;  // of which a proxy keeps all pairs that it finds …
+constexpr std::size_t kKeptHeaped = 16;  // … and of more only the nearest
+
+std::int64_t twiceMiddle(std::int64_t lower, std::int64_t upper) {
+  return lower + upper;
+}
+
+// Are their middles nearer than the smaller of them is wide? Those of a body on a large one are not.
+bool areHeaped(const GridBounds& a, const GridBounds& b) {
+  const std::int64_t x = std::abs(twiceMiddle(a.lower_x, a.upper_x) - twiceMiddle(b.lower_x, b.upper_x));
+  const std::int64_t y = std::abs(twiceMiddle(a.lower_y, a.upper_y) - twiceMiddle(b.lower_y, b.upper_y));
+  return x < 2 * std::min(a.upper_x - a.lower_x, b.upper_x - b.lower_x) &&
+         y < 2 * std::min(a.upper_y - a.lower_y, b.upper_y - b.lower_y);
+}
+
+double squareOfDistance(const GridBounds& a, const GridBounds& b) {
+  const auto x = static_cast<double>(twiceMiddle(a.lower_x, a.upper_x) - twiceMiddle(b.lower_x, b.upper_x));
+  const auto y = static_cast<double>(twiceMiddle(a.lower_y, a.upper_y) - twiceMiddle(b.lower_y, b.upper_y));
+  return x * x + y * y;
+}
 
 std::uint64_t keyOf(const BroadPhasePair& pair) {
   return static_cast<std::uint64_t>(pair.id_a) << 32 | pair.id_b;
@@ -56,13 +81,29 @@ void BroadPhase::markChanged(std::int32_t proxy) {
 // Of two changed proxies, the one with the smaller number finds the pair.
 void BroadPhase::findPairs(std::int32_t proxy) {
   const Proxy& own = m_proxies[index(proxy)];
-  m_tree.query(m_tree.bounds(own.leaf), [&](std::uint32_t value) {
+  const GridBounds bounds = m_tree.bounds(own.leaf);
+  m_heaped.clear();
+  m_tree.query(bounds, [&](std::uint32_t value) {
     const auto other = static_cast<std::int32_t>(value);
     const Proxy& that = m_proxies[value];
     if (other == proxy || (that.changed && other < proxy) || !(own.moves || that.moves)) return;
-    m_found.push_back(own.id < that.id ? BroadPhasePair{own.id, that.id, proxy, other}
-                                       : BroadPhasePair{that.id, own.id, other, proxy});
+    const BroadPhasePair pair = own.id < that.id ? BroadPhasePair{own.id, that.id, proxy, other}
+                                                 : BroadPhasePair{that.id, own.id, other, proxy};
+    const GridBounds& its = m_tree.bounds(that.leaf);
+    if (m_thins_crowds && own.moves && that.moves && areHeaped(bounds, its)) {
+      m_heaped.push_back({squareOfDistance(bounds, its), pair});
+    } else {
+      m_found.push_back(pair);
+    }
   });
+  if (m_heaped.size() > kMostHeaped) {
+    std::nth_element(m_heaped.begin(), m_heaped.begin() + kKeptHeaped, m_heaped.end(),
+                     [](const Heaped& x, const Heaped& y) {
+                       return x.square != y.square ? x.square < y.square : keyOf(x.pair) < keyOf(y.pair);
+                     });
+    m_heaped.resize(kKeptHeaped);
+  }
+  for (const Heaped& heaped : m_heaped) m_found.push_back(heaped.pair);
 }
 
 // By digits of eight bits, those left out that all have in common.

@@ -24,6 +24,10 @@ struct BroadPhasePair {
 /// One thread at a time.
 class BroadPhase {
  public:
+  /// `thins_crowds`: of bodies that lie in one another, more than 32 in one place, each finds only the
+  /// nearest 16.
+  explicit BroadPhase(bool thins_crowds = false) : m_thins_crowds(thins_crowds) {}
+
   /// `id` is the caller's, unique; `moves` false for bodies that never do: two of them make no pair. Returns
   /// the proxy: the number to use below, good until it is removed.
   std::int32_t add(std::uint32_t id, const GridBounds& wide, bool moves);
@@ -62,15 +66,21 @@ class BroadPhase {
     bool changed;  // it is in m_changed
   };
   static std::size_t index(std::int32_t proxy) { return static_cast<std::size_t>(proxy); }
+  struct Heaped {
+    double square;  // of the distance
+    BroadPhasePair pair;
+  };
   void markChanged(std::int32_t proxy);
   void findPairs(std::int32_t proxy);
   void sortFound();
 
+  bool m_thins_crowds;
   BroadPhaseTree m_tree;
   std::vector<Proxy> m_proxies;
   std::vector<std::int32_t> m_free;
   std::vector<std::int32_t> m_changed;
   std::vector<BroadPhasePair> m_pairs, m_found, m_spare;
+  std::vector<Heaped> m_heaped;
 };
 
 }  // namespace naiad::physics

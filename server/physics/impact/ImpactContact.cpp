@@ -166,7 +166,12 @@ void ImpactWorld::solveGroup(Purpose purpose) {
   m_rest.rows().clear();
   for (const int c : m_group_contacts) addRows(m_contacts[c], purpose);
   ++m_counters.rest_solves;
-  if (!m_rest.solve(m_group_masses)) ++m_counters.unconverged;
+  if (!m_rest.solve(m_group_masses, workLeft())) ++m_counters.unconverged;
+  const double share = m_rest.work() / static_cast<double>(m_group.size());
+  for (const int id : m_group) {
+    spend(id, share);
+    if (m_rest.isTooDear()) giveUp(id);
+  }
 }
 
 // Moves the bodies of a group so far that nothing is inside anything: what impacts of the size of the slop

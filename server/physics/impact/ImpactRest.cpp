@@ -12,6 +12,7 @@ constexpr double kRegular = 1e-12;    // of the diagonal, so that rows that say 
 constexpr int kFrictionRounds = 200;  // of pressures and friction cones by turns: slow where a body is wedged
 constexpr int kSweeps = 400;          // of Gauss and Seidel, where the direct solution fails (`unconverged`)
 constexpr int kRefinements = 10;  // iterative refinement: each round takes out most of what kRegular put in
+constexpr double kRowPrice = 16;  // of looking at a row once, in multiplications
 constexpr int kMaxStored = 4'000'000;  // entries of the factor: 32 MB; a larger group is swept
 
 }  // namespace
@@ -51,12 +52,20 @@ void RestSolver::updateChange() {
   }
 }
 
+// Is there so much left?
+bool RestSolver::spend(double work) {
+  if (m_work + work > m_most_work) m_is_too_dear = true;
+  if (!m_is_too_dear) m_work += work;
+  return !m_is_too_dear;
+}
+
 // Cholesky (LDLᵀ) of the couplings of the free rows, within its skyline.
 bool RestSolver::factorise() {
   const int count = static_cast<int>(m_free.size());
   m_skyline.resize(count);
   m_start.resize(count);
   int stored = 0;
+  double price = 0;
   for (int k = 0; k < count; ++k) {
     const RestRow& row = m_rows[m_free[k]];
     int first = k;
@@ -73,7 +82,9 @@ bool RestSolver::factorise() {
     m_start[k] = stored - first;
     stored += k - first + 1;
     if (stored > kMaxStored) return false;
+    price += 0.5 * static_cast<double>(k - first) * (k - first);
   }
+  if (!spend(price)) return false;
   m_factor.assign(stored, 0.0);
   for (int k = 0; k < count; ++k) {
     const RestRow& row = m_rows[m_free[k]];
@@ -126,6 +137,8 @@ bool RestSolver::solveFree() {
   m_right.resize(count);
   double error = kUnbounded;
   for (int round = 0; round < kRefinements; ++round) {
+    if (!spend(2 * static_cast<double>(m_factor.size()) + kRowPrice * static_cast<double>(m_rows.size())))
+      return false;
     updateChange();
     double worst = 0;
     for (int k = 0; k < count; ++k) {
@@ -153,7 +166,7 @@ bool RestSolver::solveWithinBounds() {
   const auto count = static_cast<int>(m_rows.size());
   int fewest = count + 1, patience = 4;
   for (int round = 0; round < 60 + 4 * count; ++round) {
-    if (!solveFree()) return false;
+    if (!spend(kRowPrice * count) || !solveFree()) return false;
     double largest = 0;
     for (const RestRow& row : m_rows) largest = std::max(largest, std::fabs(row.push));
     const double push_slack = 1e-13 * largest, rate_slack = 1e-13 * m_bias_scale;
@@ -226,6 +239,7 @@ bool RestSolver::setFrictionBounds(int round) {
 void RestSolver::sweep() {
   updateChange();
   for (int round = 0; round < kSweeps; ++round) {
+    if (!spend(kRowPrice * static_cast<double>(m_rows.size()))) return;
     for (std::size_t i = 0; i < m_rows.size(); ++i) {
       RestRow& row = m_rows[i];
       if (row.normal >= 0) {
@@ -244,8 +258,11 @@ void RestSolver::sweep() {
   }
 }
 
-bool RestSolver::solve(const std::vector<double>& inverse_masses) {
+bool RestSolver::solve(const std::vector<double>& inverse_masses, double most_work) {
   const std::size_t count = m_rows.size();
+  m_work = 0;
+  m_most_work = most_work;
+  m_is_too_dear = false;
   m_inverse_masses = inverse_masses;
   m_change.assign(inverse_masses.size(), {});
   m_effort.assign(inverse_masses.size(), 0);
@@ -288,6 +305,10 @@ bool RestSolver::solve(const std::vector<double>& inverse_masses) {
     if (!has_friction || setFrictionBounds(round)) return true;
   }
   sweep();
+  if (m_is_too_dear) {
+    for (RestRow& row : m_rows) row.push = 0;
+    updateChange();
+  }
   return false;
 }
 

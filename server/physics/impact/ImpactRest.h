@@ -28,8 +28,13 @@ class RestSolver {
  public:
   std::vector<RestRow>& rows() { return m_rows; }
 
-  /// False if it did not converge; the pushes then are the best of a bounded number of sweeps.
-  bool solve(const std::vector<double>& inverse_masses);
+  /// False if it did not converge; the pushes then are the best of a bounded number of sweeps. It stops,
+  /// without pushes, when it would take more than `most_work` multiplications: see isTooDear().
+  bool solve(const std::vector<double>& inverse_masses, double most_work = 1e300);
+  /// Was the last solution given up because of its price?
+  bool isTooDear() const { return m_is_too_dear; }
+  /// About how many multiplications the last solution has taken.
+  double work() const { return m_work; }
 
   /// By how much the pushes change the velocity (or acceleration) of a body, after solve().
   Vec2 change(int body) const { return m_change[body]; }
@@ -47,6 +52,7 @@ class RestSolver {
   void updateChange();
   bool solveFree();
   bool factorise();
+  bool spend(double work);
   double couple(const RestRow& a, const RestRow& b) const;
   double rateOf(const RestRow& row) const;
   bool setFrictionBounds(int round);
@@ -63,6 +69,8 @@ class RestSolver {
   std::vector<int> m_free, m_index;          // free rows, and their index among them
   std::vector<int> m_skyline, m_start;       // the first column of each row of the factor, where it is stored
   std::vector<double> m_factor, m_right;
+  double m_work = 0, m_most_work = 0;
+  bool m_is_too_dear = false;
   double m_bias_scale = 0;
   double m_relaxation = 1;
 };

@@ -6,6 +6,11 @@ namespace naiad::physics {
 
 namespace {
 
+// In multiplications.
+constexpr double kForecastPrice = 80;  // of examining a pair
+constexpr double kEventPrice = 200;    // of an event, beside the pairs it has examined
+constexpr double kBodyPrice = 50;      // of beginning a step, a body
+
 constexpr double kFarthest = 1e15;  // metric cells in one tick: below the 2^51 that a Place can be moved by
 
 // How far a body gets to either side along one axis.
@@ -51,7 +56,7 @@ bool ImpactWorld::set(int id, const ImpactBody& body) {
   m_bodies[id] = body;
   m_bodies[id].place = body.place + Vec2{};
   motion.is_dirty = true;
-  motion.is_frozen = false;
+  motion.is_frozen = motion.is_given_up = false;
   motion.acceleration = body.acceleration;
   return true;
 }
@@ -88,6 +93,24 @@ void ImpactWorld::freeze(int id) {
   motion.is_frozen = true;
   ++motion.generation;
   ++m_counters.quarantined;  // its contacts go when the next tick begins
+}
+
+void ImpactWorld::giveUp(int id) {
+  Motion& motion = m_motions[id];
+  if (!isPushed(id) || motion.is_frozen) return;
+  motion.is_frozen = motion.is_given_up = m_has_given_up = true;
+  ++motion.generation;
+  ++m_counters.given_up;
+}
+
+void ImpactWorld::spend(int id, double work) {
+  m_work += work;
+  if (isPushed(id)) m_motions[id].work += work;
+}
+
+// For one group: what is left of all.
+double ImpactWorld::workLeft() const {
+  return std::max(m_most_work - m_work, kWorkOfBody);
 }
 
 RelativeMotion ImpactWorld::relative(int a, int b, double now) const {
@@ -158,9 +181,10 @@ void ImpactWorld::beginTick(double dt) {
       continue;
     }
     motion.time = 0;
-    motion.events = motion.events_at_once = 0;
+    motion.events_at_once = 0;
     motion.last_event = -1;
     m_ids.push_back(id);
+    m_work += kBodyPrice;
   }
   for (std::size_t i = 0; i < m_contacts.size(); ++i) {
     const Contact& contact = m_contacts[i];
@@ -197,10 +221,11 @@ void ImpactWorld::beginTick(double dt) {
 
 void ImpactWorld::forecastAll() {
   for (const int i : m_ids) {
-    if (!isMoving(i)) continue;
+    if (!isMoving(i) || m_motions[i].is_frozen) continue;
     m_tree.query(m_tree.box(i), [&](int j) {
-      if (j == i || (j < i && isMoving(j))) return;
+      if (j == i || (j < i && isMoving(j)) || m_motions[i].is_frozen || m_motions[j].is_frozen) return;
       forecastPair(i, j, 0);
+      if (isOverdrawn(i)) giveUp(i);
     });
   }
 }
@@ -217,8 +242,10 @@ void ImpactWorld::forecastChanged(double now) {
   for (const int i : m_changed) {
     if (m_motions[i].is_frozen) continue;
     m_tree.query(sweptBox(i, now), [&](int j) {
-      if (j == i || m_motions[j].is_frozen || (j < i && m_motions[j].is_changed)) return;
+      if (j == i || m_motions[i].is_frozen || m_motions[j].is_frozen || (j < i && m_motions[j].is_changed))
+        return;
       if (isMoving(i) || isMoving(j)) forecastPair(i, j, now);
+      if (isOverdrawn(i)) giveUp(i);
     });
   }
   for (const int i : m_changed) m_motions[i].is_changed = false;
@@ -228,6 +255,7 @@ void ImpactWorld::forecastChanged(double now) {
 void ImpactWorld::forecastPair(int i, int j, double now) {
   if (!isPushed(i) && !isPushed(j)) return;
   ++m_counters.forecasts;
+  spend(i, kForecastPrice);
   const int first = std::min(i, j), second = std::max(i, j);
   const ImpactBody &a = m_bodies[first], &b = m_bodies[second];
   const RelativeMotion motion = relative(first, second, now);
@@ -274,7 +302,13 @@ void ImpactWorld::compactQueue() {
 
 void ImpactWorld::handle(const Pending& pending) {
   const int a = pending.first, b = pending.second;
+  if (isOverdrawn(a) || isOverdrawn(b)) {
+    giveUp(a);
+    giveUp(b);
+    return;
+  }
   for (const int id : {a, b}) {
+    spend(id, kEventPrice);
     advance(id, pending.time);
     markChanged(id);
     if (!isPushed(id)) continue;
@@ -282,7 +316,6 @@ void ImpactWorld::handle(const Pending& pending) {
     if (motion.last_event != pending.time) motion.events_at_once = 0;
     motion.last_event = pending.time;
     ++motion.events_at_once;
-    if (++motion.events > kMaxEvents) freeze(id);
   }
   if (!m_motions[a].is_frozen && !m_motions[b].is_frozen) {
     if (pending.kind == Kind::kImpact) collide(a, b, pending.axis, pending.time);
@@ -320,12 +353,21 @@ void ImpactWorld::sortEvents() {
   for (std::size_t i = 0; i < kept; ++i) m_events[i].order = static_cast<int>(i);
 }
 
-ImpactStepStatus ImpactWorld::step(double dt) {
+ImpactStepStatus ImpactWorld::step(double dt, bool goes_on) {
   if (!(dt > 0 && dt < 1e12)) return ImpactStepStatus::kRefused;
   const std::int64_t frozen_before = m_counters.quarantined;
   ++m_counters.ticks;
   m_stepped = dt;
   m_is_beyond = false;
+  if (!goes_on) {
+    m_work = 0;
+    m_most_work = kWorkOfTick + m_reserve;
+    m_has_given_up = false;
+    for (Motion& motion : m_motions) {
+      motion.work = 0;
+      if (motion.exists) m_most_work += kWorkOfBody;
+    }
+  }
   beginTick(dt);
   forecastAll();
   while (!m_queue.empty() && !m_is_beyond) {

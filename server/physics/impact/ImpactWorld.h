@@ -36,6 +36,7 @@ struct ImpactCounters {
   std::int64_t rest_solves = 0;  ///< groups of resting bodies
   std::int64_t unconverged = 0;  ///< of those, how many got an approximate solution
   std::int64_t quarantined = 0;  ///< bodies frozen
+  std::int64_t given_up = 0;     ///< bodies whose tick would have cost too much
 };
 
 enum class ImpactStepStatus : std::uint8_t {
@@ -47,9 +48,15 @@ enum class ImpactStepStatus : std::uint8_t {
 /// Not thread-safe. No allocation in step() once the scene has shown what it needs.
 class ImpactWorld {
  public:
-  /// More events than this for one body in one tick, and it is frozen where it is: a bound on the time of a
-  /// tick.
-  static constexpr int kMaxEvents = 1'000'000;
+  /// What a tick may take, in multiplications (about a nanosecond each): so much …
+  static constexpr double kWorkOfTick = 1e6;
+  /// … and so much for each body, and a reserve (setReserve) for those that need more. A body whose own share
+  /// is spent when the reserve is empty is given up for this tick.
+  static constexpr double kWorkOfBody = 5e3;
+  /// 20,000 impacts of two bodies take a fifth of it; that 100 crates which have just been stacked find to
+  /// one another takes most.
+  static constexpr double kUsualReserve = 1e8;
+  void setReserve(double work) { m_reserve = work; }
   /// A bounce that would not rise higher than this (cells) ends in rest: the Zeno guard. Far below the
   /// world's unit of 2^-32 cell.
   static constexpr double kRestHeight = 1e-11;
@@ -73,6 +80,10 @@ class ImpactWorld {
   }
   /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
   bool isFrozen(int id) const { return m_motions[id].is_frozen; }
+  /// Was the body given up in this tick, as its group would have cost too much? What it has touched in the
+  /// tick must be moved otherwise, from where it began. It collides with nothing until set().
+  bool isGivenUp(int id) const { return m_motions[id].is_given_up; }
+  bool hasGivenUp() const { return m_has_given_up; }
   /// Does the body, which can be pushed, touch anything?
   bool isTouching(int id) const { return m_motions[id].first_contact >= 0; }
   /// What moves it at the end of the last step, with what contacts add.
@@ -84,8 +95,9 @@ class ImpactWorld {
   /// out of that, the step ends there. Everywhere, unless it is set.
   void setReach(int id, const Place& centre, Vec2 half);
 
-  /// Goes on by `dt` > 0 ticks, or until a body would leave its reach.
-  ImpactStepStatus step(double dt = 1);
+  /// Goes on by `dt` > 0 ticks, or until a body would leave its reach. `goes_on`: the rest of a tick, with
+  /// what is left of its work.
+  ImpactStepStatus step(double dt = 1, bool goes_on = false);
   /// How far the last step went on.
   double stepped() const { return m_stepped; }
 
@@ -99,16 +111,17 @@ class ImpactWorld {
     Vec2 acceleration;  // with what contacts add
     unsigned generation = 0;
     int first_contact = -1;
-    int events = 0;          // in this tick
+    double work = 0;         // in this tick
     int events_at_once = 0;  // at the moment of the last one
     double last_event = -1;
     int local = -1;  // index in the current group
     bool has_reach = false;
     bool exists = false;
     bool is_frozen = false;
-    bool is_dirty = false;    // set() since the last step
-    bool is_changed = false;  // in m_changed
-    bool is_visited = false;  // by the current settle()
+    bool is_given_up = false;  // frozen until it is set
+    bool is_dirty = false;     // set() since the last step
+    bool is_changed = false;   // in m_changed
+    bool is_visited = false;   // by the current settle()
   };
   struct Reach {
     Place centre;
@@ -149,6 +162,10 @@ class ImpactWorld {
   }
   void advance(int id, double time);
   void freeze(int id);
+  void giveUp(int id);
+  bool isOverdrawn(int id) const { return m_motions[id].work > kWorkOfBody && m_work > m_most_work; }
+  double workLeft() const;
+  void spend(int id, double work);
   void beginTick(double dt);
   void forecastAll();
   void forecastChanged(double now);
@@ -194,7 +211,10 @@ class ImpactWorld {
 
   double m_dt = 0;
   double m_stepped = 0;
-  bool m_is_beyond = false;                     // a body's reach
+  bool m_is_beyond = false;  // a body's reach
+  bool m_has_given_up = false;
+  double m_reserve = 1e300;
+  double m_work = 0, m_most_work = 0;           // in this tick
   std::int64_t m_origin_x = 0, m_origin_y = 0;  // of the broad phase
   std::vector<int> m_ids;                       // those that take part
   std::vector<SweptBox> m_boxes;

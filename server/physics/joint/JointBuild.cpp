@@ -51,6 +51,7 @@ JointConstraints::JointConstraints(const JointMotion& motion, std::span<const in
     link.half_inverse_length = joint.length > 0 ? 0.5 / joint.length : 0;
     const bool may_turn = motion.mass[at(link.b)].inverse_inertia > 0 ||
                           (link.a >= 0 && motion.mass[at(link.a)].inverse_inertia > 0);
+    link.pulled_inverse_mass = motion.mass[at(link.b)].inverse_mass;
     addRows(link, joint, may_turn);
     link.calm_force = calmForceOf(motion, link, joint);
     links.push_back(link);

@@ -27,8 +27,9 @@ struct JointConstraints {
     Vec2 arm_a, arm_b;  // the anchors as turned now
     Vec2 target;
     double length, half_inverse_length;
-    double calm_force;  // the greatest force that is calm in a step of length 1: see isCalm()
-    double bound;       // of the angle limit that is nearer
+    double pulled_inverse_mass;  // of b
+    double calm_force;           // the greatest force that is calm in a step of length 1: see isCalm()
+    double bound;                // of the angle limit that is nearer
   };
 
   /// Rows for `joint_indices` (indices into `all_joints`), and no values yet.
@@ -60,6 +61,8 @@ struct JointConstraints {
   /// Does h resolve how fast the joints' forces turn them? Composed steps are longer than h / substeps, and
   /// gain nothing where they resolve nothing (a whip, a heavy weight on a light chain).
   bool isCalm(std::span<const Joint> all_joints, double h) const;
+  /// How many sub-steps of a step of `h` it takes to follow the swing of unlimited mice.
+  int substepsOf(std::span<const Joint> all_joints, double h) const;
   /// May steps be composed of stages of which some run backwards? Not if a row loses energy.
   bool mayCompose(const JointMotion& motion, std::span<const Joint> all_joints, double h) const;
 

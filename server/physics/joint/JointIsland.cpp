@@ -114,6 +114,7 @@ void JointIsland::step(std::span<JointBody> bodies, std::span<Joint> joints, dou
     Joint& joint = joints[at(m_constraints.links[0].index)];
     if (stepRod(bodies[at(joint.a)], bodies[at(joint.b)], joint, h, gravity, options, counters)) return;
   }
+  options.substeps = std::max(options.substeps, m_constraints.substepsOf(joints, h));
   if (!m_constraints.mayCompose(m_motion, joints, h)) options.method = JointMethod::kRattle;
   // A step whose stages do not converge is repeated with shorter ones, all of it: lengths that change within
   // a step cost more energy than long ones do. Only the last try may halve stages and fall back. What the

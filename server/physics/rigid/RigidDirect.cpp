@@ -12,7 +12,7 @@ namespace {
 // Of a row, in units of the greatest mass: each round divides what is left by about as much, and 1e4 leaves
 // the matrix enough of a double's digits.
 constexpr double kStiffness = 1e4;
-constexpr int kRounds = 16;  // of factorisation and solution; a group that takes more is swept
+constexpr int kRounds = 32;  // of factorisation and solution; a group that takes more is swept
 
 // The row's Jacobian at one of its bodies.
 struct Lever {
@@ -44,7 +44,7 @@ void RigidDirect::begin(std::span<const int> bodies, std::span<const RigidState>
     m_mass[i] = {{mass, mass, inertia}};
     largest = std::max(largest, mass > 0 ? mass : inertia);
   }
-  m_stiffness = kStiffness * largest;
+  m_largest_mass = largest;
 }
 
 std::int32_t RigidDirect::localOf(int body) const {
@@ -122,6 +122,25 @@ double RigidDirect::speedOf(const DirectRow& row) const {
   return speed;
 }
 
+// Of a body that a spring holds, its own mass says little of what moves it.
+void RigidDirect::setStiffnesses() {
+  m_held_mass.assign(m_bodies.size(), m_largest_mass);
+  for (const DirectRow& row : m_rows) {
+    if (row.softness <= 0) continue;
+    for (const std::int32_t body : {row.a, row.b}) {
+      if (body >= 0) m_held_mass[at(body)] = std::max(m_held_mass[at(body)], 1 / row.softness);
+    }
+  }
+  m_stiffness.resize(m_rows.size());
+  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    double mass = m_largest_mass;
+    for (const std::int32_t body : {m_rows[i].a, m_rows[i].b}) {
+      if (body >= 0) mass = std::max(mass, m_held_mass[at(body)]);
+    }
+    m_stiffness[i] = kStiffness * mass;
+  }
+}
+
 // Which rows push with their stiffness, which are at a bound, and what each exerts at the present velocities.
 // Did none change? A row that would go from one bound to the other stops between them first.
 bool RigidDirect::setForces(bool is_first) {
@@ -133,8 +152,8 @@ bool RigidDirect::setForces(bool is_first) {
       high = row.friction * std::max(m_guess[at(row.normal)], 0.0);
       low = -high;
     }
-    const double wanted =
-        row.softness > 0 ? row.before - speedOf(row) / row.softness : m_guess[i] - m_stiffness * speedOf(row);
+    const double wanted = row.softness > 0 ? row.before - speedOf(row) / row.softness
+                                           : m_guess[i] - m_stiffness[i] * speedOf(row);
     const Side before = m_side[i];
     Side side = wanted < low ? Side::kLow : wanted > high ? Side::kHigh : Side::kFree;
     if (is_first || (before != Side::kFree && side != Side::kFree && side != before)) side = Side::kFree;
@@ -169,7 +188,7 @@ void RigidDirect::assemble() {
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
     if (m_side[i] != Side::kFree) continue;
     const DirectRow& row = m_rows[i];
-    const double k = row.softness > 0 ? 1 / row.softness : m_stiffness;
+    const double k = row.softness > 0 ? 1 / row.softness : m_stiffness[i];
     const Lever a = leverA(row), b = leverB(row);
     if (row.a >= 0) add(row.a, a, row.a, a, k);
     if (row.b >= 0) add(row.b, b, row.b, b, k);
@@ -270,6 +289,7 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int& rou
   m_force.resize(count);
   m_side.assign(count, Side::kFree);
   for (std::size_t i = 0; i < count; ++i) m_guess[i] = m_rows[i].impulse;
+  setStiffnesses();
   bool is_found = false;
   setForces(true);
   bool is_factored = false;

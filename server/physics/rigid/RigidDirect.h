@@ -51,6 +51,7 @@ class RigidDirect {
     double x[3];
   };
   double speedOf(const DirectRow& row) const;
+  void setStiffnesses();
   bool setForces(bool is_first);
   void setResidual();
   void assemble();
@@ -68,7 +69,9 @@ class RigidDirect {
   std::vector<double> m_matrix, m_right;
   std::vector<double> m_force, m_guess;
   std::vector<Side> m_side;
-  double m_stiffness = 0;
+  double m_largest_mass = 0;
+  std::vector<double> m_held_mass;  // by body: as springs let it feel
+  std::vector<double> m_stiffness;  // by row
 };
 
 }  // namespace naiad::physics

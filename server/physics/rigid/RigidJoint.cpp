@@ -13,6 +13,8 @@ constexpr double kPullRate =
     0.3;                         // of a joint's error, undone in a sub-step, as of overlap (RigidSolver.cpp)
 constexpr double kResolved = 1;  // up to this (h·ω)² a spring swings; beyond, it is damped
 
+constexpr double kLeastPush = 1e-280;  // force per length or speed: less is none, and has no inverse
+
 const RigidState kGround = {};
 
 double speedOf(const RigidRow& row, const RigidState& a, const RigidState& b) {
@@ -50,7 +52,8 @@ void prepareMotor(RigidRow& row, const Joint& joint, double h) {
 }
 
 // A spring that the sub-step resolves gets half its impulse before and half after the bodies move, as gravity
-// does; a stiffer one all of it before, by backward Euler.
+// does: that of the middle of their motion (the implicit midpoint rule), which keeps the energy of an
+// undamped one. A stiffer one gets all of it before, by backward Euler.
 void prepareSoft(RigidRow& row, const Joint& joint, double h) {
   const double k = joint.stiffness, c = joint.damping;
   const double most = joint.kind == JointKind::kMouse ? joint.max_force * h : kNoLimit;
@@ -68,10 +71,10 @@ void prepareSoft(RigidRow& row, const Joint& joint, double h) {
         2 * h * c * row.inverse_effective_mass > kResolved) {
       part.low = -most, part.high = most;
       if (half == 0) soften(-k * row.value / (c + h * k), 1 / (h * (c + h * k)));
-    } else if (h * c * row.inverse_effective_mass > 1e-9) {
-      soften(-k * row.value / c, 2 / (h * c));
-    } else {
-      part.given = std::clamp(-0.5 * h * k * row.value, -0.5 * most, 0.5 * most);
+    } else if (half == 1) {
+      part.given = row.impulse;
+    } else if (const double push = 0.25 * h * h * k + 0.5 * h * c; push > kLeastPush) {
+      soften(-0.5 * h * k * row.value / push, 1 / push);
     }
   }
 }

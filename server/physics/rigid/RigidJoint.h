@@ -68,6 +68,9 @@ class RigidJoints {
     const Link& l = m_links[static_cast<std::size_t>(link)];
     return std::span(m_rows).subspan(static_cast<std::size_t>(l.row), static_cast<std::size_t>(l.count));
   }
+  bool isSoft(int link) const {
+    return m_rows[static_cast<std::size_t>(m_links[static_cast<std::size_t>(link)].row)].is_soft;
+  }
   double solve(int link, std::span<RigidState> states, bool is_second);
   /// Makes what undoes overlap go along with the joints.
   void hold(std::span<RigidState> states) const;

@@ -65,7 +65,12 @@ void RigidWorld::gatherIslands(bool is_first) {
   const auto ofConstraint = [&](const ContactConstraint& c) { return islandOf(c.a, c.b); };
   for (const int id : m_active) ++m_islands[at(m_island_of[at(rootOf(id))])].bodies;
   for (const ContactConstraint& c : constraints_now) ++m_islands[at(ofConstraint(c))].constraints;
-  m_joints.visitLinks([&](int a, int b) { ++m_islands[at(islandOf(a, b))].links; });
+  int counted = 0;
+  m_joints.visitLinks([&](int a, int b) {
+    Island& island = m_islands[at(islandOf(a, b))];
+    ++island.links;
+    island.hard_links += m_joints.isSoft(counted++) ? 0 : 1;
+  });
   int bodies = 0, constraints = 0, links = 0;
   for (Island& island : m_islands) {
     island.first_body = bodies, bodies += island.bodies;
@@ -95,9 +100,9 @@ void RigidWorld::gatherIslands(bool is_first) {
     const Island& island = m_islands[at(m_island_of[at(rootOf(id))])];
     if (!is_first) break;
     Extra& extra = m_extras[at(id)];
-    extra.is_in_crowd = island.bodies >= kCrowd || island.links > 0;
+    extra.is_in_crowd = island.bodies >= kCrowd || island.hard_links > 0;
     extra.is_crowded = island.has_fast && extra.is_in_crowd;
-    extra.is_in_heap = extra.is_crowded && island.links == 0;
+    extra.is_in_heap = extra.is_crowded && island.hard_links == 0;
   }
   for (Island& island : m_islands) island.bodies = island.constraints = island.links = 0;
   m_island_bodies.resize(at(bodies));

@@ -44,6 +44,8 @@ class RigidStepper {
   virtual const RigidBody& body(int id) const = 0;
   /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
   virtual bool isFrozen(int id) const = 0;
+  /// Did it move only a part of its way in the last step, though nothing has pushed it?
+  virtual bool isStopped(int id) const = 0;
 
   /// Between bodies that exist; `joint.a` and `joint.b` are ids. Bodies on a joint do not touch each other
   /// unless `may_touch`. Returns the joint's id, or −1 if it is not valid.

@@ -73,6 +73,7 @@ class RigidWorld final : public RigidStepper {
   bool exists(int id) const { return id >= 0 && id < idLimit() && m_extras[at(id)].exists; }
   /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
   bool isFrozen(int id) const override { return m_extras[at(id)].is_frozen; }
+  bool isStopped(int /*id*/) const override { return false; }
   bool isAsleep(int id) const { return m_extras[at(id)].is_asleep; }
   /// Wakes it and what sleeps with it.
   void wake(int id);
@@ -172,8 +173,9 @@ class RigidWorld final : public RigidStepper {
     int first_body = 0, bodies = 0;  // in m_island_bodies
     int first_constraint = 0, constraints = 0;
     int first_link = 0, links = 0;
-    double kick = 0;  // the greatest of its bodies
-    int root = 0;     // its lowest body
+    int hard_links = 0;  // of these, what springs and mice are not
+    double kick = 0;     // the greatest of its bodies
+    int root = 0;        // its lowest body
     bool has_fast = false;
   };
   struct Gain {  // the greatest speed in a group, when it began to be still and now

@@ -29,6 +29,30 @@ void SubstepWorld::unite(const SubstepBody& a, const SubstepBody& b) {
   }
 }
 
+// Groups are what contacts and joints connect, whether they push or not; what cannot move holds them.
+void SubstepWorld::findGroups() {
+  m_parent.resize(m_states.size());
+  for (std::size_t i = 0; i < m_parent.size(); ++i) m_parent[i] = static_cast<std::int32_t>(i);
+  const auto forEachPair = [&](auto visit) {
+    for (const Contact& c : m_contacts) visit(m_bodies[at(c.a)], m_bodies[at(c.b)]);
+    m_joints.visitLinks([&](int a, int b) {
+      if (a >= 0) visit(m_bodies[at(a)], m_bodies[at(b)]);
+    });
+  };
+  forEachPair([&](const SubstepBody& a, const SubstepBody& b) { unite(a, b); });
+  m_groups.assign(m_states.size(), {});
+  const auto hold = [&](const SubstepBody& by, const SubstepBody& held) {
+    if (!isMovable(by) && held.state > 0) m_groups[at(rootOf(held.state))].is_held = true;
+  };
+  forEachPair([&](const SubstepBody& a, const SubstepBody& b) {
+    hold(a, b);
+    hold(b, a);
+  });
+  m_joints.visitLinks([&](int a, int b) {
+    if (a < 0 && m_bodies[at(b)].state > 0) m_groups[at(rootOf(m_bodies[at(b)].state))].is_held = true;
+  });
+}
+
 // A group sleeps when all of it has been still for a while and is not speeding up, and something that cannot
 // move holds it, or nothing pulls at it at all.
 void SubstepWorld::sleep() {

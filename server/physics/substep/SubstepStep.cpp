@@ -231,9 +231,29 @@ void SubstepWorld::stop(int id) {
   if (other.state > 0 && isMovable(other) && isFast(other)) other.part = std::min(other.part, first);
 }
 
+// Impulses are floats, which the two bodies of a contact do not feel exactly alike. A group that nothing
+// holds gets back what that has taken from its momentum.
+void SubstepWorld::keepMomentum() {
+  findGroups();
+  const auto changeOf = [&](const SubstepBody& b) {
+    const SubstepState& s = m_states[at(b.state)];
+    const Vec2 gained = b.body.acceleration + b.body.inverse_mass * b.body.force;
+    return gained - Vec2{s.vx, s.vy};
+  };
+  for (const std::int32_t id : m_active) {
+    const SubstepBody& b = m_bodies[at(id)];
+    Group& group = m_groups[at(rootOf(b.state))];
+    if (group.is_held || !isMovable(b) || b.body.inverse_mass == 0) continue;
+    const double mass = 1 / b.body.inverse_mass;
+    group.missing += mass * changeOf(b);
+    group.mass += mass;
+  }
+}
+
 void SubstepWorld::finish() {
   storeContacts();
   stopFast();
+  keepMomentum();
   for (const std::int32_t id : m_active) {
     SubstepBody& b = m_bodies[at(id)];
     const SubstepState& s = m_states[at(b.state)];
@@ -248,6 +268,8 @@ void SubstepWorld::finish() {
     if (b.turn != 0) b.body.rotation = turned(b.body.rotation, b.part * b.turn);
     if (!isMovable(b)) continue;
     b.body.velocity += Vec2{s.vx, s.vy};
+    const Group& group = m_groups[at(rootOf(b.state))];
+    if (group.mass > 0 && isFinite(group.missing)) b.body.velocity += group.missing / group.mass;
     b.body.spin += double{s.spin} - double{static_cast<float>(b.body.spin)};
   }
   if (const int broken = m_joints.end(); broken > 0) {

@@ -48,8 +48,7 @@ class SubstepWorld final : public RigidStepper {
   const RigidBody& body(int id) const override { return m_bodies[at(id)].body; }
   bool exists(int id) const { return id >= 0 && id < idLimit() && m_bodies[at(id)].exists; }
   bool isFrozen(int id) const override { return m_bodies[at(id)].is_frozen; }
-  /// Did it move only a part of its way in the last step?
-  bool isStopped(int id) const { return m_bodies[at(id)].state > 0 && m_bodies[at(id)].part < 1; }
+  bool isStopped(int id) const override { return m_bodies[at(id)].state > 0 && m_bodies[at(id)].part < 1; }
   bool isAsleep(int id) const { return m_bodies[at(id)].is_asleep; }
   int idLimit() const { return static_cast<int>(m_bodies.size()); }
 
@@ -113,6 +112,7 @@ class SubstepWorld final : public RigidStepper {
   void listActive();
   void begin(int id);
   void moveStates();
+  void keepMomentum();
   void finish();
   bool isFast(const SubstepBody& body) const;
   void stopFast();
@@ -137,6 +137,7 @@ class SubstepWorld final : public RigidStepper {
   std::vector<Pair>::const_iterator findPair(std::int32_t one, std::int32_t other) const;
 
   // SubstepSleep.cpp
+  void findGroups();
   int rootOf(int state);
   void unite(const SubstepBody& a, const SubstepBody& b);
   void sleep();
@@ -149,7 +150,7 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_near;
   std::vector<std::int32_t> m_fast;    // in this step
   std::vector<SubstepState> m_states;  // the first one is of all that does not move
-  BroadPhase m_broad;
+  BroadPhase m_broad{true};
   std::vector<Pair> m_pairs, m_pairs_before;
   std::vector<Memory> m_memory;
   std::int32_t m_free_memory = -1;
@@ -164,6 +165,8 @@ class SubstepWorld final : public RigidStepper {
     double speed_before = 0, speed = 0;
     std::int32_t first = -1;
     bool is_held = false, is_driven = false, is_adrift = false;
+    Vec2 missing;     // momentum that rounding has taken in this step
+    double mass = 0;  // of those that it was taken from
   };
   std::vector<Group> m_groups;  // by root
   std::vector<RigidEvent> m_events, m_earlier_events;

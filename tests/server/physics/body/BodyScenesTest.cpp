@@ -1,0 +1,337 @@
+// Scenes that have gone wrong: bodies that meet in a point, blocks, springs of any stiffness on what is held,
+// nets, leaning stacks, crowds. Nothing is frozen, nothing gains energy, and the work is bounded.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "physics/body/BodyLayer.h"
+#include "physics/body/Field.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/server/physics/BodyScene.h"
+
+namespace df::test {
+namespace {
+
+constexpr double kFall = 10;  // per second²
+
+class BodyScenes : public BodyScene {
+ protected:
+  const naiad::physics::ImpactCounters& impacts() { return world.findLayer<BodyLayer>()->impactCounters(); }
+  const naiad::physics::SubstepCounters& substeps() {
+    return world.findLayer<BodyLayer>()->substepCounters();
+  }
+
+  Body* put(Body* p_body) {
+    bodies.push_back(p_body);
+    return p_body;
+  }
+  double kinetic() const {
+    double sum = 0;
+    for (const Body* p_body : bodies) {
+      const Vector v = p_body->getVelocity();
+      sum += 0.5 * p_body->getMass() * (v.x() * v.x() + v.y() * v.y());
+      if (p_body->isTurning()) sum += 0.5 * p_body->getInertia() * p_body->getSpin() * p_body->getSpin();
+    }
+    return sum;
+  }
+  Vector momentum() const {
+    Vector sum;
+    for (const Body* p_body : bodies) {
+      const Vector v = p_body->getVelocity();
+      sum = sum + Vector(p_body->getMass() * v.x(), p_body->getMass() * v.y());
+    }
+    return sum;
+  }
+  // A closed system: no energy is gained, momentum stays, and nothing is frozen.
+  void expectClosed(int count, double tolerance) {
+    const Vector start = momentum();
+    double least = kinetic(), size = 0;
+    for (const Body* p_body : bodies) {
+      size += p_body->getMass() * std::hypot(p_body->getVelocity().x(), p_body->getVelocity().y());
+    }
+    for (int i = 0; i < count; ++i) {
+      ticks(1);
+      const Vector now = momentum();
+      ASSERT_LE(std::hypot(now.x() - start.x(), now.y() - start.y()), tolerance * size) << i;
+      ASSERT_LE(kinetic(), least * (1 + 1e-9)) << i;
+      least = kinetic();
+    }
+    EXPECT_EQ(PM.getQuarantineCount(), 0U);
+  }
+
+  std::vector<Body*> bodies;
+};
+
+TEST_F(BodyScenes, FourThatMeetInAPointAreAFewImpacts) {
+  for (const double x : {-3, 3}) {
+    for (const double y : {-3, 3}) {
+      put(crate(Vector(x, y)))->setVelocity(Vector(x > 0 ? -0.1 : 0.1, y > 0 ? -0.1 : 0.1));
+    }
+  }
+  expectClosed(60, 1e-9);
+  EXPECT_LE(impacts().impacts, 20);
+}
+
+TEST_F(BodyScenes, ARingThatMeetsInAPointKeepsItsMomentum) {
+  constexpr int kCount = 60;
+  for (int i = 0; i < kCount; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCount;
+    const Vector out(std::cos(angle), std::sin(angle));
+    put(crate(Vector(20 * out.x(), 20 * out.y())))->setVelocity(Vector(-0.1 * out.x(), -0.1 * out.y()));
+  }
+  expectClosed(250, 1e-6);
+}
+
+TEST_F(BodyScenes, BlocksOfTouchingBoxesPush) {
+  for (int seed = 0; seed < 60; ++seed) {
+    naiad::SplitMix64 random(static_cast<std::uint64_t>(seed));
+    const int side = 2 + seed % 2;
+    for (int i = 0; i < side * side; ++i) {
+      const double vx = 0.04 * (random.unit() - 0.5), vy = 0.04 * (random.unit() - 0.5);
+      put(crate(Vector(i % side, i / side)))->setVelocity(Vector(vx, vy));
+    }
+    const std::int64_t before = impacts().impacts;
+    ASSERT_NO_FATAL_FAILURE(expectClosed(60, 1e-9)) << seed;
+    EXPECT_LE(impacts().impacts - before, 1000) << seed;
+    for (Body* p_body : bodies) delete p_body;
+    bodies.clear();
+  }
+}
+
+// More than the reserve: the group is moved as a whole in soft sub-steps. Each pair still hears of begin and
+// end by turns.
+TEST_F(BodyScenes, WhatHitsMoreOftenThanATickAllowsIsMovedAsAGroup) {
+  for (const double side : {-1, 1}) {
+    wall(Vector(side * 5.5, 0), Vector(0.5, 6));
+    wall(Vector(0, side * 5.5), Vector(6, 0.5));
+  }
+  std::vector<Listener*> balls;
+  for (int i = 0; i < 100; ++i) {
+    Listener* p_ball = ball<Listener>(Vector(i % 10 - 4.5, i / 10 - 4.5), Vector(), 0.4);
+    p_ball->setVelocity(Vector(20.0 * (i % 7) - 60, 20.0 * (i % 11) - 100));
+    p_ball->setContactEnds();
+    balls.push_back(p_ball);
+    put(p_ball);
+  }
+  const double start = kinetic();
+  ticks(20);
+  EXPECT_GT(impacts().given_up, 0);
+  EXPECT_GT(substeps().ticks, 0);
+  EXPECT_LE(kinetic(), start * (1 + 1e-9));
+  EXPECT_EQ(PM.getQuarantineCount(), 0U);
+  for (const Listener* p_ball : balls) {
+    std::map<std::pair<const Object*, const Object*>, bool> touches;
+    for (const Listener::Note& note : p_ball->notes) {
+      bool& is_touching = touches[{note.p_first, note.p_second}];
+      EXPECT_NE(is_touching, note.is_begin);
+      is_touching = note.is_begin;
+    }
+    EXPECT_LT(std::abs(p_ball->getPosition().x()), 5.5);
+    EXPECT_LT(std::abs(p_ball->getPosition().y()), 5.5);
+  }
+}
+
+class LinearField : public Field {
+ public:
+  explicit LinearField(double stiffness) : m_stiffness(stiffness) {}
+  Vector accelerationAt(Vector displacement, Vector /*velocity*/, double /*time*/) const override {
+    return Vector(-m_stiffness * displacement.x(), -m_stiffness * displacement.y());
+  }
+
+ private:
+  double m_stiffness;
+};
+
+constexpr std::array<double, 9> kStiffnesses = {0.01, 0.1, 1, 4.5, 10, 100, 1e4, 1e8, 1e12};
+
+// A box slides on ice, pulled to a point: how far from it does it get, and how far at the end?
+struct Swing {
+  double farthest = 0, late = 0, gained = 0;
+};
+
+class PulledBox : public BodyScenes {
+ protected:
+  template <class Pull>
+  Swing swing(double stiffness, Pull pull) {
+    Object* p_floor = wall(Vector(0, 0.5), Vector(50, 0.5));
+    PM.setGravity(perSecondSquared(Vector(0, kFall)));
+    Body* p_box = crate(Vector(1, -0.5));
+    p_box->setTurning();
+    p_box->setFriction(0);
+    pull(p_box);
+    const auto energy = [&] {
+      const double x = p_box->getPosition().x(), v = p_box->getVelocity().x();
+      return 0.5 * v * v + 0.5 * stiffness * x * x;
+    };
+    const double start = energy();
+    Swing swing;
+    for (int i = 0; i < 300; ++i) {
+      ticks(1);
+      const double away = std::abs(p_box->getPosition().x());
+      swing.farthest = std::max(swing.farthest, away);
+      if (i >= 200) swing.late = std::max(swing.late, away);
+      swing.gained = std::max(swing.gained, energy() / start - 1);
+      // Beyond that, a unit in the last place of a place is a force that throws it.
+      if (stiffness <= 1e8) EXPECT_NEAR(p_box->getPosition().y(), -0.5, 5e-3) << stiffness << ' ' << i;
+      EXPECT_LT(p_box->getPosition().y(), -0.4) << stiffness << ' ' << i;
+    }
+    EXPECT_FALSE(p_box->isFrozen()) << stiffness;
+    delete p_box;
+    delete p_floor;
+    return swing;
+  }
+};
+
+TEST_F(PulledBox, ASpringIsBoundedAtAnyStiffness) {
+  for (const double k : kStiffnesses) {
+    const Swing its = swing(k, [&](Body* p_box) { p_box->setSpring(Vector(0, -0.5), k); });
+    EXPECT_LE(its.gained, 1e-5) << k;
+    EXPECT_LE(its.farthest, 1 + 1e-5) << k;
+    if (k <= 10)
+      EXPECT_GE(its.late, 0.98) << k;  // what sub-steps follow goes on; some ends fall between ticks
+  }
+}
+
+TEST_F(PulledBox, AStiffFieldIsBoundedAtAnyStiffness) {
+  for (const double k : kStiffnesses) {
+    const LinearField field(k);
+    const Swing its = swing(k, [&](Body* p_box) { p_box->setField(&field, Vector(0, -0.5)); });
+    EXPECT_LE(its.farthest, 1.01) << k;
+    if (k <= 0.01) EXPECT_GE(its.late, 0.99) << k;
+  }
+}
+
+TEST_F(BodyScenes, ASpringOnARodIsBoundedAtAnyStiffness) {
+  PM.setGravity(perSecondSquared(Vector(0, kFall)));
+  for (const double k : kStiffnesses) {
+    Body* p_bob = ball(Vector(3, 4), Vector(), 0.25);
+    PM.addDistance(nullptr, p_bob, Vector(), Vector(3, 4));
+    p_bob->setSpring(Vector(0, 4), k);
+    for (int i = 0; i < 300; ++i) {
+      ticks(1);
+      const Vector at = p_bob->getPosition();
+      ASSERT_LE(std::abs(at.x()), 3.05) << k << ' ' << i;
+      ASSERT_GT(at.y(), 3.9) << k << ' ' << i;
+    }
+    EXPECT_FALSE(p_bob->isFrozen()) << k;
+    delete p_bob;
+  }
+}
+
+// A spring joint with a length, off its line: no integrator follows it, and nothing need be frozen.
+TEST_F(BodyScenes, AStiffSpringJointFromTheWorldHoldsWhatLiesOnAFloor) {
+  wall(Vector(0, 0.5), Vector(50, 0.5));
+  PM.setGravity(perSecondSquared(Vector(0, kFall)));
+  for (const double k : kStiffnesses) {
+    Body* p_box = crate(Vector(1, -0.5));
+    p_box->setTurning();
+    p_box->setFriction(0);
+    PM.addSpring(nullptr, p_box, Vector(0, -0.5), Vector(1, -0.5), k);
+    p_box->setVelocity(Vector(0.01, 0));
+    ticks(300);
+    EXPECT_FALSE(p_box->isFrozen()) << k;
+    EXPECT_NEAR(p_box->getPosition().x(), 1, 0.11) << k;
+    EXPECT_NEAR(p_box->getPosition().y(), -0.5, 1e-3) << k;
+    delete p_box;
+  }
+}
+
+// A belt drags a box that a spring holds back.
+TEST_F(BodyScenes, StickAndSlipStaysBounded) {
+  PM.setGravity(perSecondSquared(Vector(0, kFall)));
+  for (const double omega : {0.01, 0.1, 1.0, 10.0}) {
+    Body* p_belt = crate(Vector(0, 0.5), Vector(5000, 0.5));
+    p_belt->setKinematic();
+    p_belt->setVelocity(Vector(0.05, 0));
+    Body* p_box = crate(Vector(0, -0.5));
+    p_box->setTurning();
+    p_box->setSpring(Vector(0, -0.5), omega * omega);
+    const double most = 0.05 * 301;  // it never gets farther than the belt
+    for (int i = 0; i < 300; ++i) {
+      ticks(1);
+      ASSERT_LE(std::abs(p_box->getPosition().x()), most) << omega << ' ' << i;
+      ASSERT_LE(std::abs(p_box->getVelocity().x()), 1) << omega << ' ' << i;
+    }
+    EXPECT_FALSE(p_box->isFrozen()) << omega;
+    delete p_box;
+    delete p_belt;
+  }
+}
+
+TEST_F(BodyScenes, AStackThatLeansToAndFroStands) {
+  PM.setGravity(perSecondSquared(Vector(0, kFall)));
+  wall(Vector(0, 0.5), Vector(50, 0.5));
+  for (const int count : {20, 40, 60}) {
+    bodies.clear();
+    for (int i = 0; i < count; ++i) {
+      put(crate(Vector(i % 2 == 0 ? -0.025 : 0.025, -0.5 - i)))->setTurning();
+      bodies.back()->setFriction(0.6);
+    }
+    ticks(300);
+    for (int i = 0; i < count; ++i) {
+      EXPECT_NEAR(bodies[static_cast<std::size_t>(i)]->getPosition().y(), -0.5 - i, 0.05)
+          << count << ' ' << i;
+    }
+    for (Body* p_body : bodies) delete p_body;
+  }
+}
+
+// So many loops of hinges that a direct solution is too dear; and again when one hinge goes.
+TEST_F(BodyScenes, ANetOfManyLoopsIsMovedInSubsteps) {
+  constexpr int kSide = 12;
+  PM.setGravity(perSecondSquared(Vector(0, kFall)));
+  std::vector<std::pair<Joint, std::array<int, 2>>> hinges;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    Body* p_disc = put(ball(Vector(i % kSide, i / kSide), Vector(), 0.4));
+    p_disc->setSolidness(SPECTRAL);
+    p_disc->setTurning();
+    if (i < kSide && i % 4 == 0) p_disc->setKinematic();
+  }
+  const auto join = [&](int a, int b, Vector where) {
+    hinges.emplace_back(
+        PM.addHinge(bodies[static_cast<std::size_t>(a)], bodies[static_cast<std::size_t>(b)], where),
+        std::array<int, 2>{a, b});
+  };
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const Vector at(i % kSide, i / kSide);
+    if (i % kSide + 1 < kSide) join(i, i + 1, at + Vector(0.5, 0));
+    if (i / kSide + 1 < kSide) join(i, i + kSide, at + Vector(0, 0.5));
+  }
+  const auto widest = [&] {
+    double most = 0;
+    for (const auto& [hinge, ends] : hinges) {
+      if (!hinge.exists()) continue;
+      const Vector a = bodies[static_cast<std::size_t>(ends[0])]->getPosition(),
+                   b = bodies[static_cast<std::size_t>(ends[1])]->getPosition();
+      most = std::max(most, std::hypot(b.x() - a.x(), b.y() - a.y()));
+    }
+    return most;
+  };
+  ticks(20);
+  EXPECT_EQ(substeps().ticks, 20);
+  EXPECT_LE(widest(), 1.4);
+  hinges[40].first.remove();
+  ticks(100);
+  EXPECT_EQ(substeps().ticks, 120);
+  EXPECT_LE(widest(), 1.4);
+  EXPECT_EQ(PM.getQuarantineCount(), 0U);
+}
+
+// Each is pushed by the nearest only, so that a tick's work grows with their number and not with its square.
+TEST_F(BodyScenes, ACrowdOfTurningBoxesInOneCellCostsItsNumber) {
+  constexpr int kCount = 800;
+  naiad::SplitMix64 random(1);
+  for (int i = 0; i < kCount; ++i) {
+    const double x = random.unit(), y = random.unit();
+    put(crate(Vector(x, y)))->setTurning();
+  }
+  ticks(5);
+  EXPECT_EQ(substeps().ticks, 5);
+  EXPECT_LE(substeps().contacts, 5 * 40 * kCount);
+  EXPECT_EQ(PM.getQuarantineCount(), 0U);
+}
+
+}  // namespace
+}  // namespace df::test
