@@ -35,7 +35,8 @@ struct RigidCounters {
   std::int64_t direct_rounds = 0;    ///< factorisations, about, that it took
   std::int64_t direct_failures = 0;  ///< of these solves, those that were given up
   std::int64_t quarantined = 0;      ///< bodies frozen
-  std::int64_t broken = 0;           ///< joints
+  std::int64_t limited = 0;  ///< speeds or spins taken back to kMaxSpeed or kMaxSpin, once per step each
+  std::int64_t broken = 0;   ///< joints
 };
 
 struct RigidOptions {
@@ -50,6 +51,10 @@ class RigidWorld final : public RigidStepper {
  public:
   static constexpr double kLongestStep =
       32;  ///< ticks; longer ones are divided: at once they throw heaps apart
+  /// An impact makes no body faster than that: metric cells per tick along each axis, and rad per tick. It
+  /// loses the rest. What was set to more is left as it is.
+  static constexpr double kMaxSpeed = 1.6e7;
+  static constexpr double kMaxSpin = 1e6;
 
   explicit RigidWorld(RigidOptions options = {}) : m_options(options) {}
 
@@ -106,6 +111,8 @@ class RigidWorld final : public RigidStepper {
  private:
   /// In a body's thickness: the least margin of the search for contacts in a moving heap.
   static constexpr double kLeastMargin = 0.25;
+  // Likewise: how far corners turn before others than those found may touch.
+  static constexpr double kMaxRoll = 0.5;
 
   struct Extra {
     std::vector<ConvexShape> shapes;
@@ -209,6 +216,9 @@ class RigidWorld final : public RigidStepper {
   void drift(double h);
   void move(int id, double h);
   void finishStep(double dt);
+  void limit(int id);
+  bool isFlying(int id) const;
+  void dropParted();
 
   // RigidPairs.cpp
   void updatePairs();
@@ -294,6 +304,7 @@ class RigidWorld final : public RigidStepper {
   double m_h = 0;
   bool m_active_changed = false;
   bool m_is_restless = false;  // a body is
+  bool m_has_flown = false;    // one was swept in this step
   bool m_joints_changed = false;
 };
 
