@@ -128,6 +128,7 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
   if (pair.is_passed) return dropContacts(pair);
   const Extra &a = m_extras[at(pair.a)], &b = m_extras[at(pair.b)];
   if (!(a.is_active || a.is_dirty || b.is_active || b.is_dirty)) return;
+  if ((a.is_late || b.is_late) && !(a.is_restless || b.is_restless)) return;  // in the next step
   const bool a_sleeps = a.is_asleep, b_sleeps = b.is_asleep;
   if ((a_sleeps || !isMovable(pair.a)) && (b_sleeps || !isMovable(pair.b)) &&
       !(a_sleeps && (b.is_active || b.is_dirty)) && !(b_sleeps && (a.is_active || a.is_dirty))) {

@@ -15,9 +15,6 @@ constexpr double kFarthestTurn = 1e9;  // rad, likewise
 constexpr double kSlack = 0.02;  // least margin of the search for contacts
 constexpr double kBoundsSlack =
     0.1;  // by which the tree's bounds are wider, so that small moves leave them alone
-// Sweeps that undo overlap; one, without joints or a moving heap.
-constexpr int kPushSweeps = 8;       // where there are joints
-constexpr int kCrowdPushSweeps = 2;  // where a heap moves
 // A large group in which a body moves by more than kRestless in a step is a moving heap: the contacts of
 // those of its bodies that move by less than kFast in a sub-step are searched again in every sub-step.
 constexpr double kRestless = 0.25;
@@ -61,7 +58,7 @@ void RigidWorld::beginBody(int id, double dt) {
   }
   extra.moved = extra.rolled = extra.travelled = 0;
   extra.search_displacement = {};
-  extra.is_restless = false;
+  extra.is_restless = extra.is_late = false;
   extra.part = 1;
   if (extra.proxy < 0) return;
   const double movement = length(displacement) + std::min(angle, 2.0) * extra.reach;
@@ -131,10 +128,17 @@ void RigidWorld::kick(bool is_second) {
   }
 }
 
+// As often as each group needs, and no oftener because of another one.
 void RigidWorld::pushOut(double h) {
-  const int sweeps = !m_joints.rows().empty() ? kPushSweeps : m_is_restless ? kCrowdPushSweeps : 1;
-  for (int i = 0; i < sweeps; ++i) {
-    for (ContactConstraint& c : m_constraints) pushApart(c, m_states);
+  const auto sweepsOf = [&](int id) {
+    return m_extras[at(id)].is_active && isMovable(id) ? m_extras[at(id)].push_sweeps : 0;
+  };
+  const bool has_joints = !m_joints.rows().empty();
+  const int most = has_joints ? kPushSweeps : m_is_restless ? kCrowdPushSweeps : 1;
+  for (int i = 0; i < most; ++i) {
+    for (ContactConstraint& c : m_constraints) {
+      if (i == 0 || i < std::max(sweepsOf(c.a), sweepsOf(c.b))) pushApart(c, m_states);
+    }
     m_joints.hold(m_states);
   }
   for (const int id : m_active) {

@@ -113,6 +113,9 @@ class RigidWorld final : public RigidStepper {
   static constexpr double kLeastMargin = 0.25;
   // Likewise: how far corners turn before others than those found may touch.
   static constexpr double kMaxRoll = 0.5;
+  // Sweeps that undo overlap; one, without joints or a moving heap.
+  static constexpr int kPushSweeps = 8;       // of a group with joints
+  static constexpr int kCrowdPushSweeps = 2;  // of a moving heap
 
   struct Extra {
     std::vector<ConvexShape> shapes;
@@ -144,6 +147,8 @@ class RigidWorld final : public RigidStepper {
     bool is_crowded = false;   // … and a body of it was fast
     bool is_in_heap = false;   // … and it has no joints: it is never solved at once
     bool is_restless = false;  // in a moving heap: contacts are searched in every sub-step
+    bool is_late = false;      // hit in its sleep, in this step
+    int push_sweeps = 1;       // of its group
     int flight = -1;           // in m_flights: it moves impact by impact in this sub-step
   };
   struct Pair {
@@ -182,6 +187,7 @@ class RigidWorld final : public RigidStepper {
     double kick = 0;  // the greatest of its bodies
     int root = 0;     // its lowest body
     bool has_fast = false;
+    bool is_restless = false;
   };
   struct Gain {  // the greatest speed in a group, when it began to be still and now
     double before = 0, now = 0;
