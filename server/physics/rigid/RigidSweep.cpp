@@ -91,7 +91,7 @@ bool RigidWorld::isSolved(int a, int b, int shape_a, int shape_b) const {
 }
 
 void RigidWorld::forecastPair(int one, int other, double h) {
-  const int a = std::min(one, other), b = std::max(one, other);
+  const int a = isBefore(one, other) ? one : other, b = a == one ? other : one;
   const std::int32_t known = findPair(a, b);
   if (known >= 0 && m_pairs[at(known)].is_passed) return;
   const Extra &of_a = m_extras[at(a)], &of_b = m_extras[at(b)];
@@ -155,8 +155,8 @@ void RigidWorld::forecast(int id, double h) {
   const GridBounds bounds = gridBounds(place, swept, 0);
   m_broad.move(extra.proxy, bounds, bounds);
   m_near.clear();
-  m_broad.query(bounds, [&](std::uint32_t other) { m_near.push_back(static_cast<int>(other)); });
-  std::sort(m_near.begin(), m_near.end());
+  m_broad.query(bounds, [&](std::uint32_t other) { m_near.push_back(idOf(other)); });
+  std::sort(m_near.begin(), m_near.end(), [this](int x, int y) { return isBefore(x, y); });
   for (const int other : m_near) {
     if (other == id || !(isMovable(id) || isMovable(other)) || m_joints.keepsApart(id, other)) continue;
     forecastPair(id, other, h);
@@ -327,11 +327,11 @@ void RigidWorld::sweep(double h) {
   m_impacts.clear();
   for (std::size_t i = 0; i < m_flights.size(); ++i) forecast(m_flights[i].id, h);
   while (!m_impacts.empty()) {
-    const auto isBefore = [](const Impact& x, const Impact& y) {
+    const auto isEarlier = [this](const Impact& x, const Impact& y) {
       if (x.time != y.time) return x.time < y.time;
-      return x.a != y.a ? x.a < y.a : x.b < y.b;
+      return x.a != y.a ? isBefore(x.a, y.a) : isBefore(x.b, y.b);
     };
-    const Impact next = *std::min_element(m_impacts.begin(), m_impacts.end(), isBefore);
+    const Impact next = *std::min_element(m_impacts.begin(), m_impacts.end(), isEarlier);
     handleImpact(next, h);
     std::erase_if(m_impacts, [&](const Impact& i) {
       const auto isOf = [&](int id) { return isMovable(id) && (i.a == id || i.b == id); };

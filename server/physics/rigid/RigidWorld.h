@@ -200,6 +200,14 @@ class RigidWorld final : public RigidStepper {
   };
 
   bool isMovable(int id) const { return physics::isMovable(m_bodies[at(id)]); }
+  // The order in which a pair names its bodies, and pairs are solved: what moves, by id, then what does not.
+  // An obstacle's id goes with when something first came near it, and that may have been anybody.
+  static constexpr std::uint32_t kImmovable = std::uint32_t{1} << 31;
+  std::uint32_t rankOf(int id) const {
+    return static_cast<std::uint32_t>(id) | (isMovable(id) ? 0 : kImmovable);
+  }
+  static int idOf(std::uint32_t rank) { return static_cast<int>(rank & ~kImmovable); }
+  bool isBefore(int a, int b) const { return rankOf(a) < rankOf(b); }
   bool isMoving(int id) const { return m_bodies[at(id)].velocity != Vec2{} || m_bodies[at(id)].spin != 0; }
 
   // RigidWorld.cpp
@@ -229,6 +237,8 @@ class RigidWorld final : public RigidStepper {
   // RigidPairs.cpp
   void updatePairs();
   void dropPair(Pair& pair);
+  void forgetPairs(int id);
+  void addEvent(RigidEvent event);
   void updateContacts(double dt);
   void updatePair(std::int32_t index, double dt);
   bool isRestless(const ContactConstraint& constraint) const;
