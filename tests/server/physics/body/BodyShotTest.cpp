@@ -28,13 +28,15 @@ struct Shot {
   double length = 10;
   double speed = 1, spin = 0, angle = 0, y = 0;
   double restitution = 0, friction = 0;
+  bool ends_inside = false;  // a tick, if nothing stops it
 };
 
 std::ostream& operator<<(std::ostream& out, const Shot& shot) {
   out.precision(17);
   return out << kNames[static_cast<std::size_t>(shot.kind)] << " wall of " << shot.length << ", speed "
              << shot.speed << ", spin " << shot.spin << ", angle " << shot.angle << ", y " << shot.y
-             << ", restitution " << shot.restitution << ", friction " << shot.friction;
+             << ", restitution " << shot.restitution << ", friction " << shot.friction
+             << (shot.ends_inside ? ", ends a tick inside" : "");
 }
 
 int shots() {
@@ -60,6 +62,7 @@ Shot shotOf(int i) {
   shot.y = one() < 0.5 ? 0 : 0.4 * shot.length * (2 * one() - 1);
   shot.restitution = of(kBounces);
   shot.friction = one() < 0.5 ? 0 : 0.6;
+  shot.ends_inside = one() < 0.3;
   return shot;
 }
 
@@ -106,7 +109,8 @@ Found shoot(const Shot& shot) {
     }
   }
   const double closing = shot.speed * (shot.kind == WallKind::kKinematic ? 1.5 : 1);
-  const double room = std::min(kWallAt, 2 + 3 * closing);
+  const double room =
+      shot.ends_inside ? closing * std::ceil(2 / closing) : std::min(kWallAt, 2 + 3 * closing);
   auto* p_box = new Listener;
   p_box->setBoxShape(kWidth, kHeight);
   p_box->setTurning();
