@@ -39,6 +39,12 @@ struct Corners {
     }
   }
 
+  // All that a shape is while it turns about its origin: it may turn as it likes.
+  explicit Corners(double reach) : count(1) {
+    place[0] = reach;
+    speed[0] = 0;
+  }
+
   // Which corner lies foremost after `time`, going straight on.
   std::int32_t foremost(double time) const {
     std::int32_t best = 0;
@@ -71,11 +77,51 @@ double safeTime(const Corners& a, const Corners& b, double place, double speed, 
   return time;
 }
 
+// A pair whose sizes differ by more than this is one of a wall and something small.
+constexpr double kFarLarger = 16;
+
+// A pair of which one turns by more than a turn is looked at as if that were a disc, while it is far away.
+constexpr double kFastTurn = 6.3;
+
+// Both at one time.
+struct View {
+  const RigidMotion &motion_a, &motion_b;
+  const TurnedShape &a, &b;
+  Vec2 apart, displacement;
+  double radii, level, farthest, speed, left;
+
+  // The time that is safe along an axis that turns by `axis_turn`. A disc looks the same however it turns.
+  double safe(Vec2 normal, double axis_turn, bool a_is_disc = false, bool b_is_disc = false) const {
+    const double turn_a = motion_a.turn - axis_turn, turn_b = motion_b.turn - axis_turn;
+    // A's corners count forwards along the axis, B's backwards.
+    const Corners of_a = a_is_disc ? Corners(a.reach) : Corners(a, normal, turn_a);
+    const Corners of_b = b_is_disc ? Corners(b.reach) : Corners(b, -normal, turn_b);
+    // No path along the axis bends more than this: the corners about their origins, and these about the axis.
+    const double bend = (a_is_disc ? 0 : a.reach * turn_a * turn_a) +
+                        (b_is_disc ? 0 : b.reach * turn_b * turn_b) +
+                        std::fabs(axis_turn) * (farthest * std::fabs(axis_turn) + 2 * speed);
+    const double place = dot(normal, apart) - radii - level;
+    const double rate = dot(normal, displacement) + axis_turn * dot(perpendicular(normal), apart);
+    return safeTime(of_a, of_b, place, rate, bend, left);
+  }
+};
+
+// As far as everything reaches that turns about the origin.
+TurnedShape discAround(double reach) {
+  TurnedShape disc;
+  disc.count = 1;
+  disc.radius = disc.reach = reach;
+  disc.vertices[0] = disc.normals[0] = {};
+  return disc;
+}
+
 }  // namespace
 
+// A small shape at a large one is found as exactly as the large one's numbers allow, not as its size.
 double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, Vec2 relative_displacement) {
-  return 1e-10 * (a.reach + a.radius + b.reach + b.radius) +
-         1e-15 * (length(offset) + length(relative_displacement));
+  const double size_a = a.reach + a.radius, size_b = b.reach + b.radius, both = size_a + size_b;
+  const double near = std::min(both, kFarLarger * std::min(size_a, size_b));
+  return 1e-10 * near + 1e-15 * ((both - near) + length(offset) + length(relative_displacement));
 }
 
 TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
@@ -88,6 +134,10 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
   const Span span = nearTimes(offset, displacement, around * (1 + 1e-6) + 16 * tolerance);
   if (span.from > span.to) return result;
 
+  const double size_a = a.reach + a.radius, size_b = b.reach + b.radius;
+  const bool is_uneven = std::max(size_a, size_b) > kFarLarger * std::min(size_a, size_b);
+  const double turn_most = std::max(std::fabs(motion_a.turn), std::fabs(motion_b.turn));
+  const bool a_turns_more = std::fabs(motion_a.turn) == turn_most;
   TurnedShape turned_a, turned_b;
   double level = target, time = span.from;
   for (result.iterations = 1; result.iterations <= kImpactIterations; ++result.iterations) {
@@ -107,21 +157,35 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
       return result;
     };
     if (gap - level <= tolerance) return hit();
+    const double left = span.to - time;
+    const double farthest = std::max(length(apart), length(offset + span.to * displacement));
+    const View view = {motion_a, motion_b, turned_a, turned_b, apart, displacement,
+                       radii,    level,    farthest, speed,    left};
+    // Until the disc comes nearer than it does in about a turn. Then its corners decide: within a turn, if it
+    // goes on.
+    if (turn_most * left > kFastTurn) {
+      const Separation d = a_turns_more ? separation(discAround(a.reach), turned_b, apart)
+                                        : separation(turned_a, discAround(b.reach), apart);
+      const double room = d.distance - radii - (a_turns_more ? a.reach : b.reach) - level;
+      if (room > tolerance + 6 * speed / turn_most) {
+        const double turn_of_axis = d.feature == Feature::kFaceA   ? motion_a.turn
+                                    : d.feature == Feature::kFaceB ? motion_b.turn
+                                                                   : 0;
+        const double safe = view.safe(d.normal, turn_of_axis, a_turns_more, !a_turns_more);
+        if (safe >= left) return result;
+        if (time + safe > time) {
+          time += safe;
+          continue;
+        }
+      }
+    }
     // An axis across an edge turns with it, or else the edge's far end would seem to come nearer.
     const double axis_turn = s.feature == Feature::kFaceA   ? motion_a.turn
                              : s.feature == Feature::kFaceB ? motion_b.turn
                                                             : 0;
-    const double turn_a = motion_a.turn - axis_turn, turn_b = motion_b.turn - axis_turn;
-    const double left = span.to - time;
-    // No path along the axis bends more than this: the corners about their origins, and these about the axis.
-    const double farthest = std::max(length(apart), length(offset + span.to * displacement));
-    const double bend = a.reach * turn_a * turn_a + b.reach * turn_b * turn_b +
-                        std::fabs(axis_turn) * (farthest * std::fabs(axis_turn) + 2 * speed);
-    // A's corners count forwards along the axis, B's backwards.
-    const Corners of_a(turned_a, s.normal, turn_a), of_b(turned_b, -s.normal, turn_b);
-    const double place = dot(s.normal, apart) - radii - level;
-    const double rate = dot(s.normal, displacement) + axis_turn * dot(perpendicular(s.normal), apart);
-    const double safe = safeTime(of_a, of_b, place, rate, bend, left);
+    double safe = view.safe(s.normal, axis_turn);
+    // That bends the paths of a long shape's far corners, which are not there.
+    if (is_uneven && axis_turn != 0) safe = std::max(safe, view.safe(s.normal, 0));
     if (safe >= left) return result;
     if (time + safe == time) return hit();  // nearer than a double of time resolves
     time += safe;

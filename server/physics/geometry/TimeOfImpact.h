@@ -6,10 +6,11 @@
 //
 // Conservative advancement. At each stop the separating axis is known; along it, the gap at any later time is
 // at least what every pair of corners would leave if it went straight on, less the most that turning can bend
-// its path. The first time at which that bound is used up is safe to go to, so nothing is ever passed, and
-// because the bound is right to second order, the steps converge like Newton's. Cf. B. Mirtich,
-// "Impulse-based dynamic simulation of rigid body systems", 1996, and X. Zhang, M. Lee, Y. J. Kim,
-// "Interactive continuous collision detection for non-convex polyhedra", 2006.
+// its path. What turns fast is a disc until it has come near, so that turns before that cost nothing. The
+// first time at which that bound is used up is safe to go to, so nothing is ever passed, and because the
+// bound is right to second order, the steps converge like Newton's. Cf. B. Mirtich, "Impulse-based dynamic
+// simulation of rigid body systems", 1996, and X. Zhang, M. Lee, Y. J. Kim, "Interactive continuous collision
+// detection for non-convex polyhedra", 2006.
 #pragma once
 
 #include "physics/geometry/ConvexShape.h"

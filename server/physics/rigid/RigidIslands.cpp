@@ -118,7 +118,7 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
   int rounds = 0;
   const bool is_found = m_direct.solve(m_states, tolerance, rounds);
   m_counters.direct_rounds += rounds;
-  extra.budget -= rounds * cost;
+  extra.budget = std::max(extra.budget - rounds * cost, 0.0);  // below 0, it would be as if it had none yet
   if (!is_found) {
     ++m_counters.direct_failures;
     return cost > kSmallCost ? giveUp() : false;

@@ -50,9 +50,9 @@ void RigidWorld::dropContacts(Pair& pair) {
 }
 
 std::int32_t RigidWorld::findPair(std::int32_t a, std::int32_t b) const {
-  const auto found = std::lower_bound(m_pairs.begin(), m_pairs.end(), Late{a, b}, [](const Pair& p, Late x) {
-    return p.a != x.a ? p.a < x.a : p.b < x.b;
-  });
+  const auto found = std::lower_bound(
+      m_pairs.begin(), m_pairs.end(), Late{a, b},
+      [this](const Pair& p, Late x) { return p.a != x.a ? isBefore(p.a, x.a) : isBefore(p.b, x.b); });
   if (found == m_pairs.end() || found->a != a || found->b != b) return -1;
   return static_cast<std::int32_t>(found - m_pairs.begin());
 }
@@ -60,7 +60,20 @@ std::int32_t RigidWorld::findPair(std::int32_t a, std::int32_t b) const {
 // Their bounds parted.
 void RigidWorld::dropPair(Pair& pair) {
   dropContacts(pair);
-  if (pair.is_touching) m_events.push_back({0, pair.a, pair.b, false, 0, {}});
+  if (pair.is_touching) addEvent({0, pair.a, pair.b, false, 0, {}});
+}
+
+void RigidWorld::forgetPairs(int id) {
+  std::erase_if(m_pairs, [id](const Pair& pair) { return pair.a == id || pair.b == id; });
+}
+
+// An event names the lower id first.
+void RigidWorld::addEvent(RigidEvent event) {
+  if (event.first > event.second) {
+    std::swap(event.first, event.second);
+    event.normal = -event.normal;
+  }
+  m_events.push_back(event);
 }
 
 void RigidWorld::updatePairs() {
@@ -69,9 +82,9 @@ void RigidWorld::updatePairs() {
   m_pairs.clear();
   std::size_t next = 0;
   for (const BroadPhasePair& pair : found) {
-    const auto a = static_cast<std::int32_t>(pair.id_a), b = static_cast<std::int32_t>(pair.id_b);
-    const auto isBefore = [&](const Pair& old) { return old.a != a ? old.a < a : old.b < b; };
-    while (next < m_pairs_before.size() && isBefore(m_pairs_before[next])) dropPair(m_pairs_before[next++]);
+    const std::int32_t a = idOf(pair.id_a), b = idOf(pair.id_b);
+    const auto isGone = [&](const Pair& old) { return old.a != a ? isBefore(old.a, a) : isBefore(old.b, b); };
+    while (next < m_pairs_before.size() && isGone(m_pairs_before[next])) dropPair(m_pairs_before[next++]);
     const bool is_old =
         next < m_pairs_before.size() && m_pairs_before[next].a == a && m_pairs_before[next].b == b;
     if (is_old) {
@@ -92,7 +105,7 @@ void RigidWorld::updatePairs() {
     if (pair >= 0) {
       m_pairs[at(pair)].is_touching = true;
     } else if (exists(late.a) && exists(late.b)) {
-      m_events.push_back({0, late.a, late.b, false, 0, {}});
+      addEvent({0, late.a, late.b, false, 0, {}});
     }
   }
   m_late_before.clear();
@@ -128,6 +141,7 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
   if (pair.is_passed) return dropContacts(pair);
   const Extra &a = m_extras[at(pair.a)], &b = m_extras[at(pair.b)];
   if (!(a.is_active || a.is_dirty || b.is_active || b.is_dirty)) return;
+  if ((a.is_late || b.is_late) && !(a.is_restless || b.is_restless)) return;  // in the next step
   const bool a_sleeps = a.is_asleep, b_sleeps = b.is_asleep;
   if ((a_sleeps || !isMovable(pair.a)) && (b_sleeps || !isMovable(pair.b)) &&
       !(a_sleeps && (b.is_active || b.is_dirty)) && !(b_sleeps && (a.is_active || a.is_dirty))) {
@@ -277,7 +291,8 @@ void RigidWorld::publishBegin(const ContactConstraint& c, double dt) {
     }
     if (pair.is_touching) {  // begun in this step, or gone on
       for (RigidEvent& event : m_events) {
-        if (event.is_begin && event.first == c.a && event.second == c.b) event.impulse += impulse;
+        if (event.is_begin && event.first == std::min(c.a, c.b) && event.second == std::max(c.a, c.b))
+          event.impulse += impulse;
       }
       return;
     }
@@ -286,14 +301,14 @@ void RigidWorld::publishBegin(const ContactConstraint& c, double dt) {
     if (std::find(m_late.begin(), m_late.end(), Late{c.a, c.b}) != m_late.end()) return;
     m_late.push_back({c.a, c.b});
   }
-  m_events.push_back({std::min(std::max(c.first_time, 0.0), dt), c.a, c.b, true, impulse, c.first_normal});
+  addEvent({std::min(std::max(c.first_time, 0.0), dt), c.a, c.b, true, impulse, c.first_normal});
 }
 
 void RigidWorld::publishEnds(double dt) {
   for (Pair& pair : m_pairs) {
     if (!pair.is_seen || !pair.is_touching || pair.is_pushing || pair.is_near) continue;
     pair.is_touching = false;
-    m_events.push_back({dt, pair.a, pair.b, false, 0, {}});
+    addEvent({dt, pair.a, pair.b, false, 0, {}});
   }
 }
 

@@ -111,6 +111,7 @@ void RigidWorld::gatherIslands(bool is_first) {
   for (const int id : m_active) {
     Island& island = m_islands[at(m_island_of[at(rootOf(id))])];
     m_island_bodies[at(island.first_body + island.bodies++)] = id;
+    island.is_restless = island.is_restless || m_extras[at(id)].is_restless;
     island.kick = std::max(island.kick, length(m_states[at(id)].kick) + kMinKick);
   }
   for (std::size_t i = 0; i < constraints_now.size(); ++i) {
@@ -122,6 +123,10 @@ void RigidWorld::gatherIslands(bool is_first) {
     Island& island = m_islands[at(islandOf(a, b))];
     m_island_links[at(island.first_link + island.links++)] = link++;
   });
+  for (const int id : m_active) {
+    const Island& island = m_islands[at(m_island_of[at(rootOf(id))])];
+    m_extras[at(id)].push_sweeps = island.links > 0 ? kPushSweeps : island.is_restless ? kCrowdPushSweeps : 1;
+  }
 }
 
 // A group sleeps when all of it has been still for a while and is not speeding up, and something that cannot

@@ -77,7 +77,12 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
   const double time = speed < 0 ? 2 * gap / (impact - speed) : gain < 0 ? -(speed + impact) / gain : h;
   const double leaving = c.restitution * impact;
   if (!(time < h) || !(leaving > kRestSteps * h * std::fabs(gain))) return;
-  if (c.may_fly && std::fabs(p.normal_a * a.spin) + std::fabs(p.normal_b * b.spin) > kBend * impact) {
+  // It turns, or will by the bounce.
+  const double turning =
+      std::fabs(p.normal_a * a.spin) + std::fabs(p.normal_b * b.spin) +
+      impact * p.normal_mass *
+          (p.normal_a * p.normal_a * a.inverse_inertia + p.normal_b * p.normal_b * b.inverse_inertia);
+  if (c.may_fly && turning > kBend * impact) {
     p.is_bending = true;
     return;
   }

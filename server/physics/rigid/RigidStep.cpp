@@ -15,9 +15,6 @@ constexpr double kFarthestTurn = 1e9;  // rad, likewise
 constexpr double kSlack = 0.02;  // least margin of the search for contacts
 constexpr double kBoundsSlack =
     0.1;  // by which the tree's bounds are wider, so that small moves leave them alone
-// Sweeps that undo overlap; one, without joints or a moving heap.
-constexpr int kPushSweeps = 8;       // where there are joints
-constexpr int kCrowdPushSweeps = 2;  // where a heap moves
 // A large group in which a body moves by more than kRestless in a step is a moving heap: the contacts of
 // those of its bodies that move by less than kFast in a sub-step are searched again in every sub-step.
 constexpr double kRestless = 0.25;
@@ -61,7 +58,7 @@ void RigidWorld::beginBody(int id, double dt) {
   }
   extra.moved = extra.rolled = extra.travelled = 0;
   extra.search_displacement = {};
-  extra.is_restless = false;
+  extra.is_restless = extra.is_late = false;
   extra.part = 1;
   if (extra.proxy < 0) return;
   const double movement = length(displacement) + std::min(angle, 2.0) * extra.reach;
@@ -86,7 +83,7 @@ void RigidWorld::beginStep(double dt) {
   m_time = 0;
   m_h = dt / m_options.substeps;
   m_deepest = 0;
-  m_is_restless = false;
+  m_is_restless = m_has_flown = false;
   if (m_active_changed) {
     m_active_changed = false;
     m_active.clear();
@@ -131,10 +128,17 @@ void RigidWorld::kick(bool is_second) {
   }
 }
 
+// As often as each group needs, and no oftener because of another one.
 void RigidWorld::pushOut(double h) {
-  const int sweeps = !m_joints.rows().empty() ? kPushSweeps : m_is_restless ? kCrowdPushSweeps : 1;
-  for (int i = 0; i < sweeps; ++i) {
-    for (ContactConstraint& c : m_constraints) pushApart(c, m_states);
+  const auto sweepsOf = [&](int id) {
+    return m_extras[at(id)].is_active && isMovable(id) ? m_extras[at(id)].push_sweeps : 0;
+  };
+  const bool has_joints = !m_joints.rows().empty();
+  const int most = has_joints ? kPushSweeps : m_is_restless ? kCrowdPushSweeps : 1;
+  for (int i = 0; i < most; ++i) {
+    for (ContactConstraint& c : m_constraints) {
+      if (i == 0 || i < std::max(sweepsOf(c.a), sweepsOf(c.b))) pushApart(c, m_states);
+    }
     m_joints.hold(m_states);
   }
   for (const int id : m_active) {
@@ -190,6 +194,7 @@ void RigidWorld::drift(double h) {
       m_flights[at(m_extras[at(id)].flight)].is_bending = true;
     }
   }
+  m_has_flown = m_has_flown || !m_flights.empty();
   if (!m_flights.empty()) sweep(h);
   for (const int id : m_active) {
     if (m_extras[at(id)].flight < 0) move(id, h);
@@ -197,7 +202,53 @@ void RigidWorld::drift(double h) {
   for (const Flight& flight : m_flights) {
     if (!flight.is_held) advance(flight.id, 1, h);
   }
-  for (const Flight& flight : m_flights) m_extras[at(flight.id)].flight = -1;
+  for (const Flight& flight : m_flights) {
+    Extra& extra = m_extras[at(flight.id)];
+    extra.flight = -1;
+    if (flight.impacts == 0) continue;
+    // What it was hit by may have made it faster.
+    const RigidState& s = m_states[at(flight.id)];
+    const double roll = h * std::fabs(s.spin) * extra.reach;
+    extra.rolled += roll;
+    extra.moved += h * length(s.velocity) + roll;
+  }
+}
+
+bool RigidWorld::isFlying(int id) const {
+  const Extra& extra = m_extras[at(id)];
+  return extra.is_active && !extra.is_restless && extra.moved > extra.margin;
+}
+
+// A contact of fast bodies says nothing any more once they have parted and what it was measured by has
+// turned: its plane lies somewhere else by then. They are swept, and make another one if they meet again.
+void RigidWorld::dropParted() {
+  for (ContactConstraint& c : m_constraints) {
+    if (c.count == 0 || c.points[0].is_bouncing || c.points[1].is_bouncing) continue;
+    const Extra &a = m_extras[at(c.a)], &b = m_extras[at(c.b)];
+    const double thickness = std::min(a.thickness, b.thickness);
+    if (c.pair >= 0) {
+      if (!(isFlying(c.a) || isFlying(c.b)) || a.rolled + b.rolled <= kMaxRoll * thickness) continue;
+      const double least =
+          c.count > 1 ? std::min(c.points[0].separation, c.points[1].separation) : c.points[0].separation;
+      if (least <= thickness && (least >= -thickness || c.is_deep)) continue;
+    } else {
+      const RigidState &one = m_states[at(c.a)], &other = m_states[at(c.b)];
+      const ContactPoint& p = c.points[0];
+      const Vec2 between =
+          c.offset + (other.displacement - one.displacement) + (other.turn * p.core_b - one.turn * p.core_a);
+      const double near = c.radius_a + c.radius_b + thickness;
+      if (lengthSquared(between) <= near * near) continue;
+    }
+    c.count = 0;
+    c.inverse_determinant = 0;
+    for (ContactPoint& p : c.points) {
+      p.total += p.normal_impulse;
+      if (p.total > 0 && c.first_time < 0) c.first_time = m_time;
+      p.separation = thickness;
+      p.normal_impulse = p.friction_impulse = p.normal_warm = p.friction_warm = 0;
+      p.is_bouncing = p.is_bending = false;
+    }
+  }
 }
 
 void RigidWorld::substep(double h) {
@@ -213,6 +264,7 @@ void RigidWorld::substep(double h) {
   drift(h);
   m_joints.refresh(m_states);
   for (ContactConstraint& c : m_constraints) physics::refresh(c, m_states);
+  if (m_has_flown) dropParted();
   kick(true);
   m_joints.beginSecondHalf(m_states, h);
   for (ContactConstraint& c : m_constraints) beginSecondHalf(c, m_states, h);
@@ -224,6 +276,19 @@ void RigidWorld::substep(double h) {
     if (before == 0 && c.points[0].total + c.points[1].total > 0 && c.first_time < 0) c.first_time = m_time;
   }
   m_time += h;
+}
+
+// What an impact made too fast to be calculated with goes on, but no faster. What was given is kept.
+void RigidWorld::limit(int id) {
+  RigidState& s = m_states[at(id)];
+  const RigidBody& before = m_bodies[at(id)];
+  const double speed = std::max(std::fabs(s.velocity.x), std::fabs(s.velocity.y));
+  const double most = std::max({kMaxSpeed, std::fabs(before.velocity.x), std::fabs(before.velocity.y)});
+  const double most_spin = std::max(kMaxSpin, std::fabs(before.spin));
+  if (speed <= most && std::fabs(s.spin) <= most_spin) return;
+  ++m_counters.limited;
+  if (speed > most) s.velocity = (most / speed) * s.velocity;
+  s.spin = std::clamp(s.spin, -most_spin, most_spin);
 }
 
 void RigidWorld::finishStep(double dt) {
@@ -238,6 +303,7 @@ void RigidWorld::finishStep(double dt) {
     body.place = body.place + s.displacement;
     if (s.turn != Rotation{}) body.rotation = renormalised(s.turn * body.rotation);
     if (isMovable(id)) {
+      limit(id);
       body.velocity = s.velocity;
       body.spin = s.spin;
     }

@@ -14,12 +14,32 @@ namespace {
 // next sub-step. They bound the cost of a body that is caught in a corner.
 constexpr int kMaxImpacts = 64;
 constexpr int kMaxBounces = 32;
-constexpr double kMaxTurn = 40;   // rad in a sub-step that are swept: bounds the iterations of timeOfImpact()
+// Times that a pair is asked for its time of impact again, from where the iterations ended: bounds the cost
+// of two that turn fast around each other.
+constexpr int kMaxAsked = 16;
 constexpr int kImpactSweeps = 8;  // over the two points of an impact
 // In thicknesses of the thinner body.
-constexpr double kTouch = 1e-6;   // gap at which an impact is found
-constexpr double kLanded = 0.5;   // how far a body moves at most after it has landed in a large group
-constexpr double kMaxRoll = 0.5;  // how far corners turn before others than those found may touch
+constexpr double kTouch = 1e-6;  // gap at which an impact is found
+constexpr double kLanded = 0.5;  // how far a body moves at most after it has landed in a large group
+
+// Where it is after a part of its motion, and what is left of it.
+RigidMotion after(const RigidMotion& motion, double part) {
+  return {(1 - part) * motion.displacement, turned(motion.start, part * motion.turn),
+          (1 - part) * motion.turn};
+}
+
+// As timeOfImpact(), asked again from where its iterations ended.
+TimeOfImpact patientTimeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
+                                 const RigidMotion& motion_b, Vec2 offset) {
+  TimeOfImpact impact = timeOfImpact(a, motion_a, b, motion_b, offset);
+  const Vec2 displacement = motion_b.displacement - motion_a.displacement;
+  for (int i = 1; i < kMaxAsked && impact.status == TimeOfImpactStatus::kUnresolved; ++i) {
+    const double from = impact.time;
+    impact = timeOfImpact(a, after(motion_a, from), b, after(motion_b, from), offset + from * displacement);
+    impact.time = from + (1 - from) * impact.time;
+  }
+  return impact;
+}
 
 }  // namespace
 
@@ -54,6 +74,7 @@ void RigidWorld::advance(int id, double time, double h) {
 }
 
 void RigidWorld::hold(int id) {
+  if (!isMovable(id)) return;
   Flight& flight = m_flights[at(m_extras[at(id)].flight)];
   if (!flight.is_held) ++m_counters.held;
   flight.is_held = true;
@@ -70,7 +91,7 @@ bool RigidWorld::isSolved(int a, int b, int shape_a, int shape_b) const {
 }
 
 void RigidWorld::forecastPair(int one, int other, double h) {
-  const int a = std::min(one, other), b = std::max(one, other);
+  const int a = isBefore(one, other) ? one : other, b = a == one ? other : one;
   const std::int32_t known = findPair(a, b);
   if (known >= 0 && m_pairs[at(known)].is_passed) return;
   const Extra &of_a = m_extras[at(a)], &of_b = m_extras[at(b)];
@@ -85,7 +106,7 @@ void RigidWorld::forecastPair(int one, int other, double h) {
     const Rotation rotation = poseAt(id, start, h).turn * m_bodies[at(id)].rotation;
     if (flight != nullptr && flight->is_held) return {{}, rotation, 0};
     const double time = left * (flight != nullptr ? flight->part : m_extras[at(id)].part);
-    return {time * s.velocity, rotation, std::clamp(time * s.spin, -kMaxTurn, kMaxTurn)};
+    return {time * s.velocity, rotation, time * s.spin};
   };
   // Of what has turned far since the step began, other corners come to touch than those that were found then.
   const bool is_bending =
@@ -93,12 +114,15 @@ void RigidWorld::forecastPair(int one, int other, double h) {
   const bool has_turned =
       is_bending || of_a.rolled + of_b.rolled > kMaxRoll * std::min(of_a.thickness, of_b.thickness);
   // At the start of the step they were farther apart than contacts were searched for, if nothing keeps them
-  // apart now. Have they come nearer by more than that?
+  // apart now. Do they come nearer by more than that, or have they already?
   if (!has_met && !has_turned && of_a.is_restless == of_b.is_restless) {
-    const Vec2 nearer = (poseAt(b, 1, h).displacement - of_b.search_displacement) -
-                        (poseAt(a, 1, h).displacement - of_a.search_displacement);
     const double most = of_a.margin + of_b.margin - of_a.rolled - of_b.rolled;
-    if (most > 0 && lengthSquared(nearer) < most * most) return;
+    const auto isNear = [&](double time) {
+      const Vec2 nearer = (poseAt(b, time, h).displacement - of_b.search_displacement) -
+                          (poseAt(a, time, h).displacement - of_a.search_displacement);
+      return lengthSquared(nearer) < most * most;
+    };
+    if (most > 0 && isNear(1) && isNear(start)) return;
   }
   const RigidMotion motion_a = motionOf(a, flight_a), motion_b = motionOf(b, flight_b);
   const Vec2 offset = (m_bodies[at(b)].place - m_bodies[at(a)].place) +
@@ -109,7 +133,7 @@ void RigidWorld::forecastPair(int one, int other, double h) {
       if (!has_met && !has_turned && isSolved(a, b, i, j)) continue;
       ++m_counters.sweeps;
       const TimeOfImpact impact =
-          timeOfImpact(of_a.shapes[at(i)], motion_a, of_b.shapes[at(j)], motion_b, offset);
+          patientTimeOfImpact(of_a.shapes[at(i)], motion_a, of_b.shapes[at(j)], motion_b, offset);
       if (impact.status == TimeOfImpactStatus::kApart) continue;
       if (impact.status == TimeOfImpactStatus::kUnresolved) ++m_counters.unresolved;
       const double time = start + (1 - start) * impact.time;
@@ -131,8 +155,8 @@ void RigidWorld::forecast(int id, double h) {
   const GridBounds bounds = gridBounds(place, swept, 0);
   m_broad.move(extra.proxy, bounds, bounds);
   m_near.clear();
-  m_broad.query(bounds, [&](std::uint32_t other) { m_near.push_back(static_cast<int>(other)); });
-  std::sort(m_near.begin(), m_near.end());
+  m_broad.query(bounds, [&](std::uint32_t other) { m_near.push_back(idOf(other)); });
+  std::sort(m_near.begin(), m_near.end(), [this](int x, int y) { return isBefore(x, y); });
   for (const int other : m_near) {
     if (other == id || !(isMovable(id) || isMovable(other)) || m_joints.keepsApart(id, other)) continue;
     forecastPair(id, other, h);
@@ -146,6 +170,13 @@ void RigidWorld::wakeInFlight(int id) {
   wakeRing(id);
   extra.is_active = true;
   m_active.push_back(id);
+  extra.push_sweeps = 1;
+  extra.is_late = true;
+  extra.is_restless = false;
+  extra.margin = extra.moved = extra.rolled = extra.travelled = 0;  // nothing was searched around it
+  extra.search_displacement = {};
+  extra.part = 1;
+  m_parent[at(id)] = id;
   m_states[at(id)] = {};
   m_states[at(id)].inverse_mass = m_bodies[at(id)].inverse_mass;
   m_states[at(id)].inverse_inertia = m_bodies[at(id)].inverse_inertia;
@@ -170,10 +201,25 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   const Vec2 start = m_bodies[at(b)].place - m_bodies[at(a)].place,
              offset = start + (other.displacement - one.displacement);
   Manifold manifold;
-  const double touch = kTouch * std::min(of_a.thickness, of_b.thickness) + 1e-12 * length(offset);
+  // What a double resolves of where they are, of the moment, and of the angles then.
+  const double resolved = 1e-12 * (length(offset) + of_a.reach + of_b.reach) +
+                          1e-15 * h *
+                              (length(other.velocity - one.velocity) + std::fabs(one.spin) * of_a.reach +
+                               std::fabs(other.spin) * of_b.reach);
+  const double touch = kTouch * std::min(of_a.thickness, of_b.thickness) + resolved;
+  // What waits before a wall that moves would be inside it by then: it goes along.
   const auto giveUp = [&] {
     hold(a);
     hold(b);
+    if (isMovable(a) == isMovable(b)) return;
+    const int wall = isMovable(a) ? b : a, id = isMovable(a) ? a : b;
+    if (!isMoving(wall) || most > 2 * kMaxImpacts) return;
+    const RigidState& its = m_states[at(wall)];
+    RigidState& own = m_states[at(id)];
+    const Vec2 arm = isMovable(a) ? -offset : offset;
+    own.velocity = its.velocity + its.spin * perpendicular(arm);
+    own.spin = its.spin;
+    m_flights[at(m_extras[at(id)].flight)].is_held = false;
   };
   if (!collide(turned_a, turned_b, offset, touch, {}, manifold)) return giveUp();
   ContactConstraint& c = addConstraint(a, b);
@@ -212,16 +258,63 @@ void RigidWorld::land(int id, double h) {
 // until then, or has added since, is not there at the impact.
 void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double time) {
   RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
-  for (std::int32_t i = 0; i < c.count; ++i) {
-    ContactPoint& p = c.points[at(i)];
-    const double speed = dot(c.normal, b.velocity - a.velocity) + (p.normal_b * b.spin - p.normal_a * a.spin);
-    const double gained = 2 * (dot(c.normal, b.kick - a.kick));
-    const double since = (time - 0.5) * gained;
-    const double leaving = restitution * -std::min(speed + since, 0.0);
-    p.after = leaving > 2 * std::fabs(gained) ? leaving - since : 0;
-    p.normal_impulse = p.friction_impulse = 0;
+  const RigidState a_before = a, b_before = b;
+  const Vec2 added = 2 * (b.kick - a.kick), since = (time - 0.5) * added;
+  const double gained = dot(c.normal, added), normal_since = (time - 0.5) * gained;
+  const auto meet = [&](double bounce) {
+    for (std::int32_t i = 0; i < c.count; ++i) {
+      ContactPoint& p = c.points[at(i)];
+      const double speed =
+          dot(c.normal, b.velocity - a.velocity) + (p.normal_b * b.spin - p.normal_a * a.spin);
+      const double leaving = bounce * -std::min(speed + normal_since, 0.0);
+      p.after = leaving > 2 * std::fabs(gained) ? leaving - normal_since : 0;
+      p.normal_impulse = p.friction_impulse = 0;
+    }
+    for (int i = 0; i < kImpactSweeps; ++i) solveContact(c, m_states, true);
+  };
+  const auto energyGained = [&] {
+    double gain = 0;
+    for (std::int32_t i = 0; i < c.count; ++i) {
+      const ContactPoint& p = c.points[at(i)];
+      const auto work = [&](const RigidState& of_a, const RigidState& of_b) {
+        const Vec2 speed = of_b.velocity - of_a.velocity + since;
+        return p.normal_impulse * (dot(c.normal, speed) + p.normal_b * of_b.spin - p.normal_a * of_a.spin) +
+               p.friction_impulse *
+                   (dot(perpendicular(c.normal), speed) + p.tangent_b * of_b.spin - p.tangent_a * of_a.spin);
+      };
+      gain += 0.5 * (work(a_before, b_before) + work(a, b));
+    }
+    return gain;
+  };
+  meet(restitution);
+  // To leave as fast as it should, what slides or tilts may take energy that was not there. 1 + e times the
+  // impulses that only stop it never do; the energy of what lies between is at most between.
+  const double gain = c.friction > 0 && restitution > 0 ? energyGained() : 0;
+  if (gain > 0) {
+    const RigidState a_wanted = a, b_wanted = b;
+    std::array<Vec2, 2> wanted;
+    const auto impulses = [&](std::size_t i) -> Vec2 {
+      return {c.points[i].normal_impulse, c.points[i].friction_impulse};
+    };
+    const auto move = [&](std::size_t i, Vec2 to) {
+      c.points[i].normal_impulse = to.x, c.points[i].friction_impulse = to.y;
+    };
+    const auto mix = [](const RigidState& from, const RigidState& to, double part, RigidState& out) {
+      const Vec2 velocity = from.velocity + part * (to.velocity - from.velocity);
+      const double spin = from.spin + part * (to.spin - from.spin);
+      out.velocity = velocity, out.spin = spin;
+    };
+    for (std::size_t i = 0; i < at(c.count); ++i) wanted[i] = impulses(i);
+    a = a_before, b = b_before;
+    meet(0);
+    mix(a_before, a, 1 + restitution, a);
+    mix(b_before, b, 1 + restitution, b);
+    for (std::size_t i = 0; i < at(c.count); ++i) move(i, (1 + restitution) * impulses(i));
+    const double loss = std::min(energyGained(), 0.0), part = loss / (loss - gain);
+    mix(a, a_wanted, part, a);
+    mix(b, b_wanted, part, b);
+    for (std::size_t i = 0; i < at(c.count); ++i) move(i, impulses(i) + part * (wanted[i] - impulses(i)));
   }
-  for (int i = 0; i < kImpactSweeps; ++i) solveContact(c, m_states, true);
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[at(i)];
     p.total += p.normal_impulse;
@@ -234,11 +327,11 @@ void RigidWorld::sweep(double h) {
   m_impacts.clear();
   for (std::size_t i = 0; i < m_flights.size(); ++i) forecast(m_flights[i].id, h);
   while (!m_impacts.empty()) {
-    const auto isBefore = [](const Impact& x, const Impact& y) {
+    const auto isEarlier = [this](const Impact& x, const Impact& y) {
       if (x.time != y.time) return x.time < y.time;
-      return x.a != y.a ? x.a < y.a : x.b < y.b;
+      return x.a != y.a ? isBefore(x.a, y.a) : isBefore(x.b, y.b);
     };
-    const Impact next = *std::min_element(m_impacts.begin(), m_impacts.end(), isBefore);
+    const Impact next = *std::min_element(m_impacts.begin(), m_impacts.end(), isEarlier);
     handleImpact(next, h);
     std::erase_if(m_impacts, [&](const Impact& i) {
       const auto isOf = [&](int id) { return isMovable(id) && (i.a == id || i.b == id); };

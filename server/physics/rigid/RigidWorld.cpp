@@ -47,6 +47,7 @@ bool RigidWorld::set(int id, const RigidBody& body) {
   extra.still = 0;
   if (extra.is_frozen || was_movable != isMovable(id)) {
     leave(id);
+    forgetPairs(id);  // they are in another order now
     enter(id);
   } else if (!was_movable) {
     if (!extra.is_dirty) m_dirty.push_back(id);
@@ -77,6 +78,7 @@ bool RigidWorld::remove(int id) {
     if (joint.b == id || (joint.kind != JointKind::kMouse && joint.a == id)) removeJoint(j);
   }
   leave(id);
+  forgetPairs(id);
   m_extras[at(id)].exists = false;
   return true;
 }
@@ -121,7 +123,7 @@ void RigidWorld::enter(int id) {
   if (extra.shapes.empty()) return;
   const RigidBody& body = m_bodies[at(id)];
   const Bounds bounds = turnShapes(id, body.rotation);
-  extra.proxy = m_broad.add(static_cast<std::uint32_t>(id), gridBounds(body.place, bounds, 0), isMovable(id));
+  extra.proxy = m_broad.add(rankOf(id), gridBounds(body.place, bounds, 0), isMovable(id));
 }
 
 // Out of the broad phase; its contacts are forgotten.

@@ -35,7 +35,8 @@ struct RigidCounters {
   std::int64_t direct_rounds = 0;    ///< factorisations, about, that it took
   std::int64_t direct_failures = 0;  ///< of these solves, those that were given up
   std::int64_t quarantined = 0;      ///< bodies frozen
-  std::int64_t broken = 0;           ///< joints
+  std::int64_t limited = 0;  ///< speeds or spins taken back to kMaxSpeed or kMaxSpin, once per step each
+  std::int64_t broken = 0;   ///< joints
 };
 
 struct RigidOptions {
@@ -50,6 +51,10 @@ class RigidWorld final : public RigidStepper {
  public:
   static constexpr double kLongestStep =
       32;  ///< ticks; longer ones are divided: at once they throw heaps apart
+  /// An impact makes no body faster than that: metric cells per tick along each axis, and rad per tick. It
+  /// loses the rest. What was set to more is left as it is.
+  static constexpr double kMaxSpeed = 1.6e7;
+  static constexpr double kMaxSpin = 1e6;
 
   explicit RigidWorld(RigidOptions options = {}) : m_options(options) {}
 
@@ -107,6 +112,11 @@ class RigidWorld final : public RigidStepper {
  private:
   /// In a body's thickness: the least margin of the search for contacts in a moving heap.
   static constexpr double kLeastMargin = 0.25;
+  // Likewise: how far corners turn before others than those found may touch.
+  static constexpr double kMaxRoll = 0.5;
+  // Sweeps that undo overlap; one, without joints or a moving heap.
+  static constexpr int kPushSweeps = 8;       // of a group with joints
+  static constexpr int kCrowdPushSweeps = 2;  // of a moving heap
 
   struct Extra {
     std::vector<ConvexShape> shapes;
@@ -138,6 +148,8 @@ class RigidWorld final : public RigidStepper {
     bool is_crowded = false;   // … and a body of it was fast
     bool is_in_heap = false;   // … and it has no joints: it is never solved at once
     bool is_restless = false;  // in a moving heap: contacts are searched in every sub-step
+    bool is_late = false;      // hit in its sleep, in this step
+    int push_sweeps = 1;       // of its group
     int flight = -1;           // in m_flights: it moves impact by impact in this sub-step
   };
   struct Pair {
@@ -177,6 +189,7 @@ class RigidWorld final : public RigidStepper {
     double kick = 0;     // the greatest of its bodies
     int root = 0;        // its lowest body
     bool has_fast = false;
+    bool is_restless = false;
   };
   struct Gain {  // the greatest speed in a group, when it began to be still and now
     double before = 0, now = 0;
@@ -189,6 +202,14 @@ class RigidWorld final : public RigidStepper {
   };
 
   bool isMovable(int id) const { return physics::isMovable(m_bodies[at(id)]); }
+  // The order in which a pair names its bodies, and pairs are solved: what moves, by id, then what does not.
+  // An obstacle's id goes with when something first came near it, and that may have been anybody.
+  static constexpr std::uint32_t kImmovable = std::uint32_t{1} << 31;
+  std::uint32_t rankOf(int id) const {
+    return static_cast<std::uint32_t>(id) | (isMovable(id) ? 0 : kImmovable);
+  }
+  static int idOf(std::uint32_t rank) { return static_cast<int>(rank & ~kImmovable); }
+  bool isBefore(int a, int b) const { return rankOf(a) < rankOf(b); }
   bool isMoving(int id) const { return m_bodies[at(id)].velocity != Vec2{} || m_bodies[at(id)].spin != 0; }
 
   // RigidWorld.cpp
@@ -211,10 +232,15 @@ class RigidWorld final : public RigidStepper {
   void drift(double h);
   void move(int id, double h);
   void finishStep(double dt);
+  void limit(int id);
+  bool isFlying(int id) const;
+  void dropParted();
 
   // RigidPairs.cpp
   void updatePairs();
   void dropPair(Pair& pair);
+  void forgetPairs(int id);
+  void addEvent(RigidEvent event);
   void updateContacts(double dt);
   void updatePair(std::int32_t index, double dt);
   bool isRestless(const ContactConstraint& constraint) const;
@@ -296,6 +322,7 @@ class RigidWorld final : public RigidStepper {
   double m_h = 0;
   bool m_active_changed = false;
   bool m_is_restless = false;  // a body is
+  bool m_has_flown = false;    // one was swept in this step
   bool m_joints_changed = false;
 };
 

@@ -209,7 +209,10 @@ TEST_F(BodyDegenerate, ASpikeOfTheStepStaysBounded) {
       EXPECT_LT(whereIs(heap, id).y, 1) << spike << ' ' << id;  // nothing went through the floor
     }
     for (int i = 0; i < 3000; ++i) heap.step();
-    for (int id = 1; id <= 12; ++id) EXPECT_LT(whereIs(heap, id).y, 0) << spike << ' ' << id;
+    for (int id = 1; id <= 12; ++id) {
+      const Vec2 at = whereIs(heap, id);
+      EXPECT_TRUE(at.y < 0 || std::fabs(at.x) > 1000) << spike << ' ' << id;  // discs may roll off the floor
+    }
     EXPECT_LT(heap.deepest(), 0.01) << spike;
     EXPECT_EQ(heap.counters().quarantined, 0) << spike;
   }

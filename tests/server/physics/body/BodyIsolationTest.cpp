@@ -1,0 +1,149 @@
+// Groups that do not touch do not see each other: two bodies on a joint move by the same bits alone and with
+// another pair far away, whatever that one does.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <ostream>
+#include <tuple>
+#include <vector>
+
+#include "tests/server/physics/BodyScene.h"
+
+namespace df::test {
+namespace {
+
+constexpr int kTicks = 200;
+// Cells between the pairs: more than the other gets in a tick, or where it flies is for one solver to say.
+double farFor(double speed) {
+  return std::max(2000.0, 10 * speed);
+}
+
+enum class Link { kDistance, kRope, kHinge, kSpring, kNone };
+constexpr std::array<const char*, 5> kLinkNames = {"Distance", "Rope", "Hinge", "Spring", "None"};
+enum class Added { kBefore, kAfter, kMidway };
+constexpr std::array<const char*, 3> kAddedNames = {"Before", "After", "Midway"};
+
+constexpr double kOnAFloor = -1, kOnTheFloor = -2, kNobody = -3;  // instead of a speed
+
+struct Pair {
+  Body* p_a = nullptr;
+  Body* p_b = nullptr;
+};
+
+Body* slab(Vector place, double width, double angle) {
+  Body* p_slab = BodyScene::crate(place, Vector(0.5 * width, 0.2));
+  p_slab->setTurning();
+  p_slab->setAngle(angle);
+  p_slab->setRestitution(0.2);
+  return p_slab;
+}
+
+Pair pairAt(Vector place, Link link) {
+  const Pair pair = {slab(place, 1.2, 0.3), slab(place + Vector(2, -0.5), 0.8, -0.2)};
+  switch (link) {
+    case Link::kDistance:
+      PM.addDistance(pair.p_a, pair.p_b);
+      break;
+    case Link::kRope:
+      PM.addRope(pair.p_a, pair.p_b);
+      break;
+    case Link::kHinge:
+      PM.addHinge(pair.p_a, pair.p_b, place + Vector(1, -0.2));
+      break;
+    case Link::kSpring:
+      PM.addSpring(pair.p_a, pair.p_b, 0.1, 0.01);
+      break;
+    case Link::kNone:
+      break;
+  }
+  return pair;
+}
+
+void take(std::vector<std::uint64_t>& bits, const Body* p_body) {
+  const Vector place = p_body->getPosition(), velocity = p_body->getVelocity();
+  for (const double x :
+       {place.x(), place.y(), velocity.x(), velocity.y(), p_body->getAngle(), p_body->getSpin()}) {
+    bits.push_back(std::bit_cast<std::uint64_t>(x));
+  }
+}
+
+struct Others {
+  Link link = Link::kDistance;
+  double speed = kNobody;
+  Added added = Added::kAfter;
+  bool is_removed = false;
+};
+
+Pair addOthers(const Others& others) {
+  const bool is_on_floor = others.speed == kOnAFloor || others.speed == kOnTheFloor;
+  const double far = farFor(others.speed);
+  if (others.speed == kOnAFloor) BodyScene::wall(Vector(far, 5), Vector(100, 5));
+  const Pair pair = pairAt(Vector(far, is_on_floor ? -1.5 : -500), others.link);
+  for (Body* p_body : {pair.p_a, pair.p_b}) {
+    if (!is_on_floor) p_body->setGravityScale(0);
+    if (others.speed > 0) p_body->setVelocity(Vector(0.6 * others.speed, -0.8 * others.speed));
+  }
+  return pair;
+}
+
+// Those who share a floor have it from different ticks on: the watched pair falls from higher up.
+std::vector<std::uint64_t> bitsOf(Link link, const Others& others, bool shares_floor = false) {
+  World world;
+  const World::Scope scope(world);
+  world.setLogSink([](const std::string&) {});
+  PM.setAspect(1);
+  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  const bool has_others = others.speed != kNobody;
+  Pair far;
+  if (has_others && others.added == Added::kBefore) far = addOthers(others);
+  BodyScene::wall(Vector(0, 5), Vector(shares_floor ? 5000 : 100, 5));
+  const Pair pair = pairAt(Vector(0, shares_floor ? -30 : -2), link);
+  if (has_others && others.added == Added::kAfter) far = addOthers(others);
+  std::vector<std::uint64_t> bits;
+  for (int tick = 0; tick < kTicks; ++tick) {
+    if (has_others && others.added == Added::kMidway && tick == 20) far = addOthers(others);
+    if (others.is_removed && tick == 35) {
+      WM.markForDelete(far.p_a);
+      WM.markForDelete(far.p_b);
+    }
+    world.update();
+    take(bits, pair.p_a);
+    take(bits, pair.p_b);
+  }
+  world.shutDown();
+  return bits;
+}
+
+class BodyIsolation : public testing::TestWithParam<std::tuple<Link, Link>> {};
+
+TEST_P(BodyIsolation, APairIsTheSameAloneAndBesideAnother) {
+  const auto [link, other_link] = GetParam();
+  for (const double speed : {kOnTheFloor, kOnAFloor, 0.0, 0.01, 0.3, 10.0, 1e3, 1e5}) {
+    const bool is_shared = speed == kOnTheFloor;
+    const std::vector<std::uint64_t> alone = bitsOf(link, {}, is_shared);
+    for (const Added added : {Added::kBefore, Added::kAfter, Added::kMidway}) {
+      for (const bool is_removed : {false, true}) {
+        const std::vector<std::uint64_t> beside =
+            bitsOf(link, {other_link, speed, added, is_removed}, is_shared);
+        std::size_t first = 0;
+        while (first < alone.size() && alone[first] == beside[first]) ++first;
+        EXPECT_EQ(first, alone.size())
+            << "from tick " << first / 12 << ": the other at speed " << speed << ", added "
+            << kAddedNames[static_cast<std::size_t>(added)] << (is_removed ? ", removed" : "");
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Joints, BodyIsolation,
+                         testing::Combine(testing::Values(Link::kDistance, Link::kRope, Link::kHinge,
+                                                          Link::kSpring, Link::kNone),
+                                          testing::Values(Link::kDistance, Link::kHinge, Link::kNone)),
+                         [](const auto& its) {
+                           return std::string(kLinkNames[static_cast<std::size_t>(std::get<0>(its.param))]) +
+                                  "Beside" + kLinkNames[static_cast<std::size_t>(std::get<1>(its.param))];
+                         });
+
+}  // namespace
+}  // namespace df::test

@@ -1,0 +1,172 @@
+// Boxes that turn, shot at walls: whatever their speed and spin, and however long the wall, none goes through
+// it, none misses it, none gains energy from it, and none is frozen.
+//
+// NAIAD_SHOTS=100000 makes as many of them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include "physics/body/BodyLayer.h"
+#include "physics/body/BodyLimits.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/server/physics/BodyScene.h"
+
+namespace df::test {
+namespace {
+
+constexpr double kWidth = 0.6, kHeight = 0.1;  // of the box
+constexpr double kWallAt = 50, kHalfWall = 0.5;
+constexpr double kHeavy = 100;
+
+enum class WallKind { kStatic, kKinematic, kDynamic };
+constexpr std::array<const char*, 3> kNames = {"static", "kinematic", "dynamic"};
+
+struct Shot {
+  WallKind kind = WallKind::kStatic;
+  double length = 10;
+  double speed = 1, spin = 0, angle = 0, y = 0;
+  double restitution = 0, friction = 0;
+  bool ends_inside = false;  // a tick, if nothing stops it
+};
+
+std::ostream& operator<<(std::ostream& out, const Shot& shot) {
+  out.precision(17);
+  return out << kNames[static_cast<std::size_t>(shot.kind)] << " wall of " << shot.length << ", speed "
+             << shot.speed << ", spin " << shot.spin << ", angle " << shot.angle << ", y " << shot.y
+             << ", restitution " << shot.restitution << ", friction " << shot.friction
+             << (shot.ends_inside ? ", ends a tick inside" : "");
+}
+
+int shots() {
+  const char* wish = std::getenv("NAIAD_SHOTS");
+  return wish != nullptr ? std::max(1, std::atoi(wish)) : 2000;
+}
+
+Shot shotOf(int i) {
+  constexpr std::array<double, 4> kSpins = {0, 1, 100, 1e5};
+  constexpr std::array<double, 3> kBounces = {0, 0.3, 1};
+  constexpr std::array<double, 5> kLengths = {10, 200, 3000, 40'000, 200'000};
+  naiad::SplitMix64 random(static_cast<std::uint64_t>(i) + 1);
+  const auto one = [&random] { return static_cast<double>(random.next() >> 11) * 0x1p-53; };
+  const auto of = [&](const auto& all) {
+    return all[static_cast<std::size_t>(one() * static_cast<double>(all.size()))];
+  };
+  Shot shot;
+  shot.kind = of(std::array{WallKind::kStatic, WallKind::kKinematic, WallKind::kDynamic});
+  shot.length = of(kLengths);
+  shot.speed = std::pow(10, 6 * one());
+  shot.spin = of(kSpins) * (one() < 0.5 ? 1 : -1);
+  shot.angle = 0.37 * (i % 1000);
+  shot.y = one() < 0.5 ? 0 : 0.4 * shot.length * (2 * one() - 1);
+  shot.restitution = of(kBounces);
+  shot.friction = one() < 0.5 ? 0 : 0.6;
+  shot.ends_inside = one() < 0.3;
+  return shot;
+}
+
+struct Found {
+  bool is_through = false, is_unmet = false, is_frozen = false, has_gained = false, has_lost = false;
+  bool isBad() const { return is_through || is_unmet || is_frozen || has_gained || has_lost; }
+};
+
+double energyOf(const Body* p_body) {
+  const Vector v = p_body->getVelocity();
+  return 0.5 * (p_body->getMass() * (v.x() * v.x() + v.y() * v.y()) +
+                p_body->getInertia() * p_body->getSpin() * p_body->getSpin());
+}
+
+// Is the box beyond the wall, and level with it?
+bool isThrough(const Body* p_box, const Object* p_wall, double angle, double length) {
+  const Vector d = p_box->getPosition() - p_wall->getPosition();
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double across = c * d.x() + s * d.y(), along = c * d.y() - s * d.x();
+  return across > kHalfWall && std::fabs(along) < 0.5 * length;
+}
+
+Found shoot(const Shot& shot) {
+  World world;
+  const World::Scope scope(world);
+  world.setLogSink([](const std::string&) {});
+  PM.setAspect(1);
+  Object* p_wall = nullptr;
+  Body* p_body = nullptr;
+  if (shot.kind == WallKind::kStatic) {
+    p_wall = BodyScene::wall(Vector(kWallAt, 0), Vector(kHalfWall, 0.5 * shot.length));
+  } else {
+    p_wall = p_body = new Body;
+    p_body->setBoxShape(2 * kHalfWall, shot.length);
+    p_body->setPosition(Vector(kWallAt, 0));
+    p_body->setFriction(shot.friction);
+    p_body->setRestitution(shot.restitution);
+    if (shot.kind == WallKind::kKinematic) {
+      p_body->setKinematic();
+      p_body->setVelocity(Vector(-0.5 * shot.speed, 0));
+    } else {
+      p_body->setTurning();
+      p_body->setMass(kHeavy);
+    }
+  }
+  const double closing = shot.speed * (shot.kind == WallKind::kKinematic ? 1.5 : 1);
+  const double room =
+      shot.ends_inside ? closing * std::ceil(2 / closing) : std::min(kWallAt, 2 + 3 * closing);
+  auto* p_box = new Listener;
+  p_box->setBoxShape(kWidth, kHeight);
+  p_box->setTurning();
+  p_box->setPosition(Vector(kWallAt - room, shot.y));
+  p_box->setAngle(shot.angle);
+  p_box->setSpin(shot.spin);
+  p_box->setVelocity(Vector(shot.speed, 0));
+  p_box->setFriction(shot.friction);
+  p_box->setRestitution(shot.restitution);
+  const bool is_dynamic = shot.kind == WallKind::kDynamic;
+  const auto energy = [&] { return energyOf(p_box) + (is_dynamic ? energyOf(p_body) : 0); };
+  const double before = energy();
+  const int arrival = static_cast<int>(std::ceil((room - kHalfWall) / closing));
+  Found found;
+  bool has_turned = false;  // the wall, far enough to show its other side
+  bool is_limited = false;  // its spin: what is taken off it is lost
+  for (int tick = 0; tick < arrival + 2; ++tick) {
+    world.update();
+    const double angle = is_dynamic ? p_body->getAngle() : 0;
+    has_turned = has_turned || std::fabs(angle) > 0.5 || (is_dynamic && std::fabs(p_body->getSpin()) > 0.5);
+    found.is_through = found.is_through || (!has_turned && isThrough(p_box, p_wall, angle, shot.length));
+    found.is_frozen = found.is_frozen || p_box->isFrozen() || (is_dynamic && p_body->isFrozen());
+    is_limited = is_limited || std::fabs(p_box->getSpin()) >= kMaxSpin;
+    const bool is_kept = shot.restitution == 1 && shot.friction == 0 && !is_limited;
+    if (shot.kind != WallKind::kKinematic && !found.is_frozen) {
+      found.has_gained = found.has_gained || energy() > before * (1 + 1e-9);
+      found.has_lost = found.has_lost || (is_kept && energy() < 0.99 * before);
+    }
+  }
+  found.is_unmet = p_box->notes.empty();
+  world.shutDown();
+  return found;
+}
+
+TEST(BodyShot, NothingGoesThroughAWall) {
+  int through = 0, unmet = 0, frozen = 0, gained = 0, lost = 0, shown = 0;
+  for (int i = 0, n = shots(); i < n; ++i) {
+    const Shot shot = shotOf(i);
+    const Found found = shoot(shot);
+    through += found.is_through ? 1 : 0;
+    unmet += found.is_unmet ? 1 : 0;
+    frozen += found.is_frozen ? 1 : 0;
+    gained += found.has_gained ? 1 : 0;
+    lost += found.has_lost ? 1 : 0;
+    if (found.isBad() && ++shown <= 10) {
+      ADD_FAILURE() << "shot " << i << ": " << shot << (found.is_through ? ": through" : "")
+                    << (found.is_unmet ? ": unmet" : "") << (found.is_frozen ? ": frozen" : "")
+                    << (found.has_gained ? ": gained" : "") << (found.has_lost ? ": lost" : "");
+    }
+  }
+  EXPECT_EQ(through, 0);
+  EXPECT_EQ(unmet, 0);
+  EXPECT_EQ(frozen, 0);
+  EXPECT_EQ(gained, 0);
+  EXPECT_EQ(lost, 0);
+}
+
+}  // namespace
+}  // namespace df::test
