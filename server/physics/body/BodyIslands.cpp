@@ -22,6 +22,14 @@ using naiad::physics::Vec2;
 // it, direct solutions are too dear for a tick, and sweeps without them are no better than sub-steps.
 constexpr int kMostBodies = 640;
 
+// In sizes of a body: a path that is so long is looked at as a line, not as a square around its start.
+constexpr double kLongPath = 8;
+
+bool hasLongPath(const BodyState& state) {
+  const Vec2 d = state.flown.displacement;
+  return std::abs(d.x) + std::abs(d.y) > kLongPath * (state.size.x + state.size.y);
+}
+
 }  // namespace
 
 int BodyIslands::rootOf(int state) {
@@ -35,21 +43,41 @@ void BodyIslands::unite(int a, int b) {
   m_parent[at(std::max(a, b))] = std::min(a, b);
 }
 
-// Pairs of HARD bodies whose reaches overlap, in no particular order: nothing depends on it.
+// Where it may get in this tick: anywhere within its reach, or along its path if that is long and nothing is
+// on it, for then nothing sends it elsewhere.
+naiad::physics::SweptBox BodyIslands::boxOf(const BodyState& state, Vec2 centre, bool is_alone) const {
+  const Vec2 d = state.flown.displacement;
+  if (!is_alone || !hasLongPath(state) || state.is_bent || state.is_joined || state.is_kinematic)
+    return {centre - state.reach, centre + state.reach};
+  return {centre + Vec2{std::min(d.x, 0.0), std::min(d.y, 0.0)} - state.size,
+          centre + Vec2{std::max(d.x, 0.0), std::max(d.y, 0.0)} + state.size};
+}
+
+// Pairs of HARD bodies that may meet, in no particular order: nothing depends on it. What is on the path of a
+// fast body may send it elsewhere, and then to others.
 void BodyIslands::findPairs(const std::vector<BodyState>& states) {
-  m_boxes.clear();
   m_ids.clear();
-  m_pairs.clear();
-  naiad::physics::Place origin;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (!states[i].is_hard || states[i].p_failure != nullptr) continue;
-    if (m_ids.empty()) origin = states[i].start;
-    const Vec2 centre = states[i].start - origin;
-    m_ids.push_back(static_cast<int>(i));
-    m_boxes.push_back({centre - states[i].reach, centre + states[i].reach});
+    if (states[i].is_hard && states[i].p_failure == nullptr) m_ids.push_back(static_cast<int>(i));
   }
-  m_tree.update(m_boxes, m_ids, static_cast<int>(states.size()));
-  m_tree.queryPairs([&](int i, int j) { m_pairs.emplace_back(i, j); });
+  m_is_paired.assign(states.size(), 0);
+  for (bool is_more = true; is_more;) {
+    is_more = false;
+    m_boxes.clear();
+    m_pairs.clear();
+    for (const int i : m_ids) {
+      const BodyState& state = states[at(i)];
+      m_boxes.push_back(boxOf(state, state.start - states[at(m_ids[0])].start, m_is_paired[at(i)] == 0));
+    }
+    m_tree.update(m_boxes, m_ids, static_cast<int>(states.size()));
+    m_tree.queryPairs([&](int i, int j) { m_pairs.emplace_back(i, j); });
+    for (const auto& [i, j] : m_pairs) {
+      for (const int k : {i, j}) {
+        is_more = is_more || (m_is_paired[at(k)] == 0 && hasLongPath(states[at(k)]));
+        m_is_paired[at(k)] = 1;
+      }
+    }
+  }
 }
 
 void BodyIslands::uniteJointed(const BodyTable& table, const std::vector<BodyState>& states) {

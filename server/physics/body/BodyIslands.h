@@ -52,6 +52,8 @@ class BodyIslands {
 
   int rootOf(int state);
   void unite(int a, int b);
+  naiad::physics::SweptBox boxOf(const naiad::physics::BodyState& state, naiad::physics::Vec2 centre,
+                                 bool is_alone) const;
   void findPairs(const std::vector<naiad::physics::BodyState>& states);
   void uniteJointed(const naiad::physics::BodyTable& table,
                     const std::vector<naiad::physics::BodyState>& states);
@@ -74,6 +76,7 @@ class BodyIslands {
   naiad::physics::ImpactTree m_tree;
   std::vector<naiad::physics::SweptBox> m_boxes;
   std::vector<int> m_ids;
+  std::vector<std::uint8_t> m_is_paired;     // by state
   std::vector<std::pair<int, int>> m_pairs;  // whose reaches overlap …
   std::vector<std::pair<int, int>>
       m_touchable;  // … of which one can be pushed, and no joint keeps them apart

@@ -193,7 +193,8 @@ void BodyLayer::measure(const WorldStore& store, State& state) {
   Vec2 path = {std::abs(state.start_velocity.x) + std::abs(state.flown.displacement.x),
                std::abs(state.start_velocity.y) + std::abs(state.flown.displacement.y)};
   if (state.must_be_held) path += swingOf(state);
-  state.reach = Vec2{reach + kRoom, reach + kRoom} + path;
+  state.size = {reach + kRoom, reach + kRoom};
+  state.reach = state.size + path;
 }
 
 // All that may be pushed, and what may push it, is in one SubstepWorld.

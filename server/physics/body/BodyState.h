@@ -44,6 +44,7 @@ struct BodyState {
   Vec2 start_velocity;
   Vec2 push;    ///< gravity and force over mass
   Pull pull;    ///< if it is sprung
+  Vec2 size;    ///< of its shape, with some room
   Vec2 reach;   ///< how far around `start` it gets on its own, its shape included
   Flown flown;  ///< where it would go on its own
   Place place;  ///< at the end

@@ -29,34 +29,9 @@ void SubstepWorld::unite(const SubstepBody& a, const SubstepBody& b) {
   }
 }
 
-// Groups are what contacts and joints connect, whether they push or not; what cannot move holds them.
+// Groups are what joints and contacts that push connect; what cannot move holds them, or drives them if it
+// goes its own way.
 void SubstepWorld::findGroups() {
-  m_parent.resize(m_states.size());
-  for (std::size_t i = 0; i < m_parent.size(); ++i) m_parent[i] = static_cast<std::int32_t>(i);
-  const auto forEachPair = [&](auto visit) {
-    for (const Contact& c : m_contacts) visit(m_bodies[at(c.a)], m_bodies[at(c.b)]);
-    m_joints.visitLinks([&](int a, int b) {
-      if (a >= 0) visit(m_bodies[at(a)], m_bodies[at(b)]);
-    });
-  };
-  forEachPair([&](const SubstepBody& a, const SubstepBody& b) { unite(a, b); });
-  m_groups.assign(m_states.size(), {});
-  const auto hold = [&](const SubstepBody& by, const SubstepBody& held) {
-    if (!isMovable(by) && held.state > 0) m_groups[at(rootOf(held.state))].is_held = true;
-  };
-  forEachPair([&](const SubstepBody& a, const SubstepBody& b) {
-    hold(a, b);
-    hold(b, a);
-  });
-  m_joints.visitLinks([&](int a, int b) {
-    if (a < 0 && m_bodies[at(b)].state > 0) m_groups[at(rootOf(m_bodies[at(b)].state))].is_held = true;
-  });
-}
-
-// A group sleeps when all of it has been still for a while and is not speeding up, and something that cannot
-// move holds it, or nothing pulls at it at all.
-void SubstepWorld::sleep() {
-  if (!m_options.may_sleep) return;
   m_parent.resize(m_states.size());
   for (std::size_t i = 0; i < m_parent.size(); ++i) m_parent[i] = static_cast<std::int32_t>(i);
   const auto forEachHold = [&](auto visit) {
@@ -69,7 +44,25 @@ void SubstepWorld::sleep() {
   };
   forEachHold([&](const SubstepBody& a, const SubstepBody& b) { unite(a, b); });
   m_groups.assign(m_states.size(), {});
-  const auto groupOf = [&](const SubstepBody& b) -> Group& { return m_groups[at(rootOf(b.state))]; };
+  const auto lean = [&](const SubstepBody& on, const SubstepBody& member) {
+    if (isMovable(on) || member.state == 0 || !isMovable(member)) return;
+    Group& group = groupOf(member);
+    group.is_held = true;
+    group.is_driven = group.is_driven || isMoving(on);
+  };
+  forEachHold([&](const SubstepBody& a, const SubstepBody& b) {
+    lean(a, b);
+    lean(b, a);
+  });
+  m_joints.visitLinks([&](int a, int b) {
+    if (a < 0 && m_bodies[at(b)].state > 0) groupOf(m_bodies[at(b)]).is_held = true;
+  });
+}
+
+// A group sleeps when all of it has been still for a while and is not speeding up, and something that cannot
+// move holds it, or nothing pulls at it at all.
+void SubstepWorld::sleep() {
+  if (!m_options.may_sleep) return;
   for (const std::int32_t id : m_active) {
     SubstepBody& b = m_bodies[at(id)];
     if (b.is_frozen || !isMovable(b)) continue;
@@ -82,18 +75,6 @@ void SubstepWorld::sleep() {
     group.speed = std::max(group.speed, speed);
     group.is_adrift = group.is_adrift || isMoving(b);
   }
-  const auto lean = [&](const SubstepBody& on, const SubstepBody& member) {
-    if (isMovable(on) || member.state == 0 || !isMovable(member)) return;
-    Group& group = groupOf(member);
-    (isMoving(on) ? group.is_driven : group.is_held) = true;
-  };
-  forEachHold([&](const SubstepBody& a, const SubstepBody& b) {
-    lean(a, b);
-    lean(b, a);
-  });
-  m_joints.visitLinks([&](int a, int b) {
-    if (a < 0 && m_bodies[at(b)].state > 0) groupOf(m_bodies[at(b)]).is_held = true;
-  });
   for (const std::int32_t id : m_active) {
     SubstepBody& b = m_bodies[at(id)];
     if (b.is_frozen || !isMovable(b)) continue;

@@ -242,7 +242,7 @@ void SubstepWorld::keepMomentum() {
   };
   for (const std::int32_t id : m_active) {
     const SubstepBody& b = m_bodies[at(id)];
-    Group& group = m_groups[at(rootOf(b.state))];
+    Group& group = groupOf(b);
     if (group.is_held || !isMovable(b) || b.body.inverse_mass == 0) continue;
     const double mass = 1 / b.body.inverse_mass;
     group.missing += mass * changeOf(b);
@@ -268,7 +268,7 @@ void SubstepWorld::finish() {
     if (b.turn != 0) b.body.rotation = turned(b.body.rotation, b.part * b.turn);
     if (!isMovable(b)) continue;
     b.body.velocity += Vec2{s.vx, s.vy};
-    const Group& group = m_groups[at(rootOf(b.state))];
+    const Group& group = groupOf(b);
     if (group.mass > 0 && isFinite(group.missing)) b.body.velocity += group.missing / group.mass;
     b.body.spin += double{s.spin} - double{static_cast<float>(b.body.spin)};
   }

@@ -98,6 +98,15 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t place;  // in the rows
   };
 
+  struct Group {
+    double still = 1e300;
+    double speed_before = 0, speed = 0;
+    std::int32_t first = -1;
+    bool is_held = false, is_driven = false, is_adrift = false;
+    Vec2 missing;     // momentum that rounding has taken in this step
+    double mass = 0;  // of those that it was taken from
+  };
+
   // SubstepWorld.cpp
   void measure(SubstepBody& body);
   Bounds turnShapes(SubstepBody& body);
@@ -139,6 +148,7 @@ class SubstepWorld final : public RigidStepper {
   // SubstepSleep.cpp
   void findGroups();
   int rootOf(int state);
+  Group& groupOf(const SubstepBody& b) { return m_groups[at(rootOf(b.state))]; }
   void unite(const SubstepBody& a, const SubstepBody& b);
   void sleep();
 
@@ -160,15 +170,7 @@ class SubstepWorld final : public RigidStepper {
   ContactRows m_rows;
   SubstepJoints m_joints;
   std::vector<std::int32_t> m_parent;  // by state
-  struct Group {
-    double still = 1e300;
-    double speed_before = 0, speed = 0;
-    std::int32_t first = -1;
-    bool is_held = false, is_driven = false, is_adrift = false;
-    Vec2 missing;     // momentum that rounding has taken in this step
-    double mass = 0;  // of those that it was taken from
-  };
-  std::vector<Group> m_groups;  // by root
+  std::vector<Group> m_groups;         // by root
   std::vector<RigidEvent> m_events, m_earlier_events;
   SubstepCounters m_counters;
   double m_deepest = 0;
