@@ -105,6 +105,7 @@ struct Flood {
   const char* form;  ///< of an address; %d: its number
   int connections = 400;
   bool with_players = false;  ///< one at each address
+  int max_players = HostOptions().max_players;
 };
 
 std::ostream& operator<<(std::ostream& out, const Flood& flood) {
@@ -114,14 +115,16 @@ std::ostream& operator<<(std::ostream& out, const Flood& flood) {
 class HalfOpenCrowd : public CrowdedDoor, public testing::WithParamInterface<Flood> {};
 
 TEST_P(HalfOpenCrowd, KeepsNoPlayerOutAndThrowsNoneOut) {
-  TestServer server(world(), home.server());
+  const Flood& flood = GetParam();
+  HostOptions options = home.server();
+  options.max_players = flood.max_players;
+  TestServer server(world(), options);
   TestClient ann(context, server.port(), home.player("ann"));
   const auto bob = visitor(server, "127.8.8.8");
   bob->join(context, home.player("bob"));
   ASSERT_TRUE(
       serveUntil(context, {&ann, bob->client.get()}, [&] { return ann.joined() && bob->client->joined(); }));
 
-  const Flood& flood = GetParam();
   const auto from = addresses(flood.addresses, [&](int i) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), flood.form, i + 1);
@@ -157,6 +160,7 @@ TEST_P(HalfOpenCrowd, KeepsNoPlayerOutAndThrowsNoneOut) {
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
   EXPECT_EQ(server.counters().joined, 5u + accomplices.size());
   EXPECT_EQ(server.counters().graces_expired, 0u);
+  if (flood.kind == SilentCrowd::Kind::kNoHello) EXPECT_GT(server.counters().turned_away, 100u);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -171,7 +175,12 @@ INSTANTIATE_TEST_SUITE_P(
                           SilentCrowd::Kind::kFinishedTogether, 4, "127.1.1.%d", 256},
                     Flood{"OfPlayersWhoFinishTheirHellosTogether", SilentCrowd::Kind::kFinishedTogether, 4,
                           "127.1.1.%d", 256, true},
-                    Flood{"OfTwoHundredNetworks", SilentCrowd::Kind::kBegunHello, 200, "127.1.%d.1"}),
+                    Flood{"OfTwoHundredNetworks", SilentCrowd::Kind::kBegunHello, 200, "127.1.%d.1"},
+                    // 28 sessions at once, of which five are players
+                    Flood{"OfFortyNetworksThatFinishTlsAndSayNoMore", SilentCrowd::Kind::kNoHello, 40,
+                          "127.1.%d.1", 40, false, 6},
+                    Flood{"OfOneNeighbourhoodThatFinishesTlsAndSaysNoMore", SilentCrowd::Kind::kNoHello, 40,
+                          "127.1.1.%d", 40, false, 6}),
     [](const auto& flood) { return flood.param.name; });
 
 // ---- honest crowds
