@@ -251,44 +251,76 @@ TEST_F(CrowdedDoor, OneAddressHoldsItsShareOfThePlacesHoweverOftenItComes) {
   for (const auto& other : others) EXPECT_EQ(judge(*other), LightClient::State::kWelcome);
 }
 
-// ---- passwords
-// --------------------------------------------------------------------------------------------------
-
-/// Addresses that guess, and ask again as soon as they are answered; in a thread of their own.
-class GuessingCrowd {
+/// Clients that come again as soon as they are answered or hung up on; in a thread of their own.
+class InsistentCrowd {
  public:
-  GuessingCrowd(std::uint16_t server, const std::vector<std::string>& from) {
+  InsistentCrowd(std::uint16_t server, const std::vector<std::string>& from, const std::string& password,
+                 std::chrono::milliseconds pause) {
     for (const std::string& address : from) {
       LightClient& one = *m_all.emplace_back(std::make_unique<LightClient>(m_context, server, address));
-      one.onJudged([this](LightClient& client) {
+      one.onJudged([this, pause](LightClient& client) {
+        if (client.state() == LightClient::State::kHungUp) ++m_hung_up;
         if (client.state() == LightClient::State::kRefused) {
           ++(client.refusal().reason() == wire::Refused::BUSY ? m_busy : m_wrong);
         }
-        client.joinAfter(100ms);
+        client.joinAfter(pause);
       });
     }
-    m_thread = std::thread([this] {
-      for (const auto& one : m_all) one->join("plugh");
+    m_thread = std::thread([this, password] {
+      for (const auto& one : m_all) one->join(password);
       m_context.run();
     });
   }
-  ~GuessingCrowd() {
+  ~InsistentCrowd() {
     m_context.stop();
     m_thread.join();
   }
-  GuessingCrowd(const GuessingCrowd&) = delete;
-  GuessingCrowd& operator=(const GuessingCrowd&) = delete;
+  InsistentCrowd(const InsistentCrowd&) = delete;
+  InsistentCrowd& operator=(const InsistentCrowd&) = delete;
 
   int wrong() const { return m_wrong; }
   int busy() const { return m_busy; }
+  int hungUp() const { return m_hung_up; }
 
  private:
   asio::io_context m_context;
   std::vector<std::unique_ptr<LightClient>> m_all;
   std::atomic<int> m_wrong = 0;
   std::atomic<int> m_busy = 0;
+  std::atomic<int> m_hung_up = 0;
   std::thread m_thread;
 };
+
+// ---- handshakes
+// ------------------------------------------------------------------------------------------------
+
+TEST_F(CrowdedDoor, PlayersWhoComeBackWithoutEndGetFewHandshakesAndOthersAreNotLimited) {
+  TestServer server(world(), home.server());
+  TestClient ann(context, server.port(), home.player("ann"));
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  const auto began = std::chrono::steady_clock::now();
+  InsistentCrowd crowd(server.port(), addresses(16, [](int) { return "127.1.1.1"; }), "", 0ms);
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return crowd.hungUp() > 300; }));
+
+  const std::uint32_t tick = ann.newestTick();
+  for (const std::string address : {"127.1.1.2", "127.9.9.9"}) {
+    const auto newcomer = visitor(server, address);
+    newcomer->join(context, home.player("cid"));
+    const auto took =
+        timeUntil(context, {&ann, newcomer->client.get()}, [&] { return newcomer->isJudged(); });
+    ASSERT_TRUE(took && newcomer->client->joined()) << newcomer->client->connection().sentence();
+    EXPECT_LT(*took, kSlowness * 1s);
+  }
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick + 100; }));
+  const std::uint64_t handshakes = server.counters().connections;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+  EXPECT_LE(static_cast<double>(handshakes), 256 + 8 * elapsed.count() + 3 + 1) << "ann, two newcomers";
+  EXPECT_GT(handshakes, 200u);
+  EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
+}
+
+// ---- passwords
+// --------------------------------------------------------------------------------------------------
 
 TEST_F(CrowdedDoor, EightyAddressesDoNotCloseAServerWithAPassword) {
   HostOptions options = home.server();
@@ -299,8 +331,9 @@ TEST_F(CrowdedDoor, EightyAddressesDoNotCloseAServerWithAPassword) {
     setup.options.password = "xyzzy";
     return setup;
   };
-  GuessingCrowd crowd(server.port(),
-                      addresses(80, [](int i) { return "127.1." + std::to_string(i) + ".1"; }));
+  InsistentCrowd crowd(server.port(),
+                       addresses(80, [](int i) { return "127.1." + std::to_string(i) + ".1"; }), "plugh",
+                       100ms);
   ASSERT_TRUE(serve([&] { return crowd.busy() > 80; }));
   for (int i = 0; i < 3; ++i) {
     const auto newcomer = visitor(server, "127.9." + std::to_string(i) + ".9");
