@@ -23,6 +23,7 @@
 #include "PasswordCrowd.h"
 #include "Phase.h"
 #include "SilentCrowd.h"
+#include "shared/options/NearestName.h"
 
 namespace {
 
@@ -160,7 +161,7 @@ int run(const std::string& name, const Effort& effort) {
   }
   const auto found = attacks().find(name);
   if (found == attacks().end()) {
-    std::fprintf(stderr, "naiad_attack: there is no attack '%s'\n", name.c_str());
+    sayUnknown(name);
     return 2;
   }
   if (name == "silent6") {
@@ -168,6 +169,14 @@ int run(const std::string& name, const Effort& effort) {
       std::printf("attack name=%s skipped=%s\n", name.c_str(), reason->c_str());
       return 0;
     }
+void sayUnknown(const std::string& name) {
+  std::vector<std::string> names{"--quick", "hard_pile"};
+  for (const auto& [attack, makes] : attacks()) names.push_back(attack);
+  const std::string near = naiad::nearestName(name, names);
+  std::fprintf(stderr, "naiad_attack: there is no attack '%s'%s\n", name.c_str(),
+               near.empty() ? "" : ("; '" + near + "' is the nearest").c_str());
+}
+
   }
   for (const Make& make : found->second) runAttack(name, make, effort);
   return 0;
