@@ -123,15 +123,29 @@ void Connection::saveToken(const ClientSession& session) {
 
 void Connection::attemptFailed(const std::string& sentence) {
   const Time now = Clock::now();
-  if (m_state == State::kJoining && !m_busy) return finish(State::kUnreachable, sentence);
+  if (m_state == State::kJoining && !m_busy) {
+    if (!isHungUpOn(now)) return finish(State::kUnreachable, sentence);
+    return tryLater(now);
+  }
   m_put_off = false;
   retryLater(now);
+}
+
+/// The last attempt was ended in its handshake, and not too many before it.
+bool Connection::isHungUpOn(Time now) {
+  if (!m_connector.wasHungUpOn()) return false;
+  m_hung_up_at = std::min(m_hung_up_at, now);
+  return now - m_hung_up_at < kHungUpPatience;
 }
 
 void Connection::retryLater(Time now) {
   if (isOver()) return;
   if (now - m_lost_at >= kGiveUp)
     return finish(m_state == State::kJoining ? State::kRefused : State::kLost, m_sentence);
+  tryLater(now);
+}
+
+void Connection::tryLater(Time now) {
   m_next_attempt = now + m_backoff;
   m_backoff = std::min(m_backoff * 2, kLastBackoff);
 }

@@ -1,9 +1,9 @@
 // Joins a server and stays joined: connects, makes a ClientSession, and joins again when it was lost.
 //
 //   kJoining --picture--> kJoined --lost--> kSearching --picture--> kJoined
-//   kJoining --no answer--> kUnreachable   any --Refused--> kRefused   any --Goodbye--> kEnded
-//   kSearching --60 s without success--> kLost
-//   kJoining --Refused (BUSY)--> kJoining --60 s of that--> kRefused
+//   kJoining --no answer; hung up on for 4 s--> kUnreachable   any --Refused--> kRefused   any --Goodbye-->
+//   kEnded kSearching --60 s without success--> kLost kJoining --Refused (BUSY)--> kJoining --60 s of that-->
+//   kRefused
 //
 // While searching, session() is still the lost one, so that its last picture can stay on the screen under a
 // banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another
@@ -45,6 +45,8 @@ class Connection {
   static constexpr std::chrono::milliseconds kFirstBackoff{250};
   static constexpr std::chrono::milliseconds kLastBackoff{2000};
   static constexpr std::chrono::seconds kGiveUp{60};
+  /// A server hangs up on handshakes when too many come from one address: a newcomer tries for so long.
+  static constexpr std::chrono::seconds kHungUpPatience{4};
 
   /// `rejoin`: look for a lost server again. Nothing happens before start().
   Connection(asio::io_context& context, ServerAddress address, SessionOptions options, bool rejoin,
@@ -90,7 +92,9 @@ class Connection {
   void chooseToken(SessionOptions& options) const;
   void saveToken(const ClientSession& session);
   void attemptFailed(const std::string& sentence);
+  bool isHungUpOn(Time now);
   void retryLater(Time now);
+  void tryLater(Time now);
   void checkPending();
   void waitForServer(const std::string& sentence);
   void finish(State state, const std::string& sentence);
@@ -114,8 +118,9 @@ class Connection {
   std::function<void(ClientSession&)> m_observer;
   std::chrono::milliseconds m_backoff{kFirstBackoff};
   Time m_next_attempt = Time::max();
-  Time m_lost_at{};     ///< while searching; while joining, when the server first refused for now
-  bool m_busy = false;  ///< while joining: it has refused for now
+  Time m_hung_up_at = Time::max();  ///< while joining, when the server first hung up on a handshake
+  Time m_lost_at{};                 ///< while searching; while joining, when the server first refused for now
+  bool m_busy = false;              ///< while joining: it has refused for now
   bool m_put_off = false;
   std::uint64_t m_revision = 0;
 };

@@ -11,6 +11,7 @@
 #include "Progress.h"
 #include "Records.h"
 #include "ResultLine.h"
+#include "shared/options/NearestName.h"
 
 namespace {
 
@@ -143,6 +144,13 @@ const lab::Method* findMethod(const std::string& name) {
   return nullptr;
 }
 
+// `kind`: of the things that the names are of.
+void sayUnknown(const char* kind, const std::string& name, const std::vector<std::string>& names) {
+  const std::string near = naiad::nearestName(name, names);
+  std::fprintf(stderr, "naiad_lab: there is no %s '%s'%s\n", kind, name.c_str(),
+               near.empty() ? "" : ("; '" + near + "' is the nearest").c_str());
+}
+
 // False, with a word on stderr, if an argument means nothing.
 bool read(const std::vector<std::string>& arguments, Options& options) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -157,7 +165,9 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
     } else if (argument == "--method" && has_value) {
       const lab::Method* method = findMethod(arguments[++i]);
       if (method == nullptr) {
-        std::fprintf(stderr, "naiad_lab: there is no method '%s'\n", arguments[i].c_str());
+        std::vector<std::string> names;
+        for (const lab::Method* other : lab::Method::all()) names.push_back(other->name);
+        sayUnknown("method", arguments[i], names);
         return false;
       }
       options.methods.push_back(method);
@@ -165,7 +175,9 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
       const auto all = lab::allProblems();
       const lab::ProblemEntry* found = findProblem(all, argument);
       if (found == nullptr) {
-        std::fprintf(stderr, "naiad_lab: there is no problem '%s'\n", argument.c_str());
+        std::vector<std::string> names{"--help", "--list", "--method", "--output", "--quick", "--substeps"};
+        for (const lab::ProblemEntry& entry : all) names.insert(names.end(), {entry.id, entry.name});
+        sayUnknown("problem", argument, names);
         return false;
       }
       options.problems.push_back(*found);

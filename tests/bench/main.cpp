@@ -6,6 +6,7 @@
 
 #include "ResultLine.h"
 #include "Suite.h"
+#include "shared/options/NearestName.h"
 
 namespace {
 
@@ -29,6 +30,14 @@ int list() {
     std::printf("%-10s %s\n", name.c_str(), suite->summary().c_str());
   }
   return 0;
+}
+
+void sayUnknown(const std::string& name) {
+  std::vector<std::string> names{"--help", "--list", "--quick"};
+  for (const auto& [suite, its] : bench::Suite::all()) names.push_back(suite);
+  const std::string near = naiad::nearestName(name, names);
+  std::fprintf(stderr, "naiad_bench: there is no suite '%s'%s\n", name.c_str(),
+               near.empty() ? "" : ("; '" + near + "' is the nearest").c_str());
 }
 
 int run(const std::vector<std::string>& names, const bench::Options& options) {
@@ -61,7 +70,7 @@ int main(int argc, char** argv) {
     } else if (bench::Suite::all().contains(argument)) {
       names.push_back(argument);
     } else {
-      std::fprintf(stderr, "naiad_bench: there is no suite '%s'\n", argument.c_str());
+      sayUnknown(argument);
       return usage(stderr, 2);
     }
   }

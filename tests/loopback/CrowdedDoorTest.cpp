@@ -105,6 +105,7 @@ struct Flood {
   const char* form;  ///< of an address; %d: its number
   int connections = 400;
   bool with_players = false;  ///< one at each address
+  int max_players = HostOptions().max_players;
 };
 
 std::ostream& operator<<(std::ostream& out, const Flood& flood) {
@@ -114,14 +115,16 @@ std::ostream& operator<<(std::ostream& out, const Flood& flood) {
 class HalfOpenCrowd : public CrowdedDoor, public testing::WithParamInterface<Flood> {};
 
 TEST_P(HalfOpenCrowd, KeepsNoPlayerOutAndThrowsNoneOut) {
-  TestServer server(world(), home.server());
+  const Flood& flood = GetParam();
+  HostOptions options = home.server();
+  options.max_players = flood.max_players;
+  TestServer server(world(), options);
   TestClient ann(context, server.port(), home.player("ann"));
   const auto bob = visitor(server, "127.8.8.8");
   bob->join(context, home.player("bob"));
   ASSERT_TRUE(
       serveUntil(context, {&ann, bob->client.get()}, [&] { return ann.joined() && bob->client->joined(); }));
 
-  const Flood& flood = GetParam();
   const auto from = addresses(flood.addresses, [&](int i) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), flood.form, i + 1);
@@ -157,6 +160,7 @@ TEST_P(HalfOpenCrowd, KeepsNoPlayerOutAndThrowsNoneOut) {
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
   EXPECT_EQ(server.counters().joined, 5u + accomplices.size());
   EXPECT_EQ(server.counters().graces_expired, 0u);
+  if (flood.kind == SilentCrowd::Kind::kNoHello) EXPECT_GT(server.counters().turned_away, 100u);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -171,7 +175,12 @@ INSTANTIATE_TEST_SUITE_P(
                           SilentCrowd::Kind::kFinishedTogether, 4, "127.1.1.%d", 256},
                     Flood{"OfPlayersWhoFinishTheirHellosTogether", SilentCrowd::Kind::kFinishedTogether, 4,
                           "127.1.1.%d", 256, true},
-                    Flood{"OfTwoHundredNetworks", SilentCrowd::Kind::kBegunHello, 200, "127.1.%d.1"}),
+                    Flood{"OfTwoHundredNetworks", SilentCrowd::Kind::kBegunHello, 200, "127.1.%d.1"},
+                    // 28 sessions at once, of which five are players
+                    Flood{"OfFortyNetworksThatFinishTlsAndSayNoMore", SilentCrowd::Kind::kNoHello, 40,
+                          "127.1.%d.1", 40, false, 6},
+                    Flood{"OfOneNeighbourhoodThatFinishesTlsAndSaysNoMore", SilentCrowd::Kind::kNoHello, 40,
+                          "127.1.1.%d", 40, false, 6}),
     [](const auto& flood) { return flood.param.name; });
 
 // ---- honest crowds
@@ -242,44 +251,76 @@ TEST_F(CrowdedDoor, OneAddressHoldsItsShareOfThePlacesHoweverOftenItComes) {
   for (const auto& other : others) EXPECT_EQ(judge(*other), LightClient::State::kWelcome);
 }
 
-// ---- passwords
-// --------------------------------------------------------------------------------------------------
-
-/// Addresses that guess, and ask again as soon as they are answered; in a thread of their own.
-class GuessingCrowd {
+/// Clients that come again as soon as they are answered or hung up on; in a thread of their own.
+class InsistentCrowd {
  public:
-  GuessingCrowd(std::uint16_t server, const std::vector<std::string>& from) {
+  InsistentCrowd(std::uint16_t server, const std::vector<std::string>& from, const std::string& password,
+                 std::chrono::milliseconds pause) {
     for (const std::string& address : from) {
       LightClient& one = *m_all.emplace_back(std::make_unique<LightClient>(m_context, server, address));
-      one.onJudged([this](LightClient& client) {
+      one.onJudged([this, pause](LightClient& client) {
+        if (client.state() == LightClient::State::kHungUp) ++m_hung_up;
         if (client.state() == LightClient::State::kRefused) {
           ++(client.refusal().reason() == wire::Refused::BUSY ? m_busy : m_wrong);
         }
-        client.joinAfter(100ms);
+        client.joinAfter(pause);
       });
     }
-    m_thread = std::thread([this] {
-      for (const auto& one : m_all) one->join("plugh");
+    m_thread = std::thread([this, password] {
+      for (const auto& one : m_all) one->join(password);
       m_context.run();
     });
   }
-  ~GuessingCrowd() {
+  ~InsistentCrowd() {
     m_context.stop();
     m_thread.join();
   }
-  GuessingCrowd(const GuessingCrowd&) = delete;
-  GuessingCrowd& operator=(const GuessingCrowd&) = delete;
+  InsistentCrowd(const InsistentCrowd&) = delete;
+  InsistentCrowd& operator=(const InsistentCrowd&) = delete;
 
   int wrong() const { return m_wrong; }
   int busy() const { return m_busy; }
+  int hungUp() const { return m_hung_up; }
 
  private:
   asio::io_context m_context;
   std::vector<std::unique_ptr<LightClient>> m_all;
   std::atomic<int> m_wrong = 0;
   std::atomic<int> m_busy = 0;
+  std::atomic<int> m_hung_up = 0;
   std::thread m_thread;
 };
+
+// ---- handshakes
+// ------------------------------------------------------------------------------------------------
+
+TEST_F(CrowdedDoor, PlayersWhoComeBackWithoutEndGetFewHandshakesAndOthersAreNotLimited) {
+  TestServer server(world(), home.server());
+  TestClient ann(context, server.port(), home.player("ann"));
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  const auto began = std::chrono::steady_clock::now();
+  InsistentCrowd crowd(server.port(), addresses(16, [](int) { return "127.1.1.1"; }), "", 0ms);
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return crowd.hungUp() > 300; }));
+
+  const std::uint32_t tick = ann.newestTick();
+  for (const std::string address : {"127.1.1.2", "127.9.9.9"}) {
+    const auto newcomer = visitor(server, address);
+    newcomer->join(context, home.player("cid"));
+    const auto took =
+        timeUntil(context, {&ann, newcomer->client.get()}, [&] { return newcomer->isJudged(); });
+    ASSERT_TRUE(took && newcomer->client->joined()) << newcomer->client->connection().sentence();
+    EXPECT_LT(*took, kSlowness * 1s);
+  }
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick + 100; }));
+  const std::uint64_t handshakes = server.counters().connections;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+  EXPECT_LE(static_cast<double>(handshakes), 256 + 8 * elapsed.count() + 3 + 1) << "ann, two newcomers";
+  EXPECT_GT(handshakes, 200u);
+  EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
+}
+
+// ---- passwords
+// --------------------------------------------------------------------------------------------------
 
 TEST_F(CrowdedDoor, EightyAddressesDoNotCloseAServerWithAPassword) {
   HostOptions options = home.server();
@@ -290,8 +331,9 @@ TEST_F(CrowdedDoor, EightyAddressesDoNotCloseAServerWithAPassword) {
     setup.options.password = "xyzzy";
     return setup;
   };
-  GuessingCrowd crowd(server.port(),
-                      addresses(80, [](int i) { return "127.1." + std::to_string(i) + ".1"; }));
+  InsistentCrowd crowd(server.port(),
+                       addresses(80, [](int i) { return "127.1." + std::to_string(i) + ".1"; }), "plugh",
+                       100ms);
   ASSERT_TRUE(serve([&] { return crowd.busy() > 80; }));
   for (int i = 0; i < 3; ++i) {
     const auto newcomer = visitor(server, "127.9." + std::to_string(i) + ".9");

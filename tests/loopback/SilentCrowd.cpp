@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "shared/net/stream/TcpConnector.h"
+#include "shared/net/stream/TlsHandshake.h"
 
 namespace naiad::test {
 
@@ -51,11 +52,27 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
     socket.bind(own);
     socket.async_connect(server, [self = shared_from_this()](const std::error_code& error) {
       if (error) return self->comeAgain();
+      if (self->tls) return self->shakeHands();
       self->say(self->words);
       self->begun = true;
       self->wait();
       if (self->on_begun) self->on_begun();
     });
+  }
+  void shakeHands() {
+    const auto handshake =
+        std::make_shared<TlsHandshake>(std::make_unique<TlsStream>(std::move(socket), tls, "127.0.0.1"));
+    handshake->run(30s, [self = shared_from_this()](TlsHandshake::End, auto made, const auto&) {
+      if (!made) return self->noteEnd();
+      self->stream = std::move(made);
+      self->stream->socket().async_wait(  // nothing comes but the end
+          tcp::socket::wait_read, [self](const std::error_code&) { self->noteEnd(); });
+    });
+  }
+  void noteEnd() {
+    ++hung_up;
+    stream.reset();
+    comeAgain();
   }
   void say(const std::string& bytes) {
     std::error_code late;
@@ -65,8 +82,7 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
     socket.async_read_some(asio::buffer(in),
                            [self = shared_from_this()](const std::error_code& error, std::size_t) {
                              if (!error) return self->wait();
-                             ++self->hung_up;
-                             self->comeAgain();
+                             self->noteEnd();
                            });
   }
   /// As fast as a few hundred connections in a second.
@@ -82,14 +98,17 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
   std::atomic<std::uint64_t>& hung_up;
   tcp::endpoint own, server;
   std::string words;
-  bool begun = false;  // once at least
+  std::shared_ptr<const TlsContext> tls;  // null: no handshake of its own
+  std::unique_ptr<TlsStream> stream;      // once it is done
+  bool begun = false;                     // once at least
   std::function<void()> on_begun;
   std::array<char, 4096> in{};
 };
 
 SilentCrowd::SilentCrowd(std::uint16_t server, const std::vector<std::string>& addresses, int each,
                          Kind kind) {
-  std::string words = kind == Kind::kSilent ? "" : clientHello();
+  const std::shared_ptr<const TlsContext> tls = kind == Kind::kNoHello ? TlsContext::forClient() : nullptr;
+  std::string words = kind == Kind::kSilent || tls ? "" : clientHello();
   if (kind == Kind::kBegunHello) words.resize(words.size() / 2);
   if (kind == Kind::kFinishedTogether) {
     m_rest = words.substr(words.size() - 1);
@@ -100,6 +119,7 @@ SilentCrowd::SilentCrowd(std::uint16_t server, const std::vector<std::string>& a
     for (const std::string& address : addresses) {
       m_all.push_back(std::make_shared<One>(m_context, m_hung_up,
                                             tcp::endpoint(asio::ip::make_address(address), 0), to, words));
+      m_all.back()->tls = tls;
       if (!m_rest.empty()) m_all.back()->on_begun = [this, one = m_all.back().get()] { finishHello(*one); };
     }
   }

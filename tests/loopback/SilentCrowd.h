@@ -16,8 +16,9 @@ namespace naiad::test {
 class SilentCrowd {
  public:
   /// What its connections say: nothing; the beginning of a ClientHello; a whole one, but no answer to what
-  /// the server says then; the same, but all begin theirs before the first one finishes it.
-  enum class Kind { kSilent, kBegunHello, kWholeHello, kFinishedTogether };
+  /// the server says then; the same, but all begin theirs before the first one finishes it; the whole
+  /// handshake, but no hello of the protocol.
+  enum class Kind { kSilent, kBegunHello, kWholeHello, kFinishedTogether, kNoHello };
 
   /// `each` connections from each of the addresses, which are in 127/8.
   SilentCrowd(std::uint16_t server, const std::vector<std::string>& addresses, int each, Kind kind);

@@ -162,7 +162,7 @@ struct Forest : Object {
 int main() {
   GM.startUp();
   GM.setHelp({"Chase: gather the gold $, keep away from the hounds H.", "", "arrows or WASD   run", "",
-              "A hound takes half of what you have. The more there is, the more of them come."});
+              "A hound takes half of your gold. The more is gathered, the more hounds come."});
   new Forest;
   GM.run();
   GM.shutDown();

@@ -179,6 +179,10 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
     ++m_counters.unknown_tokens;
     return session.refuse(wire::Refused::BAD_REQUEST, "There is no stream for this one to go beside.");
   }
+  if (!p_first->admitSecond()) {  // the token and the streams that there are stay good
+    return session.refuse(wire::Refused::BUSY,
+                          "Your second stream comes again too often. Try again in a moment.");
+  }
   m_setup.log_client(session.address(), inQuotes(p_first->name()) + " has a second stream");
   p_first->accompany(session);
 }

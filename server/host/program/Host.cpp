@@ -93,6 +93,7 @@ Host::Host(HostOptions options, std::string game, Log log)
     : m_options(std::move(options)),
       m_log(std::move(log)),
       m_identity(identityOf(m_options)),
+      m_handshakes(PrefixRates::handshakes(m_options.max_per_address)),
       m_network(
           m_io, m_options.address, static_cast<std::uint16_t>(m_options.port),
           [this](std::unique_ptr<ReliableChannel> channel) {
@@ -127,7 +128,7 @@ Host::Host(HostOptions options, std::string game, Log log)
 
 // Half-open connections from prefixes with players have places of their own, so that a crowd of others does
 // not keep players from coming back.
-TlsListening Host::listening() const {
+TlsListening Host::listening() {
   TlsListening listening;
   if (!m_identity) return listening;
   listening.context = m_identity->tls();
@@ -136,6 +137,12 @@ TlsListening Host::listening() const {
   listening.max_half_open_per_prefix = std::clamp(static_cast<std::size_t>(m_options.max_per_address),
                                                   kMinHalfOpenPerPrefix, listening.max_half_open / 2);
   listening.is_known = [this](const AddressPrefix& prefix) { return m_prefixes.count(prefix) > 0; };
+  listening.take_handshake = [this](const AddressPrefix& prefix) {
+    return m_handshakes.take(prefix, Clock::now());
+  };
+  listening.has_handshake = [this](const AddressPrefix& prefix) {
+    return m_handshakes.has(prefix, Clock::now());
+  };
   return listening;
 }
 

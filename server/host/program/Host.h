@@ -85,7 +85,7 @@ class Host : public df::Runner {
  private:
   using Clock = std::chrono::steady_clock;
 
-  TlsListening listening() const;
+  TlsListening listening();
   Session::Events sessionEvents();
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);
@@ -112,6 +112,7 @@ class Host : public df::Runner {
   asio::io_context m_io{1};  ///< this thread's handlers; no sockets
   std::optional<ServerIdentity> m_identity;
   PlayerPrefixes m_prefixes;
+  PrefixAllowance m_handshakes;  ///< of the network thread
   NetworkThread m_network;
   SessionTable m_sessions;
   Rooms m_rooms;

@@ -20,7 +20,8 @@ void logRefusals(const NetworkThread& network, const LogLine& log) {
                                    {"handshakes_late", streams.handshakes_late},
                                    {"half_open_ended", streams.half_open_ended},
                                    {"refused_half_open", streams.refused_half_open},
-                                   {"refused_from_prefix", streams.refused_from_prefix}});
+                                   {"refused_from_prefix", streams.refused_from_prefix},
+                                   {"refused_too_often", streams.refused_too_often}});
   if (!text.empty()) log("streams: " + text);
   const RelayCounters relay = network.counters();
   text = listCounters({{"datagrams_in_dropped", relay.datagrams_in_dropped},

@@ -1,7 +1,8 @@
 // How often something may happen from one address, and from its network, whoever does it.
 //
-// What a session may do is limited for each session, and a client that leaves and joins again has a new one.
-// These limits stay: they belong to the address. A client with many addresses shares those of its network.
+// What a connection or session may do is limited for each of them, and a client that comes again has a new
+// one. These limits stay: they belong to the address. A client with many addresses shares those of its
+// network.
 #pragma once
 
 #include <cstddef>
@@ -35,6 +36,15 @@ class PrefixAllowance {
            (!m_rates.in_all || m_all.takeToken(*m_rates.in_all, now));
   }
 
+  /// Would take() say so now? Nothing is counted.
+  bool has(const AddressPrefix& prefix, Time now) {
+    TokenBucket* const p_prefix = m_prefixes.find(prefix);
+    TokenBucket* const p_network = m_networks.find(prefix.widest());
+    return (p_prefix == nullptr || p_prefix->hasToken(m_rates.of_a_prefix, now)) &&
+           (p_network == nullptr || p_network->hasToken(m_rates.of_a_network, now)) &&
+           (!m_rates.in_all || m_all.hasToken(*m_rates.in_all, now));
+  }
+
  private:
   Rates m_rates;
   PerAddress<TokenBucket> m_prefixes{kPrefixes};
@@ -44,6 +54,12 @@ class PrefixAllowance {
 
 /// The allowances of a server that lets so many players in from one address.
 struct PrefixRates {
+  /// TLS handshakes. A class that comes twice at once, each time with second streams; then one of each in
+  /// eight seconds.
+  static PrefixAllowance::Rates handshakes(int max_per_address) {
+    const double crowd = classSize(max_per_address);
+    return {{crowd / 8, 4 * crowd}, {crowd / 2, 16 * crowd}, std::nullopt};
+  }
   /// A class that joins, leaves and joins again at once; then two in a second.
   static PrefixAllowance::Rates joins(int max_per_address) {
     const double crowd = classSize(max_per_address);

@@ -168,7 +168,7 @@ void Rooms::checkWorlds() {
 // No further round for a player alone in the game's own terminal. Nor for a game that ends again and again as
 // soon as it begins: it would do so for ever.
 void Rooms::endRound(Room& room, const WorldEnd& end) {
-  m_log("the round is over: the game " + end.text);
+  m_log("the round is over: the game " + end.text + (end.when.empty() ? "" : " " + end.when));
   const bool is_short = room.ticks() < kShortestRound;
   const int short_rounds = room.countShortRounds(is_short);
   const bool hopeless = short_rounds >= kMaxShortRounds || (is_short && m_counters.joined == 0);

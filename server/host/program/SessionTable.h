@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/session/Session.h"
+#include "shared/net/base/AddressPrefix.h"
 
 namespace naiad {
 
@@ -21,15 +22,16 @@ class SessionTable {
   /// At most `max_sessions` at once. `on_remove` is called before a session is destroyed.
   SessionTable(std::size_t max_sessions, Counters& counters, std::function<void(Session&)> on_remove);
 
-  /// Start a session on a new connection. If there are too many, the oldest that neither plays nor waits for
-  /// an answer to its hello makes room; if there is none, the connection is closed.
+  /// Start a session on a new connection. If there are too many, one that neither plays nor waits for an
+  /// answer to its hello makes room: the oldest of the most crowded address or /64, in the most crowded /24
+  /// or /48, this connection included. If there is none, the connection is closed.
   void add(std::unique_ptr<ReliableChannel> channel, Session::Events events, Clock::time_point now);
   /// Destroy the sessions that have ended.
   void sweep();
 
   /// Null if there is none.
   Session* find(std::uint64_t id) const;
-  bool isEmpty() const { return m_sessions.empty(); }
+  bool isEmpty() const { return m_places.empty(); }
   /// How many play, their connections broken or not.
   std::size_t playing() const;
   /// How many play on a connection.
@@ -40,23 +42,30 @@ class SessionTable {
   /// Call `visit(session)` for all, by id.
   template <class Visit>
   void forEach(Visit visit) const {
-    for (const auto& session : m_sessions) visit(*session);
+    for (const Place& place : m_places) visit(*place.session);
   }
   template <class Visit>
   void forEachPlaying(Visit visit) const {
-    for (const auto& session : m_sessions) {
-      if (session->state() == Session::State::kPlaying) visit(*session);
+    for (const Place& place : m_places) {
+      if (place.session->state() == Session::State::kPlaying) visit(*place.session);
     }
   }
 
  private:
-  bool makeRoom();
+  struct Place {
+    std::unique_ptr<Session> session;
+    AddressPrefix prefix;  ///< that the connection came from
+  };
+  using Places = std::vector<Place>;
+
+  bool makeRoom(const AddressPrefix& newcomer);
+  Places::iterator mostCrowding(const AddressPrefix& newcomer);
 
   std::size_t m_max_sessions;
   Counters& m_counters;
   std::function<void(Session&)> m_on_remove;
   std::uint64_t m_next_id = 1;
-  std::vector<std::unique_ptr<Session>> m_sessions;  ///< by id
+  Places m_places;  ///< by id
 };
 
 }  // namespace naiad

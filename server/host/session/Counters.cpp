@@ -20,6 +20,7 @@ std::string Counters::summary() const {
       {"restarted", restarted},
       {"second_streams", second_streams},
       {"resumes_deferred", resumes_deferred},
+      {"seconds_deferred", seconds_deferred},
       {"refused_elsewhere", refused_elsewhere},
       {"unknown_tokens", unknown_tokens},
       {"kept_overflows", kept_overflows},

@@ -110,6 +110,12 @@ void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<Sea
   ++m_counters.restarted;
 }
 
+bool Session::admitSecond() {
+  if (m_seconds.takeToken(kSecondRate, now())) return true;
+  ++m_counters.seconds_deferred;
+  return false;
+}
+
 void Session::accompany(Session& other) {
   m_streams.takeSecond(other.m_streams, kMaxClientFrame);
   other.m_reported_gone = true;

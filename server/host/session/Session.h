@@ -64,6 +64,8 @@ class Session {
   /// How often a session may go on with another stream, or another process. A line that breaks every second
   /// is not noticed; each return may cost a world that is sent from the beginning.
   static constexpr BucketRate kResumeRate{.per_second = 1, .burst = 3};
+  /// How often it may have another second stream. Clients ask every two seconds at most.
+  static constexpr BucketRate kSecondRate{.per_second = 0.5, .burst = 4};
   /// With more than this unsent on the stream, a message arrives too late for sendFleeting(), and kept ones
   /// wait for their turn.
   static constexpr std::size_t kMaxBeforeFleeting = std::size_t{4} * 1024;
@@ -89,6 +91,8 @@ class Session {
   /// world is sent from the beginning, and with `datagrams` of its own, if any. A process that still holds
   /// the old stream gets a goodbye.
   void restart(Session& other, wire::Welcome welcome, std::unique_ptr<SealedChannel> datagrams);
+  /// May it have another second stream now (kSecondRate)? If not, nothing changes.
+  bool admitSecond();
   /// From now on small snapshots also go on the stream on which `other` heard its hello, beside this one's:
   /// where datagrams do not pass, a packet that one stream waits for does not hold up the other. Updates come
   /// on both. `other` is Gone afterwards; a second stream that was there before ends, and this one ends with
@@ -198,6 +202,7 @@ class Session {
   ResizeRequest m_resize;
   ReceivedInputs m_inputs;
   TokenBucket m_resumes;
+  TokenBucket m_seconds;
   ReliableOutbox m_outbox;
   ReliableFramesHeard m_kept_heard;
   SnapshotDelivery m_delivery;

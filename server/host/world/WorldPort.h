@@ -28,6 +28,7 @@ struct WorldEnd {
   } why = kGameOver;
   std::string text;   ///< for the log and for players, like "crashed (SIGABRT)"
   int exit_code = 0;  ///< of kCrashed, unless it was a signal
+  std::string when;   ///< for the log, of a failure: "in tick 17", "after tick 17"; empty before the first
 };
 
 class WorldPort {

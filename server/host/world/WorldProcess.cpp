@@ -95,6 +95,7 @@ void WorldProcess::tick(bool watched, bool truth) {
     m_views.emplace(m_later);
   }
   ++m_next_tick;
+  m_in_tick = true;
   m_turn.watched = watched;
   m_turn.wants_truth = truth;
   if (!writeTurn(std::exchange(m_turn, {}), m_out)) return fail(WorldEnd::kBroken, "was asked too much");
@@ -140,6 +141,7 @@ void WorldProcess::onFrame() {
     if (!answer) return fail(WorldEnd::kBroken, "sent what no world sends");
     answer->leavers.insert(answer->leavers.begin(), m_answer.leavers.begin(), m_answer.leavers.end());
     m_answer = *std::move(answer);
+    m_in_tick = false;
   }
   m_state = State::kReady;
   m_waited = {};
@@ -220,16 +222,23 @@ void WorldProcess::finish(int status) {
   m_output.finish(Clock::now());
   asio::error_code ignored;
   m_socket.close(ignored);
-  if (m_failure) {
-    m_end = m_failure;
-  } else if (WIFSIGNALED(status) && !(m_expected && WTERMSIG(status) == SIGKILL)) {
-    m_end = WorldEnd{WorldEnd::kCrashed, "crashed (" + nameOf(WTERMSIG(status)) + ")"};
-  } else if (WIFEXITED(status) && WEXITSTATUS(status) != 0) {
-    m_end = WorldEnd{WorldEnd::kCrashed, "ended with code " + std::to_string(WEXITSTATUS(status)),
-                     WEXITSTATUS(status)};
-  } else {
-    m_end = WorldEnd{WorldEnd::kGameOver, "is over"};
-  }
+  m_end = m_failure ? *m_failure : endOf(status);
+  if (m_end->why != WorldEnd::kGameOver) m_end->when = when();
+}
+
+WorldEnd WorldProcess::endOf(int status) const {
+  if (WIFSIGNALED(status) && !(m_expected && WTERMSIG(status) == SIGKILL))
+    return {WorldEnd::kCrashed, "crashed (" + nameOf(WTERMSIG(status)) + ")"};
+  if (WIFEXITED(status) && WEXITSTATUS(status) != 0)
+    return {WorldEnd::kCrashed, "ended with code " + std::to_string(WEXITSTATUS(status)),
+            WEXITSTATUS(status)};
+  return {WorldEnd::kGameOver, "is over"};
+}
+
+// By the host's numbers, as the log's other lines have them.
+std::string WorldProcess::when() const {
+  if (!m_began) return {};
+  return (m_in_tick ? "in tick " : "after tick ") + std::to_string(m_next_tick - 1);
 }
 
 }  // namespace naiad

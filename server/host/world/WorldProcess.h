@@ -74,6 +74,8 @@ class WorldProcess : public WorldPort {
   void hangUp();
   void fail(WorldEnd::Why why, const std::string& text);
   void finish(int status);
+  WorldEnd endOf(int status) const;
+  std::string when() const;
   void readKeeper(int patience_millis);
   template <class Message>
   std::optional<Message> takeFromKeeper(int patience_millis);
@@ -94,6 +96,7 @@ class WorldProcess : public WorldPort {
   std::uint32_t m_next_tick = 1;
   std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
+  bool m_in_tick = false;   ///< one was sent, and not answered
   bool m_expected = false;  ///< to end: the game is over, or the host closed it
   WorldTurn m_turn;         ///< the next one
   std::string m_out;

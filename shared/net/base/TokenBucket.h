@@ -18,10 +18,14 @@ class TokenBucket {
 
   /// Takes one token, if there is one. `now` may be earlier than in the last call: nothing is added then.
   bool takeToken(const BucketRate& rate, Time now) {
-    refill(rate, now);
-    if (tokens_ < 1) return false;
+    if (!hasToken(rate, now)) return false;
     tokens_ -= 1;
     return true;
+  }
+  /// Is there one to take?
+  bool hasToken(const BucketRate& rate, Time now) {
+    refill(rate, now);
+    return tokens_ >= 1;
   }
   /// Takes one token even if there is none. The debt is at most a burst.
   void forceToken(const BucketRate& rate, Time now) {

@@ -16,12 +16,13 @@ class ByteStream {
  public:
   enum class Outcome {
     kDone,
-    kWantsRead,   ///< Try again when the socket is readable.
-    kWantsWrite,  ///< Try again when the socket is writable.
-    kEnd,         ///< The peer said that this was all.
-    kTruncated,   ///< The connection ended, but the peer had not said that this was all.
-    kBroken,      ///< The connection failed (reset, unreachable), or the peer gave up on it with an alert.
-    kGarbage,     ///< The peer sent what is no TLS, or was tampered with.
+    kWantsRead,       ///< Try again when the socket is readable.
+    kWantsWrite,      ///< Try again when the socket is writable.
+    kWantsJudgement,  ///< Try again if that is wanted (TlsStream::handshake).
+    kEnd,             ///< The peer said that this was all.
+    kTruncated,       ///< The connection ended, but the peer had not said that this was all.
+    kBroken,   ///< The connection failed (reset, unreachable), or the peer gave up on it with an alert.
+    kGarbage,  ///< The peer sent what is no TLS, or was tampered with.
   };
   struct Progress {
     Outcome outcome;

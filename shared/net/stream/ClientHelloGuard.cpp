@@ -32,7 +32,6 @@ bool ClientHelloGuard::acceptMessages(std::string_view bytes) {
     if (message_left_ > 0) {
       const std::size_t part = std::min(message_left_, bytes.size());
       message_left_ -= part;
-      complete_ = complete_ || message_left_ == 0;
       bytes.remove_prefix(part);
       continue;
     }

@@ -23,8 +23,6 @@ class ClientHelloGuard {
 
   /// The next bytes from the client, in any pieces. False if they announce a longer hello: hang up.
   bool accept(std::string_view bytes);
-  /// All bytes of a hello have come.
-  bool isComplete() const { return complete_; }
 
  private:
   bool acceptMessages(std::string_view bytes);
@@ -35,7 +33,6 @@ class ClientHelloGuard {
   std::size_t message_header_size_ = 0;
   std::size_t record_left_ = 0;
   std::size_t message_left_ = 0;
-  bool complete_ = false;
 };
 
 }  // namespace naiad

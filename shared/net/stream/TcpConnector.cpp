@@ -159,6 +159,7 @@ void TcpConnector::Attempt::onHandshake(TlsHandshake::End end, std::unique_ptr<T
   if (facts) {
     giveOut(makeTcpChannel(std::move(stream), connector.options_), facts);
   } else {
+    connector.was_hung_up_on_ = end == TlsHandshake::End::kHungUp;
     fail(target() + " does not answer as a Naiad server (" + problem + ").");
   }
 }
@@ -229,6 +230,7 @@ void TcpConnector::cancel() {
   if (attempt_) attempt_->stop();
   attempt_.reset();
   peer_facts_.reset();
+  was_hung_up_on_ = false;
 }
 
 }  // namespace naiad

@@ -54,6 +54,10 @@ class TcpConnector {
   /// connect() or cancel(). Nothing without TLS.
   const std::optional<PeerFacts>& peerFacts() const { return peer_facts_; }
 
+  /// The newest attempt ended because the server hung up on it, or the line broke, during the handshake: so
+  /// it does where too many come from one place, and another attempt may do.
+  bool wasHungUpOn() const { return was_hung_up_on_; }
+
   /// Give up; `done` will not be called. Harmless when nothing is under way. (A name look-up runs on in its
   /// own thread until the resolver's time-out; destroying the io_context waits for it.)
   void cancel();
@@ -65,6 +69,7 @@ class TcpConnector {
   std::shared_ptr<const TlsContext> tls_;
   std::shared_ptr<Attempt> attempt_;
   std::optional<PeerFacts> peer_facts_;
+  bool was_hung_up_on_ = false;
 
   std::shared_ptr<Attempt> begin(const std::string& host, Done done);
 };

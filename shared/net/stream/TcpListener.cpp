@@ -44,6 +44,7 @@ struct TcpListener::State : std::enable_shared_from_this<State> {
   void onAccepted(const std::error_code& error, tcp::socket socket);
   void shakeHands(tcp::socket socket);
   bool makeRoom(HalfOpenLimit& places, const AddressPrefix& prefix);
+  bool judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id, const AddressPrefix& prefix);
   void hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id);
   void onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream);
   void close();
@@ -125,6 +126,10 @@ void TcpListener::State::shakeHands(tcp::socket socket) {
     return;
   }
   const AddressPrefix prefix = AddressPrefix::of(peer.address());
+  if (tls.has_handshake && !tls.has_handshake(prefix)) {  // what OpenSSL takes for a stream is saved
+    ++counters.refused_too_often;
+    return;
+  }
   HalfOpenLimit& places = tls.is_known && tls.is_known(prefix) ? known : strangers;
   if (!makeRoom(places, prefix)) return;
   std::shared_ptr<TlsHandshake> handshake;
@@ -146,13 +151,22 @@ void TcpListener::State::shakeHands(tcp::socket socket) {
         places.release(id);
         self->onHandshake(end, std::move(stream));
       },
-      [self = shared_from_this(), id, &places, hasty] {
-        if (!places.noteHello(id)) {
-          ++self->counters.refused_from_prefix;
-          return self->hangUp(places, id);
-        }
+      [self = shared_from_this(), id, prefix, &places, hasty] {
+        if (!self->judgeHello(places, id, prefix)) return self->hangUp(places, id);
         if (hasty) self->handshakes.at(id)->setTimeout(self->tls.handshake_timeout / 2);
       });
+}
+
+// Its place first: what gets none is not counted as a handshake.
+bool TcpListener::State::judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id,
+                                    const AddressPrefix& prefix) {
+  if (!places.noteHello(id)) {
+    ++counters.refused_from_prefix;
+    return false;
+  }
+  if (!tls.take_handshake || tls.take_handshake(prefix)) return true;
+  ++counters.refused_too_often;
+  return false;
 }
 
 void TcpListener::State::hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id) {
@@ -183,7 +197,7 @@ bool TcpListener::State::makeRoom(HalfOpenLimit& places, const AddressPrefix& pr
 void TcpListener::State::onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream) {
   if (end == TlsHandshake::End::kTimedOut) {
     ++counters.handshakes_late;
-  } else if (end == TlsHandshake::End::kFailed) {
+  } else if (end != TlsHandshake::End::kDone) {
     ++counters.handshakes_failed;
   } else {
     ++counters.handshakes;

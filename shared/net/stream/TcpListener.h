@@ -32,6 +32,11 @@ struct TlsListening {
   /// be empty. Called from the listener's event loop, once for each connection.
   std::function<bool(const AddressPrefix& prefix)> is_known = nullptr;
   std::size_t max_half_open_known = 256;
+  /// May a connection of this prefix, whose hello is complete and has a place, have an answer to it? That
+  /// takes a signature. Asked once for each of these. May be empty. Called from the listener's event loop.
+  std::function<bool(const AddressPrefix& prefix)> take_handshake = nullptr;
+  /// Would that be so now? Asked for each connection that comes. May be empty.
+  std::function<bool(const AddressPrefix& prefix)> has_handshake = nullptr;
   /// A connection that says nothing is left in the kernel for so long (TCP_DEFER_ACCEPT). 0: it is not.
   std::chrono::seconds defer_accept{1};
 };
@@ -70,6 +75,7 @@ class TcpListener {
     std::uint64_t half_open_ended = 0;      ///< TLS: silent, while another one needed the place
     std::uint64_t refused_half_open = 0;    ///< TLS: none was silent, and there was no place
     std::uint64_t refused_from_prefix = 0;  ///< TLS: the prefix has its share of the places
+    std::uint64_t refused_too_often = 0;    ///< TLS: by TlsListening::take_handshake or has_handshake
   };
 
   /// Listens from now on; `on_channel` is called from the event loop. `address`: numeric, IPv4 or IPv6;

@@ -23,8 +23,13 @@ std::string alpnList() {
   return static_cast<char>(kAlpn.size()) + std::string(kAlpn);
 }
 
-/// Called before a hello is answered. Without the extension OpenSSL would not ask chooseAlpn() at all.
-int requireAlpn(SSL* ssl, int* alert, void*) {
+/// Called before a hello is answered. The first time of a stream it stops there (TlsStream::handshake).
+/// Without the extension OpenSSL would not ask chooseAlpn() at all.
+int judgeHello(SSL* ssl, int* alert, void*) {
+  if (bool* const p_judged = static_cast<bool*>(SSL_get_app_data(ssl)); p_judged && !*p_judged) {
+    *p_judged = true;
+    return SSL_CLIENT_HELLO_RETRY;
+  }
   const unsigned char* data = nullptr;
   std::size_t size = 0;
   if (SSL_client_hello_get0_ext(ssl, TLSEXT_TYPE_application_layer_protocol_negotiation, &data, &size) == 1) {
@@ -90,7 +95,7 @@ std::shared_ptr<const TlsContext> TlsContext::forServer(const std::string& certi
   std::shared_ptr<TlsContext> made(new TlsContext(true));
   made->useCertificate(certificate_pem);
   made->useKey(key_pem);
-  SSL_CTX_set_client_hello_cb(made->get(), requireAlpn, nullptr);
+  SSL_CTX_set_client_hello_cb(made->get(), judgeHello, nullptr);
   SSL_CTX_set_alpn_select_cb(made->get(), chooseAlpn, nullptr);
   return made;
 }

@@ -33,14 +33,17 @@ void TlsHandshake::readAhead() {
 void TlsHandshake::step() {
   if (!done_) return;
   const auto self = shared_from_this();  // a callback may let go of it
-  const auto outcome = stream_->handshake();
+  auto outcome = stream_->handshake();
+  if (outcome == ByteStream::Outcome::kWantsJudgement) {
+    if (on_hello_) std::exchange(on_hello_, nullptr)();
+    if (!done_) return;
+    outcome = stream_->handshake();
+  }
   if (outcome == ByteStream::Outcome::kDone) return finish(End::kDone);
   if (outcome != ByteStream::Outcome::kWantsRead && outcome != ByteStream::Outcome::kWantsWrite) {
-    return finish(End::kFailed);
+    return finish(stream_->isHungUp() ? End::kHungUp : End::kFailed);
   }
-  if (on_hello_ && stream_->hasClientHello()) std::exchange(on_hello_, nullptr)();
-  if (done_)
-    await(outcome == ByteStream::Outcome::kWantsWrite ? tcp::socket::wait_write : tcp::socket::wait_read);
+  await(outcome == ByteStream::Outcome::kWantsWrite ? tcp::socket::wait_write : tcp::socket::wait_read);
 }
 
 void TlsHandshake::await(tcp::socket::wait_type readiness) {

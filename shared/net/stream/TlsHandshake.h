@@ -22,15 +22,17 @@ class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
   enum class End {
     kDone,
     kTimedOut,
-    kFailed,  ///< no TLS 1.3, no common protocol, hung up, broken …
+    kHungUp,  ///< by the other side, or the connection broke
+    kFailed,  ///< no TLS 1.3, no common protocol …
   };
-  /// `stream`: with kDone only. `problem`: with kFailed, why, as the end of a sentence.
+  /// `stream`: with kDone only. `problem`: with kHungUp and kFailed, why, as the end of a sentence.
   using Done = std::function<void(End end, std::unique_ptr<TlsStream> stream, const std::string& problem)>;
 
   explicit TlsHandshake(std::unique_ptr<TlsStream> stream);
 
   /// `timeout` covers all of it, however the bytes dribble in. `done` is called once, from the event loop or
-  /// readAhead(), unless cancelled. `on_hello`, at a server: the same when the client's hello is complete.
+  /// readAhead(), unless cancelled. `on_hello`, at a server: the same when the client's hello is complete,
+  /// and before its answer is calculated, which takes most of the time of a handshake; it may cancel().
   void run(std::chrono::milliseconds timeout, Done done, std::function<void()> on_hello = nullptr);
   /// From now on there is this much time.
   void setTimeout(std::chrono::milliseconds timeout);

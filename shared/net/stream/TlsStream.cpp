@@ -31,7 +31,7 @@ std::string inWords(unsigned long error) {
       return "it does not speak TLS 1.3";
     case SSL_R_TLSV1_ALERT_NO_APPLICATION_PROTOCOL:
     case SSL_R_NO_APPLICATION_PROTOCOL:
-    case SSL_R_CALLBACK_FAILED:  // requireAlpn()
+    case SSL_R_CALLBACK_FAILED:  // judgeHello()
       return "it does not speak " + std::string(kAlpn);
     default:
       const char* reason = ERR_reason_error_string(error);
@@ -54,6 +54,7 @@ TlsStream::TlsStream(tcp::socket socket, std::shared_ptr<const TlsContext> conte
   SSL_set_bio(ssl_.get(), bio, bio);  // owns it
   if (context_->isServer()) {
     bio_.guard.emplace();
+    SSL_set_app_data(ssl_.get(), &hello_judged_);  // TlsContext's judgeHello()
     SSL_set_accept_state(ssl_.get());
   } else {
     SSL_set_connect_state(ssl_.get());
@@ -141,6 +142,8 @@ ByteStream::Outcome TlsStream::outcomeOf(int result) {
       return Outcome::kWantsRead;
     case SSL_ERROR_WANT_WRITE:
       return Outcome::kWantsWrite;
+    case SSL_ERROR_WANT_CLIENT_HELLO_CB:
+      return Outcome::kWantsJudgement;
     case SSL_ERROR_ZERO_RETURN:
       return Outcome::kEnd;
     default:

@@ -26,14 +26,16 @@ class TlsStream : public ByteStream {
             const std::string& server_name = {});
   ~TlsStream() override;
 
-  /// Go on with the handshake; kDone when it is complete. Before that, nothing else may be called.
+  /// Go on with the handshake; kDone when it is complete. Before that, nothing else may be called. A server
+  /// stops once with kWantsJudgement when the client's hello has come, all of it: nothing of the answer has
+  /// been calculated, which takes a signature. The next call goes on.
   Outcome handshake();
-  /// For a server before the end of the handshake: the client's hello has come, all of it.
-  bool hasClientHello() const { return bio_.guard && bio_.guard->isComplete(); }
   /// A client does.
   bool speaksFirst() const { return !context_->isServer(); }
   /// After a handshake that failed: why, as the end of a sentence ("it does not speak TLS").
   const std::string& problem() const { return problem_; }
+  /// The peer closed the connection, or it broke.
+  bool isHungUp() const { return bio_.ended || bio_.failed; }
   /// For a client after the handshake: what it proved about the server.
   std::optional<PeerFacts> peerFacts() const;
 
@@ -57,6 +59,7 @@ class TlsStream : public ByteStream {
   SocketBio bio_;
   std::unique_ptr<ssl_st, Free> ssl_;
   std::string problem_;
+  bool hello_judged_ = false;
   bool end_sent_ = false;
 };
 

@@ -14,7 +14,8 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kReady = 8;  // streams ahead
 constexpr auto kStale = 3s;        // the server waits 5 s for a hello
-constexpr auto kAfterRefusal = 100ms;
+constexpr auto kBetween = 10ms;    // streams
+constexpr auto kAfterHangUp = 100ms;
 constexpr int kLines = 30;  // on each stream
 
 }  // namespace
@@ -39,33 +40,35 @@ void ChatResume::update(Time now) {
     m_ready.pop_front();
   while (m_used.size() > 2) m_used.pop_front();
   if (m_waiting && m_used.back()->over) m_waiting = false;  // hung up on instead of an answer
-  prepare(now);
-  greet(now);
+  if (m_ready.size() < kReady && now >= m_next_stream) prepare(now);
+  greet();
 }
 
 void ChatResume::prepare(Time now) {
-  while (m_ready.size() < kReady) {
-    auto stream = std::make_unique<Stream>();
-    Stream& made = *stream;
-    made.since = now;
-    naiad::TcpOptions options;
-    options.receive_limit = naiad::kMaxServerFrame;
-    made.connector = std::make_unique<naiad::TcpConnector>(*m_p_context, options, clientTls());
-    made.connector->connect(
-        "127.0.0.1", m_relay->port(), 5s,
-        [this, &made](std::unique_ptr<naiad::ReliableChannel> channel, const std::string&) {
-          made.over = channel == nullptr;
-          if (!channel) return;
-          made.channel = std::move(channel);
-          made.channel->start({[this, &made](std::string_view frame) { receive(made, frame); },
-                               [&made](naiad::CloseReason) { made.over = true; }});
-        });
-    m_ready.push_back(std::move(stream));
-  }
+  m_next_stream = now + kBetween;
+  auto stream = std::make_unique<Stream>();
+  Stream& made = *stream;
+  made.since = now;
+  naiad::TcpOptions options;
+  options.receive_limit = naiad::kMaxServerFrame;
+  made.connector = std::make_unique<naiad::TcpConnector>(*m_p_context, options, clientTls());
+  made.connector->connect(
+      "127.0.0.1", m_relay->port(), 5s,
+      [this, &made](std::unique_ptr<naiad::ReliableChannel> channel, const std::string&) {
+        ++m_streams;
+        made.over = channel == nullptr;
+        if (made.over) m_next_stream = std::chrono::steady_clock::now() + kAfterHangUp;
+        if (!channel) return;
+        ++m_handshakes;
+        made.channel = std::move(channel);
+        made.channel->start({[this, &made](std::string_view frame) { receive(made, frame); },
+                             [&made](naiad::CloseReason) { made.over = true; }});
+      });
+  m_ready.push_back(std::move(stream));
 }
 
-void ChatResume::greet(Time now) {
-  if (m_waiting || now < m_next_hello || m_ready.empty() || !m_ready.front()->channel) return;
+void ChatResume::greet() {
+  if (m_waiting || m_ready.empty() || !m_ready.front()->channel) return;
   m_used.push_back(std::move(m_ready.front()));
   m_ready.pop_front();
   m_waiting = true;
@@ -87,7 +90,6 @@ void ChatResume::receive(Stream& stream, std::string_view frame) {
   if (message.has_refused()) {
     ++m_refusals;
     m_waiting = false;
-    m_next_hello = std::chrono::steady_clock::now() + kAfterRefusal;
   }
   if (!message.has_welcome()) return;
   m_waiting = false;
@@ -100,7 +102,7 @@ void ChatResume::receive(Stream& stream, std::string_view frame) {
     m_sent = 0;
   }
   talk(stream);
-  greet(std::chrono::steady_clock::now());
+  greet();
 }
 
 void ChatResume::talk(Stream& stream) {
@@ -124,6 +126,8 @@ void ChatResume::addFindings(Findings& findings) {
   findings.figures.emplace_back("resumes", m_resumes);
   findings.figures.emplace_back("resumes_refused", m_refusals);
   findings.figures.emplace_back("lines_sent", m_said);
+  findings.figures.emplace_back("streams", m_streams);
+  findings.figures.emplace_back("handshakes", m_handshakes);
 }
 
 }  // namespace bench::attack

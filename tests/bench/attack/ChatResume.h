@@ -36,7 +36,7 @@ class ChatResume : public Attack {
     bool over = false;
   };
   void prepare(Time now);
-  void greet(Time now);
+  void greet();
   void receive(Stream& stream, std::string_view frame);
   void talk(Stream& stream);
 
@@ -45,13 +45,15 @@ class ChatResume : public Attack {
   std::deque<std::unique_ptr<Stream>> m_ready;  ///< or about to be
   std::deque<std::unique_ptr<Stream>> m_used;   ///< the last one has the session, or asked for it
   bool m_waiting = false;                       ///< for an answer to the last hello
-  Time m_next_hello{};
+  Time m_next_stream{};
   std::string m_token;
   std::uint32_t m_received = 0;  ///< number of the newest reliable frame
   std::uint32_t m_sent = 0;      ///< … of ours
   long long m_resumes = 0;
   long long m_refusals = 0;
   long long m_said = 0;
+  long long m_streams = 0;     ///< opened, or hung up on before that
+  long long m_handshakes = 0;  ///< of these, done
 };
 
 /// A line of chat of the greatest length, in characters of three bytes.

@@ -2,9 +2,11 @@
 
 #include <stdlib.h>
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <filesystem>
+#include <future>
 #include <stdexcept>
 #include <thread>
 
@@ -79,6 +81,32 @@ class Assault {
   std::thread m_thread;  // last: it uses the others
 };
 
+/// What a server takes from half of this time on: by then an attack has used up what it may do at once.
+class CpuMeter {
+ public:
+  CpuMeter(const ServerProcess& server, std::chrono::milliseconds duration)
+      : m_server(server), m_half(std::async(std::launch::async, [&server, duration] {
+          std::this_thread::sleep_for(duration / 2);
+          return Reading{Clock::now(), server.cpuSeconds()};
+        })) {}
+
+  /// Until now; of one core.
+  double percent() {
+    const Reading half = m_half.get();
+    const std::chrono::duration<double> elapsed = Clock::now() - half.time;
+    return 100 * std::max(0.0, m_server.cpuSeconds() - half.cpu_seconds) / elapsed.count();
+  }
+
+ private:
+  struct Reading {
+    Clock::time_point time;
+    double cpu_seconds;
+  };
+
+  const ServerProcess& m_server;
+  std::future<Reading> m_half;
+};
+
 /// All but ten seconds: 50 of 60.
 Company::Absence absenceIn(std::chrono::milliseconds duration) {
   return {duration / 12, duration * 11 / 12};
@@ -97,14 +125,18 @@ PhaseResult runPhase(Attack& attack, bool hostile, std::chrono::seconds duration
                   HeldPlaces::kName);
   company.join();
   const Clock::time_point begin = Clock::now();
+  CpuMeter cpu(server, duration);
+  const auto play = [&] {
+    company.play(duration, absenceIn(duration));
+    result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    result.cpu_percent = cpu.percent();
+  };
   if (hostile) {
     Assault assault(attack, server, duration);
-    company.play(duration, absenceIn(duration));
-    result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    play();
     assault.finish();
   } else {
-    company.play(duration, absenceIn(duration));
-    result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    play();
   }
   result.died = !server.isRunning();
   result.fate = company.leave();

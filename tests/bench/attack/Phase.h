@@ -14,6 +14,7 @@ struct PhaseResult {
   double seconds = 0;
   double ticks = -1;       ///< of the server; -1: it ended without a last line
   double late_ticks = -1;  ///< of these, begun more than 5 ms late
+  double cpu_percent = 0;  ///< of one core that the server took in the second half
   bool died = false;       ///< the server ended by itself
 };
 

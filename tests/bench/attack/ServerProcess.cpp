@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <array>
@@ -100,6 +101,13 @@ bool ServerProcess::isRunning() {
   if (m_pid < 0 || m_died) return false;
   m_died = waitpid(m_pid, nullptr, WNOHANG) == m_pid;
   return !m_died;
+}
+
+double ServerProcess::cpuSeconds() const {
+  clockid_t clock = 0;
+  timespec time{};
+  if (clock_getcpuclockid(m_pid, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) / 1e9;
 }
 
 // ---- the log ----------------------------------------------------------------------------------------------

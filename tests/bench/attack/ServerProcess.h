@@ -35,6 +35,8 @@ class ServerProcess {
   const std::string& password() const { return m_password; }
   const std::string& truthFile() const { return m_truth_file; }
   bool isRunning();
+  /// Of all its threads, since it began; 0 if it is not there.
+  double cpuSeconds() const;
 
   /// From now on the log is not read, and its pipe is full.
   void stallLog();

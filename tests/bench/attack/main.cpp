@@ -23,6 +23,7 @@
 #include "PasswordCrowd.h"
 #include "Phase.h"
 #include "SilentCrowd.h"
+#include "shared/options/NearestName.h"
 
 namespace {
 
@@ -40,6 +41,11 @@ constexpr double kMinComparedPerSecond = 5;
 /// ticks say nothing.
 constexpr double kMaxLateShare = 0.1;
 constexpr double kMaxCalmLateShare = 0.05;
+
+/// Of one core, that one player costs: over that without the attack, on a quiet machine.
+constexpr double kMaxCpuPercent = 2;
+/// A shorter attack is one that has not used up what it may do at once.
+constexpr double kMinCpuSeconds = 30;
 
 struct Effort {
   std::chrono::seconds calm{15};
@@ -77,6 +83,11 @@ double lateShare(const PhaseResult& phase) {
 
 bool isQuietMachine(const PhaseResult& calm) {
   return lateShare(calm) <= kMaxCalmLateShare;
+}
+
+bool isDear(const PhaseResult& calm, const PhaseResult& hot) {
+  const double limit = kMaxCpuPercent * (isQuietMachine(calm) ? 1 : kBusyFactor);
+  return hot.cpu_percent - calm.cpu_percent > limit;
 }
 
 /// What an attack should not be able to do.
@@ -121,6 +132,8 @@ void runAttack(const std::string& name, const Make& make, const Effort& effort) 
   attack->addFindings(findings);
   std::vector<std::string> faults = faultsOf(calm, hot);
   faults.insert(faults.end(), findings.faults.begin(), findings.faults.end());
+  if (name == "chat_resume" && hot.seconds >= kMinCpuSeconds && isDear(calm, hot))
+    faults.emplace_back("cpu_percent");
   if (name == "held_places") {
     findings.figures.emplace_back("held", static_cast<long long>(hot.fate.crowd));
     if (hot.fate.crowd > HeldPlaces::kAllowed) faults.emplace_back("held");
@@ -134,8 +147,11 @@ void runAttack(const std::string& name, const Make& make, const Effort& effort) 
   std::printf(" ticks=%.0f pause_ms=%.0f newcomers=%d newcomers_out=%d chat_lines=%llu server_died=%d",
               hot.ticks, hot.fate.pause_ms, hot.fate.newcomers, hot.fate.newcomers_out,
               static_cast<unsigned long long>(hot.fate.chat), hot.died ? 1 : 0);
-  std::printf(" calm_newcomer_ms=%.0f calm_late_ticks=%.0f calm_ticks=%.0f calm_pause_ms=%.0f",
-              calm.fate.newcomer_ms, calm.late_ticks, calm.ticks, calm.fate.pause_ms);
+  std::printf(" cpu_percent=%.1f", hot.cpu_percent);
+  std::printf(
+      " calm_newcomer_ms=%.0f calm_late_ticks=%.0f calm_ticks=%.0f calm_pause_ms=%.0f "
+      "calm_cpu_percent=%.1f",
+      calm.fate.newcomer_ms, calm.late_ticks, calm.ticks, calm.fate.pause_ms, calm.cpu_percent);
   for (const auto& [key, value] : findings.figures) std::printf(" %s=%lld", key.c_str(), value);
   std::printf(" valid=%d", isQuietMachine(calm) ? 1 : 0);
   printFaults(faults);
@@ -153,6 +169,14 @@ void runPile(const Effort& effort) {
   printFaults(faults);
 }
 
+void sayUnknown(const std::string& name) {
+  std::vector<std::string> names{"--quick", "hard_pile"};
+  for (const auto& [attack, makes] : attacks()) names.push_back(attack);
+  const std::string near = naiad::nearestName(name, names);
+  std::fprintf(stderr, "naiad_attack: there is no attack '%s'%s\n", name.c_str(),
+               near.empty() ? "" : ("; '" + near + "' is the nearest").c_str());
+}
+
 int run(const std::string& name, const Effort& effort) {
   if (name == "hard_pile") {
     runPile(effort);
@@ -160,7 +184,7 @@ int run(const std::string& name, const Effort& effort) {
   }
   const auto found = attacks().find(name);
   if (found == attacks().end()) {
-    std::fprintf(stderr, "naiad_attack: there is no attack '%s'\n", name.c_str());
+    sayUnknown(name);
     return 2;
   }
   if (name == "silent6") {

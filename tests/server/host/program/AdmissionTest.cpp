@@ -329,6 +329,31 @@ TEST_F(AdmissionTest, ASecondStreamNeedsTheTokenOfASessionThatHasItsFirst) {
   EXPECT_EQ(counters.joined, 1u);
 }
 
+TEST_F(AdmissionTest, SecondStreamsThatComeTooOftenAreRefusedForNow) {
+  Client& ann = greet(helloOf("Ann"));
+  wire::Hello second = returning(ann);
+  second.set_second_stream(true);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(greet(second).isWelcome()) << i;
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_EQ(greet(second).refusal(), wire::Refused::BUSY);
+    sessions.sweep();
+  }
+  EXPECT_EQ(counters.second_streams, 4u);
+  EXPECT_EQ(counters.seconds_deferred, 100u);
+  EXPECT_EQ(counters.unknown_tokens, 0u);
+  EXPECT_TRUE(sessionOf(1).hasSecondStream()) << "the one it has stays";
+  EXPECT_FALSE(sessionOf(1).isDetached());
+  ann.drop();
+  const Client& back = greet(returning(ann));
+  ASSERT_TRUE(back.isWelcome()) << "the token stays good";
+  second.set_resume_token(back.welcome().resume_token());
+  EXPECT_EQ(greet(second).refusal(), wire::Refused::BUSY) << "coming back refills nothing";
+  for (int i = 0; i < 20; ++i) {
+    now += 2s;  // as often as clients ask
+    EXPECT_TRUE(greet(second).isWelcome()) << i;
+  }
+}
+
 TEST_F(AdmissionTest, APasswordIsNeededByNewPlayersOnly) {
   options.password = "open sesame";
   const auto work = asio::make_work_guard(io);

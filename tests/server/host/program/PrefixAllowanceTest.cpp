@@ -41,6 +41,27 @@ TEST_F(PrefixAllowanceTest, WhoIsOverTheirLimitTakesNothingFromTheNetwork) {
   EXPECT_EQ(take(allowance, "198.51.100.1", 100), 1) << "of all";
 }
 
+TEST_F(PrefixAllowanceTest, AskingTakesNothing) {
+  PrefixAllowance allowance({{1, 2}, {2, 3}, std::nullopt});
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(allowance.has(of("192.0.2.1"), now));
+  EXPECT_EQ(take(allowance, "192.0.2.1", 100), 2);
+  EXPECT_FALSE(allowance.has(of("192.0.2.1"), now));
+  EXPECT_TRUE(allowance.has(of("192.0.2.2"), now));
+  EXPECT_EQ(take(allowance, "192.0.2.2", 1), 1);
+  EXPECT_FALSE(allowance.has(of("192.0.2.2"), now)) << "of the network";
+  now += 1s;
+  EXPECT_TRUE(allowance.has(of("192.0.2.1"), now));
+}
+
+TEST_F(PrefixAllowanceTest, AClassOf64ComesTwiceWithSecondStreamsAndEachEveryEightSeconds) {
+  PrefixAllowance handshakes(PrefixRates::handshakes(64));
+  EXPECT_EQ(take(handshakes, "192.0.2.1", 300), 256);
+  for (int i = 0; i < 10; ++i) {
+    now += 8s;
+    EXPECT_EQ(take(handshakes, "192.0.2.1", 100), 64);
+  }
+}
+
 TEST_F(PrefixAllowanceTest, AClassOf64SpeaksAtOnceAndEachEveryFourSeconds) {
   PrefixAllowance chat(PrefixRates::chat(64));
   EXPECT_EQ(take(chat, "192.0.2.1", 64 * 3), 64 * 3);

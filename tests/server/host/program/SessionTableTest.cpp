@@ -77,6 +77,30 @@ TEST_F(SessionTableTest, TheOldestSilentConnectionMakesRoomForTheNextOne) {
   EXPECT_EQ(counters.turned_away, 1u);
 }
 
+TEST_F(SessionTableTest, ACrowdMakesRoomBeforeAnOlderConnectionFromElsewhere) {
+  Client& old = connect("198.51.100.1:1");
+  Client& first = connect("192.0.2.1:1");
+  Client& second = connect("192.0.2.1:2");
+  Client& newcomer = connect("203.0.113.1:1");
+  EXPECT_TRUE(first.destroyed);
+  EXPECT_FALSE(old.destroyed || second.destroyed || newcomer.destroyed);
+}
+
+TEST_F(SessionTableTest, TheAddressesOfANetworkAreOneCrowd) {
+  Client& old = connect("198.51.100.1:1");
+  for (int i = 1; i < 50; ++i) connect("192.0.2." + std::to_string(i) + ":1");
+  EXPECT_FALSE(old.destroyed);
+}
+
+TEST_F(SessionTableTest, ANewcomerCountsToTheirOwnCrowd) {
+  Client& old = connect("198.51.100.1:1");
+  Client& first = connect("192.0.2.1:1");
+  connect("203.0.113.1:1");
+  connect("192.0.2.2:1");
+  EXPECT_TRUE(first.destroyed);
+  EXPECT_FALSE(old.destroyed);
+}
+
 TEST_F(SessionTableTest, AClientWhoseHelloIsBeingJudgedIsNotReplaced) {
   judges = false;
   Client& judged = connect();

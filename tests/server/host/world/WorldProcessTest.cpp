@@ -51,6 +51,10 @@ class WorldProcessTest : public testing::Test {
     return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there"});
   }
 
+  /// For a script: it is ready; it takes a turn, of 4 + 4 bytes (watched, no truth, no end, no inputs).
+  static std::string isReady() { return "printf '" + readyFrame() + "' >&3; "; }
+  static std::string takesTurn() { return "dd bs=8 count=1 <&3 2>/dev/null >/dev/null; "; }
+
   int ticks = 0;
   std::vector<std::string> printed;
 
@@ -65,6 +69,16 @@ TEST_F(WorldProcessTest, OneThatExitsIsOver) {
 TEST_F(WorldProcessTest, OneThatFailsHasCrashed) {
   EXPECT_EQ(play("exit 3").text, "ended with code 3");
   EXPECT_EQ(play("kill -SEGV $$").text, "crashed (SIGSEGV)");
+}
+
+TEST_F(WorldProcessTest, ACrashSaysInWhichTickItWas) {
+  const std::string answer = "printf '\\4\\0\\0\\0\\0\\0\\0\\0' >&3; ";
+  const std::string crash = "kill -SEGV $$";
+  EXPECT_EQ(play(crash).when, "");
+  EXPECT_EQ(play(isReady() + takesTurn() + answer + takesTurn() + crash).when, "in tick 2");
+  EXPECT_EQ(play(isReady() + takesTurn() + answer + "exit 0").when, "");
+  const std::string game_over = "printf '\\4\\0\\0\\0\\1\\0\\0\\0' >&3; ";
+  EXPECT_EQ(play(isReady() + takesTurn() + game_over + crash).when, "after tick 1");
 }
 
 TEST_F(WorldProcessTest, OneThatSendsAMalformedFrameIsKilled) {
@@ -109,12 +123,9 @@ TEST_F(WorldProcessTest, OneThatFloodsEndsAsEver) {
 }
 
 TEST_F(WorldProcessTest, AnAnswerIsATick) {
-  // The turn is 4 + 4 bytes: watched, no truth, no end, no inputs. The answer: not over, no leavers, no
-  // pictures, no view.
-  const std::string answer =
-      "dd bs=8 count=1 <&3 2>/dev/null >/dev/null; printf '\\4\\0\\0\\0\\0\\0\\0\\0' >&3; ";
-  EXPECT_EQ(play("printf '" + readyFrame() + "' >&3; " + answer + answer + "exit 0").why,
-            WorldEnd::kGameOver);
+  // Not over, no leavers, no pictures, no view.
+  const std::string answer = takesTurn() + "printf '\\4\\0\\0\\0\\0\\0\\0\\0' >&3; ";
+  EXPECT_EQ(play(isReady() + answer + answer + "exit 0").why, WorldEnd::kGameOver);
   EXPECT_EQ(ticks, 2);
 }
 

@@ -27,19 +27,6 @@ bool acceptsInPieces(const std::string& bytes, std::size_t piece) {
   return true;
 }
 
-TEST(ClientHelloGuard, KnowsWhenAHelloIsComplete) {
-  for (const std::string& whole :
-       {record(22, hello(300)), record(22, hello(300).substr(0, 3)) + record(22, hello(300).substr(3, 100)) +
-                                    record(22, hello(300).substr(103))}) {
-    ClientHelloGuard guard;
-    for (const char& byte : whole) {
-      EXPECT_FALSE(guard.isComplete());
-      EXPECT_TRUE(guard.accept({&byte, 1}));
-    }
-    EXPECT_TRUE(guard.isComplete());
-  }
-}
-
 TEST(ClientHelloGuard, PassesHellosUpToTheLimitHoweverTheyAreCut) {
   const std::string largest = hello(ClientHelloGuard::kMaxHello);
   const std::string whole = record(22, largest);

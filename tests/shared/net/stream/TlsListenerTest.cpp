@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <asio/write.hpp>
+#include <map>
 #include <vector>
 
 #include "TlsFixture.h"
@@ -334,6 +335,85 @@ TEST_F(TlsListenerTest, PlacesAreSetAsideForKnownPlaces) {
   EXPECT_EQ(listener->halfOpen(), 4u);
   join();
   expectConversation(*this);
+}
+
+/// Every prefix may shake hands so often.
+std::function<bool(const AddressPrefix&)> atMost(int times, std::map<AddressPrefix, int>& asked) {
+  return [times, &asked](const AddressPrefix& prefix) { return ++asked[prefix] <= times; };
+}
+
+TEST_F(TlsListenerTest, OnePlaceThatShakesHandsWithoutEndIsHungUpOnBeforeAnAnswerAndOthersAreNot) {
+  std::map<AddressPrefix, int> asked;
+  tls.take_handshake = atMost(3, asked);
+  listen();
+  RawTls client;
+  const std::string hello = client.advance();
+  for (std::size_t i = 0; i < 40; ++i) {
+    tcp::socket one = knockFrom("127.1.1.1");
+    asio::write(one, asio::buffer(hello));
+    std::array<char, 1> answer;
+    one.non_blocking(true);
+    std::error_code error;
+    ASSERT_TRUE(runUntil(context, [&] {
+      one.read_some(asio::buffer(answer), error);
+      return error != asio::error::would_block;
+    }));
+    EXPECT_EQ(!error, i < 3) << "a byte of an answer: " << i;
+    if (i % 20 == 19) join();
+  }
+  EXPECT_EQ(counters().refused_too_often, 37u);
+  EXPECT_EQ(counters().handshakes, 2u);
+  EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 0; }));
+}
+
+TEST_F(TlsListenerTest, AConnectionFromAPlaceWithoutHandshakesIsHungUpOnAtOnce) {
+  const AddressPrefix limited = AddressPrefix::of(asio::ip::make_address("127.1.1.1"));
+  tls.has_handshake = [limited](const AddressPrefix& prefix) { return prefix != limited; };
+  tls.handshake_timeout = 1h;
+  listen();
+  std::vector<tcp::socket> flood;
+  for (int i = 0; i < 20; ++i) flood.push_back(knockFrom("127.1.1.1"));
+  EXPECT_TRUE(runUntil(context, [&] { return counters().refused_too_often == 20; }));
+  EXPECT_EQ(listener->halfOpen(), 0u);
+  EXPECT_TRUE(std::all_of(flood.begin(), flood.end(), isOver));
+  join();
+  expectConversation(*this);
+}
+
+TEST_F(TlsListenerTest, WhatSaysNoHelloOrHasNoPlaceIsNoHandshake) {
+  std::map<AddressPrefix, int> asked;
+  tls.take_handshake = atMost(1, asked);
+  tls.max_half_open_per_prefix = 1;
+  tls.handshake_timeout = 1h;
+  listen();
+  RawTls client;
+  const std::string hello = client.advance();
+  std::vector<tcp::socket> flood;
+  for (int i = 0; i < 20; ++i) flood.push_back(knock());
+  for (int i = 0; i < 2; ++i) {
+    flood.push_back(knockFrom("127.1.1.1"));
+    asio::write(flood.back(), asio::buffer(hello));
+    ASSERT_TRUE(runUntil(context, [&] { return flood.back().available() > 0 || isOver(flood.back()); }));
+  }
+  EXPECT_EQ(counters().refused_from_prefix, 1u);
+  EXPECT_EQ(counters().refused_too_often, 0u);
+  join();
+  expectConversation(*this);
+}
+
+TEST_F(TlsListenerTest, AHelloThatComesByteByByteIsAskedForOnce) {
+  std::map<AddressPrefix, int> asked;
+  tls.take_handshake = atMost(1, asked);
+  listen();
+  tcp::socket socket = knock();
+  RawTls client;
+  for (const char& byte : client.advance()) {
+    asio::write(socket, asio::buffer(&byte, 1));
+    runReady(context);
+  }
+  client.shakeHands(context, socket);
+  EXPECT_TRUE(client.done());
+  EXPECT_EQ(asked.begin()->second, 1);
 }
 
 TEST_F(TlsListenerTest, AboveHalfOfTheLimitThereIsLessPatience) {

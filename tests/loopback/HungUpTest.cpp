@@ -1,0 +1,55 @@
+// Servers that hang up on a client in its handshake, as they do where too many come from one address.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "Home.h"
+#include "host/auth/ServerIdentity.h"
+#include "shared/net/stream/TcpListener.h"
+
+namespace naiad::test {
+namespace {
+
+class HungUp : public testing::Test {
+ protected:
+  /// A server that answers no handshakes but those from the `first` on, and nothing else.
+  TestClient& joinWhereAnswered(int first) {
+    TlsListening tls;
+    tls.context =
+        ServerIdentity::loadOrMake(home.identity("identity"), std::chrono::system_clock::now()).tls();
+    tls.take_handshake = [this, first](const AddressPrefix&) { return ++asked >= first; };
+    listener = std::make_unique<TcpListener>(
+        context, "127.0.0.1", 0, [this](auto channel) { accepted.push_back(std::move(channel)); },
+        TcpOptions(), tls);
+    client = std::make_unique<TestClient>(context, listener->port(), home.player("ann"));
+    return *client;
+  }
+
+  Home home;
+  asio::io_context context;
+  std::unique_ptr<TcpListener> listener;
+  std::vector<std::unique_ptr<ReliableChannel>> accepted;
+  std::unique_ptr<TestClient> client;
+  int asked = 0;
+};
+
+TEST_F(HungUp, ANewcomerTriesAgain) {
+  TestClient& ann = joinWhereAnswered(3);
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return !accepted.empty(); })) << ann.connection().sentence();
+  EXPECT_EQ(asked, 3);
+  EXPECT_EQ(ann.connection().state(), Connection::State::kJoining);
+}
+
+TEST_F(HungUp, ANewcomerWhoIsNeverAnsweredIsToldSoSoon) {
+  TestClient& ann = joinWhereAnswered(1'000'000);
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
+  EXPECT_EQ(ann.connection().state(), Connection::State::kUnreachable);
+  EXPECT_NE(ann.connection().sentence().find(" does not answer as a Naiad server ("), std::string::npos)
+      << ann.connection().sentence();
+  EXPECT_GT(asked, 1);
+  EXPECT_LE(asked, 6);
+}
+
+}  // namespace
+}  // namespace naiad::test
