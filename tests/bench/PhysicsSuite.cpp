@@ -61,7 +61,7 @@ const std::vector<Case> kCases = {
     {"heap20000", physics::makeHeap20000, {{kFast, {2.5, .1}}, {kDefault, {}, nullptr, false}}},
     {"smash", physics::makeSmash, {{kFast, {10, .14}}, {kDefault, {}}}},
     {"chain100", physics::makeChain100, {{kFast, {}}, {kDefault, {.5, kAny, 1e-9}}}},
-    {"grid100", physics::makeGrid100, {{kFast, {2, kAny, .4}}, {kDefault, {}, "minutes_per_tick"}}},
+    {"grid100", physics::makeGrid100, {{kFast, {2, kAny, .4}}, {kDefault, {}}}},
 };
 
 struct Round {

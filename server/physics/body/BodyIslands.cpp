@@ -30,6 +30,10 @@ bool hasLongPath(const BodyState& state) {
   return std::abs(d.x) + std::abs(d.y) > kLongPath * (state.size.x + state.size.y);
 }
 
+bool isLine(const BodyState& state) {
+  return hasLongPath(state) && !state.is_bent && !state.is_joined && !state.is_kinematic;
+}
+
 }  // namespace
 
 int BodyIslands::rootOf(int state) {
@@ -47,10 +51,17 @@ void BodyIslands::unite(int a, int b) {
 // on it, for then nothing sends it elsewhere.
 naiad::physics::SweptBox BodyIslands::boxOf(const BodyState& state, Vec2 centre, bool is_alone) const {
   const Vec2 d = state.flown.displacement;
-  if (!is_alone || !hasLongPath(state) || state.is_bent || state.is_joined || state.is_kinematic)
-    return {centre - state.reach, centre + state.reach};
+  if (!is_alone || !isLine(state)) return {centre - state.reach, centre + state.reach};
   return {centre + Vec2{std::min(d.x, 0.0), std::min(d.y, 0.0)} - state.size,
           centre + Vec2{std::max(d.x, 0.0), std::max(d.y, 0.0)} + state.size};
+}
+
+// Of a long path on which nothing is known to be: does the other's reach lie beside it?
+bool BodyIslands::passesBy(const BodyState& flyer, const BodyState& other) const {
+  if (m_is_paired[at(static_cast<int>(&flyer - m_p_states))] != 0 || !isLine(flyer)) return false;
+  const Vec2 along = flyer.flown.displacement / length(flyer.flown.displacement);
+  const Vec2 across = {std::abs(along.y), std::abs(along.x)};
+  return std::abs(cross(along, other.start - flyer.start)) > dot(across, flyer.size + other.reach);
 }
 
 // Pairs of HARD bodies that may meet, in no particular order: nothing depends on it. What is on the path of a
@@ -61,6 +72,7 @@ void BodyIslands::findPairs(const std::vector<BodyState>& states) {
     if (states[i].is_hard && states[i].p_failure == nullptr) m_ids.push_back(static_cast<int>(i));
   }
   m_is_paired.assign(states.size(), 0);
+  m_p_states = states.data();
   for (bool is_more = true; is_more;) {
     is_more = false;
     m_boxes.clear();
@@ -70,7 +82,10 @@ void BodyIslands::findPairs(const std::vector<BodyState>& states) {
       m_boxes.push_back(boxOf(state, state.start - states[at(m_ids[0])].start, m_is_paired[at(i)] == 0));
     }
     m_tree.update(m_boxes, m_ids, static_cast<int>(states.size()));
-    m_tree.queryPairs([&](int i, int j) { m_pairs.emplace_back(i, j); });
+    m_tree.queryPairs([&](int i, int j) {
+      if (passesBy(states[at(i)], states[at(j)]) || passesBy(states[at(j)], states[at(i)])) return;
+      m_pairs.emplace_back(i, j);
+    });
     for (const auto& [i, j] : m_pairs) {
       for (const int k : {i, j}) {
         is_more = is_more || (m_is_paired[at(k)] == 0 && hasLongPath(states[at(k)]));

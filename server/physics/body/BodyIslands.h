@@ -54,6 +54,7 @@ class BodyIslands {
   void unite(int a, int b);
   naiad::physics::SweptBox boxOf(const naiad::physics::BodyState& state, naiad::physics::Vec2 centre,
                                  bool is_alone) const;
+  bool passesBy(const naiad::physics::BodyState& flyer, const naiad::physics::BodyState& other) const;
   void findPairs(const std::vector<naiad::physics::BodyState>& states);
   void uniteJointed(const naiad::physics::BodyTable& table,
                     const std::vector<naiad::physics::BodyState>& states);
@@ -76,8 +77,9 @@ class BodyIslands {
   naiad::physics::ImpactTree m_tree;
   std::vector<naiad::physics::SweptBox> m_boxes;
   std::vector<int> m_ids;
-  std::vector<std::uint8_t> m_is_paired;     // by state
-  std::vector<std::pair<int, int>> m_pairs;  // whose reaches overlap …
+  std::vector<std::uint8_t> m_is_paired;                  // by state
+  const naiad::physics::BodyState* m_p_states = nullptr;  // during findPairs()
+  std::vector<std::pair<int, int>> m_pairs;               // whose reaches overlap …
   std::vector<std::pair<int, int>>
       m_touchable;  // … of which one can be pushed, and no joint keeps them apart
   std::vector<naiad::physics::BodyCandidatePair> m_candidates;

@@ -101,6 +101,14 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   if (!row.is_kinematic) {
     state.push = row.gravity_scale * m_table->settings.gravity + row.inverse_mass * row.force;
     state.acceleration = row.gravity_scale * m_table->settings.gravity;
+    const Vec2 most = 2 * m_table->metric.fromCells(Vector(kMaxVelocityCells, kMaxVelocityCells));
+    const Vec2 push = {std::clamp(state.push.x, -most.x, most.x), std::clamp(state.push.y, -most.y, most.y)};
+    if (push != state.push && state.is_joined) {
+      state.p_failure = "it is pulled harder than joints can hold";
+    } else if (push != state.push) {
+      countLimited(world, state);
+    }
+    state.push = push;
   }
   row.force = {};
   const bool turns = form.is_turning && !row.is_kinematic;
@@ -272,15 +280,40 @@ void BodyLayer::turnByTorque(State& state) {
   if (std::abs(state.spin) <= kMaxSpin) state.rotation = turned(form.rotation, form.spin + 0.5 * gain);
 }
 
+// What a world has no number for: it goes on as fast as a body can, or where it was.
+void BodyLayer::limit(World& world, State& state) {
+  const Vec2 fastest = m_table->metric.fromCells(Vector(kMaxVelocityCells, kMaxVelocityCells));
+  const Vec2 velocity = {std::clamp(state.velocity.x, -fastest.x, fastest.x),
+                         std::clamp(state.velocity.y, -fastest.y, fastest.y)};
+  const double spin = std::clamp(state.spin, -kMaxSpin, kMaxSpin);
+  const bool is_in_range = m_table->metric.isInRange(state.place);
+  if (velocity == state.velocity && spin == state.spin && is_in_range) return;
+  state.velocity = velocity;
+  state.spin = spin;
+  if (!is_in_range) state.place = m_table->row(state.index).place;
+  countLimited(world, state);
+}
+
+// Once in the log.
+void BodyLayer::countLimited(World& world, const State& state) {
+  if (++m_table->counters.limited > 1) return;
+  const Object* p_object = world.find(state.key);
+  world.log(
+      "physics: a " + (p_object != nullptr ? p_object->getType() : "body") +
+      " is faster or farther away than a world can hold, and is held back; further ones are only counted");
+}
+
 void BodyLayer::settle(World& world, State& state) {
   const bool is_on_joints =
       state.solver == BodySolver::kJoints || (state.solver == BodySolver::kJointImpacts && state.is_joined);
   if (!is_on_joints && state.turns_alone) turnByTorque(state);
   if (state.p_failure != nullptr) return quarantine(world, state, state.p_failure);
+  const bool is_finite = isFinite(state.velocity) && isFinite(Vec2{state.place.dx, state.place.dy}) &&
+                         state.spin - state.spin == 0;
+  if (!is_finite) return quarantine(world, state, kBeyond);
+  limit(world, state);
   const auto velocity = toFixed(m_table->metric.toCells(state.velocity), kMaxVelocityCells);
-  const bool is_sound =
-      velocity && m_table->metric.isInRange(state.place) && std::abs(state.spin) <= kMaxSpin;
-  if (!is_sound) return quarantine(world, state, kBeyond);
+  if (!velocity) return quarantine(world, state, kBeyond);
   BodyRow& row = m_table->row(state.index);
   row.place = state.place;
   row.velocity = state.velocity;

@@ -60,6 +60,8 @@ class BodyLayer : public Layer {
   void turnByTorque(State& state);
   void settle(World& world, State& state);
   void publish(World& world, const State& state, naiad::physics::BodyRow& row, FixedVector velocity);
+  void limit(World& world, State& state);
+  void countLimited(World& world, const State& state);
   void quarantine(World& world, State& state, const char* p_why);
   void logCrowd(World& world);
 

@@ -84,6 +84,7 @@ struct BodySettings {
 /// Since the world was made.
 struct BodyCounters {
   std::uint64_t quarantined = 0;  ///< bodies that were frozen
+  std::uint64_t limited = 0;      ///< times that a push, speed, spin or place was cut to the largest there is
   IntegratorCounters integrator;
 };
 

@@ -132,4 +132,8 @@ std::uint64_t PhysicsManager::getQuarantineCount() const {
   return table().counters.quarantined;
 }
 
+std::uint64_t PhysicsManager::getLimitCount() const {
+  return table().counters.limited;
+}
+
 }  // namespace df

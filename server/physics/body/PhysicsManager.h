@@ -99,6 +99,9 @@ class PhysicsManager : public Manager {
   int getBodyCount() const;
   /// How many times a body has been frozen so far (Body::isFrozen).
   std::uint64_t getQuarantineCount() const;
+  /// How many times a body's acceleration, speed, spin or place was too large for a world, and was cut to the
+  /// largest: 16777216 cells and 10^6 radians per tick, 2e9 cells from the origin. It goes on from there.
+  std::uint64_t getLimitCount() const;
 
  private:
   PhysicsManager() { setType("PhysicsManager"); }
