@@ -12,7 +12,7 @@ namespace {
 // Of a row, in units of the greatest mass: each round divides what is left by about as much, and 1e4 leaves
 // the matrix enough of a double's digits.
 constexpr double kStiffness = 1e4;
-constexpr int kRounds = 32;  // of factorisation and solution; a group that takes more is swept
+constexpr int kRounds = 20;  // of factorisation and solution; a group that takes more is swept
 
 // The row's Jacobian at one of its bodies.
 struct Lever {
