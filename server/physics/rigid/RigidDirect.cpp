@@ -12,7 +12,6 @@ namespace {
 // Of a row, in units of the greatest mass: each round divides what is left by about as much, and 1e4 leaves
 // the matrix enough of a double's digits.
 constexpr double kStiffness = 1e4;
-constexpr int kRounds = 20;  // of factorisation and solution; a group that takes more is swept
 
 // The row's Jacobian at one of its bodies.
 struct Lever {
@@ -282,7 +281,7 @@ double RigidDirect::worstError() const {
   return worst;
 }
 
-bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int& rounds) {
+bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most_rounds, int& rounds) {
   const std::size_t count = m_rows.size();
   m_start = m_velocity;
   m_guess.resize(count);
@@ -293,7 +292,7 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int& rou
   bool is_found = false;
   setForces(true);
   bool is_factored = false;
-  for (rounds = 1; rounds <= kRounds; ++rounds) {
+  for (rounds = 1; rounds <= most_rounds; ++rounds) {
     if (!is_factored) {
       assemble();
       if (!factor()) return false;

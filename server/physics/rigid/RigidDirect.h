@@ -41,9 +41,9 @@ class RigidDirect {
   double worstError() const;
   /// How many multiplications a factorisation takes, about. Orders the bodies.
   double order();
-  /// Finds impulses and applies them. False if they were not found to the tolerance; then nothing
-  /// has changed.
-  bool solve(std::span<RigidState> states, double tolerance, int& rounds);
+  /// Finds impulses and applies them. False if they were not found to the tolerance within `most_rounds` of
+  /// factorisation and solution; then nothing has changed. `rounds`: how many it took.
+  bool solve(std::span<RigidState> states, double tolerance, int most_rounds, int& rounds);
 
  private:
   enum class Side : std::uint8_t { kLow, kFree, kHigh };

@@ -13,6 +13,12 @@ namespace {
 // twice as many each further time, up to kMaxWait: a heap must not cost both in every step.
 constexpr int kMinWait = 8;
 constexpr int kMaxWait = 256;
+// Rounds of factorisation and solution of a group; one that takes more is swept. A leaning stack of 40 takes
+// up to 30, each of which costs it next to nothing.
+constexpr int kRounds = 16;
+constexpr int kTallRounds = 32;
+constexpr int kTall = 24;         // bodies, if …
+constexpr double kSlender = 100;  // … a factorisation takes no more multiplications a body: a stack, a chain
 constexpr double kSmallCost =
     1e4;  // multiplications: a failure that cost less is tried again in the next step
 // Relative to the speed that acceleration adds in half a sub-step, the natural unit of what rest must
@@ -112,11 +118,13 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
     extra.wait = extra.patience = std::clamp(2 * extra.patience, kMinWait, kMaxWait);
     return false;
   };
-  const double cost = m_direct.order() + 100.0 * static_cast<double>(rows.size());
+  const double price = m_direct.order();
+  const double cost = price + 100.0 * static_cast<double>(rows.size());
   if (cost > extra.budget) return giveUp();
   ++m_counters.direct_solves;
   int rounds = 0;
-  const bool is_found = m_direct.solve(m_states, tolerance, rounds);
+  const bool is_tall = island.bodies >= kTall && price <= kSlender * island.bodies;
+  const bool is_found = m_direct.solve(m_states, tolerance, is_tall ? kTallRounds : kRounds, rounds);
   m_counters.direct_rounds += rounds;
   extra.budget = std::max(extra.budget - rounds * cost, 0.0);  // below 0, it would be as if it had none yet
   if (!is_found) {

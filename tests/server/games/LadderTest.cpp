@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Games, Ladder,
                                            Game{"lander", lander_main, 0xe2c224ec6152eb3f},
                                            Game{"maze", maze_main, 0xbafc29fa70221cdd},
                                            Game{"platformer", platformer_main, 0x821a44b3bea0d158},
-                                           Game{"sandbox", sandbox_main, 0x30f807f01408c3fd},
+                                           Game{"sandbox", sandbox_main, 0x3ce55ef09c8bc745},
                                            Game{"saucershoot", saucershoot_main, 0xce478919d627560a},
                                            Game{"tron", tron_main, 0x1a55c04c2e1a2c7a}),
                          [](const auto& game) { return std::string(game.param.name); });

@@ -174,7 +174,9 @@ class PulledBox : public BodyScenes {
       if (i >= 200) swing.late = std::max(swing.late, away);
       swing.gained = std::max(swing.gained, energy() / start - 1);
       // Beyond that, a unit in the last place of a place is a force that throws it.
-      if (stiffness <= 1e8) EXPECT_NEAR(p_box->getPosition().y(), -0.5, 5e-3) << stiffness << ' ' << i;
+      if (stiffness <= 1e8) {
+        EXPECT_NEAR(p_box->getPosition().y(), -0.5, 5e-3) << stiffness << ' ' << i;
+      }
       EXPECT_LT(p_box->getPosition().y(), -0.4) << stiffness << ' ' << i;
     }
     EXPECT_FALSE(p_box->isFrozen()) << stiffness;
@@ -189,8 +191,9 @@ TEST_F(PulledBox, ASpringIsBoundedAtAnyStiffness) {
     const Swing its = swing(k, [&](Body* p_box) { p_box->setSpring(Vector(0, -0.5), k); });
     EXPECT_LE(its.gained, 1e-5) << k;
     EXPECT_LE(its.farthest, 1 + 1e-5) << k;
-    if (k <= 10)
-      EXPECT_GE(its.late, 0.98) << k;  // what sub-steps follow goes on; some ends fall between ticks
+    if (k <= 10) {  // what sub-steps follow goes on; some ends fall between ticks
+      EXPECT_GE(its.late, 0.98) << k;
+    }
   }
 }
 
@@ -199,7 +202,9 @@ TEST_F(PulledBox, AStiffFieldIsBoundedAtAnyStiffness) {
     const LinearField field(k);
     const Swing its = swing(k, [&](Body* p_box) { p_box->setField(&field, Vector(0, -0.5)); });
     EXPECT_LE(its.farthest, 1.01) << k;
-    if (k <= 0.01) EXPECT_GE(its.late, 0.99) << k;
+    if (k <= 0.01) {
+      EXPECT_GE(its.late, 0.99) << k;
+    }
   }
 }
 

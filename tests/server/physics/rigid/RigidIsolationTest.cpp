@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kTicks = 200;
+constexpr int kGroupTicks = 200;
 constexpr double kFar = 2000;  // cells between the groups
 constexpr int kShotAt = 90;    // when what has gone to sleep is hit
 
@@ -49,7 +49,7 @@ class Scene {
     addWatched();
     if (m_added == Added::kAfter) addOthers();
     std::vector<Bits> seen;
-    for (int tick = 0; tick < kTicks; ++tick) {
+    for (int tick = 0; tick < kGroupTicks; ++tick) {
       if (tick == 30 && m_added == Added::kMidway) addOthers();
       if (tick == 95 && m_is_removed) removeOthers();
       if (tick == kShotAt) shoot();
@@ -142,7 +142,7 @@ TEST_P(RigidIsolation, AGroupIsTheSameAloneAndBesideOthers) {
       ASSERT_EQ(seen.size(), expected.size());
       std::size_t first = 0;
       while (first < seen.size() && seen[first] == expected[first]) ++first;
-      const std::size_t bodies = expected.size() / kTicks;
+      const std::size_t bodies = expected.size() / kGroupTicks;
       EXPECT_EQ(first, seen.size()) << "tick " << first / bodies << ", body " << first % bodies << ", added "
                                     << static_cast<int>(added) << ", removed " << is_removed;
       const bool is_heap = elsewhere == Elsewhere::kHeap || elsewhere == Elsewhere::kJointedHeap;

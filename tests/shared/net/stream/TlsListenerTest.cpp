@@ -353,12 +353,12 @@ TEST_F(TlsListenerTest, OnePlaceThatShakesHandsWithoutEndIsHungUpOnBeforeAnAnswe
     asio::write(one, asio::buffer(hello));
     std::array<char, 1> answer;
     one.non_blocking(true);
-    std::error_code error;
+    std::error_code failure;
     ASSERT_TRUE(runUntil(context, [&] {
-      one.read_some(asio::buffer(answer), error);
-      return error != asio::error::would_block;
+      one.read_some(asio::buffer(answer), failure);
+      return failure != asio::error::would_block;
     }));
-    EXPECT_EQ(!error, i < 3) << "a byte of an answer: " << i;
+    EXPECT_EQ(!failure, i < 3) << "a byte of an answer: " << i;
     if (i % 20 == 19) join();
   }
   EXPECT_EQ(counters().refused_too_often, 37u);
