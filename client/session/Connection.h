@@ -1,9 +1,11 @@
 // Joins a server and stays joined: connects, makes a ClientSession, and joins again when it was lost.
 //
 //   kJoining --picture--> kJoined --lost--> kSearching --picture--> kJoined
-//   kJoining --no answer; hung up on for 4 s--> kUnreachable   any --Refused--> kRefused   any --Goodbye-->
-//   kEnded kSearching --60 s without success--> kLost kJoining --Refused (BUSY)--> kJoining --60 s of that-->
-//   kRefused
+//   kJoining --no answer; hung up on for 4 s--> kUnreachable
+//   kJoining --Refused (BUSY)--> kJoining --60 s of that--> kRefused
+//   any --Refused--> kRefused
+//   any --Goodbye--> kEnded
+//   kSearching --60 s without success--> kLost
 //
 // While searching, session() is still the lost one, so that its last picture can stay on the screen under a
 // banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another
