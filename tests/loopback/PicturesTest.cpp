@@ -1,6 +1,7 @@
 // What clients see is what the server's own display shows, cell for cell, over real sockets.
-#include <algorithm>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "BusyWorld.h"
 #include "Compare.h"
@@ -33,9 +34,9 @@ TEST(Loopback, ClientSeesWhatTheServerHasForAThousandTicks) {
   const std::string last = client.pictures().rbegin()->second.text();
   EXPECT_NE(last.find("keys "), std::string::npos) << last;
   // Something else may cover the ship in one picture or another.
-  const auto shown =
-      std::count_if(client.pictures().begin(), client.pictures().end(),
-                    [](const auto& each) { return each.second.text().find('@') != std::string::npos; });
+  const auto shown = std::count_if(client.pictures().begin(), client.pictures().end(), [](const auto& each) {
+    return each.second.text().find('@') != std::string::npos;
+  });
   EXPECT_GT(shown, 500) << last;
 }
 
