@@ -160,7 +160,9 @@ TEST_P(HalfOpenCrowd, KeepsNoPlayerOutAndThrowsNoneOut) {
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
   EXPECT_EQ(server.counters().joined, 5u + accomplices.size());
   EXPECT_EQ(server.counters().graces_expired, 0u);
-  if (flood.kind == SilentCrowd::Kind::kNoHello) EXPECT_GT(server.counters().turned_away, 100u);
+  if (flood.kind == SilentCrowd::Kind::kNoHello) {
+    EXPECT_GT(server.counters().turned_away, 100u);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
