@@ -48,7 +48,7 @@ class WorldProcessTest : public testing::Test {
       world.checkProcess(1);
       if (world.isReady()) world.tick(true, false);
     }
-    return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there"});
+    return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there", 0, {}});
   }
 
   /// For a script: it is ready; it takes a turn, of 4 + 4 bytes (watched, no truth, no end, no inputs).
