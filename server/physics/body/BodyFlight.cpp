@@ -139,12 +139,12 @@ bool pullOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, dou
 }
 
 Joint jointOf(const Pull& pull, double mass) {
-  constexpr double kMost = 1e30;  // that a joint takes
+  constexpr double kMaxNumber = 1e30;  // that a joint takes
   Joint joint;
   joint.kind = JointKind::kMouse;
   joint.target = pull.to;
-  joint.stiffness = std::min(mass * pull.spring.stiffness, kMost);
-  joint.damping = std::min(mass * pull.spring.damping, kMost);
+  joint.stiffness = std::min(mass * pull.spring.stiffness, kMaxNumber);
+  joint.damping = std::min(mass * pull.spring.damping, kMaxNumber);
   return joint;
 }
 

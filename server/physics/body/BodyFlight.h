@@ -25,7 +25,7 @@ struct Pull {
 };
 
 /// For solvers that hold the body against other things, and therefore cannot fly it: is it pulled so that a
-/// force that is constant within a tick would not do? A spring is told exactly; a field is linearised where
+/// force that is constant within a tick would not do? A spring is taken as it is; a field is linearised where
 /// it is stiff (more than 1 per tick²), by its Jacobian or three calls of it, with the stiffness of its
 /// steepest direction. What `pull` leaves out is `acceleration`.
 bool pullOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time, Pull& pull);

@@ -199,7 +199,7 @@ void BodyImpacts::step(World& world, const BodyTable& table, std::vector<BodySta
   }
   for (const int at : m_state_of) {
     BodyState& state = states[static_cast<std::size_t>(at)];
-    state.is_dear = m_world.isGivenUp(m_proxies[state.index].id);
+    state.is_costly = m_world.isGivenUp(m_proxies[state.index].id);
   }
 }
 

@@ -31,8 +31,8 @@ class BodyImpacts {
            naiad::physics::ImpactBody body, naiad::physics::Vec2 offset);
   /// No body takes part, nor did one in the last tick.
   bool isEmpty() const { return m_active.empty() && !m_was_active; }
-  /// Steps the bodies that were added by a tick. `is_dear` of their states says which were given up, as they
-  /// would have cost too much.
+  /// Steps the bodies that were added by a tick. `is_costly` of their states says which were given up, as
+  /// they would have cost too much.
   void step(World& world, const naiad::physics::BodyTable& table,
             std::vector<naiad::physics::BodyState>& states, naiad::physics::BodyContacts& contacts);
 

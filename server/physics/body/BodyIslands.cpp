@@ -20,7 +20,7 @@ using naiad::physics::Vec2;
 
 // An island of more HARD bodies is moved in soft sub-steps, whose cost grows with its contacts alone: above
 // it, direct solutions are too dear for a tick, and sweeps without them are no better than sub-steps.
-constexpr int kMostBodies = 640;
+constexpr int kMaxBodies = 640;
 
 // In sizes of a body: a path that is so long is looked at as a line, not as a square around its start.
 constexpr double kLongPath = 8;
@@ -157,9 +157,9 @@ void BodyIslands::classifyGroups(const BodyTable& table, const naiad::physics::B
                                  const std::vector<BodyState>& states) {
   m_groups.assign(states.size(), {});
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (states[i].is_kinematic || !(states[i].is_dear || states[i].must_be_held)) continue;
+    if (states[i].is_kinematic || !(states[i].is_costly || states[i].must_be_held)) continue;
     Group& group = m_groups[at(rootOf(static_cast<int>(i)))];
-    group.is_general = group.is_general || states[i].is_dear;
+    group.is_general = group.is_general || states[i].is_costly;
     group.is_rigid = group.may_touch = true;
     group.is_elastic = false;
   }
@@ -237,7 +237,7 @@ void BodyIslands::passToSubsteps(const BodyTable& table, std::vector<BodyState>&
   connect(table, states);
   m_groups.assign(states.size(), {});
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (states[i].is_dear && !states[i].is_kinematic)
+    if (states[i].is_costly && !states[i].is_kinematic)
       m_groups[at(rootOf(static_cast<int>(i)))].is_general = true;
   }
   for (const int i : m_ids) {
@@ -267,8 +267,8 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
     BodyState& state = states[i];
     const Group& group = m_groups[at(rootOf(static_cast<int>(i)))];
     if (state.p_failure != nullptr || state.is_kinematic) continue;
-    if (group.is_general || (group.is_rigid && group.may_touch && group.bodies > kMostBodies)) {
-      if (!state.is_hard && !state.is_joined) continue;
+    if (group.is_general || (group.is_rigid && group.may_touch && group.bodies > kMaxBodies)) {
+      if (!state.is_hard && !state.is_joined && !state.must_be_held) continue;
       state.solver = BodySolver::kSubstep;
       m_has_general = true;
     } else if (group.is_rigid && group.may_touch) {

@@ -24,8 +24,8 @@ class BodyIslands {
   void chooseSolvers(const WorldStore& store, const naiad::physics::BodyTable& table,
                      const naiad::physics::BodyLinks& links, const naiad::physics::BodyContacts& contacts,
                      std::vector<naiad::physics::BodyState>& states);
-  /// Of bodies that an ImpactWorld has given up (`is_dear`), all that may touch them in this tick is for the
-  /// SubstepWorld.
+  /// Of bodies that an ImpactWorld has given up (`is_costly`), all that may touch them in this tick is for
+  /// the SubstepWorld.
   void passToSubsteps(const naiad::physics::BodyTable& table, std::vector<naiad::physics::BodyState>& states);
   /// No islands: instead of chooseSolvers().
   void skip() {

@@ -116,8 +116,8 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   fly(state);
   if (state.is_joined) {
     state.solver = BodySolver::kJoints;
-    state.is_dear = m_links.isDear(index);
-    m_is_mixed = m_is_mixed || state.is_dear;
+    state.is_costly = m_links.isCostly(index);
+    m_is_mixed = m_is_mixed || state.is_costly;
     // What is no constant force counts by what it does in the tick.
     if (state.is_bent && !state.is_sprung) state.push = state.flown.velocity - row.velocity;
     m_has_pulls = m_has_pulls || state.isPulled();
@@ -211,7 +211,7 @@ void BodyLayer::chooseFast() {
     if (state.p_failure != nullptr) continue;
     if (state.is_kinematic) {
       state.is_near_substep = state.is_hard || m_links.isJoined(state.index);
-    } else if (state.is_hard || state.is_joined) {
+    } else if (state.is_hard || state.is_joined || state.must_be_held) {
       state.solver = BodySolver::kSubstep;
       m_has_substeps = true;
     }

@@ -11,7 +11,7 @@ namespace naiad::physics {
 namespace {
 
 // The order of elimination of a net with as many takes some milliseconds to find.
-constexpr int kMostLoops = 32;
+constexpr int kMaxLoops = 32;
 
 }  // namespace
 
@@ -67,8 +67,8 @@ void BodyLinks::prepare(BodyTable& table) {
 // A tree of bodies is factored without fill, and each loop adds some: their number is known before anything
 // is factored. Several joints between the same two bodies are no loop.
 void BodyLinks::countLoops(const BodyTable& table) {
-  m_is_dear.clear();
-  if (table.joints.count() <= kMostLoops) return;
+  m_is_costly.clear();
+  if (table.joints.count() <= kMaxLoops) return;
   std::vector<std::pair<int, int>> edges;  // of a fixed end: kWorld, and the other end
   const auto fixedOr = [&](int row) {
     return row == BodyJoints::kWorld || table.row(static_cast<BodyTable::Index>(row)).inverse_mass == 0
@@ -110,9 +110,9 @@ void BodyLinks::countLoops(const BodyTable& table) {
     is_held[at(kept)] |= is_held[at(merged)];
   }
   for (int row = 0; row < rows; ++row) {
-    if (loops[at(rootOf(row))] <= kMostLoops) continue;
-    m_is_dear.resize(at(rows), 0);
-    m_is_dear[at(row)] = 1;
+    if (loops[at(rootOf(row))] <= kMaxLoops) continue;
+    m_is_costly.resize(at(rows), 0);
+    m_is_costly[at(row)] = 1;
   }
 }
 

@@ -18,7 +18,7 @@ class BodyLinks {
   /// Is the row's body one of those that step() moves?
   bool isJoined(BodyTable::Index row) const { return row < m_kinds.size() && m_kinds[row] == kJoined; }
   /// Does the row's body hang in so many loops of joints that a direct solution would be too dear?
-  bool isDear(BodyTable::Index row) const { return row < m_is_dear.size() && m_is_dear[row] != 0; }
+  bool isCostly(BodyTable::Index row) const { return row < m_is_costly.size() && m_is_costly[row] != 0; }
   /// The joint, if its only one is a spring from the world to its middle; else null.
   const JointEntry* hangsOn(const BodyTable& table, BodyTable::Index row) const {
     if (row >= m_kinds.size() || m_kinds[row] < 0) return nullptr;
@@ -70,7 +70,7 @@ class BodyLinks {
   std::vector<std::uint32_t> m_entry_of;  // by joint; kPull: it is none of the table's
   std::vector<std::uint32_t> m_tunings;   // by joint, as they were taken over
   std::vector<std::uint8_t> m_is_rigid;   // by row: left out
-  std::vector<std::uint8_t> m_is_dear;    // by row; empty: none is
+  std::vector<std::uint8_t> m_is_costly;  // by row; empty: none is
   std::vector<BodyTable::Index> m_free_bodies,
       m_new_free_bodies;  // not joined, but may be hit by joined ones; in order
   std::vector<BodyTable::Index> m_pulled, m_new_pulled;  // joined bodies with a pull, in order

@@ -296,7 +296,8 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const 
     const RigidBody& body = m_world.body(proxy.id);
     const Vec2 pushed = body.velocity - (state.start_velocity + body.acceleration);
     const double rounding = 1e-9 * (length(state.start_velocity) + length(body.acceleration));
-    const bool is_touched = state.is_touched || state.is_joined || contacts.isTouching(state.key);
+    const bool is_touched =
+        state.is_touched || state.is_joined || state.must_be_held || contacts.isTouching(state.key);
     const bool is_alone =
         m_solver == BodySolver::kSubstep ? !m_world.isStopped(proxy.id) : length(pushed) <= rounding;
     if (!is_touched && is_alone) {  // exactly as on its own

@@ -25,7 +25,7 @@ struct BodyState {
   BodySolver solver = BodySolver::kFlight;
   bool is_hard = false;
   bool is_soft = false;
-  bool is_dear = false;  ///< on joints, or after impacts, that cost more than their number allows
+  bool is_costly = false;  ///< on joints, or after impacts, that cost more than their number allows
   bool is_kinematic = false;
   bool is_joined = false;
   bool is_simple = false;           ///< an ImpactWorld can have it

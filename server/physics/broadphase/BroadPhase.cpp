@@ -12,7 +12,7 @@ namespace {
 
 // Bodies that lie in one another by the dozen part in the same way whether each is pushed by all or by the
 // nearest, and all are too many.
-constexpr std::size_t kMostHeaped = 32;  // of which a proxy keeps all pairs that it finds …
+constexpr std::size_t kMaxHeaped = 32;   // of which a proxy keeps all pairs that it finds …
 constexpr std::size_t kKeptHeaped = 16;  // … and of more only the nearest
 
 std::int64_t twiceMiddle(std::int64_t lower, std::int64_t upper) {
@@ -96,7 +96,7 @@ void BroadPhase::findPairs(std::int32_t proxy) {
       m_found.push_back(pair);
     }
   });
-  if (m_heaped.size() > kMostHeaped) {
+  if (m_heaped.size() > kMaxHeaped) {
     std::nth_element(m_heaped.begin(), m_heaped.begin() + kKeptHeaped, m_heaped.end(),
                      [](const Heaped& x, const Heaped& y) {
                        return x.square != y.square ? x.square < y.square : keyOf(x.pair) < keyOf(y.pair);

@@ -170,7 +170,7 @@ void ImpactWorld::solveGroup(Purpose purpose) {
   const double share = m_rest.work() / static_cast<double>(m_group.size());
   for (const int id : m_group) {
     spend(id, share);
-    if (m_rest.isTooDear()) giveUp(id);
+    if (m_rest.isTooCostly()) giveUp(id);
   }
 }
 

@@ -54,9 +54,9 @@ void RestSolver::updateChange() {
 
 // Is there so much left?
 bool RestSolver::spend(double work) {
-  if (m_work + work > m_most_work) m_is_too_dear = true;
-  if (!m_is_too_dear) m_work += work;
-  return !m_is_too_dear;
+  if (m_work + work > m_most_work) m_is_too_costly = true;
+  if (!m_is_too_costly) m_work += work;
+  return !m_is_too_costly;
 }
 
 // Cholesky (LDLᵀ) of the couplings of the free rows, within its skyline.
@@ -262,7 +262,7 @@ bool RestSolver::solve(const std::vector<double>& inverse_masses, double most_wo
   const std::size_t count = m_rows.size();
   m_work = 0;
   m_most_work = most_work;
-  m_is_too_dear = false;
+  m_is_too_costly = false;
   m_inverse_masses = inverse_masses;
   m_change.assign(inverse_masses.size(), {});
   m_effort.assign(inverse_masses.size(), 0);
@@ -305,7 +305,7 @@ bool RestSolver::solve(const std::vector<double>& inverse_masses, double most_wo
     if (!has_friction || setFrictionBounds(round)) return true;
   }
   sweep();
-  if (m_is_too_dear) {
+  if (m_is_too_costly) {
     for (RestRow& row : m_rows) row.push = 0;
     updateChange();
   }

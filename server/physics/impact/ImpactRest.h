@@ -29,10 +29,10 @@ class RestSolver {
   std::vector<RestRow>& rows() { return m_rows; }
 
   /// False if it did not converge; the pushes then are the best of a bounded number of sweeps. It stops,
-  /// without pushes, when it would take more than `most_work` multiplications: see isTooDear().
+  /// without pushes, when it would take more than `most_work` multiplications: see isTooCostly().
   bool solve(const std::vector<double>& inverse_masses, double most_work = 1e300);
   /// Was the last solution given up because of its price?
-  bool isTooDear() const { return m_is_too_dear; }
+  bool isTooCostly() const { return m_is_too_costly; }
   /// About how many multiplications the last solution has taken.
   double work() const { return m_work; }
 
@@ -70,7 +70,7 @@ class RestSolver {
   std::vector<int> m_skyline, m_start;       // the first column of each row of the factor, where it is stored
   std::vector<double> m_factor, m_right;
   double m_work = 0, m_most_work = 0;
-  bool m_is_too_dear = false;
+  bool m_is_too_costly = false;
   double m_bias_scale = 0;
   double m_relaxation = 1;
 };

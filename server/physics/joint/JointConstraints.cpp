@@ -230,15 +230,15 @@ void JointConstraints::addForces(const std::vector<double>& impulse) {
 }
 
 int JointConstraints::substepsOf(std::span<const Joint> all_joints, double h) const {
-  constexpr double kTurn = 0.25;  // rad that a pulled body swings in a sub-step …
-  constexpr double kMost = 16;    // … unless it would take more than this many
+  constexpr double kTurn = 0.25;       // rad that a pulled body swings in a sub-step …
+  constexpr double kMaxSubsteps = 16;  // … unless it would take more than this many
   double square = 0;
   for (const Link& link : links) {
     const Joint& joint = all_joints[at(link.index)];
     if (link.kind == JointKind::kMouse && joint.max_force == kNoLimit)
       square = std::max(square, h * h * joint.stiffness * link.pulled_inverse_mass);
   }
-  return static_cast<int>(std::clamp(std::ceil(std::sqrt(square) / kTurn), 1.0, kMost));
+  return static_cast<int>(std::clamp(std::ceil(std::sqrt(square) / kTurn), 1.0, kMaxSubsteps));
 }
 
 bool JointConstraints::isCalm(std::span<const Joint> all_joints, double h) const {

@@ -181,9 +181,9 @@ void leaveChildren() {
 
 // The sanitizers keep books on every block, and the limit of memory is not in force with them.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::size_t kMostBlocks = 64;
+constexpr std::size_t kMaxBlocks = 64;
 #else
-constexpr std::size_t kMostBlocks = 16'384;
+constexpr std::size_t kMaxBlocks = 16'384;
 #endif
 
 void takeEverything() {
@@ -194,7 +194,7 @@ void takeEverything() {
   report("descriptors: " + std::to_string(files.size()));
   constexpr std::size_t kStep = std::size_t{64} << 20;
   std::vector<void*> blocks;
-  while (blocks.size() < kMostBlocks) {
+  while (blocks.size() < kMaxBlocks) {
     void* p_block =
         mmap(nullptr, kStep, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (p_block == MAP_FAILED) break;

@@ -243,6 +243,26 @@ TEST_F(BodyScenes, AStiffSpringJointFromTheWorldHoldsWhatLiesOnAFloor) {
   }
 }
 
+// The same in the air, at both levels, whatever else it may touch.
+TEST_F(BodyScenes, AStiffSpringJointHoldsWhatNothingTouches) {
+  for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
+    ASSERT_EQ(PM.setAccuracy(accuracy), 0);
+    for (const Solidness solidness : {HARD, SPECTRAL}) {
+      Body* p_bob = ball(Vector(1, 0), Vector(), 0.25);
+      p_bob->setSolidness(solidness);
+      PM.addSpring(nullptr, p_bob, Vector(), Vector(1, 0), 1e8);
+      p_bob->setVelocity(Vector(0, 0.2));
+      for (int i = 0; i < 100; ++i) {
+        ticks(1);
+        const Vector at = p_bob->getPosition();
+        ASSERT_NEAR(std::hypot(at.x(), at.y()), 1, 0.1) << accuracy << ' ' << solidness << ' ' << i;
+      }
+      EXPECT_FALSE(p_bob->isFrozen()) << accuracy << ' ' << solidness;
+      delete p_bob;
+    }
+  }
+}
+
 // A belt drags a box that a spring holds back.
 TEST_F(BodyScenes, StickAndSlipStaysBounded) {
   PM.setGravity(perSecondSquared(Vector(0, kFall)));
