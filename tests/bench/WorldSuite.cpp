@@ -72,8 +72,8 @@ void addChipmunk(Line& line, const Contest& contest, const ChipmunkTuning& tunin
 
 // Of all turns: how they were taken. (Looks of the broad phase are fewer: who flies does not look.)
 void addPaths(Line& line, const df::MoverStats& paths) {
-  const auto turns =
-      static_cast<double>(paths.flown + paths.walked + paths.met + paths.deferred + paths.special);
+  const auto turns = static_cast<double>(paths.flown + paths.walked + paths.met + paths.unheard +
+                                         paths.deferred + paths.special);
   for (const df::NamedPath& path : df::kMoverStats) {
     line.add("path_" + std::string(path.name) + "_percent",
              100 * static_cast<double>(paths.*path.count) / turns);

@@ -220,11 +220,12 @@ void Grid::rebuild(int number, std::size_t word_count) {
   if (number == 0 && m_p_shade != nullptr) remakeShade(m_p_shade->isExact());
 }
 
-void Grid::touching(const FixedBox& box, Slot self, std::vector<Slot>& out) const {
-  for (std::uint32_t left = m_occupied; left != 0; left &= left - 1) {
+void Grid::touching(const FixedBox& box, Slot self, std::vector<Slot>& out, std::size_t most) const {
+  for (std::uint32_t left = m_occupied; left != 0 && out.size() <= most; left &= left - 1) {
     const int number = std::countr_zero(left);
     visitCorners(number, box.corner - largest(number), box.corner + box.size, [&](Slot s) {
       if (s != self && intersects(worldBox(s), box)) out.push_back(s);
+      return out.size() <= most;
     });
   }
 }

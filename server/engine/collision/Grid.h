@@ -29,6 +29,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "engine/collision/MoverStats.h"
@@ -70,11 +71,12 @@ class Grid {
   /// Memory of the levels, in bytes.
   std::size_t bytes() const;
 
+  static constexpr std::size_t kAll = ~std::size_t{0};
   /// Append to `out` the slots whose boxes touch `box`, except `self`; in no particular order, and a slot may
-  /// come twice.
-  void touching(const FixedBox& box, Slot self, std::vector<Slot>& out) const;
+  /// come twice. If there are more than `most`, some of them: so many at least.
+  void touching(const FixedBox& box, Slot self, std::vector<Slot>& out, std::size_t most = kAll) const;
   /// Call `visit(slot)` for every slot of a level in `levels` whose corner may lie in [from, to]; some may
-  /// come twice.
+  /// come twice. If it returns false, that was the last one.
   template <class Visit>
   void visitCorners(int level, FixedVector from, FixedVector to, Visit visit) const;
   /// Bit per level that holds something.
@@ -232,14 +234,25 @@ inline void Grid::refile(Slot slot, Level& level) {
 template <class Visit>
 void Grid::visitCorners(int number, FixedVector from, FixedVector to, Visit visit) const {
   const Level& level = m_levels[static_cast<std::size_t>(number)];
+  const auto goOn = [&](Slot s) {
+    if constexpr (std::is_void_v<decltype(visit(s))>) {
+      visit(s);
+      return true;
+    } else {
+      return visit(s);
+    }
+  };
   const auto visitWord = [&](std::uint32_t index, std::uint64_t bits) {
     for (; bits != 0; bits &= bits - 1) {
       const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
       const Slot head = level.heads[index << 6 | bit];
-      visit(head & ~kMore);
+      if (!goOn(head & ~kMore)) return false;
       if ((head & kMore) == 0) continue;
-      for (Slot s = m_records[head & ~kMore].next; s != kNone; s = m_records[s].next) visit(s);
+      for (Slot s = m_records[head & ~kMore].next; s != kNone; s = m_records[s].next) {
+        if (!goOn(s)) return false;
+      }
     }
+    return true;
   };
   if (number == 0) {
     from = from - kCharacterBox.corner;
@@ -251,7 +264,9 @@ void Grid::visitCorners(int number, FixedVector from, FixedVector to, Visit visi
   const std::int64_t y1 = to.y >> level.y_shift;
   const std::int64_t strips = (x1 >> 6) - (x0 >> 6) + 1;
   if (strips * (y1 - y0 + 1) > static_cast<std::int64_t>(level.words.size())) {
-    for (std::uint32_t index = 0; index < level.words.size(); ++index) visitWord(index, level.words[index]);
+    for (std::uint32_t index = 0; index < level.words.size(); ++index) {
+      if (!visitWord(index, level.words[index])) return;
+    }
     return;
   }
   for (std::int64_t strip = x0 >> 6; strip <= x1 >> 6; ++strip) {
@@ -261,7 +276,7 @@ void Grid::visitCorners(int number, FixedVector from, FixedVector to, Visit visi
     std::uint32_t index = level.wordOf(strip * kBlock, y0);
     for (std::int64_t y = y0;;) {
       const std::uint64_t bits = level.words[index] & mask;
-      if (bits != 0) visitWord(index, bits);
+      if (bits != 0 && !visitWord(index, bits)) return;
       if (++y > y1) break;
       index = (y & 63) == 0 ? level.wordOf(strip * kBlock, y) : (index + 1) & level.word_mask;
     }

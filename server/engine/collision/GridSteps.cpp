@@ -10,6 +10,7 @@ bool Grid::Steps::lookAround(Slot s, FixedVector where) {
   const FixedVector one{kFixedOne, kFixedOne};
   m_grid.visitCorners(0, corner - one, corner + one, [&](Slot t) {
     if (t != s && touches(t, where - one)) found(t);
+    return m_count <= m_most;
   });
   if (m_others != 0) {
     const std::int64_t x = where.x >> kFixedBits;
@@ -59,11 +60,12 @@ bool Grid::Steps::isBoxFree(Slot s, const Record& own, FixedVector where) {
         if ((head & kMore) == 0) continue;
         for (Slot t = m_p_records[head & ~kMore].next; t != kNone; t = m_p_records[t].next) {
           test(t, s, box.corner, high);
+          if (m_count > m_most) return false;
         }
       }
     }
   }
-  for (; others != 0; others &= others - 1) visit(std::countr_zero(others), s, box);
+  for (; others != 0 && m_count <= m_most; others &= others - 1) visit(std::countr_zero(others), s, box);
   return m_count == 0;
 }
 
@@ -83,8 +85,10 @@ inline void Grid::Steps::test(Slot t, Slot self, FixedVector low, FixedVector hi
 
 void Grid::Steps::visit(int level, Slot s, const FixedBox& box) {
   const FixedVector high = box.corner + box.size;
-  m_grid.visitCorners(level, box.corner - largest(level), high,
-                      [&](Slot t) { test(t, s, box.corner, high); });
+  m_grid.visitCorners(level, box.corner - largest(level), high, [&](Slot t) {
+    test(t, s, box.corner, high);
+    return m_count <= m_most;
+  });
 }
 
 }  // namespace df

@@ -23,7 +23,8 @@ namespace df {
 /// stay where they are: the pointers are kept in members.
 class Grid::Steps {
  public:
-  explicit Steps(Grid& grid);
+  /// `most`: found() lists all if they are no more; else some of them, so many at least.
+  explicit Steps(Grid& grid, std::size_t most = kAll);
   ~Steps() { m_grid.m_mover_stats.nine_cells += m_nine_cells; }
   Steps(const Steps&) = delete;
   Steps& operator=(const Steps&) = delete;
@@ -57,6 +58,7 @@ class Grid::Steps {
   void found(Slot t);
 
   Grid& m_grid;
+  std::size_t m_most;
   Level& m_level;
   const FixedVector* m_p_positions;
   const FixedBox* m_p_boxes;
@@ -137,8 +139,9 @@ class Grid::Steps::Nine {
   unsigned m_near = 0;
 };
 
-inline Grid::Steps::Steps(Grid& grid)
+inline Grid::Steps::Steps(Grid& grid, std::size_t most)
     : m_grid(grid),
+      m_most(most),
       m_level(grid.m_levels[0]),
       m_p_positions(grid.m_positions.data()),
       m_p_boxes(grid.m_boxes.data()),

@@ -9,9 +9,10 @@ namespace df {
 
 struct MoverStats {
   // Turns in update.
-  std::uint64_t flown = 0;   ///< SPECTRAL ones, moved side by side
-  std::uint64_t walked = 0;  ///< solid ones that touched nothing
-  std::uint64_t met = 0;     ///< solid ones that touched another
+  std::uint64_t flown = 0;    ///< SPECTRAL ones, moved side by side
+  std::uint64_t walked = 0;   ///< solid ones that touched nothing
+  std::uint64_t met = 0;      ///< solid ones that touched another
+  std::uint64_t unheard = 0;  ///< solid ones in a crowd that heard nothing of it
   std::uint64_t deferred =
       0;  ///< of either kind, with more to it: out of the boundary, or the masks share no cell
   std::uint64_t special = 0;  ///< with an acceleration, an option, or a view that follows
@@ -30,9 +31,10 @@ struct NamedPath {
   const char* name;
   std::uint64_t MoverStats::*count;
 };
-inline constexpr std::array<NamedPath, 10> kMoverStats{{{"flown", &MoverStats::flown},
+inline constexpr std::array<NamedPath, 11> kMoverStats{{{"flown", &MoverStats::flown},
                                                         {"walked", &MoverStats::walked},
                                                         {"met", &MoverStats::met},
+                                                        {"unheard", &MoverStats::unheard},
                                                         {"deferred", &MoverStats::deferred},
                                                         {"special", &MoverStats::special},
                                                         {"swept", &MoverStats::swept},

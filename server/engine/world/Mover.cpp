@@ -1,6 +1,7 @@
 #include "engine/world/Mover.h"
 
 #include <bit>
+#include <optional>
 
 #include "engine/events/EventOut.h"
 #include "engine/world/CollisionRule.h"
@@ -157,7 +158,7 @@ bool Mover::collideAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>
   const WorldStore& store = m_world.store();
   const FixedBox box = store.worldBox(mover.slot, where);
   others.clear();
-  store.touching(box, mover.slot, others);
+  if (const std::optional<bool> moves = store.touchingTarget(mover.slot, box, others)) return *moves;
   keepCollisions(store, mover.slot, box, others);
   return others.empty() || collide(mover, where, others);
 }

@@ -16,6 +16,7 @@ struct TurnBits {
   Words walkers;  ///< of these, solid ones that use nothing beyond the book's test of where a move ends
   Words sequels;  ///< its slot is the one after that of the entry before
   Words blocked;  ///< its last move in update did not happen
+  Words hearers;  ///< solid, active, and its class overrides eventHandler(): hears of collisions
 
   static bool get(const Words& words, std::size_t i) { return (words[i / 64] >> (i % 64) & 1) != 0; }
   static void set(Words& words, std::size_t i, bool on) {
@@ -26,11 +27,12 @@ struct TurnBits {
   /// Make room for entry i, the last one.
   void grow(std::size_t i) {
     if (i % 64 != 0) return;
-    for (Words* p_words : {&turns, &fliers, &walkers, &sequels, &blocked}) p_words->resize(i / 64 + 1);
+    for (Words* p_words : {&turns, &fliers, &walkers, &sequels, &blocked, &hearers})
+      p_words->resize(i / 64 + 1);
   }
   /// Entry i is a gap. Its sequel bit stays, and means nothing without a turn.
   void clear(std::size_t i) {
-    for (Words* p_words : {&turns, &fliers, &walkers, &blocked}) set(*p_words, i, false);
+    for (Words* p_words : {&turns, &fliers, &walkers, &blocked, &hearers}) set(*p_words, i, false);
   }
 };
 

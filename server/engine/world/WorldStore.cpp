@@ -81,6 +81,7 @@ void WorldStore::leave(Slot s) {
   m_grid.remove(s);
   if (++m_cards[s].generation == 0) m_cards[s].generation = 1;
   m_order_list[m_cards[s].index] = kNoSlot;
+  setHearer(m_cards[s].index, false);
   m_bits.clear(m_cards[s].index);
   ++m_gaps;
   --m_in_world;
@@ -102,6 +103,7 @@ void WorldStore::closeGaps() {
     classify(s);
   }
   for (std::size_t i = m_order_list.size(); i < size; ++i) {
+    setHearer(i, false);
     m_bits.clear(i);
     TurnBits::set(m_bits.sequels, i, false);
   }
@@ -119,10 +121,17 @@ void WorldStore::classify(Slot s) {
   const bool plain = turns && moves && !accelerates && (flags & kSpecial) == 0;
   const bool spectral = m_cards[s].solidness == SPECTRAL;
   const std::size_t i = m_cards[s].index;
+  setHearer(i, hears(s) && !spectral);
   TurnBits::set(m_bits.turns, i, turns);
   // Its next turn has to take the mark of a blocked move back.
   TurnBits::set(m_bits.fliers, i, plain && spectral && !isBlocked(s));
   TurnBits::set(m_bits.walkers, i, plain && !spectral && !(kLayers && m_all_swept));
+}
+
+void WorldStore::setHearer(std::size_t index, bool on) {
+  if (TurnBits::get(m_bits.hearers, index) == on) return;
+  TurnBits::set(m_bits.hearers, index, on);
+  m_hearers += on ? 1 : -1;
 }
 
 void WorldStore::setAllSwept(bool all_swept) {
@@ -230,7 +239,7 @@ void WorldStore::set(Slot s, Flag flag, bool on) {
   m_cards[s].flags ^= flag;
   if (flag == kActive) file(s);
   if (flag == kPrecise) m_precise += on ? 1 : -1;
-  if ((flag & (kSpecial | kBody)) != 0) classify(s);
+  if ((flag & (kSpecial | kBody | kDeaf)) != 0) classify(s);
   if ((flag & (kActive | kVisible | kNoSoft)) != 0) touch(s);
 }
 

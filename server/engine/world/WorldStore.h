@@ -217,6 +217,9 @@ class WorldStore : public ObjectFlags {
 
   /// The Objects that collide with `box`, except `self`, in creation order, appended to `out`.
   void touching(const FixedBox& box, Slot self, std::vector<ObjectKey>& out) const;
+  /// The same for the target of a move. But where they are many, and neither the mover nor any of them hears
+  /// of it, none is listed, and it returns whether the move happens.
+  std::optional<bool> touchingTarget(Slot mover, const FixedBox& target, std::vector<ObjectKey>& out) const;
   const Grid& grid() const {
     return m_grid;
   }
@@ -269,6 +272,9 @@ class WorldStore : public ObjectFlags {
   void file(Slot s);
   void classify(Slot s);
   const Mask* spriteMask(Slot s) const;
+  void setHearer(std::size_t index, bool on);
+  std::size_t crowd() const;
+  std::optional<bool> moveUnheard(Slot mover, const FixedBox& target, std::span<const Slot> some) const;
   void list(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
   void listMany(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
 
@@ -301,6 +307,7 @@ class WorldStore : public ObjectFlags {
   bool m_all_swept = false;
   bool m_boxes_off = false;                // see hasBoxesOffPosition()
   int m_precise = 0;                       // Objects that are
+  int m_hearers = 0;                       // TurnBits::hearers
   mutable std::vector<Slot> m_candidates;  // scratch of touching()
   bool m_has_had_soft = false;
 };

@@ -61,29 +61,85 @@ std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const Fi
   const Slot* p_order = &m_order_list[word * 64];
   FixedVector* p_positions = m_positions.data();
   const FixedVector* p_velocities = m_velocities.data();
-  Grid::Steps steps(m_grid);
+  Grid::Steps steps(m_grid, crowd());
   std::uint64_t left = walkers;
   std::uint64_t walked = 0;
+  std::uint64_t stopped = 0;
   for (; left != 0; left &= left - 1) {
     const Slot s = p_order[std::countr_zero(left)];
     const FixedVector where = p_positions[s] + p_velocities[s];
     if (((where.x - low.x) | (high.x - where.x) | (where.y - low.y) | (high.y - where.y)) < 0) break;
     if (!steps.isFree(s, where)) {
       __builtin_prefetch(m_cards[s].p_object);
-      list(steps.found(), met);
-      break;
+      if (steps.found().size() <= crowd()) {
+        list(steps.found(), met);
+        break;
+      }
+      const FixedBox target = worldBox(s, where);
+      const std::optional<bool> moves = moveUnheard(s, target, steps.found());
+      if (!moves) {
+        touching(target, s, met);
+        break;
+      }
+      ++moverStats().unheard;
+      if (!*moves) {
+        stopped |= left & -left;
+        continue;
+      }
     }
     p_positions[s] = where;
     steps.fileAtTarget(s);
     ++walked;
   }
-  m_bits.blocked[word] &= ~(walkers & ~left);
+  const std::uint64_t still = stopped & m_bits.blocked[word];
+  m_bits.blocked[word] = (m_bits.blocked[word] & ~(walkers & ~left)) | stopped;
   moverStats().walked += walked;
   if (m_watched) {
-    for (std::uint64_t done = walkers & ~left; done != 0; done &= done - 1)
+    for (std::uint64_t done = walkers & ~left & ~still; done != 0; done &= done - 1)
       noteChange(p_order[std::countr_zero(done)]);
   }
   return left;
+}
+
+// So many that it pays to ask first whether anybody hears of a move among them.
+std::size_t WorldStore::crowd() const {
+  constexpr int kHearersPerOther = 16;  // a box beside another takes a fraction of a place in a sorted list
+  return static_cast<std::size_t>(std::max(32, m_hearers / kHearersPerOther));
+}
+
+// Does a move happen, given some of those that it touches? Nothing if one of them may hear of it, or if that
+// depends on the others. Who hears of nothing changes nothing, so that the first that blocks decides.
+std::optional<bool> WorldStore::moveUnheard(Slot mover, const FixedBox& target,
+                                            std::span<const Slot> some) const {
+  if (hears(mover) || hasPrecise() || mayMoveOut(mover)) return std::nullopt;
+  const auto blocks = [&](Solidness own) {
+    return std::any_of(some.begin(), some.end(), [&](Slot t) { return m_cards[t].solidness == own; });
+  };
+  const bool hard = m_cards[mover].solidness == HARD;
+  const bool no_soft = has(mover, kNoSoft);
+  const bool blocked = (hard && blocks(HARD)) || (no_soft && blocks(SOFT));
+  if (!blocked && (hard || no_soft)) return std::nullopt;
+  for (std::size_t word = 0; m_hearers > 0 && word < m_bits.hearers.size(); ++word) {
+    for (std::uint64_t left = m_bits.hearers[word]; left != 0; left &= left - 1) {
+      const Slot t = m_order_list[word * 64 + static_cast<std::size_t>(std::countr_zero(left))];
+      if (intersects(worldBox(t, m_positions[t]), target)) return std::nullopt;
+    }
+  }
+  return !blocked;
+}
+
+std::optional<bool> WorldStore::touchingTarget(Slot mover, const FixedBox& target,
+                                               std::vector<ObjectKey>& out) const {
+  m_candidates.clear();
+  const std::size_t most = hears(mover) ? Grid::kAll : crowd();
+  m_grid.touching(target, mover, m_candidates, most);
+  if (m_candidates.size() > most) {
+    if (const std::optional<bool> moves = moveUnheard(mover, target, m_candidates)) return moves;
+    m_candidates.clear();
+    m_grid.touching(target, mover, m_candidates);
+  }
+  list(m_candidates, out);
+  return std::nullopt;
 }
 
 void WorldStore::touching(const FixedBox& box, Slot self, std::vector<ObjectKey>& out) const {
