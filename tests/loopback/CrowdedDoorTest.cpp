@@ -25,13 +25,6 @@
 namespace naiad::test {
 namespace {
 
-// A sanitizer's handshakes take ten times as long.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kSlowness = 10;
-#else
-constexpr int kSlowness = 1;
-#endif
-
 using namespace std::chrono_literals;
 
 std::vector<std::string> addresses(int count, const std::function<std::string(int)>& nth) {
@@ -53,14 +46,16 @@ class CrowdedDoor : public testing::Test {
     }
     void join(asio::io_context& context, const ClientSetup& setup) {
       client = std::make_unique<TestClient>(context, proxy.port(), setup);
+      client->keepPictures(false);
     }
     bool isJudged() { return client->joined() || client->connection().isOver(); }
 
     StreamProxy proxy;
     std::unique_ptr<TestClient> client;
   };
-  bool seesTheTruth(TestClient& client, const TestServer& server, std::initializer_list<TestClient*> all) {
-    client.forgetPictures();
+  bool seesTheTruth(TestClient& client, TestServer& server, std::initializer_list<TestClient*> all) {
+    server.keepTruth(true);
+    client.keepPictures(true);
     return serveUntil(context, all, [&] {
       if (client.pictures().empty()) return false;
       const auto& [tick, picture] = *client.pictures().rbegin();
@@ -119,7 +114,9 @@ TEST_P(HalfOpenCrowd, KeepsNoPlayerOutAndThrowsNoneOut) {
   HostOptions options = home.server();
   options.max_players = flood.max_players;
   TestServer server(world(), options);
+  server.keepTruth(false);
   TestClient ann(context, server.port(), home.player("ann"));
+  ann.keepPictures(false);
   const auto bob = visitor(server, "127.8.8.8");
   bob->join(context, home.player("bob"));
   ASSERT_TRUE(
@@ -193,7 +190,7 @@ TEST_F(CrowdedDoor, AThousandPlayersWhoReturnAtOnceAreBackInTenSeconds) {
   options.frame_micros = 0;
   options.max_players = 1000;
   TestServer server(world(0), options);
-  server.drawNothing();
+  server.keepTruth(false);
   const auto players =
       lightClients(server, addresses(1000 / kSlowness, [](int i) {
                      return "127.7." + std::to_string(i / 250) + "." + std::to_string(1 + i % 250);
@@ -218,7 +215,7 @@ TEST_F(CrowdedDoor, AnAddressThatMayHaveTwoHundredPlayersHasThemAtOnce) {
   HostOptions options = home.server();
   options.max_players = options.max_per_address = 200;
   TestServer server(world(0), options);
-  server.drawNothing();
+  server.keepTruth(false);
   const auto players = lightClients(server, addresses(200, [](int) { return "127.7.7.7"; }));
   for (const auto& player : players) player->join();
   ASSERT_TRUE(serve([&] {
@@ -298,10 +295,13 @@ class InsistentCrowd {
 
 TEST_F(CrowdedDoor, PlayersWhoComeBackWithoutEndGetFewHandshakesAndOthersAreNotLimited) {
   TestServer server(world(), home.server());
+  server.keepTruth(false);
   TestClient ann(context, server.port(), home.player("ann"));
+  ann.keepPictures(false);
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
   const auto began = std::chrono::steady_clock::now();
-  InsistentCrowd crowd(server.port(), addresses(16, [](int) { return "127.1.1.1"; }), "", 0ms);
+  InsistentCrowd crowd(server.port(), addresses(16, [](int) { return "127.1.1.1"; }), "",
+                       kSanitized ? 20ms : 0ms);
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return crowd.hungUp() > 300; }));
 
   const std::uint32_t tick = ann.newestTick();

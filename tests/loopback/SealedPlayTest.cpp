@@ -11,13 +11,6 @@
 namespace naiad::test {
 namespace {
 
-// The protocol's own deadlines are real time; a sanitizer's build may need some more of it.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kSlowness = 5;
-#else
-constexpr int kSlowness = 1;
-#endif
-
 using Clock = std::chrono::steady_clock;
 
 class SealedPlay : public testing::Test {

@@ -11,6 +11,7 @@
 
 #include "shared/net/stream/TcpConnector.h"
 #include "shared/net/stream/TlsHandshake.h"
+#include "tests/support/Sanitizers.h"
 
 namespace naiad::test {
 
@@ -85,9 +86,9 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
                              self->noteEnd();
                            });
   }
-  /// As fast as a few hundred connections in a second.
+  /// As fast as a few hundred connections in a second; a sanitizer's machine has enough to do with some ten.
   void comeAgain() {
-    timer.expires_after(200ms);
+    timer.expires_after(kSlowness * 200ms);
     timer.async_wait([self = shared_from_this()](const std::error_code& error) {
       if (!error) self->come();
     });

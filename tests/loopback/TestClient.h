@@ -10,11 +10,12 @@
 #include <string>
 
 #include "client/session/Connection.h"
+#include "tests/support/Sanitizers.h"
 
 namespace naiad::test {
 
-/// Long enough for a loaded machine under a sanitizer; a test that needs it has failed anyway.
-inline constexpr std::chrono::seconds kPatience{30};
+/// Long enough for a loaded machine; a test that needs it has failed anyway.
+inline constexpr std::chrono::seconds kPatience{kSanitized ? 120 : 60};
 
 /// A client's options, the keys it trusts, and whether it comes back.
 struct ClientSetup {

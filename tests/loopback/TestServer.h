@@ -50,8 +50,8 @@ class TestServer {
   }
   /// What the book's draw path shows `player` at the end of `tick`, if they were in that tick.
   std::optional<df::Canvas> truth(std::uint32_t tick, std::uint32_t player) const;
-  /// Draw for no player from now on: with many of them it takes longer than all the rest.
-  void drawNothing() { m_draws = false; }
+  /// From now on, is the truth kept? With many players it takes longer than all the rest.
+  void keepTruth(bool keep) { m_draws = keep; }
   /// End the server with this sentence to the players, and wait for it.
   void stop(const std::string& sentence);
 

@@ -14,6 +14,7 @@
 
 #include "Clients.h"
 #include "engine/world/World.h"
+#include "host/auth/PasswordHash.h"
 #include "host/program/Admission.h"
 #include "naiad.pb.h"
 
@@ -355,7 +356,7 @@ TEST_F(AdmissionTest, SecondStreamsThatComeTooOftenAreRefusedForNow) {
 }
 
 TEST_F(AdmissionTest, APasswordIsNeededByNewPlayersOnly) {
-  options.password = "open sesame";
+  options.password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
   const auto work = asio::make_work_guard(io);
   const auto answered = [this](const Client& client) {
     for (int i = 0; i < 100 && client.sent.empty(); ++i) io.run_one_for(1s);
@@ -369,7 +370,7 @@ TEST_F(AdmissionTest, APasswordIsNeededByNewPlayersOnly) {
   EXPECT_EQ(wrong.refusal(), wire::Refused::PASSWORD);
   EXPECT_EQ(counters.refused_password, 1u);
   EXPECT_EQ(admission().passwordCounters().wrong, 1u);
-  hello.set_password(options.password);
+  hello.set_password("open sesame");
   Client& right = greet(hello);
   ASSERT_TRUE(answered(right));
   ASSERT_TRUE(right.isWelcome());
@@ -378,10 +379,10 @@ TEST_F(AdmissionTest, APasswordIsNeededByNewPlayersOnly) {
 }
 
 TEST_F(AdmissionTest, APasswordThatWasCheckedAfterItsClientLeftAdmitsNoPlayer) {
-  options.password = "open sesame";
+  options.password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
   const auto work = asio::make_work_guard(io);
   wire::Hello hello = helloOf("Ann");
-  hello.set_password(options.password);
+  hello.set_password("open sesame");
   greet(hello).drop();
   sessions.sweep();
   ASSERT_EQ(io.run_one_for(60s), 1u) << "the answer";
@@ -390,7 +391,7 @@ TEST_F(AdmissionTest, APasswordThatWasCheckedAfterItsClientLeftAdmitsNoPlayer) {
 }
 
 TEST_F(AdmissionTest, APasswordThatIsNotComparedIsCounted) {
-  options.password = "open sesame";
+  options.password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
   const auto work = asio::make_work_guard(io);
   wire::Hello hello = helloOf("Ann");
   hello.set_password("open barley");
