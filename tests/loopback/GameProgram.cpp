@@ -66,7 +66,12 @@ GameProgram::GameProgram(const std::string& name, std::map<std::string, std::str
   posix_spawn_file_actions_adddup2(&actions, errors >= 0 ? errors : STDOUT_FILENO, STDERR_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+  // What ignores SIGHUP, such as nohup, hands that on.
+  sigset_t defaults;
+  sigemptyset(&defaults);
+  sigaddset(&defaults, SIGHUP);
+  posix_spawnattr_setsigdefault(&attributes, &defaults);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF);
   const int error = posix_spawn(&m_process, words.front().c_str(), &actions, &attributes,
                                 pointersTo(words).data(), pointersTo(entries).data());
   posix_spawnattr_destroy(&attributes);

@@ -5,26 +5,15 @@
 #include <cstdio>
 #include <string>
 
+#include "GameMains.h"
 #include "HostedGame.h"
 #include "RandomPlayers.h"
-
-int breakout_main();
-int bullethell_main();
-int chase_main();
-int hello_main();
-int lander_main();
-int maze_main();
-int platformer_main();
-int sandbox_main();
-int saucershoot_main();
-int tron_main();
 
 namespace naiad {
 namespace {
 
 struct Game {
   const char* name;
-  int (*main)();
   std::uint64_t hash;
 };
 
@@ -38,7 +27,7 @@ TEST_P(Ladder, AThousandTicksShowTheSamePicturesEverywhere) {
   PictureHash hash;
   int ticks = 0;
   hostGame(
-      GetParam().main, 7,
+      gameMains().at(GetParam().name), 7,
       [&](df::World& world) {
         RandomPlayers players(world, 7, 4);
         for (; ticks < 1000; ++ticks) {
@@ -57,7 +46,7 @@ TEST_P(Ladder, AThousandTicksShowTheSamePicturesEverywhere) {
 TEST_P(Ladder, EightPlayersThatComeAndGoBreakNothing) {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     hostGame(
-        GetParam().main, seed,
+        gameMains().at(GetParam().name), seed,
         [&](df::World& world) {
           RandomPlayers players(world, seed, 8);
           int quarantined = 0;
@@ -77,18 +66,14 @@ TEST_P(Ladder, EightPlayersThatComeAndGoBreakNothing) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Games, Ladder,
-                         ::testing::Values(Game{"breakout", breakout_main, 0xbce01429f5cdc6c9},
-                                           Game{"bullethell", bullethell_main, 0xad804e66e5638c57},
-                                           Game{"chase", chase_main, 0x340062b8544b9848},
-                                           Game{"hello", hello_main, 0xe45e0ba05e3fc998},
-                                           Game{"lander", lander_main, 0xe2c224ec6152eb3f},
-                                           Game{"maze", maze_main, 0xbafc29fa70221cdd},
-                                           Game{"platformer", platformer_main, 0x821a44b3bea0d158},
-                                           Game{"sandbox", sandbox_main, 0x3ce55ef09c8bc745},
-                                           Game{"saucershoot", saucershoot_main, 0xce478919d627560a},
-                                           Game{"tron", tron_main, 0x1a55c04c2e1a2c7a}),
-                         [](const auto& game) { return std::string(game.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Games, Ladder,
+    ::testing::Values(Game{"breakout", 0xbce01429f5cdc6c9}, Game{"bullethell", 0xad804e66e5638c57},
+                      Game{"chase", 0x340062b8544b9848}, Game{"hello", 0xe45e0ba05e3fc998},
+                      Game{"lander", 0xe2c224ec6152eb3f}, Game{"maze", 0xbafc29fa70221cdd},
+                      Game{"platformer", 0x821a44b3bea0d158}, Game{"sandbox", 0x3ce55ef09c8bc745},
+                      Game{"saucershoot", 0xce478919d627560a}, Game{"tron", 0x1a55c04c2e1a2c7a}),
+    [](const auto& game) { return std::string(game.param.name); });
 
 }  // namespace
 }  // namespace naiad
