@@ -279,7 +279,7 @@ int run(const BotOptions& options) {
 }
 
 /// The options, in the order of --help.
-std::vector<naiad::Option> optionsOf(BotOptions& bot, std::string& server, std::string& script) {
+std::vector<naiad::Option> optionsOf(BotOptions& bot, naiad::ServerChoice& server, std::string& script) {
   std::vector<naiad::Option> options = {
       naiad::serverOption(server),
       {.name = "--clients",
@@ -300,7 +300,7 @@ std::vector<naiad::Option> optionsOf(BotOptions& bot, std::string& server, std::
        .help = "Random input instead, from this seed",
        .excludes = "--script"},
       {"--name", &bot.name, "Name in the game (with several clients: numbered)", "NAIAD_NAME"}};
-  for (naiad::Option& option : naiad::trustOptions(bot.trust, bot.session)) options.push_back(option);
+  for (naiad::Option& option : naiad::trustOptions(server, bot.trust, bot.session)) options.push_back(option);
   options.push_back({"--game", &bot.game, "The game wanted; refused if another one runs", "NAIAD_GAME"});
   options.push_back({.name = "--truth",
                      .target = &bot.truth_file,
@@ -312,7 +312,7 @@ std::vector<naiad::Option> optionsOf(BotOptions& bot, std::string& server, std::
 
 int start(int argc, char** argv) {
   BotOptions options;
-  std::string server;
+  naiad::ServerChoice server;
   std::string script;
   const naiad::Program program{"dfbot", "Join a Naiad server with scripted or random players and no screen.",
                                std::string(kScriptHelp) + naiad::kExitCodeHelp};
@@ -321,12 +321,8 @@ int start(int argc, char** argv) {
     return parsed == naiad::Parsed::kDone ? naiad::kExitLeft : naiad::kExitUsage;
   }
 
-  const auto address = naiad::ServerAddress::parse(server);
-  if (!address) {
-    return complain(naiad::kExitUsage,
-                    "\"" + naiad::safeText(server, 100) + "\" is no server: HOST[:PORT] is wanted.");
-  }
-  options.address = *address;
+  const std::string wrong = naiad::resolveServer(server, options.address, options.trust, options.session);
+  if (!wrong.empty()) return complain(naiad::kExitUsage, wrong);
   if (!script.empty()) {
     auto read = naiad::BotScript::parse(scriptText(script));
     if (const auto* error = std::get_if<naiad::ScriptError>(&read)) {

@@ -51,8 +51,8 @@ std::string Connection::whyUntrusted() const {
   try {
     const KnownServers known(m_trust.known_servers.empty() ? KnownServers::defaultPath()
                                                            : m_trust.known_servers);
-    const Verdict verdict =
-        known.admit(m_address.host, m_address.port, *m_connector.peerFacts(), m_trust.fingerprint);
+    const Verdict verdict = known.admit(m_address.host, m_address.port, *m_connector.peerFacts(),
+                                        m_trust.fingerprint, m_trust.link_key);
     return verdict.accepted() ? std::string() : verdict.sentence;
   } catch (const KnownServersError& error) {
     return error.what();

@@ -34,6 +34,7 @@ namespace naiad {
 struct ServerTrust {
   bool insecure = false;                   ///< plain TCP, loopback only, no datagrams: for tests
   std::optional<Fingerprint> fingerprint;  ///< the server's key, if the player gave it
+  std::optional<ShortKey> link_key;        ///< the key of the link that the player followed
   std::filesystem::path known_servers;     ///< pins; empty: the user's file
 };
 

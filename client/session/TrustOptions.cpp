@@ -1,15 +1,49 @@
 #include "client/session/TrustOptions.h"
 
-namespace naiad {
+#include <variant>
 
-Option serverOption(std::string& server) {
-  Option option{"server", &server, "Where the server is: HOST[:PORT], [::1]:PORT (port 9876 by default)",
+#include "shared/net/base/SafeText.h"
+#include "shared/net/stream/JoinLink.h"
+
+namespace naiad {
+namespace {
+
+constexpr std::size_t kMaxShown = 100;  // characters of what was typed, in a sentence
+
+std::string quoted(const std::string& text) {
+  return "\"" + safeText(text, kMaxShown) + "\"";
+}
+
+std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust& trust) {
+  if (trust.insecure) return "A link has a key, so --insecure does not go with one.";
+  if (trust.fingerprint && ShortKey::of(*trust.fingerprint) != link.key)
+    return "--fingerprint (or NAIAD_FINGERPRINT) names another key than the link.";
+  if (!link.room.empty()) {
+    JoinLink without = link;
+    without.room.clear();
+    return "The link leads to the room \"" + link.room +
+           "\", but this version has no rooms. To the server itself: " + without.text();
+  }
+  address = {link.where.host, link.where.port};
+  trust.link_key = link.key;
+  return {};
+}
+
+}  // namespace
+
+bool ServerChoice::dropsPassword() const {
+  return is_password_ambient && JoinLink::isMeant(text);
+}
+
+Option serverOption(ServerChoice& server) {
+  Option option{"server", &server.text,
+                "Where the server is: a link (naiad://…), HOST[:PORT] or [::1]:PORT (port 9876 by default)",
                 "NAIAD_SERVER"};
-  option.type = "HOST[:PORT]";
+  option.type = "SERVER";
   return option;
 }
 
-std::vector<Option> trustOptions(ServerTrust& trust, SessionOptions& session) {
+std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, SessionOptions& session) {
   const StoreText store_fingerprint = [&trust](const std::string& text) -> std::string {
     trust.fingerprint = Fingerprint::parse(text);
     return trust.fingerprint ? "" : "64 hexadecimal digits are wanted, as dfserver prints them";
@@ -21,13 +55,31 @@ std::vector<Option> trustOptions(ServerTrust& trust, SessionOptions& session) {
        "File of the keys of servers seen before (default: naiad/known_servers in your data directory)",
        "NAIAD_KNOWN_SERVERS"},
       {"--password", &session.password,
-       "The server's password (other users see the command line: rather set NAIAD_PASSWORD)",
+       "The server's password (other users see the command line: rather set NAIAD_PASSWORD, which is not "
+       "sent where a "
+       "link leads)",
        "NAIAD_PASSWORD"},
       {"--insecure", &trust.insecure, "Without encryption, to a server on this machine (for tests)",
        "NAIAD_INSECURE"}};
   options[0].type = "HEX";
   options[1].type = "FILE";
+  options[2].p_from_environment = &server.is_password_ambient;
   return options;
+}
+
+std::string resolveServer(const ServerChoice& server, ServerAddress& address, ServerTrust& trust,
+                          SessionOptions& session) {
+  if (server.dropsPassword()) session.password.clear();
+  if (!JoinLink::isMeant(server.text)) {
+    const auto parsed = ServerAddress::parse(server.text);
+    if (!parsed) return quoted(server.text) + " is no server: a link (naiad://…) or HOST[:PORT] is wanted.";
+    address = *parsed;
+    return {};
+  }
+  const auto parsed = JoinLink::parse(server.text);
+  if (const auto* p_problem = std::get_if<LinkProblem>(&parsed))
+    return quoted(server.text) + " is no link to a game: " + p_problem->sentence + ".";
+  return followLink(std::get<JoinLink>(parsed), address, trust);
 }
 
 }  // namespace naiad

@@ -9,7 +9,22 @@
 
 namespace naiad {
 
-Option serverOption(std::string& server);
-std::vector<Option> trustOptions(ServerTrust& trust, SessionOptions& session);
+/// What the command line and the environment say about the server.
+struct ServerChoice {
+  std::string text;                  ///< HOST[:PORT], or a link (JoinLink.h)
+  bool is_password_ambient = false;  ///< the password lies in the environment: nobody gave it for this server
+
+  /// A link does not get the password from the environment: strangers make links.
+  bool dropsPassword() const;
+};
+
+/// The required argument.
+Option serverOption(ServerChoice& server);
+std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, SessionOptions& session);
+
+/// Call after parseOptions(): find the address in `server`, and with a link the key that the server must
+/// have. Returns a sentence about what is wrong, else nothing; then nothing must be connected to.
+std::string resolveServer(const ServerChoice& server, ServerAddress& address, ServerTrust& trust,
+                          SessionOptions& session);
 
 }  // namespace naiad

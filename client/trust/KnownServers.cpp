@@ -32,7 +32,14 @@ std::string warning(const std::string& server, const Fingerprint& expected, cons
 }
 
 Verdict judgeBy(const PinLines& lines, const std::string& server, const PeerFacts& facts,
-                const std::optional<Fingerprint>& given, const fs::path& path) {
+                const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link,
+                const fs::path& path) {
+  if (link && *link != ShortKey::of(facts.key)) {
+    return {Trust::kLinkUnequal,
+            server + " does not have the key of the link: it shows " + ShortKey::of(facts.key).text() +
+                ". Not connected, and nothing was sent. Compare the end of the link with the one "
+                "the host gave you."};
+  }
   if (given && *given == facts.key) return {Trust::kGivenEqual, server + " has the key that was given."};
   if (given) {
     return {Trust::kGivenUnequal,
@@ -41,6 +48,7 @@ Verdict judgeBy(const PinLines& lines, const std::string& server, const PeerFact
   }
   if (facts.chain_verifies) return {Trust::kChain, server + " has a certificate that verifies."};
   const auto pinned = lines.find(server);
+  if (!pinned && link) return {Trust::kLinkEqual, server + " has the key of the link."};
   if (!pinned) {
     return {Trust::kFirstUse,
             "First visit to " + server + ": its key " + facts.key.text() +
@@ -68,22 +76,24 @@ fs::path KnownServers::defaultPath() {
 }
 
 Verdict KnownServers::judge(const std::string& host, std::uint16_t port, const PeerFacts& facts,
-                            const std::optional<Fingerprint>& given) const {
-  return inWords([&] { return judgeBy(readLines(path_), nameOf(host, port), facts, given, path_); });
+                            const std::optional<Fingerprint>& given,
+                            const std::optional<ShortKey>& link) const {
+  return inWords([&] { return judgeBy(readLines(path_), nameOf(host, port), facts, given, link, path_); });
 }
 
 Verdict KnownServers::admit(const std::string& host, std::uint16_t port, const PeerFacts& facts,
-                            const std::optional<Fingerprint>& given) const {
+                            const std::optional<Fingerprint>& given,
+                            const std::optional<ShortKey>& link) const {
   return inWords([&] {
     const std::string server = nameOf(host, port);
     const PinLines seen = readLines(path_);
-    Verdict first = judgeBy(seen, server, facts, given, path_);
+    Verdict first = judgeBy(seen, server, facts, given, link, path_);
     // Nothing to write: no lock either, so that a home directory that is read-only does not matter.
     if (!first.accepted() || seen.find(server) == facts.key) return first;
     if (path_.has_parent_path()) fs::create_directories(path_.parent_path());
     const FileLock lock(path_.string() + ".lock");
     PinLines lines = readLines(path_);
-    Verdict verdict = judgeBy(lines, server, facts, given, path_);
+    Verdict verdict = judgeBy(lines, server, facts, given, link, path_);
     if (verdict.accepted() && lines.find(server) != facts.key) {
       lines.set(server, facts.key);
       replaceFile(path_, lines.content());

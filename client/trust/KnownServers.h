@@ -13,6 +13,7 @@
 
 #include "shared/net/stream/Fingerprint.h"
 #include "shared/net/stream/PeerFacts.h"
+#include "shared/net/stream/ShortKey.h"
 
 namespace naiad {
 
@@ -24,6 +25,8 @@ enum class Trust {
   kChanged,       ///< not the key seen before: refuse
   kGivenEqual,    ///< the key is the one that the player named
   kGivenUnequal,  ///< it is not: refuse
+  kLinkEqual,     ///< never seen, and the key is the one of the link: pinned as a whole
+  kLinkUnequal,   ///< it is not the one of the link: refuse
 };
 
 struct Verdict {
@@ -31,7 +34,9 @@ struct Verdict {
   /// For people. If the server is refused: the reason, and what to do.
   std::string sentence;
 
-  bool accepted() const { return trust != Trust::kChanged && trust != Trust::kGivenUnequal; }
+  bool accepted() const {
+    return trust != Trust::kChanged && trust != Trust::kGivenUnequal && trust != Trust::kLinkUnequal;
+  }
 };
 
 /// The file cannot be read or written. what() is one sentence for people.
@@ -52,13 +57,15 @@ class KnownServers {
   explicit KnownServers(std::filesystem::path path) : path_(std::move(path)) {}
 
   /// The verdict on the server at `host`:`port`, as the player named it. `given`: the fingerprint that the
-  /// player named, if any; it counts most, then the chain, then the pin. Writes nothing.
+  /// player named, if any; it counts most, then the chain, then the pin. `link`: the key of the link that was
+  /// followed, if any. It must fit whatever the rest says, and replaces no pin: links come from strangers.
+  /// Writes nothing.
   Verdict judge(const std::string& host, std::uint16_t port, const PeerFacts& facts,
-                const std::optional<Fingerprint>& given) const;
+                const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link = {}) const;
   /// The same, and if the server is accepted its key is the pinned one from now on. Judgement and pin are
   /// atomic.
   Verdict admit(const std::string& host, std::uint16_t port, const PeerFacts& facts,
-                const std::optional<Fingerprint>& given) const;
+                const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link = {}) const;
 
   /// A sentence for each line that is neither a pin nor a comment.
   std::vector<std::string> problems() const;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "client/session/TrustOptions.h"
+#include "client/terminal/PasswordPrompt.h"
 #include "client/terminal/TerminalGuard.h"
 #include "client/terminal/TerminalType.h"
 #include "client/ui/ClientApp.h"
@@ -23,11 +24,12 @@ namespace {
 
 struct CommandLine {
   naiad::ClientApp::Options play;
-  std::string server;
+  naiad::ServerChoice server;
   bool named = false;  ///< --name was given
   bool no_mouse = false;
   bool no_resume = false;
   bool attached = false;
+  bool ask_password = false;
 };
 
 std::string footer() {
@@ -99,8 +101,10 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
        .environment = "NAIAD_NAME",
        .p_given = &line.named},
       {"--game", &play.session.game, "The game you want; refused if another one runs", "NAIAD_GAME"}};
-  for (naiad::Option& option : naiad::trustOptions(play.trust, play.session)) options.push_back(option);
+  for (naiad::Option& option : naiad::trustOptions(line.server, play.trust, play.session))
+    options.push_back(option);
   const std::vector<naiad::Option> own = {
+      {"--ask-password", &line.ask_password, "Ask for the server's password before joining"},
       {"--no-resume", &line.no_resume,
        "Do not go on with the session of a client that was killed, nor leave yours to the next",
        "NAIAD_NO_RESUME"},
@@ -134,12 +138,14 @@ int start(int argc, char** argv) {
   // The terminal must not be left to the picture of a game that has crashed.
   if (line.attached) prctl(PR_SET_PDEATHSIG, SIGTERM);
 
-  const auto address = naiad::ServerAddress::parse(line.server);
-  if (!address) {
-    return complain(naiad::kExitUsage,
-                    "\"" + naiad::safeText(line.server, 100) + "\" is no server: HOST[:PORT] is wanted.");
+  const std::string wrong =
+      naiad::resolveServer(line.server, options.address, options.trust, options.session);
+  if (!wrong.empty()) return complain(naiad::kExitUsage, wrong);
+  if (line.ask_password) {
+    const auto password = naiad::askPassword("Password of " + options.address.text() + ": ");
+    if (!password) return complain(naiad::kExitNoTerminal, "no password was typed.");
+    options.session.password = *password;
   }
-  options.address = *address;
   options.mouse = !line.no_mouse;
   const char* no_color = std::getenv("NO_COLOR");
   options.colors = no_color == nullptr || *no_color == '\0';
@@ -147,11 +153,15 @@ int start(int argc, char** argv) {
   const auto directory = naiad::SessionFile::defaultDirectory();
   if (directory && !line.no_resume && !options.trust.insecure) {
     const auto wanted = line.named ? std::optional(options.session.name) : std::nullopt;
-    file.emplace(*directory, address->canonicalText(), wanted, std::chrono::system_clock::now());
+    file.emplace(*directory, options.address.canonicalText(), wanted, std::chrono::system_clock::now());
     options.p_session_file = &*file;
   }
   try {
-    return play(std::move(options), line.attached);
+    const int code = play(std::move(options), line.attached);
+    if (code == naiad::kExitRefused && line.server.dropsPassword() && !line.ask_password)
+      std::fputs("dfclient: NAIAD_PASSWORD is not sent where a link leads. --ask-password asks for one.\n",
+                 stderr);
+    return code;
   } catch (const std::runtime_error& error) {
     return complain(naiad::kExitNoTerminal, error.what());
   }

@@ -201,7 +201,10 @@ Parsed parseOptions(const Program& program, const std::vector<Option>& options, 
     return complain(program, error.what());
   }
   for (std::size_t i = 0; i < options.size(); ++i) {
-    if (options[i].p_given != nullptr && added[i]->count() > 0) *options[i].p_given = true;
+    if (added[i]->count() == 0) continue;
+    if (options[i].p_given != nullptr) *options[i].p_given = true;
+    if (options[i].p_from_environment != nullptr)
+      *options[i].p_from_environment = !isOnCommandLine(options[i], argc, argv);
   }
   return Parsed::kRun;
 }

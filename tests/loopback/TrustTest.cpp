@@ -120,6 +120,27 @@ TEST_F(TrustTest, AGivenFingerprintCountsMost) {
   EXPECT_EQ(refusal(server.port(), setup), "");
 }
 
+TEST_F(TrustTest, ALinkJoinsAndTheWholeKeyIsPinned) {
+  TestServer server(world(), home.server());
+  ClientSetup setup = home.player("ann");
+  setup.trust.link_key = ShortKey::of(*server.fingerprint());
+  EXPECT_EQ(refusal(server.port(), setup), "");
+  EXPECT_NE(pins().find(server.fingerprint()->text()), std::string::npos) << pins();
+}
+
+TEST_F(TrustTest, AServerWithoutTheKeyOfTheLinkIsToldNotAByte) {
+  RecordingServer impostor(home.identity("another identity"));
+  ClientSetup setup = home.player("ann");
+  setup.options.password = "xyzzy";
+  setup.trust.link_key = ShortKey::of(*Fingerprint::parse(std::string(64, 'a')));
+  TestClient client(context, impostor.port(), setup);
+  const std::string sentence = refusal(client);
+  EXPECT_NE(sentence.find("does not have the key of the link"), std::string::npos) << sentence;
+  ASSERT_TRUE(serveUntil(context, {&client}, [&] { return impostor.isDecided(1); }));
+  EXPECT_EQ(impostor.heard(), "");
+  EXPECT_EQ(pins(), "");
+}
+
 /// The password is the player's best secret, and the hello has it. With a pin from before, or with a key that
 /// the host gave.
 TEST_F(TrustTest, AServerWithAnotherKeyIsToldNotAByte) {

@@ -96,7 +96,7 @@ TEST_F(OwnMain, InATerminalItIsPlayedThere) {
   auto game = start();
   ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
   EXPECT_TRUE(has(game->output(), "before the game"));
-  EXPECT_TRUE(has(game->output(), "Join from this machine with: dfclient 127.0.0.1:"));
+  EXPECT_TRUE(has(game->output(), "Join from this machine with: dfclient naiad://127.0.0.1:"));
   game->forget();
   game->type(kRight);
   // Cells that stay the same are not written again.

@@ -1,15 +1,19 @@
 #include "host/program/Announcement.h"
 
+#include <algorithm>
 #include <asio/ip/address.hpp>
 #include <stdexcept>
 #include <system_error>
 
 #include "host/program/Host.h"
+#include "host/program/QrCode.h"
 #include "shared/net/base/SafeFile.h"
 
 namespace naiad {
 
 namespace {
+
+constexpr std::uint16_t kSshPort = 22;
 
 void writeLine(const std::string& path, const char* what, const std::string& line) {
   if (path.empty()) return;
@@ -21,6 +25,12 @@ void writeLine(const std::string& path, const char* what, const std::string& lin
   }
 }
 
+void addOtherDoors(const HostOptions& options, std::vector<std::string>& lines) {
+  if (const auto door = SshDoor::parse(options.ssh_door))
+    lines.push_back("With ssh alone: " + door->command());
+  if (!options.web_address.empty()) lines.push_back("In a browser: " + options.web_address);
+}
+
 bool isHomeAlone(const std::string& address) {
   std::error_code error;
   const auto parsed = asio::ip::make_address(address, error);
@@ -29,22 +39,54 @@ bool isHomeAlone(const std::string& address) {
 
 }  // namespace
 
+std::optional<SshDoor> SshDoor::parse(std::string_view text) {
+  const std::size_t at = text.find('@');
+  if (at == std::string_view::npos || at == 0 || text.front() == '-') return std::nullopt;
+  const std::string_view user = text.substr(0, at);
+  const bool is_plain = std::all_of(user.begin(), user.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+  const auto where = LinkHost::parse(text.substr(at + 1), kSshPort);
+  if (!is_plain || !where) return std::nullopt;
+  return SshDoor{std::string(user), *where};
+}
+
+std::string SshDoor::command() const {
+  const std::string port = where.port == kSshPort ? "" : "-p " + std::to_string(where.port) + " ";
+  return "ssh " + port + user + "@" + where.host;
+}
+
 std::vector<std::string> howToJoin(const Host& host, const HostOptions& options, const Openness& openness) {
-  std::vector<std::string> lines{"Join from this machine with: dfclient " + host.joinArguments()};
+  const auto local = host.joinLink(false);
+  std::vector<std::string> lines{"Join from this machine with: dfclient " +
+                                 (local ? local->text() : host.joinArguments())};
   if (isHomeAlone(options.address)) {
     lines.push_back("From elsewhere nobody can join: it listens on " + host.address() + " alone. " +
                     openness.how_to_open);
+    addOtherDoors(options, lines);
     return lines;
   }
+  if (const auto link = host.joinLink(true)) lines.push_back("From elsewhere: dfclient " + link->text());
   if (const auto fingerprint = host.fingerprint()) {
-    lines.push_back("From elsewhere with its name or address; its key is " + fingerprint->text());
+    const std::string begin = options.link_host.empty()
+                                  ? "From elsewhere with its name or address in place of the link's; its"
+                                  : "Its";
+    lines.push_back(begin + " key is " + fingerprint->text());
   }
+  addOtherDoors(options, lines);
   const bool any = options.address == "::" || options.address == "0.0.0.0";
   lines.push_back(
       "Listening on " +
       (any ? "every address of this machine, port " + std::to_string(host.port()) : host.address()) +
       ", TCP and UDP. " + openness.how_to_restrict);
   return lines;
+}
+
+std::vector<std::string> qrLines(const HostOptions& options) {
+  if (!options.qr) return {};
+  const std::vector<std::string> code = qrCode(options.web_address);
+  if (!code.empty()) return code;
+  return {"No QR code: this program was built without libqrencode."};
 }
 
 void writeWhereabouts(const HostOptions& options, const Host& host) {

@@ -1,8 +1,12 @@
 // Tells people and scripts, at a server's start, its address and how to join.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
 
@@ -15,8 +19,21 @@ struct Openness {
   std::string how_to_restrict;
 };
 
-/// "Join from this machine with: dfclient …", how from elsewhere, and what is listened on.
+/// USER@HOST[:PORT], where an ssh door is; port 22 if none is named.
+struct SshDoor {
+  std::string user;  ///< of letters, digits, '-' and '_': it is copied into shells
+  LinkHost where;
+
+  static std::optional<SshDoor> parse(std::string_view text);
+  /// "ssh play@games.example", "ssh -p 2222 play@::1".
+  std::string command() const;
+};
+
+/// "Join from this machine with: dfclient naiad://…", how from elsewhere, by ssh and on a page as far as the
+/// options name these, and what is listened on.
 std::vector<std::string> howToJoin(const Host& host, const HostOptions& options, const Openness& openness);
+/// The QR code that HostOptions::qr asks for, or why there is none; empty if it does not.
+std::vector<std::string> qrLines(const HostOptions& options);
 /// HostOptions::port_file and join_file, if they are asked for: each replaced in one step. Throws
 /// std::runtime_error if one cannot be written.
 void writeWhereabouts(const HostOptions& options, const Host& host);

@@ -157,6 +157,17 @@ std::string Host::joinArguments() const {
   return where + (m_identity ? " --fingerprint " + m_identity->fingerprint().text() : " --insecure");
 }
 
+std::optional<JoinLink> Host::joinLink(bool elsewhere) const {
+  if (!m_identity) return std::nullopt;
+  const bool any = m_options.address == "::" || m_options.address == "0.0.0.0";
+  const std::uint16_t port = m_network.port();
+  const auto where = elsewhere ? LinkHost::parse(m_options.link_host, port)
+                     : any     ? LinkHost::parse("127.0.0.1", port)
+                               : LinkHost::parse(m_network.address());
+  if (!where) return std::nullopt;
+  return JoinLink{*where, "", ShortKey::of(m_identity->fingerprint())};
+}
+
 Host::~Host() = default;
 
 void Host::setWorlds(NewWorld new_world) {

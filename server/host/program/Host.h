@@ -28,6 +28,7 @@
 #include "host/program/TickClock.h"
 #include "host/program/Watchdog.h"
 #include "host/session/Counters.h"
+#include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
 
@@ -48,6 +49,9 @@ class Host : public df::Runner {
   std::optional<Fingerprint> fingerprint() const;
   /// What dfclient needs on its command line to join from this machine: "127.0.0.1:9876 --fingerprint …".
   std::string joinArguments() const;
+  /// The link for players of this machine, or of any machine if HostOptions::link_host is given and
+  /// `elsewhere` asked for. Nothing without encryption.
+  std::optional<JoinLink> joinLink(bool elsewhere) const;
   const Counters& counters() const { return m_counters; }
   /// What became of every datagram so far; nothing without encryption. Thread-safe.
   DatagramGateCounters datagramCounters() const { return m_network.gateCounters(); }

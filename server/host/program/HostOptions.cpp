@@ -7,6 +7,8 @@
 #include <iostream>
 #include <vector>
 
+#include "host/program/Announcement.h"
+#include "shared/net/stream/JoinLink.h"
 #include "shared/options/Options.h"
 
 namespace naiad {
@@ -99,6 +101,16 @@ std::vector<Row> tableOf(HostOptions& o) {
       {{"--join-file", &o.join_file,
         "Write address and fingerprint, as dfclient takes them, to this file once listening",
         "NAIAD_JOIN_FILE"}},
+      {{"--link-host", &o.link_host,
+        "Name or address by which players elsewhere reach this machine, for the link that is printed; "
+        "HOST:PORT "
+        "where a router forwards another port",
+        "NAIAD_LINK_HOST"}},
+      {{"--ssh-door", &o.ssh_door, "Also print how to play by ssh: USER@HOST[:PORT] of a door to this server",
+        "NAIAD_SSH_DOOR"}},
+      {{"--web-address", &o.web_address, "Also print this address of a page to play on (https://…)",
+        "NAIAD_WEB_ADDRESS"}},
+      {{"--qr", &o.qr, "Print --web-address as a QR code, too", "NAIAD_QR"}},
       {{"--truth", &o.truth_file,
         "Write what each player ought to see, tick by tick, to this file (for tests; large)", "NAIAD_TRUTH"}},
       {{"--port-file", &o.port_file, "Write the port number to this file once listening", "NAIAD_PORT_FILE"}},
@@ -114,7 +126,8 @@ std::vector<Row> tableOf(HostOptions& o) {
 }
 
 constexpr const char* kLoopback = "127.0.0.1";
-constexpr int kMinFrameMicros = 1000;  // clients believe no shorter one
+constexpr std::size_t kMaxWebAddress = 300;  // a QR code of more does not fit a terminal
+constexpr int kMinFrameMicros = 1000;        // clients believe no shorter one
 
 const char* const kExitCodes =
     "Exit codes:\n"
@@ -134,6 +147,25 @@ std::string keyOf(const Row& row) {
   return key;
 }
 
+bool isWebAddress(const std::string& text) {
+  const bool begins = text.starts_with("https://") || text.starts_with("http://");
+  return begins && text.size() <= kMaxWebAddress &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 0x7f; });
+}
+
+/// The same for what is printed for players.
+std::string printedComplaint(const HostOptions& options) {
+  if (!options.link_host.empty() && !LinkHost::parse(options.link_host))
+    return "--link-host: HOST or HOST:PORT is wanted, IPv6 in brackets";
+  if (!options.ssh_door.empty() && !SshDoor::parse(options.ssh_door))
+    return "--ssh-door: USER@HOST or USER@HOST:PORT is wanted";
+  if (!options.web_address.empty() && !isWebAddress(options.web_address))
+    return "--web-address: an address that begins with https:// or http:// is wanted, of 300 characters at "
+           "most";
+  if (options.qr && options.web_address.empty()) return "--qr shows --web-address, which is not given";
+  return {};
+}
+
 /// What is wrong with options together; empty if nothing is.
 std::string complaint(const HostOptions& options) {
   if (options.frame_micros != 0 && options.frame_micros < kMinFrameMicros) {
@@ -141,7 +173,7 @@ std::string complaint(const HostOptions& options) {
            std::to_string(kMinFrameMicros) + " or more";
   }
   if (options.certificate.empty() != options.key.empty()) return "--certificate and --key come together";
-  return {};
+  return printedComplaint(options);
 }
 
 bool isHash(const std::string& password) {

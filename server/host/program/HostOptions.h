@@ -40,9 +40,13 @@ struct HostOptions {
   std::string password;           ///< that players need: itself, or its Argon2id hash; empty: none
   double grace = 60;              ///< seconds that a player whose connection broke may take to come back
   std::string join_file;          ///< write what to pass to dfclient here once listening
-  std::string truth_file;         ///< write what each player should see, tick by tick
-  std::string port_file;          ///< write the port number here once listening
-  std::string log_file;           ///< append log lines here instead of stderr
+  std::string link_host;  ///< HOST[:PORT] for players elsewhere, in the link that is printed; empty: unknown
+  std::string ssh_door;   ///< USER@HOST[:PORT] of a door to this server; empty: none
+  std::string web_address;            ///< of a page to play on; empty: none
+  bool qr = false;                    ///< print that as a QR code, too
+  std::string truth_file;             ///< write what each player should see, tick by tick
+  std::string port_file;              ///< write the port number here once listening
+  std::string log_file;               ///< append log lines here instead of stderr
   std::vector<std::string> warnings;  ///< about these options, for the log
   // Of games that are programs themselves:
   bool headless = false;     ///< no network and no players

@@ -250,6 +250,7 @@ void ProgramHost::serve(df::World& world) {
   log(programName() + " is a server on " + host->address());
   const std::vector<std::string> how = howToJoin(*host, m_options, kOpenness);
   for (const std::string& line : how) std::cout << line << std::endl;
+  for (const std::string& line : qrLines(m_options)) std::cout << line << std::endl;
   std::cout << "Compatible with the published engine: " << (world.compat() ? "yes (compat)" : "no")
             << std::endl;
   const std::vector<std::string> help = world.getHelp();

@@ -76,6 +76,7 @@ ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runne
 void announce(const naiad::HostOptions& options, const naiad::Host& host) {
   naiad::writeWhereabouts(options, host);
   for (const std::string& line : naiad::howToJoin(host, options, kOpenness)) std::cout << line << std::endl;
+  for (const std::string& line : naiad::qrLines(options)) std::cout << line << std::endl;
 }
 
 /// The world of which players see the size and the help when they join; no game ticks in it.

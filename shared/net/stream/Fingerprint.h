@@ -21,6 +21,7 @@ class Fingerprint {
   static std::optional<Fingerprint> parse(std::string_view text);
   /// 64 lower-case hexadecimal digits.
   std::string text() const;
+  const std::array<std::uint8_t, 32>& bytes() const { return bytes_; }
 
   friend bool operator==(const Fingerprint&, const Fingerprint&) = default;
 

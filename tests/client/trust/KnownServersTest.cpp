@@ -86,6 +86,35 @@ TEST_F(KnownServersTest, GivenFingerprintCountsMostAndIsPinned) {
   EXPECT_EQ(admit(selfSigned('a')), Trust::kChanged);
 }
 
+TEST_F(KnownServersTest, AShortKeyOfALinkIsEnoughAndTheWholeKeyIsPinned) {
+  const auto admitBy = [this](const PeerFacts& facts, char digit) {
+    return servers->admit("game.test", 9876, facts, {}, ShortKey::of(key(digit)));
+  };
+  EXPECT_EQ(admitBy(selfSigned('a'), 'b').trust, Trust::kLinkUnequal);
+  EXPECT_EQ(admitBy(verified('a'), 'b').trust, Trust::kLinkUnequal);
+  EXPECT_FALSE(admitBy(selfSigned('a'), 'b').accepted());
+  EXPECT_EQ(content(), "(missing)");
+  EXPECT_EQ(admitBy(selfSigned('a'), 'a').trust, Trust::kLinkEqual);
+  EXPECT_EQ(content(), "game.test:9876 " + std::string(64, 'a') + "\n");
+  EXPECT_EQ(admitBy(selfSigned('a'), 'a').trust, Trust::kPinned);
+  EXPECT_EQ(admit(selfSigned('a')), Trust::kPinned);
+  // The second half of the key is not in the link; the pin has it.
+  const PeerFacts twin{*Fingerprint::parse(std::string(32, 'a') + std::string(32, 'b')), false,
+                       "self-signed"};
+  EXPECT_EQ(admitBy(twin, 'a').trust, Trust::kChanged);
+}
+
+TEST_F(KnownServersTest, ALinkReplacesNoPinAndAFingerprintDoes) {
+  admit(selfSigned('a'));
+  const auto link = ShortKey::of(key('b'));
+  const Verdict verdict = servers->admit("game.test", 9876, selfSigned('b'), {}, link);
+  EXPECT_EQ(verdict.trust, Trust::kChanged);
+  EXPECT_NE(verdict.sentence.find("HAS CHANGED"), std::string::npos);
+  EXPECT_EQ(admit(selfSigned('a')), Trust::kPinned);
+  EXPECT_EQ(servers->admit("game.test", 9876, selfSigned('b'), key('b'), link).trust, Trust::kGivenEqual);
+  EXPECT_EQ(admit(selfSigned('b')), Trust::kPinned);
+}
+
 TEST_F(KnownServersTest, ChainIsTrustedAndGuardsAgainstALesserCertificateLater) {
   EXPECT_EQ(admit(verified('a')), Trust::kChain);
   EXPECT_EQ(admit(verified('b')), Trust::kChain);  // renewed with a new key

@@ -39,7 +39,8 @@ class OptionsTest : public testing::Test {
          .target = &port,
          .help = "",
          .environment = "OPTIONS_TEST_PORT",
-         .range = OptionRange{0, 65535}},
+         .range = OptionRange{0, 65535},
+         .p_from_environment = &from_environment},
         {.name = "--max-players", .target = &players, .help = ""},
         {.name = "--server-name", .target = &name, .help = "", .p_place = &place},
         {.name = "--quiet", .target = &quiet, .help = "", .p_given = &given},
@@ -69,6 +70,7 @@ class OptionsTest : public testing::Test {
   bool quiet = false;
   bool given = false;
   bool secret = false;
+  bool from_environment = false;
 };
 
 constexpr const char* kHelp = "\nRun dfthing --help for more information.\n";
@@ -114,6 +116,16 @@ TEST_F(OptionsTest, CommandLineAndEnvironmentCountMoreThanTheFile) {
   EXPECT_EQ(port, 71);
   EXPECT_EQ(players, 4);
   EXPECT_EQ(name, "x");
+}
+
+TEST_F(OptionsTest, WhetherTheEnvironmentGaveAValueIsKnown) {
+  EXPECT_EQ(parseFile("port = 70\n"), "");
+  EXPECT_FALSE(from_environment);
+  setenv("OPTIONS_TEST_PORT", "71", 1);
+  EXPECT_EQ(parse({}), "");
+  EXPECT_TRUE(from_environment);
+  EXPECT_EQ(parse({"--port=72"}), "");
+  EXPECT_FALSE(from_environment);
 }
 
 TEST_F(OptionsTest, AnErrorInAFileHasItsFileAndLine) {

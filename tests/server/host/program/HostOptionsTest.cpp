@@ -59,6 +59,27 @@ TEST(HostOptions, WhatIsNoneOfTheWordsIsAnError) {
   EXPECT_EQ(options.on_game_over, "exit");
 }
 
+TEST(HostOptions, WhatIsPrintedForPlayersIsChecked) {
+  HostOptions options;
+  EXPECT_EQ(parse({"--link-host", "game.example:9877", "--ssh-door", "play@game.example:2222",
+                   "--web-address", "https://game.example/play", "--qr"},
+                  options),
+            CommandLine::kRun);
+  const std::vector<std::vector<const char*>> all = {{"--link-host", "a b"},
+                                                     {"--link-host", "http://x"},
+                                                     {"--ssh-door", "game.example"},
+                                                     {"--ssh-door", "a;b@x"},
+                                                     {"--ssh-door=-oX@y"},
+                                                     {"--ssh-door", "@x"},
+                                                     {"--web-address", "ftp://x"},
+                                                     {"--web-address", "https://x y"},
+                                                     {"--qr"}};
+  for (const std::vector<const char*>& bad : all) {
+    HostOptions others;
+    EXPECT_EQ(parse(bad, others), CommandLine::kUsageError) << bad.front();
+  }
+}
+
 TEST(HostOptions, ThoseOfProgramsAreNoneOfDfservers) {
   HostOptions options;
   EXPECT_EQ(parse({"--headless"}, options), CommandLine::kUsageError);

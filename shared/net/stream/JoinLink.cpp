@@ -1,0 +1,142 @@
+#include "shared/net/stream/JoinLink.h"
+
+#include <algorithm>
+#include <asio/ip/address_v6.hpp>
+#include <charconv>
+#include <system_error>
+
+namespace naiad {
+namespace {
+
+constexpr std::string_view kScheme = "naiad:";
+constexpr std::size_t kMaxLink = 512;  // bytes; the longest good one has some 330
+constexpr std::size_t kMaxHost = 253;  // of a name (RFC 1035 2.3.4)
+constexpr std::size_t kMaxLabel = 63;  // of a part of it
+constexpr std::size_t kMaxRoom = 32;
+constexpr std::size_t kMaxPortDigits = 5;
+
+bool isLetterOrDigit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+bool isGraphic(char c) {
+  return c > ' ' && c < 0x7f;
+}
+
+/// Nothing if a % is not followed by two hexadecimal digits, or what they mean is not printable ASCII.
+std::optional<std::string> decoded(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      result.push_back(text[i]);
+      continue;
+    }
+    unsigned byte = 0;
+    if (i + 2 >= text.size()) return std::nullopt;
+    const char* const last = text.data() + i + 3;
+    const auto [end, error] = std::from_chars(text.data() + i + 1, last, byte, 16);
+    if (error != std::errc{} || end != last || !isGraphic(static_cast<char>(byte))) return std::nullopt;
+    result.push_back(static_cast<char>(byte));
+    i += 2;
+  }
+  return result;
+}
+
+bool isName(std::string_view host) {
+  if (host.ends_with('.')) host.remove_suffix(1);
+  if (host.empty() || host.size() > kMaxHost || host.front() == '-') return false;
+  std::size_t label = 0;
+  for (const char c : host) {
+    if (c != '.' && c != '-' && c != '_' && !isLetterOrDigit(c)) return false;
+    if (c == '.' && label == 0) return false;
+    label = c == '.' ? 0 : label + 1;
+    if (label > kMaxLabel) return false;
+  }
+  return label > 0;
+}
+
+bool isIPv6(std::string_view host) {
+  std::error_code error;
+  const auto address = asio::ip::make_address_v6(std::string(host), error);
+  return !error && address.scope_id() == 0 && host.find('%') == std::string_view::npos;
+}
+
+bool isRoom(std::string_view room) {
+  return room.size() <= kMaxRoom && isLetterOrDigit(room.front()) &&
+         std::all_of(room.begin(), room.end(),
+                     [](char c) { return isLetterOrDigit(c) || c == '-' || c == '_' || c == '.'; });
+}
+
+}  // namespace
+
+std::optional<LinkHost> LinkHost::parse(std::string_view text, std::uint16_t default_port) {
+  LinkHost result;
+  result.port = default_port;
+  if (text.starts_with('[')) {
+    const std::size_t end = text.find(']');
+    if (end == std::string_view::npos) return std::nullopt;
+    result.host = text.substr(1, end - 1);
+    text.remove_prefix(end + 1);
+    if (!isIPv6(result.host)) return std::nullopt;
+  } else {
+    const std::size_t end = std::min(text.find(':'), text.size());
+    result.host = text.substr(0, end);
+    text.remove_prefix(end);
+    if (!isName(result.host)) return std::nullopt;
+  }
+  if (text.empty()) return result;
+  if (text.front() != ':' || text.size() > 1 + kMaxPortDigits) return std::nullopt;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data() + 1, last, result.port);
+  if (error != std::errc{} || end != last || result.port == 0) return std::nullopt;
+  return result;
+}
+
+std::string LinkHost::text() const {
+  const std::string shown = host.find(':') != std::string::npos ? "[" + host + "]" : host;
+  return port == kDefaultPort ? shown : shown + ":" + std::to_string(port);
+}
+
+bool JoinLink::isMeant(std::string_view text) {
+  return text.size() >= kScheme.size() &&
+         std::equal(kScheme.begin(), kScheme.end(), text.begin(), [](char wanted, char c) {
+           return wanted == c || (isLetterOrDigit(c) && wanted == (c | 0x20));
+         });
+}
+
+std::variant<JoinLink, LinkProblem> JoinLink::parse(std::string_view text) {
+  if (text.size() > kMaxLink) return LinkProblem{"it is longer than 512 characters"};
+  if (!std::all_of(text.begin(), text.end(), isGraphic))
+    return LinkProblem{"it has a blank or a character that is not ASCII"};
+  if (!isMeant(text) || !text.substr(kScheme.size()).starts_with("//"))
+    return LinkProblem{"it does not begin with naiad://"};
+  text.remove_prefix(kScheme.size() + 2);
+
+  const std::size_t hash = text.find('#');
+  if (hash == std::string_view::npos || hash + 1 == text.size())
+    return LinkProblem{"it has no key (#…) at its end; it may have been cut off"};
+  const auto key_text = decoded(text.substr(hash + 1));
+  const auto key = key_text ? ShortKey::parse(*key_text) : std::nullopt;
+  if (!key)
+    return LinkProblem{"the key behind its # is not 26 letters and digits 2 to 7, as dfserver prints them"};
+  text = text.substr(0, hash);
+
+  if (text.find('?') != std::string_view::npos) return LinkProblem{"it has a ?, which no link to a game has"};
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto authority = decoded(text.substr(0, slash));
+  const auto room = decoded(text.substr(std::min(slash + 1, text.size())));
+  if (!authority || !room) return LinkProblem{"it has a % that does not stand for a printable character"};
+  if (authority->find('@') != std::string::npos)
+    return LinkProblem{"it names a user, which no link to a game does"};
+  const auto where = LinkHost::parse(*authority);
+  if (!where) return LinkProblem{"HOST or HOST:PORT is wanted behind naiad://"};
+  if (!room->empty() && !isRoom(*room))
+    return LinkProblem{"what stands behind the / cannot be the name of a room"};
+  return JoinLink{*where, *room, *key};
+}
+
+std::string JoinLink::text() const {
+  return "naiad://" + where.text() + (room.empty() ? "" : "/" + room) + "#" + key.text();
+}
+
+}  // namespace naiad

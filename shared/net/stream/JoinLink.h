@@ -1,0 +1,54 @@
+// The link that leads to a game: naiad://HOST[:PORT][/ROOM]#KEY.
+//
+// HOST is a name or an address (IPv6 in brackets), PORT the default one if it is left out, KEY the short name
+// of the server's key (ShortKey.h). A link comes from strangers, by way of pages, chats and desktops: it
+// holds these four and nothing else, each checked strictly. %XX is decoded, as desktops may encode what they
+// pass on (RFC 3986 2.1).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "shared/net/base/Limits.h"
+#include "shared/net/stream/ShortKey.h"
+
+namespace naiad {
+
+/// Why a text is no link: the end of a sentence, "it has no key at its end". It has no text of the link in
+/// it.
+struct LinkProblem {
+  std::string sentence;
+};
+
+/// HOST or HOST:PORT.
+struct LinkHost {
+  std::string host;  ///< IPv6 without brackets
+  std::uint16_t port = kDefaultPort;
+
+  /// A name of ASCII letters, digits, '-', '_' and dots that does not begin with '-', an IPv4 address, or an
+  /// IPv6 address in brackets, without a zone; and a port of 1 … 65535, `default_port` if there is none.
+  /// Nothing if it is none of these.
+  static std::optional<LinkHost> parse(std::string_view text, std::uint16_t default_port = kDefaultPort);
+  /// "game.example", "[::1]:9877": the default port is left out.
+  std::string text() const;
+
+  friend bool operator==(const LinkHost&, const LinkHost&) = default;
+};
+
+struct JoinLink {
+  LinkHost where;
+  std::string room;  ///< empty, or 1 to 32 of a-z, A-Z, 0-9, '-', '_', '.', beginning with a letter or digit
+  ShortKey key;
+
+  /// Does the text mean to be a link? It begins with "naiad:", in any case.
+  static bool isMeant(std::string_view text);
+  static std::variant<JoinLink, LinkProblem> parse(std::string_view text);
+  std::string text() const;
+
+  friend bool operator==(const JoinLink&, const JoinLink&) = default;
+};
+
+}  // namespace naiad

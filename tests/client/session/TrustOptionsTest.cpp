@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include "client/session/TrustOptions.h"
+
+namespace naiad {
+namespace {
+
+const std::string kKey = "abcdefghijklmnopqrstuvwxya";
+
+struct Resolved {
+  explicit Resolved(const std::string& text, const std::string& password = "", bool ambient = false,
+                    const ServerTrust& given = {})
+      : trust(given) {
+    session.password = password;
+    problem = resolveServer({.text = text, .is_password_ambient = ambient}, address, trust, session);
+  }
+  ServerAddress address;
+  ServerTrust trust;
+  SessionOptions session;
+  std::string problem;
+};
+
+TEST(TrustOptions, ALinkNamesTheServerAndItsKey) {
+  const Resolved link("naiad://[2001:db8::1]:9877#" + kKey);
+  EXPECT_EQ(link.problem, "");
+  EXPECT_EQ(link.address.text(), "[2001:db8::1]:9877");
+  ASSERT_TRUE(link.trust.link_key);
+  EXPECT_EQ(link.trust.link_key->text(), kKey);
+  const Resolved address("game.example:9877");
+  EXPECT_EQ(address.problem, "");
+  EXPECT_EQ(address.address.text(), "game.example:9877");
+  EXPECT_FALSE(address.trust.link_key);
+}
+
+TEST(TrustOptions, WhatIsWrongIsASentenceWithNothingThatSteersATerminal) {
+  EXPECT_NE(Resolved("naiad://game.example").problem.find("it has no key"), std::string::npos);
+  EXPECT_NE(Resolved("a b").problem.find("is no server"), std::string::npos);
+  const std::string hostile = Resolved("naiad://x\033]0;y\a\n#" + kKey).problem;
+  EXPECT_NE(hostile.find("is no link to a game"), std::string::npos);
+  for (const char c : hostile) EXPECT_GE(static_cast<unsigned char>(c), ' ');
+}
+
+TEST(TrustOptions, ARoomIsRefusedWithTheLinkThatWorks) {
+  const Resolved room("naiad://game.example/tron#" + kKey);
+  EXPECT_NE(room.problem.find("no rooms"), std::string::npos);
+  EXPECT_NE(room.problem.find("naiad://game.example#" + kKey), std::string::npos);
+}
+
+TEST(TrustOptions, OptionsThatContradictALinkAreErrors) {
+  ServerTrust other;
+  other.fingerprint = Fingerprint::parse(std::string(64, 'f'));
+  EXPECT_NE(Resolved("naiad://game.example#" + kKey, "", false, other).problem, "");
+  EXPECT_EQ(
+      Resolved("naiad://game.example#" + ShortKey::of(*other.fingerprint).text(), "", false, other).problem,
+      "");
+  ServerTrust insecure;
+  insecure.insecure = true;
+  EXPECT_NE(Resolved("naiad://127.0.0.1#" + kKey, "", false, insecure).problem, "");
+}
+
+TEST(TrustOptions, ThePasswordInTheEnvironmentIsNotForLinks) {
+  EXPECT_EQ(Resolved("naiad://game.example#" + kKey, "xyzzy", true).session.password, "");
+  EXPECT_EQ(Resolved("naiad://game.example#" + kKey, "xyzzy", false).session.password, "xyzzy");
+  EXPECT_EQ(Resolved("game.example", "xyzzy", true).session.password, "xyzzy");
+}
+
+}  // namespace
+}  // namespace naiad

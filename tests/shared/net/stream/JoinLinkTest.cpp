@@ -1,0 +1,167 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "shared/net/stream/JoinLink.h"
+
+namespace naiad {
+namespace {
+
+const std::string kKey = "abcdefghijklmnopqrstuvwxya";  // ends in bits that are 0
+const std::string kHex = "0123456789abcdef0123456789abcdeffedcba9876543210fedcba9876543210";
+
+std::optional<JoinLink> parse(const std::string& text) {
+  const auto parsed = JoinLink::parse(text);
+  const auto* p_link = std::get_if<JoinLink>(&parsed);
+  return p_link != nullptr ? std::optional(*p_link) : std::nullopt;
+}
+
+std::string problem(const std::string& text) {
+  const auto parsed = JoinLink::parse(text);
+  const auto* p_problem = std::get_if<LinkProblem>(&parsed);
+  return p_problem != nullptr ? p_problem->sentence : "";
+}
+
+TEST(ShortKey, IsTheFirst128BitsInBase32) {
+  // base32 of the 16 bytes 01 23 … ef 01 23 … ef, as coreutils' base32 prints it.
+  EXPECT_EQ(ShortKey::of(*Fingerprint::parse(kHex)).text(), "aerukz4jvpg66ajdivtytk6n54");
+}
+
+TEST(ShortKey, EveryBitOfTheFirstHalfCountsAndNoOtherOne) {
+  const ShortKey whole = ShortKey::of(*Fingerprint::parse(kHex));
+  for (std::size_t digit = 0; digit < kHex.size(); ++digit) {
+    std::string other = kHex;
+    other[digit] = other[digit] == '0' ? '1' : '0';
+    EXPECT_EQ(ShortKey::of(*Fingerprint::parse(other)) == whole, digit >= 32) << digit;
+  }
+}
+
+TEST(ShortKey, TextComesBackInEitherCase) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 200; ++i) {
+    std::string hex;
+    for (int digit = 0; digit < 64; ++digit) hex += "0123456789abcdef"[random() % 16];
+    const ShortKey key = ShortKey::of(*Fingerprint::parse(hex));
+    std::string upper = key.text();
+    for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    EXPECT_EQ(ShortKey::parse(key.text()), key);
+    EXPECT_EQ(ShortKey::parse(upper), key);
+    EXPECT_EQ(key.text().size(), 26u);
+  }
+}
+
+TEST(ShortKey, OtherTextsAreRefused) {
+  ASSERT_TRUE(ShortKey::parse(kKey));
+  for (const std::string& text :
+       {std::string(), kKey.substr(1), kKey + "a", "0" + kKey.substr(1), "1" + kKey.substr(1),
+        "8" + kKey.substr(1), kKey.substr(1) + "=", kKey.substr(1) + "b", kHex, std::string(26, '\0')}) {
+    EXPECT_FALSE(ShortKey::parse(text)) << text;
+  }
+}
+
+TEST(JoinLink, TakesWhatServersPrintAndDesktopsPassOn) {
+  const struct {
+    std::string text;
+    std::string host;
+    int port;
+    std::string room;
+  } good[] = {{"naiad://game.example#" + kKey, "game.example", 9876, ""},
+              {"naiad://game.example:9877#" + kKey, "game.example", 9877, ""},
+              {"NAIAD://Game.Example/#" + kKey, "Game.Example", 9876, ""},
+              {"naiad://192.0.2.7:1/tron#" + kKey, "192.0.2.7", 1, "tron"},
+              {"naiad://[2001:db8::1]#" + kKey, "2001:db8::1", 9876, ""},
+              {"naiad://[::1]:65535/a.b-c_9#" + kKey, "::1", 65535, "a.b-c_9"},
+              {"naiad://%5B::1%5D:65535/tr%6fn#%61" + kKey.substr(1), "::1", 65535, "tron"},
+              {"naiad://a_b.c-d.example.#" + kKey, "a_b.c-d.example.", 9876, ""}};
+  for (const auto& g : good) {
+    const auto link = parse(g.text);
+    ASSERT_TRUE(link) << g.text << ": " << problem(g.text);
+    EXPECT_EQ(link->where.host, g.host);
+    EXPECT_EQ(link->where.port, g.port);
+    EXPECT_EQ(link->room, g.room);
+    EXPECT_EQ(link->key.text(), kKey);
+    EXPECT_EQ(parse(link->text()), link);
+  }
+  EXPECT_EQ(parse("naiad://[::1]:9876/tron#" + kKey)->text(), "naiad://[::1]/tron#" + kKey);
+}
+
+TEST(JoinLink, EachFaultHasItsSentence) {
+  const struct {
+    std::string text;
+    const char* part;
+  } bad[] = {{"naiad://game.example", "no key"},
+             {"naiad://game.example#", "no key"},
+             {"naiad://game.example#" + kKey.substr(1), "26 letters"},
+             {"naiad://game.example#" + kHex, "26 letters"},
+             {"naiad://game.example#" + kKey + "#", "26 letters"},
+             {"naiad://game.example#%", "26 letters"},
+             {"naiad:game.example#" + kKey, "naiad://"},
+             {"http://game.example#" + kKey, "naiad://"},
+             {"naiad://game.example?password=x#" + kKey, "?"},
+             {"naiad://ann@game.example#" + kKey, "user"},
+             {"naiad://ann%40game.example#" + kKey, "user"},
+             {"naiad://ga me#" + kKey, "blank"},
+             {"naiad://g\xc3\xa4me#" + kKey, "ASCII"},
+             {"naiad://game\033[2J#" + kKey, "blank"},
+             {"naiad://game%1b#" + kKey, "printable"},
+             {"naiad://game%00#" + kKey, "printable"},
+             {"naiad://game%2#" + kKey, "printable"},
+             {"naiad://game%-1#" + kKey, "printable"},
+             {"naiad://game/%zz#" + kKey, "printable"},
+             {"naiad://" + std::string(600, 'a') + "#" + kKey, "512"},
+             {"naiad://game.example/a/b#" + kKey, "room"},
+             {"naiad://game.example/../x#" + kKey, "room"},
+             {"naiad://game.example/.#" + kKey, "room"},
+             {"naiad://game.example/-x#" + kKey, "room"},
+             {"naiad://game.example/" + std::string(33, 'a') + "#" + kKey, "room"}};
+  for (const auto& b : bad)
+    EXPECT_NE(problem(b.text).find(b.part), std::string::npos) << b.text << ": " << problem(b.text);
+}
+
+TEST(JoinLink, HostsThatAreNoneAreRefused) {
+  for (const std::string& host : {std::string(),
+                                  std::string("-oProxyCommand=x"),
+                                  std::string("%2dv"),
+                                  std::string("."),
+                                  std::string("a..b"),
+                                  std::string(".a"),
+                                  std::string(64, 'a'),
+                                  std::string("a:"),
+                                  std::string("a:0"),
+                                  std::string("a:65536"),
+                                  std::string("a:+1"),
+                                  std::string("a:000001"),
+                                  std::string("a:1:2"),
+                                  std::string("::1"),
+                                  std::string("[::1"),
+                                  std::string("[]"),
+                                  std::string("[::1]9"),
+                                  std::string("[127.0.0.1]"),
+                                  std::string("[fe80::1%25eth0]"),
+                                  std::string("a;b"),
+                                  std::string("a$b"),
+                                  std::string("a`b"),
+                                  std::string("a,b"),
+                                  std::string("a*")}) {
+    EXPECT_FALSE(parse("naiad://" + host + "#" + kKey)) << host;
+  }
+}
+
+TEST(JoinLink, AnyBytesAreRefusedOrComeBackTheSame) {
+  std::mt19937 random(11);
+  const std::string letters = "naid:/#[]%2F.@?-0a" + kKey + std::string(1, '\0') + "\xff";
+  int good = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    std::string text = "naiad://game.example:9877/tron#" + kKey;
+    for (std::size_t changes = random() % 4; changes > 0; --changes)
+      text[random() % text.size()] = letters[random() % letters.size()];
+    const auto link = parse(text);
+    if (!link) continue;
+    ++good;
+    EXPECT_EQ(parse(link->text()), link) << text;
+  }
+  EXPECT_GT(good, 1000);
+}
+
+}  // namespace
+}  // namespace naiad
