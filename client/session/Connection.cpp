@@ -18,7 +18,7 @@ Connection::Connection(asio::io_context& context, ServerAddress address, Session
       m_address(std::move(address)),
       m_options(std::move(options)),
       m_rejoin(rejoin) {
-  if (m_trust.insecure || m_options.open_socket) return;
+  if (m_trust.insecure || m_options.open_socket || m_options.visit) return;
   m_options.open_socket = [&context](const Endpoint& server) -> std::unique_ptr<DatagramSocket> {
     UdpOptions udp;
     udp.address = server.isIPv4() ? "0.0.0.0" : "::";
@@ -36,13 +36,19 @@ void Connection::start() {
 
 void Connection::attempt() {
   m_next_attempt = Time::max();
-  m_connector.connect(m_address.host, m_address.port, kConnectTimeout,
-                      [this](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
-                        if (!channel) return attemptFailed(error);
-                        const std::string refusal = whyUntrusted();
-                        if (refusal.empty()) return attach(std::move(channel));
-                        finish(State::kRefused, refusal);
-                      });
+  connect(m_connector, [this](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
+    if (!channel) return attemptFailed(error);
+    const std::string refusal = whyUntrusted();
+    if (refusal.empty()) return attach(std::move(channel));
+    finish(State::kRefused, refusal);
+  });
+}
+
+void Connection::connect(TcpConnector& connector, TcpConnector::Done done) {
+  const auto& visit = m_options.visit;
+  if (!visit) return connector.connect(m_address.host, m_address.port, kConnectTimeout, std::move(done));
+  connector.connectFor(visit->visitor, visit->socket, m_address.host, m_address.port, kConnectTimeout,
+                       std::move(done));
 }
 
 // Why the server that was reached is not trusted; empty if it is. Nothing is sent to one that is not.
@@ -61,12 +67,11 @@ std::string Connection::whyUntrusted() const {
 
 // A failure is harmless: the attempt is repeated later. The session's token is sent to its own server only.
 void Connection::openSecond() {
-  m_second_connector.connect(m_address.host, m_address.port, kConnectTimeout,
-                             [this](std::unique_ptr<ReliableChannel> channel, const std::string&) {
-                               const auto& facts = m_second_connector.peerFacts();
-                               if (!channel || !m_session || !facts || facts->key != m_token_key) return;
-                               m_session->startSecond(std::move(channel));
-                             });
+  connect(m_second_connector, [this](std::unique_ptr<ReliableChannel> channel, const std::string&) {
+    const auto& facts = m_second_connector.peerFacts();
+    if (!channel || !m_session || !facts || facts->key != m_token_key) return;
+    m_session->startSecond(std::move(channel));
+  });
 }
 
 void Connection::attach(std::unique_ptr<ReliableChannel> channel) {

@@ -89,6 +89,7 @@ class Connection {
 
  private:
   void attempt();
+  void connect(TcpConnector& connector, TcpConnector::Done done);
   void openSecond();
   std::string whyUntrusted() const;
   void attach(std::unique_ptr<ReliableChannel> channel);

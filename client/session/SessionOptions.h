@@ -1,10 +1,12 @@
 // What a client says in its hello, and where it gets sockets and time.
 #pragma once
 
+#include <asio/ip/tcp.hpp>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "shared/net/datagram/DatagramSocket.h"
@@ -14,6 +16,12 @@ namespace naiad {
 namespace wire {
 class ClientMessage;
 }
+
+/// How a program of the server's machine joins for somebody elsewhere (VisitorsListener.h).
+struct Visit {
+  std::string socket;               ///< path of the visitors' socket
+  asio::ip::tcp::endpoint visitor;  ///< where they are
+};
 
 /// What the Hello says.
 struct SessionOptions {
@@ -27,6 +35,7 @@ struct SessionOptions {
   bool fresh = false;          ///< with nothing but the token: an earlier process had the session
   std::uint32_t received = 0;  ///< else: number of the newest reliable frame received
   bool second_stream = false;  ///< with the token: a stream beside that of the session
+  std::optional<Visit> visit;  ///< empty: this program is the player's own. Else there are no datagrams
   /// Makes a socket for datagrams to an endpoint; empty: no datagrams (a Connection that encrypts puts UDP
   /// there). May return null.
   std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> open_socket;

@@ -4,6 +4,7 @@
 
 #include "shared/net/base/SafeText.h"
 #include "shared/net/stream/JoinLink.h"
+#include "shared/net/stream/VisitorHeader.h"
 
 namespace naiad {
 namespace {
@@ -26,6 +27,16 @@ std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust
   }
   address = {link.where.host, link.where.port};
   trust.link_key = link.key;
+  return {};
+}
+
+std::string applyVisit(const ServerChoice& server, const ServerTrust& trust, SessionOptions& session) {
+  if (server.visitors.empty() && server.visitor.empty()) return {};
+  if (server.visitors.empty() || server.visitor.empty()) return "--visitors and --visitor come together.";
+  if (trust.insecure) return "--visitors needs encryption, so not --insecure.";
+  const auto visitor = visitorFromText(server.visitor);
+  if (!visitor) return quoted(server.visitor) + " is no ADDRESS:PORT of a visitor.";
+  session.visit = Visit{server.visitors, *visitor};
   return {};
 }
 
@@ -61,15 +72,21 @@ std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, Sessi
        "NAIAD_PASSWORD"},
       {"--insecure", &trust.insecure, "Without encryption, to a server on this machine (for tests)",
        "NAIAD_INSECURE"}};
+  const std::vector<Option> doors = {
+      {"--visitors", &server.visitors,
+       "For doors: join through this visitors' socket of a server on this machine (dfserver --visitors)"},
+      {"--visitor", &server.visitor, "With it: the address of the player, ADDRESS:PORT"}};
   options[0].type = "HEX";
   options[1].type = "FILE";
   options[2].p_from_environment = &server.is_password_ambient;
+  options.insert(options.end(), doors.begin(), doors.end());
   return options;
 }
 
 std::string resolveServer(const ServerChoice& server, ServerAddress& address, ServerTrust& trust,
                           SessionOptions& session) {
   if (server.dropsPassword()) session.password.clear();
+  if (const std::string wrong = applyVisit(server, trust, session); !wrong.empty()) return wrong;
   if (!JoinLink::isMeant(server.text)) {
     const auto parsed = ServerAddress::parse(server.text);
     if (!parsed) return quoted(server.text) + " is no server: a link (naiad://…) or HOST[:PORT] is wanted.";

@@ -12,6 +12,8 @@ namespace naiad {
 /// What the command line and the environment say about the server.
 struct ServerChoice {
   std::string text;                  ///< HOST[:PORT], or a link (JoinLink.h)
+  std::string visitors;              ///< path of a visitors' socket; empty: straight to the server
+  std::string visitor;               ///< with it, whom this program joins for: ADDRESS:PORT
   bool is_password_ambient = false;  ///< the password lies in the environment: nobody gave it for this server
 
   /// A link does not get the password from the environment: strangers make links.

@@ -31,14 +31,15 @@ constexpr int kMinServed = 64;
 }  // namespace
 
 NetworkThread::NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port,
-                             OnChannel on_channel, TcpOptions options, TlsListening tls, Limits limits)
+                             OnChannel on_channel, TcpOptions options, TlsListening tls, Limits limits,
+                             VisitorsListening visitors)
     : m_home(home),
       m_on_channel(std::move(on_channel)),
       m_limits(limits),
       m_port(openServerPort(
           m_io, address, port,
           [this](std::unique_ptr<ReliableChannel> channel) { meetStream(std::move(channel)); }, options,
-          std::move(tls))) {}
+          std::move(tls), std::move(visitors))) {}
 
 NetworkThread::~NetworkThread() {
   stop();
@@ -278,6 +279,7 @@ void NetworkThread::obeyOrder(const Order& order, std::string_view bytes) {
       m_datagrams.erase(datagrams);
       break;
     case Order::kCloseListener:
+      if (m_port.visitors) m_port.visitors->close();
       m_port.streams->close();
       break;
     case Order::kTickEnd:

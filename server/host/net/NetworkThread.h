@@ -68,7 +68,7 @@ class NetworkThread {
   /// Listens from now on (ServerPort.h); connections wait until start(). `home`: runs the tick thread's
   /// handlers; from there `on_channel` and the channels' callbacks are called. Throws ListenError.
   NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port, OnChannel on_channel,
-                TcpOptions options, TlsListening tls, Limits limits);
+                TcpOptions options, TlsListening tls, Limits limits, VisitorsListening visitors = {});
   NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port, OnChannel on_channel,
                 TcpOptions options, TlsListening tls)
       : NetworkThread(home, address, port, std::move(on_channel), options, std::move(tls), Limits{}) {}
@@ -115,6 +115,10 @@ class NetworkThread {
   /// The rest: when the thread does not run.
   RelayCounters counters() const;
   const TcpListener::Counters& streamCounters() const { return m_port.streams->counters(); }
+  /// All zero without a visitors' socket.
+  VisitorsListener::Counters visitorCounters() const {
+    return m_port.visitors ? m_port.visitors->counters() : VisitorsListener::Counters();
+  }
 
  private:
   friend class RelayedDatagrams;

@@ -46,10 +46,9 @@ bool lacksIPv6(const std::error_code& code) {
   return code == std::errc::address_family_not_supported || code == std::errc::address_not_available;
 }
 
-}  // namespace
-
-ServerPort openServerPort(asio::io_context& context, const std::string& address, std::uint16_t port,
-                          TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls) {
+ServerPort openAddress(asio::io_context& context, const std::string& address, std::uint16_t port,
+                       const TcpListener::OnChannel& on_channel, const TcpOptions& options,
+                       const TlsListening& tls) {
   const auto attempt = [&](const std::string& where) {
     return port == 0 ? openAny(context, where, on_channel, options, tls)
                      : open(context, where, port, on_channel, options, tls);
@@ -60,6 +59,21 @@ ServerPort openServerPort(asio::io_context& context, const std::string& address,
     if (address != "::" || !lacksIPv6(error.code())) throw;
   }
   return attempt("0.0.0.0");
+}
+
+}  // namespace
+
+ServerPort openServerPort(asio::io_context& context, const std::string& address, std::uint16_t port,
+                          TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls,
+                          VisitorsListening visitors) {
+  ServerPort opened = openAddress(context, address, port, on_channel, options, tls);
+  if (visitors.path.empty()) return opened;
+  opened.visitors = std::make_unique<VisitorsListener>(
+      context, std::move(visitors),
+      [p_streams = opened.streams.get()](asio::generic::stream_protocol::socket socket, const auto& visitor) {
+        p_streams->adopt(std::move(socket), visitor);
+      });
+  return opened;
 }
 
 }  // namespace naiad

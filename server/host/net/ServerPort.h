@@ -7,17 +7,21 @@
 
 #include "host/net/DatagramService.h"
 #include "shared/net/stream/TcpListener.h"
+#include "shared/net/stream/VisitorsListener.h"
 
 namespace naiad {
 
 struct ServerPort {
   std::unique_ptr<TcpListener> streams;
+  std::unique_ptr<VisitorsListener> visitors;  ///< null: nobody asked for it
   std::unique_ptr<DatagramService> datagrams;  ///< null without encryption
 };
 
 /// Listen on a numeric address ("::" hears IPv4 as well, and is 0.0.0.0 where there is no IPv6). `port` 0
-/// takes one that is free for both. Without `tls`: loopback, streams only. Throws ListenError.
+/// takes one that is free for both. Without `tls`: loopback, streams only. What comes to the visitors' socket
+/// goes on as a stream that came to the port. Throws ListenError.
 ServerPort openServerPort(asio::io_context& context, const std::string& address, std::uint16_t port,
-                          TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls);
+                          TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls,
+                          VisitorsListening visitors = {});
 
 }  // namespace naiad

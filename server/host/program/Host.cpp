@@ -18,6 +18,7 @@
 #include "host/program/OpenFiles.h"
 #include "host/program/StopSignals.h"
 #include "host/session/LookAlikes.h"
+#include "host/world/Descendants.h"
 #include "naiad.pb.h"
 
 namespace naiad {
@@ -99,7 +100,7 @@ Host::Host(HostOptions options, std::string game, Log log)
           [this](std::unique_ptr<ReliableChannel> channel) {
             m_sessions.add(std::move(channel), sessionEvents(), Clock::now());
           },
-          channelOptions(), listening()),
+          channelOptions(), listening(), NetworkThread::Limits(), visitors()),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
       m_rooms(m_options, m_sessions, m_counters, m_log, [this] { flush(); }),
@@ -144,6 +145,14 @@ TlsListening Host::listening() {
     return m_handshakes.has(prefix, Clock::now());
   };
   return listening;
+}
+
+// A world may have this user's rights, and so those on the socket: it would be as many visitors as it likes.
+VisitorsListening Host::visitors() const {
+  VisitorsListening visitors;
+  visitors.path = m_options.visitors;
+  visitors.is_refused = [](pid_t process) { return isDescendant(process); };
+  return visitors;
 }
 
 std::optional<Fingerprint> Host::fingerprint() const {

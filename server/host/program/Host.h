@@ -90,6 +90,7 @@ class Host : public df::Runner {
   using Clock = std::chrono::steady_clock;
 
   TlsListening listening();
+  VisitorsListening visitors() const;
   Session::Events sessionEvents();
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);

@@ -101,6 +101,11 @@ std::vector<Row> tableOf(HostOptions& o) {
       {{"--join-file", &o.join_file,
         "Write address and fingerprint, as dfclient takes them, to this file once listening",
         "NAIAD_JOIN_FILE"}},
+      {{"--visitors", &o.visitors,
+        "Path of a socket at which doors of this machine (ssh, browsers) bring visitors with their "
+        "addresses; who may "
+        "write to the file, mode 0660, is believed",
+        "NAIAD_VISITORS"}},
       {{"--link-host", &o.link_host,
         "Name or address by which players elsewhere reach this machine, for the link that is printed; "
         "HOST:PORT "
@@ -173,6 +178,7 @@ std::string complaint(const HostOptions& options) {
            std::to_string(kMinFrameMicros) + " or more";
   }
   if (options.certificate.empty() != options.key.empty()) return "--certificate and --key come together";
+  if (options.insecure && !options.visitors.empty()) return "--visitors needs encryption, so not --insecure";
   return printedComplaint(options);
 }
 

@@ -40,6 +40,7 @@ struct HostOptions {
   std::string password;           ///< that players need: itself, or its Argon2id hash; empty: none
   double grace = 60;              ///< seconds that a player whose connection broke may take to come back
   std::string join_file;          ///< write what to pass to dfclient here once listening
+  std::string visitors;           ///< path of a socket for doors (VisitorsListener.h); empty: none
   std::string link_host;  ///< HOST[:PORT] for players elsewhere, in the link that is printed; empty: unknown
   std::string ssh_door;   ///< USER@HOST[:PORT] of a door to this server; empty: none
   std::string web_address;            ///< of a page to play on; empty: none

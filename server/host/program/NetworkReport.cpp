@@ -23,6 +23,14 @@ void logRefusals(const NetworkThread& network, const LogLine& log) {
                                    {"refused_from_prefix", streams.refused_from_prefix},
                                    {"refused_too_often", streams.refused_too_often}});
   if (!text.empty()) log("streams: " + text);
+  const VisitorsListener::Counters visitors = network.visitorCounters();
+  text = listCounters({{"visitors", visitors.visitors},
+                       {"bad_headers", visitors.bad_headers},
+                       {"late_headers", visitors.late_headers},
+                       {"crowded", visitors.crowded},
+                       {"refused_peers", visitors.refused_peers},
+                       {"failed_accepts", visitors.failed_accepts}});
+  if (!text.empty()) log("visitors' socket: " + text);
   const RelayCounters relay = network.counters();
   text = listCounters({{"datagrams_in_dropped", relay.datagrams_in_dropped},
                        {"datagrams_out_dropped", relay.datagrams_out_dropped},

@@ -73,7 +73,8 @@ std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, co
   GamePlace place;
   place.files = {module, gameSettings()};
   place.folders = GameModule::resourceFolders(module);
-  place.server_files = {options.log_file, options.join_file, options.port_file, options.truth_file};
+  place.server_files = {options.log_file, options.join_file, options.port_file, options.truth_file,
+                        options.visitors};
   place.secrets = {config};
   return launch(options, place, moduleArguments(options, module), log);
 }
@@ -86,7 +87,8 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
   place.files = {gameSettings()};
   if (!error) place.folders = {folder.string(), folder.parent_path().string()};
   place.logs = {log_file};
-  place.server_files = {options.log_file, options.join_file, options.port_file, options.truth_file};
+  place.server_files = {options.log_file, options.join_file, options.port_file, options.truth_file,
+                        options.visitors};
   place.is_program = true;
   return launch(options, place, ownArguments(), log);
 }

@@ -62,6 +62,16 @@ std::map<pid_t, pid_t> parents() {
 
 }  // namespace
 
+bool isDescendant(pid_t process) {
+  constexpr int kMaxSteps = 64;  // what is read while it changes may go in circles
+  const pid_t self = getpid();
+  for (int step = 0; step < kMaxSteps && process > 1; ++step) {
+    process = parentOf(process);
+    if (process == self) return true;
+  }
+  return false;
+}
+
 std::vector<Descendant> findDescendants() {
   const std::map<pid_t, pid_t> parent_of = parents();
   std::vector<Descendant> found;

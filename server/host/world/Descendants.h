@@ -15,6 +15,9 @@ struct Descendant {
 /// All that are there now, as /proc says. Zombies, too.
 std::vector<Descendant> findDescendants();
 
+/// Does this process descend from the present one, as /proc says now? False for the present one itself.
+bool isDescendant(pid_t process);
+
 /// Its children, zombies among them, as the kernel lists them for it alone: at once, and however they hide in
 /// /proc. For a process without threads. None on a kernel that keeps no such list.
 std::vector<pid_t> findChildren();

@@ -4,6 +4,8 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
+#include <algorithm>
+#include <cstring>
 #include <sstream>
 #include <utility>
 
@@ -16,9 +18,20 @@ using asio::ip::tcp;
 
 constexpr int kNotSentLowWater = 4096;  // bytes the kernel takes beyond what it could send
 
+std::string peerOf(const ByteStream::Socket& socket) {
+  std::error_code error;
+  const auto generic = socket.remote_endpoint(error);
+  tcp::endpoint endpoint;
+  const int family = error ? AF_UNSPEC : generic.data()->sa_family;
+  if (family != AF_INET && family != AF_INET6) return "unknown";
+  std::memcpy(endpoint.data(), generic.data(), std::min(generic.size(), endpoint.capacity()));
+  return peerName(endpoint);
+}
+
 }  // namespace
 
-ByteStream::ByteStream(tcp::socket socket) : socket_(std::move(socket)) {
+ByteStream::ByteStream(Socket socket, std::string peer) : socket_(std::move(socket)), peer_(std::move(peer)) {
+  if (peer_.empty()) peer_ = peerOf(socket_);
   // A socket that is broken already fails here and again, visibly, on the first read.
   std::error_code ignored;
   socket_.non_blocking(true, ignored);
@@ -31,10 +44,7 @@ std::string ByteStream::exportSecret(std::string_view, std::string_view, std::si
   return {};
 }
 
-std::string peerName(const tcp::socket& socket) {
-  std::error_code error;
-  const tcp::endpoint endpoint = socket.remote_endpoint(error);
-  if (error) return "unknown";
+std::string peerName(const tcp::endpoint& endpoint) {
   std::ostringstream text;
   text << tcp::endpoint(unmapped(endpoint.address()), endpoint.port());
   return text.str();

@@ -4,6 +4,7 @@
 // the socket's io_context. No call blocks or calls back; the caller waits for the socket and tries again.
 #pragma once
 
+#include <asio/generic/stream_protocol.hpp>
 #include <asio/ip/tcp.hpp>
 #include <cstddef>
 #include <span>
@@ -29,8 +30,12 @@ class ByteStream {
     std::size_t bytes = 0;  ///< with kDone: how many were read or written, at least one
   };
 
-  /// Takes a connected socket; makes it non-blocking, with TCP_NODELAY and TCP_NOTSENT_LOWAT of 4 KiB.
-  explicit ByteStream(asio::ip::tcp::socket socket);
+  /// TCP, or a socket of the file system.
+  using Socket = asio::generic::stream_protocol::socket;
+
+  /// Takes a connected socket; makes it non-blocking, TCP with TCP_NODELAY and TCP_NOTSENT_LOWAT of 4 KiB.
+  /// `peer`: "192.0.2.7:40000", who is at the other end; empty: whom the socket is connected with.
+  explicit ByteStream(Socket socket, std::string peer = {});
   virtual ~ByteStream() = default;
   ByteStream(const ByteStream&) = delete;
   ByteStream& operator=(const ByteStream&) = delete;
@@ -47,13 +52,17 @@ class ByteStream {
   virtual std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
 
   /// For waiting and closing; the bytes belong to read() and write().
-  asio::ip::tcp::socket& socket() { return socket_; }
+  Socket& socket() { return socket_; }
+  /// "127.0.0.1:40000", "[::1]:40000"; IPv4 mapped into IPv6 is shown as IPv4. "unknown" if that is not
+  /// known.
+  const std::string& peer() const { return peer_; }
 
  private:
-  asio::ip::tcp::socket socket_;
+  Socket socket_;
+  std::string peer_;
 };
 
-/// "127.0.0.1:40000", "[::1]:40000"; IPv4 mapped into IPv6 is shown as IPv4. "unknown" if not connected.
-std::string peerName(const asio::ip::tcp::socket& socket);
+/// An address as ByteStream::peer() writes it.
+std::string peerName(const asio::ip::tcp::endpoint& endpoint);
 
 }  // namespace naiad

@@ -26,7 +26,7 @@ StreamConnection::StreamConnection(std::unique_ptr<ByteStream> stream, const Tcp
     : stream_(std::move(stream)),
       deadline_(stream_->socket().get_executor()),
       options_(options),
-      peer_(peerName(stream_->socket())),
+      peer_(stream_->peer()),
       reader_(options.receive_limit) {}
 
 void StreamConnection::start(ReliableChannel::Callbacks callbacks) {
@@ -109,7 +109,11 @@ void StreamConnection::send(std::string_view frame) {
 std::size_t StreamConnection::unsentBytes() {
   if (phase_ == Phase::kClosed || write_failed_) return 0;
   int in_kernel = 0;
-  if (ioctl(stream_->socket().native_handle(), SIOCOUTQNSD, &in_kernel) != 0 || in_kernel < 0) in_kernel = 0;
+  const int socket = stream_->socket().native_handle();
+  // Sockets of the file system know SIOCOUTQ alone: the memory of what the other program has not read yet,
+  // which is more than its bytes.
+  const bool known = ioctl(socket, SIOCOUTQNSD, &in_kernel) == 0 || ioctl(socket, SIOCOUTQ, &in_kernel) == 0;
+  if (!known || in_kernel < 0) in_kernel = 0;
   return queuedBytes() + static_cast<std::size_t>(in_kernel);
 }
 

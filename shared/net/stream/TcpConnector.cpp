@@ -1,14 +1,19 @@
 #include "shared/net/stream/TcpConnector.h"
 
+#include <sys/un.h>
+
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
+#include <asio/local/stream_protocol.hpp>
 #include <asio/post.hpp>
+#include <asio/write.hpp>
 #include <utility>
 #include <vector>
 
 #include "shared/net/stream/PatientTimer.h"
 #include "shared/net/stream/TcpChannel.h"
 #include "shared/net/stream/TlsHandshake.h"
+#include "shared/net/stream/VisitorHeader.h"
 
 namespace naiad {
 namespace {
@@ -27,6 +32,7 @@ struct TcpConnector::Attempt : std::enable_shared_from_this<Attempt> {
       : connector(owner),
         resolver(owner.context_),
         socket(owner.context_),
+        door(owner.context_),
         timer(owner.context_),
         share(owner.context_),
         done(std::move(callback)),
@@ -38,7 +44,9 @@ struct TcpConnector::Attempt : std::enable_shared_from_this<Attempt> {
   void take(const std::vector<tcp::endpoint>& addresses);
   void tryNext();
   void onConnected(const std::error_code& error);
-  void shakeHands();
+  void enter(const std::string& path, const tcp::endpoint& visitor);
+  void onEntered(const std::error_code& error, const std::string& path, const tcp::endpoint& visitor);
+  void shakeHands(ByteStream::Socket connected);
   void onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream, const std::string& problem);
   void giveOut(std::unique_ptr<ReliableChannel> channel, std::optional<PeerFacts> facts);
   void fail(const std::string& sentence);
@@ -50,6 +58,7 @@ struct TcpConnector::Attempt : std::enable_shared_from_this<Attempt> {
   TcpConnector& connector;  // there while `done` is
   tcp::resolver resolver;
   tcp::socket socket;
+  asio::local::stream_protocol::socket door;  // in place of `socket`: TcpConnector::connectFor()
   PatientTimer timer;
   PatientTimer share;  // of the address that is being tried
   std::shared_ptr<TlsHandshake> handshake;
@@ -132,16 +141,36 @@ void TcpConnector::Attempt::onConnected(const std::error_code& error) {
     last_problem = "Could not connect to " + target() + " (" + error.message() + ").";
     tryNext();
   } else if (connector.tls_) {
-    shakeHands();
+    shakeHands(std::move(socket));
   } else {
     giveOut(makeTcpChannel(std::move(socket), connector.options_), std::nullopt);
   }
 }
 
-void TcpConnector::Attempt::shakeHands() {
+void TcpConnector::Attempt::enter(const std::string& path, const tcp::endpoint& visitor) {
+  if (path.size() >= sizeof(sockaddr_un::sun_path))
+    return fail(path + " is too long for the path of a socket.");
+  door.async_connect(asio::local::stream_protocol::endpoint(path),
+                     [self = shared_from_this(), path, visitor](const std::error_code& error) {
+                       if (self->done) self->onEntered(error, path, visitor);
+                     });
+}
+
+void TcpConnector::Attempt::onEntered(const std::error_code& error, const std::string& path,
+                                      const tcp::endpoint& visitor) {
+  std::error_code failed = error;
+  const std::string header = visitorHeader(visitor);
+  // It fits into the socket's empty buffer as a whole.
+  if (!failed) asio::write(door, asio::buffer(header), failed);
+  if (!failed) return shakeHands(std::move(door));
+  connector.was_hung_up_on_ = failed == asio::error::try_again || failed == asio::error::broken_pipe;
+  fail("Could not connect through " + path + " (" + failed.message() + ").");
+}
+
+void TcpConnector::Attempt::shakeHands(ByteStream::Socket connected) {
   try {
-    handshake =
-        std::make_shared<TlsHandshake>(std::make_unique<TlsStream>(std::move(socket), connector.tls_, host));
+    handshake = std::make_shared<TlsHandshake>(
+        std::make_unique<TlsStream>(std::move(connected), connector.tls_, host));
   } catch (const TlsError& error) {
     fail(error.what());
     return;
@@ -184,6 +213,7 @@ void TcpConnector::Attempt::hangUp() {
   if (const auto old = std::exchange(handshake, nullptr)) old->cancel();
   std::error_code ignored;
   socket.close(ignored);
+  door.close(ignored);
 }
 
 void TcpConnector::Attempt::stop() {
@@ -217,6 +247,17 @@ void TcpConnector::connect(const std::string& host, const std::vector<tcp::endpo
   attempt->limit(timeout);
   asio::post(context_, [attempt, endpoints] {
     if (attempt->done) attempt->take(endpoints);
+  });
+}
+
+void TcpConnector::connectFor(const tcp::endpoint& visitor, const std::string& socket,
+                              const std::string& host, std::uint16_t port, std::chrono::milliseconds timeout,
+                              Done done) {
+  const auto attempt = begin(host, std::move(done));
+  attempt->port = port;
+  attempt->limit(timeout);
+  asio::post(context_, [attempt, socket, visitor] {
+    if (attempt->done) attempt->enter(socket, visitor);
   });
 }
 

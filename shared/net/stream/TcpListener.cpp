@@ -42,7 +42,8 @@ struct TcpListener::State : std::enable_shared_from_this<State> {
   void listen(const std::string& numeric_address, std::uint16_t port);
   void accept();
   void onAccepted(const std::error_code& error, tcp::socket socket);
-  void shakeHands(tcp::socket socket);
+  void meet(tcp::socket socket);
+  void shakeHands(ByteStream::Socket socket, const tcp::endpoint& peer);
   bool makeRoom(HalfOpenLimit& places, const AddressPrefix& prefix);
   bool judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id, const AddressPrefix& prefix);
   void hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id);
@@ -103,11 +104,7 @@ void TcpListener::State::accept() {
 void TcpListener::State::onAccepted(const std::error_code& error, tcp::socket socket) {
   if (!acceptor.is_open()) return;
   if (!error) {
-    if (tls.context) {
-      shakeHands(std::move(socket));
-    } else {
-      on_channel(makeTcpChannel(std::move(socket), options));
-    }
+    meet(std::move(socket));
     if (acceptor.is_open()) accept();
     return;
   }
@@ -118,13 +115,15 @@ void TcpListener::State::onAccepted(const std::error_code& error, tcp::socket so
   });
 }
 
-void TcpListener::State::shakeHands(tcp::socket socket) {
-  std::error_code error;
-  const tcp::endpoint peer = socket.remote_endpoint(error);
-  if (error) {  // gone already
-    ++counters.handshakes_failed;
-    return;
-  }
+void TcpListener::State::meet(tcp::socket socket) {
+  if (!tls.context) return on_channel(makeTcpChannel(std::move(socket), options));
+  std::error_code gone;
+  const tcp::endpoint peer = socket.remote_endpoint(gone);
+  if (!gone) return shakeHands(std::move(socket), peer);
+  ++counters.handshakes_failed;
+}
+
+void TcpListener::State::shakeHands(ByteStream::Socket socket, const tcp::endpoint& peer) {
   const AddressPrefix prefix = AddressPrefix::of(peer.address());
   if (tls.has_handshake && !tls.has_handshake(prefix)) {  // what OpenSSL takes for a stream is saved
     ++counters.refused_too_often;
@@ -134,7 +133,8 @@ void TcpListener::State::shakeHands(tcp::socket socket) {
   if (!makeRoom(places, prefix)) return;
   std::shared_ptr<TlsHandshake> handshake;
   try {
-    handshake = std::make_shared<TlsHandshake>(std::make_unique<TlsStream>(std::move(socket), tls.context));
+    handshake = std::make_shared<TlsHandshake>(
+        std::make_unique<TlsStream>(std::move(socket), tls.context, "", peerName(peer)));
   } catch (const TlsError&) {  // no memory
     ++counters.handshakes_failed;
     return;
@@ -239,6 +239,10 @@ const TcpListener::Counters& TcpListener::counters() const {
 
 std::size_t TcpListener::halfOpen() const {
   return state_->strangers.count() + state_->known.count();
+}
+
+void TcpListener::adopt(asio::generic::stream_protocol::socket socket, const tcp::endpoint& peer) {
+  if (state_->acceptor.is_open() && state_->tls.context) state_->shakeHands(std::move(socket), peer);
 }
 
 void TcpListener::close() {

@@ -1,6 +1,8 @@
 // Waits for connections on one address and port: TLS, or plain TCP on loopback.
 #pragma once
 
+#include <asio/generic/stream_protocol.hpp>
+#include <asio/ip/tcp.hpp>
 #include <asio/ts/netfwd.hpp>
 #include <chrono>
 #include <cstddef>
@@ -97,6 +99,10 @@ class TcpListener {
   std::uint64_t failedAccepts() const { return counters().failed_accepts; }
   /// Handshakes under way.
   std::size_t halfOpen() const;
+
+  /// Go on with a connection that came otherwise (VisitorsListener.h) as with one that was accepted here from
+  /// `peer`. With TLS only; ignored after close().
+  void adopt(asio::generic::stream_protocol::socket socket, const asio::ip::tcp::endpoint& peer);
 
   /// Stop listening; no callback after this. Connections not accepted yet are reset by the kernel, handshakes
   /// under way are broken off.

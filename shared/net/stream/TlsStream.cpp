@@ -45,9 +45,11 @@ void TlsStream::Free::operator()(ssl_st* ssl) const {
   SSL_free(ssl);
 }
 
-TlsStream::TlsStream(tcp::socket socket, std::shared_ptr<const TlsContext> context,
-                     const std::string& server_name)
-    : ByteStream(std::move(socket)), context_(std::move(context)), ssl_(SSL_new(context_->get())) {
+TlsStream::TlsStream(Socket socket, std::shared_ptr<const TlsContext> context, const std::string& server_name,
+                     std::string peer)
+    : ByteStream(std::move(socket), std::move(peer)),
+      context_(std::move(context)),
+      ssl_(SSL_new(context_->get())) {
   bio_.socket = this->socket().native_handle();
   BIO* const bio = ssl_ ? bio_.make() : nullptr;
   if (!bio) throw TlsError("No memory for a TLS connection.");

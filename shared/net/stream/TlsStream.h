@@ -22,8 +22,8 @@ class TlsStream : public ByteStream {
   /// Client or server, as the context is. A client names the server it wants: a name goes into the hello
   /// (SNI, RFC 6066 3) and a name or address is what the certificate must be for. Throws TlsError if out of
   /// memory.
-  TlsStream(asio::ip::tcp::socket socket, std::shared_ptr<const TlsContext> context,
-            const std::string& server_name = {});
+  TlsStream(Socket socket, std::shared_ptr<const TlsContext> context, const std::string& server_name = {},
+            std::string peer = {});
   ~TlsStream() override;
 
   /// Go on with the handshake; kDone when it is complete. Before that, nothing else may be called. A server

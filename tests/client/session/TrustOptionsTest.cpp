@@ -64,5 +64,24 @@ TEST(TrustOptions, ThePasswordInTheEnvironmentIsNotForLinks) {
   EXPECT_EQ(Resolved("game.example", "xyzzy", true).session.password, "xyzzy");
 }
 
+TEST(TrustOptions, AVisitHasASocketAndAnAddress) {
+  const auto problem = [](const std::string& visitors, const std::string& visitor, bool insecure = false) {
+    ServerAddress address;
+    ServerTrust trust;
+    trust.insecure = insecure;
+    SessionOptions session;
+    const ServerChoice choice{.text = "127.0.0.1", .visitors = visitors, .visitor = visitor};
+    const std::string wrong = resolveServer(choice, address, trust, session);
+    EXPECT_EQ(wrong.empty() && !visitors.empty(), session.visit.has_value());
+    return wrong;
+  };
+  EXPECT_EQ(problem("", ""), "");
+  EXPECT_EQ(problem("/run/x", "192.0.2.7:50312"), "");
+  EXPECT_NE(problem("/run/x", ""), "");
+  EXPECT_NE(problem("", "192.0.2.7:50312"), "");
+  EXPECT_NE(problem("/run/x", "192.0.2.7"), "");
+  EXPECT_NE(problem("/run/x", "192.0.2.7:50312", true), "");
+}
+
 }  // namespace
 }  // namespace naiad

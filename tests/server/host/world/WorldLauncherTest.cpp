@@ -211,6 +211,29 @@ TEST(Descendants, ChildrenAreFoundWithoutThePublicListOfProcesses) {
   close(ends[1]);
 }
 
+TEST(Descendants, AChildAndItsChildAndNoOtherProcess) {
+  int ends[2];
+  int names[2];
+  ASSERT_EQ(pipe(ends), 0);
+  ASSERT_EQ(pipe(names), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const pid_t grandchild = fork();
+    close(ends[1]);
+    char byte = 0;
+    if (grandchild != 0 && write(names[1], &grandchild, sizeof grandchild) < 0) _exit(1);
+    _exit(read(ends[0], &byte, 1) == 0 ? 0 : 1);
+  }
+  pid_t grandchild = 0;
+  ASSERT_EQ(read(names[0], &grandchild, sizeof grandchild), static_cast<ssize_t>(sizeof grandchild));
+  EXPECT_TRUE(isDescendant(child));
+  EXPECT_TRUE(isDescendant(grandchild));
+  for (const pid_t other : {getpid(), getppid(), pid_t(1), pid_t(0), pid_t(-1)})
+    EXPECT_FALSE(isDescendant(other)) << other;
+  for (const int end : {ends[0], ends[1], names[0], names[1]}) close(end);
+  waitpid(child, nullptr, 0);
+}
+
 TEST(WorldLauncher, HasASessionOfItsOwnAndOnlyItsDescriptors) {
   const WorldLauncher launcher(shell(
       "read pid comm state ppid pgrp session tty rest < /proc/$$/stat; for n in 0 1 2 3 4 5 6 7 8 9 10; do "

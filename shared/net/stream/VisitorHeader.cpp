@@ -1,0 +1,109 @@
+#include "shared/net/stream/VisitorHeader.h"
+
+#include <asio/ip/address.hpp>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <system_error>
+
+#include "shared/net/base/AddressPrefix.h"
+
+namespace naiad {
+namespace {
+
+using asio::ip::tcp;
+
+constexpr std::string_view kSignature("\r\n\r\n\0\r\nQUIT\n", 12);
+constexpr unsigned char kProxy = 0x21;
+constexpr unsigned char kTcpIPv4 = 0x11;
+constexpr unsigned char kTcpIPv6 = 0x21;
+constexpr std::size_t kPorts = 4;  // bytes of both
+
+unsigned byteAt(std::string_view text, std::size_t at) {
+  return static_cast<unsigned char>(text[at]);
+}
+
+unsigned wordAt(std::string_view text, std::size_t at) {
+  return byteAt(text, at) << 8 | byteAt(text, at + 1);
+}
+
+template <class Address>
+Address addressAt(std::string_view text, std::size_t at) {
+  typename Address::bytes_type bytes;
+  std::memcpy(bytes.data(), text.data() + at, bytes.size());
+  return Address(bytes);
+}
+
+std::size_t addressBytes(std::string_view header) {
+  return byteAt(header, 13) == kTcpIPv4 ? 4 : 16;
+}
+
+bool isVisitors(const asio::ip::address& address) {
+  const bool broadcast = address.is_v4() && address.to_v4() == asio::ip::address_v4::broadcast();
+  return !address.is_unspecified() && !address.is_multicast() && !broadcast;
+}
+
+void addWord(std::string& text, unsigned word) {
+  text.push_back(static_cast<char>(word >> 8 & 0xff));
+  text.push_back(static_cast<char>(word & 0xff));
+}
+
+template <class Address>
+void addAddresses(std::string& text, const Address& source) {
+  const auto bytes = source.to_bytes();
+  text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  text.append(bytes.size(), '\0');
+}
+
+}  // namespace
+
+std::optional<std::size_t> visitorHeaderRest(std::string_view begin) {
+  if (begin.size() != kVisitorHeaderBegin || !begin.starts_with(kSignature)) return std::nullopt;
+  const unsigned family = byteAt(begin, 13);
+  if (byteAt(begin, 12) != kProxy || (family != kTcpIPv4 && family != kTcpIPv6)) return std::nullopt;
+  const std::size_t rest = wordAt(begin, 14);
+  if (rest < 2 * addressBytes(begin) + kPorts || rest > kMaxVisitorHeaderRest) return std::nullopt;
+  return rest;
+}
+
+std::optional<tcp::endpoint> readVisitorHeader(std::string_view header) {
+  const auto rest = visitorHeaderRest(header.substr(0, kVisitorHeaderBegin));
+  if (!rest || header.size() != kVisitorHeaderBegin + *rest) return std::nullopt;
+  const std::size_t size = addressBytes(header);
+  const asio::ip::address address =
+      unmapped(size == 4 ? asio::ip::address(addressAt<asio::ip::address_v4>(header, kVisitorHeaderBegin))
+                         : asio::ip::address(addressAt<asio::ip::address_v6>(header, kVisitorHeaderBegin)));
+  const unsigned port = wordAt(header, kVisitorHeaderBegin + 2 * size);
+  if (!isVisitors(address) || port == 0) return std::nullopt;
+  return tcp::endpoint(address, static_cast<std::uint16_t>(port));
+}
+
+std::optional<tcp::endpoint> visitorFromText(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  std::string host(text.substr(0, colon));
+  const bool in_brackets = host.starts_with('[') && host.ends_with(']');
+  if (in_brackets) host = host.substr(1, host.size() - 2);
+  std::error_code error;
+  const auto address = unmapped(asio::ip::make_address(host, error));
+  std::uint16_t port = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, wrong] = std::from_chars(text.data() + colon + 1, last, port);
+  if (error || wrong != std::errc{} || end != last || port == 0 || !isVisitors(address)) return std::nullopt;
+  if (in_brackets == (host.find(':') == std::string::npos)) return std::nullopt;
+  return tcp::endpoint(address, port);
+}
+
+std::string visitorHeader(const tcp::endpoint& visitor) {
+  const asio::ip::address address = unmapped(visitor.address());
+  std::string header(kSignature);
+  header.push_back(static_cast<char>(kProxy));
+  header.push_back(static_cast<char>(address.is_v4() ? kTcpIPv4 : kTcpIPv6));
+  addWord(header, static_cast<unsigned>(2 * (address.is_v4() ? 4 : 16) + kPorts));
+  address.is_v4() ? addAddresses(header, address.to_v4()) : addAddresses(header, address.to_v6());
+  addWord(header, visitor.port());
+  addWord(header, 0);
+  return header;
+}
+
+}  // namespace naiad

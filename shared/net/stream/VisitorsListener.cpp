@@ -1,0 +1,263 @@
+#include "shared/net/stream/VisitorsListener.h"
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+
+#include <array>
+#include <asio/io_context.hpp>
+#include <asio/local/stream_protocol.hpp>
+#include <asio/steady_timer.hpp>
+#include <set>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "shared/net/stream/PatientTimer.h"
+#include "shared/net/stream/TcpListener.h"
+#include "shared/net/stream/VisitorHeader.h"
+
+namespace naiad {
+namespace {
+
+using asio::local::stream_protocol;
+using Socket = stream_protocol::socket;
+namespace fs = std::filesystem;
+
+/// How long to wait for descriptors or memory to come free.
+constexpr std::chrono::milliseconds kRetryDelay{100};
+constexpr mode_t kMode = 0660;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& why, std::error_code code) {
+  throw ListenError("Cannot listen for visitors on " + path.string() + ": " + why + ".", code);
+}
+
+[[noreturn]] void fail(const fs::path& path, std::error_code code) {
+  code.assign(code.value(), std::generic_category());  // Asio's category does not compare with std::errc
+  fail(path, code.message(), code);
+}
+
+/// Nobody listens on it: its server was killed.
+bool isStale(asio::io_context& context, const fs::path& path) {
+  Socket socket(context);
+  std::error_code error;
+  socket.connect(stream_protocol::endpoint(path.string()), error);
+  return error == asio::error::connection_refused;
+}
+
+void makePlace(asio::io_context& context, const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (!fs::exists(status)) return;
+  if (status.type() != fs::file_type::socket)
+    fail(path, "there is something that is no socket", std::make_error_code(std::errc::file_exists));
+  if (!isStale(context, path))
+    fail(path, "another program listens there", std::make_error_code(std::errc::address_in_use));
+  fs::remove(path, error);
+}
+
+std::pair<dev_t, ino_t> identityOf(const fs::path& path) {
+  struct stat facts {};
+  return ::lstat(path.c_str(), &facts) == 0 ? std::pair(facts.st_dev, facts.st_ino)
+                                            : std::pair<dev_t, ino_t>();
+}
+
+pid_t peerOf(Socket& socket) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  return ::getsockopt(socket.native_handle(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 ? peer.pid : 0;
+}
+
+/// A connection whose header is not complete. Its bytes are read one part after the other and none beyond,
+/// for what follows is the visitor's. Keeps itself alive while it runs.
+class Arrival : public std::enable_shared_from_this<Arrival> {
+ public:
+  enum class End { kVisitor, kBad, kLate };
+  using Done = std::function<void(End end, Socket socket, const asio::ip::tcp::endpoint& visitor)>;
+
+  explicit Arrival(Socket socket) : m_socket(std::move(socket)), m_timer(m_socket.get_executor()) {
+    std::error_code ignored;
+    m_socket.non_blocking(true, ignored);
+  }
+
+  void run(std::chrono::milliseconds timeout, Done done) {
+    m_done = std::move(done);
+    m_timer.start(timeout, [self = shared_from_this()] { self->finish(End::kLate, {}); });
+    await();
+  }
+  void cancel() {
+    m_done = nullptr;
+    m_timer.cancel();
+    std::error_code ignored;
+    m_socket.close(ignored);
+  }
+
+ private:
+  void await() {
+    m_socket.async_wait(Socket::wait_read, [self = shared_from_this()](const std::error_code& error) {
+      if (!error) self->read();
+    });
+  }
+
+  void read() {
+    while (m_done) {
+      std::error_code error;
+      const std::size_t size =
+          m_socket.read_some(asio::buffer(m_header.data() + m_size, m_wanted - m_size), error);
+      if (error == asio::error::would_block || error == asio::error::interrupted) return await();
+      if (error) return finish(End::kBad, {});
+      m_size += size;
+      if (m_size == m_wanted) judge();
+    }
+  }
+
+  void judge() {
+    const std::string_view header(m_header.data(), m_size);
+    if (m_size == kVisitorHeaderBegin) {
+      const auto rest = visitorHeaderRest(header);
+      if (!rest) return finish(End::kBad, {});
+      m_wanted += *rest;
+      return;
+    }
+    const auto visitor = readVisitorHeader(header);
+    visitor ? finish(End::kVisitor, *visitor) : finish(End::kBad, {});
+  }
+
+  void finish(End end, const asio::ip::tcp::endpoint& visitor) {
+    if (!m_done) return;
+    const Done call = std::exchange(m_done, nullptr);
+    m_timer.cancel();
+    call(end, std::move(m_socket), visitor);
+  }
+
+  Socket m_socket;
+  PatientTimer m_timer;
+  Done m_done;  ///< empty: over
+  std::array<char, kVisitorHeaderBegin + kMaxVisitorHeaderRest> m_header{};
+  std::size_t m_size = 0;
+  std::size_t m_wanted = kVisitorHeaderBegin;
+};
+
+}  // namespace
+
+struct VisitorsListener::State : std::enable_shared_from_this<State> {
+  State(asio::io_context& context, VisitorsListening wanted, OnVisitor callback)
+      : acceptor(context), retry(context), options(std::move(wanted)), on_visitor(std::move(callback)) {}
+
+  void listen(asio::io_context& context);
+  void accept();
+  void onAccepted(const std::error_code& error, Socket socket);
+  void meet(Socket socket);
+  void onArrival(Arrival::End end, Socket socket, const asio::ip::tcp::endpoint& visitor);
+  void close();
+
+  stream_protocol::acceptor acceptor;
+  asio::steady_timer retry;
+  VisitorsListening options;
+  OnVisitor on_visitor;
+  std::pair<dev_t, ino_t> file;
+  std::set<std::shared_ptr<Arrival>> arrivals;
+  Counters counters;
+};
+
+// Nobody can connect before the mode is right: that takes write permission and listen().
+void VisitorsListener::State::listen(asio::io_context& context) {
+  const fs::path& path = options.path;
+  if (path.string().size() >= sizeof(sockaddr_un::sun_path))
+    fail(path, "the path is longer than 107 bytes", std::make_error_code(std::errc::filename_too_long));
+  makePlace(context, path);
+  std::error_code error;
+  acceptor.open(stream_protocol(), error);
+  if (!error) acceptor.bind(stream_protocol::endpoint(path.string()), error);
+  if (error) fail(path, error);
+  file = identityOf(path);
+  if (::chmod(path.c_str(), kMode) != 0) error = std::error_code(errno, std::generic_category());
+  if (!error) acceptor.listen(stream_protocol::acceptor::max_listen_connections, error);
+  if (!error) return;
+  close();
+  fail(path, error);
+}
+
+void VisitorsListener::State::accept() {
+  acceptor.async_accept([self = shared_from_this()](const std::error_code& error, Socket socket) {
+    self->onAccepted(error, std::move(socket));
+  });
+}
+
+void VisitorsListener::State::onAccepted(const std::error_code& error, Socket socket) {
+  if (!acceptor.is_open()) return;
+  if (!error) {
+    meet(std::move(socket));
+    if (acceptor.is_open()) accept();
+    return;
+  }
+  ++counters.failed_accepts;
+  retry.expires_after(kRetryDelay);
+  retry.async_wait([self = shared_from_this()](const std::error_code&) {
+    if (self->acceptor.is_open()) self->accept();
+  });
+}
+
+void VisitorsListener::State::meet(Socket socket) {
+  if (options.is_refused && options.is_refused(peerOf(socket))) {
+    ++counters.refused_peers;
+    return;
+  }
+  if (arrivals.size() >= options.max_waiting) {
+    ++counters.crowded;
+    return;
+  }
+  const auto arrival = std::make_shared<Arrival>(std::move(socket));
+  arrivals.insert(arrival);
+  arrival->run(options.header_timeout, [self = shared_from_this(), p_arrival = std::weak_ptr(arrival)](
+                                           Arrival::End end, Socket taken, const auto& visitor) {
+    self->arrivals.erase(p_arrival.lock());
+    self->onArrival(end, std::move(taken), visitor);
+  });
+}
+
+void VisitorsListener::State::onArrival(Arrival::End end, Socket socket,
+                                        const asio::ip::tcp::endpoint& visitor) {
+  if (end == Arrival::End::kLate) {
+    ++counters.late_headers;
+  } else if (end == Arrival::End::kBad) {
+    ++counters.bad_headers;
+  } else {
+    ++counters.visitors;
+    on_visitor(std::move(socket), visitor);
+  }
+}
+
+// Another server may have put its own socket there.
+void VisitorsListener::State::close() {
+  if (!acceptor.is_open()) return;
+  std::error_code ignored;
+  acceptor.close(ignored);
+  retry.cancel();
+  for (const auto& arrival : std::exchange(arrivals, {})) arrival->cancel();
+  if (identityOf(options.path) == file) fs::remove(options.path, ignored);
+}
+
+VisitorsListener::VisitorsListener(asio::io_context& context, VisitorsListening options, OnVisitor on_visitor)
+    : state_(std::make_shared<State>(context, std::move(options), std::move(on_visitor))) {
+  state_->listen(context);
+  state_->accept();
+}
+
+VisitorsListener::~VisitorsListener() {
+  close();
+}
+
+const VisitorsListener::Counters& VisitorsListener::counters() const {
+  return state_->counters;
+}
+
+std::size_t VisitorsListener::waiting() const {
+  return state_->arrivals.size();
+}
+
+void VisitorsListener::close() {
+  state_->close();
+}
+
+}  // namespace naiad

@@ -1,0 +1,149 @@
+// The visitors' socket of a real server: who comes through it counts as whoever is behind it.
+#include <gtest/gtest.h>
+
+#include <asio/local/stream_protocol.hpp>
+#include <asio/write.hpp>
+
+#include "BusyWorld.h"
+#include "Home.h"
+#include "TestServer.h"
+#include "host/auth/PasswordHash.h"
+#include "shared/net/stream/VisitorHeader.h"
+
+namespace naiad::test {
+namespace {
+
+using Local = asio::local::stream_protocol;
+
+class VisitorsTest : public testing::Test {
+ protected:
+  VisitorsTest() {
+    options = home.server();
+    options.visitors = home.identity("visitors");
+    options.max_per_address = 2;
+  }
+  static std::function<void(df::World&)> world() {
+    return [](df::World& world) { populateBusyWorld(world, 5); };
+  }
+  ClientSetup from(const std::string& address, const std::string& name) const {
+    ClientSetup setup = home.player(name);
+    setup.options.visit = Visit{options.visitors, *visitorFromText(address)};
+    return setup;
+  }
+  bool joins(TestClient& client) {
+    return serveUntil(context, {&client}, [&] { return client.joined() || client.connection().isOver(); }) &&
+           client.joined();
+  }
+  std::string refusal(TestClient& client) { return joins(client) ? "" : client.connection().sentence(); }
+
+  Home home;
+  asio::io_context context;
+  HostOptions options;
+};
+
+TEST_F(VisitorsTest, PlayersCountWhereTheyAre) {
+  TestServer server(world(), options);
+  TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
+  TestClient bob(context, server.port(), from("192.0.2.7:50313", "bob"));
+  ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+  ASSERT_TRUE(joins(bob)) << bob.connection().sentence();
+  TestClient third(context, server.port(), from("192.0.2.7:50314", "cat"));
+  EXPECT_NE(refusal(third), "");
+  TestClient dan(context, server.port(), from("[2001:db8::7]:50315", "dan"));
+  TestClient eve(context, server.port(), home.player("eve"));
+  EXPECT_TRUE(joins(dan)) << dan.connection().sentence();
+  EXPECT_TRUE(joins(eve)) << "this machine itself has nobody in the game";
+  EXPECT_EQ(server.counters().joined, 4u);
+}
+
+TEST_F(VisitorsTest, AVisitorWhoGuessesPasswordsLocksOutNobodyElse) {
+  options.password = PasswordHash::of("xyzzy", {.memory_kib = 64, .passes = 1}).text();
+  TestServer server(world(), options);
+  for (int i = 0; i < 5; ++i) {
+    ClientSetup setup = from("192.0.2.7:50312", "eve");
+    setup.options.password = "guess " + std::to_string(i);
+    TestClient eve(context, server.port(), setup);
+    EXPECT_EQ(refusal(eve), "That is not this server's password.");
+  }
+  ClientSetup setup = from("192.0.2.7:50399", "eve");
+  setup.options.password = "xyzzy";
+  TestClient eve(context, server.port(), setup);
+  EXPECT_EQ(refusal(eve), "Too many wrong passwords. Try again in a minute.");
+  for (ClientSetup other : {from("192.0.2.8:50312", "ann"), home.player("bob")}) {
+    other.options.password = "xyzzy";
+    TestClient client(context, server.port(), other);
+    EXPECT_EQ(refusal(client), "");
+  }
+}
+
+TEST_F(VisitorsTest, HeadersThatAreNoneCostTheGameNothing) {
+  TestServer server(world(), options);
+  TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
+  ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+  std::string oversized = visitorHeader({asio::ip::make_address("192.0.2.9"), 9});
+  oversized[14] = static_cast<char>(0xff);
+  std::vector<Local::socket> doors;
+  for (int i = 0; i < 200; ++i) {  // more than may wait
+    doors.emplace_back(context).connect(Local::endpoint(options.visitors));
+    const std::string& text = i % 3 == 0   ? oversized
+                              : i % 3 == 1 ? std::string("GET / HTTP/1.1\r\n\r\n")
+                                           : "";
+    std::error_code gone;
+    asio::write(doors.back(), asio::buffer(text), gone);
+  }
+  const std::uint32_t tick = ann.newestTick();
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick + 200; }));
+  EXPECT_TRUE(ann.joined());
+  EXPECT_EQ(server.counters().joined, 1u);
+  doors.clear();
+  TestClient bob(context, server.port(), from("192.0.2.8:50312", "bob"));
+  EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return bob.joined() || bob.connection().isOver(); }));
+  EXPECT_TRUE(bob.joined()) << bob.connection().sentence();
+}
+
+TEST_F(VisitorsTest, NoHeaderIsReadFromTcp) {
+  TestServer server(world(), options);
+  asio::ip::tcp::socket socket(context);
+  socket.connect({asio::ip::make_address("127.0.0.1"), server.port()});
+  asio::write(socket, asio::buffer(visitorHeader({asio::ip::make_address("192.0.2.9"), 9})));
+  // The server takes it for a broken TLS hello: it hangs up, after an alert at most.
+  socket.non_blocking(true);
+  std::string heard;
+  TestClient ann(context, server.port(), home.player("ann"));
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] {
+    char bytes[256];
+    std::error_code error;
+    const std::size_t size = socket.read_some(asio::buffer(bytes), error);
+    heard.append(bytes, size);
+    return error && error != asio::error::would_block;
+  }));
+  EXPECT_LE(heard.size(), 7u) << "a TLS record with an alert";
+  EXPECT_TRUE(joins(ann));
+  EXPECT_EQ(server.counters().connections, 1u);
+}
+
+TEST_F(VisitorsTest, ASessionIsResumedThroughIt) {
+  options.grace = 60;
+  TestServer server(world(), options);
+  ClientSetup setup = from("192.0.2.7:50312", "ann");
+  setup.sessions = home.sessions();
+  std::uint32_t player = 0;
+  {
+    TestClient ann(context, server.port(), setup);
+    ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+    player = ann.player();
+  }
+  setup.options.visit->visitor.port(50400);
+  TestClient again(context, server.port(), setup);
+  ASSERT_TRUE(joins(again)) << again.connection().sentence();
+  EXPECT_EQ(again.player(), player);
+}
+
+TEST_F(VisitorsTest, WhereNobodyListensThereIsASentence) {
+  TestServer server(world(), home.server());
+  TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
+  EXPECT_NE(refusal(ann).find("Could not connect through"), std::string::npos) << ann.connection().sentence();
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <asio/ip/address.hpp>
+#include <random>
+
+#include "shared/net/stream/VisitorHeader.h"
+
+namespace naiad {
+namespace {
+
+using asio::ip::tcp;
+
+const std::string kSignature("\r\n\r\n\0\r\nQUIT\n", 12);
+
+tcp::endpoint at(const std::string& address, std::uint16_t port) {
+  return {asio::ip::make_address(address), port};
+}
+
+std::string bytes(std::initializer_list<int> values) {
+  std::string text;
+  for (const int value : values) text.push_back(static_cast<char>(value));
+  return text;
+}
+
+TEST(VisitorHeader, IsThatOfTheProxyProtocol) {
+  // As in section 2.2 of its specification: 192.0.2.7:50312, and a destination that is not known.
+  const std::string written =
+      kSignature + bytes({0x21, 0x11, 0, 12, 192, 0, 2, 7, 0, 0, 0, 0, 0xc4, 0x88, 0, 0});
+  EXPECT_EQ(visitorHeader(at("192.0.2.7", 50312)), written);
+  EXPECT_EQ(readVisitorHeader(written), at("192.0.2.7", 50312));
+}
+
+TEST(VisitorHeader, AddressesComeBack) {
+  for (const auto& visitor :
+       {at("192.0.2.7", 1), at("127.0.0.1", 65535), at("2001:db8::7", 50312), at("::1", 2)}) {
+    const std::string header = visitorHeader(visitor);
+    EXPECT_EQ(visitorHeaderRest(header.substr(0, kVisitorHeaderBegin)), header.size() - kVisitorHeaderBegin);
+    EXPECT_EQ(readVisitorHeader(header), visitor);
+  }
+  EXPECT_EQ(readVisitorHeader(visitorHeader(at("::ffff:192.0.2.7", 9))), at("192.0.2.7", 9));
+}
+
+TEST(VisitorHeader, IPv4MappedIntoIPv6CountsAsIPv4) {
+  std::string header = visitorHeader(at("2001:db8::7", 9));
+  const auto mapped = asio::ip::make_address_v6("::ffff:192.0.2.7").to_bytes();
+  std::copy(mapped.begin(), mapped.end(), header.begin() + kVisitorHeaderBegin);
+  EXPECT_EQ(readVisitorHeader(header), at("192.0.2.7", 9));
+}
+
+TEST(VisitorHeader, WhatFollowsTheAddressesIsPassedOverUpToALimit) {
+  std::string header = visitorHeader(at("192.0.2.7", 9));
+  header[15] = static_cast<char>(kMaxVisitorHeaderRest);
+  header.resize(kVisitorHeaderBegin + kMaxVisitorHeaderRest, 'x');
+  EXPECT_EQ(readVisitorHeader(header), at("192.0.2.7", 9));
+  header[15] = static_cast<char>(kMaxVisitorHeaderRest + 1);
+  header.push_back('x');
+  EXPECT_FALSE(readVisitorHeader(header));
+  header[14] = static_cast<char>(0xff);
+  EXPECT_FALSE(visitorHeaderRest(header.substr(0, kVisitorHeaderBegin)));
+}
+
+TEST(VisitorHeader, OtherFormsAreRefused) {
+  const std::string good = visitorHeader(at("192.0.2.7", 9));
+  const auto with = [&good](std::size_t place, int value) {
+    std::string changed = good;
+    changed[place] = static_cast<char>(value);
+    return changed;
+  };
+  ASSERT_TRUE(readVisitorHeader(good));
+  EXPECT_FALSE(readVisitorHeader(with(0, 'P'))) << "version 1, or no header";
+  EXPECT_FALSE(readVisitorHeader(with(12, 0x20))) << "LOCAL";
+  EXPECT_FALSE(readVisitorHeader(with(12, 0x11))) << "another version";
+  EXPECT_FALSE(readVisitorHeader(with(13, 0x00))) << "no family";
+  EXPECT_FALSE(readVisitorHeader(with(13, 0x12))) << "UDP";
+  EXPECT_FALSE(readVisitorHeader(with(13, 0x31))) << "a socket of the file system";
+  EXPECT_FALSE(readVisitorHeader(with(13, 0x21))) << "longer addresses than there are";
+  EXPECT_FALSE(readVisitorHeader(with(15, 11))) << "too short";
+  EXPECT_FALSE(readVisitorHeader("PROXY TCP4 192.0.2.7 192.0.2.8 9 9\r\n"));
+  for (std::size_t size = 0; size < good.size(); ++size)
+    EXPECT_FALSE(readVisitorHeader(good.substr(0, size)));
+  EXPECT_FALSE(readVisitorHeader(good + "x"));
+}
+
+TEST(VisitorHeader, AddressesThatNobodyHasAreRefused) {
+  for (const char* address : {"0.0.0.0", "255.255.255.255", "224.0.0.1", "::", "ff02::1"})
+    EXPECT_FALSE(readVisitorHeader(visitorHeader(at(address, 9)))) << address;
+  EXPECT_FALSE(readVisitorHeader(visitorHeader(at("192.0.2.7", 0))));
+}
+
+TEST(VisitorHeader, AnyBytesAreRefusedOrNameAnAddress) {
+  std::mt19937 random(5);
+  const std::string good = visitorHeader(at("2001:db8::7", 50312));
+  int read = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    std::string header = good;
+    for (std::size_t changes = random() % 5; changes > 0; --changes)
+      header[random() % header.size()] = static_cast<char>(random());
+    const auto visitor = readVisitorHeader(header);
+    read += visitor ? 1 : 0;
+    if (visitor) {
+      EXPECT_EQ(readVisitorHeader(visitorHeader(*visitor)), visitor);
+    }
+  }
+  EXPECT_GT(read, 4000);
+}
+
+TEST(VisitorHeader, TextsOfAddressesAreReadStrictly) {
+  EXPECT_EQ(visitorFromText("192.0.2.7:50312"), at("192.0.2.7", 50312));
+  EXPECT_EQ(visitorFromText("[2001:db8::7]:50312"), at("2001:db8::7", 50312));
+  for (const char* text :
+       {"", ":", "192.0.2.7", "192.0.2.7:", "192.0.2.7:0", "192.0.2.7:65536", "192.0.2.7:1x", "2001:db8::7",
+        "[192.0.2.7]:9", "localhost:9", "0.0.0.0:9", "[::1:9", "::1]:9"})
+    EXPECT_FALSE(visitorFromText(text)) << text;
+}
+
+}  // namespace
+}  // namespace naiad

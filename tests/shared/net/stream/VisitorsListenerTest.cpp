@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <asio/io_context.hpp>
+#include <asio/local/connect_pair.hpp>
+#include <asio/local/stream_protocol.hpp>
+#include <asio/write.hpp>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "shared/net/stream/TcpListener.h"
+#include "shared/net/stream/VisitorHeader.h"
+#include "shared/net/stream/VisitorsListener.h"
+#include "tests/shared/net/Loopback.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::chrono_literals;
+using Local = asio::local::stream_protocol;
+namespace fs = std::filesystem;
+
+const tcp::endpoint kVisitor(asio::ip::make_address("192.0.2.7"), 50312);
+
+class VisitorsListenerTest : public testing::Test {
+ protected:
+  VisitorsListenerTest() {
+    std::string name = testing::TempDir() + "naiad-visitors-XXXXXX";
+    m_folder = mkdtemp(name.data());
+    m_options.path = m_folder / "visitors";
+  }
+  ~VisitorsListenerTest() override { fs::remove_all(m_folder); }
+
+  void listen() {
+    m_listener.emplace(m_context, m_options, [this](ByteStream::Socket socket, const tcp::endpoint& visitor) {
+      m_sockets.push_back(std::move(socket));
+      m_visitors.push_back(visitor);
+    });
+  }
+  Local::socket connect() {
+    Local::socket socket(m_context);
+    socket.connect(Local::endpoint(m_options.path.string()));
+    return socket;
+  }
+  /// A connection that has said this.
+  Local::socket say(const std::string& text) {
+    Local::socket socket = connect();
+    asio::write(socket, asio::buffer(text));
+    return socket;
+  }
+  bool isHungUpOn(Local::socket& socket) {
+    socket.non_blocking(true);
+    return runUntil(m_context, [&socket] {
+      char byte = 0;
+      std::error_code error;
+      socket.read_some(asio::buffer(&byte, 1), error);
+      return error && error != asio::error::would_block;
+    });
+  }
+  bool waitFor(const std::uint64_t& counter) {
+    return runUntil(m_context, [&counter] { return counter == 1; });
+  }
+  const VisitorsListener::Counters& counters() const { return m_listener->counters(); }
+  std::error_code failure() {
+    try {
+      listen();
+    } catch (const ListenError& error) {
+      return error.code();
+    }
+    return {};
+  }
+
+  asio::io_context m_context;
+  fs::path m_folder;
+  VisitorsListening m_options;
+  std::optional<VisitorsListener> m_listener;
+  std::vector<ByteStream::Socket> m_sockets;
+  std::vector<tcp::endpoint> m_visitors;
+};
+
+TEST_F(VisitorsListenerTest, AVisitorComesWithTheirAddressAndNoByteOfTheirsIsRead) {
+  listen();
+  const auto door = say(visitorHeader(kVisitor) + "hello");
+  ASSERT_TRUE(runUntil(m_context, [this] { return !m_sockets.empty(); }));
+  EXPECT_EQ(m_visitors.front(), kVisitor);
+  char text[16] = {};
+  EXPECT_EQ(m_sockets.front().read_some(asio::buffer(text)), 5u);
+  EXPECT_STREQ(text, "hello");
+  EXPECT_EQ(m_listener->waiting(), 0u);
+}
+
+TEST_F(VisitorsListenerTest, AHeaderMayComeByteByByte) {
+  listen();
+  auto door = connect();
+  for (const char byte : visitorHeader(kVisitor)) {
+    EXPECT_TRUE(m_sockets.empty());
+    asio::write(door, asio::buffer(&byte, 1));
+    runReady(m_context);
+  }
+  ASSERT_TRUE(runUntil(m_context, [this] { return !m_sockets.empty(); }));
+  EXPECT_EQ(m_visitors.front(), kVisitor);
+}
+
+TEST_F(VisitorsListenerTest, WhatIsNoHeaderIsHungUpOnWithoutAByte) {
+  listen();
+  std::string oversized = visitorHeader(kVisitor);
+  oversized[14] = static_cast<char>(0xff);
+  const std::string none = visitorHeader({asio::ip::make_address("0.0.0.0"), 9});
+  std::uint64_t bad = 0;
+  for (const std::string& text : {std::string("GET / HTTP/1.1\r\n\r\n"), oversized, none,
+                                  std::string("PROXY TCP4 192.0.2.7 192.0.2.8 9 9\r\n")}) {
+    auto door = say(text);
+    EXPECT_TRUE(isHungUpOn(door)) << text;
+    EXPECT_EQ(counters().bad_headers, ++bad);
+  }
+  EXPECT_TRUE(m_sockets.empty());
+}
+
+TEST_F(VisitorsListenerTest, OneThatEndsInItsHeaderIsGone) {
+  listen();
+  say(visitorHeader(kVisitor).substr(0, 20)).close();
+  EXPECT_TRUE(waitFor(counters().bad_headers));
+}
+
+TEST_F(VisitorsListenerTest, ASlowHeaderIsHungUpOn) {
+  m_options.header_timeout = 50ms;
+  listen();
+  auto door = say(visitorHeader(kVisitor).substr(0, 20));
+  EXPECT_TRUE(isHungUpOn(door));
+  EXPECT_EQ(counters().late_headers, 1u);
+}
+
+TEST_F(VisitorsListenerTest, FewMayWait) {
+  m_options.max_waiting = 2;
+  listen();
+  auto first = connect();
+  auto second = connect();
+  ASSERT_TRUE(runUntil(m_context, [this] { return m_listener->waiting() == 2; }));
+  auto third = connect();
+  EXPECT_TRUE(isHungUpOn(third));
+  EXPECT_EQ(counters().crowded, 1u);
+  asio::write(first, asio::buffer(visitorHeader(kVisitor)));
+  EXPECT_TRUE(runUntil(m_context, [this] { return m_sockets.size() == 1; }));
+  const auto fourth = say(visitorHeader(kVisitor));
+  EXPECT_TRUE(runUntil(m_context, [this] { return m_sockets.size() == 2; })) << "a place is free again";
+}
+
+TEST_F(VisitorsListenerTest, AProgramThatMayNotIsHungUpOn) {
+  pid_t asked = 0;
+  m_options.is_refused = [&asked](pid_t process) {
+    asked = process;
+    return true;
+  };
+  listen();
+  auto door = say(visitorHeader(kVisitor));
+  EXPECT_TRUE(isHungUpOn(door));
+  EXPECT_EQ(counters().refused_peers, 1u);
+  EXPECT_EQ(asked, getpid());
+  EXPECT_TRUE(m_sockets.empty());
+}
+
+TEST_F(VisitorsListenerTest, OnlyUserAndGroupMayOpenIt) {
+  listen();
+  struct stat facts {};
+  ASSERT_EQ(stat(m_options.path.c_str(), &facts), 0);
+  EXPECT_EQ(facts.st_mode & 07777, 0660u);
+}
+
+TEST_F(VisitorsListenerTest, AStaleSocketIsReplacedAndALiveOneNever) {
+  { Local::acceptor killed(m_context, Local::endpoint(m_options.path.string())); }
+  ASSERT_TRUE(fs::exists(m_options.path));
+  listen();
+  VisitorsListener* p_first = &*m_listener;
+  EXPECT_THROW(VisitorsListener(m_context, m_options, [](auto&&...) {}), ListenError);
+  const auto door = say(visitorHeader(kVisitor));
+  EXPECT_TRUE(waitFor(p_first->counters().visitors));
+  m_listener.reset();
+  EXPECT_FALSE(fs::exists(m_options.path));
+}
+
+TEST_F(VisitorsListenerTest, WhatIsNoSocketIsNotReplaced) {
+  std::ofstream(m_options.path) << "mine";
+  EXPECT_EQ(failure(), std::errc::file_exists);
+  EXPECT_TRUE(fs::is_regular_file(m_options.path));
+  fs::remove(m_options.path);
+  fs::create_symlink(m_folder / "elsewhere", m_options.path);
+  EXPECT_EQ(failure(), std::errc::file_exists);
+  m_options.path = m_folder / std::string(120, 'x');
+  EXPECT_EQ(failure(), std::errc::filename_too_long);
+  m_options.path = m_folder / "missing" / "visitors";
+  EXPECT_EQ(failure(), std::errc::no_such_file_or_directory);
+}
+
+TEST_F(VisitorsListenerTest, AnothersSocketIsNotRemovedAtTheEnd) {
+  listen();
+  fs::remove(m_options.path);
+  const Local::acceptor other(m_context, Local::endpoint(m_options.path.string()));
+  m_listener.reset();
+  EXPECT_TRUE(fs::exists(m_options.path));
+}
+
+/// A server skips snapshots while bytes are unsent: they must count on such a socket, too.
+TEST(VisitorsChannel, BytesThatTheDoorHasNotReadAreUnsent) {
+  asio::io_context context;
+  Local::socket near(context);
+  Local::socket far(context);
+  asio::local::connect_pair(near, far);
+  const auto channel = makeTcpChannel(std::make_unique<PlainStream>(std::move(near), "192.0.2.7:50312"));
+  EXPECT_EQ(channel->peerAddress(), "192.0.2.7:50312");
+  channel->start({});
+  EXPECT_EQ(channel->unsentBytes(), 0u);
+  channel->send(std::string(3000, 'x'));
+  runReady(context);
+  EXPECT_GE(channel->unsentBytes(), 3000u);
+  std::string read(4000, '\0');
+  EXPECT_EQ(far.read_some(asio::buffer(read)), 3000 + kFrameHeaderSize);
+  EXPECT_EQ(channel->unsentBytes(), 0u);
+}
+
+}  // namespace
+}  // namespace naiad::test
