@@ -58,6 +58,8 @@ ClientApp::Outcome ClientApp::run() {
     takeEvents(m_decoder.flush(now), now);
     m_player.update(now);
     noticeSounds(now);
+    m_was_idle = isIdle(now);
+    m_leaving = m_leaving || m_was_idle;
     m_dirty = m_dirty || m_composer.isStale(now);
     if (m_dirty && now >= m_next_frame) drawFrame(now);
   }
@@ -87,6 +89,7 @@ void ClientApp::join() {
 }
 
 void ClientApp::takeTerminal() {
+  m_heard = Clock::now();
   m_guard = std::make_unique<TerminalGuard>(TerminalGuard::Options{m_options.mouse});
   m_screen =
       std::make_unique<Screen>(Screen::Options{m_options.terminal.name, m_options.ascii, m_options.colors});
@@ -105,7 +108,7 @@ ClientApp::Outcome ClientApp::leaveTerminal() {
   m_guard->restore();
   m_input.close();
   m_signals.close();
-  if (m_leaving) sayFarewell();
+  if (m_leaving && !m_hung_up) sayFarewell();
   return outcome();
 }
 
@@ -128,7 +131,7 @@ ClientApp::Outcome ClientApp::outcome() const {
     case S::kLost:
       return {kExitEnded, sentence, 0};
     default:
-      return {kExitLeft, "", m_signal};
+      return {kExitLeft, m_was_idle ? "You left, for you were away for too long." : "", m_signal};
   }
 }
 
@@ -154,10 +157,11 @@ void ClientApp::readInput() {
   const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
   if (count < 0 && (errno == EINTR || errno == EAGAIN)) return;
   if (count <= 0) {
-    m_leaving = true;  // the terminal is gone
+    noteHangUp();
     return;
   }
   const Time now = Clock::now();
+  m_heard = now;
   takeEvents(m_decoder.feed({bytes.data(), static_cast<std::size_t>(count)}, now), now);
 }
 
@@ -170,9 +174,12 @@ void ClientApp::takeSignals() {
         m_leaving = true;
         break;
       case SIGTERM:
-      case SIGHUP:
         m_leaving = true;
-        m_signal = signals[static_cast<std::size_t>(i)];
+        m_signal = SIGTERM;
+        break;
+      case SIGHUP:
+        noteHangUp();
+        m_signal = SIGHUP;
         break;
       case SIGTSTP:
         suspend();
@@ -244,7 +251,20 @@ void ClientApp::noticeSounds(Time now) {
   if (m_sounds.takeBell()) m_screen->ring();
 }
 
+/// A window that was closed is a player who left. A visitor's line may have broken, and they come back by
+/// another one.
+void ClientApp::noteHangUp() {
+  m_leaving = true;
+  m_hung_up = m_options.session.visit.has_value();
+}
+
+bool ClientApp::isIdle(Time now) const {
+  return m_options.idle_limit.count() > 0 && now - m_heard > m_options.idle_limit;
+}
+
+// A visitor has no shell to come back from.
 void ClientApp::suspend() {
+  if (m_options.session.visit) return;
   m_player.releaseKeys(Clock::now());
   m_guard->leaveModes();
   m_screen->end();

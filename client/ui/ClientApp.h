@@ -38,6 +38,7 @@ class ClientApp {
     bool mouse = true;
     bool colors = true;
     SoundMode sound = SoundMode::kNote;
+    std::chrono::seconds idle_limit{0};  ///< leave after so long without a key or the mouse; 0: never
   };
   /// How it ended.
   struct Outcome {
@@ -70,6 +71,8 @@ class ClientApp {
   void takeKittyReply(Time now);
   void noticeSounds(Time now);
   void suspend();
+  bool isIdle(Time now) const;
+  void noteHangUp();
   void resume();
   void drawFrame(Time now);
   Time nextDeadline(Time now);
@@ -91,7 +94,10 @@ class ClientApp {
 
   Time m_next_frame{};  ///< not before
   bool m_dirty = true;
+  Time m_heard{};  ///< when the player did something last
   bool m_leaving = false;
+  bool m_hung_up = false;  ///< a visitor's line is gone: the session waits for their return
+  bool m_was_idle = false;
   int m_signal = 0;
 };
 

@@ -30,6 +30,7 @@ struct CommandLine {
   bool no_resume = false;
   bool attached = false;
   bool ask_password = false;
+  int idle_limit = 0;  ///< seconds
 };
 
 std::string footer() {
@@ -116,6 +117,11 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
        .environment = "NAIAD_SOUND",
        .type = "bell|note|off",
        .default_text = "note"},
+      {.name = "--idle-limit",
+       .target = &line.idle_limit,
+       .help = "Leave after so many seconds without a key or the mouse; 0: never",
+       .environment = "NAIAD_IDLE_LIMIT",
+       .range = naiad::OptionRange{0, 86'400}},
       {.name = "--attached",
        .target = &line.attached,
        .help = "Started by the game, to end with it",
@@ -147,6 +153,7 @@ int start(int argc, char** argv) {
     options.session.password = *password;
   }
   options.mouse = !line.no_mouse;
+  options.idle_limit = std::chrono::seconds(line.idle_limit);
   const char* no_color = std::getenv("NO_COLOR");
   options.colors = no_color == nullptr || *no_color == '\0';
   std::optional<naiad::SessionFile> file;

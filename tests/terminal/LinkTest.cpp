@@ -82,7 +82,7 @@ TEST_F(LinkTest, AnotherKeyIsRefusedAndTheServerHearsNoName) {
   expectEnd(*ann, 3, "does not have the key of the link");
   m_server->signal(SIGTERM);
   m_server->waitForExit();
-  EXPECT_EQ(m_server->output().find("ann"), std::string::npos) << m_server->output();
+  EXPECT_EQ(m_server->output().find("\"ann\""), std::string::npos) << m_server->output();
 }
 
 TEST_F(LinkTest, AMalformedOneIsAUsageError) {

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <optional>
 
+#include "shared/net/stream/Framing.h"
 #include "shared/net/stream/TcpListener.h"
 #include "shared/net/stream/VisitorHeader.h"
 #include "shared/net/stream/VisitorsListener.h"

@@ -1,0 +1,315 @@
+// dfdoor: what an ssh door runs for each visitor (ForceCommand of its sshd, deploy/door): finds out who they
+// are and which game they want, and runs dfclient for them. Nothing that they type becomes a word of a
+// command but their name, which is cleaned.
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "client/door/DoorPlaces.h"
+#include "client/door/GamesList.h"
+#include "client/door/KeyFolders.h"
+#include "client/door/VisitorQuestions.h"
+#include "shared/net/base/SafeFile.h"
+#include "shared/net/stream/ByteStream.h"
+#include "shared/net/stream/VisitorHeader.h"
+#include "shared/options/Options.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+enum ExitCode { kUsage = 2, kRefused = 3, kNoTerminal = 5 };
+
+constexpr const char* kHelp =
+    "sshd runs it for each visitor of a door; deploy/door sets one up. It reads SSH_CONNECTION, "
+    "SSH_USER_AUTH, TERM\n"
+    "and the terminal, and refuses to run anything that was asked for (SSH_ORIGINAL_COMMAND).\n\n"
+    "Lines of games.list: NAME LINK SOCKET [password], of dfserver --visitors SOCKET.\n\n"
+    "Exit codes: 2 wrong usage, a command was asked for, or games.list is wrong; 3 no place is free; 5 no "
+    "terminal;\n"
+    "else those of dfclient.\n";
+
+constexpr std::chrono::seconds kPatience{60};   // for an answer
+constexpr std::chrono::seconds kTakeOver{10};   // for the end of a client that is taken over from
+constexpr std::chrono::milliseconds kStep{50};  // between two looks
+constexpr std::size_t kMaxList = 65'536;        // bytes of games.list
+constexpr std::size_t kMaxTerm = 64;
+constexpr std::size_t kMaxAuthInfo = 65'536;
+
+struct DoorOptions {
+  fs::path games;
+  fs::path state;
+  std::string client;
+  naiad::DoorPlace::Limits limits;
+  int idle_limit = 600;
+};
+
+/// Why a visitor cannot come in: a sentence for them.
+struct Refusal {
+  ExitCode code;
+  std::string sentence;
+};
+
+// ---- signals ----------------------------------------------------------------------------------------------
+
+volatile sig_atomic_t g_client = 0;
+volatile sig_atomic_t g_end = 0;  // the signal that ends this
+
+extern "C" void passOn(int signal) {
+  g_end = signal;
+  if (g_client > 0) ::kill(static_cast<pid_t>(g_client), signal);
+}
+
+/// A visitor has no shell to come back to.
+void ignoreStops() {
+  for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) ::signal(signal, SIG_IGN);
+}
+
+/// The client's terminal goes, or the door is closed: it ends first.
+void passOnEnds() {
+  for (const int signal : {SIGINT, SIGQUIT}) ::signal(signal, SIG_IGN);
+  struct sigaction action {};
+  action.sa_handler = passOn;
+  for (const int signal : {SIGHUP, SIGTERM}) ::sigaction(signal, &action, nullptr);
+}
+
+// ---- who comes --------------------------------------------------------------------------------------------
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+/// "192.0.2.7 50312 198.51.100.1 22": the visitor's address and ours.
+asio::ip::tcp::endpoint visitorOf(const std::string& connection) {
+  const std::size_t blank = connection.find(' ');
+  const std::string address = connection.substr(0, blank);
+  const std::string rest = blank == std::string::npos ? "" : connection.substr(blank + 1);
+  const std::string port = rest.substr(0, rest.find(' '));
+  const auto visitor = naiad::visitorFromText(
+      (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + port);
+  if (!visitor) throw Refusal{kUsage, "This program is for sshd to run."};
+  return *visitor;
+}
+
+/// What a terminal is called becomes the name of a file that ncurses looks for.
+std::string terminalType(const std::string& asked) {
+  const bool is_plain =
+      !asked.empty() && asked.size() <= kMaxTerm && asked.front() != '.' &&
+      std::all_of(asked.begin(), asked.end(), [](unsigned char c) {
+        return c < 0x80 && (std::isalnum(c) != 0 || c == '-' || c == '_' || c == '+' || c == '.');
+      });
+  return is_plain ? asked : "xterm-256color";
+}
+
+naiad::GamesList readGames(const fs::path& path) {
+  const auto list = naiad::GamesList::parse(naiad::readSmallFile(path, kMaxList).value_or(""));
+  if (!list.problem.empty())
+    throw Refusal{kUsage, "The list of games is wrong, " + list.problem + ". Tell its host."};
+  if (list.games.empty()) throw Refusal{kUsage, "This door offers no game yet."};
+  return list;
+}
+
+std::unique_ptr<naiad::DoorPlace> takePlace(const DoorOptions& options,
+                                            const asio::ip::tcp::endpoint& visitor) {
+  auto taken = naiad::DoorPlace::take(options.state / "places", naiad::peerName(visitor), options.limits);
+  if (taken.place) return std::move(taken.place);
+  throw Refusal{kRefused, taken.refusal == naiad::DoorPlace::Refusal::kFull
+                              ? "All places are taken. Try again later."
+                              : "There are too many players from your address already."};
+}
+
+/// The visitor plays already, on a line that may be dead: let that client end, as when its line breaks.
+bool takeOver(naiad::VisitorFolder& folder) {
+  const auto yes =
+      naiad::askYes("You are playing here already. Go on with that game in this terminal?", kPatience);
+  if (!yes) throw Refusal{kRefused, ""};
+  const pid_t holder = folder.holder();
+  if (!*yes || holder == 0) return false;
+  ::kill(holder, SIGHUP);
+  for (const auto end = std::chrono::steady_clock::now() + kTakeOver;
+       std::chrono::steady_clock::now() < end;) {
+    if (folder.take()) return true;
+    std::this_thread::sleep_for(kStep);
+  }
+  return false;
+}
+
+/// The folder of the visitor's key, if they have one and want to be who they were; else one for this visit.
+std::unique_ptr<naiad::VisitorFolder> folderOf(const DoorOptions& options) {
+  const std::string auth_file = variable("SSH_USER_AUTH");
+  const auto name = auth_file.empty()
+                        ? std::nullopt
+                        : naiad::keyFolderName(naiad::readSmallFile(auth_file, kMaxAuthInfo).value_or(""));
+  if (!name) return nullptr;
+  auto folder = naiad::VisitorFolder::open(options.state / "keys", *name);
+  if (folder && (folder->take() || takeOver(*folder))) return folder;
+  return nullptr;
+}
+
+// ---- the game ---------------------------------------------------------------------------------------------
+
+struct ClientStart {
+  std::vector<std::string> words;
+  std::vector<std::string> environment;
+};
+
+ClientStart clientStart(const DoorOptions& options, const naiad::OfferedGame& game, const std::string& name,
+                        const asio::ip::tcp::endpoint& visitor, const fs::path& folder) {
+  ClientStart start;
+  // A pin for each key: a server's new key comes by games.list, and that is the host's own word.
+  start.words = {options.client,
+                 game.link.text(),
+                 "--name=" + name,
+                 "--visitors=" + game.socket,
+                 "--visitor=" + naiad::peerName(visitor),
+                 "--known-servers=" + (folder / ("known-" + game.link.key.text())).string(),
+                 "--idle-limit=" + std::to_string(options.idle_limit)};
+  if (game.wants_password) start.words.push_back("--ask-password");
+  start.environment = {"PATH=/usr/bin:/bin", "LC_ALL=C.UTF-8", "TERM=" + terminalType(variable("TERM"))};
+  for (const char* home : {"HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME"})
+    start.environment.push_back(std::string(home) + "=" + folder.string());
+  return start;
+}
+
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// Run the client to its end; the exit code. Only what is called between fork() and exec is safe there.
+int runClient(ClientStart start) {
+  const std::vector<char*> words = pointersTo(start.words);
+  const std::vector<char*> environment = pointersTo(start.environment);
+  passOnEnds();
+  const pid_t child = ::fork();
+  if (child == 0) {
+    for (const int signal : {SIGHUP, SIGTERM, SIGINT, SIGQUIT}) ::signal(signal, SIG_DFL);
+    const rlimit none{0, 0};
+    ::setrlimit(RLIMIT_CORE, &none);
+    ::execve(words[0], words.data(), environment.data());
+    ::_exit(127);
+  }
+  if (child < 0) throw Refusal{kRefused, "The game cannot be started now. Try again later."};
+  g_client = static_cast<sig_atomic_t>(child);
+  if (g_end != 0) ::kill(child, g_end);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  g_client = 0;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+    throw Refusal{kUsage, "This door has no dfclient. Tell its host."};
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+int serveVisitor(const DoorOptions& options) {
+  if (std::getenv("SSH_ORIGINAL_COMMAND") != nullptr)
+    throw Refusal{kUsage, "This door runs no commands. Connect without one."};
+  if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDOUT_FILENO) == 0)
+    throw Refusal{kNoTerminal, "A terminal is wanted: ssh -t."};
+  ignoreStops();
+  const auto visitor = visitorOf(variable("SSH_CONNECTION"));
+  const naiad::GamesList list = readGames(options.games);
+  const auto place = takePlace(options, visitor);
+  auto folder = folderOf(options);
+
+  std::vector<std::string> names;
+  for (const naiad::OfferedGame& game : list.games) names.push_back(game.name);
+  const auto choice = names.size() == 1 ? std::optional<std::size_t>(0) : naiad::askChoice(names, kPatience);
+  const auto name = choice ? naiad::askName(folder ? folder->name() : "", kPatience) : std::nullopt;
+  if (!name) throw Refusal{kRefused, "Goodbye."};
+  if (folder) {
+    folder->keepName(*name);
+  } else {
+    folder = naiad::VisitorFolder::makeTemporary(options.state / "visits");
+  }
+  return runClient(clientStart(options, list.games[*choice], *name, visitor, folder->path()));
+}
+
+std::string besideThisProgram() {
+  std::error_code error;
+  const fs::path self = fs::read_symlink("/proc/self/exe", error);
+  return error ? "/usr/bin/dfclient" : (self.parent_path() / "dfclient").string();
+}
+
+std::vector<naiad::Option> optionsOf(DoorOptions& door) {
+  std::vector<naiad::Option> options{
+      {.name = "--games",
+       .target = &door.games,
+       .help = "The list of games that are offered",
+       .type = "FILE"},
+      {.name = "--state",
+       .target = &door.state,
+       .help = "Folder for what belongs to visitors",
+       .type = "DIR"},
+      {.name = "--client",
+       .target = &door.client,
+       .help = "The dfclient to run (default: the one beside this program)",
+       .type = "FILE"},
+      {.name = "--max-visitors",
+       .target = &door.limits.in_all,
+       .help = "Visitors at a time",
+       .range = naiad::OptionRange{1, 1000},
+       .shows_default = true},
+      {.name = "--max-per-address",
+       .target = &door.limits.per_prefix,
+       .help = "Of these, from one IPv4 address or IPv6 network (/64)",
+       .range = naiad::OptionRange{1, 1000},
+       .shows_default = true},
+      {.name = "--idle-limit",
+       .target = &door.idle_limit,
+       .help = "Seconds without a key or a move of the mouse after which a visitor leaves; 0: never",
+       .range = naiad::OptionRange{0, 86'400},
+       .shows_default = true}};
+  return options;
+}
+
+int start(int argc, char** argv) {
+  DoorOptions options;
+  options.client = besideThisProgram();
+  const naiad::Program program{"dfdoor", "Lets a visitor of an ssh door play.", kHelp};
+  switch (naiad::parseOptions(program, optionsOf(options), argc, argv)) {
+    case naiad::Parsed::kDone:
+      return 0;
+    case naiad::Parsed::kUsageError:
+      return kUsage;
+    case naiad::Parsed::kRun:
+      break;
+  }
+  if (options.games.empty() || options.state.empty())
+    throw Refusal{kUsage, "--games and --state are wanted."};
+  ::umask(077);
+  return serveVisitor(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return start(argc, argv);
+  } catch (const Refusal& refusal) {
+    if (!refusal.sentence.empty()) std::fprintf(stderr, "%s\n", refusal.sentence.c_str());
+    return refusal.code;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "The door does not work: %s\n", error.what());
+    return kUsage;
+  }
+}

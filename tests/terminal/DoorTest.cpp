@@ -1,0 +1,412 @@
+// The ssh door, with a real sshd on loopback: deploy/door sets it up, ssh comes through it.
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "PtyTerminal.h"
+
+namespace naiad::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// One that was free just now.
+std::string freePort() {
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  const bool good = ::bind(socket, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
+                    ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0;
+  ::close(socket);
+  return good ? std::to_string(ntohs(address.sin_port)) : "0";
+}
+
+std::string firstLine(const std::string& command) {
+  std::string text;
+  if (FILE* p_pipe = popen(command.c_str(), "r")) {
+    for (int c = std::fgetc(p_pipe); c != EOF && c != '\n'; c = std::fgetc(p_pipe))
+      text.push_back(static_cast<char>(c));
+    while (std::fgetc(p_pipe) != EOF) {
+    }
+    pclose(p_pipe);
+  }
+  return text;
+}
+
+/// Words that end with a zero each, as /proc has them.
+std::vector<std::string> zeroEnded(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  return words;
+}
+
+class DoorTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = fs::temp_directory_path() / "naiad-sshdoor-XXXXXX";
+    m_home = mkdtemp(name.data());
+    if (firstLine("PATH=$PATH:/usr/sbin command -v sshd").empty() || firstLine("command -v ssh").empty())
+      GTEST_SKIP() << "no sshd here: openssh-server is not installed";
+  }
+  void TearDown() override {
+    m_visitors.clear();
+    m_door.reset();
+    m_server.reset();
+    std::error_code ignored;
+    fs::remove_all(m_home, ignored);
+  }
+
+  std::unique_ptr<PtyTerminal> run(const std::vector<std::string>& command,
+                                   const std::map<std::string, std::string>& environment = {}) {
+    PtyTerminal::Options options;
+    options.command = command;
+    options.environment = environment;
+    options.environment["NAIAD_BIN"] = fs::path(programPath("dfdoor")).parent_path();
+    options.columns = 120;
+    return std::make_unique<PtyTerminal>(options);
+  }
+  void door(const std::vector<std::string>& words) {
+    std::vector<std::string> command{NAIAD_SOURCE_DIR "/deploy/door"};
+    command.insert(command.end(), words.begin(), words.end());
+    const auto program = run(command);
+    EXPECT_EQ(program->waitForExit(), 0) << program->output();
+  }
+
+  /// A server with a visitors' socket, and an open door to it.
+  void open(const std::vector<std::string>& options = {}) {
+    m_server = run({programPath("dfserver"), "--game", "hello", "--address", "127.0.0.1", "--port", "0",
+                    "--identity", m_home / "identity", "--visitors", m_home / "hello.visitors"});
+    ASSERT_TRUE(m_server->waitFor("From elsewhere")) << m_server->output();
+    const std::string& said = m_server->output();
+    const std::size_t begin = said.find("naiad://");
+    ASSERT_NE(begin, std::string::npos) << said;
+    m_link = said.substr(begin, said.find_first_of("\r\n", begin) - begin);
+    for (int i = 0; i < 5 && !m_door; ++i) openAt(freePort(), options);
+    ASSERT_TRUE(m_door);
+    makeKey("ann");
+    makeKey("bob");
+  }
+  void openAt(const std::string& port, std::vector<std::string> options) {
+    m_port = port;
+    options.insert(options.begin(), {"setup", m_home / "door", "--port", port});
+    door(options);
+    door({"add", m_home / "door", "hello", m_link, m_home / "hello.visitors"});
+    m_door = run({NAIAD_SOURCE_DIR "/deploy/door", "run", m_home / "door"});
+    const bool decided = m_door->waitUntil(
+        [this] { return has(m_door->output(), "Server listening") || has(m_door->output(), "in use"); });
+    if (!decided || has(m_door->output(), "in use")) m_door.reset();
+  }
+  void makeKey(const std::string& name) {
+    const auto program =
+        run({firstLine("command -v ssh-keygen"), "-q", "-t", "ed25519", "-N", "", "-f", m_home / name});
+    EXPECT_EQ(program->waitForExit(), 0) << program->output();
+  }
+
+  std::vector<std::string> ssh(const std::string& key, const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> command{firstLine("command -v ssh"),
+                                     "-F",
+                                     "none",
+                                     "-p",
+                                     m_port,
+                                     "-i",
+                                     m_home / key,
+                                     "-o",
+                                     "IdentitiesOnly=yes",
+                                     "-o",
+                                     "BatchMode=yes",
+                                     "-o",
+                                     "StrictHostKeyChecking=accept-new",
+                                     "-o",
+                                     "UserKnownHostsFile=" + (m_home / "known_hosts").string()};
+    command.insert(command.end(), options.begin(), options.end());
+    command.push_back(firstLine("id -un") + "@127.0.0.1");
+    return command;
+  }
+  /// A visitor in front of the question for their name. Skips where this sshd gives nobody a terminal.
+  PtyTerminal* visit(const std::string& key, const std::vector<std::string>& options = {},
+                     const std::map<std::string, std::string>& environment = {}) {
+    m_visitors.push_back(run(ssh(key, options), environment));
+    return m_visitors.back().get();
+  }
+  /// The same, in the game. Null: this machine's sshd gives no terminals.
+  PtyTerminal* play(const std::string& key, const std::vector<std::string>& options = {},
+                    const std::map<std::string, std::string>& environment = {}) {
+    PtyTerminal* p_visitor = visit(key, options, environment);
+    if (!p_visitor->waitFor("Your name?")) {
+      m_door->read(std::chrono::milliseconds(100));
+      EXPECT_TRUE(has(m_door->output(), "Operation not permitted"))
+          << p_visitor->output() << m_door->output();
+      return nullptr;
+    }
+    p_visitor->forget();
+    p_visitor->type(key + "\r");
+    EXPECT_TRUE(p_visitor->waitFor(" player")) << p_visitor->output() << m_server->output();
+    return p_visitor;
+  }
+  static void expectEnd(PtyTerminal& program, const std::string& sentence) {
+    program.waitForExit();
+    EXPECT_TRUE(has(program.output(), sentence)) << program.output();
+  }
+  bool serverSays(const std::string& text) { return m_server->waitFor(text); }
+  /// The dfclient of this door that plays under this name; 0 if there is none.
+  pid_t clientOf(const std::string& name) const {
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+      const std::vector<std::string> words = zeroEnded(entry.path() / "cmdline");
+      if (words.size() < 4 || !words[0].ends_with("/dfclient") || words[1] != m_link) continue;
+      if (words[2] == "--name=" + name) return static_cast<pid_t>(std::stol(entry.path().filename()));
+    }
+    return 0;
+  }
+
+  /// No visitor is in this door any more.
+  bool isEmpty() const {
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+      const std::vector<std::string> words = zeroEnded(entry.path() / "cmdline");
+      if (words.size() > 2 && words[0].ends_with("/dfdoor") && has(words[2], m_home)) return false;
+    }
+    return true;
+  }
+
+  fs::path m_home;
+  std::string m_link;
+  std::string m_port;
+  std::unique_ptr<PtyTerminal> m_server;
+  std::unique_ptr<PtyTerminal> m_door;
+  std::vector<std::unique_ptr<PtyTerminal>> m_visitors;
+};
+
+#define NAIAD_SKIP_WITHOUT(terminal) \
+  if ((terminal) == nullptr) GTEST_SKIP() << "this sshd, which is not root's, gives no terminals here"
+
+TEST_F(DoorTest, TwoVisitorsPlayOneGameFromWhereTheyAre) {
+  open();
+  PtyTerminal* ann = play("ann", {"-b", "127.0.0.2"});
+  NAIAD_SKIP_WITHOUT(ann);
+  EXPECT_TRUE(serverSays("\"ann\" joined")) << m_server->output();
+  EXPECT_TRUE(has(m_server->output(), "127.0.0.2:")) << m_server->output();
+  PtyTerminal* bob = play("bob", {"-b", "127.0.0.3"});
+  ASSERT_NE(bob, nullptr);
+  EXPECT_TRUE(serverSays("\"bob\" joined")) << m_server->output();
+  EXPECT_TRUE(has(m_server->output(), "127.0.0.3:")) << m_server->output();
+  bob->forget();
+  ann->type("\035t");
+  ann->type("greetings\r");
+  EXPECT_TRUE(bob->waitFor("greetings")) << bob->newOutput();
+  ann->type("\003");
+  EXPECT_TRUE(serverSays("\"ann\" left")) << m_server->output();
+  expectEnd(*ann, "");
+}
+
+TEST_F(DoorTest, TheWindowsSizeIsThatOfTheVisitorsTerminal) {
+  open();
+  PtyTerminal* ann = play("ann");
+  NAIAD_SKIP_WITHOUT(ann);
+  ann->forget();
+  ann->resize(19, 9);
+  EXPECT_TRUE(ann->waitFor("too small")) << ann->newOutput();
+  ann->forget();
+  ann->resize(120, 30);
+  EXPECT_TRUE(ann->waitFor(" player")) << ann->newOutput();
+}
+
+TEST_F(DoorTest, ALineThatBreaksCostsNothing) {
+  open();
+  PtyTerminal* ann = play("ann");
+  NAIAD_SKIP_WITHOUT(ann);
+  ASSERT_TRUE(serverSays("\"ann\" joined")) << m_server->output();
+  ann->signal(SIGKILL);
+  ann->waitForExit();
+  ASSERT_TRUE(m_server->waitUntil([this] { return isEmpty(); }));
+  PtyTerminal* again = visit("ann");
+  ASSERT_TRUE(again->waitFor("Your name? [ann]")) << again->output();
+  again->type("\r");
+  EXPECT_TRUE(serverSays("\"ann\" is back, with another client")) << m_server->output();
+  EXPECT_FALSE(has(m_server->output(), "\"ann\" left")) << m_server->output();
+}
+
+/// The old line is dead, but nobody has noticed it yet.
+TEST_F(DoorTest, AVisitorGoesOnInAnotherTerminal) {
+  open();
+  PtyTerminal* ann = play("ann");
+  NAIAD_SKIP_WITHOUT(ann);
+  ASSERT_TRUE(serverSays("\"ann\" joined")) << m_server->output();
+  PtyTerminal* again = visit("ann");
+  ASSERT_TRUE(again->waitFor("You are playing here already")) << again->output();
+  again->type("\r");
+  ASSERT_TRUE(again->waitFor("Your name? [ann]")) << again->output();
+  again->type("\r");
+  EXPECT_TRUE(serverSays("\"ann\" is back, with another client")) << m_server->output();
+  expectEnd(*ann, "");
+}
+
+TEST_F(DoorTest, NoCommandRuns) {
+  open();
+  for (const std::string& command :
+       {std::string("id; echo pwned-$((6*7))"), std::string("$(touch pwned)"), std::string("-oX"),
+        std::string("scp -t /tmp"), std::string("\033[2J`id`")}) {
+    for (const char* terminal : {"-T", "-tt"}) {
+      auto words = ssh("ann", {terminal});
+      words.push_back("--");
+      words.push_back(command);
+      const auto visitor = run(words);
+      const int status = visitor->waitForExit();
+      if (has(m_door->output(), "Operation not permitted"))
+        GTEST_SKIP() << "this sshd gives no terminals here";
+      EXPECT_TRUE(has(visitor->output(), "This door runs no commands")) << visitor->output();
+      EXPECT_FALSE(has(visitor->output(), "uid=") || has(visitor->output(), "pwned-42")) << visitor->output();
+      EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << status;
+    }
+  }
+  auto words = ssh("ann", {"-s"});
+  words.push_back("sftp");
+  const auto sftp = run(words);
+  EXPECT_NE(sftp->waitForExit(), 0);
+  expectEnd(*run(ssh("ann", {"-T"})), "A terminal is wanted");
+  EXPECT_FALSE(has(m_server->output(), "joined"));
+}
+
+TEST_F(DoorTest, NothingIsForwarded) {
+  open();
+  const std::string server = m_link.substr(m_link.find("//") + 2, m_link.find('#') - m_link.find("//") - 2);
+  const auto direct = run(ssh("ann", {"-W", server}));
+  EXPECT_NE(direct->waitForExit(), 0);
+  EXPECT_TRUE(has(direct->output(), "prohibited") || has(direct->output(), "failed")) << direct->output();
+  const auto remote = run(ssh("ann", {"-N", "-o", "ExitOnForwardFailure=yes", "-R", "0:" + server}));
+  EXPECT_NE(remote->waitForExit(), 0) << remote->output();
+}
+
+TEST_F(DoorTest, TheClientHasTheDoorsEnvironmentAndAPlainTerminalType) {
+  open();
+  PtyTerminal* ann = play("ann", {"-o", "SetEnv=LD_PRELOAD=/tmp/x.so NAIAD_SERVER=evil LANG=x LC_ALL=y"},
+                          {{"TERM", "../../../../etc/passwd"}});
+  NAIAD_SKIP_WITHOUT(ann);
+  pid_t client = 0;
+  ASSERT_TRUE(m_server->waitUntil([&] { return (client = clientOf("ann")) != 0; }));
+  const auto variables = zeroEnded("/proc/" + std::to_string(client) + "/environ");
+  ASSERT_EQ(variables.size(), 7u);
+  for (const std::string& variable : variables) {
+    const std::string name = variable.substr(0, variable.find('='));
+    const bool is_home = name == "HOME" || name.starts_with("XDG_");
+    EXPECT_TRUE(is_home ? has(variable, (m_home / "door" / "state" / "keys").string())
+                        : variable == "PATH=/usr/bin:/bin" || variable == "LC_ALL=C.UTF-8" ||
+                              variable == "TERM=xterm-256color")
+        << variable;
+  }
+}
+
+TEST_F(DoorTest, ControlZStopsNothing) {
+  open();
+  PtyTerminal* ann = play("ann");
+  NAIAD_SKIP_WITHOUT(ann);
+  ann->forget();
+  ann->type("\032\035h");
+  EXPECT_TRUE(ann->waitFor("Ctrl-]")) << ann->newOutput();
+  EXPECT_NE(clientOf("ann"), 0);
+}
+
+TEST_F(DoorTest, NamesAreCleanedAndAreNoOptions) {
+  open();
+  PtyTerminal* ann = visit("ann");
+  if (!ann->waitFor("Your name?")) GTEST_SKIP() << "this sshd, which is not root's, gives no terminals here";
+  ann->type("--help $(id)\r");
+  EXPECT_TRUE(serverSays("\"--help $(id)\" joined")) << m_server->output() << ann->output();
+}
+
+TEST_F(DoorTest, PlacesAreLimited) {
+  open({"--max-visitors", "1"});
+  PtyTerminal* ann = play("ann");
+  NAIAD_SKIP_WITHOUT(ann);
+  expectEnd(*visit("bob"), "All places are taken");
+  ann->type("\003");
+  ann->waitForExit();
+  EXPECT_TRUE(visit("bob")->waitFor("Your name?"));
+}
+
+TEST_F(DoorTest, AVisitorWhoIsAwayLeaves) {
+  open({"--idle-limit", "2"});
+  PtyTerminal* ann = play("ann");
+  NAIAD_SKIP_WITHOUT(ann);
+  expectEnd(*ann, "You left, for you were away for too long.");
+  EXPECT_TRUE(serverSays("\"ann\" left")) << m_server->output();
+}
+
+TEST_F(DoorTest, SeveralGamesAreOfferedAndNothingElseIs) {
+  open();
+  door({"add", m_home / "door", "other", m_link, m_home / "other.visitors"});
+  PtyTerminal* ann = visit("ann");
+  if (!ann->waitFor("Which game?")) GTEST_SKIP() << "this sshd, which is not root's, gives no terminals here";
+  for (const char* answer : {"127.0.0.1:22", "3", "../hello"}) {
+    ann->forget();
+    ann->type(std::string(answer) + "\r");
+    EXPECT_TRUE(ann->waitFor("Its number is wanted")) << ann->output();
+  }
+  ann->waitForExit();
+  PtyTerminal* again = visit("ann");
+  ASSERT_TRUE(again->waitFor("Which game?")) << again->output();
+  again->type("1\r");
+  EXPECT_TRUE(again->waitFor("Your name?")) << again->output();
+}
+
+TEST_F(DoorTest, SilentConnectionsDoNotCloseIt) {
+  open();
+  std::vector<int> sockets;
+  for (int i = 0; i < 30; ++i) {
+    sockets.push_back(::socket(AF_INET, SOCK_STREAM, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(m_port)));
+    ASSERT_EQ(::connect(sockets.back(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  }
+  // From another address: each has a share of the silent ones.
+  PtyTerminal* bob = visit("bob", {"-b", "127.0.0.2"});
+  const bool in = bob->waitFor("Your name?");
+  for (const int socket : sockets) ::close(socket);
+  if (!in && has(m_door->output(), "Operation not permitted"))
+    GTEST_SKIP() << "this sshd gives no terminals here";
+  EXPECT_TRUE(in) << bob->output();
+}
+
+TEST_F(DoorTest, IsRemovedWithAllThatItMade) {
+  open();
+  m_door.reset();
+  m_server.reset();
+  door({"remove", m_home / "door"});
+  EXPECT_FALSE(fs::exists(m_home / "door"));
+}
+
+/// Where root installs it, below a folder: sshd takes the configuration, and nothing stays.
+TEST_F(DoorTest, AnInstalledOneIsSoundAndLeavesNothing) {
+  const std::string place = m_home / "root";
+  door({"install", "--root", place});
+  std::ifstream file(place + "/etc/naiad/door/sshd_config");
+  std::stringstream text;
+  text << file.rdbuf();
+  for (const char* line : {"\nAllowUsers play\n", "\nDisableForwarding yes\n", "\nPermitEmptyPasswords no\n",
+                           "\nPermitUserRC no\n", "\nPermitUserEnvironment no\n", "\nMaxSessions 1\n",
+                           "\nForceCommand exec /usr/lib/naiad-door/dfdoor "})
+    EXPECT_TRUE(has(text.str(), line)) << line;
+  EXPECT_FALSE(has(text.str(), "AcceptEnv"));
+  door({"uninstall", "--root", place});
+  for (const auto& entry : fs::recursive_directory_iterator(place))
+    EXPECT_TRUE(entry.is_directory()) << entry.path();
+}
+
+}  // namespace
+}  // namespace naiad::test
