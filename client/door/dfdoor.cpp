@@ -119,7 +119,7 @@ std::string terminalType(const std::string& asked) {
 }
 
 naiad::GamesList readGames(const fs::path& path) {
-  const auto list = naiad::GamesList::parse(naiad::readSmallFile(path, kMaxList).value_or(""));
+  auto list = naiad::GamesList::parse(naiad::readSmallFile(path, kMaxList).value_or(""));
   if (!list.problem.empty())
     throw Refusal{kUsage, "The list of games is wrong, " + list.problem + ". Tell its host."};
   if (list.games.empty()) throw Refusal{kUsage, "This door offers no game yet."};
@@ -190,6 +190,7 @@ ClientStart clientStart(const DoorOptions& options, const naiad::OfferedGame& ga
 
 std::vector<char*> pointersTo(std::vector<std::string>& words) {
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   return pointers;

@@ -86,7 +86,7 @@ std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, Sessi
 std::string resolveServer(const ServerChoice& server, ServerAddress& address, ServerTrust& trust,
                           SessionOptions& session) {
   if (server.dropsPassword()) session.password.clear();
-  if (const std::string wrong = applyVisit(server, trust, session); !wrong.empty()) return wrong;
+  if (std::string wrong = applyVisit(server, trust, session); !wrong.empty()) return wrong;
   if (!JoinLink::isMeant(server.text)) {
     const auto parsed = ServerAddress::parse(server.text);
     if (!parsed) return quoted(server.text) + " is no server: a link (naiad://…) or HOST[:PORT] is wanted.";

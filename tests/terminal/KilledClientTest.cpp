@@ -49,11 +49,11 @@ class KilledClientTest : public testing::Test {
   std::unique_ptr<PtyTerminal> join(const std::vector<std::string>& more = {}) {
     EXPECT_TRUE(m_server->waitFor("From elsewhere")) << m_server->output();
     std::smatch found;
-    const std::regex line("dfclient (\\S+) --fingerprint ([0-9a-f]{64})");
+    const std::regex line("dfclient (naiad://\\S+)");
     const std::string said = m_server->output();
     if (!std::regex_search(said, found, line)) throw std::runtime_error("no line to join with: " + said);
     PtyTerminal::Options options = inHome();
-    options.command = {programPath("dfclient"), found[1], "--fingerprint", found[2], "--name", "ann"};
+    options.command = {programPath("dfclient"), found[1], "--name", "ann"};
     options.command.insert(options.command.end(), more.begin(), more.end());
     auto terminal = std::make_unique<PtyTerminal>(options);
     EXPECT_TRUE(terminal->waitFor("points")) << terminal->output();

@@ -114,8 +114,10 @@ TEST_F(LinkTest, OtherDoorsArePrintedWhereTheyAreNamed) {
   serve({"--ssh-door", "play@game.example:2222", "--web-address", "https://game.example/", "--qr"});
   EXPECT_TRUE(m_server->waitFor("With ssh alone: ssh -p 2222 play@game.example")) << m_server->output();
   EXPECT_TRUE(m_server->waitFor("In a browser: https://game.example/"));
-  EXPECT_TRUE(m_server->output().find("\u2588") != std::string::npos ||
-              m_server->output().find("libqrencode") != std::string::npos);
+  EXPECT_TRUE(m_server->waitUntil([&] {
+    return m_server->output().find("\u2588") != std::string::npos ||
+           m_server->output().find("libqrencode") != std::string::npos;
+  })) << m_server->output();
 }
 
 }  // namespace

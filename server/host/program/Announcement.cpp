@@ -84,7 +84,7 @@ std::vector<std::string> howToJoin(const Host& host, const HostOptions& options,
 
 std::vector<std::string> qrLines(const HostOptions& options) {
   if (!options.qr) return {};
-  const std::vector<std::string> code = qrCode(options.web_address);
+  std::vector<std::string> code = qrCode(options.web_address);
   if (!code.empty()) return code;
   return {"No QR code: this program was built without libqrencode."};
 }

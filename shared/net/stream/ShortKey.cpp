@@ -9,7 +9,7 @@ constexpr std::string_view kDigits = "abcdefghijklmnopqrstuvwxyz234567";
 constexpr std::size_t kBitsPerDigit = 5;
 constexpr std::size_t kLength = 26;  // digits for 128 bits; two bits are left over
 
-int digitOf(char c) {
+int base32DigitOf(char c) {
   if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   const std::size_t digit = kDigits.find(c);
   return digit == std::string_view::npos ? -1 : static_cast<int>(digit);
@@ -30,7 +30,7 @@ std::optional<ShortKey> ShortKey::parse(std::string_view text) {
   unsigned bits = 0;
   std::size_t count = 0;
   for (const char c : text) {
-    const int digit = digitOf(c);
+    const int digit = base32DigitOf(c);
     if (digit < 0) return std::nullopt;
     bits = bits << kBitsPerDigit | static_cast<unsigned>(digit);
     count += kBitsPerDigit;

@@ -19,14 +19,8 @@
 #include "shared/net/stream/TlsHandshake.h"
 
 namespace naiad {
-namespace {
 
 using asio::ip::tcp;
-
-/// How long to wait for descriptors or memory to come free.
-constexpr std::chrono::milliseconds kRetryDelay{100};
-
-}  // namespace
 
 struct TcpListener::State : std::enable_shared_from_this<State> {
   State(asio::io_context& context, OnChannel callback, const TcpOptions& tcp_options,
@@ -109,7 +103,7 @@ void TcpListener::State::onAccepted(const std::error_code& error, tcp::socket so
     return;
   }
   ++counters.failed_accepts;
-  retry.expires_after(kRetryDelay);
+  retry.expires_after(kAcceptRetryDelay);
   retry.async_wait([self = shared_from_this()](const std::error_code&) {
     if (self->acceptor.is_open()) self->accept();
   });

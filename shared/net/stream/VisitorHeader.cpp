@@ -99,7 +99,7 @@ std::string visitorHeader(const tcp::endpoint& visitor) {
   std::string header(kSignature);
   header.push_back(static_cast<char>(kProxy));
   header.push_back(static_cast<char>(address.is_v4() ? kTcpIPv4 : kTcpIPv6));
-  addWord(header, static_cast<unsigned>(2 * (address.is_v4() ? 4 : 16) + kPorts));
+  addWord(header, static_cast<unsigned>(2 * std::size_t{address.is_v4() ? 4u : 16u} + kPorts));
   address.is_v4() ? addAddresses(header, address.to_v4()) : addAddresses(header, address.to_v6());
   addWord(header, visitor.port());
   addWord(header, 0);

@@ -24,8 +24,6 @@ using asio::local::stream_protocol;
 using Socket = stream_protocol::socket;
 namespace fs = std::filesystem;
 
-/// How long to wait for descriptors or memory to come free.
-constexpr std::chrono::milliseconds kRetryDelay{100};
 constexpr mode_t kMode = 0660;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& why, std::error_code code) {
@@ -192,7 +190,7 @@ void VisitorsListener::State::onAccepted(const std::error_code& error, Socket so
     return;
   }
   ++counters.failed_accepts;
-  retry.expires_after(kRetryDelay);
+  retry.expires_after(kAcceptRetryDelay);
   retry.async_wait([self = shared_from_this()](const std::error_code&) {
     if (self->acceptor.is_open()) self->accept();
   });
