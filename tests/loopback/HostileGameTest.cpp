@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <chrono>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <sstream>
 
@@ -32,18 +31,20 @@ struct Line {
   std::string text;
 };
 
+/// What can be read: the process that a file is about may end meanwhile.
+std::string readAll(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream all;
+  all << file.rdbuf();
+  return all.str();
+}
+
 /// A process that has ended may still be waited for by another.
 bool isAlive(pid_t process) {
   if (kill(process, 0) != 0 && errno == ESRCH) return false;
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  const std::string all{std::istreambuf_iterator<char>(file), {}};
+  const std::string all = readAll("/proc/" + std::to_string(process) + "/stat");
   const std::size_t state = all.rfind(')');
   return state != std::string::npos && state + 2 < all.size() && all[state + 2] != 'Z';
-}
-
-std::string readAll(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// dfserver with that game; ann and bob play, each in a world.
