@@ -241,6 +241,8 @@ void ClientApp::takeKittyReply(Time now) {
   if (m_controls.chatOpen()) return;
   m_guard->pushKitty();
   m_player.setRealReleases(true, now);
+  m_composer.noteKeyReleases(true);
+  m_dirty = true;
 }
 
 void ClientApp::noticeSounds(Time now) {
@@ -276,7 +278,9 @@ void ClientApp::suspend() {
 void ClientApp::resume() {
   const Time now = Clock::now();
   m_guard->setRaw();
+  // Perhaps another terminal has been attached: it is asked again below.
   m_player.setRealReleases(false, now);
+  m_composer.noteKeyReleases(false);
   if (m_screen->readSize()) m_connection.resize(m_screen->columns(), m_screen->rows());
   m_screen->redrawAll();
   drawFrame(now);

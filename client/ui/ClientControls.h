@@ -27,6 +27,11 @@ inline constexpr const char* kClientKeyHelp[] = {
     "Esc        close the help or the list",
 };
 
+/// Its last line: how exact held keys are in this terminal (docs/terminals.md).
+inline constexpr const char* kKeyReleasesHelp = "Held keys  exact: this terminal reports when a key goes up";
+inline constexpr const char* kGuessedReleasesHelp =
+    "Held keys  guessed: this terminal reports no key that goes up";
+
 /// What of the controls the last picture showed.
 struct ShownControls {
   bool status = true;  ///< a status line

@@ -28,6 +28,8 @@ class FrameComposer {
   ScreenModel composeFrame(Time now);
   /// Show a line of the client itself among those of the chat, as long as these.
   void addNotice(std::string text, Time now) { m_notice = {"", df::COLOR_DEFAULT, std::move(text), now}; }
+  /// Does the terminal report when a key goes up? The help says so.
+  void noteKeyReleases(bool reported) { m_key_releases = reported; }
   /// The terminal has another size: show the status for a moment.
   void noteResize(Time now) { m_status.show(now); }
 
@@ -55,6 +57,7 @@ class FrameComposer {
   FrameState m_composed;
   ChatEntry m_notice;
   StatusTimer m_status;
+  bool m_key_releases = false;
 };
 
 }  // namespace naiad

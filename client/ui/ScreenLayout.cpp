@@ -250,6 +250,7 @@ void drawHelp(Picture& picture, const ScreenModel& model, ShownControls& shown) 
   std::vector<std::string> whole = model.help;
   if (!whole.empty()) whole.emplace_back();
   whole.insert(whole.end(), std::begin(kClientKeyHelp), std::end(kClientKeyHelp));
+  whole.emplace_back(model.key_releases ? kKeyReleasesHelp : kGuessedReleasesHelp);
   const int room = std::max(picture.width() - 4, 1);
   PanelLines panel{model.game.empty() ? "Help" : "Help: " + model.game, 0, 0, 0, {}};
   std::vector<std::string> lines;

@@ -119,6 +119,9 @@ TEST_F(TerminalRestoreTest, KittyKeysHaveRealReleases) {
   EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_DOWN));
   terminal.type("\033[97;1:3u");
   EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_RELEASED));
+  terminal.type("\033[93;5u\033[93;5:3u\033[104u");  // Ctrl-] h
+  EXPECT_TRUE(terminal.waitFor("this terminal reports when a key goes up"));
+  terminal.type("\033[27u");
 
   terminal.forget();
   terminal.type("\033[93;5u\033[93;5:3u\033[116u");  // Ctrl-] t

@@ -66,6 +66,88 @@ TEST(HeldKeys, KeysAreIndependent) {
   EXPECT_EQ(keys.expire(kStart + 130ms), (Actions{{B, df::KEY_RELEASED}}));
 }
 
+/// Holds the key as a keyboard of 250 ms and 30 a second types it, from `from` on; returns the time of the
+/// last byte.
+Time hold(HeldKeys& keys, Key key, Time from) {
+  keys.takeKey({key}, from);
+  for (Time now = from; now < from + 80ms; now += 10ms) keys.expire(now);
+  keys.expire(from + 80ms);
+  Time now = from + 250ms;
+  for (int i = 0; i < 6; ++i, now += 33ms) keys.takeKey({key}, now);
+  return now - 33ms;
+}
+
+TEST(HeldKeys, AHeldKeyStaysDownWhileAnotherIsTapped) {
+  HeldKeys keys;
+  // Keyboards repeat only the key pressed last: from here on the arrow is silent, up or not.
+  const Time last = hold(keys, RIGHTARROW, kStart);
+  EXPECT_EQ(keys.takeKey({SPACE}, last + 20ms), (Actions{{SPACE, df::KEY_PRESSED}}));
+  EXPECT_EQ(keys.expire(last + 100ms), (Actions{{SPACE, df::KEY_RELEASED}}));
+  EXPECT_EQ(keys.tick(), (Actions{{RIGHTARROW, df::KEY_DOWN}}));
+  EXPECT_TRUE(keys.expire(last + 19ms + HoldRule::kCompanion).empty());
+  EXPECT_EQ(keys.expire(last + 20ms + HoldRule::kCompanion), (Actions{{RIGHTARROW, df::KEY_RELEASED}}));
+}
+
+TEST(HeldKeys, OtherKeysDoNotKeepASilentKeyDownForEver) {
+  HeldKeys keys;
+  const Time last = hold(keys, RIGHTARROW, kStart);
+  Time now = last;
+  bool released = false;
+  for (int i = 0; i < 30; ++i) {
+    for (const KeyAction& action : keys.takeKey({SPACE}, now += 90ms))
+      released |= action == KeyAction{RIGHTARROW, df::KEY_RELEASED};
+    if (now > last + HoldRule::kCompanion + 200ms) {
+      EXPECT_TRUE(released);
+    }
+  }
+}
+
+TEST(HeldKeys, AKeyThatIsPressedAgainAfterAnotherIsANewPress) {
+  HeldKeys keys;
+  const Time last = hold(keys, RIGHTARROW, kStart);
+  keys.takeKey({SPACE}, last + 20ms);
+  const HeldKeys::Duration delay = keys.releaseDelay();
+  EXPECT_EQ(
+      keys.takeKey({RIGHTARROW}, last + 220ms),
+      (Actions{{SPACE, df::KEY_RELEASED}, {RIGHTARROW, df::KEY_RELEASED}, {RIGHTARROW, df::KEY_PRESSED}}));
+  EXPECT_EQ(keys.releaseDelay(), delay) << "that gap is no interval of the keyboard's";
+  EXPECT_EQ(keys.expire(last + 300ms), (Actions{{RIGHTARROW, df::KEY_RELEASED}}));
+}
+
+TEST(HeldKeys, TheOppositeDirectionEndsAHold) {
+  for (const auto& [one, other] : {std::pair(LEFTARROW, RIGHTARROW),
+                                   {RIGHTARROW, LEFTARROW},
+                                   {UPARROW, DOWNARROW},
+                                   {DOWNARROW, UPARROW},
+                                   {A, D},
+                                   {D, A},
+                                   {W, S},
+                                   {S, W}}) {
+    HeldKeys keys;
+    const Time last = hold(keys, one, kStart);
+    EXPECT_EQ(keys.takeKey({other}, last + 20ms),
+              (Actions{{one, df::KEY_RELEASED}, {other, df::KEY_PRESSED}}));
+    EXPECT_TRUE(keys.tick().empty()) << "no KEY_DOWN of the old direction goes against the new one";
+  }
+}
+
+TEST(HeldKeys, ATapBesideAnotherTapEndsAsSoonAsAlone) {
+  HeldKeys keys;
+  keys.takeKey({RIGHTARROW}, kStart);
+  keys.takeKey({SPACE}, kStart + 30ms);
+  EXPECT_EQ(keys.expire(kStart + 80ms), (Actions{{RIGHTARROW, df::KEY_RELEASED}}));
+}
+
+TEST(HeldKeys, LearnsThePauseOfTheKeyboard) {
+  HeldKeys keys;
+  EXPECT_EQ(keys.pause(), HeldKeys::Duration{});
+  hold(keys, RIGHTARROW, kStart);
+  EXPECT_EQ(keys.pause(), 250ms);
+  // Quick taps are no pause.
+  for (int i = 0; i < 5; ++i) keys.takeKey({LEFTARROW}, kStart + 2s + i * 120ms);
+  EXPECT_EQ(keys.pause(), 250ms);
+}
+
 TEST(HeldKeys, RealReleasesPassThrough) {
   HeldKeys keys;
   keys.setRealReleases(true);

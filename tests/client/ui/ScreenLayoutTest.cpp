@@ -206,6 +206,14 @@ TEST(ScreenLayout, HelpShowsTheGamesLinesAndTheClientsKeys) {
   EXPECT_TRUE(contains(picture, "leave the game"));
 }
 
+TEST(ScreenLayout, HelpSaysWhetherTheTerminalReportsKeyReleases) {
+  ScreenModel m = model();
+  m.panel = Panel::kHelp;
+  EXPECT_TRUE(contains(layOut(m, 80, 24).picture, "guessed"));
+  m.key_releases = true;
+  EXPECT_TRUE(contains(layOut(m, 80, 24).picture, "exact"));
+}
+
 TEST(ScreenLayout, HelpIsWholeInANarrowTerminal) {
   ScreenModel m = model();
   m.panel = Panel::kHelp;
@@ -245,7 +253,7 @@ TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
   EXPECT_FALSE(contains(layout.picture, "close the help"));
   EXPECT_TRUE(contains(layout.picture, "Down"));
   EXPECT_TRUE(contains(layout.picture, "Esc closes"));
-  EXPECT_EQ(layout.shown.max_scroll, 24 + 1 + 7 - 22);
+  EXPECT_EQ(layout.shown.max_scroll, 24 + 1 + 8 - 22);
   EXPECT_EQ(layout.shown.page, 22);
   m.scroll = layout.shown.max_scroll;
   layout = layOut(m, 76, 24);

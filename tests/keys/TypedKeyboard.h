@@ -1,0 +1,42 @@
+// A keyboard at a terminal, in virtual time: what a person presses and lets go becomes the bytes that a
+// terminal sends, with the keyboard's repeats.
+#pragma once
+
+#include <chrono>
+#include <set>
+#include <string>
+
+#include "shared/values/Keyboard.h"
+
+namespace naiad {
+
+class TypedKeyboard {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  using Milliseconds = std::chrono::milliseconds;
+
+  struct Options {
+    Milliseconds pause{250};    ///< before the first repeat
+    Milliseconds interval{33};  ///< between repeats
+    bool kitty = false;         ///< the terminal speaks the kitty protocol
+  };
+
+  explicit TypedKeyboard(const Options& options) : m_options(options) {}
+
+  /// A key goes down or up at `now`; returns the bytes. Only the arrows, space and X are there.
+  std::string press(df::Keyboard::Key key, Time now);
+  std::string release(df::Keyboard::Key key);
+  /// The repeats that are due by `now`: of the key pressed last alone, while it is down.
+  std::string repeat(Time now);
+  const std::set<df::Keyboard::Key>& down() const { return m_down; }
+
+ private:
+  std::string bytes(df::Keyboard::Key key, char action) const;
+
+  Options m_options;
+  std::set<df::Keyboard::Key> m_down;
+  df::Keyboard::Key m_repeats = df::Keyboard::UNDEFINED_KEY;
+  Time m_due{};
+};
+
+}  // namespace naiad

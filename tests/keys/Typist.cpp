@@ -1,0 +1,79 @@
+#include "Typist.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace naiad {
+
+using df::Keyboard::Key;
+
+namespace {
+
+bool isArrow(Key key) {
+  return key == Key::LEFTARROW || key == Key::RIGHTARROW || key == Key::UPARROW || key == Key::DOWNARROW;
+}
+
+}  // namespace
+
+Typist::Typist(df::World& world, std::uint32_t player, const KeyMethod& method,
+               TypedKeyboard::Options keyboard)
+    : m_world(world),
+      m_player(player),
+      m_method(method),
+      m_keyboard((keyboard.kitty = method.kitty, keyboard)),
+      m_held(method.rule) {
+  m_held.setRealReleases(method.kitty);
+}
+
+void Typist::hold(const std::set<Key>& keys) {
+  const std::set<Key> before = m_keyboard.down();
+  const bool stops =
+      m_method.tap_to_go && std::ranges::any_of(before, isArrow) && std::ranges::none_of(keys, isArrow);
+  if (stops) type(m_keyboard.press(Key::X, m_now) + m_keyboard.release(Key::X));
+  for (const Key key : before)
+    if (!keys.contains(key)) type(m_keyboard.release(key));
+  for (const Key key : keys)
+    if (!before.contains(key)) type(m_keyboard.press(key, m_now));
+}
+
+void Typist::tick() {
+  for (Milliseconds passed{}; passed < kTick; ++passed) {
+    m_now += Milliseconds(1);
+    type(m_keyboard.repeat(m_now));
+    take(m_decoder.flush(m_now));
+    send(m_held.expire(m_now));
+  }
+  send(m_held.tick());
+  m_world.tick();
+}
+
+void Typist::type(const std::string& bytes) {
+  if (!bytes.empty()) take(m_decoder.feed(bytes, m_now));
+}
+
+void Typist::take(const std::vector<TerminalEvent>& events) {
+  for (const TerminalEvent& event : events) {
+    const auto* p_key = std::get_if<KeyEvent>(&event);
+    if (p_key == nullptr || (m_method.tap_to_go && takeGo(*p_key))) continue;
+    send(m_held.takeKey(*p_key, m_now));
+  }
+}
+
+bool Typist::takeGo(const KeyEvent& event) {
+  const Key key = event.key;
+  const bool direction = isArrow(key);
+  if (!direction && key != Key::X) return false;
+  if (m_going == key) return true;
+  if (m_going) send({{*m_going, df::KEY_RELEASED}});
+  m_going.reset();
+  if (!direction) return true;
+  m_going = key;
+  send({{key, df::KEY_PRESSED}});
+  return true;
+}
+
+void Typist::send(const std::vector<KeyAction>& actions) {
+  for (const KeyAction& action : actions) m_world.key(m_player, action.key, action.action);
+}
+
+}  // namespace naiad
