@@ -2,7 +2,7 @@
 //
 // Most terminals report only that a key typed a character; a held key types it again and again, after a
 // pause of 0.25 to 0.7 s. So a release is guessed from silence, by a HoldRule. With the kitty protocol real
-// releases arrive, and nothing is guessed. docs/held-keys.md has the rules that were compared.
+// releases arrive, and nothing is guessed. docs/terminals.md has the rules that were compared.
 //
 // The interval and the pause are the keyboard's, so they are learned from all keys together. Time is a
 // parameter.

@@ -4,8 +4,10 @@
 #include <term.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <stdexcept>
 
+#include "client/terminal/BuiltInTerminals.h"
 #include "shared/values/Canvas.h"
 
 namespace naiad {
@@ -28,6 +30,21 @@ Kind kindOf(const std::string& name) {
   return moves ? Kind::kDraws : Kind::kCannotDraw;
 }
 
+/// The same, with the description that is compiled in where the system has none. TERMINFO then stays set, for
+/// the screen that is made later.
+Kind kindWithBuiltIn(const std::string& name) {
+  const Kind kind = kindOf(name);
+  const char* const p_description = builtInTerminal(name);
+  if (kind != Kind::kUnknown || p_description == nullptr) return kind;
+  const char* const p_before = std::getenv("TERMINFO");
+  const std::string before = p_before != nullptr ? p_before : "";
+  setenv("TERMINFO", p_description, 1);
+  const Kind built_in = kindOf(name);
+  if (built_in == Kind::kDraws) return built_in;
+  p_before != nullptr ? setenv("TERMINFO", before.c_str(), 1) : unsetenv("TERMINFO");
+  return built_in;
+}
+
 /// A part of a sentence for the terminal itself: harmless, and not too long.
 std::string shown(const std::string& name) {
   std::string text = "TERM=";
@@ -46,14 +63,14 @@ TerminalType chooseTerminalType(const char* p_term) {
   if (term.empty()) throw std::runtime_error("TERM is not set: what kind of terminal is this?");
   // What calls itself so has no description, or a poor one, on purpose.
   const bool refuses = term == "dumb" || term == "unknown";
-  const Kind kind = refuses ? Kind::kCannotDraw : kindOf(term);
+  const Kind kind = refuses ? Kind::kCannotDraw : kindWithBuiltIn(term);
   if (kind == Kind::kDraws) return {term, ""};
   if (kind == Kind::kCannotDraw) {
     throw std::runtime_error(
         shown(term) + " is a terminal without a cursor that can be moved: nothing can be drawn on it.");
   }
   for (const char* p_name : {"xterm-256color", "xterm"}) {
-    if (kindOf(p_name) == Kind::kDraws)
+    if (kindWithBuiltIn(p_name) == Kind::kDraws)
       return {p_name, shown(term) + " is not known on this system; drawn as " + p_name + "."};
   }
   throw std::runtime_error(
