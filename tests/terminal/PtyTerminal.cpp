@@ -18,7 +18,7 @@ namespace naiad::test {
 namespace {
 
 /// Long enough for a loaded machine; a test that needs it has failed anyway.
-constexpr std::chrono::seconds kPatience{30};
+constexpr std::chrono::seconds kPatience{60};
 using Clock = std::chrono::steady_clock;
 
 [[noreturn]] void runChild(int slave, const PtyTerminal::Options& options) {

@@ -37,19 +37,19 @@ class PtyTerminal {
   /// Send the program a signal.
   void signal(int number);
 
-  /// Read until everything read so far contains `text`; false after 30 s or when the program is gone.
+  /// Read until everything read so far contains `text`; false after a minute or when the program is gone.
   bool waitFor(const std::string& text);
   /// The same, but goes on when the program is gone: another one that it started writes the text.
   bool waitForLater(const std::string& text);
-  /// Read until the modes are those before the program began; false after 30 s.
+  /// Read until the modes are those before the program began; false after a minute.
   bool waitForOriginalModes();
-  /// Read until `done`; false after 30 s.
+  /// Read until `done`; false after a minute.
   bool waitUntil(const std::function<bool()>& done);
   /// From now on waitFor() and waitForLater() look at later output only.
   void forget() { m_mark = m_output.size(); }
   /// Read for a while, whatever comes.
   void read(std::chrono::milliseconds time);
-  /// Read until the program has ended; its wait status. -1 if it has not within 30 s.
+  /// Read until the program has ended; its wait status. -1 if it has not within a minute.
   int waitForExit();
 
   /// Everything the program wrote since the start, and since the last forget().
