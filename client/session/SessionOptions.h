@@ -17,7 +17,7 @@ namespace wire {
 class ClientMessage;
 }
 
-/// How a program of the server's machine joins for somebody elsewhere (VisitorsListener.h).
+/// How a program on the server's machine joins on behalf of a remote player (VisitorsListener.h).
 struct Visit {
   std::string socket;               ///< path of the visitors' socket
   asio::ip::tcp::endpoint visitor;  ///< where they are

@@ -13,8 +13,8 @@ namespace naiad {
 struct ServerChoice {
   std::string text;                  ///< HOST[:PORT], or a link (JoinLink.h)
   std::string visitors;              ///< path of a visitors' socket; empty: straight to the server
-  std::string visitor;               ///< with it, whom this program joins for: ADDRESS:PORT
-  bool is_password_ambient = false;  ///< the password lies in the environment: nobody gave it for this server
+  std::string visitor;               ///< with it, the address of the remote player: ADDRESS:PORT
+  bool is_password_ambient = false;  ///< the password is from the environment, not given for this server
 
   /// A link does not get the password from the environment: strangers make links.
   bool dropsPassword() const;

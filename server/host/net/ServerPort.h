@@ -13,7 +13,7 @@ namespace naiad {
 
 struct ServerPort {
   std::unique_ptr<TcpListener> streams;
-  std::unique_ptr<VisitorsListener> visitors;  ///< null: nobody asked for it
+  std::unique_ptr<VisitorsListener> visitors;  ///< null: there is no visitors' socket
   std::unique_ptr<DatagramService> datagrams;  ///< null without encryption
 };
 

@@ -34,7 +34,7 @@ class ByteStream {
   using Socket = asio::generic::stream_protocol::socket;
 
   /// Takes a connected socket; makes it non-blocking, TCP with TCP_NODELAY and TCP_NOTSENT_LOWAT of 4 KiB.
-  /// `peer`: "192.0.2.7:40000", who is at the other end; empty: whom the socket is connected with.
+  /// `peer`: "192.0.2.7:40000", the address of the other end; empty: the socket's own peer address.
   explicit ByteStream(Socket socket, std::string peer = {});
   virtual ~ByteStream() = default;
   ByteStream(const ByteStream&) = delete;

@@ -50,7 +50,7 @@ class TcpConnector {
   void connect(const std::string& host, const std::vector<asio::ip::tcp::endpoint>& endpoints,
                std::chrono::milliseconds timeout, Done done);
 
-  /// The same by way of a visitors' socket of this machine (VisitorsListener.h), for somebody at `visitor`.
+  /// The same by way of a visitors' socket of this machine (VisitorsListener.h), for a player at `visitor`.
   /// `host` and `port` are what the server is called. With TLS only.
   void connectFor(const asio::ip::tcp::endpoint& visitor, const std::string& socket, const std::string& host,
                   std::uint16_t port, std::chrono::milliseconds timeout, Done done);
