@@ -100,8 +100,10 @@ void ClientSession::receiveDatagram(std::string_view bytes, Time now) {
 }
 
 bool ClientSession::wantsSecond(Time now) {
-  return m_state == State::kPlaying && m_link.hasStream() && m_welcome.second_stream &&
-         m_link.hasDatagrams() && m_timing.isOnStreamOnly(now) && m_link.second().takeAttempt(now);
+  if (m_state != State::kPlaying || !m_link.hasStream() || !m_welcome.second_stream) return false;
+  const bool no_datagrams =
+      m_link.options().two_streams || (m_link.hasDatagrams() && m_timing.isOnStreamOnly(now));
+  return no_datagrams && m_link.second().takeAttempt(now);
 }
 
 void ClientSession::startSecond(std::unique_ptr<ReliableChannel> channel) {

@@ -3,32 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "shared/net/base/Limits.h"
-#include "shared/net/datagram/UdpSocket.h"
-
 namespace naiad {
 
-Connection::Connection(asio::io_context& context, ServerAddress address, SessionOptions options, bool rejoin,
-                       ServerTrust trust)
-    : m_context(context),
-      m_trust(std::move(trust)),
-      m_connector(context, TcpOptions{.receive_limit = kMaxServerFrame},
-                  m_trust.insecure ? nullptr : TlsContext::forClient()),
-      m_second_connector(context, TcpOptions{.receive_limit = kMaxServerFrame}, TlsContext::forClient()),
+Connection::Connection(std::unique_ptr<StreamOpener> opener, ServerAddress address, SessionOptions options,
+                       bool rejoin)
+    : m_opener(std::move(opener)),
       m_address(std::move(address)),
       m_options(std::move(options)),
-      m_rejoin(rejoin) {
-  if (m_trust.insecure || m_options.open_socket || m_options.visit) return;
-  m_options.open_socket = [&context](const Endpoint& server) -> std::unique_ptr<DatagramSocket> {
-    UdpOptions udp;
-    udp.address = server.isIPv4() ? "0.0.0.0" : "::";
-    try {
-      return std::make_unique<UdpSocket>(context, udp);
-    } catch (const ListenError&) {
-      return nullptr;  // the stream is enough
-    }
-  };
-}
+      m_rejoin(rejoin) {}
 
 void Connection::start() {
   attempt();
@@ -36,40 +18,18 @@ void Connection::start() {
 
 void Connection::attempt() {
   m_next_attempt = Time::max();
-  connect(m_connector, [this](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
+  m_opener->open([this](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
     if (!channel) return attemptFailed(error);
-    const std::string refusal = whyUntrusted();
+    const std::string refusal = m_opener->whyUntrusted();
     if (refusal.empty()) return attach(std::move(channel));
     finish(State::kRefused, refusal);
   });
 }
 
-void Connection::connect(TcpConnector& connector, TcpConnector::Done done) {
-  const auto& visit = m_options.visit;
-  if (!visit) return connector.connect(m_address.host, m_address.port, kConnectTimeout, std::move(done));
-  connector.connectFor(visit->visitor, visit->socket, m_address.host, m_address.port, kConnectTimeout,
-                       std::move(done));
-}
-
-// Why the server that was reached is not trusted; empty if it is. Nothing is sent to one that is not.
-std::string Connection::whyUntrusted() const {
-  if (m_trust.insecure || !m_connector.peerFacts()) return {};
-  try {
-    const KnownServers known(m_trust.known_servers.empty() ? KnownServers::defaultPath()
-                                                           : m_trust.known_servers);
-    const Verdict verdict = known.admit(m_address.host, m_address.port, *m_connector.peerFacts(),
-                                        m_trust.fingerprint, m_trust.link_key);
-    return verdict.accepted() ? std::string() : verdict.sentence;
-  } catch (const KnownServersError& error) {
-    return error.what();
-  }
-}
-
 // A failure is harmless: the attempt is repeated later. The session's token is sent to its own server only.
 void Connection::openSecond() {
-  connect(m_second_connector, [this](std::unique_ptr<ReliableChannel> channel, const std::string&) {
-    const auto& facts = m_second_connector.peerFacts();
-    if (!channel || !m_session || !facts || facts->key != m_token_key) return;
+  m_opener->openSecond([this](std::unique_ptr<ReliableChannel> channel, const std::string&) {
+    if (!channel || !m_session || m_opener->secondKey() != m_token_key) return;
     m_session->startSecond(std::move(channel));
   });
 }
@@ -77,8 +37,7 @@ void Connection::openSecond() {
 void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
   ReliableChannel& started = *channel;
   const ReliableChannel* p_channel = channel.get();
-  m_key.reset();
-  if (const auto facts = m_connector.peerFacts()) m_key = facts->key;
+  m_key = m_opener->key();
   SessionOptions options = m_options;
   chooseToken(options);
   m_pending = std::make_unique<ClientSession>(std::move(channel), options, Clock::now());
@@ -107,8 +66,8 @@ void Connection::chooseToken(SessionOptions& options) const {
     if (m_token_key != m_key) return;
     options.resume_token = m_token;
     options.received = m_session->receivedFrames();
-  } else if (!m_session && m_p_file != nullptr && m_key && options.resume_token.empty()) {
-    options.resume_token = m_p_file->tokenFor(*m_key);
+  } else if (!m_session && m_p_tokens != nullptr && m_key && options.resume_token.empty()) {
+    options.resume_token = m_p_tokens->tokenFor(*m_key);
     options.fresh = !options.resume_token.empty();
   }
 }
@@ -117,13 +76,13 @@ void Connection::saveToken(const ClientSession& session) {
   if (session.state() != ClientSession::State::kPlaying || session.welcome().resume_token == m_token) return;
   m_token = session.welcome().resume_token;
   m_token_key = m_key;
-  if (m_p_file == nullptr || !m_key) return;
-  m_p_file->save({.server = {},
-                  .key = *m_key,
-                  .name = m_options.name,
-                  .token = m_token,
-                  .grace = session.welcome().grace},
-                 std::chrono::system_clock::now());
+  if (m_p_tokens == nullptr || !m_key) return;
+  m_p_tokens->save({.server = {},
+                    .key = *m_key,
+                    .name = m_options.name,
+                    .token = m_token,
+                    .grace = session.welcome().grace},
+                   std::chrono::system_clock::now());
 }
 
 void Connection::attemptFailed(const std::string& sentence) {
@@ -138,7 +97,7 @@ void Connection::attemptFailed(const std::string& sentence) {
 
 /// The last attempt was ended in its handshake, and not too many before it.
 bool Connection::isHungUpOn(Time now) {
-  if (!m_connector.wasHungUpOn()) return false;
+  if (!m_opener->wasHungUpOn()) return false;
   m_hung_up_at = std::min(m_hung_up_at, now);
   return now - m_hung_up_at < kHungUpPatience;
 }
@@ -159,8 +118,8 @@ void Connection::update(Time now) {
   if (isOver()) return;
   if (m_session) m_session->update(now);
   if (m_session && m_session->wantsSecond(now)) openSecond();
-  if (m_p_file != nullptr && m_session && m_session->isHeard(now)) {
-    m_p_file->refresh(std::chrono::system_clock::now());
+  if (m_p_tokens != nullptr && m_session && m_session->isHeard(now)) {
+    m_p_tokens->refresh(std::chrono::system_clock::now());
   }
   if (m_pending) {
     m_pending->update(now);
@@ -257,9 +216,8 @@ bool Connection::isOver() const {
 void Connection::finish(State state, const std::string& sentence) {
   // A session that was lost, or whose server was refused, may still exist on the server.
   const bool ended = state == State::kEnded || state == State::kLeft;
-  if (m_p_file != nullptr && ended) m_p_file->remove();
-  m_connector.cancel();
-  m_second_connector.cancel();
+  if (m_p_tokens != nullptr && ended) m_p_tokens->remove();
+  m_opener->cancel();
   m_state = state;
   m_sentence = sentence;
   m_next_attempt = Time::max();

@@ -13,30 +13,24 @@
 // between attempts doubles from 0.25 s to 2 s. A server that refuses only for now is asked again in the same
 // way. After any other refusal it does not try again.
 //
-// Thread: the one that runs the io_context, which must outlive the Connection.
+// It opens no streams itself: a StreamOpener does, by TCP in the terminal, by WebSocket in a browser.
+//
+// Thread: the one that calls the opener's callbacks.
 #pragma once
 
-#include <asio/io_context.hpp>
+#include <asio/ts/netfwd.hpp>
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "client/session/ClientSession.h"
-#include "client/trust/KnownServers.h"
+#include "client/session/ServerTrust.h"
+#include "client/session/StreamOpener.h"
 #include "client/trust/ServerAddress.h"
-#include "client/trust/SessionFile.h"
-#include "shared/net/stream/TcpConnector.h"
+#include "client/trust/TokenStore.h"
 
 namespace naiad {
-
-/// How a client makes sure that it talks to the right server.
-struct ServerTrust {
-  bool insecure = false;                   ///< plain TCP, loopback only, no datagrams: for tests
-  std::optional<Fingerprint> fingerprint;  ///< the server's key, if the player gave it
-  std::optional<ShortKey> link_key;        ///< the key of the link that the player followed
-  std::filesystem::path known_servers;     ///< pins; empty: the user's file
-};
 
 class Connection {
  public:
@@ -44,24 +38,26 @@ class Connection {
   using Time = Clock::time_point;
   enum class State { kJoining, kJoined, kSearching, kUnreachable, kRefused, kEnded, kLost, kLeft };
 
-  static constexpr std::chrono::milliseconds kConnectTimeout{5000};
   static constexpr std::chrono::milliseconds kFirstBackoff{250};
   static constexpr std::chrono::milliseconds kLastBackoff{2000};
   static constexpr std::chrono::seconds kGiveUp{60};
   /// A server hangs up on handshakes when too many come from one address: a newcomer tries for so long.
   static constexpr std::chrono::seconds kHungUpPatience{4};
 
-  /// `rejoin`: look for a lost server again. Nothing happens before start().
-  Connection(asio::io_context& context, ServerAddress address, SessionOptions options, bool rejoin,
-             ServerTrust trust = {});
+  /// `rejoin`: look for a lost server again. `address`: for people. Nothing happens before start().
+  Connection(std::unique_ptr<StreamOpener> opener, ServerAddress address, SessionOptions options,
+             bool rejoin);
+  /// By TCP (TcpStreamOpener.h), with datagrams where these pass. The context must outlive the Connection.
+  Connection(asio::io_context& context, const ServerAddress& address, const SessionOptions& options,
+             bool rejoin, const ServerTrust& trust = {});
 
-  /// Keep the session's token in this file, which must outlive the Connection, and go on with the session
-  /// that is in it. Before start().
-  void keepIn(SessionFile& file) { m_p_file = &file; }
+  /// Keep the session's token there, which must outlive the Connection, and go on with the session that is in
+  /// it. Before start().
+  void keepIn(TokenStore& tokens) { m_p_tokens = &tokens; }
   void start();
   /// Time-outs, pings, the next attempt. Call about ten times a second, and after every event.
   void update(Time now);
-  /// Leave on purpose. Run the io_context for a moment so that the message is sent.
+  /// Leave on purpose. Run the event loop for a moment so that the message is sent.
   void leave();
   /// Send the terminal's size, now and when joining again.
   void resize(int columns, int rows);
@@ -82,16 +78,14 @@ class Connection {
   Clock::duration pictureWait(Time now) const {
     return m_pending ? m_pending->pictureWait(now) : Clock::duration::zero();
   }
-  /// The state can change, or a new session can replace session(), only in update() and from the
-  /// io_context; this counts both.
+  /// The state can change, or a new session can replace session(), only in update() and in the opener's
+  /// callbacks; this counts both.
   std::uint64_t revision() const { return m_revision; }
   const ServerAddress& address() const { return m_address; }
 
  private:
   void attempt();
-  void connect(TcpConnector& connector, TcpConnector::Done done);
   void openSecond();
-  std::string whyUntrusted() const;
   void attach(std::unique_ptr<ReliableChannel> channel);
   void chooseToken(SessionOptions& options) const;
   void saveToken(const ClientSession& session);
@@ -103,14 +97,11 @@ class Connection {
   void waitForServer(const std::string& sentence);
   void finish(State state, const std::string& sentence);
 
-  asio::io_context& m_context;
-  ServerTrust m_trust;
-  TcpConnector m_connector;
-  TcpConnector m_second_connector;  ///< for a second stream beside the session's (SecondStream.h)
+  std::unique_ptr<StreamOpener> m_opener;
   ServerAddress m_address;
   SessionOptions m_options;
   bool m_rejoin;
-  SessionFile* m_p_file = nullptr;
+  TokenStore* m_p_tokens = nullptr;
   std::optional<Fingerprint> m_key;        ///< of the server on the newest stream
   std::optional<Fingerprint> m_token_key;  ///< of the server that gave m_token
   std::string m_token;                     ///< newest of the session

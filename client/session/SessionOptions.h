@@ -35,6 +35,7 @@ struct SessionOptions {
   bool fresh = false;          ///< with nothing but the token: an earlier process had the session
   std::uint32_t received = 0;  ///< else: number of the newest reliable frame received
   bool second_stream = false;  ///< with the token: a stream beside that of the session
+  bool two_streams = false;    ///< there are no datagrams to wait for: open a second stream immediately
   std::optional<Visit> visit;  ///< empty: this program is the player's own. Else there are no datagrams
   /// Makes a socket for datagrams to an endpoint; empty: no datagrams (a Connection that encrypts puts UDP
   /// there). May return null.

@@ -11,15 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "client/trust/SavedSession.h"
+#include "client/trust/TokenStore.h"
 
 namespace naiad {
 
 /// Not thread-safe; any number of processes on one directory.
-class SessionFile {
+class SessionFile : public TokenStore {
  public:
-  using Time = SavedSession::Time;
-
   /// The time in the file is brought up to date this often.
   static constexpr std::chrono::seconds kRefresh{2};
 
@@ -32,18 +30,14 @@ class SessionFile {
   SessionFile(std::filesystem::path directory, std::string server, const std::optional<std::string>& name,
               Time now);
   /// The file stays; a client that leaves in order removes it.
-  ~SessionFile();
+  ~SessionFile() override;
   SessionFile(const SessionFile&) = delete;
   SessionFile& operator=(const SessionFile&) = delete;
 
-  /// The token of the session that was left, for the server with this key; empty if there is none.
-  std::string tokenFor(const Fingerprint& key) const;
-  /// The session's token is another one now. `session.server` and `alive` are filled in.
-  void save(SavedSession session, Time now);
-  /// The session is alive. Call about once a second.
-  void refresh(Time now);
-  /// The session is over.
-  void remove();
+  std::string tokenFor(const Fingerprint& key) const override;
+  void save(SavedSession session, Time now) override;
+  void refresh(Time now) override;
+  void remove() override;
 
   /// Problems with files, a sentence each.
   const std::vector<std::string>& problems() const { return m_problems; }

@@ -40,7 +40,7 @@ ClientApp::ClientApp(Options options)
       m_sounds(m_options.sound),
       m_player(m_connection),
       m_composer(m_connection, m_controls, m_sounds) {
-  if (m_options.p_session_file != nullptr) m_connection.keepIn(*m_options.p_session_file);
+  if (m_options.p_tokens != nullptr) m_connection.keepIn(*m_options.p_tokens);
 }
 
 ClientApp::~ClientApp() = default;

@@ -32,7 +32,7 @@ class ClientApp {
     ServerAddress address;
     SessionOptions session;  ///< the terminal's size is filled in here
     ServerTrust trust;
-    SessionFile* p_session_file = nullptr;  ///< for a later client to resume from; null: none
+    TokenStore* p_tokens = nullptr;  ///< for a later client to resume from; null: none
     TerminalType terminal;
     bool ascii = false;
     bool mouse = true;

@@ -83,6 +83,12 @@ bool ClientControls::insertPasted(const std::u32string& text) {
   return true;
 }
 
+void ClientControls::setChatText(std::string_view text) {
+  if (!m_chat_open) return;
+  m_text.clear();
+  insertPasted(df::decodeUtf8(std::string(text)));
+}
+
 ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
   // A held Ctrl-] repeats; that is not its own command.
   if (event.action == KeyEvent::Action::kRepeat) return Result::kHandled;

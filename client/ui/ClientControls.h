@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "client/terminal/InputDecoder.h"
 
@@ -27,7 +28,17 @@ inline constexpr const char* kClientKeyHelp[] = {
     "Esc        close the help or the list",
 };
 
-/// Its last line: how exact held keys are in this terminal (docs/terminals.md).
+/// The same in a browser, whose page has buttons for these.
+inline constexpr const char* kBrowserKeyHelp[] = {
+    "Ctrl-] t   say something to all players",
+    "Ctrl-] p   list of players",
+    "Ctrl-] h   this help",
+    "Ctrl-] s   status line on or off",
+    "Ctrl-] q   leave the game",
+    "Esc        close the help or the list",
+};
+
+/// The last line in a terminal: how exact held keys are in this terminal (docs/terminals.md).
 inline constexpr const char* kKeyReleasesHelp = "Held keys  exact: this terminal reports when a key goes up";
 inline constexpr const char* kGuessedReleasesHelp =
     "Held keys  guessed: this terminal reports no key that goes up";
@@ -56,6 +67,8 @@ class ClientControls {
   Result takeKey(const KeyEvent& event);
   /// Pasted text goes into the chat line, up to its limit, if one is open; it never sends. True if it did.
   bool insertPasted(const std::u32string& text);
+  /// The chat line, if it is open, is what a text field of the page around it holds.
+  void setChatText(std::string_view text);
   /// A picture was drawn.
   void noteShown(const ShownControls& shown) { m_shown = shown; }
 

@@ -84,6 +84,7 @@ ScreenModel FrameComposer::composeFrame(Time now) {
     model.chat = recentChat(now);
     model.note = m_composed.note;
   }
+  model.browser = m_browser;
   model.key_releases = m_key_releases;
   model.status_shown = m_controls.status() != StatusMode::kNever;
   model.status_over_game = m_composed.status;

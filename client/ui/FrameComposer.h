@@ -30,6 +30,8 @@ class FrameComposer {
   void addNotice(std::string text, Time now) { m_notice = {"", df::COLOR_DEFAULT, std::move(text), now}; }
   /// Does the terminal report when a key goes up? The help says so.
   void noteKeyReleases(bool reported) { m_key_releases = reported; }
+  /// A page of a browser shows it: it has buttons for the client's commands.
+  void noteBrowser() { m_browser = true; }
   /// The terminal has another size: show the status for a moment.
   void noteResize(Time now) { m_status.show(now); }
 
@@ -57,6 +59,7 @@ class FrameComposer {
   FrameState m_composed;
   ChatEntry m_notice;
   StatusTimer m_status;
+  bool m_browser = false;
   bool m_key_releases = false;
 };
 

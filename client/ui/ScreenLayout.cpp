@@ -16,9 +16,10 @@ int columnCount(const std::string& text) {
   return static_cast<int>(columnsOf(text));
 }
 
-void drawTooSmall(Picture& picture) {
+void drawTooSmall(Picture& picture, bool browser) {
   const std::string size = std::to_string(picture.width()) + "x" + std::to_string(picture.height());
   std::vector<std::string> lines = {"Terminal too small", size + ", needs 20x10", "Ctrl-C leaves"};
+  if (browser) lines = {"Window too small", size + ", needs 20x10", ""};
   if (picture.width() < columnCount(lines[0])) lines = {"too small", size, "<20x10"};
   int y = std::max(0, (picture.height() - 3) / 2);
   for (const std::string& line : lines) {
@@ -40,7 +41,7 @@ void drawView(Picture& picture, const ScreenModel& model, const ViewPlacement& p
 void drawStatusRow(Picture& picture, const ScreenModel& model) {
   const int y = picture.height() - 1;
   picture.fill(0, y, picture.width(), 1, Style::kReverse);
-  const std::string help = "Ctrl-] help";
+  const std::string help = model.browser ? "" : "Ctrl-] help";
   const auto count = model.players.size();
   const std::string parts[] = {
       std::to_string(model.round_trip.count()) + " ms",
@@ -51,7 +52,7 @@ void drawStatusRow(Picture& picture, const ScreenModel& model) {
       model.server,
   };
   const int help_at = picture.width() - columnCount(help) - 1;
-  const bool room_for_help = help_at > 12;
+  const bool room_for_help = !help.empty() && help_at > 12;
   int end = room_for_help ? help_at - 1 : picture.width();
   if (const int note_at = end - columnCount(model.note) - 1; !model.note.empty() && note_at > 12) {
     picture.write(note_at, y, model.note, end - note_at, df::COLOR_DEFAULT, Style::kReverse);
@@ -75,8 +76,8 @@ void drawStatusSide(Picture& picture, const ScreenModel& model) {
                                std::to_string(count) + (count == 1 ? " player" : " players"),
                                std::to_string(model.score) + " pts",
                                "",
-                               "Ctrl-] h",
-                               "helps",
+                               model.browser ? "" : "Ctrl-] h",
+                               model.browser ? "" : "helps",
                                "",
                                model.note};
   int y = 0;
@@ -119,7 +120,7 @@ bool drawStatusOverGame(Picture& picture, const ScreenModel& model) {
   const auto count = model.players.size();
   const std::string text = (note.empty() ? " " : " " + note + "  ") +
                            std::to_string(model.round_trip.count()) + " ms  " + std::to_string(count) +
-                           (count == 1 ? " player" : " players") + "  Ctrl-] help ";
+                           (count == 1 ? " player" : " players") + (model.browser ? " " : "  Ctrl-] help ");
   return drawInCorner(picture, text, true);
 }
 
@@ -249,8 +250,12 @@ void wrapInto(std::vector<std::string>& out, const std::string& text, std::size_
 void drawHelp(Picture& picture, const ScreenModel& model, ShownControls& shown) {
   std::vector<std::string> whole = model.help;
   if (!whole.empty()) whole.emplace_back();
-  whole.insert(whole.end(), std::begin(kClientKeyHelp), std::end(kClientKeyHelp));
-  whole.emplace_back(model.key_releases ? kKeyReleasesHelp : kGuessedReleasesHelp);
+  if (model.browser) {
+    whole.insert(whole.end(), std::begin(kBrowserKeyHelp), std::end(kBrowserKeyHelp));
+  } else {
+    whole.insert(whole.end(), std::begin(kClientKeyHelp), std::end(kClientKeyHelp));
+    whole.emplace_back(model.key_releases ? kKeyReleasesHelp : kGuessedReleasesHelp);
+  }
   const int room = std::max(picture.width() - 4, 1);
   PanelLines panel{model.game.empty() ? "Help" : "Help: " + model.game, 0, 0, 0, {}};
   std::vector<std::string> lines;
@@ -269,7 +274,7 @@ ScreenLayout layOut(const ScreenModel& model, int columns, int rows) {
   ScreenLayout layout{Picture(columns, rows), {}, {}};
   Picture& picture = layout.picture;
   if (columns < kMinColumns || rows < kMinRows) {
-    drawTooSmall(picture);
+    drawTooSmall(picture, model.browser);
     return layout;
   }
   if (!model.has_view) {

@@ -37,6 +37,7 @@ struct ScreenModel {
   std::uint32_t self = 0;  ///< this player's id
   std::vector<PlayerLine> players;
   std::vector<std::string> help;  ///< the game's own lines
+  bool browser = false;           ///< a page shows it, not a terminal
   bool key_releases = false;      ///< the terminal reports when a key goes up
 
   bool chat_open = false;

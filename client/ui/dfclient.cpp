@@ -15,6 +15,7 @@
 #include "client/terminal/PasswordPrompt.h"
 #include "client/terminal/TerminalGuard.h"
 #include "client/terminal/TerminalType.h"
+#include "client/trust/SessionFile.h"
 #include "client/ui/ClientApp.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/options/Options.h"
@@ -61,7 +62,7 @@ std::size_t printProblems(const naiad::SessionFile* p_file, std::size_t from) {
   return p_file->problems().size();
 }
 
-int play(naiad::ClientApp::Options options, bool attached) {
+int play(naiad::ClientApp::Options options, naiad::SessionFile* p_file, bool attached) {
   if (!naiad::TerminalGuard::isTerminal()) {
     return complain(naiad::kExitNoTerminal,
                     "standard input and output must be a terminal (dfbot needs none).");
@@ -69,12 +70,13 @@ int play(naiad::ClientApp::Options options, bool attached) {
   // Before the server hears anything: a client that cannot draw must not leave a player behind.
   options.terminal = naiad::chooseTerminalType(std::getenv("TERM"));
   naiad::ClientApp::Outcome outcome;
-  const std::size_t printed = printProblems(options.p_session_file, 0);
+  options.p_tokens = p_file;
+  const std::size_t printed = printProblems(p_file, 0);
   {
     naiad::ClientApp app(options);
     outcome = app.run();
   }
-  printProblems(options.p_session_file, printed);
+  printProblems(p_file, printed);
   if (outcome.signal != 0) {
     // The terminal is restored; now die of the signal, so that the parent process sees it.
     std::signal(outcome.signal, SIG_DFL);
@@ -161,10 +163,9 @@ int start(int argc, char** argv) {
   if (directory && !line.no_resume && !options.trust.insecure) {
     const auto wanted = line.named ? std::optional(options.session.name) : std::nullopt;
     file.emplace(*directory, options.address.canonicalText(), wanted, std::chrono::system_clock::now());
-    options.p_session_file = &*file;
   }
   try {
-    const int code = play(std::move(options), line.attached);
+    const int code = play(std::move(options), file ? &*file : nullptr, line.attached);
     if (code == naiad::kExitRefused && line.server.dropsPassword() && !line.ask_password)
       std::fputs("dfclient: NAIAD_PASSWORD is not sent where a link leads. --ask-password asks for one.\n",
                  stderr);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "client/session/Connection.h"
+#include "client/trust/SessionFile.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad::test {

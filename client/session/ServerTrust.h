@@ -1,0 +1,19 @@
+// How a client makes sure that it talks to the right server.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "shared/net/stream/Fingerprint.h"
+#include "shared/net/stream/ShortKey.h"
+
+namespace naiad {
+
+struct ServerTrust {
+  bool insecure = false;                   ///< plain TCP, loopback only, no datagrams: for tests
+  std::optional<Fingerprint> fingerprint;  ///< the server's key, if the player gave it
+  std::optional<ShortKey> link_key;        ///< the key of the link that the player followed
+  std::filesystem::path known_servers;     ///< pins; empty: the user's file
+};
+
+}  // namespace naiad

@@ -1,0 +1,44 @@
+// How a Connection reaches its server: opens the streams of a session, and says whether the server behind
+// them may be trusted.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "shared/net/base/Channel.h"
+#include "shared/net/stream/Fingerprint.h"
+
+namespace naiad {
+
+/// Not thread-safe. May be destroyed at any time, in its own callback too; that cancels.
+class StreamOpener {
+ public:
+  /// Either a channel, not started yet, and an empty `error`; or no channel and one sentence for people.
+  using Done = std::function<void(std::unique_ptr<ReliableChannel> channel, const std::string& error)>;
+
+  virtual ~StreamOpener() = default;
+
+  /// Open a stream for a session. `done` is called once, from the event loop, unless cancelled. One at a
+  /// time: an attempt under way is cancelled.
+  virtual void open(Done done) = 0;
+  /// The same for a second stream beside it (SecondStream.h), independent of the first.
+  virtual void openSecond(Done done) = 0;
+  /// Give up; no `done` will be called.
+  virtual void cancel() = 0;
+
+  /// The key of the server behind the newest stream of open(): a session's token is sent to no other. Nothing
+  /// where there is no encryption.
+  virtual std::optional<Fingerprint> key() const = 0;
+  /// The same of openSecond().
+  virtual std::optional<Fingerprint> secondKey() const = 0;
+  /// Why the server behind the newest stream of open() is not trusted, for people; empty if it is. Nothing
+  /// may be sent to one that is not.
+  virtual std::string whyUntrusted() const = 0;
+  /// The newest attempt of open() was hung up on before the server could speak, as where too many come from
+  /// one place: another one may do.
+  virtual bool wasHungUpOn() const = 0;
+};
+
+}  // namespace naiad

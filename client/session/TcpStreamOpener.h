@@ -1,0 +1,45 @@
+// Opens streams by TCP and TLS: straight to the server, or by way of a visitors' socket.
+#pragma once
+
+#include <asio/ts/netfwd.hpp>
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "client/session/ServerTrust.h"
+#include "client/session/SessionOptions.h"
+#include "client/session/StreamOpener.h"
+#include "client/trust/ServerAddress.h"
+#include "shared/net/stream/TcpConnector.h"
+
+namespace naiad {
+
+/// Thread: the one that runs the context, which must outlive it.
+class TcpStreamOpener : public StreamOpener {
+ public:
+  static constexpr std::chrono::milliseconds kConnectTimeout{5000};
+
+  /// `visit`: by way of that socket, for the player who is there.
+  TcpStreamOpener(asio::io_context& context, ServerAddress address, ServerTrust trust,
+                  std::optional<Visit> visit);
+
+  void open(Done done) override { connect(m_connector, std::move(done)); }
+  void openSecond(Done done) override { connect(m_second_connector, std::move(done)); }
+  void cancel() override;
+  std::optional<Fingerprint> key() const override { return keyOf(m_connector); }
+  std::optional<Fingerprint> secondKey() const override { return keyOf(m_second_connector); }
+  std::string whyUntrusted() const override;
+  bool wasHungUpOn() const override { return m_connector.wasHungUpOn(); }
+
+ private:
+  static std::optional<Fingerprint> keyOf(const TcpConnector& connector);
+  void connect(TcpConnector& connector, Done done);
+
+  ServerAddress m_address;
+  ServerTrust m_trust;
+  std::optional<Visit> m_visit;
+  TcpConnector m_connector;
+  TcpConnector m_second_connector;
+};
+
+}  // namespace naiad

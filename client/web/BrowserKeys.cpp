@@ -1,0 +1,92 @@
+#include "client/web/BrowserKeys.h"
+
+#include <algorithm>
+#include <array>
+
+#include "client/terminal/KeyTable.h"
+#include "shared/values/Canvas.h"
+
+namespace naiad {
+
+using namespace df::Keyboard;
+
+namespace {
+
+struct Named {
+  std::string_view name;
+  Key key;
+};
+
+/// Values of `key` that are names rather than characters.
+constexpr std::array kNames = {
+    Named{"ArrowLeft", LEFTARROW},
+    Named{"ArrowRight", RIGHTARROW},
+    Named{"ArrowUp", UPARROW},
+    Named{"ArrowDown", DOWNARROW},
+    Named{"Enter", RETURN},
+    Named{"Escape", ESCAPE},
+    Named{"Tab", TAB},
+    Named{"Backspace", BACKSPACE},
+    Named{"Delete", DELETE},
+    Named{"Insert", INSERT},
+    Named{"Home", HOME},
+    Named{"End", END},
+    Named{"PageUp", PAGEUP},
+    Named{"PageDown", PAGEDOWN},
+    Named{"Pause", PAUSE},
+    Named{"F1", F1},
+    Named{"F2", F2},
+    Named{"F3", F3},
+    Named{"F4", F4},
+    Named{"F5", F5},
+    Named{"F6", F6},
+    Named{"F7", F7},
+    Named{"F8", F8},
+    Named{"F9", F9},
+    Named{"F10", F10},
+    Named{"F11", F11},
+    Named{"F12", F12},
+};
+
+/// Keys of which there are two: only `code` tells which it is.
+constexpr std::array kSides = {
+    Named{"ShiftLeft", LEFTSHIFT},       Named{"ShiftRight", RIGHTSHIFT}, Named{"ControlLeft", LEFTCONTROL},
+    Named{"ControlRight", RIGHTCONTROL}, Named{"AltLeft", LEFTALT},       Named{"AltRight", RIGHTALT},
+};
+
+template <class Table>
+Key find(const Table& table, std::string_view name) {
+  const auto found =
+      std::find_if(table.begin(), table.end(), [name](const Named& named) { return named.name == name; });
+  return found != table.end() ? found->key : UNDEFINED_KEY;
+}
+
+KeyEvent keyOf(std::string_view key, std::string_view code) {
+  KeyEvent event;
+  event.key = find(kSides, code);
+  if (event.key == UNDEFINED_KEY) event.key = find(kNames, key);
+  if (event.key != UNDEFINED_KEY) return event;
+  // All that is left are keys that type one character; names have several letters.
+  const std::u32string characters = df::decodeUtf8(std::string(key));
+  return characters.size() == 1 ? keyOfCharacter(characters.front()) : event;
+}
+
+}  // namespace
+
+KeyEvent BrowserKeys::translate(std::string_view key, std::string_view code, KeyEvent::Action action,
+                                std::uint8_t modifiers) {
+  KeyEvent event;
+  if (key.size() <= kMaxName && code.size() <= kMaxName) event = keyOf(key, code);
+  event.action = action;
+  event.modifiers = modifiers;
+  const auto down = m_down.find(code);
+  if (action == KeyEvent::Action::kPress && event.key != UNDEFINED_KEY && m_down.size() < kMaxDown) {
+    m_down.insert_or_assign(std::string(code), event.key);
+  } else if (action != KeyEvent::Action::kPress && down != m_down.end()) {
+    event.key = down->second;
+    if (action == KeyEvent::Action::kRelease) m_down.erase(down);
+  }
+  return event;
+}
+
+}  // namespace naiad

@@ -1,0 +1,179 @@
+#include "client/web/WebClient.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "shared/replica/Limits.h"
+
+namespace naiad {
+namespace {
+
+constexpr std::string_view kDigits = "0123456789abcdef";
+constexpr std::size_t kMaxToken = 64;
+
+std::string toHex(std::string_view bytes) {
+  std::string text;
+  for (const char byte : bytes) {
+    text += kDigits[static_cast<unsigned char>(byte) >> 4];
+    text += kDigits[static_cast<unsigned char>(byte) & 15];
+  }
+  return text;
+}
+
+std::string fromHex(std::string_view text) {
+  std::string bytes;
+  if (text.size() % 2 != 0 || text.size() > 2 * kMaxToken) return {};
+  for (std::size_t i = 0; i < text.size(); i += 2) {
+    const std::size_t high = kDigits.find(text[i]);
+    const std::size_t low = kDigits.find(text[i + 1]);
+    if (high == std::string_view::npos || low == std::string_view::npos) return {};
+    bytes += static_cast<char>(high << 4 | low);
+  }
+  return bytes;
+}
+
+SessionOptions sessionOptions(const WebClient::Options& options) {
+  SessionOptions session;
+  session.name = options.name;
+  session.password = options.password;
+  session.program = options.program;
+  session.columns = options.columns;
+  session.rows = options.rows;
+  session.two_streams = true;
+  return session;
+}
+
+}  // namespace
+
+TabTokens::TabTokens(WebPort& port, std::string_view kept) : m_port(port), m_token(fromHex(kept)) {}
+
+void TabTokens::save(SavedSession session, Time) {
+  m_token = session.token;
+  m_port.keepToken(toHex(m_token));
+}
+
+void TabTokens::remove() {
+  m_token.clear();
+  m_port.keepToken("");
+}
+
+WebClient::WebClient(WebPort& port, const Options& options, Time now)
+    : m_port(port),
+      m_columns(options.columns),
+      m_rows(options.rows),
+      m_tokens(port, options.token),
+      m_p_streams(new WebStreams(port)),
+      m_connection(std::unique_ptr<StreamOpener>(m_p_streams), ServerAddress{options.server, 0},
+                   sessionOptions(options), true) {
+  m_connection.keepIn(m_tokens);
+  m_composer.noteBrowser();
+  m_player.setRealReleases(true, now);
+  m_connection.start();
+}
+
+void WebClient::pressKey(std::string_view key, std::string_view code, KeyEvent::Action action,
+                         std::uint8_t modifiers, Time now) {
+  takeKey(m_keys.translate(key, code, action, modifiers), now);
+}
+
+void WebClient::command(char32_t letter, Time now) {
+  KeyEvent prefix;
+  prefix.key = df::Keyboard::RIGHTBRACKET;
+  prefix.modifiers = kControl;
+  KeyEvent event;
+  event.ch = letter;
+  event.key = static_cast<df::Keyboard::Key>(df::Keyboard::A + static_cast<int>(letter - U'a'));
+  takeKey(prefix, now);
+  takeKey(event, now);
+}
+
+void WebClient::takeKey(const KeyEvent& event, Time now) {
+  using Result = ClientControls::Result;
+  const Result result = m_controls.takeKey(event);
+  switch (result) {
+    case Result::kGame:
+    case Result::kSuspend:  // there is nothing to suspend in a page
+      return m_player.pressKey(event, now);
+    case Result::kOpened:
+      m_player.releaseKeys(now);
+      break;
+    case Result::kSay:
+      if (m_connection.session() != nullptr) m_connection.session()->sendChat(m_controls.takeChat());
+      break;
+    case Result::kLeave:
+      leave();
+      break;
+    default:
+      break;
+  }
+  m_dirty = true;
+}
+
+void WebClient::leave() {
+  m_connection.leave();
+}
+
+void WebClient::releaseKeys(Time now) {
+  m_keys.forget();
+  m_player.releaseKeys(now);
+}
+
+void WebClient::resize(int columns, int rows) {
+  columns = std::clamp(columns, 1, kMaxViewWidth);
+  rows = std::clamp(rows, 1, kMaxViewHeight);
+  if (columns == m_columns && rows == m_rows) return;
+  m_columns = columns;
+  m_rows = rows;
+  m_connection.resize(columns, rows);
+  m_dirty = true;
+}
+
+void WebClient::update(Time now) {
+  m_p_streams->update(now);
+  m_connection.update(now);
+  m_player.update(now);
+  ClientSession* session = m_connection.session();
+  if (session == nullptr) return;
+  const std::uint32_t self = session->welcome().player;
+  for (const SoundLine& sound : session->takeSounds()) {
+    m_sounds.addSound(sound, self, now);
+    m_port.sound(sound, sound.player == 0 || sound.player == self);
+  }
+}
+
+bool WebClient::compose(Time now) {
+  if (!std::exchange(m_dirty, false) && !m_composer.isStale(now)) return false;
+  const ScreenModel model = m_composer.composeFrame(now);
+  if (model.has_view) {
+    m_view_width = model.view.width();
+    m_view_height = model.view.height();
+  }
+  m_layout = layOut(model, m_columns, m_rows);
+  m_controls.noteShown(m_layout.shown);
+  return true;
+}
+
+WebClient::State WebClient::state() const {
+  if (m_p_streams->isRefusalFinal()) return State::kRefused;
+  using S = Connection::State;
+  switch (m_connection.state()) {
+    case S::kJoining:
+      return State::kJoining;
+    case S::kJoined:
+    case S::kSearching:
+      return State::kPlaying;
+    case S::kRefused:
+      return State::kRefused;
+    case S::kLeft:
+      return State::kLeft;
+    default:
+      return State::kOver;
+  }
+}
+
+std::string WebClient::sentence() const {
+  if (!m_p_streams->refusal().empty()) return m_p_streams->refusal();
+  return m_connection.sentence();
+}
+
+}  // namespace naiad

@@ -1,0 +1,82 @@
+// Streams through WebSockets (RFC 6455) to a gateway (server/gateway): each binary message is a frame.
+//
+// The gateway is trusted with everything, by its certificate, which the browser checks; it checks the
+// server's key. So there is no key to be seen here: one that stands for "the server behind the gateway" takes
+// its place.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "client/session/StreamOpener.h"
+#include "client/web/WebPort.h"
+
+namespace naiad {
+
+/// Why a gateway closes a WebSocket: codes of its own (RFC 6455 7.4.2), with a sentence for people as reason.
+enum class GatewayClose : int {
+  kNoServer = 4000,  ///< the game's server cannot be reached
+  kWrongKey = 4001,  ///< what answers in its place has another key
+  kTooSlow = 4002,   ///< the browser does not take what is sent
+  kCrowded = 4003,   ///< too many visitors, in all or from this address
+};
+
+class WebStreams : public StreamOpener {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  static constexpr std::chrono::seconds kOpenTimeout{5};
+
+  /// `port` must outlive it.
+  explicit WebStreams(WebPort& port) : m_port(port) {}
+
+  void open(Done done) override { begin(m_first, std::move(done)); }
+  void openSecond(Done done) override { begin(m_second, std::move(done)); }
+  void cancel() override;
+  std::optional<Fingerprint> key() const override { return gatewaysServer(); }
+  std::optional<Fingerprint> secondKey() const override { return gatewaysServer(); }
+  std::string whyUntrusted() const override { return {}; }
+  bool wasHungUpOn() const override { return m_crowded; }
+
+  // What the page says of a stream.
+  void opened(int stream);
+  void received(int stream, std::string_view message);
+  /// `code`: of the close frame; 1006 if there was none. `reason`: a sentence of the gateway, or empty.
+  void closed(int stream, int code, std::string_view reason);
+
+  /// Time-outs. Call about ten times a second.
+  void update(Time now);
+  /// Why the gateway turned the newest stream away, for people; empty once a stream works.
+  const std::string& refusal() const { return m_refusal; }
+  /// The refusal is final: another attempt would end like this one.
+  bool isRefusalFinal() const { return m_final; }
+
+  /// Stands for the key of the server behind the gateway.
+  static std::optional<Fingerprint> gatewaysServer();
+
+ private:
+  class Channel;
+  struct Attempt {
+    int stream = 0;  ///< 0: none is under way
+    Done done;
+    std::optional<Time> until;  ///< set with the first update()
+  };
+  void begin(Attempt& attempt, Done done);
+  void drop(Attempt& attempt);
+  Attempt* find(int stream);
+  void fail(Attempt& attempt, const std::string& sentence);
+
+  WebPort& m_port;
+  int m_newest = 0;
+  Attempt m_first;
+  Attempt m_second;
+  std::map<int, Channel*> m_channels;  ///< those that are open here
+  std::string m_refusal;
+  bool m_crowded = false;
+  bool m_final = false;
+};
+
+}  // namespace naiad
