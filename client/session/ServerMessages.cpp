@@ -1,10 +1,9 @@
 #include "client/session/ServerMessages.h"
 
-#include <google/protobuf/stubs/logging.h>
-
 #include <algorithm>
 
 #include "naiad.pb.h"
+#include "proto/ParseErrors.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/net/datagram/DatagramKeys.h"
@@ -83,9 +82,7 @@ std::optional<ServerMessageValue> check(const wire::Sounds& wire, std::uint32_t 
 }  // namespace
 
 std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
-  // protobuf reports malformed text on stderr: a server could scribble on the player's screen.
-  static const auto previous_handler = google::protobuf::SetLogHandler(nullptr);
-  (void)previous_handler;
+  silenceParseErrors();  // a server could scribble on the player's screen
   if (frame.size() > kMaxServerFrame) return std::nullopt;
   wire::ServerMessage wire;
   if (!wire.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return std::nullopt;

@@ -1,6 +1,5 @@
 #include "host/program/ProgramHost.h"
 
-#include <google/protobuf/stubs/logging.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -29,6 +28,7 @@
 #include "host/program/Worlds.h"
 #include "host/world/WorldServer.h"
 #include "host/world/WorldStart.h"
+#include "proto/ParseErrors.h"
 #include "shared/values/Version.h"
 
 namespace naiad {
@@ -174,8 +174,7 @@ ProgramHost g_program;
 }  // namespace
 
 void ProgramHost::startUp(df::World& world) {
-  // The library would complain on stderr about every string that a stranger sends in bad UTF-8.
-  google::protobuf::SetLogHandler(nullptr);
+  silenceParseErrors();
   const df::Config& config = df::Config::getInstance();
   m_options = {};
   m_options.name = programName();

@@ -1,7 +1,5 @@
 // dfserver: loads a game, installs the host as its runner, and calls the game's main(). With worlds in
 // processes of their own it does so in each of those, and is their front.
-#include <google/protobuf/stubs/logging.h>
-
 #include <exception>
 #include <iostream>
 
@@ -22,6 +20,7 @@
 #include "host/program/Worlds.h"
 #include "host/world/WorldServer.h"
 #include "host/world/WorldStart.h"
+#include "proto/ParseErrors.h"
 #include "shared/values/Version.h"
 
 namespace {
@@ -145,8 +144,7 @@ int serve(naiad::HostOptions options, const std::string& config) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // The library would complain on stderr about every string that a stranger sends in bad UTF-8.
-  google::protobuf::SetLogHandler(nullptr);
+  naiad::silenceParseErrors();
   naiad::surviveBrokenPipes();
   naiad::HostOptions options;
   switch (naiad::parseHostOptions(argc, argv, options)) {

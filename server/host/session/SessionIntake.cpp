@@ -1,21 +1,18 @@
 // What a session receives from its client: every frame and datagram is parsed, checked and applied, or
 // refused and counted, in this file.
-#include <google/protobuf/stubs/logging.h>
-
 #include <algorithm>
 
 #include "host/session/Names.h"
 #include "host/session/Session.h"
 #include "naiad.pb.h"
+#include "proto/ParseErrors.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {
 namespace {
 
 bool parse(std::string_view frame, wire::ClientMessage& message) {
-  // protobuf reports malformed text on stderr: a stranger could fill the host's log. It is counted instead.
-  static const auto previous_handler = google::protobuf::SetLogHandler(nullptr);
-  (void)previous_handler;
+  silenceParseErrors();  // a stranger could fill the host's log; malformed frames are counted instead
   return message.ParseFromArray(frame.data(), static_cast<int>(frame.size()));
 }
 

@@ -7,8 +7,6 @@
 //           length 0: what 1 of the channel or the host: 0 closed, 1 busy, 2 many times the last frame, 3
 //           goodbye, 252 a second stream comes, 253 the next frames come on the other stream, 254 the
 //           second closed, 255 it is busy, else so many half seconds pass
-#include <google/protobuf/stubs/logging.h>
-
 #include <memory>
 
 #include "FakeSealed.h"
@@ -16,6 +14,7 @@
 #include "Script.h"
 #include "host/session/Session.h"
 #include "naiad.pb.h"
+#include "proto/ParseErrors.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
 #include "tests/support/FakeChannel.h"
@@ -156,8 +155,7 @@ class Play {
 }  // namespace naiad::fuzz
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const auto noisy = google::protobuf::SetLogHandler(nullptr);
-  static_cast<void>(noisy);
+  naiad::silenceParseErrors();
   naiad::fuzz::Script script(data, size);
   naiad::fuzz::Play play;
   while (!script.atEnd()) {
