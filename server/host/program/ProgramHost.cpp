@@ -20,15 +20,15 @@
 #include "engine/world/World.h"
 #include "host/auth/Seed.h"
 #include "host/program/Announcement.h"
-#include "host/program/BrokenPipes.h"
 #include "host/program/CrashReport.h"
 #include "host/program/Host.h"
-#include "host/program/LineLog.h"
 #include "host/program/LocalClient.h"
-#include "host/program/LogText.h"
 #include "host/program/Worlds.h"
 #include "host/world/WorldServer.h"
 #include "host/world/WorldStart.h"
+#include "shared/program/BrokenPipes.h"
+#include "shared/program/LineLog.h"
+#include "shared/program/LogText.h"
 #include "shared/values/Version.h"
 
 namespace naiad {
