@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "host/program/LogText.h"
 #include "host/program/TickClock.h"
 #include "host/session/Names.h"
 #include "naiad.pb.h"
 #include "shared/net/base/SafeText.h"
+#include "shared/program/LogText.h"
 #include "shared/values/Version.h"
 
 namespace naiad {

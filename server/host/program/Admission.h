@@ -13,9 +13,9 @@
 #include "host/net/PlayerPrefixes.h"
 #include "host/net/SealedChannel.h"
 #include "host/program/HostOptions.h"
-#include "host/program/PrefixAllowance.h"
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
+#include "shared/net/base/PrefixAllowance.h"
 
 namespace naiad {
 

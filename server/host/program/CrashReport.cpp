@@ -15,7 +15,7 @@
 
 #include "engine/events/Event.h"
 #include "engine/world/World.h"
-#include "host/program/LineLog.h"
+#include "shared/program/LineLog.h"
 
 namespace naiad::crash {
 

@@ -11,15 +11,15 @@
 #include "engine/managers/GameManager.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
-#include "host/program/BrokenPipes.h"
 #include "host/program/CrashReport.h"
-#include "host/program/LogText.h"
 #include "host/program/NetworkReport.h"
-#include "host/program/OpenFiles.h"
 #include "host/program/StopSignals.h"
 #include "host/session/LookAlikes.h"
 #include "host/world/Descendants.h"
 #include "naiad.pb.h"
+#include "shared/program/BrokenPipes.h"
+#include "shared/program/LogText.h"
+#include "shared/program/OpenFiles.h"
 
 namespace naiad {
 

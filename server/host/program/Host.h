@@ -17,18 +17,18 @@
 #include "host/net/NetworkThread.h"
 #include "host/net/PlayerPrefixes.h"
 #include "host/program/Admission.h"
-#include "host/program/ClientLog.h"
 #include "host/program/HostOptions.h"
-#include "host/program/LineLog.h"
 #include "host/program/PlayerNews.h"
-#include "host/program/PrefixAllowance.h"
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 #include "host/program/SideLog.h"
 #include "host/program/TickClock.h"
 #include "host/program/Watchdog.h"
 #include "host/session/Counters.h"
+#include "shared/net/base/PrefixAllowance.h"
 #include "shared/net/stream/JoinLink.h"
+#include "shared/program/ClientLog.h"
+#include "shared/program/LineLog.h"
 
 namespace naiad {
 

@@ -3,7 +3,7 @@
 
 #include "host/auth/PasswordCheck.h"
 #include "host/net/NetworkThread.h"
-#include "host/program/LineLog.h"
+#include "shared/program/LineLog.h"
 
 namespace naiad {
 

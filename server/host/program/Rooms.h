@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "host/program/HostOptions.h"
-#include "host/program/LineLog.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Room.h"
 #include "host/program/SessionTable.h"
 #include "host/session/Counters.h"
+#include "shared/program/LineLog.h"
 #include "shared/replica/TruthFile.h"
 
 namespace df {

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "host/program/LineLog.h"
+#include "shared/program/LineLog.h"
 
 namespace naiad {
 

@@ -10,8 +10,8 @@
 #include <mutex>
 #include <thread>
 
-#include "host/program/LineLog.h"
 #include "host/program/StopSignals.h"
+#include "shared/program/LineLog.h"
 
 namespace naiad {
 

@@ -1,6 +1,8 @@
 #include "shared/net/stream/Framing.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <stdexcept>
 
 namespace naiad {
@@ -17,9 +19,16 @@ std::size_t lengthIn(std::string_view header) {
 void appendFrame(std::string& out, std::string_view payload) {
   if (payload.empty()) throw std::length_error("a frame may not be empty");
   if (payload.size() > kMaxFramePayload) throw std::length_error("a frame may not exceed 65535 bytes");
-  out.push_back(static_cast<char>(payload.size() & 0xff));
-  out.push_back(static_cast<char>(payload.size() >> 8));
+  std::array<char, kFrameHeaderSize> header{};
+  writeFrameHeader(header, payload.size());
+  out.append(header.data(), header.size());
   out.append(payload);
+}
+
+void writeFrameHeader(std::span<char, kFrameHeaderSize> into, std::size_t length) {
+  assert(length > 0 && length <= kMaxFramePayload);
+  into[0] = static_cast<char>(length & 0xff);
+  into[1] = static_cast<char>(length >> 8);
 }
 
 FrameReader::FrameReader(std::size_t limit) {

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,10 @@ inline constexpr std::size_t kMaxFramePayload = 0xffff;
 /// Append header and payload to `out`.
 /// Throws std::length_error if the payload is empty or longer than kMaxFramePayload; `out` is unchanged.
 void appendFrame(std::string& out, std::string_view payload);
+
+/// The header in front of a payload of `length` bytes, for those who have room for it there. `length` is
+/// 1 … kMaxFramePayload (asserted).
+void writeFrameHeader(std::span<char, kFrameHeaderSize> into, std::size_t length);
 
 /// What made a FrameReader give up.
 enum class FrameError {

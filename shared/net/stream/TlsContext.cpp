@@ -40,11 +40,12 @@ int judgeHello(SSL* ssl, int* alert, void*) {
 }
 
 int chooseAlpn(SSL*, const unsigned char** out, unsigned char* out_size, const unsigned char* in,
-               unsigned int in_size, void*) {
+               unsigned int in_size, void* protocol) {
+  const std::string_view wanted = *static_cast<const std::string_view*>(protocol);
   std::span<const unsigned char> offers(in, in_size);
   while (!offers.empty() && offers[0] < offers.size()) {
     const auto offer = offers.subspan(1, offers[0]);
-    if (std::ranges::equal(offer, kAlpn,
+    if (std::ranges::equal(offer, wanted,
                            [](unsigned char a, char b) { return a == static_cast<unsigned char>(b); })) {
       *out = offer.data();
       *out_size = static_cast<unsigned char>(offer.size());
@@ -96,8 +97,22 @@ std::shared_ptr<const TlsContext> TlsContext::forServer(const std::string& certi
   made->useCertificate(certificate_pem);
   made->useKey(key_pem);
   SSL_CTX_set_client_hello_cb(made->get(), judgeHello, nullptr);
-  SSL_CTX_set_alpn_select_cb(made->get(), chooseAlpn, nullptr);
+  made->choose(kAlpn);
   return made;
+}
+
+std::shared_ptr<const TlsContext> TlsContext::forWebServer(const std::string& certificate_pem,
+                                                           const std::string& key_pem) {
+  std::shared_ptr<TlsContext> made(new TlsContext(true));
+  made->useCertificate(certificate_pem);
+  made->useKey(key_pem);
+  made->choose(kHttpAlpn);
+  return made;
+}
+
+/// `protocol`: a constant, for OpenSSL points to it.
+void TlsContext::choose(const std::string_view& protocol) {
+  SSL_CTX_set_alpn_select_cb(get(), chooseAlpn, const_cast<std::string_view*>(&protocol));
 }
 
 std::shared_ptr<const TlsContext> TlsContext::forClient(const std::string& trust_file) {

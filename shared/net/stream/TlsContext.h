@@ -1,8 +1,8 @@
 // What all TLS connections of one end share: protocol settings, a server's key, a client's trust store.
 //
-// TLS 1.3 (RFC 8446) and nothing older, ALPN "naiad/1" (RFC 7301) required at both ends. No session tickets,
-// no resumption, no early data, no client certificates. Made for many quiet connections: no read-ahead, and
-// buffers are given back while they are empty.
+// TLS 1.3 (RFC 8446) and nothing older, ALPN "naiad/1" (RFC 7301) required at both ends, but by a web server.
+// No session tickets, no resumption, no early data, no client certificates. Made for many quiet connections:
+// no read-ahead, and buffers are given back while they are empty.
 #pragma once
 
 #include <memory>
@@ -16,6 +16,8 @@ namespace naiad {
 
 /// The protocol that both ends must agree on.
 inline constexpr std::string_view kAlpn = "naiad/1";
+/// And that of browsers (RFC 7301 6).
+inline constexpr std::string_view kHttpAlpn = "http/1.1";
 
 /// Key, certificate or trust store cannot be used. what() is one sentence for people.
 class TlsError : public std::runtime_error {
@@ -30,6 +32,10 @@ class TlsContext {
   /// without a password. Throws TlsError if they cannot be read or do not belong together.
   static std::shared_ptr<const TlsContext> forServer(const std::string& certificate_pem,
                                                      const std::string& key_pem);
+  /// The same for browsers: TLS 1.3 as well, but "http/1.1" is the only protocol it agrees to, and a client
+  /// may name none.
+  static std::shared_ptr<const TlsContext> forWebServer(const std::string& certificate_pem,
+                                                        const std::string& key_pem);
   /// Takes any server, and finds out about it (PeerFacts.h). Chains are checked against the system's trust
   /// store, or the PEM file `trust_file`. Throws TlsError if that file cannot be used.
   static std::shared_ptr<const TlsContext> forClient(const std::string& trust_file = {});
@@ -44,6 +50,7 @@ class TlsContext {
   explicit TlsContext(bool is_server);
   void useCertificate(const std::string& pem);
   void useKey(const std::string& pem);
+  void choose(const std::string_view& protocol);
 
   std::unique_ptr<ssl_ctx_st, Free> context_;
   bool is_server_;

@@ -24,7 +24,7 @@
 #include "engine/world/Player.h"
 #include "engine/world/World.h"
 #include "host/program/Host.h"
-#include "host/program/OpenFiles.h"
+#include "shared/program/OpenFiles.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "host/program/LineLog.h"
+#include "shared/program/LineLog.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -20,7 +20,7 @@
 #include <thread>
 #include <utility>
 
-#include "host/program/LogText.h"
+#include "shared/program/LogText.h"
 
 namespace naiad {
 

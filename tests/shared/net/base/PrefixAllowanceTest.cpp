@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "host/program/PrefixAllowance.h"
+#include "shared/net/base/PrefixAllowance.h"
 
 namespace naiad {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/program/ClientLog.h"
+#include "shared/program/ClientLog.h"
 
 namespace naiad {
 namespace {

@@ -1,9 +1,9 @@
-#include "host/program/ClientLog.h"
+#include "shared/program/ClientLog.h"
 
 #include <utility>
 
-#include "host/program/LogText.h"
 #include "shared/net/base/AddressPrefix.h"
+#include "shared/program/LogText.h"
 
 namespace naiad {
 

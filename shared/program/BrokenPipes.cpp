@@ -1,4 +1,4 @@
-#include "host/program/BrokenPipes.h"
+#include "shared/program/BrokenPipes.h"
 
 #include <csignal>
 

@@ -1,4 +1,4 @@
-#include "host/program/OpenFiles.h"
+#include "shared/program/OpenFiles.h"
 
 #include <sys/resource.h>
 

@@ -1,4 +1,4 @@
-#include "host/program/LogText.h"
+#include "shared/program/LogText.h"
 
 #include <cstdio>
 

@@ -16,9 +16,9 @@
 #include <string>
 #include <string_view>
 
-#include "host/program/BrokenPipes.h"
-#include "host/program/LineLog.h"
-#include "host/program/LogText.h"
+#include "shared/program/BrokenPipes.h"
+#include "shared/program/LineLog.h"
+#include "shared/program/LogText.h"
 
 namespace naiad {
 namespace {

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 
-#include "host/program/BrokenPipes.h"
+#include "shared/program/BrokenPipes.h"
 
 namespace naiad {
 namespace {

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <string>
 
-#include "host/program/LineLog.h"
 #include "shared/net/base/PerAddress.h"
 #include "shared/net/base/TokenBucket.h"
+#include "shared/program/LineLog.h"
 
 namespace naiad {
 

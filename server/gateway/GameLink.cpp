@@ -1,0 +1,76 @@
+#include "server/gateway/GameLink.h"
+
+#include <boost/asio/error.hpp>
+#include <chrono>
+#include <utility>
+
+namespace naiad {
+namespace {
+
+constexpr std::chrono::milliseconds kRetryDelay{50};
+
+}  // namespace
+
+GameLink::GameLink(GatewayExecutor executor, const GameServer& server)
+    : m_server(server), m_socket(executor), m_retry(executor) {}
+
+void GameLink::open(std::string header, Done done) {
+  m_header = std::move(header);
+  m_done = std::move(done);
+  connect();
+}
+
+void GameLink::connect() {
+  m_socket.async_connect(Local::endpoint(m_server.socket), [self = shared_from_this()](error_code error) {
+    if (self->m_done) self->onConnected(error);
+  });
+}
+
+void GameLink::onConnected(error_code error) {
+  if (error == boost::asio::error::try_again) {  // as many as may wait are waiting there
+    error_code ignored;
+    m_socket.close(ignored);
+    m_retry.expires_after(kRetryDelay);
+    m_retry.async_wait([self = shared_from_this()](error_code) {
+      if (self->m_done) self->connect();
+    });
+    return;
+  }
+  // The header fits into the socket's empty buffer as a whole.
+  if (!error) m_socket.write_some(boost::asio::buffer(m_header), error);
+  if (error) return finish(End::kUnreachable, error.message());
+  m_stream.emplace(std::move(m_socket));
+  if (!m_stream->startTls(m_server.tls->get(), SecureSocket::Role::kClient))
+    return finish(End::kUnreachable, "no memory for TLS");
+  m_stream->asyncHandshake([self = shared_from_this()](error_code failed) {
+    if (self->m_done) self->onHandshake(failed);
+  });
+}
+
+void GameLink::onHandshake(error_code error) {
+  if (error) return finish(End::kUnreachable, "it hung up in the handshake, or is no Naiad server");
+  const auto key = m_stream->provenKey(kAlpn);
+  if (!key) return finish(End::kUnreachable, "it does not speak " + std::string(kAlpn));
+  if (ShortKey::of(*key) != m_server.key)
+    return finish(End::kWrongKey, "its key is " + ShortKey::of(*key).text());
+  finish(End::kOpen, "");
+}
+
+void GameLink::finish(End end, const std::string& problem) {
+  m_is_open = end == End::kOpen;
+  const Done call = std::exchange(m_done, nullptr);
+  if (!m_is_open) close();
+  call(end, problem);
+}
+
+void GameLink::close() {
+  m_done = nullptr;
+  m_retry.cancel();
+  error_code ignored;
+  m_socket.close(ignored);
+  if (!m_stream) return;
+  if (std::exchange(m_is_open, false)) m_stream->shutDownSend();
+  m_stream->close();
+}
+
+}  // namespace naiad

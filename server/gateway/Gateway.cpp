@@ -1,0 +1,323 @@
+#include "server/gateway/Gateway.h"
+
+#include <boost/asio/basic_socket_acceptor.hpp>
+#include <boost/asio/basic_waitable_timer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/v6_only.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <utility>
+
+#include "server/gateway/GatewayState.h"
+#include "server/gateway/WebConnection.h"
+#include "shared/net/base/SafeFile.h"
+
+namespace naiad {
+namespace {
+
+using boost::asio::ip::tcp;
+using Acceptor = boost::asio::basic_socket_acceptor<tcp, GatewayExecutor>;
+using Peer = boost::asio::basic_stream_socket<tcp, GatewayExecutor>;
+using Timer =
+    boost::asio::basic_waitable_timer<std::chrono::steady_clock,
+                                      boost::asio::wait_traits<std::chrono::steady_clock>, GatewayExecutor>;
+
+constexpr std::chrono::milliseconds kAcceptRetryDelay{100};
+constexpr std::chrono::milliseconds kSweepTime{100};
+constexpr std::size_t kMaxPem = std::size_t{1} << 20;
+
+tcp::endpoint endpointOf(const GatewaySettings& settings) {
+  error_code error;
+  const auto address = boost::asio::ip::make_address(settings.address, error);
+  if (error) throw GatewayError("\"" + settings.address + "\" is not a numeric IPv4 or IPv6 address.");
+  if (settings.certificate.empty() && !address.is_loopback())
+    throw GatewayError(
+        "Cannot listen on " + settings.address +
+        ": without a certificate there is no encryption, so only loopback addresses are allowed.");
+  return {address, settings.port};
+}
+
+std::string urlHost(const boost::asio::ip::address& address) {
+  return address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
+}
+
+/// The names that the address itself has. A numeric one leads nowhere else, whatever a name server says.
+std::vector<WebOrigin> ownOrigins(const tcp::endpoint& endpoint, bool has_tls) {
+  std::vector<WebOrigin> origins;
+  if (!endpoint.address().is_unspecified())
+    origins.push_back({has_tls, urlHost(endpoint.address()), endpoint.port()});
+  if (!endpoint.address().is_loopback()) return origins;
+  for (const char* const host : {"localhost", "127.0.0.1", "[::1]"}) {
+    if (origins.front().host != host) origins.push_back({has_tls, host, endpoint.port()});
+  }
+  return origins;
+}
+
+std::string readPem(const std::string& path) {
+  try {
+    if (auto text = readSmallFile(path, kMaxPem)) return *std::move(text);
+  } catch (const std::system_error& error) {
+    throw TlsError(path + " cannot be read: " + error.what());
+  }
+  throw TlsError("There is no file " + path + ".");
+}
+
+std::shared_ptr<const TlsContext> webTls(const GatewaySettings& settings) {
+  if (settings.certificate.empty()) return nullptr;
+  return TlsContext::forWebServer(readPem(settings.certificate), readPem(settings.key));
+}
+
+AddressPrefix::Bytes bytesOf(const boost::asio::ip::address& address) {
+  return address.is_v6()
+             ? address.to_v6().to_bytes()
+             : boost::asio::ip::make_address_v6(boost::asio::ip::v4_mapped, address.to_v4()).to_bytes();
+}
+
+}  // namespace
+
+struct Gateway::Loop {
+  Loop(GatewaySettings settings, LogLine log);
+  ~Loop();
+
+  void listen(tcp::endpoint& endpoint);
+  void accept();
+  void onAccepted(error_code error, Peer peer);
+  void meet(Peer peer);
+  void sweep();
+  void heedSignals();
+  void reloadCertificate();
+  void stop();
+  void logCounters() const;
+
+  boost::asio::io_context context{1};  // one thread
+  Acceptor acceptor{context.get_executor()};
+  Timer retry{context.get_executor()};
+  Timer sweeper{context.get_executor()};
+  boost::asio::signal_set signals{context};
+  LogLine log;
+  std::shared_ptr<GatewayState> state;
+  bool is_stopping = false;
+};
+
+Gateway::Loop::Loop(GatewaySettings settings, LogLine line) : log(std::move(line)) {
+  tcp::endpoint endpoint = endpointOf(settings);
+  const bool has_tls = !settings.certificate.empty();
+  std::shared_ptr<const TlsContext> tls;
+  try {
+    tls = webTls(settings);
+  } catch (const TlsError& error) {
+    throw GatewayError(error.what());
+  }
+  listen(endpoint);
+  AllowedNames names;
+  for (const WebOrigin& origin : settings.origins) names.add(origin);
+  for (const WebOrigin& origin : ownOrigins(endpoint, has_tls)) names.add(origin);
+  if (names.isEmpty())
+    throw GatewayError("--origin is wanted: https://NAME, by which players reach " + settings.address + ".");
+  state = std::make_shared<GatewayState>(std::move(settings), names, log);
+  state->tls = std::move(tls);
+  accept();
+  sweep();
+}
+
+Gateway::Loop::~Loop() {
+  if (state) state->guests.hangUp();
+}
+
+void Gateway::Loop::listen(tcp::endpoint& endpoint) {
+  error_code error;
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error && endpoint.address().is_v6())
+    acceptor.set_option(boost::asio::ip::v6_only(!endpoint.address().is_unspecified()), error);
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
+  if (error)
+    throw GatewayError("Cannot listen on port " + std::to_string(endpoint.port()) + " of " +
+                       endpoint.address().to_string() + " (" + error.message() + ").");
+  endpoint = acceptor.local_endpoint();
+}
+
+void Gateway::Loop::accept() {
+  acceptor.async_accept([this](error_code error, Peer peer) {
+    if (!is_stopping) onAccepted(error, std::move(peer));
+  });
+}
+
+void Gateway::Loop::onAccepted(error_code error, Peer peer) {
+  if (!error) {
+    meet(std::move(peer));
+    return accept();
+  }
+  ++state->counters.failed_accepts;
+  retry.expires_after(kAcceptRetryDelay);
+  retry.async_wait([this](error_code) {
+    if (!is_stopping) accept();
+  });
+}
+
+void Gateway::Loop::meet(Peer peer) {
+  error_code gone;
+  const tcp::endpoint endpoint = peer.remote_endpoint(gone);
+  if (gone) return;
+  ++state->counters.connections;
+  WebVisitor visitor = WebVisitor::of(bytesOf(endpoint.address()), endpoint.port());
+  if (!state->arrivals.take(visitor.prefix, std::chrono::steady_clock::now())) {
+    ++state->counters.too_often;
+    return;
+  }
+  // The place comes before the connection, whose memory is saved where there is none.
+  const auto slot = std::make_shared<std::weak_ptr<WebConnection>>();
+  auto place = state->newcomers.take(visitor.prefix, [slot] {
+    if (const auto connection = slot->lock()) connection->hangUp();
+  });
+  if (!place) {
+    ++state->counters.no_place;
+    return;
+  }
+  const auto connection =
+      std::make_shared<WebConnection>(*state, SecureSocket(std::move(peer)), std::move(visitor));
+  *slot = connection;
+  connection->start(std::move(place));
+}
+
+void Gateway::Loop::sweep() {
+  const auto now = std::chrono::steady_clock::now();
+  state->guests.sweep(now);
+  state->log.update(now);
+  if (is_stopping && state->guests.count() == 0) return signals.clear();
+  sweeper.expires_after(kSweepTime);
+  sweeper.async_wait([this](error_code) { sweep(); });
+}
+
+void Gateway::Loop::heedSignals() {
+  signals.async_wait([this](error_code error, int signal) {
+    if (error) return;
+    if (signal != SIGHUP) {
+      signals.clear();  // the next one has its usual effect
+      return stop();
+    }
+    LineLog::reopenAll();
+    reloadCertificate();
+    heedSignals();
+  });
+}
+
+void Gateway::Loop::reloadCertificate() {
+  if (!state->tls) return;
+  try {
+    state->tls = webTls(state->settings);
+    log("the certificate was read again");
+  } catch (const TlsError& error) {
+    log(std::string("the old certificate stays: ") + error.what());
+  }
+}
+
+void Gateway::Loop::stop() {
+  if (std::exchange(is_stopping, true)) return;
+  error_code ignored;
+  acceptor.close(ignored);
+  retry.cancel();
+  state->guests.endService();
+  state->log.finish();
+  logCounters();
+}
+
+void Gateway::Loop::logCounters() const {
+  const GatewayCounters& c = state->counters;
+  const std::pair<const char*, std::uint64_t> all[] = {{"connections", c.connections},
+                                                       {"requests", c.requests},
+                                                       {"refused_requests", c.refused_requests},
+                                                       {"bad_requests", c.bad_requests},
+                                                       {"refused_upgrades", c.refused_upgrades},
+                                                       {"late", c.late},
+                                                       {"too_often", c.too_often},
+                                                       {"no_place", c.no_place},
+                                                       {"ended_for_others", state->newcomers.ended()},
+                                                       {"failed_handshakes", c.failed_handshakes},
+                                                       {"failed_accepts", c.failed_accepts},
+                                                       {"websockets", c.websockets},
+                                                       {"played", c.played},
+                                                       {"full", c.full},
+                                                       {"unreachable", c.unreachable},
+                                                       {"wrong_keys", c.wrong_keys},
+                                                       {"too_slow", c.too_slow},
+                                                       {"bad_messages", c.bad_messages},
+                                                       {"control_floods", c.control_floods},
+                                                       {"messages_up", c.messages_up},
+                                                       {"messages_down", c.messages_down}};
+  std::string line = "counters:";
+  for (const auto& [name, value] : all) {
+    if (value > 0) line += " " + std::string(name) + "=" + std::to_string(value);
+  }
+  log(line);
+}
+
+Gateway::Gateway(GatewaySettings settings, LogLine log)
+    : m_loop(std::make_unique<Loop>(std::move(settings), std::move(log))) {}
+
+Gateway::~Gateway() = default;
+
+bool Gateway::parseListen(std::string_view text, GatewaySettings& settings) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return false;
+  std::string host(text.substr(0, colon));
+  const bool in_brackets = host.starts_with('[') && host.ends_with(']');
+  if (in_brackets) host = host.substr(1, host.size() - 2);
+  error_code error;
+  const auto address = boost::asio::ip::make_address(host, error);
+  const char* const last = text.data() + text.size();
+  const auto [end, wrong] = std::from_chars(text.data() + colon + 1, last, settings.port);
+  if (error || wrong != std::errc{} || end != last || address.is_v6() != in_brackets) return false;
+  settings.address = host;
+  return true;
+}
+
+std::uint16_t Gateway::port() const {
+  return m_loop->acceptor.local_endpoint().port();
+}
+
+std::vector<std::string> Gateway::addresses() const {
+  const GatewayState& state = *m_loop->state;
+  const std::string key = "/#" + state.settings.link->key.text();
+  std::vector<std::string> result;
+  for (const WebOrigin& origin : state.settings.origins) result.push_back(origin.text() + key);
+  const auto own = ownOrigins(m_loop->acceptor.local_endpoint(), state.tls != nullptr);
+  if (!own.empty()) result.push_back(own.front().text() + key);
+  return result;
+}
+
+const GatewayCounters& Gateway::counters() const {
+  return m_loop->state->counters;
+}
+
+std::size_t Gateway::guests() const {
+  return m_loop->state->guests.count();
+}
+
+void Gateway::heedSignals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) m_loop->signals.add(signal);
+  m_loop->heedSignals();
+}
+
+void Gateway::run() {
+  m_loop->context.run();
+}
+
+void Gateway::post(std::function<void()> job) {
+  boost::asio::post(m_loop->context, std::move(job));
+}
+
+void Gateway::reloadCertificate() {
+  m_loop->reloadCertificate();
+}
+
+void Gateway::stop() {
+  m_loop->stop();
+}
+
+}  // namespace naiad

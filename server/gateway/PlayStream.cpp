@@ -1,0 +1,250 @@
+#include "server/gateway/PlayStream.h"
+
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
+#include <boost/asio/write.hpp>
+#include <boost/beast/websocket/error.hpp>
+#include <utility>
+
+#include "shared/net/base/Limits.h"
+
+namespace naiad {
+namespace {
+
+namespace websocket = boost::beast::websocket;
+
+constexpr std::size_t kMaxUnsent = 4096;  // bytes towards a browser, with which the server is read
+/// Bytes that the kernel keeps towards a browser, sent and not acknowledged ones among them: what a snapshot
+/// may wait behind. Enough for 300 kB/s at a round trip of 200 ms.
+constexpr int kSendBuffer = 32 * 1024;
+/// Of pings and unasked pongs; browsers send none.
+constexpr BucketRate kControls{1, 16};
+/// Room behind the largest message: Beast wants some to read an empty last fragment into.
+constexpr std::size_t kSlack = 64;
+
+void setNumber(SecureSocket& socket, int level, int name, int value) {
+  setsockopt(socket.socket().native_handle(), level, name, &value, sizeof value);
+}
+
+}  // namespace
+
+PlayStream::PlayStream(GatewayState& gateway, SecureSocket socket, WebVisitor visitor, Newcomers::Place place)
+    : Guest(gateway.sharedGuests()),
+      m_gateway(gateway),
+      m_socket(std::move(socket)),
+      m_visitor(std::move(visitor)),
+      m_newcomer(std::move(place)),
+      m_up(kFrameHeaderSize + kMaxClientFrame + kSlack),
+      m_frames(kMaxServerFrame) {}
+
+void PlayStream::accept(const WebRequest& request) {
+  m_gateway.newcomers.replace(m_newcomer, [weak = std::weak_ptr(sharedFrom(this))] {
+    if (const auto self = weak.lock()) self->hangUp();
+  });
+  prepareSocket();
+  setTime(m_gateway.settings.hello_time);
+  m_socket.async_accept(request, [self = sharedFrom(this)](error_code error) {
+    if (self->isOver()) return;
+    if (error) return self->hangUp();
+    ++self->m_gateway.counters.websockets;
+    if (self->m_phase == Phase::kHello) self->readUp();
+  });
+}
+
+void PlayStream::prepareSocket() {
+  SecureSocket& socket = m_socket.next_layer();
+  // Files are sent with the kernel's own sizes. From now on, what waits here is a picture that gets old.
+  setNumber(socket, IPPROTO_TCP, TCP_NODELAY, 1);
+  setNumber(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, static_cast<int>(kMaxUnsent));
+  setNumber(socket, SOL_SOCKET, SO_SNDBUF, kSendBuffer);
+  websocket::stream_base::timeout times{};
+  times.handshake_timeout = m_gateway.settings.close_time;
+  times.idle_timeout = 2 * m_gateway.settings.ping_time;
+  times.keep_alive_pings = true;
+  m_socket.set_option(times);
+  m_socket.set_option(websocket::stream_base::decorator([this](websocket::response_type& response) {
+    for (const auto& [name, value] : m_gateway.answers.commonHeaders())
+      response.set(boost::beast::string_view(name.data(), name.size()),
+                   boost::beast::string_view(value.data(), value.size()));
+    response.erase(boost::beast::http::field::server);
+    if (response.result() == boost::beast::http::status::switching_protocols)
+      response.set(boost::beast::http::field::sec_websocket_protocol,
+                   boost::beast::string_view(kSubprotocol.data(), kSubprotocol.size()));
+  }));
+  m_socket.read_message_max(kMaxHelloFrame);
+  m_socket.binary(true);
+  m_socket.auto_fragment(false);
+  m_socket.control_callback(
+      [this](websocket::frame_type kind, boost::beast::string_view) { onControl(kind); });
+}
+
+/// Each costs an answer. Called while a read is under way, so the connection ends a little later.
+void PlayStream::onControl(websocket::frame_type kind) {
+  if (kind == websocket::frame_type::close ||
+      m_controls.takeToken(kControls, std::chrono::steady_clock::now()))
+    return;
+  ++m_gateway.counters.control_floods;
+  m_socket.next_layer().close();
+}
+
+// Up.
+
+void PlayStream::readUp() {
+  m_up.clear();
+  m_up.prepare(kFrameHeaderSize);
+  m_up.commit(kFrameHeaderSize);  // written when the length is known
+  m_socket.async_read(m_up, [self = sharedFrom(this)](error_code error, std::size_t size) {
+    if (self->m_phase != Phase::kClosing && !self->isOver()) self->onUp(error, size);
+  });
+}
+
+void PlayStream::onUp(error_code error, std::size_t size) {
+  if (error) {
+    if (error != websocket::error::closed &&
+        error.category() == websocket::make_error_code(websocket::error::closed).category())
+      ++m_gateway.counters.bad_messages;
+    return hangUp();
+  }
+  if (!m_socket.got_binary() || size == 0) {
+    ++m_gateway.counters.bad_messages;
+    return m_socket.got_binary() ? close(PlayClose::kPolicy, "An empty message is no frame.")
+                                 : close(PlayClose::kNotBinary, "Only binary messages are frames.");
+  }
+  ++m_gateway.counters.messages_up;
+  auto* const bytes = static_cast<char*>(m_up.data().data());
+  writeFrameHeader(std::span<char, kFrameHeaderSize>(bytes, kFrameHeaderSize), size);
+  m_phase == Phase::kHello ? openLink() : writeUp();
+}
+
+void PlayStream::openLink() {
+  m_place = m_gateway.places.take(m_visitor.prefix);
+  if (!m_place) {
+    ++m_gateway.counters.full;
+    return close(PlayClose::kFull, "All places are taken, or those of your address. Try again later.");
+  }
+  m_newcomer = {};
+  m_phase = Phase::kOpening;
+  m_socket.read_message_max(kMaxClientFrame);
+  setTime(m_gateway.settings.open_time);
+  m_link = std::make_shared<GameLink>(m_socket.get_executor(), m_gateway.server);
+  m_link->open(m_visitor.header, [self = sharedFrom(this)](GameLink::End end, const std::string& problem) {
+    self->onLink(end, problem);
+  });
+}
+
+void PlayStream::onLink(GameLink::End end, const std::string& problem) {
+  if (m_phase != Phase::kOpening) return;
+  if (end == GameLink::End::kOpen) {
+    ++m_gateway.counters.played;
+    m_phase = Phase::kPlaying;
+    setNoTime();
+    writeUp();
+    return readDown();
+  }
+  m_gateway.log.logNews(m_visitor.name, "cannot play: " + problem, std::chrono::steady_clock::now());
+  if (end == GameLink::End::kUnreachable) return closeWithoutServer();
+  ++m_gateway.counters.wrong_keys;
+  close(PlayClose::kWrongKey, "The game's server is not the one that this page leads to.");
+}
+
+void PlayStream::writeUp() {
+  boost::asio::async_write(m_link->stream(), m_up.data(),
+                           [self = sharedFrom(this)](error_code error, std::size_t) {
+                             if (self->m_phase != Phase::kPlaying) return;
+                             // Where this failed, reading says how it ended.
+                             if (!error) self->readUp();
+                           });
+}
+
+// Down.
+
+void PlayStream::readDown() {
+  m_link->stream().async_read_some(boost::asio::buffer(m_down),
+                                   [self = sharedFrom(this)](error_code error, std::size_t size) {
+                                     if (self->m_phase == Phase::kPlaying) self->onDown(error, size);
+                                   });
+}
+
+void PlayStream::onDown(error_code error, std::size_t size) {
+  if (!error) {
+    m_frames.feed({m_down.data(), size});
+    setTime(m_gateway.settings.stall_time);
+    return writeDown();
+  }
+  if (error != boost::asio::error::eof || m_frames.midFrame()) return closeWithoutServer();
+  close(PlayClose::kEnded, "The game's server has ended this stream.");
+}
+
+void PlayStream::writeDown() {
+  const auto frame = m_frames.next();
+  if (!frame) return m_frames.error() == FrameError::kNone ? awaitRoom() : closeWithoutServer();
+  ++m_gateway.counters.messages_down;
+  m_socket.async_write(boost::asio::buffer(frame->data(), frame->size()),
+                       [self = sharedFrom(this)](error_code error, std::size_t) {
+                         if (self->m_phase != Phase::kPlaying) return;
+                         error ? self->hangUp() : self->writeDown();
+                       });
+}
+
+void PlayStream::awaitRoom() {
+  if (m_socket.next_layer().unsentBytes() <= kMaxUnsent) {
+    setNoTime();
+    return readDown();
+  }
+  m_socket.next_layer().asyncWaitForRoom([self = sharedFrom(this)](error_code error) {
+    if (self->m_phase != Phase::kPlaying) return;
+    error ? self->hangUp() : self->awaitRoom();
+  });
+}
+
+// The end.
+
+void PlayStream::onDeadline() {
+  switch (m_phase) {
+    case Phase::kHello:
+      ++m_gateway.counters.late;
+      return close(PlayClose::kPolicy, "No hello came.");
+    case Phase::kOpening:
+      return closeWithoutServer();
+    case Phase::kPlaying:
+      ++m_gateway.counters.too_slow;
+      return close(PlayClose::kTooSlow, "Your browser did not take what the game sent.");
+    case Phase::kClosing:
+    case Phase::kOver:
+      return hangUp();
+  }
+}
+
+void PlayStream::closeWithoutServer() {
+  ++m_gateway.counters.unreachable;
+  close(PlayClose::kUnreachable, "The game's server cannot be reached.");
+}
+
+void PlayStream::endService() {
+  close(PlayClose::kGoingAway, "The gateway ends.");
+}
+
+void PlayStream::close(PlayClose code, std::string_view reason) {
+  if (m_phase == Phase::kClosing || isOver()) return;
+  m_phase = Phase::kClosing;
+  setTime(m_gateway.settings.close_time);
+  if (m_link) m_link->close();
+  if (!m_socket.is_open()) return;  // the upgrade is not answered yet
+  websocket::close_reason why;
+  why.code = static_cast<std::uint16_t>(code);
+  why.reason.assign(reason.begin(), reason.end());
+  m_socket.async_close(why, [self = sharedFrom(this)](error_code) { self->hangUp(); });
+}
+
+void PlayStream::hangUp() {
+  m_phase = Phase::kOver;
+  setNoTime();
+  if (m_link) m_link->close();
+  m_socket.next_layer().close();
+  m_newcomer = {};
+  m_place = {};
+}
+
+}  // namespace naiad

@@ -1,0 +1,90 @@
+// One WebSocket (RFC 6455), which carries one stream of a player: each binary message is the payload of one
+// frame (Framing.h), in both directions.
+//
+// The server is connected when the browser has sent its first message, a hello; until then the WebSocket is
+// one of the newcomers. Then
+//
+//   down   dfserver -> at most 4 KiB read -> messages -> the browser's socket -> wait until at most 4 KiB are
+//          unsent there -> the next. So the server notices a slow browser, and skips snapshots, instead of
+//          old ones waiting here.
+//   up     the browser's message -> frame -> dfserver -> the next.
+//
+// Neither direction holds more than one frame and what its socket holds.
+#pragma once
+
+#include <array>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "server/gateway/GameLink.h"
+#include "server/gateway/GatewayState.h"
+#include "server/gateway/SecureSocket.h"
+#include "shared/net/base/TokenBucket.h"
+#include "shared/net/stream/Framing.h"
+
+namespace naiad {
+
+/// Why a WebSocket is closed, for the page: beside the codes of RFC 6455 7.4.1.
+enum class PlayClose : std::uint16_t {
+  kEnded = 1000,        ///< the server ended the stream in order
+  kGoingAway = 1001,    ///< the gateway ends
+  kNotBinary = 1003,    ///< a text
+  kPolicy = 1008,       ///< no hello in time, or a message that is no frame
+  kUnreachable = 4000,  ///< the server cannot be reached, or broke off
+  kWrongKey = 4001,     ///< the server has not the key of the link
+  kTooSlow = 4002,      ///< the browser does not read
+  kFull = 4003,         ///< all places are taken, or those of this address
+};
+
+/// Thread: the gateway's.
+class PlayStream : public Guest {
+ public:
+  PlayStream(GatewayState& gateway, SecureSocket socket, WebVisitor visitor, Newcomers::Place place);
+
+  /// Answer the upgrade, which was judged, and go on.
+  void accept(const WebRequest& request);
+
+  void onDeadline() override;
+  void endService() override;
+  void hangUp() override;
+
+ private:
+  using WebSocket = boost::beast::websocket::stream<SecureSocket, false>;
+  enum class Phase { kHello, kOpening, kPlaying, kClosing, kOver };
+
+  void prepareSocket();
+  void onControl(boost::beast::websocket::frame_type kind);
+  void readUp();
+  void onUp(error_code error, std::size_t size);
+  void openLink();
+  void onLink(GameLink::End end, const std::string& problem);
+  void writeUp();
+
+  void readDown();
+  void onDown(error_code error, std::size_t size);
+  void writeDown();
+  void awaitRoom();
+
+  void close(PlayClose code, std::string_view reason);
+  void closeWithoutServer();
+  bool isOver() const { return m_phase == Phase::kOver; }
+
+  static constexpr std::size_t kReadSize = 4096;
+
+  GatewayState& m_gateway;
+  WebSocket m_socket;
+  WebVisitor m_visitor;
+  Newcomers::Place m_newcomer;
+  VisitorPlaces::Place m_place;
+  std::shared_ptr<GameLink> m_link;
+  Phase m_phase = Phase::kHello;
+  boost::beast::flat_buffer m_up;      // header and payload of one frame
+  std::array<char, kReadSize> m_down;  // pieces of the server's stream
+  FrameReader m_frames;                // cuts them
+  TokenBucket m_controls;              // pings and pongs of the browser
+};
+
+}  // namespace naiad

@@ -1,0 +1,165 @@
+#include "server/gateway/SecureSocket.h"
+
+#include <linux/sockios.h>
+#include <openssl/err.h>
+#include <openssl/ssl.h>
+#include <sys/ioctl.h>
+
+#include <array>
+#include <boost/asio/error.hpp>
+#include <string_view>
+
+#include "shared/net/stream/SocketBio.h"
+
+namespace naiad {
+
+namespace net = boost::asio;
+
+/// Stays where it is when the socket moves, for OpenSSL points to it.
+struct SecureSocket::Tls {
+  struct Free {
+    void operator()(SSL* ssl) const { SSL_free(ssl); }
+  };
+  SocketBio bio;
+  std::unique_ptr<SSL, Free> ssl;
+};
+
+SecureSocket::SecureSocket(Socket socket) : m_socket(std::move(socket)) {
+  error_code ignored;  // a socket that is gone fails later
+  m_socket.non_blocking(true, ignored);
+}
+
+SecureSocket::~SecureSocket() = default;
+SecureSocket::SecureSocket(SecureSocket&&) noexcept = default;
+SecureSocket& SecureSocket::operator=(SecureSocket&&) noexcept = default;
+
+bool SecureSocket::startTls(ssl_ctx_st* context, Role role) {
+  auto tls = std::make_unique<Tls>();
+  tls->ssl.reset(SSL_new(context));
+  tls->bio.socket = m_socket.native_handle();
+  BIO* const bio = tls->ssl ? tls->bio.make() : nullptr;
+  if (!bio) return false;
+  SSL_set_bio(tls->ssl.get(), bio, bio);  // owns it
+  if (role == Role::kServer) {
+    tls->bio.guard.emplace();
+    SSL_set_accept_state(tls->ssl.get());
+  } else {
+    SSL_set_connect_state(tls->ssl.get());
+  }
+  m_tls = std::move(tls);
+  m_is_server = role == Role::kServer;
+  return true;
+}
+
+std::optional<Fingerprint> SecureSocket::provenKey(std::string_view protocol) const {
+  if (!m_tls) return std::nullopt;
+  const unsigned char* data = nullptr;
+  unsigned int size = 0;
+  SSL_get0_alpn_selected(m_tls->ssl.get(), &data, &size);
+  const X509* const certificate = SSL_get0_peer_certificate(m_tls->ssl.get());
+  if (!certificate || std::string_view(reinterpret_cast<const char*>(data), size) != protocol)
+    return std::nullopt;
+  return Fingerprint::of(*certificate);
+}
+
+std::size_t SecureSocket::unsentBytes() {
+  int bytes = 0;
+  if (ioctl(m_socket.native_handle(), SIOCOUTQNSD, &bytes) != 0 || bytes < 0) return 0;
+  return static_cast<std::size_t>(bytes);
+}
+
+void SecureSocket::shutDownSend() {
+  if (m_tls && SSL_is_init_finished(m_tls->ssl.get())) {
+    ERR_clear_error();
+    SSL_shutdown(m_tls->ssl.get());
+    ERR_clear_error();
+  }
+  error_code ignored;
+  m_socket.shutdown(Socket::shutdown_send, ignored);
+}
+
+void SecureSocket::close() {
+  error_code ignored;
+  m_socket.close(ignored);
+}
+
+/// One for all connections, for what is put into it is sealed at once.
+std::span<char> SecureSocket::flatBytes() {
+  static thread_local std::array<char, kFlatSize> bytes;
+  return bytes;
+}
+
+bool SecureSocket::holdsInput() const {
+  return m_tls && SSL_pending(m_tls->ssl.get()) > 0;
+}
+
+SecureSocket::Progress SecureSocket::judge(std::pair<error_code, std::size_t> written) {
+  const bool again = written.first == net::error::would_block || written.first == net::error::interrupted;
+  return again ? Progress{Outcome::kWantsWrite} : Progress{Outcome::kDone, written.second, written.first};
+}
+
+SecureSocket::Progress SecureSocket::tryHandshake() {
+  ERR_clear_error();
+  const int result = SSL_do_handshake(m_tls->ssl.get());
+  if (result == 1) m_tls->bio.guard.reset();
+  return judgeTls(result, 0);
+}
+
+SecureSocket::Progress SecureSocket::tryRead(std::span<char> into) {
+  if (!m_socket.is_open()) return {Outcome::kDone, 0, net::error::operation_aborted};
+  if (m_tls) {
+    ERR_clear_error();
+    std::size_t size = 0;
+    const int result = SSL_read_ex(m_tls->ssl.get(), into.data(), into.size(), &size);
+    return judgeTls(result, size);
+  }
+  error_code error;
+  const std::size_t size = m_socket.read_some(net::buffer(into.data(), into.size()), error);
+  const bool again = error == net::error::would_block || error == net::error::interrupted;
+  return again ? Progress{Outcome::kWantsRead} : Progress{Outcome::kDone, size, error};
+}
+
+SecureSocket::Progress SecureSocket::tryWriteTls(std::span<const char> bytes) {
+  if (!m_socket.is_open()) return {Outcome::kDone, 0, net::error::operation_aborted};
+  ERR_clear_error();
+  std::size_t size = 0;
+  const int result = SSL_write_ex(m_tls->ssl.get(), bytes.data(), bytes.size(), &size);
+  return judgeTls(result, size);
+}
+
+/// Below TLS: what comes is not looked at.
+SecureSocket::Progress SecureSocket::tryDrain(std::size_t& drained) {
+  std::array<char, 4096> bytes;
+  error_code error;
+  drained += m_socket.read_some(net::buffer(bytes), error);
+  const bool again = !error || error == net::error::would_block || error == net::error::interrupted;
+  if (again && drained < kMaxDrained) return {Outcome::kWantsRead};
+  return {Outcome::kDone, 0, error == net::error::eof ? error_code() : error};
+}
+
+SecureSocket::Progress SecureSocket::judgeTls(int result, std::size_t bytes) {
+  if (result == 1) return {Outcome::kDone, bytes};
+  const int reason = SSL_get_error(m_tls->ssl.get(), result);
+  ERR_clear_error();
+  switch (reason) {
+    case SSL_ERROR_WANT_READ:
+      return {Outcome::kWantsRead};
+    case SSL_ERROR_WANT_WRITE:
+      return {Outcome::kWantsWrite};
+    case SSL_ERROR_ZERO_RETURN:
+      return {Outcome::kDone, 0, net::error::eof};
+    default:
+      return {Outcome::kDone, 0, net::error::connection_reset};
+  }
+}
+
+void beast_close_socket(SecureSocket& socket) {
+  socket.close();
+}
+
+void teardown(boost::beast::role_type, SecureSocket& socket, error_code& error) {
+  error = {};
+  socket.shutDownSend();
+}
+
+}  // namespace naiad

@@ -1,0 +1,150 @@
+#include "server/gateway/WebConnection.h"
+
+#include <array>
+#include <boost/asio/write.hpp>
+#include <boost/beast/http/error.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <utility>
+
+#include "server/gateway/PlayStream.h"
+
+namespace naiad {
+namespace {
+
+namespace http = boost::beast::http;
+
+constexpr std::uint32_t kMaxHead = 8 * 1024;  // bytes of a request
+constexpr int kMaxRequests = 100;             // on one connection
+/// For an answer to be read: so long, and a second more for each of so many bytes.
+constexpr std::chrono::seconds kAnswerTime{30};
+constexpr std::size_t kAnswerRate = std::size_t{16} * 1024;
+constexpr std::size_t kMaxQuoted = 100;  // bytes of a header in the log
+
+bool isOfHttp(error_code error) {
+  return error.category() == http::make_error_code(http::error::bad_method).category();
+}
+
+std::string headerText(const WebRequest& request, http::field name) {
+  const auto value = request[name].substr(0, kMaxQuoted);
+  return {value.data(), value.size()};
+}
+
+}  // namespace
+
+WebConnection::WebConnection(GatewayState& gateway, SecureSocket socket, WebVisitor visitor)
+    : Guest(gateway.sharedGuests()),
+      m_gateway(gateway),
+      m_socket(std::move(socket)),
+      m_visitor(std::move(visitor)),
+      m_buffer(kMaxHead + 1) {}
+
+void WebConnection::start(Newcomers::Place place) {
+  m_place = std::move(place);
+  setTime(m_gateway.settings.head_time);
+  if (!m_gateway.tls) return readRequest();
+  if (!m_socket.startTls(m_gateway.tls->get(), SecureSocket::Role::kServer)) return hangUp();
+  m_socket.asyncHandshake([self = sharedFrom(this)](error_code error) {
+    if (self->m_is_over) return;
+    if (!error) return self->readRequest();
+    ++self->m_gateway.counters.failed_handshakes;
+    self->hangUp();
+  });
+}
+
+void WebConnection::readRequest() {
+  m_parser.emplace();
+  m_parser->header_limit(kMaxHead);
+  m_parser->body_limit(0);
+  http::async_read_header(m_socket, m_buffer, *m_parser,
+                          [self = sharedFrom(this)](error_code error, std::size_t) {
+                            if (!self->m_is_over) self->onRequest(error);
+                          });
+}
+
+void WebConnection::onRequest(error_code error) {
+  if (error) return onBadRequest(error);
+  ++m_gateway.counters.requests;
+  if (!m_place.setBusy()) {
+    ++m_gateway.counters.no_place;
+    return hangUp();
+  }
+  if (!m_parser->is_done()) return refuse(400, "A request has no body here.\n");
+  const WebRequest& request = m_parser->get();
+  if (boost::beast::websocket::is_upgrade(request)) return onUpgrade();
+  HttpAnswer answer = m_gateway.answers.answer(request);
+  if (++m_requests == kMaxRequests) answer.keeps_connection = false;
+  send(std::move(answer));
+}
+
+void WebConnection::onBadRequest(error_code error) {
+  const bool is_end = error == http::error::end_of_stream || error == http::error::partial_message;
+  if (!isOfHttp(error) || is_end) return hangUp();
+  ++m_gateway.counters.bad_requests;
+  if (!m_place.setBusy()) return hangUp();
+  if (error == http::error::header_limit || error == http::error::buffer_overflow)
+    return refuse(431, "The head of a request has at most 8 KiB.\n");
+  if (error == http::error::body_limit) return refuse(413, "A request has no body here.\n");
+  refuse(400, "This is no HTTP.\n");
+}
+
+void WebConnection::onUpgrade() {
+  const WebRequest& request = m_parser->get();
+  const auto* const refusal = m_gateway.answers.judgeUpgrade(request);
+  if (refusal) {
+    ++m_gateway.counters.refused_upgrades;
+    m_gateway.log.logRefusal(m_visitor.name,
+                             "a WebSocket for the page of " + headerText(request, http::field::origin) +
+                                 " at " + headerText(request, http::field::host),
+                             std::chrono::steady_clock::now());
+    return refuse(refusal->status, refusal->sentence);
+  }
+  // Frames may follow the answer, and none come before it.
+  if (m_buffer.size() > 0) return refuse(400, "A WebSocket says nothing before it is open.\n");
+  m_is_over = true;
+  m_place.setSilent();
+  const auto stream =
+      std::make_shared<PlayStream>(m_gateway, std::move(m_socket), std::move(m_visitor), std::move(m_place));
+  stream->accept(request);
+}
+
+void WebConnection::refuse(int status, std::string_view sentence) {
+  send(m_gateway.answers.refusal(status, sentence));
+}
+
+void WebConnection::send(HttpAnswer answer) {
+  m_answer = std::move(answer);
+  if (m_answer.is_refusal) ++m_gateway.counters.refused_requests;
+  setTime(kAnswerTime + std::chrono::seconds(m_answer.body().size() / kAnswerRate));
+  const std::array<boost::asio::const_buffer, 2> buffers{
+      boost::asio::buffer(m_answer.head),
+      boost::asio::buffer(m_answer.body().data(), m_answer.body().size())};
+  boost::asio::async_write(m_socket, buffers, [self = sharedFrom(this)](error_code error, std::size_t) {
+    if (!self->m_is_over) self->onSent(error);
+  });
+}
+
+void WebConnection::onSent(error_code error) {
+  if (error) return hangUp();
+  if (m_answer.keeps_connection) {
+    m_place.setSilent();
+    setTime(m_gateway.settings.idle_time);
+    return readRequest();
+  }
+  setTime(m_gateway.settings.close_time);
+  m_socket.asyncDrain([self = sharedFrom(this)](error_code) { self->hangUp(); });
+}
+
+void WebConnection::onDeadline() {
+  ++m_gateway.counters.late;
+  hangUp();
+}
+
+void WebConnection::hangUp() {
+  m_is_over = true;
+  setNoTime();
+  m_socket.close();
+  m_place = {};
+}
+
+}  // namespace naiad

@@ -1,0 +1,50 @@
+// A browser's connection until it ends or becomes a WebSocket: TLS if there is any, requests, answers.
+#pragma once
+
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <memory>
+#include <optional>
+
+#include "server/gateway/GatewayState.h"
+#include "server/gateway/SecureSocket.h"
+
+namespace naiad {
+
+/// Memory: 8 KiB of a request's head, at most, and OpenSSL's of one connection.
+/// Thread: the gateway's.
+class WebConnection : public Guest {
+ public:
+  WebConnection(GatewayState& gateway, SecureSocket socket, WebVisitor visitor);
+
+  /// `place`: its own among the newcomers.
+  void start(Newcomers::Place place);
+
+  void onDeadline() override;
+  void endService() override { hangUp(); }
+  void hangUp() override;
+
+ private:
+  using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
+
+  void readRequest();
+  void onRequest(error_code error);
+  void onBadRequest(error_code error);
+  void onUpgrade();
+  void refuse(int status, std::string_view sentence);
+  void send(HttpAnswer answer);
+  void onSent(error_code error);
+
+  GatewayState& m_gateway;
+  SecureSocket m_socket;
+  WebVisitor m_visitor;
+  Newcomers::Place m_place;
+  boost::beast::flat_buffer m_buffer;
+  std::optional<Parser> m_parser;
+  HttpAnswer m_answer;
+  int m_requests = 0;
+  bool m_is_over = false;
+};
+
+}  // namespace naiad

@@ -1,0 +1,14 @@
+// Apart from the rest: no source can include both Asio and Boost's copy of it.
+#include "server/gateway/WebVisitor.h"
+
+#include "shared/net/stream/ByteStream.h"
+#include "shared/net/stream/VisitorHeader.h"
+
+namespace naiad {
+
+WebVisitor WebVisitor::of(const AddressPrefix::Bytes& address, std::uint16_t port) {
+  const asio::ip::tcp::endpoint endpoint(unmapped(asio::ip::address_v6(address)), port);
+  return {visitorHeader(endpoint), peerName(endpoint), AddressPrefix(address)};
+}
+
+}  // namespace naiad

@@ -1,0 +1,199 @@
+// dfweb: the gateway for browsers. It serves the page, and leads its WebSockets to one dfserver.
+#include <sys/un.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "server/gateway/Gateway.h"
+#include "server/gateway/PageFiles.h"
+#include "shared/net/base/SafeFile.h"
+#include "shared/options/Options.h"
+#include "shared/program/BrokenPipes.h"
+#include "shared/program/OpenFiles.h"
+#include "shared/values/Version.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+enum ExitCode { kUsage = 2, kNoPage = 3, kCannotListen = 4, kFile = 5 };
+
+constexpr const char* kHelp =
+    "LINK is what dfserver prints, SOCKET its --visitors. No browser is led anywhere else.\n"
+    "Without a certificate it listens on loopback addresses only. SIGHUP reads the certificate again; "
+    "SIGTERM and\n"
+    "SIGINT end it, after players were told. It sees what players type, passwords and chat among it.\n\n"
+    "Exit codes: 2 wrong usage; 3 there is no page; 4 it cannot listen; 5 a file cannot be written.\n";
+
+/// Descriptors beside those of connections.
+constexpr std::size_t kOwnFiles = 64;
+
+struct WebOptions {
+  naiad::GatewaySettings settings;
+  std::string link;
+  std::string listen = "127.0.0.1:8080";
+  int max_visitors = 1000;
+  int max_per_address = 64;
+  std::string port_file;
+  std::string log_file;
+};
+
+std::string storeListen(const std::string& text, naiad::GatewaySettings& settings) {
+  return naiad::Gateway::parseListen(text, settings)
+             ? ""
+             : "ADDRESS:PORT is wanted, like 127.0.0.1:8080 or [::]:443";
+}
+
+std::string storeOrigin(const std::string& text, naiad::GatewaySettings& settings) {
+  const auto origin = naiad::WebOrigin::parse(text);
+  if (!origin) return "https://NAME[:PORT] is wanted, without a path";
+  settings.origins.push_back(*origin);
+  return "";
+}
+
+std::string storeLink(const std::string& text, naiad::GatewaySettings& settings) {
+  const auto parsed = naiad::JoinLink::parse(text);
+  if (const auto* const problem = std::get_if<naiad::LinkProblem>(&parsed)) return problem->sentence;
+  settings.link = std::get<naiad::JoinLink>(parsed);
+  return settings.link->room.empty() ? "" : "no server has rooms yet: leave out what is behind the /";
+}
+
+/// Where the page is installed, or built.
+fs::path ownPage() {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path installed = folder / "../share/dragonfly/web";
+  return fs::exists(installed, error) ? installed : folder / "../web";
+}
+
+std::vector<naiad::Option> optionsOf(WebOptions& web) {
+  naiad::GatewaySettings& settings = web.settings;
+  return {
+      {.name = "link",
+       .target = naiad::StoreText([&settings](const std::string& text) { return storeLink(text, settings); }),
+       .help = "The link to the server, as dfserver prints it: naiad://HOST[:PORT]#KEY",
+       .type = "LINK"},
+      {.name = "--visitors",
+       .target = &settings.visitors,
+       .help = "The visitors' socket of that server, as in its own --visitors",
+       .type = "SOCKET"},
+      {.name = "--listen",
+       .target =
+           naiad::StoreText([&settings](const std::string& text) { return storeListen(text, settings); }),
+       .help = "Where browsers connect; port 0: any free one",
+       .type = "ADDRESS:PORT",
+       .default_text = web.listen},
+      {.name = "--certificate",
+       .target = &settings.certificate,
+       .help = "Certificate for HTTPS, with those above it, in PEM form",
+       .type = "FILE"},
+      {.name = "--key", .target = &settings.key, .help = "Its private key, in PEM form", .type = "FILE"},
+      {.name = "--origin",
+       .target =
+           naiad::StoreText([&settings](const std::string& text) { return storeOrigin(text, settings); }),
+       .help =
+           "Address by which players reach it, beside its own, like https://play.example; may be repeated",
+       .type = "URL"},
+      {.name = "--page",
+       .target = &settings.page,
+       .help = "Folder of the page's files (default: the one that belongs to this program)",
+       .type = "DIR"},
+      {.name = "--name",
+       .target = &settings.name,
+       .help = "What the page calls the server (default: its host)"},
+      {.name = "--max-visitors",
+       .target = &web.max_visitors,
+       .help = "Players at a time, each with two WebSockets at most",
+       .range = naiad::OptionRange{1, 20'000},
+       .shows_default = true},
+      {.name = "--max-per-address",
+       .target = &web.max_per_address,
+       .help = "Of these, from one IPv4 address or IPv6 network (/64)",
+       .range = naiad::OptionRange{1, 20'000},
+       .shows_default = true},
+      {.name = "--port-file",
+       .target = &web.port_file,
+       .help = "Write the port number to this file once listening",
+       .type = "FILE"},
+      {.name = "--log-file",
+       .target = &web.log_file,
+       .help = "Append log lines to this file instead of stderr",
+       .type = "FILE"}};
+}
+
+/// What is missing or does not go together; nothing if all is well.
+std::string problemOf(const naiad::GatewaySettings& settings) {
+  if (settings.visitors.empty()) return "--visitors is wanted: the visitors' socket of the server.";
+  if (settings.visitors.size() >= sizeof(sockaddr_un::sun_path))
+    return "--visitors: that is too long for the path of a socket.";
+  if (settings.certificate.empty() != settings.key.empty())
+    return "--certificate and --key are wanted together.";
+  return "";
+}
+
+/// Two descriptors for each WebSocket, one for each newcomer.
+void allowFiles(const naiad::GatewaySettings& settings, const naiad::LogLine& log) {
+  const std::size_t wanted = 4 * settings.max_visitors + settings.max_newcomers + kOwnFiles;
+  const std::size_t allowed = naiad::allowOpenFiles(wanted);
+  if (allowed < wanted)
+    log("only " + std::to_string(allowed) + " open files are allowed, of " + std::to_string(wanted) +
+        " that --max-visitors may take");
+}
+
+void serve(WebOptions& web) {
+  const auto lines = std::make_shared<naiad::LineLog>(web.log_file);
+  const naiad::LogLine log = [lines](const std::string& line) { (*lines)(line); };
+  allowFiles(web.settings, log);
+  naiad::Gateway gateway(web.settings, log);
+  gateway.heedSignals();
+  if (!web.port_file.empty()) naiad::publishFile(web.port_file, std::to_string(gateway.port()) + "\n");
+  for (const std::string& address : gateway.addresses()) std::printf("Players open %s\n", address.c_str());
+  std::fflush(stdout);
+  log(std::string("dfweb ") + naiad::kVersion + " leads browsers on port " + std::to_string(gateway.port()) +
+      " to " + web.settings.link->text());
+  gateway.run();
+}
+
+int start(int argc, char** argv) {
+  WebOptions web;
+  web.settings.page = ownPage();
+  const naiad::Program program{"dfweb", "Lets players come with a browser.", kHelp};
+  switch (naiad::parseOptions(program, optionsOf(web), argc, argv)) {
+    case naiad::Parsed::kDone:
+      return 0;
+    case naiad::Parsed::kUsageError:
+      return kUsage;
+    case naiad::Parsed::kRun:
+      break;
+  }
+  web.settings.max_visitors = static_cast<std::size_t>(web.max_visitors);
+  web.settings.max_per_address = static_cast<std::size_t>(web.max_per_address);
+  if (const std::string problem = problemOf(web.settings); !problem.empty()) {
+    std::fprintf(stderr, "dfweb: %s\nRun dfweb --help for more information.\n", problem.c_str());
+    return kUsage;
+  }
+  naiad::surviveBrokenPipes();
+  serve(web);
+  return 0;
+}
+
+int fail(ExitCode code, const char* what) {
+  std::fprintf(stderr, "dfweb: %s\n", what);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return start(argc, argv);
+  } catch (const naiad::PageError& error) {
+    return fail(kNoPage, error.what());
+  } catch (const naiad::GatewayError& error) {
+    return fail(kCannotListen, error.what());
+  } catch (const std::exception& error) {
+    return fail(kFile, error.what());
+  }
+}

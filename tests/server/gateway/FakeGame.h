@@ -1,0 +1,85 @@
+// What stands behind a gateway in tests, in place of dfserver: a visitors' socket with TLS behind it, which
+// keeps who came and what they said.
+#pragma once
+
+#include <asio/executor_work_guard.hpp>
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "host/auth/ServerIdentity.h"
+#include "shared/net/base/Channel.h"
+#include "shared/net/stream/ShortKey.h"
+#include "shared/net/stream/TlsHandshake.h"
+#include "shared/net/stream/VisitorsListener.h"
+
+namespace naiad::test {
+
+class FakeGame {
+ public:
+  /// What to do with a frame; on the game's thread. By default it is sent back.
+  using OnFrame = std::function<void(ReliableChannel& channel, const std::string& frame)>;
+
+  /// The key is in that folder, or made there; the socket is `socket`.
+  FakeGame(const std::filesystem::path& identity, const std::filesystem::path& socket, OnFrame on_frame = {});
+  ~FakeGame();
+  FakeGame(const FakeGame&) = delete;
+  FakeGame& operator=(const FakeGame&) = delete;
+
+  ShortKey key() const { return ShortKey::of(m_identity.fingerprint()); }
+  /// Addresses of those who came, as "127.0.0.1:50312".
+  std::vector<std::string> visitors();
+  /// All frames of all of them.
+  std::vector<std::string> frames();
+  std::size_t connections() {
+    return onThread([this] { return m_channels.size(); });
+  }
+  /// Handshakes that are over, whatever came of them.
+  std::size_t handshakes() {
+    return onThread([this] { return m_handshakes; });
+  }
+  /// Send to everybody.
+  void broadcast(const std::string& frame);
+  /// End all streams: in order, or without a word, as a process that is killed.
+  void endAll(bool in_order);
+  /// Call this so often, on the game's thread, with each channel.
+  void every(std::chrono::milliseconds period, std::function<void(ReliableChannel&)> job);
+
+  template <class Job>
+  auto onThread(Job job) {
+    std::promise<decltype(job())> result;
+    asio::post(m_context, [&] { result.set_value(job()); });
+    return result.get_future().get();
+  }
+
+ private:
+  void meet(asio::generic::stream_protocol::socket socket, const asio::ip::tcp::endpoint& address);
+  void serve(std::unique_ptr<TlsStream> stream);
+  void tick(std::chrono::milliseconds period);
+
+  ServerIdentity m_identity;
+  OnFrame m_on_frame;
+  asio::io_context m_context;
+  asio::executor_work_guard<asio::io_context::executor_type> m_work{m_context.get_executor()};
+  asio::steady_timer m_timer{m_context};
+  std::function<void(ReliableChannel&)> m_job;
+  std::mutex m_mutex;
+  std::vector<std::string> m_visitors;
+  std::vector<std::string> m_frames;
+  std::map<int, std::unique_ptr<ReliableChannel>> m_channels;
+  std::map<int, int> m_sockets;
+  int m_newest = 0;
+  std::size_t m_handshakes = 0;
+  std::unique_ptr<VisitorsListener> m_listener;
+  std::thread m_thread;
+};
+
+}  // namespace naiad::test

@@ -1,0 +1,91 @@
+// A gateway on a free loopback port, in a thread of this process, with a small page.
+#pragma once
+
+#include <filesystem>
+#include <future>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/gateway/Gateway.h"
+
+namespace naiad::test {
+
+/// A folder that goes with it, and in it a page and room for sockets and keys.
+class GatewayHome {
+ public:
+  GatewayHome();
+  ~GatewayHome();
+  GatewayHome(const GatewayHome&) = delete;
+  GatewayHome& operator=(const GatewayHome&) = delete;
+
+  std::filesystem::path path(const std::string& name) const { return m_folder / name; }
+  /// For a gateway to a server with this key, on a free port.
+  GatewaySettings settings(const ShortKey& key) const;
+
+ private:
+  std::filesystem::path m_folder;
+};
+
+/// What stands in the page's files.
+std::string indexText();
+std::string wasmBytes();
+
+class GatewayRun {
+ public:
+  explicit GatewayRun(const GatewaySettings& settings);
+  ~GatewayRun();
+  GatewayRun(const GatewayRun&) = delete;
+  GatewayRun& operator=(const GatewayRun&) = delete;
+
+  std::uint16_t port() const { return m_port; }
+  GatewayCounters counters() {
+    return onThread([this] { return m_gateway.counters(); });
+  }
+  std::size_t guests() {
+    return onThread([this] { return m_gateway.guests(); });
+  }
+  void stop() {
+    onThread([this] {
+      m_gateway.stop();
+      return 0;
+    });
+  }
+  void reloadCertificate() {
+    onThread([this] {
+      m_gateway.reloadCertificate();
+      return 0;
+    });
+  }
+  /// Wait until it has ended by itself.
+  void join() { m_thread.join(); }
+  std::vector<std::string> lines();
+
+ private:
+  template <class Job>
+  auto onThread(Job job) {
+    std::promise<decltype(job())> result;
+    m_gateway.post([&] { result.set_value(job()); });
+    return result.get_future().get();
+  }
+
+  std::mutex m_mutex;
+  std::vector<std::string> m_lines;
+  Gateway m_gateway;
+  std::uint16_t m_port;
+  std::thread m_thread;
+};
+
+/// Ask again until it is so; false after 30 s.
+template <class Condition>
+bool comesTrue(Condition condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::yield();
+  }
+  return true;
+}
+
+}  // namespace naiad::test

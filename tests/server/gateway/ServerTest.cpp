@@ -1,0 +1,115 @@
+// Browsers at a real dfserver, by way of the gateway.
+#include <gtest/gtest.h>
+
+#include "GatewayRun.h"
+#include "WebClient.h"
+#include "shared/net/stream/ShortKey.h"
+#include "tests/loopback/BusyWorld.h"
+#include "tests/loopback/TestServer.h"
+
+namespace naiad::test {
+namespace {
+
+class GatewayServer : public testing::Test {
+ protected:
+  GatewayServer() {
+    options = fastOptions();
+    options.insecure = false;
+    options.identity = home.path("identity");
+    options.visitors = home.path("visitors");
+    options.grace = 60;
+  }
+  static void populate(df::World& world) { populateBusyWorld(world, 5); }
+
+  GatewayHome home;
+  HostOptions options;
+};
+
+TEST_F(GatewayServer, BrowsersPlayAndSeeTheWorld) {
+  TestServer server(populate, options);
+  GatewayRun gateway(home.settings(ShortKey::of(*server.fingerprint())));
+  WebClient ann(gateway.port());
+  WebClient bob(gateway.port());
+  ASSERT_TRUE(ann.join("ann"));
+  ASSERT_TRUE(bob.join("bob"));
+  wire::ClientMessage chat;
+  chat.mutable_chat()->set_text("hello from a browser");
+  chat.set_number(1);
+  ann.sendMessage(chat);
+  bool heard = false;
+  bool seen = false;
+  while (!heard || !seen) {
+    const auto message = bob.message();
+    ASSERT_TRUE(message);
+    heard = heard || (message->has_chat() && message->chat().text() == "hello from a browser");
+    seen = seen || message->has_snapshot();
+  }
+  server.stop("The test is over.");
+  EXPECT_EQ(ann.waitForClose(), 1000) << "it said goodbye";
+}
+
+TEST_F(GatewayServer, ItsLimitsCountTheBrowsersAddress) {
+  options.max_per_address = 2;
+  TestServer server(populate, options);
+  GatewayRun gateway(home.settings(ShortKey::of(*server.fingerprint())));
+  WebClient ann(gateway.port(), "127.0.0.7");
+  WebClient bob(gateway.port(), "127.0.0.7");
+  WebClient third(gateway.port(), "127.0.0.7");
+  WebClient other(gateway.port(), "127.0.0.8");
+  EXPECT_TRUE(ann.join("ann"));
+  EXPECT_TRUE(bob.join("bob"));
+  ASSERT_TRUE(third.play());
+  third.sendMessage(WebClient::hello("cat"));
+  const auto refusal = third.message();
+  ASSERT_TRUE(refusal);
+  EXPECT_TRUE(refusal->has_refused());
+  EXPECT_TRUE(other.join("dan"));
+  EXPECT_EQ(server.counters().joined, 3u);
+}
+
+TEST_F(GatewayServer, ASecondWebSocketIsASecondStream) {
+  TestServer server(populate, options);
+  GatewayRun gateway(home.settings(ShortKey::of(*server.fingerprint())));
+  WebClient first(gateway.port());
+  ASSERT_TRUE(first.play());
+  first.sendMessage(WebClient::hello("ann"));
+  const auto welcome = first.message();
+  ASSERT_TRUE(welcome && welcome->has_welcome());
+  EXPECT_TRUE(welcome->welcome().second_stream());
+  WebClient second(gateway.port());
+  ASSERT_TRUE(second.play());
+  auto hello = WebClient::hello("ann");
+  hello.mutable_hello()->set_resume_token(welcome->welcome().resume_token());
+  hello.mutable_hello()->set_second_stream(true);
+  second.sendMessage(hello);
+  const auto again = second.message();
+  ASSERT_TRUE(again && again->has_welcome());
+  EXPECT_EQ(again->welcome().player(), welcome->welcome().player());
+  EXPECT_EQ(server.counters().joined, 1u);
+  EXPECT_EQ(gateway.counters().played, 2u);
+}
+
+TEST_F(GatewayServer, AReloadedPageGoesOnWithItsSession) {
+  TestServer server(populate, options);
+  GatewayRun gateway(home.settings(ShortKey::of(*server.fingerprint())));
+  wire::Welcome welcome;
+  {
+    WebClient page(gateway.port());
+    ASSERT_TRUE(page.play());
+    page.sendMessage(WebClient::hello("ann"));
+    welcome = page.message().value().welcome();
+  }
+  WebClient again(gateway.port());
+  ASSERT_TRUE(again.play());
+  auto hello = WebClient::hello("ann");
+  hello.mutable_hello()->set_resume_token(welcome.resume_token());
+  hello.mutable_hello()->set_fresh(true);
+  again.sendMessage(hello);
+  const auto answer = again.message();
+  ASSERT_TRUE(answer && answer->has_welcome());
+  EXPECT_TRUE(answer->welcome().resumed());
+  EXPECT_EQ(answer->welcome().player(), welcome.player());
+}
+
+}  // namespace
+}  // namespace naiad::test
