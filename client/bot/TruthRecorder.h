@@ -32,6 +32,8 @@ class TruthRecorder {
   void finish(const Replica& replica);
 
   std::size_t tickCount() const { return m_pictures.size(); }
+  /// What was seen, by tick.
+  const std::map<std::uint32_t, df::Canvas>& pictures() const { return m_pictures; }
   /// Objects that were in different cells of the world at different times.
   std::size_t movingCount() const;
 

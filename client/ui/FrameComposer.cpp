@@ -76,7 +76,8 @@ ScreenModel FrameComposer::composeFrame(Time now) {
     model.round_trip = session->roundTrip();
     model.tick = m_composed.tick;
     model.score = session->score();
-    model.server = session->welcome().server + " at " + m_connection.address().text();
+    const ServerAddress& address = m_connection.address();
+    model.server = session->welcome().server + " at " + (m_browser ? address.host : address.text());
     model.game = session->welcome().game;
     model.self = session->welcome().player;
     model.players = session->players();

@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "client/web/WebClient.h"
+#ifdef NAIAD_RECORD
+#include "client/bot/TruthRecorder.h"
+#endif
 #include "shared/values/Version.h"
 
 #define NAIAD_EXPORT(name) __attribute__((used, export_name(#name)))
@@ -78,6 +81,29 @@ void pack(const naiad::Picture& picture, std::vector<std::uint32_t>& cells) {
   }
 }
 
+#ifdef NAIAD_RECORD
+/// What the replica showed, tick by tick, for a test that compares it with the server's truth file.
+struct Recording {
+  naiad::TruthRecorder recorder;
+  std::vector<std::uint32_t> cells;
+};
+
+Recording& recording() {
+  static Recording all;
+  return all;
+}
+
+void record(WebClient& client) {
+  client.connection().onSession([](naiad::ClientSession& session) {
+    session.onBeforeSnapshot(
+        [&session](std::uint32_t tick) { recording().recorder.beforeSnapshot(session.replica(), tick); });
+    session.onAfterSnapshot([](const naiad::SnapshotHeader& header, const naiad::AckWindow&) {
+      recording().recorder.afterSnapshot(header.tick, header.complete, true);
+    });
+  });
+}
+#endif
+
 }  // namespace
 
 extern "C" {
@@ -103,6 +129,9 @@ NAIAD_EXPORT(start) void webStart(int columns, int rows) {
   all.options.program = std::string("naiad web ") + naiad::kVersion;
   all.client = std::make_unique<WebClient>(all.port, all.options, Clock::now());
   all.options.password.clear();
+#ifdef NAIAD_RECORD
+  record(*all.client);
+#endif
 }
 
 NAIAD_EXPORT(opened) void webOpened(int stream) {
@@ -205,5 +234,36 @@ NAIAD_EXPORT(view) int webView() {
   const WebClient* p_client = module().client.get();
   return p_client != nullptr ? p_client->viewHeight() * 65536 + p_client->viewWidth() : 24 * 65536 + 80;
 }
+
+#ifdef NAIAD_RECORD
+NAIAD_EXPORT(recorded) int webRecorded() {
+  return static_cast<int>(recording().recorder.tickCount());
+}
+
+/// The tick of the `index`-th picture; recorded_cells() then has its cells.
+NAIAD_EXPORT(recorded_tick) std::uint32_t webRecordedTick(int index) {
+  auto found = recording().recorder.pictures().begin();
+  std::advance(found, index);
+  const df::Canvas& canvas = found->second;
+  std::vector<std::uint32_t>& cells = recording().cells;
+  cells.clear();
+  for (int y = 0; y < canvas.height(); ++y) {
+    for (int x = 0; x < canvas.width(); ++x)
+      cells.push_back(packed({canvas.at(x, y).ch, canvas.at(x, y).color}));
+  }
+  return found->first;
+}
+
+NAIAD_EXPORT(recorded_cells) const std::uint32_t* webRecordedCells() {
+  return recording().cells.data();
+}
+
+/// Height · 65536 + width of recorded_cells().
+NAIAD_EXPORT(recorded_size) int webRecordedSize() {
+  const auto& pictures = recording().recorder.pictures();
+  if (pictures.empty()) return 0;
+  return pictures.begin()->second.height() * 65536 + pictures.begin()->second.width();
+}
+#endif
 
 }  // extern "C"

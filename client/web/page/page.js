@@ -324,10 +324,7 @@ async function begin() {
   element("sound").setAttribute("aria-pressed", String(sounds.on));
   element("name").value = localStorage.getItem("naiad.name") ?? "";
   element("pad").hidden = element("keyboard").hidden = !touch;
-  if (typeof WebAssembly !== "object") {
-    element("play").disabled = true;
-    return say("This browser has no WebAssembly, which the game needs. A newer one has.");
-  }
+  if (typeof WebAssembly !== "object") return say("This browser has no WebAssembly, which the game needs. A newer one has.");
   wasm = fetchModule().catch(() => null);
   try {
     server = await (await fetch("server")).json();
@@ -337,13 +334,11 @@ async function begin() {
   element("title").textContent = server.name || "Naiad";
   document.title = server.name ? `${server.name} – Naiad` : "Naiad";
   if (server.link) element("terminal").textContent = `dfclient ${server.link}`;
-  if (isOtherServer()) {
-    element("play").disabled = true;
-    return say("This address was made for another game than the one that is here now.");
-  }
+  if (isOtherServer()) return say("This address was made for another game than the one that is here now.");
   await Promise.all([document.fonts.load('16px "Naiad Mono"'), claimTab()]);
   // A tab that was loaded again plays on.
   if (sessionStorage.getItem("naiad.token") !== null && element("name").value !== "") return join();
+  element("play").disabled = false;
   if (element("name").value === "") element("name").focus();
   else element("play").focus();
 }
@@ -354,5 +349,4 @@ requestAnimationFrame(frame);
 await begin();
 
 // For scripts that test the page.
-export {picture};
 window.naiad = {get client() { return client; }, picture};

@@ -5,9 +5,11 @@ const colors = ["#4d4d4d", "#ff5555", "#50fa7b", "#f1fa8c", "#7aa2ff", "#ff79c6"
 const paper = "#000000";
 const backgrounds = [paper, "#7a1414", "#14602a", "#6a6a14", "#1a2f7a", "#6a1a5a", "#14606a", "#b0b0b0"];
 const family = '"Naiad Mono"';
-/** Of the font: advance and height of a line, in parts of its size. */
+/** Of the font: advance and height of a line, in parts of its size; and where letters stand, in parts of the line. */
 const advance = 0.602;
 const lineHeight = 1.17;
+const baseline = 0.79;
+const mostImages = 4000;
 const smallest = 11;  // CSS pixels from line to line
 const largest = 48;
 
@@ -29,7 +31,8 @@ for (const [chars, text] of [
 export class Picture {
   constructor(canvas) {
     this.canvas = canvas;
-    this.context = canvas.getContext("2d", {alpha: false});
+    this.screen = canvas.getContext("2d", {alpha: false});
+    this.drawn = new Map();  // cells as images, by their numbers
     this.shown = new Uint32Array(0);
     this.columns = 0;
     this.rows = 0;
@@ -51,6 +54,7 @@ export class Picture {
     const size = {columns: Math.max(1, Math.min(400, Math.floor(wide / cell(line)))), rows: Math.max(1, Math.min(150, Math.floor(high / line)))};
     if (line !== this.line || scale !== this.scale || size.columns !== this.columns || size.rows !== this.rows) {
       Object.assign(this, {line, scale, cell: cell(line), columns: size.columns, rows: size.rows});
+      this.drawn.clear();
       this.canvas.width = this.cell * size.columns;
       this.canvas.height = line * size.rows;
       this.canvas.style.width = `${this.canvas.width / scale}px`;
@@ -62,8 +66,8 @@ export class Picture {
 
   /** Draw everything with the next show(). */
   redraw() {
-    this.context.fillStyle = paper;
-    this.context.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    this.screen.fillStyle = paper;
+    this.screen.fillRect(0, 0, this.canvas.width, this.canvas.height);
     this.shown = new Uint32Array(0);
   }
 
@@ -75,7 +79,7 @@ export class Picture {
       if (!all && this.shown[i] === cells[i] && i !== this.cursorCell) continue;
       const column = i % columns;
       const row = (i - column) / columns;
-      if (column < this.columns && row < this.rows) this.drawCell(column, row, cells[i]);
+      if (column < this.columns && row < this.rows) this.screen.drawImage(this.image(cells[i]), column * this.cell, row * this.line);
     }
     this.cursorCell = cursor < 0 ? -1 : (cursor >> 16) * columns + (cursor & 0xffff);
     if (cursor >= 0) this.drawCursor(cursor & 0xffff, cursor >> 16);
@@ -84,46 +88,54 @@ export class Picture {
     this.shownColumns = columns;
   }
 
-  drawCell(column, row, cell) {
-    const {context} = this;
+  /** A cell as an image: what a character has outside its cell is cut off, and would not be erased with it. */
+  image(cell) {
+    let image = this.drawn.get(cell);
+    if (image !== undefined) return image;
+    if (this.drawn.size >= mostImages) this.drawn.clear();
+    image = new OffscreenCanvas(this.cell, this.line);
+    this.drawCell(image.getContext("2d", {alpha: false}), cell);
+    this.drawn.set(cell, image);
+    return image;
+  }
+
+  drawCell(context, cell) {
     const style = cell >>> 24 & 3;
     let ink = colors[cell >>> 21 & 7];
     let ground = backgrounds[cell >>> 26 & 7];
     if (style === 2) [ink, ground] = [paper, "#c8c8c8"];
-    const x = column * this.cell;
-    const y = row * this.line;
     context.fillStyle = ground;
-    context.fillRect(x, y, this.cell, this.line);
+    context.fillRect(0, 0, this.cell, this.line);
     const code = cell & 0x1fffff;
     if (code === 0x20 || code === 0xa0) return;
     context.fillStyle = ink;
-    if (code >= 0x2500 && code <= 0x28ff && this.drawShape(code, x, y)) return;
+    if (code >= 0x2500 && code <= 0x28ff && this.drawShape(context, code)) return;
     context.font = `${style === 1 ? "bold " : ""}${this.line / lineHeight}px ${family}, monospace`;
     context.textBaseline = "alphabetic";
     context.textAlign = "center";
-    context.fillText(String.fromCodePoint(code), x + this.cell / 2, y + Math.round(this.line * 0.8), this.cell);
+    context.fillText(String.fromCodePoint(code), this.cell / 2, Math.round(this.line * baseline), this.cell);
   }
 
   drawCursor(column, row) {
-    this.context.fillStyle = "#000000";
-    this.context.fillRect(column * this.cell, row * this.line + this.line - Math.max(2, this.line >> 3), this.cell, Math.max(2, this.line >> 3));
+    this.screen.fillStyle = "#000000";
+    this.screen.fillRect(column * this.cell, row * this.line + this.line - Math.max(2, this.line >> 3), this.cell, Math.max(2, this.line >> 3));
   }
 
   /** False if the character has no shape of its own here. */
-  drawShape(code, x, y) {
-    if (code <= 0x257f) return this.drawLines(code, x, y);
-    if (code <= 0x259f) return this.drawBlock(code, x, y);
-    return code >= 0x2800 && this.drawBraille(code, x, y);
+  drawShape(context, code) {
+    if (code <= 0x257f) return this.drawLines(context, code);
+    if (code <= 0x259f) return this.drawBlock(context, code);
+    return code >= 0x2800 && this.drawBraille(context, code);
   }
 
-  drawLines(code, x, y) {
+  drawLines(context, code) {
     const arm = arms.get(code);
     if (arm === undefined) return false;
-    const {context, cell, line} = this;
+    const {cell, line} = this;
     const light = Math.max(1, Math.round(cell / 8));
     const gap = light;
-    const middleX = x + (cell - light >> 1);
-    const middleY = y + (line - light >> 1);
+    const middleX = cell - light >> 1;
+    const middleY = line - light >> 1;
     const [left, up, right, down] = arm;
     const horizontal = (from, to, kind) => {
       if (kind === 3) {
@@ -144,19 +156,19 @@ export class Picture {
     // Arms reach past the middle by what the others are wide.
     const reachX = up === 3 || down === 3 ? gap : 0;
     const reachY = left === 3 || right === 3 ? gap : 0;
-    horizontal(x, middleX + light + reachX, left);
-    horizontal(middleX - reachX, x + cell, right);
-    vertical(y, middleY + light + reachY, up);
-    vertical(middleY - reachY, y + line, down);
+    horizontal(0, middleX + light + reachX, left);
+    horizontal(middleX - reachX, cell, right);
+    vertical(0, middleY + light + reachY, up);
+    vertical(middleY - reachY, line, down);
     return true;
   }
 
-  drawBlock(code, x, y) {
-    const {context, cell, line} = this;
+  drawBlock(context, code) {
+    const {cell, line} = this;
     const part = (left, top, right, bottom) => {
       const x0 = Math.round(cell * left / 8), x1 = Math.round(cell * right / 8);
       const y0 = Math.round(line * top / 8), y1 = Math.round(line * bottom / 8);
-      context.fillRect(x + x0, y + y0, x1 - x0, y1 - y0);
+      context.fillRect(x0, y0, x1 - x0, y1 - y0);
     };
     const n = code - 0x2580;
     if (n === 0) part(0, 0, 8, 4);
@@ -179,15 +191,15 @@ export class Picture {
     return true;
   }
 
-  drawBraille(code, x, y) {
-    const {context, cell, line} = this;
+  drawBraille(context, code) {
+    const {cell, line} = this;
     const size = Math.max(1, Math.round(Math.min(cell / 4, line / 8)));
     // Bits 0 to 2 and 6 go down the left column, 3 to 5 and 7 down the right one.
     [0, 1, 2, 6, 3, 4, 5, 7].forEach((bit, i) => {
       if ((code >> bit & 1) === 0) return;
       const centreX = Math.round(cell * (i < 4 ? 0.25 : 0.75));
       const centreY = Math.round(line * (2 * (i % 4) + 1) / 8);
-      context.fillRect(x + centreX - (size >> 1), y + centreY - (size >> 1), size, size);
+      context.fillRect(centreX - (size >> 1), centreY - (size >> 1), size, size);
     });
     return true;
   }

@@ -1,4 +1,5 @@
-// In place of shared/net/datagram/Seal.cpp and DatagramKeys.cpp: a page has no datagrams, so it needs no ciphers.
+// In place of shared/net/datagram/Seal.cpp and DatagramKeys.cpp: a page has no datagrams, so it needs no
+// ciphers.
 #include "shared/net/datagram/DatagramKeys.h"
 #include "shared/net/datagram/Seal.h"
 

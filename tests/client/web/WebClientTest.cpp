@@ -58,7 +58,7 @@ class WebClientTest : public testing::Test {
     SnapshotWriter out;
     out.beginSnapshot(header, 0, {});
     wire::ServerMessage message;
-    message.set_snapshot(std::string(out.bytes()));
+    message.set_snapshot(out.finish());
     receive(message);
   }
   void play() {
@@ -75,7 +75,7 @@ class WebClientTest : public testing::Test {
     std::vector<Input> all;
     for (const wire::ClientMessage& message : page.streams[first].sent) {
       if (message.what_case() != wire::ClientMessage::kUpdate) continue;
-      const auto update = readUpdate(message.update());
+      const auto update = readUpdate(message.update(), {1, 1, 0});
       if (!update) continue;
       for (const Input& input : update->inputs) {
         if (all.empty() || input.id > all.back().id) all.push_back(input);

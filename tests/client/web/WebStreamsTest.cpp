@@ -76,7 +76,7 @@ TEST_F(WebStreamsTest, AGatewayThatIsSilentIsGivenUp) {
 TEST_F(WebStreamsTest, TheGatewaysSentenceIsSaidAndHarmless) {
   open();
   streams.closed(page.newest, static_cast<int>(GatewayClose::kNoServer), "Nobody \033[2Jis there.");
-  EXPECT_EQ(error, "Nobody [2Jis there.");
+  EXPECT_EQ(error, "Nobody ?[2Jis there.");
   EXPECT_EQ(streams.refusal(), error);
   EXPECT_FALSE(streams.wasHungUpOn());
   EXPECT_FALSE(streams.isRefusalFinal());

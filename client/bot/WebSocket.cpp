@@ -1,0 +1,230 @@
+#include "client/bot/WebSocket.h"
+
+#include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+#include <chrono>
+#include <deque>
+#include <thread>
+#include <type_traits>
+#include <utility>
+
+#include "shared/net/base/Limits.h"
+#include "shared/net/stream/JoinLink.h"
+
+namespace naiad {
+
+namespace beast = boost::beast;
+namespace websocket = boost::beast::websocket;
+using beast::error_code;
+using boost::asio::ip::tcp;
+using PlainStream = beast::tcp_stream;
+using EncryptedStream = beast::ssl_stream<beast::tcp_stream>;
+
+struct WebSocketThread::Loop {
+  boost::asio::io_context context{1};
+  boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work{context.get_executor()};
+  boost::asio::ssl::context tls{boost::asio::ssl::context::tls_client};
+  std::thread thread;
+};
+
+namespace {
+
+constexpr std::chrono::seconds kOpenTimeout{10};
+
+/// Members that begin with "run" belong to the sockets' thread.
+template <class Stream>
+class SocketOf : public WebSocket, public std::enable_shared_from_this<SocketOf<Stream>> {
+ public:
+  template <class... Arguments>
+  SocketOf(WebSocketThread::Loop& loop, GatewayAddress address, Events events, Arguments&... arguments)
+      : m_loop(loop),
+        m_address(std::move(address)),
+        m_events(std::move(events)),
+        m_resolver(loop.context),
+        m_stream(loop.context, arguments...) {}
+
+  void open() {
+    boost::asio::post(m_loop.context, [self = self()] { self->runOpen(); });
+  }
+  void send(std::string frame) override {
+    m_unsent += frame.size();
+    boost::asio::post(m_loop.context, [self = self(), frame = std::move(frame)]() mutable {
+      self->m_queue.push_back(std::move(frame));
+      if (self->m_open && self->m_queue.size() == 1) self->runWrite();
+    });
+  }
+  void close() override {
+    boost::asio::post(m_loop.context, [self = self()] { self->runClose(); });
+  }
+  std::size_t unsentBytes() const override { return m_unsent; }
+
+ private:
+  static constexpr bool kEncrypted = std::is_same_v<Stream, EncryptedStream>;
+
+  std::shared_ptr<SocketOf> self() { return this->shared_from_this(); }
+
+  void runOpen() {
+    m_resolver.async_resolve(
+        m_address.host, std::to_string(m_address.port),
+        [self = self()](error_code error, const auto& results) {
+          if (error) return self->runFail("The host of the gateway was not found (" + error.message() + ").");
+          auto& lowest = beast::get_lowest_layer(self->m_stream);
+          lowest.expires_after(kOpenTimeout);
+          lowest.async_connect(results, [self](error_code failed, const tcp::endpoint&) {
+            if (failed) return self->runFail("The gateway cannot be reached (" + failed.message() + ").");
+            beast::get_lowest_layer(self->m_stream).socket().set_option(tcp::no_delay(true));
+            self->runEncrypt();
+          });
+        });
+  }
+
+  void runEncrypt() {
+    if constexpr (kEncrypted) {
+      auto& tls = m_stream.next_layer();
+      SSL_set_tlsext_host_name(tls.native_handle(), m_address.host.c_str());
+      tls.set_verify_callback(boost::asio::ssl::host_name_verification(m_address.host));
+      tls.async_handshake(boost::asio::ssl::stream_base::client, [self = self()](error_code error) {
+        if (error) return self->runFail("The gateway is not trusted (" + error.message() + ").");
+        self->runUpgrade();
+      });
+    } else {
+      runUpgrade();
+    }
+  }
+
+  void runUpgrade() {
+    beast::get_lowest_layer(m_stream).expires_never();
+    m_stream.set_option(websocket::stream_base::timeout::suggested(beast::role_type::client));
+    const std::string origin = (kEncrypted ? "https://" : "http://") + m_address.hostText();
+    m_stream.set_option(websocket::stream_base::decorator([origin](websocket::request_type& request) {
+      request.set(beast::http::field::origin, origin);
+      request.set(beast::http::field::sec_websocket_protocol, "naiad.1");
+    }));
+    m_stream.read_message_max(kMaxServerFrame);
+    m_stream.binary(true);
+    m_stream.async_handshake(m_address.hostText(), "/play", [self = self()](error_code error) {
+      if (error) return self->runFail("The gateway refused (" + error.message() + ").");
+      self->m_open = true;
+      if (self->m_closing) return self->runClose();
+      self->m_events.on_open("");
+      if (!self->m_queue.empty()) self->runWrite();
+      self->runRead();
+    });
+  }
+
+  void runRead() {
+    m_stream.async_read(m_buffer, [self = self()](error_code error, std::size_t) {
+      if (error) return self->runEnd(error);
+      if (!self->m_closing) self->m_events.on_frame(beast::buffers_to_string(self->m_buffer.data()));
+      self->m_buffer.clear();
+      self->runRead();
+    });
+  }
+
+  void runWrite() {
+    m_stream.async_write(boost::asio::buffer(m_queue.front()),
+                         [self = self()](error_code error, std::size_t) {
+                           if (error) return self->runEnd(error);
+                           self->m_unsent -= self->m_queue.front().size();
+                           self->m_queue.pop_front();
+                           if (!self->m_queue.empty()) return self->runWrite();
+                           if (self->m_closing) self->runClose();
+                         });
+  }
+
+  void runClose() {
+    m_closing = true;
+    if (!m_open) {
+      error_code ignored;
+      m_resolver.cancel();
+      beast::get_lowest_layer(m_stream).socket().close(ignored);
+      return;
+    }
+    if (!m_queue.empty()) return;  // runWrite() comes back
+    m_open = false;
+    m_stream.async_close(websocket::close_code::normal, [self = self()](error_code) {});
+  }
+
+  void runEnd(error_code error) {
+    m_open = false;
+    m_queue.clear();
+    const bool ordered = error == websocket::error::closed && m_stream.reason().code == 1000;
+    if (!m_closing) m_events.on_closed(ordered);
+  }
+
+  void runFail(const std::string& sentence) {
+    if (!m_closing) m_events.on_open(sentence);
+  }
+
+  WebSocketThread::Loop& m_loop;
+  GatewayAddress m_address;
+  Events m_events;
+  tcp::resolver m_resolver;
+  websocket::stream<Stream> m_stream;
+  beast::flat_buffer m_buffer;
+  std::deque<std::string> m_queue;
+  std::atomic<std::size_t> m_unsent{0};
+  bool m_open = false;
+  bool m_closing = false;
+};
+
+}  // namespace
+
+std::optional<GatewayAddress> GatewayAddress::parse(const std::string& text) {
+  GatewayAddress address;
+  std::string rest;
+  if (text.rfind("http://", 0) == 0) {
+    rest = text.substr(7);
+  } else if (text.rfind("https://", 0) == 0) {
+    rest = text.substr(8);
+    address.encrypted = true;
+  } else {
+    return std::nullopt;
+  }
+  const std::size_t end = rest.find_first_of("/#");
+  if (end != std::string::npos && rest[end] == '/' && end + 1 < rest.size() && rest[end + 1] != '#')
+    return std::nullopt;
+  const auto where = LinkHost::parse(rest.substr(0, end), address.encrypted ? 443 : 80);
+  if (!where) return std::nullopt;
+  address.host = where->host;
+  address.port = where->port;
+  return address;
+}
+
+std::string GatewayAddress::hostText() const {
+  const std::string name = host.find(':') != std::string::npos ? "[" + host + "]" : host;
+  return port == (encrypted ? 443 : 80) ? name : name + ":" + std::to_string(port);
+}
+
+WebSocketThread::WebSocketThread() : m_loop(std::make_unique<Loop>()) {
+  m_loop->tls.set_default_verify_paths();
+  m_loop->tls.set_verify_mode(boost::asio::ssl::verify_peer);
+  m_loop->thread = std::thread([loop = m_loop.get()] { loop->context.run(); });
+}
+
+WebSocketThread::~WebSocketThread() {
+  m_loop->context.stop();
+  m_loop->thread.join();
+}
+
+std::shared_ptr<WebSocket> WebSocket::open(WebSocketThread& thread, const GatewayAddress& address,
+                                           Events events) {
+  WebSocketThread::Loop& loop = thread.loop();
+  if (address.encrypted) {
+    const auto socket =
+        std::make_shared<SocketOf<EncryptedStream>>(loop, address, std::move(events), loop.tls);
+    socket->open();
+    return socket;
+  }
+  const auto socket = std::make_shared<SocketOf<PlainStream>>(loop, address, std::move(events));
+  socket->open();
+  return socket;
+}
+
+}  // namespace naiad

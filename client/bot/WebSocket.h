@@ -1,0 +1,67 @@
+// WebSockets (RFC 6455) to a gateway for browsers, by Boost.Beast.
+//
+// Boost.Beast works on Boost's Asio, everything else here on the standalone one, and no source can include
+// both. So a thread of its own runs these sockets, and this header names neither.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace naiad {
+
+/// http[s]://HOST[:PORT][/][#…], as a gateway prints it.
+struct GatewayAddress {
+  bool encrypted = false;
+  std::string host;  ///< IPv6 without brackets
+  std::uint16_t port = 80;
+
+  /// Nothing if it is no such address, or leads to another page of the host.
+  static std::optional<GatewayAddress> parse(const std::string& text);
+  /// "example.org:8080", "[::1]:8080": what stands in the header Host. Without the scheme's own port.
+  std::string hostText() const;
+};
+
+/// The thread that runs the sockets. Ends them all when it is destroyed.
+class WebSocketThread {
+ public:
+  struct Loop;
+
+  WebSocketThread();
+  ~WebSocketThread();
+  WebSocketThread(const WebSocketThread&) = delete;
+  WebSocketThread& operator=(const WebSocketThread&) = delete;
+
+  Loop& loop() { return *m_loop; }
+
+ private:
+  std::unique_ptr<Loop> m_loop;
+};
+
+/// One WebSocket to the path /play with the subprotocol naiad.1: each binary message is a frame. All members
+/// may be called from any thread.
+class WebSocket {
+ public:
+  /// Called on the sockets' thread, and never after close() was called there.
+  struct Events {
+    std::function<void(std::string error)> on_open;  ///< once; empty: it is open, else a sentence for people
+    std::function<void(std::string frame)> on_frame;
+    std::function<void(bool in_order)> on_closed;  ///< by the gateway, once it was open
+  };
+
+  /// Begin to open it. A certificate must be good in the eyes of the system's trust store.
+  static std::shared_ptr<WebSocket> open(WebSocketThread& thread, const GatewayAddress& address,
+                                         Events events);
+  virtual ~WebSocket() = default;
+
+  virtual void send(std::string frame) = 0;
+  /// Close it, after what was sent.
+  virtual void close() = 0;
+  /// Bytes that were given to send() and have not been handed to the system yet.
+  virtual std::size_t unsentBytes() const = 0;
+};
+
+}  // namespace naiad

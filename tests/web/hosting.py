@@ -1,0 +1,80 @@
+"""A real dfserver with a real dfweb in front of it, on free ports of loopback."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+
+
+class Hosting:
+    """`page`: the folder that dfweb serves. Further arguments are dfserver's, `gateway` dfweb's. Use as a context."""
+
+    def __init__(self, build, page, *arguments, gateway=()):
+        self.folder = tempfile.mkdtemp(prefix="naiad-web-")
+        self.programs = []
+        bin_ = os.path.join(build, "bin")
+        environment = {**os.environ, "XDG_CONFIG_HOME": self.folder, "XDG_DATA_HOME": self.folder, "XDG_STATE_HOME": self.folder}
+        self.visitors = os.path.join(self.folder, "visitors")
+        self.server = self._start([os.path.join(bin_, "dfserver"), "--address", "127.0.0.1", "--port", "0", "--visitors", self.visitors,
+                                   *arguments], "server.log", environment)
+        self.link = self._wait_for("server.log", "naiad://")
+        self.key = self.link.split("#")[1]
+        port_file = os.path.join(self.folder, "port")
+        self.gateway = self._start([os.path.join(bin_, "dfweb"), self.link, "--visitors", self.visitors, "--listen", "127.0.0.1:0",
+                                    "--port-file", port_file, "--page", page, "--name", "a game", *gateway], "gateway.log", environment)
+        self.port = int(self._wait_for_file(port_file))
+        self.address = f"http://127.0.0.1:{self.port}/"
+
+    def _start(self, command, log, environment):
+        out = open(os.path.join(self.folder, log), "wb")
+        program = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=environment)
+        out.close()
+        self.programs.append(program)
+        return program
+
+    def text(self, log):
+        with open(os.path.join(self.folder, log), errors="replace") as file:
+            return file.read()
+
+    def _wait_for(self, log, begin):
+        for _ in range(3000):
+            for word in self.text(log).split():
+                if word.startswith(begin) and len(word.split("#")[-1]) == 26:
+                    return word
+            self._check()
+            time.sleep(0.02)
+        raise RuntimeError(f"{log} has no {begin}:\n" + self.text(log))
+
+    def _wait_for_file(self, path):
+        for _ in range(3000):
+            if os.path.exists(path):
+                with open(path) as file:
+                    text = file.read()
+                if text.endswith("\n"):
+                    return text
+            self._check()
+            time.sleep(0.02)
+        raise RuntimeError("no " + path + "\n" + self.text("gateway.log"))
+
+    def _check(self):
+        for program in self.programs:
+            if program.poll() is not None:
+                raise RuntimeError("ended: " + " ".join(program.args) + "\n" + "".join(self.text(log) for log in os.listdir(self.folder) if log.endswith(".log")))
+
+    def close(self):
+        for program in reversed(self.programs):
+            program.terminate()
+        for program in self.programs:
+            try:
+                program.wait(20)
+            except subprocess.TimeoutExpired:
+                program.kill()
+                program.wait()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()

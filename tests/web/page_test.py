@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+"""usage: page_test.py BUILD [TEST...]
+
+The page in a real browser (chromium, headless), with a real dfweb and dfserver. Exit code 77 where there is no browser.
+With NAIAD_PICTURES=DIR it leaves pictures of the page there, at three sizes.
+"""
+
+import os
+import shutil
+import sys
+import unittest
+import urllib.request
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from hosting import Hosting  # noqa: E402
+from webdriver import Browser  # noqa: E402
+
+BUILD = ""
+LEFT, UP, RIGHT, DOWN = "\ue012", "\ue013", "\ue014", "\ue015"
+
+SHOWN = """
+  const all = [];
+  const {shown = [], shownColumns = 1} = window.naiad?.picture ?? {};
+  for (let i = 0; i < shown.length; i += shownColumns)
+    all.push(String.fromCodePoint(...[...shown.slice(i, i + shownColumns)].map((cell) => cell & 0x1fffff)));
+  return all;
+"""
+
+
+def page():
+    return os.path.join(BUILD, "page")
+
+
+def rows(browser):
+    """The picture as it is drawn, a text for each row."""
+    return browser.run(SHOWN)
+
+
+def wait_for(browser, text):
+    browser.wait("const rows = (() => {" + SHOWN + "})(); return rows.some((row) => row.includes(arguments[0]));", text)
+
+
+def join(browser, hosting, name="Ada", search=""):
+    browser.open(hosting.address + search + "#" + hosting.key)
+    browser.wait("return document.querySelector('#play').disabled === false && document.querySelector('#title').textContent !== 'Naiad'")
+    browser.run("document.querySelector('#name').value = arguments[0]", name)
+    browser.click("#play")
+    browser.wait("return document.body.classList.contains('playing') && window.naiad.picture.shown.length > 0")
+
+
+class PageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+
+    def setUp(self):
+        # Each test has a tab of its own, with nothing of the one before.
+        window = self.browser.call("POST", "/window/new", {"type": "tab"})["handle"]
+        for other in self.browser.windows():
+            if other != window:
+                self.browser.switch(other)
+                self.browser.call("DELETE", "/window")
+        self.browser.switch(window)
+        self.browser.complaints()
+
+    def no_complaints(self):
+        self.assertEqual(self.browser.complaints(), [])
+
+    def begin(self):
+        """Past the title of saucershoot."""
+        self.browser.keys(("down", " "), ("wait", 100), ("up", " "))
+        wait_for(self.browser, "=##=>")
+
+    def test_a_player_joins_and_moves_their_ship(self):
+        with Hosting(BUILD, page(), "--game", "saucershoot") as hosting:
+            join(self.browser, hosting)
+            wait_for(self.browser, "1 player")
+            self.begin()
+            before = self.ship_below(0)
+            self.browser.keys(("down", DOWN), ("wait", 500), ("up", DOWN))
+            self.ship_below(before)
+            self.no_complaints()
+
+    def ship_below(self, row):
+        """Wait until the ship, which blinks at first, is below that row: where it is."""
+        return self.browser.wait(f"const at = (() => {{{SHOWN}}})().findIndex((row) => row.includes('=##=>')); return at > {row} && at;")
+
+    def test_a_reloaded_page_plays_on_and_a_duplicated_tab_is_another_player(self):
+        with Hosting(BUILD, page(), "--game", "saucershoot") as hosting:
+            join(self.browser, hosting)
+            wait_for(self.browser, "1 player")
+            self.browser.call("POST", "/refresh", {})
+            self.browser.wait("return document.body.classList.contains('playing')")
+            wait_for(self.browser, "You are back")
+            wait_for(self.browser, "1 player")
+            first = self.browser.windows()
+            self.browser.run("window.open(location.href)")
+            self.browser.wait("return true")
+            (second,) = [window for window in self.browser.windows() if window not in first]
+            self.browser.switch(second)
+            self.browser.wait("return document.querySelector('#play').disabled === false && document.querySelector('#name').value !== ''")
+            self.browser.click("#play")
+            self.browser.wait("return document.body.classList.contains('playing')")
+            wait_for(self.browser, "2 players")
+
+    def test_chat_help_and_leaving(self):
+        with Hosting(BUILD, page(), "--game", "saucershoot") as hosting:
+            join(self.browser, hosting)
+            self.browser.click("#say")
+            self.browser.wait("return window.naiad.client.writing() && document.activeElement.id === 'line'")
+            self.browser.type("#line", "Grüße an alle")
+            wait_for(self.browser, "say: Grüße an alle")
+            self.browser.type("#line", "\ue007")
+            wait_for(self.browser, "Ada: Grüße an alle")
+            self.browser.click("#help")
+            wait_for(self.browser, "this help")
+            self.browser.click("#leave")
+            self.browser.wait("return document.querySelector('#said').textContent === 'You left.'")
+            self.assertIsNone(self.browser.run("return sessionStorage.getItem('naiad.token')"))
+            self.no_complaints()
+
+    def test_a_password_is_asked_for(self):
+        with Hosting(BUILD, page(), "--game", "saucershoot", "--password", "sesame") as hosting:
+            self.browser.open(hosting.address)
+            self.browser.wait("return document.querySelector('#play').disabled === false && document.querySelector('#title').textContent !== 'Naiad'")
+            self.browser.run("document.querySelector('#name').value = 'Ada'")
+            self.browser.click("#play")
+            self.browser.wait("return !document.querySelector('#secret').hidden")
+            self.browser.type("#password", "sesame")
+            self.browser.click("#play")
+            self.browser.wait("return document.body.classList.contains('playing')")
+            self.assertEqual(self.browser.run("return document.querySelector('#password').value"), "")
+
+    def test_a_link_to_another_game_is_told_apart(self):
+        with Hosting(BUILD, page(), "--game", "hello") as hosting:
+            self.browser.open(hosting.address + "#" + "a" * 26)
+            self.browser.wait("return document.querySelector('#said').textContent.includes('another game')")
+            self.assertTrue(self.browser.run("return document.querySelector('#play').disabled"))
+
+    def test_a_server_that_is_gone_is_said_and_found_again(self):
+        with Hosting(BUILD, page(), "--game", "hello") as hosting:
+            join(self.browser, hosting)
+            hosting.server.terminate()
+            hosting.server.wait()
+            self.browser.wait("return !document.querySelector('#door').hidden && document.querySelector('#said').textContent.length > 10")
+
+    def test_touch_screens_have_a_pad(self):
+        with Hosting(BUILD, page(), "--game", "saucershoot") as hosting:
+            join(self.browser, hosting, search="?touch")
+            self.begin()
+            before = self.ship_below(0)
+            press = "const button = document.querySelector('#pad .down'); button.dispatchEvent(new PointerEvent(arguments[0], {pointerId: 1, bubbles: true, cancelable: true}))"
+            self.browser.run("HTMLElement.prototype.setPointerCapture = () => {}")
+            self.browser.run(press, "pointerdown")
+            self.ship_below(before)
+            self.browser.run(press, "pointerup")
+
+    def test_the_page_is_small(self):
+        with Hosting(BUILD, page(), "--game", "hello") as hosting:
+            names = ["", "page.css", "page.js", "module.js", "picture.js", "sound.js", "clock.js", "client.wasm", "font.woff2", "icon.svg", "server"]
+            total = 0
+            for name in names:
+                request = urllib.request.Request(hosting.address + name, headers={"Accept-Encoding": "gzip"})
+                with urllib.request.urlopen(request) as answer:
+                    total += len(answer.read())
+            print(f"page bytes={total}")
+            self.assertLess(total, 600_000)
+
+    def test_what_is_seen_is_what_the_server_shows(self):
+        """1,000 ticks of a busy world, each cell against the server's own picture."""
+        folder = os.path.join(BUILD, "recording_page")
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.copytree(page(), folder)
+        shutil.copy(os.path.join(BUILD, "wasm", "recording_client.wasm"), os.path.join(folder, "client.wasm"))
+        truth = os.path.join(folder, "truth.txt")
+        with Hosting(BUILD, folder, "--game", "bullethell", "--seed", "7", "--truth", truth) as hosting:
+            join(self.browser, hosting)
+            self.browser.run("""
+                window.frames_drawn = 0;
+                const show = window.naiad.picture.show;
+                window.naiad.picture.show = function (picture) { ++window.frames_drawn; return show.call(this, picture); };
+                window.since = performance.now();
+            """)
+            self.browser.patience = 120
+            self.browser.wait("return window.naiad.client.exports.recorded() >= 1000")
+            rate = self.browser.run("return window.frames_drawn * 1000 / (performance.now() - window.since)")
+            seen = self.browser.run(RECORDED)
+        compared, cells, wrong = compare(seen, truth)
+        print(f"page ticks={compared} cells={cells} wrong_cells={wrong} frames_per_s={rate:.1f}")
+        self.assertGreaterEqual(compared, 900)
+        self.assertEqual(wrong, 0)
+
+    def test_pictures(self):
+        folder = os.environ.get("NAIAD_PICTURES")
+        if not folder:
+            self.skipTest("NAIAD_PICTURES names no folder")
+        with Hosting(BUILD, page(), "--game", "saucershoot") as hosting:
+            for name, width, height, search in [("page-wide", 1280, 720, ""), ("page-window", 800, 560, ""), ("page-phone", 412, 880, "?touch")]:
+                self.browser.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=2 if search else 1, mobile=bool(search))
+                join(self.browser, hosting, search=search)
+                self.begin()
+                self.browser.screenshot(os.path.join(folder, name + ".png"))
+                self.browser.click("#leave")
+                self.browser.wait("return !document.querySelector('#door').hidden")
+            self.browser.devtools("Emulation.clearDeviceMetricsOverride")
+
+
+RECORDED = """
+  const {exports} = window.naiad.client;
+  const all = {};
+  const size = exports.recorded_size();
+  const count = (size & 0xffff) * (size >> 16);
+  for (let i = 0; i < exports.recorded(); ++i) {
+    const tick = exports.recorded_tick(i) >>> 0;
+    const cells = new Uint32Array(exports.memory.buffer, exports.recorded_cells(), count);
+    let text = "";
+    let colors = "";
+    for (const cell of cells) {
+      text += String.fromCodePoint(cell & 0x1fffff);
+      colors += cell >>> 21 & 7;
+    }
+    all[tick] = [text, colors];
+  }
+  return all;
+"""
+
+
+def compare(seen, path):
+    """What was seen, by tick, with a truth file (shared/replica/TruthFile.h): ticks and cells compared, wrong cells."""
+    compared = cells = wrong = 0
+    with open(path, encoding="utf-8") as file:
+        while head := file.readline().split():
+            _, tick, _, _, width, height = head
+            width, height = int(width), int(height)
+            lines = [file.readline().rstrip("\n") for _ in range(2 * height + 1)]
+            if tick not in seen:
+                continue
+            text, colors = "".join(lines[:height]), "".join(lines[height:2 * height])
+            if len(text) != width * height or len(colors) != width * height:
+                break  # the end of a file that was still being written
+            compared += 1
+            cells += width * height
+            for ch, color, seen_ch, seen_color in zip(text, colors, *seen[tick]):
+                wrong += ch != seen_ch or color not in (".", seen_color)
+    return compared, cells, wrong
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    BUILD = os.path.abspath(sys.argv.pop(1))
+    if not shutil.which("chromium") or not shutil.which("chromedriver"):
+        print("skipped: there is no chromium with its chromedriver")
+        sys.exit(77)
+    unittest.main(verbosity=2)
