@@ -60,7 +60,7 @@ void PlayStream::prepareSocket() {
   setNumber(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, static_cast<int>(kMaxUnsent));
   setNumber(socket, SOL_SOCKET, SO_SNDBUF, kSendBuffer);
   websocket::stream_base::timeout times{};
-  times.handshake_timeout = m_gateway.settings.close_time;
+  times.handshake_timeout = websocket::stream_base::none();  // see onDeadline()
   times.idle_timeout = 2 * m_gateway.settings.ping_time;
   times.keep_alive_pings = true;
   m_socket.set_option(times);
@@ -68,7 +68,7 @@ void PlayStream::prepareSocket() {
     for (const auto& [name, value] : m_gateway.answers.commonHeaders())
       response.set(boost::beast::string_view(name.data(), name.size()),
                    boost::beast::string_view(value.data(), value.size()));
-    response.erase(boost::beast::http::field::server);
+    response.set(boost::beast::http::field::server, "dfweb");  // or Beast names itself
     if (response.result() == boost::beast::http::status::switching_protocols)
       response.set(boost::beast::http::field::sec_websocket_protocol,
                    boost::beast::string_view(kSubprotocol.data(), kSubprotocol.size()));

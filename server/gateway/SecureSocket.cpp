@@ -40,6 +40,7 @@ bool SecureSocket::startTls(ssl_ctx_st* context, Role role) {
   BIO* const bio = tls->ssl ? tls->bio.make() : nullptr;
   if (!bio) return false;
   SSL_set_bio(tls->ssl.get(), bio, bio);  // owns it
+  SSL_set_read_ahead(tls->ssl.get(), 1);  // header and rest of a record by one call of the kernel
   if (role == Role::kServer) {
     tls->bio.guard.emplace();
     SSL_set_accept_state(tls->ssl.get());
@@ -90,7 +91,8 @@ std::span<char> SecureSocket::flatBytes() {
 }
 
 bool SecureSocket::holdsInput() const {
-  return m_tls && SSL_pending(m_tls->ssl.get()) > 0;
+  return m_tls &&
+         SSL_has_pending(m_tls->ssl.get()) == 1;  // a part of a record counts: it is tried once in vain
 }
 
 SecureSocket::Progress SecureSocket::judge(std::pair<error_code, std::size_t> written) {

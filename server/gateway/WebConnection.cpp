@@ -72,9 +72,8 @@ void WebConnection::onRequest(error_code error) {
   if (!m_parser->is_done()) return refuse(400, "A request has no body here.\n");
   const WebRequest& request = m_parser->get();
   if (boost::beast::websocket::is_upgrade(request)) return onUpgrade();
-  HttpAnswer answer = m_gateway.answers.answer(request);
-  if (++m_requests == kMaxRequests) answer.keeps_connection = false;
-  send(std::move(answer));
+  if (++m_requests == kMaxRequests) m_parser->get().keep_alive(false);
+  send(m_gateway.answers.answer(request));
 }
 
 void WebConnection::onBadRequest(error_code error) {

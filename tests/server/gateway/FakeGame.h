@@ -4,6 +4,8 @@
 
 #include <asio/executor_work_guard.hpp>
 #include <asio/io_context.hpp>
+#include <asio/post.hpp>
+#include <asio/steady_timer.hpp>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -34,6 +36,14 @@ class FakeGame {
   FakeGame(const FakeGame&) = delete;
   FakeGame& operator=(const FakeGame&) = delete;
 
+  /// What `job` returns, there.
+  template <class Job>
+  auto onThread(Job job) {
+    std::promise<decltype(job())> result;
+    asio::post(m_context, [&] { result.set_value(job()); });
+    return result.get_future().get();
+  }
+
   ShortKey key() const { return ShortKey::of(m_identity.fingerprint()); }
   /// Addresses of those who came, as "127.0.0.1:50312".
   std::vector<std::string> visitors();
@@ -52,13 +62,6 @@ class FakeGame {
   void endAll(bool in_order);
   /// Call this so often, on the game's thread, with each channel.
   void every(std::chrono::milliseconds period, std::function<void(ReliableChannel&)> job);
-
-  template <class Job>
-  auto onThread(Job job) {
-    std::promise<decltype(job())> result;
-    asio::post(m_context, [&] { result.set_value(job()); });
-    return result.get_future().get();
-  }
 
  private:
   void meet(asio::generic::stream_protocol::socket socket, const asio::ip::tcp::endpoint& address);

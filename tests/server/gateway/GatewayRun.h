@@ -33,6 +33,13 @@ std::string indexText();
 std::string wasmBytes();
 
 class GatewayRun {
+  template <class Job>
+  auto onThread(Job job) {
+    std::promise<decltype(job())> result;
+    m_gateway.post([&] { result.set_value(job()); });
+    return result.get_future().get();
+  }
+
  public:
   explicit GatewayRun(const GatewaySettings& settings);
   ~GatewayRun();
@@ -63,13 +70,6 @@ class GatewayRun {
   std::vector<std::string> lines();
 
  private:
-  template <class Job>
-  auto onThread(Job job) {
-    std::promise<decltype(job())> result;
-    m_gateway.post([&] { result.set_value(job()); });
-    return result.get_future().get();
-  }
-
   std::mutex m_mutex;
   std::vector<std::string> m_lines;
   Gateway m_gateway;
