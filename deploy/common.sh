@@ -23,7 +23,7 @@ Run deploy/$(basename "$0") --help for more information." 2
 
 # What it takes to build and run, and what the tests need on top of it (Debian 12 names).
 build_packages="g++ cmake ninja-build libasio-dev libprotobuf-dev protobuf-compiler libncurses-dev libcli11-dev libssl-dev libargon2-dev libicu-dev libqrencode-dev"
-check_packages="$build_packages ccache libgtest-dev tmux python3 clang clang-format clang-tidy libclang-rt-14-dev ncurses-term openssh-client openssh-server"
+check_packages="$build_packages ccache libgtest-dev tmux python3 python3-protobuf clang clang-format clang-tidy libclang-rt-14-dev ncurses-term openssh-client openssh-server"
 
 # What the benchmarks need on top of building, the libraries that they compare with among it.
 bench_packages="$build_packages libbox2d-dev libchipmunk-dev valgrind python3 libvterm-dev openssh-client openssh-server mosh"
