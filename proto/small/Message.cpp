@@ -1,22 +1,72 @@
 // What a message does with its fields apart from reading and writing them.
 #include "proto/small/Message.h"
 
+#include <type_traits>
+
 namespace naiad::small {
+namespace {
+
+/// Calls `action` with the field's pointer to member.
+template <class Action>
+void withMember(const Field& field, Action action) {
+  const bool repeated = field.place == Place::kRepeated;
+  if (field.place == Place::kOneof) return action(field.member.oneof);
+  switch (field.type) {
+    case Type::kString:
+    case Type::kBytes:
+      return repeated ? action(field.member.texts) : action(field.member.text);
+    case Type::kMessage:
+      return repeated ? action(field.member.children) : action(field.member.child);
+    case Type::kFixed64:
+      return action(field.member.wide);
+    default:
+      return repeated ? action(field.member.words) : action(field.member.word);
+  }
+}
+
+template <class Value>
+void copy(Value& to, const Value& from, const Field&) {
+  to = from;
+}
+
+void copy(Child& to, const Child& from, const Field& field) {
+  to.reset();
+  if (from != nullptr) mutableChild(to, *field.fields).copyFrom(*from);
+}
+
+void copy(Children& to, const Children& from, const Field& field) {
+  to.clear();
+  for (const Child& child : from) copy(to.emplace_back(), child, field);
+}
+
+/// Every member of a oneof has a line in the table; the line of the one that is set copies.
+void copy(Oneof& to, const Oneof& from, const Field& field) {
+  if (from.number() == 0) to.clear();
+  if (from.number() != field.number) return;
+  to.clear();
+  if (field.type == Type::kMessage) {
+    to.mutableChild(field.number, *field.fields).copyFrom(*from.child());
+  } else {
+    to.mutableText(field.number) = from.text(field.number);
+  }
+}
+
+}  // namespace
 
 Message& mutableChild(Child& child, const FieldTable& fields) {
   if (child == nullptr) child = fields.make();
   return *child;
 }
 
-const std::string& Oneof::text(std::uint32_t number) const {
-  static const std::string none;
-  return m_number == number ? m_text : none;
-}
-
 void Oneof::clear() {
   m_number = 0;
   m_text.clear();
   m_child.reset();
+}
+
+const std::string& Oneof::text(std::uint32_t number) const {
+  static const std::string none;
+  return m_number == number ? m_text : none;
 }
 
 std::string& Oneof::mutableText(std::uint32_t number) {
@@ -36,106 +86,19 @@ Message& Oneof::mutableChild(std::uint32_t number, const FieldTable& fields) {
   return *m_child;
 }
 
-namespace {
-
-/// Makes `child` a copy of `other`, which may be null.
-void copyChild(Child& child, const Message* other, const FieldTable& fields,
-               void (*copy)(Message&, const Message&)) {
-  child.reset();
-  if (other == nullptr) return;
-  child = fields.make();
-  copy(*child, *other);
-}
-
-}  // namespace
-
 void Message::Clear() {
   for (const Field* field = fieldTable().begin; field != fieldTable().end; ++field) {
-    const Field::Member& member = field->member;
-    if (field->place == Place::kOneof) {
-      (this->*member.oneof).clear();
-      continue;
-    }
-    const bool repeated = field->place == Place::kRepeated;
-    switch (field->type) {
-      case Type::kString:
-      case Type::kBytes:
-        if (repeated) {
-          (this->*member.texts).clear();
-        } else {
-          (this->*member.text).clear();
-        }
-        break;
-      case Type::kMessage:
-        if (repeated) {
-          (this->*member.children).clear();
-        } else {
-          (this->*member.child).reset();
-        }
-        break;
-      case Type::kFixed64:
-        this->*member.wide = 0;
-        break;
-      default:
-        if (repeated) {
-          (this->*member.words).clear();
-        } else {
-          this->*member.word = 0;
-        }
-    }
+    withMember(*field, [this](auto member) {
+      using Value = std::remove_reference_t<decltype(this->*member)>;
+      this->*member = Value();
+    });
   }
 }
 
 void Message::copyFrom(const Message& other) {
   if (this == &other) return;
-  const auto copy = [](Message& to, const Message& from) { to.copyFrom(from); };
   for (const Field* field = fieldTable().begin; field != fieldTable().end; ++field) {
-    const Field::Member& member = field->member;
-    const bool repeated = field->place == Place::kRepeated;
-    if (field->place == Place::kOneof) {
-      // Each member of the oneof has a line; the one that is set copies, the first of them clears.
-      Oneof& to = this->*member.oneof;
-      const Oneof& from = other.*member.oneof;
-      if (from.number() == 0) to.clear();
-      if (from.number() != field->number) continue;
-      to.clear();
-      if (field->type == Type::kMessage) {
-        copy(to.mutableChild(field->number, *field->fields), *from.child());
-      } else {
-        to.mutableText(field->number) = from.text(field->number);
-      }
-      continue;
-    }
-    switch (field->type) {
-      case Type::kString:
-      case Type::kBytes:
-        if (repeated) {
-          this->*member.texts = other.*member.texts;
-        } else {
-          this->*member.text = other.*member.text;
-        }
-        break;
-      case Type::kMessage:
-        if (repeated) {
-          Children& to = this->*member.children;
-          to.clear();
-          for (const Child& from : other.*member.children) {
-            copyChild(to.emplace_back(), from.get(), *field->fields, copy);
-          }
-        } else {
-          copyChild(this->*member.child, (other.*member.child).get(), *field->fields, copy);
-        }
-        break;
-      case Type::kFixed64:
-        this->*member.wide = other.*member.wide;
-        break;
-      default:
-        if (repeated) {
-          this->*member.words = other.*member.words;
-        } else {
-          this->*member.word = other.*member.word;
-        }
-    }
+    withMember(*field, [&](auto member) { copy(this->*member, other.*member, *field); });
   }
 }
 

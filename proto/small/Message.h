@@ -40,13 +40,13 @@ class Message {
   /// The fields of the class. Names with an inner capital cannot meet those of a schema's fields.
   virtual const FieldTable& fieldTable() const = 0;
 
+  /// Makes this a deep copy of `other`, which must have the same class.
+  void copyFrom(const Message& other);
+
  protected:
   Message() = default;
   Message(const Message&) = default;
   Message& operator=(const Message&) = default;
-
-  /// Makes this a deep copy of `other`, which has the same class.
-  void copyFrom(const Message& other);
 };
 
 /// A field that is a message; null: not set.

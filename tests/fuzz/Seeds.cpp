@@ -400,6 +400,37 @@ void worlds(Folder folder) {
   tooMany(folder);
 }
 
+/// Messages with most kinds of fields, and what a codec could take for good.
+void wireMessages(Folder folder) {
+  constexpr char kHello = 0, kClient = 2, kList = 8, kServer = 14;  // by their order in naiad.proto
+  wire::ClientMessage client;
+  wire::Hello& hello = *client.mutable_hello();
+  hello.set_magic(kHelloMagic);
+  hello.set_player_name("na\xC3\xAFve");
+  hello.add_aeads(1);
+  hello.add_aeads(300);
+  hello.set_fresh(true);
+  client.set_number(70000);
+  folder.add(kHello + hello.SerializeAsString());
+  folder.add(kClient + client.SerializeAsString());
+  wire::ServerMessage server;
+  wire::PlayerEntry& entry = *server.mutable_players()->add_players();
+  entry.set_name("Ann");
+  entry.set_score(-5);
+  *server.mutable_players()->add_players() = entry;
+  folder.add(kList + server.players().SerializeAsString());
+  folder.add(kServer + server.SerializeAsString());
+  wire::Welcome& welcome = *server.mutable_welcome();
+  welcome.set_connection_id(7);
+  welcome.add_help("Arrows move.");
+  welcome.mutable_continuation()->set_input(3);
+  folder.add(kServer + server.SerializeAsString());
+  server.mutable_sounds()->add_sounds()->set_action(wire::Sound::STOP);
+  folder.add(kServer + server.SerializeAsString() + server.SerializeAsString());
+  folder.add(kHello + std::string("\x48\x01\x4A\x02\x80\x01\x08\x01\xFB\x01\x58\x01\xFC\x01\xFF"));
+  folder.add(kHello + std::string("\x1A\x03\xED\xA0\x80\xCA\x80\x80\x80\x00\x01\x05", 12));
+}
+
 void datagrams(Folder folder) {
   SplitMix64 random(12);
   for (std::size_t i = 0; i < 16; ++i) folder.add(randomBytes(random, 40 + 20 * i));
@@ -424,6 +455,7 @@ int main(int argc, char** argv) {
   onTwoStreams(Folder(base / "client_message", "second-"));
   replication(Folder(base / "replication"), Folder(base / "snapshot"));
   datagrams(Folder(base / "datagram"));
+  wireMessages(Folder(base / "small_proto"));
   worlds(Folder(base / "world"));
   return 0;
 }

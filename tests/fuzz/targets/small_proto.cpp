@@ -1,0 +1,49 @@
+// Messages of the wire by the codec without protobuf: whatever the bytes, it accepts what protobuf accepts,
+// and finds the same fields.
+//
+//   input   which message (1) | its bytes
+#include <tuple>
+
+#include "Require.h"
+#include "Script.h"
+#include "naiad.twins.h"
+#include "proto/ParseErrors.h"
+
+namespace naiad::fuzz {
+namespace {
+
+template <class Twins>
+void compare(std::string_view bytes) {
+  const Exactly exactly(bytes);
+  typename Twins::Real real, known;
+  typename Twins::Small small, again;
+  const int size = static_cast<int>(bytes.size());
+  const bool good = real.ParseFromArray(exactly.view().data(), size);
+  REQUIRE(small.ParseFromArray(exactly.view().data(), size) == good);
+  if (!good) return;
+  Twins::copy(real, known);  // without unknown fields
+  const std::string written = small.SerializeAsString();
+  REQUIRE(written == known.SerializeAsString());
+  REQUIRE(again.ParseFromString(written) && again.SerializeAsString() == written);
+  again = small;
+  REQUIRE(again.SerializeAsString() == written);
+}
+
+template <class... Twins>
+void compareOne(std::size_t which, std::string_view bytes, const std::tuple<Twins...>*) {
+  constexpr void (*kCompare[])(std::string_view) = {&compare<Twins>...};
+  kCompare[which % sizeof...(Twins)](bytes);
+}
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  naiad::silenceParseErrors();
+  naiad::fuzz::Script script(data, size);
+  const std::size_t which = script.byte();
+  const std::string bytes = script.rest();
+  const naiad::test::naiad_twins::In<std::tuple>* all = nullptr;
+  naiad::fuzz::compareOne(which, bytes, all);
+  return 0;
+}
