@@ -251,6 +251,43 @@ TEST_F(BodyScenes, ASpringOnARodGainsNoEnergy) {
   }
 }
 
+// A magnet however strong freezes nothing, at both levels, in flight, on a floor, on a rod and in a
+// collision.
+TEST_F(BodyScenes, AStrongMagnetFreezesNothing) {
+  struct Magnet : Field {
+    double rate = 0;
+    Vector accelerationAt(Vector /*displacement*/, Vector v, double /*time*/) const override {
+      return Vector(-rate * v.y(), rate * v.x());
+    }
+  } magnet;
+  PM.setGravity(perSecondSquared(Vector(0, kFall)));
+  wall(Vector(0, 0.5), Vector(50, 0.5));
+  for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
+    ASSERT_EQ(PM.setAccuracy(accuracy), 0);
+    for (const double rate : {1.0, 100.0, 1e3, 1e4, 1e8}) {
+      magnet.rate = rate;
+      bodies.clear();
+      put(ball(Vector(-20, -20), Vector(3, 0)))->setGravityScale(0);
+      put(ball(Vector(0, -0.5), Vector(3, 0)));
+      put(crate(Vector(10, -0.5)))->setTurning();
+      put(crate(Vector(10.9, -1.4)))->setTurning();
+      put(ball(Vector(25, -10), Vector(0, 3)));
+      PM.addDistance(nullptr, bodies.back(), Vector(20, -10), Vector(25, -10));
+      for (Body* p_body : bodies) p_body->setField(&magnet);
+      for (int i = 0; i < 100; ++i) {
+        ticks(1);
+        EXPECT_NEAR(bodies[0]->getVelocity().getMagnitude(), 0.1, 1e-6) << rate << ' ' << i;
+        for (const Body* p_body : bodies) {
+          ASSERT_LE(p_body->getVelocity().getMagnitude(), 2) << rate << ' ' << i;
+          ASSERT_LT(p_body->getPosition().y(), 0) << rate << ' ' << i;
+        }
+      }
+      EXPECT_EQ(PM.getQuarantineCount(), 0U) << rate;
+      for (Body* p_body : bodies) delete p_body;
+    }
+  }
+}
+
 // A spring joint with a length, off its line: no integrator follows it, and nothing need be frozen.
 TEST_F(BodyScenes, AStiffSpringJointFromTheWorldHoldsWhatLiesOnAFloor) {
   wall(Vector(0, 0.5), Vector(50, 0.5));
