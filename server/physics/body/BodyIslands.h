@@ -48,6 +48,7 @@ class BodyIslands {
     bool has_obstacle = false;
     bool is_elastic = true;  // circles that bounce
     double fastest = 0;
+    double lightest = 0, heaviest = 0;  // of the HARD ones, as 1 / mass
   };
 
   int rootOf(int state);

@@ -12,6 +12,8 @@ namespace {
 // Of a row, in units of the greatest mass: each round divides what is left by about as much, and 1e4 leaves
 // the matrix enough of a double's digits.
 constexpr double kStiffness = 1e4;
+constexpr double kRounding = 1e-14;  // of the largest impulse: no sum of impulses is known better
+constexpr int kSpareRounds = 2;  // to bring velocities and impulses together, once rows are as they should be
 
 // The row's Jacobian at one of its bodies.
 struct Lever {
@@ -289,6 +291,27 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
   m_side.assign(count, Side::kFree);
   for (std::size_t i = 0; i < count; ++i) m_guess[i] = m_rows[i].impulse;
   setStiffnesses();
+  // The momentum by which a body's velocity and its impulses may differ. Of the stiffest rows the last digit
+  // of a speed is an impulse that would throw what is light.
+  double largest = 0;
+  const auto isBalanced = [&](std::size_t i) {
+    for (std::int32_t c = 0; c < 3; ++c) {
+      const double most = tolerance * m_mass[i].x[c] + kRounding * largest;
+      if (std::fabs(m_right[at(3 * m_rank[i] + c)]) > most) return false;
+    }
+    return true;
+  };
+  const auto areBalanced = [&] {
+    for (std::size_t i = 0; i < count; ++i) {
+      largest = std::max({largest, std::fabs(m_force[i]), std::fabs(m_rows[i].impulse)});
+    }
+    setResidual();
+    for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+      if (!isBalanced(i)) return false;
+    }
+    return true;
+  };
+  int spare_rounds = kSpareRounds;
   bool is_found = false;
   setForces(true);
   bool is_factored = false;
@@ -315,11 +338,12 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
         worst = std::max(worst, std::fabs(speedOf(m_rows[i])));
     }
     is_found = worst <= tolerance;
-    if (is_found) break;
+    if (is_found && (areBalanced() || rounds == most_rounds || spare_rounds-- == 0)) break;
     is_factored = setForces(false);
   }
   if (!is_found) return false;
-  // The velocities that follow from the impulses, to the last digit of momentum.
+  // The velocities that follow from the impulses, to the last digit of momentum; where they do not, those
+  // that were solved for.
   for (std::size_t i = 0; i < count; ++i) {
     DirectRow& row = m_rows[i];
     const double more = m_force[i] - row.impulse;
@@ -334,6 +358,12 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
       b.velocity += (b.inverse_mass * more) * row.n;
       b.spin += b.inverse_inertia * row.jb * more;
     }
+  }
+  for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+    if (isBalanced(i)) continue;
+    RigidState& s = states[at(m_bodies[i])];
+    s.velocity = {m_velocity[i].x[0], m_velocity[i].x[1]};
+    s.spin = m_velocity[i].x[2];
   }
   return true;
 }

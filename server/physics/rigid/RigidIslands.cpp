@@ -31,6 +31,67 @@ constexpr int kSingleSweeps = 16;  // at most, of one contact alone
 constexpr int kJointSweeps = 8;    // of a group with joints
 constexpr int kCrowdSweeps = 4;    // of a moving heap (docs/physics/rigid.md)
 
+constexpr double kUnequal = 1.3;  // a mass ratio at which sweeps crush or throw what is light
+
+bool areUnequal(std::span<const int> bodies, std::span<const RigidState> states) {
+  double least = 0, most = 0;
+  for (const int id : bodies) {
+    const double inverse = states[at(id)].inverse_mass;
+    if (!(inverse > 0)) continue;
+    least = least > 0 ? std::min(least, inverse) : inverse;
+    most = std::max(most, inverse);
+  }
+  return most > kUnequal * least;
+}
+
+// Impulses of the last sub-step are a guess that a direct solution corrects, and sweeps do not: after a blow
+// they may throw what is light. Those that add energy, or make a body faster than any was, are taken back,
+// with what the first half made of them; the sweeps start from nothing then, and add no energy.
+void dropHarmfulWarmStart(std::span<const int> bodies, std::span<const int> constraints,
+                          std::span<ContactConstraint> all, std::span<RigidState> states) {
+  const auto give = [&](RigidState& s, Vec2 impulse, double turning) {
+    s.push += s.inverse_mass * impulse;
+    s.push_spin += s.inverse_inertia * turning;
+  };
+  for (const int i : constraints) {
+    const ContactConstraint& c = all[at(i)];
+    for (std::int32_t k = 0; k < c.count; ++k) {
+      const ContactPoint& p = c.points[at(k)];
+      const Vec2 impulse = p.normal_warm * c.normal + p.friction_warm * perpendicular(c.normal);
+      give(states[at(c.a)], -impulse, -(p.normal_a * p.normal_warm + p.tangent_a * p.friction_warm));
+      give(states[at(c.b)], impulse, p.normal_b * p.normal_warm + p.tangent_b * p.friction_warm);
+    }
+  }
+  constexpr double kFaster = 4;  // a square
+  double gain = 0, before = 0, after = 0;
+  for (const int id : bodies) {
+    const RigidState& s = states[at(id)];
+    const Vec2 velocity = s.velocity - s.push;
+    const double spin = s.spin - s.push_spin;
+    if (!(s.inverse_mass > 0)) continue;
+    const double inertia = s.inverse_inertia > 0 ? s.inverse_mass / s.inverse_inertia : 0;
+    const double old_square = lengthSquared(velocity) + inertia * spin * spin;
+    const double square = lengthSquared(s.velocity) + inertia * s.spin * s.spin;
+    gain += (square - old_square) / s.inverse_mass;
+    before = std::max(before, old_square);
+    after = std::max(after, square);
+  }
+  const bool is_harmful = gain > 0 || after > kFaster * before;
+  for (const int id : bodies) {
+    RigidState& s = states[at(id)];
+    if (is_harmful) s.velocity -= s.push, s.spin -= s.push_spin;
+    s.push = {};
+    s.push_spin = 0;
+  }
+  if (!is_harmful) return;
+  for (const int i : constraints) {
+    for (ContactPoint& p : all[at(i)].points) {
+      p.total += p.normal_impulse - p.normal_warm;
+      p.normal_impulse = p.friction_impulse = p.normal_warm = p.friction_warm = 0;
+    }
+  }
+}
+
 }  // namespace
 
 void RigidWorld::solveIsland(Island& island, bool is_second) {
@@ -44,6 +105,12 @@ void RigidWorld::solveIsland(Island& island, bool is_second) {
     }
     return;
   }
+  const std::span<const int> bodies =
+      std::span(m_island_bodies).subspan(at(island.first_body), at(island.bodies));
+  const std::span<const int> constraints =
+      std::span(m_island_constraints).subspan(at(island.first_constraint), at(island.constraints));
+  const bool is_unequal = !m_extras[at(island.root)].is_in_heap && areUnequal(bodies, m_states);
+  if (is_unequal) dropHarmfulWarmStart(bodies, constraints, m_constraints, m_states);
   for (int sweep = 0; sweep < (island.links > 0                       ? kJointSweeps
                                : m_extras[at(island.root)].is_in_heap ? kCrowdSweeps
                                                                       : 1);
@@ -56,6 +123,11 @@ void RigidWorld::solveIsland(Island& island, bool is_second) {
       solveContact(m_constraints[at(m_island_constraints[at(island.first_constraint + k)])], m_states,
                    is_second);
     }
+  }
+  if (!is_unequal) return;
+  for (const int i : constraints) {  // what cannot give way has the last word
+    ContactConstraint& c = m_constraints[at(i)];
+    if (!isMovable(c.a) || !isMovable(c.b)) solveContact(c, m_states, is_second);
   }
 }
 

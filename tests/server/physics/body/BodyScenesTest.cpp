@@ -225,6 +225,69 @@ TEST_F(BodyScenes, ASpringOnARodIsBoundedAtAnyStiffness) {
   }
 }
 
+// Where the joints' solver follows the swing, of up to some radians a tick, its energy is off by that
+// method's error; above, it is damped. Whether the spring pulls along the circle or off it, it is not thrown.
+TEST_F(BodyScenes, ASpringOnARodGainsNoEnergy) {
+  const double g = perSecondSquared(Vector(0, kFall)).y();
+  PM.setGravity(Vector(0, g));
+  for (const double to : {4.0, 5.0}) {
+    for (double k = 1; k <= 1.01e12; k *= std::sqrt(10.0)) {
+      Body* p_bob = ball(Vector(3, 4), Vector(), 0.25);
+      PM.addDistance(nullptr, p_bob, Vector(), Vector(3, 4));
+      p_bob->setSpring(Vector(0, to), k);
+      const auto energy = [&] {
+        const Vector at = p_bob->getPosition(), v = p_bob->getVelocity();
+        const double away = std::hypot(at.x(), at.y() - to);
+        return 0.5 * (v.x() * v.x() + v.y() * v.y()) + 0.5 * k * away * away - g * at.y();
+      };
+      const double start = energy();
+      for (int i = 0; i < 300; ++i) {
+        ticks(1);
+        ASSERT_LE(energy() - start, (k > 20 ? 1e-6 : 0.02) * (start + 9 * g)) << to << ' ' << k << ' ' << i;
+      }
+      EXPECT_FALSE(p_bob->isFrozen()) << to << ' ' << k;
+      delete p_bob;
+    }
+  }
+}
+
+// A magnet however strong freezes nothing, at both levels, in flight, on a floor, on a rod and in a
+// collision.
+TEST_F(BodyScenes, AStrongMagnetFreezesNothing) {
+  struct Magnet : Field {
+    double rate = 0;
+    Vector accelerationAt(Vector /*displacement*/, Vector v, double /*time*/) const override {
+      return Vector(-rate * v.y(), rate * v.x());
+    }
+  } magnet;
+  PM.setGravity(perSecondSquared(Vector(0, kFall)));
+  wall(Vector(0, 0.5), Vector(50, 0.5));
+  for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
+    ASSERT_EQ(PM.setAccuracy(accuracy), 0);
+    for (const double rate : {1.0, 100.0, 1e3, 1e4, 1e8}) {
+      magnet.rate = rate;
+      bodies.clear();
+      put(ball(Vector(-20, -20), Vector(3, 0)))->setGravityScale(0);
+      put(ball(Vector(0, -0.5), Vector(3, 0)));
+      put(crate(Vector(10, -0.5)))->setTurning();
+      put(crate(Vector(10.9, -1.4)))->setTurning();
+      put(ball(Vector(25, -10), Vector(0, 3)));
+      PM.addDistance(nullptr, bodies.back(), Vector(20, -10), Vector(25, -10));
+      for (Body* p_body : bodies) p_body->setField(&magnet);
+      for (int i = 0; i < 100; ++i) {
+        ticks(1);
+        EXPECT_NEAR(bodies[0]->getVelocity().getMagnitude(), 0.1, 1e-6) << rate << ' ' << i;
+        for (const Body* p_body : bodies) {
+          ASSERT_LE(p_body->getVelocity().getMagnitude(), 2) << rate << ' ' << i;
+          ASSERT_LT(p_body->getPosition().y(), 0) << rate << ' ' << i;
+        }
+      }
+      EXPECT_EQ(PM.getQuarantineCount(), 0U) << rate;
+      for (Body* p_body : bodies) delete p_body;
+    }
+  }
+}
+
 // A spring joint with a length, off its line: no integrator follows it, and nothing need be frozen.
 TEST_F(BodyScenes, AStiffSpringJointFromTheWorldHoldsWhatLiesOnAFloor) {
   wall(Vector(0, 0.5), Vector(50, 0.5));
@@ -300,6 +363,43 @@ TEST_F(BodyScenes, AStackThatLeansToAndFroStands) {
           << count << ' ' << i;
     }
     for (Body* p_body : bodies) delete p_body;
+  }
+}
+
+// A heavy body lies, off the middle or on it, or falls, on light ones. None is thrown away. Up to 10⁶ times
+// their mass, none is pressed into the floor by half its height; beyond, none gets half-way through the
+// floor. The fast level promises no place: it squeezes them.
+TEST_F(BodyScenes, AHeavyBodyThrowsAwayNothingLight) {
+  const double g = perSecondSquared(Vector(0, kFall)).y();
+  PM.setGravity(Vector(0, g));
+  wall(Vector(0, 0.5), Vector(50, 0.5));
+  for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
+    ASSERT_EQ(PM.setAccuracy(accuracy), 0);
+    for (const double ratio : {2.0, 4.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e9, 1e12}) {
+      const double deepest = accuracy == ACCURACY_FAST ? 1e9 : ratio <= 1e6 ? 0 : 0.5;
+      for (int variant = 0; variant < 18; ++variant) {
+        SCOPED_TRACE(testing::Message() << accuracy << ' ' << ratio << ' ' << variant);
+        const int lights = 1 + variant % 3;
+        const double drop = std::array{0.0, 0.01, 3.0}.at(static_cast<std::size_t>(variant / 3 % 3));
+        bodies.clear();
+        for (int i = 0; i < lights; ++i) put(crate(Vector(0, -0.5 - i)));
+        put(crate(Vector(variant < 9 ? 0 : 0.45, -0.5 - lights - drop), Vector(0.5, 0.5), ratio));
+        for (Body* p_body : bodies) p_body->setTurning();
+        const auto energy = [&] {
+          double sum = kinetic();
+          for (const Body* p_body : bodies) sum -= p_body->getMass() * g * p_body->getPosition().y();
+          return sum;
+        };
+        const double start = energy(), most = start + 1e-6 * ratio * g * (lights + 0.5 + drop);
+        for (int i = 0; i < 150; ++i) {
+          ticks(1);
+          ASSERT_LE(energy(), most) << i;
+          for (const Body* p_body : bodies) ASSERT_LT(p_body->getPosition().y(), deepest) << i;
+        }
+        EXPECT_EQ(PM.getQuarantineCount(), 0U);
+        for (Body* p_body : bodies) delete p_body;
+      }
+    }
   }
 }
 

@@ -159,6 +159,54 @@ TEST(Stiff, ChargedParticle) {
   }
 }
 
+// A magnet however strong turns and does not brake, and costs a stated number of calls. One that is stronger
+// on one side makes the body drift along it; a wind or a slope across it, too.
+TEST(Stiff, AStrongMagnetTurnsAndDoesNotBrake) {
+  struct Magnet : ForceField {
+    double rate = 1, slope = 0;
+    Vec2 across;
+    mutable int calls = 0;
+    Vec2 acceleration(Vec2 at, Vec2 v, double) const override {
+      ++calls;
+      return across + (rate * (1 + slope * at.x)) * perpendicular(v);
+    }
+  } field;
+  for (const double rate : {1.0, 30.0, 100.0, 1e3, -1e4, 1e6, 1e9}) {
+    for (const double slope : {0.0, 0.3}) {
+      field.rate = rate;
+      field.slope = slope;
+      field.across = {};
+      IntegratorCounters counters;
+      Vec2 p = {}, v = {0.1, 0.05};
+      for (int i = 0; i < 100; ++i) {
+        field.calls = 0;
+        Flown flown;
+        ASSERT_EQ(flyField(field, p, v, i, 1, {}, flown, counters), IntegratorStatus::kDone) << rate;
+        if (std::fabs(rate) > 64) {
+          EXPECT_LE(field.calls, 66);
+        }
+        p += flown.displacement;
+        v = flown.velocity;
+        ASSERT_NEAR(length(v), length(Vec2{0.1, 0.05}), 1e-8) << rate << ' ' << i;
+        ASSERT_LE(length(p), 6 * length(Vec2{0.1, 0.05}) / std::fabs(rate)) << rate << ' ' << i;
+      }
+    }
+    if (std::fabs(rate) < 100) continue;
+    field.slope = 0;
+    field.across = {0, 0.01};
+    IntegratorCounters counters;
+    Vec2 p = {}, v = {};
+    for (int i = 0; i < 100; ++i) {
+      Flown flown;
+      ASSERT_EQ(flyField(field, p, v, i, 1, {}, flown, counters), IntegratorStatus::kDone) << rate;
+      p += flown.displacement;
+      v = flown.velocity;
+    }
+    EXPECT_NEAR(p.x * rate, -1, 0.05) << rate;  // 100 ticks at 0.01 / rate, within a turn's diameter
+    EXPECT_NEAR(p.y * rate, 0, 0.05) << rate;
+  }
+}
+
 struct Robertson {
   template <class Real>
   static std::array<Real, 3> rates(const std::array<Real, 3>& y) {
