@@ -89,6 +89,7 @@ std::string randomField(RandomFields& random, int depth) {
 std::uint64_t RandomFields::number() {
   const std::uint64_t bits = m_random.next();
   const std::uint64_t value = bits >> below(64);
+  if (below(8) == 0) return bits << below(64);  // low bits that are 0
   return below(8) == 0 ? ~value : value;
 }
 

@@ -302,6 +302,21 @@ TEST(SmallProtoFields, AOneofHoldsOneOfItsMembers) {
   EXPECT_EQ(moved.second_blob2(), "kept");
 }
 
+TEST(SmallProtoFields, NumbersLoseTheBitsBeyondTheirTypesButABoolCountsThemAll) {
+  // 2^32 + 5 and 2^32 in fields of 32 bits, and 2^32 and 2^70 as a bool.
+  EXPECT_TRUE(bothAccept("\x20\x85\x80\x80\x80\x10\x18\x80\x80\x80\x80\x10"));
+  Small small;
+  ASSERT_TRUE(small.ParseFromString("\x20\x85\x80\x80\x80\x10"));
+  EXPECT_EQ(small.number(), 5u);
+  const std::string high = "\x10\x80\x80\x80\x80\x10",
+                    beyond = "\x10\x80\x80\x80\x80\x80\x80\x80\x80\x80\x40";
+  EXPECT_TRUE(bothAccept(high) && bothAccept(beyond));
+  ASSERT_TRUE(small.ParseFromString(high));
+  EXPECT_TRUE(small.flag());
+  ASSERT_TRUE(small.ParseFromString(beyond));
+  EXPECT_FALSE(small.flag());
+}
+
 TEST(SmallProtoFields, RepeatedNumbersArePackedOrNot) {
   const std::string packed("\xFA\x7F\x02\x01\x02", 5), single("\xF8\x7F\x03", 3);
   ASSERT_TRUE(bothAccept(packed + single + packed));
