@@ -245,6 +245,7 @@ void Gateway::Loop::logCounters() const {
                                                        {"full", c.full},
                                                        {"unreachable", c.unreachable},
                                                        {"wrong_keys", c.wrong_keys},
+                                                       {"gone_silent", c.gone_silent},
                                                        {"too_slow", c.too_slow},
                                                        {"bad_messages", c.bad_messages},
                                                        {"control_floods", c.control_floods},
