@@ -30,7 +30,8 @@ void setNumber(SecureSocket& socket, int level, int name, int value) {
 
 }  // namespace
 
-PlayStream::PlayStream(GatewayState& gateway, SecureSocket socket, WebVisitor visitor, Newcomers::Place place)
+PlayStream::PlayStream(GatewayState& gateway, SecureSocket socket, VisitorFacts visitor,
+                       Newcomers::Place place)
     : Guest(gateway.sharedGuests()),
       m_gateway(gateway),
       m_socket(std::move(socket)),

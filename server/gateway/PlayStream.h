@@ -42,7 +42,7 @@ enum class PlayClose : std::uint16_t {
 /// Thread: the gateway's.
 class PlayStream : public Guest {
  public:
-  PlayStream(GatewayState& gateway, SecureSocket socket, WebVisitor visitor, Newcomers::Place place);
+  PlayStream(GatewayState& gateway, SecureSocket socket, VisitorFacts visitor, Newcomers::Place place);
 
   /// Answer the upgrade, which was judged, and go on.
   void accept(const WebRequest& request);
@@ -79,7 +79,7 @@ class PlayStream : public Guest {
 
   GatewayState& m_gateway;
   WebSocket m_socket;
-  WebVisitor m_visitor;
+  VisitorFacts m_visitor;
   Newcomers::Place m_newcomer;
   VisitorPlaces::Place m_place;
   std::shared_ptr<GameLink> m_link;
