@@ -165,7 +165,7 @@ void Gateway::Loop::meet(Peer peer) {
   const tcp::endpoint endpoint = peer.remote_endpoint(gone);
   if (gone) return;
   ++state->counters.connections;
-  WebVisitor visitor = WebVisitor::of(bytesOf(endpoint.address()), endpoint.port());
+  VisitorFacts visitor = VisitorFacts::of(bytesOf(endpoint.address()), endpoint.port());
   if (!state->arrivals.take(visitor.prefix, std::chrono::steady_clock::now())) {
     ++state->counters.too_often;
     return;
@@ -245,6 +245,7 @@ void Gateway::Loop::logCounters() const {
                                                        {"full", c.full},
                                                        {"unreachable", c.unreachable},
                                                        {"wrong_keys", c.wrong_keys},
+                                                       {"gone_silent", c.gone_silent},
                                                        {"too_slow", c.too_slow},
                                                        {"bad_messages", c.bad_messages},
                                                        {"control_floods", c.control_floods},

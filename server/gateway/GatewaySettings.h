@@ -59,6 +59,7 @@ struct GatewayCounters {
   std::uint64_t full = 0;               ///< of these: closed with 4003
   std::uint64_t unreachable = 0;        ///< closed with 4000
   std::uint64_t wrong_keys = 0;         ///< closed with 4001
+  std::uint64_t gone_silent = 0;        ///< hung up on: no answer to a ping
   std::uint64_t too_slow = 0;           ///< closed with 4002
   std::uint64_t bad_messages = 0;       ///< closed by the rules of RFC 6455 7.4, or for what is no frame
   std::uint64_t control_floods = 0;     ///< hung up on: too many pings

@@ -12,8 +12,8 @@
 #include "server/gateway/Newcomers.h"
 #include "server/gateway/PageFiles.h"
 #include "server/gateway/VisitorPlaces.h"
-#include "server/gateway/WebVisitor.h"
 #include "shared/net/base/PrefixAllowance.h"
+#include "shared/net/stream/VisitorFacts.h"
 #include "shared/program/ClientLog.h"
 
 namespace naiad {

@@ -33,7 +33,10 @@ class Guest : public std::enable_shared_from_this<Guest> {
   /// End at once; its places are given back when this returns.
   virtual void hangUp() = 0;
 
-  Time deadline() const { return m_deadline; }
+  /// Ten times a second. Calls onDeadline() when it is time.
+  virtual void onSweep(Time now) {
+    if (m_deadline <= now) onDeadline();
+  }
 
  protected:
   void setTime(std::chrono::milliseconds time) { m_deadline = std::chrono::steady_clock::now() + time; }
@@ -51,11 +54,8 @@ class Guest : public std::enable_shared_from_this<Guest> {
 /// All of them.
 class Guests {
  public:
-  /// Call onDeadline() of those whose time is over.
   void sweep(Guest::Time now) {
-    for (const auto& guest : list()) {
-      if (guest->deadline() <= now) guest->onDeadline();
-    }
+    for (const auto& guest : list()) guest->onSweep(now);
   }
   void endService() {
     for (const auto& guest : list()) guest->endService();

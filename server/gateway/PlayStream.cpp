@@ -30,7 +30,8 @@ void setNumber(SecureSocket& socket, int level, int name, int value) {
 
 }  // namespace
 
-PlayStream::PlayStream(GatewayState& gateway, SecureSocket socket, WebVisitor visitor, Newcomers::Place place)
+PlayStream::PlayStream(GatewayState& gateway, SecureSocket socket, VisitorFacts visitor,
+                       Newcomers::Place place)
     : Guest(gateway.sharedGuests()),
       m_gateway(gateway),
       m_socket(std::move(socket)),
@@ -59,11 +60,9 @@ void PlayStream::prepareSocket() {
   setNumber(socket, IPPROTO_TCP, TCP_NODELAY, 1);
   setNumber(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, static_cast<int>(kMaxUnsent));
   setNumber(socket, SOL_SOCKET, SO_SNDBUF, kSendBuffer);
-  websocket::stream_base::timeout times{};
-  times.handshake_timeout = websocket::stream_base::none();  // see onDeadline()
-  times.idle_timeout = 2 * m_gateway.settings.ping_time;
-  times.keep_alive_pings = true;
-  m_socket.set_option(times);
+  // Beast sets a timer again for each message; a sweep does the same for less: onSweep().
+  m_socket.set_option(
+      websocket::stream_base::timeout{websocket::stream_base::none(), websocket::stream_base::none(), false});
   m_socket.set_option(websocket::stream_base::decorator([this](websocket::response_type& response) {
     for (const auto& [name, value] : m_gateway.answers.commonHeaders())
       response.set(boost::beast::string_view(name.data(), name.size()),
@@ -82,6 +81,7 @@ void PlayStream::prepareSocket() {
 
 /// Each costs an answer. Called while a read is under way, so the connection ends a little later.
 void PlayStream::onControl(websocket::frame_type kind) {
+  noteLife();
   if (kind == websocket::frame_type::close ||
       m_controls.takeToken(kControls, std::chrono::steady_clock::now()))
     return;
@@ -89,9 +89,30 @@ void PlayStream::onControl(websocket::frame_type kind) {
   m_socket.next_layer().close();
 }
 
+void PlayStream::noteLife() {
+  m_is_pinged = false;
+  m_ping_at = std::chrono::steady_clock::now() + m_gateway.settings.ping_time;
+}
+
+void PlayStream::onSweep(Time now) {
+  Guest::onSweep(now);
+  if (now < m_ping_at || m_phase == Phase::kClosing || isOver()) return;
+  if (!m_is_pinged) return ping();
+  ++m_gateway.counters.gone_silent;
+  hangUp();
+}
+
+void PlayStream::ping() {
+  noteLife();  // so much time for the answer
+  m_is_pinged = true;
+  if (std::exchange(m_ping_waits, true)) return;
+  m_socket.async_ping({}, [self = sharedFrom(this)](error_code) { self->m_ping_waits = false; });
+}
+
 // Up.
 
 void PlayStream::readUp() {
+  noteLife();
   m_up.clear();
   m_up.prepare(kFrameHeaderSize);
   m_up.commit(kFrameHeaderSize);  // written when the length is known
@@ -101,6 +122,7 @@ void PlayStream::readUp() {
 }
 
 void PlayStream::onUp(error_code error, std::size_t size) {
+  m_ping_at = Time::max();  // nothing is heard while nothing is read
   if (error) {
     if (error != websocket::error::closed &&
         error.category() == websocket::make_error_code(websocket::error::closed).category())

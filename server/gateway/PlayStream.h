@@ -42,11 +42,12 @@ enum class PlayClose : std::uint16_t {
 /// Thread: the gateway's.
 class PlayStream : public Guest {
  public:
-  PlayStream(GatewayState& gateway, SecureSocket socket, WebVisitor visitor, Newcomers::Place place);
+  PlayStream(GatewayState& gateway, SecureSocket socket, VisitorFacts visitor, Newcomers::Place place);
 
   /// Answer the upgrade, which was judged, and go on.
   void accept(const WebRequest& request);
 
+  void onSweep(Time now) override;
   void onDeadline() override;
   void endService() override;
   void hangUp() override;
@@ -57,6 +58,8 @@ class PlayStream : public Guest {
 
   void prepareSocket();
   void onControl(boost::beast::websocket::frame_type kind);
+  void noteLife();
+  void ping();
   void readUp();
   void onUp(error_code error, std::size_t size);
   void openLink();
@@ -76,7 +79,7 @@ class PlayStream : public Guest {
 
   GatewayState& m_gateway;
   WebSocket m_socket;
-  WebVisitor m_visitor;
+  VisitorFacts m_visitor;
   Newcomers::Place m_newcomer;
   VisitorPlaces::Place m_place;
   std::shared_ptr<GameLink> m_link;
@@ -84,6 +87,9 @@ class PlayStream : public Guest {
   boost::beast::flat_buffer m_up;      // header and payload of one frame
   std::array<char, kReadSize> m_down;  // pieces of the server's stream
   FrameReader m_frames;                // cuts them
+  Time m_ping_at = Time::max();        // while the browser is read and silent
+  bool m_is_pinged = false;            // since it was heard last
+  bool m_ping_waits = false;           // to be sent
   TokenBucket m_controls;              // pings and pongs of the browser
 };
 

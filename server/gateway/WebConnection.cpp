@@ -32,7 +32,7 @@ std::string headerText(const WebRequest& request, http::field name) {
 
 }  // namespace
 
-WebConnection::WebConnection(GatewayState& gateway, SecureSocket socket, WebVisitor visitor)
+WebConnection::WebConnection(GatewayState& gateway, SecureSocket socket, VisitorFacts visitor)
     : Guest(gateway.sharedGuests()),
       m_gateway(gateway),
       m_socket(std::move(socket)),

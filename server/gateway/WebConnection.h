@@ -16,7 +16,7 @@ namespace naiad {
 /// Thread: the gateway's.
 class WebConnection : public Guest {
  public:
-  WebConnection(GatewayState& gateway, SecureSocket socket, WebVisitor visitor);
+  WebConnection(GatewayState& gateway, SecureSocket socket, VisitorFacts visitor);
 
   /// `place`: its own among the newcomers.
   void start(Newcomers::Place place);
@@ -38,7 +38,7 @@ class WebConnection : public Guest {
 
   GatewayState& m_gateway;
   SecureSocket m_socket;
-  WebVisitor m_visitor;
+  VisitorFacts m_visitor;
   Newcomers::Place m_place;
   boost::beast::flat_buffer m_buffer;
   std::optional<Parser> m_parser;

@@ -49,6 +49,10 @@ class FakeGame {
   std::vector<std::string> visitors();
   /// All frames of all of them.
   std::vector<std::string> frames();
+  std::size_t frameCount() {
+    const std::lock_guard lock(m_mutex);
+    return m_frames.size();
+  }
   std::size_t connections() {
     return onThread([this] { return m_channels.size(); });
   }

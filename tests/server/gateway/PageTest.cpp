@@ -191,7 +191,7 @@ TEST_F(GatewayPage, GarbageGetsAnErrorOrNothing) {
     for (int n = 0; n < 300; ++n) bytes.push_back(static_cast<char>(random()));
     client.send(bytes + "\r\n\r\n");
     const auto reply = client.reply();
-    EXPECT_GE(reply.value_or(HttpReply{.status = 400}).status, 400);
+    EXPECT_TRUE(!reply || reply->status >= 400);
     EXPECT_TRUE(client.waitForHangup());
   }
   EXPECT_EQ(WebClient(gateway.port()).ask("/")->status, 200);

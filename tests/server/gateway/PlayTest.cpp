@@ -230,6 +230,7 @@ TEST_F(GatewayPlay, ASilentBrowserIsPingedAndADeadOneEnds) {
     alive.sendFrame(10, ping->payload);
   }
   EXPECT_TRUE(dead.waitForHangup());
+  EXPECT_EQ(gateway.counters().gone_silent, 1u);
   EXPECT_TRUE(echoes(alive, "still there"));
 }
 
@@ -377,7 +378,7 @@ TEST_F(GatewayPlay, ABrowserThatSendsFasterThanTheServerReadsIsNotRead) {
   EXPECT_LT(before, 2000u) << "of 5000: the rest waits at the browser";
   go_on.set_value();
   sender.join();
-  EXPECT_TRUE(comesTrue([&] { return game->frames().size() == 5001; }));
+  EXPECT_TRUE(comesTrue([&] { return game->frameCount() == 5001; }));
   const auto frames = game->frames();
   for (std::size_t i = 1; i < frames.size(); ++i)
     ASSERT_EQ(frames[i], std::string(kMaxClientFrame, static_cast<char>('a' + (i - 1) % 26))) << i;

@@ -156,6 +156,8 @@ TEST_F(LineLogTest, AfterAFullDiskItGoesOnAndSaysWhatWasLost) {
   const std::string line(1000, 'x');
   const int kLines = 3 * static_cast<int>(LineLog::kMaxWaiting / line.size());
   for (int i = 0; i < kLines; ++i) log(line);
+  // The writer may not have had a turn yet: the disk stays full until it has tried.
+  LineLog::waitUntilWritten(std::chrono::seconds(30));
   setrlimit(RLIMIT_FSIZE, &limit);
   EXPECT_TRUE(comes(" log lines were lost: the log could not be written (File too large)"));
   log("after");

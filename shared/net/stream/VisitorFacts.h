@@ -1,4 +1,6 @@
-// Where a connection comes from, by its socket: no header of a request counts.
+// Where the visitor of a door comes from, in each form that the door needs.
+//
+// Without types of Asio: a door may be made with Boost's copy of it, and no source can include both.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +10,13 @@
 
 namespace naiad {
 
-struct WebVisitor {
+struct VisitorFacts {
   std::string header;    ///< for the server's visitors' socket (VisitorHeader.h)
   std::string name;      ///< "192.0.2.7:50312"
   AddressPrefix prefix;  ///< for limits
 
   /// `address`: IPv6, or IPv4 mapped into it.
-  static WebVisitor of(const AddressPrefix::Bytes& address, std::uint16_t port);
+  static VisitorFacts of(const AddressPrefix::Bytes& address, std::uint16_t port);
 };
 
 }  // namespace naiad

@@ -1,0 +1,24 @@
+#include "shared/net/stream/VisitorFacts.h"
+
+#include <gtest/gtest.h>
+
+#include "shared/net/stream/VisitorHeader.h"
+
+namespace naiad {
+namespace {
+
+TEST(VisitorFacts, SayTheSameAddressInEachForm) {
+  for (const char* const text : {"192.0.2.7:50312", "[2001:db8::7]:50313"}) {
+    const auto endpoint = *visitorFromText(text);
+    const auto address = endpoint.address().is_v6()
+                             ? endpoint.address().to_v6()
+                             : asio::ip::make_address_v6(asio::ip::v4_mapped, endpoint.address().to_v4());
+    const auto visitor = VisitorFacts::of(address.to_bytes(), endpoint.port());
+    EXPECT_EQ(visitor.name, text);
+    EXPECT_EQ(visitor.prefix, AddressPrefix::of(endpoint.address()));
+    EXPECT_EQ(readVisitorHeader(visitor.header), endpoint);
+  }
+}
+
+}  // namespace
+}  // namespace naiad
