@@ -50,7 +50,7 @@ void PlayStream::accept(const WebRequest& request) {
     if (self->isOver()) return;
     if (error) return self->hangUp();
     ++self->m_gateway.counters.websockets;
-    if (self->m_phase == Phase::kHello) self->readUp();
+    self->m_phase == Phase::kHello ? self->readUp() : self->sendClose();
   });
 }
 
@@ -253,11 +253,14 @@ void PlayStream::close(PlayClose code, std::string_view reason) {
   m_phase = Phase::kClosing;
   setTime(m_gateway.settings.close_time);
   if (m_link) m_link->close();
-  if (!m_socket.is_open()) return;  // the upgrade is not answered yet
-  websocket::close_reason why;
-  why.code = static_cast<std::uint16_t>(code);
-  why.reason.assign(reason.begin(), reason.end());
-  m_socket.async_close(why, [self = sharedFrom(this)](error_code) { self->hangUp(); });
+  m_close.code = static_cast<std::uint16_t>(code);
+  m_close.reason.assign(reason.begin(), reason.end());
+  if (m_socket.is_open()) sendClose();  // else when the upgrade is answered
+}
+
+void PlayStream::sendClose() {
+  if (std::exchange(m_close_sent, true)) return;
+  m_socket.async_close(m_close, [self = sharedFrom(this)](error_code) { self->hangUp(); });
 }
 
 void PlayStream::hangUp() {

@@ -72,6 +72,7 @@ class PlayStream : public Guest {
   void awaitRoom();
 
   void close(PlayClose code, std::string_view reason);
+  void sendClose();
   void closeWithoutServer();
   bool isOver() const { return m_phase == Phase::kOver; }
 
@@ -87,10 +88,12 @@ class PlayStream : public Guest {
   boost::beast::flat_buffer m_up;      // header and payload of one frame
   std::array<char, kReadSize> m_down;  // pieces of the server's stream
   FrameReader m_frames;                // cuts them
-  Time m_ping_at = Time::max();        // while the browser is read and silent
-  bool m_is_pinged = false;            // since it was heard last
-  bool m_ping_waits = false;           // to be sent
-  TokenBucket m_controls;              // pings and pongs of the browser
+  boost::beast::websocket::close_reason m_close;
+  bool m_close_sent = false;
+  Time m_ping_at = Time::max();  // while the browser is read and silent
+  bool m_is_pinged = false;      // since it was heard last
+  bool m_ping_waits = false;     // to be sent
+  TokenBucket m_controls;        // pings and pongs of the browser
 };
 
 }  // namespace naiad

@@ -1,7 +1,6 @@
-#include "shared/net/stream/VisitorFacts.h"
-
 #include <gtest/gtest.h>
 
+#include "shared/net/stream/VisitorFacts.h"
 #include "shared/net/stream/VisitorHeader.h"
 
 namespace naiad {
