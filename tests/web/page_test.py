@@ -28,7 +28,7 @@ SHOWN = """
 
 
 def page():
-    return os.path.join(BUILD, "page")
+    return os.path.join(BUILD, "web")
 
 
 def rows(browser):

@@ -22,7 +22,7 @@ std::string indexText() {
 
 std::string wasmBytes() {
   std::string bytes("\0asm\1\0\0\0", 8);
-  for (int i = 0; i < 300'000; ++i) bytes.push_back(static_cast<char>(i * i >> 3));
+  for (unsigned i = 0; i < 300'000; ++i) bytes.push_back(static_cast<char>(i * i >> 3));
   return bytes;
 }
 
