@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "client/bot/BotPlayer.h"
-#include "client/bot/GatewayStreams.h"
 #include "client/bot/TruthRecorder.h"
 #include "client/session/Connection.h"
 #include "client/session/ExitCode.h"
@@ -41,7 +40,6 @@ constexpr const char* kScriptHelp =
 struct BotOptions {
   naiad::ServerAddress address;
   naiad::ServerTrust trust;
-  std::optional<naiad::GatewayAddress> gateway;  ///< of a gateway for browsers, in place of the server
   naiad::SessionOptions session;
   std::string name = "bot";
   std::string game;
@@ -57,11 +55,10 @@ struct BotOptions {
 /// One client: its connection, what it plays, what it saw.
 class Bot {
  public:
-  /// `thread`: for the sockets to a gateway.
-  Bot(asio::io_context& context, naiad::WebSocketThread* thread, const BotOptions& options, int index)
+  Bot(asio::io_context& context, const BotOptions& options, int index)
       : m_options(options),
         m_index(index),
-        m_connection(connect(context, thread, options, index)),
+        m_connection(context, options.address, sessionOptions(options, index), false, options.trust),
         m_recorder(naiad::TruthRecorder::kMaxCells / static_cast<std::size_t>(options.clients)) {
     m_connection.onSession([this](naiad::ClientSession& session) {
       session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
@@ -116,20 +113,11 @@ class Bot {
   }
 
  private:
-  static naiad::Connection connect(asio::io_context& context, naiad::WebSocketThread* thread,
-                                   const BotOptions& options, int index) {
-    const naiad::SessionOptions session = sessionOptions(options, index);
-    if (!options.gateway) return {context, options.address, session, false, options.trust};
-    return {std::make_unique<naiad::GatewayStreams>(context, *thread, *options.gateway), options.address,
-            session, false};
-  }
-
   static naiad::SessionOptions sessionOptions(const BotOptions& options, int index) {
     naiad::SessionOptions session = options.session;
     session.name = options.clients == 1 ? options.name : options.name + std::to_string(index + 1);
     session.game = options.game;
     session.program = std::string("dfbot ") + naiad::kVersion;
-    session.two_streams = options.gateway.has_value();
     return session;
   }
 
@@ -238,11 +226,9 @@ int report(const BotOptions& options, std::vector<std::unique_ptr<Bot>>& bots, C
 int run(const BotOptions& options) {
   using State = naiad::Connection::State;
   asio::io_context context(1);
-  const auto thread = options.gateway ? std::make_unique<naiad::WebSocketThread>() : nullptr;
   std::vector<std::unique_ptr<Bot>> bots;
   bots.reserve(static_cast<std::size_t>(options.clients));
-  for (int i = 0; i < options.clients; ++i)
-    bots.push_back(std::make_unique<Bot>(context, thread.get(), options, i));
+  for (int i = 0; i < options.clients; ++i) bots.push_back(std::make_unique<Bot>(context, options, i));
 
   std::optional<Clock::time_point> all_joined;
   std::optional<Clock::time_point> played_at;
@@ -297,8 +283,7 @@ std::vector<naiad::Option> optionsOf(BotOptions& bot, naiad::ServerChoice& serve
                                      bool& web) {
   std::vector<naiad::Option> options = {
       naiad::serverOption(server),
-      {"--web", &web,
-       "SERVER is the address of a gateway's page, http[s]://HOST[:PORT]: join as a browser does"},
+      {"--web", &web, "SERVER is the address of a page, https://HOST[:PORT]/: join as a browser does"},
       {.name = "--clients",
        .target = &bot.clients,
        .help = "How many players join (default 1)",
@@ -327,14 +312,6 @@ std::vector<naiad::Option> optionsOf(BotOptions& bot, naiad::ServerChoice& serve
   return options;
 }
 
-/// As naiad::resolveServer().
-std::string resolveGateway(const std::string& text, BotOptions& options) {
-  options.gateway = naiad::GatewayAddress::parse(text);
-  if (!options.gateway) return "--web wants the address of a page, http[s]://HOST[:PORT].";
-  options.address = {options.gateway->host, options.gateway->port};
-  return {};
-}
-
 int start(int argc, char** argv) {
   BotOptions options;
   naiad::ServerChoice server;
@@ -348,10 +325,10 @@ int start(int argc, char** argv) {
     return parsed == naiad::Parsed::kDone ? naiad::kExitLeft : naiad::kExitUsage;
   }
 
-  const std::string wrong =
-      web ? resolveGateway(server.text, options)
-          : naiad::resolveServer(server, options.address, options.trust, options.session);
+  const std::string wrong = naiad::resolveServer(server, options.address, options.trust, options.session);
   if (!wrong.empty()) return complain(naiad::kExitUsage, wrong);
+  if (web && !options.trust.gateway)
+    return complain(naiad::kExitUsage, "--web wants the address of a page: https://HOST[:PORT]/.");
   if (!script.empty()) {
     auto read = naiad::BotScript::parse(scriptText(script));
     if (const auto* error = std::get_if<naiad::ScriptError>(&read)) {

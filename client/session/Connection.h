@@ -47,7 +47,8 @@ class Connection {
   /// `rejoin`: look for a lost server again. `address`: for people. Nothing happens before start().
   Connection(std::unique_ptr<StreamOpener> opener, ServerAddress address, SessionOptions options,
              bool rejoin);
-  /// By TCP (TcpStreamOpener.h), with datagrams where these pass. The context must outlive the Connection.
+  /// By TCP (TcpStreamOpener.h), with datagrams where these pass, or through a gateway (GatewayStreams.h).
+  /// The context must outlive the Connection.
   Connection(asio::io_context& context, const ServerAddress& address, const SessionOptions& options,
              bool rejoin, const ServerTrust& trust = {});
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "client/session/WebSocket.h"
 #include "shared/net/stream/Fingerprint.h"
 #include "shared/net/stream/ShortKey.h"
 
@@ -14,6 +15,8 @@ struct ServerTrust {
   std::optional<Fingerprint> fingerprint;  ///< the server's key, if the player gave it
   std::optional<ShortKey> link_key;        ///< the key of the link that the player followed
   std::filesystem::path known_servers;     ///< pins; empty: the user's file
+  /// The server is reached through this gateway, which is trusted in its place; the rest is not used.
+  std::optional<GatewayAddress> gateway;
 };
 
 }  // namespace naiad

@@ -43,13 +43,15 @@ std::string applyVisit(const ServerChoice& server, const ServerTrust& trust, Ses
 }  // namespace
 
 bool ServerChoice::dropsPassword() const {
-  return is_password_ambient && JoinLink::isMeant(text);
+  return is_password_ambient && (JoinLink::isMeant(text) || GatewayAddress::isMeant(text));
 }
 
 Option serverOption(ServerChoice& server) {
-  Option option{"server", &server.text,
-                "Where the server is: a link (naiad://…), HOST[:PORT] or [::1]:PORT (port 9876 by default)",
-                "NAIAD_SERVER"};
+  Option option{
+      "server", &server.text,
+      "Where the server is: a link (naiad://…), HOST[:PORT] or [::1]:PORT (port 9876 by default), or the "
+      "address of its page for browsers (https://…)",
+      "NAIAD_SERVER"};
   option.type = "SERVER";
   return option;
 }
@@ -87,6 +89,15 @@ std::string resolveServer(const ServerChoice& server, ServerAddress& address, Se
                           SessionOptions& session) {
   if (server.dropsPassword()) session.password.clear();
   if (std::string wrong = applyVisit(server, trust, session); !wrong.empty()) return wrong;
+  if (GatewayAddress::isMeant(server.text)) {
+    if (trust.insecure || trust.fingerprint || session.visit)
+      return "Through a gateway (https://…) --insecure, --fingerprint and --visitors have no meaning.";
+    trust.gateway = GatewayAddress::parse(server.text);
+    if (!trust.gateway)
+      return quoted(server.text) + " is no address of a gateway: https://HOST[:PORT]/ is wanted.";
+    address = {trust.gateway->host, trust.gateway->port};
+    return {};
+  }
   if (!JoinLink::isMeant(server.text)) {
     const auto parsed = ServerAddress::parse(server.text);
     if (!parsed) return quoted(server.text) + " is no server: a link (naiad://…) or HOST[:PORT] is wanted.";

@@ -7,6 +7,7 @@ With NAIAD_PICTURES=DIR it leaves pictures of the page there, at three sizes.
 
 import os
 import shutil
+import subprocess
 import sys
 import unittest
 import urllib.request
@@ -193,6 +194,15 @@ class PageTest(unittest.TestCase):
         print(f"page ticks={compared} cells={cells} wrong_cells={wrong} frames_per_s={rate:.1f}")
         self.assertGreaterEqual(compared, 900)
         self.assertEqual(wrong, 0)
+
+    def test_bots_come_by_the_gateway_as_well(self):
+        truth = os.path.join(BUILD, "gateway-truth.txt")
+        with Hosting(BUILD, page(), "--game", "bullethell", "--truth", truth) as hosting:
+            bot = subprocess.run([os.path.join(BUILD, "bin", "dfbot"), "--web", hosting.address, "--clients", "3", "--ticks", "150", "--random", "1",
+                                  "--truth", truth, "--quiet"], capture_output=True, text=True, timeout=120)
+        print(bot.stdout.strip())
+        self.assertEqual(bot.returncode, 0, bot.stdout + bot.stderr)
+        self.assertIn(" wrong_cells=0 ", bot.stdout)
 
     def test_pictures(self):
         folder = os.environ.get("NAIAD_PICTURES")

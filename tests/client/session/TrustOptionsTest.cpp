@@ -64,6 +64,25 @@ TEST(TrustOptions, ThePasswordInTheEnvironmentIsNotForLinks) {
   EXPECT_EQ(Resolved("game.example", "xyzzy", true).session.password, "xyzzy");
 }
 
+TEST(TrustOptions, APagesAddressLeadsThroughItsGateway) {
+  const Resolved page("https://play.example:8443/#" + kKey, "xyzzy", true);
+  EXPECT_EQ(page.problem, "");
+  ASSERT_TRUE(page.trust.gateway);
+  EXPECT_TRUE(page.trust.gateway->encrypted);
+  EXPECT_EQ(page.trust.gateway->hostText(), "play.example:8443");
+  EXPECT_EQ(page.session.password, "") << "addresses come from strangers, as links do";
+  const Resolved local("http://[::1]/");
+  ASSERT_TRUE(local.trust.gateway);
+  EXPECT_FALSE(local.trust.gateway->encrypted);
+  EXPECT_EQ(local.trust.gateway->hostText(), "[::1]");
+  for (const char* wrong :
+       {"https://", "https://-x/", "https://a@b/", "https://host/other", "http://host:0/"})
+    EXPECT_NE(Resolved(wrong).problem, "") << wrong;
+  ServerTrust insecure;
+  insecure.insecure = true;
+  EXPECT_NE(Resolved("http://127.0.0.1:80/", "", false, insecure).problem, "");
+}
+
 TEST(TrustOptions, AVisitHasASocketAndAnAddress) {
   const auto problem = [](const std::string& visitors, const std::string& visitor, bool insecure = false) {
     ServerAddress address;

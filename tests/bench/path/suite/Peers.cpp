@@ -20,6 +20,7 @@ using Words = std::vector<std::string>;
 constexpr const char* kSshPort = "2222";
 constexpr const char* kMoshPort = "60001";
 constexpr const char* kGamePort = "9876";
+constexpr const char* kWebPort = "8443";
 
 void writeFile(const std::string& name, const std::string& text) {
   std::ofstream file(name);
@@ -129,15 +130,58 @@ Peer dfclient(const Place& place, bool udp) {
   return peer;
 }
 
+/// For a script of sh; none of the words has a quote in it.
+std::string quoted(const Words& words) {
+  std::string text;
+  for (const std::string& word : words) text.append("'").append(word).append("' ");
+  return text;
+}
+
+void makeCertificate(const Place& place, const std::string& certificate, const std::string& key) {
+  Words command = {"openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256",
+                   "-nodes"};
+  append(command, {"-days", "2", "-subj", "/CN=bench", "-addext", "subjectAltName=IP:" + place.address});
+  append(command, {"-keyout", key, "-out", certificate});
+  if (runProgram(command).code != 0) throw std::runtime_error("openssl makes no certificate");
+}
+
+/// dfclient by way of the gateway for browsers: two WebSockets, as a page has them. Only the way differs.
+Peer web(const Place& place) {
+  Peer peer = dfclient(place, false);
+  const std::string certificate = place.file("web.pem");
+  const std::string key = place.file("web.key");
+  const std::string origin = "https://" + place.address + ":" + kWebPort;
+  makeCertificate(place, certificate, key);
+  writeFile(place.file("index.html"), "");
+  append(peer.server, {"--visitors", place.file("visitors")});
+  Words gateway = {place.bin + "/dfweb", "--visitors", place.file("visitors"), "--page", place.folder};
+  append(gateway, {"--listen", place.address + ":" + kWebPort, "--certificate", certificate, "--key", key});
+  append(gateway, {"--origin", origin, "--port-file", place.file("web-port")});
+  // dfweb wants the link that dfserver prints.
+  const std::string printed = quoted({place.file("server.out")});
+  writeFile(place.file("both"), quoted(peer.server) + ">" + printed +
+                                    "2>&1 &\nuntil link=$(grep -o 'naiad://[^ ]*' " + printed + ") && [ -S " +
+                                    quoted({place.file("visitors")}) + "]; do sleep .05; done\n" +
+                                    quoted(gateway) + "\"${link%%[!-a-z0-9:/.#]*}\" &\nwait\n");
+  peer.server = {"sh", place.file("both")};
+  peer.ready_file = place.file("web-port");
+  peer.client = {"env", "HOME=" + place.folder, "SSL_CERT_FILE=" + certificate, place.bin + "/dfclient",
+                 origin};
+  append(peer.client, {"--name", "judge"});
+  append(peer.client, fromEnvironment("NAIAD_PATH_DFCLIENT"));
+  return peer;
+}
+
 }  // namespace
 
 const std::vector<std::string>& peerNames() {
-  static const std::vector<std::string> names = {"ssh", "ssh-C", "mosh", "dfclient", "dfclient-stream"};
+  static const std::vector<std::string> names = {"ssh",      "ssh-C",           "mosh",
+                                                 "dfclient", "dfclient-stream", "web"};
   return names;
 }
 
 bool isOurs(const std::string& program) {
-  return program.starts_with("dfclient");
+  return program.starts_with("dfclient") || program == "web";
 }
 
 // An sshd that is not root's takes its own user's account for a locked one (OpenSSH 9.2).
@@ -152,6 +196,7 @@ Peer preparePeer(const std::string& program, const Place& place) {
   if (program == "mosh") return mosh(place);
   if (program == "dfclient") return dfclient(place, true);
   if (program == "dfclient-stream") return dfclient(place, false);
+  if (program == "web") return web(place);
   throw std::runtime_error("there is no program " + program);
 }
 

@@ -1,4 +1,4 @@
-#include "client/bot/WebSocket.h"
+#include "client/session/WebSocket.h"
 
 #include <atomic>
 #include <boost/asio/io_context.hpp>
@@ -13,6 +13,7 @@
 #include <thread>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "shared/net/base/Limits.h"
 #include "shared/net/stream/JoinLink.h"
@@ -74,9 +75,17 @@ class SocketOf : public WebSocket, public std::enable_shared_from_this<SocketOf<
         m_address.host, std::to_string(m_address.port),
         [self = self()](error_code error, const auto& results) {
           if (error) return self->runFail("The host of the gateway was not found (" + error.message() + ").");
+          std::vector<tcp::endpoint> addresses;
+          for (const auto& result : results) {
+            if (kEncrypted || result.endpoint().address().is_loopback())
+              addresses.push_back(result.endpoint());
+          }
+          if (addresses.empty())
+            return self->runFail(
+                "Without encryption (https) only gateways on this machine are connected to.");
           auto& lowest = beast::get_lowest_layer(self->m_stream);
           lowest.expires_after(kOpenTimeout);
-          lowest.async_connect(results, [self](error_code failed, const tcp::endpoint&) {
+          lowest.async_connect(addresses, [self](error_code failed, const tcp::endpoint&) {
             if (failed) return self->runFail("The gateway cannot be reached (" + failed.message() + ").");
             beast::get_lowest_layer(self->m_stream).socket().set_option(tcp::no_delay(true));
             self->runEncrypt();
@@ -176,6 +185,10 @@ class SocketOf : public WebSocket, public std::enable_shared_from_this<SocketOf<
 
 }  // namespace
 
+bool GatewayAddress::isMeant(std::string_view text) {
+  return text.starts_with("http://") || text.starts_with("https://");
+}
+
 std::optional<GatewayAddress> GatewayAddress::parse(const std::string& text) {
   GatewayAddress address;
   std::string rest;
@@ -206,6 +219,13 @@ WebSocketThread::WebSocketThread() : m_loop(std::make_unique<Loop>()) {
   m_loop->tls.set_default_verify_paths();
   m_loop->tls.set_verify_mode(boost::asio::ssl::verify_peer);
   m_loop->thread = std::thread([loop = m_loop.get()] { loop->context.run(); });
+}
+
+std::shared_ptr<WebSocketThread> WebSocketThread::common() {
+  static std::weak_ptr<WebSocketThread> held;
+  auto thread = held.lock();
+  if (!thread) held = thread = std::make_shared<WebSocketThread>();
+  return thread;
 }
 
 WebSocketThread::~WebSocketThread() {

@@ -1,4 +1,4 @@
-#include "client/bot/GatewayStreams.h"
+#include "client/session/GatewayStreams.h"
 
 #include <asio/io_context.hpp>
 #include <asio/post.hpp>
@@ -72,8 +72,8 @@ void GatewayStreams::Line::take(const std::string& error) {
   done(std::make_unique<Channel>(shared_from_this()), "");
 }
 
-GatewayStreams::GatewayStreams(asio::io_context& context, WebSocketThread& thread, GatewayAddress address)
-    : m_context(context), m_thread(thread), m_address(std::move(address)) {}
+GatewayStreams::GatewayStreams(asio::io_context& context, GatewayAddress address)
+    : m_context(context), m_address(std::move(address)) {}
 
 GatewayStreams::~GatewayStreams() {
   cancel();
@@ -83,7 +83,7 @@ void GatewayStreams::begin(std::shared_ptr<Line>& attempt, Done done) {
   if (attempt) attempt->drop();
   attempt = std::make_shared<Line>();
   attempt->open(
-      m_context, m_thread, m_address,
+      m_context, *m_thread, m_address,
       [&attempt, done = std::move(done)](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
         attempt.reset();
         done(std::move(channel), error);

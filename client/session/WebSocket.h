@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace naiad {
 
@@ -19,6 +20,8 @@ struct GatewayAddress {
   std::string host;  ///< IPv6 without brackets
   std::uint16_t port = 80;
 
+  /// Does the text mean to be such an address? It begins with "http://" or "https://".
+  static bool isMeant(std::string_view text);
   /// Nothing if it is no such address, or leads to another page of the host.
   static std::optional<GatewayAddress> parse(const std::string& text);
   /// "example.org:8080", "[::1]:8080": what stands in the header Host. Without the scheme's own port.
@@ -34,6 +37,9 @@ class WebSocketThread {
   ~WebSocketThread();
   WebSocketThread(const WebSocketThread&) = delete;
   WebSocketThread& operator=(const WebSocketThread&) = delete;
+
+  /// The one that all sockets of the process have in common; it ends with the last of those who hold it.
+  static std::shared_ptr<WebSocketThread> common();
 
   Loop& loop() { return *m_loop; }
 
@@ -52,7 +58,8 @@ class WebSocket {
     std::function<void(bool in_order)> on_closed;  ///< by the gateway, once it was open
   };
 
-  /// Begin to open it. A certificate must be good in the eyes of the system's trust store.
+  /// Begin to open it. A certificate must be good in the eyes of the system's trust store; without encryption
+  /// only addresses of this machine are connected to.
   static std::shared_ptr<WebSocket> open(WebSocketThread& thread, const GatewayAddress& address,
                                          Events events);
   virtual ~WebSocket() = default;

@@ -7,16 +7,15 @@
 #include <optional>
 #include <string>
 
-#include "client/bot/WebSocket.h"
 #include "client/session/StreamOpener.h"
+#include "client/session/WebSocket.h"
 
 namespace naiad {
 
-/// Thread: the one that runs `context`. Context and sockets' thread must outlive it, and the channels that it
-/// made.
+/// Thread: the one that runs `context`, which must outlive it, and the channels that it made.
 class GatewayStreams : public StreamOpener {
  public:
-  GatewayStreams(asio::io_context& context, WebSocketThread& thread, GatewayAddress address);
+  GatewayStreams(asio::io_context& context, GatewayAddress address);
   ~GatewayStreams() override;
 
   void open(Done done) override { begin(m_first, std::move(done)); }
@@ -34,7 +33,7 @@ class GatewayStreams : public StreamOpener {
   void begin(std::shared_ptr<Line>& attempt, Done done);
 
   asio::io_context& m_context;
-  WebSocketThread& m_thread;
+  std::shared_ptr<WebSocketThread> m_thread = WebSocketThread::common();
   GatewayAddress m_address;
   std::shared_ptr<Line> m_first;
   std::shared_ptr<Line> m_second;
