@@ -28,7 +28,7 @@ page_packages="emscripten python3-fonttools python3-brotli python3-protobuf font
 check_packages="$build_packages $page_packages chromium chromium-driver ccache libgtest-dev tmux python3 clang clang-format clang-tidy libclang-rt-14-dev ncurses-term openssh-client openssh-server"
 
 # What the benchmarks need on top of building, the libraries that they compare with among it.
-bench_packages="$build_packages libbox2d-dev libchipmunk-dev valgrind python3 libvterm-dev openssh-client openssh-server mosh"
+bench_packages="$build_packages openssl libbox2d-dev libchipmunk-dev valgrind python3 libvterm-dev openssh-client openssh-server mosh"
 
 # What the laboratory needs on top of building: peers, and a solver for references. GCC, for its quad precision.
 lab_packages="$build_packages libbox2d-dev libchipmunk-dev libsundials-dev libgtest-dev valgrind python3"

@@ -28,7 +28,7 @@ class GatewayStreams::Line : public std::enable_shared_from_this<Line> {
                                 });
                               }});
   }
-  /// Nobody listens any more.
+  /// Close it; no callback is called any more.
   void drop() {
     m_done = nullptr;
     callbacks = {};
@@ -94,10 +94,6 @@ void GatewayStreams::cancel() {
   for (std::shared_ptr<Line>* attempt : {&m_first, &m_second}) {
     if (*attempt) std::exchange(*attempt, nullptr)->drop();
   }
-}
-
-std::optional<Fingerprint> GatewayStreams::key() const {
-  return Fingerprint::parse(std::string(64, '0'));
 }
 
 }  // namespace naiad

@@ -22,7 +22,7 @@ class GatewayStreams : public StreamOpener {
   void openSecond(Done done) override { begin(m_second, std::move(done)); }
   void cancel() override;
   /// The gateway stands for its server, as in a page; the system's trust store judges it.
-  std::optional<Fingerprint> key() const override;
+  std::optional<Fingerprint> key() const override { return keyBehindGateway(); }
   std::optional<Fingerprint> secondKey() const override { return key(); }
   std::string whyUntrusted() const override { return {}; }
   bool wasHungUpOn() const override { return false; }

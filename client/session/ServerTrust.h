@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "client/session/WebSocket.h"
+#include "client/trust/GatewayAddress.h"
 #include "shared/net/stream/Fingerprint.h"
 #include "shared/net/stream/ShortKey.h"
 

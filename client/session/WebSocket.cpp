@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "shared/net/base/Limits.h"
-#include "shared/net/stream/JoinLink.h"
+#include "shared/net/base/WebDoor.h"
 
 namespace naiad {
 
@@ -38,6 +38,10 @@ namespace {
 
 constexpr std::chrono::seconds kOpenTimeout{10};
 
+beast::string_view text(std::string_view view) {
+  return {view.data(), view.size()};
+}
+
 /// Members that begin with "run" belong to the sockets' thread.
 template <class Stream>
 class SocketOf : public WebSocket, public std::enable_shared_from_this<SocketOf<Stream>> {
@@ -56,6 +60,7 @@ class SocketOf : public WebSocket, public std::enable_shared_from_this<SocketOf<
   void send(std::string frame) override {
     m_unsent += frame.size();
     boost::asio::post(m_loop.context, [self = self(), frame = std::move(frame)]() mutable {
+      if (self->m_ended) return;
       self->m_queue.push_back(std::move(frame));
       if (self->m_open && self->m_queue.size() == 1) self->runWrite();
     });
@@ -96,7 +101,9 @@ class SocketOf : public WebSocket, public std::enable_shared_from_this<SocketOf<
   void runEncrypt() {
     if constexpr (kEncrypted) {
       auto& tls = m_stream.next_layer();
-      SSL_set_tlsext_host_name(tls.native_handle(), m_address.host.c_str());
+      error_code is_name;
+      boost::asio::ip::make_address(m_address.host, is_name);
+      if (is_name) SSL_set_tlsext_host_name(tls.native_handle(), m_address.host.c_str());  // RFC 6066 3
       tls.set_verify_callback(boost::asio::ssl::host_name_verification(m_address.host));
       tls.async_handshake(boost::asio::ssl::stream_base::client, [self = self()](error_code error) {
         if (error) return self->runFail("The gateway is not trusted (" + error.message() + ").");
@@ -110,14 +117,14 @@ class SocketOf : public WebSocket, public std::enable_shared_from_this<SocketOf<
   void runUpgrade() {
     beast::get_lowest_layer(m_stream).expires_never();
     m_stream.set_option(websocket::stream_base::timeout::suggested(beast::role_type::client));
-    const std::string origin = (kEncrypted ? "https://" : "http://") + m_address.hostText();
-    m_stream.set_option(websocket::stream_base::decorator([origin](websocket::request_type& request) {
-      request.set(beast::http::field::origin, origin);
-      request.set(beast::http::field::sec_websocket_protocol, "naiad.1");
-    }));
+    m_stream.set_option(
+        websocket::stream_base::decorator([origin = m_address.origin()](websocket::request_type& request) {
+          request.set(beast::http::field::origin, origin);
+          request.set(beast::http::field::sec_websocket_protocol, text(kSubprotocol));
+        }));
     m_stream.read_message_max(kMaxServerFrame);
     m_stream.binary(true);
-    m_stream.async_handshake(m_address.hostText(), "/play", [self = self()](error_code error) {
+    m_stream.async_handshake(m_address.hostText(), text(kPlayPath), [self = self()](error_code error) {
       if (error) return self->runFail("The gateway refused (" + error.message() + ").");
       self->m_open = true;
       if (self->m_closing) return self->runClose();
@@ -140,6 +147,7 @@ class SocketOf : public WebSocket, public std::enable_shared_from_this<SocketOf<
     m_stream.async_write(boost::asio::buffer(m_queue.front()),
                          [self = self()](error_code error, std::size_t) {
                            if (error) return self->runEnd(error);
+                           if (self->m_ended) return;
                            self->m_unsent -= self->m_queue.front().size();
                            self->m_queue.pop_front();
                            if (!self->m_queue.empty()) return self->runWrite();
@@ -161,9 +169,11 @@ class SocketOf : public WebSocket, public std::enable_shared_from_this<SocketOf<
   }
 
   void runEnd(error_code error) {
+    // Reading and writing both end; the frame that is being written stays until its write has.
+    if (std::exchange(m_ended, true)) return;
     m_open = false;
-    m_queue.clear();
-    const bool ordered = error == websocket::error::closed && m_stream.reason().code == 1000;
+    const bool ordered = error == websocket::error::closed &&
+                         m_stream.reason().code == static_cast<std::uint16_t>(PlayClose::kEnded);
     if (!m_closing) m_events.on_closed(ordered);
   }
 
@@ -180,40 +190,11 @@ class SocketOf : public WebSocket, public std::enable_shared_from_this<SocketOf<
   std::deque<std::string> m_queue;
   std::atomic<std::size_t> m_unsent{0};
   bool m_open = false;
+  bool m_ended = false;
   bool m_closing = false;
 };
 
 }  // namespace
-
-bool GatewayAddress::isMeant(std::string_view text) {
-  return text.starts_with("http://") || text.starts_with("https://");
-}
-
-std::optional<GatewayAddress> GatewayAddress::parse(const std::string& text) {
-  GatewayAddress address;
-  std::string rest;
-  if (text.rfind("http://", 0) == 0) {
-    rest = text.substr(7);
-  } else if (text.rfind("https://", 0) == 0) {
-    rest = text.substr(8);
-    address.encrypted = true;
-  } else {
-    return std::nullopt;
-  }
-  const std::size_t end = rest.find_first_of("/#");
-  if (end != std::string::npos && rest[end] == '/' && end + 1 < rest.size() && rest[end + 1] != '#')
-    return std::nullopt;
-  const auto where = LinkHost::parse(rest.substr(0, end), address.encrypted ? 443 : 80);
-  if (!where) return std::nullopt;
-  address.host = where->host;
-  address.port = where->port;
-  return address;
-}
-
-std::string GatewayAddress::hostText() const {
-  const std::string name = host.find(':') != std::string::npos ? "[" + host + "]" : host;
-  return port == (encrypted ? 443 : 80) ? name : name + ":" + std::to_string(port);
-}
 
 WebSocketThread::WebSocketThread() : m_loop(std::make_unique<Loop>()) {
   m_loop->tls.set_default_verify_paths();

@@ -5,28 +5,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
+
+#include "client/trust/GatewayAddress.h"
 
 namespace naiad {
-
-/// http[s]://HOST[:PORT][/][#…], as a gateway prints it.
-struct GatewayAddress {
-  bool encrypted = false;
-  std::string host;  ///< IPv6 without brackets
-  std::uint16_t port = 80;
-
-  /// Does the text mean to be such an address? It begins with "http://" or "https://".
-  static bool isMeant(std::string_view text);
-  /// Nothing if it is no such address, or leads to another page of the host.
-  static std::optional<GatewayAddress> parse(const std::string& text);
-  /// "example.org:8080", "[::1]:8080": what stands in the header Host. Without the scheme's own port.
-  std::string hostText() const;
-};
 
 /// The thread that runs the sockets. Ends them all when it is destroyed.
 class WebSocketThread {

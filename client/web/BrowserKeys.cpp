@@ -48,7 +48,7 @@ constexpr std::array kNames = {
     Named{"F12", F12},
 };
 
-/// Keys of which there are two: only `code` tells which it is.
+/// Keys of which there are two: only `code` says which it is.
 constexpr std::array kSides = {
     Named{"ShiftLeft", LEFTSHIFT},       Named{"ShiftRight", RIGHTSHIFT}, Named{"ControlLeft", LEFTCONTROL},
     Named{"ControlRight", RIGHTCONTROL}, Named{"AltLeft", LEFTALT},       Named{"AltRight", RIGHTALT},

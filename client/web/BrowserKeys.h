@@ -2,7 +2,7 @@
 //
 // `key` says what a key means in the player's layout ("a", "A", "ArrowLeft"), `code` where it is ("KeyA",
 // "ShiftRight"). Games ask for what a key types, so `key` decides; but a key goes up as what it went down as,
-// though Shift may have come up in between: `code` tells.
+// though Shift may have come up in between: `code` identifies it.
 #pragma once
 
 #include <cstddef>

@@ -17,25 +17,10 @@
 #include "client/ui/PlayerInput.h"
 #include "client/ui/SoundNotes.h"
 #include "client/web/BrowserKeys.h"
+#include "client/web/TabTokens.h"
 #include "client/web/WebStreams.h"
 
 namespace naiad {
-
-/// The token of the session that this tab plays, kept by the page.
-class TabTokens : public TokenStore {
- public:
-  /// `kept`: what the page kept for this tab, hexadecimal; anything else counts as nothing.
-  TabTokens(WebPort& port, std::string_view kept);
-
-  std::string tokenFor(const Fingerprint&) const override { return m_token; }
-  void save(SavedSession session, Time now) override;
-  void refresh(Time) override {}
-  void remove() override;
-
- private:
-  WebPort& m_port;
-  std::string m_token;
-};
 
 class WebClient {
  public:
@@ -55,7 +40,7 @@ class WebClient {
   /// Joins immediately. `port` must outlive it.
   WebClient(WebPort& port, const Options& options, Time now);
 
-  /// The page tells it of streams.
+  /// The page reports there what becomes of streams.
   WebStreams& streams() { return *m_p_streams; }
 
   void pressKey(std::string_view key, std::string_view code, KeyEvent::Action action, std::uint8_t modifiers,
@@ -90,7 +75,6 @@ class WebClient {
 
  private:
   void takeKey(const KeyEvent& event, Time now);
-  void leave();
 
   WebPort& m_port;
   int m_columns;

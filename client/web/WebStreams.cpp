@@ -4,6 +4,7 @@
 
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
+#include "shared/net/base/WebDoor.h"
 
 namespace naiad {
 
@@ -54,10 +55,6 @@ class WebStreams::Channel : public ReliableChannel {
   Callbacks m_callbacks;
 };
 
-std::optional<Fingerprint> WebStreams::gatewaysServer() {
-  return Fingerprint::parse(std::string(64, '0'));
-}
-
 void WebStreams::begin(Attempt& attempt, Done done) {
   drop(attempt);
   attempt.stream = ++m_newest;
@@ -104,13 +101,14 @@ void WebStreams::closed(int stream, int code, std::string_view reason) {
   Attempt* p_attempt = find(stream);
   const auto channel = m_channels.find(stream);
   if (p_attempt == nullptr && channel == m_channels.end()) return;
-  if (code >= static_cast<int>(GatewayClose::kNoServer) && code <= static_cast<int>(GatewayClose::kCrowded))
+  if (code >= static_cast<int>(PlayClose::kUnreachable) && code <= static_cast<int>(PlayClose::kFull))
     m_refusal = safeText(std::string(reason), kMaxSentenceLength);
-  m_crowded = code == static_cast<int>(GatewayClose::kCrowded);
-  m_final = m_final || code == static_cast<int>(GatewayClose::kWrongKey);
+  m_crowded = code == static_cast<int>(PlayClose::kFull);
+  m_final = m_final || code == static_cast<int>(PlayClose::kWrongKey);
   if (p_attempt != nullptr)
     return fail(*p_attempt, m_refusal.empty() ? "The game's gateway does not answer." : m_refusal);
-  channel->second->end(code == 1000 ? CloseReason::kPeer : CloseReason::kError);
+  channel->second->end(code == static_cast<int>(PlayClose::kEnded) ? CloseReason::kPeer
+                                                                   : CloseReason::kError);
 }
 
 void WebStreams::update(Time now) {

@@ -16,14 +16,6 @@
 
 namespace naiad {
 
-/// Why a gateway closes a WebSocket: codes of its own (RFC 6455 7.4.2), with a sentence for people as reason.
-enum class GatewayClose : int {
-  kNoServer = 4000,  ///< the game's server cannot be reached
-  kWrongKey = 4001,  ///< what answers in its place has another key
-  kTooSlow = 4002,   ///< the browser does not take what is sent
-  kCrowded = 4003,   ///< too many visitors, in all or from this address
-};
-
 class WebStreams : public StreamOpener {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -36,8 +28,8 @@ class WebStreams : public StreamOpener {
   void open(Done done) override { begin(m_first, std::move(done)); }
   void openSecond(Done done) override { begin(m_second, std::move(done)); }
   void cancel() override;
-  std::optional<Fingerprint> key() const override { return gatewaysServer(); }
-  std::optional<Fingerprint> secondKey() const override { return gatewaysServer(); }
+  std::optional<Fingerprint> key() const override { return keyBehindGateway(); }
+  std::optional<Fingerprint> secondKey() const override { return keyBehindGateway(); }
   std::string whyUntrusted() const override { return {}; }
   bool wasHungUpOn() const override { return m_crowded; }
 
@@ -53,9 +45,6 @@ class WebStreams : public StreamOpener {
   const std::string& refusal() const { return m_refusal; }
   /// The refusal is final: another attempt would end like this one.
   bool isRefusalFinal() const { return m_final; }
-
-  /// Stands for the key of the server behind the gateway.
-  static std::optional<Fingerprint> gatewaysServer();
 
  private:
   class Channel;

@@ -1,4 +1,4 @@
-// What a gateway is told: by its command line, and by tests the times that they do not want to wait for.
+// The settings of a gateway: those of the command line, and times, which tests shorten.
 #pragma once
 
 #include <chrono>

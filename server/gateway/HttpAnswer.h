@@ -13,14 +13,11 @@
 
 #include "server/gateway/AllowedNames.h"
 #include "server/gateway/PageFiles.h"
+#include "shared/net/base/WebDoor.h"
 
 namespace naiad {
 
 using WebRequest = boost::beast::http::request<boost::beast::http::empty_body>;
-
-/// Where the WebSockets are, and their subprotocol (RFC 6455 1.9).
-inline constexpr std::string_view kPlayPath = "/play";
-inline constexpr std::string_view kSubprotocol = "naiad.1";
 
 struct HttpAnswer {
   std::string head;              ///< status line and headers, with the empty line

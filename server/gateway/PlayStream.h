@@ -23,21 +23,10 @@
 #include "server/gateway/GatewayState.h"
 #include "server/gateway/SecureSocket.h"
 #include "shared/net/base/TokenBucket.h"
+#include "shared/net/base/WebDoor.h"
 #include "shared/net/stream/Framing.h"
 
 namespace naiad {
-
-/// Why a WebSocket is closed, for the page: beside the codes of RFC 6455 7.4.1.
-enum class PlayClose : std::uint16_t {
-  kEnded = 1000,        ///< the server ended the stream in order
-  kGoingAway = 1001,    ///< the gateway ends
-  kNotBinary = 1003,    ///< a text
-  kPolicy = 1008,       ///< no hello in time, or a message that is no frame
-  kUnreachable = 4000,  ///< the server cannot be reached, or broke off
-  kWrongKey = 4001,     ///< the server has not the key of the link
-  kTooSlow = 4002,      ///< the browser does not read
-  kFull = 4003,         ///< all places are taken, or those of this address
-};
 
 /// Thread: the gateway's.
 class PlayStream : public Guest {

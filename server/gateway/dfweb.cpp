@@ -24,7 +24,7 @@ constexpr const char* kHelp =
     "LINK is what dfserver prints, SOCKET its --visitors. No browser is led anywhere else.\n"
     "Without a certificate it listens on loopback addresses only. SIGHUP reads the certificate again; "
     "SIGTERM and\n"
-    "SIGINT end it, after players were told. It sees what players type, passwords and chat among it.\n\n"
+    "SIGINT end it, and players read so. It sees what players type, passwords and chat among it.\n\n"
     "Exit codes: 2 wrong usage; 3 there is no page; 4 it cannot listen; 5 a file cannot be written.\n";
 
 /// Descriptors beside those of connections.

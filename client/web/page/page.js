@@ -27,12 +27,12 @@ const port = {
     const is = () => sockets.get(stream) === socket;
     socket.onopen = () => is() && later(() => client.opened(stream));
     socket.onmessage = ({data}) => {
-      if (!is()) return;
+      if (!is() || client === null) return;
       client.received(stream, new Uint8Array(data));
       client.update();
     };
     socket.onclose = ({code, reason}) => {
-      if (!is()) return;
+      if (!is() || client === null) return;
       sockets.delete(stream);
       client.closed(stream, code, reason);
       later(() => client.update());
@@ -110,6 +110,7 @@ function notice(state) {
   }
   const sentence = client.sentence();
   client = null;
+  for (const stream of [...sockets.keys()]) port.close(stream);
   joined = false;
   sounds.stopAll();
   document.body.classList.remove("playing");

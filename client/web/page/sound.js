@@ -31,7 +31,7 @@ export class Sounds {
     return this.on;
   }
 
-  /** `action`: 0 play, 1 pause, 2 stop. `flags`: 1 music, 2 again and again, 4 of this player or of nobody. */
+  /** `action`: 0 play, 1 pause, 2 stop. `flags`: 1 music, 2 again and again, 4 caused by this player or by none. */
   take(label, action, flags) {
     const name = (flags & 1 ? "music " : "sound ") + label;
     if (action !== 0) return this.stop(name);

@@ -9,7 +9,9 @@ std::optional<AeadId> aeadFromWire(std::uint32_t) {
   return std::nullopt;
 }
 
-SealKey::~SealKey() = default;  // NOLINT(performance-trivially-destructible): elsewhere it wipes the key
+SealKey::~SealKey() {
+  key.fill(0);
+}
 
 DatagramKeys deriveDatagramKeys(const KeyExporter&, AeadId, ConnectionId, Epoch) {
   return {};

@@ -22,9 +22,9 @@ using naiad::physics::Vec2;
 // it, direct solutions are too dear for a tick, and sweeps without them are no better than sub-steps.
 constexpr int kMaxBodies = 640;
 
-// So is one of bodies whose masses differ more: what presses on the lightest is rounded to more than would
-// throw it, and a direct solution has no digits left.
-constexpr double kMostMassRatio = 1e6;
+// Groups whose masses differ by a larger factor go to the SubstepWorld as well: the rounding error of the
+// forces on the lightest body would throw it, so a direct solution has no digits left.
+constexpr double kMaxMassRatio = 1e6;
 
 // In sizes of a body: a path that is so long is looked at as a line, not as a square around its start.
 constexpr double kLongPath = 8;
@@ -178,8 +178,9 @@ void BodyIslands::classifyGroups(const BodyTable& table, const naiad::physics::B
         group.is_general || (stays && last_solver == BodySolver::kSubstep && !m_leaves_substeps);
     ++group.bodies;
     const double inverse_mass = table.row(state.index).inverse_mass;
-    group.lightest = std::max(group.lightest, inverse_mass);
-    group.heaviest = group.heaviest > 0 ? std::min(group.heaviest, inverse_mass) : inverse_mass;
+    group.max_inverse_mass = std::max(group.max_inverse_mass, inverse_mass);
+    group.min_inverse_mass =
+        group.min_inverse_mass > 0 ? std::min(group.min_inverse_mass, inverse_mass) : inverse_mass;
     const bool is_joined = links.isJoined(state.index);
     group.is_rigid = group.is_rigid || !state.is_simple || stays || is_joined;
     group.is_elastic = group.is_elastic && state.radius > 0 && !stays && (is_joined || !state.is_bent);
@@ -274,8 +275,9 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
     BodyState& state = states[i];
     const Group& group = m_groups[at(rootOf(static_cast<int>(i)))];
     if (state.p_failure != nullptr || state.is_kinematic) continue;
-    const bool is_too_much = group.bodies > kMaxBodies || group.lightest > kMostMassRatio * group.heaviest;
-    if (group.is_general || (group.is_rigid && group.may_touch && is_too_much)) {
+    const bool needs_substeps =
+        group.bodies > kMaxBodies || group.max_inverse_mass > kMaxMassRatio * group.min_inverse_mass;
+    if (group.is_general || (group.is_rigid && group.may_touch && needs_substeps)) {
       if (!state.is_hard && !state.is_joined && !state.must_be_held) continue;
       state.solver = BodySolver::kSubstep;
       m_has_general = true;

@@ -48,7 +48,8 @@ class BodyIslands {
     bool has_obstacle = false;
     bool is_elastic = true;  // circles that bounce
     double fastest = 0;
-    double lightest = 0, heaviest = 0;  // of the HARD ones, as 1 / mass
+    double max_inverse_mass = 0;  // of the HARD ones; 0: none is free to move
+    double min_inverse_mass = 0;
   };
 
   int rootOf(int state);

@@ -31,7 +31,7 @@ constexpr int kSingleSweeps = 16;  // at most, of one contact alone
 constexpr int kJointSweeps = 8;    // of a group with joints
 constexpr int kCrowdSweeps = 4;    // of a moving heap (docs/physics/rigid.md)
 
-constexpr double kUnequal = 1.3;  // a mass ratio at which sweeps crush or throw what is light
+constexpr double kUnequalMassRatio = 1.3;  // a mass ratio at which sweeps crush or throw what is light
 
 bool areUnequal(std::span<const int> bodies, std::span<const RigidState> states) {
   double least = 0, most = 0;
@@ -41,7 +41,7 @@ bool areUnequal(std::span<const int> bodies, std::span<const RigidState> states)
     least = least > 0 ? std::min(least, inverse) : inverse;
     most = std::max(most, inverse);
   }
-  return most > kUnequal * least;
+  return most > kUnequalMassRatio * least;
 }
 
 // Impulses of the last sub-step are a guess that a direct solution corrects, and sweeps do not: after a blow
@@ -125,7 +125,7 @@ void RigidWorld::solveIsland(Island& island, bool is_second) {
     }
   }
   if (!is_unequal) return;
-  for (const int i : constraints) {  // what cannot give way has the last word
+  for (const int i : constraints) {  // contacts with immovable bodies are solved last
     ContactConstraint& c = m_constraints[at(i)];
     if (!isMovable(c.a) || !isMovable(c.b)) solveContact(c, m_states, is_second);
   }

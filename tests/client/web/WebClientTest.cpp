@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "client/web/WebClient.h"
+#include "shared/net/base/WebDoor.h"
 #include "shared/replica/SnapshotCodec.h"
 #include "shared/replica/UpdateCodec.h"
 #include "tests/client/web/FakePage.h"
@@ -204,7 +205,7 @@ TEST_F(WebClientTest, ALostStreamIsOpenedAgainAndTheSessionGoesOn) {
 }
 
 TEST_F(WebClientTest, AWrongKeyIsFinal) {
-  client->streams().closed(page.newest, static_cast<int>(GatewayClose::kWrongKey), "It has another key.");
+  client->streams().closed(page.newest, static_cast<int>(PlayClose::kWrongKey), "It has another key.");
   EXPECT_EQ(client->state(), WebClient::State::kRefused);
   EXPECT_EQ(client->sentence(), "It has another key.");
 }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "client/web/WebStreams.h"
+#include "shared/net/base/WebDoor.h"
 #include "tests/client/web/FakePage.h"
 
 namespace naiad {
@@ -75,7 +76,7 @@ TEST_F(WebStreamsTest, AGatewayThatIsSilentIsGivenUp) {
 
 TEST_F(WebStreamsTest, TheGatewaysSentenceIsSaidAndHarmless) {
   open();
-  streams.closed(page.newest, static_cast<int>(GatewayClose::kNoServer), "Nobody \033[2Jis there.");
+  streams.closed(page.newest, static_cast<int>(PlayClose::kUnreachable), "Nobody \033[2Jis there.");
   EXPECT_EQ(error, "Nobody ?[2Jis there.");
   EXPECT_EQ(streams.refusal(), error);
   EXPECT_FALSE(streams.wasHungUpOn());
@@ -87,11 +88,11 @@ TEST_F(WebStreamsTest, TheGatewaysSentenceIsSaidAndHarmless) {
 
 TEST_F(WebStreamsTest, ACrowdPassesAndAWrongKeyDoesNot) {
   open();
-  streams.closed(page.newest, static_cast<int>(GatewayClose::kCrowded), "Too many.");
+  streams.closed(page.newest, static_cast<int>(PlayClose::kFull), "Too many.");
   EXPECT_TRUE(streams.wasHungUpOn());
   EXPECT_FALSE(streams.isRefusalFinal());
   openAndStart();
-  streams.closed(page.newest, static_cast<int>(GatewayClose::kWrongKey), "Another key.");
+  streams.closed(page.newest, static_cast<int>(PlayClose::kWrongKey), "Another key.");
   EXPECT_TRUE(streams.isRefusalFinal());
   EXPECT_EQ(closed, CloseReason::kError);
 }

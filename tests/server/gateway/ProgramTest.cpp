@@ -88,16 +88,16 @@ class DfwebProgram : public testing::Test {
 TEST_F(DfwebProgram, WhatIsWrongIsASentenceAndACode) {
   expectRefusal({"--help"}, 0, "--visitors");
   expectRefusal({}, 2, "link");
-  expectRefusal({"http://game.test", "--visitors", "/tmp/v"}, 2, "naiad://");
+  expectRefusal({"http://game.test", "--visitors", "visitors"}, 2, "naiad://");
   expectRefusal({link}, 2, "--visitors is wanted");
   expectRefusal({link, "--visitors", std::string(200, 'v')}, 2, "too long");
-  expectRefusal({link, "--visitors", "/tmp/v", "--certificate", "/tmp/c"}, 2, "together");
-  expectRefusal({link, "--visitors", "/tmp/v", "--listen", "localhost:80"}, 2, "ADDRESS:PORT");
-  expectRefusal({link, "--visitors", "/tmp/v", "--origin", "https://a/b"}, 2, "https://NAME");
-  expectRefusal({link, "--visitors", "/tmp/v", "--visitor", "x"}, 2, "--visitors");
-  expectRefusal({link, "--visitors", "/tmp/v", "--page", home.path("none")}, 3, "page");
-  expectRefusal({link, "--visitors", "/tmp/v", "--page", home.path("page/folder")}, 3, "index.html");
-  expectRefusal({link, "--visitors", "/tmp/v", "--page", page, "--listen", "0.0.0.0:0"}, 4, "loopback");
+  expectRefusal({link, "--visitors", "visitors", "--certificate", "certificate"}, 2, "together");
+  expectRefusal({link, "--visitors", "visitors", "--listen", "localhost:80"}, 2, "ADDRESS:PORT");
+  expectRefusal({link, "--visitors", "visitors", "--origin", "https://a/b"}, 2, "https://NAME");
+  expectRefusal({link, "--visitors", "visitors", "--visitor", "x"}, 2, "--visitors");
+  expectRefusal({link, "--visitors", "visitors", "--page", home.path("none")}, 3, "page");
+  expectRefusal({link, "--visitors", "visitors", "--page", home.path("page/folder")}, 3, "index.html");
+  expectRefusal({link, "--visitors", "visitors", "--page", page, "--listen", "0.0.0.0:0"}, 4, "loopback");
 }
 
 TEST_F(DfwebProgram, PrintsTheAddressForPlayersAndEndsInOrder) {
