@@ -174,8 +174,10 @@ void readConfig(const std::string& path, const std::vector<Option>& options,
 
 }  // namespace
 
-Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
-                    const char* const* argv) {
+namespace {
+
+/// Reads all; false: --help or --version was asked for, and printed. Throws OptionError.
+bool readAll(const Program& program, const std::vector<Option>& options, int argc, const char* const* argv) {
   CLI::App app(program.purpose, program.name);
   app.set_version_flag("--version", program.name + " " + kVersion);
   std::string config;
@@ -192,13 +194,11 @@ Parsed parseOptions(const Program& program, const std::vector<Option>& options, 
     app.parse(argc, argv);
     if (!config.empty()) readConfig(config, options, added);
   } catch (const CLI::ExtrasError&) {
-    return complain(program, unknownArgument(program, options, app));
+    throw OptionError(unknownArgument(program, options, app));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) return complain(program, inWords(options, error, argc, argv));
+    if (error.get_exit_code() != 0) throw OptionError(inWords(options, error, argc, argv));
     app.exit(error);
-    return Parsed::kDone;
-  } catch (const OptionError& error) {
-    return complain(program, error.what());
+    return false;
   }
   for (std::size_t i = 0; i < options.size(); ++i) {
     if (added[i]->count() == 0) continue;
@@ -206,7 +206,31 @@ Parsed parseOptions(const Program& program, const std::vector<Option>& options, 
     if (options[i].p_from_environment != nullptr)
       *options[i].p_from_environment = !isOnCommandLine(options[i], argc, argv);
   }
-  return Parsed::kRun;
+  return true;
+}
+
+}  // namespace
+
+Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
+                    const char* const* argv) {
+  try {
+    return readAll(program, options, argc, argv) ? Parsed::kRun : Parsed::kDone;
+  } catch (const OptionError& error) {
+    return complain(program, error.what());
+  }
+}
+
+void readOptions(const Program& program, const std::vector<Option>& options, int argc,
+                 const char* const* argv) {
+  readAll(program, options, argc, argv);
+}
+
+void copyValue(const Option& from, const Option& to) {
+  std::visit(
+      [&to]<class Target>(const Target& source) {
+        if constexpr (std::is_pointer_v<Target>) *std::get<Target>(to.target) = *source;
+      },
+      from.target);
 }
 
 void storeValue(const Option& option, const std::string& value, const std::string& place) {

@@ -64,6 +64,10 @@ enum class Parsed {
 Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
                     const char* const* argv);
 
+/// The same while a program runs: nothing is printed. Throws OptionError.
+void readOptions(const Program& program, const std::vector<Option>& options, int argc,
+                 const char* const* argv);
+
 /// An option is not known, or has a value that makes no sense; what() is a sentence that names it.
 class OptionError : public std::runtime_error {
  public:
@@ -72,6 +76,9 @@ class OptionError : public std::runtime_error {
 
 /// Store this value of the option. Throws OptionError, which begins with `place`: where the value stands.
 void storeValue(const Option& option, const std::string& value, const std::string& place);
+
+/// The target of `to`, which has the same type, gets what the target of `from` holds.
+void copyValue(const Option& from, const Option& to);
 
 /// The value that the option's target holds, as text.
 std::string currentValue(const Option& option);

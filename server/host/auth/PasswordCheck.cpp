@@ -51,6 +51,11 @@ class PasswordCheck::Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
+  void setHash(PasswordHash hash) {
+    const std::lock_guard lock(mutex_);
+    hash_ = std::move(hash);
+  }
+
   void give(Job job) {
     {
       const std::lock_guard lock(mutex_);
@@ -67,14 +72,15 @@ class PasswordCheck::Worker {
       if (stopping_) return;
       const Job job = std::move(jobs_.front());
       jobs_.pop_front();
+      const PasswordHash hash = hash_;
       lock.unlock();
-      job.report(compare(job.password->text));
+      job.report(compare(hash, job.password->text));
       lock.lock();
     }
   }
-  std::optional<bool> compare(const std::string& password) const {
+  static std::optional<bool> compare(const PasswordHash& hash, const std::string& password) {
     try {
-      return hash_.matches(password);
+      return hash.matches(password);
     } catch (const PasswordError&) {
       return std::nullopt;
     }
@@ -187,6 +193,10 @@ void PasswordCheck::check(const AddressPrefix& from, bool known, std::string pas
       ++state_->counters.busy;
       return state_->answerLater(Answer::kBusy, std::move(done));
   }
+}
+
+void PasswordCheck::setHash(PasswordHash hash) {
+  worker_->setHash(std::move(hash));
 }
 
 const PasswordCheck::Counters& PasswordCheck::counters() const {

@@ -51,6 +51,9 @@ class PasswordCheck {
   void check(const AddressPrefix& from, bool known, std::string password,
              std::chrono::steady_clock::time_point now, std::function<void(Answer)> done);
 
+  /// Guesses that are not being made yet are compared with this from now on.
+  void setHash(PasswordHash hash);
+
   const Counters& counters() const;
   /// Prefixes remembered.
   std::size_t remembered() const;

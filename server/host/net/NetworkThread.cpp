@@ -67,6 +67,10 @@ void NetworkThread::closeListener() {
   giveOrder({.kind = Order::kCloseListener});
 }
 
+void NetworkThread::setTls(std::shared_ptr<const TlsContext> context) {
+  asio::post(m_io, [this, context = std::move(context)] { m_port.streams->setTls(context); });
+}
+
 // ---- the tick thread --------------------------------------------------------------------------------------
 
 bool NetworkThread::serve(Clock::time_point enough) {

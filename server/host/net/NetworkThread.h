@@ -84,6 +84,8 @@ class NetworkThread {
   void stop();
   /// No more connections.
   void closeListener();
+  /// Connections accepted from now on meet this certificate and key.
+  void setTls(std::shared_ptr<const TlsContext> context);
 
   /// Call back for what came, but no longer than until `enough` (and for a least number of messages). False:
   /// there is more.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/world/World.h"
@@ -16,6 +17,7 @@
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 #include "shared/net/base/PrefixAllowance.h"
+#include "shared/program/LogEvent.h"
 
 namespace naiad {
 
@@ -33,11 +35,13 @@ class Admission {
     PlayerPrefixes& prefixes;
     Counters& counters;
     /// Log what becomes of the client at this address.
-    std::function<void(const std::string& address, const std::string& text)> log_client;
+    std::function<void(const std::string& address, LogEvent event)> log_client;
     /// A channel for datagrams, with keys from this stream; null if there are none.
     std::function<std::unique_ptr<SealedChannel>(const ReliableChannel& stream, AeadId aead)> open_datagrams;
     /// A client plays that has no list of players yet.
     std::function<void()> on_new_client;
+    /// May new players join?
+    std::function<bool()> is_open;
   };
 
   /// `executor` runs what is left of a judgement once a password has been checked.
@@ -52,6 +56,8 @@ class Admission {
   void confirmToken(const Session& session) { m_tokens.confirm(session.id()); }
   /// The session is over: its token is void.
   void forgetSession(const Session& session);
+  /// What new players need from now on; nothing: no password.
+  void setPassword(std::optional<PasswordHash> hash);
   /// What became of passwords; all zero if none is needed.
   PasswordCheck::Counters passwordCounters() const;
 
@@ -74,7 +80,9 @@ class Admission {
   Setup m_setup;
   Counters& m_counters;
   const df::World* m_p_world = nullptr;
-  std::unique_ptr<PasswordCheck> m_password;  ///< null: none is needed
+  asio::any_io_executor m_executor;
+  bool m_wants_password = false;
+  std::unique_ptr<PasswordCheck> m_password;  ///< null: none was ever needed
   ResumeTokens m_tokens;
   PrefixAllowance m_joins;
   PrefixAllowance m_new_worlds;

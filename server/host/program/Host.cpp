@@ -33,7 +33,7 @@ constexpr std::chrono::milliseconds kDrainStep{10};   ///< between two looks at 
 constexpr std::chrono::seconds kFirstPlayerTime{60};  ///< --exit-when-empty before the first player joins
 constexpr int kLongestFrameMillis = 1000;             ///< as --frame-time
 constexpr int kExitHung = 1;                          ///< as for a game that fails
-constexpr const char* kShuttingDown = "The server is shutting down.";
+constexpr const char* kShuttingDown = "The server is shutting down.";  // as Ending says it
 
 /// Half-open connections: of a class behind one address, and of as many from there as the host lets in; of a
 /// few such crowds; of all players, if they come back at once. Each takes up to 192 KiB.
@@ -78,6 +78,10 @@ std::optional<ServerIdentity> identityOf(const HostOptions& options) {
   return ServerIdentity::loadOrMake(directory, std::chrono::system_clock::now());
 }
 
+LogEvent warningOf(const std::string& text) {
+  return {LogEvent::Level::kWarning, "warning: " + text};
+}
+
 // As if the signal had not been handled: its sender sees that it was.
 void endBySignal(int signal) {
   ::signal(signal, SIG_DFL);
@@ -106,17 +110,17 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_rooms(m_options, m_sessions, m_counters, m_log, [this] { flush(); }),
       m_client_log(m_log),
       m_admission({m_options, std::move(game), m_sessions, m_rooms, m_prefixes, m_counters,
-                   [this](const std::string& address, const std::string& text) {
-                     m_client_log.logNews(address, text, m_network.now());
+                   [this](const std::string& address, LogEvent event) {
+                     m_client_log.logNews(address, std::move(event), m_network.now());
                    },
                    [this](const auto& stream, AeadId aead) { return m_network.openDatagrams(stream, aead); },
-                   [this] { m_player_news.repeat(); }},
+                   [this] { m_player_news.repeat(); }, [this] { return m_ending.isOpen(); }},
                   m_io.get_executor()),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
-  for (const std::string& warning : m_options.warnings) m_log("warning: " + warning);
-  if (m_identity && !m_identity->warning().empty()) m_log("warning: " + m_identity->warning());
+  for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
+  if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
   const std::size_t wanted =
       maxConnections(m_options) + static_cast<std::size_t>(m_options.max_players) +  // with second streams
@@ -205,11 +209,67 @@ void Host::run(df::World& world) {
   endGame(world);
 }
 
+// The first SIGTERM lets players finish, if there is time for that; a second signal ends all (Watchdog.h).
 void Host::heedSignals(StopSignals& signals) {
-  if (signals.isAsked()) m_stop_sentence = kShuttingDown;
+  const Clock::time_point now = Clock::now();
+  if (signals.count() > std::exchange(m_heeded_signals, signals.count())) {
+    const bool waits = signals.signal() == SIGTERM && m_options.drain_time > 0;
+    const auto patience = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(waits ? m_options.drain_time : 0));
+    end({.at = now + patience, .when_empty = true});
+    if (waits) m_log("SIGTERM: no new players; ending when all have left");
+  }
   if (!signals.takeHangUp()) return;
   LineLog::reopenAll();
   m_log("SIGHUP: the log goes on in this file (there is no terminal, so the server does too)");
+  if (m_reload) reload([this](const std::string& sentence) { m_log(sentence); });
+}
+
+void Host::end(Ending::Plan plan) {
+  if (plan.at_round_end && m_rooms.isPrivate()) plan.at_round_end = !(plan.when_empty = true);
+  m_rooms.setLastRound(plan.at_round_end);
+  m_ending.setPlan(std::move(plan), Clock::now());
+}
+
+void Host::heedEnd(Clock::time_point now) {
+  if (const auto news = m_ending.takeNews(now)) sayToAll(*news);
+}
+
+void Host::sayToAll(const std::string& text) {
+  wire::ServerMessage message;
+  message.mutable_chat()->set_text(text);
+  m_sessions.forEachPlaying([&message](Session& session) { session.sendKept(message); });
+}
+
+// ---- options that change while it runs --------------------------------------------------------------------
+
+void Host::reload(std::function<void(const std::string& sentence)> done) {
+  if (!m_reload) return done("this server cannot read its options again");
+  const bool began = m_reload->begin(m_options, [this, done](Reloaded reloaded) {
+    asio::post(m_io, [this, done, reloaded = std::make_shared<Reloaded>(std::move(reloaded))] {
+      adoptReloaded(std::move(*reloaded), done);
+    });
+  });
+  if (!began) done("the options are being read already");
+}
+
+void Host::adoptReloaded(Reloaded reloaded, const std::function<void(const std::string&)>& done) {
+  if (!reloaded.problem.empty()) return done("the options stay as they were: " + reloaded.problem);
+  if (reloaded.options.password != m_options.password) m_admission.setPassword(std::move(reloaded.password));
+  const OptionChanges changes = takeOver(reloaded.options, m_options);
+  m_sessions.setMost(maxConnections(m_options));
+  useIdentity(std::move(reloaded.identity));
+  done("the options were read again: " + changes.text());
+}
+
+void Host::useIdentity(std::optional<ServerIdentity> identity) {
+  if (!identity) return;
+  if (identity->fingerprint() != m_identity->fingerprint()) {
+    m_log(warningOf("the key is another one: players who know the server are warned of it. It is " +
+                    identity->fingerprint().text()));
+  }
+  m_identity = std::move(identity);
+  m_network.setTls(m_identity->tls());
 }
 
 // On the watchdog's thread. The game may hold any lock of the process, that of the log too, so nothing is
@@ -280,6 +340,7 @@ void Host::tick() {
   m_tick_began = Clock::now();
   m_network.serve(m_tick_began + kMinService);  // the datagrams since the last one
   checkSessions();
+  heedEnd(m_tick_began);
   ++m_counters.ticks;
   m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
@@ -348,6 +409,13 @@ void Host::sendChat(const Session& session, const std::string& text) {
     ++m_counters.chat_dropped;
     return;
   }
+  if (m_options.log_chat) {
+    m_client_log.logNews(session.address(),
+                         {"chat",
+                          inQuotes(session.name()) + " says " + inQuotes(text),
+                          {{"player", session.name()}, {"line", text}}},
+                         m_network.now());
+  }
   wire::ServerMessage message;
   message.mutable_chat()->set_player(session.player());
   message.mutable_chat()->set_text(text);
@@ -358,7 +426,9 @@ void Host::endSession(Session& session) {
   m_admission.forgetSession(session);
   if (session.player() == 0) return;
   m_rooms.leave(session);
-  m_client_log.logNews(session.address(), inQuotes(session.name()) + " left", m_network.now());
+  m_client_log.logNews(session.address(),
+                       {"left", inQuotes(session.name()) + " left", {{"player", session.name()}}},
+                       m_network.now());
 }
 
 // ---- the end ----------------------------------------------------------------------------------------------
@@ -374,15 +444,17 @@ bool Host::isDeserted(Clock::time_point now) const {
 bool Host::isOver() const {
   const bool counted_out =
       m_options.ticks > 0 && m_counters.ticks >= static_cast<std::uint64_t>(m_options.ticks);
-  return m_rooms.isOver() || !m_stop_sentence.empty() || counted_out || isDeserted(Clock::now());
+  const Clock::time_point now = Clock::now();
+  return m_rooms.isOver() || m_ending.isDue(now, connected() == 0) || counted_out || isDeserted(now);
 }
 
 void Host::drain() {
   m_network.closeListener();
   std::string sentence = m_rooms.lastSentence();
-  if (sentence.empty()) sentence = m_stop_sentence;
+  if (sentence.empty() || m_ending.beginsAgain()) sentence = m_ending.sentence();
   if (sentence.empty()) sentence = "The game is over.";
-  m_sessions.forEach([&sentence](Session& session) { session.goodbye(sentence); });
+  const auto again = m_ending.beginsAgain() ? Ending::kLookAgain : std::chrono::seconds(0);
+  m_sessions.forEach([&](Session& session) { session.goodbye(sentence, again); });
   m_rooms.closeWorlds();
   m_network.flush();
   const Clock::time_point end = Clock::now() + kDrainTime;
@@ -400,7 +472,7 @@ void Host::drain() {
 }
 
 void Host::stop(const std::string& sentence) {
-  asio::post(m_io, [this, sentence] { m_stop_sentence = sentence; });
+  asio::post(m_io, [this, sentence] { end({.at = Clock::time_point(), .sentence = sentence}); });
 }
 
 void Host::post(std::function<void(df::World&)> job) {

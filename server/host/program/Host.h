@@ -17,8 +17,10 @@
 #include "host/net/NetworkThread.h"
 #include "host/net/PlayerPrefixes.h"
 #include "host/program/Admission.h"
+#include "host/program/Ending.h"
 #include "host/program/HostOptions.h"
 #include "host/program/PlayerNews.h"
+#include "host/program/Reload.h"
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 #include "host/program/SideLog.h"
@@ -80,6 +82,24 @@ class Host : public df::Runner {
   void run(df::World& world) override;
   /// End run() after the present tick, with this sentence to the players. Callable from another thread.
   void stop(const std::string& sentence);
+  /// End run() so; at the end of a round, where each player has a world of their own, is when all have left.
+  /// On the host's thread.
+  void end(Ending::Plan plan);
+  /// Do not end after all. False: nothing was planned. On the host's thread.
+  bool cancelEnd() { return m_ending.cancel(); }
+  /// What is planned, if anything. On the host's thread.
+  const Ending& ending() const { return m_ending; }
+  /// run() has ended so that the server begins again; its clients look for it.
+  bool beginsAgain() const { return m_ending.beginsAgain(); }
+
+  /// Reads the options again, on a thread of its own. Throws what says why it cannot.
+  using ReadOptions = Reload::ReadOptions;
+  /// SIGHUP without a terminal reads them so, and takes over what may change while it runs. Before run().
+  void setReload(ReadOptions read) { m_reload.emplace(std::move(read)); }
+  /// The same now. Files are read and passwords hashed on a thread of their own; then `done` is called on the
+  /// host's thread with what has changed, in words. Options that cannot be used, and those that need a
+  /// restart, leave what there was. On the host's thread.
+  void reload(std::function<void(const std::string& sentence)> done);
   /// Call `job` on the host's thread, between two ticks. Callable from another thread (tests inspect a
   /// running world with it).
   void post(std::function<void(df::World&)> job);
@@ -102,6 +122,10 @@ class Host : public df::Runner {
   void tick();
   void tickWorlds();
   void heedSignals(StopSignals& signals);
+  void heedEnd(Clock::time_point now);
+  void sayToAll(const std::string& text);
+  void adoptReloaded(Reloaded reloaded, const std::function<void(const std::string&)>& done);
+  void useIdentity(std::optional<ServerIdentity> identity);
   [[noreturn]] void endProcess(const ForcedEnd& end, SideLog& log);
   void checkSessions();
   void sendPlayers();
@@ -128,7 +152,9 @@ class Host : public df::Runner {
   PlayerNews m_player_news;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;
-  std::string m_stop_sentence;
+  Ending m_ending;
+  std::optional<Reload> m_reload;
+  int m_heeded_signals = 0;
   Clock::time_point m_empty_since;
   Clock::time_point m_tick_began;
 };

@@ -98,6 +98,10 @@ std::vector<Row> tableOf(HostOptions& o) {
         "NAIAD_PASSWORD"}},
       {{"--grace", &o.grace, "Seconds that a player whose connection broke may take to come back; 0: none",
         "NAIAD_GRACE", OptionRange{0, 3600}}},
+      {{"--drain-time", &o.drain_time,
+        "Seconds that SIGTERM gives players to finish: no new ones are let in, and the server ends when all "
+        "have left, or then; 0: it ends at once",
+        "NAIAD_DRAIN_TIME", OptionRange{0, 86400}}},
       {{"--join-file", &o.join_file,
         "Write address and fingerprint, as dfclient takes them, to this file once listening",
         "NAIAD_JOIN_FILE"}},
@@ -120,6 +124,21 @@ std::vector<Row> tableOf(HostOptions& o) {
         "Write what each player ought to see, tick by tick, to this file (for tests; large)", "NAIAD_TRUTH"}},
       {{"--port-file", &o.port_file, "Write the port number to this file once listening", "NAIAD_PORT_FILE"}},
       {{"--log", &o.log_file, "Append log lines to this file instead of stderr", "NAIAD_LOG"}},
+      {{"--log-format",
+        &o.log_format,
+        "How log lines look: text = sentences; json = an object a line, with the facts in it by name",
+        "NAIAD_LOG_FORMAT",
+        {},
+        {"text", "json"}},
+       UsedBy::kServer},
+      {{"--log-level",
+        &o.log_level,
+        "Log what is as bad as this, or worse",
+        "NAIAD_LOG_LEVEL",
+        {},
+        {"error", "warning", "info"}},
+       UsedBy::kServer},
+      {{"--log-chat", &o.log_chat, "Log what players say, too", "NAIAD_LOG_CHAT"}},
       {{"--headless", &o.headless, "Without network and players, as fast as possible", "NAIAD_HEADLESS"},
        UsedBy::kProgram},
       {{"--local-client", &o.local_client, "Started in a terminal: play there, too", "NAIAD_LOCAL_CLIENT"},
@@ -129,6 +148,11 @@ std::vector<Row> tableOf(HostOptions& o) {
        UsedBy::kProgram},
   };
 }
+
+/// Options that take effect while a server runs.
+constexpr std::string_view kLive[] = {
+    "--max-players", "--max-per-address", "--server-name", "--exit-when-empty", "--password",  "--grace",
+    "--drain-time",  "--certificate",     "--key",         "--log-format",      "--log-level", "--log-chat"};
 
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr std::size_t kMaxWebAddress = 300;  // a QR code of more does not fit a terminal
@@ -186,6 +210,20 @@ bool isHash(const std::string& password) {
   return password.starts_with("$argon2");
 }
 
+Program dfserver() {
+  return {"dfserver", "Hosts a Dragonfly game for terminals to join.",
+          std::string("Every option can also be set in the environment.\n\n") + kExitCodes, true};
+}
+
+std::string listOf(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
+    text += names[i];
+  }
+  return text;
+}
+
 void keepHome(HostOptions& options) {
   if (options.insecure && options.address == HostOptions().address) options.address = kLoopback;
 }
@@ -196,6 +234,18 @@ void warnOfReaders(const std::string& file, HostOptions& options) {
   struct stat facts {};
   if (isHash(options.password) || stat(file.c_str(), &facts) != 0 || (facts.st_mode & S_IROTH) == 0) return;
   options.warnings.push_back(file + " has the password, and every user can read it. Run: chmod o-r " + file);
+}
+
+HostOptions readHostOptions(int argc, const char* const* argv) {
+  HostOptions options;
+  std::vector<Option> all;
+  for (Row& row : tableOf(options)) {
+    if (row.used_by != UsedBy::kProgram) all.push_back(std::move(row.option));
+  }
+  readOptions(dfserver(), all, argc, argv);
+  if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
+  keepHome(options);
+  return options;
 }
 
 CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options) {
@@ -211,10 +261,7 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   all.push_back({"--list-games", &list_games, "Print the games that can be named, and exit"});
   all.push_back({"--markdown", &markdown, "Print the options as a Markdown table, and exit"});
   all.back().hidden = true;
-  const Program program{"dfserver", "Hosts a Dragonfly game for terminals to join.",
-                        std::string("Every option can also be set in the environment.\n\n") + kExitCodes,
-                        true};
-  switch (parseOptions(program, all, argc, argv)) {
+  switch (parseOptions(dfserver(), all, argc, argv)) {
     case Parsed::kRun:
       break;
     case Parsed::kDone:
@@ -233,6 +280,31 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
     return CommandLine::kDone;
   }
   return list_games ? CommandLine::kListGames : CommandLine::kRun;
+}
+
+OptionChanges takeOver(const HostOptions& next, HostOptions& now) {
+  OptionChanges changes;
+  HostOptions values = next;  // the table wants targets that can change
+  std::vector<Row> rows = tableOf(now);
+  const std::vector<Row> wanted = tableOf(values);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string& name = rows[i].option.name;
+    const std::string value = currentValue(wanted[i].option);
+    if (rows[i].used_by == UsedBy::kProgram || value == currentValue(rows[i].option)) continue;
+    const bool live = std::find(std::begin(kLive), std::end(kLive), name) != std::end(kLive);
+    if (live) copyValue(wanted[i].option, rows[i].option);
+    (live ? changes.changed : changes.need_restart).push_back(name.substr(2));
+  }
+  return changes;
+}
+
+std::string OptionChanges::text() const {
+  std::string text = changed.empty()
+                         ? "none has changed"
+                         : listOf(changed) + (changed.size() == 1 ? " has" : " have") + " changed";
+  if (!need_restart.empty())
+    text += "; " + listOf(need_restart) + (need_restart.size() == 1 ? " needs" : " need") + " a restart";
+  return text;
 }
 
 std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,

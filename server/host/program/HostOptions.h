@@ -39,6 +39,7 @@ struct HostOptions {
   std::string identity;           ///< directory of the key of its own; empty: the user's
   std::string password;           ///< that players need: itself, or its Argon2id hash; empty: none
   double grace = 60;              ///< seconds that a player whose connection broke may take to come back
+  double drain_time = 0;          ///< seconds that SIGTERM gives players to finish
   std::string join_file;          ///< write what to pass to dfclient here once listening
   std::string visitors;           ///< path of a socket for doors (VisitorsListener.h); empty: none
   std::string link_host;  ///< HOST[:PORT] for players elsewhere, in the link that is printed; empty: unknown
@@ -48,6 +49,9 @@ struct HostOptions {
   std::string truth_file;             ///< write what each player should see, tick by tick
   std::string port_file;              ///< write the port number here once listening
   std::string log_file;               ///< append log lines here instead of stderr
+  std::string log_format = "text";    ///< or "json"
+  std::string log_level = "info";     ///< the least: "error", "warning" or "info"
+  bool log_chat = false;              ///< log what players say, too
   std::vector<std::string> warnings;  ///< about these options, for the log
   // Of games that are programs themselves:
   bool headless = false;     ///< no network and no players
@@ -61,6 +65,21 @@ enum class CommandLine { kRun, kListGames, kDone, kUsageError };
 /// Fill `options` from the command line, the environment and --config FILE (in this order of precedence).
 /// Help, version and usage errors are printed here.
 CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options);
+
+/// The same options again, while the program runs: nothing is printed. Throws OptionError.
+HostOptions readHostOptions(int argc, const char* const* argv);
+
+/// What became of options that were read again: names without dashes.
+struct OptionChanges {
+  std::vector<std::string> changed;
+  std::vector<std::string> need_restart;  ///< have another value now, which is not used
+  /// "max-players and password have changed; address needs a restart".
+  std::string text() const;
+};
+
+/// Take over those values of `next` that may change while a server runs. Only the password's hash, the key
+/// and the certificate are not used by that alone.
+OptionChanges takeOver(const HostOptions& next, HostOptions& now);
 
 /// The value of a key in df-config.txt, empty if there is none.
 using ConfigValue = std::function<std::string(const std::string& key)>;

@@ -174,7 +174,8 @@ void Rooms::endRound(Room& room, const WorldEnd& end) {
   const bool hopeless = short_rounds >= kMaxShortRounds || (is_short && m_counters.joined == 0);
   const bool failed = end.why != WorldEnd::kGameOver;
   const std::string how = failed ? "The game " + end.text : "The round is over";
-  if (m_options.on_game_over == "restart" && !hasLastPlayer() && !hopeless && beginRound(room)) {
+  if (m_options.on_game_over == "restart" && !hasLastPlayer() && !hopeless && !m_last_round &&
+      beginRound(room)) {
     return room.say(how + (failed ? "; the next round begins." : "; the next one begins."));
   }
   const std::string sentence = failed ? how + "." : "The game is over.";

@@ -62,6 +62,8 @@ class Rooms {
 
   // Ticks and rounds.
 
+  /// No further round begins: what is played is the last one.
+  void setLastRound(bool last) { m_last_round = last; }
   /// The first room; with worlds of their own each player opens one.
   void open(df::World& world);
   /// Begin another round where a world has ended. Once a tick.
@@ -107,6 +109,7 @@ class Rooms {
   bool m_in_begin = false;
   bool m_over = false;  ///< there is no next round
   bool m_closing = false;
+  bool m_last_round = false;
   std::string m_last_sentence;
   std::string m_failure;
 };

@@ -11,6 +11,7 @@ std::string Counters::summary() const {
       {"refused_version", refused_version},
       {"refused_full", refused_full},
       {"refused_address", refused_address},
+      {"refused_closing", refused_closing},
       {"refused_game", refused_game},
       {"refused_name", refused_name},
       {"refused_password", refused_password},

@@ -15,6 +15,7 @@ struct Counters {
   std::uint64_t refused_version = 0;     ///< wrong protocol version
   std::uint64_t refused_full = 0;        ///< no place left
   std::uint64_t refused_address = 0;     ///< too many players from one address
+  std::uint64_t refused_closing = 0;     ///< the server is about to end
   std::uint64_t refused_game = 0;        ///< asked for another game
   std::uint64_t refused_name = 0;        ///< no usable name
   std::uint64_t malformed_frames = 0;    ///< oversized or empty frames: the connection ended

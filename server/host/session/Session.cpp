@@ -160,10 +160,11 @@ void Session::detach(Clock::time_point now) {
   if (!m_delivery.usesDatagrams(now)) releaseKeys();
 }
 
-void Session::goodbye(const std::string& sentence) {
+void Session::goodbye(const std::string& sentence, std::chrono::seconds again) {
   if (m_state == State::kEnding || m_state == State::kGone) return;
   wire::ServerMessage message;
   message.mutable_goodbye()->set_sentence(sentence);
+  message.mutable_goodbye()->set_again_seconds(static_cast<std::uint32_t>(again.count()));
   send(message);
   end();
 }

@@ -115,8 +115,8 @@ class Session {
   const ReliableChannel* stream() const { return m_streams.first(); }
   /// Keying material of the stream (Channel.h).
   std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
-  /// Send the client the reason, and end.
-  void goodbye(const std::string& sentence);
+  /// Send the client the reason, and end. `again`: the server is back within this time; 0: it is not.
+  void goodbye(const std::string& sentence, std::chrono::seconds again = std::chrono::seconds(0));
 
   /// Enforce deadlines. Once a tick: time between two calls that are far apart does not count as silence of
   /// the client (IdleTimer.h).

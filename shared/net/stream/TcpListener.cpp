@@ -239,6 +239,10 @@ void TcpListener::adopt(asio::generic::stream_protocol::socket socket, const tcp
   if (state_->acceptor.is_open() && state_->tls.context) state_->shakeHands(std::move(socket), peer);
 }
 
+void TcpListener::setTls(std::shared_ptr<const TlsContext> context) {
+  if (state_->tls.context && context) state_->tls.context = std::move(context);
+}
+
 void TcpListener::close() {
   state_->close();
 }

@@ -107,6 +107,9 @@ class TcpListener {
   /// `peer`. With TLS only; ignored after close().
   void adopt(asio::generic::stream_protocol::socket socket, const asio::ip::tcp::endpoint& peer);
 
+  /// Handshakes that begin from now on are made with this context; where there was none, nothing changes.
+  void setTls(std::shared_ptr<const TlsContext> context);
+
   /// Stop listening; no callback after this. Connections not accepted yet are reset by the kernel, handshakes
   /// under way are broken off.
   void close();

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/program/HostOptions.h"
+#include "shared/options/Options.h"
 
 namespace naiad {
 namespace {
@@ -31,6 +32,48 @@ TEST(HostOptions, AMisspeltOptionInTheConfigFileIsAnError) {
   std::ofstream(path) << "ticsk = 3\n";
   EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kUsageError);
   std::remove(path.c_str());
+}
+
+TEST(HostOptions, ReadAgainTheyThrowInsteadOfPrinting) {
+  const char* const good[] = {"dfserver", "--max-players", "3"};
+  EXPECT_EQ(readHostOptions(3, good).max_players, 3);
+  const char* const bad[] = {"dfserver", "--max-players", "many"};
+  EXPECT_THROW(readHostOptions(3, bad), OptionError);
+  const char* const together[] = {"dfserver", "--qr"};
+  EXPECT_THROW(readHostOptions(2, together), OptionError);
+  const char* const unknown[] = {"dfserver", "--max-plyers", "3"};
+  try {
+    readHostOptions(3, unknown);
+    ADD_FAILURE() << "it was taken";
+  } catch (const OptionError& error) {
+    EXPECT_STREQ(error.what(), "there is no option --max-plyers; did you mean --max-players?");
+  }
+}
+
+TEST(HostOptions, ARunningServerTakesOverWhatMayChange) {
+  HostOptions now;
+  HostOptions next;
+  EXPECT_EQ(takeOver(next, now).text(), "none has changed");
+  next.max_players = 7;
+  next.password = "xyzzy";
+  next.grace = 12.5;
+  next.log_chat = true;
+  EXPECT_EQ(takeOver(next, now).text(), "max-players, password, grace and log-chat have changed");
+  EXPECT_EQ(now.max_players, 7);
+  EXPECT_EQ(now.password, "xyzzy");
+  EXPECT_EQ(now.grace, 12.5);
+  EXPECT_TRUE(now.log_chat);
+}
+
+TEST(HostOptions, ARunningServerNamesWhatNeedsARestart) {
+  HostOptions now;
+  HostOptions next;
+  next.port = 1;
+  next.max_players = 7;
+  EXPECT_EQ(takeOver(next, now).text(), "max-players has changed; port needs a restart");
+  EXPECT_EQ(now.port, HostOptions().port);
+  next.game = "tron";
+  EXPECT_EQ(takeOver(next, now).text(), "none has changed; game and port need a restart");
 }
 
 TEST(HostOptions, ATickThatNoClientWouldBelieveIsAnError) {
