@@ -20,6 +20,7 @@
 #include "host/program/HostOptions.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Rooms.h"
+#include "host/program/ServiceNotify.h"
 #include "host/program/SessionTable.h"
 #include "host/program/SideLog.h"
 #include "host/program/TickClock.h"
@@ -105,6 +106,7 @@ class Host : public df::Runner {
   [[noreturn]] void endProcess(const ForcedEnd& end, SideLog& log);
   void checkSessions();
   void sendPlayers();
+  void notifyService();
   void flush();
   void sweep();
   void drain();
@@ -126,6 +128,7 @@ class Host : public df::Runner {
   PrefixAllowance m_chat;
   Watchdog* m_p_watchdog = nullptr;  ///< while it runs
   PlayerNews m_player_news;
+  ServiceNotify m_service;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;
   std::string m_stop_sentence;

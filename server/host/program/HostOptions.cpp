@@ -192,6 +192,18 @@ void keepHome(HostOptions& options) {
 
 }  // namespace
 
+void useSockets(const InheritedSockets& sockets, HostOptions& options) {
+  const bool is_told = options.port != kDefaultPort && options.port != sockets.port;
+  if (is_told) {
+    options.warnings.push_back("the port is " + std::to_string(sockets.port) +
+                               ", of the sockets from the service manager, and not " +
+                               std::to_string(options.port));
+  }
+  options.sockets = sockets;
+  options.address = sockets.address;
+  options.port = sockets.port;
+}
+
 void warnOfReaders(const std::string& file, HostOptions& options) {
   struct stat facts {};
   if (isHash(options.password) || stat(file.c_str(), &facts) != 0 || (facts.st_mode & S_IROTH) == 0) return;

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "host/net/InheritedSockets.h"
 #include "shared/net/base/Limits.h"
 #include "shared/options/Options.h"
 
@@ -49,6 +51,8 @@ struct HostOptions {
   std::string port_file;              ///< write the port number here once listening
   std::string log_file;               ///< append log lines here instead of stderr
   std::vector<std::string> warnings;  ///< about these options, for the log
+  /// Not an option: what the service manager has opened. `address` and `port` are those of the sockets then.
+  std::optional<InheritedSockets> sockets;
   // Of games that are programs themselves:
   bool headless = false;     ///< no network and no players
   bool local_client = true;  ///< in a terminal: attach a client there
@@ -74,6 +78,9 @@ using ConfigPlace = std::function<std::string(const std::string& key)>;
 /// with place_of(key).
 std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,
                                          const ConfigPlace& place_of = {});
+
+/// Listen with these instead of opening `address` and `port`; a warning if an option gave another port.
+void useSockets(const InheritedSockets& sockets, HostOptions& options);
 
 /// `file` gave the password: add a warning to `options` if every user can read it there, and it is no hash.
 void warnOfReaders(const std::string& file, HostOptions& options);

@@ -161,6 +161,7 @@ int main(int argc, char** argv) {
   const std::string config = naiad::configFileOf(argc, argv);
   naiad::hidePassword(argc, argv);
   try {
+    if (const auto sockets = naiad::InheritedSockets::take()) naiad::useSockets(*sockets, options);
     return serve(options, config);
   } catch (const naiad::GameError& error) {
     std::cerr << "dfserver: " << error.what() << "\n";
