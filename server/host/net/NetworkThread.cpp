@@ -32,14 +32,13 @@ constexpr int kMinServed = 64;
 
 NetworkThread::NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port,
                              OnChannel on_channel, TcpOptions options, TlsListening tls, Limits limits,
-                             VisitorsListening visitors)
-    : m_home(home),
-      m_on_channel(std::move(on_channel)),
-      m_limits(limits),
-      m_port(openServerPort(
-          m_io, address, port,
-          [this](std::unique_ptr<ReliableChannel> channel) { meetStream(std::move(channel)); }, options,
-          std::move(tls), std::move(visitors))) {}
+                             VisitorsListening visitors, const std::optional<InheritedSockets>& inherited)
+    : m_home(home), m_on_channel(std::move(on_channel)), m_limits(limits) {
+  const OnChannel meet = [this](std::unique_ptr<ReliableChannel> channel) { meetStream(std::move(channel)); };
+  m_port = inherited
+               ? adoptServerPort(m_io, *inherited, meet, options, std::move(tls), std::move(visitors))
+               : openServerPort(m_io, address, port, meet, options, std::move(tls), std::move(visitors));
+}
 
 NetworkThread::~NetworkThread() {
   stop();

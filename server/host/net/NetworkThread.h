@@ -65,10 +65,12 @@ class NetworkThread {
     std::size_t unmet = 512;        ///< connections that it has not met yet
   };
 
-  /// Listens from now on (ServerPort.h); connections wait until start(). `home`: runs the tick thread's
-  /// handlers; from there `on_channel` and the channels' callbacks are called. Throws ListenError.
+  /// Listens from now on (ServerPort.h), with the `inherited` sockets if there are any, whatever `address`
+  /// and `port` are; connections wait until start(). `home`: runs the tick thread's handlers; from there
+  /// `on_channel` and the channels' callbacks are called. Throws ListenError.
   NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port, OnChannel on_channel,
-                TcpOptions options, TlsListening tls, Limits limits, VisitorsListening visitors = {});
+                TcpOptions options, TlsListening tls, Limits limits, VisitorsListening visitors = {},
+                const std::optional<InheritedSockets>& inherited = std::nullopt);
   NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port, OnChannel on_channel,
                 TcpOptions options, TlsListening tls)
       : NetworkThread(home, address, port, std::move(on_channel), options, std::move(tls), Limits{}) {}

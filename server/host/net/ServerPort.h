@@ -6,6 +6,7 @@
 #include <string>
 
 #include "host/net/DatagramService.h"
+#include "host/net/InheritedSockets.h"
 #include "shared/net/stream/TcpListener.h"
 #include "shared/net/stream/VisitorsListener.h"
 
@@ -23,5 +24,11 @@ struct ServerPort {
 ServerPort openServerPort(asio::io_context& context, const std::string& address, std::uint16_t port,
                           TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls,
                           VisitorsListening visitors = {});
+
+/// The same with sockets that the service manager has opened, which are the port's from now on. Throws
+/// ListenError without `tls`.
+ServerPort adoptServerPort(asio::io_context& context, const InheritedSockets& sockets,
+                           TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls,
+                           VisitorsListening visitors = {});
 
 }  // namespace naiad

@@ -104,7 +104,7 @@ Host::Host(HostOptions options, std::string game, Log log)
           [this](std::unique_ptr<ReliableChannel> channel) {
             m_sessions.add(std::move(channel), sessionEvents(), Clock::now());
           },
-          channelOptions(), listening(), NetworkThread::Limits(), visitors()),
+          channelOptions(), listening(), NetworkThread::Limits(), visitors(), m_options.sockets),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
       m_rooms(m_options, m_sessions, m_counters, m_log, [this] { flush(); }),
@@ -199,6 +199,7 @@ void Host::run(df::World& world) {
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   const auto work = asio::make_work_guard(m_io);  // or waiting for a deadline would end at once
   m_network.start();
+  m_service.notifyReady();
   while (!isOver()) {
     serveUntil(schedule.deadline());
     heedSignals(signals);
@@ -222,7 +223,12 @@ void Host::heedSignals(StopSignals& signals) {
   if (!signals.takeHangUp()) return;
   LineLog::reopenAll();
   m_log("SIGHUP: the log goes on in this file (there is no terminal, so the server does too)");
-  if (m_reload) reload([this](const std::string& sentence) { m_log(sentence); });
+  if (!m_reload) return;
+  m_service.notifyReloading(now);
+  reload([this](const std::string& sentence) {
+    m_service.notifyReady();
+    m_log(sentence);
+  });
 }
 
 void Host::end(Ending::Plan plan) {
@@ -347,6 +353,7 @@ void Host::tick() {
   tickWorlds();
   sendPlayers();
   flush();
+  notifyService();
   if (m_observer) m_observer(*m_p_world);
 }
 
@@ -366,6 +373,15 @@ void Host::checkSessions() {
     session.checkDeadlines(now);
     if (session.takeProof()) m_admission.confirmToken(session);
   });
+}
+
+// A tick that hangs keeps the service manager from being told, so that it ends and restarts the server.
+void Host::notifyService() {
+  if (!m_service.isActive()) return;
+  m_service.keepAlive(m_tick_began);
+  const std::size_t playing = m_sessions.playing();
+  m_service.notifyStatus(m_network.address() + ", " + std::to_string(playing) +
+                         (playing == 1 ? " player" : " players"));
 }
 
 // The list of players has those of all rooms.
@@ -449,6 +465,7 @@ bool Host::isOver() const {
 }
 
 void Host::drain() {
+  m_service.notifyStopping();
   m_network.closeListener();
   std::string sentence = m_rooms.lastSentence();
   if (sentence.empty() || m_ending.beginsAgain()) sentence = m_ending.sentence();

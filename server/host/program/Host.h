@@ -22,6 +22,7 @@
 #include "host/program/PlayerNews.h"
 #include "host/program/Reload.h"
 #include "host/program/Rooms.h"
+#include "host/program/ServiceNotify.h"
 #include "host/program/SessionTable.h"
 #include "host/program/SideLog.h"
 #include "host/program/TickClock.h"
@@ -129,6 +130,7 @@ class Host : public df::Runner {
   [[noreturn]] void endProcess(const ForcedEnd& end, SideLog& log);
   void checkSessions();
   void sendPlayers();
+  void notifyService();
   void flush();
   void sweep();
   void drain();
@@ -150,6 +152,7 @@ class Host : public df::Runner {
   PrefixAllowance m_chat;
   Watchdog* m_p_watchdog = nullptr;  ///< while it runs
   PlayerNews m_player_news;
+  ServiceNotify m_service;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;
   Ending m_ending;

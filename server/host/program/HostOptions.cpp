@@ -1,6 +1,7 @@
 #include "host/program/HostOptions.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,7 +10,9 @@
 
 #include "host/program/Announcement.h"
 #include "shared/net/stream/JoinLink.h"
+#include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
+#include "shared/options/UnknownVariables.h"
 
 namespace naiad {
 
@@ -154,6 +157,27 @@ constexpr std::string_view kLive[] = {
     "--max-players", "--max-per-address", "--server-name", "--exit-when-empty", "--password",  "--grace",
     "--drain-time",  "--certificate",     "--key",         "--log-format",      "--log-level", "--log-chat"};
 
+/// Variables that other programs of the project read, or this one beside its table.
+const char* const kOtherVariables[] = {"NAIAD_ASCII",  "NAIAD_CLIENT",     "NAIAD_FINGERPRINT",
+                                       "NAIAD_GAMES",  "NAIAD_IDLE_LIMIT", "NAIAD_KNOWN_SERVERS",
+                                       "NAIAD_NAME",   "NAIAD_NO_MOUSE",   "NAIAD_NO_RESUME",
+                                       "NAIAD_SERVER", "NAIAD_SOUND",      "NAIAD_WORLD_SOCKET"};
+
+/// Files, for completions: these options name them.
+const char* typeOf(const std::string& name) {
+  for (const char* p_file : {"--certificate", "--key", "--join-file", "--truth", "--port-file", "--log"})
+    if (name == p_file) return "FILE";
+  if (name == "--identity") return "DIR";
+  return name == "--visitors" ? "SOCKET" : "";
+}
+
+void warnOfUnknownVariables(const std::vector<Row>& rows, HostOptions& options) {
+  std::vector<std::string> known(std::begin(kOtherVariables), std::end(kOtherVariables));
+  for (const Row& row : rows) known.push_back(row.option.environment);
+  for (const std::string& sentence : complainOfUnknownVariables(environ, "NAIAD_", known))
+    options.warnings.push_back(sentence);
+}
+
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr std::size_t kMaxWebAddress = 300;  // a QR code of more does not fit a terminal
 constexpr int kMinFrameMicros = 1000;        // clients believe no shorter one
@@ -224,11 +248,62 @@ std::string listOf(const std::vector<std::string>& names) {
   return text;
 }
 
+/// What to print instead of running.
+struct Printing {
+  bool games = false;
+  bool check = false;
+  bool config = false;
+  bool markdown = false;
+};
+
+/// The options of dfserver's command line. `password_place`: see Option::p_place.
+std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, std::string& password_place) {
+  std::vector<Row> rows = tableOf(options);
+  warnOfUnknownVariables(rows, options);
+  std::vector<Option> all;
+  for (Row& row : rows) {
+    if (row.used_by == UsedBy::kProgram) continue;
+    Option& option = all.emplace_back(std::move(row.option));
+    option.shows_default = true;
+    if (option.type.empty()) option.type = typeOf(option.name);
+    option.is_secret = option.name == "--password";
+    if (option.is_secret) option.p_place = &password_place;
+  }
+  all.push_back({"--list-games", &printing.games, "Print the games that can be named, and exit"});
+  all.push_back({"--check-config", &printing.check,
+                 "Say what is wrong with options, environment and the file of --config, and exit (0 or 2)"});
+  all.push_back({"--print-config", &printing.config, "Print what they amount to, as such a file, and exit"});
+  all.push_back({"--markdown", &printing.markdown, "Print the options as a Markdown table, and exit"});
+  all.back().hidden = true;
+  return all;
+}
+
+CommandLine printConfig(const Printing& printing, const std::vector<Option>& all,
+                        const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) std::cerr << "dfserver: warning: " << warning << "\n";
+  for (const Option& option : all) {
+    if (printing.config && isSetting(option)) std::cout << configLine(option) << "\n";
+  }
+  return CommandLine::kDone;
+}
+
 void keepHome(HostOptions& options) {
   if (options.insecure && options.address == HostOptions().address) options.address = kLoopback;
 }
 
 }  // namespace
+
+void useSockets(const InheritedSockets& sockets, HostOptions& options) {
+  const bool is_told = options.port != kDefaultPort && options.port != sockets.port;
+  if (is_told) {
+    options.warnings.push_back("the port is " + std::to_string(sockets.port) +
+                               ", of the sockets from the service manager, and not " +
+                               std::to_string(options.port));
+  }
+  options.sockets = sockets;
+  options.address = sockets.address;
+  options.port = sockets.port;
+}
 
 void warnOfReaders(const std::string& file, HostOptions& options) {
   struct stat facts {};
@@ -249,18 +324,9 @@ HostOptions readHostOptions(int argc, const char* const* argv) {
 }
 
 CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options) {
-  bool list_games = false;
-  bool markdown = false;
+  Printing printing;
   std::string password_place;
-  std::vector<Option> all;
-  for (Row& row : tableOf(options)) {
-    row.option.shows_default = true;
-    if (row.option.name == "--password") row.option.p_place = &password_place;
-    if (row.used_by != UsedBy::kProgram) all.push_back(std::move(row.option));
-  }
-  all.push_back({"--list-games", &list_games, "Print the games that can be named, and exit"});
-  all.push_back({"--markdown", &markdown, "Print the options as a Markdown table, and exit"});
-  all.back().hidden = true;
+  const std::vector<Option> all = commandLineOf(options, printing, password_place);
   switch (parseOptions(dfserver(), all, argc, argv)) {
     case Parsed::kRun:
       break;
@@ -275,11 +341,12 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   }
   keepHome(options);
   if (!password_place.empty()) warnOfReaders(password_place.substr(0, password_place.rfind(':')), options);
-  if (markdown) {
+  if (printing.config || printing.check) return printConfig(printing, all, options.warnings);
+  if (printing.markdown) {
     std::cout << hostOptionsMarkdown();
     return CommandLine::kDone;
   }
-  return list_games ? CommandLine::kListGames : CommandLine::kRun;
+  return printing.games ? CommandLine::kListGames : CommandLine::kRun;
 }
 
 OptionChanges takeOver(const HostOptions& next, HostOptions& now) {
@@ -310,7 +377,9 @@ std::string OptionChanges::text() const {
 std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,
                                          const ConfigPlace& place_of) {
   std::set<std::string> given;
-  for (const Row& row : tableOf(options)) {
+  const std::vector<Row> rows = tableOf(options);
+  warnOfUnknownVariables(rows, options);
+  for (const Row& row : rows) {
     if (row.used_by == UsedBy::kServer) continue;
     const std::string key = keyOf(row);
     const char* p_environment = std::getenv(row.option.environment.c_str());

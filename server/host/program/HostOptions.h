@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "host/net/InheritedSockets.h"
 #include "shared/net/base/Limits.h"
 #include "shared/options/Options.h"
 
@@ -53,6 +55,8 @@ struct HostOptions {
   std::string log_level = "info";     ///< the least: "error", "warning" or "info"
   bool log_chat = false;              ///< log what players say, too
   std::vector<std::string> warnings;  ///< about these options, for the log
+  /// Not an option: what the service manager has opened. `address` and `port` are those of the sockets then.
+  std::optional<InheritedSockets> sockets;
   // Of games that are programs themselves:
   bool headless = false;     ///< no network and no players
   bool local_client = true;  ///< in a terminal: attach a client there
@@ -93,6 +97,9 @@ using ConfigPlace = std::function<std::string(const std::string& key)>;
 /// with place_of(key).
 std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,
                                          const ConfigPlace& place_of = {});
+
+/// Listen with these instead of opening `address` and `port`; a warning if an option gave another port.
+void useSockets(const InheritedSockets& sockets, HostOptions& options);
 
 /// `file` gave the password: add a warning to `options` if every user can read it there, and it is no hash.
 void warnOfReaders(const std::string& file, HostOptions& options);

@@ -254,7 +254,8 @@ void ProgramHost::serve(df::World& world) {
   if (wantsWorlds(m_options))
     launcher = launchProgram(m_options, df::Config::getInstance().getLogFile(), log);
   const crash::Report crashes(programName(), lines ? lines->descriptor() : -1);
-  std::unique_ptr<Host> host = openHost(m_options, m_given.count("port") > 0, log);
+  if (const auto sockets = InheritedSockets::take()) useSockets(*sockets, m_options);
+  std::unique_ptr<Host> host = openHost(m_options, m_given.count("port") > 0 || m_options.sockets, log);
   writeWhereabouts(m_options, *host);
   log(programName() + " is a server on " + host->address());
   const std::vector<std::string> how = howToJoin(*host, m_options, kOpenness);

@@ -114,14 +114,28 @@ void useLogOptions(const naiad::HostOptions& options, naiad::LineLog& lines) {
 struct Start {
   naiad::StartCommand command;
   naiad::HostOptions options;
-  std::string config;                  ///< file of --config
-  std::optional<std::uint16_t> again;  ///< to be run again on this port
+  std::string config;                                ///< file of --config
+  std::optional<std::uint16_t> again = {};           ///< to be run again on this port
+  std::optional<naiad::InheritedSockets> kept = {};  ///< that it would be run again with
 };
+
+void takeSockets(Start& start) {
+  const auto sockets = naiad::InheritedSockets::take();
+  if (!sockets) return;
+  naiad::useSockets(*sockets, start.options);
+  start.kept = sockets->duplicate();
+}
+
+[[noreturn]] void runAgain(const Start& start) {
+  if (start.kept) start.kept->putBack();
+  start.command.run(*start.again);
+}
 
 void watchReloads(const Start& start, naiad::Host& host, naiad::LineLog& lines) {
   host.setReload([&start, &lines] {
     naiad::HostOptions options = naiad::readHostOptions(start.command.argc(), start.command.argv().data());
     useLogOptions(options, lines);
+    if (start.kept) naiad::useSockets(*start.kept, options);
     return options;
   });
 }
@@ -197,11 +211,12 @@ int main(int argc, char** argv) {
     case naiad::CommandLine::kRun:
       break;
   }
-  Start start{naiad::StartCommand(argc, argv), options, naiad::configFileOf(argc, argv), {}};
+  Start start{naiad::StartCommand(argc, argv), options, naiad::configFileOf(argc, argv)};
   naiad::hidePassword(argc, argv);
   try {
+    takeSockets(start);
     const int code = serve(start);
-    if (start.again) start.command.run(*start.again);
+    if (start.again) runAgain(start);
     return code;
   } catch (const naiad::GameError& error) {
     std::cerr << "dfserver: " << error.what() << "\n";

@@ -8,6 +8,7 @@
 #include <asio/ip/tcp.hpp>
 #include <asio/ip/v6_only.hpp>
 #include <asio/steady_timer.hpp>
+#include <cerrno>
 #include <chrono>
 #include <map>
 #include <sstream>
@@ -34,6 +35,9 @@ struct TcpListener::State : std::enable_shared_from_this<State> {
         known({tls.max_half_open_known, tls.max_half_open_per_prefix}) {}
 
   void listen(const std::string& numeric_address, std::uint16_t port);
+  void adoptListening(int socket);
+  void requireEncryption(const asio::ip::address& address) const;
+  void deferAccepts();
   void accept();
   void onAccepted(const std::error_code& error, tcp::socket socket);
   void meet(tcp::socket socket);
@@ -57,16 +61,43 @@ struct TcpListener::State : std::enable_shared_from_this<State> {
   Counters counters;
 };
 
+void TcpListener::State::requireEncryption(const asio::ip::address& address) const {
+  if (tls.context || isLoopback(address)) return;
+  throw ListenError("Cannot listen on " + address.to_string() +
+                        ": connections are not encrypted, so only loopback addresses are allowed.",
+                    std::make_error_code(std::errc::invalid_argument));
+}
+
+void TcpListener::State::deferAccepts() {
+  if (!tls.context || tls.defer_accept.count() <= 0) return;
+  const int seconds = static_cast<int>(tls.defer_accept.count());  // where it fails, silence is accepted
+  setsockopt(acceptor.native_handle(), IPPROTO_TCP, TCP_DEFER_ACCEPT, &seconds, sizeof seconds);
+}
+
+void TcpListener::State::adoptListening(int socket) {
+  sockaddr_storage name{};
+  socklen_t size = sizeof name;
+  std::error_code error;
+  if (getsockname(socket, reinterpret_cast<sockaddr*>(&name), &size) != 0)
+    throw ListenError("Cannot listen with a socket from the service manager.",
+                      {errno, std::generic_category()});
+  acceptor.assign(name.ss_family == AF_INET6 ? tcp::v6() : tcp::v4(), socket, error);
+  if (!error) endpoint = acceptor.local_endpoint(error);
+  if (error)
+    throw ListenError("Cannot listen with a socket from the service manager (" + error.message() + ").",
+                      error);
+  requireEncryption(endpoint.address());
+  deferAccepts();
+}
+
 void TcpListener::State::listen(const std::string& numeric_address, std::uint16_t port) {
   std::error_code error;
   const auto address = asio::ip::make_address(numeric_address, error);
-  const auto refused = std::make_error_code(std::errc::invalid_argument);
-  if (error) throw ListenError("\"" + numeric_address + "\" is not a numeric IPv4 or IPv6 address.", refused);
-  if (!tls.context && !isLoopback(address)) {
-    throw ListenError("Cannot listen on " + numeric_address +
-                          ": connections are not encrypted, so only loopback addresses are allowed.",
-                      refused);
+  if (error) {
+    throw ListenError("\"" + numeric_address + "\" is not a numeric IPv4 or IPv6 address.",
+                      std::make_error_code(std::errc::invalid_argument));
   }
+  requireEncryption(address);
   endpoint = tcp::endpoint(address, port);
   acceptor.open(endpoint.protocol(), error);
   if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
@@ -74,10 +105,7 @@ void TcpListener::State::listen(const std::string& numeric_address, std::uint16_
     acceptor.set_option(asio::ip::v6_only(!address.is_unspecified()), error);
   }
   if (!error) acceptor.bind(endpoint, error);
-  if (!error && tls.context && tls.defer_accept.count() > 0) {
-    const int seconds = static_cast<int>(tls.defer_accept.count());  // where it fails, silence is accepted
-    setsockopt(acceptor.native_handle(), IPPROTO_TCP, TCP_DEFER_ACCEPT, &seconds, sizeof seconds);
-  }
+  if (!error) deferAccepts();
   if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
   if (!error) endpoint = acceptor.local_endpoint(error);
   if (!error) return;
@@ -210,6 +238,13 @@ TcpListener::TcpListener(asio::io_context& context, const std::string& address, 
                          OnChannel on_channel, TcpOptions options, TlsListening tls)
     : state_(std::make_shared<State>(context, std::move(on_channel), options, std::move(tls))) {
   state_->listen(address, port);
+  state_->accept();
+}
+
+TcpListener::TcpListener(asio::io_context& context, int listening_socket, OnChannel on_channel,
+                         TcpOptions options, TlsListening tls)
+    : state_(std::make_shared<State>(context, std::move(on_channel), options, std::move(tls))) {
+  state_->adoptListening(listening_socket);
   state_->accept();
 }
 

@@ -89,6 +89,9 @@ class TcpListener {
   /// ListenError.
   TcpListener(asio::io_context& context, const std::string& address, std::uint16_t port, OnChannel on_channel,
               TcpOptions options = {}, TlsListening tls = {});
+  /// The same with a TCP socket that listens already, which is the listener's from now on.
+  TcpListener(asio::io_context& context, int listening_socket, OnChannel on_channel, TcpOptions options,
+              TlsListening tls);
   ~TcpListener();
   TcpListener(const TcpListener&) = delete;
   TcpListener& operator=(const TcpListener&) = delete;

@@ -110,6 +110,30 @@ TEST_F(OptionsTest, AFileIsReadLineByLine) {
   EXPECT_FALSE(quiet);
 }
 
+TEST_F(OptionsTest, EachWrongLineOfTheFileIsNamed) {
+  const std::string file = "dfthing: " + config.string();
+  EXPECT_EQ(parseFile("prot = 1\nmax-players = 3\nport = 70000\n\nquite\n"),
+            file + ":1: there is no option \"prot\"; did you mean port?\n" + file +
+                ":3: port: Value 70000 not in range 0 to 65535\n" + file +
+                ":5: there is no option \"quite\"; did you mean quiet?" + kHelp);
+  EXPECT_EQ(result, Parsed::kUsageError);
+}
+
+TEST_F(OptionsTest, ATextWithoutAValueIsEmpty) {
+  name = "before";
+  EXPECT_EQ(parseFile("server-name =\n"), "");
+  EXPECT_EQ(name, "");
+  EXPECT_NE(parseFile("port =\n"), "") << "a number is not";
+}
+
+TEST_F(OptionsTest, APageIsPrintedWhateverElseIsWanted) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(parse({"--option-page", "bash"}), "");
+  EXPECT_EQ(result, Parsed::kDone);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("complete -F _dfthing dfthing"), std::string::npos);
+  EXPECT_EQ(parse({"--option-page", "pdf"}), std::string("dfthing: there is no page \"pdf\"") + kHelp);
+}
+
 TEST_F(OptionsTest, CommandLineAndEnvironmentCountMoreThanTheFile) {
   setenv("OPTIONS_TEST_PORT", "71", 1);
   EXPECT_EQ(parseFile("port = 70\nmax-players = 3\nserver-name = x\n", {"--max-players", "4"}), "");
