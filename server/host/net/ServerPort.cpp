@@ -24,8 +24,10 @@ ServerPort open(asio::io_context& context, const std::string& address, std::uint
   udp.address = address;
   udp.port = opened.streams->port();
   udp.v6_only = false;
+  auto socket = std::make_unique<UdpSocket>(context, udp);
+  opened.p_socket = socket.get();
   opened.datagrams = std::make_unique<DatagramService>(
-      std::make_unique<UdpSocket>(context, udp), [] { return std::chrono::steady_clock::now(); }, randomBits);
+      std::move(socket), [] { return std::chrono::steady_clock::now(); }, randomBits);
   return opened;
 }
 

@@ -11,6 +11,8 @@
 #include "engine/managers/GameManager.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "host/metrics/MetricsAddress.h"
+#include "host/metrics/MetricsServer.h"
 #include "host/program/CrashReport.h"
 #include "host/program/NetworkReport.h"
 #include "host/program/StopSignals.h"
@@ -103,7 +105,7 @@ Host::Host(HostOptions options, std::string game, Log log)
           channelOptions(), listening(), NetworkThread::Limits(), visitors()),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
-      m_rooms(m_options, m_sessions, m_counters, m_log, [this] { flush(); }),
+      m_rooms(m_options, m_sessions, m_counters, m_log, [this] { flush(); }, m_stages),
       m_client_log(m_log),
       m_admission({m_options, std::move(game), m_sessions, m_rooms, m_prefixes, m_counters,
                    [this](const std::string& address, const std::string& text) {
@@ -115,6 +117,7 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_chat(PrefixRates::chat(m_options.max_per_address)),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
+  openMetrics();
   for (const std::string& warning : m_options.warnings) m_log("warning: " + warning);
   if (m_identity && !m_identity->warning().empty()) m_log("warning: " + m_identity->warning());
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
@@ -125,6 +128,19 @@ Host::Host(HostOptions options, std::string game, Log log)
     m_log("only " + std::to_string(files) + " files may be open (ulimit -Hn): too few for " +
           std::to_string(m_options.max_players) + " players and those who come back");
   }
+}
+
+// Before the listener's players come, and like that: it cannot listen, or somebody has the port.
+void Host::openMetrics() {
+  if (m_options.metrics.empty()) return;
+  try {
+    m_metrics = std::make_unique<HostMetrics>(HostMetrics::Sources{m_options, m_counters, m_network, m_sessions,
+                                                                   m_rooms, m_admission, m_stages});
+  } catch (const MetricsError& error) {
+    throw ListenError(error.what(), std::make_error_code(std::errc::address_in_use));
+  }
+  m_log("metrics are at http://" + MetricsAddress::parse(m_options.metrics)->hostText() + ":" +
+        std::to_string(m_metrics->port()) + "/metrics");
 }
 
 // Half-open connections from prefixes with players have places of their own, so that a crowd of others does
@@ -195,10 +211,12 @@ void Host::run(df::World& world) {
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   const auto work = asio::make_work_guard(m_io);  // or waiting for a deadline would end at once
   m_network.start();
+  if (m_metrics) m_metrics->begin(TickLength::fromMicros(m_options.frame_micros).times(1));
   while (!isOver()) {
     serveUntil(schedule.deadline());
     heedSignals(signals);
     if (isDue(schedule)) tick();
+    if (m_metrics) m_metrics->update(Clock::now());
   }
   drain();
   m_p_watchdog = nullptr;
@@ -269,6 +287,7 @@ void Host::serveUntil(Clock::time_point deadline) {
 bool Host::isDue(TickClock& schedule) {
   const Clock::time_point now = Clock::now();
   if (now < schedule.deadline()) return false;
+  if (m_metrics) m_metrics->beginTick(m_counters.ticks + 1, schedule.deadline(), now);
   m_counters.late_ticks += now - schedule.deadline() > kLate ? 1 : 0;
   m_counters.rebased_ticks += schedule.beginTick(now) ? 1 : 0;
   return true;
@@ -278,14 +297,18 @@ bool Host::isDue(TickClock& schedule) {
 // process of its own ends its tick later, and what it publishes is flushed then.
 void Host::tick() {
   m_tick_began = Clock::now();
+  m_stages.enter(Stage::kReceive);
   m_network.serve(m_tick_began + kMinService);  // the datagrams since the last one
+  m_stages.enter(Stage::kSessions);
   checkSessions();
   ++m_counters.ticks;
   m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
   tickWorlds();
+  m_stages.enter(Stage::kNews);
   sendPlayers();
   flush();
+  m_stages.enter(Stage::kBetween);
   if (m_observer) m_observer(*m_p_world);
 }
 
@@ -323,7 +346,14 @@ void Host::sendPlayers() {
 
 // The flush after the last room's tick ends the host's tick.
 void Host::flush() {
-  m_rooms.isTicking() ? m_network.flush() : m_network.flushTick(m_tick_began);
+  const Stage before = m_stages.enter(Stage::kFlush);
+  if (m_rooms.isTicking()) {
+    m_network.flush();
+  } else {
+    m_network.flushTick(m_tick_began);
+    if (m_metrics) m_metrics->endTick(Clock::now());
+  }
+  m_stages.enter(before);
 }
 
 void Host::sweep() {
@@ -378,6 +408,7 @@ bool Host::isOver() const {
 }
 
 void Host::drain() {
+  if (m_metrics) m_metrics->beginDrain(false);
   m_network.closeListener();
   std::string sentence = m_rooms.lastSentence();
   if (sentence.empty()) sentence = m_stop_sentence;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/metrics/StageClock.h"
 #include "host/program/InputTurn.h"
 #include "host/program/SoundNews.h"
 #include "host/session/Session.h"
@@ -20,8 +21,9 @@ namespace naiad {
 
 class Room {
  public:
-  /// `first_only`: of several players, only the first one's input is heard.
-  Room(std::unique_ptr<WorldPort> port, bool first_only);
+  /// `first_only`: of several players, only the first one's input is heard. `stages`: measures what a tick
+  /// does; outlives the room.
+  Room(std::unique_ptr<WorldPort> port, bool first_only, StageClock& stages);
   Room(const Room&) = delete;
   Room& operator=(const Room&) = delete;
 
@@ -84,6 +86,8 @@ class Room {
   bool isTicking() const { return m_ticking; }
   /// The newest tick that was begun.
   std::uint32_t tick() const { return m_p_port->nextTick() - 1; }
+  /// Objects that are published; 0 without players.
+  std::size_t objects() const { return m_watched ? m_publisher.liveCount() : 0; }
   /// Ticks of the present world.
   std::uint64_t ticks() const { return m_ticks; }
 
@@ -101,6 +105,7 @@ class Room {
   void sendNotes() const;
 
   std::unique_ptr<WorldPort> m_p_port;
+  StageClock& m_stages;
   Publisher m_publisher;
   SoundNews m_sound_news;
   std::vector<Session*> m_members;  ///< by player; those that are ending among them

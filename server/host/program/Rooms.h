@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/metrics/StageClock.h"
 #include "host/program/HostOptions.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Room.h"
@@ -32,7 +33,7 @@ class Rooms {
   /// All of these outlive the Rooms. `on_late_tick`: a tick has ended after beginTicks() had returned. Throws
   /// std::runtime_error for a truth file that cannot be written.
   Rooms(const HostOptions& options, const SessionTable& sessions, Counters& counters, LogLine log,
-        std::function<void()> on_late_tick);
+        std::function<void()> on_late_tick, StageClock& stages);
 
   /// Play in such worlds, not in the one that open() is given. Before open().
   void setWorlds(NewWorld new_world) { m_new_world = std::move(new_world); }
@@ -56,6 +57,9 @@ class Rooms {
   void leave(const Session& session);
   /// The session is about to be destroyed.
   void removeSession(const Session& session);
+  std::size_t count() const { return m_rooms.size(); }
+  /// Objects that are published, in all rooms.
+  std::size_t objects() const;
   /// The players of all rooms whose worlds have them, by id. A world has the say in their scores alone: it
   /// may be a stranger's program. Valid until the next call.
   const std::vector<ListedPlayer>& players();
@@ -92,6 +96,7 @@ class Rooms {
   void publish(Room& room);
   void dismissLeavers(Room& room);
   void endRound(Room& room, const WorldEnd& end);
+  void countEnd(WorldEnd::Why why);
   bool beginRound(Room& room);
 
   const HostOptions& m_options;
@@ -99,6 +104,7 @@ class Rooms {
   Counters& m_counters;
   LogLine m_log;
   std::function<void()> m_on_late_tick;
+  StageClock& m_stages;
   NewWorld m_new_world;  ///< empty: the world of this process
   std::vector<std::unique_ptr<Room>> m_rooms;
   std::vector<ListedPlayer> m_players;

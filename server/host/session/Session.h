@@ -165,6 +165,12 @@ class Session {
   const SnapshotSender& sender() const { return m_delivery.sender(); }
 
  private:
+  /// Why its player leaves.
+  using Leave = std::uint64_t Counters::*;
+  /// It ends for this reason, unless it had one before.
+  void setLeave(Leave leave) {
+    if (m_leave == &Counters::left_dismissed) m_leave = leave;
+  }
   void onFrame(std::string_view frame);
   void onSecondFrame(std::string_view frame);
   void onSecondClosed(CloseReason reason);
@@ -192,6 +198,7 @@ class Session {
   State m_state = State::kGreeting;
   std::uint32_t m_player = 0;  ///< of m_welcome, which is seldom in the cache
   bool m_reported_gone = false;
+  Leave m_leave = &Counters::left_dismissed;
   bool m_greeted = false;  ///< the hello has come
   std::uint32_t m_rtt_millis = 0;
   Counters& m_counters;

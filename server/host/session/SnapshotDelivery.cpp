@@ -59,6 +59,7 @@ void SnapshotDelivery::sendDatagrams(const Publisher& publisher, StreamPair& str
   for (const SnapshotSender::Packet& packet : packets) {
     noteSent(packet, !packet.large, now);
     count(packet);
+    if (!packet.large) countDatagram(packet);
     packet.large ? streams.sendFirst(frameOf(packet)) : m_datagrams->send(packet.bytes);
   }
   if (m_sender.isThrottled()) skipTick();
@@ -94,6 +95,11 @@ void SnapshotDelivery::noteSent(const SnapshotSender::Packet& packet, bool as_da
 void SnapshotDelivery::count(const SnapshotSender::Packet& packet) {
   ++m_counters.snapshots;
   m_counters.snapshot_bytes += packet.bytes.size();
+}
+
+void SnapshotDelivery::countDatagram(const SnapshotSender::Packet& packet) {
+  ++m_counters.datagram_snapshots;
+  m_counters.datagram_snapshot_bytes += packet.bytes.size();
 }
 
 void SnapshotDelivery::skipTick() {

@@ -76,6 +76,7 @@ class SnapshotDelivery {
   void sendProbe(const Publisher& publisher, Time now);
   void noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Time now);
   void count(const SnapshotSender::Packet& packet);
+  void countDatagram(const SnapshotSender::Packet& packet);
   void skipTick();
 
   Counters& m_counters;
