@@ -4,6 +4,7 @@
 #include <asio/ip/address.hpp>
 #include <charconv>
 
+#include "shared/net/base/AddressPrefix.h"
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad {

@@ -212,7 +212,7 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   }
   m_setup.prefixes.note(session.id(), prefixOf(session));
   session.welcome(welcome, std::move(datagrams));
-  p_room->add(session);
+  m_setup.rooms.add(*p_room, session);
   m_setup.on_new_client();
   m_setup.log_client(session.address(), inQuotes(name) + " joined with " +
                                             inQuotes(safeText(hello.program(), kMaxProgramLength)));

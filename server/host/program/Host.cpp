@@ -143,6 +143,13 @@ void Host::openMetrics() {
         std::to_string(m_metrics->port()) + "/metrics");
 }
 
+void Host::beginMetrics() {
+  if (!m_metrics) return;
+  const auto tick = TickLength::fromMicros(m_options.frame_micros).times(1);
+  m_metrics->begin(tick);
+  if (m_options.audit == "on") m_rooms.startAudit(static_cast<std::uint32_t>(std::chrono::seconds(1) / tick));
+}
+
 // Half-open connections from prefixes with players have places of their own, so that a crowd of others does
 // not keep players from coming back.
 TlsListening Host::listening() {
@@ -211,7 +218,7 @@ void Host::run(df::World& world) {
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   const auto work = asio::make_work_guard(m_io);  // or waiting for a deadline would end at once
   m_network.start();
-  if (m_metrics) m_metrics->begin(TickLength::fromMicros(m_options.frame_micros).times(1));
+  beginMetrics();
   while (!isOver()) {
     serveUntil(schedule.deadline());
     heedSignals(signals);

@@ -96,6 +96,7 @@ class Host : public df::Runner {
   TlsListening listening();
   VisitorsListening visitors() const;
   void openMetrics();
+  void beginMetrics();
   Session::Events sessionEvents();
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);

@@ -80,7 +80,7 @@ void Room::dismiss(const std::string& sentence) const {
 
 // ---- ticks ------------------------------------------------------------------------------------------------
 
-bool Room::beginTick(bool truth) {
+bool Room::beginTick(bool truth, std::uint32_t pictured) {
   m_stages.enter(Stage::kInputs);
   passTurn();
   applyInputs();
@@ -90,7 +90,9 @@ bool Room::beginTick(bool truth) {
   m_watched = watched;
   m_ticking = true;
   m_stages.enter(Stage::kWorld);
-  m_p_port->tick(watched, truth);
+  m_pictured = watched && pictured != 0 && find(pictured) != nullptr ? pictured : 0;
+  m_p_port->setPictured(truth ? 0 : m_pictured);
+  m_p_port->tick(watched, truth || m_pictured != 0);
   return true;
 }
 
@@ -122,6 +124,8 @@ void Room::sendSnapshots(TruthWriter* p_truth) {
   forEachInWorld([&](Session& session, const df::PlayerFacts& facts) {
     // The truth first: a test that compares must find it once the snapshot has arrived.
     if (p_truth != nullptr) p_truth->write(m_publisher.tick(), facts.id, m_p_port->renderPlayer(facts.id));
+    if (facts.id == m_pictured && session.isAudited())
+      session.recordTruth(m_publisher.tick(), m_p_port->renderPlayer(facts.id));
     session.setControls(facts.steering.p_table);
     session.sendTick(m_publisher, facts);
   });

@@ -77,8 +77,8 @@ class Room {
   // Ticks.
 
   /// Pass on the players' input, and begin a tick if the world is ready for one. False: it is not. `truth`:
-  /// publish() will have a TruthWriter.
-  bool beginTick(bool truth);
+  /// publish() will have a TruthWriter. `pictured`: the player whose picture is audited; 0: nobody's.
+  bool beginTick(bool truth, std::uint32_t pictured = 0);
   /// The world's tick has ended: send snapshots, sounds and notes. The truth goes to `p_truth`, if there is
   /// one.
   void publish(TruthWriter* p_truth);
@@ -110,6 +110,7 @@ class Room {
   SoundNews m_sound_news;
   std::vector<Session*> m_members;  ///< by player; those that are ending among them
   InputTurn m_turn;
+  std::uint32_t m_pictured = 0;  ///< in the tick that was begun last
   bool m_watched = false;
   bool m_ticking = false;
   std::uint64_t m_ticks = 0;

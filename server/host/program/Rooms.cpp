@@ -94,7 +94,13 @@ void Rooms::leave(const Session& session) {
   }
 }
 
+void Rooms::add(Room& room, Session& session) {
+  room.add(session);
+  m_audit.noteJoin(session, tickNumber());
+}
+
 void Rooms::removeSession(const Session& session) {
+  m_audit.forget(session);
   if (Room* p_room = roomOf(session)) p_room->remove(session);
 }
 
@@ -122,7 +128,7 @@ const std::vector<ListedPlayer>& Rooms::players() {
 void Rooms::beginTicks() {
   m_in_begin = true;
   for (const auto& room : m_rooms) {
-    if (!room->beginTick(m_truth.has_value())) ++m_counters.late_worlds;
+    if (!room->beginTick(m_truth.has_value(), m_audit.pictured(tickNumber()))) ++m_counters.late_worlds;
   }
   m_in_begin = false;
 }
@@ -212,6 +218,7 @@ void Rooms::endRound(Room& room, const WorldEnd& end) {
 
 bool Rooms::beginRound(Room& room) {
   const std::uint64_t sent = room.sounds().sent();
+  m_audit.noteRound(room, tickNumber());
   try {
     room.changeWorld(m_new_world());
   } catch (const std::system_error& error) {

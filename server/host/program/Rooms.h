@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/metrics/StageClock.h"
+#include "host/program/AuditTurns.h"
 #include "host/program/HostOptions.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Room.h"
@@ -40,6 +41,9 @@ class Rooms {
   /// When the game is over for a player who is alone, it is over for all.
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
 
+  /// Audit pictures of players, one at a time.
+  void startAudit(std::uint32_t ticks_per_second) { m_audit.start(ticks_per_second); }
+
   // Players.
 
   /// Each player has a world of their own.
@@ -53,6 +57,8 @@ class Rooms {
   Room* roomOf(const Session& session) const;
   /// Null if there is none.
   Session* findPlayer(std::uint32_t player) const;
+  /// The session was welcomed to this room.
+  void add(Room& room, Session& session);
   /// The player leaves; with them goes a world of their own.
   void leave(const Session& session);
   /// The session is about to be destroyed.
@@ -109,6 +115,7 @@ class Rooms {
   std::vector<std::unique_ptr<Room>> m_rooms;
   std::vector<ListedPlayer> m_players;
   std::optional<TruthWriter> m_truth;
+  AuditTurns m_audit;
   bool m_ends_with_last = false;
   bool m_in_begin = false;
   bool m_over = false;  ///< there is no next round

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "host/net/SealedChannel.h"
 #include "host/session/ChatAllowance.h"
@@ -136,6 +137,15 @@ class Session {
   /// The controls that the player steers by (ReceivedInputs::setControls).
   void setControls(const std::shared_ptr<const df::ControlTable>& controls) {
     m_inputs.setControls(controls);
+  }
+
+  /// Audit the client's pictures (PictureAudit.h) from the next world on that it is sent from the beginning,
+  /// or do no longer.
+  void setAudit(bool audit) { m_delivery.setAudit(audit); }
+  bool isAudited() { return m_delivery.audit() != nullptr; }
+  /// While it is audited: what the world shows its player in the tick that sendTick() is about to send.
+  void recordTruth(std::uint32_t tick, df::Canvas picture) {
+    m_delivery.audit()->recordTruth(tick, std::move(picture));
   }
 
   /// Note a published tick, and send what is pending unless the client is still busy with earlier bytes.
