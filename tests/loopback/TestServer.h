@@ -29,6 +29,7 @@ class TestServer {
   ~TestServer();
 
   std::uint16_t port() const { return m_host->port(); }
+  std::uint16_t metricsPort() const { return m_host->metricsPort(); }
   std::optional<Fingerprint> fingerprint() const { return m_host->fingerprint(); }
   /// Run `job` on the server's thread between two ticks and return what it returns.
   template <class Job>

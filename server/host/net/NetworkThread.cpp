@@ -1,5 +1,8 @@
 #include "host/net/NetworkThread.h"
 
+#include <pthread.h>
+#include <time.h>
+
 #include <algorithm>
 #include <asio/post.hpp>
 #include <cassert>
@@ -180,6 +183,26 @@ RelayCounters NetworkThread::counters() const {
   return counters;
 }
 
+NetworkCounters NetworkThread::latestCounters() const {
+  NetworkCounters counters;
+  {
+    const std::lock_guard lock(m_gate_mutex);
+    counters = m_reported;
+  }
+  counters.relay.datagrams_out_dropped = m_out_dropped;
+  counters.relay.streams_clogged = m_clogged;
+  return counters;
+}
+
+std::chrono::nanoseconds NetworkThread::cpuTime() {
+  clockid_t clock{};
+  timespec spent{};
+  if (!m_thread.joinable() || pthread_getcpuclockid(m_thread.native_handle(), &clock) != 0 ||
+      clock_gettime(clock, &spent) != 0)
+    return {};
+  return std::chrono::seconds(spent.tv_sec) + std::chrono::nanoseconds(spent.tv_nsec);
+}
+
 DatagramGateCounters NetworkThread::gateCounters() const {
   const std::lock_guard lock(m_gate_mutex);
   return m_gate_counters;
@@ -251,6 +274,8 @@ void NetworkThread::obeyOrder(const Order& order, std::string_view bytes) {
     case Order::kSendFrame:
       if (stream->channel) {
         stream->channel->send(bytes);
+        ++m_traffic.frames_out;
+        m_traffic.stream_bytes_out += kFrameHeaderSize + bytes.size();
         stream->unsent += kFrameHeaderSize + bytes.size();  // before `taken`: see RelayedStream::unsentBytes
         if (!std::exchange(stream->busy, true)) m_busy.push_back(stream);
       }
@@ -289,7 +314,23 @@ void NetworkThread::obeyOrder(const Order& order, std::string_view bytes) {
       if (m_port.datagrams) m_port.datagrams->flush();
       m_tick_times.add(Clock::now().time_since_epoch() - Clock::duration(order.number));
       break;
+    case Order::kReportCounters:
+      reportCounters();
+      break;
   }
+}
+
+void NetworkThread::reportCounters() {
+  NetworkCounters counters{.relay = m_counters, .traffic = m_traffic, .streams = m_port.streams->counters()};
+  if (m_port.visitors) counters.visitors = m_port.visitors->counters();
+  if (m_port.datagrams) {
+    counters.gate = m_port.datagrams->counters();
+    counters.udp = m_port.p_socket->counters();
+    counters.traffic.datagram_bytes_in = m_port.datagrams->bytesReceived();
+    counters.traffic.datagram_bytes_out = m_port.datagrams->bytesSent();
+  }
+  const std::lock_guard lock(m_gate_mutex);
+  m_reported = counters;
 }
 
 void NetworkThread::openDatagrams(DatagramsEnd& end, const StreamEnd& stream) {
@@ -353,6 +394,8 @@ void NetworkThread::onFrame(StreamEnd& end, std::string_view frame) {
     return onClosed(end, CloseReason::kOverflow);
   }
   end.in += bytes;
+  ++m_traffic.frames_in;
+  m_traffic.stream_bytes_in += kFrameHeaderSize + frame.size();
   addNotice({.kind = Notice::kFrame, .id = end.id, .came = Clock::now()}, frame);
 }
 

@@ -37,6 +37,7 @@
 #include "host/net/ServerPort.h"
 #include "host/net/TickTimes.h"
 #include "shared/net/base/Channel.h"
+#include "shared/net/datagram/UdpBatch.h"
 
 namespace naiad {
 
@@ -51,6 +52,26 @@ struct RelayCounters {
   std::uint64_t streams_clogged = 0;        ///< ended: more to send than its queue holds
   std::uint64_t unmet = 0;                  ///< connections hung up on: too many waited to be met
   std::uint64_t keyless = 0;                ///< sessions whose stream ended before it could give keys
+};
+
+/// What came and went. Of streams: frames with their heads, before TLS; of datagrams: payloads of UDP.
+struct TrafficCounters {
+  std::uint64_t frames_in = 0;
+  std::uint64_t frames_out = 0;
+  std::uint64_t stream_bytes_in = 0;
+  std::uint64_t stream_bytes_out = 0;
+  std::uint64_t datagram_bytes_in = 0;
+  std::uint64_t datagram_bytes_out = 0;
+};
+
+/// All that the network thread counts.
+struct NetworkCounters {
+  RelayCounters relay;
+  TrafficCounters traffic;
+  TcpListener::Counters streams;
+  VisitorsListener::Counters visitors;  ///< all zero without a visitors' socket
+  DatagramGateCounters gate;            ///< all zero without datagrams, as the next
+  UdpCounters udp;
 };
 
 class NetworkThread {
@@ -116,6 +137,13 @@ class NetworkThread {
   /// What became of every datagram until just now; nothing without them. Thread-safe.
   DatagramGateCounters gateCounters() const;
   void resetTickTimes() { m_tick_times.reset(); }
+  /// Ask the thread for its counters, which takes it a turn; latestCounters() has them then. While nobody
+  /// asks, nothing is copied.
+  void askForCounters() { giveOrder({.kind = Order::kReportCounters}); }
+  /// As they were when last asked for; all zero before that.
+  NetworkCounters latestCounters() const;
+  /// CPU time of the thread so far; 0 while it does not run.
+  std::chrono::nanoseconds cpuTime();
   /// The rest: when the thread does not run.
   RelayCounters counters() const;
   const TcpListener::Counters& streamCounters() const { return m_port.streams->counters(); }
@@ -170,6 +198,7 @@ class NetworkThread {
       kDropDatagrams,
       kCloseListener,
       kTickEnd,
+      kReportCounters,
     } kind = kSendFrame;
     StreamEnd* stream = nullptr;
     DatagramsEnd* datagrams = nullptr;
@@ -198,6 +227,7 @@ class NetworkThread {
   void addNotice(const Notice& notice, std::string_view bytes = {});
   bool isInFull() const { return m_notice_box.size() + m_notices.size() > m_limits.mailbox; }
   void noteUnsent();
+  void reportCounters();
 
   asio::io_context& m_home;
   OnChannel m_on_channel;
@@ -215,6 +245,7 @@ class NetworkThread {
   std::uint64_t m_newest_stream = 0;
   bool m_urgent = false;  ///< the tick thread is to be woken for what is in m_notices
   RelayCounters m_counters;
+  TrafficCounters m_traffic;
 
   // Shared.
   Mailbox<Notice> m_notice_box;
@@ -226,6 +257,7 @@ class NetworkThread {
   TickTimes m_tick_times;
   mutable std::mutex m_gate_mutex;
   DatagramGateCounters m_gate_counters;  ///< a copy, for others to read
+  NetworkCounters m_reported;            ///< the same, made when asked for
 
   // The tick thread's.
   Batch<Order> m_orders;

@@ -14,10 +14,12 @@ namespace {
 /// Free for streams need not be free for datagrams.
 constexpr int kPortsToTry = 50;
 
-std::unique_ptr<DatagramService> serviceOn(asio::io_context& context, UdpOptions udp) {
+void addDatagrams(ServerPort& opened, asio::io_context& context, UdpOptions udp) {
   udp.v6_only = false;
-  return std::make_unique<DatagramService>(
-      std::make_unique<UdpSocket>(context, udp), [] { return std::chrono::steady_clock::now(); }, randomBits);
+  auto socket = std::make_unique<UdpSocket>(context, udp);
+  opened.p_socket = socket.get();
+  opened.datagrams = std::make_unique<DatagramService>(
+      std::move(socket), [] { return std::chrono::steady_clock::now(); }, randomBits);
 }
 
 ServerPort open(asio::io_context& context, const std::string& address, std::uint16_t port,
@@ -26,7 +28,7 @@ ServerPort open(asio::io_context& context, const std::string& address, std::uint
   ServerPort opened;
   opened.streams = std::make_unique<TcpListener>(context, address, port, on_channel, options, tls);
   if (!tls.context) return opened;
-  opened.datagrams = serviceOn(context, {.address = address, .port = opened.streams->port()});
+  addDatagrams(opened, context, {.address = address, .port = opened.streams->port()});
   return opened;
 }
 
@@ -91,8 +93,8 @@ ServerPort adoptServerPort(asio::io_context& context, const InheritedSockets& so
   ServerPort opened;
   opened.streams =
       std::make_unique<TcpListener>(context, sockets.streams, std::move(on_channel), options, tls);
-  opened.datagrams =
-      serviceOn(context, {.address = sockets.address, .port = sockets.port, .inherited = sockets.datagrams});
+  addDatagrams(opened, context,
+               {.address = sockets.address, .port = sockets.port, .inherited = sockets.datagrams});
   addVisitors(opened, context, std::move(visitors));
   return opened;
 }

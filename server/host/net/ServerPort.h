@@ -12,10 +12,13 @@
 
 namespace naiad {
 
+class UdpSocket;
+
 struct ServerPort {
   std::unique_ptr<TcpListener> streams;
   std::unique_ptr<VisitorsListener> visitors;  ///< null: there is no visitors' socket
   std::unique_ptr<DatagramService> datagrams;  ///< null without encryption
+  const UdpSocket* p_socket = nullptr;         ///< the socket of `datagrams`
 };
 
 /// Listen on a numeric address ("::" hears IPv4 as well, and is 0.0.0.0 where there is no IPv6). `port` 0

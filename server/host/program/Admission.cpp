@@ -227,7 +227,7 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   }
   m_setup.prefixes.note(session.id(), prefixOf(session));
   session.welcome(welcome, std::move(datagrams));
-  p_room->add(session);
+  m_setup.rooms.add(*p_room, session);
   m_setup.on_new_client();
   const std::string program = safeText(hello.program(), kMaxProgramLength);
   m_setup.log_client(session.address(),

@@ -11,6 +11,8 @@
 #include "engine/managers/GameManager.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "host/metrics/MetricsAddress.h"
+#include "host/metrics/MetricsServer.h"
 #include "host/program/CrashReport.h"
 #include "host/program/NetworkReport.h"
 #include "host/program/StopSignals.h"
@@ -107,7 +109,8 @@ Host::Host(HostOptions options, std::string game, Log log)
           channelOptions(), listening(), NetworkThread::Limits(), visitors(), m_options.sockets),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
-      m_rooms(m_options, m_sessions, m_counters, m_log, [this] { flush(); }),
+      m_rooms(
+          m_options, m_sessions, m_counters, m_log, [this] { flush(); }, m_stages),
       m_client_log(m_log),
       m_admission({m_options, std::move(game), m_sessions, m_rooms, m_prefixes, m_counters,
                    [this](const std::string& address, LogEvent event) {
@@ -119,6 +122,7 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_chat(PrefixRates::chat(m_options.max_per_address)),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
+  openMetrics();
   for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
   if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
@@ -129,6 +133,26 @@ Host::Host(HostOptions options, std::string game, Log log)
     m_log("only " + std::to_string(files) + " files may be open (ulimit -Hn): too few for " +
           std::to_string(m_options.max_players) + " players and those who come back");
   }
+}
+
+// Before the listener's players come, and like that: it cannot listen, or somebody has the port.
+void Host::openMetrics() {
+  if (m_options.metrics.empty()) return;
+  try {
+    m_metrics = std::make_unique<HostMetrics>(
+        HostMetrics::Sources{m_options, m_counters, m_network, m_sessions, m_rooms, m_admission, m_stages});
+  } catch (const MetricsError& error) {
+    throw ListenError(error.what(), std::make_error_code(std::errc::address_in_use));
+  }
+  m_log("metrics are at http://" + MetricsAddress::parse(m_options.metrics)->hostText() + ":" +
+        std::to_string(m_metrics->port()) + "/metrics");
+}
+
+void Host::beginMetrics() {
+  if (!m_metrics) return;
+  const auto tick = TickLength::fromMicros(m_options.frame_micros).times(1);
+  m_metrics->begin(tick);
+  if (m_options.audit == "on") m_rooms.startAudit(static_cast<std::uint32_t>(std::chrono::seconds(1) / tick));
 }
 
 // Half-open connections from prefixes with players have places of their own, so that a crowd of others does
@@ -200,10 +224,12 @@ void Host::run(df::World& world) {
   const auto work = asio::make_work_guard(m_io);  // or waiting for a deadline would end at once
   m_network.start();
   m_service.notifyReady();
+  beginMetrics();
   while (!isOver()) {
     serveUntil(schedule.deadline());
     heedSignals(signals);
     if (isDue(schedule)) tick();
+    if (m_metrics) m_metrics->update(Clock::now());
   }
   drain();
   m_p_watchdog = nullptr;
@@ -235,6 +261,7 @@ void Host::end(Ending::Plan plan) {
   if (plan.at_round_end && m_rooms.isPrivate()) plan.at_round_end = !(plan.when_empty = true);
   m_rooms.setLastRound(plan.at_round_end);
   m_ending.setPlan(std::move(plan), Clock::now());
+  if (m_metrics && !m_ending.isOpen()) m_metrics->beginDrain(true);
 }
 
 void Host::heedEnd(Clock::time_point now) {
@@ -335,6 +362,7 @@ void Host::serveUntil(Clock::time_point deadline) {
 bool Host::isDue(TickClock& schedule) {
   const Clock::time_point now = Clock::now();
   if (now < schedule.deadline()) return false;
+  if (m_metrics) m_metrics->beginTick(m_counters.ticks + 1, schedule.deadline(), now);
   m_counters.late_ticks += now - schedule.deadline() > kLate ? 1 : 0;
   m_counters.rebased_ticks += schedule.beginTick(now) ? 1 : 0;
   return true;
@@ -344,16 +372,20 @@ bool Host::isDue(TickClock& schedule) {
 // process of its own ends its tick later, and what it publishes is flushed then.
 void Host::tick() {
   m_tick_began = Clock::now();
+  m_stages.enter(Stage::kReceive);
   m_network.serve(m_tick_began + kMinService);  // the datagrams since the last one
+  m_stages.enter(Stage::kSessions);
   checkSessions();
   heedEnd(m_tick_began);
   ++m_counters.ticks;
   m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
   tickWorlds();
+  m_stages.enter(Stage::kNews);
   sendPlayers();
   flush();
   notifyService();
+  m_stages.enter(Stage::kBetween);
   if (m_observer) m_observer(*m_p_world);
 }
 
@@ -400,7 +432,14 @@ void Host::sendPlayers() {
 
 // The flush after the last room's tick ends the host's tick.
 void Host::flush() {
-  m_rooms.isTicking() ? m_network.flush() : m_network.flushTick(m_tick_began);
+  const Stage before = m_stages.enter(Stage::kFlush);
+  if (m_rooms.isTicking()) {
+    m_network.flush();
+  } else {
+    m_network.flushTick(m_tick_began);
+    if (m_metrics) m_metrics->endTick(Clock::now());
+  }
+  m_stages.enter(before);
 }
 
 void Host::sweep() {
@@ -466,6 +505,7 @@ bool Host::isOver() const {
 
 void Host::drain() {
   m_service.notifyStopping();
+  if (m_metrics) m_metrics->beginDrain(false);
   m_network.closeListener();
   std::string sentence = m_rooms.lastSentence();
   if (sentence.empty() || m_ending.beginsAgain()) sentence = m_ending.sentence();

@@ -14,10 +14,12 @@
 
 #include "engine/world/Runner.h"
 #include "host/auth/ServerIdentity.h"
+#include "host/metrics/StageClock.h"
 #include "host/net/NetworkThread.h"
 #include "host/net/PlayerPrefixes.h"
 #include "host/program/Admission.h"
 #include "host/program/Ending.h"
+#include "host/program/HostMetrics.h"
 #include "host/program/HostOptions.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Reload.h"
@@ -48,6 +50,8 @@ class Host : public df::Runner {
   std::uint16_t port() const { return m_network.port(); }
   /// "127.0.0.1:9876".
   std::string address() const { return m_network.address(); }
+  /// The port on which metrics are given out; 0: they are not.
+  std::uint16_t metricsPort() const { return m_metrics ? m_metrics->port() : 0; }
   /// What players compare; nothing without encryption.
   std::optional<Fingerprint> fingerprint() const;
   /// What dfclient needs on its command line to join from this machine: "127.0.0.1:9876 --fingerprint …".
@@ -112,6 +116,8 @@ class Host : public df::Runner {
 
   TlsListening listening();
   VisitorsListening visitors() const;
+  void openMetrics();
+  void beginMetrics();
   Session::Events sessionEvents();
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);
@@ -146,6 +152,7 @@ class Host : public df::Runner {
   PrefixAllowance m_handshakes;  ///< of the network thread
   NetworkThread m_network;
   SessionTable m_sessions;
+  StageClock m_stages;
   Rooms m_rooms;
   ClientLog m_client_log;
   Admission m_admission;
@@ -160,6 +167,7 @@ class Host : public df::Runner {
   int m_heeded_signals = 0;
   Clock::time_point m_empty_since;
   Clock::time_point m_tick_began;
+  std::unique_ptr<HostMetrics> m_metrics;  ///< null: none are wanted
 };
 
 }  // namespace naiad

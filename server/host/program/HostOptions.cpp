@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/program/Announcement.h"
+#include "host/metrics/MetricsAddress.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
@@ -125,6 +126,26 @@ std::vector<Row> tableOf(HostOptions& o) {
       {{"--qr", &o.qr, "Print --web-address as a QR code, too", "NAIAD_QR"}},
       {{"--truth", &o.truth_file,
         "Write what each player ought to see, tick by tick, to this file (for tests; large)", "NAIAD_TRUTH"}},
+      {{"--metrics", &o.metrics,
+        "Give out metrics for Prometheus (/metrics) and health (/healthz, /readyz) by HTTP on this numeric "
+        "ADDR:PORT, like 127.0.0.1:9100; port 0 takes any free one",
+        "NAIAD_METRICS"}},
+      {{"--metrics-hosts", &o.metrics_hosts,
+        "Names of this machine, with commas between, by which --metrics may be asked, beside localhost and "
+        "addresses",
+        "NAIAD_METRICS_HOSTS"}},
+      {{"--metrics-port-file", &o.metrics_port_file,
+        "Write the port number of --metrics to this file once listening", "NAIAD_METRICS_PORT_FILE"}},
+      {{"--metrics-public", &o.metrics_public,
+        "--metrics may be an address that the internet can reach; everybody can read them then",
+        "NAIAD_METRICS_PUBLIC"}},
+      {{"--audit",
+        &o.audit,
+        "With --metrics: hold what one player was sent against what the world shows them, one second in ten, "
+        "and count wrong cells",
+        "NAIAD_AUDIT",
+        {},
+        {"on", "off"}}},
       {{"--port-file", &o.port_file, "Write the port number to this file once listening", "NAIAD_PORT_FILE"}},
       {{"--log", &o.log_file, "Append log lines to this file instead of stderr", "NAIAD_LOG"}},
       {{"--log-format",
@@ -219,6 +240,18 @@ std::string printedComplaint(const HostOptions& options) {
   return {};
 }
 
+/// The same for where metrics are given out.
+std::string metricsComplaint(const HostOptions& options) {
+  if (!MetricsHosts::parse(options.metrics_hosts)) return "--metrics-hosts: names with commas between are wanted";
+  if (options.metrics.empty()) return {};
+  const auto address = MetricsAddress::parse(options.metrics);
+  if (!address) return "--metrics: a numeric ADDR:PORT is wanted, IPv6 in brackets";
+  if (!address->is_private && !options.metrics_public)
+    return "--metrics: everybody could read them on " + address->address +
+           ", which is no address of loopback or of a private network; --metrics-public lets them";
+  return {};
+}
+
 /// What is wrong with options together; empty if nothing is.
 std::string complaint(const HostOptions& options) {
   if (options.frame_micros != 0 && options.frame_micros < kMinFrameMicros) {
@@ -227,6 +260,7 @@ std::string complaint(const HostOptions& options) {
   }
   if (options.certificate.empty() != options.key.empty()) return "--certificate and --key come together";
   if (options.insecure && !options.visitors.empty()) return "--visitors needs encryption, so not --insecure";
+  if (const std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
   return printedComplaint(options);
 }
 

@@ -49,6 +49,11 @@ struct HostOptions {
   std::string web_address;            ///< of a page to play on; empty: none
   bool qr = false;                    ///< print that as a QR code, too
   std::string truth_file;             ///< write what each player should see, tick by tick
+  std::string metrics;                ///< ADDR:PORT for metrics and health; empty: none
+  std::string metrics_hosts;          ///< names by which they may be asked for, with commas between
+  std::string metrics_port_file;      ///< write their port number here once listening
+  bool metrics_public = false;        ///< `metrics` may be an address of the internet
+  std::string audit = "on";           ///< of pictures, where there are metrics: "on" or "off"
   std::string port_file;              ///< write the port number here once listening
   std::string log_file;               ///< append log lines here instead of stderr
   std::string log_format = "text";    ///< or "json"

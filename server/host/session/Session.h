@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "host/net/SealedChannel.h"
 #include "host/session/ChatAllowance.h"
@@ -138,6 +139,15 @@ class Session {
     m_inputs.setControls(controls);
   }
 
+  /// Audit the client's pictures (PictureAudit.h) from the next world on that it is sent from the beginning,
+  /// or do no longer.
+  void setAudit(bool audit) { m_delivery.setAudit(audit); }
+  bool isAudited() { return m_delivery.audit() != nullptr; }
+  /// While it is audited: what the world shows its player in the tick that sendTick() is about to send.
+  void recordTruth(std::uint32_t tick, df::Canvas picture) {
+    m_delivery.audit()->recordTruth(tick, std::move(picture));
+  }
+
   /// Note a published tick, and send what is pending unless the client is still busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player);
   void send(const wire::ServerMessage& message);
@@ -165,6 +175,12 @@ class Session {
   const SnapshotSender& sender() const { return m_delivery.sender(); }
 
  private:
+  /// Why its player leaves.
+  using Leave = std::uint64_t Counters::*;
+  /// It ends for this reason, unless it had one before.
+  void setLeave(Leave leave) {
+    if (m_leave == &Counters::left_dismissed) m_leave = leave;
+  }
   void onFrame(std::string_view frame);
   void onSecondFrame(std::string_view frame);
   void onSecondClosed(CloseReason reason);
@@ -192,6 +208,7 @@ class Session {
   State m_state = State::kGreeting;
   std::uint32_t m_player = 0;  ///< of m_welcome, which is seldom in the cache
   bool m_reported_gone = false;
+  Leave m_leave = &Counters::left_dismissed;
   bool m_greeted = false;  ///< the hello has come
   std::uint32_t m_rtt_millis = 0;
   Counters& m_counters;

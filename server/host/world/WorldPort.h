@@ -52,6 +52,8 @@ class WorldPort {
 
   /// May a tick begin?
   virtual bool isReady() const = 0;
+  /// Where `truth` is asked for, only this player's picture is; 0: all of them are.
+  virtual void setPictured(std::uint32_t /*player*/) {}
   /// Begin one. `watched`: view() is wanted; the first time with every Object as changed. `truth`:
   /// renderPlayer() is, too.
   virtual void tick(bool watched, bool truth) = 0;

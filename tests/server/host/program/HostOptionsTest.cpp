@@ -105,6 +105,24 @@ TEST(HostOptions, WhatIsNoneOfTheWordsIsAnError) {
   EXPECT_EQ(options.on_game_over, "exit");
 }
 
+TEST(HostOptions, MetricsOnAPublicAddressAreAnErrorUnlessThatIsAskedFor) {
+  for (const char* address : {"127.0.0.1:0", "[::1]:9100", "10.0.0.7:9100"}) {
+    HostOptions options;
+    EXPECT_EQ(parse({"--metrics", address, "--metrics-hosts", "game.internal,b"}, options), CommandLine::kRun);
+    EXPECT_EQ(options.metrics, address);
+  }
+  for (const char* address : {"0.0.0.0:9100", "[::]:9100", "8.8.8.8:9100"}) {
+    HostOptions options;
+    EXPECT_EQ(parse({"--metrics", address}, options), CommandLine::kUsageError) << address;
+    EXPECT_EQ(parse({"--metrics", address, "--metrics-public"}, options), CommandLine::kRun) << address;
+  }
+  HostOptions options;
+  EXPECT_EQ(parse({"--metrics", "localhost:9100"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--metrics", "127.0.0.1"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--metrics-hosts", "a b"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--audit", "perhaps"}, options), CommandLine::kUsageError);
+}
+
 TEST(HostOptions, WhatIsPrintedForPlayersIsChecked) {
   HostOptions options;
   EXPECT_EQ(parse({"--link-host", "game.example:9877", "--ssh-door", "play@game.example:2222",

@@ -112,7 +112,8 @@ class RoomsTest : public testing::Test {
   std::deque<Client> clients;
   std::vector<ScriptedPort*> ports;
   SessionTable sessions{1024, counters, [this](Session& session) { rooms.removeSession(session); }};
-  Rooms rooms{options, sessions, counters, [](const std::string&) {}, [] {}};
+  StageClock stages;
+  Rooms rooms{options, sessions, counters, [](const std::string&) {}, [] {}, stages};
   PlayerNews news;
   Admission admission{
       {options, "maze", sessions, rooms, prefixes, counters, [](const std::string&, const std::string&) {},
