@@ -14,6 +14,7 @@
 
 #include "engine/world/Runner.h"
 #include "host/auth/ServerIdentity.h"
+#include "host/net/LanResponder.h"
 #include "host/net/NetworkThread.h"
 #include "host/net/PlayerPrefixes.h"
 #include "host/program/Admission.h"
@@ -36,8 +37,8 @@ class Host : public df::Runner {
  public:
   using Log = LogLine;
 
-  /// Listens from now on (clients wait until run()). Throws ListenError, TlsError for keys that cannot be
-  /// used, or std::runtime_error for a truth file that cannot be written.
+  /// Listens from now on (clients wait until run()). Throws ListenError (with HostOptions::lan "on" for the
+  /// socket of the local network's queries, too), TlsError for keys that cannot be used, or std::runtime_error for a truth file that cannot be written.
   Host(HostOptions options, std::string game, Log log);
   ~Host() override;
 
@@ -91,6 +92,7 @@ class Host : public df::Runner {
 
   TlsListening listening();
   VisitorsListening visitors() const;
+  std::unique_ptr<LanResponder> openLan(const std::string& game);
   Session::Events sessionEvents();
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);
@@ -119,6 +121,7 @@ class Host : public df::Runner {
   PlayerPrefixes m_prefixes;
   PrefixAllowance m_handshakes;  ///< of the network thread
   NetworkThread m_network;
+  std::unique_ptr<LanResponder> m_lan;  ///< null: not to be found in the local network
   SessionTable m_sessions;
   Rooms m_rooms;
   ClientLog m_client_log;
