@@ -39,9 +39,9 @@ class FoundServers {
   static constexpr std::size_t kMax = 64;
   static constexpr std::size_t kMaxOfAnAddress = 16;
 
-  /// Add what the server at `source` says, or put it in place of what the one with this key said before. Of the
-  /// addresses of one server the best stays: IPv4, then IPv6, then IPv6 with a zone, and loopback last. True if
-  /// the list is another one now.
+  /// Add what the server at `source` says, or put it in place of what the one with this key said before. Of
+  /// the addresses of one server the best stays: IPv4, then IPv6, then IPv6 with a zone, and loopback last.
+  /// True if the list is another one now.
   bool addAnswer(const asio::ip::udp::endpoint& source, const LanAnswer& answer);
   /// The same for one that a list on the web names.
   bool addServer(const FoundServer& server);

@@ -47,7 +47,9 @@ bool isFromLink(const LanPacket& packet, const std::vector<LanNetwork>& networks
   for (const LanNetwork& network : networks) {
     if (network.interface == packet.interface && network.contains(source)) return true;
     by_loopback = by_loopback || (network.is_loopback && network.interface == packet.interface);
-    is_own = is_own || (network.prefix > 0 && LanNetwork{0, "", network.address, network.address.is_v4() ? 32u : 128u}.contains(source));
+    is_own =
+        is_own || (network.prefix > 0 &&
+                   LanNetwork{0, "", network.address, network.address.is_v4() ? 32u : 128u}.contains(source));
   }
   return by_loopback && is_own;
 }

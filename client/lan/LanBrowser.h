@@ -1,7 +1,7 @@
 // Looks for the servers of the local network: sends queries, collects answers (LanMessage.h).
 //
-// An answer counts if it repeats the nonce of this browser, has come through no router, and its sender is in a
-// network of the interface that it came in by.
+// An answer counts if it repeats the nonce of this browser, has come through no router, and its sender is in
+// a network of the interface that it came in by.
 #pragma once
 
 #include <chrono>

@@ -24,8 +24,8 @@ std::string member(const char* name, const std::string& value) {
 
 std::string asJson(const FoundServer& server) {
   const std::string link = server.link();
-  return "{" + member("name", jsonQuoted(server.name)) + ", " + member("game", jsonQuoted(server.game)) + ", " +
-         member("players", std::to_string(server.players)) + ", " +
+  return "{" + member("name", jsonQuoted(server.name)) + ", " + member("game", jsonQuoted(server.game)) +
+         ", " + member("players", std::to_string(server.players)) + ", " +
          member("max_players", std::to_string(server.max_players)) + ", " +
          member("password", server.asks_password ? "true" : "false") + ", " +
          member("protocol", std::to_string(server.protocol)) + ", " +

@@ -1,9 +1,9 @@
 // Decides which queries of the local network a server answers, and with what. LanResponder has the sockets.
 //
-// A packet is answered if it was sent to the group, has come through no router (hop limit 255), from an address
-// in a network of the interface it came in by where the server is to be found, is a query, and neither its sender
-// nor all together have asked too often. So an answer leaves the link never, and a forged query costs its victim,
-// a neighbour, 370 bytes for each 512 that the forger sends, a few times a second.
+// A packet is answered if it was sent to the group, has come through no router (hop limit 255), from an
+// address in a network of the interface it came in by where the server is to be found, is a query, and
+// neither its sender nor all together have asked too often. So an answer leaves the link never, and a forged
+// query costs its victim, a neighbour, 370 bytes for each 512 that the forger sends, a few times a second.
 #pragma once
 
 #include <chrono>
@@ -26,16 +26,16 @@ enum class LanMode {
   kOn,    ///< in all networks it listens in
 };
 
-/// Those of `networks` in which a server that listens on this numeric address ("::" hears IPv4 as well) is to be
-/// found. With kAuto loopback counts only beside a private network.
+/// Those of `networks` in which a server that listens on this numeric address ("::" hears IPv4 as well) is to
+/// be found. With kAuto loopback counts only beside a private network.
 std::vector<LanNetwork> answeredNetworks(const std::vector<LanNetwork>& networks, const std::string& address,
                                          LanMode mode);
 
 /// What became of every packet: each is counted once.
 struct LanCounters {
   std::uint64_t answered = 0;
-  std::uint64_t routed = 0;     ///< the hop limit was not the full one
-  std::uint64_t foreign = 0;    ///< not to the group, or not from a network in which the server is to be found
+  std::uint64_t routed = 0;   ///< the hop limit was not the full one
+  std::uint64_t foreign = 0;  ///< not to the group, or not from a network in which the server is to be found
   std::uint64_t malformed = 0;  ///< no query
   std::uint64_t too_often = 0;  ///< over a limit
   std::uint64_t unsent = 0;     ///< the system refused to send the answer

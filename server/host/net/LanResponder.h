@@ -1,8 +1,8 @@
 // Answers clients that look for the servers of the local network (LanMessage.h).
 //
 // It has a thread and sockets of its own, so that whatever is sent there costs the game nothing but processor
-// time, and little of that: no more than kTurn packets are read in kPause; the system drops the rest. Networks
-// that come and go are noticed within kRefresh.
+// time, and little of that: no more than kTurn packets are read in kPause; the system drops the rest.
+// Networks that come and go are noticed within kRefresh.
 #pragma once
 
 #include <atomic>
@@ -23,8 +23,8 @@ class LanResponder {
   static constexpr std::chrono::milliseconds kPause{50};
   static constexpr std::chrono::seconds kRefresh{5};
 
-  /// Opens the sockets. Throws std::system_error if there is none of either family. `facts`: all but nonce and
-  /// players. `address`: numeric, that the server listens on.
+  /// Opens the sockets. Throws std::system_error if there is none of either family. `facts`: all but nonce
+  /// and players. `address`: numeric, that the server listens on.
   LanResponder(LanAnswer facts, std::string address, LanMode mode);
   /// Stops.
   ~LanResponder();

@@ -170,7 +170,8 @@ std::unique_ptr<LanResponder> Host::openLan(const std::string& game) {
   facts.name = m_options.name;
   facts.game = game;
   try {
-    return std::make_unique<LanResponder>(facts, m_options.address, automatic ? LanMode::kAuto : LanMode::kOn);
+    return std::make_unique<LanResponder>(facts, m_options.address,
+                                          automatic ? LanMode::kAuto : LanMode::kOn);
   } catch (const std::system_error& error) {
     const std::string wrong = std::string("cannot be found in the local network: ") + error.what();
     if (!automatic) throw ListenError("--lan on: the server " + wrong + ".", error.code());

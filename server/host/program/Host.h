@@ -38,7 +38,8 @@ class Host : public df::Runner {
   using Log = LogLine;
 
   /// Listens from now on (clients wait until run()). Throws ListenError (with HostOptions::lan "on" for the
-  /// socket of the local network's queries, too), TlsError for keys that cannot be used, or std::runtime_error for a truth file that cannot be written.
+  /// socket of the local network's queries, too), TlsError for keys that cannot be used, or
+  /// std::runtime_error for a truth file that cannot be written.
   Host(HostOptions options, std::string game, Log log);
   ~Host() override;
 

@@ -14,11 +14,12 @@ constexpr char kFormat = 1;
 constexpr char kQuery = 1;
 constexpr char kAnswer = 2;
 constexpr char kPasswordFlag = 1;
-constexpr std::size_t kHead = 24;    // up to and with the nonce, of both messages
-constexpr std::size_t kTexts = 48;   // where an answer's begin
-constexpr std::size_t kLonger = 1;   // bytes of a text's length
+constexpr std::size_t kHead = 24;   // up to and with the nonce, of both messages
+constexpr std::size_t kTexts = 48;  // where an answer's begin
+constexpr std::size_t kLonger = 1;  // bytes of a text's length
 
-static_assert(kTexts + 2 * (kLonger + kMaxLanTextBytes) <= kLanQuerySize, "an answer is no longer than a query");
+static_assert(kTexts + 2 * (kLonger + kMaxLanTextBytes) <= kLanQuerySize,
+              "an answer is no longer than a query");
 
 void appendNumber(std::string& out, std::uint16_t number) {
   char bytes[2];
@@ -97,7 +98,8 @@ std::string writeLanAnswer(const LanAnswer& answer) {
 }
 
 std::optional<LanAnswer> readLanAnswer(std::string_view bytes) {
-  if (bytes.size() < kTexts || bytes.size() > kLanQuerySize || !isMessage(bytes, kAnswer)) return std::nullopt;
+  if (bytes.size() < kTexts || bytes.size() > kLanQuerySize || !isMessage(bytes, kAnswer))
+    return std::nullopt;
   LanAnswer answer;
   answer.protocol = loadLittleEndian<std::uint16_t>(&bytes[6]);
   answer.nonce = bytesAt<16>(bytes, 8);

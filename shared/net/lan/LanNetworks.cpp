@@ -72,8 +72,8 @@ unsigned prefixOf(const asio::ip::address& mask) {
 std::optional<LanNetwork> networkOf(const ifaddrs& entry) {
   const unsigned flags = entry.ifa_flags;
   const bool loopback = (flags & IFF_LOOPBACK) != 0;
-  const bool fits = (flags & IFF_UP) != 0 && (flags & IFF_POINTOPOINT) == 0 &&
-                    (loopback || (flags & IFF_MULTICAST) != 0);
+  const bool fits =
+      (flags & IFF_UP) != 0 && (flags & IFF_POINTOPOINT) == 0 && (loopback || (flags & IFF_MULTICAST) != 0);
   const auto address = addressOf(entry.ifa_addr);
   const auto mask = addressOf(entry.ifa_netmask);
   const unsigned interface = if_nametoindex(entry.ifa_name);

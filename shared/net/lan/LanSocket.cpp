@@ -127,7 +127,8 @@ LanSocket::LanSocket(Family family)
   require(setInt(file, IPPROTO_IPV6, IPV6_MULTICAST_HOPS, kLanHopLimit), "IPV6_MULTICAST_HOPS");
   require(setInt(file, IPPROTO_IPV6, IPV6_RECVHOPLIMIT, 1), "IPV6_RECVHOPLIMIT");
   require(setInt(file, IPPROTO_IPV6, IPV6_RECVPKTINFO, 1), "IPV6_RECVPKTINFO");
-  setInt(file, IPPROTO_IPV6, IPV6_MULTICAST_ALL, 0);  // since Linux 4.20; without it the interface is checked later
+  setInt(file, IPPROTO_IPV6, IPV6_MULTICAST_ALL,
+         0);  // since Linux 4.20; without it the interface is checked later
 }
 
 LanSocket::LanSocket(LanSocket&& other) noexcept
@@ -141,8 +142,8 @@ LanSocket LanSocket::forServer(Family family) {
   LanSocket socket(family);
   // Of a group each of the sockets on the port gets its copy.
   require(setInt(socket.m_descriptor, SOL_SOCKET, SO_REUSEADDR, 1), "SO_REUSEADDR");
-  // To the group itself, so that nothing else is heard. That of the link's scope in IPv6 would take a socket for
-  // each interface.
+  // To the group itself, so that nothing else is heard. That of the link's scope in IPv6 would take a socket
+  // for each interface.
   const asio::ip::udp::endpoint any(asio::ip::udp::v6(), kLanPort);
   bindTo(socket.m_descriptor, family == Family::kIPv4 ? group(family) : any);
   return socket;

@@ -1,5 +1,5 @@
-// A UDP socket for the queries of the local network, or for their answers: it sends with the full hop limit and
-// says of each packet by which interface it came and which hop limit it had left.
+// A UDP socket for the queries of the local network, or for their answers: it sends with the full hop limit
+// and says of each packet by which interface it came and which hop limit it had left.
 //
 // A server's shares its port with the other servers of the machine. No packet goes through a router
 // (MSG_DONTROUTE; groups of the link).
