@@ -37,7 +37,7 @@ CLI::Option* addTo(CLI::App& app, const Option& row) {
 }
 
 void describe(CLI::App& app, const Option& row, CLI::Option& option) {
-  if (row.name.front() != '-') option.required();
+  if (row.name.front() != '-') option.required(!row.is_optional);
   const bool counts =
       std::holds_alternative<int*>(row.target) || std::holds_alternative<std::int64_t*>(row.target);
   if (row.range && counts) {

@@ -12,6 +12,7 @@
 #include "host/world/WorldMessages.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
+#include "shared/net/lan/LanMessage.h"
 #include "shared/net/stream/Framing.h"
 #include "shared/replica/ControlCodec.h"
 #include "shared/replica/UpdateCodec.h"
@@ -436,6 +437,20 @@ void datagrams(Folder folder) {
   for (std::size_t i = 0; i < 16; ++i) folder.add(randomBytes(random, 40 + 20 * i));
 }
 
+void lanMessages(Folder folder) {
+  LanNonce nonce{};
+  nonce[0] = 1;
+  folder.add(writeLanQuery(nonce));
+  LanAnswer answer;
+  answer.protocol = kProtocolVersion;
+  answer.nonce = nonce;
+  answer.port = kDefaultPort;
+  answer.max_players = 64;
+  answer.name = "Ann's";
+  answer.game = "hello";
+  folder.add(writeLanAnswer(answer));
+}
+
 }  // namespace
 }  // namespace naiad::fuzz
 
@@ -457,5 +472,6 @@ int main(int argc, char** argv) {
   datagrams(Folder(base / "datagram"));
   wireMessages(Folder(base / "small_proto"));
   worlds(Folder(base / "world"));
+  lanMessages(Folder(base / "lan"));
   return 0;
 }

@@ -34,6 +34,8 @@ class HostPulse {
   void setFull(bool full) { m_full.store(full, std::memory_order_relaxed); }
   /// It takes no more players and is about to end; `ticks`: as long as it ticks it can hang.
   void beginDrain(bool ticks);
+  /// It does not end after all.
+  void cancelDrain() { m_phase = Phase::kRunning; }
 
   /// What is answered: with 200 if it is good, else with 503.
   struct Verdict {

@@ -107,6 +107,7 @@ Host::Host(HostOptions options, std::string game, Log log)
             m_sessions.add(std::move(channel), sessionEvents(), Clock::now());
           },
           channelOptions(), listening(), NetworkThread::Limits(), visitors(), m_options.sockets),
+      m_lan(openLan(game)),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
       m_rooms(
@@ -183,6 +184,30 @@ VisitorsListening Host::visitors() const {
   return visitors;
 }
 
+// Loopback alone is found only if that is asked for: it is nobody's network.
+std::unique_ptr<LanResponder> Host::openLan(const std::string& game) {
+  const bool automatic = m_options.lan == "auto";
+  const bool loopback = asio::ip::make_address(m_options.address).is_loopback();
+  if (!m_identity || m_options.lan == "off" || (automatic && loopback)) return nullptr;
+  LanAnswer facts;
+  facts.protocol = kProtocolVersion;
+  facts.port = m_network.port();
+  facts.asks_password = !m_options.password.empty();
+  facts.max_players = static_cast<std::uint16_t>(m_options.max_players);
+  facts.key = ShortKey::of(m_identity->fingerprint());
+  facts.name = m_options.name;
+  facts.game = game;
+  try {
+    return std::make_unique<LanResponder>(facts, m_options.address,
+                                          automatic ? LanMode::kAuto : LanMode::kOn);
+  } catch (const std::system_error& error) {
+    const std::string wrong = std::string("cannot be found in the local network: ") + error.what();
+    if (!automatic) throw ListenError("--lan on: the server " + wrong + ".", error.code());
+    m_log("warning: the server " + wrong);
+    return nullptr;
+  }
+}
+
 std::optional<Fingerprint> Host::fingerprint() const {
   return m_identity ? std::optional(m_identity->fingerprint()) : std::nullopt;
 }
@@ -225,6 +250,7 @@ void Host::run(df::World& world) {
   m_network.start();
   m_service.notifyReady();
   beginMetrics();
+  if (m_lan) m_lan->start();
   while (!isOver()) {
     serveUntil(schedule.deadline());
     heedSignals(signals);
@@ -262,6 +288,12 @@ void Host::end(Ending::Plan plan) {
   m_rooms.setLastRound(plan.at_round_end);
   m_ending.setPlan(std::move(plan), Clock::now());
   if (m_metrics && !m_ending.isOpen()) m_metrics->beginDrain(true);
+}
+
+bool Host::cancelEnd() {
+  m_rooms.setLastRound(false);
+  if (m_metrics) m_metrics->cancelDrain();
+  return m_ending.cancel();
 }
 
 void Host::heedEnd(Clock::time_point now) {
@@ -418,7 +450,9 @@ void Host::notifyService() {
 
 // The list of players has those of all rooms.
 void Host::sendPlayers() {
-  if (m_sessions.playing() == 0) return;
+  const std::size_t playing = m_sessions.playing();
+  if (m_lan) m_lan->setPlayers(playing);
+  if (playing == 0) return;
   m_player_news.tick(
       static_cast<std::uint32_t>(m_counters.ticks), m_rooms.players(),
       [this](std::uint32_t player) {
@@ -507,6 +541,7 @@ void Host::drain() {
   m_service.notifyStopping();
   if (m_metrics) m_metrics->beginDrain(false);
   m_network.closeListener();
+  if (m_lan) m_lan->stop();
   std::string sentence = m_rooms.lastSentence();
   if (sentence.empty() || m_ending.beginsAgain()) sentence = m_ending.sentence();
   if (sentence.empty()) sentence = "The game is over.";
@@ -526,6 +561,7 @@ void Host::drain() {
   m_log("stopped: " + m_counters.summary());
   logPasswords(m_admission.passwordCounters(), m_log);
   logRefusals(m_network, m_log);
+  if (m_lan) logLan(m_lan->counters(), m_log);
 }
 
 void Host::stop(const std::string& sentence) {

@@ -15,6 +15,7 @@
 #include "engine/world/Runner.h"
 #include "host/auth/ServerIdentity.h"
 #include "host/metrics/StageClock.h"
+#include "host/net/LanResponder.h"
 #include "host/net/NetworkThread.h"
 #include "host/net/PlayerPrefixes.h"
 #include "host/program/Admission.h"
@@ -41,8 +42,9 @@ class Host : public df::Runner {
  public:
   using Log = LogLine;
 
-  /// Listens from now on (clients wait until run()). Throws ListenError, TlsError for keys that cannot be
-  /// used, or std::runtime_error for a truth file that cannot be written.
+  /// Listens from now on (clients wait until run()). Throws ListenError (with HostOptions::lan "on" for the
+  /// socket of the local network's queries, too), TlsError for keys that cannot be used, or
+  /// std::runtime_error for a truth file that cannot be written.
   Host(HostOptions options, std::string game, Log log);
   ~Host() override;
 
@@ -91,7 +93,7 @@ class Host : public df::Runner {
   /// On the host's thread.
   void end(Ending::Plan plan);
   /// Do not end after all. False: nothing was planned. On the host's thread.
-  bool cancelEnd() { return m_ending.cancel(); }
+  bool cancelEnd();
   /// What is planned, if anything. On the host's thread.
   const Ending& ending() const { return m_ending; }
   /// run() has ended so that the server begins again; its clients look for it.
@@ -118,6 +120,7 @@ class Host : public df::Runner {
   VisitorsListening visitors() const;
   void openMetrics();
   void beginMetrics();
+  std::unique_ptr<LanResponder> openLan(const std::string& game);
   Session::Events sessionEvents();
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);
@@ -151,6 +154,7 @@ class Host : public df::Runner {
   PlayerPrefixes m_prefixes;
   PrefixAllowance m_handshakes;  ///< of the network thread
   NetworkThread m_network;
+  std::unique_ptr<LanResponder> m_lan;  ///< null: not to be found in the local network
   SessionTable m_sessions;
   StageClock m_stages;
   Rooms m_rooms;

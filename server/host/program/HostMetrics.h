@@ -56,6 +56,8 @@ class HostMetrics {
   void update(Clock::time_point now);
   /// The host lets nobody in any more; `ticks`: but it ticks on.
   void beginDrain(bool ticks) { m_pulse.beginDrain(ticks); }
+  /// It does not end after all.
+  void cancelDrain() { m_pulse.cancelDrain(); }
 
  private:
   MetricsServer::Answer answer(std::string_view path);

@@ -124,6 +124,13 @@ std::vector<Row> tableOf(HostOptions& o) {
       {{"--web-address", &o.web_address, "Also print this address of a page to play on (https://…)",
         "NAIAD_WEB_ADDRESS"}},
       {{"--qr", &o.qr, "Print --web-address as a QR code, too", "NAIAD_QR"}},
+      {{"--lan",
+        &o.lan,
+        "Let dfclient without arguments find this server in the local network: auto = where the address is "
+        "private, on = wherever it listens, off = not",
+        "NAIAD_LAN",
+        {},
+        {"auto", "on", "off"}}},
       {{"--truth", &o.truth_file,
         "Write what each player ought to see, tick by tick, to this file (for tests; large)", "NAIAD_TRUTH"}},
       {{"--metrics", &o.metrics,
@@ -259,6 +266,7 @@ std::string complaint(const HostOptions& options) {
            std::to_string(kMinFrameMicros) + " or more";
   }
   if (options.certificate.empty() != options.key.empty()) return "--certificate and --key come together";
+  if (options.insecure && options.lan == "on") return "--lan on needs encryption, so not --insecure";
   if (options.insecure && !options.visitors.empty()) return "--visitors needs encryption, so not --insecure";
   if (const std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
   return printedComplaint(options);
