@@ -209,6 +209,12 @@ Parsed parseOptions(const Program& program, const std::vector<Option>& options, 
   return Parsed::kRun;
 }
 
+std::optional<int> exitCodeOf(Parsed parsed) {
+  constexpr int kWrongUsage = 2;
+  if (parsed == Parsed::kRun) return std::nullopt;
+  return parsed == Parsed::kDone ? 0 : kWrongUsage;
+}
+
 void storeValue(const Option& option, const std::string& value, const std::string& place) {
   CLI::App app;
   describe(app, option, *addTo(app, option));

@@ -63,6 +63,8 @@ enum class Parsed {
 /// file and line of one in the file, and the nearest name where one is not known.
 Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
                     const char* const* argv);
+/// What the program ends with after that: 0, or 2 for wrong usage. Nothing if it is to run.
+std::optional<int> exitCodeOf(Parsed parsed);
 
 /// An option is not known, or has a value that makes no sense; what() is a sentence that names it.
 class OptionError : public std::runtime_error {
