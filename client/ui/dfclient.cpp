@@ -245,10 +245,8 @@ int start(int argc, char** argv) {
   options.session.name = defaultName();
   options.session.program = std::string("dfclient ") + naiad::kVersion;
   const naiad::Program program{"dfclient", "Play a Dragonfly game on a Naiad server.", footer()};
-  const naiad::Parsed parsed = naiad::parseOptions(program, optionsOf(line), argc, argv);
-  if (parsed != naiad::Parsed::kRun) {
-    return parsed == naiad::Parsed::kDone ? naiad::kExitLeft : naiad::kExitUsage;
-  }
+  if (const auto code = naiad::exitCodeOf(naiad::parseOptions(program, optionsOf(line), argc, argv)))
+    return *code;
 
   // The terminal must not be left to the picture of a game that has crashed.
   if (line.attached) prctl(PR_SET_PDEATHSIG, SIGTERM);

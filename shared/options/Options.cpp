@@ -264,6 +264,12 @@ void copyValue(const Option& from, const Option& to) {
       from.target);
 }
 
+std::optional<int> exitCodeOf(Parsed parsed) {
+  constexpr int kWrongUsage = 2;
+  if (parsed == Parsed::kRun) return std::nullopt;
+  return parsed == Parsed::kDone ? 0 : kWrongUsage;
+}
+
 void storeValue(const Option& option, const std::string& value, const std::string& place) {
   if (value.empty() && clearText(option)) return;
   CLI::App app;

@@ -68,6 +68,8 @@ enum class Parsed {
 /// file and line of each one in the file, and the nearest name where one is not known.
 Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
                     const char* const* argv);
+/// What the program ends with after that: 0, or 2 for wrong usage. Nothing if it is to run.
+std::optional<int> exitCodeOf(Parsed parsed);
 
 /// The same while a program runs: nothing is printed. Throws OptionError.
 void readOptions(const Program& program, const std::vector<Option>& options, int argc,

@@ -7,7 +7,6 @@
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <asio/ip/v6_only.hpp>
-#include <asio/steady_timer.hpp>
 #include <cerrno>
 #include <chrono>
 #include <map>
@@ -15,6 +14,7 @@
 #include <utility>
 
 #include "shared/net/base/AddressPrefix.h"
+#include "shared/net/stream/AcceptLoop.h"
 #include "shared/net/stream/HalfOpenLimit.h"
 #include "shared/net/stream/TcpChannel.h"
 #include "shared/net/stream/TlsHandshake.h"
@@ -23,11 +23,10 @@ namespace naiad {
 
 using asio::ip::tcp;
 
-struct TcpListener::State : std::enable_shared_from_this<State> {
+struct TcpListener::State : AcceptLoop<State, tcp> {
   State(asio::io_context& context, OnChannel callback, const TcpOptions& tcp_options,
         TlsListening tls_listening)
-      : acceptor(context),
-        retry(context),
+      : AcceptLoop(context),
         on_channel(std::move(callback)),
         options(tcp_options),
         tls(std::move(tls_listening)),
@@ -38,8 +37,6 @@ struct TcpListener::State : std::enable_shared_from_this<State> {
   void adoptListening(int socket);
   void requireEncryption(const asio::ip::address& address) const;
   void deferAccepts();
-  void accept();
-  void onAccepted(const std::error_code& error, tcp::socket socket);
   void meet(tcp::socket socket);
   void shakeHands(ByteStream::Socket socket, const tcp::endpoint& peer);
   bool makeRoom(HalfOpenLimit& places, const AddressPrefix& prefix);
@@ -48,8 +45,6 @@ struct TcpListener::State : std::enable_shared_from_this<State> {
   void onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream);
   void close();
 
-  tcp::acceptor acceptor;
-  asio::steady_timer retry;
   tcp::endpoint endpoint;
   OnChannel on_channel;  // as long-lived as this, for a callback may destroy the listener
   TcpOptions options;
@@ -115,26 +110,6 @@ void TcpListener::State::listen(const std::string& numeric_address, std::uint16_
     throw ListenError("Cannot listen: " + where + " is in use by another program.", error);
   }
   throw ListenError("Cannot listen on " + where + " (" + error.message() + ").", error);
-}
-
-void TcpListener::State::accept() {
-  acceptor.async_accept([self = shared_from_this()](const std::error_code& error, tcp::socket socket) {
-    self->onAccepted(error, std::move(socket));
-  });
-}
-
-void TcpListener::State::onAccepted(const std::error_code& error, tcp::socket socket) {
-  if (!acceptor.is_open()) return;
-  if (!error) {
-    meet(std::move(socket));
-    if (acceptor.is_open()) accept();
-    return;
-  }
-  ++counters.failed_accepts;
-  retry.expires_after(kAcceptRetryDelay);
-  retry.async_wait([self = shared_from_this()](const std::error_code&) {
-    if (self->acceptor.is_open()) self->accept();
-  });
 }
 
 void TcpListener::State::meet(tcp::socket socket) {
@@ -228,9 +203,7 @@ void TcpListener::State::onHandshake(TlsHandshake::End end, std::unique_ptr<TlsS
 }
 
 void TcpListener::State::close() {
-  std::error_code ignored;
-  acceptor.close(ignored);
-  retry.cancel();
+  stopAccepting();
   for (const auto& [id, handshake] : std::exchange(handshakes, {})) handshake->cancel();
 }
 

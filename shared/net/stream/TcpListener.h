@@ -55,9 +55,6 @@ class ListenError : public std::runtime_error {
   std::error_code code_;
 };
 
-/// How long a listener waits for descriptors or memory to come free.
-inline constexpr std::chrono::milliseconds kAcceptRetryDelay{100};
-
 /// Accepts until closed or destroyed. Running out of descriptors or memory does not end it: it waits 100 ms
 /// and tries again, while the connections wait in the kernel's backlog.
 ///

@@ -86,6 +86,12 @@ TEST_F(OptionsTest, AnUnknownOptionIsNamedWithTheNearestOne) {
   EXPECT_EQ(parse({"what"}), std::string("dfthing: unexpected argument \"what\"") + kHelp);
 }
 
+TEST_F(OptionsTest, AProgramEndsWith2AfterWrongUsageAndWith0AfterHelp) {
+  EXPECT_EQ(exitCodeOf(Parsed::kRun), std::nullopt);
+  EXPECT_EQ(exitCodeOf(Parsed::kDone), 0);
+  EXPECT_EQ(exitCodeOf(Parsed::kUsageError), 2);
+}
+
 TEST_F(OptionsTest, AValueOutOfRangeIsNamedWithItsOption) {
   EXPECT_EQ(parse({"--port", "70000"}),
             std::string("dfthing: --port: Value 70000 not in range 0 to 65535") + kHelp);
