@@ -318,7 +318,7 @@ TEST_P(Fail2ban, FindsWhoGuessesPasswordsAndNobodyElse) {
       << fail2banFinds(*server, "normal") << server->log();
 }
 
-INSTANTIATE_TEST_SUITE_P(, Fail2ban, testing::Values("text", "json"),
+INSTANTIATE_TEST_SUITE_P(Formats, Fail2ban, testing::Values("text", "json"),
                          [](const auto& test) { return std::string(test.param); });
 
 // ---- a restart --------------------------------------------------------------------------------------------
