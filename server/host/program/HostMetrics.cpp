@@ -32,7 +32,6 @@ MetricsServer::Answer answerOf(const HostPulse::Verdict& verdict) {
 
 HostMetrics::HostMetrics(const Sources& sources) : m_sources(sources), m_pulse(sources.stages) {
   m_sources.stages.start();
-  m_next.max_players = static_cast<std::uint64_t>(sources.options.max_players);
   m_server = std::make_unique<MetricsServer>(*MetricsAddress::parse(sources.options.metrics),
                                              *MetricsHosts::parse(sources.options.metrics_hosts),
                                              [this](std::string_view path) { return answer(path); });
@@ -74,6 +73,7 @@ void HostMetrics::update(Clock::time_point now) {
 
 void HostMetrics::measure(Clock::time_point now) {
   m_measure_at = std::max(m_measure_at + kMeasureEvery, now);
+  m_next.max_players = static_cast<std::uint64_t>(m_sources.options.max_players);
   m_next.counters = m_sources.counters;
   m_next.passwords = m_sources.admission.passwordCounters();
   m_next.network = m_sources.network.latestCounters();
