@@ -62,6 +62,7 @@ constexpr auto kHostRows = std::to_array<CounterRow<C>>({
     {&C::refused_version, "naiad_refusals_total", R"(reason="version")", "Clients that were not let in, by reason."},
     {&C::refused_full, "naiad_refusals_total", R"(reason="full")", ""},
     {&C::refused_address, "naiad_refusals_total", R"(reason="address")", ""},
+    {&C::refused_closing, "naiad_refusals_total", R"(reason="closing")", ""},
     {&C::refused_game, "naiad_refusals_total", R"(reason="game")", ""},
     {&C::refused_name, "naiad_refusals_total", R"(reason="name")", ""},
     {&C::refused_password, "naiad_refusals_total", R"(reason="password")", ""},
