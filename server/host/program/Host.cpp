@@ -17,6 +17,7 @@
 #include "host/session/LookAlikes.h"
 #include "host/world/Descendants.h"
 #include "naiad.pb.h"
+#include "shared/net/lan/LanMessage.h"
 #include "shared/program/BrokenPipes.h"
 #include "shared/program/LogText.h"
 #include "shared/program/OpenFiles.h"
