@@ -202,7 +202,7 @@ TEST_F(LanListTest, WithoutATerminalAServerIsRequired) {
 
 TEST_F(LanListTest, WhatDoesNotGoTogetherIsAUsageError) {
   expectEnd(*client({"--json"}), 2, "--json goes with --list");
-  expectEnd(*client({"--list", "127.0.0.1"}), 2, "takes none");
+  expectEnd(*client({"--list", "127.0.0.1"}), 2, "do not go together");
   expectEnd(*client({"--password", "xyzzy"}), 2, "--ask-password");
   expectEnd(*client({"--insecure"}), 2, "--insecure is for one server");
 }

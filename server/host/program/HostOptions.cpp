@@ -126,6 +126,11 @@ std::vector<Row> tableOf(HostOptions& o) {
       {{"--truth", &o.truth_file,
         "Write what each player ought to see, tick by tick, to this file (for tests; large)", "NAIAD_TRUTH"}},
       {{"--port-file", &o.port_file, "Write the port number to this file once listening", "NAIAD_PORT_FILE"}},
+      {{"--status-file", &o.status_file,
+        "Write name, game, number of players and link (see --link-host) to this file as JSON, every 5 "
+        "seconds; "
+        "for lists of servers on the web. It is removed when the server stops",
+        "NAIAD_STATUS_FILE"}},
       {{"--log", &o.log_file, "Append log lines to this file instead of stderr", "NAIAD_LOG"}},
       {{"--headless", &o.headless, "Without network and players, as fast as possible", "NAIAD_HEADLESS"},
        UsedBy::kProgram},

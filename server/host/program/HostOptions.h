@@ -47,6 +47,7 @@ struct HostOptions {
   bool qr = false;                    ///< print that as a QR code, too
   std::string lan = "auto";           ///< found in the local network: "auto", "on" or "off" (LanQueryJudge.h)
   std::string truth_file;             ///< write what each player should see, tick by tick
+  std::string status_file;            ///< write what plays here, as JSON, every few seconds
   std::string port_file;              ///< write the port number here once listening
   std::string log_file;               ///< append log lines here instead of stderr
   std::vector<std::string> warnings;  ///< about these options, for the log

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "../../support/HostileTexts.h"
-#include "client/lan/JsonText.h"
+#include "shared/net/base/JsonText.h"
 #include "client/lan/ServerListText.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"

@@ -46,7 +46,8 @@ MenuResult press(ServerMenu& menu, key::Key which, std::uint8_t modifiers = 0) {
 }
 
 ServerMenu menuOf(std::vector<FoundServer> servers) {
-  ServerMenu menu("Servers of this network", {"No server answered.", "Start one."});
+  ServerMenu menu("Servers of this network");
+  menu.setEmpty({"No server answered.", "Start one."});
   menu.setServers(std::move(servers));
   menu.setLooking(false);
   return menu;
