@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "client/lan/JsonText.h"
+#include "shared/net/base/JsonText.h"
 #include "shared/net/base/SafeText.h"
 
 namespace naiad {

@@ -19,7 +19,7 @@ std::string noteOf(const FoundServer& server);
 
 /// A line for each, in columns, and a head; a sentence if there is none.
 std::string serversAsText(const std::vector<FoundServer>& servers);
-/// A JSON array of objects (docs/hosting.md lists their members), one to a line. ASCII only.
+/// A JSON array of objects (docs/doors.md lists their members), one to a line. ASCII only.
 std::string serversAsJson(const std::vector<FoundServer>& servers);
 
 }  // namespace naiad

@@ -15,10 +15,22 @@
 #include "client/terminal/TerminalGuard.h"
 
 namespace naiad {
+namespace {
+
+int millisUntil(std::chrono::steady_clock::time_point time) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(time - std::chrono::steady_clock::now());
+  return std::max(0, static_cast<int>(left.count()));
+}
+
+}  // namespace
 
 ServerChooser::ServerChooser(Options options)
     : m_options(std::move(options)),
-      m_menu("Servers of this network", {std::begin(kNoServersFound), std::end(kNoServersFound)}) {}
+      m_menu(m_options.fetch ? "Servers of the list" : "Servers of this network") {
+  if (m_options.fetch) return;
+  m_browser.emplace();
+  m_menu.setEmpty({std::begin(kNoServersFound), std::end(kNoServersFound)});
+}
 
 ServerChooser::~ServerChooser() = default;
 
@@ -26,7 +38,7 @@ ServerChooser::Outcome ServerChooser::run() {
   takeTerminal();
   refresh(std::chrono::steady_clock::now());
   while (!m_done) {
-    m_browser.update(std::chrono::steady_clock::now());
+    if (m_browser) m_browser->update(std::chrono::steady_clock::now());
     if (m_dirty) draw();
     wait();
   }
@@ -47,18 +59,23 @@ void ServerChooser::takeTerminal() {
 /// One turn: what comes first of keys, a signal, answers, and the next deadline.
 void ServerChooser::wait() {
   std::vector<pollfd> waited{{STDIN_FILENO, POLLIN, 0}, {m_guard->signalFd(), POLLIN, 0}};
-  for (const int descriptor : m_browser.descriptors()) waited.push_back({descriptor, POLLIN, 0});
-  Time next = m_browser.nextQuery();
-  if (m_looking) next = std::min(next, m_begun + LanBrowser::kPatience);
-  if (const auto due = m_decoder.deadline()) next = std::min(next, *due);
-  const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - std::chrono::steady_clock::now());
-  ::poll(waited.data(), waited.size(), std::max(0, static_cast<int>(left.count())));
+  std::optional<Time> next = m_decoder.deadline();
+  if (m_browser) {
+    for (const int descriptor : m_browser->descriptors()) waited.push_back({descriptor, POLLIN, 0});
+    next = std::min(next.value_or(Time::max()), m_browser->nextQuery());
+    if (m_looking) next = std::min(*next, m_begun + LanBrowser::kPatience);
+  }
+  ::poll(waited.data(), waited.size(), next ? millisUntil(*next) : -1);
   const Time now = std::chrono::steady_clock::now();
   if (waited[1].revents != 0) takeSignals();
   if (waited[0].revents != 0 && !m_done) readKeys(now);
   takeEvents(m_decoder.flush(now), now);
-  if (m_browser.receiveAnswers()) {
-    m_menu.setServers(m_browser.servers().sorted());
+  if (m_browser) receiveAnswers(now);
+}
+
+void ServerChooser::receiveAnswers(Time now) {
+  if (m_browser->receiveAnswers()) {
+    m_menu.setServers(m_browser->servers().sorted());
     m_dirty = true;
   }
   if (!m_looking || now < m_begun + LanBrowser::kPatience) return;
@@ -120,11 +137,24 @@ void ServerChooser::takeSignals() {
 }
 
 void ServerChooser::refresh(Time now) {
-  m_browser.restart();
   m_menu.setServers({});
   m_menu.setLooking(true);
   m_begun = now;
   m_looking = true;
+  m_dirty = true;
+  m_browser ? m_browser->restart() : fetch();
+}
+
+void ServerChooser::fetch() {
+  draw();
+  const auto fetched = m_options.fetch();
+  if (const auto* p_problem = std::get_if<DownloadProblem>(&fetched)) {
+    m_menu.setEmpty({p_problem->sentence});
+  } else {
+    m_menu.setEmpty({"No server is in the list."});
+    m_menu.setServers(std::get<FoundServers>(fetched).sorted());
+  }
+  m_menu.setLooking(false);
   m_dirty = true;
 }
 

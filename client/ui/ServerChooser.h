@@ -1,15 +1,17 @@
-// The full-screen list of servers, on a real terminal: looks for those of the local network until one is
-// chosen.
+// The full-screen list of servers, on a real terminal, until one is chosen: of the local network, where it
+// goes on looking, or of a list that is fetched.
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
-#include <string>
+#include <variant>
 #include <vector>
 
 #include "client/lan/FoundServers.h"
 #include "client/lan/LanBrowser.h"
+#include "client/lan/ListDownload.h"
 #include "client/terminal/InputDecoder.h"
 #include "client/terminal/TerminalType.h"
 #include "client/ui/ServerMenu.h"
@@ -25,6 +27,8 @@ class ServerChooser {
     TerminalType terminal;
     bool ascii = false;
     bool colors = true;
+    /// Fetches a list; keys wait meanwhile. Empty: the servers of the local network.
+    std::function<std::variant<FoundServers, DownloadProblem>()> fetch{};
   };
   struct Outcome {
     std::optional<FoundServer> server;  ///< nothing: the player left
@@ -46,11 +50,13 @@ class ServerChooser {
   void takeEvents(const std::vector<TerminalEvent>& events, Time now);
   void takeSignals();
   void refresh(Time now);
+  void fetch();
+  void receiveAnswers(Time now);
   void suspend();
   void draw();
 
   Options m_options;
-  LanBrowser m_browser;
+  std::optional<LanBrowser> m_browser;  ///< nothing with Options::fetch
   ServerMenu m_menu;
   InputDecoder m_decoder;
   std::unique_ptr<TerminalGuard> m_guard;

@@ -60,9 +60,6 @@ std::vector<std::string> wrapped(const std::string& text, int columns) {
 
 }  // namespace
 
-ServerMenu::ServerMenu(std::string title, std::vector<std::string> empty)
-    : m_title(std::move(title)), m_empty(std::move(empty)) {}
-
 void ServerMenu::setServers(std::vector<FoundServer> servers) {
   const FoundServer* p_before = chosen();
   const auto key_before = p_before != nullptr ? std::optional(p_before->key) : std::nullopt;

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/lan/FoundServers.h"
@@ -18,9 +19,11 @@ class ServerMenu {
   /// What the program must do about a key.
   enum class Result { kNone, kRedraw, kJoin, kRefresh, kLeave, kSuspend };
 
-  /// `title`: where the servers were found. `empty`: lines to show where there is none.
-  ServerMenu(std::string title, std::vector<std::string> empty);
+  /// `title`: where the servers were found.
+  explicit ServerMenu(std::string title) : m_title(std::move(title)) {}
 
+  /// Show these sentences where there is no server.
+  void setEmpty(std::vector<std::string> empty) { m_empty = std::move(empty); }
   /// Show these. The chosen one stays chosen, wherever it is now; the first one is at first.
   void setServers(std::vector<FoundServer> servers);
   /// Answers may still come: an empty list is none to speak of yet.

@@ -12,9 +12,13 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "client/lan/LanBrowser.h"
+#include "client/lan/ListDownload.h"
+#include "client/lan/ListUrl.h"
+#include "client/lan/ServerListJson.h"
 #include "client/lan/ServerListText.h"
 #include "client/session/TrustOptions.h"
 #include "client/terminal/PasswordPrompt.h"
@@ -38,6 +42,7 @@ struct CommandLine {
   bool attached = false;
   bool ask_password = false;
   bool list = false;
+  std::optional<naiad::ListUrl> list_url;
   bool json = false;
   int idle_limit = 0;  ///< seconds
 };
@@ -82,8 +87,8 @@ bool usesColors() {
   return no_color == nullptr || *no_color == '\0';
 }
 
-/// --list: those that answer in time.
-int printServers(bool json) {
+/// Those of this network that answer in time.
+naiad::FoundServers findServers() {
   using Clock = std::chrono::steady_clock;
   naiad::LanBrowser browser;
   std::vector<pollfd> waited;
@@ -95,8 +100,34 @@ int printServers(bool json) {
     ::poll(waited.data(), waited.size(), static_cast<int>(left.count()));
     browser.receiveAnswers();
   }
-  const auto servers = browser.servers().sorted();
-  std::fputs((json ? naiad::serversAsJson(servers) : naiad::serversAsText(servers)).c_str(), stdout);
+  return browser.servers();
+}
+
+std::variant<naiad::FoundServers, naiad::DownloadProblem> fetchServers(const naiad::ListUrl& url) {
+  auto fetched = naiad::downloadList(url);
+  if (auto* p_problem = std::get_if<naiad::DownloadProblem>(&fetched)) return *p_problem;
+  auto servers = naiad::readServerList(std::get<std::string>(fetched));
+  if (!servers) return naiad::DownloadProblem{"What is there is no list of servers."};
+  return *std::move(servers);
+}
+
+/// --list: of this network, or of --list-url.
+int printServers(const CommandLine& line) {
+  naiad::FoundServers found;
+  if (line.list_url) {
+    auto fetched = fetchServers(*line.list_url);
+    if (const auto* p_problem = std::get_if<naiad::DownloadProblem>(&fetched))
+      return complain(naiad::kExitUnreachable, p_problem->sentence);
+    found = std::get<naiad::FoundServers>(std::move(fetched));
+  } else {
+    found = findServers();
+  }
+  const auto servers = found.sorted();
+  const std::string none = line.list_url ? "No server is in the list.\n" : naiad::serversAsText({});
+  const std::string text = line.json         ? naiad::serversAsJson(servers)
+                           : servers.empty() ? none
+                                             : naiad::serversAsText(servers);
+  std::fputs(text.c_str(), stdout);
   return naiad::kExitLeft;
 }
 
@@ -113,8 +144,10 @@ std::optional<int> chooseServer(CommandLine& line) {
     return complain(naiad::kExitUsage, "--insecure is for one server: name it, too.");
   naiad::ServerChooser::Outcome outcome;
   try {
-    naiad::ServerChooser chooser(
-        {naiad::chooseTerminalType(std::getenv("TERM")), line.play.ascii, usesColors()});
+    naiad::ServerChooser::Options options{naiad::chooseTerminalType(std::getenv("TERM")), line.play.ascii,
+                                          usesColors()};
+    if (line.list_url) options.fetch = [url = *line.list_url] { return fetchServers(url); };
+    naiad::ServerChooser chooser(std::move(options));
     outcome = chooser.run();
   } catch (const std::runtime_error& error) {
     return complain(naiad::kExitNoTerminal, error.what());
@@ -133,7 +166,7 @@ std::string listComplaint(const CommandLine& line) {
   const char* p_ambient = std::getenv("NAIAD_SERVER");
   const bool is_named = !line.server.text.empty() && (p_ambient == nullptr || line.server.text != p_ambient);
   if (line.json && !line.list) return "--json goes with --list.";
-  if (line.list && is_named) return "--list lists the servers of this network, so it takes none.";
+  if ((line.list || line.list_url) && is_named) return "A list and a server do not go together.";
   return {};
 }
 
@@ -167,13 +200,21 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
     if (mode) play.sound = *mode;
     return mode ? "" : "bell, note or off is wanted";
   };
+  const naiad::StoreText store_url = [&line](const std::string& text) -> std::string {
+    line.list_url = naiad::ListUrl::parse(text);
+    return line.list_url ? "" : "an address that begins with https:// is wanted";
+  };
   naiad::Option server = naiad::serverOption(line.server);
   server.is_optional = true;
   server.help += ". Without it, in a terminal: a list of the servers of this network";
   std::vector<naiad::Option> options = {
       server,
-      {"--list", &line.list, "Print the servers of this network"},
+      {"--list", &line.list, "Print the servers of this network, or of --list-url"},
       {"--json", &line.json, "With --list: as JSON"},
+      {.name = "--list-url",
+       .target = store_url,
+       .help = "List the servers that are in this list on the web (https://…)",
+       .type = "URL"},
       {.name = "--name",
        .target = &play.session.name,
        .help = "Your name in the game, 1 to 16 characters (default: $USER)",
@@ -253,8 +294,8 @@ int start(int argc, char** argv) {
 
   if (const std::string wrong = listComplaint(line); !wrong.empty())
     return complain(naiad::kExitUsage, wrong);
-  if (line.list) return printServers(line.json);
-  if (line.server.text.empty()) {
+  if (line.list) return printServers(line);
+  if (line.server.text.empty() || line.list_url) {
     if (const auto code = chooseServer(line)) return *code;
   }
   return join(line);

@@ -19,6 +19,7 @@
 #include "host/session/LookAlikes.h"
 #include "host/world/Descendants.h"
 #include "naiad.pb.h"
+#include "shared/net/lan/LanMessage.h"
 #include "shared/program/BrokenPipes.h"
 #include "shared/program/LogText.h"
 #include "shared/program/OpenFiles.h"
@@ -108,6 +109,7 @@ Host::Host(HostOptions options, std::string game, Log log)
           },
           channelOptions(), listening(), NetworkThread::Limits(), visitors(), m_options.sockets),
       m_lan(openLan(game)),
+      m_status(openStatus(game)),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
       m_rooms(
@@ -206,6 +208,18 @@ std::unique_ptr<LanResponder> Host::openLan(const std::string& game) {
     m_log("warning: the server " + wrong);
     return nullptr;
   }
+}
+
+std::unique_ptr<StatusFile> Host::openStatus(const std::string& game) const {
+  if (m_options.status_file.empty()) return nullptr;
+  StatusFacts facts;
+  facts.name = m_options.name;
+  facts.game = game;
+  facts.max_players = static_cast<std::size_t>(m_options.max_players);
+  facts.asks_password = !m_options.password.empty();
+  const auto link = m_options.link_host.empty() ? std::nullopt : joinLink(true);
+  if (link) facts.link = link->text();
+  return std::make_unique<StatusFile>(m_options.status_file, facts);
 }
 
 std::optional<Fingerprint> Host::fingerprint() const {
@@ -448,10 +462,18 @@ void Host::notifyService() {
                          (playing == 1 ? " player" : " players"));
 }
 
+// For those who look for a server.
+void Host::notePlaying(std::size_t playing) {
+  if (m_lan) m_lan->setPlayers(playing);
+  if (!m_status) return;
+  m_status->setPlayers(playing);
+  if (const std::string news = m_status->takeNews(); !news.empty()) m_log(news);
+}
+
 // The list of players has those of all rooms.
 void Host::sendPlayers() {
   const std::size_t playing = m_sessions.playing();
-  if (m_lan) m_lan->setPlayers(playing);
+  notePlaying(playing);
   if (playing == 0) return;
   m_player_news.tick(
       static_cast<std::uint32_t>(m_counters.ticks), m_rooms.players(),
@@ -542,6 +564,7 @@ void Host::drain() {
   if (m_metrics) m_metrics->beginDrain(false);
   m_network.closeListener();
   if (m_lan) m_lan->stop();
+  m_status.reset();
   std::string sentence = m_rooms.lastSentence();
   if (sentence.empty() || m_ending.beginsAgain()) sentence = m_ending.sentence();
   if (sentence.empty()) sentence = "The game is over.";

@@ -28,6 +28,7 @@
 #include "host/program/ServiceNotify.h"
 #include "host/program/SessionTable.h"
 #include "host/program/SideLog.h"
+#include "host/program/StatusFile.h"
 #include "host/program/TickClock.h"
 #include "host/program/Watchdog.h"
 #include "host/session/Counters.h"
@@ -44,7 +45,7 @@ class Host : public df::Runner {
 
   /// Listens from now on (clients wait until run()). Throws ListenError (with HostOptions::lan "on" for the
   /// socket of the local network's queries, too), TlsError for keys that cannot be used, or
-  /// std::runtime_error for a truth file that cannot be written.
+  /// std::runtime_error for a truth or status file that cannot be written.
   Host(HostOptions options, std::string game, Log log);
   ~Host() override;
 
@@ -121,6 +122,8 @@ class Host : public df::Runner {
   void openMetrics();
   void beginMetrics();
   std::unique_ptr<LanResponder> openLan(const std::string& game);
+  std::unique_ptr<StatusFile> openStatus(const std::string& game) const;
+  void notePlaying(std::size_t playing);
   Session::Events sessionEvents();
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);
@@ -154,7 +157,8 @@ class Host : public df::Runner {
   PlayerPrefixes m_prefixes;
   PrefixAllowance m_handshakes;  ///< of the network thread
   NetworkThread m_network;
-  std::unique_ptr<LanResponder> m_lan;  ///< null: not to be found in the local network
+  std::unique_ptr<LanResponder> m_lan;   ///< null: not to be found in the local network
+  std::unique_ptr<StatusFile> m_status;  ///< null: none is asked for
   SessionTable m_sessions;
   StageClock m_stages;
   Rooms m_rooms;

@@ -154,6 +154,11 @@ std::vector<Row> tableOf(HostOptions& o) {
         {},
         {"on", "off"}}},
       {{"--port-file", &o.port_file, "Write the port number to this file once listening", "NAIAD_PORT_FILE"}},
+      {{"--status-file", &o.status_file,
+        "Write name, game, number of players and link (see --link-host) to this file as JSON, every 5 "
+        "seconds; "
+        "for lists of servers on the web. It is removed when the server stops",
+        "NAIAD_STATUS_FILE"}},
       {{"--log", &o.log_file, "Append log lines to this file instead of stderr", "NAIAD_LOG"}},
       {{"--log-format",
         &o.log_format,

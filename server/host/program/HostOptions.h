@@ -55,6 +55,7 @@ struct HostOptions {
   std::string metrics_port_file;      ///< write their port number here once listening
   bool metrics_public = false;        ///< `metrics` may be an address of the internet
   std::string audit = "on";           ///< of pictures, where there are metrics: "on" or "off"
+  std::string status_file;            ///< write what plays here, as JSON, every few seconds
   std::string port_file;              ///< write the port number here once listening
   std::string log_file;               ///< append log lines here instead of stderr
   std::string log_format = "text";    ///< or "json"

@@ -1,7 +1,6 @@
-#include "client/lan/FoundServers.h"
-
 #include <gtest/gtest.h>
 
+#include "client/lan/FoundServers.h"
 #include "client/lan/LanBrowser.h"
 #include "shared/net/base/Limits.h"
 

@@ -1,11 +1,10 @@
-#include "client/lan/ServerListText.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "../../support/HostileTexts.h"
-#include "client/lan/JsonText.h"
+#include "shared/net/base/JsonText.h"
+#include "client/lan/ServerListText.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 
@@ -29,8 +28,11 @@ TEST(ServerListText, APersonReadsColumnsAndALink) {
   const std::string key = full.key.text();
   EXPECT_EQ(serversAsText({listed("Ann's"), full}),
             "NAME   GAME   PLAYERS  NOTE  SERVER\n"
-            "Ann's  hello  3/16           naiad://192.168.1.5:9877#" + key + "\n"
-            "b      hello  16/16    full  naiad://192.168.1.5:9877#" + key + "\n");
+            "Ann's  hello  3/16           naiad://192.168.1.5:9877#" +
+                key +
+                "\n"
+                "b      hello  16/16    full  naiad://192.168.1.5:9877#" +
+                key + "\n");
 }
 
 TEST(ServerListText, AnEmptyListSaysWhatToDo) {
@@ -56,13 +58,18 @@ TEST(ServerListText, AProgramReadsJson) {
   zoned.where = {"fe80::5%eth0", 9876};
   zoned.asks_password = true;
   const std::string key = zoned.key.text();
-  EXPECT_EQ(serversAsJson({listed("a\"\\"), zoned}),
-            "[{\"name\": \"a\\\"\\\\\", \"game\": \"hello\", \"players\": 3, \"max_players\": 16, \"password\": false, "
-            "\"protocol\": " + std::to_string(kProtocolVersion) + ", \"address\": \"192.168.1.5:9877\", \"key\": \"" + key +
-            "\", \"link\": \"naiad://192.168.1.5:9877#" + key + "\"},\n "
-            "{\"name\": \"b\", \"game\": \"hello\", \"players\": 3, \"max_players\": 16, \"password\": true, "
-            "\"protocol\": " + std::to_string(kProtocolVersion) + ", \"address\": \"[fe80::5%eth0]:9876\", \"key\": \"" + key +
-            "\", \"link\": null}]\n");
+  EXPECT_EQ(
+      serversAsJson({listed("a\"\\"), zoned}),
+      "[{\"name\": \"a\\\"\\\\\", \"game\": \"hello\", \"players\": 3, \"max_players\": 16, \"password\": "
+      "false, "
+      "\"protocol\": " +
+          std::to_string(kProtocolVersion) + ", \"address\": \"192.168.1.5:9877\", \"key\": \"" + key +
+          "\", \"link\": \"naiad://192.168.1.5:9877#" + key +
+          "\"},\n "
+          "{\"name\": \"b\", \"game\": \"hello\", \"players\": 3, \"max_players\": 16, \"password\": true, "
+          "\"protocol\": " +
+          std::to_string(kProtocolVersion) + ", \"address\": \"[fe80::5%eth0]:9876\", \"key\": \"" + key +
+          "\", \"link\": null}]\n");
 }
 
 TEST(ServerListText, NoTextLeavesItsQuotes) {

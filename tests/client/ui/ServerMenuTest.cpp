@@ -1,7 +1,6 @@
-#include "client/ui/ServerMenu.h"
-
 #include <gtest/gtest.h>
 
+#include "client/ui/ServerMenu.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {
@@ -47,7 +46,8 @@ MenuResult press(ServerMenu& menu, key::Key which, std::uint8_t modifiers = 0) {
 }
 
 ServerMenu menuOf(std::vector<FoundServer> servers) {
-  ServerMenu menu("Servers of this network", {"No server answered.", "Start one."});
+  ServerMenu menu("Servers of this network");
+  menu.setEmpty({"No server answered.", "Start one."});
   menu.setServers(std::move(servers));
   menu.setLooking(false);
   return menu;
@@ -55,7 +55,8 @@ ServerMenu menuOf(std::vector<FoundServer> servers) {
 
 TEST(ServerMenu, ShowsWhatIsToBeKnownOfEachServer) {
   ServerMenu menu = menuOf({menuServer(5, "Ann's")});
-  for (const char* p_text : {"Servers of this network", "Ann's", "hello", "0/16", "192.168.1.5:9876", "Enter join"})
+  for (const char* p_text :
+       {"Servers of this network", "Ann's", "hello", "0/16", "192.168.1.5:9876", "Enter join"})
     EXPECT_TRUE(shows(menu, p_text)) << textOf(menu.compose(80, 24));
 }
 
@@ -89,7 +90,8 @@ TEST(ServerMenu, OtherKeysRefreshAndLeave) {
 TEST(ServerMenu, TheChosenOneStaysChosenWhereverItGoes) {
   ServerMenu menu = menuOf(menuServers(3));
   press(menu, key::DOWNARROW);
-  menu.setServers({menuServer(9, "a"), menuServer(1, "server 1"), menuServer(8, "b"), menuServer(2, "server 2")});
+  menu.setServers(
+      {menuServer(9, "a"), menuServer(1, "server 1"), menuServer(8, "b"), menuServer(2, "server 2")});
   EXPECT_EQ(menu.chosen()->name, "server 2");
   menu.setServers({menuServer(9, "a")});
   EXPECT_EQ(menu.chosen()->name, "a");

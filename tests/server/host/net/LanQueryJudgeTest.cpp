@@ -1,6 +1,6 @@
-#include "host/net/LanQueryJudge.h"
-
 #include <gtest/gtest.h>
+
+#include "host/net/LanQueryJudge.h"
 
 namespace naiad {
 namespace {

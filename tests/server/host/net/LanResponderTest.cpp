@@ -1,6 +1,4 @@
 // The responder with real sockets, on loopback: asked as clients ask, and flooded.
-#include "host/net/LanResponder.h"
-
 #include <gtest/gtest.h>
 #include <poll.h>
 
@@ -8,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <set>
+
+#include "host/net/LanResponder.h"
 
 namespace naiad {
 namespace {
@@ -19,7 +19,8 @@ const LanNonce kResponderNonce{9, 8, 7};
 /// The loopback network of this family; nothing where a machine has none.
 std::optional<LanNetwork> loopback(LanSocket::Family family) {
   for (const LanNetwork& network : lanNetworks()) {
-    if (network.is_loopback && network.address.is_v4() == (family == LanSocket::Family::kIPv4)) return network;
+    if (network.is_loopback && network.address.is_v4() == (family == LanSocket::Family::kIPv4))
+      return network;
   }
   return std::nullopt;
 }
@@ -137,8 +138,8 @@ TEST_P(LanResponderTest, NothingIsAnsweredAfterStop) {
 
 INSTANTIATE_TEST_SUITE_P(Families, LanResponderTest,
                          testing::Values(LanSocket::Family::kIPv4, LanSocket::Family::kIPv6),
-                         [](const auto& info) {
-                           return info.param == LanSocket::Family::kIPv4 ? "IPv4" : "IPv6";
+                         [](const auto& family) {
+                           return family.param == LanSocket::Family::kIPv4 ? "IPv4" : "IPv6";
                          });
 
 }  // namespace

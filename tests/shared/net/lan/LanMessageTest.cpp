@@ -1,9 +1,8 @@
-#include "shared/net/lan/LanMessage.h"
-
 #include <gtest/gtest.h>
 
 #include "../../../support/HostileTexts.h"
 #include "shared/net/base/SafeText.h"
+#include "shared/net/lan/LanMessage.h"
 #include "shared/values/Canvas.h"
 #include "shared/values/SplitMix64.h"
 
@@ -117,12 +116,12 @@ TEST(LanMessage, EveryFieldOfAnAnswerHasItsRange) {
   };
   EXPECT_TRUE(with(0, "nlan"));
   EXPECT_FALSE(with(0, "nlam"));
-  EXPECT_FALSE(with(4, "\2"));                       // another format
-  EXPECT_FALSE(with(5, "\1"));                       // a query
-  EXPECT_FALSE(with(24, std::string("\0\0", 2)));    // no port
-  EXPECT_FALSE(with(26, "\2"));                      // an unknown flag
+  EXPECT_FALSE(with(4, "\2"));                     // another format
+  EXPECT_FALSE(with(5, "\1"));                     // a query
+  EXPECT_FALSE(with(24, std::string("\0\0", 2)));  // no port
+  EXPECT_FALSE(with(26, "\2"));                    // an unknown flag
   EXPECT_FALSE(with(27, "\1"));
-  EXPECT_FALSE(with(48, "\6"));                      // the name takes a byte of the game
+  EXPECT_FALSE(with(48, "\6"));  // the name takes a byte of the game
   EXPECT_FALSE(with(48, "\xff"));
   std::string longer = bytes.substr(0, 48) + static_cast<char>(161) + std::string(161, 'x') + '\0';
   EXPECT_FALSE(readLanAnswer(longer));

@@ -1,4 +1,4 @@
-#include "client/lan/JsonText.h"
+#include "shared/net/base/JsonText.h"
 
 #include <cstdio>
 
