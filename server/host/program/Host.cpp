@@ -105,7 +105,8 @@ Host::Host(HostOptions options, std::string game, Log log)
           channelOptions(), listening(), NetworkThread::Limits(), visitors()),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
-      m_rooms(m_options, m_sessions, m_counters, m_log, [this] { flush(); }, m_stages),
+      m_rooms(
+          m_options, m_sessions, m_counters, m_log, [this] { flush(); }, m_stages),
       m_client_log(m_log),
       m_admission({m_options, std::move(game), m_sessions, m_rooms, m_prefixes, m_counters,
                    [this](const std::string& address, const std::string& text) {
@@ -130,12 +131,12 @@ Host::Host(HostOptions options, std::string game, Log log)
   }
 }
 
-// Before the listener's players come, and like that: it cannot listen, or somebody has the port.
+// A port that is taken is an error as the players' port is.
 void Host::openMetrics() {
   if (m_options.metrics.empty()) return;
   try {
-    m_metrics = std::make_unique<HostMetrics>(HostMetrics::Sources{m_options, m_counters, m_network, m_sessions,
-                                                                   m_rooms, m_admission, m_stages});
+    m_metrics = std::make_unique<HostMetrics>(
+        HostMetrics::Sources{m_options, m_counters, m_network, m_sessions, m_rooms, m_admission, m_stages});
   } catch (const MetricsError& error) {
     throw ListenError(error.what(), std::make_error_code(std::errc::address_in_use));
   }
