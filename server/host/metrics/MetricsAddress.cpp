@@ -1,7 +1,6 @@
 #include "host/metrics/MetricsAddress.h"
 
 #include <algorithm>
-#include <asio/ip/address.hpp>
 #include <charconv>
 
 #include "shared/net/base/AddressPrefix.h"
