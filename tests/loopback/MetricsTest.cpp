@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <functional>
 #include <list>
 #include <memory>
@@ -224,7 +225,7 @@ TEST_F(Metrics, TheAuditFindsNoWrongCellInAnHonestGame) {
       pressed = ann.newestTick();
       ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
     }
-    return value("naiad_audit_pictures_total") >= 200;
+    return value("naiad_audit_pictures_total") >= 30;
   }));
   EXPECT_EQ(value("naiad_audit_cells_total"), value("naiad_audit_pictures_total") * 80 * 24);
   EXPECT_EQ(value("naiad_audit_wrong_cells_total"), 0);
@@ -242,14 +243,16 @@ TEST_F(Metrics, TheAuditFindsNoWrongCellOverALineThatLosesDatagrams) {
   clients.back().keepPictures(false);
   TestClient& ann = clients.back();
   ASSERT_TRUE(serve([&] { return ann.joined() && ann.session().hasDatagrams(Clock::now()); }));
+  // The next audited second may be ten seconds away.
   SplitMix64 random(5);
-  const double streamed = value(R"(naiad_snapshots_total{path="datagram"})");
+  const double pictures = value("naiad_audit_pictures_total");
+  const double datagrams = value(R"(naiad_snapshots_total{path="datagram"})");
   EXPECT_TRUE(serve([&] {
     valve->down = random.below(10) != 0;
     valve->up = random.below(20) != 0;
-    return value("naiad_audit_pictures_total") >= 200;
+    return value("naiad_audit_pictures_total") >= pictures + 20;
   }));
-  EXPECT_GT(value(R"(naiad_snapshots_total{path="datagram"})"), streamed);
+  EXPECT_GT(value(R"(naiad_snapshots_total{path="datagram"})"), datagrams + 100);
   EXPECT_EQ(value("naiad_audit_wrong_cells_total"), 0);
   clients.clear();  // before the home
   server.reset();

@@ -14,6 +14,7 @@
 #include "host/auth/ResumeTokens.h"
 #include "host/net/RelayedDatagrams.h"
 #include "host/net/RelayedStream.h"
+#include "shared/net/datagram/UdpSocket.h"
 #include "shared/net/stream/Framing.h"
 
 namespace naiad {
