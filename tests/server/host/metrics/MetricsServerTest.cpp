@@ -106,6 +106,14 @@ TEST_F(MetricsServerTest, AHundredSilentConnectionsKeepNoScraperOut) {
   EXPECT_TRUE(silent.front().isHungUp());
 }
 
+TEST_F(MetricsServerTest, AHundredThatDoNotGoWithTheirAnswerKeepNoScraperOut) {
+  std::list<HttpClient> clients;
+  for (int i = 0; i < 100; ++i) {
+    clients.emplace_back(server.port()).send("GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    ASSERT_EQ(HttpClient::get(server.port(), "/metrics").body, "n 1\n") << i;
+  }
+}
+
 TEST_F(MetricsServerTest, AHeadThatDoesNotEndIsHungUpOnInTime) {
   HttpClient client(server.port());
   client.send("GET /metrics HTTP/1.1\r\nHost: localh");
