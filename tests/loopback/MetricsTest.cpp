@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <functional>
 #include <list>
 #include <memory>
@@ -11,10 +12,13 @@
 #include <vector>
 
 #include "BusyWorld.h"
+#include "Home.h"
 #include "TestClient.h"
 #include "TestServer.h"
+#include "Valve.h"
 #include "engine/events/EventStep.h"
 #include "engine/world/Object.h"
+#include "shared/values/SplitMix64.h"
 #include "tests/support/net/HttpClient.h"
 
 namespace naiad::test {
@@ -53,7 +57,9 @@ class Metrics : public testing::Test {
     }
     return true;
   }
-  HttpClient::Reply get(const std::string& path) const { return HttpClient::get(server->metricsPort(), path); }
+  HttpClient::Reply get(const std::string& path) const {
+    return HttpClient::get(server->metricsPort(), path);
+  }
   double value(const std::string& sample) const { return metricOf(get("/metrics").body, sample); }
   /// It may take a second until a value is on the page.
   bool reaches(const std::string& sample, const std::function<bool(double)>& wanted) {
@@ -163,8 +169,10 @@ TEST_F(Metrics, StrangersWhoCannotSpeakHttpCostTheGameNothing) {
   TestClient& ann = join("ann");
   std::list<HttpClient> silent;
   const std::vector<std::string> requests{
-      "\x16\x03\x01 no TLS here\r\n\r\n", "POST /metrics HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\n",
-      "GET /metrics HTTP/1.1\r\nHost: evil.example\r\n\r\n", "GET /" + std::string(100'000, 'x'), "GET /metr"};
+      "\x16\x03\x01 no TLS here\r\n\r\n",
+      "POST /metrics HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\n",
+      "GET /metrics HTTP/1.1\r\nHost: evil.example\r\n\r\n", "GET /" + std::string(100'000, 'x'),
+      "GET /metr"};
   const std::uint32_t from = ann.newestTick();
   for (int i = 0; i < 300; ++i) {
     silent.emplace_back(server->metricsPort()).send(requests[static_cast<std::size_t>(i) % requests.size()]);
@@ -204,6 +212,61 @@ TEST_F(Metrics, AScraperAtAHundredHertzDisturbsNobody) {
   stop = true;
   scraper.join();
   EXPECT_TRUE(enough()) << rounds << " rounds, " << scrapes << " scrapes";
+}
+
+// ---- the audit --------------------------------------------------------------------------------------------
+
+TEST_F(Metrics, TheAuditFindsNoWrongCellInAnHonestGame) {
+  start([](df::World& world) { populateBusyWorld(world, 100); });
+  TestClient& ann = join("ann");
+  std::uint32_t pressed = 0;
+  EXPECT_TRUE(serve([&] {
+    if (ann.newestTick() > pressed + 20) {
+      pressed = ann.newestTick();
+      ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
+    }
+    return value("naiad_audit_pictures_total") >= 30;
+  }));
+  EXPECT_EQ(value("naiad_audit_cells_total"), value("naiad_audit_pictures_total") * 80 * 24);
+  EXPECT_EQ(value("naiad_audit_wrong_cells_total"), 0);
+}
+
+TEST_F(Metrics, TheAuditFindsNoWrongCellOverALineThatLosesDatagrams) {
+  Home home;
+  HostOptions options = home.server();
+  options.metrics = "127.0.0.1:0";
+  start([](df::World& world) { populateBusyWorld(world, 100); }, options);
+  const auto valve = std::make_shared<Valve>();
+  ClientSetup setup = home.player("ann");
+  setup.options.open_socket = through(context, valve);
+  clients.emplace_back(context, server->port(), setup);
+  clients.back().keepPictures(false);
+  TestClient& ann = clients.back();
+  ASSERT_TRUE(serve([&] { return ann.joined() && ann.session().hasDatagrams(Clock::now()); }));
+  // The next audited second may be ten seconds away.
+  SplitMix64 random(5);
+  const double pictures = value("naiad_audit_pictures_total");
+  const double datagrams = value(R"(naiad_snapshots_total{path="datagram"})");
+  EXPECT_TRUE(serve([&] {
+    valve->down = random.below(10) != 0;
+    valve->up = random.below(20) != 0;
+    return value("naiad_audit_pictures_total") >= pictures + 20;
+  }));
+  EXPECT_GT(value(R"(naiad_snapshots_total{path="datagram"})"), datagrams + 100);
+  EXPECT_EQ(value("naiad_audit_wrong_cells_total"), 0);
+  clients.clear();  // before the home
+  server.reset();
+}
+
+TEST_F(Metrics, WithoutTheAuditNothingIsCompared) {
+  HostOptions options = withMetrics();
+  options.audit = "off";
+  start([](df::World& world) { populateBusyWorld(world, 5); }, options);
+  TestClient& ann = join("ann");
+  const std::uint32_t from = ann.newestTick();
+  ASSERT_TRUE(
+      serve([&] { return ann.newestTick() > from + 700; }));  // a second, and one until it is on the page
+  EXPECT_EQ(value("naiad_audit_pictures_total"), 0);
 }
 
 // The time is that of the thread which makes the pages, so it does not depend on what else the machine does.

@@ -15,11 +15,11 @@ namespace {
 /// One sample: a counter, or the difference of two where one counts a part of the other.
 template <class Struct>
 struct CounterRow {
-  std::uint64_t Struct::* counter;
+  std::uint64_t Struct::*counter;
   std::string_view name;
   std::string_view labels;
   std::string_view help;  ///< of the family: in its first row
-  std::uint64_t Struct::* less = nullptr;
+  std::uint64_t Struct::*less = nullptr;
 };
 
 /// Is each counter of the struct, which has no other members, in one row of its own?
@@ -59,7 +59,8 @@ constexpr auto kHostRows = std::to_array<CounterRow<C>>({
     {&C::left_flood, "naiad_leaves_total", R"(reason="flood")", ""},
     {&C::left_malformed, "naiad_leaves_total", R"(reason="malformed")", ""},
     {&C::left_stuck, "naiad_leaves_total", R"(reason="stuck")", ""},
-    {&C::refused_version, "naiad_refusals_total", R"(reason="version")", "Clients that were not let in, by reason."},
+    {&C::refused_version, "naiad_refusals_total", R"(reason="version")",
+     "Clients that were not let in, by reason."},
     {&C::refused_full, "naiad_refusals_total", R"(reason="full")", ""},
     {&C::refused_address, "naiad_refusals_total", R"(reason="address")", ""},
     {&C::refused_closing, "naiad_refusals_total", R"(reason="closing")", ""},
@@ -73,27 +74,34 @@ constexpr auto kHostRows = std::to_array<CounterRow<C>>({
     {&C::malformed_frames, "naiad_malformed_total", R"(kind="frame")",
      "Frames and messages that no client sends; each ended its connection."},
     {&C::malformed_messages, "naiad_malformed_total", R"(kind="message")", ""},
-    {&C::input_floods, "naiad_floods_total", R"(kind="input")", "Sessions ended, since they sent too much at once."},
+    {&C::input_floods, "naiad_floods_total", R"(kind="input")",
+     "Sessions ended, since they sent too much at once."},
     {&C::message_floods, "naiad_floods_total", R"(kind="message")", ""},
-    {&C::idle_timeouts, "naiad_idle_timeouts_total", "", "Connections of players that were silent for too long."},
+    {&C::idle_timeouts, "naiad_idle_timeouts_total", "",
+     "Connections of players that were silent for too long."},
     {&C::stuck_streams, "naiad_stuck_streams_total", "", "Sessions ended, since they took in too little."},
     {&C::detached, "naiad_detaches_total", "", "Connections that broke while their session goes on."},
     {&C::graces_expired, "naiad_graces_expired_total", "", "Players who did not come back in time."},
-    {&C::resumed, "naiad_resumes_total", R"(kind="stream")", "Sessions that go on, by what is new.", &C::restarted},
+    {&C::resumed, "naiad_resumes_total", R"(kind="stream")", "Sessions that go on, by what is new.",
+     &C::restarted},
     {&C::restarted, "naiad_resumes_total", R"(kind="process")", ""},
     {&C::second_streams, "naiad_resumes_total", R"(kind="second_stream")", ""},
     {&C::resumes_deferred, "naiad_resumes_deferred_total", R"(kind="stream")",
      "Clients that came back more often than allowed."},
     {&C::seconds_deferred, "naiad_resumes_deferred_total", R"(kind="second_stream")", ""},
-    {&C::unknown_tokens, "naiad_unknown_tokens_total", "", "Clients that came back to no session that is there."},
+    {&C::unknown_tokens, "naiad_unknown_tokens_total", "",
+     "Clients that came back to no session that is there."},
     {&C::inputs, "naiad_inputs_total", "", "Keys and clicks received."},
-    {&C::late_inputs, "naiad_late_inputs_total", "", "Keys and clicks that came after the tick that they were meant for."},
-    {&C::repeated_inputs, "naiad_repeated_total", R"(kind="input")", "What had come before, and was ignored."},
+    {&C::late_inputs, "naiad_late_inputs_total", "",
+     "Keys and clicks that came after the tick that they were meant for."},
+    {&C::repeated_inputs, "naiad_repeated_total", R"(kind="input")",
+     "What had come before, and was ignored."},
     {&C::repeated_frames, "naiad_repeated_total", R"(kind="frame")", ""},
-    {&C::snapshots, "naiad_snapshots_total", R"(path="stream")", "Snapshots sent, by path.", &C::datagram_snapshots},
+    {&C::snapshots, "naiad_snapshots_total", R"(path="stream")", "Snapshots sent, by path.",
+     &C::datagram_snapshots},
     {&C::datagram_snapshots, "naiad_snapshots_total", R"(path="datagram")", ""},
-    {&C::snapshot_bytes, "naiad_snapshot_bytes_total", R"(path="stream")", "Bytes of snapshots sent, by path.",
-     &C::datagram_snapshot_bytes},
+    {&C::snapshot_bytes, "naiad_snapshot_bytes_total", R"(path="stream")",
+     "Bytes of snapshots sent, by path.", &C::datagram_snapshot_bytes},
     {&C::datagram_snapshot_bytes, "naiad_snapshot_bytes_total", R"(path="datagram")", ""},
     {&C::skipped_ticks, "naiad_skipped_ticks_total", "",
      "Ticks of players that were not brought up to date, since their line was busy."},
@@ -107,15 +115,18 @@ constexpr auto kHostRows = std::to_array<CounterRow<C>>({
      "What was left out for a player, since too much was kept for them."},
     {&C::chat_left_out, "naiad_left_out_total", R"(kind="chat")", ""},
     {&C::chat_dropped, "naiad_chat_dropped_total", "", "Lines of chat that came too fast."},
-    {&C::resizes_deferred, "naiad_resizes_deferred_total", "", "Sizes of terminals that a newer one replaced."},
+    {&C::resizes_deferred, "naiad_resizes_deferred_total", "",
+     "Sizes of terminals that a newer one replaced."},
     {&C::rounds_over, "naiad_world_ends_total", R"(reason="game_over")",
      "Worlds in processes of their own that ended, by reason."},
     {&C::rounds_crashed, "naiad_world_ends_total", R"(reason="crashed")", ""},
     {&C::rounds_hung, "naiad_world_ends_total", R"(reason="hung")", ""},
     {&C::rounds_broken, "naiad_world_ends_total", R"(reason="broken")", ""},
-    {&C::audited_pictures, "naiad_audit_pictures_total", "", "Pictures of players that were held against the world's."},
+    {&C::audited_pictures, "naiad_audit_pictures_total", "",
+     "Pictures of players that were held against the world's."},
     {&C::audited_cells, "naiad_audit_cells_total", "", "Cells of these pictures."},
-    {&C::wrong_cells, "naiad_audit_wrong_cells_total", "", "Cells of these pictures that were not the world's."},
+    {&C::wrong_cells, "naiad_audit_wrong_cells_total", "",
+     "Cells of these pictures that were not the world's."},
 });
 static_assert(hasAll(kHostRows));
 
@@ -139,7 +150,8 @@ constexpr auto kStreamRows = std::to_array<CounterRow<S>>({
     {&S::refused_half_open, "naiad_streams_refused_total", R"(reason="crowded")", ""},
     {&S::refused_from_prefix, "naiad_streams_refused_total", R"(reason="address")", ""},
     {&S::refused_too_often, "naiad_streams_refused_total", R"(reason="too_often")", ""},
-    {&S::failed_accepts, "naiad_failed_accepts_total", "", "Connections put off, since descriptors had run out."},
+    {&S::failed_accepts, "naiad_failed_accepts_total", "",
+     "Connections put off, since descriptors had run out."},
 });
 static_assert(hasAll(kStreamRows));
 
@@ -164,7 +176,8 @@ constexpr auto kRelayRows = std::to_array<CounterRow<R>>({
     {&R::streams_overflowed, "naiad_relay_streams_ended_total", R"(direction="in")",
      "Streams ended between the threads, since one was behind."},
     {&R::streams_clogged, "naiad_relay_streams_ended_total", R"(direction="out")", ""},
-    {&R::unmet, "naiad_relay_unmet_total", "", "Connections hung up on, since too many waited for the next tick."},
+    {&R::unmet, "naiad_relay_unmet_total", "",
+     "Connections hung up on, since too many waited for the next tick."},
     {&R::keyless, "naiad_relay_keyless_total", "", "Sessions whose stream ended before it gave keys."},
 });
 static_assert(hasAll(kRelayRows));
@@ -172,7 +185,8 @@ static_assert(hasAll(kRelayRows));
 using G = DatagramGateCounters;
 constexpr auto kGateRows = std::to_array<CounterRow<G>>({
     {&G::delivered, "naiad_datagrams_delivered_total", "", "Datagrams that were authentic."},
-    {&G::too_short, "naiad_datagrams_refused_total", R"(reason="too_short")", "Datagrams refused, by reason."},
+    {&G::too_short, "naiad_datagrams_refused_total", R"(reason="too_short")",
+     "Datagrams refused, by reason."},
     {&G::too_long, "naiad_datagrams_refused_total", R"(reason="too_long")", ""},
     {&G::bad_kind, "naiad_datagrams_refused_total", R"(reason="bad_kind")", ""},
     {&G::unknown_id, "naiad_datagrams_refused_total", R"(reason="unknown_id")", ""},
@@ -188,7 +202,8 @@ using U = UdpCounters;
 constexpr auto kUdpRows = std::to_array<CounterRow<U>>({
     {&U::received, "naiad_network_packets_total", R"(direction="in",transport="udp")", "Packets of UDP."},
     {&U::sent, "naiad_network_packets_total", R"(direction="out",transport="udp")", ""},
-    {&U::dropped_full, "naiad_udp_send_failures_total", R"(reason="full")", "Packets of UDP that were not sent."},
+    {&U::dropped_full, "naiad_udp_send_failures_total", R"(reason="full")",
+     "Packets of UDP that were not sent."},
     {&U::send_errors, "naiad_udp_send_failures_total", R"(reason="error")", ""},
     {&U::receive_errors, "naiad_udp_receive_errors_total", R"(kind="error")",
      "Errors where a packet of UDP was expected, and packets that were too long."},

@@ -15,7 +15,8 @@ class Histogram {
   static constexpr std::size_t kMaxBounds = 16;
 
   /// `bounds`: the highest value of each bucket, rising, at most kMaxBounds; they outlive the histogram.
-  explicit Histogram(std::span<const double> bounds) : m_bounds(bounds.first(std::min(bounds.size(), kMaxBounds))) {}
+  explicit Histogram(std::span<const double> bounds)
+      : m_bounds(bounds.first(std::min(bounds.size(), kMaxBounds))) {}
 
   /// A value that is over all bounds is counted beyond the last.
   void add(double value) {

@@ -1,7 +1,6 @@
 #include "host/metrics/MetricsAddress.h"
 
 #include <algorithm>
-#include <asio/ip/address.hpp>
 #include <charconv>
 
 #include "shared/net/base/AddressPrefix.h"
@@ -22,14 +21,17 @@ std::optional<std::uint16_t> portAfter(std::string_view text, std::size_t colon)
 
 bool isPrivate(const asio::ip::address_v4& address) {
   const std::uint32_t bits = address.to_uint();
-  const auto within = [bits](std::uint32_t network, int prefix) { return (bits ^ network) >> (32 - prefix) == 0; };
+  const auto within = [bits](std::uint32_t network, int prefix) {
+    return (bits ^ network) >> (32 - prefix) == 0;
+  };
   return within(0x7f000000, 8) || within(0x0a000000, 8) || within(0xac100000, 12) || within(0xc0a80000, 16) ||
          within(0xa9fe0000, 16);
 }
 
 bool isPrivate(const asio::ip::address_v6& address) {
   const auto bytes = address.to_bytes();
-  return address.is_loopback() || (bytes[0] & 0xfe) == 0xfc || (bytes[0] == 0xfe && (bytes[1] & 0xc0) == 0x80);
+  return address.is_loopback() || (bytes[0] & 0xfe) == 0xfc ||
+         (bytes[0] == 0xfe && (bytes[1] & 0xc0) == 0x80);
 }
 
 std::string lowerCaseOf(std::string_view text) {

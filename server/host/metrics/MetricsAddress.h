@@ -18,7 +18,9 @@ struct MetricsAddress {
   /// "127.0.0.1:9100", "[::1]:9100"; port 0 takes any free one. Nothing if it is none.
   static std::optional<MetricsAddress> parse(std::string_view text);
   /// As in a URL: IPv6 in brackets.
-  std::string hostText() const { return address.find(':') == std::string::npos ? address : "[" + address + "]"; }
+  std::string hostText() const {
+    return address.find(':') == std::string::npos ? address : "[" + address + "]";
+  }
 };
 
 /// The names in the Host header of a request that may have an answer.

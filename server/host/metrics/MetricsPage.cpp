@@ -14,7 +14,8 @@ double seconds(std::chrono::nanoseconds time) {
 }
 
 void writeBuild(Exposition& out) {
-  out.begin("naiad_build_info", MetricType::kGauge, "The version of the server, and of the protocol; always 1.");
+  out.begin("naiad_build_info", MetricType::kGauge,
+            "The version of the server, and of the protocol; always 1.");
   out.add(metricLabel("version", kVersion) + "," +
               metricLabel("protocol", std::to_string(static_cast<unsigned>(kProtocolVersion))),
           std::uint64_t{1});
@@ -23,10 +24,12 @@ void writeBuild(Exposition& out) {
 void writeTicks(Exposition& out, const MetricsSnapshot& snapshot) {
   out.begin("naiad_tick_length_seconds", MetricType::kGauge, "How long a tick is meant to be.");
   out.add("", snapshot.tick_length);
-  out.begin("naiad_tick_duration_seconds", MetricType::kHistogram,
-            "From the beginning of a tick to when its last packet is handed over, worlds in processes included.");
+  out.begin(
+      "naiad_tick_duration_seconds", MetricType::kHistogram,
+      "From the beginning of a tick to when its last packet is handed over, worlds in processes included.");
   out.add(snapshot.tick_durations);
-  out.begin("naiad_tick_lateness_seconds", MetricType::kHistogram, "How long after its deadline a tick began.");
+  out.begin("naiad_tick_lateness_seconds", MetricType::kHistogram,
+            "How long after its deadline a tick began.");
   out.add(snapshot.tick_lateness);
   out.begin("naiad_stage_seconds_total", MetricType::kCounter,
             "Time of the thread that ticks, by stage; between: streams are served, or it waits.");
@@ -41,7 +44,8 @@ void writePlayers(Exposition& out, const MetricsSnapshot& snapshot) {
   out.add(R"(state="detached")", snapshot.detached);
   out.begin("naiad_max_players", MetricType::kGauge, "Places for players.");
   out.add("", snapshot.max_players);
-  out.begin("naiad_newcomers", MetricType::kGauge, "Connections that are no players yet, or are about to end.");
+  out.begin("naiad_newcomers", MetricType::kGauge,
+            "Connections that are no players yet, or are about to end.");
   out.add("", snapshot.greeting);
   out.begin("naiad_rooms", MetricType::kGauge, "Worlds that are played in.");
   out.add("", snapshot.rooms);

@@ -33,7 +33,7 @@ using boost::system::error_code;
 
 constexpr std::chrono::milliseconds kRetryDelay{100};
 /// Of what comes after a request, so that no reset overtakes the answer.
-constexpr std::size_t kMaxDrained = std::size_t{64} * 1024;
+constexpr std::size_t kMaxDrained = std::size_t{1} << 20;
 
 /// Signals are for the threads that were there before.
 std::thread startWithoutSignals(const std::function<void()>& job) {
@@ -90,8 +90,8 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
         m_stream, m_buffer, m_parser,
         [self = shared_from_this()](error_code error, std::size_t) { self->onRequest(error); });
   }
-  /// Its request has not come yet.
-  bool isSilent() const { return m_silent; }
+  /// No answer is under way: its request has not come yet, or it has been answered and does not go.
+  bool isIdle() const { return m_idle; }
   void hangUp() {
     error_code ignored;
     m_stream.socket().close(ignored);
@@ -99,7 +99,7 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
 
  private:
   void onRequest(error_code error) {
-    m_silent = false;
+    m_idle = false;
     if (!error) return send(m_loop.answer(m_parser.get()));
     const bool ended = error == http::error::end_of_stream || error == http::error::partial_message;
     const bool is_of_http = error.category() == http::make_error_code(http::error::bad_method).category();
@@ -117,6 +117,7 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
       error_code ignored;
       self->m_stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
       self->m_stream.expires_after(kPatience);
+      self->m_idle = true;
       self->drain();
     });
   }
@@ -137,7 +138,7 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
   std::string m_head;
   std::array<char, 1024> m_rest;
   std::size_t m_drained = 0;
-  bool m_silent = true;
+  bool m_idle = true;
 };
 
 MetricsServer::Loop::Loop(const MetricsAddress& address, MetricsHosts allowed, Respond answers)
@@ -182,17 +183,17 @@ void MetricsServer::Loop::accept() {
   });
 }
 
-// A scraper sends its request at once, so the oldest that has not is none.
+// A scraper sends its request at once and goes with the answer, so the oldest that waits is none.
 bool MetricsServer::Loop::makeRoom() {
   std::erase_if(connections, [](const auto& connection) { return connection.expired(); });
   if (connections.size() < kMaxConnections) return true;
-  const auto silent = std::ranges::find_if(connections, [](const auto& each) {
+  const auto idle = std::ranges::find_if(connections, [](const auto& each) {
     const auto connection = each.lock();
-    return connection && connection->isSilent();
+    return connection && connection->isIdle();
   });
-  if (silent == connections.end()) return false;
-  if (const auto connection = silent->lock()) connection->hangUp();
-  connections.erase(silent);
+  if (idle == connections.end()) return false;
+  if (const auto connection = idle->lock()) connection->hangUp();
+  connections.erase(idle);
   return true;
 }
 

@@ -26,8 +26,8 @@ class MetricsError : public std::runtime_error {
 class MetricsServer {
  public:
   static constexpr std::size_t kMaxHead = std::size_t{4} * 1024;  ///< bytes of a request
-  /// Connections at a time. The oldest that has not sent its request ends for a new one; where all have, the
-  /// new one ends.
+  /// Connections at a time. The oldest that is not being answered ends for a new one; where all are, the new
+  /// one ends.
   static constexpr std::size_t kMaxConnections = 4;
   /// For a request to come, and for its answer to go.
   static constexpr std::chrono::seconds kPatience{5};

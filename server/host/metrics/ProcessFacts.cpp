@@ -77,7 +77,8 @@ void writeProcess(Exposition& out, const ProcessFacts& facts) {
   out.add("", facts.open_files);
   out.begin("process_max_fds", MetricType::kGauge, "Files and sockets that may be open.");
   out.add("", facts.max_files);
-  out.begin("process_start_time_seconds", MetricType::kGauge, "When the process began, in seconds since 1970.");
+  out.begin("process_start_time_seconds", MetricType::kGauge,
+            "When the process began, in seconds since 1970.");
   out.add("", facts.start_seconds);
 }
 

@@ -9,8 +9,8 @@ namespace naiad {
 class Exposition;
 
 struct ProcessFacts {
-  double cpu_seconds = 0;     ///< of all its threads, in the program and in the kernel
-  double start_seconds = 0;   ///< since 1970
+  double cpu_seconds = 0;      ///< of all its threads, in the program and in the kernel
+  double start_seconds = 0;    ///< since 1970
   std::uint64_t resident = 0;  ///< bytes
   std::uint64_t virtual_size = 0;
   std::uint64_t open_files = 0;

@@ -138,7 +138,7 @@ Host::Host(HostOptions options, std::string game, Log log)
   }
 }
 
-// Before the listener's players come, and like that: it cannot listen, or somebody has the port.
+// A port that is taken is an error as the players' port is.
 void Host::openMetrics() {
   if (m_options.metrics.empty()) return;
   try {

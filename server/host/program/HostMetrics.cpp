@@ -72,7 +72,7 @@ void HostMetrics::update(Clock::time_point now) {
 }
 
 void HostMetrics::measure(Clock::time_point now) {
-  m_measure_at = std::max(m_measure_at + kMeasureEvery, now);
+  m_measure_at = now + kMeasureEvery;
   m_next.max_players = static_cast<std::uint64_t>(m_sources.options.max_players);
   m_next.counters = m_sources.counters;
   m_next.passwords = m_sources.admission.passwordCounters();

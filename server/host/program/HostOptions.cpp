@@ -8,8 +8,8 @@
 #include <iostream>
 #include <vector>
 
-#include "host/program/Announcement.h"
 #include "host/metrics/MetricsAddress.h"
+#include "host/program/Announcement.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
@@ -254,7 +254,8 @@ std::string printedComplaint(const HostOptions& options) {
 
 /// The same for where metrics are given out.
 std::string metricsComplaint(const HostOptions& options) {
-  if (!MetricsHosts::parse(options.metrics_hosts)) return "--metrics-hosts: names with commas between are wanted";
+  if (!MetricsHosts::parse(options.metrics_hosts))
+    return "--metrics-hosts: names with commas between are wanted";
   if (options.metrics.empty()) return {};
   const auto address = MetricsAddress::parse(options.metrics);
   if (!address) return "--metrics: a numeric ADDR:PORT is wanted, IPv6 in brackets";

@@ -43,8 +43,8 @@ void Rooms::open(df::World& world) {
 }
 
 Room& Rooms::openRoom(std::unique_ptr<WorldPort> port) {
-  Room& room = *m_rooms.emplace_back(
-      std::make_unique<Room>(std::move(port), m_options.players == "first", m_stages));
+  Room& room =
+      *m_rooms.emplace_back(std::make_unique<Room>(std::move(port), m_options.players == "first", m_stages));
   watchWorld(room);
   return room;
 }

@@ -56,7 +56,8 @@ void PictureAudit::applyAcknowledged(const AckWindow& acks) {
     if (acks.has(sent.number)) apply(sent.bytes);
   }
   std::erase_if(m_sent, [&acks](const Sent& sent) {
-    return acks.has(sent.number) || static_cast<std::int32_t>(acks.newest - sent.number) > static_cast<std::int32_t>(kWindow);
+    return acks.has(sent.number) ||
+           static_cast<std::int32_t>(acks.newest - sent.number) > static_cast<std::int32_t>(kWindow);
   });
 }
 

@@ -144,10 +144,10 @@ void Session::onClosed(CloseReason reason) {
   if (m_state == State::kPlaying && lost && m_grace.count() > 0) return detach(now());
   m_state = State::kGone;
   m_streams.dropSecond();
-  setLeave(lost                                ? &Counters::left_hung_up
-           : reason == CloseReason::kProtocol  ? &Counters::left_malformed
-           : reason == CloseReason::kOverflow  ? &Counters::left_stuck
-                                               : &Counters::left_dismissed);
+  setLeave(lost                               ? &Counters::left_hung_up
+           : reason == CloseReason::kProtocol ? &Counters::left_malformed
+           : reason == CloseReason::kOverflow ? &Counters::left_stuck
+                                              : &Counters::left_dismissed);
   reportGone();
 }
 

@@ -1,8 +1,8 @@
-#include "host/metrics/Histogram.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
+
+#include "host/metrics/Histogram.h"
 
 namespace naiad {
 namespace {

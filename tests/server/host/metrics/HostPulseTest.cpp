@@ -1,9 +1,9 @@
-#include "host/metrics/HostPulse.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
+
+#include "host/metrics/HostPulse.h"
 
 namespace naiad {
 namespace {

@@ -1,9 +1,9 @@
-#include "host/metrics/LatestValue.h"
-
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <thread>
+
+#include "host/metrics/LatestValue.h"
 
 namespace naiad {
 namespace {

@@ -1,6 +1,4 @@
 // The page of metrics: its format, and that no counter is missing on it.
-#include "host/metrics/MetricsPage.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -13,6 +11,7 @@
 
 #include "host/metrics/CounterFamilies.h"
 #include "host/metrics/Exposition.h"
+#include "host/metrics/MetricsPage.h"
 #include "tests/support/net/HttpClient.h"
 
 namespace naiad {
@@ -48,7 +47,8 @@ TEST(CounterFamilies, HaveEveryCounter) {
   expectAllWritten<Counters>([](Exposition& out, const Counters& all) { writeCounters(out, all); });
   expectAllWritten<PasswordCheck::Counters>(
       [](Exposition& out, const PasswordCheck::Counters& all) { writeCounters(out, all); });
-  expectAllWritten<NetworkCounters>([](Exposition& out, const NetworkCounters& all) { writeCounters(out, all); });
+  expectAllWritten<NetworkCounters>(
+      [](Exposition& out, const NetworkCounters& all) { writeCounters(out, all); });
 }
 
 TEST(CounterFamilies, WhatCountsAPartIsTakenFromTheWhole) {

@@ -1,6 +1,4 @@
 // The HTTP server for metrics, with real sockets: what it answers, and to whom it does not listen.
-#include "host/metrics/MetricsServer.h"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -8,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "host/metrics/MetricsServer.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/support/net/HttpClient.h"
 
@@ -70,8 +69,9 @@ TEST_F(MetricsServerTest, ANameThatIsNotOursIsForbidden) {
 }
 
 TEST_F(MetricsServerTest, WhatIsNoHttpIsABadRequest) {
-  for (const char* request : {"hello\r\n\r\n", "GET\r\n\r\n", "GET /metrics\r\n\r\n", "\r\n\r\n\r\n", "GET / HTTP/9.9\r\n\r\n",
-                              "GET /metrics HTTP/1.1\r\nHost localhost\r\n\r\n", "\x16\x03\x01\x02\x00\x01\xfc\x03\x03"
+  for (const char* request : {"hello\r\n\r\n", "GET\r\n\r\n", "GET /metrics\r\n\r\n", "\r\n\r\n\r\n",
+                              "GET / HTTP/9.9\r\n\r\n", "GET /metrics HTTP/1.1\r\nHost localhost\r\n\r\n",
+                              "\x16\x03\x01\x02\x00\x01\xfc\x03\x03"
                               "0123456789\r\n\r\n"}) {
     EXPECT_EQ(ask(request).status, 400) << request;
   }
@@ -106,6 +106,14 @@ TEST_F(MetricsServerTest, AHundredSilentConnectionsKeepNoScraperOut) {
   EXPECT_TRUE(silent.front().isHungUp());
 }
 
+TEST_F(MetricsServerTest, AHundredThatDoNotGoWithTheirAnswerKeepNoScraperOut) {
+  std::list<HttpClient> clients;
+  for (int i = 0; i < 100; ++i) {
+    clients.emplace_back(server.port()).send("GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    ASSERT_EQ(HttpClient::get(server.port(), "/metrics").body, "n 1\n") << i;
+  }
+}
+
 TEST_F(MetricsServerTest, AHeadThatDoesNotEndIsHungUpOnInTime) {
   HttpClient client(server.port());
   client.send("GET /metrics HTTP/1.1\r\nHost: localh");
@@ -122,7 +130,8 @@ TEST_F(MetricsServerTest, APortInUseIsAnErrorThatSaysSo) {
                               [](std::string_view) { return MetricsServer::Answer{}; });
     FAIL() << "two servers have one port";
   } catch (const MetricsError& error) {
-    EXPECT_NE(std::string(error.what()).find(std::to_string(server.port())), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(std::to_string(server.port())), std::string::npos)
+        << error.what();
   }
 }
 

@@ -143,7 +143,7 @@ class AdmissionTest : public testing::Test {
   SessionTable sessions{256, counters, [this](Session& session) { rooms.removeSession(session); }};
   StageClock stages;
   Rooms rooms{options, sessions, counters, [this](const std::string& line) { log_of_rooms.push_back(line); },
-              [] {}, stages};
+              [] {},   stages};
 
  private:
   Session::Events events() {

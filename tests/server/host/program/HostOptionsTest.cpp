@@ -108,7 +108,8 @@ TEST(HostOptions, WhatIsNoneOfTheWordsIsAnError) {
 TEST(HostOptions, MetricsOnAPublicAddressAreAnErrorUnlessThatIsAskedFor) {
   for (const char* address : {"127.0.0.1:0", "[::1]:9100", "10.0.0.7:9100"}) {
     HostOptions options;
-    EXPECT_EQ(parse({"--metrics", address, "--metrics-hosts", "game.internal,b"}, options), CommandLine::kRun);
+    EXPECT_EQ(parse({"--metrics", address, "--metrics-hosts", "game.internal,b"}, options),
+              CommandLine::kRun);
     EXPECT_EQ(options.metrics, address);
   }
   for (const char* address : {"0.0.0.0:9100", "[::]:9100", "8.8.8.8:9100"}) {
