@@ -40,6 +40,7 @@ endforeach()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME naiad)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # or it would be the first line of each
 set(CPACK_PACKAGE_CONTACT "The Naiad maintainers <naiad@naiad.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -61,11 +62,11 @@ set(CPACK_DEBIAN_SERVER_PACKAGE_DEPENDS
   "libdragonfly0 (= ${version}), systemd | systemd-standalone-sysusers | systemd-sysusers, systemd | systemd-standalone-tmpfiles | systemd-tmpfiles")
 set(CPACK_DEBIAN_SERVER_PACKAGE_SUGGESTS "naiad-client, openssh-server")
 set(CPACK_DEBIAN_SERVER_DESCRIPTION "server for networked Dragonfly games
- Naiad makes text games for the Dragonfly engine playable over a network.
- The server runs the game and shows it to players in terminals and browsers.
- .
- This package has the server (dfserver), the gateway and page for browsers
- (dfweb), what an ssh door runs (dfdoor), ten games, and units for systemd.")
+Naiad makes text games for the Dragonfly engine playable over a network.
+The server runs the game and shows it to players in terminals and browsers.
+
+This package has the server (dfserver), the gateway and page for browsers
+(dfweb), what an ssh door runs (dfdoor), ten games, and units for systemd.")
 set(CPACK_DEBIAN_SERVER_PACKAGE_CONTROL_EXTRA ${debian}/naiad-server/postinst ${debian}/naiad-server/prerm
   ${debian}/naiad-server/postrm ${debian}/naiad-server/conffiles)
 
@@ -73,34 +74,34 @@ set(CPACK_DEBIAN_CLIENT_PACKAGE_NAME naiad-client)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION games)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_CLIENT_DESCRIPTION "terminal client for networked Dragonfly games
- Naiad makes text games for the Dragonfly engine playable over a network.
- The client draws the game of a server in a terminal, and sends keys and
- mouse; it needs no files of the game.
- .
- This package has the client (dfclient), and players without a screen for
- tests (dfbot).")
+Naiad makes text games for the Dragonfly engine playable over a network.
+The client draws the game of a server in a terminal, and sends keys and
+mouse; it needs no files of the game.
+
+This package has the client (dfclient), and players without a screen for
+tests (dfbot).")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libdragonfly0)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS_POLICY "=")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${debian}/libdragonfly0/triggers)
+# Packages of games that are linked with it depend on this version: CPack would list game modules as libraries, too.
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/shlibs "libdragonfly 0 libdragonfly0 (= ${version})\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${debian}/libdragonfly0/triggers ${CMAKE_CURRENT_BINARY_DIR}/shlibs)
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "engine, physics and hosting for networked text games
- A text-character game engine with the interface of Dragonfly, with bodies
- and joints, whose games are servers: players join them over a network.
- .
- This package has the shared library.")
+A text-character game engine with the interface of Dragonfly, with bodies
+and joints, whose games are servers: players join them over a network.
+
+This package has the shared library.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libdragonfly-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libdragonfly0 (= ${version}), python3:any")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "g++ | c++-compiler, naiad-client, naiad-server")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "engine, physics and hosting for networked text games (development)
- A text-character game engine with the interface of Dragonfly, with bodies
- and joints, whose games are servers: players join them over a network.
- .
- This package has headers, files for CMake and pkg-config, the sources of
- ten games, and dragonfly-adopt, which tries games that were written for the
- published engine.")
+A text-character game engine with the interface of Dragonfly, with bodies
+and joints, whose games are servers: players join them over a network.
+
+This package has headers, files for CMake and pkg-config, the sources of
+ten games, and dragonfly-adopt, which tries games that were written for the
+published engine.")
 include(CPack)

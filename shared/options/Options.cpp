@@ -174,8 +174,8 @@ void readConfig(const std::string& path, const std::vector<Option>& options,
     if (line.empty() || line.front() == '#' || line.front() == ';') continue;
     try {
       storeConfigLine(line, place, options, added);
-    } catch (const OptionError& error) {
-      wrong += (wrong.empty() ? "" : "\n") + std::string(error.what());
+    } catch (const OptionError& line_error) {
+      wrong += (wrong.empty() ? "" : "\n") + std::string(line_error.what());
     }
   }
   if (!wrong.empty()) throw OptionError(wrong);

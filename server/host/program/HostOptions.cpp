@@ -355,7 +355,9 @@ void useSockets(const InheritedSockets& sockets, HostOptions& options) {
 
 void warnOfReaders(const std::string& file, HostOptions& options) {
   struct stat facts {};
-  if (isHash(options.password) || stat(file.c_str(), &facts) != 0 || (facts.st_mode & S_IROTH) == 0) return;
+  if (options.password.empty() || isHash(options.password) || stat(file.c_str(), &facts) != 0 ||
+      (facts.st_mode & S_IROTH) == 0)
+    return;
   options.warnings.push_back(file + " has the password, and every user can read it. Run: chmod o-r " + file);
 }
 
