@@ -44,9 +44,6 @@ class SocketPair {
     m_context.poll();
   }
 
-  std::optional<SecureSocket> from;
-  std::optional<SecureSocket> to;
-
  private:
   void shakeHands() {
     std::string name = std::filesystem::temp_directory_path() / "naiad-socket-XXXXXX";
@@ -71,6 +68,10 @@ class SocketPair {
   net::io_context m_context{1};
   std::shared_ptr<const TlsContext> m_server;
   std::shared_ptr<const TlsContext> m_client = TlsContext::forClient();
+
+ public:
+  std::optional<SecureSocket> from;  // they end before the context
+  std::optional<SecureSocket> to;
 };
 
 /// A letter, its length in two bytes, and so many of it.
