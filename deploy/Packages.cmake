@@ -1,7 +1,8 @@
 # Four Debian packages, by CPack: deploy/package builds them. What is installed in which is said by COMPONENT at each
 # install(); this file has what packages have beside that.
 set(debian ${CMAKE_CURRENT_SOURCE_DIR}/debian)
-set(NAIAD_DEBIAN_REVISION 1)
+# An official package of Debian would be -1, and newer.
+set(NAIAD_DEBIAN_REVISION 0naiad1)
 set(version ${PROJECT_VERSION}-${NAIAD_DEBIAN_REVISION})
 file(STRINGS ${debian}/changelog first LIMIT_COUNT 1)
 if(NOT first MATCHES "^naiad \\(${version}\\)")
@@ -56,7 +57,7 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 
 set(CPACK_DEBIAN_SERVER_PACKAGE_NAME naiad-server)
-set(CPACK_DEBIAN_SERVER_PACKAGE_SECTION games)
+set(CPACK_DEBIAN_SERVER_PACKAGE_SECTION net)
 set(CPACK_DEBIAN_SERVER_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_SERVER_PACKAGE_DEPENDS
   "libdragonfly0 (= ${version}), systemd | systemd-standalone-sysusers | systemd-sysusers, systemd | systemd-standalone-tmpfiles | systemd-tmpfiles")
@@ -71,7 +72,7 @@ set(CPACK_DEBIAN_SERVER_PACKAGE_CONTROL_EXTRA ${debian}/naiad-server/postinst ${
   ${debian}/naiad-server/postrm ${debian}/naiad-server/conffiles)
 
 set(CPACK_DEBIAN_CLIENT_PACKAGE_NAME naiad-client)
-set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION games)
+set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION net)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_CLIENT_DESCRIPTION "terminal client for networked Dragonfly games
 Naiad makes text games for the Dragonfly engine playable over a network.

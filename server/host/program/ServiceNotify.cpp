@@ -66,15 +66,13 @@ ServiceNotify::~ServiceNotify() {
   if (isActive()) ::close(m_socket);
 }
 
-void ServiceNotify::send(const std::string& text) const {
-  if (!isActive()) return;
-  [[maybe_unused]] const auto sent = ::send(m_socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+bool ServiceNotify::send(const std::string& text) const {
+  return isActive() && ::send(m_socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
 }
 
 void ServiceNotify::notifyStatus(const std::string& line) {
   if (!isActive() || line == m_status) return;
-  m_status = line;
-  send("STATUS=" + oneLine(line));
+  if (send("STATUS=" + oneLine(line))) m_status = line;
 }
 
 void ServiceNotify::notifyReloading(Clock::time_point now) {
@@ -88,8 +86,7 @@ void ServiceNotify::extendTimeout(std::chrono::microseconds more) {
 
 void ServiceNotify::keepAlive(Clock::time_point now) {
   if (!m_keep_alive || (m_kept_alive && now - *m_kept_alive < *m_keep_alive)) return;
-  m_kept_alive = now;
-  send("WATCHDOG=1");
+  if (send("WATCHDOG=1")) m_kept_alive = now;
 }
 
 }  // namespace naiad

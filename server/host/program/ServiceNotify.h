@@ -9,8 +9,8 @@
 
 namespace naiad {
 
-/// Not thread-safe. Sending never waits: where the manager does not read, what it would have been told is
-/// lost, and the next keep-alive comes as ever.
+/// Not thread-safe. Sending never waits: what a manager that does not read has no room for is lost, but for
+/// status and keep-alive, which the next tick sends again.
 class ServiceNotify {
  public:
   using Clock = std::chrono::steady_clock;
@@ -43,7 +43,7 @@ class ServiceNotify {
   std::optional<std::chrono::microseconds> keepAliveTime() const { return m_keep_alive; }
 
  private:
-  void send(const std::string& text) const;
+  bool send(const std::string& text) const;
 
   int m_socket = -1;  ///< connected
   std::optional<std::chrono::microseconds> m_keep_alive;

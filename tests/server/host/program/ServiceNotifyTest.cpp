@@ -122,9 +122,12 @@ TEST_F(ServiceNotifyTest, DoesNotWaitForAManagerThatDoesNotRead) {
   variables["WATCHDOG_USEC"] = "2";
   ServiceNotify service(variable());
   for (int i = 0; i < 100'000; ++i) service.keepAlive(Time(milliseconds(i)));
+  service.notifyStatus("lost");
   EXPECT_LT(heard().size(), 100'000u);
+  service.notifyStatus("lost");
+  service.keepAlive(Time(milliseconds(100'000)));
   service.notifyStopping();
-  EXPECT_EQ(heard(), texts({"STOPPING=1"}));
+  EXPECT_EQ(heard(), texts({"STATUS=lost", "WATCHDOG=1", "STOPPING=1"})) << "what was lost comes again";
 }
 
 }  // namespace
