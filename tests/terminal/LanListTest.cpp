@@ -12,6 +12,7 @@
 
 #include "PtyTerminal.h"
 #include "client/lan/LanBrowser.h"
+#include "shared/net/base/Limits.h"
 #include "shared/net/lan/LanSocket.h"
 
 namespace naiad::test {
@@ -233,7 +234,7 @@ class FakeLanServer {
 
 LanAnswer fakeAnswer(const LanNonce& nonce, unsigned number, const std::string& name) {
   LanAnswer answer;
-  answer.protocol = 4;
+  answer.protocol = kProtocolVersion;
   answer.nonce = nonce;
   answer.port = 9;
   answer.max_players = 16;

@@ -69,15 +69,19 @@ unsigned prefixOf(const asio::ip::address& mask) {
   return mask.is_v4() ? countBits(mask.to_v4().to_bytes()) : countBits(mask.to_v6().to_bytes());
 }
 
+/// Is this address of the interface one to ask, or answer, from? Systems have no route for IPv6 groups on
+/// loopback.
+bool isSuitable(unsigned flags, const asio::ip::address& address) {
+  if ((flags & IFF_UP) == 0 || (flags & IFF_POINTOPOINT) != 0) return false;
+  return (flags & IFF_LOOPBACK) != 0 ? address.is_v4() : (flags & IFF_MULTICAST) != 0;
+}
+
 std::optional<LanNetwork> networkOf(const ifaddrs& entry) {
-  const unsigned flags = entry.ifa_flags;
-  const bool loopback = (flags & IFF_LOOPBACK) != 0;
-  const bool fits =
-      (flags & IFF_UP) != 0 && (flags & IFF_POINTOPOINT) == 0 && (loopback || (flags & IFF_MULTICAST) != 0);
   const auto address = addressOf(entry.ifa_addr);
   const auto mask = addressOf(entry.ifa_netmask);
   const unsigned interface = if_nametoindex(entry.ifa_name);
-  if (!fits || !address || !mask || interface == 0) return std::nullopt;
+  if (!address || !mask || interface == 0 || !isSuitable(entry.ifa_flags, *address)) return std::nullopt;
+  const bool loopback = (entry.ifa_flags & IFF_LOOPBACK) != 0;
   return LanNetwork{interface, entry.ifa_name, *address, prefixOf(*mask), loopback, false};
 }
 

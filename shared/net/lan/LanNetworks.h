@@ -22,8 +22,9 @@ struct LanNetwork {
   friend bool operator==(const LanNetwork&, const LanNetwork&) = default;
 };
 
-/// Of this machine now: those of interfaces that are up, are loopback or can multicast, and do not lead to a
-/// single far end (tunnels, modems). At most kMaxLanNetworks. Empty where the system does not say.
+/// Of this machine now: those of interfaces that are up, are loopback (IPv4 alone) or can multicast, and do
+/// not lead to a single far end (tunnels, modems). At most kMaxLanNetworks. Empty where the system does not
+/// say.
 std::vector<LanNetwork> lanNetworks();
 
 inline constexpr std::size_t kMaxLanNetworks = 32;

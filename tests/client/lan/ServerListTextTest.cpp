@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "../../support/HostileTexts.h"
-#include "shared/net/base/JsonText.h"
 #include "client/lan/ServerListText.h"
+#include "shared/net/base/JsonText.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 

@@ -1,4 +1,4 @@
-// The responder with real sockets, on loopback: asked as clients ask, and flooded.
+// The responder with real sockets: asked as clients ask, and flooded.
 #include <gtest/gtest.h>
 #include <poll.h>
 
@@ -16,11 +16,11 @@ using namespace std::chrono_literals;
 
 const LanNonce kResponderNonce{9, 8, 7};
 
-/// The loopback network of this family; nothing where a machine has none.
-std::optional<LanNetwork> loopback(LanSocket::Family family) {
+/// A network of this family: loopback, where it can multicast. Nothing where a machine has none.
+std::optional<LanNetwork> responderNetwork(LanSocket::Family family) {
+  const bool four = family == LanSocket::Family::kIPv4;
   for (const LanNetwork& network : lanNetworks()) {
-    if (network.is_loopback && network.address.is_v4() == (family == LanSocket::Family::kIPv4))
-      return network;
+    if (network.address.is_v4() == four && network.is_loopback == four) return network;
   }
   return std::nullopt;
 }
@@ -41,13 +41,13 @@ LanAnswer responderFacts(std::uint8_t key, bool asks_password = false) {
 class LanResponderTest : public testing::TestWithParam<LanSocket::Family> {
  protected:
   void SetUp() override {
-    m_network = loopback(GetParam());
-    if (!m_network) GTEST_SKIP() << "this machine has no loopback address of the family";
+    m_network = responderNetwork(GetParam());
+    if (!m_network) GTEST_SKIP() << "this machine is in no network of the family";
     m_client.emplace(LanSocket::forClient(GetParam()));
   }
 
   std::unique_ptr<LanResponder> respond(std::uint8_t key) {
-    const char* p_address = GetParam() == LanSocket::Family::kIPv4 ? "127.0.0.1" : "::1";
+    const char* p_address = GetParam() == LanSocket::Family::kIPv4 ? "127.0.0.1" : "::";
     auto responder = std::make_unique<LanResponder>(responderFacts(key), p_address, LanMode::kOn);
     responder->setPlayers(5);
     responder->start();

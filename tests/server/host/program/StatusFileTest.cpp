@@ -19,8 +19,10 @@ StatusFacts statusFacts() {
 TEST(StatusFile, TheTextIsJsonWithTheLink) {
   EXPECT_EQ(statusText(statusFacts(), 3),
             "{\"name\": \"Ann's \\\"own\\\"\", \"game\": \"hello\", \"players\": 3, \"max_players\": 16, "
-            "\"password\": true, \"protocol\": 4, \"version\": \"0.1.0\", "
-            "\"link\": \"naiad://game.example#abcdefghijklmnopqrstuvwxya\"}\n");
+            "\"password\": true, \"protocol\": " +
+                std::to_string(kProtocolVersion) + ", \"version\": \"" + kVersion +
+                "\", "
+                "\"link\": \"naiad://game.example#abcdefghijklmnopqrstuvwxya\"}\n");
 }
 
 TEST(StatusFile, WithoutALinkThereIsNone) {
