@@ -12,7 +12,7 @@ namespace naiad {
 struct LogEvent {
   enum class Level { kError, kWarning, kInfo };
   /// Names are written as they are; values are escaped.
-  using Fields = std::vector<std::pair<const char*, std::string>>;
+  using Fields = std::vector<std::pair<std::string, std::string>>;
 
   LogEvent(std::string sentence) : text(std::move(sentence)) {}  // NOLINT(google-explicit-constructor)
   LogEvent(const char* p_sentence) : text(p_sentence) {}         // NOLINT(google-explicit-constructor)

@@ -17,6 +17,14 @@ void appendNumber(std::string& text, Number value) {
   text.append(digits.data(), end);
 }
 
+/// The same without an exponent, as bounds are compared by their text.
+void appendBound(std::string& text, double bound) {
+  std::array<char, 512> digits;
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), bound, std::chars_format::fixed).ptr;
+  text.append(digits.data(), end);
+}
+
 }  // namespace
 
 void Exposition::begin(std::string_view name, MetricType type, std::string_view help) {
@@ -48,7 +56,7 @@ void Exposition::add(const Histogram& histogram) {
   for (std::size_t i = 0; i <= histogram.bounds().size(); ++i) {
     count += histogram.count(i);
     std::string bound = "le=\"";
-    i < histogram.bounds().size() ? appendNumber(bound, histogram.bounds()[i])
+    i < histogram.bounds().size() ? appendBound(bound, histogram.bounds()[i])
                                   : static_cast<void>(bound += "+Inf");
     addName("_bucket", bound + "\"");
     appendNumber(m_text, count);

@@ -41,7 +41,7 @@ class Admission {
     /// A client plays that has no list of players yet.
     std::function<void()> on_new_client;
     /// May new players join?
-    std::function<bool()> is_open;
+    std::function<bool()> is_open = [] { return true; };
   };
 
   /// `executor` runs what is left of a judgement once a password has been checked.
