@@ -108,7 +108,7 @@ TEST_F(Metrics, ValuesFollowTheGame) {
   ann.connection().leave();
   EXPECT_TRUE(reaches(R"(naiad_leaves_total{reason="asked"})", is(1)));
   EXPECT_TRUE(reaches(R"(naiad_players{state="connected"})", is(0)));
-  EXPECT_EQ(value("naiad_objects"), 0) << "nobody watches";
+  EXPECT_TRUE(reaches("naiad_objects", is(0))) << "nobody watches";
 }
 
 TEST_F(Metrics, NoPlayersNameIsOnThePage) {
@@ -275,16 +275,19 @@ TEST_F(Metrics, APageTakesLittleTime) {
   start([](df::World& world) { populateBusyWorld(world, 5); });
   for (int i = 0; i < 20; ++i) join("p" + std::to_string(i));
   ASSERT_TRUE(reaches(R"(naiad_players{state="connected"})", is(20)));
+  constexpr int kPages = 200;
   const double before = value(sample);
-  int pages = 0;
-  double spent = 0;
-  ASSERT_TRUE(serve([&] {
-    ++pages;
-    spent = value(sample) - before;
-    return pages >= 100 && spent > 0;
-  }));
-  std::printf("metrics pages=%d cpu_ms_per_page=%.3f\n", pages, 1000 * spent / pages);
-  if (!kSanitized) EXPECT_LE(spent / pages, 0.010);
+  for (int i = 0; i < kPages; ++i) ASSERT_TRUE(serve([this] { return get("/metrics").status == 200; }));
+  // Values that were measured after that. The pages of which this is read are not counted, but take time,
+  // too.
+  ASSERT_TRUE(reaches("naiad_ticks_total", isOver(value("naiad_ticks_total"))));
+  ASSERT_TRUE(reaches("naiad_ticks_total", isOver(value("naiad_ticks_total"))));
+  const double spent = value(sample) - before;
+  std::printf("metrics pages=%d cpu_ms_per_page=%.3f\n", kPages, 1000 * spent / kPages);
+  EXPECT_GT(spent, 0);
+  if (!kSanitized) {
+    EXPECT_LE(spent / kPages, 0.010);
+  }
 }
 
 }  // namespace

@@ -9,11 +9,15 @@ namespace {
 
 constexpr const char* kTypes[] = {"counter", "gauge", "histogram"};
 
-/// The shortest text that is read back as the same number, whatever the locale is.
-template <class Number>
-void appendNumber(std::string& text, Number value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+void appendNumber(std::string& text, std::uint64_t value) {
+  text += std::to_string(value);
+}
+
+/// The shortest text without an exponent that is read back as the same number, whatever the locale is.
+void appendNumber(std::string& text, double value) {
+  std::array<char, 1100> digits;  // of the least number
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed).ptr;
   text.append(digits.data(), end);
 }
 

@@ -322,7 +322,10 @@ void NetworkThread::obeyOrder(const Order& order, std::string_view bytes) {
 }
 
 void NetworkThread::reportCounters() {
-  NetworkCounters counters{.relay = m_counters, .traffic = m_traffic, .streams = m_port.streams->counters()};
+  NetworkCounters counters;
+  counters.relay = m_counters;
+  counters.traffic = m_traffic;
+  counters.streams = m_port.streams->counters();
   if (m_port.visitors) counters.visitors = m_port.visitors->counters();
   if (m_port.datagrams) {
     counters.gate = m_port.datagrams->counters();

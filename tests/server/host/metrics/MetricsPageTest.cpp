@@ -143,8 +143,11 @@ TEST(Exposition, NumbersAreReadBackAsTheyWere) {
   Exposition out;
   out.begin("n", MetricType::kGauge, "Help.");
   out.add("", 0.1);
+  out.add(R"(a="c")", 1e-9);
   out.add(R"(a="b")", std::uint64_t{18446744073709551615u});
-  EXPECT_EQ(out.text(), "# HELP n Help.\n# TYPE n gauge\nn 0.1\nn{a=\"b\"} 18446744073709551615\n");
+  EXPECT_EQ(
+      out.text(),
+      "# HELP n Help.\n# TYPE n gauge\nn 0.1\nn{a=\"c\"} 0.000000001\nn{a=\"b\"} 18446744073709551615\n");
 }
 
 }  // namespace

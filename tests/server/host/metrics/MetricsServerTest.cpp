@@ -71,7 +71,7 @@ TEST_F(MetricsServerTest, ANameThatIsNotOursIsForbidden) {
 TEST_F(MetricsServerTest, WhatIsNoHttpIsABadRequest) {
   for (const char* request : {"hello\r\n\r\n", "GET\r\n\r\n", "GET /metrics\r\n\r\n", "\r\n\r\n\r\n",
                               "GET / HTTP/9.9\r\n\r\n", "GET /metrics HTTP/1.1\r\nHost localhost\r\n\r\n",
-                              "\x16\x03\x01\x02\x00\x01\xfc\x03\x03"
+                              "\x16\x03\x01\x02\x05\x01\xfc\x03\x03"
                               "0123456789\r\n\r\n"}) {
     EXPECT_EQ(ask(request).status, 400) << request;
   }
