@@ -120,8 +120,9 @@ TEST_P(LanResponderTest, AFloodOfQueriesIsAnsweredAtItsRate) {
   ASSERT_TRUE(hearAll({31}));
   responder->stop();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  // Other tests of this machine may ask at the same time, from its other addresses.
   EXPECT_LE(static_cast<double>(responder->counters().answered),
-            LanQueryJudge::kOfAPrefix.burst + LanQueryJudge::kOfAPrefix.per_second * took.count());
+            LanQueryJudge::kInAll.burst + LanQueryJudge::kInAll.per_second * took.count());
   EXPECT_GT(responder->counters().too_often, 0u);
 }
 
