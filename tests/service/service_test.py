@@ -143,6 +143,7 @@ class ServiceTest(unittest.TestCase):
             self.manager.wait_for("WATCHDOG=1")
         self.play(port, ticks=200)
         self.manager.wait_for(f"STATUS=127.0.0.1:{port}, 1 player")
+        self.manager.drain()  # its queue is full by now, and what is said to a full one is lost
         self.stop(server)
         self.manager.wait_for("STOPPING=1")
 
