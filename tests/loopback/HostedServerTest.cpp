@@ -14,6 +14,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,7 +50,7 @@ class HostedServer : public testing::Test {
     environment.insert({"NAIAD_GAME", "hello"});
     server = std::make_unique<GameProgram>("dfserver", std::move(environment),
                                            std::vector<std::string>{"--config", config()});
-    ASSERT_NE(server->port(), 0) << server->log();
+    if (server->port() == 0) throw std::runtime_error("no server: " + server->log());
   }
   TestClient& client(const ClientSetup& setup) {
     clients.push_back(std::make_unique<TestClient>(context, server->port(), setup));

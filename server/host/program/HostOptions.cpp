@@ -274,7 +274,7 @@ std::string complaint(const HostOptions& options) {
   if (options.certificate.empty() != options.key.empty()) return "--certificate and --key come together";
   if (options.insecure && options.lan == "on") return "--lan on needs encryption, so not --insecure";
   if (options.insecure && !options.visitors.empty()) return "--visitors needs encryption, so not --insecure";
-  if (const std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
+  if (std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
   return printedComplaint(options);
 }
 
