@@ -1,4 +1,4 @@
-// Variables of the environment that are spelt wrongly: nothing would come of them, and nobody would notice.
+// Variables of the environment that are misspelt: they would be ignored without notice.
 #pragma once
 
 #include <string>

@@ -122,7 +122,7 @@ TEST_F(HostedServer, SigtermLetsPlayersFinish) {
   TestClient& ann = join("ann");
   server->signal(SIGTERM);
   EXPECT_TRUE(isTold(ann, "The server closes when all have left, and in 3000 seconds at the latest."));
-  EXPECT_EQ(refusal(home.player("bob")), "The server is closing, and lets nobody in any more.");
+  EXPECT_EQ(refusal(home.player("bob")), "The server is closing and lets no new players in.");
   EXPECT_TRUE(ticks(ann));
   ann.connection().leave();
   EXPECT_TRUE(serve([&] { return server->log().find(" left\n") != std::string::npos; }));

@@ -137,8 +137,8 @@ class NetworkThread {
   /// What became of every datagram until just now; nothing without them. Thread-safe.
   DatagramGateCounters gateCounters() const;
   void resetTickTimes() { m_tick_times.reset(); }
-  /// Ask the thread for its counters, which takes it a turn; latestCounters() has them then. While nobody
-  /// asks, nothing is copied.
+  /// Ask the thread for its counters, which takes it a turn; latestCounters() has them then. Without a
+  /// request nothing is copied.
   void askForCounters() { giveOrder({.kind = Order::kReportCounters}); }
   /// As they were when last asked for; all zero before that.
   NetworkCounters latestCounters() const;

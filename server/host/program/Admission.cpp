@@ -238,7 +238,7 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
 bool Admission::checkLimits(Session& session) {
   if (!m_setup.is_open()) {
     ++m_counters.refused_closing;
-    session.refuse(wire::Refused::FULL, "The server is closing, and lets nobody in any more.");
+    session.refuse(wire::Refused::FULL, "The server is closing and lets no new players in.");
     return false;
   }
   const int max_players = m_setup.options.max_players;

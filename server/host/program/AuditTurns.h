@@ -26,7 +26,7 @@ class AuditTurns {
   void noteRound(const Room& room, std::uint32_t tick);
   /// The session is about to be destroyed.
   void forget(const Session& session);
-  /// The player whose picture is wanted in this tick of the host; 0: nobody's.
+  /// The player whose picture is wanted in this tick of the host; 0: none.
   std::uint32_t pictured(std::uint32_t tick) const;
 
  private:

@@ -20,7 +20,7 @@ class Ending {
   struct Plan {
     bool begins_again = false;    ///< restart: the goodbye tells clients to look for the server again
     std::optional<Time> at = {};  ///< then at the latest; nothing: no limit
-    bool when_empty = false;      ///< as soon as no player has a connection
+    bool when_empty = false;      ///< as soon as no players are left
     bool at_round_end = false;    ///< when the round is over that is being played
     std::string sentence = {};    ///< the last one to players; empty: by what is planned
   };
@@ -33,12 +33,12 @@ class Ending {
   /// May new players join? Not while the server waits for those who play to leave, and ends for good then.
   bool isOpen() const { return !m_plan || m_plan->begins_again || !(m_plan->when_empty || m_plan->at); }
 
-  /// Is it time? `is_empty`: no player has a connection.
+  /// Is it time? `is_empty`: no players are left.
   bool isDue(Time now, bool is_empty) const;
   bool beginsAgain() const { return m_plan && m_plan->begins_again; }
   /// The last sentence to players; empty if nothing is planned.
   std::string sentence() const;
-  /// What players should be told now, if anything. Once a tick.
+  /// The notice that players should get now, if any. Once a tick.
   std::optional<std::string> takeNews(Time now);
 
  private:

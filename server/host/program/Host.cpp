@@ -453,7 +453,7 @@ void Host::checkSessions() {
   });
 }
 
-// A tick that hangs keeps the service manager from being told, so that it ends and restarts the server.
+// A tick that hangs sends no keep-alive, so the service manager ends and restarts the server.
 void Host::notifyService() {
   if (!m_service.isActive()) return;
   m_service.keepAlive(m_tick_began);
@@ -556,7 +556,9 @@ bool Host::isOver() const {
   const bool counted_out =
       m_options.ticks > 0 && m_counters.ticks >= static_cast<std::uint64_t>(m_options.ticks);
   const Clock::time_point now = Clock::now();
-  return m_rooms.isOver() || m_ending.isDue(now, connected() == 0) || counted_out || isDeserted(now);
+  // A player whose connection broke may come back, so they are waited for, too.
+  const bool is_due = m_ending.plan() && m_ending.isDue(now, m_sessions.playing() == 0);
+  return m_rooms.isOver() || is_due || counted_out || isDeserted(now);
 }
 
 void Host::drain() {

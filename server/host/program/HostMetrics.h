@@ -54,7 +54,7 @@ class HostMetrics {
   void endTick(Clock::time_point now);
   /// Between two ticks: measure, if it is time.
   void update(Clock::time_point now);
-  /// The host lets nobody in any more; `ticks`: but it ticks on.
+  /// The host lets no new players in; `ticks`: but it ticks on.
   void beginDrain(bool ticks) { m_pulse.beginDrain(ticks); }
   /// It does not end after all.
   void cancelDrain() { m_pulse.cancelDrain(); }

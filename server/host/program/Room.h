@@ -77,7 +77,7 @@ class Room {
   // Ticks.
 
   /// Pass on the players' input, and begin a tick if the world is ready for one. False: it is not. `truth`:
-  /// publish() will have a TruthWriter. `pictured`: the player whose picture is audited; 0: nobody's.
+  /// publish() will have a TruthWriter. `pictured`: the player whose picture is audited; 0: none.
   bool beginTick(bool truth, std::uint32_t pictured = 0);
   /// The world's tick has ended: send snapshots, sounds and notes. The truth goes to `p_truth`, if there is
   /// one.

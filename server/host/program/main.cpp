@@ -110,7 +110,7 @@ void useLogOptions(const naiad::HostOptions& options, naiad::LineLog& lines) {
   lines.setLevel(level == "error" ? Level::kError : level == "warning" ? Level::kWarning : Level::kInfo);
 }
 
-/// What a process has been told to be.
+/// How a process was started.
 struct Start {
   naiad::StartCommand command;
   naiad::HostOptions options;

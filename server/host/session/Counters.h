@@ -64,7 +64,7 @@ struct Counters {
   std::uint64_t late_inputs = 0;  ///< of these: after the tick in which they were to be applied
   // Players who left, by why:
   std::uint64_t left_asked = 0;      ///< their client said so
-  std::uint64_t left_dismissed = 0;  ///< by the server: the game is over, or somebody wanted it so
+  std::uint64_t left_dismissed = 0;  ///< by the server: the game is over, or on request
   std::uint64_t left_hung_up = 0;    ///< the connection ended, and there is no grace
   std::uint64_t left_silent = 0;     ///< for too long
   std::uint64_t left_flood = 0;      ///< sent too much at once

@@ -44,7 +44,7 @@ class ScriptedPort : public WorldPort {
   df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {}; }
 
   std::vector<df::PlayerFacts> players;
-  std::vector<std::uint32_t> pictured;  ///< by tick: whose picture was wanted, 0: nobody's
+  std::vector<std::uint32_t> pictured;  ///< by tick: whose picture was wanted; 0: none
 
  private:
   std::uint32_t m_pictured = 0;
