@@ -343,6 +343,23 @@ TEST(HostedWorld, ClientsComeBackToAServerThatRestarts) {
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); })) << ann.connection().sentence();
 }
 
+TEST(HostedWorld, ADrainWaitsForAPlayerWhoseConnectionBroke) {
+  Home home;
+  asio::io_context context;
+  TestServer server([](df::World&) {}, home.server());
+  ClientSetup setup = home.player("ann");
+  setup.sessions = home.sessions();
+  auto killed = std::make_unique<TestClient>(context, server.port(), setup);
+  ASSERT_TRUE(serveUntil(context, {killed.get()}, [&] { return killed->joined(); }));
+  killed.reset();
+  ASSERT_TRUE(serveUntil(context, {}, [&] { return server.counters().detached == 1; }));
+  server.end({.at = Clock::now() + std::chrono::hours(1), .when_empty = true});
+  TestClient ann(context, server.port(), setup);
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined() || ann.connection().isOver(); }));
+  ASSERT_TRUE(ann.joined()) << ann.connection().sentence();
+  EXPECT_TRUE(ann.session().isResumed());
+}
+
 TEST(HostedWorld, AClientThatDoesNotLookAgainEnds) {
   Home home;
   asio::io_context context;
