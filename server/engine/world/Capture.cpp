@@ -86,7 +86,9 @@ void Capture::drawOne(ObjectKey key) {
 
   m_drawing = key;
   try {
-    store.object(key.slot)->draw();
+    Object& object = *store.object(key.slot);
+    const ActivityScope running(m_world.activity(), classOf(object), Activity::kDraw);
+    object.draw();
   } catch (const std::exception& e) {
     m_world.quarantine(key, e.what());
   } catch (...) {

@@ -4,6 +4,7 @@
 
 #include "engine/collision/Mask.h"
 #include "engine/sprites/AnimationLook.h"
+#include "engine/world/ClassName.h"
 #include "engine/world/Geometry.h"
 #include "engine/world/Object.h"
 #include "engine/world/ObjectExtras.h"
@@ -50,12 +51,15 @@ int Object::setSprite(std::string sprite_label) {
 }
 
 int Object::setSprite(const std::string& sprite_label, bool set_box) {
-  const World* p_world = getWorld();
+  World* p_world = getWorld();
   Sprite* p_sprite = p_world != nullptr && p_world->findExtras() != nullptr
                          ? p_world->findExtras()->resources.sprite(sprite_label)
                          : nullptr;
   if (p_sprite == nullptr) {
-    if (p_world != nullptr) p_world->log("Object of type " + getType() + ": no sprite " + sprite_label);
+    if (p_world != nullptr) {
+      p_world->logOnce("setSprite(\"" + sprite_label + "\") of " + nameOf(*this) +
+                       ": no sprite is loaded under this label" + p_world->extras().resources.spriteLabels());
+    }
     return -1;
   }
   return setSprite(p_sprite, set_box);
