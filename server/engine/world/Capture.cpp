@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "engine/world/ActivityPage.h"
 #include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"

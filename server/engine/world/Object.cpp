@@ -17,7 +17,7 @@ namespace {
 /// The constant that was meant by a name that lacks the engine's "df-"; null for all others.
 const char* engineEventFor(std::string_view name) {
   if (name.starts_with("df-") || name.size() > 9) return nullptr;
-  for (const auto [word, constant] : {std::pair{"step", "STEP_EVENT"}, std::pair{"keyboard", "KEYBOARD_EVENT"},
+  for (const auto& [word, constant] : {std::pair{"step", "STEP_EVENT"}, std::pair{"keyboard", "KEYBOARD_EVENT"},
                                       std::pair{"mouse", "MSE_EVENT"}, std::pair{"collision", "COLLISION_EVENT"},
                                       std::pair{"out", "OUT_EVENT"}}) {
     if (name == word) return constant;

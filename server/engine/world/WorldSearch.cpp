@@ -46,7 +46,10 @@ ObjectList World::objectsOfType(const std::string& type) {
 // Once for each type that was asked for in vain: the look at all Objects is not free.
 void World::explainMissing(const std::string& type) {
   if (m_missing.size() >= kMaxMissing || !m_missing.insert(type).second) return;
-  const auto isNamed = [&](auto s) { return classNameOf(typeid(*m_p_store->object(s))) == type; };
+  const auto isNamed = [&](auto s) {
+    const std::string name = classNameOf(typeid(*m_p_store->object(s)));
+    return name == type || name.ends_with("::" + type);
+  };
   if (collect(isNamed).isEmpty()) return;
   logOnce("WM.objectsOfType(\"" + type + "\") finds none: class " + type + " does not call setType(\"" + type +
           "\")");

@@ -245,7 +245,7 @@ void WorldProcess::finish(int status) {
   asio::error_code ignored;
   m_socket.close(ignored);
   m_end = m_failure ? *m_failure : endOf(status);
-  if (m_end->why == WorldEnd::kGameOver && m_end->text != kExited) return;
+  if (m_end->why == WorldEnd::kGameOver) return;
   m_end->when = when();
   m_end->last_lines = lastLines();
 }
