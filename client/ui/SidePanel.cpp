@@ -10,8 +10,8 @@ namespace naiad {
 namespace {
 
 // With these the texts are worth reading; beyond the second they only spread out.
-constexpr int kMinColumns = 26;
-constexpr int kMaxColumns = 44;
+constexpr int kMinPanelColumns = 26;
+constexpr int kMaxPanelColumns = 44;
 constexpr int kMinPanelRows = 20;
 
 int columnsIn(const std::string& text) {
@@ -112,8 +112,8 @@ void drawChatRow(Picture& picture, const ChatRow& row, int x, int y, int width) 
 
 int sidePanelColumns(int columns, int rows, const ScreenModel& model) {
   const int room = columns - model.view.width() - 2;  // of its frame
-  if (!model.status_shown || rows < kMinPanelRows || rows < model.view.height() || room < kMinColumns) return 0;
-  return std::min(room, kMaxColumns);
+  if (!model.status_shown || rows < kMinPanelRows || rows < model.view.height() || room < kMinPanelColumns) return 0;
+  return std::min(room, kMaxPanelColumns);
 }
 
 void drawSidePanel(Picture& picture, const ScreenModel& model, int x, int rows, int& max_scroll) {

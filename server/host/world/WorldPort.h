@@ -30,8 +30,8 @@ struct WorldEnd {
   int exit_code = 0;  ///< of kCrashed, unless it was a signal
   /// For the log, of a failure: "in tick 17, while Ship handled EventStep", "after tick 17"; empty before the
   /// first.
-  std::string when;
-  std::vector<std::string> last_lines;  ///< of the game's log, of a failure; escaped
+  std::string when = {};
+  std::vector<std::string> last_lines = {};  ///< of the game's log, of a failure; escaped
 };
 
 class WorldPort {

@@ -126,7 +126,7 @@ TEST_F(AnimationTest, BoxBecomesTheSpritesUnlessSwitchedOff) {
 TEST_F(AnimationTest, UnknownSpriteIsRefused) {
   Object o;
   EXPECT_EQ(o.setSprite("ghost"), -1);
-  EXPECT_EQ(logged("no sprite ghost"), 1);
+  EXPECT_EQ(logged("setSprite(\"ghost\") of "), 1);
   EXPECT_EQ(o.getSprite(), nullptr);
 }
 

@@ -32,7 +32,7 @@ class EventNuke : public Event {};
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 const std::string& page() {
   static const std::string text = [] {
@@ -164,7 +164,7 @@ TEST_F(Mistakes, SettersThatRefuseAreNamedOnceEach) {
   auto* p_saucer = new Saucer;
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(p_saucer->setAltitude(5), -1);
-    EXPECT_EQ(p_saucer->setPosition(Vector(kNan, 1)), -1);
+    EXPECT_EQ(p_saucer->setPosition(Vector(kNotANumber, 1)), -1);
   }
   ASSERT_EQ(lines.size(), 2u);
   const std::string second = lines.back();
@@ -179,11 +179,11 @@ TEST_F(Mistakes, SettersThatRefuseAreNamedOnceEach) {
   expectLine(
       "Refused: setSolidness of Saucer: a solidness is HARD, SOFT or SPECTRAL (further ones are only "
       "counted)");
-  p_saucer->setVelocity(Vector(1 / (kNan - kNan), 0));
+  p_saucer->setVelocity(Vector(1 / (kNotANumber - kNotANumber), 0));
   expectLine(
       "Refused: setVelocity of Saucer: a number is not finite (a division by 0?) or out of range "
       "(further ones are only counted)");
-  DM.drawCh(Vector(kNan, 0), 'x', RED);
+  DM.drawCh(Vector(kNotANumber, 0), 'x', RED);
   expectLine(
       "Refused: drawCh of DisplayManager: a number is not finite (a division by 0?) or out of range (further "
       "ones are only counted)");
