@@ -60,7 +60,8 @@ Screen::Screen(const Options& options) : m_ascii(options.ascii), m_colors(option
     const bool has_default = use_default_colors() == OK;
     for (int c = df::BLACK; c < df::kColorCount; ++c) {
       const auto color = static_cast<df::Color>(c);
-      // The colours of a Dragonfly are bright. The terminal's own black differs from its background only then.
+      // The colours of a Dragonfly are bright. The terminal's own black differs from its background only
+      // then.
       short foreground = hasBright() ? brightColor(color) : cursesColor(color);
       if (color == df::COLOR_DEFAULT && has_default) foreground = -1;
       if (color == df::BLACK && COLORS > 8) foreground = 8;
@@ -83,7 +84,8 @@ void Screen::setBackground(df::Color background) {
     const auto color = static_cast<df::Color>(c);
     // Black stays black there.
     const bool bright = hasBright() && color != df::BLACK;
-    init_pair(pairOf(color, false), bright ? brightColor(color) : cursesColor(color), cursesColor(background));
+    init_pair(pairOf(color, false), bright ? brightColor(color) : cursesColor(color),
+              cursesColor(background));
   }
   m_redraw = true;
 }

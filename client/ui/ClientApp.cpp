@@ -132,8 +132,7 @@ ClientApp::Outcome ClientApp::outcome() const {
     case S::kLost:
       return {kExitEnded, sentence, 0, {}};
     default:
-      return {kExitLeft, m_was_idle ? "You left, for you were away for too long." : "", m_signal,
-              {}};
+      return {kExitLeft, m_was_idle ? "You left, for you were away for too long." : "", m_signal, {}};
   }
 }
 

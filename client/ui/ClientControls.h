@@ -45,9 +45,9 @@ inline constexpr const char* kGuessedReleasesHelp =
 
 /// What of the controls the last picture showed.
 struct ShownControls {
-  bool status = true;  ///< a status line
-  int max_scroll = 0;  ///< lines of the open panel that are beyond its end
-  int page = 1;        ///< lines of it that are seen at a time
+  bool status = true;       ///< a status line
+  int max_scroll = 0;       ///< lines of the open panel that are beyond its end
+  int page = 1;             ///< lines of it that are seen at a time
   int max_chat_scroll = 0;  ///< rows of the chat's history above those shown
   int chat_page = 1;        ///< rows of it that are seen at a time
 };

@@ -46,7 +46,7 @@ class FrameComposer {
     std::int64_t silence = 0;  ///< in tenths of a second, once it is shown
     std::size_t chat_lines = 0;
     std::string note;
-    bool status = false;  ///< over the game
+    bool status = false;   ///< over the game
     bool pointer = false;  ///< at the player's own object
     friend bool operator==(const FrameState&, const FrameState&) = default;
   };

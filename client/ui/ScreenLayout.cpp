@@ -148,7 +148,8 @@ void drawChatLine(Picture& picture, const ScreenModel& model, int y) {
 
 /// Chat lines over the game, the last one in row `bottom`. Sets how far they can be scrolled.
 void drawChatOver(Picture& picture, const ScreenModel& model, int bottom, ShownControls& shown) {
-  const std::vector<ChatRow> rows = chatRows(model.chat, picture.width() - 1, 3 * kChatRows + model.chat_scroll);
+  const std::vector<ChatRow> rows =
+      chatRows(model.chat, picture.width() - 1, 3 * kChatRows + model.chat_scroll);
   const int count = static_cast<int>(rows.size());
   const int room = std::min(model.chat_scroll > 0 ? std::max(bottom / 2, kChatRows) : kChatRows, bottom + 1);
   shown.max_chat_scroll = std::max(count - kChatRows, 0);

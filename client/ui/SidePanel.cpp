@@ -112,7 +112,8 @@ void drawChatRow(Picture& picture, const ChatRow& row, int x, int y, int width) 
 
 int sidePanelColumns(int columns, int rows, const ScreenModel& model) {
   const int room = columns - model.view.width() - 2;  // of its frame
-  if (!model.status_shown || rows < kMinPanelRows || rows < model.view.height() || room < kMinPanelColumns) return 0;
+  if (!model.status_shown || rows < kMinPanelRows || rows < model.view.height() || room < kMinPanelColumns)
+    return 0;
   return std::min(room, kMaxPanelColumns);
 }
 

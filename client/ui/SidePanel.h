@@ -9,8 +9,8 @@ namespace naiad {
 /// Columns of the panel beside a view of this width; 0: there is no room for one.
 int sidePanelColumns(int columns, int rows, const ScreenModel& model);
 
-/// Draw it into columns `x` to the right edge, rows 0 to `rows` - 1. `max_scroll`: lines of the chat's history
-/// above those shown, at most.
+/// Draw it into columns `x` to the right edge, rows 0 to `rows` - 1. `max_scroll`: lines of the chat's
+/// history above those shown, at most.
 void drawSidePanel(Picture& picture, const ScreenModel& model, int x, int rows, int& max_scroll);
 
 /// A row of a chat entry.
@@ -25,8 +25,8 @@ std::vector<ChatRow> chatRows(const std::vector<ChatEntry>& chat, int width, int
 /// Draw one at (x, y).
 void drawChatRow(Picture& picture, const ChatRow& row, int x, int y, int width);
 
-/// Break a line at blanks so that each part has `width` columns at most; parts after the first are indented as
-/// the explanation in a line like "Ctrl-] h   this help".
+/// Break a line at blanks so that each part has `width` columns at most; parts after the first are indented
+/// as the explanation in a line like "Ctrl-] h   this help".
 void wrapInto(std::vector<std::string>& out, const std::string& text, std::size_t width);
 
 /// Best first.

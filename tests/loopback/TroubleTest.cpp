@@ -300,12 +300,13 @@ std::string lastWords(const std::string& mistake, int& code) {
 
 TEST(ProgramMistakes, EndInALine) {
   int code = 0;
-  EXPECT_NE(lastWords("no-run", code).find(
-                "trouble_game: the program ended without GM.run(), so nothing was played\n"),
+  EXPECT_NE(lastWords("no-run", code)
+                .find("trouble_game: the program ended without GM.run(), so nothing was played\n"),
             std::string::npos);
   const std::string no_start = lastWords("no-start", code);
-  EXPECT_NE(no_start.find("trouble_game: GM.run() was called before GM.startUp(), which reads the settings\n"),
-            std::string::npos)
+  EXPECT_NE(
+      no_start.find("trouble_game: GM.run() was called before GM.startUp(), which reads the settings\n"),
+      std::string::npos)
       << no_start;
   EXPECT_EQ(code, 1);
   const std::string exits = lastWords("exit", code);
@@ -315,7 +316,8 @@ TEST(ProgramMistakes, EndInALine) {
       << exits;
   if (kSanitized) return;  // which reports crashes itself
   const std::string before = lastWords("crash-before-run", code);
-  EXPECT_NE(before.find("trouble_game: crashed (SIGSEGV) before the first tick\n"), std::string::npos) << before;
+  EXPECT_NE(before.find("trouble_game: crashed (SIGSEGV) before the first tick\n"), std::string::npos)
+      << before;
   EXPECT_NE(before.find("trouble_game: the game's log: Sprite ship: no/such.txt: cannot be read; looked in "),
             std::string::npos)
       << before;

@@ -1,8 +1,8 @@
 // What a world's game is doing: written before each handler, read by others after a crash or a hang.
 //
-// Plain data of a fixed size, without pointers that a reader follows: a world in a process of its own has it in
-// memory that it shares with its host, which reads it when that process was killed. A reader takes every byte
-// for a stranger's: the game can write anything here.
+// Plain data of a fixed size, without pointers that a reader follows: a world in a process of its own has it
+// in memory that it shares with its host, which reads it when that process was killed. A reader takes every
+// byte for a stranger's: the game can write anything here.
 #pragma once
 
 #include <atomic>

@@ -17,9 +17,10 @@ namespace {
 /// The constant that was meant by a name that lacks the engine's "df-"; null for all others.
 const char* engineEventFor(std::string_view name) {
   if (name.starts_with("df-") || name.size() > 9) return nullptr;
-  for (const auto& [word, constant] : {std::pair{"step", "STEP_EVENT"}, std::pair{"keyboard", "KEYBOARD_EVENT"},
-                                      std::pair{"mouse", "MSE_EVENT"}, std::pair{"collision", "COLLISION_EVENT"},
-                                      std::pair{"out", "OUT_EVENT"}}) {
+  for (const auto& [word, constant] :
+       {std::pair{"step", "STEP_EVENT"}, std::pair{"keyboard", "KEYBOARD_EVENT"},
+        std::pair{"mouse", "MSE_EVENT"}, std::pair{"collision", "COLLISION_EVENT"},
+        std::pair{"out", "OUT_EVENT"}}) {
     if (name == word) return constant;
   }
   return nullptr;
@@ -166,8 +167,8 @@ int Object::registerInterest(const std::string& event_type) {
   World* p_world = getWorld();
   if (p_world == nullptr) return -1;
   if (const char* p_meant = engineEventFor(event_type)) {
-    p_world->logOnce("registerInterest(\"" + event_type + "\"): the engine sends no such event; it sends df::" +
-                     p_meant);
+    p_world->logOnce("registerInterest(\"" + event_type +
+                     "\"): the engine sends no such event; it sends df::" + p_meant);
   }
   return p_world->interests().add(*this, event_type);
 }

@@ -131,7 +131,8 @@ std::string Resources::spriteLabels() const {
 // Games of the published engine ask for null pointers.
 bool Resources::standsIn(const char* call, const std::string& label, const std::string& loaded) {
   if (m_world.compat()) return false;
-  m_world.logOnce("RM." + std::string(call) + "(\"" + label + "\"): nothing is loaded under this label" + loaded);
+  m_world.logOnce("RM." + std::string(call) + "(\"" + label + "\"): nothing is loaded under this label" +
+                  loaded);
   return true;
 }
 

@@ -180,7 +180,8 @@ void World::setStarted(unsigned manager, bool started) {
 int World::onEvent(const Event* p_event) {
   if (p_event == nullptr) return 0;
   if (&p_event->getType() == &UNDEFINED_EVENT)
-    logOnce("WM.onEvent() of a " + classNameOf(typeid(*p_event)) + " without a type: setType() was forgotten");
+    logOnce("WM.onEvent() of a " + classNameOf(typeid(*p_event)) +
+            " without a type: setType() was forgotten");
   const Scope scope(*this);
   // Joins and leaves during a pause count when the game goes on.
   const EventType& type = p_event->getType();

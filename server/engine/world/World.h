@@ -347,11 +347,11 @@ class World {
   bool m_in_tick = false;
   bool m_in_update = false;
   bool m_in_draw = false;
-  int m_handlers = 0;                   // eventHandler()s that are running, one inside the other
+  int m_handlers = 0;  // eventHandler()s that are running, one inside the other
   std::unique_ptr<Activity> m_own_activity;
-  Activity* m_p_activity;               // that, or the page's
-  ActivityPage* m_p_page = nullptr;     // null: nobody reads what the game does
-  std::uintptr_t m_named_event = 0;     // class of the event that was named last
+  Activity* m_p_activity;            // that, or the page's
+  ActivityPage* m_p_page = nullptr;  // null: nobody reads what the game does
+  std::uintptr_t m_named_event = 0;  // class of the event that was named last
   bool m_shutdown_pending = false;
 };
 

@@ -51,8 +51,8 @@ void World::explainMissing(const std::string& type) {
     return name == type || name.ends_with("::" + type);
   };
   if (collect(isNamed).isEmpty()) return;
-  logOnce("WM.objectsOfType(\"" + type + "\") finds none: class " + type + " does not call setType(\"" + type +
-          "\")");
+  logOnce("WM.objectsOfType(\"" + type + "\") finds none: class " + type + " does not call setType(\"" +
+          type + "\")");
 }
 
 ObjectList World::solidObjects() const {

@@ -12,9 +12,10 @@ class World;
 namespace naiad::crash {
 
 /// While it lives, a crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) writes a line to stderr and, if that
-/// is another file, to `log`, the last lines of the game's log and where to read on, and then has the effect that it has without this: core dumps and exit status
-/// are those of the signal. A signal that is handled already (by a sanitizer, by the game) is left alone. The
-/// thread that makes it may overflow its stack. One at a time.
+/// is another file, to `log`, the last lines of the game's log and where to read on, and then has the effect
+/// that it has without this: core dumps and exit status are those of the signal. A signal that is handled
+/// already (by a sanitizer, by the game) is left alone. The thread that makes it may overflow its stack. One
+/// at a time.
 class Report {
  public:
   /// `name`: of the program. `log`: a descriptor; below 0: none.
@@ -29,7 +30,8 @@ class Report {
 /// replaces it.
 void setWorld(df::World* p_world);
 
-/// ", while Ship handles EventStep" (`verb`: "handles"), at this moment; empty if no handler runs. Any thread.
+/// ", while Ship handles EventStep" (`verb`: "handles"), at this moment; empty if no handler runs. Any
+/// thread.
 std::string activity(std::string_view verb);
 
 /// Is a tick running? And " in tick 17, while Ship handled EventStep". On the thread that ticks.

@@ -185,8 +185,8 @@ class TerminalPlayer {
 void reportEnd() {
   if (g_failed) return;
   if (crash::inTick()) {
-    std::cerr << programName() << ": exit() was called" << crash::where() << "; GM.setGameOver() ends a game in order"
-              << std::endl;
+    std::cerr << programName() << ": exit() was called" << crash::where()
+              << "; GM.setGameOver() ends a game in order" << std::endl;
   } else if (!df::World::current().hasBegun()) {
     std::cerr << programName() << ": the program ended without GM.run(), so nothing was played" << std::endl;
   }

@@ -68,7 +68,7 @@ void ActivityText::addEscaped(std::string_view text) {
 std::string_view classInMangled(std::string_view mangled) {
   std::string_view rest = mangled;
   if (rest.starts_with('*')) rest.remove_prefix(1);  // of a class that only its own file knows
-  if (rest.starts_with('Z')) {                       // a class in a function: the name after that of the function
+  if (rest.starts_with('Z')) {  // a class in a function: the name after that of the function
     std::size_t at = rest.size();
     while (at > 0 && !(rest[at - 1] == 'E' && at < rest.size() && isDigit(rest[at]))) --at;
     rest.remove_prefix(at);

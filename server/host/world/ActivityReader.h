@@ -1,7 +1,7 @@
 // Reads an ActivityPage after a crash or during a hang: what the game was doing, for lines of the log.
 //
-// All that it does is async-signal-safe: it allocates nothing, and follows no pointer of the page. The page may
-// be a stranger's: whatever is in it, the text is short, of printable ASCII, and stays in its line.
+// All that it does is async-signal-safe: it allocates nothing, and follows no pointer of the page. The page
+// may be a stranger's: whatever is in it, the text is short, of printable ASCII, and stays in its line.
 #pragma once
 
 #include <cstddef>
@@ -31,8 +31,8 @@ std::string_view classInMangled(std::string_view mangled);
 /// ", while Ship handled EventStep" (`verb`: "handled"), ", while Ship ran draw()"; empty if no handler runs.
 ActivityText describeActivity(const df::ActivityPage& page, std::string_view verb);
 
-/// The last lines of the game's log, oldest first: `back` counts from the newest, which is 0. Empty if there is
-/// none.
+/// The last lines of the game's log, oldest first: `back` counts from the newest, which is 0. Empty if there
+/// is none.
 ActivityText logLine(const df::ActivityPage& page, std::size_t back);
 
 }  // namespace naiad

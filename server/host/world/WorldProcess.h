@@ -95,7 +95,7 @@ class WorldProcess : public WorldPort {
   int m_keeper;  ///< the socket of its keeper
   OutputRelay m_output;
   const df::ActivityPage* m_p_page = nullptr;  ///< null: there is none
-  bool m_started = false;  ///< as the keeper says
+  bool m_started = false;                      ///< as the keeper says
   State m_state = State::kStarting;
   std::optional<WorldReady> m_ready;
   std::optional<int> m_status;        ///< once it and all that it had started have ended
@@ -107,8 +107,8 @@ class WorldProcess : public WorldPort {
   std::uint32_t m_pictured = 0;
   std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
-  bool m_in_tick = false;   ///< one was sent, and not answered
-  bool m_warned = false;    ///< of this tick
+  bool m_in_tick = false;  ///< one was sent, and not answered
+  bool m_warned = false;   ///< of this tick
   std::optional<std::string> m_warning;
   bool m_expected = false;  ///< to end: the game is over, or the host closed it
   WorldTurn m_turn;         ///< the next one

@@ -48,8 +48,7 @@ std::optional<int> takeWorldSocket() {
 df::ActivityPage* openWorldPage() {
   struct stat facts {};
   if (fstat(kWorldPage, &facts) != 0 || facts.st_size != sizeof(df::ActivityPage)) return nullptr;
-  void* p_memory =
-      mmap(nullptr, sizeof(df::ActivityPage), PROT_READ | PROT_WRITE, MAP_SHARED, kWorldPage, 0);
+  void* p_memory = mmap(nullptr, sizeof(df::ActivityPage), PROT_READ | PROT_WRITE, MAP_SHARED, kWorldPage, 0);
   if (p_memory == MAP_FAILED) return nullptr;
   close(kWorldPage);
   return static_cast<df::ActivityPage*>(p_memory);

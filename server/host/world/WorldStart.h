@@ -23,8 +23,8 @@ std::string worldSocketEntry();
 /// In a world's process: its end of the socket. Nothing in others, and when it was asked for before.
 std::optional<int> takeWorldSocket();
 
-/// In a world's process, after takeWorldSocket() had one: the page for World::setActivityPage(), which stays for
-/// ever. Null if there is none, which costs its host a word in the log.
+/// In a world's process, after takeWorldSocket() had one: the page for World::setActivityPage(), which stays
+/// for ever. Null if there is none, which costs its host a word in the log.
 df::ActivityPage* openWorldPage();
 
 /// The working directory of when this library was loaded: a game's main() may go elsewhere.

@@ -357,7 +357,8 @@ TEST(ScreenLayout, AWideTerminalHasPlayersChatAndHelpBesideTheGame) {
   EXPECT_EQ(layout.placement.height, 24);
   EXPECT_TRUE(layout.placement.framed);
   EXPECT_LT(layout.placement.left + 80, 140 - 40);
-  for (const char* p_part : {"Players ─", "Chat ─", "Help ─", "Arrows   fly", "Ctrl-] h   all keys", "* Ada joined"})
+  for (const char* p_part :
+       {"Players ─", "Chat ─", "Help ─", "Arrows   fly", "Ctrl-] h   all keys", "* Ada joined"})
     EXPECT_TRUE(contains(layout.picture, p_part)) << p_part;
   EXPECT_TRUE(containsIn(layout.picture, "Ada", df::CYAN, Style::kBold));
   EXPECT_TRUE(contains(layout.picture, "Bob: hi there"));

@@ -1,5 +1,6 @@
-// The mistakes that beginners make: each ends in one line that names its cause, and docs/when-it-goes-wrong.md
-// has that line. Those that need a process of their own: tests/loopback/TroubleTest.cpp.
+// The mistakes that beginners make: each ends in one line that names its cause, and
+// docs/when-it-goes-wrong.md has that line. Those that need a process of their own:
+// tests/loopback/TroubleTest.cpp.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -24,7 +25,9 @@ class Deaf : public Object {
   Deaf() { registerInterest(STEP_EVENT); }
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Woverloaded-virtual"
-  virtual int eventHandler(Event* /*p_e*/) { return 1; }
+  virtual int eventHandler(Event* /*p_e*/) {
+    return 1;
+  }
 #pragma GCC diagnostic pop
 };
 

@@ -1,9 +1,9 @@
-#include "host/world/ActivityReader.h"
-
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <string>
+
+#include "host/world/ActivityReader.h"
 
 namespace naiad {
 namespace {
@@ -35,8 +35,7 @@ TEST(ActivityReader, SaysWhatRuns) {
   EXPECT_EQ(describeActivity(*page, "handled").view(), ", while Ship ran draw()");
   page->now.object_class = 4711;
   page->now.event_class = 4712;
-  EXPECT_EQ(describeActivity(*page, "handled").view(),
-            ", while an Object of unknown class handled an event");
+  EXPECT_EQ(describeActivity(*page, "handled").view(), ", while an Object of unknown class handled an event");
 }
 
 TEST(ActivityReader, HasRoomForSoManyClassesAndForgetsNone) {

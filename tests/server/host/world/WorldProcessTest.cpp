@@ -84,7 +84,8 @@ TEST_F(WorldProcessTest, ACrashSaysInWhichTickItWas) {
 TEST_F(WorldProcessTest, APageOfGarbageIsReadAsPrintableText) {
   const std::string garbage = "head -c 20000 /dev/urandom >&4; ";
   const WorldEnd end = play(isReady() + takesTurn() + garbage + "kill -SEGV $$");
-  EXPECT_EQ(end.when.rfind("in tick 1, while an Object of unknown class handled an event", 0), 0u) << end.when;
+  EXPECT_EQ(end.when.rfind("in tick 1, while an Object of unknown class handled an event", 0), 0u)
+      << end.when;
   EXPECT_EQ(end.last_lines.size(), df::ActivityPage::kLines);
   for (const std::string& line : end.last_lines) {
     EXPECT_LE(line.size(), 512u);
