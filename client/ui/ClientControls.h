@@ -21,6 +21,7 @@ enum class StatusMode : unsigned char { kAuto, kAlways, kNever };
 inline constexpr const char* kClientKeyHelp[] = {
     "Ctrl-] t   say something to all players (c does the same)",
     "Up, PgUp   in the open chat line: what was said before",
+    "Ctrl-] p   list of players",
     "Ctrl-] h   this help (? does the same)",
     "Ctrl-] s   status line on or off",
     "Ctrl-] q   leave the game (Ctrl-C does the same)",

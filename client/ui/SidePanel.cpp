@@ -57,11 +57,10 @@ int drawPlayerRows(Picture& picture, const ScreenModel& model, int x, int y, int
 int drawHelpRows(Picture& picture, const ScreenModel& model, int x, int bottom, int width, int most) {
   std::vector<std::string> lines;
   for (const std::string& line : model.help) wrapInto(lines, line, static_cast<std::size_t>(width));
-  const std::string all = model.browser ? "" : "Ctrl-] h   all keys";
-  const std::size_t room = static_cast<std::size_t>(std::max(most - (all.empty() ? 0 : 1), 0));
+  const std::string all = "Ctrl-] h   all keys";
+  const std::size_t room = static_cast<std::size_t>(std::max(most - 1, 0));
   if (lines.size() > room) lines.resize(room);
-  if (!all.empty()) lines.push_back(all);
-  if (lines.empty()) return bottom;
+  lines.push_back(all);
   int y = bottom - static_cast<int>(lines.size()) + 1;
   drawHeading(picture, "Help", x, y - 1, width);
   for (const std::string& line : lines) picture.write(x, y++, line, width);
@@ -112,7 +111,8 @@ void drawChatRow(Picture& picture, const ChatRow& row, int x, int y, int width) 
 
 int sidePanelColumns(int columns, int rows, const ScreenModel& model) {
   const int room = columns - model.view.width() - 2;  // of its frame
-  if (!model.status_shown || rows < kMinPanelRows || rows < model.view.height() || room < kMinPanelColumns)
+  if (model.browser || !model.status_shown || rows < kMinPanelRows || rows < model.view.height() ||
+      room < kMinPanelColumns)
     return 0;
   return std::min(room, kMaxPanelColumns);
 }
@@ -133,7 +133,7 @@ void drawSidePanel(Picture& picture, const ScreenModel& model, int x, int rows, 
   for (int i = first; i < end; ++i) {
     drawChatRow(picture, lines[static_cast<std::size_t>(i)], left, top + 1 + i - first, width);
   }
-  if (count == 0) picture.write(left, top + 1, model.browser ? "" : "Ctrl-] t   say something", width);
+  if (count == 0) picture.write(left, top + 1, "Ctrl-] t   say something", width);
 }
 
 }  // namespace naiad

@@ -6,7 +6,7 @@
 
 namespace naiad {
 
-/// Columns of the panel beside a view of this width; 0: there is no room for one.
+/// Columns of the panel beside the view; 0: there is no room for one. A page of a browser has none.
 int sidePanelColumns(int columns, int rows, const ScreenModel& model);
 
 /// Draw it into columns `x` to the right edge, rows 0 to `rows` - 1. `max_scroll`: lines of the chat's

@@ -85,9 +85,9 @@ WorldScope::~WorldScope() {
 void World::tick() {
   if (m_in_tick || m_in_update || m_in_draw) return;
   const Scope scope(*this);
+  m_begun = true;
   {
     const During during(m_in_tick);
-    m_begun = true;
     ++m_step_count;
     learnNewcomers();
     m_capture->clearPicture();
@@ -110,6 +110,7 @@ void World::tick() {
 void World::update() {
   if (m_in_update) return;
   const Scope scope(*this);
+  m_begun = true;
   {
     const During during(m_in_update);
     learnNewcomers();
