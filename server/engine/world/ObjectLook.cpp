@@ -52,17 +52,14 @@ int Object::setSprite(std::string sprite_label) {
 
 int Object::setSprite(const std::string& sprite_label, bool set_box) {
   World* p_world = getWorld();
-  Sprite* p_sprite = p_world != nullptr && p_world->findExtras() != nullptr
-                         ? p_world->findExtras()->resources.sprite(sprite_label)
-                         : nullptr;
-  if (p_sprite == nullptr) {
-    if (p_world != nullptr) {
-      p_world->logOnce("setSprite(\"" + sprite_label + "\") of " + nameOf(*this) +
-                       ": no sprite is loaded under this label" + p_world->extras().resources.spriteLabels());
-    }
-    return -1;
-  }
-  return setSprite(p_sprite, set_box);
+  if (p_world == nullptr) return -1;
+  Resources& resources = p_world->extras().resources;
+  if (Sprite* p_sprite = resources.sprite(sprite_label)) return setSprite(p_sprite, set_box);
+  p_world->logOnce("setSprite(\"" + sprite_label + "\") of " + nameOf(*this) +
+                   ": no sprite is loaded under this label" + resources.spriteLabels());
+  // So that there is something to see, and getAnimation().getSprite() is no null pointer.
+  if (getSprite() == nullptr && !p_world->compat()) setSprite(&resources.missingSprite(), false);
+  return -1;
 }
 
 int Object::setSprite(Sprite* p_new_sprite, bool set_box) {

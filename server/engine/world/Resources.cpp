@@ -138,7 +138,10 @@ bool Resources::standsIn(const char* call, const std::string& label, const std::
 
 Sprite* Resources::spriteOrStandIn(const std::string& label) {
   if (Sprite* p_sprite = sprite(label)) return p_sprite;
-  if (!standsIn("getSprite", label, spriteLabels())) return nullptr;
+  return standsIn("getSprite", label, spriteLabels()) ? &missingSprite() : nullptr;
+}
+
+Sprite& Resources::missingSprite() {
   if (m_missing_sprite == nullptr) {
     m_missing_sprite = std::make_unique<Sprite>(1);
     m_missing_sprite->setLabel("missing");
@@ -146,7 +149,7 @@ Sprite* Resources::spriteOrStandIn(const std::string& label) {
     m_missing_sprite->setHeight(1);
     m_missing_sprite->addFrame(Frame(1, 1, "?"));
   }
-  return m_missing_sprite.get();
+  return *m_missing_sprite;
 }
 
 int Resources::loadSound(const std::string& filename, const std::string& label) {

@@ -24,6 +24,8 @@ class Resources {
   Sprite* sprite(const std::string& label) const;
   /// The same; if there is none, one that shows a '?', and a line in the log. Null in compat.
   Sprite* spriteOrStandIn(const std::string& label);
+  /// The one that stands in.
+  Sprite& missingSprite();
   /// For a line in the log: "; loaded are: saucer, ship".
   std::string spriteLabels() const;
   int loadSound(const std::string& filename, const std::string& label);
