@@ -12,7 +12,7 @@ namespace {
 /// Rows of the chat's history that the highest terminal shows, and as many to scroll on.
 constexpr std::size_t kHistoryRows = 300;
 
-/// How long the player's own object is pointed at after joining.
+/// How long the player's own object is pointed at, when there is one for the first time.
 constexpr std::chrono::seconds kPointed{2};
 
 std::int64_t tenthsOfSilence(const ClientSession& session, FrameComposer::Time now) {
@@ -36,16 +36,18 @@ FrameComposer::FrameState FrameComposer::currentState(Time now) {
   state.chat_lines = recentChat(now).size();
   state.note = m_sounds.shownNote(now);
   m_status.update(session->welcome().player, session->roundTrip(), now);
-  noteJoin(session->welcome().player, now);
+  noteOwnObject(*session, now);
   state.pointer = now < m_point_until;
   state.status = m_controls.status() == StatusMode::kAlways || m_status.isShown(now);
   return state;
 }
 
-// Their object may come a few ticks later: it is pointed at as soon as it is there.
-void FrameComposer::noteJoin(std::uint32_t player, Time now) {
-  if (m_joined_as == player) return;
-  m_joined_as = player;
+// It may come long after the player, behind a title.
+void FrameComposer::noteOwnObject(const ClientSession& session, Time now) {
+  if (m_joined_as != session.welcome().player) m_pointed = false;
+  m_joined_as = session.welcome().player;
+  if (m_pointed || session.replica().control().generation == 0) return;
+  m_pointed = true;
   m_point_until = now + kPointed;
 }
 

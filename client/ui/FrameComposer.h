@@ -54,7 +54,7 @@ class FrameComposer {
   FrameState currentState(Time now);
   std::vector<ChatEntry> recentChat(Time now) const;
   std::string banner(Time now) const;
-  void noteJoin(std::uint32_t player, Time now);
+  void noteOwnObject(const ClientSession& session, Time now);
 
   Connection& m_connection;
   const ClientControls& m_controls;
@@ -63,6 +63,7 @@ class FrameComposer {
   ChatEntry m_notice;
   StatusTimer m_status;
   std::optional<std::uint32_t> m_joined_as;
+  bool m_pointed = false;
   Time m_point_until{};  ///< at the player's own object
   bool m_browser = false;
   bool m_key_releases = false;
