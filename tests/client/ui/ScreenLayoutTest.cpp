@@ -319,7 +319,7 @@ TEST(ScreenLayout, TheStatusLineBeginsWithThePlayersNameInTheirColour) {
   m.self_name = "Ada";
   m.self_color = df::CYAN;
   const Picture picture = layOut(m, 100, 30).picture;
-  EXPECT_EQ(picture.rowText(29).rfind("  Ada  42 ms   tick 1200", 0), 0u) << picture.rowText(29);
+  EXPECT_EQ(picture.rowText(29).rfind("  Ada   42 ms   tick 1200", 0), 0u) << picture.rowText(29);
   EXPECT_EQ(picture.at(2, 29).color, df::CYAN);
   EXPECT_EQ(picture.at(2, 29).style, Style::kReverse);
   EXPECT_TRUE(containsIn(layOut(m, 92, 24).picture, "Ada", df::CYAN, Style::kBold)) << "beside the view";
