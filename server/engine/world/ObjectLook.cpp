@@ -58,7 +58,11 @@ int Object::setSprite(const std::string& sprite_label, bool set_box) {
   p_world->logOnce("setSprite(\"" + sprite_label + "\") of " + nameOf(*this) +
                    ": no sprite is loaded under this label" + resources.spriteLabels());
   // So that there is something to see, and getAnimation().getSprite() is no null pointer.
-  if (getSprite() == nullptr && !p_world->compat()) setSprite(&resources.missingSprite(), false);
+  if (getSprite() == nullptr && !p_world->compat()) {
+    Animation animation;
+    animation.setSprite(&resources.missingSprite());
+    Object::setAnimation(std::move(animation), false);  // a game's own is for what it has asked for
+  }
   return -1;
 }
 
