@@ -36,7 +36,7 @@ TEST_F(HostileServerTest, ChatIsCutFilteredAndBounded) {
   EXPECT_EQ(session->chat().back().color, df::GREEN);
   EXPECT_EQ(session->chat().back().text.size(), kMaxChatLength);
   EXPECT_EQ(session->chat().back().text.substr(0, 10), "?]0;owned?");
-  EXPECT_EQ(session->counters().chat_lines, 300u);
+  EXPECT_EQ(session->counters().chat_lines, 600u);
 }
 
 TEST_F(HostileServerTest, SendsOnlyDrawableChat) {
