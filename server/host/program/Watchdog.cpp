@@ -61,7 +61,7 @@ void Watchdog::run() {
         break;
       case HangWatch::Step::kEndHung:
       case HangWatch::Step::kEndAtOnce:
-        m_end({.hung = tick && Clock::now() - began >= HangWatch::kTickBeforeEnd,
+        m_end({.hung = tick && Clock::now() - began >= HangWatch::kHang,
                .tick = tick.value_or(0),
                .signal = m_signals.signal()});
     }
