@@ -42,7 +42,7 @@ class Trouble : public Object {
     if (p_k->getKey() == Keyboard::A) abort();
     if (p_k->getKey() == Keyboard::D) m_crashes = true;
     if (p_k->getKey() == Keyboard::K) raise(SIGKILL);
-    if (p_k->getKey() == Keyboard::Z) m_rest = 1 / g_zero;
+    if (p_k->getKey() == Keyboard::Z) m_rest = 7 / g_zero;  // 1 / x needs no division
     if (p_k->getKey() == Keyboard::N) {
       Event inner;
       inner.setType("inner");
