@@ -39,7 +39,8 @@ class PasswordCheck::Worker {
     std::function<void(std::optional<bool> right)> report;
   };
 
-  explicit Worker(PasswordHash hash) : hash_(std::move(hash)), thread_([this] { run(); }) {}
+  explicit Worker(PasswordHash hash)
+      : hash_(std::make_shared<const PasswordHash>(std::move(hash))), thread_([this] { run(); }) {}
   ~Worker() {
     {
       const std::lock_guard lock(mutex_);
@@ -51,6 +52,11 @@ class PasswordCheck::Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
+  void setHash(PasswordHash hash) {
+    auto fresh = std::make_shared<const PasswordHash>(std::move(hash));
+    const std::lock_guard lock(mutex_);
+    hash_.swap(fresh);
+  }
   void give(Job job) {
     {
       const std::lock_guard lock(mutex_);
@@ -67,20 +73,21 @@ class PasswordCheck::Worker {
       if (stopping_) return;
       const Job job = std::move(jobs_.front());
       jobs_.pop_front();
+      const auto hash = hash_;
       lock.unlock();
-      job.report(compare(job.password->text));
+      job.report(compare(*hash, job.password->text));
       lock.lock();
     }
   }
-  std::optional<bool> compare(const std::string& password) const {
+  static std::optional<bool> compare(const PasswordHash& hash, const std::string& password) {
     try {
-      return hash_.matches(password);
+      return hash.matches(password);
     } catch (const PasswordError&) {
       return std::nullopt;
     }
   }
 
-  PasswordHash hash_;
+  std::shared_ptr<const PasswordHash> hash_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Job> jobs_;
@@ -187,6 +194,10 @@ void PasswordCheck::check(const AddressPrefix& from, bool known, std::string pas
       ++state_->counters.busy;
       return state_->answerLater(Answer::kBusy, std::move(done));
   }
+}
+
+void PasswordCheck::setHash(PasswordHash hash) {
+  worker_->setHash(std::move(hash));
 }
 
 const PasswordCheck::Counters& PasswordCheck::counters() const {

@@ -51,6 +51,9 @@ class PasswordCheck {
   void check(const AddressPrefix& from, bool known, std::string password,
              std::chrono::steady_clock::time_point now, std::function<void(Answer)> done);
 
+  /// Compare with this one from now on: guesses that wait, too. Never waits for a guess.
+  void setHash(PasswordHash hash);
+
   const Counters& counters() const;
   /// Prefixes remembered.
   std::size_t remembered() const;

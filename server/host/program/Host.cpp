@@ -11,12 +11,14 @@
 #include "engine/managers/GameManager.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "host/admin/ControlFile.h"
 #include "host/program/CrashReport.h"
 #include "host/program/NetworkReport.h"
 #include "host/program/StopSignals.h"
 #include "host/session/LookAlikes.h"
 #include "host/world/Descendants.h"
 #include "naiad.pb.h"
+#include "shared/admin/ControlPath.h"
 #include "shared/program/BrokenPipes.h"
 #include "shared/program/LogText.h"
 #include "shared/program/OpenFiles.h"
@@ -92,7 +94,8 @@ void endBySignal(int signal) {
 
 Host::Host(HostOptions options, std::string game, Log log)
     : m_options(std::move(options)),
-      m_log(std::move(log)),
+      m_log(watchedLog(std::move(log))),
+      m_bans(m_admin_worker, m_options.state),
       m_identity(identityOf(m_options)),
       m_handshakes(PrefixRates::handshakes(m_options.max_per_address)),
       m_network(
@@ -105,7 +108,7 @@ Host::Host(HostOptions options, std::string game, Log log)
                  [this](Session& session) { m_rooms.removeSession(session); }),
       m_rooms(m_options, m_sessions, m_counters, m_log, [this] { flush(); }),
       m_client_log(m_log),
-      m_admission({m_options, std::move(game), m_sessions, m_rooms, m_prefixes, m_counters,
+      m_admission({m_options, std::move(game), m_sessions, m_rooms, m_prefixes, m_counters, m_bans,
                    [this](const std::string& address, const std::string& text) {
                      m_client_log.logNews(address, text, m_network.now());
                    },
@@ -113,10 +116,16 @@ Host::Host(HostOptions options, std::string game, Log log)
                    [this] { m_player_news.repeat(); }},
                   m_io.get_executor()),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
+      m_admin({m_options, m_sessions, m_admission, m_counters, m_network,
+               [this](const std::string& sentence) { m_stop_sentence = sentence; }}),
+      m_console({m_admin, m_admin_worker, m_bans, m_log,
+                 [this](std::function<void()> job) { asio::post(m_io, std::move(job)); }}),
+      m_chat_commands(chatCommands(), m_io.get_executor()),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
   for (const std::string& warning : m_options.warnings) m_log("warning: " + warning);
   if (m_identity && !m_identity->warning().empty()) m_log("warning: " + m_identity->warning());
+  listenForCommands();
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
   const std::size_t wanted =
       maxConnections(m_options) + static_cast<std::size_t>(m_options.max_players) +  // with second streams
@@ -124,6 +133,52 @@ Host::Host(HostOptions options, std::string game, Log log)
   if (const std::size_t files = allowOpenFiles(wanted); files < wanted) {
     m_log("only " + std::to_string(files) + " files may be open (ulimit -Hn): too few for " +
           std::to_string(m_options.max_players) + " players and those who come back");
+  }
+}
+
+// Whoever watches the server sees its log.
+LogLine Host::watchedLog(LogLine log) {
+  return [this, log = std::move(log)](const std::string& line) {
+    log(line);
+    m_feed.publish("log", line);
+  };
+}
+
+ChatCommands::Setup Host::chatCommands() {
+  return {m_options,
+          m_sessions,
+          m_admin,
+          m_console,
+          m_bans,
+          [this](const std::string& address, const std::string& text) {
+            m_client_log.logNews(address, text, m_network.now());
+          },
+          [this](const std::string& address, const std::string& text) {
+            m_client_log.logRefusal(address, text, m_network.now());
+          }};
+}
+
+// By default it is a convenience, and a server without a home does without.
+void Host::listenForCommands() {
+  const bool by_default = m_options.control.empty() && m_options.control_by_port;
+  ControlListening listening;
+  listening.path = m_options.control;
+  if (by_default) {
+    listening.path = naiad::controlPath(m_network.port()).value_or(std::filesystem::path());
+    removeStaleControls(listening.path.parent_path());
+  }
+  if (listening.path.empty()) return;
+  listening.is_refused = [](pid_t process) { return isDescendant(process); };
+  const auto execute = [this](AdminRequest request, AdminCaller caller, AdminConsole::Done done) {
+    asio::post(m_io, [this, request = std::move(request), caller = std::move(caller),
+                      done = std::move(done)] { m_console.execute(request, caller, done); });
+  };
+  try {
+    m_control = std::make_unique<ControlSocket>(std::move(listening), execute, m_feed, m_log);
+    if (by_default) m_options.control = naiad::controlPath(m_network.port())->string();
+  } catch (const ListenError& error) {
+    if (!by_default) throw;
+    m_log(std::string("warning: ") + error.what() + " dfctl cannot reach this server (--control).");
   }
 }
 
@@ -138,6 +193,7 @@ TlsListening Host::listening() {
   listening.max_half_open_per_prefix = std::clamp(static_cast<std::size_t>(m_options.max_per_address),
                                                   kMinHalfOpenPerPrefix, listening.max_half_open / 2);
   listening.is_known = [this](const AddressPrefix& prefix) { return m_prefixes.count(prefix) > 0; };
+  listening.is_banned = [this](const asio::ip::address& address) { return m_bans.isBanned(address); };
   listening.take_handshake = [this](const AddressPrefix& prefix) {
     return m_handshakes.take(prefix, Clock::now());
   };
@@ -177,7 +233,11 @@ std::optional<JoinLink> Host::joinLink(bool elsewhere) const {
   return JoinLink{*where, "", ShortKey::of(m_identity->fingerprint())};
 }
 
-Host::~Host() = default;
+// Answers go through what is destroyed here; the last of what was promised is written before.
+Host::~Host() {
+  m_control.reset();
+  m_admin_worker.finish();
+}
 
 void Host::setWorlds(NewWorld new_world) {
   m_rooms.setWorlds([this, new_world = std::move(new_world)] { return new_world(m_io); });
@@ -304,7 +364,9 @@ void Host::checkSessions() {
   m_sessions.forEach([&](Session& session) {
     session.checkDeadlines(now);
     if (session.takeProof()) m_admission.confirmToken(session);
+    m_inactivity.check(session, std::chrono::seconds(m_options.inactive_kick), m_counters, sendServerLine);
   });
+  m_chat_commands.update(now);
 }
 
 // The list of players has those of all rooms.
@@ -335,19 +397,30 @@ void Host::sweep() {
 
 Session::Events Host::sessionEvents() {
   return {[this](Session& session, const wire::Hello& hello) { m_admission.judgeHello(session, hello); },
-          [this](Session& session, const std::string& text) { sendChat(session, text); },
+          [this](Session& session, const std::string& text) { takeChat(session, text); },
           [this](Session& session) { endSession(session); }, [this] { return m_network.now(); },
           [this](Session& session, const std::string& sentence) {
             m_client_log.logRefusal(session.address(), sentence, m_network.now());
           }};
 }
 
-void Host::sendChat(const Session& session, const std::string& text) {
+// A command is for the server alone, whatever becomes of it.
+void Host::takeChat(Session& session, const std::string& text) {
   const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
   if (!m_chat.take(prefix, m_network.now())) {
     ++m_counters.chat_dropped;
-    return;
+  } else if (ChatCommands::isCommand(text)) {
+    m_chat_commands.serve(session, text);
+  } else if (session.standing().isMuted()) {
+    ++m_counters.chat_muted;
+    sendServerLine(session, "You are muted: nobody reads your lines.");
+  } else {
+    sendChat(session, text);
   }
+}
+
+void Host::sendChat(const Session& session, const std::string& text) {
+  m_feed.publish("chat", inQuotes(session.name()) + ": " + text);
   wire::ServerMessage message;
   message.mutable_chat()->set_player(session.player());
   message.mutable_chat()->set_text(text);
@@ -356,6 +429,7 @@ void Host::sendChat(const Session& session, const std::string& text) {
 
 void Host::endSession(Session& session) {
   m_admission.forgetSession(session);
+  m_inactivity.forget(session);
   if (session.player() == 0) return;
   m_rooms.leave(session);
   m_client_log.logNews(session.address(), inQuotes(session.name()) + " left", m_network.now());
@@ -393,6 +467,8 @@ void Host::drain() {
     m_rooms.closeWorlds();
   }
   m_network.stop();
+  m_control.reset();
+  m_admin_worker.finish();
   m_client_log.finish();
   m_log("stopped: " + m_counters.summary());
   logPasswords(m_admission.passwordCounters(), m_log);

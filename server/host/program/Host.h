@@ -13,11 +13,19 @@
 #include <string>
 
 #include "engine/world/Runner.h"
+#include "host/admin/AdminConsole.h"
+#include "host/admin/AdminWorker.h"
+#include "host/admin/BanList.h"
+#include "host/admin/ControlSocket.h"
+#include "host/admin/WatchFeed.h"
 #include "host/auth/ServerIdentity.h"
 #include "host/net/NetworkThread.h"
 #include "host/net/PlayerPrefixes.h"
 #include "host/program/Admission.h"
+#include "host/program/ChatCommands.h"
+#include "host/program/HostAdmin.h"
 #include "host/program/HostOptions.h"
+#include "host/program/InactivityCheck.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
@@ -37,7 +45,8 @@ class Host : public df::Runner {
   using Log = LogLine;
 
   /// Listens from now on (clients wait until run()). Throws ListenError, TlsError for keys that cannot be
-  /// used, or std::runtime_error for a truth file that cannot be written.
+  /// used, BanFileError for a file of bans that cannot, or std::runtime_error for a truth file that cannot be
+  /// written.
   Host(HostOptions options, std::string game, Log log);
   ~Host() override;
 
@@ -53,6 +62,8 @@ class Host : public df::Runner {
   /// `elsewhere` asked for. Nothing without encryption.
   std::optional<JoinLink> joinLink(bool elsewhere) const;
   const Counters& counters() const { return m_counters; }
+  /// Of the socket for commands; empty: there is none.
+  const std::string& controlPath() const { return m_options.control; }
   /// What became of every datagram so far; nothing without encryption. Thread-safe.
   DatagramGateCounters datagramCounters() const { return m_network.gateCounters(); }
   /// How long ticks took, begin to last datagram sent. Thread-safe.
@@ -92,6 +103,10 @@ class Host : public df::Runner {
   TlsListening listening();
   VisitorsListening visitors() const;
   Session::Events sessionEvents();
+  LogLine watchedLog(LogLine log);
+  ChatCommands::Setup chatCommands();
+  void listenForCommands();
+  void takeChat(Session& session, const std::string& text);
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);
   void beginGame(df::World& world);
@@ -112,9 +127,12 @@ class Host : public df::Runner {
   bool isDeserted(Clock::time_point now) const;
 
   HostOptions m_options;
+  WatchFeed m_feed;
   Log m_log;
   Counters m_counters;
   asio::io_context m_io{1};  ///< this thread's handlers; no sockets
+  AdminWorker m_admin_worker;
+  BanList m_bans;  ///< the network thread asks it, too
   std::optional<ServerIdentity> m_identity;
   PlayerPrefixes m_prefixes;
   PrefixAllowance m_handshakes;  ///< of the network thread
@@ -126,6 +144,11 @@ class Host : public df::Runner {
   PrefixAllowance m_chat;
   Watchdog* m_p_watchdog = nullptr;  ///< while it runs
   PlayerNews m_player_news;
+  HostAdmin m_admin;
+  AdminConsole m_console;
+  ChatCommands m_chat_commands;
+  InactivityCheck m_inactivity;
+  std::unique_ptr<ControlSocket> m_control;  ///< null: there is none
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;
   std::string m_stop_sentence;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/program/Announcement.h"
+#include "shared/net/base/UserDirectory.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/options/Options.h"
 
@@ -120,6 +121,30 @@ std::vector<Row> tableOf(HostOptions& o) {
         "Write what each player ought to see, tick by tick, to this file (for tests; large)", "NAIAD_TRUTH"}},
       {{"--port-file", &o.port_file, "Write the port number to this file once listening", "NAIAD_PORT_FILE"}},
       {{"--log", &o.log_file, "Append log lines to this file instead of stderr", "NAIAD_LOG"}},
+      {{"--control", &o.control,
+        "Path of the socket for dfctl's commands, mode 0660: who may write to it is an admin; off: none. "
+        "Default: control-PORT.sock in naiad in the user's runtime directory ($XDG_RUNTIME_DIR), else in "
+        "~/.local/state/naiad; none for games that are programs themselves",
+        "NAIAD_CONTROL"}},
+      {{"--state", &o.state,
+        "Folder of what lasts beyond a restart: the bans. Default: naiad in the user's directory for state "
+        "($XDG_STATE_HOME, ~/.local/state); none for games that are programs themselves",
+        "NAIAD_STATE"}},
+      {{"--admin-password", &o.admin_password,
+        "Password that makes a player an admin in the chat (/admin PASSWORD), or its $argon2id$ hash; as "
+        "with "
+        "--password, rather in the environment or in --config",
+        "NAIAD_ADMIN_PASSWORD"}},
+      {{"--vote-kick", &o.vote_kick,
+        "Players may vote others out for five minutes (/vote kick NAME): more than half of the addresses "
+        "that "
+        "play have to agree within 30 seconds",
+        "NAIAD_VOTE_KICK"}},
+      {{"--inactive-kick", &o.inactive_kick,
+        "Seconds without key, click or line of chat after which a player has to go, warned 10 seconds "
+        "before; "
+        "0 never",
+        "NAIAD_INACTIVE_KICK", OptionRange{0, 86400}}},
       {{"--headless", &o.headless, "Without network and players, as fast as possible", "NAIAD_HEADLESS"},
        UsedBy::kProgram},
       {{"--local-client", &o.local_client, "Started in a terminal: play there, too", "NAIAD_LOCAL_CLIENT"},
@@ -186,6 +211,24 @@ bool isHash(const std::string& password) {
   return password.starts_with("$argon2");
 }
 
+void warnOfReadersOf(const std::string& file, const std::string& password, HostOptions& options) {
+  struct stat facts {};
+  if (isHash(password) || stat(file.c_str(), &facts) != 0 || (facts.st_mode & S_IROTH) == 0) return;
+  options.warnings.push_back(file + " has the password, and every user can read it. Run: chmod o-r " + file);
+}
+
+/// Of "FILE:LINE".
+std::string fileAt(const std::string& place) {
+  return place.substr(0, place.rfind(':'));
+}
+
+/// What dfserver does where these options do not say; "off" is none everywhere.
+void useDefaultFolders(HostOptions& options) {
+  options.control_by_port = options.control.empty();
+  if (!options.state.empty()) return;
+  if (const auto folder = userDirectory("XDG_STATE_HOME", ".local/state")) options.state = folder->string();
+}
+
 void keepHome(HostOptions& options) {
   if (options.insecure && options.address == HostOptions().address) options.address = kLoopback;
 }
@@ -193,19 +236,19 @@ void keepHome(HostOptions& options) {
 }  // namespace
 
 void warnOfReaders(const std::string& file, HostOptions& options) {
-  struct stat facts {};
-  if (isHash(options.password) || stat(file.c_str(), &facts) != 0 || (facts.st_mode & S_IROTH) == 0) return;
-  options.warnings.push_back(file + " has the password, and every user can read it. Run: chmod o-r " + file);
+  warnOfReadersOf(file, options.password, options);
 }
 
 CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options) {
   bool list_games = false;
   bool markdown = false;
   std::string password_place;
+  std::string admin_place;
   std::vector<Option> all;
   for (Row& row : tableOf(options)) {
     row.option.shows_default = true;
     if (row.option.name == "--password") row.option.p_place = &password_place;
+    if (row.option.name == "--admin-password") row.option.p_place = &admin_place;
     if (row.used_by != UsedBy::kProgram) all.push_back(std::move(row.option));
   }
   all.push_back({"--list-games", &list_games, "Print the games that can be named, and exit"});
@@ -227,7 +270,10 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
     return CommandLine::kUsageError;
   }
   keepHome(options);
-  if (!password_place.empty()) warnOfReaders(password_place.substr(0, password_place.rfind(':')), options);
+  useDefaultFolders(options);
+  if (options.control == "off") options.control.clear();
+  if (!password_place.empty()) warnOfReaders(fileAt(password_place), options);
+  if (!admin_place.empty()) warnOfReadersOf(fileAt(admin_place), options.admin_password, options);
   if (markdown) {
     std::cout << hostOptionsMarkdown();
     return CommandLine::kDone;
@@ -255,7 +301,23 @@ std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOption
   if (given.count("address") == 0 && !options.is_public) options.address = kLoopback;
   if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
   keepHome(options);
+  if (options.control == "off") options.control.clear();
   return given;
+}
+
+void setHostOption(HostOptions& options, const std::string& name, const std::string& value) {
+  for (const Row& row : tableOf(options)) {
+    if (row.option.name == "--" + name) return storeValue(row.option, value, name);
+  }
+  throw OptionError("There is no option " + name + ".");
+}
+
+std::string hostOptionValue(const HostOptions& options, const std::string& name) {
+  HostOptions copy = options;
+  for (const Row& row : tableOf(copy)) {
+    if (row.option.name == "--" + name) return currentValue(row.option);
+  }
+  return {};
 }
 
 std::string hostOptionsMarkdown() {

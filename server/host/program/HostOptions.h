@@ -43,11 +43,18 @@ struct HostOptions {
   std::string visitors;           ///< path of a socket for doors (VisitorsListener.h); empty: none
   std::string link_host;  ///< HOST[:PORT] for players elsewhere, in the link that is printed; empty: unknown
   std::string ssh_door;   ///< USER@HOST[:PORT] of a door to this server; empty: none
-  std::string web_address;            ///< of a page to play on; empty: none
-  bool qr = false;                    ///< print that as a QR code, too
-  std::string truth_file;             ///< write what each player should see, tick by tick
-  std::string port_file;              ///< write the port number here once listening
-  std::string log_file;               ///< append log lines here instead of stderr
+  std::string web_address;       ///< of a page to play on; empty: none
+  bool qr = false;               ///< print that as a QR code, too
+  std::string truth_file;        ///< write what each player should see, tick by tick
+  std::string port_file;         ///< write the port number here once listening
+  std::string log_file;          ///< append log lines here instead of stderr
+  std::string control;           ///< path of the socket for commands (ControlSocket.h); empty: none
+  bool control_by_port = false;  ///< it is controlPath(), by the port listened on
+  std::string state;             ///< folder of the file of bans; empty: none
+  std::string
+      admin_password;      ///< for /admin in the chat: itself, or its Argon2id hash; empty: no admins there
+  bool vote_kick = false;  ///< players may vote others out
+  int inactive_kick = 0;   ///< seconds without key, click or line before a player has to go; 0: for ever
   std::vector<std::string> warnings;  ///< about these options, for the log
   // Of games that are programs themselves:
   bool headless = false;     ///< no network and no players
@@ -77,6 +84,11 @@ std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOption
 
 /// `file` gave the password: add a warning to `options` if every user can read it there, and it is no hash.
 void warnOfReaders(const std::string& file, HostOptions& options);
+
+/// Store the value of one option, named without dashes. Throws OptionError.
+void setHostOption(HostOptions& options, const std::string& name, const std::string& value);
+/// The value of one, as text; empty if there is no such option.
+std::string hostOptionValue(const HostOptions& options, const std::string& name);
 
 /// The table of options as Markdown, for docs/dfserver.md.
 std::string hostOptionsMarkdown();

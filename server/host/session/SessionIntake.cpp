@@ -115,7 +115,7 @@ void Session::takeInput(const Input& input) {
   if (m_state != State::kPlaying) return;
   switch (m_inputs.add(input)) {
     case ReceivedInputs::Verdict::kQueued:
-      return;
+      return m_standing.noteAction(now());
     case ReceivedInputs::Verdict::kRepeated:
       ++m_counters.repeated_inputs;
       return;
@@ -132,6 +132,7 @@ void Session::takeChat(const std::string& text) {
     ++m_counters.chat_dropped;
     return;
   }
+  m_standing.noteAction(now());
   m_events.on_chat(*this, line);
 }
 

@@ -118,6 +118,10 @@ void TcpListener::State::meet(tcp::socket socket) {
 }
 
 void TcpListener::State::shakeHands(ByteStream::Socket socket, const tcp::endpoint& peer) {
+  if (tls.is_banned && tls.is_banned(peer.address())) {
+    ++counters.refused_banned;
+    return;
+  }
   const AddressPrefix prefix = AddressPrefix::of(peer.address());
   if (tls.has_handshake && !tls.has_handshake(prefix)) {  // what OpenSSL takes for a stream is saved
     ++counters.refused_too_often;
