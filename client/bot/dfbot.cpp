@@ -4,11 +4,13 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "client/bot/BotPlayer.h"
@@ -321,14 +323,15 @@ int start(int argc, char** argv) {
                                std::string(kScriptHelp) + naiad::kExitCodeHelp};
   const naiad::Parsed parsed =
       naiad::parseOptions(program, optionsOf(options, server, script, web), argc, argv);
-  if (parsed != naiad::Parsed::kRun) {
-    return parsed == naiad::Parsed::kDone ? naiad::kExitLeft : naiad::kExitUsage;
-  }
+  if (const auto code = naiad::exitCodeOf(parsed)) return *code;
 
   const std::string wrong = naiad::resolveServer(server, options.address, options.trust, options.session);
   if (!wrong.empty()) return complain(naiad::kExitUsage, wrong);
   if (web && !options.trust.gateway)
     return complain(naiad::kExitUsage, "--web wants the address of a page: https://HOST[:PORT]/.");
+  if (std::error_code none; std::filesystem::is_directory(script, none))
+    return complain(naiad::kExitUsage,
+                    "--script: " + script + " is a folder; a file, or the script itself, is wanted.");
   if (!script.empty()) {
     auto read = naiad::BotScript::parse(scriptText(script));
     if (const auto* error = std::get_if<naiad::ScriptError>(&read)) {

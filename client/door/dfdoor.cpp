@@ -287,14 +287,8 @@ int start(int argc, char** argv) {
   DoorOptions options;
   options.client = besideThisProgram();
   const naiad::Program program{"dfdoor", "Lets a visitor of an ssh door play.", kHelp};
-  switch (naiad::parseOptions(program, optionsOf(options), argc, argv)) {
-    case naiad::Parsed::kDone:
-      return 0;
-    case naiad::Parsed::kUsageError:
-      return kUsage;
-    case naiad::Parsed::kRun:
-      break;
-  }
+  if (const auto code = naiad::exitCodeOf(naiad::parseOptions(program, optionsOf(options), argc, argv)))
+    return *code;
   if (options.games.empty() || options.state.empty())
     throw Refusal{kUsage, "--games and --state are wanted."};
   ::umask(077);

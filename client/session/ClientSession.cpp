@@ -48,7 +48,8 @@ void ClientSession::handle(RefusedMessage&& message, Time) {
 }
 
 void ClientSession::handle(GoodbyeMessage&& message, Time) {
-  finish(State::kEnded,
+  m_returns_in = message.again;
+  finish(m_returns_in.count() > 0 ? State::kLost : State::kEnded,
          message.sentence.empty() ? "The server ended the game." : std::move(message.sentence));
 }
 

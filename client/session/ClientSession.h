@@ -101,6 +101,8 @@ class ClientSession {
   State state() const { return m_state; }
   /// Refused, but another attempt in a moment may succeed.
   bool isRefusedForNow() const { return m_refused_for_now; }
+  /// A session that was lost: the server has said that it is back within this time; 0: it has not.
+  std::chrono::seconds returnsIn() const { return m_returns_in; }
   /// Neither waiting for the server nor playing any more.
   bool isOver() const { return m_state != State::kGreeting && m_state != State::kPlaying; }
   /// Why the session is over, for people. Empty while it is not, or after leave().
@@ -184,6 +186,7 @@ class ClientSession {
   State m_state = State::kGreeting;
   bool m_refused_for_now = false;
   std::string m_sentence;
+  std::chrono::seconds m_returns_in{0};
   std::uint64_t m_revision = 0;
   std::function<void(std::uint32_t)> m_before_observer;
   std::function<void(const SnapshotHeader&, const AckWindow&)> m_after_observer;

@@ -104,7 +104,7 @@ bool Connection::isHungUpOn(Time now) {
 
 void Connection::retryLater(Time now) {
   if (isOver()) return;
-  if (now - m_lost_at >= kGiveUp)
+  if (now - m_lost_at >= m_give_up)
     return finish(m_state == State::kJoining ? State::kRefused : State::kLost, m_sentence);
   tryLater(now);
 }
@@ -128,6 +128,7 @@ void Connection::update(Time now) {
   if (m_state == State::kJoined && m_session->isDetached() && m_rejoin) {
     m_state = State::kSearching;
     m_sentence = "The connection to the server was lost.";
+    m_give_up = kGiveUp;
     m_lost_at = now;
     m_put_off = false;
     m_backoff = kFirstBackoff;
@@ -140,6 +141,7 @@ void Connection::update(Time now) {
     if (!m_rejoin) return finish(State::kLost, m_session->sentence());
     m_state = State::kSearching;
     m_sentence = m_session->sentence();
+    m_give_up = std::max(kGiveUp, m_session->returnsIn());
     m_lost_at = now;
     m_put_off = false;
     m_backoff = kFirstBackoff;

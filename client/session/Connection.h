@@ -5,7 +5,8 @@
 //   kJoining --Refused (BUSY)--> kJoining --60 s of that--> kRefused
 //   any --Refused--> kRefused
 //   any --Goodbye--> kEnded
-//   kSearching --60 s without success--> kLost
+//   kJoined --Goodbye of a server that restarts--> kSearching
+//   kSearching --60 s without success, or as long as a server that restarts has asked for--> kLost
 //
 // While searching, session() is still the lost one, so that its last picture can stay on the screen under a
 // banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another
@@ -117,6 +118,7 @@ class Connection {
   Time m_hung_up_at = Time::max();  ///< while joining, when the server first hung up on a handshake
   Time m_lost_at{};                 ///< while searching; while joining, when the server first refused for now
   bool m_busy = false;              ///< while joining: it has refused for now
+  std::chrono::seconds m_give_up{kGiveUp};
   bool m_put_off = false;
   std::uint64_t m_revision = 0;
 };

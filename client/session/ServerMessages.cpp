@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint32_t kMaxRttMillis = 99999;
 constexpr std::size_t kMaxTokenLength = 64;
 constexpr std::uint32_t kMaxGraceMillis = 3'600'000;
+constexpr std::uint32_t kMaxAgainSeconds = 600;
 
 bool isColor(std::uint32_t color) {
   return color < static_cast<std::uint32_t>(df::kColorCount);
@@ -97,7 +98,8 @@ std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
       return RefusedMessage{wire.refused().reason() == wire::Refused::BUSY,
                             safeText(wire.refused().sentence(), kMaxSentenceLength)};
     case wire::ServerMessage::kGoodbye:
-      return GoodbyeMessage{safeText(wire.goodbye().sentence(), kMaxSentenceLength)};
+      return GoodbyeMessage{safeText(wire.goodbye().sentence(), kMaxSentenceLength),
+                            std::chrono::seconds(std::min(wire.goodbye().again_seconds(), kMaxAgainSeconds))};
     case wire::ServerMessage::kChat:
       return ChatMessage{wire.chat().player(), safeText(wire.chat().text(), kMaxChatLength), wire.number()};
     case wire::ServerMessage::kSounds:

@@ -54,6 +54,7 @@ struct RefusedMessage {
 
 struct GoodbyeMessage {
   std::string sentence;
+  std::chrono::seconds again{0};  ///< the server is back within this time; 0: it is not
 };
 
 /// The bytes of a snapshot; only the replica can read them.

@@ -15,9 +15,13 @@ std::string quoted(const std::string& text) {
   return "\"" + safeText(text, kMaxShown) + "\"";
 }
 
+bool namesAnotherKey(const ServerTrust& trust, const ShortKey& key) {
+  return trust.fingerprint && ShortKey::of(*trust.fingerprint) != key;
+}
+
 std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust& trust) {
   if (trust.insecure) return "A link has a key, so --insecure does not go with one.";
-  if (trust.fingerprint && ShortKey::of(*trust.fingerprint) != link.key)
+  if (namesAnotherKey(trust, link.key))
     return "--fingerprint (or NAIAD_FINGERPRINT) names another key than the link.";
   if (!link.room.empty()) {
     JoinLink without = link;
@@ -27,6 +31,15 @@ std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust
   }
   address = {link.where.host, link.where.port};
   trust.link_key = link.key;
+  return {};
+}
+
+/// Where no link leads: to an address with a zone.
+std::string followList(const ShortKey& key, ServerTrust& trust) {
+  if (trust.insecure) return "Servers of a list have keys, so --insecure does not go with one.";
+  if (namesAnotherKey(trust, key))
+    return "--fingerprint (or NAIAD_FINGERPRINT) names another key than the list.";
+  trust.link_key = key;
   return {};
 }
 
@@ -43,7 +56,7 @@ std::string applyVisit(const ServerChoice& server, const ServerTrust& trust, Ses
 }  // namespace
 
 bool ServerChoice::dropsPassword() const {
-  return is_password_ambient && (JoinLink::isMeant(text) || GatewayAddress::isMeant(text));
+  return is_password_ambient && (list_key || JoinLink::isMeant(text) || GatewayAddress::isMeant(text));
 }
 
 Option serverOption(ServerChoice& server) {
@@ -102,7 +115,7 @@ std::string resolveServer(const ServerChoice& server, ServerAddress& address, Se
     const auto parsed = ServerAddress::parse(server.text);
     if (!parsed) return quoted(server.text) + " is no server: a link (naiad://…) or HOST[:PORT] is wanted.";
     address = *parsed;
-    return {};
+    return server.list_key ? followList(*server.list_key, trust) : "";
   }
   const auto parsed = JoinLink::parse(server.text);
   if (const auto* p_problem = std::get_if<LinkProblem>(&parsed))

@@ -20,6 +20,8 @@ struct ServerAddress {
   std::string text() const;
   /// The same in one spelling for each server: lower case, no dot at the end of the host.
   std::string canonicalText() const;
+
+  friend bool operator==(const ServerAddress&, const ServerAddress&) = default;
 };
 
 }  // namespace naiad

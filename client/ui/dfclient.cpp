@@ -1,6 +1,9 @@
 // dfclient: play a game that a dfserver hosts, in this terminal.
+#include <poll.h>
 #include <sys/prctl.h>
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -9,14 +12,21 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "client/lan/LanBrowser.h"
+#include "client/lan/ListDownload.h"
+#include "client/lan/ListUrl.h"
+#include "client/lan/ServerListJson.h"
+#include "client/lan/ServerListText.h"
 #include "client/session/TrustOptions.h"
 #include "client/terminal/PasswordPrompt.h"
 #include "client/terminal/TerminalGuard.h"
 #include "client/terminal/TerminalType.h"
 #include "client/trust/SessionFile.h"
 #include "client/ui/ClientApp.h"
+#include "client/ui/ServerChooser.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/options/Options.h"
 #include "shared/values/Version.h"
@@ -31,6 +41,9 @@ struct CommandLine {
   bool no_resume = false;
   bool attached = false;
   bool ask_password = false;
+  bool list = false;
+  std::optional<naiad::ListUrl> list_url;
+  bool json = false;
   int idle_limit = 0;  ///< seconds
 };
 
@@ -62,6 +75,101 @@ std::size_t printProblems(const naiad::SessionFile* p_file, std::size_t from) {
   return p_file->problems().size();
 }
 
+/// Die of the signal that ended us, so that the parent process sees it. The terminal must be restored.
+void endBySignal(int signal) {
+  if (signal == 0) return;
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+bool usesColors() {
+  const char* no_color = std::getenv("NO_COLOR");
+  return no_color == nullptr || *no_color == '\0';
+}
+
+/// Those of this network that answer in time.
+naiad::FoundServers findServers() {
+  using Clock = std::chrono::steady_clock;
+  naiad::LanBrowser browser;
+  std::vector<pollfd> waited;
+  for (const int descriptor : browser.descriptors()) waited.push_back({descriptor, POLLIN, 0});
+  const auto end = Clock::now() + naiad::LanBrowser::kPatience;
+  for (auto now = Clock::now(); now < end; now = Clock::now()) {
+    browser.update(now);
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::min(end, browser.nextQuery()) - now);
+    ::poll(waited.data(), waited.size(), static_cast<int>(left.count()));
+    browser.receiveAnswers();
+  }
+  return browser.servers();
+}
+
+std::variant<naiad::FoundServers, naiad::DownloadProblem> fetchServers(const naiad::ListUrl& url) {
+  auto fetched = naiad::downloadList(url);
+  if (auto* p_problem = std::get_if<naiad::DownloadProblem>(&fetched)) return *p_problem;
+  auto servers = naiad::readServerList(std::get<std::string>(fetched));
+  if (!servers) return naiad::DownloadProblem{"What is there is no list of servers."};
+  return *std::move(servers);
+}
+
+/// --list: of this network, or of --list-url.
+int printServers(const CommandLine& line) {
+  naiad::FoundServers found;
+  if (line.list_url) {
+    auto fetched = fetchServers(*line.list_url);
+    if (const auto* p_problem = std::get_if<naiad::DownloadProblem>(&fetched))
+      return complain(naiad::kExitUnreachable, p_problem->sentence);
+    found = std::get<naiad::FoundServers>(std::move(fetched));
+  } else {
+    found = findServers();
+  }
+  const auto servers = found.sorted();
+  const std::string none = line.list_url ? "No server is in the list.\n" : naiad::serversAsText({});
+  const std::string text = line.json         ? naiad::serversAsJson(servers)
+                           : servers.empty() ? none
+                                             : naiad::serversAsText(servers);
+  std::fputs(text.c_str(), stdout);
+  return naiad::kExitLeft;
+}
+
+/// Have the player choose one from the list on the screen. Returns the exit code if there is none to join.
+std::optional<int> chooseServer(CommandLine& line) {
+  // Doors lead to one server each.
+  const bool is_visit = !line.server.visitors.empty() || !line.server.visitor.empty();
+  if (is_visit || !naiad::TerminalGuard::isTerminal())
+    return complain(naiad::kExitUsage, "server is required\nRun dfclient --help for more information.");
+  // It would go to whichever server is chosen.
+  if (!line.play.session.password.empty() && !line.server.is_password_ambient)
+    return complain(naiad::kExitUsage, "--password is for one server: name it, too. (--ask-password asks.)");
+  if (line.play.trust.insecure)
+    return complain(naiad::kExitUsage, "--insecure is for one server: name it, too.");
+  naiad::ServerChooser::Outcome outcome;
+  try {
+    naiad::ServerChooser::Options options{naiad::chooseTerminalType(std::getenv("TERM")), line.play.ascii,
+                                          usesColors()};
+    if (line.list_url) options.fetch = [url = *line.list_url] { return fetchServers(url); };
+    naiad::ServerChooser chooser(std::move(options));
+    outcome = chooser.run();
+  } catch (const std::runtime_error& error) {
+    return complain(naiad::kExitNoTerminal, error.what());
+  }
+  endBySignal(outcome.signal);
+  if (!outcome.server) return naiad::kExitLeft;
+  const std::string link = outcome.server->link();
+  line.server.text = link.empty() ? outcome.server->where.text() : link;
+  line.server.list_key = outcome.server->key;
+  line.ask_password = line.ask_password || outcome.server->asks_password;
+  return std::nullopt;
+}
+
+/// What does not go together about lists; else empty.
+std::string listComplaint(const CommandLine& line) {
+  const char* p_ambient = std::getenv("NAIAD_SERVER");
+  const bool is_named = !line.server.text.empty() && (p_ambient == nullptr || line.server.text != p_ambient);
+  if (line.json && !line.list) return "--json goes with --list.";
+  if ((line.list || line.list_url) && is_named) return "A list and a server do not go together.";
+  return {};
+}
+
 int play(naiad::ClientApp::Options options, naiad::SessionFile* p_file, bool attached) {
   if (!naiad::TerminalGuard::isTerminal()) {
     return complain(naiad::kExitNoTerminal,
@@ -77,11 +185,7 @@ int play(naiad::ClientApp::Options options, naiad::SessionFile* p_file, bool att
     outcome = app.run();
   }
   printProblems(p_file, printed);
-  if (outcome.signal != 0) {
-    // The terminal is restored; now die of the signal, so that the parent process sees it.
-    std::signal(outcome.signal, SIG_DFL);
-    std::raise(outcome.signal);
-  }
+  endBySignal(outcome.signal);
   // The game runs in the same terminal: its end is seen there.
   if (attached && outcome.code == naiad::kExitEnded) return outcome.code;
   if (!outcome.sentence.empty()) std::fprintf(stderr, "dfclient: %s\n", outcome.sentence.c_str());
@@ -96,8 +200,21 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
     if (mode) play.sound = *mode;
     return mode ? "" : "bell, note or off is wanted";
   };
+  const naiad::StoreText store_url = [&line](const std::string& text) -> std::string {
+    line.list_url = naiad::ListUrl::parse(text);
+    return line.list_url ? "" : "an address that begins with https:// is wanted";
+  };
+  naiad::Option server = naiad::serverOption(line.server);
+  server.is_optional = true;
+  server.help += ". Without it, in a terminal: a list of the servers of this network";
   std::vector<naiad::Option> options = {
-      naiad::serverOption(line.server),
+      server,
+      {"--list", &line.list, "Print the servers of this network, or of --list-url"},
+      {"--json", &line.json, "With --list: as JSON"},
+      {.name = "--list-url",
+       .target = store_url,
+       .help = "List the servers that are in this list on the web (https://…)",
+       .type = "URL"},
       {.name = "--name",
        .target = &play.session.name,
        .help = "Your name in the game, 1 to 16 characters (default: $USER)",
@@ -132,20 +249,9 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
   return options;
 }
 
-int start(int argc, char** argv) {
-  CommandLine line;
+/// Join the server that is named.
+int join(CommandLine& line) {
   naiad::ClientApp::Options& options = line.play;
-  options.session.name = defaultName();
-  options.session.program = std::string("dfclient ") + naiad::kVersion;
-  const naiad::Program program{"dfclient", "Play a Dragonfly game on a Naiad server.", footer()};
-  const naiad::Parsed parsed = naiad::parseOptions(program, optionsOf(line), argc, argv);
-  if (parsed != naiad::Parsed::kRun) {
-    return parsed == naiad::Parsed::kDone ? naiad::kExitLeft : naiad::kExitUsage;
-  }
-
-  // The terminal must not be left to the picture of a game that has crashed.
-  if (line.attached) prctl(PR_SET_PDEATHSIG, SIGTERM);
-
   const std::string wrong =
       naiad::resolveServer(line.server, options.address, options.trust, options.session);
   if (!wrong.empty()) return complain(naiad::kExitUsage, wrong);
@@ -156,8 +262,7 @@ int start(int argc, char** argv) {
   }
   options.mouse = !line.no_mouse;
   options.idle_limit = std::chrono::seconds(line.idle_limit);
-  const char* no_color = std::getenv("NO_COLOR");
-  options.colors = no_color == nullptr || *no_color == '\0';
+  options.colors = usesColors();
   std::optional<naiad::SessionFile> file;
   const auto directory = naiad::SessionFile::defaultDirectory();
   if (directory && !line.no_resume && !options.trust.insecure) {
@@ -173,6 +278,27 @@ int start(int argc, char** argv) {
   } catch (const std::runtime_error& error) {
     return complain(naiad::kExitNoTerminal, error.what());
   }
+}
+
+int start(int argc, char** argv) {
+  CommandLine line;
+  naiad::ClientApp::Options& options = line.play;
+  options.session.name = defaultName();
+  options.session.program = std::string("dfclient ") + naiad::kVersion;
+  const naiad::Program program{"dfclient", "Play a Dragonfly game on a Naiad server.", footer()};
+  if (const auto code = naiad::exitCodeOf(naiad::parseOptions(program, optionsOf(line), argc, argv)))
+    return *code;
+
+  // The terminal must not be left to the picture of a game that has crashed.
+  if (line.attached) prctl(PR_SET_PDEATHSIG, SIGTERM);
+
+  if (const std::string wrong = listComplaint(line); !wrong.empty())
+    return complain(naiad::kExitUsage, wrong);
+  if (line.list) return printServers(line);
+  if (line.server.text.empty() || line.list_url) {
+    if (const auto code = chooseServer(line)) return *code;
+  }
+  return join(line);
 }
 
 }  // namespace

@@ -69,7 +69,10 @@ void GameLink::close() {
   error_code ignored;
   m_socket.close(ignored);
   if (!m_stream) return;
-  if (std::exchange(m_is_open, false)) m_stream->shutDownSend();
+  if (std::exchange(m_is_open, false)) {
+    m_stream->flush();  // what the browser said last, as far as the server takes it
+    m_stream->shutDownSend();
+  }
   m_stream->close();
 }
 

@@ -250,7 +250,9 @@ void Gateway::Loop::logCounters() const {
                                                        {"bad_messages", c.bad_messages},
                                                        {"control_floods", c.control_floods},
                                                        {"messages_up", c.messages_up},
-                                                       {"messages_down", c.messages_down}};
+                                                       {"messages_down", c.messages_down},
+                                                       {"writes_up", c.writes_up},
+                                                       {"writes_down", c.writes_down}};
   std::string line = "counters:";
   for (const auto& [name, value] : all) {
     if (value > 0) line += " " + std::string(name) + "=" + std::to_string(value);

@@ -65,6 +65,9 @@ struct GatewayCounters {
   std::uint64_t control_floods = 0;     ///< hung up on: too many pings
   std::uint64_t messages_up = 0;
   std::uint64_t messages_down = 0;
+  std::uint64_t writes_up =
+      0;  ///< in which these were sent: several messages that were there together are one
+  std::uint64_t writes_down = 0;
 };
 
 }  // namespace naiad

@@ -23,6 +23,7 @@ constexpr HttpAnswers::Header kCommon[] = {
     {"Cross-Origin-Resource-Policy", "same-origin"},
     {"Cache-Control", "no-cache"}};
 constexpr HttpAnswers::Header kStrictTransport{"Strict-Transport-Security", "max-age=31536000"};
+constexpr int kOtherMethod = 405;
 constexpr std::string_view kTextType = "Content-Type: text/plain; charset=utf-8\r\n";
 
 std::string_view viewOf(boost::beast::string_view text) {
@@ -97,12 +98,9 @@ HttpAnswer HttpAnswers::answer(const WebRequest& request) const {
   if (request.version() != 11) return refusal(505, "HTTP/1.1 is spoken here.\n");
   if (request.count(http::field::host) != 1 || !m_names.allowsHost(headerOf(request, http::field::host)))
     return refusal(421, "This server does not go by that name.\n");
-  if (request.method() != http::verb::get && request.method() != http::verb::head) {
-    HttpAnswer result =
-        make(request, 405, "Allow: GET, HEAD\r\n" + std::string(kTextType), "GET and HEAD only.\n");
-    result.keeps_connection = false;
-    return result;
-  }
+  if (request.method() != http::verb::get && request.method() != http::verb::head)
+    return make(request, kOtherMethod, "Allow: GET, HEAD\r\n" + std::string(kTextType),
+                "GET and HEAD only.\n");
   const std::string_view path = pathOf(request);
   if (path == "/server") return make(request, 200, "Content-Type: application/json\r\n", m_server_json);
   if (path == kPlayPath)
@@ -133,7 +131,8 @@ HttpAnswer HttpAnswers::fileAnswer(const WebRequest& request, const PageFile& fi
 HttpAnswer HttpAnswers::make(const WebRequest& request, int status, std::string_view headers,
                              std::string_view body) const {
   HttpAnswer result;
-  result.keeps_connection = request.keep_alive();
+  // Another method may have sent what is not read.
+  result.keeps_connection = request.keep_alive() && status != kOtherMethod;
   result.is_refusal = status >= 400;
   result.head = statusLine(status) + dateLine() + m_common_text;
   result.head += headers;

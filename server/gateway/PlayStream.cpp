@@ -4,7 +4,8 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
-#include <boost/asio/write.hpp>
+#include <array>
+#include <boost/asio/post.hpp>
 #include <boost/beast/websocket/error.hpp>
 #include <utility>
 
@@ -21,8 +22,24 @@ constexpr std::size_t kMaxUnsent = 4096;  // bytes towards a browser, with which
 constexpr int kSendBuffer = 32 * 1024;
 /// Of pings and unasked pongs; browsers send none.
 constexpr BucketRate kControls{1, 16};
+/// Messages of a browser that are there together are sent together, up to so many bytes.
+constexpr std::size_t kMaxGathered = 2048;
 /// Room behind the largest message: Beast wants some to read an empty last fragment into.
 constexpr std::size_t kSlack = 64;
+
+/// A binary message of one frame, unmasked as a server's are (RFC 6455 5.2).
+void putMessage(SecureSocket& socket, std::string_view payload) {
+  constexpr std::size_t kMaxShort = 125;
+  constexpr char kTwoBytes = 126;  // of length follow
+  static_assert(kMaxServerFrame <= 0xffff);
+  std::array<char, 4> header{static_cast<char>(0x82)};  // final, binary
+  const bool is_short = payload.size() <= kMaxShort;
+  header[1] = is_short ? static_cast<char>(payload.size()) : kTwoBytes;
+  header[2] = static_cast<char>(payload.size() >> 8);
+  header[3] = static_cast<char>(payload.size() & 0xff);
+  socket.put({header.data(), is_short ? std::size_t{2} : header.size()});
+  socket.put(payload);
+}
 
 void setNumber(SecureSocket& socket, int level, int name, int value) {
   setsockopt(socket.socket().native_handle(), level, name, &value, sizeof value);
@@ -37,7 +54,7 @@ PlayStream::PlayStream(GatewayState& gateway, SecureSocket socket, VisitorFacts 
       m_socket(std::move(socket)),
       m_visitor(std::move(visitor)),
       m_newcomer(std::move(place)),
-      m_up(kFrameHeaderSize + kMaxClientFrame + kSlack),
+      m_up(kMaxClientFrame + kSlack),
       m_frames(kMaxServerFrame) {}
 
 void PlayStream::accept(const WebRequest& request) {
@@ -113,15 +130,15 @@ void PlayStream::ping() {
 
 void PlayStream::readUp() {
   noteLife();
+  m_is_reading_up = true;
   m_up.clear();
-  m_up.prepare(kFrameHeaderSize);
-  m_up.commit(kFrameHeaderSize);  // written when the length is known
   m_socket.async_read(m_up, [self = sharedFrom(this)](error_code error, std::size_t size) {
     if (self->m_phase != Phase::kClosing && !self->isOver()) self->onUp(error, size);
   });
 }
 
 void PlayStream::onUp(error_code error, std::size_t size) {
+  m_is_reading_up = false;
   m_ping_at = Time::max();  // nothing is heard while nothing is read
   if (error) {
     if (error != websocket::error::closed &&
@@ -135,9 +152,9 @@ void PlayStream::onUp(error_code error, std::size_t size) {
                                  : close(PlayClose::kNotBinary, "Only binary messages are frames.");
   }
   ++m_gateway.counters.messages_up;
-  auto* const bytes = static_cast<char*>(m_up.data().data());
-  writeFrameHeader(std::span<char, kFrameHeaderSize>(bytes, kFrameHeaderSize), size);
-  m_phase == Phase::kHello ? openLink() : writeUp();
+  if (m_phase == Phase::kHello) return openLink();
+  putUp();
+  gatherUp();
 }
 
 void PlayStream::openLink() {
@@ -162,7 +179,8 @@ void PlayStream::onLink(GameLink::End end, const std::string& problem) {
     ++m_gateway.counters.played;
     m_phase = Phase::kPlaying;
     setNoTime();
-    writeUp();
+    putUp();
+    if (flushUp()) readUp();
     return readDown();
   }
   m_gateway.log.logNews(m_visitor.name, "cannot play: " + problem, std::chrono::steady_clock::now());
@@ -171,13 +189,46 @@ void PlayStream::onLink(GameLink::End end, const std::string& problem) {
   close(PlayClose::kWrongKey, "The game's server is not the one that this page leads to.");
 }
 
-void PlayStream::writeUp() {
-  boost::asio::async_write(m_link->stream(), m_up.data(),
-                           [self = sharedFrom(this)](error_code error, std::size_t) {
-                             if (self->m_phase != Phase::kPlaying) return;
-                             // Where this failed, reading says how it ended.
-                             if (!error) self->readUp();
-                           });
+/// The message as a frame, to be sent.
+void PlayStream::putUp() {
+  std::array<char, kFrameHeaderSize> header{};
+  writeFrameHeader(header, m_up.size());
+  m_link->stream().put({header.data(), header.size()});
+  m_link->stream().put({static_cast<const char*>(m_up.data().data()), m_up.size()});
+}
+
+/// The next message may be there already. If so it is reported before what is posted now.
+void PlayStream::gatherUp() {
+  if (m_server_waits || (m_link->stream().keptBytes() > kMaxGathered && !flushUp())) return;
+  readUp();
+  m_has_gathered = true;
+  if (std::exchange(m_is_gathering, true)) return;
+  m_has_gathered = false;
+  boost::asio::post(m_socket.get_executor(), [self = sharedFrom(this)] { self->onGathered(); });
+}
+
+void PlayStream::onGathered() {
+  if (m_phase != Phase::kPlaying) return;
+  if (std::exchange(m_has_gathered, false))
+    return boost::asio::post(m_socket.get_executor(), [self = sharedFrom(this)] { self->onGathered(); });
+  m_is_gathering = false;
+  if (!m_server_waits) flushUp();
+}
+
+/// True if all is sent. Else it goes on when the server has read, and then reads the browser's next message.
+bool PlayStream::flushUp() {
+  SecureSocket& stream = m_link->stream();
+  ++m_gateway.counters.writes_up;
+  const bool is_there = stream.flush();
+  if (is_there && stream.keptBytes() == 0) return true;
+  m_server_waits = true;
+  if (!is_there) return false;  // reading says how it ended
+  stream.asyncWaitForRoom([self = sharedFrom(this)](error_code error) {
+    if (error || self->m_phase != Phase::kPlaying) return;
+    self->m_server_waits = false;
+    if (self->flushUp() && !self->m_is_reading_up) self->readUp();
+  });
+  return false;
 }
 
 // Down.
@@ -200,22 +251,24 @@ void PlayStream::onDown(error_code error, std::size_t size) {
 }
 
 void PlayStream::writeDown() {
-  const auto frame = m_frames.next();
-  if (!frame) return m_frames.error() == FrameError::kNone ? awaitRoom() : closeWithoutServer();
-  ++m_gateway.counters.messages_down;
-  m_socket.async_write(boost::asio::buffer(frame->data(), frame->size()),
-                       [self = sharedFrom(this)](error_code error, std::size_t) {
-                         if (self->m_phase != Phase::kPlaying) return;
-                         error ? self->hangUp() : self->writeDown();
-                       });
+  if (!m_socket.is_open()) return;  // Beast closes it; the read that is under way says how that ends
+  SecureSocket& socket = m_socket.next_layer();
+  while (const auto frame = m_frames.next()) {
+    ++m_gateway.counters.messages_down;
+    putMessage(socket, *frame);
+  }
+  if (socket.keptBytes() > 0) ++m_gateway.counters.writes_down;
+  m_frames.error() == FrameError::kNone ? awaitRoom() : closeWithoutServer();
 }
 
 void PlayStream::awaitRoom() {
-  if (m_socket.next_layer().unsentBytes() <= kMaxUnsent) {
+  SecureSocket& socket = m_socket.next_layer();
+  if (!socket.flush()) return hangUp();
+  if (socket.keptBytes() == 0 && !socket.hasUnsent(kMaxUnsent)) {
     setNoTime();
     return readDown();
   }
-  m_socket.next_layer().asyncWaitForRoom([self = sharedFrom(this)](error_code error) {
+  socket.asyncWaitForRoom([self = sharedFrom(this)](error_code error) {
     if (self->m_phase != Phase::kPlaying) return;
     error ? self->hangUp() : self->awaitRoom();
   });

@@ -4,12 +4,17 @@
 // The server is connected when the browser has sent its first message, a hello; until then the WebSocket is
 // one of the newcomers. Then
 //
-//   down   dfserver -> at most 4 KiB read -> messages -> the browser's socket -> wait until at most 4 KiB are
-//          unsent there -> the next. So the server notices a slow browser, and skips snapshots, instead of
-//          old ones waiting here.
-//   up     the browser's message -> frame -> dfserver -> the next.
+//   down   dfserver -> at most 4 KiB read -> messages, in one write -> wait until at most 4 KiB are unsent
+//          towards the browser -> the next. So the server notices a slow browser, and skips snapshots,
+//          instead of old ones waiting here.
+//   up     those of the browser's messages that are there -> frames, in one write -> dfserver -> the next.
 //
-// Neither direction holds more than one frame and what its socket holds.
+// Nothing waits for more to come. Down at most one frame and 4 KiB are held, up one frame and 2 KiB, beside
+// what the sockets hold.
+//
+// Beast reads, and writes what is about the WebSocket itself: answers to pings, and the close. Messages to
+// the browser are written here, for Beast would write each for itself: their form is one header (RFC
+// 6455 5.2).
 #pragma once
 
 #include <array>
@@ -53,7 +58,10 @@ class PlayStream : public Guest {
   void onUp(error_code error, std::size_t size);
   void openLink();
   void onLink(GameLink::End end, const std::string& problem);
-  void writeUp();
+  void putUp();
+  void gatherUp();
+  void onGathered();
+  bool flushUp();
 
   void readDown();
   void onDown(error_code error, std::size_t size);
@@ -74,7 +82,11 @@ class PlayStream : public Guest {
   VisitorPlaces::Place m_place;
   std::shared_ptr<GameLink> m_link;
   Phase m_phase = Phase::kHello;
-  boost::beast::flat_buffer m_up;      // header and payload of one frame
+  boost::beast::flat_buffer m_up;  // one message
+  bool m_is_reading_up = false;
+  bool m_server_waits = false;         // it takes no more: nothing is read meanwhile
+  bool m_is_gathering = false;         // onGathered() is about to come,
+  bool m_has_gathered = false;         // and there was a message since it was asked for
   std::array<char, kReadSize> m_down;  // pieces of the server's stream
   FrameReader m_frames;                // cuts them
   boost::beast::websocket::close_reason m_close;

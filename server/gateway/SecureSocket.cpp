@@ -5,6 +5,7 @@
 #include <openssl/ssl.h>
 #include <sys/ioctl.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/asio/error.hpp>
 #include <string_view>
@@ -14,6 +15,13 @@
 namespace naiad {
 
 namespace net = boost::asio;
+
+namespace {
+
+constexpr std::size_t kMaxIdle = 1024;    // bytes of memory for what is kept, while nothing is
+constexpr std::size_t kRecordExtra = 64;  // bytes of TLS around a record, at most
+
+}  // namespace
 
 /// Stays where it is when the socket moves, for OpenSSL points to it.
 struct SecureSocket::Tls {
@@ -63,10 +71,30 @@ std::optional<Fingerprint> SecureSocket::provenKey(std::string_view protocol) co
   return Fingerprint::of(*certificate);
 }
 
-std::size_t SecureSocket::unsentBytes() {
+bool SecureSocket::hasUnsent(std::size_t limit) {
+  if (m_unsent_bound <= limit) return false;
   int bytes = 0;
-  if (ioctl(m_socket.native_handle(), SIOCOUTQNSD, &bytes) != 0 || bytes < 0) return 0;
-  return static_cast<std::size_t>(bytes);
+  if (ioctl(m_socket.native_handle(), SIOCOUTQNSD, &bytes) != 0 || bytes < 0) return false;
+  m_unsent_bound = static_cast<std::size_t>(bytes);
+  return m_unsent_bound > limit;
+}
+
+bool SecureSocket::flush() {
+  return m_is_mid_write || !tryFlush().error;
+}
+
+SecureSocket::Progress SecureSocket::tryFlush() {
+  while (keptBytes() > 0) {
+    const std::span<const char> left(m_kept.data() + m_kept_begin, std::min(keptBytes(), kFlatSize));
+    const Progress progress =
+        m_tls ? tryWriteTls(left) : judge(writePlain(net::const_buffer(left.data(), left.size())));
+    if (progress.outcome != Outcome::kDone || progress.error) return progress;
+    m_kept_begin += progress.bytes;
+  }
+  m_kept_begin = 0;
+  m_kept.clear();
+  if (m_kept.capacity() > kMaxIdle) std::string().swap(m_kept);
+  return {};
 }
 
 void SecureSocket::shutDownSend() {
@@ -126,6 +154,7 @@ SecureSocket::Progress SecureSocket::tryWriteTls(std::span<const char> bytes) {
   ERR_clear_error();
   std::size_t size = 0;
   const int result = SSL_write_ex(m_tls->ssl.get(), bytes.data(), bytes.size(), &size);
+  m_unsent_bound += bytes.size() + kRecordExtra;
   return judgeTls(result, size);
 }
 

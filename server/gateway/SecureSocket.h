@@ -15,6 +15,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "shared/net/stream/Fingerprint.h"
@@ -52,8 +54,19 @@ class SecureSocket {
 
   executor_type get_executor() { return m_socket.get_executor(); }
   Socket& socket() { return m_socket; }
-  /// Bytes that the kernel has and did not send to the other end yet. Zero if it does not know.
-  std::size_t unsentBytes();
+  /// Has the kernel more than `limit` bytes that it did not send to the other end yet? No if it does not
+  /// know. It is asked only if more than that was written since it was asked last.
+  bool hasUnsent(std::size_t limit);
+
+  /// Keep these bytes, and send them with the next flush(): behind the writes that are under way, before
+  /// later ones, and never within one. So what others write on this socket (Beast's control frames) stays
+  /// whole.
+  void put(std::string_view bytes) { m_kept.append(bytes); }
+  /// Bytes kept and not handed to the kernel yet.
+  std::size_t keptBytes() const { return m_kept.size() - m_kept_begin; }
+  /// Send what is kept, in one piece and as far as that goes without waiting; the rest is tried with the next
+  /// write, or flush(). False if the connection has ended.
+  bool flush();
   /// Tell the other end that nothing more comes, as far as that goes without waiting.
   void shutDownSend();
   /// End the connection at once. Operations under way fail. Harmless if it has ended.
@@ -102,6 +115,7 @@ class SecureSocket {
 
   static constexpr std::size_t kMaxDrained = std::size_t{256} * 1024;
   static constexpr std::size_t kFlatSize = std::size_t{16} * 1024;  // a TLS record
+  static constexpr std::size_t kNeverAsked = std::size_t{1} << 40;
 
   struct HandshakeTry {
     static constexpr bool kCounts = false;
@@ -128,6 +142,17 @@ class SecureSocket {
     static constexpr bool kCounts = true;
     Buffers buffers;
     Progress operator()(SecureSocket& socket) {
+      if (!socket.m_is_mid_write) {
+        const Progress before = socket.tryFlush();
+        if (before.outcome != Outcome::kDone || before.error) return before;
+      }
+      const Progress progress = write(socket);
+      const bool is_whole = progress.outcome == Outcome::kDone &&
+                            (progress.error || progress.bytes == boost::asio::buffer_size(buffers));
+      socket.m_is_mid_write = !is_whole;
+      return progress;
+    }
+    Progress write(SecureSocket& socket) {
       if (!socket.hasTls()) return socket.judge(socket.writePlain(buffers));
       // One record of what lies in several places. A later attempt begins with the same bytes, as OpenSSL
       // wants.
@@ -196,6 +221,7 @@ class SecureSocket {
   std::pair<error_code, std::size_t> writePlain(const Buffers& buffers) {
     error_code error;
     const std::size_t size = m_socket.write_some(buffers, error);
+    m_unsent_bound += size;
     return {error, size};
   }
 
@@ -205,12 +231,17 @@ class SecureSocket {
   Progress tryHandshake();
   Progress tryRead(std::span<char> into);
   Progress tryWriteTls(std::span<const char> bytes);
+  Progress tryFlush();
   Progress tryDrain(std::size_t& drained);
   Progress judgeTls(int result, std::size_t bytes);
 
   Socket m_socket;
   std::unique_ptr<Tls> m_tls;
-  bool m_is_server = false;  // of TLS: it waits for the client's hello before OpenSSL takes memory
+  bool m_is_server = false;     // of TLS: it waits for the client's hello before OpenSSL takes memory
+  bool m_is_mid_write = false;  // a part of a write was sent: its rest comes next
+  std::string m_kept;
+  std::size_t m_kept_begin = 0;              // of it, so much was sent
+  std::size_t m_unsent_bound = kNeverAsked;  // no more than this is unsent
 };
 
 // What Beast's WebSockets ask of the stream below them: how it ends, in order and at once.

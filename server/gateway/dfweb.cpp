@@ -160,14 +160,8 @@ int start(int argc, char** argv) {
   WebOptions web;
   web.settings.page = ownPage();
   const naiad::Program program{"dfweb", "Lets players come with a browser.", kHelp};
-  switch (naiad::parseOptions(program, optionsOf(web), argc, argv)) {
-    case naiad::Parsed::kDone:
-      return 0;
-    case naiad::Parsed::kUsageError:
-      return kUsage;
-    case naiad::Parsed::kRun:
-      break;
-  }
+  if (const auto code = naiad::exitCodeOf(naiad::parseOptions(program, optionsOf(web), argc, argv)))
+    return *code;
   web.settings.max_visitors = static_cast<std::size_t>(web.max_visitors);
   web.settings.max_per_address = static_cast<std::size_t>(web.max_per_address);
   if (const std::string problem = problemOf(web.settings); !problem.empty()) {

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "shared/options/NearestName.h"
+#include "shared/options/OptionPages.h"
 #include "shared/values/Version.h"
 
 namespace naiad {
@@ -36,7 +37,7 @@ CLI::Option* addTo(CLI::App& app, const Option& row) {
 }
 
 void describe(CLI::App& app, const Option& row, CLI::Option& option) {
-  if (row.name.front() != '-') option.required();
+  if (row.name.front() != '-') option.required(!row.is_optional);
   const bool counts =
       std::holds_alternative<int*>(row.target) || std::holds_alternative<std::int64_t*>(row.target);
   if (row.range && counts) {
@@ -55,8 +56,9 @@ void describe(CLI::App& app, const Option& row, CLI::Option& option) {
 // ---- errors -----------------------------------------------------------------------------------------------
 
 Parsed complain(const Program& program, const std::string& sentence) {
-  std::cerr << program.name << ": " << sentence << "\nRun " << program.name
-            << " --help for more information.\n";
+  std::istringstream lines(sentence);
+  for (std::string line; std::getline(lines, line);) std::cerr << program.name << ": " << line << "\n";
+  std::cerr << "Run " << program.name << " --help for more information.\n";
   return Parsed::kUsageError;
 }
 
@@ -155,7 +157,8 @@ void storeConfigLine(const std::string& line, const std::string& place, const st
   if (found->p_place != nullptr) *found->p_place = place;
 }
 
-/// Lines `name = value`; empty ones and those that begin with # or ; are passed over. Throws OptionError.
+/// Lines `name = value`; empty ones and those that begin with # or ; are passed over. Throws OptionError: a
+/// line for each that is wrong.
 void readConfig(const std::string& path, const std::vector<Option>& options,
                 const std::vector<CLI::Option*>& added) {
   std::error_code error;
@@ -164,23 +167,52 @@ void readConfig(const std::string& path, const std::vector<Option>& options,
   std::ifstream file(path);
   if (!file) throw OptionError("--config: " + path + " cannot be read");
   int number = 0;
+  std::string wrong;
   for (std::string line; std::getline(file, line);) {
     const std::string place = path + ":" + std::to_string(++number);
     line = trimmed(line);
     if (line.empty() || line.front() == '#' || line.front() == ';') continue;
-    storeConfigLine(line, place, options, added);
+    try {
+      storeConfigLine(line, place, options, added);
+    } catch (const OptionError& line_error) {
+      wrong += (wrong.empty() ? "" : "\n") + std::string(line_error.what());
+    }
   }
+  if (!wrong.empty()) throw OptionError(wrong);
 }
 
-}  // namespace
+// ---- pages of the build -----------------------------------------------------------------------------------
 
-Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
-                    const char* const* argv) {
+/// `PROGRAM --option-page KIND`, and nothing else: what the program needs to run is not asked for.
+std::optional<Parsed> printPage(const Program& program, const std::vector<Option>& options, int argc,
+                                const char* const* argv) {
+  if (argc != 3 || std::string_view(argv[1]) != "--option-page") return std::nullopt;
+  const auto page = optionPage(argv[2], program, options);
+  if (!page) return complain(program, std::string("there is no page \"") + argv[2] + '"');
+  std::cout << *page;
+  return Parsed::kDone;
+}
+
+/// A text that a file gives without a value is empty; the parser would want one.
+bool clearText(const Option& option) {
+  if (!option.one_of.empty()) return false;
+  if (std::string* const* p_text = std::get_if<std::string*>(&option.target)) {
+    (*p_text)->clear();
+    return true;
+  }
+  if (std::filesystem::path* const* p_path = std::get_if<std::filesystem::path*>(&option.target)) {
+    (*p_path)->clear();
+    return true;
+  }
+  return false;
+}
+
+/// Reads all; false: --help or --version was asked for, and printed. Throws OptionError.
+bool readAll(const Program& program, const std::vector<Option>& options, int argc, const char* const* argv) {
   CLI::App app(program.purpose, program.name);
   app.set_version_flag("--version", program.name + " " + kVersion);
   std::string config;
-  if (program.has_config)
-    app.add_option("--config", config, "Read options from this file (lines like: port = 9876)");
+  if (program.has_config) app.add_option("--config", config, kConfigHelp);
   app.footer(program.footer);
   std::vector<CLI::Option*> added;
   for (const Option& row : options) {
@@ -192,13 +224,11 @@ Parsed parseOptions(const Program& program, const std::vector<Option>& options, 
     app.parse(argc, argv);
     if (!config.empty()) readConfig(config, options, added);
   } catch (const CLI::ExtrasError&) {
-    return complain(program, unknownArgument(program, options, app));
+    throw OptionError(unknownArgument(program, options, app));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) return complain(program, inWords(options, error, argc, argv));
+    if (error.get_exit_code() != 0) throw OptionError(inWords(options, error, argc, argv));
     app.exit(error);
-    return Parsed::kDone;
-  } catch (const OptionError& error) {
-    return complain(program, error.what());
+    return false;
   }
   for (std::size_t i = 0; i < options.size(); ++i) {
     if (added[i]->count() == 0) continue;
@@ -206,10 +236,42 @@ Parsed parseOptions(const Program& program, const std::vector<Option>& options, 
     if (options[i].p_from_environment != nullptr)
       *options[i].p_from_environment = !isOnCommandLine(options[i], argc, argv);
   }
-  return Parsed::kRun;
+  return true;
+}
+
+}  // namespace
+
+Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
+                    const char* const* argv) {
+  if (const auto printed = printPage(program, options, argc, argv)) return *printed;
+  try {
+    return readAll(program, options, argc, argv) ? Parsed::kRun : Parsed::kDone;
+  } catch (const OptionError& error) {
+    return complain(program, error.what());
+  }
+}
+
+void readOptions(const Program& program, const std::vector<Option>& options, int argc,
+                 const char* const* argv) {
+  readAll(program, options, argc, argv);
+}
+
+void copyValue(const Option& from, const Option& to) {
+  std::visit(
+      [&to]<class Target>(const Target& source) {
+        if constexpr (std::is_pointer_v<Target>) *std::get<Target>(to.target) = *source;
+      },
+      from.target);
+}
+
+std::optional<int> exitCodeOf(Parsed parsed) {
+  constexpr int kWrongUsage = 2;
+  if (parsed == Parsed::kRun) return std::nullopt;
+  return parsed == Parsed::kDone ? 0 : kWrongUsage;
 }
 
 void storeValue(const Option& option, const std::string& value, const std::string& place) {
+  if (value.empty() && clearText(option)) return;
   CLI::App app;
   describe(app, option, *addTo(app, option));
   try {

@@ -40,6 +40,8 @@ struct Option {
   bool shows_default = false;          ///< --help says what the target holds before parsing
   std::string default_text{};          ///< what --help says instead
   bool hidden = false;                 ///< not in --help
+  bool is_secret = false;              ///< its value is never printed
+  bool is_optional = false;            ///< of an argument: it need not be there
   bool* p_given = nullptr;             ///< becomes true if the option was given
   bool* p_from_environment = nullptr;  ///< becomes true if the variable gave it
   std::string* p_place = nullptr;      ///< becomes "FILE:LINE" if the file of --config gave it
@@ -52,17 +54,26 @@ struct Program {
   bool has_config = false;  ///< --config FILE gives options, too
 };
 
+/// What --help says of --config.
+inline constexpr const char* kConfigHelp = "Read options from this file (lines like: port = 9876)";
+
 enum class Parsed {
   kRun,
-  kDone,        ///< --help or --version: printed
+  kDone,        ///< --help, --version or --option-page (OptionPages.h): printed
   kUsageError,  ///< wrong usage: printed
 };
 
 /// Store the options from the command line, the environment and the file of --config, in this order of
 /// precedence. Prints help, version and usage errors: these on stderr, with the program's name in front, the
-/// file and line of one in the file, and the nearest name where one is not known.
+/// file and line of each one in the file, and the nearest name where one is not known.
 Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
                     const char* const* argv);
+/// What the program ends with after that: 0, or 2 for wrong usage. Nothing if it is to run.
+std::optional<int> exitCodeOf(Parsed parsed);
+
+/// The same while a program runs: nothing is printed. Throws OptionError.
+void readOptions(const Program& program, const std::vector<Option>& options, int argc,
+                 const char* const* argv);
 
 /// An option is not known, or has a value that makes no sense; what() is a sentence that names it.
 class OptionError : public std::runtime_error {
@@ -72,6 +83,9 @@ class OptionError : public std::runtime_error {
 
 /// Store this value of the option. Throws OptionError, which begins with `place`: where the value stands.
 void storeValue(const Option& option, const std::string& value, const std::string& place);
+
+/// The target of `to`, which has the same type, gets what the target of `from` holds.
+void copyValue(const Option& from, const Option& to);
 
 /// The value that the option's target holds, as text.
 std::string currentValue(const Option& option);

@@ -18,19 +18,23 @@ ClientLog::ClientLog(LogLine log)
       m_news{"lines on players", kNewsOfAPrefix, kNewsInAll, PerAddress<TokenBucket>(kPrefixes)},
       m_refusals{"refusals", kRefusalsOfAPrefix, kRefusalsInAll, PerAddress<TokenBucket>(kPrefixes)} {}
 
-void ClientLog::logNews(const std::string& address, const std::string& text, Time now) {
-  log(m_news, address, address + " " + text, now);
+void ClientLog::logNews(const std::string& address, LogEvent event, Time now) {
+  event.text.insert(0, address + " ");
+  log(m_news, address, std::move(event), now);
 }
 
 void ClientLog::logRefusal(const std::string& address, const std::string& sentence, Time now) {
-  log(m_refusals, address, address + " refused: " + inQuotes(sentence), now);
+  log(m_refusals, address, {"refused", address + " refused: " + inQuotes(sentence), {{"sentence", sentence}}},
+      now);
 }
 
-void ClientLog::log(Kind& kind, const std::string& address, const std::string& line, Time now) {
+void ClientLog::log(Kind& kind, const std::string& address, LogEvent event, Time now) {
   const auto prefix = AddressPrefix::ofEndpoint(address).value_or(AddressPrefix());
   // The prefix first: one that is over its limit takes nothing from the others.
-  if (kind.prefixes.use(prefix).takeToken(kind.of_a_prefix, now) && kind.all.takeToken(kind.in_all, now))
-    return m_log(line);
+  if (kind.prefixes.use(prefix).takeToken(kind.of_a_prefix, now) && kind.all.takeToken(kind.in_all, now)) {
+    event.fields.insert(event.fields.begin(), {"address", address});
+    return m_log(event);
+  }
   if (kind.left_out++ == 0) kind.counted_at = now;
 }
 

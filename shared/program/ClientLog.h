@@ -30,9 +30,10 @@ class ClientLog {
 
   explicit ClientLog(LogLine log);
 
-  /// "ADDRESS TEXT". `address` is that of a TCP connection, "127.0.0.1:40000".
-  void logNews(const std::string& address, const std::string& text, Time now);
-  /// `ADDRESS refused: "SENTENCE"`.
+  /// "ADDRESS TEXT", with the address among the facts. `address` is that of a TCP connection,
+  /// "127.0.0.1:40000".
+  void logNews(const std::string& address, LogEvent event, Time now);
+  /// `ADDRESS refused: "SENTENCE"`, with the sentence among the facts.
   void logRefusal(const std::string& address, const std::string& sentence, Time now);
   /// Log the counts that are due. Once a tick.
   void update(Time now);
@@ -49,7 +50,7 @@ class ClientLog {
     std::uint64_t left_out = 0;
     Time counted_at{};
   };
-  void log(Kind& kind, const std::string& address, const std::string& line, Time now);
+  void log(Kind& kind, const std::string& address, LogEvent event, Time now);
   void logCount(Kind& kind);
 
   LogLine m_log;

@@ -12,15 +12,12 @@
 #include <condition_variable>
 #include <cstdint>
 #include <cstdlib>
-#include <ctime>
 #include <mutex>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
-
-#include "shared/program/LogText.h"
 
 namespace naiad {
 
@@ -35,25 +32,10 @@ constexpr std::size_t kFilePiece = std::size_t{64} << 10;
 constinit std::atomic<unsigned> g_openings = 0;       ///< that were asked for by reopenAll()
 constinit std::atomic<std::int64_t> g_unwritten = 0;  ///< bytes, of all logs
 
-std::string timeOfDay() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  localtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S ", &parts);
-  return text;
-}
-
-std::string asLine(std::string_view text, bool timed = true) {
-  std::string line = (timed ? timeOfDay() : std::string()) + oneLine(text);
-  if (line.size() >= LineLog::kMaxLine) line.resize(LineLog::kMaxLine - 1);
-  return line + '\n';
-}
-
-std::string lossLine(std::uint64_t lost, int error) {
+LogEvent lossEvent(std::uint64_t lost, int error) {
   const std::string why = error == 0 ? "its reader did not read" : std::generic_category().message(error);
-  return asLine(std::to_string(lost) + (lost == 1 ? " log line was" : " log lines were") +
-                " lost: the log could not be written (" + why + ")");
+  return {LogEvent::Level::kError, std::to_string(lost) + (lost == 1 ? " log line was" : " log lines were") +
+                                       " lost: the log could not be written (" + why + ")"};
 }
 
 bool isRegular(int file) {
@@ -92,7 +74,10 @@ struct LineLog::Shared : std::enable_shared_from_this<Shared> {
   Shared(const Shared&) = delete;
   Shared& operator=(const Shared&) = delete;
 
-  void add(const std::string& text);
+  void add(const LogEvent& event);
+  std::string asLine(const LogEvent& event) const {
+    return formatEvent(event, format, std::chrono::system_clock::now(), kMaxLine);
+  }
   void start();
   bool keep(const std::string& line);
   bool writeNow(const std::string& line);
@@ -105,6 +90,8 @@ struct LineLog::Shared : std::enable_shared_from_this<Shared> {
   const std::string path;  ///< empty: stderr
   const int file;
   const bool threaded;
+  std::atomic<LogFormat> format = threaded ? LogFormat::kText : LogFormat::kBare;
+  std::atomic<LogEvent::Level> least = LogEvent::Level::kInfo;
 
   std::mutex mutex;
   std::condition_variable changed;
@@ -122,11 +109,12 @@ struct LineLog::Shared : std::enable_shared_from_this<Shared> {
   unsigned openings = g_openings;
 };
 
-void LineLog::Shared::add(const std::string& text) {
-  std::string line = asLine(text, threaded);
+void LineLog::Shared::add(const LogEvent& event) {
+  if (event.level > least) return;
+  std::string line = asLine(event);
   const std::lock_guard lock(mutex);
   if (threaded && !std::exchange(started, true)) start();
-  if (lost > 0) line = lossLine(lost, error) + line;
+  if (lost > 0) line = asLine(lossEvent(lost, error)) + line;
   if (threaded ? keep(line) : writeNow(line)) {
     lost = 0;
   } else {
@@ -198,7 +186,7 @@ void LineLog::Shared::reopen() {
 void LineLog::Shared::awaitWork() {
   std::unique_lock lock(mutex);
   if (lost > 0 && waiting.empty()) {  // all before them is written
-    waiting = lossLine(std::exchange(lost, 0), error);
+    waiting = asLine(lossEvent(std::exchange(lost, 0), error));
     g_unwritten += static_cast<std::int64_t>(waiting.size());
   }
   changed.wait(lock, [this] { return closing || !waiting.empty(); });
@@ -245,8 +233,16 @@ LineLog::~LineLog() {
   m_shared->changed.wait_for(lock, kLastChance, [this] { return m_shared->done; });
 }
 
-void LineLog::operator()(const std::string& line) {
-  m_shared->add(line);
+void LineLog::operator()(const LogEvent& event) {
+  m_shared->add(event);
+}
+
+void LineLog::setFormat(LogFormat format) {
+  m_shared->format = format;
+}
+
+void LineLog::setLevel(LogEvent::Level least) {
+  m_shared->least = least;
 }
 
 int LineLog::descriptor() const {

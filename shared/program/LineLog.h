@@ -6,10 +6,13 @@
 #include <memory>
 #include <string>
 
+#include "shared/program/LogEvent.h"
+#include "shared/program/LogFormat.h"
+
 namespace naiad {
 
 /// Where log lines go.
-using LogLine = std::function<void(const std::string& line)>;
+using LogLine = std::function<void(const LogEvent& event)>;
 
 /// A reader that stalls, a full disk or a pipe without a reader costs lines and never time: what does not fit
 /// in kMaxWaiting is dropped, writing is tried again, and once it works a line says how many were lost.
@@ -33,7 +36,11 @@ class LineLog {
   LineLog& operator=(const LineLog&) = delete;
 
   /// Log a line; control characters in it are escaped. Any thread.
-  void operator()(const std::string& line);
+  void operator()(const LogEvent& event);
+  /// From the next line on. Any thread.
+  void setFormat(LogFormat format);
+  /// Log what is as bad as this, or worse; at first everything. Any thread.
+  void setLevel(LogEvent::Level least);
   /// What the lines are written to. Stays the same when the file is opened again.
   int descriptor() const;
 

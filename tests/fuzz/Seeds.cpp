@@ -12,7 +12,9 @@
 #include "host/world/WorldMessages.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
+#include "shared/net/lan/LanMessage.h"
 #include "shared/net/stream/Framing.h"
+#include "shared/net/stream/VisitorHeader.h"
 #include "shared/replica/ControlCodec.h"
 #include "shared/replica/UpdateCodec.h"
 #include "shared/values/SplitMix64.h"
@@ -60,6 +62,54 @@ void texts(Folder folder) {
       "Ann");
   folder.add("\x28 na\xC3\xAFve\t\xE2\x96\x93 \xF0\x9F\x98\x80 \x1B[2J\r\n\xE2\x80\x8B");
   folder.add("\x04\xC0\x80\xED\xA0\x80\xF4\x90\x80\x80\xE2\x82");
+}
+
+const std::string kLink = "naiad://game.example:9877/room-1#abcdefghijklmnopqrstuvwxya";
+
+void links(Folder folder) {
+  for (const char* const text :
+       {"naiad://[2001:db8::7]#ABCDEFGHIJKLMNOPQRSTUVWXYA", "NAIAD://%5b::1%5d:1%23",
+        "naiad://user@game.example/?x#a", "http://play.example:8080/#abcdefghijklmnopqrstuvwxya",
+        "https://[::1]", "https://play.example/other", "abcdefghijklmnopqrstuvwxya"})
+    folder.add(text);
+  folder.add(kLink);
+}
+
+void visitors(Folder folder) {
+  const auto at = [](const char* address) {
+    return asio::ip::tcp::endpoint(asio::ip::make_address(address), 50312);
+  };
+  folder.add(visitorHeader(at("192.0.2.7")));
+  folder.add(visitorHeader(at("2001:db8::7")));
+  folder.add("192.0.2.7:40000");
+  folder.add("[2001:db8::7]:40000");
+}
+
+void gamesLists(Folder folder) {
+  folder.add("# games\n\nhello " + kLink + " /run/hello\n  tron\t" + kLink + " /run/tron password\n");
+  folder.add("hello " + kLink + " /run/hello pass\n");
+  folder.add("hello " + kLink + "\n");
+  folder.add("hello naiad:// /run/hello\n");
+}
+
+void webRequests(Folder folder) {
+  const std::string host = "Host: play.example\r\n";
+  const std::string upgrade =
+      "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
+      "AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Protocol: naiad.1\r\nOrigin: https://play.example\r\n\r\n";
+  const auto add = [&folder](const std::string& request) { folder.add("\2" + request); };
+  folder.add(std::string(1, '\0') + "https://[::1]:8443/");
+  folder.add(std::string(1, '\0') + "http://play.example");
+  folder.add("\1a \"name\\\x1b");
+  add("GET /play HTTP/1.1\r\n" + host + upgrade);
+  add("GET /other HTTP/1.1\r\n" + host + upgrade);
+  add("GET / HTTP/1.1\r\n" + host + "Accept-Encoding: br, gzip;q=0.5\r\n\r\n");
+  add("GET /font.woff2?x HTTP/1.1\r\n" + host + "If-None-Match: *\r\nConnection: close\r\n\r\n");
+  add("HEAD /index.html HTTP/1.1\r\n" + host + "Accept-Encoding: gzip;q=0\r\n\r\n");
+  for (const char* const line : {"GET /server", "GET /play", "GET /nothing", "POST /"})
+    add(std::string(line) + " HTTP/1.1\r\n" + host + "\r\n");
+  add("GET / HTTP/1.0\r\n" + host + "\r\n");
+  add("GET / HTTP/1.1\r\nHost: other.example\r\n\r\n");
 }
 
 void keys(Folder folder) {
@@ -436,6 +486,20 @@ void datagrams(Folder folder) {
   for (std::size_t i = 0; i < 16; ++i) folder.add(randomBytes(random, 40 + 20 * i));
 }
 
+void lanMessages(Folder folder) {
+  LanNonce nonce{};
+  nonce[0] = 1;
+  folder.add(writeLanQuery(nonce));
+  LanAnswer answer;
+  answer.protocol = kProtocolVersion;
+  answer.nonce = nonce;
+  answer.port = kDefaultPort;
+  answer.max_players = 64;
+  answer.name = "Ann's";
+  answer.game = "hello";
+  folder.add(writeLanAnswer(answer));
+}
+
 }  // namespace
 }  // namespace naiad::fuzz
 
@@ -445,6 +509,10 @@ int main(int argc, char** argv) {
   const std::filesystem::path base(argv[1]);
   frames(Folder(base / "frames"));
   texts(Folder(base / "safe_text"));
+  links(Folder(base / "link"));
+  visitors(Folder(base / "visitor"));
+  gamesLists(Folder(base / "games_list"));
+  webRequests(Folder(base / "web_request"));
   keys(Folder(base / "input_decoder"));
   updates(Folder(base / "update"));
   hostile(Folder(base / "update", "hostile-"), Folder(base / "snapshot_fields"));
@@ -457,5 +525,6 @@ int main(int argc, char** argv) {
   datagrams(Folder(base / "datagram"));
   wireMessages(Folder(base / "small_proto"));
   worlds(Folder(base / "world"));
+  lanMessages(Folder(base / "lan"));
   return 0;
 }

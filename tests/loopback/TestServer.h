@@ -29,6 +29,7 @@ class TestServer {
   ~TestServer();
 
   std::uint16_t port() const { return m_host->port(); }
+  std::uint16_t metricsPort() const { return m_host->metricsPort(); }
   std::optional<Fingerprint> fingerprint() const { return m_host->fingerprint(); }
   /// Run `job` on the server's thread between two ticks and return what it returns.
   template <class Job>
@@ -52,6 +53,13 @@ class TestServer {
   std::optional<df::Canvas> truth(std::uint32_t tick, std::uint32_t player) const;
   /// From now on, is the truth kept? With many players it takes longer than all the rest.
   void keepTruth(bool keep) { m_draws = keep; }
+  /// End the server so; it goes on until then.
+  void end(const Ending::Plan& plan) {
+    inWorld([&](df::World&) {
+      m_host->end(plan);
+      return true;
+    });
+  }
   /// End the server with this sentence to the players, and wait for it.
   void stop(const std::string& sentence);
 

@@ -74,6 +74,14 @@ class BotExitTest : public testing::Test {
   std::unique_ptr<PtyTerminal> m_server;
 };
 
+TEST_F(BotExitTest, AFolderIsNoScript) {
+  PtyTerminal::Options options;
+  options.command = {programPath("dfbot"), "127.0.0.1:1", "--insecure", "--script", m_home.string()};
+  options.columns = 300;
+  PtyTerminal bot(options);
+  expectEnd(bot, 2, "dfbot: --script: " + m_home.string() + " is a folder");
+}
+
 TEST_F(BotExitTest, IsOkIfWhatItSawIsTheTruth) {
   expectEnd(*join({"--seconds", "1", "--truth", file("truth")}), 0, "wrong_cells=0");
 }

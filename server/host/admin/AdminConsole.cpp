@@ -6,6 +6,7 @@
 
 #include "host/admin/PlayerChoice.h"
 #include "shared/admin/TimeSpan.h"
+#include "shared/net/base/AddressPrefix.h"
 #include "shared/net/base/AddressRange.h"
 #include "shared/program/LogText.h"
 
@@ -59,9 +60,8 @@ BanPlan planRange(Ban ban, const AddressRange& range) {
     return refusedPlan(AdminAnswer::refused(range.text() + " is too wide: at least /" +
                                             std::to_string(range.isIPv4() ? kMinBitsIPv4 : kMinBitsIPv6) +
                                             " is wanted."));
-  const asio::ip::address_v6 first(range.bytes());
-  const asio::ip::address address = unmapped(first);
-  if (address.is_loopback())
+  const asio::ip::address first = unmapped(asio::ip::address_v6(range.bytes()));
+  if (first.is_loopback() || range.contains(asio::ip::address_v6::loopback()))
     return refusedPlan(AdminAnswer::refused("This machine itself cannot be banned: its doors are there."));
   ban.range = range;
   return {{std::move(ban)}, ""};
@@ -311,12 +311,13 @@ void AdminConsole::reload(Done done) {
         m_setup.bans.take(bans);
         endBanned();
       }
-      AdminAnswer answer = m_setup.target.reload();
-      if (!problem.empty()) answer = AdminAnswer::refused(problem + " " + answer.text);
-      done(std::move(answer));
+      m_setup.target.reload([done, problem](AdminAnswer answer) {
+        if (!problem.empty()) answer = AdminAnswer::refused(problem + " " + answer.text);
+        done(std::move(answer));
+      });
     });
   };
-  if (!m_setup.bans.reload(loaded)) done(m_setup.target.reload());
+  if (!m_setup.bans.reload(loaded)) m_setup.target.reload(std::move(done));
 }
 
 }  // namespace naiad

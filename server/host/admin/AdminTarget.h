@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,7 +56,8 @@ class AdminTarget {
   /// Nothing: as long as the server's own option says.
   virtual AdminAnswer drain(std::optional<std::chrono::seconds> most) = 0;
   virtual AdminAnswer cancel() = 0;
-  virtual AdminAnswer reload() = 0;
+  /// `done` is called once, on the host's thread: now, or when files have been read.
+  virtual void reload(std::function<void(AdminAnswer)> done) = 0;
   /// Nothing: none is needed any more.
   virtual AdminAnswer changePassword(std::optional<PasswordHash> hash) = 0;
   /// `option` without dashes.

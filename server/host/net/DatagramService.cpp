@@ -9,6 +9,7 @@ DatagramService::DatagramService(std::unique_ptr<DatagramSocket> socket, Now now
     : m_socket(std::move(socket)), m_now(std::move(now)), m_random(std::move(random)) {
   m_socket->start([this](const Path& path, std::string_view packet) {
     m_received = m_now();
+    m_bytes_received += packet.size();
     m_gate.receive(path, packet, m_received);
   });
 }
@@ -79,6 +80,7 @@ void DatagramService::Channel::start(std::function<void(std::string_view)> on_pa
 void DatagramService::Channel::send(std::string_view packet) {
   DatagramSocket& socket = *m_service.m_socket;
   if (const auto outgoing = m_link.seal(packet, m_service.m_now(), socket.nextPacket())) {
+    m_service.m_bytes_sent += outgoing->packet.size();
     socket.send(outgoing->path, outgoing->packet);
   }
 }

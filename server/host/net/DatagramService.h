@@ -71,6 +71,9 @@ class DatagramService {
   /// The port bound to.
   std::uint16_t port() const { return m_socket->localEndpoint().port; }
   const DatagramGateCounters& counters() const { return m_gate.counters(); }
+  /// Bytes of all packets that came, also those that were refused, and that were handed to the socket.
+  std::uint64_t bytesReceived() const { return m_bytes_received; }
+  std::uint64_t bytesSent() const { return m_bytes_sent; }
 
  private:
   std::unique_ptr<DatagramSocket> m_socket;
@@ -79,6 +82,8 @@ class DatagramService {
   DatagramGate m_gate;
   std::shared_ptr<SealScratch> m_scratch = std::make_shared<SealScratch>();
   Time m_received{};
+  std::uint64_t m_bytes_received = 0;
+  std::uint64_t m_bytes_sent = 0;
   std::vector<Channel*> m_unproven;  ///< channels whose address has not answered yet
 };
 

@@ -1,5 +1,8 @@
 #include "host/net/NetworkThread.h"
 
+#include <pthread.h>
+#include <time.h>
+
 #include <algorithm>
 #include <asio/post.hpp>
 #include <cassert>
@@ -11,6 +14,7 @@
 #include "host/auth/ResumeTokens.h"
 #include "host/net/RelayedDatagrams.h"
 #include "host/net/RelayedStream.h"
+#include "shared/net/datagram/UdpSocket.h"
 #include "shared/net/stream/Framing.h"
 
 namespace naiad {
@@ -32,14 +36,13 @@ constexpr int kMinServed = 64;
 
 NetworkThread::NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port,
                              OnChannel on_channel, TcpOptions options, TlsListening tls, Limits limits,
-                             VisitorsListening visitors)
-    : m_home(home),
-      m_on_channel(std::move(on_channel)),
-      m_limits(limits),
-      m_port(openServerPort(
-          m_io, address, port,
-          [this](std::unique_ptr<ReliableChannel> channel) { meetStream(std::move(channel)); }, options,
-          std::move(tls), std::move(visitors))) {}
+                             VisitorsListening visitors, const std::optional<InheritedSockets>& inherited)
+    : m_home(home), m_on_channel(std::move(on_channel)), m_limits(limits) {
+  const OnChannel meet = [this](std::unique_ptr<ReliableChannel> channel) { meetStream(std::move(channel)); };
+  m_port = inherited
+               ? adoptServerPort(m_io, *inherited, meet, options, std::move(tls), std::move(visitors))
+               : openServerPort(m_io, address, port, meet, options, std::move(tls), std::move(visitors));
+}
 
 NetworkThread::~NetworkThread() {
   stop();
@@ -65,6 +68,10 @@ void NetworkThread::stop() {
 
 void NetworkThread::closeListener() {
   giveOrder({.kind = Order::kCloseListener});
+}
+
+void NetworkThread::setTls(std::shared_ptr<const TlsContext> context) {
+  asio::post(m_io, [this, context = std::move(context)] { m_port.streams->setTls(context); });
 }
 
 // ---- the tick thread --------------------------------------------------------------------------------------
@@ -177,6 +184,26 @@ RelayCounters NetworkThread::counters() const {
   return counters;
 }
 
+NetworkCounters NetworkThread::latestCounters() const {
+  NetworkCounters counters;
+  {
+    const std::lock_guard lock(m_gate_mutex);
+    counters = m_reported;
+  }
+  counters.relay.datagrams_out_dropped = m_out_dropped;
+  counters.relay.streams_clogged = m_clogged;
+  return counters;
+}
+
+std::chrono::nanoseconds NetworkThread::cpuTime() {
+  clockid_t clock{};
+  timespec spent{};
+  if (!m_thread.joinable() || pthread_getcpuclockid(m_thread.native_handle(), &clock) != 0 ||
+      clock_gettime(clock, &spent) != 0)
+    return {};
+  return std::chrono::seconds(spent.tv_sec) + std::chrono::nanoseconds(spent.tv_nsec);
+}
+
 DatagramGateCounters NetworkThread::gateCounters() const {
   const std::lock_guard lock(m_gate_mutex);
   return m_gate_counters;
@@ -248,6 +275,8 @@ void NetworkThread::obeyOrder(const Order& order, std::string_view bytes) {
     case Order::kSendFrame:
       if (stream->channel) {
         stream->channel->send(bytes);
+        ++m_traffic.frames_out;
+        m_traffic.stream_bytes_out += kFrameHeaderSize + bytes.size();
         stream->unsent += kFrameHeaderSize + bytes.size();  // before `taken`: see RelayedStream::unsentBytes
         if (!std::exchange(stream->busy, true)) m_busy.push_back(stream);
       }
@@ -286,7 +315,26 @@ void NetworkThread::obeyOrder(const Order& order, std::string_view bytes) {
       if (m_port.datagrams) m_port.datagrams->flush();
       m_tick_times.add(Clock::now().time_since_epoch() - Clock::duration(order.number));
       break;
+    case Order::kReportCounters:
+      reportCounters();
+      break;
   }
+}
+
+void NetworkThread::reportCounters() {
+  NetworkCounters counters;
+  counters.relay = m_counters;
+  counters.traffic = m_traffic;
+  counters.streams = m_port.streams->counters();
+  if (m_port.visitors) counters.visitors = m_port.visitors->counters();
+  if (m_port.datagrams) {
+    counters.gate = m_port.datagrams->counters();
+    counters.udp = m_port.p_socket->counters();
+    counters.traffic.datagram_bytes_in = m_port.datagrams->bytesReceived();
+    counters.traffic.datagram_bytes_out = m_port.datagrams->bytesSent();
+  }
+  const std::lock_guard lock(m_gate_mutex);
+  m_reported = counters;
 }
 
 void NetworkThread::openDatagrams(DatagramsEnd& end, const StreamEnd& stream) {
@@ -350,6 +398,8 @@ void NetworkThread::onFrame(StreamEnd& end, std::string_view frame) {
     return onClosed(end, CloseReason::kOverflow);
   }
   end.in += bytes;
+  ++m_traffic.frames_in;
+  m_traffic.stream_bytes_in += kFrameHeaderSize + frame.size();
   addNotice({.kind = Notice::kFrame, .id = end.id, .came = Clock::now()}, frame);
 }
 

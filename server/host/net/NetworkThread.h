@@ -37,6 +37,7 @@
 #include "host/net/ServerPort.h"
 #include "host/net/TickTimes.h"
 #include "shared/net/base/Channel.h"
+#include "shared/net/datagram/UdpBatch.h"
 
 namespace naiad {
 
@@ -53,6 +54,26 @@ struct RelayCounters {
   std::uint64_t keyless = 0;                ///< sessions whose stream ended before it could give keys
 };
 
+/// What came and went. Of streams: frames with their heads, before TLS; of datagrams: payloads of UDP.
+struct TrafficCounters {
+  std::uint64_t frames_in = 0;
+  std::uint64_t frames_out = 0;
+  std::uint64_t stream_bytes_in = 0;
+  std::uint64_t stream_bytes_out = 0;
+  std::uint64_t datagram_bytes_in = 0;
+  std::uint64_t datagram_bytes_out = 0;
+};
+
+/// All that the network thread counts.
+struct NetworkCounters {
+  RelayCounters relay;
+  TrafficCounters traffic;
+  TcpListener::Counters streams;
+  VisitorsListener::Counters visitors;  ///< all zero without a visitors' socket
+  DatagramGateCounters gate;            ///< all zero without datagrams, as the next
+  UdpCounters udp;
+};
+
 class NetworkThread {
  public:
   using Clock = std::chrono::steady_clock;
@@ -65,10 +86,12 @@ class NetworkThread {
     std::size_t unmet = 512;        ///< connections that it has not met yet
   };
 
-  /// Listens from now on (ServerPort.h); connections wait until start(). `home`: runs the tick thread's
-  /// handlers; from there `on_channel` and the channels' callbacks are called. Throws ListenError.
+  /// Listens from now on (ServerPort.h), with the `inherited` sockets if there are any, whatever `address`
+  /// and `port` are; connections wait until start(). `home`: runs the tick thread's handlers; from there
+  /// `on_channel` and the channels' callbacks are called. Throws ListenError.
   NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port, OnChannel on_channel,
-                TcpOptions options, TlsListening tls, Limits limits, VisitorsListening visitors = {});
+                TcpOptions options, TlsListening tls, Limits limits, VisitorsListening visitors = {},
+                const std::optional<InheritedSockets>& inherited = std::nullopt);
   NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port, OnChannel on_channel,
                 TcpOptions options, TlsListening tls)
       : NetworkThread(home, address, port, std::move(on_channel), options, std::move(tls), Limits{}) {}
@@ -84,6 +107,8 @@ class NetworkThread {
   void stop();
   /// No more connections.
   void closeListener();
+  /// Connections accepted from now on meet this certificate and key.
+  void setTls(std::shared_ptr<const TlsContext> context);
 
   /// Call back for what came, but no longer than until `enough` (and for a least number of messages). False:
   /// there is more.
@@ -112,6 +137,13 @@ class NetworkThread {
   /// What became of every datagram until just now; nothing without them. Thread-safe.
   DatagramGateCounters gateCounters() const;
   void resetTickTimes() { m_tick_times.reset(); }
+  /// Ask the thread for its counters, which takes it a turn; latestCounters() has them then. Without a
+  /// request nothing is copied.
+  void askForCounters() { giveOrder({.kind = Order::kReportCounters}); }
+  /// As they were when last asked for; all zero before that.
+  NetworkCounters latestCounters() const;
+  /// CPU time of the thread so far; 0 while it does not run.
+  std::chrono::nanoseconds cpuTime();
   /// The rest: when the thread does not run.
   RelayCounters counters() const;
   const TcpListener::Counters& streamCounters() const { return m_port.streams->counters(); }
@@ -166,6 +198,7 @@ class NetworkThread {
       kDropDatagrams,
       kCloseListener,
       kTickEnd,
+      kReportCounters,
     } kind = kSendFrame;
     StreamEnd* stream = nullptr;
     DatagramsEnd* datagrams = nullptr;
@@ -194,6 +227,7 @@ class NetworkThread {
   void addNotice(const Notice& notice, std::string_view bytes = {});
   bool isInFull() const { return m_notice_box.size() + m_notices.size() > m_limits.mailbox; }
   void noteUnsent();
+  void reportCounters();
 
   asio::io_context& m_home;
   OnChannel m_on_channel;
@@ -211,6 +245,7 @@ class NetworkThread {
   std::uint64_t m_newest_stream = 0;
   bool m_urgent = false;  ///< the tick thread is to be woken for what is in m_notices
   RelayCounters m_counters;
+  TrafficCounters m_traffic;
 
   // Shared.
   Mailbox<Notice> m_notice_box;
@@ -222,6 +257,7 @@ class NetworkThread {
   TickTimes m_tick_times;
   mutable std::mutex m_gate_mutex;
   DatagramGateCounters m_gate_counters;  ///< a copy, for others to read
+  NetworkCounters m_reported;            ///< the same, made when asked for
 
   // The tick thread's.
   Batch<Order> m_orders;

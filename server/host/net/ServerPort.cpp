@@ -14,18 +14,21 @@ namespace {
 /// Free for streams need not be free for datagrams.
 constexpr int kPortsToTry = 50;
 
+void addDatagrams(ServerPort& opened, asio::io_context& context, UdpOptions udp) {
+  udp.v6_only = false;
+  auto socket = std::make_unique<UdpSocket>(context, udp);
+  opened.p_socket = socket.get();
+  opened.datagrams = std::make_unique<DatagramService>(
+      std::move(socket), [] { return std::chrono::steady_clock::now(); }, randomBits);
+}
+
 ServerPort open(asio::io_context& context, const std::string& address, std::uint16_t port,
                 const TcpListener::OnChannel& on_channel, const TcpOptions& options,
                 const TlsListening& tls) {
   ServerPort opened;
   opened.streams = std::make_unique<TcpListener>(context, address, port, on_channel, options, tls);
   if (!tls.context) return opened;
-  UdpOptions udp;
-  udp.address = address;
-  udp.port = opened.streams->port();
-  udp.v6_only = false;
-  opened.datagrams = std::make_unique<DatagramService>(
-      std::make_unique<UdpSocket>(context, udp), [] { return std::chrono::steady_clock::now(); }, randomBits);
+  addDatagrams(opened, context, {.address = address, .port = opened.streams->port()});
   return opened;
 }
 
@@ -61,18 +64,38 @@ ServerPort openAddress(asio::io_context& context, const std::string& address, st
   return attempt("0.0.0.0");
 }
 
+void addVisitors(ServerPort& opened, asio::io_context& context, VisitorsListening visitors) {
+  if (visitors.path.empty()) return;
+  opened.visitors = std::make_unique<VisitorsListener>(
+      context, std::move(visitors),
+      [p_streams = opened.streams.get()](asio::generic::stream_protocol::socket socket, const auto& visitor) {
+        p_streams->adopt(std::move(socket), visitor);
+      });
+}
+
 }  // namespace
 
 ServerPort openServerPort(asio::io_context& context, const std::string& address, std::uint16_t port,
                           TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls,
                           VisitorsListening visitors) {
   ServerPort opened = openAddress(context, address, port, on_channel, options, tls);
-  if (visitors.path.empty()) return opened;
-  opened.visitors = std::make_unique<VisitorsListener>(
-      context, std::move(visitors),
-      [p_streams = opened.streams.get()](asio::generic::stream_protocol::socket socket, const auto& visitor) {
-        p_streams->adopt(std::move(socket), visitor);
-      });
+  addVisitors(opened, context, std::move(visitors));
+  return opened;
+}
+
+ServerPort adoptServerPort(asio::io_context& context, const InheritedSockets& sockets,
+                           TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls,
+                           VisitorsListening visitors) {
+  if (!tls.context) {
+    throw ListenError("Sockets from the service manager are for encrypted connections only.",
+                      std::make_error_code(std::errc::invalid_argument));
+  }
+  ServerPort opened;
+  opened.streams =
+      std::make_unique<TcpListener>(context, sockets.streams, std::move(on_channel), options, tls);
+  addDatagrams(opened, context,
+               {.address = sockets.address, .port = sockets.port, .inherited = sockets.datagrams});
+  addVisitors(opened, context, std::move(visitors));
   return opened;
 }
 

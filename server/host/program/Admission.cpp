@@ -42,6 +42,13 @@ std::string versionSentence(std::uint32_t version) {
          (version < kProtocolVersion ? "client." : "server.");
 }
 
+/// `"NAME" HAPPENED`, a line of the log with the name among its facts.
+LogEvent newsOf(const char* what, const std::string& name, const std::string& happened,
+                LogEvent::Fields facts = {}) {
+  facts.insert(facts.begin(), {"player", name});
+  return {what, inQuotes(name) + " " + happened, std::move(facts)};
+}
+
 }  // namespace
 
 Admission::Admission(Setup setup, const asio::any_io_executor& executor)
@@ -176,7 +183,7 @@ void Admission::restartSession(Session& before, Session& session, const wire::He
   before.restart(session, welcome, std::move(datagrams));
   m_setup.on_new_client();
   if (Room* p_room = m_setup.rooms.roomOf(before)) p_room->repeatSounds(before.player());
-  m_setup.log_client(before.address(), inQuotes(before.name()) + " is back, with another client");
+  m_setup.log_client(before.address(), newsOf("restarted", before.name(), "is back, with another client"));
 }
 
 void Admission::continueSession(Session& before, Session& session, const wire::Hello& hello,
@@ -187,7 +194,7 @@ void Admission::continueSession(Session& before, Session& session, const wire::H
     if (p_datagrams->renew(*session.stream(), epoch)) describe(p_datagrams, welcome);
   }
   before.adopt(session, welcome, hello.received());
-  m_setup.log_client(before.address(), inQuotes(before.name()) + " is back");
+  m_setup.log_client(before.address(), newsOf("resumed", before.name(), "is back"));
 }
 
 // The token is that of a session that has its stream. Without one the client is refused: it asked for a
@@ -204,7 +211,7 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
     return session.refuse(wire::Refused::BUSY,
                           "Your second stream comes again too often. Try again in a moment.");
   }
-  m_setup.log_client(session.address(), inQuotes(p_first->name()) + " has a second stream");
+  m_setup.log_client(session.address(), newsOf("second_stream", p_first->name(), "has a second stream"));
   p_first->accompany(session);
 }
 
@@ -233,14 +240,20 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   }
   m_setup.prefixes.note(session.id(), prefixOf(session));
   session.welcome(welcome, std::move(datagrams));
-  p_room->add(session);
+  m_setup.rooms.add(*p_room, session);
   m_setup.on_new_client();
-  m_setup.log_client(session.address(), inQuotes(name) + " joined with " +
-                                            inQuotes(safeText(hello.program(), kMaxProgramLength)));
+  const std::string program = safeText(hello.program(), kMaxProgramLength);
+  m_setup.log_client(session.address(),
+                     newsOf("joined", name, "joined with " + inQuotes(program), {{"program", program}}));
 }
 
 // False: the session was refused.
 bool Admission::checkLimits(Session& session) {
+  if (!m_setup.is_open()) {
+    ++m_counters.refused_closing;
+    session.refuse(wire::Refused::FULL, "The server is closing and lets no new players in.");
+    return false;
+  }
   const int max_players = m_setup.options.max_players;
   const int max_per_address = m_setup.options.max_per_address;
   if (m_setup.sessions.playing() >= static_cast<std::size_t>(max_players)) {
@@ -275,7 +288,8 @@ Room* Admission::roomFor(Session& session) {
   std::string problem;
   Room* p_room = m_setup.rooms.roomForNewPlayer(problem);
   if (p_room != nullptr) return p_room;
-  if (!problem.empty()) m_setup.log_client(session.address(), "gets no world: " + problem);
+  if (!problem.empty())
+    m_setup.log_client(session.address(), {LogEvent::Level::kError, "gets no world: " + problem});
   refuseBusy(session, "The server cannot begin another world. Try again later.");
   return nullptr;
 }

@@ -18,6 +18,7 @@
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 #include "shared/net/base/PrefixAllowance.h"
+#include "shared/program/LogEvent.h"
 
 namespace naiad {
 
@@ -36,11 +37,13 @@ class Admission {
     Counters& counters;
     const BanList& bans;
     /// Log what becomes of the client at this address.
-    std::function<void(const std::string& address, const std::string& text)> log_client;
+    std::function<void(const std::string& address, LogEvent event)> log_client;
     /// A channel for datagrams, with keys from this stream; null if there are none.
     std::function<std::unique_ptr<SealedChannel>(const ReliableChannel& stream, AeadId aead)> open_datagrams;
     /// A client plays that has no list of players yet.
     std::function<void()> on_new_client;
+    /// May new players join?
+    std::function<bool()> is_open = [] { return true; };
   };
 
   /// `executor` runs what is left of a judgement once a password has been checked.

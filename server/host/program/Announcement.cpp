@@ -91,6 +91,8 @@ std::vector<std::string> qrLines(const HostOptions& options) {
 
 void writeWhereabouts(const HostOptions& options, const Host& host) {
   writeLine(options.port_file, "port", std::to_string(host.port()));
+  if (host.metricsPort() != 0)
+    writeLine(options.metrics_port_file, "metrics' port", std::to_string(host.metricsPort()));
   writeLine(options.join_file, "join", host.joinArguments());
 }
 

@@ -17,6 +17,7 @@ using Level = AdminCommand::Level;
 using Place = AdminCommand::Place;
 
 constexpr std::string_view kAdminCommand = "/admin ";
+constexpr const char* kInFront = " ?";  // of a command
 
 Level levelOf(const Session& session) {
   return session.standing().isAdmin() ? Level::kAdmin : Level::kPlayer;
@@ -30,8 +31,14 @@ ChatCommands::ChatCommands(Setup setup, const asio::any_io_executor& executor) :
     m_password = std::make_unique<PasswordCheck>(executor, PasswordHash::fromText(password));
 }
 
+bool ChatCommands::isCommand(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(kInFront);
+  return first != std::string::npos && line[first] == '/';
+}
+
 // A password may have quotes and blanks, so that line is not split into words.
-void ChatCommands::serve(Session& session, const std::string& line) {
+void ChatCommands::serve(Session& session, const std::string& whole) {
+  const std::string line = whole.substr(whole.find_first_not_of(kInFront));
   if (line.starts_with(kAdminCommand)) return becomeAdmin(session, line.substr(kAdminCommand.size()));
   try {
     execute(session, readAdminRequest(splitAdminLine(std::string_view(line).substr(1))));

@@ -37,8 +37,9 @@ class ChatCommands {
   /// `executor` runs what is left once a password has been checked. Throws PasswordError.
   ChatCommands(Setup setup, const asio::any_io_executor& executor);
 
-  /// Is it a command? `line` is clean (cleanChat): its first character is the first that a terminal draws.
-  static bool isCommand(const std::string& line) { return line.starts_with('/'); }
+  /// Is it a command? `line` is clean (cleanChat). Blanks in front do not matter, nor characters that cannot
+  /// be drawn, which are question marks by now: a password after one of them must not reach others.
+  static bool isCommand(const std::string& line);
   void serve(Session& session, const std::string& line);
   /// Votes that failed. Once a tick.
   void update(Session::Clock::time_point now);

@@ -12,6 +12,8 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 #include "host/admin/ControlFile.h"
+#include "host/metrics/MetricsAddress.h"
+#include "host/metrics/MetricsServer.h"
 #include "host/program/CrashReport.h"
 #include "host/program/NetworkReport.h"
 #include "host/program/StopSignals.h"
@@ -19,6 +21,8 @@
 #include "host/world/Descendants.h"
 #include "naiad.pb.h"
 #include "shared/admin/ControlPath.h"
+#include "shared/net/lan/LanMessage.h"
+#include "shared/net/stream/ByteStream.h"
 #include "shared/program/BrokenPipes.h"
 #include "shared/program/LogText.h"
 #include "shared/program/OpenFiles.h"
@@ -35,7 +39,7 @@ constexpr std::chrono::milliseconds kDrainStep{10};   ///< between two looks at 
 constexpr std::chrono::seconds kFirstPlayerTime{60};  ///< --exit-when-empty before the first player joins
 constexpr int kLongestFrameMillis = 1000;             ///< as --frame-time
 constexpr int kExitHung = 1;                          ///< as for a game that fails
-constexpr const char* kShuttingDown = "The server is shutting down.";
+constexpr const char* kShuttingDown = "The server is shutting down.";  // as Ending says it
 
 /// Half-open connections: of a class behind one address, and of as many from there as the host lets in; of a
 /// few such crowds; of all players, if they come back at once. Each takes up to 192 KiB.
@@ -80,6 +84,25 @@ std::optional<ServerIdentity> identityOf(const HostOptions& options) {
   return ServerIdentity::loadOrMake(directory, std::chrono::system_clock::now());
 }
 
+LogEvent warningOf(const std::string& text) {
+  return {LogEvent::Level::kWarning, "warning: " + text};
+}
+
+/// For the log alone: the client has been hung up on.
+std::string sentenceOf(StreamRefusal why) {
+  switch (why) {
+    case StreamRefusal::kBanned:
+      return "This address is banned.";
+    case StreamRefusal::kTooOften:
+      return "Too many connections from this network.";
+    case StreamRefusal::kPrefixFull:
+      return "Too many unfinished connections from this network.";
+    case StreamRefusal::kFull:
+      return "Too many unfinished connections.";
+  }
+  return "";
+}
+
 // As if the signal had not been handled: its sender sees that it was.
 void endBySignal(int signal) {
   ::signal(signal, SIG_DFL);
@@ -103,30 +126,39 @@ Host::Host(HostOptions options, std::string game, Log log)
           [this](std::unique_ptr<ReliableChannel> channel) {
             m_sessions.add(std::move(channel), sessionEvents(), Clock::now());
           },
-          channelOptions(), listening(), NetworkThread::Limits(), visitors()),
+          channelOptions(), listening(), NetworkThread::Limits(), visitors(), m_options.sockets),
+      m_lan(openLan(game)),
+      m_status(openStatus(game)),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
-      m_rooms(m_options, m_sessions, m_counters, m_log, [this] { flush(); }),
+      m_rooms(
+          m_options, m_sessions, m_counters, m_log, [this] { flush(); }, m_stages),
       m_client_log(m_log),
       m_admission({m_options, std::move(game), m_sessions, m_rooms, m_prefixes, m_counters, m_bans,
-                   [this](const std::string& address, const std::string& text) {
-                     m_client_log.logNews(address, text, m_network.now());
+                   [this](const std::string& address, LogEvent event) {
+                     m_client_log.logNews(address, std::move(event), m_network.now());
                    },
                    [this](const auto& stream, AeadId aead) { return m_network.openDatagrams(stream, aead); },
-                   [this] { m_player_news.repeat(); }},
+                   [this] { m_player_news.repeat(); }, [this] { return m_ending.isOpen(); }},
                   m_io.get_executor()),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
-      m_admin({m_options, m_sessions, m_admission, m_counters, m_network,
-               [this](const std::string& sentence) { m_stop_sentence = sentence; }}),
+      m_admin({m_options, m_sessions, m_admission, m_counters, m_network, adminControls()}),
       m_console({m_admin, m_admin_worker, m_bans, m_log,
                  [this](std::function<void()> job) { asio::post(m_io, std::move(job)); }}),
       m_chat_commands(chatCommands(), m_io.get_executor()),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
-  for (const std::string& warning : m_options.warnings) m_log("warning: " + warning);
-  if (m_identity && !m_identity->warning().empty()) m_log("warning: " + m_identity->warning());
+  openMetrics();
+  for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
+  if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
   listenForCommands();
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
+  makePlaces();
+}
+
+// For as many players as may join by now.
+void Host::makePlaces() {
+  m_sessions.setMost(maxConnections(m_options));
   const std::size_t wanted =
       maxConnections(m_options) + static_cast<std::size_t>(m_options.max_players) +  // with second streams
       halfOpen(m_options) + halfOpenKnown(m_options) + worldFiles(m_options) + kOtherFiles;
@@ -138,10 +170,28 @@ Host::Host(HostOptions options, std::string game, Log log)
 
 // Whoever watches the server sees its log.
 LogLine Host::watchedLog(LogLine log) {
-  return [this, log = std::move(log)](const std::string& line) {
-    log(line);
-    m_feed.publish("log", line);
+  return [this, log = std::move(log)](const LogEvent& event) {
+    log(event);
+    m_feed.publish("log", event.text);
   };
+}
+
+AdminControls Host::adminControls() {
+  return {[this](Ending::Plan plan) { end(std::move(plan)); }, [this] { return cancelEnd(); },
+          [this](Reloading done) { reload(std::move(done)); },
+          [this](const HostOptions& options) {
+            takeOver(options, m_options);
+            makePlaces();
+          }};
+}
+
+// On the network thread. A flood of them must not fill the host's queue: what is left out here is counted by
+// the listener all the same.
+void Host::noteStreamRefusal(const asio::ip::tcp::endpoint& peer, StreamRefusal why) {
+  if (!m_stream_refusals.takeToken(ClientLog::kRefusalsInAll, Clock::now())) return;
+  asio::post(m_io, [this, address = peerName(peer), sentence = sentenceOf(why)] {
+    m_client_log.logRefusal(address, sentence, m_network.now());
+  });
 }
 
 ChatCommands::Setup Host::chatCommands() {
@@ -174,12 +224,32 @@ void Host::listenForCommands() {
                       done = std::move(done)] { m_console.execute(request, caller, done); });
   };
   try {
+    m_control_path = listening.path.string();
     m_control = std::make_unique<ControlSocket>(std::move(listening), execute, m_feed, m_log);
-    if (by_default) m_options.control = naiad::controlPath(m_network.port())->string();
   } catch (const ListenError& error) {
     if (!by_default) throw;
     m_log(std::string("warning: ") + error.what() + " dfctl cannot reach this server (--control).");
   }
+}
+
+// A port that is taken is an error as the players' port is.
+void Host::openMetrics() {
+  if (m_options.metrics.empty()) return;
+  try {
+    m_metrics = std::make_unique<HostMetrics>(
+        HostMetrics::Sources{m_options, m_counters, m_network, m_sessions, m_rooms, m_admission, m_stages});
+  } catch (const MetricsError& error) {
+    throw ListenError(error.what(), std::make_error_code(std::errc::address_in_use));
+  }
+  m_log("metrics are at http://" + MetricsAddress::parse(m_options.metrics)->hostText() + ":" +
+        std::to_string(m_metrics->port()) + "/metrics");
+}
+
+void Host::beginMetrics() {
+  if (!m_metrics) return;
+  const auto tick = TickLength::fromMicros(m_options.frame_micros).times(1);
+  m_metrics->begin(tick);
+  if (m_options.audit == "on") m_rooms.startAudit(static_cast<std::uint32_t>(std::chrono::seconds(1) / tick));
 }
 
 // Half-open connections from prefixes with players have places of their own, so that a crowd of others does
@@ -193,6 +263,7 @@ TlsListening Host::listening() {
   listening.max_half_open_per_prefix = std::clamp(static_cast<std::size_t>(m_options.max_per_address),
                                                   kMinHalfOpenPerPrefix, listening.max_half_open / 2);
   listening.is_known = [this](const AddressPrefix& prefix) { return m_prefixes.count(prefix) > 0; };
+  listening.on_refused = [this](const auto& peer, StreamRefusal why) { noteStreamRefusal(peer, why); };
   listening.is_banned = [this](const asio::ip::address& address) { return m_bans.isBanned(address); };
   listening.take_handshake = [this](const AddressPrefix& prefix) {
     return m_handshakes.take(prefix, Clock::now());
@@ -209,6 +280,42 @@ VisitorsListening Host::visitors() const {
   visitors.path = m_options.visitors;
   visitors.is_refused = [](pid_t process) { return isDescendant(process); };
   return visitors;
+}
+
+// Loopback alone is found only if that is asked for: it is nobody's network.
+std::unique_ptr<LanResponder> Host::openLan(const std::string& game) {
+  const bool automatic = m_options.lan == "auto";
+  const bool loopback = asio::ip::make_address(m_options.address).is_loopback();
+  if (!m_identity || m_options.lan == "off" || (automatic && loopback)) return nullptr;
+  LanAnswer facts;
+  facts.protocol = kProtocolVersion;
+  facts.port = m_network.port();
+  facts.asks_password = !m_options.password.empty();
+  facts.max_players = static_cast<std::uint16_t>(m_options.max_players);
+  facts.key = ShortKey::of(m_identity->fingerprint());
+  facts.name = m_options.name;
+  facts.game = game;
+  try {
+    return std::make_unique<LanResponder>(facts, m_options.address,
+                                          automatic ? LanMode::kAuto : LanMode::kOn);
+  } catch (const std::system_error& error) {
+    const std::string wrong = std::string("cannot be found in the local network: ") + error.what();
+    if (!automatic) throw ListenError("--lan on: the server " + wrong + ".", error.code());
+    m_log("warning: the server " + wrong);
+    return nullptr;
+  }
+}
+
+std::unique_ptr<StatusFile> Host::openStatus(const std::string& game) const {
+  if (m_options.status_file.empty()) return nullptr;
+  StatusFacts facts;
+  facts.name = m_options.name;
+  facts.game = game;
+  facts.max_players = static_cast<std::size_t>(m_options.max_players);
+  facts.asks_password = !m_options.password.empty();
+  const auto link = m_options.link_host.empty() ? std::nullopt : joinLink(true);
+  if (link) facts.link = link->text();
+  return std::make_unique<StatusFile>(m_options.status_file, facts);
 }
 
 std::optional<Fingerprint> Host::fingerprint() const {
@@ -255,21 +362,94 @@ void Host::run(df::World& world) {
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   const auto work = asio::make_work_guard(m_io);  // or waiting for a deadline would end at once
   m_network.start();
+  m_service.notifyReady();
+  beginMetrics();
+  if (m_lan) m_lan->start();
   while (!isOver()) {
     serveUntil(schedule.deadline());
     heedSignals(signals);
     if (isDue(schedule)) tick();
+    if (m_metrics) m_metrics->update(Clock::now());
   }
   drain();
   m_p_watchdog = nullptr;
   endGame(world);
 }
 
+// The first SIGTERM lets players finish, if there is time for that; a second signal ends all (Watchdog.h).
 void Host::heedSignals(StopSignals& signals) {
-  if (signals.isAsked()) m_stop_sentence = kShuttingDown;
+  const Clock::time_point now = Clock::now();
+  if (signals.count() > std::exchange(m_heeded_signals, signals.count())) {
+    const bool waits = signals.signal() == SIGTERM && m_options.drain_time > 0;
+    const auto patience = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(waits ? m_options.drain_time : 0));
+    end({.at = now + patience, .when_empty = true});
+    if (waits) m_log("SIGTERM: no new players; ending when all have left");
+  }
   if (!signals.takeHangUp()) return;
   LineLog::reopenAll();
   m_log("SIGHUP: the log goes on in this file (there is no terminal, so the server does too)");
+  if (!m_reload) return;
+  m_service.notifyReloading(now);
+  reload([this](bool, const std::string& sentence) {
+    m_service.notifyReady();
+    m_log(sentence);
+  });
+}
+
+void Host::end(Ending::Plan plan) {
+  if (plan.at_round_end && m_rooms.isPrivate()) plan.at_round_end = !(plan.when_empty = true);
+  m_rooms.setLastRound(plan.at_round_end);
+  m_ending.setPlan(std::move(plan), Clock::now());
+  if (m_metrics && !m_ending.isOpen()) m_metrics->beginDrain(true);
+}
+
+bool Host::cancelEnd() {
+  m_rooms.setLastRound(false);
+  if (m_metrics) m_metrics->cancelDrain();
+  return m_ending.cancel();
+}
+
+void Host::heedEnd(Clock::time_point now) {
+  if (const auto news = m_ending.takeNews(now)) sayToAll(*news);
+}
+
+void Host::sayToAll(const std::string& text) {
+  wire::ServerMessage message;
+  message.mutable_chat()->set_text(text);
+  m_sessions.forEachPlaying([&message](Session& session) { session.sendKept(message); });
+}
+
+// ---- options that change while it runs --------------------------------------------------------------------
+
+void Host::reload(Reloading done) {
+  if (!m_reload) return done(false, "this server cannot read its options again");
+  const bool began = m_reload->begin(m_options, [this, done](Reloaded reloaded) {
+    asio::post(m_io, [this, done, reloaded = std::make_shared<Reloaded>(std::move(reloaded))] {
+      adoptReloaded(std::move(*reloaded), done);
+    });
+  });
+  if (!began) done(false, "the options are being read already");
+}
+
+void Host::adoptReloaded(Reloaded reloaded, const Reloading& done) {
+  if (!reloaded.problem.empty()) return done(false, "the options stay as they were: " + reloaded.problem);
+  if (reloaded.options.password != m_options.password)
+    m_admission.changePassword(std::move(reloaded.password));
+  const OptionChanges changes = takeOver(reloaded.options, m_options);
+  makePlaces();
+  useIdentity(std::move(reloaded.identity));
+  done(true, "the options were read again: " + changes.text());
+}
+
+void Host::useIdentity(std::optional<ServerIdentity> identity) {
+  if (!identity) return;
+  if (identity->fingerprint() != m_identity->fingerprint()) {
+    m_log(warningOf("the key is another one: players who know the server are warned of it. It is " +
+                    identity->fingerprint().text()));
+  }
+  m_identity = std::move(identity);
+  m_network.setTls(m_identity->tls());
 }
 
 // On the watchdog's thread. The game may hold any lock of the process, that of the log too, so nothing is
@@ -329,6 +509,7 @@ void Host::serveUntil(Clock::time_point deadline) {
 bool Host::isDue(TickClock& schedule) {
   const Clock::time_point now = Clock::now();
   if (now < schedule.deadline()) return false;
+  if (m_metrics) m_metrics->beginTick(m_counters.ticks + 1, schedule.deadline(), now);
   m_counters.late_ticks += now - schedule.deadline() > kLate ? 1 : 0;
   m_counters.rebased_ticks += schedule.beginTick(now) ? 1 : 0;
   return true;
@@ -338,14 +519,20 @@ bool Host::isDue(TickClock& schedule) {
 // process of its own ends its tick later, and what it publishes is flushed then.
 void Host::tick() {
   m_tick_began = Clock::now();
+  m_stages.enter(Stage::kReceive);
   m_network.serve(m_tick_began + kMinService);  // the datagrams since the last one
+  m_stages.enter(Stage::kSessions);
   checkSessions();
+  heedEnd(m_tick_began);
   ++m_counters.ticks;
   m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
   tickWorlds();
+  m_stages.enter(Stage::kNews);
   sendPlayers();
   flush();
+  notifyService();
+  m_stages.enter(Stage::kBetween);
   if (m_observer) m_observer(*m_p_world);
 }
 
@@ -369,9 +556,28 @@ void Host::checkSessions() {
   m_chat_commands.update(now);
 }
 
+// A tick that hangs sends no keep-alive, so the service manager ends and restarts the server.
+void Host::notifyService() {
+  if (!m_service.isActive()) return;
+  m_service.keepAlive(m_tick_began);
+  const std::size_t playing = m_sessions.playing();
+  m_service.notifyStatus(m_network.address() + ", " + std::to_string(playing) +
+                         (playing == 1 ? " player" : " players"));
+}
+
+// For those who look for a server.
+void Host::notePlaying(std::size_t playing) {
+  if (m_lan) m_lan->setPlayers(playing);
+  if (!m_status) return;
+  m_status->setPlayers(playing);
+  if (const std::string news = m_status->takeNews(); !news.empty()) m_log(news);
+}
+
 // The list of players has those of all rooms.
 void Host::sendPlayers() {
-  if (m_sessions.playing() == 0) return;
+  const std::size_t playing = m_sessions.playing();
+  notePlaying(playing);
+  if (playing == 0) return;
   m_player_news.tick(
       static_cast<std::uint32_t>(m_counters.ticks), m_rooms.players(),
       [this](std::uint32_t player) {
@@ -385,7 +591,14 @@ void Host::sendPlayers() {
 
 // The flush after the last room's tick ends the host's tick.
 void Host::flush() {
-  m_rooms.isTicking() ? m_network.flush() : m_network.flushTick(m_tick_began);
+  const Stage before = m_stages.enter(Stage::kFlush);
+  if (m_rooms.isTicking()) {
+    m_network.flush();
+  } else {
+    m_network.flushTick(m_tick_began);
+    if (m_metrics) m_metrics->endTick(Clock::now());
+  }
+  m_stages.enter(before);
 }
 
 void Host::sweep() {
@@ -421,6 +634,13 @@ void Host::takeChat(Session& session, const std::string& text) {
 
 void Host::sendChat(const Session& session, const std::string& text) {
   m_feed.publish("chat", inQuotes(session.name()) + ": " + text);
+  if (m_options.log_chat) {
+    m_client_log.logNews(session.address(),
+                         {"chat",
+                          inQuotes(session.name()) + " says " + inQuotes(text),
+                          {{"player", session.name()}, {"line", text}}},
+                         m_network.now());
+  }
   wire::ServerMessage message;
   message.mutable_chat()->set_player(session.player());
   message.mutable_chat()->set_text(text);
@@ -432,7 +652,9 @@ void Host::endSession(Session& session) {
   m_inactivity.forget(session);
   if (session.player() == 0) return;
   m_rooms.leave(session);
-  m_client_log.logNews(session.address(), inQuotes(session.name()) + " left", m_network.now());
+  m_client_log.logNews(session.address(),
+                       {"left", inQuotes(session.name()) + " left", {{"player", session.name()}}},
+                       m_network.now());
 }
 
 // ---- the end ----------------------------------------------------------------------------------------------
@@ -448,15 +670,23 @@ bool Host::isDeserted(Clock::time_point now) const {
 bool Host::isOver() const {
   const bool counted_out =
       m_options.ticks > 0 && m_counters.ticks >= static_cast<std::uint64_t>(m_options.ticks);
-  return m_rooms.isOver() || !m_stop_sentence.empty() || counted_out || isDeserted(Clock::now());
+  const Clock::time_point now = Clock::now();
+  // A player whose connection broke may come back, so they are waited for, too.
+  const bool is_due = m_ending.plan() && m_ending.isDue(now, m_sessions.playing() == 0);
+  return m_rooms.isOver() || is_due || counted_out || isDeserted(now);
 }
 
 void Host::drain() {
+  m_service.notifyStopping();
+  if (m_metrics) m_metrics->beginDrain(false);
   m_network.closeListener();
+  if (m_lan) m_lan->stop();
+  m_status.reset();
   std::string sentence = m_rooms.lastSentence();
-  if (sentence.empty()) sentence = m_stop_sentence;
+  if (sentence.empty() || m_ending.beginsAgain()) sentence = m_ending.sentence();
   if (sentence.empty()) sentence = "The game is over.";
-  m_sessions.forEach([&sentence](Session& session) { session.goodbye(sentence); });
+  const auto again = m_ending.beginsAgain() ? Ending::kLookAgain : std::chrono::seconds(0);
+  m_sessions.forEach([&](Session& session) { session.goodbye(sentence, again); });
   m_rooms.closeWorlds();
   m_network.flush();
   const Clock::time_point end = Clock::now() + kDrainTime;
@@ -473,10 +703,11 @@ void Host::drain() {
   m_log("stopped: " + m_counters.summary());
   logPasswords(m_admission.passwordCounters(), m_log);
   logRefusals(m_network, m_log);
+  if (m_lan) logLan(m_lan->counters(), m_log);
 }
 
 void Host::stop(const std::string& sentence) {
-  asio::post(m_io, [this, sentence] { m_stop_sentence = sentence; });
+  asio::post(m_io, [this, sentence] { end({.at = Clock::time_point(), .sentence = sentence}); });
 }
 
 void Host::post(std::function<void(df::World&)> job) {

@@ -19,21 +19,29 @@
 #include "host/admin/ControlSocket.h"
 #include "host/admin/WatchFeed.h"
 #include "host/auth/ServerIdentity.h"
+#include "host/metrics/StageClock.h"
+#include "host/net/LanResponder.h"
 #include "host/net/NetworkThread.h"
 #include "host/net/PlayerPrefixes.h"
 #include "host/program/Admission.h"
 #include "host/program/ChatCommands.h"
+#include "host/program/Ending.h"
 #include "host/program/HostAdmin.h"
+#include "host/program/HostMetrics.h"
 #include "host/program/HostOptions.h"
 #include "host/program/InactivityCheck.h"
 #include "host/program/PlayerNews.h"
+#include "host/program/Reload.h"
 #include "host/program/Rooms.h"
+#include "host/program/ServiceNotify.h"
 #include "host/program/SessionTable.h"
 #include "host/program/SideLog.h"
+#include "host/program/StatusFile.h"
 #include "host/program/TickClock.h"
 #include "host/program/Watchdog.h"
 #include "host/session/Counters.h"
 #include "shared/net/base/PrefixAllowance.h"
+#include "shared/net/base/TokenBucket.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/program/ClientLog.h"
 #include "shared/program/LineLog.h"
@@ -44,9 +52,9 @@ class Host : public df::Runner {
  public:
   using Log = LogLine;
 
-  /// Listens from now on (clients wait until run()). Throws ListenError, TlsError for keys that cannot be
-  /// used, BanFileError for a file of bans that cannot, or std::runtime_error for a truth file that cannot be
-  /// written.
+  /// Listens from now on (clients wait until run()). Throws ListenError (with HostOptions::lan "on" for the
+  /// socket of the local network's queries, too), TlsError for keys that cannot be used, or
+  /// std::runtime_error for a truth or status file that cannot be written.
   Host(HostOptions options, std::string game, Log log);
   ~Host() override;
 
@@ -54,6 +62,8 @@ class Host : public df::Runner {
   std::uint16_t port() const { return m_network.port(); }
   /// "127.0.0.1:9876".
   std::string address() const { return m_network.address(); }
+  /// The port on which metrics are given out; 0: they are not.
+  std::uint16_t metricsPort() const { return m_metrics ? m_metrics->port() : 0; }
   /// What players compare; nothing without encryption.
   std::optional<Fingerprint> fingerprint() const;
   /// What dfclient needs on its command line to join from this machine: "127.0.0.1:9876 --fingerprint …".
@@ -63,7 +73,7 @@ class Host : public df::Runner {
   std::optional<JoinLink> joinLink(bool elsewhere) const;
   const Counters& counters() const { return m_counters; }
   /// Of the socket for commands; empty: there is none.
-  const std::string& controlPath() const { return m_options.control; }
+  const std::string& controlPath() const { return m_control_path; }
   /// What became of every datagram so far; nothing without encryption. Thread-safe.
   DatagramGateCounters datagramCounters() const { return m_network.gateCounters(); }
   /// How long ticks took, begin to last datagram sent. Thread-safe.
@@ -91,6 +101,25 @@ class Host : public df::Runner {
   void run(df::World& world) override;
   /// End run() after the present tick, with this sentence to the players. Callable from another thread.
   void stop(const std::string& sentence);
+  /// End run() so; at the end of a round, where each player has a world of their own, is when all have left.
+  /// On the host's thread.
+  void end(Ending::Plan plan);
+  /// Do not end after all. False: nothing was planned. On the host's thread.
+  bool cancelEnd();
+  /// What is planned, if anything. On the host's thread.
+  const Ending& ending() const { return m_ending; }
+  /// run() has ended so that the server begins again; its clients look for it.
+  bool beginsAgain() const { return m_ending.beginsAgain(); }
+
+  /// Reads the options again, on a thread of its own. Throws what says why it cannot.
+  using ReadOptions = Reload::ReadOptions;
+  /// SIGHUP without a terminal reads them so, and takes over what may change while it runs. Before run().
+  void setReload(ReadOptions read) { m_reload.emplace(std::move(read)); }
+  /// The same now. Files are read and passwords hashed on a thread of their own; then `done` is called on the
+  /// host's thread: whether they could be used, and what has changed, in words. Options that cannot be used,
+  /// and those that need a restart, leave what there was. On the host's thread.
+  using Reloading = std::function<void(bool is_done, const std::string& sentence)>;
+  void reload(Reloading done);
   /// Call `job` on the host's thread, between two ticks. Callable from another thread (tests inspect a
   /// running world with it).
   void post(std::function<void(df::World&)> job);
@@ -102,6 +131,11 @@ class Host : public df::Runner {
 
   TlsListening listening();
   VisitorsListening visitors() const;
+  void openMetrics();
+  void beginMetrics();
+  std::unique_ptr<LanResponder> openLan(const std::string& game);
+  std::unique_ptr<StatusFile> openStatus(const std::string& game) const;
+  void notePlaying(std::size_t playing);
   Session::Events sessionEvents();
   LogLine watchedLog(LogLine log);
   ChatCommands::Setup chatCommands();
@@ -117,9 +151,17 @@ class Host : public df::Runner {
   void tick();
   void tickWorlds();
   void heedSignals(StopSignals& signals);
+  void heedEnd(Clock::time_point now);
+  void sayToAll(const std::string& text);
+  void adoptReloaded(Reloaded reloaded, const Reloading& done);
+  AdminControls adminControls();
+  void makePlaces();
+  void noteStreamRefusal(const asio::ip::tcp::endpoint& peer, StreamRefusal why);
+  void useIdentity(std::optional<ServerIdentity> identity);
   [[noreturn]] void endProcess(const ForcedEnd& end, SideLog& log);
   void checkSessions();
   void sendPlayers();
+  void notifyService();
   void flush();
   void sweep();
   void drain();
@@ -135,9 +177,13 @@ class Host : public df::Runner {
   BanList m_bans;  ///< the network thread asks it, too
   std::optional<ServerIdentity> m_identity;
   PlayerPrefixes m_prefixes;
-  PrefixAllowance m_handshakes;  ///< of the network thread
+  PrefixAllowance m_handshakes;   ///< of the network thread
+  TokenBucket m_stream_refusals;  ///< of the network thread: those that are logged
   NetworkThread m_network;
+  std::unique_ptr<LanResponder> m_lan;   ///< null: not to be found in the local network
+  std::unique_ptr<StatusFile> m_status;  ///< null: none is asked for
   SessionTable m_sessions;
+  StageClock m_stages;
   Rooms m_rooms;
   ClientLog m_client_log;
   Admission m_admission;
@@ -148,12 +194,17 @@ class Host : public df::Runner {
   AdminConsole m_console;
   ChatCommands m_chat_commands;
   InactivityCheck m_inactivity;
+  std::string m_control_path;                ///< empty: there is none
   std::unique_ptr<ControlSocket> m_control;  ///< null: there is none
+  ServiceNotify m_service;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;
-  std::string m_stop_sentence;
+  Ending m_ending;
+  std::optional<Reload> m_reload;
+  int m_heeded_signals = 0;
   Clock::time_point m_empty_since;
   Clock::time_point m_tick_began;
+  std::unique_ptr<HostMetrics> m_metrics;  ///< null: none are wanted
 };
 
 }  // namespace naiad

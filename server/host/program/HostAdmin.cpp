@@ -14,13 +14,10 @@ namespace {
 
 /// Those that may change while the server runs, as the command line calls them.
 const std::vector<std::string>& changeableOptions() {
-  static const std::vector<std::string> names{"max-players",     "max-per-address", "server-name", "grace",
-                                              "exit-when-empty", "inactive-kick",   "vote-kick"};
+  static const std::vector<std::string> names{"max-players",   "max-per-address", "server-name",
+                                              "grace",         "exit-when-empty", "drain-time",
+                                              "inactive-kick", "vote-kick",       "log-chat"};
   return names;
-}
-
-AdminAnswer notAvailable(const std::string& what) {
-  return AdminAnswer::refused(what + " is not available on this server.");
 }
 
 std::chrono::seconds since(Session::Clock::time_point then, Session::Clock::time_point now) {
@@ -54,8 +51,7 @@ void sendServerLine(Session& session, const std::string& text) {
   session.sendKept(message);
 }
 
-HostAdmin::HostAdmin(Setup setup)
-    : m_setup(std::move(setup)), m_max_players(m_setup.options.max_players), m_began(Session::Clock::now()) {}
+HostAdmin::HostAdmin(Setup setup) : m_setup(std::move(setup)), m_began(Session::Clock::now()) {}
 
 std::vector<AdminPlayer> HostAdmin::players() const {
   std::vector<AdminPlayer> players;
@@ -110,24 +106,57 @@ void HostAdmin::setMuted(std::uint64_t session, bool muted) {
 // ---- the server -------------------------------------------------------------------------------------------
 
 AdminAnswer HostAdmin::stop(const std::string& sentence) {
-  m_setup.stop(sentence.empty() ? "The server is shutting down." : safeText(sentence, kMaxSentenceLength));
+  m_setup.controls.end(
+      {.at = Session::Clock::time_point(), .sentence = safeText(sentence, kMaxSentenceLength)});
   return AdminAnswer::done("The server ends.");
 }
 
-AdminAnswer HostAdmin::restart(const AdminRestart&) {
-  return notAvailable("A restart");
+AdminAnswer HostAdmin::restart(const AdminRestart& restart) {
+  Ending::Plan plan{.begins_again = true};
+  std::string when = "now";
+  switch (restart.when) {
+    case AdminRestart::When::kNow:
+      plan.at = Session::Clock::time_point();
+      break;
+    case AdminRestart::When::kIn:
+      plan.at = Session::Clock::now() + restart.in;
+      when = "in " + std::to_string(restart.in.count()) + " s";
+      break;
+    case AdminRestart::When::kAtRoundEnd:
+      plan.at_round_end = true;
+      when = "when the round is over";
+      break;
+  }
+  m_setup.controls.end(std::move(plan));
+  return AdminAnswer::done("The server restarts " + when + ".");
 }
 
-AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds>) {
-  return notAvailable("Draining");
+// Without a time of its own, or of the server's option: until the last one leaves.
+AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
+  Ending::Plan plan{.when_empty = true};
+  std::chrono::duration<double> patience(m_setup.options.drain_time);
+  if (most) patience = *most;
+  std::string text = "Nobody is let in any more. The server ends when all have left";
+  if (most || patience.count() > 0) {
+    plan.at = Session::Clock::now() + std::chrono::duration_cast<Session::Clock::duration>(patience);
+    text += ", and in " + std::to_string(std::chrono::ceil<std::chrono::seconds>(patience).count()) +
+            " s at the latest";
+  }
+  m_setup.controls.end(std::move(plan));
+  return AdminAnswer::done(text + ".");
 }
 
 AdminAnswer HostAdmin::cancel() {
-  return AdminAnswer::refused("There is nothing to call off.");
+  if (!m_setup.controls.cancel_end()) return AdminAnswer::refused("There is nothing to call off.");
+  say("The server goes on after all.");
+  return AdminAnswer::done("The server goes on.");
 }
 
-AdminAnswer HostAdmin::reload() {
-  return AdminAnswer::done("Bans were read again.");
+void HostAdmin::reload(std::function<void(AdminAnswer)> done) {
+  m_setup.controls.reload([done = std::move(done)](bool is_done, const std::string& sentence) {
+    const std::string text = sentence + ".";
+    done(is_done ? AdminAnswer::done(text) : AdminAnswer::refused(text));
+  });
 }
 
 AdminAnswer HostAdmin::changePassword(std::optional<PasswordHash> hash) {
@@ -147,10 +176,7 @@ AdminAnswer HostAdmin::set(const std::string& option, const std::string& value) 
   } catch (const OptionError& error) {
     return AdminAnswer::refused(error.what());
   }
-  if (changed.max_players > m_max_players)
-    return AdminAnswer::refused("max-players: this server began with places for " +
-                                std::to_string(m_max_players) + ".");
-  m_setup.options = std::move(changed);
+  m_setup.controls.take_over(changed);
   return AdminAnswer::done(option + " is " + hostOptionValue(m_setup.options, option) + ".");
 }
 

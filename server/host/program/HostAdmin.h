@@ -10,23 +10,32 @@
 #include "host/admin/AdminTarget.h"
 #include "host/net/NetworkThread.h"
 #include "host/program/Admission.h"
+#include "host/program/Ending.h"
 #include "host/program/HostOptions.h"
 #include "host/program/SessionTable.h"
 #include "host/session/Counters.h"
 
 namespace naiad {
 
+/// What ends a server or reads its options again: its host.
+struct AdminControls {
+  std::function<void(Ending::Plan plan)> end;
+  std::function<bool()> cancel_end;  ///< false: nothing was planned
+  std::function<void(std::function<void(bool is_done, const std::string& sentence)> done)> reload;
+  std::function<void(const HostOptions& options)> take_over;  ///< those that may change while it runs
+};
+
 /// On the host's thread.
 class HostAdmin : public AdminTarget {
  public:
   /// What it works with; all of it outlives this.
   struct Setup {
-    HostOptions& options;
+    const HostOptions& options;
     const SessionTable& sessions;
     Admission& admission;
     const Counters& counters;
     const NetworkThread& network;
-    std::function<void(const std::string& sentence)> stop;
+    AdminControls controls;
   };
   explicit HostAdmin(Setup setup);
 
@@ -40,7 +49,7 @@ class HostAdmin : public AdminTarget {
   AdminAnswer restart(const AdminRestart& restart) override;
   AdminAnswer drain(std::optional<std::chrono::seconds> most) override;
   AdminAnswer cancel() override;
-  AdminAnswer reload() override;
+  void reload(std::function<void(AdminAnswer)> done) override;
   AdminAnswer changePassword(std::optional<PasswordHash> hash) override;
   AdminAnswer set(const std::string& option, const std::string& value) override;
   AdminRow settings() const override;
@@ -49,7 +58,6 @@ class HostAdmin : public AdminTarget {
   Session* findPlaying(std::uint64_t session) const;
 
   Setup m_setup;
-  int m_max_players;  ///< as at the start: there are places for so many
   Session::Clock::time_point m_began;
 };
 

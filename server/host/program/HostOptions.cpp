@@ -1,16 +1,20 @@
 #include "host/program/HostOptions.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <vector>
 
+#include "host/metrics/MetricsAddress.h"
 #include "host/program/Announcement.h"
 #include "shared/net/base/UserDirectory.h"
 #include "shared/net/stream/JoinLink.h"
+#include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
+#include "shared/options/UnknownVariables.h"
 
 namespace naiad {
 
@@ -99,6 +103,10 @@ std::vector<Row> tableOf(HostOptions& o) {
         "NAIAD_PASSWORD"}},
       {{"--grace", &o.grace, "Seconds that a player whose connection broke may take to come back; 0: none",
         "NAIAD_GRACE", OptionRange{0, 3600}}},
+      {{"--drain-time", &o.drain_time,
+        "Seconds that SIGTERM gives players to finish: no new ones are let in, and the server ends when all "
+        "have left, or then; 0: it ends at once",
+        "NAIAD_DRAIN_TIME", OptionRange{0, 86400}}},
       {{"--join-file", &o.join_file,
         "Write address and fingerprint, as dfclient takes them, to this file once listening",
         "NAIAD_JOIN_FILE"}},
@@ -117,10 +125,57 @@ std::vector<Row> tableOf(HostOptions& o) {
       {{"--web-address", &o.web_address, "Also print this address of a page to play on (https://…)",
         "NAIAD_WEB_ADDRESS"}},
       {{"--qr", &o.qr, "Print --web-address as a QR code, too", "NAIAD_QR"}},
+      {{"--lan",
+        &o.lan,
+        "Let dfclient without arguments find this server in the local network: auto = where the address is "
+        "private, on = wherever it listens, off = not",
+        "NAIAD_LAN",
+        {},
+        {"auto", "on", "off"}}},
       {{"--truth", &o.truth_file,
         "Write what each player ought to see, tick by tick, to this file (for tests; large)", "NAIAD_TRUTH"}},
+      {{"--metrics", &o.metrics,
+        "Give out metrics for Prometheus (/metrics) and health (/healthz, /readyz) by HTTP on this numeric "
+        "ADDR:PORT, like 127.0.0.1:9100; port 0 takes any free one",
+        "NAIAD_METRICS"}},
+      {{"--metrics-hosts", &o.metrics_hosts,
+        "Names of this machine, with commas between, by which --metrics may be asked, beside localhost and "
+        "addresses",
+        "NAIAD_METRICS_HOSTS"}},
+      {{"--metrics-port-file", &o.metrics_port_file,
+        "Write the port number of --metrics to this file once listening", "NAIAD_METRICS_PORT_FILE"}},
+      {{"--metrics-public", &o.metrics_public,
+        "--metrics may be an address that the internet can reach; everybody can read them then",
+        "NAIAD_METRICS_PUBLIC"}},
+      {{"--audit",
+        &o.audit,
+        "With --metrics: hold what one player was sent against what the world shows them, one second in ten, "
+        "and count wrong cells",
+        "NAIAD_AUDIT",
+        {},
+        {"on", "off"}}},
       {{"--port-file", &o.port_file, "Write the port number to this file once listening", "NAIAD_PORT_FILE"}},
+      {{"--status-file", &o.status_file,
+        "Write name, game, number of players and link (see --link-host) to this file as JSON, every 5 "
+        "seconds; "
+        "for lists of servers on the web. It is removed when the server stops",
+        "NAIAD_STATUS_FILE"}},
       {{"--log", &o.log_file, "Append log lines to this file instead of stderr", "NAIAD_LOG"}},
+      {{"--log-format",
+        &o.log_format,
+        "How log lines look: text = sentences; json = an object a line, with the facts in it by name",
+        "NAIAD_LOG_FORMAT",
+        {},
+        {"text", "json"}},
+       UsedBy::kServer},
+      {{"--log-level",
+        &o.log_level,
+        "Log what is as bad as this, or worse",
+        "NAIAD_LOG_LEVEL",
+        {},
+        {"error", "warning", "info"}},
+       UsedBy::kServer},
+      {{"--log-chat", &o.log_chat, "Log what players say, too", "NAIAD_LOG_CHAT"}},
       {{"--control", &o.control,
         "Path of the socket for dfctl's commands, mode 0660: who may write to it is an admin; off: none. "
         "Default: control-PORT.sock in naiad in the user's runtime directory ($XDG_RUNTIME_DIR), else in "
@@ -153,6 +208,33 @@ std::vector<Row> tableOf(HostOptions& o) {
         "Let players of other machines in: listen on every address, not on loopback alone", "NAIAD_PUBLIC"},
        UsedBy::kProgram},
   };
+}
+
+/// Options that take effect while a server runs.
+constexpr std::string_view kLive[] = {
+    "--max-players", "--max-per-address", "--server-name", "--exit-when-empty", "--password",  "--grace",
+    "--drain-time",  "--certificate",     "--key",         "--log-format",      "--log-level", "--log-chat",
+    "--vote-kick",   "--inactive-kick"};
+
+/// Variables that other programs of the project read, or this one beside its table.
+const char* const kOtherVariables[] = {"NAIAD_ASCII",  "NAIAD_CLIENT",     "NAIAD_FINGERPRINT",
+                                       "NAIAD_GAMES",  "NAIAD_IDLE_LIMIT", "NAIAD_KNOWN_SERVERS",
+                                       "NAIAD_NAME",   "NAIAD_NO_MOUSE",   "NAIAD_NO_RESUME",
+                                       "NAIAD_SERVER", "NAIAD_SOUND",      "NAIAD_WORLD_SOCKET"};
+
+/// Files, for completions: these options name them.
+const char* typeOf(const std::string& name) {
+  for (const char* p_file : {"--certificate", "--key", "--join-file", "--truth", "--port-file", "--log"})
+    if (name == p_file) return "FILE";
+  if (name == "--identity") return "DIR";
+  return name == "--visitors" ? "SOCKET" : "";
+}
+
+void warnOfUnknownVariables(const std::vector<Row>& rows, HostOptions& options) {
+  std::vector<std::string> known(std::begin(kOtherVariables), std::end(kOtherVariables));
+  for (const Row& row : rows) known.push_back(row.option.environment);
+  for (const std::string& sentence : complainOfUnknownVariables(environ, "NAIAD_", known))
+    options.warnings.push_back(sentence);
 }
 
 constexpr const char* kLoopback = "127.0.0.1";
@@ -196,6 +278,19 @@ std::string printedComplaint(const HostOptions& options) {
   return {};
 }
 
+/// The same for where metrics are given out.
+std::string metricsComplaint(const HostOptions& options) {
+  if (!MetricsHosts::parse(options.metrics_hosts))
+    return "--metrics-hosts: names with commas between are wanted";
+  if (options.metrics.empty()) return {};
+  const auto address = MetricsAddress::parse(options.metrics);
+  if (!address) return "--metrics: a numeric ADDR:PORT is wanted, IPv6 in brackets";
+  if (!address->is_private && !options.metrics_public)
+    return "--metrics: everybody could read them on " + address->address +
+           ", which is no address of loopback or of a private network; --metrics-public lets them";
+  return {};
+}
+
 /// What is wrong with options together; empty if nothing is.
 std::string complaint(const HostOptions& options) {
   if (options.frame_micros != 0 && options.frame_micros < kMinFrameMicros) {
@@ -203,7 +298,9 @@ std::string complaint(const HostOptions& options) {
            std::to_string(kMinFrameMicros) + " or more";
   }
   if (options.certificate.empty() != options.key.empty()) return "--certificate and --key come together";
+  if (options.insecure && options.lan == "on") return "--lan on needs encryption, so not --insecure";
   if (options.insecure && !options.visitors.empty()) return "--visitors needs encryption, so not --insecure";
+  if (std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
   return printedComplaint(options);
 }
 
@@ -213,7 +310,9 @@ bool isHash(const std::string& password) {
 
 void warnOfReadersOf(const std::string& file, const std::string& password, HostOptions& options) {
   struct stat facts {};
-  if (isHash(password) || stat(file.c_str(), &facts) != 0 || (facts.st_mode & S_IROTH) == 0) return;
+  if (password.empty() || isHash(password) || stat(file.c_str(), &facts) != 0 ||
+      (facts.st_mode & S_IROTH) == 0)
+    return;
   options.warnings.push_back(file + " has the password, and every user can read it. Run: chmod o-r " + file);
 }
 
@@ -225,8 +324,69 @@ std::string fileAt(const std::string& place) {
 /// What dfserver does where these options do not say; "off" is none everywhere.
 void useDefaultFolders(HostOptions& options) {
   options.control_by_port = options.control.empty();
+  if (options.control == "off") options.control.clear();
   if (!options.state.empty()) return;
   if (const auto folder = userDirectory("XDG_STATE_HOME", ".local/state")) options.state = folder->string();
+}
+
+Program dfserver() {
+  return {"dfserver", "Hosts a Dragonfly game for terminals to join.",
+          std::string("Every option can also be set in the environment.\n\n") + kExitCodes, true};
+}
+
+std::string listOf(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
+    text += names[i];
+  }
+  return text;
+}
+
+/// What to print instead of running.
+struct Printing {
+  bool games = false;
+  bool check = false;
+  bool config = false;
+  bool markdown = false;
+};
+
+/// Where passwords were given (Option::p_place).
+struct Places {
+  std::string password;
+  std::string admin_password;
+};
+
+/// The options of dfserver's command line.
+std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, Places& places) {
+  std::vector<Row> rows = tableOf(options);
+  warnOfUnknownVariables(rows, options);
+  std::vector<Option> all;
+  for (Row& row : rows) {
+    if (row.used_by == UsedBy::kProgram) continue;
+    Option& option = all.emplace_back(std::move(row.option));
+    option.shows_default = true;
+    if (option.type.empty()) option.type = typeOf(option.name);
+    if (option.name == "--password") option.p_place = &places.password;
+    if (option.name == "--admin-password") option.p_place = &places.admin_password;
+    option.is_secret = option.p_place != nullptr;
+  }
+  all.push_back({"--list-games", &printing.games, "Print the games that can be named, and exit"});
+  all.push_back({"--check-config", &printing.check,
+                 "Say what is wrong with options, environment and the file of --config, and exit (0 or 2)"});
+  all.push_back({"--print-config", &printing.config, "Print what they amount to, as such a file, and exit"});
+  all.push_back({"--markdown", &printing.markdown, "Print the options as a Markdown table, and exit"});
+  all.back().hidden = true;
+  return all;
+}
+
+CommandLine printConfig(const Printing& printing, const std::vector<Option>& all,
+                        const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) std::cerr << "dfserver: warning: " << warning << "\n";
+  for (const Option& option : all) {
+    if (printing.config && isSetting(option)) std::cout << configLine(option) << "\n";
+  }
+  return CommandLine::kDone;
 }
 
 void keepHome(HostOptions& options) {
@@ -235,29 +395,40 @@ void keepHome(HostOptions& options) {
 
 }  // namespace
 
+void useSockets(const InheritedSockets& sockets, HostOptions& options) {
+  const bool is_told = options.port != kDefaultPort && options.port != sockets.port;
+  if (is_told) {
+    options.warnings.push_back("the port is " + std::to_string(sockets.port) +
+                               ", of the sockets from the service manager, and not " +
+                               std::to_string(options.port));
+  }
+  options.sockets = sockets;
+  options.address = sockets.address;
+  options.port = sockets.port;
+}
+
 void warnOfReaders(const std::string& file, HostOptions& options) {
   warnOfReadersOf(file, options.password, options);
 }
 
-CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options) {
-  bool list_games = false;
-  bool markdown = false;
-  std::string password_place;
-  std::string admin_place;
+HostOptions readHostOptions(int argc, const char* const* argv) {
+  HostOptions options;
   std::vector<Option> all;
   for (Row& row : tableOf(options)) {
-    row.option.shows_default = true;
-    if (row.option.name == "--password") row.option.p_place = &password_place;
-    if (row.option.name == "--admin-password") row.option.p_place = &admin_place;
     if (row.used_by != UsedBy::kProgram) all.push_back(std::move(row.option));
   }
-  all.push_back({"--list-games", &list_games, "Print the games that can be named, and exit"});
-  all.push_back({"--markdown", &markdown, "Print the options as a Markdown table, and exit"});
-  all.back().hidden = true;
-  const Program program{"dfserver", "Hosts a Dragonfly game for terminals to join.",
-                        std::string("Every option can also be set in the environment.\n\n") + kExitCodes,
-                        true};
-  switch (parseOptions(program, all, argc, argv)) {
+  readOptions(dfserver(), all, argc, argv);
+  if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
+  keepHome(options);
+  useDefaultFolders(options);
+  return options;
+}
+
+CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options) {
+  Printing printing;
+  Places places;
+  const std::vector<Option> all = commandLineOf(options, printing, places);
+  switch (parseOptions(dfserver(), all, argc, argv)) {
     case Parsed::kRun:
       break;
     case Parsed::kDone:
@@ -271,20 +442,48 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   }
   keepHome(options);
   useDefaultFolders(options);
-  if (options.control == "off") options.control.clear();
-  if (!password_place.empty()) warnOfReaders(fileAt(password_place), options);
-  if (!admin_place.empty()) warnOfReadersOf(fileAt(admin_place), options.admin_password, options);
-  if (markdown) {
+  if (!places.password.empty()) warnOfReaders(fileAt(places.password), options);
+  if (!places.admin_password.empty())
+    warnOfReadersOf(fileAt(places.admin_password), options.admin_password, options);
+  if (printing.config || printing.check) return printConfig(printing, all, options.warnings);
+  if (printing.markdown) {
     std::cout << hostOptionsMarkdown();
     return CommandLine::kDone;
   }
-  return list_games ? CommandLine::kListGames : CommandLine::kRun;
+  return printing.games ? CommandLine::kListGames : CommandLine::kRun;
+}
+
+OptionChanges takeOver(const HostOptions& next, HostOptions& now) {
+  OptionChanges changes;
+  HostOptions values = next;  // the table wants targets that can change
+  std::vector<Row> rows = tableOf(now);
+  const std::vector<Row> wanted = tableOf(values);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string& name = rows[i].option.name;
+    const std::string value = currentValue(wanted[i].option);
+    if (rows[i].used_by == UsedBy::kProgram || value == currentValue(rows[i].option)) continue;
+    const bool live = std::find(std::begin(kLive), std::end(kLive), name) != std::end(kLive);
+    if (live) copyValue(wanted[i].option, rows[i].option);
+    (live ? changes.changed : changes.need_restart).push_back(name.substr(2));
+  }
+  return changes;
+}
+
+std::string OptionChanges::text() const {
+  std::string text = changed.empty()
+                         ? "none has changed"
+                         : listOf(changed) + (changed.size() == 1 ? " has" : " have") + " changed";
+  if (!need_restart.empty())
+    text += "; " + listOf(need_restart) + (need_restart.size() == 1 ? " needs" : " need") + " a restart";
+  return text;
 }
 
 std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,
                                          const ConfigPlace& place_of) {
   std::set<std::string> given;
-  for (const Row& row : tableOf(options)) {
+  const std::vector<Row> rows = tableOf(options);
+  warnOfUnknownVariables(rows, options);
+  for (const Row& row : rows) {
     if (row.used_by == UsedBy::kServer) continue;
     const std::string key = keyOf(row);
     const char* p_environment = std::getenv(row.option.environment.c_str());

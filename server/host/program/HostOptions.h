@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "host/net/InheritedSockets.h"
 #include "shared/net/base/Limits.h"
 #include "shared/options/Options.h"
 
@@ -39,23 +41,36 @@ struct HostOptions {
   std::string identity;           ///< directory of the key of its own; empty: the user's
   std::string password;           ///< that players need: itself, or its Argon2id hash; empty: none
   double grace = 60;              ///< seconds that a player whose connection broke may take to come back
+  double drain_time = 0;          ///< seconds that SIGTERM gives players to finish
   std::string join_file;          ///< write what to pass to dfclient here once listening
   std::string visitors;           ///< path of a socket for doors (VisitorsListener.h); empty: none
   std::string link_host;  ///< HOST[:PORT] for players elsewhere, in the link that is printed; empty: unknown
   std::string ssh_door;   ///< USER@HOST[:PORT] of a door to this server; empty: none
-  std::string web_address;       ///< of a page to play on; empty: none
-  bool qr = false;               ///< print that as a QR code, too
-  std::string truth_file;        ///< write what each player should see, tick by tick
-  std::string port_file;         ///< write the port number here once listening
-  std::string log_file;          ///< append log lines here instead of stderr
-  std::string control;           ///< path of the socket for commands (ControlSocket.h); empty: none
-  bool control_by_port = false;  ///< it is controlPath(), by the port listened on
-  std::string state;             ///< folder of the file of bans; empty: none
+  std::string web_address;          ///< of a page to play on; empty: none
+  bool qr = false;                  ///< print that as a QR code, too
+  std::string lan = "auto";         ///< found in the local network: "auto", "on" or "off" (LanQueryJudge.h)
+  std::string truth_file;           ///< write what each player should see, tick by tick
+  std::string metrics;              ///< ADDR:PORT for metrics and health; empty: none
+  std::string metrics_hosts;        ///< names by which they may be asked for, with commas between
+  std::string metrics_port_file;    ///< write their port number here once listening
+  bool metrics_public = false;      ///< `metrics` may be an address of the internet
+  std::string audit = "on";         ///< of pictures, where there are metrics: "on" or "off"
+  std::string status_file;          ///< write what plays here, as JSON, every few seconds
+  std::string port_file;            ///< write the port number here once listening
+  std::string log_file;             ///< append log lines here instead of stderr
+  std::string log_format = "text";  ///< or "json"
+  std::string log_level = "info";   ///< the least: "error", "warning" or "info"
+  bool log_chat = false;            ///< log what players say, too
+  std::string control;              ///< path of the socket for commands (ControlSocket.h); empty: none
+  bool control_by_port = false;     ///< it is controlPath(), by the port listened on
+  std::string state;                ///< folder of the file of bans; empty: none
   std::string
       admin_password;      ///< for /admin in the chat: itself, or its Argon2id hash; empty: no admins there
   bool vote_kick = false;  ///< players may vote others out
   int inactive_kick = 0;   ///< seconds without key, click or line before a player has to go; 0: for ever
   std::vector<std::string> warnings;  ///< about these options, for the log
+  /// Not an option: what the service manager has opened. `address` and `port` are those of the sockets then.
+  std::optional<InheritedSockets> sockets;
   // Of games that are programs themselves:
   bool headless = false;     ///< no network and no players
   bool local_client = true;  ///< in a terminal: attach a client there
@@ -69,6 +84,21 @@ enum class CommandLine { kRun, kListGames, kDone, kUsageError };
 /// Help, version and usage errors are printed here.
 CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options);
 
+/// The same options again, while the program runs: nothing is printed. Throws OptionError.
+HostOptions readHostOptions(int argc, const char* const* argv);
+
+/// What became of options that were read again: names without dashes.
+struct OptionChanges {
+  std::vector<std::string> changed;
+  std::vector<std::string> need_restart;  ///< have another value now, which is not used
+  /// "max-players and password have changed; address needs a restart".
+  std::string text() const;
+};
+
+/// Take over those values of `next` that may change while a server runs. Only the password's hash, the key
+/// and the certificate are not used by that alone.
+OptionChanges takeOver(const HostOptions& next, HostOptions& now);
+
 /// The value of a key in df-config.txt, empty if there is none.
 using ConfigValue = std::function<std::string(const std::string& key)>;
 
@@ -81,6 +111,9 @@ using ConfigPlace = std::function<std::string(const std::string& key)>;
 /// with place_of(key).
 std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,
                                          const ConfigPlace& place_of = {});
+
+/// Listen with these instead of opening `address` and `port`; a warning if an option gave another port.
+void useSockets(const InheritedSockets& sockets, HostOptions& options);
 
 /// `file` gave the password: add a warning to `options` if every user can read it there, and it is no hash.
 void warnOfReaders(const std::string& file, HostOptions& options);

@@ -55,4 +55,14 @@ void logRefusals(const NetworkThread& network, const LogLine& log) {
   if (!text.empty()) log("datagrams: " + text);
 }
 
+void logLan(const LanCounters& lan, const LogLine& log) {
+  const std::string text = listCounters({{"answered", lan.answered},
+                                         {"routed", lan.routed},
+                                         {"foreign", lan.foreign},
+                                         {"malformed", lan.malformed},
+                                         {"too_often", lan.too_often},
+                                         {"unsent", lan.unsent}});
+  if (!text.empty()) log("local network: " + text);
+}
+
 }  // namespace naiad

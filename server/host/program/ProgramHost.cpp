@@ -22,6 +22,7 @@
 #include "host/program/CrashReport.h"
 #include "host/program/Host.h"
 #include "host/program/LocalClient.h"
+#include "host/program/Restart.h"
 #include "host/program/Worlds.h"
 #include "host/world/WorldServer.h"
 #include "host/world/WorldStart.h"
@@ -168,6 +169,15 @@ class TerminalPlayer {
   bool m_local_left = false;
 };
 
+/// The process runs its program again; the game's statics end with it.
+[[noreturn]] void beginAgain(std::unique_ptr<Host>& host) {
+  const std::uint16_t port = host->port();
+  host.reset();
+  LineLog::waitUntilWritten(kLogTime);
+  std::cout.flush();
+  StartCommand::ofProcess().run(port);
+}
+
 ProgramHost g_program;
 [[maybe_unused]] const bool g_installed = (df::running::setProgram(&g_program), true);
 
@@ -239,12 +249,13 @@ void ProgramHost::serve(df::World& world) {
   std::optional<LineLog> lines;
   if (!m_options.log_file.empty() || !LocalClient::hasTerminal()) lines.emplace(m_options.log_file);
   // What the game itself logs goes to its own file, as ever.
-  const Host::Log log = [&](const std::string& line) { lines ? (*lines)(line) : world.log(line); };
+  const Host::Log log = [&](const LogEvent& event) { lines ? (*lines)(event) : world.log(event.text); };
   std::shared_ptr<const WorldLauncher> launcher;
   if (wantsWorlds(m_options))
     launcher = launchProgram(m_options, df::Config::getInstance().getLogFile(), log);
   const crash::Report crashes(programName(), lines ? lines->descriptor() : -1);
-  const std::unique_ptr<Host> host = openHost(m_options, m_given.count("port") > 0, log);
+  if (const auto sockets = InheritedSockets::take()) useSockets(*sockets, m_options);
+  std::unique_ptr<Host> host = openHost(m_options, m_given.count("port") > 0 || m_options.sockets, log);
   writeWhereabouts(m_options, *host);
   log(programName() + " is a server on " + host->address());
   const std::vector<std::string> how = howToJoin(*host, m_options, kOpenness);
@@ -260,6 +271,7 @@ void ProgramHost::serve(df::World& world) {
   host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });
   host->run(world);
   world.setHelp(help);
+  if (host->beginsAgain()) beginAgain(host);
   if (!host->failure().empty()) fail(kGameFailed, "the game " + host->failure());
 }
 

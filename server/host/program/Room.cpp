@@ -39,8 +39,8 @@ bool isBefore(const Session* p_session, std::uint32_t player) {
 
 }  // namespace
 
-Room::Room(std::unique_ptr<WorldPort> port, bool first_only)
-    : m_p_port(std::move(port)), m_turn(first_only) {}
+Room::Room(std::unique_ptr<WorldPort> port, bool first_only, StageClock& stages)
+    : m_p_port(std::move(port)), m_stages(stages), m_turn(first_only) {}
 
 void Room::add(Session& session) {
   m_members.insert(std::lower_bound(m_members.begin(), m_members.end(), session.player(), isBefore),
@@ -80,7 +80,8 @@ void Room::dismiss(const std::string& sentence) const {
 
 // ---- ticks ------------------------------------------------------------------------------------------------
 
-bool Room::beginTick(bool truth) {
+bool Room::beginTick(bool truth, std::uint32_t pictured) {
+  m_stages.enter(Stage::kInputs);
   passTurn();
   applyInputs();
   if (!m_p_port->isReady()) return false;
@@ -88,7 +89,10 @@ bool Room::beginTick(bool truth) {
   if (watched && !m_watched) m_publisher = Publisher();
   m_watched = watched;
   m_ticking = true;
-  m_p_port->tick(watched, truth);
+  m_stages.enter(Stage::kWorld);
+  m_pictured = watched && pictured != 0 && find(pictured) != nullptr ? pictured : 0;
+  m_p_port->setPictured(truth ? 0 : m_pictured);
+  m_p_port->tick(watched, truth || m_pictured != 0);
   return true;
 }
 
@@ -105,17 +109,23 @@ void Room::publish(TruthWriter* p_truth) {
   m_ticking = false;
   ++m_ticks;
   if (!m_watched) return;
+  const Stage before = m_stages.enter(Stage::kPublish);
   m_publisher.update(m_p_port->view());
   m_p_port->notePublished(m_publisher);
+  m_stages.enter(Stage::kSnapshots);
   sendSnapshots(p_truth);
+  m_stages.enter(Stage::kNews);
   m_sound_news.tick(m_p_port->view(), soundSender());
   sendNotes();
+  m_stages.enter(before);
 }
 
 void Room::sendSnapshots(TruthWriter* p_truth) {
   forEachInWorld([&](Session& session, const df::PlayerFacts& facts) {
     // The truth first: a test that compares must find it once the snapshot has arrived.
     if (p_truth != nullptr) p_truth->write(m_publisher.tick(), facts.id, m_p_port->renderPlayer(facts.id));
+    if (facts.id == m_pictured && session.isAudited())
+      session.recordTruth(m_publisher.tick(), m_p_port->renderPlayer(facts.id));
     session.setControls(facts.steering.p_table);
     session.sendTick(m_publisher, facts);
   });

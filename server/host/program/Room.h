@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/metrics/StageClock.h"
 #include "host/program/InputTurn.h"
 #include "host/program/SoundNews.h"
 #include "host/session/Session.h"
@@ -20,8 +21,9 @@ namespace naiad {
 
 class Room {
  public:
-  /// `first_only`: of several players, only the first one's input is heard.
-  Room(std::unique_ptr<WorldPort> port, bool first_only);
+  /// `first_only`: of several players, only the first one's input is heard. `stages`: measures what a tick
+  /// does; outlives the room.
+  Room(std::unique_ptr<WorldPort> port, bool first_only, StageClock& stages);
   Room(const Room&) = delete;
   Room& operator=(const Room&) = delete;
 
@@ -75,8 +77,8 @@ class Room {
   // Ticks.
 
   /// Pass on the players' input, and begin a tick if the world is ready for one. False: it is not. `truth`:
-  /// publish() will have a TruthWriter.
-  bool beginTick(bool truth);
+  /// publish() will have a TruthWriter. `pictured`: the player whose picture is audited; 0: none.
+  bool beginTick(bool truth, std::uint32_t pictured = 0);
   /// The world's tick has ended: send snapshots, sounds and notes. The truth goes to `p_truth`, if there is
   /// one.
   void publish(TruthWriter* p_truth);
@@ -84,6 +86,8 @@ class Room {
   bool isTicking() const { return m_ticking; }
   /// The newest tick that was begun.
   std::uint32_t tick() const { return m_p_port->nextTick() - 1; }
+  /// Objects that are published; 0 without players.
+  std::size_t objects() const { return m_watched ? m_publisher.liveCount() : 0; }
   /// Ticks of the present world.
   std::uint64_t ticks() const { return m_ticks; }
 
@@ -101,10 +105,12 @@ class Room {
   void sendNotes() const;
 
   std::unique_ptr<WorldPort> m_p_port;
+  StageClock& m_stages;
   Publisher m_publisher;
   SoundNews m_sound_news;
   std::vector<Session*> m_members;  ///< by player; those that are ending among them
   InputTurn m_turn;
+  std::uint32_t m_pictured = 0;  ///< in the tick that was begun last
   bool m_watched = false;
   bool m_ticking = false;
   std::uint64_t m_ticks = 0;

@@ -20,12 +20,13 @@ constexpr std::size_t kEndingWorlds = 8;      ///< of players who left, beside o
 }  // namespace
 
 Rooms::Rooms(const HostOptions& options, const SessionTable& sessions, Counters& counters, LogLine log,
-             std::function<void()> on_late_tick)
+             std::function<void()> on_late_tick, StageClock& stages)
     : m_options(options),
       m_sessions(sessions),
       m_counters(counters),
       m_log(std::move(log)),
-      m_on_late_tick(std::move(on_late_tick)) {
+      m_on_late_tick(std::move(on_late_tick)),
+      m_stages(stages) {
   if (m_options.truth_file.empty()) return;
   requireRegular(m_options.truth_file);
   m_truth.emplace(m_options.truth_file);
@@ -42,7 +43,8 @@ void Rooms::open(df::World& world) {
 }
 
 Room& Rooms::openRoom(std::unique_ptr<WorldPort> port) {
-  Room& room = *m_rooms.emplace_back(std::make_unique<Room>(std::move(port), m_options.players == "first"));
+  Room& room =
+      *m_rooms.emplace_back(std::make_unique<Room>(std::move(port), m_options.players == "first", m_stages));
   watchWorld(room);
   return room;
 }
@@ -92,8 +94,20 @@ void Rooms::leave(const Session& session) {
   }
 }
 
+void Rooms::add(Room& room, Session& session) {
+  room.add(session);
+  m_audit.noteJoin(session, tickNumber());
+}
+
 void Rooms::removeSession(const Session& session) {
+  m_audit.forget(session);
   if (Room* p_room = roomOf(session)) p_room->remove(session);
+}
+
+std::size_t Rooms::objects() const {
+  std::size_t count = 0;
+  for (const auto& room : m_rooms) count += room->objects();
+  return count;
 }
 
 const std::vector<ListedPlayer>& Rooms::players() {
@@ -114,7 +128,7 @@ const std::vector<ListedPlayer>& Rooms::players() {
 void Rooms::beginTicks() {
   m_in_begin = true;
   for (const auto& room : m_rooms) {
-    if (!room->beginTick(m_truth.has_value())) ++m_counters.late_worlds;
+    if (!room->beginTick(m_truth.has_value(), m_audit.pictured(tickNumber()))) ++m_counters.late_worlds;
   }
   m_in_begin = false;
 }
@@ -165,16 +179,35 @@ void Rooms::checkWorlds() {
   std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->port().end(); });
 }
 
+void Rooms::countEnd(WorldEnd::Why why) {
+  switch (why) {
+    case WorldEnd::kGameOver:
+      ++m_counters.rounds_over;
+      break;
+    case WorldEnd::kCrashed:
+      ++m_counters.rounds_crashed;
+      break;
+    case WorldEnd::kHung:
+      ++m_counters.rounds_hung;
+      break;
+    case WorldEnd::kBroken:
+      ++m_counters.rounds_broken;
+      break;
+  }
+}
+
 // No further round for a player alone in the game's own terminal. Nor for a game that ends again and again as
 // soon as it begins: it would do so for ever.
 void Rooms::endRound(Room& room, const WorldEnd& end) {
   m_log("the round is over: the game " + end.text + (end.when.empty() ? "" : " " + end.when));
+  countEnd(end.why);
   const bool is_short = room.ticks() < kShortestRound;
   const int short_rounds = room.countShortRounds(is_short);
   const bool hopeless = short_rounds >= kMaxShortRounds || (is_short && m_counters.joined == 0);
   const bool failed = end.why != WorldEnd::kGameOver;
   const std::string how = failed ? "The game " + end.text : "The round is over";
-  if (m_options.on_game_over == "restart" && !hasLastPlayer() && !hopeless && beginRound(room)) {
+  if (m_options.on_game_over == "restart" && !hasLastPlayer() && !hopeless && !m_last_round &&
+      beginRound(room)) {
     return room.say(how + (failed ? "; the next round begins." : "; the next one begins."));
   }
   const std::string sentence = failed ? how + "." : "The game is over.";
@@ -186,6 +219,7 @@ void Rooms::endRound(Room& room, const WorldEnd& end) {
 
 bool Rooms::beginRound(Room& room) {
   const std::uint64_t sent = room.sounds().sent();
+  m_audit.noteRound(room, tickNumber());
   try {
     room.changeWorld(m_new_world());
   } catch (const std::system_error& error) {

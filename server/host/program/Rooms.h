@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "host/metrics/StageClock.h"
+#include "host/program/AuditTurns.h"
 #include "host/program/HostOptions.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Room.h"
@@ -32,12 +34,15 @@ class Rooms {
   /// All of these outlive the Rooms. `on_late_tick`: a tick has ended after beginTicks() had returned. Throws
   /// std::runtime_error for a truth file that cannot be written.
   Rooms(const HostOptions& options, const SessionTable& sessions, Counters& counters, LogLine log,
-        std::function<void()> on_late_tick);
+        std::function<void()> on_late_tick, StageClock& stages);
 
   /// Play in such worlds, not in the one that open() is given. Before open().
   void setWorlds(NewWorld new_world) { m_new_world = std::move(new_world); }
   /// When the game is over for a player who is alone, it is over for all.
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
+
+  /// Audit pictures of players, one at a time.
+  void startAudit(std::uint32_t ticks_per_second) { m_audit.start(ticks_per_second); }
 
   // Players.
 
@@ -52,16 +57,23 @@ class Rooms {
   Room* roomOf(const Session& session) const;
   /// Null if there is none.
   Session* findPlayer(std::uint32_t player) const;
+  /// The session was welcomed to this room.
+  void add(Room& room, Session& session);
   /// The player leaves; with them goes a world of their own.
   void leave(const Session& session);
   /// The session is about to be destroyed.
   void removeSession(const Session& session);
+  std::size_t count() const { return m_rooms.size(); }
+  /// Objects that are published, in all rooms.
+  std::size_t objects() const;
   /// The players of all rooms whose worlds have them, by id. A world has the say in their scores alone: it
   /// may be a stranger's program. Valid until the next call.
   const std::vector<ListedPlayer>& players();
 
   // Ticks and rounds.
 
+  /// No further round begins: what is played is the last one.
+  void setLastRound(bool last) { m_last_round = last; }
   /// The first room; with worlds of their own each player opens one.
   void open(df::World& world);
   /// Begin another round where a world has ended. Once a tick.
@@ -92,6 +104,7 @@ class Rooms {
   void publish(Room& room);
   void dismissLeavers(Room& room);
   void endRound(Room& room, const WorldEnd& end);
+  void countEnd(WorldEnd::Why why);
   bool beginRound(Room& room);
 
   const HostOptions& m_options;
@@ -99,14 +112,17 @@ class Rooms {
   Counters& m_counters;
   LogLine m_log;
   std::function<void()> m_on_late_tick;
+  StageClock& m_stages;
   NewWorld m_new_world;  ///< empty: the world of this process
   std::vector<std::unique_ptr<Room>> m_rooms;
   std::vector<ListedPlayer> m_players;
   std::optional<TruthWriter> m_truth;
+  AuditTurns m_audit;
   bool m_ends_with_last = false;
   bool m_in_begin = false;
   bool m_over = false;  ///< there is no next round
   bool m_closing = false;
+  bool m_last_round = false;
   std::string m_last_sentence;
   std::string m_failure;
 };

@@ -1,7 +1,11 @@
 // dfserver: loads a game, installs the host as its runner, and calls the game's main(). With worlds in
 // processes of their own it does so in each of those, and is their front.
+#include <cstdint>
 #include <exception>
 #include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "engine/managers/GameManager.h"
 #include "engine/managers/LogManager.h"
@@ -13,6 +17,7 @@
 #include "host/program/GameModule.h"
 #include "host/program/Host.h"
 #include "host/program/HostOptions.h"
+#include "host/program/Restart.h"
 #include "host/program/WorldSandbox.h"
 #include "host/program/Worlds.h"
 #include "host/world/WorldServer.h"
@@ -98,14 +103,56 @@ ExitCode failPreview(const naiad::WorldEnd& end) {
   return failGame(end.text);
 }
 
+void useLogOptions(const naiad::HostOptions& options, naiad::LineLog& lines) {
+  using Level = naiad::LogEvent::Level;
+  const std::string& level = options.log_level;
+  lines.setFormat(options.log_format == "json" ? naiad::LogFormat::kJson : naiad::LogFormat::kText);
+  lines.setLevel(level == "error" ? Level::kError : level == "warning" ? Level::kWarning : Level::kInfo);
+}
+
+/// How a process was started.
+struct Start {
+  naiad::StartCommand command;
+  naiad::HostOptions options;
+  std::string config;                                ///< file of --config
+  std::optional<std::uint16_t> again = {};           ///< to be run again on this port
+  std::optional<naiad::InheritedSockets> kept = {};  ///< that it would be run again with
+};
+
+void takeSockets(Start& start) {
+  const auto sockets = naiad::InheritedSockets::take();
+  if (!sockets) return;
+  naiad::useSockets(*sockets, start.options);
+  start.kept = sockets->duplicate();
+}
+
+[[noreturn]] void runAgain(const Start& start) {
+  if (start.kept) start.kept->putBack();
+  start.command.run(*start.again);
+}
+
+void watchReloads(const Start& start, naiad::Host& host, naiad::LineLog& lines) {
+  host.setReload([&start, &lines] {
+    naiad::HostOptions options = naiad::readHostOptions(start.command.argc(), start.command.argv().data());
+    useLogOptions(options, lines);
+    if (start.kept) naiad::useSockets(*start.kept, options);
+    return options;
+  });
+}
+
+void noteEnd(const naiad::Host& host, Start& start) {
+  if (host.beginsAgain()) start.again = host.port();
+}
+
 /// The game is loaded in its worlds alone: here it would have this process's key before it begins.
-int serveWorlds(const naiad::HostOptions& options, const std::string& config, naiad::LineLog& lines) {
-  const naiad::LogLine log = [&lines](const std::string& line) { lines(line); };
+int serveWorlds(Start& start, naiad::LineLog& lines) {
+  const naiad::HostOptions& options = start.options;
+  const naiad::LogLine log = [&lines](const naiad::LogEvent& event) { lines(event); };
   const auto module = naiad::GameModule::find(options.game);
-  const auto launcher = naiad::launchModule(options, module.string(), config, log);
+  const auto launcher = naiad::launchModule(options, module.string(), start.config, log);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
   // Marked, since a game may print what reads as a line of the server's own.
-  const naiad::LogLine print = [&lines](const std::string& line) { lines("game: " + line); };
+  const naiad::LogLine print = [&lines](const std::string& line) { lines({"game", "game: " + line, {}}); };
   // Why a game cannot be loaded is for whoever has started the server, too.
   const naiad::Preview preview = naiad::previewWorld(*launcher, [&](const std::string& line) {
     print(line);
@@ -115,16 +162,19 @@ int serveWorlds(const naiad::HostOptions& options, const std::string& config, na
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(options, name, log);
   host.setWorlds(naiad::startWorlds(launcher, print));
+  watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +
       ", in worlds of their own");
   df::World& world = df::World::current();
   setUp(world, *preview.ready);
   host.run(world);
+  noteEnd(host, start);
   return host.failure().empty() ? kOk : failGame(host.failure());
 }
 
-int serve(naiad::HostOptions options, const std::string& config) {
+int serve(Start& start) {
+  naiad::HostOptions& options = start.options;
   if (const auto socket = naiad::takeWorldSocket()) {
     naiad::LineLog log("", naiad::LineLog::Writer::kCaller);
     naiad::WorldServer world(*socket, naiad::leavesAlone(options));
@@ -132,12 +182,15 @@ int serve(naiad::HostOptions options, const std::string& config) {
                 "");  // the front marks
   }
   naiad::LineLog log(options.log_file);
-  if (naiad::wantsWorlds(options)) return serveWorlds(options, config, log);
+  useLogOptions(options, log);
+  if (naiad::wantsWorlds(options)) return serveWorlds(start, log);
   const naiad::crash::Report crashes("dfserver", log.descriptor());
   const naiad::GameModule game(options.game);
-  naiad::Host host(options, game.name(), [&log](const std::string& line) { log(line); });
+  naiad::Host host(options, game.name(), [&log](const naiad::LogEvent& event) { log(event); });
+  watchReloads(start, host, log);
   announce(options, host);
   const ExitCode code = play(game, " on " + host.address(), host, options, log, "game: ");
+  noteEnd(host, start);
   return host.failure().empty() ? code : failGame(host.failure());
 }
 
@@ -158,10 +211,13 @@ int main(int argc, char** argv) {
     case naiad::CommandLine::kRun:
       break;
   }
-  const std::string config = naiad::configFileOf(argc, argv);
+  Start start{naiad::StartCommand(argc, argv), options, naiad::configFileOf(argc, argv)};
   naiad::hidePassword(argc, argv);
   try {
-    return serve(options, config);
+    takeSockets(start);
+    const int code = serve(start);
+    if (start.again) runAgain(start);
+    return code;
   } catch (const naiad::GameError& error) {
     std::cerr << "dfserver: " << error.what() << "\n";
     return kNoGame;

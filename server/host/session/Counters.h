@@ -15,6 +15,7 @@ struct Counters {
   std::uint64_t refused_version = 0;     ///< wrong protocol version
   std::uint64_t refused_full = 0;        ///< no place left
   std::uint64_t refused_address = 0;     ///< too many players from one address
+  std::uint64_t refused_closing = 0;     ///< the server is about to end
   std::uint64_t refused_game = 0;        ///< asked for another game
   std::uint64_t refused_name = 0;        ///< no usable name
   std::uint64_t malformed_frames = 0;    ///< oversized or empty frames: the connection ended
@@ -59,6 +60,27 @@ struct Counters {
   std::uint64_t late_ticks = 0;     ///< began more than 5 ms after their deadline
   std::uint64_t late_worlds = 0;    ///< ticks that began while a world's process was not ready for one
   std::uint64_t rebased_ticks = 0;  ///< a whole tick late: the schedule starts again
+  // Of snapshots and their bytes:
+  std::uint64_t datagram_snapshots = 0;  ///< sent by datagram, the others on a stream
+  std::uint64_t datagram_snapshot_bytes = 0;
+  std::uint64_t inputs = 0;       ///< keys and clicks, each once
+  std::uint64_t late_inputs = 0;  ///< of these: after the tick in which they were to be applied
+  // Players who left, by why:
+  std::uint64_t left_asked = 0;      ///< their client said so
+  std::uint64_t left_dismissed = 0;  ///< by the server: the game is over, or on request
+  std::uint64_t left_hung_up = 0;    ///< the connection ended, and there is no grace
+  std::uint64_t left_silent = 0;     ///< for too long
+  std::uint64_t left_flood = 0;      ///< sent too much at once
+  std::uint64_t left_malformed = 0;  ///< sent what no client sends
+  std::uint64_t left_stuck = 0;      ///< took in too little
+  // Worlds in processes of their own, by how they ended; without those that were closed:
+  std::uint64_t rounds_over = 0;
+  std::uint64_t rounds_crashed = 0;
+  std::uint64_t rounds_hung = 0;
+  std::uint64_t rounds_broken = 0;
+  std::uint64_t audited_pictures = 0;  ///< of players, held against the world's (PictureAudit.h)
+  std::uint64_t audited_cells = 0;     ///< of these
+  std::uint64_t wrong_cells = 0;       ///< of these
 
   /// "connections=3 joined=2 …", only what is not zero.
   std::string summary() const;

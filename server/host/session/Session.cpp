@@ -146,6 +146,10 @@ void Session::onClosed(CloseReason reason) {
   if (m_state == State::kPlaying && lost && m_grace.count() > 0) return detach(now());
   m_state = State::kGone;
   m_streams.dropSecond();
+  setLeave(lost                               ? &Counters::left_hung_up
+           : reason == CloseReason::kProtocol ? &Counters::left_malformed
+           : reason == CloseReason::kOverflow ? &Counters::left_stuck
+                                              : &Counters::left_dismissed);
   reportGone();
 }
 
@@ -162,10 +166,11 @@ void Session::detach(Clock::time_point now) {
   if (!m_delivery.usesDatagrams(now)) releaseKeys();
 }
 
-void Session::goodbye(const std::string& sentence) {
+void Session::goodbye(const std::string& sentence, std::chrono::seconds again) {
   if (m_state == State::kEnding || m_state == State::kGone) return;
   wire::ServerMessage message;
   message.mutable_goodbye()->set_sentence(sentence);
+  message.mutable_goodbye()->set_again_seconds(static_cast<std::uint32_t>(again.count()));
   send(message);
   end();
 }
@@ -180,6 +185,7 @@ void Session::end() {
 void Session::reportGone() {
   if (m_reported_gone) return;
   m_reported_gone = true;
+  if (m_player != 0) ++(m_counters.*m_leave);
   m_events.on_gone(*this);
 }
 
@@ -205,15 +211,18 @@ void Session::checkSilence(Clock::time_point now) {
     checkGreeting(now);
   } else if (isDetached() && silence > m_grace) {
     ++m_counters.graces_expired;
+    setLeave(&Counters::left_silent);
     end();
   } else if (m_state == State::kPlaying && !isDetached() && silence > kIdleTimeout) {
     ++m_counters.idle_timeouts;
     // A line that is down for a while often breaks neither end's stream.
     if (m_grace.count() > 0) return detach(now);
+    setLeave(&Counters::left_silent);
     goodbye("The server has not heard from you for a while.");
   } else if (m_state == State::kPlaying && m_streams.isStalled(now) && silence < StallDetector::kPatience) {
     // A client that is also silent has lost its connection: it is detached later, and may come back.
     ++m_counters.stuck_streams;
+    setLeave(&Counters::left_stuck);
     goodbye("Your end takes in too little of what the server sends.");
   }
 }

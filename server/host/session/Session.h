@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "host/net/SealedChannel.h"
 #include "host/session/ChatAllowance.h"
@@ -116,8 +117,8 @@ class Session {
   const ReliableChannel* stream() const { return m_streams.first(); }
   /// Keying material of the stream (Channel.h).
   std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
-  /// Send the client the reason, and end.
-  void goodbye(const std::string& sentence);
+  /// Send the client the reason, and end. `again`: the server is back within this time; 0: it is not.
+  void goodbye(const std::string& sentence, std::chrono::seconds again = std::chrono::seconds(0));
 
   /// Enforce deadlines. Once a tick: time between two calls that are far apart does not count as silence of
   /// the client (IdleTimer.h).
@@ -137,6 +138,15 @@ class Session {
   /// The controls that the player steers by (ReceivedInputs::setControls).
   void setControls(const std::shared_ptr<const df::ControlTable>& controls) {
     m_inputs.setControls(controls);
+  }
+
+  /// Audit the client's pictures (PictureAudit.h) from the next world on that it is sent from the beginning,
+  /// or do no longer.
+  void setAudit(bool audit) { m_delivery.setAudit(audit); }
+  bool isAudited() { return m_delivery.audit() != nullptr; }
+  /// While it is audited: what the world shows its player in the tick that sendTick() is about to send.
+  void recordTruth(std::uint32_t tick, df::Canvas picture) {
+    m_delivery.audit()->recordTruth(tick, std::move(picture));
   }
 
   /// Note a published tick, and send what is pending unless the client is still busy with earlier bytes.
@@ -169,6 +179,12 @@ class Session {
   const SnapshotSender& sender() const { return m_delivery.sender(); }
 
  private:
+  /// Why its player leaves.
+  using Leave = std::uint64_t Counters::*;
+  /// It ends for this reason, unless it had one before.
+  void setLeave(Leave leave) {
+    if (m_leave == &Counters::left_dismissed) m_leave = leave;
+  }
   void onFrame(std::string_view frame);
   void onSecondFrame(std::string_view frame);
   void onSecondClosed(CloseReason reason);
@@ -196,6 +212,7 @@ class Session {
   State m_state = State::kGreeting;
   std::uint32_t m_player = 0;  ///< of m_welcome, which is seldom in the cache
   bool m_reported_gone = false;
+  Leave m_leave = &Counters::left_dismissed;
   bool m_greeted = false;  ///< the hello has come
   std::uint32_t m_rtt_millis = 0;
   Counters& m_counters;

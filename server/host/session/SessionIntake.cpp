@@ -7,6 +7,7 @@
 #include "naiad.pb.h"
 #include "proto/ParseErrors.h"
 #include "shared/net/base/Limits.h"
+#include "shared/replica/Acks.h"
 
 namespace naiad {
 namespace {
@@ -23,6 +24,7 @@ bool Session::acceptMessage() {
   if (m_state == State::kEnding || m_state == State::kGone) return false;
   if (m_activity.countMessage()) return true;
   ++m_counters.message_floods;
+  setLeave(&Counters::left_flood);
   goodbye("Too many messages at once.");
   return false;
 }
@@ -72,6 +74,7 @@ bool Session::dispatch(const wire::ClientMessage& message) {
       takePing(message.ping());
       return true;
     case What::kLeave:
+      setLeave(&Counters::left_asked);
       goodbye("You left the game.");
       return true;
     case What::kResize:
@@ -115,12 +118,16 @@ void Session::takeInput(const Input& input) {
   if (m_state != State::kPlaying) return;
   switch (m_inputs.add(input)) {
     case ReceivedInputs::Verdict::kQueued:
+      ++m_counters.inputs;
+      // The world's next tick is the one after the newest that was published, or a later one.
+      m_counters.late_inputs += isNewer(input.tick, m_delivery.tick()) ? 0 : 1;
       return m_standing.noteAction(now());
     case ReceivedInputs::Verdict::kRepeated:
       ++m_counters.repeated_inputs;
       return;
     case ReceivedInputs::Verdict::kTooMany:
       ++m_counters.input_floods;
+      setLeave(&Counters::left_flood);
       goodbye("Too many keys at once.");
   }
 }
@@ -138,6 +145,7 @@ void Session::takeChat(const std::string& text) {
 
 void Session::endMalformed() {
   ++m_counters.malformed_messages;
+  setLeave(&Counters::left_malformed);
   end();
 }
 

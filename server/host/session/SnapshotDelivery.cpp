@@ -35,6 +35,7 @@ void SnapshotDelivery::sendTick(const Publisher& publisher, const df::PlayerFact
   m_held_up = false;
   settleAcks();
   m_sender.applyTick(publisher, player);
+  if (m_audit) m_audit->beginTick(m_sender.newestNumber(), m_tick);
   if (usesDatagrams(now)) return sendDatagrams(publisher, streams, now);
   if (m_datagrams != nullptr && m_datagrams->room() &&
       m_transport.wantsProbe(now, streams.first() == nullptr)) {
@@ -59,6 +60,7 @@ void SnapshotDelivery::sendDatagrams(const Publisher& publisher, StreamPair& str
   for (const SnapshotSender::Packet& packet : packets) {
     noteSent(packet, !packet.large, now);
     count(packet);
+    if (!packet.large) countDatagram(packet);
     packet.large ? streams.sendFirst(frameOf(packet)) : m_datagrams->send(packet.bytes);
   }
   if (m_sender.isThrottled()) skipTick();
@@ -87,6 +89,7 @@ void SnapshotDelivery::sendOnStreams(const Publisher& publisher, StreamPair& str
 }
 
 void SnapshotDelivery::noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Time now) {
+  if (m_audit) m_audit->recordSent(packet);
   m_transport.noteSent(packet.number, as_datagram, now);
   m_ticks.recordSent(packet.number, packet.tick);
 }
@@ -94,6 +97,11 @@ void SnapshotDelivery::noteSent(const SnapshotSender::Packet& packet, bool as_da
 void SnapshotDelivery::count(const SnapshotSender::Packet& packet) {
   ++m_counters.snapshots;
   m_counters.snapshot_bytes += packet.bytes.size();
+}
+
+void SnapshotDelivery::countDatagram(const SnapshotSender::Packet& packet) {
+  ++m_counters.datagram_snapshots;
+  m_counters.datagram_snapshot_bytes += packet.bytes.size();
 }
 
 void SnapshotDelivery::skipTick() {
@@ -111,6 +119,7 @@ void SnapshotDelivery::acknowledge(const AckWindow& acks, bool by_datagram, Time
 // it waits for that turn.
 void SnapshotDelivery::settleAcks() {
   if (m_acks) m_sender.acknowledge(*m_acks);
+  if (m_acks && m_audit) m_audit->acknowledge(*m_acks, m_sender);
   m_acks.reset();
 }
 
@@ -139,6 +148,13 @@ void SnapshotDelivery::requestReset(Time now) {
 void SnapshotDelivery::reset() {
   m_acks.reset();
   m_sender.reset();
+  if (m_audit) m_audit->restart();
+}
+
+// A client that was sent nothing yet is about to be sent a world from the beginning.
+void SnapshotDelivery::setAudit(bool audit) {
+  m_audit = audit ? std::make_unique<PictureAudit>(m_counters) : nullptr;
+  if (m_audit && m_sender.newestNumber() == 0) m_audit->restart();
 }
 
 void SnapshotDelivery::loseStream() {

@@ -11,6 +11,7 @@
 
 #include "host/net/SealedChannel.h"
 #include "host/session/Counters.h"
+#include "host/session/PictureAudit.h"
 #include "host/session/StreamPair.h"
 #include "host/session/TransportSelector.h"
 #include "host/snapshot/LagCompensator.h"
@@ -40,6 +41,11 @@ class SnapshotDelivery {
   /// The newest input that the world has had, and in which tick.
   void noteInput(std::uint32_t id, std::uint32_t tick) { m_sender.noteInput(id, tick); }
   void setTerminal(std::uint32_t columns, std::uint32_t rows) { m_sender.setTerminal(columns, rows); }
+
+  /// Audit the client's pictures (PictureAudit.h), or do no longer.
+  void setAudit(bool audit);
+  /// Null without an audit.
+  PictureAudit* audit() { return m_audit.get(); }
 
   void acknowledge(const AckWindow& acks, bool by_datagram, Time now);
   /// Reset the client's world if it is not what was sent.
@@ -76,6 +82,7 @@ class SnapshotDelivery {
   void sendProbe(const Publisher& publisher, Time now);
   void noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Time now);
   void count(const SnapshotSender::Packet& packet);
+  void countDatagram(const SnapshotSender::Packet& packet);
   void skipTick();
 
   Counters& m_counters;
@@ -84,6 +91,7 @@ class SnapshotDelivery {
   std::optional<AckWindow> m_acks;  ///< received, and not settled yet
   std::uint64_t m_skipped_ticks = 0;
   SnapshotSender m_sender{Resend::kAhead};
+  std::unique_ptr<PictureAudit> m_audit;
   TransportSelector m_transport;
   SnapshotTicks m_ticks;
   bool m_held_up = false;

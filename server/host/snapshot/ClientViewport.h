@@ -15,6 +15,10 @@ class ClientViewport {
   /// The client's terminal, in cells; 0: unknown, taken to be the largest. Clamped to what a client can use.
   void setTerminal(std::uint32_t columns, std::uint32_t rows);
 
+  /// Does it show all of a view of this size?
+  bool covers(int view_width, int view_height) const {
+    return m_x.cells >= view_width && m_y.cells >= view_height;
+  }
   /// What the client shows at the publisher's tick or may show within `look_ahead` ticks, and a margin for
   /// clients that predict collisions. Once a tick.
   CellRect update(const Publisher& publisher, const df::PlayerFacts& player, std::uint32_t look_ahead);

@@ -116,6 +116,7 @@ void Publisher::removeObject(df::ObjectKey key) {
   Tracked& tracked = m_models[key.slot];
   if (!tracked.model.alive || tracked.model.generation != key.generation) return;
   tracked.model.alive = false;
+  --m_live;
   fileModel(key.slot, tracked);
   markChanged(key.slot, tracked, 0);
 }
@@ -209,6 +210,7 @@ void Publisher::applyFacts(const df::ObjectFacts& facts) {
   applyPath(*tracked, truth);
 
   if (!model.alive || model.generation != facts.key.generation) {
+    m_live += model.alive ? 0 : 1;
     model = {facts.key.generation, true, {facts.order, truth, {{}, facts.altitude}, body}};
     m_newest_order = std::max(m_newest_order, facts.order);
     tracked->path = truth;

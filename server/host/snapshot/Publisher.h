@@ -76,6 +76,8 @@ class Publisher {
 
   /// All slots but the loose one are below this.
   std::size_t slotCount() const { return m_models.size(); }
+  /// Live models.
+  std::size_t liveCount() const { return m_live; }
   /// The highest creation order published so far.
   std::uint64_t newestOrder() const { return m_newest_order; }
 
@@ -139,6 +141,7 @@ class Publisher {
   ModelIndex m_index;
   ExactObjects m_exact;
   std::uint64_t m_newest_order = 0;
+  std::size_t m_live = 0;
   mutable TickCache<Outlook> m_outlooks;
   mutable TickCache<SharedMotion> m_motions;
   mutable std::uint32_t m_soon = 0;  ///< of m_outlooks

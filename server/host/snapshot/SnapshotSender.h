@@ -45,6 +45,8 @@ class SnapshotSender {
   void noteInput(std::uint32_t id, std::uint32_t tick) { m_replica.state.noteInput(id, tick); }
   /// The client's terminal, in cells; 0: unknown.
   void setTerminal(std::uint32_t columns, std::uint32_t rows) { m_viewport.setTerminal(columns, rows); }
+  /// Is the client sent all of a view of this size, and not only what fits in its terminal?
+  bool coversView(int width, int height) const { return m_viewport.covers(width, height); }
   /// An object is sent when it may enter the view within so many ticks.
   void setLookAhead(std::uint32_t ticks) { m_look_ahead = ticks; }
 

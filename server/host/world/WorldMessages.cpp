@@ -55,6 +55,7 @@ void visitTurn(F& f, T& turn) {
   f.flag(turn.wants_truth);
   f.flag(turn.ends_game);
   f.number(turn.heard_player);
+  f.number(turn.pictured);
   f.list(turn.inputs, kMaxTurnInputs, [](F& in, auto& input) { visitInput(in, input); });
 }
 

@@ -38,6 +38,7 @@ struct WorldTurn {
   bool wants_truth = false;                   ///< and pictures
   bool ends_game = false;
   std::uint32_t heard_player = 0;  ///< only their input comes; 0: all players' does
+  std::uint32_t pictured = 0;      ///< only their picture is wanted; 0: all players' are
 };
 
 /// The keys and clicks that wait for a world (WorldProcess::kMaxInputs), joins and leaves.

@@ -26,9 +26,10 @@ struct WorldEnd {
     kHung,      ///< it did not answer in time
     kBroken,    ///< it sent a malformed frame
   } why = kGameOver;
-  std::string text;   ///< for the log and for players, like "crashed (SIGABRT)"
-  int exit_code = 0;  ///< of kCrashed, unless it was a signal
-  std::string when;   ///< for the log, of a failure: "in tick 17", "after tick 17"; empty before the first
+  std::string text = {};  ///< for the log and for players, like "crashed (SIGABRT)"
+  int exit_code = 0;      ///< of kCrashed, unless it was a signal
+  std::string when =
+      {};  ///< for the log, of a failure: "in tick 17", "after tick 17"; empty before the first
 };
 
 class WorldPort {
@@ -52,6 +53,8 @@ class WorldPort {
 
   /// May a tick begin?
   virtual bool isReady() const = 0;
+  /// Where `truth` is asked for, only this player's picture is; 0: all of them are.
+  virtual void setPictured(std::uint32_t /*player*/) {}
   /// Begin one. `watched`: view() is wanted; the first time with every Object as changed. `truth`:
   /// renderPlayer() is, too.
   virtual void tick(bool watched, bool truth) = 0;

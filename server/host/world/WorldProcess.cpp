@@ -98,6 +98,7 @@ void WorldProcess::tick(bool watched, bool truth) {
   m_in_tick = true;
   m_turn.watched = watched;
   m_turn.wants_truth = truth;
+  m_turn.pictured = m_pictured;
   if (!writeTurn(std::exchange(m_turn, {}), m_out)) return fail(WorldEnd::kBroken, "was asked too much");
   m_state = State::kTicking;
   m_waited = {};

@@ -43,6 +43,7 @@ class WorldProcess : public WorldPort {
   void setHeard(std::uint32_t player) override { m_turn.heard_player = player; }
   void endGame() override { m_turn.ends_game = true; }
   bool isReady() const override { return m_state == State::kReady; }
+  void setPictured(std::uint32_t player) override { m_pictured = player; }
   void tick(bool watched, bool truth) override;
   /// Before the first tick: that of the host's. From there on it counts its own.
   std::uint32_t nextTick() const override { return m_next_tick; }
@@ -94,6 +95,7 @@ class WorldProcess : public WorldPort {
   Clock::time_point m_checked_at;
   std::chrono::nanoseconds m_waited{0};  ///< in this state; time between two checks counts up to a limit
   std::uint32_t m_next_tick = 1;
+  std::uint32_t m_pictured = 0;
   std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
   bool m_in_tick = false;   ///< one was sent, and not answered

@@ -113,6 +113,7 @@ bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
   answer.has_view = turn.watched;
   if (turn.watched && turn.wants_truth) {
     for (const df::PlayerFacts& player : world.view().players) {
+      if (turn.pictured != 0 && turn.pictured != player.id) continue;
       answer.pictures.push_back({player.id, world.renderPlayer(player.id)});
     }
   }

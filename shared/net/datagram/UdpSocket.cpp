@@ -67,11 +67,16 @@ void UdpSocket::State::open(std::uint16_t port) {
                       std::make_error_code(std::errc::invalid_argument));
   }
   const udp::endpoint endpoint(address, port);
-  socket.open(endpoint.protocol(), error);
+  const bool is_bound = options.inherited >= 0;
+  if (is_bound) {
+    socket.assign(endpoint.protocol(), std::exchange(options.inherited, -1), error);
+  } else {
+    socket.open(endpoint.protocol(), error);
+  }
   if (error) fail(port, error);
-  if (address.is_v6()) socket.set_option(asio::ip::v6_only(options.v6_only), error);
+  if (address.is_v6() && !is_bound) socket.set_option(asio::ip::v6_only(options.v6_only), error);
   if (!error && !setOptions(socket.native_handle(), address.is_v6(), options)) error = lastError();
-  if (!error) socket.bind(endpoint, error);
+  if (!error && !is_bound) socket.bind(endpoint, error);
   if (error) fail(port, error);
   local = *makeEndpoint(options.address, socket.local_endpoint().port());
   outgoing.emplace(address.is_v6());

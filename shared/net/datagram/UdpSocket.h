@@ -19,6 +19,9 @@ struct UdpOptions {
   bool v6_only = true;     ///< false: "::" hears IPv4, too
   /// Bytes asked of the kernel for what waits to be read, and to be sent; it may grant less.
   int buffer = 4 * 1024 * 1024;
+  /// A UDP socket that is bound already, to `address` and `port`; it is the UdpSocket's from now on. Below 0:
+  /// none.
+  int inherited = -1;
 };
 
 /// Packets are never fragmented, on this machine or on the way. Up to 256 are read before other things in the
@@ -27,7 +30,7 @@ struct UdpOptions {
 /// Thread: the one that runs `context`, which must outlive the socket.
 class UdpSocket : public DatagramSocket {
  public:
-  /// Binds. Throws ListenError.
+  /// Binds, or takes over what is bound. Throws ListenError.
   UdpSocket(asio::io_context& context, UdpOptions options);
   ~UdpSocket() override;
   UdpSocket(const UdpSocket&) = delete;

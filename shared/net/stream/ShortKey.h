@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,18 +18,27 @@ namespace naiad {
 
 class ShortKey {
  public:
+  static constexpr std::size_t kBytes = 16;
+  using Bytes = std::array<std::uint8_t, kBytes>;
+
   static ShortKey of(const Fingerprint& key);
+  static ShortKey ofBytes(const Bytes& bytes) {
+    ShortKey key;
+    key.bytes_ = bytes;
+    return key;
+  }
   /// 26 characters a…z, A…Z, 2…7 of which the last bits are 0, and nothing else: each key has one text, but
   /// for its case.
   static std::optional<ShortKey> parse(std::string_view text);
   /// 26 lower-case characters.
   std::string text() const;
+  const Bytes& bytes() const { return bytes_; }
 
   friend bool operator==(const ShortKey&, const ShortKey&) = default;
 
  private:
   ShortKey() = default;
-  std::array<std::uint8_t, 16> bytes_{};
+  Bytes bytes_{};
 };
 
 }  // namespace naiad

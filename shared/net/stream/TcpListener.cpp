@@ -7,13 +7,14 @@
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <asio/ip/v6_only.hpp>
-#include <asio/steady_timer.hpp>
+#include <cerrno>
 #include <chrono>
 #include <map>
 #include <sstream>
 #include <utility>
 
 #include "shared/net/base/AddressPrefix.h"
+#include "shared/net/stream/AcceptLoop.h"
 #include "shared/net/stream/HalfOpenLimit.h"
 #include "shared/net/stream/TcpChannel.h"
 #include "shared/net/stream/TlsHandshake.h"
@@ -22,11 +23,10 @@ namespace naiad {
 
 using asio::ip::tcp;
 
-struct TcpListener::State : std::enable_shared_from_this<State> {
+struct TcpListener::State : AcceptLoop<State, tcp> {
   State(asio::io_context& context, OnChannel callback, const TcpOptions& tcp_options,
         TlsListening tls_listening)
-      : acceptor(context),
-        retry(context),
+      : AcceptLoop(context),
         on_channel(std::move(callback)),
         options(tcp_options),
         tls(std::move(tls_listening)),
@@ -34,18 +34,18 @@ struct TcpListener::State : std::enable_shared_from_this<State> {
         known({tls.max_half_open_known, tls.max_half_open_per_prefix}) {}
 
   void listen(const std::string& numeric_address, std::uint16_t port);
-  void accept();
-  void onAccepted(const std::error_code& error, tcp::socket socket);
+  void adoptListening(int socket);
+  void requireEncryption(const asio::ip::address& address) const;
+  void deferAccepts();
   void meet(tcp::socket socket);
   void shakeHands(ByteStream::Socket socket, const tcp::endpoint& peer);
-  bool makeRoom(HalfOpenLimit& places, const AddressPrefix& prefix);
-  bool judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id, const AddressPrefix& prefix);
+  void refuse(const tcp::endpoint& peer, StreamRefusal why);
+  bool makeRoom(HalfOpenLimit& places, const tcp::endpoint& peer);
+  bool judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id, const tcp::endpoint& peer);
   void hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id);
   void onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream);
   void close();
 
-  tcp::acceptor acceptor;
-  asio::steady_timer retry;
   tcp::endpoint endpoint;
   OnChannel on_channel;  // as long-lived as this, for a callback may destroy the listener
   TcpOptions options;
@@ -57,16 +57,43 @@ struct TcpListener::State : std::enable_shared_from_this<State> {
   Counters counters;
 };
 
+void TcpListener::State::requireEncryption(const asio::ip::address& address) const {
+  if (tls.context || isLoopback(address)) return;
+  throw ListenError("Cannot listen on " + address.to_string() +
+                        ": connections are not encrypted, so only loopback addresses are allowed.",
+                    std::make_error_code(std::errc::invalid_argument));
+}
+
+void TcpListener::State::deferAccepts() {
+  if (!tls.context || tls.defer_accept.count() <= 0) return;
+  const int seconds = static_cast<int>(tls.defer_accept.count());  // where it fails, silence is accepted
+  setsockopt(acceptor.native_handle(), IPPROTO_TCP, TCP_DEFER_ACCEPT, &seconds, sizeof seconds);
+}
+
+void TcpListener::State::adoptListening(int socket) {
+  sockaddr_storage name{};
+  socklen_t size = sizeof name;
+  std::error_code error;
+  if (getsockname(socket, reinterpret_cast<sockaddr*>(&name), &size) != 0)
+    throw ListenError("Cannot listen with a socket from the service manager.",
+                      {errno, std::generic_category()});
+  acceptor.assign(name.ss_family == AF_INET6 ? tcp::v6() : tcp::v4(), socket, error);
+  if (!error) endpoint = acceptor.local_endpoint(error);
+  if (error)
+    throw ListenError("Cannot listen with a socket from the service manager (" + error.message() + ").",
+                      error);
+  requireEncryption(endpoint.address());
+  deferAccepts();
+}
+
 void TcpListener::State::listen(const std::string& numeric_address, std::uint16_t port) {
   std::error_code error;
   const auto address = asio::ip::make_address(numeric_address, error);
-  const auto refused = std::make_error_code(std::errc::invalid_argument);
-  if (error) throw ListenError("\"" + numeric_address + "\" is not a numeric IPv4 or IPv6 address.", refused);
-  if (!tls.context && !isLoopback(address)) {
-    throw ListenError("Cannot listen on " + numeric_address +
-                          ": connections are not encrypted, so only loopback addresses are allowed.",
-                      refused);
+  if (error) {
+    throw ListenError("\"" + numeric_address + "\" is not a numeric IPv4 or IPv6 address.",
+                      std::make_error_code(std::errc::invalid_argument));
   }
+  requireEncryption(address);
   endpoint = tcp::endpoint(address, port);
   acceptor.open(endpoint.protocol(), error);
   if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
@@ -74,10 +101,7 @@ void TcpListener::State::listen(const std::string& numeric_address, std::uint16_
     acceptor.set_option(asio::ip::v6_only(!address.is_unspecified()), error);
   }
   if (!error) acceptor.bind(endpoint, error);
-  if (!error && tls.context && tls.defer_accept.count() > 0) {
-    const int seconds = static_cast<int>(tls.defer_accept.count());  // where it fails, silence is accepted
-    setsockopt(acceptor.native_handle(), IPPROTO_TCP, TCP_DEFER_ACCEPT, &seconds, sizeof seconds);
-  }
+  if (!error) deferAccepts();
   if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
   if (!error) endpoint = acceptor.local_endpoint(error);
   if (!error) return;
@@ -89,26 +113,6 @@ void TcpListener::State::listen(const std::string& numeric_address, std::uint16_
   throw ListenError("Cannot listen on " + where + " (" + error.message() + ").", error);
 }
 
-void TcpListener::State::accept() {
-  acceptor.async_accept([self = shared_from_this()](const std::error_code& error, tcp::socket socket) {
-    self->onAccepted(error, std::move(socket));
-  });
-}
-
-void TcpListener::State::onAccepted(const std::error_code& error, tcp::socket socket) {
-  if (!acceptor.is_open()) return;
-  if (!error) {
-    meet(std::move(socket));
-    if (acceptor.is_open()) accept();
-    return;
-  }
-  ++counters.failed_accepts;
-  retry.expires_after(kAcceptRetryDelay);
-  retry.async_wait([self = shared_from_this()](const std::error_code&) {
-    if (self->acceptor.is_open()) self->accept();
-  });
-}
-
 void TcpListener::State::meet(tcp::socket socket) {
   if (!tls.context) return on_channel(makeTcpChannel(std::move(socket), options));
   std::error_code gone;
@@ -118,17 +122,12 @@ void TcpListener::State::meet(tcp::socket socket) {
 }
 
 void TcpListener::State::shakeHands(ByteStream::Socket socket, const tcp::endpoint& peer) {
-  if (tls.is_banned && tls.is_banned(peer.address())) {
-    ++counters.refused_banned;
-    return;
-  }
+  if (tls.is_banned && tls.is_banned(peer.address())) return refuse(peer, StreamRefusal::kBanned);
   const AddressPrefix prefix = AddressPrefix::of(peer.address());
-  if (tls.has_handshake && !tls.has_handshake(prefix)) {  // what OpenSSL takes for a stream is saved
-    ++counters.refused_too_often;
-    return;
-  }
+  if (tls.has_handshake && !tls.has_handshake(prefix))  // what OpenSSL takes for a stream is saved
+    return refuse(peer, StreamRefusal::kTooOften);
   HalfOpenLimit& places = tls.is_known && tls.is_known(prefix) ? known : strangers;
-  if (!makeRoom(places, prefix)) return;
+  if (!makeRoom(places, peer)) return;
   std::shared_ptr<TlsHandshake> handshake;
   try {
     handshake = std::make_shared<TlsHandshake>(
@@ -149,21 +148,38 @@ void TcpListener::State::shakeHands(ByteStream::Socket socket, const tcp::endpoi
         places.release(id);
         self->onHandshake(end, std::move(stream));
       },
-      [self = shared_from_this(), id, prefix, &places, hasty] {
-        if (!self->judgeHello(places, id, prefix)) return self->hangUp(places, id);
+      [self = shared_from_this(), id, peer, &places, hasty] {
+        if (!self->judgeHello(places, id, peer)) return self->hangUp(places, id);
         if (hasty) self->handshakes.at(id)->setTimeout(self->tls.handshake_timeout / 2);
       });
 }
 
+void TcpListener::State::refuse(const tcp::endpoint& peer, StreamRefusal why) {
+  switch (why) {
+    case StreamRefusal::kBanned:
+      ++counters.refused_banned;
+      break;
+    case StreamRefusal::kTooOften:
+      ++counters.refused_too_often;
+      break;
+    case StreamRefusal::kFull:
+      ++counters.refused_half_open;
+      break;
+    case StreamRefusal::kPrefixFull:
+      ++counters.refused_from_prefix;
+      break;
+  }
+  if (tls.on_refused) tls.on_refused(peer, why);
+}
+
 // Its place first: what gets none is not counted as a handshake.
-bool TcpListener::State::judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id,
-                                    const AddressPrefix& prefix) {
+bool TcpListener::State::judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id, const tcp::endpoint& peer) {
   if (!places.noteHello(id)) {
-    ++counters.refused_from_prefix;
+    refuse(peer, StreamRefusal::kPrefixFull);
     return false;
   }
-  if (!tls.take_handshake || tls.take_handshake(prefix)) return true;
-  ++counters.refused_too_often;
+  if (!tls.take_handshake || tls.take_handshake(AddressPrefix::of(peer.address()))) return true;
+  refuse(peer, StreamRefusal::kTooOften);
   return false;
 }
 
@@ -175,13 +191,14 @@ void TcpListener::State::hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id) {
 
 // False: there is no place for another connection of this prefix. Each turn ends a silent one, or finds out
 // that it is silent no longer, or gone.
-bool TcpListener::State::makeRoom(HalfOpenLimit& places, const AddressPrefix& prefix) {
+bool TcpListener::State::makeRoom(HalfOpenLimit& places, const tcp::endpoint& peer) {
   using Kind = HalfOpenLimit::Verdict::Kind;
+  const AddressPrefix prefix = AddressPrefix::of(peer.address());
   for (;;) {
     const HalfOpenLimit::Verdict verdict = places.judge(prefix);
     if (verdict.kind == Kind::kFits) return acceptor.is_open();
     if (verdict.kind != Kind::kEndFirst) {
-      ++(verdict.kind == Kind::kFull ? counters.refused_half_open : counters.refused_from_prefix);
+      refuse(peer, verdict.kind == Kind::kFull ? StreamRefusal::kFull : StreamRefusal::kPrefixFull);
       return false;
     }
     const std::shared_ptr<TlsHandshake> handshake = handshakes.at(verdict.id);
@@ -204,9 +221,7 @@ void TcpListener::State::onHandshake(TlsHandshake::End end, std::unique_ptr<TlsS
 }
 
 void TcpListener::State::close() {
-  std::error_code ignored;
-  acceptor.close(ignored);
-  retry.cancel();
+  stopAccepting();
   for (const auto& [id, handshake] : std::exchange(handshakes, {})) handshake->cancel();
 }
 
@@ -214,6 +229,13 @@ TcpListener::TcpListener(asio::io_context& context, const std::string& address, 
                          OnChannel on_channel, TcpOptions options, TlsListening tls)
     : state_(std::make_shared<State>(context, std::move(on_channel), options, std::move(tls))) {
   state_->listen(address, port);
+  state_->accept();
+}
+
+TcpListener::TcpListener(asio::io_context& context, int listening_socket, OnChannel on_channel,
+                         TcpOptions options, TlsListening tls)
+    : state_(std::make_shared<State>(context, std::move(on_channel), options, std::move(tls))) {
+  state_->adoptListening(listening_socket);
   state_->accept();
 }
 
@@ -241,6 +263,10 @@ std::size_t TcpListener::halfOpen() const {
 
 void TcpListener::adopt(asio::generic::stream_protocol::socket socket, const tcp::endpoint& peer) {
   if (state_->acceptor.is_open() && state_->tls.context) state_->shakeHands(std::move(socket), peer);
+}
+
+void TcpListener::setTls(std::shared_ptr<const TlsContext> context) {
+  if (state_->tls.context && context) state_->tls.context = std::move(context);
 }
 
 void TcpListener::close() {

@@ -21,6 +21,14 @@
 
 namespace naiad {
 
+/// Why a connection was hung up on before TLS.
+enum class StreamRefusal {
+  kBanned,      ///< by TlsListening::is_banned
+  kTooOften,    ///< by TlsListening::take_handshake or has_handshake
+  kFull,        ///< none was silent, and there was no place
+  kPrefixFull,  ///< the prefix has its share of the places
+};
+
 /// How a listener does TLS.
 struct TlsListening {
   std::shared_ptr<const TlsContext> context;  ///< TlsContext::forServer()
@@ -43,6 +51,8 @@ struct TlsListening {
   /// Connections of such addresses are hung up on before anything else: not a byte is sent to them. May be
   /// empty. Called from the listener's event loop, once for each connection.
   std::function<bool(const asio::ip::address& address)> is_banned = nullptr;
+  /// Hears of each connection that was refused. May be empty. Called from the listener's event loop.
+  std::function<void(const asio::ip::tcp::endpoint& peer, StreamRefusal why)> on_refused = nullptr;
   /// A connection that says nothing is left in the kernel for so long (TCP_DEFER_ACCEPT). 0: it is not.
   std::chrono::seconds defer_accept{1};
 };
@@ -58,9 +68,6 @@ class ListenError : public std::runtime_error {
  private:
   std::error_code code_;
 };
-
-/// How long a listener waits for descriptors or memory to come free.
-inline constexpr std::chrono::milliseconds kAcceptRetryDelay{100};
 
 /// Accepts until closed or destroyed. Running out of descriptors or memory does not end it: it waits 100 ms
 /// and tries again, while the connections wait in the kernel's backlog.
@@ -94,6 +101,9 @@ class TcpListener {
   /// ListenError.
   TcpListener(asio::io_context& context, const std::string& address, std::uint16_t port, OnChannel on_channel,
               TcpOptions options = {}, TlsListening tls = {});
+  /// The same with a TCP socket that listens already, which is the listener's from now on.
+  TcpListener(asio::io_context& context, int listening_socket, OnChannel on_channel, TcpOptions options,
+              TlsListening tls);
   ~TcpListener();
   TcpListener(const TcpListener&) = delete;
   TcpListener& operator=(const TcpListener&) = delete;
@@ -111,6 +121,9 @@ class TcpListener {
   /// Go on with a connection that came otherwise (VisitorsListener.h) as with one that was accepted here from
   /// `peer`. With TLS only; ignored after close().
   void adopt(asio::generic::stream_protocol::socket socket, const asio::ip::tcp::endpoint& peer);
+
+  /// Handshakes that begin from now on are made with this context; where there was none, nothing changes.
+  void setTls(std::shared_ptr<const TlsContext> context);
 
   /// Stop listening; no callback after this. Connections not accepted yet are reset by the kernel, handshakes
   /// under way are broken off.

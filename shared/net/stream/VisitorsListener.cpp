@@ -7,12 +7,12 @@
 #include <array>
 #include <asio/io_context.hpp>
 #include <asio/local/stream_protocol.hpp>
-#include <asio/steady_timer.hpp>
 #include <set>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include "shared/net/stream/AcceptLoop.h"
 #include "shared/net/stream/PatientTimer.h"
 #include "shared/net/stream/TcpListener.h"
 #include "shared/net/stream/VisitorHeader.h"
@@ -138,19 +138,15 @@ class Arrival : public std::enable_shared_from_this<Arrival> {
 
 }  // namespace
 
-struct VisitorsListener::State : std::enable_shared_from_this<State> {
+struct VisitorsListener::State : AcceptLoop<State, stream_protocol> {
   State(asio::io_context& context, VisitorsListening wanted, OnVisitor callback)
-      : acceptor(context), retry(context), options(std::move(wanted)), on_visitor(std::move(callback)) {}
+      : AcceptLoop(context), options(std::move(wanted)), on_visitor(std::move(callback)) {}
 
   void listen(asio::io_context& context);
-  void accept();
-  void onAccepted(const std::error_code& error, Socket socket);
   void meet(Socket socket);
   void onArrival(Arrival::End end, Socket socket, const asio::ip::tcp::endpoint& visitor);
   void close();
 
-  stream_protocol::acceptor acceptor;
-  asio::steady_timer retry;
   VisitorsListening options;
   OnVisitor on_visitor;
   std::pair<dev_t, ino_t> file;
@@ -174,26 +170,6 @@ void VisitorsListener::State::listen(asio::io_context& context) {
   if (!error) return;
   close();
   fail(path, error);
-}
-
-void VisitorsListener::State::accept() {
-  acceptor.async_accept([self = shared_from_this()](const std::error_code& error, Socket socket) {
-    self->onAccepted(error, std::move(socket));
-  });
-}
-
-void VisitorsListener::State::onAccepted(const std::error_code& error, Socket socket) {
-  if (!acceptor.is_open()) return;
-  if (!error) {
-    meet(std::move(socket));
-    if (acceptor.is_open()) accept();
-    return;
-  }
-  ++counters.failed_accepts;
-  retry.expires_after(kAcceptRetryDelay);
-  retry.async_wait([self = shared_from_this()](const std::error_code&) {
-    if (self->acceptor.is_open()) self->accept();
-  });
 }
 
 void VisitorsListener::State::meet(Socket socket) {
@@ -229,10 +205,9 @@ void VisitorsListener::State::onArrival(Arrival::End end, Socket socket,
 // Another server may have put its own socket there.
 void VisitorsListener::State::close() {
   if (!acceptor.is_open()) return;
-  std::error_code ignored;
-  acceptor.close(ignored);
-  retry.cancel();
+  stopAccepting();
   for (const auto& arrival : std::exchange(arrivals, {})) arrival->cancel();
+  std::error_code ignored;
   if (identityOf(options.path) == file) fs::remove(options.path, ignored);
 }
 

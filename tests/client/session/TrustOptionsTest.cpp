@@ -102,5 +102,36 @@ TEST(TrustOptions, AVisitHasASocketAndAnAddress) {
   EXPECT_NE(problem("/run/x", "192.0.2.7:50312", true), "");
 }
 
+TEST(TrustOptions, AServerOfAListHasTheKeyOfTheListAndGetsNoPasswordFromTheEnvironment) {
+  const auto resolve = [](const std::string& text, bool ambient, ServerTrust& trust) {
+    SessionOptions session;
+    session.password = "xyzzy";
+    ServerAddress address;
+    const ServerChoice server{
+        .text = text, .is_password_ambient = ambient, .list_key = *ShortKey::parse(kKey)};
+    EXPECT_EQ(resolveServer(server, address, trust, session), "") << text;
+    return session.password;
+  };
+  for (const std::string& text : {"naiad://192.168.1.5#" + kKey, std::string("[fe80::5%eth0]:9876")}) {
+    ServerTrust trust;
+    EXPECT_EQ(resolve(text, true, trust), "");
+    ASSERT_TRUE(trust.link_key) << text;
+    EXPECT_EQ(trust.link_key->text(), kKey);
+    EXPECT_EQ(resolve(text, false, trust), "xyzzy") << "typed for this server";
+  }
+}
+
+TEST(TrustOptions, OptionsThatContradictAListAreErrors) {
+  ServerTrust trust;
+  trust.insecure = true;
+  ServerAddress address;
+  SessionOptions session;
+  const ServerChoice server{.text = "[fe80::5%eth0]:9876", .list_key = *ShortKey::parse(kKey)};
+  EXPECT_NE(resolveServer(server, address, trust, session), "");
+  trust = {};
+  trust.fingerprint = Fingerprint::parse(std::string(64, 'f'));
+  EXPECT_NE(resolveServer(server, address, trust, session), "");
+}
+
 }  // namespace
 }  // namespace naiad

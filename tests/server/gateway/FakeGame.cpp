@@ -79,9 +79,11 @@ std::vector<std::string> FakeGame::frames() {
   return m_frames;
 }
 
-void FakeGame::broadcast(const std::string& frame) {
+void FakeGame::broadcast(const std::vector<std::string>& frames) {
   onThread([&] {
-    for (const auto& [id, channel] : m_channels) channel->send(frame);
+    for (const auto& [id, channel] : m_channels) {
+      for (const std::string& frame : frames) channel->send(frame);
+    }
     return 0;
   });
 }

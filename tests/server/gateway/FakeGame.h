@@ -61,7 +61,9 @@ class FakeGame {
     return onThread([this] { return m_handshakes; });
   }
   /// Send to everybody.
-  void broadcast(const std::string& frame);
+  void broadcast(const std::string& frame) { broadcast(std::vector<std::string>{frame}); }
+  /// Several at once.
+  void broadcast(const std::vector<std::string>& frames);
   /// End all streams: in order, or without a word, as a process that is killed.
   void endAll(bool in_order);
   /// Call this so often, on the game's thread, with each channel.

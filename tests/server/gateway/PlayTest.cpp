@@ -305,6 +305,65 @@ TEST_F(GatewayPlay, AThousandHalfOpenConnectionsKeepNobodyOut) {
   EXPECT_EQ(game->visitors().size(), 2u) << "the game heard of none of them";
 }
 
+TEST_F(GatewayPlay, MessagesThatAreThereTogetherAreSentTogether) {
+  const auto game = makeGame([](ReliableChannel&, const std::string&) {});
+  GatewayRun gateway(home.settings(game->key()));
+  WebClient browser(gateway.port());
+  ASSERT_TRUE(browser.play());
+  browser.sendFrame(2, "hello");
+  ASSERT_TRUE(comesTrue([&] { return game->frameCount() == 1; }));
+  const GatewayCounters before = gateway.counters();
+  std::vector<std::string> messages;
+  std::string bytes;
+  for (int i = 0; i < 10; ++i) {
+    messages.push_back(std::string(static_cast<std::size_t>(20 * i + 1), static_cast<char>('a' + i)));
+    bytes += WebClient::frameBytes(2, messages.back());
+  }
+  browser.send(bytes);
+  ASSERT_TRUE(comesTrue([&] { return game->frameCount() == 11; }));
+  game->broadcast(messages);
+  for (const std::string& message : messages) EXPECT_EQ(browser.frame()->payload, message);
+  const auto frames = game->frames();
+  EXPECT_TRUE(std::equal(messages.begin(), messages.end(), frames.begin() + 1));
+  const GatewayCounters after = gateway.counters();
+  EXPECT_EQ(after.messages_up - before.messages_up, 10u);
+  EXPECT_EQ(after.messages_down - before.messages_down, 10u);
+  EXPECT_EQ(after.writes_up - before.writes_up, 1u);
+  EXPECT_EQ(after.writes_down - before.writes_down, 1u);
+}
+
+// Beast writes the answers to pings, the gateway the messages, on a socket that takes neither as a whole.
+TEST_F(GatewayPlay, AnswersToPingsAreNeverWithinAMessage) {
+  constexpr int kMessages = 40;
+  constexpr int kPings = 12;
+  const auto game = makeGame([](ReliableChannel&, const std::string&) {});
+  GatewayRun gateway(home.settings(game->key()));
+  WebClient slow(gateway.port(), "127.0.0.1", 2048);
+  ASSERT_TRUE(slow.play());
+  slow.sendFrame(2, "hello");
+  ASSERT_TRUE(comesTrue([&] { return game->frameCount() == 1; }));
+  std::vector<std::string> messages;
+  for (int i = 0; i < kMessages; ++i)
+    messages.push_back(std::string(static_cast<std::size_t>(3000 + i), static_cast<char>('A' + i)));
+  game->broadcast(messages);
+  int pings = 0;
+  int pongs = 0;
+  std::size_t received = 0;
+  while (received < messages.size() || pongs < kPings) {
+    if (pings < kPings && pings <= static_cast<int>(received))
+      slow.sendFrame(9, "ping" + std::to_string(pings++));
+    const auto frame = slow.frame();
+    ASSERT_TRUE(frame) << received << " messages, " << pongs << " pongs";
+    if (frame->opcode == 10) {
+      EXPECT_EQ(frame->payload, "ping" + std::to_string(pongs++));
+    } else {
+      ASSERT_LT(received, messages.size());
+      ASSERT_EQ(frame->opcode, 2);
+      ASSERT_EQ(frame->payload, messages[received++]);
+    }
+  }
+}
+
 // At 256 kbit/s, 400 ms are 12,800 bytes: no more than that may be under way, whatever the game has to say.
 TEST_F(GatewayPlay, ASlowLineHasFreshPicturesAndNoBacklog) {
   constexpr std::size_t kPicture = 2000;

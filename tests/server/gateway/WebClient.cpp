@@ -150,6 +150,10 @@ bool WebClient::play() {
 }
 
 void WebClient::sendFrame(int opcode, std::string_view payload, bool is_last, bool is_masked) {
+  send(frameBytes(opcode, payload, is_last, is_masked));
+}
+
+std::string WebClient::frameBytes(int opcode, std::string_view payload, bool is_last, bool is_masked) {
   std::string frame(1, static_cast<char>((is_last ? 0x80 : 0) | opcode));
   const int mask = is_masked ? 0x80 : 0;
   if (payload.size() < 126) {
@@ -165,7 +169,7 @@ void WebClient::sendFrame(int opcode, std::string_view payload, bool is_last, bo
   if (is_masked) frame += kMask;
   for (std::size_t i = 0; i < payload.size(); ++i)
     frame.push_back(static_cast<char>(is_masked ? payload[i] ^ kMask[i % 4] : payload[i]));
-  send(frame);
+  return frame;
 }
 
 std::optional<WebFrame> WebClient::takeFrame() {

@@ -51,6 +51,8 @@ class WebClient {
   void requestPlay(const std::string& changes = "");
   /// Open a WebSocket as the page does. False if the answer is another.
   bool play();
+  static std::string frameBytes(int opcode, std::string_view payload, bool is_last = true,
+                                bool is_masked = true);
   /// One frame, masked as browsers do it.
   void sendFrame(int opcode, std::string_view payload, bool is_last = true, bool is_masked = true);
   void sendMessage(const wire::ClientMessage& message) { sendFrame(2, message.SerializeAsString()); }

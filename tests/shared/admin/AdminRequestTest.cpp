@@ -34,7 +34,7 @@ TEST(AdminCommands, HaveNamesOfTheirOwnAndArgumentsThatCanBeTyped) {
       EXPECT_FALSE(may_end && argument.required) << command.name << ": a required one after an optional one";
       may_end = !argument.required;
       EXPECT_EQ(argument.kind == AdminArgument::Kind::kChoice, !argument.one_of.empty());
-      if (argument.kind == AdminArgument::Kind::kText) EXPECT_EQ(&argument, &command.arguments.back());
+      EXPECT_TRUE(argument.kind != AdminArgument::Kind::kText || &argument == &command.arguments.back());
     }
   }
   EXPECT_EQ(findAdminCommand("banana"), nullptr);

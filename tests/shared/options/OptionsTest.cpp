@@ -86,6 +86,12 @@ TEST_F(OptionsTest, AnUnknownOptionIsNamedWithTheNearestOne) {
   EXPECT_EQ(parse({"what"}), std::string("dfthing: unexpected argument \"what\"") + kHelp);
 }
 
+TEST_F(OptionsTest, AProgramEndsWith2AfterWrongUsageAndWith0AfterHelp) {
+  EXPECT_EQ(exitCodeOf(Parsed::kRun), std::nullopt);
+  EXPECT_EQ(exitCodeOf(Parsed::kDone), 0);
+  EXPECT_EQ(exitCodeOf(Parsed::kUsageError), 2);
+}
+
 TEST_F(OptionsTest, AValueOutOfRangeIsNamedWithItsOption) {
   EXPECT_EQ(parse({"--port", "70000"}),
             std::string("dfthing: --port: Value 70000 not in range 0 to 65535") + kHelp);
@@ -108,6 +114,30 @@ TEST_F(OptionsTest, AFileIsReadLineByLine) {
   EXPECT_EQ(parseFile("server-name = pass#word\nquiet = false\n"), "");
   EXPECT_EQ(name, "pass#word");
   EXPECT_FALSE(quiet);
+}
+
+TEST_F(OptionsTest, EachWrongLineOfTheFileIsNamed) {
+  const std::string file = "dfthing: " + config.string();
+  EXPECT_EQ(parseFile("prot = 1\nmax-players = 3\nport = 70000\n\nquite\n"),
+            file + ":1: there is no option \"prot\"; did you mean port?\n" + file +
+                ":3: port: Value 70000 not in range 0 to 65535\n" + file +
+                ":5: there is no option \"quite\"; did you mean quiet?" + kHelp);
+  EXPECT_EQ(result, Parsed::kUsageError);
+}
+
+TEST_F(OptionsTest, ATextWithoutAValueIsEmpty) {
+  name = "before";
+  EXPECT_EQ(parseFile("server-name =\n"), "");
+  EXPECT_EQ(name, "");
+  EXPECT_NE(parseFile("port =\n"), "") << "a number is not";
+}
+
+TEST_F(OptionsTest, APageIsPrintedWhateverElseIsWanted) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(parse({"--option-page", "bash"}), "");
+  EXPECT_EQ(result, Parsed::kDone);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("complete -F _dfthing dfthing"), std::string::npos);
+  EXPECT_EQ(parse({"--option-page", "pdf"}), std::string("dfthing: there is no page \"pdf\"") + kHelp);
 }
 
 TEST_F(OptionsTest, CommandLineAndEnvironmentCountMoreThanTheFile) {

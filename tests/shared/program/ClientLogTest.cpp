@@ -36,6 +36,15 @@ TEST_F(ClientLogTest, TheAddressComesFirstAndASentenceIsQuoted) {
   EXPECT_EQ(lines, expected);
 }
 
+TEST_F(ClientLogTest, AddressAndSentenceAreFactsToo) {
+  LogEvent::Fields facts;
+  ClientLog keeper([&facts](const LogEvent& event) { facts = event.fields; });
+  keeper.logNews("192.0.2.1:4000", {"joined", "\"Ann\" joined", {{"player", "Ann"}}}, now);
+  EXPECT_EQ(facts, (LogEvent::Fields{{"address", "192.0.2.1:4000"}, {"player", "Ann"}}));
+  keeper.logRefusal("192.0.2.1:4000", "No.", now);
+  EXPECT_EQ(facts, (LogEvent::Fields{{"address", "192.0.2.1:4000"}, {"sentence", "No."}}));
+}
+
 TEST_F(ClientLogTest, RefusalsOfOnePrefixAreALineASecond) {
   for (int i = 0; i < 10'000; ++i) {
     log.logRefusal("192.0.2.1:" + std::to_string(1024 + i), "No.", now);

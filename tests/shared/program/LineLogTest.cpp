@@ -58,7 +58,7 @@ long linesLost(const std::string& text) {
   constexpr std::string_view kSaid = " log line";
   long lost = 0;
   for (std::size_t at = text.find(kSaid); at != std::string::npos; at = text.find(kSaid, at + 1)) {
-    lost += std::stol(text.substr(text.rfind(' ', at - 1)));
+    lost += std::stol(text.substr(text.find_last_of(" \n", at - 1) + 1));
   }
   return lost;
 }

@@ -30,6 +30,7 @@ struct Options {
   double warm_up_s = 5;
   double measure_s = 60;
   bool arrows = false;
+  std::string type_ahead;
   std::string first_keys;
   std::vector<std::string> command;
 };
@@ -99,6 +100,7 @@ void report(const Watch& watch, Nanoseconds from, Nanoseconds to) {
 int judge(const Options& options) {
   Terminal terminal;
   PtyProgram program(options.command);
+  program.write(options.type_ahead);
   becomePunctual();
   const auto truth = waitForTruth(program, terminal, options.truth);
   const auto link = SharedFile<LinkCounters>::open(options.counters);
@@ -135,6 +137,7 @@ int start(int argc, char** argv) {
   app.add_option("--warm-up", options.warm_up_s, "Seconds before measuring")->check(CLI::Range(0.0, 3600.0));
   app.add_option("--measure", options.measure_s, "Seconds")->check(CLI::Range(1.0, 3600.0));
   app.add_flag("--arrows", options.arrows, "Also press arrow keys, for predicted_key_p99_ms");
+  app.add_option("--type-ahead", options.type_ahead, "Typed at once");
   app.add_option("--first-keys", options.first_keys, "Typed as soon as the scene is on the screen");
   app.add_option("command", options.command, "What to run")->required();
   app.positionals_at_end();

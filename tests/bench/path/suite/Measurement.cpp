@@ -70,6 +70,7 @@ Words judgeCommand(const Place& place, const Peer& peer, const Effort& effort) {
   Words words = {kBin + "/naiad_pty_judge", "--truth", place.truth(), "--counters", place.file("counters")};
   append(words, {"--warm-up", std::to_string(effort.warm_up_s)});
   append(words, {"--measure", std::to_string(effort.measure_s), "--seed", std::to_string(place.seed)});
+  if (!peer.type_ahead.empty()) append(words, {"--type-ahead", peer.type_ahead});
   if (!peer.first_keys.empty()) append(words, {"--first-keys", peer.first_keys});
   if (peer.arrows) words.emplace_back("--arrows");
   words.emplace_back("--");

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -58,12 +59,16 @@ void makeKey(const std::string& file) {
   }
 }
 
-/// An sshd of this user's own, with keys that live as long as the run.
-Words sshServer(const Place& place) {
-  makeKey(place.file("host_key"));
+void makeSshKeys(const Place& place, const std::string& host_key) {
+  makeKey(host_key);
   makeKey(place.file("user_key"));
   writeFile(place.file("known_hosts"),
-            "[" + place.address + "]:" + kSshPort + " " + readFile(place.file("host_key.pub")));
+            "[" + place.address + "]:" + kSshPort + " " + readFile(host_key + ".pub"));
+}
+
+/// An sshd of this user's own, with keys that live as long as the run.
+Words sshServer(const Place& place) {
+  makeSshKeys(place, place.file("host_key"));
   writeFile(place.file("sshd_config"), std::string("Port ") + kSshPort + "\nListenAddress " + place.address +
                                            "\nHostKey " + place.file("host_key") + "\nAuthorizedKeysFile " +
                                            place.file("user_key.pub") + "\nPidFile " +
@@ -74,6 +79,7 @@ Words sshServer(const Place& place) {
   return {"/usr/sbin/sshd", "-D", "-e", "-f", place.file("sshd_config")};
 }
 
+/// ssh to an sshd of this user's, whose host key is in known_hosts; what it is to run comes behind.
 Words sshClient(const Place& place, bool compressed) {
   const passwd* user = getpwuid(geteuid());
   if (user == nullptr) throw std::runtime_error("this user has no name");
@@ -83,7 +89,6 @@ Words sshClient(const Place& place, bool compressed) {
   append(words, {"-o", "UserKnownHostsFile=" + place.file("known_hosts"), "-o", "BatchMode=yes"});
   if (compressed) words.emplace_back("-C");
   words.push_back(std::string(user->pw_name) + "@" + place.address);
-  append(words, sceneCommand(place));
   return words;
 }
 
@@ -92,6 +97,7 @@ Peer ssh(const Place& place, bool compressed) {
   peer.server = sshServer(place);
   peer.ready_file = place.file("sshd.pid");
   peer.client = sshClient(place, compressed);
+  append(peer.client, sceneCommand(place));
   return peer;
 }
 
@@ -145,6 +151,24 @@ void makeCertificate(const Place& place, const std::string& certificate, const s
   if (runProgram(command).code != 0) throw std::runtime_error("openssl makes no certificate");
 }
 
+/// A folder of its own for what this run is about.
+std::string makeFolder(const Place& place, const std::string& name) {
+  std::filesystem::create_directory(place.file(name));
+  return place.file(name);
+}
+
+/// A script of sh that starts the server with a visitors' socket, and when that is there, `then`. It may use
+/// $link, the link that dfserver prints.
+void leadThrough(const Place& place, Peer& peer, const std::string& then) {
+  const std::string printed = quoted({place.file("server.out")});
+  append(peer.server, {"--visitors", place.file("visitors")});
+  writeFile(place.file("script"), quoted(peer.server) + ">" + printed +
+                                      "2>&1 &\nuntil link=$(grep -om1 'naiad://[^ ]*' " + printed +
+                                      ") && [ -S " + quoted({place.file("visitors")}) +
+                                      "]; do sleep .05; done\n" + then + "wait\n");
+  peer.server = {"sh", place.file("script")};
+}
+
 /// dfclient by way of the gateway for browsers: two WebSockets, as a page has them. Only the way differs.
 Peer web(const Place& place) {
   Peer peer = dfclient(place, false);
@@ -152,19 +176,13 @@ Peer web(const Place& place) {
   const std::string key = place.file("web.key");
   const std::string origin = "https://" + place.address + ":" + kWebPort;
   makeCertificate(place, certificate, key);
-  writeFile(place.file("index.html"), "");
-  append(peer.server, {"--visitors", place.file("visitors")});
-  Words gateway = {place.bin + "/dfweb", "--visitors", place.file("visitors"), "--page", place.folder};
-  append(gateway, {"--listen", place.address + ":" + kWebPort, "--certificate", certificate, "--key", key});
-  append(gateway, {"--origin", origin, "--port-file", place.file("web-port")});
-  // dfweb wants the link that dfserver prints.
-  const std::string printed = quoted({place.file("server.out")});
-  writeFile(place.file("both"), quoted(peer.server) + ">" + printed +
-                                    "2>&1 &\nuntil link=$(grep -o 'naiad://[^ ]*' " + printed + ") && [ -S " +
-                                    quoted({place.file("visitors")}) + "]; do sleep .05; done\n" +
-                                    quoted(gateway) + "\"${link%%[!-a-z0-9:/.#]*}\" &\nwait\n");
-  peer.server = {"sh", place.file("both")};
+  const std::string page = makeFolder(place, "page");
+  writeFile(page + "/index.html", "");
   peer.ready_file = place.file("web-port");
+  Words gateway = {place.bin + "/dfweb", "--visitors", place.file("visitors"), "--page", page};
+  append(gateway, {"--listen", place.address + ":" + kWebPort, "--certificate", certificate, "--key", key});
+  append(gateway, {"--origin", origin, "--port-file", peer.ready_file});
+  leadThrough(place, peer, quoted(gateway) + "\"$link\" &\n");
   peer.client = {"env", "HOME=" + place.folder, "SSL_CERT_FILE=" + certificate, place.bin + "/dfclient",
                  origin};
   append(peer.client, {"--name", "judge"});
@@ -172,16 +190,36 @@ Peer web(const Place& place) {
   return peer;
 }
 
+/// ssh to a door (deploy/door), which runs dfclient beside the server.
+Peer sshDoor(const Place& place) {
+  Peer peer = dfclient(place, true);
+  const std::string script = NAIAD_SOURCE_DIR "/deploy/door";
+  const std::string door = makeFolder(place, "door");
+  const std::string printed = quoted({place.file("door.out")});
+  makeSshKeys(place, door + "/host_key");
+  peer.ready_file = place.file("open");
+  leadThrough(place, peer,
+              quoted({"env", "NAIAD_BIN=" + place.bin, script, "setup", door, "--port", kSshPort, "--address",
+                      place.address}) +
+                  "&& " + quoted({script, "add", door, "scene"}) + "\"$link\" " +
+                  quoted({place.file("visitors")}) + "|| exit\n" + quoted({script, "run", door}) + ">" +
+                  printed + "2>&1 &\nuntil grep -q 'Server listening' " + printed +
+                  "; do sleep .05; done\n: >" + quoted({peer.ready_file}) + "\n");
+  peer.client = sshClient(place, false);
+  peer.type_ahead = "judge\r";  // the door asks for a name
+  return peer;
+}
+
 }  // namespace
 
 const std::vector<std::string>& peerNames() {
-  static const std::vector<std::string> names = {"ssh",      "ssh-C",           "mosh",
-                                                 "dfclient", "dfclient-stream", "web"};
+  static const std::vector<std::string> names = {"ssh", "ssh-C",   "mosh", "dfclient", "dfclient-stream",
+                                                 "web", "ssh-door"};
   return names;
 }
 
 bool isOurs(const std::string& program) {
-  return program.starts_with("dfclient") || program == "web";
+  return program.starts_with("dfclient") || program == "web" || program == "ssh-door";
 }
 
 // An sshd that is not root's takes its own user's account for a locked one (OpenSSH 9.2).
@@ -197,6 +235,7 @@ Peer preparePeer(const std::string& program, const Place& place) {
   if (program == "dfclient") return dfclient(place, true);
   if (program == "dfclient-stream") return dfclient(place, false);
   if (program == "web") return web(place);
+  if (program == "ssh-door") return sshDoor(place);
   throw std::runtime_error("there is no program " + program);
 }
 

@@ -24,6 +24,7 @@ struct Peer {
   std::vector<std::string> server;  ///< stays, or leaves something behind that stays
   std::string ready_file;           ///< is there when clients may come
   std::vector<std::string> client;  ///< shows the scene in its terminal
+  std::string type_ahead;           ///< to be typed when it starts
   std::string first_keys;           ///< to be typed when the scene is there
   bool arrows = false;              ///< has keys whose effect the client may predict
   bool udp = true;                  ///< false: the link lets no UDP through

@@ -29,6 +29,7 @@ class AdminConsoleTest : public testing::Test {
   /// Carry it out, and wait for the answer.
   AdminAnswer give(const std::vector<std::string>& words, const AdminCaller& caller = socket()) {
     std::optional<AdminAnswer> answer;
+    io.restart();
     console.execute(readAdminRequest(words), caller,
                     [&answer](AdminAnswer given) { answer = std::move(given); });
     const auto work = asio::make_work_guard(io);
@@ -75,7 +76,7 @@ TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {
     given.insert(words.front());
   }
   for (const AdminCommand& command : adminCommands()) {
-    if (command.place != Place::kChat) EXPECT_TRUE(given.contains(command.name)) << command.name;
+    EXPECT_TRUE(command.place == Place::kChat || given.contains(command.name)) << command.name;
   }
 }
 

@@ -56,7 +56,7 @@ class FakeTarget : public AdminTarget {
     return note("drain " + (most ? std::to_string(most->count()) : "as usual"));
   }
   AdminAnswer cancel() override { return note("cancel"); }
-  AdminAnswer reload() override { return note("reload"); }
+  void reload(std::function<void(AdminAnswer)> done_reading) override { done_reading(note("reload")); }
   AdminAnswer changePassword(std::optional<PasswordHash> hash) override {
     password = std::move(hash);
     return note("password");

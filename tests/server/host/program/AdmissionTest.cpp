@@ -143,8 +143,9 @@ class AdmissionTest : public testing::Test {
   bool worlds_end = true;
   std::vector<std::string> log_of_rooms;
   SessionTable sessions{256, counters, [this](Session& session) { rooms.removeSession(session); }};
+  StageClock stages;
   Rooms rooms{options, sessions, counters, [this](const std::string& line) { log_of_rooms.push_back(line); },
-              [] {}};
+              [] {},   stages};
 
  private:
   Session::Events events() {

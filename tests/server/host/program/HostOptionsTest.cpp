@@ -2,16 +2,20 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "host/program/HostOptions.h"
+#include "shared/options/Options.h"
 
 namespace naiad {
 namespace {
@@ -31,6 +35,48 @@ TEST(HostOptions, AMisspeltOptionInTheConfigFileIsAnError) {
   std::ofstream(path) << "ticsk = 3\n";
   EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kUsageError);
   std::remove(path.c_str());
+}
+
+TEST(HostOptions, ReadAgainTheyThrowInsteadOfPrinting) {
+  const char* const good[] = {"dfserver", "--max-players", "3"};
+  EXPECT_EQ(readHostOptions(3, good).max_players, 3);
+  const char* const bad[] = {"dfserver", "--max-players", "many"};
+  EXPECT_THROW(readHostOptions(3, bad), OptionError);
+  const char* const together[] = {"dfserver", "--qr"};
+  EXPECT_THROW(readHostOptions(2, together), OptionError);
+  const char* const unknown[] = {"dfserver", "--max-plyers", "3"};
+  try {
+    readHostOptions(3, unknown);
+    ADD_FAILURE() << "it was taken";
+  } catch (const OptionError& error) {
+    EXPECT_STREQ(error.what(), "there is no option --max-plyers; did you mean --max-players?");
+  }
+}
+
+TEST(HostOptions, ARunningServerTakesOverWhatMayChange) {
+  HostOptions now;
+  HostOptions next;
+  EXPECT_EQ(takeOver(next, now).text(), "none has changed");
+  next.max_players = 7;
+  next.password = "xyzzy";
+  next.grace = 12.5;
+  next.log_chat = true;
+  EXPECT_EQ(takeOver(next, now).text(), "max-players, password, grace and log-chat have changed");
+  EXPECT_EQ(now.max_players, 7);
+  EXPECT_EQ(now.password, "xyzzy");
+  EXPECT_EQ(now.grace, 12.5);
+  EXPECT_TRUE(now.log_chat);
+}
+
+TEST(HostOptions, ARunningServerNamesWhatNeedsARestart) {
+  HostOptions now;
+  HostOptions next;
+  next.port = 1;
+  next.max_players = 7;
+  EXPECT_EQ(takeOver(next, now).text(), "max-players has changed; port needs a restart");
+  EXPECT_EQ(now.port, HostOptions().port);
+  next.game = "tron";
+  EXPECT_EQ(takeOver(next, now).text(), "none has changed; game and port need a restart");
 }
 
 TEST(HostOptions, ATickThatNoClientWouldBelieveIsAnError) {
@@ -57,6 +103,25 @@ TEST(HostOptions, WhatIsNoneOfTheWordsIsAnError) {
   EXPECT_EQ(parse({"--players", "first", "--on-game-over", "exit"}, options), CommandLine::kRun);
   EXPECT_EQ(options.players, "first");
   EXPECT_EQ(options.on_game_over, "exit");
+}
+
+TEST(HostOptions, MetricsOnAPublicAddressAreAnErrorUnlessThatIsAskedFor) {
+  for (const char* address : {"127.0.0.1:0", "[::1]:9100", "10.0.0.7:9100"}) {
+    HostOptions options;
+    EXPECT_EQ(parse({"--metrics", address, "--metrics-hosts", "game.internal,b"}, options),
+              CommandLine::kRun);
+    EXPECT_EQ(options.metrics, address);
+  }
+  for (const char* address : {"0.0.0.0:9100", "[::]:9100", "8.8.8.8:9100"}) {
+    HostOptions options;
+    EXPECT_EQ(parse({"--metrics", address}, options), CommandLine::kUsageError) << address;
+    EXPECT_EQ(parse({"--metrics", address, "--metrics-public"}, options), CommandLine::kRun) << address;
+  }
+  HostOptions options;
+  EXPECT_EQ(parse({"--metrics", "localhost:9100"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--metrics", "127.0.0.1"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--metrics-hosts", "a b"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--audit", "perhaps"}, options), CommandLine::kUsageError);
 }
 
 TEST(HostOptions, WhatIsPrintedForPlayersIsChecked) {
@@ -232,6 +297,122 @@ TEST(HostOptions, OneIsChangedByItsNameWithinItsRange) {
   EXPECT_THROW(setHostOption(options, "max-players", "many"), OptionError);
   EXPECT_THROW(setHostOption(options, "banana", "7"), OptionError);
   EXPECT_EQ(options.max_players, 7);
+}
+
+/// What a page or a check prints.
+std::string printed(const std::vector<const char*>& arguments, CommandLine wanted = CommandLine::kDone) {
+  HostOptions options;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(parse(arguments, options), wanted);
+  return testing::internal::GetCapturedStdout();
+}
+
+// Each line of the example, with its # taken away, is what holds anyhow: it is not refused, and changes
+// nothing.
+TEST(HostOptions, TheExampleOfAConfigurationHasTheDefaults) {
+  const std::string path = testing::TempDir() + "naiad-example-" + std::to_string(getpid());
+  std::istringstream lines(printed({"--option-page", "config"}));
+  std::ofstream example(path);
+  int settings = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_setting = line.size() > 1 && line[0] == '#' && line[1] != ' ';
+    settings += is_setting ? 1 : 0;
+    example << (is_setting ? line.substr(1) : line) << "\n";
+  }
+  example.close();
+  EXPECT_GT(settings, 25);
+  EXPECT_EQ(printed({"--config", path.c_str(), "--print-config"}), printed({"--print-config"}));
+  std::remove(path.c_str());
+}
+
+TEST(HostOptions, WhatIsPrintedAsAConfigurationIsOne) {
+  const std::string path = testing::TempDir() + "naiad-printed-" + std::to_string(getpid());
+  const std::vector<const char*> given{"--server-name", "a # \"b\"",     "--port",      "0",
+                                       "--qr",          "--web-address", "https://x/#y"};
+  std::vector<const char*> words = given;
+  words.push_back("--print-config");
+  const std::string first = printed(words);
+  EXPECT_NE(first.find("\nport = 0\n"), std::string::npos) << first;
+  std::ofstream(path) << first;
+  EXPECT_EQ(printed({"--config", path.c_str(), "--print-config"}), first);
+  std::remove(path.c_str());
+}
+
+TEST(HostOptions, APasswordIsNotPrinted) {
+  const std::string text = printed({"--password", "verysecret", "--print-config"});
+  EXPECT_EQ(text.find("verysecret"), std::string::npos);
+  EXPECT_NE(text.find("# password is given, and not printed\n"), std::string::npos);
+}
+
+TEST(HostOptions, AConfigurationIsCheckedWithoutAServer) {
+  const std::string path = testing::TempDir() + "naiad-checked-" + std::to_string(getpid());
+  std::ofstream(path) << "prot = 1\n\nmax-players = many\n";
+  testing::internal::CaptureStderr();
+  HostOptions options;
+  EXPECT_EQ(parse({"--config", path.c_str(), "--check-config"}, options), CommandLine::kUsageError);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("dfserver: " + path + ":1: there is no option \"prot\"; did you mean port?\n"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("dfserver: " + path + ":3: max-players: "), std::string::npos) << said;
+  std::ofstream(path) << "port = 1\n";
+  EXPECT_EQ(printed({"--config", path.c_str(), "--check-config"}), "");
+  std::ofstream(path) << "certificate = x\n";
+  printed({"--config", path.c_str(), "--check-config"}, CommandLine::kUsageError);
+  std::remove(path.c_str());
+}
+
+TEST(HostOptions, AVariableThatIsNoneIsAWarning) {
+  setenv("NAIAD_MAX_PLAYER", "3", 1);
+  HostOptions options;
+  EXPECT_EQ(parse({}, options), CommandLine::kRun);
+  unsetenv("NAIAD_MAX_PLAYER");
+  EXPECT_EQ(std::count(options.warnings.begin(), options.warnings.end(),
+                       "there is no variable NAIAD_MAX_PLAYER; did you mean NAIAD_MAX_PLAYERS?"),
+            1);
+}
+
+// Variables of the other programs may be set for all of them.
+TEST(HostOptions, VariablesOfTheClientAreNoMistakes) {
+  namespace fs = std::filesystem;
+  std::set<std::string> names;
+  const std::regex name("\"(NAIAD_[A-Z_]+)\"");
+  for (const char* folder : {"client", "shared", "server"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(NAIAD_SOURCE_DIR) / folder)) {
+      if (entry.path().extension() != ".cpp") continue;
+      std::ostringstream text;
+      text << std::ifstream(entry.path()).rdbuf();
+      const std::string source = text.str();
+      for (std::sregex_iterator found(source.begin(), source.end(), name); found != std::sregex_iterator();
+           ++found)
+        names.insert((*found)[1]);
+    }
+  }
+  EXPECT_GT(names.size(), 40u);
+  names.erase("NAIAD_");
+  for (const std::string& variable : names) {
+    if (getenv(variable.c_str()) != nullptr) continue;
+    setenv(variable.c_str(), "", 1);
+    HostOptions options;
+    parse({"--check-config"}, options);
+    unsetenv(variable.c_str());
+    EXPECT_EQ(
+        std::count(options.warnings.begin(), options.warnings.end(), "there is no variable " + variable), 0)
+        << variable;
+  }
+}
+
+TEST(HostOptions, SocketsFromTheServiceManagerDecideAddressAndPort) {
+  HostOptions options;
+  useSockets({3, 4, "127.0.0.1", 4000}, options);
+  EXPECT_EQ(options.address, "127.0.0.1");
+  EXPECT_EQ(options.port, 4000);
+  EXPECT_TRUE(options.warnings.empty()) << "nothing else was asked for";
+  HostOptions other;
+  other.port = 5000;
+  useSockets({3, 4, "127.0.0.1", 4000}, other);
+  EXPECT_EQ(other.warnings, std::vector<std::string>{
+                                "the port is 4000, of the sockets from the service manager, and not 5000"});
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What of a world's own report reaches the players of other worlds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <deque>
@@ -28,7 +29,9 @@ class ScriptedPort : public WorldPort {
   void setHeard(std::uint32_t /*player*/) override {}
   void endGame() override {}
   bool isReady() const override { return true; }
-  void tick(bool /*watched*/, bool /*truth*/) override {
+  void setPictured(std::uint32_t player) override { m_pictured = player; }
+  void tick(bool /*watched*/, bool truth) override {
+    pictured.push_back(truth ? m_pictured : 0);
     ++m_view.tick;
     m_view.players = players;
     reportTick();
@@ -41,8 +44,10 @@ class ScriptedPort : public WorldPort {
   df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {}; }
 
   std::vector<df::PlayerFacts> players;
+  std::vector<std::uint32_t> pictured;  ///< by tick: whose picture was wanted; 0: none
 
  private:
+  std::uint32_t m_pictured = 0;
   df::WorldView m_view;
 };
 
@@ -112,13 +117,73 @@ class RoomsTest : public testing::Test {
   std::deque<Client> clients;
   std::vector<ScriptedPort*> ports;
   SessionTable sessions{1024, counters, [this](Session& session) { rooms.removeSession(session); }};
-  Rooms rooms{options, sessions, counters, [](const std::string&) {}, [] {}};
+  StageClock stages;
+  Rooms rooms{options, sessions, counters, [](const std::string&) {}, [] {}, stages};
   PlayerNews news;
-  Admission admission{
-      {options, "maze", sessions, rooms, prefixes, counters, [](const std::string&, const std::string&) {},
-       [](const ReliableChannel&, AeadId) { return nullptr; }, [] {}},
-      io.get_executor()};
+  AdminWorker worker;
+  BanList bans{worker, {}};
+  Admission admission{{options, "maze", sessions, rooms, prefixes, counters, bans,
+                       [](const std::string&, const std::string&) {},
+                       [](const ReliableChannel&, AeadId) { return nullptr; }, [] {}},
+                      io.get_executor()};
 };
+
+// ---- the audit of pictures --------------------------------------------------------------------------------
+
+constexpr std::uint32_t kTicksPerSecond = 2;
+
+class AuditTurnsTest : public RoomsTest {
+ protected:
+  void tick(int count) {
+    for (int i = 0; i < count; ++i, ++counters.ticks) rooms.beginTicks();
+  }
+  /// In how many ticks somebody's picture was wanted, of the player's own world.
+  std::size_t wanted(std::size_t number, const Client& client) const {
+    const std::vector<std::uint32_t>& all = ports[number]->pictured;
+    const auto own = std::count(all.begin(), all.end(), client.welcome().player());
+    EXPECT_EQ(own + std::count(all.begin(), all.end(), 0u), static_cast<std::ptrdiff_t>(all.size()));
+    return static_cast<std::size_t>(own);
+  }
+};
+
+TEST_F(AuditTurnsTest, WithoutAnAuditNoPictureIsWanted) {
+  const Client& ann = join("Ann");
+  tick(40);
+  EXPECT_EQ(wanted(0, ann), 0u);
+}
+
+TEST_F(AuditTurnsTest, OnePlayersPictureIsWantedOneSecondInTen) {
+  rooms.startAudit(kTicksPerSecond);
+  const Client& ann = join("Ann");
+  const Client& bob = join("Bob");
+  tick(2 * AuditTurns::kPeriod * kTicksPerSecond);
+  EXPECT_EQ(wanted(0, ann), 2 * kTicksPerSecond);
+  EXPECT_EQ(wanted(1, bob), 0u);
+}
+
+TEST_F(AuditTurnsTest, TheTurnGoesToThoseWhoJoinAfterItHasLastedTenSeconds) {
+  rooms.startAudit(kTicksPerSecond);
+  const Client& ann = join("Ann");
+  tick(AuditTurns::kPeriod * kTicksPerSecond);
+  const Client& bob = join("Bob");
+  const Client& cal = join("Cal");
+  tick(AuditTurns::kPeriod * kTicksPerSecond);
+  EXPECT_EQ(wanted(0, ann), kTicksPerSecond);
+  EXPECT_EQ(wanted(1, bob), kTicksPerSecond);
+  EXPECT_EQ(wanted(2, cal), 0u);
+}
+
+TEST_F(AuditTurnsTest, WhenOneHasLeftTheNextToJoinHasTheTurnAtOnce) {
+  options.grace = 0;
+  rooms.startAudit(kTicksPerSecond);
+  const Client& ann = join("Ann");
+  tick(1);
+  ann.drop();
+  sessions.sweep();
+  const Client& bob = join("Bob");
+  tick(AuditTurns::kPeriod * kTicksPerSecond);
+  EXPECT_EQ(wanted(1, bob), kTicksPerSecond);
+}
 
 TEST_F(RoomsTest, AWorldThatLiesAboutItsPlayersIsBelievedItsOwnScoresAlone) {
   const Client& ann = join("Ann");

@@ -1,31 +1,16 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <vector>
 
 #include "shared/net/stream/TcpListener.h"
 #include "tests/shared/net/Loopback.h"
+#include "tests/shared/net/NoDescriptorsLeft.h"
 #include "tests/shared/net/Recorder.h"
 
 namespace naiad::test {
 namespace {
-
-/// While it lives, this process can open no more descriptors.
-class NoDescriptorsLeft {
- public:
-  NoDescriptorsLeft() {
-    getrlimit(RLIMIT_NOFILE, &before_);
-    rlimit none = before_;
-    none.rlim_cur = 0;
-    setrlimit(RLIMIT_NOFILE, &none);
-  }
-  ~NoDescriptorsLeft() { setrlimit(RLIMIT_NOFILE, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 struct TcpListenerTest : testing::Test {
   TcpListener::OnChannel keep() {

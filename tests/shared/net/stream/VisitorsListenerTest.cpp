@@ -16,6 +16,7 @@
 #include "shared/net/stream/VisitorHeader.h"
 #include "shared/net/stream/VisitorsListener.h"
 #include "tests/shared/net/Loopback.h"
+#include "tests/shared/net/NoDescriptorsLeft.h"
 
 namespace naiad::test {
 namespace {
@@ -161,6 +162,18 @@ TEST_F(VisitorsListenerTest, AProgramThatMayNotIsHungUpOn) {
   EXPECT_EQ(counters().refused_peers, 1u);
   EXPECT_EQ(asked, getpid());
   EXPECT_TRUE(m_sockets.empty());
+}
+
+TEST_F(VisitorsListenerTest, SurvivesRunningOutOfDescriptors) {
+  listen();
+  runReady(m_context);
+  const Local::socket door = say(visitorHeader(kVisitor));
+  {
+    const NoDescriptorsLeft shortage;
+    EXPECT_TRUE(runUntil(m_context, [this] { return counters().failed_accepts >= 2; }));
+    EXPECT_TRUE(m_visitors.empty());
+  }
+  EXPECT_TRUE(runUntil(m_context, [this] { return m_visitors.size() == 1; }));
 }
 
 TEST_F(VisitorsListenerTest, OnlyUserAndGroupMayOpenIt) {

@@ -1,0 +1,65 @@
+// The servers that were found: a bounded list without doubles, in the order in which people read it.
+#pragma once
+
+#include <asio/ip/address.hpp>
+#include <asio/ip/udp.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "client/trust/ServerAddress.h"
+#include "shared/net/lan/LanMessage.h"
+#include "shared/net/stream/ShortKey.h"
+
+namespace naiad {
+
+/// What a server says of itself, or who lists it says of it: all of it may be wrong. Texts are safe to draw.
+struct FoundServer {
+  std::string name;
+  std::string game;
+  ServerAddress where;
+  ShortKey key = ShortKey::ofBytes({});  ///< that the server must prove when it is joined
+  std::uint32_t protocol = 0;
+  std::uint16_t players = 0;
+  std::uint16_t max_players = 0;
+  bool asks_password = false;
+
+  /// Does it speak this program's protocol?
+  bool isPlayable() const;
+  /// The link that leads to it; empty where no link can: an IPv6 address with a zone.
+  std::string link() const;
+
+  friend bool operator==(const FoundServer&, const FoundServer&) = default;
+};
+
+class FoundServers {
+ public:
+  /// Servers in the list, and of those from one address. Who comes when it is full is left out.
+  static constexpr std::size_t kMax = 64;
+  static constexpr std::size_t kMaxOfAnAddress = 16;
+
+  /// Add what the server at `source` says, or put it in place of what the one with this key said before. Of
+  /// the addresses of one server the best stays: IPv4, then IPv6, then IPv6 with a zone, and loopback last.
+  /// True if the list is another one now.
+  bool addAnswer(const asio::ip::udp::endpoint& source, const LanAnswer& answer);
+  /// The same for one that a list on the web names.
+  bool addServer(const FoundServer& server);
+  /// Forget all.
+  void clear() { m_entries.clear(); }
+
+  /// By name, then game, then key.
+  std::vector<FoundServer> sorted() const;
+  std::size_t size() const { return m_entries.size(); }
+
+ private:
+  struct Entry {
+    FoundServer server;
+    int rank = 0;  ///< of its address; less is better
+  };
+  bool addEntry(const FoundServer& server, int rank);
+
+  std::vector<Entry> m_entries;
+};
+
+}  // namespace naiad

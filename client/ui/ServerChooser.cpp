@@ -1,0 +1,178 @@
+#include "client/ui/ServerChooser.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <iterator>
+#include <utility>
+
+#include "client/lan/ServerListText.h"
+#include "client/terminal/Screen.h"
+#include "client/terminal/TerminalGuard.h"
+
+namespace naiad {
+namespace {
+
+int millisUntil(std::chrono::steady_clock::time_point time) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(time - std::chrono::steady_clock::now());
+  return std::max(0, static_cast<int>(left.count()));
+}
+
+}  // namespace
+
+ServerChooser::ServerChooser(Options options)
+    : m_options(std::move(options)),
+      m_menu(m_options.fetch ? "Servers of the list" : "Servers of this network") {
+  if (m_options.fetch) return;
+  m_browser.emplace();
+  m_menu.setEmpty({std::begin(kNoServersFound), std::end(kNoServersFound)});
+}
+
+ServerChooser::~ServerChooser() = default;
+
+ServerChooser::Outcome ServerChooser::run() {
+  takeTerminal();
+  refresh(std::chrono::steady_clock::now());
+  while (!m_done) {
+    if (m_browser) m_browser->update(std::chrono::steady_clock::now());
+    if (m_dirty) draw();
+    wait();
+  }
+  m_guard->restore();
+  return m_outcome;
+}
+
+void ServerChooser::takeTerminal() {
+  m_guard = std::make_unique<TerminalGuard>(TerminalGuard::Options{.mouse = false});
+  m_screen =
+      std::make_unique<Screen>(Screen::Options{m_options.terminal.name, m_options.ascii, m_options.colors});
+  m_guard->onRestore([this] { m_screen->end(); });
+  m_guard->installHandlers();
+  draw();
+  m_guard->enterModes();
+}
+
+/// One turn: what comes first of keys, a signal, answers, and the next deadline.
+void ServerChooser::wait() {
+  std::vector<pollfd> waited{{STDIN_FILENO, POLLIN, 0}, {m_guard->signalFd(), POLLIN, 0}};
+  std::optional<Time> next = m_decoder.deadline();
+  if (m_browser) {
+    for (const int descriptor : m_browser->descriptors()) waited.push_back({descriptor, POLLIN, 0});
+    next = std::min(next.value_or(Time::max()), m_browser->nextQuery());
+    if (m_looking) next = std::min(*next, m_begun + LanBrowser::kPatience);
+  }
+  ::poll(waited.data(), waited.size(), next ? millisUntil(*next) : -1);
+  const Time now = std::chrono::steady_clock::now();
+  if (waited[1].revents != 0) takeSignals();
+  if (waited[0].revents != 0 && !m_done) readKeys(now);
+  takeEvents(m_decoder.flush(now), now);
+  if (m_browser) receiveAnswers(now);
+}
+
+void ServerChooser::receiveAnswers(Time now) {
+  if (m_browser->receiveAnswers()) {
+    m_menu.setServers(m_browser->servers().sorted());
+    m_dirty = true;
+  }
+  if (!m_looking || now < m_begun + LanBrowser::kPatience) return;
+  m_looking = false;
+  m_menu.setLooking(false);
+  m_dirty = true;
+}
+
+void ServerChooser::readKeys(Time now) {
+  std::array<char, 4096> bytes{};
+  const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+  if (count < 0 && (errno == EINTR || errno == EAGAIN)) return;
+  if (count <= 0) m_done = true;  // the terminal is gone
+  if (count > 0) takeEvents(m_decoder.feed({bytes.data(), static_cast<std::size_t>(count)}, now), now);
+}
+
+void ServerChooser::takeEvents(const std::vector<TerminalEvent>& events, Time now) {
+  for (const TerminalEvent& event : events) {
+    const auto* p_key = std::get_if<KeyEvent>(&event);
+    if (p_key == nullptr || m_done) continue;
+    switch (m_menu.takeKey(*p_key)) {
+      case ServerMenu::Result::kJoin:
+        m_outcome.server = *m_menu.chosen();
+        m_done = true;
+        break;
+      case ServerMenu::Result::kLeave:
+        m_done = true;
+        break;
+      case ServerMenu::Result::kRefresh:
+        refresh(now);
+        break;
+      case ServerMenu::Result::kSuspend:
+        suspend();
+        break;
+      case ServerMenu::Result::kRedraw:
+        m_dirty = true;
+        break;
+      case ServerMenu::Result::kNone:
+        break;
+    }
+  }
+}
+
+void ServerChooser::takeSignals() {
+  std::array<unsigned char, 64> signals{};
+  const ssize_t count = ::read(m_guard->signalFd(), signals.data(), signals.size());
+  for (ssize_t i = 0; i < count; ++i) {
+    const int signal = signals[static_cast<std::size_t>(i)];
+    if (signal == SIGTSTP) suspend();
+    if (signal == SIGWINCH || signal == SIGCONT) {
+      m_screen->readSize();
+      m_screen->redrawAll();
+      m_dirty = true;
+    }
+    if (signal != SIGINT && signal != SIGTERM && signal != SIGHUP) continue;
+    m_done = true;
+    if (signal != SIGINT) m_outcome.signal = signal;
+  }
+}
+
+void ServerChooser::refresh(Time now) {
+  m_menu.setServers({});
+  m_menu.setLooking(true);
+  m_begun = now;
+  m_looking = true;
+  m_dirty = true;
+  m_browser ? m_browser->restart() : fetch();
+}
+
+void ServerChooser::fetch() {
+  draw();
+  const auto fetched = m_options.fetch();
+  if (const auto* p_problem = std::get_if<DownloadProblem>(&fetched)) {
+    m_menu.setEmpty({p_problem->sentence});
+  } else {
+    m_menu.setEmpty({"No server is in the list."});
+    m_menu.setServers(std::get<FoundServers>(fetched).sorted());
+  }
+  m_menu.setLooking(false);
+  m_dirty = true;
+}
+
+void ServerChooser::suspend() {
+  m_guard->leaveModes();
+  m_screen->end();
+  m_guard->setOriginal();
+  m_guard->stopProcess();
+  m_guard->setRaw();
+  m_screen->readSize();
+  m_screen->redrawAll();
+  draw();
+  m_guard->enterModes();
+}
+
+void ServerChooser::draw() {
+  m_screen->show(m_menu.compose(m_screen->columns(), m_screen->rows()));
+  m_dirty = false;
+}
+
+}  // namespace naiad

@@ -1,0 +1,71 @@
+// The full-screen list of servers, on a real terminal, until one is chosen: of the local network, where it
+// goes on looking, or of a list that is fetched.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "client/lan/FoundServers.h"
+#include "client/lan/LanBrowser.h"
+#include "client/lan/ListDownload.h"
+#include "client/terminal/InputDecoder.h"
+#include "client/terminal/TerminalType.h"
+#include "client/ui/ServerMenu.h"
+
+namespace naiad {
+
+class Screen;
+class TerminalGuard;
+
+class ServerChooser {
+ public:
+  struct Options {
+    TerminalType terminal;
+    bool ascii = false;
+    bool colors = true;
+    /// Fetches a list; keys wait meanwhile. Empty: the servers of the local network.
+    std::function<std::variant<FoundServers, DownloadProblem>()> fetch{};
+  };
+  struct Outcome {
+    std::optional<FoundServer> server;  ///< nothing: the player left
+    int signal = 0;                     ///< the signal that ended it, to be raised again; 0: none
+  };
+
+  explicit ServerChooser(Options options);
+  ~ServerChooser();
+
+  /// Show the list, restore the terminal. Throws std::runtime_error if there is no terminal to draw on.
+  Outcome run();
+
+ private:
+  using Time = std::chrono::steady_clock::time_point;
+
+  void takeTerminal();
+  void wait();
+  void readKeys(Time now);
+  void takeEvents(const std::vector<TerminalEvent>& events, Time now);
+  void takeSignals();
+  void refresh(Time now);
+  void fetch();
+  void receiveAnswers(Time now);
+  void suspend();
+  void draw();
+
+  Options m_options;
+  std::optional<LanBrowser> m_browser;  ///< nothing with Options::fetch
+  ServerMenu m_menu;
+  InputDecoder m_decoder;
+  std::unique_ptr<TerminalGuard> m_guard;
+  std::unique_ptr<Screen> m_screen;
+  Outcome m_outcome;
+  Time m_begun{};  ///< of looking
+  bool m_looking = true;
+  bool m_dirty = true;
+  bool m_done = false;
+};
+
+}  // namespace naiad

@@ -1,0 +1,108 @@
+# Four Debian packages, by CPack: deploy/package builds them. What is installed in which is said by COMPONENT at each
+# install(); this file has what packages have beside that.
+set(debian ${CMAKE_CURRENT_SOURCE_DIR}/debian)
+# An official package of Debian would be -1, and newer.
+set(NAIAD_DEBIAN_REVISION 0naiad1)
+set(version ${PROJECT_VERSION}-${NAIAD_DEBIAN_REVISION})
+file(STRINGS ${debian}/changelog first LIMIT_COUNT 1)
+if(NOT first MATCHES "^naiad \\(${version}\\)")
+  message(FATAL_ERROR "deploy/debian/changelog begins with \"${first}\", and the version is ${version}")
+endif()
+set(triplet ${CMAKE_LIBRARY_ARCHITECTURE})
+
+# Units, users, settings.
+set(systemd ${CMAKE_CURRENT_SOURCE_DIR}/systemd)
+install(FILES ${systemd}/dfserver@.service ${systemd}/dfserver@.socket ${systemd}/dfweb.service
+  DESTINATION /lib/systemd/system COMPONENT server)
+install(FILES ${systemd}/sysusers.conf DESTINATION lib/sysusers.d RENAME naiad-server.conf COMPONENT server)
+install(FILES ${systemd}/tmpfiles.conf DESTINATION lib/tmpfiles.d RENAME naiad-server.conf COMPONENT server)
+install(FILES ${pages}/default.conf ${systemd}/dfweb.env DESTINATION /etc/naiad COMPONENT server)
+
+# Changelog, licence, and what lintian is told.
+set(changelog ${pages}/changelog.Debian.gz)
+add_custom_command(OUTPUT ${changelog}
+  COMMAND gzip -9nc ${debian}/changelog > ${changelog} DEPENDS ${debian}/changelog)
+add_custom_target(naiad_changelog ALL DEPENDS ${changelog})
+foreach(component server client library dev)
+  string(REGEX MATCH "server:([^;]*);client:([^;]*);library:([^;]*);dev:(.*)" _
+    "server:naiad-server;client:naiad-client;library:libdragonfly0;dev:libdragonfly-dev")
+  set(name_server ${CMAKE_MATCH_1})
+  set(name_client ${CMAKE_MATCH_2})
+  set(name_library ${CMAKE_MATCH_3})
+  set(name_dev ${CMAKE_MATCH_4})
+  set(package ${name_${component}})
+  install(FILES ${changelog} ${debian}/copyright DESTINATION share/doc/${package} COMPONENT ${component})
+  if(EXISTS ${debian}/${package}.lintian-overrides)
+    install(FILES ${debian}/${package}.lintian-overrides DESTINATION share/lintian/overrides RENAME ${package}
+      COMPONENT ${component})
+  endif()
+endforeach()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME naiad)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # or it would be the first line of each
+set(CPACK_PACKAGE_CONTACT "The Naiad maintainers <naiad@naiad.invalid>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL server client library dev)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PACKAGE_RELEASE ${NAIAD_DEBIAN_REVISION})
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+# Programs and games are linked with the library of the same build; its dependencies are found where it is built.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+
+set(CPACK_DEBIAN_SERVER_PACKAGE_NAME naiad-server)
+set(CPACK_DEBIAN_SERVER_PACKAGE_SECTION net)
+set(CPACK_DEBIAN_SERVER_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_SERVER_PACKAGE_DEPENDS
+  "libdragonfly0 (= ${version}), systemd | systemd-standalone-sysusers | systemd-sysusers, systemd | systemd-standalone-tmpfiles | systemd-tmpfiles")
+set(CPACK_DEBIAN_SERVER_PACKAGE_SUGGESTS "naiad-client, openssh-server")
+set(CPACK_DEBIAN_SERVER_DESCRIPTION "server for networked Dragonfly games
+Naiad makes text games for the Dragonfly engine playable over a network.
+The server runs the game and shows it to players in terminals and browsers.
+
+This package has the server (dfserver), the gateway and page for browsers
+(dfweb), what an ssh door runs (dfdoor), ten games, and units for systemd.")
+set(CPACK_DEBIAN_SERVER_PACKAGE_CONTROL_EXTRA ${debian}/naiad-server/postinst ${debian}/naiad-server/prerm
+  ${debian}/naiad-server/postrm ${debian}/naiad-server/conffiles)
+
+set(CPACK_DEBIAN_CLIENT_PACKAGE_NAME naiad-client)
+set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION net)
+set(CPACK_DEBIAN_CLIENT_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_CLIENT_DESCRIPTION "terminal client for networked Dragonfly games
+Naiad makes text games for the Dragonfly engine playable over a network.
+The client draws the game of a server in a terminal, and sends keys and
+mouse; it needs no files of the game.
+
+This package has the client (dfclient), and players without a screen for
+tests (dfbot).")
+
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libdragonfly0)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+# Packages of games that are linked with it depend on this version: CPack would list game modules as libraries, too.
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/shlibs "libdragonfly 0 libdragonfly0 (= ${version})\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${debian}/libdragonfly0/triggers ${CMAKE_CURRENT_BINARY_DIR}/shlibs)
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "engine, physics and hosting for networked text games
+A text-character game engine with the interface of Dragonfly, with bodies
+and joints, whose games are servers: players join them over a network.
+
+This package has the shared library.")
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libdragonfly-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libdragonfly0 (= ${version}), python3:any")
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "g++ | c++-compiler, naiad-client, naiad-server")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "engine, physics and hosting for networked text games (development)
+A text-character game engine with the interface of Dragonfly, with bodies
+and joints, whose games are servers: players join them over a network.
+
+This package has headers, files for CMake and pkg-config, the sources of
+ten games, and dragonfly-adopt, which tries games that were written for the
+published engine.")
+include(CPack)

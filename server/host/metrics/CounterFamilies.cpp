@@ -1,0 +1,249 @@
+#include "host/metrics/CounterFamilies.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "host/metrics/Exposition.h"
+
+namespace naiad {
+
+namespace {
+
+/// One sample: a counter, or the difference of two where one counts a part of the other.
+template <class Struct>
+struct CounterRow {
+  std::uint64_t Struct::*counter;
+  std::string_view name;
+  std::string_view labels;
+  std::string_view help;  ///< of the family: in its first row
+  std::uint64_t Struct::*less = nullptr;
+};
+
+/// Is each counter of the struct, which has no other members, in one row of its own?
+template <class Struct, std::size_t kRows>
+consteval bool hasAll(const std::array<CounterRow<Struct>, kRows>& rows) {
+  for (std::size_t i = 0; i < kRows; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (rows[i].counter == rows[j].counter) return false;
+    }
+  }
+  return kRows * sizeof(std::uint64_t) == sizeof(Struct);
+}
+
+template <class Struct, std::size_t kRows>
+void writeRows(Exposition& out, const Struct& counters, const std::array<CounterRow<Struct>, kRows>& rows) {
+  for (const auto& row : rows) {
+    if (!row.help.empty()) out.begin(row.name, MetricType::kCounter, row.help);
+    const std::uint64_t less = row.less != nullptr ? counters.*row.less : 0;
+    out.add(row.labels, counters.*row.counter - std::min(less, counters.*row.counter));
+  }
+}
+
+using C = Counters;
+constexpr auto kHostRows = std::to_array<CounterRow<C>>({
+    {&C::ticks, "naiad_ticks_total", "", "Ticks begun."},
+    {&C::late_ticks, "naiad_late_ticks_total", "", "Ticks that began more than 5 ms after their deadline."},
+    {&C::rebased_ticks, "naiad_rebased_ticks_total", "",
+     "Ticks that were a whole tick late, so that the schedule began again."},
+    {&C::late_worlds, "naiad_late_worlds_total", "",
+     "Ticks that a world in a process of its own missed, since it had not ended the one before."},
+    {&C::connections, "naiad_connections_total", "", "Connections that may become sessions."},
+    {&C::joined, "naiad_joins_total", "", "Players who were let in."},
+    {&C::left_asked, "naiad_leaves_total", R"(reason="asked")", "Players who left, by reason."},
+    {&C::left_dismissed, "naiad_leaves_total", R"(reason="dismissed")", ""},
+    {&C::left_hung_up, "naiad_leaves_total", R"(reason="hung_up")", ""},
+    {&C::left_silent, "naiad_leaves_total", R"(reason="silent")", ""},
+    {&C::left_flood, "naiad_leaves_total", R"(reason="flood")", ""},
+    {&C::left_malformed, "naiad_leaves_total", R"(reason="malformed")", ""},
+    {&C::left_stuck, "naiad_leaves_total", R"(reason="stuck")", ""},
+    {&C::refused_version, "naiad_refusals_total", R"(reason="version")",
+     "Clients that were not let in, by reason."},
+    {&C::refused_full, "naiad_refusals_total", R"(reason="full")", ""},
+    {&C::refused_address, "naiad_refusals_total", R"(reason="address")", ""},
+    {&C::refused_closing, "naiad_refusals_total", R"(reason="closing")", ""},
+    {&C::refused_game, "naiad_refusals_total", R"(reason="game")", ""},
+    {&C::refused_name, "naiad_refusals_total", R"(reason="name")", ""},
+    {&C::refused_banned, "naiad_refusals_total", R"(reason="banned")", ""},
+    {&C::refused_password, "naiad_refusals_total", R"(reason="password")", ""},
+    {&C::refused_busy, "naiad_refusals_total", R"(reason="busy")", ""},
+    {&C::refused_elsewhere, "naiad_refusals_total", R"(reason="elsewhere")", ""},
+    {&C::turned_away, "naiad_refusals_total", R"(reason="crowded")", ""},
+    {&C::login_timeouts, "naiad_refusals_total", R"(reason="late")", ""},
+    {&C::malformed_frames, "naiad_malformed_total", R"(kind="frame")",
+     "Frames and messages that no client sends; each ended its connection."},
+    {&C::malformed_messages, "naiad_malformed_total", R"(kind="message")", ""},
+    {&C::input_floods, "naiad_floods_total", R"(kind="input")",
+     "Sessions ended, since they sent too much at once."},
+    {&C::message_floods, "naiad_floods_total", R"(kind="message")", ""},
+    {&C::idle_timeouts, "naiad_idle_timeouts_total", "",
+     "Connections of players that were silent for too long."},
+    {&C::stuck_streams, "naiad_stuck_streams_total", "", "Sessions ended, since they took in too little."},
+    {&C::detached, "naiad_detaches_total", "", "Connections that broke while their session goes on."},
+    {&C::graces_expired, "naiad_graces_expired_total", "", "Players who did not come back in time."},
+    {&C::resumed, "naiad_resumes_total", R"(kind="stream")", "Sessions that go on, by what is new.",
+     &C::restarted},
+    {&C::restarted, "naiad_resumes_total", R"(kind="process")", ""},
+    {&C::second_streams, "naiad_resumes_total", R"(kind="second_stream")", ""},
+    {&C::resumes_deferred, "naiad_resumes_deferred_total", R"(kind="stream")",
+     "Clients that came back more often than allowed."},
+    {&C::seconds_deferred, "naiad_resumes_deferred_total", R"(kind="second_stream")", ""},
+    {&C::unknown_tokens, "naiad_unknown_tokens_total", "",
+     "Clients that came back to no session that is there."},
+    {&C::inputs, "naiad_inputs_total", "", "Keys and clicks received."},
+    {&C::late_inputs, "naiad_late_inputs_total", "",
+     "Keys and clicks that came after the tick that they were meant for."},
+    {&C::repeated_inputs, "naiad_repeated_total", R"(kind="input")",
+     "What had come before, and was ignored."},
+    {&C::repeated_frames, "naiad_repeated_total", R"(kind="frame")", ""},
+    {&C::snapshots, "naiad_snapshots_total", R"(path="stream")", "Snapshots sent, by path.",
+     &C::datagram_snapshots},
+    {&C::datagram_snapshots, "naiad_snapshots_total", R"(path="datagram")", ""},
+    {&C::snapshot_bytes, "naiad_snapshot_bytes_total", R"(path="stream")",
+     "Bytes of snapshots sent, by path.", &C::datagram_snapshot_bytes},
+    {&C::datagram_snapshot_bytes, "naiad_snapshot_bytes_total", R"(path="datagram")", ""},
+    {&C::skipped_ticks, "naiad_skipped_ticks_total", "",
+     "Ticks of players that were not brought up to date, since their line was busy."},
+    {&C::divergences, "naiad_divergences_total", "", "Clients whose world was not what they were sent."},
+    {&C::resets, "naiad_world_resets_total", "", "Worlds that were sent again from the beginning."},
+    {&C::resets_dropped, "naiad_world_resets_dropped_total", "", "The same, asked for too often."},
+    {&C::checksums_dropped, "naiad_checksums_dropped_total", "", "Checksums of clients that came too often."},
+    {&C::sounds, "naiad_sounds_total", "", "Sounds sent, for each player."},
+    {&C::sounds_dropped, "naiad_sounds_dropped_total", "", "Sounds not sent, since a line was busy."},
+    {&C::kept_overflows, "naiad_left_out_total", R"(kind="sound")",
+     "What was left out for a player, since too much was kept for them."},
+    {&C::chat_left_out, "naiad_left_out_total", R"(kind="chat")", ""},
+    {&C::chat_dropped, "naiad_chat_dropped_total", "", "Lines of chat that came too fast."},
+    {&C::chat_muted, "naiad_chat_muted_total", "", "Lines of chat of muted players, which reached nobody."},
+    {&C::inactive, "naiad_inactive_total", "", "Players who had to go since they pressed no key."},
+    {&C::resizes_deferred, "naiad_resizes_deferred_total", "",
+     "Sizes of terminals that a newer one replaced."},
+    {&C::rounds_over, "naiad_world_ends_total", R"(reason="game_over")",
+     "Worlds in processes of their own that ended, by reason."},
+    {&C::rounds_crashed, "naiad_world_ends_total", R"(reason="crashed")", ""},
+    {&C::rounds_hung, "naiad_world_ends_total", R"(reason="hung")", ""},
+    {&C::rounds_broken, "naiad_world_ends_total", R"(reason="broken")", ""},
+    {&C::audited_pictures, "naiad_audit_pictures_total", "",
+     "Pictures of players that were held against the world's."},
+    {&C::audited_cells, "naiad_audit_cells_total", "", "Cells of these pictures."},
+    {&C::wrong_cells, "naiad_audit_wrong_cells_total", "",
+     "Cells of these pictures that were not the world's."},
+});
+static_assert(hasAll(kHostRows));
+
+using P = PasswordCheck::Counters;
+constexpr auto kPasswordRows = std::to_array<CounterRow<P>>({
+    {&P::right, "naiad_passwords_total", R"(result="right")", "Passwords, by what became of them."},
+    {&P::wrong, "naiad_passwords_total", R"(result="wrong")", ""},
+    {&P::unfit, "naiad_passwords_total", R"(result="unfit")", ""},
+    {&P::too_many, "naiad_passwords_total", R"(result="too_many")", ""},
+    {&P::busy, "naiad_passwords_total", R"(result="busy")", ""},
+});
+static_assert(hasAll(kPasswordRows));
+
+using S = TcpListener::Counters;
+constexpr auto kStreamRows = std::to_array<CounterRow<S>>({
+    {&S::handshakes, "naiad_handshakes_total", R"(result="done")", "TLS handshakes, by what became of them."},
+    {&S::handshakes_failed, "naiad_handshakes_total", R"(result="failed")", ""},
+    {&S::handshakes_late, "naiad_handshakes_total", R"(result="late")", ""},
+    {&S::half_open_ended, "naiad_streams_refused_total", R"(reason="silent")",
+     "Connections that were hung up on before their handshake, by reason."},
+    {&S::refused_half_open, "naiad_streams_refused_total", R"(reason="crowded")", ""},
+    {&S::refused_from_prefix, "naiad_streams_refused_total", R"(reason="address")", ""},
+    {&S::refused_too_often, "naiad_streams_refused_total", R"(reason="too_often")", ""},
+    {&S::refused_banned, "naiad_streams_refused_total", R"(reason="banned")", ""},
+    {&S::failed_accepts, "naiad_failed_accepts_total", "",
+     "Connections put off, since descriptors had run out."},
+});
+static_assert(hasAll(kStreamRows));
+
+using V = VisitorsListener::Counters;
+constexpr auto kVisitorRows = std::to_array<CounterRow<V>>({
+    {&V::visitors, "naiad_visitors_total", "", "Connections that doors of this machine brought."},
+    {&V::bad_headers, "naiad_visitors_refused_total", R"(reason="bad_header")",
+     "Connections at the visitors' socket that were hung up on, by reason."},
+    {&V::late_headers, "naiad_visitors_refused_total", R"(reason="late")", ""},
+    {&V::crowded, "naiad_visitors_refused_total", R"(reason="crowded")", ""},
+    {&V::refused_peers, "naiad_visitors_refused_total", R"(reason="peer")", ""},
+    {&V::failed_accepts, "naiad_visitors_failed_accepts_total", "",
+     "Connections there that were put off, since descriptors had run out."},
+});
+static_assert(hasAll(kVisitorRows));
+
+using R = RelayCounters;
+constexpr auto kRelayRows = std::to_array<CounterRow<R>>({
+    {&R::datagrams_in_dropped, "naiad_relay_datagrams_dropped_total", R"(direction="in")",
+     "Datagrams dropped between the threads, since one was behind."},
+    {&R::datagrams_out_dropped, "naiad_relay_datagrams_dropped_total", R"(direction="out")", ""},
+    {&R::streams_overflowed, "naiad_relay_streams_ended_total", R"(direction="in")",
+     "Streams ended between the threads, since one was behind."},
+    {&R::streams_clogged, "naiad_relay_streams_ended_total", R"(direction="out")", ""},
+    {&R::unmet, "naiad_relay_unmet_total", "",
+     "Connections hung up on, since too many waited for the next tick."},
+    {&R::keyless, "naiad_relay_keyless_total", "", "Sessions whose stream ended before it gave keys."},
+});
+static_assert(hasAll(kRelayRows));
+
+using G = DatagramGateCounters;
+constexpr auto kGateRows = std::to_array<CounterRow<G>>({
+    {&G::delivered, "naiad_datagrams_delivered_total", "", "Datagrams that were authentic."},
+    {&G::too_short, "naiad_datagrams_refused_total", R"(reason="too_short")",
+     "Datagrams refused, by reason."},
+    {&G::too_long, "naiad_datagrams_refused_total", R"(reason="too_long")", ""},
+    {&G::bad_kind, "naiad_datagrams_refused_total", R"(reason="bad_kind")", ""},
+    {&G::unknown_id, "naiad_datagrams_refused_total", R"(reason="unknown_id")", ""},
+    {&G::session_flood, "naiad_datagrams_refused_total", R"(reason="session_flood")", ""},
+    {&G::claimed_flood, "naiad_datagrams_refused_total", R"(reason="claimed_flood")", ""},
+    {&G::prefix_flood, "naiad_datagrams_refused_total", R"(reason="prefix_flood")", ""},
+    {&G::stranger_flood, "naiad_datagrams_refused_total", R"(reason="stranger_flood")", ""},
+    {&G::refused, "naiad_datagrams_refused_total", R"(reason="not_authentic")", ""},
+});
+static_assert(hasAll(kGateRows));
+
+using U = UdpCounters;
+constexpr auto kUdpRows = std::to_array<CounterRow<U>>({
+    {&U::received, "naiad_network_packets_total", R"(direction="in",transport="udp")", "Packets of UDP."},
+    {&U::sent, "naiad_network_packets_total", R"(direction="out",transport="udp")", ""},
+    {&U::dropped_full, "naiad_udp_send_failures_total", R"(reason="full")",
+     "Packets of UDP that were not sent."},
+    {&U::send_errors, "naiad_udp_send_failures_total", R"(reason="error")", ""},
+    {&U::receive_errors, "naiad_udp_receive_errors_total", R"(kind="error")",
+     "Errors where a packet of UDP was expected, and packets that were too long."},
+    {&U::too_large, "naiad_udp_receive_errors_total", R"(kind="too_large")", ""},
+});
+static_assert(hasAll(kUdpRows));
+
+using T = TrafficCounters;
+constexpr auto kTrafficRows = std::to_array<CounterRow<T>>({
+    {&T::stream_bytes_in, "naiad_network_bytes_total", R"(direction="in",transport="tcp")",
+     "Bytes of frames (before TLS) and of UDP's payload."},
+    {&T::stream_bytes_out, "naiad_network_bytes_total", R"(direction="out",transport="tcp")", ""},
+    {&T::datagram_bytes_in, "naiad_network_bytes_total", R"(direction="in",transport="udp")", ""},
+    {&T::datagram_bytes_out, "naiad_network_bytes_total", R"(direction="out",transport="udp")", ""},
+    {&T::frames_in, "naiad_network_frames_total", R"(direction="in")", "Frames of streams."},
+    {&T::frames_out, "naiad_network_frames_total", R"(direction="out")", ""},
+});
+static_assert(hasAll(kTrafficRows));
+
+}  // namespace
+
+void writeCounters(Exposition& out, const Counters& counters) {
+  writeRows(out, counters, kHostRows);
+}
+
+void writeCounters(Exposition& out, const PasswordCheck::Counters& counters) {
+  writeRows(out, counters, kPasswordRows);
+}
+
+void writeCounters(Exposition& out, const NetworkCounters& counters) {
+  writeRows(out, counters.streams, kStreamRows);
+  writeRows(out, counters.visitors, kVisitorRows);
+  writeRows(out, counters.relay, kRelayRows);
+  writeRows(out, counters.gate, kGateRows);
+  writeRows(out, counters.udp, kUdpRows);
+  writeRows(out, counters.traffic, kTrafficRows);
+}
+
+}  // namespace naiad

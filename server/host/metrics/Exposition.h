@@ -1,0 +1,41 @@
+// Writes metrics as text: Prometheus' format, version 0.0.4
+// (https://prometheus.io/docs/instrumenting/exposition_formats/).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "host/metrics/Histogram.h"
+
+namespace naiad {
+
+/// The Content-Type that goes with the text.
+inline constexpr std::string_view kExpositionType = "text/plain; version=0.0.4; charset=utf-8";
+
+enum class MetricType { kCounter, kGauge, kHistogram };
+
+class Exposition {
+ public:
+  /// The samples that follow are of this family, until the next one. `name` and `help` are plain ASCII
+  /// without quotes, backslashes or line ends.
+  void begin(std::string_view name, MetricType type, std::string_view help);
+  /// `labels`: as they stand in the braces, like R"(reason="full")"; may be empty.
+  void add(std::string_view labels, std::uint64_t value);
+  void add(std::string_view labels, double value);
+  /// The buckets, sum and count of a family of histograms.
+  void add(const Histogram& histogram);
+
+  const std::string& text() const { return m_text; }
+
+ private:
+  void addName(std::string_view suffix, std::string_view labels);
+
+  std::string m_text;
+  std::string m_name;
+};
+
+/// `name="value"` with the value escaped: its backslashes, quotes and line ends.
+std::string metricLabel(std::string_view name, std::string_view value);
+
+}  // namespace naiad

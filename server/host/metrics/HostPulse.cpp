@@ -1,0 +1,72 @@
+#include "host/metrics/HostPulse.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace naiad {
+
+const char* nameOf(Stage stage) {
+  switch (stage) {
+    case Stage::kBetween:
+      return "between";
+    case Stage::kReceive:
+      return "receive";
+    case Stage::kSessions:
+      return "sessions";
+    case Stage::kInputs:
+      return "inputs";
+    case Stage::kWorld:
+      return "world";
+    case Stage::kPublish:
+      return "publish";
+    case Stage::kSnapshots:
+      return "snapshots";
+    case Stage::kNews:
+      return "news";
+    case Stage::kFlush:
+      return "flush";
+  }
+  return "unknown";
+}
+
+void HostPulse::begin(std::chrono::nanoseconds tick_length, Clock::time_point now) {
+  m_patience = std::max(kLeastPatience, kPatienceTicks * tick_length).count();
+  m_began = now.time_since_epoch().count();
+  m_phase = Phase::kRunning;
+}
+
+void HostPulse::beginDrain(bool ticks) {
+  m_phase = ticks ? Phase::kDraining : Phase::kEnding;
+}
+
+// A host that starts loads its game, and one that ends waits for its last bytes: neither ticks.
+HostPulse::Verdict HostPulse::health(Clock::time_point now) const {
+  const Phase phase = m_phase;
+  if (phase == Phase::kStarting) return {true, "starting"};
+  if (phase == Phase::kEnding) return {true, "ending"};
+  const auto since = now - Clock::time_point(Clock::duration(m_began.load(std::memory_order_relaxed)));
+  if (since <= std::chrono::nanoseconds(m_patience.load(std::memory_order_relaxed))) return {true, "ok"};
+  char text[128];
+  std::snprintf(text, sizeof text, "no tick has begun for %.1f s; since tick %llu the stage is: %s",
+                std::chrono::duration<double>(since).count(),
+                static_cast<unsigned long long>(m_tick.load(std::memory_order_relaxed)),
+                nameOf(m_stages.current()));
+  return {false, text};
+}
+
+HostPulse::Verdict HostPulse::readiness(Clock::time_point now) const {
+  switch (m_phase) {
+    case Phase::kStarting:
+      return {false, "starting"};
+    case Phase::kDraining:
+    case Phase::kEnding:
+      return {false, "ending: no more players"};
+    case Phase::kRunning:
+      break;
+  }
+  if (Verdict verdict = health(now); !verdict.is_good) return verdict;
+  if (m_full.load(std::memory_order_relaxed)) return {false, "full"};
+  return {true, "ok"};
+}
+
+}  // namespace naiad

@@ -1,0 +1,61 @@
+// Is the host alive, and does it take players? Written by the thread that ticks, read by the one that answers
+// /healthz and /readyz: a host that hangs cannot answer for itself.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "host/metrics/StageClock.h"
+
+namespace naiad {
+
+/// Writers are for the thread that ticks, health() and readiness() for any. Time is passed in.
+class HostPulse {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// A tick that is later than this has not begun because the host hangs: a second, or ten ticks.
+  static constexpr std::chrono::nanoseconds kLeastPatience = std::chrono::seconds(1);
+  static constexpr int kPatienceTicks = 10;
+
+  /// `stages`: says in which stage a host hangs; outlives this.
+  explicit HostPulse(const StageClock& stages) : m_stages(stages) {}
+
+  /// Listening, and ticks of this length begin.
+  void begin(std::chrono::nanoseconds tick_length, Clock::time_point now);
+  /// A tick begins.
+  void beat(std::uint64_t number, Clock::time_point now) {
+    m_tick.store(number, std::memory_order_relaxed);
+    m_began.store(now.time_since_epoch().count(), std::memory_order_relaxed);
+  }
+  /// All places are taken, or no longer.
+  void setFull(bool full) { m_full.store(full, std::memory_order_relaxed); }
+  /// It takes no more players and is about to end; `ticks`: as long as it ticks it can hang.
+  void beginDrain(bool ticks);
+  /// It does not end after all.
+  void cancelDrain() { m_phase = Phase::kRunning; }
+
+  /// What is answered: with 200 if it is good, else with 503.
+  struct Verdict {
+    bool is_good = true;
+    std::string sentence;
+  };
+  /// Do ticks begin?
+  Verdict health(Clock::time_point now) const;
+  /// May players come?
+  Verdict readiness(Clock::time_point now) const;
+
+ private:
+  enum class Phase : std::uint8_t { kStarting, kRunning, kDraining, kEnding };
+
+  const StageClock& m_stages;
+  std::atomic<Phase> m_phase = Phase::kStarting;
+  std::atomic<Clock::rep> m_began = 0;  ///< when the newest tick did
+  std::atomic<std::uint64_t> m_tick = 0;
+  std::atomic<std::int64_t> m_patience = 0;  ///< in nanoseconds
+  std::atomic<bool> m_full = false;
+};
+
+}  // namespace naiad

@@ -1,0 +1,87 @@
+#include "host/metrics/MetricsPage.h"
+
+#include "host/metrics/CounterFamilies.h"
+#include "host/metrics/Exposition.h"
+#include "shared/net/base/Limits.h"
+#include "shared/values/Version.h"
+
+namespace naiad {
+
+namespace {
+
+double seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+void writeBuild(Exposition& out) {
+  out.begin("naiad_build_info", MetricType::kGauge,
+            "The version of the server, and of the protocol; always 1.");
+  out.add(metricLabel("version", kVersion) + "," +
+              metricLabel("protocol", std::to_string(static_cast<unsigned>(kProtocolVersion))),
+          std::uint64_t{1});
+}
+
+void writeTicks(Exposition& out, const MetricsSnapshot& snapshot) {
+  out.begin("naiad_tick_length_seconds", MetricType::kGauge, "How long a tick is meant to be.");
+  out.add("", snapshot.tick_length);
+  out.begin(
+      "naiad_tick_duration_seconds", MetricType::kHistogram,
+      "From the beginning of a tick to when its last packet is handed over, worlds in processes included.");
+  out.add(snapshot.tick_durations);
+  out.begin("naiad_tick_lateness_seconds", MetricType::kHistogram,
+            "How long after its deadline a tick began.");
+  out.add(snapshot.tick_lateness);
+  out.begin("naiad_stage_seconds_total", MetricType::kCounter,
+            "Time of the thread that ticks, by stage; between: streams are served, or it waits.");
+  for (std::size_t i = 0; i < kStages; ++i) {
+    out.add(metricLabel("stage", nameOf(static_cast<Stage>(i))), seconds(snapshot.stages[i]));
+  }
+}
+
+void writePlayers(Exposition& out, const MetricsSnapshot& snapshot) {
+  out.begin("naiad_players", MetricType::kGauge, "Players, by whether their connection is there.");
+  out.add(R"(state="connected")", snapshot.connected);
+  out.add(R"(state="detached")", snapshot.detached);
+  out.begin("naiad_max_players", MetricType::kGauge, "Places for players.");
+  out.add("", snapshot.max_players);
+  out.begin("naiad_newcomers", MetricType::kGauge,
+            "Connections that are no players yet, or are about to end.");
+  out.add("", snapshot.greeting);
+  out.begin("naiad_rooms", MetricType::kGauge, "Worlds that are played in.");
+  out.add("", snapshot.rooms);
+  out.begin("naiad_objects", MetricType::kGauge, "Objects that are published, in worlds with players.");
+  out.add("", snapshot.objects);
+  out.begin("naiad_round_trip_seconds", MetricType::kHistogram,
+            "Round trips from a snapshot to its acknowledgement: one of each player, each second.");
+  out.add(snapshot.round_trips);
+  out.begin("naiad_loss_ratio", MetricType::kHistogram,
+            "Share of the last snapshots that were lost: one of each player, each second.");
+  out.add(snapshot.losses);
+}
+
+void writeCpu(Exposition& out, const MetricsSnapshot::Cpu& cpu) {
+  out.begin("naiad_thread_cpu_seconds_total", MetricType::kCounter, "CPU time, by thread.");
+  out.add(R"(thread="tick")", seconds(cpu.tick));
+  out.add(R"(thread="network")", seconds(cpu.network));
+  out.add(R"(thread="metrics")", seconds(cpu.metrics));
+  out.add(R"(thread="other")", seconds(cpu.other));
+}
+
+}  // namespace
+
+std::string renderMetrics(const MetricsSnapshot* p_snapshot, const ProcessFacts& process) {
+  Exposition out;
+  writeBuild(out);
+  if (p_snapshot != nullptr) {
+    writeTicks(out, *p_snapshot);
+    writePlayers(out, *p_snapshot);
+    writeCounters(out, p_snapshot->counters);
+    writeCounters(out, p_snapshot->passwords);
+    writeCounters(out, p_snapshot->network);
+    writeCpu(out, p_snapshot->cpu);
+  }
+  writeProcess(out, process);
+  return out.text();
+}
+
+}  // namespace naiad

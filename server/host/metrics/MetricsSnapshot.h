@@ -1,0 +1,54 @@
+// All that a host says of itself at one moment, as plain values: made by the thread that ticks once a second,
+// and never changed.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+
+#include "host/auth/PasswordCheck.h"
+#include "host/metrics/Histogram.h"
+#include "host/metrics/StageClock.h"
+#include "host/net/NetworkThread.h"
+#include "host/session/Counters.h"
+
+namespace naiad {
+
+/// Upper bounds of buckets. A tick is 33 ms by default, and the late ones are of interest.
+inline constexpr std::array<double, 14> kTickBounds{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
+                                                    0.02,   0.033,   0.05,   0.1,   0.25,   0.5,   1};
+inline constexpr std::array<double, 11> kLatenessBounds{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005,
+                                                        0.01,   0.033,   0.1,    0.5,   1};
+inline constexpr std::array<double, 10> kRoundTripBounds{0.001, 0.005, 0.01, 0.025, 0.05,
+                                                         0.1,   0.2,   0.4,  0.8,   2};
+inline constexpr std::array<double, 9> kLossBounds{0, 0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
+
+struct MetricsSnapshot {
+  Counters counters;
+  PasswordCheck::Counters passwords;
+  NetworkCounters network;
+  StageClock::Seconds stages{};
+  Histogram tick_durations{kTickBounds};
+  Histogram tick_lateness{kLatenessBounds};
+  Histogram round_trips{kRoundTripBounds};  ///< one of each player that has a line, each second
+  Histogram losses{kLossBounds};            ///< the same
+
+  /// Of threads so far; "other" are those of passwords, log, watchdog, and the game's own.
+  struct Cpu {
+    std::chrono::nanoseconds tick{0};
+    std::chrono::nanoseconds network{0};
+    std::chrono::nanoseconds metrics{0};
+    std::chrono::nanoseconds other{0};
+  } cpu;
+
+  // At this moment.
+  std::uint64_t connected = 0;  ///< players
+  std::uint64_t detached = 0;   ///< players whose connection broke
+  std::uint64_t greeting = 0;   ///< connections that are no players yet
+  std::uint64_t max_players = 0;
+  std::uint64_t rooms = 0;
+  std::uint64_t objects = 0;  ///< that are published
+  double tick_length = 0;     ///< seconds
+};
+
+}  // namespace naiad

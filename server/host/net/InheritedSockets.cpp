@@ -1,0 +1,110 @@
+#include "host/net/InheritedSockets.h"
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <asio/ip/tcp.hpp>
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+#include <system_error>
+
+#include "shared/net/stream/TcpListener.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr int kWanted = 2;
+constexpr int kSpare = 16;  ///< the lowest of duplicates
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw ListenError("The sockets from the service manager (LISTEN_FDS) cannot be used: " + what + ".",
+                    std::make_error_code(std::errc::invalid_argument));
+}
+
+std::optional<long> numberIn(const char* p_text) {
+  if (p_text == nullptr) return std::nullopt;
+  const char* p_end = p_text + std::strlen(p_text);
+  long number = 0;
+  const auto [p_read, error] = std::from_chars(p_text, p_end, number);
+  return error == std::errc() && p_read == p_end ? std::optional(number) : std::nullopt;
+}
+
+int intOption(int socket, int option) {
+  int value = -1;
+  socklen_t size = sizeof value;
+  return getsockopt(socket, SOL_SOCKET, option, &value, &size) == 0 ? value : -1;
+}
+
+/// The address that an Internet socket is bound to.
+asio::ip::tcp::endpoint endpointOf(int socket) {
+  asio::ip::tcp::endpoint endpoint;
+  auto size = static_cast<socklen_t>(endpoint.capacity());
+  if (getsockname(socket, endpoint.data(), &size) != 0) refuse(std::generic_category().message(errno));
+  const int family = endpoint.data()->sa_family;
+  if (family != AF_INET && family != AF_INET6) refuse("one is not of the Internet");
+  endpoint.resize(size);
+  if (endpoint.port() == 0) refuse("one has no port yet");
+  return endpoint;
+}
+
+/// Put a socket where its type belongs.
+void sort(int socket, InheritedSockets& sockets) {
+  const int type = intOption(socket, SO_TYPE);
+  if (type != SOCK_STREAM && type != SOCK_DGRAM)
+    refuse("descriptor " + std::to_string(socket) + " is no socket for TCP or UDP");
+  const bool is_stream = type == SOCK_STREAM;
+  int& place = is_stream ? sockets.streams : sockets.datagrams;
+  if (place >= 0) refuse(is_stream ? "two are for TCP" : "two are for UDP");
+  if (is_stream && intOption(socket, SO_ACCEPTCONN) != 1) refuse("the one for TCP does not listen");
+  place = socket;
+}
+
+}  // namespace
+
+std::optional<InheritedSockets> InheritedSockets::take(pid_t process, const Variable& variable, int first) {
+  const char* p_count = variable("LISTEN_FDS");
+  if (p_count == nullptr || numberIn(variable("LISTEN_PID")) != process) return std::nullopt;
+  const auto count = numberIn(p_count);
+  if (!count || *count < 0) refuse(std::string("their number is \"") + p_count + '"');
+  if (*count == 0) return std::nullopt;
+  if (*count != kWanted)
+    refuse("one for TCP and one for UDP are wanted, and there are " + std::to_string(*count));
+  InheritedSockets sockets;
+  for (int socket = first; socket < first + kWanted; ++socket) {
+    if (fcntl(socket, F_SETFD, FD_CLOEXEC) != 0)
+      refuse("descriptor " + std::to_string(socket) + " is not open");
+    sort(socket, sockets);
+  }
+  const auto streams = endpointOf(sockets.streams);
+  const auto datagrams = endpointOf(sockets.datagrams);
+  if (streams != datagrams) refuse("they have different addresses or ports");
+  sockets.address = streams.address().to_string();
+  sockets.port = streams.port();
+  return sockets;
+}
+
+// Above those that take() looks at, which are in use.
+InheritedSockets InheritedSockets::duplicate() const {
+  InheritedSockets others = *this;
+  for (int* const p_socket : {&others.streams, &others.datagrams}) {
+    *p_socket = fcntl(*p_socket, F_DUPFD_CLOEXEC, kSpare);
+    if (*p_socket < 0) throw std::system_error(errno, std::generic_category(), "sockets to keep");
+  }
+  return others;
+}
+
+void InheritedSockets::putBack(int first) const {
+  if (dup2(streams, first) < 0 || dup2(datagrams, first + 1) < 0)
+    throw std::system_error(errno, std::generic_category(), "sockets to go on with");
+}
+
+std::optional<InheritedSockets> InheritedSockets::take() {
+  return take(getpid(), [](const char* p_name) { return std::getenv(p_name); });
+}
+
+}  // namespace naiad

@@ -1,0 +1,65 @@
+#include "host/program/Restart.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+namespace naiad {
+
+namespace {
+
+constexpr const char* kPort = "--port";
+
+/// A port on the command line is replaced; elsewhere the environment comes first.
+std::vector<std::string> withPort(std::vector<std::string> arguments, const std::string& port) {
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    if (arguments[i] == kPort && i + 1 < arguments.size()) arguments[i + 1] = port;
+    if (arguments[i].starts_with(std::string(kPort) + "=")) arguments[i] = std::string(kPort) + "=" + port;
+  }
+  return arguments;
+}
+
+std::vector<const char*> pointersTo(const std::vector<std::string>& texts) {
+  std::vector<const char*> pointers;
+  pointers.reserve(texts.size() + 1);
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+}  // namespace
+
+StartCommand::StartCommand(std::vector<std::string> arguments) : m_arguments(std::move(arguments)) {
+  std::error_code error;
+  m_program = std::filesystem::read_symlink("/proc/self/exe", error).string();
+}
+
+StartCommand::StartCommand(int argc, const char* const* argv)
+    : StartCommand(std::vector<std::string>(argv, argv + argc)) {}
+
+StartCommand StartCommand::ofProcess() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> arguments;
+  for (std::string argument; std::getline(file, argument, '\0');) arguments.push_back(argument);
+  return StartCommand(std::move(arguments));
+}
+
+std::vector<const char*> StartCommand::argv() const {
+  return pointersTo(m_arguments);
+}
+
+void StartCommand::run(std::uint16_t port) const {
+  const std::string number = std::to_string(port);
+  setenv("NAIAD_PORT", number.c_str(), 1);
+  const std::vector<std::string> arguments = withPort(m_arguments, number);
+  execv(m_program.c_str(),
+        const_cast<char* const*>(pointersTo(arguments).data()));  // it changes none of them
+  throw std::system_error(errno, std::generic_category(), "The server cannot begin again");
+}
+
+}  // namespace naiad

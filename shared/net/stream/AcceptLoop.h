@@ -1,0 +1,67 @@
+// What listeners have in common: they accept one connection after the other.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <asio/steady_timer.hpp>
+#include <chrono>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+namespace naiad {
+
+/// How long a listener waits for descriptors or memory to come free.
+inline constexpr std::chrono::milliseconds kAcceptRetryDelay{100};
+
+/// Base of the state of a listener, which accepts until its acceptor is closed. Running out of descriptors or
+/// memory does not end that: it tries again after kAcceptRetryDelay, while the connections wait in the
+/// kernel's backlog.
+///
+/// `State` is held by std::shared_ptr, and kept alive by what is under way. It has
+///
+///   void meet(Socket socket);         called for each connection; may close the acceptor
+///   … counters.failed_accepts         attempts that were put off
+///
+/// Thread: the one that runs `context`, which must outlive it.
+template <class State, class Protocol>
+class AcceptLoop : public std::enable_shared_from_this<State> {
+ public:
+  using Socket = typename Protocol::socket;
+
+  /// Begin, when `acceptor` listens.
+  void accept() {
+    acceptor.async_accept([self = this->shared_from_this()](const std::error_code& error, Socket socket) {
+      self->onAccepted(error, std::move(socket));
+    });
+  }
+  void stopAccepting() {
+    std::error_code ignored;
+    acceptor.close(ignored);
+    m_retry.cancel();
+  }
+
+  typename Protocol::acceptor acceptor;
+
+ protected:
+  explicit AcceptLoop(asio::io_context& context) : acceptor(context), m_retry(context) {}
+
+ private:
+  void onAccepted(const std::error_code& error, Socket socket) {
+    if (!acceptor.is_open()) return;
+    State& state = static_cast<State&>(*this);
+    if (!error) {
+      state.meet(std::move(socket));
+      if (acceptor.is_open()) accept();
+      return;
+    }
+    ++state.counters.failed_accepts;
+    m_retry.expires_after(kAcceptRetryDelay);
+    m_retry.async_wait([self = this->shared_from_this()](const std::error_code&) {
+      if (self->acceptor.is_open()) self->accept();
+    });
+  }
+
+  asio::steady_timer m_retry;
+};
+
+}  // namespace naiad

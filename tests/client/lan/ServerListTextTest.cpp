@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "../../support/HostileTexts.h"
+#include "client/lan/ServerListText.h"
+#include "shared/net/base/JsonText.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
+
+namespace naiad {
+namespace {
+
+FoundServer listed(const std::string& name) {
+  FoundServer server;
+  server.name = name;
+  server.game = "hello";
+  server.where = {"192.168.1.5", 9877};
+  server.protocol = kProtocolVersion;
+  server.players = 3;
+  server.max_players = 16;
+  return server;
+}
+
+TEST(ServerListText, APersonReadsColumnsAndALink) {
+  FoundServer full = listed("b");
+  full.players = 16;
+  const std::string key = full.key.text();
+  EXPECT_EQ(serversAsText({listed("Ann's"), full}),
+            "NAME   GAME   PLAYERS  NOTE  SERVER\n"
+            "Ann's  hello  3/16           naiad://192.168.1.5:9877#" +
+                key +
+                "\n"
+                "b      hello  16/16    full  naiad://192.168.1.5:9877#" +
+                key + "\n");
+}
+
+TEST(ServerListText, AnEmptyListSaysWhatToDo) {
+  const std::string text = serversAsText({});
+  EXPECT_NE(text.find("dfserver --game"), std::string::npos);
+  EXPECT_NE(text.find("dfclient HOST"), std::string::npos);
+  EXPECT_EQ(serversAsJson({}), "[]\n");
+}
+
+TEST(ServerListText, NotesSayWhatIsToBeKnownBeforeJoining) {
+  FoundServer server = listed("a");
+  EXPECT_EQ(noteOf(server), "");
+  server.asks_password = true;
+  EXPECT_EQ(noteOf(server), "password");
+  server.players = server.max_players;
+  EXPECT_EQ(noteOf(server), "full");
+  server.protocol = kProtocolVersion + 1;
+  EXPECT_EQ(noteOf(server), "version " + std::to_string(kProtocolVersion + 1));
+}
+
+TEST(ServerListText, AProgramReadsJson) {
+  FoundServer zoned = listed("b");
+  zoned.where = {"fe80::5%eth0", 9876};
+  zoned.asks_password = true;
+  const std::string key = zoned.key.text();
+  EXPECT_EQ(
+      serversAsJson({listed("a\"\\"), zoned}),
+      "[{\"name\": \"a\\\"\\\\\", \"game\": \"hello\", \"players\": 3, \"max_players\": 16, \"password\": "
+      "false, "
+      "\"protocol\": " +
+          std::to_string(kProtocolVersion) + ", \"address\": \"192.168.1.5:9877\", \"key\": \"" + key +
+          "\", \"link\": \"naiad://192.168.1.5:9877#" + key +
+          "\"},\n "
+          "{\"name\": \"b\", \"game\": \"hello\", \"players\": 3, \"max_players\": 16, \"password\": true, "
+          "\"protocol\": " +
+          std::to_string(kProtocolVersion) + ", \"address\": \"[fe80::5%eth0]:9876\", \"key\": \"" + key +
+          "\", \"link\": null}]\n");
+}
+
+TEST(ServerListText, NoTextLeavesItsQuotes) {
+  EXPECT_EQ(jsonQuoted("na\u00efve \u2588 \U0001F600"), "\"na\\u00efve \\u2588 \\ud83d\\ude00\"");
+  for (const test::HostileText& text : test::hostileTexts()) {
+    for (const std::string& piece : {text.bytes, safeText(text.bytes, kMaxLanText)}) {
+      const std::string quoted = jsonQuoted(piece);
+      EXPECT_TRUE(std::all_of(quoted.begin(), quoted.end(), [](char c) { return c >= ' ' && c < 0x7f; }))
+          << text.what;
+      std::size_t open = 0;
+      for (std::size_t i = 0; i < quoted.size(); ++i) {
+        if (quoted[i] == '\\') {
+          ++i;
+        } else if (quoted[i] == '"') {
+          ++open;
+        }
+      }
+      EXPECT_EQ(open, 2u) << text.what;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace naiad

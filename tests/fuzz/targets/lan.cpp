@@ -1,0 +1,39 @@
+// The messages of the local network: a packet is one of them or nothing, what it says is safe to draw, and an
+// answer is never longer than a query.
+//
+//   input   a packet
+#include "Require.h"
+#include "Script.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/net/lan/LanMessage.h"
+
+namespace naiad::fuzz {
+namespace {
+
+void requireSafeText(const std::string& text) {
+  REQUIRE(columnsOf(text) <= kMaxLanText && text.size() <= kMaxLanTextBytes);
+  REQUIRE(safeText(text, kMaxLanText) == text);
+}
+
+void checkAnswer(const LanAnswer& answer) {
+  REQUIRE(answer.port != 0 && answer.protocol <= 0xffff);
+  requireSafeText(answer.name);
+  requireSafeText(answer.game);
+  const std::string written = writeLanAnswer(answer);
+  REQUIRE(written.size() <= kLanQuerySize);
+  REQUIRE(readLanAnswer(written) == answer);
+}
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace naiad;
+  const fuzz::Exactly packet({reinterpret_cast<const char*>(data), size});
+  const auto nonce = readLanQuery(packet.view());
+  const auto answer = readLanAnswer(packet.view());
+  REQUIRE(!nonce || !answer);
+  if (nonce) REQUIRE(writeLanQuery(*nonce) == packet.view());
+  if (answer) fuzz::checkAnswer(*answer);
+  return 0;
+}

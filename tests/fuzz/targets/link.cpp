@@ -1,0 +1,77 @@
+// Addresses that strangers write: links to games, keys in them, and addresses of pages. What is taken has
+// only the parts it may have, and its own text means the same.
+//
+//   input   the text
+#include <algorithm>
+#include <variant>
+
+#include "Require.h"
+#include "Script.h"
+#include "client/trust/GatewayAddress.h"
+#include "shared/net/stream/JoinLink.h"
+
+namespace naiad::fuzz {
+namespace {
+
+bool isGraphicText(std::string_view text) {
+  return std::ranges::all_of(text, [](char c) { return c > ' ' && c < 0x7f; });
+}
+
+/// Nothing in it ends a name, or begins an option.
+void requireHost(const std::string& host) {
+  REQUIRE(!host.empty() && host.size() <= 254 && host.front() != '-');
+  REQUIRE(isGraphicText(host));
+  REQUIRE(host.find_first_of("/#?@%[]\\'\"$&;|<>`") == std::string::npos);
+}
+
+void readLink(std::string_view text) {
+  const auto parsed = JoinLink::parse(text);
+  if (const auto* const problem = std::get_if<LinkProblem>(&parsed)) {
+    REQUIRE(!problem->sentence.empty());
+    return;
+  }
+  const JoinLink& link = std::get<JoinLink>(parsed);
+  REQUIRE(JoinLink::isMeant(text));
+  requireHost(link.where.host);
+  REQUIRE(link.where.port != 0);
+  REQUIRE(link.room.size() <= 32 && link.room.find_first_of("/#?@%:") == std::string::npos);
+  REQUIRE(isGraphicText(link.text()));
+  const auto again = JoinLink::parse(link.text());
+  REQUIRE(std::holds_alternative<JoinLink>(again) && std::get<JoinLink>(again) == link);
+}
+
+/// One text for each key.
+void readKey(std::string_view text) {
+  const auto key = ShortKey::parse(text);
+  if (!key) return;
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c | 0x20 : c);
+  REQUIRE(key->text() == lower);
+}
+
+/// Behind the host there is nothing but what stays in the browser.
+void readPage(const std::string& text) {
+  const auto address = GatewayAddress::parse(text);
+  if (!address) return;
+  REQUIRE(GatewayAddress::isMeant(text));
+  requireHost(address->host);
+  REQUIRE(text.starts_with(address->encrypted ? "https://" : "http://"));
+  const std::string behind =
+      text.substr(std::min(text.size(), text.find_first_of("/#", text.find("//") + 2)));
+  REQUIRE(behind.empty() || behind == "/" || behind.starts_with('#') || behind.starts_with("/#"));
+  const auto again = GatewayAddress::parse(address->origin() + "/");
+  REQUIRE(again && again->host == address->host && again->port == address->port &&
+          again->encrypted == address->encrypted);
+}
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace naiad;
+  const std::string text = fuzz::Script(data, size).rest();
+  fuzz::readLink(text);
+  fuzz::readKey(text);
+  fuzz::readPage(text);
+  return 0;
+}

@@ -1,0 +1,157 @@
+// Requests to the gateway for browsers: every answer is one of its own, with the headers that guard the page,
+// and a WebSocket is opened for its own page alone.
+//
+//   input   0 | address of an origin        a program's own list of names
+//           1 | text                        as a string of JSON
+//           2 … | the bytes of a request
+#include <stdlib.h>
+
+#include <algorithm>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "Require.h"
+#include "Script.h"
+#include "server/gateway/HttpAnswer.h"
+
+namespace naiad::fuzz {
+namespace {
+
+namespace http = boost::beast::http;
+using Parser = http::request_parser<http::empty_body>;
+
+const std::string kJson = "{\"name\": \"a game\"}\n";
+constexpr const char* kOrigin = "https://play.example";
+
+PageFiles smallPage() {
+  std::string folder = std::filesystem::temp_directory_path() / "naiad-fuzz-XXXXXX";
+  REQUIRE(mkdtemp(folder.data()) != nullptr);
+  std::ofstream(folder + "/index.html") << std::string(500, 'a');
+  std::ofstream(folder + "/font.woff2") << "font";
+  PageFiles files{std::filesystem::path(folder)};
+  std::filesystem::remove_all(folder);
+  return files;
+}
+
+struct Site {
+  PageFiles page = smallPage();
+  AllowedNames names;
+  HttpAnswers answers{page, names, kJson, true};
+  Site() { names.add(*WebOrigin::parse(kOrigin)); }
+};
+
+const Site& site() {
+  static const Site kept;
+  return kept;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c | 0x20 : c);
+  return result;
+}
+
+std::string only(const WebRequest& request, http::field name) {
+  REQUIRE(request.count(name) == 1);
+  return std::string(request[name]);
+}
+
+/// A head is lines of printable characters, none of them empty but the last.
+void requireHead(const std::string& head) {
+  REQUIRE(head.starts_with("HTTP/1.1 ") && head.ends_with("\r\n\r\n"));
+  REQUIRE(head.find("\r\n\r\n") == head.size() - 4);
+  for (std::size_t i = 0; i < head.size(); ++i) {
+    const bool is_end = head[i] == '\r' && i + 1 < head.size() && head[i + 1] == '\n';
+    if (is_end) ++i;
+    REQUIRE(is_end || (head[i] >= ' ' && head[i] < 0x7f));
+  }
+  for (const auto& [name, value] : site().answers.commonHeaders())
+    REQUIRE(head.find("\r\n" + std::string(name) + ": " + std::string(value) + "\r\n") != std::string::npos);
+}
+
+void requireAnswer(const HttpAnswer& answer) {
+  requireHead(answer.head);
+  const std::string status = answer.head.substr(9, 3);
+  REQUIRE(answer.is_refusal == (status >= "400"));
+  if (!answer.content.empty()) {
+    const PageFile& index = *site().page.find("/");
+    const PageFile& font = *site().page.find("/font.woff2");
+    REQUIRE(answer.content == index.content || answer.content == index.packed ||
+            answer.content == font.content);
+  }
+  const std::size_t length = answer.head.find("Content-Length: ");
+  if (!answer.body().empty()) REQUIRE(std::stoul(answer.head.substr(length + 16)) == answer.body().size());
+  REQUIRE(answer.keeps_connection == (answer.head.find("\r\nConnection: close\r\n") == std::string::npos));
+}
+
+void requireOwnPage(const WebRequest& request) {
+  const std::string host = lower(only(request, http::field::host));
+  REQUIRE(host == "play.example" || host == "play.example:443");
+  REQUIRE(only(request, http::field::origin) == kOrigin);
+  REQUIRE(request.target() == "/play" && request.version() == 11);
+  REQUIRE(lower(std::string(request[http::field::sec_websocket_protocol])).find("naiad.1") !=
+          std::string::npos);
+}
+
+/// As WebConnection does.
+void serve(const std::string& bytes) {
+  Parser parser;
+  parser.header_limit(8 * 1024);
+  parser.body_limit(0);
+  boost::beast::error_code error;
+  parser.put(boost::asio::buffer(bytes), error);
+  if (error || !parser.is_done()) return requireAnswer(site().answers.refusal(400, "No.\n"));
+  const WebRequest& request = parser.get();
+  if (boost::beast::websocket::is_upgrade(request)) {
+    const auto* const refusal = site().answers.judgeUpgrade(request);
+    if (!refusal) return requireOwnPage(request);
+    REQUIRE(refusal->status >= 400);
+    return requireAnswer(site().answers.refusal(refusal->status, refusal->sentence));
+  }
+  requireAnswer(site().answers.answer(request));
+}
+
+void readOrigin(const std::string& text) {
+  const auto origin = WebOrigin::parse(text);
+  if (!origin) return;
+  REQUIRE(origin->port != 0 && !origin->host.empty());
+  REQUIRE(origin->text().find_first_of(" /?#@\\", 8) == std::string::npos);
+  const auto again = WebOrigin::parse(origin->text());
+  REQUIRE(again && again->text() == origin->text() && again->port == origin->port);
+  AllowedNames names;
+  names.add(*origin);
+  REQUIRE(names.allowsOrigin(origin->text()) && names.allowsHost(origin->hostText()));
+  REQUIRE(!names.allowsOrigin(kOrigin) || origin->text() == kOrigin);
+}
+
+void quote(const std::string& text) {
+  const std::string quoted = jsonString(text);
+  REQUIRE(quoted.size() >= 2 && quoted.front() == '"' && quoted.back() == '"');
+  for (std::size_t i = 1; i + 1 < quoted.size(); ++i) {
+    REQUIRE(static_cast<unsigned char>(quoted[i]) >= 0x20 && quoted[i] != '"');
+    if (quoted[i] != '\\') continue;
+    ++i;
+    REQUIRE(i + 1 < quoted.size() && std::string_view("\"\\u").find(quoted[i]) != std::string_view::npos);
+  }
+}
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace naiad;
+  fuzz::Script script(data, size);
+  const std::uint8_t what = script.byte();
+  const std::string text = script.rest();
+  if (what == 0) {
+    fuzz::readOrigin(text);
+  } else if (what == 1) {
+    fuzz::quote(text);
+  } else {
+    fuzz::serve(text);
+  }
+  return 0;
+}

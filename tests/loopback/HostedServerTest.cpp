@@ -1,0 +1,377 @@
+// What whoever runs a server does to it: ends it, reloads its options, restarts it. Real processes and
+// sockets.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "GameProgram.h"
+#include "Home.h"
+#include "TestClient.h"
+#include "TestServer.h"
+#include "host/auth/PasswordHash.h"
+#include "host/auth/ServerIdentity.h"
+
+namespace naiad::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+std::string cheapHash(const std::string& password) {
+  return PasswordHash::of(password, {.memory_kib = 64, .passes = 1}).text();
+}
+
+class HostedServer : public testing::Test {
+ protected:
+  HostedServer() { fs::create_directories(home.identity("files")); }
+
+  fs::path config() const { return home.identity("files") / "server.conf"; }
+  void writeConfig(const std::string& lines) const {
+    std::ofstream(config()) << lines;
+    fs::permissions(config(), fs::perms::owner_read | fs::perms::owner_write);
+  }
+  void start(std::map<std::string, std::string> environment, const std::string& options = "") {
+    writeConfig(options);
+    environment.insert({"NAIAD_GAME", "hello"});
+    server = std::make_unique<GameProgram>("dfserver", std::move(environment),
+                                           std::vector<std::string>{"--config", config()});
+    if (server->port() == 0) throw std::runtime_error("no server: " + server->log());
+  }
+  TestClient& client(const ClientSetup& setup) {
+    clients.push_back(std::make_unique<TestClient>(context, server->port(), setup));
+    clients.back()->keepPictures(false);
+    return *clients.back();
+  }
+  TestClient& join(const std::string& name) { return join(home.player(name)); }
+  TestClient& join(const ClientSetup& setup) {
+    TestClient& joining = client(setup);
+    EXPECT_TRUE(serve([&] { return joining.joined() || joining.connection().isOver(); }));
+    EXPECT_TRUE(joining.joined()) << joining.connection().sentence() << server->log();
+    return joining;
+  }
+  /// What a client is told that is not let in.
+  std::string refusal(const ClientSetup& setup) {
+    TestClient& refused = client(setup);
+    EXPECT_TRUE(serve([&] { return refused.joined() || refused.connection().isOver(); }));
+    return refused.joined() ? "" : refused.connection().sentence();
+  }
+  bool serve(const std::function<bool()>& done) {
+    const auto end = Clock::now() + kPatience;
+    while (!done()) {
+      if (Clock::now() > end) return false;
+      for (const auto& each : clients) each->connection().update(Clock::now());
+      context.restart();
+      context.run_one_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
+  bool logs(const std::string& part) {
+    return serve([&] { return server->log().find(part) != std::string::npos; });
+  }
+  bool reload(const std::string& options) {
+    writeConfig(options);
+    server->signal(SIGHUP);
+    return logs("the options ");
+  }
+  bool ticks(TestClient& playing) {
+    const std::uint32_t from = playing.newestTick();
+    return serve([&] { return playing.newestTick() > from + 50; });
+  }
+  bool isTold(TestClient& playing, const std::string& line) {
+    return serve([&] {
+      for (const ChatEntry& entry : playing.session().chat()) {
+        if (entry.text == line) return true;
+      }
+      return false;
+    });
+  }
+  bool isDismissed(TestClient& playing, const std::string& sentence) {
+    return serve([&] { return playing.connection().state() == Connection::State::kEnded; }) &&
+           playing.connection().sentence() == sentence;
+  }
+  bool endsWell() const {
+    const int status = server->wait();
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  }
+
+  Home home;
+  asio::io_context context;
+  std::unique_ptr<GameProgram> server;
+  std::vector<std::unique_ptr<TestClient>> clients;
+};
+
+// ---- the end ----------------------------------------------------------------------------------------------
+
+TEST_F(HostedServer, SigtermLetsPlayersFinish) {
+  start({{"NAIAD_DRAIN_TIME", "3000"}});
+  TestClient& ann = join("ann");
+  server->signal(SIGTERM);
+  EXPECT_TRUE(isTold(ann, "The server closes when all have left, and in 3000 seconds at the latest."));
+  EXPECT_EQ(refusal(home.player("bob")), "The server is closing and lets no new players in.");
+  EXPECT_TRUE(ticks(ann));
+  ann.connection().leave();
+  EXPECT_TRUE(serve([&] { return server->log().find(" left\n") != std::string::npos; }));
+  EXPECT_TRUE(endsWell());
+  EXPECT_NE(server->log().find(" refused_closing=1 "), std::string::npos) << server->log();
+}
+
+TEST_F(HostedServer, ADrainHasADeadline) {
+  start({{"NAIAD_DRAIN_TIME", "1"}});
+  TestClient& ann = join("ann");
+  const auto begin = Clock::now();
+  server->signal(SIGTERM);
+  EXPECT_TRUE(isDismissed(ann, "The server is shutting down."));
+  EXPECT_GE(Clock::now() - begin, std::chrono::milliseconds(950));
+  EXPECT_TRUE(endsWell());
+}
+
+TEST_F(HostedServer, TwoSignalsEndADrainAtOnce) {
+  start({{"NAIAD_DRAIN_TIME", "3000"}});
+  TestClient& ann = join("ann");
+  server->signal(SIGTERM);
+  ASSERT_TRUE(isTold(ann, "The server closes when all have left, and in 3000 seconds at the latest."));
+  server->signal(SIGTERM);
+  EXPECT_TRUE(isDismissed(ann, "The server is shutting down."));
+  server->wait();
+}
+
+TEST_F(HostedServer, SigintEndsAtOnce) {
+  start({{"NAIAD_DRAIN_TIME", "3000"}});
+  TestClient& ann = join("ann");
+  server->signal(SIGINT);
+  EXPECT_TRUE(isDismissed(ann, "The server is shutting down."));
+  EXPECT_TRUE(endsWell());
+}
+
+// ---- options ----------------------------------------------------------------------------------------------
+
+TEST_F(HostedServer, ReloadTakesOverWhatMayChange) {
+  start({}, "max-players = 1\n");
+  TestClient& ann = join("ann");
+  EXPECT_EQ(refusal(home.player("bob")), "The server is full (1 players). Try again later.");
+  ASSERT_TRUE(reload("max-players = 2\nworld-memory = 1000\n"));
+  EXPECT_TRUE(logs("the options were read again: max-players has changed; world-memory needs a restart\n"))
+      << server->log();
+  TestClient& bob = join("bob");
+  EXPECT_TRUE(ticks(ann) && ticks(bob));
+}
+
+TEST_F(HostedServer, OptionsThatCannotBeUsedChangeNothing) {
+  start({}, "max-players = 1\n");
+  TestClient& ann = join("ann");
+  ASSERT_TRUE(reload("max-plyers = 2\n"));
+  EXPECT_TRUE(logs("the options stay as they were: " + config().string() +
+                   ":1: there is no option \"max-plyers\"; did you mean max-players?\n"))
+      << server->log();
+  EXPECT_EQ(refusal(home.player("bob")), "The server is full (1 players). Try again later.");
+  EXPECT_TRUE(ticks(ann));
+}
+
+TEST_F(HostedServer, ReloadChangesThePasswordForThoseWhoCome) {
+  start({}, "password = " + cheapHash("old") + "\n");
+  ClientSetup old = home.player("ann");
+  old.options.password = "old";
+  TestClient& ann = join(old);
+  ASSERT_TRUE(reload("password = " + cheapHash("new") + "\n"));
+  EXPECT_TRUE(logs("the options were read again: password has changed\n")) << server->log();
+  EXPECT_EQ(refusal(old), "That is not this server's password.");
+  ClientSetup bob = home.player("bob");
+  bob.options.password = "new";
+  join(bob);
+  EXPECT_TRUE(ticks(ann));
+  EXPECT_EQ(server->log().find("$argon2"), std::string::npos) << "not even its hash is logged";
+}
+
+TEST_F(HostedServer, ReloadTakesOverANewCertificate) {
+  const auto now = std::chrono::system_clock::now();
+  const fs::path files = home.identity("files");
+  const ServerIdentity first = ServerIdentity::loadOrMake(home.identity("first"), now);
+  const ServerIdentity second = ServerIdentity::loadOrMake(home.identity("second"), now);
+  const auto use = [&](const std::string& which) {
+    for (const char* p_name : {"certificate.pem", "key.pem"}) {
+      fs::copy_file(home.identity(which) / p_name, files / p_name, fs::copy_options::overwrite_existing);
+    }
+  };
+  const std::string options = "certificate = " + (files / "certificate.pem").string() +
+                              "\nkey = " + (files / "key.pem").string() + "\n";
+  use("first");
+  start({}, options);
+  ClientSetup ann = home.player("ann");
+  ann.trust.fingerprint = first.fingerprint();
+  TestClient& playing = join(ann);
+  use("second");
+  ASSERT_TRUE(reload(options));
+  EXPECT_TRUE(logs("warning: the key is another one")) << server->log();
+  ClientSetup bob = home.player("bob");
+  bob.trust.fingerprint = second.fingerprint();
+  bob.trust.known_servers = home.identity("bobs_servers");
+  join(bob);
+  EXPECT_TRUE(ticks(playing));
+}
+
+TEST_F(HostedServer, AMissingCertificateLeavesTheOldOne) {
+  const fs::path files = home.identity("files");
+  ServerIdentity::loadOrMake(files / "key", std::chrono::system_clock::now());
+  const std::string options = "certificate = " + (files / "key" / "certificate.pem").string() +
+                              "\nkey = " + (files / "key" / "key.pem").string() + "\n";
+  start({}, options);
+  TestClient& ann = join("ann");
+  fs::rename(files / "key", files / "gone");
+  ASSERT_TRUE(reload(options));
+  EXPECT_TRUE(logs("the options stay as they were: ")) << server->log();
+  join("bob");
+  EXPECT_TRUE(ticks(ann));
+}
+
+// ---- the log ----------------------------------------------------------------------------------------------
+
+TEST_F(HostedServer, JsonLinesHaveTheFacts) {
+  start({{"NAIAD_LOG_FORMAT", "json"}, {"NAIAD_LOG_CHAT", "true"}});
+  TestClient& ann = join("ann");
+  ann.session().sendChat("hello \"all\"");
+  ASSERT_TRUE(logs("\"chat\""));
+  std::map<std::string, nlohmann::json> events;
+  std::istringstream lines(server->log());
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with('{')) continue;  // what it prints for its host
+    const auto event = nlohmann::json::parse(line);
+    events[event.at("event")] = event;
+  }
+  EXPECT_EQ(events.at("joined").at("player"), "ann");
+  EXPECT_EQ(events.at("joined").at("program"), "test");
+  EXPECT_EQ(events.at("joined").at("address").get<std::string>().rfind("127.0.0.1:", 0), 0u);
+  EXPECT_EQ(events.at("chat").at("line"), "hello \"all\"");
+}
+
+TEST_F(HostedServer, WithoutBeingAskedChatIsNotLogged) {
+  start({});
+  TestClient& ann = join("ann");
+  ann.session().sendChat("hello all");
+  EXPECT_TRUE(isTold(ann, "hello all"));
+  ann.connection().leave();
+  EXPECT_TRUE(logs("\"ann\" left"));
+  EXPECT_EQ(server->log().find("hello all"), std::string::npos);
+}
+
+/// What fail2ban finds in the server's log with the filter that ships: "Lines: 9 lines, 0 ignored, 2 matched,
+/// …".
+std::string fail2banFinds(const GameProgram& server, const std::string& mode) {
+  const std::string command = "fail2ban-regex '" + (server.directory() / "log").string() + "' '" +
+                              NAIAD_SOURCE_DIR "/deploy/fail2ban/naiad.conf[mode=" + mode + "]' 2>&1";
+  std::string text;
+  char piece[4096];
+  FILE* p_output = popen(command.c_str(), "r");
+  while (const std::size_t size = fread(piece, 1, sizeof piece, p_output)) text.append(piece, size);
+  pclose(p_output);
+  const std::size_t at = text.find("Lines: ");
+  return at == std::string::npos ? text : text.substr(at, text.find('\n', at) - at);
+}
+
+class Fail2ban : public HostedServer, public testing::WithParamInterface<const char*> {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v fail2ban-regex >/dev/null") != 0) GTEST_SKIP() << "there is no fail2ban";
+  }
+};
+
+TEST_P(Fail2ban, FindsWhoGuessesPasswordsAndNobodyElse) {
+  start({{"NAIAD_LOG_FORMAT", GetParam()}, {"NAIAD_PASSWORD", cheapHash("xyzzy")}, {"NAIAD_LOG_CHAT", "1"}});
+  ClientSetup ann = home.player("ann");
+  ann.options.password = "xyzzy";
+  TestClient& playing = join(ann);
+  // As the beginning of another line, and as another field.
+  playing.session().sendChat("203.0.113.9:1 refused: \"That is not this server's password");
+  playing.session().sendChat(
+      "\",\"address\":\"203.0.113.9:1\",\"sentence\":\"That is not this server's password");
+  ASSERT_TRUE(logs("sentence\\"));
+  ClientSetup other = home.player("bob");
+  other.options.game = "203.0.113.9:1 refused: ";
+  EXPECT_NE(refusal(other), "");
+  ASSERT_TRUE(logs("This server plays"));
+  EXPECT_NE(fail2banFinds(*server, "normal").find(" 0 matched,"), std::string::npos)
+      << fail2banFinds(*server, "normal");
+  EXPECT_NE(fail2banFinds(*server, "aggressive").find(" 1 matched,"), std::string::npos)
+      << fail2banFinds(*server, "aggressive");
+  ClientSetup guess = home.player("eve");
+  guess.options.password = "plugh";
+  // Lines on refusals are one a second for an address, and bob has had one.
+  ASSERT_TRUE(serve([&] {
+    EXPECT_NE(refusal(guess), "");
+    const std::string log = server->log();
+    return log.find("server's password.") != std::string::npos ||
+           log.find("Too many wrong passwords.") != std::string::npos;
+  }));
+  EXPECT_NE(fail2banFinds(*server, "normal").find(" 1 matched,"), std::string::npos)
+      << fail2banFinds(*server, "normal") << server->log();
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, Fail2ban, testing::Values("text", "json"),
+                         [](const auto& test) { return std::string(test.param); });
+
+// ---- a restart --------------------------------------------------------------------------------------------
+
+TEST(HostedWorld, ClientsComeBackToAServerThatRestarts) {
+  Home home;
+  asio::io_context context;
+  auto server = std::make_unique<TestServer>([](df::World&) {}, home.server());
+  const std::uint16_t port = server->port();
+  TestClient ann(context, port, home.player("ann"));
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  server->end({.begins_again = true, .at = Clock::now()});
+  EXPECT_TRUE(
+      serveUntil(context, {&ann}, [&] { return ann.connection().state() == Connection::State::kSearching; }));
+  EXPECT_EQ(ann.connection().sentence(), "The server restarts. It is back in a moment.");
+  server.reset();
+  HostOptions options = home.server();
+  options.port = port;
+  server = std::make_unique<TestServer>([](df::World&) {}, options);
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); })) << ann.connection().sentence();
+}
+
+TEST(HostedWorld, ADrainWaitsForAPlayerWhoseConnectionBroke) {
+  Home home;
+  asio::io_context context;
+  TestServer server([](df::World&) {}, home.server());
+  ClientSetup setup = home.player("ann");
+  setup.sessions = home.sessions();
+  auto killed = std::make_unique<TestClient>(context, server.port(), setup);
+  ASSERT_TRUE(serveUntil(context, {killed.get()}, [&] { return killed->joined(); }));
+  killed.reset();
+  ASSERT_TRUE(serveUntil(context, {}, [&] { return server.counters().detached == 1; }));
+  server.end({.at = Clock::now() + std::chrono::hours(1), .when_empty = true});
+  TestClient ann(context, server.port(), setup);
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined() || ann.connection().isOver(); }));
+  ASSERT_TRUE(ann.joined()) << ann.connection().sentence();
+  EXPECT_TRUE(ann.session().isResumed());
+}
+
+TEST(HostedWorld, AClientThatDoesNotLookAgainEnds) {
+  Home home;
+  asio::io_context context;
+  TestServer server([](df::World&) {}, home.server());
+  ClientSetup setup = home.player("ann");
+  setup.rejoin = false;
+  TestClient ann(context, server.port(), setup);
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  server.end({.begins_again = true, .at = Clock::now()});
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
+  EXPECT_EQ(ann.connection().sentence(), "The server restarts. It is back in a moment.");
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,294 @@
+// What a server says of itself on --metrics, while it is played on: real sockets.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <list>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "BusyWorld.h"
+#include "Home.h"
+#include "TestClient.h"
+#include "TestServer.h"
+#include "Valve.h"
+#include "engine/events/EventStep.h"
+#include "engine/world/Object.h"
+#include "shared/values/SplitMix64.h"
+#include "tests/support/net/HttpClient.h"
+
+namespace naiad::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+HostOptions withMetrics() {
+  HostOptions options = fastOptions();
+  options.metrics = "127.0.0.1:0";
+  return options;
+}
+
+class Metrics : public testing::Test {
+ protected:
+  void start(const std::function<void(df::World&)>& populate, const HostOptions& options = withMetrics()) {
+    server = std::make_unique<TestServer>(populate, options);
+    server->keepTruth(false);
+    ASSERT_NE(server->metricsPort(), 0);
+  }
+  TestClient& join(const std::string& name) {
+    clients.emplace_back(context, server->port(), name);
+    clients.back().keepPictures(false);
+    TestClient& client = clients.back();
+    EXPECT_TRUE(serve([&client] { return client.joined() && client.newestTick() > 0; }));
+    return client;
+  }
+  /// Serve the clients until it is so; false after kPatience.
+  bool serve(const std::function<bool()>& done) {
+    const auto end = Clock::now() + kPatience;
+    while (!done()) {
+      if (Clock::now() > end) return false;
+      for (TestClient& client : clients) client.connection().update(Clock::now());
+      context.restart();
+      context.run_one_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
+  HttpClient::Reply get(const std::string& path) const {
+    return HttpClient::get(server->metricsPort(), path);
+  }
+  double value(const std::string& sample) const { return metricOf(get("/metrics").body, sample); }
+  /// It may take a second until a value is on the page.
+  bool reaches(const std::string& sample, const std::function<bool(double)>& wanted) {
+    return serve([&] { return wanted(value(sample)); });
+  }
+  static std::function<bool(double)> is(double wanted) {
+    return [wanted](double value) { return value == wanted; };
+  }
+  static std::function<bool(double)> isOver(double least) {
+    return [least](double value) { return value > least; };
+  }
+
+  asio::io_context context;
+  std::atomic<bool> blocks = false;
+  std::unique_ptr<TestServer> server;
+  std::list<TestClient> clients;
+};
+
+TEST_F(Metrics, ValuesFollowTheGame) {
+  start([](df::World& world) { populateBusyWorld(world, 50); });
+  ASSERT_TRUE(reaches("naiad_ticks_total", isOver(0)));
+  EXPECT_EQ(value(R"(naiad_players{state="connected"})"), 0);
+  EXPECT_EQ(value("naiad_tick_length_seconds"), 0.003);
+
+  TestClient& ann = join("ann");
+  EXPECT_TRUE(reaches(R"(naiad_players{state="connected"})", is(1)));
+  EXPECT_EQ(value("naiad_joins_total"), 1);
+  EXPECT_EQ(value("naiad_rooms"), 1);
+  EXPECT_GT(value("naiad_objects"), 10);
+  EXPECT_TRUE(reaches(R"(naiad_snapshots_total{path="stream"})", isOver(100)));
+  EXPECT_GT(value(R"(naiad_snapshot_bytes_total{path="stream"})"), 100);
+  EXPECT_GT(value("naiad_tick_duration_seconds_count"), 100);
+  EXPECT_GT(value("naiad_tick_lateness_seconds_count"), 100);
+  EXPECT_GT(value("naiad_tick_duration_seconds_sum"), 0);
+  for (const char* stage : {"between", "receive", "inputs", "world", "publish", "snapshots", "flush"})
+    EXPECT_GT(value("naiad_stage_seconds_total{" + std::string("stage=\"") + stage + "\"}"), 0) << stage;
+  EXPECT_TRUE(reaches(R"(naiad_network_bytes_total{direction="out",transport="tcp"})", isOver(1000)));
+  EXPECT_GT(value(R"(naiad_network_frames_total{direction="in"})"), 0);
+  EXPECT_TRUE(reaches("naiad_round_trip_seconds_count", isOver(0)));
+  EXPECT_GT(value(R"(naiad_thread_cpu_seconds_total{thread="tick"})"), 0);
+  EXPECT_GT(value(R"(naiad_thread_cpu_seconds_total{thread="network"})"), 0);
+  EXPECT_GT(value(R"(naiad_thread_cpu_seconds_total{thread="metrics"})"), 0);
+
+  ann.session().sendKey(df::Keyboard::LEFTARROW, df::KEY_PRESSED, Clock::now());
+  EXPECT_TRUE(reaches("naiad_inputs_total", isOver(0)));
+  ann.connection().leave();
+  EXPECT_TRUE(reaches(R"(naiad_leaves_total{reason="asked"})", is(1)));
+  EXPECT_TRUE(reaches(R"(naiad_players{state="connected"})", is(0)));
+  EXPECT_TRUE(reaches("naiad_objects", is(0))) << "nobody watches";
+}
+
+TEST_F(Metrics, NoPlayersNameIsOnThePage) {
+  start([](df::World& world) { populateBusyWorld(world, 5); });
+  join("zebedee");
+  ASSERT_TRUE(reaches(R"(naiad_players{state="connected"})", is(1)));
+  EXPECT_EQ(get("/metrics").body.find("zebedee"), std::string::npos);
+}
+
+TEST_F(Metrics, ThoseWhoHangUpAreCountedAsThat) {
+  start([](df::World& world) { populateBusyWorld(world, 5); });
+  join("ann");
+  clients.clear();
+  EXPECT_TRUE(reaches(R"(naiad_leaves_total{reason="hung_up"})", is(1)));
+}
+
+TEST_F(Metrics, AFullServerIsHealthyAndNotReady) {
+  HostOptions options = withMetrics();
+  options.max_players = 1;
+  start([](df::World& world) { populateBusyWorld(world, 5); }, options);
+  EXPECT_TRUE(serve([&] { return get("/readyz").status == 200; }));
+  TestClient& ann = join("ann");
+  EXPECT_TRUE(serve([&] { return get("/readyz").status == 503; }));
+  EXPECT_EQ(get("/readyz").body, "full\n");
+  EXPECT_EQ(get("/healthz").status, 200);
+  ann.connection().leave();
+  EXPECT_TRUE(serve([&] { return get("/readyz").status == 200; }));
+}
+
+/// Keeps the tick from its end for as long as it is wanted.
+class Blocker : public df::Object {
+ public:
+  explicit Blocker(const std::atomic<bool>& blocks) : m_blocks(blocks) { registerInterest(df::STEP_EVENT); }
+  int eventHandler(const df::Event* /*p_e*/) override {
+    while (m_blocks) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return 1;
+  }
+
+ private:
+  const std::atomic<bool>& m_blocks;
+};
+
+TEST_F(Metrics, AGameThatHangsIsUnhealthyUntilItGoesOn) {
+  start([this](df::World&) { new Blocker(blocks); });
+  EXPECT_TRUE(serve([&] { return get("/readyz").status == 200; }));
+  blocks = true;
+  EXPECT_TRUE(serve([&] { return get("/healthz").status == 503; }));
+  const HttpClient::Reply reply = get("/healthz");
+  EXPECT_TRUE(reply.body.ends_with("the stage is: world\n")) << reply.body;
+  EXPECT_EQ(get("/readyz").status, 503);
+  EXPECT_EQ(get("/metrics").status, 200) << "metrics come from a thread of their own";
+  blocks = false;
+  EXPECT_TRUE(serve([&] { return get("/healthz").status == 200 && get("/readyz").status == 200; }));
+}
+
+TEST_F(Metrics, StrangersWhoCannotSpeakHttpCostTheGameNothing) {
+  start([](df::World& world) { populateBusyWorld(world, 50); });
+  TestClient& ann = join("ann");
+  std::list<HttpClient> silent;
+  const std::vector<std::string> requests{
+      "\x16\x03\x01 no TLS here\r\n\r\n",
+      "POST /metrics HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\n",
+      "GET /metrics HTTP/1.1\r\nHost: evil.example\r\n\r\n", "GET /" + std::string(100'000, 'x'),
+      "GET /metr"};
+  const std::uint32_t from = ann.newestTick();
+  for (int i = 0; i < 300; ++i) {
+    silent.emplace_back(server->metricsPort()).send(requests[static_cast<std::size_t>(i) % requests.size()]);
+    ASSERT_TRUE(serve([] { return true; }));
+  }
+  EXPECT_TRUE(serve([&] { return ann.newestTick() > from + 100; }));
+  EXPECT_TRUE(ann.joined());
+  EXPECT_EQ(get("/metrics").status, 200);
+  EXPECT_EQ(value("naiad_divergences_total"), 0);
+}
+
+// With the thread sanitizer this is the proof that nothing is read while it is written.
+TEST_F(Metrics, AScraperAtAHundredHertzDisturbsNobody) {
+  start([](df::World& world) { populateBusyWorld(world, 30); });
+  std::atomic<bool> stop = false;
+  std::atomic<int> scrapes = 0;
+  std::thread scraper([&] {
+    while (!stop) {
+      for (const char* path : {"/metrics", "/healthz", "/readyz"}) {
+        if (get(path).status == 200) ++scrapes;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  });
+  int rounds = 0;
+  const auto enough = [&] { return rounds >= 5 && scrapes >= 300; };
+  const auto end = Clock::now() + kPatience;
+  while (!enough() && Clock::now() < end) {
+    TestClient& client = join("ann");
+    const std::uint32_t from = client.newestTick();
+    serve([&] { return client.newestTick() > from + 50; });
+    client.connection().leave();
+    serve([&] { return client.connection().isOver(); });
+    clients.clear();
+    ++rounds;
+  }
+  stop = true;
+  scraper.join();
+  EXPECT_TRUE(enough()) << rounds << " rounds, " << scrapes << " scrapes";
+}
+
+// ---- the audit --------------------------------------------------------------------------------------------
+
+TEST_F(Metrics, TheAuditFindsNoWrongCellInAnHonestGame) {
+  start([](df::World& world) { populateBusyWorld(world, 100); });
+  TestClient& ann = join("ann");
+  std::uint32_t pressed = 0;
+  EXPECT_TRUE(serve([&] {
+    if (ann.newestTick() > pressed + 20) {
+      pressed = ann.newestTick();
+      ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
+    }
+    return value("naiad_audit_pictures_total") >= 30;
+  }));
+  EXPECT_EQ(value("naiad_audit_cells_total"), value("naiad_audit_pictures_total") * 80 * 24);
+  EXPECT_EQ(value("naiad_audit_wrong_cells_total"), 0);
+}
+
+TEST_F(Metrics, TheAuditFindsNoWrongCellOverALineThatLosesDatagrams) {
+  Home home;
+  HostOptions options = home.server();
+  options.metrics = "127.0.0.1:0";
+  start([](df::World& world) { populateBusyWorld(world, 100); }, options);
+  const auto valve = std::make_shared<Valve>();
+  ClientSetup setup = home.player("ann");
+  setup.options.open_socket = through(context, valve);
+  clients.emplace_back(context, server->port(), setup);
+  clients.back().keepPictures(false);
+  TestClient& ann = clients.back();
+  ASSERT_TRUE(serve([&] { return ann.joined() && ann.session().hasDatagrams(Clock::now()); }));
+  // The next audited second may be ten seconds away.
+  SplitMix64 random(5);
+  const double pictures = value("naiad_audit_pictures_total");
+  const double datagrams = value(R"(naiad_snapshots_total{path="datagram"})");
+  EXPECT_TRUE(serve([&] {
+    valve->down = random.below(10) != 0;
+    valve->up = random.below(20) != 0;
+    return value("naiad_audit_pictures_total") >= pictures + 20 &&
+           value(R"(naiad_snapshots_total{path="datagram"})") > datagrams + 100;
+  }));
+  EXPECT_EQ(value("naiad_audit_wrong_cells_total"), 0);
+  clients.clear();  // before the home
+  server.reset();
+}
+
+TEST_F(Metrics, WithoutTheAuditNothingIsCompared) {
+  HostOptions options = withMetrics();
+  options.audit = "off";
+  start([](df::World& world) { populateBusyWorld(world, 5); }, options);
+  TestClient& ann = join("ann");
+  const std::uint32_t from = ann.newestTick();
+  ASSERT_TRUE(
+      serve([&] { return ann.newestTick() > from + 700; }));  // a second, and one until it is on the page
+  EXPECT_EQ(value("naiad_audit_pictures_total"), 0);
+}
+
+// The time is that of the thread which makes the pages, so it does not depend on what else the machine does.
+TEST_F(Metrics, APageTakesLittleTime) {
+  const std::string sample = R"(naiad_thread_cpu_seconds_total{thread="metrics"})";
+  start([](df::World& world) { populateBusyWorld(world, 5); });
+  for (int i = 0; i < 20; ++i) join("p" + std::to_string(i));
+  ASSERT_TRUE(reaches(R"(naiad_players{state="connected"})", is(20)));
+  constexpr int kPages = 200;
+  const double before = value(sample);
+  for (int i = 0; i < kPages; ++i) ASSERT_TRUE(serve([this] { return get("/metrics").status == 200; }));
+  // Values that were measured after that. The pages of which this is read are not counted, but take time,
+  // too.
+  ASSERT_TRUE(reaches("naiad_ticks_total", isOver(value("naiad_ticks_total"))));
+  ASSERT_TRUE(reaches("naiad_ticks_total", isOver(value("naiad_ticks_total"))));
+  const double spent = value(sample) - before;
+  std::printf("metrics pages=%d cpu_ms_per_page=%.3f\n", kPages, 1000 * spent / kPages);
+  EXPECT_GT(spent, 0);
+  if (!kSanitized) {
+    EXPECT_LE(spent / kPages, 0.010);
+  }
+}
+
+}  // namespace
+}  // namespace naiad::test

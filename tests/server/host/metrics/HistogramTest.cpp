@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "host/metrics/Histogram.h"
+
+namespace naiad {
+namespace {
+
+constexpr std::array<double, 3> kBounds{0.001, 0.01, 0.1};
+
+TEST(Histogram, AValueIsInTheBucketOfTheLeastBoundThatHoldsIt) {
+  Histogram histogram(kBounds);
+  for (const double value : {-1.0, 0.0, 0.001, 0.0011, 0.01, 0.05, 0.1, 0.11, 1e9}) histogram.add(value);
+  EXPECT_EQ(histogram.count(0), 3u);  // a bound belongs to its bucket
+  EXPECT_EQ(histogram.count(1), 2u);
+  EXPECT_EQ(histogram.count(2), 2u);
+  EXPECT_EQ(histogram.count(3), 2u);  // beyond the last
+}
+
+TEST(Histogram, AddsUp) {
+  Histogram histogram(kBounds);
+  histogram.add(0.25);
+  histogram.add(0.5);
+  EXPECT_DOUBLE_EQ(histogram.sum(), 0.75);
+}
+
+TEST(Histogram, MoreBoundsThanItHoldsAreLeftOut) {
+  std::array<double, Histogram::kMaxBounds + 4> many{};
+  for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<double>(i);
+  Histogram histogram(many);
+  histogram.add(1e6);
+  EXPECT_EQ(histogram.bounds().size(), Histogram::kMaxBounds);
+  EXPECT_EQ(histogram.count(Histogram::kMaxBounds), 1u);
+}
+
+}  // namespace
+}  // namespace naiad

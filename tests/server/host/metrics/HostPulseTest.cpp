@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "host/metrics/HostPulse.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+const HostPulse::Clock::time_point kStart{1h};
+
+TEST(HostPulse, IsWellButNotReadyBeforeItListens) {
+  const StageClock stages;
+  const HostPulse pulse(stages);
+  EXPECT_TRUE(pulse.health(kStart).is_good);
+  EXPECT_FALSE(pulse.readiness(kStart).is_good);
+  EXPECT_EQ(pulse.readiness(kStart).sentence, "starting");
+}
+
+TEST(HostPulse, ATickThatDoesNotBeginWithinASecondIsAHang) {
+  StageClock stages;
+  stages.start();
+  HostPulse pulse(stages);
+  pulse.begin(33ms, kStart);
+  pulse.beat(17, kStart + 500ms);
+  EXPECT_TRUE(pulse.health(kStart + 1500ms).is_good);
+  EXPECT_TRUE(pulse.readiness(kStart + 1500ms).is_good);
+  stages.enter(Stage::kWorld);
+  const HostPulse::Verdict verdict = pulse.health(kStart + 1501ms);
+  EXPECT_FALSE(verdict.is_good);
+  EXPECT_EQ(verdict.sentence, "no tick has begun for 1.0 s; since tick 17 the stage is: world");
+  EXPECT_FALSE(pulse.readiness(kStart + 1501ms).is_good);
+  pulse.beat(18, kStart + 2s);
+  EXPECT_TRUE(pulse.health(kStart + 2s).is_good);
+}
+
+TEST(HostPulse, BeforeTheFirstTickTimeCountsFromWhereTicksWereToBegin) {
+  const StageClock stages;
+  HostPulse pulse(stages);
+  pulse.begin(33ms, kStart);
+  EXPECT_TRUE(pulse.health(kStart + 1s).is_good);
+  EXPECT_FALSE(pulse.health(kStart + 1001ms).is_good);
+}
+
+TEST(HostPulse, LongTicksHaveTenOfThemBeforeItIsAHang) {
+  const StageClock stages;
+  HostPulse pulse(stages);
+  pulse.begin(1s, kStart);
+  pulse.beat(1, kStart);
+  EXPECT_TRUE(pulse.health(kStart + 10s).is_good);
+  EXPECT_FALSE(pulse.health(kStart + 10'001ms).is_good);
+}
+
+TEST(HostPulse, IsNotReadyWhileFull) {
+  const StageClock stages;
+  HostPulse pulse(stages);
+  pulse.begin(33ms, kStart);
+  pulse.setFull(true);
+  EXPECT_TRUE(pulse.health(kStart).is_good);
+  EXPECT_EQ(pulse.readiness(kStart).sentence, "full");
+  pulse.setFull(false);
+  EXPECT_TRUE(pulse.readiness(kStart).is_good);
+}
+
+TEST(HostPulse, IsNotReadyWhileItDrainsAndCanHangOnlyWhileItTicks) {
+  const StageClock stages;
+  HostPulse pulse(stages);
+  pulse.begin(33ms, kStart);
+  pulse.beginDrain(true);
+  EXPECT_FALSE(pulse.readiness(kStart).is_good);
+  EXPECT_TRUE(pulse.health(kStart).is_good);
+  EXPECT_FALSE(pulse.health(kStart + 2s).is_good);
+  pulse.beginDrain(false);
+  EXPECT_FALSE(pulse.readiness(kStart).is_good);
+  EXPECT_TRUE(pulse.health(kStart + 1h).is_good);
+}
+
+TEST(StageClock, TimeBelongsToTheStageInWhichItPassed) {
+  StageClock clock;
+  clock.start();
+  EXPECT_EQ(clock.enter(Stage::kWorld), Stage::kBetween);
+  const auto began = StageClock::Clock::now();
+  while (StageClock::Clock::now() - began < 2ms) {
+  }
+  EXPECT_EQ(clock.enter(Stage::kFlush), Stage::kWorld);
+  EXPECT_EQ(clock.current(), Stage::kFlush);
+  const auto& spent = clock.spent();
+  EXPECT_GE(spent[static_cast<std::size_t>(Stage::kWorld)], 2ms);
+  EXPECT_EQ(spent[static_cast<std::size_t>(Stage::kFlush)], 0ms);
+}
+
+TEST(StageClock, MeasuresNothingBeforeItIsStarted) {
+  StageClock clock;
+  clock.enter(Stage::kWorld);
+  clock.enter(Stage::kFlush);
+  for (const auto spent : clock.spent()) EXPECT_EQ(spent, 0ms);
+}
+
+TEST(StageClock, EveryStageHasANameOfItsOwn) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < kStages; ++i) names.insert(nameOf(static_cast<Stage>(i)));
+  EXPECT_EQ(names.size(), kStages);
+  EXPECT_EQ(names.count("unknown"), 0u);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,173 @@
+// Sockets from the service manager: only what a server can use is taken.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <asio/ip/udp.hpp>
+#include <map>
+#include <string>
+
+#include "WithIdentity.h"
+#include "host/net/InheritedSockets.h"
+#include "host/net/ServerPort.h"
+
+namespace naiad {
+namespace {
+
+using asio::ip::tcp;
+using asio::ip::udp;
+
+/// Far from the descriptors that the process has anyhow.
+constexpr int kFirst = 700;
+
+class InheritedSocketsTest : public WithIdentity {
+ protected:
+  ~InheritedSocketsTest() override {
+    for (int i = 0; i < 3; ++i) ::close(kFirst + i);
+  }
+  /// A listening socket and one for datagrams on the same port, as descriptors from kFirst on.
+  std::uint16_t openBoth(const char* address = "127.0.0.1") {
+    for (;;) {
+      tcp::acceptor streams(context, tcp::endpoint(asio::ip::make_address(address), 0));
+      const std::uint16_t port = streams.local_endpoint().port();
+      udp::socket datagrams(context);
+      const udp::endpoint same(asio::ip::make_address(address), port);
+      std::error_code taken;
+      datagrams.open(same.protocol());
+      datagrams.bind(same, taken);
+      if (taken) continue;
+      put(streams.native_handle(), 1);
+      put(datagrams.native_handle(), 0);
+      return port;
+    }
+  }
+  static void put(int socket, int place) { ASSERT_EQ(::dup2(socket, kFirst + place), kFirst + place); }
+  std::optional<InheritedSockets> take() {
+    return InheritedSockets::take(
+        1234,
+        [this](const char* p_name) {
+          const auto found = variables.find(p_name);
+          return found == variables.end() ? nullptr : found->second.c_str();
+        },
+        kFirst);
+  }
+  /// What is wrong with them.
+  std::string complaint() {
+    try {
+      take();
+    } catch (const ListenError& error) {
+      EXPECT_EQ(error.code(), std::errc::invalid_argument);
+      return error.what();
+    }
+    return "";
+  }
+  static std::string saying(const std::string& what) {
+    return "The sockets from the service manager (LISTEN_FDS) cannot be used: " + what + ".";
+  }
+
+  asio::io_context context;
+  std::map<std::string, std::string> variables{{"LISTEN_PID", "1234"}, {"LISTEN_FDS", "2"}};
+};
+
+TEST_F(InheritedSocketsTest, AreTakenInAnyOrderAndStayInThisProcess) {
+  const std::uint16_t port = openBoth();
+  const auto sockets = take();
+  ASSERT_TRUE(sockets);
+  EXPECT_EQ(sockets->streams, kFirst + 1);
+  EXPECT_EQ(sockets->datagrams, kFirst);
+  EXPECT_EQ(sockets->address, "127.0.0.1");
+  EXPECT_EQ(sockets->port, port);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(::fcntl(kFirst + i, F_GETFD), FD_CLOEXEC);
+}
+
+TEST_F(InheritedSocketsTest, OfAnotherProcessOrOfNoneAreLeftAlone) {
+  openBoth();
+  variables["LISTEN_PID"] = "12345";
+  EXPECT_FALSE(take());
+  variables["LISTEN_PID"] = "1234x";
+  EXPECT_FALSE(take());
+  variables.erase("LISTEN_PID");
+  EXPECT_FALSE(take());
+  variables = {{"LISTEN_PID", "1234"}};
+  EXPECT_FALSE(take());
+  variables["LISTEN_FDS"] = "0";
+  EXPECT_FALSE(take());
+  EXPECT_EQ(::fcntl(kFirst, F_GETFD), 0) << "untouched";
+}
+
+TEST_F(InheritedSocketsTest, OfTheWrongNumberOrKindAreRefused) {
+  variables["LISTEN_FDS"] = "1";
+  EXPECT_EQ(complaint(), saying("one for TCP and one for UDP are wanted, and there are 1"));
+  variables["LISTEN_FDS"] = "-1";
+  EXPECT_EQ(complaint(), saying("their number is \"-1\""));
+  variables["LISTEN_FDS"] = "2";
+  EXPECT_EQ(complaint(), saying("descriptor 700 is not open"));
+  const int null = ::open("/dev/null", O_RDWR);
+  put(null, 0);
+  ::close(null);
+  EXPECT_EQ(complaint(), saying("descriptor 700 is no socket for TCP or UDP"));
+  openBoth();
+  put(kFirst, 1);
+  EXPECT_EQ(complaint(), saying("two are for UDP"));
+  int pair[2];
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
+  put(pair[0], 0);
+  EXPECT_EQ(complaint(), saying("the one for TCP does not listen"));
+  for (const int end : pair) ::close(end);
+}
+
+TEST_F(InheritedSocketsTest, OfTwoPortsOrOfNoAddressAreRefused) {
+  openBoth();
+  udp::socket other(context, udp::endpoint(asio::ip::make_address("127.0.0.1"), 0));
+  put(other.native_handle(), 0);
+  EXPECT_EQ(complaint(), saying("they have different addresses or ports"));
+  udp::socket unbound(context, udp::v4());
+  put(unbound.native_handle(), 0);
+  EXPECT_EQ(complaint(), saying("one has no port yet"));
+  int pair[2];
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_DGRAM, 0, pair), 0);
+  put(pair[0], 0);
+  EXPECT_EQ(complaint(), saying("one is not of the Internet"));
+  for (const int end : pair) ::close(end);
+}
+
+// Of both families: systemd's "[::]:9876".
+TEST_F(InheritedSocketsTest, AServerPortListensWithThem) {
+  for (const char* address : {"127.0.0.1", "::"}) {
+    const std::uint16_t port = openBoth(address);
+    const auto sockets = take();
+    ASSERT_TRUE(sockets);
+    EXPECT_EQ(sockets->address, address);
+    const ServerPort opened =
+        adoptServerPort(context, *sockets, [](auto) {}, {}, {.context = identity->tls()});
+    EXPECT_EQ(opened.streams->port(), port);
+    EXPECT_EQ(opened.datagrams->port(), port);
+    udp::socket socket(context, udp::endpoint(asio::ip::address_v4::loopback(), 0));
+    socket.send_to(asio::buffer("garbage", 7), {asio::ip::address_v4::loopback(), port});
+    tcp::socket stream(context);
+    stream.connect({asio::ip::address_v4::loopback(), port});
+    stream.write_some(asio::buffer("garbage", 7));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto is_done = [&] {
+      return opened.datagrams->counters().too_short == 1 && opened.streams->counters().handshakes_failed == 1;
+    };
+    while (!is_done() && std::chrono::steady_clock::now() < end) {
+      context.restart();
+      context.run_one_for(std::chrono::milliseconds(100));
+    }
+    EXPECT_TRUE(is_done()) << address;
+  }
+}
+
+TEST_F(InheritedSocketsTest, WithoutEncryptionTheyAreRefused) {
+  openBoth();
+  const auto sockets = take();
+  ASSERT_TRUE(sockets);
+  EXPECT_THROW(adoptServerPort(context, *sockets, [](auto) {}, {}, {}), ListenError);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,147 @@
+// The responder with real sockets: asked as clients ask, and flooded.
+#include <gtest/gtest.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "host/net/LanResponder.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+const LanNonce kResponderNonce{9, 8, 7};
+
+/// A network of this family: loopback, where it can multicast. Nothing where a machine has none.
+std::optional<LanNetwork> responderNetwork(LanSocket::Family family) {
+  const bool four = family == LanSocket::Family::kIPv4;
+  for (const LanNetwork& network : lanNetworks()) {
+    if (network.address.is_v4() == four && network.is_loopback == four) return network;
+  }
+  return std::nullopt;
+}
+
+LanAnswer responderFacts(std::uint8_t key, bool asks_password = false) {
+  LanAnswer facts;
+  facts.protocol = 4;
+  facts.port = 9876;
+  facts.max_players = 16;
+  facts.name = "responder";
+  facts.asks_password = asks_password;
+  ShortKey::Bytes bytes{};
+  bytes[0] = key;
+  facts.key = ShortKey::ofBytes(bytes);
+  return facts;
+}
+
+class LanResponderTest : public testing::TestWithParam<LanSocket::Family> {
+ protected:
+  void SetUp() override {
+    m_network = responderNetwork(GetParam());
+    if (!m_network) GTEST_SKIP() << "this machine is in no network of the family";
+    m_client.emplace(LanSocket::forClient(GetParam()));
+  }
+
+  std::unique_ptr<LanResponder> respond(std::uint8_t key) {
+    const char* p_address = GetParam() == LanSocket::Family::kIPv4 ? "127.0.0.1" : "::";
+    auto responder = std::make_unique<LanResponder>(responderFacts(key), p_address, LanMode::kOn);
+    responder->setPlayers(5);
+    responder->start();
+    return responder;
+  }
+  bool ask(const std::string& bytes) { return m_client->sendQuery(*m_network, bytes); }
+  bool ask() { return ask(writeLanQuery(kResponderNonce)); }
+  std::optional<LanPacket> hear(std::chrono::milliseconds patience) {
+    pollfd waited{m_client->descriptor(), POLLIN, 0};
+    ::poll(&waited, 1, static_cast<int>(patience.count()));
+    return m_client->receivePacket();
+  }
+  /// Asks until the keys of all these have answered; what else does is passed over. False after a minute.
+  bool hearAll(const std::set<std::uint8_t>& keys) {
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    std::set<std::uint8_t> heard;
+    while (std::chrono::steady_clock::now() < end) {
+      ask();
+      while (const auto packet = hear(500ms)) {
+        const auto answer = readLanAnswer(packet->bytes);
+        if (answer && answer->nonce == kResponderNonce && answer->name == "responder") {
+          m_last = *answer;
+          m_last_packet = *packet;
+          heard.insert(answer->key.bytes()[0]);
+        }
+        if (std::includes(heard.begin(), heard.end(), keys.begin(), keys.end())) return true;
+      }
+    }
+    return false;
+  }
+
+  std::optional<LanNetwork> m_network;
+  std::optional<LanSocket> m_client;
+  LanAnswer m_last;
+  LanPacket m_last_packet;
+};
+
+TEST_P(LanResponderTest, AnswersWithTheFullHopLimitAndTheNumberOfPlayers) {
+  const auto responder = respond(1);
+  ASSERT_TRUE(hearAll({1}));
+  EXPECT_EQ(m_last_packet.hop_limit, 255);
+  EXPECT_EQ(m_last_packet.source.port(), kLanPort);
+  EXPECT_EQ(m_last_packet.source.address(), m_network->address);
+  EXPECT_EQ(m_last.players, 5);
+  EXPECT_EQ(m_last.max_players, 16);
+  EXPECT_EQ(m_last.port, 9876);
+}
+
+TEST_P(LanResponderTest, SeveralServersOfAMachineAreAllFound) {
+  const auto one = respond(11);
+  const auto two = respond(12);
+  EXPECT_TRUE(hearAll({11, 12}));
+}
+
+TEST_P(LanResponderTest, AFloodOfNonsenseIsReadAndAHonestQueryAnsweredAfterwards) {
+  const auto responder = respond(21);
+  ASSERT_TRUE(hearAll({21}));
+  for (int i = 0; i < 2000; ++i) ask(i % 2 == 0 ? "nlan" : std::string(512, 'x'));
+  EXPECT_TRUE(hearAll({21}));
+  responder->stop();
+  EXPECT_GT(responder->counters().malformed, 0u);
+  EXPECT_GE(responder->counters().answered, 2u);
+}
+
+TEST_P(LanResponderTest, AFloodOfQueriesIsAnsweredAtItsRate) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto responder = respond(31);
+  ASSERT_TRUE(hearAll({31}));
+  for (int i = 0; i < 2000; ++i) ask();
+  ASSERT_TRUE(hearAll({31}));
+  responder->stop();
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  // Other tests of this machine may ask at the same time, from its other addresses.
+  EXPECT_LE(static_cast<double>(responder->counters().answered),
+            LanQueryJudge::kInAll.burst + LanQueryJudge::kInAll.per_second * took.count());
+  EXPECT_GT(responder->counters().too_often, 0u);
+}
+
+TEST_P(LanResponderTest, NothingIsAnsweredAfterStop) {
+  const auto responder = respond(41);
+  ASSERT_TRUE(hearAll({41}));
+  responder->stop();
+  const std::uint64_t answered = responder->counters().answered;
+  ask();
+  while (const auto packet = hear(0ms)) {
+  }
+  EXPECT_EQ(responder->counters().answered, answered);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, LanResponderTest,
+                         testing::Values(LanSocket::Family::kIPv4, LanSocket::Family::kIPv6),
+                         [](const auto& family) {
+                           return family.param == LanSocket::Family::kIPv4 ? "IPv4" : "IPv6";
+                         });
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,134 @@
+// What a service manager hears, by a socket that plays its part.
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/program/ServiceNotify.h"
+
+namespace naiad {
+namespace {
+
+using Time = ServiceNotify::Clock::time_point;
+using std::chrono::milliseconds;
+
+class ServiceNotifyTest : public testing::Test {
+ protected:
+  ServiceNotifyTest() {
+    std::string folder = testing::TempDir() + "naiad-notify-XXXXXX";
+    base = mkdtemp(folder.data());
+    listenAt((base / "notify").string());
+  }
+  ~ServiceNotifyTest() override {
+    if (socket >= 0) ::close(socket);
+    std::filesystem::remove_all(base);
+  }
+  /// '@': a name without a file.
+  void listenAt(const std::string& path) {
+    if (socket >= 0) ::close(socket);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::memcpy(address.sun_path, path.data(), path.size());
+    if (path.front() == '@') address.sun_path[0] = '\0';
+    socket = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK, 0);
+    const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + path.size());
+    ASSERT_EQ(::bind(socket, reinterpret_cast<sockaddr*>(&address), size), 0);
+    variables["NOTIFY_SOCKET"] = path;
+  }
+  ServiceNotify::Variable variable() {
+    return [this](const char* p_name) {
+      const auto found = variables.find(p_name);
+      return found == variables.end() ? nullptr : found->second.c_str();
+    };
+  }
+  std::vector<std::string> heard() const {
+    std::vector<std::string> all;
+    char text[4096];
+    for (ssize_t size = 0; (size = ::recv(socket, text, sizeof text, 0)) > 0;)
+      all.emplace_back(text, static_cast<std::size_t>(size));
+    return all;
+  }
+  static std::vector<std::string> texts(std::initializer_list<std::string> all) { return all; }
+
+  std::filesystem::path base;
+  int socket = -1;
+  std::map<std::string, std::string> variables;
+};
+
+TEST_F(ServiceNotifyTest, SaysEachThingInADatagram) {
+  ServiceNotify service(variable());
+  ASSERT_TRUE(service.isActive());
+  service.notifyReady();
+  service.notifyStatus("two\nlines");
+  service.notifyStatus("two\nlines");
+  service.notifyReloading(Time(std::chrono::microseconds(1'234'567)));
+  service.extendTimeout(std::chrono::seconds(2));
+  service.notifyStopping();
+  EXPECT_EQ(heard(), texts({"READY=1", "STATUS=two\\nlines", "RELOADING=1\nMONOTONIC_USEC=1234567",
+                            "EXTEND_TIMEOUT_USEC=2000000", "STOPPING=1"}));
+}
+
+TEST_F(ServiceNotifyTest, KeepsAliveTwiceInTheTimeThatIsGiven) {
+  variables["WATCHDOG_USEC"] = "1000000";
+  variables["WATCHDOG_PID"] = std::to_string(getpid());
+  ServiceNotify service(variable());
+  EXPECT_EQ(service.keepAliveTime(), milliseconds(500));
+  for (int millis = 0; millis <= 2000; millis += 100) service.keepAlive(Time(milliseconds(millis)));
+  EXPECT_EQ(heard(), std::vector<std::string>(5, "WATCHDOG=1")) << "at 0, 500, 1000, 1500 and 2000 ms";
+}
+
+TEST_F(ServiceNotifyTest, KeepsAliveOnlyIfThatIsAsked) {
+  for (const auto& [usec, pid] : std::vector<std::pair<std::string, std::string>>{
+           {"", ""}, {"0", ""}, {"x", ""}, {"-5", ""}, {"1000000", "1"}, {"1000000", "x"}}) {
+    variables.erase("WATCHDOG_USEC");
+    variables.erase("WATCHDOG_PID");
+    if (!usec.empty()) variables["WATCHDOG_USEC"] = usec;
+    if (!pid.empty()) variables["WATCHDOG_PID"] = pid;
+    ServiceNotify service(variable());
+    EXPECT_FALSE(service.keepAliveTime()) << usec << ", " << pid;
+    service.keepAlive(Time(milliseconds(1)));
+  }
+  EXPECT_EQ(heard(), texts({}));
+}
+
+TEST_F(ServiceNotifyTest, FindsASocketThatIsNoFile) {
+  listenAt("@naiad-notify-test-" + std::to_string(getpid()));
+  ServiceNotify service(variable());
+  service.notifyReady();
+  EXPECT_EQ(heard(), texts({"READY=1"}));
+}
+
+TEST_F(ServiceNotifyTest, IsSilentWithoutAManager) {
+  for (const std::string& path : {std::string("relative"), std::string("/nowhere/notify"), std::string("@"),
+                                  std::string(), std::string(200, '/')}) {
+    variables["NOTIFY_SOCKET"] = path;
+    EXPECT_FALSE(ServiceNotify(variable()).isActive()) << path;
+  }
+  variables.clear();
+  ServiceNotify service(variable());
+  service.notifyReady();
+  service.keepAlive(Time(milliseconds(1)));
+  EXPECT_FALSE(service.isActive());
+}
+
+// A manager that does not read costs no time: its socket takes some datagrams and no more.
+TEST_F(ServiceNotifyTest, DoesNotWaitForAManagerThatDoesNotRead) {
+  variables["WATCHDOG_USEC"] = "2";
+  ServiceNotify service(variable());
+  for (int i = 0; i < 100'000; ++i) service.keepAlive(Time(milliseconds(i)));
+  service.notifyStatus("lost");
+  EXPECT_LT(heard().size(), 100'000u);
+  service.notifyStatus("lost");
+  service.keepAlive(Time(milliseconds(100'000)));
+  service.notifyStopping();
+  EXPECT_EQ(heard(), texts({"STATUS=lost", "WATCHDOG=1", "STOPPING=1"})) << "what was lost comes again";
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,17 @@
+#include <gtest/gtest.h>
+
+#include "shared/options/UnknownVariables.h"
+
+namespace naiad {
+namespace {
+
+TEST(UnknownVariables, AreNamedWithTheNearestOne) {
+  const char* const environment[] = {"PATH=/bin",   "NAIAD_PORT=1",  "NAIAD_PROT=1", "NAIAD_SOMETHING_ELSE=",
+                                     "NAIAD_LOG=x", "XNAIAD_PROT=1", nullptr};
+  EXPECT_EQ(complainOfUnknownVariables(environment, "NAIAD_", {"NAIAD_PORT", "NAIAD_LOG"}),
+            (std::vector<std::string>{"there is no variable NAIAD_PROT; did you mean NAIAD_PORT?",
+                                      "there is no variable NAIAD_SOMETHING_ELSE"}));
+}
+
+}  // namespace
+}  // namespace naiad

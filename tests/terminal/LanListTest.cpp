@@ -1,0 +1,313 @@
+// The real programs: dfclient without a server lists those of the network, here of loopback, and joins.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "PtyTerminal.h"
+#include "client/lan/LanBrowser.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/lan/LanSocket.h"
+
+namespace naiad::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDown = "\033[B";
+constexpr const char* kHome = "\033[H";
+
+class LanListTest : public testing::Test {
+ protected:
+  LanListTest() {
+    std::string name = fs::temp_directory_path() / "naiad-lan-XXXXXX";
+    m_home = mkdtemp(name.data());
+    m_name = m_home.filename().string().substr(6);  // "lan-…": other tests may list their servers beside ours
+  }
+  ~LanListTest() override {
+    m_server.reset();
+    fs::remove_all(m_home);
+  }
+
+  void serve(const std::vector<std::string>& more = {}, const std::string& password = "") {
+    PtyTerminal::Options options;
+    options.command = {programPath("dfserver"),
+                       "--game",
+                       "hello",
+                       "--address",
+                       "127.0.0.1",
+                       "--port",
+                       "0",
+                       "--identity",
+                       m_home / "identity",
+                       "--server-name",
+                       m_name};
+    const std::vector<std::string> lan = more.empty() ? std::vector<std::string>{"--lan", "on"} : more;
+    options.command.insert(options.command.end(), lan.begin(), lan.end());
+    options.environment["NAIAD_PASSWORD"] = password;
+    options.columns = 200;
+    m_server = std::make_unique<PtyTerminal>(options);
+    ASSERT_TRUE(m_server->waitFor("From elsewhere")) << m_server->output();
+    const std::string& said = m_server->output();
+    const std::size_t begin = said.find("naiad://");
+    m_link = said.substr(begin, said.find_first_of("\r\n", begin) - begin);
+  }
+  std::string key() const { return m_link.substr(m_link.find('#') + 1); }
+  std::string address() const { return m_link.substr(8, m_link.find('#') - 8); }
+
+  std::unique_ptr<PtyTerminal> client(const std::vector<std::string>& more = {},
+                                      const std::map<std::string, std::string>& environment = {}) {
+    PtyTerminal::Options options;
+    options.command = {programPath("dfclient"), "--name", "ann", "--known-servers", m_home / "known"};
+    options.command.insert(options.command.end(), more.begin(), more.end());
+    options.environment = environment;
+    options.environment["XDG_STATE_HOME"] = m_home / "state";
+    options.environment.emplace("NAIAD_SERVER", "");
+    options.columns = 160;
+    return std::make_unique<PtyTerminal>(options);
+  }
+  /// Moves down the list until our server is the chosen one. It is drawn as a whole each time: else only what
+  /// differs is written.
+  bool choose(PtyTerminal& ann) {
+    for (int i = 0; i < 300; ++i) {
+      ann.forget();
+      ann.resize(160, 30 + i % 2);
+      ann.read(std::chrono::milliseconds(100));
+      if (ann.newOutput().find(key()) != std::string::npos) return true;
+      ann.type(i % 20 == 0 ? kHome : kDown);
+    }
+    return false;
+  }
+  static void expectEnd(PtyTerminal& program, int code, const std::string& sentence) {
+    const int status = program.waitForExit();
+    EXPECT_TRUE(WIFEXITED(status)) << program.output();
+    EXPECT_EQ(WEXITSTATUS(status), code) << program.output();
+    EXPECT_NE(program.output().find(sentence), std::string::npos) << program.output();
+  }
+  std::string listOnce(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"--list"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto program = client(words);
+    EXPECT_EQ(program->waitForExit(), 0) << program->output();
+    return program->output();
+  }
+  /// What --list prints; asked again until our server is in it, for at most a minute: queries may be lost.
+  std::string listUntilFound(const std::vector<std::string>& more = {}) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    std::string text = listOnce(more);
+    while (text.find(m_name) == std::string::npos && std::chrono::steady_clock::now() < end)
+      text = listOnce(more);
+    return text;
+  }
+
+  fs::path m_home;
+  std::string m_name;
+  std::string m_link;
+  std::unique_ptr<PtyTerminal> m_server;
+};
+
+TEST_F(LanListTest, EnterJoinsTheChosenServerAndPinsItsKey) {
+  serve();
+  const auto ann = client();
+  ASSERT_TRUE(choose(*ann)) << ann->output();
+  ann->type("\r");
+  ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann->output();
+  ASSERT_TRUE(ann->waitFor(" player")) << ann->output();
+  ann->type("\003");
+  expectEnd(*ann, 0, "");
+  EXPECT_TRUE(sameModes(ann->originalModes(), ann->currentModes()));
+  EXPECT_TRUE(fs::exists(m_home / "known"));
+}
+
+TEST_F(LanListTest, TheListIsLeftWithTheTerminalAsItWas) {
+  for (const char* p_key : {"q", "\033", "\003"}) {
+    const auto ann = client();
+    ASSERT_TRUE(ann->waitFor("Servers of this network")) << ann->output();
+    ann->type("r");
+    ann->type(p_key);
+    expectEnd(*ann, 0, "");
+    EXPECT_TRUE(sameModes(ann->originalModes(), ann->currentModes()));
+  }
+}
+
+TEST_F(LanListTest, ThePinCountsMoreThanTheList) {
+  serve();
+  std::ofstream(m_home / "known") << address() << " " << std::string(64, '0') << "\n";
+  const auto ann = client();
+  ASSERT_TRUE(choose(*ann)) << ann->output();
+  ann->type("\r");
+  expectEnd(*ann, 3, "HAS CHANGED");
+  m_server->signal(SIGTERM);
+  m_server->waitForExit();
+  EXPECT_EQ(m_server->output().find("\"ann\""), std::string::npos) << m_server->output();
+}
+
+TEST_F(LanListTest, ThePasswordIsAskedForAndTheOneInTheEnvironmentIsNotSent) {
+  serve({}, "xyzzy");
+  const auto ann = client({}, {{"NAIAD_PASSWORD", "ambient"}});
+  ASSERT_TRUE(choose(*ann)) << ann->output();
+  EXPECT_NE(ann->output().find("password"), std::string::npos) << ann->output();
+  ann->type("\r");
+  ASSERT_TRUE(ann->waitFor("Password of ")) << ann->output();
+  ann->type("xyzzy\r");
+  ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann->output();
+  ASSERT_TRUE(ann->waitFor(" player")) << ann->output();
+  ann->type("\003");
+  expectEnd(*ann, 0, "");
+}
+
+TEST_F(LanListTest, TextAndJsonNameTheLink) {
+  serve();
+  EXPECT_NE(listUntilFound().find(m_link), std::string::npos);
+  const std::string json = listUntilFound({"--json"});
+  EXPECT_NE(
+      json.find("\"name\": \"" + m_name + "\", \"game\": \"hello\", \"players\": 0, \"max_players\": 64"),
+      std::string::npos)
+      << json;
+  EXPECT_NE(json.find("\"link\": \"" + m_link + "\""), std::string::npos) << json;
+}
+
+TEST_F(LanListTest, AServerOnLoopbackAloneIsNotListedUnlessAsked) {
+  serve({"--lan", "auto"});
+  EXPECT_EQ(listOnce().find(m_name), std::string::npos);
+}
+
+TEST_F(LanListTest, AServerThatHidesIsNotListed) {
+  serve({"--lan", "off"});
+  EXPECT_EQ(listOnce().find(m_name), std::string::npos);
+}
+
+TEST_F(LanListTest, WithNaiadServerItJoinsAndListsNothing) {
+  serve();
+  const auto ann = client({}, {{"NAIAD_SERVER", m_link}});
+  ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann->output();
+  ASSERT_TRUE(ann->waitFor(" player")) << ann->output();
+  EXPECT_EQ(ann->output().find("Servers of this network"), std::string::npos);
+  ann->type("\003");
+  expectEnd(*ann, 0, "");
+}
+
+TEST_F(LanListTest, WithoutATerminalAServerIsRequired) {
+  PtyTerminal::Options options;
+  options.command = {"/bin/sh", "-c", programPath("dfclient") + " </dev/null"};
+  options.environment["NAIAD_SERVER"] = "";
+  PtyTerminal shell(options);
+  expectEnd(shell, 2, "server is required");
+}
+
+TEST_F(LanListTest, WhatDoesNotGoTogetherIsAUsageError) {
+  expectEnd(*client({"--json"}), 2, "--json goes with --list");
+  expectEnd(*client({"--list", "127.0.0.1"}), 2, "do not go together");
+  expectEnd(*client({"--password", "xyzzy"}), 2, "--ask-password");
+  expectEnd(*client({"--insecure"}), 2, "--insecure is for one server");
+}
+
+/// Answers queries on loopback as a server that is not there: with any bytes.
+class FakeLanServer {
+ public:
+  FakeLanServer() : m_socket(LanSocket::forServer(LanSocket::Family::kIPv4)) {
+    for (const LanNetwork& network : lanNetworks()) {
+      if (network.is_loopback && network.address.is_v4()) m_network = network;
+    }
+    m_socket.joinGroup(m_network.interface);
+  }
+  /// Answer what has come. True if there was a query.
+  template <class Answers>
+  bool answer(Answers answers) {
+    const auto packet = m_socket.receivePacket();
+    const auto nonce = packet ? readLanQuery(packet->bytes) : std::nullopt;
+    if (!nonce) return false;
+    for (const std::string& bytes : answers(*nonce)) m_socket.sendAnswer(m_network, packet->source, bytes);
+    return true;
+  }
+
+ private:
+  LanSocket m_socket;
+  LanNetwork m_network;
+};
+
+LanAnswer fakeAnswer(const LanNonce& nonce, unsigned number, const std::string& name) {
+  LanAnswer answer;
+  answer.protocol = kProtocolVersion;
+  answer.nonce = nonce;
+  answer.port = 9;
+  answer.max_players = 16;
+  ShortKey::Bytes key{};
+  key[0] = static_cast<std::uint8_t>(number);
+  key[1] = static_cast<std::uint8_t>(number >> 8);
+  answer.key = ShortKey::ofBytes(key);
+  answer.name = name;
+  answer.game = "hello";
+  return answer;
+}
+
+/// As somebody who is not bound to the rules writes it.
+std::string rawAnswer(const LanNonce& nonce, unsigned number, const std::string& name) {
+  const std::string bytes = writeLanAnswer(fakeAnswer(nonce, number, ""));
+  return bytes.substr(0, 48) + static_cast<char>(name.size()) + name + bytes.substr(49);
+}
+
+TEST_F(LanListTest, NothingOfAHostileAnswerSteersTheTerminal) {
+  FakeLanServer fake;
+  const auto ann = client();
+  ASSERT_TRUE(ann->waitUntil([&] {
+    fake.answer([](const LanNonce& nonce) {
+      return std::array{rawAnswer(nonce, 1, "\033[2Jevil\033]0;OWNED\007"),
+                        rawAnswer(nonce, 2,
+                                  "\xC2\x9B"
+                                  "31m\xff"),
+                        writeLanAnswer(fakeAnswer(nonce, 3, "marker"))};
+    });
+    return ann->output().find("marker") != std::string::npos &&
+           ann->output().find("evil") != std::string::npos;
+  })) << ann->output();
+  EXPECT_EQ(ann->output().find("\033]0;OWNED"), std::string::npos);
+  EXPECT_EQ(ann->output().find("\033[2Jevil"), std::string::npos);
+  EXPECT_EQ(ann->output().find("\xC2\x9B"), std::string::npos);
+  EXPECT_EQ(ann->output().find('\xff'), std::string::npos);
+  ann->type("q");
+  expectEnd(*ann, 0, "");
+}
+
+TEST_F(LanListTest, AnswersWithAnotherNonceAreNone) {
+  FakeLanServer fake;
+  const auto ann = client();
+  ASSERT_TRUE(ann->waitUntil([&] {
+    fake.answer([](LanNonce nonce) {
+      const std::string good = writeLanAnswer(fakeAnswer(nonce, 1, "marker"));
+      nonce[15] ^= 1;
+      return std::array{writeLanAnswer(fakeAnswer(nonce, 2, "forged")), good};
+    });
+    return ann->output().find("marker") != std::string::npos;
+  })) << ann->output();
+  ann->type("q");
+  expectEnd(*ann, 0, "");
+  EXPECT_EQ(ann->output().find("forged"), std::string::npos);
+}
+
+TEST_F(LanListTest, AServerThatSaysItWantsNoPasswordGetsNoneFromTheEnvironment) {
+  serve({"--lan", "off"}, "xyzzy");
+  FakeLanServer fake;
+  const auto ann = client({}, {{"NAIAD_PASSWORD", "xyzzy"}});
+  ASSERT_TRUE(ann->waitUntil([&] {
+    fake.answer([this](const LanNonce& nonce) {
+      LanAnswer answer = fakeAnswer(nonce, 0, m_name);
+      answer.key = *ShortKey::parse(key());
+      answer.port = static_cast<std::uint16_t>(std::stoi(address().substr(address().find(':') + 1)));
+      return std::array{writeLanAnswer(answer)};
+    });
+    return ann->output().find(m_name) != std::string::npos;
+  })) << ann->output();
+  ASSERT_TRUE(choose(*ann)) << ann->output();
+  ann->type("\r");
+  expectEnd(*ann, 3, "--ask-password");
+}
+
+}  // namespace
+}  // namespace naiad::test
