@@ -2,16 +2,16 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <array>
+#include <algorithm>
 #include <asio/local/stream_protocol.hpp>
 #include <asio/write.hpp>
-#include <cstdio>
 #include <fstream>
 #include <utility>
 
 #include "BusyWorld.h"
 #include "GameProgram.h"
 #include "Home.h"
+#include "RunProgram.h"
 #include "TestServer.h"
 #include "host/auth/PasswordHash.h"
 #include "shared/net/stream/VisitorHeader.h"
@@ -24,22 +24,6 @@ using Local = asio::local::stream_protocol;
 
 std::string command(const std::string& name, const std::string& arguments = "") {
   return R"({"command":")" + name + R"(","arguments":{)" + arguments + "}}";
-}
-
-/// Exit code and output of a shell's line.
-std::pair<int, std::string> runProgram(const std::string& line) {
-  FILE* p_pipe = popen(line.c_str(), "r");
-  if (p_pipe == nullptr) return {-1, ""};
-  std::string output;
-  std::array<char, 4096> piece;
-  for (std::size_t size = 0; (size = fread(piece.data(), 1, piece.size(), p_pipe)) > 0;)
-    output.append(piece.data(), size);
-  const int status = pclose(p_pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output};
-}
-
-std::pair<int, std::string> runCtl(const std::string& arguments) {
-  return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfctl " + arguments + " 2>&1 </dev/null");
 }
 
 /// Has this client, which plays, read a line with that in it?
