@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "shared/admin/AdminCommands.h"
-#include "shared/values/Version.h"
 
 namespace naiad {
 
@@ -134,25 +133,21 @@ std::optional<std::string> ctlCompletion(const std::string& shell) {
   return std::nullopt;
 }
 
-std::string ctlManPage() {
-  return std::string(".TH DFCTL 1 \"\" \"naiad ") + kVersion +
-         "\" \"User Commands\"\n"
-         ".SH NAME\ndfctl \\- look after a running dfserver\n"
-         ".SH SYNOPSIS\n.B dfctl\n[\\fB\\-\\-control\\fR \\fIPATH\\fR] [\\fB\\-\\-json\\fR] \\fICOMMAND\\fR "
-         "[\\fIARGUMENT\\fR...]\n"
-         ".br\n.B dfctl completion bash|zsh|fish\n"
-         ".SH DESCRIPTION\nGives one command to a server of this machine, through the socket that its "
-         "option\n"
-         ".B \\-\\-control\nnames, and prints the answer. Whoever may write to that file is an admin.\n"
-         ".SH OPTIONS\n"
-         ".TP\n.BI \\-\\-control \" PATH\"\nThe socket; default: that of the one server of this user, or the "
-         "one in /run/naiad.\n"
-         ".TP\n.B \\-\\-json\nPrint the answer as JSON.\n" +
+std::string ctlManSections() {
+  return ".SH OPTIONS\n"
+         ".TP\n\\fB\\-\\-control\\fR \\fIPATH\\fR\nThe socket; default: that of the one server of this user, "
+         "or the "
+         "one in /run/naiad/admin.\n"
+         ".TP\n\\fB\\-\\-json\\fR\nPrint the answer as JSON.\n"
+         ".TP\n\\fB\\-\\-help\\fR, \\fB\\-\\-version\\fR\nPrint what they say, and exit.\n" +
          adminManSection() +
          ".SH ENVIRONMENT\n.TP\n.B NAIAD_CONTROL\nAs \\-\\-control.\n"
          ".SH EXIT STATUS\n.TP\n.B 0\nThe server has done it.\n.TP\n.B 1\nThe server refuses.\n"
-         ".TP\n.B 2\nWrong usage.\n.TP\n.B 3\nNo server answers.\n"
-         ".SH SEE ALSO\n.BR dfserver (1),\n.BR dfclient (1)\n";
+         ".TP\n.B 2\nWrong usage.\n.TP\n.B 3\nNo server answers.\n";
+}
+
+std::optional<std::string> ctlPage(const std::string& kind) {
+  return kind == "man" ? ctlManSections() : ctlCompletion(kind);
 }
 
 }  // namespace naiad

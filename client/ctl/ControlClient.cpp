@@ -16,7 +16,7 @@ namespace naiad {
 namespace {
 
 /// Where the packaged service has them.
-constexpr const char* kSystemFolder = "/run/naiad";
+constexpr const char* kSystemFolder = "/run/naiad/admin";
 
 /// Connected; negative: errno says why not.
 int connectTo(const std::filesystem::path& path) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,10 +83,9 @@ int give(const naiad::CtlCommandLine& line) {
   return answer.ok ? kDone : kRefused;
 }
 
-int complete(const std::vector<std::string>& words) {
-  const auto script = words.size() == 2 ? naiad::ctlCompletion(words[1]) : std::nullopt;
-  if (!script) return failUsage("completion wants bash, zsh or fish.");
-  std::cout << *script;
+int printPage(const std::optional<std::string>& page) {
+  if (!page) return failUsage("bash, zsh or fish is wanted.");
+  std::cout << *page;
   return kDone;
 }
 
@@ -96,13 +96,14 @@ int main(int argc, char** argv) {
   const auto is = [&words](const std::string& word) { return !words.empty() && words.front() == word; };
   if (is("--help") || is("-h")) std::cout << naiad::ctlHelp();
   if (is("--version")) std::cout << "dfctl " << naiad::kVersion << "\n";
-  if (is("--man")) std::cout << naiad::ctlManPage();
   if (is("--markdown")) std::cout << naiad::adminMarkdown();
-  if (is("--help") || is("-h") || is("--version") || is("--man") || is("--markdown")) return kDone;
+  if (is("--help") || is("-h") || is("--version") || is("--markdown")) return kDone;
+  if (is("--option-page") && words.size() == 2) return printPage(naiad::ctlPage(words[1]));
   try {
     const naiad::CtlCommandLine line = naiad::readCtlCommandLine(words);
     if (line.words.empty()) return failUsage("A command is missing.");
-    return line.words.front() == "completion" ? complete(line.words) : give(line);
+    if (line.words.front() != "completion") return give(line);
+    return printPage(line.words.size() == 2 ? naiad::ctlCompletion(line.words[1]) : std::nullopt);
   } catch (const naiad::AdminUsageError& error) {
     return failUsage(error.what());
   } catch (const naiad::NoServer& error) {

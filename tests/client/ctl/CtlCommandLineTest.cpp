@@ -37,7 +37,7 @@ TEST(CtlCommandLine, AnUnknownOptionIsAnErrorWithTheNearest) {
 
 TEST(CtlCommandLine, HelpCompletionsAndManualHaveEveryCommand) {
   const std::string help = ctlHelp();
-  const std::string manual = ctlManPage();
+  const std::string manual = ctlManSections();
   for (const AdminCommand& command : adminCommands()) {
     const bool here = command.isFor(AdminCommand::Level::kAdmin, AdminCommand::Place::kSocket);
     EXPECT_EQ(help.find("\n  " + command.name) != std::string::npos, here) << command.name;
