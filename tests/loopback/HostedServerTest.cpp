@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -27,6 +29,8 @@
 #include "host/auth/PasswordHash.h"
 #include "host/auth/ServerIdentity.h"
 #include "shared/net/stream/VisitorHeader.h"
+#include "tests/server/host/admin/Talk.h"
+#include "tests/support/net/HttpClient.h"
 
 namespace naiad::test {
 namespace {
@@ -449,6 +453,62 @@ TEST_F(HostedServer, ReloadByDfctlSaysWhatBecameOfIt) {
       << text;
   EXPECT_EQ(ctl("set max-players").second, "max-players: 2\n");
   EXPECT_TRUE(ticks(ann));
+}
+
+/// Does `job` a hundred times a second, on a thread of its own, until it is gone. How often is said by
+/// count().
+class Repeated {
+ public:
+  explicit Repeated(std::function<void()> job)
+      : m_thread([this, job = std::move(job)] {
+          for (auto next = Clock::now(); !m_stopping; next += std::chrono::milliseconds(10)) {
+            std::this_thread::sleep_until(next);
+            job();
+            ++m_count;
+          }
+        }) {}
+  ~Repeated() {
+    m_stopping = true;
+    m_thread.join();
+  }
+  Repeated(const Repeated&) = delete;
+  Repeated& operator=(const Repeated&) = delete;
+
+  int count() const { return m_count; }
+
+ private:
+  std::atomic<bool> m_stopping = false;
+  std::atomic<int> m_count = 0;
+  std::thread m_thread;
+};
+
+// With the thread sanitizer the server ends with another code if it finds a race.
+TEST_F(HostedServer, ScrapersOrdersAndReloadsAHundredTimesASecondDisturbNobody) {
+  start({{"NAIAD_METRICS", "127.0.0.1:0"}, {"NAIAD_METRICS_PORT_FILE", home.identity("metrics-port")}},
+        "max-players = 3\n");
+  std::uint16_t metrics = 0;
+  std::ifstream(home.identity("metrics-port")) >> metrics;
+  TestClient& ann = join("ann");
+  std::atomic<int> bad = 0;
+  {
+    const Repeated scrapes([&] { bad += HttpClient::get(metrics, "/metrics").status == 200 ? 0 : 1; });
+    const Repeated orders([&] {
+      Talk talk(server->control());
+      bad += talk.ask(R"({"command":"status"})").find(R"("ok":true)") == std::string::npos ? 1 : 0;
+      bad += talk.ask(R"({"command":"who"})").find("ann") == std::string::npos ? 1 : 0;
+    });
+    const Repeated reloads([&] {
+      Talk talk(server->control());
+      const std::string answer = talk.ask(R"({"command":"reload"})");
+      bad += answer.find("read") == std::string::npos ? 1 : 0;  // again, or being read already
+    });
+    EXPECT_TRUE(
+        serve([&] { return scrapes.count() >= 200 && orders.count() >= 200 && reloads.count() >= 200; }));
+  }
+  EXPECT_EQ(bad, 0);
+  EXPECT_TRUE(ticks(ann));
+  EXPECT_EQ(ctl("stop").first, 0);
+  EXPECT_TRUE(endsWell()) << server->log();
 }
 
 TEST_F(HostedServer, WhoeverIsHungUpOnBeforeTlsHasALineOfTheLog) {
