@@ -104,11 +104,13 @@ AdminRequest readAdminRequest(const std::vector<std::string>& words) {
 AdminRequest readAdminRequest(const std::string& command, std::map<std::string, std::string> arguments) {
   AdminRequest request{&commandOf(command), std::move(arguments)};
   const auto& known = request.command->arguments;
-  for (const auto& [name, value] : request.arguments) {
-    if (std::none_of(known.begin(), known.end(),
-                     [&name = name](const auto& one) { return one.name == name; }))
-      throw AdminUsageError(command + " has no argument \"" + name + "\".");
-  }
+  const auto unknown =
+      std::find_if(request.arguments.begin(), request.arguments.end(), [&known](const auto& given) {
+        return std::none_of(known.begin(), known.end(),
+                            [&given](const auto& one) { return one.name == given.first; });
+      });
+  if (unknown != request.arguments.end())
+    throw AdminUsageError("No argument of \"" + command + "\" is called \"" + unknown->first + "\".");
   return check(std::move(request));
 }
 

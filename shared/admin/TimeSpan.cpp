@@ -13,7 +13,7 @@ struct SpanUnit {
   std::int64_t seconds;
 };
 constexpr SpanUnit kSpanUnits[] = {{'d', 86'400}, {'h', 3600}, {'m', 60}, {'s', 1}};
-constexpr std::int64_t kWeek = 7 * 86'400;
+constexpr std::int64_t kWeek = std::int64_t{7} * 86'400;
 
 std::int64_t secondsOf(char letter) {
   for (const SpanUnit& unit : kSpanUnits) {
