@@ -218,7 +218,8 @@ void Host::listenForCommands() {
     removeStaleControls(listening.path.parent_path());
   }
   if (listening.path.empty()) return;
-  listening.is_refused = [](pid_t process) { return isDescendant(process); };
+  // A world must not give orders, nor hide in a namespace from where its process has no number here.
+  listening.is_refused = [](pid_t process) { return process <= 0 || isDescendant(process); };
   const auto execute = [this](AdminRequest request, AdminCaller caller, AdminConsole::Done done) {
     asio::post(m_io, [this, request = std::move(request), caller = std::move(caller),
                       done = std::move(done)] { m_console.execute(request, caller, done); });
