@@ -251,8 +251,9 @@ bool ImpactWorld::listCandidates(int id, std::size_t most) {
 void ImpactWorld::listCandidates() {
   constexpr auto kOwnShare = static_cast<std::size_t>(kWorkOfBody / kForecastPrice);
   constexpr double kUnlimited = 1e15;
-  const double reserve = std::min(kReserveAtStart * m_reserve, kUnlimited) + kWorkOfTick;
-  const auto shared = static_cast<std::size_t>(reserve / kForecastPrice);
+  const double most_shared = std::min(kReserveAtStart * m_reserve, kUnlimited) + kWorkOfTick;
+  const double left_now = std::clamp(m_most_work - m_work, 0.0, most_shared);
+  const auto shared = static_cast<std::size_t>(left_now / kForecastPrice);
   m_candidates.clear();
   m_candidates.reserve(8 * m_ids.size());
   for (std::size_t i = 0; i < m_ids.size(); ++i) {
