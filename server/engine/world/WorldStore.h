@@ -309,9 +309,9 @@ class WorldStore : public ObjectFlags {
   std::unordered_map<Slot, Mask> m_masks;  // of the few that have one
   std::unordered_map<Slot, std::shared_ptr<const naiad::Look>> m_frames;
   bool m_all_swept = false;
-  bool m_boxes_off = false;                // see hasBoxesOffPosition()
-  int m_precise = 0;                       // Objects that are
-  int m_hearers = 0;                       // TurnBits::hearers, and so on
+  bool m_boxes_off = false;  // see hasBoxesOffPosition()
+  int m_precise = 0;         // Objects that are
+  int m_hearers = 0;         // TurnBits::hearers, and so on
   int m_hards = 0;
   int m_softs = 0;
   mutable std::vector<Slot> m_candidates;  // scratch of touching()

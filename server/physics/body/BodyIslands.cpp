@@ -69,8 +69,8 @@ bool BodyIslands::passesBy(const BodyState& flyer, const BodyState& other) const
 }
 
 // Unites the two, unless one of them goes its own way. A group is settled when it is known that bodies of it
-// may touch, and that it is none of circles that bounce: classifyGroups() would learn no more from other pairs
-// of it. A kinematic body belongs to no group, so that none of its pairs is left out.
+// may touch, and that it is none of circles that bounce: classifyGroups() would learn no more from other
+// pairs of it. A kinematic body belongs to no group, so that none of its pairs is left out.
 void BodyIslands::addPair(const BodyTable& table, const std::vector<BodyState>& states, int i, int j) {
   m_pairs.emplace_back(i, j);
   const BodyState &a = states[at(i)], &b = states[at(j)];

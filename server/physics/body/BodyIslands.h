@@ -76,7 +76,7 @@ class BodyIslands {
 
   bool m_has_general = false;
   bool m_leaves_substeps = false;
-  std::vector<int> m_parent;                // by state
+  std::vector<int> m_parent;               // by state
   std::vector<std::uint8_t> m_is_settled;  // by root: no further pair of it would change what kind it is
   std::vector<Group> m_groups;
   std::vector<int> m_state_of;  // by row of the table

@@ -50,8 +50,8 @@ std::int32_t BroadPhase::add(std::uint32_t id, const GridBounds& wide, bool move
     proxy = m_free.back();
     m_free.pop_back();
   }
-  m_proxies[index(proxy)] = {id, m_tree.insert(wide, static_cast<std::uint32_t>(proxy)), moves, false,
-                              false, order};
+  m_proxies[index(proxy)] = {
+      id, m_tree.insert(wide, static_cast<std::uint32_t>(proxy)), moves, false, false, order};
   markChanged(proxy);
   return proxy;
 }

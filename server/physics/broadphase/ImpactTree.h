@@ -165,7 +165,7 @@ class ImpactTree {
   std::vector<int> m_leaf_of;
   std::vector<int> m_ids;  // of the last build, as given
   std::vector<int> m_order;
-  std::vector<int> m_member;  // by node, during queryGroups()
+  std::vector<int> m_member;                       // by node, during queryGroups()
   const std::vector<SweptBox>* m_boxes = nullptr;  // during update()
   double m_built_size = 0;
 };

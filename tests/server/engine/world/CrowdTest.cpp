@@ -30,12 +30,12 @@ struct Diary : Object {
 
 struct Crowd {
   int objects = 200;
-  int diaries = 0;       ///< of these, that hear of their collisions
-  double spread = 1;     ///< cells that they are spread over, on each axis
-  double speed = 1;      ///< cells per tick: they move by up to half of it either way
-  bool mixed = false;    ///< SOFT, SPECTRAL and no-soft ones, accelerations, and larger boxes
-  bool options = false;  ///< and such as may move out of each other
-  int odd_every = 0;     ///< every so many is of a kind, the others of another that it passes through:
+  int diaries = 0;          ///< of these, that hear of their collisions
+  double spread = 1;        ///< cells that they are spread over, on each axis
+  double speed = 1;         ///< cells per tick: they move by up to half of it either way
+  bool mixed = false;       ///< SOFT, SPECTRAL and no-soft ones, accelerations, and larger boxes
+  bool options = false;     ///< and such as may move out of each other
+  int odd_every = 0;        ///< every so many is of a kind, the others of another that it passes through:
   bool odd_is_hard = true;  ///< a HARD one among SOFT ones; else a SOFT one that is no-soft among HARD ones
 };
 
