@@ -247,23 +247,27 @@ bool ImpactWorld::listCandidates(int id, std::size_t most) {
 }
 
 // All pairs whose paths may cross. Where bodies lie in one another by the thousand these are too many, which
-// is known before any of them is looked at.
+// is known before any of them is looked at: after the first body whose pairs do not fit each has its own
+// share alone.
 void ImpactWorld::listCandidates() {
   constexpr auto kOwnShare = static_cast<std::size_t>(kWorkOfBody / kForecastPrice);
   constexpr double kUnlimited = 1e15;
   const double most_shared = std::min(kReserveAtStart * m_reserve, kUnlimited) + kWorkOfTick;
   const double left_now = std::clamp(m_most_work - m_work, 0.0, most_shared);
   const auto shared = static_cast<std::size_t>(left_now / kForecastPrice);
+  bool is_spent = false;
   m_candidates.clear();
   m_candidates.reserve(8 * m_ids.size());
   for (std::size_t i = 0; i < m_ids.size(); ++i) {
     const int id = m_ids[i];
     if (!isMoving(id) || m_motions[id].is_frozen) continue;
-    const std::size_t all = shared + (i + 1) * kOwnShare;  // and what those before have left
+    const std::size_t all = is_spent ? 0 : shared + (i + 1) * kOwnShare;  // and what those before have left
     const std::size_t left = all > m_candidates.size() ? all - m_candidates.size() : 0;
     // What cannot be pushed cannot be given up.
     const std::size_t most = isPushed(id) ? std::max(left, kOwnShare) : m_ids.size();
-    if (!listCandidates(id, most)) giveUp(id);
+    if (listCandidates(id, most)) continue;
+    giveUp(id);
+    is_spent = true;
   }
 }
 
