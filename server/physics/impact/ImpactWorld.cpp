@@ -231,17 +231,19 @@ void ImpactWorld::beginTick(double dt) {
   m_tree.update(m_boxes, m_ids, idLimit());
 }
 
-// Appends the pairs of a body, and takes them back if they are more than `most`.
+// Appends the pairs of a body, and takes them back if they are more than `most`. Those with bodies that are
+// given up already count, or else each body of a crowd would look at all that came before it.
 bool ImpactWorld::listCandidates(int id, std::size_t most) {
   const std::size_t before = m_candidates.size();
-  most += before;
+  std::size_t count = 0;
   m_tree.query(m_tree.box(id), [&](int other) {
-    if (other == id || (other < id && isMoving(other)) || m_motions[other].is_frozen) return true;
+    const bool is_given_up = m_motions[other].is_frozen;
+    if (other == id || (other < id && isMoving(other) && !is_given_up)) return true;
     if (!isPushed(id) && !isPushed(other)) return true;
-    m_candidates.push_back({id, other});
-    return m_candidates.size() <= most;
+    if (!is_given_up) m_candidates.push_back({id, other});
+    return ++count <= most;
   });
-  if (m_candidates.size() <= most) return true;
+  if (count <= most) return true;
   m_candidates.resize(before);
   return false;
 }
