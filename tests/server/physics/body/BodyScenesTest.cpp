@@ -459,5 +459,20 @@ TEST_F(BodyScenes, ACrowdOfTurningBoxesInOneCellCostsItsNumber) {
   EXPECT_EQ(PM.getQuarantineCount(), 0U);
 }
 
+// Nor are all pairs of a crowd that moves looked at before it is known that they are too many.
+TEST_F(BodyScenes, ACrowdOfMovingCirclesInOneCellCostsItsNumber) {
+  constexpr int kCount = 1500;
+  naiad::SplitMix64 random(1);
+  for (int i = 0; i < kCount; ++i) {
+    const double x = random.unit(), y = random.unit();
+    put(ball(Vector(x, y), Vector(random.unit(), 0)))->setRestitution(0);
+  }
+  ticks(3);
+  EXPECT_GE(substeps().ticks, 2);
+  EXPECT_LE(impacts().forecasts, 3 * (300'000 + 70 * kCount));
+  EXPECT_LE(substeps().contacts, 3 * 40 * kCount);
+  EXPECT_EQ(PM.getQuarantineCount(), 0U);
+}
+
 }  // namespace
 }  // namespace df::test
