@@ -28,21 +28,21 @@ void ConjugateGradients::resize(int nodes, std::span<const Pair> pairs) {
 
 void ConjugateGradients::clear(double scale) {
   m_unit = 1 / scale;
-  std::fill(m_diagonal.begin(), m_diagonal.end(), Corner{});
+  std::fill(m_diagonal.begin(), m_diagonal.end(), Block{});
 }
 
 void ConjugateGradients::setPair(int pair, const Block& block) {
-  const auto xx = static_cast<float>(m_unit * block.xx), xy = static_cast<float>(m_unit * block.xy);
-  const auto yx = static_cast<float>(m_unit * block.yx), yy = static_cast<float>(m_unit * block.yy);
-  m_blocks[at(m_slots[at(pair)].a)] = Lanes{xx, yx, xy, yy};
-  m_blocks[at(m_slots[at(pair)].b)] = Lanes{xx, xy, yx, yy};
+  const auto xy = static_cast<float>(m_unit * block.xy);
+  const Lanes lanes = {static_cast<float>(m_unit * block.xx), xy, xy, static_cast<float>(m_unit * block.yy)};
+  m_blocks[at(m_slots[at(pair)].a)] = m_blocks[at(m_slots[at(pair)].b)] = lanes;
 }
 
 bool ConjugateGradients::invertDiagonal() {
   for (std::size_t i = 0; i < m_diagonal.size(); ++i) {
     const double xx = m_unit * m_diagonal[i].xx, xy = m_unit * m_diagonal[i].xy,
                  yy = m_unit * m_diagonal[i].yy, determinant = xx * yy - xy * xy;
-    if (!(xx > 1e-30 && yy > 1e-30 && determinant > 1e-15 * (xx * yy) && xx < 1e15 && yy < 1e15)) return false;
+    if (!(xx > 1e-30 && yy > 1e-30 && determinant > 1e-15 * (xx * yy) && xx < 1e15 && yy < 1e15))
+      return false;
     const auto side = static_cast<float>(-xy / determinant), corner = static_cast<float>(xy);
     m_middle[i] = Lanes{static_cast<float>(xx), corner, corner, static_cast<float>(yy)};
     m_inverse[i] =

@@ -21,20 +21,20 @@ class ConjugateGradients {
     int a;
     int b;
   };
+  /// A symmetric block; `xy` stands for both corners.
   struct Block {
-    double xx, xy, yx, yy;
+    double xx = 0, xy = 0, yy = 0;
   };
 
   /// Blocks (a, b) and (b, a) of these pairs and the diagonal may differ from zero; a pair may come twice.
   void resize(int nodes, std::span<const Pair> pairs);
   /// All zero. `scale` > 0: how large entries are, roughly, so that they and their inverses are floats.
   void clear(double scale);
-  /// The block (a, b) of this pair; (b, a) is its mirror image.
+  /// The blocks (a, b) and (b, a) of this pair.
   void setPair(int pair, const Block& block);
-  /// Adds to the diagonal; `xy` counts for both corners.
-  void addDiagonal(int node, double xx, double xy, double yy) {
-    Corner& corner = m_diagonal[at(node)];
-    corner.xx += xx, corner.xy += xy, corner.yy += yy;
+  void addDiagonal(int node, const Block& block) {
+    Block& sum = m_diagonal[at(node)];
+    sum.xx += block.xx, sum.xy += block.xy, sum.yy += block.yy;
   }
   /// A node's stiffness so far: the mean of the diagonal's two.
   double diagonalOf(int node) const { return 0.5 * (m_diagonal[at(node)].xx + m_diagonal[at(node)].yy); }
@@ -48,9 +48,6 @@ class ConjugateGradients {
 
  private:
   using Lanes = float __attribute__((vector_size(16)));
-  struct Corner {
-    double xx, xy, yy;
-  };
   struct Point {
     float x, y;
   };
@@ -63,8 +60,8 @@ class ConjugateGradients {
   std::vector<int> m_begins;      // by node: its first neighbour
   std::vector<int> m_neighbours;  // by row of blocks
   std::vector<Pair> m_slots;      // by pair: where its two blocks are
-  std::vector<Lanes> m_blocks;    // columns: xx, yx, xy, yy
-  std::vector<Corner> m_diagonal;
+  std::vector<Lanes> m_blocks;    // two columns each
+  std::vector<Block> m_diagonal;
   std::vector<Lanes> m_middle, m_inverse;  // the diagonal's blocks, and their inverses
   std::vector<Point> m_solution, m_residual, m_direction, m_product, m_preconditioned;
   double m_unit = 1;           // entries times this are about one

@@ -42,7 +42,7 @@ void SoftElastic::prepare(SoftBody& body) {
   if (spread(body, plain) <= spread(body, m_order)) m_order = plain;
   const int band = 2 * spread(body, m_order) + 1;
   const bool has_gas = body.is_closed && (body.pressure != 0 || body.bulk != 0);
-  m_is_wide = !has_gas && static_cast<double>(count) * band * band > kMaxDirectPrice;
+  m_is_wide = !has_gas && body.bends.empty() && static_cast<double>(count) * band * band > kMaxDirectPrice;
   if (m_is_wide) m_order = plain;
   m_band.resize(m_is_wide ? 0 : 2 * count, m_is_wide ? 0 : band);
   m_pinned.assign(at(count), 0);
@@ -103,7 +103,6 @@ bool SoftElastic::assemble(const SoftBody& body) {
     std::fill(m_change.begin(), m_change.end(), 0);
     addMass(body);
     addStretches(body);
-    addBends(body);
     return true;
   }
   // What rounding may have made singular gets a little more inertia.
@@ -160,7 +159,7 @@ double SoftElastic::apply(SoftBody& body, std::span<const double> change) {
 void SoftElastic::addEntry(int i, int j, double xx, double xy, double yx, double yy) {
   if (m_pinned[at(i)] || m_pinned[at(j)]) return;
   if (m_is_wide) {
-    if (i == j) m_gradients.addDiagonal(i, xx, xy, yy);
+    if (i == j) m_gradients.addDiagonal(i, {xx, xy, yy});
     return;  // pairs are set as a whole
   }
   const int row = rowOf(i), column = rowOf(j);
@@ -177,7 +176,7 @@ void SoftElastic::addMass(const SoftBody& body) {
     const int row = rowOf(i);
     if (m_pinned[at(i)]) {
       if (m_is_wide) {
-        m_gradients.addDiagonal(i, m_scale, 0, m_scale);
+        m_gradients.addDiagonal(i, {m_scale, 0, m_scale});
       } else {
         m_band.entry(row, row) = m_band.entry(row + 1, row + 1) = 1;
       }
@@ -232,7 +231,6 @@ void SoftElastic::addStretches(const SoftBody& body) {
 }
 
 void SoftElastic::addBends(const SoftBody& body) {
-  int pair = static_cast<int>(body.stretches.size());
   for (const SoftBend& s : body.bends) {
     const SoftCorner corner = cornerOf(body, s);
     const int nodes[] = {s.c, s.b, s.a};
@@ -241,8 +239,6 @@ void SoftElastic::addBends(const SoftBody& body) {
     for (int k = 0; k < count; ++k) rate += dot(corner.slopes[k], rateOf(body, nodes[k]));
     addSpring(nodes, corner.slopes, count, s.stiffness * corner.bent + s.damping * rate,
               s.stiffness + s.damping / m_beta);
-    if (m_is_wide) addBendPairs(s, pair, corner.slopes, s.stiffness + s.damping / m_beta);
-    pair += 3;
   }
 }
 

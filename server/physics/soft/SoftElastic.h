@@ -6,8 +6,9 @@
 // converge like a constraint. Nodes are ordered so that the matrix is a narrow band; a blob's pressure adds a
 // rank of one.
 //
-// The decomposition costs nodes · band². A body for which that is more than kMaxDirectPrice is *wide*: its
-// systems are solved by conjugate gradients, a bounded number of them, so that a tick costs nodes + springs.
+// The decomposition costs nodes · band². A body of stretches alone for which that is more than
+// kMaxDirectPrice is *wide*: its systems are solved by conjugate gradients, a bounded number of iterations, so
+// that a tick costs nodes + springs.
 #pragma once
 
 #include <span>
@@ -80,7 +81,6 @@ class SoftElastic {
   void addSpring(const int* nodes, const Vec2* slopes, int count, double force, double stiffness);
   void prepareWide(SoftBody& body);
   void addLink(const SoftStretch& s, int pair, Vec2 along, double force, double stiffness, double taut);
-  void addBendPairs(const SoftBend& s, int pair, const Vec2* slopes, double stiffness);
   void addEntry(int i, int j, double xx, double xy, double yx, double yy);
   Vec2 rateOf(const SoftBody& body, int node) const {
     return (body.nodes[at(node)].offset - m_base[at(node)]) / m_beta;

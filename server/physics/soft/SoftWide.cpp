@@ -11,7 +11,7 @@ namespace {
 /// Per tick², over the lighter node's mass: at four sub-steps that is 3e4 times what the mass itself resists
 /// with. Floats tell them apart to some digits.
 constexpr double kStiffest = 1e6;
-constexpr int kMaxGradients = 70;          // of one solution
+constexpr int kMaxGradients = 70;            // of one solution
 constexpr double kGradientTolerance = 1e-3;  // of its error at first
 
 }  // namespace
@@ -26,12 +26,6 @@ void SoftElastic::prepareWide(SoftBody& body) {
     stiffest = std::max(stiffest, s.stiffness);
     pairs.push_back({s.a, s.b});
   }
-  for (const SoftBend& s : body.bends) {
-    const int a = s.a < 0 ? s.c : s.a;  // a clamp has one pair; the others stay empty
-    for (const ConjugateGradients::Pair pair : {ConjugateGradients::Pair{s.c, s.b}, {a, s.b}, {a, s.c}}) {
-      pairs.push_back(pair);
-    }
-  }
   m_gradients.resize(static_cast<int>(body.nodes.size()), pairs);
   m_scale = heaviest + stiffest;
 }
@@ -39,37 +33,27 @@ void SoftElastic::prepareWide(SoftBody& body) {
 void SoftElastic::addLink(const SoftStretch& s, int pair, Vec2 along, double force, double stiffness,
                           double taut) {
   const Vec2 pull = force * along, more = (stiffness - taut) * along;
-  const double xx = taut + more.x * along.x, xy = more.x * along.y, yy = taut + more.y * along.y;
+  const ConjugateGradients::Block block = {taut + more.x * along.x, more.x * along.y,
+                                           taut + more.y * along.y};
   const std::size_t a = at(rowOf(s.a)), b = at(rowOf(s.b));
   if (!m_pinned[at(s.a)]) {
     m_change[a] += pull.x, m_change[a + 1] += pull.y;
-    m_gradients.addDiagonal(s.a, xx, xy, yy);
+    m_gradients.addDiagonal(s.a, block);
   }
   if (!m_pinned[at(s.b)]) {
     m_change[b] -= pull.x, m_change[b + 1] -= pull.y;
-    m_gradients.addDiagonal(s.b, xx, xy, yy);
+    m_gradients.addDiagonal(s.b, block);
   }
   const double free = m_pinned[at(s.a)] || m_pinned[at(s.b)] ? 0 : -1;
-  m_gradients.setPair(pair, {free * xx, free * xy, free * xy, free * yy});
-}
-
-void SoftElastic::addBendPairs(const SoftBend& s, int pair, const Vec2* slopes, double stiffness) {
-  const auto set = [&](int which, int i, int j, Vec2 by, Vec2 with) {
-    const double k = m_pinned[at(i)] || m_pinned[at(j)] ? 0 : stiffness;
-    m_gradients.setPair(which, {k * by.x * with.x, k * by.x * with.y, k * by.y * with.x, k * by.y * with.y});
-  };
-  set(pair, s.c, s.b, slopes[0], slopes[1]);
-  if (s.a < 0) return;
-  set(pair + 1, s.a, s.b, slopes[2], slopes[1]);
-  set(pair + 2, s.a, s.c, slopes[2], slopes[0]);
+  m_gradients.setPair(pair, {free * block.xx, free * block.xy, free * block.yy});
 }
 
 void SoftElastic::addPush(int node, Vec2 axis, double force, double stiffness) {
   if (m_pinned[at(node)]) return;
   const std::size_t row = at(rowOf(node));
   m_change[row] += force * axis.x, m_change[row + 1] += force * axis.y;
-  m_gradients.addDiagonal(node, stiffness * axis.x * axis.x, stiffness * axis.x * axis.y,
-                          stiffness * axis.y * axis.y);
+  m_gradients.addDiagonal(
+      node, {stiffness * axis.x * axis.x, stiffness * axis.x * axis.y, stiffness * axis.y * axis.y});
 }
 
 bool SoftElastic::solveWide(const SoftBody& body, bool is_free, bool& is_settled) {

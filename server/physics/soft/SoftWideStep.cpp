@@ -5,6 +5,7 @@
 // (mass splitting), so that together they do not push more than is needed. The others get the impulses.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "physics/soft/SoftWorld.h"
 
@@ -27,6 +28,11 @@ Vec2 movementOf(const SoftBody& body, const SoftElastic& elastic, const SoftPoin
   return sum;
 }
 
+// By how much A has left B.
+Vec2 apartOf(const SoftPush& push, const SoftBody& body, const SoftElastic& elastic) {
+  return push.sign * (movementOf(body, elastic, *push.p_own) - push.gone);
+}
+
 Vec2 changeOf(const SoftElastic& elastic, const SoftPoint& point) {
   Vec2 sum;
   for (int k = 0; k < 2 && point.nodes[k] >= 0; ++k) {
@@ -36,7 +42,7 @@ Vec2 changeOf(const SoftElastic& elastic, const SoftPoint& point) {
   return sum;
 }
 
-// Chooses its forces: `apart` is by how much A has left B.
+// Chooses its forces.
 void choose(SoftPush& push, Vec2 apart) {
   SoftRow& row = *push.p_row;
   for (int axis = 0; axis < 2; ++axis) {
@@ -52,7 +58,17 @@ void choose(SoftPush& push, Vec2 apart) {
   }
 }
 
-// Of what it did, what the next iteration or sub-step starts from. `apart` as above.
+void addTo(SoftElastic& elastic, const SoftPush& push) {
+  for (int k = 0; k < 2 && push.p_own->nodes[k] >= 0; ++k) {
+    const double weight = push.p_own->weights[k];
+    for (int axis = 0; axis < 2; ++axis) {
+      elastic.addPush(push.p_own->nodes[k], push.sign * push.p_row->axes[axis], weight * push.force[axis],
+                      weight * push.yield[axis]);
+    }
+  }
+}
+
+// Of what it did, what the next iteration or sub-step starts from.
 void limit(SoftPush& push, Vec2 apart) {
   SoftRow& row = *push.p_row;
   if (row.is_attachment) return;
@@ -101,15 +117,14 @@ SoftPush SoftWorld::pushOf(SoftRow& row, int id, double h) const {
   return push;
 }
 
-// The pushes of a body: of rows that no wide body has solved yet, and how many share what they push against.
+// The pushes of a body, and how many share what they push against.
 void SoftWorld::gatherPushes(const SoftView& view, double h) {
   m_pushes.clear();
   m_sharing.assign(m_obstacle_motions.size() + m_ends.size(), 0);
   for (SoftRow& row : m_wide_rows) {
-    const bool is_second = row.b.body == view.id && isWide(row.a.body) && row.a.body < view.id;
-    const bool is_first_later = row.a.body == view.id && row.b.body >= 0 && isWide(row.b.body) &&
-                                row.b.body < view.id;
-    if ((row.a.body != view.id && row.b.body != view.id) || is_second || is_first_later) continue;
+    if (row.a.body != view.id && row.b.body != view.id) continue;
+    const int other = row.a.body == view.id ? row.b.body : row.a.body;
+    if (other >= 0 && other < view.id && isWide(other)) continue;  // it has been solved with that one
     m_pushes.push_back(pushOf(row, view.id, h));
     if (row.obstacle >= 0) ++m_sharing[at(row.obstacle)];
     for (int k = 0; k < 2 && row.obstacle < 0 && m_pushes.back().p_other->nodes[k] >= 0; ++k) {
@@ -154,57 +169,52 @@ void SoftWorld::pushOthers(const SoftPush& push, double h) {
   }
 }
 
+// False if it has no solution.
+bool SoftWorld::iterateWide(int id, double h) {
+  SoftBody& body = m_bodies[at(id)];
+  SoftElastic& elastic = m_elastics[at(id)];
+  ++m_counters.iterations;
+  elastic.assemble(body);
+  for (SoftPush& push : m_pushes) {
+    const double factor = push.p_row->is_attachment ? kAttachmentStiffness : kContactStiffness;
+    push.stiffness = 1 / (1 / (factor * elastic.stiffnessOf(push.p_own->nodes[0])) + yieldOf(push, h));
+  }
+  for (SoftPush& push : m_pushes) {
+    choose(push, apartOf(push, body, elastic));
+    addTo(elastic, push);
+  }
+  bool is_settled = false;
+  if (!elastic.solveWide(body, m_pushes.empty(), is_settled)) return false;
+  if (!is_settled) ++m_counters.unconverged;
+  for (SoftPush& push : m_pushes) {
+    const Vec2 change = push.sign * changeOf(elastic, *push.p_own);
+    for (int axis = 0; axis < 2; ++axis) {
+      push.p_row->forces[axis] = push.force[axis] - push.yield[axis] * dot(push.p_row->axes[axis], change);
+    }
+  }
+  return elastic.apply(body, elastic.change()) <= kFarthest;
+}
+
 void SoftWorld::solveWide(const SoftView& view, double h, std::span<SoftObstacle> obstacles) {
   const int id = view.id;
   SoftBody& body = m_bodies[at(id)];
   SoftElastic& elastic = m_elastics[at(id)];
   gatherPushes(view, h);
   elastic.begin(body, h, m_gravity, true);
-  const auto apart = [&](const SoftPush& push) {
-    return push.sign * (movementOf(body, elastic, *push.p_own) - push.gone);
-  };
-  bool is_settled = false;
   const int most = m_pushes.empty() ? kWideIterations : kWideContactIterations;
   for (int i = 0; i < most; ++i) {
-    ++m_counters.iterations;
-    elastic.assemble(body);
     for (SoftPush& push : m_pushes) {
-      if (i == 0) {
-        const double factor = push.p_row->is_attachment ? kAttachmentStiffness : kContactStiffness;
-        push.stiffness = 1 / (1 / (factor * elastic.stiffnessOf(push.p_own->nodes[0])) + yieldOf(push, h));
-      }
-      choose(push, apart(push));
-      for (int axis = 0; axis < 2; ++axis) {
-        for (int k = 0; k < 2 && push.p_own->nodes[k] >= 0; ++k) {
-          const double weight = push.p_own->weights[k];
-          elastic.addPush(push.p_own->nodes[k], push.sign * push.p_row->axes[axis],
-                          weight * push.force[axis], weight * push.yield[axis]);
-        }
-      }
+      if (i > 0) limit(push, apartOf(push, body, elastic));
     }
-    if (!elastic.solveWide(body, m_pushes.empty(), is_settled)) {
-      freeze(id);
-      return elastic.revert(body);
-    }
-    for (SoftPush& push : m_pushes) {
-      const Vec2 change = push.sign * changeOf(elastic, *push.p_own);
-      for (int axis = 0; axis < 2; ++axis) {
-        push.p_row->forces[axis] = push.force[axis] - push.yield[axis] * dot(push.p_row->axes[axis], change);
-      }
-    }
-    const double farthest = elastic.apply(body, elastic.change());
-    if (!(farthest <= kFarthest)) {
-      freeze(id);
-      return elastic.revert(body);
-    }
-    if (!is_settled) ++m_counters.unconverged;
-    if (i + 1 == most) break;
-    for (SoftPush& push : m_pushes) limit(push, apart(push));
+    if (iterateWide(id, h)) continue;
+    freeze(id);
+    elastic.revert(body);
+    return;
   }
   for (SoftPush& push : m_pushes) {
     recordRow(*push.p_row, h, obstacles);
     pushOthers(push, h);
-    limit(push, apart(push));
+    limit(push, apartOf(push, body, elastic));
   }
   stopWide(id, h, obstacles);
   elastic.finish(body);

@@ -154,6 +154,7 @@ class SoftWorld {
   // SoftWideStep.cpp
   void separateWide();
   void solveWide(const SoftView& view, double h, std::span<SoftObstacle> obstacles);
+  bool iterateWide(int id, double h);
   void gatherPushes(const SoftView& view, double h);
   SoftPush pushOf(SoftRow& row, int id, double h) const;
   std::size_t sharedBy(const SoftPoint& point, int which) const;
@@ -185,11 +186,11 @@ class SoftWorld {
   std::vector<SoftObstacleMotion> m_obstacle_motions;
   SoftCrowd m_crowd;
   std::vector<SoftRow> m_rows;
-  std::vector<SoftRow> m_earlier;  // of the one before, by key
+  std::vector<SoftRow> m_earlier;    // of the one before, by key
   std::vector<SoftRow> m_wide_rows;  // of wide bodies, taken out of m_rows
   std::vector<SoftPush> m_pushes;
   std::vector<int> m_sharing;  // pushes on an obstacle or on a node of another body
-  std::vector<int> m_links;        // union-find over bodies and obstacles
+  std::vector<int> m_links;    // union-find over bodies and obstacles
   std::vector<int> m_group;
   std::vector<SoftRow*> m_group_rows;
   SoftRowSolver m_solver;
