@@ -11,7 +11,8 @@ namespace {
 /// Per tick², over the lighter node's mass: at four sub-steps that is 3e4 times what the mass itself resists
 /// with. Floats tell them apart to some digits.
 constexpr double kStiffest = 1e6;
-constexpr int kMaxGradients = 70;            // of one solution
+/// Of a sub-step: iterations of its one solution, or of both of them in contact (SoftWideStep.cpp).
+constexpr int kMaxGradients = 96;
 constexpr double kGradientTolerance = 1e-3;  // of its error at first
 
 }  // namespace
@@ -59,8 +60,9 @@ void SoftElastic::addPush(int node, Vec2 axis, double force, double stiffness) {
 bool SoftElastic::solveWide(const SoftBody& body, bool is_free, bool& is_settled) {
   Vec2 push;
   for (std::size_t i = 0; i < m_change.size(); i += 2) push += {m_change[i], m_change[i + 1]};
-  const int steps = m_gradients.solve(m_change.data(), kMaxGradients, kGradientTolerance);
-  is_settled = steps < kMaxGradients;
+  const int most = is_free ? kMaxGradients : kMaxGradients / 2;
+  const int steps = m_gradients.solve(m_change.data(), most, kGradientTolerance);
+  is_settled = steps < most;
   // Springs push as much as they pull: what is left of the sum belongs to the motion of the whole.
   double inertia = 0;
   for (std::size_t i = 0; i < body.nodes.size(); ++i) {
