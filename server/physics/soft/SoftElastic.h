@@ -7,8 +7,8 @@
 // rank of one.
 //
 // The decomposition costs nodes · band². A body of stretches alone for which that is more than
-// kMaxDirectPrice is *wide*: its systems are solved by conjugate gradients, a bounded number of iterations, so
-// that a tick costs nodes + springs.
+// kMaxDirectPrice is *wide*: its systems are solved by conjugate gradients, a bounded number of iterations,
+// so that a tick costs nodes + springs.
 #pragma once
 
 #include <span>
