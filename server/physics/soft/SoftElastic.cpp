@@ -32,6 +32,13 @@ int spread(const SoftBody& body, const std::vector<int>& order) {
   return widest;
 }
 
+// Have its springs few different distances of numbers, so that its gradients cost little (kMaxDiagonals)?
+bool isMesh(const SoftBody& body) {
+  std::vector<ConjugateGradients::Pair> pairs;
+  for (const SoftStretch& s : body.stretches) pairs.push_back({s.a, s.b});
+  return ConjugateGradients::diagonalsOf(pairs) <= SoftElastic::kMaxDiagonals;
+}
+
 }  // namespace
 
 void SoftElastic::prepare(SoftBody& body) {
@@ -42,7 +49,8 @@ void SoftElastic::prepare(SoftBody& body) {
   if (spread(body, plain) <= spread(body, m_order)) m_order = plain;
   const int band = 2 * spread(body, m_order) + 1;
   const bool has_gas = body.is_closed && (body.pressure != 0 || body.bulk != 0);
-  m_is_wide = !has_gas && body.bends.empty() && static_cast<double>(count) * band * band > kMaxDirectPrice;
+  m_is_wide = !has_gas && body.bends.empty() && static_cast<double>(count) * band * band > kMaxDirectPrice &&
+              isMesh(body);
   if (m_is_wide) m_order = plain;
   m_band.resize(m_is_wide ? 0 : 2 * count, m_is_wide ? 0 : band);
   m_pinned.assign(at(count), 0);

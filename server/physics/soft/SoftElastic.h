@@ -6,7 +6,7 @@
 // converge like a constraint. Nodes are ordered so that the matrix is a narrow band; a blob's pressure adds a
 // rank of one.
 //
-// The decomposition costs nodes · band². A body of stretches alone for which that is more than
+// The decomposition costs nodes · band². A mesh of stretches alone for which that is more than
 // kMaxDirectPrice is *wide*: its systems are solved by conjugate gradients, a bounded number of iterations,
 // so that a tick costs nodes + springs.
 #pragma once
@@ -27,6 +27,8 @@ class SoftElastic {
  public:
   /// Of nodes · band²: just above that of 25 × 25 nodes.
   static constexpr double kMaxDirectPrice = 2e6;
+  /// Of a wide body's matrix (ConjugateGradients.h). A cloth has four: along, across, and two askew.
+  static constexpr int kMaxDiagonals = 8;
 
   /// Springs of a wide body that are stiffer than floats can tell from rigid ones are made less stiff.
   void prepare(SoftBody& body);
@@ -35,7 +37,6 @@ class SoftElastic {
   void setPinned(int node, bool is_pinned) {
     m_pinned[at(node)] = is_pinned ? 1 : 0;
     m_history = 0;
-    m_gradients.forgetSolution();  // it moves no pin
   }
 
   /// Starts a sub-step of `h` ticks from where the body is. `is_smooth`: use the history, if it is of the

@@ -11,8 +11,8 @@ namespace {
 /// Per tick², over the lighter node's mass: at four sub-steps that is 3e4 times what the mass itself resists
 /// with. Floats tell them apart to some digits.
 constexpr double kStiffest = 1e6;
-/// Of a sub-step: iterations of its one solution, or of both of them in contact (SoftWideStep.cpp).
-constexpr int kMaxGradients = 96;
+/// Of one solution; a sub-step has two (SoftWideStep.cpp).
+constexpr int kMaxGradients = 64;
 constexpr double kGradientTolerance = 1e-3;  // of its error at first
 
 }  // namespace
@@ -46,7 +46,7 @@ void SoftElastic::addLink(const SoftStretch& s, int pair, Vec2 along, double for
     m_gradients.addDiagonal(s.b, block);
   }
   const double free = m_pinned[at(s.a)] || m_pinned[at(s.b)] ? 0 : -1;
-  m_gradients.setPair(pair, {free * block.xx, free * block.xy, free * block.yy});
+  m_gradients.addPair(pair, {free * block.xx, free * block.xy, free * block.yy});
 }
 
 void SoftElastic::addPush(int node, Vec2 axis, double force, double stiffness) {
@@ -60,9 +60,8 @@ void SoftElastic::addPush(int node, Vec2 axis, double force, double stiffness) {
 bool SoftElastic::solveWide(const SoftBody& body, bool is_free, bool& is_settled) {
   Vec2 push;
   for (std::size_t i = 0; i < m_change.size(); i += 2) push += {m_change[i], m_change[i + 1]};
-  const int most = is_free ? kMaxGradients : kMaxGradients / 2;
-  const int steps = m_gradients.solve(m_change.data(), most, kGradientTolerance);
-  is_settled = steps < most;
+  const int steps = m_gradients.solve(m_change.data(), kMaxGradients, kGradientTolerance);
+  is_settled = steps < kMaxGradients;
   // Springs push as much as they pull: what is left of the sum belongs to the motion of the whole.
   double inertia = 0;
   for (std::size_t i = 0; i < body.nodes.size(); ++i) {

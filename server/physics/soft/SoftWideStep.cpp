@@ -13,9 +13,9 @@ namespace naiad::physics {
 
 namespace {
 
-/// With contacts, the second iteration opens and closes them. Else one is enough: what a linear solution
-/// leaves is made good in the next sub-step.
-constexpr int kWideIterations = 1, kWideContactIterations = 2;
+/// The second finds the threads that have become taut and contacts that open and close. What a linear
+/// solution leaves is made good in the next sub-step.
+constexpr int kWideIterations = 2;
 /// Stiffness of a contact and of an attachment, over that of the node with its springs.
 constexpr double kContactStiffness = 20, kAttachmentStiffness = 100;
 
@@ -201,8 +201,7 @@ void SoftWorld::solveWide(const SoftView& view, double h, std::span<SoftObstacle
   SoftElastic& elastic = m_elastics[at(id)];
   gatherPushes(view, h);
   elastic.begin(body, h, m_gravity, true);
-  const int most = m_pushes.empty() ? kWideIterations : kWideContactIterations;
-  for (int i = 0; i < most; ++i) {
+  for (int i = 0; i < kWideIterations; ++i) {
     for (SoftPush& push : m_pushes) {
       if (i > 0) limit(push, apartOf(push, body, elastic));
     }
