@@ -129,7 +129,8 @@ bool WorldStore::isBlockedAt(const FixedBox& target, Slot mover, std::span<const
   };
   if (std::any_of(some.begin(), some.end(), blocks)) return true;
   if (!hard && !no_soft) return false;
-  const auto most = static_cast<std::size_t>((hard ? m_hards : 0) + (no_soft ? m_softs : 0));
+  const int blockers = (hard ? m_hards : 0) + (no_soft ? m_softs : 0);
+  const auto most = static_cast<std::size_t>(blockers);
   m_candidates.clear();  // `some` may lie there, and is not read any more
   m_grid.touching(target, mover, m_candidates, most);
   if (std::any_of(m_candidates.begin(), m_candidates.end(), blocks)) return true;

@@ -170,19 +170,19 @@ void ConjugateGradients::turn(float keep) {
 }
 
 // The solution is zero, and the residual the right-hand side.
-void ConjugateGradients::start(const double* rows, double by) {
+void ConjugateGradients::start(std::span<const double> rows, double by) {
   for (Points* points : {&m_solution, &m_direction, &m_product}) {
     std::fill(points->x.begin(), points->x.end(), 0.0F), std::fill(points->y.begin(), points->y.end(), 0.0F);
   }
   for (int i = 0; i < m_nodes; ++i) {
-    m_residual.x[at(m_margin + i)] = static_cast<float>(by * rows[2 * i]);
-    m_residual.y[at(m_margin + i)] = static_cast<float>(by * rows[2 * i + 1]);
+    m_residual.x[at(m_margin + i)] = static_cast<float>(by * rows[at(2 * i)]);
+    m_residual.y[at(m_margin + i)] = static_cast<float>(by * rows[at(2 * i + 1)]);
   }
 }
 
-int ConjugateGradients::solve(double* rows, int most, double tolerance) {
+int ConjugateGradients::solve(std::span<double> rows, int most, double tolerance) {
   double largest = 0;
-  for (int i = 0; i < 2 * m_nodes; ++i) largest = std::max(largest, std::fabs(rows[i]));
+  for (const double row : rows) largest = std::max(largest, std::fabs(row));
   if (!invertDiagonal() || !(largest < 1e150)) return -1;
   if (largest == 0) return 0;
   start(rows, 1 / largest);
@@ -200,8 +200,8 @@ int ConjugateGradients::solve(double* rows, int most, double tolerance) {
   }
   const double back = m_unit * largest;
   for (int i = 0; i < m_nodes; ++i) {
-    rows[2 * i] = back * static_cast<double>(m_solution.x[at(m_margin + i)]);
-    rows[2 * i + 1] = back * static_cast<double>(m_solution.y[at(m_margin + i)]);
+    rows[at(2 * i)] = back * static_cast<double>(m_solution.x[at(m_margin + i)]);
+    rows[at(2 * i + 1)] = back * static_cast<double>(m_solution.y[at(m_margin + i)]);
   }
   return done;
 }

@@ -50,7 +50,7 @@ class ConjugateGradients {
   /// Replaces `rows` (x and y per node) by the solution, or by what `most` iterations find of it. They end
   /// when the error is below `tolerance` of zero's. Returns the iterations, or −1 if the diagonal is not
   /// positive definite.
-  int solve(double* rows, int most, double tolerance);
+  int solve(std::span<double> rows, int most, double tolerance);
 
  private:
   /// One number per node. In front of them and behind them are zeros, for neighbours that there are not.
@@ -72,7 +72,7 @@ class ConjugateGradients {
   void resize(Points& points) const;
   void resize(Blocks& blocks) const;
   bool invertDiagonal();
-  void start(const double* rows, double by);
+  void start(std::span<const double> rows, double by);
   double multiply();
   double precondition(float step);
   void turn(float keep);

@@ -60,7 +60,7 @@ void SoftElastic::addPush(int node, Vec2 axis, double force, double stiffness) {
 bool SoftElastic::solveWide(const SoftBody& body, bool is_free, bool& is_settled) {
   Vec2 push;
   for (std::size_t i = 0; i < m_change.size(); i += 2) push += {m_change[i], m_change[i + 1]};
-  const int steps = m_gradients.solve(m_change.data(), kMaxGradients, kGradientTolerance);
+  const int steps = m_gradients.solve(m_change, kMaxGradients, kGradientTolerance);
   is_settled = steps < kMaxGradients;
   // Springs push as much as they pull: what is left of the sum belongs to the motion of the whole.
   double inertia = 0;

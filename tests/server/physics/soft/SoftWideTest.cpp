@@ -77,7 +77,7 @@ TEST(SoftWide, GradientsSolveWhatTheyAreGiven) {
     add(pairs[k].a, pairs[k].b, block.xx, block.xy, block.xy, block.yy);
     add(pairs[k].b, pairs[k].a, block.xx, block.xy, block.xy, block.yy);
   }
-  EXPECT_GT(system.solve(rows.data(), 100, 1e-5), 3);
+  EXPECT_GT(system.solve(rows, 100, 1e-5), 3);
   for (int i = 0; i < 2 * kNodes; ++i) EXPECT_NEAR(rows[at(i)], truth[at(i)], 1e-4) << i;
 }
 
