@@ -151,8 +151,12 @@ class Beam : public SoftBody {
 class Cloth : public SoftBody {
  public:
   /// `width` and `height` in cells, 0.5 … 1000. `stiffness`, 1e-6 … 1e6: hung up, it is longer by about
-  /// gravity / (2 · stiffness) of its height.
-  Cloth(Vector corner, double width, double height, double mass = 1, double stiffness = 5);
+  /// gravity / (2 · stiffness) of its height. `columns` and `rows` of threads, 2 … 128; 0: as its size asks
+  /// for, at most 25. Above some 25 × 25 the body is moved by another method, whose cost grows with the
+  /// number of nodes (docs/physics/soft.md). If they are given, threads are taut once they are 3 % longer
+  /// than at rest (or 0.15 / stiffness, if that is more), so that the corners that a cloth hangs on bear it.
+  Cloth(Vector corner, double width, double height, double mass = 1, double stiffness = 5, int columns = 0,
+        int rows = 0);
   /// Threads across and down, one more than meshes.
   int getColumns() const { return m_columns; }
   int getRows() const { return m_rows; }

@@ -459,5 +459,64 @@ TEST_F(BodyScenes, ACrowdOfTurningBoxesInOneCellCostsItsNumber) {
   EXPECT_EQ(PM.getQuarantineCount(), 0U);
 }
 
+// Nor are all pairs of a crowd that moves looked at before it is known that they are too many.
+TEST_F(BodyScenes, ACrowdOfMovingCirclesInOneCellCostsItsNumber) {
+  constexpr int kCount = 1500;
+  naiad::SplitMix64 random(1);
+  for (int i = 0; i < kCount; ++i) {
+    const double x = random.unit(), y = random.unit();
+    put(ball(Vector(x, y), Vector(random.unit(), 0)))->setRestitution(0);
+  }
+  ticks(3);
+  EXPECT_GE(substeps().ticks, 2);
+  EXPECT_LE(impacts().forecasts, 3 * (300'000 + 70 * kCount));
+  EXPECT_LE(substeps().contacts, 3 * 40 * kCount);
+  EXPECT_EQ(PM.getQuarantineCount(), 0U);
+}
+
+// It is moved in sub-steps: the centre of mass goes as its momentum says, which stays, and nobody stops where
+// a free one would go on. What passes by sees nothing of it.
+TEST_F(BodyScenes, ACrowdThatMovesIsHeldNowhere) {
+  constexpr int kCount = 900;
+  naiad::SplitMix64 random(3);
+  for (int i = 0; i < kCount; ++i) {
+    const double x = random.unit(), y = random.unit(), mass = 0.5 + random.unit();
+    const Vector velocity(3 * random.unit(), 2 * random.unit() - 1);
+    put(ball(Vector(x, y), velocity))->setRestitution(0);
+    bodies.back()->setMass(mass);
+  }
+  const Body* p_flyer = ball(Vector(-30, 40), Vector(30, 15));
+  const auto centre = [&] {
+    Vector sum;
+    double mass = 0;
+    for (const Body* p_body : bodies) {
+      const Vector place = p_body->getPosition();
+      sum = sum + Vector(p_body->getMass() * place.x(), p_body->getMass() * place.y());
+      mass += p_body->getMass();
+    }
+    return Vector(sum.x() / mass, sum.y() / mass);
+  };
+  double mass = 0;
+  for (const Body* p_body : bodies) mass += p_body->getMass();
+  const Vector start = momentum(), from = centre();
+  for (int i = 1; i <= 60; ++i) {
+    std::vector<Vector> before;
+    for (const Body* p_body : bodies) before.push_back(p_body->getPosition());
+    ticks(1);
+    const Vector now = momentum(), at = centre();
+    ASSERT_NEAR(now.x(), start.x(), 1e-6 * mass) << i;
+    ASSERT_NEAR(now.y(), start.y(), 1e-6 * mass) << i;
+    ASSERT_NEAR(at.x(), from.x() + i * start.x() / mass, 1e-5) << i;
+    ASSERT_NEAR(at.y(), from.y() + i * start.y() / mass, 1e-5) << i;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      ASSERT_NE(bodies[k]->getPosition(), before[k]) << "tick " << i << ", body " << k;
+    }
+  }
+  EXPECT_GE(substeps().ticks, 10);
+  EXPECT_NEAR(p_flyer->getPosition().x(), 30, 1e-9);
+  EXPECT_NEAR(p_flyer->getPosition().y(), 70, 1e-9);
+  EXPECT_EQ(PM.getQuarantineCount(), 0U);
+}
+
 }  // namespace
 }  // namespace df::test
