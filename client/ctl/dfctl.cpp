@@ -94,10 +94,10 @@ int printPage(const std::optional<std::string>& page) {
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   const auto is = [&words](const std::string& word) { return !words.empty() && words.front() == word; };
-  if (is("--help") || is("-h")) std::cout << naiad::ctlHelp();
+  if (is("--help") || is("-h") || is("help")) std::cout << naiad::ctlHelp();
   if (is("--version")) std::cout << "dfctl " << naiad::kVersion << "\n";
   if (is("--markdown")) std::cout << naiad::adminMarkdown();
-  if (is("--help") || is("-h") || is("--version") || is("--markdown")) return kDone;
+  if (is("--help") || is("-h") || is("help") || is("--version") || is("--markdown")) return kDone;
   if (is("--option-page") && words.size() == 2) return printPage(naiad::ctlPage(words[1]));
   try {
     const naiad::CtlCommandLine line = naiad::readCtlCommandLine(words);

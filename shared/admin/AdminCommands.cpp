@@ -21,7 +21,7 @@ std::vector<AdminCommand> tableOfCommands() {
        "List the commands that you may give, or say how to use one",
        {{"command", Kind::kWord, false, "Name of a command"}}},
       {"commands", Level::kPlayer, Place::kChat, "As help", {}},
-      {"who", Level::kPlayer, Place::kBoth, "List the players", {}},
+      {"who", Level::kPlayer, Place::kBoth, "List the players", {}, true},
       {"tell",
        Level::kPlayer,
        Place::kBoth,
@@ -37,7 +37,7 @@ std::vector<AdminCommand> tableOfCommands() {
        Place::kChat,
        "Get an admin's rights until your connection ends",
        {{"password", Kind::kSecret, true, "The server's --admin-password"}}},
-      {"status", Level::kAdmin, Place::kBoth, "Tell how the server is", {}},
+      {"status", Level::kAdmin, Place::kBoth, "Tell how the server is", {}, true},
       {"say",
        Level::kAdmin,
        Place::kBoth,
@@ -67,7 +67,7 @@ std::vector<AdminCommand> tableOfCommands() {
        Place::kBoth,
        "Lift a ban or an exception",
        {{"who", Kind::kTarget, true, "#NUMBER as bans lists it, name:NAME, address or ADDRESS/BITS"}}},
-      {"bans", Level::kAdmin, Place::kBoth, "List bans and exceptions", {}},
+      {"bans", Level::kAdmin, Place::kBoth, "List bans and exceptions", {}, true},
       {"mute", Level::kAdmin, Place::kBoth, "Send a player's lines to nobody", {kOnePlayer}},
       {"unmute", Level::kAdmin, Place::kBoth, "Let a muted player talk again", {kOnePlayer}},
       {"password",
@@ -104,7 +104,7 @@ std::vector<AdminCommand> tableOfCommands() {
        Place::kSocket,
        "Print the server's log as it is written, until interrupted",
        {}},
-      {"ping", Level::kAdmin, Place::kSocket, "Ask whether the server answers", {}},
+      {"ping", Level::kAdmin, Place::kSocket, "Ask whether the server answers", {}, true},
   };
 }
 

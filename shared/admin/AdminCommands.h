@@ -36,6 +36,8 @@ struct AdminCommand {
   Place place = Place::kBoth;
   std::string help;
   std::vector<AdminArgument> arguments{};
+  bool only_reads =
+      false;  ///< it changes nothing: programs may give it all the time, without a line of the log
 
   bool isFor(Level who, Place where) const {
     return level <= who && (place == Place::kBoth || place == where);

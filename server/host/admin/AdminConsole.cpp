@@ -121,8 +121,8 @@ void AdminConsole::execute(const AdminRequest& request, const AdminCaller& calle
     m_setup.log("admin: " + caller.name + ": refused: " + request.redacted());
     return done(AdminAnswer::refused("You may not give the command \"" + command.name + "\" here."));
   }
-  if (command.level == Level::kAdmin || caller.place == AdminCommand::Place::kSocket)
-    m_setup.log("admin: " + caller.name + ": " + request.redacted());
+  const bool by_admin = command.level == Level::kAdmin || caller.place == AdminCommand::Place::kSocket;
+  if (by_admin && !command.only_reads) m_setup.log("admin: " + caller.name + ": " + request.redacted());
   if (command.name == "ban" || command.name == "allow") return ban(request, caller, done);
   if (command.name == "unban") return unban(request, done);
   if (command.name == "password") return changePassword(request, std::move(done));

@@ -102,7 +102,8 @@ void ControlSocket::State::meet(stream_protocol::socket socket) {
   const ucred peer = peerOf(socket);
   AdminCaller caller = callerOf(peer);
   if (options.is_refused && options.is_refused(peer.pid)) {
-    log("admin: " + caller.name + ": refused: a process of the server, or of another namespace, gives no commands");
+    log("admin: " + caller.name +
+        ": refused: a process of the server, or of another namespace, gives no commands");
     return;
   }
   const bool full = connections.size() >= options.max_connections;
