@@ -119,5 +119,32 @@ TEST(RigidCrowd, ATrayTouchesAllItsMarbles) {
   }
 }
 
+// Rows of crates that touch on all sides.
+RigidWorld pyramid(int rows) {
+  RigidWorld world = onFloor();
+  for (int row = 0; row < rows; ++row) {
+    for (int i = 0; i < rows - row; ++i) {
+      world.add(movable({i + 0.5 * row, -0.5 - row}, boxShape(0.5, 0.5)), boxShape(0.5, 0.5));
+    }
+  }
+  return world;
+}
+
+// Its rounds cost a fixed number of multiplications for each contact, whether it succeeds or not.
+TEST(RigidCrowd, ADirectSolutionIsGivenUpWhenItsPriceIsSpent) {
+  RigidWorld wide = pyramid(30);
+  wide.step();
+  EXPECT_LE(wide.counters().direct_rounds, 6);
+  EXPECT_EQ(wide.counters().direct_failures, 1);
+  for (int i = 0; i < 5; ++i) wide.step();
+  EXPECT_EQ(wide.counters().direct_failures, 1);
+  EXPECT_LT(wide.deepest(), 0.1);
+
+  RigidWorld slender = pyramid(12);
+  for (int i = 0; i < 60; ++i) slender.step();
+  EXPECT_EQ(slender.counters().direct_failures, 0);
+  EXPECT_NEAR(whereIs(slender, slender.idLimit() - 1).y, -11.5, 1e-6);
+}
+
 }  // namespace
 }  // namespace naiad::physics::test
