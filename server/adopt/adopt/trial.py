@@ -107,8 +107,8 @@ class Trial:
         found = _TICKS.search(said)
         ticks, objects = (int(found.group(1)), int(found.group(2))) if found else (0, 0)
         ended = _end(game, ticks)
-        # The player could not play; of a game that it lost (4) the game's own end says more.
-        if code not in (None, 0, 4) and ended["state"] in ("played", "hangs"):
+        # The player could not play; of a game that it lost (4), or that did not end in order when asked to, its end says more.
+        if code not in (None, 0, 4) and ended["state"] in ("played", "hangs") and ended["code"] == 0:
             ended = {"state": "refused", "code": code}
         return {**ended, "seconds": time.monotonic() - began, "ticks": ticks, "objects": objects,
                 "text": _last_line(said) or f"dfbot ended with {code}" if code else ""}
