@@ -40,6 +40,7 @@ namespace df {
 
 class Body;
 
+/// What ropes, cloths, blobs and beams have in common.
 class SoftBody : public Object {
  public:
   SoftBody(const SoftBody&) = delete;
@@ -71,6 +72,7 @@ class SoftBody : public Object {
 
   // Its nodes: 0 … getNodeCount() - 1.
 
+  /// How many nodes it has; they are numbered from 0.
   int getNodeCount() const;
   /// In cells, and in cells per tick; (0,0) if there is no such node.
   Vector getNodePosition(int node) const;
@@ -89,6 +91,7 @@ class SoftBody : public Object {
   // Dragging, as a mouse does: the node that is nearest to a point follows a target, with at most `strength`
   // as force.
 
+  /// Take the node nearest to `where` (cells); `strength` is the greatest force. Return 0, else -1.
   int grab(Vector where, double strength);
   /// At first where it was grabbed. -1 if nothing is grabbed.
   int dragTo(Vector target);
