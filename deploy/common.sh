@@ -31,6 +31,9 @@ build_packages="g++ cmake ninja-build libasio-dev libprotobuf-dev protobuf-compi
 page_packages="emscripten python3-fonttools python3-brotli python3-protobuf fonts-dejavu-core"
 check_packages="$build_packages $page_packages chromium chromium-driver ccache libgtest-dev tmux python3 clang clang-format clang-tidy libclang-rt-14-dev ncurses-term openssh-client openssh-server openssl iproute2 fail2ban dpkg-dev systemd man-db groff zsh fish"
 
+# A dfclient for 64-bit ARM: to compile it, and to run it in a test.
+arm64_packages="g++-aarch64-linux-gnu qemu-user-static"
+
 # What the benchmarks need on top of building, the libraries that they compare with among it.
 bench_packages="$build_packages openssl libbox2d-dev libchipmunk-dev valgrind python3 libvterm-dev openssh-client openssh-server mosh"
 
