@@ -4,12 +4,10 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl.hpp>
-#include <boost/beast/core/buffers_to_string.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/ssl/ssl_stream.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket.hpp>
 #include <boost/beast/websocket/ssl.hpp>
-#include <boost/beast/websocket/stream.hpp>
 #include <chrono>
 #include <deque>
 #include <thread>
@@ -187,7 +185,7 @@ class SocketOf : public WebSocket, public std::enable_shared_from_this<SocketOf<
   GatewayAddress m_address;
   Events m_events;
   tcp::resolver m_resolver;
-  websocket::stream<Stream, false> m_stream;  // without compression, which takes as long to compile as the rest
+  websocket::stream<Stream> m_stream;
   beast::flat_buffer m_buffer;
   std::deque<std::string> m_queue;
   std::atomic<std::size_t> m_unsent{0};

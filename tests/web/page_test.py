@@ -108,6 +108,17 @@ class PageTest(unittest.TestCase):
             self.browser.wait("return document.body.classList.contains('playing')")
             wait_for(self.browser, "2 players")
 
+    def test_a_line_that_breaks_costs_nothing(self):
+        with Hosting(BUILD, page(), "--game", "saucershoot") as hosting:
+            join(self.browser, hosting)
+            self.begin()
+            before = self.ship_below(0)
+            hosting.break_lines()
+            hosting.wait_for_line("server.log", '"Ada" is back')
+            self.browser.keys(("down", DOWN), ("wait", 500), ("up", DOWN))
+            self.ship_below(before)
+            wait_for(self.browser, "1 player")
+
     def test_chat_help_and_leaving(self):
         with Hosting(BUILD, page(), "--game", "saucershoot") as hosting:
             join(self.browser, hosting)
