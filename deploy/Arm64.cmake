@@ -15,3 +15,5 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
 # Behind the compiler's own folders, which have the C library.
 set(CMAKE_CXX_FLAGS_INIT "-idirafter ${NAIAD_ARM64_ROOT}/usr/include -idirafter ${NAIAD_ARM64_ROOT}/usr/include/aarch64-linux-gnu")
+# What shared libraries would bring along, for dfclient itself, whose objects are the static one's.
+set(CMAKE_CXX_STANDARD_LIBRARIES "${NAIAD_ARM64_ROOT}/usr/lib/aarch64-linux-gnu/libtinfo.a ${NAIAD_ARM64_ROOT}/usr/lib/aarch64-linux-gnu/libz.a")
