@@ -34,6 +34,9 @@ check_packages="$build_packages $page_packages doxygen pkg-config chromium chrom
 # What makes the pages of the headers.
 docs_packages="doxygen"
 
+# A dfclient for 64-bit ARM: to compile it, and to run it in a test.
+arm64_packages="g++-aarch64-linux-gnu qemu-user-static"
+
 # What the benchmarks need on top of building, the libraries that they compare with among it.
 bench_packages="$build_packages openssl libbox2d-dev libchipmunk-dev valgrind python3 libvterm-dev openssh-client openssh-server mosh"
 
