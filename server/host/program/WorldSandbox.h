@@ -34,7 +34,8 @@ WorldSandbox makeWorldSandbox(const HostOptions& options, const GamePlace& place
 /// names. Never the password.
 std::vector<std::string> makeWorldEnvironment(const HostOptions& options);
 
-/// Overwrite the value of --password, which every process of this machine can read in a command line.
+/// Overwrite the values of --password and --admin-password, which every process of this machine can read in a
+/// command line.
 void hidePassword(int argc, char** argv);
 
 /// The file of --config; empty if there is none.
