@@ -110,9 +110,9 @@ TEST_F(LinkTest, AServerThatWantsAPasswordIsAnsweredAsInSsh) {
   const auto ann = client(link);
   ASSERT_TRUE(ann->waitFor("Password of 127.0.0.1:")) << ann->output();
   EXPECT_EQ(ann->currentModes().c_lflag & ECHO, 0u);
+  ann->forget();
   ann->type("plugh\r");
   ASSERT_TRUE(ann->waitFor("Wrong password, try again.")) << ann->output();
-  ann->forget();
   ASSERT_TRUE(ann->waitFor("Password of 127.0.0.1:")) << ann->output();
   ann->type("xyzzy\r");
   ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann->output();

@@ -127,7 +127,7 @@ class World {
   int removeObject(Object* p_o);
   int markForDelete(Object* p_o);
   ObjectList getAllObjects(bool inactive = false) const;
-  ObjectList objectsOfType(const std::string& type);
+  ObjectList objectsOfType(const std::string& type) const;
   ObjectList solidObjects() const;
   Object* objectWithId(int id) const;
   ObjectList getCollisions(const Object* p_o, Vector where) const;
@@ -231,7 +231,7 @@ class World {
   void setLogFlush(bool flush) { m_log_flush = flush; }
   bool getLogFlush() const { return m_log_flush; }
   /// Log the line, unless it was logged by this before. Of very many different ones the first ones alone.
-  void logOnce(const std::string& line);
+  void logOnce(const std::string& line) const;
   /// Count a call that was refused, and log it, with what would have been right, if it is the first of its
   /// name for this type of Object.
   void refuse(const std::string& type, const char* what);
@@ -297,7 +297,7 @@ class World {
   friend class Object;
 
   void learnNewcomers();
-  void explainMissing(const std::string& type);
+  void explainMissing(const std::string& type) const;
   void nameClass(std::uint32_t slot);
   void nameEvent(const Event& event);
   void drawObjects();
@@ -324,8 +324,8 @@ class World {
   std::uint64_t m_seed = 1;
   Runner* m_p_runner = nullptr;
   LogSink m_log_sink;
-  std::set<std::string> m_logged;   // by logOnce()
-  std::set<std::string> m_missing;  // types that objectsOfType() was asked for in vain
+  mutable std::set<std::string> m_logged;   // by logOnce()
+  mutable std::set<std::string> m_missing;  // types that objectsOfType() was asked for in vain
   std::set<std::string> m_unowned;  // types marked for deletion, but not made with new, that were logged
   std::vector<std::string> m_help;
   std::uint64_t m_refusals = 0;

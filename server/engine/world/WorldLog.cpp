@@ -46,7 +46,7 @@ void World::log(const std::string& line) const {
   }
 }
 
-void World::logOnce(const std::string& line) {
+void World::logOnce(const std::string& line) const {
   if (m_logged.size() < kMaxLogged && m_logged.insert(line).second) log(line);
 }
 

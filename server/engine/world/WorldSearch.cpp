@@ -35,7 +35,7 @@ ObjectList World::getAllObjects(bool inactive) const {
   return collect([&](auto s) { return inactive || m_p_store->has(s, WorldStore::kActive); });
 }
 
-ObjectList World::objectsOfType(const std::string& type) {
+ObjectList World::objectsOfType(const std::string& type) const {
   const ObjectList found = collect([&](auto s) {
     return m_p_store->has(s, WorldStore::kActive) && m_p_store->object(s)->getType() == type;
   });
@@ -44,7 +44,7 @@ ObjectList World::objectsOfType(const std::string& type) {
 }
 
 // Once for each type that was asked for in vain: the look at all Objects is not free.
-void World::explainMissing(const std::string& type) {
+void World::explainMissing(const std::string& type) const {
   if (m_missing.size() >= kMaxMissing || !m_missing.insert(type).second) return;
   const auto isNamed = [&](auto s) {
     const std::string name = classNameOf(typeid(*m_p_store->object(s)));
