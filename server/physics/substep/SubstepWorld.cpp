@@ -59,8 +59,10 @@ void SubstepWorld::enter(int id) {
   if (!isMovable(b)) markChanged(id);
   if (b.shapes.empty()) return;
   const Bounds bounds = turnShapes(b);
-  b.proxy =
-      m_broad.add(static_cast<std::uint32_t>(id), gridBounds(b.body.place, bounds, 0), isMovable(b), b.order);
+  const bool moves = isMovable(b);
+  if (moves) b.margin = marginOf(b);
+  const GridBounds wide = moves ? wideBounds(b, bounds) : gridBounds(b.body.place, bounds, 0);
+  b.proxy = m_broad.add(static_cast<std::uint32_t>(id), wide, moves, b.order);
 }
 
 // Out of the broad phase; its contacts are forgotten.

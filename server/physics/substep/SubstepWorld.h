@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "physics/broadphase/BroadPhase.h"
+#include "physics/broadphase/ImpactTree.h"
 #include "physics/geometry/Index.h"
 #include "physics/rigid/RigidStepper.h"
 #include "physics/substep/ContactRows.h"
@@ -127,7 +128,9 @@ class SubstepWorld final : public RigidStepper {
   void stopFast();
   GridBounds sweptBounds(const SubstepBody& body) const;
   bool areDeep(const SubstepBody& a, const SubstepBody& b) const;
-  void stop(int id);
+  void stop(int id, const SweptBox& swept);
+  static double marginOf(const SubstepBody& body);
+  static GridBounds wideBounds(const SubstepBody& body, const Bounds& bounds);
   Vec2 movedBy(const SubstepBody& body) const;
 
   // SubstepContacts.cpp
@@ -160,6 +163,9 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_changed;
   std::vector<std::int32_t> m_near;
   std::vector<std::int32_t> m_fast;    // in this step
+  std::vector<SweptBox> m_paths;       // of those, in grid units about the first of them
+  std::vector<int> m_path_ids;
+  ImpactTree m_path_tree;
   std::vector<SubstepState> m_states;  // the first one is of all that does not move
   BroadPhase m_broad{true};
   std::vector<Pair> m_pairs, m_pairs_before;
