@@ -23,6 +23,7 @@ struct SubstepBody {
   RigidBody body;
   std::vector<ConvexShape> shapes;
   std::vector<TurnedShape> turned;
+  std::uint32_t version = 0;  ///< of its shapes
   std::uint64_t order = 0;
   std::int32_t proxy = -1;                      ///< in the broad phase
   std::int32_t state = 0;                       ///< within a step; 0: nothing moves it

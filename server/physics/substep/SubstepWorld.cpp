@@ -29,6 +29,7 @@ int SubstepWorld::addInOrder(std::uint64_t order, const RigidBody& body,
 }
 
 void SubstepWorld::measure(SubstepBody& b) {
+  ++b.version;
   b.turned.resize(b.shapes.size());
   b.reach = 0;
   b.thickness = b.shapes.empty() ? 0 : kLargestShape;

@@ -71,7 +71,13 @@ class SubstepWorld final : public RigidStepper {
   struct Memory {  // of a contact, from step to step
     std::int32_t next = -1;
     std::int32_t shape_a = 0, shape_b = 0;
-    ReferenceFace reference;
+    Manifold manifold;
+    // When the manifold was found. It is kept while its bodies hardly move against each other.
+    Vec2 offset;
+    Rotation rotation_a, rotation_b;
+    std::array<double, 2> gap = {};
+    double margin = -1;  // below 0: none has been found
+    std::uint32_t version_a = 0, version_b = 0;
     std::int32_t count = 0;
     std::array<std::uint32_t, 2> id = {};
     std::array<float, 2> normal = {}, friction = {};
@@ -91,7 +97,6 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t contact;
   };
   struct Contact {  // within a step
-    Manifold manifold;
     ContactImpulse impulse;
     std::int32_t pair, memory;
     std::int32_t a, b;
@@ -140,6 +145,9 @@ class SubstepWorld final : public RigidStepper {
   void updateContacts();
   bool wakeTouched(std::size_t first_contact);
   void updatePair(std::int32_t pair);
+  static bool keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset);
+  bool findManifold(std::int32_t& memory, const SubstepBody& a, const SubstepBody& b, std::int32_t shape_a,
+                    std::int32_t shape_b, Vec2 offset);
   void sequence(bool is_sorted);
   void chooseColours();
   void fillRows();
