@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "physics/geometry/Reserve.h"
 namespace naiad::physics {
 
 namespace {
@@ -110,6 +111,8 @@ void BroadPhase::updateTree() {
 void BroadPhase::rebuildTree() {
   m_leaves.clear();
   m_leaf_proxies.clear();
+  reserveFor(m_leaves, m_count);
+  reserveFor(m_leaf_proxies, m_count);
   for (std::size_t i = 0; i < m_proxies.size(); ++i) {
     if (m_proxies[i].is_removed) continue;
     m_leaves.push_back({m_proxies[i].bounds, static_cast<std::uint32_t>(i)});

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "physics/geometry/Reserve.h"
 namespace naiad::physics {
 
 std::int32_t BroadPhaseTree::allocate() {
@@ -47,7 +48,9 @@ void BroadPhaseTree::move(std::int32_t leaf, const GridBounds& bounds) {
 void BroadPhaseTree::rebuild(std::span<const Leaf> of, std::span<std::int32_t> leaves) {
   m_nodes.clear();
   m_root = m_free = m_spare = kNone;
+  reserveFor(m_nodes, 2 * of.size());
   m_middles.clear();
+  reserveFor(m_middles, of.size());
   for (const Leaf& leaf : of) {
     const GridBounds& b = leaf.bounds;
     m_middles.push_back(

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/geometry/Index.h"
+#include "physics/geometry/Reserve.h"
 #include "physics/substep/Softness.h"
 
 namespace naiad::physics {
@@ -52,6 +53,12 @@ void scatter(std::span<SubstepState> states, const std::array<std::int32_t, kLan
 }
 
 }  // namespace
+
+void ContactRows::clear(std::size_t rows) {
+  constexpr std::size_t kOpen = 32;  // blocks that are not full
+  m_blocks.clear();
+  reserveFor(m_blocks, rows / kLanes + kOpen);
+}
 
 void ContactRows::beginBlock() {
   m_blocks.emplace_back();

@@ -39,7 +39,8 @@ struct ContactImpulse {
 
 class ContactRows {
  public:
-  void clear() { m_blocks.clear(); }
+  /// `rows`: as many will be added.
+  void clear(std::size_t rows);
   /// Rows of one block have no movable body in common: at most kLanes of them, then a new block must begin.
   void beginBlock();
   /// Returns where its impulses are read from.

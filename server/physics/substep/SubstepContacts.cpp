@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "physics/geometry/Reserve.h"
 #include "physics/substep/SubstepWorld.h"
 
 namespace naiad::physics {
@@ -85,6 +86,7 @@ void SubstepWorld::updatePairs() {
   const std::span<const BroadPhasePair> found = m_broad.updatePairs();
   m_pairs.swap(m_pairs_before);
   m_pairs.clear();
+  reserveFor(m_pairs, found.size());
   auto old = m_pairs_before.begin();
   const auto drop = [&] {
     endPair(*old);
@@ -227,6 +229,8 @@ void SubstepWorld::updateContacts() {
   m_contacts.clear();
   m_deepest = 0;
   const auto pairs = static_cast<std::int32_t>(m_pairs.size());
+  reserveFor(m_contacts, m_pairs.size());
+  reserveFor(m_memory, m_pairs.size());
   bool is_sorted = !m_is_shuffled;
   for (std::size_t first = 0;;) {
     for (std::int32_t i = 0; i < pairs; ++i) updatePair(i);
@@ -289,7 +293,7 @@ void SubstepWorld::chooseColours() {
 }
 
 void SubstepWorld::fillRows() {
-  m_rows.clear();
+  m_rows.clear(m_by_colour.size());
   std::int32_t colour = -1;
   std::size_t in_block = 0;
   for (const std::int32_t i : m_by_colour) {

@@ -3,7 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Reserve.h"
 namespace naiad::physics {
+
+void SubstepWorld::expect(std::size_t bodies) {
+  reserveFor(m_bodies, bodies);
+  reserveFor(m_states, bodies + 1);
+  reserveFor(m_active, bodies);
+}
 
 int SubstepWorld::addInOrder(std::uint64_t order, const RigidBody& body,
                              std::span<const ConvexShape> shapes) {

@@ -41,6 +41,7 @@ class SubstepWorld final : public RigidStepper {
  public:
   explicit SubstepWorld(SubstepOptions options = {}) : m_options(options), m_states(1) {}
 
+  void expect(std::size_t bodies) override;
   /// Of two bodies the one of the lower order comes first in everything.
   int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) override;
   bool set(int id, const RigidBody& body) override;
