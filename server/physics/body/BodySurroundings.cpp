@@ -10,8 +10,8 @@ namespace {
 // Where few Objects are no bodies they are listed, and compared with the regions themselves: the grid of a
 // heap finds the heap.
 constexpr std::size_t kFew = 128;
-constexpr std::size_t kScanned = 16;    // Objects looked at for a region, at most
-constexpr std::size_t kTogether = 32;   // regions, added one after the other, that are compared first
+constexpr std::size_t kScanned = 16;   // Objects looked at for a region, at most
+constexpr std::size_t kTogether = 32;  // regions, added one after the other, that are compared first
 
 // Regions that begin in the same 8 by 8 cells, and are not larger than that, are asked for together.
 constexpr int kTileBits = kFixedBits + 3;
@@ -67,7 +67,8 @@ void BodySurroundings::searchOthers() {
     for (std::size_t i = begin; i < end; ++i) {
       std::uint32_t turn = 0;
       for (const Other& other : m_close) {
-        if (intersects(other.box, m_regions[i].region)) m_found.push_back({m_regions[i].number, turn++, other.key});
+        if (intersects(other.box, m_regions[i].region))
+          m_found.push_back({m_regions[i].number, turn++, other.key});
       }
     }
   }

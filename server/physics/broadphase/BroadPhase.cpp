@@ -54,8 +54,7 @@ std::int32_t BroadPhase::add(std::uint32_t id, const GridBounds& wide, bool move
     proxy = m_free.back();
     m_free.pop_back();
   }
-  m_proxies[index(proxy)] = {
-      id, BroadPhaseTree::kNone, moves, false, false, false, false, order, wide};
+  m_proxies[index(proxy)] = {id, BroadPhaseTree::kNone, moves, false, false, false, false, order, wide};
   ++m_count;
   markPending(proxy);
   markChanged(proxy);
@@ -120,7 +119,8 @@ void BroadPhase::rebuildTree() {
   }
   m_leaf_numbers.resize(m_leaves.size());
   m_tree.rebuild(m_leaves, m_leaf_numbers);
-  for (std::size_t i = 0; i < m_leaves.size(); ++i) m_proxies[index(m_leaf_proxies[i])].leaf = m_leaf_numbers[i];
+  for (std::size_t i = 0; i < m_leaves.size(); ++i)
+    m_proxies[index(m_leaf_proxies[i])].leaf = m_leaf_numbers[i];
 }
 
 void BroadPhase::markChanged(std::int32_t proxy) {

@@ -100,7 +100,7 @@ class BroadPhase {
   std::vector<std::int32_t> m_free;
   std::vector<std::int32_t> m_changed;
   std::vector<std::int32_t> m_pending;
-  std::size_t m_count = 0;  // of bodies that are in it
+  std::size_t m_count = 0;                     // of bodies that are in it
   std::vector<BroadPhaseTree::Leaf> m_leaves;  // of a tree that is built again
   std::vector<std::int32_t> m_leaf_proxies, m_leaf_numbers;
   std::vector<BroadPhasePair> m_pairs, m_found, m_spare;

@@ -1,5 +1,5 @@
-// Memory for what is about to be added, taken once: growing by doubling writes to twice as many new pages, and
-// a page that is written to for the first time costs as much as solving for a contact.
+// Memory for what is about to be added, taken once: growing by doubling writes to twice as many new pages,
+// and a page that is written to for the first time costs as much as solving for a contact.
 #pragma once
 
 #include <algorithm>

@@ -171,8 +171,8 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_active;  // ids of those that move in this step, by order
   std::vector<std::int32_t> m_changed;
   std::vector<std::int32_t> m_near;
-  std::vector<std::int32_t> m_fast;    // in this step
-  std::vector<SweptBox> m_paths;       // of those, in grid units about the first of them
+  std::vector<std::int32_t> m_fast;  // in this step
+  std::vector<SweptBox> m_paths;     // of those, in grid units about the first of them
   std::vector<int> m_path_ids;
   ImpactTree m_path_tree;
   std::vector<SubstepState> m_states;  // the first one is of all that does not move
