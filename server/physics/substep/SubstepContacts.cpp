@@ -293,7 +293,7 @@ void SubstepWorld::chooseColours() {
 }
 
 void SubstepWorld::fillRows() {
-  m_rows.clear(m_by_colour.size());
+  m_rows.clear(m_by_colour.size(), m_h);
   std::int32_t colour = -1;
   std::size_t in_block = 0;
   for (const std::int32_t i : m_by_colour) {
@@ -321,7 +321,7 @@ void SubstepWorld::fillRows() {
       return of.state > 0 ? std::fabs(of.kick_x) + std::fabs(of.kick_y) : 0.0f;
     };
     row.rest = kRest * static_cast<float>(m_options.substeps) * std::max(gain(a), gain(b));
-    contact.place = m_rows.add(row, m_memory[at(contact.memory)].manifold, contact.impulse, m_h);
+    contact.place = m_rows.add(row, m_memory[at(contact.memory)].manifold, contact.impulse);
   }
   m_counters.blocks += static_cast<std::int64_t>(m_rows.blocks());
 }
