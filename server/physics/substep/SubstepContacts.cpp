@@ -17,7 +17,7 @@ namespace {
 constexpr std::int32_t kColours = 64;
 constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
 // In thicknesses of the thinner body.
-constexpr double kMaxPush = 0.4;  // per tick: the greatest speed at which overlap is undone
+constexpr double kMaxPush = 0.2;  // per tick: the greatest speed at which overlap is undone
 constexpr double kLinger = 0.01;  // a larger gap ends a contact
 constexpr double kKept = 0.005;  // by how much bodies move against each other before they are looked at again
 // In what acceleration adds to a speed in a tick: slower impacts do not bounce.
