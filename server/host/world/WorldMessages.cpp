@@ -49,11 +49,26 @@ void visitInput(F& f, T& input) {
   }
 }
 
+/// Flags in one number, the first lowest.
+template <class... Flags>
+void visitFlags(FieldWriter& out, const Flags&... flags) {
+  std::uint32_t bits = 0;
+  int at = 0;
+  ((bits |= static_cast<std::uint32_t>(flags) << at++), ...);
+  out.number(bits, 0, (1 << sizeof...(flags)) - 1);
+}
+
+template <class... Flags>
+void visitFlags(FieldReader& in, Flags&... flags) {
+  std::uint32_t bits = 0;
+  int at = 0;
+  in.number(bits, 0, (1 << sizeof...(flags)) - 1);
+  ((flags = (bits >> at++ & 1) != 0), ...);
+}
+
 template <class F, class T>
 void visitTurn(F& f, T& turn) {
-  f.flag(turn.watched);
-  f.flag(turn.wants_truth);
-  f.flag(turn.ends_game);
+  visitFlags(f, turn.watched, turn.wants_truth, turn.ends_game, turn.checked);
   f.number(turn.heard_player);
   f.number(turn.pictured);
   f.list(turn.inputs, kMaxTurnInputs, [](F& in, auto& input) { visitInput(in, input); });
@@ -88,6 +103,19 @@ void visitCanvas(FieldReader& in, df::Canvas& canvas) {
   }
 }
 
+void visitHash(FieldWriter& out, const std::optional<std::uint64_t>& hash) {
+  out.number(static_cast<std::uint32_t>(*hash));
+  out.number(static_cast<std::uint32_t>(*hash >> 32));
+}
+
+void visitHash(FieldReader& in, std::optional<std::uint64_t>& hash) {
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  in.number(low);
+  in.number(high);
+  hash = std::uint64_t{high} << 32 | low;
+}
+
 template <class F, class T>
 void visitAnswer(F& f, T& answer) {
   f.flag(answer.game_over);
@@ -96,10 +124,28 @@ void visitAnswer(F& f, T& answer) {
     in.number(picture.player);
     visitCanvas(in, picture.canvas);
   });
-  f.flag(answer.has_view);
+  bool has_hash = answer.state_hash.has_value();
+  visitFlags(f, answer.has_view, has_hash);
+  if (has_hash) visitHash(f, answer.state_hash);
 }
 
 }  // namespace
+
+void visitTurnInput(FieldWriter& out, const Input& input) {
+  visitInput(out, input);
+}
+
+void visitTurnInput(FieldReader& in, Input& input) {
+  visitInput(in, input);
+}
+
+void visitPicture(FieldWriter& out, const df::Canvas& canvas) {
+  visitCanvas(out, canvas);
+}
+
+void visitPicture(FieldReader& in, df::Canvas& canvas) {
+  visitCanvas(in, canvas);
+}
 
 void writeReady(const WorldReady& ready, std::string& frame) {
   FieldWriter out(frame);

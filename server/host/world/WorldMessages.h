@@ -37,6 +37,7 @@ struct WorldTurn {
   bool watched = false;                       ///< the answer is to have a view
   bool wants_truth = false;                   ///< and pictures
   bool ends_game = false;
+  bool checked = false;            ///< the answer is to have a hash of the state
   std::uint32_t heard_player = 0;  ///< only their input comes; 0: all players' does
   std::uint32_t pictured = 0;      ///< only their picture is wanted; 0: all players' are
 };
@@ -55,11 +56,18 @@ struct WorldAnswer {
   bool game_over = false;
   std::vector<std::uint32_t> leavers;
   bool has_view = false;
+  std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn asked for it
   std::vector<WorldPicture> pictures;  ///< by player
 };
 
 // Writers make `frame` a whole frame. False: it would be too long. Readers return nothing if anything is
 // missing, out of range or left over.
+
+// Parts of a turn, for those who keep it in another form.
+void visitTurnInput(FieldWriter& out, const df::InputQueue::Input& input);
+void visitTurnInput(FieldReader& in, df::InputQueue::Input& input);
+void visitPicture(FieldWriter& out, const df::Canvas& canvas);
+void visitPicture(FieldReader& in, df::Canvas& canvas);
 
 void writeReady(const WorldReady& ready, std::string& frame);
 std::optional<WorldReady> readReady(std::string_view fields);

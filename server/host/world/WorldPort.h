@@ -54,6 +54,13 @@ class WorldPort {
   virtual bool isReady() const = 0;
   /// Where `truth` is asked for, only this player's picture is; 0: all of them are.
   virtual void setPictured(std::uint32_t /*player*/) {}
+  /// Hash what the next tick answers; after it answerHash() and, if `state`, stateHash() say the result. For
+  /// journals.
+  virtual void setChecked(bool /*state*/) {}
+  /// A hash of all that the last tick answered; 0: there is none.
+  virtual std::uint64_t answerHash() const { return 0; }
+  /// df::hashState() after the last tick, if setChecked() asked for it before.
+  virtual std::optional<std::uint64_t> stateHash() const { return std::nullopt; }
   /// Begin one. `watched`: view() is wanted; the first time with every Object as changed. `truth`:
   /// renderPlayer() is, too.
   virtual void tick(bool watched, bool truth) = 0;

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/world/OutputRelay.h"
@@ -17,6 +18,9 @@
 #include "host/world/WorldPort.h"
 
 namespace naiad {
+
+/// WorldPort::answerHash() of an answer's fields.
+std::uint64_t hashAnswer(std::string_view fields);
 
 class WorldProcess : public WorldPort {
  public:
@@ -44,6 +48,12 @@ class WorldProcess : public WorldPort {
   void endGame() override { m_turn.ends_game = true; }
   bool isReady() const override { return m_state == State::kReady; }
   void setPictured(std::uint32_t player) override { m_pictured = player; }
+  void setChecked(bool state) override {
+    m_hashes = true;
+    m_turn.checked = state;
+  }
+  std::uint64_t answerHash() const override { return m_answer_hash; }
+  std::optional<std::uint64_t> stateHash() const override { return m_answer.state_hash; }
   void tick(bool watched, bool truth) override;
   /// Before the first tick: that of the host's. From there on it counts its own.
   std::uint32_t nextTick() const override { return m_next_tick; }
@@ -100,7 +110,9 @@ class WorldProcess : public WorldPort {
   bool m_began = false;
   bool m_in_tick = false;   ///< one was sent, and not answered
   bool m_expected = false;  ///< to end: the game is over, or the host closed it
-  WorldTurn m_turn;         ///< the next one
+  bool m_hashes = false;    ///< the next answer is hashed
+  std::uint64_t m_answer_hash = 0;
+  WorldTurn m_turn;  ///< the next one
   std::string m_out;
   std::string m_in;
   std::optional<ViewReader> m_views;

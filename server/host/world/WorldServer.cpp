@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "engine/world/StateHash.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 
@@ -111,6 +112,7 @@ bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
   answer.game_over = world.isGameOver();
   answer.leavers = world.takeLeavers();
   answer.has_view = turn.watched;
+  if (turn.checked) answer.state_hash = df::hashState(world);
   if (turn.watched && turn.wants_truth) {
     for (const df::PlayerFacts& player : world.view().players) {
       if (turn.pictured != 0 && turn.pictured != player.id) continue;

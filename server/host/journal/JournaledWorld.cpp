@@ -1,0 +1,137 @@
+#include "host/journal/JournaledWorld.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "host/world/WorldProcess.h"
+
+namespace naiad {
+
+namespace {
+
+using Input = df::InputQueue::Input;
+
+}  // namespace
+
+JournaledWorld::JournaledWorld(std::unique_ptr<WorldPort> world, Book book)
+    : m_world(std::move(world)), m_book(std::move(book)) {
+  m_world->setOnTick([this] {
+    storeResult();
+    reportTick();
+  });
+}
+
+JournaledWorld::~JournaledWorld() {
+  finish("stopped");
+}
+
+// The world has a list of its own, with the same bound: what does not fit in one is in neither.
+std::uint32_t JournaledWorld::addInput(Input input) {
+  const bool lasts = input.kind == df::InputQueue::kJoin || input.kind == df::InputQueue::kLeave;
+  if (!lasts && m_turn.inputs.size() >= WorldProcess::kMaxInputs) return input.player;
+  Input kept = input;
+  const std::uint32_t player = m_world->addInput(std::move(input));
+  if (!m_goes_on) return player;
+  kept.player = player;
+  kept.seen.base -= m_later;
+  kept.seen.drawn -= m_later;
+  if (kept.kind == df::InputQueue::kJoin) m_players.push_back(player);
+  if (kept.kind == df::InputQueue::kLeave) std::erase(m_players, player);
+  m_turn.inputs.push_back(std::move(kept));
+  return player;
+}
+
+void JournaledWorld::setHeard(std::uint32_t player) {
+  m_turn.heard_player = player;
+  m_world->setHeard(player);
+}
+
+void JournaledWorld::endGame() {
+  m_turn.ends_game = true;
+  m_world->endGame();
+}
+
+void JournaledWorld::setPictured(std::uint32_t player) {
+  m_pictured = player;
+  m_world->setPictured(player);
+}
+
+void JournaledWorld::begin() {
+  if (std::exchange(m_began, true)) return;
+  m_later = m_world->nextTick() - 1;
+  if (m_book.late_facts) m_book.journal->addFacts(m_book.late_facts());
+}
+
+void JournaledWorld::tick(bool watched, bool truth) {
+  begin();
+  ++m_ticks;
+  if (!m_goes_on) return m_world->tick(watched, truth);
+  m_turn.watched = watched;
+  m_turn.wants_truth = truth;
+  m_turn.pictured = m_pictured;
+  m_turn.checked = m_ticks % kHashTicks == 0;
+  if (watched && m_ticks % kPictureTicks == 0 && !m_players.empty()) choosePicture();
+  storeTurn();
+  m_world->setChecked(m_turn.checked);
+  truth = m_turn.wants_truth;
+  m_turn = WorldTurn();
+  m_world->tick(watched, truth);
+  m_world->setPictured(m_pictured);
+}
+
+// What the host wants to see anyway, or the player who has been here longest.
+void JournaledWorld::choosePicture() {
+  if (!m_turn.wants_truth) {
+    m_turn.wants_truth = true;
+    m_turn.pictured = m_players.front();
+  }
+  m_recorded = m_turn.pictured != 0 ? m_turn.pictured : m_players.front();
+  m_world->setPictured(m_turn.pictured);
+}
+
+void JournaledWorld::storeTurn() {
+  m_record.clear();
+  if (!m_writer.write(m_turn, m_record)) {
+    m_goes_on = false;  // nor does the world take such a turn
+    return;
+  }
+  store();
+}
+
+void JournaledWorld::storeResult() {
+  if (!m_goes_on) return;
+  TickResult result;
+  const std::uint64_t hash = m_world->answerHash();
+  result.has_check = hash != 0;
+  result.check = checkOf(hash);
+  result.game_over = m_world->isGameOver();
+  result.state_hash = m_world->stateHash();
+  m_record.clear();
+  m_writer.write(result, m_record);
+  if (const std::uint32_t player = std::exchange(m_recorded, 0); player != 0)
+    m_writer.write(RecordedPicture{player, m_world->renderPlayer(player)}, m_record);
+  store();
+}
+
+void JournaledWorld::store() {
+  m_goes_on = m_book.journal->add(m_record);
+  if (m_goes_on && m_book.journal->isFilling()) m_book.writer->wake();
+}
+
+void JournaledWorld::checkProcess(std::uint32_t tick) {
+  m_world->checkProcess(tick);
+  if (const auto problem = m_book.journal->takeProblem()) {
+    m_goes_on = false;
+    if (m_book.on_problem) m_book.on_problem(*problem);
+  }
+  if (const auto end = m_world->end()) finish(end->text);
+}
+
+void JournaledWorld::finish(const std::string& why) {
+  if (m_book.writer == nullptr) return;
+  m_book.journal->finish(why);
+  m_book.writer->wake();
+  m_book.writer.reset();
+}
+
+}  // namespace naiad

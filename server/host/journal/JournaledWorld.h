@@ -1,0 +1,77 @@
+// A world whose turns are journaled: each is stored before the world gets it, and what came of it after.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/journal/Journal.h"
+#include "host/journal/JournalWriter.h"
+#include "host/journal/TurnRecord.h"
+#include "host/world/WorldPort.h"
+
+namespace naiad {
+
+class JournaledWorld : public WorldPort {
+ public:
+  /// Ticks between two hashes of the state, and between two pictures.
+  static constexpr std::uint32_t kHashTicks = 30;
+  static constexpr std::uint32_t kPictureTicks = 300;
+
+  /// Where it is written, and what is to be said of it.
+  struct Book {
+    std::shared_ptr<JournalWriter> writer;
+    std::shared_ptr<Journal> journal;
+    /// More facts, once the world has begun; empty: there are none.
+    std::function<DfrFacts()> late_facts;
+    /// The journal has stopped, and why; the game goes on.
+    std::function<void(const std::string& problem)> on_problem;
+  };
+
+  JournaledWorld(std::unique_ptr<WorldPort> world, Book book);
+  /// A round that has not come to its end was stopped.
+  ~JournaledWorld() override;
+  JournaledWorld(const JournaledWorld&) = delete;
+  JournaledWorld& operator=(const JournaledWorld&) = delete;
+
+  std::uint32_t addInput(df::InputQueue::Input input) override;
+  void setHeard(std::uint32_t player) override;
+  void endGame() override;
+  bool isReady() const override { return m_world->isReady(); }
+  void setPictured(std::uint32_t player) override;
+  void tick(bool watched, bool truth) override;
+  std::uint32_t nextTick() const override { return m_world->nextTick(); }
+  const df::WorldView& view() const override { return m_world->view(); }
+  void notePublished(const Publisher& publisher) override { m_world->notePublished(publisher); }
+  std::vector<std::uint32_t> takeLeavers() override { return m_world->takeLeavers(); }
+  bool isGameOver() const override { return m_world->isGameOver(); }
+  df::Canvas renderPlayer(std::uint32_t player) const override { return m_world->renderPlayer(player); }
+  void checkProcess(std::uint32_t tick) override;
+  std::optional<WorldEnd> end() const override { return m_world->end(); }
+  void close() override { m_world->close(); }
+
+ private:
+  void begin();
+  void choosePicture();
+  void storeTurn();
+  void storeResult();
+  void store();
+  void finish(const std::string& why);
+
+  std::unique_ptr<WorldPort> m_world;
+  Book m_book;
+  bool m_goes_on = true;  ///< the journal
+  bool m_began = false;
+  std::uint32_t m_later = 0;         ///< the host's tick numbers minus the world's own
+  std::uint32_t m_ticks = 0;         ///< begun, of this world
+  std::uint32_t m_pictured = 0;      ///< whom the host wants to see
+  std::uint32_t m_recorded = 0;      ///< whose picture the tick that is under way gives; 0: none
+  std::vector<std::uint32_t> m_players;  ///< that have joined and not left, in order
+  WorldTurn m_turn;
+  TurnRecordWriter m_writer;
+  std::string m_record;
+};
+
+}  // namespace naiad
