@@ -83,8 +83,6 @@ class ByteReader {
     m_at += count;
     return part;
   }
-  /// All that is left.
-  std::string_view rest() { return bytes(m_bytes.size() - m_at); }
 
  private:
   std::string_view m_bytes;

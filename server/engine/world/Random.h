@@ -16,8 +16,6 @@ class Random {
   std::uint64_t next();
   /// 0 to n-1, each equally likely; 0 if n < 1.
   int below(int n);
-  /// Where in its sequence it is: for comparisons.
-  std::uint64_t fingerprint() const { return m_state[0] ^ m_state[1] << 1 ^ m_state[2] << 2 ^ m_state[3] << 3; }
 
  private:
   std::array<std::uint64_t, 4> m_state;

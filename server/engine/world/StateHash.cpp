@@ -67,7 +67,6 @@ void addPicture(FastHash& hash, const WorldView& view) {
 std::uint64_t hashState(const World& world) {
   FastHash hash;
   addNumber(hash, world.getStepCount());
-  hash.word(world.random().fingerprint());
   hash.word(world.isGameOver() ? 1 : 0);
   const WorldStore& store = world.store();
   const WorldStore::Walk walk(store);

@@ -116,7 +116,6 @@ class World {
   void setSeed(std::uint64_t seed);
   /// 0 to n-1, each equally likely; 0 if n < 1.
   int randomInt(int n) { return m_random.below(n); }
-  const Random& random() const { return m_random; }
 
   // Objects. WorldManager.h documents them under the same names.
 

@@ -60,6 +60,10 @@ inline constexpr std::size_t kMaxDfrFacts = 1024;
 inline constexpr std::size_t kMaxDfrName = 300;
 inline constexpr std::size_t kMaxDfrValue = 16'384;
 
+/// A TURN chunk begins with the place of its first byte in the stream of records (4, the lower half of 64 bits),
+/// and how its records are packed (1).
+inline constexpr std::size_t kDfrTurnHead = 5;
+
 /// How turns are packed in a TURN chunk.
 enum DfrPacking : std::uint8_t {
   kDfrRaw = 0,

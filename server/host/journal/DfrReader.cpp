@@ -125,11 +125,10 @@ bool DfrReader::readMeta(std::string_view payload) {
 }
 
 bool DfrReader::readTurns(std::string_view payload) {
-  ByteReader in(payload);
-  const std::uint64_t offset = in.varint();
-  const std::uint8_t packing = in.byte();
-  if (!in.ok() || offset != m_offset) return false;
-  const std::string_view packed = in.rest();
+  if (payload.size() < kDfrTurnHead) return false;
+  if (loadLittleEndian<std::uint32_t>(payload.data()) != static_cast<std::uint32_t>(m_offset)) return false;
+  const auto packing = static_cast<std::uint8_t>(payload[kDfrTurnHead - 1]);
+  const std::string_view packed = payload.substr(kDfrTurnHead);
   m_unpacked.clear();
   if (packing == kDfrRaw) {
     m_p_context.reset();

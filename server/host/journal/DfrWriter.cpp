@@ -93,11 +93,10 @@ std::string DfrTurnPacker::pack(std::string_view records) {
 
 std::string DfrTurnPacker::packOne(std::string_view records) {
   std::string payload;
-  ByteWriter out(payload);
-  out.varint(m_offset);
+  append(payload, static_cast<std::uint32_t>(m_offset));
   m_offset += records.size();
   auto* p_context = static_cast<ZSTD_CCtx*>(m_p_context.get());
-  out.byte(p_context != nullptr ? kDfrZstd : kDfrRaw);
+  payload.push_back(static_cast<char>(p_context != nullptr ? kDfrZstd : kDfrRaw));
   if (p_context == nullptr) return spellDfrChunk(kDfrTurn, payload.append(records));
   const std::size_t head = payload.size();
   // Room for all that a flush gives out, so that one call does it.

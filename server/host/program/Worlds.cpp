@@ -7,6 +7,7 @@
 
 #include "host/program/GameModule.h"
 #include "host/program/WorldSandbox.h"
+#include "host/world/Repeatable.h"
 #include "host/world/WorldProcess.h"
 #include "host/world/WorldStart.h"
 
@@ -45,8 +46,10 @@ std::string gameSettings() {
 std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const GamePlace& place,
                                             std::vector<std::string> arguments, const LogLine& log) {
   const WorldSandbox made = makeWorldSandbox(options, place);
-  auto launcher = std::make_shared<const WorldLauncher>(WorldProgram{
-      kThisProgram, std::move(arguments), makeWorldEnvironment(options), firstDirectory(), made.sandbox});
+  auto launcher = std::make_shared<const WorldLauncher>(
+      WorldProgram{kThisProgram, std::move(arguments),
+                   wantsJournal(options) ? makeFixedEnvironment(options) : makeWorldEnvironment(options),
+                   firstDirectory(), made.sandbox, repeatPreload()});
   if (!made.sandbox.on) {
     log("games in processes of their own have no sandbox: they can do what this user can");
     return launcher;
@@ -61,7 +64,7 @@ std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const Ga
 }  // namespace
 
 bool wantsWorlds(const HostOptions& options) {
-  return options.on_game_over == "restart" || options.players == "private";
+  return options.on_game_over == "restart" || options.players == "private" || wantsJournal(options);
 }
 
 bool leavesAlone(const HostOptions& options) {
@@ -93,10 +96,32 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
   return launch(options, place, ownArguments(), log);
 }
 
-Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine print) {
-  return [launcher = std::move(launcher), print = std::move(print)](asio::io_context& home) {
-    return std::make_unique<WorldProcess>(home, launcher->start(), print);
+Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine print,
+                           std::shared_ptr<Journals> journals) {
+  using NewPort = std::unique_ptr<WorldPort>;
+  return [launcher = std::move(launcher), print = std::move(print),
+          journals = std::move(journals)](asio::io_context& home) -> NewPort {
+    if (journals == nullptr) return std::make_unique<WorldProcess>(home, launcher->start(), print);
+    const WorldOrder order = journals->makeOrder();
+    auto world = std::make_unique<WorldProcess>(home, launcher->start(order), print);
+    return journals->keep(std::move(world), order, launcher->support());
   };
+}
+
+std::shared_ptr<const WorldLauncher> launchAgain(const HostOptions& options, const std::string& module,
+                                                 const std::string& program, const std::string& folder,
+                                                 const std::vector<std::string>& variables) {
+  GamePlace place;
+  place.files = {program, module};
+  place.folders = GameModule::resourceFolders(module);
+  WorldSandbox made = makeWorldSandbox(options, place);
+  made.sandbox.writable = {folder};
+  std::vector<std::string> environment = makeFixedEnvironment(options);
+  std::erase_if(environment, isGameVariable);
+  environment.insert(environment.end(), variables.begin(), variables.end());
+  return std::make_shared<const WorldLauncher>(WorldProgram{program, moduleArguments(options, module),
+                                                            std::move(environment), folder, made.sandbox,
+                                                            repeatPreload()});
 }
 
 Preview previewWorld(const WorldLauncher& launcher, const LogLine& print) {

@@ -134,7 +134,7 @@ const std::vector<std::string>& systemFolders() {
 }
 
 SandboxSupport findSandboxSupport() {
-  return {findInTrial(tryLandlock), findInTrial(tryFilter)};
+  return {findInTrial(tryLandlock), findInTrial(tryFilter), 0};
 }
 
 std::string sandboxGaps(const SandboxSupport& support) {

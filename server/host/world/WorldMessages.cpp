@@ -11,6 +11,25 @@ namespace {
 
 using Input = df::InputQueue::Input;
 
+void visitHash(FieldWriter& out, std::uint64_t hash) {
+  out.number(static_cast<std::uint32_t>(hash));
+  out.number(static_cast<std::uint32_t>(hash >> 32));
+}
+
+void visitHash(FieldReader& in, std::uint64_t& hash) {
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  in.number(low);
+  in.number(high);
+  hash = std::uint64_t{high} << 32 | low;
+}
+
+template <class F, class T>
+void visitFile(F& f, T& file) {
+  f.text(file.name, kMaxReadFileName);
+  visitHash(f, file.hash);
+}
+
 template <class F, class T>
 void visitReady(F& f, T& ready) {
   f.number(ready.window_width, kMinViewWidth, kMaxViewWidth);
@@ -18,6 +37,7 @@ void visitReady(F& f, T& ready) {
   f.number(ready.frame_millis, 1, kMaxFrameMillis);
   f.flag(ready.compat);
   f.list(ready.help, kMaxHelpLines, [](F& in, auto& line) { in.text(line, kMaxHelpLength); });
+  f.list(ready.files, kMaxReadFiles, [](F& in, auto& file) { visitFile(in, file); });
 }
 
 template <class F, class T>
@@ -103,19 +123,6 @@ void visitCanvas(FieldReader& in, df::Canvas& canvas) {
   }
 }
 
-void visitHash(FieldWriter& out, const std::optional<std::uint64_t>& hash) {
-  out.number(static_cast<std::uint32_t>(*hash));
-  out.number(static_cast<std::uint32_t>(*hash >> 32));
-}
-
-void visitHash(FieldReader& in, std::optional<std::uint64_t>& hash) {
-  std::uint32_t low = 0;
-  std::uint32_t high = 0;
-  in.number(low);
-  in.number(high);
-  hash = std::uint64_t{high} << 32 | low;
-}
-
 template <class F, class T>
 void visitAnswer(F& f, T& answer) {
   f.flag(answer.game_over);
@@ -126,7 +133,9 @@ void visitAnswer(F& f, T& answer) {
   });
   bool has_hash = answer.state_hash.has_value();
   visitFlags(f, answer.has_view, has_hash);
-  if (has_hash) visitHash(f, answer.state_hash);
+  std::uint64_t hash = answer.state_hash.value_or(0);
+  if (has_hash) visitHash(f, hash);
+  if constexpr (F::kReads) answer.state_hash = has_hash ? std::optional(hash) : std::nullopt;
 }
 
 }  // namespace
@@ -188,6 +197,13 @@ std::optional<WorldAnswer> readAnswer(std::string_view fields, ViewReader& views
   visitAnswer(in, answer);
   if (in.ok() && answer.has_view) views.read(in, view);
   return in.isWhole() ? std::optional(std::move(answer)) : std::nullopt;
+}
+
+std::optional<WorldAnswer> readAnswerHead(std::string_view fields) {
+  FieldReader in(fields);
+  WorldAnswer answer;
+  visitAnswer(in, answer);
+  return in.ok() ? std::optional(std::move(answer)) : std::nullopt;
 }
 
 }  // namespace naiad

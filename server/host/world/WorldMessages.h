@@ -16,6 +16,7 @@
 
 #include "engine/world/InputQueue.h"
 #include "engine/world/WorldView.h"
+#include "host/world/Repeatable.h"
 #include "host/world/ViewCodec.h"
 #include "shared/values/Canvas.h"
 
@@ -27,6 +28,7 @@ struct WorldReady {
   int window_height = 24;
   int frame_millis = 33;  ///< as df-config.txt writes it, up to kMaxFrameMillis
   bool compat = false;
+  std::vector<ReadFile> files;    ///< that the game has read so far, if it is to be repeatable
   std::vector<std::string> help;  ///< at most kMaxHelpLines of kMaxHelpLength bytes
 };
 inline constexpr int kMaxFrameMillis = 1000;
@@ -80,5 +82,7 @@ bool writeAnswer(const WorldAnswer& answer, const df::WorldView* p_view, ViewWri
                  std::string& frame);
 /// `view` is filled if the answer has one.
 std::optional<WorldAnswer> readAnswer(std::string_view fields, ViewReader& views, df::WorldView& view);
+/// The same without the view, of which nothing is checked.
+std::optional<WorldAnswer> readAnswerHead(std::string_view fields);
 
 }  // namespace naiad

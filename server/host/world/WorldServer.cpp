@@ -8,6 +8,7 @@
 #include "engine/world/StateHash.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "host/world/Repeatable.h"
 
 namespace naiad {
 
@@ -32,6 +33,7 @@ WorldReady readyOf(const df::World& world) {
     ready.frame_millis = p_extras->settings.frame_time;
   ready.compat = world.compat();
   ready.help = world.getHelp();
+  ready.files = takeReadFiles();
   return ready;
 }
 
@@ -76,6 +78,7 @@ void WorldServer::run(df::World& world) {
       break;
     }
     updateLagCompensation(*turn, world);
+    setRepeatTick(static_cast<std::uint32_t>(world.getStepCount()) + 1);
     applyTurn(*turn, world);
     world.tick();
     goes_on = sendAnswer(*turn, world) && !world.isGameOver();
