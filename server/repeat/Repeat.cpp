@@ -1,10 +1,11 @@
 // libdragonfly-repeat.so: clocks and entropy of a world that can be executed again.
 //
-// It is loaded before all other libraries (LD_PRELOAD) of a world's process, whose game needs no change for it.
-// With NAIAD_REPEAT="SEED START FRAME AGAIN" in the environment, each clock shows START and the world's ticks of
-// FRAME nanoseconds, and goes on by a microsecond each time it is read, so that a game which waits for it comes to
-// an end. Random devices give numbers from the seed, in the order in which they are asked for. Files that are
-// opened for reading before the first tick are noted. Without that variable every function is the system's.
+// It is loaded before all other libraries (LD_PRELOAD) of a world's process, whose game needs no change for
+// it. With NAIAD_REPEAT="SEED START FRAME AGAIN" in the environment, each clock shows START and the world's
+// ticks of FRAME nanoseconds, and goes on by a microsecond each time it is read, so that a game which waits
+// for it comes to an end. Random devices give numbers from the seed, in the order in which they are asked
+// for. Files that are opened for reading before the first tick are noted. Without that variable every
+// function is the system's.
 //
 // What it does not reach: instructions (rdtsc, rdrand), system calls that a game makes without the C library,
 // threads. A game that uses those is found when its round is executed again.
@@ -25,7 +26,7 @@
 namespace {
 
 constexpr std::uint64_t kSecond = 1'000'000'000;
-constexpr std::uint64_t kStep = 1'000;  ///< nanoseconds that each reading takes
+constexpr std::uint64_t kStep = 1'000;            ///< nanoseconds that each reading takes
 constexpr std::uint64_t kBoot = 1'000 * kSecond;  ///< since the machine's start, as monotonic clocks count
 constexpr std::size_t kMaxPaths = std::size_t{64} << 10;
 
@@ -98,7 +99,8 @@ std::uint64_t clockNanos(clockid_t clock) {
 }
 
 std::uint64_t nextRandom() {
-  std::uint64_t z = repeat().random.fetch_add(0x9e3779b97f4a7c15u, std::memory_order_relaxed) + 0x9e3779b97f4a7c15u;
+  std::uint64_t z =
+      repeat().random.fetch_add(0x9e3779b97f4a7c15u, std::memory_order_relaxed) + 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
   return z ^ (z >> 31);
@@ -230,7 +232,8 @@ int clock_nanosleep(clockid_t clock, int flags, const timespec* p_time, timespec
   const std::uint64_t until = nanosOf(*p_time);
   const std::uint64_t now = clockNanos(clock);
   if (until <= now) return 0;
-  const timespec rest{static_cast<time_t>((until - now) / kSecond), static_cast<long>((until - now) % kSecond)};
+  const timespec rest{static_cast<time_t>((until - now) / kSecond),
+                      static_cast<long>((until - now) % kSecond)};
   return sleepFor(until - now, [&] { return p_next(CLOCK_MONOTONIC, 0, &rest, nullptr); });
 }
 
@@ -278,8 +281,7 @@ std::uint32_t arc4random_uniform(std::uint32_t bound) {
 
 /// std::random_device::_M_getval(), however it was opened.
 unsigned _ZNSt13random_device9_M_getvalEv(void* p_device) {
-  static auto* const p_next =
-      next(&_ZNSt13random_device9_M_getvalEv, "_ZNSt13random_device9_M_getvalEv");
+  static auto* const p_next = next(&_ZNSt13random_device9_M_getvalEv, "_ZNSt13random_device9_M_getvalEv");
   return repeat().on ? static_cast<unsigned>(nextRandom()) : p_next(p_device);
 }
 

@@ -1,7 +1,7 @@
 // A fast hash of 64 bits for finding differences: of worlds executed again, and of what they answer.
 //
-// Each step multiplies two words to 128 bits and folds the halves, as wyhash does (Wang Yi, 2019). The same on
-// every machine. Not for secrets, and not against someone who looks for collisions.
+// Each step multiplies two words to 128 bits and folds the halves, as wyhash does (Wang Yi, 2019). The same
+// on every machine. Not for secrets, and not against someone who looks for collisions.
 #pragma once
 
 #include <cstdint>

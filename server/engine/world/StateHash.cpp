@@ -37,8 +37,9 @@ void addObject(FastHash& hash, const WorldStore& store, WorldStore::Slot s) {
   // What hosts see of the flags: others say how the engine keeps it, and may depend on who watches.
   const bool active = store.has(s, WorldStore::kActive);
   const bool visible = store.has(s, WorldStore::kVisible);
-  hash.word(static_cast<std::uint64_t>(store.solidness(s)) | static_cast<std::uint64_t>(store.altitude(s)) << 8 |
-            std::uint64_t{active} << 16 | std::uint64_t{visible} << 17);
+  hash.word(static_cast<std::uint64_t>(store.solidness(s)) |
+            static_cast<std::uint64_t>(store.altitude(s)) << 8 | std::uint64_t{active} << 16 |
+            std::uint64_t{visible} << 17);
   hash.bytes(store.object(s)->getType());
 }
 

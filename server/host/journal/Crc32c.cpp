@@ -22,7 +22,8 @@ constexpr std::array<std::uint32_t, 256> kTable = makeTable();
 
 std::uint32_t crc32c(std::string_view bytes, std::uint32_t before) {
   std::uint32_t value = ~before;
-  for (const char byte : bytes) value = value >> 8 ^ kTable[(value ^ static_cast<unsigned char>(byte)) & 0xff];
+  for (const char byte : bytes)
+    value = value >> 8 ^ kTable[(value ^ static_cast<unsigned char>(byte)) & 0xff];
   return ~value;
 }
 

@@ -1,12 +1,13 @@
 // The file format `.dfr`: a round, from the world's seed to its last tick (docs/dfr.md has every bit).
 //
 //   file    header | chunk | chunk | …
-//   header  magic (8) | version (2) | flags (2) | CRC-32C of what follows (4) | uuid (16) | frame (8) | seed (8)
+//   header  magic (8) | version (2) | flags (2) | CRC-32C of what follows (4) | uuid (16) | frame (8) | seed
+//   (8)
 //           | start (8) | 0 (8)
 //   chunk   type (4) | size of the payload (4) | CRC-32C of type, size and payload (4) | payload
 //
-// Numbers have their lowest byte first. A file grows at its end alone, so one that was torn off is good up to its
-// last whole chunk.
+// Numbers have their lowest byte first. A file grows at its end alone, so one that was torn off is good up to
+// its last whole chunk.
 #pragma once
 
 #include <array>
@@ -18,8 +19,12 @@
 
 namespace naiad {
 
-/// The first byte has its highest bit set and the last ones are line ends, as in PNG: a transfer as text shows.
-inline constexpr std::string_view kDfrMagic{"\x89" "DFR\r\n\x1a\n", 8};
+/// The first byte has its highest bit set and the last ones are line ends, as in PNG: a transfer as text
+/// shows.
+inline constexpr std::string_view kDfrMagic{
+    "\x89"
+    "DFR\r\n\x1a\n",
+    8};
 inline constexpr std::uint16_t kDfrVersion = 1;
 inline constexpr std::size_t kDfrHeaderSize = 64;
 inline constexpr std::size_t kDfrFlagsAt = 10;  ///< of the header's two bytes that change later
@@ -35,11 +40,11 @@ enum DfrFlag : std::uint16_t {
 
 /// Which round it is.
 struct DfrHeader {
-  std::uint16_t flags = 0;                ///< of DfrFlag
+  std::uint16_t flags = 0;                 ///< of DfrFlag
   std::array<std::uint8_t, 16> uuid = {};  ///< random: names the round
-  std::uint64_t frame_nanos = 0;          ///< length of a tick
-  std::uint64_t seed = 0;                 ///< of the world, and of what is repeatable of clocks and entropy
-  std::uint64_t start_nanos = 0;          ///< the world's clock at its start, since 1970 in UTC
+  std::uint64_t frame_nanos = 0;           ///< length of a tick
+  std::uint64_t seed = 0;                  ///< of the world, and of what is repeatable of clocks and entropy
+  std::uint64_t start_nanos = 0;           ///< the world's clock at its start, since 1970 in UTC
 };
 
 /// Four letters, the first lowest.
@@ -60,8 +65,8 @@ inline constexpr std::size_t kMaxDfrFacts = 1024;
 inline constexpr std::size_t kMaxDfrName = 300;
 inline constexpr std::size_t kMaxDfrValue = 16'384;
 
-/// A TURN chunk begins with the place of its first byte in the stream of records (4, the lower half of 64 bits),
-/// and how its records are packed (1).
+/// A TURN chunk begins with the place of its first byte in the stream of records (4, the lower half of 64
+/// bits), and how its records are packed (1).
 inline constexpr std::size_t kDfrTurnHead = 5;
 
 /// How turns are packed in a TURN chunk.

@@ -15,8 +15,8 @@ namespace {
 /// Of a frame, at most: what the writer takes, and some room for later ones.
 constexpr int kMaxWindowLog = 20;
 
-/// Turns are some ten times as long as in the file, and hundreds of times if nobody plays. A file that promises
-/// more would cost more time than its size says.
+/// Turns are some ten times as long as in the file, and hundreds of times if nobody plays. A file that
+/// promises more would cost more time than its size says.
 constexpr std::uint64_t kMaxRatio = 1000;
 
 }  // namespace

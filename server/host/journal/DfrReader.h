@@ -1,7 +1,7 @@
 // Reads a `.dfr` file (Dfr.h), chunk by chunk and record by record, as far as it is good.
 //
-// A file may come from a stranger: every number is checked, nothing costs more than the file's size and a fixed
-// amount of memory, and nothing in it names a file that is opened.
+// A file may come from a stranger: every number is checked, nothing costs more than the file's size and a
+// fixed amount of memory, and nothing in it names a file that is opened.
 #pragma once
 
 #include <memory>

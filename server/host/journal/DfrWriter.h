@@ -38,8 +38,9 @@ class DfrTurnPacker {
   struct Freer {
     void operator()(void* p_context) const;
   };
-  std::unique_ptr<void, Freer> m_p_context;  ///< a ZSTD_CCtx; null: there was no memory, and nothing is packed
-  std::uint64_t m_offset = 0;                ///< of the stream
+  std::unique_ptr<void, Freer>
+      m_p_context;             ///< a ZSTD_CCtx; null: there was no memory, and nothing is packed
+  std::uint64_t m_offset = 0;  ///< of the stream
 };
 
 }  // namespace naiad

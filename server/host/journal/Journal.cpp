@@ -16,7 +16,10 @@ constexpr const char* kOverflow = "the disk is too slow";
 
 Journal::Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, DfrFacts facts, std::size_t ring,
                  bool shared)
-    : m_header(header), m_ring(ring, header.uuid, shared), m_facts(std::move(facts)), m_sink(std::move(sink)) {}
+    : m_header(header),
+      m_ring(ring, header.uuid, shared),
+      m_facts(std::move(facts)),
+      m_sink(std::move(sink)) {}
 
 bool Journal::add(std::string_view record) {
   if (m_stopped.load(std::memory_order_relaxed) || m_overflowed.load(std::memory_order_relaxed)) return false;

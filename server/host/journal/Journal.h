@@ -1,4 +1,5 @@
-// The journal of one round: the tick thread adds records and never waits, a JournalWriter puts them on the disk.
+// The journal of one round: the tick thread adds records and never waits, a JournalWriter puts them on the
+// disk.
 #pragma once
 
 #include <atomic>

@@ -64,10 +64,10 @@ class JournaledWorld : public WorldPort {
   Book m_book;
   bool m_goes_on = true;  ///< the journal
   bool m_began = false;
-  std::uint32_t m_later = 0;         ///< the host's tick numbers minus the world's own
-  std::uint32_t m_ticks = 0;         ///< begun, of this world
-  std::uint32_t m_pictured = 0;      ///< whom the host wants to see
-  std::uint32_t m_recorded = 0;      ///< whose picture the tick that is under way gives; 0: none
+  std::uint32_t m_later = 0;             ///< the host's tick numbers minus the world's own
+  std::uint32_t m_ticks = 0;             ///< begun, of this world
+  std::uint32_t m_pictured = 0;          ///< whom the host wants to see
+  std::uint32_t m_recorded = 0;          ///< whose picture the tick that is under way gives; 0: none
   std::vector<std::uint32_t> m_players;  ///< that have joined and not left, in order
   WorldTurn m_turn;
   TurnRecordWriter m_writer;

@@ -7,8 +7,8 @@ namespace naiad {
 namespace {
 
 enum RecordKind : std::uint8_t {
-  kRecordedTurn = 0,      ///< with the flags and players of the turn before
-  kRecordedNewTurn = 1,   ///< with its own
+  kRecordedTurn = 0,     ///< with the flags and players of the turn before
+  kRecordedNewTurn = 1,  ///< with its own
   kRecordedResult = 2,
   kRecordedPicture = 3,
 };

@@ -2,7 +2,8 @@
 //
 //   record  size of the rest (varint) | kind (1) | fields
 //
-// A turn is what the world is sent before a tick, an answer what came of it. Records of unknown kinds are skipped.
+// A turn is what the world is sent before a tick, an answer what came of it. Records of unknown kinds are
+// skipped.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace naiad {
 
 /// How the tick of the last turn ended.
 struct TickResult {
-  std::uint8_t check = 0;                   ///< eight bits of WorldPort::answerHash(); 0 if there is none
+  std::uint8_t check = 0;  ///< eight bits of WorldPort::answerHash(); 0 if there is none
   bool has_check = false;
   bool game_over = false;
   std::optional<std::uint64_t> state_hash;  ///< df::hashState()

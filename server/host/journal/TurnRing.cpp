@@ -30,9 +30,10 @@ std::string uuidText(const std::array<std::uint8_t, 16>& uuid) {
 TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared)
     : m_capacity(capacity) {
   if (!shared || !mapShared(uuid)) {
-    void* p_memory = mmap(nullptr, sizeof(Head) + m_capacity, PROT_READ | PROT_WRITE,
-                          MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (p_memory == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "the journal's memory");
+    void* p_memory =
+        mmap(nullptr, sizeof(Head) + m_capacity, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (p_memory == MAP_FAILED)
+      throw std::system_error(errno, std::generic_category(), "the journal's memory");
     m_p_head = new (p_memory) Head{};
   }
   std::memcpy(m_p_head->magic, kRingMagic, sizeof m_p_head->magic);

@@ -19,8 +19,8 @@ namespace naiad {
 
 class TurnRing {
  public:
-  /// In memory of this process alone, or, with a name, in /dev/shm. If that cannot be, in this process's after
-  /// all: isShared() says so.
+  /// In memory of this process alone, or, with a name, in /dev/shm. If that cannot be, in this process's
+  /// after all: isShared() says so.
   TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared);
   /// The shared memory is removed.
   ~TurnRing();

@@ -89,8 +89,10 @@ std::vector<Row> tableOf(HostOptions& o) {
         "environment, beside the usual ones",
         "NAIAD_WORLD_ENVIRONMENT"}},
       {{"--journal", &o.journal,
-        "Write each round down in a file of this directory, as it is played, in little space: dfreplay plays it "
-        "and executes it again. The game then runs in a process of its own, with clocks and random devices that "
+        "Write each round down in a file of this directory, as it is played, in little space: dfreplay plays "
+        "it "
+        "and executes it again. The game then runs in a process of its own, with clocks and random devices "
+        "that "
         "can be repeated",
         "NAIAD_JOURNAL"}},
       {{"--no-journal", &o.no_journal, "Write no round down, whatever environment or file say",
@@ -198,11 +200,10 @@ constexpr std::string_view kLive[] = {
     "--drain-time",  "--certificate",     "--key",         "--log-format",      "--log-level", "--log-chat"};
 
 /// Variables that other programs of the project read, or this one beside its table.
-const char* const kOtherVariables[] = {"NAIAD_ASCII",  "NAIAD_CLIENT",     "NAIAD_FINGERPRINT",
-                                       "NAIAD_GAMES",  "NAIAD_IDLE_LIMIT", "NAIAD_KNOWN_SERVERS",
-                                       "NAIAD_NAME",   "NAIAD_NO_MOUSE",   "NAIAD_NO_RESUME",
-                                       "NAIAD_SERVER", "NAIAD_SOUND",      "NAIAD_WORLD_SEED",
-                                       "NAIAD_WORLD_SOCKET"};
+const char* const kOtherVariables[] = {
+    "NAIAD_ASCII",         "NAIAD_CLIENT",     "NAIAD_FINGERPRINT", "NAIAD_GAMES",     "NAIAD_IDLE_LIMIT",
+    "NAIAD_KNOWN_SERVERS", "NAIAD_NAME",       "NAIAD_NO_MOUSE",    "NAIAD_NO_RESUME", "NAIAD_SERVER",
+    "NAIAD_SOUND",         "NAIAD_WORLD_SEED", "NAIAD_WORLD_SOCKET"};
 
 /// Files, for completions: these options name them.
 const char* typeOf(const std::string& name) {

@@ -59,7 +59,7 @@ std::string hexNumber(std::uint64_t number) {
 /// The note of the linker in a loaded file; empty if there is none.
 std::string buildIdOf(const dl_phdr_info& info) {
   for (int i = 0; i < info.dlpi_phnum; ++i) {
-    const ElfW(Phdr) & header = info.dlpi_phdr[i];
+    const ElfW(Phdr)& header = info.dlpi_phdr[i];
     if (header.p_type != PT_NOTE) continue;
     const auto* p = reinterpret_cast<const unsigned char*>(info.dlpi_addr + header.p_vaddr);
     const unsigned char* const p_end = p + header.p_memsz;
@@ -148,8 +148,8 @@ WorldOrder Journals::makeOrder() const {
   WorldOrder order;
   order.seed = m_seed != 0 ? static_cast<std::uint64_t>(m_seed) : newSeed();
   order.repeatable = true;
-  order.start_nanos =
-      static_cast<std::uint64_t>(std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count());
+  order.start_nanos = static_cast<std::uint64_t>(
+      std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count());
   order.frame_nanos = m_frame_nanos;
   return order;
 }
@@ -181,8 +181,8 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
   JournaledWorld::Book book;
   book.writer = m_writer;
   try {
-    book.journal = std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header, factsOf(support),
-                                             m_ring, true);
+    book.journal = std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header,
+                                             factsOf(support), m_ring, true);
   } catch (const std::system_error& error) {
     m_log({LogEvent::Level::kError, "this round is not written down: " + std::string(error.what())});
     return world;

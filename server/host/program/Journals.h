@@ -60,7 +60,7 @@ inline constexpr const char* kFactGameOver = "on_game_over";
 inline constexpr const char* kFactAddresses = "addresses";  ///< "fixed" or "random"
 inline constexpr const char* kFactClocks = "clocks";        ///< "repeatable" or "real"
 inline constexpr const char* kFactSettings = "settings";    ///< the text of df-config.txt
-inline constexpr const char* kFactFile = "file ";           ///< and its name: the hash of a file that was read
-inline constexpr const char* kFactVariable = "variable ";   ///< and its name: its value
+inline constexpr const char* kFactFile = "file ";          ///< and its name: the hash of a file that was read
+inline constexpr const char* kFactVariable = "variable ";  ///< and its name: its value
 
 }  // namespace naiad

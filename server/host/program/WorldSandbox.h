@@ -34,8 +34,8 @@ WorldSandbox makeWorldSandbox(const HostOptions& options, const GamePlace& place
 /// names. Never the password.
 std::vector<std::string> makeWorldEnvironment(const HostOptions& options);
 
-/// The same for worlds whose rounds are written down: what depends on who has started the server is left out or
-/// fixed, beyond those variables.
+/// The same for worlds whose rounds are written down: what depends on who has started the server is left out
+/// or fixed, beyond those variables.
 std::vector<std::string> makeFixedEnvironment(const HostOptions& options);
 
 /// "NAME=value": a variable by which the engine itself is another one for the game, and which a round's file

@@ -108,6 +108,14 @@ Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLin
   };
 }
 
+// 33 ms is how the published engine writes 1/30 s.
+HostOptions withFrameTime(HostOptions options, const WorldReady& ready) {
+  constexpr int kUsualMillis = 33;
+  if (options.frame_micros == 0 && ready.frame_millis != kUsualMillis)
+    options.frame_micros = ready.frame_millis * 1000;
+  return options;
+}
+
 std::shared_ptr<const WorldLauncher> launchAgain(const HostOptions& options, const std::string& module,
                                                  const std::string& program, const std::string& folder,
                                                  const std::vector<std::string>& variables) {

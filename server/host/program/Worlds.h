@@ -33,8 +33,11 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
 Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine print,
                            std::shared_ptr<Journals> journals = nullptr);
 
-/// What executes worlds of this module again, with `program` (dfserver's path) in place of this one. They read
-/// and write in `folder` alone, beside the game's own folders. Throws std::system_error.
+/// The options with the length of a tick that the game asks for, unless they have one.
+HostOptions withFrameTime(HostOptions options, const WorldReady& ready);
+
+/// What executes worlds of this module again, with `program` (dfserver's path) in place of this one. They
+/// read and write in `folder` alone, beside the game's own folders. Throws std::system_error.
 std::shared_ptr<const WorldLauncher> launchAgain(const HostOptions& options, const std::string& module,
                                                  const std::string& program, const std::string& folder,
                                                  const std::vector<std::string>& variables);

@@ -163,7 +163,9 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   if (!preview.ready) return failPreview(preview.end);
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(options, name, log);
-  host.setWorlds(naiad::startWorlds(launcher, print, naiad::Journals::open(options, name, module.string(), log)));
+  const auto journals =
+      naiad::Journals::open(naiad::withFrameTime(options, *preview.ready), name, module.string(), log);
+  host.setWorlds(naiad::startWorlds(launcher, print, journals));
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +

@@ -16,8 +16,8 @@ void padEnvironment(const std::string& program, const std::vector<std::string>& 
 /// Would fixAddresses() do? Tried in a process that ends then.
 bool canFixAddresses();
 
-/// For this process, which is about to execute a program: the same addresses each time. False: this kernel, or
-/// whoever has started the server, does not let it.
+/// For this process, which is about to execute a program: the same addresses each time. False: this kernel,
+/// or whoever has started the server, does not let it.
 bool fixAddresses();
 
 }  // namespace naiad

@@ -23,7 +23,8 @@ constexpr std::uintmax_t kMaxHashed = std::uintmax_t{64} << 20;
 fs::path ownFolder() {
   Dl_info facts{};
   std::error_code error;
-  if (dladdr(reinterpret_cast<const void*>(&repeatPreload), &facts) == 0 || facts.dli_fname == nullptr) return {};
+  if (dladdr(reinterpret_cast<const void*>(&repeatPreload), &facts) == 0 || facts.dli_fname == nullptr)
+    return {};
   return fs::weakly_canonical(facts.dli_fname, error).parent_path();
 }
 

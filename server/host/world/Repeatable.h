@@ -18,8 +18,8 @@ struct ReadFile {
 inline constexpr std::size_t kMaxReadFiles = 256;
 inline constexpr std::size_t kMaxReadFileName = 200;
 
-/// For LD_PRELOAD: the library, after a sanitizer's runtime that this process has, which wants to be the first.
-/// Empty: it is not there.
+/// For LD_PRELOAD: the library, after a sanitizer's runtime that this process has, which wants to be the
+/// first. Empty: it is not there.
 std::string repeatPreload();
 /// The entry of the environment by which the library knows what to do.
 std::string repeatEntry(const WorldOrder& order);

@@ -75,7 +75,8 @@ std::optional<WorldDescriptors> receiveOrder(int from, WorldOrder& order) {
   ssize_t got = 0;
   while ((got = recvmsg(from, &message, MSG_CMSG_CLOEXEC)) < 0 && errno == EINTR) continue;
   const cmsghdr* p_head = CMSG_FIRSTHDR(&message);
-  if (got != sizeof order || p_head == nullptr || p_head->cmsg_len != CMSG_LEN(sizeof numbers)) return std::nullopt;
+  if (got != sizeof order || p_head == nullptr || p_head->cmsg_len != CMSG_LEN(sizeof numbers))
+    return std::nullopt;
   std::memcpy(&numbers, CMSG_DATA(p_head), sizeof numbers);
   return numbers;
 }

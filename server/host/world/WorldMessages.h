@@ -59,7 +59,7 @@ struct WorldAnswer {
   std::vector<std::uint32_t> leavers;
   bool has_view = false;
   std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn asked for it
-  std::vector<WorldPicture> pictures;  ///< by player
+  std::vector<WorldPicture> pictures;       ///< by player
 };
 
 // Writers make `frame` a whole frame. False: it would be too long. Readers return nothing if anything is

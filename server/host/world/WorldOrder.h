@@ -11,9 +11,9 @@ struct WorldOrder {
   /// Executed again from the same turns, it is to be the same world: fixed addresses, and clocks and entropy
   /// from the seed and the tick (server/repeat).
   bool repeatable = false;
-  bool again = false;               ///< it is executed again: it sleeps for no clock
-  std::uint64_t start_nanos = 0;    ///< its clock at the start, since 1970 in UTC
-  std::uint64_t frame_nanos = 0;    ///< length of a tick
+  bool again = false;             ///< it is executed again: it sleeps for no clock
+  std::uint64_t start_nanos = 0;  ///< its clock at the start, since 1970 in UTC
+  std::uint64_t frame_nanos = 0;  ///< length of a tick
 };
 
 }  // namespace naiad

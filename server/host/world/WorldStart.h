@@ -19,7 +19,8 @@ std::string worldSocketEntry();
 /// What it has for takeWorldSeed().
 std::string worldSeedEntry(std::uint64_t seed);
 
-/// In a world's process: the seed that its front gave it. Nothing in others, and when it was asked for before.
+/// In a world's process: the seed that its front gave it. Nothing in others, and when it was asked for
+/// before.
 std::optional<std::uint64_t> takeWorldSeed();
 
 /// In a world's process: its end of the socket. Nothing in others, and when it was asked for before.
