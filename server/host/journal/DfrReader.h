@@ -38,6 +38,10 @@ class DfrReader {
   /// The next record. Nothing: the end has come, and end() says which.
   std::optional<TurnRecord> next();
   DfrEnd end() const { return m_end; }
+  /// Bytes of the file that have been read: whole chunks.
+  std::size_t wholeBytes() const { return m_at; }
+  /// Bytes of the stream of records in them.
+  std::uint64_t streamBytes() const { return m_offset; }
   /// How the round ended, of DfrEnd::kDone.
   const std::string& why() const { return m_why; }
 

@@ -71,6 +71,20 @@ std::string spellDfrDone(std::string_view why) {
   return spellDfrChunk(kDfrDone, why.substr(0, kMaxDfrValue));
 }
 
+std::string spellDfrTurns(std::string_view records, std::uint64_t position) {
+  std::string chunks;
+  while (!records.empty()) {
+    const std::string_view part = records.substr(0, kMaxPacked);
+    std::string payload;
+    append(payload, static_cast<std::uint32_t>(position));
+    payload.push_back(static_cast<char>(kDfrRaw));
+    chunks += spellDfrChunk(kDfrTurn, payload.append(part));
+    position += part.size();
+    records.remove_prefix(part.size());
+  }
+  return chunks;
+}
+
 void DfrTurnPacker::Freer::operator()(void* p_context) const {
   ZSTD_freeCCtx(static_cast<ZSTD_CCtx*>(p_context));
 }

@@ -21,6 +21,9 @@ std::string spellDfrMeta(const DfrFacts& facts);
 /// A DONE chunk. `why`: how the round ended.
 std::string spellDfrDone(std::string_view why);
 
+/// TURN chunks with these records as they are; `position`: of the first byte in the stream.
+std::string spellDfrTurns(std::string_view records, std::uint64_t position);
+
 /// Packs the records of turns (TurnRecord.h), so that each chunk is good without those that come later.
 class DfrTurnPacker {
  public:

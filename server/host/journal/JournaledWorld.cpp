@@ -74,7 +74,7 @@ void JournaledWorld::tick(bool watched, bool truth) {
   storeTurn();
   m_world->setChecked(m_turn.checked);
   truth = m_turn.wants_truth;
-  m_turn = WorldTurn();
+  m_sent = std::exchange(m_turn, WorldTurn());
   m_world->tick(watched, truth);
   m_world->setPictured(m_pictured);
 }
@@ -100,6 +100,7 @@ void JournaledWorld::storeTurn() {
 
 void JournaledWorld::storeResult() {
   if (!m_goes_on) return;
+  if (m_book.check) m_book.check->add(m_sent, m_world->answerHash(), m_world->view());
   TickResult result;
   const std::uint64_t hash = m_world->answerHash();
   result.has_check = hash != 0;
@@ -120,6 +121,7 @@ void JournaledWorld::store() {
 
 void JournaledWorld::checkProcess(std::uint32_t tick) {
   m_world->checkProcess(tick);
+  if (m_book.check && (!m_goes_on || !m_book.check->update())) m_book.check.reset();
   if (const auto problem = m_book.journal->takeProblem()) {
     m_goes_on = false;
     if (m_book.on_problem) m_book.on_problem(*problem);

@@ -9,6 +9,7 @@
 
 #include "host/journal/Journal.h"
 #include "host/journal/JournalWriter.h"
+#include "host/journal/RepeatCheck.h"
 #include "host/journal/TurnRecord.h"
 #include "host/world/WorldPort.h"
 
@@ -28,6 +29,7 @@ class JournaledWorld : public WorldPort {
     std::function<DfrFacts()> late_facts;
     /// The journal has stopped, and why; the game goes on.
     std::function<void(const std::string& problem)> on_problem;
+    std::unique_ptr<RepeatCheck> check = nullptr;  ///< whether the game is repeatable; null: nobody asks
   };
 
   JournaledWorld(std::unique_ptr<WorldPort> world, Book book);
@@ -70,6 +72,7 @@ class JournaledWorld : public WorldPort {
   std::uint32_t m_recorded = 0;          ///< whose picture the tick that is under way gives; 0: none
   std::vector<std::uint32_t> m_players;  ///< that have joined and not left, in order
   WorldTurn m_turn;
+  WorldTurn m_sent;  ///< of the tick that is under way, for the check
   TurnRecordWriter m_writer;
   std::string m_record;
 };

@@ -12,6 +12,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -53,12 +54,34 @@ class TurnRing {
   };
   static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
+  friend class LeftRing;
   bool mapShared(const std::array<std::uint8_t, 16>& uuid);
   char* bytes() const { return reinterpret_cast<char*>(m_p_head + 1); }
 
   std::size_t m_capacity;
   std::string m_path;
+  int m_file = -1;  ///< of the shared memory, locked: as long as this process lives
   Head* m_p_head = nullptr;
+};
+
+/// The ring of a process that was killed.
+class LeftRing {
+ public:
+  /// Nothing if there is none for this round, it is malformed, or its process lives.
+  static std::optional<LeftRing> find(const std::array<std::uint8_t, 16>& uuid);
+  LeftRing(LeftRing&&) = default;
+  LeftRing& operator=(LeftRing&&) = default;
+
+  /// The bytes of the stream from this position on; nothing if some of them are gone.
+  std::optional<std::string> bytesFrom(std::uint64_t position) const;
+  /// It is not needed any more.
+  void remove() const;
+
+ private:
+  LeftRing() = default;
+
+  std::string m_path;
+  std::string m_bytes;  ///< head and all
 };
 
 /// "0123…": 32 hexadecimal digits.

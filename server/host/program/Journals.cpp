@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "host/auth/Seed.h"
+#include "host/journal/Salvage.h"
 #include "host/program/TickClock.h"
 #include "host/program/WorldSandbox.h"
 #include "host/world/Repeatable.h"
@@ -139,6 +140,7 @@ Journals::Journals(const HostOptions& options, std::string game, const std::stri
     const std::size_t equals = entry.find('=');
     if (isGameVariable(entry)) m_facts[kFactVariable + entry.substr(0, equals)] = entry.substr(equals + 1);
   }
+  for (const std::string& sentence : salvageRounds(m_folder)) m_log(sentence);
   m_log("each round is written down in " + m_folder);
   if (repeatPreload().empty())
     m_log("warning: libdragonfly-repeat.so is missing: a game that reads a clock cannot be executed again");
@@ -170,7 +172,7 @@ std::string Journals::pathOf(const DfrHeader& header) const {
 }
 
 std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
-                                          const SandboxSupport& support) {
+                                          const SandboxSupport& support, RepeatCheck::NewWorld again) {
   DfrHeader header;
   std::random_device device;
   for (std::uint8_t& byte : header.uuid) byte = static_cast<std::uint8_t>(device());
@@ -192,6 +194,11 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
     log({LogEvent::Level::kError,
          "the round is not written down any more, and goes on: " + problem + " (" + path + ")"});
   };
+  if (again && !std::exchange(m_checked, true)) {
+    book.check = std::make_unique<RepeatCheck>(std::move(again), [log = m_log](const std::string& sentence) {
+      log({LogEvent::Level::kWarning, "warning: " + sentence});
+    });
+  }
   m_writer->add(book.journal);
   return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
 }

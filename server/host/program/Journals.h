@@ -23,9 +23,10 @@ class Journals {
 
   /// For the next world.
   WorldOrder makeOrder() const;
-  /// That world, its turns written down. If they cannot be, the log says so, and it plays without.
+  /// That world, its turns written down. If they cannot be, the log says so, and it plays without. `again`
+  /// starts another one from the same order: the first round of this server is held against it.
   std::unique_ptr<WorldPort> keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
-                                  const SandboxSupport& support);
+                                  const SandboxSupport& support, RepeatCheck::NewWorld again = {});
 
  private:
   DfrFacts factsOf(const SandboxSupport& support) const;
@@ -38,6 +39,7 @@ class Journals {
   const std::size_t m_ring;
   DfrFacts m_facts;
   LogLine m_log;
+  bool m_checked = false;  ///< a round has been, or is
   std::shared_ptr<JournalWriter> m_writer = std::make_shared<JournalWriter>();
 };
 

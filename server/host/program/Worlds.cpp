@@ -104,7 +104,16 @@ Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLin
     if (journals == nullptr) return std::make_unique<WorldProcess>(home, launcher->start(), print);
     const WorldOrder order = journals->makeOrder();
     auto world = std::make_unique<WorldProcess>(home, launcher->start(order), print);
-    return journals->keep(std::move(world), order, launcher->support());
+    WorldOrder again = order;
+    again.again = true;
+    again.reads_only = true;
+    RepeatCheck::NewWorld start_again;
+    if (launcher->support().landlock > 0) {
+      start_again = [launcher, again, &home] {
+        return std::make_unique<WorldProcess>(home, launcher->start(again), OutputRelay::Line());
+      };
+    }
+    return journals->keep(std::move(world), order, launcher->support(), std::move(start_again));
   };
 }
 

@@ -123,6 +123,15 @@ std::vector<std::string> environmentOf(const WorldProgram& program, const WorldO
   return entries;
 }
 
+Sandbox sandboxOf(const WorldProgram& program, const WorldOrder& order) {
+  Sandbox sandbox = program.sandbox;
+  if (!order.reads_only) return sandbox;
+  sandbox.readable.insert(sandbox.readable.end(), sandbox.writable.begin(), sandbox.writable.end());
+  sandbox.writable.clear();
+  sandbox.appendable.clear();
+  return sandbox;
+}
+
 [[noreturn]] void runWorld(const WorldDescriptors& descriptors, const WorldOrder& order, int failure,
                            pid_t keeper, const WorldProgram& program, const SandboxSupport& support) {
   arrangeDescriptors(descriptors, failure);
@@ -137,7 +146,7 @@ std::vector<std::string> environmentOf(const WorldProgram& program, const WorldO
   const std::vector<char*> arguments = pointersTo(words);
   const std::vector<char*> environment = pointersTo(entries);
   if (program.sandbox.on) {
-    if (const int error = enterSandbox(program.sandbox, support); error != 0) fail(kFailure, error);
+    if (const int error = enterSandbox(sandboxOf(program, order), support); error != 0) fail(kFailure, error);
   }
   execve(program.program.c_str(), arguments.data(), environment.data());
   fail(kFailure, errno);

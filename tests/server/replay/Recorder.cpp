@@ -5,9 +5,13 @@
 
 #include <asio/io_context.hpp>
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
+#include "host/journal/DfrReader.h"
 #include "host/program/GameModule.h"
 #include "host/program/Journals.h"
 #include "host/program/Worlds.h"
@@ -77,6 +81,22 @@ void waitFor(asio::io_context& home, WorldPort& world, const bool& done) {
   }
 }
 
+/// A busy disk may take longer than a server waits for it at its end.
+fs::path waitForFile(const fs::path& folder) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (std::chrono::steady_clock::now() < end) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      std::ifstream file(entry.path(), std::ios::binary);
+      const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+      DfrReader reader(bytes);
+      while (reader.next()) continue;
+      if (reader.end() == DfrEnd::kDone) return entry.path();
+    }
+    std::this_thread::yield();
+  }
+  throw std::runtime_error("the round is not written");
+}
+
 }  // namespace
 
 Recorder::Recorder() {
@@ -117,9 +137,7 @@ fs::path Recorder::record(const Recording& what) {
       waitFor(home, *world, done);
     }
   }
-  fs::path file;
-  for (const auto& entry : fs::directory_iterator(rounds)) file = entry.path();
-  return file;
+  return waitForFile(rounds);
 }
 
 }  // namespace naiad

@@ -1,7 +1,9 @@
 // A round's journal and the disk: the tick thread never waits for it, and a disk that fails costs the
 // journal, not the game.
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <condition_variable>
@@ -15,6 +17,7 @@
 #include "host/journal/DfrReader.h"
 #include "host/journal/Journal.h"
 #include "host/journal/JournalWriter.h"
+#include "host/journal/Salvage.h"
 
 namespace naiad {
 namespace {
@@ -177,6 +180,45 @@ TEST_F(JournalFileTest, ItsFileIsForThisUserAlone) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(DfrReader(bytes).header().flags, kDfrStopped);
+}
+
+// What waits for the disk when the process is killed is in the file after the next start: no turn is lost.
+TEST_F(JournalFileTest, AKilledServersRoundGetsTheTurnsThatHadNotReachedTheDisk) {
+  const fs::path path = folder / "hello.dfr";
+  DfrHeader header;
+  header.uuid = {0x5A, static_cast<std::uint8_t>(getpid()), static_cast<std::uint8_t>(getpid() >> 8), 3};
+  const pid_t child = fork();
+  if (child == 0) {
+    Journal journal(std::make_unique<JournalFileSink>(path.string()), header, {{"game", "hello"}}, kRing,
+                    true);
+    for (int i = 0; i < 100; ++i) journal.add(turnRecord());
+    journal.flush();
+    for (int i = 0; i < 50; ++i) journal.add(turnRecord());
+    if (!journal.ring().isShared()) _exit(77);
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
+  fs::resize_file(path, fs::file_size(path) + 7);  // torn in the middle of a chunk
+  EXPECT_EQ(salvageRounds(folder.string()).size(), 1u);
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(countTurns(bytes), 150u);
+  EXPECT_TRUE(salvageRounds(folder.string()).empty()) << "and the memory is free";
+}
+
+TEST_F(JournalFileTest, ARoundThatIsBeingPlayedIsLeftAlone) {
+  const fs::path path = folder / "hello.dfr";
+  DfrHeader header;
+  header.uuid = {0x5B, static_cast<std::uint8_t>(getpid()), static_cast<std::uint8_t>(getpid() >> 8), 3};
+  Journal journal(std::make_unique<JournalFileSink>(path.string()), header, {}, kRing, true);
+  journal.add(turnRecord());
+  journal.flush();
+  journal.add(turnRecord());
+  const auto size = fs::file_size(path);
+  EXPECT_TRUE(salvageRounds(folder.string()).empty());
+  EXPECT_EQ(fs::file_size(path), size);
 }
 
 TEST_F(JournalFileTest, AFolderThatIsNotThereIsAnError) {
