@@ -1,6 +1,7 @@
 #include "host/journal/RepeatCheck.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <system_error>
 #include <utility>
 
@@ -9,12 +10,12 @@ namespace naiad {
 namespace {
 
 std::string placeText(df::FixedVector place) {
-  const auto text = [](df::Fixed value) {
-    const std::string digits =
-        std::to_string(static_cast<double>(value) / static_cast<double>(df::kFixedOne));
-    return digits.substr(0, digits.find('.') + 3);
+  const auto cells = [](df::Fixed value) {
+    return static_cast<double>(value) / static_cast<double>(df::kFixedOne);
   };
-  return "(" + text(place.x) + ", " + text(place.y) + ")";
+  char text[80];
+  std::snprintf(text, sizeof text, "(%.2f, %.2f)", cells(place.x), cells(place.y));
+  return text;
 }
 
 std::string describe(const df::ObjectFacts& first, const df::ObjectFacts& again) {
