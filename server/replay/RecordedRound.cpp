@@ -121,10 +121,10 @@ RoundStage::~RoundStage() {
 std::string RoundStage::findModule(const std::string& game) {
   const std::string recorded = m_round.fact(kFactModule);
   const std::string name = m_round.fact(kFactGame);
-  if (recorded.empty() && game.empty())
+  if (game.empty() && !isGameName(name)) throw RoundError("The file does not say which game it was.");
+  if (game.empty() && recorded.empty())
     throw RoundError("The game " + quoted(name) +
                      " was a program of its own, which cannot be executed again here.");
-  if (game.empty() && !isGameName(name)) throw RoundError("The file names no game.");
   std::string module;
   try {
     module = GameModule::find(game.empty() ? name : game).string();

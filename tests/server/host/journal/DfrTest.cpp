@@ -104,7 +104,9 @@ TEST(DfrTest, WhatIsWrittenIsRead) {
     const auto result = reader.next();
     ASSERT_TRUE(result && std::holds_alternative<TickResult>(*result)) << i;
     EXPECT_EQ(std::get<TickResult>(*result).check, static_cast<std::uint8_t>(random.next()));
-    if (i % 5 == 2) EXPECT_EQ(std::get<TickResult>(*result).state_hash, random.next());
+    if (i % 5 == 2) {
+      EXPECT_EQ(std::get<TickResult>(*result).state_hash, random.next());
+    }
   }
   EXPECT_FALSE(reader.next());
   EXPECT_EQ(reader.end(), DfrEnd::kDone);

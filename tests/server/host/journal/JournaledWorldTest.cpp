@@ -147,7 +147,9 @@ TEST_F(JournaledWorldTest, EveryThreeHundredthTickHasAPictureOfWhoHasBeenThereLo
   for (std::uint32_t i = 1; i <= 301; ++i) {
     world->tick(true, false);
     EXPECT_EQ(p_fake->had_truth, i == 300) << i;
-    if (i == 300) EXPECT_EQ(p_fake->pictured_in_tick, 101u);
+    if (i == 300) {
+      EXPECT_EQ(p_fake->pictured_in_tick, 101u);
+    }
   }
   EXPECT_EQ(p_fake->pictured, 0u) << "what the host asked for counts again";
   std::vector<RecordedPicture> pictures;
