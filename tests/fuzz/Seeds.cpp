@@ -151,8 +151,9 @@ void rounds(Folder folder) {
     return type + u16(payload.size()) + payload;
   };
   const std::string meta = spellDfrMeta({{"game", "hello"}, {"players", "first"}}).substr(kDfrChunkHead);
-  folder.add("\1" + chunk(0, meta) + chunk(1, std::string(5, '\0') + records) + chunk(3, "later") +
-             chunk(2, "is over"));
+  folder.add("\1" + chunk(0, meta) +
+             chunk(1, std::string(5, '\0') + u16(records.size()) + std::string(2, '\0') + records) +
+             chunk(3, "later") + chunk(2, "is over"));
 }
 
 void keys(Folder folder) {

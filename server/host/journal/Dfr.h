@@ -66,13 +66,13 @@ inline constexpr std::size_t kMaxDfrName = 300;
 inline constexpr std::size_t kMaxDfrValue = 16'384;
 
 /// A TURN chunk begins with the place of its first byte in the stream of records (4, the lower half of 64
-/// bits), and how its records are packed (1).
-inline constexpr std::size_t kDfrTurnHead = 5;
+/// bits), how its records are packed (1), and how many bytes they are (4).
+inline constexpr std::size_t kDfrTurnHead = 9;
 
 /// How turns are packed in a TURN chunk.
 enum DfrPacking : std::uint8_t {
   kDfrRaw = 0,
-  kDfrZstd = 1,  ///< the next blocks of one zstd frame, which begins in the first such chunk
+  kDfrModelled = 1,  ///< by a RecordPacker, which has packed all such chunks before
 };
 
 /// CRC-32C (Castagnoli), as iSCSI has it. `before`: of the bytes before these.

@@ -1,7 +1,5 @@
 #include "host/journal/DfrReader.h"
 
-#include <zstd.h>
-
 #include <algorithm>
 
 #include "shared/net/base/SafeText.h"
@@ -12,12 +10,9 @@ namespace naiad {
 
 namespace {
 
-/// Of a frame, at most: what the writer takes, and some room for later ones.
-constexpr int kMaxWindowLog = 20;
-
-/// Turns are some ten times as long as in the file, and hundreds of times if nobody plays. A file that
-/// promises more would cost more time than its size says.
-constexpr std::uint64_t kMaxRatio = 1000;
+/// Turns are some four times as long as in the file, and ten times if nobody plays. A file that promises more
+/// would cost more time than its size says.
+constexpr std::uint64_t kMaxRatio = 64;
 
 }  // namespace
 
@@ -30,12 +25,6 @@ DfrReader::DfrReader(std::string_view bytes) : m_bytes(bytes) {
   }
   // So that facts are there before the first turn is asked for.
   while (!m_ended && m_records.atEnd() && readChunk()) continue;
-}
-
-DfrReader::~DfrReader() = default;
-
-void DfrReader::Freer::operator()(void* p_context) const {
-  ZSTD_freeDCtx(static_cast<ZSTD_DCtx*>(p_context));
 }
 
 void DfrReader::readHeader() {
@@ -127,37 +116,20 @@ bool DfrReader::readMeta(std::string_view payload) {
 bool DfrReader::readTurns(std::string_view payload) {
   if (payload.size() < kDfrTurnHead) return false;
   if (loadLittleEndian<std::uint32_t>(payload.data()) != static_cast<std::uint32_t>(m_offset)) return false;
-  const auto packing = static_cast<std::uint8_t>(payload[kDfrTurnHead - 1]);
+  const auto packing = static_cast<std::uint8_t>(payload[4]);
   const std::string_view packed = payload.substr(kDfrTurnHead);
+  const auto count = loadLittleEndian<std::uint32_t>(payload.data() + kDfrTurnHead - 4);
+  m_offset += count;
+  if (count > kMaxDfrPayload || m_offset > kMaxRatio * m_bytes.size() + kMaxDfrPayload) return false;
   m_unpacked.clear();
-  if (packing == kDfrRaw) {
-    m_p_context.reset();
+  if (packing == kDfrModelled) {
+    m_unpacker.unpack(packed, count, m_unpacked);
+  } else if (packing == kDfrRaw && packed.size() == count) {
     m_unpacked = packed;
-  } else if (packing != kDfrZstd || !unpack(packed)) {
+  } else {
     return false;
   }
-  m_offset += m_unpacked.size();
-  if (m_offset > kMaxRatio * m_bytes.size() + kMaxDfrPayload) return false;
   m_records.add(m_unpacked);
-  return true;
-}
-
-bool DfrReader::unpack(std::string_view packed) {
-  if (m_p_context == nullptr) {
-    m_p_context.reset(ZSTD_createDCtx());
-    if (m_p_context == nullptr) return false;
-    ZSTD_DCtx_setParameter(static_cast<ZSTD_DCtx*>(m_p_context.get()), ZSTD_d_windowLogMax, kMaxWindowLog);
-  }
-  auto* p_context = static_cast<ZSTD_DCtx*>(m_p_context.get());
-  m_unpacked.resize(kMaxDfrPayload);
-  ZSTD_inBuffer from{packed.data(), packed.size(), 0};
-  ZSTD_outBuffer to{m_unpacked.data(), m_unpacked.size(), 0};
-  while (from.pos < from.size) {
-    const std::size_t before = from.pos + to.pos;
-    const std::size_t left = ZSTD_decompressStream(p_context, &to, &from);
-    if (ZSTD_isError(left) != 0 || from.pos + to.pos == before || to.pos == to.size) return false;
-  }
-  m_unpacked.resize(to.pos);
   return true;
 }
 

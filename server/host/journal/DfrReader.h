@@ -4,12 +4,12 @@
 // fixed amount of memory, and nothing in it names a file that is opened.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "host/journal/Dfr.h"
+#include "host/journal/RecordCoder.h"
 #include "host/journal/TurnRecord.h"
 
 namespace naiad {
@@ -25,7 +25,6 @@ class DfrReader {
  public:
   /// `bytes` of the whole file; they stay until this is gone.
   explicit DfrReader(std::string_view bytes);
-  ~DfrReader();
   DfrReader(const DfrReader&) = delete;
   DfrReader& operator=(const DfrReader&) = delete;
 
@@ -56,11 +55,6 @@ class DfrReader {
   bool takeChunk(const Chunk& chunk);
   bool readMeta(std::string_view payload);
   bool readTurns(std::string_view payload);
-  bool unpack(std::string_view packed);
-
-  struct Freer {
-    void operator()(void* p_context) const;
-  };
 
   std::string_view m_bytes;
   std::size_t m_at = 0;
@@ -68,8 +62,8 @@ class DfrReader {
   DfrHeader m_header;
   DfrFacts m_facts;
   TurnRecordReader m_records;
-  std::uint64_t m_offset = 0;                ///< of the stream of records
-  std::unique_ptr<void, Freer> m_p_context;  ///< a ZSTD_DCtx, while a frame goes on
+  std::uint64_t m_offset = 0;  ///< of the stream of records
+  RecordUnpacker m_unpacker;
   std::string m_unpacked;
   bool m_ended = false;
   DfrEnd m_end = DfrEnd::kTorn;

@@ -1,11 +1,11 @@
 // Spells a `.dfr` file (Dfr.h): makes bytes, and writes none of them anywhere.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <string_view>
 
 #include "host/journal/Dfr.h"
+#include "host/journal/RecordCoder.h"
 
 namespace naiad {
 
@@ -27,23 +27,12 @@ std::string spellDfrTurns(std::string_view records, std::uint64_t position);
 /// Packs the records of turns (TurnRecord.h), so that each chunk is good without those that come later.
 class DfrTurnPacker {
  public:
-  DfrTurnPacker();
-  ~DfrTurnPacker();
-  DfrTurnPacker(const DfrTurnPacker&) = delete;
-  DfrTurnPacker& operator=(const DfrTurnPacker&) = delete;
-
   /// The chunk, or chunks if they are many, with the next bytes of the stream of records.
   std::string pack(std::string_view records);
 
  private:
-  std::string packOne(std::string_view records);
-
-  struct Freer {
-    void operator()(void* p_context) const;
-  };
-  std::unique_ptr<void, Freer>
-      m_p_context;             ///< a ZSTD_CCtx; null: there was no memory, and nothing is packed
-  std::uint64_t m_offset = 0;  ///< of the stream
+  RecordPacker m_packer;
+  std::uint64_t m_position = 0;  ///< in the stream
 };
 
 }  // namespace naiad

@@ -34,7 +34,8 @@ std::vector<std::string> ownArguments() {
 std::vector<std::string> moduleArguments(const HostOptions& options, const std::string& module) {
   std::vector<std::string> words{"dfserver", "--game=" + module, "--players=" + options.players,
                                  "--on-game-over=" + options.on_game_over};
-  if (options.seed != 0) words.push_back("--seed=" + std::to_string(options.seed));
+  // Where rounds are written down each world is given its seed, and has the same arguments again.
+  if (options.seed != 0 && !wantsJournal(options)) words.push_back("--seed=" + std::to_string(options.seed));
   return words;
 }
 

@@ -28,7 +28,8 @@ std::size_t roundUp(std::size_t value, std::size_t step) {
 
 void padEnvironment(const std::string& program, const std::vector<std::string>& arguments,
                     std::vector<std::string>& environment) {
-  environment.resize(roundUp(environment.size() + 1, kEntries), kFiller);
+  const std::size_t words = roundUp(arguments.size() + environment.size() + 1, kEntries);
+  environment.resize(words - arguments.size(), kFiller);
   std::size_t bytes = program.size() + 1;
   for (const auto* p_words : {&arguments, &std::as_const(environment)}) {
     for (const std::string& word : *p_words) bytes += word.size() + 1;

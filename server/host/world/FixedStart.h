@@ -8,7 +8,7 @@
 
 namespace naiad {
 
-/// Bring the environment to a fixed number of entries and, with program and arguments, to a fixed number of
+/// Bring arguments and environment to a fixed number together and, with the program, to a fixed number of
 /// bytes.
 void padEnvironment(const std::string& program, const std::vector<std::string>& arguments,
                     std::vector<std::string>& environment);

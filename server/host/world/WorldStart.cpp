@@ -1,12 +1,13 @@
 #include "host/world/WorldStart.h"
 
 #include <fcntl.h>
+#include <limits.h>
 
 #include <charconv>
 #include <cstdlib>
-#include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace naiad {
 
@@ -21,9 +22,13 @@ bool parseWhole(std::string_view text, Number& number) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
+// As much memory however long it is: what comes later in a world's process lies at the same addresses then.
 std::string workingDirectory() {
-  std::error_code error;
-  return std::filesystem::current_path(error).string();
+  char path[PATH_MAX];
+  std::string text;
+  text.reserve(sizeof path);
+  if (getcwd(path, sizeof path) != nullptr) text = path;
+  return text;
 }
 
 const std::string& g_began_in = *new std::string(workingDirectory());

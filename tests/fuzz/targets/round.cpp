@@ -37,8 +37,8 @@ void tryFile(std::string_view bytes) {
   std::size_t records = 0;
   while (const auto record = reader.next()) {
     REQUIRE(reader.problem().empty());
-    // A record has two bytes at least, and no file unpacks to more than a thousand times its size.
-    REQUIRE(++records <= (1000 * bytes.size() + kMaxDfrPayload) / 2);
+    // A record has two bytes at least, and no file unpacks to more than 64 times its size.
+    REQUIRE(++records <= (64 * bytes.size() + kMaxDfrPayload) / 2);
     if (const auto* p_turn = std::get_if<WorldTurn>(&*record)) tryAgain(*p_turn);
     if (const auto* p_picture = std::get_if<RecordedPicture>(&*record)) {
       REQUIRE(p_picture->canvas.width() <= 400 && p_picture->canvas.height() <= 150);
@@ -61,8 +61,11 @@ std::string chunksOf(Script& script) {
 
 std::string turnsOf(Script& script) {
   std::string payload(kDfrTurnHead, '\0');
-  payload.back() = static_cast<char>(script.byte());
-  return spellDfrHeader({}) + spellDfrChunk(kDfrTurn, payload + script.rest());
+  payload[4] = static_cast<char>(script.byte());
+  const std::string records = script.rest();
+  storeLittleEndian(static_cast<std::uint32_t>(records.size() * (payload[4] == kDfrModelled ? 4 : 1)),
+                    payload.data() + kDfrTurnHead - 4);
+  return spellDfrHeader({}) + spellDfrChunk(kDfrTurn, payload + records);
 }
 
 }  // namespace

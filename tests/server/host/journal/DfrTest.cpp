@@ -7,6 +7,7 @@
 
 #include "host/journal/DfrReader.h"
 #include "host/journal/DfrWriter.h"
+#include "host/journal/RecordCoder.h"
 #include "shared/values/LittleEndian.h"
 #include "shared/values/SplitMix64.h"
 
@@ -223,9 +224,9 @@ TEST(DfrTest, AChunkThatPromisesTooMuchIsDamaged) {
   EXPECT_EQ(reader.end(), DfrEnd::kDamaged);
 }
 
-// A megabyte of zeros is 30 bytes: a file of a hundred of those would otherwise cost what a hundred megabytes
-// do.
-TEST(DfrTest, AFileThatUnpacksToThousandsOfTimesItsSizeIsDamaged) {
+// What repeats takes next to nothing: a file of it would otherwise cost what one of a thousand times its size
+// does.
+TEST(DfrTest, AFileThatUnpacksToHundredsOfTimesItsSizeIsDamaged) {
   DfrTurnPacker packer;
   std::string records;
   for (int i = 0; i < 100'000; ++i)
@@ -239,6 +240,62 @@ TEST(DfrTest, AFileThatUnpacksToThousandsOfTimesItsSizeIsDamaged) {
   DfrReader reader(bytes);
   EXPECT_EQ(countRecords(reader), 0u);
   EXPECT_EQ(reader.end(), DfrEnd::kDamaged);
+}
+
+TEST(RecordCoder, AnyBytesComeBackInPiecesOfAnySize) {
+  SplitMix64 random(3);
+  RecordPacker packer;
+  RecordUnpacker unpacker;
+  for (int i = 0; i < 300; ++i) {
+    std::string bytes(random.below(200), '\0');
+    for (char& byte : bytes) byte = static_cast<char>(random.below(i % 3 == 0 ? 256 : 1 + i % 5));
+    std::string packed;
+    std::string back;
+    packer.pack(bytes, packed);
+    unpacker.unpack(packed, bytes.size(), back);
+    ASSERT_EQ(back, bytes) << i;
+    ASSERT_LE(packed.size(), bytes.size() + bytes.size() / 4 + 8);
+  }
+}
+
+// Files are read on other machines, and by later versions.
+TEST(RecordCoder, TheBytesAreThoseThatTheyWere) {
+  std::string records;
+  TurnRecordWriter writer;
+  SplitMix64 random(11);
+  for (int i = 0; i < 200; ++i) writer.write(randomTurn(random), records);
+  std::string packed;
+  RecordPacker().pack(records, packed);
+  EXPECT_EQ(crc32c(records), 0u);
+  EXPECT_EQ(crc32c(packed), 0u) << packed.size();
+}
+
+TEST(RecordCoder, AnyBytesComeBackInPiecesOfAnySize) {
+  SplitMix64 random(3);
+  RecordPacker packer;
+  RecordUnpacker unpacker;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    std::string bytes(random.below(200), '\0');
+    for (char& byte : bytes) byte = static_cast<char>(random.below(i % 3 == 0 ? 256 : 1 + i % 5));
+    std::string packed;
+    std::string back;
+    packer.pack(bytes, packed);
+    unpacker.unpack(packed, bytes.size(), back);
+    ASSERT_EQ(back, bytes) << i;
+    ASSERT_LE(packed.size(), bytes.size() + bytes.size() / 4 + 8);
+  }
+}
+
+// Files are read on other machines, and by later versions.
+TEST(RecordCoder, TheBytesAreThoseThatTheyWere) {
+  std::string records;
+  TurnRecordWriter writer;
+  SplitMix64 random(11);
+  for (int i = 0; i < 200; ++i) writer.write(randomTurn(random), records);
+  std::string packed;
+  RecordPacker().pack(records, packed);
+  EXPECT_EQ(crc32c(records), 0u);
+  EXPECT_EQ(crc32c(packed), 0u) << packed.size();
 }
 
 TEST(DfrTest, TheChecksumIsCrc32c) {

@@ -52,10 +52,11 @@ std::uint64_t byInstruction() {
 
 std::uint64_t byThread() {
   std::atomic<bool> ends{false};
-  std::uint64_t count = 0;
+  std::atomic<std::uint64_t> count{0};
   std::thread other([&] {
     while (!ends) ++count;
   });
+  while (count < 1000) std::this_thread::yield();
   for (int i = 0; i < 100'000; ++i) asm volatile("");
   ends = true;
   other.join();
