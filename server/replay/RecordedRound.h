@@ -56,7 +56,7 @@ class RoundStage {
 
  private:
   std::string findModule(const std::string& game);
-  void findDifferences(const SandboxSupport& support);
+  void findDifferences();
 
   const RecordedRound& m_round;
   std::filesystem::path m_folder;

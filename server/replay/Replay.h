@@ -41,6 +41,8 @@ class Replay {
   const std::string& failure() const { return m_failure; }
   /// Files that the game reads and that are other ones than they were.
   const std::vector<std::string>& otherFiles() const { return m_other_files; }
+  /// Does it have the addresses that it had?
+  bool hasFixedAddresses() const { return m_world.ready()->fixed_addresses; }
   DfrEnd end() const { return m_reader->end(); }
   const std::string& why() const { return m_reader->why(); }
 

@@ -140,6 +140,7 @@ bool verifyRound(const RecordedRound& round, const RoundStage& stage, std::ostre
   Replay replay(round, stage);
   for (const std::string& file : replay.otherFiles())
     out << "note: the file " << safeText(file, 300) << " is another one than it was\n";
+  if (!replay.hasFixedAddresses()) out << "note: addresses cannot be fixed here\n";
   const auto begin = std::chrono::steady_clock::now();
   while (replay.firstDifference() == 0 && replay.step()) continue;
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;

@@ -75,9 +75,10 @@ std::string buildIdOf(const dl_phdr_info& info) {
   return {};
 }
 
-DfrFacts factsOfFiles(const WorldProcess& world) {
+DfrFacts factsOfStart(const WorldProcess& world) {
   DfrFacts facts;
   if (!world.ready()) return facts;
+  facts[kFactAddresses] = world.ready()->fixed_addresses ? "fixed" : "random";
   for (const ReadFile& file : world.ready()->files) facts[kFactFile + file.name] = hexNumber(file.hash);
   return facts;
 }
@@ -156,12 +157,6 @@ WorldOrder Journals::makeOrder() const {
   return order;
 }
 
-DfrFacts Journals::factsOf(const SandboxSupport& support) const {
-  DfrFacts facts = m_facts;
-  facts[kFactAddresses] = support.addresses != 0 ? "fixed" : "random";
-  return facts;
-}
-
 std::string Journals::pathOf(const DfrHeader& header) const {
   const auto seconds = static_cast<std::time_t>(header.start_nanos / 1'000'000'000);
   std::tm utc{};
@@ -172,7 +167,7 @@ std::string Journals::pathOf(const DfrHeader& header) const {
 }
 
 std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
-                                          const SandboxSupport& support, RepeatCheck::NewWorld again) {
+                                          RepeatCheck::NewWorld again) {
   DfrHeader header;
   std::random_device device;
   for (std::uint8_t& byte : header.uuid) byte = static_cast<std::uint8_t>(device());
@@ -183,13 +178,13 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
   JournaledWorld::Book book;
   book.writer = m_writer;
   try {
-    book.journal = std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header,
-                                             factsOf(support), m_ring, true);
+    book.journal =
+        std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header, m_facts, m_ring, true);
   } catch (const std::system_error& error) {
     m_log({LogEvent::Level::kError, "this round is not written down: " + std::string(error.what())});
     return world;
   }
-  book.late_facts = [p_world = world.get()] { return factsOfFiles(*p_world); };
+  book.late_facts = [p_world = world.get()] { return factsOfStart(*p_world); };
   book.on_problem = [log = m_log, path](const std::string& problem) {
     log({LogEvent::Level::kError,
          "the round is not written down any more, and goes on: " + problem + " (" + path + ")"});

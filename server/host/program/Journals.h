@@ -6,7 +6,6 @@
 
 #include "host/journal/JournaledWorld.h"
 #include "host/program/HostOptions.h"
-#include "host/world/Sandbox.h"
 #include "host/world/WorldOrder.h"
 #include "host/world/WorldProcess.h"
 #include "shared/program/LineLog.h"
@@ -26,10 +25,9 @@ class Journals {
   /// That world, its turns written down. If they cannot be, the log says so, and it plays without. `again`
   /// starts another one from the same order: the first round of this server is held against it.
   std::unique_ptr<WorldPort> keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
-                                  const SandboxSupport& support, RepeatCheck::NewWorld again = {});
+                                  RepeatCheck::NewWorld again = {});
 
  private:
-  DfrFacts factsOf(const SandboxSupport& support) const;
   std::string pathOf(const DfrHeader& header) const;
 
   const std::string m_folder;

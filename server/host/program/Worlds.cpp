@@ -114,7 +114,7 @@ Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLin
         return std::make_unique<WorldProcess>(home, launcher->start(again), OutputRelay::Line());
       };
     }
-    return journals->keep(std::move(world), order, launcher->support(), std::move(start_again));
+    return journals->keep(std::move(world), order, std::move(start_again));
   };
 }
 

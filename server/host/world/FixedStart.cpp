@@ -45,6 +45,11 @@ bool canFixAddresses() {
   return trial > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+bool hasFixedAddresses() {
+  const int now = personality(0xffffffff);
+  return now >= 0 && (now & ADDR_NO_RANDOMIZE) != 0;
+}
+
 bool fixAddresses() {
   rlimit stack{};
   if (getrlimit(RLIMIT_STACK, &stack) == 0) {

@@ -16,6 +16,9 @@ void padEnvironment(const std::string& program, const std::vector<std::string>& 
 /// Would fixAddresses() do? Tried in a process that ends then.
 bool canFixAddresses();
 
+/// Are those of this process?
+bool hasFixedAddresses();
+
 /// For this process, which is about to execute a program: the same addresses each time. False: this kernel,
 /// or whoever has started the server, does not let it.
 bool fixAddresses();

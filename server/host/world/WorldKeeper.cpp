@@ -142,7 +142,7 @@ Sandbox sandboxOf(const WorldProgram& program, const WorldOrder& order) {
   if (chdir(program.directory.c_str()) != 0) fail(kFailure, errno);
   std::vector<std::string> words = program.arguments;
   std::vector<std::string> entries = environmentOf(program, order);
-  if (order.repeatable) fixAddresses();  // if it cannot be, the round's facts say so
+  if (order.repeatable && support.addresses != 0) fixAddresses();
   const std::vector<char*> arguments = pointersTo(words);
   const std::vector<char*> environment = pointersTo(entries);
   if (program.sandbox.on) {

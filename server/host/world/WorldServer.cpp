@@ -8,6 +8,7 @@
 #include "engine/world/StateHash.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "host/world/FixedStart.h"
 #include "host/world/Repeatable.h"
 
 namespace naiad {
@@ -34,6 +35,7 @@ WorldReady readyOf(const df::World& world) {
   ready.compat = world.compat();
   ready.help = world.getHelp();
   ready.files = takeReadFiles();
+  ready.fixed_addresses = hasFixedAddresses();
   return ready;
 }
 

@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <string>
 
 #include "host/program/GameModule.h"
 #include "host/program/Journals.h"
+#include "host/world/FixedStart.h"
 #include "server/replay/PictureReel.h"
 #include "server/replay/Replay.h"
 #include "server/replay/RoundPlayer.h"
@@ -47,7 +49,7 @@ TEST_P(ShippedGameTest, ThreeRoundsOfItAreTheSameAgain) {
     const std::string text = verify(file, "", same);
     EXPECT_TRUE(same) << "seed " << seed << ": " << text;
     EXPECT_NE(text.find("verified ticks="), std::string::npos) << text;
-    EXPECT_EQ(text.find("note:"), std::string::npos) << text;
+    EXPECT_EQ(text.find("is another one than it was"), std::string::npos) << text;
   }
 }
 
@@ -114,6 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, UnsteadyGameTest,
 class CuredGameTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(CuredGameTest, IsTheSameAgain) {
+  if (GetParam() == "pointers" && !canFixAddresses()) GTEST_SKIP() << "addresses cannot be fixed here";
   Recorder recorder;
   const std::string module = unsteady(recorder.folder(), GetParam());
   const fs::path file = recorder.record({.game = module, .ticks = 100, .players = 1});
@@ -128,18 +131,22 @@ INSTANTIATE_TEST_SUITE_P(Ways, CuredGameTest, testing::Values("time", "device", 
 TEST(VerifyTest, RoundsOfOneSeedThatBeginAtDifferentTimesHaveDifferentClocks) {
   Recorder recorder;
   const std::string module = unsteady(recorder.folder(), "time");
-  const auto picture = [&](const fs::path& file) {
+  const auto state = [](const fs::path& file) {
     const RecordedRound round(file);
-    const RoundStage stage(round, module);
-    std::ostringstream out;
-    EXPECT_TRUE(printPicture(round, stage, 60, 0, out));
-    return out.str();
+    const auto reader = round.read();
+    std::optional<std::uint64_t> hash;
+    while (const auto record = reader->next()) {
+      if (const auto* p_result = std::get_if<TickResult>(&*record);
+          p_result != nullptr && p_result->state_hash)
+        hash = p_result->state_hash;
+    }
+    return hash;
   };
-  const std::string first = picture(recorder.record({.game = module, .ticks = 60, .players = 1}));
+  const auto first = state(recorder.record({.game = module, .ticks = 60, .players = 1}));
   fs::remove_all(recorder.folder() / "seed-1");
-  const std::string second = picture(recorder.record({.game = module, .ticks = 60, .players = 1}));
-  EXPECT_NE(first.find('@'), std::string::npos) << first;
-  EXPECT_NE(first, second);
+  const auto second = state(recorder.record({.game = module, .ticks = 60, .players = 1}));
+  ASSERT_TRUE(first && second);
+  EXPECT_NE(*first, *second);
 }
 
 class RoundTest : public testing::Test {

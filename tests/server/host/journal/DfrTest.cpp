@@ -235,39 +235,11 @@ TEST(DfrTest, AFileThatUnpacksToHundredsOfTimesItsSizeIsDamaged) {
         "aaa",
         5);
   std::string bytes = spellDfrHeader({});
-  for (int i = 0; i < 100; ++i) bytes += packer.pack(records);
+  for (int i = 0; i < 30; ++i) bytes += packer.pack(records);
   ASSERT_LT(bytes.size(), 20'000u);
   DfrReader reader(bytes);
   EXPECT_EQ(countRecords(reader), 0u);
   EXPECT_EQ(reader.end(), DfrEnd::kDamaged);
-}
-
-TEST(RecordCoder, AnyBytesComeBackInPiecesOfAnySize) {
-  SplitMix64 random(3);
-  RecordPacker packer;
-  RecordUnpacker unpacker;
-  for (int i = 0; i < 300; ++i) {
-    std::string bytes(random.below(200), '\0');
-    for (char& byte : bytes) byte = static_cast<char>(random.below(i % 3 == 0 ? 256 : 1 + i % 5));
-    std::string packed;
-    std::string back;
-    packer.pack(bytes, packed);
-    unpacker.unpack(packed, bytes.size(), back);
-    ASSERT_EQ(back, bytes) << i;
-    ASSERT_LE(packed.size(), bytes.size() + bytes.size() / 4 + 8);
-  }
-}
-
-// Files are read on other machines, and by later versions.
-TEST(RecordCoder, TheBytesAreThoseThatTheyWere) {
-  std::string records;
-  TurnRecordWriter writer;
-  SplitMix64 random(11);
-  for (int i = 0; i < 200; ++i) writer.write(randomTurn(random), records);
-  std::string packed;
-  RecordPacker().pack(records, packed);
-  EXPECT_EQ(crc32c(records), 0u);
-  EXPECT_EQ(crc32c(packed), 0u) << packed.size();
 }
 
 TEST(RecordCoder, AnyBytesComeBackInPiecesOfAnySize) {
@@ -294,8 +266,9 @@ TEST(RecordCoder, TheBytesAreThoseThatTheyWere) {
   for (int i = 0; i < 200; ++i) writer.write(randomTurn(random), records);
   std::string packed;
   RecordPacker().pack(records, packed);
-  EXPECT_EQ(crc32c(records), 0u);
-  EXPECT_EQ(crc32c(packed), 0u) << packed.size();
+  EXPECT_EQ(crc32c(records), 368131252u);
+  EXPECT_EQ(packed.size(), 557u);
+  EXPECT_EQ(crc32c(packed), 248523405u);
 }
 
 TEST(DfrTest, TheChecksumIsCrc32c) {

@@ -91,7 +91,7 @@ std::uint64_t number() {
   if (way == "device") return std::random_device()();
   if (way == "time")
     return static_cast<std::uint64_t>(time(nullptr)) ^
-           static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+           static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
   return value;
 }
 
