@@ -5,7 +5,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -51,35 +50,6 @@ TEST_P(ShippedGameTest, ThreeRoundsOfItAreTheSameAgain) {
     EXPECT_NE(text.find("verified ticks="), std::string::npos) << text;
     EXPECT_EQ(text.find("is another one than it was"), std::string::npos) << text;
   }
-}
-
-/// Bytes of an hour's turns, written once a second as a server does.
-double bytesPerHour(const fs::path& file) {
-  const RecordedRound round(file);
-  const auto reader = round.read();
-  TurnRecordWriter writer;
-  DfrTurnPacker packer;
-  std::string records;
-  std::size_t bytes = 0;
-  std::uint32_t ticks = 0;
-  while (const auto record = reader->next()) {
-    const bool is_turn = std::holds_alternative<WorldTurn>(*record);
-    if (is_turn && ticks > 0 && ticks % 30 == 0) {
-      bytes += packer.pack(records).size();
-      records.clear();
-    }
-    ticks += is_turn ? 1 : 0;
-    std::visit([&](const auto& one) { writer.write(one, records); }, *record);
-  }
-  bytes += packer.pack(records).size();
-  return static_cast<double>(bytes) / ticks * 30 * 3600;
-}
-
-TEST_P(ShippedGameTest, AnHourOfFourPlayersTakesHalfAMegabyte) {
-  Recorder recorder;
-  const double bytes = bytesPerHour(recorder.record({.game = GetParam(), .seed = 9, .ticks = 3000}));
-  std::cout << "journal game=" << GetParam() << " bytes_per_hour=" << static_cast<long>(bytes) << "\n";
-  EXPECT_LE(bytes, 500'000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Games, ShippedGameTest, testing::ValuesIn(GameModule::available()),
