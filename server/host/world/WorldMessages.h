@@ -28,9 +28,9 @@ struct WorldReady {
   int window_height = 24;
   int frame_millis = 33;  ///< as df-config.txt writes it, up to kMaxFrameMillis
   bool compat = false;
-  bool fixed_addresses = false;   ///< of this process (FixedStart.h)
-  std::vector<ReadFile> files;    ///< that the game has read so far, if it is to be repeatable
   std::vector<std::string> help;  ///< at most kMaxHelpLines of kMaxHelpLength bytes
+  std::vector<ReadFile> files;    ///< that the game has read so far, if it is to be repeatable
+  bool fixed_addresses = false;   ///< of this process (FixedStart.h)
 };
 inline constexpr int kMaxFrameMillis = 1000;
 
