@@ -103,6 +103,7 @@ A text-character game engine with the interface of Dragonfly, with bodies
 and joints, whose games are servers: players join them over a network.
 
 This package has headers, files for CMake and pkg-config, the sources of
-ten games, and dragonfly-adopt, which tries games that were written for the
-published engine.")
+ten games, dragonfly-new, which makes a game to begin with, dragonfly-adopt,
+which tries games that were written for the published engine, and
+dragonfly-mark, which does so with a folder of them.")
 include(CPack)

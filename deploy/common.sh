@@ -26,10 +26,16 @@ package_packages="dpkg-dev file"
 package_check_packages="lintian mmdebstrap systemd man-db groff zsh fish"
 
 # What it takes to build and run, and what the tests need on top of it (Debian 12 names).
-build_packages="g++ cmake ninja-build libasio-dev libprotobuf-dev protobuf-compiler libncurses-dev libcli11-dev libssl-dev libargon2-dev libicu-dev libqrencode-dev libboost-dev zlib1g-dev nlohmann-json3-dev"
+build_packages="g++ cmake ninja-build libasio-dev libprotobuf-dev protobuf-compiler libncurses-dev libcli11-dev libssl-dev libargon2-dev libicu-dev libqrencode-dev libboost-dev zlib1g-dev libsqlite3-dev nlohmann-json3-dev"
 # What the page for browsers is made with, and what it is tested in.
 page_packages="emscripten python3-fonttools python3-brotli python3-protobuf fonts-dejavu-core"
-check_packages="$build_packages $page_packages chromium chromium-driver ccache libgtest-dev tmux python3 clang clang-format clang-tidy libclang-rt-14-dev ncurses-term openssh-client openssh-server openssl iproute2 fail2ban dpkg-dev systemd man-db groff zsh fish"
+check_packages="$build_packages $page_packages doxygen pkg-config chromium chromium-driver ccache libgtest-dev tmux python3 clang clang-format clang-tidy libclang-rt-14-dev ncurses-term openssh-client openssh-server openssl iproute2 fail2ban dpkg-dev systemd man-db groff zsh fish"
+
+# What makes the pages of the headers.
+docs_packages="doxygen"
+
+# A dfclient for 64-bit ARM: to compile it, and to run it in a test.
+arm64_packages="g++-aarch64-linux-gnu qemu-user-static"
 
 # What the benchmarks need on top of building, the libraries that they compare with among it.
 bench_packages="$build_packages openssl libbox2d-dev libchipmunk-dev valgrind python3 libvterm-dev openssh-client openssh-server mosh"

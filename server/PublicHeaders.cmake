@@ -47,6 +47,7 @@ set(naiad_public_headers
   server/engine/sprites/Animation.h
   server/engine/sprites/Frame.h
   server/engine/sprites/Sprite.h
+  server/engine/testing/GameTest.h
   server/engine/widgets/Button.h
   server/engine/widgets/Fraps.h
   server/engine/widgets/Pause.h

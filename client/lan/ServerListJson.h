@@ -13,10 +13,10 @@
 
 namespace naiad {
 
-/// Nothing unless `json` is a JSON object or an array of objects (RFC 8259), at most 8 levels deep. Of an
-/// object name, game, players, max_players, password, protocol and link are read; numbers out of range count
-/// as the nearest in it, members of another type as missing. Objects without a link that leads somewhere are
-/// passed over. The list is cut as FoundServers cuts it.
+/// Nothing unless `json` is a JSON object or an array of objects (RFC 8259), of UTF-8, at most 8 levels deep.
+/// Of an object name, game, players, max_players, password, protocol and link are read; numbers out of range
+/// count as the nearest in it, members of another type as missing. Objects without a link that leads
+/// somewhere are passed over. The list is cut as FoundServers cuts it.
 std::optional<FoundServers> readServerList(std::string_view json);
 
 }  // namespace naiad

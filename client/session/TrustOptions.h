@@ -13,11 +13,11 @@ namespace naiad {
 
 /// What the command line and the environment say about the server.
 struct ServerChoice {
-  std::string text;                  ///< HOST[:PORT], or a link (JoinLink.h)
-  std::string visitors;              ///< path of a visitors' socket; empty: straight to the server
-  std::string visitor;               ///< with it, the address of the remote player: ADDRESS:PORT
-  bool is_password_ambient = false;  ///< the password is from the environment, not given for this server
-  std::optional<ShortKey> list_key;  ///< `text` was chosen from a list, which says that it has this key
+  std::string text = {};                  ///< HOST[:PORT], or a link (JoinLink.h)
+  std::string visitors = {};              ///< path of a visitors' socket; empty: straight to the server
+  std::string visitor = {};               ///< with it, the address of the remote player: ADDRESS:PORT
+  bool is_password_ambient = false;       ///< the password is from the environment, not given for this server
+  std::optional<ShortKey> list_key = {};  ///< `text` was chosen from a list, which says that it has this key
 
   /// Links, pages and lists do not get the password from the environment: strangers make them.
   bool dropsPassword() const;

@@ -4,6 +4,8 @@ complete -c dragonfly-adopt -l main -r -F -d 'The file with main(), if there are
 complete -c dragonfly-adopt -l seconds -x -d 'How long to run it'
 complete -c dragonfly-adopt -l seed -x -d 'Of the random keys'
 complete -c dragonfly-adopt -l keys -r -F -d 'What to press instead'
+complete -c dragonfly-adopt -l players -x -d 'How many players join'
+complete -c dragonfly-adopt -l book -d 'With the rules of the book'
 complete -c dragonfly-adopt -l cxx -x -d 'The compiler'
 complete -c dragonfly-adopt -l unconfined -d 'Without the sandbox'
 complete -c dragonfly-adopt -l json -d 'Print JSON'

@@ -6,6 +6,8 @@ _arguments \
   '--seconds=[how long to run it]:seconds: ' \
   '--seed=[of the random keys]:seed: ' \
   '--keys=[what to press instead]:script:_files' \
+  '--players=[how many players join]:number: ' \
+  '--book[with the rules of the book]' \
   '--cxx=[the compiler]:compiler:_command_names -e' \
   '--unconfined[without the sandbox]' \
   '--json[print JSON]' \

@@ -1,13 +1,17 @@
 #include "server/gateway/GameLink.h"
 
+#include <algorithm>
 #include <boost/asio/error.hpp>
-#include <chrono>
 #include <utility>
 
 namespace naiad {
 namespace {
 
-constexpr std::chrono::milliseconds kRetryDelay{50};
+/// Between two attempts, twice as long after each.
+constexpr std::chrono::milliseconds kFirstRetryDelay{50};
+constexpr std::chrono::milliseconds kLastRetryDelay{800};
+/// A server that many reach at once hangs up on some of them: they come again for as long as dfclient would.
+constexpr std::chrono::seconds kPatience{4};
 
 }  // namespace
 
@@ -17,7 +21,22 @@ GameLink::GameLink(GatewayExecutor executor, const GameServer& server)
 void GameLink::open(std::string header, Done done) {
   m_header = std::move(header);
   m_done = std::move(done);
+  m_retry_delay = kFirstRetryDelay;
+  m_retry_until = std::chrono::steady_clock::now() + kPatience;
   connect();
+}
+
+bool GameLink::connectAgain() {
+  if (std::chrono::steady_clock::now() >= m_retry_until) return false;
+  error_code ignored;
+  m_socket.close(ignored);
+  if (m_stream) m_stream->close();
+  m_retry.expires_after(m_retry_delay);
+  m_retry_delay = std::min(2 * m_retry_delay, kLastRetryDelay);
+  m_retry.async_wait([self = shared_from_this()](error_code) {
+    if (self->m_done) self->connect();
+  });
+  return true;
 }
 
 void GameLink::connect() {
@@ -27,17 +46,12 @@ void GameLink::connect() {
 }
 
 void GameLink::onConnected(error_code error) {
-  if (error == boost::asio::error::try_again) {  // as many as may wait are waiting there
-    error_code ignored;
-    m_socket.close(ignored);
-    m_retry.expires_after(kRetryDelay);
-    m_retry.async_wait([self = shared_from_this()](error_code) {
-      if (self->m_done) self->connect();
-    });
-    return;
-  }
   // The header fits into the socket's empty buffer as a whole.
   if (!error) m_socket.write_some(boost::asio::buffer(m_header), error);
+  // As many as may wait are waiting there, or it hung up at once.
+  const bool for_now = error == boost::asio::error::try_again || error == boost::asio::error::broken_pipe ||
+                       error == boost::asio::error::connection_reset;
+  if (for_now && connectAgain()) return;
   if (error) return finish(End::kUnreachable, error.message());
   m_stream.emplace(std::move(m_socket));
   if (!m_stream->startTls(m_server.tls->get(), SecureSocket::Role::kClient))
@@ -48,6 +62,7 @@ void GameLink::onConnected(error_code error) {
 }
 
 void GameLink::onHandshake(error_code error) {
+  if (error && m_stream->hasEnded() && connectAgain()) return;
   if (error) return finish(End::kUnreachable, "it hung up in the handshake, or is no Naiad server");
   const auto key = m_stream->provenKey(kAlpn);
   if (!key) return finish(End::kUnreachable, "it does not speak " + std::string(kAlpn));

@@ -5,6 +5,7 @@
 #include <array>
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -35,8 +36,8 @@ class GameLink : public std::enable_shared_from_this<GameLink> {
 
   GameLink(GatewayExecutor executor, const GameServer& server);
 
-  /// For a visitor from there; `header` is what the server is to read first. There is no time limit: the
-  /// caller closes it.
+  /// For a visitor from there; `header` is what the server is to read first. A server that hangs up before it
+  /// has proved a key is tried again for a few seconds. There is no time limit: the caller closes it.
   void open(std::string header, Done done);
   /// After End::kOpen: for bytes both ways.
   SecureSocket& stream() { return *m_stream; }
@@ -48,6 +49,8 @@ class GameLink : public std::enable_shared_from_this<GameLink> {
   using Local = boost::asio::local::stream_protocol;
 
   void connect();
+  /// A little later. False if that has gone on for long enough.
+  bool connectAgain();
   void onConnected(error_code error);
   void onHandshake(error_code error);
   void finish(End end, const std::string& problem);
@@ -59,6 +62,8 @@ class GameLink : public std::enable_shared_from_this<GameLink> {
       m_retry;
   std::optional<SecureSocket> m_stream;
   std::string m_header;
+  std::chrono::milliseconds m_retry_delay{};
+  std::chrono::steady_clock::time_point m_retry_until;
   Done m_done;  // empty: over
   bool m_is_open = false;
 };

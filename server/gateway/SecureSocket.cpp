@@ -71,6 +71,10 @@ std::optional<Fingerprint> SecureSocket::provenKey(std::string_view protocol) co
   return Fingerprint::of(*certificate);
 }
 
+bool SecureSocket::hasEnded() const {
+  return m_tls && (m_tls->bio.ended || m_tls->bio.failed);
+}
+
 bool SecureSocket::hasUnsent(std::size_t limit) {
   if (m_unsent_bound <= limit) return false;
   int bytes = 0;

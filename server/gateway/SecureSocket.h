@@ -48,6 +48,8 @@ class SecureSocket {
   /// than 4 KiB (ClientHelloGuard.h).
   bool startTls(ssl_ctx_st* context, Role role);
   bool hasTls() const { return m_tls != nullptr; }
+  /// Under TLS: the other end has closed the connection, or it broke; as opposed to what it said being wrong.
+  bool hasEnded() const;
   /// For a client after its handshake: the key that the other end proved to hold; nothing if it did not agree
   /// to `protocol` by ALPN.
   std::optional<Fingerprint> provenKey(std::string_view protocol) const;

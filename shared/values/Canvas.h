@@ -27,6 +27,7 @@ class Canvas {
   /// A blank canvas, `width` by `height` cells (both >= 0).
   Canvas(int width, int height);
 
+  /// Size in cells.
   int width() const { return m_width; }
   int height() const { return m_height; }
   /// All cells blank.

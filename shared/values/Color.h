@@ -19,7 +19,9 @@ enum Color {
   CUSTOM,  ///< a mix of red, green and blue, where a game gives one; never on the wire, never in a cell
 };
 
+/// What is drawn without a colour.
 inline constexpr Color COLOR_DEFAULT = WHITE;
+/// Colours that a terminal shows.
 inline constexpr int kColorCount = 8;
 
 }  // namespace df

@@ -101,6 +101,7 @@ enum Key : int {
   RBRACKET = RIGHTBRACKET,
 };
 
+/// Keys that travel on the wire.
 inline constexpr int kKeyCount = PAGEDOWN + 1;
 
 }  // namespace Keyboard
@@ -115,6 +116,7 @@ enum EventKeyboardAction : int {
 
 namespace Mouse {
 
+/// Buttons of a mouse.
 enum Button : int {
   UNDEFINED_MOUSE_BUTTON = -1,
   LEFT = 0,

@@ -20,12 +20,14 @@ class Vector {
   /// The exact value of a fixed-point vector (rounded beyond 2^21 cells, see Fixed.h).
   static constexpr Vector fromFixed(FixedVector v) { return {toCells(v.x), toCells(v.y)}; }
 
+  /// In cells, or cells per tick.
   void setX(double x) { m_x = x; }
   void setY(double y) { m_y = y; }
   void setXY(double x, double y) {
     m_x = x;
     m_y = y;
   }
+  /// As floats, as in the book; x() and y() keep all digits.
   float getX() const { return static_cast<float>(m_x); }
   float getY() const { return static_cast<float>(m_y); }
   /// All digits, where the book's float is too short (positions beyond about 10,000 cells).
@@ -39,6 +41,7 @@ class Vector {
   /// Make the length 1, keeping the direction. The zero vector stays as it is.
   void normalize();
 
+  /// Component by component.
   Vector& operator+=(const Vector& other);
   Vector& operator-=(const Vector& other);
   friend Vector operator+(Vector a, const Vector& b) { return a += b; }

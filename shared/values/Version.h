@@ -3,6 +3,7 @@
 
 namespace naiad {
 
+/// Of programs and library.
 inline constexpr const char* kVersion = "0.1.0";
 
 }  // namespace naiad

@@ -32,6 +32,8 @@ class GameProgram {
   std::string log() const;
   /// Its key is in identity/key.pem there.
   std::filesystem::path directory() const { return m_directory; }
+  /// The socket for its commands.
+  std::filesystem::path control() const { return m_directory / "control.sock"; }
   std::filesystem::path playFolder() const { return m_directory / "play"; }
   pid_t process() const { return m_process; }
 

@@ -5,26 +5,32 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "GameProgram.h"
 #include "Home.h"
+#include "RunProgram.h"
 #include "TestClient.h"
 #include "TestServer.h"
 #include "host/auth/PasswordHash.h"
 #include "host/auth/ServerIdentity.h"
+#include "shared/net/stream/VisitorHeader.h"
+#include "tests/server/host/admin/Talk.h"
+#include "tests/support/net/HttpClient.h"
 
 namespace naiad::test {
 namespace {
@@ -107,6 +113,10 @@ class HostedServer : public testing::Test {
   bool endsWell() const {
     const int status = server->wait();
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  }
+
+  std::pair<int, std::string> ctl(const std::string& command) const {
+    return runCtl("--control " + server->control().string() + " " + command);
   }
 
   Home home;
@@ -273,11 +283,7 @@ TEST_F(HostedServer, WithoutBeingAskedChatIsNotLogged) {
 std::string fail2banFinds(const GameProgram& server, const std::string& mode) {
   const std::string command = "fail2ban-regex '" + (server.directory() / "log").string() + "' '" +
                               NAIAD_SOURCE_DIR "/deploy/fail2ban/naiad.conf[mode=" + mode + "]' 2>&1";
-  std::string text;
-  char piece[4096];
-  FILE* p_output = popen(command.c_str(), "r");
-  while (const std::size_t size = fread(piece, 1, sizeof piece, p_output)) text.append(piece, size);
-  pclose(p_output);
+  const std::string text = runProgram(command).second;
   const std::size_t at = text.find("Lines: ");
   return at == std::string::npos ? text : text.substr(at, text.find('\n', at) - at);
 }
@@ -371,6 +377,147 @@ TEST(HostedWorld, AClientThatDoesNotLookAgainEnds) {
   server.end({.begins_again = true, .at = Clock::now()});
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
   EXPECT_EQ(ann.connection().sentence(), "The server restarts. It is back in a moment.");
+}
+
+// ---- by dfctl ---------------------------------------------------------------------------------------------
+
+class Restarts : public HostedServer, public testing::WithParamInterface<const char*> {
+ protected:
+  /// How often dfserver has begun; a world of its own is marked.
+  std::size_t begun() const {
+    const std::regex line("\\n[-0-9]+ [:0-9]+ dfserver \\S+ hosts ");
+    const std::string lines = "\n" + server->log();
+    return static_cast<std::size_t>(
+        std::distance(std::sregex_iterator(lines.begin(), lines.end(), line), {}));
+  }
+};
+
+TEST_P(Restarts, TheSameProcessBeginsAgainOnItsPortAndPlayersComeBack) {
+  start({{"NAIAD_ON_GAME_OVER", GetParam()}});
+  ClientSetup setup = home.player("ann");
+  setup.sessions = home.sessions();
+  TestClient& ann = join(setup);
+  const auto [code, text] = ctl("restart");
+  EXPECT_EQ(code, 0);
+  EXPECT_EQ(text, "The server restarts now.\n");
+  EXPECT_TRUE(serve([&] { return ann.connection().state() == Connection::State::kSearching; }));
+  EXPECT_TRUE(serve([&] { return ann.joined(); })) << ann.connection().sentence();
+  EXPECT_EQ(begun(), 2u) << server->log();
+  EXPECT_TRUE(ticks(ann));
+  // The new one takes commands where the old one did.
+  EXPECT_NE(ctl("who").second.find("ann"), std::string::npos);
+  EXPECT_EQ(ctl("stop").first, 0);
+  EXPECT_TRUE(endsWell());
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Restarts, testing::Values("exit", "restart"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_F(HostedServer, ARestartCanWaitAndBeCalledOff) {
+  start({});
+  TestClient& ann = join("ann");
+  EXPECT_EQ(ctl("cancel"), std::pair(1, std::string("There is nothing to call off.\n")));
+  EXPECT_EQ(ctl("restart in 1h").second, "The server restarts in 3600 s.\n");
+  EXPECT_TRUE(isTold(ann, "The server restarts in 3600 seconds. Your client comes back by itself."));
+  join("bob");
+  EXPECT_EQ(ctl("cancel"), std::pair(0, std::string("The server goes on.\n")));
+  EXPECT_TRUE(isTold(ann, "The server goes on after all."));
+  EXPECT_TRUE(ticks(ann));
+}
+
+TEST_F(HostedServer, DrainEndsWhenAllHaveLeft) {
+  start({});
+  TestClient& ann = join("ann");
+  EXPECT_EQ(ctl("drain 1h").second,
+            "Nobody is let in any more. The server ends when all have left, and in 3600 s at the latest.\n");
+  EXPECT_EQ(refusal(home.player("bob")), "The server is closing and lets no new players in.");
+  EXPECT_TRUE(ticks(ann));
+  ann.connection().leave();
+  EXPECT_TRUE(serve([&] { return server->log().find(" left\n") != std::string::npos; }));
+  EXPECT_TRUE(endsWell());
+}
+
+TEST_F(HostedServer, ReloadByDfctlSaysWhatBecameOfIt) {
+  start({}, "max-players = 3\n");
+  TestClient& ann = join("ann");
+  writeConfig("max-players = 2\nworld-memory = 1000\n");
+  EXPECT_EQ(
+      ctl("reload"),
+      std::pair(0, std::string("the options were read again: max-players has changed; world-memory needs "
+                               "a restart.\n")));
+  EXPECT_EQ(ctl("set max-players").second, "max-players: 2\n");
+  writeConfig("max-plyers = 4\n");
+  const auto [code, text] = ctl("reload");
+  EXPECT_EQ(code, 1);
+  EXPECT_NE(text.find("there is no option \"max-plyers\"; did you mean max-players?"), std::string::npos)
+      << text;
+  EXPECT_EQ(ctl("set max-players").second, "max-players: 2\n");
+  EXPECT_TRUE(ticks(ann));
+}
+
+/// Does `job` a hundred times a second, on a thread of its own, until it is gone. How often is said by
+/// count().
+class Repeated {
+ public:
+  explicit Repeated(std::function<void()> job)
+      : m_thread([this, job = std::move(job)] {
+          for (auto next = Clock::now(); !m_stopping; next += std::chrono::milliseconds(10)) {
+            std::this_thread::sleep_until(next);
+            job();
+            ++m_count;
+          }
+        }) {}
+  ~Repeated() {
+    m_stopping = true;
+    m_thread.join();
+  }
+  Repeated(const Repeated&) = delete;
+  Repeated& operator=(const Repeated&) = delete;
+
+  int count() const { return m_count; }
+
+ private:
+  std::atomic<bool> m_stopping = false;
+  std::atomic<int> m_count = 0;
+  std::thread m_thread;
+};
+
+// With the thread sanitizer the server ends with another code if it finds a race.
+TEST_F(HostedServer, ScrapersOrdersAndReloadsAHundredTimesASecondDisturbNobody) {
+  start({{"NAIAD_METRICS", "127.0.0.1:0"}, {"NAIAD_METRICS_PORT_FILE", home.identity("metrics-port")}},
+        "max-players = 3\n");
+  std::uint16_t metrics = 0;
+  std::ifstream(home.identity("metrics-port")) >> metrics;
+  TestClient& ann = join("ann");
+  std::atomic<int> bad = 0;
+  {
+    const Repeated scrapes([&] { bad += HttpClient::get(metrics, "/metrics").status == 200 ? 0 : 1; });
+    const Repeated orders([&] {
+      Talk talk(server->control());
+      bad += talk.ask(R"({"command":"status"})").find(R"("ok":true)") == std::string::npos ? 1 : 0;
+      bad += talk.ask(R"({"command":"who"})").find("ann") == std::string::npos ? 1 : 0;
+    });
+    const Repeated reloads([&] {
+      Talk talk(server->control());
+      const std::string answer = talk.ask(R"({"command":"reload"})");
+      bad += answer.find("read") == std::string::npos ? 1 : 0;  // again, or being read already
+    });
+    EXPECT_TRUE(
+        serve([&] { return scrapes.count() >= 200 && orders.count() >= 200 && reloads.count() >= 200; }));
+  }
+  EXPECT_EQ(bad, 0);
+  EXPECT_TRUE(ticks(ann));
+  EXPECT_EQ(ctl("stop").first, 0);
+  EXPECT_TRUE(endsWell()) << server->log();
+}
+
+TEST_F(HostedServer, WhoeverIsHungUpOnBeforeTlsHasALineOfTheLog) {
+  start({{"NAIAD_VISITORS", home.identity("visitors")}});
+  ASSERT_EQ(ctl("ban 192.0.2.0/24").first, 0);
+  ClientSetup eve = home.player("eve");
+  eve.options.visit = Visit{home.identity("visitors"), *visitorFromText("192.0.2.7:50000")};
+  EXPECT_NE(refusal(eve), "");
+  EXPECT_TRUE(logs("192.0.2.7:50000 refused: \"This address is banned.\"")) << server->log();
 }
 
 }  // namespace

@@ -103,7 +103,8 @@ class ServiceTest(unittest.TestCase):
 
     def start(self, *options, program_name="dfserver", preexec=None, variables=None, pass_fds=(), words=()):
         environment = {key: value for key, value in os.environ.items() if not key.startswith(("NAIAD_", "LISTEN_", "WATCHDOG_"))}
-        environment.update(NOTIFY_SOCKET=self.manager.path, XDG_CONFIG_HOME=self.file("config"), XDG_DATA_HOME=self.file("config"))
+        environment.update(NOTIFY_SOCKET=self.manager.path, XDG_CONFIG_HOME=self.file("config"), XDG_DATA_HOME=self.file("config"),
+                           XDG_STATE_HOME=self.file("config"), XDG_RUNTIME_DIR=self.file("config"))
         environment.update(variables or {})
         if program_name == "dfserver":
             options = ["--frame-time", TICK, "--log", self.file("log"), *options]

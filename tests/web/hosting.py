@@ -21,9 +21,14 @@ class Hosting:
         self.link = self._wait_for("server.log", "naiad://")
         self.key = self.link.split("#")[1]
         port_file = os.path.join(self.folder, "port")
-        self.gateway = self._start([os.path.join(bin_, "dfweb"), self.link, "--visitors", self.visitors, "--listen", "127.0.0.1:0",
-                                    "--port-file", port_file, "--page", page, "--name", "a game", *gateway], "gateway.log", environment)
-        self.port = int(self._wait_for_file(port_file))
+
+        def start_gateway(port):
+            self.gateway = self._start([os.path.join(bin_, "dfweb"), self.link, "--visitors", self.visitors, "--listen", f"127.0.0.1:{port}",
+                                        "--port-file", port_file, "--page", page, "--name", "a game", *gateway], "gateway.log", environment)
+            self.port = int(self._wait_for_file(port_file))
+
+        self._port_file, self._start_gateway = port_file, start_gateway
+        start_gateway(0)
         self.address = f"http://127.0.0.1:{self.port}/"
 
     def _start(self, command, log, environment):
@@ -33,9 +38,25 @@ class Hosting:
         self.programs.append(program)
         return program
 
+    def break_lines(self):
+        """All connections with browsers break off without a word; there is a gateway again at the same address."""
+        self.gateway.kill()
+        self.gateway.wait()
+        self.programs.remove(self.gateway)
+        os.remove(self._port_file)
+        self._start_gateway(self.port)
+
     def text(self, log):
         with open(os.path.join(self.folder, log), errors="replace") as file:
             return file.read()
+
+    def wait_for_line(self, log, text):
+        for _ in range(3000):
+            if text in self.text(log):
+                return
+            self._check()
+            time.sleep(0.02)
+        raise RuntimeError(f"{log} has no {text}:\n" + self.text(log))
 
     def _wait_for(self, log, begin):
         for _ in range(3000):

@@ -108,6 +108,17 @@ class PageTest(unittest.TestCase):
             self.browser.wait("return document.body.classList.contains('playing')")
             wait_for(self.browser, "2 players")
 
+    def test_a_line_that_breaks_costs_nothing(self):
+        with Hosting(BUILD, page(), "--game", "saucershoot") as hosting:
+            join(self.browser, hosting)
+            self.begin()
+            before = self.ship_below(0)
+            hosting.break_lines()
+            hosting.wait_for_line("server.log", '"Ada" is back')
+            self.browser.keys(("down", DOWN), ("wait", 500), ("up", DOWN))
+            self.ship_below(before)
+            wait_for(self.browser, "1 player")
+
     def test_chat_help_and_leaving(self):
         with Hosting(BUILD, page(), "--game", "saucershoot") as hosting:
             join(self.browser, hosting)
@@ -141,6 +152,28 @@ class PageTest(unittest.TestCase):
             self.browser.open(hosting.address + "#" + "a" * 26)
             self.browser.wait("return document.querySelector('#said').textContent.includes('another game')")
             self.assertTrue(self.browser.run("return document.querySelector('#play').disabled"))
+
+    def test_a_browser_without_webassembly_gets_a_sentence(self):
+        with Hosting(BUILD, page(), "--game", "hello") as hosting:
+            self.browser.devtools("Page.addScriptToEvaluateOnNewDocument", source="delete globalThis.WebAssembly")
+            self.browser.open(hosting.address)
+            self.browser.wait("return document.querySelector('#said').textContent.includes('no WebAssembly')")
+            self.assertTrue(self.browser.run("return document.querySelector('#play').disabled"))
+
+    def test_a_browser_that_cannot_run_the_script_gets_a_sentence(self):
+        folder = os.path.join(BUILD, "old_page")
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.copytree(page(), folder)
+        with open(os.path.join(folder, "page.js"), "a", encoding="utf-8") as script:
+            script.write("\nwhat no browser ( can read\n")
+        visible = "return getComputedStyle(document.querySelector('#unable')).visibility === 'visible'"
+        with Hosting(BUILD, folder, "--game", "hello") as hosting:
+            self.browser.open(hosting.address)
+            self.assertFalse(self.browser.run(visible), "not at once")
+            self.browser.wait(visible)
+        with Hosting(BUILD, page(), "--game", "hello") as hosting:
+            join(self.browser, hosting)
+            self.assertIsNone(self.browser.run("return document.querySelector('#unable')"))
 
     def test_a_server_that_is_gone_is_said_and_found_again(self):
         with Hosting(BUILD, page(), "--game", "hello") as hosting:

@@ -322,6 +322,7 @@ function isOtherServer() {
 }
 
 async function begin() {
+  element("unable").remove();
   element("sound").setAttribute("aria-pressed", String(sounds.on));
   element("name").value = localStorage.getItem("naiad.name") ?? "";
   element("pad").hidden = element("keyboard").hidden = !touch;

@@ -62,6 +62,10 @@ def _parser():
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the random keys (default 1)")
     parser.add_argument("--keys", metavar="SCRIPT",
                         help="what to press instead: a script, or a file of one, as dfbot --script takes it")
+    parser.add_argument("--players", metavar="N", type=int, default=1,
+                        help="how many players join and press keys, 1 to 16 (default 1)")
+    parser.add_argument("--book", action="store_true",
+                        help="with the book's rules, as dragonfly_game() builds, not the published engine's")
     parser.add_argument("--cxx", metavar="COMPILER", help="the compiler (default: $CXX, else g++, else clang++)")
     parser.add_argument("--unconfined", action="store_true",
                         help="run the game without the sandbox, where the kernel has none: only one that you trust")
@@ -82,6 +86,8 @@ def _check(options):
         raise Usage(f"{options.folder}: no such folder")
     if not 0 <= options.seconds <= 3600:
         raise Usage(f"--seconds {options.seconds:g}: from 0 to 3600")
+    if not 1 <= options.players <= 16:
+        raise Usage(f"--players {options.players}: from 1 to 16")
     if options.keep:
         top, keep = os.path.realpath(options.folder), os.path.realpath(options.keep)
         if os.path.lexists(options.keep):
@@ -137,6 +143,8 @@ def _judge(game, compiler, options, say):
     if not game.choose_program(options.main):
         return None
     building = Building(game, compiler, say)
+    if options.book:
+        building.compiler.definitions.append("-DDF_COMPAT=0")
     game.report.result = "does not build"
     bounded.phase("building it", BUILD_SECONDS)
     built = building.build()

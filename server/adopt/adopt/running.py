@@ -40,7 +40,7 @@ class Running:
             return
         named_keys = keys_of(self._game.sources.code(name) for name in self._game.sources.files)
         trial = Trial(self._game.tree, PROGRAM, self.folder, self._game.naiad, self._options.seconds, self._options.seed,
-                      self._options.keys, named_keys)
+                      self._options.keys, named_keys, players=self._options.players)
         self._say(f"running it for {self._options.seconds:g} s")
         try:
             outcome = trial.run(self._root, confined=not self._options.unconfined)

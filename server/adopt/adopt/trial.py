@@ -27,12 +27,14 @@ class ScriptError(Exception):
 class Trial:
     """How the game is run.
 
-    tree: the treated copy, with the program in it as `program`; folder: of the copy, where it is started; seconds: how long.
+    tree: the treated copy, with the program in it as `program`; folder: of the copy, where it is started; seconds: how long;
+    players: how many join.
     """
 
-    def __init__(self, tree, program, folder, naiad, seconds, seed, keys, named_keys, examined=False):
+    def __init__(self, tree, program, folder, naiad, seconds, seed, keys, named_keys, examined=False, players=1):
         self.tree, self.program, self.folder, self.naiad = tree, program, folder, naiad
         self.seconds, self.seed, self.keys, self.named_keys, self.examined = seconds, seed, keys, named_keys, examined
+        self.players = players
         self.game, self.tmp, self.confined = "/game", "/tmp", True  # as the sandbox has them
 
     def run(self, root, confined=True):
@@ -105,8 +107,8 @@ class Trial:
         found = _TICKS.search(said)
         ticks, objects = (int(found.group(1)), int(found.group(2))) if found else (0, 0)
         ended = _end(game, ticks)
-        # The player could not play; of a game that it lost (4) the game's own end says more.
-        if code not in (None, 0, 4) and ended["state"] in ("played", "hangs"):
+        # The player could not play; of a game that it lost (4), or that did not end in order when asked to, its end says more.
+        if code not in (None, 0, 4) and ended["state"] in ("played", "hangs") and ended["code"] == 0:
             ended = {"state": "refused", "code": code}
         return {**ended, "seconds": time.monotonic() - began, "ticks": ticks, "objects": objects,
                 "text": _last_line(said) or f"dfbot ended with {code}" if code else ""}
@@ -118,7 +120,7 @@ class Trial:
             file.write(self.keys or random_script(self.named_keys, self.seed + number - 1, int(seconds * 30) + 30))
         bot = subprocess.Popen([os.path.join(self.naiad.bin, "dfbot"), f"127.0.0.1:{port}", "--insecure", "--seconds",
                                 f"{seconds:.1f}",
-                                "--script", script, "--quiet", "--name", "adopt"], env=self._environment(0), cwd=self.tmp,
+                                "--script", script, "--quiet", "--name", "adopt", "--clients", str(self.players)], env=self._environment(0), cwd=self.tmp,
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                preexec_fn=lambda: sandbox.limits(600, confined=self.confined))
         deadline = time.monotonic() + seconds + 15

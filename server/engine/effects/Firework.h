@@ -7,6 +7,7 @@ namespace df {
 
 class Firework : public Particle {
  public:
+  /// As Particle's; it is of colour r, g, b, 0 to 255 each.
   Firework(float size, int age, unsigned char opacity, unsigned char r, unsigned char g, unsigned char b)
       : Particle(size, age, opacity, r, g, b) {}
 };

@@ -6,8 +6,10 @@
 
 namespace df {
 
+/// For addParticles(): none of it differs from one particle to the next.
 inline constexpr int NO_SPREAD = 0;
 
+/// What addParticles() makes many of.
 enum ParticleType {
   UNDEFINED_PARTICLE_TYPE = -1,
   SMOKE,
@@ -16,12 +18,14 @@ enum ParticleType {
   FIREWORKS,
 };
 
+/// Which class of particles addParticles() makes.
 enum ParticleClass {
   UNDEFINED_PARTICLE_CLASS = -1,
   PARTICLE,
   FIREWORK,
 };
 
+/// Of addParticles(): towards where they move.
 enum Direction {
   UNDEFINED_DIRECTION = -1,
   UP,
@@ -37,6 +41,7 @@ class Particle : public Object {
   Particle(float size, int age, unsigned char opacity, unsigned char r, unsigned char g, unsigned char b);
   Particle(float size, int age, unsigned char opacity, Color color);
 
+  /// The colour; red, green and blue 0 to 255.
   void setRGB(Color color);
   void setRGB(unsigned char r, unsigned char g, unsigned char b);
   /// Ticks that are left.

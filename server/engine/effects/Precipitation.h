@@ -5,6 +5,7 @@
 
 namespace df {
 
+/// Kinds of weather.
 enum PrecipitationType {
   UNDEFINED_PRECIPITATION_TYPE = -1,
   SNOW,

@@ -25,6 +25,7 @@ class Event {
     m_type = EventType(std::move(new_type));
     m_p_known_type = nullptr;
   }
+  /// What kind it is: one of the constants, as STEP_EVENT, or a name of the game's (book, Listing 4.45).
   const EventType& getType() const { return m_p_known_type != nullptr ? *m_p_known_type : m_type; }
 
  protected:

@@ -8,14 +8,17 @@
 
 namespace df {
 
+/// Register interest in this to get all players' keys.
 inline const EventType KEYBOARD_EVENT("df-keyboard");
 
 class EventKeyboard : public Event {
  public:
   EventKeyboard() { setType(KEYBOARD_EVENT); }
 
+  /// The key (book, Listing 4.84).
   void setKey(Keyboard::Key key) { m_key = key; }
   Keyboard::Key getKey() const { return m_key; }
+  /// Whether it went down, is held, or went up.
   void setKeyboardAction(EventKeyboardAction action) { m_action = action; }
   EventKeyboardAction getKeyboardAction() const { return m_action; }
 

@@ -9,6 +9,7 @@
 
 namespace df {
 
+/// Register interest in this to get all players' mice.
 inline const EventType MSE_EVENT("df-mouse");
 /// The older name.
 inline const EventType MOUSE_EVENT("df-mouse");
@@ -17,6 +18,7 @@ class EventMouse : public Event {
  public:
   EventMouse() { setType(MSE_EVENT); }
 
+  /// Whether a button went down or is held, or the pointer moved.
   void setMouseAction(EventMouseAction action) { m_action = action; }
   EventMouseAction getMouseAction() const { return m_action; }
   /// UNDEFINED_MOUSE_BUTTON for an event of type MOVED.

@@ -8,6 +8,7 @@
 
 namespace df {
 
+/// Comes without being registered for.
 inline const EventType OUT_EVENT("df-out");
 
 class EventOut : public Event {

@@ -5,6 +5,7 @@
 
 namespace df {
 
+/// Register interest in this to be called in each tick, 30 times a second.
 inline const EventType STEP_EVENT("df-step");
 
 class EventStep : public Event {

@@ -13,6 +13,7 @@ namespace df {
 class EventType : public std::string {
  public:
   EventType() = default;
+  /// Of this name; two of one name are equal.
   // Explicit: a comparison with any other string is that of strings.
   explicit EventType(std::string name) : std::string(std::move(name)) {}
 

@@ -9,6 +9,7 @@
 
 namespace df {
 
+/// ViewObjects register interest in this themselves.
 inline const EventType VIEW_EVENT("df-view");
 
 class EventView : public Event {
@@ -19,10 +20,13 @@ class EventView : public Event {
   EventView(std::string new_tag, int new_value, bool new_delta)
       : Event(&VIEW_EVENT), m_tag(std::move(new_tag)), m_value(new_value), m_delta(new_delta) {}
 
+  /// Which ViewObjects it is for: those with this text (ViewObject::setViewString).
   void setTag(std::string new_tag) { m_tag = std::move(new_tag); }
   const std::string& getTag() const { return m_tag; }
+  /// Their new value, or what is added to the old one.
   void setValue(int new_value) { m_value = new_value; }
   int getValue() const { return m_value; }
+  /// Whether the value is added.
   void setDelta(bool new_delta) { m_delta = new_delta; }
   bool getDelta() const { return m_delta; }
 

@@ -18,6 +18,7 @@
 #include "detail/Settings.h"
 
 #if !defined(DF_DEPRECATED)
+/// Marks older names.
 #define DF_DEPRECATED __attribute__((deprecated))
 #endif
 
@@ -33,6 +34,7 @@ class Config {
 
   // Of each setting a getter and a setter, as getFrameTime() and setFrameTime(33). Setters count before
   // GM.startUp() opens the window; those of its size in characters and of its background always (DM.setSize).
+/// A setting with its getter and setter.
 #define DF_SETTING(Type, Name, member)     \
   Type get##Name() const {                 \
     return settings().member;              \
@@ -40,6 +42,7 @@ class Config {
   void set##Name(Type member) {            \
     settings().member = std::move(member); \
   }
+/// The same, of the window: it takes effect at once.
 #define DF_WINDOW_SETTING(Type, Name, member) \
   Type get##Name() const {                    \
     return settings().member;                 \
@@ -49,6 +52,7 @@ class Config {
     applyWindow();                            \
   }
   // clang-format off
+  /// Settings as df-config.txt names them (its comments above say which have an effect).
   DF_SETTING(std::string, Config, text)
   DF_SETTING(int, WindowHorizontalPixels, window_horizontal_pixels)
   DF_SETTING(int, WindowVerticalPixels, window_vertical_pixels)
@@ -74,9 +78,11 @@ class Config {
   // clang-format on
 #undef DF_SETTING
 #undef DF_WINDOW_SETTING
+  /// As `headless:true,` does: no network, and ticks as fast as they go.
   void setHeadless() {
     setHeadless(true);
   }
+  /// Kept, and without effect: terminals show their pointer.
   void setShowMouse() {
     setShowMouse(true);
   }

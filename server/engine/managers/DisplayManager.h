@@ -15,6 +15,7 @@
 #include "StandardHeaders.h"
 #include "Vector.h"
 
+/// The display manager.
 #define DM df::DisplayManager::getInstance()
 
 namespace df {
@@ -26,6 +27,7 @@ enum Justification {
   RIGHT_JUSTIFIED,   ///< it ends just before
 };
 
+/// Size of the published engine's window, in pixels. Nothing here depends on it.
 inline constexpr int WINDOW_HORIZONTAL_PIXELS_DEFAULT = 1024;
 inline constexpr int WINDOW_VERTICAL_PIXELS_DEFAULT = 768;
 /// Titlebar and close button, as bits of the graphics library.
@@ -44,6 +46,7 @@ Vector pixelsToSpaces(Vector pixels);
 
 class DisplayManager : public Manager {
  public:
+  /// The one there is; DM is short for it. It acts on the current world.
   static DisplayManager& getInstance();
 
   int startUp() override;

@@ -19,6 +19,7 @@
 /// The published version that has this interface.
 #define DF_VERSION 4.18
 
+/// The game manager.
 #define GM df::GameManager::getInstance()
 
 namespace df {
@@ -32,6 +33,7 @@ inline constexpr int FRAME_TIME_DEFAULT = 33;
 
 class GameManager : public Manager {
  public:
+  /// The one there is; GM is short for it. It acts on the current world.
   static GameManager& getInstance();
 
   /// Start all managers, take on what df-config.txt says (Config.h), and decide whether to be compatible

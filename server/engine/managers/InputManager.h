@@ -6,12 +6,14 @@
 #include "EventMouse.h"
 #include "Manager.h"
 
+/// The input manager.
 #define IM df::InputManager::getInstance()
 
 namespace df {
 
 class InputManager : public Manager {
  public:
+  /// The one there is; IM is short for it. It acts on the current world.
   static InputManager& getInstance();
 
   int startUp() override;

@@ -54,6 +54,7 @@ class Manager {
   virtual bool isValid(std::string /*event_type*/) const { return true; }
 
  protected:
+  /// Its name, for getType().
   void setType(std::string type) { m_type = std::move(type); }
 
  private:

@@ -12,6 +12,7 @@
 #include "Sprite.h"
 #include "StandardHeaders.h"
 
+/// The resource manager.
 #define RM df::ResourceManager::getInstance()
 
 namespace df {
@@ -23,6 +24,7 @@ inline constexpr int MAX_MUSICS = 50;
 
 class ResourceManager : public Manager {
  public:
+  /// The one there is; RM is short for it. It acts on the current world.
   static ResourceManager& getInstance();
 
   int startUp() override;

@@ -19,6 +19,7 @@
 #include "StandardHeaders.h"
 #include "Vector.h"
 
+/// The world manager.
 #define WM df::WorldManager::getInstance()
 
 namespace df {
@@ -37,6 +38,7 @@ class WorldManager : public Manager {
     operator bool() const { return !isEmpty(); }
   };
 
+  /// The one there is; WM is short for it. It acts on the current world.
   static WorldManager& getInstance();
 
   /// Return 0. The world works without it, too.

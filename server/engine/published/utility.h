@@ -26,6 +26,7 @@
 
 namespace df {
 
+/// As text, for log lines.
 std::string toString(int i);
 std::string toString(float f);
 std::string toString(char c);

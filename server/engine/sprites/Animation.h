@@ -21,6 +21,7 @@ enum class Transform {
 
 class Animation {
  public:
+  /// Short for Transform::HORIZONTAL and so on.
   static constexpr Transform HORIZONTAL = Transform::HORIZONTAL;
   static constexpr Transform VERTICAL = Transform::VERTICAL;
   static constexpr Transform BOTH = Transform::BOTH;
@@ -57,6 +58,7 @@ class Animation {
   /// One tick has passed. Return whether another frame shows now.
   bool advance();
 
+  /// For log lines.
   std::string toString() const;
   friend bool operator==(const Animation& a, const Animation& b) {
     return a.m_p_sprite == b.m_p_sprite && a.m_index == b.m_index &&

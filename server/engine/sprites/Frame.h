@@ -15,10 +15,12 @@ class Frame {
   /// `frame_str` holds the rows one after another: new_width times new_height characters.
   Frame(int new_width, int new_height, std::string frame_str);
 
+  /// Size in characters.
   void setWidth(int new_width) { m_width = new_width; }
   int getWidth() const { return m_width; }
   void setHeight(int new_height) { m_height = new_height; }
   int getHeight() const { return m_height; }
+  /// Its characters, row by row, without line ends: width times height of them.
   void setString(std::string new_frame_str) { m_string = std::move(new_frame_str); }
   const std::string& getString() const { return m_string; }
 

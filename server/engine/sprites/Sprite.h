@@ -31,6 +31,7 @@ class Sprite {
   /// What it covers around a position: width by height cells, the position in the middle.
   Box getBox() const { return {Vector(-m_width / 2.0, -m_height / 2.0), double(m_width), double(m_height)}; }
 
+  /// The colour of all its frames.
   void setColor(Color new_color);
   Color getColor() const { return m_color; }
 
@@ -40,6 +41,7 @@ class Sprite {
   /// The empty frame for a number that is not in 0 … getFrameCount()-1.
   Frame getFrame(int frame_number) const;
 
+  /// The name under which it was loaded.
   void setLabel(std::string new_label) { m_label = std::move(new_label); }
   const std::string& getLabel() const { return m_label; }
 

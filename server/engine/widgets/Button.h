@@ -12,6 +12,7 @@ enum class ButtonAttribute : unsigned int {
   HIGHLIGHT_COLOR = APPEARANCE,
   DEFAULT_COLOR = APPEARANCE,
 };
+/// Attributes in all, with those of a ViewObject.
 inline constexpr int ButtonAttributeMax = ViewObjectAttributeMax + 1;
 
 class Button : public ViewObject {
@@ -23,8 +24,10 @@ class Button : public ViewObject {
   /// It was clicked.
   virtual void callback() = 0;
 
+  /// The colour while the pointer is on it.
   void setHighlightColor(Color new_highlight_color) { m_highlight_color = new_highlight_color; }
   Color getHighlightColor() const { return m_highlight_color; }
+  /// The colour at other times.
   void setDefaultColor(Color new_default_color);
   Color getDefaultColor() const { return m_default_color; }
   /// Is the mouse on it, border included?

@@ -11,10 +11,12 @@
 
 namespace df {
 
+/// What it shows before the number.
 const std::string FRAPS_STRING = "fps";
 
 class Fraps : public ViewObject {
  public:
+  /// Of colour green, at the top right. `do_record` has no effect.
   explicit Fraps(bool do_record = false);
 
   int eventHandler(const Event* p_e) override;

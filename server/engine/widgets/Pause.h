@@ -13,12 +13,14 @@
 #include "EventKeyboard.h"
 #include "Object.h"
 
+/// The key that pauses if none is given.
 #define DF_PAUSE_KEY df::Keyboard::PAUSE
 
 namespace df {
 
 class Pause : public Object {
  public:
+  /// Pauses the game, and goes on, at this key (Keyboard::Key).
   explicit Pause(int init_pause_key = DF_PAUSE_KEY);
   /// The game goes on.
   ~Pause() override;

@@ -9,10 +9,12 @@
 
 namespace df {
 
+/// Attributes beyond a ViewObject's.
 enum class TextBoxAttribute : unsigned int {
   TEXT = 1 << (ViewObjectAttributeMax + 0),
   APPEARANCE = 1 << (ViewObjectAttributeMax + 1),
 };
+/// Attributes in all, with those of a ViewObject.
 inline constexpr int TextBoxAttributeMax = ViewObjectAttributeMax + 2;
 
 class TextBox : public ViewObject {
@@ -20,6 +22,7 @@ class TextBox : public ViewObject {
   /// Empty, 30 by 5 characters, with padding and word wrap.
   TextBox();
 
+  /// The text: all of it, or more behind it.
   void setText(std::string new_text) { m_text = std::move(new_text); }
   void addText(const std::string& new_text) { m_text += new_text; }
   const std::string& getText() const { return m_text; }

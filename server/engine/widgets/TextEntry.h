@@ -25,6 +25,7 @@ enum class TextEntryAttribute : unsigned int {
   BLINK_RATE = APPEARANCE,
   NUMBERS_ONLY = APPEARANCE,
 };
+/// Attributes in all, with those of a ViewObject.
 inline constexpr int TextEntryAttributeMax = ViewObjectAttributeMax + 2;
 
 class TextEntry : public ViewObject {

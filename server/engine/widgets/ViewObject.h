@@ -13,6 +13,7 @@
 
 namespace df {
 
+/// Places on the view: at 1/6, 1/2 or 5/6 of its width.
 enum ViewObjectLocation {
   UNDEFINED = -1,
   TOP_LEFT,
@@ -36,6 +37,7 @@ DF_ENUM ViewObjectAttribute : unsigned int{
                                   LOCATION = APPEARANCE,
                                   DRAW_VALUE = APPEARANCE,
                               };
+/// Attributes in all, with those of an Object.
 inline constexpr int ViewObjectAttributeMax = ObjectAttributeMax + 2;
 
 class ViewObject : public Object {
@@ -56,6 +58,7 @@ class ViewObject : public Object {
   /// Place it at a cell of the view. Return 0, else -1.
   int setPosition(Vector new_pos) override;
 
+  /// The number behind the text.
   virtual void setValue(int new_value) { m_value = new_value; }
   int getValue() const { return m_value; }
   /// Whether to show the value behind the text.

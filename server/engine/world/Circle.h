@@ -13,12 +13,14 @@ class Circle {
   Circle() = default;
   Circle(Vector init_center, float init_radius) : m_center(init_center), m_radius(init_radius) {}
 
+  /// In cells.
   void setCenter(Vector new_center) { m_center = new_center; }
   Vector getCenter() const { return m_center; }
   /// In cells, of either axis.
   void setRadius(float new_radius) { m_radius = new_radius; }
   float getRadius() const { return m_radius; }
 
+  /// For log lines.
   std::string toString() const { return m_center.toString() + ", radius " + std::to_string(m_radius); }
 
  private:

@@ -13,6 +13,7 @@
 
 namespace df {
 
+/// Comes without being registered for.
 inline const EventType COLLISION_EVENT("df-collision");
 
 class EventCollision : public Event {

@@ -9,8 +9,10 @@
 
 namespace df {
 
+/// Comes without being registered for, to the Object that asked for a path.
 inline const EventType PATH_EVENT("df-path");
 
+/// How a search ended.
 enum SearchResult {
   NOT_FOUND,
   INCOMPLETE,
@@ -20,10 +22,13 @@ enum SearchResult {
 class EventPath : public Event {
  public:
   EventPath() : Event(&PATH_EVENT) {}
+  /// With the path that was found; empty for none.
   explicit EventPath(Path path) : Event(&PATH_EVENT), m_result(FOUND), m_path(std::move(path)) {}
 
+  /// How the search ended.
   void setResult(SearchResult new_result) { m_result = new_result; }
   SearchResult getResult() const { return m_result; }
+  /// What it found.
   void setPath(Path new_path) { m_path = std::move(new_path); }
   const Path& getPath() const { return m_path; }
 

@@ -10,6 +10,7 @@
 
 namespace df {
 
+/// Register interest in these to get an EventJoin or EventLeave for each player.
 inline const EventType JOIN_EVENT("df-join");
 inline const EventType LEAVE_EVENT("df-leave");
 

@@ -13,6 +13,7 @@ class Line {
   Line() = default;
   Line(Vector init_p1, Vector init_p2) : m_p1(init_p1), m_p2(init_p2) {}
 
+  /// The ends, in cells.
   void setP1(Vector new_p1) { m_p1 = new_p1; }
   Vector getP1() const { return m_p1; }
   void setP2(Vector new_p2) { m_p2 = new_p2; }

@@ -19,6 +19,7 @@ class Music : private Sound {
   using Sound::pause;
   using Sound::setLabel;
   using Sound::stop;
+  /// From its beginning, or from where it paused; again and again, unless `loop` is false.
   void play(bool loop = true) { Sound::play(loop); }
 
   /// What stands in for the published engine's member of a graphics library: it takes calls and does nothing.

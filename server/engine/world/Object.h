@@ -94,6 +94,7 @@ class Object {
     operator int() const;
     MaxId& operator=(int /*id*/) { return *this; }
   };
+  /// The highest id given in the current world.
   inline static MaxId max_id;
 
   // Where.

@@ -23,6 +23,7 @@ class ObjectList {
   static constexpr int kInline = 16;
 
   ObjectList() = default;
+  /// Copies and moves like a value.
   ObjectList(const ObjectList& other);
   ObjectList(ObjectList&& other) noexcept;
   ObjectList& operator=(const ObjectList& other);

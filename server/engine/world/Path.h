@@ -34,6 +34,7 @@ class Path {
   /// Draw the nodes that are left. Return 0, else -1.
   int draw(Color color) const;
 
+  /// For log lines.
   std::string toString() const;
   friend bool operator==(const Path& a, const Path& b) {
     return a.m_path == b.m_path && a.m_index == b.m_index;

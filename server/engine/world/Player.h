@@ -25,16 +25,21 @@ class Views;
 namespace players {
 class Player;
 }
+/// For the engine: each tick, before input.
 void beginControlTick(World& world);
+/// For the engine: have the player's controls take a key. Return whether they did.
 bool handleKey(World& world, players::Player& player, Keyboard::Key key, EventKeyboardAction action);
 
 namespace players {
 
 class Player {
  public:
+  /// For the engine, which makes players as they join.
   Player(std::uint32_t id, std::string name, Color color);
 
+  /// The player's number: 1, 2, …, each once in a world.
   std::uint32_t getId() const { return m_id; }
+  /// As the player gave it; the host makes sure that it can be drawn.
   const std::string& getName() const { return m_name; }
   /// The player's colour: seven take turns, so that the first seven players differ.
   Color getColor() const { return m_color; }

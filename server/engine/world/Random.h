@@ -10,6 +10,7 @@ namespace df {
 
 class Random {
  public:
+  /// The sequence of this seed.
   explicit Random(std::uint64_t seed = 1);
 
   /// 64 random bits.

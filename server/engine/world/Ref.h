@@ -32,6 +32,7 @@ class RefBase {
   RefBase& operator=(RefBase&& other) noexcept;
   ~RefBase();
 
+  /// Is the Object still in its world?
   bool isInWorld() const;
 
  private:

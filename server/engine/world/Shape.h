@@ -9,6 +9,7 @@
 
 namespace df {
 
+/// What a shape can be.
 enum ShapeType {
   UNDEFINED_SHAPE = -1,
   CIRCLE,
@@ -37,6 +38,7 @@ class Shape {
   /// Draw it at a world position. Small ones and faint ones are points.
   void draw(Vector world_pos) const;
 
+  /// For log lines.
   std::string toString() const;
   friend bool operator==(const Shape& a, const Shape& b) {
     return a.m_color == b.m_color && a.m_r == b.m_r && a.m_g == b.m_g && a.m_b == b.m_b &&

@@ -19,6 +19,7 @@ class Sound {
   /// Return 0 if there is such a file, else -1, with a line in the log. What is in it is not looked at.
   int loadSound(const std::string& filename);
 
+  /// The name under which it was loaded.
   void setLabel(std::string new_label) { m_label = std::move(new_label); }
   const std::string& getLabel() const { return m_label; }
 
@@ -34,6 +35,7 @@ class Sound {
   sf::Sound getSound() const { return {}; }
 
  protected:
+  /// For Music.
   explicit Sound(bool music) : m_music(music) {}
 
  private:

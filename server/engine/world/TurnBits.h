@@ -17,6 +17,8 @@ struct TurnBits {
   Words sequels;  ///< its slot is the one after that of the entry before
   Words blocked;  ///< its last move in update did not happen
   Words hearers;  ///< solid, active, and its class overrides eventHandler(): hears of collisions
+  Words hards;    ///< active and HARD
+  Words softs;    ///< active and SOFT
 
   static bool get(const Words& words, std::size_t i) { return (words[i / 64] >> (i % 64) & 1) != 0; }
   static void set(Words& words, std::size_t i, bool on) {
@@ -27,12 +29,13 @@ struct TurnBits {
   /// Make room for entry i, the last one.
   void grow(std::size_t i) {
     if (i % 64 != 0) return;
-    for (Words* p_words : {&turns, &fliers, &walkers, &sequels, &blocked, &hearers})
+    for (Words* p_words : {&turns, &fliers, &walkers, &sequels, &blocked, &hearers, &hards, &softs})
       p_words->resize(i / 64 + 1);
   }
   /// Entry i is a gap. Its sequel bit stays, and means nothing without a turn.
   void clear(std::size_t i) {
-    for (Words* p_words : {&turns, &fliers, &walkers, &blocked, &hearers}) set(*p_words, i, false);
+    for (Words* p_words : {&turns, &fliers, &walkers, &blocked, &hearers, &hards, &softs})
+      set(*p_words, i, false);
   }
 };
 

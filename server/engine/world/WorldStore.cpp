@@ -81,7 +81,7 @@ void WorldStore::leave(Slot s) {
   m_grid.remove(s);
   if (++m_cards[s].generation == 0) m_cards[s].generation = 1;
   m_order_list[m_cards[s].index] = kNoSlot;
-  setHearer(m_cards[s].index, false);
+  unmark(m_cards[s].index);
   m_bits.clear(m_cards[s].index);
   ++m_gaps;
   --m_in_world;
@@ -100,10 +100,11 @@ void WorldStore::closeGaps() {
     m_cards[s].index = static_cast<std::uint32_t>(i);
     TurnBits::set(m_bits.blocked, i, blocked);
     TurnBits::set(m_bits.sequels, i, i > 0 && m_order_list[i - 1] + 1 == s);
+    markSolid(s);
     classify(s);
   }
   for (std::size_t i = m_order_list.size(); i < size; ++i) {
-    setHearer(i, false);
+    unmark(i);
     m_bits.clear(i);
     TurnBits::set(m_bits.sequels, i, false);
   }
@@ -121,17 +122,32 @@ void WorldStore::classify(Slot s) {
   const bool plain = turns && moves && !accelerates && (flags & kSpecial) == 0;
   const bool spectral = m_cards[s].solidness == SPECTRAL;
   const std::size_t i = m_cards[s].index;
-  setHearer(i, hears(s) && !spectral);
+  mark(m_bits.hearers, m_hearers, i, hears(s) && !spectral);
   TurnBits::set(m_bits.turns, i, turns);
   // Its next turn has to take the mark of a blocked move back.
   TurnBits::set(m_bits.fliers, i, plain && spectral && !isBlocked(s));
   TurnBits::set(m_bits.walkers, i, plain && !spectral && !(kLayers && m_all_swept));
 }
 
-void WorldStore::setHearer(std::size_t index, bool on) {
-  if (TurnBits::get(m_bits.hearers, index) == on) return;
-  TurnBits::set(m_bits.hearers, index, on);
-  m_hearers += on ? 1 : -1;
+void WorldStore::mark(TurnBits::Words& row, int& count, std::size_t index, bool on) {
+  if (TurnBits::get(row, index) == on) return;
+  TurnBits::set(row, index, on);
+  count += on ? 1 : -1;
+}
+
+// What others may touch it as.
+void WorldStore::markSolid(Slot s) {
+  if (!has(s, kInWorld)) return;
+  const bool is_solid = collides(s);
+  mark(m_bits.hards, m_hards, m_cards[s].index, is_solid && m_cards[s].solidness == HARD);
+  mark(m_bits.softs, m_softs, m_cards[s].index, is_solid && m_cards[s].solidness == SOFT);
+}
+
+// Of an entry that is a gap from now on.
+void WorldStore::unmark(std::size_t index) {
+  mark(m_bits.hearers, m_hearers, index, false);
+  mark(m_bits.hards, m_hards, index, false);
+  mark(m_bits.softs, m_softs, index, false);
 }
 
 void WorldStore::setAllSwept(bool all_swept) {
@@ -148,6 +164,7 @@ void WorldStore::file(Slot s) {
   } else {
     m_grid.remove(s);
   }
+  markSolid(s);
   classify(s);
 }
 

@@ -272,8 +272,12 @@ class WorldStore : public ObjectFlags {
   void file(Slot s);
   void classify(Slot s);
   const Mask* spriteMask(Slot s) const;
-  void setHearer(std::size_t index, bool on);
+  static void mark(TurnBits::Words& row, int& count, std::size_t index, bool on);
+  void markSolid(Slot s);
+  void unmark(std::size_t index);
   std::size_t crowd() const;
+  bool isAnyAt(const TurnBits::Words& row, const FixedBox& box, Slot self) const;
+  bool isBlockedAt(const FixedBox& target, Slot mover, std::span<const Slot> some) const;
   std::optional<bool> moveUnheard(Slot mover, const FixedBox& target, std::span<const Slot> some) const;
   void list(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
   void listMany(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
@@ -305,9 +309,11 @@ class WorldStore : public ObjectFlags {
   std::unordered_map<Slot, Mask> m_masks;  // of the few that have one
   std::unordered_map<Slot, std::shared_ptr<const naiad::Look>> m_frames;
   bool m_all_swept = false;
-  bool m_boxes_off = false;                // see hasBoxesOffPosition()
-  int m_precise = 0;                       // Objects that are
-  int m_hearers = 0;                       // TurnBits::hearers
+  bool m_boxes_off = false;  // see hasBoxesOffPosition()
+  int m_precise = 0;         // Objects that are
+  int m_hearers = 0;         // TurnBits::hearers, and so on
+  int m_hards = 0;
+  int m_softs = 0;
   mutable std::vector<Slot> m_candidates;  // scratch of touching()
   bool m_has_had_soft = false;
 };

@@ -107,25 +107,44 @@ std::size_t WorldStore::crowd() const {
   return static_cast<std::size_t>(std::max(32, m_hearers / kHearersPerOther));
 }
 
-// Does a move happen, given some of those that it touches? Nothing if one of them may hear of it, or if that
-// depends on the others. Who hears of nothing changes nothing, so that the first that blocks decides.
+// Does one of this row touch the box, except `self`?
+bool WorldStore::isAnyAt(const TurnBits::Words& row, const FixedBox& box, Slot self) const {
+  for (std::size_t word = 0; word < row.size(); ++word) {
+    for (std::uint64_t left = row[word]; left != 0; left &= left - 1) {
+      const Slot t = m_order_list[word * 64 + static_cast<std::size_t>(std::countr_zero(left))];
+      if (t != self && intersects(worldBox(t, m_positions[t]), box)) return true;
+    }
+  }
+  return false;
+}
+
+// Is anything there that blocks, beside some that are known to be there? The shorter list decides: of what is
+// there, or of all in the world that could block.
+bool WorldStore::isBlockedAt(const FixedBox& target, Slot mover, std::span<const Slot> some) const {
+  const bool hard = m_cards[mover].solidness == HARD;
+  const bool no_soft = has(mover, kNoSoft);
+  const auto blocks = [&](Slot t) {
+    const Solidness its = m_cards[t].solidness;
+    return (hard && its == HARD) || (no_soft && its == SOFT);
+  };
+  if (std::any_of(some.begin(), some.end(), blocks)) return true;
+  if (!hard && !no_soft) return false;
+  const int blockers = (hard ? m_hards : 0) + (no_soft ? m_softs : 0);
+  const auto most = static_cast<std::size_t>(blockers);
+  m_candidates.clear();  // `some` may lie there, and is not read any more
+  m_grid.touching(target, mover, m_candidates, most);
+  if (std::any_of(m_candidates.begin(), m_candidates.end(), blocks)) return true;
+  if (m_candidates.size() <= most) return false;  // these are all
+  return (hard && isAnyAt(m_bits.hards, target, mover)) || (no_soft && isAnyAt(m_bits.softs, target, mover));
+}
+
+// Does a move happen, given some of those that it touches? Nothing if one of them may hear of it. Who hears
+// of nothing changes nothing, so that any one that blocks decides.
 std::optional<bool> WorldStore::moveUnheard(Slot mover, const FixedBox& target,
                                             std::span<const Slot> some) const {
   if (hears(mover) || hasPrecise() || mayMoveOut(mover)) return std::nullopt;
-  const auto blocks = [&](Solidness own) {
-    return std::any_of(some.begin(), some.end(), [&](Slot t) { return m_cards[t].solidness == own; });
-  };
-  const bool hard = m_cards[mover].solidness == HARD;
-  const bool no_soft = has(mover, kNoSoft);
-  const bool blocked = (hard && blocks(HARD)) || (no_soft && blocks(SOFT));
-  if (!blocked && (hard || no_soft)) return std::nullopt;
-  for (std::size_t word = 0; m_hearers > 0 && word < m_bits.hearers.size(); ++word) {
-    for (std::uint64_t left = m_bits.hearers[word]; left != 0; left &= left - 1) {
-      const Slot t = m_order_list[word * 64 + static_cast<std::size_t>(std::countr_zero(left))];
-      if (intersects(worldBox(t, m_positions[t]), target)) return std::nullopt;
-    }
-  }
-  return !blocked;
+  if (m_hearers > 0 && isAnyAt(m_bits.hearers, target, mover)) return std::nullopt;
+  return !isBlockedAt(target, mover, some);
 }
 
 std::optional<bool> WorldStore::touchingTarget(Slot mover, const FixedBox& target,

@@ -39,7 +39,8 @@ class PasswordCheck::Worker {
     std::function<void(std::optional<bool> right)> report;
   };
 
-  explicit Worker(PasswordHash hash) : hash_(std::move(hash)), thread_([this] { run(); }) {}
+  explicit Worker(PasswordHash hash)
+      : hash_(std::make_shared<const PasswordHash>(std::move(hash))), thread_([this] { run(); }) {}
   ~Worker() {
     {
       const std::lock_guard lock(mutex_);
@@ -52,10 +53,10 @@ class PasswordCheck::Worker {
   Worker& operator=(const Worker&) = delete;
 
   void setHash(PasswordHash hash) {
+    auto fresh = std::make_shared<const PasswordHash>(std::move(hash));
     const std::lock_guard lock(mutex_);
-    hash_ = std::move(hash);
+    hash_.swap(fresh);
   }
-
   void give(Job job) {
     {
       const std::lock_guard lock(mutex_);
@@ -72,9 +73,9 @@ class PasswordCheck::Worker {
       if (stopping_) return;
       const Job job = std::move(jobs_.front());
       jobs_.pop_front();
-      const PasswordHash hash = hash_;
+      const auto hash = hash_;
       lock.unlock();
-      job.report(compare(hash, job.password->text));
+      job.report(compare(*hash, job.password->text));
       lock.lock();
     }
   }
@@ -86,7 +87,7 @@ class PasswordCheck::Worker {
     }
   }
 
-  PasswordHash hash_;
+  std::shared_ptr<const PasswordHash> hash_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Job> jobs_;

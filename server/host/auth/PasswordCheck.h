@@ -51,7 +51,7 @@ class PasswordCheck {
   void check(const AddressPrefix& from, bool known, std::string password,
              std::chrono::steady_clock::time_point now, std::function<void(Answer)> done);
 
-  /// Guesses that are not being made yet are compared with this from now on.
+  /// Compare with this one from now on: guesses that wait, too. Never waits for a guess.
   void setHash(PasswordHash hash);
 
   const Counters& counters() const;

@@ -7,6 +7,7 @@
 #include "host/program/TickClock.h"
 #include "host/session/Names.h"
 #include "naiad.pb.h"
+#include "shared/net/base/AddressRange.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/program/LogText.h"
 #include "shared/values/Version.h"
@@ -53,27 +54,37 @@ LogEvent newsOf(const char* what, const std::string& name, const std::string& ha
 Admission::Admission(Setup setup, const asio::any_io_executor& executor)
     : m_setup(std::move(setup)),
       m_counters(m_setup.counters),
-      m_executor(executor),
       m_joins(PrefixRates::joins(m_setup.options.max_per_address)),
-      m_new_worlds(PrefixRates::worlds(m_setup.options.max_per_address, m_setup.options.max_players)) {
+      m_new_worlds(PrefixRates::worlds(m_setup.options.max_per_address, m_setup.options.max_players)),
+      m_executor(executor) {
   const std::string& password = m_setup.options.password;
-  if (!password.empty()) setPassword(PasswordHash::fromText(password));
+  if (!password.empty()) changePassword(PasswordHash::fromText(password));
 }
 
-// The check stays, with its limits on guesses, also where none is needed any more.
-void Admission::setPassword(std::optional<PasswordHash> hash) {
-  m_wants_password = hash.has_value();
+// Guesses that wait are compared with the new one, or admitted where none is needed any more.
+void Admission::changePassword(std::optional<PasswordHash> hash) {
+  m_needs_password = hash.has_value();
   if (!hash) return;
-  if (m_password) return m_password->setHash(*std::move(hash));
-  m_password = std::make_unique<PasswordCheck>(m_executor, *std::move(hash));
+  if (m_password) return m_password->setHash(std::move(*hash));
+  m_password = std::make_unique<PasswordCheck>(m_executor, std::move(*hash));
 }
 
 void Admission::judgeHello(Session& session, const wire::Hello& hello) {
-  if (!checkHello(session, hello)) return;
+  if (!checkHello(session, hello) || isBanned(session, cleanName(hello.player_name()))) return;
   if (hello.second_stream()) return addSecondStream(session, hello);
   if (!hello.resume_token().empty() && resumeSession(session, hello)) return;
-  if (m_wants_password) return checkPassword(session, hello);
+  if (m_needs_password) return checkPassword(session, hello);
   admitPlayer(session, hello);
+}
+
+// The address was asked for before TLS; a ban may have come meanwhile.
+bool Admission::isBanned(Session& session, const std::string& name) {
+  const auto address = endpointAddress(session.address());
+  const std::string sentence = m_setup.bans.refusal(address.value_or(asio::ip::address()), name);
+  if (sentence.empty()) return false;
+  ++m_counters.refused_banned;
+  session.refuse(wire::Refused::BAD_REQUEST, safeText(sentence, kMaxSentenceLength));
+  return true;
 }
 
 bool Admission::checkHello(Session& session, const wire::Hello& hello) {
@@ -146,6 +157,7 @@ bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
     ++m_counters.unknown_tokens;
     return false;
   }
+  if (isBanned(session, p_before->name())) return true;
   if (!p_before->admitResume()) {  // the token stays good for the next attempt
     session.refuse(wire::Refused::BUSY,
                    "Your connection breaks too often. The server lets you back in a moment.");
@@ -194,6 +206,7 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
     ++m_counters.unknown_tokens;
     return session.refuse(wire::Refused::BAD_REQUEST, "There is no stream for this one to go beside.");
   }
+  if (isBanned(session, p_first->name())) return;
   if (!p_first->admitSecond()) {  // the token and the streams that there are stay good
     return session.refuse(wire::Refused::BUSY,
                           "Your second stream comes again too often. Try again in a moment.");

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/world/World.h"
+#include "host/admin/BanList.h"
 #include "host/auth/PasswordCheck.h"
 #include "host/auth/ResumeTokens.h"
 #include "host/net/PlayerPrefixes.h"
@@ -21,9 +22,9 @@
 
 namespace naiad {
 
-/// A hello passes in this order: protocol version and game; then the token of a session, which needs no
-/// password; then the password; then the limits on players, and the name. Every refusal has a counter. Not
-/// thread-safe.
+/// A hello passes in this order: protocol version and game; bans of its name and address; then the token of a
+/// session, which needs no password; then the password; then the limits on players, and the name. Every
+/// refusal has a counter. Not thread-safe.
 class Admission {
  public:
   /// What it works with; all of it outlives the Admission.
@@ -34,6 +35,7 @@ class Admission {
     Rooms& rooms;
     PlayerPrefixes& prefixes;
     Counters& counters;
+    const BanList& bans;
     /// Log what becomes of the client at this address.
     std::function<void(const std::string& address, LogEvent event)> log_client;
     /// A channel for datagrams, with keys from this stream; null if there are none.
@@ -56,12 +58,16 @@ class Admission {
   void confirmToken(const Session& session) { m_tokens.confirm(session.id()); }
   /// The session is over: its token is void.
   void forgetSession(const Session& session);
-  /// What new players need from now on; nothing: no password.
-  void setPassword(std::optional<PasswordHash> hash);
+  /// Whoever joins from now on needs this password; nothing: none.
+  void changePassword(std::optional<PasswordHash> hash);
+  bool needsPassword() const { return m_needs_password; }
+  /// That is played.
+  const std::string& game() const { return m_setup.game; }
   /// What became of passwords; all zero if none is needed.
   PasswordCheck::Counters passwordCounters() const;
 
  private:
+  bool isBanned(Session& session, const std::string& name);
   bool checkHello(Session& session, const wire::Hello& hello);
   void checkPassword(Session& session, const wire::Hello& hello);
   void applyPasswordAnswer(Session& session, const wire::Hello& hello, PasswordCheck::Answer answer);
@@ -80,12 +86,12 @@ class Admission {
   Setup m_setup;
   Counters& m_counters;
   const df::World* m_p_world = nullptr;
-  asio::any_io_executor m_executor;
-  bool m_wants_password = false;
-  std::unique_ptr<PasswordCheck> m_password;  ///< null: none was ever needed
   ResumeTokens m_tokens;
   PrefixAllowance m_joins;
   PrefixAllowance m_new_worlds;
+  asio::any_io_executor m_executor;
+  std::unique_ptr<PasswordCheck> m_password;  ///< null: none was needed yet
+  bool m_needs_password = false;
   std::uint32_t m_next_player = 1;
 };
 

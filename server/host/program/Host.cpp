@@ -11,6 +11,7 @@
 #include "engine/managers/GameManager.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "host/admin/ControlFile.h"
 #include "host/metrics/MetricsAddress.h"
 #include "host/metrics/MetricsServer.h"
 #include "host/program/CrashReport.h"
@@ -19,7 +20,9 @@
 #include "host/session/LookAlikes.h"
 #include "host/world/Descendants.h"
 #include "naiad.pb.h"
+#include "shared/admin/ControlPath.h"
 #include "shared/net/lan/LanMessage.h"
+#include "shared/net/stream/ByteStream.h"
 #include "shared/program/BrokenPipes.h"
 #include "shared/program/LogText.h"
 #include "shared/program/OpenFiles.h"
@@ -85,6 +88,21 @@ LogEvent warningOf(const std::string& text) {
   return {LogEvent::Level::kWarning, "warning: " + text};
 }
 
+/// For the log alone: the client has been hung up on.
+std::string sentenceOf(StreamRefusal why) {
+  switch (why) {
+    case StreamRefusal::kBanned:
+      return "This address is banned.";
+    case StreamRefusal::kTooOften:
+      return "Too many connections from this network.";
+    case StreamRefusal::kPrefixFull:
+      return "Too many unfinished connections from this network.";
+    case StreamRefusal::kFull:
+      return "Too many unfinished connections.";
+  }
+  return "";
+}
+
 // As if the signal had not been handled: its sender sees that it was.
 void endBySignal(int signal) {
   ::signal(signal, SIG_DFL);
@@ -99,7 +117,8 @@ void endBySignal(int signal) {
 
 Host::Host(HostOptions options, std::string game, Log log)
     : m_options(std::move(options)),
-      m_log(std::move(log)),
+      m_log(watchedLog(std::move(log))),
+      m_bans(m_admin_worker, m_options.state),
       m_identity(identityOf(m_options)),
       m_handshakes(PrefixRates::handshakes(m_options.max_per_address)),
       m_network(
@@ -115,7 +134,7 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_rooms(
           m_options, m_sessions, m_counters, m_log, [this] { flush(); }, m_stages),
       m_client_log(m_log),
-      m_admission({m_options, std::move(game), m_sessions, m_rooms, m_prefixes, m_counters,
+      m_admission({m_options, std::move(game), m_sessions, m_rooms, m_prefixes, m_counters, m_bans,
                    [this](const std::string& address, LogEvent event) {
                      m_client_log.logNews(address, std::move(event), m_network.now());
                    },
@@ -123,18 +142,94 @@ Host::Host(HostOptions options, std::string game, Log log)
                    [this] { m_player_news.repeat(); }, [this] { return m_ending.isOpen(); }},
                   m_io.get_executor()),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
+      m_admin({m_options, m_sessions, m_admission, m_counters, m_network, adminControls()}),
+      m_console({m_admin, m_admin_worker, m_bans, m_log,
+                 [this](std::function<void()> job) { asio::post(m_io, std::move(job)); }}),
+      m_chat_commands(chatCommands(), m_io.get_executor()),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
   openMetrics();
   for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
   if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
+  listenForCommands();
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
+  makePlaces();
+}
+
+// For as many players as may join by now.
+void Host::makePlaces() {
+  m_sessions.setMost(maxConnections(m_options));
   const std::size_t wanted =
       maxConnections(m_options) + static_cast<std::size_t>(m_options.max_players) +  // with second streams
       halfOpen(m_options) + halfOpenKnown(m_options) + worldFiles(m_options) + kOtherFiles;
   if (const std::size_t files = allowOpenFiles(wanted); files < wanted) {
     m_log("only " + std::to_string(files) + " files may be open (ulimit -Hn): too few for " +
           std::to_string(m_options.max_players) + " players and those who come back");
+  }
+}
+
+// Whoever watches the server sees its log.
+LogLine Host::watchedLog(LogLine log) {
+  return [this, log = std::move(log)](const LogEvent& event) {
+    log(event);
+    m_feed.publish("log", event.text);
+  };
+}
+
+AdminControls Host::adminControls() {
+  return {[this](Ending::Plan plan) { end(std::move(plan)); }, [this] { return cancelEnd(); },
+          [this](Reloading done) { reload(std::move(done)); },
+          [this](const HostOptions& options) {
+            takeOver(options, m_options);
+            makePlaces();
+          }};
+}
+
+// On the network thread. A flood of them must not fill the host's queue: what is left out here is counted by
+// the listener all the same.
+void Host::noteStreamRefusal(const asio::ip::tcp::endpoint& peer, StreamRefusal why) {
+  if (!m_stream_refusals.takeToken(ClientLog::kRefusalsInAll, Clock::now())) return;
+  asio::post(m_io, [this, address = peerName(peer), sentence = sentenceOf(why)] {
+    m_client_log.logRefusal(address, sentence, m_network.now());
+  });
+}
+
+ChatCommands::Setup Host::chatCommands() {
+  return {m_options,
+          m_sessions,
+          m_admin,
+          m_console,
+          m_bans,
+          [this](const std::string& address, const std::string& text) {
+            m_client_log.logNews(address, text, m_network.now());
+          },
+          [this](const std::string& address, const std::string& text) {
+            m_client_log.logRefusal(address, text, m_network.now());
+          }};
+}
+
+// By default it is a convenience, and a server without a home does without.
+void Host::listenForCommands() {
+  const bool by_default = m_options.control.empty() && m_options.control_by_port;
+  ControlListening listening;
+  listening.path = m_options.control;
+  if (by_default) {
+    listening.path = naiad::controlPath(m_network.port()).value_or(std::filesystem::path());
+    removeStaleControls(listening.path.parent_path());
+  }
+  if (listening.path.empty()) return;
+  // A world must not give orders, nor hide in a namespace from where its process has no number here.
+  listening.is_refused = [](pid_t process) { return process <= 0 || isDescendant(process); };
+  const auto execute = [this](AdminRequest request, AdminCaller caller, AdminConsole::Done done) {
+    asio::post(m_io, [this, request = std::move(request), caller = std::move(caller),
+                      done = std::move(done)] { m_console.execute(request, caller, done); });
+  };
+  try {
+    m_control_path = listening.path.string();
+    m_control = std::make_unique<ControlSocket>(std::move(listening), execute, m_feed, m_log);
+  } catch (const ListenError& error) {
+    if (!by_default) throw;
+    m_log(std::string("warning: ") + error.what() + " dfctl cannot reach this server (--control).");
   }
 }
 
@@ -169,6 +264,8 @@ TlsListening Host::listening() {
   listening.max_half_open_per_prefix = std::clamp(static_cast<std::size_t>(m_options.max_per_address),
                                                   kMinHalfOpenPerPrefix, listening.max_half_open / 2);
   listening.is_known = [this](const AddressPrefix& prefix) { return m_prefixes.count(prefix) > 0; };
+  listening.on_refused = [this](const auto& peer, StreamRefusal why) { noteStreamRefusal(peer, why); };
+  listening.is_banned = [this](const asio::ip::address& address) { return m_bans.isBanned(address); };
   listening.take_handshake = [this](const AddressPrefix& prefix) {
     return m_handshakes.take(prefix, Clock::now());
   };
@@ -244,7 +341,11 @@ std::optional<JoinLink> Host::joinLink(bool elsewhere) const {
   return JoinLink{*where, "", ShortKey::of(m_identity->fingerprint())};
 }
 
-Host::~Host() = default;
+// Answers go through what is destroyed here; the last of what was promised is written before.
+Host::~Host() {
+  m_control.reset();
+  m_admin_worker.finish();
+}
 
 void Host::setWorlds(NewWorld new_world) {
   m_rooms.setWorlds([this, new_world = std::move(new_world)] { return new_world(m_io); });
@@ -291,7 +392,7 @@ void Host::heedSignals(StopSignals& signals) {
   m_log("SIGHUP: the log goes on in this file (there is no terminal, so the server does too)");
   if (!m_reload) return;
   m_service.notifyReloading(now);
-  reload([this](const std::string& sentence) {
+  reload([this](bool, const std::string& sentence) {
     m_service.notifyReady();
     m_log(sentence);
   });
@@ -322,23 +423,24 @@ void Host::sayToAll(const std::string& text) {
 
 // ---- options that change while it runs --------------------------------------------------------------------
 
-void Host::reload(std::function<void(const std::string& sentence)> done) {
-  if (!m_reload) return done("this server cannot read its options again");
+void Host::reload(Reloading done) {
+  if (!m_reload) return done(false, "this server cannot read its options again");
   const bool began = m_reload->begin(m_options, [this, done](Reloaded reloaded) {
     asio::post(m_io, [this, done, reloaded = std::make_shared<Reloaded>(std::move(reloaded))] {
       adoptReloaded(std::move(*reloaded), done);
     });
   });
-  if (!began) done("the options are being read already");
+  if (!began) done(false, "the options are being read already");
 }
 
-void Host::adoptReloaded(Reloaded reloaded, const std::function<void(const std::string&)>& done) {
-  if (!reloaded.problem.empty()) return done("the options stay as they were: " + reloaded.problem);
-  if (reloaded.options.password != m_options.password) m_admission.setPassword(std::move(reloaded.password));
+void Host::adoptReloaded(Reloaded reloaded, const Reloading& done) {
+  if (!reloaded.problem.empty()) return done(false, "the options stay as they were: " + reloaded.problem);
+  if (reloaded.options.password != m_options.password)
+    m_admission.changePassword(std::move(reloaded.password));
   const OptionChanges changes = takeOver(reloaded.options, m_options);
-  m_sessions.setMost(maxConnections(m_options));
+  makePlaces();
   useIdentity(std::move(reloaded.identity));
-  done("the options were read again: " + changes.text());
+  done(true, "the options were read again: " + changes.text());
 }
 
 void Host::useIdentity(std::optional<ServerIdentity> identity) {
@@ -450,7 +552,9 @@ void Host::checkSessions() {
   m_sessions.forEach([&](Session& session) {
     session.checkDeadlines(now);
     if (session.takeProof()) m_admission.confirmToken(session);
+    m_inactivity.check(session, std::chrono::seconds(m_options.inactive_kick), m_counters, sendServerLine);
   });
+  m_chat_commands.update(now);
 }
 
 // A tick that hangs sends no keep-alive, so the service manager ends and restarts the server.
@@ -507,19 +611,30 @@ void Host::sweep() {
 
 Session::Events Host::sessionEvents() {
   return {[this](Session& session, const wire::Hello& hello) { m_admission.judgeHello(session, hello); },
-          [this](Session& session, const std::string& text) { sendChat(session, text); },
+          [this](Session& session, const std::string& text) { takeChat(session, text); },
           [this](Session& session) { endSession(session); }, [this] { return m_network.now(); },
           [this](Session& session, const std::string& sentence) {
             m_client_log.logRefusal(session.address(), sentence, m_network.now());
           }};
 }
 
-void Host::sendChat(const Session& session, const std::string& text) {
+// A command is for the server alone, whatever becomes of it.
+void Host::takeChat(Session& session, const std::string& text) {
   const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
   if (!m_chat.take(prefix, m_network.now())) {
     ++m_counters.chat_dropped;
-    return;
+  } else if (ChatCommands::isCommand(text)) {
+    m_chat_commands.serve(session, text);
+  } else if (session.standing().isMuted()) {
+    ++m_counters.chat_muted;
+    sendServerLine(session, "You are muted: nobody reads your lines.");
+  } else {
+    sendChat(session, text);
   }
+}
+
+void Host::sendChat(const Session& session, const std::string& text) {
+  m_feed.publish("chat", inQuotes(session.name()) + ": " + text);
   if (m_options.log_chat) {
     m_client_log.logNews(session.address(),
                          {"chat",
@@ -535,6 +650,7 @@ void Host::sendChat(const Session& session, const std::string& text) {
 
 void Host::endSession(Session& session) {
   m_admission.forgetSession(session);
+  m_inactivity.forget(session);
   if (session.player() == 0) return;
   m_rooms.leave(session);
   m_client_log.logNews(session.address(),
@@ -582,6 +698,8 @@ void Host::drain() {
     m_rooms.closeWorlds();
   }
   m_network.stop();
+  m_control.reset();
+  m_admin_worker.finish();
   m_client_log.finish();
   m_log("stopped: " + m_counters.summary());
   logPasswords(m_admission.passwordCounters(), m_log);

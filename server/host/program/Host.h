@@ -13,15 +13,23 @@
 #include <string>
 
 #include "engine/world/Runner.h"
+#include "host/admin/AdminConsole.h"
+#include "host/admin/AdminWorker.h"
+#include "host/admin/BanList.h"
+#include "host/admin/ControlSocket.h"
+#include "host/admin/WatchFeed.h"
 #include "host/auth/ServerIdentity.h"
 #include "host/metrics/StageClock.h"
 #include "host/net/LanResponder.h"
 #include "host/net/NetworkThread.h"
 #include "host/net/PlayerPrefixes.h"
 #include "host/program/Admission.h"
+#include "host/program/ChatCommands.h"
 #include "host/program/Ending.h"
+#include "host/program/HostAdmin.h"
 #include "host/program/HostMetrics.h"
 #include "host/program/HostOptions.h"
+#include "host/program/InactivityCheck.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Reload.h"
 #include "host/program/Rooms.h"
@@ -33,6 +41,7 @@
 #include "host/program/Watchdog.h"
 #include "host/session/Counters.h"
 #include "shared/net/base/PrefixAllowance.h"
+#include "shared/net/base/TokenBucket.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/program/ClientLog.h"
 #include "shared/program/LineLog.h"
@@ -63,6 +72,8 @@ class Host : public df::Runner {
   /// `elsewhere` asked for. Nothing without encryption.
   std::optional<JoinLink> joinLink(bool elsewhere) const;
   const Counters& counters() const { return m_counters; }
+  /// Of the socket for commands; empty: there is none.
+  const std::string& controlPath() const { return m_control_path; }
   /// What became of every datagram so far; nothing without encryption. Thread-safe.
   DatagramGateCounters datagramCounters() const { return m_network.gateCounters(); }
   /// How long ticks took, begin to last datagram sent. Thread-safe.
@@ -105,9 +116,10 @@ class Host : public df::Runner {
   /// SIGHUP without a terminal reads them so, and takes over what may change while it runs. Before run().
   void setReload(ReadOptions read) { m_reload.emplace(std::move(read)); }
   /// The same now. Files are read and passwords hashed on a thread of their own; then `done` is called on the
-  /// host's thread with what has changed, in words. Options that cannot be used, and those that need a
-  /// restart, leave what there was. On the host's thread.
-  void reload(std::function<void(const std::string& sentence)> done);
+  /// host's thread: whether they could be used, and what has changed, in words. Options that cannot be used,
+  /// and those that need a restart, leave what there was. On the host's thread.
+  using Reloading = std::function<void(bool is_done, const std::string& sentence)>;
+  void reload(Reloading done);
   /// Call `job` on the host's thread, between two ticks. Callable from another thread (tests inspect a
   /// running world with it).
   void post(std::function<void(df::World&)> job);
@@ -125,6 +137,10 @@ class Host : public df::Runner {
   std::unique_ptr<StatusFile> openStatus(const std::string& game) const;
   void notePlaying(std::size_t playing);
   Session::Events sessionEvents();
+  LogLine watchedLog(LogLine log);
+  ChatCommands::Setup chatCommands();
+  void listenForCommands();
+  void takeChat(Session& session, const std::string& text);
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);
   void beginGame(df::World& world);
@@ -137,7 +153,10 @@ class Host : public df::Runner {
   void heedSignals(StopSignals& signals);
   void heedEnd(Clock::time_point now);
   void sayToAll(const std::string& text);
-  void adoptReloaded(Reloaded reloaded, const std::function<void(const std::string&)>& done);
+  void adoptReloaded(Reloaded reloaded, const Reloading& done);
+  AdminControls adminControls();
+  void makePlaces();
+  void noteStreamRefusal(const asio::ip::tcp::endpoint& peer, StreamRefusal why);
   void useIdentity(std::optional<ServerIdentity> identity);
   [[noreturn]] void endProcess(const ForcedEnd& end, SideLog& log);
   void checkSessions();
@@ -150,12 +169,16 @@ class Host : public df::Runner {
   bool isDeserted(Clock::time_point now) const;
 
   HostOptions m_options;
+  WatchFeed m_feed;
   Log m_log;
   Counters m_counters;
   asio::io_context m_io{1};  ///< this thread's handlers; no sockets
+  AdminWorker m_admin_worker;
+  BanList m_bans;  ///< the network thread asks it, too
   std::optional<ServerIdentity> m_identity;
   PlayerPrefixes m_prefixes;
-  PrefixAllowance m_handshakes;  ///< of the network thread
+  PrefixAllowance m_handshakes;   ///< of the network thread
+  TokenBucket m_stream_refusals;  ///< of the network thread: those that are logged
   NetworkThread m_network;
   std::unique_ptr<LanResponder> m_lan;   ///< null: not to be found in the local network
   std::unique_ptr<StatusFile> m_status;  ///< null: none is asked for
@@ -167,6 +190,12 @@ class Host : public df::Runner {
   PrefixAllowance m_chat;
   Watchdog* m_p_watchdog = nullptr;  ///< while it runs
   PlayerNews m_player_news;
+  HostAdmin m_admin;
+  AdminConsole m_console;
+  ChatCommands m_chat_commands;
+  InactivityCheck m_inactivity;
+  std::string m_control_path;                ///< empty: there is none
+  std::unique_ptr<ControlSocket> m_control;  ///< null: there is none
   ServiceNotify m_service;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;

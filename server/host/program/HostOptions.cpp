@@ -10,6 +10,7 @@
 
 #include "host/metrics/MetricsAddress.h"
 #include "host/program/Announcement.h"
+#include "shared/net/base/UserDirectory.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
@@ -184,6 +185,30 @@ std::vector<Row> tableOf(HostOptions& o) {
         {"error", "warning", "info"}},
        UsedBy::kServer},
       {{"--log-chat", &o.log_chat, "Log what players say, too", "NAIAD_LOG_CHAT"}},
+      {{"--control", &o.control,
+        "Path of the socket for dfctl's commands, mode 0660: who may write to it is an admin; off: none. "
+        "Default: control-PORT.sock in naiad in the user's runtime directory ($XDG_RUNTIME_DIR), else in "
+        "~/.local/state/naiad; none for games that are programs themselves",
+        "NAIAD_CONTROL"}},
+      {{"--state", &o.state,
+        "Folder of what lasts beyond a restart: the bans. Default: naiad in the user's directory for state "
+        "($XDG_STATE_HOME, ~/.local/state); none for games that are programs themselves",
+        "NAIAD_STATE"}},
+      {{"--admin-password", &o.admin_password,
+        "Password that makes a player an admin in the chat (/admin PASSWORD), or its $argon2id$ hash; as "
+        "with "
+        "--password, rather in the environment or in --config",
+        "NAIAD_ADMIN_PASSWORD"}},
+      {{"--vote-kick", &o.vote_kick,
+        "Players may vote others out for five minutes (/vote kick NAME): more than half of the addresses "
+        "that "
+        "play have to agree within 30 seconds",
+        "NAIAD_VOTE_KICK"}},
+      {{"--inactive-kick", &o.inactive_kick,
+        "Seconds without key, click or line of chat after which a player has to go, warned 10 seconds "
+        "before; "
+        "0 never",
+        "NAIAD_INACTIVE_KICK", OptionRange{0, 86400}}},
       {{"--headless", &o.headless, "Without network and players, as fast as possible", "NAIAD_HEADLESS"},
        UsedBy::kProgram},
       {{"--local-client", &o.local_client, "Started in a terminal: play there, too", "NAIAD_LOCAL_CLIENT"},
@@ -197,7 +222,8 @@ std::vector<Row> tableOf(HostOptions& o) {
 /// Options that take effect while a server runs.
 constexpr std::string_view kLive[] = {
     "--max-players", "--max-per-address", "--server-name", "--exit-when-empty", "--password",  "--grace",
-    "--drain-time",  "--certificate",     "--key",         "--log-format",      "--log-level", "--log-chat"};
+    "--drain-time",  "--certificate",     "--key",         "--log-format",      "--log-level", "--log-chat",
+    "--vote-kick",   "--inactive-kick"};
 
 /// Variables that other programs of the project read, or this one beside its table.
 const char* const kOtherVariables[] = {
@@ -291,6 +317,27 @@ bool isHash(const std::string& password) {
   return password.starts_with("$argon2");
 }
 
+void warnOfReadersOf(const std::string& file, const std::string& password, HostOptions& options) {
+  struct stat facts {};
+  if (password.empty() || isHash(password) || stat(file.c_str(), &facts) != 0 ||
+      (facts.st_mode & S_IROTH) == 0)
+    return;
+  options.warnings.push_back(file + " has the password, and every user can read it. Run: chmod o-r " + file);
+}
+
+/// Of "FILE:LINE".
+std::string fileAt(const std::string& place) {
+  return place.substr(0, place.rfind(':'));
+}
+
+/// What dfserver does where these options do not say; "off" is none everywhere.
+void useDefaultFolders(HostOptions& options) {
+  options.control_by_port = options.control.empty();
+  if (options.control == "off") options.control.clear();
+  if (!options.state.empty()) return;
+  if (const auto folder = userDirectory("XDG_STATE_HOME", ".local/state")) options.state = folder->string();
+}
+
 Program dfserver() {
   return {"dfserver", "Hosts a Dragonfly game for terminals to join.",
           std::string("Every option can also be set in the environment.\n\n") + kExitCodes, true};
@@ -313,8 +360,14 @@ struct Printing {
   bool markdown = false;
 };
 
-/// The options of dfserver's command line. `password_place`: see Option::p_place.
-std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, std::string& password_place) {
+/// Where passwords were given (Option::p_place).
+struct Places {
+  std::string password;
+  std::string admin_password;
+};
+
+/// The options of dfserver's command line.
+std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, Places& places) {
   std::vector<Row> rows = tableOf(options);
   warnOfUnknownVariables(rows, options);
   std::vector<Option> all;
@@ -323,8 +376,9 @@ std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, std:
     Option& option = all.emplace_back(std::move(row.option));
     option.shows_default = true;
     if (option.type.empty()) option.type = typeOf(option.name);
-    option.is_secret = option.name == "--password";
-    if (option.is_secret) option.p_place = &password_place;
+    if (option.name == "--password") option.p_place = &places.password;
+    if (option.name == "--admin-password") option.p_place = &places.admin_password;
+    option.is_secret = option.p_place != nullptr;
   }
   all.push_back({"--list-games", &printing.games, "Print the games that can be named, and exit"});
   all.push_back({"--check-config", &printing.check,
@@ -363,11 +417,7 @@ void useSockets(const InheritedSockets& sockets, HostOptions& options) {
 }
 
 void warnOfReaders(const std::string& file, HostOptions& options) {
-  struct stat facts {};
-  if (options.password.empty() || isHash(options.password) || stat(file.c_str(), &facts) != 0 ||
-      (facts.st_mode & S_IROTH) == 0)
-    return;
-  options.warnings.push_back(file + " has the password, and every user can read it. Run: chmod o-r " + file);
+  warnOfReadersOf(file, options.password, options);
 }
 
 HostOptions readHostOptions(int argc, const char* const* argv) {
@@ -379,13 +429,14 @@ HostOptions readHostOptions(int argc, const char* const* argv) {
   readOptions(dfserver(), all, argc, argv);
   if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
   keepHome(options);
+  useDefaultFolders(options);
   return options;
 }
 
 CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& options) {
   Printing printing;
-  std::string password_place;
-  const std::vector<Option> all = commandLineOf(options, printing, password_place);
+  Places places;
+  const std::vector<Option> all = commandLineOf(options, printing, places);
   switch (parseOptions(dfserver(), all, argc, argv)) {
     case Parsed::kRun:
       break;
@@ -399,7 +450,10 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
     return CommandLine::kUsageError;
   }
   keepHome(options);
-  if (!password_place.empty()) warnOfReaders(password_place.substr(0, password_place.rfind(':')), options);
+  useDefaultFolders(options);
+  if (!places.password.empty()) warnOfReaders(fileAt(places.password), options);
+  if (!places.admin_password.empty())
+    warnOfReadersOf(fileAt(places.admin_password), options.admin_password, options);
   if (printing.config || printing.check) return printConfig(printing, all, options.warnings);
   if (printing.markdown) {
     std::cout << hostOptionsMarkdown();
@@ -455,7 +509,23 @@ std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOption
   if (given.count("address") == 0 && !options.is_public) options.address = kLoopback;
   if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
   keepHome(options);
+  if (options.control == "off") options.control.clear();
   return given;
+}
+
+void setHostOption(HostOptions& options, const std::string& name, const std::string& value) {
+  for (const Row& row : tableOf(options)) {
+    if (row.option.name == "--" + name) return storeValue(row.option, value, name);
+  }
+  throw OptionError("There is no option " + name + ".");
+}
+
+std::string hostOptionValue(const HostOptions& options, const std::string& name) {
+  HostOptions copy = options;
+  for (const Row& row : tableOf(copy)) {
+    if (row.option.name == "--" + name) return currentValue(row.option);
+  }
+  return {};
 }
 
 std::string hostOptionsMarkdown() {

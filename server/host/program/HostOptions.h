@@ -48,21 +48,28 @@ struct HostOptions {
   std::string visitors;           ///< path of a socket for doors (VisitorsListener.h); empty: none
   std::string link_host;  ///< HOST[:PORT] for players elsewhere, in the link that is printed; empty: unknown
   std::string ssh_door;   ///< USER@HOST[:PORT] of a door to this server; empty: none
-  std::string web_address;            ///< of a page to play on; empty: none
-  bool qr = false;                    ///< print that as a QR code, too
-  std::string lan = "auto";           ///< found in the local network: "auto", "on" or "off" (LanQueryJudge.h)
-  std::string truth_file;             ///< write what each player should see, tick by tick
-  std::string metrics;                ///< ADDR:PORT for metrics and health; empty: none
-  std::string metrics_hosts;          ///< names by which they may be asked for, with commas between
-  std::string metrics_port_file;      ///< write their port number here once listening
-  bool metrics_public = false;        ///< `metrics` may be an address of the internet
-  std::string audit = "on";           ///< of pictures, where there are metrics: "on" or "off"
-  std::string status_file;            ///< write what plays here, as JSON, every few seconds
-  std::string port_file;              ///< write the port number here once listening
-  std::string log_file;               ///< append log lines here instead of stderr
-  std::string log_format = "text";    ///< or "json"
-  std::string log_level = "info";     ///< the least: "error", "warning" or "info"
-  bool log_chat = false;              ///< log what players say, too
+  std::string web_address;          ///< of a page to play on; empty: none
+  bool qr = false;                  ///< print that as a QR code, too
+  std::string lan = "auto";         ///< found in the local network: "auto", "on" or "off" (LanQueryJudge.h)
+  std::string truth_file;           ///< write what each player should see, tick by tick
+  std::string metrics;              ///< ADDR:PORT for metrics and health; empty: none
+  std::string metrics_hosts;        ///< names by which they may be asked for, with commas between
+  std::string metrics_port_file;    ///< write their port number here once listening
+  bool metrics_public = false;      ///< `metrics` may be an address of the internet
+  std::string audit = "on";         ///< of pictures, where there are metrics: "on" or "off"
+  std::string status_file;          ///< write what plays here, as JSON, every few seconds
+  std::string port_file;            ///< write the port number here once listening
+  std::string log_file;             ///< append log lines here instead of stderr
+  std::string log_format = "text";  ///< or "json"
+  std::string log_level = "info";   ///< the least: "error", "warning" or "info"
+  bool log_chat = false;            ///< log what players say, too
+  std::string control;              ///< path of the socket for commands (ControlSocket.h); empty: none
+  bool control_by_port = false;     ///< it is controlPath(), by the port listened on
+  std::string state;                ///< folder of the file of bans; empty: none
+  std::string
+      admin_password;      ///< for /admin in the chat: itself, or its Argon2id hash; empty: no admins there
+  bool vote_kick = false;  ///< players may vote others out
+  int inactive_kick = 0;   ///< seconds without key, click or line before a player has to go; 0: for ever
   std::vector<std::string> warnings;  ///< about these options, for the log
   /// Not an option: what the service manager has opened. `address` and `port` are those of the sockets then.
   std::optional<InheritedSockets> sockets;
@@ -117,6 +124,11 @@ void useSockets(const InheritedSockets& sockets, HostOptions& options);
 
 /// `file` gave the password: add a warning to `options` if every user can read it there, and it is no hash.
 void warnOfReaders(const std::string& file, HostOptions& options);
+
+/// Store the value of one option, named without dashes. Throws OptionError.
+void setHostOption(HostOptions& options, const std::string& name, const std::string& value);
+/// The value of one, as text; empty if there is no such option.
+std::string hostOptionValue(const HostOptions& options, const std::string& name);
 
 /// The table of options as Markdown, for docs/dfserver.md.
 std::string hostOptionsMarkdown();

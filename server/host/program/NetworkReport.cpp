@@ -21,7 +21,8 @@ void logRefusals(const NetworkThread& network, const LogLine& log) {
                                    {"half_open_ended", streams.half_open_ended},
                                    {"refused_half_open", streams.refused_half_open},
                                    {"refused_from_prefix", streams.refused_from_prefix},
-                                   {"refused_too_often", streams.refused_too_often}});
+                                   {"refused_too_often", streams.refused_too_often},
+                                   {"refused_banned", streams.refused_banned}});
   if (!text.empty()) log("streams: " + text);
   const VisitorsListener::Counters visitors = network.visitorCounters();
   text = listCounters({{"visitors", visitors.visitors},

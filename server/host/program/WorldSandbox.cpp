@@ -220,7 +220,7 @@ bool isListed(std::string_view name, std::string_view list) {
   return false;
 }
 
-constexpr std::string_view kPassword = "--password";
+constexpr std::string_view kPasswords[] = {"--password", "--admin-password"};
 
 }  // namespace
 
@@ -236,7 +236,7 @@ std::vector<std::string> makeWorldEnvironment(const HostOptions& options) {
     const bool known = std::any_of(std::begin(kVariables), std::end(kVariables),
                                    [name](const char* p_known) { return name == p_known; });
     const bool wanted = known || name.starts_with("LC_") || isListed(name, options.world_environment);
-    if (wanted && name != "NAIAD_PASSWORD") entries.emplace_back(entry);
+    if (wanted && name != "NAIAD_PASSWORD" && name != "NAIAD_ADMIN_PASSWORD") entries.emplace_back(entry);
   }
   return entries;
 }
@@ -261,9 +261,11 @@ void hidePassword(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word(argv[i]);
     char* p_value = nullptr;
-    if (word == kPassword && i + 1 < argc) p_value = argv[i + 1];
-    if (word.starts_with(kPassword) && word.substr(kPassword.size()).starts_with('='))
-      p_value = argv[i] + kPassword.size() + 1;
+    for (const std::string_view option : kPasswords) {
+      if (word == option && i + 1 < argc) p_value = argv[i + 1];
+      if (word.starts_with(option) && word.substr(option.size()).starts_with('='))
+        p_value = argv[i] + option.size() + 1;
+    }
     if (p_value != nullptr) std::memset(p_value, '*', std::strlen(p_value));
   }
 }

@@ -42,7 +42,8 @@ std::vector<std::string> makeFixedEnvironment(const HostOptions& options);
 /// keeps.
 bool isGameVariable(const std::string& entry);
 
-/// Overwrite the value of --password, which every process of this machine can read in a command line.
+/// Overwrite the values of --password and --admin-password, which every process of this machine can read in a
+/// command line.
 void hidePassword(int argc, char** argv);
 
 /// The file of --config; empty if there is none.

@@ -77,9 +77,9 @@ std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, co
   GamePlace place;
   place.files = {module, gameSettings()};
   place.folders = GameModule::resourceFolders(module);
-  place.server_files = {options.log_file, options.join_file, options.port_file, options.truth_file,
-                        options.visitors};
-  place.secrets = {config};
+  place.server_files = {options.log_file,   options.join_file, options.port_file,
+                        options.truth_file, options.visitors,  options.control};
+  place.secrets = {config, options.state};
   return launch(options, place, moduleArguments(options, module), log);
 }
 
@@ -91,8 +91,9 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
   place.files = {gameSettings()};
   if (!error) place.folders = {folder.string(), folder.parent_path().string()};
   place.logs = {log_file};
-  place.server_files = {options.log_file, options.join_file, options.port_file, options.truth_file,
-                        options.visitors};
+  place.server_files = {options.log_file,   options.join_file, options.port_file,
+                        options.truth_file, options.visitors,  options.control};
+  place.secrets = {options.state};
   place.is_program = true;
   return launch(options, place, ownArguments(), log);
 }

@@ -39,6 +39,7 @@ struct Counters {
   std::uint64_t stuck_streams = 0;      ///< not taken in for 10 s: ended
   std::uint64_t graces_expired = 0;     ///< clients that did not come back in time
   std::uint64_t refused_password = 0;   ///< missing or wrong
+  std::uint64_t refused_banned = 0;     ///< a ban of their name, or one made while they connected
   std::uint64_t refused_busy = 0;       ///< for now: passwords wait, too many joined, no world can begin
   std::uint64_t divergences = 0;        ///< a client's world was not what it was sent: reset
   std::uint64_t resets = 0;             ///< worlds sent again, on request or after a divergence
@@ -46,6 +47,8 @@ struct Counters {
   std::uint64_t checksums_dropped = 0;  ///< more often than four a second, or on two streams: ignored
   std::uint64_t repeated_inputs = 0;    ///< applied before: ignored
   std::uint64_t chat_dropped = 0;       ///< faster than three lines a second, or than an address may: ignored
+  std::uint64_t chat_muted = 0;         ///< lines of muted players: sent to nobody
+  std::uint64_t inactive = 0;           ///< no key, click or line for too long: ended
   std::uint64_t sounds = 0;             ///< sent, each counted for each player
   std::uint64_t sounds_dropped = 0;     ///< too many, or the stream was broken or busy: not sent
   std::uint64_t resizes_deferred = 0;   ///< replaced by a newer one before they were taken over

@@ -49,6 +49,7 @@ void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChanne
   m_player = welcome.player();
   m_welcome->clear_resume_token();
   m_state = State::kPlaying;
+  m_standing.begin(now());
   sendWelcome(welcome);
   startDatagrams(std::move(datagrams));
 }
@@ -134,6 +135,7 @@ void Session::takeStream(Session& other) {
   const Clock::time_point present = now();
   m_chat.refillAfterSilence(m_activity.lastFrame(), present);
   m_activity.noteReturn(present);
+  m_standing.changeStream(present);
   m_resize.continueFrom(other.m_resize);
   ++m_counters.resumed;
 }

@@ -21,6 +21,7 @@
 #include "host/session/ReceivedInputs.h"
 #include "host/session/ReliableOutbox.h"
 #include "host/session/ResizeRequest.h"
+#include "host/session/SessionStanding.h"
 #include "host/session/SnapshotDelivery.h"
 #include "host/session/StreamPair.h"
 #include "shared/net/base/Channel.h"
@@ -170,6 +171,9 @@ class Session {
   std::uint64_t skippedTicks() const { return m_delivery.skippedTicks(); }
   /// The round trip the client measured last, in milliseconds; 0: not yet.
   std::uint32_t rttMillis() const { return m_rtt_millis; }
+  /// Since when the player is here, and what they may do.
+  SessionStanding& standing() { return m_standing; }
+  const SessionStanding& standing() const { return m_standing; }
   const TransportSelector& transport() const { return m_delivery.transport(); }
   /// What the client has been sent.
   const SnapshotSender& sender() const { return m_delivery.sender(); }
@@ -216,6 +220,7 @@ class Session {
   StreamPair m_streams;
   ClientActivity m_activity;
   ChatAllowance m_chat;
+  SessionStanding m_standing;
   ResizeRequest m_resize;
   ReceivedInputs m_inputs;
   TokenBucket m_resumes;

@@ -121,7 +121,7 @@ void Session::takeInput(const Input& input) {
       ++m_counters.inputs;
       // The world's next tick is the one after the newest that was published, or a later one.
       m_counters.late_inputs += isNewer(input.tick, m_delivery.tick()) ? 0 : 1;
-      return;
+      return m_standing.noteAction(now());
     case ReceivedInputs::Verdict::kRepeated:
       ++m_counters.repeated_inputs;
       return;
@@ -139,6 +139,7 @@ void Session::takeChat(const std::string& text) {
     ++m_counters.chat_dropped;
     return;
   }
+  m_standing.noteAction(now());
   m_events.on_chat(*this, line);
 }
 

@@ -26,9 +26,10 @@ struct WorldEnd {
     kHung,      ///< it did not answer in time
     kBroken,    ///< it sent a malformed frame
   } why = kGameOver;
-  std::string text;   ///< for the log and for players, like "crashed (SIGABRT)"
-  int exit_code = 0;  ///< of kCrashed, unless it was a signal
-  std::string when;   ///< for the log, of a failure: "in tick 17", "after tick 17"; empty before the first
+  std::string text = {};  ///< for the log and for players, like "crashed (SIGABRT)"
+  int exit_code = 0;      ///< of kCrashed, unless it was a signal
+  std::string when =
+      {};  ///< for the log, of a failure: "in tick 17", "after tick 17"; empty before the first
 };
 
 class WorldPort {

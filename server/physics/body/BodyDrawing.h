@@ -5,6 +5,7 @@
 
 namespace df {
 
+/// How a Body is drawn.
 enum class BodyDrawing : std::uint8_t {
   NONE,     ///< nothing
   OUTLINE,  ///< its edge; by default in - / | and \, as the edge runs

@@ -36,11 +36,13 @@ void sendContactEnd(World& world, const BodyContact& contact) {
 }  // namespace
 
 void sendContactEvents(World& world, std::vector<BodyContact>& contacts) {
-  std::stable_sort(contacts.begin(), contacts.end(), [](const BodyContact& a, const BodyContact& b) {
+  const auto isEarlier = [](const BodyContact& a, const BodyContact& b) {
     if (a.time != b.time) return a.time < b.time;
     if (a.first_order != b.first_order) return a.first_order < b.first_order;
     return a.second_order < b.second_order;
-  });
+  };
+  if (!std::is_sorted(contacts.begin(), contacts.end(), isEarlier))
+    std::stable_sort(contacts.begin(), contacts.end(), isEarlier);
   const WorldStore& store = world.store();
   for (const BodyContact& contact : contacts) {
     if (!store.isCurrent(contact.first) || !store.isCurrent(contact.second)) continue;

@@ -68,9 +68,27 @@ bool BodyIslands::passesBy(const BodyState& flyer, const BodyState& other) const
   return std::abs(cross(along, other.start - flyer.start)) > dot(across, flyer.size + other.reach);
 }
 
+// Unites the two, unless one of them goes its own way. A group is settled when it is known that bodies of it
+// may touch, and that it is none of circles that bounce: classifyGroups() would learn no more from other
+// pairs of it. A kinematic body belongs to no group, so that none of its pairs is left out.
+void BodyIslands::addPair(const BodyTable& table, const std::vector<BodyState>& states, int i, int j) {
+  m_pairs.emplace_back(i, j);
+  const BodyState &a = states[at(i)], &b = states[at(j)];
+  if (a.is_kinematic || b.is_kinematic) return;
+  bool is_settled = m_is_settled[at(rootOf(i))] != 0 || m_is_settled[at(rootOf(j))] != 0;
+  if (!is_settled) {
+    const bool bounces = table.row(a.index).restitution > 0 || table.row(b.index).restitution > 0;
+    const bool is_elastic = bounces && a.radius > 0 && b.radius > 0;
+    is_settled = !is_elastic && (table.joints.count() == 0 ||
+                                 !areJoined(table, static_cast<int>(a.index), static_cast<int>(b.index)));
+  }
+  unite(i, j);
+  m_is_settled[at(rootOf(i))] = is_settled ? 1 : 0;
+}
+
 // Pairs of HARD bodies that may meet, in no particular order: nothing depends on it. What is on the path of a
 // fast body may send it elsewhere, and then to others.
-void BodyIslands::findPairs(const std::vector<BodyState>& states) {
+void BodyIslands::findPairs(const BodyTable& table, const std::vector<BodyState>& states) {
   m_ids.clear();
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (states[i].is_hard && states[i].p_failure == nullptr) m_ids.push_back(static_cast<int>(i));
@@ -81,15 +99,23 @@ void BodyIslands::findPairs(const std::vector<BodyState>& states) {
     is_more = false;
     m_boxes.clear();
     m_pairs.clear();
+    m_is_settled.assign(states.size(), 0);
+    for (std::size_t i = 0; i < states.size(); ++i) m_parent[i] = static_cast<int>(i);
     for (const int i : m_ids) {
       const BodyState& state = states[at(i)];
       m_boxes.push_back(boxOf(state, state.start - states[at(m_ids[0])].start, m_is_paired[at(i)] == 0));
     }
     m_tree.update(m_boxes, m_ids, static_cast<int>(states.size()));
-    m_tree.queryPairs([&](int i, int j) {
-      if (passesBy(states[at(i)], states[at(j)]) || passesBy(states[at(j)], states[at(i)])) return;
-      m_pairs.emplace_back(i, j);
-    });
+    const auto areOne = [&](int i, int j) {
+      const int root = rootOf(i);
+      return root == rootOf(j) && m_is_settled[at(root)] != 0;
+    };
+    m_tree.queryGroups(
+        [&](int i, int j) {
+          if (passesBy(states[at(i)], states[at(j)]) || passesBy(states[at(j)], states[at(i)])) return;
+          addPair(table, states, i, j);
+        },
+        areOne);
     for (const auto& [i, j] : m_pairs) {
       for (const int k : {i, j}) {
         is_more = is_more || (m_is_paired[at(k)] == 0 && hasLongPath(states[at(k)]));
@@ -147,12 +173,8 @@ void BodyIslands::findObstacles(const WorldStore& store, const BodyTable& table,
 
 void BodyIslands::connect(const BodyTable& table, const std::vector<BodyState>& states) {
   m_parent.resize(states.size());
-  for (std::size_t i = 0; i < states.size(); ++i) m_parent[i] = static_cast<int>(i);
-  findPairs(states);
+  findPairs(table, states);
   uniteJointed(table, states);
-  for (const auto& [i, j] : m_pairs) {
-    if (!states[at(i)].is_kinematic && !states[at(j)].is_kinematic) unite(i, j);
-  }
 }
 
 // What kind of group is each?

@@ -57,7 +57,10 @@ class BodyIslands {
   naiad::physics::SweptBox boxOf(const naiad::physics::BodyState& state, naiad::physics::Vec2 centre,
                                  bool is_alone) const;
   bool passesBy(const naiad::physics::BodyState& flyer, const naiad::physics::BodyState& other) const;
-  void findPairs(const std::vector<naiad::physics::BodyState>& states);
+  void findPairs(const naiad::physics::BodyTable& table,
+                 const std::vector<naiad::physics::BodyState>& states);
+  void addPair(const naiad::physics::BodyTable& table, const std::vector<naiad::physics::BodyState>& states,
+               int i, int j);
   void uniteJointed(const naiad::physics::BodyTable& table,
                     const std::vector<naiad::physics::BodyState>& states);
   void connect(const naiad::physics::BodyTable& table, const std::vector<naiad::physics::BodyState>& states);
@@ -73,7 +76,8 @@ class BodyIslands {
 
   bool m_has_general = false;
   bool m_leaves_substeps = false;
-  std::vector<int> m_parent;  // by state
+  std::vector<int> m_parent;               // by state
+  std::vector<std::uint8_t> m_is_settled;  // by root: no further pair of it would change what kind it is
   std::vector<Group> m_groups;
   std::vector<int> m_state_of;  // by row of the table
   naiad::physics::ImpactTree m_tree;
@@ -81,7 +85,7 @@ class BodyIslands {
   std::vector<int> m_ids;
   std::vector<std::uint8_t> m_is_paired;                  // by state
   const naiad::physics::BodyState* m_p_states = nullptr;  // during findPairs()
-  std::vector<std::pair<int, int>> m_pairs;               // whose reaches overlap …
+  std::vector<std::pair<int, int>> m_pairs;  // whose reaches overlap, but not all of a settled group …
   std::vector<std::pair<int, int>>
       m_touchable;  // … of which one can be pushed, and no joint keeps them apart
   std::vector<naiad::physics::BodyCandidatePair> m_candidates;

@@ -34,6 +34,7 @@ class Joint {
   /// No joint.
   Joint() = default;
 
+  /// Is the joint still there?
   bool exists() const;
   /// Return 0, or -1 if it is gone.
   int remove();

@@ -1,6 +1,7 @@
 #include "physics/body/BodySensors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -70,6 +71,27 @@ void BodySensors::add(std::size_t a, std::size_t b) {
   if (one.is_body && other.is_body && other.order < one.order) std::swap(a, b);
   m_pairs.push_back(
       {{m_movers[a].key, m_movers[b].key}, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
+}
+
+// By slots. Many are sorted by digits of eight bits, those left out that all have in common.
+void BodySensors::sortPairs() {
+  constexpr std::size_t kMany = 256;
+  if (m_pairs.size() < kMany) return std::sort(m_pairs.begin(), m_pairs.end(), isPairBefore);
+  const auto keyOf = [](const Pair& pair) {
+    return std::uint64_t{pair.touch.first.slot} << 32 | pair.touch.second.slot;
+  };
+  std::uint64_t differing = 0;
+  for (const Pair& pair : m_pairs) differing |= keyOf(pair) ^ keyOf(m_pairs[0]);
+  m_sorted.resize(m_pairs.size());
+  for (int shift = 0; shift < 64; shift += 8) {
+    if ((differing >> shift & 255) == 0) continue;
+    std::array<std::uint32_t, 256> starts = {};
+    for (const Pair& pair : m_pairs) ++starts[keyOf(pair) >> shift & 255];
+    std::uint32_t start = 0;
+    for (std::uint32_t& count : starts) start += std::exchange(count, start);
+    for (const Pair& pair : m_pairs) m_sorted[starts[keyOf(pair) >> shift & 255]++] = pair;
+    m_pairs.swap(m_sorted);
+  }
 }
 
 // A SOFT body and whatever crosses its path. Only the SOFT ones are filed: the others are asked about.
@@ -147,7 +169,7 @@ void BodySensors::findPartedPairs(const WorldStore& store, const Metric& metric)
     }
     m_pairs.push_back({touch, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(second)});
   }
-  if (m_pairs.size() > listed) std::sort(m_pairs.begin(), m_pairs.end(), isPairBefore);
+  if (m_pairs.size() > listed) sortPairs();
 }
 
 // Do the two touch now, and since when?
@@ -191,7 +213,7 @@ void BodySensors::step(const WorldStore& store, const BodyTable& table, const st
   if (m_movers.empty() && m_touching.empty()) return;
   findBodyPairs();
   findObjectPairs(store, table.metric);
-  std::sort(m_pairs.begin(), m_pairs.end(), isPairBefore);
+  sortPairs();
   findPartedPairs(store, table.metric);
   m_now.clear();
   m_examined += static_cast<std::int64_t>(m_pairs.size());

@@ -54,11 +54,13 @@ class BodySensors {
   void findObjectPairs(const WorldStore& store, const naiad::physics::Metric& metric);
   void findPartedPairs(const WorldStore& store, const naiad::physics::Metric& metric);
   void add(std::size_t a, std::size_t b);
+  void sortPairs();
   void examine(const Pair& pair, bool were_touching, std::vector<naiad::physics::BodyContact>& contacts);
 
   std::vector<Mover> m_movers;    // bodies, by order; behind them the Objects of m_pairs
   std::size_t m_bodies = 0;       // how many movers are bodies
   std::vector<Pair> m_pairs;      // to be examined, by slots
+  std::vector<Pair> m_sorted;     // scratch of sortPairs()
   std::vector<Touch> m_touching;  // at the end of the last tick, by slots
   std::vector<Touch> m_now;
   std::vector<std::uint32_t> m_by_slot;  // the bodies among the movers

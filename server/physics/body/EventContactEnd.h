@@ -9,6 +9,7 @@
 
 namespace df {
 
+/// Comes to those that ask: Body::setContactEnds.
 inline const EventType CONTACT_END_EVENT("df-contact-end");
 
 class EventContactEnd : public Event {

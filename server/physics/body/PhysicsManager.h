@@ -8,6 +8,7 @@
 #include "Manager.h"
 #include "Vector.h"
 
+/// The physics manager.
 #define PM df::PhysicsManager::getInstance()
 
 namespace naiad::physics {

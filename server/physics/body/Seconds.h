@@ -9,17 +9,22 @@
 
 namespace df {
 
+/// 30.
 inline constexpr double TICKS_PER_SECOND = 30;
 
+/// Per second to per tick.
 constexpr double perSecond(double value) {
   return value / TICKS_PER_SECOND;
 }
+/// Per second to per tick.
 constexpr Vector perSecond(Vector value) {
   return {perSecond(value.x()), perSecond(value.y())};
 }
+/// Per second² to per tick².
 constexpr double perSecondSquared(double value) {
   return value / (TICKS_PER_SECOND * TICKS_PER_SECOND);
 }
+/// Per second² to per tick².
 constexpr Vector perSecondSquared(Vector value) {
   return {perSecondSquared(value.x()), perSecondSquared(value.y())};
 }

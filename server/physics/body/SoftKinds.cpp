@@ -5,12 +5,14 @@
 #include "physics/body/Metric.h"
 #include "physics/body/PhysicsManager.h"
 #include "physics/body/SoftObject.h"
+#include "physics/geometry/Index.h"
 #include "physics/soft/SoftBuild.h"
 
 namespace df {
 
 namespace {
 
+using naiad::physics::at;
 using naiad::physics::Metric;
 using naiad::physics::Place;
 using naiad::physics::Vec2;
@@ -47,6 +49,15 @@ Line lineOf(Vector from, Vector to) {
   return line;
 }
 
+// One thread at a corner carries half of the cloth, however fine it is. Diagonals stay as they are, so that
+// it drapes.
+void tauten(naiad::physics::SoftBody& body, double limit) {
+  for (naiad::physics::SoftStretch& s : body.stretches) {
+    const Vec2 along = body.nodes[at(s.b)].offset - body.nodes[at(s.a)].offset;
+    if (along.x == 0 || along.y == 0) s.limit = limit;
+  }
+}
+
 }  // namespace
 
 Rope::Rope(Vector from, Vector to, double mass, double stiffness, int links) {
@@ -80,7 +91,8 @@ Beam::Beam(Vector from, Vector to, double mass, double stiffness, bool is_clampe
 }
 
 // Half of the stiffness to the threads of each direction, however many there are.
-Cloth::Cloth(Vector corner, double width, double height, double mass, double stiffness) {
+Cloth::Cloth(Vector corner, double width, double height, double mass, double stiffness, int columns,
+             int rows) {
   setType("Cloth");
   const Metric metric(PM.getAspect());
   const Place place = metric.placeAtCells(checked("Cloth: corner", corner));
@@ -91,8 +103,11 @@ Cloth::Cloth(Vector corner, double width, double height, double mass, double sti
   const Vec2 across = metric.fromCells(Vector(width, 0)), down = metric.fromCells(Vector(0, height));
   constexpr double kMesh =
       2.5;  // metric cells: 16 by 4 meshes cost half a millisecond a tick (docs/physics/soft.md)
-  m_columns = countFor(across.x, kMesh, 2, 24) + 1;
-  m_rows = countFor(down.y, kMesh, 2, 24) + 1;
+  constexpr int kMaxThreads = 128;  // each way: 16,384 nodes
+  if (columns != 0) columns = static_cast<int>(checked("Cloth: columns", columns, 2, kMaxThreads, 0));
+  if (rows != 0) rows = static_cast<int>(checked("Cloth: rows", rows, 2, kMaxThreads, 0));
+  m_columns = columns != 0 ? columns : countFor(across.x, kMesh, 2, 24) + 1;
+  m_rows = rows != 0 ? rows : countFor(down.y, kMesh, 2, 24) + 1;
   m_is_upright = m_rows > m_columns;  // the builder wants the long side first
   const double thread = stiffness * mass / std::min(m_columns, m_rows);
   const int longer = std::max(m_columns, m_rows) - 1, shorter = std::min(m_columns, m_rows) - 1;
@@ -100,6 +115,7 @@ Cloth::Cloth(Vector corner, double width, double height, double mass, double sti
       naiad::physics::makeCloth(place, m_is_upright ? down : across, m_is_upright ? across : down, longer,
                                 shorter, mass, thread, thread / 4, 0);
   body.radius = std::min(body.radius, 0.25);
+  if (columns != 0 || rows != 0) tauten(body, std::max(0.03, 0.15 / stiffness));
   make(withUsual(body));
 }
 

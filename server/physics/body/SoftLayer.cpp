@@ -18,7 +18,6 @@ using naiad::physics::MovedObject;
 using naiad::physics::SoftAttachedNode;
 using naiad::physics::SoftEntry;
 using naiad::physics::SoftNode;
-using naiad::physics::SoftNodeForce;
 using naiad::physics::SoftStatus;
 using naiad::physics::SoftTable;
 using naiad::physics::SoftWorld;
@@ -135,8 +134,8 @@ void SoftLayer::prepare(const World& world, int id) {
   entry.is_in = true;
   double gravity = length(m_gravity) * std::fabs(entry.gravity_scale) + length(entry.force) / entry.mass;
   const std::vector<SoftNode>& nodes = m_table->world().body(id).nodes;
-  for (const SoftNodeForce& pull : entry.node_forces) {
-    gravity += length(pull.force) / nodes[static_cast<std::size_t>(pull.node)].mass;
+  for (std::size_t i = 0; i < entry.node_forces.size(); ++i) {
+    gravity += length(entry.node_forces[i]) / nodes[i].mass;
   }
   const double far = kSearchRoom + entry.top_speed + gravity;
   const Vec2 reach = m_table->reach(id) + Vec2{far, far};
@@ -158,9 +157,7 @@ void SoftLayer::push(int id) {
   const std::vector<SoftNode>& nodes = m_table->world().body(id).nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Vec2 force = nodes[i].mass * acceleration;
-    for (const SoftNodeForce& pull : entry.node_forces) {
-      if (static_cast<std::size_t>(pull.node) == i) force += pull.force;
-    }
+    if (!entry.node_forces.empty()) force += entry.node_forces[i];
     // As a whole, once: a force that changes makes the solver forget the past.
     m_table->world().setForce(id, static_cast<int>(i), force);
   }

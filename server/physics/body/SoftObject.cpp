@@ -20,7 +20,6 @@ using naiad::physics::at;
 using naiad::physics::SoftAttachedNode;
 using naiad::physics::SoftEntry;
 using naiad::physics::SoftGrab;
-using naiad::physics::SoftNodeForce;
 using naiad::physics::Vec2;
 
 constexpr double kMaxRatio = 1e6;  // of gravity scale, friction, drag
@@ -146,17 +145,12 @@ int SoftBody::applyForce(Vector force) {
 
 int SoftBody::applyForce(int node, Vector force) {
   if (!hasNode(node) || !isUsableForce(force)) return refuseAs("applyForce");
-  std::vector<SoftNodeForce>& forces = entry().node_forces;
-  const auto same =
-      std::find_if(forces.begin(), forces.end(), [&](const SoftNodeForce& p) { return p.node == node; });
-  const Vec2 before = same == forces.end() ? Vec2{} : same->force;
+  std::vector<Vec2>& forces = entry().node_forces;
+  const Vec2 before = forces.empty() ? Vec2{} : forces[at(node)];
   const Vec2 sum = before + m_table->metric().fromCells(force);
   if (!isUsableForce(m_table->metric().toCells(sum))) return refuseAs("applyForce");
-  if (same == forces.end()) {
-    forces.push_back({node, sum});
-  } else {
-    same->force = sum;
-  }
+  if (forces.empty()) forces.resize(at(getNodeCount()));
+  forces[at(node)] = sum;
   m_table->wake(m_id);
   return 0;
 }
@@ -192,10 +186,8 @@ int SoftBody::getNearestNode(Vector where) const {
 int SoftBody::pin(int node, bool pinned) {
   if (!hasNode(node)) return refuseAs("pin");
   if (isPinned(node) == pinned) return 0;
-  return change([&](naiad::physics::SoftBody& body) {
-    body.nodes[at(node)].is_pinned = pinned;
-    body.nodes[at(node)].velocity = {};
-  });
+  absorb();
+  return m_table->pin(m_id, node, pinned) ? 0 : -1;
 }
 
 bool SoftBody::isPinned(int node) const {

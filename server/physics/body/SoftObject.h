@@ -40,6 +40,7 @@ namespace df {
 
 class Body;
 
+/// What ropes, cloths, blobs and beams have in common.
 class SoftBody : public Object {
  public:
   SoftBody(const SoftBody&) = delete;
@@ -71,6 +72,7 @@ class SoftBody : public Object {
 
   // Its nodes: 0 … getNodeCount() - 1.
 
+  /// How many nodes it has; they are numbered from 0.
   int getNodeCount() const;
   /// In cells, and in cells per tick; (0,0) if there is no such node.
   Vector getNodePosition(int node) const;
@@ -89,6 +91,7 @@ class SoftBody : public Object {
   // Dragging, as a mouse does: the node that is nearest to a point follows a target, with at most `strength`
   // as force.
 
+  /// Take the node nearest to `where` (cells); `strength` is the greatest force. Return 0, else -1.
   int grab(Vector where, double strength);
   /// At first where it was grabbed. -1 if nothing is grabbed.
   int dragTo(Vector target);
@@ -151,8 +154,12 @@ class Beam : public SoftBody {
 class Cloth : public SoftBody {
  public:
   /// `width` and `height` in cells, 0.5 … 1000. `stiffness`, 1e-6 … 1e6: hung up, it is longer by about
-  /// gravity / (2 · stiffness) of its height.
-  Cloth(Vector corner, double width, double height, double mass = 1, double stiffness = 5);
+  /// gravity / (2 · stiffness) of its height. `columns` and `rows` of threads, 2 … 128; 0: as its size asks
+  /// for, at most 25. Above some 25 × 25 the body is moved by another method, whose cost grows with the
+  /// number of nodes (docs/physics/soft.md). If they are given, threads are taut once they are 3 % longer
+  /// than at rest (or 0.15 / stiffness, if that is more), so that the corners that a cloth hangs on bear it.
+  Cloth(Vector corner, double width, double height, double mass = 1, double stiffness = 5, int columns = 0,
+        int rows = 0);
   /// Threads across and down, one more than meshes.
   int getColumns() const { return m_columns; }
   int getRows() const { return m_rows; }

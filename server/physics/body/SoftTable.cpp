@@ -34,6 +34,12 @@ bool SoftTable::set(int id, const SoftBody& body) {
   return true;
 }
 
+bool SoftTable::pin(int id, int node, bool is_pinned) {
+  if (!m_world.pin(id, node, is_pinned)) return false;
+  wake(id);
+  return true;
+}
+
 void SoftTable::measure(int id) {
   const SoftBody& body = m_world.body(id);
   SoftEntry& its = entry(id);

@@ -31,12 +31,6 @@ struct SoftAttachedNode {
   df::ObjectKey key;
 };
 
-/// The external force on one node in the next step.
-struct SoftNodeForce {
-  int node = 0;
-  Vec2 force;
-};
-
 /// By id in the SoftWorld.
 struct SoftEntry {
   df::ObjectKey key;
@@ -47,8 +41,8 @@ struct SoftEntry {
   df::FixedVector published_velocity;
   Place centre;  ///< of mass
   Vec2 velocity;
-  Vec2 force;                              ///< on the whole, for the next step
-  std::vector<SoftNodeForce> node_forces;  ///< on single nodes, for the next step
+  Vec2 force;                     ///< on the whole, for the next step
+  std::vector<Vec2> node_forces;  ///< on single nodes, for the next step; empty if there are none
   double mass = 1;
   double gravity_scale = 1;
   double top_speed = 0;     ///< of its nodes
@@ -81,6 +75,8 @@ class SoftTable {
 
   /// Replaces the body and wakes it. False if it is not sound.
   bool set(int id, const SoftBody& body);
+  /// Wakes the body. False if there is no such node.
+  bool pin(int id, int node, bool is_pinned);
   /// Centre of mass, its velocity and the fastest node, from the nodes.
   void measure(int id);
   /// As a whole.

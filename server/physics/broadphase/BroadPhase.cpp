@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
 namespace naiad::physics {
@@ -14,6 +15,7 @@ namespace {
 // nearest, and all are too many.
 constexpr std::size_t kMaxHeaped = 32;   // of which a proxy keeps all pairs that it finds …
 constexpr std::size_t kKeptHeaped = 16;  // … and of more only the nearest
+constexpr std::size_t kCollected = 64;   // before the farthest are dropped
 
 std::int64_t twiceMiddle(std::int64_t lower, std::int64_t upper) {
   return lower + upper;
@@ -39,7 +41,7 @@ std::uint64_t keyOf(const BroadPhasePair& pair) {
 
 }  // namespace
 
-std::int32_t BroadPhase::add(std::uint32_t id, const GridBounds& wide, bool moves) {
+std::int32_t BroadPhase::add(std::uint32_t id, const GridBounds& wide, bool moves, std::uint64_t order) {
   std::int32_t proxy;
   if (m_free.empty()) {
     proxy = static_cast<std::int32_t>(m_proxies.size());
@@ -48,7 +50,8 @@ std::int32_t BroadPhase::add(std::uint32_t id, const GridBounds& wide, bool move
     proxy = m_free.back();
     m_free.pop_back();
   }
-  m_proxies[index(proxy)] = {id, m_tree.insert(wide, static_cast<std::uint32_t>(proxy)), moves, false};
+  m_proxies[index(proxy)] = {
+      id, m_tree.insert(wide, static_cast<std::uint32_t>(proxy)), moves, false, false, order};
   markChanged(proxy);
   return proxy;
 }
@@ -78,30 +81,49 @@ void BroadPhase::markChanged(std::int32_t proxy) {
   m_changed.push_back(proxy);
 }
 
-// Of two changed proxies, the one with the smaller number finds the pair.
+bool BroadPhase::isBefore(std::int32_t a, std::int32_t b) const {
+  const Proxy &one = m_proxies[index(a)], &other = m_proxies[index(b)];
+  return one.order != other.order ? one.order < other.order : a < b;
+}
+
+void BroadPhase::keepNearest() {
+  std::nth_element(m_heaped.begin(), m_heaped.begin() + kKeptHeaped - 1, m_heaped.end(),
+                   [](const Heaped& x, const Heaped& y) {
+                     if (x.square != y.square) return x.square < y.square;
+                     return x.order != y.order ? x.order < y.order : keyOf(x.pair) < keyOf(y.pair);
+                   });
+  m_heaped.resize(kKeptHeaped);
+}
+
+// Of two changed proxies, the one that comes first finds the pair.
 void BroadPhase::findPairs(std::int32_t proxy) {
-  const Proxy& own = m_proxies[index(proxy)];
+  Proxy& own = m_proxies[index(proxy)];
   const GridBounds bounds = m_tree.bounds(own.leaf);
   m_heaped.clear();
+  own.is_thinned = false;
+  double farthest = std::numeric_limits<double>::infinity();  // of those that may be kept
   m_tree.query(bounds, [&](std::uint32_t value) {
     const auto other = static_cast<std::int32_t>(value);
     const Proxy& that = m_proxies[value];
-    if (other == proxy || (that.changed && other < proxy) || !(own.moves || that.moves)) return;
+    if (other == proxy || (that.changed && isBefore(other, proxy)) || !(own.moves || that.moves)) return;
     const BroadPhasePair pair = own.id < that.id ? BroadPhasePair{own.id, that.id, proxy, other}
                                                  : BroadPhasePair{that.id, own.id, other, proxy};
     const GridBounds& its = m_tree.bounds(that.leaf);
-    if (m_thins_crowds && own.moves && that.moves && areHeaped(bounds, its)) {
-      m_heaped.push_back({squareOfDistance(bounds, its), pair});
-    } else {
+    if (!(m_thins_crowds && own.moves && that.moves && areHeaped(bounds, its))) {
       m_found.push_back(pair);
+      return;
     }
+    const double square = squareOfDistance(bounds, its);
+    if (square > farthest) return;
+    m_heaped.push_back({square, that.order, pair});
+    if (m_heaped.size() < kCollected) return;
+    own.is_thinned = true;
+    keepNearest();
+    farthest = m_heaped.back().square;
   });
-  if (m_heaped.size() > kMaxHeaped) {
-    std::nth_element(m_heaped.begin(), m_heaped.begin() + kKeptHeaped, m_heaped.end(),
-                     [](const Heaped& x, const Heaped& y) {
-                       return x.square != y.square ? x.square < y.square : keyOf(x.pair) < keyOf(y.pair);
-                     });
-    m_heaped.resize(kKeptHeaped);
+  if (m_heaped.size() > kMaxHeaped || (own.is_thinned && m_heaped.size() > kKeptHeaped)) {
+    own.is_thinned = true;
+    keepNearest();
   }
   for (const Heaped& heaped : m_heaped) m_found.push_back(heaped.pair);
 }

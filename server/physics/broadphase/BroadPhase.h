@@ -28,9 +28,10 @@ class BroadPhase {
   /// nearest 16.
   explicit BroadPhase(bool thins_crowds = false) : m_thins_crowds(thins_crowds) {}
 
-  /// `id` is the caller's, unique; `moves` false for bodies that never do: two of them make no pair. Returns
-  /// the proxy: the number to use below, good until it is removed.
-  std::int32_t add(std::uint32_t id, const GridBounds& wide, bool moves);
+  /// `id` is the caller's, unique; `moves` false for bodies that never do: two of them make no pair. In a
+  /// crowd `order` decides between bodies that are equally near, so that nothing depends on ids, which are
+  /// used again. Returns the proxy: the number to use below, good until it is removed.
+  std::int32_t add(std::uint32_t id, const GridBounds& wide, bool moves, std::uint64_t order = 0);
   void remove(std::int32_t proxy);
 
   /// The body is now within `tight`. While that lies in the bounds it has, nothing happens; else it gets
@@ -56,6 +57,9 @@ class BroadPhase {
                    [&](std::uint32_t proxy, double limit) { return visit(m_proxies[proxy].id, limit); });
   }
 
+  /// Has it found so many in one place that some are left out of its pairs?
+  bool isThinned(std::int32_t proxy) const { return m_proxies[index(proxy)].is_thinned; }
+
   const BroadPhaseTree& tree() const { return m_tree; }
 
  private:
@@ -64,14 +68,19 @@ class BroadPhase {
     std::int32_t leaf;  // kNone: removed
     bool moves;
     bool changed;  // it is in m_changed
+    bool is_thinned;
+    std::uint64_t order;
   };
   static std::size_t index(std::int32_t proxy) { return static_cast<std::size_t>(proxy); }
   struct Heaped {
-    double square;  // of the distance
+    double square;        // of the distance
+    std::uint64_t order;  // of the other one
     BroadPhasePair pair;
   };
   void markChanged(std::int32_t proxy);
   void findPairs(std::int32_t proxy);
+  bool isBefore(std::int32_t a, std::int32_t b) const;
+  void keepNearest();
   void sortFound();
 
   bool m_thins_crowds;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -44,7 +45,7 @@ class ImpactTree {
   /// Enlarges the box of a body by `box`.
   void grow(int id, const SweptBox& box);
 
-  /// Calls found(id) for every body whose box overlaps `box`.
+  /// Calls found(id) for every body whose box overlaps `box`. If it returns false, that was the last one.
   template <typename Found>
   void query(const SweptBox& box, Found&& found) const {
     if (m_nodes.empty() || !overlaps(m_nodes[0].box, box)) return;
@@ -54,7 +55,11 @@ class ImpactTree {
     while (height > 0) {
       const Node& node = m_nodes[stack[--height]];
       if (node.id >= 0) {
-        found(node.id);
+        if constexpr (std::is_void_v<decltype(found(node.id))>) {
+          found(node.id);
+        } else if (!found(node.id)) {
+          return;
+        }
         continue;
       }
       if (overlaps(m_nodes[node.first].box, box)) stack[height++] = node.first;
@@ -85,12 +90,50 @@ class ImpactTree {
         one.id < other.id ? found(one.id, other.id) : found(other.id, one.id);
         continue;
       }
-      const bool divides_one = other.id >= 0 || (one.id < 0 && sizeOf(one.box) > sizeOf(other.box));
-      const Node& large = divides_one ? one : other;
-      const SweptBox& box = divides_one ? other.box : one.box;
-      const int rest = divides_one ? b : a;
-      if (overlaps(m_nodes[large.first].box, box)) stack[height++] = {large.first, rest};
-      if (overlaps(m_nodes[large.second].box, box)) stack[height++] = {large.second, rest};
+      divide(a, b, stack, height);
+    }
+  }
+
+  /// The same for those who ask what hangs together, but no pairs within what is known to: of bodies in one
+  /// place it finds about as many pairs as bodies. areOne(i, j): do i and j hang together, so that no pair
+  /// between what hangs together with i and with j is of interest? Once true it stays so, and follows from
+  /// the pairs found before.
+  template <typename Found, typename AreOne>
+  void queryGroups(Found&& found, AreOne&& areOne) {
+    if (m_nodes.empty()) return;
+    m_member.clear();
+    for (const Node& node : m_nodes) m_member.push_back(node.id);
+    // One of the bodies below a node, if all of them are one; −1: they are not, or it is not known yet.
+    const auto memberOf = [&](int node) {
+      int& member = m_member[node];
+      if (member >= 0) return member;
+      const int first = m_member[m_nodes[node].first], second = m_member[m_nodes[node].second];
+      if (first >= 0 && second >= 0 && areOne(first, second)) member = first;
+      return member;
+    };
+    std::pair<int, int> stack[6 * kDepth];
+    int height = 0;
+    stack[height++] = {0, 0};
+    while (height > 0) {
+      const auto [a, b] = stack[--height];
+      const Node &one = m_nodes[a], &other = m_nodes[b];
+      if (a == b) {
+        if (one.id >= 0) continue;
+        // The two against each other at last, when each may have become one.
+        if (overlaps(m_nodes[one.first].box, m_nodes[one.second].box)) {
+          stack[height++] = {one.first, one.second};
+        }
+        stack[height++] = {one.first, one.first};
+        stack[height++] = {one.second, one.second};
+        continue;
+      }
+      const int i = memberOf(a), j = memberOf(b);
+      if (i >= 0 && j >= 0 && areOne(i, j)) continue;
+      if (one.id >= 0 && other.id >= 0) {
+        i < j ? found(i, j) : found(j, i);
+        continue;
+      }
+      divide(a, b, stack, height);
     }
   }
 
@@ -105,6 +148,16 @@ class ImpactTree {
     int second;
   };
 
+  // Of two nodes the larger one is divided.
+  void divide(int a, int b, std::pair<int, int>* stack, int& height) const {
+    const Node &one = m_nodes[a], &other = m_nodes[b];
+    const bool divides_one = other.id >= 0 || (one.id < 0 && sizeOf(one.box) > sizeOf(other.box));
+    const Node& large = divides_one ? one : other;
+    const SweptBox& box = divides_one ? other.box : one.box;
+    const int rest = divides_one ? b : a;
+    if (overlaps(m_nodes[large.first].box, box)) stack[height++] = {large.first, rest};
+    if (overlaps(m_nodes[large.second].box, box)) stack[height++] = {large.second, rest};
+  }
   int build(int begin, int end, int parent);
   double refit();
 
@@ -112,6 +165,7 @@ class ImpactTree {
   std::vector<int> m_leaf_of;
   std::vector<int> m_ids;  // of the last build, as given
   std::vector<int> m_order;
+  std::vector<int> m_member;                       // by node, during queryGroups()
   const std::vector<SweptBox>* m_boxes = nullptr;  // during update()
   double m_built_size = 0;
 };

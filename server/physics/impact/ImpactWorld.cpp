@@ -34,8 +34,9 @@ bool isLater(const Pending& a, const Pending& b) {
 
 int ImpactWorld::add(const ImpactBody& body) {
   if (!isSound(body)) return -1;
-  int id = 0;
+  int id = m_lowest_free;
   while (id < idLimit() && m_motions[id].exists) ++id;
+  m_lowest_free = id + 1;
   if (id == idLimit()) {
     m_bodies.emplace_back();
     m_motions.emplace_back();
@@ -63,13 +64,24 @@ bool ImpactWorld::set(int id, const ImpactBody& body) {
 
 bool ImpactWorld::remove(int id) {
   if (!exists(id)) return false;
-  for (std::size_t i = 0; i < m_contacts.size(); ++i) {
-    const Contact& contact = m_contacts[i];
-    if (contact.first != id && contact.second != id) continue;
-    m_motions[contact.first].is_dirty = m_motions[contact.second].is_dirty = true;
-    dropContact(static_cast<int>(i));
+  m_ending.clear();
+  if (isPushed(id)) {
+    for (int c = m_motions[id].first_contact; c >= 0;) {
+      m_ending.push_back(c);
+      c = m_contacts[c].first == id ? m_contacts[c].next_of_first : m_contacts[c].next_of_second;
+    }
+    std::sort(m_ending.begin(), m_ending.end());  // their numbers are used again, the last one first
+  } else {
+    for (int c = 0; c < static_cast<int>(m_contacts.size()); ++c) {
+      if (m_contacts[c].first == id || m_contacts[c].second == id) m_ending.push_back(c);
+    }
+  }
+  for (const int c : m_ending) {
+    m_motions[m_contacts[c].first].is_dirty = m_motions[m_contacts[c].second].is_dirty = true;
+    dropContact(c);
   }
   m_motions[id].exists = false;
+  m_lowest_free = std::min(m_lowest_free, id);
   return true;
 }
 
@@ -219,14 +231,54 @@ void ImpactWorld::beginTick(double dt) {
   m_tree.update(m_boxes, m_ids, idLimit());
 }
 
+// Appends the pairs of a body, and takes them back if they are more than `most`. Those with bodies that are
+// given up already count, or else each body of a crowd would look at all that came before it.
+bool ImpactWorld::listCandidates(int id, std::size_t most) {
+  const std::size_t before = m_candidates.size();
+  std::size_t count = 0;
+  m_tree.query(m_tree.box(id), [&](int other) {
+    const bool is_given_up = m_motions[other].is_frozen;
+    if (other == id || (other < id && isMoving(other) && !is_given_up)) return true;
+    if (!isPushed(id) && !isPushed(other)) return true;
+    if (!is_given_up) m_candidates.push_back({id, other});
+    return ++count <= most;
+  });
+  if (count <= most) return true;
+  m_candidates.resize(before);
+  return false;
+}
+
+// All pairs whose paths may cross. Where bodies lie in one another by the thousand these are too many, which
+// is known before any of them is looked at: after the first body whose pairs do not fit each has its own
+// share alone.
+void ImpactWorld::listCandidates() {
+  constexpr auto kOwnShare = static_cast<std::size_t>(kWorkOfBody / kForecastPrice);
+  constexpr double kUnlimited = 1e15;
+  const double most_shared = std::min(kReserveAtStart * m_reserve, kUnlimited) + kWorkOfTick;
+  const double left_now = std::clamp(m_most_work - m_work, 0.0, most_shared);
+  const auto shared = static_cast<std::size_t>(left_now / kForecastPrice);
+  bool is_spent = false;
+  m_candidates.clear();
+  m_candidates.reserve(8 * m_ids.size());
+  for (std::size_t i = 0; i < m_ids.size(); ++i) {
+    const int id = m_ids[i];
+    if (!isMoving(id) || m_motions[id].is_frozen) continue;
+    const std::size_t all = is_spent ? 0 : shared + (i + 1) * kOwnShare;  // and what those before have left
+    const std::size_t left = all > m_candidates.size() ? all - m_candidates.size() : 0;
+    // What cannot be pushed cannot be given up.
+    const std::size_t most = isPushed(id) ? std::max(left, kOwnShare) : m_ids.size();
+    if (listCandidates(id, most)) continue;
+    giveUp(id);
+    is_spent = true;
+  }
+}
+
 void ImpactWorld::forecastAll() {
-  for (const int i : m_ids) {
-    if (!isMoving(i) || m_motions[i].is_frozen) continue;
-    m_tree.query(m_tree.box(i), [&](int j) {
-      if (j == i || (j < i && isMoving(j)) || m_motions[i].is_frozen || m_motions[j].is_frozen) return;
-      forecastPair(i, j, 0);
-      if (isOverdrawn(i)) giveUp(i);
-    });
+  listCandidates();
+  for (const Candidate& pair : m_candidates) {
+    if (m_motions[pair.id].is_frozen || m_motions[pair.other].is_frozen) continue;
+    forecastPair(pair.id, pair.other, 0);
+    if (isOverdrawn(pair.id)) giveUp(pair.id);
   }
 }
 
@@ -242,10 +294,10 @@ void ImpactWorld::forecastChanged(double now) {
   for (const int i : m_changed) {
     if (m_motions[i].is_frozen) continue;
     m_tree.query(sweptBox(i, now), [&](int j) {
-      if (j == i || m_motions[i].is_frozen || m_motions[j].is_frozen || (j < i && m_motions[j].is_changed))
-        return;
+      if (j == i || m_motions[j].is_frozen || (j < i && m_motions[j].is_changed)) return true;
       if (isMoving(i) || isMoving(j)) forecastPair(i, j, now);
       if (isOverdrawn(i)) giveUp(i);
+      return !m_motions[i].is_frozen;
     });
   }
   for (const int i : m_changed) m_motions[i].is_changed = false;

@@ -56,6 +56,9 @@ class ImpactWorld {
   /// 20,000 impacts of two bodies take a fifth of it; that 100 crates which have just been stacked find to
   /// one another takes most.
   static constexpr double kUsualReserve = 1e8;
+  /// As much of it may be used up by pairs of which it is only asked, when the tick begins, whether they will
+  /// meet. A body whose pairs are more than its own share is given up without that if they do not fit.
+  static constexpr double kReserveAtStart = 0.2;
   void setReserve(double work) { m_reserve = work; }
   /// A bounce that would not rise higher than this (cells) ends in rest: the Zeno guard. Far below the
   /// world's unit of 2^-32 cell.
@@ -148,6 +151,9 @@ class ImpactWorld {
     Kind kind;
     ImpactAxis axis;
   };
+  struct Candidate {
+    int id, other;
+  };
   struct PairState {  // of two bodies at a moment
     ImpactTouch touch;
     Vec2 velocity;
@@ -167,6 +173,8 @@ class ImpactWorld {
   double workLeft() const;
   void spend(int id, double work);
   void beginTick(double dt);
+  void listCandidates();
+  bool listCandidates(int id, std::size_t most);
   void forecastAll();
   void forecastChanged(double now);
   void forecastPair(int i, int j, double now);
@@ -215,6 +223,9 @@ class ImpactWorld {
   bool m_has_given_up = false;
   double m_reserve = 1e300;
   double m_work = 0, m_most_work = 0;           // in this tick
+  int m_lowest_free = 0;                        // no id below it is free
+  std::vector<int> m_ending;                    // contacts, in remove()
+  std::vector<Candidate> m_candidates;          // pairs whose boxes overlap when the tick begins
   std::int64_t m_origin_x = 0, m_origin_y = 0;  // of the broad phase
   std::vector<int> m_ids;                       // those that take part
   std::vector<SweptBox> m_boxes;

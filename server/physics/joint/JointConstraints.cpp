@@ -230,8 +230,8 @@ void JointConstraints::addForces(const std::vector<double>& impulse) {
 }
 
 int JointConstraints::substepsOf(std::span<const Joint> all_joints, double h) const {
-  constexpr double kTurn = 0.25;       // rad that a pulled body swings in a sub-step …
-  constexpr double kMaxSubsteps = 16;  // … unless it would take more than this many
+  constexpr double kTurn = 0.035;      // rad that a pulled body swings in a sub-step …
+  constexpr double kMaxSubsteps = 72;  // … unless it would take more than this many
   double square = 0;
   for (const Link& link : links) {
     const Joint& joint = all_joints[at(link.index)];

@@ -107,15 +107,18 @@ bool JointIsland::stepBy(JointOptions options, bool is_last, std::span<const Joi
 void JointIsland::step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
                        JointOptions options, JointCounters& counters) {
   if (m_is_frozen) return;
+  const int substeps = std::max(options.substeps, m_constraints.substepsOf(joints, h));
+  const double resolved = h * options.substeps / substeps;  // a step of the usual number of sub-steps
   if (options.method == JointMethod::kAutomatic) {
-    options.method = m_constraints.isCalm(joints, h) ? JointMethod::kSuzuki4 : JointMethod::kRattle;
+    const JointMethod best = substeps > options.substeps ? JointMethod::kKahanLi6 : JointMethod::kSuzuki4;
+    options.method = m_constraints.isCalm(joints, resolved) ? best : JointMethod::kRattle;
   }
   if (m_is_rod) {
     Joint& joint = joints[at(m_constraints.links[0].index)];
     if (stepRod(bodies[at(joint.a)], bodies[at(joint.b)], joint, h, gravity, options, counters)) return;
   }
-  options.substeps = std::max(options.substeps, m_constraints.substepsOf(joints, h));
-  if (!m_constraints.mayCompose(m_motion, joints, h)) options.method = JointMethod::kRattle;
+  options.substeps = substeps;
+  if (!m_constraints.mayCompose(m_motion, joints, resolved)) options.method = JointMethod::kRattle;
   // A step whose stages do not converge is repeated with shorter ones, all of it: lengths that change within
   // a step cost more energy than long ones do. Only the last try may halve stages and fall back. What the
   // last step needed, the next one is likely to need, too.

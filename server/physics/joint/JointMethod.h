@@ -12,7 +12,7 @@
 namespace naiad::physics {
 
 enum class JointMethod : std::uint8_t {
-  kAutomatic,  ///< order 4 for an island that keeps its energy, RATTLE for the others
+  kAutomatic,  ///< order 4 for an island that keeps its energy (6 where a stiff spring pulls), else RATTLE
   kRattle,     ///< order 2, one sub-step per stage
   kYoshida4,   ///< order 4, 3 stages
   kSuzuki4,    ///< order 4, 5 stages

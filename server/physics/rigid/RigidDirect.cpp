@@ -202,27 +202,64 @@ void RigidDirect::assemble() {
   }
 }
 
+// The three rows of a body at once: they begin at the same column. Each entry is the same sum in the same
+// order as row by row.
 bool RigidDirect::factor() {
-  const auto count = static_cast<std::int64_t>(m_first.size());
-  for (std::int64_t k = 0; k < count; ++k) {
-    double* const line = m_matrix.data() + m_row_at[at(k)];
-    const std::int64_t first = m_first[at(k)];
-    for (std::int64_t j = first; j < k; ++j) {
-      const double* const above = m_matrix.data() + m_row_at[at(j)];
-      double value = line[j];
-      for (std::int64_t i = std::max<std::int64_t>(first, m_first[at(j)]); i < j; ++i)
-        value -= line[i] * above[i];
-      line[j] = value;  // times the pivot, until the row is done
-    }
-    double pivot = line[k];
-    for (std::int64_t j = first; j < k; ++j) {
-      const double scaled = line[j] * m_matrix[at(m_row_at[at(j)] + j)];  // the pivots are stored inverted
-      pivot -= scaled * line[j];
-      line[j] = scaled;
-    }
-    if (!(pivot > 0)) return false;
-    line[k] = 1 / pivot;
+  const auto bodies = static_cast<std::int64_t>(m_first.size() / 3);
+  m_block.resize(m_first.size());
+  for (std::int64_t body = 0; body < bodies; ++body) {
+    const std::int64_t first = m_first[at(3 * body)];
+    const double *const one = lineOf(3 * body), *const two = lineOf(3 * body + 1),
+                        *const three = lineOf(3 * body + 2);
+    for (std::int64_t i = first; i < 3 * body; ++i) m_block[at(i)] = {Two{one[i], two[i]}, Two{three[i], 0}};
+    for (std::int64_t column = first; column < 3 * body; column += 3) reduceBlock(first, column);
+    if (!factorBlock(first, 3 * body)) return false;
   }
+  return true;
+}
+
+// What three columns are without those before them: times their pivots, until the rows are done.
+void RigidDirect::reduceBlock(std::int64_t first, std::int64_t column) {
+  const double *const one = lineOf(column), *const two = lineOf(column + 1),
+                      *const three = lineOf(column + 2);
+  Block* const block = m_block.data();
+  Two a = block[column].low, b = block[column + 1].low, c = block[column + 2].low;
+  Two d = block[column].high, e = block[column + 1].high, f = block[column + 2].high;
+  for (std::int64_t i = std::max<std::int64_t>(first, m_first[at(column)]); i < column; ++i) {
+    const Two low = block[i].low, high = block[i].high;
+    a -= low * one[i], b -= low * two[i], c -= low * three[i];
+    d -= high * one[i], e -= high * two[i], f -= high * three[i];
+  }
+  b -= a * two[column], e -= d * two[column];
+  c -= a * three[column], f -= d * three[column];
+  c -= b * three[column + 1], f -= e * three[column + 1];
+  block[column] = {a, d}, block[column + 1] = {b, e}, block[column + 2] = {c, f};
+}
+
+// The rows over their pivots, and the pivots of three rows, stored inverted.
+bool RigidDirect::factorBlock(std::int64_t first, std::int64_t row) {
+  double *const one = lineOf(row), *const two = lineOf(row + 1), *const three = lineOf(row + 2);
+  Two a = {one[row], two[row]}, b = {0, two[row + 1]};
+  double a_three = three[row], b_three = three[row + 1], c_three = three[row + 2];
+  for (std::int64_t j = first; j < row; ++j) {
+    const Block& here = m_block[at(j)];
+    const double pivot = lineOf(j)[j];
+    one[j] = here.low[0] * pivot, two[j] = here.low[1] * pivot, three[j] = here.high[0] * pivot;
+    a -= here.low * one[j], b -= here.low * two[j];
+    a_three -= here.high[0] * one[j], b_three -= here.high[0] * two[j], c_three -= here.high[0] * three[j];
+  }
+  if (!(a[0] > 0)) return false;
+  one[row] = 1 / a[0];
+  two[row] = a[1] * one[row];
+  const double second = b[1] - a[1] * two[row];
+  if (!(second > 0)) return false;
+  two[row + 1] = 1 / second;
+  b_three -= a_three * two[row];
+  three[row] = a_three * one[row];
+  three[row + 1] = b_three * two[row + 1];
+  c_three = (c_three - three[row] * a_three) - three[row + 1] * b_three;
+  if (!(c_three > 0)) return false;
+  three[row + 2] = 1 / c_three;
   return true;
 }
 

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/geometry/Index.h"
 #include "physics/rigid/RigidContact.h"
 
 namespace naiad::physics {
@@ -47,6 +48,10 @@ class RigidDirect {
 
  private:
   enum class Side : std::uint8_t { kLow, kFree, kHigh };
+  using Two = double __attribute__((vector_size(16)));
+  struct Block {
+    Two low, high;  ///< of three rows; the last number is not used
+  };
   struct Velocity {
     double x[3];
   };
@@ -56,6 +61,9 @@ class RigidDirect {
   void setResidual();
   void assemble();
   bool factor();
+  void reduceBlock(std::int64_t first, std::int64_t column);
+  bool factorBlock(std::int64_t first, std::int64_t row);
+  double* lineOf(std::int64_t row) { return m_matrix.data() + m_row_at[at(row)]; }
   void solveFactored();
 
   std::vector<int> m_bodies;
@@ -67,6 +75,7 @@ class RigidDirect {
   std::vector<std::int32_t> m_first;   // leftmost column of each row of the matrix
   std::vector<std::int64_t> m_row_at;  // so that entry (i, j) is at m_row_at[i] + j
   std::vector<double> m_matrix, m_right;
+  std::vector<Block> m_block;  // by column, of the three rows that are being factored
   std::vector<double> m_force, m_guess;
   std::vector<Side> m_side;
   double m_largest_mass = 0;

@@ -19,6 +19,11 @@ constexpr int kRounds = 16;
 constexpr int kTallRounds = 32;
 constexpr int kTall = 24;         // bodies, if …
 constexpr double kSlender = 100;  // … a factorisation takes no more multiplications a body: a stack, a chain
+// What one attempt may cost beside that, in multiplications, of which 10⁶ take some .3 ms: so many for each
+// group, and so many for each contact and joint. If all rounds cost no more than kAttempt it has them; a
+// wider heap, which would hardly settle, has what kWideAttempt pays for.
+constexpr double kAttemptStart = 1e6;
+constexpr double kAttempt = 22'000, kWideAttempt = 14'000;
 constexpr double kSmallCost =
     1e4;  // multiplications: a failure that cost less is tried again in the next step
 // Relative to the speed that acceleration adds in half a sub-step, the natural unit of what rest must
@@ -196,7 +201,12 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
   ++m_counters.direct_solves;
   int rounds = 0;
   const bool is_tall = island.bodies >= kTall && price <= kSlender * island.bodies;
-  const bool is_found = m_direct.solve(m_states, tolerance, is_tall ? kTallRounds : kRounds, rounds);
+  int most_rounds = is_tall ? kTallRounds : kRounds;
+  const double parts = island.constraints + island.links;
+  if (most_rounds * cost > kAttemptStart + kAttempt * parts) {
+    most_rounds = std::min(most_rounds, static_cast<int>((kAttemptStart + kWideAttempt * parts) / cost));
+  }
+  const bool is_found = m_direct.solve(m_states, tolerance, most_rounds, rounds);
   m_counters.direct_rounds += rounds;
   extra.budget = std::max(extra.budget - rounds * cost, 0.0);  // below 0, it would be as if it had none yet
   if (!is_found) {

@@ -27,7 +27,7 @@ bool isSound(const SoftBody& body) {
   }
   for (const SoftStretch& s : body.stretches) {
     is_sound = is_sound && isNode(s.a) && isNode(s.b) && s.a != s.b && s.rest_length >= 1e-9 &&
-               isSmallSoft(s.rest_length) && isLoad(s.stiffness) && isLoad(s.damping);
+               isSmallSoft(s.rest_length) && isLoad(s.stiffness) && isLoad(s.damping) && isLoad(s.limit);
   }
   for (const SoftBend& s : body.bends) {
     const bool is_clamp = s.a == -1;
@@ -52,6 +52,8 @@ double energyOf(const SoftBody& body, Vec2 gravity) {
   for (const SoftStretch& s : body.stretches) {
     const double longer = spanOf(body, s).length - s.rest_length;
     energy += 0.5 * s.stiffness * longer * longer;
+    const double over = tautBeyond(s, longer);
+    if (over > 0) energy += 0.5 * kTautSoft * s.stiffness * over * over;
   }
   for (const SoftBend& s : body.bends) {
     const double bent = cornerOf(body, s).bent;

@@ -28,6 +28,8 @@ struct SoftStretch {
   double rest_length = 1;  ///< > 0
   double stiffness = 1;    ///< EA / rest length for a bar; >= 0
   double damping = 0;      ///< >= 0
+  /// Of strain, > 0: stretched further, it is taut, and kTautSoft times as stiff. 0: it never is.
+  double limit = 0;
 };
 
 /// A spring against bending at b, in the corner a, b, c: moment = stiffness · (angle − rest angle) + damping
@@ -60,7 +62,8 @@ struct SoftBody {
   double rest_area = 0;  ///< > 0 if there is pressure or bulk
 };
 
-inline constexpr int kMaxSoftNodes = 4096;    ///< a tick's cost grows with nodes · band²
+inline constexpr int kMaxSoftNodes = 16'384;  ///< a tick's cost: SoftElastic.h
+inline constexpr double kTautSoft = 100;      ///< of a stretch beyond its limit, over its stiffness
 inline constexpr double kLargestSoft = 1e12;  ///< of sizes, speeds, masses, forces and stiffness
 /// False for NaN.
 inline bool isSmallSoft(double x) {

@@ -23,7 +23,8 @@ LocalPath localPath(const SoftBody& body, Vec2 from, Vec2 to, const SoftPose& ri
 }
 
 std::uint64_t keyOf(int body, int feature, int other, int other_feature) {
-  return ((static_cast<std::uint64_t>(body) * 8191 + static_cast<std::uint64_t>(feature)) << 32) ^
+  static_assert(2 * kMaxSoftNodes < 32771);  // nodes, and the lines between them
+  return ((static_cast<std::uint64_t>(body) * 32771 + static_cast<std::uint64_t>(feature)) << 32) ^
          (static_cast<std::uint64_t>(other) * 8209 + static_cast<std::uint64_t>(other_feature));
 }
 
@@ -185,14 +186,50 @@ void findContacts(const SoftView& soft, const SoftPose& rigid, double h, std::ve
     }
     return overlap(least - Vec2{thick, thick}, most + Vec2{thick, thick}, lower, upper);
   };
-  for (int k = 0; k < static_cast<int>(rigid.obstacle->shapes.size()); ++k) {
+  const int shapes = static_cast<int>(rigid.obstacle->shapes.size());
+  for (std::size_t i = 0; i < soft.patches.size(); ++i) {
+    if (!mayMeet(soft.patches[i], body, rigid, h)) continue;
+    const int begin = static_cast<int>(i) * kSoftPatch, nodes = static_cast<int>(body.nodes.size());
+    for (int node = begin; node < std::min(begin + kSoftPatch, nodes); ++node) {
+      for (int k = 0; k < shapes && isNear(node, node); ++k) findNode(soft, node, rigid, k, h, rows);
+    }
+  }
+  for (int k = 0; k < shapes; ++k) {
     for (const int node : body.boundary) {
-      if (isNear(node, node)) findNode(soft, node, rigid, k, h, rows);
+      if (soft.patches.empty() && isNear(node, node)) findNode(soft, node, rigid, k, h, rows);
     }
     for (int s = 0; s < segmentsOf(body); ++s) {
       if (isNear(firstOf(body, s), secondOf(body, s))) findCorners(soft, s, rigid, k, h, rows);
     }
   }
+}
+
+double lastingDepth(const SoftRow& row, double radius) {
+  constexpr double kRecovery = 0.2, kMaxRecovery = 0.02;
+  const double depth = std::max(0.0, -row.gaps[0]);
+  return depth - std::min(kRecovery * depth, kMaxRecovery * radius);
+}
+
+void appendPatches(std::span<const SoftNode> starts, const Vec2* ends, double thick,
+                   std::vector<SoftPatch>& patches) {
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const Vec2 start = starts[i].offset, end = ends[i];
+    if (i % kSoftPatch == 0) patches.push_back({{1e300, 1e300}, {-1e300, -1e300}});
+    SoftPatch& patch = patches.back();
+    patch.lower = {std::min({patch.lower.x, start.x - thick, end.x - thick}),
+                   std::min({patch.lower.y, start.y - thick, end.y - thick})};
+    patch.upper = {std::max({patch.upper.x, start.x + thick, end.x + thick}),
+                   std::max({patch.upper.y, start.y + thick, end.y + thick})};
+  }
+}
+
+bool mayMeet(const SoftPatch& patch, const SoftBody& body, const SoftPose& rigid, double h) {
+  const Vec2 middle = 0.5 * (patch.lower + patch.upper);
+  const double goes = h * (length(rigid.velocity) + std::fabs(rigid.spin) * rigid.reach);
+  const double room = 0.5 * length(patch.upper - patch.lower) + goes;
+  const Vec2 there = inverse(rigid.rotation) * (middle - (rigid.place - body.place));
+  const auto isNear = [&](const ConvexShape& shape) { return closestPoint(shape, there).distance <= room; };
+  return std::any_of(rigid.obstacle->shapes.begin(), rigid.obstacle->shapes.end(), isNear);
 }
 
 bool mayMeet(const SoftView& a, const SoftView& b) {

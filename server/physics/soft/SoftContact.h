@@ -58,12 +58,24 @@ struct SoftRow {
   int responses[2][2] = {};   ///< [axis][A, B] index in the solver's pool
 };
 
+/// How deep a contact may still be at the end of the sub-step: what is too deep comes out by a part of its
+/// depth, and by no more than a part of the radius.
+double lastingDepth(const SoftRow& row, double radius);
+
+/// kSoftPatch nodes in order, and where they are and go within a sub-step (offsets).
+struct SoftPatch {
+  Vec2 lower, upper;
+};
+inline constexpr int kSoftPatch = 32;
+
 /// A body as detection sees it: where it is at the start of a sub-step, and would be at its end.
 struct SoftView {
   const SoftBody* body = nullptr;
   int id = 0;
   const Vec2* ends = nullptr;  ///< offsets of nodes at the end, if nothing stops them
   Vec2 lower, upper;           ///< around both, radius included, from the body's place
+  /// Of a wide body (SoftElastic.h). All its nodes touch rigid bodies, not those of its boundary alone.
+  std::span<const SoftPatch> patches;
 };
 
 /// An obstacle at the start of a sub-step.
@@ -80,6 +92,11 @@ struct SoftPose {
 /// Of a radius: contacts closer than this get a row before they touch.
 inline constexpr double kSoftSkin = 0.1;
 
+/// Appends the patches of a body whose nodes go from `starts` to `ends`, both by node, to grow by `thick`.
+void appendPatches(std::span<const SoftNode> starts, const Vec2* ends, double thick,
+                   std::vector<SoftPatch>& patches);
+/// May something of the patch touch the obstacle within `h` ticks?
+bool mayMeet(const SoftPatch& patch, const SoftBody& body, const SoftPose& rigid, double h);
 /// Do the bounds of two bodies overlap within the sub-step?
 bool mayMeet(const SoftView& a, const SoftView& b);
 /// Append what may touch within `h` ticks.

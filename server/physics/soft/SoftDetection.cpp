@@ -12,6 +12,12 @@ void SoftWorld::updateViews(double h, std::span<SoftObstacle> obstacles) {
   for (int id = 0; id < idLimit(); ++id) nodes += m_bodies[at(id)].nodes.size();
   m_ends.resize(nodes);
   m_views.clear();
+  m_patches.clear();
+  std::size_t patches = 0;
+  for (int id = 0; id < idLimit(); ++id) {
+    if (isLive(id) && isWide(id)) patches += m_bodies[at(id)].nodes.size() / kSoftPatch + 1;
+  }
+  m_patches.reserve(patches);  // so that views may point into it
   std::size_t used = 0;
   for (int id = 0; id < idLimit(); ++id) {
     if (!isLive(id)) continue;
@@ -34,6 +40,11 @@ void SoftWorld::updateViews(double h, std::span<SoftObstacle> obstacles) {
     }
     const double thick = (1 + kSoftSkin) * body.radius;
     view.lower = lower - Vec2{thick, thick}, view.upper = upper + Vec2{thick, thick};
+    if (isWide(id)) {
+      const std::size_t begin = m_patches.size();
+      appendPatches(body.nodes, view.ends, thick, m_patches);
+      view.patches = std::span<const SoftPatch>(m_patches).subspan(begin);
+    }
     m_views.push_back(view);
   }
   m_poses.resize(obstacles.size());

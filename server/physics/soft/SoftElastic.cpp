@@ -1,5 +1,6 @@
 #include "physics/soft/SoftElastic.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics/soft/SoftForces.h"
@@ -31,25 +32,39 @@ int spread(const SoftBody& body, const std::vector<int>& order) {
   return widest;
 }
 
+// Have its springs few different distances of numbers, so that its gradients cost little (kMaxDiagonals)?
+bool isMesh(const SoftBody& body) {
+  std::vector<ConjugateGradients::Pair> pairs;
+  for (const SoftStretch& s : body.stretches) pairs.push_back({s.a, s.b});
+  return ConjugateGradients::diagonalsOf(pairs) <= SoftElastic::kMaxDiagonals;
+}
+
 }  // namespace
 
-void SoftElastic::prepare(const SoftBody& body) {
+void SoftElastic::prepare(SoftBody& body) {
   const int count = static_cast<int>(body.nodes.size());
   std::vector<int> plain(at(count));
   for (int i = 0; i < count; ++i) plain[at(i)] = i;
   m_order = folded(count);
   if (spread(body, plain) <= spread(body, m_order)) m_order = plain;
-  m_band.resize(2 * count, 2 * spread(body, m_order) + 1);
+  const int band = 2 * spread(body, m_order) + 1;
+  const bool has_gas = body.is_closed && (body.pressure != 0 || body.bulk != 0);
+  m_is_wide = !has_gas && body.bends.empty() && static_cast<double>(count) * band * band > kMaxDirectPrice &&
+              isMesh(body);
+  if (m_is_wide) m_order = plain;
+  m_band.resize(m_is_wide ? 0 : 2 * count, m_is_wide ? 0 : band);
   m_pinned.assign(at(count), 0);
   for (int i = 0; i < count; ++i) m_pinned[at(i)] = body.nodes[at(i)].is_pinned;
   for (auto* rows : {&m_change, &m_gas, &m_gas_response}) rows->assign(at(2 * count), 0);
   m_tensions.assign(body.stretches.size(), 0);
   m_elastic.assign(body.stretches.size(), 0);
+  m_hardness.assign(body.stretches.size(), 0);
   m_directions.assign(body.stretches.size(), {});
   for (auto* of_nodes : {&m_base, &m_inertial, &m_start, &m_start_velocity, &m_before, &m_before_velocity}) {
     of_nodes->assign(at(count), {});
   }
   m_history = 0;
+  if (m_is_wide) prepareWide(body);
 }
 
 void SoftElastic::begin(SoftBody& body, double h, Vec2 gravity, bool is_smooth) {
@@ -91,6 +106,13 @@ void SoftElastic::shift(Vec2 by) {
 }
 
 bool SoftElastic::assemble(const SoftBody& body) {
+  if (m_is_wide) {
+    m_gradients.clear(m_scale);
+    std::fill(m_change.begin(), m_change.end(), 0);
+    addMass(body);
+    addStretches(body);
+    return true;
+  }
   // What rounding may have made singular gets a little more inertia.
   for (const double extra : {0.0, 1e-12, 1e-9, 1e-6}) {
     m_band.clear();
@@ -137,13 +159,17 @@ double SoftElastic::apply(SoftBody& body, std::span<const double> change) {
     const SoftStretch& s = body.stretches[i];
     const std::size_t a = at(rowOf(s.a)), b = at(rowOf(s.b));
     const Vec2 apart = {change[b] - change[a], change[b + 1] - change[a + 1]};
-    m_tensions[i] = m_elastic[i] + (s.stiffness + s.damping / m_beta) * dot(m_directions[i], apart);
+    m_tensions[i] = m_elastic[i] + m_hardness[i] * dot(m_directions[i], apart);
   }
   return most;
 }
 
 void SoftElastic::addEntry(int i, int j, double xx, double xy, double yx, double yy) {
   if (m_pinned[at(i)] || m_pinned[at(j)]) return;
+  if (m_is_wide) {
+    if (i == j) m_gradients.addDiagonal(i, {xx, xy, yy});
+    return;  // pairs are set as a whole
+  }
   const int row = rowOf(i), column = rowOf(j);
   if (row < column) return;  // its mirror image comes too
   m_band.entry(row, column) += xx;
@@ -157,7 +183,11 @@ void SoftElastic::addMass(const SoftBody& body) {
     const SoftNode& node = body.nodes[at(i)];
     const int row = rowOf(i);
     if (m_pinned[at(i)]) {
-      m_band.entry(row, row) = m_band.entry(row + 1, row + 1) = 1;
+      if (m_is_wide) {
+        m_gradients.addDiagonal(i, {m_scale, 0, m_scale});
+      } else {
+        m_band.entry(row, row) = m_band.entry(row + 1, row + 1) = 1;
+      }
       continue;
     }
     const double inertia = node.mass / (m_beta * m_beta), drag = node.mass * body.drag / m_beta;
@@ -189,11 +219,18 @@ void SoftElastic::addStretches(const SoftBody& body) {
     const double rate = dot(along, rateOf(body, s.b) - rateOf(body, s.a));
     m_directions[i] = along;
     m_elastic[i] = s.stiffness * (span.length - s.rest_length) + s.damping * rate;
-    const int nodes[] = {s.a, s.b};
-    const Vec2 slopes[] = {-along, along};
-    addSpring(nodes, slopes, 2, m_elastic[i], s.stiffness + s.damping / m_beta);
+    m_hardness[i] = s.stiffness + s.damping / m_beta;
+    const double over = tautBeyond(s, span.length - s.rest_length);
+    if (over > 0) m_elastic[i] += kTautSoft * s.stiffness * over, m_hardness[i] += kTautSoft * s.stiffness;
     // Under tension it also resists turning. Under pressure it helps to turn, which is left to the iteration.
     const double taut = m_tensions[i] / span.length;
+    if (m_is_wide) {
+      addLink(s, static_cast<int>(i), along, m_elastic[i], m_hardness[i], std::max(0.0, taut));
+      continue;
+    }
+    const int nodes[] = {s.a, s.b};
+    const Vec2 slopes[] = {-along, along};
+    addSpring(nodes, slopes, 2, m_elastic[i], m_hardness[i]);
     if (!(taut > 0)) continue;
     const Vec2 side = perpendicular(along);
     const Vec2 turns[] = {-side, side};

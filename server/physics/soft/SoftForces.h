@@ -1,6 +1,7 @@
 // How far a soft body's springs are from rest, and in which direction they push: shared by step and energy.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -20,6 +21,11 @@ inline SoftSpan spanOf(const SoftBody& body, const SoftStretch& s) {
       body.nodes[static_cast<std::size_t>(s.b)].offset - body.nodes[static_cast<std::size_t>(s.a)].offset;
   const double far = length(offset), least = 1e-6 * s.rest_length;
   return far > least ? SoftSpan{far, offset / far} : SoftSpan{least, {1, 0}};
+}
+
+/// How far it is stretched beyond its limit; `longer` than at rest.
+inline double tautBeyond(const SoftStretch& s, double longer) {
+  return s.limit > 0 ? std::max(0.0, longer - s.limit * s.rest_length) : 0;
 }
 
 struct SoftCorner {

@@ -35,20 +35,25 @@ void SoftWorld::substep(double h, std::span<SoftObstacle> obstacles) {
     });
     if (is_touched) m_elastics[at(view.id)].forgetHistory();
   }
+  separateWide();
   for (const SoftView& view : m_views) {
-    m_elastics[at(view.id)].begin(m_bodies[at(view.id)], h, m_gravity, true);
+    if (isWide(view.id)) solveWide(view, h, obstacles);
+  }
+  for (const SoftView& view : m_views) {
+    if (!isWide(view.id)) m_elastics[at(view.id)].begin(m_bodies[at(view.id)], h, m_gravity, true);
   }
   findGroups();
   solveGroups(h);
   for (const SoftRow& row : m_rows) recordRow(row, h, obstacles);
   for (const SoftView& view : m_views) {
-    if (!isLive(view.id)) continue;
+    if (!isLive(view.id) || isWide(view.id)) continue;
     stopNodes(view.id, h, obstacles);
     m_elastics[at(view.id)].finish(m_bodies[at(view.id)]);
     if (limitEnergy(view.id)) stopNodes(view.id, h, obstacles);
   }
   moveObstacles(h, obstacles);
   m_earlier.swap(m_rows);
+  m_earlier.insert(m_earlier.end(), m_wide_rows.begin(), m_wide_rows.end());
   std::sort(m_earlier.begin(), m_earlier.end(),
             [](const SoftRow& a, const SoftRow& b) { return a.key < b.key; });
 }
@@ -73,7 +78,7 @@ void SoftWorld::findGroups() {
 
 void SoftWorld::solveGroups(double h) {
   for (const SoftView& lead : m_views) {
-    if (m_states[at(lead.id)].group != lead.id) continue;
+    if (m_states[at(lead.id)].group != lead.id || isWide(lead.id)) continue;
     for (bool is_done = false; !is_done;) {
       m_group.clear();
       m_group_rows.clear();
@@ -150,7 +155,7 @@ void SoftWorld::recordRow(const SoftRow& row, double h, std::span<SoftObstacle> 
   } else {
     m_states[at(row.a.body)].is_worked_on = m_states[at(row.b.body)].is_worked_on = true;
   }
-  if (row.is_attachment) return;
+  if (row.is_attachment || row.forces[0] <= 0) return;
   const bool is_soft = row.obstacle < 0;
   const int other = is_soft ? std::max(row.a.body, row.b.body) : obstacles[at(row.obstacle)].id;
   const int body = is_soft ? std::min(row.a.body, row.b.body) : row.a.body;

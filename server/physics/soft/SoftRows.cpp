@@ -17,10 +17,6 @@ constexpr int kMinSweeps = 8;
 constexpr double kSettled = 1e-7;
 /// … and are counted as failed if one still moves by more than this.
 constexpr double kNearlySettled = 1e-4;
-/// What is too deep comes out by this part of its depth in a sub-step, and by no more than this part of a
-/// radius.
-constexpr double kRecovery = 0.2;
-constexpr double kMaxRecovery = 0.02;
 
 double along(const SoftElastic& elastic, const SoftPoint& point, Vec2 axis, const double* rows) {
   double sum = 0;
@@ -113,9 +109,7 @@ double SoftRowSolver::fixedGap(const Scene& scene, const SoftRow& row, int axis)
     }
   }
   if (row.is_attachment || axis == 1) return gap;
-  const double depth = std::max(0.0, -row.gaps[0]);
-  const double recovered = std::min(kRecovery * depth, kMaxRecovery * scene.bodies[at(row.a.body)].radius);
-  return gap + (depth - recovered);
+  return gap + lastingDepth(row, scene.bodies[at(row.a.body)].radius);
 }
 
 double SoftRowSolver::compliance(const Scene& scene, const SoftRow& row, int axis) const {

@@ -5,8 +5,6 @@
 
 namespace naiad::physics {
 
-namespace {}  // namespace
-
 void SoftWorld::start(int id) {
   m_elastics[at(id)].prepare(m_bodies[at(id)]);
   m_states[at(id)] = {};
@@ -50,6 +48,19 @@ bool SoftWorld::setForce(int id, int node, Vec2 force) {
   if (m_bodies[at(id)].nodes[at(node)].force == force) return true;
   m_bodies[at(id)].nodes[at(node)].force = force;
   m_elastics[at(id)].forgetHistory();
+  m_states[at(id)].is_fresh = true;
+  return true;
+}
+
+bool SoftWorld::pin(int id, int node, bool is_pinned) {
+  if (!exists(id) || node < 0 || at(node) >= m_bodies[at(id)].nodes.size()) return false;
+  m_bodies[at(id)].nodes[at(node)].is_pinned = is_pinned;
+  m_bodies[at(id)].nodes[at(node)].velocity = {};
+  if (!isWide(id) || m_states[at(id)].is_frozen) {
+    start(id);
+    return true;
+  }
+  m_elastics[at(id)].setPinned(node, is_pinned);  // the rest is as it was
   m_states[at(id)].is_fresh = true;
   return true;
 }

@@ -13,6 +13,7 @@
 #include "physics/soft/SoftContact.h"
 #include "physics/soft/SoftCrowd.h"
 #include "physics/soft/SoftElastic.h"
+#include "physics/soft/SoftPush.h"
 #include "physics/soft/SoftRows.h"
 
 namespace naiad::physics {
@@ -82,6 +83,8 @@ class SoftWorld {
 
   /// A force that stays until it is set again. False if it is not sound, or there is no such node.
   bool setForce(int id, int node, Vec2 force);
+  /// The node stops, and is pinned or free from now on. False if there is no such node.
+  bool pin(int id, int node, bool is_pinned);
   /// The same for a blow.
   bool applyImpulse(int id, int node, Vec2 impulse);
   /// Refuses what is not finite or too large.
@@ -128,6 +131,7 @@ class SoftWorld {
     return state.exists && !state.is_frozen && !state.is_out;
   }
   bool isOut(const Touch& touch) const;
+  bool isWide(int id) const { return m_elastics[at(id)].isWide(); }
   void freeze(int id);
   void recentre(int id);
   void start(int id);
@@ -147,6 +151,17 @@ class SoftWorld {
   void stopNodes(int id, double h, std::span<SoftObstacle> obstacles);
   void stopNode(int id, int node, const SoftPose& pose, double h, SoftObstacle& obstacle);
   bool limitEnergy(int id);
+  // SoftWideStep.cpp
+  void separateWide();
+  void solveWide(const SoftView& view, double h, std::span<SoftObstacle> obstacles);
+  bool iterateWide(int id, double h);
+  void gatherPushes(const SoftView& view, double h);
+  SoftPush pushOf(SoftRow& row, int id, double h) const;
+  std::size_t sharedBy(const SoftPoint& point, int which) const;
+  double yieldOf(const SoftPush& push, double h) const;
+  void pushOthers(const SoftPush& push, double h);
+  void stopWide(int id, double h, std::span<SoftObstacle> obstacles);
+
   void recordRow(const SoftRow& row, double h, std::span<SoftObstacle> obstacles);
   void publish();
 
@@ -166,11 +181,16 @@ class SoftWorld {
   std::vector<SoftView> m_views;
   std::vector<Vec2> m_ends;
   std::vector<SoftPose> m_poses;
+  std::vector<SoftPatch> m_patches;  // of wide bodies
+  std::vector<SoftPatch> m_stop_patches;
   std::vector<SoftObstacleMotion> m_obstacle_motions;
   SoftCrowd m_crowd;
   std::vector<SoftRow> m_rows;
-  std::vector<SoftRow> m_earlier;  // of the one before, by key
-  std::vector<int> m_links;        // union-find over bodies and obstacles
+  std::vector<SoftRow> m_earlier;    // of the one before, by key
+  std::vector<SoftRow> m_wide_rows;  // of wide bodies, taken out of m_rows
+  std::vector<SoftPush> m_pushes;
+  std::vector<int> m_sharing;  // pushes on an obstacle or on a node of another body
+  std::vector<int> m_links;    // union-find over bodies and obstacles
   std::vector<int> m_group;
   std::vector<SoftRow*> m_group_rows;
   SoftRowSolver m_solver;

@@ -184,6 +184,12 @@ GridBounds SubstepWorld::sweptBounds(const SubstepBody& b) const {
                     0);
 }
 
+// Do they lie in one another, as bodies of a crowd do? They pass until there is room.
+bool SubstepWorld::areDeep(const SubstepBody& a, const SubstepBody& b) const {
+  const double near = a.thickness + b.thickness;
+  return isMovable(a) && isMovable(b) && lengthSquared(b.body.place - a.body.place) < near * near;
+}
+
 // Two fast ones that meet both stop there.
 void SubstepWorld::stop(int id) {
   SubstepBody& b = m_bodies[at(id)];
@@ -200,8 +206,10 @@ void SubstepWorld::stop(int id) {
   const RigidMotion motion = {path, b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
   double first = b.part;
   std::int32_t met = -1;
+  const bool is_thinned = m_broad.isThinned(b.proxy);
   for (const std::int32_t near : m_near) {
     const SubstepBody& other = m_bodies[at(near)];
+    if ((is_thinned || m_broad.isThinned(other.proxy)) && areDeep(b, other)) continue;
     const auto pair = findPair(id, near);
     const bool is_pushing = pair != m_pairs.end() && pair->is_pushing;
     if (pair != m_pairs.end() && pair->is_jointed) continue;

@@ -59,7 +59,8 @@ void SubstepWorld::enter(int id) {
   if (!isMovable(b)) markChanged(id);
   if (b.shapes.empty()) return;
   const Bounds bounds = turnShapes(b);
-  b.proxy = m_broad.add(static_cast<std::uint32_t>(id), gridBounds(b.body.place, bounds, 0), isMovable(b));
+  b.proxy =
+      m_broad.add(static_cast<std::uint32_t>(id), gridBounds(b.body.place, bounds, 0), isMovable(b), b.order);
 }
 
 // Out of the broad phase; its contacts are forgotten.

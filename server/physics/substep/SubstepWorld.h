@@ -126,6 +126,7 @@ class SubstepWorld final : public RigidStepper {
   bool isFast(const SubstepBody& body) const;
   void stopFast();
   GridBounds sweptBounds(const SubstepBody& body) const;
+  bool areDeep(const SubstepBody& a, const SubstepBody& b) const;
   void stop(int id);
   Vec2 movedBy(const SubstepBody& body) const;
 

@@ -39,8 +39,9 @@ struct TcpListener::State : AcceptLoop<State, tcp> {
   void deferAccepts();
   void meet(tcp::socket socket);
   void shakeHands(ByteStream::Socket socket, const tcp::endpoint& peer);
-  bool makeRoom(HalfOpenLimit& places, const AddressPrefix& prefix);
-  bool judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id, const AddressPrefix& prefix);
+  void refuse(const tcp::endpoint& peer, StreamRefusal why);
+  bool makeRoom(HalfOpenLimit& places, const tcp::endpoint& peer);
+  bool judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id, const tcp::endpoint& peer);
   void hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id);
   void onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream);
   void close();
@@ -121,13 +122,12 @@ void TcpListener::State::meet(tcp::socket socket) {
 }
 
 void TcpListener::State::shakeHands(ByteStream::Socket socket, const tcp::endpoint& peer) {
+  if (tls.is_banned && tls.is_banned(peer.address())) return refuse(peer, StreamRefusal::kBanned);
   const AddressPrefix prefix = AddressPrefix::of(peer.address());
-  if (tls.has_handshake && !tls.has_handshake(prefix)) {  // what OpenSSL takes for a stream is saved
-    ++counters.refused_too_often;
-    return;
-  }
+  if (tls.has_handshake && !tls.has_handshake(prefix))  // what OpenSSL takes for a stream is saved
+    return refuse(peer, StreamRefusal::kTooOften);
   HalfOpenLimit& places = tls.is_known && tls.is_known(prefix) ? known : strangers;
-  if (!makeRoom(places, prefix)) return;
+  if (!makeRoom(places, peer)) return;
   std::shared_ptr<TlsHandshake> handshake;
   try {
     handshake = std::make_shared<TlsHandshake>(
@@ -148,21 +148,38 @@ void TcpListener::State::shakeHands(ByteStream::Socket socket, const tcp::endpoi
         places.release(id);
         self->onHandshake(end, std::move(stream));
       },
-      [self = shared_from_this(), id, prefix, &places, hasty] {
-        if (!self->judgeHello(places, id, prefix)) return self->hangUp(places, id);
+      [self = shared_from_this(), id, peer, &places, hasty] {
+        if (!self->judgeHello(places, id, peer)) return self->hangUp(places, id);
         if (hasty) self->handshakes.at(id)->setTimeout(self->tls.handshake_timeout / 2);
       });
 }
 
+void TcpListener::State::refuse(const tcp::endpoint& peer, StreamRefusal why) {
+  switch (why) {
+    case StreamRefusal::kBanned:
+      ++counters.refused_banned;
+      break;
+    case StreamRefusal::kTooOften:
+      ++counters.refused_too_often;
+      break;
+    case StreamRefusal::kFull:
+      ++counters.refused_half_open;
+      break;
+    case StreamRefusal::kPrefixFull:
+      ++counters.refused_from_prefix;
+      break;
+  }
+  if (tls.on_refused) tls.on_refused(peer, why);
+}
+
 // Its place first: what gets none is not counted as a handshake.
-bool TcpListener::State::judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id,
-                                    const AddressPrefix& prefix) {
+bool TcpListener::State::judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id, const tcp::endpoint& peer) {
   if (!places.noteHello(id)) {
-    ++counters.refused_from_prefix;
+    refuse(peer, StreamRefusal::kPrefixFull);
     return false;
   }
-  if (!tls.take_handshake || tls.take_handshake(prefix)) return true;
-  ++counters.refused_too_often;
+  if (!tls.take_handshake || tls.take_handshake(AddressPrefix::of(peer.address()))) return true;
+  refuse(peer, StreamRefusal::kTooOften);
   return false;
 }
 
@@ -174,13 +191,14 @@ void TcpListener::State::hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id) {
 
 // False: there is no place for another connection of this prefix. Each turn ends a silent one, or finds out
 // that it is silent no longer, or gone.
-bool TcpListener::State::makeRoom(HalfOpenLimit& places, const AddressPrefix& prefix) {
+bool TcpListener::State::makeRoom(HalfOpenLimit& places, const tcp::endpoint& peer) {
   using Kind = HalfOpenLimit::Verdict::Kind;
+  const AddressPrefix prefix = AddressPrefix::of(peer.address());
   for (;;) {
     const HalfOpenLimit::Verdict verdict = places.judge(prefix);
     if (verdict.kind == Kind::kFits) return acceptor.is_open();
     if (verdict.kind != Kind::kEndFirst) {
-      ++(verdict.kind == Kind::kFull ? counters.refused_half_open : counters.refused_from_prefix);
+      refuse(peer, verdict.kind == Kind::kFull ? StreamRefusal::kFull : StreamRefusal::kPrefixFull);
       return false;
     }
     const std::shared_ptr<TlsHandshake> handshake = handshakes.at(verdict.id);

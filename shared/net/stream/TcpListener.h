@@ -2,6 +2,7 @@
 #pragma once
 
 #include <asio/generic/stream_protocol.hpp>
+#include <asio/ip/address.hpp>
 #include <asio/ip/tcp.hpp>
 #include <asio/ts/netfwd.hpp>
 #include <chrono>
@@ -19,6 +20,14 @@
 #include "shared/net/stream/TlsContext.h"
 
 namespace naiad {
+
+/// Why a connection was hung up on before TLS.
+enum class StreamRefusal {
+  kBanned,      ///< by TlsListening::is_banned
+  kTooOften,    ///< by TlsListening::take_handshake or has_handshake
+  kFull,        ///< none was silent, and there was no place
+  kPrefixFull,  ///< the prefix has its share of the places
+};
 
 /// How a listener does TLS.
 struct TlsListening {
@@ -39,6 +48,11 @@ struct TlsListening {
   std::function<bool(const AddressPrefix& prefix)> take_handshake = nullptr;
   /// Would that be so now? Asked for each connection that comes. May be empty.
   std::function<bool(const AddressPrefix& prefix)> has_handshake = nullptr;
+  /// Connections of such addresses are hung up on before anything else: not a byte is sent to them. May be
+  /// empty. Called from the listener's event loop, once for each connection.
+  std::function<bool(const asio::ip::address& address)> is_banned = nullptr;
+  /// Hears of each connection that was refused. May be empty. Called from the listener's event loop.
+  std::function<void(const asio::ip::tcp::endpoint& peer, StreamRefusal why)> on_refused = nullptr;
   /// A connection that says nothing is left in the kernel for so long (TCP_DEFER_ACCEPT). 0: it is not.
   std::chrono::seconds defer_accept{1};
 };
@@ -78,6 +92,7 @@ class TcpListener {
     std::uint64_t refused_half_open = 0;    ///< TLS: none was silent, and there was no place
     std::uint64_t refused_from_prefix = 0;  ///< TLS: the prefix has its share of the places
     std::uint64_t refused_too_often = 0;    ///< TLS: by TlsListening::take_handshake or has_handshake
+    std::uint64_t refused_banned = 0;       ///< TLS: by TlsListening::is_banned
   };
 
   /// Listens from now on; `on_channel` is called from the event loop. `address`: numeric, IPv4 or IPv6;

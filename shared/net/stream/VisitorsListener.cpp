@@ -78,11 +78,13 @@ class Arrival : public std::enable_shared_from_this<Arrival> {
     m_socket.non_blocking(true, ignored);
   }
 
+  /// Reads what is there already; `done` may be called before this returns.
   void run(std::chrono::milliseconds timeout, Done done) {
     m_done = std::move(done);
     m_timer.start(timeout, [self = shared_from_this()] { self->finish(End::kLate, {}); });
-    await();
+    read();
   }
+  bool isOver() const { return !m_done; }
   void cancel() {
     m_done = nullptr;
     m_timer.cancel();
@@ -177,17 +179,20 @@ void VisitorsListener::State::meet(Socket socket) {
     ++counters.refused_peers;
     return;
   }
-  if (arrivals.size() >= options.max_waiting) {
-    ++counters.crowded;
-    return;
-  }
   const auto arrival = std::make_shared<Arrival>(std::move(socket));
-  arrivals.insert(arrival);
   arrival->run(options.header_timeout, [self = shared_from_this(), p_arrival = std::weak_ptr(arrival)](
                                            Arrival::End end, Socket taken, const auto& visitor) {
     self->arrivals.erase(p_arrival.lock());
     self->onArrival(end, std::move(taken), visitor);
   });
+  // Most headers are there with the connection. Only those that are not take a place.
+  if (arrival->isOver()) return;
+  if (arrivals.size() < options.max_waiting) {
+    arrivals.insert(arrival);
+  } else {
+    ++counters.crowded;
+    arrival->cancel();
+  }
 }
 
 void VisitorsListener::State::onArrival(Arrival::End end, Socket socket,

@@ -39,6 +39,10 @@ void FakeGame::meet(asio::generic::stream_protocol::socket socket, const asio::i
     const std::lock_guard lock(m_mutex);
     m_visitors.push_back(peerName(address));
   }
+  if (m_unwanted > 0) {
+    --m_unwanted;
+    return;
+  }
   auto handshake =
       std::make_shared<TlsHandshake>(std::make_unique<TlsStream>(std::move(socket), m_identity.tls()));
   handshake->run(std::chrono::seconds(30),

@@ -60,6 +60,10 @@ class FakeGame {
   std::size_t handshakes() {
     return onThread([this] { return m_handshakes; });
   }
+  /// Hang up on the next ones who come, as a crowded server does.
+  void hangUpOn(int count) {
+    onThread([this, count] { return m_unwanted = count; });
+  }
   /// Send to everybody.
   void broadcast(const std::string& frame) { broadcast(std::vector<std::string>{frame}); }
   /// Several at once.
@@ -87,6 +91,7 @@ class FakeGame {
   std::map<int, int> m_sockets;
   int m_newest = 0;
   std::size_t m_handshakes = 0;
+  int m_unwanted = 0;
   std::unique_ptr<VisitorsListener> m_listener;
   std::thread m_thread;
 };

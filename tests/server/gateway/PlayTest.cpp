@@ -156,9 +156,22 @@ TEST_F(GatewayPlay, AServerWithAnotherKeyHearsNotAByte) {
   EXPECT_EQ(gateway.counters().wrong_keys, 1u);
 }
 
+TEST_F(GatewayPlay, AServerThatIsCrowdedIsTriedAgain) {
+  const auto game = makeGame();
+  GatewayRun gateway(home.settings(game->key()));
+  game->hangUpOn(3);
+  WebClient browser(gateway.port());
+  ASSERT_TRUE(browser.play());
+  EXPECT_TRUE(echoes(browser, "hello"));
+  EXPECT_EQ(game->visitors().size(), 4u);
+  EXPECT_EQ(gateway.counters().unreachable, 0u);
+}
+
 TEST_F(GatewayPlay, WithoutAServerThePageIsToldSo) {
   auto game = makeGame();
-  GatewayRun gateway(home.settings(game->key()));
+  auto settings = home.settings(game->key());
+  settings.open_time = std::chrono::seconds(2);
+  GatewayRun gateway(settings);
   WebClient before(gateway.port());
   ASSERT_TRUE(before.play() && echoes(before, "hello"));
   game->endAll(false);

@@ -10,10 +10,14 @@ namespace bench::path {
 namespace {
 
 constexpr std::uint8_t kWhite = 7;
+constexpr std::uint8_t kColors = 8;  // of the game; the same eight follow in a bright form
 
+/// A bright colour counts as the one that it is the bright form of: dfclient draws blue so where it can,
+/// since plain blue on black is hard to read.
 std::uint8_t colorOf(const VTermColor& color) {
   if (VTERM_COLOR_IS_DEFAULT_FG(&color) || !VTERM_COLOR_IS_INDEXED(&color)) return kWhite;
-  return color.indexed.idx;
+  const std::uint8_t index = color.indexed.idx;
+  return index < 2 * kColors ? index % kColors : index;
 }
 
 VTermScreenCallbacks callbacks(int (*damage)(VTermRect, void*)) {

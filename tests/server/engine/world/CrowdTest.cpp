@@ -30,10 +30,13 @@ struct Diary : Object {
 
 struct Crowd {
   int objects = 200;
-  int diaries = 0;       ///< of these, that hear of their collisions
-  double spread = 1;     ///< cells that they are spread over, on each axis
-  bool mixed = false;    ///< SOFT, SPECTRAL and no-soft ones, accelerations, and larger boxes
-  bool options = false;  ///< and such as may move out of each other
+  int diaries = 0;          ///< of these, that hear of their collisions
+  double spread = 1;        ///< cells that they are spread over, on each axis
+  double speed = 1;         ///< cells per tick: they move by up to half of it either way
+  bool mixed = false;       ///< SOFT, SPECTRAL and no-soft ones, accelerations, and larger boxes
+  bool options = false;     ///< and such as may move out of each other
+  int odd_every = 0;        ///< every so many is of a kind, the others of another that it passes through:
+  bool odd_is_hard = true;  ///< a HARD one among SOFT ones; else a SOFT one that is no-soft among HARD ones
 };
 
 /// After each tick, where all are, how fast, and what the diaries say. `ears`: everybody hears.
@@ -53,13 +56,18 @@ std::vector<std::string> play(const Crowd& crowd, std::uint64_t seed, bool ears,
       p_o = ears ? new Listener : new Object;
     }
     p_o->setPosition(Vector(40 + place(), 12 + place()));
-    p_o->setVelocity(Vector(random.unit() - 0.5, random.unit() - 0.5));
+    p_o->setVelocity(Vector(crowd.speed * (random.unit() - 0.5), crowd.speed * (random.unit() - 0.5)));
     if (crowd.mixed) {
       const std::uint64_t kind = random.below(10);
       p_o->setSolidness(kind < 5 ? HARD : kind < 9 ? SOFT : SPECTRAL);
       if (random.below(4) == 0) p_o->setNoSoft();
       if (random.below(8) == 0) p_o->setAcceleration(Vector(0.01, 0));
       if (random.below(8) == 0) p_o->setBox(df::Box(Vector(-1, -0.5), 2 + static_cast<float>(place()), 1));
+    }
+    if (crowd.odd_every > 0) {
+      const bool odd = i % crowd.odd_every == 0;
+      p_o->setSolidness(odd == crowd.odd_is_hard ? HARD : SOFT);
+      p_o->setNoSoft(odd && !crowd.odd_is_hard);
     }
     if (crowd.options && random.below(3) == 0) p_o->setMayMoveOut();
     all.push_back(p_o);
@@ -110,6 +118,66 @@ TEST(Crowd, WithSomeWhoHear) {
 
 TEST(Crowd, WithSomeWhoMayMoveOut) {
   expectTheSame({.diaries = 1, .spread = 2, .mixed = true, .options = true});
+}
+
+TEST(Crowd, WithAnOddOne) {
+  for (const bool is_hard : {true, false}) {
+    expectTheSame({.spread = 2, .speed = 0.1, .odd_every = 200, .odd_is_hard = is_hard});
+    expectTheSame({.spread = 3, .speed = 0.1, .odd_every = 40, .odd_is_hard = is_hard});
+    expectTheSame({.diaries = 2, .spread = 3, .speed = 0.1, .odd_every = 10, .odd_is_hard = is_hard});
+  }
+}
+
+// Nobody is listed for an odd one: neither where no other of its kind is near, nor where there are some.
+TEST(Crowd, OfSoftOnesIsNotListedForAHardOne) {
+  for (const bool is_hard : {true, false}) {
+    for (const int every : {1000, 20}) {
+      MoverStats stats;
+      const Crowd crowd = {
+          .objects = 1000, .spread = 3, .speed = 0.01, .odd_every = every, .odd_is_hard = is_hard};
+      play(crowd, 1, false, &stats);
+      EXPECT_EQ(stats.met, 0u);
+      EXPECT_GT(stats.unheard, 15'000u);
+    }
+  }
+}
+
+TEST(Crowd, IsCountedAsItIsWhenSomeChangeTheirKindOrGo) {
+  World world;
+  const World::Scope scope(world);
+  std::vector<Object*> soft;
+  for (int i = 0; i < 200; ++i) {
+    soft.push_back(new Object);
+    soft.back()->setSolidness(SOFT);
+    soft.back()->setPosition(Vector(40, 12));
+  }
+  auto* p_hard = new Object;
+  p_hard->setPosition(Vector(40, 12));
+  p_hard->setVelocity(Vector(0.001, 0));
+  const auto moves = [&] {
+    const Vector before = p_hard->getPosition();
+    world.tick();
+    return !(p_hard->getPosition() == before);
+  };
+  EXPECT_TRUE(moves());
+  soft[0]->setSolidness(HARD);
+  EXPECT_FALSE(moves());
+  soft[0]->setSolidness(SPECTRAL);
+  EXPECT_TRUE(moves());
+  soft[0]->setSolidness(HARD);
+  soft[0]->setActive(false);
+  EXPECT_TRUE(moves());
+  soft[0]->setActive(true);
+  EXPECT_FALSE(moves());
+  for (int i = 80; i < 200; ++i) WM.markForDelete(soft[static_cast<std::size_t>(i)]);  // closes gaps
+  EXPECT_FALSE(moves());
+  WM.markForDelete(soft[0]);
+  EXPECT_FALSE(moves());  // deletions come last
+  EXPECT_TRUE(moves());
+  for (int i = 1; i < 80; ++i) soft[static_cast<std::size_t>(i)]->setPosition(Vector(10, 12));
+  EXPECT_TRUE(moves());
+  EXPECT_EQ(world.moverStats().met, 0u);
+  world.shutDown();
 }
 
 TEST(Crowd, OfManyHearsNothingOneByOne) {

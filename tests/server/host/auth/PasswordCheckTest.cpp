@@ -62,6 +62,18 @@ TEST(PasswordHash, KnowsTheRightPasswordOnly) {
   }
 }
 
+TEST_F(PasswordCheckTest, AnotherPasswordHoldsFromThenOn) {
+  make({});
+  ask(1, "open sesame");
+  EXPECT_EQ(run(), std::vector{Answer::kRight});
+  check->setHash(PasswordHash::of("xyzzy", kCheap));
+  ask(2, "open sesame");
+  ask(3, "xyzzy");
+  std::vector<Answer> both = run();
+  std::sort(both.begin(), both.end());
+  EXPECT_EQ(both, (std::vector{Answer::kRight, Answer::kWrong}));
+}
+
 TEST(PasswordHash, LongPasswordsAreNotCutOff) {
   const std::string longest(kMaxPassword, 'x');
   const PasswordHash hash = PasswordHash::of(longest, kCheap);

@@ -54,21 +54,23 @@ class LanResponderTest : public testing::TestWithParam<LanSocket::Family> {
     return responder;
   }
   bool ask(const std::string& bytes) { return m_client->sendQuery(*m_network, bytes); }
-  bool ask() { return ask(writeLanQuery(kResponderNonce)); }
+  bool ask() { return ask(writeLanQuery(m_nonce)); }
   std::optional<LanPacket> hear(std::chrono::milliseconds patience) {
     pollfd waited{m_client->descriptor(), POLLIN, 0};
     ::poll(&waited, 1, static_cast<int>(patience.count()));
     return m_client->receivePacket();
   }
-  /// Asks until the keys of all these have answered; what else does is passed over. False after a minute.
+  /// Asks until the keys of all these have answered; what else does, and what answers earlier questions, is
+  /// passed over. False after a minute.
   bool hearAll(const std::set<std::uint8_t>& keys) {
+    ++m_nonce.front();
     const auto end = std::chrono::steady_clock::now() + 60s;
     std::set<std::uint8_t> heard;
     while (std::chrono::steady_clock::now() < end) {
       ask();
       while (const auto packet = hear(500ms)) {
         const auto answer = readLanAnswer(packet->bytes);
-        if (answer && answer->nonce == kResponderNonce && answer->name == "responder") {
+        if (answer && answer->nonce == m_nonce && answer->name == "responder") {
           m_last = *answer;
           m_last_packet = *packet;
           heard.insert(answer->key.bytes()[0]);
@@ -81,6 +83,7 @@ class LanResponderTest : public testing::TestWithParam<LanSocket::Family> {
 
   std::optional<LanNetwork> m_network;
   std::optional<LanSocket> m_client;
+  LanNonce m_nonce = kResponderNonce;
   LanAnswer m_last;
   LanPacket m_last_packet;
 };

@@ -67,7 +67,7 @@ class AdmissionTest : public testing::Test {
     if (!m_admission) {
       rooms.open(world);
       m_admission.emplace(
-          Admission::Setup{options, "maze", sessions, rooms, prefixes, counters,
+          Admission::Setup{options, "maze", sessions, rooms, prefixes, counters, bans,
                            [this](const std::string& address, const std::string& text) {
                              log.push_back(address + " " + text);
                            },
@@ -134,6 +134,8 @@ class AdmissionTest : public testing::Test {
   asio::io_context io;
   Counters counters;
   PlayerPrefixes prefixes;
+  AdminWorker worker;
+  BanList bans{worker, {}};
   std::deque<Client> clients;
   std::vector<std::string> log;
   int new_clients = 0;

@@ -269,6 +269,36 @@ TEST_F(ProgramOptions, NonsenseIsNamedWithItsPlace) {
   EXPECT_EQ(complaint(), "");
 }
 
+TEST(HostOptions, OnlyDfserverHasAControlSocketByItself) {
+  HostOptions server;
+  EXPECT_EQ(parse({}, server), CommandLine::kRun);
+  EXPECT_TRUE(server.control_by_port);
+  HostOptions off;
+  EXPECT_EQ(parse({"--control", "off"}, off), CommandLine::kRun);
+  EXPECT_FALSE(off.control_by_port);
+  EXPECT_EQ(off.control, "");
+  HostOptions named;
+  EXPECT_EQ(parse({"--control", "/run/naiad/a.sock"}, named), CommandLine::kRun);
+  EXPECT_FALSE(named.control_by_port);
+  EXPECT_EQ(named.control, "/run/naiad/a.sock");
+  HostOptions program;
+  readProgramOptions([](const std::string&) { return std::string(); }, program);
+  EXPECT_FALSE(program.control_by_port);
+  EXPECT_EQ(program.control, "");
+  EXPECT_EQ(program.state, "");
+}
+
+TEST(HostOptions, OneIsChangedByItsNameWithinItsRange) {
+  HostOptions options;
+  setHostOption(options, "max-players", "7");
+  EXPECT_EQ(options.max_players, 7);
+  EXPECT_EQ(hostOptionValue(options, "max-players"), "7");
+  EXPECT_THROW(setHostOption(options, "max-players", "0"), OptionError);
+  EXPECT_THROW(setHostOption(options, "max-players", "many"), OptionError);
+  EXPECT_THROW(setHostOption(options, "banana", "7"), OptionError);
+  EXPECT_EQ(options.max_players, 7);
+}
+
 /// What a page or a check prints.
 std::string printed(const std::vector<const char*>& arguments, CommandLine wanted = CommandLine::kDone) {
   HostOptions options;

@@ -120,10 +120,12 @@ class RoomsTest : public testing::Test {
   StageClock stages;
   Rooms rooms{options, sessions, counters, [](const std::string&) {}, [] {}, stages};
   PlayerNews news;
-  Admission admission{
-      {options, "maze", sessions, rooms, prefixes, counters, [](const std::string&, const std::string&) {},
-       [](const ReliableChannel&, AeadId) { return nullptr; }, [] {}},
-      io.get_executor()};
+  AdminWorker worker;
+  BanList bans{worker, {}};
+  Admission admission{{options, "maze", sessions, rooms, prefixes, counters, bans,
+                       [](const std::string&, const std::string&) {},
+                       [](const ReliableChannel&, AeadId) { return nullptr; }, [] {}},
+                      io.get_executor()};
 };
 
 // ---- the audit of pictures --------------------------------------------------------------------------------
@@ -136,8 +138,8 @@ class AuditTurnsTest : public RoomsTest {
     for (int i = 0; i < count; ++i, ++counters.ticks) rooms.beginTicks();
   }
   /// In how many ticks somebody's picture was wanted, of the player's own world.
-  std::size_t wanted(std::size_t world, const Client& client) const {
-    const std::vector<std::uint32_t>& all = ports[world]->pictured;
+  std::size_t wanted(std::size_t number, const Client& client) const {
+    const std::vector<std::uint32_t>& all = ports[number]->pictured;
     const auto own = std::count(all.begin(), all.end(), client.welcome().player());
     EXPECT_EQ(own + std::count(all.begin(), all.end(), 0u), static_cast<std::ptrdiff_t>(all.size()));
     return static_cast<std::size_t>(own);

@@ -129,5 +129,13 @@ TEST(HidePassword, OverwritesIt) {
   EXPECT_STREQ(words[5], "9");
 }
 
+TEST(HidePassword, OverwritesThatOfAdmins) {
+  char words[][32] = {"dfserver", "--admin-password", "open-sesame", "--admin-password=open"};
+  char* arguments[] = {words[0], words[1], words[2], words[3], nullptr};
+  hidePassword(4, arguments);
+  EXPECT_STREQ(words[2], "***********");
+  EXPECT_STREQ(words[3], "--admin-password=****");
+}
+
 }  // namespace
 }  // namespace naiad

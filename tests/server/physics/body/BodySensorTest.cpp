@@ -92,6 +92,37 @@ TEST_F(BodySensorScene, OneThatLeavesAtOnceHasParted) {
   EXPECT_FALSE(p_soft->notes[3].is_begin);
 }
 
+// More than three hundred slots and two thousand pairs.
+TEST_F(BodySensorScene, ManyInOnePlaceHearEachBeginAndEndOnce) {
+  constexpr std::size_t kCount = 66;
+  for (int i = 0; i < 250; ++i) ball(Vector(-10 - 2 * i, 0), Vector(0, 0));
+  std::vector<Listener*> bodies;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    auto* p_soft = ball<Listener>(Vector(0.01 * static_cast<double>(i % 8), 0), Vector(0, 0));
+    p_soft->setSolidness(SOFT);
+    p_soft->setContactEnds();
+    bodies.push_back(p_soft);
+  }
+  ticks(3);
+  for (const Listener* p_body : bodies) {
+    ASSERT_EQ(p_body->notes.size(), kCount - 1);
+    std::set<const Object*> others;
+    for (const Listener::Note& note : p_body->notes) {
+      EXPECT_TRUE(note.is_begin);
+      others.insert(note.p_first == p_body ? note.p_second : note.p_first);
+    }
+    EXPECT_EQ(others.size(), kCount - 1);
+  }
+  for (std::size_t i = 0; i < kCount / 2; ++i) bodies[i]->setPosition(Vector(5, 0));
+  ticks(3);
+  for (const Listener* p_body : bodies) {
+    std::size_t ends = 0;
+    for (const Listener::Note& note : p_body->notes) ends += note.is_begin ? 0 : 1;
+    EXPECT_EQ(ends, kCount / 2);
+    EXPECT_EQ(p_body->notes.size(), kCount - 1 + kCount / 2);
+  }
+}
+
 TEST_F(BodySensorScene, FarFromOneAnotherAskForFewPairs) {
   for (int i = 0; i < 1024; ++i) ball(Vector(3 * (i % 32), 3 * (i / 32)), Vector(3, 0))->setSolidness(SOFT);
   ticks(3);

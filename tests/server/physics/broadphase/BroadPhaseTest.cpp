@@ -225,6 +225,42 @@ TEST(BroadPhase, TheTreeStaysLowHoweverBodiesCome) {
   std::printf("tree: height %d for 500 in one place\n", heap.tree().height());
 }
 
+// Of 300 in one place, by the order of the bodies: whatever ids they have, and whenever these were given.
+TEST(BroadPhase, InACrowdEachFindsTheNearestWhateverTheirIds) {
+  constexpr std::size_t kCount = 300, kKept = 16;
+  const Bounds unit = {{-0.5, -0.5}, {0.5, 0.5}};
+  const auto pairsOf = [&](bool is_shuffled) {
+    BroadPhase broad(true);
+    std::vector<std::size_t> order_of(2000);
+    std::vector<std::int32_t> proxies;
+    if (is_shuffled) {  // proxies that are used again
+      const GridBounds bounds = gridBounds({}, unit, 0);
+      for (std::uint32_t i = 0; i < 50; ++i) proxies.push_back(broad.add(1000 + i, bounds, true));
+      broad.updatePairs();
+      for (const std::int32_t proxy : proxies) broad.remove(proxy);
+      broad.updatePairs();
+      proxies.clear();
+    }
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const std::size_t order = is_shuffled ? (i * 7) % kCount : i;
+      const auto id = static_cast<std::uint32_t>(is_shuffled ? 999 - i : i);
+      order_of[id] = order;
+      const Vec2 at = {order % 3 == 0 ? 0.0 : 0.25, order % 5 == 0 ? 0.0 : 0.25};
+      proxies.push_back(broad.add(id, gridBounds(placeAt(at), unit, 0), true, order));
+    }
+    std::set<std::pair<std::size_t, std::size_t>> pairs;
+    for (const BroadPhasePair& pair : broad.updatePairs())
+      pairs.insert(std::minmax(order_of[pair.id_a], order_of[pair.id_b]));
+    bool is_thinned = false;
+    for (const std::int32_t proxy : proxies) is_thinned = is_thinned || broad.isThinned(proxy);
+    EXPECT_TRUE(is_thinned);
+    return pairs;
+  };
+  const auto pairs = pairsOf(false);
+  EXPECT_LE(pairs.size(), (kKept + 2) * kCount);  // and all, of those that come last
+  EXPECT_EQ(pairs, pairsOf(true));
+}
+
 TEST(BroadPhase, BoundsHoldTheShapeAndMoveWithWholeCells) {
   SplitMix64 random(5);
   for (int i = 0; i < 10000; ++i) {

@@ -78,5 +78,82 @@ TEST(ImpactTree, FindsEveryPairOfThoseThatMove) {
   }
 }
 
+// What hangs together, by the pairs that are found: each is the least of those that it hangs together with.
+class Together {
+ public:
+  explicit Together(int limit) : m_parent(static_cast<std::size_t>(limit)) {
+    for (int i = 0; i < limit; ++i) m_parent[static_cast<std::size_t>(i)] = i;
+  }
+  int of(int i) const {
+    while (m_parent[static_cast<std::size_t>(i)] != i) i = m_parent[static_cast<std::size_t>(i)];
+    return i;
+  }
+  void join(int i, int j) {
+    const int one = of(i), other = of(j);
+    m_parent[static_cast<std::size_t>(std::max(one, other))] = std::min(one, other);
+  }
+
+ private:
+  std::vector<int> m_parent;
+};
+
+TEST(ImpactTree, FindsWhatHangsTogetherWithoutAllPairs) {
+  SplitMix64 random(7);
+  ImpactTree tree;
+  for (const int count : {0, 1, 2, 3, 10, 100, 400}) {
+    for (const double spread : {0.0, 5.0, 100.0}) {
+      const Boxes made = randomBoxes(random, count, spread);
+      tree.update(made.boxes, made.ids, made.limit);
+      Together expected(made.limit), found(made.limit);
+      for (const auto& [i, j] : allPairs(made)) expected.join(i, j);
+      ItemPairs pairs;
+      const auto join = [&](int i, int j) {
+        ASSERT_LT(i, j);
+        pairs.emplace_back(i, j);
+        found.join(i, j);
+      };
+      tree.queryGroups(join, [&](int i, int j) { return found.of(i) == found.of(j); });
+      for (int i = 0; i < made.limit; ++i) ASSERT_EQ(found.of(i), expected.of(i)) << count << ' ' << spread;
+      ASSERT_LT(pairs.size(), made.ids.size() + 1);  // no pair within what hung together already
+      std::sort(pairs.begin(), pairs.end());
+      const ItemPairs all = allPairs(made);
+      ASSERT_TRUE(std::includes(all.begin(), all.end(), pairs.begin(), pairs.end()));
+    }
+  }
+}
+
+// Those of which nothing is known to hang together are found with every pair, once.
+TEST(ImpactTree, LeavesOutNoPairOfWhatGoesItsOwnWay) {
+  SplitMix64 random(8);
+  ImpactTree tree;
+  const Boxes made = randomBoxes(random, 300, 5);
+  tree.update(made.boxes, made.ids, made.limit);
+  Together together(made.limit);
+  ItemPairs pairs;
+  const auto goesItsOwnWay = [](int i) { return i % 30 == 0; };
+  tree.queryGroups(
+      [&](int i, int j) {
+        pairs.emplace_back(i, j);
+        if (!goesItsOwnWay(i) && !goesItsOwnWay(j)) together.join(i, j);
+      },
+      [&](int i, int j) { return together.of(i) == together.of(j); });
+  std::sort(pairs.begin(), pairs.end());
+  ASSERT_EQ(std::adjacent_find(pairs.begin(), pairs.end()), pairs.end());
+  for (const std::pair<int, int>& pair : allPairs(made)) {
+    if (!goesItsOwnWay(pair.first) && !goesItsOwnWay(pair.second)) continue;
+    ASSERT_TRUE(std::binary_search(pairs.begin(), pairs.end(), pair)) << pair.first << ' ' << pair.second;
+  }
+}
+
+TEST(ImpactTree, AQueryEndsWhenItIsTold) {
+  SplitMix64 random(9);
+  ImpactTree tree;
+  const Boxes made = randomBoxes(random, 100, 0);
+  tree.update(made.boxes, made.ids, made.limit);
+  int found = 0;
+  tree.query(made.boxes[0], [&](int /*id*/) { return ++found < 5; });
+  EXPECT_EQ(found, 5);
+}
+
 }  // namespace
 }  // namespace naiad::physics

@@ -314,6 +314,48 @@ TEST(ImpactProperty, ManyBodiesInOnePlaceStayBounded) {
   }
 }
 
+// Pairs of a crowd that do not fit into a tick are not looked at one by one, nor all counted; others are.
+TEST(ImpactProperty, ACrowdOfTooManyPairsIsGivenUpBeforeTheyAreLookedAt) {
+  constexpr int kCrowd = 2000;
+  SplitMix64 random(4);
+  ImpactWorld world;
+  world.setReserve(1e7);
+  for (int i = 0; i < kCrowd; ++i) {
+    ImpactBody body;
+    body.shape = ImpactShape::kCircle;
+    body.place = placeAt({random.unit(), random.unit()});
+    body.velocity = {0.1 * random.unit(), 0.1 * random.unit()};
+    world.add(body);
+  }
+  ImpactBody ball;
+  ball.shape = ImpactShape::kCircle;
+  ball.restitution = 1;
+  ball.place = placeAt({1000, 0});
+  ball.velocity = {3, 0};
+  const int moving = world.add(ball);
+  ball.place = placeAt({1002, 0});
+  ball.velocity = {};
+  const int struck = world.add(ball);
+  world.step();
+  const double share = ImpactWorld::kWorkOfBody * kCrowd + ImpactWorld::kWorkOfTick + 1e7;
+  EXPECT_LE(static_cast<double>(world.counters().forecasts), share / 80);
+  EXPECT_GT(world.counters().given_up, kCrowd / 2);
+  EXPECT_FALSE(world.isGivenUp(moving));
+  EXPECT_NEAR(world.body(moving).velocity.x, 0, 1e-12);
+  EXPECT_NEAR(world.body(struck).velocity.x, 3, 1e-12);
+}
+
+// Ids that are free are given again, the lowest first.
+TEST(ImpactProperty, TheLowestFreeIdIsGiven) {
+  ImpactWorld world;
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(world.add({}), i);
+  world.remove(3);
+  world.remove(1);
+  EXPECT_EQ(world.add({}), 1);
+  EXPECT_EQ(world.add({}), 3);
+  EXPECT_EQ(world.add({}), 5);
+}
+
 TEST(ImpactProperty, AllocatesNothingOnceWarm) {
   if (!test::canCountAllocations()) GTEST_SKIP() << "sanitizers have their own allocator";
   ImpactWorld world;

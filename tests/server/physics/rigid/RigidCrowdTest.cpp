@@ -119,5 +119,34 @@ TEST(RigidCrowd, ATrayTouchesAllItsMarbles) {
   }
 }
 
+// Rows of crates that lie on one another, and also touch side by side if `apart` is 1.
+RigidWorld pyramid(int rows, double apart = 1) {
+  RigidWorld world = onFloor();
+  for (int row = 0; row < rows; ++row) {
+    for (int i = 0; i < rows - row; ++i) {
+      world.add(movable({apart * (i + 0.5 * row), -0.5 - row}, boxShape(0.5, 0.5)), boxShape(0.5, 0.5));
+    }
+  }
+  return world;
+}
+
+// Its rounds cost a fixed number of multiplications for each contact, whether it succeeds or not.
+TEST(RigidCrowd, ADirectSolutionIsGivenUpWhenItsPriceIsSpent) {
+  RigidWorld wide = pyramid(30);
+  wide.step();
+  EXPECT_LE(wide.counters().direct_rounds, 6);
+  EXPECT_EQ(wide.counters().direct_failures, 1);
+  for (int i = 0; i < 5; ++i) wide.step();
+  EXPECT_EQ(wide.counters().direct_failures, 1);
+  EXPECT_LT(wide.deepest(), 0.1);
+
+  for (RigidWorld fits : {pyramid(12), pyramid(30, 1.1)}) {
+    const Vec2 top = whereIs(fits, fits.idLimit() - 1);
+    for (int i = 0; i < 60; ++i) fits.step();
+    EXPECT_EQ(fits.counters().direct_failures, 0);
+    EXPECT_NEAR(whereIs(fits, fits.idLimit() - 1).y, top.y, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace naiad::physics::test

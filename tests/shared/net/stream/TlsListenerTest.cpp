@@ -380,6 +380,31 @@ TEST_F(TlsListenerTest, AConnectionFromAPlaceWithoutHandshakesIsHungUpOnAtOnce) 
   expectConversation(*this);
 }
 
+TEST_F(TlsListenerTest, ABannedAddressGetsNotAByte) {
+  const auto banned = asio::ip::make_address("127.1.1.1");
+  tls.is_banned = [banned](const asio::ip::address& address) { return address == banned; };
+  tls.handshake_timeout = 1h;
+  listen();
+  RawTls client;
+  const std::string hello = client.advance();
+  for (int i = 0; i < 20; ++i) {
+    tcp::socket one = knockFrom("127.1.1.1");
+    std::error_code failure;
+    asio::write(one, asio::buffer(hello), failure);  // whether it arrives before the end or after
+    std::array<char, 1> answer;
+    one.non_blocking(true);
+    ASSERT_TRUE(runUntil(context, [&] {
+      one.read_some(asio::buffer(answer), failure);
+      return failure != asio::error::would_block;
+    }));
+    EXPECT_TRUE(failure) << "a byte of an answer";
+  }
+  EXPECT_EQ(counters().refused_banned, 20u);
+  EXPECT_EQ(listener->halfOpen(), 0u);
+  join();
+  expectConversation(*this);
+}
+
 TEST_F(TlsListenerTest, WhatSaysNoHelloOrHasNoPlaceIsNoHandshake) {
   std::map<AddressPrefix, int> asked;
   tls.take_handshake = atMost(1, asked);

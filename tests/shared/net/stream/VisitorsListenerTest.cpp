@@ -150,6 +150,18 @@ TEST_F(VisitorsListenerTest, FewMayWait) {
   EXPECT_TRUE(runUntil(m_context, [this] { return m_sockets.size() == 2; })) << "a place is free again";
 }
 
+TEST_F(VisitorsListenerTest, HeadersThatAreThereWaitForNothingHoweverManyComeAtOnce) {
+  m_options.max_waiting = 1;
+  listen();
+  const auto slow = connect();
+  ASSERT_TRUE(runUntil(m_context, [this] { return m_listener->waiting() == 1; }));
+  std::vector<Local::socket> doors;
+  for (int i = 0; i < 100; ++i) doors.push_back(say(visitorHeader(kVisitor)));
+  EXPECT_TRUE(runUntil(m_context, [this] { return m_sockets.size() == 100; }));
+  EXPECT_EQ(counters().crowded, 0u);
+  EXPECT_EQ(m_listener->waiting(), 1u);
+}
+
 TEST_F(VisitorsListenerTest, AProgramThatMayNotIsHungUpOn) {
   pid_t asked = 0;
   m_options.is_refused = [&asked](pid_t process) {

@@ -1,0 +1,116 @@
+#include "client/ctl/ControlClient.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "shared/admin/AdminJson.h"
+#include "shared/admin/ControlPath.h"
+
+namespace naiad {
+
+namespace {
+
+/// Where the packaged service has them.
+constexpr const char* kSystemFolder = "/run/naiad/admin";
+
+/// Connected; negative: errno says why not.
+int connectTo(const std::filesystem::path& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.string().size() >= sizeof address.sun_path) {
+    errno = ENAMETOOLONG;
+    return -1;
+  }
+  std::strcpy(address.sun_path, path.c_str());
+  const int descriptor = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (descriptor < 0) return -1;
+  if (::connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
+    return descriptor;
+  const int error = errno;
+  ::close(descriptor);
+  errno = error;
+  return -1;
+}
+
+std::string whyNot(int error) {
+  if (error == ENOENT || error == ECONNREFUSED) return "no server listens there";
+  if (error == EACCES) return "you may not write to it";
+  return std::strerror(error);
+}
+
+}  // namespace
+
+ControlClient::ControlClient(const std::filesystem::path& path) : m_socket(connectTo(path)) {
+  if (m_socket < 0) throw NoServer("Cannot reach a server by " + path.string() + ": " + whyNot(errno) + ".");
+}
+
+ControlClient::~ControlClient() {
+  ::close(m_socket);
+}
+
+AdminAnswer ControlClient::ask(const AdminRequest& request) {
+  const std::string line = requestLine(request);
+  for (std::size_t sent = 0; sent < line.size();) {
+    const ssize_t size = ::send(m_socket, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
+    if (size < 0 && errno != EINTR) break;  // what it says about that may be read
+    if (size > 0) sent += static_cast<std::size_t>(size);
+  }
+  AnswerReader reader;
+  for (std::string text; readLine(text, kPatience);) {
+    const AnswerReader::Got got = reader.readLine(text);
+    if (got == AnswerReader::Got::kAnswer) return reader.answer();
+    if (got == AnswerReader::Got::kNonsense) throw NoServer("What answers there is no server of Naiad.");
+  }
+  throw NoServer("The server has hung up.");
+}
+
+void ControlClient::follow(const std::function<void(const std::string&)>& show) {
+  AnswerReader reader;
+  for (std::string text; readLine(text, std::chrono::milliseconds(-1));) {
+    const AnswerReader::Got got = reader.readLine(text);
+    if (got == AnswerReader::Got::kEvent) show(reader.event());
+    if (got == AnswerReader::Got::kDropped)
+      show("(" + std::to_string(reader.dropped()) + " lines were left out)");
+  }
+}
+
+bool ControlClient::readLine(std::string& line, std::chrono::milliseconds patience) {
+  for (;;) {
+    if (const std::size_t end = m_in.find('\n'); end != std::string::npos) {
+      line = m_in.substr(0, end);
+      m_in.erase(0, end + 1);
+      return true;
+    }
+    pollfd ready{m_socket, POLLIN, 0};
+    const int count = ::poll(&ready, 1, static_cast<int>(patience.count()));
+    if (count == 0) throw NoServer("The server does not answer.");
+    if (count < 0 && errno == EINTR) continue;
+    char piece[4096];
+    const ssize_t size = ::recv(m_socket, piece, sizeof piece, 0);
+    if (size < 0 && errno == EINTR) continue;
+    if (size <= 0) return false;
+    m_in.append(piece, static_cast<std::size_t>(size));
+  }
+}
+
+std::vector<std::filesystem::path> liveControls() {
+  std::vector<std::filesystem::path> found;
+  std::vector<std::filesystem::path> all = controlSockets(kSystemFolder);
+  if (const auto folder = controlFolder()) {
+    for (const auto& path : controlSockets(*folder)) all.push_back(path);
+  }
+  for (const auto& path : all) {
+    const int descriptor = connectTo(path);
+    if (descriptor < 0 && errno != EACCES) continue;
+    if (descriptor >= 0) ::close(descriptor);
+    found.push_back(path);
+  }
+  return found;
+}
+
+}  // namespace naiad

@@ -1,0 +1,113 @@
+// dfctl: gives one command to a server of this machine, and prints the answer.
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/ctl/Completions.h"
+#include "client/ctl/ControlClient.h"
+#include "client/ctl/CtlCommandLine.h"
+#include "shared/admin/AdminJson.h"
+#include "shared/admin/AdminText.h"
+#include "shared/program/LogText.h"
+#include "shared/values/Version.h"
+
+namespace {
+
+enum ExitCode { kDone = 0, kRefused = 1, kUsage = 2, kNoServer = 3 };
+
+int failUsage(const std::string& sentence) {
+  std::cerr << "dfctl: " << sentence << "\nRun dfctl --help for more information.\n";
+  return kUsage;
+}
+
+/// A line of the input, which nobody sees if it is typed.
+std::string readSecret() {
+  termios before{};
+  const bool typed = tcgetattr(STDIN_FILENO, &before) == 0;
+  if (typed) {
+    std::cerr << "Password: " << std::flush;
+    termios quiet = before;
+    quiet.c_lflag &= ~static_cast<tcflag_t>(ECHO);
+    tcsetattr(STDIN_FILENO, TCSAFLUSH, &quiet);
+  }
+  std::string line;
+  std::getline(std::cin, line);
+  if (typed) {
+    tcsetattr(STDIN_FILENO, TCSAFLUSH, &before);
+    std::cerr << "\n";
+  }
+  return line;
+}
+
+void print(const naiad::AdminAnswer& answer, bool json) {
+  std::ostream& out = answer.ok || json ? std::cout : std::cerr;
+  if (json) {
+    out << naiad::answerJson(answer) << "\n";
+    return;
+  }
+  for (const std::string& line : naiad::answerText(answer)) out << line << "\n";
+}
+
+std::string findControl(const std::string& given) {
+  if (!given.empty()) return given;
+  const auto live = naiad::liveControls();
+  if (live.empty())
+    throw naiad::NoServer("No server of yours runs on this machine; --control names its socket.");
+  if (live.size() == 1) return live.front().string();
+  std::string sentence = "Several servers run; --control says which one is meant:";
+  for (const auto& path : live) sentence += "\n  --control " + path.string();
+  throw naiad::AdminUsageError(sentence);
+}
+
+int give(const naiad::CtlCommandLine& line) {
+  std::vector<std::string> words = line.words;
+  if (words == std::vector<std::string>{"password"}) words.push_back(readSecret());
+  const naiad::AdminRequest request = naiad::readAdminRequest(words);
+  if (!request.command->isFor(naiad::AdminCommand::Level::kAdmin, naiad::AdminCommand::Place::kSocket))
+    throw naiad::AdminUsageError("\"" + request.command->name + "\" is a command of the chat.");
+  naiad::ControlClient client(findControl(line.control));
+  const naiad::AdminAnswer answer = client.ask(request);
+  if (request.command->name == "watch" && answer.ok) {
+    client.follow([&line](const std::string& text) {
+      std::cout << (line.json ? naiad::answerJson(naiad::AdminAnswer::done(text)) : naiad::oneLine(text))
+                << std::endl;
+    });
+    return kDone;
+  }
+  print(answer, line.json);
+  return answer.ok ? kDone : kRefused;
+}
+
+int printPage(const std::optional<std::string>& page) {
+  if (!page) return failUsage("bash, zsh or fish is wanted.");
+  std::cout << *page;
+  return kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  const auto is = [&words](const std::string& word) { return !words.empty() && words.front() == word; };
+  if (is("--help") || is("-h") || is("help")) std::cout << naiad::ctlHelp();
+  if (is("--version")) std::cout << "dfctl " << naiad::kVersion << "\n";
+  if (is("--markdown")) std::cout << naiad::adminMarkdown();
+  if (is("--help") || is("-h") || is("help") || is("--version") || is("--markdown")) return kDone;
+  if (is("--option-page") && words.size() == 2) return printPage(naiad::ctlPage(words[1]));
+  try {
+    const naiad::CtlCommandLine line = naiad::readCtlCommandLine(words);
+    if (line.words.empty()) return failUsage("A command is missing.");
+    if (line.words.front() != "completion") return give(line);
+    return printPage(line.words.size() == 2 ? naiad::ctlCompletion(line.words[1]) : std::nullopt);
+  } catch (const naiad::AdminUsageError& error) {
+    return failUsage(error.what());
+  } catch (const naiad::NoServer& error) {
+    std::cerr << "dfctl: " << error.what() << "\n";
+    return kNoServer;
+  }
+}

@@ -1,0 +1,162 @@
+"""dragonfly-mark: builds and plays each game of a folder of games, and says how it went."""
+import argparse
+import concurrent.futures
+import csv
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+
+from .bounded import end_group
+from .text import shown
+
+MARKED, INCOMPLETE, USAGE = 0, 1, 2
+MAX_TEXT = 200  # characters of a finding in the list
+_SPARE_SECONDS = 2400  # for building and running again; dragonfly-adopt has limits of its own below that
+
+DESCRIPTION = """\
+Builds and plays the games in a folder of folders, one for each student, by dragonfly-adopt: from a private copy, with the book's
+rules, in a sandbox without a network, with players that press keys. Nothing in the folders is run outside of the sandbox or written.
+"""
+EPILOG = """\
+A line for each: the folder's name; "runs", "builds" (but does not run), "does not build" or "is no game"; what was seen.
+Folders whose names begin with a dot are left out.
+
+Exit codes:
+  0  every game was judged, whatever the verdicts
+  1  one could not be judged: there is no sandbox, or dragonfly-adopt failed
+  2  wrong usage
+
+Example: dragonfly-mark handed-in --report marks.md
+"""
+
+
+class Verdict:
+    """What came of one folder: its `name`, a `result` of dragonfly-adopt's, `text`: what was seen; `rows`: of its report."""
+
+    def __init__(self, name, result, text, rows=()):
+        self.name, self.result, self.text, self.rows = name, result, text, rows
+
+    @property
+    def is_judged(self):
+        return self.result != "not judged"
+
+
+def verdict_of(name, answer):
+    """From dragonfly-adopt's JSON."""
+    rows, reason = answer["rows"], answer["reason"]
+    if reason.startswith("not run:"):  # its sandbox, not the game
+        return Verdict(name, "not judged", reason, rows)
+    ran = next((row["text"] for row in rows if row["what"] == "ran"), "")
+    left = next((": ".join(part for part in (row["where"], row["text"]) if part) for row in rows if row["what"] == "left"), "")
+    if answer["result"] == "runs":
+        return Verdict(name, "runs", ran or reason, rows)
+    return Verdict(name, answer["result"], (f"{reason}: {ran}" if ran else left) or reason, rows)
+
+
+def mark(adopt, folder, name, options):
+    """Runs dragonfly-adopt on one folder."""
+    command = [adopt, os.path.join(folder, name), "--book", "--json", "--quiet", "--seconds", str(options.seconds), "--seed",
+               str(options.seed), "--players", str(options.players)]
+    for option in ("keys", "cxx"):
+        if getattr(options, option):
+            command += ["--" + option, getattr(options, option)]
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
+    try:
+        out, said = process.communicate(timeout=options.seconds * 4 + _SPARE_SECONDS)
+        return verdict_of(name, json.loads(out))
+    except subprocess.TimeoutExpired:
+        return Verdict(name, "not judged", "it took too long, and was ended")
+    except (ValueError, KeyError, TypeError):
+        lines = said.decode("utf-8", "replace").strip().splitlines()
+        return Verdict(name, "not judged", lines[0].removeprefix("dragonfly-adopt: ") if lines else "dragonfly-adopt failed")
+    finally:
+        end_group(process.pid)
+
+
+def write_report(file, verdicts):
+    """A Markdown table, then what was found in each."""
+    cell = lambda text: shown(text, 400).replace("|", "\\|")
+    file.write("| game | result | seen |\n|---|---|---|\n")
+    for one in verdicts:
+        file.write(f"| {cell(one.name)} | {one.result} | {cell(one.text)} |\n")
+    for one in verdicts:
+        findings = [row for row in one.rows if row["what"] in ("left", "ran", "note", "treated")]
+        if not findings:
+            continue
+        file.write(f"\n## {shown(one.name)}\n\n")
+        for row in findings:
+            line = ": ".join(part for part in (row["where"], row["text"]) if part)
+            advice = f" -> {row['change']}" if row["what"] == "left" and row["change"] else ""
+            file.write(f"- {row['what']}: {_plain(line + advice)}\n")
+
+
+def _plain(text):
+    """Text that Markdown takes for nothing else."""
+    return re.sub(r"([<>`*_\[\]|])", r"\\\1", shown(text, 600))
+
+
+def _parser():
+    parser = argparse.ArgumentParser(prog="dragonfly-mark", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="FOLDER", help="the folder with a folder for each game")
+    parser.add_argument("--seconds", metavar="N", type=float, default=10.0, help="how long to play each (default 10)")
+    parser.add_argument("--players", metavar="N", type=int, default=2, help="how many join, 1 to 16 (default 2)")
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the random keys (default 1)")
+    parser.add_argument("--keys", metavar="SCRIPT", help="what to press instead: a script, or a file of one, as dfbot --script takes it")
+    parser.add_argument("--jobs", metavar="N", type=int, default=1, help="games at a time, 1 to 64 (default 1)")
+    parser.add_argument("--report", metavar="FILE", help="also write a Markdown table, with what was found in each game")
+    parser.add_argument("--csv", metavar="FILE", help="also write a table for a spreadsheet")
+    parser.add_argument("--cxx", metavar="COMPILER", help="the compiler (default: $CXX, else g++, else clang++)")
+    return parser
+
+
+def _fault(options):
+    """What is wrong with the command line, or None."""
+    if not os.path.isdir(options.folder):
+        return f"{options.folder}: no such folder"
+    if not 0 < options.seconds <= 3600:
+        return f"--seconds {options.seconds:g}: more than 0, at most 3600"
+    if not 1 <= options.players <= 16:
+        return f"--players {options.players}: from 1 to 16"
+    if not 1 <= options.jobs <= 64:
+        return f"--jobs {options.jobs}: from 1 to 64"
+    return None
+
+
+def main(adopt, arguments=None):
+    """Runs the command line. `adopt` is the path of dragonfly-adopt."""
+    options = _parser().parse_args(arguments)
+    fault = _fault(options)
+    names = [] if fault else sorted(entry.name for entry in os.scandir(options.folder)
+                                    if entry.is_dir(follow_symlinks=False) and not entry.name.startswith("."))
+    if not fault and not names:
+        fault = f"{options.folder}: there is no folder in it"
+    if fault:
+        sys.stderr.write(f"dragonfly-mark: {fault}\nTry dragonfly-mark --help.\n")
+        return USAGE
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
+    verdicts, width = [], max(len(shown(name, 40)) for name in names)
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        for one in pool.map(lambda name: mark(adopt, options.folder, name, options), names):
+            verdicts.append(one)
+            print(f"{shown(one.name, 40):{width}}  {one.result:14}  {shown(one.text, MAX_TEXT)}", flush=True)
+    running = sum(one.result == "runs" for one in verdicts)
+    print(f"{len(verdicts)} games: {running} run, {len(verdicts) - running} do not")
+    try:
+        if options.report:
+            with open(options.report, "w", encoding="utf-8") as file:
+                write_report(file, verdicts)
+        if options.csv:
+            with open(options.csv, "w", encoding="utf-8", newline="") as file:
+                table = csv.writer(file)
+                table.writerow(("game", "result", "seen"))
+                # A spreadsheet runs what begins with one of these.
+                safe = lambda text: "'" + text if text[:1] in ("=", "+", "-", "@") else text
+                table.writerows([safe(shown(text, 400)) for text in (one.name, one.result, one.text)] for one in verdicts)
+    except OSError as error:
+        sys.stderr.write(f"dragonfly-mark: {error}\n")
+        return INCOMPLETE
+    return MARKED if all(one.is_judged for one in verdicts) else INCOMPLETE

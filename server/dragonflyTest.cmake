@@ -1,0 +1,18 @@
+# dragonfly_test(NAME SOURCES... GAME SOURCES...)
+#
+# A test for ctest that plays a game: a program with a main() that uses GameTest.h. The sources behind GAME are the
+# game's; they are built as a module, whose path the test has as DRAGONFLY_GAME. It runs in the folder of the
+# CMakeLists.txt that calls this, where sprites and sounds are, and has 60 seconds.
+function(dragonfly_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "GAME")
+  if(NOT arg_GAME)
+    message(FATAL_ERROR "dragonfly_test(${name}): behind GAME the game's sources are wanted")
+  endif()
+  dragonfly_game(${name}_game MODULE ${arg_GAME})
+  dragonfly_game(${name} ${arg_UNPARSED_ARGUMENTS})
+  target_compile_definitions(${name} PRIVATE DRAGONFLY_GAME="$<TARGET_FILE:${name}_game>")
+  add_dependencies(${name} ${name}_game)
+  enable_testing()
+  add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 60)
+endfunction()

@@ -1,0 +1,265 @@
+#include "engine/testing/GameTest.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "engine/testing/GameThread.h"
+#include "engine/testing/TestedModule.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
+
+namespace df {
+
+namespace {
+
+constexpr std::size_t kShownLogLines = 5;
+constexpr Color kColors[] = {RED, GREEN, YELLOW, CYAN, MAGENTA, WHITE, BLUE};
+
+int g_right = 0;  // expectations of all GameTests
+int g_wrong = 0;
+int g_alive = 0;
+
+/// A game that calls exit() would end the test with the game's own exit code: 0, mostly.
+void refuseExit() {
+  if (g_alive == 0) return;
+  std::fputs("GameTest: the game called exit() in the middle of the test\n", stderr);
+  std::fflush(nullptr);
+  _exit(1);
+}
+
+void countAlive() {
+  static const bool registered = std::atexit(refuseExit) == 0;
+  if (registered) ++g_alive;
+}
+
+}  // namespace
+
+/// The world, and the game in it.
+class GameTest::Game {
+ public:
+  Game(std::optional<TestedModule> module, int (*p_main)(), std::uint64_t seed)
+      : m_module(std::move(module)) {
+    m_world.setLogSink([this](const std::string& line) { m_log.push_back(line); });
+    m_world.setSeed(seed);
+    m_world.setWatched(true);
+    m_world.setGameOverLeaves(false);
+    if (m_module) {
+      for (const std::string& folder : m_module->folders()) m_world.addResourceFolder(folder);
+    }
+    countAlive();
+    m_thread.emplace(m_world, [this, p_main] { return m_module ? m_module->main() : p_main(); });
+    m_scope.emplace(m_world);
+    if (m_thread->hasRun()) return;
+    const std::string fault = m_thread->fault();
+    end();
+    throw std::runtime_error(fault.empty() ? "The game's main() ended without having called GM.run()."
+                                           : "The game's main() threw, before GM.run(): " + fault);
+  }
+  ~Game() { end(); }
+
+  World& world() { return m_world; }
+  bool isRunning() const { return m_thread->isRunning(); }
+  const std::vector<std::string>& log() const { return m_log; }
+  int played(const std::string& label) const {
+    const auto it = m_played.find(label);
+    return it == m_played.end() ? 0 : it->second;
+  }
+  int ticks() const { return m_ticks; }
+  std::uint32_t first() const { return m_first; }
+  std::uint32_t joined(std::uint32_t player) {
+    if (m_first == 0) m_first = player;
+    return player;
+  }
+
+  /// One tick; false if the game is over.
+  bool tick() {
+    if (!isRunning()) return false;
+    m_world.tick();
+    ++m_ticks;
+    for (const SoundPlayed& sound : m_world.view().sounds) {
+      if (sound.what == SoundPlayed::kPlay) ++m_played[sound.label];
+    }
+    if (m_world.isGameOver()) m_thread->finishRun();
+    return true;
+  }
+
+ private:
+  void end() {
+    if (!m_thread) return;
+    m_thread.reset();
+    m_scope.reset();
+    --g_alive;
+  }
+
+  std::optional<TestedModule> m_module;
+  std::vector<std::string> m_log;
+  std::map<std::string, int> m_played;
+  int m_ticks = 0;
+  std::uint32_t m_first = 0;
+  World m_world;
+  std::optional<World::Scope> m_scope;
+  std::optional<GameThread> m_thread;
+};
+
+GameTest::GameTest(const std::string& module, std::uint64_t seed)
+    : m_p_game(std::make_unique<Game>(TestedModule(module), nullptr, seed)) {}
+
+GameTest::GameTest(int (*p_main)(), std::uint64_t seed)
+    : m_p_game(std::make_unique<Game>(std::nullopt, p_main, seed)) {}
+
+GameTest::~GameTest() = default;
+
+std::uint32_t GameTest::join(const std::string& name) {
+  World& world = m_p_game->world();
+  const std::size_t number = world.getPlayers().size() + 1;
+  const Color color = kColors[(number - 1) % std::size(kColors)];
+  const std::uint32_t player = world.join(name.empty() ? "player " + std::to_string(number) : name, color);
+  m_p_game->tick();
+  return m_p_game->joined(player);
+}
+
+void GameTest::leave(std::uint32_t player) {
+  m_p_game->world().leave(player != 0 ? player : m_p_game->first());
+  m_p_game->tick();
+}
+
+int GameTest::tick(int count) {
+  int passed = 0;
+  while (passed < count && m_p_game->tick()) ++passed;
+  return passed;
+}
+
+bool GameTest::tickUntil(const std::function<bool()>& holds, int most) {
+  for (int i = 0; i < most; ++i) {
+    if (holds()) return true;
+    if (!m_p_game->tick()) break;
+  }
+  return holds();
+}
+
+int GameTest::getTicks() const {
+  return m_p_game->ticks();
+}
+
+bool GameTest::isOver() const {
+  return !m_p_game->isRunning();
+}
+
+void GameTest::press(Keyboard::Key key, std::uint32_t player) {
+  down(key, player);
+  up(key, player);
+  tick();
+}
+
+void GameTest::hold(Keyboard::Key key, int ticks, std::uint32_t player) {
+  down(key, player);
+  tick();
+  for (int i = 1; i < ticks; ++i) {
+    m_p_game->world().key(player != 0 ? player : m_p_game->first(), key, KEY_DOWN);
+    tick();
+  }
+  up(key, player);
+}
+
+void GameTest::down(Keyboard::Key key, std::uint32_t player) {
+  m_p_game->world().key(player != 0 ? player : m_p_game->first(), key, KEY_PRESSED);
+}
+
+void GameTest::up(Keyboard::Key key, std::uint32_t player) {
+  m_p_game->world().key(player != 0 ? player : m_p_game->first(), key, KEY_RELEASED);
+}
+
+void GameTest::click(int x, int y, Mouse::Button button, std::uint32_t player) {
+  m_p_game->world().mouse(player != 0 ? player : m_p_game->first(), CLICKED, button, x, y);
+  tick();
+}
+
+void GameTest::moveMouse(int x, int y, std::uint32_t player) {
+  const std::uint32_t whose = player != 0 ? player : m_p_game->first();
+  m_p_game->world().mouse(whose, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, x, y);
+  tick();
+}
+
+std::string GameTest::picture(std::uint32_t player) const {
+  return canvas(player).text();
+}
+
+Canvas GameTest::canvas(std::uint32_t player) const {
+  return m_p_game->world().renderPlayer(player != 0 ? player : m_p_game->first());
+}
+
+bool GameTest::shows(const std::string& text, std::uint32_t player) const {
+  return count(text, player) > 0;
+}
+
+int GameTest::count(const std::string& text, std::uint32_t player) const {
+  if (text.empty()) return 0;
+  const std::string all = picture(player);
+  int found = 0;
+  for (std::size_t at = all.find(text); at != std::string::npos; at = all.find(text, at + text.size()))
+    ++found;
+  return found;
+}
+
+char32_t GameTest::at(int x, int y, std::uint32_t player) const {
+  return canvas(player).at(x, y).ch;
+}
+
+Color GameTest::colorAt(int x, int y, std::uint32_t player) const {
+  return canvas(player).at(x, y).color;
+}
+
+int GameTest::objects(const std::string& type) const {
+  return m_p_game->world().objectsOfType(type).getCount();
+}
+
+Object* GameTest::find(const std::string& type) const {
+  const ObjectList found = m_p_game->world().objectsOfType(type);
+  return found.isEmpty() ? nullptr : found[0];
+}
+
+int GameTest::score(std::uint32_t player) const {
+  const Player* p_player = m_p_game->world().getPlayer(player != 0 ? player : m_p_game->first());
+  return p_player != nullptr ? p_player->getScore() : 0;
+}
+
+int GameTest::played(const std::string& label) const {
+  return m_p_game->played(label);
+}
+
+const std::vector<std::string>& GameTest::log() const {
+  return m_p_game->log();
+}
+
+bool GameTest::expect(bool holds, const std::string& what, const char* p_file, int line) {
+  if (holds) {
+    ++g_right;
+    return true;
+  }
+  ++g_wrong;
+  std::fprintf(stderr, "%s:%d: not so: %s\nThe picture after tick %d:\n%s", p_file, line, what.c_str(),
+               getTicks(), picture().c_str());
+  const std::vector<std::string>& lines = log();
+  for (std::size_t i = lines.size() - std::min(lines.size(), kShownLogLines); i < lines.size(); ++i)
+    std::fprintf(stderr, "log: %s\n", lines[i].c_str());
+  return false;
+}
+
+bool GameTest::expectShows(const std::string& text, std::uint32_t player, const char* p_file, int line) {
+  return expect(shows(text, player), "the picture shows \"" + text + "\"", p_file, line);
+}
+
+int GameTest::report() {
+  if (g_right + g_wrong == 0) std::fputs("GameTest: nothing was expected\n", stderr);
+  std::printf("game test: %d right, %d wrong\n", g_right, g_wrong);
+  return g_wrong == 0 && g_right > 0 ? 0 : 1;
+}
+
+}  // namespace df

@@ -1,0 +1,323 @@
+#include "host/admin/AdminConsole.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "host/admin/PlayerChoice.h"
+#include "shared/admin/TimeSpan.h"
+#include "shared/net/base/AddressPrefix.h"
+#include "shared/net/base/AddressRange.h"
+#include "shared/program/LogText.h"
+
+namespace naiad {
+
+namespace {
+
+using Level = AdminCommand::Level;
+
+/// A range that is wider takes in whole providers, and is a slip of the finger.
+constexpr int kMinBitsIPv4 = 8;
+constexpr int kMinBitsIPv6 = 16;
+
+const char* const kNameMark = "name:";
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string withReason(const std::string& sentence, const std::string& reason) {
+  return sentence + (reason.empty() ? "." : ": " + reason);
+}
+
+AdminRow rowOf(const AdminPlayer& player, Level level) {
+  AdminRow row{{"id", static_cast<std::int64_t>(player.id)},
+               {"name", player.name},
+               {"ping_ms", static_cast<std::int64_t>(player.rtt_millis)}};
+  if (level == Level::kPlayer) return row;
+  row.emplace_back("address", player.address);
+  row.emplace_back("played_s", static_cast<std::int64_t>(player.connected.count()));
+  row.emplace_back("idle_s", static_cast<std::int64_t>(player.idle.count()));
+  row.emplace_back("away", player.detached);
+  row.emplace_back("muted", player.muted);
+  row.emplace_back("admin", player.admin);
+  return row;
+}
+
+/// Bans that one command makes, or why it makes none.
+struct BanPlan {
+  std::vector<Ban> bans;
+  std::string note;  ///< for whoever gave the command
+  AdminAnswer problem{};
+};
+
+BanPlan refusedPlan(AdminAnswer problem) {
+  return {{}, "", std::move(problem)};
+}
+
+BanPlan planRange(Ban ban, const AddressRange& range) {
+  if (range.bits() < (range.isIPv4() ? kMinBitsIPv4 : kMinBitsIPv6))
+    return refusedPlan(AdminAnswer::refused(range.text() + " is too wide: at least /" +
+                                            std::to_string(range.isIPv4() ? kMinBitsIPv4 : kMinBitsIPv6) +
+                                            " is wanted."));
+  const asio::ip::address first = unmapped(asio::ip::address_v6(range.bytes()));
+  if (first.is_loopback() || range.contains(asio::ip::address_v6::loopback()))
+    return refusedPlan(AdminAnswer::refused("This machine itself cannot be banned: its doors are there."));
+  ban.range = range;
+  return {{std::move(ban)}, ""};
+}
+
+BanPlan planName(Ban ban, const std::string& name) {
+  if (name.empty()) return refusedPlan(AdminAnswer::refused("name: and a name are wanted."));
+  ban.kind = Ban::Kind::kName;
+  ban.name = name;
+  return {{std::move(ban)}, ""};
+}
+
+// By name alone where the address is this machine's, or that of others who play.
+BanPlan planPlayer(const Ban& ban, const std::vector<AdminPlayer>& players, const std::string& typed) {
+  const PlayerChoice choice = choosePlayer(players, typed);
+  if (!choice.player) {
+    AdminAnswer problem = choice.problem;
+    if (problem.candidates.empty()) problem.text += " name:" + typed + " bans a name.";
+    return refusedPlan(std::move(problem));
+  }
+  BanPlan plan = planName(ban, choice.player->name);
+  const auto address = endpointAddress(choice.player->address);
+  if (!address || address->is_loopback()) {
+    plan.note = "By name alone: they play on this machine.";
+    return plan;
+  }
+  const AddressRange range = AddressRange::around(*address);
+  const auto others = std::count_if(players.begin(), players.end(), [&](const AdminPlayer& other) {
+    const auto theirs = endpointAddress(other.address);
+    return other.session != choice.player->session && theirs && range.contains(*theirs);
+  });
+  if (others > 0) {
+    plan.note = "By name alone: " + counted(static_cast<std::size_t>(others), "other") + " of " +
+                range.text() + " would have to go, too.";
+    return plan;
+  }
+  Ban of_range = ban;
+  of_range.kind = Ban::Kind::kRange;
+  of_range.range = range;
+  plan.bans.push_back(std::move(of_range));
+  return plan;
+}
+
+BanPlan planBan(const Ban& ban, const std::vector<AdminPlayer>& players, const std::string& typed) {
+  if (const auto range = AddressRange::parse(typed)) return planRange(ban, *range);
+  if (ban.kind == Ban::Kind::kException)
+    return refusedPlan(AdminAnswer::refused("\"" + typed + "\" is neither an address nor ADDRESS/BITS."));
+  if (typed.starts_with(kNameMark)) return planName(ban, typed.substr(std::string(kNameMark).size()));
+  return planPlayer(ban, players, typed);
+}
+
+}  // namespace
+
+void AdminConsole::execute(const AdminRequest& request, const AdminCaller& caller, Done done) {
+  const AdminCommand& command = *request.command;
+  if (!command.isFor(caller.level, caller.place)) {
+    m_setup.log("admin: " + caller.name + ": refused: " + request.redacted());
+    return done(AdminAnswer::refused("You may not give the command \"" + command.name + "\" here."));
+  }
+  const bool by_admin = command.level == Level::kAdmin || caller.place == AdminCommand::Place::kSocket;
+  if (by_admin && !command.only_reads) m_setup.log("admin: " + caller.name + ": " + request.redacted());
+  if (command.name == "ban" || command.name == "allow") return ban(request, caller, done);
+  if (command.name == "unban") return unban(request, done);
+  if (command.name == "password") return changePassword(request, std::move(done));
+  if (command.name == "reload") return reload(std::move(done));
+  done(answerNow(request, caller));
+}
+
+AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCaller& caller) {
+  AdminTarget& target = m_setup.target;
+  const std::string& name = request.command->name;
+  if (name == "ping") return AdminAnswer::done("The server answers.");
+  if (name == "who") return listPlayers(caller);
+  if (name == "status") return {true, "", {}, target.status(), false, {}};
+  if (name == "tell") return tell(request, caller);
+  if (name == "kick") return kick(request);
+  if (name == "mute" || name == "unmute") return mute(request, name == "mute");
+  if (name == "bans") return listBans();
+  if (name == "restart") return restart(request);
+  if (name == "drain") return target.drain(readTimeSpan(request.of("span")));
+  if (name == "cancel") return target.cancel();
+  if (name == "set") return set(request);
+  if (name == "stop") return target.stop(request.of("reason"));
+  if (name == "say") {
+    target.say(request.of("text"));
+    return AdminAnswer::done("All players were sent it.");
+  }
+  return AdminAnswer::refused("\"" + name + "\" is not available here.");
+}
+
+// ---- players ----------------------------------------------------------------------------------------------
+
+AdminAnswer AdminConsole::listPlayers(const AdminCaller& caller) const {
+  const std::vector<AdminPlayer> players = m_setup.target.players();
+  AdminAnswer answer = AdminAnswer::done("");
+  answer.is_list = true;
+  for (const AdminPlayer& player : players) answer.rows.push_back(rowOf(player, caller.level));
+  if (players.empty()) answer.text = "Nobody plays.";
+  return answer;
+}
+
+// A muted player's lines reach nobody, so none of theirs is passed on here either.
+AdminAnswer AdminConsole::tell(const AdminRequest& request, const AdminCaller& caller) {
+  const std::vector<AdminPlayer> players = m_setup.target.players();
+  const auto sender = std::find_if(players.begin(), players.end(), [&caller](const AdminPlayer& player) {
+    return caller.session != 0 && player.session == caller.session;
+  });
+  if (sender != players.end() && sender->muted) return AdminAnswer::refused("You are muted.");
+  const PlayerChoice choice = choosePlayer(players, request.of("player"));
+  if (!choice.player) return choice.problem;
+  const std::string from = caller.player.empty() ? "The server" : caller.player;
+  m_setup.target.tell(choice.player->session, from + " tells you: " + request.of("text"));
+  return AdminAnswer::done("You told " + choice.player->name + ": " + request.of("text"));
+}
+
+AdminAnswer AdminConsole::kick(const AdminRequest& request) {
+  const PlayerChoice choice = choosePlayer(m_setup.target.players(), request.of("player"));
+  if (!choice.player) return choice.problem;
+  m_setup.target.endPlayer(choice.player->session,
+                           withReason("You were removed from the game", request.of("reason")));
+  return AdminAnswer::done(choice.player->name + " was removed.");
+}
+
+AdminAnswer AdminConsole::mute(const AdminRequest& request, bool muted) {
+  const PlayerChoice choice = choosePlayer(m_setup.target.players(), request.of("player"));
+  if (!choice.player) return choice.problem;
+  m_setup.target.setMuted(choice.player->session, muted);
+  return AdminAnswer::done(choice.player->name + (muted ? " is muted." : " may talk."));
+}
+
+// ---- bans -------------------------------------------------------------------------------------------------
+
+void AdminConsole::ban(const AdminRequest& request, const AdminCaller& caller, const Done& done) {
+  Ban model;
+  model.kind = request.command->name == "allow" ? Ban::Kind::kException : Ban::Kind::kRange;
+  model.reason = request.of("reason");
+  model.by = caller.name;
+  model.made = m_setup.bans.time();
+  if (const auto span = readTimeSpan(request.of("for"))) model.until = model.made + *span;
+  const BanPlan plan = planBan(model, m_setup.target.players(), request.of("who"));
+  if (plan.bans.empty()) return done(plan.problem);
+  std::string text;
+  for (const Ban& one : plan.bans) text += (text.empty() ? "" : " and ") + one.target();
+  text += model.kind == Ban::Kind::kException ? " cannot be banned" : " banned";
+  text += model.until ? " until " + timeText(*model.until) + "." : " for ever.";
+  if (!plan.note.empty()) text += " " + plan.note;
+  // The last one's writing is the last of them.
+  for (std::size_t i = 0; i < plan.bans.size(); ++i) {
+    const bool is_last = i + 1 == plan.bans.size();
+    const auto saved = [this, text, is_last, done](const std::string& problem) {
+      if (is_last) answerSaved(text, problem, done);
+    };
+    if (!m_setup.bans.add(plan.bans[i], saved))
+      return done(AdminAnswer::refused("There are " + std::to_string(BanList::kMaxBans) + " bans already."));
+  }
+  endBanned();
+}
+
+void AdminConsole::unban(const AdminRequest& request, const Done& done) {
+  const std::string who = request.of("who");
+  const auto saved = [this, done, who](const std::string& problem) {
+    answerSaved(oneLine(who) + " is no longer in the list.", problem, done);
+  };
+  if (m_setup.bans.remove(who, saved) == 0)
+    done(AdminAnswer::refused("No ban is listed as \"" + who + "\"; see bans."));
+}
+
+// On the worker's thread, or the host's where there is no file.
+void AdminConsole::answerSaved(const std::string& text, const std::string& problem, const Done& done) {
+  m_setup.post([this, text, problem, done] {
+    if (!problem.empty()) m_setup.log("bans: " + problem);
+    done(AdminAnswer::done(problem.empty() ? text : text + " For now: " + problem));
+  });
+}
+
+void AdminConsole::endBanned() {
+  for (const AdminPlayer& player : m_setup.target.players()) {
+    const auto address = endpointAddress(player.address);
+    const std::string sentence = m_setup.bans.refusal(address.value_or(asio::ip::address()), player.name);
+    if (!sentence.empty()) m_setup.target.endPlayer(player.session, sentence);
+  }
+}
+
+AdminAnswer AdminConsole::listBans() const {
+  AdminAnswer answer = AdminAnswer::done("");
+  answer.is_list = true;
+  const auto set = m_setup.bans.now();
+  for (const Ban& ban : set->all()) {
+    if (ban.isOver(m_setup.bans.time())) continue;
+    answer.rows.push_back({{"number", static_cast<std::int64_t>(ban.number)},
+                           {"who", ban.target()},
+                           {"kind", std::string(ban.kind == Ban::Kind::kException ? "allowed" : "banned")},
+                           {"until", ban.until ? timeText(*ban.until) : std::string("for ever")},
+                           {"since", timeText(ban.made)},
+                           {"by", ban.by},
+                           {"reason", ban.reason}});
+  }
+  if (answer.rows.empty()) answer.text = "Nobody is banned.";
+  return answer;
+}
+
+// ---- the server -------------------------------------------------------------------------------------------
+
+AdminAnswer AdminConsole::restart(const AdminRequest& request) {
+  const std::string when = request.of("when");
+  const auto span = readTimeSpan(request.of("span"));
+  if ((when == "in") != span.has_value())
+    return AdminAnswer::refused("Usage: " + adminUsage(*request.command));
+  if (when == "at-round-end") return m_setup.target.restart({AdminRestart::When::kAtRoundEnd});
+  if (span) return m_setup.target.restart({AdminRestart::When::kIn, *span});
+  return m_setup.target.restart({});
+}
+
+AdminAnswer AdminConsole::set(const AdminRequest& request) {
+  if (!request.has("option")) return {true, "", {}, m_setup.target.settings(), false, {}};
+  if (request.has("value")) return m_setup.target.set(request.of("option"), request.of("value"));
+  for (const auto& [name, value] : m_setup.target.settings()) {
+    if (name == request.of("option")) return {true, "", {}, {{name, value}}, false, {}};
+  }
+  return AdminAnswer::refused("\"" + request.of("option") + "\" is no option that can be changed; see set.");
+}
+
+// A hash takes as long as a guess.
+void AdminConsole::changePassword(const AdminRequest& request, Done done) {
+  const std::string password = request.of("password");
+  if (password.empty()) return done(m_setup.target.changePassword(std::nullopt));
+  const auto finish = [this, done](std::optional<PasswordHash> hash, const std::string& problem) {
+    m_setup.post([this, done, hash = std::move(hash), problem] {
+      done(problem.empty() ? m_setup.target.changePassword(hash) : AdminAnswer::refused(problem));
+    });
+  };
+  const bool given = m_setup.worker.give([password, finish] {
+    try {
+      finish(PasswordHash::fromText(password), "");
+    } catch (const PasswordError& error) {
+      finish(std::nullopt, error.what());
+    }
+  });
+  if (!given) done(AdminAnswer::refused("Too much waits to be done. Try again in a moment."));
+}
+
+// The file of bans first: what is wrong with it is told, and the rest is loaded all the same.
+void AdminConsole::reload(Done done) {
+  const auto loaded = [this, done](std::vector<Ban> bans, const std::string& problem) {
+    m_setup.post([this, done, bans = std::move(bans), problem] {
+      if (problem.empty()) {
+        m_setup.bans.take(bans);
+        endBanned();
+      }
+      m_setup.target.reload([done, problem](AdminAnswer answer) {
+        if (!problem.empty()) answer = AdminAnswer::refused(problem + " " + answer.text);
+        done(std::move(answer));
+      });
+    });
+  };
+  if (!m_setup.bans.reload(loaded)) m_setup.target.reload(std::move(done));
+}
+
+}  // namespace naiad

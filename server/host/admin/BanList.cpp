@@ -1,0 +1,162 @@
+#include "host/admin/BanList.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "host/admin/BanStore.h"
+#include "host/session/LookAlikes.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr const char* kNoFile = "This server keeps no file of bans (--state), so they end with it.";
+
+Ban::Time wholeSeconds() {
+  return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+}
+
+/// Does this text, typed by an admin, name the ban?
+bool names(const std::string& text, const Ban& ban) {
+  if (text == "#" + std::to_string(ban.number) || text == ban.target()) return true;
+  if (ban.kind == Ban::Kind::kName) return text == ban.name;
+  const auto range = AddressRange::parse(text);
+  return range && *range == *ban.range;
+}
+
+}  // namespace
+
+struct BanList::File {
+  BanStore store;
+  std::vector<Ban> unwritten;  ///< those whose writing failed
+
+  explicit File(const std::filesystem::path& path) : store(path) {}
+
+  void save(const Ban& ban) {
+    std::erase_if(unwritten, [&ban](const Ban& other) { return other.isSameTarget(ban); });
+    try {
+      store.save(ban);
+    } catch (const BanFileError&) {
+      unwritten.push_back(ban);
+      throw;
+    }
+  }
+  void erase(const Ban& ban) {
+    std::erase_if(unwritten, [&ban](const Ban& other) { return other.isSameTarget(ban); });
+    store.erase(ban);
+  }
+  std::vector<Ban> load() {
+    for (const Ban& ban : std::vector<Ban>(unwritten)) save(ban);
+    return store.load();
+  }
+};
+
+BanList::BanList(AdminWorker& worker, const std::filesystem::path& folder)
+    : BanList(worker, folder, wholeSeconds) {}
+
+BanList::BanList(AdminWorker& worker, const std::filesystem::path& folder, Clock clock)
+    : m_worker(worker), m_clock(std::move(clock)) {
+  if (folder.empty()) return;
+  m_file = std::make_shared<File>(folder / "bans.sqlite3");
+  replace(m_file->load());
+}
+
+BanList::~BanList() = default;
+
+bool BanList::isBanned(const asio::ip::address& address) const {
+  const bool banned = now()->find(address, m_clock()) != nullptr;
+  if (banned) ++m_hits;
+  return banned;
+}
+
+std::shared_ptr<const BanSet> BanList::now() const {
+  const std::lock_guard lock(m_mutex);
+  return m_set;
+}
+
+std::string BanList::refusal(const asio::ip::address& address, const std::string& name) const {
+  const auto set = now();
+  const Ban* p_ban = set->find(address, m_clock());
+  if (p_ban == nullptr && !set->all().empty()) p_ban = set->findName(shapesOf(name), m_clock());
+  return p_ban != nullptr ? banSentence(*p_ban) : std::string();
+}
+
+void BanList::replace(std::vector<Ban> bans) {
+  const Ban::Time present = m_clock();
+  std::erase_if(bans, [present](const Ban& ban) { return ban.isOver(present); });
+  for (Ban& ban : bans) {
+    if (ban.number == 0) ban.number = ++m_newest;
+  }
+  auto set = std::make_shared<const BanSet>(std::move(bans));
+  const std::lock_guard lock(m_mutex);
+  m_set.swap(set);
+}
+
+// The ban that is over stays in the file until another one of the same target takes its place or the file is
+// read again: a change of it costs a write.
+bool BanList::add(Ban ban, Saved saved) {
+  std::vector<Ban> bans = now()->all();
+  std::erase_if(bans, [&ban, present = m_clock()](const Ban& other) {
+    return other.isSameTarget(ban) || other.isOver(present);
+  });
+  if (bans.size() >= kMaxBans) return false;
+  bans.push_back(ban);
+  replace(std::move(bans));
+  if (!ban.lasting) {
+    saved("");
+    return true;
+  }
+  save([ban](File& file) { file.save(ban); }, std::move(saved));
+  return true;
+}
+
+std::size_t BanList::remove(const std::string& text, Saved saved) {
+  std::vector<Ban> kept;
+  std::vector<Ban> lifted;
+  for (const Ban& ban : now()->all()) (names(text, ban) ? lifted : kept).push_back(ban);
+  if (lifted.empty()) return 0;
+  const std::size_t count = lifted.size();
+  replace(std::move(kept));
+  save(
+      [lifted](File& file) {
+        for (const Ban& ban : lifted) file.erase(ban);
+      },
+      std::move(saved));
+  return count;
+}
+
+bool BanList::reload(Loaded loaded) {
+  return m_file && m_worker.give([file = m_file, loaded = std::move(loaded)] {
+    std::vector<Ban> bans;
+    std::string problem;
+    try {
+      bans = file->load();
+    } catch (const BanFileError& error) {
+      problem = error.what();
+    }
+    loaded(std::move(bans), problem);
+  });
+}
+
+void BanList::take(std::vector<Ban> bans) {
+  for (const Ban& ban : now()->all()) {
+    if (!ban.lasting) bans.push_back(ban);
+  }
+  replace(std::move(bans));
+}
+
+void BanList::save(std::function<void(File&)> change, Saved saved) {
+  if (!m_file) return saved(kNoFile);
+  const bool given = m_worker.give([file = m_file, change = std::move(change), saved] {
+    std::string problem;
+    try {
+      change(*file);
+    } catch (const BanFileError& error) {
+      problem = error.what();
+    }
+    saved(problem);
+  });
+  if (!given) saved("Too many changes wait for the disk; this one is not written.");
+}
+
+}  // namespace naiad

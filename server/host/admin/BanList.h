@@ -1,0 +1,77 @@
+// The bans of a server: in memory, where they hold at once, and in a file, where they last.
+#pragma once
+
+#include <asio/ip/address.hpp>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "host/admin/AdminWorker.h"
+#include "host/admin/Ban.h"
+#include "host/admin/BanSet.h"
+
+namespace naiad {
+
+/// Readers take a set that never changes (BanSet). All but isBanned(), now() and count() is for the host's
+/// thread. The disk is the worker's.
+class BanList {
+ public:
+  /// What became of it on disk: empty, or one sentence on why it holds only until the server ends. On the
+  /// worker's thread.
+  using Saved = std::function<void(const std::string& problem)>;
+  /// A wall clock; tests have their own. Any thread.
+  using Clock = std::function<Ban::Time()>;
+
+  static constexpr std::size_t kMaxBans = 20'000;
+
+  /// `folder`: of the file bans.sqlite3; empty: there is none, and bans end with the server. Throws
+  /// BanFileError (BanStore.h).
+  BanList(AdminWorker& worker, const std::filesystem::path& folder, Clock clock);
+  BanList(AdminWorker& worker, const std::filesystem::path& folder);
+  ~BanList();
+
+  /// Does one hold for this address now? Any thread; takes a microsecond.
+  bool isBanned(const asio::ip::address& address) const;
+  /// All of them. Any thread.
+  std::shared_ptr<const BanSet> now() const;
+  Ban::Time time() const { return m_clock(); }
+  /// Why a client with this address and name may not play: a sentence; empty if it may.
+  std::string refusal(const asio::ip::address& address, const std::string& name) const;
+  /// Connections that isBanned() was true for.
+  std::uint64_t count() const { return m_hits; }
+
+  /// Add it, in place of one of the same target; bans that are over go. False: there are kMaxBans.
+  bool add(Ban ban, Saved saved);
+  /// Lift those that this text names: #NUMBER, name:NAME, an address or a range. How many.
+  std::size_t remove(const std::string& text, Saved saved);
+  /// What the file has now, with bans whose writing failed and was tried again; or why it cannot be read. On
+  /// the worker's thread.
+  using Loaded = std::function<void(std::vector<Ban> bans, const std::string& problem)>;
+  /// Read the file again. False: there is none, or too much waits for the disk.
+  bool reload(Loaded loaded);
+  /// Go on with these, and with those of the present that are in memory alone.
+  void take(std::vector<Ban> bans);
+
+ private:
+  /// The worker's.
+  struct File;
+
+  void replace(std::vector<Ban> bans);
+  void save(std::function<void(File&)> change, Saved saved);
+
+  AdminWorker& m_worker;
+  Clock m_clock;
+  std::shared_ptr<File> m_file;  ///< the worker's jobs', too; null: none
+  mutable std::mutex m_mutex;    ///< of m_set
+  std::shared_ptr<const BanSet> m_set = std::make_shared<BanSet>();
+  mutable std::atomic<std::uint64_t> m_hits = 0;
+  std::uint64_t m_newest = 0;
+};
+
+}  // namespace naiad

@@ -1,0 +1,190 @@
+#include "host/program/HostAdmin.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/values/Version.h"
+
+namespace naiad {
+
+namespace {
+
+/// Those that may change while the server runs, as the command line calls them.
+const std::vector<std::string>& changeableOptions() {
+  static const std::vector<std::string> names{"max-players",   "max-per-address", "server-name",
+                                              "grace",         "exit-when-empty", "drain-time",
+                                              "inactive-kick", "vote-kick",       "log-chat"};
+  return names;
+}
+
+std::chrono::seconds since(Session::Clock::time_point then, Session::Clock::time_point now) {
+  return std::chrono::duration_cast<std::chrono::seconds>(now - then);
+}
+
+AdminPlayer factsOf(const Session& session, Session::Clock::time_point now) {
+  AdminPlayer player;
+  player.session = session.id();
+  player.id = session.player();
+  player.name = session.name();
+  player.address = session.address();
+  player.connected = since(session.standing().joined(), now);
+  player.idle = since(session.standing().acted(), now);
+  player.rtt_millis = session.rttMillis();
+  player.detached = session.isDetached();
+  player.muted = session.standing().isMuted();
+  player.admin = session.standing().isAdmin();
+  return player;
+}
+
+double millis(std::chrono::microseconds time) {
+  return static_cast<double>(time.count()) / 1000;
+}
+
+}  // namespace
+
+void sendServerLine(Session& session, const std::string& text) {
+  wire::ServerMessage message;
+  message.mutable_chat()->set_text(safeText(text, kMaxChatLength));  // without a player: the server's
+  session.sendKept(message);
+}
+
+HostAdmin::HostAdmin(Setup setup) : m_setup(std::move(setup)), m_began(Session::Clock::now()) {}
+
+std::vector<AdminPlayer> HostAdmin::players() const {
+  std::vector<AdminPlayer> players;
+  const auto now = m_setup.network.now();
+  m_setup.sessions.forEachPlaying([&](const Session& session) { players.push_back(factsOf(session, now)); });
+  std::sort(players.begin(), players.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return players;
+}
+
+AdminRow HostAdmin::status() const {
+  const Counters& counters = m_setup.counters;
+  const TickTimes& times = m_setup.network.tickTimes();
+  const auto number = [](std::uint64_t count) { return static_cast<std::int64_t>(count); };
+  return {{"server", m_setup.options.name},
+          {"version", std::string(kVersion)},
+          {"game", m_setup.admission.game()},
+          {"address", m_setup.network.address()},
+          {"up_s", number(static_cast<std::uint64_t>(since(m_began, Session::Clock::now()).count()))},
+          {"players", number(m_setup.sessions.playing())},
+          {"connected", number(m_setup.sessions.connected())},
+          {"max_players", std::int64_t{m_setup.options.max_players}},
+          {"password", m_setup.admission.needsPassword()},
+          {"ticks", number(counters.ticks)},
+          {"late_ticks", number(counters.late_ticks)},
+          {"tick_p50_ms", millis(times.quantile(0.5))},
+          {"tick_p99_ms", millis(times.quantile(0.99))},
+          {"joined", number(counters.joined)}};
+}
+
+Session* HostAdmin::findPlaying(std::uint64_t session) const {
+  Session* p_session = m_setup.sessions.find(session);
+  return p_session != nullptr && p_session->state() == Session::State::kPlaying ? p_session : nullptr;
+}
+
+// The end of a session is the end of its token (Admission::forgetSession).
+void HostAdmin::endPlayer(std::uint64_t session, const std::string& sentence) {
+  if (Session* p_session = findPlaying(session)) p_session->goodbye(safeText(sentence, kMaxSentenceLength));
+}
+
+void HostAdmin::say(const std::string& text) {
+  m_setup.sessions.forEachPlaying([&text](Session& session) { sendServerLine(session, text); });
+}
+
+void HostAdmin::tell(std::uint64_t session, const std::string& text) {
+  if (Session* p_session = findPlaying(session)) sendServerLine(*p_session, text);
+}
+
+void HostAdmin::setMuted(std::uint64_t session, bool muted) {
+  if (Session* p_session = findPlaying(session)) p_session->standing().setMuted(muted);
+}
+
+// ---- the server -------------------------------------------------------------------------------------------
+
+AdminAnswer HostAdmin::stop(const std::string& sentence) {
+  m_setup.controls.end(
+      {.at = Session::Clock::time_point(), .sentence = safeText(sentence, kMaxSentenceLength)});
+  return AdminAnswer::done("The server ends.");
+}
+
+AdminAnswer HostAdmin::restart(const AdminRestart& restart) {
+  Ending::Plan plan{.begins_again = true};
+  std::string when = "now";
+  switch (restart.when) {
+    case AdminRestart::When::kNow:
+      plan.at = Session::Clock::time_point();
+      break;
+    case AdminRestart::When::kIn:
+      plan.at = Session::Clock::now() + restart.in;
+      when = "in " + std::to_string(restart.in.count()) + " s";
+      break;
+    case AdminRestart::When::kAtRoundEnd:
+      plan.at_round_end = true;
+      when = "when the round is over";
+      break;
+  }
+  m_setup.controls.end(std::move(plan));
+  return AdminAnswer::done("The server restarts " + when + ".");
+}
+
+// Without a time of its own, or of the server's option: until the last one leaves.
+AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
+  Ending::Plan plan{.when_empty = true};
+  std::chrono::duration<double> patience(m_setup.options.drain_time);
+  if (most) patience = *most;
+  std::string text = "Nobody is let in any more. The server ends when all have left";
+  if (most || patience.count() > 0) {
+    plan.at = Session::Clock::now() + std::chrono::duration_cast<Session::Clock::duration>(patience);
+    text += ", and in " + std::to_string(std::chrono::ceil<std::chrono::seconds>(patience).count()) +
+            " s at the latest";
+  }
+  m_setup.controls.end(std::move(plan));
+  return AdminAnswer::done(text + ".");
+}
+
+AdminAnswer HostAdmin::cancel() {
+  if (!m_setup.controls.cancel_end()) return AdminAnswer::refused("There is nothing to call off.");
+  say("The server goes on after all.");
+  return AdminAnswer::done("The server goes on.");
+}
+
+void HostAdmin::reload(std::function<void(AdminAnswer)> done) {
+  m_setup.controls.reload([done = std::move(done)](bool is_done, const std::string& sentence) {
+    const std::string text = sentence + ".";
+    done(is_done ? AdminAnswer::done(text) : AdminAnswer::refused(text));
+  });
+}
+
+AdminAnswer HostAdmin::changePassword(std::optional<PasswordHash> hash) {
+  const bool needed = hash.has_value();
+  m_setup.admission.changePassword(std::move(hash));
+  return AdminAnswer::done(needed ? "New players need the new password."
+                                  : "New players need no password any more.");
+}
+
+AdminAnswer HostAdmin::set(const std::string& option, const std::string& value) {
+  const auto& names = changeableOptions();
+  if (std::find(names.begin(), names.end(), option) == names.end())
+    return AdminAnswer::refused("\"" + option + "\" is no option that can be changed while the server runs.");
+  HostOptions changed = m_setup.options;
+  try {
+    setHostOption(changed, option, value);
+  } catch (const OptionError& error) {
+    return AdminAnswer::refused(error.what());
+  }
+  m_setup.controls.take_over(changed);
+  return AdminAnswer::done(option + " is " + hostOptionValue(m_setup.options, option) + ".");
+}
+
+AdminRow HostAdmin::settings() const {
+  AdminRow row;
+  for (const std::string& name : changeableOptions())
+    row.emplace_back(name, hostOptionValue(m_setup.options, name));
+  return row;
+}
+
+}  // namespace naiad

@@ -1,0 +1,67 @@
+// A host as commands see it (AdminTarget.h).
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/admin/AdminTarget.h"
+#include "host/net/NetworkThread.h"
+#include "host/program/Admission.h"
+#include "host/program/Ending.h"
+#include "host/program/HostOptions.h"
+#include "host/program/SessionTable.h"
+#include "host/session/Counters.h"
+
+namespace naiad {
+
+/// What ends a server or reads its options again: its host.
+struct AdminControls {
+  std::function<void(Ending::Plan plan)> end;
+  std::function<bool()> cancel_end;  ///< false: nothing was planned
+  std::function<void(std::function<void(bool is_done, const std::string& sentence)> done)> reload;
+  std::function<void(const HostOptions& options)> take_over;  ///< those that may change while it runs
+};
+
+/// On the host's thread.
+class HostAdmin : public AdminTarget {
+ public:
+  /// What it works with; all of it outlives this.
+  struct Setup {
+    const HostOptions& options;
+    const SessionTable& sessions;
+    Admission& admission;
+    const Counters& counters;
+    const NetworkThread& network;
+    AdminControls controls;
+  };
+  explicit HostAdmin(Setup setup);
+
+  std::vector<AdminPlayer> players() const override;
+  AdminRow status() const override;
+  void endPlayer(std::uint64_t session, const std::string& sentence) override;
+  void say(const std::string& text) override;
+  void tell(std::uint64_t session, const std::string& text) override;
+  void setMuted(std::uint64_t session, bool muted) override;
+  AdminAnswer stop(const std::string& sentence) override;
+  AdminAnswer restart(const AdminRestart& restart) override;
+  AdminAnswer drain(std::optional<std::chrono::seconds> most) override;
+  AdminAnswer cancel() override;
+  void reload(std::function<void(AdminAnswer)> done) override;
+  AdminAnswer changePassword(std::optional<PasswordHash> hash) override;
+  AdminAnswer set(const std::string& option, const std::string& value) override;
+  AdminRow settings() const override;
+
+ private:
+  Session* findPlaying(std::uint64_t session) const;
+
+  Setup m_setup;
+  Session::Clock::time_point m_began;
+};
+
+/// A line of the server's own in the chat of one player, cut to the length of one.
+void sendServerLine(Session& session, const std::string& text);
+
+}  // namespace naiad

@@ -1,0 +1,12 @@
+// The game: who plays gets a ship.
+#include "GameManager.h"
+#include "Ship.h"
+
+int main() {
+  if (GM.startUp() != 0) return 1;
+  GM.setHelp({"@NAME@: every player is an @", "", "arrows   fly"});
+  new df::Welcome<Ship>;  // makes a Ship for each player that joins
+  GM.run();
+  GM.shutDown();
+  return 0;
+}

@@ -1,0 +1,28 @@
+// What a command gives back.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace naiad {
+
+using AdminValue = std::variant<std::string, std::int64_t, double, bool>;
+/// Values by name, in the order in which they are shown.
+using AdminRow = std::vector<std::pair<std::string, AdminValue>>;
+
+struct AdminAnswer {
+  bool ok = true;
+  std::string text;                     ///< one sentence, or empty; what is wrong if not ok
+  std::vector<std::string> candidates;  ///< what an ambiguous name may have meant
+  AdminRow facts;                       ///< of the server
+  bool is_list = false;                 ///< `rows` is the answer, though it may be empty
+  std::vector<AdminRow> rows;           ///< each with the same names
+
+  static AdminAnswer done(std::string text) { return {true, std::move(text), {}, {}, false, {}}; }
+  static AdminAnswer refused(std::string text) { return {false, std::move(text), {}, {}, false, {}}; }
+};
+
+}  // namespace naiad

@@ -1,0 +1,206 @@
+#include "shared/admin/AdminCommands.h"
+
+#include <algorithm>
+
+namespace naiad {
+
+namespace {
+
+using Kind = AdminArgument::Kind;
+using Level = AdminCommand::Level;
+using Place = AdminCommand::Place;
+
+const AdminArgument kReason{"reason", Kind::kText, false, "Why, in words for players"};
+const AdminArgument kOnePlayer{"player", Kind::kPlayer, true, "Name, beginning of a name, or #ID"};
+
+std::vector<AdminCommand> tableOfCommands() {
+  return {
+      {"help",
+       Level::kPlayer,
+       Place::kChat,
+       "List the commands that you may give, or say how to use one",
+       {{"command", Kind::kWord, false, "Name of a command"}}},
+      {"commands", Level::kPlayer, Place::kChat, "As help", {}},
+      {"who", Level::kPlayer, Place::kBoth, "List the players", {}, true},
+      {"tell",
+       Level::kPlayer,
+       Place::kBoth,
+       "Send a line to one player alone",
+       {kOnePlayer, {"text", Kind::kText, true, "What they read"}}},
+      {"vote",
+       Level::kPlayer,
+       Place::kChat,
+       "Begin a vote to throw a player out, or agree with the one that is on",
+       {{"what", Kind::kChoice, true, "What is voted on", {"kick"}}, kOnePlayer}},
+      {"admin",
+       Level::kPlayer,
+       Place::kChat,
+       "Get an admin's rights until your connection ends",
+       {{"password", Kind::kSecret, true, "The server's --admin-password"}}},
+      {"status", Level::kAdmin, Place::kBoth, "Tell how the server is", {}, true},
+      {"say",
+       Level::kAdmin,
+       Place::kBoth,
+       "Send a line to all players",
+       {{"text", Kind::kText, true, "What they read"}}},
+      {"kick",
+       Level::kAdmin,
+       Place::kBoth,
+       "End a player's session; they may come again",
+       {kOnePlayer, kReason}},
+      {"ban",
+       Level::kAdmin,
+       Place::kBoth,
+       "Keep a player out, by name and address, or a name, an address or a range of addresses",
+       {{"who", Kind::kTarget, true, "Player, name:NAME, address or ADDRESS/BITS"},
+        {"for", Kind::kSpan, false, "How long, like 30m, 2h or 7d; else for ever"},
+        kReason}},
+      {"allow",
+       Level::kAdmin,
+       Place::kBoth,
+       "Make an exception: no ban holds for these addresses",
+       {{"who", Kind::kTarget, true, "Address or ADDRESS/BITS"},
+        {"for", Kind::kSpan, false, "How long; else for ever"},
+        kReason}},
+      {"unban",
+       Level::kAdmin,
+       Place::kBoth,
+       "Lift a ban or an exception",
+       {{"who", Kind::kTarget, true, "#NUMBER as bans lists it, name:NAME, address or ADDRESS/BITS"}}},
+      {"bans", Level::kAdmin, Place::kBoth, "List bans and exceptions", {}, true},
+      {"mute", Level::kAdmin, Place::kBoth, "Send a player's lines to nobody", {kOnePlayer}},
+      {"unmute", Level::kAdmin, Place::kBoth, "Let a muted player talk again", {kOnePlayer}},
+      {"password",
+       Level::kAdmin,
+       Place::kBoth,
+       "Change the password that players need; an empty one: none is needed",
+       {{"password", Kind::kSecret, true, "The new one (dfctl reads it from its input if it is left out)"}}},
+      {"set",
+       Level::kAdmin,
+       Place::kBoth,
+       "Change an option of the running server, or list those that can be changed",
+       {{"option", Kind::kWord, false, "Name of the option, without dashes"},
+        {"value", Kind::kText, false, "Its new value"}}},
+      {"reload", Level::kAdmin, Place::kBoth, "Read options, certificate and bans again", {}},
+      {"restart",
+       Level::kAdmin,
+       Place::kBoth,
+       "End the server so that it begins again; players come back by themselves",
+       {{"when",
+         Kind::kChoice,
+         false,
+         "now (so if left out), at-round-end, or in SPAN",
+         {"now", "at-round-end", "in"}},
+        {"span", Kind::kSpan, false, "With in: how long to wait"}}},
+      {"drain",
+       Level::kAdmin,
+       Place::kBoth,
+       "Let nobody in any more, and end the server once the players have left",
+       {{"span", Kind::kSpan, false, "Wait so long at most"}}},
+      {"stop", Level::kAdmin, Place::kBoth, "End the server now", {kReason}},
+      {"cancel", Level::kAdmin, Place::kBoth, "Call a restart or drain off", {}},
+      {"watch",
+       Level::kAdmin,
+       Place::kSocket,
+       "Print the server's log as it is written, until interrupted",
+       {}},
+      {"ping", Level::kAdmin, Place::kSocket, "Ask whether the server answers", {}, true},
+  };
+}
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  return text;
+}
+
+std::string placeholder(const AdminArgument& argument) {
+  if (argument.kind != Kind::kChoice) return upper(argument.name);
+  std::string all;
+  for (const std::string& one : argument.one_of) all += (all.empty() ? "" : "|") + one;
+  return all;
+}
+
+// A line that begins with a dot would be a macro, and a dash a hyphen.
+std::string manText(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '\\' || c == '-') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+std::string whereGiven(const AdminCommand& command) {
+  if (command.place == Place::kSocket) return "dfctl";
+  const std::string who = command.level == Level::kPlayer ? "every player" : "admins";
+  return command.place == Place::kChat ? "chat, " + who : "dfctl; chat, " + who;
+}
+
+}  // namespace
+
+const std::vector<AdminCommand>& adminCommands() {
+  static const std::vector<AdminCommand> commands = tableOfCommands();
+  return commands;
+}
+
+const AdminCommand* findAdminCommand(std::string_view name) {
+  const auto& all = adminCommands();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [name](const auto& one) { return one.name == name; });
+  return found != all.end() ? &*found : nullptr;
+}
+
+std::string adminUsage(const AdminCommand& command) {
+  std::string usage = command.name;
+  for (const AdminArgument& argument : command.arguments) {
+    const std::string text = placeholder(argument);
+    usage += argument.required ? " " + text : " [" + text + "]";
+  }
+  return usage;
+}
+
+std::vector<std::string> adminHelp(Level level, Place place) {
+  std::size_t width = 0;
+  for (const AdminCommand& command : adminCommands()) {
+    if (command.isFor(level, place)) width = std::max(width, adminUsage(command).size());
+  }
+  std::vector<std::string> lines;
+  for (const AdminCommand& command : adminCommands()) {
+    if (!command.isFor(level, place)) continue;
+    std::string line = adminUsage(command);
+    line.resize(width + 2, ' ');
+    lines.push_back(line + command.help);
+  }
+  return lines;
+}
+
+std::vector<std::string> adminHelp(const AdminCommand& command) {
+  std::vector<std::string> lines{adminUsage(command) + ": " + command.help};
+  for (const AdminArgument& argument : command.arguments)
+    lines.push_back("  " + upper(argument.name) + ": " + argument.help);
+  return lines;
+}
+
+std::string adminManSection() {
+  std::string text = ".SH COMMANDS\n";
+  for (const AdminCommand& command : adminCommands()) {
+    if (command.place == Place::kChat) continue;
+    text += ".TP\n.B " + manText(adminUsage(command)) + "\n" + manText(command.help) + ".\n";
+    for (const AdminArgument& argument : command.arguments)
+      text += ".br\n\\fI" + manText(upper(argument.name)) + "\\fR: " + manText(argument.help) + ".\n";
+  }
+  return text;
+}
+
+std::string adminMarkdown() {
+  std::string text = "| command | where | what it does |\n|---|---|---|\n";
+  for (const AdminCommand& command : adminCommands()) {
+    std::string usage = adminUsage(command);
+    for (std::size_t at = 0; (at = usage.find('|', at)) != std::string::npos; at += 2) usage.insert(at, "\\");
+    text += "| `" + usage + "` | " + whereGiven(command) + " | " + command.help + " |\n";
+  }
+  return text;
+}
+
+}  // namespace naiad

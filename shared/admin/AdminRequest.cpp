@@ -1,0 +1,137 @@
+#include "shared/admin/AdminRequest.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "shared/admin/TimeSpan.h"
+#include "shared/options/NearestName.h"
+
+namespace naiad {
+
+namespace {
+
+using Kind = AdminArgument::Kind;
+
+/// Of one argument, in bytes.
+constexpr std::size_t kMaxAdminArgument = 1024;
+
+const AdminCommand& commandOf(const std::string& name) {
+  if (const AdminCommand* p_command = findAdminCommand(name)) return *p_command;
+  std::vector<std::string> names;
+  for (const AdminCommand& command : adminCommands()) names.push_back(command.name);
+  const std::string near = nearestName(name, names);
+  throw AdminUsageError("There is no command \"" + name + "\"" +
+                        (near.empty() ? "." : "; did you mean \"" + near + "\"?"));
+}
+
+bool isOneOf(const AdminArgument& argument, const std::string& value) {
+  return std::find(argument.one_of.begin(), argument.one_of.end(), value) != argument.one_of.end();
+}
+
+std::string undashed(const std::string& word) {
+  return word.starts_with("--") ? word.substr(2) : word;
+}
+
+/// May this word be that argument, which need not be there?
+bool fits(const AdminArgument& argument, const std::string& word) {
+  if (argument.kind == Kind::kSpan) return readTimeSpan(word).has_value();
+  if (argument.kind == Kind::kChoice) return isOneOf(argument, undashed(word));
+  return true;
+}
+
+void checkArgument(const AdminCommand& command, const AdminArgument& argument, const std::string& value) {
+  const std::string where = command.name + ": \"" + value + "\"";
+  if (value.size() > kMaxAdminArgument)
+    throw AdminUsageError(command.name + ": " + argument.name + " is too long.");
+  if (argument.kind == Kind::kSpan && !readTimeSpan(value))
+    throw AdminUsageError(where + " is no span of time like 30m, 2h or 7d.");
+  if (argument.kind == Kind::kChoice && !isOneOf(argument, value)) {
+    std::string all;
+    for (const std::string& one : argument.one_of) all += (all.empty() ? "" : ", ") + one;
+    throw AdminUsageError(where + " is none of: " + all + ".");
+  }
+  if (value.empty() && argument.required && argument.kind != Kind::kSecret)
+    throw AdminUsageError(command.name + ": " + argument.name + " is empty.");
+}
+
+AdminRequest check(AdminRequest request) {
+  const AdminCommand& command = *request.command;
+  for (const AdminArgument& argument : command.arguments) {
+    const auto given = request.arguments.find(argument.name);
+    if (given == request.arguments.end()) {
+      if (argument.required) throw AdminUsageError("Usage: " + adminUsage(command));
+    } else {
+      checkArgument(command, argument, given->second);
+    }
+  }
+  return request;
+}
+
+}  // namespace
+
+std::string AdminRequest::of(const std::string& name) const {
+  const auto found = arguments.find(name);
+  return found != arguments.end() ? found->second : std::string();
+}
+
+std::string AdminRequest::redacted() const {
+  std::string text = command->name;
+  for (const AdminArgument& argument : command->arguments) {
+    const auto given = arguments.find(argument.name);
+    if (given == arguments.end()) continue;
+    text += argument.kind == Kind::kSecret ? " ***" : " \"" + given->second + "\"";
+  }
+  return text;
+}
+
+AdminRequest readAdminRequest(const std::vector<std::string>& words) {
+  if (words.empty()) throw AdminUsageError("A command is missing.");
+  AdminRequest request{&commandOf(words.front()), {}};
+  std::size_t next = 1;
+  for (const AdminArgument& argument : request.command->arguments) {
+    if (next == words.size()) break;
+    if (!argument.required && !fits(argument, words[next])) continue;
+    std::string& value = request.arguments[argument.name];
+    value = argument.kind == Kind::kChoice ? undashed(words[next]) : words[next];
+    ++next;
+    if (argument.kind != Kind::kText) continue;
+    for (; next < words.size(); ++next) value += " " + words[next];
+  }
+  if (next < words.size()) throw AdminUsageError("Usage: " + adminUsage(*request.command));
+  return check(std::move(request));
+}
+
+AdminRequest readAdminRequest(const std::string& command, std::map<std::string, std::string> arguments) {
+  AdminRequest request{&commandOf(command), std::move(arguments)};
+  const auto& known = request.command->arguments;
+  const auto unknown =
+      std::find_if(request.arguments.begin(), request.arguments.end(), [&known](const auto& given) {
+        return std::none_of(known.begin(), known.end(),
+                            [&given](const auto& one) { return one.name == given.first; });
+      });
+  if (unknown != request.arguments.end())
+    throw AdminUsageError("No argument of \"" + command + "\" is called \"" + unknown->first + "\".");
+  return check(std::move(request));
+}
+
+std::vector<std::string> splitAdminLine(std::string_view line) {
+  std::vector<std::string> words;
+  bool in_word = false;
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      if (!in_word) words.emplace_back();
+      in_word = true;
+      quoted = !quoted;
+    } else if (!quoted && (c == ' ' || c == '\t')) {
+      in_word = false;
+    } else {
+      if (!in_word) words.emplace_back();
+      in_word = true;
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
+}  // namespace naiad

@@ -1,0 +1,392 @@
+// Looking after a server that runs: by its control socket, by dfctl, and in the chat.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <asio/local/stream_protocol.hpp>
+#include <asio/write.hpp>
+#include <fstream>
+#include <utility>
+
+#include "BusyWorld.h"
+#include "GameProgram.h"
+#include "Home.h"
+#include "RunProgram.h"
+#include "TestServer.h"
+#include "host/auth/PasswordHash.h"
+#include "shared/net/stream/VisitorHeader.h"
+#include "tests/server/host/admin/Talk.h"
+
+namespace naiad::test {
+namespace {
+
+using Local = asio::local::stream_protocol;
+
+std::string command(const std::string& name, const std::string& arguments = "") {
+  return R"({"command":")" + name + R"(","arguments":{)" + arguments + "}}";
+}
+
+/// Has this client, which plays, read a line with that in it?
+bool hasRead(TestClient& client, const std::string& text) {
+  for (const ChatEntry& entry : client.session().chat()) {
+    if (entry.text.find(text) != std::string::npos) return true;
+  }
+  return false;
+}
+
+class AdminTest : public testing::Test {
+ protected:
+  AdminTest() {
+    options = home.server();
+    options.control = home.identity("control.sock");
+    options.visitors = home.identity("visitors");
+    options.state = home.identity("state");
+    options.admin_password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
+  }
+  static std::function<void(df::World&)> world() {
+    return [](df::World& world) { populateBusyWorld(world, 5); };
+  }
+  ClientSetup from(const std::string& address, const std::string& name) const {
+    ClientSetup setup = home.player(name);
+    setup.options.visit = Visit{options.visitors, *visitorFromText(address)};
+    return setup;
+  }
+  bool joins(TestClient& client) {
+    return serveUntil(context, {&client}, [&] { return client.joined() || client.connection().isOver(); }) &&
+           client.joined();
+  }
+  bool ends(TestClient& client) {
+    return serveUntil(context, {&client}, [&] { return client.connection().isOver(); });
+  }
+  bool reads(TestClient& client, const std::string& text) {
+    return serveUntil(context, {&client}, [&] { return client.joined() && hasRead(client, text); });
+  }
+  /// Say a line until the answer comes: a player, and an address, may say some lines a second alone.
+  bool saysAndReads(TestClient& client, const std::string& line, const std::string& text) {
+    const std::size_t before = client.session().chat().size();
+    const auto answered = [&] {
+      const auto& chat = client.session().chat();
+      return std::any_of(
+          chat.begin() + static_cast<std::ptrdiff_t>(std::min(before, chat.size())), chat.end(),
+          [&text](const ChatEntry& entry) { return entry.text.find(text) != std::string::npos; });
+    };
+    for (int tries = 0; tries < 20; ++tries) {
+      client.session().sendChat(line);
+      const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+      serveUntil(context, {&client}, [&] { return answered() || std::chrono::steady_clock::now() > end; });
+      if (answered()) return true;
+    }
+    return false;
+  }
+  std::string ask(const std::string& line) const { return Talk(options.control).ask(line); }
+
+  Home home;
+  asio::io_context context;
+  HostOptions options;
+};
+
+TEST_F(AdminTest, AKickEndsAPlayerWithinTwoTicksAndTheirTokenWithThem) {
+  options.grace = 60;
+  TestServer server(world(), options);
+  ClientSetup setup = home.player("ann");
+  setup.sessions = home.sessions();
+  TestClient ann(context, server.port(), setup);
+  ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+  const std::uint32_t player = ann.player();
+  const std::uint32_t joined = ann.newestTick();
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > joined + 5; }));
+  ASSERT_TRUE(server.truth(joined + 2, player)) << "they are in the world";
+  const std::string answer = ask(command("kick", R"("player":"ann","reason":"too loud")"));
+  ASSERT_EQ(answer, R"({"ok":true,"text":"ann was removed."})");
+  const auto step = [&server] {
+    return server.inWorld([](df::World& world) { return static_cast<std::uint32_t>(world.getStepCount()); });
+  };
+  const std::uint32_t kicked = step();  // or a moment later
+  while (step() < kicked + 2) {
+  }
+  EXPECT_FALSE(server.truth(kicked + 2, player));
+  ASSERT_TRUE(ends(ann));
+  EXPECT_NE(ann.connection().sentence().find("too loud"), std::string::npos) << ann.connection().sentence();
+  TestClient again(context, server.port(), setup);
+  ASSERT_TRUE(joins(again)) << "a kick is no ban";
+  EXPECT_NE(again.player(), player);
+}
+
+/// The bytes that a visitor at this address gets before the server hangs up.
+std::string bytesFor(const std::string& visitors, const std::string& address) {
+  asio::io_context context;
+  Local::socket socket(context);
+  socket.connect(Local::endpoint(visitors));
+  std::error_code error;
+  asio::write(socket, asio::buffer(visitorHeader(*visitorFromText(address))), error);
+  std::string heard;
+  while (!error) {
+    char bytes[256];
+    heard.append(bytes, socket.read_some(asio::buffer(bytes), error));
+  }
+  return heard;
+}
+
+TEST_F(AdminTest, ABanTakesEffectOnTheNextConnectionBeforeTls) {
+  TestServer server(world(), options);
+  TestClient ann(context, server.port(), from("192.0.2.9:50003", "ann"));
+  ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+  ASSERT_NE(ask(command("ban", R"("who":"192.0.2.0/24","for":"2h")")).find(R"("ok":true)"),
+            std::string::npos);
+  ASSERT_TRUE(ends(ann));
+  // TlsListenerTest.ABannedAddressGetsNotAByte says a hello, too.
+  EXPECT_EQ(bytesFor(options.visitors, "192.0.2.7:50001"), "");
+  TestClient eve(context, server.port(), from("192.0.2.200:50003", "eve"));
+  EXPECT_FALSE(joins(eve));
+  TestClient bob(context, server.port(), from("192.0.3.9:50003", "bob"));
+  EXPECT_TRUE(joins(bob)) << bob.connection().sentence();
+  EXPECT_EQ(server.counters().connections, 2u) << "ann's and bob's: no other one finished a handshake";
+}
+
+TEST_F(AdminTest, WhoIsBannedWhilePlayingIsToldWhyAndUntilWhen) {
+  TestServer server(world(), options);
+  TestClient ann(context, server.port(), from("192.0.2.7:50000", "ann"));
+  TestClient bob(context, server.port(), from("192.0.2.8:50000", "bob"));
+  ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+  ASSERT_TRUE(joins(bob)) << bob.connection().sentence();
+  ASSERT_NE(ask(command("ban", R"("who":"ann","for":"7d","reason":"spam")")).find(R"("ok":true)"),
+            std::string::npos);
+  ASSERT_TRUE(ends(ann));
+  const std::string sentence = ann.connection().sentence();
+  EXPECT_NE(sentence.find("banned"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("until 20"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("spam"), std::string::npos) << sentence;
+  EXPECT_TRUE(bob.joined());
+  // By the name, from elsewhere: refused in words.
+  TestClient again(context, server.port(), from("198.51.100.1:50000", "ann"));
+  EXPECT_FALSE(joins(again));
+  EXPECT_NE(again.connection().sentence().find("banned"), std::string::npos) << again.connection().sentence();
+  EXPECT_EQ(server.counters().refused_banned, 1u);
+}
+
+TEST_F(AdminTest, ABanLastsBeyondARestart) {
+  {
+    TestServer server(world(), options);
+    ASSERT_NE(ask(command("ban", R"("who":"name:eve")")).find(R"("ok":true)"), std::string::npos);
+  }
+  TestServer server(world(), options);
+  TestClient eve(context, server.port(), home.player("eve"));
+  EXPECT_FALSE(joins(eve));
+  EXPECT_NE(eve.connection().sentence().find("banned"), std::string::npos) << eve.connection().sentence();
+}
+
+/// dfserver and dfctl as they are: what descends from a server may give no commands, so dfctl must not.
+class CtlTest : public testing::Test {
+ protected:
+  bool joins(TestClient& client) {
+    return serveUntil(context, {&client}, [&] { return client.joined() || client.connection().isOver(); }) &&
+           client.joined();
+  }
+  std::pair<int, std::string> ctl(const std::string& arguments) const {
+    return runCtl("--control " + server.control().string() + " " + arguments);
+  }
+
+  Home home;
+  asio::io_context context;
+  GameProgram server{"dfserver", {{"NAIAD_GAME", "hello"}}};
+};
+
+TEST_F(CtlTest, ShowsAndDoesWhatItIsAsked) {
+  TestClient ann(context, server.port(), home.player("ann"));
+  ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+  const auto who = ctl("who");
+  EXPECT_EQ(who.first, 0);
+  EXPECT_NE(who.second.find("ann"), std::string::npos) << who.second;
+  const auto json = ctl("who --json");
+  EXPECT_EQ(json.second.rfind("[{\"id\":", 0), 0u) << json.second;
+  EXPECT_EQ(ctl("ping").first, 0);
+  const auto status = ctl("status");
+  EXPECT_NE(status.second.find("connected: 1"), std::string::npos) << status.second;
+  EXPECT_EQ(ctl("say hello there").first, 0);
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return hasRead(ann, "hello there"); }));
+  EXPECT_EQ(ctl("kick ann").first, 0);
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
+  EXPECT_NE(server.log().find("admin: user "), std::string::npos);
+  EXPECT_NE(server.log().find("kick \"ann\""), std::string::npos);
+}
+
+TEST_F(CtlTest, ExitCodesTellWhatBecameOfACommand) {
+  EXPECT_EQ(ctl("kick nobody").first, 1);
+  EXPECT_EQ(ctl("kick").first, 2);
+  EXPECT_EQ(ctl("kik ann").first, 2);
+  EXPECT_EQ(ctl("admin secret").first, 2) << "a command of the chat";
+  EXPECT_EQ(ctl("").first, 2);
+  EXPECT_EQ(runCtl("--control /nowhere/at/all who").first, 3);
+  EXPECT_EQ(runCtl("--help").first, 0);
+  EXPECT_EQ(runCtl("--version").first, 0);
+  EXPECT_EQ(runCtl("completion bash").first, 0);
+  EXPECT_EQ(runCtl("completion csh").first, 2);
+}
+
+TEST_F(CtlTest, ChangesOptionsWithinTheirRanges) {
+  TestClient ann(context, server.port(), home.player("ann"));
+  ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+  EXPECT_EQ(ctl("set max-players 1").first, 0);
+  TestClient bob(context, server.port(), home.player("bob"));
+  EXPECT_FALSE(joins(bob));
+  EXPECT_EQ(ctl("set max-players 0").first, 1);
+  EXPECT_EQ(ctl("set max-players 2000000").first, 1);
+  EXPECT_EQ(ctl("set max-players 200").first, 0) << "more than it began with";
+  TestClient cat(context, server.port(), home.player("cat"));
+  EXPECT_TRUE(joins(cat)) << cat.connection().sentence();
+  EXPECT_EQ(ctl("set port 1").first, 1);
+  EXPECT_EQ(ctl("set").first, 0);
+}
+
+TEST_F(CtlTest, StopsAServer) {
+  TestClient ann(context, server.port(), home.player("ann"));
+  ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+  const auto stop = ctl("stop maintenance until eight");
+  EXPECT_EQ(stop.first, 0) << stop.second;
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
+  EXPECT_EQ(ann.connection().sentence(), "maintenance until eight");
+  const int status = server.wait();
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  EXPECT_EQ(ctl("ping").first, 3);
+}
+
+TEST(CtlOfADamagedServer, AFileOfBansThatIsNoneStopsTheStart) {
+  const Home home;
+  std::filesystem::create_directory(home.identity("state"));
+  std::ofstream(home.identity("state") / "bans.sqlite3") << "nothing that SQLite wrote";
+  const std::string line = std::string(NAIAD_BINARY_DIR) +
+                           "/dfserver --game hello --address 127.0.0.1 --port 0 --control off --ticks 1 "
+                           "--identity " +
+                           home.identity("identity").string() + " --state " +
+                           home.identity("state").string() + " 2>&1 </dev/null";
+  const auto [code, output] = runProgram(line);
+  EXPECT_EQ(code, 5) << output;
+  EXPECT_NE(output.find("file of bans"), std::string::npos) << output;
+}
+
+TEST_F(AdminTest, TheTwoPasswordsAreChangedAndKept) {
+  TestServer server(world(), options);
+  ASSERT_NE(ask(command("password", R"("password":"xyzzy")")).find(R"("ok":true)"), std::string::npos);
+  TestClient ann(context, server.port(), home.player("ann"));
+  EXPECT_FALSE(joins(ann));
+  ClientSetup setup = home.player("bob");
+  setup.options.password = "xyzzy";
+  TestClient bob(context, server.port(), setup);
+  EXPECT_TRUE(joins(bob)) << bob.connection().sentence();
+  ASSERT_NE(ask(command("password", R"("password":"")")).find(R"("ok":true)"), std::string::npos);
+  TestClient cat(context, server.port(), home.player("cat"));
+  EXPECT_TRUE(joins(cat)) << cat.connection().sentence();
+}
+
+// ---- in the chat ------------------------------------------------------------------------------------------
+
+TEST_F(AdminTest, NoCommandReachesOthersWhateverItIs) {
+  TestServer server(world(), options);
+  TestClient bob(context, server.port(), home.player("bob"));
+  ASSERT_TRUE(joins(bob)) << bob.connection().sentence();
+  int number = 0;
+  for (const char* line : {"/admin wrong sesame", "  /admin typo", "\xe2\x80\x8b/admin hidden",
+                           "\x01/nonsense secret", "/", "//secret", "/ admin secret"}) {
+    // Each by another player: one alone may say three lines at once.
+    TestClient ann(context, server.port(), home.player("ann" + std::to_string(number++)));
+    ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+    const std::size_t before = ann.session().chat().size();
+    ann.session().sendChat(line);
+    ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return ann.session().chat().size() > before; }))
+        << line;
+    if (number == 1) {
+      ann.session().sendChat("but this is for all");
+      ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return hasRead(bob, "but this is for all"); }));
+    }
+  }
+  TestClient last(context, server.port(), home.player("last"));
+  ASSERT_TRUE(joins(last)) << last.connection().sentence();
+  last.session().sendChat("the end");
+  ASSERT_TRUE(serveUntil(context, {&last, &bob}, [&] { return hasRead(bob, "the end"); }));
+  for (const char* secret : {"sesame", "typo", "hidden", "secret", "nonsense"})
+    EXPECT_FALSE(hasRead(bob, secret)) << secret;
+}
+
+TEST_F(AdminTest, TheAdminsPasswordGivesRightsUntilTheStreamEnds) {
+  options.grace = 60;
+  TestServer server(world(), options);
+  ClientSetup setup = home.player("ann");
+  setup.sessions = home.sessions();
+  TestClient bob(context, server.port(), home.player("bob"));
+  ASSERT_TRUE(joins(bob)) << bob.connection().sentence();
+  std::uint32_t player = 0;
+  {
+    TestClient ann(context, server.port(), setup);
+    ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+    player = ann.player();
+    ann.session().sendChat("/kick bob");
+    ASSERT_TRUE(reads(ann, "You may not give the command"));
+    ann.session().sendChat("/admin open sesame");
+    ASSERT_TRUE(reads(ann, "You are an admin"));
+    ann.session().sendChat("/mute bob");
+    ASSERT_TRUE(reads(ann, "bob is muted"));
+  }
+  TestClient again(context, server.port(), setup);
+  ASSERT_TRUE(joins(again)) << again.connection().sentence();
+  ASSERT_EQ(again.player(), player) << "the same session";
+  EXPECT_TRUE(saysAndReads(again, "/kick bob", "You may not give the command"));
+  EXPECT_TRUE(bob.joined());
+}
+
+TEST_F(AdminTest, AMuteSurvivesAReturn) {
+  options.grace = 60;
+  TestServer server(world(), options);
+  ClientSetup setup = home.player("ann");
+  setup.sessions = home.sessions();
+  TestClient bob(context, server.port(), home.player("bob"));
+  ASSERT_TRUE(joins(bob)) << bob.connection().sentence();
+  {
+    TestClient ann(context, server.port(), setup);
+    ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+    ASSERT_NE(ask(command("mute", R"("player":"ann")")).find(R"("ok":true)"), std::string::npos);
+  }
+  TestClient again(context, server.port(), setup);
+  ASSERT_TRUE(joins(again)) << again.connection().sentence();
+  again.session().sendChat("can you hear me");
+  ASSERT_TRUE(serveUntil(context, {&again, &bob}, [&] { return hasRead(again, "You are muted"); }));
+  EXPECT_FALSE(hasRead(bob, "can you hear me"));
+  EXPECT_EQ(server.counters().chat_muted, 1u);
+}
+
+TEST_F(AdminTest, AVoteThrowsOutAndKeepsOut) {
+  options.vote_kick = true;
+  TestServer server(world(), options);
+  TestClient ann(context, server.port(), from("192.0.2.1:1", "ann"));
+  TestClient bob(context, server.port(), from("192.0.2.2:1", "bob"));
+  TestClient eve(context, server.port(), from("192.0.2.3:1", "eve"));
+  for (TestClient* p_client : {&ann, &bob, &eve}) ASSERT_TRUE(joins(*p_client));
+  ann.session().sendChat("/vote kick eve");
+  ASSERT_TRUE(serveUntil(context, {&ann, &bob, &eve}, [&] { return hasRead(bob, "wants eve out"); }));
+  bob.session().sendChat("/vote kick eve");
+  ASSERT_TRUE(serveUntil(context, {&ann, &bob, &eve}, [&] { return eve.connection().isOver(); }));
+  EXPECT_NE(eve.connection().sentence().find("voted"), std::string::npos) << eve.connection().sentence();
+  TestClient again(context, server.port(), from("192.0.2.4:1", "eve"));
+  EXPECT_FALSE(joins(again));
+}
+
+TEST_F(AdminTest, VotesAreOffByDefault) {
+  TestServer server(world(), options);
+  TestClient ann(context, server.port(), from("192.0.2.1:1", "ann"));
+  ASSERT_TRUE(joins(ann));
+  ann.session().sendChat("/vote kick ann");
+  EXPECT_TRUE(reads(ann, "This server has no votes."));
+}
+
+TEST_F(AdminTest, WhoDoesNothingIsWarnedAndGoes) {
+  options.inactive_kick = 1;
+  TestServer server(world(), options);
+  TestClient ann(context, server.port(), home.player("ann"));
+  ASSERT_TRUE(joins(ann)) << ann.connection().sentence();
+  ASSERT_TRUE(reads(ann, "Press a key"));
+  ASSERT_TRUE(ends(ann));
+  EXPECT_EQ(ann.connection().sentence(), "You did nothing for 1s.");
+  EXPECT_EQ(server.counters().inactive, 1u);
+}
+
+}  // namespace
+}  // namespace naiad::test

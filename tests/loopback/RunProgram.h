@@ -1,0 +1,30 @@
+// Programs that are run to their end.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+namespace naiad::test {
+
+/// Exit code and standard output of a shell's line.
+inline std::pair<int, std::string> runProgram(const std::string& line) {
+  FILE* p_pipe = popen(line.c_str(), "r");
+  if (p_pipe == nullptr) return {-1, ""};
+  std::string output;
+  std::array<char, 4096> piece;
+  for (std::size_t size = 0; (size = fread(piece.data(), 1, piece.size(), p_pipe)) > 0;)
+    output.append(piece.data(), size);
+  const int status = pclose(p_pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output};
+}
+
+/// Of dfctl, with what it says on standard error.
+inline std::pair<int, std::string> runCtl(const std::string& arguments) {
+  return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfctl " + arguments + " 2>&1 </dev/null");
+}
+
+}  // namespace naiad::test

@@ -1,0 +1,256 @@
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <iterator>
+
+#include "host/admin/BanList.h"
+#include "host/admin/BanStore.h"
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+asio::ip::address at(const std::string& text) {
+  return asio::ip::make_address(text);
+}
+
+class BanListTest : public testing::Test {
+ protected:
+  BanListTest() {
+    std::string name = testing::TempDir() + "naiad-bans-XXXXXX";
+    folder = mkdtemp(name.data());
+  }
+  ~BanListTest() override { fs::remove_all(folder); }
+
+  fs::path file() const { return folder / "bans.sqlite3"; }
+  BanList::Clock clock() {
+    return [this] { return now; };
+  }
+  Ban ofRange(const std::string& text) const {
+    Ban ban;
+    ban.kind = Ban::Kind::kRange;
+    ban.range = AddressRange::parse(text);
+    ban.made = now;
+    return ban;
+  }
+  Ban ofName(const std::string& name) const {
+    Ban ban;
+    ban.name = name;
+    ban.made = now;
+    return ban;
+  }
+  /// Add it, and wait for the disk: what it says.
+  static std::string add(BanList& list, const Ban& ban) {
+    std::promise<std::string> saved;
+    EXPECT_TRUE(list.add(ban, [&saved](const std::string& problem) { saved.set_value(problem); }));
+    return saved.get_future().get();
+  }
+  static std::size_t remove(BanList& list, const std::string& text) {
+    std::promise<void> saved;
+    const std::size_t count = list.remove(text, [&saved](const std::string&) { saved.set_value(); });
+    if (count > 0) saved.get_future().wait();
+    return count;
+  }
+
+  fs::path folder;
+  Ban::Time now{1'800'000'000s};
+  AdminWorker worker;
+};
+
+TEST_F(BanListTest, ARangeHoldsForItsAddressesAlone) {
+  BanList list(worker, {}, clock());
+  add(list, ofRange("192.0.2.0/24"));
+  add(list, ofRange("2001:db8::5"));
+  EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
+  EXPECT_TRUE(list.isBanned(at("::ffff:192.0.2.7")));
+  EXPECT_FALSE(list.isBanned(at("192.0.3.7")));
+  EXPECT_TRUE(list.isBanned(at("2001:db8::9:9:9:9"))) << "the same /64";
+  EXPECT_FALSE(list.isBanned(at("2001:db8:0:1::5")));
+  EXPECT_EQ(list.count(), 3u);
+}
+
+TEST_F(BanListTest, AnExceptionHoldsInAllRanges) {
+  BanList list(worker, {}, clock());
+  add(list, ofRange("192.0.2.0/24"));
+  add(list, ofRange("192.0.0.0/16"));
+  Ban exception = ofRange("192.0.2.7");
+  exception.kind = Ban::Kind::kException;
+  add(list, exception);
+  EXPECT_FALSE(list.isBanned(at("192.0.2.7")));
+  EXPECT_TRUE(list.isBanned(at("192.0.2.8")));
+  EXPECT_EQ(remove(list, "192.0.2.7"), 1u);
+  EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
+}
+
+TEST_F(BanListTest, LoopbackIsNeverBanned) {
+  BanList list(worker, {}, clock());
+  add(list, ofRange("127.0.0.0/8"));
+  add(list, ofRange("::/16"));
+  EXPECT_FALSE(list.isBanned(at("127.0.0.1")));
+  EXPECT_FALSE(list.isBanned(at("::ffff:127.0.0.1")));
+  EXPECT_FALSE(list.isBanned(at("::1")));
+}
+
+TEST_F(BanListTest, ABanEndsWithItsTime) {
+  BanList list(worker, folder, clock());
+  Ban ban = ofRange("192.0.2.7");
+  ban.until = now + 2h;
+  EXPECT_EQ(add(list, ban), "");
+  now += 2h - 1s;
+  EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
+  now += 1s;
+  EXPECT_FALSE(list.isBanned(at("192.0.2.7")));
+  AdminWorker other;
+  EXPECT_TRUE(BanList(other, folder, clock()).now()->all().empty());
+}
+
+TEST_F(BanListTest, ANameHoldsForThoseThatLookLikeIt) {
+  BanList list(worker, {}, clock());
+  Ban ban = ofName("Bob");
+  ban.reason = "spam";
+  ban.until = now + 1h;
+  add(list, ban);
+  const std::string sentence = list.refusal(at("198.51.100.1"), "Bob");
+  EXPECT_NE(sentence.find("banned"), std::string::npos);
+  EXPECT_NE(sentence.find("spam"), std::string::npos);
+  EXPECT_NE(sentence.find("until 2027-01-15 09:00 UTC"), std::string::npos) << sentence;
+  EXPECT_NE(list.refusal(at("198.51.100.1"),
+                         "B\xce\xbf"
+                         "b"),
+            "")
+      << "with a Greek omicron";
+  EXPECT_EQ(list.refusal(at("198.51.100.1"), "Bobby"), "");
+}
+
+TEST_F(BanListTest, BansLastBeyondARestart) {
+  {
+    BanList list(worker, folder, clock());
+    Ban ban = ofRange("192.0.2.0/24");
+    ban.reason = "a 'quoted' reason; DROP TABLE bans";
+    ban.by = "user 0";
+    ban.until = now + 24h;
+    EXPECT_EQ(add(list, ban), "");
+    EXPECT_EQ(add(list, ofName("Bob")), "");
+    EXPECT_EQ(add(list, ofName("Eve")), "");
+    EXPECT_EQ(remove(list, "name:Eve"), 1u);
+  }
+  AdminWorker other;
+  BanList again(other, folder, clock());
+  ASSERT_EQ(again.now()->all().size(), 2u);
+  const auto set = again.now();
+  const Ban* p_ban = set->find(at("192.0.2.200"), now);
+  ASSERT_NE(p_ban, nullptr);
+  EXPECT_EQ(p_ban->reason, "a 'quoted' reason; DROP TABLE bans");
+  EXPECT_EQ(p_ban->by, "user 0");
+  EXPECT_EQ(p_ban->until, std::optional(now + 24h));
+  EXPECT_NE(again.refusal(at("198.51.100.1"), "Bob"), "");
+  struct stat facts {};
+  ASSERT_EQ(::stat(file().c_str(), &facts), 0);
+  EXPECT_EQ(facts.st_mode & 0077, 0u) << "addresses of players are for nobody else";
+}
+
+TEST_F(BanListTest, ANewBanOfTheSameTakesThePlaceOfTheOld) {
+  BanList list(worker, folder, clock());
+  Ban ban = ofRange("192.0.2.7");
+  ban.until = now + 1h;
+  add(list, ban);
+  ban.until.reset();
+  add(list, ban);
+  EXPECT_EQ(list.now()->all().size(), 1u);
+  AdminWorker other;
+  BanList again(other, folder, clock());
+  ASSERT_EQ(again.now()->all().size(), 1u);
+  EXPECT_FALSE(again.now()->all().front().until);
+}
+
+TEST_F(BanListTest, ABanIsLiftedByItsNumber) {
+  BanList list(worker, {}, clock());
+  add(list, ofRange("192.0.2.7"));
+  add(list, ofRange("192.0.2.8"));
+  const std::uint64_t number = list.now()->all().back().number;
+  EXPECT_EQ(remove(list, "#" + std::to_string(number)), 1u);
+  EXPECT_EQ(remove(list, "#" + std::to_string(number)), 0u);
+  EXPECT_FALSE(list.isBanned(at("192.0.2.8")));
+  EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
+}
+
+TEST_F(BanListTest, AFileThatCannotBeUsedIsAnErrorAndStaysAsItIs) {
+  for (const std::string& content : {std::string(), std::string("not a database, by any means, at all\n"),
+                                     std::string("SQLite format 3\0 and then nothing", 33)}) {
+    std::ofstream(file(), std::ios::binary | std::ios::trunc) << content;
+    EXPECT_THROW(BanList(worker, folder, clock()), BanFileError) << content;
+    std::ifstream after(file(), std::ios::binary);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(after), {}), content);
+  }
+  fs::remove(file());
+  fs::create_directory(file());
+  EXPECT_THROW(BanList(worker, folder, clock()), BanFileError);
+}
+
+TEST_F(BanListTest, ADamagedFileOfBansIsAnError) {
+  {
+    BanList list(worker, folder, clock());
+    for (int i = 0; i < 40; ++i) add(list, ofRange("198.51.100." + std::to_string(i)));
+    worker.finish();
+  }
+  std::fstream bytes(file(), std::ios::binary | std::ios::in | std::ios::out);
+  bytes.seekp(4096 + 2);
+  bytes << std::string(3000, '\x5a');
+  bytes.close();
+  AdminWorker other;
+  EXPECT_THROW(BanList(other, folder, clock()), BanFileError);
+}
+
+TEST_F(BanListTest, ADatabaseOfSomethingElseIsAnError) {
+  sqlite3* p_database = nullptr;
+  ASSERT_EQ(sqlite3_open(file().c_str(), &p_database), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(p_database, "CREATE TABLE bans(x)", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(p_database);
+  EXPECT_THROW(BanList(worker, folder, clock()), BanFileError);
+}
+
+// As on a full disk: the folder cannot be made.
+TEST_F(BanListTest, ABanThatCannotBeWrittenHoldsAndIsToldAndIsWrittenLater) {
+  const fs::path blocked = folder / "state";
+  std::ofstream(blocked) << "in the way";
+  BanList list(worker, blocked, clock());
+  EXPECT_NE(add(list, ofRange("192.0.2.7")), "");
+  EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
+  fs::remove(blocked);
+  std::promise<std::vector<Ban>> loaded;
+  ASSERT_TRUE(list.reload([&loaded](std::vector<Ban> bans, const std::string& problem) {
+    EXPECT_EQ(problem, "");
+    loaded.set_value(std::move(bans));
+  }));
+  list.take(loaded.get_future().get());
+  EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
+  AdminWorker other;
+  EXPECT_TRUE(BanList(other, blocked, clock()).isBanned(at("192.0.2.7")));
+}
+
+TEST_F(BanListTest, WithoutAFolderBansEndWithTheServerAndThatIsTold) {
+  BanList list(worker, {}, clock());
+  EXPECT_NE(add(list, ofRange("192.0.2.7")), "");
+  EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
+}
+
+TEST_F(BanListTest, ThereIsALimit) {
+  BanList list(worker, {}, clock());
+  std::vector<Ban> bans;
+  for (std::uint32_t i = 0; i < BanList::kMaxBans; ++i)
+    bans.push_back(ofRange(asio::ip::make_address_v4(0x0a000000 + i).to_string()));
+  list.take(std::move(bans));
+  EXPECT_FALSE(list.add(ofRange("192.0.2.7"), [](const std::string&) {}));
+  EXPECT_TRUE(list.isBanned(at("10.0.1.1")));
+  EXPECT_FALSE(list.isBanned(at("11.0.1.1")));
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include "FakeTarget.h"
+#include "host/admin/PlayerChoice.h"
+
+namespace naiad {
+namespace {
+
+std::uint32_t chosen(const test::FakeTarget& target, const std::string& typed) {
+  const PlayerChoice choice = choosePlayer(target.players(), typed);
+  return choice.player ? choice.player->id : 0;
+}
+
+TEST(PlayerChoice, TheWholeNameGoesBeforeOneThatBeginsSo) {
+  test::FakeTarget target;
+  target.add("Anna");
+  target.add("Ann");
+  EXPECT_EQ(chosen(target, "Ann"), 2u);
+  EXPECT_EQ(chosen(target, "ann"), 2u);
+  EXPECT_EQ(chosen(target, "anna"), 1u);
+}
+
+TEST(PlayerChoice, SeveralThatFitAreAnErrorThatListsThem) {
+  test::FakeTarget target;
+  target.add("Anna");
+  target.add("Annika");
+  target.add("Bob");
+  const PlayerChoice choice = choosePlayer(target.players(), "an");
+  EXPECT_FALSE(choice.player);
+  EXPECT_FALSE(choice.problem.ok);
+  EXPECT_EQ(choice.problem.candidates, (std::vector<std::string>{"#1 Anna", "#2 Annika"}));
+  EXPECT_EQ(chosen(target, "b"), 3u);
+}
+
+TEST(PlayerChoice, AnIdIsNeverAName) {
+  test::FakeTarget target;
+  target.add("#2");
+  target.add("Bob");
+  EXPECT_EQ(chosen(target, "#2"), 2u);
+  EXPECT_EQ(chosen(target, "#1"), 1u);
+  EXPECT_EQ(chosen(target, "#3"), 0u);
+}
+
+TEST(PlayerChoice, NobodyIsNobody) {
+  test::FakeTarget target;
+  const PlayerChoice choice = choosePlayer(target.players(), "Ann");
+  EXPECT_FALSE(choice.player);
+  EXPECT_EQ(choice.problem.text, "There is no player \"Ann\".");
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,72 @@
+// A program that talks to a control socket: blocking, with deadlines.
+#pragma once
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace naiad::test {
+
+class Talk {
+ public:
+  explicit Talk(const std::filesystem::path& path)
+      : m_socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
+    m_connected = ::connect(m_socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  }
+  ~Talk() { ::close(m_socket); }
+  Talk(const Talk&) = delete;
+  Talk& operator=(const Talk&) = delete;
+
+  bool isConnected() const { return m_connected; }
+  void send(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t size = ::send(m_socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      if (size <= 0) return;  // the other end has hung up
+      bytes.remove_prefix(static_cast<std::size_t>(size));
+    }
+  }
+  /// Say no more.
+  void shutDown() { ::shutdown(m_socket, SHUT_WR); }
+  /// The next line; nothing once the server has hung up, or after 60 s.
+  std::optional<std::string> readLine() {
+    for (;;) {
+      if (const std::size_t end = m_in.find('\n'); end != std::string::npos) {
+        std::string line = m_in.substr(0, end);
+        m_in.erase(0, end + 1);
+        return line;
+      }
+      pollfd ready{m_socket, POLLIN, 0};
+      if (::poll(&ready, 1, 60'000) <= 0) return std::nullopt;
+      char piece[4096];
+      const ssize_t size = ::recv(m_socket, piece, sizeof piece, 0);
+      if (size <= 0) return std::nullopt;
+      m_in.append(piece, static_cast<std::size_t>(size));
+    }
+  }
+  /// A line, and the last line of its answer.
+  std::string ask(const std::string& line) {
+    send(line + "\n");
+    for (;;) {
+      const auto answer = readLine();
+      if (!answer) return "(hung up)";
+      if (answer->find("\"more\":true") == std::string::npos) return *answer;
+    }
+  }
+
+ private:
+  int m_socket;
+  bool m_connected = false;
+  std::string m_in;
+};
+
+}  // namespace naiad::test

@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include "FakeTarget.h"
+#include "host/admin/VoteKick.h"
+
+namespace naiad {
+namespace {
+
+using Outcome = VoteKick::Outcome;
+
+class VoteKickTest : public testing::Test {
+ protected:
+  /// Each at an address of its own.
+  void addPlayers(int count) {
+    for (int i = 0; i < count; ++i)
+      target.add("p" + std::to_string(i), "192.0.2." + std::to_string(i + 1) + ":1");
+  }
+  Outcome vote(std::size_t voter, std::size_t on) {
+    return votes.vote(target.all, target.all[voter].session, target.all[on].session, now);
+  }
+
+  test::FakeTarget target;
+  VoteKick votes;
+  VoteKick::Time now = VoteKick::Time() + std::chrono::hours(1);
+};
+
+TEST_F(VoteKickTest, TakesMoreThanHalf) {
+  addPlayers(4);
+  EXPECT_EQ(vote(0, 3), Outcome::kBegun);
+  EXPECT_EQ(vote(0, 3), Outcome::kAlready);
+  EXPECT_EQ(vote(1, 3), Outcome::kAgreed);
+  EXPECT_EQ(vote(2, 3), Outcome::kPassed);
+}
+
+TEST_F(VoteKickTest, OneAloneThrowsNobodyOut) {
+  addPlayers(2);
+  EXPECT_EQ(vote(0, 1), Outcome::kBegun);
+  EXPECT_EQ(votes.needed(), 2u);
+}
+
+TEST_F(VoteKickTest, AnAddressIsOneVoterHoweverManyPlayThere) {
+  addPlayers(3);
+  for (int i = 0; i < 10; ++i) target.add("q" + std::to_string(i), "192.0.2.1:" + std::to_string(100 + i));
+  EXPECT_EQ(vote(0, 2), Outcome::kBegun);
+  for (std::size_t i = 3; i < 13; ++i) EXPECT_EQ(vote(i, 2), Outcome::kAlready);
+  EXPECT_EQ(votes.needed(), 2u) << "of three addresses";
+  EXPECT_EQ(vote(1, 2), Outcome::kPassed);
+}
+
+TEST_F(VoteKickTest, NeitherOneselfNorANeighbourIsVotedOn) {
+  addPlayers(2);
+  target.add("neighbour", "192.0.2.1:77");
+  EXPECT_EQ(vote(0, 0), Outcome::kSelf);
+  EXPECT_EQ(vote(0, 2), Outcome::kSelf);
+}
+
+TEST_F(VoteKickTest, OneVoteAtATimeAndItsTimeIsLimited) {
+  addPlayers(5);
+  EXPECT_EQ(vote(0, 4), Outcome::kBegun);
+  EXPECT_EQ(vote(1, 3), Outcome::kOther);
+  EXPECT_FALSE(votes.takeFailed(now));
+  now += VoteKick::kTime;
+  EXPECT_EQ(votes.takeFailed(now), std::optional(target.all[4].session));
+  EXPECT_FALSE(votes.takeFailed(now)) << "once";
+  EXPECT_EQ(vote(1, 4), Outcome::kBegun) << "the voices of before are gone";
+}
+
+TEST_F(VoteKickTest, AVoterBeginsOneInTwoMinutes) {
+  addPlayers(4);
+  EXPECT_EQ(vote(0, 3), Outcome::kBegun);
+  now += VoteKick::kTime;
+  EXPECT_EQ(vote(0, 2), Outcome::kTooSoon);
+  now += VoteKick::kBetween;
+  EXPECT_EQ(vote(0, 2), Outcome::kBegun);
+}
+
+TEST_F(VoteKickTest, TheVoicesOfThoseWhoLeftDoNotCount) {
+  addPlayers(5);
+  EXPECT_EQ(vote(0, 4), Outcome::kBegun);
+  EXPECT_EQ(vote(1, 4), Outcome::kAgreed);
+  target.all[0].detached = true;
+  EXPECT_EQ(vote(2, 4), Outcome::kAgreed);
+  EXPECT_EQ(votes.voices(), 2u);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "shared/admin/AdminRequest.h"
+
+namespace naiad {
+namespace {
+
+using Words = std::vector<std::string>;
+using Arguments = std::map<std::string, std::string>;
+
+Arguments argumentsOf(const Words& words) {
+  return readAdminRequest(words).arguments;
+}
+
+std::string complaintAbout(const Words& words) {
+  try {
+    readAdminRequest(words);
+  } catch (const AdminUsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AdminCommands, HaveNamesOfTheirOwnAndArgumentsThatCanBeTyped) {
+  std::set<std::string> names;
+  for (const AdminCommand& command : adminCommands()) {
+    EXPECT_TRUE(names.insert(command.name).second) << command.name;
+    EXPECT_EQ(findAdminCommand(command.name), &command);
+    EXPECT_FALSE(command.help.empty());
+    bool may_end = false;
+    for (const AdminArgument& argument : command.arguments) {
+      EXPECT_FALSE(may_end && argument.required) << command.name << ": a required one after an optional one";
+      may_end = !argument.required;
+      EXPECT_EQ(argument.kind == AdminArgument::Kind::kChoice, !argument.one_of.empty());
+      EXPECT_TRUE(argument.kind != AdminArgument::Kind::kText || &argument == &command.arguments.back());
+    }
+  }
+  EXPECT_EQ(findAdminCommand("banana"), nullptr);
+}
+
+TEST(AdminRequest, TakesTheRestOfALineForAText) {
+  EXPECT_EQ(argumentsOf({"say", "the", "server", "ends"}), (Arguments{{"text", "the server ends"}}));
+  EXPECT_EQ(argumentsOf({"kick", "Ann"}), (Arguments{{"player", "Ann"}}));
+  EXPECT_EQ(argumentsOf({"kick", "Ann", "too", "loud"}),
+            (Arguments{{"player", "Ann"}, {"reason", "too loud"}}));
+}
+
+TEST(AdminRequest, SkipsASpanThatIsLeftOut) {
+  EXPECT_EQ(argumentsOf({"ban", "Ann", "2h", "spam"}),
+            (Arguments{{"who", "Ann"}, {"for", "2h"}, {"reason", "spam"}}));
+  EXPECT_EQ(argumentsOf({"ban", "Ann", "spam"}), (Arguments{{"who", "Ann"}, {"reason", "spam"}}));
+  EXPECT_EQ(argumentsOf({"drain"}), Arguments());
+}
+
+TEST(AdminRequest, TakesChoicesWithDashes) {
+  EXPECT_EQ(argumentsOf({"restart", "--in", "60s"}), (Arguments{{"when", "in"}, {"span", "60s"}}));
+  EXPECT_EQ(argumentsOf({"restart", "at-round-end"}), (Arguments{{"when", "at-round-end"}}));
+  EXPECT_EQ(argumentsOf({"vote", "kick", "Ann"}), (Arguments{{"what", "kick"}, {"player", "Ann"}}));
+}
+
+TEST(AdminRequest, SaysWhatIsWrong) {
+  EXPECT_EQ(complaintAbout({}), "A command is missing.");
+  EXPECT_EQ(complaintAbout({"kik"}), "There is no command \"kik\"; did you mean \"kick\"?");
+  EXPECT_EQ(complaintAbout({"kick"}), "Usage: kick PLAYER [REASON]");
+  EXPECT_EQ(complaintAbout({"kick", ""}), "kick: player is empty.");
+  EXPECT_EQ(complaintAbout({"who", "now"}), "Usage: who");
+  EXPECT_EQ(complaintAbout({"vote", "ban", "Ann"}), "vote: \"ban\" is none of: kick.");
+  EXPECT_EQ(complaintAbout({"restart", "soon"}), "Usage: restart [now|at-round-end|in] [SPAN]");
+  EXPECT_EQ(complaintAbout({"say", std::string(2000, 'x')}), "say: text is too long.");
+}
+
+TEST(AdminRequest, ReadsArgumentsByName) {
+  const AdminRequest request = readAdminRequest("ban", {{"who", "192.0.2.0/24"}, {"for", "7d"}});
+  EXPECT_EQ(request.of("who"), "192.0.2.0/24");
+  EXPECT_FALSE(request.has("reason"));
+  EXPECT_THROW(readAdminRequest("ban", {{"who", "Ann"}, {"whom", "Bob"}}), AdminUsageError);
+  EXPECT_THROW(readAdminRequest("ban", {{"who", "Ann"}, {"for", "long"}}), AdminUsageError);
+  EXPECT_THROW(readAdminRequest("ban", {}), AdminUsageError);
+}
+
+TEST(AdminRequest, PasswordsAreNotInWhatIsLogged) {
+  EXPECT_EQ(readAdminRequest({"password", "hunter2"}).redacted(), "password ***");
+  EXPECT_EQ(readAdminRequest({"admin", "hunter2"}).redacted(), "admin ***");
+  EXPECT_EQ(readAdminRequest({"kick", "Ann"}).redacted(), "kick \"Ann\"");
+}
+
+TEST(AdminRequest, SplitsALineIntoWords) {
+  EXPECT_EQ(splitAdminLine("kick \"Ann Bee\"  too loud"), (Words{"kick", "Ann Bee", "too", "loud"}));
+  EXPECT_EQ(splitAdminLine("  "), Words());
+  EXPECT_EQ(splitAdminLine("tell \"\" x"), (Words{"tell", "", "x"}));
+  EXPECT_EQ(splitAdminLine("a\"b c\"d \"open end"), (Words{"ab cd", "open end"}));
+}
+
+}  // namespace
+}  // namespace naiad
