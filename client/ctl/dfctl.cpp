@@ -25,7 +25,7 @@ int failUsage(const std::string& sentence) {
   return kUsage;
 }
 
-/// A line of the input, which nobody sees if it is typed.
+/// A line of the input; what is typed is not shown.
 std::string readSecret() {
   termios before{};
   const bool typed = tcgetattr(STDIN_FILENO, &before) == 0;

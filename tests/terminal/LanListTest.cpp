@@ -14,6 +14,7 @@
 #include "client/lan/LanBrowser.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/lan/LanSocket.h"
+#include "tests/support/net/LanLock.h"
 
 namespace naiad::test {
 namespace {
@@ -106,6 +107,7 @@ class LanListTest : public testing::Test {
     return text;
   }
 
+  LanLock m_lock;
   fs::path m_home;
   std::string m_name;
   std::string m_link;

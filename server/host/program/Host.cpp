@@ -225,11 +225,12 @@ void Host::listenForCommands() {
                       done = std::move(done)] { m_console.execute(request, caller, done); });
   };
   try {
-    m_control_path = listening.path.string();
+    const std::string path = listening.path.string();
     m_control = std::make_unique<ControlSocket>(std::move(listening), execute, m_feed, m_log);
+    m_control_path = path;
   } catch (const ListenError& error) {
     if (!by_default) throw;
-    m_log(std::string("warning: ") + error.what() + " dfctl cannot reach this server (--control).");
+    m_log(warningOf(std::string(error.what()) + " dfctl cannot reach this server (--control)."));
   }
 }
 

@@ -1,6 +1,7 @@
 // The responder with real sockets: asked as clients ask, and flooded.
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <set>
 
 #include "host/net/LanResponder.h"
+#include "tests/support/net/LanLock.h"
 
 namespace naiad {
 namespace {
@@ -25,6 +27,15 @@ std::optional<LanNetwork> responderNetwork(LanSocket::Family family) {
   return std::nullopt;
 }
 
+/// A key that begins so, of this process alone: tests that run at the same time have servers in the same
+/// networks.
+ShortKey responderKey(std::uint8_t key) {
+  const auto process = static_cast<std::uint32_t>(getpid());
+  ShortKey::Bytes bytes{key};
+  for (int i = 0; i < 4; ++i) bytes[1 + i] = static_cast<std::uint8_t>(process >> (8 * i));
+  return ShortKey::ofBytes(bytes);
+}
+
 LanAnswer responderFacts(std::uint8_t key, bool asks_password = false) {
   LanAnswer facts;
   facts.protocol = 4;
@@ -32,9 +43,7 @@ LanAnswer responderFacts(std::uint8_t key, bool asks_password = false) {
   facts.max_players = 16;
   facts.name = "responder";
   facts.asks_password = asks_password;
-  ShortKey::Bytes bytes{};
-  bytes[0] = key;
-  facts.key = ShortKey::ofBytes(bytes);
+  facts.key = responderKey(key);
   return facts;
 }
 
@@ -70,17 +79,19 @@ class LanResponderTest : public testing::TestWithParam<LanSocket::Family> {
       ask();
       while (const auto packet = hear(500ms)) {
         const auto answer = readLanAnswer(packet->bytes);
-        if (answer && answer->nonce == m_nonce && answer->name == "responder") {
+        for (const std::uint8_t key : keys) {
+          if (!answer || answer->nonce != m_nonce || answer->key != responderKey(key)) continue;
           m_last = *answer;
           m_last_packet = *packet;
-          heard.insert(answer->key.bytes()[0]);
+          heard.insert(key);
         }
-        if (std::includes(heard.begin(), heard.end(), keys.begin(), keys.end())) return true;
+        if (heard == keys) return true;
       }
     }
     return false;
   }
 
+  test::LanLock m_lock;
   std::optional<LanNetwork> m_network;
   std::optional<LanSocket> m_client;
   LanNonce m_nonce = kResponderNonce;
