@@ -17,9 +17,9 @@ namespace naiad {
 
 class JournaledWorld : public WorldPort {
  public:
-  /// Ticks between two hashes of the state, and between two pictures.
+  /// Ticks between two hashes of the state, and between two pictures. A picture is some 500 bytes, a hash 8.
   static constexpr std::uint32_t kHashTicks = 30;
-  static constexpr std::uint32_t kPictureTicks = 300;
+  static constexpr std::uint32_t kPictureTicks = 900;
 
   /// Where it is written, and what is to be said of it.
   struct Book {

@@ -1,6 +1,5 @@
 #include "host/program/Journals.h"
 
-#include <link.h>
 #include <openssl/evp.h>
 #include <sys/utsname.h>
 
@@ -20,6 +19,7 @@
 #include "host/program/TickClock.h"
 #include "host/program/WorldSandbox.h"
 #include "host/world/Repeatable.h"
+#include "shared/program/BuildId.h"
 #include "shared/values/Version.h"
 
 namespace naiad {
@@ -57,24 +57,6 @@ std::string hexNumber(std::uint64_t number) {
   return text;
 }
 
-/// The note of the linker in a loaded file; empty if there is none.
-std::string buildIdOf(const dl_phdr_info& info) {
-  for (int i = 0; i < info.dlpi_phnum; ++i) {
-    const ElfW(Phdr)& header = info.dlpi_phdr[i];
-    if (header.p_type != PT_NOTE) continue;
-    const auto* p = reinterpret_cast<const unsigned char*>(info.dlpi_addr + header.p_vaddr);
-    const unsigned char* const p_end = p + header.p_memsz;
-    while (p + sizeof(ElfW(Nhdr)) <= p_end) {
-      const auto* p_note = reinterpret_cast<const ElfW(Nhdr)*>(p);
-      const unsigned char* const p_name = p + sizeof *p_note;
-      const unsigned char* const p_data = p_name + (p_note->n_namesz + 3) / 4 * 4;
-      if (p_note->n_type == NT_GNU_BUILD_ID) return hexOf(p_data, p_note->n_descsz);
-      p = p_data + (p_note->n_descsz + 3) / 4 * 4;
-    }
-  }
-  return {};
-}
-
 DfrFacts factsOfStart(const WorldProcess& world) {
   DfrFacts facts;
   if (!world.ready()) return facts;
@@ -103,16 +85,8 @@ DfrFacts factsOfMachine() {
   DfrFacts facts;
   utsname system{};
   if (uname(&system) == 0) facts["kernel"] = std::string(system.release) + " " + system.machine;
-  dl_iterate_phdr(
-      [](dl_phdr_info* p_info, std::size_t /*size*/, void* p_facts) {
-        const fs::path name = p_info->dlpi_name != nullptr ? p_info->dlpi_name : "";
-        for (const char* p_library : {"libdragonfly.so", "libc.so", "libstdc++.so"}) {
-          if (name.filename().string().starts_with(p_library))
-            (*static_cast<DfrFacts*>(p_facts))["build " + std::string(p_library)] = buildIdOf(*p_info);
-        }
-        return 0;
-      },
-      &facts);
+  for (const char* p_library : {"libdragonfly.so", "libc.so", "libstdc++.so"})
+    facts["build " + std::string(p_library)] = buildIdOf(p_library);
   return facts;
 }
 

@@ -141,13 +141,13 @@ TEST_F(JournaledWorldTest, EveryThirtiethTickHasAHashOfTheState) {
   EXPECT_EQ(hashes, (std::vector<std::uint64_t>{30, 60}));
 }
 
-TEST_F(JournaledWorldTest, EveryThreeHundredthTickHasAPictureOfWhoHasBeenThereLongest) {
+TEST_F(JournaledWorldTest, NowAndThenATickHasAPictureOfThePlayerWhoHasBeenThereLongest) {
   world->addInput({.kind = df::InputQueue::kJoin, .player = 1, .name = "Ann"});
   world->addInput({.kind = df::InputQueue::kJoin, .player = 2, .name = "Bob"});
-  for (std::uint32_t i = 1; i <= 301; ++i) {
+  for (std::uint32_t i = 1; i <= JournaledWorld::kPictureTicks + 1; ++i) {
     world->tick(true, false);
-    EXPECT_EQ(p_fake->had_truth, i == 300) << i;
-    if (i == 300) {
+    EXPECT_EQ(p_fake->had_truth, i == JournaledWorld::kPictureTicks) << i;
+    if (i == JournaledWorld::kPictureTicks) {
       EXPECT_EQ(p_fake->pictured_in_tick, 101u);
     }
   }
