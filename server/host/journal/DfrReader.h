@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "host/journal/Dfr.h"
+#include "host/journal/DfrWriter.h"
 #include "host/journal/RecordCoder.h"
 #include "host/journal/TurnRecord.h"
 
@@ -41,6 +42,10 @@ class DfrReader {
   std::size_t wholeBytes() const { return m_at; }
   /// Bytes of the stream of records in them.
   std::uint64_t streamBytes() const { return m_offset; }
+  /// The records that have been read end with the chunk: none is cut off.
+  bool isBetweenRecords() const { return m_records.atEnd(); }
+  /// For the chunks that come behind those that were read; nothing can be read from then on.
+  JournalPlace takePlace() { return {DfrTurnPacker(m_unpacker.takeModel(), m_offset), m_offset}; }
   /// How the round ended, of DfrEnd::kDone.
   const std::string& why() const { return m_why; }
 

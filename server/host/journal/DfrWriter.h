@@ -27,12 +27,23 @@ std::string spellDfrTurns(std::string_view records, std::uint64_t position);
 /// Packs the records of turns (TurnRecord.h), so that each chunk is good without those that come later.
 class DfrTurnPacker {
  public:
+  DfrTurnPacker() = default;
+  /// Goes on behind chunks of so many bytes of the stream, all of which the model has seen.
+  DfrTurnPacker(RecordModel model, std::uint64_t position)
+      : m_packer(std::move(model)), m_position(position) {}
+
   /// The chunk, or chunks if they are many, with the next bytes of the stream of records.
   std::string pack(std::string_view records);
 
  private:
   RecordPacker m_packer;
   std::uint64_t m_position = 0;  ///< in the stream
+};
+
+/// Where a file goes on that another server began.
+struct JournalPlace {
+  DfrTurnPacker packer;
+  std::uint64_t position = 0;  ///< in the stream of records
 };
 
 }  // namespace naiad

@@ -15,11 +15,13 @@ constexpr const char* kOverflow = "the disk is too slow";
 }  // namespace
 
 Journal::Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, DfrFacts facts, std::size_t ring,
-                 bool shared)
+                 bool shared, std::optional<JournalPlace> goes_on)
     : m_header(header),
-      m_ring(ring, header.uuid, shared),
+      m_ring(ring, header.uuid, shared, goes_on ? goes_on->position : 0),
       m_facts(std::move(facts)),
-      m_sink(std::move(sink)) {}
+      m_sink(std::move(sink)),
+      m_packer(goes_on ? std::move(goes_on->packer) : DfrTurnPacker()),
+      m_begun(goes_on.has_value()) {}
 
 bool Journal::add(std::string_view record) {
   if (m_stopped.load(std::memory_order_relaxed) || m_overflowed.load(std::memory_order_relaxed)) return false;

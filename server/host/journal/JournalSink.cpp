@@ -1,6 +1,7 @@
 #include "host/journal/JournalSink.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -46,6 +47,18 @@ void removeOldest(const fs::path& folder, std::size_t kept) {
 
 }  // namespace
 
+JournalFileSink::JournalFileSink(std::string path, std::size_t size) : m_path(std::move(path)) {
+  const int file = ::open(m_path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+  const bool good = file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0 &&
+                    ftruncate(file, static_cast<off_t>(size)) == 0 && lseek(file, 0, SEEK_END) >= 0;
+  if (!good) {
+    const int error = errno;
+    if (file >= 0) close(file);
+    throw std::system_error(error, std::generic_category(), m_path);
+  }
+  m_file = file;
+}
+
 JournalFileSink::~JournalFileSink() {
   if (m_file >= 0) close(m_file);
 }
@@ -54,7 +67,7 @@ void JournalFileSink::open() {
   const fs::path folder = fs::path(m_path).parent_path();
   if (!folder.empty() && mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) failJournal(folder.string());
   m_file = ::open(m_path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (m_file < 0) failJournal(m_path);
+  if (m_file < 0 || flock(m_file, LOCK_EX | LOCK_NB) != 0) failJournal(m_path);
   removeOldest(folder, kMaxFiles);
 }
 

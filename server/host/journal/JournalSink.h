@@ -20,10 +20,13 @@ class JournalSink {
 };
 
 /// A new file, readable by this user alone. It is made by the first write; its folder, too, if its parent is
-/// there.
+/// there. The file is locked for as long as this is.
 class JournalFileSink : public JournalSink {
  public:
   explicit JournalFileSink(std::string path) : m_path(std::move(path)) {}
+  /// Goes on with a file that is there, behind its first `size` bytes; what is behind them is cut off. Throws
+  /// std::system_error, with EWOULDBLOCK if another server writes it.
+  JournalFileSink(std::string path, std::size_t size);
   ~JournalFileSink() override;
   JournalFileSink(const JournalFileSink&) = delete;
   JournalFileSink& operator=(const JournalFileSink&) = delete;

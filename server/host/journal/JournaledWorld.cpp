@@ -15,7 +15,9 @@ using Input = df::InputQueue::Input;
 
 JournaledWorld::JournaledWorld(std::unique_ptr<WorldPort> world, Book book)
     : m_world(std::move(world)), m_book(std::move(book)) {
+  if (m_book.recovery) m_writer = TurnRecordWriter(m_book.recovery->round().lastTurn());
   m_world->setOnTick([this] {
+    if (m_book.recovery) return endRepeatedTick();
     storeResult();
     reportTick();
   });
@@ -35,13 +37,19 @@ std::uint32_t JournaledWorld::addInput(Input input) {
   kept.player = player;
   kept.seen.base -= m_later;
   kept.seen.drawn -= m_later;
-  if (kept.kind == df::InputQueue::kJoin) m_players.push_back(player);
-  if (kept.kind == df::InputQueue::kLeave) std::erase(m_players, player);
+  noteInput(kept);
   m_turn.inputs.push_back(std::move(kept));
   return player;
 }
 
+void JournaledWorld::noteInput(const Input& input) {
+  if (input.kind == df::InputQueue::kJoin) m_players.push_back(input.player);
+  if (input.kind == df::InputQueue::kLeave) std::erase(m_players, input.player);
+}
+
+// While turns are repeated the world hears the players of those.
 void JournaledWorld::setHeard(std::uint32_t player) {
+  if (m_book.recovery) return;
   m_turn.heard_player = player;
   m_world->setHeard(player);
 }
@@ -121,6 +129,13 @@ void JournaledWorld::store() {
 
 void JournaledWorld::checkProcess(std::uint32_t tick) {
   m_world->checkProcess(tick);
+  if (m_book.recovery && !m_repeating && m_world->isReady()) {
+    m_repeating = true;
+    const std::string difference = m_book.find_difference ? m_book.find_difference() : std::string();
+    begin();
+    difference.empty() ? repeatNextTurn() : endRecovery(difference);
+  }
+  if (const auto end = m_world->end(); end && m_book.recovery) endRecovery("the game " + end->text);
   if (m_book.check && (!m_goes_on || !m_book.check->update())) m_book.check.reset();
   if (const auto problem = m_book.journal->takeProblem()) {
     m_goes_on = false;
@@ -131,9 +146,75 @@ void JournaledWorld::checkProcess(std::uint32_t tick) {
 
 void JournaledWorld::finish(const std::string& why) {
   if (m_book.writer == nullptr) return;
+  m_goes_on = false;
   m_book.journal->finish(why);
   m_book.writer->wake();
   m_book.writer.reset();
+}
+
+// ---- a round of a server that was killed ------------------------------------------------------------------
+
+std::optional<int> JournaledWorld::recovering() const {
+  return m_book.recovery ? std::optional(m_book.recovery->percent()) : std::nullopt;
+}
+
+void JournaledWorld::noteSession(const KeptSession& session) {
+  if (!m_goes_on || m_book.recovery) return;
+  m_record.clear();
+  m_writer.write(session, m_record);
+  store();
+}
+
+void JournaledWorld::repeatNextTurn() {
+  const auto turn = m_book.recovery->nextTurn();
+  turn ? sendTurn(*turn) : closeRecovery();
+}
+
+void JournaledWorld::sendTurn(const WorldTurn& turn) {
+  ++m_ticks;
+  for (Input input : turn.inputs) {
+    noteInput(input);
+    input.seen.base += m_later;  // the world's own numbers are in the file
+    input.seen.drawn += m_later;
+    m_world->addInput(std::move(input));
+  }
+  m_world->setHeard(turn.heard_player);
+  if (turn.ends_game) m_world->endGame();
+  m_world->setPictured(turn.pictured);
+  m_world->setChecked(turn.checked);
+  m_world->tick(turn.watched, turn.wants_truth);
+}
+
+// What was sent last may have no result in the file; that of the closing turn is stored as any other.
+void JournaledWorld::endRepeatedTick() {
+  if (m_closing) {
+    storeResult();
+    return endRecovery({});
+  }
+  const std::string difference = m_book.recovery->compareResult(*m_world);
+  if (!difference.empty())
+    return endRecovery("in tick " + std::to_string(m_book.recovery->turns()) + " " + difference);
+  if (m_book.recovery->isResultMissing()) storeResult();
+  m_world->isGameOver() ? endRecovery({}) : repeatNextTurn();
+}
+
+void JournaledWorld::closeRecovery() {
+  m_closing = true;
+  m_turn = m_book.recovery->closingTurn();
+  storeTurn();
+  sendTurn(std::exchange(m_turn, WorldTurn()));
+}
+
+// Players who left while the round was played have left.
+void JournaledWorld::endRecovery(const std::string& problem) {
+  const auto recovery = std::move(m_book.recovery);
+  m_sessions = recovery->sessions();
+  m_world->takeLeavers();
+  if (m_book.on_recovered) m_book.on_recovered(recovery->turns(), problem);
+  if (problem.empty()) return;
+  m_unrecovered = WorldEnd{WorldEnd::kNotRecovered, "could not go on: " + problem};
+  finish(m_unrecovered->text);
+  m_world->close();
 }
 
 }  // namespace naiad

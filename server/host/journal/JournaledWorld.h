@@ -1,15 +1,20 @@
 // A world whose turns are journaled: each is stored before the world gets it, and what came of it after.
+//
+// With a RoundRecovery it first gets the turns of a round whose server was killed, as fast as it answers, and
+// is ready when it has had all of them.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/journal/Journal.h"
 #include "host/journal/JournalWriter.h"
 #include "host/journal/RepeatCheck.h"
+#include "host/journal/RoundRecovery.h"
 #include "host/journal/TurnRecord.h"
 #include "host/world/WorldPort.h"
 
@@ -30,6 +35,12 @@ class JournaledWorld : public WorldPort {
     /// The journal has stopped, and why; the game goes on.
     std::function<void(const std::string& problem)> on_problem;
     std::unique_ptr<RepeatCheck> check = nullptr;  ///< whether the game is repeatable; null: nobody asks
+    std::unique_ptr<RoundRecovery> recovery = nullptr;  ///< null: the round begins
+    /// Of a recovery, once the world has begun: why it is not the world that the file has; empty: it is.
+    std::function<std::string()> find_difference = {};
+    /// Of a recovery, at its end: in how many ticks; or why the round cannot go on, and in which tick that
+    /// showed.
+    std::function<void(std::uint32_t ticks, const std::string& problem)> on_recovered = {};
   };
 
   JournaledWorld(std::unique_ptr<WorldPort> world, Book book);
@@ -41,7 +52,7 @@ class JournaledWorld : public WorldPort {
   std::uint32_t addInput(df::InputQueue::Input input) override;
   void setHeard(std::uint32_t player) override;
   void endGame() override;
-  bool isReady() const override { return m_world->isReady(); }
+  bool isReady() const override { return !m_book.recovery && m_world->isReady(); }
   void setPictured(std::uint32_t player) override;
   void tick(bool watched, bool truth) override;
   std::uint32_t nextTick() const override { return m_world->nextTick(); }
@@ -51,7 +62,12 @@ class JournaledWorld : public WorldPort {
   bool isGameOver() const override { return m_world->isGameOver(); }
   df::Canvas renderPlayer(std::uint32_t player) const override { return m_world->renderPlayer(player); }
   void checkProcess(std::uint32_t tick) override;
-  std::optional<WorldEnd> end() const override { return m_world->end(); }
+  std::optional<int> recovering() const override;
+  std::optional<std::vector<KeptSession>> takeSessions() override {
+    return std::exchange(m_sessions, std::nullopt);
+  }
+  void noteSession(const KeptSession& session) override;
+  std::optional<WorldEnd> end() const override { return m_unrecovered ? m_unrecovered : m_world->end(); }
   void close() override { m_world->close(); }
 
  private:
@@ -61,6 +77,12 @@ class JournaledWorld : public WorldPort {
   void storeResult();
   void store();
   void finish(const std::string& why);
+  void noteInput(const df::InputQueue::Input& input);
+  void repeatNextTurn();
+  void sendTurn(const WorldTurn& turn);
+  void closeRecovery();
+  void endRepeatedTick();
+  void endRecovery(const std::string& problem);
 
   std::unique_ptr<WorldPort> m_world;
   Book m_book;
@@ -75,6 +97,12 @@ class JournaledWorld : public WorldPort {
   WorldTurn m_sent;  ///< of the tick that is under way, for the check
   TurnRecordWriter m_writer;
   std::string m_record;
+
+  // Of a recovery.
+  bool m_repeating = false;  ///< it has begun
+  bool m_closing = false;    ///< the world has been sent the turn behind those of the file
+  std::optional<std::vector<KeptSession>> m_sessions;
+  std::optional<WorldEnd> m_unrecovered;
 };
 
 }  // namespace naiad

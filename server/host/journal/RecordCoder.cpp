@@ -70,6 +70,7 @@ RecordModel::RecordModel() : m_tables(std::make_unique<Tables>()) {
 }
 
 RecordModel::~RecordModel() = default;
+RecordModel::RecordModel(RecordModel&& other) noexcept = default;
 
 void RecordModel::beginByte() {
   const bool in_input = m_kind == kTurnKind && m_place > kBeforeInputs && m_left > 0;

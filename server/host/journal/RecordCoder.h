@@ -13,6 +13,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace naiad {
 
@@ -21,8 +22,8 @@ class RecordModel {
  public:
   RecordModel();
   ~RecordModel();
-  RecordModel(const RecordModel&) = delete;
-  RecordModel& operator=(const RecordModel&) = delete;
+  RecordModel(RecordModel&& other) noexcept;
+  RecordModel& operator=(RecordModel&&) = delete;
   /// That the next bit is 1, of 65,536: 1 to 65,535.
   std::uint32_t predict();
   /// It was this.
@@ -55,6 +56,9 @@ class RecordModel {
 /// The next bytes of the stream, packed so that a RecordUnpacker that has all before has these, too.
 class RecordPacker {
  public:
+  RecordPacker() = default;
+  /// Goes on where an unpacker is.
+  explicit RecordPacker(RecordModel model) : m_model(std::move(model)) {}
   void pack(std::string_view records, std::string& out);
 
  private:
@@ -65,6 +69,8 @@ class RecordUnpacker {
  public:
   /// `count` bytes. Any bytes are something.
   void unpack(std::string_view packed, std::size_t count, std::string& out);
+  /// For a packer that goes on; nothing can be unpacked from then on.
+  RecordModel takeModel() { return std::move(m_model); }
 
  private:
   RecordModel m_model;

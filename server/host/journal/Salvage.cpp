@@ -40,11 +40,13 @@ std::optional<std::size_t> complete(const fs::path& path, const LeftRing& ring) 
   const auto rest = ring.bytesFrom(reader.streamBytes());
   if (!rest) return 0;
   std::error_code error;
+  const auto written_at = fs::last_write_time(path, error);
   fs::resize_file(path, reader.wholeBytes(), error);
   if (error) return std::nullopt;
   std::ofstream file(path, std::ios::binary | std::ios::app);
   file << spellDfrTurns(*rest, reader.streamBytes());
   file.close();
+  fs::last_write_time(path, written_at, error);  // of the round, not of this
   return file.good() ? std::optional(rest->size()) : std::nullopt;
 }
 

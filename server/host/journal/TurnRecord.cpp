@@ -11,6 +11,7 @@ enum RecordKind : std::uint8_t {
   kRecordedNewTurn = 1,  ///< with its own
   kRecordedResult = 2,
   kRecordedPicture = 3,
+  kRecordedSession = 4,
 };
 
 template <class F, class T>
@@ -44,6 +45,17 @@ void visitResult(F& f, T& result) {
   if constexpr (F::kReads) result.state_hash = std::uint64_t{high} << 32 | low;
 }
 
+template <class F, class T>
+void visitSession(F& f, T& session) {
+  f.number(session.player);
+  f.flag(session.over);
+  if (session.over) return;
+  f.flag(session.muted);
+  f.text(session.name, kMaxKeptName);
+  f.number(session.color, df::BLACK, df::WHITE);
+  for (auto* p_hash : {&session.newest, &session.redeemed}) f.text(*p_hash, kKeptHash);
+}
+
 bool hasSameHead(const WorldTurn& a, const WorldTurn& b) {
   return a.watched == b.watched && a.wants_truth == b.wants_truth && a.ends_game == b.ends_game &&
          a.checked == b.checked && a.heard_player == b.heard_player && a.pictured == b.pictured;
@@ -62,6 +74,10 @@ void copyHead(const WorldTurn& from, WorldTurn& to) {
 
 std::uint8_t checkOf(std::uint64_t answer_hash) {
   return static_cast<std::uint8_t>(answer_hash >> 56);
+}
+
+TurnRecordWriter::TurnRecordWriter(const WorldTurn& last) {
+  copyHead(last, m_last);
 }
 
 // The frame's length is taken off, and the record's, which is shorter, put in its place.
@@ -97,6 +113,13 @@ void TurnRecordWriter::write(const RecordedPicture& picture, std::string& out) {
   fields.number(kRecordedPicture, 0, 255);
   fields.number(picture.player);
   visitPicture(fields, picture.canvas);
+  append(out);
+}
+
+void TurnRecordWriter::write(const KeptSession& session, std::string& out) {
+  FieldWriter fields(m_fields);
+  fields.number(kRecordedSession, 0, 255);
+  visitSession(fields, session);
   append(out);
 }
 
@@ -150,6 +173,10 @@ std::optional<TurnRecord> TurnRecordReader::read(std::string_view record) {
     in.number(picture.player);
     visitPicture(in, picture.canvas);
     found = std::move(picture);
+  } else if (kind == kRecordedSession) {
+    KeptSession session;
+    visitSession(in, session);
+    found = std::move(session);
   } else if (in.ok()) {
     return std::nullopt;  // unknown
   }

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <variant>
 
+#include "host/world/KeptSession.h"
 #include "host/world/WorldMessages.h"
 
 namespace naiad {
@@ -30,7 +31,7 @@ struct RecordedPicture {
   df::Canvas canvas;
 };
 
-using TurnRecord = std::variant<WorldTurn, TickResult, RecordedPicture>;
+using TurnRecord = std::variant<WorldTurn, TickResult, RecordedPicture, KeptSession>;
 
 /// Eight bits of a hash of an answer.
 std::uint8_t checkOf(std::uint64_t answer_hash);
@@ -38,10 +39,14 @@ std::uint8_t checkOf(std::uint64_t answer_hash);
 /// Spells records. Turns are spelled by what is other than in the turn before.
 class TurnRecordWriter {
  public:
+  TurnRecordWriter() = default;
+  /// Goes on with a stream whose last turn was this.
+  explicit TurnRecordWriter(const WorldTurn& last);
   /// Append one to `out`. False, and nothing is appended: more than kMaxTurnInputs.
   bool write(const WorldTurn& turn, std::string& out);
   void write(const TickResult& result, std::string& out);
   void write(const RecordedPicture& picture, std::string& out);
+  void write(const KeptSession& session, std::string& out);
 
  private:
   void append(std::string& out);

@@ -47,7 +47,8 @@ std::string uuidText(const std::array<std::uint8_t, 16>& uuid) {
   return text;
 }
 
-TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared)
+TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
+                   std::uint64_t position)
     : m_capacity(capacity) {
   if (!shared || !mapShared(uuid)) {
     void* p_memory =
@@ -59,6 +60,8 @@ TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uui
   std::memcpy(m_p_head->magic, kRingMagic, sizeof m_p_head->magic);
   std::copy(uuid.begin(), uuid.end(), m_p_head->uuid);
   m_p_head->capacity = m_capacity;
+  m_p_head->stored = position;
+  m_p_head->released = position;
 }
 
 TurnRing::~TurnRing() {

@@ -22,7 +22,9 @@ class TurnRing {
  public:
   /// In memory of this process alone, or, with a name, in /dev/shm. If that cannot be, in this process's
   /// after all: isShared() says so.
-  TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared);
+  /// `position`: of the first byte, in the stream of records.
+  TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
+           std::uint64_t position = 0);
   /// The shared memory is removed.
   ~TurnRing();
   TurnRing(const TurnRing&) = delete;

@@ -98,6 +98,13 @@ std::vector<Row> tableOf(HostOptions& o) {
         "NAIAD_JOURNAL"}},
       {{"--no-journal", &o.no_journal, "Write no round down, whatever environment or file say",
         "NAIAD_NO_JOURNAL"}},
+      {{"--recover",
+        &o.recover,
+        "When this server was killed in a round that --journal has: on = the round is executed again, and its "
+        "players go on with it; off = another one begins",
+        "NAIAD_RECOVER",
+        {},
+        {"on", "off"}}},
       {{"--insecure", &o.insecure, "Without encryption or datagrams, on loopback only (for tests)",
         "NAIAD_INSECURE"}},
       {{"--certificate", &o.certificate,

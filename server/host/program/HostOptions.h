@@ -36,6 +36,7 @@ struct HostOptions {
   int world_memory = 4096;     ///< MiB of addresses for each of them; 0: no limit
   std::string journal;         ///< directory where each round is written down; empty: none is
   bool no_journal = false;     ///< not even so
+  std::string recover = "on";  ///< go on with the round of a server that was killed: "on" or "off"
   std::string world_environment;  ///< names of variables that they get, too, with commas between
   bool insecure = false;          ///< plain TCP, loopback only, no datagrams: for tests
   std::string certificate;        ///< PEM file; with `key`. Empty: a key of its own, made on the first start

@@ -104,6 +104,13 @@ void Rooms::removeSession(const Session& session) {
   if (Room* p_room = roomOf(session)) p_room->remove(session);
 }
 
+std::optional<int> Rooms::recovering() const {
+  for (const auto& room : m_rooms) {
+    if (const auto percent = room->port().recovering()) return percent;
+  }
+  return std::nullopt;
+}
+
 std::size_t Rooms::objects() const {
   std::size_t count = 0;
   for (const auto& room : m_rooms) count += room->objects();
@@ -128,6 +135,7 @@ const std::vector<ListedPlayer>& Rooms::players() {
 void Rooms::beginTicks() {
   m_in_begin = true;
   for (const auto& room : m_rooms) {
+    if (room->port().recovering()) continue;
     if (!room->beginTick(m_truth.has_value(), m_audit.pictured(tickNumber()))) ++m_counters.late_worlds;
   }
   m_in_begin = false;
@@ -172,6 +180,8 @@ void Rooms::checkWorlds() {
   if (!m_new_world) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
+    if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
+      m_on_sessions(*room, *sessions);
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }
@@ -193,6 +203,9 @@ void Rooms::countEnd(WorldEnd::Why why) {
     case WorldEnd::kBroken:
       ++m_counters.rounds_broken;
       break;
+    case WorldEnd::kNotRecovered:
+      ++m_counters.rounds_unrecovered;
+      break;
   }
 }
 
@@ -201,6 +214,9 @@ void Rooms::countEnd(WorldEnd::Why why) {
 void Rooms::endRound(Room& room, const WorldEnd& end) {
   m_log("the round is over: the game " + end.text + (end.when.empty() ? "" : " " + end.when));
   countEnd(end.why);
+  // What this server was started for is the next round.
+  if (end.why == WorldEnd::kNotRecovered && beginRound(room))
+    return room.say("The round could not go on; the next one begins.");
   const bool is_short = room.ticks() < kShortestRound;
   const int short_rounds = room.countShortRounds(is_short);
   const bool hopeless = short_rounds >= kMaxShortRounds || (is_short && m_counters.joined == 0);
@@ -228,6 +244,7 @@ bool Rooms::beginRound(Room& room) {
   }
   m_counters.sounds += room.sounds().sent() - sent;
   watchWorld(room);
+  if (m_on_round) m_on_round(room);
   return true;
 }
 

@@ -62,6 +62,19 @@ std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const Ga
   return launcher;
 }
 
+/// Null: there is no round to go on with. What the game prints a second time is dropped.
+std::unique_ptr<WorldPort> goOnWithRound(const WorldLauncher& launcher, const LogLine& print,
+                                         Journals& journals, asio::io_context& home) {
+  const auto order = journals.orderOfOpenRound();
+  if (!order) return nullptr;
+  const auto repeats = std::make_shared<bool>(true);
+  const auto print_news = [print, repeats](const std::string& line) {
+    if (!*repeats) print(line);
+  };
+  auto world = std::make_unique<WorldProcess>(home, launcher.start(*order), print_news);
+  return journals.goOn(std::move(world), [repeats] { *repeats = false; });
+}
+
 }  // namespace
 
 bool wantsWorlds(const HostOptions& options) {
@@ -104,6 +117,7 @@ Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLin
   return [launcher = std::move(launcher), print = std::move(print),
           journals = std::move(journals)](asio::io_context& home) -> NewPort {
     if (journals == nullptr) return std::make_unique<WorldProcess>(home, launcher->start(), print);
+    if (auto world = goOnWithRound(*launcher, print, *journals, home)) return world;
     const WorldOrder order = journals->makeOrder();
     auto world = std::make_unique<WorldProcess>(home, launcher->start(order), print);
     WorldOrder again = order;

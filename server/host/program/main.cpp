@@ -163,8 +163,9 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   if (!preview.ready) return failPreview(preview.end);
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(options, name, log);
-  const auto journals =
-      naiad::Journals::open(naiad::withFrameTime(options, *preview.ready), name, module.string(), log);
+  naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
+  journaled.port = host.port();  // a round goes on where its players look for it
+  const auto journals = naiad::Journals::open(journaled, name, module.string(), log);
   host.setWorlds(naiad::startWorlds(launcher, print, journals));
   watchReloads(start, host, lines);
   announce(options, host);

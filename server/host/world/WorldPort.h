@@ -12,6 +12,7 @@
 
 #include "engine/world/InputQueue.h"
 #include "engine/world/WorldView.h"
+#include "host/world/KeptSession.h"
 #include "shared/values/Canvas.h"
 
 namespace naiad {
@@ -25,6 +26,7 @@ struct WorldEnd {
     kCrashed,   ///< a signal or an error code
     kHung,      ///< it did not answer in time
     kBroken,    ///< it sent a malformed frame
+    kNotRecovered,  ///< a round of a server that was killed could not be executed again
   } why = kGameOver;
   std::string text = {};  ///< for the log and for players, like "crashed (SIGABRT)"
   int exit_code = 0;      ///< of kCrashed, unless it was a signal
@@ -76,6 +78,15 @@ class WorldPort {
   virtual bool isGameOver() const = 0;
   /// What this player sees, as the engine drew it in the last tick.
   virtual df::Canvas renderPlayer(std::uint32_t player) const = 0;
+
+  // A round of a server that was killed, which is executed again until it is where it was.
+
+  /// How far that is, in percent; nothing: there is no such round, or it is where it was.
+  virtual std::optional<int> recovering() const { return std::nullopt; }
+  /// Once, when recovering() has come to its end: the sessions that its players had.
+  virtual std::optional<std::vector<KeptSession>> takeSessions() { return std::nullopt; }
+  /// A player's session is so from now on: for journals, before its client can know.
+  virtual void noteSession(const KeptSession& /*session*/) {}
 
   // Its end.
 
